@@ -5,7 +5,7 @@
 #ifndef EWA_BENCH_CLIP_H
 #define EWA_BENCH_CLIP_H
 
-#include "cli/session.h"
+#include "cli/base/session.h"
 
 /// Number of segments per call of what bench_clip() times.
 enum { BENCH_CLIP_SEGMENTS = 1 << 15 };

@@ -6,7 +6,7 @@
 #define EWA_BENCH_COMPETITOR_H
 
 #include "bench/scene.h"
-#include "cli/child.h"
+#include "cli/base/child.h"
 
 enum { BENCH_COMPETITOR_NAME_BYTES = 128 };
 

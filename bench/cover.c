@@ -85,9 +85,9 @@ bool bench_cover_scale(cli_session *session, ewa_cloud *cloud, const ewa_camera 
                        double covered_px) {
     footprint_sample sample;
     sample_footprints(cloud, camera, &sample);
-    const double least_px = mean_area(&sample, 0, prefilter_px);
-    if (covered_px <= least_px) {
-        session_fail(session, "--pixels: the pixel filter alone covers %.2f pixels, more than %g", least_px,
+    const double min_px = mean_area(&sample, 0, prefilter_px);
+    if (covered_px <= min_px) {
+        session_fail(session, "--pixels: the pixel filter alone covers %.2f pixels, more than %g", min_px,
                      covered_px);
         return false;
     }

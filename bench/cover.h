@@ -5,7 +5,7 @@
 #ifndef EWA_BENCH_COVER_H
 #define EWA_BENCH_COVER_H
 
-#include "cli/session.h"
+#include "cli/base/session.h"
 
 /// Pixels that the filtered ellipses of a cloud cover on average, from some thousand of its points. The cloud
 /// has positions, normals and radii; `prefilter_px` is the pixel filter's deviation.

@@ -6,9 +6,9 @@
 #include "bench/files.h"
 #include "bench/frames.h"
 #include "bench/stages.h"
-#include "cli/bench.h"
-#include "cli/commands.h"
-#include "cli/inputs.h"
+#include "cli/base/commands.h"
+#include "cli/bench/bench.h"
+#include "cli/input/inputs.h"
 
 #include <signal.h>
 #include <stdio.h>
@@ -86,7 +86,8 @@ static bool measure_files(bench_run *bench) {
     scene.cloud = inputs_as_surfels(&bench->session, &view->common, surfels.cutoff, &estimate_s);
     const bool done =
         scene.cloud &&
-        view_make(&bench->session, view, &(view_subject){.cloud = scene.cloud, .radius_scale = 1}, &scene.camera, NULL) &&
+        view_make(&bench->session, view, &(view_subject){.cloud = scene.cloud, .radius_scale = 1},
+                  &scene.camera, NULL) &&
         measure_scene(bench, &scene);
     ewa_cloud_destroy(&scene.cloud);
     return done;

@@ -5,7 +5,7 @@
 #include "bench/report.h"
 
 #include "bench/goals.h"
-#include "cli/backend.h"
+#include "cli/base/backend.h"
 
 #include <stdlib.h>
 

@@ -6,7 +6,7 @@
 #define EWA_BENCH_REPORT_H
 
 #include "bench/scene.h"
-#include "cli/json.h"
+#include "cli/base/json.h"
 
 /// Where the figures go.
 typedef struct bench_sink {

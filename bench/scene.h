@@ -5,8 +5,8 @@
 #ifndef EWA_BENCH_SCENE_H
 #define EWA_BENCH_SCENE_H
 
-#include "cli/bench.h"
-#include "cli/session.h"
+#include "cli/base/session.h"
+#include "cli/bench/bench.h"
 
 enum { BENCH_VARIANTS = 3 };
 

@@ -102,7 +102,7 @@ static ewa_status time_estimate(ewa_cloud **cloud, double *time_s) {
 
 /// Samples a cloud about the origin as unevenly as a scanner there does: distances r become r^3, so that the
 /// density of a plane falls with their power of -4/3.
-static ewa_status crowd(ewa_cloud *cloud) {
+static ewa_status make_dense(ewa_cloud *cloud) {
     const uint64_t count = ewa_cloud_point_count(cloud);
     const ewa_attribute given = *ewa_cloud_find(cloud, EWA_POSITION);
     float *numbers = malloc((3 * count + 1) * sizeof *numbers), *position = NULL;
@@ -135,7 +135,7 @@ static ewa_status time_cloud(stage_lane *lane, const stage_input *input, size_t 
     lap(&lane->time_s[STAGE_PACK][run], &started_s);
     ewa_surfels_destroy(&surfels);
     if (status == EWA_OK) status = time_estimate(&loaded, &lane->time_s[STAGE_ESTIMATE][run]);
-    if (status == EWA_OK) status = crowd(loaded);
+    if (status == EWA_OK) status = make_dense(loaded);
     if (status == EWA_OK) status = time_estimate(&loaded, &lane->time_s[STAGE_ESTIMATE_UNEVEN][run]);
     ewa_cloud_destroy(&loaded);
     return status;

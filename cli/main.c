@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 //
 // The program: finds the command, parses its options, runs it.
-#include "commands.h"
-#include "json.h"
+#include "cli/base/commands.h"
+#include "cli/base/json.h"
 
 #include <signal.h>
 #include <stdio.h>
@@ -64,8 +64,8 @@ static int run(size_t count, const char *const *words) {
 }
 
 int main(int argc, char **argv) {
-    // A closed pipe or a file size limit is an error of the write that meets it, so that files being written
-    // aside are removed.
+    // A closed pipe or a file size limit is an error of the write that meets it, so that temporary files are
+    // removed.
     signal(SIGPIPE, SIG_IGN);
     signal(SIGXFSZ, SIG_IGN);
     const int exit_status = run(argc > 0 ? (size_t)argc - 1 : 0, (const char *const *)argv + 1);

@@ -19,7 +19,7 @@ if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
   list(APPEND instruction_sets avx2 avx512)
 endif()
 
-foreach(body cloud/cells cloud/neighbours estimate/local homogeneous/clip_batch surface/pack surface/road texture/texture
+foreach(body cloud/cells cloud/neighbours estimate/local homogeneous/clip_batch surface/pack surface/pipeline texture/texture
     volume/gaussian volume/kernels warp/warp)
   foreach(set ${instruction_sets})
     string(TOUPPER ${set} SET)

@@ -9,7 +9,7 @@
 //   ewa-import MEMORY_BYTES CPU_SECONDS FILE
 #define _DEFAULT_SOURCE // RLIMIT_NPROC
 #include "import_scene.h"
-#include "io/mesh/beside.h"
+#include "io/mesh/referenced_file.h"
 
 #include <assimp/cfileio.h>
 #include <assimp/cimport.h>
@@ -29,8 +29,8 @@ static int fail(const char *what) {
     return 1;
 }
 
-static void limit(int resource, uint64_t most) {
-    const struct rlimit both = {(rlim_t)most, (rlim_t)most};
+static void limit(int resource, uint64_t maximum) {
+    const struct rlimit both = {(rlim_t)maximum, (rlim_t)maximum};
     setrlimit(resource, &both);
 }
 
@@ -75,7 +75,7 @@ static struct aiFile *open_file(struct aiFileIO *io, const char *name, const cha
     const char *inner = strncmp(name, mesh, folder) == 0 ? name + folder : name;
     const int opened = strcmp(name, mesh) == 0
                            ? open(mesh, O_RDONLY | O_CLOEXEC | O_NOCTTY)
-                           : ewa_beside_open(mesh, (ewa_text){inner, strlen(inner)}, reason);
+                           : ewa_referenced_file_open(mesh, (ewa_text){inner, strlen(inner)}, reason);
     FILE *stream = opened >= 0 ? fdopen(opened, "rb") : NULL;
     struct aiFile *file = stream ? malloc(sizeof *file) : NULL;
     if (!file) {

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 //
 // ewa-mpi: commands of the program that the ranks of an MPI job do together.
-#include "cli/commands.h"
-#include "cli/session.h"
+#include "cli/base/commands.h"
+#include "cli/base/session.h"
 #include "mpi/exchange.h"
 
 #include <errno.h>
@@ -81,9 +81,9 @@ static mpi_arguments read_arguments(int count, char *const *words, const char **
     return made;
 }
 
-static const mpi_exchange *exchange_of(const cli_crew *crew) { return crew->exchange.user; }
-static uint64_t given_bytes(const cli_crew *crew) { return exchange_of(crew)->given_bytes; }
-static double waited_s(const cli_crew *crew) { return exchange_of(crew)->waited_s; }
+static const mpi_exchange *exchange_of(const cli_process_group *group) { return group->exchange.user; }
+static uint64_t given_bytes(const cli_process_group *group) { return exchange_of(group)->given_bytes; }
+static double waited_s(const cli_process_group *group) { return exchange_of(group)->waited_s; }
 
 /// Whether a film is asked for.
 static bool asks_for_film(const mpi_arguments *arguments) {
@@ -148,13 +148,13 @@ static int run(mpi_exchange *exchange, const mpi_arguments *arguments) {
     }
     char failure[FAILURE_BYTES] = "";
     const bool frames = arguments->split ? strcmp(arguments->split, "frames") == 0 : asks_for_film(arguments);
-    const cli_crew crew = {.exchange = mpi_exchange_of(exchange),
-                           .shares_cloud = !frames,
-                           .given_bytes = given_bytes,
-                           .waited_s = waited_s,
-                           .failure = failure,
-                           .failure_bytes = sizeof failure};
-    const int exit_status = command_run(command, &crew, arguments->word_count - 1, arguments->words + 1);
+    const cli_process_group group = {.exchange = mpi_exchange_of(exchange),
+                                     .shares_cloud = !frames,
+                                     .given_bytes = given_bytes,
+                                     .waited_s = waited_s,
+                                     .failure = failure,
+                                     .failure_bytes = sizeof failure};
+    const int exit_status = command_run(command, &group, arguments->word_count - 1, arguments->words + 1);
     if (exit_status == EXIT_USAGE) return exit_status; // found by all of them
     if (exit_status != EXIT_DONE || meet(exchange) != EWA_OK)
         abort_all(exchange, failure, exit_status ? exit_status : EXIT_FAILED);

@@ -84,7 +84,7 @@ static inline ewa_allocator check_allocator(check_memory *memory) {
 /// Says that a file of the shared test data is not there; a failure where the folder is said to have all of
 /// them.
 static inline void check_data_missing(const char *relative) {
-    if (getenv("EWA_DATA_IS_WHOLE")) fail_msg("no stand-in for %s: tests/data makes them", relative);
+    if (getenv("EWA_DATA_IS_WHOLE")) fail_msg("no synthetic file for %s: tests/data makes them", relative);
     print_message("skipped: no test data %s\n", relative);
 }
 

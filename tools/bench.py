@@ -79,9 +79,9 @@ def main():
     for scene in SCENES:
         # What is compared with each other is measured in one run, in turns.
         sets = "all,avx2" if scene == "plane" else "all"
-        rival = ["--against", arguments.against] if scene == "peer" and arguments.against else []
+        competitor = ["--against", arguments.against] if scene == "peer" and arguments.against else []
         whole = run_bench(prefix, program, arguments.rounds, "--scene", scene, "--stages", "off", "--cpu", sets,
-                          "--frames", frames, *rival)
+                          "--frames", frames, *competitor)
         rows += whole["results"]
     last = run_bench(prefix, program, arguments.rounds, "--scene", "plane", "--pixels", "9", "--frames", frames)
     whole["results"] = rows + [row for row in last["results"] if "stage" in row]

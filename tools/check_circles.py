@@ -55,7 +55,7 @@ def read(root):
 def headers_of(files, name, seen):
     """The headers that a file includes, itself or by way of others."""
     for header in files[name].includes:
-        for found in (f"src/{header}", f"cli/{header}", str(Path(name).parent / header)):
+        for found in (f"src/{header}", header, str(Path(name).parent / header)):
             if found in files and found not in seen:
                 seen.add(found)
                 headers_of(files, found, seen)

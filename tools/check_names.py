@@ -12,7 +12,7 @@ Read are README.md, docs/*.md and the comments of C. Fails, and lists what it fo
 - kernels (files *_body.h, their parts, references) that do not say which section they compute;
 - ewa_... and EWA_..., members as ewa_render_options.layers, functions with parentheses, CAPITAL_NAMES, `small_names` (in
   comments also without those marks): words that no code has;
-- paths (src/..., ewa/math.h, road_body.h, docs/...), links, and programs of build/: files that are not there;
+- paths (src/..., ewa/math.h, pipeline_body.h, docs/...), links, and programs of build/: files that are not there;
 - options (--tau), also in the program's messages: those that docs/cli.md, which a test holds to the program, does not
   have, or not for the command that they are given to;
 - tests that are named as such (test `layers`): those that no CMakeLists.txt has.
@@ -161,7 +161,7 @@ def check_citations(tree, sections, found):
     for name, comments in tree.sources.items():
         stem = Path(name).stem
         head = comments[0].text if comments else ""
-        kernel = stem.endswith(("_body", "_reference")) or stem.startswith("reference") and name.endswith(".c") or \
+        kernel = stem.endswith(("_body", "_reference")) or (stem == "reference" or stem.startswith("reference_")) and name.endswith(".c") or \
             re.search(r"(?m)^ ?(Part of \w+_body\.h|The part of \w+_body\.h)", head)
         if kernel and name.startswith("src/") and LAW not in head:
             found.append((name, 1, f"does not say which section of {LAW} it computes"))

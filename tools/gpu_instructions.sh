@@ -26,7 +26,7 @@ compile() {
     shift 3
     {
         echo "#version 330 core"
-        for define in MOST_LIGHTS=8 MOST_LEVELS=33 MOST_MATERIALS=256 $defines; do
+        for define in MAX_LIGHTS=8 MAX_LEVELS=33 MAX_MATERIALS=256 $defines; do
             echo "#define ${define%=*} ${define#*=}"
         done
         value=1

@@ -11,7 +11,7 @@ from decimal import Decimal, getcontext
 getcontext().prec = 60
 
 FIRST_BITS = 0x39000000  # 2^-13, below the first threshold
-BUCKET_SHIFT = 16        # 128 buckets per octave: narrower than the least distance of two thresholds
+BUCKET_SHIFT = 16        # 128 buckets per octave: narrower than the smallest distance of two thresholds
 BUCKET_COUNT = 1664      # 13 octaves, up to 1
 
 

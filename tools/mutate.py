@@ -47,8 +47,8 @@ ARRAY_LENGTH = re.compile(r"^\s*(static |const |extern )*(unsigned |struct )?\w+
 # Near tests by the beginning of a path, cheapest first; the first that fails kills the mutant.
 PICTURES = ["surfel", "packets", "reference_splat", "points", "tolerance", "resolve", "kernels", "abuffer", "reference",
             "reference_invariance", "shade", "random_scenes", "ranges", "silhouette", "holes", "facing", "layers",
-            "shade_road", "clip_lines", "environment", "sharp"]
-MESHES = ["mesh_ply", "mesh_obj", "mesh_stl", "mesh_polygon", "mesh_gltf", "mesh_gltf_look", "mesh_broken", "beside"]
+            "shade_pipeline", "clip_lines", "environment", "sharp"]
+MESHES = ["mesh_ply", "mesh_obj", "mesh_stl", "mesh_polygon", "mesh_gltf", "mesh_gltf_look", "mesh_broken", "referenced_file"]
 NEAR = [
     ("src/homogeneous/camera_path", ["camera_path"]),
     ("src/homogeneous/camera", ["camera", "camera_path", "geometry", "paper", "cli_render"]),
@@ -59,7 +59,7 @@ NEAR = [
     ("src/math/gaussian", ["acquire", "refit", "procedure", "texture"]),
     ("src/wide", ["wide_functions", "resolve", "packets", "kernel_tables", "random_scenes"]),
     ("src/math", ["geometry", "map", "paper", "clip", "camera", "wide_functions", "reference_splat", "random_scenes", "ranges"]),
-    ("src/image/environment", ["environment", "shade", "shade_road"]),
+    ("src/image/environment", ["environment", "shade", "shade_pipeline"]),
     ("src/image/volume", ["volume_file", "voxels", "transfer", "generate_volume", "automatic"]),
     ("src/image/transfer", ["transfer", "volume_file", "automatic", "cli_volume"]),
     ("src/image/texture", ["acquire", "cli_acquire"]),
@@ -341,7 +341,7 @@ class Tree:
                 return True
         return False
 
-    def judge(self, entry, timeouts):
+    def try_tests(self, entry, timeouts):
         """(verdict, test): one of stale, uncompilable, irrelevant, killed, survived."""
         text = entry.apply(self.text_of(entry.path))
         if text is None:
@@ -432,7 +432,7 @@ def run(jobs, only, again):
                 path = pending.pop(0)
             for entry in queues[path]:
                 begin = time.time()
-                verdict, test = tree.judge(entry, timeouts)
+                verdict, test = tree.try_tests(entry, timeouts)
                 with lock:
                     results[entry.key()] = (verdict, test)
                     RESULTS.write_text("".join("%s\t%s\t%s\n" % (v, t, k) for k, (v, t) in results.items()))

@@ -17,7 +17,7 @@ enum { WORD_BYTES = 128 };
 static const double DEFAULT_FOV_DEG = 30;
 
 /// The picture's numbers of keys.
-static const double NOTCH = 0.85, FIRST_DOME = 1, FIRST_POINT_PX = 3;
+static const double NOTCH = 0.85, FIRST_EYE_DOME = 1, FIRST_POINT_PX = 3;
 
 /// Takes the first word off a text; empty at its end.
 static const char *take_word(const char *text, char word[WORD_BYTES]) {
@@ -212,9 +212,9 @@ static bool set_number(viewer *v, const char *name, double number) {
     return settings_set(v, name, text);
 }
 
-static bool do_dome(viewer *v, const char *rest) {
+static bool do_eye_dome(viewer *v, const char *rest) {
     bool on = v->render.eye_dome > 0;
-    return read_switch(v, "dome", rest, on, &on) && set_number(v, "eye_dome", on ? FIRST_DOME : 0);
+    return read_switch(v, "dome", rest, on, &on) && set_number(v, "eye_dome", on ? FIRST_EYE_DOME : 0);
 }
 
 static bool do_points(viewer *v, const char *rest) {
@@ -311,7 +311,7 @@ static const struct {
 } commands[] = {
     {"open", do_open},       {"close", do_close},    {"show", do_show},     {"name", do_name},
     {"tint", do_tint},       {"alpha", do_alpha},    {"color", do_color},   {"colormap", do_colormap},
-    {"radius", do_radius},   {"set", do_set},        {"next", do_next},     {"dome", do_dome},
+    {"radius", do_radius},   {"set", do_set},        {"next", do_next},     {"dome", do_eye_dome},
     {"points", do_points},   {"view", do_view},      {"mode", do_mode},     {"ortho", do_ortho},
     {"focus", do_focus},     {"zoom", do_zoom},      {"box", do_box},       {"slab", do_slab},
     {"camera", shot_camera}, {"shot", shot_command}, {"cancel", do_cancel}, {"clear", do_clear},

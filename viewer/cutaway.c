@@ -111,13 +111,13 @@ void cutaway_handle(const viewer *v, int handle, double place_world[3]) {
 
 int cutaway_find_handle(const viewer *v, double x, double y) {
     int found = -1;
-    double least = HANDLE_REACH, nearest = INFINITY;
+    double minimum = HANDLE_REACH, nearest = INFINITY;
     for (int handle = 0; handle < 6 && v->cutaway.box; handle++) {
         double place_world[3], place_px[2], depth;
         cutaway_handle(v, handle, place_world);
         if (!navigate_project(&v->camera, place_world, place_px, &depth)) continue;
         const double away = hypot(place_px[0] / v->scale - x, place_px[1] / v->scale - y);
-        if (away > least || depth > nearest) continue;
+        if (away > minimum || depth > nearest) continue;
         found = handle;
         nearest = depth;
     }

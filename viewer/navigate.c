@@ -77,8 +77,8 @@ static void carry(ewa_camera *camera, const double pivot_world[3], const double 
     ewa_camera_orbit(camera, pivot_world, up_world ? up_world : own_up, -right_deg);
     if (up_world) {
         const double now = look_down_deg(camera, up_world);
-        const double most = fmax(POLE_DEG, fabs(now)); // who is nearer already may stay there
-        down_deg = fmin(fmax(now + down_deg, -most), most) - now;
+        const double maximum = fmax(POLE_DEG, fabs(now)); // who is nearer already may stay there
+        down_deg = fmin(fmax(now + down_deg, -maximum), maximum) - now;
     }
     const double right[3] = {m[0], m[1], m[2]};
     ewa_camera_orbit(camera, pivot_world, right, -down_deg);

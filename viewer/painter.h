@@ -25,7 +25,7 @@ typedef struct paint_scene {
 /// What drawing took.
 typedef struct paint_stats {
     ewa_render_stats render;
-    uint32_t missing_count, loaded_count; ///< cubes of octrees that were not there, and that were read
+    uint32_t missing_count, loaded_count; ///< nodes of octrees that were not there, and that were read
 } paint_stats;
 
 /// A picture that was drawn.
@@ -41,7 +41,7 @@ typedef struct paint_result {
     double drawn_s;
     uint64_t splat_count;
     bool
-        to_refine; ///< cubes of octrees are missing, and some were read: the same scene gets better when drawn again
+        to_refine; ///< nodes of octrees are missing, and some were read: the same scene gets better when drawn again
 } paint_result;
 
 /// What draws, of one thread.
@@ -55,7 +55,8 @@ ewa_status paint_tools_make(uint32_t thread_count, uint32_t cpu_mask, ewa_backen
                             ewa_progress_callback *progress, void *user, paint_tools *tools);
 void paint_tools_free(paint_tools *tools);
 /// Draws a scene here and now into the planes of a frame. `stats` may be NULL.
-ewa_status paint_scene_draw(paint_tools *tools, const paint_scene *scene, const ewa_frame *frame, paint_stats *stats);
+ewa_status paint_scene_draw(paint_tools *tools, const paint_scene *scene, const ewa_frame *frame,
+                            paint_stats *stats);
 
 typedef struct painter painter;
 

@@ -11,7 +11,7 @@
 /// Degrees a point of the window turns; the factor of a notch of the wheel and of a point of a zooming drag.
 static const double TURN_DEG = 0.4, NOTCH = 0.85, DRAG_FACTOR = 0.99;
 /// Events farther away are none.
-static const double MOST_POINTS = 1e6;
+static const double MAX_POINTS = 1e6;
 /// A press that moves less is a click.
 static const double CLICK_REACH = 4;
 /// The wheel turns about the same place while it goes on within this time.
@@ -146,7 +146,7 @@ static void wheel(viewer *v, const viewer_event *event) {
 
 void pointer_handle(viewer *v, const viewer_event *event) {
     // No screen is as large; what is no number would put the camera nowhere.
-    const bool placed = fabs(event->x) <= MOST_POINTS && fabs(event->y) <= MOST_POINTS;
+    const bool placed = fabs(event->x) <= MAX_POINTS && fabs(event->y) <= MAX_POINTS;
     if (event->kind != VIEWER_LEAVE && !placed) return;
     switch (event->kind) {
     case VIEWER_MOVE:

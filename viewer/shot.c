@@ -10,7 +10,7 @@
 #include <string.h>
 #include <unistd.h>
 
-enum { ASIDE_BYTES = 256 };
+enum { TEMPORARY_PATH_BYTES = 256 };
 
 static bool save_picture(viewer *v, const char *path, uint32_t width_px, uint32_t height_px,
                          bool transparent) {
@@ -24,7 +24,8 @@ static bool save_picture(viewer *v, const char *path, uint32_t width_px, uint32_
         render->point_size_px = point_size_px < 1 ? 1 : point_size_px > 256 ? 256 : point_size_px;
     for (int c = 0; c < 4 && transparent; c++) render->background[c] = 0;
     uint8_t *rgba8 = malloc(4 * (size_t)width_px * height_px);
-    ewa_status status = rgba8 ? paint_scene_draw(&v->probe, &scene, &(ewa_frame){.rgba8 = rgba8}, NULL) : EWA_ERROR_MEMORY;
+    ewa_status status =
+        rgba8 ? paint_scene_draw(&v->probe, &scene, &(ewa_frame){.rgba8 = rgba8}, NULL) : EWA_ERROR_MEMORY;
     if (status == EWA_OK) {
         overlay_draw(v, &scene.camera, rgba8);
         status = ewa_png_save(v->probe.context, path, width_px, height_px, 4, rgba8, 4 * (size_t)width_px);
@@ -110,9 +111,9 @@ static bool load_camera(viewer *v, const char *path, const char *name) {
 }
 
 /// A file of our own for a moment: the text of a camera is the library's business.
-static bool make_aside(viewer *v, char path[ASIDE_BYTES]) {
+static bool make_temporary_file(viewer *v, char path[TEMPORARY_PATH_BYTES]) {
     const char *folder = getenv("TMPDIR");
-    snprintf(path, ASIDE_BYTES, "%.200s/ewa-camera-XXXXXX", folder && *folder ? folder : "/tmp");
+    snprintf(path, TEMPORARY_PATH_BYTES, "%.200s/ewa-camera-XXXXXX", folder && *folder ? folder : "/tmp");
     const int file = mkstemp(path);
     if (file >= 0)
         close(file);
@@ -122,8 +123,8 @@ static bool make_aside(viewer *v, char path[ASIDE_BYTES]) {
 }
 
 static bool copy_camera(viewer *v) {
-    char path[ASIDE_BYTES];
-    if (!make_aside(v, path)) return false;
+    char path[TEMPORARY_PATH_BYTES];
+    if (!make_temporary_file(v, path)) return false;
     const bool done = save_camera(v, path) && read_text(path, v->clipboard, sizeof v->clipboard);
     unlink(path);
     if (done && v->services.clipboard_set) v->services.clipboard_set(v->services.user, v->clipboard);
@@ -131,7 +132,7 @@ static bool copy_camera(viewer *v) {
 }
 
 static bool paste_camera(viewer *v) {
-    char path[ASIDE_BYTES], text[4 * VIEWER_TEXT_BYTES];
+    char path[TEMPORARY_PATH_BYTES], text[4 * VIEWER_TEXT_BYTES];
     snprintf(text, sizeof text, "%s", v->clipboard);
     if (v->services.clipboard_get && !v->services.clipboard_get(v->services.user, text, sizeof text))
         text[0] = 0;
@@ -139,7 +140,7 @@ static bool paste_camera(viewer *v) {
         viewer_tell(v, "camera: there is no text to paste");
         return false;
     }
-    if (!make_aside(v, path)) return false;
+    if (!make_temporary_file(v, path)) return false;
     FILE *file = fopen(path, "w");
     bool done = file && fputs(text, file) >= 0;
     if (file) done = fclose(file) == 0 && done;

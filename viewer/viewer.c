@@ -16,17 +16,17 @@ static const double SETTLE_S = 0.08;
 /// What a move of the camera takes.
 static const double ANIMATION_S = 0.25;
 /// No window is larger.
-static const double MOST_PX = 1 << 27, MOST_SIDE_PX = 32768;
+static const double MAX_PX = 1 << 27, MAX_SIDE_PX = 32768;
 /// Windows of more pixels are drawn at half their size while something moves.
 static const double LARGE_PX = 2e6;
 /// Moving pictures become smaller after so many that take so many times their budget, and larger after so many
 /// that would take so much of it.
 static const double TOO_SLOW = 1.4, MUCH_FASTER = 0.7;
-enum { SLOW_PICTURES = 2, FAST_PICTURES = 8, MOST_REDUCTION = 4 };
-/// Time for reading the cubes of octrees, of each picture while they get finer.
+enum { SLOW_PICTURES = 2, FAST_PICTURES = 8, MAX_REDUCTION = 4 };
+/// Time for reading the nodes of octrees, of each picture while they get finer.
 static const double REFINE_S = 0.15;
 /// How much coarser octrees are while something moves, and at most.
-static const double COARSER = 2, MOST_SPACING_PX = 64;
+static const double COARSER = 2, MAX_SPACING_PX = 64;
 /// When to ask again, while something is under way and when nothing is.
 static const double SOON_S = 0.002, LATER_S = 0.1;
 /// Beside the ticket of a composed picture: it was whole.
@@ -58,7 +58,7 @@ void viewer_say(viewer *v, const char *format, ...) {
 
 static uint32_t pixels(double points, double scale) {
     const double size = floor(points * scale + 0.5);
-    return size < 1 ? 1 : size > MOST_SIDE_PX ? (uint32_t)MOST_SIDE_PX : (uint32_t)size;
+    return size < 1 ? 1 : size > MAX_SIDE_PX ? (uint32_t)MAX_SIDE_PX : (uint32_t)size;
 }
 
 void viewer_coloring_init(viewer_coloring *coloring) {
@@ -146,8 +146,8 @@ static void animate(viewer *v) {
 
 static void resize(viewer *v, const viewer_event *event) {
     const double wide_px = event->x * event->amount, high_px = event->y * event->amount;
-    if (!(event->x >= 1 && event->y >= 1 && event->amount > 0 && wide_px * high_px <= MOST_PX)) return;
-    if (!(wide_px <= MOST_SIDE_PX && high_px <= MOST_SIDE_PX)) return;
+    if (!(event->x >= 1 && event->y >= 1 && event->amount > 0 && wide_px * high_px <= MAX_PX)) return;
+    if (!(wide_px <= MAX_SIDE_PX && high_px <= MAX_SIDE_PX)) return;
     v->width = event->x, v->height = event->y, v->scale = event->amount;
     const uint32_t width_px = pixels(v->width, v->scale), height_px = pixels(v->height, v->scale);
     if (width_px == v->camera.width_px && height_px == v->camera.height_px) return;
@@ -203,7 +203,7 @@ void viewer_scene(const viewer *v, paint_scene *scene) {
 }
 
 /// By how much the sides of a picture are divided at least while something moves.
-static uint32_t least_reduction(const viewer *v) {
+static uint32_t min_reduction(const viewer *v) {
     return (double)v->camera.width_px * v->camera.height_px > LARGE_PX ? 2 : 1;
 }
 
@@ -217,7 +217,7 @@ static void adapt(viewer *v, const paint_result *newest) {
     v->slow_count = slow ? v->slow_count + 1 : 0;
     v->fast_count = fast ? v->fast_count + 1 : 0;
     const uint32_t before = v->reduction;
-    if (v->slow_count >= SLOW_PICTURES && v->reduction < MOST_REDUCTION) v->reduction++;
+    if (v->slow_count >= SLOW_PICTURES && v->reduction < MAX_REDUCTION) v->reduction++;
     if (v->fast_count >= FAST_PICTURES && v->reduction > 1) v->reduction--;
     if (v->reduction != before) v->slow_count = v->fast_count = 0;
 }
@@ -230,9 +230,9 @@ static void make_quick(const viewer *v, paint_scene *scene) {
     if (scene->octrees) {
         scene->coarse = true;
         options->lod.load_s = 0.5 * options->render.budget_s;
-        options->lod.spacing_px = fmin(COARSER * options->lod.spacing_px, MOST_SPACING_PX);
+        options->lod.spacing_px = fmin(COARSER * options->lod.spacing_px, MAX_SPACING_PX);
     }
-    const uint32_t least = least_reduction(v), divisor = v->reduction > least ? v->reduction : least;
+    const uint32_t minimum = min_reduction(v), divisor = v->reduction > minimum ? v->reduction : minimum;
     if (!v->settings.reduce || divisor == 1) return;
     scene->reduced = true;
     ewa_camera *camera = &scene->camera;
@@ -272,7 +272,7 @@ static void schedule(viewer *v, const paint_result *newest) {
     if (v->posted_whole && newest && newest->ticket == v->posted && newest->to_refine &&
         newest->drawn_count != v->refined && !painter_is_busy(v->painter)) {
         v->refined = newest->drawn_count;
-        v->posted_whole = false; // once more, with the cubes that have come
+        v->posted_whole = false; // once more, with the nodes that have come
     }
     if (!v->posted_whole && !is_moving(v) && !painter_is_busy(v->painter)) post(v, true);
 }

@@ -61,9 +61,9 @@ EWA_API void ewa_camera_eye(const ewa_camera *camera, double eye_world[3]);
 /// Places the camera with its axis along `direction_world` and `up_world` up, so that the whole box is in the
 /// picture with at least `margin` (part of the picture's size, in [0, 0.5)) free on every side and the middle
 /// of the box in the middle of the picture, wherever the principal point is. Perspective keeps the intrinsics
-/// and takes the least distance; orthographic keeps fx : fy and scales them. A box without extent is framed
-/// as if it were of size 1. Errors (camera unchanged): EWA_ERROR_ARGUMENT, EWA_ERROR_NUMERIC for an empty or
-/// infinite box or a zero direction.
+/// and takes the smallest distance; orthographic keeps fx : fy and scales them. A box without extent is
+/// framed as if it were of size 1. Errors (camera unchanged): EWA_ERROR_ARGUMENT, EWA_ERROR_NUMERIC for an
+/// empty or infinite box or a zero direction.
 EWA_API ewa_status ewa_camera_frame(ewa_camera *camera, const ewa_bounds *bounds,
                                     const double direction_world[3], const double up_world[3], double margin);
 

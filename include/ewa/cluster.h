@@ -17,14 +17,14 @@ typedef struct ewa_parcel {
     size_t size_bytes;
 } ewa_parcel;
 
-enum { EWA_MOST_RANKS = 1 << 20 };
+enum { EWA_MAX_RANKS = 1 << 20 };
 #define EWA_ALL_RANKS UINT32_MAX
 
 /// How the processes (ranks) of a frame exchange what they have: one collective operation, as MPI, threads or anything
 /// else can offer it. All ranks call it in the same order.
 typedef struct ewa_exchange {
     void *user;
-    uint32_t rank, rank_count; ///< rank in [0, rank_count), rank_count in [1, EWA_MOST_RANKS]
+    uint32_t rank, rank_count; ///< rank in [0, rank_count), rank_count in [1, EWA_MAX_RANKS]
     uint32_t picture_rank;     ///< which rank gets the pictures of joint renderers; EWA_ALL_RANKS: each
     /// Gives given[r] to each other rank r and fills taken[r] with what that gives, `rank_count` parcels each; those
     /// of the rank itself are left alone. What one gives has the size of what the other takes. Returns when the

@@ -27,7 +27,8 @@ enum { EWA_DIAGNOSIS_TEXT_BYTES = 400 };
 EWA_API ewa_gaussian_columns ewa_cloud_find_gaussians(const ewa_cloud *cloud);
 
 /// Writes what they are, such as "3D Gaussians, spherical harmonics of degree 3". Any thread.
-EWA_API void ewa_gaussian_columns_describe(const ewa_gaussian_columns *columns, char text[EWA_DIAGNOSIS_TEXT_BYTES]);
+EWA_API void ewa_gaussian_columns_describe(const ewa_gaussian_columns *columns,
+                                           char text[EWA_DIAGNOSIS_TEXT_BYTES]);
 
 /// Refuses the columns of Gaussians without normals and radii, which would be drawn as something else. Errors:
 /// EWA_ERROR_UNSUPPORTED.
@@ -47,20 +48,20 @@ EWA_API void ewa_cloud_check_steps(const ewa_cloud *cloud);
 EWA_API void ewa_cloud_drop_zero_normals(ewa_cloud *cloud);
 
 /// Points by what is wrong with them, each under the first that applies; colours for themselves.
-typedef struct ewa_cloud_faults {
+typedef struct ewa_cloud_invalid_points {
     uint64_t position_count; ///< coordinates not finite
     uint64_t normal_count;   ///< normal zero or not finite
     uint64_t radius_count;   ///< radius zero, negative or not finite
     uint64_t axis_count;     ///< tangent axis zero or not finite
     uint64_t color_count;    ///< colour not finite
-} ewa_cloud_faults;
+} ewa_cloud_invalid_points;
 
-/// Counts the faults of a cloud. Any thread.
-EWA_API void ewa_cloud_count_faults(const ewa_cloud *cloud, ewa_cloud_faults *faults);
+/// Counts the invalid points of a cloud. Any thread.
+EWA_API void ewa_cloud_count_invalid_points(const ewa_cloud *cloud, ewa_cloud_invalid_points *counts);
 
 /// Warns which points of a cloud are left out of its surfels and why, and which colours are not the file's. Errors:
 /// EWA_ERROR_FORMAT (none can be drawn).
-EWA_API ewa_status ewa_cloud_report_faults(const ewa_cloud *cloud, const ewa_surfels_info *surfels);
+EWA_API ewa_status ewa_cloud_report_invalid_points(const ewa_cloud *cloud, const ewa_surfels_info *surfels);
 
 #ifdef __cplusplus
 }

@@ -64,10 +64,10 @@ typedef struct ewa_gaussian_options {
     ewa_gaussian_filter filter;
     double prefilter_px2; ///< variance of the pixel filter, px^2; [0, 16]; default 0.3
     double cutoff;        ///< F, standard deviations at which every Gaussian ends; [1, 6]; default 4
-    double least_alpha;   ///< less of a Gaussian is not drawn; [1e-6, 0.5]; default 1/255
+    double minimum_alpha; ///< less of a Gaussian is not drawn; [1e-6, 0.5]; default 1/255
     /// A pixel where less than this of what is behind would show gets nothing more; [0, 0.999999]; default
     /// 1/512
-    double least_transmittance;
+    double minimum_transmittance;
     /// EWA_PROJECTION_TRAINED, perspective: centres nearer than that along the axis are not drawn; [0, 1e15];
     /// default 0.2
     double near_world;

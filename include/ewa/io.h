@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 //
 // Files: point clouds, images, cameras. Formats are chosen by content on input and by suffix on output.
-// Output files appear whole or not at all: they are written aside and renamed. Every failure names the file,
-// the place in it and the reason.
+// Output files appear whole or not at all: they are written under a temporary name and renamed. Every failure
+// names the file, the place in it and the reason.
 #ifndef EWA_IO_H
 #define EWA_IO_H
 
@@ -73,10 +73,11 @@ EWA_API ewa_status ewa_cloud_reader_open(ewa_context *context, const char *path,
 EWA_API const ewa_cloud *ewa_cloud_reader_prototype(const ewa_cloud_reader *reader);
 
 /// Returns a number of points that is never exceeded.
-EWA_API uint64_t ewa_cloud_reader_most_points(const ewa_cloud_reader *reader);
+EWA_API uint64_t ewa_cloud_reader_maximum_points(const ewa_cloud_reader *reader);
 
-/// Reads the next points, at most `most_points` > 0, into a cloud that the caller owns; NULL at the end.
-EWA_API ewa_status ewa_cloud_reader_next(ewa_cloud_reader *reader, uint64_t most_points, ewa_cloud **piece);
+/// Reads the next points, at most `maximum_points` > 0, into a cloud that the caller owns; NULL at the end.
+EWA_API ewa_status ewa_cloud_reader_next(ewa_cloud_reader *reader, uint64_t maximum_points,
+                                         ewa_cloud **piece);
 
 /// Returns how many points were lost to damage so far (`keep_going`).
 EWA_API uint64_t ewa_cloud_reader_lost_count(const ewa_cloud_reader *reader);

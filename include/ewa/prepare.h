@@ -60,7 +60,8 @@ EWA_API void ewa_estimate_options_init(ewa_estimate_options *options, size_t str
 ///
 /// - Neighbours are the k nearest other places, duplicates being one place, with all that are as far as the
 ///   k-th. Where they lie almost on a line (a scanner's lines far apart) 64 are asked instead.
-/// - Normals are the direction of least variance, turned as `orientation` says; (0, 0, 1) for a lone point.
+/// - Normals are the direction of smallest variance, turned as `orientation` says; (0, 0, 1) for a lone
+///   point.
 /// - Radii are radius_scale times the spacing, and never so small that irregular sampling leaves a hole, but
 ///   for `radius_limit`. Points that are no part of what is around them get no more than radius_scale times
 ///   the spacing there. Axes have the same area and the proportions of the point's cell among its neighbours,
@@ -142,7 +143,7 @@ typedef struct ewa_feature_options {
     size_t struct_size;
     uint32_t neighbour_count; ///< k, the point itself not counted: 16 to 64, or 0: 24 for exact points up to
                               ///< 64 for noisy ones; default 0
-    double angle_deg; ///< least angle between the normals of two planes that meet in an edge; [10, 120];
+    double angle_deg; ///< smallest angle between the normals of two planes that meet in an edge; [10, 120];
                       ///< default 30
     double noise;     ///< standard deviation of the points from the surface in units of the spacing; (-inf,
                       ///< 1]; negative: measured; default -1

@@ -66,7 +66,7 @@ typedef struct ewa_transfer {
 } ewa_transfer;
 
 /// Fills a transfer function from the volume's histogram: the largest peak near the low end counts as empty,
-/// what lies between it and the sparse high end is a veil that becomes denser, the high end is solid. The
+/// what lies between it and the sparse high end is translucent and becomes denser, the high end is solid. The
 /// unit of length goes with the volume's size, so that it looks the same at every resolution. Errors:
 /// EWA_ERROR_ARGUMENT, EWA_ERROR_NUMERIC (no finite voxel, or all are equal).
 EWA_API ewa_status ewa_transfer_automatic(const ewa_volume *volume, const ewa_volume_facts *facts,

@@ -48,7 +48,7 @@ typedef struct ewa_voxels_info {
     uint64_t voxel_count;    ///< of the volume
     uint64_t occupied_count; ///< of those: with an extinction, at full resolution
     uint64_t block_count;    ///< of 8x8x8 voxels
-    uint64_t skipped_count;  ///< of those: by their least and largest value
+    uint64_t skipped_count;  ///< of those: by their smallest and largest value
     uint32_t level_count;
     size_t resident_bytes; ///< all levels
     ewa_bounds bounds;     ///< of the occupied voxels' centres; finite_count: how many these are
@@ -92,7 +92,7 @@ typedef struct ewa_volume_options {
     double density_scale; ///< multiplies every extinction; [0, 1e15]; default 1
     /// Where less than this of what is behind would show, nothing more is drawn; [0, 0.999999]; 0: everything
     /// is drawn; default 1/512
-    double least_transmittance;
+    double minimum_transmittance;
     ewa_shading shading; ///< by the gradient, seen from both sides; default EWA_SHADING_NONE
     ewa_light lights[EWA_MAX_LIGHTS];
     uint32_t light_count;  ///< of `lights`; 0 (default): one white headlight

@@ -59,7 +59,7 @@ typedef struct ewa_warp_options {
     /// are.
     double depth_noise;
     bool drop_flying;      ///< mask what hangs between two surfaces that it does not belong to; default true
-    double nearest_world;  ///< least z; [1e-9, 1e12]; default 1e-6
+    double nearest_world;  ///< smallest z; [1e-9, 1e12]; default 1e-6
     double farthest_world; ///< largest z, above nearest_world; [1e-9, 1e12]; default 1e9
 } ewa_warp_options;
 

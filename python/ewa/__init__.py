@@ -6,7 +6,7 @@
 >>> image = ewa.render(ewa.read("scan.ply"), background="white")
 >>> image.save("scan.png")
 
-Arrays become surfels, surfels become pictures; volumes, depth images, textures and meshes take the same road. All
+Arrays become surfels, surfels become pictures; volumes, depth images, textures and meshes take the same pipeline. All
 lengths are world units, all colours linear light unless they are uint8, which are sRGB; cameras have OpenCV's axes.
 """
 from __future__ import annotations

@@ -33,7 +33,7 @@ EWA_POSITION = 'position'
 EWA_RADIUS = 'radius'
 EWA_TANGENT_U = 'tangent_u'
 EWA_TANGENT_V = 'tangent_v'
-EWA_MOST_RANKS = 1048576
+EWA_MAX_RANKS = 1048576
 EWA_ALL_RANKS = 4294967295
 EWA_SCALAR_NAME_BYTES = 68
 EWA_DIAGNOSIS_TEXT_BYTES = 400
@@ -702,7 +702,7 @@ class ewa_legend(c.Structure):
     ]
 
 
-class ewa_cloud_faults(c.Structure):
+class ewa_cloud_invalid_points(c.Structure):
     position_count: int
     normal_count: int
     radius_count: int
@@ -876,8 +876,8 @@ class ewa_gaussian_options(c.Structure):
     filter: int
     prefilter_px2: float
     cutoff: float
-    least_alpha: float
-    least_transmittance: float
+    minimum_alpha: float
+    minimum_transmittance: float
     near_world: float
     sh_degree: int
     background: c.Array[c.c_float]
@@ -893,8 +893,8 @@ class ewa_gaussian_options(c.Structure):
         ("filter", c.c_int),
         ("prefilter_px2", c.c_double),
         ("cutoff", c.c_double),
-        ("least_alpha", c.c_double),
-        ("least_transmittance", c.c_double),
+        ("minimum_alpha", c.c_double),
+        ("minimum_transmittance", c.c_double),
         ("near_world", c.c_double),
         ("sh_degree", c.c_uint32),
         ("background", c.c_float * 4),
@@ -1183,7 +1183,7 @@ class ewa_lod_build_stats(c.Structure):
     node_count: int
     level_count: int
     temporary_bytes: int
-    survey_s: float
+    statistics_s: float
     distribute_s: float
     estimate_s: float
     merge_s: float
@@ -1196,7 +1196,7 @@ class ewa_lod_build_stats(c.Structure):
         ("node_count", c.c_uint32),
         ("level_count", c.c_uint32),
         ("temporary_bytes", c.c_uint64),
-        ("survey_s", c.c_double),
+        ("statistics_s", c.c_double),
         ("distribute_s", c.c_double),
         ("estimate_s", c.c_double),
         ("merge_s", c.c_double),
@@ -1300,7 +1300,7 @@ class ewa_render_stats(c.Structure):
 class ewa_lod_stats(c.Structure):
     render: ewa_render_stats
     surfel_count: int
-    cube_count: int
+    node_count: int
     loaded_count: int
     missing_count: int
     band_count: int
@@ -1310,7 +1310,7 @@ class ewa_lod_stats(c.Structure):
     _fields_ = [
         ("render", ewa_render_stats),
         ("surfel_count", c.c_uint64),
-        ("cube_count", c.c_uint32),
+        ("node_count", c.c_uint32),
         ("loaded_count", c.c_uint32),
         ("missing_count", c.c_uint32),
         ("band_count", c.c_uint32),
@@ -1384,7 +1384,7 @@ class ewa_volume_options(c.Structure):
     depth_unit: float
     level: int
     density_scale: float
-    least_transmittance: float
+    minimum_transmittance: float
     shading: int
     lights: c.Array[ewa_light]
     light_count: int
@@ -1407,7 +1407,7 @@ class ewa_volume_options(c.Structure):
         ("depth_unit", c.c_double),
         ("level", c.c_uint32),
         ("density_scale", c.c_double),
-        ("least_transmittance", c.c_double),
+        ("minimum_transmittance", c.c_double),
         ("shading", c.c_int),
         ("lights", ewa_light * 8),
         ("light_count", c.c_uint32),
@@ -2427,12 +2427,12 @@ class Functions:
     ewa_legend_free: Callable[..., None]
     ewa_cloud_check_degrees: Callable[..., None]
     ewa_cloud_check_steps: Callable[..., None]
-    ewa_cloud_count_faults: Callable[..., None]
+    ewa_cloud_count_invalid_points: Callable[..., None]
     ewa_cloud_drop_zero_normals: Callable[..., None]
     ewa_cloud_find_degrees: Callable[..., bool]
     ewa_cloud_find_gaussians: Callable[..., ewa_gaussian_columns]
     ewa_cloud_refuse_gaussians: Callable[..., int]
-    ewa_cloud_report_faults: Callable[..., int]
+    ewa_cloud_report_invalid_points: Callable[..., int]
     ewa_gaussian_columns_describe: Callable[..., None]
     ewa_framing_choose: Callable[..., None]
     ewa_framing_create: Callable[..., int]
@@ -2541,7 +2541,7 @@ class Functions:
     ewa_cloud_load_options_init: Callable[..., None]
     ewa_cloud_reader_close: Callable[..., None]
     ewa_cloud_reader_lost_count: Callable[..., int]
-    ewa_cloud_reader_most_points: Callable[..., int]
+    ewa_cloud_reader_maximum_points: Callable[..., int]
     ewa_cloud_reader_next: Callable[..., int]
     ewa_cloud_reader_open: Callable[..., int]
     ewa_cloud_reader_prototype: Callable[..., int | None]
@@ -2768,12 +2768,12 @@ class Functions:
         self.ewa_legend_free = bind("ewa_legend_free", None, c.POINTER(ewa_legend))
         self.ewa_cloud_check_degrees = bind("ewa_cloud_check_degrees", None, c.c_void_p)
         self.ewa_cloud_check_steps = bind("ewa_cloud_check_steps", None, c.c_void_p)
-        self.ewa_cloud_count_faults = bind("ewa_cloud_count_faults", None, c.c_void_p, c.POINTER(ewa_cloud_faults))
+        self.ewa_cloud_count_invalid_points = bind("ewa_cloud_count_invalid_points", None, c.c_void_p, c.POINTER(ewa_cloud_invalid_points))
         self.ewa_cloud_drop_zero_normals = bind("ewa_cloud_drop_zero_normals", None, c.c_void_p)
         self.ewa_cloud_find_degrees = bind("ewa_cloud_find_degrees", c.c_bool, c.c_void_p, c.c_void_p)
         self.ewa_cloud_find_gaussians = bind("ewa_cloud_find_gaussians", ewa_gaussian_columns, c.c_void_p)
         self.ewa_cloud_refuse_gaussians = bind("ewa_cloud_refuse_gaussians", c.c_int, c.c_void_p)
-        self.ewa_cloud_report_faults = bind("ewa_cloud_report_faults", c.c_int, c.c_void_p, c.POINTER(ewa_surfels_info))
+        self.ewa_cloud_report_invalid_points = bind("ewa_cloud_report_invalid_points", c.c_int, c.c_void_p, c.POINTER(ewa_surfels_info))
         self.ewa_gaussian_columns_describe = bind("ewa_gaussian_columns_describe", None, c.POINTER(ewa_gaussian_columns), c.c_void_p)
         self.ewa_framing_choose = bind("ewa_framing_choose", None, c.c_void_p, c.c_int, c.POINTER(ewa_upright))
         self.ewa_framing_create = bind("ewa_framing_create", c.c_int, c.c_void_p, c.c_double, c.c_void_p)
@@ -2882,7 +2882,7 @@ class Functions:
         self.ewa_cloud_load_options_init = bind("ewa_cloud_load_options_init", None, c.POINTER(ewa_cloud_load_options), c.c_size_t)
         self.ewa_cloud_reader_close = bind("ewa_cloud_reader_close", None, c.c_void_p)
         self.ewa_cloud_reader_lost_count = bind("ewa_cloud_reader_lost_count", c.c_uint64, c.c_void_p)
-        self.ewa_cloud_reader_most_points = bind("ewa_cloud_reader_most_points", c.c_uint64, c.c_void_p)
+        self.ewa_cloud_reader_maximum_points = bind("ewa_cloud_reader_maximum_points", c.c_uint64, c.c_void_p)
         self.ewa_cloud_reader_next = bind("ewa_cloud_reader_next", c.c_int, c.c_void_p, c.c_uint64, c.c_void_p)
         self.ewa_cloud_reader_open = bind("ewa_cloud_reader_open", c.c_int, c.c_void_p, c.c_char_p, c.POINTER(ewa_cloud_load_options), c.c_void_p)
         self.ewa_cloud_reader_prototype = bind("ewa_cloud_reader_prototype", c.c_void_p, c.c_void_p)

@@ -91,7 +91,7 @@ class FeatureOptions(TypedDict, total=False):
 
     #: nearest neighbours that planes are fitted to; 0: 24 for exact points up to 64 for noisy ones; 0 or [16, 64], default 0
     neighbour_count: int
-    #: least angle between the normals of two planes that meet in an edge; less is a smooth surface; [10, 120], deg, default 30
+    #: smallest angle between the normals of two planes that meet in an edge; less is a smooth surface; [10, 120], deg, default 30
     angle_deg: float
     #: standard deviation of the points from the surface in units of the spacing; negative: measured; (-inf, 1], default -1
     noise: float
@@ -168,13 +168,13 @@ class LodBuildOptions(TypedDict, total=False):
 class LodOptions(TypedDict, total=False):
     """Members of ewa_lod_options."""
 
-    #: cubes are drawn by surfels that stand for their points where these are no farther apart; (0, 64], px, default 0.5
+    #: nodes are drawn by surfels that represent their points where these are no farther apart; (0, 64], px, default 0.5
     spacing_px: float
     #: and expected to be off by no more than so much, rms, in 1/255; 0: all points; [0, 255], default 16
     error: float
-    #: memory for cubes; a picture that needs more is drawn in bands; [16777216, 1.125899907e15], bytes, default 1073741824
+    #: memory for nodes; a picture that needs more is drawn in bands; [16777216, 1.125899907e15], bytes, default 1073741824
     memory_bytes: int
-    #: time for reading cubes; what is missing then is drawn coarser; 0: as long as it takes; [0, 1e15], s, default 0
+    #: time for reading nodes; what is missing then is drawn coarser; 0: as long as it takes; [0, 1e15], s, default 0
     load_s: float
     #: part that a rank draws of what a renderer of several ranks shows; [0, 1048576], default 0
     share: int
@@ -351,9 +351,9 @@ class GaussianOptions(TypedDict, total=False):
     #: standard deviations at which every Gaussian ends; [1, 6], default 4
     cutoff: float
     #: less of a Gaussian is not drawn; [1e-6, 0.5], default 0.00392156862745098
-    least_alpha: float
+    minimum_alpha: float
     #: a pixel where less of what is behind would show gets nothing more; [0, 0.999999], default 0.001953125
-    least_transmittance: float
+    minimum_transmittance: float
     #: trained: Gaussians whose centres are nearer to the eye along its axis are not drawn; [0, 1e15], default 0.2
     near_world: float
     #: spherical harmonics beyond that degree are not used; [0, 4], default 4
@@ -382,7 +382,7 @@ class VolumeOptions(TypedDict, total=False):
     #: multiplies every extinction: 2 is twice as dense; [0, 1e15], default 1
     density_scale: float
     #: where less of what is behind would show, nothing more is drawn; 0: everything is; [0, 0.999999], default 0.001953125
-    least_transmittance: float
+    minimum_transmittance: float
     #: light, by the gradient: none gives the bare colours, lambert matt matter, phong highlights; none|lambert|phong, default none
     shading: Literal["none", "lambert", "phong"] | int
 

@@ -402,7 +402,7 @@ class Cloud:
             "viridis", "turbo", "gray", "plasma", "inferno", "magma", "cividis", "coolwarm", or "classes" for the
             colours of LAS. Default: "classes" for whole numbers named classification, else "viridis".
         range : (float, float), optional
-            Numbers of the first and the last colour. Default: least to greatest; of intensities without the outermost
+            Numbers of the first and the last colour. Default: smallest to largest; of intensities without the outermost
             two per cent.
 
         Raises

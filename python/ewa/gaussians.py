@@ -75,7 +75,7 @@ class Gaussians(Held):
             raise ArgumentError(f"harmonics: {given['harmonics'].shape[1]} for each; "
                                 f"{', '.join(map(str, degrees))} are")
         if count >= 2**32:
-            raise ArgumentError(f"centers: {count} of them, at most {2**32 - 1}")
+            raise ArgumentError(f"centers: {count} of them, at maximum {2**32 - 1}")
         self._struct = b.ewa_gaussians(
             context=core.address, count=count, sh_degree=degrees[given["harmonics"].shape[1]],
             flat=bool(count) and not given["scales"][:, 2].any(), antialiased=bool(antialiased),
@@ -260,7 +260,7 @@ def render_gaussians(gaussians: Gaussians | Splats | Sequence[Gaussians | Splats
         As of :func:`render`.
     **options
         Members of ``ewa_gaussian_options``: ``projection`` ("trained", "exact"), ``filter``, ``prefilter_px2``,
-        ``cutoff``, ``least_alpha``, ``least_transmittance``, ``near_world``, ``sh_degree``.
+        ``cutoff``, ``minimum_alpha``, ``minimum_transmittance``, ``near_world``, ``sh_degree``.
 
     Raises
     ------

@@ -33,7 +33,7 @@ _SAMPLE_POINTS = 400000
 
 
 class Octree:
-    """An octree of points in a file, with the cubes that are in memory.
+    """An octree of points in a file, with the nodes that are in memory.
 
     Parameters
     ----------
@@ -83,16 +83,16 @@ class Octree:
         """Levels, the coarsest counted too."""
         return self._info.level_count
 
-    def sample(self, most_points: int = _SAMPLE_POINTS) -> Cloud:
+    def sample(self, maximum_points: int = _SAMPLE_POINTS) -> Cloud:
         """Return whole levels, from the coarsest on, as long as they have at most so many points together.
 
         Raises
         ------
         ArgumentError, FileError, FormatError, OutOfMemory
         """
-        if not 1 <= most_points < 2**64:
-            raise ArgumentError(f"most_points: {most_points} is outside [1, 2^64)")
-        return Cloud._made(self._core, lib.ewa_lod_sample, self._h, most_points)
+        if not 1 <= maximum_points < 2**64:
+            raise ArgumentError(f"maximum_points: {maximum_points} is outside [1, 2^64)")
+        return Cloud._made(self._core, lib.ewa_lod_sample, self._h, maximum_points)
 
     def read(self, low: Sequence[float] | None = None, high: Sequence[float] | None = None,
              spacing: float = 0.0) -> Cloud:
@@ -155,7 +155,7 @@ class Octree:
         return image
 
     def close(self) -> None:
-        """Close the file and free the cubes; later use raises ClosedError."""
+        """Close the file and free the nodes; later use raises ClosedError."""
         self._handle = None
 
     def __repr__(self) -> str:
@@ -164,7 +164,7 @@ class Octree:
 
 def build_octree(sources: PathLike | Sequence[PathLike], target: PathLike, *, context: Context | None = None,
                  **options: Unpack[LodBuildOptions]) -> None:
-    """Make one COPC file of the points of any files, with surfels that stand for the points of each cube.
+    """Make one COPC file of the points of any files, with surfels that represent the points of each node.
 
     Parameters
     ----------

@@ -44,7 +44,7 @@ def set_lights(options: Any, lights: Sequence[Light] | None) -> None:
     if lights is None:
         return
     if len(lights) > b.EWA_MAX_LIGHTS:
-        raise ArgumentError(f"lights: {len(lights)} of them; at most {b.EWA_MAX_LIGHTS}")
+        raise ArgumentError(f"lights: {len(lights)} of them; at maximum {b.EWA_MAX_LIGHTS}")
     for i, light in enumerate(lights):
         given = numbers(light, 3 if len(light) == 3 else 6, f"lights[{i}]")
         lib.ewa_light_init(ctypes.byref(options.lights[i]))
@@ -86,7 +86,7 @@ def set_section(options: Any, box: Any, planes: Sequence[Sequence[float]] | None
             all_planes.append(normal + [-inward * corners[axis + 3 * (side % 2)]])
     all_planes += list(planes or ())
     if len(all_planes) > b.EWA_MAX_SECTION_PLANES:
-        raise ArgumentError(f"section_planes: {len(all_planes)} with the box's six; at most {b.EWA_MAX_SECTION_PLANES}")
+        raise ArgumentError(f"section_planes: {len(all_planes)} with the box's six; at maximum {b.EWA_MAX_SECTION_PLANES}")
     for i, plane in enumerate(all_planes):
         options.section_planes[i][:] = numbers(plane, 4, f"section_planes[{i}]")
     options.section_count = len(all_planes)

@@ -348,7 +348,7 @@ def render_volume(volume: Volume | Voxels, camera: Camera | None = None, *, tran
         As of :func:`render`.
     **options
         Members of ``ewa_volume_options``: ``method``, ``index``, ``sigma``, ``cutoff``, ``prefilter_px``,
-        ``point_threshold_px``, ``depth_unit``, ``level``, ``density_scale``, ``least_transmittance``, ``shading``.
+        ``point_threshold_px``, ``depth_unit``, ``level``, ``density_scale``, ``minimum_transmittance``, ``shading``.
         Default shading: "phong"; "none" of the presets gray and fog.
 
     Raises

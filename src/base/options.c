@@ -10,7 +10,7 @@
 #include <string.h>
 
 /// What is larger is no struct of options, but memory that nobody has set.
-enum { MOST_BYTES = 1 << 14, NUMBER_BYTES = 32 };
+enum { MAX_BYTES = 1 << 14, NUMBER_BYTES = 32 };
 
 static uint32_t count_of(const ewa_option *option) { return option->count ? option->count : 1; }
 
@@ -148,7 +148,7 @@ ewa_status ewa_options_check(ewa_context *context, const ewa_option_table *table
 
 /// Whether a struct of so many bytes ends between members, as that of another header may.
 static bool is_whole(const ewa_option_table *table, size_t struct_size) {
-    bool whole = struct_size % sizeof struct_size == 0 && struct_size <= MOST_BYTES && table->option_count &&
+    bool whole = struct_size % sizeof struct_size == 0 && struct_size <= MAX_BYTES && table->option_count &&
                  struct_size > table->options[0].offset;
     for (size_t i = 0; i < table->option_count; i++) {
         const ewa_option *option = &table->options[i];

@@ -7,7 +7,7 @@
 
 #include "ewa/options.h"
 
-/// The table of a struct whose members are `rows`, that with the least offset first.
+/// The table of a struct whose members are `rows`, that with the smallest offset first.
 #define EWA_OPTION_TABLE(type, rows)                                                                         \
     { #type, rows, sizeof(rows) / sizeof(rows)[0], sizeof(type) }
 

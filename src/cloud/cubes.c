@@ -9,7 +9,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { MOST_PARTS = 64, PART_POINTS = 1 << 14, BUCKET_POINTS = 1 << 10 };
+enum { MAX_PARTS = 64, PART_POINTS = 1 << 14, BUCKET_POINTS = 1 << 10 };
 
 /// Scrambles 64 bits (splitmix64 of Vigna, 2015).
 static uint64_t scramble(uint64_t z) {
@@ -204,11 +204,11 @@ ewa_status ewa_cubes_make(const ewa_cloud *cloud, const ewa_cell_frame *frame, u
     const uint64_t point_count = ewa_cloud_point_count(cloud), buckets = point_count / BUCKET_POINTS + 1,
                    parts = point_count / PART_POINTS + 1;
     *cubes = (ewa_cubes){.context = context, .frame = *frame, .capacity = point_count};
-    cubes->bucket_count = buckets < EWA_MOST_BUCKETS ? (uint32_t)buckets : EWA_MOST_BUCKETS;
+    cubes->bucket_count = buckets < EWA_MAX_BUCKETS ? (uint32_t)buckets : EWA_MAX_BUCKETS;
     group_job job = {.cubes = cubes,
                      .marks = marks,
                      .point_count = point_count,
-                     .parts = parts < MOST_PARTS ? (uint32_t)parts : MOST_PARTS};
+                     .parts = parts < MAX_PARTS ? (uint32_t)parts : MAX_PARTS};
     const size_t place_count = (size_t)job.parts * cubes->bucket_count;
     job.places = ewa_allocate_zeroed(context, place_count, sizeof *job.places);
     job.points = ewa_allocate(context, point_count, sizeof *job.points);

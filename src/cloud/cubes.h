@@ -19,7 +19,7 @@ typedef struct ewa_cell_frame {
 /// Gives the cell of a point, and the point in units of cells.
 void ewa_cell_of(const ewa_cell_frame *frame, uint64_t point, double cell[3], double at_cells[3]);
 
-enum { EWA_MOST_BUCKETS = 4096 };
+enum { EWA_MAX_BUCKETS = 4096 };
 
 /// Runs of points that share a cube. A cube has a number: that of its bucket's first place plus its own in
 /// the bucket.
@@ -28,7 +28,7 @@ typedef struct ewa_cubes {
     ewa_cell_frame frame;
     uint64_t capacity;     ///< points that the arrays have room for
     uint32_t bucket_count; ///< cubes are strewn over them by a hash
-    uint32_t first_place[EWA_MOST_BUCKETS + 1], cube_count[EWA_MOST_BUCKETS];
+    uint32_t first_place[EWA_MAX_BUCKETS + 1], cube_count[EWA_MAX_BUCKETS];
     uint32_t *order;  ///< points, run by run
     uint32_t *starts; ///< by number of the cube: place of its first point in `order`
     uint32_t *slots;  ///< of each bucket: a hash table of its cubes

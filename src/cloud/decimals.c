@@ -6,7 +6,7 @@
 
 #include <math.h>
 
-static const double MOST_PARTS = 1e6, EXACT = 0x1p53;
+static const double MAX_PARTS = 1e6, EXACT = 0x1p53;
 
 /// Whether a number is the double nearest to a decimal with that many parts of one.
 static bool is_decimal(double number, double parts) {
@@ -21,7 +21,7 @@ double ewa_decimals_find(const double *numbers, uint64_t count, uint32_t stride)
         if (!isfinite(number)) continue;
         while (!is_decimal(number, parts)) {
             parts *= 10;
-            if (parts > MOST_PARTS) return 0;
+            if (parts > MAX_PARTS) return 0;
         }
     }
     return parts;

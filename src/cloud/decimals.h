@@ -9,9 +9,9 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-/// Finds the least power of ten, 1 to 10^6, by which all of `count` numbers, `stride` doubles apart, are whole;
-/// each is the double nearest to such a decimal. Numbers that are not finite do not count. Returns 0 when
-/// there is none.
+/// Finds the smallest power of ten, 1 to 10^6, by which all of `count` numbers, `stride` doubles apart, are
+/// whole; each is the double nearest to such a decimal. Numbers that are not finite do not count. Returns 0
+/// when there is none.
 double ewa_decimals_find(const double *numbers, uint64_t count, uint32_t stride);
 
 /// Returns the double nearest to the difference of two such decimals; the difference of the doubles when

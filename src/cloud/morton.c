@@ -312,15 +312,15 @@ static void emit_same_task(void *data, uint32_t part, uint32_t worker) {
     if (first > s->now.begin && s->split_level) s->split_level[first] = EWA_MORTON_SAME;
 }
 
-static uint32_t most_parts(ewa_context *context) {
+static uint32_t max_parts(ewa_context *context) {
     const uint32_t useful = 4 * ewa_context_worker_count(context);
     return useful < MAX_PARTS ? useful : MAX_PARTS;
 }
 
 static void set_now(ewa_context *context, sorter *s, const range *r) {
     s->now = *r;
-    const uint32_t wanted = (r->end - r->begin) / PART_POINTS + 1, most = most_parts(context);
-    s->parts = wanted < most ? wanted : most;
+    const uint32_t wanted = (r->end - r->begin) / PART_POINTS + 1, maximum = max_parts(context);
+    s->parts = wanted < maximum ? wanted : maximum;
 }
 
 /// Lays a finer grid over the range at work, whose codes are all equal. Returns false when it is one place.
@@ -408,7 +408,7 @@ static ewa_status sort_all(ewa_context *context, sorter *s, uint32_t count, rang
 /// Orders the points within a grid over `box`; `items` has room for all of them and their codes.
 static ewa_status order_in_box(ewa_context *context, const ewa_attribute *position, uint32_t count,
                                const ewa_bounds *box, item *items, uint32_t *order, uint16_t *split_level) {
-    const size_t large_capacity = count / LARGE_POINTS + 1, histogram_size = (size_t)most_parts(context)
+    const size_t large_capacity = count / LARGE_POINTS + 1, histogram_size = (size_t)max_parts(context)
                                                                              << FIRST_DIGIT_BITS;
     const size_t small_capacity = (size_t)1 << FIRST_DIGIT_BITS;
     const uint32_t worker_count = ewa_context_worker_count(context);

@@ -5,7 +5,7 @@
 //
 // Points in Morton order are cut where the curve leaves the largest cell, again and again, until no run holds
 // more than 16: leaves are small boxes whatever the density. Above them every node has 16 consecutive
-// children. Points at the same place become one, so that no number of duplicates crowds out the neighbours or
+// children. Points at the same place become one, so that no number of duplicates displaces the neighbours or
 // makes the search quadratic.
 #include "cloud/neighbours.h"
 #include "base/base.h"

@@ -12,7 +12,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { MOST_BANDS = 1024, MOST_CORNERS = 1 << 28 };
+enum { MAX_BANDS = 1024, MAX_CORNERS = 1 << 28 };
 
 /// An edge from its lower to its upper end.
 typedef struct polygon_edge {
@@ -25,7 +25,7 @@ struct ewa_polygon {
     polygon_edge *edges;
     uint32_t *entries; ///< edges, band by band
     uint32_t band_count;
-    uint64_t first_entry[MOST_BANDS + 1];
+    uint64_t first_entry[MAX_BANDS + 1];
     double box_world[4], bands_per_unit;
 };
 
@@ -52,7 +52,7 @@ static void add_ring(ewa_polygon *polygon, const double *corners, uint32_t count
 /// Chooses as many bands as the edges are not listed too often for; counts what each lists.
 static void plan_bands(ewa_polygon *polygon) {
     const double height = polygon->box_world[3] - polygon->box_world[1];
-    for (polygon->band_count = MOST_BANDS;; polygon->band_count /= 2) {
+    for (polygon->band_count = MAX_BANDS;; polygon->band_count /= 2) {
         const double per_unit = polygon->band_count / height;
         polygon->bands_per_unit = isfinite(per_unit) ? per_unit : 0;
         memset(polygon->first_entry, 0, sizeof polygon->first_entry);
@@ -63,7 +63,7 @@ static void plan_bands(ewa_polygon *polygon) {
             for (uint32_t band = first; band <= last; band++) polygon->first_entry[band + 1]++;
             polygon->entry_count += last - first + 1;
         }
-        if (polygon->band_count == 1 || polygon->entry_count <= 8 * polygon->edge_count + MOST_BANDS) break;
+        if (polygon->band_count == 1 || polygon->entry_count <= 8 * polygon->edge_count + MAX_BANDS) break;
     }
     for (uint32_t band = 0; band < polygon->band_count; band++)
         polygon->first_entry[band + 1] += polygon->first_entry[band];
@@ -74,7 +74,7 @@ static ewa_status list_edges(ewa_polygon *polygon) {
     plan_bands(polygon);
     polygon->entries = ewa_allocate(polygon->context, polygon->entry_count, sizeof *polygon->entries);
     if (!polygon->entries) return EWA_ERROR_MEMORY;
-    uint64_t next[MOST_BANDS];
+    uint64_t next[MAX_BANDS];
     memcpy(next, polygon->first_entry, sizeof next);
     for (uint64_t e = 0; e < polygon->edge_count; e++) {
         const uint32_t last = band_of(polygon, polygon->edges[e].high_y);
@@ -93,9 +93,9 @@ static ewa_status check_corners(ewa_context *context, const double *corners, con
                             r + 1, ring_counts[r]);
         *total += ring_counts[r];
     }
-    if (*total > MOST_CORNERS)
+    if (*total > MAX_CORNERS)
         return ewa_fail(context, EWA_ERROR_LIMIT, "polygon: %llu corners, more than %d",
-                        (unsigned long long)*total, MOST_CORNERS);
+                        (unsigned long long)*total, MAX_CORNERS);
     for (uint64_t i = 0; i < 2 * *total; i++)
         if (!isfinite(corners[i]))
             return ewa_fail(context, EWA_ERROR_ARGUMENT, "polygon: corner %llu is not finite",

@@ -23,8 +23,8 @@ enum {
 };
 
 /// Edge of a cell in distances: a little more, so that rounding leaves points that are too near in cells side
-/// by side. Out to MOST_CELLS from the world's origin quotients are so exact.
-static const double CELL_DISTANCES = 1 + 0x1p-10, MOST_CELLS = 0x1p40;
+/// by side. Out to MAX_CELLS from the world's origin quotients are so exact.
+static const double CELL_DISTANCES = 1 + 0x1p-10, MAX_CELLS = 0x1p40;
 
 /// What a worker knows of the block in hand: the points that stay, in lists by cells.
 typedef struct block_scratch {
@@ -113,7 +113,7 @@ static void order_bucket(void *data, uint32_t bucket, uint32_t worker) {
             double cell[3], world[3];
             ewa_cell_of(&cubes->frame, points[i], cell, world);
             for (int c = 0; c < 3; c++)
-                if (!(fabs(cell[c]) < MOST_CELLS)) job->far[bucket] = 1;
+                if (!(fabs(cell[c]) < MAX_CELLS)) job->far[bucket] = 1;
             ewa_attribute_read_f64(cubes->frame.position, points[i], 1, world);
             for (int c = 0; c < 3; c++) world[c] += cubes->frame.origin_world[c];
             turns[i] = (ewa_hash3(world) & ~(uint64_t)UINT32_MAX) | points[i];
@@ -146,8 +146,8 @@ static uint32_t local_cell(const ewa_cell_frame *frame, uint32_t point, const do
 }
 
 /// Whether a point that stays is too near, in the 27 cells around `cell`: its own first, where most are.
-static bool is_crowded(const block_scratch *scratch, uint32_t cell, const double position[3],
-                       double distance2) {
+static bool is_too_dense(const block_scratch *scratch, uint32_t cell, const double position[3],
+                         double distance2) {
     static const int order[3] = {0, -1, 1};
     for (int k = 0; k < 27; k++) {
         const int step = (order[k / 9] * SIDE + order[k / 3 % 3]) * SIDE + order[k % 3];
@@ -188,7 +188,7 @@ static void thin_block(const distance_job *job, uint32_t number, uint32_t count,
         const uint32_t point = (uint32_t)turns[i], cell = local_cell(&cubes->frame, point, block);
         double position[3];
         ewa_attribute_read_f64(cubes->frame.position, point, 1, position);
-        const bool stays = !is_crowded(scratch, cell, position, job->distance2);
+        const bool stays = !is_too_dense(scratch, cell, position, job->distance2);
         job->marks[point] = stays;
         if (!stays) continue;
         add_node(scratch, cell, position);
@@ -223,7 +223,7 @@ static ewa_status check_far(const distance_job *job, double distance_world) {
         if (job->far[bucket])
             return ewa_fail(job->cubes->context, EWA_ERROR_NUMERIC,
                             "a distance of %g cannot be kept: coordinates are over %g", distance_world,
-                            distance_world * MOST_CELLS);
+                            distance_world * MAX_CELLS);
     return EWA_OK;
 }
 

@@ -33,7 +33,7 @@ static void find_steps(const ewa_cell_frame *frame, uint32_t point, double steps
 static void thin_voxel(const voxel_job *job, const uint32_t *points, uint32_t count) {
     const ewa_cell_frame *frame = &job->cubes->frame;
     uint64_t sums[3] = {0};
-    double steps[3], mean[3], least = INFINITY;
+    double steps[3], mean[3], minimum = INFINITY;
     for (uint32_t i = 0; i < count; i++) {
         find_steps(frame, points[i], steps);
         for (int c = 0; c < 3; c++) sums[c] += (uint64_t)steps[c];
@@ -45,10 +45,10 @@ static void thin_voxel(const voxel_job *job, const uint32_t *points, uint32_t co
         find_steps(frame, points[i], steps);
         double distance2 = 0;
         for (int c = 0; c < 3; c++) distance2 += (steps[c] - mean[c]) * (steps[c] - mean[c]);
-        if (distance2 > least ||
-            (distance2 == least && ewa_points_compare(job->cloud, points[i], nearest) >= 0))
+        if (distance2 > minimum ||
+            (distance2 == minimum && ewa_points_compare(job->cloud, points[i], nearest) >= 0))
             continue;
-        least = distance2;
+        minimum = distance2;
         nearest = points[i];
     }
     job->marks[nearest] = 1;

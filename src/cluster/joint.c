@@ -16,15 +16,16 @@ static void destroy(ewa_context *context, void *state) {
     for (uint32_t i = 0; old->scratch && i < old->worker_count; i++)
         ewa_tile_scratch_free(context, &old->scratch[i]);
     ewa_release(context, old->scratch, old->worker_count, sizeof *old->scratch);
-    ewa_joint_desk *desks = old->desks.data;
-    for (uint32_t i = 0; i < old->desk_room; i++) ewa_tile_scratch_free(context, &desks[i].scratch);
+    ewa_joint_tile_cache *tile_caches = old->tile_caches.data;
+    for (uint32_t i = 0; i < old->tile_cache_capacity; i++)
+        ewa_tile_scratch_free(context, &tile_caches[i].scratch);
     ewa_job_room_free(context, &old->room);
     ewa_joint_sources_free(context, &old->sources);
     ewa_joint_tiles_free(context, &old->tiles);
-    ewa_mail_free(context, &old->mail);
+    ewa_messages_free(context, &old->messages);
     ewa_buffer *const buffers[] = {&old->rows,   &old->passed, &old->given_keys, &old->taken_keys,
                                    &old->places, &old->kept,   &old->planes,     &old->totals,
-                                   &old->packed, &old->wave,   &old->pixels,     &old->desks};
+                                   &old->packed, &old->wave,   &old->pixels,     &old->tile_caches};
     for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; i++) ewa_buffer_free(context, buffers[i]);
     ewa_release(context, old, 1, sizeof *old);
 }
@@ -33,8 +34,8 @@ static ewa_status create(ewa_context *context, void **state) {
     ewa_joint *made = ewa_allocate_zeroed(context, 1, sizeof *made);
     if (!made) return EWA_ERROR_MEMORY;
     made->context = context;
-    made->desk_bytes = EWA_JOINT_DESK_BYTES;
-    made->room.dome.kernels = EWA_CHOOSE(ewa_context_cpu_features(context), ewa_road_kernels);
+    made->tile_cache_bytes = EWA_JOINT_TILE_CACHE_BYTES;
+    made->room.eye_dome.kernels = EWA_CHOOSE(ewa_context_cpu_features(context), ewa_pipeline_kernels);
     made->worker_count = ewa_context_worker_count(context);
     made->scratch = ewa_allocate_zeroed(context, made->worker_count, sizeof *made->scratch);
     if (!made->scratch) {
@@ -45,13 +46,14 @@ static ewa_status create(ewa_context *context, void **state) {
     return EWA_OK;
 }
 
-/// Gives the first shares desks, as many as there is memory for.
-static ewa_status reserve_desks(ewa_joint *joint) {
+/// Gives the first contributions tile caches, as many as there is memory for.
+static ewa_status reserve_tile_caches(ewa_joint *joint) {
     enum { SPLAT_BYTES = 224 }; // records, what they carry, lists of them
     const ewa_joint_tiles *tiles = &joint->tiles;
     size_t bytes = 0;
-    for (joint->desk_count = 0; joint->desk_count < tiles->share_count; joint->desk_count++) {
-        const uint32_t tile = tiles->shares[joint->desk_count].tile;
+    for (joint->tile_cache_count = 0; joint->tile_cache_count < tiles->contribution_count;
+         joint->tile_cache_count++) {
+        const uint32_t tile = tiles->contributions[joint->tile_cache_count].tile;
         ewa_tile_job own = joint->job;
         own.largest_bin = 0;
         for (uint32_t i = 0; i < own.source_count; i++) {
@@ -59,18 +61,19 @@ static ewa_status reserve_desks(ewa_joint *joint) {
             own.largest_bin += starts[tile + 1] - starts[tile];
         }
         bytes += own.largest_bin * EWA_PACKET_LANES * SPLAT_BYTES + joint->tile_floats * sizeof(float);
-        if (bytes > joint->desk_bytes) break;
-        ewa_joint_desk *desks = joint->desks.data;
-        if (joint->desk_count == joint->desk_room) {
-            const ewa_status status = ewa_buffer_grow(joint->context, &joint->desks, joint->desk_room,
-                                                      (size_t)joint->desk_room + 1, sizeof *desks);
+        if (bytes > joint->tile_cache_bytes) break;
+        ewa_joint_tile_cache *tile_caches = joint->tile_caches.data;
+        if (joint->tile_cache_count == joint->tile_cache_capacity) {
+            const ewa_status status =
+                ewa_buffer_grow(joint->context, &joint->tile_caches, joint->tile_cache_capacity,
+                                (size_t)joint->tile_cache_capacity + 1, sizeof *tile_caches);
             if (status != EWA_OK) return status;
-            desks = joint->desks.data;
-            memset(&desks[joint->desk_room++], 0, sizeof *desks);
+            tile_caches = joint->tile_caches.data;
+            memset(&tile_caches[joint->tile_cache_capacity++], 0, sizeof *tile_caches);
         }
-        ewa_joint_desk *desk = &desks[joint->desk_count];
-        desk->kept = desk->behind = false;
-        const ewa_status status = ewa_tile_scratch_reserve(joint->context, &desk->scratch, &own);
+        ewa_joint_tile_cache *cache = &tile_caches[joint->tile_cache_count];
+        cache->kept = cache->behind = false;
+        const ewa_status status = ewa_tile_scratch_reserve(joint->context, &cache->scratch, &own);
         if (status != EWA_OK) return status;
     }
     return EWA_OK;
@@ -81,18 +84,19 @@ static ewa_status reserve(ewa_joint *joint) {
     ewa_context *context = joint->context;
     const ewa_tile_job *job = &joint->job;
     const ewa_joint_tiles *tiles = &joint->tiles;
-    const size_t side_px = job->tiles.side_px, shares = tiles->share_count, parts = tiles->part_count;
+    const size_t side_px = job->tiles.side_px, contributions = tiles->contribution_count,
+                 incoming = tiles->incoming_count;
     joint->tile_floats = ewa_tile_plane_floats(job);
     joint->pixel_lanes = side_px * side_px;
     const struct {
         ewa_buffer *buffer;
         size_t count, size_bytes;
     } needs[] = {
-        {&joint->rows, shares, sizeof *joint->share_rows},
-        {&joint->passed, job->layers > 1 ? shares * joint->pixel_lanes : 0, sizeof(float)},
-        {&joint->places, 2 * parts + 2 * shares + 2, sizeof(size_t)},
-        {&joint->kept, tiles->meeting_count, sizeof(ewa_joint_kept)},
-        {&joint->planes, tiles->meeting_count * joint->tile_floats, sizeof(float)},
+        {&joint->rows, contributions, sizeof *joint->contribution_rows},
+        {&joint->passed, job->layers > 1 ? contributions * joint->pixel_lanes : 0, sizeof(float)},
+        {&joint->places, 2 * incoming + 2 * contributions + 2, sizeof(size_t)},
+        {&joint->kept, tiles->reduction_count, sizeof(ewa_joint_kept)},
+        {&joint->planes, tiles->reduction_count * joint->tile_floats, sizeof(float)},
         {&joint->totals, joint->worker_count * ewa_joint_total_numbers(job), sizeof(int64_t)},
     };
     for (size_t i = 0; i < sizeof needs / sizeof needs[0]; i++) {
@@ -100,17 +104,17 @@ static ewa_status reserve(ewa_joint *joint) {
             ewa_buffer_reserve(context, needs[i].buffer, needs[i].count, needs[i].size_bytes);
         if (status != EWA_OK) return status;
     }
-    joint->share_rows = joint->rows.data;
-    joint->share_places = joint->places.data;
-    joint->part_places = joint->share_places + shares + 1;
-    joint->part_sums = (const void **)(void *)(joint->part_places + parts + 1);
-    joint->active = (uint32_t *)(void *)(joint->part_sums + parts);
-    if (tiles->meeting_count) memset(joint->kept.data, 0, tiles->meeting_count * sizeof(ewa_joint_kept));
+    joint->contribution_rows = joint->rows.data;
+    joint->contribution_places = joint->places.data;
+    joint->incoming_places = joint->contribution_places + contributions + 1;
+    joint->incoming_sums = (const void **)(void *)(joint->incoming_places + incoming + 1);
+    joint->active = (uint32_t *)(void *)(joint->incoming_sums + incoming);
+    if (tiles->reduction_count) memset(joint->kept.data, 0, tiles->reduction_count * sizeof(ewa_joint_kept));
     for (uint32_t i = 0; i < joint->worker_count; i++) {
         const ewa_status status = ewa_tile_scratch_reserve(context, &joint->scratch[i], job);
         if (status != EWA_OK) return status;
     }
-    return reserve_desks(joint);
+    return reserve_tile_caches(joint);
 }
 
 /// Adds up a number of all ranks.
@@ -144,7 +148,7 @@ static ewa_status draw_shared(ewa_joint *joint) {
     uint64_t open = 0;
     for (uint32_t layer = 0; layer < job->layers && status == EWA_OK; layer++) {
         uint64_t mine = 0;
-        for (uint32_t m = 0; m < joint->tiles.meeting_count; m++) mine += joint->tiles.meetings[m].open;
+        for (uint32_t m = 0; m < joint->tiles.reduction_count; m++) mine += joint->tiles.reductions[m].open;
         status = add_up(joint, mine, &open);
         if (status != EWA_OK || !open) break;
         joint->surface = layer > 0;
@@ -158,8 +162,8 @@ static ewa_status draw_shared(ewa_joint *joint) {
 
 /// The side of the tiles, the same on all ranks: of many splats, fewer tiles' records fit in cache.
 static uint32_t tile_side_px(const ewa_joint *joint) {
-    enum { CROWD = 5000000 };
-    return joint->sources.splat_count > CROWD ? 32 : 64;
+    enum { MANY_SURFELS = 5000000 };
+    return joint->sources.splat_count > MANY_SURFELS ? 32 : 64;
 }
 
 static ewa_status draw(void *state, const ewa_render_job *own, ewa_render_stats *stats) {
@@ -177,7 +181,7 @@ static ewa_status draw(void *state, const ewa_render_job *own, ewa_render_stats 
     joint->job.scratch = joint->scratch;
     // A rank without sources exchanges what the others do.
     joint->job.with_clips |= own->options.section_count > 0 && own->options.point_size_px == 0;
-    status = ewa_mail_open(context, &joint->exchange, &joint->mail);
+    status = ewa_messages_open(context, &joint->exchange, &joint->messages);
     if (status == EWA_OK)
         status = ewa_joint_tiles_settle(context, &joint->exchange, &joint->job, &joint->tiles);
     if (status == EWA_OK) status = reserve(joint);
@@ -188,11 +192,11 @@ static ewa_status draw(void *state, const ewa_render_job *own, ewa_render_stats 
     if (status == EWA_OK) status = ewa_joint_collect(joint);
     uint64_t broken = 0;
     for (uint32_t i = 0; i < joint->worker_count; i++) broken += joint->scratch[i].broken_pixel_count;
-    const ewa_joint_desk *desks = joint->desks.data;
-    for (uint32_t i = 0; i < joint->desk_count; i++) {
-        joint->scratch->drawn_count += desks[i].scratch.drawn_count;
-        joint->scratch->fragment_count += desks[i].scratch.fragment_count;
-        joint->scratch->hidden_splat_count += desks[i].scratch.hidden_splat_count;
+    const ewa_joint_tile_cache *tile_caches = joint->tile_caches.data;
+    for (uint32_t i = 0; i < joint->tile_cache_count; i++) {
+        joint->scratch->drawn_count += tile_caches[i].scratch.drawn_count;
+        joint->scratch->fragment_count += tile_caches[i].scratch.fragment_count;
+        joint->scratch->hidden_splat_count += tile_caches[i].scratch.hidden_splat_count;
     }
     ewa_job_count(&joint->job, joint->worker_count, stats);
     if (status == EWA_OK) status = count_all(joint, &broken, stats);

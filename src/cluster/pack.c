@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Sums of a tile as bytes. A number is what a low word has above its bias and 2^16 times a high one
-// (surface/road_sums.h); of most blocks all fit 32 bits, else both words travel.
+// (surface/pipeline_sums.h); of most blocks all fit 32 bits, else both words travel.
 #include "cluster/pack.h"
 
 #include <string.h>
@@ -11,11 +11,11 @@ enum { LANES = EWA_BLOCK_LANES, BIAS_BITS = 0x4b400000, CARRY_SHIFT = 16 };
 
 uint32_t ewa_joint_sets(const ewa_tile_job *job, ewa_tile_scratch *s, uint32_t surface,
                         ewa_joint_set sets[EWA_JOINT_SETS]) {
-    const ewa_apart *apart = surface ? &s->edges.apart : &s->apart;
+    const ewa_side_sums *side = surface ? &s->edges.side : &s->side;
     uint32_t count = 0;
     sets[count++] = (ewa_joint_set){surface ? &s->edges.sums : &s->sums, NULL, job->channel_count};
-    sets[count++] = (ewa_joint_set){&apart->turned, apart->turned_rows, job->channel_count};
-    if (apart->cut_rows) sets[count++] = (ewa_joint_set){&apart->cut, apart->cut_rows, EWA_CUT_CHANNELS};
+    sets[count++] = (ewa_joint_set){&side->is_back, side->back_facing_rows, job->channel_count};
+    if (side->cut_rows) sets[count++] = (ewa_joint_set){&side->cut, side->cut_rows, EWA_CUT_CHANNELS};
     return count;
 }
 
@@ -25,8 +25,8 @@ static uint32_t plane_count(const ewa_joint_set *set) { return set->channels * (
 /// Numbers of a block's totals: whether there is something, then sums.
 static size_t block_numbers(const ewa_joint_set *set) { return 1 + (size_t)plane_count(set) * LANES; }
 
-/// The most planes of a pixel in all sets.
-static size_t most_planes(const ewa_tile_job *job) {
+/// The maximum number of planes of a pixel in all sets.
+static size_t max_planes(const ewa_tile_job *job) {
     const size_t words = job->fine_sums || job->with_depth || job->with_clips ? 2 : 1;
     return 2 * words * job->channel_count + (job->with_clips ? words * EWA_CUT_CHANNELS : 0);
 }
@@ -34,12 +34,12 @@ static size_t most_planes(const ewa_tile_job *job) {
 size_t ewa_joint_packed_bytes(const ewa_tile_job *job) {
     const size_t pixels = (size_t)job->tiles.side_px * job->tiles.side_px;
     const size_t head = 1 + (size_t)EWA_JOINT_SETS * 2 * EWA_MAX_TILE_BLOCKS;
-    return sizeof(int32_t) * (head + 2 * most_planes(job) * pixels);
+    return sizeof(int32_t) * (head + 2 * max_planes(job) * pixels);
 }
 
 size_t ewa_joint_total_numbers(const ewa_tile_job *job) {
     const size_t pixels = (size_t)job->tiles.side_px * job->tiles.side_px;
-    return EWA_JOINT_SETS * pixels / LANES + most_planes(job) * pixels;
+    return EWA_JOINT_SETS * pixels / LANES + max_planes(job) * pixels;
 }
 
 /// Where plane `k` of a block is, in low and high words.

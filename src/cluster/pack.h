@@ -9,7 +9,7 @@
 
 enum { EWA_JOINT_SETS = 3 };
 
-/// A set of sums of a tile: blocks times channels, words after each other (surface/road_sums.h).
+/// A set of sums of a tile: blocks times channels, words after each other (surface/pipeline_sums.h).
 typedef struct ewa_joint_set {
     const ewa_sums *of;
     uint32_t *rows; ///< [block row]: blocks that have some; NULL: those whose terms are counted
@@ -20,7 +20,7 @@ typedef struct ewa_joint_set {
 uint32_t ewa_joint_sets(const ewa_tile_job *job, ewa_tile_scratch *scratch, uint32_t surface,
                         ewa_joint_set sets[EWA_JOINT_SETS]);
 
-/// The most bytes that a tile is packed into, and how many numbers its totals have.
+/// The maximum number of bytes that a tile is packed into, and how many numbers its totals have.
 size_t ewa_joint_packed_bytes(const ewa_tile_job *job);
 size_t ewa_joint_total_numbers(const ewa_tile_job *job);
 

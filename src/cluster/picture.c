@@ -24,7 +24,7 @@ static void planes_of(const ewa_resolve *to, pixel_plane planes[PLANES]) {
 
 /// Copies the pixels of a rank's tiles to where they lie after each other, or back; returns how many bytes. Without
 /// `post` they are only counted.
-static size_t copy_tiles(const ewa_joint *joint, uint32_t rank, char *post, bool back) {
+static size_t copy_tiles(const ewa_joint *joint, uint32_t rank, char *packed_pixels, bool back) {
     const ewa_tiles *tiles = &joint->job.tiles;
     const size_t width = tiles->width_px;
     pixel_plane planes[PLANES];
@@ -38,7 +38,8 @@ static size_t copy_tiles(const ewa_joint *joint, uint32_t rank, char *post, bool
             for (size_t y = 0; y < rect.height_px && planes[i].pixels; y++, bytes += row_bytes) {
                 char *at =
                     (char *)planes[i].pixels + ((rect.y_px + y) * width + rect.x_px) * planes[i].size_bytes;
-                if (post) memcpy(back ? at : post + bytes, back ? post + bytes : at, row_bytes);
+                if (packed_pixels)
+                    memcpy(back ? at : packed_pixels + bytes, back ? packed_pixels + bytes : at, row_bytes);
             }
         }
     }
@@ -51,28 +52,28 @@ static bool gets_picture(const ewa_exchange *exchange, uint32_t rank) {
 
 ewa_status ewa_joint_collect(ewa_joint *joint) {
     const ewa_exchange *exchange = &joint->exchange;
-    ewa_mail *mail = &joint->mail;
+    ewa_messages *messages = &joint->messages;
     const uint32_t own = exchange->rank;
     const bool gets = gets_picture(exchange, own);
     size_t bytes = copy_tiles(joint, own, NULL, false);
     for (uint32_t r = 0; r < exchange->rank_count; r++) {
         const bool comes = gets && r != own;
-        mail->given[r] = (ewa_parcel){NULL, r != own && gets_picture(exchange, r) ? bytes : 0};
-        mail->taken[r] = (ewa_parcel){NULL, comes ? copy_tiles(joint, r, NULL, false) : 0};
+        messages->given[r] = (ewa_parcel){NULL, r != own && gets_picture(exchange, r) ? bytes : 0};
+        messages->taken[r] = (ewa_parcel){NULL, comes ? copy_tiles(joint, r, NULL, false) : 0};
     }
-    for (uint32_t r = 0; r < exchange->rank_count; r++) bytes += mail->taken[r].size_bytes;
+    for (uint32_t r = 0; r < exchange->rank_count; r++) bytes += messages->taken[r].size_bytes;
     ewa_status status = ewa_buffer_reserve(joint->context, &joint->pixels, bytes, 1);
     if (status != EWA_OK) return status;
-    char *post = joint->pixels.data;
-    const size_t own_bytes = copy_tiles(joint, own, post, false);
-    char *at = post + own_bytes;
+    char *packed_pixels = joint->pixels.data;
+    const size_t own_bytes = copy_tiles(joint, own, packed_pixels, false);
+    char *at = packed_pixels + own_bytes;
     for (uint32_t r = 0; r < exchange->rank_count; r++) {
-        mail->given[r].data = post;
-        mail->taken[r].data = at;
-        at += mail->taken[r].size_bytes;
+        messages->given[r].data = packed_pixels;
+        messages->taken[r].data = at;
+        at += messages->taken[r].size_bytes;
     }
-    status = ewa_mail_send(exchange, mail);
+    status = ewa_messages_send(exchange, messages);
     for (uint32_t r = 0; r < exchange->rank_count && status == EWA_OK; r++)
-        if (mail->taken[r].size_bytes) copy_tiles(joint, r, mail->taken[r].data, true);
+        if (messages->taken[r].size_bytes) copy_tiles(joint, r, messages->taken[r].data, true);
     return status;
 }

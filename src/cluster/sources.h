@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// What ranks tell each other of their sources: enough to share scales, not what is drawn.
+// Facts about sources that ranks exchange: enough to agree on scales, not what is drawn.
 #ifndef EWA_SRC_CLUSTER_SOURCES_H
 #define EWA_SRC_CLUSTER_SOURCES_H
 
@@ -9,10 +9,10 @@
 #include "surface/backend.h"
 #include "surface/packets.h"
 
-/// The sources of all ranks: this one's, and hollow ones (surface/hollow.h) for those of the others, in the order of the
-/// ranks, so that every rank has the same scales. Zero-initialise.
+/// The sources of all ranks: this one's, and proxies (surface/proxy.h) for those of the others, in the order
+/// of the ranks, so that every rank has the same scales. Zero-initialise.
 typedef struct ewa_joint_sources {
-    ewa_buffer told, sources, hollow; ///< of all ranks; hollow: ewa_surfels
+    ewa_buffer facts, sources, proxy; ///< of all ranks; proxy: ewa_surfels
     uint32_t count;
     uint64_t splat_count; ///< of all
 } ewa_joint_sources;

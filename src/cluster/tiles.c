@@ -37,7 +37,7 @@ static ewa_status gather_busy(ewa_context *context, const ewa_exchange *exchange
 
 /// Settles the owners; counts what there is of each kind.
 static void choose_owners(const ewa_exchange *exchange, ewa_joint_tiles *tiles) {
-    tiles->alone_count = tiles->share_count = tiles->meeting_count = tiles->part_count = 0;
+    tiles->alone_count = tiles->contribution_count = tiles->reduction_count = tiles->incoming_count = 0;
     for (uint32_t tile = 0; tile < tiles->tile_count; tile++) {
         uint32_t count = 0;
         for (uint32_t r = 0; r < exchange->rank_count; r++) count += is_busy(tiles, r, tile);
@@ -50,73 +50,75 @@ static void choose_owners(const ewa_exchange *exchange, ewa_joint_tiles *tiles) 
         const bool owned = owner == exchange->rank;
         tiles->alone_count += owned && count < 2;
         if (count < 2) continue;
-        tiles->share_count += is_busy(tiles, exchange->rank, tile);
-        tiles->meeting_count += owned;
-        tiles->part_count += owned ? count : 0;
+        tiles->contribution_count += is_busy(tiles, exchange->rank, tile);
+        tiles->reduction_count += owned;
+        tiles->incoming_count += owned ? count : 0;
     }
 }
 
 static ewa_status reserve(ewa_context *context, const ewa_exchange *exchange, ewa_joint_tiles *tiles) {
     const uint32_t ranks = exchange->rank_count;
-    ewa_status status =
-        ewa_buffer_reserve(context, &tiles->share_buffer, tiles->share_count, sizeof *tiles->shares);
+    ewa_status status = ewa_buffer_reserve(context, &tiles->contribution_buffer, tiles->contribution_count,
+                                           sizeof *tiles->contributions);
     if (status == EWA_OK)
-        status = ewa_buffer_reserve(context, &tiles->meeting_buffer, tiles->meeting_count + (size_t)1,
-                                    sizeof *tiles->meetings);
+        status = ewa_buffer_reserve(context, &tiles->reduction_buffer, tiles->reduction_count + (size_t)1,
+                                    sizeof *tiles->reductions);
     if (status == EWA_OK)
-        status = ewa_buffer_reserve(context, &tiles->part_buffer, tiles->part_count, sizeof *tiles->parts);
+        status = ewa_buffer_reserve(context, &tiles->incoming_buffer, tiles->incoming_count,
+                                    sizeof *tiles->incoming);
     if (status == EWA_OK)
-        status =
-            ewa_buffer_grow(context, &tiles->numbers, 2 * (size_t)tiles->tile_count,
-                            3 * (size_t)tiles->tile_count + ranks + 1 + tiles->part_count, sizeof(uint32_t));
+        status = ewa_buffer_grow(context, &tiles->numbers, 2 * (size_t)tiles->tile_count,
+                                 3 * (size_t)tiles->tile_count + ranks + 1 + tiles->incoming_count,
+                                 sizeof(uint32_t));
     if (status != EWA_OK) return status;
-    tiles->shares = tiles->share_buffer.data;
-    tiles->meetings = tiles->meeting_buffer.data;
-    tiles->parts = tiles->part_buffer.data;
+    tiles->contributions = tiles->contribution_buffer.data;
+    tiles->reductions = tiles->reduction_buffer.data;
+    tiles->incoming = tiles->incoming_buffer.data;
     tiles->owners = tiles->numbers.data;
     tiles->busy_counts = tiles->owners + tiles->tile_count;
     tiles->alone = tiles->busy_counts + tiles->tile_count;
-    tiles->share_first = tiles->alone + tiles->tile_count;
-    tiles->order = tiles->share_first + ranks + 1;
+    tiles->contribution_first = tiles->alone + tiles->tile_count;
+    tiles->order = tiles->contribution_first + ranks + 1;
     return EWA_OK;
 }
 
 /// Lists the tiles that the rank owns.
 static void list_owned(const ewa_exchange *exchange, ewa_joint_tiles *tiles) {
-    uint32_t alone = 0, meetings = 0, parts = 0;
+    uint32_t alone = 0, reductions = 0, incoming = 0;
     for (uint32_t tile = 0; tile < tiles->tile_count; tile++) {
         if (tiles->owners[tile] != exchange->rank) continue;
         if (tiles->busy_counts[tile] < 2) {
             tiles->alone[alone++] = tile;
             continue;
         }
-        tiles->meetings[meetings++] = (ewa_joint_meeting){tile, parts, true};
-        parts += tiles->busy_counts[tile];
+        tiles->reductions[reductions++] = (ewa_joint_reduction){tile, incoming, true};
+        incoming += tiles->busy_counts[tile];
     }
-    tiles->meetings[meetings].first_part = parts;
-    parts = 0;
+    tiles->reductions[reductions].first_incoming = incoming;
+    incoming = 0;
     for (uint32_t r = 0; r < exchange->rank_count; r++) {
-        if (r == exchange->rank) tiles->own_part_first = parts;
-        for (uint32_t m = 0; m < meetings; m++) {
-            if (!is_busy(tiles, r, tiles->meetings[m].tile)) continue;
-            tiles->parts[parts] = (ewa_joint_part){r, m};
+        if (r == exchange->rank) tiles->own_incoming_first = incoming;
+        for (uint32_t m = 0; m < reductions; m++) {
+            if (!is_busy(tiles, r, tiles->reductions[m].tile)) continue;
+            tiles->incoming[incoming] = (ewa_joint_incoming){r, m};
             // Filled from the front: the beginnings are put back below.
-            tiles->order[tiles->meetings[m].first_part++] = parts++;
+            tiles->order[tiles->reductions[m].first_incoming++] = incoming++;
         }
     }
-    for (uint32_t m = meetings; m > 0; m--) tiles->meetings[m].first_part = tiles->meetings[m - 1].first_part;
-    tiles->meetings[0].first_part = 0;
+    for (uint32_t m = reductions; m > 0; m--)
+        tiles->reductions[m].first_incoming = tiles->reductions[m - 1].first_incoming;
+    tiles->reductions[0].first_incoming = 0;
 }
 
 /// Lists the tiles of several ranks that this one has splats in: a counting sort by owners.
-static void list_shares(const ewa_exchange *exchange, ewa_joint_tiles *tiles) {
-    uint32_t *first = tiles->share_first;
+static void list_contributions(const ewa_exchange *exchange, ewa_joint_tiles *tiles) {
+    uint32_t *first = tiles->contribution_first;
     memset(first, 0, ((size_t)exchange->rank_count + 1) * sizeof *first);
     for (int fill = 0; fill < 2; fill++) {
         for (uint32_t tile = 0; tile < tiles->tile_count; tile++) {
             if (tiles->busy_counts[tile] < 2 || !is_busy(tiles, exchange->rank, tile)) continue;
             const uint32_t owner = tiles->owners[tile];
-            if (fill) tiles->shares[first[owner]] = (ewa_joint_share){tile, owner, true};
+            if (fill) tiles->contributions[first[owner]] = (ewa_joint_contribution){tile, owner, true};
             first[owner + (fill ? 0 : 1)]++;
         }
         for (uint32_t r = 0; r < exchange->rank_count && !fill; r++) first[r + 1] += first[r];
@@ -140,12 +142,12 @@ ewa_status ewa_joint_tiles_settle(ewa_context *context, const ewa_exchange *exch
     status = reserve(context, exchange, tiles);
     if (status != EWA_OK) return status;
     list_owned(exchange, tiles);
-    list_shares(exchange, tiles);
+    list_contributions(exchange, tiles);
     return EWA_OK;
 }
 
 void ewa_joint_tiles_free(ewa_context *context, ewa_joint_tiles *tiles) {
-    ewa_buffer *const buffers[] = {&tiles->busy, &tiles->numbers, &tiles->share_buffer,
-                                   &tiles->meeting_buffer, &tiles->part_buffer};
+    ewa_buffer *const buffers[] = {&tiles->busy, &tiles->numbers, &tiles->contribution_buffer,
+                                   &tiles->reduction_buffer, &tiles->incoming_buffer};
     for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; i++) ewa_buffer_free(context, buffers[i]);
 }

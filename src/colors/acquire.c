@@ -16,7 +16,7 @@
 #include <string.h>
 
 /// What is darker than this share of opaque has no colour of its own to divide out.
-#define LEAST_ALPHA (1.0 / 512)
+#define MIN_ALPHA (1.0 / 512)
 
 typedef struct acquire_job {
     ewa_acquire_stretch stretch; // first
@@ -253,7 +253,7 @@ static void write_points(void *data, uint32_t part, uint32_t worker) {
     for (uint32_t i = range.first; i < range.end; i++) {
         float *to = job->output + (size_t)job->set.order[i] * job->channel_count;
         const double *color = job->colors[i];
-        const bool divides = job->channel_count == 4 && color[3] > LEAST_ALPHA;
+        const bool divides = job->channel_count == 4 && color[3] > MIN_ALPHA;
         for (int c = 0; c < 3; c++) to[c] = (float)(divides ? color[c] / color[3] : color[c]);
         if (job->channel_count == 4) to[3] = (float)fmin(fmax(color[3], 0), 1);
     }
@@ -276,13 +276,13 @@ static ewa_status make_textures(acquire_job *job) {
 
 /// The larger standard deviation of a kernel.
 static double sigma_of(const ewa_acquire_point *point) {
-    double most = 0;
+    double maximum = 0;
     for (int k = 0; k < 2; k++) {
         const ewa_vec3 t =
             vec3_make((double)point->axis[k][0], (double)point->axis[k][1], (double)point->axis[k][2]);
-        most = fmax(most, vec3_dot(t, t));
+        maximum = fmax(maximum, vec3_dot(t, t));
     }
-    return sqrt(most);
+    return sqrt(maximum);
 }
 
 /// Mean of the sizes that have the binary exponent of the median: what is usual, whatever the outliers.
@@ -305,7 +305,7 @@ static double usual_sigma(const ewa_acquire_set *set) {
 }
 
 /// Counts what is textured, and finds out about sizes and alpha.
-static void survey(acquire_job *job, ewa_acquire_report *report) {
+static void fill_report(acquire_job *job, ewa_acquire_report *report) {
     ewa_acquire_set *set = &job->set;
     bool opaque = true;
     for (uint32_t i = 0; i < set->count; i++) {
@@ -332,7 +332,7 @@ static ewa_status run(ewa_cloud *cloud, acquire_job *job, ewa_acquire_report *re
     status = ewa_morton_order(context, job->position, set->count, set->order, NULL, NULL);
     if (status == EWA_OK) status = ewa_acquire_run(set, read_points, &job->stretch, 0, 0.1);
     if (status != EWA_OK) return status;
-    survey(job, report);
+    fill_report(job, report);
     status = ewa_acquire_run(set, filter_points, &job->stretch, 0.1, is_optimal ? 0.2 : 1);
     if (status == EWA_OK && is_optimal)
         status = ewa_acquire_optimize(set, job->options, job->channel_count, job->colors, report);

@@ -44,7 +44,7 @@ typedef struct optimal_job {
     uint32_t *columns;
     double *values, *sides, *solution;
     double *diagonal, *mass, *hold; ///< hold: ridge of a row where charts disagree
-    uint64_t *crowded;              ///< by worker: 1 + a point with too many partners
+    uint64_t *overflowed;           ///< by worker: 1 + a point with too many partners
 } optimal_job;
 
 static void count_rows(void *data, uint32_t part, uint32_t worker) {
@@ -52,7 +52,7 @@ static void count_rows(void *data, uint32_t part, uint32_t worker) {
     const ewa_acquire_stretch range = ewa_acquire_range(&job->stretch, part);
     for (uint32_t i = range.first; i < range.end; i++) {
         const uint32_t count = ewa_acquire_find(&job->grid, i, NULL);
-        if (count > EWA_ACQUIRE_MAX_PAIRS) job->crowded[worker] = 1 + (uint64_t)job->set->order[i];
+        if (count > EWA_ACQUIRE_MAX_PAIRS) job->overflowed[worker] = 1 + (uint64_t)job->set->order[i];
         job->row_starts[i + 1] = count;
     }
 }
@@ -116,18 +116,19 @@ static void fill_rows(void *data, uint32_t part, uint32_t worker) {
 static ewa_status count_pairs(optimal_job *job) {
     ewa_context *context = job->set->context;
     const uint32_t workers = ewa_context_worker_count(context), count = job->set->count;
-    job->crowded = ewa_allocate_zeroed(context, workers, sizeof *job->crowded);
-    if (!job->crowded) return EWA_ERROR_MEMORY;
+    job->overflowed = ewa_allocate_zeroed(context, workers, sizeof *job->overflowed);
+    if (!job->overflowed) return EWA_ERROR_MEMORY;
     ewa_status status = ewa_acquire_run(job->set, count_rows, &job->stretch, 0.2, 0.3);
-    uint64_t crowded = 0;
-    for (uint32_t w = 0; w < workers; w++) crowded = crowded > job->crowded[w] ? crowded : job->crowded[w];
-    ewa_release(context, job->crowded, workers, sizeof *job->crowded);
-    if (status == EWA_OK && crowded)
+    uint64_t overflowed = 0;
+    for (uint32_t w = 0; w < workers; w++)
+        overflowed = overflowed > job->overflowed[w] ? overflowed : job->overflowed[w];
+    ewa_release(context, job->overflowed, workers, sizeof *job->overflowed);
+    if (status == EWA_OK && overflowed)
         status =
             ewa_fail(context, EWA_ERROR_LIMIT,
                      "texture: more than %d kernels overlap that of point %llu: the radii are far larger "
                      "than the spacing",
-                     EWA_ACQUIRE_MAX_PAIRS, (unsigned long long)(crowded - 1));
+                     EWA_ACQUIRE_MAX_PAIRS, (unsigned long long)(overflowed - 1));
     job->row_starts[0] = 0;
     for (uint32_t i = 0; i < count && status == EWA_OK; i++) job->row_starts[i + 1] += job->row_starts[i];
     return status;

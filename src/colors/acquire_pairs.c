@@ -20,7 +20,7 @@
 #include "homogeneous/frame.h"
 #include "math/gaussian.h"
 
-/// Least cosine between the normals of kernels that interact.
+/// Smallest cosine between the normals of kernels that interact.
 #define MIN_FACING (-0.5)
 
 /// Centres this far behind a clip line, in standard deviations, are still on its side.
@@ -235,12 +235,12 @@ double ewa_acquire_look_between(const ewa_acquire_set *set, const ewa_acquire_po
     }
     look(set, a, &of_a, pair, color);
     look(set, b, &of_b, pair, other);
-    double most = 0;
+    double maximum = 0;
     for (int c = 0; c < 4; c++) {
-        most = fmax(most, fabs(color[c] - other[c]));
+        maximum = fmax(maximum, fabs(color[c] - other[c]));
         color[c] = 0.5 * (color[c] + other[c]);
     }
-    return most;
+    return maximum;
 }
 
 static bool is_surfel(const ewa_acquire_point *point) {
@@ -284,16 +284,16 @@ static size_t bucket_of(const ewa_acquire_grid *grid, const int64_t cell[3]) {
 
 ewa_status ewa_acquire_grid_make(const ewa_acquire_set *set, ewa_acquire_grid *grid) {
     *grid = (ewa_acquire_grid){.set = set, .bucket_count = 64};
-    double most = 0;
+    double maximum = 0;
     bool any = false;
     for (uint32_t i = 0; i < set->count; i++) {
         if (!is_surfel(&set->points[i])) continue;
-        most = fmax(most, major_sigma(&set->points[i]));
+        maximum = fmax(maximum, major_sigma(&set->points[i]));
         for (int c = 0; c < 3; c++)
             grid->low[c] = any ? fmin(grid->low[c], set->points[i].place[c]) : set->points[i].place[c];
         any = true;
     }
-    grid->cell_world = 2 * set->cutoff * fmin(most, MAX_SIZE * set->usual_sigma_world);
+    grid->cell_world = 2 * set->cutoff * fmin(maximum, MAX_SIZE * set->usual_sigma_world);
     if (!(grid->cell_world > 0)) grid->cell_world = 1;
     while (grid->bucket_count < set->count) grid->bucket_count *= 2;
     grid->first = ewa_allocate_zeroed(set->context, grid->bucket_count + 2, sizeof *grid->first);

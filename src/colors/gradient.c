@@ -95,7 +95,7 @@ static ewa_status iterate(gradient_state *state, uint32_t *iterations) {
     const ewa_gradient *job = state->job;
     const uint32_t count = job->count;
     const size_t bytes = (size_t)job->size * count * sizeof(double);
-    double old[SIDES] = {0}, goal[SIDES] = {0}, sum[2][SIDES], most_start = 0, share = 0;
+    double old[SIDES] = {0}, goal[SIDES] = {0}, sum[2][SIDES], max_start = 0, share = 0;
     memset(job->solution, 0, bytes);
     memset(state->direction, 0, bytes);
     memset(state->product, 0, bytes);
@@ -115,19 +115,19 @@ static ewa_status iterate(gradient_state *state, uint32_t *iterations) {
             }
         }
         run_blocks(state, advance_block, sum);
-        double most = 0; // of the squared residuals over their goals
+        double maximum = 0; // of the squared residuals over their goals
         for (uint32_t s = 0; s < count; s++) {
             if (*iterations == 0) goal[s] = job->tolerance * job->tolerance * sum[1][s];
             const bool done = sum[1][s] <= goal[s];
             state->beta[s] = !done && old[s] > 0 ? sum[0][s] / old[s] : 0;
             old[s] = done ? 0 : sum[0][s];
-            if (!done) most = fmax(most, sum[1][s] / goal[s]);
+            if (!done) maximum = fmax(maximum, sum[1][s] / goal[s]);
         }
-        if (*iterations == 0) most_start = most;
-        if (most == 0 || *iterations == job->max_iterations) return EWA_OK;
+        if (*iterations == 0) max_start = maximum;
+        if (maximum == 0 || *iterations == job->max_iterations) return EWA_OK;
         ewa_parallel(job->context, turn_block, state, ewa_gradient_blocks(job->size));
         // Residuals do not shrink in every step.
-        if (most < most_start) share = fmax(share, log(most_start / most) / log(most_start));
+        if (maximum < max_start) share = fmax(share, log(max_start / maximum) / log(max_start));
         const ewa_status status =
             ewa_progress(job->context, job->stage, job->begin + (job->end - job->begin) * share);
         if (status != EWA_OK) return status;

@@ -19,9 +19,9 @@
 #include <math.h>
 
 enum {
-    MOST_STEPS = 48,  // of one line
+    MAX_STEPS = 48,   // of one line
     DIRECTIONS = 12,  // tried for the lines
-    MOST_ORDER = 7,   // of the two lesser axes in the Fourier series
+    MAX_ORDER = 7,    // of the two lesser axes in the Fourier series
     ORDER_WINDOW = 6, // of the axis nearest to the normal, around the best
 };
 
@@ -45,12 +45,12 @@ static void turn_axes(const pattern_footprint *footprint, ewa_vec3 *along, ewa_v
         const double cosine = ewa_wave(0.5 * d / DIRECTIONS), sine = ewa_wave(0.5 * d / DIRECTIONS - 0.25);
         const ewa_vec3 a = vec3_add(vec3_scale(footprint->u, cosine), vec3_scale(footprint->v, sine)),
                        b = vec3_sub(vec3_scale(footprint->v, cosine), vec3_scale(footprint->u, sine));
-        double least = 1;
+        double minimum = 1;
         for (int c = 0; c < 3; c++) {
             const double x = coordinate(a, c), y = coordinate(b, c), length = sqrt(x * x + y * y);
-            if (length > 1e-9) least = fmin(least, fabs(x) / length);
+            if (length > 1e-9) minimum = fmin(minimum, fabs(x) / length);
         }
-        if (least > best) best = least, *along = a, *across = b;
+        if (minimum > best) best = minimum, *along = a, *across = b;
     }
 }
 
@@ -66,12 +66,12 @@ static double normal_above(double z) {
 
 /// Mean of the pattern along place + s along, s normal.
 static double mean_of_line(ewa_vec3 place, ewa_vec3 along) {
-    double steps[MOST_STEPS], sign = 1;
+    double steps[MAX_STEPS], sign = 1;
     int count = 0;
     for (int c = 0; c < 3; c++) {
         const double x = coordinate(place, c), slope = coordinate(along, c), reach = REACH * fabs(slope);
         sign *= parity(x - REACH * slope);
-        for (double edge = ceil(x - reach); edge < x + reach && count < MOST_STEPS; edge++) {
+        for (double edge = ceil(x - reach); edge < x + reach && count < MAX_STEPS; edge++) {
             const double at = (edge - x) / slope;
             int to = count++;
             for (; to > 0 && steps[to - 1] > at; to--) steps[to] = steps[to - 1];
@@ -113,8 +113,8 @@ static double mean_by_series(const pattern_footprint *footprint) {
     }
     const double own = u[0] * u[0] + v[0] * v[0];
     double sum = 0;
-    for (int m1 = 1; m1 <= MOST_ORDER; m1 += 2)
-        for (int m2 = -MOST_ORDER; m2 <= MOST_ORDER; m2 += 2) {
+    for (int m1 = 1; m1 <= MAX_ORDER; m1 += 2)
+        for (int m2 = -MAX_ORDER; m2 <= MAX_ORDER; m2 += 2) {
             // m Sigma m' is a parabola in m0; only orders near its vertex are left.
             const double mu = m1 * u[1] + m2 * u[2], mv = m1 * v[1] + m2 * v[2];
             const double vertex = own > 1e-9 ? -(mu * u[0] + mv * v[0]) / own : 0;

@@ -22,7 +22,7 @@
 enum {
     CHANNELS = 3,
     BLOCK_ROWS = EWA_GRADIENT_BLOCK_ROWS,
-    MOST_STEPS = 400,
+    MAX_STEPS = 400,
 };
 
 // By measurement (docs/colors.md). Interpolation: the error at the points is below a hundredth of what it was
@@ -131,7 +131,7 @@ static ewa_status solve(refit_job *job, ewa_refit_report *report) {
                                  .prepare = make_image,
                                  .multiply = back_rows,
                                  .tolerance = TOLERANCE,
-                                 .max_iterations = MOST_STEPS,
+                                 .max_iterations = MAX_STEPS,
                                  .stage = "refit",
                                  .begin = 0.3,
                                  .end = 1};

@@ -15,7 +15,7 @@ enum {
 };
 
 // Surfels whose normals part by more than 60 degrees belong to different sides of an edge.
-static const double LEAST_COSINE = 0.5;
+static const double MIN_COSINE = 0.5;
 
 typedef struct build_job {
     const ewa_solid *solid;
@@ -44,7 +44,7 @@ static double r2_at(const build_job *job, uint32_t index, ewa_vec3 place, ewa_ve
     const ewa_solid_surfel *surfel = &job->solid->surfels[index];
     const ewa_vec3 d = vec3_sub(place, surfel->center);
     if (!(vec3_dot(d, d) < surfel->reach * surfel->reach)) return -1;
-    if (vec3_dot(surfel->normal, normal) < LEAST_COSINE) return -1;
+    if (vec3_dot(surfel->normal, normal) < MIN_COSINE) return -1;
     // d = u tu + v tv + (...) n, for axes that need not be orthogonal.
     const ewa_vec3 tu = surfel->axis[0], tv = surfel->axis[1];
     const double uu = vec3_dot(tu, tu), uv = vec3_dot(tu, tv), vv = vec3_dot(tv, tv), a = vec3_dot(d, tu),
@@ -62,7 +62,7 @@ static inline double beyond(double low, double high, double p) {
 
 /// Finds the kernels at the centre of surfel `row`, ascending; returns how many there are, 0 where there is
 /// no equation.
-static uint32_t find_row(const build_job *job, uint32_t row, entry entries[REFIT_ROW_MOST]) {
+static uint32_t find_row(const build_job *job, uint32_t row, entry entries[REFIT_ROW_MAX]) {
     const ewa_solid *solid = job->solid;
     const ewa_vec3 p = solid->surfels[row].center, normal = solid->surfels[row].normal;
     struct {
@@ -75,8 +75,8 @@ static uint32_t find_row(const build_job *job, uint32_t row, entry entries[REFIT
     while (depth) {
         depth--;
         const uint32_t level = stack[depth].level, first = stack[depth].index * EWA_SOLID_ARITY,
-                       most = level ? solid->level_nodes[level - 1] : solid->count,
-                       end = first + EWA_SOLID_ARITY < most ? first + EWA_SOLID_ARITY : most;
+                       maximum = level ? solid->level_nodes[level - 1] : solid->count,
+                       end = first + EWA_SOLID_ARITY < maximum ? first + EWA_SOLID_ARITY : maximum;
         for (uint32_t child = end; level && child-- > first;) {
             const ewa_solid_node *node = &solid->nodes[solid->level_first[level - 1] + child];
             const double x = beyond(node->low.x, node->high.x, p.x),
@@ -89,7 +89,7 @@ static uint32_t find_row(const build_job *job, uint32_t row, entry entries[REFIT
         for (uint32_t k = first; !level && k < end; k++) {
             const double r2 = r2_at(job, k, p, normal);
             if (r2 < 0) continue;
-            if (count == REFIT_ROW_MOST) return 0;
+            if (count == REFIT_ROW_MAX) return 0;
             entries[count++] = (entry){k, r2};
             own = own || k == row;
         }
@@ -100,7 +100,7 @@ static uint32_t find_row(const build_job *job, uint32_t row, entry entries[REFIT
 static void count_rows(void *data, uint32_t part, uint32_t worker) {
     (void)worker;
     const build_job *job = data;
-    entry entries[REFIT_ROW_MOST];
+    entry entries[REFIT_ROW_MAX];
     const uint32_t first = part * TASK_ROWS, left = job->matrix->count - first;
     for (uint32_t i = 0; i < (left < TASK_ROWS ? left : TASK_ROWS); i++)
         job->matrix->forward.starts[first + i + 1] = find_row(job, first + i, entries);
@@ -110,7 +110,7 @@ static void fill_rows(void *data, uint32_t part, uint32_t worker) {
     (void)worker;
     const build_job *job = data;
     const refit_rows *rows = &job->matrix->forward;
-    entry entries[REFIT_ROW_MOST];
+    entry entries[REFIT_ROW_MAX];
     const uint32_t first = part * TASK_ROWS, left = job->matrix->count - first;
     for (uint32_t i = 0; i < (left < TASK_ROWS ? left : TASK_ROWS); i++) {
         const uint32_t count = find_row(job, first + i, entries);

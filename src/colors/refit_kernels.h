@@ -26,7 +26,7 @@ typedef struct refit_matrix {
 } refit_matrix;
 
 /// Kernels beyond this many at one place give no equation: radii are then no support of a surface.
-enum { REFIT_ROW_MOST = 256 };
+enum { REFIT_ROW_MAX = 256 };
 
 /// Builds the matrix. Free with ewa_refit_matrix_free(), also after a failure. Errors: EWA_ERROR_LIMIT (more
 /// bytes than the context's max_memory_bytes), EWA_ERROR_MEMORY.

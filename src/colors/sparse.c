@@ -133,12 +133,13 @@ typedef struct solve_job {
 } solve_job;
 
 static double largest_residual(const double residual2[SIDES], const double side2[SIDES], uint32_t count) {
-    double most = 0;
+    double maximum = 0;
     for (uint32_t s = 0; s < count; s++) {
         if (!isfinite(residual2[s])) return INFINITY;
-        if (residual2[s] > 0) most = fmax(most, side2[s] > 0 ? sqrt(residual2[s] / side2[s]) : INFINITY);
+        if (residual2[s] > 0)
+            maximum = fmax(maximum, side2[s] > 0 ? sqrt(residual2[s] / side2[s]) : INFINITY);
     }
-    return most;
+    return maximum;
 }
 
 static ewa_status apply_factor(solve_job *job, uint32_t count) {

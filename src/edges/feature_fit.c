@@ -26,7 +26,7 @@ enum {
 // Squares that a good fit leaves, as a share of the noise: some of it goes into the planes, some is
 // truncated.
 #define GOOD_FIT 0.6
-// Least share of the points on each plane.
+// Smallest share of the points on each plane.
 #define EDGE_SHARE   0.1
 #define CORNER_SHARE 0.07
 
@@ -67,8 +67,8 @@ static void decompose(double m[3][3], double vectors[3][3]) {
     }
 }
 
-/// The mean and the axes of the points whose label is `label` (NULL: of all), the direction of least variance
-/// last; false for less than three points.
+/// The mean and the axes of the points whose label is `label` (NULL: of all), the direction of smallest
+/// variance last; false for less than three points.
 static bool find_axes(const feature_points *points, const uint8_t *labels, uint8_t label, double mean[3],
                       double axes[3][3]) {
     double n = 0, first[3] = {0}, m[3][3] = {{0}}, vectors[3][3];
@@ -148,10 +148,10 @@ static uint32_t make_seeds(const feature_points *points, plane seeds[SEEDS]) {
     return made;
 }
 
-/// The squared height, at most `most`.
-static double truncated(double height, double most) {
+/// The squared height, at most `maximum`.
+static double truncated(double height, double maximum) {
     const double square = height * height;
-    return square < most ? square : most;
+    return square < maximum ? square : maximum;
 }
 
 static double pick(bool larger, double a, double b) { return larger == (a > b) ? a : b; }
@@ -179,25 +179,25 @@ static inline float pick_f32(bool larger, float a, float b) {
 /// The truncated squares of outer(a, inner(b, c)). Sums LANES by LANES, which compilers turn into wide
 /// instructions; the flags are constants where this is inlined.
 static inline float sum_costs(const float *a, const float *b, const float *c, uint32_t count, bool outer_max,
-                              bool inner_max, float most) {
+                              bool inner_max, float maximum) {
     float sums[LANES] = {0}, sum = 0;
     for (uint32_t i = 0; i < count; i += LANES)
         for (uint32_t lane = 0; lane < LANES; lane++) {
             const float inner = pick_f32(inner_max, b[i + lane], c[i + lane]);
             const float height = pick_f32(outer_max, a[i + lane], inner), square = height * height;
-            sums[lane] += square < most ? square : most;
+            sums[lane] += square < maximum ? square : maximum;
         }
     for (uint32_t lane = 0; lane < LANES; lane++) sum += sums[lane];
     return sum;
 }
 
 static float cost_of(const float *a, const float *b, const float *c, uint32_t count, bool outer_max,
-                     bool inner_max, float most) {
+                     bool inner_max, float maximum) {
     if (outer_max)
-        return inner_max ? sum_costs(a, b, c, count, true, true, most)
-                         : sum_costs(a, b, c, count, true, false, most);
-    return inner_max ? sum_costs(a, b, c, count, false, true, most)
-                     : sum_costs(a, b, c, count, false, false, most);
+        return inner_max ? sum_costs(a, b, c, count, true, true, maximum)
+                         : sum_costs(a, b, c, count, true, false, maximum);
+    return inner_max ? sum_costs(a, b, c, count, false, true, maximum)
+                     : sum_costs(a, b, c, count, false, false, maximum);
 }
 
 static void set_plane(feature_model *model, uint32_t p, const plane *from) {
@@ -211,21 +211,22 @@ static plane get_plane(const feature_model *model, uint32_t p) {
 }
 
 /// The truncated squares of a model, and which plane each point is on (UINT8_MAX: none).
-static double assign(const feature_points *points, const feature_model *model, double most, uint8_t *labels) {
+static double assign(const feature_points *points, const feature_model *model, double maximum,
+                     uint8_t *labels) {
     double cost = 0;
     for (uint32_t i = 0; i < points->count; i++) {
         const double place[3] = {points->x[i], points->y[i], points->z[i]};
         const uint32_t active = ewa_feature_active(model, place);
-        const double square = truncated(feature_height(model, active, place), most);
-        labels[i] = square < most ? (uint8_t)active : UINT8_MAX;
+        const double square = truncated(feature_height(model, active, place), maximum);
+        labels[i] = square < maximum ? (uint8_t)active : UINT8_MAX;
         cost += square;
     }
     return cost;
 }
 
 /// Fits planes and assigns points in turns as long as that helps; returns the cost.
-static double refine(const feature_points *points, double most, feature_model *model, uint8_t *labels) {
-    double cost = assign(points, model, most, labels);
+static double refine(const feature_points *points, double maximum, feature_model *model, uint8_t *labels) {
+    double cost = assign(points, model, maximum, labels);
     for (int turn = 0; turn < REFINEMENTS; turn++) {
         feature_model next = *model;
         uint8_t next_labels[FEATURE_POINTS];
@@ -234,7 +235,7 @@ static double refine(const feature_points *points, double most, feature_model *m
             if (!fit_plane(points, labels, (uint8_t)p, &fitted)) return cost;
             set_plane(&next, p, &fitted);
         }
-        const double next_cost = assign(points, &next, most, next_labels);
+        const double next_cost = assign(points, &next, maximum, next_labels);
         if (!(next_cost < cost)) return cost;
         cost = next_cost;
         *model = next;
@@ -243,37 +244,37 @@ static double refine(const feature_points *points, double most, feature_model *m
     return cost;
 }
 
-/// The edge of two hypotheses with the least cost; false when all of them are much the same plane.
+/// The edge of two hypotheses with the smallest cost; false when all of them are much the same plane.
 static bool find_edge(const feature_points *points, const plane *seeds, const height_table *heights,
-                      uint32_t seed_count, double cos_most, double most, feature_model *best) {
-    float least = INFINITY;
+                      uint32_t seed_count, double cos_max, double maximum, feature_model *best) {
+    float minimum = INFINITY;
     for (uint32_t a = 0; a < seed_count; a++) {
         for (uint32_t b = a + 1; b < seed_count; b++) {
-            if (dot(seeds[a].normal, seeds[b].normal) > cos_most) continue;
+            if (dot(seeds[a].normal, seeds[b].normal) > cos_max) continue;
             for (int larger = 0; larger < 2; larger++) {
-                const float cost =
-                    cost_of(heights[a], heights[b], heights[b], points->count, larger, larger, (float)most);
-                if (cost >= least) continue;
-                least = cost;
+                const float cost = cost_of(heights[a], heights[b], heights[b], points->count, larger, larger,
+                                           (float)maximum);
+                if (cost >= minimum) continue;
+                minimum = cost;
                 *best = (feature_model){.plane_count = 2, .outer_max = larger, .inner_max = larger};
                 set_plane(best, 0, &seeds[a]);
                 set_plane(best, 1, &seeds[b]);
             }
         }
     }
-    return least < INFINITY;
+    return minimum < INFINITY;
 }
 
-/// The corner of an edge's planes and a hypothesis with the least cost.
+/// The corner of an edge's planes and a hypothesis with the smallest cost.
 static bool find_corner(const feature_points *points, const feature_model *edge, const plane *seeds,
-                        const height_table *heights, uint32_t seed_count, double cos_most, double most,
+                        const height_table *heights, uint32_t seed_count, double cos_max, double maximum,
                         feature_model *best) {
     const plane two[2] = {get_plane(edge, 0), get_plane(edge, 1)};
     height_table two_heights[2];
-    float least = INFINITY;
+    float minimum = INFINITY;
     find_heights(points, two, 2, two_heights);
     for (uint32_t s = 0; s < seed_count; s++) {
-        if (dot(seeds[s].normal, two[0].normal) > cos_most || dot(seeds[s].normal, two[1].normal) > cos_most)
+        if (dot(seeds[s].normal, two[0].normal) > cos_max || dot(seeds[s].normal, two[1].normal) > cos_max)
             continue;
         const plane *planes[3] = {&two[0], &two[1], &seeds[s]};
         const float *h[3] = {two_heights[0], two_heights[1], heights[s]};
@@ -282,16 +283,16 @@ static bool find_corner(const feature_points *points, const feature_model *edge,
             const int a = way % 3, b = (a + 1) % 3, c = (a + 2) % 3;
             const bool outer_max = way / 3 & 1, inner_max = way / 6;
             if (outer_max == inner_max && a != 0) continue;
-            const float cost = cost_of(h[a], h[b], h[c], points->count, outer_max, inner_max, (float)most);
-            if (cost >= least) continue;
-            least = cost;
+            const float cost = cost_of(h[a], h[b], h[c], points->count, outer_max, inner_max, (float)maximum);
+            if (cost >= minimum) continue;
+            minimum = cost;
             *best = (feature_model){.plane_count = 3, .outer_max = outer_max, .inner_max = inner_max};
             set_plane(best, 0, planes[a]);
             set_plane(best, 1, planes[b]);
             set_plane(best, 2, planes[c]);
         }
     }
-    return least < INFINITY;
+    return minimum < INFINITY;
 }
 
 /// Whether all planes differ enough from each other, and each has its share of the points.
@@ -395,14 +396,14 @@ void ewa_feature_fit(const feature_points *points, const feature_scale *scale, f
     double quadric[FEATURE_POINTS];
     if (points->count < 2 * SEED_POINTS || !find_quadric_heights(points, quadric)) return;
     const double deviation = fmax(scale->noise, NOISE_FLOOR * scale->spacing);
-    const double most = TRUNCATION * TRUNCATION * deviation * deviation;
+    const double maximum = TRUNCATION * TRUNCATION * deviation * deviation;
     // What no model can explain: keeps the ratio of two good ones from meaning anything.
     const double rest = points->count * (NOISE_FLOOR * NOISE_FLOOR) * scale->spacing * scale->spacing;
     double smooth = 0;
-    for (uint32_t i = 0; i < points->count; i++) smooth += truncated(quadric[i], most);
+    for (uint32_t i = 0; i < points->count; i++) smooth += truncated(quadric[i], maximum);
     // What is left of a good fit.
-    const double least = rest + GOOD_FIT * points->count * scale->noise * scale->noise;
-    if (smooth + rest < EDGE_GAIN * least) return;
+    const double minimum = rest + GOOD_FIT * points->count * scale->noise * scale->noise;
+    if (smooth + rest < EDGE_GAIN * minimum) return;
     smooth += rest;
     // Hypotheses are less certain than what is fitted to more points.
     const double cos_hypotheses = 1 - 0.5 * (1 - scale->cos_threshold);
@@ -410,14 +411,14 @@ void ewa_feature_fit(const feature_points *points, const feature_scale *scale, f
     find_heights(points, seeds, seed_count, heights);
     feature_model edge, corner;
     uint8_t edge_labels[FEATURE_POINTS], corner_labels[FEATURE_POINTS];
-    if (!find_edge(points, seeds, heights, seed_count, cos_hypotheses, most, &edge)) return;
-    const double edge_cost = rest + refine(points, most, &edge, edge_labels);
+    if (!find_edge(points, seeds, heights, seed_count, cos_hypotheses, maximum, &edge)) return;
+    const double edge_cost = rest + refine(points, maximum, &edge, edge_labels);
     const bool is_edge = edge_cost * EDGE_GAIN < smooth &&
                          is_sharp(&edge, edge_labels, points->count, scale->cos_threshold, EDGE_SHARE);
     if (is_edge) *model = edge;
-    if (edge_cost < CORNER_GAIN * least) return;
-    if (!find_corner(points, &edge, seeds, heights, seed_count, cos_hypotheses, most, &corner)) return;
-    const double corner_cost = rest + refine(points, most, &corner, corner_labels);
+    if (edge_cost < CORNER_GAIN * minimum) return;
+    if (!find_corner(points, &edge, seeds, heights, seed_count, cos_hypotheses, maximum, &corner)) return;
+    const double corner_cost = rest + refine(points, maximum, &corner, corner_labels);
     if (corner_cost * CORNER_GAIN < edge_cost && corner_cost * EDGE_GAIN < smooth &&
         is_sharp(&corner, corner_labels, points->count, scale->cos_threshold, CORNER_SHARE))
         *model = corner;

@@ -40,14 +40,14 @@ typedef struct feature_job {
     const local_kernels *kernels;
     ewa_neighbours *neighbours;
     uint32_t place_count, neighbour_count, model_count;
-    double noise, cos_threshold, least_variation;
+    double noise, cos_threshold, min_variation;
     float (*normals)[3]; // by place, unit or zero
     float *spacing;      // by place, world units
     float *noise_of;     // by place: of the measured ones, else negative
     uint8_t *chosen;     // by place
     uint32_t *slot;      // by place: index of its model
     feature_model *models, *averaged;
-    local_crowd *crowds; // per worker
+    local_batch *batches; // per worker
     ewa_attribute normal;
 } feature_job;
 
@@ -68,7 +68,7 @@ static void gather(const feature_job *job, const ewa_block *block, uint32_t lane
 static void visit_noise(void *user, const ewa_block *block, uint32_t worker) {
     const feature_job *job = user;
     local_surface s;
-    job->kernels->measure(block, 0, &job->crowds[worker], &s);
+    job->kernels->measure(block, 0, &job->batches[worker], &s);
     feature_points points;
     gather(job, block, 0, &points);
     const double spacing = (double)s.spacing[0];
@@ -80,11 +80,11 @@ static void visit_noise(void *user, const ewa_block *block, uint32_t worker) {
 static void visit_choose(void *user, const ewa_block *block, uint32_t worker) {
     const feature_job *job = user;
     local_surface s;
-    job->kernels->measure(block, 0, &job->crowds[worker], &s);
+    job->kernels->measure(block, 0, &job->batches[worker], &s);
     for (uint32_t lane = 0; lane < block->lane_count; lane++) {
         const uint32_t place = block->first_place + lane;
         job->spacing[place] = (float)((double)s.spacing[lane] * block->unit_world);
-        job->chosen[place] = (double)s.variation[lane] > job->least_variation && !(s.degenerate >> lane & 1);
+        job->chosen[place] = (double)s.variation[lane] > job->min_variation && !(s.degenerate >> lane & 1);
     }
 }
 
@@ -288,7 +288,7 @@ static ewa_status detect(feature_job *job, const ewa_feature_options *options) {
     // The neighbourhood is a disc of k spacings squared; its variance is half of its squared radius. What
     // noise adds varies by sqrt(2 / k) of itself.
     const double k = job->neighbour_count, from_noise = 2 * EWA_PI * job->noise * job->noise / k;
-    job->least_variation = from_noise * (1 + 2 * sqrt(2 / k)) + FOLD_VARIATION * half2;
+    job->min_variation = from_noise * (1 + 2 * sqrt(2 / k)) + FOLD_VARIATION * half2;
     ewa_visit_choice choice = {job->neighbour_count, 1, NULL, "choose", 0, NULL};
     if (status == EWA_OK) status = ewa_neighbours_visit(job->neighbours, &choice, visit_choose, job);
     if (status == EWA_OK) status = number_models(job);
@@ -315,9 +315,9 @@ static ewa_status detect_with(ewa_cloud *cloud, const ewa_feature_options *optio
     job->chosen = ewa_allocate(context, places, sizeof *job->chosen);
     job->slot = ewa_allocate(context, places, sizeof *job->slot);
     const size_t workers = ewa_context_worker_count(context);
-    job->crowds = ewa_allocate(context, workers, sizeof *job->crowds);
+    job->batches = ewa_allocate(context, workers, sizeof *job->batches);
     ewa_status status = EWA_ERROR_MEMORY;
-    if (job->normals && job->spacing && job->noise_of && job->chosen && job->slot && job->crowds)
+    if (job->normals && job->spacing && job->noise_of && job->chosen && job->slot && job->batches)
         status = detect(job, options);
     if (status == EWA_OK) {
         counts->noise = job->noise;
@@ -328,7 +328,7 @@ static ewa_status detect_with(ewa_cloud *cloud, const ewa_feature_options *optio
     }
     ewa_release(context, job->averaged, job->model_count, sizeof *job->averaged);
     ewa_release(context, job->models, job->model_count, sizeof *job->models);
-    ewa_release(context, job->crowds, workers, sizeof *job->crowds);
+    ewa_release(context, job->batches, workers, sizeof *job->batches);
     ewa_release(context, job->slot, places, sizeof *job->slot);
     ewa_release(context, job->chosen, places, sizeof *job->chosen);
     ewa_release(context, job->noise_of, places, sizeof *job->noise_of);
@@ -364,7 +364,8 @@ static const ewa_option option_rows[] = {
      EWA_OPTION_OR_ZERO,
      .help = "nearest neighbours that planes are fitted to; 0: 24 for exact points up to 64 for noisy ones"},
     {"angle_deg", EWA_OPTION_F64, AT(angle_deg), 10, 120, .initial = 30, .unit = "deg",
-     .help = "least angle between the normals of two planes that meet in an edge; less is a smooth surface"},
+     .help =
+         "smallest angle between the normals of two planes that meet in an edge; less is a smooth surface"},
     {"noise", EWA_OPTION_F64, AT(noise), -INFINITY, 1, EWA_OPTION_ABOVE, .initial = -1,
      .help = "standard deviation of the points from the surface in units of the spacing; negative: measured"},
     {"cutoff", EWA_OPTION_F64, AT(cutoff), 0, 4, EWA_OPTION_ABOVE, .initial = 3,

@@ -47,9 +47,9 @@ typedef struct estimate_job {
     // by point; NULL when not wanted
     float *radius_out, *tangent_u_out, *tangent_v_out, *normal_out;
     ewa_attribute position;
-    sight sight;         // where points were seen from, if normals are to point there
-    counter *counters;   // per worker
-    local_crowd *crowds; // per worker: neighbours of a block; later places that wait to be settled together
+    sight sight;          // where points were seen from, if normals are to point there
+    counter *counters;    // per worker
+    local_batch *batches; // per worker: neighbours of a block; later places that wait to be settled together
 } estimate_job;
 
 static void set_points(const estimate_job *job, uint32_t place, float *out, const float *values,
@@ -108,15 +108,15 @@ static void set_lane(const estimate_job *job, uint32_t wanted, uint32_t place, l
 /// What is noted about a lane whose neighbours do not tell its size.
 static uint8_t note_again(const local_surface *s, uint32_t lane, uint32_t why) {
     const double scatter = ewa_radius_scatter((double)s->variation[lane]);
-    return (uint8_t)(why | (uint32_t)(scatter * RADIUS_NOTE_MOST) << RADIUS_NOTE_SHIFT);
+    return (uint8_t)(why | (uint32_t)(scatter * RADIUS_NOTE_MAX) << RADIUS_NOTE_SHIFT);
 }
 
 static void visit(void *user, const ewa_block *block, uint32_t worker) {
     const estimate_job *job = user;
     local_surface s;
-    local_crowd *crowd = &job->crowds[worker];
-    job->kernels->measure(block, job->wanted, crowd, &s);
-    if (job->links) job->kernels->link(block, crowd, &job->links[block->first_place]);
+    local_batch *batch = &job->batches[worker];
+    job->kernels->measure(block, job->wanted, batch, &s);
+    if (job->links) job->kernels->link(block, batch, &job->links[block->first_place]);
     for (uint32_t lane = 0; lane < block->lane_count; lane++)
         set_lane(job, job->wanted, block->first_place + lane, &s, lane, block->unit_world);
     if (job->wanted) job->kernels->size(job->wanted, &job->sizing, &s);
@@ -153,7 +153,7 @@ static void link_evenly(const ewa_block *block, uint32_t lane, uint32_t links[LO
 static void visit_thin(void *user, const ewa_block *block, uint32_t worker) {
     const estimate_job *job = user;
     local_surface s;
-    job->kernels->measure(block, 0, &job->crowds[worker], &s);
+    job->kernels->measure(block, 0, &job->batches[worker], &s);
     for (uint32_t lane = 0; lane < block->lane_count; lane++) {
         const uint32_t place = block->first_place + lane;
         if (!(job->notes[place] & RADIUS_THIN)) continue;
@@ -168,12 +168,12 @@ static void visit_thin(void *user, const ewa_block *block, uint32_t worker) {
 }
 
 /// Gives a place its size by many neighbours.
-static void settle_lane(const estimate_job *job, const local_crowd *crowd, uint32_t lane, double around,
+static void settle_lane(const estimate_job *job, const local_batch *batch, uint32_t lane, double around,
                         double limit, local_surface *s) {
-    const uint32_t place = crowd->place[lane];
+    const uint32_t place = batch->place[lane];
     drop_overflow(job->wanted, s, lane);
-    const double spacing = (double)job->spacing[place] / crowd->unit_world[lane];
-    const double few = (double)(job->notes[place] >> RADIUS_NOTE_SHIFT) / RADIUS_NOTE_MOST;
+    const double spacing = (double)job->spacing[place] / batch->unit_world[lane];
+    const double few = (double)(job->notes[place] >> RADIUS_NOTE_SHIFT) / RADIUS_NOTE_MAX;
     const double many = ewa_radius_scatter((double)s->variation[lane]);
     const double scatter = few < many ? few : many, lone = ewa_radius_lone(spacing, around);
     const radius_place at = {.spacing = spacing < around ? spacing : around,
@@ -181,66 +181,66 @@ static void settle_lane(const estimate_job *job, const local_crowd *crowd, uint3
                              .limit = limit,
                              .scatter = scatter > lone ? scatter : lone};
     const double radius = ewa_radius(&at, job->options->radius_scale, job->options->cutoff);
-    set_size(job, place, s, lane, radius * crowd->unit_world[lane]);
+    set_size(job, place, s, lane, radius * batch->unit_world[lane]);
 }
 
 static double smaller(float a, double b) { return (double)a < b ? (double)a : b; }
 
 /// 1 / sqrt(neighbours per area) of a lane, wherever they are: less than along one surface where there are several
 /// or leaves.
-static double spread_of(const local_crowd *crowd, uint32_t lane) {
-    const uint32_t count = crowd->count[lane];
+static double spread_of(const local_batch *batch, uint32_t lane) {
+    const uint32_t count = batch->count[lane];
     double farthest2 = 0;
     for (uint32_t i = 0; i < count; i++)
-        if ((double)crowd->row[i].distance2[lane] > farthest2)
-            farthest2 = (double)crowd->row[i].distance2[lane];
+        if ((double)batch->row[i].distance2[lane] > farthest2)
+            farthest2 = (double)batch->row[i].distance2[lane];
     return count > 1 ? sqrt(PI * farthest2 / (count - 1)) : 0;
 }
 
 /// Settles the places that wait, and empties their list.
-static void settle(const estimate_job *job, local_crowd *crowd) {
-    const uint32_t count = crowd->lane_count;
+static void settle(const estimate_job *job, local_batch *batch) {
+    const uint32_t count = batch->lane_count;
     local_surface s;
     float around[EWA_BLOCK_LANES], limit[EWA_BLOCK_LANES], normal[3][EWA_BLOCK_LANES];
-    job->kernels->median(crowd, around);
+    job->kernels->median(batch, around);
     for (uint32_t lane = 0; lane < EWA_BLOCK_LANES; lane++) {
-        const uint32_t from = lane < count ? lane : 0, place = crowd->place[from];
+        const uint32_t from = lane < count ? lane : 0, place = batch->place[from];
         for (int c = 0; c < 3 && job->normals; c++)
             normal[c][lane] = job->normals[3 * (size_t)place + (size_t)c];
-        around[lane] = (float)((double)around[from] / crowd->unit_world[from]);
+        around[lane] = (float)((double)around[from] / batch->unit_world[from]);
         const bool line = job->notes[place] & RADIUS_THIN;
         const double apart =
-            line ? LINE_LIMIT * (double)around[lane] : smaller(around[lane], spread_of(crowd, from));
+            line ? LINE_LIMIT * (double)around[lane] : smaller(around[lane], spread_of(batch, from));
         limit[lane] = (float)(job->options->radius_limit * apart);
     }
-    job->kernels->enclose(crowd, job->wanted, job->normals ? (const float(*)[EWA_BLOCK_LANES])normal : NULL,
+    job->kernels->enclose(batch, job->wanted, job->normals ? (const float(*)[EWA_BLOCK_LANES])normal : NULL,
                           limit, &s);
     for (uint32_t lane = 0; lane < count; lane++)
-        settle_lane(job, crowd, lane, (double)around[lane], (double)limit[lane], &s);
-    crowd->lane_count = 0;
+        settle_lane(job, batch, lane, (double)around[lane], (double)limit[lane], &s);
+    batch->lane_count = 0;
 }
 
 /// The third visit: to places whose cells are open, as at borders and beside holes, that are on lines or on
 /// no surface, or sparser than others nearby. All spacings are known then.
 static void visit_again(void *user, const ewa_block *block, uint32_t worker) {
     const estimate_job *job = user;
-    local_crowd *crowd = &job->crowds[worker];
+    local_batch *batch = &job->batches[worker];
     uint32_t lanes = 0;
     for (uint32_t lane = 0; lane < block->lane_count; lane++)
         if (job->notes[block->first_place + lane] & RADIUS_AGAIN) lanes |= 1u << lane;
     while (lanes) {
-        lanes = job->kernels->collect(block, lanes, job->spacing, crowd);
-        if (crowd->lane_count == EWA_BLOCK_LANES) settle(job, crowd);
+        lanes = job->kernels->collect(block, lanes, job->spacing, batch);
+        if (batch->lane_count == EWA_BLOCK_LANES) settle(job, batch);
     }
 }
 
 /// Measures again what is noted so.
 static ewa_status measure_again(ewa_context *context, estimate_job *job, const ewa_visit_choice *choice) {
     const uint32_t workers = ewa_context_worker_count(context);
-    for (uint32_t w = 0; w < workers; w++) job->crowds[w].lane_count = 0;
+    for (uint32_t w = 0; w < workers; w++) job->batches[w].lane_count = 0;
     const ewa_status status = ewa_neighbours_visit(job->neighbours, choice, visit_again, job);
     for (uint32_t w = 0; w < workers && status == EWA_OK; w++)
-        if (job->crowds[w].lane_count) settle(job, &job->crowds[w]);
+        if (job->batches[w].lane_count) settle(job, &job->batches[w]);
     return status;
 }
 
@@ -349,8 +349,8 @@ static ewa_status estimate_with(ewa_cloud *cloud, estimate_job *job, bool normal
     if (status == EWA_OK) {
         job->counters = ewa_allocate_zeroed(context, workers, sizeof *job->counters);
         job->notes = ewa_allocate(context, places, sizeof *job->notes);
-        job->crowds = ewa_allocate(context, workers, sizeof *job->crowds);
-        bool complete = job->counters && job->notes && job->crowds;
+        job->batches = ewa_allocate(context, workers, sizeof *job->batches);
+        bool complete = job->counters && job->notes && job->batches;
         if (normals)
             complete = (job->normals = ewa_allocate(context, places, 3 * sizeof *job->normals)) && complete;
         if (propagate)
@@ -366,7 +366,7 @@ static ewa_status estimate_with(ewa_cloud *cloud, estimate_job *job, bool normal
     ewa_release(context, job->spacing, places, sizeof *job->spacing);
     ewa_release(context, job->links, places, sizeof *job->links);
     ewa_release(context, job->normals, places, 3 * sizeof *job->normals);
-    ewa_release(context, job->crowds, workers, sizeof *job->crowds);
+    ewa_release(context, job->batches, workers, sizeof *job->batches);
     ewa_release(context, job->notes, places, sizeof *job->notes);
     ewa_release(context, job->counters, workers, sizeof *job->counters);
     return status;

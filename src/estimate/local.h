@@ -43,11 +43,11 @@ enum {
 
 /// How radii follow from reaches: ewa_radius() in single precision, for places of a surface.
 typedef struct local_sizing {
-    float scale;       ///< least radius in spacings
+    float scale;       ///< smallest radius in spacings
     float cover;       ///< radius that covers a reach of 1
     float limit;       ///< in spacings of the place and in median ones
     float ratio_steps; ///< per 1 of radius over spacing
-    float most_steps;  ///< at most 255
+    float max_steps;   ///< at most 255
 } local_sizing;
 
 /// The nearest places of each lane other than its own, at most LOCAL_GRAPH_DEGREE, ascending; then
@@ -60,39 +60,39 @@ typedef struct local_row {
     float y[EWA_BLOCK_LANES], z[EWA_BLOCK_LANES], distance2[EWA_BLOCK_LANES], value[EWA_BLOCK_LANES];
 } local_row;
 
-/// Places from any blocks, one per lane, each with its own neighbours, itself included, in units of its
-/// block. What a lane gives does not depend on the others.
-typedef struct local_crowd {
+/// A batch of places from any blocks, one per lane, each with its own neighbours, itself included, in units
+/// of its block. What a lane gives does not depend on the others.
+typedef struct local_batch {
     local_row row[EWA_BLOCK_CANDIDATES];
     double unit_world[EWA_BLOCK_LANES];
     uint32_t place[EWA_BLOCK_LANES];
     uint32_t count[EWA_BLOCK_LANES]; ///< of rows
     uint32_t lane_count;
     uint32_t row_count; ///< that measure() has left
-} local_crowd;
+} local_batch;
 
 /// The hot loops, compiled once per instruction set, all with the same results.
 typedef struct local_kernels {
-    /// All but mean_distance; `reach` up to 2 spacings. Leaves the neighbours of all lanes in the rows of `crowd`,
-    /// of which nothing else counts.
-    void (*measure)(const ewa_block *block, uint32_t wanted, local_crowd *crowd, local_surface *surface);
+    /// All but mean_distance; `reach` up to 2 spacings. Leaves the neighbours of all lanes in the rows of
+    /// `batch`, of which nothing else counts.
+    void (*measure)(const ewa_block *block, uint32_t wanted, local_batch *batch, local_surface *surface);
     /// Radii after measure() with the same `wanted`; what is at the limit is not doubtful any more if it is a
     /// surface.
     void (*size)(uint32_t wanted, const local_sizing *sizing, local_surface *surface);
-    /// Adds lanes of a block (bits) with all their neighbours and the values of these (by place) to a crowd,
+    /// Adds lanes of a block (bits) with all their neighbours and the values of these (by place) to a batch,
     /// as many as it has room for; returns those that are left.
-    uint32_t (*collect)(const ewa_block *block, uint32_t lanes, const float *values, local_crowd *crowd);
+    uint32_t (*collect)(const ewa_block *block, uint32_t lanes, const float *values, local_batch *batch);
     /// The median of the values of each lane's neighbours and its own, to 1 / 256 of the ratio of the largest
     /// to the least, in logarithms.
-    void (*median)(local_crowd *crowd, float around[EWA_BLOCK_LANES]);
+    void (*median)(local_batch *batch, float around[EWA_BLOCK_LANES]);
     /// What measure() tells, by many neighbours: cells are closed up to `limit` (in the lane's units) where
     /// neighbours stand around them, in planes of these normals (NULL: of their own). No median_spacing,
     /// nothing doubtful.
-    void (*enclose)(local_crowd *crowd, uint32_t wanted, const float normal[3][EWA_BLOCK_LANES],
+    void (*enclose)(local_batch *batch, uint32_t wanted, const float normal[3][EWA_BLOCK_LANES],
                     const float limit[EWA_BLOCK_LANES], local_surface *surface);
     void (*measure_distance)(const ewa_block *block, local_surface *surface); ///< mean_distance only
     /// After measure() of the same block.
-    void (*link)(const ewa_block *block, const local_crowd *crowd, local_graph graph);
+    void (*link)(const ewa_block *block, const local_batch *batch, local_graph graph);
 } local_kernels;
 
 EWA_DECLARE_VERSIONS(const local_kernels, ewa_local_kernels);

@@ -4,7 +4,7 @@
 // Normal, spacing and shape from a neighbourhood, sixteen at a time. No section of docs/math.md is about it;
 // what radii come to is in docs/quality.md.
 //
-// Normal: the direction of least variance of the neighbourhood. Based on H. Hoppe, T. DeRose, T. Duchamp,
+// Normal: the direction of smallest variance of the neighbourhood. Based on H. Hoppe, T. DeRose, T. Duchamp,
 // J. McDonald, W. Stuetzle, "Surface reconstruction from unorganized points", 1992, section 3.2.
 //
 // Spacing: in a plane with rho samples per area the j-th nearest neighbour is found at pi rho d_j^2 = j on
@@ -235,7 +235,7 @@ static wf find_spacing(const moments *m, const frame *f) {
 /// 1 / a for normal a > 0, to 3e-6: a guess from the bits, a cubic and a quadratic step of Newton's kind. A
 /// division takes three times as long.
 static inline wf reciprocal(wf a) {
-    enum { GUESS = 0x7ef311c7 }; // exponents negated, the line through the mantissa with the least error
+    enum { GUESS = 0x7ef311c7 }; // exponents negated, the line through the mantissa with the smallest error
     const wf one = wf_set(1);
     wf r = wf_of_bits(wi_sub(wi_set(GUESS), wi_of_bits(a)));
     const wf e = wf_sub(one, wf_mul(a, r));
@@ -285,11 +285,11 @@ static void turn_to(frame *f, wf uu, wf uv, wf vv) {
     f->v = v_sub(v_scale(f->v, turn_u), v_scale(old, turn_v));
 }
 
-static void align_frame(const local_crowd *crowd, uint32_t rows, frame *f) {
+static void align_frame(const local_batch *batch, uint32_t rows, frame *f) {
     wf uu = wf_set(0), uv = uu, vv = uu;
     for (uint32_t i = 0; i < rows; i++) {
         wf u, v;
-        invert_row(&crowd->row[i], f, &u, &v);
+        invert_row(&batch->row[i], f, &u, &v);
         uu = wf_add(uu, wf_mul(u, u));
         uv = wf_add(uv, wf_mul(u, v));
         vv = wf_add(vv, wf_mul(v, v));
@@ -319,7 +319,7 @@ static inline void project(wf u, wf v, wf along[DIRECTIONS]) {
     along[7] = wf_sub(vs, uc);
 }
 
-/// The largest and the least of (u, v) along each direction so far.
+/// The largest and the smallest of (u, v) along each direction so far.
 typedef struct range {
     wf high[DIRECTIONS], low[DIRECTIONS];
 } range;
@@ -348,11 +348,11 @@ static inline void set_extents(cell *made, const range *inverted, wf limit) {
     for (int i = 0; i < 2 * DIRECTIONS; i++) made->open[i] = wf_lt(limit, made->extent[i]);
 }
 
-static void find_cell(const local_crowd *crowd, uint32_t rows, const frame *f, wf limit, cell *made) {
+static void find_cell(const local_batch *batch, uint32_t rows, const frame *f, wf limit, cell *made) {
     range inverted = empty_range();
     for (uint32_t i = 0; i < rows; i++) {
         wf u, v;
-        invert_row(&crowd->row[i], f, &u, &v);
+        invert_row(&batch->row[i], f, &u, &v);
         widen(&inverted, u, v);
     }
     set_extents(made, &inverted, limit);
@@ -416,16 +416,16 @@ static wm any_open(const cell *c) {
     return any;
 }
 
-/// The lower median of the first lanes: the least value that half of the others are not above.
+/// The lower median of the first lanes: the smallest value that half of the others are not above.
 static float find_median(const float *values, uint32_t count) {
     const wf all = wf_load(values), one = wf_set(1);
     wf not_above = wf_set(0);
     for (uint32_t i = 0; i < count; i++)
         not_above = wf_add(not_above, wf_keep(wf_le(wf_set(values[i]), all), one));
-    float least[EWA_BLOCK_LANES];
-    wf_store(least, wf_select(wf_le(wf_set(0.5f * (float)count), not_above), all, wf_set(3e38f)));
-    float median = least[0];
-    for (uint32_t i = 1; i < count; i++) median = least[i] < median ? least[i] : median;
+    float minimum[EWA_BLOCK_LANES];
+    wf_store(minimum, wf_select(wf_le(wf_set(0.5f * (float)count), not_above), all, wf_set(3e38f)));
+    float median = minimum[0];
+    for (uint32_t i = 1; i < count; i++) median = minimum[i] < median ? minimum[i] : median;
     return median;
 }
 
@@ -447,16 +447,16 @@ static wf measure_plane(const moments *m, const frame *f, local_surface *surface
     return spacing;
 }
 
-static void measure(const ewa_block *block, uint32_t wanted, local_crowd *crowd, local_surface *surface) {
+static void measure(const ewa_block *block, uint32_t wanted, local_batch *batch, local_surface *surface) {
     moments m = no_moments();
-    const uint32_t rows = arrange(block, crowd, &m.count);
-    sum_moments(crowd, rows, &m);
+    const uint32_t rows = arrange(block, batch, &m.count);
+    sum_moments(batch, rows, &m);
     frame f = find_frame(&m);
     const wf spacing = measure_plane(&m, &f, surface);
     if (!wanted) return;
-    if (wanted & LOCAL_SHAPE) align_frame(crowd, rows, &f);
+    if (wanted & LOCAL_SHAPE) align_frame(batch, rows, &f);
     cell c;
-    find_cell(crowd, rows, &f, wf_mul(spacing, wf_set(MAX_REACH)), &c);
+    find_cell(batch, rows, &f, wf_mul(spacing, wf_set(MAX_REACH)), &c);
     measure_cell(wanted, &c, &f, spacing, surface);
     surface->median_spacing = find_median(surface->spacing, block->lane_count);
     const wm scattered = wf_lt(wf_set((float)LOCAL_SURFACE_VARIATION), f.variation);
@@ -472,7 +472,7 @@ static void size(uint32_t wanted, const local_sizing *sizing, local_surface *sur
     const wf radius = wf_max(wf_mul(spacing, wf_set(sizing->scale)), closed);
     wf_store(surface->radius, radius);
     const wf steps = wf_mul(wf_div(radius, wf_max(spacing, wf_set(1e-30f))), wf_set(sizing->ratio_steps));
-    wi_store_u8(surface->ratio, wi_from_f(wf_min(wf_set(sizing->most_steps), wf_add(steps, wf_set(1)))));
+    wi_store_u8(surface->ratio, wi_from_f(wf_min(wf_set(sizing->max_steps), wf_add(steps, wf_set(1)))));
     // What an open cell may hide adds nothing to a radius at the limit.
     const wm scattered = wf_lt(wf_set((float)LOCAL_SURFACE_VARIATION), wf_load(surface->variation));
     surface->doubtful &= wm_bits(wm_or(scattered, wf_lt(closed, allowed)));
@@ -491,13 +491,13 @@ static void measure_distance(const ewa_block *block, local_surface *surface) {
 }
 
 /// Sorts the keys of the rows by insertion into the few smallest of each lane.
-static void link_nearest(const ewa_block *block, const local_crowd *crowd, local_graph graph) {
+static void link_nearest(const ewa_block *block, const local_batch *batch, local_graph graph) {
     enum { KEPT = LOCAL_GRAPH_DEGREE + 1 }; // the place itself is kept too
     const wf none = wf_set(NO_KEY);
     wf smallest[KEPT];
     for (int i = 0; i < KEPT; i++) smallest[i] = none;
-    for (uint32_t r = 0; r < crowd->row_count; r++) {
-        wf key = wf_load(crowd->row[r].value);
+    for (uint32_t r = 0; r < batch->row_count; r++) {
+        wf key = wf_load(batch->row[r].value);
         for (int i = 0; i < KEPT; i++) {
             const wf smaller = wf_min(smallest[i], key);
             key = wf_max(smallest[i], key);
@@ -519,7 +519,7 @@ static void link_nearest(const ewa_block *block, const local_crowd *crowd, local
         for (uint32_t i = count[lane]; i < LOCAL_GRAPH_DEGREE; i++) graph[lane][i] = UINT32_MAX;
 }
 
-#include "estimate/local_crowd_body.h"
+#include "estimate/local_batch_body.h"
 
 const local_kernels EWA_VERSION(ewa_local_kernels) = {
     measure, size, collect, find_around, enclose, measure_distance, link_nearest};

@@ -32,10 +32,10 @@ static wi find_inside(const ewa_block *block, uint32_t begin) {
 /// nothing, until all candidates of a word are through. Values are keys for link_nearest(): the squared distance
 /// to 1 part in 8192 above the number of the candidate, so that ties go to the lower one. Returns the number of
 /// rows, which candidates are no fewer than; `*count` gets that of each lane's neighbours.
-static uint32_t arrange(const ewa_block *block, local_crowd *crowd, wf *count) {
+static uint32_t arrange(const ewa_block *block, local_batch *batch, wf *count) {
     const vec at = lanes_of(block);
     const wf zero = wf_set(0), one = wf_set(1);
-    local_row *row = crowd->row;
+    local_row *row = batch->row;
     *count = zero;
     for (uint32_t begin = 0; begin < block->candidate_count; begin += WORD_BITS) {
         wi word = find_inside(block, begin);
@@ -64,10 +64,10 @@ static uint32_t arrange(const ewa_block *block, local_crowd *crowd, wf *count) {
             row++;
         }
     }
-    crowd->row_count = (uint32_t)(row - crowd->row);
-    return crowd->row_count;
+    batch->row_count = (uint32_t)(row - batch->row);
+    return batch->row_count;
 }
 
-static void sum_moments(const local_crowd *crowd, uint32_t rows, moments *m) {
-    for (uint32_t i = 0; i < rows; i++) add_offset(m, row_offset(&crowd->row[i]));
+static void sum_moments(const local_batch *batch, uint32_t rows, moments *m) {
+    for (uint32_t i = 0; i < rows; i++) add_offset(m, row_offset(&batch->row[i]));
 }

@@ -43,7 +43,7 @@ local_sizing ewa_radius_sizing(double limit, double scale, double cutoff) {
                           .cover = (float)larger(1, cutoff / SOLID_SIGMAS),
                           .limit = (float)limit,
                           .ratio_steps = RADIUS_NOTE_RATIO,
-                          .most_steps = RADIUS_NOTE_MOST};
+                          .max_steps = RADIUS_NOTE_MAX};
 }
 
 double ewa_radius_scatter(double variation) {

@@ -14,7 +14,7 @@ enum {
     RADIUS_DOUBTFUL = 2, ///< the same: they do not tell how far its cell reaches
     RADIUS_AGAIN = RADIUS_THIN | RADIUS_DOUBTFUL,
     RADIUS_NOTE_SHIFT = 2, ///< above: to be measured again: scatter; else radius over spacing
-    RADIUS_NOTE_MOST = 63,
+    RADIUS_NOTE_MAX = 63,
     RADIUS_NOTE_RATIO = 16, ///< steps per 1 of radius over spacing
 };
 

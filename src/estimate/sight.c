@@ -40,15 +40,15 @@ static const char *read_number(const char *text, const char *end, double *number
     return digits ? text : NULL;
 }
 
-/// Reads up to `most` numbers; returns how many there are, 0 if there is anything else.
-static size_t read_numbers(const char *text, size_t bytes, size_t most, double *numbers) {
+/// Reads up to `maximum` numbers; returns how many there are, 0 if there is anything else.
+static size_t read_numbers(const char *text, size_t bytes, size_t maximum, double *numbers) {
     const char *end = text + bytes;
     size_t count = 0;
     for (text = skip_space(text, end); text < end; text = skip_space(text, end), count++) {
         double number;
         text = read_number(text, end, &number);
         if (!text || !isfinite(number)) return 0;
-        if (count < most) numbers[count] = number;
+        if (count < maximum) numbers[count] = number;
     }
     return count;
 }

@@ -14,14 +14,14 @@ enum { SPACING_NEIGHBOURS = 16, DIGIT_BITS = 16 };
 
 typedef struct spacing_job {
     const local_kernels *kernels;
-    local_crowd *crowds; // per worker
-    float *spacing;      // [place_count]; negative where not measured
+    local_batch *batches; // per worker
+    float *spacing;       // [place_count]; negative where not measured
 } spacing_job;
 
 static void visit(void *user, const ewa_block *block, uint32_t worker) {
     const spacing_job *job = user;
     local_surface s;
-    job->kernels->measure(block, 0, &job->crowds[worker], &s);
+    job->kernels->measure(block, 0, &job->batches[worker], &s);
     for (uint32_t lane = 0; lane < block->lane_count; lane++)
         job->spacing[block->first_place + lane] = (float)((double)s.spacing[lane] * block->unit_world);
 }
@@ -85,11 +85,11 @@ static ewa_status measure(ewa_context *context, const ewa_neighbours *neighbours
     const size_t entries = (size_t)1 << DIGIT_BITS;
     spacing_job job = {.kernels = EWA_CHOOSE(ewa_context_cpu_features(context), ewa_local_kernels)};
     const uint32_t workers = ewa_context_worker_count(context);
-    job.crowds = ewa_allocate(context, workers, sizeof *job.crowds);
+    job.batches = ewa_allocate(context, workers, sizeof *job.batches);
     job.spacing = ewa_allocate(context, places, sizeof *job.spacing);
     uint32_t *histogram = ewa_allocate(context, entries, sizeof *histogram);
     ewa_status status = EWA_ERROR_MEMORY;
-    if (job.crowds && job.spacing && histogram) {
+    if (job.batches && job.spacing && histogram) {
         for (uint32_t place = 0; place < places; place++) job.spacing[place] = -1;
         const ewa_visit_choice choice = {
             SPACING_NEIGHBOURS, (uint32_t)(places / wanted), NULL, "spacing", 0, NULL};
@@ -99,7 +99,7 @@ static ewa_status measure(ewa_context *context, const ewa_neighbours *neighbours
     }
     ewa_release(context, histogram, entries, sizeof *histogram);
     ewa_release(context, job.spacing, places, sizeof *job.spacing);
-    ewa_release(context, job.crowds, workers, sizeof *job.crowds);
+    ewa_release(context, job.batches, workers, sizeof *job.batches);
     return status;
 }
 

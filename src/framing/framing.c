@@ -86,9 +86,9 @@ static void read_rims(const ewa_cloud *cloud, const point_sample *sample, double
                               : 0;
         if (rims_world[i] > 0) numbers[count++] = rims_world[i];
     }
-    const double most = count ? RIM_RATIO * ewa_rank_select(numbers, count, count / 2) : 0;
+    const double maximum = count ? RIM_RATIO * ewa_rank_select(numbers, count, count / 2) : 0;
     for (size_t i = 0; i < sample->count; i++)
-        if (rims_world[i] > most) rims_world[i] = most;
+        if (rims_world[i] > maximum) rims_world[i] = maximum;
 }
 
 /// Reads the sampled points, in the world.

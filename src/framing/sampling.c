@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Some points of a cloud, the same ones in whatever order the file has them: those of the least hashes.
+// Some points of a cloud, the same ones in whatever order the file has them: those of the smallest hashes.
 #include "framing/sampling.h"
 #include "base/base.h"
 #include "cloud/cloud.h"
@@ -23,7 +23,7 @@ typedef struct collection {
     hashed_point *points;
     size_t count, capacity;
     uint64_t limit;
-    bool crowded; ///< there was no more room
+    bool overflowed; ///< there was no more room
 } collection;
 
 /// Mixes a number into a hash (the finish of splitmix64, Vigna 2015).
@@ -43,7 +43,7 @@ static int compare_points(const void *a, const void *b) {
     return left->index < right->index ? -1 : left->index > right->index;
 }
 
-/// Leaves of equal points one, and of the others at most half of the room, those of the least hashes.
+/// Leaves of equal points one, and of the others at most half of the room, those of the smallest hashes.
 static void compact(collection *all) {
     qsort(all->points, all->count, sizeof *all->points, compare_points);
     size_t kept = 0;
@@ -51,7 +51,7 @@ static void compact(collection *all) {
         if (kept == 0 || all->points[i].hash != all->points[kept - 1].hash)
             all->points[kept++] = all->points[i];
     all->count = kept;
-    all->crowded = true;
+    all->overflowed = true;
     if (kept == all->capacity / 2) all->limit = all->points[kept - 1].hash;
 }
 
@@ -74,7 +74,7 @@ static void collect(const ewa_cloud *cloud, collection *all) {
             if (hash <= all->limit) all->points[all->count++] = (hashed_point){hash, first + i};
         }
     }
-    if (all->crowded) compact(all);
+    if (all->overflowed) compact(all);
 }
 
 ewa_status ewa_sample_choose(const ewa_cloud *cloud, size_t wanted, point_sample *sample) {

@@ -124,8 +124,8 @@ static double base_share(const point_cloud_sample *points, int axis) {
 static ewa_upright choose_body(const point_cloud_sample *points, ewa_up_convention convention) {
     const double y = base_share(points, 1), z = base_share(points, 2), *e = points->extent;
     const int usual = convention == EWA_UP_Z_USUAL ? 2 : 1, other = 3 - usual, larger = y > z ? 1 : 2;
-    const double least = convention == EWA_UP_ANY || larger == usual ? BASE_SHARE : UNUSUAL_SHARE;
-    if (fmax(y, z) >= fmax(least, BASE_RATIO * fmin(y, z)))
+    const double minimum = convention == EWA_UP_ANY || larger == usual ? BASE_SHARE : UNUSUAL_SHARE;
+    if (fmax(y, z) >= fmax(minimum, BASE_RATIO * fmin(y, z)))
         return (ewa_upright){.axis = larger, .why = "it stands on a base"};
     const bool box = fmin(y, z) >= BOX_SHARE;
     if (box && convention != EWA_UP_Y_USUAL && fmin(e[1], e[2]) < FLAT_RATIO * fmin(e[0], fmax(e[1], e[2])))

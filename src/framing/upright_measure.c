@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// What is measured of some points to tell how they stand. Everything is counts, least and greatest numbers,
+// What is measured of some points to tell how they stand. Everything is counts, smallest and largest numbers,
 // so that the order of the points does not matter.
 #include "framing/upright_measure.h"
 #include "framing/widen.h"
@@ -46,7 +46,7 @@ void ewa_measure_extent(point_cloud_sample *points) {
     for (int c = 0; c < 3; c++) points->extent[c] = points->count ? points->high[c] - points->low[c] : 0;
 }
 
-/// Least and greatest depth of each cell of a picture.
+/// Smallest and largest depth of each cell of a picture.
 typedef struct depth_grid {
     double low[2], cell; ///< of the picture's corner; side of a cell
     int sides;           ///< cells along the longer side
@@ -141,12 +141,12 @@ static bool slopes_of(const point_cloud_sample *points, size_t index, double sig
     return *depth > 0;
 }
 
-bool ewa_measure_range(const point_cloud_sample *points, double sign, double most_slope, range_facts *facts) {
+bool ewa_measure_range(const point_cloud_sample *points, double sign, double max_slope, range_facts *facts) {
     double low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY}, slopes[2], depth;
     if (points->count < FEW_POINTS) return false;
     for (size_t i = 0; i < points->count; i++) {
-        if (!slopes_of(points, i, sign, slopes, &depth) || fabs(slopes[0]) > most_slope ||
-            fabs(slopes[1]) > most_slope)
+        if (!slopes_of(points, i, sign, slopes, &depth) || fabs(slopes[0]) > max_slope ||
+            fabs(slopes[1]) > max_slope)
             return false;
         for (int c = 0; c < 2; c++) widen(&low[c], &high[c], slopes[c]);
     }
@@ -174,8 +174,8 @@ typedef struct point2 {
 typedef struct strip_hull {
     double low, high; ///< of x
     point2 bottom[STRIPS], top[STRIPS];
-    bool met[STRIPS];
-    point2 first, last; ///< of least and greatest x
+    bool occupied[STRIPS];
+    point2 first, last; ///< of smallest and largest x
 } strip_hull;
 
 static void put_in_hull(strip_hull *hull, double x, double y) {
@@ -183,10 +183,10 @@ static void put_in_hull(strip_hull *hull, double x, double y) {
     const size_t strip = class_of(place * STRIPS, STRIPS);
     // Of equal ones the one with the lesser x, whatever the order.
     point2 *bottom = &hull->bottom[strip], *top = &hull->top[strip];
-    const bool met = hull->met[strip];
-    if (!met || y < bottom->y || (y == bottom->y && x < bottom->x)) *bottom = (point2){x, y};
-    if (!met || y > top->y || (y == top->y && x < top->x)) *top = (point2){x, y};
-    hull->met[strip] = true;
+    const bool occupied = hull->occupied[strip];
+    if (!occupied || y < bottom->y || (y == bottom->y && x < bottom->x)) *bottom = (point2){x, y};
+    if (!occupied || y > top->y || (y == top->y && x < top->x)) *top = (point2){x, y};
+    hull->occupied[strip] = true;
     if (x < hull->first.x || (x == hull->first.x && y < hull->first.y)) hull->first = (point2){x, y};
     if (x > hull->last.x || (x == hull->last.x && y > hull->last.y)) hull->last = (point2){x, y};
 }
@@ -212,7 +212,7 @@ static size_t hull_corners(const strip_hull *hull, point2 corners[2 * CORNERS]) 
     size_t sorted_count = 0;
     sorted[sorted_count++] = hull->first;
     for (int i = 0; i < STRIPS; i++) {
-        if (!hull->met[i]) continue;
+        if (!hull->occupied[i]) continue;
         const bool swapped = is_before(hull->top[i], hull->bottom[i]);
         sorted[sorted_count++] = swapped ? hull->top[i] : hull->bottom[i];
         sorted[sorted_count++] = swapped ? hull->bottom[i] : hull->top[i];
@@ -232,15 +232,15 @@ static double polygon_area(size_t count, const point2 *corners) {
     return 0.5 * sum;
 }
 
-/// Least distance of a point inside of a convex polygon from its edges; negative outside.
+/// Smallest distance of a point inside of a convex polygon from its edges; negative outside.
 static double polygon_depth(size_t count, const point2 *corners, point2 p) {
-    double least = count < 3 ? -INFINITY : INFINITY;
+    double minimum = count < 3 ? -INFINITY : INFINITY;
     for (size_t i = 0; i < count && count >= 3; i++) {
         const point2 a = corners[i], b = corners[(i + 1) % count];
         const double length = sqrt((b.x - a.x) * (b.x - a.x) + (b.y - a.y) * (b.y - a.y));
-        if (length > 0) least = fmin(least, turn(a, b, p) / length);
+        if (length > 0) minimum = fmin(minimum, turn(a, b, p) / length);
     }
-    return least;
+    return minimum;
 }
 
 /// The middle of the cubes that points are in, of GRID along the longest side: dense places weigh no more
@@ -257,11 +257,11 @@ static void occupied_middle(const point_cloud_sample *points, double size, doubl
     for (uint64_t z = 0; z < GRID; z++) {
         for (uint64_t y = 0; y < GRID; y++) {
             for (uint64_t x = 0; x < GRID; x++) {
-                const uint64_t met = cubes[z][y] >> x & 1;
-                count += met;
-                sums[0] += met * x;
-                sums[1] += met * y;
-                sums[2] += met * z;
+                const uint64_t occupied = cubes[z][y] >> x & 1;
+                count += occupied;
+                sums[0] += occupied * x;
+                sums[1] += occupied * y;
+                sums[2] += occupied * z;
             }
         }
     }

@@ -39,6 +39,6 @@ typedef struct range_facts {
 
 /// Measures along z (`sign` 1) or -z (-1). Returns false when not all points lie before the eye within a
 /// slope of the axis, or are too few to tell.
-bool ewa_measure_range(const point_cloud_sample *points, double sign, double most_slope, range_facts *facts);
+bool ewa_measure_range(const point_cloud_sample *points, double sign, double max_slope, range_facts *facts);
 
 #endif

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Least and greatest numbers.
+// Smallest and largest numbers.
 #ifndef EWA_SRC_FRAMING_WIDEN_H
 #define EWA_SRC_FRAMING_WIDEN_H
 

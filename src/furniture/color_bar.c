@@ -10,7 +10,7 @@
 #include <string.h>
 
 /// Sizes in points: the bar, its ticks, the room beside it, rows of a legend and their squares.
-static const double BAR_WIDTH_PT = 14, BAR_LEAST_PT = 60, BAR_MOST_PT = 300, TICK_PT = 4, BESIDE_PT = 6;
+static const double BAR_WIDTH_PT = 14, BAR_MIN_PT = 60, BAR_MAX_PT = 300, TICK_PT = 4, BESIDE_PT = 6;
 static const double ROW_PT = 18, SQUARE_PT = 12, LABEL_ROW_PT = 20;
 /// Parts of the picture: height of the bar, widest text.
 static const double BAR_PART = 0.6, TEXT_PART = 0.4;
@@ -27,14 +27,14 @@ static void draw_framed(const ewa_layout *layout, const ewa_inks *inks, const ew
 }
 
 /// Label and unit in one text that fits; empty when there is none, or no room.
-static void write_label(const ewa_layout *layout, double height_px, double most_px,
+static void write_label(const ewa_layout *layout, double height_px, double max_px,
                         char label[EWA_LAYOUT_TEXT_BYTES]) {
     const ewa_furniture_options *options = layout->options;
     const char *name = options->color_label ? options->color_label : "";
     const char *unit = options->color_unit ? options->color_unit : "";
     char whole[EWA_LAYOUT_TEXT_BYTES];
     snprintf(whole, sizeof whole, unit[0] ? "%s%s[%s]" : "%s", name, name[0] ? " " : "", unit);
-    if (!ewa_layout_shorten(whole, height_px, most_px, label)) label[0] = 0;
+    if (!ewa_layout_shorten(whole, height_px, max_px, label)) label[0] = 0;
 }
 
 /// Draws the label above a block that begins at (left, top); no farther right than the room.
@@ -65,9 +65,9 @@ static void write_tick(const ewa_layout *layout, const bar_scale *scale, int64_t
 static bool find_scale(const ewa_layout *layout, double height_pt, bar_scale *scale) {
     const double *range = layout->options->range;
     *scale = (bar_scale){.single = range[0] == range[1]};
-    const uint32_t most = (uint32_t)fmax(1, floor(height_pt / TICK_STEP_PT));
+    const uint32_t maximum = (uint32_t)fmax(1, floor(height_pt / TICK_STEP_PT));
     if (!scale->single &&
-        !ewa_ticks_find(fmin(range[0], range[1]), fmax(range[0], range[1]), most, &scale->ticks))
+        !ewa_ticks_find(fmin(range[0], range[1]), fmax(range[0], range[1]), maximum, &scale->ticks))
         return false;
     for (int64_t k = scale->ticks.first; k <= scale->ticks.last; k++) {
         char text[EWA_DECIMAL_BYTES];
@@ -106,9 +106,9 @@ void ewa_color_bar_draw(const ewa_layout *layout) {
         layout->options->color_label || layout->options->color_unit ? LABEL_ROW_PT * point : 0;
     // Half a text stands above and below the bar, where its ends have ticks.
     const double tall = room->bottom - room->top - label_px - text_px;
-    const double height = floor(fmin(fmin(tall, BAR_PART * layout->canvas->height_px), BAR_MOST_PT * point));
+    const double height = floor(fmin(fmin(tall, BAR_PART * layout->canvas->height_px), BAR_MAX_PT * point));
     bar_scale scale;
-    if (height < BAR_LEAST_PT * point || !find_scale(layout, height / point, &scale)) return;
+    if (height < BAR_MIN_PT * point || !find_scale(layout, height / point, &scale)) return;
     const double beside = (TICK_PT + BESIDE_PT) * point + scale.widest_px;
     const double right = floor(room->right - beside), left = right - floor(BAR_WIDTH_PT * point);
     const double top = floor(room->top + label_px + text_px / 2 + (tall - height) / 2);
@@ -131,7 +131,7 @@ void ewa_color_bar_draw(const ewa_layout *layout) {
 }
 
 /// Writes the text of row `index` of a legend of `row_count`, as far as it fits; the last one may count the rest.
-static void write_row(const ewa_layout *layout, uint32_t index, uint32_t row_count, double most_px,
+static void write_row(const ewa_layout *layout, uint32_t index, uint32_t row_count, double max_px,
                       char text[EWA_LAYOUT_TEXT_BYTES]) {
     const ewa_furniture_options *options = layout->options;
     const ewa_category *category = &options->categories[index];
@@ -147,7 +147,7 @@ static void write_row(const ewa_layout *layout, uint32_t index, uint32_t row_cou
             snprintf(number, sizeof number, "no number");
         name = number;
     }
-    if (!ewa_layout_shorten(name, EWA_TEXT_PT * layout->point_px, most_px, text)) text[0] = 0;
+    if (!ewa_layout_shorten(name, EWA_TEXT_PT * layout->point_px, max_px, text)) text[0] = 0;
 }
 
 void ewa_legend_draw(const ewa_layout *layout) {
@@ -160,11 +160,11 @@ void ewa_legend_draw(const ewa_layout *layout) {
     const double fitting = floor(tall / row_px);
     const uint32_t row_count =
         fitting < options->category_count ? (uint32_t)fitting : options->category_count;
-    const double most_px = TEXT_PART * layout->canvas->width_px - (SQUARE_PT + BESIDE_PT) * point;
+    const double max_px = TEXT_PART * layout->canvas->width_px - (SQUARE_PT + BESIDE_PT) * point;
     char text[EWA_LAYOUT_TEXT_BYTES];
     double widest_px = 0;
     for (uint32_t i = 0; i < row_count; i++) {
-        write_row(layout, i, row_count, most_px, text);
+        write_row(layout, i, row_count, max_px, text);
         widest_px = fmax(widest_px, ewa_text_width_px(text, text_px));
     }
     if (widest_px == 0) return;
@@ -182,7 +182,7 @@ void ewa_legend_draw(const ewa_layout *layout) {
         if (!rest) draw_framed(layout, &inks, &square);
         if (!rest)
             ewa_draw_rectangle(layout->canvas, square.left, square.top, square.right, square.bottom, rgba);
-        write_row(layout, i, row_count, most_px, text);
+        write_row(layout, i, row_count, max_px, text);
         ewa_draw_text(layout->canvas, text, square.right + BESIDE_PT * point, y + square_px / 2, &style);
     }
     write_label(layout, text_px, TEXT_PART * layout->canvas->width_px, text);

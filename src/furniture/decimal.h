@@ -26,9 +26,9 @@ void ewa_decimal_write(ewa_decimal number, char text[EWA_DECIMAL_BYTES]);
 /// the point.
 ewa_decimal ewa_decimal_near(double value);
 
-/// Gives the largest of 1, 2 and 5 times a power of ten that is at most `most`; false unless that is positive, finite
-/// and at least 1e-290.
-bool ewa_decimal_nice(double most, ewa_decimal *nice);
+/// Gives the largest of 1, 2 and 5 times a power of ten that is at most `maximum`; false unless that is
+/// positive, finite and at least 1e-290.
+bool ewa_decimal_nice(double maximum, ewa_decimal *nice);
 
 /// Multiples of a step of 1, 2 or 5 times a power of ten: step * first to step * last.
 typedef struct ewa_ticks {
@@ -36,10 +36,10 @@ typedef struct ewa_ticks {
     int64_t first, last;
 } ewa_ticks;
 
-/// Gives the ticks within [low, high]: steps so small that there are at most `most` >= 1 of them between the ends.
-/// False when there is none, an end is not finite, or the ends are too near to each other to be told apart in so few
-/// digits.
-bool ewa_ticks_find(double low, double high, uint32_t most, ewa_ticks *ticks);
+/// Gives the ticks within [low, high]: steps so small that there are at most `maximum` >= 1 of them between
+/// the ends. False when there is none, an end is not finite, or the ends are too near to each other to be
+/// told apart in so few digits.
+bool ewa_ticks_find(double low, double high, uint32_t maximum, ewa_ticks *ticks);
 
 /// Number `index` of the ticks, counted as their first and last are.
 ewa_decimal ewa_ticks_at(const ewa_ticks *ticks, int64_t index);

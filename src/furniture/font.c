@@ -176,14 +176,14 @@ uint32_t ewa_font_next(const char **text) {
     const unsigned char *bytes = (const unsigned char *)*text;
     if (!bytes[0]) return 0;
     const uint32_t length = bytes[0] < 0x80 ? 1 : bytes[0] < 0xe0 ? 2 : bytes[0] < 0xf0 ? 3 : 4;
-    static const uint32_t least[] = {0, 0x80, 0x800, 0x10000};
+    static const uint32_t minimum[] = {0, 0x80, 0x800, 0x10000};
     uint32_t code = length == 1 ? bytes[0] : bytes[0] & (0x7fu >> length);
     bool fine = length == 1 || (bytes[0] >= 0xc0 && bytes[0] <= 0xf4);
     for (uint32_t i = 1; i < length && fine; i++) {
         fine = (bytes[i] & 0xc0) == 0x80; // the zero at the end is none either
         code = code << 6 | (bytes[i] & 0x3fu);
     }
-    fine = fine && code >= least[length - 1] && code <= 0x10ffff && !(code >= 0xd800 && code < 0xe000);
+    fine = fine && code >= minimum[length - 1] && code <= 0x10ffff && !(code >= 0xd800 && code < 0xe000);
     *text += fine ? length : 1;
     return fine ? code : UINT32_MAX;
 }

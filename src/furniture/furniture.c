@@ -11,13 +11,13 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { MOST_SIDE_PX = 65536, MOST_CATEGORIES = 65536 };
+enum { MAX_SIDE_PX = 65536, MAX_CATEGORIES = 65536 };
 
 /// Points of the picture's smaller side, and pixels per point, where no one says how large a point is.
-static const double SIDE_PT = 720, LEAST_POINT_PX = 0.84;
+static const double SIDE_PT = 720, MIN_POINT_PX = 0.84;
 /// Sizes in points.
 static const double ARM_PT = 30, LETTER_PT = 12, LETTER_OFF_PT = 9, AXIS_PT = 2;
-static const double SCALE_MOST_PT = 180, SCALE_LEAST_PT = 20, SCALE_THICK_PT = 2, SCALE_END_PT = 7,
+static const double SCALE_MAX_PT = 180, SCALE_MIN_PT = 20, SCALE_THICK_PT = 2, SCALE_END_PT = 7,
                     SCALE_OFF_PT = 6;
 /// Part of the picture's width that the scale bar takes at most.
 static const double SCALE_PART = 0.25;
@@ -40,7 +40,7 @@ static const ewa_option option_rows[] = {
      .help = "colours of the colour bar"},
     {"range", EWA_OPTION_F64, AT(range), -INFINITY, INFINITY, EWA_OPTION_ABOVE | EWA_OPTION_BELOW, .count = 2,
      .initials = whole_range, .help = "numbers of the first and the last colour"},
-    {"category_count", EWA_OPTION_U32, AT(category_count), 0, MOST_CATEGORIES,
+    {"category_count", EWA_OPTION_U32, AT(category_count), 0, MAX_CATEGORIES,
      .help = "rows of a legend in place of the colour bar"},
     {"pixel_scale", EWA_OPTION_F64, AT(pixel_scale), 0, 100, .unit = "px",
      .help =
@@ -150,14 +150,14 @@ enum { LENGTH_BYTES = 128 };
 /// Writes a length with its unit; metres as the word that suits them.
 static void write_length(ewa_decimal length, const char *unit, char text[LENGTH_BYTES]) {
     static const struct {
-        double least;
+        double minimum;
         const char *unit;
         int exponent;
     } words[] = {{1e3, "km", 3}, {1, "m", 0}, {1e-2, "cm", -2}, {1e-3, "mm", -3}, {0, "µm", -6}};
     if (unit && strcmp(unit, "m") == 0) {
         size_t k = 0;
         // A little less, because values are rounded.
-        while (ewa_decimal_value(length) < words[k].least * (1 - 1e-9)) k++;
+        while (ewa_decimal_value(length) < words[k].minimum * (1 - 1e-9)) k++;
         length.exponent -= words[k].exponent;
         unit = words[k].unit;
     }
@@ -178,9 +178,9 @@ static ewa_decimal round_length(double length) {
 static void draw_scale_bar(ewa_layout *layout, const ewa_camera *camera, double left_px) {
     const double point = layout->point_px, margin = EWA_MARGIN_PT * point, text_px = EWA_TEXT_PT * point;
     const double per_world = find_scale(layout, camera);
-    const double most_px = fmin(SCALE_PART * layout->canvas->width_px, SCALE_MOST_PT * point);
+    const double max_px = fmin(SCALE_PART * layout->canvas->width_px, SCALE_MAX_PT * point);
     ewa_decimal length;
-    if (!(per_world > 0) || !ewa_decimal_nice(most_px / per_world, &length)) return;
+    if (!(per_world > 0) || !ewa_decimal_nice(max_px / per_world, &length)) return;
     const double width = ewa_decimal_value(length) * per_world;
     char text[2 * LENGTH_BYTES + 8], away[LENGTH_BYTES];
     write_length(length, layout->options->unit, text);
@@ -192,7 +192,7 @@ static void draw_scale_bar(ewa_layout *layout, const ewa_camera *camera, double 
     const double right = floor(layout->canvas->width_px - margin),
                  bottom = floor(layout->canvas->height_px - margin);
     const double end_px = floor(SCALE_END_PT * point), top = bottom - end_px - SCALE_OFF_PT * point - text_px;
-    if (width < SCALE_LEAST_PT * point || right - wide < left_px + margin ||
+    if (width < SCALE_MIN_PT * point || right - wide < left_px + margin ||
         top < layout->canvas->height_px / 2.0)
         return;
     const ewa_inks inks = ewa_layout_inks(layout, &(ewa_box){right - wide, top, right, bottom});
@@ -228,17 +228,16 @@ ewa_status ewa_furniture_draw(ewa_context *context, const ewa_camera *camera,
     if (!camera || !canvas || !canvas->rgba8)
         return ewa_fail(context, EWA_ERROR_ARGUMENT, "ewa_furniture_draw: no camera, or no canvas");
     const uint32_t width = canvas->width_px, height = canvas->height_px;
-    if (width < 1 || height < 1 || width > MOST_SIDE_PX || height > MOST_SIDE_PX)
+    if (width < 1 || height < 1 || width > MAX_SIDE_PX || height > MAX_SIDE_PX)
         return ewa_fail(context, EWA_ERROR_ARGUMENT,
                         "ewa_furniture_draw: the canvas has %u x %u pixels, allowed are 1 to %d", width,
-                        height, MOST_SIDE_PX);
+                        height, MAX_SIDE_PX);
     ewa_furniture_options chosen;
     ewa_status status = take_options(context, options, &chosen);
     if (status == EWA_OK) status = ewa_camera_check(context, camera);
     if (status != EWA_OK) return status;
     const double smaller = width < height ? width : height;
-    const double point =
-        chosen.pixel_scale > 0 ? chosen.pixel_scale : fmax(smaller / SIDE_PT, LEAST_POINT_PX);
+    const double point = chosen.pixel_scale > 0 ? chosen.pixel_scale : fmax(smaller / SIDE_PT, MIN_POINT_PX);
     const double margin = floor(EWA_MARGIN_PT * point);
     ewa_layout layout = {.canvas = canvas,
                          .options = &chosen,

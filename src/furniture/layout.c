@@ -58,23 +58,23 @@ ewa_text_style ewa_layout_style(const ewa_layout *layout, const ewa_inks *inks, 
     return style;
 }
 
-bool ewa_layout_shorten(const char *text, double height_px, double most_px,
+bool ewa_layout_shorten(const char *text, double height_px, double max_px,
                         char fitting[EWA_LAYOUT_TEXT_BYTES]) {
     static const char dots[] = "...";
     const double dots_px = ewa_text_width_px(dots, height_px);
     // The longest beginning that leaves room for the dots, and whether all of it needs none.
     const char *at = text, *cut = text;
     double width_px = 0;
-    while (*at && width_px <= most_px && at - text < EWA_LAYOUT_TEXT_BYTES - 8) {
+    while (*at && width_px <= max_px && at - text < EWA_LAYOUT_TEXT_BYTES - 8) {
         char one[5] = "";
         const char *next = at;
         ewa_font_next(&next);
         memcpy(one, at, (size_t)(next - at));
         width_px += ewa_text_width_px(one, height_px);
         at = next;
-        if (width_px + dots_px <= most_px) cut = at;
+        if (width_px + dots_px <= max_px) cut = at;
     }
-    if (!*at && width_px <= most_px) {
+    if (!*at && width_px <= max_px) {
         memcpy(fitting, text, (size_t)(at - text) + 1);
         return at > text;
     }

@@ -39,9 +39,9 @@ ewa_text_style ewa_layout_style(const ewa_layout *layout, const ewa_inks *inks, 
 
 enum { EWA_LAYOUT_TEXT_BYTES = 512 };
 
-/// Copies a text, shortened by "..." in place of its end until it is at most `most_px` wide; false when not even one
-/// character and the dots have room.
-bool ewa_layout_shorten(const char *text, double height_px, double most_px,
+/// Copies a text, shortened by "..." in place of its end until it is at most `max_px` wide; false when not
+/// even one character and the dots have room.
+bool ewa_layout_shorten(const char *text, double height_px, double max_px,
                         char fitting[EWA_LAYOUT_TEXT_BYTES]);
 
 /// Draws the colour bar, or the legend of categories, at the right of the room.

@@ -12,7 +12,7 @@
 #include <string.h>
 
 /// Limits of ewa_text_style.height_px.
-static const double LEAST_HEIGHT_PX = 4, MOST_HEIGHT_PX = 1000;
+static const double MIN_HEIGHT_PX = 4, MAX_HEIGHT_PX = 1000;
 /// Width of a stroke, and the room between two letters, as parts of the height.
 static const double STROKE_PART = 0.085, GAP_PART = 0.13;
 /// Thinner strokes have whole pixels: part of a pixel more would make them grey rather than thicker.
@@ -26,7 +26,7 @@ static const double BELOW_PART = 0.35, ABOVE_PART = 1;
 /// How far marks may reach beyond the sides of their letters.
 static const double MARK_PART = 0.15;
 /// Widest rim, as part of the height.
-static const double MOST_HALO_PART = 1;
+static const double MAX_HALO_PART = 1;
 
 enum { TILE = 64, ARC_STEPS = 8 };
 
@@ -43,7 +43,7 @@ static int nearest(double number) { return (int)floor(number + 0.5); }
 
 /// False for a height that there is no type of.
 static bool find_size(double height_px, type_size *size) {
-    if (!(height_px >= LEAST_HEIGHT_PX && height_px <= MOST_HEIGHT_PX)) return false;
+    if (!(height_px >= MIN_HEIGHT_PX && height_px <= MAX_HEIGHT_PX)) return false;
     const double thick_px = STROKE_PART * height_px;
     const double stroke_px = thick_px < WHOLE_STROKES_PX ? fmax(1, nearest(thick_px)) : thick_px;
     *size = (type_size){.grid_px = (CAPITAL_PART * height_px - stroke_px) / CAPITAL_GRID,
@@ -268,7 +268,7 @@ void ewa_draw_text(const ewa_canvas *canvas, const char *text, double x_px, doub
     const int across = (int)style->anchor % 3, down = (int)style->anchor / 3;
     const int left_px = nearest(x_px - width_px * across / 2);
     const int baseline_px = nearest(y_px + (down == 1 ? capital_px / 2 : down == 2 ? capital_px : 0));
-    const double halo_px = style->halo_px > 0 ? fmin(style->halo_px, MOST_HALO_PART * height_px) : 0;
+    const double halo_px = style->halo_px > 0 ? fmin(style->halo_px, MAX_HALO_PART * height_px) : 0;
     tile work = {.reach_px = size.radius_px + halo_px + 1};
     const int top = ewa_canvas_clip(baseline_px - ABOVE_PART * height_px - work.reach_px, canvas->height_px);
     const int bottom =

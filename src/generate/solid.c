@@ -187,17 +187,17 @@ static bool cut_by_quadrants(const bool face[2][2], const grid_node *u, const gr
 /// How far a node of a face is outside of the nearest hole through it (negative inside), and that hole.
 static double distance_from_holes(const solid_job *job, int axis, const grid_node *u, const grid_node *v,
                                   const ewa_solid_hole **nearest) {
-    double least = INFINITY;
+    double minimum = INFINITY;
     for (uint32_t h = 0; h < job->shape->hole_count; h++) {
         const ewa_solid_hole *hole = &job->shape->holes[h];
         if (hole->axis != axis) continue;
         const double du = u->at - hole->center[0], dv = v->at - hole->center[1];
         const double outside = sqrt(du * du + dv * dv) - hole->radius;
-        if (outside >= least) continue;
-        least = outside;
+        if (outside >= minimum) continue;
+        minimum = outside;
         *nearest = hole;
     }
-    return least;
+    return minimum;
 }
 
 /// The line along the tangent of a hole at the place nearest to a node.

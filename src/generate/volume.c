@@ -25,7 +25,7 @@ static const double BOX_HALF = 0.375, BLOB_DEVIATION = 0.1, BALL_RADIUS = 0.4;
 static const double TRUNK_RADIUS = 1.0 / 40, TRUNK_LENGTH = 0.26, RADIUS_RATIO = 0.795, LENGTH_RATIO = 0.8;
 
 /// Radius in voxels below which a tube is drawn this wide, and fainter instead, so that it has no gaps.
-static const double LEAST_RADIUS = 0.9;
+static const double MIN_RADIUS = 0.9;
 
 /// A tube between two places, thinner towards its end; lengths in units of the size.
 typedef struct tube {
@@ -138,9 +138,9 @@ static bool find_voxels(const generator *job, int axis, double a, double b, doub
     return true;
 }
 
-/// Raises a voxel to what a tube has there: 255 in its middle, falling as a parabola. `least_radius`: see
-/// LEAST_RADIUS.
-static void raise_voxel(const tube *t, double least_radius, const double p[3], uint8_t *voxel) {
+/// Raises a voxel to what a tube has there: 255 in its middle, falling as a parabola. `min_radius`: see
+/// MIN_RADIUS.
+static void raise_voxel(const tube *t, double min_radius, const double p[3], uint8_t *voxel) {
     double from[3], along = 0, distance2 = 0;
     for (int k = 0; k < 3; k++) {
         from[k] = p[k] - t->from[k];
@@ -148,7 +148,7 @@ static void raise_voxel(const tube *t, double least_radius, const double p[3], u
     }
     along = along < 0 ? 0 : along > t->length ? t->length : along;
     const double true_radius = t->radius * (1 + (RADIUS_RATIO - 1) * along / t->length);
-    const double radius = true_radius > least_radius ? true_radius : least_radius;
+    const double radius = true_radius > min_radius ? true_radius : min_radius;
     const double share = true_radius / radius;
     for (int k = 0; k < 3; k++) {
         const double off = from[k] - along * t->along[k];
@@ -160,8 +160,8 @@ static void raise_voxel(const tube *t, double least_radius, const double p[3], u
 
 static void draw_tube(const generator *job, const tube *t) {
     uint32_t x[2], y[2], z[2];
-    const double least_radius = LEAST_RADIUS * job->step;
-    const double reach = t->radius > least_radius ? t->radius : least_radius;
+    const double min_radius = MIN_RADIUS * job->step;
+    const double reach = t->radius > min_radius ? t->radius : min_radius;
     double end[3], p[3];
     for (int k = 0; k < 3; k++) end[k] = t->from[k] + t->length * t->along[k];
     if (!find_voxels(job, 0, t->from[0], end[0], reach, x) ||
@@ -176,7 +176,7 @@ static void draw_tube(const generator *job, const tube *t) {
                 p[0] = job->first[0] + i * job->step;
                 p[1] = job->first[1] + j * job->step;
                 p[2] = job->first[2] + k * job->step;
-                raise_voxel(t, least_radius, p, voxels + ((size_t)k * dims[1] + j) * dims[0] + i);
+                raise_voxel(t, min_radius, p, voxels + ((size_t)k * dims[1] + j) * dims[0] + i);
             }
 }
 

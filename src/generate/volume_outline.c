@@ -45,7 +45,7 @@ static void make_visibility(const ewa_volume *volume, const ewa_transfer *transf
         shortest = fmin(shortest, step);
     }
     const double unit = transfer->unit_length_world > 0 ? transfer->unit_length_world : shortest;
-    const double least = UNSEEN / (longest / unit);
+    const double minimum = UNSEEN / (longest / unit);
     const ewa_transfer_point *points = transfer->points;
     const uint32_t last = transfer->point_count - 1;
     const double low = points[0].value, high = points[last].value;
@@ -58,7 +58,7 @@ static void make_visibility(const ewa_volume *volume, const ewa_transfer *transf
         const double width = points[at + 1].value - points[at].value;
         const double t = width > 0 ? fmin((value - points[at].value) / width, 1) : 1;
         made->table[i] =
-            (1 - t) * (double)points[at].extinction + t * (double)points[at + 1].extinction > least;
+            (1 - t) * (double)points[at].extinction + t * (double)points[at + 1].extinction > minimum;
     }
 }
 

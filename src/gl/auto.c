@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// The processor and the compute road beside each other: both draw the first frames of a scene, the faster the others. They
-// draw the same bytes, so that nobody sees which it was. Whatever the device fails to draw, the processor draws.
+// The processor and the compute pipeline beside each other: both draw the first frames of a scene, the faster
+// the others. They draw the same bytes, so that nobody sees which it was. Whatever the device fails to draw,
+// the processor draws.
 #include "base/context.h"
 #include "gl/backends.h"
 #include "gl/compute.h"

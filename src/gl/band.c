@@ -180,21 +180,21 @@ ewa_status ewa_gl_band_answer(ewa_context *context, ewa_gl_band *band, const ewa
     return EWA_OK;
 }
 
-/// Appends the units of a range, `most` of its items to each.
+/// Appends the units of a range, `maximum` of its items to each.
 static ewa_status append_units(ewa_context *context, ewa_gl_band *band, uint32_t tile, uint32_t first,
-                               uint32_t end, uint32_t near, uint32_t most) {
-    const uint32_t count = (end - first + most - 1) / most;
+                               uint32_t end, uint32_t near, uint32_t maximum) {
+    const uint32_t count = (end - first + maximum - 1) / maximum;
     const ewa_status status = ewa_buffer_grow(context, &band->units, band->unit_count,
                                               (size_t)band->unit_count + count, sizeof(ewa_gl_unit));
     if (status != EWA_OK) return status;
     ewa_gl_unit *units = band->units.data;
-    for (uint32_t at = first; at < end; at += most)
-        units[band->unit_count++] = (ewa_gl_unit){tile, at, end - at < most ? end : at + most, near};
+    for (uint32_t at = first; at < end; at += maximum)
+        units[band->unit_count++] = (ewa_gl_unit){tile, at, end - at < maximum ? end : at + maximum, near};
     return EWA_OK;
 }
 
 ewa_status ewa_gl_band_divide(ewa_context *context, ewa_gl_band *band, const ewa_tile_job *job,
-                              uint32_t most) {
+                              uint32_t maximum) {
     ewa_status status = ewa_buffer_reserve(context, &band->starts, band->tile_count, sizeof(uint32_t));
     const uint32_t *counts = band->counts.data, *near_starts = band->near_starts.data;
     uint32_t *starts = band->starts.data;
@@ -206,13 +206,13 @@ ewa_status ewa_gl_band_divide(ewa_context *context, ewa_gl_band *band, const ewa
         if (band->list_count > UINT32_MAX)
             return ewa_fail(context, EWA_ERROR_LIMIT, "OpenGL: more than %u splats in the tiles of a band",
                             UINT32_MAX);
-        status = append_units(context, band, tile, starts[tile], (uint32_t)band->list_count, 0, most);
+        status = append_units(context, band, tile, starts[tile], (uint32_t)band->list_count, 0, maximum);
         if (status != EWA_OK || !band->near_count) continue;
         const uint32_t x_px = tile % band->tiles_per_row * band->tile_px,
                        y_px = tile / band->tiles_per_row * band->tile_px;
         const uint32_t field = y_px / EWA_FIELD_PX * job->tiles.columns + x_px / EWA_FIELD_PX;
         status = append_units(context, band, tile, near_starts[field],
-                              near_starts[field_count(band, job) + field], 1, most);
+                              near_starts[field_count(band, job) + field], 1, maximum);
     }
     return status;
 }

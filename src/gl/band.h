@@ -47,10 +47,11 @@ ewa_status ewa_gl_band_start(ewa_context *context, ewa_gl_band *band, const ewa_
 /// Makes the near records and clip lines that band->masks ask for, after the set-up. Errors: EWA_ERROR_MEMORY.
 ewa_status ewa_gl_band_answer(ewa_context *context, ewa_gl_band *band, const ewa_tile_job *job);
 
-/// Makes units of at most `most` splats of the tiles, whose counts are band->counts, and sets where their lists start.
+/// Makes units of at most `maximum` splats of the tiles, whose counts are band->counts, and sets where their
+/// lists start.
 /// Errors: EWA_ERROR_MEMORY.
 ewa_status ewa_gl_band_divide(ewa_context *context, ewa_gl_band *band, const ewa_tile_job *job,
-                              uint32_t most);
+                              uint32_t maximum);
 
 void ewa_gl_band_free(ewa_context *context, ewa_gl_band *band);
 

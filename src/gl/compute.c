@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// The road as compute programs: the order of a frame's stages, in bands of rows that fit the device. Every sum and every
-// rounding is that of src/surface, so that a device that keeps them draws the same bytes. Reference:
-// src/reference/surface.c.
+// The pipeline as compute programs: the order of a frame's stages, in bands of rows that fit the device.
+// Every sum and every rounding is that of src/surface, so that a device that keeps them draws the same bytes.
+// Reference: src/reference/surface.c.
 #include "gl/compute.h"
 #include "gl/backends.h"
 #include "gl/tuning.h"
@@ -56,7 +56,7 @@ ewa_status ewa_gl_compute_create(ewa_context *context, void **state) {
     ewa_gl_compute *made = ewa_allocate_zeroed(context, 1, sizeof *made);
     if (!made) return EWA_ERROR_MEMORY;
     made->context = context;
-    made->room.dome.kernels = EWA_CHOOSE(ewa_context_cpu_features(context), ewa_road_kernels);
+    made->room.eye_dome.kernels = EWA_CHOOSE(ewa_context_cpu_features(context), ewa_pipeline_kernels);
     made->tile_px = (uint32_t)ewa_gl_tuning("tile_px", DEFAULT_TILE_PX);
     made->unit_splats = (uint32_t)ewa_gl_tuning("unit", DEFAULT_UNIT);
     made->residents.page_packets = (uint32_t)ewa_gl_tuning("page", 0);
@@ -108,11 +108,11 @@ static void set_pair(GLuint program, const char *name, uint32_t x, uint32_t y) {
 /// Runs a program in groups, as many at a time as the device takes; `first` is told where each time begins.
 static void dispatch(const ewa_gl_compute *gl, GLuint program, const char *first, uint32_t step,
                      uint32_t from, uint32_t group_count) {
-    const uint32_t most = gl->device->facts.group_count;
+    const uint32_t maximum = gl->device->facts.group_count;
     glUseProgram(program);
-    for (uint32_t done = 0; done < group_count; done += most) {
+    for (uint32_t done = 0; done < group_count; done += maximum) {
         set_uint(program, first, from + done * step);
-        glDispatchCompute(group_count - done < most ? group_count - done : most, 1, 1);
+        glDispatchCompute(group_count - done < maximum ? group_count - done : maximum, 1, 1);
     }
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
 }
@@ -242,7 +242,7 @@ static ewa_status reserve_planes(ewa_gl_compute *gl, const ewa_tile_job *job) {
                  {EWA_GL_PASSED, pixels, false, 0},
                  {EWA_GL_OPEN, (uint64_t)band->tile_count + COUNTERS, true, 0},
                  {EWA_GL_SUM_WORDS, channels * sum_words(job) * pixels, true, 0},
-                 {EWA_GL_TURNED, channels * sum_words(job) * pixels, true, 0},
+                 {EWA_GL_BACK_FACING, channels * sum_words(job) * pixels, true, 0},
                  {EWA_GL_CUT, cut_words, true, 0},
                  {EWA_GL_SETTLED, channels * pixels, false, 0},
                  {EWA_GL_BEHIND, 8 * pixels, false, 0},
@@ -269,7 +269,7 @@ static ewa_status gather(ewa_gl_compute *gl, const ewa_tile_job *job, bool behin
     bind(gl, 0, EWA_GL_VIEWS), bind(gl, 1, EWA_GL_NEAREST), bind(gl, 2, EWA_GL_PASSED),
         bind(gl, 3, EWA_GL_OPEN);
     bind(gl, 4, EWA_GL_SUM_WORDS), bind(gl, 5, EWA_GL_RECORDS), bind(gl, 6, EWA_GL_LIST);
-    bind(gl, 7, EWA_GL_UNITS), bind(gl, 8, EWA_GL_TURNED), bind(gl, 9, EWA_GL_CLIPS),
+    bind(gl, 7, EWA_GL_UNITS), bind(gl, 8, EWA_GL_BACK_FACING), bind(gl, 9, EWA_GL_CLIPS),
         bind(gl, 10, EWA_GL_NEARS);
     bind(gl, 11, EWA_GL_CUT), bind(gl, 12, EWA_GL_MATERIALS);
     for (int pass = whole ? EWA_GL_SUMS : EWA_GL_VISIBILITY; pass <= EWA_GL_SUMS; pass++) {
@@ -294,7 +294,7 @@ static ewa_status make_surface(ewa_gl_compute *gl, const ewa_tile_job *job, bool
     if (status != EWA_OK) return status;
     bind(gl, 0, EWA_GL_RESOLVE), bind(gl, 1, EWA_GL_NEAREST), bind(gl, 2, EWA_GL_PASSED),
         bind(gl, 3, EWA_GL_OPEN);
-    bind(gl, 4, EWA_GL_SUM_WORDS), bind(gl, 8, EWA_GL_TURNED), bind(gl, 11, EWA_GL_CUT);
+    bind(gl, 4, EWA_GL_SUM_WORDS), bind(gl, 8, EWA_GL_BACK_FACING), bind(gl, 11, EWA_GL_CUT);
     bind(gl, 13, EWA_GL_SETTLED), bind(gl, 14, EWA_GL_BEHIND), bind(gl, 15, EWA_GL_ENVIRONMENT);
     set_place(band, program);
     set_uint(program, "tile_count", band->tile_count);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// The state of the compute road.
+// The state of the compute pipeline.
 #ifndef EWA_SRC_GL_COMPUTE_H
 #define EWA_SRC_GL_COMPUTE_H
 
@@ -32,7 +32,7 @@ typedef enum ewa_gl_buffer_kind {
     EWA_GL_PASSED,
     EWA_GL_OPEN,
     EWA_GL_SUM_WORDS,
-    EWA_GL_TURNED,
+    EWA_GL_BACK_FACING,
     EWA_GL_CUT,
     EWA_GL_SETTLED,
     EWA_GL_BEHIND,
@@ -58,8 +58,8 @@ typedef struct ewa_gl_compute {
     uint32_t tile_px, unit_splats;
 } ewa_gl_compute;
 
-/// Whether a device has what the road needs, and how it calculates. Errors: EWA_ERROR_MEMORY, EWA_ERROR_UNSUPPORTED (too
-/// small, its compiler's words, or it is lost).
+/// Whether a device has what the pipeline needs, and how it calculates. Errors: EWA_ERROR_MEMORY,
+/// EWA_ERROR_UNSUPPORTED (too small, its compiler's words, or it is lost).
 ewa_status ewa_gl_try(ewa_gl *device, ewa_gl_verdict *verdict);
 
 /// As ewa_backend has them.

@@ -10,11 +10,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MOST_DEVICES = 16 };
+enum { MAX_DEVICES = 16 };
 
 /// What there is to choose from.
 typedef struct candidates {
-    EGLDisplay displays[MOST_DEVICES + 1];
+    EGLDisplay displays[MAX_DEVICES + 1];
     int count;
 } candidates;
 
@@ -33,9 +33,9 @@ static void find_displays(candidates *found) {
     found->count = 0;
     if (epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_EXT_device_enumeration") &&
         epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_EXT_platform_device")) {
-        EGLDeviceEXT devices[MOST_DEVICES];
+        EGLDeviceEXT devices[MAX_DEVICES];
         EGLint count = 0;
-        if (eglQueryDevicesEXT(MOST_DEVICES, devices, &count))
+        if (eglQueryDevicesEXT(MAX_DEVICES, devices, &count))
             for (EGLint i = 0; i < count; i++) {
                 const EGLDisplay display =
                     eglGetPlatformDisplayEXT(EGL_PLATFORM_DEVICE_EXT, devices[i], NULL);

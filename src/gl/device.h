@@ -18,7 +18,7 @@
 typedef struct ewa_gl_facts {
     char vendor[128], renderer[128], version[128];
     bool software;          ///< the processor does the work
-    bool compute;           ///< OpenGL 4.3 with what the compute road needs
+    bool compute;           ///< OpenGL 4.3 with what the compute pipeline needs
     bool with_doubles;      ///< of 64 bits in shaders
     uint64_t storage_bytes; ///< of a buffer that shaders see, at most
     uint32_t storage_count; ///< of those at a time

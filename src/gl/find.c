@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// What the device is that the compute road would draw with.
+// What the device is that the compute pipeline would draw with.
 #include "gl/backends.h"
 #include "gl/compute.h"
 

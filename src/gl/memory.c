@@ -6,8 +6,8 @@
 
 ewa_status ewa_gl_buffer_reserve(ewa_gl *device, ewa_gl_buffer *buffer, const char *what,
                                  uint64_t size_bytes) {
-    enum { LEAST_BYTES = 256 };
-    if (size_bytes < LEAST_BYTES) size_bytes = LEAST_BYTES;
+    enum { MIN_BYTES = 256 };
+    if (size_bytes < MIN_BYTES) size_bytes = MIN_BYTES;
     if (size_bytes <= buffer->size_bytes) return EWA_OK;
     if (device->facts.compute && size_bytes > device->facts.storage_bytes)
         return ewa_fail(device->context, EWA_ERROR_LIMIT,

@@ -4,13 +4,13 @@
 // Programs for the device, from pieces of source.
 #include "gl/program.h"
 
-enum { MOST_PIECES = 16, WORDS_BYTES = 1024 };
+enum { MAX_PIECES = 16, WORDS_BYTES = 1024 };
 
 static ewa_status compile(ewa_gl *device, const char *name, const ewa_gl_stage *stage, GLuint *shader) {
-    const char *sources[MOST_PIECES + 1];
+    const char *sources[MAX_PIECES + 1];
     uint32_t count = 0;
     sources[count++] = stage->head;
-    for (uint32_t i = 0; i < stage->piece_count && i < MOST_PIECES; i++) sources[count++] = stage->pieces[i];
+    for (uint32_t i = 0; i < stage->piece_count && i < MAX_PIECES; i++) sources[count++] = stage->pieces[i];
     *shader = glCreateShader(stage->kind);
     glShaderSource(*shader, (GLsizei)count, sources, NULL);
     glCompileShader(*shader);

@@ -41,7 +41,7 @@ ewa_status ewa_raster_create(ewa_context *context, void **state) {
     ewa_raster *made = ewa_allocate_zeroed(context, 1, sizeof *made);
     if (!made) return EWA_ERROR_MEMORY;
     made->context = context;
-    made->room.dome.kernels = EWA_CHOOSE(ewa_context_cpu_features(context), ewa_road_kernels);
+    made->room.eye_dome.kernels = EWA_CHOOSE(ewa_context_cpu_features(context), ewa_pipeline_kernels);
     ewa_status status = ewa_gl_open(context, &made->device);
     if (status == EWA_OK) status = ewa_gl_enter(made->device);
     if (status == EWA_OK) {
@@ -61,10 +61,10 @@ ewa_status ewa_raster_create(ewa_context *context, void **state) {
 /// What this pipeline leaves to others.
 static ewa_status check(const ewa_raster *raster, const ewa_tile_job *job) {
     ewa_context *context = raster->context;
-    const uint32_t most_px = raster->device->facts.texture_px;
-    if (job->tiles.width_px > most_px)
+    const uint32_t max_px = raster->device->facts.texture_px;
+    if (job->tiles.width_px > max_px)
         return ewa_fail(context, EWA_ERROR_UNSUPPORTED, "OpenGL: %u pixels are wider than the %u of %s",
-                        job->tiles.width_px, most_px, raster->device->facts.renderer);
+                        job->tiles.width_px, max_px, raster->device->facts.renderer);
     return EWA_OK;
 }
 
@@ -85,15 +85,15 @@ static uint32_t wanted_pictures(const ewa_tile_job *job) {
                  {EWA_PICTURE_NORMAL, normals},
                  {EWA_PICTURE_CUT, job->with_clips},
                  {EWA_PICTURE_OPACITY, job->with_opacity},
-                 {EWA_PICTURE_COLOR_TURNED, both},
-                 {EWA_PICTURE_NORMAL_TURNED, both && normals},
-                 {EWA_PICTURE_OPACITY_TURNED, both && job->with_opacity},
+                 {EWA_PICTURE_COLOR_BACK, both},
+                 {EWA_PICTURE_NORMAL_BACK, both && normals},
+                 {EWA_PICTURE_OPACITY_BACK, both && job->with_opacity},
                  {EWA_PICTURE_COMPOSED, true},
                  {EWA_PICTURE_FIRST_CUT, layered && job->with_clips},
                  {EWA_PICTURE_MATERIAL, job->with_materials},
                  {EWA_PICTURE_REFLECTION, job->with_materials},
-                 {EWA_PICTURE_MATERIAL_TURNED, both && job->with_materials},
-                 {EWA_PICTURE_REFLECTION_TURNED, both && job->with_materials},
+                 {EWA_PICTURE_MATERIAL_BACK, both && job->with_materials},
+                 {EWA_PICTURE_REFLECTION_BACK, both && job->with_materials},
                  {EWA_PICTURE_DEPTH, is_single(job)},
                  {EWA_PICTURE_PLANES, to->depth || to->normal},
                  {EWA_PICTURE_COVERAGE, to->coverage},
@@ -116,13 +116,13 @@ static ewa_status put_shading(ewa_raster *raster, const ewa_tile_job *job) {
         status = ewa_gl_buffer_put(device, &raster->material_block, "materials", blocks, sizeof blocks);
     }
     const ewa_environment *environment = job->resolve.environment;
-    if (status != EWA_OK || !environment || job->resolve.shading != EWA_ROAD_PHONG) return status;
+    if (status != EWA_OK || !environment || job->resolve.shading != EWA_PIPELINE_PHONG) return status;
     uint64_t count = 0;
     for (uint32_t i = 0; i < environment->level_count; i++)
         count += (uint64_t)environment->levels[i].width * environment->levels[i].height;
-    const uint32_t most_px = device->facts.texture_px, width = most_px < 4096 ? most_px : 4096;
+    const uint32_t max_px = device->facts.texture_px, width = max_px < 4096 ? max_px : 4096;
     const uint64_t rows = (count + width - 1) / width;
-    if (rows > most_px)
+    if (rows > max_px)
         return ewa_fail(raster->context, EWA_ERROR_LIMIT,
                         "OpenGL: an environment of %llu texels is larger than pictures of %s",
                         (unsigned long long)count, device->facts.renderer);
@@ -136,7 +136,7 @@ static ewa_status put_shading(ewa_raster *raster, const ewa_tile_job *job) {
         texels += here;
     }
     if (!raster->environment) glGenTextures(1, &raster->environment);
-    glActiveTexture(GL_TEXTURE0 + EWA_PICTURE_BESIDE);
+    glActiveTexture(GL_TEXTURE0 + EWA_PICTURE_OTHER);
     glBindTexture(GL_TEXTURE_2D, raster->environment);
     glTexImage2D(GL_TEXTURE_2D, 0, GL_RGB32F, (GLsizei)width, (GLsizei)rows, 0, GL_RGB, GL_FLOAT,
                  raster->row.data);
@@ -186,8 +186,8 @@ static void clear(const ewa_raster *raster, ewa_raster_target target, ewa_raster
 
 /// Lets programs read a target's pictures; not those that are drawn into.
 static void bind_maps(const ewa_raster *raster, uint32_t maps) {
-    for (GLuint i = 0; i <= EWA_PICTURE_REFLECTION_TURNED; i++) {
-        if (i == EWA_PICTURE_BESIDE) continue;
+    for (GLuint i = 0; i <= EWA_PICTURE_REFLECTION_BACK; i++) {
+        if (i == EWA_PICTURE_OTHER) continue;
         glActiveTexture(GL_TEXTURE0 + i);
         glBindTexture(GL_TEXTURE_2D, maps >> i & 1 ? raster->targets.pictures[i] : 0);
     }
@@ -210,17 +210,16 @@ static ewa_status gather_single(ewa_raster *raster, const ewa_tile_job *job) {
 static ewa_status gather(ewa_raster *raster, const ewa_tile_job *job, bool behind, bool whole) {
     static const ewa_raster_picture sums[] = {EWA_PICTURE_COLOR, EWA_PICTURE_NORMAL, EWA_PICTURE_CUT,
                                               EWA_PICTURE_OPACITY};
-    static const ewa_raster_picture turned_sums[] = {EWA_PICTURE_COLOR_TURNED, EWA_PICTURE_NORMAL_TURNED,
-                                                     EWA_PICTURE_CUT, EWA_PICTURE_OPACITY_TURNED};
+    static const ewa_raster_picture back_sums[] = {EWA_PICTURE_COLOR_BACK, EWA_PICTURE_NORMAL_BACK,
+                                                   EWA_PICTURE_CUT, EWA_PICTURE_OPACITY_BACK};
     clear(raster, EWA_TARGET_NEAREST, EWA_PICTURE_NEAREST, 0, (float)EWA_RASTER_NEVER);
     for (GLint i = 0; i < 2; i++) {
         clear(raster, EWA_TARGET_MATERIAL, (ewa_raster_picture)(EWA_PICTURE_MATERIAL + i), i, 0);
-        clear(raster, EWA_TARGET_MATERIAL_TURNED, (ewa_raster_picture)(EWA_PICTURE_MATERIAL_TURNED + i), i,
-              0);
+        clear(raster, EWA_TARGET_MATERIAL_BACK, (ewa_raster_picture)(EWA_PICTURE_MATERIAL_BACK + i), i, 0);
     }
     for (GLint i = 0; i < 4; i++) {
         clear(raster, EWA_TARGET_SUMS, sums[i], i, 0);
-        clear(raster, EWA_TARGET_TURNED, turned_sums[i], i, 0);
+        clear(raster, EWA_TARGET_BACK_FACING, back_sums[i], i, 0);
     }
     if (is_single(job)) return gather_single(raster, job);
     glEnable(GL_BLEND);
@@ -232,13 +231,13 @@ static ewa_status gather(ewa_raster *raster, const ewa_tile_job *job, bool behin
     glBlendEquation(GL_FUNC_ADD);
     glBlendFunc(GL_ONE, GL_ONE);
     bind_maps(raster, 1u << EWA_PICTURE_PASSED | 1u << EWA_PICTURE_NEAREST);
-    for (int turned = 0; turned < (job->view.cull_back ? 1 : 2) && status == EWA_OK; turned++) {
-        start_target(raster, turned ? EWA_TARGET_TURNED : EWA_TARGET_SUMS);
-        status = ewa_raster_draw_splats(raster, job, EWA_RASTER_SUMS, turned != 0, behind, whole);
+    for (int is_back = 0; is_back < (job->view.cull_back ? 1 : 2) && status == EWA_OK; is_back++) {
+        start_target(raster, is_back ? EWA_TARGET_BACK_FACING : EWA_TARGET_SUMS);
+        status = ewa_raster_draw_splats(raster, job, EWA_RASTER_SUMS, is_back != 0, behind, whole);
         if (status != EWA_OK || !job->with_materials) continue;
-        start_target(raster, turned ? EWA_TARGET_MATERIAL_TURNED : EWA_TARGET_MATERIAL);
+        start_target(raster, is_back ? EWA_TARGET_MATERIAL_BACK : EWA_TARGET_MATERIAL);
         glBindBufferBase(GL_UNIFORM_BUFFER, 2, raster->material_block.name);
-        status = ewa_raster_draw_splats(raster, job, EWA_RASTER_MATERIALS, turned != 0, behind, whole);
+        status = ewa_raster_draw_splats(raster, job, EWA_RASTER_MATERIALS, is_back != 0, behind, whole);
     }
     glDisable(GL_BLEND);
     return status;
@@ -257,7 +256,7 @@ static ewa_status draw_stage(ewa_raster *raster, const ewa_tile_job *job, ewa_ra
     glBindBufferBase(GL_UNIFORM_BUFFER, 1, raster->resolve_block.name);
     start_target(raster, target);
     bind_maps(raster, maps);
-    glActiveTexture(GL_TEXTURE0 + EWA_PICTURE_BESIDE);
+    glActiveTexture(GL_TEXTURE0 + EWA_PICTURE_OTHER);
     glBindTexture(GL_TEXTURE_2D, raster->environment);
     glBindVertexArray(raster->vertices);
     for (GLuint i = 0; i < EWA_RASTER_ATTRIBUTES; i++) glDisableVertexAttribArray(i);
@@ -267,9 +266,9 @@ static ewa_status draw_stage(ewa_raster *raster, const ewa_tile_job *job, ewa_ra
 
 enum {
     SUM_MAPS = 1u << EWA_PICTURE_COLOR | 1u << EWA_PICTURE_NORMAL | 1u << EWA_PICTURE_CUT |
-               1u << EWA_PICTURE_OPACITY | 1u << EWA_PICTURE_COLOR_TURNED | 1u << EWA_PICTURE_NORMAL_TURNED |
-               1u << EWA_PICTURE_OPACITY_TURNED | 1u << EWA_PICTURE_MATERIAL | 1u << EWA_PICTURE_REFLECTION |
-               1u << EWA_PICTURE_MATERIAL_TURNED | 1u << EWA_PICTURE_REFLECTION_TURNED,
+               1u << EWA_PICTURE_OPACITY | 1u << EWA_PICTURE_COLOR_BACK | 1u << EWA_PICTURE_NORMAL_BACK |
+               1u << EWA_PICTURE_OPACITY_BACK | 1u << EWA_PICTURE_MATERIAL | 1u << EWA_PICTURE_REFLECTION |
+               1u << EWA_PICTURE_MATERIAL_BACK | 1u << EWA_PICTURE_REFLECTION_BACK,
     COMPOSED_MAP = 1u << EWA_PICTURE_COMPOSED
 };
 
@@ -389,9 +388,9 @@ static ewa_status draw_band(ewa_raster *raster, const ewa_tile_job *job, uint32_
 /// Draws rows, in bands of pictures that the device can hold.
 static ewa_status draw_rows(ewa_raster *raster, const ewa_tile_job *job, uint32_t first_row_px,
                             uint32_t end_row_px, uint64_t *broken, uint64_t *surfel_count) {
-    enum { MOST_PIXELS = 1 << 22 };
+    enum { MAX_PIXELS = 1 << 22 };
     const uint32_t width_px = job->tiles.width_px, texture_px = raster->device->facts.texture_px;
-    uint32_t rows = MOST_PIXELS / width_px;
+    uint32_t rows = MAX_PIXELS / width_px;
     if (rows > texture_px) rows = texture_px;
     rows = rows < EWA_FIELD_PX ? EWA_FIELD_PX : rows / EWA_FIELD_PX * EWA_FIELD_PX;
     for (uint32_t row = first_row_px; row < end_row_px; row += rows) {

@@ -9,7 +9,7 @@
 #include <stddef.h>
 #include <string.h>
 
-enum { PAGE_PACKETS = 1 << 16, MOST_GAP = 8 };
+enum { PAGE_PACKETS = 1 << 16, MAX_GAP = 8 };
 
 static_assert(sizeof(ewa_raster_view) == 304 && sizeof(ewa_raster_view) <= EWA_RASTER_VIEW_STRIDE &&
                   sizeof(ewa_raster_resolve) == 480 + 16 * EWA_MAX_ENVIRONMENT_LEVELS &&
@@ -69,7 +69,7 @@ static void list_source(ewa_raster_band *band, const ewa_tile_source *source, ui
     for (uint32_t id = 0; id < source->surfels->packet_count; id++) {
         if (!live[id]) continue;
         const uint32_t page = id / PAGE_PACKETS, at = id % PAGE_PACKETS;
-        if (run && (run->page != page || at - (run->first + run->count) > MOST_GAP)) run = NULL;
+        if (run && (run->page != page || at - (run->first + run->count) > MAX_GAP)) run = NULL;
         if (!run) {
             run = &runs[band->run_count++];
             *run = (ewa_raster_run){.source = index, .page = page, .first = at, .record = band->packet_count};
@@ -89,16 +89,16 @@ ewa_status ewa_raster_band_start(ewa_context *context, ewa_raster_band *band, co
     band->packet_count = band->run_count = 0;
     band->surfel_count = 0;
     uint64_t packet_count = 0;
-    uint32_t most = 0;
+    uint32_t maximum = 0;
     for (uint32_t i = 0; i < job->source_count; i++) {
         const uint32_t here = job->sources[i].surfels->packet_count;
         packet_count += here;
-        most = here > most ? here : most;
+        maximum = here > maximum ? here : maximum;
     }
     if (packet_count > UINT32_MAX)
         return ewa_fail(context, EWA_ERROR_LIMIT, "OpenGL: %llu packets of surfels are more than %u",
                         (unsigned long long)packet_count, UINT32_MAX);
-    ewa_status status = ewa_buffer_reserve(context, &band->live, most, 1);
+    ewa_status status = ewa_buffer_reserve(context, &band->live, maximum, 1);
     if (status == EWA_OK)
         status = ewa_buffer_reserve(context, &band->packets, packet_count, sizeof(ewa_raster_packet));
     if (status == EWA_OK)
@@ -125,10 +125,10 @@ static void set_sections(ewa_raster_view *to, const ewa_view *from) {
             plane[3] + plane[0] * from->anchor[0] + plane[1] * from->anchor[1] + plane[2] * from->anchor[2];
         at *= (double)from->scale;
         for (int i = 0; i < 3; i++) {
-            double turned = 0;
-            for (int j = 0; j < 3; j++) turned += (double)from->rotation[3 * i + j] * plane[j];
-            to->sections[k][i] = (float)turned;
-            at -= turned * from->offset[i];
+            double is_back = 0;
+            for (int j = 0; j < 3; j++) is_back += (double)from->rotation[3 * i + j] * plane[j];
+            to->sections[k][i] = (float)is_back;
+            at -= is_back * from->offset[i];
         }
         to->sections[k][3] = (float)at;
     }

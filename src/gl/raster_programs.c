@@ -22,14 +22,14 @@ static size_t write_head(char *head) {
         {"NEVER", EWA_RASTER_NEVER},
         {"NEAR_RATIO", EWA_NEAR_RATIO},
         {"FLAT", EWA_FLAT},
-        {"LEAST_AREA", EWA_LEAST_AREA},
-        {"LEAST_SPLAT", EWA_LEAST_SPLAT},
+        {"MIN_AREA", EWA_MIN_AREA},
+        {"MIN_SPLAT", EWA_MIN_SPLAT},
         {"INVERSE_TWO_PI", EWA_INVERSE_TWO_PI},
         {"EDGE_ON", EWA_EDGE_ON},
         {"FREE_RADII", EWA_FREE_RADII},
         {"FREE_DEPTH", EWA_FREE_DEPTH},
         {"GRAZING_TOLERANCE", EWA_GRAZING_TOLERANCE},
-        {"LEAST_KEY", EWA_LEAST_KEY},
+        {"MIN_KEY", EWA_MIN_KEY},
         {"PER_CUT", 1 / EWA_CUT},
         {"EDGES_OPPOSE", EWA_EDGES_OPPOSE},
         {"EDGES_SLOPE", 1 / (EWA_EDGES_AGREE - EWA_EDGES_OPPOSE)},
@@ -37,7 +37,7 @@ static size_t write_head(char *head) {
     };
     size_t at = (size_t)snprintf(
         head, HEAD_BYTES,
-        "#version 330 core\n#define MOST_LIGHTS %d\n#define MOST_LEVELS %d\n#define MOST_MATERIALS %d\n",
+        "#version 330 core\n#define MAX_LIGHTS %d\n#define MAX_LEVELS %d\n#define MAX_MATERIALS %d\n",
         EWA_MAX_LIGHTS, EWA_MAX_ENVIRONMENT_LEVELS, EWA_MAX_MATERIALS);
     for (size_t i = 0; i < sizeof constants / sizeof constants[0]; i++)
         at += (size_t)snprintf(head + at, HEAD_BYTES - at, "const float %s = %.9e;\n", constants[i].name,
@@ -57,17 +57,17 @@ static void bind_names(GLuint program) {
                 {"normal_map", EWA_PICTURE_NORMAL},
                 {"cut_map", EWA_PICTURE_CUT},
                 {"opacity_map", EWA_PICTURE_OPACITY},
-                {"color_turned_map", EWA_PICTURE_COLOR_TURNED},
-                {"normal_turned_map", EWA_PICTURE_NORMAL_TURNED},
-                {"opacity_turned_map", EWA_PICTURE_OPACITY_TURNED},
+                {"color_back_map", EWA_PICTURE_COLOR_BACK},
+                {"normal_back_map", EWA_PICTURE_NORMAL_BACK},
+                {"opacity_back_map", EWA_PICTURE_OPACITY_BACK},
                 {"composed_map", EWA_PICTURE_COMPOSED},
                 {"first_cut_map", EWA_PICTURE_FIRST_CUT},
-                {"line_map", EWA_PICTURE_BESIDE},
-                {"environment_map", EWA_PICTURE_BESIDE},
+                {"line_map", EWA_PICTURE_OTHER},
+                {"environment_map", EWA_PICTURE_OTHER},
                 {"material_map", EWA_PICTURE_MATERIAL},
                 {"reflection_map", EWA_PICTURE_REFLECTION},
-                {"material_turned_map", EWA_PICTURE_MATERIAL_TURNED},
-                {"reflection_turned_map", EWA_PICTURE_REFLECTION_TURNED}};
+                {"material_back_map", EWA_PICTURE_MATERIAL_BACK},
+                {"reflection_back_map", EWA_PICTURE_REFLECTION_BACK}};
     for (GLuint i = 0; i < sizeof blocks / sizeof blocks[0]; i++) {
         const GLuint index = glGetUniformBlockIndex(program, blocks[i]);
         if (index != GL_INVALID_INDEX) glUniformBlockBinding(program, index, i);

@@ -57,7 +57,7 @@ static void set_attributes(const ewa_raster *raster, const ewa_tile_job *job, co
         glDisableVertexAttribArray(MATERIAL);
         glVertexAttribI4ui(MATERIAL, job->sources[run->source].surfels->material, 0, 0, 1);
     }
-    glActiveTexture(GL_TEXTURE0 + EWA_PICTURE_BESIDE);
+    glActiveTexture(GL_TEXTURE0 + EWA_PICTURE_OTHER);
     glBindTexture(GL_TEXTURE_2D, resident->lines);
     glBindBufferRange(GL_UNIFORM_BUFFER, 0, raster->view_blocks.name,
                       (GLintptr)run->source * EWA_RASTER_VIEW_STRIDE, sizeof(ewa_raster_view));
@@ -68,7 +68,7 @@ static void set_int(GLuint program, const char *name, int32_t value) {
 }
 
 ewa_status ewa_raster_draw_splats(ewa_raster *raster, const ewa_tile_job *job, ewa_raster_pass pass,
-                                  bool turned, bool behind, bool whole) {
+                                  bool is_back, bool behind, bool whole) {
     const ewa_raster_form plain = job->view.raycast ? EWA_RASTER_RAYCAST : EWA_RASTER_ELLIPSES;
     const ewa_raster_run *runs = raster->band.runs.data;
     uint64_t told = 0; // packets that the device has not been waited for
@@ -84,8 +84,8 @@ ewa_status ewa_raster_draw_splats(ewa_raster *raster, const ewa_tile_job *job, e
                                              near ? EWA_RASTER_NEAR : plain, job->with_clips, &program);
                 if (status != EWA_OK) return status;
                 glUseProgram(program);
-                set_int(program, "turned_ones",
-                        pass == EWA_RASTER_VISIBILITY || pass == EWA_RASTER_SINGLE ? -1 : turned);
+                set_int(program, "back_facing_only",
+                        pass == EWA_RASTER_VISIBILITY || pass == EWA_RASTER_SINGLE ? -1 : is_back);
                 set_int(program, "behind", behind);
                 set_int(program, "whole", whole);
                 // Nothing is nearer than 2^-24 of the scene's size.

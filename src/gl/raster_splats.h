@@ -10,6 +10,6 @@
 /// Draws the splats of the band that `turned` says: those that face the viewer, those that do not, or all
 /// (visibility). `behind`: only those beyond EWA_PICTURE_PASSED. `whole`: whatever EWA_PICTURE_NEAREST says.
 ewa_status ewa_raster_draw_splats(ewa_raster *raster, const ewa_tile_job *job, ewa_raster_pass pass,
-                                  bool turned, bool behind, bool whole);
+                                  bool is_back, bool behind, bool whole);
 
 #endif

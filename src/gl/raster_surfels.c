@@ -6,7 +6,7 @@
 
 #include <assert.h>
 
-enum { LANES = EWA_PACKET_LANES, MOST_PAGE_PACKETS = 1 << 16, LINE_TEXELS = 3, LINE_PICTURE_PX = 1536 };
+enum { LANES = EWA_PACKET_LANES, MAX_PAGE_PACKETS = 1 << 16, LINE_TEXELS = 3, LINE_PICTURE_PX = 1536 };
 
 static_assert(sizeof(ewa_raster_surfel) == 32, "as the attributes of vertices have it");
 
@@ -24,10 +24,10 @@ static void free_resident(ewa_gl *device, ewa_raster_residents *residents, ewa_r
 }
 
 /// Drops what has not been used since.
-static void drop_unused(ewa_gl *device, ewa_raster_residents *residents, uint64_t used_least) {
+static void drop_unused(ewa_gl *device, ewa_raster_residents *residents, uint64_t used_min) {
     ewa_raster_resident *items = residents->items.data;
     for (uint32_t i = residents->count; i-- > 0;) {
-        if (items[i].used >= used_least) continue;
+        if (items[i].used >= used_min) continue;
         free_resident(device, residents, &items[i]);
         items[i] = items[--residents->count];
     }
@@ -121,7 +121,7 @@ static ewa_status put_lines(ewa_gl *device, const ewa_surfels *surfels, ewa_rast
 }
 
 static ewa_status put_surfels(ewa_gl *device, ewa_raster_residents *residents, const ewa_surfels *surfels) {
-    const uint32_t page_count = (surfels->packet_count + MOST_PAGE_PACKETS - 1) / MOST_PAGE_PACKETS;
+    const uint32_t page_count = (surfels->packet_count + MAX_PAGE_PACKETS - 1) / MAX_PAGE_PACKETS;
     ewa_raster_resident made = {
         .serial = surfels->serial, .page_count = page_count, .used = residents->frame};
     ewa_status status = ewa_buffer_grow(device->context, &residents->items, residents->count,
@@ -132,9 +132,9 @@ static ewa_status put_surfels(ewa_gl *device, ewa_raster_residents *residents, c
     status = put_lines(device, surfels, &made);
     for (uint32_t i = 0; i < page_count && status == EWA_OK; i++) {
         ewa_raster_page *page = &made.pages[i];
-        const uint32_t left = surfels->packet_count - i * MOST_PAGE_PACKETS;
-        page->first = i * MOST_PAGE_PACKETS;
-        page->count = left < MOST_PAGE_PACKETS ? left : MOST_PAGE_PACKETS;
+        const uint32_t left = surfels->packet_count - i * MAX_PAGE_PACKETS;
+        page->first = i * MAX_PAGE_PACKETS;
+        page->count = left < MAX_PAGE_PACKETS ? left : MAX_PAGE_PACKETS;
         status = put_page(device, surfels, page);
         made.size_bytes += page->surfels.size_bytes + page->materials.size_bytes;
     }

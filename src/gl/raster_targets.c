@@ -4,7 +4,7 @@
 // The pictures that the paper's pipeline draws into.
 #include "gl/raster_targets.h"
 
-enum { MOST_ATTACHED = 4 }; ///< as ES 3.0 promises
+enum { MAX_ATTACHED = 4 }; ///< as ES 3.0 promises
 
 /// How a picture is kept.
 static const struct {
@@ -17,16 +17,16 @@ static const struct {
     [EWA_PICTURE_NORMAL] = {GL_RGBA32F, GL_RGBA, GL_FLOAT},
     [EWA_PICTURE_CUT] = {GL_RGBA32F, GL_RGBA, GL_FLOAT},
     [EWA_PICTURE_OPACITY] = {GL_R32F, GL_RED, GL_FLOAT},
-    [EWA_PICTURE_COLOR_TURNED] = {GL_RGBA32F, GL_RGBA, GL_FLOAT},
-    [EWA_PICTURE_NORMAL_TURNED] = {GL_RGBA32F, GL_RGBA, GL_FLOAT},
-    [EWA_PICTURE_OPACITY_TURNED] = {GL_R32F, GL_RED, GL_FLOAT},
+    [EWA_PICTURE_COLOR_BACK] = {GL_RGBA32F, GL_RGBA, GL_FLOAT},
+    [EWA_PICTURE_NORMAL_BACK] = {GL_RGBA32F, GL_RGBA, GL_FLOAT},
+    [EWA_PICTURE_OPACITY_BACK] = {GL_R32F, GL_RED, GL_FLOAT},
     [EWA_PICTURE_COMPOSED] = {GL_RGBA32F, GL_RGBA, GL_FLOAT},
     [EWA_PICTURE_FIRST_CUT] = {GL_RGBA32F, GL_RGBA, GL_FLOAT},
-    [EWA_PICTURE_BESIDE] = {0, 0, 0},
+    [EWA_PICTURE_OTHER] = {0, 0, 0},
     [EWA_PICTURE_MATERIAL] = {GL_RGBA32F, GL_RGBA, GL_FLOAT},
     [EWA_PICTURE_REFLECTION] = {GL_R32F, GL_RED, GL_FLOAT},
-    [EWA_PICTURE_MATERIAL_TURNED] = {GL_RGBA32F, GL_RGBA, GL_FLOAT},
-    [EWA_PICTURE_REFLECTION_TURNED] = {GL_R32F, GL_RED, GL_FLOAT},
+    [EWA_PICTURE_MATERIAL_BACK] = {GL_RGBA32F, GL_RGBA, GL_FLOAT},
+    [EWA_PICTURE_REFLECTION_BACK] = {GL_R32F, GL_RED, GL_FLOAT},
     [EWA_PICTURE_DEPTH] = {GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT},
     [EWA_PICTURE_PLANES] = {GL_RGBA32F, GL_RGBA, GL_FLOAT},
     [EWA_PICTURE_COVERAGE] = {GL_R32F, GL_RED, GL_FLOAT},
@@ -37,14 +37,13 @@ static const struct {
 enum { NOTHING = -1 };
 
 /// What each frame buffer has at its outputs.
-static const int attached[EWA_TARGETS][MOST_ATTACHED] = {
+static const int attached[EWA_TARGETS][MAX_ATTACHED] = {
     [EWA_TARGET_NEAREST] = {EWA_PICTURE_NEAREST, NOTHING, NOTHING, NOTHING},
     [EWA_TARGET_SUMS] = {EWA_PICTURE_COLOR, EWA_PICTURE_NORMAL, EWA_PICTURE_CUT, EWA_PICTURE_OPACITY},
-    [EWA_TARGET_TURNED] = {EWA_PICTURE_COLOR_TURNED, EWA_PICTURE_NORMAL_TURNED, EWA_PICTURE_CUT,
-                           EWA_PICTURE_OPACITY_TURNED},
+    [EWA_TARGET_BACK_FACING] = {EWA_PICTURE_COLOR_BACK, EWA_PICTURE_NORMAL_BACK, EWA_PICTURE_CUT,
+                                EWA_PICTURE_OPACITY_BACK},
     [EWA_TARGET_MATERIAL] = {EWA_PICTURE_MATERIAL, EWA_PICTURE_REFLECTION, NOTHING, NOTHING},
-    [EWA_TARGET_MATERIAL_TURNED] = {EWA_PICTURE_MATERIAL_TURNED, EWA_PICTURE_REFLECTION_TURNED, NOTHING,
-                                    NOTHING},
+    [EWA_TARGET_MATERIAL_BACK] = {EWA_PICTURE_MATERIAL_BACK, EWA_PICTURE_REFLECTION_BACK, NOTHING, NOTHING},
     [EWA_TARGET_COMPOSED] = {EWA_PICTURE_COMPOSED, NOTHING, NOTHING, NOTHING},
     [EWA_TARGET_PASSED] = {EWA_PICTURE_PASSED, NOTHING, NOTHING, NOTHING},
     [EWA_TARGET_FIRST_CUT] = {EWA_PICTURE_FIRST_CUT, NOTHING, NOTHING, NOTHING},
@@ -76,11 +75,11 @@ static ewa_status make_picture(ewa_gl *device, ewa_raster_targets *targets, int 
 
 /// Makes or remakes the frame buffer of the pictures that are there; nothing where there are none.
 static ewa_status make_target(ewa_gl *device, ewa_raster_targets *targets, int target) {
-    GLenum outputs[MOST_ATTACHED];
+    GLenum outputs[MAX_ATTACHED];
     uint32_t some = 0;
     if (!targets->targets[target]) glGenFramebuffers(1, &targets->targets[target]);
     glBindFramebuffer(GL_FRAMEBUFFER, targets->targets[target]);
-    for (uint32_t i = 0; i < MOST_ATTACHED; i++) {
+    for (uint32_t i = 0; i < MAX_ATTACHED; i++) {
         const int picture = attached[target][i];
         outputs[i] = GL_NONE;
         if (picture == NOTHING || !(targets->made >> picture & 1)) continue;
@@ -92,7 +91,7 @@ static ewa_status make_target(ewa_gl *device, ewa_raster_targets *targets, int t
     if (target == EWA_TARGET_SUMS && targets->made >> EWA_PICTURE_DEPTH & 1)
         glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D,
                                targets->pictures[EWA_PICTURE_DEPTH], 0);
-    glDrawBuffers(MOST_ATTACHED, outputs);
+    glDrawBuffers(MAX_ATTACHED, outputs);
     const GLenum state = glCheckFramebufferStatus(GL_FRAMEBUFFER);
     if (state == GL_FRAMEBUFFER_COMPLETE) return EWA_OK;
     return ewa_fail(device->context, EWA_ERROR_UNSUPPORTED,

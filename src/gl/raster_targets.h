@@ -15,16 +15,16 @@ typedef enum ewa_raster_picture {
     EWA_PICTURE_NORMAL,  ///< RGBA32F: sums of normal, depth
     EWA_PICTURE_CUT,     ///< RGBA32F: of what clip lines cut: kept weight, whole weight, direction
     EWA_PICTURE_OPACITY, ///< R32F: sums of weight times opacity
-    EWA_PICTURE_COLOR_TURNED,
-    EWA_PICTURE_NORMAL_TURNED,
-    EWA_PICTURE_OPACITY_TURNED,
+    EWA_PICTURE_COLOR_BACK,
+    EWA_PICTURE_NORMAL_BACK,
+    EWA_PICTURE_OPACITY_BACK,
     EWA_PICTURE_COMPOSED, ///< RGBA32F: premultiplied
     EWA_PICTURE_FIRST_CUT,
-    EWA_PICTURE_BESIDE,     ///< no picture of these, but where programs see clip lines or the environment
+    EWA_PICTURE_OTHER,      ///< no picture of these, but where programs see clip lines or the environment
     EWA_PICTURE_MATERIAL,   ///< RGBA32F: sums of ambient, diffuse, specular, shininess
     EWA_PICTURE_REFLECTION, ///< R32F
-    EWA_PICTURE_MATERIAL_TURNED,
-    EWA_PICTURE_REFLECTION_TURNED,
+    EWA_PICTURE_MATERIAL_BACK,
+    EWA_PICTURE_REFLECTION_BACK,
     EWA_PICTURE_DEPTH,    ///< of EWA_RASTER_SINGLE
     EWA_PICTURE_PLANES,   ///< RGBA32F: normal, depth
     EWA_PICTURE_COVERAGE, ///< R32F
@@ -37,9 +37,9 @@ typedef enum ewa_raster_picture {
 typedef enum ewa_raster_target {
     EWA_TARGET_NEAREST,
     EWA_TARGET_SUMS,
-    EWA_TARGET_TURNED, ///< with the cuts of EWA_TARGET_SUMS
+    EWA_TARGET_BACK_FACING, ///< with the cuts of EWA_TARGET_SUMS
     EWA_TARGET_MATERIAL,
-    EWA_TARGET_MATERIAL_TURNED,
+    EWA_TARGET_MATERIAL_BACK,
     EWA_TARGET_COMPOSED,
     EWA_TARGET_PASSED,
     EWA_TARGET_FIRST_CUT,

@@ -6,7 +6,7 @@
 
 #include <string.h>
 
-enum { LANES = EWA_PACKET_LANES, MOST_PAGE_PACKETS = 1 << 18 };
+enum { LANES = EWA_PACKET_LANES, MAX_PAGE_PACKETS = 1 << 18 };
 
 /// Copies that the last frame did not use are kept up to so many bytes.
 static const uint64_t KEPT_BYTES = 512ull << 20;
@@ -21,10 +21,10 @@ static void free_resident(ewa_gl *device, ewa_gl_residents *residents, ewa_gl_re
 }
 
 /// Drops what this frame has not used.
-static void drop_unused(ewa_gl *device, ewa_gl_residents *residents, uint64_t used_least) {
+static void drop_unused(ewa_gl *device, ewa_gl_residents *residents, uint64_t used_min) {
     ewa_gl_resident *items = residents->items.data;
     for (uint32_t i = residents->count; i-- > 0;) {
-        if (items[i].used >= used_least) continue;
+        if (items[i].used >= used_min) continue;
         free_resident(device, residents, &items[i]);
         items[i] = items[--residents->count];
     }
@@ -56,10 +56,10 @@ static ewa_status put_page(ewa_gl *device, const ewa_surfels *surfels, ewa_gl_pa
 }
 
 static ewa_status put_surfels(ewa_gl *device, ewa_gl_residents *residents, const ewa_surfels *surfels) {
-    uint32_t most = residents->page_packets ? residents->page_packets : MOST_PAGE_PACKETS;
+    uint32_t maximum = residents->page_packets ? residents->page_packets : MAX_PAGE_PACKETS;
     const uint64_t fit = device->facts.storage_bytes / sizeof(ewa_packet);
-    if (most > fit) most = fit ? (uint32_t)fit : 1;
-    const uint32_t page_count = (surfels->packet_count + most - 1) / most;
+    if (maximum > fit) maximum = fit ? (uint32_t)fit : 1;
+    const uint32_t page_count = (surfels->packet_count + maximum - 1) / maximum;
     ewa_gl_resident made = {.serial = surfels->serial, .page_count = page_count, .used = residents->frame};
     made.pages = ewa_allocate_zeroed(device->context, page_count, sizeof *made.pages);
     if (!made.pages) return EWA_ERROR_MEMORY;
@@ -67,8 +67,9 @@ static ewa_status put_surfels(ewa_gl *device, ewa_gl_residents *residents, const
                                         (size_t)residents->count + 1, sizeof made);
     for (uint32_t i = 0; i < page_count && status == EWA_OK; i++) {
         ewa_gl_page *page = &made.pages[i];
-        page->first = i * most;
-        page->count = surfels->packet_count - page->first < most ? surfels->packet_count - page->first : most;
+        page->first = i * maximum;
+        page->count =
+            surfels->packet_count - page->first < maximum ? surfels->packet_count - page->first : maximum;
         status = put_page(device, surfels, page);
         made.size_bytes += page->packets.size_bytes + page->attributes.size_bytes;
     }

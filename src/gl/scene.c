@@ -66,7 +66,7 @@ void ewa_gl_near_set(ewa_gl_near *to, const ewa_near_record *from, uint32_t sour
     memcpy(to->normal, from->normal, sizeof to->normal);
     to->opacity = from->opacity;
     memcpy(to->material, from->material, sizeof to->material);
-    to->flags = (from->turned ? EWA_TURNED_BIT : 0) | (from->clipped ? EWA_CLIP_BIT : 0);
+    to->flags = (from->is_back ? EWA_BACK_FACING_BIT : 0) | (from->clipped ? EWA_CLIP_BIT : 0);
     to->source = source;
     if (from->clipped) ewa_gl_clip_set(&to->clip, &from->clip);
 }

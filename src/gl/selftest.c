@@ -98,7 +98,7 @@ static bool all_agree(const trial_memory *memory, uint32_t word) {
 }
 
 /// Sets which of a device's own operations are correctly rounded. Returns what else is wrong, that nothing helps; NULL: nothing.
-static const char *judge_own(trial_memory *memory, ewa_gl_arithmetic *own) {
+static const char *evaluate_own(trial_memory *memory, ewa_gl_arithmetic *own) {
     bool doubles = true;
     for (uint32_t i = 0; i < COUNT; i++) {
         const numbers *v = &memory->inputs[i];
@@ -123,7 +123,7 @@ static wf take(const numbers *inputs, size_t member) {
 
 #define TAKE(member) take(inputs, offsetof(numbers, member))
 
-/// Names the first operation of the road that differs; NULL: none does.
+/// Names the first operation of the pipeline that differs; NULL: none does.
 static const char *find_difference(trial_memory *memory) {
     for (uint32_t i = 0; i < COUNT; i += LANES) {
         const numbers *inputs = &memory->inputs[i];
@@ -177,13 +177,13 @@ static ewa_status run(ewa_gl *device, const ewa_gl_arithmetic *arithmetic, bool 
     return status;
 }
 
-/// The device's own operations, then those that the road will use.
-static ewa_status judge(ewa_gl *device, const ewa_gl_buffer *inputs, const ewa_gl_buffer *results,
-                        trial_memory *memory, ewa_gl_verdict *verdict) {
+/// The device's own operations, then those that the pipeline will use.
+static ewa_status evaluate(ewa_gl *device, const ewa_gl_buffer *inputs, const ewa_gl_buffer *results,
+                           trial_memory *memory, ewa_gl_verdict *verdict) {
     ewa_gl_arithmetic *use = &verdict->arithmetic;
     ewa_status status = run(device, use, true, inputs, results, memory);
     if (status != EWA_OK) return status;
-    verdict->differs = judge_own(memory, &verdict->own);
+    verdict->differs = evaluate_own(memory, &verdict->own);
     *use = verdict->own;
     if (ewa_gl_tuning_is("arith", "emulated")) *use = (ewa_gl_arithmetic){false, false, false};
     if (ewa_gl_tuning_is("arith", "close")) *use = (ewa_gl_arithmetic){true, true, true};
@@ -207,7 +207,7 @@ ewa_status ewa_gl_selftest(ewa_gl *device, ewa_gl_verdict *verdict) {
         ewa_gl_buffer_put(device, &inputs, "the self-test", memory->inputs, sizeof memory->inputs);
     if (status == EWA_OK)
         status = ewa_gl_buffer_reserve(device, &results, "the self-test", sizeof memory->results);
-    if (status == EWA_OK) status = judge(device, &inputs, &results, memory, verdict);
+    if (status == EWA_OK) status = evaluate(device, &inputs, &results, memory, verdict);
     if (!device->lost) {
         ewa_gl_buffer_free(&inputs);
         ewa_gl_buffer_free(&results);

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// How a device calculates: what of its arithmetic is correctly rounded, and whether all that the road is made of gives the
-// bits of the processor.
+// How a device calculates: what of its arithmetic is correctly rounded, and whether all that the pipeline is
+// made of gives the bits of the processor.
 #ifndef EWA_SRC_GL_SELFTEST_H
 #define EWA_SRC_GL_SELFTEST_H
 

@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// The programs of the compute road. Constants go to them as bits, so that no compiler's decimals matter.
+// The programs of the compute pipeline. Constants go to them as bits, so that no compiler's decimals matter.
 #include "gl/variant.h"
 #include "gl/shaders.h"
 #include "image/environment.h"
-#include "surface/road.h"
+#include "surface/pipeline.h"
 #include "surface/semantics.h"
 
 #include <stdio.h>
@@ -18,26 +18,26 @@ size_t ewa_gl_head_write(const ewa_gl_arithmetic *arithmetic, char *head) {
         float value;
     } constants[] = {
         {"TINY", 0x1p-40f},
-        {"LEAST_NORMAL", 0x1p-126f},
-        {"LEAST_POWER", 0x1p-90f},
+        {"MIN_NORMAL", 0x1p-126f},
+        {"MIN_POWER", 0x1p-90f},
         {"ALMOST_ONE", 0x1.fffffep-1f},
         {"LARGEST", 0x1.fffffep127f},
-        {"LEAST_KEY_OF_ALL", -3e38f},
+        {"MIN_KEY_OF_ALL", -3e38f},
         {"UNIT_OCT", 1.0f / 32767.0f},
         {"UNIT_ANGLE", 1.0f / 32768.0f},
         {"UNIT_U16", 1.0f / 65535.0f},
         {"NEAR_RATIO", (float)EWA_NEAR_RATIO},
         {"RAY_LIMIT2", limit * limit},
         {"FLAT", (float)EWA_FLAT},
-        {"LEAST_AREA", (float)EWA_LEAST_AREA},
-        {"LEAST_SPLAT", (float)EWA_LEAST_SPLAT},
+        {"MIN_AREA", (float)EWA_MIN_AREA},
+        {"MIN_SPLAT", (float)EWA_MIN_SPLAT},
         {"INVERSE_TWO_PI", (float)EWA_INVERSE_TWO_PI},
         {"TWO_PI", (float)(1 / EWA_INVERSE_TWO_PI)},
         {"EDGE_ON2", (float)(EWA_EDGE_ON * EWA_EDGE_ON)},
         {"FREE_RADII", (float)EWA_FREE_RADII},
         {"FREE_DEPTH", (float)EWA_FREE_DEPTH},
         {"GRAZING_TOLERANCE", (float)EWA_GRAZING_TOLERANCE},
-        {"LEAST_KEY", (float)EWA_LEAST_KEY},
+        {"MIN_KEY", (float)EWA_MIN_KEY},
         {"TANGENT_KEY", 1 - 1 / (float)16},
         {"FINE_SCALE", 4096},
         {"FINE_UNIT", 1.0f / 4096},
@@ -48,12 +48,11 @@ size_t ewa_gl_head_write(const ewa_gl_arithmetic *arithmetic, char *head) {
         {"CURVE_OFFSET", 0.5f - 255 * 0.055f},
         {"LINE_SLOPE", 255 * 12.92f},
     };
-    size_t at =
-        (size_t)snprintf(head, EWA_GL_HEAD_BYTES,
-                         "#version 430 core\n#define FUSED %d\n#define DIVIDES %d\n#define ROOTS %d\n"
-                         "#define MOST_LIGHTS %d\n#define MOST_LEVELS %d\n#define MERGED_SURFACES %d\n",
-                         arithmetic->fused, arithmetic->divides, arithmetic->roots, EWA_MAX_LIGHTS,
-                         EWA_MAX_ENVIRONMENT_LEVELS, EWA_MERGED_SURFACES);
+    size_t at = (size_t)snprintf(head, EWA_GL_HEAD_BYTES,
+                                 "#version 430 core\n#define FUSED %d\n#define DIVIDES %d\n#define ROOTS %d\n"
+                                 "#define MAX_LIGHTS %d\n#define MAX_LEVELS %d\n#define MERGED_SURFACES %d\n",
+                                 arithmetic->fused, arithmetic->divides, arithmetic->roots, EWA_MAX_LIGHTS,
+                                 EWA_MAX_ENVIRONMENT_LEVELS, EWA_MERGED_SURFACES);
     for (size_t i = 0; i < sizeof constants / sizeof constants[0]; i++) {
         uint32_t bits;
         memcpy(&bits, &constants[i].value, sizeof bits);
@@ -112,8 +111,8 @@ ewa_status ewa_gl_variant_get(ewa_gl *device, ewa_gl_variants *variants, const e
     const ewa_status status = make(device, variants, wanted, program);
     if (status != EWA_OK) return status;
     uint32_t place = variants->count;
-    if (place == EWA_GL_MOST_VARIANTS) {
-        place = variants->oldest++ % EWA_GL_MOST_VARIANTS;
+    if (place == EWA_GL_MAX_VARIANTS) {
+        place = variants->oldest++ % EWA_GL_MAX_VARIANTS;
         glDeleteProgram(variants->programs[place]);
     } else {
         variants->count++;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// The programs of the compute road, each made when a frame first needs it.
+// The programs of the compute pipeline, each made when a frame first needs it.
 #ifndef EWA_SRC_GL_VARIANT_H
 #define EWA_SRC_GL_VARIANT_H
 
@@ -31,14 +31,14 @@ typedef struct ewa_gl_arithmetic {
     bool roots;   ///< sqrt() is
 } ewa_gl_arithmetic;
 
-enum { EWA_GL_MOST_VARIANTS = 48 };
+enum { EWA_GL_MAX_VARIANTS = 48 };
 
 /// Programs that are there. Zero-initialise, then set `arithmetic`.
 typedef struct ewa_gl_variants {
     ewa_gl_arithmetic arithmetic;
     uint32_t count, oldest;
-    ewa_gl_variant made[EWA_GL_MOST_VARIANTS];
-    GLuint programs[EWA_GL_MOST_VARIANTS];
+    ewa_gl_variant made[EWA_GL_MAX_VARIANTS];
+    GLuint programs[EWA_GL_MAX_VARIANTS];
 } ewa_gl_variants;
 
 /// Returns a program that the variants keep until many others have been asked for. Errors: as ewa_gl_program_make().
@@ -47,7 +47,7 @@ ewa_status ewa_gl_variant_get(ewa_gl *device, ewa_gl_variants *variants, const e
 
 void ewa_gl_variants_free(ewa_gl_variants *variants);
 
-/// Writes the head of a program of the road: version, arithmetic and constants, to `head` of at least
+/// Writes the head of a program of the pipeline: version, arithmetic and constants, to `head` of at least
 /// EWA_GL_HEAD_BYTES; returns how many bytes without the end.
 enum { EWA_GL_HEAD_BYTES = 4096 };
 size_t ewa_gl_head_write(const ewa_gl_arithmetic *arithmetic, char *head);

@@ -93,9 +93,9 @@ static window inner_window(double size_px, double principal_px, double focal_px,
     return (window){(0.5 * size_px - principal_px) / focal_px, (0.5 - margin) * size_px / focal_px};
 }
 
-/// The least distance of the box's middle at which a corner at (x, z) from the middle is between both sides:
-/// the sides are the planes x + middle d = (middle +- reach) (z + d).
-static double least_distance(window side, double x, double z) {
+/// The smallest distance of the box's middle at which a corner at (x, z) from the middle is between both
+/// sides: the sides are the planes x + middle d = (middle +- reach) (z + d).
+static double min_distance(window side, double x, double z) {
     const double over_high = x - (side.middle + side.reach) * z,
                  over_low = (side.middle - side.reach) * z - x;
     return fmax(over_high, over_low) / side.reach;
@@ -237,8 +237,7 @@ ewa_status ewa_camera_frame(ewa_camera *camera, const ewa_bounds *bounds, const 
         double offset[3], q[3]; // from the middle of the box, in the world and in camera axes
         for (int i = 0; i < 3; i++) offset[i] = corner >> i & 1 ? half[i] : -half[i];
         for (int i = 0; i < 3; i++) q[i] = dot(rows[i], offset);
-        distance =
-            fmax(distance, fmax(least_distance(x_side, q[0], q[2]), least_distance(y_side, q[1], q[2])));
+        distance = fmax(distance, fmax(min_distance(x_side, q[0], q[2]), min_distance(y_side, q[1], q[2])));
         nearest = fmax(nearest, -q[2]);
         x_reach = fmax(x_reach, q[0]);
         y_reach = fmax(y_reach, q[1]);
@@ -248,8 +247,8 @@ ewa_status ewa_camera_frame(ewa_camera *camera, const ewa_bounds *bounds, const 
     if (camera->projection == EWA_PERSPECTIVE) {
         distance = fmax(distance, nearest + NEAREST_PART * diagonal) * (1 + ROUNDING_SLACK);
     } else {
-        const double least_reach = THINNEST_PART * diagonal;
-        scale = fmin(x_side.reach / fmax(x_reach, least_reach), y_side.reach / fmax(y_reach, least_reach));
+        const double min_reach = THINNEST_PART * diagonal;
+        scale = fmin(x_side.reach / fmax(x_reach, min_reach), y_side.reach / fmax(y_reach, min_reach));
         scale *= 1 - ROUNDING_SLACK;
         distance = diagonal;
         framed.fx_px *= scale;

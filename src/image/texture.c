@@ -113,16 +113,16 @@ void ewa_texture_free(ewa_texture *texture) {
 }
 
 /// The smaller and the larger eigenvalue.
-static void eigenvalues(double xx, double xy, double yy, double *least, double *most) {
+static void eigenvalues(double xx, double xy, double yy, double *minimum, double *maximum) {
     const double middle = 0.5 * (xx + yy), half = sqrt(0.25 * (xx - yy) * (xx - yy) + xy * xy);
-    *most = middle + half;
-    *least = *most > 0 ? (xx * yy - xy * xy) / *most : 0;
+    *maximum = middle + half;
+    *minimum = *maximum > 0 ? (xx * yy - xy * xy) / *maximum : 0;
 }
 
 void ewa_texture_round(ewa_texture_gauss *gauss) {
-    double least, most;
-    eigenvalues(gauss->xx_px2, gauss->xy_px2, gauss->yy_px2, &least, &most);
-    const double more = (most - MAX_ASPECT2 * least) / (MAX_ASPECT2 - 1);
+    double minimum, maximum;
+    eigenvalues(gauss->xx_px2, gauss->xy_px2, gauss->yy_px2, &minimum, &maximum);
+    const double more = (maximum - MAX_ASPECT2 * minimum) / (MAX_ASPECT2 - 1);
     if (!(more > 0)) return;
     gauss->xx_px2 += more;
     gauss->yy_px2 += more;
@@ -143,9 +143,9 @@ uint32_t ewa_texture_level_of(const ewa_texture *texture, const ewa_texture_gaus
     uint32_t level = 0;
     for (; level + 1 < texture->level_count; level++) {
         const ewa_texture_gauss next = on_level(&texture->levels[level + 1], gauss);
-        double least, most;
-        eigenvalues(next.xx_px2, next.xy_px2, next.yy_px2, &least, &most);
-        if (!(least >= 1)) break;
+        double minimum, maximum;
+        eigenvalues(next.xx_px2, next.xy_px2, next.yy_px2, &minimum, &maximum);
+        if (!(minimum >= 1)) break;
     }
     return level;
 }
@@ -184,10 +184,10 @@ static void add_run(const float *row, int64_t first, int64_t last, uint32_t widt
 
 /// A side of the Gaussian that is many times the picture's needs no more: everything is under it already.
 static void bound_side(double *variance, double *mixed, uint32_t size) {
-    const double most = 4.0 * size + 16;
-    if (!(*variance > most * most)) return;
-    *mixed *= most / sqrt(*variance);
-    *variance = most * most;
+    const double maximum = 4.0 * size + 16;
+    if (!(*variance > maximum * maximum)) return;
+    *mixed *= maximum / sqrt(*variance);
+    *variance = maximum * maximum;
 }
 
 void ewa_texture_nearest(const ewa_texture *texture, double x_px, double y_px, double color[4]) {

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // A transfer function from the volume alone: what surrounds and what encloses is left out, materials that
-// hide others are a veil, the densest is solid. docs/volume_files.md says the rule and its limits.
+// hide others are drawn translucent, the densest is solid. docs/volume_files.md says the rule and its limits.
 //
 // Materials are told apart by the areas of the surfaces between values (volume_surfaces.h). A material fills
 // a range of values in which any surface is ragged with its noise: a peak of the area. Between two peaks lies
@@ -19,7 +19,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { BINS = EWA_SURFACE_BINS, MOST = 48, MOST_CLASSES = 3, SMOOTHINGS = 3 };
+enum { BINS = EWA_SURFACE_BINS, MAXIMUM = 48, MAX_CLASSES = 3, SMOOTHINGS = 3 };
 
 /// What a peak has to stand out of the area by; how far the area's fall has to slow down, as a share of the
 /// steepest fall before, for a boundary to begin, and how far the area has to have come down from the peak;
@@ -46,9 +46,9 @@ static const double NOISE_LENGTHS = 1.5, NOISE_SHARE = 0.7, HAZE_SHARE = 0.25;
 
 /// Optical depth of a mean chord through the lowest class when it hides nothing and when it hides everything;
 /// extinctions per unit length between which the class is held; that of solid matter.
-static const double OPEN_DEPTH = 3, VEIL_DEPTH = 0.5, LEAST = 0.004, SOLID = 0.7;
+static const double OPEN_DEPTH = 3, TRANSLUCENT_DEPTH = 0.5, MINIMUM = 0.004, SOLID = 0.7;
 
-static const uint32_t VEIL_COLOR = 0xc98a66, BODY_COLOR = 0xe8c9a0, SOLID_COLOR = 0xfff8ec;
+static const uint32_t TRANSLUCENT_COLOR = 0xc98a66, BODY_COLOR = 0xe8c9a0, SOLID_COLOR = 0xfff8ec;
 
 /// Where a material ends and the next begins.
 typedef struct boundary {
@@ -62,15 +62,15 @@ typedef struct material_map {
     ewa_volume_surfaces surfaces;
     double area[BINS]; ///< smoothed
     int last;          ///< the last threshold that counts
-    int peaks[MOST], valleys[MOST];
+    int peaks[MAXIMUM], valleys[MAXIMUM];
     int peak_count;
-    boundary found[MOST];
+    boundary found[MAXIMUM];
     int found_count;
 } material_map;
 
 /// Classes from the lowest that shows on.
 typedef struct class_list {
-    boundary edges[MOST];
+    boundary edges[MAXIMUM];
     int count;
     bool natural;  ///< they are materials; else one class, or none, cut in two
     double hidden; ///< share of the lines of sight to the others that the lowest stands in
@@ -89,12 +89,12 @@ static void smooth(const double area[BINS], double smoothed[BINS]) {
     }
 }
 
-/// Finds the peaks that stand out, and the least area after each.
+/// Finds the peaks that stand out, and the smallest area after each.
 static void find_peaks(material_map *map) {
     const double *area = map->area;
     int low = 1, high = 1;
     bool rising = true;
-    for (int t = 1; t <= map->last && map->peak_count < MOST; t++) {
+    for (int t = 1; t <= map->last && map->peak_count < MAXIMUM; t++) {
         if (area[t] < area[low]) low = t;
         if (area[t] > area[high]) high = t;
         if (rising && area[t] * PEAK < area[high]) {
@@ -108,7 +108,7 @@ static void find_peaks(material_map *map) {
         }
     }
     if (!rising && map->peak_count) map->valleys[map->peak_count - 1] = low;
-    if (rising && map->peak_count < MOST && area[high] > PEAK * area[low] && high > low) {
+    if (rising && map->peak_count < MAXIMUM && area[high] > PEAK * area[low] && high > low) {
         map->peaks[map->peak_count] = high;
         map->valleys[map->peak_count++] = map->last;
     }
@@ -132,10 +132,10 @@ static boundary find_boundary(const material_map *map, int peak, int end) {
         }
         if (made.fall < FLAT) continue;
         if (!slowest || fall < fall_at(map, slowest)) slowest = t;
-        const double least = fall_at(map, slowest);
+        const double minimum = fall_at(map, slowest);
         if (fall <= SLOW * made.fall && map->area[t] <= SETTLED * map->area[peak])
             made.at = t;
-        else if (least <= SHOULDER * made.fall && fall >= AGAIN * least && fall > NEARLY_FLAT &&
+        else if (minimum <= SHOULDER * made.fall && fall >= AGAIN * minimum && fall > NEARLY_FLAT &&
                  map->area[slowest] <= DOWN * map->area[peak])
             made.at = slowest;
         if (made.at) return made;
@@ -149,7 +149,7 @@ static double specks_at(const material_map *map, int t) {
 }
 
 static void add_boundary(material_map *map, boundary made) {
-    if (made.at > 0 && map->found_count < MOST && specks_at(map, made.at) <= SPECKS &&
+    if (made.at > 0 && map->found_count < MAXIMUM && specks_at(map, made.at) <= SPECKS &&
         (made.at == 1 || map->surfaces.above[made.at] > CLASS_SHARE * map->surfaces.count))
         map->found[map->found_count++] = made;
 }
@@ -290,8 +290,9 @@ static double lowest_extinction(const material_map *map, const ewa_volume_facts 
     const double chord_voxels = 6 * volume / fmax(map->area[list->edges[0].at], 1);
     const double *step = facts->spacing_world;
     const double chord_world = chord_voxels * 3 / (1 / step[0] + 1 / step[1] + 1 / step[2]);
-    const double open = 1 - list->hidden, depth = OPEN_DEPTH * open * open + VEIL_DEPTH * list->hidden;
-    return chord_world > 0 ? fmin(fmax(depth * ewa_transfer_unit(facts) / chord_world, LEAST), SOLID) : SOLID;
+    const double open = 1 - list->hidden, depth = OPEN_DEPTH * open * open + TRANSLUCENT_DEPTH * list->hidden;
+    return chord_world > 0 ? fmin(fmax(depth * ewa_transfer_unit(facts) / chord_world, MINIMUM), SOLID)
+                           : SOLID;
 }
 
 /// Adds a point that looks like the last one.
@@ -303,10 +304,10 @@ static void repeat_point(ewa_transfer *transfer, double value) {
 
 static void add_points(const material_map *map, const ewa_volume_facts *facts, const class_list *list,
                        ewa_transfer *transfer) {
-    const int count = list->count < MOST_CLASSES ? list->count : MOST_CLASSES;
+    const int count = list->count < MAX_CLASSES ? list->count : MAX_CLASSES;
     const double lowest = lowest_extinction(map, facts, list);
     for (int i = 0; i < count; i++) {
-        const uint32_t color = i == 0 ? VEIL_COLOR : i + 1 < count ? BODY_COLOR : SOLID_COLOR;
+        const uint32_t color = i == 0 ? TRANSLUCENT_COLOR : i + 1 < count ? BODY_COLOR : SOLID_COLOR;
         const double extinction = i == 0 ? lowest : i + 1 < count ? sqrt(lowest * SOLID) : SOLID;
         double start, full;
         find_ramp(map, list, i, &start, &full);

@@ -8,10 +8,10 @@
 #include <math.h>
 #include <string.h>
 
-enum { MOST_STOPS = 8, BINS = 256 };
+enum { MAX_STOPS = 8, BINS = 256 };
 
 /// Values of a CT volume: air is near -1000.
-static const double LOWEST_AIR = -3100, HIGHEST_AIR = -500, LEAST_BONE = 400;
+static const double LOWEST_AIR = -3100, HIGHEST_AIR = -500, MIN_BONE = 400;
 
 /// Share of the voxels that are above the range that presets are spread over.
 static const double TOP_SHARE = 0.0005;
@@ -25,7 +25,7 @@ typedef struct preset_stop {
 
 typedef struct preset {
     const char *name, *what;
-    preset_stop stops[MOST_STOPS];
+    preset_stop stops[MAX_STOPS];
     uint32_t stop_count;
 } preset;
 
@@ -42,7 +42,7 @@ static const preset presets[] = {
       {3000, 1, 0xffffff, 0.8}},
      5},
     {"soft",
-     "CT: skin and muscle under a veil, bone solid",
+     "CT: skin and muscle translucent, bone solid",
      {{-350, 0.12, 0xb87a5c, 0},
       {-120, 0.19, 0xd69a78, 0.014},
       {20, 0.25, 0xc86a50, 0.008},
@@ -92,7 +92,7 @@ const char *ewa_transfer_preset_name(uint32_t index, const char **what) {
 
 /// Whether the values are Hounsfield units.
 static bool is_hounsfield(const ewa_volume_facts *facts) {
-    return facts->low >= LOWEST_AIR && facts->low <= HIGHEST_AIR && facts->high >= LEAST_BONE;
+    return facts->low >= LOWEST_AIR && facts->low <= HIGHEST_AIR && facts->high >= MIN_BONE;
 }
 
 /// The range that shares are of: all but the few greatest values.

@@ -12,7 +12,7 @@ enum { COLUMNS = 48, THICK = 3, RUN = 2 };
 
 /// Sums over lines of sight.
 typedef struct sight_sums {
-    double met, hidden, apart;
+    double hit, hidden, apart;
 } sight_sums;
 
 /// One line of sight, from `at` on in steps of `step`.
@@ -25,7 +25,7 @@ static void look_along(const float *at, ptrdiff_t step, uint32_t count, double o
         inner_run = value >= inner ? inner_run + 1 : 0;
         if (inner_run == RUN) {
             const uint32_t before = passed - (RUN - 1); // the run's own first voxel was passed, too
-            sums->met++;
+            sums->hit++;
             sums->hidden += before >= THICK;
             sums->apart += gap;
             return;
@@ -45,10 +45,10 @@ ewa_status ewa_volume_sight_measure(const ewa_volume *volume, double outer, doub
     const uint64_t strides[3] = {1, dims[0], (uint64_t)dims[0] * dims[1]};
     uint32_t longest = dims[0];
     for (int axis = 1; axis < 3; axis++) longest = dims[axis] > longest ? dims[axis] : longest;
-    *sight = (ewa_volume_sight){.met = 0};
+    *sight = (ewa_volume_sight){.hit = 0};
     float *numbers = ewa_allocate(volume->context, longest, sizeof *numbers);
     if (!numbers) return EWA_ERROR_MEMORY;
-    sight_sums sums = {.met = 0};
+    sight_sums sums = {.hit = 0};
     for (int axis = 0; axis < 3; axis++) {
         const int u = (axis + 1) % 3, v = (axis + 2) % 3;
         const uint32_t u_step = 1 + dims[u] / COLUMNS, v_step = 1 + dims[v] / COLUMNS;
@@ -61,8 +61,8 @@ ewa_status ewa_volume_sight_measure(const ewa_volume *volume, double outer, doub
             }
     }
     ewa_release(volume->context, numbers, longest, sizeof *numbers);
-    sight->met = sums.met;
-    sight->hidden = sums.met > 0 ? sums.hidden / sums.met : 0;
-    sight->apart = sums.met > 0 ? sums.apart / sums.met : 0;
+    sight->hit = sums.hit;
+    sight->hidden = sums.hit > 0 ? sums.hidden / sums.hit : 0;
+    sight->apart = sums.hit > 0 ? sums.apart / sums.hit : 0;
     return EWA_OK;
 }

@@ -14,7 +14,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { BINS = EWA_SURFACE_BINS, ROW = 1024, MOST_VOXELS = 1 << 20, MOST_ROUNDS = 16, NONE = -1 };
+enum { BINS = EWA_SURFACE_BINS, ROW = 1024, MAX_VOXELS = 1 << 20, MAX_ROUNDS = 16, NONE = -1 };
 
 /// Share of the voxels that may lie beyond either end of the range; bins of a histogram that the range has to
 /// cover, so that it need not be taken again.
@@ -29,7 +29,7 @@ typedef struct row_sample {
 
 static row_sample choose_rows(const ewa_volume *volume) {
     const uint64_t count = (uint64_t)volume->dims[0] * volume->dims[1] * volume->dims[2];
-    return (row_sample){volume, 1 + count / MOST_VOXELS};
+    return (row_sample){volume, 1 + count / MAX_VOXELS};
 }
 
 static bool is_sampled(const row_sample *rows, uint32_t j, uint32_t k) {
@@ -74,7 +74,7 @@ static void find_range(const row_sample *rows, const ewa_volume_facts *facts, do
     *high = facts->high;
     range_counts range = {.below = 0};
     for (int i = 0; i < BINS; i++) range.counts[i] = (double)facts->histogram[i];
-    for (int round = 0; round < MOST_ROUNDS; round++) {
+    for (int round = 0; round < MAX_ROUNDS; round++) {
         double all = range.below + range.above, under = range.below, over = range.above;
         for (int i = 0; i < BINS; i++) all += range.counts[i];
         int first = 0, last = BINS - 1;

@@ -31,7 +31,7 @@ double ewa_surfaces_value(const ewa_volume_surfaces *surfaces, double threshold)
 
 /// What a look from the six sides of the box shows of what is `inner` or more.
 typedef struct ewa_volume_sight {
-    double met;    ///< lines of sight that meet it
+    double hit;    ///< lines of sight that meet it
     double hidden; ///< share of these that pass three voxels or more of at least `outer` before
     double apart;  ///< share of these that pass something of at least `outer`, then a gap of three voxels
 } ewa_volume_sight;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Table and blocks of the surfels that stand for cubes' points.
+// Table and blocks of the surfels that represent nodes' points.
 #include "io/levels.h"
 #include "io/las/las.h"
 
@@ -41,14 +41,14 @@ static const char *check_page(const ewa_levels_page *page, uint64_t size_bytes) 
     const ewa_octree_key *key = &page->key;
     if (key->level < 0 || key->level >= EWA_OCTREE_LEVELS) return "a level is out of range";
     for (int c = 0; c < 3; c++)
-        if (key->cell[c] < 0 || key->cell[c] >= (int64_t)1 << key->level) return "a key is no cube";
-    if (page->surfel_count > EWA_LEVELS_MOST_SURFELS) return "a cube has too many surfels";
+        if (key->cell[c] < 0 || key->cell[c] >= (int64_t)1 << key->level) return "a key is no node";
+    if (page->surfel_count > EWA_LEVELS_MAX_SURFELS) return "a node has too many surfels";
     if (page->at_bytes > size_bytes || page->size_bytes > size_bytes - page->at_bytes)
         return "a block lies beyond the record";
     if (!(page->radius_scale > 0 && page->radius_scale <= 16) || !(page->error >= 0 && page->error <= 255) ||
         !(page->largest_radius_world >= 0 && isfinite(page->largest_radius_world)) ||
         !(page->unit_coverage >= 0 && page->unit_coverage < 1e6f))
-        return "a cube's numbers are out of range";
+        return "a node's numbers are out of range";
     return NULL;
 }
 
@@ -56,13 +56,13 @@ static const char *check_page(const ewa_levels_page *page, uint64_t size_bytes) 
 static const char *check_tree(const ewa_levels *levels) {
     for (uint32_t i = 0; i < levels->page_count; i++) {
         const ewa_levels_page *page = &levels->pages[i];
-        if (i > 0 && compare_pages(&levels->pages[i - 1], page) == 0) return "a cube comes twice";
+        if (i > 0 && compare_pages(&levels->pages[i - 1], page) == 0) return "a node comes twice";
         if (page->key.level == 0) continue;
         ewa_levels_page parent = {.key = {.level = page->key.level - 1}};
         for (int c = 0; c < 3; c++) parent.key.cell[c] = page->key.cell[c] >> 1;
         const ewa_levels_page *found =
             bsearch(&parent, levels->pages, levels->page_count, sizeof parent, compare_pages);
-        if (!found || !found->size_bytes) return "a cube is no part of one that is divided";
+        if (!found || !found->size_bytes) return "a node is no part of one that is divided";
     }
     return NULL;
 }

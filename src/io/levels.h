@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// The extended record of COPC files that holds, for the cubes of the octree, surfels that stand for all points in them
-// (docs/scale.md says what its bytes are).
+// The extended record of COPC files that holds, for the nodes of the octree, surfels that represent all
+// points in them (docs/scale.md says what its bytes are).
 #ifndef EWA_SRC_LEVELS_H
 #define EWA_SRC_LEVELS_H
 
@@ -12,20 +12,20 @@ enum {
     EWA_LEVELS_VERSION = 1,
     EWA_LEVELS_HEAD_BYTES = 64,
     EWA_LEVELS_PAGE_BYTES = 64,
-    EWA_LEVELS_MOST_SURFELS = 1 << 24, ///< of a page
+    EWA_LEVELS_MAX_SURFELS = 1 << 24, ///< of a page
 };
 
-/// A cube: what stands for its points.
+/// A node: what represents its points.
 typedef struct ewa_levels_page {
     ewa_octree_key key;
-    uint64_t point_count;  ///< in the cube, whatever node they are in
+    uint64_t point_count;  ///< in the node, whatever node they are in
     uint32_t surfel_count; ///< that stand for them
     float radius_scale;    ///< of radii when they are drawn
     float error;           ///< rms, 1/255 of sRGB's range, where they are half a pixel apart
     float largest_radius_world;
     float unit_coverage; ///< of the points' kernels, where it was measured; 0: it was not
     uint64_t at_bytes;   ///< of their block in the record
-    uint32_t size_bytes; ///< 0: the cube is not divided and has none
+    uint32_t size_bytes; ///< 0: the node is not divided and has none
 } ewa_levels_page;
 
 /// The pages of a file.
@@ -36,9 +36,10 @@ typedef struct ewa_levels {
     uint64_t surfel_count;
 } ewa_levels;
 
-/// Reads the table of pages. Every number is checked: keys are cubes, each comes once, every page but the root has its
-/// parent, blocks lie in the record. `name` stands for the file in messages. Free with ewa_levels_free(), also after a
-/// failure. Errors: EWA_ERROR_FORMAT, EWA_ERROR_UNSUPPORTED (another version), EWA_ERROR_MEMORY.
+/// Reads the table of pages. Every number is checked: keys are nodes, each comes once, every page but the
+/// root has its parent, blocks lie in the record. `name` stands for the file in messages. Free with
+/// ewa_levels_free(), also after a failure. Errors: EWA_ERROR_FORMAT, EWA_ERROR_UNSUPPORTED (another
+/// version), EWA_ERROR_MEMORY.
 ewa_status ewa_levels_read(ewa_context *context, const char *name, const uint8_t *bytes, uint64_t size_bytes,
                            ewa_levels *levels);
 void ewa_levels_free(ewa_context *context, ewa_levels *levels);
@@ -49,7 +50,7 @@ void ewa_levels_write(const ewa_levels *levels, uint8_t *bytes);
 
 /// Surfels of a page, as arrays.
 typedef struct ewa_level_surfels {
-    float *at;           ///< [count][3], from the cube's low corner, in its sides
+    float *at;           ///< [count][3], from the node's low corner, in its sides
     float *normal;       ///< [count][3]
     float *radius_world; ///< [count]
     uint8_t *rgba;       ///< [count][4], sRGB, straight alpha

@@ -4,14 +4,14 @@
 // Numbers as decimal text, by exact integer arithmetic.
 //
 // Reading and writing meet in one question: what is w * 10^e in binary? It is answered as 64 leading bits, an
-// exponent of two, and whether anything non-zero follows (`scaled`); rounding that once is exact. Three roads
+// exponent of two, and whether anything non-zero follows (`scaled`); rounding that once is exact. Three ways
 // lead there, the cheapest that is exact is taken:
 //   - both w and 10^|e| are doubles: one floating-point operation rounds correctly;
 //   - |e| <= 27: 5^|e| has 63 bits, and 128-bit integers hold the product or the quotient;
 //   - else: long integers of 32-bit limbs.
 //
 // Based on: W. D. Clinger, "How to Read Floating Point Numbers Accurately", PLDI 1990, section 3 (the first
-// road). D. E. Knuth, "The Art of Computer Programming", volume 2, 3rd edition 1997, section 4.3.1, algorithm
+// path). D. E. Knuth, "The Art of Computer Programming", volume 2, 3rd edition 1997, section 4.3.1, algorithm
 // D (division).
 #include "io/number.h"
 
@@ -29,9 +29,9 @@ enum {
     EXPONENT_BOUND = 1 << 20, // larger exponents mean the same; keeps sums small
 };
 
-/// An IEEE 754 format by its bits: stored fraction bits and the exponent of the least positive number.
+/// An IEEE 754 format by its bits: stored fraction bits and the exponent of the smallest positive number.
 typedef struct format {
-    int fraction_bits, least_exponent;
+    int fraction_bits, min_exponent;
     uint64_t infinity_bits;
 } format;
 
@@ -205,10 +205,10 @@ static uint64_t round_off(const scaled *s, int shift) {
 /// The bits of the nearest number of a format, without sign.
 static uint64_t assemble(const scaled *s, const format *f) {
     int shift = 63 - f->fraction_bits;
-    if (s->exponent + shift < f->least_exponent) shift = f->least_exponent - s->exponent;
+    if (s->exponent + shift < f->min_exponent) shift = f->min_exponent - s->exponent;
     if (shift > 64) return 0;
     // A rounding carry runs into the exponent field, where it belongs.
-    const int64_t exponent = s->exponent + shift - f->least_exponent;
+    const int64_t exponent = s->exponent + shift - f->min_exponent;
     if (exponent > 4096) return f->infinity_bits;
     const uint64_t bits = round_off(s, shift) + ((uint64_t)exponent << f->fraction_bits);
     return bits < f->infinity_bits ? bits : f->infinity_bits;
@@ -338,8 +338,8 @@ static uint64_t power_of_10(int power) { return powers_of_5[power] << power; }
 static int decimal_exponent(int exponent) { return (exponent * 78913) >> 18; }
 
 static int decimal_length(uint64_t n) {
-    const int least = decimal_exponent(63 - __builtin_clzll(n | 1)) + 1;
-    return least + (least < 20 && n >= power_of_10(least));
+    const int minimum = decimal_exponent(63 - __builtin_clzll(n | 1)) + 1;
+    return minimum + (minimum < 20 && n >= power_of_10(minimum));
 }
 
 /// The bits of the number of a format nearest to a decimal of non-zero digits, by integer arithmetic.
@@ -383,7 +383,7 @@ static uint32_t f32_to_bits(float value) {
     return bits;
 }
 
-/// Magnitude as double by Clinger's road; false when it is not exact there.
+/// Magnitude as double by Clinger's path; false when it is not exact there.
 static inline bool is_direct(const decimal *d, double *value) {
     if (d->cut || d->digits > (uint64_t)1 << 53 || d->exponent < -MAX_EXACT_POWER ||
         d->exponent > MAX_EXACT_POWER)
@@ -431,7 +431,7 @@ static double nearest_f64(const decimal *d) {
 
 static float nearest_f32(const decimal *d) {
     // Rounding to double and then to float errs only where the double lies midway between two floats: its
-    // last 29 bits are then 1000... . The first road gives no double so small that floats near it have fewer
+    // last 29 bits are then 1000... . The first path gives no double so small that floats near it have fewer
     // bits.
     double wide;
     if (is_direct(d, &wide) && (f64_to_bits(wide) & 0x1fffffff) != 0x10000000) return (float)wide;
@@ -543,27 +543,29 @@ static bool reads_as(const decimal *d, uint64_t bits, const format *f) {
     return f32_to_bits(nearest_f32(d)) == bits;
 }
 
-/// Writes a finite number given by its bits: the fewest digits from `least` to `most` that round back to it.
-static size_t write_finite(uint64_t bits, const format *f, int least, int most, char *text) {
+/// Writes a finite number given by its bits: the fewest digits from `minimum` to `maximum` that round back to
+/// it.
+static size_t write_finite(uint64_t bits, const format *f, int minimum, int maximum, char *text) {
     const uint64_t field = bits >> f->fraction_bits;
     const uint64_t fraction = bits & (((uint64_t)1 << f->fraction_bits) - 1);
     const uint64_t significand = field ? fraction | (uint64_t)1 << f->fraction_bits : fraction;
-    const int exponent = f->least_exponent + (field ? (int)field - 1 : 0);
+    const int exponent = f->min_exponent + (field ? (int)field - 1 : 0);
     if (significand == 0) {
         text[0] = '0';
         return 1;
     }
     int power;
-    const uint64_t digits = to_decimal(significand, exponent, most, &power);
-    for (int count = least; count < most; count++) {
-        const uint64_t cut = power_of_10(most - count);
-        const decimal shorter = {.digits = (digits + cut / 2) / cut, .exponent = power + most - count};
+    const uint64_t digits = to_decimal(significand, exponent, maximum, &power);
+    for (int count = minimum; count < maximum; count++) {
+        const uint64_t cut = power_of_10(maximum - count);
+        const decimal shorter = {.digits = (digits + cut / 2) / cut, .exponent = power + maximum - count};
         if (reads_as(&shorter, bits, f)) return write_decimal(shorter.digits, (int)shorter.exponent, text);
     }
     return write_decimal(digits, power, text);
 }
 
-static size_t write_float(double value, uint64_t bits, const format *f, int least, int most, char *text) {
+static size_t write_float(double value, uint64_t bits, const format *f, int minimum, int maximum,
+                          char *text) {
     if (isnan(value)) {
         memcpy(text, "nan", 3);
         return 3;
@@ -574,7 +576,7 @@ static size_t write_float(double value, uint64_t bits, const format *f, int leas
         memcpy(text + at, "inf", 3);
         return at + 3;
     }
-    return at + write_finite(bits, f, least, most, text + at);
+    return at + write_finite(bits, f, minimum, maximum, text + at);
 }
 
 size_t ewa_number_write_f64(double value, char text[EWA_NUMBER_BYTES]) {

@@ -167,15 +167,15 @@ ewa_status ewa_octree_read(ewa_octree *octree, const uint32_t *indices, uint32_t
             return ewa_fail(context, EWA_ERROR_ARGUMENT, "%s: node %u of %u is wanted", octree->path,
                             indices[i], octree->facts.node_count);
     if (count == 0) return EWA_OK;
-    const uint32_t most = count < EWA_OCTREE_WAVE ? count : EWA_OCTREE_WAVE;
+    const uint32_t maximum = count < EWA_OCTREE_WAVE ? count : EWA_OCTREE_WAVE;
     const uint32_t attribute_count = ewa_cloud_attribute_count(octree->prototype);
-    const size_t sink_count = (size_t)most * attribute_count;
+    const size_t sink_count = (size_t)maximum * attribute_count;
     wave w = {.octree = octree, .attribute_count = attribute_count};
     w.sinks = ewa_allocate(context, sink_count, sizeof *w.sinks);
     ewa_status status = w.sinks ? EWA_OK : EWA_ERROR_MEMORY;
     for (uint32_t first = 0; first < count && status == EWA_OK; first += w.count) {
         w.indices = indices + first;
-        w.count = count - first < most ? count - first : most;
+        w.count = count - first < maximum ? count - first : maximum;
         status = read_wave(&w, attributes, clouds + first);
     }
     ewa_release(context, w.sinks, sink_count, sizeof *w.sinks);

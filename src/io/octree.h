@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Octrees of points in files, read cube by cube: COPC files and EPT folders; COPC is written too. A cube's points
-// are a sample of all that lie in it, finer by half from level to level; each point is in one cube only.
+// Octrees of points in files, read node by node: COPC files and EPT folders; COPC is written too. A node's
+// points are a sample of all that lie in it, finer by half from level to level; each point is in one node
+// only.
 //
 // Based on: Hobu, "COPC: Cloud Optimized Point Cloud Specification 1.0", 2021; "Entwine Point Tile", 1.1.0.
 #ifndef EWA_SRC_OCTREE_H
@@ -11,7 +12,7 @@
 #include "base/base.h"
 #include "ewa/cloud.h"
 
-enum { EWA_OCTREE_LEVELS = 31 }; ///< the most that a tree has
+enum { EWA_OCTREE_LEVELS = 31 }; ///< maximum depth of a tree
 
 /// Cell `cell` of the 2^level along each axis of the root's cube.
 typedef struct ewa_octree_key {
@@ -21,7 +22,7 @@ typedef struct ewa_octree_key {
 /// Compares by level, then z, y, x.
 int ewa_octree_key_compare(const ewa_octree_key *a, const ewa_octree_key *b);
 
-/// A cube and where its points are.
+/// A node and where its points are.
 typedef struct ewa_octree_node {
     ewa_octree_key key;
     uint64_t point_count; ///< > 0
@@ -50,7 +51,7 @@ typedef struct ewa_octree_facts {
 bool ewa_octree_is(ewa_context *context, const char *path);
 
 /// Opens a tree and reads its hierarchy, all pages of it. Every number is checked: nodes lie within the file, keys
-/// are cubes, each comes once (else an error that names it), pages in circles end. The file stays mapped. The
+/// are nodes, each comes once (else an error that names it), pages in circles end. The file stays mapped. The
 /// caller closes `*octree`, which is NULL after a failure. Errors: EWA_ERROR_IO, EWA_ERROR_FORMAT,
 /// EWA_ERROR_UNSUPPORTED, EWA_ERROR_LIMIT, EWA_ERROR_MEMORY.
 ewa_status ewa_octree_open(ewa_context *context, const char *path, ewa_octree **octree);

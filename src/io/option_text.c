@@ -11,7 +11,7 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { MOST_NUMBERS = 16 };
+enum { MAX_NUMBERS = 16 };
 
 __attribute__((format(printf, 2, 3))) static ewa_status wrong(char problem[EWA_OPTION_TEXT_BYTES],
                                                               const char *format, ...) {
@@ -63,7 +63,7 @@ static ewa_status read_value(const ewa_option *option, const char **text, option
 ewa_status ewa_option_set(const ewa_option *option, void *options, const char *text,
                           char problem[EWA_OPTION_TEXT_BYTES]) {
     if (!option || !options || !text) return EWA_ERROR_ARGUMENT;
-    option_value values[MOST_NUMBERS];
+    option_value values[MAX_NUMBERS];
     const uint32_t count = option->count ? option->count : 1;
     const char *next = text;
     for (uint32_t i = 0; i < count; i++) {

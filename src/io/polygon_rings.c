@@ -6,14 +6,14 @@
 
 #include <math.h>
 
-enum { MOST_CORNERS = 1 << 28 };
+enum { MAX_CORNERS = 1 << 28 };
 
 ewa_status ewa_rings_add(ewa_rings *rings, double x, double y) {
     if (!isfinite(x) || !isfinite(y))
         return ewa_fail(rings->context, EWA_ERROR_FORMAT, "%s: corner %llu is not finite", rings->name,
                         (unsigned long long)(rings->corner_count + 1));
-    if (rings->corner_count == MOST_CORNERS)
-        return ewa_fail(rings->context, EWA_ERROR_LIMIT, "%s: over %d corners", rings->name, MOST_CORNERS);
+    if (rings->corner_count == MAX_CORNERS)
+        return ewa_fail(rings->context, EWA_ERROR_LIMIT, "%s: over %d corners", rings->name, MAX_CORNERS);
     const ewa_status status = ewa_buffer_grow(rings->context, &rings->corners, rings->corner_count,
                                               rings->corner_count + 1, 2 * sizeof(double));
     if (status != EWA_OK) return status;

@@ -34,7 +34,8 @@ ewa_status ewa_source_settle(ewa_source *source, bool *more);
 /// Frees the source and sets `*source` to NULL; accepts a pointer to NULL.
 void ewa_source_close(ewa_source **source);
 
-/// The most bytes that `size_bytes` packed ones can become; UINT64_MAX when no useful bound is known.
+/// Upper bound of the bytes that `size_bytes` packed ones can become; UINT64_MAX when no useful bound is
+/// known.
 uint64_t ewa_source_bound(ewa_packing packing, uint64_t size_bytes);
 
 #endif

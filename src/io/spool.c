@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Bytes put aside, by POSIX calls: the file loses its name as soon as it is open.
+// Temporary storage by POSIX calls: the file loses its name as soon as it is open.
 #include "io/spool.h"
 
 #include <errno.h>

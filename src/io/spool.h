@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Bytes that are put aside for a while: a file without a name, which is gone when the process ends, however it ends.
+// Temporary storage: a file without a name, which is gone when the process ends, however it ends.
 #ifndef EWA_SRC_SPOOL_H
 #define EWA_SRC_SPOOL_H
 

@@ -62,9 +62,9 @@ bool ewa_text_integer(ewa_text word, int64_t *value) {
     return word.length && ewa_number_read_i64(word.chars, end, value) == end;
 }
 
-uint32_t ewa_cursor_numbers(ewa_cursor *cursor, uint32_t most, double *values) {
+uint32_t ewa_cursor_numbers(ewa_cursor *cursor, uint32_t maximum, double *values) {
     uint32_t count = 0;
-    while (count < most) {
+    while (count < maximum) {
         ewa_cursor_skip_blanks(cursor);
         const char *after = ewa_number_read_f64(cursor->at, cursor->end, &values[count]);
         if (!after ||

@@ -110,8 +110,8 @@ bool ewa_text_number(ewa_text word, double *value);
 /// Reads a word as an integer; false when it is none.
 bool ewa_text_integer(ewa_text word, int64_t *value);
 
-/// Takes up to `most` numbers from this line, up to the first word that is none, which stays; returns how
+/// Takes up to `maximum` numbers from this line, up to the first word that is none, which stays; returns how
 /// many.
-uint32_t ewa_cursor_numbers(ewa_cursor *cursor, uint32_t most, double *values);
+uint32_t ewa_cursor_numbers(ewa_cursor *cursor, uint32_t maximum, double *values);
 
 #endif

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// The file of an octree put together: regions one after the other in the order of codes, the cubes above as soon as all
-// of their parts are there.
+// The file of an octree put together: regions one after the other in the order of codes, the nodes above as
+// soon as all of their parts are there.
 #include "lod/assemble.h"
 
 #include <stdlib.h>
@@ -44,9 +44,9 @@ static ewa_status take(ewa_lod_builder *b, ewa_region_result *result) {
     return status;
 }
 
-/// Makes the regions [first, end) of the cube `key` and the cube itself.
-static ewa_status make_cube(ewa_lod_builder *b, uint32_t first, uint32_t end, uint32_t level,
-                            ewa_standins *standins, uint64_t *point_count) {
+/// Makes the regions [first, end) of the node `key` and the node itself.
+static ewa_status make_node(ewa_lod_builder *b, uint32_t first, uint32_t end, uint32_t level,
+                            ewa_representatives *representatives, uint64_t *point_count) {
     const ewa_lod_region *regions = b->regions;
     ewa_region_result result = {.chunk_count = 0};
     ewa_status status = EWA_OK;
@@ -54,29 +54,30 @@ static ewa_status make_cube(ewa_lod_builder *b, uint32_t first, uint32_t end, ui
     if (end - first == 1 && (uint32_t)regions[first].key.level == level) {
         status = b->get(b, first, &result);
         if (status == EWA_OK) status = take(b, &result);
-        *standins = result.standins;
+        *representatives = result.representatives;
         *point_count = regions[first].point_count;
-        result.standins = (ewa_standins){.count = 0};
+        result.representatives = (ewa_representatives){.count = 0};
         ewa_region_result_free(b->context, &result);
         if (status == EWA_OK) status = ewa_progress(b->context, "octree", (double)end / b->region_count);
         return status;
     }
-    ewa_standins parts[8] = {{0}};
-    uint32_t part_count = 0;
+    ewa_representatives children[8] = {{0}};
+    uint32_t child_count = 0;
     const ewa_octree_key key = ewa_code_key(ewa_key_code(&regions[first].key), level);
     for (uint32_t i = first, next; i < end && status == EWA_OK; i = next) {
         const uint64_t prefix = ewa_code_prefix(ewa_key_code(&regions[i].key), level + 1);
         next = i + 1;
         while (next < end && ewa_code_prefix(ewa_key_code(&regions[next].key), level + 1) == prefix) next++;
-        uint64_t part_points;
-        status = make_cube(b, i, next, level + 1, &parts[part_count++], &part_points);
-        *point_count += part_points;
+        uint64_t child_points;
+        status = make_node(b, i, next, level + 1, &children[child_count++], &child_points);
+        *point_count += child_points;
     }
     if (status == EWA_OK)
-        status = ewa_region_page(&b->plan, &key, *point_count, parts, part_count, &result, standins);
+        status =
+            ewa_region_page(&b->plan, &key, *point_count, children, child_count, &result, representatives);
     if (status == EWA_OK) status = take(b, &result);
     ewa_region_result_free(b->context, &result);
-    for (uint32_t i = 0; i < part_count; i++) ewa_standins_free(b->context, &parts[i]);
+    for (uint32_t i = 0; i < child_count; i++) ewa_representatives_free(b->context, &children[i]);
     return status;
 }
 
@@ -145,44 +146,47 @@ static ewa_status write_above(ewa_lod_builder *b) {
     return status;
 }
 
-ewa_status ewa_lod_prepare(ewa_lod_builder *b, const char *out, ewa_judge *judge) {
-    const ewa_survey *survey = b->plan.survey;
-    const ewa_lattice *lattice = &survey->lattice;
+ewa_status ewa_lod_prepare(ewa_lod_builder *b, const char *out, ewa_evaluator *evaluator) {
+    const ewa_statistics *statistics = b->plan.statistics;
+    const ewa_lattice *lattice = &statistics->lattice;
     ewa_octree_plan plan = {.prototype = b->plan.output,
-                            .bounds.finite_count = survey->point_count,
+                            .bounds.finite_count = statistics->point_count,
                             .side_world = ewa_lattice_side_world(lattice, 0)};
     plan.spacing_world = plan.side_world / (1 << EWA_PAGE_BITS);
     for (int c = 0; c < 3; c++) {
         plan.low_world[c] = ewa_lattice_world(lattice, c, lattice->low[c]);
-        plan.bounds.low_world[c] = ewa_lattice_world(lattice, c, survey->point_count ? survey->least[c] : 0);
-        plan.bounds.high_world[c] = ewa_lattice_world(lattice, c, survey->point_count ? survey->most[c] : 0);
+        plan.bounds.low_world[c] =
+            ewa_lattice_world(lattice, c, statistics->point_count ? statistics->minimum[c] : 0);
+        plan.bounds.high_world[c] =
+            ewa_lattice_world(lattice, c, statistics->point_count ? statistics->maximum[c] : 0);
     }
-    const ewa_status status = ewa_judge_make(b->context, !ewa_cloud_find(b->plan.inputs, EWA_COLOR), judge);
-    b->plan.judge = judge;
+    const ewa_status status =
+        ewa_evaluator_make(b->context, !ewa_cloud_find(b->plan.inputs, EWA_COLOR), evaluator);
+    b->plan.evaluator = evaluator;
     return status == EWA_OK ? ewa_octree_writer_open(b->context, out, &plan, &b->plan.writer) : status;
 }
 
 ewa_status ewa_lod_write(ewa_lod_builder *b, const char *out) {
-    const ewa_survey *survey = b->plan.survey;
-    ewa_judge judge = {.context = NULL};
-    ewa_status status = ewa_lod_prepare(b, out, &judge);
+    const ewa_statistics *statistics = b->plan.statistics;
+    ewa_evaluator evaluator = {.context = NULL};
+    ewa_status status = ewa_lod_prepare(b, out, &evaluator);
     if (status == EWA_OK) status = ewa_spool_open(b->context, out, &b->blocks);
-    ewa_standins standins = {.count = 0};
+    ewa_representatives representatives = {.count = 0};
     uint64_t point_count;
     if (status == EWA_OK && b->region_count)
-        status = make_cube(b, 0, b->region_count, 0, &standins, &point_count);
-    ewa_standins_free(b->context, &standins);
+        status = make_node(b, 0, b->region_count, 0, &representatives, &point_count);
+    ewa_representatives_free(b->context, &representatives);
     if (status == EWA_OK) status = write_above(b);
     if (status == EWA_OK) status = write_pages(b);
     if (status == EWA_OK)
         status = ewa_octree_writer_commit(&b->plan.writer);
     else
         ewa_octree_writer_abort(&b->plan.writer);
-    b->stats.point_count = survey->point_count;
-    b->stats.left_out_count = survey->left_out_count;
+    b->stats.point_count = statistics->point_count;
+    b->stats.left_out_count = statistics->left_out_count;
     ewa_spool_close(&b->blocks);
     ewa_buffer_free(b->context, &b->pages);
     for (uint32_t level = 0; level < EWA_CODE_LEVELS; level++) ewa_buffer_free(b->context, &b->above[level]);
-    ewa_judge_free(&judge);
+    ewa_evaluator_free(&evaluator);
     return status;
 }

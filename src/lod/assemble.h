@@ -30,8 +30,9 @@ struct ewa_lod_builder {
     uint32_t above_counts[EWA_CODE_LEVELS];
 };
 
-/// Opens the file's writer and what judges surfels; free the judge and abort the writer, also after a failure.
-ewa_status ewa_lod_prepare(ewa_lod_builder *b, const char *out, ewa_judge *judge);
+/// Opens the file's writer and the evaluator of representatives; free the evaluator and abort the writer,
+/// also after a failure.
+ewa_status ewa_lod_prepare(ewa_lod_builder *b, const char *out, ewa_evaluator *evaluator);
 
 /// Makes the whole file. `b` has a plan, regions and get().
 ewa_status ewa_lod_write(ewa_lod_builder *b, const char *out);

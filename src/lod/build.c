@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// From files of points to an octree, or to a part of one: all are read once to survey them and once to put them aside
-// by regions, which are made of them.
+// From files of points to an octree, or to a part of one: all are read once to gather statistics and once to
+// distribute them to temporary storage by regions, which are made of them.
 #include "base/options.h"
 #include "lod/assemble.h"
 #include "lod/part.h"
@@ -26,55 +26,55 @@ void ewa_lod_build_options_init(ewa_lod_build_options *options, size_t struct_si
     ewa_options_init(&ewa_lod_build_options_table, options, struct_size);
 }
 
-/// A builder whose regions are made from points that were put aside.
-typedef struct spread_builder {
+/// A builder whose regions are made from points that were spooled.
+typedef struct distribution_builder {
     ewa_lod_builder base;
-    ewa_spread spread;
-} spread_builder;
+    ewa_distribution distribution;
+} distribution_builder;
 
 static ewa_status make_region(ewa_lod_builder *b, uint32_t index, ewa_region_result *result) {
-    spread_builder *s = (spread_builder *)b;
-    return ewa_region_make(&b->plan, &s->spread, &s->spread.regions[index], result);
+    distribution_builder *s = (distribution_builder *)b;
+    return ewa_region_make(&b->plan, &s->distribution, &s->distribution.regions[index], result);
 }
 
 static ewa_status build(ewa_context *context, const ewa_inputs *inputs, const char *out,
                         const ewa_lod_build_options *options, ewa_lod_build_stats *stats) {
-    spread_builder s = {.base = {.context = context, .get = make_region}};
+    distribution_builder s = {.base = {.context = context, .get = make_region}};
     ewa_lod_builder *b = &s.base;
-    ewa_survey survey;
+    ewa_statistics statistics;
     const double start = ewa_now_s();
-    ewa_status status = ewa_survey_make(inputs, &survey);
-    const double surveyed = ewa_now_s();
-    const uint64_t most_points = options->memory_bytes / BYTES_PER_POINT;
+    ewa_status status = ewa_statistics_make(inputs, &statistics);
+    const double counted = ewa_now_s();
+    const uint64_t max_points = options->memory_bytes / BYTES_PER_POINT;
     if (status == EWA_OK)
-        status = ewa_spread_make(inputs, &survey, out, most_points, options->subset, options->subset_count,
-                                 &s.spread);
-    const double spread = ewa_now_s();
-    if (status == EWA_OK) status = ewa_region_plan_make(context, &survey, inputs->prototype, &b->plan);
+        status = ewa_distribution_make(inputs, &statistics, out, max_points, options->subset,
+                                       options->subset_count, &s.distribution);
+    const double distributed = ewa_now_s();
+    if (status == EWA_OK) status = ewa_region_plan_make(context, &statistics, inputs->prototype, &b->plan);
     ewa_lod_region *regions = NULL;
-    if (status == EWA_OK && !(regions = ewa_allocate(context, s.spread.region_count, sizeof *regions)))
+    if (status == EWA_OK && !(regions = ewa_allocate(context, s.distribution.region_count, sizeof *regions)))
         status = EWA_ERROR_MEMORY;
-    for (uint32_t i = 0; i < s.spread.region_count && status == EWA_OK; i++)
-        regions[i] = (ewa_lod_region){s.spread.regions[i].key, s.spread.regions[i].point_count};
+    for (uint32_t i = 0; i < s.distribution.region_count && status == EWA_OK; i++)
+        regions[i] = (ewa_lod_region){s.distribution.regions[i].key, s.distribution.regions[i].point_count};
     b->regions = regions;
-    b->region_count = s.spread.region_count;
+    b->region_count = s.distribution.region_count;
     if (status == EWA_OK) {
-        b->stats.temporary_bytes = ewa_spool_size(s.spread.spool);
+        b->stats.temporary_bytes = ewa_spool_size(s.distribution.spool);
         status = options->subset_count > 1
                      ? ewa_lod_part_write(b, out, options->subset, options->subset_count)
                      : ewa_lod_write(b, out);
     }
-    b->stats.survey_s = surveyed - start;
-    b->stats.distribute_s = spread - surveyed;
+    b->stats.statistics_s = counted - start;
+    b->stats.distribute_s = distributed - counted;
     b->stats.estimate_s = b->plan.estimate_s;
     b->stats.merge_s = b->plan.merge_s;
     b->stats.write_s = b->plan.encode_s;
     b->stats.total_s = ewa_now_s() - start;
     if (stats) *stats = b->stats;
-    ewa_release(context, regions, s.spread.region_count, sizeof *regions);
+    ewa_release(context, regions, s.distribution.region_count, sizeof *regions);
     ewa_region_plan_free(&b->plan);
-    if (s.spread.context) ewa_spread_free(&s.spread);
-    ewa_survey_free(context, &survey);
+    if (s.distribution.context) ewa_distribution_free(&s.distribution);
+    ewa_statistics_free(context, &statistics);
     return status;
 }
 

@@ -25,8 +25,7 @@ static ewa_status add_prototype(ewa_inputs *inputs, const ewa_cloud *prototype) 
     ewa_cloud_grid(prototype, &grid);
     for (int c = 0; c < 3; c++) {
         inputs->has_grid &= grid.step_world[c] > 0;
-        if (grid.step_world[c] > 0)
-            inputs->least_step_world = fmin(inputs->least_step_world, grid.step_world[c]);
+        if (grid.step_world[c] > 0) inputs->min_step_world = fmin(inputs->min_step_world, grid.step_world[c]);
     }
     if (!inputs->prototype) return ewa_cloud_like(prototype, &inputs->prototype);
     if (are_alike(inputs->prototype, prototype)) return EWA_OK;
@@ -45,7 +44,7 @@ ewa_status ewa_inputs_open(ewa_context *context, const char *const *paths, uint3
                            .paths = paths,
                            .path_count = path_count,
                            .has_grid = true,
-                           .least_step_world = INFINITY};
+                           .min_step_world = INFINITY};
     ewa_cloud_load_options_init(&inputs->options, sizeof inputs->options);
     inputs->options.keep_going = keep_going;
     ewa_status status = EWA_OK;
@@ -55,7 +54,7 @@ ewa_status ewa_inputs_open(ewa_context *context, const char *const *paths, uint3
                      ? ewa_fail(context, EWA_ERROR_UNSUPPORTED, "standard input cannot be read twice")
                      : ewa_cloud_reader_open(context, paths[i], &inputs->options, &reader);
         if (status != EWA_OK) break;
-        inputs->most_points += ewa_cloud_reader_most_points(reader);
+        inputs->max_points += ewa_cloud_reader_maximum_points(reader);
         status = add_prototype(inputs, ewa_cloud_reader_prototype(reader));
         ewa_cloud_reader_close(&reader);
     }
@@ -95,7 +94,7 @@ ewa_status ewa_inputs_read(const ewa_inputs *inputs, const char *stage, ewa_piec
             if (status == EWA_OK) status = take(user, piece);
             ewa_cloud_destroy(&piece);
             if (status == EWA_OK)
-                status = ewa_progress(inputs->context, stage, (double)done / (double)inputs->most_points);
+                status = ewa_progress(inputs->context, stage, (double)done / (double)inputs->max_points);
         }
         ewa_cloud_reader_close(&reader);
     }

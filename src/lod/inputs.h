@@ -15,10 +15,10 @@ typedef struct ewa_inputs {
     const char *const *paths;
     uint32_t path_count;
     ewa_cloud_load_options options;
-    ewa_cloud *prototype;    ///< attributes, grid and notes of all files together
-    bool has_grid;           ///< every file has one
-    double least_step_world; ///< of the grids
-    uint64_t most_points;
+    ewa_cloud *prototype;  ///< attributes, grid and notes of all files together
+    bool has_grid;         ///< every file has one
+    double min_step_world; ///< of the grids
+    uint64_t max_points;
 } ewa_inputs;
 
 /// Opens every file once. Free with ewa_inputs_free(), also after a failure. Errors: as ewa_cloud_reader_open();

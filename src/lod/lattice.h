@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Whole-number coordinates: points on the grid of the file, cubes whose sides are powers of two of its steps, so that
-// which cube a point is in is exact, and the same for whoever reads the file.
+// Whole-number coordinates: points on the grid of the file, nodes whose sides are powers of two of its steps,
+// so that which node a point is in is exact, and the same for whoever reads the file.
 #ifndef EWA_SRC_LOD_LATTICE_H
 #define EWA_SRC_LOD_LATTICE_H
 
@@ -11,8 +11,8 @@
 
 enum {
     EWA_CODE_LEVELS = 21, ///< cells per axis that codes tell apart, as a power of two
-    EWA_PAGE_BITS = 7,    ///< a cube has 2^7 cells along each axis: one point or surfel of its own in each
-    EWA_PAGE_POINTS = 1 << 16, ///< a cube of more points is divided
+    EWA_PAGE_BITS = 7,    ///< a node has 2^7 cells along each axis: one point or surfel of its own in each
+    EWA_PAGE_POINTS = 1 << 16, ///< a node of more points is divided
     EWA_LATTICE_BITS = 40,     ///< of a root's side, at most
 };
 
@@ -48,7 +48,7 @@ static inline uint64_t ewa_code_prefix(uint64_t code, uint32_t level) {
     return code >> 3 * (EWA_CODE_LEVELS - level);
 }
 
-/// The key of the cube of a level that a code is in.
+/// The key of the node of a level that a code is in.
 static inline ewa_octree_key ewa_code_key(uint64_t code, uint32_t level) {
     ewa_octree_key key = {.level = (int32_t)level};
     const uint64_t prefix = ewa_code_prefix(code, level);
@@ -57,7 +57,7 @@ static inline ewa_octree_key ewa_code_key(uint64_t code, uint32_t level) {
     return key;
 }
 
-/// The first code of a cube.
+/// The first code of a node.
 static inline uint64_t ewa_key_code(const ewa_octree_key *key) {
     const uint64_t cell[3] = {(uint64_t)key->cell[0], (uint64_t)key->cell[1], (uint64_t)key->cell[2]};
     const uint64_t prefix =
@@ -65,7 +65,7 @@ static inline uint64_t ewa_key_code(const ewa_octree_key *key) {
     return prefix << 3 * (EWA_CODE_LEVELS - (uint32_t)key->level);
 }
 
-/// World coordinate of the low corner of a cube.
+/// World coordinate of the low corner of a node.
 static inline double ewa_lattice_world(const ewa_lattice *lattice, int axis, int64_t place) {
     return lattice->offset_world[axis] + (double)place * lattice->step_world;
 }

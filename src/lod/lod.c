@@ -48,13 +48,13 @@ void ewa_lod_close(ewa_lod **lod) {
     if (!lod || !*lod) return;
     ewa_lod *old = *lod;
     ewa_context *context = old->context;
-    for (uint32_t i = 0; i < old->cube_count; i++) ewa_surfels_destroy(&old->cubes[i].surfels);
+    for (uint32_t i = 0; i < old->node_count; i++) ewa_surfels_destroy(&old->nodes[i].surfels);
     const size_t node_count = old->facts ? old->facts->node_count : 0;
     for (size_t i = 0; old->clouds && i < node_count; i++) ewa_cloud_destroy(&old->clouds[i]);
     ewa_release(context, old->clouds, node_count, sizeof *old->clouds);
     ewa_release(context, old->cloud_frames, node_count, sizeof *old->cloud_frames);
-    ewa_buffer cubes = {old->cubes, old->cube_capacity_bytes};
-    ewa_buffer_free(context, &cubes);
+    ewa_buffer nodes = {old->nodes, old->node_capacity_bytes};
+    ewa_buffer_free(context, &nodes);
     ewa_buffer_free(context, &old->items);
     ewa_buffer_free(context, &old->wanted);
     ewa_levels_free(context, &old->levels);
@@ -93,8 +93,8 @@ static ewa_status read_nodes(ewa_lod *lod, const uint32_t *nodes, uint32_t count
     return status;
 }
 
-ewa_status ewa_lod_sample(ewa_lod *lod, uint64_t most_points, ewa_cloud **cloud) {
-    if (!lod || !cloud || most_points == 0) return EWA_ERROR_ARGUMENT;
+ewa_status ewa_lod_sample(ewa_lod *lod, uint64_t maximum_points, ewa_cloud **cloud) {
+    if (!lod || !cloud || maximum_points == 0) return EWA_ERROR_ARGUMENT;
     *cloud = NULL;
     const ewa_octree_facts *facts = lod->facts;
     uint32_t *nodes = ewa_allocate(lod->context, facts->node_count, sizeof *nodes);
@@ -106,7 +106,7 @@ ewa_status ewa_lod_sample(ewa_lod *lod, uint64_t most_points, ewa_cloud **cloud)
         uint64_t more = 0;
         for (; end < facts->node_count && facts->nodes[end].key.level == facts->nodes[count].key.level; end++)
             more += facts->nodes[end].point_count;
-        if (count && points + more > most_points) break;
+        if (count && points + more > maximum_points) break;
         for (; count < end; count++) nodes[count] = count;
         points += more;
     }
@@ -115,7 +115,7 @@ ewa_status ewa_lod_sample(ewa_lod *lod, uint64_t most_points, ewa_cloud **cloud)
     return status;
 }
 
-/// Whether a node's cube meets a box.
+/// Whether a node's node intersects a box.
 static bool meets(const ewa_octree_facts *facts, const ewa_octree_key *key, const double low[3],
                   const double high[3]) {
     const double side = ldexp(facts->side_world, -key->level);

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // One surfel for all that lie in a cell, sheet by sheet.
-#include "lod/standin.h"
+#include "lod/representative.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -10,16 +10,16 @@
 
 enum {
     PARTS = 64,
-    MOST_SHEETS = 6,  // of a cell
-    SAMPLE = 64,      // radii that a median is taken of
-    LEAST_MEDIAN = 5, // surfels that have one
+    MAX_SHEETS = 6, // of a cell
+    SAMPLE = 64,    // radii that a median is taken of
+    MIN_MEDIAN = 5, // surfels that have one
 };
 
 /// Cosine between the normals of one sheet.
 static const float SAME_SHEET = 0.5f;
 
 /// Largest radius that counts, over the median.
-static const float MOST_RADIUS = 3;
+static const float MAX_RADIUS = 3;
 
 typedef struct sheet {
     double weight, at[3], normal[3], color[3], alpha;
@@ -27,9 +27,9 @@ typedef struct sheet {
 } sheet;
 
 typedef struct merge_job {
-    const ewa_standin *fine;
+    const ewa_representative *fine;
     uint32_t count, cell_level;
-    ewa_standin *made; // those of each part where its fine ones begin
+    ewa_representative *made; // those of each part where its fine ones begin
     uint32_t made_counts[PARTS];
 } merge_job;
 
@@ -39,18 +39,18 @@ static int compare_floats(const void *a, const void *b) {
 }
 
 /// The largest radius that counts in a cell.
-static float radius_limit(const ewa_standin *cell, uint32_t count) {
-    if (count < LEAST_MEDIAN) return INFINITY;
+static float radius_limit(const ewa_representative *cell, uint32_t count) {
+    if (count < MIN_MEDIAN) return INFINITY;
     float radii[SAMPLE];
     const uint32_t sample = count < SAMPLE ? count : SAMPLE;
     for (uint32_t i = 0; i < sample; i++) radii[i] = cell[(uint64_t)i * count / sample].radius_world;
     qsort(radii, sample, sizeof *radii, compare_floats);
-    return MOST_RADIUS * radii[sample / 2];
+    return MAX_RADIUS * radii[sample / 2];
 }
 
 static float dot(const float a[3], const float b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
-static void add(sheet *to, const ewa_standin *s, float limit) {
+static void add(sheet *to, const ewa_representative *s, float limit) {
     const double radius = (double)(s->radius_world < limit ? s->radius_world : limit),
                  weight = radius * radius;
     to->weight += weight;
@@ -62,10 +62,10 @@ static void add(sheet *to, const ewa_standin *s, float limit) {
     }
 }
 
-static ewa_standin finish(const sheet *from, uint64_t code) {
-    ewa_standin made = {.code = code,
-                        .radius_world = (float)sqrt(from->weight),
-                        .alpha = (float)(from->alpha / from->weight)};
+static ewa_representative finish(const sheet *from, uint64_t code) {
+    ewa_representative made = {.code = code,
+                               .radius_world = (float)sqrt(from->weight),
+                               .alpha = (float)(from->alpha / from->weight)};
     const double length = sqrt(from->normal[0] * from->normal[0] + from->normal[1] * from->normal[1] +
                                from->normal[2] * from->normal[2]);
     for (int c = 0; c < 3; c++) {
@@ -76,23 +76,23 @@ static ewa_standin finish(const sheet *from, uint64_t code) {
     return made;
 }
 
-static uint32_t merge_cell(const ewa_standin *cell, uint32_t count, ewa_standin *made) {
+static uint32_t merge_cell(const ewa_representative *cell, uint32_t count, ewa_representative *made) {
     if (count == 1) {
         *made = *cell;
         memcpy(made->shown, made->color, sizeof made->shown);
         return 1;
     }
-    sheet sheets[MOST_SHEETS];
+    sheet sheets[MAX_SHEETS];
     uint32_t sheet_count = 0;
     const float limit = radius_limit(cell, count);
     for (uint32_t i = 0; i < count; i++) {
         uint32_t best = 0;
-        float most = -2;
+        float maximum = -2;
         for (uint32_t k = 0; k < sheet_count; k++) {
             const float cosine = dot(sheets[k].first_normal, cell[i].normal);
-            if (cosine > most) most = cosine, best = k;
+            if (cosine > maximum) maximum = cosine, best = k;
         }
-        if (most < SAME_SHEET && sheet_count < MOST_SHEETS) {
+        if (maximum < SAME_SHEET && sheet_count < MAX_SHEETS) {
             best = sheet_count++;
             sheets[best] = (sheet){0};
             memcpy(sheets[best].first_normal, cell[i].normal, sizeof sheets[best].first_normal);
@@ -117,7 +117,7 @@ static void merge_part(void *data, uint32_t part, uint32_t worker) {
     merge_job *job = data;
     const uint32_t begin = cell_start(job, (uint32_t)ewa_split(job->count, PARTS, part)),
                    end = cell_start(job, (uint32_t)ewa_split(job->count, PARTS, part + 1));
-    ewa_standin *made = job->made + begin;
+    ewa_representative *made = job->made + begin;
     uint32_t made_count = 0;
     for (uint32_t first = begin, next; first < end; first = next) {
         const uint64_t prefix = ewa_code_prefix(job->fine[first].code, job->cell_level);
@@ -128,8 +128,8 @@ static void merge_part(void *data, uint32_t part, uint32_t worker) {
     job->made_counts[part] = made_count;
 }
 
-ewa_status ewa_standins_merge(ewa_context *context, const ewa_standin *fine, uint32_t count,
-                              uint32_t cell_level, ewa_standins *merged) {
+ewa_status ewa_representatives_merge(ewa_context *context, const ewa_representative *fine, uint32_t count,
+                                     uint32_t cell_level, ewa_representatives *merged) {
     merge_job job = {.fine = fine, .count = count, .cell_level = cell_level};
     job.made = ewa_allocate(context, count, sizeof *job.made);
     if (!job.made) return EWA_ERROR_MEMORY;
@@ -149,8 +149,8 @@ ewa_status ewa_standins_merge(ewa_context *context, const ewa_standin *fine, uin
     return status;
 }
 
-void ewa_standins_free(ewa_context *context, ewa_standins *standins) {
-    ewa_buffer buffer = {standins->items, standins->capacity_bytes};
+void ewa_representatives_free(ewa_context *context, ewa_representatives *representatives) {
+    ewa_buffer buffer = {representatives->items, representatives->capacity_bytes};
     ewa_buffer_free(context, &buffer);
-    *standins = (ewa_standins){0};
+    *representatives = (ewa_representatives){0};
 }

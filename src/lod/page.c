@@ -19,7 +19,7 @@ static bool has(const ewa_cloud *cloud, const char *name, uint32_t component_cou
 }
 
 static ewa_status make_output(ewa_region_plan *plan) {
-    const ewa_lattice *lattice = &plan->survey->lattice;
+    const ewa_lattice *lattice = &plan->statistics->lattice;
     ewa_status status = ewa_cloud_create(plan->context, 0, &plan->output);
     for (uint32_t a = 0; a < ewa_cloud_attribute_count(plan->inputs) && status == EWA_OK; a++) {
         const ewa_attribute *attribute = ewa_cloud_attribute_at(plan->inputs, a);
@@ -44,13 +44,13 @@ static ewa_status make_output(ewa_region_plan *plan) {
     return status;
 }
 
-ewa_status ewa_region_plan_make(ewa_context *context, const ewa_survey *survey, const ewa_cloud *inputs,
-                                ewa_region_plan *plan) {
-    *plan = (ewa_region_plan){.context = context, .survey = survey, .inputs = inputs};
+ewa_status ewa_region_plan_make(ewa_context *context, const ewa_statistics *statistics,
+                                const ewa_cloud *inputs, ewa_region_plan *plan) {
+    *plan = (ewa_region_plan){.context = context, .statistics = statistics, .inputs = inputs};
     const bool has_axes = has(inputs, EWA_TANGENT_U, 3) && has(inputs, EWA_TANGENT_V, 3);
     plan->makes_normals = !has_axes && !has(inputs, EWA_NORMAL, 3);
     plan->makes_radii = !has_axes && !has(inputs, EWA_RADIUS, 1);
-    plan->normal_at_bytes = survey->record_bytes;
+    plan->normal_at_bytes = statistics->record_bytes;
     plan->radius_at_bytes = plan->normal_at_bytes + (plan->makes_normals ? 6 : 0);
     plan->record_bytes = plan->radius_at_bytes + (plan->makes_radii ? 4 : 0);
     return make_output(plan);
@@ -66,7 +66,7 @@ void ewa_region_result_free(ewa_context *context, ewa_region_result *result) {
     ewa_buffer_free(context, &result->blocks);
     for (uint32_t level = 0; level < EWA_CODE_LEVELS; level++)
         ewa_buffer_free(context, &result->above[level]);
-    ewa_standins_free(context, &result->standins);
+    ewa_representatives_free(context, &result->representatives);
     *result = (ewa_region_result){.chunk_count = 0};
 }
 
@@ -87,7 +87,7 @@ static ewa_status encode_batch(ewa_region_plan *plan, const ewa_octree_key *keys
 
 ewa_status ewa_region_encode(ewa_region_plan *plan, const uint8_t *records, uint32_t count, uint32_t level,
                              ewa_region_result *result) {
-    const ewa_lattice *lattice = &plan->survey->lattice;
+    const ewa_lattice *lattice = &plan->statistics->lattice;
     ewa_octree_key keys[BATCH];
     ewa_cloud *pieces[BATCH] = {NULL};
     uint32_t piece_count = 0;
@@ -113,18 +113,19 @@ ewa_status ewa_region_encode(ewa_region_plan *plan, const uint8_t *records, uint
     return status;
 }
 
-/// Packs what stands for a cube's points.
-static ewa_status encode_page(ewa_region_plan *plan, const ewa_octree_key *key, const ewa_standins *standins,
-                              ewa_region_result *result, ewa_levels_page *page) {
-    const uint32_t count = standins->count;
+/// Packs what represents a node's points.
+static ewa_status encode_page(ewa_region_plan *plan, const ewa_octree_key *key,
+                              const ewa_representatives *representatives, ewa_region_result *result,
+                              ewa_levels_page *page) {
+    const uint32_t count = representatives->count;
     enum { FLOATS = 7 };
     float *floats = ewa_allocate(plan->context, (size_t)count * FLOATS, sizeof *floats);
     uint8_t *rgba = ewa_allocate(plan->context, count, 4);
     ewa_status status = floats && rgba ? EWA_OK : EWA_ERROR_MEMORY;
-    const double side = ewa_lattice_side_world(&plan->survey->lattice, (uint32_t)key->level);
+    const double side = ewa_lattice_side_world(&plan->statistics->lattice, (uint32_t)key->level);
     const ewa_level_surfels surfels = {floats, floats + 3 * (size_t)count, floats + 6 * (size_t)count, rgba};
     for (uint32_t i = 0; i < count && status == EWA_OK; i++) {
-        const ewa_standin *s = &standins->items[i];
+        const ewa_representative *s = &representatives->items[i];
         for (int c = 0; c < 3; c++) {
             surfels.at[3 * (size_t)i + (size_t)c] = (float)(s->at_world[c] / side - key->cell[c]);
             surfels.normal[3 * (size_t)i + (size_t)c] = s->normal[c];
@@ -147,34 +148,36 @@ static ewa_status encode_page(ewa_region_plan *plan, const ewa_octree_key *key, 
 static bool is_measured(uint32_t leaf) { return leaf < MEASURED_LEAVES || leaf % MEASURED_LEAVES == 0; }
 
 ewa_status ewa_region_page(ewa_region_plan *plan, const ewa_octree_key *key, uint64_t point_count,
-                           const ewa_standins *parts, uint32_t part_count, ewa_region_result *result,
-                           ewa_standins *standins) {
+                           const ewa_representatives *children, uint32_t child_count,
+                           ewa_region_result *result, ewa_representatives *representatives) {
     ewa_levels_page page = {.key = *key, .point_count = point_count, .radius_scale = 1};
     ewa_status status = EWA_OK;
-    for (uint32_t i = 0; i < standins->count && !part_count; i++)
-        page.largest_radius_world = fmaxf(page.largest_radius_world, standins->items[i].radius_world);
-    if (!part_count && standins->count && is_measured(plan->leaf_count++))
-        status = ewa_standins_cover(plan->judge, standins, &page.unit_coverage);
-    if (part_count) {
+    for (uint32_t i = 0; i < representatives->count && !child_count; i++)
+        page.largest_radius_world = fmaxf(page.largest_radius_world, representatives->items[i].radius_world);
+    if (!child_count && representatives->count && is_measured(plan->leaf_count++))
+        status = ewa_representatives_cover(plan->evaluator, representatives, &page.unit_coverage);
+    if (child_count) {
         ewa_buffer all = {0};
         uint32_t count = 0;
-        for (uint32_t i = 0; i < part_count; i++) count += parts[i].count;
-        status = ewa_buffer_reserve(plan->context, &all, count, sizeof(ewa_standin));
+        for (uint32_t i = 0; i < child_count; i++) count += children[i].count;
+        status = ewa_buffer_reserve(plan->context, &all, count, sizeof(ewa_representative));
         count = 0;
-        for (uint32_t i = 0; i < part_count && status == EWA_OK; i++) {
-            memcpy((ewa_standin *)all.data + count, parts[i].items, parts[i].count * sizeof *parts[i].items);
-            count += parts[i].count;
+        for (uint32_t i = 0; i < child_count && status == EWA_OK; i++) {
+            memcpy((ewa_representative *)all.data + count, children[i].items,
+                   children[i].count * sizeof *children[i].items);
+            count += children[i].count;
         }
         if (status == EWA_OK)
-            status = ewa_standins_merge(plan->context, all.data, count, (uint32_t)key->level + EWA_PAGE_BITS,
-                                        standins);
+            status = ewa_representatives_merge(plan->context, all.data, count,
+                                               (uint32_t)key->level + EWA_PAGE_BITS, representatives);
         ewa_buffer_free(plan->context, &all);
-        const double side = ewa_lattice_side_world(&plan->survey->lattice, (uint32_t)key->level);
+        const double side = ewa_lattice_side_world(&plan->statistics->lattice, (uint32_t)key->level);
         if (status == EWA_OK)
-            status = ewa_standins_judge(plan->judge, parts, part_count, key, side, standins, &page.error);
-        if (status == EWA_OK) status = encode_page(plan, key, standins, result, &page);
-        page.surfel_count = standins->count;
-        page.radius_scale = standins->radius_scale;
+            status = ewa_representatives_evaluate(plan->evaluator, children, child_count, key, side,
+                                                  representatives, &page.error);
+        if (status == EWA_OK) status = encode_page(plan, key, representatives, result, &page);
+        page.surfel_count = representatives->count;
+        page.radius_scale = representatives->radius_scale;
     }
     if (status == EWA_OK)
         status = ewa_buffer_grow(plan->context, &result->pages, result->page_count,

@@ -2,39 +2,49 @@
 // SPDX-License-Identifier: MIT
 //
 // Parts of an octree that were made by themselves, on any machine of the same byte order: what is known of the whole, and the
-// results of some regions. A part's sections: what it is; the survey; the prototype; all regions; then one for each
-// region that was made.
+// results of some regions. A part's sections: what it is; the statistics; the prototype; all regions; then
+// one for each region that was made.
 #include "lod/part.h"
 #include "io/sections.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-enum { HEAD = 1, SURVEY = 2, PROTOTYPE = 3, REGIONS = 4, RESULT = 5, COMMON_SECTIONS = 3, PART_VERSION = 1 };
+enum {
+    HEAD = 1,
+    STATISTICS = 2,
+    PROTOTYPE = 3,
+    REGIONS = 4,
+    RESULT = 5,
+    COMMON_SECTIONS = 3,
+    PART_VERSION = 1
+};
 
 /// The first section.
 typedef struct part_head {
     char magic[8];
-    uint32_t version, standin_bytes, page_bytes, sums_bytes; // of structs that are stored as they are
+    uint32_t version, representative_bytes, page_bytes, sums_bytes; // of structs that are stored as they are
     uint32_t subset, subset_count;
 } part_head;
 
 static part_head make_head(uint32_t subset, uint32_t subset_count) {
     return (part_head){
-        "EWAPART", PART_VERSION, sizeof(ewa_standin), sizeof(ewa_levels_page), sizeof(ewa_octree_sums),
+        "EWAPART", PART_VERSION, sizeof(ewa_representative), sizeof(ewa_levels_page), sizeof(ewa_octree_sums),
         subset,    subset_count};
 }
 
-static ewa_status put_survey(ewa_context *context, const ewa_survey *survey, ewa_section *to) {
-    ewa_status status = ewa_section_put(context, to, &survey->lattice, sizeof survey->lattice);
-    const uint64_t numbers[4] = {survey->point_count, survey->left_out_count, survey->column_count,
-                                 survey->record_bytes};
+static ewa_status put_statistics(ewa_context *context, const ewa_statistics *statistics, ewa_section *to) {
+    ewa_status status = ewa_section_put(context, to, &statistics->lattice, sizeof statistics->lattice);
+    const uint64_t numbers[4] = {statistics->point_count, statistics->left_out_count,
+                                 statistics->column_count, statistics->record_bytes};
     if (status == EWA_OK) status = ewa_section_put(context, to, numbers, sizeof numbers);
-    if (status == EWA_OK) status = ewa_section_put(context, to, survey->least, sizeof survey->least);
-    if (status == EWA_OK) status = ewa_section_put(context, to, survey->most, sizeof survey->most);
-    return status == EWA_OK
-               ? ewa_section_put(context, to, survey->columns, survey->column_count * sizeof *survey->columns)
-               : status;
+    if (status == EWA_OK)
+        status = ewa_section_put(context, to, statistics->minimum, sizeof statistics->minimum);
+    if (status == EWA_OK)
+        status = ewa_section_put(context, to, statistics->maximum, sizeof statistics->maximum);
+    return status == EWA_OK ? ewa_section_put(context, to, statistics->columns,
+                                              statistics->column_count * sizeof *statistics->columns)
+                            : status;
 }
 
 static ewa_status put_prototype(ewa_context *context, const ewa_cloud *cloud, ewa_section *to) {
@@ -96,12 +106,14 @@ static ewa_status put_result(ewa_context *context, const ewa_region_result *resu
         if (status == EWA_OK)
             status = ewa_section_put(context, to, result->above[level].data, (size_t)count * record_bytes);
     }
-    const ewa_standins *standins = &result->standins;
-    const float drawn[2] = {standins->radius_scale, standins->unit_coverage};
-    if (status == EWA_OK) status = ewa_section_put(context, to, &standins->count, sizeof standins->count);
+    const ewa_representatives *representatives = &result->representatives;
+    const float drawn[2] = {representatives->radius_scale, representatives->unit_coverage};
+    if (status == EWA_OK)
+        status = ewa_section_put(context, to, &representatives->count, sizeof representatives->count);
     if (status == EWA_OK) status = ewa_section_put(context, to, drawn, sizeof drawn);
     if (status == EWA_OK)
-        status = ewa_section_put(context, to, standins->items, standins->count * sizeof *standins->items);
+        status = ewa_section_put(context, to, representatives->items,
+                                 representatives->count * sizeof *representatives->items);
     return status;
 }
 
@@ -112,8 +124,8 @@ static ewa_status write_common(ewa_lod_builder *b, ewa_writer *writer, uint32_t 
     const part_head head = make_head(subset, subset_count);
     ewa_status status = ewa_section_put(b->context, &section, &head, sizeof head);
     if (status == EWA_OK) status = ewa_section_write(writer, HEAD, &section);
-    if (status == EWA_OK) status = put_survey(b->context, b->plan.survey, &section);
-    if (status == EWA_OK) status = ewa_section_write(writer, SURVEY, &section);
+    if (status == EWA_OK) status = put_statistics(b->context, b->plan.statistics, &section);
+    if (status == EWA_OK) status = ewa_section_write(writer, STATISTICS, &section);
     if (status == EWA_OK) status = put_prototype(b->context, b->plan.inputs, &section);
     if (status == EWA_OK) status = ewa_section_write(writer, PROTOTYPE, &section);
     if (status == EWA_OK)
@@ -125,10 +137,10 @@ static ewa_status write_common(ewa_lod_builder *b, ewa_writer *writer, uint32_t 
 
 ewa_status ewa_lod_part_write(ewa_lod_builder *b, const char *out, uint32_t subset, uint32_t subset_count) {
     ewa_writer *writer = NULL;
-    ewa_judge judge = {.context = NULL};
+    ewa_evaluator evaluator = {.context = NULL};
     ewa_section section = {.size_bytes = 0};
     ewa_status status =
-        ewa_lod_prepare(b, out, &judge); // chunks have the form of the file that they will be in
+        ewa_lod_prepare(b, out, &evaluator); // chunks have the form of the file that they will be in
     if (status == EWA_OK) status = ewa_writer_open(b->context, out, &writer);
     if (status == EWA_OK) status = write_common(b, writer, subset, subset_count);
     for (uint32_t i = subset; i < b->region_count && status == EWA_OK; i += subset_count) {
@@ -143,7 +155,7 @@ ewa_status ewa_lod_part_write(ewa_lod_builder *b, const char *out, uint32_t subs
     }
     ewa_section_free(b->context, &section);
     ewa_octree_writer_abort(&b->plan.writer);
-    ewa_judge_free(&judge);
+    ewa_evaluator_free(&evaluator);
     if (status == EWA_OK)
         status = ewa_writer_commit(&writer);
     else
@@ -166,7 +178,7 @@ typedef struct part_builder {
     open_part *parts; ///< by subset
     uint32_t part_count;
     ewa_section_view *results; ///< [region]
-    ewa_survey survey;
+    ewa_statistics statistics;
     ewa_cloud *inputs;
     ewa_lod_region *regions;
 } part_builder;
@@ -208,37 +220,38 @@ static bool is_truth(const bool *copied) {
 }
 
 /// Reads what is known of all points.
-static bool take_survey(ewa_context *context, ewa_section_view from, ewa_survey *survey, ewa_status *status) {
-    enum { MOST_COLUMNS = 4096, MOST_RECORD_BYTES = 1 << 16 };
+static bool take_statistics(ewa_context *context, ewa_section_view from, ewa_statistics *statistics,
+                            ewa_status *status) {
+    enum { MAX_COLUMNS = 4096, MAX_RECORD_BYTES = 1 << 16 };
     uint64_t numbers[4];
-    bool good = ewa_section_take(&from, &survey->lattice, sizeof survey->lattice) &&
+    bool good = ewa_section_take(&from, &statistics->lattice, sizeof statistics->lattice) &&
                 ewa_section_take(&from, numbers, sizeof numbers) &&
-                ewa_section_take(&from, survey->least, sizeof survey->least) &&
-                ewa_section_take(&from, survey->most, sizeof survey->most);
-    if (!good || survey->lattice.bits > EWA_LATTICE_BITS || !(survey->lattice.step_world > 0) ||
-        numbers[2] > MOST_COLUMNS || numbers[3] > MOST_RECORD_BYTES)
+                ewa_section_take(&from, statistics->minimum, sizeof statistics->minimum) &&
+                ewa_section_take(&from, statistics->maximum, sizeof statistics->maximum);
+    if (!good || statistics->lattice.bits > EWA_LATTICE_BITS || !(statistics->lattice.step_world > 0) ||
+        numbers[2] > MAX_COLUMNS || numbers[3] > MAX_RECORD_BYTES)
         return false;
-    survey->point_count = numbers[0], survey->left_out_count = numbers[1];
-    survey->column_count = (uint32_t)numbers[2], survey->record_bytes = (uint32_t)numbers[3];
-    survey->columns = ewa_allocate(context, survey->column_count, sizeof *survey->columns);
-    if (!survey->columns) *status = EWA_ERROR_MEMORY;
-    if (!survey->columns ||
-        !ewa_section_take(&from, survey->columns, survey->column_count * sizeof *survey->columns))
+    statistics->point_count = numbers[0], statistics->left_out_count = numbers[1];
+    statistics->column_count = (uint32_t)numbers[2], statistics->record_bytes = (uint32_t)numbers[3];
+    statistics->columns = ewa_allocate(context, statistics->column_count, sizeof *statistics->columns);
+    if (!statistics->columns) *status = EWA_ERROR_MEMORY;
+    if (!statistics->columns ||
+        !ewa_section_take(&from, statistics->columns, statistics->column_count * sizeof *statistics->columns))
         return false;
-    for (uint32_t k = 0; k < survey->column_count; k++) {
-        const ewa_survey_column *column = &survey->columns[k];
+    for (uint32_t k = 0; k < statistics->column_count; k++) {
+        const ewa_statistics_column *column = &statistics->columns[k];
         good = good && column->size_bytes <= sizeof column->value && is_truth(&column->constant) &&
                is_truth(&column->seen) &&
-               (column->constant || (column->at_bytes <= survey->record_bytes &&
-                                     column->size_bytes <= survey->record_bytes - column->at_bytes));
+               (column->constant || (column->at_bytes <= statistics->record_bytes &&
+                                     column->size_bytes <= statistics->record_bytes - column->at_bytes));
     }
-    return good && survey->record_bytes >= 3 * sizeof(uint32_t);
+    return good && statistics->record_bytes >= 3 * sizeof(uint32_t);
 }
 
-static bool take_prototype(ewa_section_view from, const ewa_survey *survey, ewa_cloud *cloud,
+static bool take_prototype(ewa_section_view from, const ewa_statistics *statistics, ewa_cloud *cloud,
                            ewa_status *status) {
     uint32_t count, note_count, column = 0;
-    bool good = ewa_section_take(&from, &count, sizeof count) && count == survey->column_count + 1;
+    bool good = ewa_section_take(&from, &count, sizeof count) && count == statistics->column_count + 1;
     for (uint32_t a = 0; a < count && good && *status == EWA_OK; a++) {
         char name[EWA_NAME_BYTES];
         uint32_t shape[2];
@@ -246,12 +259,13 @@ static bool take_prototype(ewa_section_view from, const ewa_survey *survey, ewa_
         good = good && memchr(name, 0, sizeof name) && shape[0] <= EWA_U32 && shape[1] >= 1 && shape[1] <= 4;
         const bool is_place = good && strcmp(name, EWA_POSITION) == 0;
         good = good && (is_place ? shape[1] == 3
-                                 : column < survey->column_count &&
-                                       survey->columns[column++].size_bytes ==
+                                 : column < statistics->column_count &&
+                                       statistics->columns[column++].size_bytes ==
                                            shape[1] * ewa_type_bytes((ewa_type)shape[0]));
         if (good) *status = ewa_cloud_add(cloud, name, (ewa_type)shape[0], shape[1], NULL);
     }
-    good = good && column == survey->column_count && ewa_section_take(&from, &note_count, sizeof note_count);
+    good =
+        good && column == statistics->column_count && ewa_section_take(&from, &note_count, sizeof note_count);
     for (uint32_t n = 0; good && n < note_count && *status == EWA_OK; n++) {
         char name[EWA_NAME_BYTES];
         uint64_t size_bytes;
@@ -264,17 +278,17 @@ static bool take_prototype(ewa_section_view from, const ewa_survey *survey, ewa_
     return good;
 }
 
-/// Whether regions are cubes in the order of codes, none of them in another.
+/// Whether regions are nodes in the order of codes, none of them in another.
 static bool are_regions(const ewa_lod_region *regions, uint32_t count) {
-    uint64_t least = 0;
+    uint64_t minimum = 0;
     for (uint32_t i = 0; i < count; i++) {
         const ewa_octree_key *key = &regions[i].key;
         if (key->level < 0 || key->level >= EWA_CODE_LEVELS) return false;
         for (int c = 0; c < 3; c++)
             if (key->cell[c] < 0 || key->cell[c] >= 1 << key->level) return false;
         const uint64_t code = ewa_key_code(key);
-        if (code < least) return false;
-        least = code + ((uint64_t)1 << 3 * (EWA_CODE_LEVELS - (uint32_t)key->level));
+        if (code < minimum) return false;
+        minimum = code + ((uint64_t)1 << 3 * (EWA_CODE_LEVELS - (uint32_t)key->level));
     }
     return true;
 }
@@ -357,13 +371,14 @@ static bool take_result(ewa_context *context, ewa_section_view from, uint32_t re
             !take_array(context, &from, result->above_counts[level], record_bytes, &result->above[level],
                         status))
             return false;
-    ewa_standins *standins = &result->standins;
+    ewa_representatives *representatives = &result->representatives;
     ewa_buffer items = {0};
-    const bool good = ewa_section_take(&from, &standins->count, sizeof standins->count) &&
-                      ewa_section_take(&from, drawn, sizeof drawn) &&
-                      take_array(context, &from, standins->count, sizeof *standins->items, &items, status);
-    standins->items = items.data, standins->capacity_bytes = items.capacity_bytes;
-    standins->radius_scale = drawn[0], standins->unit_coverage = drawn[1];
+    const bool good =
+        ewa_section_take(&from, &representatives->count, sizeof representatives->count) &&
+        ewa_section_take(&from, drawn, sizeof drawn) &&
+        take_array(context, &from, representatives->count, sizeof *representatives->items, &items, status);
+    representatives->items = items.data, representatives->capacity_bytes = items.capacity_bytes;
+    representatives->radius_scale = drawn[0], representatives->unit_coverage = drawn[1];
     return good && from.size_bytes == 0 && drawn[0] > 0;
 }
 
@@ -409,8 +424,8 @@ static ewa_status prepare(part_builder *p) {
     const open_part *any = &p->parts[0];
     ewa_status status = ewa_cloud_create(b->context, 0, &p->inputs);
     if (status != EWA_OK) return status;
-    const bool good = take_survey(b->context, any->common[0], &p->survey, &status) &&
-                      take_prototype(any->common[1], &p->survey, p->inputs, &status);
+    const bool good = take_statistics(b->context, any->common[0], &p->statistics, &status) &&
+                      take_prototype(any->common[1], &p->statistics, p->inputs, &status);
     if (status == EWA_OK && !good)
         status = fail_part(b->context, any, "what it says of all points is damaged");
     if (status != EWA_OK) return status;
@@ -423,7 +438,7 @@ static ewa_status prepare(part_builder *p) {
     if (!are_regions(p->regions, b->region_count))
         return fail_part(b->context, any, "its regions are damaged");
     status = find_results(p);
-    return status == EWA_OK ? ewa_region_plan_make(b->context, &p->survey, p->inputs, &b->plan) : status;
+    return status == EWA_OK ? ewa_region_plan_make(b->context, &p->statistics, p->inputs, &b->plan) : status;
 }
 
 ewa_status ewa_lod_merge(ewa_context *context, const char *const *parts, uint32_t part_count, const char *out,
@@ -439,7 +454,7 @@ ewa_status ewa_lod_merge(ewa_context *context, const char *const *parts, uint32_
     p.base.stats.total_s = ewa_now_s() - start_s;
     if (stats) *stats = p.base.stats;
     ewa_region_plan_free(&p.base.plan);
-    ewa_survey_free(context, &p.survey);
+    ewa_statistics_free(context, &p.statistics);
     ewa_cloud_destroy(&p.inputs);
     ewa_release(context, p.regions, p.base.region_count, sizeof *p.regions);
     ewa_release(context, p.results, p.base.region_count, sizeof *p.results);

@@ -9,7 +9,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { NORMAL_ONE = 32767, NORMAL_STEP = 16, TASK_POINTS = 1 << 12, MOST_BYTES = 32 };
+enum { NORMAL_ONE = 32767, NORMAL_STEP = 16, TASK_POINTS = 1 << 12, MAX_BYTES = 32 };
 
 void ewa_record_put_normal(uint8_t *to, const float normal[3]) {
     for (int c = 0; c < 3; c++) {
@@ -30,7 +30,7 @@ void ewa_record_put_radius(uint8_t *to, float radius_world) {
 
 /// Finds where the numbers of an attribute of the inputs are: in the record, or those that all points have.
 static const uint8_t *find_numbers(const ewa_region_plan *plan, const uint8_t *record, uint32_t column) {
-    const ewa_survey_column *known = &plan->survey->columns[column];
+    const ewa_statistics_column *known = &plan->statistics->columns[column];
     return known->constant ? known->value : record + known->at_bytes;
 }
 
@@ -48,7 +48,7 @@ static uint32_t column_of(const ewa_region_plan *plan, const char *name) {
 void ewa_record_get(const ewa_region_plan *plan, const uint8_t *record, const char *attribute, uint8_t *to) {
     const uint32_t column = column_of(plan, attribute);
     if (column != UINT32_MAX)
-        memcpy(to, find_numbers(plan, record, column), plan->survey->columns[column].size_bytes);
+        memcpy(to, find_numbers(plan, record, column), plan->statistics->columns[column].size_bytes);
 }
 
 /// One stream of a cloud that is made.
@@ -70,7 +70,7 @@ typedef struct cloud_job {
 static void fill_task(void *data, uint32_t task, uint32_t worker) {
     (void)worker;
     const cloud_job *job = data;
-    const ewa_lattice *lattice = &job->plan->survey->lattice;
+    const ewa_lattice *lattice = &job->plan->statistics->lattice;
     const uint32_t first = task * TASK_POINTS, left = job->count - first;
     const uint32_t end = first + (left < TASK_POINTS ? left : TASK_POINTS);
     for (uint32_t t = 0; t < job->target_count; t++) {
@@ -139,7 +139,7 @@ ewa_status ewa_records_to_cloud(const ewa_region_plan *plan, const uint8_t *reco
 typedef struct surfel_job {
     const ewa_region_plan *plan;
     const uint8_t *records;
-    ewa_standin *items;
+    ewa_representative *items;
     uint32_t count;
     uint32_t normal, radius, tangent_u, tangent_v, color; ///< columns; UINT32_MAX: none
     const ewa_attribute *normal_of, *radius_of, *tangent_of, *color_of;
@@ -149,14 +149,15 @@ typedef struct surfel_job {
 /// Reads the numbers of a column as doubles.
 static void read_column(const surfel_job *job, const uint8_t *record, uint32_t column,
                         const ewa_attribute *of, double values[4]) {
-    uint64_t aligned[MOST_BYTES / 8];
-    memcpy(aligned, find_numbers(job->plan, record, column), job->plan->survey->columns[column].size_bytes);
+    uint64_t aligned[MAX_BYTES / 8];
+    memcpy(aligned, find_numbers(job->plan, record, column),
+           job->plan->statistics->columns[column].size_bytes);
     ewa_attribute one = *of;
     one.data = aligned;
     ewa_attribute_read_f64(&one, 0, 1, values);
 }
 
-static void read_shape(const surfel_job *job, const uint8_t *record, ewa_standin *made) {
+static void read_shape(const surfel_job *job, const uint8_t *record, ewa_representative *made) {
     static const double CUTOFF = 3; // of radii, as surfels are made with
     const ewa_region_plan *plan = job->plan;
     double normal[4] = {0}, radius[4] = {0};
@@ -191,16 +192,16 @@ static void read_shape(const surfel_job *job, const uint8_t *record, ewa_standin
     made->radius_world = radius[0] > 0 && isfinite(radius[0]) ? (float)radius[0] : 0;
 }
 
-static void standin_task(void *data, uint32_t task, uint32_t worker) {
+static void representative_task(void *data, uint32_t task, uint32_t worker) {
     (void)worker;
     const surfel_job *job = data;
-    const ewa_lattice *lattice = &job->plan->survey->lattice;
+    const ewa_lattice *lattice = &job->plan->statistics->lattice;
     const uint32_t first = task * TASK_POINTS, left = job->count - first;
     const uint32_t end = first + (left < TASK_POINTS ? left : TASK_POINTS);
     for (uint32_t i = first; i < end; i++) {
         const uint8_t *record = job->records + (size_t)i * job->plan->record_bytes;
-        ewa_standin *made = &job->items[i];
-        *made = (ewa_standin){.code = ewa_record_code(lattice, record), .alpha = 1};
+        ewa_representative *made = &job->items[i];
+        *made = (ewa_representative){.code = ewa_record_code(lattice, record), .alpha = 1};
         for (int c = 0; c < 3; c++) made->at_world[c] = ewa_record_place(record, c) * lattice->step_world;
         read_shape(job, record, made);
         double values[4] = {0}, linear[3] = {EWA_DEFAULT_GREY, EWA_DEFAULT_GREY, EWA_DEFAULT_GREY};
@@ -213,17 +214,18 @@ static void standin_task(void *data, uint32_t task, uint32_t worker) {
     }
 }
 
-ewa_status ewa_records_to_standins(const ewa_region_plan *plan, const uint8_t *records, uint32_t count,
-                                   ewa_standins *standins) {
-    ewa_buffer buffer = {standins->items, standins->capacity_bytes};
-    const ewa_status status = ewa_buffer_reserve(plan->context, &buffer, count, sizeof *standins->items);
-    standins->items = buffer.data, standins->capacity_bytes = buffer.capacity_bytes;
+ewa_status ewa_records_to_representatives(const ewa_region_plan *plan, const uint8_t *records, uint32_t count,
+                                          ewa_representatives *representatives) {
+    ewa_buffer buffer = {representatives->items, representatives->capacity_bytes};
+    const ewa_status status =
+        ewa_buffer_reserve(plan->context, &buffer, count, sizeof *representatives->items);
+    representatives->items = buffer.data, representatives->capacity_bytes = buffer.capacity_bytes;
     if (status != EWA_OK) return status;
-    standins->radius_scale = 1;
-    standins->unit_coverage = 0;
+    representatives->radius_scale = 1;
+    representatives->unit_coverage = 0;
     surfel_job job = {.plan = plan,
                       .records = records,
-                      .items = standins->items,
+                      .items = representatives->items,
                       .count = count,
                       .normal = column_of(plan, EWA_NORMAL),
                       .radius = column_of(plan, EWA_RADIUS),
@@ -237,9 +239,10 @@ ewa_status ewa_records_to_standins(const ewa_region_plan *plan, const uint8_t *r
     if (job.color_of && job.color_of->component_count < 3) job.color = UINT32_MAX;
     if (job.tangent_v == UINT32_MAX) job.tangent_u = UINT32_MAX;
     ewa_color_table_make(&job.colors);
-    ewa_parallel(plan->context, standin_task, &job, (count + TASK_POINTS - 1) / TASK_POINTS);
-    standins->count = 0; // what cannot be drawn is left out
+    ewa_parallel(plan->context, representative_task, &job, (count + TASK_POINTS - 1) / TASK_POINTS);
+    representatives->count = 0; // what cannot be drawn is left out
     for (uint32_t i = 0; i < count; i++)
-        if (standins->items[i].radius_world > 0) standins->items[standins->count++] = standins->items[i];
+        if (representatives->items[i].radius_world > 0)
+            representatives->items[representatives->count++] = representatives->items[i];
     return EWA_OK;
 }

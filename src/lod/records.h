@@ -34,7 +34,7 @@ ewa_status ewa_records_to_cloud(const ewa_region_plan *plan, const uint8_t *reco
                                 ewa_cloud **piece);
 
 /// Makes surfels of records, which are in the order of their codes. Errors: EWA_ERROR_MEMORY.
-ewa_status ewa_records_to_standins(const ewa_region_plan *plan, const uint8_t *records, uint32_t count,
-                                   ewa_standins *standins);
+ewa_status ewa_records_to_representatives(const ewa_region_plan *plan, const uint8_t *records, uint32_t count,
+                                          ewa_representatives *representatives);
 
 #endif

@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// A region's points: sorted, made surfels, divided among the nodes of its cubes.
+// A region's points: sorted, made surfels, divided among its nodes.
 //
-// A node has a point of each of its 128^3 cells that has one left; cubes of few points have all that are left.
+// A node has a point of each of its 128^3 cells that has one left; nodes of few points have all that are
+// left.
 #include "lod/region.h"
 #include "cloud/cloud.h"
 #include "ewa/prepare.h"
@@ -19,7 +20,7 @@ static uint32_t task_count(uint64_t count) { return (uint32_t)((count + TASK_POI
 
 typedef struct load_job {
     const ewa_region_plan *plan;
-    const uint8_t *records; ///< as they were put aside
+    const uint8_t *records; ///< as they were spooled
     ewa_coded *items;
     ewa_region_points *points;
 } load_job;
@@ -27,18 +28,18 @@ typedef struct load_job {
 static void code_task(void *data, uint32_t task, uint32_t worker) {
     (void)worker;
     const load_job *job = data;
-    const ewa_survey *survey = job->plan->survey;
+    const ewa_statistics *statistics = job->plan->statistics;
     const uint32_t first = task * TASK_POINTS, left = job->points->count - first;
     const uint32_t end = first + (left < TASK_POINTS ? left : TASK_POINTS);
     for (uint32_t i = first; i < end; i++)
         job->items[i] = (ewa_coded){
-            ewa_record_code(&survey->lattice, job->records + (size_t)i * survey->record_bytes), i};
+            ewa_record_code(&statistics->lattice, job->records + (size_t)i * statistics->record_bytes), i};
 }
 
 static void order_task(void *data, uint32_t task, uint32_t worker) {
     (void)worker;
     const load_job *job = data;
-    const size_t from_bytes = job->plan->survey->record_bytes, to_bytes = job->plan->record_bytes;
+    const size_t from_bytes = job->plan->statistics->record_bytes, to_bytes = job->plan->record_bytes;
     const uint32_t first = task * TASK_POINTS, left = job->points->count - first;
     const uint32_t end = first + (left < TASK_POINTS ? left : TASK_POINTS);
     for (uint32_t i = first; i < end; i++) {
@@ -55,17 +56,17 @@ static void free_points(ewa_context *context, const ewa_region_plan *plan, ewa_r
 }
 
 /// Reads a region's points and sorts them.
-static ewa_status load(ewa_region_plan *plan, ewa_spread *spread, ewa_region *region,
+static ewa_status load(ewa_region_plan *plan, ewa_distribution *distribution, ewa_region *region,
                        ewa_region_points *points) {
     ewa_context *context = plan->context;
-    const uint32_t count = (uint32_t)region->own.count, from_bytes = plan->survey->record_bytes;
+    const uint32_t count = (uint32_t)region->own.count, from_bytes = plan->statistics->record_bytes;
     *points = (ewa_region_points){.count = count, .capacity = count};
     uint8_t *records = ewa_allocate(context, count, from_bytes);
     ewa_coded *items = ewa_allocate(context, count, sizeof *items),
               *spare = ewa_allocate(context, count, sizeof *spare);
     points->codes = ewa_allocate(context, count, sizeof *points->codes);
     ewa_status status = records && items && spare && points->codes ? EWA_OK : EWA_ERROR_MEMORY;
-    if (status == EWA_OK) status = ewa_spread_read(spread, &region->own, from_bytes, records);
+    if (status == EWA_OK) status = ewa_distribution_read(distribution, &region->own, from_bytes, records);
     load_job job = {plan, records, items, points};
     if (status == EWA_OK) {
         ewa_parallel(context, code_task, &job, task_count(count));
@@ -95,7 +96,7 @@ typedef struct estimate_job {
 static void position_task(void *data, uint32_t task, uint32_t worker) {
     (void)worker;
     const estimate_job *job = data;
-    const double step = job->plan->survey->lattice.step_world;
+    const double step = job->plan->statistics->lattice.step_world;
     const uint64_t first = (uint64_t)task * TASK_POINTS, left = job->all_count - first;
     const uint64_t end = first + (left < TASK_POINTS ? left : TASK_POINTS);
     for (uint64_t i = first; i < end; i++) {
@@ -125,7 +126,7 @@ static void keep_task(void *data, uint32_t task, uint32_t worker) {
 
 /// The cloud of a region's points and those around it, with what orientation may need.
 static ewa_status make_neighbourhood(const ewa_region_plan *plan, estimate_job *job, ewa_cloud **cloud) {
-    const ewa_lattice *lattice = &plan->survey->lattice;
+    const ewa_lattice *lattice = &plan->statistics->lattice;
     void *positions = NULL, *scans = NULL, *returns = NULL;
     double origin[3];
     for (int c = 0; c < 3; c++) origin[c] = ewa_lattice_world(lattice, c, lattice->low[c] + job->middle[c]);
@@ -156,17 +157,18 @@ static ewa_status make_neighbourhood(const ewa_region_plan *plan, estimate_job *
 }
 
 /// Gives the points normals and radii.
-static ewa_status estimate(ewa_region_plan *plan, ewa_spread *spread, ewa_region *region,
+static ewa_status estimate(ewa_region_plan *plan, ewa_distribution *distribution, ewa_region *region,
                            ewa_region_points *points) {
     if (!plan->makes_normals && !plan->makes_radii) return EWA_OK;
     ewa_context *context = plan->context;
     const uint64_t around_count = region->around.count;
     uint8_t *around = ewa_allocate(context, around_count, EWA_AROUND_BYTES);
-    ewa_status status =
-        around ? ewa_spread_read(spread, &region->around, EWA_AROUND_BYTES, around) : EWA_ERROR_MEMORY;
+    ewa_status status = around
+                            ? ewa_distribution_read(distribution, &region->around, EWA_AROUND_BYTES, around)
+                            : EWA_ERROR_MEMORY;
     estimate_job job = {
         .plan = plan, .points = points, .around = around, .all_count = points->count + around_count};
-    const uint32_t bits = plan->survey->lattice.bits;
+    const uint32_t bits = plan->statistics->lattice.bits;
     for (int c = 0; c < 3; c++)
         job.middle[c] = (int64_t)ldexp(region->key.cell[c] + 0.5, (int)bits - region->key.level);
     ewa_cloud *cloud = NULL;
@@ -216,7 +218,7 @@ static bool is_leaf(uint32_t count, uint32_t level) {
     return count <= EWA_PAGE_POINTS || level + EWA_PAGE_BITS >= EWA_CODE_LEVELS;
 }
 
-/// Divides the points [first, end) of a cube among its node and those of the cubes below.
+/// Divides the points [first, end) of a subtree among its root node and the nodes below.
 static void divide(const ewa_region_points *points, uint32_t first, uint32_t end, uint32_t level,
                    uint8_t *taken) {
     if (is_leaf(end - first, level)) {
@@ -270,39 +272,39 @@ static ewa_status make_nodes(ewa_region_plan *plan, const ewa_region *region, co
     return status;
 }
 
-/// Makes what stands for the points [first, end) of a cube, and all pages below it.
+/// Makes what represents the points [first, end) of a node, and all pages below it.
 static ewa_status make_pages(ewa_region_plan *plan, const ewa_region_points *points, uint32_t first,
                              uint32_t end, uint32_t level, ewa_region_result *result,
-                             ewa_standins *standins) {
+                             ewa_representatives *representatives) {
     const ewa_octree_key key = ewa_code_key(points->codes[first], level);
     if (is_leaf(end - first, level)) {
-        const ewa_status status = ewa_records_to_standins(
-            plan, points->records + (size_t)first * plan->record_bytes, end - first, standins);
-        return status == EWA_OK ? ewa_region_page(plan, &key, end - first, NULL, 0, result, standins)
+        const ewa_status status = ewa_records_to_representatives(
+            plan, points->records + (size_t)first * plan->record_bytes, end - first, representatives);
+        return status == EWA_OK ? ewa_region_page(plan, &key, end - first, NULL, 0, result, representatives)
                                 : status;
     }
-    ewa_standins parts[8] = {{0}};
-    uint32_t part_count = 0;
+    ewa_representatives children[8] = {{0}};
+    uint32_t child_count = 0;
     ewa_status status = EWA_OK;
     for (uint32_t i = first, next; i < end && status == EWA_OK; i = next) {
         const uint64_t prefix = ewa_code_prefix(points->codes[i], level + 1);
         next = i + 1;
         while (next < end && ewa_code_prefix(points->codes[next], level + 1) == prefix) next++;
-        status = make_pages(plan, points, i, next, level + 1, result, &parts[part_count++]);
+        status = make_pages(plan, points, i, next, level + 1, result, &children[child_count++]);
     }
     if (status == EWA_OK)
-        status = ewa_region_page(plan, &key, end - first, parts, part_count, result, standins);
-    for (uint32_t i = 0; i < part_count; i++) ewa_standins_free(plan->context, &parts[i]);
+        status = ewa_region_page(plan, &key, end - first, children, child_count, result, representatives);
+    for (uint32_t i = 0; i < child_count; i++) ewa_representatives_free(plan->context, &children[i]);
     return status;
 }
 
-ewa_status ewa_region_make(ewa_region_plan *plan, ewa_spread *spread, ewa_region *region,
+ewa_status ewa_region_make(ewa_region_plan *plan, ewa_distribution *distribution, ewa_region *region,
                            ewa_region_result *result) {
     ewa_region_points points;
     double before = ewa_now_s();
     plan->leaf_count = 0;
-    ewa_status status = load(plan, spread, region, &points);
-    if (status == EWA_OK) status = estimate(plan, spread, region, &points);
+    ewa_status status = load(plan, distribution, region, &points);
+    if (status == EWA_OK) status = estimate(plan, distribution, region, &points);
     double now = ewa_now_s();
     plan->estimate_s += now - before, before = now;
     if (status == EWA_OK) status = make_nodes(plan, region, &points, result);
@@ -310,7 +312,7 @@ ewa_status ewa_region_make(ewa_region_plan *plan, ewa_spread *spread, ewa_region
     plan->encode_s += now - before, before = now;
     if (status == EWA_OK)
         status = make_pages(plan, &points, 0, points.count, (uint32_t)region->key.level, result,
-                            &result->standins);
+                            &result->representatives);
     plan->merge_s += ewa_now_s() - before;
     free_points(plan->context, plan, &points);
     return status;

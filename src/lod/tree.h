@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// The cubes of an open octree, what can be drawn of each, and those that are in memory.
+// The nodes of an open octree, what can be drawn of each, and those that are in memory.
 #ifndef EWA_SRC_LOD_TREE_H
 #define EWA_SRC_LOD_TREE_H
 
@@ -9,14 +9,15 @@
 #include "io/levels.h"
 #include "io/octree.h"
 
-#define EWA_NO_CUBE UINT32_MAX
+#define EWA_NO_NODE UINT32_MAX
 
-/// A cube: either surfels stand for all of its points (it is divided, and its parts hold more), or its points are drawn.
-typedef struct ewa_cube {
+/// A node: either surfels represent all of its points (it is divided, and its children hold more), or its
+/// points are drawn.
+typedef struct ewa_lod_node {
     ewa_octree_key key;
-    uint32_t parts[8]; ///< EWA_NO_CUBE: none
-    uint32_t node;     ///< of the octree; UINT32_MAX: none with points
-    uint32_t page;     ///< of the levels; UINT32_MAX: there are none
+    uint32_t children[8]; ///< EWA_NO_NODE: none
+    uint32_t file_node;   ///< of the file's octree; UINT32_MAX: none with points
+    uint32_t page;        ///< of the levels; UINT32_MAX: there are none
     bool divided;
     double low_world[3], side_world;
     double spacing_world;        ///< of what is drawn of it
@@ -26,7 +27,7 @@ typedef struct ewa_cube {
     ewa_surfels *surfels;        ///< NULL: not in memory
     size_t resident_bytes;
     uint64_t last_frame; ///< that drew it
-} ewa_cube;
+} ewa_lod_node;
 
 struct ewa_lod {
     ewa_context *context;
@@ -34,33 +35,34 @@ struct ewa_lod {
     const ewa_octree_facts *facts;
     ewa_levels levels;
     bool has_levels, has_surfels;
-    ewa_cube *cubes; ///< the root first
-    uint32_t cube_count;
-    size_t cube_capacity_bytes;
+    ewa_lod_node *nodes; ///< the root first
+    uint32_t node_count;
+    size_t node_capacity_bytes;
     uint64_t frame;
     size_t resident_bytes;  ///< of all surfels
     ewa_cloud **clouds;     ///< [node]: its points, of those that are kept; else NULL
     uint64_t *cloud_frames; ///< [node]: when its points were wanted last
     size_t cloud_bytes;
     ewa_buffer items;  ///< of the frame (draw.c)
-    ewa_buffer wanted; ///< cubes to load
+    ewa_buffer wanted; ///< nodes to load
 };
 
-/// Makes the cubes of an open octree. Errors: EWA_ERROR_MEMORY, EWA_ERROR_FORMAT.
+/// Makes the nodes of an open octree. Errors: EWA_ERROR_MEMORY, EWA_ERROR_FORMAT.
 ewa_status ewa_tree_make(ewa_lod *lod);
 
-/// The cell of a level that a place is in, in the cube of a node that holds the point, of a level that is not finer.
-void ewa_tree_cell(const ewa_lod *lod, const double world[3], const ewa_octree_key *node, int32_t level,
+/// The cell of `level` that contains a place, within the node of the file node that holds the point; that
+/// node's level is not finer.
+void ewa_tree_cell(const ewa_lod *lod, const double world[3], const ewa_octree_key *file_node, int32_t level,
                    int32_t cell[3]);
 
-/// Reads what is drawn of some cubes, all at once, into memory. Errors: as ewa_lod_open().
-ewa_status ewa_tree_load(ewa_lod *lod, const uint32_t *cubes, uint32_t count, uint64_t memory_bytes);
+/// Reads what is drawn of some nodes, all at once, into memory. Errors: as ewa_lod_open().
+ewa_status ewa_tree_load(ewa_lod *lod, const uint32_t *nodes, uint32_t count, uint64_t memory_bytes);
 
-/// Drops cubes and points that were not wanted by this frame, those that were wanted longest ago first, until `memory_bytes` are
-/// enough.
+/// Drops nodes and points that were not wanted by this frame, those that were wanted longest ago first, until
+/// `memory_bytes` are enough.
 void ewa_tree_trim(ewa_lod *lod, uint64_t memory_bytes);
 
-/// Drops what is in memory of a cube.
-void ewa_tree_drop(ewa_lod *lod, uint32_t cube);
+/// Drops what is in memory of a node.
+void ewa_tree_drop(ewa_lod *lod, uint32_t node);
 
 #endif

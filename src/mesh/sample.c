@@ -9,7 +9,7 @@
 #include "homogeneous/vec.h"
 #include "mesh/clip.h"
 #include "mesh/color.h"
-#include "mesh/darts.h"
+#include "mesh/poisson_disc.h"
 
 #include <math.h>
 #include <string.h>
@@ -24,10 +24,10 @@ enum { TASK_POINTS = 1 << 12, TURN_TASKS = 128 };
 typedef struct sample_job {
     const mesh_surface *surface;
     const ewa_mesh_sample_options *options;
-    const mesh_dart *darts;
+    const poisson_sample *samples;
     uint64_t count;
     uint32_t first_task;  // of the present turn
-    double spacing, unit; // of the darts
+    double spacing, unit; // of the samples
     mesh_edge_grid grid;
     mesh_colors colors;
     float *position; // or:
@@ -81,14 +81,14 @@ static ewa_status check_count(ewa_context *context, const ewa_mesh_sample_option
 
 static ewa_vec3 load_normal(const float n[3]) { return vec3_make((double)n[0], (double)n[1], (double)n[2]); }
 
-/// Weights of the three vertices of a triangle at a dart on it, and its place in the triangle's plane.
-static ewa_vec3 weights_at(const sample_job *job, const mesh_dart *dart, double weight[3]) {
+/// Weights of the three vertices of a triangle at a sample on it, and its place in the triangle's plane.
+static ewa_vec3 weights_at(const sample_job *job, const poisson_sample *sample, double weight[3]) {
     const mesh_surface *surface = job->surface;
-    const uint32_t *vertex = surface->mesh->triangles + 3 * (size_t)surface->source[dart->triangle];
-    const ewa_vec3 n = load_normal(surface->normal[dart->triangle]);
-    const ewa_vec3 at =
-        vec3_scale(vec3_make((double)dart->at[0] + 0.5, (double)dart->at[1] + 0.5, (double)dart->at[2] + 0.5),
-                   job->unit);
+    const uint32_t *vertex = surface->mesh->triangles + 3 * (size_t)surface->source[sample->triangle];
+    const ewa_vec3 n = load_normal(surface->normal[sample->triangle]);
+    const ewa_vec3 at = vec3_scale(
+        vec3_make((double)sample->at[0] + 0.5, (double)sample->at[1] + 0.5, (double)sample->at[2] + 0.5),
+        job->unit);
     ewa_vec3 place[3], to[3], sum_place = {0, 0, 0};
     for (int c = 0; c < 3; c++) {
         place[c] = ewa_mesh_place(surface, vertex[c]);
@@ -160,7 +160,7 @@ static void finish_clip(const sample_job *job, uint64_t i, ewa_vec3 place, ewa_v
     ewa_vec3 u = vec3_cross(axis, normal);
     vec3_normalize(&u);
     const ewa_vec3 v = vec3_cross(normal, u);
-    mesh_clip_disc disc = {.radius_world = radius, .part = job->surface->part[job->darts[i].triangle]};
+    mesh_clip_disc disc = {.radius_world = radius, .part = job->surface->part[job->samples[i].triangle]};
     vec3_store(place, disc.center);
     vec3_store(u, disc.u);
     vec3_store(v, disc.v);
@@ -179,7 +179,7 @@ static void finish_clip(const sample_job *job, uint64_t i, ewa_vec3 place, ewa_v
 
 static void finish_color(const sample_job *job, uint64_t i, const double weight[3]) {
     const uint32_t components = job->colors.component_count,
-                   triangle = job->surface->source[job->darts[i].triangle];
+                   triangle = job->surface->source[job->samples[i].triangle];
     float color[4];
     ewa_mesh_color_at(&job->colors, triangle, weight, color);
     if (job->color)
@@ -195,15 +195,15 @@ static void finish_points(void *data, uint32_t part, uint32_t worker) {
     const uint64_t first = ((uint64_t)job->first_task + part) * TASK_POINTS;
     const uint64_t end = first + TASK_POINTS < job->count ? first + TASK_POINTS : job->count;
     for (uint64_t i = first; i < end; i++) {
-        const mesh_dart *dart = &job->darts[i];
+        const poisson_sample *sample = &job->samples[i];
         double weight[3];
-        const ewa_vec3 place = store_place(job, i, weights_at(job, dart, weight));
-        const ewa_vec3 normal = normal_at(job, dart->triangle, weight);
+        const ewa_vec3 place = store_place(job, i, weights_at(job, sample, weight));
+        const ewa_vec3 normal = normal_at(job, sample->triangle, weight);
         store(job->normal + 3 * i, normal, 1);
         if (job->colors.component_count) finish_color(job, i, weight);
-        if (job->part) job->part[i] = job->surface->part[dart->triangle];
+        if (job->part) job->part[i] = job->surface->part[sample->triangle];
         if (job->texcoord)
-            ewa_mesh_chart_at(job->surface->mesh, job->surface->source[dart->triangle], weight,
+            ewa_mesh_chart_at(job->surface->mesh, job->surface->source[sample->triangle], weight,
                               job->texcoord + 2 * i, job->gradient[0] + 3 * i, job->gradient[1] + 3 * i);
         if (job->radius)
             job->radius[i] = (float)(job->options->radius_scale * job->spacing);
@@ -264,7 +264,7 @@ static ewa_status add_attributes(sample_job *job, ewa_cloud *cloud) {
 static double choose_spacing(const mesh_surface *surface, const ewa_mesh_sample_options *options) {
     if (options->spacing_world > 0) return options->spacing_world;
     const double count = (double)options->point_count, area = surface->area_below[surface->triangle_count];
-    const double rows = ewa_mesh_dart_rows(surface);
+    const double rows = ewa_mesh_poisson_rows(surface);
     return (rows + sqrt(rows * rows + 4 * area * count)) / (2 * count);
 }
 
@@ -293,14 +293,14 @@ static ewa_status add_pictures(const sample_job *job, ewa_cloud *cloud) {
 }
 
 static ewa_status sample(ewa_context *context, sample_job *job, ewa_cloud **cloud) {
-    mesh_dart *darts = NULL;
+    poisson_sample *samples = NULL;
     uint64_t capacity = 0;
     job->spacing = choose_spacing(job->surface, job->options);
-    job->unit = ewa_mesh_dart_unit(job->surface);
-    ewa_status status =
-        ewa_mesh_throw_darts(job->surface, job->spacing, job->options->seed, &darts, &capacity, &job->count);
+    job->unit = ewa_mesh_poisson_unit(job->surface);
+    ewa_status status = ewa_mesh_sample_poisson_disc(job->surface, job->spacing, job->options->seed, &samples,
+                                                     &capacity, &job->count);
     if (status != EWA_OK) return status;
-    job->darts = darts;
+    job->samples = samples;
     ewa_cloud *made = NULL;
     status = ewa_mesh_edge_grid_make(job->surface, job->options->radius_scale * job->spacing, &job->grid);
     if (status == EWA_OK) status = ewa_mesh_colors_make(job->surface->mesh, &job->colors);
@@ -317,7 +317,7 @@ static ewa_status sample(ewa_context *context, sample_job *job, ewa_cloud **clou
     if (status != EWA_OK) ewa_cloud_destroy(&made);
     *cloud = made;
     ewa_mesh_edge_grid_free(&job->grid);
-    ewa_release(context, darts, capacity, sizeof *darts);
+    ewa_release(context, samples, capacity, sizeof *samples);
     return status;
 }
 

@@ -158,7 +158,7 @@ static void sort_halves(const surface_job *job) {
 }
 
 /// Decides on one edge from all half edges that lie on it; true when there are more than two.
-static bool judge_edge(surface_job *job, const half_edge *halves, uint32_t count) {
+static bool classify_edge(surface_job *job, const half_edge *halves, uint32_t count) {
     const mesh_surface *surface = job->surface;
     edge_kind kind = count == 1 ? EDGE_BORDER : EDGE_MANY;
     if (count == 2) {
@@ -177,8 +177,8 @@ static bool judge_edge(surface_job *job, const half_edge *halves, uint32_t count
     return kind == EDGE_MANY;
 }
 
-/// Sorts and judges all edges; true when some have more than two triangles.
-static bool judge_edges(surface_job *job) {
+/// Sorts and classifies all edges; true when some have more than two triangles.
+static bool classify_edges(surface_job *job) {
     memset(job->mate, 0xff, 3 * (size_t)job->surface->triangle_count * sizeof *job->mate);
     sort_halves(job);
     bool many = false;
@@ -188,7 +188,7 @@ static bool judge_edges(surface_job *job) {
         for (uint32_t i = job->first_half[v], next; i < end; i = next) {
             for (next = i + 1; next < end && job->halves[next].far_vertex == job->halves[i].far_vertex;)
                 next++;
-            many |= judge_edge(job, job->halves + i, next - i);
+            many |= classify_edge(job, job->halves + i, next - i);
         }
     }
     return many;
@@ -251,11 +251,11 @@ static void unite_parts(surface_job *job) {
         if (job->kind[half] == EDGE_SMOOTH) unite(job->root, half / 3, job->mate[half] / 3);
     memset(job->part_area, 0, count * sizeof *job->part_area);
     for (uint32_t t = 0; t < count; t++) job->part_area[find_root(job->root, t)] += area_of(surface, t);
-    const double least = MIN_PART * job->spacing * job->spacing;
+    const double minimum = MIN_PART * job->spacing * job->spacing;
     for (uint32_t half = 0; half < 3 * count; half++) {
         if (job->kind[half] != EDGE_CREASE) continue;
         const uint32_t a = find_root(job->root, half / 3), b = find_root(job->root, job->mate[half] / 3);
-        if (a == b || (job->part_area[a] >= least && job->part_area[b] >= least)) continue;
+        if (a == b || (job->part_area[a] >= minimum && job->part_area[b] >= minimum)) continue;
         const double area = job->part_area[a] + job->part_area[b];
         job->part_area[unite(job->root, a, b)] = area;
     }
@@ -442,10 +442,10 @@ static ewa_status run(surface_job *job, const ewa_mesh_sample_options *options) 
     ewa_status status =
         ewa_mesh_weld(surface->context, surface->mesh->positions, surface->mesh->vertex_count, job->weld);
     if (status != EWA_OK) return status;
-    bool again = judge_edges(job);
+    bool again = classify_edges(job);
     if (again) status = drop_copies(job, &again);
     if (status != EWA_OK) return status;
-    if (again) judge_edges(job);
+    if (again) classify_edges(job);
     const double area = surface->area_below[surface->triangle_count];
     job->spacing =
         options->spacing_world > 0 ? options->spacing_world : sqrt(area / (double)options->point_count);

@@ -25,13 +25,13 @@
 static const double NEAR_REACHES = 1.05;
 
 /// No Gaussian takes more of the light.
-static const double MOST_ALPHA = 0.99;
+static const double MAX_ALPHA = 0.99;
 
 /// What the filter leaves of a Gaussian's height is at least the root of that.
-static const double LEAST_KEPT = 2.5e-5;
+static const double MIN_KEPT = 2.5e-5;
 
 /// A shorter scale counts as at least that much of the longest one.
-static const double LEAST_ASPECT = 1e-4;
+static const double MIN_ASPECT = 1e-4;
 
 /// Camera space in world units: turned and moved as the camera says, but not scaled.
 typedef struct view {
@@ -176,7 +176,7 @@ static void axes_of(const reference *work, uint32_t number, ewa_vec3 axes[3], do
     const ewa_mat3 turn = mat3_transpose(&work->camera.turn);
     for (int i = 0; i < 3; i++) {
         axes[i] = vec3_mul_mat3(world[i], &turn);
-        scales[i] = fmax((double)s[i], LEAST_ASPECT * longest);
+        scales[i] = fmax((double)s[i], MIN_ASPECT * longest);
     }
 }
 
@@ -230,7 +230,7 @@ static void set_ellipse(const reference *work, const ewa_mat3 *covariance, splat
     const double filtered = fmax(area + h2 * (v[0] + v[2] + h2), 1e-24);
     made->conic[0] = w[2] / filtered, made->conic[1] = -w[1] / filtered, made->conic[2] = w[0] / filtered;
     made->reach_px[0] = sqrt(made->cutoff2 * w[0]), made->reach_px[1] = sqrt(made->cutoff2 * w[2]);
-    if (work->camera.keep) made->alpha *= sqrt(fmax(area / filtered, LEAST_KEPT));
+    if (work->camera.keep) made->alpha *= sqrt(fmax(area / filtered, MIN_KEPT));
     if (work->camera.trained) { // V V'^-1: the mean place of what the filter gathers there
         made->unfilter[0][0] = 1 - h2 * w[2] / filtered, made->unfilter[0][1] = h2 * w[1] / filtered;
         made->unfilter[1][0] = made->unfilter[0][1], made->unfilter[1][1] = 1 - h2 * w[0] / filtered;
@@ -248,7 +248,7 @@ static bool make_splat(const reference *work, uint32_t number, splat *made) {
     const float *center = work->set->centers + 3 * (size_t)number;
     const double opacity = fmin((double)work->set->opacities[number], 1);
     *made = (splat){.number = number, .alpha = opacity};
-    made->cutoff2 = 2 * log(opacity / work->options.least_alpha);
+    made->cutoff2 = 2 * log(opacity / work->options.minimum_alpha);
     if (!(made->cutoff2 > 0)) return false;
     made->cutoff2 = fmin(made->cutoff2, work->options.cutoff * work->options.cutoff);
     const ewa_mat3 turn = mat3_transpose(&camera->turn);
@@ -266,7 +266,7 @@ static bool make_splat(const reference *work, uint32_t number, splat *made) {
         made->reach_px[0] = made->reach_px[1] = INFINITY;
     else
         set_ellipse(work, &covariance, made);
-    if (made->alpha < work->options.least_alpha) return false;
+    if (made->alpha < work->options.minimum_alpha) return false;
     set_color(work, center, made);
     return true;
 }
@@ -309,8 +309,8 @@ static bool meet(const reference *work, const splat *at, uint32_t x, uint32_t y,
         m2 = at->conic[0] * dx * dx + 2 * at->conic[1] * dx * dy + at->conic[2] * dy * dy;
     if (m2 >= at->cutoff2 || (!work->camera.trained && by.z <= 0)) return false;
     double alpha = at->alpha * exp(-m2 / 2);
-    if (work->camera.keep && alpha < work->options.least_alpha) return false;
-    alpha = fmin(alpha, MOST_ALPHA);
+    if (work->camera.keep && alpha < work->options.minimum_alpha) return false;
+    alpha = fmin(alpha, MAX_ALPHA);
     const double z = fmin(fmax(by.z, at->place.z - at->depth_reach), at->place.z + at->depth_reach);
     double enter, leave, surface = INFINITY;
     ewa_reference_cut_ray(&work->given, (const double(*)[4])work->options.section_planes,

@@ -14,7 +14,7 @@ typedef enum ewa_gaussian_order {
 } ewa_gaussian_order;
 
 /// All Gaussians in double precision, pixel by pixel, straight from the set: slow, plain, and the definition
-/// of what ewa_gaussian_render() draws. least_transmittance of the options is not looked at. Errors: as
+/// of what ewa_gaussian_render() draws. minimum_transmittance of the options is not looked at. Errors: as
 /// ewa_gaussian_render().
 ewa_status ewa_gaussian_render_reference(const ewa_gaussians *gaussians, const ewa_camera *camera,
                                          const ewa_gaussian_options *options, ewa_gaussian_order order,

@@ -113,5 +113,5 @@ double ewa_reference_eye_dome(const ewa_reference_depths *depths, double strengt
             sum += fmax(0, (between - key) / unit); // 0 for NaN
         }
     }
-    return exp(-EWA_DOME_GAIN * strength * sum / EWA_DOME_PAIRS);
+    return exp(-EWA_EYE_DOME_GAIN * strength * sum / EWA_EYE_DOME_PAIRS);
 }

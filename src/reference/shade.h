@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Shading in double precision, one pixel after another: the definition of what src/surface/road_shade.h and
-// road_eye_dome.h compute (docs/math.md section 7; semantics.h, shading and eye-dome lighting).
+// Shading in double precision, one pixel after another: the definition of what src/surface/pipeline_shade.h
+// and pipeline_eye_dome.h compute (docs/math.md section 7; semantics.h, shading and eye-dome lighting).
 #ifndef EWA_SRC_REFERENCE_SHADE_H
 #define EWA_SRC_REFERENCE_SHADE_H
 

@@ -104,8 +104,8 @@ static bool make_backward_map(const ewa_reference_view *view, double jacobian[2]
             mat3_scale(&adjugate, p.z / vec3_dot(vec3_cross(splat->axis_u, splat->axis_v), p));
         return true;
     }
-    const double least = EWA_FLAT * splat->variance_px2[0] * splat->variance_px2[2];
-    if (!(root >= EWA_LEAST_AREA && root * root >= least)) return false;
+    const double minimum = EWA_FLAT * splat->variance_px2[0] * splat->variance_px2[2];
+    if (!(root >= EWA_MIN_AREA && root * root >= minimum)) return false;
     const ewa_mat3 forward = {
         {{jacobian[0][0], jacobian[0][1], 0}, {jacobian[1][0], jacobian[1][1], 0}, {0, 0, 1}}};
     const ewa_mat3 adjugate = mat3_adjugate(&forward);
@@ -123,7 +123,7 @@ static bool filter_ellipse(const ewa_reference_view *view, double jacobian[2][2]
     double determinant = root * root + h2 * (variance[0] + variance[2]) + h2 * h2;
     // Without a prefilter a splat from the edge is a line of no area.
     if (!(determinant > EWA_FLAT * (variance[0] + h2) * (variance[2] + h2))) return false;
-    if (!(root >= EWA_LEAST_SPLAT)) return false;
+    if (!(root >= EWA_MIN_SPLAT)) return false;
     double filtered[3] = {variance[0] + h2, variance[1], variance[2] + h2}; // V'
     if (view->kernel == EWA_KERNEL_CIRCULAR) {
         const double mean = (filtered[0] + filtered[2]) / 2, difference = (filtered[0] - filtered[2]) / 2;
@@ -135,7 +135,7 @@ static bool filter_ellipse(const ewa_reference_view *view, double jacobian[2][2]
                                   EWA_GRAZING_TOLERANCE * radius / (view->orthographic ? 1 : z * z));
         splat->key_low -= reach;
         splat->key_high += reach;
-        if (!view->orthographic) splat->key_low = fmax(splat->key_low, EWA_LEAST_KEY / z);
+        if (!view->orthographic) splat->key_low = fmax(splat->key_low, EWA_MIN_KEY / z);
     }
     splat->inverse[0] = filtered[2] / determinant;
     splat->inverse[1] = -filtered[1] / determinant;
@@ -244,8 +244,8 @@ static void bound_near(const ewa_reference_view *view, ewa_reference_splat *spla
 static void make_depth(const ewa_reference_view *view, double half_range, ewa_reference_splat *splat) {
     const ewa_vec3 p = splat->center, n = splat->normal;
     const bool flat = view->orthographic;
-    const double facing = flat ? n.z : vec3_dot(n, p), least = EWA_EDGE_ON * (flat ? 1 : vec3_length(p));
-    const double raised = (facing < 0 ? -1 : 1) * fmax(fabs(facing), least) * (flat ? -1 : 1);
+    const double facing = flat ? n.z : vec3_dot(n, p), minimum = EWA_EDGE_ON * (flat ? 1 : vec3_length(p));
+    const double raised = (facing < 0 ? -1 : 1) * fmax(fabs(facing), minimum) * (flat ? -1 : 1);
     splat->plane[0] = n.x / (raised * view->fx_px);
     splat->plane[1] = n.y / (raised * view->fy_px);
     const double s = flat ? 1 : 1 / p.z;
@@ -291,28 +291,27 @@ static void add_line(const ewa_reference_view *view, const double l[3], ewa_refe
 }
 
 /// How a section plane and a surfel meet.
-typedef struct section_meeting {
+typedef struct section_hit {
     double line[3];  ///< keep a u + b v + c >= 0 of its plane; c: how far the centre lies inside
     double distance; ///< c
     double reach;    ///< of the support along the plane's normal, at most
-} section_meeting;
+} section_hit;
 
-static section_meeting meet_section(const ewa_reference_view *view, uint32_t plane,
-                                    const ewa_surfel *surfel) {
+static section_hit hit_section(const ewa_reference_view *view, uint32_t plane, const ewa_surfel *surfel) {
     const ewa_vec3 n = vec3_load(view->sections[plane]), u = vec3_load(surfel->axis_u_world);
     const double along = vec3_dot(n, vec3_load(surfel->normal_world));
     const double distance = vec3_dot(n, vec3_load(surfel->center)) + view->sections[plane][3];
     const double support = view->point_sigma_px > 0 ? 0 : view->cutoff * vec3_length(u);
-    return (section_meeting){{vec3_dot(n, u), vec3_dot(n, vec3_load(surfel->axis_v_world)), distance},
-                             distance,
-                             support * sqrt(fmax(1 - along * along, 0))};
+    return (section_hit){{vec3_dot(n, u), vec3_dot(n, vec3_load(surfel->axis_v_world)), distance},
+                         distance,
+                         support * sqrt(fmax(1 - along * along, 0))};
 }
 
 /// Whether a surfel lies outside of some section plane.
 static bool is_cut_off(const ewa_reference_view *view, const ewa_surfel *surfel) {
     for (uint32_t k = 0; k < view->section_count; k++) {
-        const section_meeting met = meet_section(view, k, surfel);
-        if (met.distance < 0 && met.distance <= -met.reach) return true;
+        const section_hit hit = hit_section(view, k, surfel);
+        if (hit.distance < 0 && hit.distance <= -hit.reach) return true;
     }
     return false;
 }
@@ -326,12 +325,12 @@ static void make_clip(const ewa_reference_view *view, const ewa_surfel *surfel, 
     // The planes that cut it, from the smallest distance on.
     uint32_t done = 0;
     while (splat->clip_count < EWA_CLIP_LINES) {
-        section_meeting next = {.distance = INFINITY};
+        section_hit next = {.distance = INFINITY};
         uint32_t plane = 0;
         for (uint32_t k = 0; k < view->section_count; k++) {
-            const section_meeting met = meet_section(view, k, surfel);
-            if (done >> k & 1 || !(met.distance < met.reach) || met.distance >= next.distance) continue;
-            next = met, plane = k;
+            const section_hit hit = hit_section(view, k, surfel);
+            if (done >> k & 1 || !(hit.distance < hit.reach) || hit.distance >= next.distance) continue;
+            next = hit, plane = k;
         }
         if (!(next.distance < INFINITY)) return;
         add_line(view, next.line, splat);
@@ -399,8 +398,8 @@ void ewa_reference_project(const ewa_reference_view *view, const ewa_surfel *sur
     const double broad = fmax(vec3_length(u), vec3_length(v)) * fmax(view->fx_px, view->fy_px) / EWA_BROAD_PX;
     const bool by_rays = view->orthographic ? broad > 1 : p.z <= fmax(EWA_NEAR_RATIO * half_range, broad);
     if (by_rays && fabs(facing) < EWA_EDGE_ON * (view->orthographic ? 1 : vec3_length(p))) return;
-    splat->turned = facing > 0;
-    const double sign = splat->turned ? -1 : 1;
+    splat->is_back = facing > 0;
+    const double sign = splat->is_back ? -1 : 1;
     splat->center = p;
     splat->axis_u = u;
     splat->axis_v = v;

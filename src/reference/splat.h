@@ -45,7 +45,7 @@ typedef struct ewa_reference_splat {
     double half_range;        ///< R of semantics.h
     double key_low, key_high; ///< range of 1/z (orthographic: -z)
     double epsilon;           ///< tolerance of the visibility test
-    bool turned;              ///< the surfel faces away: its normal is turned towards the viewer
+    bool is_back;             ///< the surfel faces away: its normal is turned towards the viewer
     ewa_vec3 center, axis_u, axis_v, normal; ///< camera space, normal unit, towards the viewer
     ewa_vec3 normal_world;
     ewa_vec3 color;

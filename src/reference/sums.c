@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// From splats to a pixel's surface in double precision: sums apart by facing and of what clip lines cut
-// (docs/math.md sections 6 to 8).
+// From splats to a pixel's surface in double precision: separate sums of front- and back-facing splats and of
+// what clip lines cut (docs/math.md sections 6 to 8).
 #include "reference/sums.h"
 #include "surface/semantics.h"
 
@@ -24,7 +24,7 @@ void ewa_reference_gather(ewa_reference_gathered *to, const ewa_reference_splat 
                               .z = sample->z,
                               .opacity = opacity};
     for (int i = 0; i < 5; i++) one.material[i] = (double)material[i];
-    add_scaled(splat->turned ? &to->turned : &to->facing, &one, weight);
+    add_scaled(splat->is_back ? &to->is_back : &to->facing, &one, weight);
     const double cut = fmin(1, (1 - sample->share) / EWA_CUT), whole = cut * weight / sample->share;
     to->cut.kept += cut * weight;
     to->cut.whole += whole;
@@ -33,25 +33,25 @@ void ewa_reference_gather(ewa_reference_gathered *to, const ewa_reference_splat 
 
 ewa_reference_sums ewa_reference_settle(const ewa_reference_gathered *surface, double unit_coverage,
                                         bool merged) {
-    const double front = surface->facing.weight, back = surface->turned.weight;
+    const double front = surface->facing.weight, back = surface->is_back.weight;
     const double shown = merged ? 1 : fmax(0, 1 - front / (EWA_FRONT * unit_coverage));
     ewa_reference_sums sums = {.weight = 0};
     const double mixed = front + shown * back, scale = mixed > 0 ? (front + back) / mixed : 0;
     add_scaled(&sums, &surface->facing, scale);
-    add_scaled(&sums, &surface->turned, scale * shown);
+    add_scaled(&sums, &surface->is_back, scale * shown);
     return sums;
 }
 
 ewa_reference_cover ewa_reference_cover_of(const ewa_reference_gathered *surface, double unit_coverage,
                                            double threshold, bool merged) {
-    const double q = surface->facing.weight + surface->turned.weight, least = threshold * unit_coverage;
+    const double q = surface->facing.weight + surface->is_back.weight, minimum = threshold * unit_coverage;
     const ewa_reference_cut *cut = &surface->cut;
-    ewa_reference_cover cover = {.share = fmin(1, q / least), .whole = fmin(1, q / least)};
+    ewa_reference_cover cover = {.share = fmin(1, q / minimum), .whole = fmin(1, q / minimum)};
     if (merged || !(cut->whole > 0)) return cover;
     const double uncut = fmax(0, q - cut->kept);
     const double along = hypot(cut->inward[0], cut->inward[1]) / cut->whole;
     const double alone = fmin(fmax((along - EWA_EDGES_OPPOSE) / (EWA_EDGES_AGREE - EWA_EDGES_OPPOSE), 0), 1);
-    cover.share = fmin(1, fmax(uncut / least, q / fmax(least, uncut + alone * cut->whole)));
+    cover.share = fmin(1, fmax(uncut / minimum, q / fmax(minimum, uncut + alone * cut->whole)));
     for (int c = 0; c < 2; c++) cover.inward[c] = cut->inward[c] / (uncut + cut->whole);
     return cover;
 }

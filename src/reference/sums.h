@@ -26,7 +26,7 @@ typedef struct ewa_reference_cut {
 
 /// A surface at a pixel.
 typedef struct ewa_reference_gathered {
-    ewa_reference_sums facing, turned; ///< splats that face the viewer; those that face away
+    ewa_reference_sums facing, is_back; ///< splats that face the viewer; those that face away
     ewa_reference_cut cut;
 } ewa_reference_gathered;
 

@@ -8,7 +8,7 @@
 #include "ewa/volume_render.h"
 
 /// All voxels as splats in double precision, one after another, straight from the volume: slow, plain, and
-/// the definition of what ewa_volume_render() draws. Method, level and least_transmittance of the options
+/// the definition of what ewa_volume_render() draws. Method, level and minimum_transmittance of the options
 /// are not looked at. Errors: as ewa_voxels_create() and ewa_volume_render().
 ewa_status ewa_volume_render_reference(const ewa_volume *volume, const ewa_transfer *transfer,
                                        const ewa_camera *camera, const ewa_volume_options *options,

@@ -3,9 +3,9 @@
 //
 // What points turn out to be that nothing says: the columns of Gaussians, normals that are none, floats too coarse for
 // their coordinates, degrees, numbers that are none.
-#include "ewa/diagnosis.h"
 #include "base/base.h"
 #include "cloud/cloud.h"
+#include "ewa/diagnosis.h"
 
 #include <float.h>
 #include <inttypes.h>
@@ -31,7 +31,7 @@ ewa_gaussian_columns ewa_cloud_find_gaussians(const ewa_cloud *cloud) {
     // Coefficients of one colour beside the first, by degree.
     static const uint32_t harmonics[] = {0, 3, 8, 15};
     ewa_gaussian_columns facts = {.dimensions = ewa_cloud_find(cloud, "scale_2") ? 3 : 2,
-                            .filtered = ewa_cloud_find(cloud, "filter_3D") != NULL};
+                                  .filtered = ewa_cloud_find(cloud, "filter_3D") != NULL};
     for (size_t i = 0; i < sizeof needed / sizeof needed[0]; i++)
         if (!ewa_cloud_find(cloud, needed[i])) return (ewa_gaussian_columns){.dimensions = 0};
     uint32_t rest_count = 0;
@@ -43,8 +43,8 @@ ewa_gaussian_columns ewa_cloud_find_gaussians(const ewa_cloud *cloud) {
 }
 
 void ewa_gaussian_columns_describe(const ewa_gaussian_columns *facts, char text[EWA_DIAGNOSIS_TEXT_BYTES]) {
-    snprintf(text, EWA_DIAGNOSIS_TEXT_BYTES, "%uD Gaussians%s, spherical harmonics of degree %u", facts->dimensions,
-             facts->filtered ? " with 3D filters (Mip-Splatting)" : "", facts->sh_degree);
+    snprintf(text, EWA_DIAGNOSIS_TEXT_BYTES, "%uD Gaussians%s, spherical harmonics of degree %u",
+             facts->dimensions, facts->filtered ? " with 3D filters (Mip-Splatting)" : "", facts->sh_degree);
 }
 
 ewa_status ewa_cloud_refuse_gaussians(const ewa_cloud *cloud) {
@@ -52,10 +52,11 @@ ewa_status ewa_cloud_refuse_gaussians(const ewa_cloud *cloud) {
     if (!columns.dimensions) return EWA_OK;
     char text[EWA_DIAGNOSIS_TEXT_BYTES];
     ewa_gaussian_columns_describe(&columns, text);
-    return ewa_fail(ewa_cloud_context(cloud), EWA_ERROR_UNSUPPORTED,
-                    "%llu %s: a scene of Gaussian splatting, which cannot be drawn; 'ewa surfels --keep-normals off' "
-                    "makes surfels of the centres",
-                    (unsigned long long)ewa_cloud_point_count(cloud), text);
+    return ewa_fail(
+        ewa_cloud_context(cloud), EWA_ERROR_UNSUPPORTED,
+        "%llu %s: a scene of Gaussian splatting, which cannot be drawn; 'ewa surfels --keep-normals off' "
+        "makes surfels of the centres",
+        (unsigned long long)ewa_cloud_point_count(cloud), text);
 }
 
 void ewa_cloud_check_steps(const ewa_cloud *cloud) {
@@ -149,19 +150,19 @@ static uint64_t mark_bad(const ewa_attribute *attribute, uint64_t first, uint64_
     return bad_count;
 }
 
-void ewa_cloud_count_faults(const ewa_cloud *cloud, ewa_cloud_faults *faults) {
-    *faults = (ewa_cloud_faults){.position_count = 0};
+void ewa_cloud_count_invalid_points(const ewa_cloud *cloud, ewa_cloud_invalid_points *invalid) {
+    *invalid = (ewa_cloud_invalid_points){.position_count = 0};
     // In this order: a point counts under the first head only.
     const struct {
         const char *name;
         uint32_t component_count;
         bool zero_is_bad;
         uint64_t *count;
-    } heads[] = {{EWA_POSITION, 3, false, &faults->position_count},
-                 {EWA_NORMAL, 3, true, &faults->normal_count},
-                 {EWA_RADIUS, 1, true, &faults->radius_count},
-                 {EWA_TANGENT_U, 3, true, &faults->axis_count},
-                 {EWA_TANGENT_V, 3, true, &faults->axis_count}};
+    } heads[] = {{EWA_POSITION, 3, false, &invalid->position_count},
+                 {EWA_NORMAL, 3, true, &invalid->normal_count},
+                 {EWA_RADIUS, 1, true, &invalid->radius_count},
+                 {EWA_TANGENT_U, 3, true, &invalid->axis_count},
+                 {EWA_TANGENT_V, 3, true, &invalid->axis_count}};
     const uint64_t point_count = ewa_cloud_point_count(cloud);
     const ewa_attribute *color = ewa_cloud_find(cloud, EWA_COLOR);
     const bool color_is_float = color && (color->type == EWA_F32 || color->type == EWA_F64);
@@ -173,19 +174,19 @@ void ewa_cloud_count_faults(const ewa_cloud *cloud, ewa_cloud_faults *faults) {
             if (attribute && attribute->component_count == heads[h].component_count)
                 *heads[h].count += mark_bad(attribute, first, count, heads[h].zero_is_bad, marked);
         }
-        if (color_is_float) faults->color_count += mark_bad(color, first, count, false, colorless);
+        if (color_is_float) invalid->color_count += mark_bad(color, first, count, false, colorless);
     }
 }
 
 /// Writes why points cannot be drawn: "3 with coordinates that are not finite, ...".
-static void explain(const ewa_cloud_faults *faults, size_t text_bytes, char *text) {
+static void explain(const ewa_cloud_invalid_points *invalid, size_t text_bytes, char *text) {
     const struct {
         uint64_t count;
         const char *what;
-    } kinds[] = {{faults->position_count, "coordinates that are not finite"},
-                 {faults->normal_count, "normals that are zero or not finite"},
-                 {faults->radius_count, "radii that are zero, negative or not finite"},
-                 {faults->axis_count, "axes that are zero or not finite"}};
+    } kinds[] = {{invalid->position_count, "coordinates that are not finite"},
+                 {invalid->normal_count, "normals that are zero or not finite"},
+                 {invalid->radius_count, "radii that are zero, negative or not finite"},
+                 {invalid->axis_count, "axes that are zero or not finite"}};
     snprintf(text, text_bytes, "their numbers are too large or too small");
     for (size_t i = 0, used = 0; i < sizeof kinds / sizeof kinds[0]; i++)
         if (kinds[i].count && used < text_bytes)
@@ -201,41 +202,43 @@ static bool at_one_place(const ewa_cloud *cloud, double place_world[3]) {
     return memcmp(box.low_world, box.high_world, sizeof box.low_world) == 0;
 }
 
-ewa_status ewa_cloud_report_faults(const ewa_cloud *cloud, const ewa_surfels_info *surfels) {
+ewa_status ewa_cloud_report_invalid_points(const ewa_cloud *cloud, const ewa_surfels_info *surfels) {
     ewa_context *context = ewa_cloud_context(cloud);
     const unsigned long long all = ewa_cloud_point_count(cloud), left_out = surfels->left_out_count;
     const ewa_attribute *color = ewa_cloud_find(cloud, EWA_COLOR);
     if (!left_out && !(color && (color->type == EWA_F32 || color->type == EWA_F64))) return EWA_OK;
-    ewa_cloud_faults faults;
-    ewa_cloud_count_faults(cloud, &faults);
+    ewa_cloud_invalid_points invalid;
+    ewa_cloud_count_invalid_points(cloud, &invalid);
     char why[400];
-    explain(&faults, sizeof why, why);
+    explain(&invalid, sizeof why, why);
     double place_world[3];
     if (surfels->point_count == 0 && at_one_place(cloud, place_world))
         return ewa_fail(
             context, EWA_ERROR_FORMAT,
             "%s %g,%g,%g: without neighbours elsewhere or a property radius nothing says how large %s",
-            all == 1 ? "there is one point only, at" : "all points lie at one place,", place_world[0], place_world[1],
-            place_world[2], all == 1 ? "it is" : "they are");
+            all == 1 ? "there is one point only, at" : "all points lie at one place,", place_world[0],
+            place_world[1], place_world[2], all == 1 ? "it is" : "they are");
     if (surfels->point_count == 0)
-        return ewa_fail(context, EWA_ERROR_FORMAT,
-                        "none of the %llu points can be drawn: %s; 'ewa surfels --keep-normals off --keep-radii off' "
-                        "makes new normals and radii",
-                        all, why);
+        return ewa_fail(
+            context, EWA_ERROR_FORMAT,
+            "none of the %llu points can be drawn: %s; 'ewa surfels --keep-normals off --keep-radii off' "
+            "makes new normals and radii",
+            all, why);
     if (left_out)
         ewa_report(context, EWA_SEVERITY_WARNING, "%llu of %llu points are left out: %s", left_out, all, why);
-    if (faults.color_count)
+    if (invalid.color_count)
         ewa_report(context, EWA_SEVERITY_WARNING,
                    "%llu of %llu points have a colour that is not finite; they are drawn in grey",
-                   (unsigned long long)faults.color_count, all);
+                   (unsigned long long)invalid.color_count, all);
     return EWA_OK;
 }
 
 void ewa_cloud_drop_zero_normals(ewa_cloud *cloud) {
     if (!ewa_cloud_find(cloud, EWA_NORMAL)) return;
-    ewa_cloud_faults faults;
-    ewa_cloud_count_faults(cloud, &faults);
-    if (!faults.normal_count || faults.position_count + faults.normal_count < ewa_cloud_point_count(cloud)) return;
+    ewa_cloud_invalid_points invalid;
+    ewa_cloud_count_invalid_points(cloud, &invalid);
+    if (!invalid.normal_count || invalid.position_count + invalid.normal_count < ewa_cloud_point_count(cloud))
+        return;
     ewa_cloud_remove(cloud, EWA_NORMAL);
     ewa_report(ewa_cloud_context(cloud), EWA_SEVERITY_NOTE,
                "all normals are zero or not finite, and count as missing");

@@ -203,7 +203,7 @@ static ewa_status close_gaps(ewa_surface *surface, ewa_cloud **cloud) {
 static ewa_status make_resident(ewa_surface *surface, ewa_cloud **cloud) {
     ewa_status status = make_surfels(surface, *cloud);
     if (status == EWA_OK) status = close_gaps(surface, cloud);
-    if (status == EWA_OK) status = ewa_cloud_report_faults(*cloud, &surface->info);
+    if (status == EWA_OK) status = ewa_cloud_report_invalid_points(*cloud, &surface->info);
     return status;
 }
 

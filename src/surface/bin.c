@@ -13,7 +13,7 @@ static uint32_t find_packets(const void *data, uint32_t worker, uint32_t first, 
                                items);
 }
 
-ewa_status ewa_bins_start(ewa_context *context, ewa_bins *bins, const ewa_road_kernels *kernels,
+ewa_status ewa_bins_start(ewa_context *context, ewa_bins *bins, const ewa_pipeline_kernels *kernels,
                           const ewa_view *view, const ewa_surfels *surfels) {
     const size_t stride = surfels->bounds_stride;
     enum { STREAMS = offsetof(ewa_packet_places, lanes) / sizeof(float *) };

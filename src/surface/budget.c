@@ -42,11 +42,11 @@ double ewa_budget_expect_s(const ewa_budget *budget, const ewa_budget_work *work
 static uint32_t finest_within(const ewa_budget *budget, const ewa_budget_work *work, uint32_t level,
                               double limit_s) {
     uint32_t fastest = level;
-    double least_s = INFINITY;
+    double min_s = INFINITY;
     for (; level < work->level_count; level++) {
         const double expected_s = ewa_budget_expect_s(budget, work, level);
         if (expected_s <= limit_s) return level;
-        if (expected_s < least_s) least_s = expected_s, fastest = level;
+        if (expected_s < min_s) min_s = expected_s, fastest = level;
     }
     return fastest;
 }

@@ -17,7 +17,7 @@
 static const double PRECISION = 0x1p-11;
 
 /// Of a unit: a step of it is a normal float.
-enum { LEAST_EXPONENT = -110 };
+enum { MIN_EXPONENT = -110 };
 
 static uint32_t exponent_bits(uint16_t form) { return form >> 8 & 15; }
 static bool is_signed(uint16_t form) { return form & EWA_COLOR_SIGN; }
@@ -51,7 +51,7 @@ static uint16_t form_for(double high, uint32_t bits, bool with_sign) {
     int exponent = 0;
     const double part = frexp(high / reach, &exponent); // high / reach = part 2^exponent, part in [1/2, 1)
     if (part == 0.5) exponent--;
-    exponent = exponent < LEAST_EXPONENT ? LEAST_EXPONENT : exponent;
+    exponent = exponent < MIN_EXPONENT ? MIN_EXPONENT : exponent;
     return (uint16_t)((plain & ~255) | (exponent + 128));
 }
 
@@ -95,14 +95,14 @@ void ewa_color_encode(uint16_t form, const double (*colors_linear)[3], uint32_t 
                       uint16_t *const channels[3]) {
     enum { DOUBLE_BITS = 52 };
     const double per_unit = 1 / unit_of(form);
-    const uint32_t most = largest_code(form);
+    const uint32_t maximum = largest_code(form);
     const int shift = DOUBLE_BITS - mantissa_bits(form);
     const bool even = is_even(form);
     for (uint32_t i = 0; i < count; i++)
         for (int c = 0; c < 3; c++) {
             const double number = colors_linear[i][c], size = size_of(number) * per_unit;
             uint32_t code = even ? ewa_color_unit_code(size < 1 ? size : 1) : code_octaves(size, shift);
-            code = code < most ? code : most;
+            code = code < maximum ? code : maximum;
             if (number < 0) code = is_signed(form) ? code | EWA_COLOR_SIGN : 0;
             channels[c][i] = (uint16_t)code;
         }

@@ -12,10 +12,11 @@
 #include <string.h>
 
 /// Large tiles share fewer packets; small ones spread a small picture over the threads, and keep the records
-/// of crowded ones in the cache.
+/// of dense ones in the cache.
 static uint32_t tile_side_px(const ewa_camera *camera, uint64_t splat_count) {
-    enum { LARGE_PX = 1 << 20, CROWD = 12000000 };
-    return (uint64_t)camera->width_px * camera->height_px >= LARGE_PX && splat_count <= CROWD ? 128 : 64;
+    enum { LARGE_PX = 1 << 20, MANY_SURFELS = 12000000 };
+    return (uint64_t)camera->width_px * camera->height_px >= LARGE_PX && splat_count <= MANY_SURFELS ? 128
+                                                                                                     : 64;
 }
 
 typedef struct cpu_state {
@@ -39,7 +40,7 @@ static ewa_status create(ewa_context *context, void **state) {
     cpu_state *made = ewa_allocate_zeroed(context, 1, sizeof *made);
     if (!made) return EWA_ERROR_MEMORY;
     made->context = context;
-    made->room.dome.kernels = EWA_CHOOSE(ewa_context_cpu_features(context), ewa_road_kernels);
+    made->room.eye_dome.kernels = EWA_CHOOSE(ewa_context_cpu_features(context), ewa_pipeline_kernels);
     made->worker_count = worker_count;
     made->scratch = ewa_allocate_zeroed(context, worker_count, sizeof *made->scratch);
     if (!made->scratch) {

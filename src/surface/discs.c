@@ -27,10 +27,10 @@ static inline double sigma_at(const ewa_discs *discs, uint64_t point) {
 
 /// What is safe in single precision; everything else is looked at in double precision.
 static ewa_safe_range safe_range(const ewa_surfel_reader *reader) {
-    const double least = 2 / EWA_SURFEL_LIMIT / reader->sigma_per_radius,
-                 most = 0.5 * EWA_SURFEL_LIMIT / reader->sigma_per_radius;
-    return (ewa_safe_range){.radius_least = (float)fmax(least, (double)FLT_MIN),
-                            .radius_most = (float)fmin(most, (double)FLT_MAX)};
+    const double minimum = 2 / EWA_SURFEL_LIMIT / reader->sigma_per_radius,
+                 maximum = 0.5 * EWA_SURFEL_LIMIT / reader->sigma_per_radius;
+    return (ewa_safe_range){.radius_min = (float)fmax(minimum, (double)FLT_MIN),
+                            .radius_max = (float)fmin(maximum, (double)FLT_MAX)};
 }
 
 bool ewa_discs_open(const ewa_surfel_reader *reader, const ewa_pack_kernels *kernels, ewa_discs *discs) {
@@ -48,9 +48,10 @@ bool ewa_discs_open(const ewa_surfel_reader *reader, const ewa_pack_kernels *ker
     return true;
 }
 
-/// Surveys up to sixteen points from `first` on into running boxes of each lane; the last one fills the rest.
-static inline void survey_lanes(const ewa_discs *discs, uint64_t first, uint64_t count,
-                                uint8_t drawable[LANES], double low[3][LANES], double high[3][LANES]) {
+/// Measures up to sixteen points from `first` on into running boxes of each lane; the last one fills the
+/// rest.
+static inline void measure_lanes(const ewa_discs *discs, uint64_t first, uint64_t count,
+                                 uint8_t drawable[LANES], double low[3][LANES], double high[3][LANES]) {
     double center[3][LANES], length[LANES], sigma[LANES];
     for (uint32_t i = 0; i < LANES; i++) {
         const uint64_t point = first + (i < count ? i : count - 1);
@@ -66,15 +67,15 @@ static inline void survey_lanes(const ewa_discs *discs, uint64_t first, uint64_t
                       (sigma[i] >= 1 / EWA_SURFEL_LIMIT) & (sigma[i] <= EWA_SURFEL_LIMIT);
     for (int c = 0; c < 3; c++)
         for (int i = 0; i < LANES; i++) {
-            const double value = center[c][i], least = low[c][i], most = high[c][i];
-            low[c][i] = (drawable[i] & (value < least)) ? value : least;
-            high[c][i] = (drawable[i] & (value > most)) ? value : most;
+            const double value = center[c][i], minimum = low[c][i], maximum = high[c][i];
+            low[c][i] = (drawable[i] & (value < minimum)) ? value : minimum;
+            high[c][i] = (drawable[i] & (value > maximum)) ? value : maximum;
         }
 }
 
-/// Surveys whole groups of sixteen as far as the kernel can; returns how many points that were.
-static uint64_t survey_packed(const ewa_discs *discs, uint64_t first, uint64_t count, uint8_t *drawable,
-                              ewa_disc_facts *facts) {
+/// Measures whole groups of sixteen as far as the kernel can; returns how many points that were.
+static uint64_t measure_packed(const ewa_discs *discs, uint64_t first, uint64_t count, uint8_t *drawable,
+                               ewa_disc_facts *facts) {
     const ewa_surfel_reader *r = discs->reader;
     float low[EWA_BOX_FLOATS], high[EWA_BOX_FLOATS];
     for (int k = 0; k < EWA_BOX_FLOATS; k++) low[k] = INFINITY, high[k] = -INFINITY;
@@ -89,19 +90,19 @@ static uint64_t survey_packed(const ewa_discs *discs, uint64_t first, uint64_t c
     return groups * LANES;
 }
 
-void ewa_discs_survey(const ewa_discs *discs, uint64_t first, uint64_t count, uint8_t *drawable,
-                      ewa_disc_facts *facts) {
+void ewa_discs_measure(const ewa_discs *discs, uint64_t first, uint64_t count, uint8_t *drawable,
+                       ewa_disc_facts *facts) {
     double low[3][LANES], high[3][LANES];
     for (int c = 0; c < 3; c++)
         for (int i = 0; i < LANES; i++) low[c][i] = INFINITY, high[c][i] = -INFINITY;
     *facts =
         (ewa_disc_facts){.low = {INFINITY, INFINITY, INFINITY}, .high = {-INFINITY, -INFINITY, -INFINITY}};
     for (uint64_t done = 0; done < count;) {
-        if (discs->packed) done += survey_packed(discs, first + done, count - done, drawable + done, facts);
+        if (discs->packed) done += measure_packed(discs, first + done, count - done, drawable + done, facts);
         if (done == count) break;
         const uint64_t left = count - done, here = left < LANES ? left : LANES;
         uint8_t flags[LANES];
-        survey_lanes(discs, first + done, here, flags, low, high);
+        measure_lanes(discs, first + done, here, flags, low, high);
         memcpy(drawable + done, flags, here);
         done += here;
     }

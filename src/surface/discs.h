@@ -30,8 +30,8 @@ bool ewa_discs_open(const ewa_surfel_reader *reader, const ewa_pack_kernels *ker
 
 /// Notes in `drawable` which of the points [first, first + count) can be drawn, and measures those. Any
 /// thread.
-void ewa_discs_survey(const ewa_discs *discs, uint64_t first, uint64_t count, uint8_t *drawable,
-                      ewa_disc_facts *facts);
+void ewa_discs_measure(const ewa_discs *discs, uint64_t first, uint64_t count, uint8_t *drawable,
+                       ewa_disc_facts *facts);
 
 /// Sets the lanes of a packet but for its colours and normal codes to the drawable discs points[0 .. count),
 /// 1 to 16 of them, and the normals that belong to it; the first disc fills the lanes that are left. Lengths

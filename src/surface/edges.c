@@ -56,7 +56,7 @@ static void draw_runs(const ewa_tile_job *job, const ewa_tile *tile, const ewa_t
                       ewa_tile_pass what) {
     ewa_tile behind = *tile;
     behind.nearest = s->edges.nearest, behind.sums = s->edges.sums, behind.passed = s->edges.passed;
-    behind.apart = s->edges.apart;
+    behind.side = s->edges.side;
     for (uint32_t i = 0; i < s->kept_count; i++) {
         if (!ewa_takes_part(s->kept[i].source, what)) continue;
         const ewa_view *view = &s->kept[i].source->view;
@@ -87,9 +87,9 @@ static void draw_batch(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_s
 /// must be, since pixel rays take views of the sources' own; then closes the others.
 static bool close_others(const ewa_tile_job *job, const ewa_tile *tile, const ewa_tile_scratch *s,
                          uint32_t marked) {
-    enum { LEAST_SHARE = 4 };
+    enum { MIN_SHARE = 4 };
     const bool one_view = job->source_count == 1 || !job->view.raycast;
-    if (one_view && LEAST_SHARE * marked < tile->blocks_per_row * tile->block_rows) return false;
+    if (one_view && MIN_SHARE * marked < tile->blocks_per_row * tile->block_rows) return false;
     for (uint32_t row = 0; row < tile->block_rows; row++)
         for (uint32_t column = 0; column < tile->blocks_per_row; column++) {
             float *passed = s->edges.passed + (size_t)(row * tile->blocks_per_row + column) * EWA_BLOCK_LANES;
@@ -137,7 +137,7 @@ static bool something_behind(const ewa_tile_job *job, const ewa_tile *tile, cons
     float reach = -INFINITY;
     for (uint32_t block = 0; block < tile->blocks_per_row * tile->block_rows; block++)
         reach = s->edges.reach[block] > reach ? s->edges.reach[block] : reach;
-    return s->least_key < reach;
+    return s->min_key < reach;
 }
 
 /// One pass over a source's splats, as many at a time as there is room for.

@@ -42,10 +42,10 @@ static ewa_status set_opacities(ewa_context *context, work *w) {
         ewa_allocate(context, (size_t)surfels->packet_count * LANES, sizeof *surfels->opacities);
     if (!surfels->opacities) return EWA_ERROR_MEMORY;
     ewa_parallel(context, encode_opacities, w, part_count(surfels));
-    uint16_t least = 65535;
+    uint16_t minimum = 65535;
     for (size_t i = 0; i < (size_t)surfels->packet_count * LANES; i++)
-        least = surfels->opacities[i] < least ? surfels->opacities[i] : least;
-    if (least < 65535) return EWA_OK;
+        minimum = surfels->opacities[i] < minimum ? surfels->opacities[i] : minimum;
+    if (minimum < 65535) return EWA_OK;
     ewa_release(context, surfels->opacities, (size_t)surfels->packet_count * LANES,
                 sizeof *surfels->opacities);
     surfels->opacities = NULL;
@@ -71,7 +71,7 @@ static ewa_status set_materials(ewa_context *context, work *w) {
     bool several = false;
     for (size_t i = 0; i < lanes; i++) {
         several |= surfels->materials[i] != surfels->material;
-        if (surfels->materials[i] > surfels->most_material) surfels->most_material = surfels->materials[i];
+        if (surfels->materials[i] > surfels->max_material) surfels->max_material = surfels->materials[i];
     }
     if (several) return EWA_OK;
     ewa_release(context, surfels->materials, lanes, sizeof *surfels->materials);

@@ -9,21 +9,22 @@
 
 /// Sets the pass up from `drawn`'s depth and rgba, which is over nothing, to the colours of `frame`; takes room for
 /// keys.
-static ewa_status set_dome(ewa_context *context, ewa_dome_pass *pass, const ewa_camera *camera, double strength,
-                           const float background[4], const ewa_frame *drawn, const ewa_frame *frame) {
+static ewa_status set_dome(ewa_context *context, ewa_eye_dome_pass *pass, const ewa_camera *camera,
+                           double strength, const float background[4], const ewa_frame *drawn,
+                           const ewa_frame *frame) {
     static const double LOG2_E = 1.44269504088896341;
     const size_t width = camera->width_px, height = camera->height_px;
     const size_t key_stride =
-        (width + 2 * EWA_DOME_REACH + 2 * (EWA_BLOCK_LANES - 1)) / EWA_BLOCK_LANES * EWA_BLOCK_LANES;
-    const ewa_status status =
-        ewa_buffer_reserve(context, &pass->keys, (height + 2 * EWA_DOME_REACH) * key_stride, sizeof(float));
+        (width + 2 * EWA_EYE_DOME_REACH + 2 * (EWA_BLOCK_LANES - 1)) / EWA_BLOCK_LANES * EWA_BLOCK_LANES;
+    const ewa_status status = ewa_buffer_reserve(
+        context, &pass->keys, (height + 2 * EWA_EYE_DOME_REACH) * key_stride, sizeof(float));
     if (status != EWA_OK) return status;
-    pass->dome = (ewa_eye_dome){
+    pass->eye_dome = (ewa_eye_dome){
         .width_px = camera->width_px,
         .height_px = camera->height_px,
         .orthographic = camera->projection == EWA_ORTHOGRAPHIC,
         .inverse_height = (float)(camera->fy_px / camera->height_px),
-        .exponent = (float)(-LOG2_E * EWA_DOME_GAIN * strength / EWA_DOME_PAIRS),
+        .exponent = (float)(-LOG2_E * EWA_EYE_DOME_GAIN * strength / EWA_EYE_DOME_PAIRS),
         .depth = drawn->depth,
         .surfaces = drawn->rgba,
         .keys = pass->keys.data,
@@ -31,12 +32,13 @@ static ewa_status set_dome(ewa_context *context, ewa_dome_pass *pass, const ewa_
         .rgba8 = frame->rgba8,
         .rgba = frame->rgba,
     };
-    for (int c = 0; c < 4; c++) pass->dome.background[c] = c < 3 ? background[c] * background[3] : background[3];
+    for (int c = 0; c < 4; c++)
+        pass->eye_dome.background[c] = c < 3 ? background[c] * background[3] : background[3];
     return EWA_OK;
 }
 
-ewa_status ewa_dome_pass_start(ewa_context *context, ewa_dome_pass *pass, const ewa_camera *camera,
-                               const ewa_frame *frame, ewa_render_options *options, ewa_frame *drawn) {
+ewa_status ewa_eye_dome_pass_start(ewa_context *context, ewa_eye_dome_pass *pass, const ewa_camera *camera,
+                                   const ewa_frame *frame, ewa_render_options *options, ewa_frame *drawn) {
     const size_t pixel_count = (size_t)camera->width_px * camera->height_px;
     ewa_status status = EWA_OK;
     if (!frame->depth) status = ewa_buffer_reserve(context, &pass->depth, pixel_count, sizeof(float));
@@ -54,22 +56,22 @@ ewa_status ewa_dome_pass_start(ewa_context *context, ewa_dome_pass *pass, const 
 
 static void fill_keys(void *data, uint32_t row, uint32_t worker) {
     (void)worker;
-    const ewa_dome_pass *pass = data;
-    pass->kernels->dome_keys(&pass->dome, row);
+    const ewa_eye_dome_pass *pass = data;
+    pass->kernels->eye_dome_keys(&pass->eye_dome, row);
 }
 
 static void shade_row(void *data, uint32_t row, uint32_t worker) {
     (void)worker;
-    const ewa_dome_pass *pass = data;
-    pass->kernels->dome_shade(&pass->dome, row);
+    const ewa_eye_dome_pass *pass = data;
+    pass->kernels->eye_dome_shade(&pass->eye_dome, row);
 }
 
-void ewa_dome_pass_finish(ewa_context *context, ewa_dome_pass *pass) {
-    ewa_parallel(context, fill_keys, pass, pass->dome.height_px + 2 * EWA_DOME_REACH);
-    ewa_parallel(context, shade_row, pass, pass->dome.height_px);
+void ewa_eye_dome_pass_finish(ewa_context *context, ewa_eye_dome_pass *pass) {
+    ewa_parallel(context, fill_keys, pass, pass->eye_dome.height_px + 2 * EWA_EYE_DOME_REACH);
+    ewa_parallel(context, shade_row, pass, pass->eye_dome.height_px);
 }
 
-void ewa_dome_pass_free(ewa_context *context, ewa_dome_pass *pass) {
+void ewa_eye_dome_pass_free(ewa_context *context, ewa_eye_dome_pass *pass) {
     ewa_buffer_free(context, &pass->keys);
     ewa_buffer_free(context, &pass->depth);
     ewa_buffer_free(context, &pass->surfaces);
@@ -77,9 +79,9 @@ void ewa_dome_pass_free(ewa_context *context, ewa_dome_pass *pass) {
 
 ewa_status ewa_eye_dome_apply(ewa_context *context, const ewa_camera *camera, double strength,
                               const float background[4], const ewa_frame *frame) {
-    ewa_dome_pass pass = {.kernels = EWA_CHOOSE(ewa_context_cpu_features(context), ewa_road_kernels)};
+    ewa_eye_dome_pass pass = {.kernels = EWA_CHOOSE(ewa_context_cpu_features(context), ewa_pipeline_kernels)};
     const ewa_status status = set_dome(context, &pass, camera, strength, background, frame, frame);
-    if (status == EWA_OK) ewa_dome_pass_finish(context, &pass);
-    ewa_dome_pass_free(context, &pass);
+    if (status == EWA_OK) ewa_eye_dome_pass_finish(context, &pass);
+    ewa_eye_dome_pass_free(context, &pass);
     return status;
 }

@@ -107,7 +107,7 @@ static uint32_t part_below(uint8_t *order, const float *keys, uint32_t first, ui
 }
 
 /// Puts the `middle` - `first` least ones first (quickselect).
-static void part_least(uint8_t *order, const float *keys, uint32_t first, uint32_t end, uint32_t middle) {
+static void part_min(uint8_t *order, const float *keys, uint32_t first, uint32_t end, uint32_t middle) {
     while (end - first > FEW) {
         const float a = key_of(keys, order[first]), b = key_of(keys, order[(first + end) / 2]),
                     c = key_of(keys, order[end - 1]);
@@ -159,7 +159,7 @@ static uint32_t find_middle(divider *d, uint32_t first, uint32_t end) {
         return part_below(d->order, axis.keys, first, end, between);
     if (groups == 1) return first;
     const uint32_t even = first + count * (groups / 2) / groups;
-    part_least(d->order, axis.keys, first, end, even);
+    part_min(d->order, axis.keys, first, end, even);
     return even;
 }
 

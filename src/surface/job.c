@@ -186,11 +186,12 @@ ewa_status ewa_tile_job_make(ewa_context *context, ewa_job_room *room, const ewa
     ewa_render_options options = frame->options;
     ewa_frame drawn = frame->frame;
     ewa_status status = reserve_sources(context, room, frame->source_count);
-    room->with_dome = options.eye_dome > 0 && (drawn.rgba8 || drawn.rgba);
-    if (status == EWA_OK && room->with_dome)
-        status = ewa_dome_pass_start(context, &room->dome, &frame->camera, &frame->frame, &options, &drawn);
+    room->with_eye_dome = options.eye_dome > 0 && (drawn.rgba8 || drawn.rgba);
+    if (status == EWA_OK && room->with_eye_dome)
+        status = ewa_eye_dome_pass_start(context, &room->eye_dome, &frame->camera, &frame->frame, &options,
+                                         &drawn);
     if (status != EWA_OK) return status;
-    *job = (ewa_tile_job){.kernels = room->dome.kernels,
+    *job = (ewa_tile_job){.kernels = room->eye_dome.kernels,
                           .sources = room->sources.data,
                           .tiles = ewa_tiles_make(frame->camera.width_px, frame->camera.height_px, side_px),
                           .with_normals = frame->shading.lit || drawn.normal,
@@ -215,7 +216,8 @@ ewa_status ewa_tile_job_make(ewa_context *context, ewa_job_room *room, const ewa
 void ewa_job_finish(ewa_context *context, ewa_job_room *room, const ewa_render_job *frame,
                     uint64_t broken_pixel_count) {
     const ewa_camera *camera = &frame->camera;
-    if (room->with_dome && frame->end_row_px == camera->height_px) ewa_dome_pass_finish(context, &room->dome);
+    if (room->with_eye_dome && frame->end_row_px == camera->height_px)
+        ewa_eye_dome_pass_finish(context, &room->eye_dome);
     if (broken_pixel_count)
         ewa_report(context, EWA_SEVERITY_WARNING,
                    "%llu of %llu pixels have a colour that is infinite or not a number",
@@ -249,5 +251,5 @@ void ewa_job_room_free(ewa_context *context, ewa_job_room *room) {
     for (uint32_t i = 0; i < room->source_count; i++) ewa_bins_free(context, &sources[i].bins);
     ewa_buffer *const buffers[] = {&room->sources, &room->order, &room->requests, &room->bins};
     for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; i++) ewa_buffer_free(context, buffers[i]);
-    ewa_dome_pass_free(context, &room->dome);
+    ewa_eye_dome_pass_free(context, &room->eye_dome);
 }

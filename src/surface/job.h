@@ -8,10 +8,10 @@
 #include "surface/eye_dome.h"
 #include "surface/tile.h"
 
-/// The memory of a back end's frames, which survives them. Zero-initialise, then set dome.kernels.
+/// The memory of a back end's frames, which survives them. Zero-initialise, then set eye_dome.kernels.
 typedef struct ewa_job_room {
-    ewa_dome_pass dome;
-    bool with_dome;
+    ewa_eye_dome_pass eye_dome;
+    bool with_eye_dome;
     ewa_buffer sources;               ///< ewa_tile_source, whose bins keep their memory
     ewa_buffer order, requests, bins; ///< of sources and their bins
     uint32_t source_count;

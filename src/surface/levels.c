@@ -19,15 +19,15 @@
 enum {
     LANES = EWA_PACKET_LANES,
     PART_PACKETS = 1024,
-    LEAST_SURFELS = 1024,
-    WINDOW_APART = 128, // too far from what lies before for one packet with it
+    MIN_SURFELS = 1024,
+    WINDOW_SEPARATE = 128, // too far from what lies before for one packet with it
 };
 
 /// Mean normals shorter than that say nothing.
 static const double SOUND_NORMAL = 0.5;
 
 /// A surfel in the making that stands for a group.
-typedef struct stand_in {
+typedef struct representative {
     ewa_vec3 center; ///< from the origin, in the surfels' unit
     ewa_vec3 normal, axis_u;
     double sigma, color[3], opacity;
@@ -35,7 +35,7 @@ typedef struct stand_in {
     uint8_t material;
     bool clipped;
     ewa_surfel_clip clip;
-} stand_in;
+} representative;
 
 /// What a part of the finer level gives.
 typedef struct part_count {
@@ -51,19 +51,20 @@ typedef struct level_job {
     double growth;    ///< of sigmas, beside what keeps the area
     uint8_t *order;   ///< [packet of the finer level][16]: lanes of each window, as groups are
     uint16_t *starts; ///< [packet of the finer level]: of groups
-    uint8_t *windows; ///< [packet of the finer level]: packets of the window that begins there; WINDOW_APART
+    uint8_t
+        *windows; ///< [packet of the finer level]: packets of the window that begins there; WINDOW_SEPARATE
     part_count *parts;
     uint32_t part_count;
     uint8_t *lane_counts; ///< [packet of the coarser level]
 } level_job;
 
 /// As fmin() and fmax() of numbers, without the calls.
-static inline double least(double a, double b) { return a < b ? a : b; }
-static inline double most(double a, double b) { return a > b ? a : b; }
+static inline double minimum(double a, double b) { return a < b ? a : b; }
+static inline double maximum(double a, double b) { return a > b ? a : b; }
 
 /// Boxes around packets that may become one.
 typedef struct open_box {
-    double low[3], high[3], least_sigma;
+    double low[3], high[3], min_sigma;
 } open_box;
 
 static uint64_t part_end(const level_job *job, uint32_t part) {
@@ -81,14 +82,14 @@ static bool open_with(open_box *box, const ewa_surfels *fine, uint32_t index) {
         const float here = packet->sigma[lane];
         sigma = here > 0 && here < sigma ? here : sigma;
     }
-    box->least_sigma = least(box->least_sigma, (double)sigma);
+    box->min_sigma = minimum(box->min_sigma, (double)sigma);
     double center[3];
     vec3_store(ewa_packet_center(fine, index), center);
     bool fits = true;
     for (int c = 0; c < 3; c++) {
-        box->low[c] = least(box->low[c], center[c] - (double)radius);
-        box->high[c] = most(box->high[c], center[c] + (double)radius);
-        fits &= box->high[c] - box->low[c] <= EWA_PACKET_REACH * box->least_sigma;
+        box->low[c] = minimum(box->low[c], center[c] - (double)radius);
+        box->high[c] = maximum(box->high[c], center[c] + (double)radius);
+        fits &= box->high[c] - box->low[c] <= EWA_PACKET_REACH * box->min_sigma;
     }
     return fits;
 }
@@ -96,17 +97,17 @@ static bool open_with(open_box *box, const ewa_surfels *fine, uint32_t index) {
 static const open_box EMPTY = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}, INFINITY};
 
 /// Takes packets into a window, up to one that would make the open packet too wide; returns the window, with
-/// WINDOW_APART if that is so for the first one.
+/// WINDOW_SEPARATE if that is so for the first one.
 static uint8_t take_window(const ewa_surfels *fine, open_box *box, bool open, uint32_t first, uint32_t end) {
-    uint32_t count = 0, apart = 0;
+    uint32_t count = 0, separate = 0;
     for (; count < EWA_WINDOW_PACKETS && first + count < end; count++) {
         if (open_with(box, fine, first + count) || (count == 0 && !open)) continue;
         if (count > 0) break; // the box keeps it: the next window is apart
-        apart = WINDOW_APART;
+        separate = WINDOW_SEPARATE;
         *box = EMPTY;
         open_with(box, fine, first);
     }
-    return (uint8_t)(count | apart);
+    return (uint8_t)(count | separate);
 }
 
 /// Whether a group has a member with clip lines.
@@ -143,11 +144,11 @@ static void count_part(void *data, uint32_t part, uint32_t worker) {
     for (uint32_t p = part * PART_PACKETS, count; p < end; p += count) {
         ewa_window window;
         job->windows[p] = take_window(fine, &box, open > 0, p, end);
-        count = job->windows[p] % WINDOW_APART;
+        count = job->windows[p] % WINDOW_SEPARATE;
         ewa_window_read(fine, p, count, &window);
         uint8_t *order = job->order + (size_t)p * LANES;
         const uint32_t groups = ewa_groups_make(&window, fine->cutoff, order, job->starts + p);
-        if (job->windows[p] & WINDOW_APART) made.packets++, open = 0;
+        if (job->windows[p] & WINDOW_SEPARATE) made.packets++, open = 0;
         open += groups;
         made.surfels += groups;
         made.packets += open / LANES;
@@ -175,7 +176,7 @@ static void place_parts(level_job *job) {
         full += ((uint64_t)job->parts[part].surfels + LANES - 1) / LANES;
     }
     const bool spread = packets > full + full / 4 + ALWAYS;
-    for (uint32_t p = 0; spread && p < job->fine->packet_count; p++) job->windows[p] &= WINDOW_APART - 1;
+    for (uint32_t p = 0; spread && p < job->fine->packet_count; p++) job->windows[p] &= WINDOW_SEPARATE - 1;
     packets = 0;
     for (uint32_t part = 0; part < job->part_count; part++) {
         part_count *made = &job->parts[part];
@@ -234,7 +235,7 @@ static uint32_t nearest_member(const group_members *members, ewa_vec3 place) {
 }
 
 /// Colour and opacity: what a pixel that all members fill alike sees.
-static void mix_colors(const ewa_surfels *fine, const group_members *members, stand_in *made) {
+static void mix_colors(const ewa_surfels *fine, const group_members *members, representative *made) {
     double opaque[EWA_GROUP_SURFELS], sum = 0;
     for (uint32_t i = 0; i < members->count; i++) {
         const size_t at = (size_t)members->packet[i] * LANES + members->lane[i];
@@ -279,8 +280,8 @@ static void move_clip(const ewa_surfels *fine, uint32_t index, uint32_t lane, ew
 }
 
 /// Makes what stands for a group: in its middle, where that is on its surface, else at the nearest member.
-static void make_stand_in(const level_job *job, const ewa_window *window, const uint8_t *lanes,
-                          uint32_t count, stand_in *made) {
+static void make_representative(const level_job *job, const ewa_window *window, const uint8_t *lanes,
+                                uint32_t count, representative *made) {
     const ewa_surfels *fine = job->fine;
     group_members members = {.count = count};
     read_members(fine, window, lanes, &members);
@@ -298,13 +299,13 @@ static void make_stand_in(const level_job *job, const ewa_window *window, const 
     for (uint32_t i = 0; i < count; i++) {
         const ewa_vec3 way = vec3_sub(members.place[i], middle);
         const double distance = vec3_length(way);
-        height = most(height, fabs(vec3_dot(way, made->normal)));
-        spread = most(spread, distance);
+        height = maximum(height, fabs(vec3_dot(way, made->normal)));
+        spread = maximum(spread, distance);
         // Where surfels lie upon each other the area is not that of what they cover.
-        reach = most(reach, 4 * distance + fine->cutoff * members.sigma[i]);
+        reach = maximum(reach, 4 * distance + fine->cutoff * members.sigma[i]);
     }
-    const double grown = most(sigma / sqrt(members.share[pick]), spread / EWA_LEVEL_SPREAD) * job->growth;
-    made->sigma = most(sigma, least(grown, reach / fine->cutoff));
+    const double grown = maximum(sigma / sqrt(members.share[pick]), spread / EWA_LEVEL_SPREAD) * job->growth;
+    made->sigma = maximum(sigma, minimum(grown, reach / fine->cutoff));
     ewa_vec3 moved = vec3_make(0, 0, 0);
     if (height <= made->sigma) {
         moved = vec3_sub(middle, members.place[pick]);
@@ -327,7 +328,7 @@ static void make_stand_in(const level_job *job, const ewa_window *window, const 
 
 /// Packs 1 to 16 surfels as packet `index`; all lanes behind them are like the first. Its centre becomes the
 /// place that its surfels are relative to.
-static void encode_packet(const level_job *job, uint32_t index, const stand_in *made, uint32_t count,
+static void encode_packet(const level_job *job, uint32_t index, const representative *made, uint32_t count,
                           bool even, ewa_surfel_clip **clips) {
     ewa_surfels *coarse = job->coarse;
     ewa_packet *packet = &coarse->packets[index];
@@ -335,7 +336,7 @@ static void encode_packet(const level_job *job, uint32_t index, const stand_in *
     double colors[LANES][3];
     uint32_t clip_mask = 0;
     for (uint32_t i = 0; i < LANES; i++) {
-        const stand_in *s = &made[i < count ? i : 0];
+        const representative *s = &made[i < count ? i : 0];
         const ewa_vec3 way = vec3_sub(s->center, made[0].center);
         packet->x[i] = (float)way.x, packet->y[i] = (float)way.y, packet->z[i] = (float)way.z;
         packet->sigma[i] = ewa_packed_sigma(s->sigma);
@@ -380,13 +381,13 @@ static void encode_part(void *data, uint32_t part, uint32_t worker) {
     uint32_t index = job->parts[part].first_packet, pending = 0;
     ewa_surfel_clip *clips = fine->clip_masks ? job->coarse->clips + job->parts[part].first_clip : NULL;
     bool even = true; // all colours that are pending are of the plain form
-    stand_in made[LANES];
+    representative made[LANES];
     const uint32_t end = (uint32_t)part_end(job, part);
     for (uint32_t p = part * PART_PACKETS, count; p < end; p += count) {
         ewa_window window;
-        count = job->windows[p] % WINDOW_APART;
+        count = job->windows[p] % WINDOW_SEPARATE;
         ewa_window_read(fine, p, count, &window);
-        if (job->windows[p] & WINDOW_APART && pending) {
+        if (job->windows[p] & WINDOW_SEPARATE && pending) {
             encode_packet(job, index++, made, pending, even, &clips);
             pending = 0;
         }
@@ -396,7 +397,7 @@ static void encode_part(void *data, uint32_t part, uint32_t worker) {
         const uint32_t surfels = surfels_of(&window);
         for (uint32_t first = 0, next; first < surfels; first = next) {
             next = group_end(job->starts + p, first, surfels);
-            make_stand_in(job, &window, order + first, next - first, &made[pending++]);
+            make_representative(job, &window, order + first, next - first, &made[pending++]);
             if (pending < LANES) continue;
             encode_packet(job, index++, made, LANES, even, &clips);
             pending = 0;
@@ -484,13 +485,13 @@ static ewa_status make_level(ewa_surfels *fine, double growth) {
     ewa_status status = room ? EWA_OK : EWA_ERROR_MEMORY;
     if (status == EWA_OK) {
         ewa_surfels *coarse = job.coarse;
-        coarse->material = fine->material, coarse->most_material = fine->most_material;
+        coarse->material = fine->material, coarse->max_material = fine->max_material;
         coarse->unit = fine->unit, coarse->cutoff = fine->cutoff, coarse->ellipses = fine->ellipses;
         coarse->extent = fine->extent;
         memcpy(coarse->origin_world, fine->origin_world, sizeof coarse->origin_world);
         ewa_parallel(context, count_part, &job, parts);
         place_parts(&job);
-        const bool worth = coarse->count >= LEAST_SURFELS && coarse->count <= fine->count / 2;
+        const bool worth = coarse->count >= MIN_SURFELS && coarse->count <= fine->count / 2;
         if (worth) status = encode_level(&job);
         if (worth && status == EWA_OK) fine->coarser = coarse;
     }

@@ -81,7 +81,7 @@ static const ewa_option render_rows[] = {
 const ewa_option_table ewa_render_options_table = EWA_OPTION_TABLE(ewa_render_options, render_rows);
 
 ewa_status ewa_option_check_lights(ewa_context *context, const ewa_light *lights, uint32_t light_count) {
-    static const double MOST = 1e6;
+    static const double MAXIMUM = 1e6;
     for (uint32_t i = 0; i < light_count; i++) {
         const double *direction = lights[i].direction_world;
         if (!isfinite(direction[0]) || !isfinite(direction[1]) || !isfinite(direction[2]))
@@ -89,10 +89,10 @@ ewa_status ewa_option_check_lights(ewa_context *context, const ewa_light *lights
                             "options: lights[%u].direction_world is %g, %g, %g: not finite", i, direction[0],
                             direction[1], direction[2]);
         for (int c = 0; c < 3; c++)
-            if (!(lights[i].color[c] >= 0 && (double)lights[i].color[c] <= MOST))
+            if (!(lights[i].color[c] >= 0 && (double)lights[i].color[c] <= MAXIMUM))
                 return ewa_fail(context, EWA_ERROR_ARGUMENT,
                                 "options: lights[%u].color[%d] is %g, allowed is [0, %g]", i, c,
-                                (double)lights[i].color[c], MOST);
+                                (double)lights[i].color[c], MAXIMUM);
     }
     return EWA_OK;
 }

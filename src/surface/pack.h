@@ -13,15 +13,15 @@ enum { EWA_BOX_FLOATS = 3 * EWA_PACKET_LANES };
 
 /// Radii of discs that can be drawn for certain.
 typedef struct ewa_safe_range {
-    float radius_least, radius_most;
+    float radius_min, radius_max;
 } ewa_safe_range;
 
 /// The largest sigma in a packet: of kernels beyond, which are this many times as large as their set, nothing
 /// but the middle can be seen.
-#define EWA_MOST_SIGMA 1e30
+#define EWA_MAX_SIGMA 1e30
 
 static inline float ewa_packed_sigma(double sigma) {
-    return (float)(sigma < EWA_MOST_SIGMA ? sigma : EWA_MOST_SIGMA);
+    return (float)(sigma < EWA_MAX_SIGMA ? sigma : EWA_MAX_SIGMA);
 }
 
 typedef struct ewa_pack_kernels {

@@ -17,20 +17,20 @@ static const float SLACK = 16 * 0x1p-24f;
 static uint64_t survey(const ewa_safe_range *range, const float *position, const float *normal,
                        const float *radius, uint64_t group_count, float low[EWA_BOX_FLOATS],
                        float high[EWA_BOX_FLOATS]) {
-    const wf finite_most = wf_set(0x1.fffffep127f);
-    const wf radius_least = wf_set(range->radius_least), radius_most = wf_set(range->radius_most);
+    const wf finite_max = wf_set(0x1.fffffep127f);
+    const wf radius_min = wf_set(range->radius_min), radius_max = wf_set(range->radius_max);
     wf lows[3], highs[3];
     for (int c = 0; c < 3; c++) lows[c] = wf_load(low + c * LANES), highs[c] = wf_load(high + c * LANES);
     uint64_t group = 0;
     for (; group < group_count; group++) {
         const wf r = wf_load(radius + group * LANES);
-        wm good = wm_and(wf_le(radius_least, r), wf_le(r, radius_most));
+        wm good = wm_and(wf_le(radius_min, r), wf_le(r, radius_max));
         wf at[3];
         uint64_t zeros = 0; // of all numbers of the normals
         for (int c = 0; c < 3; c++) {
             at[c] = wf_load(position + group * EWA_BOX_FLOATS + c * LANES);
             const wf n = wf_abs(wf_load(normal + group * EWA_BOX_FLOATS + c * LANES));
-            good = wm_and(good, wm_and(wf_le(wf_abs(at[c]), finite_most), wf_le(n, finite_most)));
+            good = wm_and(good, wm_and(wf_le(wf_abs(at[c]), finite_max), wf_le(n, finite_max)));
             zeros |= (uint64_t)wm_bits(wf_le(n, wf_set(0))) << c * LANES;
         }
         const uint64_t firsts = 0x249249249249u; // of each normal
@@ -145,7 +145,7 @@ static void code_ellipses(const float normal[3][LANES], const float axis_u[3][LA
     for (int i = 0; i < LANES; i++) packet->ratio[i] = (uint16_t)ratios[i];
 }
 
-/// The sum, the least or the greatest number of each row: lane k of the result is that of rows[k].
+/// The sum, the smallest or the largest number of each row: lane k of the result is that of rows[k].
 static inline wf sum_rows(wf rows[LANES]) {
     w_transpose(rows);
     wf sum = rows[0];
@@ -153,11 +153,11 @@ static inline wf sum_rows(wf rows[LANES]) {
     return sum;
 }
 
-static inline wf least_of_rows(wf rows[LANES]) {
+static inline wf min_of_rows(wf rows[LANES]) {
     w_transpose(rows);
-    wf least = rows[0];
-    for (int i = 1; i < LANES; i++) least = wf_min(least, rows[i]);
-    return least;
+    wf minimum = rows[0];
+    for (int i = 1; i < LANES; i++) minimum = wf_min(minimum, rows[i]);
+    return minimum;
 }
 
 static inline wf greatest_of_rows(wf rows[LANES]) {
@@ -173,9 +173,9 @@ static inline wf middle_of(float *const values[LANES], wf *extent) {
     for (int k = 0; k < LANES; k++) low[k] = high[k] = wf_load(values[k]);
     // Halves first: the sum of two coordinates may overflow.
     const wf half = wf_set(0.5f);
-    const wf least = wf_mul(least_of_rows(low), half), greatest = wf_mul(greatest_of_rows(high), half);
-    *extent = wf_max(wf_sub(greatest, least), *extent);
-    return wf_add(least, greatest);
+    const wf minimum = wf_mul(min_of_rows(low), half), greatest = wf_mul(greatest_of_rows(high), half);
+    *extent = wf_max(wf_sub(greatest, minimum), *extent);
+    return wf_add(minimum, greatest);
 }
 
 /// Rounds middles to steps of about a hundredth of the extent: that much more digits than a centre needs
@@ -282,7 +282,7 @@ static inline void bound_normals(const ewa_packet *const packets[LANES], uint32_
                  u = wf_sub(wf_mul(x, b), wf_mul(y, a));
         sine2[k] = wf_fma(s, s, wf_fma(t, t, wf_mul(u, u)));
     }
-    const wm narrow = wm_and(directed, wf_lt(wf_set(SLACK), least_of_rows(cosine)));
+    const wm narrow = wm_and(directed, wf_lt(wf_set(SLACK), min_of_rows(cosine)));
     const wf sine = wf_add(wf_sqrt(greatest_of_rows(sine2)), wf_set(SLACK));
     const wf steps = wf_min(wf_fma(sine, wf_set(EWA_CONE_SINE), wf_set(1)), wf_set(EWA_CONE_SINE)); // upwards
     const wi sine_codes = wi_from_f(wf_select(narrow, steps, wf_set(EWA_CONE_SINE + 1)));

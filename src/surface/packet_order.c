@@ -99,7 +99,7 @@ void ewa_packet_order_free(ewa_context *context, ewa_packet_order *order) {
 /// `points`, if any, and returns the number of packets.
 static uint32_t divide(const ewa_surfel_reader *reader, const uint32_t from[LANES], double reach,
                        uint32_t *points) {
-    double low[3], high[3], least_sigma = 0;
+    double low[3], high[3], min_sigma = 0;
     uint32_t packets = 0, lanes = 0;
     for (uint32_t i = 0; i < LANES && from[i] != EWA_NO_POINT; i++) {
         ewa_surfel surfel;
@@ -109,10 +109,10 @@ static uint32_t divide(const ewa_surfel_reader *reader, const uint32_t from[LANE
         double extent = 0;
         for (int c = 0; c < 3 && lanes; c++)
             extent = fmax(extent, fmax(high[c], surfel.center[c]) - fmin(low[c], surfel.center[c]));
-        if (lanes == 0 || !(extent <= reach * fmin(least_sigma, sigma))) {
+        if (lanes == 0 || !(extent <= reach * fmin(min_sigma, sigma))) {
             packets++;
             lanes = 0;
-            least_sigma = sigma;
+            min_sigma = sigma;
             memcpy(low, surfel.center, sizeof low);
             memcpy(high, surfel.center, sizeof high);
             for (int lane = 0; points && lane < LANES; lane++)
@@ -122,7 +122,7 @@ static uint32_t divide(const ewa_surfel_reader *reader, const uint32_t from[LANE
             low[c] = fmin(low[c], surfel.center[c]);
             high[c] = fmax(high[c], surfel.center[c]);
         }
-        least_sigma = fmin(least_sigma, sigma);
+        min_sigma = fmin(min_sigma, sigma);
         if (points) points[(packets - 1) * LANES + lanes] = from[i];
         lanes++;
     }
@@ -148,10 +148,10 @@ static uint64_t divide_all(const ewa_surfel_reader *reader, const ewa_packet_ord
 ewa_status ewa_packet_order_split(ewa_context *context, const ewa_surfel_reader *reader, const uint8_t *wide,
                                   ewa_packet_order *order) {
     enum { ALWAYS = 64 }; // more packets that any cloud may have
-    const uint64_t most = order->packet_count + (uint64_t)order->packet_count / 4 + ALWAYS;
+    const uint64_t maximum = order->packet_count + (uint64_t)order->packet_count / 4 + ALWAYS;
     double reach = EWA_PACKET_REACH;
     uint64_t packets = divide_all(reader, order, wide, reach, NULL);
-    while (packets > most) {
+    while (packets > maximum) {
         reach *= LANES;
         packets = divide_all(reader, order, wide, reach, NULL);
     }

@@ -51,20 +51,20 @@ typedef struct build {
 } build;
 
 /// As fmin() and fmax() of numbers, without the calls.
-static inline double least(double a, double b) { return a < b ? a : b; }
-static inline double most(double a, double b) { return a > b ? a : b; }
+static inline double minimum(double a, double b) { return a < b ? a : b; }
+static inline double maximum(double a, double b) { return a > b ? a : b; }
 
-static void survey_discs(build *b, uint32_t part) {
+static void measure_discs(build *b, uint32_t part) {
     const uint64_t first = ewa_split(b->point_count, b->parts, part),
                    end = ewa_split(b->point_count, b->parts, part + 1);
     ewa_disc_facts discs;
-    ewa_discs_survey(&b->discs, first, end - first, b->drawable + first, &discs);
+    ewa_discs_measure(&b->discs, first, end - first, b->drawable + first, &discs);
     part_facts *facts = &b->facts[part];
     *facts = (part_facts){.drawable_count = discs.drawable_count};
     for (int c = 0; c < 3; c++) facts->low[c] = discs.low[c], facts->high[c] = discs.high[c];
 }
 
-static void survey_surfels(build *b, uint32_t part) {
+static void measure_surfels(build *b, uint32_t part) {
     part_facts facts = {.low = {INFINITY, INFINITY, INFINITY}, .high = {-INFINITY, -INFINITY, -INFINITY}};
     ewa_surfel surfels[READ_BLOCK];
     bool drawable[READ_BLOCK];
@@ -78,8 +78,8 @@ static void survey_surfels(build *b, uint32_t part) {
             const ewa_surfel *s = &surfels[i];
             double u2 = 0, v2 = 0;
             for (int c = 0; c < 3; c++) {
-                facts.low[c] = least(facts.low[c], s->center[c]);
-                facts.high[c] = most(facts.high[c], s->center[c]);
+                facts.low[c] = minimum(facts.low[c], s->center[c]);
+                facts.high[c] = maximum(facts.high[c], s->center[c]);
                 u2 += s->axis_u_world[c] * s->axis_u_world[c];
                 v2 += s->axis_v_world[c] * s->axis_v_world[c];
             }
@@ -89,13 +89,13 @@ static void survey_surfels(build *b, uint32_t part) {
     b->facts[part] = facts;
 }
 
-static void survey_part(void *data, uint32_t part, uint32_t worker) {
+static void measure_part(void *data, uint32_t part, uint32_t worker) {
     (void)worker;
     build *b = data;
     if (b->are_discs)
-        survey_discs(b, part);
+        measure_discs(b, part);
     else
-        survey_surfels(b, part);
+        measure_surfels(b, part);
 }
 
 /// Joins the parts' facts and fixes the origin.
@@ -107,8 +107,8 @@ static void settle(build *b) {
         all.drawable_count += f->drawable_count;
         all.ellipses |= f->ellipses;
         for (int c = 0; c < 3; c++) {
-            all.low[c] = least(all.low[c], f->low[c]);
-            all.high[c] = most(all.high[c], f->high[c]);
+            all.low[c] = minimum(all.low[c], f->low[c]);
+            all.high[c] = maximum(all.high[c], f->high[c]);
         }
     }
     s->count = (uint32_t)all.drawable_count;
@@ -161,7 +161,7 @@ static uint16_t encode_surfels(const build *b, const uint32_t *points, uint32_t 
         packet->y[i] = (float)((s->center[1] - from[1]) * per_unit);
         packet->z[i] = (float)((s->center[2] - from[2]) * per_unit);
         packet->sigma[i] = ewa_packed_sigma(major * per_unit);
-        packet->ratio[i] = (uint16_t)(sqrt(sqrt(least(minor / major, 1))) * 65535 + 0.5);
+        packet->ratio[i] = (uint16_t)(sqrt(sqrt(minimum(minor / major, 1))) * 65535 + 0.5);
         for (int c = 0; c < 3; c++) normal[c][i] = (float)s->normal_world[c];
         memcpy(colors[i], s->color_linear, sizeof colors[i]);
     }
@@ -269,7 +269,7 @@ static ewa_status build_surfels(build *b, ewa_context *context) {
     if (!b->drawable) return EWA_ERROR_MEMORY;
     b->kernels = EWA_CHOOSE(ewa_context_cpu_features(context), ewa_pack_kernels);
     b->are_discs = ewa_discs_open(&b->reader, b->kernels, &b->discs);
-    ewa_parallel(context, survey_part, b, b->parts);
+    ewa_parallel(context, measure_part, b, b->parts);
     settle(b);
     if (b->are_discs) set_color_codes(b);
     ewa_surfels *s = b->surfels;

@@ -23,7 +23,7 @@ struct ewa_surfels {
     uint64_t left_out_count;
     ewa_packet *packets;
     uint8_t *materials; ///< [packet][lane]; NULL: all are `material`
-    uint8_t material, most_material;
+    uint8_t material, max_material;
     uint16_t *opacities;    ///< [packet][lane], times 65535; NULL: all are opaque
     uint16_t *clip_masks;   ///< [packet]: bit per lane that has a clip line; NULL: none has
     uint32_t *clip_first;   ///< [packet]: of its lanes' in `clips`
@@ -43,11 +43,11 @@ struct ewa_surfels {
     bool ellipses; ///< some kernel is not a circle
     double unit_coverage;
     ewa_surfels *coarser;                            ///< the next level of detail; NULL: none
-    bool with_opacities, with_materials, with_clips; ///< of a hollow copy: what its original has (hollow.h)
+    bool with_opacities, with_materials, with_clips; ///< of a proxy: what its original has (proxy.h)
 };
 
-/// Colours up to so much keep enough digits in one word of a sum (surface/road_sums.h), as do those of which
-/// none is much smaller than the largest.
+/// Colours up to so much keep enough digits in one word of a sum (surface/pipeline_sums.h), as do those of
+/// which none is much smaller than the largest.
 #define EWA_PLAIN_COLORS 16.0
 
 enum { EWA_BOUNDS_BYTES = 3 * sizeof(double) + 2 * sizeof(uint16_t) + sizeof(uint32_t) }; ///< of a packet

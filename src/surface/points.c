@@ -13,19 +13,19 @@
 
 static const double TWO_PI = 6.283185307179586;
 // Standard deviations in the radius at most: beyond, single precision would not hold the threshold.
-static const double MOST_SIGMAS = 4;
+static const double MAX_SIGMAS = 4;
 // Alpha with which a rim ends: a quarter of a step of 8 bits.
-static const double LEAST_ALPHA = 1.0 / 1024;
+static const double MIN_ALPHA = 1.0 / 1024;
 
 ewa_point_profile ewa_point_profile_make(const ewa_render_options *options) {
     const double radius = options->point_size_px / 2, radius2 = radius * radius;
     // A disc below two pixels has no plateau.
-    const double variance = fmax(fmin(radius / 2, radius2 / 2), radius2 / (MOST_SIGMAS * MOST_SIGMAS));
+    const double variance = fmax(fmin(radius / 2, radius2 / 2), radius2 / (MAX_SIGMAS * MAX_SIGMAS));
     const double plateau = (radius2 - 2 * variance) / variance; // a^2 / s^2
     const bool soft = options->edge_antialiasing && options->passes == 3;
     return (ewa_point_profile){
         .sigma_px = sqrt(variance),
-        .cutoff = sqrt(soft ? plateau - 2 * log(LEAST_ALPHA) : radius2 / variance),
+        .cutoff = sqrt(soft ? plateau - 2 * log(MIN_ALPHA) : radius2 / variance),
         .unit_coverage = exp(-0.5 * plateau) / (TWO_PI * options->edge_threshold),
     };
 }

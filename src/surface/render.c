@@ -9,7 +9,7 @@
 #include "surface/levels.h"
 #include "surface/options.h"
 #include "surface/packets.h"
-#include "surface/road.h"
+#include "surface/pipeline.h"
 
 struct ewa_renderer {
     ewa_context *context;
@@ -85,7 +85,7 @@ static ewa_status check_source(const ewa_renderer *renderer, const ewa_surfels *
                         job->sources[0].surfels->cutoff);
     if (job->source_count == UINT32_MAX)
         return ewa_fail(renderer->context, EWA_ERROR_LIMIT, "render: more than %u sources", UINT32_MAX);
-    return ewa_shading_check_materials(renderer->context, &job->shading, surfels->most_material);
+    return ewa_shading_check_materials(renderer->context, &job->shading, surfels->max_material);
 }
 
 ewa_status ewa_render_add_source(ewa_renderer *renderer, const ewa_surfels *surfels,

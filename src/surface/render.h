@@ -29,7 +29,7 @@ ewa_status ewa_render_add_source(ewa_renderer *renderer, const ewa_surfels *surf
                                  const ewa_render_source *how);
 
 /// Draws of the frame that has been begun only the rows [first_px, end_px), with the bytes that the whole frame
-/// has there as long as its sources, or their hollow copies (surface/hollow.h), are the same; other pixels stay
+/// has there as long as its sources, or their proxies (surface/proxy.h), are the same; other pixels stay
 /// as they are. Each is a multiple of 128, or end_px the frame's height. A frame with eye-dome lighting is to be
 /// drawn band by band by one renderer, with nothing else between, the band at its end last: that puts the
 /// lighting on all of them; until then its colours are not there. Errors: EWA_ERROR_ARGUMENT (no frame; other

@@ -12,7 +12,7 @@
 
 enum { LANES = EWA_PACKET_LANES, MAX_PARTS = 64 };
 
-static inline double most(double a, double b) { return a > b ? a : b; }
+static inline double maximum(double a, double b) { return a > b ? a : b; }
 
 void ewa_packets_view_bounds(ewa_surfels *surfels) {
     const size_t stride = surfels->bounds_stride;
@@ -84,17 +84,18 @@ static void find_largest_sigmas(void *data, uint32_t part, uint32_t worker) {
     const uint64_t end = ewa_split(surfels->packet_count, MAX_PARTS, part + 1);
     for (uint64_t i = ewa_split(surfels->packet_count, MAX_PARTS, part); i < end; i++) {
         const ewa_packet *packet = &surfels->packets[i];
-        for (int lane = 0; lane < LANES; lane++) major[lane] = most(major[lane], (double)packet->sigma[lane]);
+        for (int lane = 0; lane < LANES; lane++)
+            major[lane] = maximum(major[lane], (double)packet->sigma[lane]);
         for (int lane = 0; lane < LANES && surfels->ellipses; lane++) {
             const double root = packet->ratio[lane] / 65535.0;
-            minor[lane] = most(minor[lane], (double)packet->sigma[lane] * root * root * root * root);
+            minor[lane] = maximum(minor[lane], (double)packet->sigma[lane] * root * root * root * root);
         }
     }
     double *largest = job->largest[part];
     largest[0] = largest[1] = 0;
     for (int lane = 0; lane < LANES; lane++) {
-        largest[0] = most(largest[0], major[lane]);
-        largest[1] = most(largest[1], surfels->ellipses ? minor[lane] : major[lane]);
+        largest[0] = maximum(largest[0], major[lane]);
+        largest[1] = maximum(largest[1], surfels->ellipses ? minor[lane] : major[lane]);
     }
 }
 
@@ -107,7 +108,7 @@ void ewa_packets_sum_up(ewa_surfels *surfels) {
         if (!bounds->radius[i]) continue;
         const double limit = ewa_color_form_limit(bounds->colors[i]);
         if (bounds->radius[i] > reach_code) reach_code = bounds->radius[i];
-        smallest = fmin(smallest, limit), largest_limit = most(largest_limit, limit);
+        smallest = fmin(smallest, limit), largest_limit = maximum(largest_limit, limit);
         even = even && ewa_color_form_is_even(bounds->colors[i]);
     }
     surfels->largest_color = largest_limit > 0 ? largest_limit : 1;
@@ -121,7 +122,7 @@ void ewa_packets_sum_up(ewa_surfels *surfels) {
     ewa_parallel(surfels->context, find_largest_sigmas, &job, MAX_PARTS);
     for (int i = 0; i < 2; i++) {
         double largest = 0;
-        for (int part = 0; part < MAX_PARTS; part++) largest = most(largest, job.largest[part][i]);
+        for (int part = 0; part < MAX_PARTS; part++) largest = maximum(largest, job.largest[part][i]);
         surfels->largest_sigmas_world[i] = largest * surfels->unit;
     }
 }
@@ -138,7 +139,7 @@ void ewa_surfels_describe(const ewa_surfels *surfels, ewa_surfels_info *info) {
         .unit_coverage = surfels->unit_coverage,
         .transparent = surfels->opacities != NULL,
         .bounds = bounds,
-        .material_count = (uint32_t)surfels->most_material + 1,
+        .material_count = (uint32_t)surfels->max_material + 1,
     };
     for (const ewa_surfels *level = surfels; level; level = level->coarser) {
         info->level_count++;

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// The numbers and rules that the reference and every fast road share, where docs/math.md leaves them open, in
-// the sections of that page; what was another rule before, and what that cost, is in its section 14.
+// The numbers and rules that the reference and every fast pipeline share, where docs/math.md leaves them
+// open, in the sections of that page; what was another rule before, and what that cost, is in its section 14.
 //
 // ---- Section 2: one primitive
 //
@@ -16,7 +16,7 @@
 //
 // Dropped before anything else: perspective, pz + R <= 0 (wholly behind the eye plane); orthographic, pz <=
 // 0; with EWA_CULL_BACK, n.p >= 0 (orthographic: nz >= 0). Without culling, n is turned towards the viewer
-// per surfel: where n.p > 0 (orthographic nz > 0) it is negated; the splat is then called turned.
+// per surfel: where n.p > 0 (orthographic nz > 0) it is negated; the splat is then called back-facing.
 //
 // ---- Section 3: ellipse, near surfels
 //
@@ -39,7 +39,7 @@
 // / |V'|) exp(-r^2 / 2) / (2 pi).
 //
 // Without a prefilter a splat with |V'| < EWA_FLAT V'11 V'22 is a line: it covers no pixel. Nor does one with
-// sqrt|V| < EWA_LEAST_SPLAT, whatever its pixels' alpha is made of.
+// sqrt|V| < EWA_MIN_SPLAT, whatever its pixels' alpha is made of.
 //
 // ---- Section 5: depth and clip lines
 //
@@ -71,20 +71,20 @@
 // One pass: the surfel of smallest z wins, with weight 1 and full coverage.
 //
 // Sums are exact: a term, the kernel over its peak times the payload there, is rounded once to a whole number
-// of units, and whole numbers are added (road_sums.h). So neither the order of the splats nor how they are
-// spread over sources or the picture is cut into tiles changes a byte. 2^22 units are a weight of 1 (less, by
-// a power of two, where q0 is large; more where no splat can have a weight near 1 / (2 pi)), as many a
-// colour, material or opacity as large as any there is; z is summed over B(x), orthographic: over the scene's
-// depth. What the rounding leaves is summed too, to 2^-12 of a unit: of depths and the weights that they are
-// divided by; of splats that clip lines cut; of all without edge antialiasing, where a pixel shows splats of
-// next to no weight, and where colours beyond 16 meet far smaller ones. Weights of several sources are those
-// of the one with the smallest q0: the others' times that over their own. And times the source's
+// of units, and whole numbers are added (pipeline_sums.h). So neither the order of the splats nor how they
+// are spread over sources or the picture is cut into tiles changes a byte. 2^22 units are a weight of 1
+// (less, by a power of two, where q0 is large; more where no splat can have a weight near 1 / (2 pi)), as
+// many a colour, material or opacity as large as any there is; z is summed over B(x), orthographic: over the
+// scene's depth. What the rounding leaves is summed too, to 2^-12 of a unit: of depths and the weights that
+// they are divided by; of splats that clip lines cut; of all without edge antialiasing, where a pixel shows
+// splats of next to no weight, and where colours beyond 16 meet far smaller ones. Weights of several sources
+// are those of the one with the smallest q0: the others' times that over their own. And times the source's
 // own weight, if it has one. A source that hides nothing has no say in B(x); where no other has a surface,
 // nothing of it is summed.
 //
-// Facing: turned splats hide others and cover the pixel as all do, but are seen only where nothing faces the
-// viewer. With S_f the sums of weight, colour, normal, depth, material and opacity over the splats that are
-// not turned, S_b those over the turned ones, q_f and q_b their weights, the surface's sums are
+// Facing: back-facing splats hide others and cover the pixel as all do, but are seen only where nothing faces
+// the viewer. With S_f the sums of weight, colour, normal, depth, material and opacity over the splats that
+// are front-facing, S_b those over the back-facing ones, q_f and q_b their weights, the surface's sums are
 //   S = (S_f + (1 - s) S_b) (q_f + q_b) / (q_f + (1 - s) q_b),    s = min(1, q_f / (EWA_FRONT q0)),
 // of weight q = q_f + q_b. At sharp edges the far side's discs reach past the near side's and lie in front of
 // them there; without this they draw a rim in the far side's colour, with its normals turned over. Alpha,
@@ -119,8 +119,8 @@
 // (image/environment.h) with the footprint |R - R'|, R' the reflection at the pixel's neighbour in x or in y
 // within its aligned 2x2 pixels, the larger one of those that have the surface too.
 //
-// Eye-dome lighting: the premultiplied colour, before the background, times exp(-EWA_DOME_GAIN strength
-// mean), mean over EWA_DOME_PAIRS pairs of opposite pixels at x +- d of
+// Eye-dome lighting: the premultiplied colour, before the background, times exp(-EWA_EYE_DOME_GAIN strength
+// mean), mean over EWA_EYE_DOME_PAIRS pairs of opposite pixels at x +- d of
 // max(0, (key(x + d) + key(x - d)) / 2 - key(x)) / key(x), 0 where one of the three shows nothing. d: (r, 0),
 // (0, r), (r, r), (r, -r) for r of 1, 2 and 4 pixels. Orthographic: divided by the height of the view in world
 // units instead. Keys being linear on planes, planes stay as they are.
@@ -150,11 +150,11 @@
 // ---- Section 9: other kernels of the affine map (orthographic: of the same ellipse); points
 //
 // Source: u = (x - c) J^-1, W = I + h^2 J^-T J^-1, r^2 = u W^-1 u', weight = exp(-r^2 / 2) / (2 pi sqrt|W|).
-// It needs the inverse: a surfel with |V| < EWA_FLAT V11 V22 or sqrt|V| < EWA_LEAST_AREA is dropped.
+// It needs the inverse: a surfel with |V| < EWA_FLAT V11 V22 or sqrt|V| < EWA_MIN_AREA is dropped.
 //
 // Circular: V' is replaced by its larger eigenvalue l times I, |V| stays. The circle reaches far beyond a
 // disc that is seen at a grazing angle: m of section 5 is larger by min(F sqrt(l) g, EWA_GRAZING_TOLERANCE F
-// s), and the key goes no lower than EWA_LEAST_KEY / pz.
+// s), and the key goes no lower than EWA_MIN_KEY / pz.
 //
 // Raycast (perspective cameras; orthographic ones see the affine kernel): V' = w^2 V + h^2 I and |V| w^4 for
 // |V|, w(x) = pz / z(x), clamped to [pz / (pz + R), pz / (pz - R)], what it is on the disc. Since u = (x - c)
@@ -185,7 +185,7 @@
 #define EWA_FLAT 1e-14
 
 /// Smallest sqrt|V| of a splat that is drawn, in square pixels: squares of less are lost in single precision.
-#define EWA_LEAST_SPLAT    1e-16
+#define EWA_MIN_SPLAT      1e-16
 
 #define EWA_INVERSE_TWO_PI 0.15915494309189535
 
@@ -236,8 +236,8 @@
 
 /// Eye-dome lighting: pairs of opposite pixels, and what their mean is multiplied by at strength 1: a step of
 /// 1 % of the depth behind a straight edge takes about half of the light.
-#define EWA_DOME_PAIRS 12
-#define EWA_DOME_GAIN  300.0
+#define EWA_EYE_DOME_PAIRS 12
+#define EWA_EYE_DOME_GAIN  300.0
 
 // ---- Section 8
 
@@ -247,9 +247,9 @@
 // ---- Section 9
 
 /// Smallest key of circular splats times pz: their z goes up to 16 pz.
-#define EWA_LEAST_KEY 0.0625
+#define EWA_MIN_KEY 0.0625
 
 /// Smallest sqrt|V| that the source kernel inverts, in square pixels.
-#define EWA_LEAST_AREA 1e-15
+#define EWA_MIN_AREA 1e-15
 
 #endif

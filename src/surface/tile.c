@@ -29,8 +29,8 @@ static plane_sizes sizes_of(const ewa_tile_job *job) {
 
 size_t ewa_tile_plane_floats(const ewa_tile_job *job) {
     // Per pixel: `nearest` twice, the edges' `passed`, and four channels of what lies behind; per block
-    // `reach`; sums of both surfaces and of turned splats, and what is noted of clip lines by both, each in
-    // two words.
+    // `reach`; sums of both surfaces and of back-facing splats, and what is noted of clip lines by both, each
+    // in two words.
     const plane_sizes n = sizes_of(job);
     return n.tile * (2 + 1 + 4) + n.tile / EWA_BLOCK_LANES + 2 * (3 * n.sums + 2 * n.cuts);
 }
@@ -45,8 +45,7 @@ void ewa_tile_planes_bind(const ewa_tile_job *job, ewa_tile_scratch *s, float *p
     s->edges.passed = s->edges.nearest + tile_floats;
     s->edges.behind = s->edges.passed + tile_floats;
     s->edges.reach = s->edges.behind + 4 * tile_floats;
-    ewa_sums *const sums[5] = {&s->sums, &s->edges.sums, &s->apart.turned, &s->apart.cut,
-                               &s->edges.apart.cut};
+    ewa_sums *const sums[5] = {&s->sums, &s->edges.sums, &s->side.is_back, &s->side.cut, &s->edges.side.cut};
     float *next = s->edges.reach + tile_floats / EWA_BLOCK_LANES;
     for (int i = 0; i < 5; i++) {
         const size_t floats = i < 3 ? sum_floats : cut_floats;
@@ -54,15 +53,16 @@ void ewa_tile_planes_bind(const ewa_tile_job *job, ewa_tile_scratch *s, float *p
                               .high = next + floats,
                               .fine = i < 3 && two_words ? floats / 2 : 0,
                               .careful = i > 0,
-                              .most_visits = job->terms_per_carry,
+                              .max_visits = job->terms_per_carry,
                               .visits = s->visits[i],
                               .high_rows = s->high_rows[i]};
         next += 2 * floats;
     }
-    s->edges.apart.turned = s->apart.turned;
-    s->apart.turned_rows = s->turned_rows[0], s->edges.apart.turned_rows = s->turned_rows[1];
-    s->apart.cut_rows = cut_floats ? s->cut_rows[0] : NULL;
-    s->edges.apart.cut_rows = cut_floats ? s->cut_rows[1] : NULL;
+    s->edges.side.is_back = s->side.is_back;
+    s->side.back_facing_rows = s->back_facing_rows[0],
+    s->edges.side.back_facing_rows = s->back_facing_rows[1];
+    s->side.cut_rows = cut_floats ? s->cut_rows[0] : NULL;
+    s->edges.side.cut_rows = cut_floats ? s->cut_rows[1] : NULL;
 }
 
 ewa_status ewa_tile_scratch_reserve(ewa_context *context, ewa_tile_scratch *s, const ewa_tile_job *job) {
@@ -185,7 +185,7 @@ static const uint32_t *front_to_back(const ewa_tile_job *job, const ewa_tile_sou
 static void draw_visible(const ewa_tile_job *job, const ewa_tile_source *source, const ewa_tile *tile,
                          ewa_tile_scratch *s, ewa_tile_split *split, const uint32_t *ids, uint64_t count,
                          bool kept) {
-    enum { CHUNK_PACKETS = 4 * EWA_RUN_PACKETS, MOST_PASSED = 6 };
+    enum { CHUNK_PACKETS = 4 * EWA_RUN_PACKETS, MAX_PASSED = 6 };
     split->shown_count = split->hidden_count = 0;
     uint64_t drawn_runs = 0;
     uint32_t passed = 0; // chunks since the last that was asked, and until the next
@@ -204,7 +204,7 @@ static void draw_visible(const ewa_tile_job *job, const ewa_tile_source *source,
                 here, split->shown + split->shown_count, split->hidden + split->hidden_count);
             split->shown_count += shown;
             split->hidden_count += here - shown;
-            to_pass = shown < here ? 0 : to_pass < MOST_PASSED ? to_pass + 1 : MOST_PASSED;
+            to_pass = shown < here ? 0 : to_pass < MAX_PASSED ? to_pass + 1 : MAX_PASSED;
             passed = 0;
         }
         s->setup_s += ewa_now_s() - before;
@@ -228,7 +228,7 @@ static bool draw_sources(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile
         all += first[1] - first[0];
     }
     const bool kept = all * EWA_PACKET_LANES <= s->record_capacity;
-    s->least_key = INFINITY;
+    s->min_key = INFINITY;
     s->has_near = false;
     s->record_count = s->small_count = 0;
     ewa_tile_drop_runs(s);
@@ -289,7 +289,7 @@ void ewa_tile_place(const ewa_tile_job *job, ewa_tile_scratch *s, uint32_t index
                        .height_px = (int32_t)place.height_px,
                        .nearest = s->nearest,
                        .sums = s->sums,
-                       .apart = s->apart,
+                       .side = s->side,
                        .channel_count = job->channel_count,
                        .with_normals = job->with_normals,
                        .with_depth = job->with_depth,

@@ -64,7 +64,7 @@ typedef struct ewa_tile_scratch {
     uint32_t *packets;                  ///< their memory
     uint32_t *ordered;                  ///< packets of a tile and a source
     float *depths;                      ///< by packet, then by group of packets
-    float least_key;                    ///< of all splats that are shown
+    float min_key;                      ///< of all splats that are shown
     bool has_near;                      ///< some of them are near surfels
     uint64_t record_count, small_count; ///< of a tile, and how many of them are of few pixels
     float cells[EWA_TILE_CELLS * EWA_TILE_CELLS];
@@ -76,12 +76,14 @@ typedef struct ewa_tile_scratch {
         material_buffer, clip_buffer, kept_buffer, plane_buffer, pixel_buffer, packet_buffer, split_buffer;
     uint32_t edge_rows[EWA_MAX_TILE_BLOCKS], edge_rows_left[EWA_MAX_TILE_BLOCKS],
         beyond_rows[EWA_MAX_TILE_BLOCKS];
-    ewa_apart apart; ///< of the first surface; its planes for turned splats serve those behind it, too
-    uint32_t turned_rows[2][EWA_MAX_TILE_BLOCKS], cut_rows[2][EWA_MAX_TILE_BLOCKS];
+    ewa_side_sums
+        side; ///< of the first surface; its planes for back-facing splats serve those behind it, too
+    uint32_t back_facing_rows[2][EWA_MAX_TILE_BLOCKS], cut_rows[2][EWA_MAX_TILE_BLOCKS];
     uint32_t settled_rows[EWA_MAX_TILE_BLOCKS];
     uint32_t visits[5][EWA_MAX_TILE_BLOCKS * EWA_MAX_TILE_BLOCKS];
-    uint32_t high_rows[5]
-                      [EWA_MAX_TILE_BLOCKS]; ///< of the sums of both surfaces, of turned splats, of both cuts
+    uint32_t
+        high_rows[5]
+                 [EWA_MAX_TILE_BLOCKS]; ///< of the sums of both surfaces, of back-facing splats, of both cuts
     uint64_t drawn_count, fragment_count, hidden_splat_count, broken_pixel_count;
     double setup_s, visibility_s, accumulate_s, edge_s, resolve_s;
 } ewa_tile_scratch;
@@ -97,7 +99,7 @@ typedef struct ewa_tile_source {
 
 /// What all tiles of a frame share.
 typedef struct ewa_tile_job {
-    const ewa_road_kernels *kernels;
+    const ewa_pipeline_kernels *kernels;
     ewa_tile_source *sources;
     uint32_t source_count;
     ewa_tiles tiles;

@@ -43,7 +43,7 @@ static void sort_run(const ewa_run *run, uint16_t *order, ewa_sorted_run *sorted
 void ewa_tile_draw_near(const ewa_tile_job *job, const ewa_tile_source *source, const ewa_tile *tile,
                         const ewa_edges *edges, const uint32_t *surfels, uint32_t count, ewa_tile_pass what) {
     if (!ewa_takes_part(source, what)) return;
-    const ewa_road_kernels *kernels = job->kernels;
+    const ewa_pipeline_kernels *kernels = job->kernels;
     const ewa_view *view = &source->view;
     ewa_near_record records[NEAR_CHUNK];
     for (uint32_t done = 0; done < count;) {
@@ -105,7 +105,7 @@ static void prepare_run(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_
     job->kernels->setup(&source->view, &source->packets, packets->ids + first,
                         announced < EWA_RUN_PACKETS ? announced : EWA_RUN_PACKETS, announced, tile, &s->run);
     if (!source->hides) unbind(s->run.records, s->run.count);
-    s->least_key = fminf(s->least_key, s->run.least_key);
+    s->min_key = fminf(s->min_key, s->run.min_key);
     s->has_near |= s->run.near_count > 0;
     s->record_count += s->run.count, s->small_count += s->run.small_count;
     sort_run(&s->run, s->order + at, sorted);

@@ -96,7 +96,7 @@ static double largest_sigma_px(const ewa_surfels *surfels, const ewa_camera *cam
 /// How many weights of 1 sums have room for: those of a few surfaces like that of q0.
 static double room_for(double unit_coverage) {
     enum { SURFACES = 3 };
-    return power_above(fmin(fmax(SURFACES * unit_coverage, 1), EWA_MOST_ROOM));
+    return power_above(fmin(fmax(SURFACES * unit_coverage, 1), EWA_MAX_ROOM));
 }
 
 /// Units of sums per weight, a power of two: there is room for room_for(). More where splats are
@@ -104,7 +104,7 @@ static double room_for(double unit_coverage) {
 /// care anyway.
 static double sum_scale(const ewa_surfels *surfels, const ewa_camera *camera, const ewa_placement *placement,
                         const ewa_render_options *options, double unit_coverage) {
-    enum { PLAIN_STEPS = 10, MOST_STEPS = 32 };
+    enum { PLAIN_STEPS = 10, MAX_STEPS = 32 };
     const double room = 1 / room_for(unit_coverage);
     if (options->point_size_px > 0 || !(options->prefilter_px > 0) || !surfels->extent.finite_count)
         return EWA_SUM_UNITS * room;
@@ -118,7 +118,7 @@ static double sum_scale(const ewa_surfels *surfels, const ewa_camera *camera, co
     int exponent = 0;
     frexp(share, &exponent); // share < 2^exponent
     const int steps = -exponent - PLAIN_STEPS;
-    return ldexp(EWA_SUM_UNITS * room, steps < 0 ? 0 : steps > MOST_STEPS ? MOST_STEPS : steps);
+    return ldexp(EWA_SUM_UNITS * room, steps < 0 ? 0 : steps > MAX_STEPS ? MAX_STEPS : steps);
 }
 
 /// q0 of the splats that are drawn.
@@ -278,10 +278,10 @@ static void set_shading(ewa_resolve *resolve, uint8_t material, const ewa_render
         }
     }
     ewa_material_numbers(&shading->materials[shading->has_table ? material : 0], resolve->material);
-    resolve->shading = !shading->lit         ? EWA_ROAD_UNSHADED
-                       : shading->highlights ? EWA_ROAD_PHONG
-                       : plain               ? EWA_ROAD_LAMBERT
-                                             : EWA_ROAD_LIGHTS;
+    resolve->shading = !shading->lit         ? EWA_PIPELINE_UNSHADED
+                       : shading->highlights ? EWA_PIPELINE_PHONG
+                       : plain               ? EWA_PIPELINE_LAMBERT
+                                             : EWA_PIPELINE_LIGHTS;
     resolve->environment = options->environment;
     const ewa_mat3 world = mat3_transpose(rotation);
     const ewa_mat3 turn = mat3_multiply(&shading->environment_from_world, &world);
@@ -361,8 +361,8 @@ static void set_clip_line(ewa_clip_line *line, ewa_vec3 g, double d, ewa_vec3 n,
         const double a = g.x - g.z * n.x / nz, b = g.y - g.z * n.y / nz;
         set_linear(terms, vec3_make(a, b, d - a * p.x - b * p.y), view, tile);
     } else {
-        const double np = vec3_dot(n, p), least = EWA_EDGE_ON * vec3_length(p);
-        const double share = (vec3_dot(g, p) - d) / copysign(fmax(fabs(np), least), np);
+        const double np = vec3_dot(n, p), minimum = EWA_EDGE_ON * vec3_length(p);
+        const double share = (vec3_dot(g, p) - d) / copysign(fmax(fabs(np), minimum), np);
         set_linear(terms, vec3_sub(g, vec3_scale(n, share)), view, tile);
     }
     // In pixels from the line; a line at infinity has only sides.
@@ -521,7 +521,7 @@ bool ewa_near_record_set(ewa_near_record *record, const ewa_surfels *surfels, ui
         record->normal[i] = (float)normal[i];
     }
     record->opacity = (float)opacity;
-    record->turned = facing > 0;
+    record->is_back = facing > 0;
     if (tile->with_materials)
         memcpy(record->material,
                view->materials[surfels->materials ? surfels->materials[surfel] : surfels->material],

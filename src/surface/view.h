@@ -8,7 +8,7 @@
 #include "homogeneous/placement.h"
 #include "surface/backend.h"
 #include "surface/packets.h"
-#include "surface/road.h"
+#include "surface/pipeline.h"
 #include "surface/shading.h"
 
 /// What the sources of a frame share, so that what one adds to a pixel means what another does. None of it

@@ -44,7 +44,7 @@ static void choose_brush(const ewa_texture_plan *plan, ewa_texture_brush *brush)
 }
 
 /// Finds the levels that a tile needs.
-static void survey_tile(void *data, uint32_t index, uint32_t worker) {
+static void measure_tile(void *data, uint32_t index, uint32_t worker) {
     const texture_job *job = data;
     workspace *space = &job->workspaces[worker];
     const ewa_tile_rect tile = ewa_tiles_rect(&job->tiles, index);
@@ -88,7 +88,7 @@ static void draw_tile(void *data, uint32_t index, uint32_t worker) {
     write_tile(plan, space, &tile);
 }
 
-/// Surveys, makes the levels, draws.
+/// Measures, makes the levels, draws.
 static ewa_status draw_all(ewa_texture_plan *plan, texture_job *job, ewa_texture_stats *stats) {
     const uint32_t tile_count = ewa_tiles_count(&job->tiles);
     const uint32_t worker_count = ewa_context_worker_count(plan->context);
@@ -96,7 +96,7 @@ static ewa_status draw_all(ewa_texture_plan *plan, texture_job *job, ewa_texture
     ewa_status status = ewa_progress(plan->context, "texture", 0);
     if (status == EWA_OK && (method == EWA_TEXTURE_HYBRID || method == EWA_TEXTURE_POINT)) {
         const double started_s = ewa_now_s();
-        ewa_parallel(plan->context, survey_tile, job, tile_count);
+        ewa_parallel(plan->context, measure_tile, job, tile_count);
         uint8_t *wanted = job->workspaces[0].wanted;
         double spared = 0;
         for (uint32_t k = 0; k < worker_count; k++) {

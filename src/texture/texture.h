@@ -8,7 +8,7 @@
 
 #include "base/base.h"
 #include "ewa/resample.h"
-#include "road/tiles.h"
+#include "tiling/tiles.h"
 #include "wide/isa.h"
 
 enum {

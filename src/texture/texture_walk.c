@@ -12,11 +12,11 @@
 #include <math.h>
 
 /// Area of a texel of a repeated texture, in square pixels, that is small enough whatever its shape.
-static const double CROWDED_PX2 = 1.0 / 256;
+static const double DENSE_PX2 = 1.0 / 256;
 
 /// Nodes that a tile of a repeated texture may visit before the rest is drawn from the levels where it is:
 /// only maps that squeeze a plane into a line get there.
-enum { MOST_VISITS = 1 << 16, MOST_NEAR = 1 << 8, SPLAT_VISITS = 15 };
+enum { MAX_VISITS = 1 << 16, MAX_NEAR = 1 << 8, SPLAT_VISITS = 15 };
 
 /// A tile, and what bounds the texels that reach it.
 typedef struct tile_bounds {
@@ -28,7 +28,7 @@ typedef struct tile_bounds {
     uint32_t visit_count, near_count;
     double disc;       ///< reach of a splat, in texels of its level
     double spacing[2]; ///< times w: most pixels from texel to texel along u and v, anywhere in the tile
-    double low_w;      ///< least w of a texel whose centre is in the tile
+    double low_w;      ///< smallest w of a texel whose centre is in the tile
     /// Distance from texel to texel along u and v, in pixels, times w^2: linear in v and u, respectively.
     double step_start[2][2], step_slope[2][2];
 } tile_bounds;
@@ -45,16 +45,16 @@ static double largest_value(const ewa_texture_line *line, double u0, double u1, 
 
 static double length(double x, double y) { return sqrt(x * x + y * y); }
 
-/// Most pixels from texel to texel along axis i, over texels with w >= `low_w` that are in the tile and
-/// between `first` and `last` along the other axis.
+/// Maximum number of pixels from texel to texel along axis i, over texels with w >= `low_w` that are in the
+/// tile and between `first` and `last` along the other axis.
 static double spacing_bound(const tile_bounds *tile, int i, double first, double last, double low_w) {
-    double most = 0;
+    double maximum = 0;
     for (int end = 0; end < 2; end++) {
         const double at = end ? last : first;
-        most = fmax(most, length(tile->step_start[i][0] + at * tile->step_slope[i][0],
-                                 tile->step_start[i][1] + at * tile->step_slope[i][1]));
+        maximum = fmax(maximum, length(tile->step_start[i][0] + at * tile->step_slope[i][0],
+                                       tile->step_start[i][1] + at * tile->step_slope[i][1]));
     }
-    return fmin(tile->spacing[i], most / low_w) / low_w;
+    return fmin(tile->spacing[i], maximum / low_w) / low_w;
 }
 
 static void make_bounds(const ewa_texture_plan *plan, ewa_texture_brush *brush, uint32_t x, uint32_t y,
@@ -234,24 +234,24 @@ static void visit(tile_bounds *tile, const node *at, uint32_t x, uint32_t y) {
         if (largest_value(side, u0, u1, v0, v1) + reach < 0) return;
     }
     const ewa_texture_line minus_w = {-tile->map[0][2], -tile->map[1][2], -tile->map[2][2]};
-    const double least_w = -largest_value(&minus_w, u0, u1, v0, v1);
-    const double low_w = fmax(least_w, tile->low_w);
+    const double min_w = -largest_value(&minus_w, u0, u1, v0, v1);
+    const double low_w = fmax(min_w, tile->low_w);
     tile->visit_count++;
     const double spacing_u = size[0] * spacing_bound(tile, 0, v0, v1, low_w);
     const double spacing_v = size[1] * spacing_bound(tile, 1, u0, u1, low_w);
     // Where a repeated texture is sheared so much that both axes stay long, coarse levels bound the work.
     const double area = plan->determinant * size[0] * size[1] / (low_w * low_w * low_w);
-    const bool crowded = options->repeat && (area <= CROWDED_PX2 || tile->visit_count > MOST_VISITS);
+    const bool dense = options->repeat && (area <= DENSE_PX2 || tile->visit_count > MAX_VISITS);
     // Along each axis, a level is fine enough when its texels are minified, or when there is none below.
     const bool minified_u = !beyond_u && spacing_u <= options->point_spacing_px;
     const bool minified_v = !beyond_v && spacing_v <= options->point_spacing_px;
     const bool as_points = options->method == EWA_TEXTURE_POINT ||
                            (options->method == EWA_TEXTURE_HYBRID && minified_u && minified_v);
     const double support_w = EWA_TEXTURE_NEAR * options->cutoff * plan->tangent_w * fmax(size[0], size[1]);
-    const bool near = !as_points && !(least_w > support_w), first = at->level_u == 0 && at->level_v == 0;
-    const bool fine = crowded || ((minified_u || at->level_u == 0) && (minified_v || at->level_v == 0));
+    const bool near = !as_points && !(min_w > support_w), first = at->level_u == 0 && at->level_v == 0;
+    const bool fine = dense || ((minified_u || at->level_u == 0) && (minified_v || at->level_v == 0));
     if (first || (fine && !near && !plan->flat)) {
-        if (near && tile->near_count++ >= MOST_NEAR && options->repeat) return;
+        if (near && tile->near_count++ >= MAX_NEAR && options->repeat) return;
         if (!as_points) tile->visit_count += SPLAT_VISITS;
         draw_node(tile, at, as_points, near, x, y);
         return;

@@ -11,11 +11,11 @@
 static const double EDGE_UNITS = 0.01;
 
 /// Slices are bins in rows of so many.
-enum { MOST_COLUMNS = 1 << 15 };
+enum { MAX_COLUMNS = 1 << 15 };
 
 /// What a worker found out.
 typedef struct bin_facts {
-    uint64_t visible_voxel_count, most_in_flight;
+    uint64_t visible_voxel_count, max_in_flight;
     uint32_t longest_span;
 } bin_facts;
 
@@ -36,7 +36,7 @@ static double lesser(double a, double b) { return a < b ? a : b; }
 static double greater(double a, double b) { return a > b ? a : b; }
 
 /// The whole part of a number within [0, most].
-static int32_t clamp_whole(double a, double most) { return !(a > 0) ? 0 : (int32_t)lesser(a, most); }
+static int32_t clamp_whole(double a, double maximum) { return !(a > 0) ? 0 : (int32_t)lesser(a, maximum); }
 
 /// A block's voxels as a box in camera space.
 typedef struct block_corners {
@@ -167,7 +167,7 @@ static void measure_tile(void *data, uint32_t index, uint32_t worker) {
     const bin_job *job = data;
     const ewa_volume_bins *bins = job->bins;
     uint32_t *expiries = job->expiries + (size_t)worker * job->slices->count;
-    uint64_t held = 0, most = 0;
+    uint64_t held = 0, maximum = 0;
     int32_t passed = 0;
     const uint64_t end = bins->by_tile.starts[index + 1];
     for (uint64_t i = bins->by_tile.starts[index]; i < end; i++) {
@@ -175,11 +175,11 @@ static void measure_tile(void *data, uint32_t index, uint32_t worker) {
         for (; passed < view->slice_first; passed++) held -= expiries[passed];
         held += job->level->blocks[view->block].count;
         expiries[view->slice_last] += job->level->blocks[view->block].count;
-        if (held > most) most = held;
+        if (held > maximum) maximum = held;
     }
     for (uint64_t i = bins->by_tile.starts[index]; i < end; i++)
         expiries[bins->views[bins->by_tile.ids[i]].slice_last] = 0;
-    if (most > job->facts[worker].most_in_flight) job->facts[worker].most_in_flight = most;
+    if (maximum > job->facts[worker].max_in_flight) job->facts[worker].max_in_flight = maximum;
 }
 
 ewa_status ewa_volume_bins_fill(ewa_context *context, ewa_volume_bins *bins, const ewa_voxel_level *level,
@@ -197,7 +197,7 @@ ewa_status ewa_volume_bins_fill(ewa_context *context, ewa_volume_bins *bins, con
                    .camera = camera,
                    .views = bins->found.data,
                    .bins = bins,
-                   .slice_columns = slices->count < MOST_COLUMNS ? slices->count : MOST_COLUMNS,
+                   .slice_columns = slices->count < MAX_COLUMNS ? slices->count : MAX_COLUMNS,
                    .facts = bins->workers.data};
     job.expiries = (uint32_t *)(job.facts + worker_count);
     bins->views = job.views;
@@ -211,11 +211,11 @@ ewa_status ewa_volume_bins_fill(ewa_context *context, ewa_volume_bins *bins, con
     if (status != EWA_OK) return status;
     ewa_parallel(context, measure_tile, &job, ewa_tiles_count(&bins->tiles));
     bins->culled_voxel_count = level->voxel_count;
-    bins->longest_span = 0, bins->most_in_flight = 0;
+    bins->longest_span = 0, bins->max_in_flight = 0;
     for (const bin_facts *facts = job.facts; facts < job.facts + worker_count; facts++) {
         bins->culled_voxel_count -= facts->visible_voxel_count;
         if (facts->longest_span > bins->longest_span) bins->longest_span = facts->longest_span;
-        if (facts->most_in_flight > bins->most_in_flight) bins->most_in_flight = facts->most_in_flight;
+        if (facts->max_in_flight > bins->max_in_flight) bins->max_in_flight = facts->max_in_flight;
     }
     return EWA_OK;
 }

@@ -5,8 +5,8 @@
 #ifndef EWA_SRC_VOLUME_BIN_H
 #define EWA_SRC_VOLUME_BIN_H
 
-#include "road/bin.h"
-#include "road/tiles.h"
+#include "tiling/bin.h"
+#include "tiling/tiles.h"
 #include "volume/view.h"
 
 /// Where a block is on the screen.
@@ -23,7 +23,7 @@ typedef struct ewa_volume_bins {
     ewa_bin_lists by_slice, by_tile;
     uint64_t culled_voxel_count;
     uint32_t longest_span;       ///< slices of a block, at most
-    uint64_t most_in_flight;     ///< voxels that a tile holds at a time, at most
+    uint64_t max_in_flight;      ///< voxels that a tile holds at a time, at most
     const ewa_block_view *views; ///< [block]
     ewa_buffer found, workers;
 } ewa_volume_bins;

@@ -14,13 +14,13 @@
 #include <math.h>
 
 static ewa_status check_volume(ewa_context *context, const ewa_volume *volume) {
-    enum { MOST = 1 << 21 };
+    enum { MAXIMUM = 1 << 21 };
     if (!volume->voxels) return ewa_fail(context, EWA_ERROR_ARGUMENT, "volume: no voxels");
     for (int a = 0; a < 3; a++)
-        if (volume->dims[a] == 0 || volume->dims[a] > MOST)
+        if (volume->dims[a] == 0 || volume->dims[a] > MAXIMUM)
             return ewa_fail(context, volume->dims[a] ? EWA_ERROR_LIMIT : EWA_ERROR_ARGUMENT,
                             "volume: %u x %u x %u voxels, allowed are 1 to %d along each axis",
-                            volume->dims[0], volume->dims[1], volume->dims[2], MOST);
+                            volume->dims[0], volume->dims[1], volume->dims[2], MAXIMUM);
     for (int i = 0; i < 12; i++)
         if (!isfinite(volume->index_to_world[i]))
             return ewa_fail(context, EWA_ERROR_ARGUMENT, "volume: index_to_world[%d] is %g", i,

@@ -4,11 +4,11 @@
 // Part of gaussian_body.h: a tile's splats onto its pixels, in every pixel by the depth at which its ray
 // passes the greatest density (docs/math.md section 12).
 //
-// A block of 4x4 pixels takes its splats by the least depth that any pixel of the picture sees them at. They
-// become layers, which wait, by the least depth in the block's pixels, until no splat to come can be in front
-// of them. Then they are put in order, in one of its own for every pixel: a layer moves forward past those
-// behind it, as a whole where all pixels agree, which most do, else pixel by pixel. What waits is as much as
-// overlaps in depth; nothing is ever dropped.
+// A block of 4x4 pixels takes its splats by the smallest depth that any pixel of the picture sees them at.
+// They become layers, which wait, by the smallest depth in the block's pixels, until no splat to come can be
+// in front of them. Then they are put in order, in one of its own for every pixel: a layer moves forward past
+// those behind it, as a whole where all pixels agree, which most do, else pixel by pixel. What waits is as
+// much as overlaps in depth; nothing is ever dropped.
 #ifndef EWA_SRC_VOLUME_GAUSSIAN_DRAW_H
 #define EWA_SRC_VOLUME_GAUSSIAN_DRAW_H
 
@@ -67,8 +67,8 @@ static void mark(ewa_gaussian_tile *tile) {
 
 /// A splat in the pixels of a block whose centres are (x, y): false where none shows it. Of what stands along
 /// a ray the share in front of the surface counts.
-static ALWAYS_INLINE bool meet_splat(const ewa_gaussian_view *view, const float *s, wf x, wf y, bool trained,
-                                     bool orthographic, const block_state *block, ewa_gaussian_met *met) {
+static ALWAYS_INLINE bool hit_splat(const ewa_gaussian_view *view, const float *s, wf x, wf y, bool trained,
+                                    bool orthographic, const block_state *block, ewa_gaussian_hit *hit) {
     const wf u = wf_sub(x, wf_set(s[RECORD_X])), v = wf_sub(y, wf_set(s[RECORD_Y]));
     const wf limit = wf_set(s[RECORD_LIMIT]);
     wf m2 = wf_set(0), inverse;
@@ -104,9 +104,9 @@ static ALWAYS_INLINE bool meet_splat(const ewa_gaussian_view *view, const float 
     }
     z = wf_min(wf_max(z, wf_set(s[RECORD_LOW])), wf_set(s[RECORD_HIGH]));
     wf alpha = wf_exp2(wf_fma(m2, wf_set(-0.721347520f), wf_set(s[RECORD_LOG2_ALPHA])));
-    if (view->keep) inside = wm_and(inside, wf_le(wf_set(view->least_alpha), alpha));
-    met->active = wm_bits(inside);
-    alpha = wf_min(alpha, wf_set((float)EWA_GAUSSIAN_MOST_ALPHA));
+    if (view->keep) inside = wm_and(inside, wf_le(wf_set(view->minimum_alpha), alpha));
+    hit->active = wm_bits(inside);
+    alpha = wf_min(alpha, wf_set((float)EWA_GAUSSIAN_MAX_ALPHA));
     if (view->with_surface || view->with_sections) { // 3/4 sqrt(8 pi)
         const wf width = wf_max(wf_mul(wf_set(3.75994241f), wf_sqrt(inverse)), wf_set(1e-30f));
         wf share = share_ahead(wf_load(block->surface), z, width);
@@ -114,8 +114,8 @@ static ALWAYS_INLINE bool meet_splat(const ewa_gaussian_view *view, const float 
             share = wf_max(wf_sub(share, share_ahead(wf_load(block->enter), z, width)), wf_set(0));
         alpha = wf_mul(alpha, share);
     }
-    wf_store(met->alpha, alpha);
-    wf_store(met->z, wf_add(z, wf_set(0))); // of both zeros the one above
+    wf_store(hit->alpha, alpha);
+    wf_store(hit->z, wf_add(z, wf_set(0))); // of both zeros the one above
     return true;
 }
 
@@ -160,14 +160,14 @@ static bool add_layers(const ewa_gaussian_view *view, ewa_gaussian_tile *tile, b
         }
         const ewa_volume_layer *layer =
             &layers_of(tile, feed->nearest, everything)->layers[feed->next[feed->nearest]];
-        ewa_gaussian_met *met = next_met(tile, block);
+        ewa_gaussian_hit *hit = next_hit(tile, block);
         const wf alpha = wf_load(layer->alpha);
-        met->active = block->alive & wm_bits(wf_lt(wf_set(0), alpha));
-        if (met->active) {
-            wf_store(met->z, wf_set(feed->z));
-            wf_store(met->alpha, alpha);
-            met->layer = layer;
-            keep_met(tile, block);
+        hit->active = block->alive & wm_bits(wf_lt(wf_set(0), alpha));
+        if (hit->active) {
+            wf_store(hit->z, wf_set(feed->z));
+            wf_store(hit->alpha, alpha);
+            hit->layer = layer;
+            keep_hit(tile, block);
         }
         feed->next[feed->nearest] = layer->next;
         find_nearest_layer(tile, everything, feed);
@@ -191,14 +191,14 @@ static ALWAYS_INLINE void draw_splats(const ewa_gaussian_view *view, ewa_gaussia
             advance(view, tile, record[RECORD_LOW], block);
             if (!block->alive) return;
         }
-        ewa_gaussian_met *met = next_met(tile, block);
+        ewa_gaussian_hit *hit = next_hit(tile, block);
         tile->block_count++;
-        if (!meet_splat(view, record, x, y, trained, orthographic, block, met)) continue;
-        met->active &= block->alive;
-        if (!met->active) continue;
-        met->id = id;
-        met->layer = NULL;
-        keep_met(tile, block);
+        if (!hit_splat(view, record, x, y, trained, orthographic, block, hit)) continue;
+        hit->active &= block->alive;
+        if (!hit->active) continue;
+        hit->id = id;
+        hit->layer = NULL;
+        keep_hit(tile, block);
     }
     if (add_layers(view, tile, everything, __FLT_MAX__, feed, block))
         advance(view, tile, __builtin_inff(), block);
@@ -235,7 +235,8 @@ static ALWAYS_INLINE void set_bounds(const ewa_gaussian_view *view, const ewa_ga
         const bool inside = x < at->width && y < at->height;
         double end = __builtin_inf();
         if (inside && view->with_surface && !everything)
-            end = (double)to->surface.depth[(size_t)(at->y + y) * to->width_px + at->x + x] / view->unit_camera;
+            end =
+                (double)to->surface.depth[(size_t)(at->y + y) * to->width_px + at->x + x] / view->unit_camera;
         if (view->with_sections) {
             double enter, leave;
             ewa_ray_sections_range(tile->sections, at->x + x + 0.5, at->y + y + 0.5, &enter, &leave);
@@ -250,8 +251,8 @@ static ALWAYS_INLINE void set_bounds(const ewa_gaussian_view *view, const ewa_ga
 /// Composites a block: what lies in front of the surfaces, or everything. `half`: what is left of the light where
 /// depth is noted.
 static void composite_block(const ewa_gaussian_view *view, ewa_gaussian_tile *tile, uint32_t count,
-                            uint32_t row, uint32_t column, const block_place *at,
-                            const ewa_volume_target *to, bool everything, wf half, block_state *block) {
+                            uint32_t row, uint32_t column, const block_place *at, const ewa_volume_target *to,
+                            bool everything, wf half, block_state *block) {
     const float x_px = (float)at->x, y_px = (float)at->y;
     layer_feed feed;
     start_feed(tile, row, column, everything, &feed);
@@ -359,8 +360,8 @@ static void draw(const ewa_gaussian_view *view, ewa_gaussian_tile *tile, const e
             load_behind(to, NULL, &at, behind);
             lay_block_over(tile, &block, behind, out);
             store_colors_of(to, &at, out);
-            store_geometry(to, &at, wf_sub(wf_set(1), wf_load(block.pixels + 48)),
-                           wf_load(block.pixels + 64), wf_set(__builtin_inff()), view->unit_camera);
+            store_geometry(to, &at, wf_sub(wf_set(1), wf_load(block.pixels + 48)), wf_load(block.pixels + 64),
+                           wf_set(__builtin_inff()), view->unit_camera);
         }
     }
 }

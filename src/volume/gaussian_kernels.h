@@ -20,8 +20,8 @@ enum {
     EWA_GAUSSIAN_ROW_BLOCKS = EWA_GAUSSIAN_TILE_PX / 4,
     EWA_GAUSSIAN_SORT_BITS = 8,
     EWA_GAUSSIAN_SORTED = 1 << EWA_GAUSSIAN_SORT_BITS, ///< splats of a block at once
-    EWA_GAUSSIAN_AT_ONCE = 64,        ///< splats that come before some are composited, at least
-    EWA_GAUSSIAN_MOST_AT_ONCE = 1024, ///< and at most
+    EWA_GAUSSIAN_AT_ONCE = 64,       ///< splats that come before some are composited, at least
+    EWA_GAUSSIAN_MAX_AT_ONCE = 1024, ///< and at most
 };
 
 /// What pixels need of a splat. With the offset (u, v) of a pixel's centre from (X, Y):
@@ -65,7 +65,7 @@ typedef struct ewa_gaussian_view {
     float turn[3][3];            ///< rows, acts on columns
     float origin[3], eye[3], forward[3];
     float slopes[4], near;
-    float cutoff2, prefilter_px2, log2_least, least_alpha, least_transmittance;
+    float cutoff2, prefilter_px2, log2_min, minimum_alpha, minimum_transmittance;
     uint32_t harmonic_count; ///< that are stored beyond degree 0, three colours
     uint32_t sh_degree;      ///< that are used
     float set_unit;          ///< of the packets, in units of the view: a power of two
@@ -80,22 +80,22 @@ typedef struct ewa_gaussian_found {
     uint32_t count, near_count;
 } ewa_gaussian_found;
 
-/// What the pixels of a block show of a splat.
-typedef struct ewa_gaussian_met {
+/// A splat or volume layer as the pixels of a block hit it.
+typedef struct ewa_gaussian_hit {
     _Alignas(64) float z[16], alpha[16];
     uint32_t active;               ///< pixels that show it and have not composited it
     uint32_t id;                   ///< record, of a splat
     const ewa_volume_layer *layer; ///< of a volume; NULL: a splat
-} ewa_gaussian_met;
+} ewa_gaussian_hit;
 
-/// Where splats are sorted, a row for each.
-typedef struct ewa_gaussian_desk {
+/// Sort buffer: a row for each splat.
+typedef struct ewa_gaussian_sort_buffer {
     _Alignas(64) int32_t keys[EWA_GAUSSIAN_SORTED][16]; ///< depth and row
     float alphas[EWA_GAUSSIAN_SORTED][16], colors[3][EWA_GAUSSIAN_SORTED];
     uint32_t chosen[EWA_GAUSSIAN_SORTED];
     float linear[EWA_GAUSSIAN_SORTED];              ///< 1: a layer of a volume; where there are some
     float layer_colors[3][EWA_GAUSSIAN_SORTED][16]; ///< theirs
-} ewa_gaussian_desk;
+} ewa_gaussian_sort_buffer;
 
 /// The layers of a volume in the part of the picture that a tile belongs to.
 typedef struct ewa_gaussian_volume {
@@ -115,9 +115,9 @@ typedef struct ewa_gaussian_tile {
     uint32_t *row_ids;        ///< of splats in a row of blocks
     uint8_t *row_marks;       ///< theirs
     uint32_t *block_ids;      ///< of splats in a block
-    ewa_gaussian_met *met;    ///< splats that some pixel of a block shows
+    ewa_gaussian_hit *hit;    ///< splats that some pixel of a block shows
     uint32_t *waiting, *free; ///< of those: that wait; of no use now
-    ewa_gaussian_desk *desk;
+    ewa_gaussian_sort_buffer *sort_buffer;
     const ewa_ray_sections *sections;
     const ewa_gaussian_volume *volumes;
     uint32_t volume_count;

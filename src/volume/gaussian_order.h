@@ -4,8 +4,8 @@
 // Part of gaussian_body.h: the splats of a block of 4x4 pixels in the order of every pixel, by the depth at
 // which its ray passes the greatest density (docs/math.md section 12).
 //
-// A splat that some pixels show waits until the least depth of those to come is behind it in some of them.
-// What can be composited then is sorted for all sixteen pixels at once, by a network of the least and the
+// A splat that some pixels show waits until the smallest depth of those to come is behind it in some of them.
+// What can be composited then is sorted for all sixteen pixels at once, by a network of the minimum and the
 // greater of two keys, Batcher's; a key is a depth and the splat's place, so that ties are as the splats came.
 // Nothing is ever dropped.
 //
@@ -54,8 +54,8 @@ static ALWAYS_INLINE float depth_of_code(int64_t code) {
     return z;
 }
 
-/// Least of sixteen numbers.
-static ALWAYS_INLINE float least_of(wf a) {
+/// Minimum of sixteen numbers.
+static ALWAYS_INLINE float min_of(wf a) {
     typedef float four __attribute__((vector_size(16)));
     typedef int32_t mask __attribute__((vector_size(16)));
     float lanes[16];
@@ -73,32 +73,32 @@ static ALWAYS_INLINE float least_of(wf a) {
 }
 
 /// A place for a splat that comes; it counts once it is kept.
-static ALWAYS_INLINE ewa_gaussian_met *next_met(const ewa_gaussian_tile *tile, const block_state *block) {
-    return &tile->met[block->free_count ? tile->free[block->free_count - 1] : block->made_count];
+static ALWAYS_INLINE ewa_gaussian_hit *next_hit(const ewa_gaussian_tile *tile, const block_state *block) {
+    return &tile->hit[block->free_count ? tile->free[block->free_count - 1] : block->made_count];
 }
 
-static ALWAYS_INLINE void keep_met(ewa_gaussian_tile *tile, block_state *block) {
+static ALWAYS_INLINE void keep_hit(ewa_gaussian_tile *tile, block_state *block) {
     tile->waiting[block->waiting_count++] =
         block->free_count ? tile->free[--block->free_count] : block->made_count++;
     block->come++;
 }
 
 /// Lists the first of those that wait and show in some pixel up to a depth, as many as are sorted at once;
-/// returns how many there are in all. `least` gets the least of their depths.
+/// returns how many there are in all. `minimum` gets the smallest of their depths.
 static ALWAYS_INLINE uint32_t choose(const ewa_gaussian_tile *tile, const block_state *block, float top,
-                                     float *least) {
+                                     float *minimum) {
     const wf bound = wf_set(top), infinite = wf_set(__builtin_inff());
     wf low = infinite;
     uint32_t count = 0;
     for (uint32_t i = 0; i < block->waiting_count; i++) {
         const uint32_t number = tile->waiting[i];
-        const wf z = wf_load(tile->met[number].z);
-        const wm shows = wm_and(wm_of_bits(tile->met[number].active & block->alive), wf_le(z, bound));
+        const wf z = wf_load(tile->hit[number].z);
+        const wm shows = wm_and(wm_of_bits(tile->hit[number].active & block->alive), wf_le(z, bound));
         low = wf_min(low, wf_select(shows, z, infinite));
-        if (count < EWA_GAUSSIAN_SORTED) tile->desk->chosen[count] = number;
+        if (count < EWA_GAUSSIAN_SORTED) tile->sort_buffer->chosen[count] = number;
         count += wm_bits(shows) != 0;
     }
-    *least = least_of(low);
+    *minimum = min_of(low);
     return count;
 }
 
@@ -106,25 +106,26 @@ static ALWAYS_INLINE uint32_t choose(const ewa_gaussian_tile *tile, const block_
 /// rows of none up to the next four.
 static ALWAYS_INLINE void lay_out(ewa_gaussian_tile *tile, const block_state *block, uint32_t count,
                                   float top, int64_t low_code) {
-    ewa_gaussian_desk *desk = tile->desk;
+    ewa_gaussian_sort_buffer *sort_buffer = tile->sort_buffer;
     const wf bound = wf_set(top);
     const wi low = wi_set((int32_t)low_code);
     for (uint32_t i = 0; i < count; i++) {
-        ewa_gaussian_met *met = &tile->met[desk->chosen[i]];
-        const wf z = wf_load(met->z);
-        const wm shows = wm_and(wm_of_bits(met->active & block->alive), wf_le(z, bound));
+        ewa_gaussian_hit *hit = &tile->hit[sort_buffer->chosen[i]];
+        const wf z = wf_load(hit->z);
+        const wm shows = wm_and(wm_of_bits(hit->active & block->alive), wf_le(z, bound));
         const wi place = wi_sub(flip_code(wi_of_bits(z)), low);
         const wi key = wi_or(wi_shl(place, EWA_GAUSSIAN_SORT_BITS), wi_set((int32_t)i));
-        wi_store(desk->keys[i], wi_of_bits(wf_select(shows, wf_of_bits(key), wf_of_bits(wi_set(NO_KEY)))));
-        wf_store(desk->alphas[i], wf_load(met->alpha));
-        if (tile->volume_count) desk->linear[i] = met->layer != NULL;
+        wi_store(sort_buffer->keys[i],
+                 wi_of_bits(wf_select(shows, wf_of_bits(key), wf_of_bits(wi_set(NO_KEY)))));
+        wf_store(sort_buffer->alphas[i], wf_load(hit->alpha));
+        if (tile->volume_count) sort_buffer->linear[i] = hit->layer != NULL;
         for (int c = 0; c < 3; c++)
-            desk->colors[c][i] = met->layer ? 0 : tile->records[met->id][RECORD_COLOR + c];
-        for (int c = 0; c < 3 && met->layer; c++)
-            wf_store(desk->layer_colors[c][i], wf_load(met->layer->color[c]));
-        met->active &= ~wm_bits(shows);
+            sort_buffer->colors[c][i] = hit->layer ? 0 : tile->records[hit->id][RECORD_COLOR + c];
+        for (int c = 0; c < 3 && hit->layer; c++)
+            wf_store(sort_buffer->layer_colors[c][i], wf_load(hit->layer->color[c]));
+        hit->active &= ~wm_bits(shows);
     }
-    for (uint32_t i = count; i & 3; i++) wi_store(desk->keys[i], wi_set(NO_KEY));
+    for (uint32_t i = count; i & 3; i++) wi_store(sort_buffer->keys[i], wi_set(NO_KEY));
 }
 
 static ALWAYS_INLINE void exchange(wi *a, wi *b) {
@@ -177,11 +178,12 @@ static ALWAYS_INLINE void sort_rows(int32_t keys[][16], uint32_t count) {
     }
 }
 
-static ALWAYS_INLINE void composite_rows(const ewa_gaussian_view *view, const ewa_gaussian_desk *desk,
-                                         uint32_t count, int64_t low_code, bool mixed, block_state *block) {
+static ALWAYS_INLINE void composite_rows(const ewa_gaussian_view *view,
+                                         const ewa_gaussian_sort_buffer *sort_buffer, uint32_t count,
+                                         int64_t low_code, bool mixed, block_state *block) {
     static const int32_t lanes[16] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
     const wi lane = wi_load(lanes), low = wi_set((int32_t)low_code), all = wi_set(EWA_GAUSSIAN_SORTED - 1);
-    const wf none = wf_of_bits(wi_set(NO_KEY)), least = wf_set(view->least_transmittance);
+    const wf none = wf_of_bits(wi_set(NO_KEY)), minimum = wf_set(view->minimum_transmittance);
     wm alive = wm_of_bits(block->alive);
     wf light[3], through = wf_load(block->pixels + 48), depth = wf_load(block->pixels + 64);
     const wf half = wf_load(block->half);
@@ -189,30 +191,30 @@ static ALWAYS_INLINE void composite_rows(const ewa_gaussian_view *view, const ew
     for (int c = 0; c < 3; c++) light[c] = wf_load(block->pixels + 16 * c);
     for (int c = 0; c < 4 && mixed; c++) linear[c] = wf_load(block->linear + 16 * c);
     for (uint32_t i = 0; i < count; i++) {
-        const wi key = wi_load(desk->keys[i]), at = wi_and(key, all);
+        const wi key = wi_load(sort_buffer->keys[i]), at = wi_and(key, all);
         const wm shows = wm_and(alive, wf_lt(wf_of_bits(key), none));
         if (!wm_bits(shows)) break;
         const wi pixel = wi_or(wi_shl(at, 4), lane);
-        const wf alpha = wf_gather(desk->alphas[0], pixel);
+        const wf alpha = wf_gather(sort_buffer->alphas[0], pixel);
         const wf weight = wf_keep(shows, wf_mul(through, alpha)), rest = wf_sub(through, weight);
         wf own = weight;
         if (mixed) {
-            const wm layer = wm_and(shows, wf_lt(wf_set(0), wf_gather(desk->linear, at)));
+            const wm layer = wm_and(shows, wf_lt(wf_set(0), wf_gather(sort_buffer->linear, at)));
             const wf taken = wf_keep(layer, weight);
             for (int c = 0; c < 3; c++) {
-                const wf color = wf_keep(layer, wf_gather(desk->layer_colors[c][0], pixel));
+                const wf color = wf_keep(layer, wf_gather(sort_buffer->layer_colors[c][0], pixel));
                 linear[c] = wf_fma(taken, color, linear[c]);
             }
             linear[3] = wf_add(linear[3], taken);
             own = wf_sub(weight, taken);
         }
-        for (int c = 0; c < 3; c++) light[c] = wf_fma(own, wf_gather(desk->colors[c], at), light[c]);
+        for (int c = 0; c < 3; c++) light[c] = wf_fma(own, wf_gather(sort_buffer->colors[c], at), light[c]);
         if (view->with_depth) {
             const wf z = wf_of_bits(flip_code(wi_add(low, wi_sar(key, EWA_GAUSSIAN_SORT_BITS))));
             depth = note_depth(depth, half, through, rest, z);
         }
         through = rest;
-        alive = wm_and(alive, wf_le(least, rest));
+        alive = wm_and(alive, wf_le(minimum, rest));
     }
     for (int c = 0; c < 3; c++) wf_store(block->pixels + 16 * c, light[c]);
     for (int c = 0; c < 4 && mixed; c++) wf_store(block->linear + 16 * c, linear[c]);
@@ -224,33 +226,33 @@ static ALWAYS_INLINE void composite_rows(const ewa_gaussian_view *view, const ew
 /// Composites what waits up to a depth, at which nothing to come can be in front of it.
 static void advance(const ewa_gaussian_view *view, ewa_gaussian_tile *tile, float bound, block_state *block) {
     for (bool more = true; more && block->alive;) {
-        float least, top = bound;
-        uint32_t count = choose(tile, block, top, &least);
+        float minimum, top = bound;
+        uint32_t count = choose(tile, block, top, &minimum);
         if (!count) break;
-        const int64_t low = depth_code(least);
+        const int64_t low = depth_code(minimum);
         if (depth_code(top) >= low + CODE_SPAN) {
             top = depth_of_code(low + CODE_SPAN - 2); // not -0 for a span that ends at +0
-            count = choose(tile, block, top, &least);
+            count = choose(tile, block, top, &minimum);
         }
-        while (count > EWA_GAUSSIAN_SORTED && top > least) {
+        while (count > EWA_GAUSSIAN_SORTED && top > minimum) {
             top = depth_of_code(low + (depth_code(top) - low) / 2);
-            count = choose(tile, block, top, &least);
+            count = choose(tile, block, top, &minimum);
         }
         more = top < bound || count > EWA_GAUSSIAN_SORTED; // these at one depth: as they came
         if (count > EWA_GAUSSIAN_SORTED) count = EWA_GAUSSIAN_SORTED;
         lay_out(tile, block, count, top, low);
-        sort_rows(tile->desk->keys, (count + 3) & ~3u);
+        sort_rows(tile->sort_buffer->keys, (count + 3) & ~3u);
         if (tile->volume_count)
-            composite_rows(view, tile->desk, count, low, true, block);
+            composite_rows(view, tile->sort_buffer, count, low, true, block);
         else
-            composite_rows(view, tile->desk, count, low, false, block);
+            composite_rows(view, tile->sort_buffer, count, low, false, block);
         tile->sorted_count += count;
     }
     if (!block->alive) return;
     uint32_t left = 0;
     for (uint32_t i = 0; i < block->waiting_count; i++) {
         const uint32_t number = tile->waiting[i];
-        const bool waits = tile->met[number].active & block->alive;
+        const bool waits = tile->hit[number].active & block->alive;
         tile->waiting[left] = tile->free[block->free_count] = number; // no branches: they are anybody's guess
         left += waits;
         block->free_count += !waits;
@@ -258,9 +260,9 @@ static void advance(const ewa_gaussian_view *view, ewa_gaussian_tile *tile, floa
     block->waiting_count = left;
     // Where much waits, more comes before it is looked through again.
     block->come = 0;
-    block->at_once = left / 2 < EWA_GAUSSIAN_AT_ONCE        ? EWA_GAUSSIAN_AT_ONCE
-                     : left / 2 < EWA_GAUSSIAN_MOST_AT_ONCE ? left / 2
-                                                            : EWA_GAUSSIAN_MOST_AT_ONCE;
+    block->at_once = left / 2 < EWA_GAUSSIAN_AT_ONCE       ? EWA_GAUSSIAN_AT_ONCE
+                     : left / 2 < EWA_GAUSSIAN_MAX_AT_ONCE ? left / 2
+                                                           : EWA_GAUSSIAN_MAX_AT_ONCE;
 }
 
 #endif

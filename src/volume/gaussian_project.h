@@ -71,7 +71,7 @@ static ALWAYS_INLINE wm place_splats(const ewa_gaussian_view *view, const ewa_sp
         depth2 = wf_fma(t, t, depth2);
     }
     // Where its alpha falls to the least one that is drawn.
-    const wf seen = wf_sub(wf_log2(wf_max(opacity, wf_set(1e-30f))), wf_set(view->log2_least));
+    const wf seen = wf_sub(wf_log2(wf_max(opacity, wf_set(1e-30f))), wf_set(view->log2_min));
     s->cutoff2 = wf_min(wf_mul(seen, wf_set(1.38629436f)), wf_set(view->cutoff2)); // 2 ln 2
     const wm shows = wf_lt(wf_set(0), s->cutoff2);
     s->cutoff2 = wf_max(s->cutoff2, wf_set(0));
@@ -184,7 +184,7 @@ static ALWAYS_INLINE wf set_ellipse(const ewa_gaussian_view *view, const splat_l
         map[0] = wf_div(l0, lower[0]);
         map[1] = wf_div(wf_fnma(map[2], lower[1], l1), lower[0]);
     }
-    return view->keep ? wf_sqrt(wf_max(wf_div(area, filtered), wf_set((float)EWA_GAUSSIAN_LEAST_KEPT))) : one;
+    return view->keep ? wf_sqrt(wf_max(wf_div(area, filtered), wf_set((float)EWA_GAUSSIAN_MIN_KEPT))) : one;
 }
 
 /// Sets the rays' part of records: over the offset from the ellipse's centre, which `shift` and `map` take to
@@ -220,12 +220,12 @@ static ALWAYS_INLINE void set_depths(const ewa_gaussian_view *view, const splat_
                                      wf record[]) {
     const wf z = s->place[2], low = wf_sub(z, s->depth_reach), high = wf_add(z, s->depth_reach);
     const wf middle = record[RECORD_G + 8], half = vary(record, RECORD_G + 6, lower);
-    const wf least = wf_sub(middle, half), most = wf_add(middle, half), zero = wf_set(0),
+    const wf minimum = wf_sub(middle, half), maximum = wf_add(middle, half), zero = wf_set(0),
              little = wf_set(2e-6f);
     if (view->orthographic) {
         const wf safety = wf_mul(little, wf_add(wf_abs(z), s->depth_reach));
-        record[RECORD_LOW] = wf_sub(wf_max(low, least), safety);
-        record[RECORD_HIGH] = wf_add(wf_min(high, most), safety);
+        record[RECORD_LOW] = wf_sub(wf_max(low, minimum), safety);
+        record[RECORD_HIGH] = wf_add(wf_min(high, maximum), safety);
         return;
     }
     wf across = zero;
@@ -233,8 +233,8 @@ static ALWAYS_INLINE void set_depths(const ewa_gaussian_view *view, const splat_
         const wf reach = wf_add(wf_abs(record[RECORD_G + 3 * k + 2]), vary(record, RECORD_G + 3 * k, lower));
         across = wf_fma(reach, reach, across);
     }
-    const wf safe = wf_max(least, wf_mul(wf_abs(most), wf_set(1e-6f)));
-    const wf nearest = wf_div(record[RECORD_LENGTH], wf_add(wf_max(most, safe), wf_div(across, safe)));
+    const wf safe = wf_max(minimum, wf_mul(wf_abs(maximum), wf_set(1e-6f)));
+    const wf nearest = wf_div(record[RECORD_LENGTH], wf_add(wf_max(maximum, safe), wf_div(across, safe)));
     const wf farthest = wf_div(record[RECORD_LENGTH], safe);
     record[RECORD_LOW] = wf_max(wf_max(low, zero), wf_fnma(little, nearest, nearest));
     record[RECORD_HIGH] = wf_max(wf_min(high, wf_fma(little, farthest, farthest)), record[RECORD_LOW]);
@@ -374,7 +374,7 @@ static void project(const ewa_gaussian_view *view, const ewa_splat_packet *packe
     set_depths(view, &s, lower, record);
     const wf opacity = wf_max(wf_load((*packet)[EWA_SPLAT_OPACITY]), wf_set(1e-30f));
     wf alpha = wf_mul(opacity, wf_select(near, one, kept));
-    shows = wm_and(shows, wf_le(wf_set(view->least_alpha), alpha));
+    shows = wm_and(shows, wf_le(wf_set(view->minimum_alpha), alpha));
     record[RECORD_LOG2_ALPHA] = wf_log2(alpha);
     set_colors(view, packet, harmonics, &s, &record[RECORD_COLOR]);
     if (wm_bits(near)) set_near(view, &s, near, rows, record);

@@ -4,8 +4,8 @@
 // The renderer of Gaussians, and of volumes among them: an object whose memory survives, and the order of a
 // frame's stages. Reference: src/reference/gaussian.c.
 #include "base/allocating.h"
-#include "road/bin.h"
-#include "road/tiles.h"
+#include "tiling/bin.h"
+#include "tiling/tiles.h"
 #include "volume/gaussian_kernels.h"
 #include "volume/gaussian_view.h"
 #include "volume/options.h"
@@ -17,7 +17,7 @@
 
 /// What a worker needs; survives from frame to frame.
 typedef struct gaussian_scratch {
-    ewa_buffer marks, row_ids, row_marks, block_ids, met, waiting, free, desk;
+    ewa_buffer marks, row_ids, row_marks, block_ids, hit, waiting, free, sort_buffer;
     ewa_status status; ///< of its last tile
     uint64_t block_count, sorted_count;
     double project_s, draw_s;
@@ -81,7 +81,7 @@ void ewa_gaussian_renderer_destroy(ewa_gaussian_renderer **renderer) {
     for (uint32_t i = 0; old->scratch && i < old->worker_count; i++) {
         gaussian_scratch *s = &old->scratch[i];
         ewa_buffer *const buffers[] = {&s->marks, &s->row_ids, &s->row_marks, &s->block_ids,
-                                       &s->met,   &s->waiting, &s->free,      &s->desk};
+                                       &s->hit,   &s->waiting, &s->free,      &s->sort_buffer};
         for (size_t b = 0; b < sizeof buffers / sizeof *buffers; b++) ewa_buffer_free(context, buffers[b]);
     }
     ewa_release(context, old->scratch, old->worker_count, sizeof *old->scratch);
@@ -133,9 +133,9 @@ static void set_view(ewa_gaussian_view *view, const ewa_splats *splats, double u
                                 .near = (float)c.near,
                                 .cutoff2 = (float)(options->cutoff * options->cutoff),
                                 .prefilter_px2 = (float)options->prefilter_px2,
-                                .log2_least = (float)log2(options->least_alpha),
-                                .least_alpha = (float)options->least_alpha,
-                                .least_transmittance = (float)options->least_transmittance,
+                                .log2_min = (float)log2(options->minimum_alpha),
+                                .minimum_alpha = (float)options->minimum_alpha,
+                                .minimum_transmittance = (float)options->minimum_transmittance,
                                 .harmonic_count = splats ? splats->harmonic_count : 0,
                                 .sh_degree = options->sh_degree < degree ? options->sh_degree : degree,
                                 .set_unit = splats ? (float)(splats->unit_world / unit_world) : 1,
@@ -200,9 +200,9 @@ static ewa_status project_all(gaussian_job *job) {
         part_count += (mixture->splats[i]->packet_count + PACKETS_PER_PART - 1) / PACKETS_PER_PART;
         splat_count += mixture->splats[i]->info.splat_count;
     }
-    if (splat_count > EWA_SPLATS_MOST || part_count > INT32_MAX / PART_ROOM)
+    if (splat_count > EWA_SPLATS_MAX || part_count > INT32_MAX / PART_ROOM)
         return ewa_fail(context, EWA_ERROR_LIMIT, "gaussians: %llu in %u sets, more than %d together",
-                        (unsigned long long)splat_count, mixture->splats_count, EWA_SPLATS_MOST);
+                        (unsigned long long)splat_count, mixture->splats_count, EWA_SPLATS_MAX);
     job->part_count = (uint32_t)part_count;
     const size_t room = (size_t)job->part_count * PART_ROOM;
     ewa_status status = ewa_buffer_reserve(context, &renderer->records, room, sizeof(ewa_gaussian_record));
@@ -229,7 +229,7 @@ static ewa_status project_all(gaussian_job *job) {
     return ewa_parallel_stoppable(context, "gaussians", project_part, job, job->part_count);
 }
 
-/// Orders what is visible by the least depth of each, ties as the splats are.
+/// Orders what is visible by the smallest depth of each, ties as the splats are.
 static ewa_status sort_all(gaussian_job *job) {
     ewa_gaussian_renderer *renderer = job->renderer;
     job->visible_count = 0;
@@ -263,9 +263,9 @@ static uint32_t find_tiles(const void *data, uint32_t worker, uint32_t first, ui
     return count;
 }
 
-static ewa_status reserve_scratch(ewa_context *context, gaussian_scratch *scratch, size_t most) {
+static ewa_status reserve_scratch(ewa_context *context, gaussian_scratch *scratch, size_t maximum) {
     // Layers of volumes that wait: no more than come at once.
-    const size_t room = (most + 15) / 16 * 16 + EWA_GAUSSIAN_MOST_AT_ONCE;
+    const size_t room = (maximum + 15) / 16 * 16 + EWA_GAUSSIAN_MAX_AT_ONCE;
     const struct {
         ewa_buffer *buffer;
         size_t count, size_bytes;
@@ -274,10 +274,10 @@ static ewa_status reserve_scratch(ewa_context *context, gaussian_scratch *scratc
         {&scratch->row_ids, room + 1, sizeof(uint32_t)}, // one more is written, then overwritten
         {&scratch->row_marks, room + 1, 1},
         {&scratch->block_ids, room + 1, sizeof(uint32_t)},
-        {&scratch->met, room + 1, sizeof(ewa_gaussian_met)},
+        {&scratch->hit, room + 1, sizeof(ewa_gaussian_hit)},
         {&scratch->waiting, room, sizeof(uint32_t)},
         {&scratch->free, room + 1, sizeof(uint32_t)},
-        {&scratch->desk, 1, sizeof(ewa_gaussian_desk)},
+        {&scratch->sort_buffer, 1, sizeof(ewa_gaussian_sort_buffer)},
     };
     for (size_t i = 0; i < sizeof wanted / sizeof *wanted; i++) {
         const ewa_status status =
@@ -306,10 +306,10 @@ static void draw_tile(const gaussian_job *job, uint32_t index, uint32_t worker,
                               .row_ids = scratch->row_ids.data,
                               .row_marks = scratch->row_marks.data,
                               .block_ids = scratch->block_ids.data,
-                              .met = scratch->met.data,
+                              .hit = scratch->hit.data,
                               .waiting = scratch->waiting.data,
                               .free = scratch->free.data,
-                              .desk = scratch->desk.data,
+                              .sort_buffer = scratch->sort_buffer.data,
                               .sections = &job->sections,
                               .volumes = volumes,
                               .volume_count = job->mixture->volume_count,

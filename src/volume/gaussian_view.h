@@ -14,10 +14,10 @@
 #define EWA_GAUSSIAN_NEAR 1.05
 
 /// No Gaussian takes more of the light (3DGS).
-#define EWA_GAUSSIAN_MOST_ALPHA 0.99
+#define EWA_GAUSSIAN_MAX_ALPHA 0.99
 
 /// What the filter leaves of a Gaussian's height is at least the root of that (Mip-Splatting).
-#define EWA_GAUSSIAN_LEAST_KEPT 2.5e-5
+#define EWA_GAUSSIAN_MIN_KEPT 2.5e-5
 
 /// Camera space in units of the splats, and what else a frame's Gaussians share.
 typedef struct ewa_gaussian_camera {

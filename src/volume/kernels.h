@@ -42,7 +42,7 @@ enum {
 };
 
 /// The widest filter of points, px: what four taps hold.
-#define EWA_FILTER_MOST_PX 0.9f
+#define EWA_FILTER_MAX_PX 0.9f
 
 /// The circular filter along one axis: taps of the four pixels from floor(x - 1/2) - 1 on, which add up to 1,
 /// between four zeros on either side.
@@ -122,7 +122,7 @@ typedef struct ewa_volume_view {
     float covariance[6], inverse[6]; ///< xx xy xz yy yz zz
     float bend;                      ///< of ewa_grid_view
     float cutoff, cutoff2, prefilter2_px2, reach;
-    float least_transmittance;
+    float minimum_transmittance;
     float surface_reach;    ///< half of the depth over which a voxel passes a surface
     float to_world[9];      ///< world from camera, a rotation
     float toward_viewer[3]; ///< orthographic, world space

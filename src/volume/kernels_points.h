@@ -51,7 +51,7 @@ static ALWAYS_INLINE void absorb(const ewa_volume_view *view, float *pixels, wf 
 /// Hides a cell in which nothing more would show.
 static ALWAYS_INLINE void hide_saturated(const ewa_volume_view *view, ewa_volume_tile *tile, uint32_t cell,
                                          const float *pixels) {
-    if (!wm_bits(wf_lt(wf_set(view->least_transmittance), wf_load(pixels + 48)))) ewa_hide_cell(tile, cell);
+    if (!wm_bits(wf_lt(wf_set(view->minimum_transmittance), wf_load(pixels + 48)))) ewa_hide_cell(tile, cell);
 }
 
 static ALWAYS_INLINE void sum_bucket(ewa_volume_tile *tile, const ewa_volume_bucket *bucket,

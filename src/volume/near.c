@@ -33,7 +33,7 @@ void ewa_ray_cone_make(ewa_ray_cone *cone, const ewa_grid_view *grid, double lef
     cone->angle = angle < WIDEST ? angle + SLACK : PI;
 }
 
-bool ewa_ray_cone_meets(const ewa_ray_cone *cone, const double offset[3], double radius) {
+bool ewa_ray_cone_hits(const ewa_ray_cone *cone, const double offset[3], double radius) {
     ewa_vec3 toward = vec3_load(offset);
     const double distance = vec3_length(toward);
     if (!(distance > radius) || !vec3_normalize(&toward)) return true;
@@ -61,8 +61,8 @@ ewa_volume_source ewa_block_source(const ewa_voxel_level *level, const ewa_grid_
 }
 
 /// Whether rays of the picture may meet voxels of a block.
-static bool meets_block(const ewa_ray_cone *picture, const ewa_voxel_level *level, const ewa_grid_view *grid,
-                        const ewa_block_view *view) {
+static bool hits_block(const ewa_ray_cone *picture, const ewa_voxel_level *level, const ewa_grid_view *grid,
+                       const ewa_block_view *view) {
     const ewa_voxel_block *block = &level->blocks[view->block];
     const double eye[3] = {grid->eye_steps.x, grid->eye_steps.y, grid->eye_steps.z};
     double middle[3], squares = 0;
@@ -71,7 +71,7 @@ static bool meets_block(const ewa_ray_cone *picture, const ewa_voxel_level *leve
         middle[axis] = EWA_BLOCK_SIDE * (double)block->place[axis] + block->low[axis] + half - eye[axis];
         squares += half * half;
     }
-    return ewa_ray_cone_meets(picture, middle, sqrt(squares) + grid->cutoff * grid->kernel_steps);
+    return ewa_ray_cone_hits(picture, middle, sqrt(squares) + grid->cutoff * grid->kernel_steps);
 }
 
 /// Sorts what was found by depth unit, in each by distance.
@@ -98,7 +98,7 @@ ewa_status ewa_near_list_fill(ewa_context *context, ewa_near_list *list, const e
     ewa_ray_cone_make(&picture, grid, 0, 0, camera->width_px, camera->height_px);
     uint64_t room = 0;
     for (uint64_t b = 0; b < level->block_count; b++)
-        if (bins->views[b].near && meets_block(&picture, level, grid, &bins->views[b]))
+        if (bins->views[b].near && hits_block(&picture, level, grid, &bins->views[b]))
             room += level->blocks[b].count;
     if (room >= UINT32_MAX / 2)
         return ewa_fail(context, EWA_ERROR_MEMORY, "volume: %llu voxels at the eye",
@@ -111,14 +111,14 @@ ewa_status ewa_near_list_fill(ewa_context *context, ewa_near_list *list, const e
     ewa_near_voxel *voxels = list->found.data;
     const double reach = view->cutoff;
     for (uint64_t b = 0; b < level->block_count; b++) {
-        if (!bins->views[b].near || !meets_block(&picture, level, grid, &bins->views[b])) continue;
+        if (!bins->views[b].near || !hits_block(&picture, level, grid, &bins->views[b])) continue;
         const ewa_volume_source source = ewa_block_source(level, grid, &bins->views[b]);
         const uint32_t added = kernels->append_near(view, &source, voxels + list->count);
         // Of a block at the eye few voxels are in the picture.
         for (uint32_t i = list->count, end = list->count + added; i < end; i++) {
             const double offset[3] = {(double)voxels[i].offset[0], (double)voxels[i].offset[1],
                                       (double)voxels[i].offset[2]};
-            if (ewa_ray_cone_meets(&picture, offset, reach)) voxels[list->count++] = voxels[i];
+            if (ewa_ray_cone_hits(&picture, offset, reach)) voxels[list->count++] = voxels[i];
         }
     }
     sort_voxels(list, list->count);

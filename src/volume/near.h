@@ -19,7 +19,7 @@ void ewa_ray_cone_make(ewa_ray_cone *cone, const ewa_grid_view *grid, double lef
                        double bottom);
 
 /// Whether the cone meets a ball at `offset` from the eye; true when in doubt.
-bool ewa_ray_cone_meets(const ewa_ray_cone *cone, const double offset[3], double radius);
+bool ewa_ray_cone_hits(const ewa_ray_cone *cone, const double offset[3], double radius);
 
 /// The voxels at the eye of a frame, front to back. Zero-initialise.
 typedef struct ewa_near_list {

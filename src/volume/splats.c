@@ -116,7 +116,7 @@ static void set_splat(const build_job *job, size_t number, size_t packet, size_t
     for (int i = 0; i < 3; i++) {
         (*to)[EWA_SPLAT_PLACE + i][lane] = (float)((double)at.parts[0][i] / unit);
         (*to)[EWA_SPLAT_SCALE + i][lane] =
-            (float)(fmax((double)at.parts[1][i], EWA_SPLAT_LEAST_ASPECT * longest) / unit);
+            (float)(fmax((double)at.parts[1][i], EWA_SPLAT_MIN_ASPECT * longest) / unit);
     }
     for (int i = 0; i < 4; i++) (*to)[EWA_SPLAT_ROTATION + i][lane] = at.parts[2][i];
     (*to)[EWA_SPLAT_OPACITY][lane] = set->opacities[number] < 1 ? set->opacities[number] : 1;
@@ -224,9 +224,9 @@ ewa_status ewa_splats_create(const ewa_gaussians *gaussians, ewa_splats **splats
     *splats = NULL;
     ewa_context *context = gaussians->context;
     const uint32_t count = gaussians->count;
-    if (count > EWA_SPLATS_MOST)
+    if (count > EWA_SPLATS_MAX)
         return ewa_fail(context, EWA_ERROR_LIMIT, "splats: %u Gaussians, more than %d", count,
-                        EWA_SPLATS_MOST);
+                        EWA_SPLATS_MAX);
     uint32_t *order = ewa_allocate(context, count, sizeof *order);
     ewa_splats *made = ewa_allocate_zeroed(context, 1, sizeof *made);
     ewa_status status = order && made ? EWA_OK : EWA_ERROR_MEMORY;

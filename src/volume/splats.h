@@ -12,8 +12,8 @@
 
 enum {
     EWA_SPLAT_LANES = 16,
-    EWA_SPLATS_MOST = 1 << 26,
-    EWA_SPLAT_MOST_HARMONICS = 3 * ((EWA_MAX_SH_DEGREE + 1) * (EWA_MAX_SH_DEGREE + 1) - 1),
+    EWA_SPLATS_MAX = 1 << 26,
+    EWA_SPLAT_MAX_HARMONICS = 3 * ((EWA_MAX_SH_DEGREE + 1) * (EWA_MAX_SH_DEGREE + 1) - 1),
 };
 
 /// What a packet has of each splat.
@@ -30,7 +30,7 @@ enum {
 typedef float ewa_splat_packet[EWA_SPLAT_NUMBERS][EWA_SPLAT_LANES];
 
 /// A shorter scale is at least that much of the longest one.
-#define EWA_SPLAT_LEAST_ASPECT 1e-4
+#define EWA_SPLAT_MIN_ASPECT 1e-4
 
 struct ewa_splats {
     ewa_context *context;

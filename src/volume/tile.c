@@ -19,7 +19,7 @@ static uint32_t ring_size(const ewa_volume_bins *bins) {
 }
 
 static size_t page_count(const ewa_volume_bins *bins) {
-    return bins->most_in_flight / EWA_PAGE_RECORDS + ring_size(bins) + 1;
+    return bins->max_in_flight / EWA_PAGE_RECORDS + ring_size(bins) + 1;
 }
 
 ewa_status ewa_volume_scratch_reserve(ewa_context *context, ewa_volume_scratch *scratch,
@@ -49,7 +49,7 @@ ewa_status ewa_volume_scratch_reserve(ewa_context *context, ewa_volume_scratch *
     };
     if (pages >= EWA_NO_PAGE / EWA_PAGE_RECORDS)
         return ewa_fail(context, EWA_ERROR_MEMORY, "volume: %llu voxels in one tile at a time",
-                        (unsigned long long)job->bins->most_in_flight);
+                        (unsigned long long)job->bins->max_in_flight);
     for (size_t i = 0; i < sizeof wanted / sizeof *wanted; i++) {
         const ewa_status status =
             ewa_buffer_reserve(context, wanted[i].buffer, wanted[i].count, wanted[i].size_bytes);
@@ -200,16 +200,16 @@ static void draw_points(const ewa_volume_job *job, ewa_volume_scratch *scratch, 
 
 /// The voxels at the eye that rays of the tile meet.
 static void draw_near(const ewa_volume_job *job, ewa_volume_scratch *scratch, ewa_volume_tile *tile) {
-    ewa_near_voxel *met = scratch->near.data;
+    ewa_near_voxel *hit = scratch->near.data;
     uint32_t count = 0;
     ewa_ray_cone cone;
     ewa_ray_cone_make(&cone, job->grid, tile->x_px, tile->y_px, tile->x_px + tile->width_px,
                       tile->y_px + tile->height_px);
     for (const ewa_near_voxel *at = job->near->voxels; at < job->near->voxels + job->near->count; at++) {
         const double offset[3] = {(double)at->offset[0], (double)at->offset[1], (double)at->offset[2]};
-        if (ewa_ray_cone_meets(&cone, offset, job->grid->cutoff)) met[count++] = *at;
+        if (ewa_ray_cone_hits(&cone, offset, job->grid->cutoff)) hit[count++] = *at;
     }
-    job->kernels->draw_near(&job->view, tile, met, count);
+    job->kernels->draw_near(&job->view, tile, hit, count);
     scratch->splat_count += count;
 }
 

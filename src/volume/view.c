@@ -44,13 +44,13 @@ double ewa_volume_first_far_unit(const ewa_grid_view *grid, double unit) {
 
 void ewa_volume_slices_make(ewa_volume_slices *slices, const ewa_voxel_level *level,
                             const ewa_grid_view *grid, const ewa_volume_options *options) {
-    enum { MOST_SLICES = 1 << 20 };
+    enum { MAX_SLICES = 1 << 20 };
     double low, high, shortest = INFINITY;
     depth_range(level, grid, &low, &high);
     for (int axis = 0; axis < 3; axis++) shortest = fmin(shortest, vec3_length(mat3_row(&grid->axes, axis)));
     double unit = shortest * options->depth_unit;
     // Slabs of flat voxels would be cut into more slices than there is anything in.
-    while ((high - low) / unit > MOST_SLICES) unit *= 2;
+    while ((high - low) / unit > MAX_SLICES) unit *= 2;
     const double lowest = ewa_volume_unit_of(grid, unit, low), highest = ewa_volume_unit_of(grid, unit, high);
     const double far = ewa_volume_first_far_unit(grid, unit), first_unit = fmax(lowest, far);
     *slices = (ewa_volume_slices){.unit = unit, .start = grid->origin.z + (first_unit - 0.5) * unit};
@@ -137,7 +137,7 @@ void ewa_volume_view_set(ewa_volume_view *view, const ewa_grid_view *grid, const
     view->prefilter2_px2 = (float)grid->prefilter2_px2;
     // The trace bounds the largest variance whatever the angles between the axes.
     view->reach = (float)(grid->cutoff * sqrt(3 * grid->mean_variance));
-    view->least_transmittance = (float)options->least_transmittance;
+    view->minimum_transmittance = (float)options->minimum_transmittance;
     view->surface_reach = (float)(0.75 * sqrt(2 * 3.14159265358979323846) * grid->depth_sigma);
     set_shading(view, grid, camera, shading);
     view->table = table;
@@ -158,7 +158,7 @@ void ewa_volume_target_set(ewa_volume_target *target, const ewa_camera *camera, 
 
 void ewa_point_filters_make(ewa_point_filter filters[EWA_FILTER_COUNT]) {
     for (int f = 0; f < EWA_FILTER_COUNT; f++) {
-        const double sigma = fmax((double)EWA_FILTER_MOST_PX * f / (EWA_FILTER_COUNT - 1), 1e-3);
+        const double sigma = fmax((double)EWA_FILTER_MAX_PX * f / (EWA_FILTER_COUNT - 1), 1e-3);
         for (int phase = 0; phase < EWA_FILTER_PHASES; phase++) {
             // Against the nearest tap, so that they do not all vanish.
             double taps[4], sum = 0, nearest = INFINITY;
@@ -182,6 +182,6 @@ uint32_t ewa_point_filter_choose(const ewa_grid_view *grid, double z) {
     const double scale = grid->orthographic ? 1 : 1 / z;
     const double variance =
         grid->prefilter2_px2 + grid->mean_variance * grid->fx_px * grid->fy_px * scale * scale;
-    const double sigma = fmin(sqrt(variance), (double)EWA_FILTER_MOST_PX);
-    return (uint32_t)(sigma / (double)EWA_FILTER_MOST_PX * (EWA_FILTER_COUNT - 1) + 0.5);
+    const double sigma = fmin(sqrt(variance), (double)EWA_FILTER_MAX_PX);
+    return (uint32_t)(sigma / (double)EWA_FILTER_MAX_PX * (EWA_FILTER_COUNT - 1) + 0.5);
 }

@@ -52,7 +52,7 @@ static inline double ewa_slice_middle(const ewa_volume_slices *slices, uint32_t 
     return slices->start + (slice + 0.5) * slices->unit;
 }
 
-/// The filters of points by their standard deviations, evenly from 0 to EWA_FILTER_MOST_PX.
+/// The filters of points by their standard deviations, evenly from 0 to EWA_FILTER_MAX_PX.
 void ewa_point_filters_make(ewa_point_filter filters[EWA_FILTER_COUNT]);
 
 /// Which of them is that of a slice: the pixel filter and the projected voxel's mean variance.

@@ -4,7 +4,7 @@
 // From a volume to its occupied voxels, block by block, and from those to coarser ones.
 //
 // Based on: M. Levoy, "Efficient Ray Tracing of Volume Data", 1990 (blocks skipped by what their values may
-// be; here by least and largest value against the transfer function).
+// be; here by smallest and largest value against the transfer function).
 #include "volume/voxels.h"
 #include "base/base.h"
 #include "image/volume.h"
@@ -76,7 +76,7 @@ static void widen_range(void *data, const float *values, uint32_t count) {
     }
 }
 
-/// Whether no voxel of a block can be seen, by its least and largest value.
+/// Whether no voxel of a block can be seen, by its smallest and largest value.
 static bool is_empty(const builder *b, const uint32_t place[3]) {
     float range[2] = {INFINITY, -INFINITY};
     each_row(b->classifier->volume, place, widen_range, range);

@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: MIT
 //
 // Depth images to surfels: keys of a strip of rows, their slopes, then block by block packets of the grid,
-// which the road draws as it draws any.
+// which the pipeline draws as it draws any.
 //
 // Based on: Yuan et al., "Hybrid Forward Resampling and Volume Rendering", 2003, section 3. The points of
-// that paper are what the road makes of surfels much smaller than its filter (docs/math.md section 4).
+// that paper are what the pipeline makes of surfels much smaller than its filter (docs/math.md section 4).
 #include "warp/warp.h"
 #include "cloud/color.h"
 #include "image/srgb.h"

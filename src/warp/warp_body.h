@@ -24,7 +24,7 @@ static const float RIM = 0.7f;
 static const float STRAIGHTER = 4;
 
 static void smooth(float noise, const float *keys, size_t stride, uint32_t count, float *smoothed) {
-    const wf most = wf_set(CLOSE * noise), one = wf_set(1);
+    const wf maximum = wf_set(CLOSE * noise), one = wf_set(1);
     for (uint32_t x = 0; x < count; x += 16) {
         const wf key = wf_load(keys + x);
         wf sum = wf_set(0), weight = sum;
@@ -32,7 +32,7 @@ static void smooth(float noise, const float *keys, size_t stride, uint32_t count
         for (int i = 0; i <= 2 * EWA_WARP_REACH; i++, row += stride) {
             for (int k = 0; k <= 2 * EWA_WARP_REACH; k++) {
                 const wf difference = wf_sub(wf_load(row + k), key);
-                const wm close = wf_le(wf_abs(difference), most);
+                const wm close = wf_le(wf_abs(difference), maximum);
                 sum = wf_add(sum, wf_keep(close, difference));
                 weight = wf_add(weight, wf_keep(close, one));
             }
@@ -45,9 +45,9 @@ static void smooth(float noise, const float *keys, size_t stride, uint32_t count
 static ALWAYS_INLINE wm same_surface(const ewa_warp_lens *lens, wf key, wf neighbour, wf difference,
                                      wf inner_bend, wf outer_bend) {
     const wf larger = wf_max(neighbour, key); // NaN gives the key
-    const wf size = wf_abs(difference), most_bend = wf_mul(wf_set(lens->bend), larger);
+    const wf size = wf_abs(difference), max_bend = wf_mul(wf_set(lens->bend), larger);
     const wm near = wf_le(size, wf_mul(wf_set(lens->jump), larger));
-    const wm straight = wm_or(wf_le(inner_bend, most_bend), wf_le(outer_bend, most_bend));
+    const wm straight = wm_or(wf_le(inner_bend, max_bend), wf_le(outer_bend, max_bend));
     return wm_or(near, wm_and(straight, wf_le(size, wf_mul(wf_set(lens->steep), larger))));
 }
 
@@ -81,9 +81,9 @@ static ALWAYS_INLINE wf slope_along(const ewa_warp_lens *lens, float crease, con
     const wm has_left = same_surface(lens, key[2], left.neighbour, left.difference, bend, left.bend);
     const wm has_right = same_surface(lens, key[2], right.neighbour, right.difference, bend, right.bend);
     // On a crease the straighter side has the sample.
-    const wf least = wf_min(left.bend, right.bend);
+    const wf minimum = wf_min(left.bend, right.bend);
     const wm creased =
-        wm_and(wf_lt(wf_mul(wf_set(crease), key[2]), bend), wf_lt(wf_mul(wf_set(STRAIGHTER), least), bend));
+        wm_and(wf_lt(wf_mul(wf_set(crease), key[2]), bend), wf_lt(wf_mul(wf_set(STRAIGHTER), minimum), bend));
     const wm takes_left = wf_lt(left.bend, right.bend), has_both = wm_and(has_left, has_right);
     const wf from_left = wf_sub(zero, left.rate);
     const wf one_side = wf_select(takes_left, from_left, right.rate);
@@ -124,7 +124,7 @@ static uint32_t slopes(const ewa_warp_lens *lens, const float *keys, size_t stri
     return dropped;
 }
 
-static ALWAYS_INLINE void store_turned(const float m[9], const wf v[3], float out[3][16]) {
+static ALWAYS_INLINE void store_rotated(const float m[9], const wf v[3], float out[3][16]) {
     for (int i = 0; i < 3; i++)
         wf_store(out[i], wf_fma(wf_set(m[3 * i]), v[0],
                                 wf_fma(wf_set(m[3 * i + 1]), v[1], wf_mul(wf_set(m[3 * i + 2]), v[2]))));
@@ -163,13 +163,13 @@ static uint32_t block(const ewa_warp_lens *lens, uint32_t x, uint32_t y, const e
     const wf n[3] = {wf_sub(zero, rf), wf_sub(zero, qf), wf_fma(rf, ray_x, wf_fma(qf, ray_y, wf_set(-1)))};
     const wf p[3] = {wf_mul(z, ray_x), wf_mul(z, ray_y), z};
     float position[3][16];
-    store_turned(lens->from_camera, p, position);
+    store_rotated(lens->from_camera, p, position);
     memcpy(packet->x, position[0], sizeof packet->x);
     memcpy(packet->y, position[1], sizeof packet->y);
     memcpy(packet->z, position[2], sizeof packet->z);
-    store_turned(lens->from_camera, n, normal);
-    store_turned(lens->from_camera, u, axis_u);
-    store_turned(lens->from_camera, v, axis_v);
+    store_rotated(lens->from_camera, n, normal);
+    store_rotated(lens->from_camera, u, axis_u);
+    store_rotated(lens->from_camera, v, axis_v);
     return mask;
 }
 

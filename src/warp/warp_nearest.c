@@ -208,13 +208,13 @@ ewa_status ewa_warp_draw_nearest(ewa_warp *warp, const ewa_camera *target, const
     ewa_context *context = warp->context;
     ewa_warp_nearest *n = &warp->nearest;
     const size_t pixel_count = (size_t)target->width_px * target->height_px;
-    size_t most = 0;
+    size_t maximum = 0;
     for (uint32_t i = 0; i < warp->source_count; i++) {
         const ewa_camera *camera = &warp->sources[i].image.camera;
         const size_t count = (size_t)camera->width_px * camera->height_px;
-        most = count > most ? count : most;
+        maximum = count > maximum ? count : maximum;
     }
-    ewa_status status = ewa_buffer_reserve(context, &n->pixel_buffer, most, sizeof(uint32_t));
+    ewa_status status = ewa_buffer_reserve(context, &n->pixel_buffer, maximum, sizeof(uint32_t));
     if (status == EWA_OK)
         status = ewa_buffer_reserve(context, &n->winner_buffer, pixel_count, sizeof(uint32_t));
     if (status == EWA_OK && warp->source_count > 1)

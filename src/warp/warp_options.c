@@ -10,11 +10,11 @@
 #include <string.h>
 
 /// Limits of z: squares and cubes of what is within are floats.
-#define LEAST_DEPTH 1e-9
-#define MOST_DEPTH  1e12
+#define MIN_DEPTH 1e-9
+#define MAX_DEPTH 1e12
 
 /// Limit of focal lengths, principal points and scales, and the inverse of the least one.
-static const double MOST_CAMERA = 1e6;
+static const double MAX_CAMERA = 1e6;
 
 void ewa_depth_image_init(ewa_depth_image *image) {
     if (!image) return;
@@ -41,9 +41,9 @@ static const ewa_option option_rows[] = {
          "more are averaged over 5 x 5 pixels. 0.0036 for a first Kinect in metres; 0: taken as they are"},
     {"drop_flying", EWA_OPTION_BOOL, AT(drop_flying), .initial = true,
      .help = "leave out samples that hang between two surfaces"},
-    {"nearest_world", EWA_OPTION_F64, AT(nearest_world), LEAST_DEPTH, MOST_DEPTH, .initial = 1e-6,
+    {"nearest_world", EWA_OPTION_F64, AT(nearest_world), MIN_DEPTH, MAX_DEPTH, .initial = 1e-6,
      .unit = "world", .help = "nearer depths are left out"},
-    {"farthest_world", EWA_OPTION_F64, AT(farthest_world), LEAST_DEPTH, MOST_DEPTH, .initial = 1e9,
+    {"farthest_world", EWA_OPTION_F64, AT(farthest_world), MIN_DEPTH, MAX_DEPTH, .initial = 1e9,
      .unit = "world", .help = "farther depths are left out"},
 };
 
@@ -83,11 +83,11 @@ static ewa_status check_lens(ewa_context *context, uint32_t number, const ewa_ca
     const double *m = camera->world_to_camera;
     const double scale = sqrt(m[0] * m[0] + m[1] * m[1] + m[2] * m[2]);
     const double focal[2] = {camera->fx_px, camera->fy_px}, principal[2] = {camera->cx_px, camera->cy_px};
-    bool fits = scale >= 1 / MOST_CAMERA && scale <= MOST_CAMERA;
+    bool fits = scale >= 1 / MAX_CAMERA && scale <= MAX_CAMERA;
     for (int i = 0; i < 2; i++)
-        fits = fits && focal[i] >= 1 / MOST_CAMERA && focal[i] <= MOST_CAMERA &&
-               fabs(principal[i]) <= MOST_CAMERA;
-    for (int r = 0; r < 3; r++) fits = fits && fabs(m[4 * r + 3]) <= MOST_DEPTH;
+        fits =
+            fits && focal[i] >= 1 / MAX_CAMERA && focal[i] <= MAX_CAMERA && fabs(principal[i]) <= MAX_CAMERA;
+    for (int r = 0; r < 3; r++) fits = fits && fabs(m[4 * r + 3]) <= MAX_DEPTH;
     if (fits) return EWA_OK;
     return ewa_fail(context, EWA_ERROR_UNSUPPORTED,
                     "depth image %u: focal lengths, principal point, scale or place of the camera are too "
@@ -103,15 +103,15 @@ static ewa_status check_depth(ewa_context *context, uint32_t number, const ewa_d
         return fail_image(context, number, "depth_stride_bytes is less than a row");
     if ((int)image->kind < 0 || image->kind > EWA_DEPTH_DISPARITY)
         return fail_image(context, number, "kind is none of EWA_DEPTH_*");
-    if (!(image->depth_scale > 0 && image->depth_scale <= MOST_DEPTH))
+    if (!(image->depth_scale > 0 && image->depth_scale <= MAX_DEPTH))
         return ewa_fail(context, EWA_ERROR_ARGUMENT, "depth image %u: depth_scale is %g, allowed is (0, %g]",
-                        number, image->depth_scale, MOST_DEPTH);
+                        number, image->depth_scale, MAX_DEPTH);
     if (image->kind != EWA_DEPTH_DISPARITY) return EWA_OK;
-    if (!(image->baseline_world > 0 && image->baseline_world <= MOST_DEPTH))
+    if (!(image->baseline_world > 0 && image->baseline_world <= MAX_DEPTH))
         return ewa_fail(context, EWA_ERROR_ARGUMENT,
                         "depth image %u: baseline_world is %g, allowed is (0, %g]", number,
-                        image->baseline_world, MOST_DEPTH);
-    if (!(fabs(image->disparity_offset_px) <= MOST_DEPTH))
+                        image->baseline_world, MAX_DEPTH);
+    if (!(fabs(image->disparity_offset_px) <= MAX_DEPTH))
         return fail_image(context, number, "disparity_offset_px is no number of pixels");
     return EWA_OK;
 }

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Part of road_body.h and of the kernels of volumes: what lights give to sixteen places (docs/math.md section
-// 7; semantics.h, shading).
+// Part of pipeline_body.h and of the kernels of volumes: what lights give to sixteen places (docs/math.md
+// section 7; semantics.h, shading).
 //
 // Based on: J. Blinn, "Models of Light Reflection for Computer Synthesized Pictures", 1977 (the highlight).
 #ifndef EWA_SRC_WIDE_SHINE_H

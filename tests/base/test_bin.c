@@ -5,14 +5,14 @@
 // bin, more bins than candidates, nothing at all; and tiles that cover each pixel once.
 #include "tests/check.h"
 
-#include "road/bin.h"
-#include "road/tiles.h"
+#include "tiling/bin.h"
+#include "tiling/tiles.h"
 
-enum { MOST = 3000 };
+enum { MAXIMUM = 3000 };
 
 typedef struct scene {
     uint32_t count;
-    uint32_t left[MOST], top[MOST], right[MOST], bottom[MOST]; // empty: in no bin
+    uint32_t left[MAXIMUM], top[MAXIMUM], right[MAXIMUM], bottom[MAXIMUM]; // empty: in no bin
 } scene;
 
 static uint32_t find(const void *data, uint32_t worker, uint32_t first, uint32_t count,
@@ -65,7 +65,7 @@ static void make_rectangles(check_random *random, uint32_t count, uint32_t colum
 
 static void test_lists(void **state) {
     (void)state;
-    static const uint32_t workers[] = {1, 2, 7}, counts[] = {0, 1, 15, 16, 17, 500, MOST};
+    static const uint32_t workers[] = {1, 2, 7}, counts[] = {0, 1, 15, 16, 17, 500, MAXIMUM};
     static const uint32_t grids[][2] = {{1, 1}, {5, 3}, {40, 30}, {1, 200}};
     static scene s;
     check_random random = {5};
@@ -86,7 +86,7 @@ static void test_lists(void **state) {
 static void test_many_lists(void **state) {
     (void)state;
     enum { SETS = 9, COLUMNS = 6, ROWS = 4 };
-    static const uint32_t workers[] = {1, 2, 7}, counts[SETS] = {0, 1, 700, 0, 17, 16, MOST, 33, 0};
+    static const uint32_t workers[] = {1, 2, 7}, counts[SETS] = {0, 1, 700, 0, 17, 16, MAXIMUM, 33, 0};
     static scene scenes[SETS];
     for (int w = 0; w < 3; w++) {
         ewa_context *context = check_context(workers[w], NULL);

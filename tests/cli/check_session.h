@@ -6,7 +6,7 @@
 #define EWA_TESTS_CHECK_SESSION_H
 
 #include "check.h"
-#include "cli/session.h"
+#include "cli/base/session.h"
 
 static cli_session session;
 

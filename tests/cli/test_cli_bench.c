@@ -114,26 +114,26 @@ static void test_ways(void **state) {
 }
 
 /// Writes a program of shell lines that draws nothing.
-static void make_rival(const char *lines) {
+static void make_competitor(const char *lines) {
     char text[1024];
     snprintf(text, sizeof text, "#!/bin/sh\n%s\n", lines);
-    scratch_text("rival", text);
-    assert_int_equal(chmod(scratch_path("rival"), 0755), 0);
+    scratch_text("competitor", text);
+    assert_int_equal(chmod(scratch_path("competitor"), 0755), 0);
 }
 
 #define BENCH_AGAINST                                                                                        \
     "TMPDIR=. ewa bench --scene peer --splats 2000 --size 96x64 --frames 3 --workers 2 --stages off "        \
-    "--against ./rival"
+    "--against ./competitor"
 
 /// Another program gets the scene as files that it can read, and is asked for every frame in turn.
 static void test_against(void **state) {
     (void)state;
     run_done("rm -rf *");
-    make_rival("cp \"$1\" got.ply; cp \"$2\" got.json; echo \"a \\\"rival\\\" with $3 threads\"\n"
-               "while read -r ask; do echo >>asked; sleep 0.02; echo; done; echo >>ended");
+    make_competitor("cp \"$1\" got.ply; cp \"$2\" got.json; echo \"a \\\"competitor\\\" with $3 threads\"\n"
+                    "while read -r ask; do echo >>asked; sleep 0.02; echo; done; echo >>ended");
     run_done(BENCH_AGAINST " --json - 2>tables");
     static const char *const label = "peer 0.002 M 96x64";
-    const char *name = strstr(last_run.out, "\"against\": \"a \\\"rival\\\" with 2 threads\"");
+    const char *name = strstr(last_run.out, "\"against\": \"a \\\"competitor\\\" with 2 threads\"");
     assert_non_null(name);
     const char *ratio = strstr(name, "\"times_faster_than_against\": "),
                *median = strstr(name, "\"against_median_ms\": ");
@@ -148,26 +148,26 @@ static void test_against(void **state) {
     assert_non_null(strstr(last_run.out, "\n1\n"));
     assert_non_null(strstr(last_run.out, "element vertex 2000\n"));
     run_done("rm -f got.* asked ended tables");
-    assert_int_equal(scratch_count(), 1); // no folder is left, but the rival
+    assert_int_equal(scratch_count(), 1); // no folder is left, but the competitor
 }
 
-static void test_bad_rivals(void **state) {
+static void test_bad_competitors(void **state) {
     (void)state;
     static const struct {
         const char *lines, *said;
     } cases[] = {
-        {"echo no discs >&2; exit 3", "--against: ./rival failed with status 3: no discs"},
-        {"exit 0", "--against: ./rival ended early"},
-        {"echo name; read -r ask; kill -9 $$", "--against: ./rival was ended by signal 9"},
-        {"echo name; exec <&-; exit 4", "--against: ./rival failed with status 4"},
+        {"echo no discs >&2; exit 3", "--against: ./competitor failed with status 3: no discs"},
+        {"exit 0", "--against: ./competitor ended early"},
+        {"echo name; read -r ask; kill -9 $$", "--against: ./competitor was ended by signal 9"},
+        {"echo name; exec <&-; exit 4", "--against: ./competitor failed with status 4"},
         {"echo name; exec cat", NULL},
         {"echo name; while read -r ask; do echo; done; echo too late >&2; exit 1",
-         "--against: ./rival failed with status 1: too late"},
+         "--against: ./competitor failed with status 1: too late"},
         {"echo name; while read -r ask; do printf 'a\\nb\\n'; done",
-         "--against: ./rival says more than one line at a time"},
+         "--against: ./competitor says more than one line at a time"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
-        make_rival(cases[i].lines);
+        make_competitor(cases[i].lines);
         if (cases[i].said)
             run_fails(1, cases[i].said, BENCH_AGAINST);
         else
@@ -179,9 +179,10 @@ static void test_bad_rivals(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_stages),  cmocka_unit_test(test_files),      cmocka_unit_test(test_unseen),
-        cmocka_unit_test(test_recipes), cmocka_unit_test(test_ways),       cmocka_unit_test(test_refusals),
-        cmocka_unit_test(test_against), cmocka_unit_test(test_bad_rivals),
+        cmocka_unit_test(test_stages),  cmocka_unit_test(test_files),
+        cmocka_unit_test(test_unseen),  cmocka_unit_test(test_recipes),
+        cmocka_unit_test(test_ways),    cmocka_unit_test(test_refusals),
+        cmocka_unit_test(test_against), cmocka_unit_test(test_bad_competitors),
     };
     return cmocka_run_group_tests(tests, enter, NULL);
 }

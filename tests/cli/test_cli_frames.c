@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// render: turntables, camera paths, numbered files, films. Films go through a stand-in for ffmpeg that notes
+// render: turntables, camera paths, numbered files, films. Films go through a fake ffmpeg that notes
 // what it is asked for and counts bytes, and through the real one where it is installed.
 #include "check_pictures.h"
 
@@ -10,7 +10,7 @@
 #include <string.h>
 
 /// Writes an ffmpeg of shell lines into the folder `name` of the scratch folder.
-static void stand_in(const char *name, const char *lines) {
+static void fake_program(const char *name, const char *lines) {
     char text[1024], path[256];
     run("mkdir -p %s", name);
     snprintf(text, sizeof text, "#!/bin/sh\n%s\n", lines);
@@ -24,9 +24,9 @@ static int enter(void **state) {
     context = check_context(0, NULL);
     if (scratch_enter("cli_frames") != 0) return -1;
     // The last word is file:PATH.
-    stand_in("fake", "printf '%s\\n' \"$@\" >words\nfor last; do :; done\nwc -c >\"${last#file:}\"");
-    stand_in("broken", "echo 'Unknown encoder' >&2\nexit 3");
-    stand_in("dying", "kill -9 $$");
+    fake_program("fake", "printf '%s\\n' \"$@\" >words\nfor last; do :; done\nwc -c >\"${last#file:}\"");
+    fake_program("broken", "echo 'Unknown encoder' >&2\nexit 3");
+    fake_program("dying", "kill -9 $$");
     return run("ewa generate torus -n 5000 -o torus.ply && ewa generate cube -n 3000 -o cube.ply");
 }
 
@@ -137,7 +137,7 @@ static void test_stats(void **state) {
     run_done("ewa render torus.ply -o t.png --size 64x48 --stats s.json && ! grep -q frame s.json");
 }
 
-/// What the stand-in is asked for, every byte of every frame, and nothing beside the film at the end.
+/// What the fake ffmpeg is asked for, every byte of every frame, and nothing beside the film at the end.
 static void test_film(void **state) {
     (void)state;
     run_done("rm -rf films && mkdir films && PATH=$PWD/fake:$PATH && "

@@ -102,26 +102,31 @@ static void test_render(void **state) {
     run_done("ewa render t.copc.laz -o all.png --size 300x300 --lod-error 0 --memory 1G");
     assert_true(scratch_same("plain.png", "all.png"));
     // From its levels it looks the same, whatever the memory and the number of threads.
-    run_done("ewa render t.copc.laz -o levels.png --size 300x300 --levels always --memory 1G --lod-spacing 2 --stats s.json");
+    run_done("ewa render t.copc.laz -o levels.png --size 300x300 --levels always --memory 1G --lod-spacing 2 "
+             "--stats s.json");
     assert_true(mean_square("plain.png", "levels.png") < 25);
-    assert_true(holds("s.json", "\"cubes_drawn\": "));
+    assert_true(holds("s.json", "\"nodes_drawn\": "));
     assert_true(holds("s.json", "\"bands\": 1"));
-    run_done("ewa render t.copc.laz -o again.png --size 300x300 --levels always --memory 16M --lod-spacing 2 --threads 1");
+    run_done("ewa render t.copc.laz -o again.png --size 300x300 --levels always --memory 16M --lod-spacing 2 "
+             "--threads 1");
     assert_true(scratch_same("levels.png", "again.png"));
     // Frames share what was read.
-    run_done("ewa render t.copc.laz -o f%%d.png --size 300x300 --levels always --lod-spacing 2 --turntable 3 --stats s.json "
+    run_done("ewa render t.copc.laz -o f%%d.png --size 300x300 --levels always --lod-spacing 2 --turntable 3 "
+             "--stats s.json "
              "--scale-bar");
     assert_true(scratch_size("f2.png") > 0);
     assert_true(holds("s.json", "\"frame_count\": 3"));
     // Planes and sections are there, too.
-    run_done("ewa render t.copc.laz -o cut.png --aov depth=cut.pfm --size 100x100 --levels always --lod-spacing 2 "
-             "--clip-plane 1,0,0,0 --edl 0.5");
+    run_done(
+        "ewa render t.copc.laz -o cut.png --aov depth=cut.pfm --size 100x100 --levels always --lod-spacing 2 "
+        "--clip-plane 1,0,0,0 --edl 0.5");
     assert_true(scratch_size("cut.pfm") > 0);
 }
 
 static void test_refusals(void **state) {
     (void)state;
-    run_fails(1, "a filter needs all points", "ewa render t.copc.laz -o x.png --levels always --filter 'z>0'");
+    run_fails(1, "a filter needs all points",
+              "ewa render t.copc.laz -o x.png --levels always --filter 'z>0'");
     run_fails(1, "--color-by needs all points",
               "ewa render t.copc.laz -o x.png --levels always --color-by z");
     run_fails(1, "--radius-scale needs all points",
@@ -183,7 +188,8 @@ static void test_folder(void **state) {
     snprintf(text, sizeof text, "\"points\": %lu", below);
     assert_non_null(strstr(last_run.out, text));
     run_done("ewa render e -o e.png --size 100x100");
-    assert_int_equal(run("ewa render e/ept.json -o levels.png --size 100x100 --levels always --memory 64M"), 0);
+    assert_int_equal(run("ewa render e/ept.json -o levels.png --size 100x100 --levels always --memory 64M"),
+                     0);
     assert_non_null(strstr(last_run.err, "none that stand for others"));
     assert_true(mean_square("e.png", "levels.png") < 100);
     run_done("mkdir empty");

@@ -19,12 +19,12 @@ static void test_large(void **state) {
     (void)state;
     run_done("ewa generate plane -n 4010000 -o big.ply && ewa lod big.ply -o big.copc.laz && rm big.ply");
     run_done("ewa render big.copc.laz -o big.png --size 200x200 --stats s.json");
-    assert_true(holds("s.json", "\"cubes_drawn\": "));
+    assert_true(holds("s.json", "\"nodes_drawn\": "));
     run_done("ewa info --json big.copc.laz");
     assert_non_null(strstr(last_run.out, "\"points\": 4010000"));
     assert_null(strstr(last_run.out, "\"sampled_points\": 0"));
     run_done("ewa render big.copc.laz -o ground.png --size 200x200 --filter 'x<0' --stats s.json");
-    assert_false(holds("s.json", "\"cubes_drawn\": ")); // that takes all points
+    assert_false(holds("s.json", "\"nodes_drawn\": ")); // that takes all points
 }
 
 int main(void) {

@@ -89,16 +89,16 @@ static bool nearly_same(const char *first, const char *second) {
     const size_t count = (size_t)images[0].width_px * images[0].height_px * images[0].channel_count;
     assert_int_equal(images[1].width_px * images[1].height_px * images[1].channel_count, count);
     size_t differ = 0;
-    double most = 0;
+    double maximum = 0;
     for (size_t i = 0; i < count; i++) {
         const double a = 255 * (double)ewa_srgb_from_linear(images[0].pixels[i]),
                      b = 255 * (double)ewa_srgb_from_linear(images[1].pixels[i]);
         differ += fabs(a - b) > 0.5;
-        most = fmax(most, fabs(a - b));
+        maximum = fmax(maximum, fabs(a - b));
     }
     for (int i = 0; i < 2; i++) ewa_image_free(&images[i]);
     ewa_context_destroy(&context);
-    return 100 * differ <= count && most < 1.5;
+    return 100 * differ <= count && maximum < 1.5;
 }
 
 /// At map coordinates and those of the earth's centre, the picture is that at the origin. The matrix of the

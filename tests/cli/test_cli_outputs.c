@@ -5,8 +5,8 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "cli/commands.h"
-#include "cli/outputs.h"
+#include "cli/base/commands.h"
+#include "cli/base/outputs.h"
 #include "run_ewa.h"
 
 static int enter(void **state) {
@@ -94,7 +94,8 @@ static void test_no_folder(void **state) {
 
 static void test_folder_in_the_way(void **state) {
     (void)state;
-    run_done("mkdir taken.png taken.copc.laz taken.pfm taken.json taken.ply taken.exr taken.nrrd taken_0.exr");
+    run_done(
+        "mkdir taken.png taken.copc.laz taken.pfm taken.json taken.ply taken.exr taken.nrrd taken_0.exr");
     for (size_t i = 0; i < WRITINGS; i++) {
         char file[64];
         snprintf(file, sizeof file, "taken%s", writings[i].suffix);

@@ -162,11 +162,11 @@ static void test_isolated_point(void **state) {
     ewa_image lone = load("lone.exr"), bare = load("bare.exr");
     uint32_t differing = 0;
     for (size_t i = 0; i < (size_t)320 * 240; i++) {
-        float most = 0;
+        float maximum = 0;
         for (uint32_t c = 0; c < 4; c++)
-            most = fmaxf(most, fabsf(lone.pixels[i * lone.channel_count + c] -
-                                     bare.pixels[i * bare.channel_count + c]));
-        differing += most > 0.01f;
+            maximum = fmaxf(maximum, fabsf(lone.pixels[i * lone.channel_count + c] -
+                                           bare.pixels[i * bare.channel_count + c]));
+        differing += maximum > 0.01f;
     }
     assert_in_range(differing, 1, 40);
     ewa_image_free(&lone);

@@ -24,7 +24,7 @@ static int enter(void **state) {
     snprintf(text, sizeof text, head, 3,
              "0 -1 0 1.7 -1.7 -1.7 9 -1.5 -1.5 -1.5 1 0 0 0\n0 1 0 -1.7 -1.7 1.7 9 -1.5 -1.5 -1.5 1 0 0 0\n"
              "0 0 -2 -2 2 -2 9 0.7 0.7 -3 1 0 0 0\n");
-    scratch_text("veiled.ply", text);
+    scratch_text("translucent.ply", text);
     // A wall of points between.
     FILE *file = fopen(scratch_path("wall.ply"), "w");
     assert_non_null(file);
@@ -75,12 +75,12 @@ static void upright(void **state) {
 /// What is ahead hides what is behind; a wall hides all of what is behind it.
 static void hidden(void **state) {
     (void)state;
-    run_done("ewa render veiled.ply -o veiled.png --size 100x200");
+    run_done("ewa render translucent.ply -o veiled.png --size 100x200");
     ewa_image image = load("veiled.png");
     assert_true(pixel(&image, 0.5, 0.3)[1] > 0.8f && pixel(&image, 0.5, 0.3)[0] < 0.3f);
     ewa_image_free(&image);
-    run_done("ewa render veiled.ply wall.ply -o wall.png --size 100x200 --shading none");
-    image = load("wall.png"); // the veil is before the wall
+    run_done("ewa render translucent.ply wall.ply -o wall.png --size 100x200 --shading none");
+    image = load("wall.png"); // the translucent layer is before the wall
     assert_true(pixel(&image, 0.5, 0.5)[1] > 0.8f && pixel(&image, 0.5, 0.5)[0] < 0.3f);
     ewa_image_free(&image);
     run_done("ewa render wall.ply pair.ply -o behind.exr --size 100x200 --shading none");
@@ -100,13 +100,13 @@ static void together(void **state) {
     assert_true(fabsf(middle[0] - 1) + fabsf(middle[1] - 1) + fabsf(middle[2] - 1) > 0.05f);
     ewa_image_free(&image);
     check_upright("ball.png");
-    run_done("ewa render veiled.ply ball.nrrd sphere.ply -o all.png --size 100x200 && "
-             "ewa render sphere.ply ball.nrrd veiled.ply -o turned.png --size 100x200");
+    run_done("ewa render translucent.ply ball.nrrd sphere.ply -o all.png --size 100x200 && "
+             "ewa render sphere.ply ball.nrrd translucent.ply -o turned.png --size 100x200");
     assert_true(scratch_same("all.png", "turned.png"));
-    image = load("all.png"); // the veil is before all
+    image = load("all.png"); // the translucent layer is before all
     assert_true(pixel(&image, 0.5, 0.5)[1] > 0.8f && pixel(&image, 0.5, 0.5)[0] < 0.3f);
     ewa_image_free(&image);
-    run_done("ewa render pair.ply veiled.ply -o sets.png --size 100x200");
+    run_done("ewa render pair.ply translucent.ply -o sets.png --size 100x200");
     image = load("sets.png");
     assert_true(pixel(&image, 0.5, 0.3)[1] > 0.8f && pixel(&image, 0.5, 0.3)[0] < 0.3f);
     ewa_image_free(&image);
@@ -154,7 +154,7 @@ static void surfaces(void **state) {
     ewa_image image = load("surface.png");
     assert_true(pixel(&image, 0.5, 0.2)[0] > 0.8f);
     ewa_image_free(&image);
-    run_done("ewa render pair.ply veiled.ply -o both.png --surface --size 50x50");
+    run_done("ewa render pair.ply translucent.ply -o both.png --surface --size 50x50");
 }
 
 static void films(void **state) {

@@ -112,18 +112,18 @@ static double at_rim(const char *name, double *extent) {
     ewa_image image = load(name);
     const uint32_t width = image.width_px, height = image.height_px;
     uint32_t low[2] = {width, height}, high[2] = {0, 0};
-    double most = 0;
+    double maximum = 0;
     for (uint32_t y = 0; y < height; y++)
         for (uint32_t x = 0; x < width; x++) {
             const double alpha = (double)image.pixels[4 * ((size_t)y * width + x) + 3];
-            if (x == 0 || y == 0 || x + 1 == width || y + 1 == height) most = fmax(most, alpha);
+            if (x == 0 || y == 0 || x + 1 == width || y + 1 == height) maximum = fmax(maximum, alpha);
             if (alpha < 2.0 / 255) continue;
             low[0] = x < low[0] ? x : low[0], high[0] = x > high[0] ? x : high[0];
             low[1] = y < low[1] ? y : low[1], high[1] = y > high[1] ? y : high[1];
         }
     *extent = fmax((high[0] - low[0] + 1.0) / width, (high[1] - low[1] + 1.0) / height);
     ewa_image_free(&image);
-    return most;
+    return maximum;
 }
 
 /// Nothing of what can be seen touches the frame, however faint it is and however few voxels there are.

@@ -4,8 +4,8 @@
 // The helper that imports rare formats: helpers that die, hang, grow, talk and lie, and the real one where it
 // is built.
 #define _DEFAULT_SOURCE // mkdtemp
-#include "../../cli/import.h"
 #include "check_session.h"
+#include "cli/input/import.h"
 #include "io/scratch.h"
 
 #include <fcntl.h>

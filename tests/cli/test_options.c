@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cli/commands.h"
+#include "cli/base/commands.h"
 
 /// One option of every kind.
 typedef struct sample_arguments {

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Tests of cli/pattern.c: names of numbered files.
+// Tests of cli/base/pattern.c: names of numbered files.
 #include "check.h"
-#include "cli/pattern.h"
+#include "cli/base/pattern.h"
 
 #include <string.h>
 

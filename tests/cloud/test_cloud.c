@@ -57,10 +57,10 @@ static void test_borrowed_stride_and_bounds(void **state) {
 /// Packed numbers and those with others between them read the same, whatever their type.
 static void test_packed_and_strided(void **state) {
     (void)state;
-    enum { COUNT = 37, MOST_BYTES = 8 };
+    enum { COUNT = 37, MAX_BYTES = 8 };
     ewa_context *context = check_context(0, NULL);
     for (int type = EWA_F32; type <= EWA_U32; type++) {
-        _Alignas(8) static uint8_t packed[COUNT * 3 * MOST_BYTES], strided[COUNT * 4 * MOST_BYTES];
+        _Alignas(8) static uint8_t packed[COUNT * 3 * MAX_BYTES], strided[COUNT * 4 * MAX_BYTES];
         const size_t bytes = ewa_type_bytes((ewa_type)type);
         for (size_t i = 0; i < sizeof packed; i++) packed[i] = (uint8_t)(61 * i % 127); // no NaN
         for (size_t i = 0; i < COUNT; i++) memcpy(strided + 4 * bytes * i, packed + 3 * bytes * i, 3 * bytes);

@@ -286,10 +286,10 @@ static int compare_numbers(const void *a, const void *b) {
 /// A number by its rank is that of the sorted ones, of any sign and size, equal ones among them.
 static void test_ranks(void **state) {
     (void)state;
-    enum { MOST = 300 };
+    enum { MAXIMUM = 300 };
     check_random random = {12};
-    for (size_t count = 1; count <= MOST; count += count < 10 ? 1 : 29) {
-        double numbers[MOST], sorted[MOST], shuffled[MOST];
+    for (size_t count = 1; count <= MAXIMUM; count += count < 10 ? 1 : 29) {
+        double numbers[MAXIMUM], sorted[MAXIMUM], shuffled[MAXIMUM];
         for (size_t i = 0; i < count; i++) {
             const double size = pow(10, check_uniform(&random, -300, 300));
             numbers[i] =

@@ -43,7 +43,7 @@ static void order_points(uint32_t threads, const float *xyz, uint32_t count, uin
     ewa_context_destroy(&context);
 }
 
-/// Interleaves bit by bit the cells of the one grid that a cloud without crowded cells needs.
+/// Interleaves bit by bit the cells of the one grid that a cloud without dense cells needs.
 static void test_against_plain_sort(void **state) {
     (void)state;
     enum { COUNT = 200000 };

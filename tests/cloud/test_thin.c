@@ -107,7 +107,7 @@ static void check_voxels(const double *p, uint32_t count, const uint8_t *wanted,
             assert_int_equal(marks[i], 0);
             continue;
         }
-        double sum[3] = {0}, least = INFINITY, cell[3];
+        double sum[3] = {0}, minimum = INFINITY, cell[3];
         uint32_t members[COUNT], member_count = 0;
         for (int c = 0; c < 3; c++) cell[c] = floor((p[3 * i + (uint32_t)c] + origin[c]) / size);
         for (uint32_t k = 0; k < count; k++) {
@@ -124,14 +124,14 @@ static void check_voxels(const double *p, uint32_t count, const uint8_t *wanted,
         uint32_t stays = 0, which = 0;
         for (uint32_t c = 0; c < 3; c++) mean[c] = p[3 * i + c] + sum[c] / member_count;
         for (uint32_t m = 0; m < member_count; m++) {
-            least = fmin(least, distance2(p + 3 * members[m], mean));
+            minimum = fmin(minimum, distance2(p + 3 * members[m], mean));
             stays += marks[members[m]];
             if (marks[members[m]]) which = members[m];
         }
         assert_int_equal(stays, 1);
-        if (sqrt(distance2(p + 3 * which, mean)) > sqrt(least) + 1e-8 * size)
+        if (sqrt(distance2(p + 3 * which, mean)) > sqrt(minimum) + 1e-8 * size)
             fail_msg("point %u is %g from the mean, another %g", which, sqrt(distance2(p + 3 * which, mean)),
-                     sqrt(least));
+                     sqrt(minimum));
     }
 }
 

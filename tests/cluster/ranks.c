@@ -11,11 +11,11 @@
 typedef struct shared {
     pthread_barrier_t barrier;
     uint32_t count;
-    const ewa_parcel *given[RANKS_MOST];
+    const ewa_parcel *given[RANKS_MAX];
     ranks_work *work;
     void *data;
     uint32_t picture_rank;
-    uint64_t bytes[RANKS_MOST];
+    uint64_t bytes[RANKS_MAX];
     bool unequal; ///< somebody took another size than was given
 } shared;
 
@@ -56,8 +56,8 @@ static void *run(void *data) {
 
 void ranks_run(uint32_t count, uint32_t picture_rank, ranks_work *work, void *data) {
     shared all = {.count = count, .picture_rank = picture_rank, .work = work, .data = data};
-    rank ranks[RANKS_MOST];
-    pthread_t threads[RANKS_MOST];
+    rank ranks[RANKS_MAX];
+    pthread_t threads[RANKS_MAX];
     pthread_barrier_init(&all.barrier, NULL, count);
     for (uint32_t i = 0; i < count; i++) {
         ranks[i] = (rank){&all, i};

@@ -7,7 +7,7 @@
 
 #include "ewa/cluster.h"
 
-enum { RANKS_MOST = 8 };
+enum { RANKS_MAX = 8 };
 
 /// What a rank does; returns when it has nothing more to exchange.
 typedef void ranks_work(const ewa_exchange *exchange, void *data);

@@ -10,9 +10,9 @@
 
 typedef struct subject {
     joint_frame frame;
-    size_t desk_bytes; ///< of each rank, where shares keep their splats
-    picture found[RANKS_MOST];
-    ewa_status status[RANKS_MOST];
+    size_t tile_cache_bytes; ///< of each rank, where shares keep their splats
+    picture found[RANKS_MAX];
+    ewa_status status[RANKS_MAX];
 } subject;
 
 static void draw_as_rank(const ewa_exchange *exchange, void *data) {
@@ -23,7 +23,7 @@ static void draw_as_rank(const ewa_exchange *exchange, void *data) {
     of->status[rank] = ewa_renderer_create_joint(context, exchange, &renderer);
     void *state = NULL;
     ewa_renderer_backend(renderer, &context, &state);
-    ((ewa_joint *)state)->desk_bytes = of->desk_bytes;
+    ((ewa_joint *)state)->tile_cache_bytes = of->tile_cache_bytes;
     if (of->status[rank] == EWA_OK)
         of->status[rank] =
             joint_frame_draw(context, renderer, &of->frame, rank, exchange->rank_count, &of->found[rank]);
@@ -41,7 +41,7 @@ static void hold(subject *of, int index) {
     for (size_t i = 0; i < sizeof counts / sizeof counts[0]; i++) {
         for (uint32_t rank = 0; rank < counts[i]; rank++)
             of->found[rank] = picture_make(JOINT_WIDTH_PX, JOINT_HEIGHT_PX);
-        of->desk_bytes = (size_t[]){0, EWA_JOINT_DESK_BYTES, 1 << 20}[i % 3];
+        of->tile_cache_bytes = (size_t[]){0, EWA_JOINT_TILE_CACHE_BYTES, 1 << 20}[i % 3];
         // For one rank, or for all.
         const uint32_t picture_rank = i % 2 ? EWA_ALL_RANKS : counts[i] - 1;
         ranks_run(counts[i], picture_rank, draw_as_rank, of);
@@ -126,7 +126,7 @@ static void give_plane(const ewa_exchange *exchange, void *data) {
 static void test_bytes_of_the_model(void **state) {
     (void)state;
     for (uint32_t count = 2; count <= 4; count++) {
-        double shares[RANKS_MOST] = {0};
+        double shares[RANKS_MAX] = {0};
         ranks_run(count, 0, give_plane, shares);
         for (uint32_t r = 0; r < count; r++) {
             print_message("rank %u of %u: %.3f of the model\n", r, count, shares[r]);
@@ -140,7 +140,7 @@ static void gather_and_add(const ewa_exchange *exchange, void *data) {
     enum { COUNT = 11 };
     ewa_context *context = check_context(1, NULL);
     bool *right = data;
-    uint32_t all[RANKS_MOST] = {0}, mine = 100 + exchange->rank;
+    uint32_t all[RANKS_MAX] = {0}, mine = 100 + exchange->rank;
     int64_t values[COUNT];
     for (int i = 0; i < COUNT; i++) values[i] = (int64_t)(exchange->rank + 1) * (i - 5);
     const bool done = ewa_exchange_gather(context, exchange, &mine, sizeof mine, all) == EWA_OK &&
@@ -155,8 +155,8 @@ static void gather_and_add(const ewa_exchange *exchange, void *data) {
 
 static void test_gather_and_add(void **state) {
     (void)state;
-    for (uint32_t count = 1; count <= RANKS_MOST; count++) {
-        bool right[RANKS_MOST] = {false};
+    for (uint32_t count = 1; count <= RANKS_MAX; count++) {
+        bool right[RANKS_MAX] = {false};
         ranks_run(count, 0, gather_and_add, right);
         for (uint32_t r = 0; r < count; r++) assert_true(right[r]);
     }

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Files of the data set that tests read, and what is in them. Where the data set is not there, stand-ins are
-// made of these facts (stand_ins.h).
+// Files of the data set that tests read, and what is in them. Where the data set is not there, synthetic
+// files are made of these facts (synthetic_data.h).
 #ifndef EWA_TESTS_FACTS_H
 #define EWA_TESTS_FACTS_H
 

@@ -70,9 +70,9 @@ static void add_rim(const ewa_camera *camera, const disc *d, double box[4]) {
     const double *n = d->normal, *m = camera->world_to_camera;
     const double length = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
     double u[3] = {0}, v[3];
-    const int least =
+    const int minimum =
         fabs(n[0]) < fabs(n[1]) ? (fabs(n[0]) < fabs(n[2]) ? 0 : 2) : (fabs(n[1]) < fabs(n[2]) ? 1 : 2);
-    for (int c = 0; c < 3; c++) u[c] = (c == least) - n[least] * n[c] / (length * length);
+    for (int c = 0; c < 3; c++) u[c] = (c == minimum) - n[minimum] * n[c] / (length * length);
     const double scale = 1 / sqrt(u[0] * u[0] + u[1] * u[1] + u[2] * u[2]);
     for (int c = 0; c < 3; c++) u[c] *= scale;
     for (int c = 0; c < 3; c++)
@@ -292,7 +292,7 @@ static void test_revolve(void **state) {
         assert_int_equal(ewa_framing_revolve(framing, pivot, axis, directions[d], &solid), EWA_OK);
         for (int i = 0; i < 3; i++) {
             // Of the corners about as high: how far they reach each way, and with which rim.
-            double least = INFINITY, greatest = 0, rim = INFINITY, below = INFINITY, above = INFINITY;
+            double minimum = INFINITY, greatest = 0, rim = INFINITY, below = INFINITY, above = INFINITY;
             for (int k = 0; k < 1000; k++) {
                 const double x = cos(k * 0.00628318530717959), y = sin(k * 0.00628318530717959);
                 double reach = 0;
@@ -304,11 +304,11 @@ static void test_revolve(void **state) {
                     below = fmin(below, up <= 1e-12 ? -up : INFINITY);
                     above = fmin(above, up >= -1e-12 ? up : INFINITY);
                 }
-                least = fmin(least, reach);
+                minimum = fmin(minimum, reach);
                 greatest = fmax(greatest, reach);
             }
             assert_float_equal(rim, discs[i].radius, 1e-6);
-            assert_true(least > reaches[i] * (1 - 1e-9) && greatest < 1.0013 * reaches[i]);
+            assert_true(minimum > reaches[i] * (1 - 1e-9) && greatest < 1.0013 * reaches[i]);
             // The slice begins below the point and ends above it.
             assert_true(below < 0.0118 && above < 0.0118);
         }

@@ -11,11 +11,11 @@
 #include "framing/upright.h"
 #include "framing/upright_measure.h"
 
-enum { MOST_POINTS = 1 << 17 };
+enum { MAX_POINTS = 1 << 17 };
 
 /// Points of a test object, from the middle of nothing: world coordinates.
 typedef struct shape {
-    double points[MOST_POINTS][3];
+    double points[MAX_POINTS][3];
     size_t count;
     check_random random;
 } shape;
@@ -27,7 +27,7 @@ static void start(void) { made = (shape){.random = {17}}; }
 static double between(double low, double high) { return check_uniform(&made.random, low, high); }
 
 static void add(double x, double y, double z) {
-    assert_true(made.count < MOST_POINTS);
+    assert_true(made.count < MAX_POINTS);
     double *p = made.points[made.count++];
     p[0] = x, p[1] = y, p[2] = z;
 }

@@ -8,10 +8,10 @@
 #include "furniture/decimal.h"
 
 /// Texts of the ticks of a range, joined by blanks; "none" without.
-static const char *ticks_text(double low, double high, uint32_t most) {
+static const char *ticks_text(double low, double high, uint32_t maximum) {
     static char all[1024];
     ewa_ticks ticks;
-    if (!ewa_ticks_find(low, high, most, &ticks)) return "none";
+    if (!ewa_ticks_find(low, high, maximum, &ticks)) return "none";
     all[0] = 0;
     for (int64_t k = ticks.first; k <= ticks.last; k++) {
         char text[EWA_DECIMAL_BYTES];
@@ -25,7 +25,7 @@ static void test_ticks(void **state) {
     (void)state;
     static const struct {
         double low, high;
-        uint32_t most;
+        uint32_t maximum;
         const char *text;
     } cases[] = {
         {0, 1, 5, "0.0 0.2 0.4 0.6 0.8 1.0"},
@@ -56,7 +56,7 @@ static void test_ticks(void **state) {
         {0.41, 0.59, 1, "none"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++)
-        assert_string_equal(ticks_text(cases[i].low, cases[i].high, cases[i].most), cases[i].text);
+        assert_string_equal(ticks_text(cases[i].low, cases[i].high, cases[i].maximum), cases[i].text);
 }
 
 /// However the range lies: no more steps than asked for, at least a fifth as many less one, all within the range, and
@@ -68,16 +68,16 @@ static void test_tick_properties(void **state) {
         const double size = pow(10, check_uniform(&random, -250, 250));
         const double low = size * check_uniform(&random, -1, 1);
         const double high = low + size * pow(10, check_uniform(&random, -7, 1));
-        const uint32_t most = 2 + (uint32_t)(check_random_u64(&random) % 12);
+        const uint32_t maximum = 2 + (uint32_t)(check_random_u64(&random) % 12);
         ewa_ticks ticks;
-        if (!ewa_ticks_find(low, high, most, &ticks)) {
-            assert_true(most < 4);
+        if (!ewa_ticks_find(low, high, maximum, &ticks)) {
+            assert_true(maximum < 4);
             continue;
         }
         const double step = ewa_decimal_value(ticks.step),
                      slack = 1e-8 * step + 1e-15 * fmax(fabs(low), fabs(high));
-        assert_true(ticks.last - ticks.first <= most);
-        assert_true((double)(ticks.last - ticks.first) > most / 2.5 - 2.001);
+        assert_true(ticks.last - ticks.first <= maximum);
+        assert_true((double)(ticks.last - ticks.first) > maximum / 2.5 - 2.001);
         assert_true(ewa_decimal_value(ewa_ticks_at(&ticks, ticks.first)) >= low - slack);
         assert_true(ewa_decimal_value(ewa_ticks_at(&ticks, ticks.last)) <= high + slack);
         assert_true(ewa_decimal_value(ewa_ticks_at(&ticks, ticks.first - 1)) < low);
@@ -153,7 +153,7 @@ static void test_near(void **state) {
 static void test_nice(void **state) {
     (void)state;
     static const struct {
-        double most;
+        double maximum;
         int64_t digits;
         int exponent;
     } cases[] = {{1, 1, 0},     {1.99, 1, 0},    {2, 2, 0},     {4.999, 2, 0},     {5, 5, 0},
@@ -161,7 +161,7 @@ static void test_nice(void **state) {
                  {1e23, 1, 23}, {3e250, 2, 250}, {1e-5, 1, -5}, {2e-250, 2, -250}, {1.7e308, 1, 308}};
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         ewa_decimal nice;
-        assert_true(ewa_decimal_nice(cases[i].most, &nice));
+        assert_true(ewa_decimal_nice(cases[i].maximum, &nice));
         assert_int_equal(nice.digits, cases[i].digits);
         assert_int_equal(nice.exponent, cases[i].exponent);
     }

@@ -25,10 +25,10 @@ static inline void fuzz_message(void *user, ewa_severity severity, const char *t
     if (severity == EWA_SEVERITY_ERROR) ++*(int *)user;
 }
 
-/// Reads all points, at most `most` at a time, into memory that ends with them.
+/// Reads all points, at most `maximum` at a time, into memory that ends with them.
 static inline ewa_status fuzz_cloud_pieces(const ewa_cloud_source *source, const ewa_cloud_format *format,
-                                           uint64_t most) {
-    enum { MOST_ATTRIBUTES = 1100 };
+                                           uint64_t maximum) {
+    enum { MAX_ATTRIBUTES = 1100 };
     ewa_cloud *prototype = NULL;
     fuzz_require(ewa_cloud_create(source->context, 0, &prototype) == EWA_OK, "a prototype");
     uint64_t point_count = 0, read_count = 0, got_count = 1;
@@ -36,18 +36,18 @@ static inline ewa_status fuzz_cloud_pieces(const ewa_cloud_source *source, const
     ewa_status status = format->open(source, prototype, &point_count, &state);
     fuzz_require((status == EWA_OK) == (state != NULL), "a state on success only");
     const uint32_t attribute_count = ewa_cloud_attribute_count(prototype);
-    fuzz_require(attribute_count <= MOST_ATTRIBUTES, "not too many attributes");
+    fuzz_require(attribute_count <= MAX_ATTRIBUTES, "not too many attributes");
     while (status == EWA_OK && got_count) {
-        ewa_cloud_sink sinks[MOST_ATTRIBUTES];
+        ewa_cloud_sink sinks[MAX_ATTRIBUTES];
         for (uint32_t i = 0; i < attribute_count; i++) {
             const ewa_attribute *a = ewa_cloud_attribute_at(prototype, i);
             const size_t stride = a->component_count * ewa_type_bytes(a->type);
-            sinks[i] = (ewa_cloud_sink){malloc(most * stride), stride};
+            sinks[i] = (ewa_cloud_sink){malloc(maximum * stride), stride};
         }
-        status = format->read(state, most, sinks, &got_count);
+        status = format->read(state, maximum, sinks, &got_count);
         for (uint32_t i = 0; i < attribute_count; i++) free(sinks[i].to);
         if (status != EWA_OK) break;
-        fuzz_require(got_count <= most, "no more than are wanted");
+        fuzz_require(got_count <= maximum, "no more than are wanted");
         read_count += got_count;
         fuzz_require(read_count <= point_count, "no more than were announced");
     }
@@ -58,7 +58,7 @@ static inline ewa_status fuzz_cloud_pieces(const ewa_cloud_source *source, const
 
 static inline void fuzz_cloud(const ewa_cloud_format *format, const char *name, const uint8_t *bytes,
                               size_t size_bytes) {
-    static const uint64_t most[2] = {4096, 100};
+    static const uint64_t maximum[2] = {4096, 100};
     for (int keep_going = 0; keep_going < 2; keep_going++) {
         int errors = 0;
         uint64_t lost_count = 0;
@@ -79,7 +79,7 @@ static inline void fuzz_cloud(const ewa_cloud_format *format, const char *name, 
                                          .size_bytes = size_bytes,
                                          .options = &load,
                                          .lost_count = &lost_count};
-        const ewa_status status = fuzz_cloud_pieces(&source, format, most[keep_going]);
+        const ewa_status status = fuzz_cloud_pieces(&source, format, maximum[keep_going]);
         fuzz_require((status == EWA_OK) == (errors == 0), "a message on failure only");
         fuzz_require(keep_going || lost_count == 0, "nothing is lost without a word");
         ewa_context_destroy(&context);

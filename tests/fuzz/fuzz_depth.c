@@ -7,11 +7,11 @@
 
 #include <stdlib.h>
 
-enum { MOST_PIXELS = 1 << 16 };
+enum { MAX_PIXELS = 1 << 16 };
 
 static void warp(ewa_context *context, const ewa_image *depth) {
     const size_t pixel_count = (size_t)depth->width_px * depth->height_px;
-    if (pixel_count > MOST_PIXELS) return;
+    if (pixel_count > MAX_PIXELS) return;
     ewa_depth_image image;
     ewa_depth_image_init(&image);
     image.camera.width_px = depth->width_px;

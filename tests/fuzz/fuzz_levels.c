@@ -8,8 +8,8 @@
 
 /// Decodes a page into memory that ends with its surfels.
 static void try_page(const ewa_levels_page *page, const uint8_t *bytes) {
-    enum { MOST_SURFELS = 1 << 14 };
-    if (!page->size_bytes || page->surfel_count > MOST_SURFELS) return;
+    enum { MAX_SURFELS = 1 << 14 };
+    if (!page->size_bytes || page->surfel_count > MAX_SURFELS) return;
     const size_t count = page->surfel_count;
     float *at = malloc(3 * count * sizeof *at + 1), *normal = malloc(3 * count * sizeof *normal + 1),
           *radius = malloc(count * sizeof *radius + 1);

@@ -23,10 +23,10 @@ static inline void fuzz_octree_facts(const ewa_octree *octree, const ewa_octree_
 }
 
 static inline ewa_status fuzz_octree_nodes(ewa_octree *octree, const ewa_octree_facts *facts) {
-    enum { MOST_NODES = 64 };
-    uint32_t indices[MOST_NODES], count = 0;
-    ewa_cloud *clouds[MOST_NODES], *alone = NULL;
-    for (; count < facts->node_count && count < MOST_NODES; count++) indices[count] = count;
+    enum { MAX_NODES = 64 };
+    uint32_t indices[MAX_NODES], count = 0;
+    ewa_cloud *clouds[MAX_NODES], *alone = NULL;
+    for (; count < facts->node_count && count < MAX_NODES; count++) indices[count] = count;
     ewa_status status = ewa_octree_read(octree, indices, count, NULL, clouds);
     for (uint32_t i = 0; i < count; i++) {
         fuzz_require((clouds[i] != NULL) == (status == EWA_OK), "all clouds or none");

@@ -3,7 +3,7 @@
 //
 // Fuzz target: command lines. The first byte chooses the command, the others are its words, each ended by a
 // zero byte or a line feed. Nothing is executed.
-#include "cli/commands.h"
+#include "cli/base/commands.h"
 #include "fuzz.h"
 
 #include <stdlib.h>

@@ -50,10 +50,10 @@ static inline void require_same(const ewa_cloud *a, const ewa_cloud *b) {
     }
 }
 
-/// Reads all points, at once, or by a few at a time when `most` is not 0.
+/// Reads all points, at once, or by a few at a time when `maximum` is not 0.
 static inline ewa_status read_rows(const ewa_cloud_source *source, const ewa_cloud_format *format,
-                                   uint64_t most, ewa_cloud **cloud) {
-    if (most == 0) return ewa_cloud_read_all(source, format, cloud);
+                                   uint64_t maximum, ewa_cloud **cloud) {
+    if (maximum == 0) return ewa_cloud_read_all(source, format, cloud);
     ewa_cloud *prototype = NULL;
     uint64_t point_count = 0, count = 0, got = 0;
     void *state = NULL;
@@ -65,7 +65,7 @@ static inline ewa_status read_rows(const ewa_cloud_source *source, const ewa_clo
     if (status == EWA_OK)
         status = ewa_cloud_make_room(source->name, prototype, NULL, point_count, cloud, sinks);
     while (status == EWA_OK) {
-        const uint64_t room = point_count - count < most ? point_count - count : most;
+        const uint64_t room = point_count - count < maximum ? point_count - count : maximum;
         if (room == 0) break;
         status = format->read(state, room, sinks, &got);
         require(got <= room, "no more points than there is room for");

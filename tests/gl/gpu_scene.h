@@ -18,7 +18,7 @@ typedef struct gpu_scene {
     ewa_render_options options;
 } gpu_scene;
 
-enum { GPU_MOST_PX = 512 };
+enum { GPU_MAX_PX = 512 };
 
 /// Says why there is nothing to test, and returns false, where there is no device with compute programs.
 bool gpu_there(void);

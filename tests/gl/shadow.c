@@ -14,9 +14,9 @@
 #include <string.h>
 
 /// Sums of larger colours overflow, to bytes that mean nothing.
-#define MOST_COLOR 1e30
+#define MAX_COLOR 1e30
 
-enum { MOST_PIXELS = 320 * 240, MOST_SPLATS = 20000, MOST_KINDS = 1024 };
+enum { MAX_PIXELS = 320 * 240, MAX_SPLATS = 20000, MAX_KINDS = 1024 };
 
 /// What this process has compared, and with what: one device for all renderers, so that programs are made once.
 static struct {
@@ -25,7 +25,7 @@ static struct {
     bool asked;
     uint32_t compared, passed_by;
     double spent_s;
-    uint64_t kinds[MOST_KINDS];
+    uint64_t kinds[MAX_KINDS];
     uint32_t kind_count;
 } done;
 
@@ -104,14 +104,14 @@ static bool is_wanted(const ewa_render_job *job) {
     uint64_t splats = 0;
     for (uint32_t i = 0; i < job->source_count; i++) {
         splats += job->sources[i].surfels->count;
-        if (job->sources[i].surfels->largest_color > MOST_COLOR) return false;
+        if (job->sources[i].surfels->largest_color > MAX_COLOR) return false;
     }
     const uint64_t pixels = (uint64_t)job->camera.width_px * job->camera.height_px;
-    if (!all && (pixels > MOST_PIXELS || splats > MOST_SPLATS)) return false;
+    if (!all && (pixels > MAX_PIXELS || splats > MAX_SPLATS)) return false;
     const uint64_t kind = kind_of(job);
     for (uint32_t i = 0; i < done.kind_count; i++)
         if (done.kinds[i] == kind) return all;
-    if (done.kind_count < MOST_KINDS) done.kinds[done.kind_count++] = kind;
+    if (done.kind_count < MAX_KINDS) done.kinds[done.kind_count++] = kind;
     return true;
 }
 

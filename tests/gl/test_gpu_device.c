@@ -47,7 +47,7 @@ static void test_classes(void **state) {
 /// Arithmetic that rounds otherwise: at least 60 dB, and at most one pixel in 10^5 off by more than a level.
 static void test_close_pictures(void **state) {
     (void)state;
-    enum { SIDE_PX = GPU_MOST_PX };
+    enum { SIDE_PX = GPU_MAX_PX };
     static uint8_t planes[2][4 * SIDE_PX * SIDE_PX];
     tune("arith=close");
     gpu_scene at;
@@ -89,17 +89,17 @@ static long resident_kib(void) {
 /// A thousand sizes: no error of OpenGL, and no more memory than the largest takes.
 static void test_resizes(void **state) {
     (void)state;
-    enum { SIZES = 1000, WARM = 100, MOST_PX = 40, ALLOWED_KIB = 24 << 10 };
-    static uint8_t rgba8[4 * MOST_PX * MOST_PX];
+    enum { SIZES = 1000, WARM = 100, MAX_PX = 40, ALLOWED_KIB = 24 << 10 };
+    static uint8_t rgba8[4 * MAX_PX * MAX_PX];
     gpu_scene at;
-    gpu_scene_make(&at, 100, MOST_PX, MOST_PX);
+    gpu_scene_make(&at, 100, MAX_PX, MAX_PX);
     ewa_renderer *renderer = NULL;
     assert_int_equal(ewa_renderer_create_on(at.context, EWA_BACKEND_GL, &renderer), EWA_OK);
     check_random random = {7};
     long warm_kib = 0;
     for (int i = 0; i < SIZES; i++) {
-        const uint32_t width_px = 1 + (uint32_t)(check_random_u64(&random) % MOST_PX),
-                       height_px = 1 + (uint32_t)(check_random_u64(&random) % MOST_PX);
+        const uint32_t width_px = 1 + (uint32_t)(check_random_u64(&random) % MAX_PX),
+                       height_px = 1 + (uint32_t)(check_random_u64(&random) % MAX_PX);
         gpu_scene_resize(&at, width_px, height_px);
         // Errors that OpenGL notes are failures of the frame (ewa_gl_check()).
         assert_int_equal(gpu_scene_draw(&at, renderer, rgba8), EWA_OK);

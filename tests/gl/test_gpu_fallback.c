@@ -8,7 +8,7 @@
 enum { POINTS = 2000, WIDTH_PX = 48, HEIGHT_PX = 40 };
 
 static gpu_scene at;
-static uint8_t rgba8[4 * GPU_MOST_PX * GPU_MOST_PX];
+static uint8_t rgba8[4 * GPU_MAX_PX * GPU_MAX_PX];
 
 static int enter(void **state) {
     (void)state;
@@ -189,7 +189,8 @@ static void test_little_memory(void **state) {
     gpu_scene_resize(&at, WIDTH_PX, HEIGHT_PX);
 }
 
-/// A device that has too few storage blocks is none for this road; one that takes few groups at a time gets them in turns.
+/// A device that has too few storage blocks is none for this pipeline; one that takes few groups at a time
+/// gets them in turns.
 static void test_small_limits(void **state) {
     (void)state;
     tune("blocks=8");

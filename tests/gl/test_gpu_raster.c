@@ -341,10 +341,10 @@ typedef struct object_counts {
 } object_counts;
 
 static object_counts count_objects(void) {
-    enum { MOST_NAMES = 20000 };
+    enum { MAX_NAMES = 20000 };
     object_counts found = {0};
     assert_int_equal(ewa_gl_enter(watched->device), EWA_OK);
-    for (GLuint name = 1; name < MOST_NAMES; name++) {
+    for (GLuint name = 1; name < MAX_NAMES; name++) {
         found.pictures += glIsTexture(name);
         found.buffers += glIsBuffer(name);
         found.targets += glIsFramebuffer(name);

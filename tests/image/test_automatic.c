@@ -3,14 +3,14 @@
 //
 // Transfer functions from volumes alone: what of scans is seen.
 #include "check.h"
-#include "image/standins.h"
+#include "image/phantoms.h"
 #include "image/transfer.h"
 #include "image/volume_surfaces.h"
 
 #include <math.h>
 #include <string.h>
 
-enum { ALL_TREE = 1 << STANDIN_LEAVES | 1 << STANDIN_WOOD | 1 << STANDIN_POT };
+enum { ALL_TREE = 1 << PHANTOM_LEAVES | 1 << PHANTOM_WOOD | 1 << PHANTOM_POT };
 
 static ewa_transfer look_of(const ewa_volume *volume) {
     ewa_volume_facts facts;
@@ -28,24 +28,24 @@ static void expect(const char *what, double value, double low, double high) {
 /// A tree in noisy air, whatever the noise, with and without zeros around it.
 static void test_bonsai(void **state) {
     (void)state;
-    static const standin_scan scans[] = {
+    static const phantom_scan scans[] = {
         {12, 5, true}, {12, 5, false}, {14, 7, true}, {2, 1, false}, {30, 5, true}};
     ewa_context *context = check_context(1, NULL);
     for (size_t n = 0; n < sizeof scans / sizeof scans[0]; n++) {
-        standin scene = standin_make(scans[n].air);
-        standin_add_bonsai(&scene, 50 + scans[n].air, 70 + scans[n].air, 90 + scans[n].air,
+        phantom scene = phantom_make(scans[n].air);
+        phantom_add_bonsai(&scene, 50 + scans[n].air, 70 + scans[n].air, 90 + scans[n].air,
                            130 + scans[n].air);
-        ewa_volume volume = standin_scan_it(context, &scene, &scans[n]);
+        ewa_volume volume = phantom_scan_it(context, &scene, &scans[n]);
         const ewa_transfer transfer = look_of(&volume);
-        const standin_seen tree = standin_look(&scene, &volume, &transfer, ALL_TREE);
-        const standin_seen leaves = standin_look(&scene, &volume, &transfer, 1 << STANDIN_LEAVES);
+        const phantom_seen tree = phantom_look(&scene, &volume, &transfer, ALL_TREE);
+        const phantom_seen leaves = phantom_look(&scene, &volume, &transfer, 1 << PHANTOM_LEAVES);
         print_message("scan %zu: tree %.2f, elsewhere %.3f; leaves %.2f\n", n, tree.object, tree.elsewhere,
                       leaves.object);
         expect("tree", tree.object, 0.7, 1);
         expect("air", tree.elsewhere, 0, 0.04); // borders are blurred
         expect("leaves", leaves.object, 0.35, 1);
         ewa_volume_free(&volume);
-        standin_free(&scene);
+        phantom_free(&scene);
     }
     ewa_context_destroy(&context);
 }
@@ -54,7 +54,7 @@ static void test_bonsai(void **state) {
 static void test_walnut(void **state) {
     (void)state;
     static const struct {
-        standin_scan scan;
+        phantom_scan scan;
         double cup, thick, shell, kernel;
         bool lid;
     } cases[] = {{{10, 6, false}, 60, 3, 150, 110, false}, {{10, 6, true}, 60, 3, 150, 110, true},
@@ -62,17 +62,17 @@ static void test_walnut(void **state) {
                  {{10, 1, false}, 60, 2, 150, 110, true},  {{0, 0, false}, 60, 4, 150, 150, true}};
     ewa_context *context = check_context(1, NULL);
     for (size_t n = 0; n < sizeof cases / sizeof cases[0]; n++) {
-        standin scene = standin_make(cases[n].scan.air);
-        standin_add_walnut(&scene, cases[n].cup, cases[n].thick, cases[n].lid, cases[n].shell,
+        phantom scene = phantom_make(cases[n].scan.air);
+        phantom_add_walnut(&scene, cases[n].cup, cases[n].thick, cases[n].lid, cases[n].shell,
                            cases[n].kernel);
-        ewa_volume volume = standin_scan_it(context, &scene, &cases[n].scan);
+        ewa_volume volume = phantom_scan_it(context, &scene, &cases[n].scan);
         const ewa_transfer transfer = look_of(&volume);
-        const standin_seen nut = standin_look(&scene, &volume, &transfer, 1 << STANDIN_NUT);
+        const phantom_seen nut = phantom_look(&scene, &volume, &transfer, 1 << PHANTOM_NUT);
         print_message("case %zu: nut %.2f, elsewhere %.3f\n", n, nut.object, nut.elsewhere);
         expect("nut", nut.object, 0.8, 1);
         expect("cup", nut.elsewhere, 0, 0.05);
         ewa_volume_free(&volume);
-        standin_free(&scene);
+        phantom_free(&scene);
     }
     ewa_context_destroy(&context);
 }
@@ -82,34 +82,34 @@ static void test_walnut(void **state) {
 static void test_heads(void **state) {
     (void)state;
     ewa_context *context = check_context(1, NULL);
-    standin scene = standin_make(4);
-    standin_add_head(&scene, 70, 72, 170);
-    const standin_scan tomograph = {4, 2, false};
-    ewa_volume volume = standin_scan_it(context, &scene, &tomograph);
+    phantom scene = phantom_make(4);
+    phantom_add_head(&scene, 70, 72, 170);
+    const phantom_scan tomograph = {4, 2, false};
+    ewa_volume volume = phantom_scan_it(context, &scene, &tomograph);
     ewa_transfer transfer = look_of(&volume);
-    const standin_seen bone = standin_look(&scene, &volume, &transfer, 1 << STANDIN_BONE);
-    const standin_seen soft = standin_look(&scene, &volume, &transfer, 1 << STANDIN_SOFT);
+    const phantom_seen bone = phantom_look(&scene, &volume, &transfer, 1 << PHANTOM_BONE);
+    const phantom_seen soft = phantom_look(&scene, &volume, &transfer, 1 << PHANTOM_SOFT);
     print_message("CT: bone %.2f, soft %.2f, elsewhere %.3f\n", bone.object, soft.object, soft.elsewhere);
     expect("bone", bone.object, 0.4, 0.95);
     expect("soft matter", soft.object, 0.08, 0.6);
     expect("air", soft.elsewhere, 0, 0.02);
     ewa_volume_free(&volume);
-    standin_free(&scene);
+    phantom_free(&scene);
 
-    scene = standin_make(0);
-    standin_add_head(&scene, 150, 110, 30);
-    const standin_scan magnet = {0, 8, false};
-    volume = standin_scan_it(context, &scene, &magnet);
+    scene = phantom_make(0);
+    phantom_add_head(&scene, 150, 110, 30);
+    const phantom_scan magnet = {0, 8, false};
+    volume = phantom_scan_it(context, &scene, &magnet);
     // Masked, as it often comes.
-    for (int i = 0; i < STANDIN_VOXELS; i++)
-        if (scene.material[i] == STANDIN_AIR) ((uint8_t *)volume.voxels)[i] = 0;
+    for (int i = 0; i < PHANTOM_VOXELS; i++)
+        if (scene.material[i] == PHANTOM_AIR) ((uint8_t *)volume.voxels)[i] = 0;
     transfer = look_of(&volume);
-    const standin_seen head = standin_look(&scene, &volume, &transfer, 1 << STANDIN_SOFT | 1 << STANDIN_BONE);
+    const phantom_seen head = phantom_look(&scene, &volume, &transfer, 1 << PHANTOM_SOFT | 1 << PHANTOM_BONE);
     print_message("MR: head %.2f, elsewhere %.3f\n", head.opacity, head.elsewhere);
     expect("head", head.opacity, 0.85, 1);
     expect("outside", head.elsewhere, 0, 0.02);
     ewa_volume_free(&volume);
-    standin_free(&scene);
+    phantom_free(&scene);
     ewa_context_destroy(&context);
 }
 
@@ -117,10 +117,10 @@ static void test_heads(void **state) {
 static void test_same_look(void **state) {
     (void)state;
     ewa_context *context = check_context(1, NULL);
-    standin scene = standin_make(12);
-    standin_add_bonsai(&scene, 60, 80, 100, 140);
-    const standin_scan scan = {12, 5, true};
-    ewa_volume volume = standin_scan_it(context, &scene, &scan);
+    phantom scene = phantom_make(12);
+    phantom_add_bonsai(&scene, 60, 80, 100, 140);
+    const phantom_scan scan = {12, 5, true};
+    ewa_volume volume = phantom_scan_it(context, &scene, &scan);
     const uint8_t *voxels = volume.voxels;
     const ewa_transfer first = look_of(&volume);
     ewa_volume other;
@@ -128,16 +128,16 @@ static void test_same_look(void **state) {
     float *numbers = other.voxels;
     for (int n = 0; n < 6; n++) {
         const double scale = n == 3 ? 1e-6 : n == 4 ? 1e6 : 1, shift = n == 3 ? -7e-5 : 0;
-        for (int i = 0; i < STANDIN_VOXELS; i++) {
-            const int x = i % STANDIN_SIDE, y = i / STANDIN_SIDE % STANDIN_SIDE,
-                      z = i / STANDIN_SIDE / STANDIN_SIDE;
+        for (int i = 0; i < PHANTOM_VOXELS; i++) {
+            const int x = i % PHANTOM_SIDE, y = i / PHANTOM_SIDE % PHANTOM_SIDE,
+                      z = i / PHANTOM_SIDE / PHANTOM_SIDE;
             const int from[3] = {n == 1 ? z : x,
                                  n == 1   ? x
-                                 : n == 2 ? STANDIN_SIDE - 1 - y
+                                 : n == 2 ? PHANTOM_SIDE - 1 - y
                                           : y,
                                  n == 1 ? y : z};
             numbers[i] =
-                (float)(voxels[(from[2] * STANDIN_SIDE + from[1]) * STANDIN_SIDE + from[0]] * scale + shift);
+                (float)(voxels[(from[2] * PHANTOM_SIDE + from[1]) * PHANTOM_SIDE + from[0]] * scale + shift);
         }
         if (n == 5) { // noise of the file: values far beyond, and none
             for (int i = 0; i < 40; i++) numbers[7919 * (i + 1)] = i % 2 ? 1e30f : -1e30f;
@@ -158,7 +158,7 @@ static void test_same_look(void **state) {
     }
     ewa_volume_free(&other);
     ewa_volume_free(&volume);
-    standin_free(&scene);
+    phantom_free(&scene);
     ewa_context_destroy(&context);
 }
 
@@ -202,17 +202,17 @@ static void test_odd_volumes(void **state) {
 static void test_full_volume(void **state) {
     (void)state;
     ewa_context *context = check_context(1, NULL);
-    standin scene = standin_make(40);
-    for (int i = 0; i < STANDIN_VOXELS; i++)
-        if (i / STANDIN_SIDE % STANDIN_SIDE > 40) scene.values[i] = 160, scene.material[i] = STANDIN_SOFT;
-    const standin_scan scan = {40, 3, false};
-    ewa_volume volume = standin_scan_it(context, &scene, &scan);
+    phantom scene = phantom_make(40);
+    for (int i = 0; i < PHANTOM_VOXELS; i++)
+        if (i / PHANTOM_SIDE % PHANTOM_SIDE > 40) scene.values[i] = 160, scene.material[i] = PHANTOM_SOFT;
+    const phantom_scan scan = {40, 3, false};
+    ewa_volume volume = phantom_scan_it(context, &scene, &scan);
     const ewa_transfer transfer = look_of(&volume);
-    const standin_seen dense = standin_look(&scene, &volume, &transfer, 1 << STANDIN_SOFT);
+    const phantom_seen dense = phantom_look(&scene, &volume, &transfer, 1 << PHANTOM_SOFT);
     expect("dense half", dense.object, 0.85, 1);
     expect("other half", dense.elsewhere, 0, 0.05);
     ewa_volume_free(&volume);
-    standin_free(&scene);
+    phantom_free(&scene);
     ewa_context_destroy(&context);
 }
 
@@ -242,7 +242,7 @@ static void test_sight(void **state) {
     (void)state;
     static const struct {
         const char *column; // o: outer, i: inner, anything else: neither
-        double met, hidden, apart;
+        double hit, hidden, apart;
     } cases[] = {
         {"..ii..", 2, 0, 0},       {"ooii..", 2, 0, 0},           {"oooii.", 2, 0.5, 0},
         {"oooiioo", 2, 0.5, 0},    {"oooiiooo", 2, 1, 0},         {"oo..ii", 2, 0, 0},
@@ -262,7 +262,7 @@ static void test_sight(void **state) {
                 ((uint8_t *)volume.voxels)[i] = column[i] == 'i' ? 200 : column[i] == 'o' ? 100 : 3;
             ewa_volume_sight sight;
             assert_int_equal(ewa_volume_sight_measure(&volume, 100, 200, &sight), EWA_OK);
-            expect(column, sight.met, cases[n].met, cases[n].met);
+            expect(column, sight.hit, cases[n].hit, cases[n].hit);
             expect(column, sight.hidden, cases[n].hidden, cases[n].hidden);
             expect(column, sight.apart, cases[n].apart, cases[n].apart);
             ewa_volume_free(&volume);

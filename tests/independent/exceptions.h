@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Scenes whose road is below 45 dB, and why.
+// Scenes whose pipeline is below 45 dB, and why.
 #ifndef EWA_TESTS_EXCEPTIONS_H
 #define EWA_TESTS_EXCEPTIONS_H
 

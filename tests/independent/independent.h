@@ -4,8 +4,8 @@
 // A renderer for tests, written a second time from docs/math.md, docs/conventions.md and semantics.h alone.
 // It shares no function, constant or table with the library, and takes other ways where there are any: dual
 // conics by generic matrices in long double instead of sheared ones, rays by dual numbers instead of derived
-// formulas, fragments of a pixel in a list instead of passes over the picture. A mistake that the road and
-// the reference make together shows against it. It reads the public structs of camera and options, and
+// formulas, fragments of a pixel in a list instead of passes over the picture. A mistake that the pipeline
+// and the reference make together shows against it. It reads the public structs of camera and options, and
 // surfels as plain numbers.
 //
 // independent_splat.c: what one surfel is on the screen. independent_light.c: shading.
@@ -101,7 +101,7 @@ typedef struct independent_splat {
     real fx, fy, cx, cy;
     real3 p, u, v, n; ///< camera space; n unit, towards the viewer
     real3 normal_world;
-    bool turned;                   ///< it shows its back: n is turned over
+    bool back_facing;              ///< it shows its back: n is turned over
     real center[2];                ///< of the ellipse, pixels
     real variance[3], determinant; ///< V and |V|
     real jacobian[2][2];
@@ -150,6 +150,6 @@ real3 independent_reflection(const independent_environment *sky, const ewa_rende
                              const independent_surface *below);
 
 /// The share of the light that eye-dome lighting leaves of a pixel.
-real independent_dome(const independent_scene *scene, const double *depth, int64_t x, int64_t y);
+real independent_eye_dome(const independent_scene *scene, const double *depth, int64_t x, int64_t y);
 
 #endif

@@ -6,7 +6,7 @@
 
 #include <math.h>
 
-static const real DOME_GAIN = 300;
+static const real EYE_DOME_GAIN = 300;
 
 static real positive(real value) { return value > 0 ? value : 0; }
 
@@ -41,7 +41,7 @@ real3 independent_shade(const independent_scene *scene, const independent_surfac
                    at->color.z * diffuse_light.z + highlight.z};
 }
 
-real independent_dome(const independent_scene *scene, const double *depth, int64_t x, int64_t y) {
+real independent_eye_dome(const independent_scene *scene, const double *depth, int64_t x, int64_t y) {
     const int64_t width = scene->camera.width_px, height = scene->camera.height_px;
     const bool flat = scene->camera.projection == EWA_ORTHOGRAPHIC;
     const real here = (real)depth[y * width + x];
@@ -68,5 +68,5 @@ real independent_dome(const independent_scene *scene, const double *depth, int64
         }
         if (whole) sum += positive(pair - key) / unit;
     }
-    return expl(-DOME_GAIN * (real)scene->options.eye_dome * sum / 12);
+    return expl(-EYE_DOME_GAIN * (real)scene->options.eye_dome * sum / 12);
 }

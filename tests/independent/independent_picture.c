@@ -99,7 +99,7 @@ static void add(const drawing *d, pixel *at, const independent_fragment *fragmen
     const independent_surfel *surfel = &d->scene->surfels[fragment->splat];
     const ewa_render_options *options = &d->scene->options;
     const real w = d->one_pass ? 1 : fragment->weight, o = d->transparent ? (real)surfel->alpha : 1;
-    sums *to = &at->sides[d->splats[fragment->splat].turned];
+    sums *to = &at->sides[d->splats[fragment->splat].back_facing];
     to->weight += w, to->opacity += w * o, to->z += w * fragment->z;
     to->color = real3_add(to->color, real3_times(real3_of(surfel->color), w * o));
     to->normal = real3_add(to->normal, real3_times(d->splats[fragment->splat].normal_world, w));
@@ -129,7 +129,7 @@ static real within(real value, real low, real high) {
 /// What of a surface is seen, and how much of the pixel it covers; `all` stands for several.
 static void settle(const drawing *d, pixel *at, bool all) {
     const sums *faces = &at->sides[0], *backs = &at->sides[1];
-    const real q0 = (real)d->scene->unit_coverage, least = (real)d->scene->options.edge_threshold * q0;
+    const real q0 = (real)d->scene->unit_coverage, minimum = (real)d->scene->options.edge_threshold * q0;
     const real hidden = all ? 0 : within(faces->weight / (FRONT * q0), 0, 1);
     const real q = faces->weight + backs->weight, seen = faces->weight + (1 - hidden) * backs->weight;
     at->sum = (sums){0};
@@ -137,14 +137,14 @@ static void settle(const drawing *d, pixel *at, bool all) {
     mix(&at->sum, faces, q / seen);
     mix(&at->sum, backs, (1 - hidden) * q / seen);
     cut *c = &at->cut;
-    c->alpha = c->plain = within(q / least, 0, 1);
+    c->alpha = c->plain = within(q / minimum, 0, 1);
     c->mean[0] = c->mean[1] = 0;
     if (all || !(c->whole > 0)) return;
     const real rest = q - c->kept > 0 ? q - c->kept : 0;
     const real along = hypotl(c->toward[0], c->toward[1]) / c->whole;
     const real alone = within((along - EDGES_OPPOSE) / (EDGES_AGREE - EDGES_OPPOSE), 0, 1);
-    const real most = rest + alone * c->whole > least ? rest + alone * c->whole : least;
-    c->alpha = within(rest / least > q / most ? rest / least : q / most, 0, 1);
+    const real maximum = rest + alone * c->whole > minimum ? rest + alone * c->whole : minimum;
+    c->alpha = within(rest / minimum > q / maximum ? rest / minimum : q / maximum, 0, 1);
     for (int i = 0; i < 2; i++) c->mean[i] = c->toward[i] / (rest + c->whole);
 }
 
@@ -207,8 +207,8 @@ static void make_surface(const drawing *d, pixel *at, int64_t x, int64_t y) {
     const real3 away = {real3_dot(columns[0], ray), real3_dot(columns[1], ray), real3_dot(columns[2], ray)};
     at->surface.eye = real3_times(real3_unit(away), -1);
     if (at->sum.opacity > 0) at->surface.color = real3_times(at->sum.color, 1 / at->sum.opacity);
-    const real length = real3_length(at->sum.normal), least = SHADED_NORMAL * at->sum.weight;
-    at->surface.normal = real3_times(at->sum.normal, 1 / (length > least ? length : least));
+    const real length = real3_length(at->sum.normal), minimum = SHADED_NORMAL * at->sum.weight;
+    at->surface.normal = real3_times(at->sum.normal, 1 / (length > minimum ? length : minimum));
     for (int i = 0; i < 5; i++) at->surface.material[i] = at->sum.material[i] / at->sum.weight;
 }
 
@@ -276,7 +276,8 @@ static void finish(const drawing *d, const independent_picture *picture, int64_t
     const size_t i = (size_t)(y * d->width + x);
     const pixel *at = &d->pixels[i];
     real3 front = at->front;
-    if (options->eye_dome > 0) front = real3_times(front, independent_dome(d->scene, picture->depth, x, y));
+    if (options->eye_dome > 0)
+        front = real3_times(front, independent_eye_dome(d->scene, picture->depth, x, y));
     const real behind = (real)options->background[3] * at->through, a = 1 - at->through + behind;
     const real rgb[3] = {front.x + (real)options->background[0] * behind,
                          front.y + (real)options->background[1] * behind,

@@ -12,8 +12,8 @@ static const real EDGE_ON = 1e-5L;
 static const real GRAZING = 16;
 static const real FREE_RADII = 2, FREE_DEPTH = 0.25L;
 static const real FLAT = 1e-14L;
-static const real LEAST_KEY = 1 / 16.0L;
-static const real LEAST_AREA = 1e-15L;
+static const real MIN_KEY = 1 / 16.0L;
+static const real MIN_AREA = 1e-15L;
 // What single precision and the packets' numbers may leave undecided: relative errors of sizes, the angle in
 // radians by which normals are off, and relative errors of depths.
 static const real SIZE_ERROR = 1e-4L, ANGLE_ERROR = 5e-5L, DEPTH_ERROR = 1e-5L, AXIS_ERROR = 1e-5L;
@@ -125,7 +125,7 @@ static bool make_ellipse(independent_splat *s, real longest) {
     const real plain = s->determinant + h2 * (V[0] + V[2]) + h2 * h2;
     if (!(plain > FLAT * (V[0] + h2) * (V[2] + h2))) return false;
     if (s->kernel == EWA_KERNEL_SOURCE &&
-        !(s->determinant >= FLAT * V[0] * V[2] && sqrtl(s->determinant) >= LEAST_AREA))
+        !(s->determinant >= FLAT * V[0] * V[2] && sqrtl(s->determinant) >= MIN_AREA))
         return false;
     if (raycast && fabsl(real3_dot(s->n, s->p)) < EDGE_ON * real3_length(s->p)) return false;
     real Vf[3], d;
@@ -135,7 +135,7 @@ static bool make_ellipse(independent_splat *s, real longest) {
         const real g = hypotl(s->key[0], s->key[1]) * z2;
         const real m = smaller(s->cutoff * sqrtl(Vf[0]) * g, GRAZING * s->cutoff * longest) / z2;
         s->key_low -= m, s->key_high += m;
-        if (!s->orthographic) s->key_low = larger(s->key_low, LEAST_KEY / s->p.z);
+        if (!s->orthographic) s->key_low = larger(s->key_low, MIN_KEY / s->p.z);
     }
     for (int i = 0; i < 2; i++) {
         const real reach = s->cutoff * sqrtl(Vf[2 * i]) + 0.01L;
@@ -150,8 +150,8 @@ static bool make_ellipse(independent_splat *s, real longest) {
 static void make_depth(independent_splat *s, real longest, real tolerance) {
     const real3 p = s->p, n = s->n;
     const bool flat = s->orthographic;
-    const real facing = flat ? n.z : real3_dot(n, p), least = EDGE_ON * (flat ? 1 : real3_length(p));
-    const real raised = fabsl(facing) < least ? (facing < 0 ? -least : least) : facing;
+    const real facing = flat ? n.z : real3_dot(n, p), minimum = EDGE_ON * (flat ? 1 : real3_length(p));
+    const real raised = fabsl(facing) < minimum ? (facing < 0 ? -minimum : minimum) : facing;
     // 1/z = 1/pz + n.(d - p/pz) / n.p with d = ((x - cx)/fx, (y - cy)/fy, 1); -z = -pz + ...: gathered by x
     // and y.
     const real unit = flat ? 1 : 1 / p.z;
@@ -270,8 +270,8 @@ void independent_project(const independent_scene *scene, const independent_surfe
                                                                  SIZE_ERROR * s->half_range);
     s->cutoff_band = SIZE_ERROR + 2 * ANGLE_ERROR / sine + 2 * AXIS_ERROR * aspect_of(s->u, s->v);
     s->depth_band = DEPTH_ERROR * fabsl(s->p.z) + ANGLE_ERROR / sine * s->cutoff * longest;
-    s->turned = facing > 0;
-    if (s->turned) s->n = real3_times(s->n, -1), s->normal_world = real3_times(n, -1);
+    s->back_facing = facing > 0;
+    if (s->back_facing) s->n = real3_times(s->n, -1), s->normal_world = real3_times(n, -1);
     s->near = !s->orthographic && s->p.z <= NEAR_RATIO * s->half_range;
     if (s->near && fabsl(facing) < EDGE_ON * real3_length(s->p)) return;
     s->clip_count = surfel->clip_count, s->clip_either = surfel->clip_either;
@@ -315,9 +315,9 @@ static bool evaluate_ray(const independent_splat *s, real x, real y, real *r2, i
     const real gram = uu * vv - uv * uv;
     const dual a = dual_plus(dual_plus(zero, along_u, vv / gram), along_v, -uv / gram);
     const dual b = dual_plus(dual_plus(zero, along_v, uu / gram), along_u, -uv / gram);
-    const real distance2 = a.value * a.value + b.value * b.value, most = 4 * s->cutoff * s->cutoff;
-    out->doubtful = fabsl(distance2 - most) < s->cutoff_band * most;
-    if (!(distance2 < most)) return false;
+    const real distance2 = a.value * a.value + b.value * b.value, maximum = 4 * s->cutoff * s->cutoff;
+    out->doubtful = fabsl(distance2 - maximum) < s->cutoff_band * maximum;
+    if (!(distance2 < maximum)) return false;
     const real h2 = s->prefilter * s->prefilter;
     const real W11 = 1 + h2 * (a.dx * a.dx + a.dy * a.dy), W22 = 1 + h2 * (b.dx * b.dx + b.dy * b.dy);
     const real W12 = h2 * (a.dx * b.dx + a.dy * b.dy), W = W11 * W22 - W12 * W12;

@@ -1,15 +1,15 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Draws many random scenes by the road, the reference and the independent renderer and says how far they are
-// apart.
+// Draws many random scenes by the pipeline, the reference and the independent renderer and says how far they
+// are apart.
 //
 //   measure_random_scenes [FIRST COUNT [below DB | keep PREFIX]]    default: 0 1000
 //   measure_random_scenes named [PREFIX]                            the scenes with names; PREFIX keeps
 //   pictures
 //
-// Ends with quantiles over all scenes and lists those whose road is below DB (default 50) or whose reference
-// is below 80, with what is special about them.
+// Ends with quantiles over all scenes and lists those whose pipeline is below DB (default 50) or whose
+// reference is below 80, with what is special about them.
 #include "tests/independent/random_scene.h"
 
 #include <math.h>
@@ -30,13 +30,14 @@ static void print_quantiles(const char *name, double *values, uint64_t count) {
 
 /// Prints a line about a scene.
 static void print_scene(const char *name, const random_scene_result *result, const char *words) {
-    const random_scene_distance *road = &result->road, *reference = &result->reference;
-    printf("%s: road %.1f, %.1f but for %llu (depth %.1f normal %.1f coverage %.1f) worst %.2g at %u,%u; "
+    const random_scene_distance *pipeline = &result->pipeline, *reference = &result->reference;
+    printf("%s: pipeline %.1f, %.1f but for %llu (depth %.1f normal %.1f coverage %.1f) worst %.2g at %u,%u; "
            "reference %.1f "
            "(%.1f %.1f %.1f): %s\n",
-           name, road->color_db, road->decided_db, (unsigned long long)road->doubtful_count, road->depth_db,
-           road->normal_db, road->coverage_db, road->worst, road->worst_px[0], road->worst_px[1],
-           reference->color_db, reference->depth_db, reference->normal_db, reference->coverage_db, words);
+           name, pipeline->color_db, pipeline->decided_db, (unsigned long long)pipeline->doubtful_count,
+           pipeline->depth_db, pipeline->normal_db, pipeline->coverage_db, pipeline->worst,
+           pipeline->worst_px[0], pipeline->worst_px[1], reference->color_db, reference->depth_db,
+           reference->normal_db, reference->coverage_db, words);
     fflush(stdout);
 }
 
@@ -59,9 +60,9 @@ static int measure_named(ewa_context *context, const char *keep) {
 
 static int measure_random(ewa_context *context, uint64_t first, uint64_t count, double limit,
                           const char *keep) {
-    static const char *const names[8] = {"road color",       "road depth",        "road normal",
-                                         "road coverage",    "reference color",   "reference depth",
-                                         "reference normal", "reference coverage"};
+    static const char *const names[8] = {"pipeline color",    "pipeline depth",    "pipeline normal",
+                                         "pipeline coverage", "reference color",   "reference depth",
+                                         "reference normal",  "reference coverage"};
     double *values = calloc(8 * count, sizeof *values);
     if (!values) return 1;
     uint64_t listed = 0, failed = 0, codes = 0;
@@ -77,7 +78,7 @@ static int measure_random(ewa_context *context, uint64_t first, uint64_t count, 
             random_scene_free(&made);
             continue;
         }
-        const random_scene_distance *of[2] = {&result.road, &result.reference};
+        const random_scene_distance *of[2] = {&result.pipeline, &result.reference};
         for (uint64_t k = 0; k < 2; k++) {
             values[(4 * k + 0) * count + i] = of[k]->color_db;
             values[(4 * k + 1) * count + i] = of[k]->depth_db;
@@ -85,7 +86,7 @@ static int measure_random(ewa_context *context, uint64_t first, uint64_t count, 
             values[(4 * k + 3) * count + i] = of[k]->coverage_db;
         }
         codes += result.reference.codes_over;
-        if (result.road.color_db < limit || result.reference.color_db < 80 || keep) {
+        if (result.pipeline.color_db < limit || result.reference.color_db < 80 || keep) {
             print_scene(name, &result, made.words);
             listed++;
         }

@@ -29,10 +29,10 @@ static double clamped(double value) { return value < 0 ? 0 : value > 1 ? 1 : val
 /// The planes of the nearest surface at a pixel.
 static void compare_surface(const independent_picture *truth, const ewa_frame *frame, size_t i,
                             double deepest, tally *depth, tally *normal) {
-    const double LEAST_COVERAGE = 0.01;
+    const double MIN_COVERAGE = 0.01;
     const bool in_truth = truth->coverage[i] > 0, in_frame = frame->coverage[i] > 0;
     if (!in_truth && !in_frame) return;
-    if (truth->coverage[i] < LEAST_COVERAGE || (double)frame->coverage[i] < LEAST_COVERAGE) return;
+    if (truth->coverage[i] < MIN_COVERAGE || (double)frame->coverage[i] < MIN_COVERAGE) return;
     count_number(depth, fmin(fabs((double)frame->depth[i] - truth->depth[i]) / deepest, 1));
     for (size_t c = 3 * i; c < 3 * i + 3; c++)
         count_number(normal, (double)frame->normal[c] - truth->normal[c]);
@@ -112,7 +112,7 @@ static void keep_pictures(ewa_context *context, const char *keep, const ewa_came
     if (!rgba) abort();
     for (size_t i = 0; i < count; i++) rgba[i] = (float)truth->rgba[i];
     keep_picture(keep, "truth", camera, rgba, context);
-    keep_picture(keep, "road", camera, frames[0].rgba, context);
+    keep_picture(keep, "pipeline", camera, frames[0].rgba, context);
     keep_picture(keep, "reference", camera, frames[1].rgba, context);
     for (size_t i = 0; i < count; i++)
         rgba[i] = i % 4 == 3 ? 1 : (float)fmin(1, 10 * fabs((double)frames[0].rgba[i] - truth->rgba[i]));
@@ -140,7 +140,7 @@ bool random_scene_run(ewa_context *context, random_scene *made, const char *keep
     }
     if (status == EWA_OK) {
         independent_picture truth = independent_render(&made->scene);
-        result->road = random_scene_compare(&truth, &frames[0]);
+        result->pipeline = random_scene_compare(&truth, &frames[0]);
         result->reference = random_scene_compare(&truth, &frames[1]);
         if (keep) keep_pictures(context, keep, &made->scene.camera, &truth, frames);
         independent_free(&truth);

@@ -54,12 +54,12 @@ typedef struct random_scene_distance {
 
 random_scene_distance random_scene_compare(const independent_picture *truth, const ewa_frame *frame);
 
-/// Pictures of a scene by the road and by the reference, each held to the independent one.
+/// Pictures of a scene by the pipeline and by the reference, each held to the independent one.
 typedef struct random_scene_result {
-    random_scene_distance road, reference;
+    random_scene_distance pipeline, reference;
 } random_scene_result;
 
-/// Draws a scene three times; with `keep` (may be NULL), files keep-truth.png, keep-road.png,
+/// Draws a scene three times; with `keep` (may be NULL), files keep-truth.png, keep-pipeline.png,
 /// keep-reference.png and keep-difference.png (ten times) are written. Returns false where a call failed.
 bool random_scene_run(ewa_context *context, random_scene *made, const char *keep,
                       random_scene_result *result);

@@ -87,7 +87,7 @@ static void shuffle_packets(ewa_surfels *s, check_random *random) {
     free(order);
 }
 
-enum { MOST_PARTS = 7, VECTOR = 16 };
+enum { MAX_PARTS = 7, VECTOR = 16 };
 
 /// Packets [first, first + count) of surfels as a set of their own; `first` is a multiple of VECTOR.
 static ewa_surfels part_of(const ewa_surfels *s, uint32_t first, uint32_t count) {
@@ -108,7 +108,7 @@ static ewa_surfels part_of(const ewa_surfels *s, uint32_t first, uint32_t count)
 /// Draws the surfels in `parts` parts, added in random order.
 static void draw_parts(ewa_renderer *renderer, const ewa_surfels *s, uint32_t parts, const random_scene *made,
                        const ewa_frame *frame, check_random *random) {
-    ewa_surfels part[MOST_PARTS];
+    ewa_surfels part[MAX_PARTS];
     const uint32_t vectors = (s->packet_count + VECTOR - 1) / VECTOR;
     for (uint32_t i = 0; i < parts; i++) {
         const uint32_t first = vectors * i / parts * VECTOR, end = vectors * (i + 1) / parts * VECTOR;
@@ -167,7 +167,7 @@ static void hold_scene(ewa_context *context, uint64_t seed, random_scene *made) 
         snprintf(what, sizeof what, "tiles of %u pixels%s", tiles_px[i], i >= 2 ? ", shuffled packets" : "");
         hold_same(&first, &other, what, seed, made->words);
     }
-    for (uint32_t parts = 1; parts <= MOST_PARTS; parts++) {
+    for (uint32_t parts = 1; parts <= MAX_PARTS; parts++) {
         char what[64];
         ewa_renderer_set_tile(renderer, tiles_px[parts % 4]);
         draw_parts(renderer, surfels, parts, made, &other.frame, &random);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Three renderers, one picture: the reference as exactly as doubles allow, the road to a limit, with
+// Three renderers, one picture: the reference as exactly as doubles allow, the pipeline to a limit, with
 // exceptions that are listed with their reasons. measure_random_scenes draws more scenes.
 #include "tests/check.h"
 #include "tests/independent/exceptions.h"
@@ -11,7 +11,7 @@
 /// As many of the 1,000 scenes that measure_random_scenes draws.
 enum { SCENES = EWA_RANDOM_SCENES };
 
-static const double REFERENCE_DB = 120, ROAD_DB = 45, ROAD_PLANE_DB = 30, TYPICAL_DB = 80;
+static const double REFERENCE_DB = 120, PIPELINE_DB = 45, PIPELINE_PLANE_DB = 30, TYPICAL_DB = 80;
 
 static int compare_doubles(const void *a, const void *b) {
     const double x = *(const double *)a, y = *(const double *)b;
@@ -25,44 +25,45 @@ static const scene_exception *find_exception(const char *set, uint64_t number) {
     return NULL;
 }
 
-/// Draws a scene and holds it to its limits; returns the road's colours in decibels.
+/// Draws a scene and holds it to its limits; returns the pipeline's colours in decibels.
 static double hold(ewa_context *context, const char *set, uint64_t number, random_scene *made) {
     random_scene_result result;
     assert_true(random_scene_run(context, made, NULL, &result));
-    const random_scene_distance *road = &result.road, *reference = &result.reference;
+    const random_scene_distance *pipeline = &result.pipeline, *reference = &result.reference;
     const scene_exception *exception = find_exception(set, number);
     bool good = reference->color_db >= REFERENCE_DB && reference->depth_db >= REFERENCE_DB &&
                 reference->normal_db >= REFERENCE_DB && reference->coverage_db >= REFERENCE_DB &&
                 reference->codes_over == 0;
     if (!exception)
-        good = good && road->color_db >= ROAD_DB && road->depth_db >= ROAD_PLANE_DB &&
-               road->normal_db >= ROAD_PLANE_DB && road->coverage_db >= ROAD_PLANE_DB;
+        good = good && pipeline->color_db >= PIPELINE_DB && pipeline->depth_db >= PIPELINE_PLANE_DB &&
+               pipeline->normal_db >= PIPELINE_PLANE_DB && pipeline->coverage_db >= PIPELINE_PLANE_DB;
     else if (exception->reason == SCENE_DECISIONS)
-        good = good && road->decided_db >= ROAD_DB;
+        good = good && pipeline->decided_db >= PIPELINE_DB;
     if (!good)
-        fail_msg("%s scene %llu: road %.1f dB, %.1f where decided, depth %.1f, normal %.1f, coverage %.1f; "
-                 "reference %.1f, depth %.1f, normal %.1f, coverage "
-                 "%.1f, %llu codes: %s",
-                 set, (unsigned long long)number, road->color_db, road->decided_db, road->depth_db,
-                 road->normal_db, road->coverage_db, reference->color_db, reference->depth_db,
-                 reference->normal_db, reference->coverage_db, (unsigned long long)reference->codes_over,
-                 made->words);
-    return road->color_db;
+        fail_msg(
+            "%s scene %llu: pipeline %.1f dB, %.1f where decided, depth %.1f, normal %.1f, coverage %.1f; "
+            "reference %.1f, depth %.1f, normal %.1f, coverage "
+            "%.1f, %llu codes: %s",
+            set, (unsigned long long)number, pipeline->color_db, pipeline->decided_db, pipeline->depth_db,
+            pipeline->normal_db, pipeline->coverage_db, reference->color_db, reference->depth_db,
+            reference->normal_db, reference->coverage_db, (unsigned long long)reference->codes_over,
+            made->words);
+    return pipeline->color_db;
 }
 
 static void test_random(void **state) {
     (void)state;
     ewa_context *context = check_context(0, NULL);
-    double road[SCENES];
+    double pipeline[SCENES];
     for (uint64_t i = 0; i < SCENES; i++) {
         random_scene made;
         random_scene_make(context, i, &made);
-        road[i] = hold(context, "random", i, &made);
+        pipeline[i] = hold(context, "random", i, &made);
         random_scene_free(&made);
     }
-    qsort(road, SCENES, sizeof *road, compare_doubles);
-    print_message("road: least %.1f, median %.1f dB\n", road[0], road[SCENES / 2]);
-    assert_true(road[SCENES / 2] >= TYPICAL_DB);
+    qsort(pipeline, SCENES, sizeof *pipeline, compare_doubles);
+    print_message("pipeline: least %.1f, median %.1f dB\n", pipeline[0], pipeline[SCENES / 2]);
+    assert_true(pipeline[SCENES / 2] >= TYPICAL_DB);
     ewa_context_destroy(&context);
 }
 

@@ -61,7 +61,7 @@ static inline void cloud_expect_world(const ewa_cloud *cloud, uint64_t point, co
 static inline void cloud_check_pieces(const cloud_bytes *file, const char *name, const ewa_cloud *whole) {
     static const struct {
         uint32_t threads;
-        uint64_t most;
+        uint64_t maximum;
     } ways[] = {{1, 777}, {4, 5003}, {2, 1 << 20}};
     char path[512];
     scratch_write(scratch_path(name, path), file->bytes, file->size);
@@ -71,9 +71,9 @@ static inline void cloud_check_pieces(const cloud_bytes *file, const char *name,
         ewa_cloud *piece = NULL;
         uint64_t first = 0;
         assert_int_equal(ewa_cloud_reader_open(context, path, NULL, &reader), EWA_OK);
-        while (ewa_cloud_reader_next(reader, ways[w].most, &piece) == EWA_OK && piece) {
+        while (ewa_cloud_reader_next(reader, ways[w].maximum, &piece) == EWA_OK && piece) {
             const uint64_t count = ewa_cloud_point_count(piece);
-            assert_true(count <= ways[w].most && first + count <= ewa_cloud_point_count(whole));
+            assert_true(count <= ways[w].maximum && first + count <= ewa_cloud_point_count(whole));
             assert_int_equal(ewa_cloud_attribute_count(piece), ewa_cloud_attribute_count(whole));
             for (uint32_t i = 0; i < ewa_cloud_attribute_count(whole); i++) {
                 const ewa_attribute *a = ewa_cloud_attribute_at(whole, i);

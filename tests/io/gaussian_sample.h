@@ -150,11 +150,11 @@ static inline void sample_packed_ply(sample_file *file, bool colors, bool rest) 
     for (uint32_t i = 0; i < SAMPLE_COUNT; i++) {
         uint32_t center = 0, scale = 0, color = 0;
         for (uint32_t k = 0; k < 3; k++) {
-            const double most = (double)((1u << bits[k]) - 1);
-            center =
-                center << bits[k] |
-                (uint32_t)floor(most * (sample_center(i, k) - bounds[k]) / (bounds[3 + k] - bounds[k]) + 0.5);
-            scale = scale << bits[k] | (uint32_t)floor(most * (log(sample_scale(i, k)) + 4) / 4 + 0.5);
+            const double maximum = (double)((1u << bits[k]) - 1);
+            center = center << bits[k] |
+                     (uint32_t)floor(
+                         maximum * (sample_center(i, k) - bounds[k]) / (bounds[3 + k] - bounds[k]) + 0.5);
+            scale = scale << bits[k] | (uint32_t)floor(maximum * (log(sample_scale(i, k)) + 4) / 4 + 0.5);
             const double shown = 0.5 + 0.28209479177387814 * sample_first(i);
             color = color << 8 | sample_byte(255 * (colors ? (shown + 1) / 3 : shown));
         }

@@ -28,7 +28,7 @@ static int end(void **state) {
 
 // ---- a writer --------------------------------------------------------------------------------------------
 
-enum { PAGE = 1024, PAYLOAD = PAGE - 4, MOST_FIELDS = 12, PACKET_RECORDS = 500 };
+enum { PAGE = 1024, PAYLOAD = PAGE - 4, MAX_FIELDS = 12, PACKET_RECORDS = 500 };
 
 /// Bits as they follow each other, the lowest first.
 typedef struct bits {
@@ -68,12 +68,12 @@ static void put_le(cloud_bytes *to, uint64_t value, int size) {
 
 /// Bits are not cut where records end: packets hold whole bytes of every field.
 static void put_packets(cloud_bytes *to, const made_scan *scan) {
-    bits streams[MOST_FIELDS] = {{{0}, 0}};
-    size_t taken[MOST_FIELDS] = {0};
+    bits streams[MAX_FIELDS] = {{{0}, 0}};
+    size_t taken[MAX_FIELDS] = {0};
     for (uint32_t first = 0; first < scan->record_count; first += PACKET_RECORDS) {
         const uint32_t last =
             first + PACKET_RECORDS < scan->record_count ? first + PACKET_RECORDS : scan->record_count;
-        size_t sizes[MOST_FIELDS], size = 6 + 2 * scan->field_count;
+        size_t sizes[MAX_FIELDS], size = 6 + 2 * scan->field_count;
         for (uint32_t f = 0; f < scan->field_count; f++) {
             for (uint32_t r = first; r < last; r++)
                 put_bits(&streams[f], scan->fields[f].raw(r), scan->fields[f].bit_count);
@@ -440,7 +440,7 @@ static void test_damaged_pages_are_stepped_over(void **state) {
     // Far behind what is held at once.
     const made_scan many = {float_fields, 3, 70000, ""};
     file = make(&many, 1, "");
-    uint64_t least_count = UINT64_MAX;
+    uint64_t min_count = UINT64_MAX;
     for (size_t page = 18; page < 25; page++) { // one of them has the head of no packet
         file.bytes[file.size - page * PAGE] ^= 1;
         cloud = cloud_keep_going(context, &file, "keep.e57", &lost_count);
@@ -448,10 +448,10 @@ static void test_damaged_pages_are_stepped_over(void **state) {
         assert_non_null(cloud);
         assert_in_range(lost_count, 490, 4000);
         assert_true(ewa_cloud_point_count(cloud) > 70000 / 7 * 6 - lost_count);
-        least_count = lost_count < least_count ? lost_count : least_count;
+        min_count = lost_count < min_count ? lost_count : min_count;
         ewa_cloud_destroy(&cloud);
     }
-    assert_in_range(least_count, 490, 510);
+    assert_in_range(min_count, 490, 510);
     free(file.bytes);
     // Where the points begin: the scan is lost, the next one is read.
     const made_scan scans[2] = {float_scan, spherical_scan};

@@ -37,7 +37,7 @@ static double shown(float coefficient, bool clamped) {
 }
 
 static differences compare(const ewa_gaussians *a, const ewa_gaussians *b, const uint32_t *of, bool clamped) {
-    differences most = {0};
+    differences maximum = {0};
     for (uint32_t i = 0; i < a->count; i++) {
         const uint32_t j = of ? of[i] : i;
         double cosine = 0;
@@ -45,18 +45,18 @@ static differences compare(const ewa_gaussians *a, const ewa_gaussians *b, const
             cosine += (double)a->rotations[4 * i + k] * (double)b->rotations[4 * j + k];
         for (uint32_t k = 0; k < 3; k++) {
             // What is smaller is as good as nothing, and SPZ has no number for it.
-            most.scale = fmax(most.scale, fabs(fmax(log((double)a->scales[3 * i + k]), -10) -
-                                               fmax(log((double)b->scales[3 * j + k]), -10)));
-            most.color = fmax(most.color, fabs(shown(a->harmonics[3 * i + k], clamped) -
-                                               shown(b->harmonics[3 * j + k], clamped)));
+            maximum.scale = fmax(maximum.scale, fabs(fmax(log((double)a->scales[3 * i + k]), -10) -
+                                                     fmax(log((double)b->scales[3 * j + k]), -10)));
+            maximum.color = fmax(maximum.color, fabs(shown(a->harmonics[3 * i + k], clamped) -
+                                                     shown(b->harmonics[3 * j + k], clamped)));
         }
-        most.center = fmax(most.center, sqrt(distance2(a->centers + 3 * i, b->centers + 3 * j)));
-        most.turn = fmax(most.turn, 1 - fabs(cosine));
-        most.opacity = fmax(most.opacity, fabs((double)a->opacities[i] - (double)b->opacities[j]));
+        maximum.center = fmax(maximum.center, sqrt(distance2(a->centers + 3 * i, b->centers + 3 * j)));
+        maximum.turn = fmax(maximum.turn, 1 - fabs(cosine));
+        maximum.opacity = fmax(maximum.opacity, fabs((double)a->opacities[i] - (double)b->opacities[j]));
     }
-    print_message("most: centre %.3g, log scale %.3g, turn %.3g, opacity %.3g, colour %.3g\n", most.center,
-                  most.scale, most.turn, most.opacity, most.color);
-    return most;
+    print_message("most: centre %.3g, log scale %.3g, turn %.3g, opacity %.3g, colour %.3g\n", maximum.center,
+                  maximum.scale, maximum.turn, maximum.opacity, maximum.color);
+    return maximum;
 }
 
 static void guitar(void **state) {
@@ -101,8 +101,8 @@ static void guitar(void **state) {
         // The two longest of three axes, longest first.
         for (uint32_t i = 0; i < flat.set.count; i++) {
             const float *three = splat.set.scales + 3 * (size_t)i, *two = flat.set.scales + 3 * (size_t)i;
-            const double most = fmax(fmax((double)three[0], (double)three[1]), (double)three[2]);
-            assert_true(fabs((double)two[0] / most - 1) < 1e-4 && two[1] <= two[0] && two[2] == 0);
+            const double maximum = fmax(fmax((double)three[0], (double)three[1]), (double)three[2]);
+            assert_true(fabs((double)two[0] / maximum - 1) < 1e-4 && two[1] <= two[0] && two[2] == 0);
         }
         ewa_cloud *cloud = NULL;
         assert_int_equal(ewa_gaussians_to_cloud(&flat.set, &cloud), EWA_OK);

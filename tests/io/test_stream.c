@@ -119,13 +119,13 @@ static void test_pieces(void **state) {
 
 /// What is held at most.
 typedef struct held_memory {
-    size_t held_bytes, most_bytes;
+    size_t held_bytes, max_bytes;
 } held_memory;
 
 static void *hold(void *user, size_t size_bytes) {
     held_memory *memory = user;
     memory->held_bytes += size_bytes;
-    if (memory->held_bytes > memory->most_bytes) memory->most_bytes = memory->held_bytes;
+    if (memory->held_bytes > memory->max_bytes) memory->max_bytes = memory->held_bytes;
     return aligned_alloc(64, (size_bytes + 63) / 64 * 64);
 }
 
@@ -137,7 +137,7 @@ static void let_go(void *user, void *block, size_t size_bytes) {
 /// A file that is passed through needs memory for a piece, not for its points.
 static void test_memory(void **state) {
     (void)state;
-    enum { MANY = 400000, PIECE = 4096, MOST_BYTES = 3 << 20 };
+    enum { MANY = 400000, PIECE = 4096, MAX_BYTES = 3 << 20 };
     ewa_cloud *cloud = NULL;
     float *position = NULL;
     assert_int_equal(ewa_cloud_create(context, MANY, &cloud), EWA_OK);
@@ -179,8 +179,8 @@ static void test_memory(void **state) {
             ewa_cloud_reader_close(&reader);
             ewa_context_destroy(&own);
             assert_int_equal(memory.held_bytes, 0);
-            if (memory.most_bytes > MOST_BYTES)
-                fail_msg("%s to %s: %zu bytes", suffixes[from], suffixes[to], memory.most_bytes);
+            if (memory.max_bytes > MAX_BYTES)
+                fail_msg("%s to %s: %zu bytes", suffixes[from], suffixes[to], memory.max_bytes);
         }
     ewa_cloud_destroy(&cloud);
 }

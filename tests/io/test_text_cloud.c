@@ -336,8 +336,8 @@ static void test_truncation(void **state) {
     }
 }
 
-/// Any number of threads and any pieces give the same bytes, and the plain road those of the careful one.
-static void test_roads(void **state) {
+/// Any number of threads and any pieces give the same bytes, and the plain path those of the careful one.
+static void test_paths(void **state) {
     (void)state;
     enum { ROWS = 30000, BYTES = 90 };
     check_random random = {3};
@@ -352,7 +352,7 @@ static void test_roads(void **state) {
         const int digits = i % 10 == 0 ? 9 : i % 7;
         length += (size_t)snprintf(plain + length, BYTES, "%.*f %.3f %.2f %.4f %d 0 255\n", digits, v[0],
                                    v[1], v[2], v[3], color);
-        // Tabs, blanks and quotes in places where the plain road does not go.
+        // Tabs, blanks and quotes in places where the plain path does not go.
         odd_length +=
             (size_t)snprintf(odd + odd_length, BYTES, " \"%.*f\"\t%.3f  %.2f\t %.4f \"%d\" 0 255 \n", digits,
                              v[0], v[1], v[2], v[3], color);
@@ -382,13 +382,13 @@ static void test_roads(void **state) {
     assert_int_equal(fwrite(odd, 1, odd_length, file), odd_length);
     fclose(file);
     careful = rows_load(odd);
-    for (uint64_t most = 700; most < 30000; most = 3 * most + 1) {
+    for (uint64_t maximum = 700; maximum < 30000; maximum = 3 * maximum + 1) {
         ewa_cloud_reader *reader = NULL;
         assert_int_equal(ewa_cloud_reader_open(context, path, NULL, &reader), EWA_OK);
         uint64_t count = 0;
         for (;;) {
             ewa_cloud *piece = NULL;
-            assert_int_equal(ewa_cloud_reader_next(reader, most, &piece), EWA_OK);
+            assert_int_equal(ewa_cloud_reader_next(reader, maximum, &piece), EWA_OK);
             if (!piece) break;
             const ewa_attribute *position = ewa_cloud_find(piece, EWA_POSITION);
             assert_memory_equal(position->data,
@@ -446,7 +446,7 @@ int main(void) {
         cmocka_unit_test_setup_teardown(test_columns, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_words, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_truncation, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(test_roads, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(test_paths, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_memory, set_up, tear_down),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

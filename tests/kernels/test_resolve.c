@@ -7,7 +7,7 @@
 
 #include "base/base.h"
 #include "image/srgb.h"
-#include "surface/road.h"
+#include "surface/pipeline.h"
 
 #include <math.h>
 #include <string.h>
@@ -18,8 +18,8 @@ static const uint32_t FEATURES[] = {0, EWA_CPU_AVX2, EWA_CPU_ALL};
 enum { FEATURE_SETS = sizeof FEATURES / sizeof FEATURES[0] };
 
 /// The kernels of one of FEATURES as far as the processor has them.
-static const ewa_road_kernels *kernels_of(size_t set) {
-    return EWA_CHOOSE(FEATURES[set] & ewa_cpu_detect(), ewa_road_kernels);
+static const ewa_pipeline_kernels *kernels_of(size_t set) {
+    return EWA_CHOOSE(FEATURES[set] & ewa_cpu_detect(), ewa_pipeline_kernels);
 }
 
 static ewa_resolve plain_resolve(uint8_t *rgba8, uint32_t width_px) {

@@ -58,10 +58,10 @@ ewa_cloud *lod_load(ewa_context *context, const char *name) {
 
 ewa_status lod_build(ewa_context *context, const char *const *names, uint32_t count, const char *out,
                      const ewa_lod_build_options *options, ewa_lod_build_stats *stats) {
-    enum { MOST = 8 };
-    char paths[MOST][512], out_path[512];
-    const char *given[MOST];
-    assert_true(count <= MOST);
+    enum { MAXIMUM = 8 };
+    char paths[MAXIMUM][512], out_path[512];
+    const char *given[MAXIMUM];
+    assert_true(count <= MAXIMUM);
     for (uint32_t i = 0; i < count; i++) given[i] = scratch_path(names[i], paths[i]);
     ewa_lod_build_options plain;
     ewa_lod_build_options_init(&plain, sizeof plain);

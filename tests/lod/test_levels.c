@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// The record of surfels that stand for others: what is written is read again, and damage is found.
+// The record of surfels that represent others: what is written is read again, and damage is found.
 #include "check.h"
 #include "io/levels.h"
 
@@ -220,8 +220,8 @@ static void test_refusals(void **state) {
         {8, many, "its head"},
         {ROOT + 48, zero, "no part of one that is divided"}, // the root has no block: it is not divided
         {LEAF, two, "no part of one that is divided"},       // no parent
-        {LEAF + 4, two, "no cube"},
-        {LEAF + 4, minus, "no cube"},
+        {LEAF + 4, two, "no node"},
+        {LEAF + 4, minus, "no node"},
         {LEAF, deep, "level"},
         {LEAF, minus, "level"},
         {PART + 24, many, "too many"},

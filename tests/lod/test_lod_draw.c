@@ -133,11 +133,11 @@ static void hold_same(const shot *a, const shot *b) {
     assert_memory_equal(a->rgba8, b->rgba8, sizeof a->rgba8);
 }
 
-static void hold_like(const char *what, const shot *plain, const shot *made, double least_db) {
+static void hold_like(const char *what, const shot *plain, const shot *made, double min_db) {
     const double found = psnr_db(plain, made);
-    print_message("%s: %.1f dB, %u cubes, %llu surfels\n", what, found, made->stats.cube_count,
+    print_message("%s: %.1f dB, %u nodes, %llu surfels\n", what, found, made->stats.node_count,
                   (unsigned long long)made->stats.surfel_count);
-    assert_true(found >= least_db);
+    assert_true(found >= min_db);
 }
 
 static void test_like_plain(void **state) {
@@ -156,7 +156,7 @@ static void test_like_plain(void **state) {
         hold_like("levels", plain, merged, 38);
         assert_int_equal(points->stats.missing_count, 0);
         assert_int_equal(points->stats.band_count, 1);
-        // From far away few surfels stand for all points.
+        // From far away few surfels represent all points.
         if (i == 3) assert_true(merged->stats.surfel_count < points->stats.surfel_count / 2);
         free(plain);
         free(points);
@@ -221,7 +221,7 @@ static void test_memory(void **state) {
 /// With next to no time each picture shows more, until nothing is missing.
 static void test_load(void **state) {
     (void)state;
-    enum { MOST_CALLS = 400 };
+    enum { MAX_CALLS = 400 };
     ewa_context *context = check_context(2, NULL);
     const ewa_camera camera = camera_at(1);
     ewa_lod_options options = lod_options_of(16, 0.5, 1 << 30);
@@ -236,7 +236,7 @@ static void test_load(void **state) {
     assert_true(filled(made) > 0.1);
     const double first_db = psnr_db(whole, made);
     int calls = 1;
-    for (; made->stats.missing_count > 0 && calls < MOST_CALLS; calls++)
+    for (; made->stats.missing_count > 0 && calls < MAX_CALLS; calls++)
         assert_int_equal(try_draw(lod, context, &camera, &options, made), EWA_OK);
     print_message("%d calls, first %.1f dB\n", calls, first_db);
     assert_int_equal(made->stats.missing_count, 0);
@@ -368,7 +368,8 @@ static void test_without_levels(void **state) {
     ewa_context_destroy(&context);
 }
 
-/// Points of a cube that lie in a part of it without a node are drawn, too: other programs leave such parts out.
+/// Points of a node that lie in a part of it without a node are drawn, too: other programs leave such parts
+/// out.
 static void test_parts_without_nodes(void **state) {
     (void)state;
     enum { COUNT = 40000 };

@@ -45,9 +45,9 @@ static int leave(void **state) {
 
 static ewa_status merge(ewa_context *context, const char *const *names, uint32_t count, const char *out,
                         ewa_lod_build_stats *stats) {
-    enum { MOST = 4 };
-    char paths[MOST][512], out_path[512];
-    const char *given[MOST];
+    enum { MAXIMUM = 4 };
+    char paths[MAXIMUM][512], out_path[512];
+    const char *given[MAXIMUM];
     for (uint32_t i = 0; i < count; i++) given[i] = scratch_path(names[i], paths[i]);
     return ewa_lod_merge(context, given, count, scratch_path(out, out_path), stats);
 }

@@ -169,7 +169,7 @@ static void check_frame(ewa_camera camera, const ewa_bounds *box, const double d
         }
     }
     for (int i = 0; i < 3; i++) diagonal += pow(box->high_world[i] - box->low_world[i], 2);
-    // A very wide view is held back by the least distance to the eye, not by the sides of the picture.
+    // A very wide view is held back by the smallest distance to the eye, not by the sides of the picture.
     const bool touches = camera.projection == EWA_ORTHOGRAPHIC || nearest > 0.011 * sqrt(diagonal);
     if (has_volume && touches && !(tightest < 1e-5)) fail_msg("a margin of %g is left over", tightest);
     for (int i = 0; i < 3; i++) middle[i] = 0.5 * (box->low_world[i] + box->high_world[i]);

@@ -197,11 +197,11 @@ static void test_polygons_by_sampling(void **state) {
     (void)state;
     check_random random = {4};
     int seen[4] = {0};
-    enum { MOST = 9 };
+    enum { MAXIMUM = 9 };
     for (int i = 0; i < POLYGONS; i++) {
-        uint32_t count = 3 + (uint32_t)i % (MOST - 2), clipped_count[2];
-        ewa_vec4 points[MOST], clipped[3 * (MOST + 6)], functional[2];
-        double attributes[2 * MOST], clipped_attributes[2 * 3 * (MOST + 6)];
+        uint32_t count = 3 + (uint32_t)i % (MAXIMUM - 2), clipped_count[2];
+        ewa_vec4 points[MAXIMUM], clipped[3 * (MAXIMUM + 6)], functional[2];
+        double attributes[2 * MAXIMUM], clipped_attributes[2 * 3 * (MAXIMUM + 6)];
         random_polygon(&random, points, count, i);
         for (int a = 0; a < 2; a++) {
             functional[a] = check_random_vec4(&random);

@@ -30,10 +30,10 @@ static inline owned make_gram(uint32_t side, double sigma) {
     const int reach = 1 + (int)ceil(6 * sigma);
     check_random random = {7};
     double *at = malloc(2 * (size_t)size * sizeof *at);
-    const size_t most = (size_t)size * (size_t)((2 * reach + 1) * (2 * reach + 1));
+    const size_t maximum = (size_t)size * (size_t)((2 * reach + 1) * (2 * reach + 1));
     owned made = {.row_starts = malloc((size + 1) * sizeof(uint64_t)),
-                  .columns = malloc(most * sizeof(uint32_t)),
-                  .values = malloc(most * sizeof(double))};
+                  .columns = malloc(maximum * sizeof(uint32_t)),
+                  .values = malloc(maximum * sizeof(double))};
     assert_true(at && made.row_starts && made.columns && made.values);
     for (uint32_t i = 0; i < size; i++) {
         at[2 * i] = i % side + check_uniform(&random, -0.3, 0.3);

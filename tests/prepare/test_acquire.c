@@ -58,18 +58,18 @@ static void test_means_are_sums(void **state) {
                      yy = exp(check_uniform(&random, log(0.03), log(3)));
         const double xy = check_uniform(&random, -0.8, 0.8) * sqrt(xx * yy), determinant = xx * yy - xy * xy;
         const double x = check_uniform(&random, 7, WIDTH - 7), y = check_uniform(&random, 7, HEIGHT - 7);
-        double sums[4] = {0}, most = 0;
+        double sums[4] = {0}, maximum = 0;
         for (uint32_t p = 0; p < WIDTH * HEIGHT; p++) {
             const double dx = p % WIDTH + 0.5 - x, dy = (double)(p / WIDTH) + 0.5 - y;
             const double weight = exp(-0.5 * (yy * dx * dx - 2 * xy * dx * dy + xx * dy * dy) / determinant);
             for (int c = 0; c < 3; c++) sums[c] += weight * (double)images[0].pixels[3 * p + c];
             sums[3] += weight;
-            most = fmax(most, weight);
+            maximum = fmax(maximum, weight);
         }
         double mean[4];
         const ewa_texture_gauss gauss = {x, y, xx, xy, yy};
         ewa_texture_mean(&textures[0], 0, &gauss, mean);
-        for (int c = 0; c < 3 && most > 0.1; c++)
+        for (int c = 0; c < 3 && maximum > 0.1; c++)
             if (!(fabs(mean[c] - sums[c] / sums[3]) < 0.03))
                 fail_msg("Gaussian %g %g, %g %g %g: %g, not %g", x, y, xx, xy, yy, mean[c],
                          sums[c] / sums[3]);
@@ -442,9 +442,9 @@ static void test_wrong_use_is_named(void **state) {
     assert_int_equal(ewa_cloud_acquire(cloud, &image, 1, NULL, NULL), EWA_ERROR_ARGUMENT);
     image.channel_count = 3;
     // Far more overlap than anything is drawn with.
-    ewa_cloud *crowd = make_object(context, EWA_OBJECT_PLANE, 6000, 300);
-    assert_int_equal(ewa_cloud_acquire(crowd, &image, 1, NULL, NULL), EWA_ERROR_LIMIT);
-    ewa_cloud_destroy(&crowd);
+    ewa_cloud *batch = make_object(context, EWA_OBJECT_PLANE, 6000, 300);
+    assert_int_equal(ewa_cloud_acquire(batch, &image, 1, NULL, NULL), EWA_ERROR_LIMIT);
+    ewa_cloud_destroy(&batch);
     static const char *const needed[] = {EWA_RADIUS, EWA_TEXCOORD_T, EWA_TEXCOORD_S, EWA_TEXCOORD,
                                          EWA_POSITION};
     for (size_t i = 0; i < sizeof needed / sizeof needed[0]; i++) {

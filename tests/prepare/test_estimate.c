@@ -10,7 +10,7 @@ static const double TURN = 0.4;  // of the stretched grid
 static const double STRETCH = 3; // of its cells
 
 /// Samples a square of SIDE x SIDE with one sample per unit area, seen from above; returns the count.
-enum { SIDE = 80, MOST = SIDE * SIDE * 5 / 4 };
+enum { SIDE = 80, MAXIMUM = SIDE * SIDE * 5 / 4 };
 
 static uint32_t sample_square(sampling kind, float *xyz) {
     check_random random = {(uint64_t)kind + 1};
@@ -32,7 +32,7 @@ static uint32_t sample_square(sampling kind, float *xyz) {
                 x = check_uniform(&random, -2 * SIDE, 2 * SIDE),
                 y = check_uniform(&random, -2 * SIDE, 2 * SIDE);
             if (x < 0 || y < 0 || x >= SIDE || y >= SIDE) continue;
-            assert_true(n < MOST);
+            assert_true(n < MAXIMUM);
             xyz[3 * n] = (float)x;
             xyz[3 * n + 1] = (float)y;
             xyz[3 * n++ + 2] = 0;
@@ -47,7 +47,7 @@ static void test_spacing(void **state) {
     (void)state;
     ewa_context *context = check_context(2, NULL);
     for (int kind = 0; kind < SAMPLINGS; kind++) {
-        float xyz[3 * MOST];
+        float xyz[3 * MAXIMUM];
         const uint32_t count = sample_square((sampling)kind, xyz);
         ewa_cloud *cloud = NULL;
         assert_int_equal(ewa_cloud_create(context, count, &cloud), EWA_OK);
@@ -94,7 +94,7 @@ static void test_no_holes(void **state) {
     (void)state;
     ewa_context *context = check_context(2, NULL);
     for (int kind = 0; kind < SAMPLINGS; kind++) {
-        float xyz[3 * MOST];
+        float xyz[3 * MAXIMUM];
         const uint32_t count = sample_square((sampling)kind, xyz);
         ewa_cloud *cloud = NULL;
         assert_int_equal(ewa_cloud_create(context, count, &cloud), EWA_OK);
@@ -124,7 +124,7 @@ static void test_no_holes(void **state) {
 static void test_axes(void **state) {
     (void)state;
     ewa_context *context = check_context(2, NULL);
-    float xyz[3 * MOST];
+    float xyz[3 * MAXIMUM];
     const uint32_t count = sample_square(STRETCHED, xyz);
     ewa_cloud *cloud = NULL;
     assert_int_equal(ewa_cloud_create(context, count, &cloud), EWA_OK);
@@ -224,7 +224,7 @@ static void test_normals(void **state) {
 static void test_keep(void **state) {
     (void)state;
     ewa_context *context = check_context(2, NULL);
-    float xyz[3 * MOST];
+    float xyz[3 * MAXIMUM];
     const uint32_t count = sample_square(JITTERED, xyz);
     for (int keep = 0; keep < 2; keep++) {
         ewa_cloud *cloud = NULL;
@@ -508,7 +508,7 @@ static bool cancel_at(void *user, const char *stage, double fraction) {
 
 static void test_cancel_and_options(void **state) {
     (void)state;
-    float xyz[3 * MOST];
+    float xyz[3 * MAXIMUM];
     const uint32_t count = sample_square(JITTERED, xyz);
     static char stages[3][16] = {"outliers", "estimate", "orient"};
     for (int s = 0; s < 3; s++) {

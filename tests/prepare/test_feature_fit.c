@@ -76,10 +76,10 @@ static void test_noise(void **state) {
     (void)state;
     feature_scale scale = EXACT;
     scale.noise = 0.2;
-    const double least = COUNT * (0.04 * 0.04 + 0.6 * scale.noise * scale.noise);
-    bend(1.07 * 1.3 * least - COUNT * 0.04 * 0.04);
+    const double minimum = COUNT * (0.04 * 0.04 + 0.6 * scale.noise * scale.noise);
+    bend(1.07 * 1.3 * minimum - COUNT * 0.04 * 0.04);
     assert_int_equal(planes_of(&scale), 2);
-    bend(0.93 * 1.3 * least - COUNT * 0.04 * 0.04);
+    bend(0.93 * 1.3 * minimum - COUNT * 0.04 * 0.04);
     assert_int_equal(planes_of(&scale), 0);
 }
 

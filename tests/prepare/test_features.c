@@ -6,7 +6,7 @@
 #include "io/scratch.h"
 #include "prepare/check_prepare.h"
 
-enum { SIDE = 40, MOST = 5 * SIDE * SIDE };
+enum { SIDE = 40, MAXIMUM = 5 * SIDE * SIDE };
 
 /// Adds a jittered grid of unit spacing: corner + s a + t b for s, t in [0, SIDE); returns the new count.
 static uint32_t add_square(const double corner[3], const double a[3], const double b[3],
@@ -50,7 +50,7 @@ static ewa_feature_options default_options(void) {
 
 /// Two squares that meet along the y axis; their normals differ by `angle`, upwards (convex) or as a valley.
 static ewa_cloud *make_crease(ewa_context *context, double angle_deg, bool valley) {
-    static float xyz[3 * MOST], normals[3 * MOST];
+    static float xyz[3 * MAXIMUM], normals[3 * MAXIMUM];
     const double half = angle_deg * 3.141592653589793 / 360, c = cos(half),
                  s = valley ? sin(half) : -sin(half);
     const double origin[3] = {0, 0, 0}, y[3] = {0, 1, 0};
@@ -281,7 +281,7 @@ static uint32_t make_corner(corner_kind kind, float *xyz, float *normals) {
 }
 
 static void check_corner(corner_kind kind) {
-    static float xyz[3 * MOST], normals[3 * MOST];
+    static float xyz[3 * MAXIMUM], normals[3 * MAXIMUM];
     ewa_context *context = check_context(2, NULL);
     const uint32_t count = make_corner(kind, xyz, normals);
     ewa_cloud *cloud = make_cloud(context, count, xyz, normals);

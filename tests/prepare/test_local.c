@@ -152,16 +152,16 @@ static void measure_cell(const ewa_block *block, uint32_t lane, double frame[2][
     }
     for (int w = 0; w < WAYS; w++) {
         const double x = cos(w * PI / 8), y = sin(w * PI / 8);
-        double most = 1e-30, cosine = 0;
+        double maximum = 1e-30, cosine = 0;
         for (uint32_t i = 0; i < block->candidate_count; i++) {
             double d[3];
             offset_of(block, i, lane, d);
             const double d2 = dot(d, d), t = x * dot(d, axis[0]) + y * dot(d, axis[1]);
             if (!is_inside(block, i, lane) || d2 == 0) continue;
-            most = fmax(most, t / d2);
+            maximum = fmax(maximum, t / d2);
             cosine = fmax(cosine, t / sqrt(d2));
         }
-        extent[w] = 0.5 / most;
+        extent[w] = 0.5 / maximum;
         open[w] = extent[w] > limit;
         shut[w] = !open[w] && (!enclosed || cosine >= sqrt(0.75));
         s->close_call |= near_value(extent[w], limit) || (enclosed && near_value(cosine, sqrt(0.75)));
@@ -269,11 +269,11 @@ static void hold_shape(const local_surface *got, const plain *s, uint32_t lane) 
 }
 
 static void hold_measure(const local_kernels *kernels, const ewa_block *block, tally *t) {
-    static local_crowd crowd;
+    static local_batch batch;
     local_surface round, oval;
-    memset(&crowd, 0x7f, sizeof crowd);
-    kernels->measure(block, LOCAL_REACH, &crowd, &round);
-    kernels->measure(block, LOCAL_SHAPE, &crowd, &oval);
+    memset(&batch, 0x7f, sizeof batch);
+    kernels->measure(block, LOCAL_REACH, &batch, &round);
+    kernels->measure(block, LOCAL_SHAPE, &batch, &oval);
     double spacings[EWA_BLOCK_LANES];
     for (uint32_t lane = 0; lane < block->lane_count; lane++) {
         double frame[2][3];
@@ -302,36 +302,36 @@ static void hold_measure(const local_kernels *kernels, const ewa_block *block, t
     assert_true((double)round.median_spacing == spacings[(block->lane_count - 1) / 2]);
 }
 
-/// The block's places in a crowd, the last one first.
-static local_crowd *collect(const local_kernels *kernels, const ewa_block *block, const float *values) {
-    static local_crowd crowd;
-    memset(&crowd, 0x7f, sizeof crowd);
-    crowd.lane_count = 0;
+/// The block's places in a batch, the last one first.
+static local_batch *collect(const local_kernels *kernels, const ewa_block *block, const float *values) {
+    static local_batch batch;
+    memset(&batch, 0x7f, sizeof batch);
+    batch.lane_count = 0;
     for (uint32_t lane = block->lane_count; lane-- > 0;) {
-        assert_int_equal(kernels->collect(block, 1u << lane, values, &crowd), 0);
-        assert_int_equal(crowd.place[crowd.lane_count - 1], lane);
+        assert_int_equal(kernels->collect(block, 1u << lane, values, &batch), 0);
+        assert_int_equal(batch.place[batch.lane_count - 1], lane);
     }
-    assert_int_equal(crowd.lane_count, block->lane_count);
-    return &crowd;
+    assert_int_equal(batch.lane_count, block->lane_count);
+    return &batch;
 }
 
-/// A crowd takes what it has room for.
-static void hold_crowd(const local_kernels *kernels, const ewa_block *block, const float *values) {
-    static local_crowd crowd;
-    crowd.lane_count = 6;
-    assert_int_equal(kernels->collect(block, 0x7ff, values, &crowd), 0x400);
-    assert_int_equal(crowd.lane_count, EWA_BLOCK_LANES);
+/// A batch takes what it has room for.
+static void hold_batch(const local_kernels *kernels, const ewa_block *block, const float *values) {
+    static local_batch batch;
+    batch.lane_count = 6;
+    assert_int_equal(kernels->collect(block, 0x7ff, values, &batch), 0x400);
+    assert_int_equal(batch.lane_count, EWA_BLOCK_LANES);
     for (uint32_t lane = 6; lane < EWA_BLOCK_LANES; lane++) {
         uint32_t count = 0;
         for (uint32_t i = 0; i < PLACES; i++) {
             if (!is_inside(block, i, lane - 6)) continue;
-            const local_row *row = &crowd.row[count++];
+            const local_row *row = &batch.row[count++];
             assert_true(row->value[lane] == values[i] &&
                         row->distance2[lane] == block->distance2[i][lane - 6] &&
                         row->x[lane] == block->x[i] - block->lane_x[lane - 6]);
         }
-        assert_int_equal(crowd.count[lane], count);
-        assert_int_equal(crowd.place[lane], lane - 6);
+        assert_int_equal(batch.count[lane], count);
+        assert_int_equal(batch.place[lane], lane - 6);
     }
 }
 
@@ -348,9 +348,9 @@ static void hold_enclose(const local_kernels *kernels, const ewa_block *block, t
         limit[lane] = 0.05f + 0.03f * (float)lane;
     }
     local_surface got, oval;
-    local_crowd *crowd = collect(kernels, block, (const float[PLACES]){0});
-    kernels->enclose(crowd, LOCAL_REACH, (const float(*)[EWA_BLOCK_LANES])normal, limit, &got);
-    kernels->enclose(crowd, LOCAL_SHAPE, (const float(*)[EWA_BLOCK_LANES])normal, limit, &oval);
+    local_batch *batch = collect(kernels, block, (const float[PLACES]){0});
+    kernels->enclose(batch, LOCAL_REACH, (const float(*)[EWA_BLOCK_LANES])normal, limit, &got);
+    kernels->enclose(batch, LOCAL_SHAPE, (const float(*)[EWA_BLOCK_LANES])normal, limit, &oval);
     for (uint32_t lane = 0; lane < block->lane_count; lane++) {
         const uint32_t from = block->lane_count - 1 - lane;
         double frame[2][3];
@@ -369,7 +369,7 @@ static void hold_enclose(const local_kernels *kernels, const ewa_block *block, t
 static void hold_size(const local_kernels *kernels, check_random *random) {
     local_surface s = {.median_spacing = 0.7f};
     const local_sizing sizing = {
-        .scale = 1.2f, .cover = 1.5f, .limit = 2.4f, .ratio_steps = 16, .most_steps = 63};
+        .scale = 1.2f, .cover = 1.5f, .limit = 2.4f, .ratio_steps = 16, .max_steps = 63};
     for (uint32_t i = 0; i < EWA_BLOCK_LANES; i++) {
         s.spacing[i] = (float)check_uniform(random, 0.1, 2);
         s.reach[i] = s.spacing[i] * (float)check_uniform(random, 0, 2);
@@ -395,7 +395,7 @@ static void hold_size(const local_kernels *kernels, check_random *random) {
 static void hold_median(const local_kernels *kernels, const ewa_block *block, check_random *random) {
     float values[PLACES], around[EWA_BLOCK_LANES];
     for (int i = 0; i < PLACES; i++) values[i] = (float)exp(check_uniform(random, -3, 3));
-    hold_crowd(kernels, block, values);
+    hold_batch(kernels, block, values);
     kernels->median(collect(kernels, block, values), around);
     for (uint32_t lane = 0; lane < block->lane_count; lane++) {
         float sorted[PLACES];
@@ -411,11 +411,11 @@ static void hold_median(const local_kernels *kernels, const ewa_block *block, ch
 }
 
 static void hold_distances(const local_kernels *kernels, const ewa_block *block) {
-    static local_crowd crowd;
+    static local_batch batch;
     local_surface s;
     local_graph graph;
-    kernels->measure(block, 0, &crowd, &s);
-    kernels->link(block, &crowd, graph);
+    kernels->measure(block, 0, &batch, &s);
+    kernels->link(block, &batch, graph);
     kernels->measure_distance(block, &s);
     for (uint32_t lane = 0; lane < block->lane_count; lane++) {
         double sum = 0, sorted[PLACES];

@@ -106,10 +106,10 @@ static bool keeps(const ewa_cloud *cloud, const double *p, uint64_t i, const dou
 typedef double outline(const float *normal, const double at[3]);
 
 static double cube_outline(const float *normal, const double at[3]) {
-    double least = INFINITY;
+    double minimum = INFINITY;
     for (int c = 0; c < 3; c++)
-        if (fabsf(normal[c]) < 0.5f) least = fmin(least, 1 - fabs(at[c]));
-    return least;
+        if (fabsf(normal[c]) < 0.5f) minimum = fmin(minimum, 1 - fabs(at[c]));
+    return minimum;
 }
 
 static double angle_outline(const float *normal, const double at[3]) {

@@ -112,7 +112,7 @@ static void test_nearest_sides(void **state) {
     assert_int_equal(surface.edge_count, SIDES);
     assert_int_equal(ewa_mesh_edge_grid_make(&surface, radius, &grid), EWA_OK);
     check_random random = {11};
-    uint32_t of_count[3] = {0}, crowded = 0;
+    uint32_t of_count[3] = {0}, dense = 0;
     for (int i = 0; i < DISCS; i++) {
         const double at[2] = {check_uniform(&random, -1.1, 1.3), check_uniform(&random, -0.9, 1.1)};
         const double angle = check_uniform(&random, 0, 360) * RADIANS, turn[2] = {cos(angle), sin(angle)};
@@ -152,11 +152,11 @@ static void test_nearest_sides(void **state) {
         }
         assert_false(disc.either);
         of_count[count]++;
-        crowded += within > 2;
+        dense += within > 2;
     }
     print_message("%u discs with two lines, %u of them reach more sides; %u with one, %u with none\n",
-                  of_count[2], crowded, of_count[1], of_count[0]);
-    assert_true(of_count[2] > 1000 && crowded > 200 && of_count[1] > 20);
+                  of_count[2], dense, of_count[1], of_count[0]);
+    assert_true(of_count[2] > 1000 && dense > 200 && of_count[1] > 20);
     ewa_mesh_edge_grid_free(&grid);
     ewa_mesh_surface_free(&surface);
     ewa_mesh_free(&mesh);

@@ -144,7 +144,7 @@ static void test_threads(void **state) {
     free(first);
 }
 
-/// Points at one place with different colours, places crowded by hundreds of kernels, points that are no
+/// Points at one place with different colours, places covered by hundreds of kernels, points that are no
 /// surfels, colours that are no numbers: everything stays finite and bounded.
 static void test_bad_points(void **state) {
     (void)state;

@@ -12,7 +12,7 @@
 #define SHARP_COSINE 0.8191520442889918 // 35 degrees
 #define VAGUE_COSINE 0.9396926207859084 // 20 degrees
 
-enum { MOST_VERTICES = 1 << 16 };
+enum { MAX_VERTICES = 1 << 16 };
 
 /// A mesh of triangles.
 typedef struct mesh {
@@ -71,15 +71,15 @@ static void make_cylinder(feature_scene *scene, uint32_t count) {
 static bool read_mesh(const char *path, mesh *read) {
     FILE *file = path ? fopen(path, "r") : NULL;
     if (!file) return false;
-    *read = (mesh){.vertices = get_memory(MOST_VERTICES, sizeof *read->vertices),
-                   .triangles = get_memory(2 * MOST_VERTICES, sizeof *read->triangles)};
+    *read = (mesh){.vertices = get_memory(MAX_VERTICES, sizeof *read->vertices),
+                   .triangles = get_memory(2 * MAX_VERTICES, sizeof *read->triangles)};
     char line[256];
     while (fgets(line, sizeof line, file)) {
-        if (line[0] == 'v' && line[1] == ' ' && read->vertex_count < MOST_VERTICES) {
+        if (line[0] == 'v' && line[1] == ' ' && read->vertex_count < MAX_VERTICES) {
             char *at = line + 2;
             for (int c = 0; c < 3; c++) read->vertices[read->vertex_count][c] = strtod(at, &at);
             read->vertex_count++;
-        } else if (line[0] == 'f' && line[1] == ' ' && read->triangle_count < 2 * MOST_VERTICES) {
+        } else if (line[0] == 'f' && line[1] == ' ' && read->triangle_count < 2 * MAX_VERTICES) {
             char *at = line + 2;
             for (int c = 0; c < 3; c++) {
                 const unsigned long index = strtoul(at, &at, 10);

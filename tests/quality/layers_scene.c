@@ -162,7 +162,7 @@ ewa_status layers_blend_splats(const ewa_cloud *cloud, const ewa_camera *camera,
 
 layers_alpha layers_measure_alpha(const float *rgba, uint32_t side_px) {
     const double middle = 0.5 * side_px, reach = 0.2 * side_px;
-    layers_alpha found = {.least = 1};
+    layers_alpha found = {.minimum = 1};
     double count = 0, sum2 = 0;
     for (uint32_t y = 0; y < side_px; y++)
         for (uint32_t x = 0; x < side_px; x++) {
@@ -170,7 +170,7 @@ layers_alpha layers_measure_alpha(const float *rgba, uint32_t side_px) {
             const double alpha = (double)rgba[4 * ((size_t)y * side_px + x) + 3], step = alpha - found.mean;
             found.mean += step / ++count;
             sum2 += step * (alpha - found.mean);
-            found.least = fmin(found.least, alpha), found.most = fmax(found.most, alpha);
+            found.minimum = fmin(found.minimum, alpha), found.maximum = fmax(found.maximum, alpha);
         }
     found.variance = sum2 / count;
     return found;

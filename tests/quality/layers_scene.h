@@ -27,7 +27,7 @@ ewa_status layers_blend_splats(const ewa_cloud *cloud, const ewa_camera *camera,
 
 /// Alpha in the middle of a square picture of a sphere, out to a fifth of its side.
 typedef struct layers_alpha {
-    double mean, variance, least, most;
+    double mean, variance, minimum, maximum;
 } layers_alpha;
 
 layers_alpha layers_measure_alpha(const float *rgba, uint32_t side_px);

@@ -152,8 +152,8 @@ static void measure_crossing(ewa_context *context, const char *folder) {
 }
 
 static void print_alpha(const char *name, const layers_alpha *found) {
-    printf("| %s | %.4f | %.2g | %.3f to %.3f |\n", name, found->mean, found->variance, found->least,
-           found->most);
+    printf("| %s | %.4f | %.2g | %.3f to %.3f |\n", name, found->mean, found->variance, found->minimum,
+           found->maximum);
 }
 
 static void measure_sphere(ewa_context *context, const char *folder) {

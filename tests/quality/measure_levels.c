@@ -28,7 +28,7 @@ static ewa_surfels *make_surfels(const ewa_cloud *cloud, uint32_t level_count, d
     return surfels;
 }
 
-/// The least coverage inside of the surface, over q0, for several distances and tilts.
+/// The smallest coverage inside of the surface, over q0, for several distances and tilts.
 static void print_coverage(ewa_context *context, level_kind kind) {
     static const double distances[] = {0.3, 0.9, 2.2, 6}, tilts[] = {0, 35, 70};
     double took_s;
@@ -40,7 +40,7 @@ static void print_coverage(ewa_context *context, level_kind kind) {
     assert_int_equal(ewa_renderer_create(context, &renderer), EWA_OK);
     float *coverage = malloc((size_t)SIDE_PX * SIDE_PX * sizeof *coverage);
     for (uint32_t level = 0; level < info.level_count; level++) {
-        double least = INFINITY;
+        double minimum = INFINITY;
         uint64_t inside = 0, thin = 0;
         uint32_t found = level;
         const ewa_surfels *drawn = ewa_levels_find(surfels, &found);
@@ -57,11 +57,11 @@ static void print_coverage(ewa_context *context, level_kind kind) {
                 if (!level_inside(kind, &camera, i % SIDE_PX, i / SIDE_PX, margin)) continue;
                 inside++;
                 thin += (double)coverage[i] < options.edge_threshold;
-                least = fmin(least, (double)coverage[i]);
+                minimum = fmin(minimum, (double)coverage[i]);
             }
         }
         printf("| %s | %u | %u | %.3f | %llu | %llu | %.3f |\n", level_names[kind], level, drawn->count,
-               drawn->unit_coverage, (unsigned long long)inside, (unsigned long long)thin, least);
+               drawn->unit_coverage, (unsigned long long)inside, (unsigned long long)thin, minimum);
     }
     fflush(stdout);
     free(coverage);
@@ -138,7 +138,7 @@ static void print_frames(ewa_context *context, uint32_t points) {
 
 int main(int argc, char **argv) {
     ewa_context *context = check_context(2, NULL);
-    printf("| sampling | level | surfels | q0 | pixels inside | below the threshold | least coverage |\n"
+    printf("| sampling | level | surfels | q0 | pixels inside | below the threshold | smallest coverage |\n"
            "|---|---:|---:|---:|---:|---:|---:|\n");
     for (int kind = 0; kind < LEVEL_KINDS; kind++) print_coverage(context, (level_kind)kind);
     for (int i = 1; i < argc; i++) print_frames(context, (uint32_t)strtoul(argv[i], NULL, 10));

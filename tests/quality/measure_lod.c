@@ -143,8 +143,8 @@ static int build(ewa_context *context, int count, char **words) {
            (double)stats.temporary_bytes / (double)stats.point_count, peak_mib());
     printf("survey %.1f s, distribute %.1f s, estimate %.1f s, nodes %.1f s, merge %.1f s, all %.1f s: %.3f "
            "M points/s\n",
-           stats.survey_s, stats.distribute_s, stats.estimate_s, stats.write_s, stats.merge_s, stats.total_s,
-           1e-6 * (double)stats.point_count / stats.total_s);
+           stats.statistics_s, stats.distribute_s, stats.estimate_s, stats.write_s, stats.merge_s,
+           stats.total_s, 1e-6 * (double)stats.point_count / stats.total_s);
     return 0;
 }
 
@@ -215,7 +215,7 @@ static int quality(ewa_context *context, int count, char **words) {
                 p = compare(full, other);
             }
             printf("%8g %7g %9llu %5u  %6.2f  %6.2f |       %6.2f  %6.2f | %llu\n", distances[d],
-                   lod_options.spacing_px, (unsigned long long)stats.surfel_count, stats.cube_count,
+                   lod_options.spacing_px, (unsigned long long)stats.surfel_count, stats.node_count,
                    c.object_db, c.inside_db, p.object_db, p.inside_db, (unsigned long long)c.object_count);
         }
     }
@@ -249,7 +249,7 @@ static int dolly(ewa_context *context, int count, char **words) {
     uint8_t *pictures[4];
     for (int i = 0; i < 4; i++) pictures[i] = malloc((size_t)4 * PIXELS);
     double largest_step = 0, last_rms = 0;
-    int most_jump = 0;
+    int max_jump = 0;
     uint64_t jumps = 0;
     for (int f = 0; f < frame_count; f++) {
         const ewa_camera camera = camera_at(&info.bounds, 1.2 * pow(1.01, f));
@@ -280,14 +280,14 @@ static int dolly(ewa_context *context, int count, char **words) {
         }
         const double rms = sqrt(square / (3 * (double)(shown ? shown : 1)));
         if (f && fabs(rms - last_rms) > largest_step) largest_step = fabs(rms - last_rms);
-        most_jump = jump > most_jump ? jump : most_jump;
+        max_jump = jump > max_jump ? jump : max_jump;
         if (getenv("VERBOSE")) printf("%3d rms %.3f jump %d\n", f, rms, jump);
         last_rms = rms;
     }
     printf("%d frames: rms error changes by at most %.3f/255 a frame; largest jump beyond the full picture's "
            "%d/255, %llu "
            "values beyond 8\n",
-           frame_count, largest_step, most_jump, (unsigned long long)jumps);
+           frame_count, largest_step, max_jump, (unsigned long long)jumps);
     for (int i = 0; i < 4; i++) free(pictures[i]);
     ewa_renderer_destroy(&renderer);
     ewa_surfels_destroy(&surfels);
@@ -322,7 +322,7 @@ static int speed(ewa_context *context, int count, char **words) {
             printf(
                 "%llu points: cold %.3f s (read %.3f s, draw %.3f s), %llu surfels in %u cubes, %u bands\n",
                 (unsigned long long)info.point_count, took_s, stats.load_s, stats.render.total_s,
-                (unsigned long long)stats.surfel_count, stats.cube_count, stats.band_count);
+                (unsigned long long)stats.surfel_count, stats.node_count, stats.band_count);
         else if (took_s < warm_s)
             warm_s = took_s;
     }

@@ -9,7 +9,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-enum { SIDE = 1582, FRAMES = 9, MOST_PER_SIDE = 40, WIDTH_PX = 1280, HEIGHT_PX = 720 };
+enum { SIDE = 1582, FRAMES = 9, MAX_PER_SIDE = 40, WIDTH_PX = 1280, HEIGHT_PX = 720 };
 
 static void fail(const char *what) {
     fprintf(stderr, "measure_sources: %s failed\n", what);
@@ -93,8 +93,8 @@ static double measure(ewa_context *context, ewa_surfels *const *pieces, uint32_t
 }
 
 int main(void) {
-    static const uint32_t per_side[] = {1, 5, 22, MOST_PER_SIDE};
-    static ewa_surfels *pieces[MOST_PER_SIDE * MOST_PER_SIDE];
+    static const uint32_t per_side[] = {1, 5, 22, MAX_PER_SIDE};
+    static ewa_surfels *pieces[MAX_PER_SIDE * MAX_PER_SIDE];
     ewa_context_options context_options;
     ewa_context_options_init(&context_options, sizeof context_options);
     context_options.thread_count = 2;

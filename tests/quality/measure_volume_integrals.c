@@ -68,15 +68,16 @@ static void print_off_axis(void) {
 
 /// Largest and mean error of a picture's optical depths in % of the largest.
 static void compare(const char *what, const ewa_image *image, const double *truth) {
-    double largest = 0, most = 0, sum = 0;
+    double largest = 0, maximum = 0, sum = 0;
     const size_t count = (size_t)image->width_px * image->height_px;
     for (size_t i = 0; i < count; i++) largest = fmax(largest, truth[i]);
     for (size_t i = 0; i < count; i++) {
         const double depth = -log(1 - (double)image->pixels[4 * i + 3]), error = fabs(depth - truth[i]);
-        most = fmax(most, error);
+        maximum = fmax(maximum, error);
         sum += error;
     }
-    printf("| %s | %.3f %% | %.4f %% |\n", what, 100 * most / largest, 100 * sum / (double)count / largest);
+    printf("| %s | %.3f %% | %.4f %% |\n", what, 100 * maximum / largest,
+           100 * sum / (double)count / largest);
 }
 
 enum { SIDE_PX = 96 };
@@ -122,7 +123,7 @@ static void print_closed(ewa_context *context) {
             }
         ewa_volume_options options;
         ewa_volume_options_init(&options, sizeof options);
-        options.sigma = SIGMA, options.prefilter_px = 0, options.least_transmittance = 0;
+        options.sigma = SIGMA, options.prefilter_px = 0, options.minimum_transmittance = 0;
         options.cutoff = 4;
         for (int v = 0; v < 2; v++) {
             ewa_voxels *voxels = scene_voxels(&volumes[v], &transfer);
@@ -160,7 +161,7 @@ static void print_marched(ewa_context *context) {
             ewa_volume_options options;
             ewa_volume_options_init(&options, sizeof options);
             options.method = EWA_VOLUME_SPLATS, options.index = (ewa_volume_index)index;
-            options.prefilter_px = 0, options.least_transmittance = 0, options.cutoff = 4;
+            options.prefilter_px = 0, options.minimum_transmittance = 0, options.cutoff = 4;
             ewa_image image = scene_draw(context, voxels, &camera, &options);
             char what[96];
             snprintf(what, sizeof what, "eye %g voxels away, %s", distances[at],

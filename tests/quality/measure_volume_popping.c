@@ -34,7 +34,7 @@ static image_difference change(const ewa_image *a, const ewa_image *b) {
 
 /// Largest change near 45 degrees, and elsewhere.
 typedef struct extremes {
-    double rms_near, rms_else, most_near, most_else;
+    double rms_near, rms_else, max_near, max_else;
 } extremes;
 
 int main(int argc, char **argv) {
@@ -68,9 +68,9 @@ int main(int argc, char **argv) {
                 extremes *to = &found[far];
                 const bool near = fabs(degrees - 0.125 - 45) < 2;
                 double *rms = near ? &to->rms_near : &to->rms_else;
-                double *most = near ? &to->most_near : &to->most_else;
+                double *maximum = near ? &to->max_near : &to->max_else;
                 *rms = fmax(*rms, differences[far].rms);
-                *most = fmax(*most, differences[far].maximum);
+                *maximum = fmax(*maximum, differences[far].maximum);
                 ewa_image_free(&before[far]);
             }
             before[far] = image;
@@ -84,8 +84,8 @@ int main(int argc, char **argv) {
             stderr,
             "%s: rms change between frames at most %.5f within 2 degrees of 45, %.5f elsewhere; of one pixel "
             "%.4f and %.4f\n",
-            far ? "points" : "splats", found[far].rms_near, found[far].rms_else, found[far].most_near,
-            found[far].most_else);
+            far ? "points" : "splats", found[far].rms_near, found[far].rms_else, found[far].max_near,
+            found[far].max_else);
         ewa_image_free(&before[far]);
     }
     ewa_voxels_destroy(&voxels);

@@ -81,7 +81,7 @@ static void print_row(ewa_context *context, const char *name, const ewa_volume *
         options.shading = EWA_SHADING_PHONG;
         const double culled_ms = time_frames(renderer, voxels, &camera, &options, pixels, &stats);
         const double hidden = (double)stats.hidden_count;
-        options.least_transmittance = 0;
+        options.minimum_transmittance = 0;
         const double all_ms = time_frames(renderer, voxels, &camera, &options, pixels, &stats);
         const double drawn = (double)(stats.splat_count + stats.point_count);
         each_ns[v] = all_ms * 1e6 / drawn;

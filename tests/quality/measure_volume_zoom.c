@@ -28,7 +28,7 @@ static ewa_image make_truth(ewa_context *context, const ewa_voxels *voxels, cons
     dense.fx_px *= SUPER, dense.fy_px *= SUPER, dense.cx_px *= SUPER, dense.cy_px *= SUPER;
     ewa_volume_options options;
     ewa_volume_options_init(&options, sizeof options);
-    options.method = EWA_VOLUME_SPLATS, options.prefilter_px = 0, options.least_transmittance = 0;
+    options.method = EWA_VOLUME_SPLATS, options.prefilter_px = 0, options.minimum_transmittance = 0;
     ewa_image samples = scene_draw(context, voxels, &dense, &options), truth;
     check(ewa_image_create(context, camera->width_px, camera->height_px, 4, &truth));
     for (size_t y = 0; y < dense.height_px; y++)

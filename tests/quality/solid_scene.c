@@ -91,16 +91,16 @@ solid_hit solid_trace(const ewa_solid_shape *shape, const double eye_world[3], c
     const double *normal = block.normal_from;
     double sign = 1;
     hit.surface = block.surface_from;
-    const double least = 1e-12;
+    const double minimum = 1e-12;
     for (int i = 0; i < count; i++) {
-        if (!(voids[i].from <= t + least && voids[i].to > t + least)) continue;
+        if (!(voids[i].from <= t + minimum && voids[i].to > t + minimum)) continue;
         t = voids[i].to;
         normal = voids[i].normal_to;
         sign = -1;
         hit.surface = voids[i].surface_to;
         i = -1; // another void may go on from here
     }
-    if (t <= 0 || t >= block.to - least) return hit;
+    if (t <= 0 || t >= block.to - minimum) return hit;
     hit.any = true;
     for (int c = 0; c < 3; c++) {
         hit.normal[c] = sign * normal[c];

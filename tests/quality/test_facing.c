@@ -120,15 +120,15 @@ static ewa_cloud *make_cloud(ewa_context *context, const points *from, double ra
 }
 
 static ewa_cloud *make_convex(ewa_context *context, const convex *of) {
-    enum { MOST = 100000 };
+    enum { MAXIMUM = 100000 };
     const double spacing = 2.0 / SPACINGS;
-    points made = {calloc(3 * MOST, sizeof(float)), calloc(3 * MOST, sizeof(float)), 0, {7}};
+    points made = {calloc(3 * MAXIMUM, sizeof(float)), calloc(3 * MAXIMUM, sizeof(float)), 0, {7}};
     assert_true(made.position && made.normal);
     for (int side = 0; side < 2; side++)
         for (int c = of->is_round ? 2 : 0; c < 3; c++)
             add_face(&made, of->half, c, side ? 1 : -1, of->is_round, spacing);
     if (of->is_round) add_mantle(&made, of->half, spacing);
-    assert_true(made.count <= MOST);
+    assert_true(made.count <= MAXIMUM);
     ewa_cloud *cloud = make_cloud(context, &made, 1.5 * spacing);
     free(made.position);
     free(made.normal);
@@ -173,7 +173,7 @@ static void trace_picture(const truth *of, const ewa_camera *camera, solid_hit *
 /// The difference between a colour and the nearest one of the solid's pixels within reach; negative where
 /// these are of two faces, which blend. Beyond reach of all: 1.
 static double strangeness(const solid_hit *hits, int x, int y, const float color[3]) {
-    double least = 1;
+    double minimum = 1;
     int surface = -1;
     for (int dy = -REACH_PX; dy <= REACH_PX; dy++)
         for (int dx = -REACH_PX; dx <= REACH_PX; dx++) {
@@ -186,11 +186,11 @@ static double strangeness(const solid_hit *hits, int x, int y, const float color
             surface = hit->surface;
             float there[3];
             solid_color(hit->normal, there);
-            double most = 0;
-            for (int c = 0; c < 3; c++) most = fmax(most, fabs((double)color[c] - (double)there[c]));
-            least = fmin(least, most);
+            double maximum = 0;
+            for (int c = 0; c < 3; c++) maximum = fmax(maximum, fabs((double)color[c] - (double)there[c]));
+            minimum = fmin(minimum, maximum);
         }
-    return least;
+    return minimum;
 }
 
 static void count_rims(ewa_renderer *renderer, const ewa_cloud *cloud, const truth *of, rim_counts *counts) {
@@ -327,10 +327,11 @@ static void draw_sheet(ewa_renderer *renderer, const ewa_cloud *cloud, const dou
 
 /// The largest difference between pictures of `channels` numbers per pixel, in one of them or in all (-1).
 static double largest_difference(const float *a, const float *b, int channels, int channel) {
-    double most = 0;
+    double maximum = 0;
     for (int i = 0; i < channels * SIDE * SIDE; i++)
-        if (channel < 0 || i % channels == channel) most = fmax(most, fabs((double)a[i] - (double)b[i]));
-    return most;
+        if (channel < 0 || i % channels == channel)
+            maximum = fmax(maximum, fabs((double)a[i] - (double)b[i]));
+    return maximum;
 }
 
 static void test_cover_is_blind_to_normals(void **state) {

@@ -243,7 +243,7 @@ static void count_holes(ewa_object object, uint64_t points) {
     const ewa_solid_shape *shape = ewa_solid_shape_of(object);
     check_random random = {2004};
     uint64_t inside = 0, holes = 0, thin = 0;
-    double least = 1;
+    double minimum = 1;
     const uint32_t cameras = camera_count();
     for (uint32_t i = 0; i < cameras; i++) {
         double eye[3], length = 0, target[3];
@@ -266,12 +266,12 @@ static void count_holes(ewa_object object, uint64_t points) {
                 inside++;
                 holes += !(coverage[at] > 0) || rgba[4 * at + 3] < 0.5f;
                 thin += rgba[4 * at + 3] < 0.99f;
-                least = fmin(least, (double)rgba[4 * at + 3]);
+                minimum = fmin(minimum, (double)rgba[4 * at + 3]);
             }
     }
     print_message(
-        "%u cameras: of %llu pixels along edges %llu are holes, %llu not opaque (least alpha %.3f)\n",
-        cameras, (unsigned long long)inside, (unsigned long long)holes, (unsigned long long)thin, least);
+        "%u cameras: of %llu pixels along edges %llu are holes, %llu not opaque (smallest alpha %.3f)\n",
+        cameras, (unsigned long long)inside, (unsigned long long)holes, (unsigned long long)thin, minimum);
     assert_true(inside > 1000);
     assert_int_equal(holes, 0);
     ewa_cloud_destroy(&cloud);

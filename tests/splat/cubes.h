@@ -8,15 +8,15 @@
 #include "splat/picture.h"
 #include "surface/render.h"
 
-enum { CUBES_MOST = 64 };
+enum { CUBES_MAX = 64 };
 
 /// Surfels by cubes of a grid, without the empty ones.
 typedef struct cubes {
-    ewa_surfels *part[CUBES_MOST];
+    ewa_surfels *part[CUBES_MAX];
     uint32_t count;
 } cubes;
 
-/// Cuts a cloud into at most `per_axis`^3 <= CUBES_MOST cubes.
+/// Cuts a cloud into at most `per_axis`^3 <= CUBES_MAX cubes.
 cubes cubes_make(const ewa_cloud *cloud, uint32_t per_axis);
 void cubes_free(cubes *made);
 

@@ -10,7 +10,7 @@ const char *const level_names[LEVEL_KINDS] = {"grid", "jittered", "even", "white
 
 static const double PI = 3.14159265358979323846;
 
-/// Darts that keep their distance, in a grid of cells of that size.
+/// Poisson-disc samples by dart throwing, in a grid of cells of that size.
 static uint32_t throw_darts(check_random *random, uint32_t count, float *xy) {
     const double apart = 2 * 0.81 / sqrt(count);
     const uint32_t side = (uint32_t)(2 / (apart / sqrt(2))) + 1;
@@ -18,7 +18,7 @@ static uint32_t throw_darts(check_random *random, uint32_t count, float *xy) {
     assert_non_null(cells);
     for (size_t i = 0; i < (size_t)side * side; i++) cells[i] = -1;
     uint32_t made = 0;
-    for (uint64_t dart = 0; dart < 60 * (uint64_t)count && made < count; dart++) {
+    for (uint64_t candidate = 0; candidate < 60 * (uint64_t)count && made < count; candidate++) {
         const double x = check_uniform(random, -1, 1), y = check_uniform(random, -1, 1);
         const int32_t cx = (int32_t)((x + 1) / 2 * side), cy = (int32_t)((y + 1) / 2 * side);
         bool taken = false;

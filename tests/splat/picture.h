@@ -26,14 +26,14 @@ picture picture_of_scene(const scene *of, const ewa_surfels_options *surfels_opt
 
 enum { PICTURE_SIDE_PX = 256, PICTURE_SMALL_PX = 96 };
 
-/// A small scene for the plain road, of few points.
+/// A small scene for the plain pipeline, of few points.
 scene picture_small_scene(ewa_context *context, scene_kind kind);
 
 /// A scene of that size whose q0 is the one that the surfels measure.
 scene picture_measured_scene(ewa_context *context, scene_kind kind, uint64_t points,
                              const ewa_surfels_options *options);
 
-/// The fast road's picture of a cloud; fails the test on errors.
+/// The fast pipeline's picture of a cloud; fails the test on errors.
 picture picture_draw(ewa_context *context, const ewa_cloud *cloud, const ewa_camera *camera,
                      const ewa_surfels_options *surfels_options, const ewa_render_options *options);
 
@@ -72,9 +72,9 @@ picture_report picture_compare(const picture *reference, const picture *other, d
 /// Prints the report in one line.
 void picture_print(const char *name, const picture_report *report);
 
-/// Holds the fast road to the reference on a scene of picture_measured_scene(): at most one pixel in 200 is
-/// off by over 2e-3, for cutoffs and ties. `what` says what is special; with `orthographic` the camera is set
-/// anew.
+/// Holds the fast pipeline to the reference on a scene of picture_measured_scene(): at most one pixel in 200
+/// is off by over 2e-3, for cutoffs and ties. `what` says what is special; with `orthographic` the camera is
+/// set anew.
 void picture_hold(scene *of, const ewa_render_options *options, bool orthographic, const char *what);
 
 #endif

@@ -31,7 +31,7 @@ ewa_environment *shade_environment(ewa_context *context, uint32_t height,
 /// Light that is a linear function of the direction: (1 + x) / 2, (1 + y) / 2, (1 + z) / 2.
 void shade_linear_light(ewa_vec3 direction, float rgb[3]);
 
-/// Draws by the fast road, twice, with a renderer of its own.
+/// Draws by the fast pipeline, twice, with a renderer of its own.
 picture shade_draw(ewa_context *context, const ewa_cloud *cloud, const ewa_camera *camera,
                    const ewa_render_options *options);
 

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Frames drawn band by band, with hollow copies of the sources that a band does not see: the bytes of the whole.
+// Frames drawn band by band, with proxies of the sources that a band does not see: the bytes of the whole.
 #include "splat/cubes.h"
-#include "surface/hollow.h"
+#include "surface/proxy.h"
 
 #include <math.h>
 
@@ -13,7 +13,7 @@ typedef struct bench {
     ewa_context *context;
     scene of;
     cubes full;
-    ewa_surfels *hollow[CUBES_MOST];
+    ewa_surfels *proxy[CUBES_MAX];
     ewa_renderer *renderer;
 } bench;
 
@@ -23,13 +23,13 @@ static bench start(uint32_t threads, scene_kind kind, bool clips) {
     if (clips) picture_add_clips(b.of.cloud);
     b.full = cubes_make(b.of.cloud, 4);
     for (uint32_t i = 0; i < b.full.count; i++)
-        assert_int_equal(ewa_surfels_hollow(b.full.part[i], &b.hollow[i]), EWA_OK);
+        assert_int_equal(ewa_surfels_proxy(b.full.part[i], &b.proxy[i]), EWA_OK);
     assert_int_equal(ewa_renderer_create(b.context, &b.renderer), EWA_OK);
     return b;
 }
 
 static void stop(bench *b) {
-    for (uint32_t i = 0; i < b->full.count; i++) ewa_surfels_destroy(&b->hollow[i]);
+    for (uint32_t i = 0; i < b->full.count; i++) ewa_surfels_destroy(&b->proxy[i]);
     cubes_free(&b->full);
     ewa_renderer_destroy(&b->renderer);
     scene_free(&b->of);
@@ -59,24 +59,24 @@ static void fill(const picture *to, int byte) {
     memset(to->frame.coverage, byte, 4 * count);
 }
 
-/// Adds the sources, hollow ones where `seen` is false; some have weights, some hide nothing.
+/// Adds the sources, proxies where `seen` is false; some have weights, some hide nothing.
 static void add_sources(const bench *b, const bool *seen) {
     for (uint32_t i = 0; i < b->full.count; i++) {
         const ewa_render_source how = {i % 4 ? 1 : 0.3, i % 5 != 2};
-        const ewa_surfels *surfels = !seen || seen[i] ? b->full.part[i] : b->hollow[i];
+        const ewa_surfels *surfels = !seen || seen[i] ? b->full.part[i] : b->proxy[i];
         assert_int_equal(ewa_render_add_source(b->renderer, surfels, &how), EWA_OK);
     }
 }
 
-/// Draws the whole frame, then band by band, and compares; returns how many hollow sources bands had.
+/// Draws the whole frame, then band by band, and compares; returns how many proxy sources bands had.
 static uint32_t hold_bands(const bench *b, const ewa_render_options *options, const picture *whole,
                            const picture *banded) {
-    bool seen[(HEIGHT + BAND - 1) / BAND][CUBES_MOST];
-    uint32_t hollow_count = 0;
+    bool seen[(HEIGHT + BAND - 1) / BAND][CUBES_MAX];
+    uint32_t proxy_count = 0;
     for (uint32_t band = 0; band * BAND < HEIGHT; band++)
         for (uint32_t i = 0; i < b->full.count; i++) {
             seen[band][i] = is_seen(b, i, options, band * BAND, banded);
-            hollow_count += !seen[band][i];
+            proxy_count += !seen[band][i];
         }
     assert_int_equal(ewa_render_begin(b->renderer, &b->of.camera, options, &whole->frame), EWA_OK);
     add_sources(b, NULL);
@@ -94,7 +94,7 @@ static uint32_t hold_bands(const bench *b, const ewa_render_options *options, co
         }
     }
     cubes_hold_same(whole, banded);
-    return hollow_count;
+    return proxy_count;
 }
 
 static void hold(scene_kind kind, const ewa_render_options *options, bool clips, const char *what) {
@@ -104,12 +104,11 @@ static void hold(scene_kind kind, const ewa_render_options *options, bool clips,
     for (int i = 0; i < 4; i++) {
         bench b = start(threads[i], kind, clips);
         ewa_renderer_set_tile(b.renderer, i == 1 ? 32 : i == 2 ? 128 : 0);
-        const uint32_t hollow_count = hold_bands(&b, options, i ? &whole : &first, &banded);
+        const uint32_t proxy_count = hold_bands(&b, options, i ? &whole : &first, &banded);
         if (i) cubes_hold_same(&first, &whole);
         if (!i)
-            print_message("%s, %s: %u of %u hollow\n", scene_name(kind), what, hollow_count,
-                          4 * b.full.count);
-        assert_true(hollow_count > 0 || kind == SCENE_NEAR);
+            print_message("%s, %s: %u of %u proxy\n", scene_name(kind), what, proxy_count, 4 * b.full.count);
+        assert_true(proxy_count > 0 || kind == SCENE_NEAR);
         stop(&b);
     }
     picture done[] = {whole, banded, first};
@@ -136,7 +135,7 @@ static void test_bands(void **state) {
 }
 
 /// Eye-dome lighting where neither depths nor linear colours are asked for.
-static void test_dome_bytes(void **state) {
+static void test_eye_dome_bytes(void **state) {
     (void)state;
     bench b = start(2, SCENE_TORUS, false);
     ewa_render_options options;
@@ -157,8 +156,8 @@ static void test_dome_bytes(void **state) {
     stop(&b);
 }
 
-/// What only some sources have: alphas and materials of a hollow one count.
-static void test_hollow_facts(void **state) {
+/// What only some sources have: alphas and materials of a proxy count.
+static void test_proxy_facts(void **state) {
     (void)state;
     ewa_context *context = check_context(2, NULL);
     scene of;
@@ -184,7 +183,7 @@ static void test_hollow_facts(void **state) {
     ewa_surfels *surfels[3] = {0};
     assert_int_equal(ewa_surfels_create(of.cloud, NULL, &surfels[0]), EWA_OK);
     assert_int_equal(ewa_surfels_create(other, NULL, &surfels[1]), EWA_OK);
-    assert_int_equal(ewa_surfels_hollow(surfels[1], &surfels[2]), EWA_OK);
+    assert_int_equal(ewa_surfels_proxy(surfels[1], &surfels[2]), EWA_OK);
     ewa_surfels_info info;
     ewa_surfels_describe(surfels[2], &info);
     assert_true(info.resident_bytes < 1024 && info.point_count == 0);
@@ -197,7 +196,7 @@ static void test_hollow_facts(void **state) {
     ewa_renderer *renderer = NULL;
     assert_int_equal(ewa_renderer_create(context, &renderer), EWA_OK);
     picture drawn[3];
-    for (int i = 0; i < 3; i++) { // with the other, with its hollow copy, alone
+    for (int i = 0; i < 3; i++) { // with the other, with its proxy, alone
         drawn[i] = picture_make(WIDTH, HEIGHT);
         assert_int_equal(ewa_render_begin(renderer, &of.camera, &options, &drawn[i].frame), EWA_OK);
         assert_int_equal(ewa_render_add(renderer, surfels[0]), EWA_OK);
@@ -207,7 +206,7 @@ static void test_hollow_facts(void **state) {
         assert_int_equal(stats.splat_count, ewa_cloud_point_count(of.cloud) + (i == 0 ? FEW : 0));
     }
     cubes_hold_same(&drawn[0], &drawn[1]);
-    const size_t bytes = (size_t)16 * WIDTH * HEIGHT; // without the hollow copy the picture is another one
+    const size_t bytes = (size_t)16 * WIDTH * HEIGHT; // without the proxy the picture is another one
     assert_true(memcmp(drawn[0].frame.rgba, drawn[2].frame.rgba, bytes) != 0);
     for (int i = 0; i < 3; i++) picture_free(&drawn[i]), ewa_surfels_destroy(&surfels[i]);
     ewa_renderer_destroy(&renderer);
@@ -262,8 +261,8 @@ static void test_refusals(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_bands),        cmocka_unit_test(test_dome_bytes),
-        cmocka_unit_test(test_hollow_facts), cmocka_unit_test(test_unit_coverage),
+        cmocka_unit_test(test_bands),       cmocka_unit_test(test_eye_dome_bytes),
+        cmocka_unit_test(test_proxy_facts), cmocka_unit_test(test_unit_coverage),
         cmocka_unit_test(test_refusals),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

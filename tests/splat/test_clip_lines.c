@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Clip lines (docs/math.md section 5): known answers, the fast road against the reference in every mode, what
-// is no line.
+// Clip lines (docs/math.md section 5): known answers, the fast pipeline against the reference in every mode,
+// what is no line.
 #include "tests/splat/picture.h"
 
 #include <math.h>
@@ -21,7 +21,7 @@ static void hold(scene_kind kind, const ewa_render_options *options, bool orthog
     ewa_context_destroy(&context);
 }
 
-static void test_road_holds(void **state) {
+static void test_pipeline_holds(void **state) {
     (void)state;
     static const scene_kind kinds[] = {SCENE_ELLIPSES, SCENE_NEAR};
     static const char *const names[] = {"perspective", "affine", "source", "circular", "raycast"};
@@ -142,7 +142,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_known_answers),
         cmocka_unit_test(test_line_stays),
-        cmocka_unit_test(test_road_holds),
+        cmocka_unit_test(test_pipeline_holds),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

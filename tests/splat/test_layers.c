@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Transparent surfaces (docs/math.md section 8): known answers, the fast road against the reference, order.
+// Transparent surfaces (docs/math.md section 8): known answers, the fast pipeline against the reference,
+// order.
 #include "tests/splat/picture.h"
 
 #include <math.h>
@@ -9,9 +10,9 @@
 
 enum { POINTS = 4000, SIDE = 96 };
 
-/// Gives a cloud 8-bit colours with random alpha from `least` on; `step` > 1 also leaves every step-th point
-/// clear.
-static void add_alpha(ewa_cloud *cloud, int least, uint64_t step) {
+/// Gives a cloud 8-bit colours with random alpha from `minimum` on; `step` > 1 also leaves every step-th
+/// point clear.
+static void add_alpha(ewa_cloud *cloud, int minimum, uint64_t step) {
     const uint64_t count = ewa_cloud_point_count(cloud);
     const ewa_attribute *color = ewa_cloud_find(cloud, EWA_COLOR);
     uint8_t *rgba = NULL, *copy = malloc(4 * count);
@@ -22,7 +23,7 @@ static void add_alpha(ewa_cloud *cloud, int least, uint64_t step) {
         double rgb[4] = {128, 128, 128, 255};
         if (color) ewa_attribute_read_f64(color, i, 1, rgb);
         for (int c = 0; c < 3; c++) copy[4 * i + (size_t)c] = (uint8_t)(scale * rgb[c]);
-        copy[4 * i + 3] = i % step == 1 ? 0 : (uint8_t)check_uniform(&random, least, 255.99);
+        copy[4 * i + 3] = i % step == 1 ? 0 : (uint8_t)check_uniform(&random, minimum, 255.99);
     }
     if (color) ewa_cloud_remove(cloud, EWA_COLOR);
     assert_int_equal(ewa_cloud_add(cloud, EWA_COLOR, EWA_U8, 4, (void **)&rgba), EWA_OK);
@@ -30,11 +31,11 @@ static void add_alpha(ewa_cloud *cloud, int least, uint64_t step) {
     free(copy);
 }
 
-static void hold(scene_kind kind, const ewa_render_options *options, int least_alpha, bool orthographic,
+static void hold(scene_kind kind, const ewa_render_options *options, int minimum_alpha, bool orthographic,
                  const char *what) {
     ewa_context *context = check_context(0, NULL);
     scene of = picture_measured_scene(context, kind, POINTS, NULL);
-    if (least_alpha < 255) add_alpha(of.cloud, least_alpha, 9);
+    if (minimum_alpha < 255) add_alpha(of.cloud, minimum_alpha, 9);
     char name[96];
     snprintf(name, sizeof name, "%s, %s", scene_name(kind), what);
     picture_hold(&of, options, orthographic, name);
@@ -42,7 +43,7 @@ static void hold(scene_kind kind, const ewa_render_options *options, int least_a
     ewa_context_destroy(&context);
 }
 
-static void test_road_holds(void **state) {
+static void test_pipeline_holds(void **state) {
     (void)state;
     static const scene_kind kinds[] = {SCENE_SPHERE, SCENE_TORUS, SCENE_ELLIPSES, SCENE_NEAR};
     for (size_t i = 0; i < sizeof kinds / sizeof kinds[0]; i++) {
@@ -159,18 +160,18 @@ static void test_sphere_is_even(void **state) {
     o.opacity = 0.3;
     picture made = picture_draw(context, of.cloud, &of.camera, NULL, &o);
     const double expected = 1 - 0.7 * 0.7;
-    double sum2 = 0, least = 1, most = 0;
+    double sum2 = 0, minimum = 1, maximum = 0;
     int count = 0;
     for (int y = PICTURE_SIDE_PX / 2 - 30; y < PICTURE_SIDE_PX / 2 + 30; y++)
         for (int x = PICTURE_SIDE_PX / 2 - 30; x < PICTURE_SIDE_PX / 2 + 30; x++, count++) {
             const double alpha = (double)made.frame.rgba[4 * (y * PICTURE_SIDE_PX + x) + 3];
-            least = fmin(least, alpha), most = fmax(most, alpha);
+            minimum = fmin(minimum, alpha), maximum = fmax(maximum, alpha);
             sum2 += (alpha - expected) * (alpha - expected);
         }
     printf("variance of alpha over a transparent sphere's middle: %.2g, from %.4f to %.4f\n", sum2 / count,
-           least, most);
+           minimum, maximum);
     // A few pixels of random points are not quite covered.
-    assert_true(sum2 / count < 1e-5 && most < expected + 1e-4);
+    assert_true(sum2 / count < 1e-5 && maximum < expected + 1e-4);
     picture_free(&made);
     scene_free(&of);
     ewa_context_destroy(&context);
@@ -230,7 +231,7 @@ int main(void) {
         cmocka_unit_test(test_sheets_over_each_other),
         cmocka_unit_test(test_sphere_is_even),
         cmocka_unit_test(test_same_bytes),
-        cmocka_unit_test(test_road_holds),
+        cmocka_unit_test(test_pipeline_holds),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -351,7 +351,7 @@ static void test_extras(void **state) {
         assert_int_equal(clips, level->clip_count);
         assert_true(clips >= 6 * SIDE / (level == surfels ? 1u : 40u));
     }
-    assert_int_equal(surfels->coarser->most_material, 9);
+    assert_int_equal(surfels->coarser->max_material, 9);
     ewa_surfels_destroy(&surfels);
     ewa_cloud_destroy(&cloud);
     ewa_context_destroy(&context);

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Tests of src/surface/packets.c, discs.c and the packing kernels: every road from a cloud to packets gives the
-// same surfels, and bounds hold what they are around.
+// Tests of src/surface/packets.c, discs.c and the packing kernels: every way from a cloud to packets gives
+// the same surfels, and bounds hold what they are around.
 #include "check.h"
 #include "surface/packets.h"
 #include "surface/surfel.h"
@@ -140,8 +140,8 @@ static void test_same_bytes_from_all_layouts(void **state) {
     ewa_context_destroy(&context);
 }
 
-/// Discs by the fast road and surfel by surfel, which normals in double precision ask for: as equal as their
-/// codes are.
+/// Discs by the vectorised path and surfel by surfel, which normals in double precision ask for: as equal as
+/// their codes are.
 static void test_discs_equal_surfels(void **state) {
     (void)state;
     static numbers of;
@@ -262,13 +262,13 @@ static void test_largest_sigmas(void **state) {
     ewa_context *context = check_context_of(2, EWA_CPU_ALL);
     for (int turn = 0; turn < 16; turn++) {
         const uint32_t count = counts[turn / 4];
-        const double most_aspect = turn % 2 ? 5 : 1;
+        const double max_aspect = turn % 2 ? 5 : 1;
         for (uint32_t i = 0; i < count; i++) {
             for (int c = 0; c < 3; c++) position[i][c] = (float)check_uniform(&random, -3, 5);
             const double sigma = check_uniform(&random, 0.01, 0.02);
-            memcpy(axis_u[i], (float[3]){(float)(sigma * check_uniform(&random, 1, most_aspect)), 0, 0}, 12);
+            memcpy(axis_u[i], (float[3]){(float)(sigma * check_uniform(&random, 1, max_aspect)), 0, 0}, 12);
             memcpy(axis_v[i], (float[3]){0, 0, (float)sigma}, 12);
-            if (most_aspect == 1) axis_u[i][0] = axis_v[i][2];
+            if (max_aspect == 1) axis_u[i][0] = axis_v[i][2];
         }
         ewa_cloud *cloud = NULL;
         assert_int_equal(ewa_cloud_create(context, count, &cloud), EWA_OK);
@@ -276,7 +276,7 @@ static void test_largest_sigmas(void **state) {
         borrow(cloud, EWA_TANGENT_U, EWA_F32, 3, axis_u, 0);
         borrow(cloud, EWA_TANGENT_V, EWA_F32, 3, axis_v, 0);
         ewa_surfels *surfels = make_surfels(cloud);
-        assert_int_equal(surfels->ellipses, most_aspect > 1);
+        assert_int_equal(surfels->ellipses, max_aspect > 1);
         double largest[2] = {0, 0};
         for (uint32_t i = 0; i < count; i++) {
             ewa_packet_surfel surfel;

@@ -87,7 +87,7 @@ static void hold_same(const picture *a, const picture *b) {
 
 /// Two parts of a cloud make the picture of the whole, in either order the same.
 static void hold_parts(scene_kind kind, sort_point *sort, bool materials, const ewa_render_options *options,
-                       double least_db, const char *what) {
+                       double min_db, const char *what) {
     ewa_context *context = check_context(0, NULL);
     scene of;
     assert_int_equal(scene_make(context, kind, POINTS, SIDE, SIDE, &of), EWA_OK);
@@ -104,7 +104,7 @@ static void hold_parts(scene_kind kind, sort_point *sort, bool materials, const 
     hold_same(&drawn[1], &drawn[2]);
     const double db = psnr(&drawn[0], &drawn[1]);
     print_message("%s, %s: two sources %.1f dB from one\n", scene_name(kind), what, db);
-    assert_true(db > least_db);
+    assert_true(db > min_db);
     for (int i = 0; i < 3; i++) picture_free(&drawn[i]);
     ewa_renderer_destroy(&renderer);
     for (int i = 0; i < 2; i++) ewa_surfels_destroy(&part[i]);

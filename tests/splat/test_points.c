@@ -50,22 +50,22 @@ static ewa_camera make_camera(bool orthographic, double zoom) {
 }
 
 typedef struct disc {
-    double sum;          ///< of alpha
-    double least_inside; ///< alpha of pixels well inside of the rim
-    double most_outside;
+    double sum;        ///< of alpha
+    double min_inside; ///< alpha of pixels well inside of the rim
+    double max_outside;
     int clear; ///< pixels with alpha over 0 and below 1
 } disc;
 
 static disc measure(const float *rgba, const double at[2], double radius_px, double rim_px) {
-    disc d = {.least_inside = 1};
+    disc d = {.min_inside = 1};
     for (int y = 0; y < SIDE; y++)
         for (int x = 0; x < SIDE; x++) {
             const double alpha = (double)rgba[4 * (y * SIDE + x) + 3];
             const double distance = hypot(x + 0.5 - at[0], y + 0.5 - at[1]);
             d.sum += alpha;
             d.clear += alpha > 0 && alpha < 1;
-            if (distance < radius_px - rim_px) d.least_inside = fmin(d.least_inside, alpha);
-            if (distance > radius_px + rim_px) d.most_outside = fmax(d.most_outside, alpha);
+            if (distance < radius_px - rim_px) d.min_inside = fmin(d.min_inside, alpha);
+            if (distance > radius_px + rim_px) d.max_outside = fmax(d.max_outside, alpha);
         }
     return d;
 }
@@ -113,7 +113,7 @@ static void test_size(void **state) {
             assert_true(fabs(soft.sum / area - 1) < (sizes_px[s] < 1.3 ? 0.35
                                                      : sizes_px[s] < 2 ? 0.05
                                                                        : 0.02));
-            assert_true(soft.least_inside > 0.99 && soft.most_outside < 0.03);
+            assert_true(soft.min_inside > 0.99 && soft.max_outside < 0.03);
             // A hard rim covers the pixels whose centres it holds.
             if (i % 2)
                 options.edge_antialiasing = false;
@@ -122,13 +122,13 @@ static void test_size(void **state) {
             draw_one(context, &camera, at, depths[i % 4], 1, &options, rgba);
             const disc hard = measure(rgba, at, radius_px, 1e-3 + 1e-5 * radius_px);
             assert_int_equal(hard.clear, 0);
-            assert_true(hard.least_inside == 1 && hard.most_outside == 0);
+            assert_true(hard.min_inside == 1 && hard.max_outside == 0);
         }
     ewa_context_destroy(&context);
 }
 
-/// The road against the reference: many points, hidden ones and half hidden ones, with axes and clip lines
-/// that must not count.
+/// The pipeline against the reference: many points, hidden ones and half hidden ones, with axes and clip
+/// lines that must not count.
 static void test_against_reference(void **state) {
     (void)state;
     enum { COUNT = 700 };

@@ -92,9 +92,9 @@ static double closeness_db(ewa_cloud *cloud, const ewa_camera *camera, const ewa
     return -10 * log10(fmax(sum / (double)counted, 1e-20));
 }
 
-static void assert_close(const char *what, double db, double least_db) {
+static void assert_close(const char *what, double db, double min_db) {
     print_message("%s: %.1f dB\n", what, db);
-    if (!(db >= least_db)) fail_msg("%s: %.1f dB, less than %.1f", what, db, least_db);
+    if (!(db >= min_db)) fail_msg("%s: %.1f dB, less than %.1f", what, db, min_db);
 }
 
 /// One light of 10,000, one of -300 and one that is infinite cost their neighbours nothing.

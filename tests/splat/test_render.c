@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// The fast road against the reference, and against itself: threads, instruction sets, order of the points.
+// The fast pipeline against the reference, and against itself: threads, instruction sets, order of the
+// points.
 #include "cloud/cloud.h"
 #include "image/srgb.h"
 #include "surface/semantics.h"
@@ -170,7 +171,7 @@ static void test_same_bytes_of_every_kernel(void **state) {
     }
 }
 
-/// The source kernel is the affine one (SS 3.2: equations 7 and 8 are equivalent), in the road's single
+/// The source kernel is the affine one (SS 3.2: equations 7 and 8 are equivalent), in the pipeline's single
 /// precision.
 static void test_source_is_affine(void **state) {
     (void)state;
@@ -274,7 +275,7 @@ static void test_order_of_points_does_not_matter(void **state) {
 }
 
 /// More splats in a tile than are kept from pass to pass: the runs are set up again, with the same result.
-static void test_crowded_tile_holds(void **state) {
+static void test_dense_tile_holds(void **state) {
     (void)state;
     ewa_context *context = check_context(0, NULL);
     scene of;
@@ -288,7 +289,7 @@ static void test_crowded_tile_holds(void **state) {
     picture reference = picture_of_scene(&of, NULL, NULL),
             fast = picture_draw(context, of.cloud, &of.camera, NULL, NULL);
     const picture_report report = picture_compare(&reference, &fast, THRESHOLD, NULL);
-    picture_print("crowded tile", &report);
+    picture_print("dense tile", &report);
     assert_true(report.over_count <= 10 && report.color < GRAZING_ERROR);
     picture_free(&reference);
     picture_free(&fast);
@@ -463,7 +464,7 @@ int main(void) {
         cmocka_unit_test(test_same_bytes_on_all_threads_and_instruction_sets),
         cmocka_unit_test(test_order_of_points_does_not_matter),
         cmocka_unit_test(test_one_pass_shows_one_surfel),
-        cmocka_unit_test(test_crowded_tile_holds),
+        cmocka_unit_test(test_dense_tile_holds),
         cmocka_unit_test(test_scales_beyond_floats),
         cmocka_unit_test(test_empty_and_lonely),
         cmocka_unit_test(test_every_failing_allocation_is_clean),

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Section planes: known answers, the fast road against the reference in every mode, the same bytes whatever the
-// threads, instruction sets, order, origin and length of normals; what is refused.
+// Section planes: known answers, the fast pipeline against the reference in every mode, the same bytes
+// whatever the threads, instruction sets, order, origin and length of normals; what is refused.
 #include "tests/splat/picture.h"
 
 #include <math.h>
@@ -104,12 +104,12 @@ static void assert_same(const drawn *a, const drawn *b, const char *what) {
 /// How far the disc of a grid's cell lies inside of all planes, in spacings.
 static double inside_of(const ewa_render_options *options, int column, int row, double spacing) {
     const double x = (column - (GRID - 1) / 2.0) * spacing, y = (row - (GRID - 1) / 2.0) * spacing;
-    double least = INFINITY;
+    double minimum = INFINITY;
     for (uint32_t k = 0; k < options->section_count; k++) {
         const double *p = options->section_planes[k];
-        least = fmin(least, (p[0] * x + p[1] * y + p[3]) / hypot(hypot(p[0], p[1]), p[2]) / spacing);
+        minimum = fmin(minimum, (p[0] * x + p[1] * y + p[3]) / hypot(hypot(p[0], p[1]), p[2]) / spacing);
     }
-    return least;
+    return minimum;
 }
 
 /// Exactly the discs inside are drawn, and nothing else.
@@ -233,7 +233,7 @@ static void hold(scene_kind kind, const ewa_render_options *options, uint32_t pl
     ewa_context_destroy(&context);
 }
 
-static void test_road_holds(void **state) {
+static void test_pipeline_holds(void **state) {
     (void)state;
     static const char *const names[] = {"perspective", "affine", "source", "circular", "raycast"};
     for (int kind = 0; kind < SCENE_COUNT; kind++) {
@@ -420,7 +420,7 @@ static void test_time_is_printed(void **state) {
     ewa_surfels *surfels = NULL;
     assert_int_equal(ewa_surfels_create(of.cloud, NULL, &surfels), EWA_OK);
     const ewa_surfels *const sources[] = {surfels};
-    double least_s[3] = {INFINITY, INFINITY, INFINITY};
+    double min_s[3] = {INFINITY, INFINITY, INFINITY};
     uint64_t culled[3];
     for (int round = 0; round < 5; round++)
         for (int planes = 0; planes < 3; planes++) {
@@ -429,11 +429,11 @@ static void test_time_is_printed(void **state) {
             if (planes == 2) add_plane(&options, 1, 0, 0, 0);
             const double start_s = now_s();
             draw_sources(context, sources, 1, &of.camera, &options, &to);
-            least_s[planes] = fmin(least_s[planes], now_s() - start_s);
+            min_s[planes] = fmin(min_s[planes], now_s() - start_s);
             culled[planes] = to.stats.culled_count;
         }
-    print_message("whole %.2f ms, in a box %.2f ms, half %.2f ms\n", 1e3 * least_s[0], 1e3 * least_s[1],
-                  1e3 * least_s[2]);
+    print_message("whole %.2f ms, in a box %.2f ms, half %.2f ms\n", 1e3 * min_s[0], 1e3 * min_s[1],
+                  1e3 * min_s[2]);
     assert_true(culled[1] == culled[0] && culled[2] > culled[0] + 20000);
     ewa_surfels_destroy(&surfels);
     scene_free(&of);
@@ -450,7 +450,7 @@ int main(void) {
         cmocka_unit_test(test_sources),
         cmocka_unit_test(test_bad_planes),
         cmocka_unit_test(test_time_is_printed),
-        cmocka_unit_test(test_road_holds),
+        cmocka_unit_test(test_pipeline_holds),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Shading against closed forms, by the fast road and by the reference: highlights and mirror images on a
+// Shading against closed forms, by the fast pipeline and by the reference: highlights and mirror images on a
 // sphere, environments whose light is known, eye-dome lighting of planes and steps.
 #include "tests/splat/shade_scene.h"
 
@@ -24,7 +24,7 @@ static ewa_render_options phong_options(const ewa_material *material) {
     return options;
 }
 
-/// Fast road or reference.
+/// Fast pipeline or reference.
 static picture draw(ewa_context *context, int way, const ewa_cloud *cloud, const ewa_camera *camera,
                     const ewa_render_options *options) {
     return way ? shade_reference(cloud, camera, options) : shade_draw(context, cloud, camera, options);

@@ -9,9 +9,9 @@
 
 enum { SIDE = 320, SHEETS = 3 };
 
-/// Discs with radii of `least_px` to `most_px` pixels on wavy sheets one behind another, tilted every way; one
+/// Discs with radii of `min_px` to `max_px` pixels on wavy sheets one behind another, tilted every way; one
 /// in `every` (0: none) is `times` as large.
-static ewa_surfels *make_sheets(ewa_context *context, uint32_t points, double least_px, double most_px,
+static ewa_surfels *make_sheets(ewa_context *context, uint32_t points, double min_px, double max_px,
                                 uint32_t every, double times) {
     ewa_cloud *cloud = NULL;
     float *position, *normal, *radius;
@@ -30,7 +30,7 @@ static ewa_surfels *make_sheets(ewa_context *context, uint32_t points, double le
         position[3 * i] = (float)x, position[3 * i + 1] = (float)y, position[3 * i + 2] = (float)z;
         normal[3 * i] = (float)(0.8 / 3 * slope_x / length);
         normal[3 * i + 1] = (float)(0.4 * slope_y / length), normal[3 * i + 2] = (float)(-1 / length);
-        const double px = check_uniform(&random, least_px, most_px) * (every && i % every == 0 ? times : 1);
+        const double px = check_uniform(&random, min_px, max_px) * (every && i % every == 0 ? times : 1);
         radius[i] = (float)(px * 2.4 / SIDE);
         for (int c = 0; c < 3; c++) color[3 * i + (uint32_t)c] = (uint8_t)check_uniform(&random, 0, 256);
     }
@@ -115,7 +115,7 @@ static void test_planes_do_not_depend_on_depths(void **state) {
     static const struct {
         const char *name;
         uint32_t points;
-        double least_px, most_px;
+        double min_px, max_px;
         uint32_t every;
         double times;
     } clouds[] = {{"sparse points", 40000, 0.1, 0.3, 0, 1},
@@ -128,7 +128,7 @@ static void test_planes_do_not_depend_on_depths(void **state) {
                                          EWA_KERNEL_CIRCULAR};
     ewa_context *context = check_context(2, NULL);
     for (size_t c = 0; c < sizeof clouds / sizeof clouds[0]; c++) {
-        ewa_surfels *surfels = make_sheets(context, clouds[c].points, clouds[c].least_px, clouds[c].most_px,
+        ewa_surfels *surfels = make_sheets(context, clouds[c].points, clouds[c].min_px, clouds[c].max_px,
                                            clouds[c].every, clouds[c].times);
         for (size_t k = 0; k < sizeof kernels / sizeof kernels[0]; k++)
             for (int way = 0; way < 4; way++) {

@@ -3,7 +3,7 @@
 //
 // The bound of visibility is z + eps as it is at each pixel (semantics.h), not along a plane through the
 // centre: a small disc behind a large one near the eye is seen just as far as the tolerance reaches, wherever
-// the large one is hit. Both roads, every kernel.
+// the large one is hit. Both pipelines, every kernel.
 #include "tests/splat/picture.h"
 
 #include <math.h>
@@ -12,7 +12,7 @@ enum { SIDE_PX = 16 };
 
 /// The large disc: in front of the middle of the picture, turned about y by TILT, so that its depth changes
 /// fivefold. It is just small enough not to be drawn by pixel rays, and its ellipse not to be called wide by
-/// the fast road for its size alone.
+/// the fast pipeline for its size alone.
 #define TILT   1.0471975511965976 // 60 degrees
 #define CENTER 2.0
 #define RADIUS 1.6
@@ -24,8 +24,8 @@ static double depth_at(int x, double ray[3]) {
     return cos(TILT) * CENTER / (cos(TILT) - sin(TILT) * ray[0]);
 }
 
-/// Draws the first of two points, or both, with the reference and with the fast road: the large disc, red,
-/// and a small one, green, on a pixel's ray at a depth.
+/// Draws the first of two points, or both, with the reference and with the fast pipeline: the large disc,
+/// red, and a small one, green, on a pixel's ray at a depth.
 static void draw(ewa_context *context, ewa_kernel kernel, uint64_t count, const double ray[3], double z,
                  picture made[2]) {
     const float position[6] = {0, 0, (float)CENTER, (float)(ray[0] * z), (float)(ray[1] * z), (float)z};
@@ -81,8 +81,8 @@ static void test_tolerance_at_each_pixel(void **state) {
                 draw(context, (ewa_kernel)kernel, 2, ray, z + beyond[i] * RADIUS, pair);
                 look(pair, x, 1, shows);
                 if (shows[0] != (beyond[i] < 1) || shows[1] != (beyond[i] < 1))
-                    fail_msg("kernel %d, pixel %d, %g tolerances behind: reference %d, road %d", kernel, x,
-                             beyond[i], shows[0], shows[1]);
+                    fail_msg("kernel %d, pixel %d, %g tolerances behind: reference %d, pipeline %d", kernel,
+                             x, beyond[i], shows[0], shows[1]);
                 for (int k = 0; k < 2; k++) picture_free(&pair[k]);
             }
         }

@@ -221,7 +221,7 @@ static void hold_invariance(scene_kind kind, const ewa_render_options *options, 
         scene of;
         assert_int_equal(scene_make(context, kind, POINTS, SIDE, SIDE, &of), EWA_OK);
         cubes made = cubes_make(of.cloud, 3);
-        part parts[2 * CUBES_MOST];
+        part parts[2 * CUBES_MAX];
         uint32_t count = 0;
         for (uint32_t k = 0; k < made.count; k++) {
             const uint32_t i = turn % 2 ? made.count - 1 - k : k;

@@ -40,8 +40,8 @@ static ewa_camera random_camera(check_random *random, int trial) {
     return camera;
 }
 
-static void assert_near(double a, double b, double most) {
-    if (!(fabs(a - b) <= most)) fail_msg("%.12g is not %.12g", a, b);
+static void assert_near(double a, double b, double maximum) {
+    if (!(fabs(a - b) <= maximum)) fail_msg("%.12g is not %.12g", a, b);
 }
 
 static void assert_place(const ewa_camera *camera, const double point_world[3], double x_px, double y_px) {

@@ -3,8 +3,8 @@
 //
 // Scripts through the viewer without a window: the pictures and words that each expects, on every instruction set.
 #include "check.h"
-#include "cli/commands.h"
-#include "cli/window_services.h"
+#include "cli/base/commands.h"
+#include "cli/view/window_services.h"
 #include "viewer/front.h"
 
 #include <dirent.h>

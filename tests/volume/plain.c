@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MOST = 4096 };
+enum { MAXIMUM = 4096 };
 
 static const double PI = 3.14159265358979323846;
 
@@ -86,7 +86,7 @@ typedef struct scene {
     vector first;           ///< voxel 0, 0, 0 in camera space
     double camera_scale;    ///< camera units per world unit
     double step_world;      ///< the shortest
-    voxel voxels[MOST];
+    voxel voxels[MAXIMUM];
     int count;
 } scene;
 

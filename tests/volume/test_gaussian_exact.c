@@ -31,7 +31,7 @@ static double integrate(const double eye[3], const double direction[3], const do
 /// centre.
 static ewa_image draw_integrals(ewa_context *context, const ewa_camera *camera, const double center[3],
                                 const double axes[3][3], const double scales[3], double opacity,
-                                double least) {
+                                double minimum) {
     ewa_image image;
     assert_int_equal(ewa_image_create(context, camera->width_px, camera->height_px, 4, &image), EWA_OK);
     double eye[3];
@@ -49,7 +49,7 @@ static ewa_image draw_integrals(ewa_context *context, const ewa_camera *camera, 
         for (int k = 0; k < 3; k++) start[k] = center[k] - length / 2 * direction[k];
         const double through = integrate(start, direction, center, axes, scales, length);
         double alpha = opacity * integrate(eye, direction, center, axes, scales, length) / through;
-        if (alpha < least) alpha = 0;
+        if (alpha < minimum) alpha = 0;
         for (size_t k = 0; k < 4; k++) image.pixels[4 * i + k] = (float)alpha; // white
     }
     return image;
@@ -79,8 +79,8 @@ static void test_integrals(void **state) {
         ewa_gaussian_options options;
         ewa_gaussian_options_init(&options, sizeof options);
         options.prefilter_px2 = 0;
-        options.least_alpha = 1e-4, options.cutoff = 5;
-        ewa_image truth = draw_integrals(context, &camera, center, axes, scales, 0.9, options.least_alpha);
+        options.minimum_alpha = 1e-4, options.cutoff = 5;
+        ewa_image truth = draw_integrals(context, &camera, center, axes, scales, 0.9, options.minimum_alpha);
         double decibels[2];
         for (int exact = 0; exact < 2; exact++) {
             options.projection = (ewa_gaussian_projection)exact;

@@ -69,7 +69,7 @@ static void test_reference(void **state) {
 }
 
 /// More faint ones behind each other than are sorted at once: over many octaves of depth, at one depth.
-static void test_crowd(void **state) {
+static void test_dense(void **state) {
     (void)state;
     ewa_context *context = check_context(2, NULL);
     for (int many = 0; many < 2; many++)
@@ -96,7 +96,7 @@ static void test_crowd(void **state) {
                 camera.fx_px = camera.fy_px = 80;
             }
             ewa_gaussian_options options = options_of(EWA_PROJECTION_EXACT);
-            options.least_alpha = 1e-4, options.least_transmittance = 0;
+            options.minimum_alpha = 1e-4, options.minimum_transmittance = 0;
             char what[64];
             snprintf(what, sizeof what, "%u, %s", set.count, flat ? "orthographic" : "perspective");
             check_held(&set, &camera, &options, what);
@@ -424,7 +424,7 @@ static void test_memory(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_reference), cmocka_unit_test(test_crowd),    cmocka_unit_test(test_bytes),
+        cmocka_unit_test(test_reference), cmocka_unit_test(test_dense),    cmocka_unit_test(test_bytes),
         cmocka_unit_test(test_constant),  cmocka_unit_test(test_nothing),  cmocka_unit_test(test_one),
         cmocka_unit_test(test_surface),   cmocka_unit_test(test_sections), cmocka_unit_test(test_harmonics),
         cmocka_unit_test(test_memory),

@@ -173,12 +173,14 @@ static void test_beside(void **state) {
     for (int n = 0; n < 4; n++) {
         // At the ball's outline, in front of it or behind.
         const double place[3] = {n % 2 ? 1.4 : 0.4, 0.05, n % 2 ? 1.5 : -1.5};
-        ewa_gaussians set = gaussians_one(context, place, (const double[3]){0.12, 0.08, 0.02}, ROUND, 0.9, BLUE);
+        ewa_gaussians set =
+            gaussians_one(context, place, (const double[3]){0.12, 0.08, 0.02}, ROUND, 0.9, BLUE);
         ewa_voxels *fog = make_fog(context, place, 2);
         if (n < 2)
             draw_set(&set, &camera, &plain, &own), draw_set(&set, &camera, &over, &frame);
         else
-            draw_voxels(context, fog, &camera, &plain, &own), draw_voxels(context, fog, &camera, &over, &frame);
+            draw_voxels(context, fog, &camera, &plain, &own),
+                draw_voxels(context, fog, &camera, &over, &frame);
         size_t beside = 0, hidden = 0, before = 0;
         for (size_t i = 0; i < PIXELS; i++) {
             const bool behind = n % 2 && scan.rgba[4 * i + 3] == 1;
@@ -320,7 +322,8 @@ static void test_reference(void **state) {
         for (size_t i = 0; i < PIXELS; i++) {
             const bool there = check_uniform(&random, 0, 1) < 0.8;
             const float alpha = there ? (float)fmin(check_uniform(&random, 0, 1.5), 1) : 0;
-            surface.depth[i] = there ? (float)((n == 2 ? 3 : 1) * (2.5 + 0.5 * sin((double)i * 0.1))) : INFINITY;
+            surface.depth[i] =
+                there ? (float)((n == 2 ? 3 : 1) * (2.5 + 0.5 * sin((double)i * 0.1))) : INFINITY;
             surface.coverage[i] = there ? (float)check_uniform(&random, 0.1, 1.4) : 0;
             for (size_t k = 0; k < 4; k++) surface.rgba[4 * i + k] = alpha;
             for (size_t k = 0; k < 3; k++)
@@ -328,7 +331,7 @@ static void test_reference(void **state) {
         }
         ewa_gaussian_options options = options_over(&surface);
         options.projection = (ewa_gaussian_projection)(n % 2);
-        options.least_transmittance = 0;
+        options.minimum_transmittance = 0;
         const ewa_frame frame = frame_of(&out), reference = frame_of(&slow);
         draw_set(&set, &camera, &options, &frame);
         assert_int_equal(ewa_gaussian_render_reference(&set, &camera, &options, EWA_ORDER_RAYS, &reference),
@@ -502,9 +505,9 @@ static void test_eye_dome(void **state) {
     const ewa_frame frame = frame_of(&plain);
     draw_set(&set, &camera, &options, &frame);
     assert_int_equal(ewa_eye_dome_apply(context, &camera, 1, (const float[4]){0}, &frame), EWA_OK);
-    float least = 1;
-    for (size_t i = 0; i < PIXELS; i++) least = fminf(least, plain.rgba[4 * i]);
-    assert_true(least < 0.7f);
+    float minimum = 1;
+    for (size_t i = 0; i < PIXELS; i++) minimum = fminf(minimum, plain.rgba[4 * i]);
+    assert_true(minimum < 0.7f);
     assert_true(fabsf(plain.rgba[0] - 1) < 1e-3f && fabsf(plain.rgba[4 * (35 * WIDTH + 45)] - 1) < 1e-2f);
     ewa_gaussians_free(&set);
     ewa_context_destroy(&context);

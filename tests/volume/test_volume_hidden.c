@@ -32,14 +32,14 @@ static double half_wall(const void *data, double x, double y, double z) {
 /// left out. Draws both pictures and gives the share of pixels that are not open.
 static double compare_open(ewa_context *context, const ewa_voxels *voxels, const ewa_camera *camera,
                            ewa_volume_options *options, ewa_volume_stats stats[2]) {
-    const double least = options->least_transmittance;
+    const double minimum = options->minimum_transmittance;
     ewa_image some = draw(context, voxels, camera, options, &stats[0]);
-    options->least_transmittance = 0;
+    options->minimum_transmittance = 0;
     ewa_image all = draw(context, voxels, camera, options, &stats[1]);
-    options->least_transmittance = least;
+    options->minimum_transmittance = minimum;
     int closed = 0;
     for (int i = 0; i < PIXELS; i++) {
-        if (1 - (double)some.pixels[4 * i + 3] > least + 1e-6)
+        if (1 - (double)some.pixels[4 * i + 3] > minimum + 1e-6)
             assert_memory_equal(&some.pixels[4 * i], &all.pixels[4 * i], 16);
         else
             closed++;
@@ -69,7 +69,7 @@ static void test_open_pixels(void **state) {
             ewa_volume_options options;
             ewa_volume_options_init(&options, sizeof options);
             options.shading = EWA_SHADING_PHONG;
-            options.least_transmittance = 0.3;
+            options.minimum_transmittance = 0.3;
             ewa_volume_stats stats[2];
             const double closed = compare_open(context, voxels, &camera, &options, stats);
             assert_true(closed > 0.02 && closed < 0.98);

@@ -32,7 +32,7 @@ static void test_table(void **state) {
     (void)state;
     ewa_footprint_table table;
     ewa_footprint_table_make(&table);
-    double most = 0;
+    double maximum = 0;
     for (int row = 0; row < EWA_FOOTPRINT_ANGLES; row++) {
         const double sine2 = EWA_FOOTPRINT_END * row / (EWA_FOOTPRINT_ANGLES - 1);
         for (int n = 0; n < 1000; n++) {
@@ -40,10 +40,10 @@ static void test_table(void **state) {
             const int step = (int)at;
             const double d2 =
                 i2 + (double)table.start[row][step] + (at - step) * (double)table.growth[row][step];
-            most = fmax(most, fabs(d2 - ewa_footprint_index2(i2, sine2)));
+            maximum = fmax(maximum, fabs(d2 - ewa_footprint_index2(i2, sine2)));
         }
     }
-    assert_true(most < 1e-4);
+    assert_true(maximum < 1e-4);
 }
 
 static double optical_depth(const ewa_image *image, size_t pixel) {
@@ -66,7 +66,7 @@ static void test_blob(void **state) {
         if (ortho) assert_int_equal(ewa_camera_set_ortho(&camera, far ? 100 : 40), EWA_OK);
         ewa_volume_options options;
         ewa_volume_options_init(&options, sizeof options);
-        options.prefilter_px = 0, options.cutoff = 4, options.least_transmittance = 0;
+        options.prefilter_px = 0, options.cutoff = 4, options.minimum_transmittance = 0;
         ewa_image image = scene_draw(context, voxels, &camera, &options);
         const double s2 = q * q + options.sigma * options.sigma, peak = kappa * q * q * q / s2 * sqrt(2 * PI);
         const double *m = camera.world_to_camera;
@@ -107,7 +107,7 @@ static void test_marched(void **state) {
         ewa_volume_options options;
         ewa_volume_options_init(&options, sizeof options);
         options.method = EWA_VOLUME_SPLATS, options.index = (ewa_volume_index)index;
-        options.prefilter_px = 0, options.cutoff = 4, options.least_transmittance = 0;
+        options.prefilter_px = 0, options.cutoff = 4, options.minimum_transmittance = 0;
         ewa_image image = scene_draw(context, voxels, &camera, &options);
         for (int i = 0; i < SIDE * SIDE; i++)
             errors[index] = fmax(errors[index], fabs(optical_depth(&image, (size_t)i) - truth[i]));
@@ -134,8 +134,8 @@ static void turn_past_diagonal(ewa_context *context, const ewa_voxels *voxels, b
         ewa_image image = scene_draw(context, voxels, &camera, NULL);
         if (before.pixels) {
             const image_difference difference = image_compare(&image, &before, 0);
-            double *most = fabs(degrees - 45.125) < 0.3 ? near : elsewhere;
-            *most = fmax(*most, difference.rms);
+            double *maximum = fabs(degrees - 45.125) < 0.3 ? near : elsewhere;
+            *maximum = fmax(*maximum, difference.rms);
             ewa_image_free(&before);
         }
         before = image;

@@ -15,7 +15,7 @@ static const double UNIT[3] = {1, 1, 1};
 static ewa_volume_options defaults(void) {
     ewa_volume_options options;
     ewa_volume_options_init(&options, sizeof options);
-    options.least_transmittance = 0;
+    options.minimum_transmittance = 0;
     return options;
 }
 
@@ -52,7 +52,7 @@ static void test_marched(void **state) {
     const ewa_transfer transfer = scene_linear(1, 1, 1, 0.15f);
     ewa_voxels *voxels = scene_voxels(&volume, &transfer);
     const march_scene scene = {.volume = &volume, .extinction = (double)0.15f, .sigma = 0.6, .step = 0.1};
-    double largest = 0, most[2] = {0, 0};
+    double largest = 0, maximum[2] = {0, 0};
     for (int view = 0; view < 15; view++) {
         const ewa_camera camera =
             camera_at(WIDTH, HEIGHT, eyes[view / 3], aheads[view % 3], view % 2 ? 50 : 110);
@@ -65,14 +65,15 @@ static void test_marched(void **state) {
             const double truth =
                 march_depth(&scene, &camera, (double)(i % WIDTH) + 0.5, (double)(i / WIDTH) + 0.5);
             largest = fmax(largest, truth);
-            for (int r = 0; r < 2; r++) most[r] = fmax(most[r], fabs(optical_depth(&images[r], i) - truth));
+            for (int r = 0; r < 2; r++)
+                maximum[r] = fmax(maximum[r], fabs(optical_depth(&images[r], i) - truth));
         }
         ewa_image_free(&images[0]);
         ewa_image_free(&images[1]);
     }
-    print_message("depths up to %g; errors %g, reference %g\n", largest, most[0], most[1]);
+    print_message("depths up to %g; errors %g, reference %g\n", largest, maximum[0], maximum[1]);
     assert_true(largest > 1);
-    assert_true(most[0] < 5e-4 * largest && most[1] < 5e-4 * largest);
+    assert_true(maximum[0] < 5e-4 * largest && maximum[1] < 5e-4 * largest);
     ewa_voxels_destroy(&voxels);
     ewa_volume_free(&volume);
     ewa_context_destroy(&context);
@@ -93,14 +94,14 @@ static double error_of(const double spacing[3], ewa_volume_options options, doub
     assert_true(depth && rgba);
     for (int i = 0; i < WIDTH * HEIGHT; i++) depth[i] = 0.5f + 0.03f * (float)(i % WIDTH);
     if (surface) options.surface_depth = depth, options.surface_rgba = rgba;
-    double most = 0, sum = 0;
+    double maximum = 0, sum = 0;
     for (int view = 0; view < 6; view++) {
         const double eye[3] = {2.3 * view - 6.1, 3.7 - 1.1 * view, 0.9 * view - 2};
         const ewa_camera camera = camera_at(WIDTH, HEIGHT, eye, aheads[view % 3], fov_deg);
         ewa_image fast = scene_draw(context, voxels, &camera, &options);
         ewa_image slow = scene_draw_reference(&volume, &transfer, &camera, &options);
         const image_difference difference = image_compare(&fast, &slow, 0);
-        most = fmax(most, difference.maximum);
+        maximum = fmax(maximum, difference.maximum);
         for (int i = 3; i < 4 * WIDTH * HEIGHT; i += 4) sum += (double)slow.pixels[i];
         ewa_image_free(&fast);
         ewa_image_free(&slow);
@@ -111,7 +112,7 @@ static double error_of(const double spacing[3], ewa_volume_options options, doub
     ewa_voxels_destroy(&voxels);
     ewa_volume_free(&volume);
     ewa_context_destroy(&context);
-    return most;
+    return maximum;
 }
 
 static void test_equals_reference(void **state) {
@@ -148,22 +149,22 @@ static void test_moving(void **state) {
     transfer.points[1] = (ewa_transfer_point){2.25, {0.2f, 0.9f, 0.6f}, 0.1f};
     ewa_voxels *voxels = scene_voxels(&volume, &transfer);
     ewa_image before = {0};
-    double most = 0, mean = 0;
+    double maximum = 0, mean = 0;
     for (int step = 0; step < STEPS; step++) {
         const double eye[3] = {0.3, 0.2, 4 - 0.05 * step};
         const ewa_camera camera = camera_at(SIDE, SIDE, eye, ahead, 70);
         ewa_image image = scene_draw(context, voxels, &camera, NULL);
         if (before.pixels) {
             const image_difference difference = image_compare(&image, &before, 0);
-            most = fmax(most, difference.rms);
+            maximum = fmax(maximum, difference.rms);
             mean += difference.rms / (STEPS - 1);
             ewa_image_free(&before);
         }
         before = image;
     }
     ewa_image_free(&before);
-    print_message("change from step to step: mean %g, at most %g\n", mean, most);
-    assert_true(mean > 1e-4 && most < 2.5 * mean);
+    print_message("change from step to step: mean %g, at most %g\n", mean, maximum);
+    assert_true(mean > 1e-4 && maximum < 2.5 * mean);
     ewa_voxels_destroy(&voxels);
     ewa_volume_free(&volume);
     ewa_context_destroy(&context);
@@ -216,7 +217,7 @@ static void test_same_bytes(void **state) {
         const ewa_camera camera = camera_at(WIDTH, HEIGHT, eye, ahead, 75);
         ewa_volume_options options = defaults();
         options.shading = EWA_SHADING_PHONG;
-        options.least_transmittance = variant == 0 ? 1.0 / 512 : 0;
+        options.minimum_transmittance = variant == 0 ? 1.0 / 512 : 0;
         ewa_image image = scene_draw(context, voxels, &camera, &options);
         for (int i = 3; i < FLOATS; i += 4) assert_true(image.pixels[i] > 1 - 1.0f / 511);
         if (variant > 1) assert_memory_equal(image.pixels, first, FLOATS * sizeof(float));
@@ -363,7 +364,7 @@ static void test_ray_cones(void **state) {
             if (angle > cone.angle)
                 fail_msg("round %d: a ray at %g of a cone of %g", round, angle, cone.angle);
             const double at_ray[3] = {9 * ray.x, 9 * ray.y, 9 * ray.z};
-            assert_true(ewa_ray_cone_meets(&cone, at_ray, 0.01));
+            assert_true(ewa_ray_cone_hits(&cone, at_ray, 0.01));
             if ((i % 10 == 0 || i % 10 == 9) && (i < 10 || i >= 90))
                 corners[(i >= 90) * 2 + (i % 10 == 9)] = ray;
         }
@@ -376,8 +377,8 @@ static void test_ray_cones(void **state) {
         const ewa_vec3 far =
             vec3_add(vec3_scale(axis, 10 * cos(beyond)), vec3_scale(aside, 10 * sin(beyond)));
         const double off[3] = {far.x, far.y, far.z};
-        assert_false(ewa_ray_cone_meets(&cone, off, 0.1));
-        assert_true(ewa_ray_cone_meets(&cone, off, 11)); // the eye is in the ball
+        assert_false(ewa_ray_cone_hits(&cone, off, 0.1));
+        assert_true(ewa_ray_cone_hits(&cone, off, 11)); // the eye is in the ball
     }
 }
 

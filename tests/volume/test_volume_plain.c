@@ -63,7 +63,7 @@ static ewa_volume_options make_options(void) {
     ewa_volume_options options;
     ewa_volume_options_init(&options, sizeof options);
     options.method = EWA_VOLUME_SPLATS;
-    options.least_transmittance = 0;
+    options.minimum_transmittance = 0;
     options.prefilter_px = 0;
     return options;
 }
@@ -80,7 +80,7 @@ static void light_up(ewa_volume_options *options) {
 
 /// The largest differences from the plain picture: of the reference, and of the renderer.
 static void compare(const ewa_volume *volume, const ewa_transfer *transfer, const ewa_camera *camera,
-                    const ewa_volume_options *options, double most[2]) {
+                    const ewa_volume_options *options, double maximum[2]) {
     double *truth = malloc(PIXELS * 4 * sizeof *truth), *half = malloc(PIXELS * sizeof *half), sum = 0;
     float *rgba = malloc(PIXELS * 4 * sizeof *rgba), *depth = malloc(PIXELS * sizeof *depth);
     assert_true(truth && half && rgba && depth);
@@ -96,7 +96,8 @@ static void compare(const ewa_volume *volume, const ewa_transfer *transfer, cons
         else
             assert_int_equal(ewa_volume_render_reference(volume, transfer, camera, options, &frame), EWA_OK);
         int apart = 0;
-        for (int i = 0; i < 4 * PIXELS; i++) most[fast] = fmax(most[fast], fabs((double)rgba[i] - truth[i]));
+        for (int i = 0; i < 4 * PIXELS; i++)
+            maximum[fast] = fmax(maximum[fast], fabs((double)rgba[i] - truth[i]));
         for (int i = 0; i < PIXELS; i++)
             apart += !(isinf(half[i]) ? isinf(depth[i]) : fabs((double)depth[i] - half[i]) < unit);
         // Where half of the light is gone between two voxels, or in one of two as far away, rounding decides.
@@ -119,14 +120,14 @@ static void hold(const char *what, bool slanted, colors look, const ewa_volume_o
     ewa_context *context = check_context(2, NULL);
     ewa_volume volume = make_volume(context, slanted);
     const ewa_transfer transfer = make_transfer(look);
-    double most[2] = {0, 0};
+    double maximum[2] = {0, 0};
     for (int view = 0; view < 3; view++) {
         const ewa_camera camera = make_camera(view);
-        compare(&volume, &transfer, &camera, options, most);
+        compare(&volume, &transfer, &camera, options, maximum);
     }
-    print_message("%s: reference %.2g, renderer %.2g\n", what, most[0], most[1]);
-    assert_true(most[0] < reference);
-    assert_true(most[1] < renderer);
+    print_message("%s: reference %.2g, renderer %.2g\n", what, maximum[0], maximum[1]);
+    assert_true(maximum[0] < reference);
+    assert_true(maximum[1] < renderer);
     ewa_volume_free(&volume);
     ewa_context_destroy(&context);
 }

@@ -15,7 +15,7 @@ static const double UNIT[3] = {1, 1, 1};
 static ewa_volume_options defaults(void) {
     ewa_volume_options options;
     ewa_volume_options_init(&options, sizeof options);
-    options.least_transmittance = 0;
+    options.minimum_transmittance = 0;
     return options;
 }
 

@@ -38,7 +38,7 @@ static double error_of(const double spacing[3], double distance, ewa_volume_opti
     ewa_camera camera = scene_camera(93, 71, direction, distance);
     if (ortho) assert_int_equal(ewa_camera_set_ortho(&camera, distance * 0.7), EWA_OK);
     ewa_voxels *voxels = scene_voxels(&volume, &transfer);
-    options.least_transmittance = 0;
+    options.minimum_transmittance = 0;
     ewa_image fast = scene_draw(context, voxels, &camera, &options);
     ewa_image slow = scene_draw_reference(&volume, &transfer, &camera, &options);
     const double error = largest_difference(&fast, &slow);
@@ -170,7 +170,7 @@ static void test_culling_changes_nothing(void **state) {
         uint64_t hidden[2];
         for (int culled = 0; culled < 2; culled++) {
             ewa_volume_options options = defaults();
-            if (!culled) options.least_transmittance = 0;
+            if (!culled) options.minimum_transmittance = 0;
             pixels[culled] = malloc(4 * 150 * 150 * sizeof(float));
             const ewa_frame frame = {.rgba = pixels[culled]};
             ewa_volume_stats stats;

@@ -105,15 +105,15 @@ static void refuse(ewa_context *context, const ewa_volume *volume, const ewa_tra
 /// for every type. Around it in memory lie other numbers, that no border may look at.
 static void test_gradients_up_to_the_border(void **state) {
     (void)state;
-    enum { GUARD = 400, MOST = 7 * 6 * 9 };
+    enum { GUARD = 400, MAXIMUM = 7 * 6 * 9 };
     static const uint32_t shapes[][3] = {{7, 6, 3}, {3, 7, 6}, {6, 3, 7}, {2, 5, 9}, {5, 2, 2}, {4, 4, 4}};
     static const ewa_type types[] = {EWA_U8, EWA_I8, EWA_U16, EWA_I16, EWA_F32};
     static union {
-        uint8_t u8[MOST + 2 * GUARD];
-        int8_t i8[MOST + 2 * GUARD];
-        uint16_t u16[MOST + 2 * GUARD];
-        int16_t i16[MOST + 2 * GUARD];
-        float f32[MOST + 2 * GUARD];
+        uint8_t u8[MAXIMUM + 2 * GUARD];
+        int8_t i8[MAXIMUM + 2 * GUARD];
+        uint16_t u16[MAXIMUM + 2 * GUARD];
+        int16_t i16[MAXIMUM + 2 * GUARD];
+        float f32[MAXIMUM + 2 * GUARD];
     } numbers;
     ewa_context *context = check_context(1, NULL);
     ewa_transfer transfer = {.point_count = 2, .unit_length_world = 1};
@@ -123,7 +123,7 @@ static void test_gradients_up_to_the_border(void **state) {
         ewa_volume volume = {.type = types[k % 5], .index_to_world = {1, 0, 0, 0, 0, 2, 0, 0, 0, 0, 3, 0}};
         memcpy(volume.dims, shapes[k / 5], sizeof volume.dims);
         const uint32_t *dims = volume.dims, count = dims[0] * dims[1] * dims[2];
-        for (uint32_t n = 0; n < MOST + 2 * GUARD; n++) {
+        for (uint32_t n = 0; n < MAXIMUM + 2 * GUARD; n++) {
             const uint32_t at = n - GUARD;
             const bool inside = at < count; // what comes before wraps around
             const int value =
@@ -230,7 +230,7 @@ static void test_bad_options(void **state) {
             bad.level = 2;
             break;
         case 6:
-            bad.least_transmittance = 1;
+            bad.minimum_transmittance = 1;
             break;
         case 7:
             bad.surface_depth = pixels;

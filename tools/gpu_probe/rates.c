@@ -91,7 +91,7 @@ static const char splat_source[] =
 double probe_time(ewa_gl *device, probe_work *work, void *user) {
     GLuint query = 0;
     glGenQueries(1, &query);
-    double least_s = INFINITY;
+    double min_s = INFINITY;
     for (int run = -1; run < RUNS; run++) {
         if (ewa_gl_wait(device, "the probe") != EWA_OK) return INFINITY;
         const double start_s = ewa_now_s();
@@ -104,10 +104,10 @@ double probe_time(ewa_gl *device, probe_work *work, void *user) {
         glGetQueryObjectui64v(query, GL_QUERY_RESULT, &ns);
         // Software counts what it was told and not what it did.
         const double took_s = ns && !device->facts.software ? 1e-9 * (double)ns : wall_s;
-        if (run >= 0 && took_s < least_s) least_s = took_s;
+        if (run >= 0 && took_s < min_s) min_s = took_s;
     }
     glDeleteQueries(1, &query);
-    return least_s;
+    return min_s;
 }
 
 /// A dispatch, and the buffer that is cleared before it.
@@ -137,10 +137,10 @@ static ewa_status measure_fma(ewa_gl *device, const ewa_gl_buffer *buffer, probe
     glProgramUniform1f(program, glGetUniformLocation(program, "by"), 0.999f);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, buffer->name);
     // Drivers end what takes seconds.
-    enum { LEAST_GROUPS = 1 << 8, MOST_GROUPS = 1 << 16 };
-    dispatch_work work = {program, LEAST_GROUPS, NULL};
+    enum { MIN_GROUPS = 1 << 8, MAX_GROUPS = 1 << 16 };
+    dispatch_work work = {program, MIN_GROUPS, NULL};
     double took_s = probe_time(device, dispatch, &work);
-    while (took_s < 0.02 && work.group_count < MOST_GROUPS &&
+    while (took_s < 0.02 && work.group_count < MAX_GROUPS &&
            work.group_count < device->facts.group_count / 2) {
         work.group_count *= 2;
         took_s = probe_time(device, dispatch, &work);
@@ -180,16 +180,16 @@ static ewa_status measure_readback(ewa_gl *device, const ewa_gl_buffer *buffer, 
     const size_t size_bytes = (size_t)PIXELS * 4;
     void *to = ewa_allocate(device->context, 1, size_bytes);
     if (!to) return EWA_ERROR_MEMORY;
-    double least_s = INFINITY;
+    double min_s = INFINITY;
     for (int run = -1; run < RUNS; run++) {
         const double start_s = ewa_now_s();
         glBindBuffer(GL_COPY_READ_BUFFER, buffer->name);
         glGetBufferSubData(GL_COPY_READ_BUFFER, 0, (GLsizeiptr)size_bytes, to);
         const double took_s = ewa_now_s() - start_s;
-        if (run >= 0 && took_s < least_s) least_s = took_s;
+        if (run >= 0 && took_s < min_s) min_s = took_s;
     }
     ewa_release(device->context, to, 1, size_bytes);
-    rates->readback_ms = 1e3 * least_s, rates->readback_mb = 1e-6 * (double)size_bytes;
+    rates->readback_ms = 1e3 * min_s, rates->readback_mb = 1e-6 * (double)size_bytes;
     return ewa_gl_check(device, "reading back");
 }
 

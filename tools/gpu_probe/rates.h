@@ -26,7 +26,7 @@ typedef struct probe_rates {
 /// Something that is measured.
 typedef void probe_work(void *user);
 
-/// Returns the least seconds of a few runs after one that warms up.
+/// Returns the shortest time in seconds of a few runs after one that warms up.
 double probe_time(ewa_gl *device, probe_work *work, void *user);
 
 /// Measures all; the device is entered, and has compute programs. Errors: EWA_ERROR_MEMORY, EWA_ERROR_UNSUPPORTED.

@@ -57,8 +57,8 @@ def check(path, program):
     for axis in "xyz":
         require(np.all(np.asarray(whole[axis]) <= half["xyz".index(axis)] + 1e-3), f"{path.name}: points within the root")
     # laspy rounds the box to steps of the coordinates.
-    least, most = (count_inside(whole, box, by * whole.header.scales) for by in (-1, 1))
-    require(least <= len(part) <= most, f"{path.name}: points of a box, {len(part)} of {least} to {most}")
+    minimum, maximum = (count_inside(whole, box, by * whole.header.scales) for by in (-1, 1))
+    require(minimum <= len(part) <= maximum, f"{path.name}: points of a box, {len(part)} of {minimum} to {maximum}")
     if program != "-":
         with tempfile.TemporaryDirectory() as folder:
             ply = pathlib.Path(folder) / "out.ply"

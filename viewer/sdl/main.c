@@ -3,9 +3,9 @@
 //
 // The program ewa-view: `ewa view` with a window. A program of its own, so that no other command waits for the
 // libraries that windows need.
-#include "cli/commands.h"
-#include "cli/json.h"
-#include "cli/window.h"
+#include "cli/base/commands.h"
+#include "cli/base/json.h"
+#include "cli/view/window.h"
 
 #include <signal.h>
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // The two passes over a unit of work: some splats of one tile, a pixel by each invocation. PASS is 1 for visibility, 2 for the
-// sums (src/surface/road_passes.h, road_payload.h, road_sums.h, road_apart.h).
+// sums (src/surface/pipeline_passes.h, pipeline_payload.h, pipeline_sums.h, pipeline_side_sums.h).
 
 layout(local_size_x = TILE_PX, local_size_y = TILE_PX) in;
 
@@ -14,7 +14,7 @@ layout(std430, binding = 2) readonly buffer PassedBlock { float passed[]; };
 layout(std430, binding = 3) readonly buffer OpenBlock { uint open[]; }; // [tile]: whether anything is wanted of it
 #if PASS == 2
 layout(std430, binding = 4) buffer SumBlock { int sums[]; };      // [channel][word][pixel]
-layout(std430, binding = 8) buffer TurnedBlock { int turned[]; }; // the same of what faces away
+layout(std430, binding = 8) buffer TurnedBlock { int is_back[]; }; // the same of what faces away
 layout(std430, binding = 11) buffer CutBlock { int cut[]; };      // [channel][word][pixel], then a flag for each block
 layout(std430, binding = 12) readonly buffer MaterialBlock { float materials[]; };
 #endif
@@ -50,21 +50,21 @@ int fine_units(float weight, float factor) {
     return units_of(FINE_SCALE, left);
 }
 
-void add_word(uint channel, uint word, int value, bool is_turned) {
+void add_word(uint channel, uint word, int value, bool is_back_facing) {
     if (value == 0) return;
     uint at = (channel * WORDS + word) * pixel_count + pixel;
-    if (is_turned) {
-        atomicAdd(turned[at], value & 0xffff);
-        atomicAdd(turned[at + pixel_count], value >> 16);
+    if (is_back_facing) {
+        atomicAdd(is_back[at], value & 0xffff);
+        atomicAdd(is_back[at + pixel_count], value >> 16);
     } else {
         atomicAdd(sums[at], value & 0xffff);
         atomicAdd(sums[at + pixel_count], value >> 16);
     }
 }
 
-void add_channel(uint channel, float weight, float factor, bool is_turned, bool fine) {
+void add_channel(uint channel, float weight, float factor, bool is_back_facing, bool fine) {
     int value = units_of(weight, factor);
-    if (is_turned)
+    if (is_back_facing)
         add_word(channel, 0u, value, true);
     else
         low[channel] += value;
@@ -72,12 +72,12 @@ void add_channel(uint channel, float weight, float factor, bool is_turned, bool 
     if (!fine) return;
     int rest = fine_units(weight, factor);
 #if WITH_FINE
-    if (!is_turned) {
+    if (!is_back_facing) {
         low_fine[channel] += rest;
         return;
     }
 #endif
-    add_word(channel, 2u, rest, is_turned);
+    add_word(channel, 2u, rest, is_back_facing);
 #endif
 }
 
@@ -128,26 +128,26 @@ struct Payload {
     float opacity, material[5];
 };
 
-void add_splat(Payload p, View view, Sample s, float bound, bool is_turned, bool fine) {
+void add_splat(Payload p, View view, Sample s, float bound, bool is_back_facing, bool fine) {
     float weight = exponential(s.exponent, view.doublings);
 #if WITH_CLIPS
     weight = wf_mul(weight, s.share);
 #endif
     bool depth_too = WITH_DEPTH != 0 && behind == 0u;
-    add_channel(0u, weight, p.peak, is_turned, fine || depth_too);
-    for (uint i = 0u; i < 3u; i++) add_channel(1u + i, weight, p.color[i], is_turned, fine);
+    add_channel(0u, weight, p.peak, is_back_facing, fine || depth_too);
+    for (uint i = 0u; i < 3u; i++) add_channel(1u + i, weight, p.color[i], is_back_facing, fine);
 #if WITH_NORMAL
-    for (uint i = 0u; i < 3u; i++) add_channel(4u + i, weight, p.normal[i], is_turned, fine);
+    for (uint i = 0u; i < 3u; i++) add_channel(4u + i, weight, p.normal[i], is_back_facing, fine);
 #endif
 #if WITH_DEPTH
     if (depth_too)
-        add_channel(DEPTH_CHANNEL, wf_mul(weight, p.peak), depth_share(view, s.key, bound), is_turned, true);
+        add_channel(DEPTH_CHANNEL, wf_mul(weight, p.peak), depth_share(view, s.key, bound), is_back_facing, true);
 #endif
 #if WITH_MATERIAL
-    for (uint i = 0u; i < 5u; i++) add_channel(8u + i, weight, p.material[i], is_turned, fine);
+    for (uint i = 0u; i < 5u; i++) add_channel(8u + i, weight, p.material[i], is_back_facing, fine);
 #endif
 #if WITH_OPACITY
-    add_channel(CHANNELS - 1u, weight, p.opacity, is_turned, fine);
+    add_channel(CHANNELS - 1u, weight, p.opacity, is_back_facing, fine);
 #endif
 }
 #endif
@@ -168,7 +168,7 @@ void main() {
     pixel = here;
     pixel_count = band_px.x * band_px.y;
     float bound = float_of(nearest[here]);
-    if (whole != 0u) bound = LEAST_KEY_OF_ALL;
+    if (whole != 0u) bound = MIN_KEY_OF_ALL;
     if (bound == -INF) return;
     for (int i = 0; i < CHANNELS; i++) low[i] = 0;
 #if WITH_FINE
@@ -225,7 +225,7 @@ void main() {
                 fine = true;
             }
 #endif
-            add_splat(p, view, s, bound, has(r.box, TURNED), fine);
+            add_splat(p, view, s, bound, has(r.box, BACK_FACING), fine);
 #endif
         }
     } else {
@@ -257,7 +257,7 @@ void main() {
                 fine = true;
             }
 #endif
-            add_splat(p, view, s, bound, has(r.flags, TURNED), fine);
+            add_splat(p, view, s, bound, has(r.flags, BACK_FACING), fine);
 #endif
         }
     }

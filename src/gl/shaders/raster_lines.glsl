@@ -17,8 +17,8 @@ void add_line(vec3 toward, float distance, vec2 projected) {
         g = (toward.xy - toward.z * n.xy / nz) * focal.zw;
         at = distance;
     } else {
-        float np = dot(n, center), least = EDGE_ON * length(center);
-        float share = (dot(toward, center) - distance) / ((np < 0.0 ? -1.0 : 1.0) * max(abs(np), least));
+        float np = dot(n, center), minimum = EDGE_ON * length(center);
+        float share = (dot(toward, center) - distance) / ((np < 0.0 ? -1.0 : 1.0) * max(abs(np), minimum));
         g = (toward.xy - n.xy * share) * focal.zw;
         at = distance * inverse_z;
     }
@@ -40,22 +40,22 @@ void add_own_lines(uint index, vec2 projected) {
 void add_sections(vec2 projected) {
     float support = kernel.x * sigma;
     uint left = (1u << flags.y) - 1u;
-    while (left != 0u && line_count < MOST_LINES) {
+    while (left != 0u && line_count < MAX_LINES) {
         int nearest = -1;
-        float least = 0.0;
+        float minimum = 0.0;
         for (int i = 0; i < int(flags.y); i++) {
             if ((left >> uint(i) & 1u) == 0u) continue;
             float distance = dot(sections[i].xyz, center) + sections[i].w, along = dot(sections[i].xyz, n);
             if (!(distance < support * sqrt(max(1.0 - along * along, 0.0)))) {
                 left &= ~(1u << uint(i));
-            } else if (nearest < 0 || distance < least) {
+            } else if (nearest < 0 || distance < minimum) {
                 nearest = i;
-                least = distance;
+                minimum = distance;
             }
         }
         if (nearest < 0) return;
         left &= ~(1u << uint(nearest));
-        add_line(sections[nearest].xyz, least, projected);
+        add_line(sections[nearest].xyz, minimum, projected);
     }
 }
 

@@ -8,17 +8,17 @@ flat out vec4 color;  // times opacity and peak; peak
 flat out vec4 normal; // times peak; opacity times peak
 #endif
 #if PASS == 3
-layout(std140) uniform MaterialBlock { vec4 materials[2 * MOST_MATERIALS]; }; // ambient, diffuse, specular, shininess; reflection
+layout(std140) uniform MaterialBlock { vec4 materials[2 * MAX_MATERIALS]; }; // ambient, diffuse, specular, shininess; reflection
 flat out vec4 material; // times peak
 flat out float reflection;
 #endif
 
-uniform int turned_ones; // 0: those that face the viewer, 1: that do not, -1: all
+uniform int back_facing_only; // 0: those that face the viewer, 1: that do not, -1: all
 
 // By n.p, or what has its sign.
 bool is_wanted(float facing) {
     if (has(CULL_BACK)) return facing < 0.0;
-    return turned_ones < 0 || (0.0 < facing) == (turned_ones == 1);
+    return back_facing_only < 0 || (0.0 < facing) == (back_facing_only == 1);
 }
 
 #if PASS == 1
@@ -36,12 +36,12 @@ float decode_color(uint form, uint code) {
 }
 
 void find_payload() {
-    bool is_turned = 0.0 < facing;
+    bool is_back_facing = 0.0 < facing;
     float opacity = has(TRANSLUCENT) ? float(color_code.w) / 65535.0 : 1.0, weight = peak * INVERSE_TWO_PI;
     for (int i = 0; i < 3; i++)
         color[i] = weight * opacity * sums.y * decode_color(packet_bits.x, color_code[i]);
     color.w = weight * sums.x;
-    normal = vec4(n * (is_turned ? -color.w : color.w), color.w * opacity);
+    normal = vec4(n * (is_back_facing ? -color.w : color.w), color.w * opacity);
 #if PASS == 3
     material = color.w * materials[2u * material_code];
     reflection = color.w * materials[2u * material_code + 1u].x;

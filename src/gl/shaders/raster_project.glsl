@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// A surfel to its ellipse and its depths (docs/math.md sections 3 to 5; src/surface/road_project.h). An instance is a
-// surfel; packets are attributes of sixteen instances.
+// A surfel to its ellipse and its depths (docs/math.md sections 3 to 5; src/surface/pipeline_project.h). An
+// instance is a surfel; packets are attributes of sixteen instances.
 
 layout(location = 0) in vec4 local;       // position in its packet, sigma
 layout(location = 1) in ivec2 oct;        // normal
@@ -15,10 +15,10 @@ layout(location = 7) in uint material_code;
 
 flat out vec4 shape;   // centre, xx, xy
 flat out vec4 key_at;  // yy; key at the centre, its gradient
-flat out vec4 range;   // least, largest key; tolerance; z
+flat out vec4 range;   // smallest, largest key; tolerance; z
 flat out vec4 extra;   // raycast: sqrt|V|, range of z over that at the centre
 #if WITH_CLIPS
-flat out vec3 lines[MOST_LINES]; // inward, offset: from the corner of the band
+flat out vec3 lines[MAX_LINES]; // inward, offset: from the corner of the band
 flat out uint line_bits;         // how many | either << 8
 #endif
 
@@ -119,7 +119,7 @@ void make_point() {
 }
 
 void source_shape(vec3 v) {
-    alive = alive && FLAT * v.x * v.z <= root_det * root_det && LEAST_AREA <= root_det;
+    alive = alive && FLAT * v.x * v.z <= root_det * root_det && MIN_AREA <= root_det;
     float inverse_det = 1.0 / root_det, scale = inversesqrt(v.x + v.z + 2.0 * root_det) * inverse_det;
     vec3 a = vec3(v.z + root_det, -v.y, v.x + root_det) * scale;
     float along_x = a.x * a.x + a.y * a.y, along_y = a.z * a.z + a.y * a.y, crossed = a.y * (a.x + a.z);
@@ -170,7 +170,7 @@ void find_shape() {
     root_det = abs(minor * major * f.x * f.y * facing) * k * root;
     vec3 w = v + vec3(kernel.z, 0.0, kernel.z);
     float det = root_det * root_det + kernel.z * (v.x + v.z + kernel.z);
-    alive = alive && FLAT * w.x * w.z < det && LEAST_SPLAT <= root_det;
+    alive = alive && FLAT * w.x * w.z < det && MIN_SPLAT <= root_det;
     peak = root_det * inversesqrt(det);
     shape.zw = vec2(w.z, -2.0 * w.y) / det;
     key_at.x = w.x / det;
@@ -205,7 +205,7 @@ void find_depths(vec2 moved) {
     float margin = max(limit * per_depth - reach, 0.0);
     if (has(CIRCULAR)) margin += min(half_px.x * steepness, GRAZING_TOLERANCE * support * per_depth);
     low -= margin;
-    if (has(CIRCULAR) && !has(ORTHOGRAPHIC)) low = max(low, LEAST_KEY * inverse_z);
+    if (has(CIRCULAR) && !has(ORTHOGRAPHIC)) low = max(low, MIN_KEY * inverse_z);
     float tolerance = depth.x * sigma + min(depth.y * reach_depth, GRAZING_TOLERANCE * support);
     key_at.yzw = vec3(key, key_slope);
     range = vec4(low, high + margin, tolerance, z);

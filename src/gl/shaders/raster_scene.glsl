@@ -21,4 +21,4 @@ const uint ORTHOGRAPHIC = 1u, CULL_BACK = 2u, ELLIPSES = 4u, AFFINE = 8u, SOURCE
 
 bool has(uint flag) { return (flags.x & flag) != 0u; }
 
-const int MOST_LINES = 4;
+const int MAX_LINES = 4;

@@ -10,7 +10,7 @@ flat in vec4 shape, key_at, range, extra;
 flat in vec4 color, normal;
 #endif
 #if WITH_CLIPS
-flat in vec3 lines[MOST_LINES];
+flat in vec3 lines[MAX_LINES];
 flat in uint line_bits;
 #endif
 
@@ -79,7 +79,7 @@ bool sample_splat(vec2 at) {
 #endif
 
 #if WITH_CLIPS
-float share = 1.0, first_share = 1.0, line_share[MOST_LINES];
+float share = 1.0, first_share = 1.0, line_share[MAX_LINES];
 
 // The area of the pixel's square on the inner side of a line.
 float half_plane_share(vec3 line, vec2 at) {
@@ -97,10 +97,10 @@ bool either() { return (line_bits & 256u) != 0u; }
 int line_count() { return int(line_bits & 15u); }
 
 void clip_at(vec2 at) {
-    for (int i = 0; i < MOST_LINES; i++) line_share[i] = half_plane_share(lines[i], at);
+    for (int i = 0; i < MAX_LINES; i++) line_share[i] = half_plane_share(lines[i], at);
     first_share = either() ? max(line_share[0], line_share[1]) : min(line_share[0], line_share[1]);
     share = first_share;
-    for (int i = 2; i < MOST_LINES; i++) share = min(share, line_share[i]);
+    for (int i = 2; i < MAX_LINES; i++) share = min(share, line_share[i]);
 }
 
 #if PASS == 2

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// From sums to pixels (docs/math.md sections 6 to 8; src/surface/road_apart.h, road_shade.h, road_resolve.h): a fragment by
-// each pixel of the band. STAGE says what is made.
+// From sums to pixels (docs/math.md sections 6 to 8; src/surface/pipeline_side_sums.h, pipeline_shade.h,
+// pipeline_resolve.h): a fragment by each pixel of the band. STAGE says what is made.
 
 #define COMPOSE 0
 #define PLANES  1
@@ -18,21 +18,21 @@ layout(std140) uniform ResolveBlock {
     vec4 background;
     vec4 rays;     // slope = x rays.x + rays.y, y rays.z + rays.w
     vec4 to_world[3];
-    vec4 toward[MOST_LIGHTS]; // w: it is at the eye
-    vec4 light[MOST_LIGHTS];
+    vec4 toward[MAX_LIGHTS]; // w: it is at the eye
+    vec4 light[MAX_LIGHTS];
     vec4 material_units; // of the sums of ambient, ...
     vec4 mirror;   // reflection; unit of its sums; texels of the environment per squared radian
     vec4 environment_from_camera[3];
     uvec4 flags;   // EDGE_ANTIALIASING, ...; shading; how many lights, levels
-    uvec4 levels[MOST_LEVELS]; // of the environment: size, first texel
+    uvec4 levels[MAX_LEVELS]; // of the environment: size, first texel
 };
 
 const uint EDGE_ANTIALIASING = 1u, TRANSPARENT = 2u, ONE_PASS = 4u, ORTHOGRAPHIC_VIEW = 8u, WITH_OPACITY = 16u, BOTH_SIDES = 32u,
            WITH_MATERIAL = 64u;
 const uint UNSHADED = 0u, LAMBERT = 1u, PHONG = 3u;
 
-uniform sampler2D nearest_map, color_map, normal_map, cut_map, opacity_map, color_turned_map, normal_turned_map, opacity_turned_map,
-    composed_map, first_cut_map, material_map, reflection_map, material_turned_map, reflection_turned_map, environment_map;
+uniform sampler2D nearest_map, color_map, normal_map, cut_map, opacity_map, color_back_map, normal_back_map, opacity_back_map,
+    composed_map, first_cut_map, material_map, reflection_map, material_back_map, reflection_back_map, environment_map;
 uniform int behind, whole;
 
 #if STAGE == PICTURE || STAGE == PLANES
@@ -66,16 +66,16 @@ void settle() {
     normal = texelFetch(normal_map, pixel, 0);
     opacity = has(WITH_OPACITY) ? texelFetch(opacity_map, pixel, 0).r : color.w;
     if (has(BOTH_SIDES)) {
-        vec4 turned = texelFetch(color_turned_map, pixel, 0);
-        float shown = whole != 0 ? 1.0 : max(1.0 - color.w * scales.w, 0.0), mixed = shown * turned.w + color.w;
-        float scale = whole != 0 ? 1.0 : 0.0 < mixed ? (color.w + turned.w) / mixed : 0.0;
-        float turned_opacity = has(WITH_OPACITY) ? texelFetch(opacity_turned_map, pixel, 0).r : turned.w;
-        color = scale * (color + shown * turned);
-        normal = scale * (normal + shown * texelFetch(normal_turned_map, pixel, 0));
-        opacity = scale * (opacity + shown * turned_opacity);
+        vec4 is_back = texelFetch(color_back_map, pixel, 0);
+        float shown = whole != 0 ? 1.0 : max(1.0 - color.w * scales.w, 0.0), mixed = shown * is_back.w + color.w;
+        float scale = whole != 0 ? 1.0 : 0.0 < mixed ? (color.w + is_back.w) / mixed : 0.0;
+        float back_opacity = has(WITH_OPACITY) ? texelFetch(opacity_back_map, pixel, 0).r : is_back.w;
+        color = scale * (color + shown * is_back);
+        normal = scale * (normal + shown * texelFetch(normal_back_map, pixel, 0));
+        opacity = scale * (opacity + shown * back_opacity);
         if (has(WITH_MATERIAL)) {
-            material_sum = scale * (material_sum + shown * texelFetch(material_turned_map, pixel, 0));
-            reflection_sum = scale * (reflection_sum + shown * texelFetch(reflection_turned_map, pixel, 0).r);
+            material_sum = scale * (material_sum + shown * texelFetch(material_back_map, pixel, 0));
+            reflection_sum = scale * (reflection_sum + shown * texelFetch(reflection_back_map, pixel, 0).r);
         }
     }
     if (has(WITH_MATERIAL)) {

@@ -10,7 +10,7 @@ void main() {
     color = normal = vec4(0.0);
 #endif
 #if WITH_CLIPS
-    for (int i = 0; i < MOST_LINES; i++) lines[i] = vec3(0.0, 0.0, 1.0);
+    for (int i = 0; i < MAX_LINES; i++) lines[i] = vec3(0.0, 0.0, 1.0);
     line_bits = 0u;
 #endif
 #if PASS == 3

@@ -41,7 +41,7 @@ struct Record {
     uint clip;                  // of clipped ones: where their lines are
 };
 
-const uint TURNED = 64u, STEEP = 128u, CLIPPED = 32768u;
+const uint BACK_FACING = 64u, STEEP = 128u, CLIPPED = 32768u;
 
 // A clip line on the screen (ewa_clip_line), and those of a splat (ewa_clip).
 struct ClipLine { float x_inward, y_inward, offset, reach, narrow, per_narrow, per_widths, pad; };
@@ -52,7 +52,7 @@ struct Near {
     float u[3], v[3], w[3], z[3];
     float depth_low, depth_high, tolerance;
     float color[3], normal[3], opacity, material[5];
-    uint flags; // TURNED, CLIPPED
+    uint flags; // BACK_FACING, CLIPPED
     uint source, pad0, pad1;
     Clip clip;
 };

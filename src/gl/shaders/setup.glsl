@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Surfels to records: src/surface/road_project.h, one lane of one packet in one field by each invocation, and how many records
-// each tile gets. What pixel rays and clip lines need is asked of the host, in `masks`.
+// Surfels to records: src/surface/pipeline_project.h, one lane of one packet in one field by each invocation,
+// and how many records each tile gets. What pixel rays and clip lines need is asked of the host, in `masks`.
 
 layout(local_size_x = 64) in;
 
@@ -196,8 +196,8 @@ void stage_covariance() {
 
 void source_shape(float v11, float v12, float v22, float root_det) {
     float h2 = view.prefilter2_px2;
-    float least = wf_mul(FLAT, wf_mul(v11, v22));
-    bool invertible = least <= wf_mul(root_det, root_det) && LEAST_AREA <= root_det;
+    float minimum = wf_mul(FLAT, wf_mul(v11, v22));
+    bool invertible = minimum <= wf_mul(root_det, root_det) && MIN_AREA <= root_det;
     t.alive = t.alive && invertible;
     root_det = invertible ? root_det : 1.0;
     float trace = wf_add(wf_add(v11, v22), wf_add(root_det, root_det));
@@ -228,13 +228,13 @@ void circular_shape(float w11, float w12, float w22, float root_det) {
 
 void raycast_shape(float v11, float v12, float v22, float root_det) {
     float h2 = view.prefilter2_px2;
-    float most = wf_mul(wf_add(1.0, t.part), wf_mul(t.root_k, t.root_k)), most2 = wf_mul(most, most);
+    float maximum = wf_mul(wf_add(1.0, t.part), wf_mul(t.root_k, t.root_k)), max2 = wf_mul(maximum, maximum);
     t.xx = v11;
     t.xy = v12;
     t.yy = v22;
     t.peak = wf_mul(root_det, INVERSE_TWO_PI);
-    t.half_x = wf_mul(view.cutoff, wf_sqrt(wf_fma(most2, v11, h2)));
-    t.half_y = wf_mul(view.cutoff, wf_sqrt(wf_fma(most2, v22, h2)));
+    t.half_x = wf_mul(view.cutoff, wf_sqrt(wf_fma(max2, v11, h2)));
+    t.half_y = wf_mul(view.cutoff, wf_sqrt(wf_fma(max2, v22, h2)));
 }
 
 void stage_shape() {
@@ -257,7 +257,7 @@ void stage_shape() {
     float w11 = wf_add(v11, h2), w22 = wf_add(v22, h2);
     float det_filtered = wf_fma(h2, wf_add(wf_add(v11, v22), h2), wf_mul(root_det, root_det));
     t.alive = t.alive && wf_mul(FLAT, wf_mul(w11, w22)) < det_filtered;
-    t.alive = t.alive && LEAST_SPLAT <= root_det;
+    t.alive = t.alive && MIN_SPLAT <= root_det;
     float inverse_root_det = wf_inverse_root(det_filtered);
     float scaled = wf_mul(wf_mul(inverse_root_det, inverse_root_det), view.exponent_scale);
     t.peak = wf_mul(wf_mul(root_det, inverse_root_det), INVERSE_TWO_PI);
@@ -318,9 +318,9 @@ void emit(uint base, uint lane, uint pair, uvec2 field, uint at) {
     }
     float margin = wf_max(wf_sub(limit, reach), 0.0);
     if (circular) {
-        float most = wf_mul(GRAZING_TOLERANCE, support);
-        float most_key = orthographic ? most : wf_mul(wf_mul(most, t.inverse_z), t.inverse_z);
-        margin = wf_add(margin, wf_min(wf_mul(t.half_x, slope), most_key));
+        float maximum = wf_mul(GRAZING_TOLERANCE, support);
+        float max_key = orthographic ? maximum : wf_mul(wf_mul(maximum, t.inverse_z), t.inverse_z);
+        margin = wf_add(margin, wf_min(wf_mul(t.half_x, slope), max_key));
     }
     float grazing = wf_min(wf_mul(view.grazing, reach_depth), wf_mul(GRAZING_TOLERANCE, support));
     float tolerance = wf_fma(view.tolerance, t.sigma, grazing);
@@ -342,10 +342,10 @@ void emit(uint base, uint lane, uint pair, uvec2 field, uint at) {
         float whole_columns = wf_sub(floor(wf_mul(whole_last_x, 0.25)), floor(wf_mul(whole_first_x, 0.25)));
         wide = wide || 4.0 <= whole_columns;
     }
-    float least_key = wf_fnma(wf_abs(t.key_x), t.half_x, wf_fnma(wf_abs(t.key_y), t.half_y, key));
+    float min_key = wf_fnma(wf_abs(t.key_x), t.half_x, wf_fnma(wf_abs(t.key_y), t.half_y, key));
     float lowest = wf_sub(key_low, margin);
-    if (circular && !orthographic) lowest = wf_max(lowest, wf_mul(LEAST_KEY, t.inverse_z));
-    if (!orthographic) wide = wide || wf_max(least_key, lowest) < wf_mul(TANGENT_KEY, key);
+    if (circular && !orthographic) lowest = wf_max(lowest, wf_mul(MIN_KEY, t.inverse_z));
+    if (!orthographic) wide = wide || wf_max(min_key, lowest) < wf_mul(TANGENT_KEY, key);
     if (circular) wide = true;
     bool steep = wide || has(view_flags, AFFINE) || margin < reach;
     float bound_scale = 1.0, bound_offset = wf_negate(tolerance);
@@ -354,7 +354,7 @@ void emit(uint base, uint lane, uint pair, uvec2 field, uint at) {
         bound_scale = wide ? 0.0 : share2;
         bound_offset = wide ? tolerance : wf_mul(wf_sub(share, share2), t.inverse_z);
     }
-    bool turned = 0.0 < t.facing;
+    bool is_back = 0.0 < t.facing;
     float opacity = t.peak;
     if (opacities_at >= 0) {
         uint index = pairs[pair].x * 16u + lane, word = attributes[uint(opacities_at) + index / 2u];
@@ -369,7 +369,7 @@ void emit(uint base, uint lane, uint pair, uvec2 field, uint at) {
     float color_units = wf_mul(opacity, view.color_scale);
     uint form = words[pair].x & 0xffffu;
     float peak_units = wf_mul(t.peak, view.sum_scale);
-    float facing_peak = turned ? wf_negate(peak_units) : peak_units;
+    float facing_peak = is_back ? wf_negate(peak_units) : peak_units;
     Record r;
     r.cx = cx;
     r.cy = cy;
@@ -382,12 +382,12 @@ void emit(uint base, uint lane, uint pair, uvec2 field, uint at) {
     r.bound = steep ? bound_scale : wf_fma(bound_scale, key, bound_offset);
     r.bound_x = steep ? bound_offset : wf_mul(bound_scale, t.key_x);
     r.bound_y = steep ? wf_add(key_high, margin) : wf_mul(bound_scale, t.key_y);
-    r.key_low = steep ? lowest : least_key;
+    r.key_low = steep ? lowest : min_key;
     r.red = wf_odd_product(color_units, decode_color(form, half_word(base + 96u, lane)));
     r.green = wf_odd_product(color_units, decode_color(form, half_word(base + 104u, lane)));
     r.blue = wf_odd_product(color_units, decode_color(form, half_word(base + 112u, lane)));
     r.box = column | row << 8 | columns << 16 | rows << 24 | (steep ? STEEP : 0u) | (clipped ? CLIPPED : 0u) |
-            (turned ? TURNED : 0u);
+            (is_back ? BACK_FACING : 0u);
     r.nx = wf_odd_product(facing_peak, t.n.x);
     r.ny = wf_odd_product(facing_peak, t.n.y);
     r.nz = wf_odd_product(facing_peak, t.n.z);

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// A splat at a pixel: src/surface/road_raster.h, road_raycast.h, road_clip.h, road_near.h. Pixels are measured from the middle
-// of the field.
+// A splat at a pixel: src/surface/pipeline_raster.h, pipeline_raycast.h, pipeline_clip.h, pipeline_near.h.
+// Pixels are measured from the middle of the field.
 
 // What a splat is at a pixel (block_sample, ray_sample, near_sample).
 struct Sample {
@@ -73,11 +73,11 @@ Sample sample_ray(Record r, vec2 at, View view) {
     float slope2 = wf_mul(view.cutoff2, variance > 0.0 ? variance : 0.0);
     float slope = wf_sqrt(slope2 < RAY_LIMIT2 ? slope2 : RAY_LIMIT2);
     float area = wf_div(wf_mul(r.peak, TWO_PI), view.sum_scale), area2 = wf_mul(area, area);
-    float least_w = wf_div(1.0, wf_add(1.0, slope)), most_w = wf_div(1.0, wf_sub(1.0, slope));
+    float min_w = wf_div(1.0, wf_add(1.0, slope)), max_w = wf_div(1.0, wf_sub(1.0, slope));
     // ray_evaluate()
     float dx = wf_sub(at.x, r.cx), dy = wf_sub(at.y, r.cy), h2 = view.prefilter2_px2;
     float plane = wf_fma(r.key_x, dx, wf_fma(r.key_y, dy, r.key));
-    float w = wf_clamp(wf_mul(plane, depth), least_w, most_w), w2 = wf_mul(w, w);
+    float w = wf_clamp(wf_mul(plane, depth), min_w, max_w), w2 = wf_mul(w, w);
     float v11 = wf_fma(w2, r.xx, h2), v22 = wf_fma(w2, r.yy, h2), v12 = wf_mul(w2, r.xy);
     float unfiltered = wf_mul(wf_mul(w2, w2), area2);
     float det = wf_fma(h2, wf_fma(w2, wf_add(r.xx, r.yy), h2), unfiltered);

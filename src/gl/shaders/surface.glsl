@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// From sums to surfaces, surfaces to pixels: src/surface/road_apart.h (settle), road_shade.h, road_resolve.h, road_edges.h
-// (compose). PASS is 3 for the first surface, 4 for one behind, 5 for the picture. A pixel by each invocation.
+// From sums to surfaces, surfaces to pixels: src/surface/pipeline_side_sums.h (settle), pipeline_shade.h,
+// pipeline_resolve.h, pipeline_edges.h (compose). PASS is 3 for the first surface, 4 for one behind, 5 for
+// the picture. A pixel by each invocation.
 
 layout(local_size_x = TILE_PX, local_size_y = TILE_PX) in;
 
@@ -19,8 +20,8 @@ layout(std430, binding = 0) readonly buffer ResolveBlock {
     float ray_x[2], ray_y[2];
     float to_world[9];
     uint flags, shading, light_count, level_count;
-    Light lights[MOST_LIGHTS];
-    Level levels[MOST_LEVELS];
+    Light lights[MAX_LIGHTS];
+    Level levels[MAX_LEVELS];
 } to;
 
 const uint EDGE_ANTIALIASING = 1u, TRANSPARENT = 2u, ONE_PASS = 4u, ORTHOGRAPHIC_VIEW = 8u;
@@ -30,7 +31,7 @@ layout(std430, binding = 1) buffer NearestBlock { uint nearest[]; };
 layout(std430, binding = 2) buffer PassedBlock { float passed[]; };
 layout(std430, binding = 3) buffer OpenBlock { uint open[]; }; // [tile], then how many are open, then broken pixels
 layout(std430, binding = 4) buffer SumBlock { uint sums[]; };
-layout(std430, binding = 8) buffer TurnedBlock { uint turned[]; };
+layout(std430, binding = 8) buffer TurnedBlock { uint is_back[]; };
 layout(std430, binding = 11) buffer CutBlock { uint cut[]; };
 layout(std430, binding = 13) buffer SettledBlock { float settled[]; }; // [channel][pixel] of the first surface
 layout(std430, binding = 14) buffer BehindBlock { float behind_planes[]; }; // [4][pixel]; then its cut: cover, x, y, flag
@@ -81,29 +82,29 @@ float read_sum(uint channel, uint word) {
     return rounded(sums[at], sums[at + pixel_count]);
 }
 
-float read_turned(uint channel, uint word) {
+float read_back_facing(uint channel, uint word) {
     uint at = (channel * WORDS + word) * pixel_count + pixel;
-    return rounded(turned[at], turned[at + pixel_count]);
+    return rounded(is_back[at], is_back[at + pixel_count]);
 }
 
 #if PASS == 3 || PASS == 4
 shared uint cut_blocks[(TILE_PX / 4) * (TILE_PX / 4)];
 shared uint still_open;
 
-float sum_units(uint channel, bool finely, bool of_turned) {
-    float units = of_turned ? read_turned(channel, 0u) : read_sum(channel, 0u);
+float sum_units(uint channel, bool finely, bool of_back_facing) {
+    float units = of_back_facing ? read_back_facing(channel, 0u) : read_sum(channel, 0u);
 #if WITH_FINE || WITH_DEPTH || WITH_CLIPS
     if (finely)
-        return wf_fma(of_turned ? read_turned(channel, 2u) : read_sum(channel, 2u), FINE_UNIT, units);
+        return wf_fma(of_back_facing ? read_back_facing(channel, 2u) : read_sum(channel, 2u), FINE_UNIT, units);
 #endif
     return units;
 }
 
 #if WITH_DEPTH
-float mean_depth(bool of_turned) {
-    float weight = sum_units(0u, true, of_turned);
+float mean_depth(bool of_back_facing) {
+    float weight = sum_units(0u, true, of_back_facing);
     bool some = 0.0 < weight;
-    float share = wf_keep(some, wf_div(sum_units(DEPTH_CHANNEL, true, of_turned), some ? weight : 1.0));
+    float share = wf_keep(some, wf_div(sum_units(DEPTH_CHANNEL, true, of_back_facing), some ? weight : 1.0));
     if (has(to.flags, ORTHOGRAPHIC_VIEW)) return wf_mul(share, to.depth_per_share);
     float key = float_of(nearest[pixel]);
     bool seen = 0.0 < key;
@@ -174,7 +175,7 @@ Surface settle(bool block_is_cut, bool first) {
 #endif
     for (uint i = 0u; i < uint(CHANNELS) * WORDS; i++) {
         sums[i * pixel_count + pixel] = 0u;
-        turned[i * pixel_count + pixel] = 0u;
+        is_back[i * pixel_count + pixel] = 0u;
     }
     return s;
 }
@@ -199,8 +200,8 @@ vec3 toward_eye() {
 }
 
 float shaded_length2(vec3 normal, float weight) {
-    float least = wf_mul(weight, SHADED_NORMAL);
-    return wf_max(dot3(normal, normal), wf_mul(least, least));
+    float minimum = wf_mul(weight, SHADED_NORMAL);
+    return wf_max(dot3(normal, normal), wf_mul(minimum, minimum));
 }
 
 shared vec3 directions[TILE_PX * TILE_PX];
@@ -321,7 +322,7 @@ vec3 shade(float s[CHANNELS]) {
             power = wf_mul(wf_add(facing, sight), wf_inverse_root(across2));
         }
         power = wf_power(power, material[3]);
-        float highlight = wf_keep(0.0 < facing && LEAST_POWER < power, power);
+        float highlight = wf_keep(0.0 < facing && MIN_POWER < power, power);
         for (int i = 0; i < 3; i++) specular[i] = wf_fma(from.color[i], highlight, specular[i]);
     }
     vec3 mirrored = vec3(0.0);

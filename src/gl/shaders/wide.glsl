@@ -105,7 +105,7 @@ float wf_exp2(float x) {
 }
 
 float wf_power(float x, float exponent) {
-    x = wf_min(wf_max(x, LEAST_NORMAL), 1.0);
+    x = wf_min(wf_max(x, MIN_NORMAL), 1.0);
     return wf_exp2(wf_mul(exponent, wf_log2(x)));
 }
 
@@ -136,7 +136,7 @@ vec3 rotate(float m[9], vec3 v) {
     return r;
 }
 
-// exp(-s), road_raster.h.
+// exp(-s), pipeline_raster.h.
 float exponential(float s, uint doublings) {
     float e = wf_fma(s, 0.023368568317, -0.149394522715);
     e = wf_fma(s, e, 0.492818156100);

@@ -63,14 +63,14 @@ static ewa_status read_size(const source *in, const cJSON *object, ewa_camera *c
 
 /// Appends the numbers of an array, nested or not, while there is room; false when anything else is in it or
 /// there are more.
-static bool flatten(const cJSON *array, double *values, int *count, int most) {
+static bool flatten(const cJSON *array, double *values, int *count, int maximum) {
     if (!cJSON_IsArray(array)) return false;
     const cJSON *item;
     cJSON_ArrayForEach(item, array) {
         if (cJSON_IsArray(item)) {
-            if (!flatten(item, values, count, most)) return false;
+            if (!flatten(item, values, count, maximum)) return false;
         } else {
-            if (!cJSON_IsNumber(item) || *count == most) return false;
+            if (!cJSON_IsNumber(item) || *count == maximum) return false;
             values[(*count)++] = item->valuedouble;
         }
     }

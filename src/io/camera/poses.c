@@ -11,7 +11,7 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { MOST_NUMBERS = 8, MATRIX_ROWS = 4, HEADER_NUMBERS = 3 };
+enum { MAX_NUMBERS = 8, MATRIX_ROWS = 4, HEADER_NUMBERS = 3 };
 
 typedef struct text {
     ewa_camera_list *list;
@@ -26,7 +26,7 @@ static ewa_status fail_line(const text *in, const char *what) {
 static bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == ','; }
 
 /// Reads the numbers of the next line that has some; 0 of them at the end of the text.
-static ewa_status read_line(text *in, double numbers[MOST_NUMBERS], int *count) {
+static ewa_status read_line(text *in, double numbers[MAX_NUMBERS], int *count) {
     *count = 0;
     while (*count == 0 && in->next < in->end) {
         const size_t left = (size_t)(in->end - in->next);
@@ -37,7 +37,7 @@ static ewa_status read_line(text *in, double numbers[MOST_NUMBERS], int *count) 
         for (;;) {
             while (at < stop && is_blank(*at)) at++;
             if (at == stop) break;
-            if (*count == MOST_NUMBERS) return fail_line(in, "more than eight numbers");
+            if (*count == MAX_NUMBERS) return fail_line(in, "more than eight numbers");
             at = ewa_number_read_f64(at, stop, &numbers[*count]);
             if (!at || (at < stop && !is_blank(*at))) return fail_line(in, "what is no number");
             if (!isfinite(numbers[*count])) return fail_line(in, "a number is not finite");
@@ -74,7 +74,7 @@ static ewa_status add_quaternion(const text *in, const ewa_camera *lens, const d
 
 /// Reads the rows of a matrix after its first one.
 static ewa_status read_matrix(text *in, const ewa_camera *lens, const double first[4]) {
-    double rotation[9], eye_world[3], row[MOST_NUMBERS];
+    double rotation[9], eye_world[3], row[MAX_NUMBERS];
     memcpy(row, first, 4 * sizeof *row);
     for (int r = 0; r < MATRIX_ROWS; r++) {
         int count = 4;
@@ -95,7 +95,7 @@ ewa_status ewa_camera_list_read_poses(ewa_camera_list *list, const ewa_camera *l
     text in = {list, (const char *)bytes, (const char *)bytes + size_bytes, 0};
     bool headed = false; // the line before was the header of a matrix
     for (;;) {
-        double numbers[MOST_NUMBERS];
+        double numbers[MAX_NUMBERS];
         int count;
         ewa_status status = read_line(&in, numbers, &count);
         if (status != EWA_OK) return status;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// What a format of point clouds has to offer: one road in, one road out. A format says what its points have
+// What a format of point clouds has to offer: one way in, one way out. A format says what its points have
 // before any of them is read, then hands them over in the order of the file, as many at a time as the caller
 // has room for; so the same reader fills a whole cloud and passes a file through that is larger than memory.
 #ifndef EWA_SRC_FORMAT_H
@@ -42,9 +42,9 @@ typedef struct ewa_cloud_format {
     ewa_status (*open)(const ewa_cloud_source *source, ewa_cloud *prototype, uint64_t *point_count,
                        void **state);
 
-    /// Reads the next points, at most `most`, into one sink per attribute of the prototype, in its order.
+    /// Reads the next points, at most `maximum`, into one sink per attribute of the prototype, in its order.
     /// `*got_count` is 0 at the end only. Uses threads by ewa_parallel().
-    ewa_status (*read)(void *state, uint64_t most, const ewa_cloud_sink *sinks, uint64_t *got_count);
+    ewa_status (*read)(void *state, uint64_t maximum, const ewa_cloud_sink *sinks, uint64_t *got_count);
 
     /// Frees the state; accepts NULL.
     void (*close)(void *state);

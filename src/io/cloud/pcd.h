@@ -77,10 +77,10 @@ typedef struct ewa_pcd_records {
 /// Counts the points from `first` up to before `end` whose position is finite.
 uint64_t ewa_pcd_count(const ewa_pcd_records *records, uint64_t first, uint64_t end);
 
-/// Moves the points from `first` up to before `end` whose position is finite to the sinks, at most `most`,
+/// Moves the points from `first` up to before `end` whose position is finite to the sinks, at most `maximum`,
 /// behind the `to` points there; returns the point to go on with. `*moved` gets how many were.
 uint64_t ewa_pcd_move(const ewa_pcd_records *records, uint64_t first, uint64_t end,
-                      const ewa_cloud_sink *sinks, uint64_t to, uint64_t most, uint64_t *moved);
+                      const ewa_cloud_sink *sinks, uint64_t to, uint64_t maximum, uint64_t *moved);
 
 /// What colours mean that the header does not say.
 typedef struct ewa_pcd_colors {
@@ -102,7 +102,7 @@ void ewa_pcd_settle(const ewa_pcd_colors *colors, ewa_pcd_column *columns, uint3
 /// beyond.
 bool ewa_lzf_unpack(const uint8_t *from, uint64_t from_bytes, uint8_t *to, uint64_t to_bytes);
 
-enum { EWA_LZF_MOST = 88 }; ///< bytes that one of LZF can become, at most: 3 become 264
+enum { EWA_LZF_MAX = 88 }; ///< bytes that one of LZF can become, at most: 3 become 264
 
 /// Text that is being read.
 typedef struct ewa_pcd_text ewa_pcd_text;
@@ -114,7 +114,7 @@ ewa_status ewa_pcd_text_open(const ewa_cloud_source *source, ewa_pcd_header *hea
                              uint32_t column_count, ewa_pcd_text **text, uint64_t *invalid_count);
 
 /// As read() of ewa_cloud_format.
-ewa_status ewa_pcd_text_read(ewa_pcd_text *text, uint64_t most, const ewa_cloud_sink *sinks,
+ewa_status ewa_pcd_text_read(ewa_pcd_text *text, uint64_t maximum, const ewa_cloud_sink *sinks,
                              uint64_t *got_count);
 
 /// Frees the text and sets `*text` to NULL; accepts a pointer to NULL.

@@ -19,7 +19,7 @@ static const bool is_swapped = __BYTE_ORDER__ == __ORDER_BIG_ENDIAN__;
 /// An attribute that several fields make up.
 typedef struct group {
     const char *attribute;
-    uint32_t least_components, most_components;
+    uint32_t min_components, max_components;
     const char *spellings[MAX_SPELLINGS][4];
 } group;
 
@@ -111,9 +111,9 @@ static ewa_type group_type(const ewa_pcd_column *column, const group *g) {
 static bool match(const ewa_pcd_header *header, const group *g, ewa_pcd_column *column) {
     const bool is_color = strcmp(g->attribute, EWA_COLOR) == 0;
     for (uint32_t s = 0; s < MAX_SPELLINGS && g->spellings[s][0]; s++) {
-        *column = (ewa_pcd_column){.component_count = g->least_components};
+        *column = (ewa_pcd_column){.component_count = g->min_components};
         bool found = true;
-        for (uint32_t c = 0; c < g->least_components; c++) {
+        for (uint32_t c = 0; c < g->min_components; c++) {
             column->sources[c] = find(header, g->spellings[s][c]);
             found = found && column->sources[c];
         }
@@ -159,7 +159,7 @@ static bool has_attribute(const ewa_pcd_column *columns, uint32_t count, const c
 
 static uint32_t components_of(const char *attribute) {
     for (uint32_t g = 0; g < GROUP_COUNT; g++)
-        if (strcmp(groups[g].attribute, attribute) == 0) return groups[g].least_components;
+        if (strcmp(groups[g].attribute, attribute) == 0) return groups[g].min_components;
     return 0;
 }
 
@@ -434,8 +434,8 @@ static void gather(uint8_t *to, size_t to_stride, const uint8_t *from, size_t si
 /// Moves `count` of the points from `first` on, those of the list.
 static void move_listed(const ewa_pcd_records *records, uint64_t first, const uint16_t *kept, uint32_t count,
                         const ewa_cloud_sink *sinks, uint64_t to) {
-    enum { MOST_BYTES = 4 * sizeof(double) };
-    uint8_t block[BLOCK_POINTS * MOST_BYTES];
+    enum { MAX_BYTES = 4 * sizeof(double) };
+    uint8_t block[BLOCK_POINTS * MAX_BYTES];
     const uint32_t span = count ? kept[count - 1] + 1u : 0;
     for (uint32_t i = 0; i < records->column_count; i++) {
         const ewa_pcd_column *column = &records->columns[i];
@@ -453,14 +453,14 @@ static void move_listed(const ewa_pcd_records *records, uint64_t first, const ui
 }
 
 uint64_t ewa_pcd_move(const ewa_pcd_records *records, uint64_t first, uint64_t end,
-                      const ewa_cloud_sink *sinks, uint64_t to, uint64_t most, uint64_t *moved) {
+                      const ewa_cloud_sink *sinks, uint64_t to, uint64_t maximum, uint64_t *moved) {
     uint16_t kept[BLOCK_POINTS];
     *moved = 0;
-    for (uint64_t next; first < end && *moved < most; first = next) {
+    for (uint64_t next; first < end && *moved < maximum; first = next) {
         next = block_end(first, end);
         uint32_t count = list_finite(records, first, next - first, kept);
-        if (count > most - *moved) {
-            count = (uint32_t)(most - *moved);
+        if (count > maximum - *moved) {
+            count = (uint32_t)(maximum - *moved);
             next = first + kept[count - 1] + 1;
         }
         move_listed(records, first, kept, count, sinks, to + *moved);

@@ -112,7 +112,7 @@ static ewa_status open_compressed(pcd_state *state) {
         return ewa_fail(context, EWA_ERROR_LIMIT, "%s: the points unpack to %llu bytes; the limit is %llu",
                         source->name, (unsigned long long)bytes,
                         (unsigned long long)limits->max_memory_bytes);
-    if (bytes > packed_bytes * EWA_LZF_MOST)
+    if (bytes > packed_bytes * EWA_LZF_MAX)
         return ewa_fail(context, EWA_ERROR_FORMAT, "%s: byte %llu: %llu bytes cannot unpack to %llu",
                         source->name, (unsigned long long)at, (unsigned long long)packed_bytes,
                         (unsigned long long)bytes);
@@ -150,14 +150,14 @@ static void count_task(void *data, uint32_t task, uint32_t worker) {
 }
 
 /// Counts what the next wave holds; returns how many tasks it has.
-static uint32_t next_wave(const pcd_state *state, uint64_t at, uint64_t most, wave *w) {
+static uint32_t next_wave(const pcd_state *state, uint64_t at, uint64_t maximum, wave *w) {
     const uint64_t task_records = TASK_BYTES / state->header.record_bytes;
     w->state = state;
     w->first = at;
     w->task_records = task_records ? task_records : 1;
     const uint64_t left = state->record_count - at, whole = WAVE_TASKS * w->task_records;
     uint64_t count = left < whole ? left : whole;
-    if (state->invalid_count == 0 && count > most) count = most;
+    if (state->invalid_count == 0 && count > maximum) count = maximum;
     w->end = at + count;
     const uint32_t tasks = (uint32_t)((count + w->task_records - 1) / w->task_records);
     if (state->invalid_count)
@@ -277,16 +277,17 @@ static void move_task(void *data, uint32_t task, uint32_t worker) {
                  w->kept[task], &moved);
 }
 
-static ewa_status read_points(void *opened, uint64_t most, const ewa_cloud_sink *sinks, uint64_t *got_count) {
+static ewa_status read_points(void *opened, uint64_t maximum, const ewa_cloud_sink *sinks,
+                              uint64_t *got_count) {
     pcd_state *state = opened;
-    if (state->text) return ewa_pcd_text_read(state->text, most, sinks, got_count);
+    if (state->text) return ewa_pcd_text_read(state->text, maximum, sinks, got_count);
     uint64_t got = 0;
     ewa_status status = EWA_OK;
     wave w = {.sinks = sinks};
-    while (got < most && state->at < state->record_count && status == EWA_OK) {
-        const uint32_t tasks = next_wave(state, state->at, most - got, &w);
+    while (got < maximum && state->at < state->record_count && status == EWA_OK) {
+        const uint32_t tasks = next_wave(state, state->at, maximum - got, &w);
         uint32_t whole = 0;
-        while (whole < tasks && w.kept[whole] <= most - got) {
+        while (whole < tasks && w.kept[whole] <= maximum - got) {
             w.to[whole] = got;
             got += w.kept[whole++];
         }
@@ -294,7 +295,7 @@ static ewa_status read_points(void *opened, uint64_t most, const ewa_cloud_sink 
         state->at = task_first(&w, whole);
         if (whole < tasks) {
             uint64_t moved;
-            state->at = ewa_pcd_move(&state->records, state->at, w.end, sinks, got, most - got, &moved);
+            state->at = ewa_pcd_move(&state->records, state->at, w.end, sinks, got, maximum - got, &moved);
             got += moved;
         }
         if (!state->unpacked)

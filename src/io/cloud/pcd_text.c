@@ -143,12 +143,12 @@ static const char *line_end(const char *at, const char *end) {
     return found ? found : end;
 }
 
-/// Reads the lines that begin from `at` up to before `stop`, at most `most_points`.
-static void read_chunk(const ewa_pcd_text *text, const char *at, const char *stop, uint64_t most_points,
+/// Reads the lines that begin from `at` up to before `stop`, at most `max_points`.
+static void read_chunk(const ewa_pcd_text *text, const char *at, const char *stop, uint64_t max_points,
                        chunk *c) {
     *c = (chunk){.bytes = c->bytes};
     ewa_pcd_records records = text->records;
-    while (at < stop && c->points < most_points) {
+    while (at < stop && c->points < max_points) {
         const char *start = skip_separators(at, text->end);
         c->lines++;
         if (start < text->end && *start != '\n' && *start != '#') {
@@ -259,40 +259,40 @@ static void move_task(void *data, uint32_t task, uint32_t worker) {
 }
 
 /// Hands over records that have been read; returns how many.
-static uint64_t move(ewa_pcd_text *text, uint64_t most, const ewa_cloud_sink *sinks, uint64_t to) {
+static uint64_t move(ewa_pcd_text *text, uint64_t maximum, const ewa_cloud_sink *sinks, uint64_t to) {
     wave w = {.text = text, .sinks = sinks};
     uint64_t got = 0;
     uint32_t whole = 0;
     for (uint64_t first = text->next_record; text->next_chunk + whole < text->chunk_count; first = 0) {
         const uint64_t kept = text->chunks[text->next_chunk + whole].kept - first;
-        if (kept > most - got) break;
+        if (kept > maximum - got) break;
         w.to[whole++] = to + got;
         got += kept;
     }
     ewa_parallel(text->source->context, move_task, &w, whole);
     if (whole) text->next_record = 0;
     text->next_chunk += whole;
-    if (got < most && text->next_chunk < text->chunk_count) {
+    if (got < maximum && text->next_chunk < text->chunk_count) {
         const chunk *c = &text->chunks[text->next_chunk];
         ewa_pcd_records records = text->records;
         uint64_t moved;
         records.bytes = c->bytes;
         records.all_finite = true;
         text->next_record =
-            ewa_pcd_move(&records, text->next_record, c->kept, sinks, to + got, most - got, &moved);
+            ewa_pcd_move(&records, text->next_record, c->kept, sinks, to + got, maximum - got, &moved);
         got += moved;
     }
     return got;
 }
 
-ewa_status ewa_pcd_text_read(ewa_pcd_text *text, uint64_t most, const ewa_cloud_sink *sinks,
+ewa_status ewa_pcd_text_read(ewa_pcd_text *text, uint64_t maximum, const ewa_cloud_sink *sinks,
                              uint64_t *got_count) {
     const ewa_cloud_source *source = text->source;
     ewa_status status = EWA_OK;
     uint64_t got = 0;
-    while (got < most && status == EWA_OK) {
+    while (got < maximum && status == EWA_OK) {
         if (text->next_chunk < text->chunk_count) {
-            got += move(text, most - got, sinks, got);
+            got += move(text, maximum - got, sinks, got);
         } else if (text->points_left && text->at < text->end) {
             const uint64_t begin = (uint64_t)(text->at - (const char *)source->bytes);
             ewa_cloud_passed(source, begin);
@@ -437,14 +437,14 @@ ewa_status ewa_pcd_text_open(const ewa_cloud_source *source, ewa_pcd_header *hea
         ewa_pcd_lay_out(header);
     }
     const uint64_t line_bytes = 2 * (uint64_t)header->value_count; // of the shortest line
-    const uint64_t most_lines = (uint64_t)(text->end - text->at) / line_bytes + 1;
+    const uint64_t max_lines = (uint64_t)(text->end - text->at) / line_bytes + 1;
     ewa_status status = allocate(text);
-    if (status == EWA_OK && header->point_count > most_lines) {
+    if (status == EWA_OK && header->point_count > max_lines) {
         status =
-            ewa_cloud_damage(source, header->point_count - most_lines,
+            ewa_cloud_damage(source, header->point_count - max_lines,
                              "%s: the text from line %llu on is too short for %llu points", source->name,
                              (unsigned long long)header->data_line, (unsigned long long)header->point_count);
-        header->point_count = text->points_left = most_lines;
+        header->point_count = text->points_left = max_lines;
     }
     if (status == EWA_OK) status = look_ahead(text, columns, invalid_count);
     if (status == EWA_OK)

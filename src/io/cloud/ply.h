@@ -40,7 +40,7 @@ typedef struct ewa_ply_element {
     uint32_t first_property, property_count;
     uint32_t list_count;
     uint32_t record_bytes; ///< scalars only
-    uint32_t least_bytes;  ///< of one record in the file: empty lists, or ascii digits and blanks
+    uint32_t min_bytes;    ///< of one record in the file: empty lists, or ascii digits and blanks
 } ewa_ply_element;
 
 typedef struct ewa_ply_header {
@@ -118,14 +118,14 @@ static inline uint64_t ewa_ply_block_records(uint32_t record_bytes) {
 void ewa_ply_sink_put(const ewa_ply_sink *sink, uint64_t first, const uint8_t *records, uint32_t record_bytes,
                       uint64_t count);
 
-/// Steps `*at` over all records of an element, for which least_bytes each are there. Errors:
+/// Steps `*at` over all records of an element, for which min_bytes each are there. Errors:
 /// EWA_ERROR_FORMAT.
 ewa_status ewa_ply_binary_skip(const ewa_ply_source *source, const ewa_ply_header *header,
                                const ewa_ply_element *element, uint64_t *at);
 ewa_status ewa_ply_ascii_skip(const ewa_ply_source *source, const ewa_ply_header *header,
                               const ewa_ply_element *element, uint64_t *at);
 
-/// Decodes all records of an element, for which least_bytes each are there, into `sink` and steps `*at` over
+/// Decodes all records of an element, for which min_bytes each are there, into `sink` and steps `*at` over
 /// them. Errors: EWA_ERROR_FORMAT, EWA_CANCELLED.
 ewa_status ewa_ply_binary_read(const ewa_ply_source *source, const ewa_ply_header *header,
                                const ewa_ply_element *element, const ewa_ply_sink *sink, uint64_t *at);
@@ -172,8 +172,8 @@ void ewa_ply_points_close(ewa_ply_points *points);
 /// Adds the attributes of the vertices to a cloud.
 ewa_status ewa_ply_points_add(const ewa_ply_points *points, ewa_cloud *cloud);
 
-/// Reads the next vertices, at most `most`, into one sink per column; 0 at the end.
-ewa_status ewa_ply_points_read(ewa_ply_points *points, uint64_t most, const ewa_cloud_sink *sinks,
+/// Reads the next vertices, at most `maximum`, into one sink per column; 0 at the end.
+ewa_status ewa_ply_points_read(ewa_ply_points *points, uint64_t maximum, const ewa_cloud_sink *sinks,
                                uint64_t *got_count);
 
 /// All records of one element.

@@ -3,7 +3,7 @@
 //
 // Records of ascii PLY files. By convention each stands on a line of its own: then lines are counted and
 // decoded in parallel. When any line differs (blank, broken in two, too long) the numbers are read one after
-// the other instead, whatever the lines; that road also finds the place and the words for every error.
+// the other instead, whatever the lines; that path also finds the place and the words for every error.
 #include "base/base.h"
 #include "io/cloud/ply.h"
 #include "io/number.h"

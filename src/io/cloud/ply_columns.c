@@ -22,7 +22,7 @@ typedef enum type_rule {
 typedef struct group {
     const char *attribute;
     type_rule rule;
-    uint32_t least_components, most_components;
+    uint32_t min_components, max_components;
     const char *spellings[MAX_SPELLINGS][4];
 } group;
 
@@ -76,14 +76,14 @@ static bool match(const ewa_ply_header *header, const ewa_ply_element *element, 
                   ewa_ply_column *column) {
     for (uint32_t s = 0; s < MAX_SPELLINGS && g->spellings[s][0]; s++) {
         uint32_t found = 0;
-        for (uint32_t c = 0; c < g->least_components; c++) {
+        for (uint32_t c = 0; c < g->min_components; c++) {
             column->sources[c] = find_scalar(header, element, g->spellings[s][c]);
             found += column->sources[c] != NULL;
         }
         // Part of the first spelling would be left as scalars whose names the group is written under.
-        if (s == 0 && found && found < g->least_components) return false;
-        if (found < g->least_components) continue;
-        column->component_count = g->least_components;
+        if (s == 0 && found && found < g->min_components) return false;
+        if (found < g->min_components) continue;
+        column->component_count = g->min_components;
         if (g->rule == RULE_COLOR) {
             // Numbers that mean shares of different ranges are no colour.
             const ewa_type type = color_type(column->sources[0]->type);
@@ -118,11 +118,11 @@ static bool is_keepable(const ewa_ply_source *source, ewa_text name) {
     }
     for (uint32_t g = 0; g < GROUP_COUNT; g++) {
         const size_t length = strlen(groups[g].attribute);
-        if (groups[g].least_components > 1 && name.length == length &&
+        if (groups[g].min_components > 1 && name.length == length &&
             memcmp(name.chars, groups[g].attribute, length) == 0) {
             ewa_report(source->context, EWA_SEVERITY_WARNING,
                        "%s: property %s is left out: an attribute of that name has %u components",
-                       source->name, ewa_quote(name, quote), groups[g].least_components);
+                       source->name, ewa_quote(name, quote), groups[g].min_components);
             return false;
         }
     }
@@ -166,8 +166,8 @@ void ewa_ply_property_name(const ewa_attribute *attribute, uint32_t component,
                            char name[EWA_PLY_NAME_BYTES]) {
     for (uint32_t g = 0; g < GROUP_COUNT; g++) {
         if (strcmp(attribute->name, groups[g].attribute) != 0 ||
-            attribute->component_count < groups[g].least_components ||
-            attribute->component_count > groups[g].most_components)
+            attribute->component_count < groups[g].min_components ||
+            attribute->component_count > groups[g].max_components)
             continue;
         snprintf(name, EWA_PLY_NAME_BYTES, "%s", groups[g].spellings[0][component]);
         return;

@@ -139,11 +139,11 @@ static ewa_status read_property(const ewa_ply_source *source, ewa_ply_header *he
                              ewa_quote(property.name, quote));
     if (is_list) {
         element->list_count++;
-        element->least_bytes += (uint32_t)ewa_type_bytes(property.count_type);
+        element->min_bytes += (uint32_t)ewa_type_bytes(property.count_type);
     } else {
         property.offset_bytes = element->record_bytes;
         element->record_bytes += (uint32_t)ewa_type_bytes(property.type);
-        element->least_bytes += (uint32_t)ewa_type_bytes(property.type);
+        element->min_bytes += (uint32_t)ewa_type_bytes(property.type);
     }
     element->property_count++;
     header->properties[header->property_count++] = property;
@@ -218,7 +218,7 @@ ewa_status ewa_ply_header_read(const ewa_ply_source *source, ewa_ply_header *hea
     header->body_at = reader.at_bytes;
     if (header->encoding == EWA_PLY_ASCII) // a digit and a blank for each number
         for (uint32_t i = 0; i < header->element_count; i++)
-            header->elements[i].least_bytes = 2 * header->elements[i].property_count;
+            header->elements[i].min_bytes = 2 * header->elements[i].property_count;
     return EWA_OK;
 }
 

@@ -20,18 +20,18 @@ const ewa_ply_element *ewa_ply_vertices(const ewa_ply_header *header) {
 ewa_status ewa_ply_check_size(const ewa_ply_source *source, const ewa_ply_header *header,
                               const ewa_ply_element *element, uint64_t at) {
     const bool ascii = header->encoding == EWA_PLY_ASCII;
-    const uint64_t left = source->size_bytes - at, least_bytes = element->least_bytes;
+    const uint64_t left = source->size_bytes - at, min_bytes = element->min_bytes;
     // The last number of an ascii file needs no blank after it.
     const uint64_t room = ascii ? left + 1 : left;
-    if (least_bytes == 0 || element->count <= room / least_bytes) return EWA_OK;
+    if (min_bytes == 0 || element->count <= room / min_bytes) return EWA_OK;
     uint64_t wanted;
-    if (__builtin_mul_overflow(element->count, least_bytes, &wanted)) wanted = UINT64_MAX;
+    if (__builtin_mul_overflow(element->count, min_bytes, &wanted)) wanted = UINT64_MAX;
     char quote[EWA_QUOTE_BYTES];
     return ewa_fail(source->context, EWA_ERROR_FORMAT,
                     "%s: the file ends in %s %llu of %llu or before: %s%llu bytes wanted from byte %llu on, "
                     "%llu are there, "
                     "%llu are missing",
-                    source->name, ewa_quote(element->name, quote), (unsigned long long)(room / least_bytes),
+                    source->name, ewa_quote(element->name, quote), (unsigned long long)(room / min_bytes),
                     (unsigned long long)element->count, ascii || element->list_count ? "at least " : "",
                     (unsigned long long)wanted, (unsigned long long)at, (unsigned long long)left,
                     (unsigned long long)(wanted - left));
@@ -52,10 +52,9 @@ static void inspect_rest(const ewa_ply_source *source, const ewa_ply_header *hea
     bool exact = header->encoding != EWA_PLY_ASCII;
     const ewa_ply_element *end = &header->elements[header->element_count];
     for (const ewa_ply_element *element = vertices + 1; element < end; element++) {
-        uint64_t least_bytes;
+        uint64_t min_bytes;
         // The last number of an ascii file needs no blank after it.
-        if (__builtin_mul_overflow(element->count, element->least_bytes, &least_bytes) ||
-            least_bytes > left + 1) {
+        if (__builtin_mul_overflow(element->count, element->min_bytes, &min_bytes) || min_bytes > left + 1) {
             char quote[EWA_QUOTE_BYTES];
             ewa_report(source->context, EWA_SEVERITY_WARNING,
                        "%s: the file ends within %llu records of %s; the vertices before them are whole",
@@ -63,7 +62,7 @@ static void inspect_rest(const ewa_ply_source *source, const ewa_ply_header *hea
             return;
         }
         exact = exact && element->list_count == 0;
-        left -= least_bytes < left ? least_bytes : left;
+        left -= min_bytes < left ? min_bytes : left;
     }
     if (exact && left)
         ewa_report(source->context, EWA_SEVERITY_INFO, "%s: %llu bytes follow the last element", source->name,
@@ -122,14 +121,14 @@ ewa_status ewa_ply_points_add(const ewa_ply_points *points, ewa_cloud *cloud) {
     return status;
 }
 
-ewa_status ewa_ply_points_read(ewa_ply_points *points, uint64_t most, const ewa_cloud_sink *sinks,
+ewa_status ewa_ply_points_read(ewa_ply_points *points, uint64_t maximum, const ewa_cloud_sink *sinks,
                                uint64_t *got_count) {
     ewa_ply_sink sink = {.streams = points->streams, .stream_capacity = (uint32_t)points->column_capacity};
     for (uint32_t i = 0; i < points->column_count; i++)
         add_streams(&points->columns[i], ewa_ply_is_swapped(points->header), &sinks[i], &sink);
     ewa_ply_element piece = points->element;
     const uint64_t left = points->element.count - points->read_count;
-    piece.count = left < most ? left : most;
+    piece.count = left < maximum ? left : maximum;
     piece.before_count = points->read_count;
     piece.after_count = left - piece.count;
     *got_count = 0;
@@ -235,9 +234,9 @@ static ewa_status open_ply(const ewa_cloud_source *file, ewa_cloud *prototype, u
     return status;
 }
 
-static ewa_status read_ply(void *state, uint64_t most, const ewa_cloud_sink *sinks, uint64_t *got_count) {
+static ewa_status read_ply(void *state, uint64_t maximum, const ewa_cloud_sink *sinks, uint64_t *got_count) {
     ply_state *own = state;
-    const ewa_status status = ewa_ply_points_read(&own->points, most, sinks, got_count);
+    const ewa_status status = ewa_ply_points_read(&own->points, maximum, sinks, got_count);
     if (status != EWA_OK) return status;
     ewa_cloud_passed(own->file, own->points.at);
     if (own->points.read_count == own->vertices->count && (*got_count || own->vertices->count == 0))

@@ -27,7 +27,7 @@ double ewa_ply_table_number(const ewa_ply_header *header, const ewa_ply_table *t
                      table->records + record * table->element->record_bytes + found->offset_bytes);
 }
 
-/// Allocates the records and the places of the lists of an element, for which least_bytes each are there.
+/// Allocates the records and the places of the lists of an element, for which min_bytes each are there.
 static ewa_status make_table(const ewa_ply_source *source, const ewa_ply_element *element,
                              ewa_ply_table *table) {
     uint64_t bytes;

@@ -141,8 +141,8 @@ static ewa_status write_body(write_job *job, ewa_writer *writer) {
     job->first = 0;
     ewa_status status = job->output && job->output_bytes ? EWA_OK : EWA_ERROR_MEMORY;
     while (status == EWA_OK && job->first < job->point_count) {
-        const uint64_t left = job->point_count - job->first, most = wave * job->task_points;
-        const uint64_t count = left < most ? left : most;
+        const uint64_t left = job->point_count - job->first, maximum = wave * job->task_points;
+        const uint64_t count = left < maximum ? left : maximum;
         const uint32_t tasks = (uint32_t)((count + job->task_points - 1) / job->task_points);
         job->end = job->first + count;
         ewa_parallel(context, make_output, job, tasks);

@@ -11,7 +11,7 @@
 #include <stdio.h>
 
 enum {
-    LEAST_LINE_BYTES = 7, // 1 2 3 4
+    MIN_LINE_BYTES = 7, // 1 2 3 4
     HEAD_LINES = 10,
     PROBE_BYTES = 1 << 12,
     MAX_SCANS = 65535,
@@ -94,7 +94,7 @@ static ewa_status cut_lines(ptx_state *state, uint64_t line_count, uint64_t *mis
     while (status == EWA_OK && line_count > 0 && at < text->end) {
         const char *end = ewa_rows_line_end(rows, at);
         // What is shorter is no point, and no room is made for it.
-        chunk.row_count += end - at >= LEAST_LINE_BYTES;
+        chunk.row_count += end - at >= MIN_LINE_BYTES;
         line_count -= !is_blank_line(rows, at);
         at = end;
         at += at < text->end;
@@ -297,7 +297,7 @@ static inline void store(const ewa_cloud_sink *sink, uint64_t index, const void 
     if (sink->to) memcpy(sink->to + index * sink->stride_bytes, value, size_bytes);
 }
 
-static void read_chunk(const void *format, const ewa_rows_chunk *chunk, uint64_t most,
+static void read_chunk(const void *format, const ewa_rows_chunk *chunk, uint64_t maximum,
                        const ewa_cloud_sink *sinks, uint64_t first, ewa_rows_result *result) {
     const ptx_state *state = format;
     const scan *s = (const scan *)state->scans.data + chunk->part;
@@ -319,7 +319,7 @@ static void read_chunk(const void *format, const ewa_rows_chunk *chunk, uint64_t
             place(s, position);
             if (!isfinite(position[0]) || !isfinite(position[1]) || !isfinite(position[2])) {
                 result->nowhere_count++;
-            } else if (result->point_count == most) {
+            } else if (result->point_count == maximum) {
                 result->after = start;
                 return;
             } else {
@@ -383,9 +383,9 @@ static ewa_status open_ptx(const ewa_cloud_source *source, ewa_cloud *prototype,
     return EWA_OK;
 }
 
-static ewa_status read_ptx(void *data, uint64_t most, const ewa_cloud_sink *sinks, uint64_t *got_count) {
+static ewa_status read_ptx(void *data, uint64_t maximum, const ewa_cloud_sink *sinks, uint64_t *got_count) {
     ptx_state *state = data;
-    return ewa_rows_read(&state->rows, most, sinks, got_count);
+    return ewa_rows_read(&state->rows, maximum, sinks, got_count);
 }
 
 const ewa_cloud_format ewa_format_ptx = {EWA_MODEL_PTX, probe, open_ptx, read_ptx, close_ptx};

@@ -22,7 +22,7 @@ struct ewa_cloud_reader {
     ewa_cloud *prototype; // of what is wanted
     ewa_cloud *whole;     // prototype of all that the format has
     ewa_cloud_sink *sinks;
-    uint64_t most_points, read_count, lost_count;
+    uint64_t max_points, read_count, lost_count;
     bool ended;
 };
 
@@ -46,7 +46,7 @@ static ewa_status open_points(ewa_cloud_reader *reader) {
     ewa_context *context = reader->source.context;
     ewa_status status = ewa_cloud_create(context, 0, &reader->whole);
     if (status == EWA_OK)
-        status = reader->format->open(&reader->source, reader->whole, &reader->most_points, &reader->state);
+        status = reader->format->open(&reader->source, reader->whole, &reader->max_points, &reader->state);
     if (status != EWA_OK) return status;
     reader->sinks = ewa_allocate(context, ewa_cloud_attribute_count(reader->whole), sizeof *reader->sinks);
     if (!reader->sinks) return EWA_ERROR_MEMORY;
@@ -63,10 +63,10 @@ static void close_points(ewa_cloud_reader *reader) {
     ewa_cloud_destroy(&reader->whole);
 }
 
-/// Reads up to `most_points` points into a cloud; NULL at the end.
-static ewa_status read_points(ewa_cloud_reader *reader, uint64_t most_points, ewa_cloud **piece) {
-    const uint64_t left = reader->most_points - reader->read_count;
-    const uint64_t room = left < most_points ? left : most_points;
+/// Reads up to `max_points` points into a cloud; NULL at the end.
+static ewa_status read_points(ewa_cloud_reader *reader, uint64_t max_points, ewa_cloud **piece) {
+    const uint64_t left = reader->max_points - reader->read_count;
+    const uint64_t room = left < max_points ? left : max_points;
     const uint32_t attribute_count = ewa_cloud_attribute_count(reader->whole);
     uint64_t count = 0;
     ewa_cloud *made = NULL;
@@ -171,14 +171,14 @@ ewa_status ewa_cloud_reader_open(ewa_context *context, const char *path,
 }
 
 const ewa_cloud *ewa_cloud_reader_prototype(const ewa_cloud_reader *reader) { return reader->prototype; }
-uint64_t ewa_cloud_reader_most_points(const ewa_cloud_reader *reader) { return reader->most_points; }
+uint64_t ewa_cloud_reader_maximum_points(const ewa_cloud_reader *reader) { return reader->max_points; }
 uint64_t ewa_cloud_reader_lost_count(const ewa_cloud_reader *reader) { return reader->lost_count; }
 
-ewa_status ewa_cloud_reader_next(ewa_cloud_reader *reader, uint64_t most_points, ewa_cloud **piece) {
-    if (!reader || !piece || most_points == 0) return EWA_ERROR_ARGUMENT;
+ewa_status ewa_cloud_reader_next(ewa_cloud_reader *reader, uint64_t max_points, ewa_cloud **piece) {
+    if (!reader || !piece || max_points == 0) return EWA_ERROR_ARGUMENT;
     *piece = NULL;
-    if (reader->ended || reader->read_count == reader->most_points) return EWA_OK;
-    const ewa_status status = read_points(reader, most_points, piece);
+    if (reader->ended || reader->read_count == reader->max_points) return EWA_OK;
+    const ewa_status status = read_points(reader, max_points, piece);
     reader->ended = status != EWA_OK || ewa_cloud_point_count(*piece) == 0;
     if (reader->ended) ewa_cloud_destroy(piece);
     return status;

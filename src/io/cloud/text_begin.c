@@ -107,17 +107,17 @@ bool ewa_text_begin_find(ewa_cursor text, bool text_ends, ewa_text_begin *begin)
     first_lines sample;
     sample_line lines[EWA_TEXT_SAMPLE_LINES];
     take_sample(text, text_ends, &sample);
-    uint32_t most_rows = 0;
+    uint32_t max_rows = 0;
     size_t best = 0;
     for (size_t i = 0; i < sizeof ways / sizeof ways[0]; i++) {
-        if (ways[i].words && 2 * most_rows >= sample.count) break; // then words are damage
+        if (ways[i].words && 2 * max_rows >= sample.count) break; // then words are damage
         ewa_text_layout layout = {ways[i].separator, ways[i].decimal_comma, ways[i].words, 0, 0, {0}};
         const uint32_t rows = try_layout(&sample, &layout, lines);
-        if (rows <= most_rows) continue;
-        most_rows = rows;
+        if (rows <= max_rows) continue;
+        max_rows = rows;
         best = i;
     }
-    if (most_rows == 0) return false;
+    if (max_rows == 0) return false;
     *begin = (ewa_text_begin){.layout = {.separator = ways[best].separator,
                                          .decimal_comma = ways[best].decimal_comma,
                                          .words = ways[best].words,

@@ -35,7 +35,7 @@ static ewa_text trim(ewa_text text) {
     return text;
 }
 
-uint32_t ewa_text_split(const ewa_text_layout *layout, ewa_text line, ewa_text *words, uint32_t most) {
+uint32_t ewa_text_split(const ewa_text_layout *layout, ewa_text line, ewa_text *words, uint32_t maximum) {
     line = trim(line);
     const char *at = line.chars, *end = at + line.length;
     const bool by_blank = !layout->separator || !layout->words;
@@ -49,7 +49,7 @@ uint32_t ewa_text_split(const ewa_text_layout *layout, ewa_text line, ewa_text *
         while (at < end && !(layout->separator && *at == layout->separator) &&
                !(by_blank && ewa_is_blank(*at)))
             at++;
-        if (count < most) words[count] = trim((ewa_text){start, (size_t)(at - start)});
+        if (count < maximum) words[count] = trim((ewa_text){start, (size_t)(at - start)});
         count++;
         while (at < end && ewa_is_blank(*at)) at++;
         if (at < end && layout->separator && *at == layout->separator) at++;

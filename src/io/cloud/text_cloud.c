@@ -64,11 +64,11 @@ typedef struct row_sample {
     uint32_t word_count[EWA_ROWS_MAX_COLUMNS]; // cells that are no numbers
 } row_sample;
 
-/// Takes rows from a place on, at most `most` lines; only rows that are right count.
-static void sample_lines(const ewa_rows *rows, const ewa_text_layout *layout, const char *at, uint32_t most,
-                         row_sample *sample) {
+/// Takes rows from a place on, at most `maximum` lines; only rows that are right count.
+static void sample_lines(const ewa_rows *rows, const ewa_text_layout *layout, const char *at,
+                         uint32_t maximum, row_sample *sample) {
     ewa_text cells[EWA_ROWS_MAX_COLUMNS];
-    for (uint32_t i = 0; i < most && at < rows->text.end && sample->row_count < SAMPLE_ROWS; i++) {
+    for (uint32_t i = 0; i < maximum && at < rows->text.end && sample->row_count < SAMPLE_ROWS; i++) {
         const char *end = ewa_rows_line_end(rows, at);
         const ewa_text line = {at, (size_t)(end - at)};
         at = end < rows->text.end ? end + 1 : end;
@@ -154,13 +154,13 @@ static bool is_float(const char *name) {
 }
 
 static ewa_text_target whole_target(const char *name, const ewa_text_range *range) {
-    const double most = greatest(range);
+    const double maximum = greatest(range);
     const bool narrow_name = strcmp(name, "intensity") == 0 || strcmp(name, "nir") == 0; // 16 bits in LAS
     ewa_text_target target = {.action = EWA_TEXT_WHOLE, .type = EWA_U32};
     if (range->negative)
-        target.type = most <= INT16_MAX ? EWA_I16 : EWA_I32;
-    else if (most <= UINT16_MAX)
-        target.type = most <= UINT8_MAX && !narrow_name ? EWA_U8 : EWA_U16;
+        target.type = maximum <= INT16_MAX ? EWA_I16 : EWA_I32;
+    else if (maximum <= UINT16_MAX)
+        target.type = maximum <= UINT8_MAX && !narrow_name ? EWA_U8 : EWA_U16;
     if (range->digits > 8) target = (ewa_text_target){.action = EWA_TEXT_F64, .type = EWA_F64};
     return target;
 }
@@ -182,21 +182,21 @@ static ewa_text_target scalar_target(const text_state *state, uint32_t column) {
 
 /// Colours are of one type: integers as they are, shares of 1 and parts of integers as 16 bits.
 static ewa_text_target color_target(const text_state *state, uint32_t column_count) {
-    double most = 0;
+    double maximum = 0;
     bool whole = true;
     for (uint32_t c = 0; c < column_count; c++) {
         if (strcmp(state->columns[c].name, EWA_COLOR) != 0) continue;
-        most = fmax(most, greatest(&state->ranges[c]));
+        maximum = fmax(maximum, greatest(&state->ranges[c]));
         whole = whole && state->ranges[c].decimals == 0 && !state->ranges[c].unusual;
     }
     ewa_text_target target = {
-        .action = EWA_TEXT_WHOLE, .type = most <= UINT8_MAX ? EWA_U8 : EWA_U16, .missing_is_zero = true};
+        .action = EWA_TEXT_WHOLE, .type = maximum <= UINT8_MAX ? EWA_U8 : EWA_U16, .missing_is_zero = true};
     if (!whole)
         target = (ewa_text_target){.action = EWA_TEXT_SHARE,
                                    .type = EWA_U16,
-                                   .scale = most <= 1           ? 65535
-                                            : most <= UINT8_MAX ? 257
-                                                                : 1};
+                                   .scale = maximum <= 1           ? 65535
+                                            : maximum <= UINT8_MAX ? 257
+                                                                   : 1};
     return target;
 }
 
@@ -322,9 +322,9 @@ static ewa_status open_text(const ewa_cloud_source *source, ewa_cloud *prototype
     return EWA_OK;
 }
 
-static ewa_status read_text(void *data, uint64_t most, const ewa_cloud_sink *sinks, uint64_t *got_count) {
+static ewa_status read_text(void *data, uint64_t maximum, const ewa_cloud_sink *sinks, uint64_t *got_count) {
     text_state *state = data;
-    return ewa_rows_read(&state->rows, most, sinks, got_count);
+    return ewa_rows_read(&state->rows, maximum, sinks, got_count);
 }
 
 const ewa_cloud_format ewa_format_text = {EWA_MODEL_TEXT, probe, open_text, read_text, close_text};

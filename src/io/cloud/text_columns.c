@@ -266,14 +266,14 @@ static bool is_normal(const table *t, uint32_t first) {
     return unit > 0 && 20 * (uint64_t)(unit + zero) >= 19 * (uint64_t)t->row_count;
 }
 
-/// Whether three columns are colours: whole numbers from 0 to `most`, or numbers from 0 to 1.
-static bool is_color(const table *t, uint32_t first, double most) {
+/// Whether three columns are colours: whole numbers from 0 to `maximum`, or numbers from 0 to 1.
+static bool is_color(const table *t, uint32_t first, double maximum) {
     if (first + 3 > t->column_count) return false;
     bool whole = true, share = true;
     for (uint32_t row = 0; row < t->row_count; row++)
         for (uint32_t c = 0; c < 3; c++) {
             const double value = cell(t, row, first + c);
-            whole = whole && value >= 0 && value <= most && value == floor(value);
+            whole = whole && value >= 0 && value <= maximum && value == floor(value);
             share = share && value >= 0 && value <= 1;
         }
     return whole || share;
@@ -322,7 +322,7 @@ void ewa_text_columns_from_numbers(const double *sample, uint32_t row_count, uin
 /// What an attribute has to have: so many of its components.
 static const struct {
     const char *name;
-    uint32_t least, most;
+    uint32_t minimum, maximum;
 } groups[] = {{EWA_POSITION, 3, 3},  {EWA_NORMAL, 3, 3}, {EWA_COLOR, 3, 4}, {EWA_TANGENT_U, 3, 3},
               {EWA_TANGENT_V, 3, 3}, {EWA_CLIP0, 3, 3},  {EWA_CLIP1, 3, 3}};
 
@@ -376,8 +376,8 @@ ewa_status ewa_text_columns_finish(const ewa_cloud_source *source, uint32_t colu
             found |= 1u << columns[i].component;
             grouped[i] = true;
         }
-        const uint32_t least = (1u << groups[g].least) - 1;
-        if ((found & least) == least) continue;
+        const uint32_t minimum = (1u << groups[g].minimum) - 1;
+        if ((found & minimum) == minimum) continue;
         if (g == 0)
             return ewa_fail(source->context, EWA_ERROR_FORMAT,
                             "%s: none of the %u columns is called %s; columns=x,y,z,... tells which are what",

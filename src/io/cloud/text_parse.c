@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// The loop that most of the time goes into: cells to numbers, by the plain road for plain numbers, and by
+// The loop that most of the time goes into: cells to numbers, by the fast path for plain numbers, and by
 // ewa_text_cell() for what is quoted, missing or written with a comma.
 #include "io/cloud/text_parse.h"
 #include "io/cloud/text_plain.h"
@@ -282,7 +282,7 @@ static const char *next_line(const ewa_text_layout *layout, const char *at, cons
     return at && at < end ? at + 1 : end;
 }
 
-void ewa_text_read_chunk(const void *format, const ewa_rows_chunk *chunk, uint64_t most,
+void ewa_text_read_chunk(const void *format, const ewa_rows_chunk *chunk, uint64_t maximum,
                          const ewa_cloud_sink *sinks, uint64_t first, ewa_rows_result *result) {
     const ewa_text_table *table = format;
     const uint32_t column_count = table->layout.column_count;
@@ -292,7 +292,7 @@ void ewa_text_read_chunk(const void *format, const ewa_rows_chunk *chunk, uint64
         const ewa_text_target *target = &table->targets[c];
         const ewa_cloud_sink *sink = &sinks[target->attribute];
         places[c] = (place){unwanted, 0};
-        if (target->action != EWA_TEXT_LEAVE && sink->to && most > 0)
+        if (target->action != EWA_TEXT_LEAVE && sink->to && maximum > 0)
             places[c] =
                 (place){sink->to + first * sink->stride_bytes + target->offset_bytes, sink->stride_bytes};
     }
@@ -308,14 +308,14 @@ void ewa_text_read_chunk(const void *format, const ewa_rows_chunk *chunk, uint64
         const line_kind kind =
             next ? read_plain_line(table, &line, cells, places) : read_line(table, &line, places);
         if (kind == LINE_POINT) {
-            if (result->point_count == most) {
+            if (result->point_count == maximum) {
                 result->after = start;
                 return;
             }
             result->point_count++;
             for (uint32_t c = 0; c < column_count; c++) places[c].to += places[c].stride_bytes;
             // The point behind the last that there is room for is read for its faults alone.
-            if (result->point_count == most)
+            if (result->point_count == maximum)
                 for (uint32_t c = 0; c < column_count; c++) places[c] = (place){unwanted, 0};
         } else if (kind == LINE_BAD) {
             if (result->bad_count++ == 0) {

@@ -36,7 +36,7 @@ typedef struct ewa_text_table {
 } ewa_text_table;
 
 /// Reads lines of a chunk (ewa_rows_read_chunk); `format` is an ewa_text_table.
-void ewa_text_read_chunk(const void *format, const ewa_rows_chunk *chunk, uint64_t most,
+void ewa_text_read_chunk(const void *format, const ewa_rows_chunk *chunk, uint64_t maximum,
                          const ewa_cloud_sink *sinks, uint64_t first, ewa_rows_result *result);
 
 #endif

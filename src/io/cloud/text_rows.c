@@ -61,9 +61,9 @@ static void read_one(void *data, uint32_t index, uint32_t worker) {
     (void)worker;
     wave_job *job = data;
     const ewa_rows_chunk *chunk = &job->chunks[index];
-    const uint64_t most = chunk->row_count < job->room ? chunk->row_count : job->room;
+    const uint64_t maximum = chunk->row_count < job->room ? chunk->row_count : job->room;
     job->results[index] = (ewa_rows_result){0};
-    job->rows->read_chunk(job->rows->format, chunk, most, job->sinks, job->first[index],
+    job->rows->read_chunk(job->rows->format, chunk, maximum, job->sinks, job->first[index],
                           &job->results[index]);
 }
 
@@ -130,12 +130,12 @@ static ewa_status read_wave(ewa_rows *rows, uint32_t count, uint64_t room, const
     return bad ? report(rows, bad, bad_count) : EWA_OK;
 }
 
-ewa_status ewa_rows_read(ewa_rows *rows, uint64_t most, const ewa_cloud_sink *sinks, uint64_t *got_count) {
+ewa_status ewa_rows_read(ewa_rows *rows, uint64_t maximum, const ewa_cloud_sink *sinks, uint64_t *got_count) {
     const ewa_cloud_source *source = rows->source;
     *got_count = 0;
-    while (rows->next_chunk < rows->chunk_count && *got_count < most) {
+    while (rows->next_chunk < rows->chunk_count && *got_count < maximum) {
         const ewa_rows_chunk *chunks = (const ewa_rows_chunk *)rows->chunks.data + rows->next_chunk;
-        const uint64_t left = rows->chunk_count - rows->next_chunk, room = most - *got_count;
+        const uint64_t left = rows->chunk_count - rows->next_chunk, room = maximum - *got_count;
         uint64_t total = 0;
         uint32_t count = 0;
         while (count < WAVE_CHUNKS && count < left && chunks[count].row_count <= room - total)

@@ -39,9 +39,9 @@ typedef struct ewa_rows_result {
     const char *after; ///< first byte that was not looked at
 } ewa_rows_result;
 
-/// Reads lines of a chunk up to the one of point number `most` + 1, into the sinks from point `first` on; a
-/// sink that is not wanted has `to` NULL. Any thread.
-typedef void ewa_rows_read_chunk(const void *format, const ewa_rows_chunk *chunk, uint64_t most,
+/// Reads lines of a chunk up to the one of point number `maximum` + 1, into the sinks from point `first` on;
+/// a sink that is not wanted has `to` NULL. Any thread.
+typedef void ewa_rows_read_chunk(const void *format, const ewa_rows_chunk *chunk, uint64_t maximum,
                                  const ewa_cloud_sink *sinks, uint64_t first, ewa_rows_result *result);
 
 /// The lines of a file and how far they are read. Zero-initialise; ewa_rows_close() frees.
@@ -76,7 +76,7 @@ ewa_status ewa_rows_add(ewa_rows *rows, const ewa_rows_chunk *chunk);
 uint64_t ewa_rows_line(ewa_rows *rows, const char *place);
 
 /// Does what ewa_cloud_format.read() has to do.
-ewa_status ewa_rows_read(ewa_rows *rows, uint64_t most, const ewa_cloud_sink *sinks, uint64_t *got_count);
+ewa_status ewa_rows_read(ewa_rows *rows, uint64_t maximum, const ewa_cloud_sink *sinks, uint64_t *got_count);
 
 /// Returns the end of the line at `at`, at most `end`.
 static inline const char *ewa_rows_line_end(const ewa_rows *rows, const char *at) {

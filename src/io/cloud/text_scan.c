@@ -215,8 +215,8 @@ ewa_status ewa_text_scan(ewa_rows *rows, const ewa_text_layout *layout, const ch
     *row_count = 0;
     while (status == EWA_OK && job.at < rows->text.end) {
         const uint64_t left = (uint64_t)(rows->text.end - job.at);
-        const uint64_t most = (left + EWA_ROWS_CHUNK_BYTES - 1) / EWA_ROWS_CHUNK_BYTES;
-        const uint32_t count = most < WAVE_CHUNKS ? (uint32_t)most : WAVE_CHUNKS;
+        const uint64_t maximum = (left + EWA_ROWS_CHUNK_BYTES - 1) / EWA_ROWS_CHUNK_BYTES;
+        const uint32_t count = maximum < WAVE_CHUNKS ? (uint32_t)maximum : WAVE_CHUNKS;
         ewa_parallel(context, scan_chunk, &job, count);
         for (uint32_t i = 0; i < count && status == EWA_OK; i++) {
             for (uint32_t c = 0; c < layout->column_count; c++)

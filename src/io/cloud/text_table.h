@@ -69,8 +69,8 @@ bool ewa_text_head_has_place(ewa_text head);
 /// Whether a line begins with what makes it a comment: '#', '//', '%', '!'.
 bool ewa_text_is_comment(ewa_text line);
 
-/// Splits a line into its words; returns how many there are, of which the first `most` are kept.
-uint32_t ewa_text_split(const ewa_text_layout *layout, ewa_text line, ewa_text *words, uint32_t most);
+/// Splits a line into its words; returns how many there are, of which the first `maximum` are kept.
+uint32_t ewa_text_split(const ewa_text_layout *layout, ewa_text line, ewa_text *words, uint32_t maximum);
 
 /// Splits a line into the cells of all columns, of which the last may be missing behind a separator; false when
 /// it has more or fewer.

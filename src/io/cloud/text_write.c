@@ -165,8 +165,8 @@ static ewa_status put(void *state, const ewa_cloud *piece) {
     ewa_status status = EWA_OK;
     writer->piece = piece;
     for (writer->first = 0; writer->first < count && status == EWA_OK; writer->first = writer->end) {
-        const uint64_t left = count - writer->first, most = wave * writer->task_points;
-        writer->end = writer->first + (left < most ? left : most);
+        const uint64_t left = count - writer->first, maximum = wave * writer->task_points;
+        writer->end = writer->first + (left < maximum ? left : maximum);
         const uint32_t tasks =
             (uint32_t)((writer->end - writer->first + writer->task_points - 1) / writer->task_points);
         ewa_parallel(target->context, make_output, writer, tasks);

@@ -168,9 +168,9 @@ typedef struct ewa_e57_streams {
 ewa_status ewa_e57_streams_open(const ewa_e57_pages *pages, const ewa_e57_contents *contents, uint32_t scan,
                                 bool quiet, ewa_e57_streams *streams, uint64_t *record_count);
 
-/// Steps over `held_count` records and gets the next at hand, about `most`; none at the end. Errors:
+/// Steps over `held_count` records and gets the next at hand, about `maximum`; none at the end. Errors:
 /// EWA_ERROR_FORMAT, EWA_ERROR_MEMORY.
-ewa_status ewa_e57_streams_next(ewa_e57_streams *streams, uint64_t most);
+ewa_status ewa_e57_streams_next(ewa_e57_streams *streams, uint64_t maximum);
 
 /// Ends with a scan; the memory stays for the next one.
 void ewa_e57_streams_free(ewa_context *context, ewa_e57_streams *streams);

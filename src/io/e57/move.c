@@ -171,13 +171,13 @@ static void blank(const move_job *job, ewa_e57_role flag, double value, double *
 }
 
 static void move_colors(const move_job *job, ewa_type type, double (*v)[EWA_E57_CHUNK_RECORDS]) {
-    const double most = type == EWA_U8 ? 255 : 65535;
+    const double maximum = type == EWA_U8 ? 255 : 65535;
     for (int c = 0; c < 3; c++) {
         const double low = job->plan->color_low[c], factor = job->plan->color_factor[c];
         const bool given = read_kept(job, job->plan->fields[EWA_E57_RED + c], 0, v[c]);
         for (uint32_t i = 0; i < job->count; i++) {
             const double share = given ? (v[c][i] - low) * factor + 0.5 : 0;
-            v[c][i] = share >= most ? most : share > 0 ? floor(share) : 0;
+            v[c][i] = share >= maximum ? maximum : share > 0 ? floor(share) : 0;
         }
         blank(job, EWA_E57_COLOR_INVALID, 0, v[c]);
     }

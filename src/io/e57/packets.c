@@ -10,7 +10,7 @@
 enum {
     SECTION_BYTES = 32,
     PACKET_HEAD_BYTES = 6,
-    MOST_PACKET_BYTES = 1 << 16,
+    MAX_PACKET_BYTES = 1 << 16,
     SPARE_BYTES = 8, ///< behind a stream, so that whole words can be read
     PACKET_INDEX = 0,
     PACKET_DATA = 1,
@@ -19,10 +19,10 @@ enum {
 
 /// The points that the bits of a section can hold at most; fields of no bits do not count.
 static uint64_t bound(const ewa_e57_field *fields, uint32_t field_count, uint64_t bytes) {
-    uint64_t most = UINT64_MAX;
+    uint64_t maximum = UINT64_MAX;
     for (uint32_t i = 0; i < field_count; i++)
-        if (fields[i].bits && bytes * 8 / fields[i].bits < most) most = bytes * 8 / fields[i].bits;
-    return most == UINT64_MAX ? bytes : most;
+        if (fields[i].bits && bytes * 8 / fields[i].bits < maximum) maximum = bytes * 8 / fields[i].bits;
+    return maximum == UINT64_MAX ? bytes : maximum;
 }
 
 ewa_status ewa_e57_streams_open(const ewa_e57_pages *pages, const ewa_e57_contents *contents, uint32_t scan,
@@ -51,9 +51,9 @@ ewa_status ewa_e57_streams_open(const ewa_e57_pages *pages, const ewa_e57_conten
                      : ewa_cloud_damage(source, s->record_count,
                                         "%s: scan %u: there are no points at byte %llu", source->name,
                                         scan + 1, (unsigned long long)s->file_offset);
-    const uint64_t said = ewa_e57_read_le(head + 8, 8), most = there - begin;
+    const uint64_t said = ewa_e57_read_le(head + 8, 8), maximum = there - begin;
     streams->at = at;
-    streams->end = begin + (said < most ? said : most);
+    streams->end = begin + (said < maximum ? said : maximum);
     if (streams->end < at) streams->end = at;
     const uint64_t can = bound(streams->fields, s->field_count, streams->end - at);
     streams->record_count = s->record_count < can ? s->record_count : can;
@@ -68,11 +68,11 @@ static uint64_t held_bits(const ewa_e57_stream *stream) { return stream->byte_co
 
 /// Records of which all fields are there.
 static uint64_t whole_records(const ewa_e57_streams *s) {
-    uint64_t most = s->record_count - s->record;
+    uint64_t maximum = s->record_count - s->record;
     for (uint32_t i = 0; i < s->field_count; i++)
-        if (s->fields[i].bits && held_bits(&s->streams[i]) / s->fields[i].bits < most)
-            most = held_bits(&s->streams[i]) / s->fields[i].bits;
-    return most;
+        if (s->fields[i].bits && held_bits(&s->streams[i]) / s->fields[i].bits < maximum)
+            maximum = held_bits(&s->streams[i]) / s->fields[i].bits;
+    return maximum;
 }
 
 /// Steps over the records that were at hand and forgets their bytes.
@@ -171,15 +171,15 @@ static ewa_status next_packet(ewa_e57_streams *s) {
     return EWA_OK;
 }
 
-ewa_status ewa_e57_streams_next(ewa_e57_streams *s, uint64_t most) {
+ewa_status ewa_e57_streams_next(ewa_e57_streams *s, uint64_t maximum) {
     ewa_context *context = s->pages->source->context;
-    ewa_status status = ewa_buffer_reserve(context, &s->packet, MOST_PACKET_BYTES, 1);
+    ewa_status status = ewa_buffer_reserve(context, &s->packet, MAX_PACKET_BYTES, 1);
     step(s);
-    const uint64_t left = s->record_count - s->record, wanted = left < most ? left : most;
+    const uint64_t left = s->record_count - s->record, wanted = left < maximum ? left : maximum;
     while (status == EWA_OK && s->at < s->end && whole_records(s) < wanted) status = next_packet(s);
     if (status != EWA_OK) return status;
     s->held_count = whole_records(s);
-    if (s->held_count > most) s->held_count = most;
+    if (s->held_count > maximum) s->held_count = maximum;
     if (s->held_count || s->record == s->record_count) return EWA_OK;
     return give_up(s, "does not come: the points end before it");
 }

@@ -10,8 +10,8 @@
 
 enum {
     HEADER_BYTES = 48,
-    LEAST_PAGE_BYTES = 64,
-    MOST_PAGE_BYTES = 1 << 20,
+    MIN_PAGE_BYTES = 64,
+    MAX_PAGE_BYTES = 1 << 20,
     WAVE_RECORDS = 1 << 16,
     WAVE_TASKS = WAVE_RECORDS / EWA_E57_CHUNK_RECORDS,
 };
@@ -52,7 +52,7 @@ static ewa_status open_contents(e57_state *state) {
     if (major != 1)
         return ewa_fail(context, EWA_ERROR_UNSUPPORTED, "%s: E57 of version %llu; 1 is read", source->name,
                         (unsigned long long)major);
-    if (page_bytes < LEAST_PAGE_BYTES || page_bytes > MOST_PAGE_BYTES || page_bytes % 4)
+    if (page_bytes < MIN_PAGE_BYTES || page_bytes > MAX_PAGE_BYTES || page_bytes % 4)
         return ewa_fail(context, EWA_ERROR_FORMAT, "%s: pages of %llu bytes", source->name,
                         (unsigned long long)page_bytes);
     if (size > source->size_bytes) {
@@ -218,31 +218,31 @@ static void move_task(void *data, uint32_t task, uint32_t worker) {
                  w->to[task]);
 }
 
-/// Hands over points that are at hand, at most `most`; returns how many.
-static uint64_t hand_over(e57_state *state, uint64_t most, const ewa_cloud_sink *sinks, uint64_t to) {
+/// Hands over points that are at hand, at most `maximum`; returns how many.
+static uint64_t hand_over(e57_state *state, uint64_t maximum, const ewa_cloud_sink *sinks, uint64_t to) {
     wave w = {.state = state, .sinks = sinks, .first = state->at, .end = state->streams.held_count};
     const uint32_t chunks = (uint32_t)((w.end - w.first + EWA_E57_CHUNK_RECORDS - 1) / EWA_E57_CHUNK_RECORDS);
     ewa_parallel(state->source->context, list_task, &w, chunks);
     uint64_t got = 0;
     uint32_t whole = 0;
-    while (whole < chunks && w.kept_count[whole] <= most - got) {
+    while (whole < chunks && w.kept_count[whole] <= maximum - got) {
         w.to[whole] = to + got;
         got += w.kept_count[whole];
         state->lost_count += w.lost_count[whole++];
     }
     ewa_parallel(state->source->context, move_task, &w, whole);
     state->at = chunk_first(&w, whole);
-    if (whole == chunks || got == most) return got;
+    if (whole == chunks || got == maximum) return got;
     uint16_t kept[EWA_E57_CHUNK_RECORDS];
     uint64_t lost_count;
     ewa_e57_list(&state->plan, &state->streams, state->at, chunk_first(&w, whole + 1), kept, &lost_count);
-    const uint32_t count = (uint32_t)(most - got);
+    const uint32_t count = (uint32_t)(maximum - got);
     ewa_e57_move(&state->plan, &state->streams, state->at, kept, count, sinks, to + got);
     const uint64_t end = state->at + kept[count - 1] + 1;
     ewa_e57_list(&state->plan, &state->streams, state->at, end, kept, &lost_count);
     state->lost_count += lost_count;
     state->at = end;
-    return most;
+    return maximum;
 }
 
 static ewa_status end_scan(e57_state *state) {
@@ -275,16 +275,17 @@ static ewa_status begin_scan(e57_state *state) {
     return ewa_e57_streams_open(&state->pages, &state->contents, index, true, &state->streams, &count);
 }
 
-static ewa_status read_points(void *opened, uint64_t most, const ewa_cloud_sink *sinks, uint64_t *got_count) {
+static ewa_status read_points(void *opened, uint64_t maximum, const ewa_cloud_sink *sinks,
+                              uint64_t *got_count) {
     e57_state *state = opened;
     uint64_t got = 0;
     ewa_status status = EWA_OK;
-    while (got < most && status == EWA_OK) {
+    while (got < maximum && status == EWA_OK) {
         if (!state->in_scan) {
             if (state->scan_count_done == state->contents.scan_count) break;
             status = begin_scan(state);
         } else if (state->at < state->streams.held_count) {
-            const uint64_t handed = hand_over(state, most - got, sinks, got);
+            const uint64_t handed = hand_over(state, maximum - got, sinks, got);
             got += handed;
             state->scan_points += handed;
         } else {

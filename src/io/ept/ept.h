@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Entwine Point Tiles: a folder with a description, a hierarchy of cubes and a file for the points of each.
+// Entwine Point Tiles: a folder with a description, a hierarchy of nodes and a file for the points of each.
 //
 // Based on: Hobu, "Entwine Point Tile", 1.1.0.
 #ifndef EWA_SRC_EPT_H

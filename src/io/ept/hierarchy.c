@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// The hierarchy of EPT: files of JSON, each a part of the tree below a cube, that lead from one to the next.
+// The hierarchy of EPT: files of JSON, each a part of the tree below a node, that lead from one to the next.
 #include "base/base.h"
 #include "io/ept/ept.h"
 #include "io/number.h"
@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/// Cubes whose own file is still to be read.
+/// Nodes whose own file is still to be read.
 typedef struct key_list {
     ewa_buffer buffer;
     size_t count;
@@ -17,7 +17,7 @@ typedef struct key_list {
 
 static int compare_keys(const void *a, const void *b) { return ewa_octree_key_compare(a, b); }
 
-/// Reads "level-x-y-z" that is the whole text; false when it is no cube.
+/// Reads "level-x-y-z" that is the whole text; false when it is no node.
 static bool read_key(const char *text, ewa_octree_key *key) {
     int64_t numbers[4];
     const char *end = text + strlen(text);
@@ -36,7 +36,7 @@ static bool read_key(const char *text, ewa_octree_key *key) {
     return true;
 }
 
-/// Whether a cube lies within another, or is it.
+/// Whether a node lies within another, or is it.
 static bool is_within(const ewa_octree_key *key, const ewa_octree_key *root) {
     const int32_t steps = key->level - root->level;
     if (steps < 0) return false;
@@ -45,7 +45,7 @@ static bool is_within(const ewa_octree_key *key, const ewa_octree_key *root) {
     return true;
 }
 
-/// Takes the entries of the file at `root`; cubes with files of their own join the list.
+/// Takes the entries of the file at `root`; nodes with files of their own join the list.
 static ewa_status take_entries(ewa_octree *octree, const char *path, const cJSON *entries,
                                const ewa_octree_key *root, key_list *list) {
     ewa_context *context = octree->context;
@@ -62,7 +62,7 @@ static ewa_status take_entries(ewa_octree *octree, const char *path, const cJSON
         if (!is_good)
             return ewa_fail(
                 context, EWA_ERROR_FORMAT,
-                "%s: \"%s\" is no cube \"level-x-y-z\" within %d-%d-%d-%d with a number of points, or "
+                "%s: \"%s\" is no node \"level-x-y-z\" within %d-%d-%d-%d with a number of points, or "
                 "-1 for a file below this one",
                 path, ewa_ept_show(entry->string, shown), root->level, root->cell[0], root->cell[1],
                 root->cell[2]);
@@ -90,7 +90,7 @@ static ewa_status read_file(ewa_octree *octree, const ewa_ept *ept, const ewa_oc
     status = ewa_json_parse(context, path, "a hierarchy of EPT", file.bytes, file.size_bytes, &entries);
     if (status == EWA_OK && !cJSON_IsObject(entries))
         status =
-            ewa_fail(context, EWA_ERROR_FORMAT, "%s: no object of cubes and their numbers of points", path);
+            ewa_fail(context, EWA_ERROR_FORMAT, "%s: no object of nodes and their numbers of points", path);
     if (status == EWA_OK) status = take_entries(octree, path, entries, root, list);
     cJSON_Delete(entries);
     ewa_file_unmap(context, &file);

@@ -14,7 +14,7 @@ enum {
     SAMPLE_NODES = 8, // whose colours are looked at
     SAMPLE_BYTES = 1 << 25,
     /// No byte of zstandard becomes more: a block of 128 KiB takes 4 at least.
-    MOST_BYTES_PER_BYTE = 1 << 15,
+    MAX_BYTES_PER_BYTE = 1 << 15,
 };
 
 static const char *const suffixes[] = {
@@ -111,14 +111,14 @@ static ewa_status check_size(const ewa_ept *ept, const char *path, const ewa_oct
                              const ewa_ept_file *file) {
     const uint64_t there = file->bytes.size_bytes, record_bytes = ept->table.record_bytes;
     const bool packed = ept->encoding == EWA_EPT_ZSTANDARD;
-    const uint64_t most_bytes = ewa_context_limits(ept->context)->max_memory_bytes;
-    if (node->point_count > most_bytes / record_bytes)
+    const uint64_t max_bytes = ewa_context_limits(ept->context)->max_memory_bytes;
+    if (node->point_count > max_bytes / record_bytes)
         return ewa_fail(ept->context, EWA_ERROR_LIMIT,
                         "%s: %llu points of %llu bytes are over the limit of %llu bytes", path,
                         (unsigned long long)node->point_count, (unsigned long long)record_bytes,
-                        (unsigned long long)most_bytes);
+                        (unsigned long long)max_bytes);
     const uint64_t wanted = node->point_count * record_bytes;
-    if (packed ? wanted / MOST_BYTES_PER_BYTE <= there : wanted == there) return EWA_OK;
+    if (packed ? wanted / MAX_BYTES_PER_BYTE <= there : wanted == there) return EWA_OK;
     return ewa_fail(ept->context, EWA_ERROR_FORMAT,
                     "%s: %llu bytes cannot hold the %llu points of %llu bytes that the "
                     "hierarchy counts",
@@ -258,16 +258,16 @@ static ewa_status choose_colors(ewa_octree *octree) {
     ewa_las_table *table = &ept->table;
     if (table->color_at == table->column_count || octree->node_count == 0) return EWA_OK;
     const ewa_octree_node *nodes = octree->nodes.data;
-    const uint32_t most = octree->node_count < SAMPLE_NODES ? (uint32_t)octree->node_count : SAMPLE_NODES;
+    const uint32_t maximum = octree->node_count < SAMPLE_NODES ? (uint32_t)octree->node_count : SAMPLE_NODES;
     ewa_las_color_look look = {.color = &table->columns[table->color_at],
                                .record_bytes = table->record_bytes};
-    bool is_all = most == octree->node_count;
+    bool is_all = maximum == octree->node_count;
     uint64_t bytes = 0;
     ewa_status status = EWA_OK;
     // What cannot be read is said when it is wanted.
     ewa_failures_soften(ept->context, true);
-    for (uint32_t i = 0; i < most && !look.is_wide && status == EWA_OK; i++) {
-        const ewa_octree_node *node = &nodes[ewa_split(octree->node_count, most, i)];
+    for (uint32_t i = 0; i < maximum && !look.is_wide && status == EWA_OK; i++) {
+        const ewa_octree_node *node = &nodes[ewa_split(octree->node_count, maximum, i)];
         ewa_octree_result result = {0};
         bytes += node->point_count * table->record_bytes;
         if (i && bytes > SAMPLE_BYTES) {

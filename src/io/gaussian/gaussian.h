@@ -41,10 +41,10 @@ typedef struct ewa_gaussian_reader {
 extern const ewa_gaussian_reader ewa_gaussians_ply, ewa_gaussians_packed_ply, ewa_gaussians_spz,
     ewa_gaussians_splat, ewa_gaussians_ksplat, ewa_gaussians_gltf, ewa_gaussians_sog;
 
-/// Makes a set for `count` Gaussians that the file says it has, of which each takes `least_bytes` of the
+/// Makes a set for `count` Gaussians that the file says it has, of which each takes `min_bytes` of the
 /// `left_bytes` that are there. Errors: EWA_ERROR_FORMAT (there are fewer bytes, or no Gaussians),
 /// EWA_ERROR_LIMIT, EWA_ERROR_MEMORY.
-ewa_status ewa_gaussians_make(const ewa_gaussian_source *source, uint64_t count, uint64_t least_bytes,
+ewa_status ewa_gaussians_make(const ewa_gaussian_source *source, uint64_t count, uint64_t min_bytes,
                               uint64_t left_bytes, uint32_t sh_degree, ewa_gaussians *gaussians);
 
 /// Decodes Gaussians [first, end) of a file into a set; any thread.

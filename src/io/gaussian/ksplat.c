@@ -13,7 +13,7 @@ enum {
     HEAD_BYTES = 4096,
     SECTION_BYTES = 1024,
     CENTER_STEPS = 32767, ///< half the steps of a cube where the section does not say
-    MOST_DEGREE = 2,      ///< of harmonics: the format has no more
+    MAX_DEGREE = 2,       ///< of harmonics: the format has no more
     BUCKET_BYTES = 12,
 };
 
@@ -61,7 +61,7 @@ static ewa_status open_section(const ksplat *file, uint64_t number, uint64_t *at
     made->step_world = (double)ewa_file_f32(head + 16) / 2 / made->middle_step;
     const uint64_t bucket_bytes = ewa_file_u16(head + 20);
     if (made->count == 0 && made->room == 0) return EWA_OK;
-    if (made->sh_degree > MOST_DEGREE) return fail(source, "a section with harmonics over degree 2");
+    if (made->sh_degree > MAX_DEGREE) return fail(source, "a section with harmonics over degree 2");
     if (made->count > made->room) return fail(source, "a section of more records than it has room for");
     made->record_bytes =
         file->layout->rest_at + 3 * (ewa_sh_count(made->sh_degree) - 1) * file->layout->rest_bytes;
@@ -213,7 +213,7 @@ static bool probe(const ewa_gaussian_source *source) {
     for (uint32_t k = 64; k < HEAD_BYTES; k++)
         if (head[k]) return false;
     return sections > 0 && sections <= (source->size_bytes - HEAD_BYTES) / SECTION_BYTES && level < 3 &&
-           count > 0 && ewa_file_u16(head + HEAD_BYTES + 40) <= MOST_DEGREE;
+           count > 0 && ewa_file_u16(head + HEAD_BYTES + 40) <= MAX_DEGREE;
 }
 
 const ewa_gaussian_reader ewa_gaussians_ksplat = {EWA_GAUSSIANS_KSPLAT, probe, read_ksplat};

@@ -12,13 +12,13 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { MOST_REST = 3 * ((EWA_MAX_SH_DEGREE + 1) * (EWA_MAX_SH_DEGREE + 1) - 1), NAME_BYTES = 16 };
+enum { MAX_REST = 3 * ((EWA_MAX_SH_DEGREE + 1) * (EWA_MAX_SH_DEGREE + 1) - 1), NAME_BYTES = 16 };
 
 /// What the vertices of a file have.
 typedef struct columns {
     const ewa_ply_element *element;
     uint32_t x[3], dc[3], opacity, scale[3], rotation[4], filter;
-    uint32_t rest[MOST_REST], rest_count;
+    uint32_t rest[MAX_REST], rest_count;
     uint32_t sh_degree;
     bool flat, filtered, exact; ///< exact: centres are doubles
 } columns;
@@ -29,12 +29,12 @@ static bool find(const ewa_ply_header *header, const ewa_ply_element *element, c
     return ewa_ply_find_property(header, element, name, property) && !header->properties[*property].is_list;
 }
 
-/// Finds name_0, name_1, ...; returns how many of `most`.
+/// Finds name_0, name_1, ...; returns how many of `maximum`.
 static uint32_t find_row(const ewa_ply_header *header, const ewa_ply_element *element, const char *stem,
-                         uint32_t most, uint32_t *properties) {
+                         uint32_t maximum, uint32_t *properties) {
     char name[NAME_BYTES];
     uint32_t count = 0;
-    for (; count < most; count++) {
+    for (; count < maximum; count++) {
         snprintf(name, sizeof name, "%s_%u", stem, count);
         if (!find(header, element, name, &properties[count])) break;
     }
@@ -68,7 +68,7 @@ static ewa_status find_columns(const ewa_gaussian_source *source, const ewa_ply_
     find(header, vertices, "opacity", &made->opacity);
     made->flat = find_row(header, vertices, "scale", 3, made->scale) == 2;
     made->filtered = find(header, vertices, "filter_3D", &made->filter);
-    made->rest_count = find_row(header, vertices, "f_rest", MOST_REST, made->rest);
+    made->rest_count = find_row(header, vertices, "f_rest", MAX_REST, made->rest);
     while (3 * (ewa_sh_count(made->sh_degree) - 1) < made->rest_count) made->sh_degree++;
     if (3 * (ewa_sh_count(made->sh_degree) - 1) == made->rest_count) return EWA_OK;
     return ewa_fail(source->context, EWA_ERROR_FORMAT,
@@ -140,7 +140,7 @@ ewa_status ewa_gaussians_ply_read_element(const ewa_ply_source *ply, const ewa_p
 static ewa_status read_records(const ewa_gaussian_source *source, const ewa_ply_source *ply,
                                const ewa_ply_header *header, const columns *from, uint64_t at,
                                double *centers, float *filter, ewa_gaussians *set) {
-    ewa_ply_stream streams[3 + 3 + 3 + 4 + 1 + 1 + MOST_REST];
+    ewa_ply_stream streams[3 + 3 + 3 + 4 + 1 + 1 + MAX_REST];
     ewa_ply_sink sink = {.streams = streams, .stream_capacity = sizeof streams / sizeof streams[0]};
     fill_sink(header, from, centers, filter, set, &sink);
     const ewa_status status = ewa_gaussians_ply_read_element(ply, header, from->element, &sink, &at);

@@ -9,7 +9,7 @@
 
 #include <stdio.h>
 
-enum { CHUNK = 256, MOST_REST = 3 * ((EWA_MAX_SH_DEGREE + 1) * (EWA_MAX_SH_DEGREE + 1) - 1) };
+enum { CHUNK = 256, MAX_REST = 3 * ((EWA_MAX_SH_DEGREE + 1) * (EWA_MAX_SH_DEGREE + 1) - 1) };
 
 /// Bounds of a chunk; those of colours are [0, 1] where the file has none.
 enum {
@@ -116,8 +116,8 @@ static ewa_status read_vertices(const packed *p) {
 }
 
 static ewa_status read_harmonics(const packed *p) {
-    ewa_ply_stream streams[MOST_REST];
-    ewa_ply_sink sink = {.streams = streams, .stream_capacity = MOST_REST};
+    ewa_ply_stream streams[MAX_REST];
+    ewa_ply_sink sink = {.streams = streams, .stream_capacity = MAX_REST};
     for (uint32_t k = 0; k < p->rest_count; k++) {
         char name[24];
         snprintf(name, sizeof name, "f_rest_%u", k);
@@ -129,8 +129,8 @@ static ewa_status read_harmonics(const packed *p) {
 
 /// `bits` bits of a word from bit `at` on, as a share.
 static double share(uint32_t word, uint32_t at, uint32_t bits) {
-    const uint32_t most = (1u << bits) - 1;
-    return (double)(word >> at & most) / most;
+    const uint32_t maximum = (1u << bits) - 1;
+    return (double)(word >> at & maximum) / maximum;
 }
 
 static double between(float low, float high, double share_of) {

@@ -8,12 +8,12 @@
 
 enum {
     HEAD_BYTES = 4096,
-    MOST_NUMBERS = 6 + 3 * (EWA_MAX_SH_DEGREE + 1) * (EWA_MAX_SH_DEGREE + 1) + 8,
-    RECORD_BYTES = 3 * 8 + 4 * MOST_NUMBERS,
+    MAX_NUMBERS = 6 + 3 * (EWA_MAX_SH_DEGREE + 1) * (EWA_MAX_SH_DEGREE + 1) + 8,
+    RECORD_BYTES = 3 * 8 + 4 * MAX_NUMBERS,
 };
 
 /// The largest logit that is written: 1 / (1 + exp(-it)) is 1 to a float, and opacities of 0 cannot be seen.
-static const double MOST_LOGIT = 18;
+static const double MAX_LOGIT = 18;
 
 static bool has_origin(const ewa_gaussians *set) {
     return set->origin[0] != 0 || set->origin[1] != 0 || set->origin[2] != 0;
@@ -45,7 +45,7 @@ static ewa_status put_header(const ewa_gaussian_target *target) {
 
 static float logit(float opacity) {
     const double value = log((double)opacity / (1 - (double)opacity));
-    return (float)fmax(fmin(value, MOST_LOGIT), -MOST_LOGIT);
+    return (float)fmax(fmin(value, MAX_LOGIT), -MAX_LOGIT);
 }
 
 static ewa_status put_record(const ewa_gaussian_target *target, size_t i) {

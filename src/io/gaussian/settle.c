@@ -23,14 +23,14 @@ typedef enum fault {
     FAULT_HARMONICS,
 } fault;
 
-ewa_status ewa_gaussians_make(const ewa_gaussian_source *source, uint64_t count, uint64_t least_bytes,
+ewa_status ewa_gaussians_make(const ewa_gaussian_source *source, uint64_t count, uint64_t min_bytes,
                               uint64_t left_bytes, uint32_t sh_degree, ewa_gaussians *gaussians) {
     if (count == 0)
         return ewa_fail(source->context, EWA_ERROR_FORMAT, "%s: there are no Gaussians", source->name);
-    if (least_bytes && count > left_bytes / least_bytes)
+    if (min_bytes && count > left_bytes / min_bytes)
         return ewa_fail(source->context, EWA_ERROR_FORMAT,
                         "%s: %llu Gaussians take at least %llu bytes each, but %llu bytes are left",
-                        source->name, (unsigned long long)count, (unsigned long long)least_bytes,
+                        source->name, (unsigned long long)count, (unsigned long long)min_bytes,
                         (unsigned long long)left_bytes);
     if (count > UINT32_MAX)
         return ewa_fail(source->context, EWA_ERROR_LIMIT, "%s: %llu Gaussians are over the limit of %u",

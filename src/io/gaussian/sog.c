@@ -9,13 +9,13 @@
 #include "io/gaussian/zip.h"
 #include "io/image/webp.h"
 #include "io/json_text.h"
-#include "io/mesh/beside.h"
+#include "io/mesh/referenced_file.h"
 #include "math/gaussian.h"
 
 #include <stdatomic.h>
 #include <stdio.h>
 
-enum { TABLE = 256, FIRST_TAG = 252, PALETTE_COLUMNS = 64, MOST_BANDS = 3 };
+enum { TABLE = 256, FIRST_TAG = 252, PALETTE_COLUMNS = 64, MAX_BANDS = 3 };
 
 /// The pictures.
 enum { MEANS_LOW, MEANS_HIGH, SCALES, QUATERNIONS, COLORS, PALETTES, LABELS, PICTURES };
@@ -88,7 +88,7 @@ static ewa_status read_meta(sog *s) {
     if (!read_table(scales, s->scales) || !read_table(colors, s->colors))
         return fail(s, "scales.codebook or sh0.codebook are no 256 numbers");
     if (!harmonics) return EWA_OK;
-    if (!read_count(harmonics, "bands", &bands) || bands > MOST_BANDS ||
+    if (!read_count(harmonics, "bands", &bands) || bands > MAX_BANDS ||
         !read_count(harmonics, "count", &s->palette_count))
         return fail(s, "shN.bands is not 0 to 3, or shN.count no number");
     if (bands && !read_table(harmonics, s->harmonics)) return fail(s, "shN.codebook are no 256 numbers");
@@ -122,8 +122,8 @@ static ewa_status read_picture(sog *s, const char *member, int index, sog_pictur
     ewa_file file;
     if (!s->source->path)
         return ewa_fail(context, EWA_ERROR_IO, "%s: there is no folder that it could be in", shown);
-    if (!ewa_beside_map(s->source->path, (ewa_text){name->valuestring, strlen(name->valuestring)}, &file,
-                        reason))
+    if (!ewa_referenced_file_map(s->source->path, (ewa_text){name->valuestring, strlen(name->valuestring)},
+                                 &file, reason))
         return ewa_fail(context, EWA_ERROR_IO, "%s: %s", shown, reason);
     const ewa_status status =
         ewa_webp_decode_codes(context, shown, file.bytes, file.size_bytes, &picture->width_px,

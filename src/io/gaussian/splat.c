@@ -12,7 +12,7 @@
 enum { RECORD_BYTES = 32, SCALE_AT = 12, COLOR_AT = 24, ROTATION_AT = 28, LOOKED_RECORDS = 1024 };
 
 /// Numbers beyond which bytes are no coordinates.
-static const float MOST_WORLD = 1e9f;
+static const float MAX_WORLD = 1e9f;
 
 typedef struct splat_job {
     const uint8_t *bytes;
@@ -56,7 +56,7 @@ static bool is_plausible(const uint8_t *record) {
     double norm2 = 0;
     for (int k = 0; k < 3; k++) {
         const float center = ewa_file_f32(record + 4 * k), scale = ewa_file_f32(record + SCALE_AT + 4 * k);
-        if (!(fabsf(center) < MOST_WORLD) || !(scale >= 0 && scale < MOST_WORLD)) return false;
+        if (!(fabsf(center) < MAX_WORLD) || !(scale >= 0 && scale < MAX_WORLD)) return false;
     }
     for (int k = 0; k < 4; k++) {
         const double part = (record[ROTATION_AT + k] - 128) / 128.0;

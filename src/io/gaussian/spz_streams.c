@@ -10,7 +10,7 @@
 
 /// How much smaller than its content a stream of centres is taken to be at most; what the format's own library
 /// believes.
-enum { MOST_RATIO = 1024 };
+enum { MAX_RATIO = 1024 };
 
 uint32_t ewa_spz_stream_bytes(const ewa_spz_header *header, uint32_t stream) {
     switch (stream) {
@@ -58,11 +58,11 @@ static uint64_t all_bytes(const ewa_spz_header *header) {
     return each;
 }
 
-/// Places the streams one after the other; fails when there cannot be more than `most_count` Gaussians.
+/// Places the streams one after the other; fails when there cannot be more than `max_count` Gaussians.
 static ewa_status place_streams(const ewa_gaussian_source *source, const ewa_spz_header *header,
-                                uint64_t most_count, size_t at[EWA_SPZ_STREAMS], size_t *size_bytes) {
+                                uint64_t max_count, size_t at[EWA_SPZ_STREAMS], size_t *size_bytes) {
     const uint64_t each = all_bytes(header), all = each * header->count;
-    if (header->count > most_count)
+    if (header->count > max_count)
         return ewa_fail(source->context, EWA_ERROR_FORMAT,
                         "%s: SPZ: %u Gaussians take %llu bytes, which a file of %zu cannot hold",
                         source->name, header->count, (unsigned long long)all, source->size_bytes);
@@ -186,7 +186,7 @@ static ewa_status unpack_zstd(const ewa_gaussian_source *source, ewa_spz_header 
     if (status == EWA_OK && header->flags & EWA_SPZ_EXTENDED) status = read_extensions(source, header, axes);
     if (status == EWA_OK)
         status = place_streams(source, header,
-                               (uint64_t)source->size_bytes * MOST_RATIO /
+                               (uint64_t)source->size_bytes * MAX_RATIO /
                                    ewa_spz_stream_bytes(header, EWA_SPZ_CENTERS),
                                at, size_bytes);
     if (status != EWA_OK) return status;

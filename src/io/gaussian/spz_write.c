@@ -14,7 +14,7 @@ enum {
     ZSTD_LEVEL = 12,
     FIXED_HALF = 1 << 23, ///< fixed-point numbers are below this
     FRACTION_BITS = 12,   ///< at least, where coordinates allow it
-    MOST_FRACTION_BITS = 22,
+    MAX_FRACTION_BITS = 22,
     BOX_STEPS = 1 << 18, ///< of the longest side of the box, where coordinates allow it
     AXES_RIGHT_DOWN_FRONT = 6,
     EXTENSION_BYTES = 12,
@@ -39,7 +39,7 @@ static ewa_status choose_fraction(const ewa_gaussian_target *target, uint32_t *b
             "them",
             target->name, largest);
     *bits = FRACTION_BITS;
-    while (*bits < MOST_FRACTION_BITS && ldexp(side, (int)*bits) < BOX_STEPS) ++*bits;
+    while (*bits < MAX_FRACTION_BITS && ldexp(side, (int)*bits) < BOX_STEPS) ++*bits;
     while (*bits > 0 && !(ldexp(largest, (int)*bits) < FIXED_HALF - 1)) --*bits;
     if (*bits < FRACTION_BITS)
         ewa_report(set->context, EWA_SEVERITY_WARNING,

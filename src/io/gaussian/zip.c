@@ -11,14 +11,14 @@
 enum {
     END_BYTES = 22,
     END_SIGNATURE = 0x06054b50,
-    MOST_COMMENT_BYTES = 65535,
+    MAX_COMMENT_BYTES = 65535,
     ENTRY_BYTES = 46,
     ENTRY_SIGNATURE = 0x02014b50,
     LOCAL_BYTES = 30,
     LOCAL_SIGNATURE = 0x04034b50,
     STORED = 0,
     DEFLATED = 8,
-    MOST_RATIO = 1032, ///< of deflate
+    MAX_RATIO = 1032, ///< of deflate
 };
 
 /// What the directory says of a file.
@@ -30,7 +30,7 @@ typedef struct zip_entry {
 static bool find_directory(const uint8_t *bytes, size_t size_bytes, uint32_t *at, uint32_t *count) {
     if (size_bytes < END_BYTES) return false;
     const size_t last = size_bytes - END_BYTES;
-    for (size_t back = 0; back <= last && back <= MOST_COMMENT_BYTES; back++) {
+    for (size_t back = 0; back <= last && back <= MAX_COMMENT_BYTES; back++) {
         const uint8_t *end = bytes + last - back;
         if (ewa_file_u32(end) != END_SIGNATURE) continue;
         *count = ewa_file_u16(end + 10);
@@ -77,7 +77,7 @@ bool ewa_zip_has(const uint8_t *bytes, size_t size_bytes, const char *name) {
 
 static ewa_status inflate_file(const ewa_gaussian_source *archive, const char *name, const uint8_t *packed,
                                const zip_entry *entry, ewa_zip_file *file) {
-    if (entry->whole_bytes / MOST_RATIO > entry->packed_bytes)
+    if (entry->whole_bytes / MAX_RATIO > entry->packed_bytes)
         return ewa_fail(archive->context, EWA_ERROR_FORMAT, "%s: %s: %u bytes do not unpack to %u",
                         archive->name, name, entry->packed_bytes, entry->whole_bytes);
     if (entry->whole_bytes > ewa_context_limits(archive->context)->max_memory_bytes)

@@ -147,8 +147,8 @@ static ewa_status check_header(reader *in) {
                         in->height_px, (unsigned long long)decoded_bytes,
                         (unsigned long long)limits->max_memory_bytes);
     const bool is_dwa = compression == EXR_COMPRESSION_DWAA || compression == EXR_COMPRESSION_DWAB;
-    const uint64_t least_stored_bytes = pixel_count * in->channel_count * sizeof(uint16_t);
-    if (!is_dwa && least_stored_bytes / MAX_RATIO > in->size_bytes)
+    const uint64_t min_stored_bytes = pixel_count * in->channel_count * sizeof(uint16_t);
+    if (!is_dwa && min_stored_bytes / MAX_RATIO > in->size_bytes)
         return ewa_fail(in->context, EWA_ERROR_FORMAT, "%s: OpenEXR: %zu bytes cannot hold %u x %u pixels",
                         in->name, in->size_bytes, in->width_px, in->height_px);
     return EWA_OK;

@@ -13,9 +13,9 @@
 
 enum {
     PIXEL_BYTES = 4,
-    LEAST_RUN_WIDTH = 8, ///< rows outside of these widths never have runs of components
-    MOST_RUN_WIDTH = 32767,
-    MOST_RUN = 128, ///< longer counts are runs of one value
+    MIN_RUN_WIDTH = 8, ///< rows outside of these widths never have runs of components
+    MAX_RUN_WIDTH = 32767,
+    MAX_RUN = 128, ///< longer counts are runs of one value
 };
 
 typedef struct decoder {
@@ -98,8 +98,8 @@ static bool read_runs(decoder *in, uint8_t *pixels) {
         for (uint32_t x = 0; x < in->width_px;) {
             const uint8_t *count = ewa_reader_take(&in->reader, 1);
             if (!count || *count == 0) return false;
-            const bool repeats = *count > MOST_RUN;
-            const uint32_t length = repeats ? *count - MOST_RUN : *count;
+            const bool repeats = *count > MAX_RUN;
+            const uint32_t length = repeats ? *count - MAX_RUN : *count;
             const uint8_t *values = ewa_reader_take(&in->reader, repeats ? 1 : length);
             if (!values || length > in->width_px - x) return false;
             for (uint32_t i = 0; i < length; i++, x++) pixels[PIXEL_BYTES * x + c] = values[repeats ? 0 : i];
@@ -133,7 +133,7 @@ static bool read_pixels(decoder *in, uint8_t *pixels) {
 static bool read_row(decoder *in, uint8_t *pixels) {
     const uint8_t *first = ewa_reader_take(&in->reader, PIXEL_BYTES);
     if (!first) return false;
-    const bool may_run = in->width_px >= LEAST_RUN_WIDTH && in->width_px <= MOST_RUN_WIDTH;
+    const bool may_run = in->width_px >= MIN_RUN_WIDTH && in->width_px <= MAX_RUN_WIDTH;
     if (may_run && first[0] == 2 && first[1] == 2 && first[2] < 128)
         return ((uint32_t)first[2] << 8 | first[3]) == in->width_px && read_runs(in, pixels);
     memcpy(pixels, first, PIXEL_BYTES);

@@ -43,7 +43,7 @@ __attribute__((format(printf, 2, 3))) static void find_fault(ewa_copc_tree *tree
     va_end(arguments);
 }
 
-/// Whether an entry is a cube of the tree.
+/// Whether an entry is a valid node of the tree.
 static bool is_cube(const ewa_octree_key *key) {
     if (key->level < 0 || key->level >= EWA_OCTREE_LEVELS) return false;
     for (int c = 0; c < 3; c++)
@@ -67,7 +67,7 @@ static ewa_status read_page(const ewa_cloud_source *source, page p, page_list *p
             (uint64_t)size > source->size_bytes - node.at_bytes) {
             find_fault(
                 tree,
-                "entry %d-%d-%d-%d of %d points is no cube of the octree, or its %d bytes from byte %llu "
+                "entry %d-%d-%d-%d of %d points is no node of the octree, or its %d bytes from byte %llu "
                 "on lie beyond the file",
                 k->level, k->cell[0], k->cell[1], k->cell[2], point_count, size,
                 (unsigned long long)node.at_bytes);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// The octree of COPC files: which chunk holds which cube of space at which level of detail.
+// The octree of COPC files: which chunk holds the points of which node.
 //
 // Based on: Hobu, "COPC: Cloud Optimized Point Cloud Specification 1.0", 2021.
 #ifndef EWA_SRC_COPC_H

@@ -17,7 +17,7 @@ enum {
     /// Bytes by which a file shows that it is COPC: the header, and the head of the record behind it.
     MAGIC_BYTES = EWA_LAS_HEAD_14_BYTES + EWA_LAS_RECORD_BYTES,
     /// No point takes less than 1 / 2048 byte: the arithmetic coder's surest symbol costs more.
-    MOST_POINTS_PER_BYTE = 2048,
+    MAX_POINTS_PER_BYTE = 2048,
 };
 
 typedef struct copc_state {
@@ -83,21 +83,21 @@ static ewa_status take_tree(ewa_octree *octree, const copc_state *state, const e
         facts->bounds.high_world[c] = state->file.header.high[c];
     }
     facts->bounds.finite_count = state->file.header.point_count;
-    const uint64_t most_bytes = ewa_context_limits(octree->context)->max_memory_bytes;
+    const uint64_t max_bytes = ewa_context_limits(octree->context)->max_memory_bytes;
     ewa_status status = EWA_OK;
     for (size_t i = 0; i < tree->node_count && status == EWA_OK; i++) {
         const ewa_octree_node *node = &nodes[i];
         const ewa_octree_key *k = &node->key;
-        if (node->point_count / MOST_POINTS_PER_BYTE > node->size_bytes)
+        if (node->point_count / MAX_POINTS_PER_BYTE > node->size_bytes)
             return ewa_fail(octree->context, EWA_ERROR_FORMAT,
                             "%s: node %d-%d-%d-%d is said to hold %llu points in %llu bytes", octree->path,
                             k->level, k->cell[0], k->cell[1], k->cell[2],
                             (unsigned long long)node->point_count, (unsigned long long)node->size_bytes);
-        if (node->point_count > most_bytes / state->file.header.record_bytes)
+        if (node->point_count > max_bytes / state->file.header.record_bytes)
             return ewa_fail(octree->context, EWA_ERROR_LIMIT,
                             "%s: node %d-%d-%d-%d, %llu points, is over the limit of %llu bytes",
                             octree->path, k->level, k->cell[0], k->cell[1], k->cell[2],
-                            (unsigned long long)node->point_count, (unsigned long long)most_bytes);
+                            (unsigned long long)node->point_count, (unsigned long long)max_bytes);
         status = ewa_octree_add(octree, node);
     }
     return status;

@@ -15,8 +15,8 @@ typedef struct ewa_copc_pages {
 } ewa_copc_pages;
 
 /// Makes the pages for nodes of different keys, in any order, that stand from byte `at_bytes` of the file on: one
-/// while the tree is small, else several of a thousand entries at most. Cubes without points, below which there are
-/// others, get entries too, since readers go from cube to cube. Errors: EWA_ERROR_MEMORY.
+/// while the tree is small, else several of a thousand entries at most. Nodes without points, below which
+/// there are others, get entries too, since readers go from node to node. Errors: EWA_ERROR_MEMORY.
 ewa_status ewa_copc_pages_make(ewa_context *context, const ewa_octree_node *nodes, uint64_t node_count,
                                uint64_t at_bytes, ewa_copc_pages *pages);
 

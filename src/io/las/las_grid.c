@@ -53,7 +53,7 @@ static ewa_status fail_range(const ewa_cloud_target *target, int axis, double sc
 }
 
 ewa_status ewa_las_grid_choose(const ewa_cloud_target *target, ewa_las_plan *plan) {
-    enum { FINEST = -4, COARSEST = -2, FINEST_DEGREES = -8, COARSEST_DEGREES = -6, LEAST = -12 };
+    enum { FINEST = -4, COARSEST = -2, FINEST_DEGREES = -8, COARSEST_DEGREES = -6, MINIMUM = -12 };
     const double option = target->options->step_world;
     const ewa_bounds *bounds = target->bounds;
     const bool has_box = bounds && bounds->finite_count > 0;
@@ -64,7 +64,7 @@ ewa_status ewa_las_grid_choose(const ewa_cloud_target *target, ewa_las_plan *pla
         extent_world = fmax(extent_world, bounds->high_world[c] - bounds->low_world[c]);
     // A millionth of a small object is finer than the finest step of a large one.
     const double fine = extent_world > 0 ? floor(log10(extent_world) + 1e-9) - 6 : FINEST;
-    const int finest = fine < LEAST ? LEAST : fine < FINEST ? (int)fine : FINEST;
+    const int finest = fine < MINIMUM ? MINIMUM : fine < FINEST ? (int)fine : FINEST;
     const bool in_degrees = is_geographic(target->prototype);
     for (int c = 0; c < 3; c++) {
         const bool degrees = in_degrees && c < 2;

@@ -26,11 +26,11 @@ static ewa_status check_numbers(const ewa_cloud_source *source, const ewa_las_he
 }
 
 static ewa_status check_places(const ewa_cloud_source *source, const ewa_las_header *header) {
-    const uint16_t least = ewa_las_format_bytes(header->point_format);
-    if (header->record_bytes < least)
+    const uint16_t minimum = ewa_las_format_bytes(header->point_format);
+    if (header->record_bytes < minimum)
         return ewa_fail(source->context, EWA_ERROR_FORMAT,
                         "%s: records of %u bytes, those of point format %u have at least %u", source->name,
-                        header->record_bytes, header->point_format, least);
+                        header->record_bytes, header->point_format, minimum);
     if (header->head_bytes < EWA_LAS_HEAD_BYTES)
         return ewa_fail(source->context, EWA_ERROR_FORMAT, "%s: a header of %u bytes, it has at least %d",
                         source->name, header->head_bytes, EWA_LAS_HEAD_BYTES);

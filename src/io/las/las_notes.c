@@ -11,8 +11,8 @@
 
 /// Records that a writer makes anew, or that mean nothing without what they describe.
 static bool is_kept(const ewa_las_vlr *vlr) {
-    enum { LASZIP = 22204, EXTRA_BYTES = 4, SUPERSEDED = 7, WAVEFORMS = 65535, MOST_BYTES = 65535 };
-    return vlr->size_bytes <= MOST_BYTES && !ewa_las_vlr_is(vlr, "laszip encoded", LASZIP) &&
+    enum { LASZIP = 22204, EXTRA_BYTES = 4, SUPERSEDED = 7, WAVEFORMS = 65535, MAX_BYTES = 65535 };
+    return vlr->size_bytes <= MAX_BYTES && !ewa_las_vlr_is(vlr, "laszip encoded", LASZIP) &&
            !ewa_las_vlr_is(vlr, "LASF_Spec", EXTRA_BYTES) && !ewa_las_vlr_is(vlr, "LASF_Spec", SUPERSEDED) &&
            !ewa_las_vlr_is(vlr, "LASF_Spec", WAVEFORMS) &&
            !ewa_las_vlr_is(vlr, EWA_COPC_LEVELS_USER, EWA_COPC_LEVELS_ID) &&
@@ -21,15 +21,15 @@ static bool is_kept(const ewa_las_vlr *vlr) {
 
 /// Appends a record, an extended one with the shorter head of the others.
 static ewa_status append(ewa_context *context, const ewa_las_vlr *vlr, ewa_buffer *kept, size_t *kept_bytes) {
-    const size_t size_bytes = (size_t)vlr->size_bytes, most_bytes = EWA_LAS_RECORD_BYTES + size_bytes;
-    const ewa_status status = ewa_buffer_grow(context, kept, *kept_bytes, *kept_bytes + most_bytes, 1);
+    const size_t size_bytes = (size_t)vlr->size_bytes, max_bytes = EWA_LAS_RECORD_BYTES + size_bytes;
+    const ewa_status status = ewa_buffer_grow(context, kept, *kept_bytes, *kept_bytes + max_bytes, 1);
     if (status != EWA_OK) return status;
     uint8_t *to = (uint8_t *)kept->data + *kept_bytes;
     memcpy(to, vlr->head, 20);
     ewa_las_put_u16(to + 20, (uint16_t)size_bytes);
     memcpy(to + 22, vlr->head + (vlr->extended ? 28 : 22), 32);
     if (size_bytes) memcpy(to + EWA_LAS_RECORD_BYTES, vlr->bytes, size_bytes);
-    *kept_bytes += most_bytes;
+    *kept_bytes += max_bytes;
     return EWA_OK;
 }
 

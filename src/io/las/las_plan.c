@@ -13,7 +13,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { LEGACY_MOST_RETURNS = 5, LEGACY_MOST_CLASS = 31, LEGACY_MOST_RANK = 90 };
+enum { LEGACY_MAX_RETURNS = 5, LEGACY_MAX_CLASS = 31, LEGACY_MAX_RANK = 90 };
 
 /// Largest number of an attribute of one component; 0 when there is none. `*whole` says whether all numbers
 /// are whole.
@@ -21,7 +21,7 @@ static double largest(const ewa_cloud *piece, const char *name, bool *whole) {
     enum { BLOCK = 1024 };
     const ewa_attribute *attribute = ewa_cloud_find(piece, name);
     const uint64_t count = ewa_cloud_point_count(piece);
-    double most = 0;
+    double maximum = 0;
     *whole = true;
     if (!attribute || attribute->component_count != 1) return 0;
     for (uint64_t first = 0; first < count; first += BLOCK) {
@@ -30,11 +30,11 @@ static double largest(const ewa_cloud *piece, const char *name, bool *whole) {
         ewa_attribute_read_f64(attribute, first, part, values);
         for (uint64_t i = 0; i < part; i++) {
             const double size = fabs(values[i]);
-            if (size > most) most = size;
+            if (size > maximum) maximum = size;
             *whole = *whole && (values[i] == nearbyint(values[i]) || values[i] != values[i]);
         }
     }
-    return most;
+    return maximum;
 }
 
 /// Whether the fields of the formats 0 to 3 hold what the cloud says. Of pieces to come nothing is known but
@@ -43,8 +43,8 @@ static bool is_legacy(const ewa_cloud_target *target, const ewa_cloud *piece, bo
     static const char *const later[] = {"overlap", "scanner_channel", "nir"};
     static const char *const narrow[] = {"return_number", "number_of_returns", "classification",
                                          "scan_angle"};
-    static const double most[] = {LEGACY_MOST_RETURNS, LEGACY_MOST_RETURNS, LEGACY_MOST_CLASS,
-                                  LEGACY_MOST_RANK};
+    static const double maximum[] = {LEGACY_MAX_RETURNS, LEGACY_MAX_RETURNS, LEGACY_MAX_CLASS,
+                                     LEGACY_MAX_RANK};
     const ewa_cloud *prototype = target->prototype;
     for (size_t i = 0; i < sizeof later / sizeof *later; i++)
         if (ewa_cloud_find(prototype, later[i])) return false;
@@ -53,7 +53,7 @@ static bool is_legacy(const ewa_cloud_target *target, const ewa_cloud *piece, bo
     for (size_t i = 0; i < sizeof narrow / sizeof *narrow; i++) {
         bool whole;
         if (!ewa_cloud_find(prototype, narrow[i]) || (was_legacy && !is_whole)) continue;
-        if (!is_whole || largest(piece, narrow[i], &whole) > most[i] || !whole) return false;
+        if (!is_whole || largest(piece, narrow[i], &whole) > maximum[i] || !whole) return false;
     }
     return true;
 }

@@ -72,13 +72,13 @@ static void unpack_task(void *data, uint32_t index, uint32_t worker) {
                                               left < TASK_POINTS ? left : TASK_POINTS, sinks);
 }
 
-static ewa_status read_plain(las_state *state, uint64_t most, const ewa_cloud_sink *sinks,
+static ewa_status read_plain(las_state *state, uint64_t maximum, const ewa_cloud_sink *sinks,
                              uint64_t *got_count) {
     ewa_context *context = state->source->context;
-    const uint64_t most_at_once = (uint64_t)UINT32_MAX * TASK_POINTS;
+    const uint64_t max_at_once = (uint64_t)UINT32_MAX * TASK_POINTS;
     const uint64_t left = state->file.point_count - state->next_point;
-    uint64_t count = left < most ? left : most;
-    if (count > most_at_once) count = most_at_once;
+    uint64_t count = left < maximum ? left : maximum;
+    if (count > max_at_once) count = max_at_once;
     *got_count = count;
     if (count == 0) return EWA_OK;
     const uint64_t at = state->file.header.points_at + state->next_point * state->file.table.record_bytes;
@@ -94,10 +94,10 @@ static ewa_status read_plain(las_state *state, uint64_t most, const ewa_cloud_si
     return EWA_OK;
 }
 
-static ewa_status read_las(void *data, uint64_t most, const ewa_cloud_sink *sinks, uint64_t *got_count) {
+static ewa_status read_las(void *data, uint64_t maximum, const ewa_cloud_sink *sinks, uint64_t *got_count) {
     las_state *state = data;
-    if (!state->file.stream) return read_plain(state, most, sinks, got_count);
-    return ewa_laz_stream_read(state->file.stream, &state->file.table, most, sinks, got_count,
+    if (!state->file.stream) return read_plain(state, maximum, sinks, got_count);
+    return ewa_laz_stream_read(state->file.stream, &state->file.table, maximum, sinks, got_count,
                                &state->above_count);
 }
 

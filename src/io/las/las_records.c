@@ -12,7 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MOST_RECORD_BYTES = 65535, WKT_ID = 2112, KEYS_ID = 34735 };
+enum { MAX_RECORD_BYTES = 65535, WKT_ID = 2112, KEYS_ID = 34735 };
 
 ewa_status ewa_las_record_append(ewa_context *context, const char *user, uint16_t id, const char *description,
                                  const void *bytes, size_t size_bytes, ewa_buffer *records,
@@ -102,7 +102,7 @@ static ewa_status append_crs(const ewa_cloud_target *target, ewa_las_plan *plan,
                              ewa_buffer *records, size_t *at_bytes, uint32_t *count) {
     if (strncmp(crs, "EPSG:", 5) == 0) return append_keys(target, crs + 5, records, at_bytes, count);
     const size_t size_bytes = strlen(crs) + 1;
-    if (!strchr(crs, '[') || size_bytes > MOST_RECORD_BYTES) {
+    if (!strchr(crs, '[') || size_bytes > MAX_RECORD_BYTES) {
         ewa_report(target->context, EWA_SEVERITY_WARNING,
                    "%s: the coordinate reference system is no well-known text or EPSG code and is left out",
                    target->name);
@@ -149,9 +149,9 @@ ewa_status ewa_las_records_make(const ewa_cloud_target *target, ewa_las_plan *pl
         status = append_crs(target, plan, crs_note, records, size_bytes, count);
     const size_t extra_bytes = (size_t)plan->extra_count * EWA_LAS_EXTRA_BYTES;
     if (status != EWA_OK || extra_bytes == 0) return status;
-    if (extra_bytes > MOST_RECORD_BYTES)
+    if (extra_bytes > MAX_RECORD_BYTES)
         return ewa_fail(target->context, EWA_ERROR_LIMIT, "%s: %u attributes beside those of LAS, %d at most",
-                        target->name, plan->extra_count, MOST_RECORD_BYTES / EWA_LAS_EXTRA_BYTES);
+                        target->name, plan->extra_count, MAX_RECORD_BYTES / EWA_LAS_EXTRA_BYTES);
     (*count)++;
     return ewa_las_record_append(target->context, "LASF_Spec", 4, "Extra bytes", plan->extras.data,
                                  extra_bytes, records, size_bytes);

@@ -186,12 +186,12 @@ static uint64_t unpack_column(const ewa_las_table *table, const ewa_las_column *
 
 uint64_t ewa_las_unpack(const ewa_las_table *table, const uint8_t *records, uint64_t count,
                         const ewa_cloud_sink *sinks) {
-    const uint64_t most = BLOCK_BYTES / table->record_bytes > 0 ? BLOCK_BYTES / table->record_bytes : 1;
+    const uint64_t maximum = BLOCK_BYTES / table->record_bytes > 0 ? BLOCK_BYTES / table->record_bytes : 1;
     uint64_t above_count = 0;
-    for (uint64_t first = 0; first < count; first += most) {
+    for (uint64_t first = 0; first < count; first += maximum) {
         block b = {.records = records + first * table->record_bytes,
                    .stride = table->record_bytes,
-                   .count = (size_t)(count - first < most ? count - first : most)};
+                   .count = (size_t)(count - first < maximum ? count - first : maximum)};
         shared_bytes shared;
         shared.at_bytes = UINT32_MAX;
         for (uint32_t i = 0; i < table->column_count; i++) {

@@ -50,9 +50,9 @@ ewa_status ewa_laz_stream_sample(ewa_laz_stream *stream,
                                  void (*look)(void *user, const uint8_t *records, uint64_t count), void *user,
                                  bool *is_all);
 
-/// Reads the next points, at most `most`, into sinks as ewa_cloud_format.read(); adds to `*above_count` what
-/// ewa_las_unpack() returned.
-ewa_status ewa_laz_stream_read(ewa_laz_stream *stream, const ewa_las_table *table, uint64_t most,
+/// Reads the next points, at most `maximum`, into sinks as ewa_cloud_format.read(); adds to `*above_count`
+/// what ewa_las_unpack() returned.
+ewa_status ewa_laz_stream_read(ewa_laz_stream *stream, const ewa_las_table *table, uint64_t maximum,
                                const ewa_cloud_sink *sinks, uint64_t *got_count, uint64_t *above_count);
 
 /// Frees the stream; accepts NULL.

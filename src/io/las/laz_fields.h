@@ -61,13 +61,13 @@ static inline void ewa_laz_median_add(ewa_laz_median *median, int32_t number) {
 }
 
 /// Context of a coordinate: one return or several, and how wide the differences before it were.
-static inline uint32_t ewa_laz_width_context(bool single, uint32_t width, uint32_t most) {
-    return single + (width < most ? width & ~1u : most);
+static inline uint32_t ewa_laz_width_context(bool single, uint32_t width, uint32_t maximum) {
+    return single + (width < maximum ? width & ~1u : maximum);
 }
 
 enum {
-    EWA_LAZ_TIME_MULTI = 500,       ///< largest multiple of the last step that has a symbol of its own
-    EWA_LAZ_TIME_MULTI_LEAST = -10, ///< smallest
+    EWA_LAZ_TIME_MULTI = 500,     ///< largest multiple of the last step that has a symbol of its own
+    EWA_LAZ_TIME_MULTI_MIN = -10, ///< smallest
     EWA_LAZ_TIME_SEQUENCES = 4,
 };
 
@@ -118,7 +118,7 @@ static inline int ewa_laz_time_choose(const ewa_laz_times *t, bool flat, uint64_
 static inline uint32_t ewa_laz_time_multiple(int32_t step, int32_t last_step) {
     const double quotient = (float)step / (float)last_step;
     if (quotient >= EWA_LAZ_TIME_MULTI) return EWA_LAZ_TIME_MULTI;
-    if (quotient <= EWA_LAZ_TIME_MULTI_LEAST) return EWA_LAZ_TIME_MULTI - EWA_LAZ_TIME_MULTI_LEAST;
+    if (quotient <= EWA_LAZ_TIME_MULTI_MIN) return EWA_LAZ_TIME_MULTI - EWA_LAZ_TIME_MULTI_MIN;
     const int multiple = (int)(quotient >= 0 ? quotient + 0.5 : quotient - 0.5);
     return (uint32_t)(multiple >= 0 ? multiple : EWA_LAZ_TIME_MULTI - multiple);
 }
@@ -142,7 +142,7 @@ EWA_LAZ_INLINE void ewa_laz_time_step(bool encoding, ewa_laz_coder *c, ewa_laz_t
         extreme = true;
     } else {
         multiple = EWA_LAZ_TIME_MULTI - (int32_t)symbol;
-        extreme = multiple == EWA_LAZ_TIME_MULTI_LEAST;
+        extreme = multiple == EWA_LAZ_TIME_MULTI_MIN;
         context = extreme ? 6 : 5;
     }
     const int32_t step =
@@ -159,7 +159,7 @@ EWA_LAZ_INLINE void ewa_laz_time_step(bool encoding, ewa_laz_coder *c, ewa_laz_t
 /// Codes a time; `flat` (a constant): as chunks of items of version 2 have it.
 EWA_LAZ_INLINE uint64_t ewa_laz_time(bool encoding, bool flat, ewa_laz_coder *c, ewa_laz_times *t,
                                      uint64_t time) {
-    enum { FIRST_EVENT = EWA_LAZ_TIME_MULTI - EWA_LAZ_TIME_MULTI_LEAST, SAME }; // symbols
+    enum { FIRST_EVENT = EWA_LAZ_TIME_MULTI - EWA_LAZ_TIME_MULTI_MIN, SAME }; // symbols
     uint32_t width;
     for (int turn = 0; turn < EWA_LAZ_TIME_SEQUENCES; turn++) {
         const uint32_t i = t->last;

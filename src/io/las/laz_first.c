@@ -34,18 +34,18 @@ static int32_t median_of_three(const int32_t a[3]) {
 }
 
 static void decode_point(ewa_laz_coder *coder, points_item *m, uint8_t *record) {
-    enum { SOURCE = 1, USER = 2, ANGLE = 4, CLASSIFICATION = 8, FLAGS = 16, INTENSITY = 32, MOST_WIDTH = 19 };
+    enum { SOURCE = 1, USER = 2, ANGLE = 4, CLASSIFICATION = 8, FLAGS = 16, INTENSITY = 32, MAX_WIDTH = 19 };
     ewa_laz_coder c = *coder;
     const ewa_laz_point10 last = m->last;
     ewa_laz_point10 now = last;
     uint32_t width_x, width_y, width_z;
     const int32_t step_x = ewa_laz_integer32(false, &c, &m->x, 0, median_of_three(m->steps_x), 0, &width_x);
-    const int32_t step_y = ewa_laz_integer32(false, &c, &m->y, width_x < MOST_WIDTH ? width_x : MOST_WIDTH,
+    const int32_t step_y = ewa_laz_integer32(false, &c, &m->y, width_x < MAX_WIDTH ? width_x : MAX_WIDTH,
                                              median_of_three(m->steps_y), 0, &width_y);
     const uint32_t width = (width_x + width_y) / 2;
     now.x = (int32_t)((uint32_t)last.x + (uint32_t)step_x);
     now.y = (int32_t)((uint32_t)last.y + (uint32_t)step_y);
-    now.z = ewa_laz_integer32(false, &c, &m->z, width < MOST_WIDTH ? width : MOST_WIDTH, last.z, 0, &width_z);
+    now.z = ewa_laz_integer32(false, &c, &m->z, width < MAX_WIDTH ? width : MAX_WIDTH, last.z, 0, &width_z);
     m->steps_x[m->oldest] = step_x;
     m->steps_y[m->oldest] = step_y;
     m->oldest = (m->oldest + 1) % 3;

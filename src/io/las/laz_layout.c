@@ -15,7 +15,7 @@ enum {
     ITEM_BYTES = 6,
     TABLE_HEAD_BYTES = 8,
     /// No point takes less than 1 / 2048 byte: the arithmetic coder's surest symbol costs more.
-    MOST_POINTS_PER_BYTE = 2048,
+    MAX_POINTS_PER_BYTE = 2048,
 };
 
 static ewa_status read_record(const ewa_cloud_source *source, const ewa_las_header *header,
@@ -103,12 +103,13 @@ static ewa_status read_table(const ewa_cloud_source *source, const ewa_las_heade
     const uint8_t *head = source->bytes + table_at;
     const uint32_t version = ewa_las_u32(head), count = ewa_las_u32(head + 4);
     // Each chunk begins with a whole record.
-    const uint64_t most = (table_at - header->points_at - 8) / header->record_bytes;
-    if (version != 0 || count > most)
+    const uint64_t maximum = (table_at - header->points_at - 8) / header->record_bytes;
+    if (version != 0 || count > maximum)
         return ewa_fail(source->context, EWA_ERROR_FORMAT,
                         "%s: the table of chunks at byte %llu has version %u and counts %u chunks; %llu fit "
                         "before it",
-                        source->name, (unsigned long long)table_at, version, count, (unsigned long long)most);
+                        source->name, (unsigned long long)table_at, version, count,
+                        (unsigned long long)maximum);
     ewa_status status = make_chunks(source->context, layout, count);
     if (status != EWA_OK || count == 0) return status;
     const char *fault =
@@ -153,17 +154,17 @@ static ewa_status place_chunks(const ewa_cloud_source *source, uint64_t at, uint
                             source->name, (unsigned long long)i + 1, (unsigned long long)layout->chunk_count,
                             (unsigned long long)chunk->size_bytes, (unsigned long long)at,
                             (unsigned long long)end);
-        if (chunk->point_count / MOST_POINTS_PER_BYTE > chunk->size_bytes)
+        if (chunk->point_count / MAX_POINTS_PER_BYTE > chunk->size_bytes)
             return ewa_fail(source->context, EWA_ERROR_FORMAT,
                             "%s: chunk %llu of %llu is said to hold %llu points in %llu bytes", source->name,
                             (unsigned long long)i + 1, (unsigned long long)layout->chunk_count,
                             (unsigned long long)chunk->point_count, (unsigned long long)chunk->size_bytes);
-        const uint64_t most_bytes = ewa_context_limits(source->context)->max_memory_bytes;
-        if (chunk->point_count > most_bytes / layout->plan.record_bytes)
+        const uint64_t max_bytes = ewa_context_limits(source->context)->max_memory_bytes;
+        if (chunk->point_count > max_bytes / layout->plan.record_bytes)
             return ewa_fail(source->context, EWA_ERROR_LIMIT,
                             "%s: chunk %llu of %llu, %llu points, is over the limit of %llu bytes",
                             source->name, (unsigned long long)i + 1, (unsigned long long)layout->chunk_count,
-                            (unsigned long long)chunk->point_count, (unsigned long long)most_bytes);
+                            (unsigned long long)chunk->point_count, (unsigned long long)max_bytes);
         at += chunk->size_bytes;
         layout->point_count += chunk->point_count;
     }

@@ -8,7 +8,7 @@
 
 #include <string.h>
 
-enum { MOST_SAMPLES = 8, SAMPLE_BYTES = 1 << 25 };
+enum { MAX_SAMPLES = 8, SAMPLE_BYTES = 1 << 25 };
 
 /// The records of one chunk.
 typedef struct kept_chunk {
@@ -27,7 +27,7 @@ struct ewa_laz_stream {
     uint32_t worker_count, kept_count;
     ewa_laz_memory **memories; ///< one per worker
     ewa_buffer *records;       ///< one per worker
-    kept_chunk kept[MOST_SAMPLES + 1];
+    kept_chunk kept[MAX_SAMPLES + 1];
 };
 
 ewa_status ewa_laz_stream_open(const ewa_cloud_source *source, const ewa_laz_layout *layout,
@@ -111,11 +111,11 @@ ewa_status ewa_laz_stream_sample(ewa_laz_stream *stream,
                                  void (*look)(void *user, const uint8_t *records, uint64_t count), void *user,
                                  bool *is_all) {
     const uint64_t chunk_count = stream->layout->chunk_count;
-    const uint32_t most = chunk_count < MOST_SAMPLES ? (uint32_t)chunk_count : MOST_SAMPLES;
+    const uint32_t maximum = chunk_count < MAX_SAMPLES ? (uint32_t)chunk_count : MAX_SAMPLES;
     ewa_status status = EWA_OK;
     uint64_t bytes = 0;
-    for (uint32_t i = 0; i < most && status == EWA_OK; i++) {
-        const uint64_t chunk = ewa_split(chunk_count, most, i);
+    for (uint32_t i = 0; i < maximum && status == EWA_OK; i++) {
+        const uint64_t chunk = ewa_split(chunk_count, maximum, i);
         bytes += chunk_bytes(stream, chunk);
         if (i && bytes > SAMPLE_BYTES) break;
         status = add_kept(stream, chunk);
@@ -156,7 +156,7 @@ static ewa_status keep_next(ewa_laz_stream *stream) {
     ewa_status status = EWA_OK;
     const uint32_t first = stream->kept_count;
     uint64_t bytes = 0;
-    for (uint64_t chunk = stream->next_chunk; chunk < chunk_count && stream->kept_count <= MOST_SAMPLES &&
+    for (uint64_t chunk = stream->next_chunk; chunk < chunk_count && stream->kept_count <= MAX_SAMPLES &&
                                               stream->kept_count - first < stream->worker_count;
          chunk++) {
         if (find_kept(stream, chunk)) continue;
@@ -171,7 +171,7 @@ static ewa_status keep_next(ewa_laz_stream *stream) {
 }
 
 /// Hands out a part of the next chunk, which is decoded and kept for it.
-static ewa_status read_part(ewa_laz_stream *stream, const ewa_las_table *table, uint64_t most,
+static ewa_status read_part(ewa_laz_stream *stream, const ewa_las_table *table, uint64_t maximum,
                             const ewa_cloud_sink *sinks, uint64_t *got_count, uint64_t *above_count) {
     const uint64_t chunk = stream->next_chunk;
     kept_chunk *kept = find_kept(stream, chunk);
@@ -188,7 +188,7 @@ static ewa_status read_part(ewa_laz_stream *stream, const ewa_las_table *table, 
         stream->next_point = point_count;
     } else if (status == EWA_OK) {
         const uint64_t left = point_count - stream->next_point;
-        *got_count = left < most ? left : most;
+        *got_count = left < maximum ? left : maximum;
         *above_count += ewa_las_unpack(
             table, kept->records + stream->next_point * stream->layout->plan.record_bytes, *got_count, sinks);
         stream->next_point += *got_count;
@@ -282,17 +282,17 @@ static ewa_status read_wave(ewa_laz_stream *stream, const ewa_las_table *table, 
     wave w = {.stream = stream, .table = table, .sinks = sinks, .chunk_count = chunk_count};
     w.results = ewa_allocate_zeroed(context, chunk_count, sizeof *w.results);
     ewa_status status = w.results ? EWA_OK : EWA_ERROR_MEMORY;
-    uint64_t first_point = 0, most_bytes = 0;
+    uint64_t first_point = 0, max_bytes = 0;
     for (uint64_t i = 0; i < chunk_count && status == EWA_OK; i++) {
         const uint64_t bytes = chunk_bytes(stream, stream->next_chunk + i);
         w.results[i].first_point = first_point;
         first_point += stream->layout->chunks[stream->next_chunk + i].point_count;
-        if (bytes > most_bytes && !find_kept(stream, stream->next_chunk + i)) most_bytes = bytes;
+        if (bytes > max_bytes && !find_kept(stream, stream->next_chunk + i)) max_bytes = bytes;
     }
     // Allocators are called by this thread only, which does a single chunk itself.
     const uint32_t worker_count = chunk_count == 1 ? 1 : stream->worker_count;
-    for (uint32_t i = 0; i < worker_count && most_bytes && status == EWA_OK; i++)
-        status = ewa_buffer_reserve(context, &stream->records[i], most_bytes, 1);
+    for (uint32_t i = 0; i < worker_count && max_bytes && status == EWA_OK; i++)
+        status = ewa_buffer_reserve(context, &stream->records[i], max_bytes, 1);
     if (status == EWA_OK && chunk_count == 1)
         read_chunk(&w, 0, 0);
     else if (status == EWA_OK)
@@ -302,21 +302,21 @@ static ewa_status read_wave(ewa_laz_stream *stream, const ewa_las_table *table, 
     return status;
 }
 
-ewa_status ewa_laz_stream_read(ewa_laz_stream *stream, const ewa_las_table *table, uint64_t most,
+ewa_status ewa_laz_stream_read(ewa_laz_stream *stream, const ewa_las_table *table, uint64_t maximum,
                                const ewa_cloud_sink *sinks, uint64_t *got_count, uint64_t *above_count) {
     const ewa_laz_layout *layout = stream->layout;
     ewa_status status = EWA_OK;
     *got_count = 0;
     // Nothing is got from chunks that are empty or lost; the end is where there is no further one.
     while (status == EWA_OK && *got_count == 0 && stream->next_chunk < layout->chunk_count) {
-        uint64_t chunk_count = 0, room = most;
+        uint64_t chunk_count = 0, room = maximum;
         for (uint64_t i = stream->next_chunk;
              stream->next_point == 0 && i < layout->chunk_count && chunk_count < UINT32_MAX &&
              layout->chunks[i].point_count <= room;
              i++, chunk_count++)
             room -= layout->chunks[i].point_count;
         status = chunk_count ? read_wave(stream, table, chunk_count, sinks, got_count, above_count)
-                             : read_part(stream, table, most, sinks, got_count, above_count);
+                             : read_part(stream, table, maximum, sinks, got_count, above_count);
     }
     if (stream->next_chunk < layout->chunk_count)
         ewa_cloud_passed(stream->source, layout->at_bytes[stream->next_chunk]);

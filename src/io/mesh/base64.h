@@ -8,7 +8,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/// Most bytes that so many letters stand for.
+/// Maximum number of bytes that so many letters encode.
 static inline size_t ewa_base64_room(size_t text_bytes) { return text_bytes / 4 * 3 + 3; }
 
 /// Decodes a text, without its first `skipped_bytes` bytes, into at most `room` bytes; returns how many.

@@ -74,7 +74,7 @@ typedef struct ewa_mesh_build {
     bool has_face_color;
     bool float_positions;    ///< places come from floats, which may be too coarse
     uint64_t cut_tests_left; ///< bound of the time that cutting polygons may take
-    // What was met, to say.
+    // What was found, to report.
     uint64_t face_count;              ///< polygons in the file
     uint64_t short_count;             ///< of fewer than three corners
     uint64_t beyond_count;            ///< with a vertex that is not there

@@ -29,8 +29,8 @@ const cJSON *ewa_gltf_member(const cJSON *object, const char *name) {
 
 void ewa_gltf_grant(gltf *g, uint64_t size_bytes) {
     // More than that no mesh within the limit has, however often a buffer is named.
-    const uint64_t most = ewa_context_limits(g->build->context)->max_memory_bytes / ITEM_BYTES;
-    const uint64_t room = most > g->items_granted ? most - g->items_granted : 0;
+    const uint64_t maximum = ewa_context_limits(g->build->context)->max_memory_bytes / ITEM_BYTES;
+    const uint64_t room = maximum > g->items_granted ? maximum - g->items_granted : 0;
     const uint64_t items = size_bytes < room / ITEMS_PER_BYTE ? size_bytes * ITEMS_PER_BYTE : room;
     g->items_granted += items;
     g->items_left += items;

@@ -7,8 +7,8 @@
 // Based on: D. Ramey, L. Rose, L. Tyerman, "MTL material format (Lightwave, OBJ)", 1995.
 #include "base/base.h"
 #include "image/srgb.h"
-#include "io/mesh/beside.h"
 #include "io/mesh/formats.h"
+#include "io/mesh/referenced_file.h"
 
 #include <limits.h>
 #include <math.h>
@@ -169,7 +169,7 @@ static ewa_status open_library(ewa_mesh_build *build, ewa_mtl *mtl, ewa_text nam
     mtl_library *kept = ewa_mesh_list_add(build, &mtl->libraries, &status);
     if (!kept) return status;
     *kept = (mtl_library){.name = name};
-    *found = build->source->path && ewa_beside_map(build->source->path, name, &kept->file, reason);
+    *found = build->source->path && ewa_referenced_file_map(build->source->path, name, &kept->file, reason);
     if (!build->source->path)
         snprintf(reason, EWA_REASON_BYTES, "the mesh is no file that it could lie beside");
     if (!*found) return EWA_OK;

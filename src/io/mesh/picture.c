@@ -5,8 +5,8 @@
 // is a warning, and the mesh comes without.
 #include "base/base.h"
 #include "io/image/image_file.h"
-#include "io/mesh/beside.h"
 #include "io/mesh/build.h"
+#include "io/mesh/referenced_file.h"
 
 #include <stdio.h>
 
@@ -131,7 +131,7 @@ ewa_status ewa_mesh_find_picture(ewa_mesh_build *build, ewa_text name, ewa_mesh_
     ewa_file file;
     if (!build->source->path) {
         ewa_mesh_miss_picture(build, name, "the mesh is no file that pictures could lie beside");
-    } else if (!text.length || !ewa_beside_map(build->source->path, name, &file, reason)) {
+    } else if (!text.length || !ewa_referenced_file_map(build->source->path, name, &file, reason)) {
         ewa_mesh_miss_picture(build, name, reason);
     } else {
         status = decode(build, name, file.bytes, file.size_bytes, alpha, limit, entry);

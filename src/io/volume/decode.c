@@ -10,10 +10,10 @@
 #include <math.h>
 #include <string.h>
 
-enum { BLOCK_NUMBERS = 1 << 14, SKIP_BYTES = 1 << 14, MOST_COMPONENTS = 4 };
+enum { BLOCK_NUMBERS = 1 << 14, SKIP_BYTES = 1 << 14, MAX_COMPONENTS = 4 };
 
 /// Volume of the box that three unit steps span, below which they lie in one plane.
-static const double LEAST_DETERMINANT = 1e-6;
+static const double MIN_DETERMINANT = 1e-6;
 
 size_t ewa_file_number_bytes(int number) {
     return number == EWA_FILE_I64 || number == EWA_FILE_U64 ? 8 : ewa_type_bytes((ewa_type)number);
@@ -260,7 +260,7 @@ static ewa_status read_voxels(decoder *job, uint64_t voxel_count) {
     ewa_context *context = job->in->context;
     const uint32_t components = job->header->component_count;
     const size_t voxel_bytes = ewa_type_bytes(job->volume->type);
-    enum { ROOM = BLOCK_NUMBERS * MOST_COMPONENTS };
+    enum { ROOM = BLOCK_NUMBERS * MAX_COMPONENTS };
     uint8_t *bytes = ewa_allocate(context, ROOM, sizeof(double));
     double *numbers = ewa_allocate(context, ROOM, sizeof(double));
     ewa_status status = bytes && numbers ? EWA_OK : EWA_ERROR_MEMORY;
@@ -330,7 +330,7 @@ static ewa_status make_place(const ewa_volume_input *in, const ewa_volume_header
     double determinant = 0, scale = 1;
     for (int k = 0; k < 3; k++) determinant += across[k] * directions[2][k];
     for (int axis = 0; axis < 3; axis++) scale *= length3(directions[axis]);
-    if (!(fabs(determinant) > LEAST_DETERMINANT * scale))
+    if (!(fabs(determinant) > MIN_DETERMINANT * scale))
         return ewa_volume_fail(in, EWA_ERROR_FORMAT, "the axes of the voxels lie in one plane");
     for (int k = 0; k < 3; k++) {
         double middle = 0;

@@ -9,13 +9,13 @@
 
 #include <math.h>
 
-enum { MOST_AXES = 10 };
+enum { MAX_AXES = 10 };
 
 typedef struct meta {
     const ewa_volume_input *in;
     ewa_volume_header *header;
-    uint64_t axis_count, sizes[MOST_AXES], channel_count;
-    double spacings[MOST_AXES], offset[MOST_AXES], matrix[MOST_AXES * MOST_AXES];
+    uint64_t axis_count, sizes[MAX_AXES], channel_count;
+    double spacings[MAX_AXES], offset[MAX_AXES], matrix[MAX_AXES * MAX_AXES];
     bool has_sizes, has_spacings, has_offset, has_matrix, packed, text, at_end;
     char data_file[EWA_LINE_BYTES];
 } meta;
@@ -47,7 +47,7 @@ static ewa_status take_numbers(meta *file, const char *key, const char *value, u
     if (!file->axis_count)
         return ewa_volume_fail(file->in, EWA_ERROR_FORMAT, "MetaImage: %s before NDims", key);
     *has = true;
-    const int count = ewa_text_numbers(value, MOST_AXES * MOST_AXES, numbers);
+    const int count = ewa_text_numbers(value, MAX_AXES * MAX_AXES, numbers);
     return count >= 0 && (uint64_t)count == wanted ? EWA_OK : broken(file, key, value);
 }
 
@@ -63,15 +63,15 @@ static ewa_status take_tag(meta *file, const char *key, const char *value) {
     static const char *const orders[] = {"BinaryDataByteOrderMSB", "ElementByteOrderMSB", NULL};
     ewa_volume_header *header = file->header;
     const uint64_t n = file->axis_count;
-    double numbers[MOST_AXES * MOST_AXES];
+    double numbers[MAX_AXES * MAX_AXES];
     uint64_t count;
     if (strcmp(key, "NDims") == 0) {
         if (ewa_text_counts(value, 1, &file->axis_count) != 1 || file->axis_count < 1 ||
-            file->axis_count > MOST_AXES)
+            file->axis_count > MAX_AXES)
             return broken(file, key, value);
     } else if (strcmp(key, "DimSize") == 0) {
         file->has_sizes = true;
-        const int read = ewa_text_counts(value, MOST_AXES, file->sizes);
+        const int read = ewa_text_counts(value, MAX_AXES, file->sizes);
         if (!n || read < 0 || (uint64_t)read != n) return broken(file, key, value);
     } else if (strcmp(key, "ElementSpacing") == 0 ||
                (strcmp(key, "ElementSize") == 0 && !file->has_spacings)) {

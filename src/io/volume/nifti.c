@@ -13,7 +13,7 @@
 enum {
     HEADER1_BYTES = 348,
     HEADER2_BYTES = 540,
-    MOST_AXES = 7,
+    MAX_AXES = 7,
     EXTENSION_BYTES = 4, // at least, between the header and the voxels of one file
 };
 
@@ -22,8 +22,8 @@ typedef struct nifti {
     const uint8_t *bytes;
     bool swapped, second; // NIfTI-2
     bool nifti, detached; // Analyze: neither magic
-    int64_t dims[MOST_AXES + 1];
-    double steps[MOST_AXES + 1]; // "pixdim"
+    int64_t dims[MAX_AXES + 1];
+    double steps[MAX_AXES + 1]; // "pixdim"
     double offset_bytes, slope, intercept;
     int type, qform_code, sform_code;
     double quaternion[3], shift[3], rows[3][4];
@@ -59,7 +59,7 @@ static double read_real(const nifti *file, size_t at, size_t index) {
 /// Takes the fields from their places in either version.
 static void read_fields(nifti *file) {
     const bool second = file->second;
-    for (size_t i = 0; i <= MOST_AXES; i++) {
+    for (size_t i = 0; i <= MAX_AXES; i++) {
         file->dims[i] = second ? (int64_t)read_bits(file, 16 + 8 * i, 8) : read_i16(file, 40 + 2 * i);
         file->steps[i] = read_real(file, second ? 104 : 76, i);
     }
@@ -95,7 +95,7 @@ static bool read_magic(const uint8_t *bytes, size_t size_bytes, nifti *file) {
     if (file->second) return file->nifti && size_bytes >= HEADER2_BYTES;
     // Analyze has no magic: the count of axes must make sense.
     const int axis_count = read_i16(file, 40);
-    return file->nifti || (axis_count >= 1 && axis_count <= MOST_AXES);
+    return file->nifti || (axis_count >= 1 && axis_count <= MAX_AXES);
 }
 
 static bool is_gzip(const uint8_t *bytes, size_t size_bytes) {
@@ -148,7 +148,7 @@ static ewa_status take_type(const ewa_volume_input *in, int type, ewa_volume_hea
 
 static ewa_status take_dims(const ewa_volume_input *in, const nifti *file, ewa_volume_header *header) {
     const int64_t axis_count = file->dims[0];
-    if (axis_count < 1 || axis_count > MOST_AXES)
+    if (axis_count < 1 || axis_count > MAX_AXES)
         return ewa_volume_fail(in, EWA_ERROR_FORMAT, "NIfTI: %lld axes", (long long)axis_count);
     uint64_t volumes = 1;
     for (int64_t axis = 1; axis <= axis_count; axis++) {
@@ -245,8 +245,8 @@ static ewa_status parse_header(const ewa_volume_input *in, const nifti *file, ew
         return ewa_volume_fail(in, EWA_ERROR_FORMAT, "NIfTI: voxels at byte %g", file->offset_bytes);
     header->skipped_bytes = (uint64_t)file->offset_bytes;
     if (file->detached) return EWA_OK;
-    const uint64_t least = (file->second ? HEADER2_BYTES : HEADER1_BYTES) + EXTENSION_BYTES;
-    if (header->skipped_bytes < least) header->skipped_bytes = least;
+    const uint64_t minimum = (file->second ? HEADER2_BYTES : HEADER1_BYTES) + EXTENSION_BYTES;
+    if (header->skipped_bytes < minimum) header->skipped_bytes = minimum;
     return EWA_OK;
 }
 

@@ -9,7 +9,7 @@
 
 #include <math.h>
 
-enum { MOST_AXES = 16, WORD_BYTES = 64 };
+enum { MAX_AXES = 16, WORD_BYTES = 64 };
 
 typedef enum axis_kind { AXIS_SPACE, AXIS_OTHER, AXIS_COLOR3, AXIS_COLOR4 } axis_kind;
 
@@ -18,10 +18,10 @@ typedef struct nrrd {
     const ewa_volume_input *in;
     ewa_volume_header *header;
     uint32_t axis_count, space_count;
-    uint64_t sizes[MOST_AXES];
-    double spacings[MOST_AXES], directions[MOST_AXES][3], origin[3];
-    bool directed[MOST_AXES];
-    axis_kind kinds[MOST_AXES];
+    uint64_t sizes[MAX_AXES];
+    double spacings[MAX_AXES], directions[MAX_AXES][3], origin[3];
+    bool directed[MAX_AXES];
+    axis_kind kinds[MAX_AXES];
     bool has_sizes, has_spacings, has_directions, has_origin, has_kinds, has_encoding, has_endian;
     double mirror[3]; // from the file's space to left-posterior-superior
     char data_file[EWA_LINE_BYTES];
@@ -173,8 +173,8 @@ static ewa_status take_numbers(nrrd *file, const char *field, const char *value)
     const int axis_count = (int)file->axis_count;
     if (!axis_count) return ewa_volume_fail(file->in, EWA_ERROR_FORMAT, "NRRD: %s before dimension", field);
     const bool sizes = strcasecmp(field, "sizes") == 0;
-    const int count = sizes ? ewa_text_counts(value, MOST_AXES, file->sizes)
-                            : ewa_text_numbers(value, MOST_AXES, file->spacings);
+    const int count = sizes ? ewa_text_counts(value, MAX_AXES, file->sizes)
+                            : ewa_text_numbers(value, MAX_AXES, file->spacings);
     *(sizes ? &file->has_sizes : &file->has_spacings) = true;
     return count == axis_count ? EWA_OK : broken(file, field, value);
 }
@@ -198,7 +198,7 @@ static ewa_status take_field(nrrd *file, const char *field, const char *value) {
         file->has_endian = true;
         if (!header->big_endian && strcasecmp(value, "little") != 0) return broken(file, field, value);
     } else if (strcasecmp(field, "dimension") == 0) {
-        if (ewa_text_counts(value, 1, &count) != 1 || count < 1 || count > MOST_AXES)
+        if (ewa_text_counts(value, 1, &count) != 1 || count < 1 || count > MAX_AXES)
             return broken(file, field, value);
         file->axis_count = (uint32_t)count;
     } else if (strcasecmp(field, "space dimension") == 0) {

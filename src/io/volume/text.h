@@ -37,26 +37,26 @@ static inline const char *ewa_text_skip_blanks(const char *text) {
     return text;
 }
 
-/// Reads up to `most` numbers separated by blanks; returns how many, or -1 when something else is between.
-static inline int ewa_text_numbers(const char *text, int most, double *numbers) {
+/// Reads up to `maximum` numbers separated by blanks; returns how many, or -1 when something else is between.
+static inline int ewa_text_numbers(const char *text, int maximum, double *numbers) {
     const char *end = text + strlen(text);
     for (int count = 0;; count++) {
         text = ewa_text_skip_blanks(text);
         if (!*text) return count;
-        if (count == most) return -1;
+        if (count == maximum) return -1;
         text = ewa_number_read_f64(text, end, &numbers[count]);
         if (!text) return -1;
     }
 }
 
 /// The same for whole numbers >= 0.
-static inline int ewa_text_counts(const char *text, int most, uint64_t *numbers) {
+static inline int ewa_text_counts(const char *text, int maximum, uint64_t *numbers) {
     const char *end = text + strlen(text);
     for (int count = 0;; count++) {
         text = ewa_text_skip_blanks(text);
         if (!*text) return count;
         int64_t number;
-        text = count < most ? ewa_number_read_i64(text, end, &number) : NULL;
+        text = count < maximum ? ewa_number_read_i64(text, end, &number) : NULL;
         if (!text || number < 0) return -1;
         numbers[count] = (uint64_t)number;
     }

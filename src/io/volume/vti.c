@@ -223,7 +223,7 @@ static ewa_status add_blocks(const vti *file, const array_bytes *array, uint64_t
 static ewa_status measure_array(const vti *file, const array_bytes *array, uint64_t *head_bytes,
                                 uint64_t *data_bytes) {
     const size_t word_bytes = file->wide ? 8 : 4;
-    const uint64_t most = array->text_bytes;
+    const uint64_t maximum = array->text_bytes;
     uint8_t bytes[8];
     if (copy_bytes(array, 0, bytes, word_bytes) != word_bytes) return ends_early(file);
     const uint64_t first = read_word(file, bytes);
@@ -232,13 +232,13 @@ static ewa_status measure_array(const vti *file, const array_bytes *array, uint6
     ewa_status status = EWA_OK;
     if (file->packed) {
         // The number of blocks, their size, that of the last one, then what each takes when packed.
-        if (first == 0 || first > most / word_bytes) return ends_early(file);
+        if (first == 0 || first > maximum / word_bytes) return ends_early(file);
         *head_bytes = (first + PACKED_HEAD_WORDS) * word_bytes;
         *data_bytes = 0;
-        if (*head_bytes > most) return ends_early(file);
+        if (*head_bytes > maximum) return ends_early(file);
         status = add_blocks(file, array, first, *head_bytes, data_bytes);
     }
-    return status == EWA_OK && *data_bytes > most - *head_bytes ? ends_early(file) : status;
+    return status == EWA_OK && *data_bytes > maximum - *head_bytes ? ends_early(file) : status;
 }
 
 /// Adds the bytes of an array behind its sizes; those of base64 are decoded into memory of their own.

@@ -1,0 +1,208 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// One run of the program: the library's context, messages, progress, interruption, timing, exit status.
+#include "cli/base/session.h"
+
+#include <errno.h>
+#include <signal.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/resource.h>
+#include <time.h>
+#include <unistd.h>
+
+enum { BAR_COLUMNS = 40, LINE_BYTES = 2048 };
+
+/// The bar appears after this time, so that short runs stay silent, and is redrawn in these steps.
+static const double BAR_DELAY_S = 0.4, BAR_STEP_S = 0.05;
+
+/// Set by the first SIGINT or SIGTERM: the run stops at the next report of progress and cleans up. The second
+/// ends it.
+static volatile sig_atomic_t caught_signal;
+
+static void catch_signal(int number) { caught_signal = number; }
+
+double clock_now_s(void) {
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+uint64_t memory_peak_bytes(void) {
+    struct rusage usage;
+    return getrusage(RUSAGE_SELF, &usage) == 0 ? (uint64_t)usage.ru_maxrss * 1024 : 0;
+}
+
+static void wipe_bar(cli_session *session) {
+    if (session->bar_drawn) fputs("\r\033[K", stderr);
+    session->bar_drawn = false;
+}
+
+/// Draws the bar when it is time to.
+static void draw_bar(cli_session *session, const char *label, double fraction) {
+    const double now_s = clock_now_s();
+    if (!session->progress || now_s - session->started_s <= BAR_DELAY_S ||
+        (now_s - session->bar_time_s <= BAR_STEP_S && fraction < 1))
+        return;
+    const double share = fraction < 0 ? 0 : fraction > 1 ? 1 : fraction;
+    const int filled = (int)(share * BAR_COLUMNS);
+    fprintf(stderr, "\r\033[K%-12s [", label);
+    for (int i = 0; i < BAR_COLUMNS; i++) fputc(i < filled ? '#' : '.', stderr);
+    fprintf(stderr, "] %3d %%", (int)(100 * share));
+    session->bar_drawn = true;
+    session->bar_time_s = now_s;
+}
+
+static bool on_progress(void *user, const char *stage, double fraction) {
+    cli_session *session = user;
+    const session_listener *listener = session->listener;
+    if (listener) return listener->progress(listener->user, stage, fraction) && caught_signal == 0;
+    if (!session->stepping) draw_bar(session, stage, fraction);
+    return caught_signal == 0;
+}
+
+bool session_interrupted(void) { return caught_signal != 0; }
+
+bool session_step(cli_session *session, const char *what, uint64_t done, uint64_t count) {
+    char label[64];
+    snprintf(label, sizeof label, "%s %llu/%llu", what, (unsigned long long)done, (unsigned long long)count);
+    session->stepping = true;
+    draw_bar(session, label, (double)done / (double)count);
+    return caught_signal == 0;
+}
+
+/// Prints one line: program, then the file unless the text begins with it, then the text.
+static void print_line(cli_session *session, ewa_severity severity, const char *text) {
+    wipe_bar(session);
+    const char *subject = session->subject;
+    const bool named = !subject || strncmp(text, subject, strlen(subject)) == 0;
+    if (session->listener) {
+        char line[LINE_BYTES];
+        snprintf(line, sizeof line, "%s%s%s", named ? "" : subject, named ? "" : ": ", text);
+        session->listener->message(session->listener->user, severity, line);
+        return;
+    }
+    if (!process_group_leads(session->group)) {
+        if (severity == EWA_SEVERITY_ERROR)
+            snprintf(session->group->failure, session->group->failure_bytes, "%s%s%s", named ? "" : subject,
+                     named ? "" : ": ", text);
+        return;
+    }
+    fprintf(stderr, "ewa: %s%s%s%s\n", severity == EWA_SEVERITY_WARNING ? "warning: " : "",
+            named ? "" : subject, named ? "" : ": ", text);
+}
+
+static void on_message(void *user, ewa_severity severity, const char *text) {
+    cli_session *session = user;
+    if (severity == EWA_SEVERITY_ERROR) session->reported = true;
+    print_line(session, severity, text);
+}
+
+static void print_formatted(cli_session *session, ewa_severity severity, const char *format,
+                            va_list arguments) {
+    char text[1024];
+    vsnprintf(text, sizeof text, format, arguments);
+    print_line(session, severity, text);
+}
+
+ewa_context *session_context(cli_session *session, uint32_t thread_count, uint32_t cpu_mask) {
+    ewa_context_options options;
+    ewa_context_options_init(&options, sizeof options);
+    options.thread_count = thread_count;
+    options.cpu_mask = cpu_mask;
+    options.message = on_message;
+    options.message_user = session;
+    options.message_level = session->quiet     ? EWA_SEVERITY_ERROR
+                            : session->verbose ? EWA_SEVERITY_INFO
+                                               : EWA_SEVERITY_NOTE;
+    options.progress = on_progress;
+    options.progress_user = session;
+    ewa_context *context = NULL;
+    const ewa_status status = ewa_context_create(&options, &context);
+    if (status != EWA_OK)
+        session_fail(session, "cannot start %u worker threads: %s", thread_count,
+                     status == EWA_ERROR_MEMORY ? "out of memory" : ewa_status_name(status));
+    return context;
+}
+
+bool session_start(cli_session *session, const common_arguments *common) {
+    *session = (cli_session){.quiet = common->quiet,
+                             .verbose = common->verbose,
+                             .group = common->group,
+                             .started_s = clock_now_s()};
+    session->progress =
+        process_group_leads(session->group) &&
+        (common->progress == 1 || (common->progress == -1 && !common->quiet && isatty(STDERR_FILENO)));
+    struct sigaction action = {.sa_handler = catch_signal, .sa_flags = (int)SA_RESETHAND};
+    sigemptyset(&action.sa_mask);
+    // Whoever started us to ignore an interrupt, as shells do in the background, is obeyed.
+    static const int numbers[] = {SIGINT, SIGTERM, SIGHUP};
+    for (size_t i = 0; i < sizeof numbers / sizeof numbers[0]; i++) {
+        struct sigaction inherited;
+        if (sigaction(numbers[i], NULL, &inherited) == 0 && inherited.sa_handler != SIG_IGN)
+            sigaction(numbers[i], &action, NULL);
+    }
+    ewa_cloud_load_options_init(&session->load, sizeof session->load);
+    session->load.keep_going = common->keep_going;
+    session->load.columns = common->columns;
+    session->filter = common->filter.term_count ? &common->filter : NULL;
+    session->context = session_context(session, (uint32_t)common->threads, EWA_CPU_ALL);
+    return session->context != NULL;
+}
+
+int session_end(cli_session *session, int exit_status) {
+    wipe_bar(session);
+    ewa_context_destroy(&session->context);
+    if (caught_signal) raise(caught_signal);
+    return exit_status;
+}
+
+int session_fail(cli_session *session, const char *format, ...) {
+    va_list arguments;
+    va_start(arguments, format);
+    print_formatted(session, EWA_SEVERITY_ERROR, format, arguments);
+    va_end(arguments);
+    session->reported = true;
+    return EXIT_FAILED;
+}
+
+int session_failed(cli_session *session, ewa_status status) {
+    if (caught_signal) return EXIT_FAILED;
+    if (session->reported) return EXIT_FAILED;
+    return session_fail(session, "%s", status == EWA_CANCELLED ? "given up" : ewa_status_name(status));
+}
+
+void session_warn(cli_session *session, const char *format, ...) {
+    if (session->quiet) return;
+    va_list arguments;
+    va_start(arguments, format);
+    print_formatted(session, EWA_SEVERITY_WARNING, format, arguments);
+    va_end(arguments);
+}
+
+void session_note(cli_session *session, const char *format, ...) {
+    if (session->quiet) return;
+    va_list arguments;
+    va_start(arguments, format);
+    print_formatted(session, EWA_SEVERITY_NOTE, format, arguments);
+    va_end(arguments);
+}
+
+void session_say(cli_session *session, const char *format, ...) {
+    if (!session->verbose) return;
+    va_list arguments;
+    va_start(arguments, format);
+    print_formatted(session, EWA_SEVERITY_INFO, format, arguments);
+    va_end(arguments);
+}
+
+bool session_make_folder(cli_session *session, char folder[SESSION_FOLDER_BYTES]) {
+    const char *parent = getenv("TMPDIR");
+    snprintf(folder, SESSION_FOLDER_BYTES, "%.200s/ewa-XXXXXX", parent && *parent ? parent : "/tmp");
+    if (mkdtemp(folder)) return true;
+    session_fail(session, "%s: cannot create a folder for a while", folder);
+    return false;
+}

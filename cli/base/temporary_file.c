@@ -1,0 +1,56 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// A file that appears whole or not at all.
+#define _DEFAULT_SOURCE // realpath
+#include "cli/base/temporary_file.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <time.h>
+#include <unistd.h>
+
+int temporary_file_choose(const char *path, temporary_file *pending) {
+    *pending = (temporary_file){.temporary = true};
+    if (strlen(path) >= PATH_MAX) return ENAMETOOLONG;
+    struct stat facts;
+    if (stat(path, &facts) != 0) {
+        if (errno != ENOENT) return errno;
+        strcpy(pending->target, path);
+    } else if (!S_ISREG(facts.st_mode)) {
+        pending->temporary = false;
+        strcpy(pending->written, path);
+        return S_ISDIR(facts.st_mode) ? EISDIR : 0;
+    } else {
+        // Renaming asks the folder for permission only; a file that is write-protected is meant to stay.
+        if (!realpath(path, pending->target) || faccessat(AT_FDCWD, pending->target, W_OK, AT_EACCESS) != 0)
+            return errno;
+        pending->replaces = true;
+        pending->mode = facts.st_mode & 0777;
+    }
+    // Short, so that every target that can be named can be written.
+    const char *slash = strrchr(pending->target, '/');
+    const int folder_bytes = slash ? (int)(slash - pending->target) + 1 : 0;
+    struct timespec now;
+    clock_gettime(CLOCK_REALTIME, &now);
+    const int length = snprintf(pending->written, sizeof pending->written, "%.*s.ewa-%ld-%09ld.tmp",
+                                folder_bytes, pending->target, (long)getpid(), now.tv_nsec);
+    return length < 0 || (size_t)length >= sizeof pending->written ? ENAMETOOLONG : 0;
+}
+
+int temporary_file_commit(temporary_file *pending) {
+    if (!pending->temporary) return 0;
+    if (pending->replaces && chmod(pending->written, pending->mode) != 0) return errno;
+    if (rename(pending->written, pending->target) != 0) return errno;
+    pending->temporary = false;
+    return 0;
+}
+
+void temporary_file_drop(temporary_file *pending) {
+    if (pending->temporary && pending->written[0]) unlink(pending->written);
+    pending->temporary = false;
+}

@@ -1,0 +1,73 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// The scene that a command's operands and options ask for.
+#include "cli/input/scene_input.h"
+#include "cli/input/import.h"
+
+#include <string.h>
+
+/// Has formats that the library does not read read by the helper program.
+static ewa_status read_rare(void *user, ewa_context *context, const char *path, ewa_model *model,
+                            bool *taken) {
+    cli_session *session = user;
+    (void)context;
+    if (!import_is_named(path)) return EWA_OK;
+    *taken = true;
+    // What went wrong has been said.
+    return import_load(session, path, EWA_MODEL_MESH, model) ? EWA_OK : EWA_ERROR_UNSUPPORTED;
+}
+
+ewa_asset_options scene_input_asset_options(cli_session *session) {
+    ewa_asset_options options;
+    ewa_asset_options_init(&options, sizeof options);
+    options.load = &session->load;
+    options.filter = session->filter;
+    options.reader = read_rare;
+    options.reader_user = session;
+    return options;
+}
+
+void scene_input_coloring(const char *word, int colormap, const option_bounds *range,
+                          ewa_coloring *coloring) {
+    ewa_coloring_init(coloring, sizeof *coloring);
+    if (!word) return;
+    strncat(coloring->attribute, word, sizeof coloring->attribute - 1);
+    coloring->map = (ewa_coloring_map)(colormap + 1);
+    coloring->ranged = range->given;
+    memcpy(coloring->range, range->values, sizeof coloring->range);
+    memcpy(coloring->percent, range->percent, sizeof coloring->percent);
+}
+
+/// Adds one file. Returns false after reporting.
+static bool add_file(cli_session *session, const char *path, const ewa_asset_options *options,
+                     const ewa_coloring *coloring, ewa_scene *scene) {
+    ewa_asset *asset = NULL;
+    ewa_status status = ewa_asset_load(session->context, path, options, &asset);
+    ewa_asset_info info = {.count = 0};
+    if (status == EWA_OK) ewa_asset_describe(asset, &info);
+    const bool points = info.kind == EWA_ASSET_POINTS || info.kind == EWA_ASSET_MESH;
+    if (status == EWA_OK && points && !info.count) {
+        session->subject = path;
+        session_note(session, "--filter takes none of its points; it is left out");
+        session->subject = NULL;
+    } else if (status == EWA_OK) {
+        ewa_instance instance;
+        ewa_instance_init(&instance, sizeof instance);
+        if (points) instance.coloring = *coloring;
+        status = ewa_scene_add(scene, asset, &instance);
+    }
+    ewa_asset_release(&asset);
+    if (status != EWA_OK) session_failed(session, status);
+    return status == EWA_OK;
+}
+
+bool scene_input_add(cli_session *session, const common_arguments *common, const ewa_asset_options *options,
+                     const ewa_coloring *coloring, ewa_scene *scene) {
+    session->subject = NULL;
+    for (size_t i = 0; i < common->operand_count; i++)
+        if (!add_file(session, common->operands[i], options, coloring, scene)) return false;
+    if (ewa_scene_count(scene)) return true;
+    session_fail(session, "--filter: none of the points is left");
+    return false;
+}

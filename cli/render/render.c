@@ -1,0 +1,476 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// ewa render: clouds to a picture.
+#include "cli/base/backend.h"
+#include "cli/base/commands.h"
+#include "cli/base/json.h"
+#include "cli/input/inputs.h"
+#include "cli/input/lod_input.h"
+#include "cli/input/scene_input.h"
+#include "cli/render/frame_partition.h"
+#include "cli/render/frames.h"
+#include "cli/render/furnish.h"
+#include "cli/render/light.h"
+#include "cli/render/picture.h"
+#include "cli/render/render_report.h"
+#include "cli/render/section.h"
+#include "cli/render/sequence.h"
+#include "cli/render/video.h"
+
+#include <stdio.h>
+#include <string.h>
+
+typedef struct render_arguments {
+    frames_arguments frames; // first: it begins with the common arguments
+    light_arguments light;   // second
+    const char *output, *aov, *save_camera_path, *stats_path;
+    ewa_surfels_options surfels;
+    section_arguments section;
+    bool close_gaps;
+    lod_arguments lod;
+    ewa_gaussian_options gaussians;
+    ewa_volume_options volumes;
+    bool gaussians_as_surfels;
+    const char *transfer;
+    const char *layers, *color_by;
+    int colormap, backend;
+    option_bounds range;
+    option_color background;
+    furnish_arguments furniture;
+} render_arguments;
+
+#define AT(member)       offsetof(render_arguments, member)
+#define SURFELS(member)  OPTION_OF(ewa_surfels_options, AT(surfels), member)
+#define RENDER(member)   OPTION_OF(ewa_render_options, AT(light.render), member)
+#define GAUSSIAN(member) OPTION_OF(ewa_gaussian_options, AT(gaussians), member)
+
+_Static_assert(offsetof(render_arguments, light) == LIGHT_OFFSET, "light_options says so");
+
+static const cli_option output_table[] = {
+    {"output", OPTION_OUTPUT, AT(output), "FILE",
+     .help = "the picture: .png (8-bit sRGB), .exr (linear floats, premultiplied: R G B A Z N.X N.Y N.Z "
+             "coverage), .pfm (linear RGB); -: PNG to standard output. Frames: NAME_%04d.png and such, or a "
+             "film: .mp4, .mkv (H.264), .webm (VP9), .gif, by the program ffmpeg",
+     .letter = 'o'},
+    {"aov", OPTION_OUTPUTS, AT(aov), "NAME=FILE,...",
+     .help = "further planes, .pfm or .exr: depth (camera z, infinite where nothing is), normal (world, "
+             "towards the viewer), coverage (1: covered)"},
+    {"save-camera", OPTION_OUTPUT, AT(save_camera_path), "FILE",
+     .help = "write the camera that was used, for --camera; of frames all cameras, for --path"},
+    {"stats", OPTION_OUTPUT, AT(stats_path), "FILE",
+     .help = "write times per stage, counts and peak memory as JSON"},
+    BACKEND_OPTION(AT(backend)),
+};
+
+static const cli_option splat_table[] = {
+    {"kernel", RENDER(kernel)},
+    {"cutoff", SURFELS(cutoff)},
+    {"prefilter", RENDER(prefilter_px)},
+    {"radius-scale", SURFELS(radius_scale)},
+    {"point-size", RENDER(point_size_px)},
+    {"close-gaps", OPTION_ON_OFF, AT(close_gaps),
+     .help = "measure the radii anew from the spacing where the file's leave gaps between the discs"},
+    {"tolerance", RENDER(tolerance)},
+    {"passes", RENDER(passes)},
+    {"edge-aa", RENDER(edge_antialiasing)},
+    {"edge-layers", RENDER(edge_layers)},
+    {"layers", OPTION_TEXT, AT(layers), "auto|L|exact",
+     .help = "transparent surfaces of a pixel that are composited: 1: the nearest as if it were opaque; L: "
+             "the L - 1 nearest and all that lies behind as one more; exact: all; auto: all when --opacity "
+             "or the file's alpha is below 1",
+     .absent = "auto"},
+    {"opacity", RENDER(opacity)},
+    {"tau", RENDER(edge_threshold)},
+    {"cull", RENDER(cull)},
+};
+
+static const cli_option lod_table[] = {LOD_OPTIONS(AT(lod))};
+
+static const cli_option gaussian_table[] = {
+    {"projection", GAUSSIAN(projection)},
+    {"gaussian-filter", GAUSSIAN(filter)},
+    {"sh-degree", GAUSSIAN(sh_degree)},
+    {"surface", OPTION_FLAG, AT(gaussians_as_surfels),
+     .help = "draw Gaussians as opaque surfels, with depth, normals and light, in their constant colours"},
+};
+
+static const cli_option volume_table[] = {
+    {"transfer", OPTION_TEXT, AT(transfer), "FILE|PRESET",
+     .help = "what values of volumes look like, as in 'ewa volume', whose --save-transfer writes such files",
+     .absent = "auto: by the surfaces between its materials"},
+    {"opacity-scale", OPTION_OF(ewa_volume_options, AT(volumes), density_scale)},
+};
+
+static const cli_option section_table[] = {SECTION_OPTIONS(AT(section))};
+
+static const cli_option look_table[] = {
+    {"background", OPTION_COLOR, AT(background), "r,g,b[,a]",
+     .help = "sRGB numbers in [0, 1], or transparent", .aliases = "background-color"},
+    {"color-by", OPTION_TEXT, AT(color_by), "ATTR",
+     .help = "colour by an attribute ('ewa info' lists them), one component of it (normal.x), x, y, z, red, "
+             "green or blue; rgb: the file's colours",
+     .absent = "the file's colours, else grey"},
+    {"colormap", OPTION_CHOICE, AT(colormap), NULL,
+     "viridis|turbo|gray|plasma|inferno|magma|cividis|coolwarm|classes",
+     .help = "colours for --color-by; classes: whole numbers by the colours of LAS classes (ground, "
+             "vegetation, building, ...)",
+     .absent = "classes for whole numbers named classification, else viridis", .needs = "color-by"},
+    {"range", OPTION_BOUNDS, AT(range), "a,b",
+     .help = "numbers that get the first and the last colour; with a percent sign, percentiles: 2%,98%",
+     .aliases = "coloring-range", .absent = "smallest to largest; 2%,98% for intensities",
+     .needs = "color-by"},
+};
+
+static const cli_option furniture_table[] = {
+    FURNISH_OPTIONS(AT(furniture)),
+    {"color-bar", OPTION_FLAG, AT(furniture.color_bar),
+     .help = "show on the right what the colours of --color-by mean: a scale, or the classes there are",
+     .needs = "color-by"},
+};
+
+static void set_defaults(void *data) {
+    render_arguments *arguments = data;
+    frames_set_defaults(&arguments->frames);
+    light_set_defaults(&arguments->light);
+    ewa_surfels_options_init(&arguments->surfels, sizeof arguments->surfels);
+    arguments->close_gaps = true;
+    lod_input_set_defaults(&arguments->lod);
+    ewa_gaussian_options_init(&arguments->gaussians, sizeof arguments->gaussians);
+    ewa_volume_options_init(&arguments->volumes, sizeof arguments->volumes);
+    arguments->colormap = EWA_COLORING_AUTO - 1;
+    arguments->background = (option_color){{1, 1, 1, 1}};
+}
+
+/// Paths of the picture, or of all frames: then with the place of their number. A film is none of the
+/// pictures.
+static bool parse_paths(const render_arguments *arguments, picture_paths *paths,
+                        char message[OPTION_ERROR_BYTES]) {
+    const char *color = video_find_format(arguments->output) ? NULL : arguments->output;
+    return picture_parse_paths(color, arguments->aov, paths, message) &&
+           (!frames_many(&arguments->frames) || sequence_check_paths(paths, message));
+}
+
+/// Sets `layers` as ewa_render_options has them.
+static bool read_layers(const render_arguments *arguments, uint32_t *layers) {
+    const char *word = arguments->layers ? arguments->layers : "auto";
+    *layers = strcmp(word, "exact") == 0 ? EWA_LAYERS_EXACT : 0;
+    if (*layers || strcmp(word, "auto") == 0) return true;
+    for (; *word >= '0' && *word <= '9' && *layers <= 255; word++)
+        *layers = 10 * *layers + (uint32_t)(*word - '0');
+    return !*word && *layers >= 1 && *layers <= 255;
+}
+
+static bool check(const void *data, char message[OPTION_ERROR_BYTES]) {
+    const render_arguments *arguments = data;
+    picture_paths paths;
+    uint32_t layers;
+    const char *missing = NULL;
+    if (!arguments->output)
+        missing = "render: no output; say -o FILE";
+    else if (!read_layers(arguments, &layers))
+        missing = "--layers: neither auto, nor exact, nor a number in [1, 255]";
+    else if (layers > 1 && arguments->light.render.passes == 1)
+        missing = "--layers needs --passes 3";
+    else if (arguments->light.render.opacity < 1 && arguments->light.render.passes == 1)
+        missing = "--opacity below 1 needs --passes 3";
+    else if (arguments->colormap == EWA_COLORING_CLASSES - 1 && arguments->range.given)
+        missing = "--colormap classes takes no --range: each class has its own colour";
+    else if (arguments->furniture.color_bar &&
+             (!arguments->color_by || ewa_coloring_is_own(arguments->color_by)))
+        missing = "--color-bar has nothing to show for the file's own colours";
+    if (!options_fine(missing, message)) return false;
+    return light_check(&arguments->light, message) && section_check(&arguments->section, message) &&
+           frames_check(&arguments->frames, arguments->output, arguments->background.rgba[3] == 1, message) &&
+           parse_paths(arguments, &paths, message) &&
+           furnish_check(&arguments->furniture, arguments->output, message);
+}
+
+static ewa_render_options render_options(const render_arguments *arguments, const light_objects *lit_by) {
+    ewa_render_options options = light_apply(&arguments->light, lit_by);
+    read_layers(arguments, &options.layers);
+    section_fill(&arguments->section, options.section_planes, &options.section_count);
+    option_color_linear(&arguments->background, options.background);
+    return options;
+}
+
+/// What all frames share.
+typedef struct render_scene {
+    frame_cameras frames;
+    ewa_scene *scene;
+    bool octrees;
+    furnishing furniture;
+} render_scene;
+
+/// The scene's options as the program's say.
+static ewa_scene_options scene_options(const render_arguments *arguments, const ewa_render_options *render) {
+    ewa_scene_options options;
+    ewa_scene_options_init(&options, sizeof options);
+    options.close_gaps = arguments->close_gaps;
+    options.keep_points = false;
+    options.surfels = arguments->surfels;
+    options.lod = arguments->lod.options;
+    options.render = *render;
+    options.gaussians = arguments->gaussians;
+    options.gaussians.near_world = 0; // as suits them
+    options.volumes = arguments->volumes;
+    options.shade_volumes = arguments->light.shading < 0;
+    if (arguments->light.shading >= 0) options.volumes.shading = (ewa_shading)arguments->light.shading;
+    return options;
+}
+
+/// Says which options of surfaces are given where there are none.
+static void warn_of_surface_options(cli_session *session, const render_arguments *arguments, bool volumes) {
+    const light_arguments *light = &arguments->light;
+    const struct {
+        const char *name;
+        bool given;
+    } options[] = {{"opacity", light->render.opacity < 1},
+                   {"layers", arguments->layers},
+                   {"point-size", light->render.point_size_px > 0},
+                   {"shading", light->shading > EWA_SHADING_NONE && !volumes}};
+    for (size_t i = 0; i < sizeof options / sizeof options[0]; i++)
+        if (options[i].given)
+            session_warn(session,
+                         "--%s is for surfaces, and there are none; --surface draws Gaussians as surfels",
+                         options[i].name);
+}
+
+/// Checks what cannot be asked of what there is. False after reporting.
+static bool check_scene(cli_session *session, const render_arguments *arguments, const ewa_scene *scene) {
+    ewa_scene_info info;
+    ewa_surfels_options surfels;
+    ewa_surfels_options_init(&surfels, sizeof surfels);
+    ewa_scene_describe(scene, &info);
+    const bool colored = arguments->color_by && !ewa_coloring_is_own(arguments->color_by);
+    const char *clash = colored                                                   ? "--color-by"
+                        : arguments->surfels.cutoff != surfels.cutoff             ? "--cutoff"
+                        : arguments->surfels.radius_scale != surfels.radius_scale ? "--radius-scale"
+                                                                                  : NULL;
+    if (info.octrees && clash) {
+        session_fail(session,
+                     "%s needs all points of an octree; --levels never reads them, or `ewa convert` what is "
+                     "wanted to a "
+                     "file of its own",
+                     clash);
+        return false;
+    }
+    if (colored && !info.surfaces) {
+        session_fail(session,
+                     "--color-by: Gaussians and volumes have colours of their own; --surface draws Gaussians "
+                     "as surfels");
+        return false;
+    }
+    if (!info.surfaces) warn_of_surface_options(session, arguments, info.volumes);
+    return true;
+}
+
+/// Loads what is to be drawn, places the cameras and makes all resident. False after reporting.
+static bool prepare(cli_session *session, const render_arguments *arguments, const ewa_render_options *render,
+                    render_scene *scene, render_report *report) {
+    const common_arguments *common = &arguments->frames.view.common;
+    const ewa_scene_options options = scene_options(arguments, render);
+    ewa_asset_options assets = scene_input_asset_options(session);
+    assets.gaussians_as_surfels = arguments->gaussians_as_surfels;
+    assets.levels = lod_input_levels(&arguments->lod);
+    assets.cutoff = arguments->surfels.cutoff;
+    assets.transfer = arguments->transfer;
+    assets.reach_steps = arguments->volumes.sigma * arguments->volumes.cutoff;
+    ewa_coloring coloring;
+    scene_input_coloring(arguments->color_by, arguments->colormap, &arguments->range, &coloring);
+    ewa_status status = ewa_scene_create(session->context, &options, &scene->scene);
+    if (status != EWA_OK) return session_failed(session, status) == EXIT_DONE;
+    if (!scene_input_add(session, common, &assets, &coloring, scene->scene)) return false;
+    session->subject = common->operand_count == 1 ? common->operands[0] : NULL;
+    if (!check_scene(session, arguments, scene->scene)) return false;
+    const view_subject subject = {.scene = scene->scene};
+    if (!frames_make(session, &arguments->frames, &subject, &scene->frames) ||
+        !furnish_make(session, &arguments->furniture, &arguments->frames, &arguments->background, &subject,
+                      &scene->furniture))
+        return false;
+    status = ewa_scene_commit(scene->scene);
+    if (status != EWA_OK) return session_failed(session, status) == EXIT_DONE;
+    ewa_scene_info info;
+    ewa_scene_describe(scene->scene, &info);
+    scene->octrees = info.octrees;
+    report->from_lod = info.octrees;
+    report->point_count = info.point_count;
+    report->load_s = info.load_s;
+    report->estimate_s = info.estimate_s;
+    report->surfels_s = info.surfels_s;
+    report->surfels = info.surfels;
+    const ewa_legend *legend = NULL;
+    for (uint32_t i = 0; i < info.instance_count && !legend; i++) legend = ewa_scene_legend(scene->scene, i);
+    if (arguments->furniture.color_bar && legend)
+        furnish_color_bar(&arguments->furniture, arguments->color_by, legend, &scene->furniture);
+    return true;
+}
+
+static bool make_scene(cli_session *session, const render_arguments *arguments, const light_objects *lit_by,
+                       render_scene *scene, render_report *report) {
+    const ewa_render_options render = render_options(arguments, lit_by);
+    return prepare(session, arguments, &render, scene, report);
+}
+
+/// What paint() works with.
+typedef struct scene_painter {
+    cli_session *session;
+    ewa_scene_renderer *renderer;
+    render_scene *scene;
+    render_report *report;
+} scene_painter;
+
+static ewa_status paint(void *user, const ewa_camera *camera, const ewa_frame *frame,
+                        ewa_render_stats *stats) {
+    const scene_painter *painter = user;
+    render_scene *scene = painter->scene;
+    ewa_scene_stats took;
+    const ewa_status status = ewa_scene_draw(scene->scene, painter->renderer, camera, NULL, frame, &took);
+    if (status != EWA_OK) return status;
+    *stats = took.render;
+    if (scene->octrees) render_report_add_lod(painter->report, &took.lod);
+    return furnish_draw(painter->session, &scene->furniture, camera, frame);
+}
+
+/// Makes the renderer that was asked for, or the one of all processes. False after reporting.
+static bool make_renderer(cli_session *session, int backend, ewa_scene_renderer **renderer) {
+    const char *subject = session->subject;
+    session->subject = NULL; // a device is nothing of the file
+    const bool joint = process_group_shares_cloud(session->group);
+    ewa_status status = EWA_OK;
+    if (joint && backend != EWA_BACKEND_CPU)
+        session_fail(session, "--split cloud draws on processors: leave out --backend");
+    else
+        status = ewa_scene_renderer_create(session->context, (ewa_backend_kind)backend,
+                                           joint ? &session->group->exchange : NULL, renderer);
+    if (status != EWA_OK) session_failed(session, status);
+    if (*renderer && !joint) backend_warn(session, backend, ewa_scene_renderer_surfaces(*renderer));
+    session->subject = subject;
+    return *renderer != NULL;
+}
+
+/// Draws and writes everything. False after reporting.
+static bool draw(cli_session *session, const render_arguments *arguments, const picture_paths *paths,
+                 render_scene *scene, render_report *report) {
+    const bool many = frames_many(&arguments->frames);
+    const sequence_output output = {
+        .paths = paths,
+        .numbered = many,
+        .film = video_find_format(arguments->output) ? arguments->output : NULL,
+        .source =
+            arguments->frames.path_file ? arguments->frames.path_file : arguments->frames.view.camera_path,
+        .frames_per_s = arguments->frames.frames_per_s > 0 ? arguments->frames.frames_per_s : 30,
+        .quality = arguments->frames.quality >= 0 ? (int)arguments->frames.quality : 75,
+        .opaque = arguments->background.rgba[3] == 1,
+    };
+    scene_painter painting = {.session = session, .scene = scene, .report = report};
+    const frame_cameras *frames = &scene->frames;
+    const bool saves_camera = arguments->save_camera_path && process_group_leads(session->group);
+    const bool done = make_renderer(session, arguments->backend, &painting.renderer) &&
+                      sequence_draw(session, &output, frames, &(frame_painter){paint, &painting}, report) &&
+                      (!saves_camera || frames_save(session, arguments->save_camera_path, frames, many));
+    report->renderer.struct_size = sizeof report->renderer;
+    if (done) ewa_renderer_describe(ewa_scene_renderer_surfaces(painting.renderer), &report->renderer);
+    ewa_scene_renderer_destroy(&painting.renderer);
+    return done;
+}
+
+static int run(const void *data) {
+    const render_arguments *arguments = data;
+    const common_arguments *common = &arguments->frames.view.common;
+    cli_session session;
+    if (!session_start(&session, common)) return session_end(&session, EXIT_FAILED);
+    picture_paths paths;
+    char message[OPTION_ERROR_BYTES];
+    render_scene scene = {.scene = NULL};
+    const frame_cameras *frames = &scene.frames;
+    const bool many = frames_many(&arguments->frames);
+    light_objects lit_by = {.material_count = 0};
+    render_report report = {.load_s = 0};
+    const bool film = video_find_format(arguments->output) != NULL;
+    bool done = frame_partition_check(&session, many, film, false) &&
+                parse_paths(arguments, &paths, message) &&
+                frames_plan(&session, &arguments->frames, sequence_exists, &paths, &scene.frames) &&
+                frame_partition_choose(&session, &scene.frames);
+    const bool idle = done && !frames->chosen_count && !arguments->save_camera_path && !arguments->stats_path;
+    done = done && !idle && light_load(&session, &arguments->light, &lit_by) &&
+           make_scene(&session, arguments, &lit_by, &scene, &report) &&
+           draw(&session, arguments, &paths, &scene, &report) &&
+           (!arguments->stats_path || !process_group_leads(session.group) ||
+            render_report_write(&session, common, many, frames, &report, arguments->stats_path));
+    if (done && !many)
+        session_say(&session, "%s: %llu of %llu splats drawn in %.1f ms, %.3f s in all", arguments->output,
+                    (unsigned long long)(report.stats.splat_count - report.stats.culled_count),
+                    (unsigned long long)report.stats.splat_count, 1e3 * report.render_s,
+                    clock_now_s() - session.started_s);
+    else if (done && frames->chosen_count)
+        session_say(&session, "%s: %zu frames, each drawn in %.1f ms, %.3f s in all", arguments->output,
+                    frames->chosen_count, 1e3 * report.render_s / (double)frames->chosen_count,
+                    clock_now_s() - session.started_s);
+    const int ended = done || idle ? EXIT_DONE : frames->beyond ? EXIT_USAGE : EXIT_FAILED;
+    render_report_free(&report);
+    frames_free(&scene.frames);
+    ewa_scene_destroy(&scene.scene);
+    light_free(&lit_by);
+    return session_end(&session, ended);
+}
+
+static const option_group output_options = OPTION_GROUP("Output", output_table);
+static const option_group splat_options = OPTION_GROUP("Splats", splat_table);
+static const option_group lod_options = OPTION_GROUP("Octrees", lod_table);
+static const option_group gaussian_options = OPTION_GROUP("Gaussians", gaussian_table);
+static const option_group volume_options = OPTION_GROUP("Volumes", volume_table);
+static const option_group section_options = OPTION_GROUP("Section", section_table);
+static const option_group look_options = OPTION_GROUP("Look", look_table);
+static const option_group furniture_options = OPTION_GROUP("Over the picture", furniture_table);
+const cli_command render_command = {
+    .name = "render",
+    .operands = "IN... -o OUT",
+    .summary = "draw point clouds and meshes as continuous, antialiased surfaces",
+    .details =
+        "Several inputs are drawn together. Normals and radii that a file lacks are estimated from "
+        "the neighbours "
+        "of each point; 'ewa surfels' does the same with options and keeps the result. A file that has "
+        "faces (PLY, OBJ, STL, OFF, glTF), whatever its name, is a mesh: points are put onto its faces, "
+        "'ewa sample' does it with options. Clouds that are no surface, such as the points of a curve, look "
+        "best with --point-size.\n"
+        "\n"
+        "A file of trained Gaussians (3DGS, 2DGS and Mip-Splatting PLY, compressed PLY, .splat, SPZ, glTF, "
+        "...) is drawn as "
+        "such, with other inputs as surfaces among them; so are volumes beside other inputs, all in one "
+        "order of "
+        "depth. Without --up, y is down and z ahead, as the cameras "
+        "that took "
+        "the pictures have it, unless the file says otherwise.\n"
+        "\n"
+        "Without --camera and --eye the cloud is framed whole; when less than one point in a hundred "
+        "lies so far off "
+        "that the rest would be tiny, those are left outside, which a message says. Without --up, the "
+        "axis that points up is y or z by what the points show: what they stand on, ground, map "
+        "coordinates (z), what a camera at the origin saw; else y, for STL z. Without --view, all is "
+        "seen from the front (from +z with y up, from -y with z up), but ground and what is long from "
+        "above at an angle (iso), drawings face on, and pictures of a camera at the origin from there. "
+        "--verbose says what was chosen and why.",
+    .examples =
+        "ewa render scan.ply -o scan.png\n"
+        "ewa render scan.ply -o side.png --view right --size 1920x1080 --background transparent\n"
+        "ewa render tile1.ply tile2.ply -o height.png --color-by z --colormap turbo --shading lambert\n"
+        "ewa render tile.ply -o map.png --view top --color-by classification --color-bar --axes\n"
+        "ewa render scan.ply -o scan.exr --camera camera.json --aov depth=depth.pfm,normal=normal.exr\n"
+        "ewa render scan.ply -o turn.mp4 --turntable 120 --elevation 20\n"
+        "ewa render scan.ply guitar.ply head.nrrd -o all.png --transfer bone\n"
+        "ewa render garden.spz -o garden.png --camera cameras.json --projection exact\n"
+        "ewa render scan.ply -o fly_%04d.png --path keys.json --frames 300\n"
+        "ewa render scan.ply -o turn_%04d.png --turntable 360 --frames 2/8 --skip-existing\n"
+        "ewa render scan.ply -o floor.png --view top --clip-plane 0,0,-1,1.5\n",
+    .low_operands = 1,
+    .high_operands = 4096,
+    .groups = (const option_group *const[]){&output_options, &cloud_input_options, &view_options,
+                                            &frames_options, &splat_options, &lod_options, &gaussian_options,
+                                            &volume_options, &section_options, &light_options, &look_options,
+                                            &furniture_options, NULL},
+    .arguments_bytes = sizeof(render_arguments),
+    .set_defaults = set_defaults,
+    .check = check,
+    .run = run,
+};

@@ -1,0 +1,207 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// What the viewer asks of the program.
+#include "cli/view/window_services.h"
+#include "cli/input/lod_input.h"
+#include "cli/input/scene_input.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum {
+    VOXEL_LEVELS = 2,
+    PREVIEW_POINTS = 200000,
+    MANY_POINTS = 400000, ///< take a while to become surfels with levels
+};
+
+/// Radii of a preview, in units that keep its area.
+static const double PREVIEW_GROWTH = 1.5;
+
+/// Copies point `from` of a stream, when there is one.
+static void copy_numbers(const ewa_attribute *stream, uint64_t from, uint64_t to, double scale,
+                         float *numbers) {
+    double read[4];
+    if (!stream) return;
+    ewa_attribute_read_f64(stream, from, 1, read);
+    for (uint32_t c = 0; c < stream->component_count; c++)
+        numbers[stream->component_count * to + c] = (float)(scale * read[c]);
+}
+
+/// One of every `step` points, not always the same one: files have rows.
+static uint64_t choose_point(uint64_t index, uint64_t step, uint64_t count) {
+    const uint64_t mixed = (index * 0x9e3779b97f4a7c15u) >> 32, point = index * step + mixed % step;
+    return point < count ? point : count - 1;
+}
+
+/// Gives points that are drawn as discs of pixels a radius that framing does not see.
+static void set_small_radii(const ewa_cloud *cloud, uint64_t count, float *radii) {
+    ewa_bounds box = {.finite_count = 0};
+    double size = 0;
+    if (ewa_cloud_measure(cloud, &box) == EWA_OK && box.finite_count)
+        for (int c = 0; c < 3; c++) size += box.high_world[c] - box.low_world[c];
+    for (uint64_t i = 0; i < count; i++) radii[i] = (float)(size > 0 ? 1e-4 * size : 1);
+}
+
+/// Some of a cloud's points: larger, where they have normals and radii, else with what draws them as discs of
+/// pixels. NULL: no memory.
+static ewa_cloud *make_preview_cloud(ewa_context *context, const ewa_cloud *cloud, bool whole) {
+    const uint64_t count = ewa_cloud_point_count(cloud);
+    const uint64_t step = (count + PREVIEW_POINTS - 1) / PREVIEW_POINTS, kept = (count + step - 1) / step;
+    const ewa_attribute *position = ewa_cloud_find(cloud, EWA_POSITION),
+                        *color = ewa_cloud_find(cloud, EWA_COLOR);
+    const ewa_attribute *normal = whole ? ewa_cloud_find(cloud, EWA_NORMAL) : NULL,
+                        *radius = whole ? ewa_cloud_find(cloud, EWA_RADIUS) : NULL;
+    const double larger = PREVIEW_GROWTH * sqrt((double)step);
+    ewa_cloud *made = NULL;
+    void *positions = NULL, *normals = NULL, *radii = NULL, *colors = NULL;
+    const bool with_color = color && color->type == EWA_U8 && color->component_count == 3;
+    ewa_status status = ewa_cloud_create(context, kept, &made);
+    if (status == EWA_OK) status = ewa_cloud_add(made, EWA_POSITION, EWA_F64, 3, &positions);
+    if (status == EWA_OK) status = ewa_cloud_add(made, EWA_NORMAL, EWA_F32, 3, &normals);
+    if (status == EWA_OK) status = ewa_cloud_add(made, EWA_RADIUS, EWA_F32, 1, &radii);
+    if (status == EWA_OK && with_color) status = ewa_cloud_add(made, EWA_COLOR, EWA_U8, 3, &colors);
+    if (status != EWA_OK) {
+        ewa_cloud_destroy(&made);
+        return NULL;
+    }
+    double origin[3];
+    ewa_cloud_origin(cloud, origin);
+    ewa_cloud_set_origin(made, origin);
+    for (uint64_t i = 0; i < kept; i++) {
+        const uint64_t point = choose_point(i, step, count);
+        ewa_attribute_read_f64(position, point, 1, (double *)positions + 3 * i);
+        memcpy((float *)normals + 3 * i, (const float[3]){0, 0, 1}, 3 * sizeof(float));
+        copy_numbers(normal, point, i, 1, normals);
+        copy_numbers(radius, point, i, larger, radii);
+        double rgb[3];
+        if (with_color) ewa_attribute_read_f64(color, point, 1, rgb);
+        for (int c = 0; c < 3 && with_color; c++) ((uint8_t *)colors)[3 * i + (uint64_t)c] = (uint8_t)rgb[c];
+    }
+    if (!radius) set_small_radii(made, kept, radii);
+    return made;
+}
+
+/// Frees what a preview is of.
+static void free_preview(void *user) {
+    ewa_surfels *surfels = user;
+    ewa_surfels_destroy(&surfels);
+}
+
+/// Shows some points of an asset that takes time to be ready. Without memory there is nothing to see until it is.
+static void show_preview(ewa_context *context, const viewer_news *news, const ewa_asset_info *info) {
+    const ewa_cloud *cloud = info->cloud;
+    const ewa_attribute *normal = ewa_cloud_find(cloud, EWA_NORMAL),
+                        *radius = ewa_cloud_find(cloud, EWA_RADIUS);
+    const bool whole = normal && radius && normal->component_count == 3 && radius->component_count == 1;
+    ewa_cloud *some = make_preview_cloud(context, cloud, whole);
+    ewa_surfels *surfels = NULL;
+    ewa_asset *asset = NULL;
+    if (some && ewa_surfels_create(some, NULL, &surfels) == EWA_OK) {
+        const ewa_asset_source source = {
+            .name = info->name, .surfels = surfels, .release = free_preview, .user = surfels};
+        if (ewa_asset_create(context, &source, NULL, &asset) == EWA_OK)
+            news->preview(news->user, asset, !whole);
+    }
+    ewa_cloud_destroy(&some);
+}
+
+static ewa_context *context(void *user, const viewer_news *news) {
+    window_services *own = user;
+    own->listener = (session_listener){news->user, news->message, news->progress};
+    own->loading.reported = false;
+    if (!own->loading.context)
+        own->loading.context = session_context(&own->loading, own->thread_count, EWA_CPU_ALL);
+    if (!own->loading.context) news->message(news->user, EWA_SEVERITY_ERROR, "out of memory");
+    return own->loading.context;
+}
+
+static bool load(void *user, const char *path, const viewer_news *news, ewa_asset **asset) {
+    window_services *own = user;
+    ewa_asset_options options = scene_input_asset_options(&own->loading);
+    options.levels = own->levels;
+    options.voxel_level_count = VOXEL_LEVELS;
+    options.own_context = true;
+    const ewa_status status = ewa_asset_load(own->loading.context, path, &options, asset);
+    if (status != EWA_OK) {
+        session_failed(&own->loading, status);
+        return false;
+    }
+    ewa_asset_info info;
+    ewa_asset_describe(*asset, &info);
+    if (info.cloud && !info.count) {
+        news->message(news->user, EWA_SEVERITY_ERROR, "--filter: none of the points is left");
+        ewa_asset_release(asset);
+        return false;
+    }
+    if (info.cloud && (info.count > MANY_POINTS || !info.drawable))
+        show_preview(own->loading.context, news, &info);
+    return true;
+}
+
+/// The camera's options, for a named view without those that say otherwise.
+static view_arguments place_arguments(const window_services *own, const char *view,
+                                      const ewa_camera *camera) {
+    static const char *const names[] = {"front", "back", "left", "right", "top", "bottom", "iso"};
+    view_arguments arguments = *own->view;
+    arguments.size = (option_size){camera->width_px, camera->height_px, true};
+    if (!view) return arguments;
+    arguments.camera_path = NULL;
+    arguments.eye.count = arguments.target.count = 0;
+    arguments.azimuth_deg = arguments.elevation_deg = 0;
+    for (int i = 0; i < (int)(sizeof names / sizeof names[0]); i++)
+        if (strcmp(view, names[i]) == 0) arguments.view = i;
+    return arguments;
+}
+
+static bool place(void *user, ewa_scene *scene, const char *view, ewa_camera *camera, double up_world[3]) {
+    window_services *own = user;
+    cli_session *session = &own->session;
+    session->reported = false;
+    const view_arguments arguments = place_arguments(own, view, camera);
+    const view_subject subject = {.scene = scene};
+    view_turn turn;
+    return view_make(session, &arguments, &subject, camera, NULL) &&
+           view_axis(session, &arguments, &subject, &turn) &&
+           memcpy(up_world, turn.axis_world, sizeof turn.axis_world);
+}
+
+static void say(void *user, bool message, const char *text) {
+    const window_services *own = user;
+    if (!message) {
+        puts(text);
+        fflush(stdout);
+    } else if (!own->session.quiet) {
+        fprintf(stderr, "ewa: %s\n", text);
+    }
+}
+
+static bool interrupted(void *user) {
+    (void)user;
+    return session_interrupted();
+}
+
+bool window_services_make(window_services *own, const view_arguments *view, viewer_services *services) {
+    const common_arguments *common = &view->common;
+    *own = (window_services){.view = view, .thread_count = (uint32_t)common->threads};
+    *services = (viewer_services){.user = own,
+                                  .context = context,
+                                  .load = load,
+                                  .place = place,
+                                  .say = say,
+                                  .interrupted = interrupted};
+    if (!session_start(&own->session, common)) return false;
+    own->loading = (cli_session){.load = own->session.load,
+                                 .filter = own->session.filter,
+                                 .listener = &own->listener,
+                                 .quiet = common->quiet,
+                                 .started_s = clock_now_s()};
+    return true;
+}
+
+void window_services_free(window_services *own) {
+    ewa_context_destroy(&own->loading.context);
+    session_end(&own->session, EXIT_DONE);
+}

@@ -1,0 +1,25 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// What the viewer asks of the program: files loaded, coloured and framed as every command does it.
+#ifndef EWA_CLI_VIEW_WINDOW_SERVICES_H
+#define EWA_CLI_VIEW_WINDOW_SERVICES_H
+
+#include "cli/render/view.h"
+#include "viewer/viewer.h"
+
+/// What the services work with; it stays as long as the viewer.
+typedef struct window_services {
+    const view_arguments *view; ///< the camera's options
+    ewa_octree_levels levels;
+    uint32_t thread_count;
+    cli_session session;       ///< of the thread that places cameras
+    cli_session loading;       ///< of the thread that loads and makes scenes
+    session_listener listener; ///< of its news
+} window_services;
+
+/// Makes the services; free them after the viewer. False after reporting.
+bool window_services_make(window_services *own, const view_arguments *view, viewer_services *services);
+void window_services_free(window_services *own);
+
+#endif
