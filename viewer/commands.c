@@ -138,7 +138,7 @@ static bool do_color(viewer *v, const char *rest) {
     if (!word[0]) return refuse(v, "color", word, "the name of an attribute or none");
     if (strlen(word) >= sizeof wish.attribute) return refuse(v, "color", word, "an attribute");
     snprintf(wish.attribute, sizeof wish.attribute, "%.60s", strcmp(word, "none") == 0 ? "" : word);
-    wish.ranged = false;
+    wish.ranged = wish.percent[0] = wish.percent[1] = false;
     rest = take_word(rest, map);
     for (int i = 0; map[0] && colormap_name(i); i++)
         if (strcmp(map, colormap_name(i)) == 0) wish.colormap = i, map[0] = 0;
@@ -314,8 +314,8 @@ static const struct {
     {"radius", do_radius},   {"set", do_set},        {"next", do_next},     {"dome", do_eye_dome},
     {"points", do_points},   {"view", do_view},      {"mode", do_mode},     {"ortho", do_ortho},
     {"focus", do_focus},     {"zoom", do_zoom},      {"box", do_box},       {"slab", do_slab},
-    {"camera", shot_camera}, {"shot", shot_command}, {"cancel", do_cancel}, {"clear", do_clear},
-    {"help", do_help},       {"panels", do_panels},  {"quit", do_quit},
+    {"camera", shot_camera}, {"shot", shot_command}, {"scene", shot_scene}, {"cancel", do_cancel},
+    {"clear", do_clear},     {"help", do_help},      {"panels", do_panels}, {"quit", do_quit},
 };
 
 bool viewer_do(viewer *v, const char *command) {

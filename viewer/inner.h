@@ -18,6 +18,7 @@ typedef struct scene_item {
     bool as_points;     ///< of the preview: drawn as discs of pixels
     bool loaded;        ///< it is in the scene
     bool visible;
+    uint32_t material;              ///< of all its points; EWA_MATERIAL_OWN: as each says
     viewer_coloring wish, coloring; ///< what is asked for, and what is shown
 } scene_item;
 
@@ -67,6 +68,11 @@ struct viewer {
     uint32_t scene_count;
     uint64_t scene_items[VIEWER_MAX_ITEMS]; ///< of its first instances: the items' ids
     uint64_t next_id;
+    ewa_scene_options base; ///< what scene files say beside the settings
+    ewa_scene_file **files; ///< scene files that were opened
+    size_t file_count;
+    bool has_scene_camera;
+    ewa_camera scene_camera; ///< of the first scene file that has one
 
     viewer_settings settings;
     ewa_render_options render;
@@ -177,6 +183,7 @@ void keys_fly(viewer *v, double seconds);
 // shot.c: the commands "shot" and "camera"
 bool shot_command(viewer *v, const char *rest);
 bool shot_camera(viewer *v, const char *rest);
+bool shot_scene(viewer *v, const char *rest);
 /// Fills in the scene of the window at full size.
 void viewer_scene(const viewer *v, paint_scene *scene);
 

@@ -32,7 +32,25 @@ static void wait_if_asked(viewer *v) {
     }
 }
 
-bool items_open(viewer *v, const char *path) {
+/// Sets how an item is shown to what a scene file says.
+static void take_instance(const ewa_instance *instance, scene_item *item) {
+    const ewa_coloring *coloring = &instance->coloring;
+    viewer_coloring *wish = &item->wish;
+    item->visible = instance->visible;
+    item->material = instance->material;
+    memcpy(wish->attribute, coloring->attribute, sizeof wish->attribute);
+    wish->colormap = (int)coloring->map - 1;
+    wish->ranged = coloring->ranged;
+    memcpy(wish->range, coloring->range, sizeof wish->range);
+    memcpy(wish->percent, coloring->percent, sizeof wish->percent);
+    wish->tinted = coloring->tinted;
+    memcpy(wish->tint, coloring->tint, sizeof wish->tint);
+    wish->alpha = instance->opacity;
+    wish->radius_scale = instance->radius_scale;
+}
+
+/// Orders a file; `file` (may be NULL) is the scene file that names it, as `entry`.
+static bool order(viewer *v, const char *path, const ewa_scene_file *file, uint32_t entry) {
     if (v->item_count == VIEWER_MAX_ITEMS) {
         viewer_tell(v, "%s: there are %d things open already", path, VIEWER_MAX_ITEMS);
         return false;
@@ -42,19 +60,70 @@ bool items_open(viewer *v, const char *path) {
         return false;
     }
     scene_item *item = &v->items[v->item_count];
-    *item = (scene_item){.id = ++v->next_id, .visible = true};
+    *item = (scene_item){.id = ++v->next_id, .visible = true, .material = EWA_MATERIAL_OWN};
     snprintf(item->path, sizeof item->path, "%s", path);
     snprintf(item->name, sizeof item->name, "%.255s", file_name(path));
     viewer_coloring_init(&item->wish);
+    ewa_scene_entry said;
+    if (file && ewa_scene_file_entry(file, entry, &said) == EWA_OK) take_instance(&said.instance, item);
     item->coloring = item->wish;
-    if (!loader_load(v->loader, item->id, path)) {
+    if (!loader_load(v->loader, item->id, path, file, entry)) {
         viewer_tell(v, "%s: out of memory", path);
         return false;
     }
     v->item_count++;
-    const size_t before = v->item_count;
+    return true;
+}
+
+/// Keeps a scene file, which orders borrow. False: out of memory.
+static bool keep_file(viewer *v, ewa_scene_file *file) {
+    ewa_scene_file **larger = realloc(v->files, (v->file_count + 1) * sizeof *larger);
+    if (!larger) return false;
+    v->files = larger;
+    v->files[v->file_count++] = file;
+    return true;
+}
+
+/// Takes the settings that a scene file says, where they have their defaults, and its camera.
+static void take_settings(viewer *v, const ewa_scene_file *file) {
+    v->base.render = v->render;
+    v->base.lod = v->lod;
+    ewa_scene_file_apply(file, &v->base);
+    v->render = v->base.render;
+    v->lod = v->base.lod;
+    if (!v->has_scene_camera) v->has_scene_camera = ewa_scene_file_camera(file, &v->scene_camera);
+}
+
+static bool open_scene(viewer *v, const char *path) {
+    ewa_scene_file *file = NULL;
+    const ewa_status status = ewa_scene_file_load(v->probe.context, path, NULL, &file);
+    const uint32_t count = ewa_scene_file_count(file);
+    if (status != EWA_OK || !keep_file(v, file)) {
+        viewer_tell(v, "%s", status != EWA_OK && v->probe.message[0] ? v->probe.message : "out of memory");
+        ewa_scene_file_destroy(&file);
+        return false;
+    }
+    if (count > VIEWER_MAX_ITEMS - v->item_count) {
+        viewer_tell(v, "%s: names %u files; there is room for %zu", path, count,
+                    VIEWER_MAX_ITEMS - v->item_count);
+        return false;
+    }
+    take_settings(v, file);
+    bool done = true;
+    for (uint32_t i = 0; i < count && done; i++) {
+        ewa_scene_entry entry;
+        (void)ewa_scene_file_entry(file, i, &entry);
+        done = order(v, entry.path, file, i);
+    }
+    return done;
+}
+
+bool items_open(viewer *v, const char *path) {
+    const size_t first = v->item_count;
+    if (!(ewa_scene_file_probe(path) ? open_scene(v, path) : order(v, path, NULL, 0))) return false;
+    const size_t last = v->item_count;
     wait_if_asked(v);
-    return v->item_count >= before;
+    return v->item_count >= last && last >= first;
 }
 
 size_t items_find_instance(const viewer *v, uint32_t instance) {
@@ -73,9 +142,11 @@ static ewa_instance instance_of(const scene_item *item, bool points) {
     memcpy(instance.coloring.attribute, wish->attribute, sizeof instance.coloring.attribute);
     instance.coloring.map = (ewa_coloring_map)(wish->colormap + 1);
     instance.coloring.ranged = wish->ranged;
+    memcpy(instance.coloring.percent, wish->percent, sizeof instance.coloring.percent);
     memcpy(instance.coloring.range, wish->range, sizeof instance.coloring.range);
     instance.coloring.tinted = wish->tinted;
     memcpy(instance.coloring.tint, wish->tint, sizeof instance.coloring.tint);
+    instance.material = item->material;
     instance.opacity = wish->alpha;
     instance.radius_scale = wish->radius_scale;
     return instance;
@@ -89,7 +160,7 @@ static bool has_points(const ewa_asset *asset) {
 
 /// Orders a scene of the items as they are now.
 static void items_reorder(viewer *v) {
-    loader_scene of = {.count = 0};
+    loader_scene of = {.count = 0, .options = v->base};
     for (size_t i = 0; i < v->item_count; i++) {
         const scene_item *item = &v->items[i];
         if (!item->asset) continue;
@@ -109,8 +180,10 @@ static void show(viewer *v, const ewa_scene *scene) {
     while (status == EWA_OK && ewa_scene_count(next) > v->scene_count)
         status = ewa_scene_remove(next, ewa_scene_count(next) - 1);
     for (size_t i = 0; i < v->item_count && status == EWA_OK; i++)
-        if (v->items[i].preview && v->items[i].visible) status = ewa_scene_add(next, v->items[i].preview, NULL);
+        if (v->items[i].preview && v->items[i].visible)
+            status = ewa_scene_add(next, v->items[i].preview, NULL);
     if (status == EWA_OK) status = ewa_scene_commit(next);
+    if (status == EWA_OK && v->has_scene_camera) status = ewa_scene_set_camera(next, &v->scene_camera);
     if (status != EWA_OK) {
         viewer_tell(v, "the scene cannot be shown: %s", ewa_status_name(status));
         ewa_scene_destroy(&next);
@@ -159,7 +232,8 @@ void items_recolor(viewer *v, size_t index) {
     if (!item->asset) return;
     ewa_asset_info info;
     ewa_asset_describe(item->asset, &info);
-    if (info.kind == EWA_ASSET_OCTREE) viewer_tell(v, "%s: an octree has the colours of its points", item->name);
+    if (info.kind == EWA_ASSET_OCTREE)
+        viewer_tell(v, "%s: an octree has the colours of its points", item->name);
     if (!has_points(item->asset)) {
         item->wish = item->coloring;
         return;
@@ -239,6 +313,7 @@ static void take_legend(const ewa_legend *legend, viewer_coloring *coloring) {
     coloring->class_count = 0;
     if (!legend) return;
     memcpy(coloring->range, legend->range, sizeof coloring->range);
+    coloring->percent[0] = coloring->percent[1] = false;
     for (uint32_t k = 0; k < legend->category_count && k < VIEWER_MAX_CLASSES; k++) {
         viewer_class *to = &coloring->classes[coloring->class_count++];
         to->value = legend->categories[k].value;
@@ -367,7 +442,7 @@ void items_cycle_color(viewer *v) {
         }
         const bool more = viewer_attribute_at(v, i, k, name) != NULL;
         snprintf(item->wish.attribute, sizeof item->wish.attribute, "%s", more ? name : "");
-        item->wish.ranged = false;
+        item->wish.ranged = item->wish.percent[0] = item->wish.percent[1] = false;
         items_recolor(v, i);
     }
 }

@@ -100,8 +100,7 @@ static void on_preview(void *user, ewa_asset *asset, bool as_points) {
 /// Makes the scene of an order, with what it has in common with the last one.
 static bool make_scene(loader *l, ewa_context *context, loader_note *order) {
     enum { LEVELS = 8 };
-    ewa_scene_options options;
-    ewa_scene_options_init(&options, sizeof options);
+    ewa_scene_options options = order->of.options;
     options.surfels.level_count = LEVELS;
     ewa_scene *scene = NULL;
     ewa_status status = ewa_scene_create(context, &options, &scene);
@@ -126,8 +125,12 @@ static void carry_out(loader *l, loader_note *order) {
     const viewer_news news = {l, on_progress, on_message, on_preview};
     const viewer_services *s = &l->services;
     ewa_context *context = s->context(s->user, &news);
-    const bool done = context && (order->kind == LOADER_LOAD ? s->load(s->user, order->path, &news, &order->asset)
-                                                             : make_scene(l, context, order));
+    ewa_scene_entry entry;
+    const bool named = order->file && ewa_scene_file_entry(order->file, order->entry, &entry) == EWA_OK;
+    const bool done =
+        context && (order->kind == LOADER_LOAD
+                        ? s->load(s->user, order->path, named ? &entry : NULL, &news, &order->asset)
+                        : make_scene(l, context, order));
     if (!done) order->kind = LOADER_FAILED;
 }
 
@@ -197,11 +200,13 @@ static void post(loader *l, loader_note *order) {
     pthread_mutex_unlock(&l->lock);
 }
 
-bool loader_load(loader *l, uint64_t item, const char *path) {
+bool loader_load(loader *l, uint64_t item, const char *path, const ewa_scene_file *file, uint32_t entry) {
     loader_note *order = calloc(1, sizeof *order);
     if (!order) return false;
     order->kind = LOADER_LOAD;
     order->item = item;
+    order->file = file;
+    order->entry = entry;
     snprintf(order->path, sizeof order->path, "%s", path);
     post(l, order);
     return true;

@@ -22,6 +22,7 @@ typedef struct loader_scene {
     ewa_asset *assets[VIEWER_MAX_ITEMS];
     ewa_instance instances[VIEWER_MAX_ITEMS];
     viewer_coloring colorings[VIEWER_MAX_ITEMS]; ///< the items' wishes
+    ewa_scene_options options;                   ///< of how surfaces are made
 } loader_scene;
 
 /// An order, or what came of one.
@@ -30,6 +31,8 @@ typedef struct loader_note {
     loader_kind kind;
     uint64_t item; ///< whose order it is; 0: a scene's
     char path[VIEWER_PATH_BYTES];
+    const ewa_scene_file *file; ///< of an order: that names the file, borrowed; NULL: none does
+    uint32_t entry;             ///< which of its files
     ewa_asset *asset;
     bool as_points; ///< of a preview
     loader_scene of;
@@ -45,7 +48,8 @@ ewa_status loader_create(const viewer_services *services, loader **made);
 void loader_destroy(loader **loader);
 
 /// Orders come after those that wait; false: out of memory.
-bool loader_load(loader *loader, uint64_t item, const char *path);
+/// `file` (may be NULL) names the file, as `entry`; it is borrowed until the order is done.
+bool loader_load(loader *loader, uint64_t item, const char *path, const ewa_scene_file *file, uint32_t entry);
 /// Orders a scene in place of one that waits; takes the references of `of` over, also when it returns false.
 bool loader_make(loader *loader, loader_scene *of);
 /// Gives up the load that is under way and all that wait.

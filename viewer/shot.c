@@ -149,6 +149,33 @@ static bool paste_camera(viewer *v) {
     return done;
 }
 
+bool shot_scene(viewer *v, const char *rest) {
+    const char *path = rest + 5;
+    if (strncmp(rest, "save ", 5) != 0 || !*path) {
+        viewer_tell(v, "scene: '%s' is not save FILE.json", rest);
+        return false;
+    }
+    if (loader_is_busy(v->loader)) {
+        viewer_tell(v, "%s: not everything is loaded yet", path);
+        return false;
+    }
+    paint_scene shown;
+    viewer_scene(v, &shown);
+    shown.options.lod.load_s = v->lod.load_s; // time is the window's matter
+    ewa_scene *scene = NULL;
+    v->probe.message[0] = 0;
+    ewa_status status = ewa_scene_copy(v->scene, v->probe.context, &scene);
+    if (status == EWA_OK) status = ewa_scene_set_options(scene, &shown.options);
+    if (status == EWA_OK) status = ewa_scene_save(scene, &v->camera, path);
+    ewa_scene_destroy(&scene);
+    if (status != EWA_OK)
+        viewer_tell(v, "%s: the scene cannot be saved: %s", path,
+                    v->probe.message[0] ? v->probe.message : ewa_status_name(status));
+    else
+        viewer_say(v, "scene %s", path);
+    return status == EWA_OK;
+}
+
 bool shot_camera(viewer *v, const char *rest) {
     if (strcmp(rest, "copy") == 0) return copy_camera(v);
     if (strcmp(rest, "paste") == 0) return paste_camera(v);

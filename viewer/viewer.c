@@ -75,6 +75,7 @@ ewa_status viewer_create(const viewer_options *options, viewer **made) {
     v->waits = options->waits;
     v->width = options->width, v->height = options->height, v->scale = options->scale;
     settings_init(v);
+    ewa_scene_options_init(&v->base, sizeof v->base);
     if (options->lod) v->lod = *options->lod;
     ewa_camera_init(&v->camera);
     if (options->camera) {
@@ -111,6 +112,8 @@ void viewer_destroy(viewer **made) {
         ewa_asset_release(&v->items[i].asset);
     }
     ewa_scene_destroy(&v->scene);
+    for (size_t i = 0; i < v->file_count; i++) ewa_scene_file_destroy(&v->files[i]);
+    free(v->files);
     paint_tools_free(&v->probe);
     if (v->lods_lock) pthread_mutex_destroy(v->lods_lock);
     free(v->lods_lock);
@@ -192,12 +195,11 @@ void viewer_handle(viewer *v, const viewer_event *event) {
 }
 
 void viewer_scene(const viewer *v, paint_scene *scene) {
-    *scene = (paint_scene){.camera = v->camera, .lods_lock = v->lods_lock};
-    ewa_scene_options_init(&scene->options, sizeof scene->options);
+    *scene = (paint_scene){.camera = v->camera, .lods_lock = v->lods_lock, .options = v->base};
     scene->options.render = v->render;
     scene->options.lod = v->lod;
     scene->options.lod.load_s = v->waits ? 0 : REFINE_S;
-    scene->options.volumes.density_scale = v->settings.volume_density;
+    scene->options.volumes.density_scale *= v->settings.volume_density;
     cutaway_apply(v, &scene->options.render);
     items_gather(v, scene);
 }

@@ -51,6 +51,7 @@ typedef struct viewer_coloring {
     int colormap;         ///< ewa_colormap, or automatic (default): classes for classes, else viridis
     uint32_t class_count; ///< filled in: of `classes`; 0: colours go from the first number to the last
     viewer_class classes[VIEWER_MAX_CLASSES];
+    bool percent[2];     ///< an end of `range` is a percentile, until it is filled in
     bool ranged;         ///< `range` is given; else it is filled with that of ewa_coloring
     double range[2];     ///< numbers of the first and the last colour
     bool tinted;         ///< all points have the one colour `tint`, when no attribute is chosen
@@ -66,8 +67,10 @@ typedef struct viewer_services {
     void *user;
     /// Returns the loading thread's context, whose news go to `news` from now on; NULL after telling why.
     ewa_context *(*context)(void *user, const viewer_news *news);
-    /// Loads a file in it; on the loading thread. Returns false after telling `news` why.
-    bool (*load)(void *user, const char *path, const viewer_news *news, ewa_asset **asset);
+    /// Loads a file in it; on the loading thread. `entry`: what a scene file says of it; NULL: nothing does. Returns
+    /// false after telling `news` why.
+    bool (*load)(void *user, const char *path, const ewa_scene_entry *entry, const viewer_news *news,
+                 ewa_asset **asset);
     /// Places a camera, whose picture's size is set, for a first look or for a named view ("front" ... "iso",
     /// NULL: the best) at all that is visible; on the calling thread.
     bool (*place)(void *user, ewa_scene *scene, const char *view, ewa_camera *camera, double up_world[3]);

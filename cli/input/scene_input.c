@@ -62,12 +62,36 @@ static bool add_file(cli_session *session, const char *path, const ewa_asset_opt
     return status == EWA_OK;
 }
 
+/// Adds what a scene file names; points that have their own colours there get those of the command.
+static bool add_scene(cli_session *session, const char *path, const ewa_asset_options *options,
+                      const ewa_coloring *coloring, ewa_scene *scene) {
+    const uint32_t first = ewa_scene_count(scene);
+    ewa_status status = ewa_scene_open(scene, path, options);
+    for (uint32_t i = first; i < ewa_scene_count(scene) && status == EWA_OK; i++) {
+        ewa_instance instance;
+        ewa_asset_info info;
+        ewa_asset_describe(ewa_scene_asset(scene, i), &info);
+        status = ewa_scene_get(scene, i, &instance);
+        if (!(info.kind == EWA_ASSET_POINTS || info.kind == EWA_ASSET_MESH) || instance.coloring.tinted ||
+            !ewa_coloring_is_own(instance.coloring.attribute))
+            continue;
+        instance.coloring = *coloring;
+        if (status == EWA_OK) status = ewa_scene_set(scene, i, &instance);
+    }
+    if (status != EWA_OK) session_failed(session, status);
+    return status == EWA_OK;
+}
+
 bool scene_input_add(cli_session *session, const common_arguments *common, const ewa_asset_options *options,
                      const ewa_coloring *coloring, ewa_scene *scene) {
     session->subject = NULL;
-    for (size_t i = 0; i < common->operand_count; i++)
-        if (!add_file(session, common->operands[i], options, coloring, scene)) return false;
+    for (size_t i = 0; i < common->operand_count; i++) {
+        const char *path = common->operands[i];
+        const bool is_scene = ewa_scene_file_probe(path);
+        if (!(is_scene ? add_scene : add_file)(session, path, options, coloring, scene)) return false;
+    }
     if (ewa_scene_count(scene)) return true;
-    session_fail(session, "--filter: none of the points is left");
+    session_fail(session,
+                 session->filter ? "--filter: none of the points is left" : "there is nothing to draw");
     return false;
 }

@@ -24,7 +24,7 @@
 typedef struct render_arguments {
     frames_arguments frames; // first: it begins with the common arguments
     light_arguments light;   // second
-    const char *output, *aov, *save_camera_path, *stats_path;
+    const char *output, *aov, *save_camera_path, *save_scene_path, *stats_path;
     ewa_surfels_options surfels;
     section_arguments section;
     bool close_gaps;
@@ -58,6 +58,10 @@ static const cli_option output_table[] = {
              "towards the viewer), coverage (1: covered)"},
     {"save-camera", OPTION_OUTPUT, AT(save_camera_path), "FILE",
      .help = "write the camera that was used, for --camera; of frames all cameras, for --path"},
+    {"save-scene", OPTION_OUTPUT, AT(save_scene_path), "FILE.json",
+     .help = "write what is drawn, how, and from where as a scene file, which `render`, `view` and Python "
+             "open; its files "
+             "must lie below its folder"},
     {"stats", OPTION_OUTPUT, AT(stats_path), "FILE",
      .help = "write times per stage, counts and peak memory as JSON"},
     BACKEND_OPTION(AT(backend)),
@@ -349,6 +353,14 @@ static bool make_renderer(cli_session *session, int backend, ewa_scene_renderer 
     return *renderer != NULL;
 }
 
+/// Writes the scene file that was asked for, with the first camera. False after reporting.
+static bool save_scene(cli_session *session, const render_arguments *arguments, const render_scene *scene) {
+    if (!arguments->save_scene_path || !process_group_leads(session->group)) return true;
+    const ewa_status status = ewa_scene_save(scene->scene, scene->frames.cameras, arguments->save_scene_path);
+    if (status != EWA_OK) session_failed(session, status);
+    return status == EWA_OK;
+}
+
 /// Draws and writes everything. False after reporting.
 static bool draw(cli_session *session, const render_arguments *arguments, const picture_paths *paths,
                  render_scene *scene, render_report *report) {
@@ -368,6 +380,7 @@ static bool draw(cli_session *session, const render_arguments *arguments, const 
     const bool saves_camera = arguments->save_camera_path && process_group_leads(session->group);
     const bool done = make_renderer(session, arguments->backend, &painting.renderer) &&
                       sequence_draw(session, &output, frames, &(frame_painter){paint, &painting}, report) &&
+                      save_scene(session, arguments, scene) &&
                       (!saves_camera || frames_save(session, arguments->save_camera_path, frames, many));
     report->renderer.struct_size = sizeof report->renderer;
     if (done) ewa_renderer_describe(ewa_scene_renderer_surfaces(painting.renderer), &report->renderer);
@@ -392,7 +405,8 @@ static int run(const void *data) {
                 parse_paths(arguments, &paths, message) &&
                 frames_plan(&session, &arguments->frames, sequence_exists, &paths, &scene.frames) &&
                 frame_partition_choose(&session, &scene.frames);
-    const bool idle = done && !frames->chosen_count && !arguments->save_camera_path && !arguments->stats_path;
+    const bool idle = done && !frames->chosen_count && !arguments->save_camera_path &&
+                      !arguments->save_scene_path && !arguments->stats_path;
     done = done && !idle && light_load(&session, &arguments->light, &lit_by) &&
            make_scene(&session, arguments, &lit_by, &scene, &report) &&
            draw(&session, arguments, &paths, &scene, &report) &&

@@ -87,11 +87,14 @@ static ewa_scene_up up_of(int axis) {
 }
 
 /// The library's options of a camera.
-static ewa_view_options options_of(const view_arguments *arguments, bool turntable) {
+static ewa_view_options options_of(const view_arguments *arguments, const ewa_scene *scene, bool turntable) {
     ewa_view_options options;
     ewa_view_options_init(&options, sizeof options);
-    options.width_px = arguments->size.width_px;
-    options.height_px = arguments->size.height_px;
+    ewa_camera own; // has a size
+    if (arguments->size.given || !scene || !ewa_scene_get_camera(scene, &own)) {
+        options.width_px = arguments->size.width_px;
+        options.height_px = arguments->size.height_px;
+    }
     options.fov_deg = arguments->fov_deg;
     options.ortho_height_world = arguments->ortho_height;
     options.view = arguments->view;
@@ -110,7 +113,7 @@ static ewa_view_options options_of(const view_arguments *arguments, bool turntab
 static bool place(cli_session *session, const view_arguments *arguments, const view_subject *subject,
                   bool turntable, ewa_camera *camera, ewa_view_info *info) {
     const common_arguments *common = &arguments->common;
-    const ewa_view_options options = options_of(arguments, turntable);
+    const ewa_view_options options = options_of(arguments, subject->scene, turntable);
     const ewa_status status =
         subject->scene ? ewa_scene_place_camera(subject->scene, &options, camera, info)
                        : ewa_cloud_place_camera(subject->cloud, subject->radius_scale,

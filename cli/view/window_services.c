@@ -118,10 +118,16 @@ static ewa_context *context(void *user, const viewer_news *news) {
     return own->loading.context;
 }
 
-static bool load(void *user, const char *path, const viewer_news *news, ewa_asset **asset) {
+static bool load(void *user, const char *path, const ewa_scene_entry *entry, const viewer_news *news,
+                 ewa_asset **asset) {
     window_services *own = user;
-    ewa_asset_options options = scene_input_asset_options(&own->loading);
-    options.levels = own->levels;
+    const ewa_asset_options program = scene_input_asset_options(&own->loading);
+    ewa_asset_options options = entry ? entry->asset : program;
+    options.load = program.load;
+    options.reader = program.reader;
+    options.reader_user = program.reader_user;
+    if (!options.filter) options.filter = program.filter;
+    if (options.levels == EWA_OCTREE_AUTO) options.levels = own->levels;
     options.voxel_level_count = VOXEL_LEVELS;
     options.own_context = true;
     const ewa_status status = ewa_asset_load(own->loading.context, path, &options, asset);

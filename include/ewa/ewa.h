@@ -31,6 +31,7 @@
 #include "ewa/render.h"
 #include "ewa/resample.h"
 #include "ewa/scene.h"
+#include "ewa/scene_file.h"
 #include "ewa/select.h"
 #include "ewa/shade.h"
 #include "ewa/volume.h"

@@ -249,7 +249,8 @@ EWA_API const ewa_legend *ewa_scene_legend(const ewa_scene *scene, uint32_t inde
 /// How a camera is placed where no file says. Fill with ewa_view_options_init().
 typedef struct ewa_view_options {
     size_t struct_size;
-    uint32_t width_px, height_px;  ///< of the picture; [1, 65536]; default 1280, 720
+    uint32_t width_px, height_px;  ///< of the picture; [1, 65536], or both 0 (default): those of the scene's camera, else
+                                   ///< 1280 x 720
     double fov_deg;                ///< vertical field of view; (0, 180), or 0 (default): 30, but for what a camera at the
                                    ///< origin took, which is seen from there as wide as it is
     double ortho_height_world;     ///< an orthographic camera that shows so much; 0 (default): perspective
@@ -274,7 +275,16 @@ typedef struct ewa_view_info {
     bool trimmed;           ///< a few points far off are left outside
 } ewa_view_info;
 
-/// Places a camera at all that is visible. `camera` may be NULL: only what is up and where the middle is. `options` and
+/// Sets from where a scene is seen when ewa_scene_place_camera() is asked for nothing else; NULL: all is in the picture.
+/// Errors: those of ewa_camera_check().
+EWA_API ewa_status ewa_scene_set_camera(ewa_scene *scene, const ewa_camera *camera);
+
+/// Fills a scene's camera; false: it has none.
+EWA_API bool ewa_scene_get_camera(const ewa_scene *scene, ewa_camera *camera);
+
+/// Places a camera at all that is visible; where the options say nothing of it but the size, it is the scene's own, of which
+/// another size keeps what is seen from the upper edge to the lower one. `camera` may be NULL: only what is up and where
+/// the middle is. `options` and
 /// `info` may be NULL. Errors: EWA_ERROR_ARGUMENT (options, nothing is visible), EWA_ERROR_NUMERIC (numbers too large;
 /// the eye is the target), those of ewa_scene_complete().
 EWA_API ewa_status ewa_scene_place_camera(ewa_scene *scene, const ewa_view_options *options, ewa_camera *camera,

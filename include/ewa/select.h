@@ -74,6 +74,10 @@ typedef struct ewa_filter {
 /// be NULL; the filter is then unchanged. Any thread. Errors: EWA_ERROR_ARGUMENT.
 EWA_API ewa_status ewa_filter_add(ewa_filter *filter, const char *text, char problem[EWA_OPTION_TEXT_BYTES]);
 
+/// Writes a filter as ewa_filter_add() reads it, ended by a zero. False: it needs more than `size_bytes`; the text is cut.
+/// Any thread.
+EWA_API bool ewa_filter_write(const ewa_filter *filter, char *text, size_t size_bytes);
+
 /// Clears the marks, one per point, of the points that do not fulfil the filter. Numbers of F32 attributes are
 /// compared with the filter's numbers rounded to F32, so that "=0.1" finds what a file calls 0.1. Errors:
 /// EWA_ERROR_ARGUMENT (no such attribute; the message lists those there are).

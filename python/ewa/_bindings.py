@@ -65,6 +65,8 @@ EWA_OCTREE_WHOLE_POINTS = 4000000
 EWA_OCTREE_SAMPLE_POINTS = 400000
 EWA_SCENE_MAX_INSTANCES = 65536
 EWA_MATERIAL_OWN = 4294967295
+EWA_SCENE_FILE_DEPTH = 8
+EWA_SCENE_FILE_COUNT = 1024
 EWA_FILTER_TERMS = 16
 EWA_FILTER_RANGES = 32
 EWA_MAX_LIGHTS = 8
@@ -2177,6 +2179,17 @@ class ewa_view_options(c.Structure):
     ]
 
 
+class ewa_scene_entry(c.Structure):
+    path: bytes | None
+    asset: ewa_asset_options
+    instance: ewa_instance
+    _fields_ = [
+        ("path", c.c_char_p),
+        ("asset", ewa_asset_options),
+        ("instance", ewa_instance),
+    ]
+
+
 class ewa_scalar(c.Structure):
     attribute: ewa_attribute
     component: int
@@ -2652,6 +2665,7 @@ class Functions:
     ewa_scene_destroy: Callable[..., None]
     ewa_scene_draw: Callable[..., int]
     ewa_scene_get: Callable[..., int]
+    ewa_scene_get_camera: Callable[..., bool]
     ewa_scene_get_options: Callable[..., None]
     ewa_scene_legend: Callable[..., Any]
     ewa_scene_options_init: Callable[..., None]
@@ -2663,8 +2677,20 @@ class Functions:
     ewa_scene_renderer_surfaces: Callable[..., int | None]
     ewa_scene_reuse: Callable[..., None]
     ewa_scene_set: Callable[..., int]
+    ewa_scene_set_camera: Callable[..., int]
     ewa_scene_set_options: Callable[..., int]
     ewa_view_options_init: Callable[..., None]
+    ewa_scene_describe_json: Callable[..., int]
+    ewa_scene_file_apply: Callable[..., None]
+    ewa_scene_file_camera: Callable[..., bool]
+    ewa_scene_file_count: Callable[..., int]
+    ewa_scene_file_destroy: Callable[..., None]
+    ewa_scene_file_entry: Callable[..., int]
+    ewa_scene_file_load: Callable[..., int]
+    ewa_scene_file_probe: Callable[..., bool]
+    ewa_scene_open: Callable[..., int]
+    ewa_scene_save: Callable[..., int]
+    ewa_text_free: Callable[..., None]
     ewa_box_mark: Callable[..., int]
     ewa_cloud_find_scalar: Callable[..., int]
     ewa_cloud_keep: Callable[..., int]
@@ -2672,6 +2698,7 @@ class Functions:
     ewa_cloud_thin_voxels: Callable[..., int]
     ewa_filter_add: Callable[..., int]
     ewa_filter_mark: Callable[..., int]
+    ewa_filter_write: Callable[..., bool]
     ewa_polygon_box: Callable[..., None]
     ewa_polygon_create: Callable[..., int]
     ewa_polygon_destroy: Callable[..., None]
@@ -2993,6 +3020,7 @@ class Functions:
         self.ewa_scene_destroy = bind("ewa_scene_destroy", None, c.c_void_p)
         self.ewa_scene_draw = bind("ewa_scene_draw", c.c_int, c.c_void_p, c.c_void_p, c.POINTER(ewa_camera), c.POINTER(ewa_scene_options), c.POINTER(ewa_frame), c.POINTER(ewa_scene_stats))
         self.ewa_scene_get = bind("ewa_scene_get", c.c_int, c.c_void_p, c.c_uint32, c.POINTER(ewa_instance))
+        self.ewa_scene_get_camera = bind("ewa_scene_get_camera", c.c_bool, c.c_void_p, c.POINTER(ewa_camera))
         self.ewa_scene_get_options = bind("ewa_scene_get_options", None, c.c_void_p, c.POINTER(ewa_scene_options))
         self.ewa_scene_legend = bind("ewa_scene_legend", c.POINTER(ewa_legend), c.c_void_p, c.c_uint32)
         self.ewa_scene_options_init = bind("ewa_scene_options_init", None, c.POINTER(ewa_scene_options), c.c_size_t)
@@ -3004,8 +3032,20 @@ class Functions:
         self.ewa_scene_renderer_surfaces = bind("ewa_scene_renderer_surfaces", c.c_void_p, c.c_void_p)
         self.ewa_scene_reuse = bind("ewa_scene_reuse", None, c.c_void_p, c.c_void_p)
         self.ewa_scene_set = bind("ewa_scene_set", c.c_int, c.c_void_p, c.c_uint32, c.POINTER(ewa_instance))
+        self.ewa_scene_set_camera = bind("ewa_scene_set_camera", c.c_int, c.c_void_p, c.POINTER(ewa_camera))
         self.ewa_scene_set_options = bind("ewa_scene_set_options", c.c_int, c.c_void_p, c.POINTER(ewa_scene_options))
         self.ewa_view_options_init = bind("ewa_view_options_init", None, c.POINTER(ewa_view_options), c.c_size_t)
+        self.ewa_scene_describe_json = bind("ewa_scene_describe_json", c.c_int, c.c_void_p, c.c_void_p)
+        self.ewa_scene_file_apply = bind("ewa_scene_file_apply", None, c.c_void_p, c.POINTER(ewa_scene_options))
+        self.ewa_scene_file_camera = bind("ewa_scene_file_camera", c.c_bool, c.c_void_p, c.POINTER(ewa_camera))
+        self.ewa_scene_file_count = bind("ewa_scene_file_count", c.c_uint32, c.c_void_p)
+        self.ewa_scene_file_destroy = bind("ewa_scene_file_destroy", None, c.c_void_p)
+        self.ewa_scene_file_entry = bind("ewa_scene_file_entry", c.c_int, c.c_void_p, c.c_uint32, c.POINTER(ewa_scene_entry))
+        self.ewa_scene_file_load = bind("ewa_scene_file_load", c.c_int, c.c_void_p, c.c_char_p, c.POINTER(ewa_asset_options), c.c_void_p)
+        self.ewa_scene_file_probe = bind("ewa_scene_file_probe", c.c_bool, c.c_char_p)
+        self.ewa_scene_open = bind("ewa_scene_open", c.c_int, c.c_void_p, c.c_char_p, c.POINTER(ewa_asset_options))
+        self.ewa_scene_save = bind("ewa_scene_save", c.c_int, c.c_void_p, c.POINTER(ewa_camera), c.c_char_p)
+        self.ewa_text_free = bind("ewa_text_free", None, c.c_void_p)
         self.ewa_box_mark = bind("ewa_box_mark", c.c_int, c.c_void_p, c.c_void_p, c.c_void_p)
         self.ewa_cloud_find_scalar = bind("ewa_cloud_find_scalar", c.c_int, c.c_void_p, c.c_char_p, c.POINTER(ewa_scalar))
         self.ewa_cloud_keep = bind("ewa_cloud_keep", c.c_int, c.c_void_p, c.c_void_p, c.c_void_p)
@@ -3013,6 +3053,7 @@ class Functions:
         self.ewa_cloud_thin_voxels = bind("ewa_cloud_thin_voxels", c.c_int, c.c_void_p, c.c_double, c.c_void_p)
         self.ewa_filter_add = bind("ewa_filter_add", c.c_int, c.POINTER(ewa_filter), c.c_char_p, c.c_void_p)
         self.ewa_filter_mark = bind("ewa_filter_mark", c.c_int, c.POINTER(ewa_filter), c.c_void_p, c.c_void_p)
+        self.ewa_filter_write = bind("ewa_filter_write", c.c_bool, c.POINTER(ewa_filter), c.c_char_p, c.c_size_t)
         self.ewa_polygon_box = bind("ewa_polygon_box", None, c.c_void_p, c.c_void_p)
         self.ewa_polygon_create = bind("ewa_polygon_create", c.c_int, c.c_void_p, c.c_void_p, c.c_void_p, c.c_uint32, c.c_void_p)
         self.ewa_polygon_destroy = bind("ewa_polygon_destroy", None, c.c_void_p)

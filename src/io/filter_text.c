@@ -10,6 +10,7 @@
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
+#include <string.h>
 
 __attribute__((format(printf, 2, 3))) static ewa_status wrong(char problem[EWA_OPTION_TEXT_BYTES],
                                                               const char *format, ...) {
@@ -154,4 +155,43 @@ ewa_status ewa_filter_add(ewa_filter *filter, const char *text, char problem[EWA
     }
     if (status != EWA_OK) filter->term_count = count;
     return status;
+}
+
+/// Writes a number, or nothing where a range has no end.
+static size_t write_end(double number, char text[EWA_NUMBER_BYTES]) {
+    return isfinite(number) ? ewa_number_write_f64(number, text) : 0;
+}
+
+static void write_range(const ewa_filter_range *range, char text[2 * EWA_NUMBER_BYTES + 3]) {
+    char low[EWA_NUMBER_BYTES], high[EWA_NUMBER_BYTES];
+    const int low_bytes = (int)write_end(range->low, low), high_bytes = (int)write_end(range->high, high);
+    if (range->low == range->high)
+        snprintf(text, 2 * EWA_NUMBER_BYTES + 3, "%.*s", low_bytes, low);
+    else
+        snprintf(text, 2 * EWA_NUMBER_BYTES + 3, "%.*s..%.*s", low_bytes, low, high_bytes, high);
+}
+
+bool ewa_filter_write(const ewa_filter *filter, char *text, size_t size_bytes) {
+    size_t used = 0;
+    if (size_bytes) *text = 0;
+    for (uint32_t t = 0; t < filter->term_count; t++) {
+        const ewa_filter_term *term = &filter->terms[t];
+        const ewa_filter_range *first = term->ranges;
+        char range[2 * EWA_NUMBER_BYTES + 3];
+        // Only a single bound can be open.
+        const char *sign = first->low_open ? ">" : first->high_open ? "<" : term->outside ? "!=" : "=";
+        for (uint32_t r = 0; r < term->range_count; r++) {
+            write_range(&term->ranges[r], range);
+            if (*sign == '<') memmove(range, range + 2, strlen(range) - 1);
+            if (*sign == '>') range[strlen(range) - 2] = 0;
+            const int length = snprintf(text + used, size_bytes - used, "%s%s%s%s",
+                                        t && !r ? " and "
+                                        : r     ? ","
+                                                : "",
+                                        r ? "" : term->name, r ? "" : sign, range);
+            if (length < 0 || (size_t)length >= size_bytes - used) return false;
+            used += (size_t)length;
+        }
+    }
+    return true;
 }

@@ -29,7 +29,7 @@ static const ewa_option option_rows[] = {
      .help = "standard deviations at which kernels of a mesh's points end"},
     {"voxel_level_count", EWA_OPTION_U32, AT(voxel_level_count), 1, EWA_MAX_VOLUME_LEVELS, .initial = 1,
      .help = "levels of detail of volumes"},
-    {"reach_steps", EWA_OPTION_F64, AT(reach_steps), 0, 64, .initial = 1.8,
+    {"reach_steps", EWA_OPTION_F64, AT(reach_steps), 0, 64, .initial = 0.6 * 3,
      .help = "how far a voxel's footprint counts in the picture's frame, steps of the grid"},
 };
 
@@ -51,7 +51,8 @@ static ewa_status copy_text(ewa_context *context, const char *text, char **copy,
 }
 
 /// Makes an asset of nothing yet.
-static ewa_status make(ewa_context *context, const char *name, const ewa_asset_options *options, ewa_asset **made) {
+static ewa_status make(ewa_context *context, const char *name, const ewa_asset_options *options,
+                       ewa_asset **made) {
     ewa_asset *asset = ewa_allocate_zeroed(context, 1, sizeof *asset);
     if (!asset) return EWA_ERROR_MEMORY;
     asset->context = context;
@@ -59,6 +60,10 @@ static ewa_status make(ewa_context *context, const char *name, const ewa_asset_o
     asset->view = -1;
     asset->levels = options->levels;
     asset->gaussians_as_surfels = options->gaussians_as_surfels;
+    asset->cutoff = options->cutoff;
+    asset->voxel_level_count = options->voxel_level_count;
+    asset->reach_steps = options->reach_steps;
+    asset->of_columns = options->load && (options->load->columns || options->load->attributes);
     memcpy(asset->to_world, options->to_world, sizeof asset->to_world);
     ewa_status status = copy_text(context, name, &asset->name, &asset->name_bytes);
     if (status == EWA_OK)
@@ -126,7 +131,8 @@ static ewa_status open_octree(const ewa_asset_job *job, const char *path, ewa_lo
     const ewa_asset_options *options = job->options;
     ewa_context *context = job->asset->context;
     *lod = NULL;
-    if (options->levels == EWA_OCTREE_NEVER || strcmp(path, "-") == 0 || !ewa_lod_probe(context, path)) return EWA_OK;
+    if (options->levels == EWA_OCTREE_NEVER || strcmp(path, "-") == 0 || !ewa_lod_probe(context, path))
+        return EWA_OK;
     const bool columns = options->load && (options->load->columns || options->load->attributes);
     const char *needs_all = options->filter ? "a filter" : columns ? "a choice of columns" : NULL;
     const bool keep_going = options->load && options->load->keep_going;
@@ -138,7 +144,8 @@ static ewa_status open_octree(const ewa_asset_job *job, const char *path, ewa_lo
                         needs_all);
     ewa_status status = EWA_OK;
     if (options->own_context) status = ewa_context_create(&context->options, &job->asset->lod_context);
-    if (status == EWA_OK) status = ewa_lod_open(options->own_context ? job->asset->lod_context : context, path, lod);
+    if (status == EWA_OK)
+        status = ewa_lod_open(options->own_context ? job->asset->lod_context : context, path, lod);
     if (status != EWA_OK) return status;
     ewa_lod_info info;
     ewa_lod_describe(*lod, &info);
@@ -197,9 +204,10 @@ static ewa_status load_model(const ewa_asset_job *job, const char *path) {
     if (status == EWA_OK && model.lost_count)
         ewa_report(context, EWA_SEVERITY_NOTE, "%llu points are lost", (unsigned long long)model.lost_count);
     if (status == EWA_OK)
-        ewa_report(context, EWA_SEVERITY_INFO, "%llu %s read in %.3f s",
-                   (unsigned long long)(model.face_count ? model.face_count : ewa_cloud_point_count(model.points)),
-                   model.face_count ? "faces" : "points", ewa_now_s() - started_s);
+        ewa_report(
+            context, EWA_SEVERITY_INFO, "%llu %s read in %.3f s",
+            (unsigned long long)(model.face_count ? model.face_count : ewa_cloud_point_count(model.points)),
+            model.face_count ? "faces" : "points", ewa_now_s() - started_s);
     if (status == EWA_OK) status = ewa_asset_take_model(job, &model);
     ewa_model_free(&model);
     return status;
@@ -210,7 +218,8 @@ static ewa_status load(const ewa_asset_job *job, const char *path) {
     if (ewa_volume_is_named(path)) return load_volume(job, path);
     ewa_gaussian_format gaussians = EWA_GAUSSIANS_NONE;
     // What is missing or cannot be opened is said by who reads it.
-    if (is_regular(path) && ewa_gaussians_probe(context, path, &gaussians) == EWA_OK && gaussians != EWA_GAUSSIANS_NONE)
+    if (is_regular(path) && ewa_gaussians_probe(context, path, &gaussians) == EWA_OK &&
+        gaussians != EWA_GAUSSIANS_NONE)
         return load_gaussians(job, path);
     ewa_lod *lod;
     const ewa_status status = open_octree(job, path, &lod);
@@ -218,28 +227,32 @@ static ewa_status load(const ewa_asset_job *job, const char *path) {
     return lod ? ewa_asset_take_octree(job, lod) : load_model(job, path);
 }
 
-/// Takes options; what is wrong with the map is said.
-static ewa_status take_options(ewa_context *context, const ewa_asset_options *given, ewa_asset_options *options) {
-    ewa_asset_options_init(options, sizeof *options);
-    const ewa_status status = ewa_options_take(context, &ewa_asset_options_table, given, options);
-    const double *m = options->to_world;
-    if (status != EWA_OK) return status;
+bool ewa_asset_map_is_good(const double m[16]) {
     const double determinant = m[0] * (m[5] * m[10] - m[6] * m[9]) - m[1] * (m[4] * m[10] - m[6] * m[8]) +
                                m[2] * (m[4] * m[9] - m[5] * m[8]);
-    if (m[12] != 0 || m[13] != 0 || m[14] != 0 || m[15] != 1 || !isfinite(determinant) || determinant == 0)
-        return ewa_fail(context, EWA_ERROR_ARGUMENT,
-                        "to_world: its last row must be 0 0 0 1, and its determinant, which is %g, neither zero nor "
-                        "infinite",
-                        determinant);
-    return EWA_OK;
+    for (int i = 0; i < 12; i++)
+        if (!isfinite(m[i])) return false;
+    return m[12] == 0 && m[13] == 0 && m[14] == 0 && m[15] == 1 && isfinite(determinant) && determinant != 0;
 }
 
-ewa_status ewa_asset_load(ewa_context *context, const char *path, const ewa_asset_options *given, ewa_asset **made) {
+ewa_status ewa_asset_take_options(ewa_context *context, const ewa_asset_options *given,
+                                  ewa_asset_options *options) {
+    ewa_asset_options_init(options, sizeof *options);
+    const ewa_status status = ewa_options_take(context, &ewa_asset_options_table, given, options);
+    if (status == EWA_OK && !ewa_asset_map_is_good(options->to_world))
+        return ewa_fail(context, EWA_ERROR_ARGUMENT,
+                        "to_world: is no map that can be turned back: its last row must be 0 0 0 1, and its "
+                        "determinant neither zero nor infinite");
+    return status;
+}
+
+ewa_status ewa_asset_load(ewa_context *context, const char *path, const ewa_asset_options *given,
+                          ewa_asset **made) {
     if (!context || !path || !made) return EWA_ERROR_ARGUMENT;
     *made = NULL;
     ewa_asset_options options;
     const char *before = ewa_context_about(context, path);
-    ewa_status status = take_options(context, given, &options);
+    ewa_status status = ewa_asset_take_options(context, given, &options);
     ewa_asset *asset = NULL;
     if (status == EWA_OK) status = make(context, path, &options, &asset);
     const double started_s = ewa_now_s();
@@ -300,7 +313,8 @@ static ewa_status take_source(const ewa_asset_job *job, const ewa_asset_source *
         return ewa_asset_outline_surfels(context, source->surfels, &asset->outline);
     }
     if (!source->outline)
-        return ewa_fail(context, EWA_ERROR_ARGUMENT, "%s: splats and voxels come with an outline", asset->name);
+        return ewa_fail(context, EWA_ERROR_ARGUMENT, "%s: splats and voxels come with an outline",
+                        asset->name);
     if (source->splats) {
         ewa_splats_info info;
         ewa_splats_describe(source->splats, &info);
@@ -318,11 +332,12 @@ static ewa_status take_source(const ewa_asset_job *job, const ewa_asset_source *
         asset->bounds = info.bounds;
         asset->flat = source->flat;
     }
-    return ewa_cloud_view(context, source->outline, 0, ewa_cloud_point_count(source->outline), &asset->outline);
+    return ewa_cloud_view(context, source->outline, 0, ewa_cloud_point_count(source->outline),
+                          &asset->outline);
 }
 
-ewa_status ewa_asset_create(ewa_context *context, const ewa_asset_source *source, const ewa_asset_options *given,
-                            ewa_asset **made) {
+ewa_status ewa_asset_create(ewa_context *context, const ewa_asset_source *source,
+                            const ewa_asset_options *given, ewa_asset **made) {
     if (!context || !source || !made) return EWA_ERROR_ARGUMENT;
     *made = NULL;
     const void *const objects[] = {source->cloud,  source->surfels, source->lod,       source->splats,
@@ -333,7 +348,7 @@ ewa_status ewa_asset_create(ewa_context *context, const ewa_asset_source *source
     for (size_t i = 0; i < sizeof objects / sizeof objects[0]; i++)
         if (objects[i]) count++, last = i;
     ewa_asset_options options;
-    ewa_status status = take_options(context, given, &options);
+    ewa_status status = ewa_asset_take_options(context, given, &options);
     if (status == EWA_OK && count != 1)
         status = ewa_fail(context, EWA_ERROR_ARGUMENT, "an asset is of one object, not of %zu", count);
     ewa_asset *asset = NULL;

@@ -28,6 +28,9 @@ struct ewa_asset {
     size_t transfer_bytes;
     ewa_octree_levels levels;
     bool gaussians_as_surfels;
+    bool of_columns; ///< some were chosen, which no scene file says
+    double cutoff, reach_steps;
+    uint32_t voxel_level_count;
 
     uint64_t count;
     ewa_bounds bounds;
@@ -100,12 +103,20 @@ struct ewa_scene {
     uint32_t count, capacity;
     bool complete, committed, points_gone;
     ewa_surface *surface; ///< retained; NULL: none
+    bool has_camera;
+    ewa_camera camera; ///< from where it is seen, unless somebody says otherwise
 };
 
 /// Whether instances of an asset are part of the one surface of points.
 static inline bool ewa_asset_is_points(const ewa_asset *asset) {
     return asset->kind == EWA_ASSET_POINTS || asset->kind == EWA_ASSET_MESH;
 }
+
+/// Whether a map is affine and can be turned back.
+bool ewa_asset_map_is_good(const double to_world[16]);
+
+/// Takes options of an asset, with their defaults, and checks the map. Errors: EWA_ERROR_ARGUMENT.
+ewa_status ewa_asset_take_options(ewa_context *context, const ewa_asset_options *given, ewa_asset_options *options);
 
 /// Makes a cloud over points [first, first + count) of another, whose streams stay where they are; with its origin,
 /// grid and notes.

@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: MIT
 //
 // Scenes: instances, options, and when what is made of them has to be made anew.
-#include "scene/parts.h"
 #include "base/base.h"
 #include "base/options.h"
 #include "homogeneous/camera.h"
+#include "scene/parts.h"
 
 #include <math.h>
 #include <string.h>
@@ -13,7 +13,8 @@
 #define AT(member) offsetof(ewa_scene_options, member)
 
 static const ewa_option scene_rows[] = {
-    {"up", EWA_OPTION_CHOICE, AT(up), .words = "auto|y|z|-y|-z", .help = "what is up; auto: as files and points say"},
+    {"up", EWA_OPTION_CHOICE, AT(up), .words = "auto|y|z|-y|-z",
+     .help = "what is up; auto: as files and points say"},
     {"close_gaps", EWA_OPTION_BOOL, AT(close_gaps), .initial = true,
      .help = "measure the radii anew from the spacing where the file's leave gaps between the discs"},
     {"keep_points", EWA_OPTION_BOOL, AT(keep_points), .initial = true,
@@ -57,7 +58,8 @@ void ewa_instance_init(ewa_instance *instance, size_t struct_size) {
 }
 
 /// Takes options with all structs within.
-static ewa_status take_options(ewa_context *context, const ewa_scene_options *given, ewa_scene_options *options) {
+static ewa_status take_options(ewa_context *context, const ewa_scene_options *given,
+                               ewa_scene_options *options) {
     ewa_scene_options_init(options, sizeof *options);
     if (!given) return EWA_OK;
     ewa_status status = ewa_options_take(context, &ewa_scene_options_table, given, options);
@@ -134,6 +136,8 @@ ewa_status ewa_scene_copy(const ewa_scene *scene, ewa_context *context, ewa_scen
     (*copy)->committed = scene->committed;
     (*copy)->points_gone = scene->points_gone;
     (*copy)->surface = scene->surface;
+    (*copy)->has_camera = scene->has_camera;
+    (*copy)->camera = scene->camera;
     if (scene->surface) atomic_fetch_add(&scene->surface->references, 1);
     return EWA_OK;
 }
@@ -165,17 +169,19 @@ static ewa_status take_instance(const ewa_scene *scene, const ewa_asset *asset, 
         status = ewa_options_take(context, &ewa_coloring_table, &given->coloring, &taken->coloring);
     if (status != EWA_OK) return status;
     if (taken->material != EWA_MATERIAL_OWN && taken->material >= EWA_MAX_MATERIALS)
-        return ewa_fail(context, EWA_ERROR_ARGUMENT, "%s: material %u is beyond %d", asset->name, taken->material,
-                        EWA_MAX_MATERIALS - 1);
-    const bool plain = taken->opacity == 1 && taken->radius_scale == 1 && taken->material == EWA_MATERIAL_OWN &&
+        return ewa_fail(context, EWA_ERROR_ARGUMENT, "%s: material %u is beyond %d", asset->name,
+                        taken->material, EWA_MAX_MATERIALS - 1);
+    const bool plain = taken->opacity == 1 && taken->radius_scale == 1 &&
+                       taken->material == EWA_MATERIAL_OWN &&
                        ewa_coloring_is_own(taken->coloring.attribute) && !taken->coloring.tinted;
     if (plain || ewa_asset_is_points(asset)) return EWA_OK;
-    static const char *const kinds[] = {"points",    "a mesh",         "resident surfels",
-                                        "an octree", "trained Gaussians", "a volume"};
-    return ewa_fail(context, EWA_ERROR_UNSUPPORTED,
-                    "%s: opacity, radius scale, material and colouring are of points; this is %s, with colours of "
-                    "its own",
-                    asset->name, kinds[asset->kind]);
+    static const char *const kinds[] = {
+        "points", "a mesh", "resident surfels", "an octree", "trained Gaussians", "a volume"};
+    return ewa_fail(
+        context, EWA_ERROR_UNSUPPORTED,
+        "%s: opacity, radius scale, material and colouring are of points; this is %s, with colours of "
+        "its own",
+        asset->name, kinds[asset->kind]);
 }
 
 ewa_status ewa_scene_add(ewa_scene *scene, ewa_asset *asset, const ewa_instance *instance) {
@@ -183,11 +189,12 @@ ewa_status ewa_scene_add(ewa_scene *scene, ewa_asset *asset, const ewa_instance 
     ewa_instance taken;
     ewa_status status = take_instance(scene, asset, instance, &taken);
     if (status == EWA_OK && scene->points_gone && ewa_asset_is_points(asset))
-        status = ewa_fail(scene->context, EWA_ERROR_ARGUMENT,
-                          "%s: the points of this scene are gone (keep_points), none can be added", asset->name);
+        status =
+            ewa_fail(scene->context, EWA_ERROR_ARGUMENT,
+                     "%s: the points of this scene are gone (keep_points), none can be added", asset->name);
     if (status == EWA_OK && scene->count == EWA_SCENE_MAX_INSTANCES)
-        status = ewa_fail(scene->context, EWA_ERROR_LIMIT, "%s: the scene has %u instances already, its maximum",
-                          asset->name, scene->count);
+        status = ewa_fail(scene->context, EWA_ERROR_LIMIT,
+                          "%s: the scene has %u instances already, its maximum", asset->name, scene->count);
     if (status == EWA_OK) status = grow(scene);
     if (status != EWA_OK) return status;
     scene->items[scene->count++] = (ewa_scene_item){.asset = ewa_asset_retain(asset), .instance = taken};
@@ -267,7 +274,8 @@ static void drop_points(ewa_scene *scene) {
     }
     for (uint32_t i = 0; i < scene->count; i++) {
         ewa_asset *asset = scene->items[i].asset;
-        if (ewa_asset_is_points(asset) && atomic_load(&asset->references) == 1) ewa_cloud_destroy(&asset->cloud);
+        if (ewa_asset_is_points(asset) && atomic_load(&asset->references) == 1)
+            ewa_cloud_destroy(&asset->cloud);
     }
     scene->points_gone = true;
 }
@@ -320,7 +328,8 @@ void ewa_scene_bounds(const ewa_scene *scene, ewa_bounds *bounds) {
     for (int c = 0; c < 3; c++) bounds->low_world[c] = INFINITY, bounds->high_world[c] = -INFINITY;
     for (uint32_t i = 0; i < scene->count; i++) {
         const ewa_bounds *own = &scene->items[i].asset->bounds;
-        if (!scene->items[i].instance.visible || !own->finite_count || !(own->low_world[0] <= own->high_world[0]))
+        if (!scene->items[i].instance.visible || !own->finite_count ||
+            !(own->low_world[0] <= own->high_world[0]))
             continue;
         bounds->finite_count += own->finite_count;
         for (int c = 0; c < 3; c++) {
@@ -334,7 +343,8 @@ const ewa_legend *ewa_scene_legend(const ewa_scene *scene, uint32_t index) {
     const ewa_surface *surface = scene->surface;
     if (index >= scene->count || !scene->committed || !surface) return NULL;
     for (uint32_t i = 0; i < surface->count; i++) {
-        if (surface->keys[i].asset != scene->items[index].asset || surface->legend_of[i] == UINT32_MAX) continue;
+        if (surface->keys[i].asset != scene->items[index].asset || surface->legend_of[i] == UINT32_MAX)
+            continue;
         const ewa_legend *legend = &surface->legends[surface->legend_of[i]];
         return legend->context ? legend : NULL;
     }

@@ -13,28 +13,32 @@
 
 /// Where nobody says.
 static const double DEFAULT_FOV_DEG = 30;
+enum { DEFAULT_WIDTH_PX = 1280, DEFAULT_HEIGHT_PX = 720 };
 
 #define AT(member) offsetof(ewa_view_options, member)
 
 static const ewa_option view_rows[] = {
-    {"width_px", EWA_OPTION_U32, AT(width_px), 1, 65536, .initial = 1280, .unit = "px", .help = "of the picture"},
-    {"height_px", EWA_OPTION_U32, AT(height_px), 1, 65536, .initial = 720, .unit = "px", .help = "of the picture"},
+    {"width_px", EWA_OPTION_U32, AT(width_px), 1, 65536, EWA_OPTION_OR_ZERO, .unit = "px",
+     .help = "of the picture; 0: of the scene's camera, else 1280"},
+    {"height_px", EWA_OPTION_U32, AT(height_px), 1, 65536, EWA_OPTION_OR_ZERO, .unit = "px",
+     .help = "of the picture; 0: of the scene's camera, else 720"},
     {"fov_deg", EWA_OPTION_F64, AT(fov_deg), 0, 180, EWA_OPTION_BELOW, .unit = "deg",
      .help = "vertical field of view; 0: 30, but for what a camera at the origin took"},
-    {"ortho_height_world", EWA_OPTION_F64, AT(ortho_height_world), 0, INFINITY, EWA_OPTION_BELOW, .unit = "world",
-     .help = "an orthographic camera that shows so much; 0: perspective"},
+    {"ortho_height_world", EWA_OPTION_F64, AT(ortho_height_world), 0, INFINITY, EWA_OPTION_BELOW,
+     .unit = "world", .help = "an orthographic camera that shows so much; 0: perspective"},
     {"up_world", EWA_OPTION_F64, AT(up_world), -INFINITY, INFINITY, EWA_OPTION_ABOVE | EWA_OPTION_BELOW, 3,
      .help = "up in the picture; zeros: the scene's"},
     {"has_eye", EWA_OPTION_BOOL, AT(has_eye), .help = "the eye is given"},
     {"has_target", EWA_OPTION_BOOL, AT(has_target), .help = "the target is given"},
     {"eye_world", EWA_OPTION_F64, AT(eye_world), -INFINITY, INFINITY, EWA_OPTION_ABOVE | EWA_OPTION_BELOW, 3,
      .help = "where the camera is"},
-    {"target_world", EWA_OPTION_F64, AT(target_world), -INFINITY, INFINITY, EWA_OPTION_ABOVE | EWA_OPTION_BELOW, 3,
-     .help = "what it looks at"},
+    {"target_world", EWA_OPTION_F64, AT(target_world), -INFINITY, INFINITY,
+     EWA_OPTION_ABOVE | EWA_OPTION_BELOW, 3, .help = "what it looks at"},
     {"azimuth_deg", EWA_OPTION_F64, AT(azimuth_deg), -360, 360, .unit = "deg",
      .help = "carries the camera about the up axis"},
     {"elevation_deg", EWA_OPTION_F64, AT(elevation_deg), -180, 180, .unit = "deg", .help = "then raises it"},
-    {"turntable", EWA_OPTION_BOOL, AT(turntable), .help = "all is in the picture in every turn about the axis"},
+    {"turntable", EWA_OPTION_BOOL, AT(turntable),
+     .help = "all is in the picture in every turn about the axis"},
 };
 
 const ewa_option_table ewa_view_options_table = EWA_OPTION_TABLE(ewa_view_options, view_rows);
@@ -49,10 +53,10 @@ typedef struct placement {
     ewa_context *context;
     const ewa_view_options *options;
     const ewa_framing *framing;
-    int up_axis;      ///< 1 y, 2 z, negative: down; 0: nothing says so
-    bool up_asked;    ///< somebody, and no file, says so
+    int up_axis;   ///< 1 y, 2 z, negative: down; 0: nothing says so
+    bool up_asked; ///< somebody, and no file, says so
     ewa_up_convention convention;
-    int suited_view;  ///< -1: none
+    int suited_view; ///< -1: none
     ewa_framing_info of;
     ewa_upright upright;
     double direction_world[3], up_world[3], axis_world[3];
@@ -71,7 +75,9 @@ static int up_axis_of(const ewa_scene *scene) {
             const ewa_asset *asset = scene->items[i].asset;
             const double *up = asset->up_world;
             const bool said = up[0] != 0 || up[1] != 0 || up[2] != 0;
-            if (!scene->items[i].instance.visible || !said || (pass == 0) != (asset->kind != EWA_ASSET_VOLUME)) continue;
+            if (!scene->items[i].instance.visible || !said ||
+                (pass == 0) != (asset->kind != EWA_ASSET_VOLUME))
+                continue;
             const int axis = fabs(up[2]) > fabs(up[1]) ? 2 : 1;
             return up[axis] < 0 ? -axis : axis;
         }
@@ -163,8 +169,8 @@ static ewa_status place(const placement *p, const double pivot_world[3], ewa_cam
                      *target = options->has_target ? options->target_world : p->of.middle_world;
         const ewa_status status = ewa_camera_look_at(camera, eye, target, p->up_world);
         return status == EWA_OK ? EWA_OK
-                                : ewa_fail(context, status, "the eye %g,%g,%g is also where the camera looks", eye[0],
-                                           eye[1], eye[2]);
+                                : ewa_fail(context, status, "the eye %g,%g,%g is also where the camera looks",
+                                           eye[0], eye[1], eye[2]);
     }
     if (p->of.trimmed)
         ewa_report(context, EWA_SEVERITY_NOTE,
@@ -204,8 +210,8 @@ static ewa_status place_by_framing(placement *p, ewa_camera *camera, ewa_view_in
     ewa_upright_describe(&p->upright, text);
     ewa_report(p->context, EWA_SEVERITY_INFO, "up: %s", text);
     ewa_camera_init(camera);
-    camera->width_px = options->width_px;
-    camera->height_px = options->height_px;
+    camera->width_px = options->width_px ? options->width_px : DEFAULT_WIDTH_PX;
+    camera->height_px = options->height_px ? options->height_px : DEFAULT_HEIGHT_PX;
     status = options->ortho_height_world > 0
                  ? ewa_camera_set_ortho(camera, options->ortho_height_world)
                  : ewa_camera_set_fov(camera, options->fov_deg > 0 ? options->fov_deg : DEFAULT_FOV_DEG);
@@ -213,8 +219,8 @@ static ewa_status place_by_framing(placement *p, ewa_camera *camera, ewa_view_in
 }
 
 /// Measures an outline and places a camera at it.
-static ewa_status place_at(placement *p, const ewa_cloud *outline, double radius_scale, const ewa_view_options *given,
-                           ewa_camera *camera, ewa_view_info *info) {
+static ewa_status place_at(placement *p, const ewa_cloud *outline, double radius_scale,
+                           const ewa_view_options *given, ewa_camera *camera, ewa_view_info *info) {
     ewa_view_options options;
     ewa_view_options_init(&options, sizeof options);
     ewa_status status = ewa_options_take(p->context, &ewa_view_options_table, given, &options);
@@ -244,6 +250,42 @@ ewa_status ewa_cloud_place_camera(const ewa_cloud *cloud, double radius_scale, e
     return place_at(&p, cloud, radius_scale, options, camera, info);
 }
 
+ewa_status ewa_scene_set_camera(ewa_scene *scene, const ewa_camera *camera) {
+    if (!scene) return EWA_ERROR_ARGUMENT;
+    const ewa_status status = camera ? ewa_camera_check(scene->context, camera) : EWA_OK;
+    if (status != EWA_OK) return status;
+    scene->has_camera = camera != NULL;
+    if (camera) scene->camera = *camera;
+    return EWA_OK;
+}
+
+bool ewa_scene_get_camera(const ewa_scene *scene, ewa_camera *camera) {
+    if (!scene || !scene->has_camera) return false;
+    *camera = scene->camera;
+    return true;
+}
+
+/// Whether options say anything of a camera but its size.
+static bool says_where(const ewa_view_options *options) {
+    const double *up = options->up_world;
+    return options->fov_deg > 0 || options->ortho_height_world > 0 || options->view >= 0 || up[0] != 0 ||
+           up[1] != 0 || up[2] != 0 || options->has_eye || options->has_target || options->azimuth_deg != 0 ||
+           options->elevation_deg != 0;
+}
+
+/// Takes the scene's camera at another size: what is seen from the upper edge to the lower one stays.
+static void take_own(const ewa_scene *scene, const ewa_view_options *options, ewa_camera *camera) {
+    *camera = scene->camera;
+    if (!options || !options->width_px || !options->height_px) return;
+    const double ratio = (double)options->height_px / camera->height_px;
+    camera->cx_px = 0.5 * options->width_px + (camera->cx_px - 0.5 * camera->width_px) * ratio;
+    camera->cy_px *= ratio;
+    camera->fx_px *= ratio;
+    camera->fy_px *= ratio;
+    camera->width_px = options->width_px;
+    camera->height_px = options->height_px;
+}
+
 ewa_status ewa_scene_place_camera(ewa_scene *scene, const ewa_view_options *options, ewa_camera *camera,
                                   ewa_view_info *info) {
     if (!scene) return EWA_ERROR_ARGUMENT;
@@ -257,7 +299,9 @@ ewa_status ewa_scene_place_camera(ewa_scene *scene, const ewa_view_options *opti
     ewa_status status = ewa_scene_complete(scene);
     if (status == EWA_OK) status = find_convention(scene, &p.convention);
     if (status == EWA_OK) status = ewa_scene_outline(scene, &outline, &made);
-    if (status == EWA_OK) status = place_at(&p, outline, 1, options, camera, info);
+    const bool own = scene->has_camera && !(options && says_where(options));
+    if (status == EWA_OK) status = place_at(&p, outline, 1, options, own ? NULL : camera, info);
+    if (status == EWA_OK && own && camera) take_own(scene, options, camera);
     if (made) ewa_cloud_destroy(&outline);
     return status;
 }

@@ -106,6 +106,16 @@ static int make_files(void **state) {
                "f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n");
     write_text("broken.ply", "ply\nformat binary_little_endian 1.0\nelement vertex 100\nproperty float x\n"
                              "property float y\nproperty float z\nend_header\n123");
+    write_text(
+        "scene.json",
+        "{\"ewa_scene\": 1, \"options\": {\"render\": {\"background\": [0.1, 0.2, 0.1, 1]}}, \"items\": ["
+        "{\"file\": \"sphere.ply\", \"tint\": [1, 0, 0], \"to_world\": [0.5,0,0,0, 0,0.5,0,0, 0,0,0.5,0, "
+        "0,0,0,1]},"
+        "{\"file\": \"scan.ply\", \"color_by\": \"z\", \"range\": [\"10%\", 0.3]}], \"camera\": {"
+        "\"width\": 320, \"height\": 240, \"fx\": 400, \"fy\": 400, \"cx\": 160, \"cy\": 120, "
+        "\"world_to_camera\": "
+        "[1,0,0,0, 0,-0.6,-0.8,0, 0,0.8,-0.6,4, 0,0,0,1]}}");
+    write_text("scene_circle.json", "{\"ewa_scene\": 1, \"items\": [{\"scene\": \"scene_circle.json\"}]}");
     ewa_volume_generate_options volume_options;
     ewa_volume_generate_options_init(&volume_options, sizeof volume_options);
     volume_options.object = EWA_VOLUME_BALL;

@@ -82,7 +82,9 @@ static ewa_context *context(void *user, const viewer_news *news) {
     return contents->context;
 }
 
-static bool load(void *user, const char *path, const viewer_news *news, ewa_asset **asset) {
+static bool load(void *user, const char *path, const ewa_scene_entry *entry, const viewer_news *news,
+                 ewa_asset **asset) {
+    (void)entry;
     view_contents *contents = user;
     contents->loads++;
     while (contents->holds) {
@@ -106,8 +108,8 @@ static bool load(void *user, const char *path, const viewer_news *news, ewa_asse
         if (make_cloud(contents->context, path, 500, &cloud) &&
             ewa_surfels_create(cloud, NULL, &own->surfels) == EWA_OK &&
             ewa_asset_create(contents->context,
-                             &(ewa_asset_source){.surfels = own->surfels, .release = free_held, .user = own}, NULL,
-                             &preview) == EWA_OK)
+                             &(ewa_asset_source){.surfels = own->surfels, .release = free_held, .user = own},
+                             NULL, &preview) == EWA_OK)
             news->preview(news->user, preview, false);
         ewa_cloud_destroy(&cloud);
     }

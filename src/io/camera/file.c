@@ -96,8 +96,7 @@ static void put_member(ewa_writer *writer, const char *name, double value) {
     put_text(writer, ",\n");
 }
 
-/// Writes one camera as an object.
-static void put_camera(ewa_writer *writer, const ewa_camera *camera) {
+void ewa_camera_write(ewa_writer *writer, const ewa_camera *camera) {
     put_text(writer, "{\n");
     if (camera->projection == EWA_ORTHOGRAPHIC) put_text(writer, "  \"projection\": \"orthographic\",\n");
     put_member(writer, "width", camera->width_px);
@@ -120,7 +119,7 @@ ewa_status ewa_camera_save(ewa_context *context, const ewa_camera *camera, const
     ewa_writer *writer = NULL;
     if (status == EWA_OK) status = ewa_writer_open(context, path, &writer);
     if (status != EWA_OK) return status;
-    put_camera(writer, camera);
+    ewa_camera_write(writer, camera);
     put_text(writer, "\n");
     return ewa_writer_commit(&writer);
 }
@@ -135,7 +134,7 @@ ewa_status ewa_camera_save_list(ewa_context *context, const ewa_camera *cameras,
     if (status != EWA_OK) return status;
     for (size_t i = 0; i < count; i++) {
         put_text(writer, i ? ",\n" : "[\n");
-        put_camera(writer, &cameras[i]);
+        ewa_camera_write(writer, &cameras[i]);
     }
     put_text(writer, "\n]\n");
     return ewa_writer_commit(&writer);

@@ -6,6 +6,7 @@
 #define EWA_SRC_CAMERA_FILE_H
 
 #include "ewa/camera.h"
+#include "io/file.h"
 
 /// Cameras read from one file, in its order. Zero-initialise with the context and the file's name.
 typedef struct ewa_camera_list {
@@ -38,6 +39,9 @@ ewa_status ewa_camera_list_read_colmap_memory(ewa_camera_list *list, bool is_tex
 /// Reads the poses of a text file as cameras with the lens of `lens`: see ewa_camera_load_poses().
 ewa_status ewa_camera_list_read_poses(ewa_camera_list *list, const ewa_camera *lens, const uint8_t *bytes,
                                       size_t size_bytes);
+
+/// Writes a camera as an object of our format, without a line's end.
+void ewa_camera_write(ewa_writer *writer, const ewa_camera *camera);
 
 /// Sets world_to_camera from the rotation (row-major, possibly scaled) and translation of camera to world.
 void ewa_camera_set_inverse(ewa_camera *camera, const double rotation[9], const double centre_world[3]);

@@ -56,16 +56,23 @@ static int open_steps(const char *folder, const char *inner, char reason[EWA_REA
     return at < 0 ? fail_errno(reason, errno) : at;
 }
 
+/// Joins a relative name to a folder, below which it must lie when links are resolved: `full`, within `base`.
+static bool resolve_below(const char *folder, const char *name, char joined[PATH_MAX], char base[PATH_MAX],
+                          char full[PATH_MAX], char reason[EWA_REASON_BYTES]) {
+    const int length = snprintf(joined, PATH_MAX, "%s/%s", folder, name);
+    if (length < 0 || length >= PATH_MAX) return fail(reason, "its name is too long") == 0;
+    if (!realpath(folder, base) || !realpath(joined, full)) return fail_errno(reason, errno) == 0;
+    const size_t base_length = strcmp(base, "/") == 0 ? 0 : strlen(base);
+    if (strncmp(full, base, base_length) != 0 || full[base_length] != '/' || !full[base_length + 1])
+        return fail(reason, "it is not below the folder of the file that names it") == 0;
+    return true;
+}
+
 /// Opens a relative name below a folder.
 static int open_below(const char *folder, const char *name, char reason[EWA_REASON_BYTES]) {
     char joined[PATH_MAX], base[PATH_MAX], full[PATH_MAX];
-    const int length = snprintf(joined, sizeof joined, "%s/%s", folder, name);
-    if (length < 0 || (size_t)length >= sizeof joined) return fail(reason, "its name is too long");
-    if (!realpath(folder, base) || !realpath(joined, full)) return fail_errno(reason, errno);
-    const size_t base_length = strcmp(base, "/") == 0 ? 0 : strlen(base);
-    if (strncmp(full, base, base_length) != 0 || full[base_length] != '/' || !full[base_length + 1])
-        return fail(reason, "it is not below the folder of the file that names it");
-    const int opened = open_steps(base, full + base_length + 1, reason);
+    if (!resolve_below(folder, name, joined, base, full, reason)) return -1;
+    const int opened = open_steps(base, full + (strcmp(base, "/") == 0 ? 0 : strlen(base)) + 1, reason);
     struct stat facts;
     if (opened < 0) return -1;
     if (fstat(opened, &facts) == 0 && S_ISREG(facts.st_mode)) return opened;
@@ -73,17 +80,23 @@ static int open_below(const char *folder, const char *name, char reason[EWA_REAS
     return fail(reason, "it is no regular file");
 }
 
+/// Writes the folder that a file lies in, "." where its path has none.
+static bool folder_of(const char *path, char folder[PATH_MAX], char reason[EWA_REASON_BYTES]) {
+    const char *slash = strrchr(path, '/');
+    const size_t length = slash ? (size_t)(slash - path) : 0;
+    if (length >= PATH_MAX) return fail(reason, "its name is too long") == 0;
+    snprintf(folder, PATH_MAX, "%.*s", (int)length, path);
+    if (!length) snprintf(folder, PATH_MAX, "%s", slash ? "/" : ".");
+    return true;
+}
+
 int ewa_referenced_file_open(const char *path, ewa_text name, char reason[EWA_REASON_BYTES]) {
     char relative[PATH_MAX], folder[PATH_MAX];
     if (name.length == 0 || memchr(name.chars, 0, name.length)) return fail(reason, "it has no name");
-    const char *slash = strrchr(path, '/');
-    const size_t folder_length = slash ? (size_t)(slash - path) : 0;
-    if (name.length >= sizeof relative || folder_length >= sizeof folder)
-        return fail(reason, "its name is too long");
+    if (name.length >= sizeof relative) return fail(reason, "its name is too long");
+    if (!folder_of(path, folder, reason)) return -1;
     for (size_t i = 0; i < name.length; i++) relative[i] = name.chars[i] == '\\' ? '/' : name.chars[i];
     relative[name.length] = 0;
-    snprintf(folder, sizeof folder, "%.*s", (int)folder_length, path);
-    if (!folder_length) snprintf(folder, sizeof folder, "%s", slash ? "/" : ".");
     const char *last = strrchr(relative, '/');
     const bool foreign = relative[0] == '/' || (relative[0] && relative[1] == ':') || strstr(relative, "://");
     const int opened = foreign ? fail(reason, "its name is absolute") : open_below(folder, relative, reason);
@@ -93,6 +106,35 @@ int ewa_referenced_file_open(const char *path, ewa_text name, char reason[EWA_RE
     const int beside = *own ? open_below(folder, own, second) : -1;
     return beside >= 0 || !foreign ? beside
                                    : fail(reason, "its name is absolute, and it is not beside the file");
+}
+
+bool ewa_referenced_file_find(const char *path, const char *name, bool folders, char found[EWA_PATH_BYTES],
+                              char reason[EWA_REASON_BYTES]) {
+    char folder[PATH_MAX], joined[PATH_MAX], base[PATH_MAX], full[PATH_MAX];
+    if (!*name || *name == '/') return fail(reason, *name ? "its name is absolute" : "it has no name") == 0;
+    if (!folder_of(path, folder, reason) || !resolve_below(folder, name, joined, base, full, reason))
+        return false;
+    struct stat facts;
+    const bool good =
+        stat(full, &facts) == 0 && (S_ISREG(facts.st_mode) || (folders && S_ISDIR(facts.st_mode)));
+    if (!good)
+        return fail(reason,
+                    folders ? "it is neither a regular file nor a folder" : "it is no regular file") == 0;
+    // As it was named, for messages; a file of this folder by its own name.
+    const int length = snprintf(found, EWA_PATH_BYTES, "%s", strchr(path, '/') ? joined : name);
+    return (length > 0 && length < EWA_PATH_BYTES) || fail(reason, "its name is too long") == 0;
+}
+
+bool ewa_referenced_file_relate(const char *path, const char *target, char name[EWA_PATH_BYTES],
+                                char reason[EWA_REASON_BYTES]) {
+    char folder[PATH_MAX], base[PATH_MAX], full[PATH_MAX];
+    if (!folder_of(path, folder, reason)) return false;
+    if (!realpath(folder, base) || !realpath(target, full)) return fail_errno(reason, errno) == 0;
+    const size_t length = strcmp(base, "/") == 0 ? 0 : strlen(base);
+    if (strncmp(full, base, length) != 0 || full[length] != '/')
+        return fail(reason, "it is not below the folder of the file that is to name it") == 0;
+    return snprintf(name, EWA_PATH_BYTES, "%s", full + length + 1) < EWA_PATH_BYTES ||
+           fail(reason, "its name is too long") == 0;
 }
 
 bool ewa_referenced_file_map(const char *path, ewa_text name, ewa_file *file, char reason[EWA_REASON_BYTES]) {

@@ -1,0 +1,470 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// Scene files: what was saved opens as the same picture; files within files; what a caller sets wins; every truncation, and
+// what names nothing, itself or something elsewhere, is refused with its place and leaves the scene as it was.
+#define _XOPEN_SOURCE 700
+#include "check.h"
+#include "ewa/scene_file.h"
+#include "io/scratch.h"
+
+#include <math.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+enum { WIDTH = 96, HEIGHT = 72, PIXELS = WIDTH * HEIGHT, POINTS = 4000 };
+
+typedef struct planes {
+    uint8_t rgba8[4 * PIXELS];
+    float rgba[4 * PIXELS], depth[PIXELS], normal[3 * PIXELS], coverage[PIXELS];
+} planes;
+
+static planes first, second;
+
+static void write_text(const char *path, const char *text) { scratch_write(path, text, strlen(text)); }
+
+/// Returns a file's text, to be freed.
+static char *read_text(const char *path) {
+    size_t size_bytes;
+    char *text = (char *)scratch_read(path, &size_bytes);
+    text[size_bytes] = 0;
+    return text;
+}
+
+static void save_object(ewa_context *context, ewa_object object, const char *path) {
+    ewa_generate_options options;
+    ewa_generate_options_init(&options, sizeof options);
+    options.object = object;
+    options.point_count = POINTS;
+    ewa_cloud *cloud = NULL;
+    assert_int_equal(ewa_cloud_generate(context, &options, &cloud), EWA_OK);
+    assert_int_equal(ewa_cloud_save(cloud, path, NULL), EWA_OK);
+    ewa_cloud_destroy(&cloud);
+}
+
+static int set_up(void **state) {
+    (void)state;
+    char folder[512];
+    assert_int_equal(chdir(scratch_path("", folder)), 0);
+    ewa_context *context = check_context(0, NULL);
+    mkdir("deep", 0777);
+    save_object(context, EWA_OBJECT_TORUS, "torus.ply");
+    save_object(context, EWA_OBJECT_SPHERE, "deep/sphere.ply");
+    ewa_volume_generate_options options;
+    ewa_volume_generate_options_init(&options, sizeof options);
+    options.object = EWA_VOLUME_BALL;
+    for (int c = 0; c < 3; c++) options.dims[c] = 16;
+    ewa_volume volume;
+    assert_int_equal(ewa_volume_generate(context, &options, &volume), EWA_OK);
+    assert_int_equal(ewa_volume_save(&volume, "deep/ball.nrrd", NULL), EWA_OK);
+    ewa_volume_free(&volume);
+    ewa_context_destroy(&context);
+    return 0;
+}
+
+static void draw(ewa_context *context, ewa_scene *scene, const ewa_camera *camera, planes *to) {
+    ewa_scene_renderer *renderer = NULL;
+    assert_int_equal(ewa_scene_renderer_create(context, EWA_BACKEND_CPU, NULL, &renderer), EWA_OK);
+    const ewa_frame frame = {to->rgba8, to->rgba, to->depth, to->normal, to->coverage};
+    assert_int_equal(ewa_scene_draw(scene, renderer, camera, NULL, &frame, NULL), EWA_OK);
+    ewa_scene_renderer_destroy(&renderer);
+}
+
+static void add(ewa_context *context, ewa_scene *scene, const char *path, const ewa_asset_options *options,
+                const ewa_instance *instance) {
+    ewa_asset *asset = NULL;
+    assert_int_equal(ewa_asset_load(context, path, options, &asset), EWA_OK);
+    assert_int_equal(ewa_scene_add(scene, asset, instance), EWA_OK);
+    ewa_asset_release(&asset);
+}
+
+static ewa_camera place(ewa_scene *scene) {
+    ewa_view_options options;
+    ewa_view_options_init(&options, sizeof options);
+    options.width_px = WIDTH;
+    options.height_px = HEIGHT;
+    ewa_camera camera;
+    assert_int_equal(ewa_scene_place_camera(scene, &options, &camera, NULL), EWA_OK);
+    return camera;
+}
+
+/// Options of which many are no default.
+static ewa_scene_options make_options(void) {
+    ewa_scene_options options;
+    ewa_scene_options_init(&options, sizeof options);
+    options.up = EWA_UP_MINUS_Y;
+    options.surfels.radius_scale = 1.25;
+    options.render.kernel = EWA_KERNEL_AFFINE;
+    options.render.ambient = 0.1; // no double's text is shorter than its digits
+    options.render.shading = EWA_SHADING_LAMBERT;
+    options.render.background[0] = 0.125f;
+    options.render.background[3] = 0.1f;
+    options.render.light_count = 2;
+    for (int i = 0; i < 2; i++) ewa_light_init(&options.render.lights[i]);
+    options.render.lights[0].direction_world[0] = 1.0 / 3;
+    options.render.lights[1].color[2] = 0.7f;
+    options.render.section_count = 1;
+    memcpy(options.render.section_planes[0], (const double[4]){1, 0.25, 0, 0.3}, 4 * sizeof(double));
+    options.volumes.density_scale = 3;
+    options.gaussians.cutoff = 3;
+    return options;
+}
+
+static void test_saved_opens_alike(void **state) {
+    (void)state;
+    ewa_context *context = check_context(0, NULL);
+    ewa_scene *made = NULL, *opened = NULL;
+    const ewa_scene_options options = make_options();
+    assert_int_equal(ewa_scene_create(context, &options, &made), EWA_OK);
+    ewa_asset_options asset;
+    ewa_instance instance;
+    ewa_asset_options_init(&asset, sizeof asset);
+    ewa_instance_init(&instance, sizeof instance);
+    ewa_filter filter = {.term_count = 0};
+    assert_int_equal(ewa_filter_add(&filter, "z>-0.25 and x!=0.1..0.2,5 and y<=0.875", NULL), EWA_OK);
+    asset.filter = &filter;
+    instance.coloring.map = EWA_COLORING_TURBO;
+    strcpy(instance.coloring.attribute, "normal.x");
+    instance.coloring.ranged = true;
+    instance.coloring.percent[0] = true;
+    instance.coloring.range[0] = 2.5, instance.coloring.range[1] = 0.7;
+    instance.radius_scale = 1.1;
+    add(context, made, "torus.ply", &asset, &instance);
+    asset.filter = NULL;
+    const double to_world[16] = {0.3, 0, 0, 1.0 / 3, 0, 0, 0.3, 0, 0, -0.3, 0, 0.1, 0, 0, 0, 1};
+    memcpy(asset.to_world, to_world, sizeof to_world);
+    ewa_instance_init(&instance, sizeof instance);
+    instance.opacity = 0.6;
+    instance.coloring.tinted = true;
+    instance.coloring.tint[1] = 0.2;
+    add(context, made, "deep/sphere.ply", &asset, &instance);
+    asset.transfer = "fog";
+    add(context, made, "deep/ball.nrrd", &asset, NULL);
+    ewa_instance_init(&instance, sizeof instance);
+    instance.visible = false;
+    add(context, made, "torus.ply", NULL, &instance);
+    ewa_camera camera = place(made), again;
+    camera.cx_px += 0.1;
+    assert_int_equal(ewa_scene_save(made, &camera, "saved.json"), EWA_OK);
+    assert_true(ewa_scene_file_probe("saved.json"));
+    assert_false(ewa_scene_file_probe("torus.ply"));
+    assert_int_equal(ewa_scene_create(context, NULL, &opened), EWA_OK);
+    assert_int_equal(ewa_scene_open(opened, "saved.json", NULL), EWA_OK);
+    assert_int_equal(ewa_scene_count(opened), 4);
+    assert_true(ewa_scene_get_camera(opened, &again));
+    assert_memory_equal(&camera, &again, sizeof camera);
+    again = place(opened);
+    assert_memory_equal(&camera, &again, sizeof camera);
+    draw(context, made, &camera, &first);
+    draw(context, opened, &camera, &second);
+    assert_memory_equal(&first, &second, sizeof first);
+    // Saved once more, it is the same text.
+    assert_int_equal(ewa_scene_save(opened, NULL, "again.json"), EWA_OK);
+    char *texts[2] = {read_text("saved.json"), read_text("again.json")};
+    assert_string_equal(texts[0], texts[1]);
+    free(texts[0]), free(texts[1]);
+    char *told = NULL;
+    assert_int_equal(ewa_scene_describe_json(opened, &told), EWA_OK);
+    assert_non_null(strstr(told, "\"kind\":\t\"volume\""));
+    assert_non_null(strstr(told, "\"high_world\""));
+    ewa_text_free(&told);
+    ewa_scene_destroy(&made), ewa_scene_destroy(&opened);
+    ewa_context_destroy(&context);
+}
+
+static void test_files_in_files(void **state) {
+    (void)state;
+    write_text("deep/inner.json",
+               "{\"ewa_scene\": 1, \"options\": {\"render\": {\"ambient\": 0.9}}, \"items\": ["
+               "{\"file\": \"sphere.ply\", \"to_world\": [0.5,0,0,0, 0,0.5,0,0.25, 0,0,0.5,0, 0,0,0,1]},"
+               "{\"file\": \"ball.nrrd\", \"transfer\": \"fog\"}]}");
+    write_text("outer.json",
+               "{\"ewa_scene\": 1, \"items\": [{\"file\": \"torus.ply\", \"tint\": [1, 0.5, 0]},"
+               "{\"scene\": \"deep/inner.json\", \"to_world\": [0,-1,0,2, 1,0,0,0, 0,0,1,0, 0,0,0,1]},"
+               "{\"scene\": \"deep/inner.json\", \"visible\": false}]}");
+    ewa_context *context = check_context(0, NULL);
+    ewa_scene *opened = NULL, *made = NULL;
+    assert_int_equal(ewa_scene_create(context, NULL, &opened), EWA_OK);
+    assert_int_equal(ewa_scene_create(context, NULL, &made), EWA_OK);
+    assert_int_equal(ewa_scene_open(opened, "outer.json", NULL), EWA_OK);
+    assert_int_equal(ewa_scene_count(opened), 5);
+    ewa_instance instance;
+    ewa_instance_init(&instance, sizeof instance);
+    instance.coloring.tinted = true;
+    memcpy(instance.coloring.tint, (const double[3]){1, 0.5, 0}, 3 * sizeof(double));
+    add(context, made, "torus.ply", NULL, &instance);
+    ewa_asset_options asset;
+    ewa_asset_options_init(&asset, sizeof asset);
+    const double both[16] = {0, -0.5, 0, 1.75, 0.5, 0, 0, 0, 0, 0, 0.5, 0, 0, 0, 0, 1},
+                 outer[16] = {0, -1, 0, 2, 1, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+    memcpy(asset.to_world, both, sizeof both);
+    add(context, made, "deep/sphere.ply", &asset, NULL);
+    memcpy(asset.to_world, outer, sizeof outer);
+    asset.transfer = "fog";
+    add(context, made, "deep/ball.nrrd", &asset, NULL);
+    const ewa_camera camera = place(made), again = place(opened);
+    assert_memory_equal(&camera, &again, sizeof camera);
+    draw(context, made, &camera, &first);
+    draw(context, opened, &camera, &second);
+    assert_memory_equal(&first, &second, sizeof first);
+    // Options and cameras are those of the outer file.
+    ewa_scene_options options;
+    ewa_scene_get_options(opened, &options);
+    assert_true(options.render.ambient == 0.15);
+    ewa_scene_destroy(&opened), ewa_scene_destroy(&made);
+    ewa_context_destroy(&context);
+}
+
+static void test_callers_options_win(void **state) {
+    (void)state;
+    write_text("options.json",
+               "{\"ewa_scene\": 1, \"options\": {\"up\": \"z\", \"render\": {\"ambient\": 0.5, "
+               "\"eye_dome\": 0.5}, \"lights\": [{\"color\": [1, 0, 0]}]}, \"items\": []}");
+    ewa_context *context = check_context(0, NULL);
+    ewa_scene_options options;
+    ewa_scene_options_init(&options, sizeof options);
+    options.render.ambient = 0.25;
+    options.render.light_count = 1;
+    ewa_light_init(&options.render.lights[0]);
+    ewa_scene *scene = NULL;
+    assert_int_equal(ewa_scene_create(context, &options, &scene), EWA_OK);
+    assert_int_equal(ewa_scene_open(scene, "options.json", NULL), EWA_OK);
+    ewa_scene_get_options(scene, &options);
+    assert_true(options.render.ambient == 0.25 && options.render.eye_dome == 0.5);
+    assert_int_equal(options.up, EWA_UP_Z);
+    assert_int_equal(options.render.light_count, 1);
+    assert_true(options.render.lights[0].color[1] == 1);
+    ewa_scene_destroy(&scene);
+    ewa_context_destroy(&context);
+}
+
+static void test_cameras_keep_their_heights(void **state) {
+    (void)state;
+    ewa_context *context = check_context(0, NULL);
+    ewa_scene *scene = NULL;
+    assert_int_equal(ewa_scene_create(context, NULL, &scene), EWA_OK);
+    add(context, scene, "torus.ply", NULL, NULL);
+    ewa_camera camera = place(scene), placed;
+    camera.cx_px = 40, camera.cy_px = 30;
+    assert_int_equal(ewa_scene_set_camera(scene, &camera), EWA_OK);
+    ewa_view_options options;
+    ewa_view_options_init(&options, sizeof options);
+    assert_int_equal(ewa_scene_place_camera(scene, &options, &placed, NULL), EWA_OK);
+    assert_memory_equal(&camera, &placed, sizeof camera);
+    options.width_px = 400, options.height_px = 2 * HEIGHT;
+    assert_int_equal(ewa_scene_place_camera(scene, &options, &placed, NULL), EWA_OK);
+    assert_true(placed.width_px == 400 && placed.height_px == 2 * HEIGHT);
+    // Twice as high, everything is twice as large; 8 pixels left of the middle become 16.
+    assert_true(placed.fx_px == 2 * camera.fx_px && placed.fy_px == 2 * camera.fy_px);
+    assert_true(placed.cx_px == 200 - 16 && placed.cy_px == 60);
+    // Whoever asks for a view gets it.
+    options.view = EWA_VIEW_TOP;
+    ewa_camera top;
+    assert_int_equal(ewa_scene_place_camera(scene, &options, &top, NULL), EWA_OK);
+    assert_memory_not_equal(top.world_to_camera, camera.world_to_camera, sizeof camera.world_to_camera);
+    assert_int_equal(ewa_scene_set_camera(scene, NULL), EWA_OK);
+    assert_false(ewa_scene_get_camera(scene, &top));
+    ewa_scene_destroy(&scene);
+    ewa_context_destroy(&context);
+}
+
+static void refuse(const char *text, ewa_status expected, const char *part) {
+    check_log heard = {.count = 0};
+    ewa_context *context = check_context(0, &heard);
+    ewa_scene *scene = NULL;
+    assert_int_equal(ewa_scene_create(context, NULL, &scene), EWA_OK);
+    add(context, scene, "torus.ply", NULL, NULL);
+    ewa_scene_options before, after;
+    ewa_scene_get_options(scene, &before);
+    write_text("bad.json", text);
+    const ewa_status status = ewa_scene_open(scene, "bad.json", NULL);
+    if (status != expected || !strstr(heard.text, part))
+        fail_msg("%s: %d, %s", text, (int)status, heard.text);
+    ewa_scene_get_options(scene, &after);
+    assert_int_equal(ewa_scene_count(scene), 1);
+    assert_memory_equal(&before, &after, sizeof before);
+    ewa_camera camera;
+    assert_false(ewa_scene_get_camera(scene, &camera));
+    ewa_scene_destroy(&scene);
+    ewa_context_destroy(&context);
+}
+
+#define ITEM(members) "{\"ewa_scene\": 1, \"items\": [{\"file\": \"torus.ply\"}, {" members "}]}"
+#define OPTIONS(members)                                                                                     \
+    "{\"ewa_scene\": 1, \"items\": [{\"file\": \"torus.ply\"}], \"options\": {" members "}}"
+
+static void test_bad_is_refused(void **state) {
+    (void)state;
+    static const struct {
+        const char *text;
+        ewa_status status;
+        const char *part;
+    } rows[] = {
+        {"", EWA_ERROR_FORMAT, "bad.json"},
+        {"[]", EWA_ERROR_FORMAT, "ewa_scene"},
+        {"{\"ewa_scene\": \"1\"}", EWA_ERROR_FORMAT, "ewa_scene"},
+        {"{\"ewa_scene\": 2}", EWA_ERROR_UNSUPPORTED, "is 2"},
+        {"{\"ewa_scene\": 1, \"item\": []}", EWA_ERROR_FORMAT, "'item'"},
+        {"{\"ewa_scene\": 1, \"items\": [], \"items\": []}", EWA_ERROR_FORMAT, "twice"},
+        {"{\"ewa_scene\": 1, \"items\": {}}", EWA_ERROR_FORMAT, "items"},
+        {"{\"ewa_scene\": 1, \"items\": [3]}", EWA_ERROR_FORMAT, "items[0]"},
+        {"{\"ewa_scene\": 1, \"camera\": []}", EWA_ERROR_FORMAT, "camera"},
+        {"{\"ewa_scene\": 1, \"camera\": {\"width\": 3}}", EWA_ERROR_FORMAT, "height"},
+        {ITEM(""), EWA_ERROR_FORMAT, "items[1]: names no file"},
+        {ITEM("\"file\": \"none.ply\""), EWA_ERROR_FORMAT, "items[1].file: it is not there"},
+        {ITEM("\"file\": \"\""), EWA_ERROR_FORMAT, "items[1].file"},
+        {ITEM("\"file\": \"/etc/hostname\""), EWA_ERROR_FORMAT, "absolute"},
+        {ITEM("\"file\": \"../\""), EWA_ERROR_FORMAT, "not below the folder"},
+        {ITEM("\"file\": \"away.ply\""), EWA_ERROR_FORMAT, "not below the folder"},
+        {ITEM("\"file\": \"pipe.ply\""), EWA_ERROR_FORMAT, "neither a regular file nor a folder"},
+        {ITEM("\"scene\": \"pipe.ply\""), EWA_ERROR_FORMAT, "no regular file"},
+        {ITEM("\"scene\": \"torus.ply\""), EWA_ERROR_FORMAT, "torus.ply"},
+        {ITEM("\"scene\": \"bad.json\""), EWA_ERROR_LIMIT, "part of"},
+        {ITEM("\"scene\": \"outer.json\", \"opacity\": 0.5"), EWA_ERROR_FORMAT, "items[1].opacity"},
+        {ITEM("\"file\": \"torus.ply\", \"scene\": \"outer.json\""), EWA_ERROR_FORMAT, "items[1].scene"},
+        {ITEM("\"file\": \"torus.ply\", \"opacity\": 2"), EWA_ERROR_FORMAT, "items[1].opacity: 2 is outside"},
+        {ITEM("\"file\": \"torus.ply\", \"opacity\": {}"), EWA_ERROR_FORMAT, "items[1].opacity"},
+        {ITEM("\"file\": \"torus.ply\", \"opacity\": [[1]]"), EWA_ERROR_FORMAT, "items[1].opacity"},
+        {ITEM("\"file\": \"torus.ply\", \"own_context\": true"), EWA_ERROR_FORMAT, "own_context"},
+        {ITEM("\"file\": \"torus.ply\", \"visible\": 1"), EWA_ERROR_FORMAT, "items[1].visible"},
+        {ITEM("\"file\": \"torus.ply\", \"visible\": true, \"visible\": true"), EWA_ERROR_FORMAT, "twice"},
+        {ITEM("\"file\": \"torus.ply\", \"color_by\": \"zork\", \"tint\": [1]"), EWA_ERROR_FORMAT,
+         "items[1].tint"},
+        {ITEM("\"file\": \"torus.ply\", \"range\": [1]"), EWA_ERROR_FORMAT, "items[1].range"},
+        {ITEM("\"file\": \"torus.ply\", \"range\": [\"101%\", 1]"), EWA_ERROR_FORMAT, "items[1].range"},
+        {ITEM("\"file\": \"torus.ply\", \"filter\": \"z>>1\""), EWA_ERROR_FORMAT, "items[1].filter"},
+        {ITEM("\"file\": \"torus.ply\", \"transfer\": \"../f\""), EWA_ERROR_FORMAT, "items[1].transfer"},
+        {ITEM("\"file\": \"torus.ply\", \"to_world\": [1,0,0,0, 0,1,0,0, 0,0,0,0, 0,0,0,1]"),
+         EWA_ERROR_FORMAT, "items[1]: to_world"},
+        {ITEM("\"file\": \"torus.ply\", \"to_world\": [1,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,1,1]"),
+         EWA_ERROR_FORMAT, "items[1]: to_world"},
+        {ITEM("\"file\": \"torus.ply\", \"to_world\": [1,0,0,1e999, 0,1,0,0, 0,0,1,0, 0,0,0,1]"),
+         EWA_ERROR_FORMAT, "items[1].to_world"},
+        {OPTIONS("\"ambient\": 0.5"), EWA_ERROR_FORMAT, "options.ambient"},
+        {OPTIONS("\"up\": \"x\""), EWA_ERROR_FORMAT, "options.up"},
+        {OPTIONS("\"render\": []"), EWA_ERROR_FORMAT, "options.render"},
+        {OPTIONS("\"render\": {\"ambient\": -1}"), EWA_ERROR_FORMAT, "options.render.ambient: -1 is outside"},
+        {OPTIONS("\"render\": {\"light_count\": 2}"), EWA_ERROR_FORMAT, "options.render.light_count"},
+        {OPTIONS("\"lights\": [{}, {\"colour\": [1, 1, 1]}]"), EWA_ERROR_FORMAT, "options.lights[1].colour"},
+        {OPTIONS("\"lights\": [{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}]"), EWA_ERROR_LIMIT,
+         "17 lights"},
+        {OPTIONS("\"section_planes\": [[1,2,3]]"), EWA_ERROR_FORMAT, "options.section_planes[0]"},
+        {OPTIONS("\"section_planes\": [[0,0,0,1]]"), EWA_ERROR_FORMAT,
+         "options.section_planes[0]: its normal"},
+        {OPTIONS("\"section_planes\": [4]"), EWA_ERROR_FORMAT, "options.section_planes[0]"},
+    };
+    (void)symlink("/etc/hostname", "away.ply");
+    (void)mkfifo("pipe.ply", 0666);
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++)
+        refuse(rows[i].text, rows[i].status, rows[i].part);
+}
+
+static void test_depth_and_number(void **state) {
+    (void)state;
+    char name[64], text[1 << 12];
+    for (int i = 1; i <= 9; i++) {
+        snprintf(name, sizeof name, "level%d.json", i);
+        snprintf(text, sizeof text, "{\"ewa_scene\": 1, \"items\": [{\"scene\": \"level%d.json\"}]}", i - 1);
+        write_text(name, text);
+    }
+    write_text("level0.json", "{\"ewa_scene\": 1, \"items\": [{\"file\": \"torus.ply\"}]}");
+    ewa_context *context = check_context(0, NULL);
+    ewa_scene_file *file = NULL;
+    assert_int_equal(ewa_scene_file_load(context, "level7.json", NULL, &file), EWA_OK);
+    assert_int_equal(ewa_scene_file_count(file), 1);
+    ewa_scene_file_destroy(&file);
+    assert_int_equal(ewa_scene_file_load(context, "level8.json", NULL, &file), EWA_ERROR_LIMIT);
+    assert_null(file);
+    // Ten in each of ten of ... name ten million, of which nothing is loaded.
+    for (int i = 1; i <= 6; i++) {
+        snprintf(name, sizeof name, "many%d.json", i);
+        size_t used = (size_t)snprintf(text, sizeof text, "{\"ewa_scene\": 1, \"items\": [");
+        for (int k = 0; k < 10; k++)
+            used += (size_t)snprintf(text + used, sizeof text - used, "%s{\"scene\": \"many%d.json\"}",
+                                     k ? "," : "", i - 1);
+        snprintf(text + used, sizeof text - used, "]}");
+        write_text(name, text);
+    }
+    write_text("many0.json", "{\"ewa_scene\": 1, \"items\": []}");
+    assert_int_equal(ewa_scene_file_load(context, "many6.json", NULL, &file), EWA_ERROR_LIMIT);
+    ewa_context_destroy(&context);
+}
+
+static void test_truncations(void **state) {
+    (void)state;
+    ewa_context *context = check_context(0, NULL);
+    char *text = read_text("saved.json");
+    const size_t size = strlen(text);
+    assert_true(size > 500);
+    ewa_scene_file *file = NULL;
+    for (size_t length = size - 2; length < size; length--) {
+        text[length] = 0;
+        write_text("cut.json", text);
+        if (ewa_scene_file_load(context, "cut.json", NULL, &file) == EWA_OK)
+            fail_msg("%zu bytes are enough", length);
+        assert_null(file);
+        if (!length) break;
+    }
+    free(text);
+    ewa_context_destroy(&context);
+}
+
+static void test_unsaveable(void **state) {
+    (void)state;
+    check_log heard = {.count = 0};
+    ewa_context *context = check_context(0, &heard);
+    ewa_scene *scene = NULL;
+    assert_int_equal(ewa_scene_create(context, NULL, &scene), EWA_OK);
+    add(context, scene, "torus.ply", NULL, NULL);
+    assert_int_equal(ewa_scene_save(scene, NULL, "deep/outside.json"), EWA_ERROR_UNSUPPORTED);
+    assert_non_null(strstr(heard.text, "torus.ply"));
+    assert_int_not_equal(access("deep/outside.json", F_OK), 0);
+    ewa_cloud *cloud = NULL;
+    ewa_generate_options options;
+    ewa_generate_options_init(&options, sizeof options);
+    options.point_count = 100;
+    assert_int_equal(ewa_cloud_generate(context, &options, &cloud), EWA_OK);
+    ewa_asset *asset = NULL;
+    assert_int_equal(
+        ewa_asset_create(context, &(ewa_asset_source){.name = "mine", .cloud = cloud}, NULL, &asset), EWA_OK);
+    assert_int_equal(ewa_scene_add(scene, asset, NULL), EWA_OK);
+    ewa_asset_release(&asset);
+    assert_int_equal(ewa_scene_save(scene, NULL, "memory.json"), EWA_ERROR_UNSUPPORTED);
+    assert_non_null(strstr(heard.text, "mine"));
+    ewa_scene_destroy(&scene);
+    ewa_cloud_destroy(&cloud);
+    ewa_context_destroy(&context);
+}
+
+static void test_filters_as_text(void **state) {
+    (void)state;
+    static const char *const texts[] = {"classification=2,6",
+                                        "z>0.1",
+                                        "z>=0.1",
+                                        "x<-3",
+                                        "x<=1e300",
+                                        "y!=1..2,5,..-3",
+                                        "a=1 and b!=2",
+                                        "intensity=3..",
+                                        "gps_time=0.1 and z<0.3"};
+    for (size_t i = 0; i < sizeof texts / sizeof texts[0]; i++) {
+        ewa_filter filter = {.term_count = 0}, again = {.term_count = 0};
+        char text[512];
+        assert_int_equal(ewa_filter_add(&filter, texts[i], NULL), EWA_OK);
+        assert_true(ewa_filter_write(&filter, text, sizeof text));
+        assert_int_equal(ewa_filter_add(&again, text, NULL), EWA_OK);
+        if (memcmp(&filter, &again, sizeof filter) != 0) fail_msg("%s became %s", texts[i], text);
+        assert_false(ewa_filter_write(&filter, text, strlen(text)));
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_saved_opens_alike),   cmocka_unit_test(test_files_in_files),
+        cmocka_unit_test(test_callers_options_win), cmocka_unit_test(test_cameras_keep_their_heights),
+        cmocka_unit_test(test_bad_is_refused),      cmocka_unit_test(test_depth_and_number),
+        cmocka_unit_test(test_truncations),         cmocka_unit_test(test_unsaveable),
+        cmocka_unit_test(test_filters_as_text),
+    };
+    return cmocka_run_group_tests_name("scene_file", tests, set_up, NULL);
+}
