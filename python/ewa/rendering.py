@@ -85,9 +85,9 @@ def set_surfaces(made: Any, surfaces: Image | None, size: tuple[int, int]) -> An
 def options_of(options: dict[str, Any], lights: Sequence[Light] | None, materials: Materials | None,
                environment: Environment | Any, background: Color | None, layers: int | str | None,
                section_box: Any, section_planes: Sequence[Sequence[float]] | None, core: Core,
-               init: Any = lib.ewa_render_options_init) -> tuple[b.ewa_render_options, bool, tuple[Any, ...]]:
-    """The struct of options, whether the background is opaque, and what has to live as long as it."""
-    made = initialised(b.ewa_render_options, init)
+               base: b.ewa_render_options | None = None) -> tuple[b.ewa_render_options, bool, tuple[Any, ...]]:
+    """The struct of options, from `base` or the defaults on; whether the background is opaque; what has to live as long."""
+    made = initialised(b.ewa_render_options, lib.ewa_render_options_init) if base is None else base
     fill(made, "ewa_render_options", options)
     keep: tuple[Any, ...] = ()
     if lights is not None:

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import ctypes
+import json
 from typing import Any, Iterable, Sequence, Union
 
 from . import _bindings as b
@@ -76,6 +77,8 @@ class Scene:
         Parameters
         ----------
         thing : path, Cloud, Mesh, Surfels, Octree, Gaussians, Splats, Volume or Voxels
+            Of a scene file (``.json``), everything that it names is added, as it says; its options and its camera become
+            the scene's. The number is that of the first one.
         visible, opacity, radius_scale, color_by, colormap, range, tint : optional
             How it is shown; all but `visible` are of points.
         transfer : str, optional
@@ -100,8 +103,14 @@ class Scene:
             coloring.update(tinted=True, tint=tint)
         fill(instance.coloring, "ewa_coloring", coloring)
         instance.coloring.attribute = color_by.encode()
-        asset = self._load(thing, made)
         number = len(self)
+        if not (hasattr(thing, "_core") or hasattr(thing, "_h")) and \
+                self._core.value(lib.ewa_scene_file_probe, path_bytes(thing)):
+            if not visible or opacity != 1 or radius_scale != 1 or color_by or range is not None or tint is not None:
+                raise ArgumentError(f"{thing}: how its items are shown is said in the scene file")
+            self._core.call(lib.ewa_scene_open, self._handle, path_bytes(thing), ctypes.byref(made))
+            return number
+        asset = self._load(thing, made)
         self._core.call(lib.ewa_scene_add, self._handle, asset, ctypes.byref(instance))
         self._keep.append(thing)
         return number
@@ -151,18 +160,27 @@ class Scene:
         return np.array([box.low_world, box.high_world])
 
     def camera(self, view: str | None = None, up: str | Sequence[float] | None = None, *,
-               size: Sequence[int] = (1280, 720), fov: float | None = None, ortho: float | None = None,
+               size: Sequence[int] | None = None, fov: float | None = None, ortho: float | None = None,
                eye: Sequence[float] | None = None, target: Sequence[float] | None = None, azimuth: float = 0,
                elevation: float = 0) -> Camera:
-        """Return the camera of ``ewa render`` with the same options.
+        """Return the camera of ``ewa render`` with the same options: that of the scene file, if there is one, where they
+        say nothing but the size.
+
+        Parameters
+        ----------
+        size : (int, int), optional
+            Width and height in pixels. Default: those of the scene file's camera, else 1280 x 720.
+        view, up, fov, ortho, eye, target, azimuth, elevation : optional
+            As of :meth:`Camera.frame`.
 
         Raises
         ------
         ArgumentError, NumericError
         """
         made = initialised(b.ewa_view_options, lib.ewa_view_options_init)
-        members: dict[str, Any] = {"width_px": size[0], "height_px": size[1], "azimuth_deg": float(azimuth),
-                                   "elevation_deg": float(elevation)}
+        members: dict[str, Any] = {"azimuth_deg": float(azimuth), "elevation_deg": float(elevation)}
+        if size is not None:
+            members.update(width_px=size[0], height_px=size[1])
         if fov is not None:
             members["fov_deg"] = fov
         if ortho is not None:
@@ -185,7 +203,7 @@ class Scene:
         return Camera._of(camera)
 
     def render(self, camera: Camera | None = None, *, size: Sequence[int] | None = None,
-               planes: str | Iterable[str] = ("rgba8",), background: Color = "white",
+               planes: str | Iterable[str] = ("rgba8",), background: Color | None = None,
                lights: Sequence[Light] | None = None, materials: Materials | None = None,
                environment: Environment | Any = None, layers: int | str | None = None, section_box: Any = None,
                section_planes: Sequence[Sequence[float]] | None = None, out: Image | None = None,
@@ -196,10 +214,12 @@ class Scene:
         ----------
         camera : Camera, optional
             Default: :meth:`camera`.
-        size, planes, background, lights, materials, environment, layers, section_box, section_planes, out
+        background : colour, optional
+            Default: white, or that of the scene file.
+        size, planes, lights, materials, environment, layers, section_box, section_planes, out
             As of :func:`render`.
         **options
-            Members of ``ewa_render_options``.
+            Members of ``ewa_render_options``; those that are not given are of the scene file, if there is one.
 
         Raises
         ------
@@ -207,14 +227,13 @@ class Scene:
         """
         core = self._core
         if camera is None:
-            camera = self.camera(size=size or (1280, 720))
+            camera = self.camera(size=size)
         if size is not None and tuple(size) != camera.size:
             camera = camera.resized(*size)
         made = initialised(b.ewa_scene_options, lib.ewa_scene_options_init)
         core.value(lib.ewa_scene_get_options, self._handle, ctypes.byref(made))
-        render, opaque, keep = options_of(dict(options), lights, materials, environment, background, layers,
-                                          section_box, section_planes, core)
-        made.render = render
+        _, opaque, keep = options_of(dict(options), lights, materials, environment, background, layers,
+                                          section_box, section_planes, core, made.render)
         image = Image(camera, opaque)
         frame = new_frame(image, camera.size, planes, out)
         stats = b.ewa_scene_stats()
@@ -224,6 +243,25 @@ class Scene:
         del keep
         image._stats = stats.render
         return image
+
+    def save(self, path: PathLike, camera: Camera | None = None) -> None:
+        """Write a scene file: everything, which must have been added from files below the file's folder, and `camera`.
+
+        Raises
+        ------
+        FileError, FormatError, OutOfMemory
+        """
+        of = ctypes.byref(camera._struct) if camera is not None else None
+        self._core.call(lib.ewa_scene_save, self._handle, of, path_bytes(path))
+
+    def describe(self) -> dict[str, Any]:
+        """Return what the scene is: of every item its name, kind, count, box and how it is shown; the box of all; the
+        options that are no defaults."""
+        text = ctypes.c_char_p()
+        self._core.call(lib.ewa_scene_describe_json, self._handle, ctypes.byref(text))
+        made: dict[str, Any] = json.loads((text.value or b"{}").decode())
+        lib.ewa_text_free(ctypes.byref(text))
+        return made
 
     def close(self) -> None:
         """Free what was made for the scene; what was added to it stays."""

@@ -73,6 +73,35 @@ class SameScene(Case):
         ours, theirs = ewa.read_image(self.path("theirs.png")), ewa.read_image(self.path("window.png"))
         np.testing.assert_array_equal(ours[..., :3], theirs[..., :3], f"{files}: the window")
 
+    def test_scene_files(self) -> None:
+        size = f"{SIZE[0]}x{SIZE[1]}"
+        self.run_program("render", *self.kinds, "--levels", "always", "--size", size, "-o", "made.png", "--elevation", "30",
+                         "--background", "0.2,0.4,0.6", "--ambient", "0.4", "--edl", "0.5", "--save-scene", "scene.json")
+        self.run_program("render", "scene.json", "-o", "opened.png", "--save-scene", "again.json")
+        self.assertEqual(self.bytes("made.png"), self.bytes("opened.png"))
+        self.assertEqual(self.bytes("scene.json"), self.bytes("again.json"))
+        with ewa.Context() as context:
+            scene = ewa.Scene(self.path("scene.json"), context=context)
+            self.assertEqual(len(scene), len(self.kinds))
+            scene.render().save(self.path("ours.png"))
+            self.assertEqual(self.bytes("made.png"), self.bytes("ours.png"))
+            told = scene.describe()
+            self.assertEqual([item["kind"] for item in told["items"]],
+                             ["points", "points", "mesh", "octree", "gaussians", "volume"])
+            np.testing.assert_allclose([told["low_world"], told["high_world"]], scene.bounds)
+            scene.save(self.path("python.json"), scene.camera())
+            self.assertEqual(self.bytes("scene.json"), self.bytes("python.json"))
+            with self.assertRaises(ewa.ArgumentError):
+                scene.add(self.path("scene.json"), opacity=0.5)
+            scene.close()
+        with open(self.path("script.txt"), "w", encoding="ascii") as file:
+            file.write(f"do shot window.png {size}\ndo scene save window.json\n")
+        self.run_program("view", "scene.json", "--size", size, "--script", "script.txt")
+        ours, theirs = ewa.read_image(self.path("made.png")), ewa.read_image(self.path("window.png"))
+        np.testing.assert_array_equal(ours[..., :3], theirs[..., :3])
+        self.run_program("render", "window.json", "-o", "window2.png")
+        np.testing.assert_array_equal(ours, ewa.read_image(self.path("window2.png")))
+
     def test_every_pair(self) -> None:
         self.run_program("render", "torus.ply", "--size", f"{SIZE[0]}x{SIZE[1]}", "-o", "any.png", "--elevation", "20",
                          "--save-camera", "camera.json")

@@ -173,19 +173,15 @@ static ewa_status read_options(ewa_scene_text *text, const cJSON *options) {
 static ewa_status read_camera(ewa_scene_text *text, const cJSON *item) {
     ewa_camera_list list = {.context = text->context, .name = text->name};
     ewa_status status = EWA_OK;
-    char *printed = cJSON_IsObject(item) ? cJSON_PrintUnformatted(item) : NULL;
     if (!cJSON_IsObject(item))
         status = ewa_fail(text->context, EWA_ERROR_FORMAT, "%s: camera: is no object", text->name);
-    else if (!printed)
-        status = EWA_ERROR_MEMORY;
     else
-        status = ewa_camera_list_read_json(&list, NULL, (const uint8_t *)printed, strlen(printed));
+        status = ewa_camera_list_read_tree(&list, item);
     if (status == EWA_OK && list.count != 1)
         status = ewa_fail(text->context, EWA_ERROR_FORMAT, "%s: camera: holds %zu cameras", text->name,
                           list.count);
     if (status == EWA_OK) text->camera = list.cameras[0];
     text->has_camera = status == EWA_OK;
-    cJSON_free(printed);
     ewa_camera_list_free(&list);
     return status;
 }

@@ -86,6 +86,14 @@ bool ewa_scene_option_is_kept(const ewa_option *option) {
            strcmp(option->name, "keep_points") != 0;
 }
 
+bool ewa_scene_option_is_same(const ewa_option *option, const void *options, const void *others) {
+    static const size_t sizes[] = {[EWA_OPTION_BOOL] = sizeof(bool),    [EWA_OPTION_CHOICE] = sizeof(int32_t),
+                                   [EWA_OPTION_U32] = sizeof(uint32_t), [EWA_OPTION_U64] = sizeof(uint64_t),
+                                   [EWA_OPTION_F32] = sizeof(float),    [EWA_OPTION_F64] = sizeof(double)};
+    const size_t size = sizes[option->type] * (option->count ? option->count : 1);
+    return memcmp((const char *)options + option->offset, (const char *)others + option->offset, size) == 0;
+}
+
 static ewa_status fail_at(const reading *in, const ewa_scene_member *member, const char *what) {
     char place[EWA_SCENE_PLACE_BYTES];
     ewa_scene_text_place(member, place);
@@ -112,10 +120,9 @@ static ewa_status apply_member(const reading *in, const ewa_scene_member *member
         return fail_at(in, member, "no scene has such an option");
     ewa_scene_options_init(&defaults, sizeof defaults);
     (void)ewa_scene_section_table(member->section, &defaults, &initial);
-    char now[EWA_OPTION_TEXT_BYTES], usual[EWA_OPTION_TEXT_BYTES];
-    ewa_option_get(option, part, now);
-    ewa_option_get(option, initial, usual);
-    return only_defaults && strcmp(now, usual) != 0 ? EWA_OK : set_option(in, member, option, part);
+    return only_defaults && !ewa_scene_option_is_same(option, part, initial)
+               ? EWA_OK
+               : set_option(in, member, option, part);
 }
 
 static ewa_status apply_light(const reading *in, const ewa_scene_member *member, ewa_scene_options *options) {

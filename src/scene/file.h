@@ -18,6 +18,9 @@ extern const ewa_option ewa_scene_light_rows[EWA_SCENE_LIGHT_ROWS];
 const ewa_option_table *ewa_scene_section_table(ewa_scene_section section, ewa_scene_options *options,
                                                 void **part);
 
+/// Whether two structs have the same value of an option.
+bool ewa_scene_option_is_same(const ewa_option *option, const void *options, const void *others);
+
 /// Whether scene files have an option.
 bool ewa_scene_option_is_kept(const ewa_option *option);
 

@@ -7,6 +7,7 @@
 #include "io/camera/file.h"
 #include "io/file.h"
 #include "io/mesh/referenced_file.h"
+#include "io/number.h"
 #include "scene/file.h"
 
 #include <cjson/cJSON.h>
@@ -14,17 +15,33 @@
 #include <stdio.h>
 #include <string.h>
 
+/// Makes an array of numbers, each the shortest that reads as the same: cJSON's own lose the last digit.
+static cJSON *make_numbers(const double *numbers, uint32_t count) {
+    cJSON *array = cJSON_CreateArray();
+    for (uint32_t i = 0; i < count && array; i++) {
+        char text[EWA_NUMBER_BYTES + 1];
+        text[ewa_number_write_f64(numbers[i], text)] = 0;
+        if (cJSON_AddItemToArray(array, cJSON_CreateRaw(text))) continue;
+        cJSON_Delete(array);
+        array = NULL;
+    }
+    return array;
+}
+
+static bool add_numbers(cJSON *object, const char *name, const double *numbers, uint32_t count) {
+    return cJSON_AddItemToObject(object, name, make_numbers(numbers, count));
+}
+
 /// Adds a value as its text reads: a number, a switch or a word; of arrays one value each.
 static bool add_value(cJSON *object, const ewa_option *option, const void *options) {
-    char text[EWA_OPTION_TEXT_BYTES];
-    ewa_option_get(option, options, text);
-    const void *member = (const char *)options + option->offset;
+    char text[EWA_OPTION_TEXT_BYTES], array[EWA_OPTION_TEXT_BYTES + 2];
     if (option->count && option->type == EWA_OPTION_F64)
-        return cJSON_AddItemToObject(object, option->name,
-                                     cJSON_CreateDoubleArray(member, (int)option->count));
-    if (option->count && option->type == EWA_OPTION_F32)
-        return cJSON_AddItemToObject(object, option->name,
-                                     cJSON_CreateFloatArray(member, (int)option->count));
+        return add_numbers(object, option->name,
+                           (const double *)(const void *)((const char *)options + option->offset),
+                           option->count);
+    ewa_option_get(option, options, text);
+    snprintf(array, sizeof array, "[%s]", text);
+    if (option->count) return cJSON_AddRawToObject(object, option->name, array);
     switch (option->type) {
     case EWA_OPTION_BOOL:
         return cJSON_AddBoolToObject(object, option->name, strcmp(text, "on") == 0);
@@ -42,10 +59,7 @@ static bool add_options(cJSON *object, const ewa_option_table *table, const void
     bool done = true;
     for (size_t i = 0; i < table->option_count && done; i++) {
         const ewa_option *option = &table->options[i];
-        char text[EWA_OPTION_TEXT_BYTES], usual[EWA_OPTION_TEXT_BYTES];
-        ewa_option_get(option, options, text);
-        ewa_option_get(option, defaults, usual);
-        if (strcmp(text, usual) != 0 && ewa_scene_option_is_kept(option))
+        if (ewa_scene_option_is_kept(option) && !ewa_scene_option_is_same(option, options, defaults))
             done = add_value(object, option, options);
     }
     return done;
@@ -69,7 +83,7 @@ static bool add_planes(cJSON *object, const ewa_render_options *render) {
     cJSON *planes = render->section_count ? cJSON_AddArrayToObject(object, "section_planes") : NULL;
     bool done = planes || !render->section_count;
     for (uint32_t i = 0; i < render->section_count && done; i++)
-        done = cJSON_AddItemToArray(planes, cJSON_CreateDoubleArray(render->section_planes[i], 4));
+        done = cJSON_AddItemToArray(planes, make_numbers(render->section_planes[i], 4));
     return done;
 }
 
@@ -103,15 +117,15 @@ static bool add_coloring(cJSON *object, const ewa_coloring *coloring) {
     char map[EWA_OPTION_TEXT_BYTES];
     ewa_option_get(ewa_option_find(&ewa_coloring_table, "map"), coloring, map);
     if (done && coloring->map != EWA_COLORING_AUTO) done = cJSON_AddStringToObject(object, "colormap", map);
-    if (done && coloring->tinted)
-        done = cJSON_AddItemToObject(object, "tint", cJSON_CreateDoubleArray(coloring->tint, 3));
+    if (done && coloring->tinted) done = add_numbers(object, "tint", coloring->tint, 3);
     cJSON *range = done && coloring->ranged ? cJSON_AddArrayToObject(object, "range") : NULL;
     for (int i = 0; i < 2 && done && coloring->ranged; i++) {
-        char text[48];
-        snprintf(text, sizeof text, "%.17g%%", coloring->range[i]);
-        done = range &&
-               cJSON_AddItemToArray(range, coloring->percent[i] ? cJSON_CreateString(text)
-                                                                : cJSON_CreateNumber(coloring->range[i]));
+        char text[EWA_NUMBER_BYTES + 2];
+        size_t length = ewa_number_write_f64(coloring->range[i], text);
+        if (coloring->percent[i]) text[length++] = '%';
+        text[length] = 0;
+        done = range && cJSON_AddItemToArray(range, coloring->percent[i] ? cJSON_CreateString(text)
+                                                                         : cJSON_CreateRaw(text));
     }
     return done;
 }
@@ -223,8 +237,8 @@ ewa_status ewa_scene_save(const ewa_scene *scene, const ewa_camera *camera, cons
 /// Adds a box, or nothing where there is none.
 static bool add_box(cJSON *object, const ewa_bounds *bounds) {
     if (!bounds->finite_count) return true;
-    return cJSON_AddItemToObject(object, "low_world", cJSON_CreateDoubleArray(bounds->low_world, 3)) &&
-           cJSON_AddItemToObject(object, "high_world", cJSON_CreateDoubleArray(bounds->high_world, 3));
+    return add_numbers(object, "low_world", bounds->low_world, 3) &&
+           add_numbers(object, "high_world", bounds->high_world, 3);
 }
 
 ewa_status ewa_scene_describe_json(const ewa_scene *scene, char **text) {

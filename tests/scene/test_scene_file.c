@@ -131,7 +131,7 @@ static void test_saved_opens_alike(void **state) {
     instance.radius_scale = 1.1;
     add(context, made, "torus.ply", &asset, &instance);
     asset.filter = NULL;
-    const double to_world[16] = {0.3, 0, 0, 1.0 / 3, 0, 0, 0.3, 0, 0, -0.3, 0, 0.1, 0, 0, 0, 1};
+    const double to_world[16] = {0.3, 0, 0, 1.0 / 3, 0, 0, 0.3 * 1.1, 0, 0, -0.3 / 1.3, 0, 0.1 + 0.2, 0, 0, 0, 1};
     memcpy(asset.to_world, to_world, sizeof to_world);
     ewa_instance_init(&instance, sizeof instance);
     instance.opacity = 0.6;

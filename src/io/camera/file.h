@@ -8,6 +8,8 @@
 #include "ewa/camera.h"
 #include "io/file.h"
 
+#include <cjson/cJSON.h>
+
 /// Cameras read from one file, in its order. Zero-initialise with the context and the file's name.
 typedef struct ewa_camera_list {
     ewa_context *context;
@@ -27,6 +29,9 @@ void ewa_camera_list_free(ewa_camera_list *list);
 /// for beside it when it does not tell their size.
 ewa_status ewa_camera_list_read_json(ewa_camera_list *list, const char *path, const uint8_t *bytes,
                                      size_t size_bytes);
+
+/// Reads the cameras of a part of another file's JSON.
+ewa_status ewa_camera_list_read_tree(ewa_camera_list *list, const cJSON *root);
 
 /// Reads the cameras of a COLMAP model: a folder with cameras.bin and images.bin, or else .txt.
 ewa_status ewa_camera_list_read_colmap(ewa_camera_list *list, const char *folder);

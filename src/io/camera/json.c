@@ -356,6 +356,11 @@ static ewa_status read_root(source *in, const cJSON *root) {
     return read_native(in, root);
 }
 
+ewa_status ewa_camera_list_read_tree(ewa_camera_list *list, const cJSON *root) {
+    source in = {.list = list, .path = NULL};
+    return read_root(&in, root);
+}
+
 ewa_status ewa_camera_list_read_json(ewa_camera_list *list, const char *path, const uint8_t *bytes,
                                      size_t size_bytes) {
     cJSON *root;
