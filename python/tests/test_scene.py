@@ -4,12 +4,15 @@
 from __future__ import annotations
 
 import itertools
+import os
+import shutil
 import struct
+import subprocess
 
 import numpy as np
 
 import ewa
-from common import Case
+from common import Case, program
 
 MESH = """v -1 -1 -1
 v 1 -1 -1
@@ -101,6 +104,23 @@ class SameScene(Case):
         np.testing.assert_array_equal(ours[..., :3], theirs[..., :3])
         self.run_program("render", "window.json", "-o", "window2.png")
         np.testing.assert_array_equal(ours, ewa.read_image(self.path("window2.png")))
+
+    def test_every_pair_on_ranks(self) -> None:
+        """Two ranks that share every frame give the planes of one process."""
+        ranks = os.path.join(os.path.dirname(program() or ""), os.pardir, "mpi", "ewa-mpi")
+        if not os.path.exists(ranks) or not shutil.which("mpirun"):
+            self.skipTest("there is no ewa-mpi or no mpirun")
+        outputs = ("--levels", "always", "--size", f"{SIZE[0]}x{SIZE[1]}", "--aov")
+        for files in itertools.combinations_with_replacement(self.kinds, 2):
+            files = files[:1] if len(set(files)) == 1 else files
+            with self.subTest(" ".join(files)):
+                self.run_program("render", *files, *outputs, "depth=z1.pfm,normal=n1.pfm,coverage=c1.pfm", "-o", "1.png")
+                done = subprocess.run(["mpirun", "--allow-run-as-root", "--oversubscribe", "-n", "2", ranks, "render", *files,
+                                       *outputs, "depth=z2.pfm,normal=n2.pfm,coverage=c2.pfm", "-o", "2.png", "--split",
+                                       "cloud", "--threads", "1"], cwd=self.path(""), capture_output=True, text=True)
+                self.assertEqual(done.returncode, 0, done.stderr)
+                for name in ("{}.png", "z{}.pfm", "n{}.pfm", "c{}.pfm"):
+                    self.assertEqual(self.bytes(name.format(1)), self.bytes(name.format(2)), name)
 
     def test_every_pair(self) -> None:
         self.run_program("render", "torus.ply", "--size", f"{SIZE[0]}x{SIZE[1]}", "-o", "any.png", "--elevation", "20",
