@@ -3,7 +3,7 @@
 """Point clouds as continuous, antialiased surfaces: numpy in, numpy out.
 
 >>> import ewa
->>> image = ewa.render(ewa.read("scan.ply"), background="white")
+>>> image = ewa.render(ewa.read("scan.ply"))
 >>> image.save("scan.png")
 
 Arrays become surfels, surfels become pictures; volumes, depth images, textures and meshes take the same pipeline. All

@@ -114,7 +114,7 @@ class Octree:
         return Cloud._made(self._core, lib.ewa_lod_read, self._h, *corners, numbers([spacing], 1, "spacing")[0])
 
     def render(self, camera: Camera | None = None, *, size: Sequence[int] | None = None,
-               planes: str | Iterable[str] = ("rgba8",), background: Color | None = None,
+               planes: str | Iterable[str] = ("rgba8",), background: Color = "white",
                lights: Sequence[Light] | None = None, section_box: Any = None,
                section_planes: Sequence[Sequence[float]] | None = None, renderer: Renderer | None = None,
                render: dict[str, Any] | None = None, **options: Unpack[LodOptions]) -> Image:

@@ -165,7 +165,7 @@ def _sources(scene: Scene, making: dict[str, Any]) -> list[Surfels]:
 
 
 def render(scene: Scene, camera: Camera | None = None, *, size: Sequence[int] | None = None,
-           planes: str | Iterable[str] = ("rgba8",), background: Color | None = None,
+           planes: str | Iterable[str] = ("rgba8",), background: Color = "white",
            lights: Sequence[Light] | None = None, materials: Materials | None = None,
            environment: Environment | Any = None, layers: int | str | None = None, section_box: Any = None,
            section_planes: Sequence[Sequence[float]] | None = None, backend: str = "cpu",
@@ -184,7 +184,8 @@ def render(scene: Scene, camera: Camera | None = None, *, size: Sequence[int] | 
     planes : "all", or some of "rgba8", "rgba", "depth", "normal", "coverage"
         What is drawn, as the attributes of :class:`Image`.
     background : colour, optional
-        Linear (r, g, b[, a]), or text: "white", "#ff8800", "r,g,b" of sRGB. Default: transparent.
+        Linear (r, g, b[, a]), or text: "white", "transparent", "#ff8800", "r,g,b" of sRGB.
+        Default: opaque white, as `ewa render` has it.
     lights : sequence, optional
         At most 8 directions (x, y, z), or with linear colours (x, y, z, r, g, b). Default: from the eye.
     materials : path or sequence of mappings, optional
@@ -230,8 +231,8 @@ def render(scene: Scene, camera: Camera | None = None, *, size: Sequence[int] | 
             from .scene import Scene
 
             together = Scene(*scene, **making)
-            made_of = together.render(camera, size=size, planes=planes, background=background or "transparent",
-                                      lights=lights, materials=materials, environment=environment, layers=layers,
+            made_of = together.render(camera, size=size, planes=planes, background=background, lights=lights,
+                                      materials=materials, environment=environment, layers=layers,
                                       section_box=section_box, section_planes=section_planes, out=out, **options)
             together.close()
             return made_of

@@ -26,7 +26,7 @@ class SameBytes(Case):
             with self.subTest(kind):
                 self.generate("scan.ply", kind, 8000)
                 self.run_program("render", "scan.ply", "-o", "theirs.png")
-                ewa.render(ewa.read(self.path("scan.ply")), background="white").save(self.path("ours.png"))
+                ewa.render(ewa.read(self.path("scan.ply"))).save(self.path("ours.png"))
                 self.same("ours.png", "theirs.png")
 
     def test_render_positions_only(self) -> None:
