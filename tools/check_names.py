@@ -102,6 +102,8 @@ class Tree:
                  (name.startswith("tools/") and name.endswith(".py") and name != "tools/check_names.py")]
         self.words = set(re.findall(r"\w+", " ".join(self.code + built)))
         self.words |= {Path(name).stem for name in self.files if name.endswith((".c", ".h"))}  # programs among them
+        for path in sorted((root / "python").rglob("*.py")):
+            self.words |= set(re.findall(r"(?m)^\s*def (\w+)\(", path.read_text()))
         self.build_words = set(re.findall(r"[\w.-]+", " ".join(built)))
         self.system_headers = set(re.findall(r"# *include +<([^>]+)>", " ".join(self.code)))
         self.structs = {}
