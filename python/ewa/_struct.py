@@ -148,6 +148,14 @@ def initialised(kind: type[_Struct], init: Callable[..., None]) -> _Struct:
     return made
 
 
+def text_bytes(value: str, size: int, label: str) -> bytes:
+    """A text that has room in `size` bytes, with its end."""
+    made = value.encode()
+    if len(made) >= size:
+        raise ArgumentError(f"{label}: '{value[:20]}...' is longer than {size - 1} bytes")
+    return made
+
+
 def numbers(value: Any, count: int, label: str) -> Any:
     """`count` finite doubles as a C array."""
     flat = _flat(value, label)

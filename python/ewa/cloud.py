@@ -14,7 +14,7 @@ from ._context import Context, Core, Handle, Pin, core_of
 from ._errors import ArgumentError, ClosedError
 from ._library import functions as lib
 from ._library import library
-from ._struct import fill, initialised, numbers, path_bytes
+from ._struct import fill, initialised, numbers, path_bytes, text_bytes
 from .camera import PathLike
 
 if TYPE_CHECKING:
@@ -409,12 +409,23 @@ class Cloud:
         ------
         ArgumentError
         """
-        from ._color_by import colors_by
+        if colormap == "classes" and range is not None:
+            raise ArgumentError("range: colours of classes have none")
+        coloring = initialised(b.ewa_coloring, lib.ewa_coloring_init)
+        fill(coloring, "ewa_coloring", {"map": colormap or "auto"})
+        if range is not None:
+            fill(coloring, "ewa_coloring", {"ranged": True, "range": range})
+        coloring.attribute = text_bytes(word, b.EWA_SCALAR_NAME_BYTES, "word")
+        cloud = self._derive()
 
-        cloud = self._derive(without="color")
-        colors = colors_by(self, word, colormap, range)
-        _borrow(cloud._h, {"color": colors})
-        cloud._h.keep += (Pin(colors, "color"),)
+        def run(address: int) -> int:
+            legend = b.ewa_legend()
+            status: int = lib.ewa_clouds_color((ctypes.c_void_p * 1)(address), 1, ctypes.byref(coloring),
+                                               ctypes.byref(legend))
+            lib.ewa_legend_free(ctypes.byref(legend))
+            return status
+
+        self._core.call(run, cloud._h)
         return cloud
 
     def features(self, **options: Unpack[FeatureOptions]) -> Cloud:

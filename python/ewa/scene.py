@@ -12,7 +12,7 @@ from ._arrays import Array
 from ._context import Context, Core, core_of
 from ._errors import ArgumentError
 from ._library import functions as lib
-from ._struct import fill, initialised, numbers, path_bytes
+from ._struct import fill, initialised, numbers, path_bytes, text_bytes
 from .camera import Camera, PathLike
 from .cloud import Cloud
 from .gaussians import Gaussians, Splats
@@ -102,7 +102,7 @@ class Scene:
         if tint is not None:
             coloring.update(tinted=True, tint=tint)
         fill(instance.coloring, "ewa_coloring", coloring)
-        instance.coloring.attribute = color_by.encode()
+        instance.coloring.attribute = text_bytes(color_by, b.EWA_SCALAR_NAME_BYTES, "color_by")
         number = len(self)
         if not (hasattr(thing, "_core") or hasattr(thing, "_h")) and \
                 self._core.value(lib.ewa_scene_file_probe, path_bytes(thing)):
