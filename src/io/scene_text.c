@@ -53,6 +53,7 @@ static ewa_status fail(const ewa_scene_text *text, const ewa_scene_member *at, c
 }
 
 static ewa_status put(ewa_scene_text *text, const char *chars, size_t length) {
+    if (!length) return EWA_OK;
     ewa_buffer buffer = {text->values, text->values_bytes};
     const ewa_status status =
         ewa_buffer_grow(text->context, &buffer, text->values_size, text->values_size + length, 1);

@@ -310,6 +310,7 @@ static void test_bad_is_refused(void **state) {
         {"{\"ewa_scene\": 1, \"items\": [3]}", EWA_ERROR_FORMAT, "items[0]"},
         {"{\"ewa_scene\": 1, \"camera\": []}", EWA_ERROR_FORMAT, "camera"},
         {"{\"ewa_scene\": 1, \"camera\": {\"width\": 3}}", EWA_ERROR_FORMAT, "height"},
+        {"{\"ewa_scene\": 1, \"items\": [{\"file\": \"\"}]}", EWA_ERROR_FORMAT, "items[0].file: it has no name"},
         {ITEM(""), EWA_ERROR_FORMAT, "items[1]: names no file"},
         {ITEM("\"file\": \"none.ply\""), EWA_ERROR_FORMAT, "items[1].file: it is not there"},
         {ITEM("\"file\": \"\""), EWA_ERROR_FORMAT, "items[1].file"},
