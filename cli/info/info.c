@@ -9,6 +9,7 @@
 #include "cli/info/info_gaussians.h"
 #include "cli/info/info_lod.h"
 #include "cli/info/info_mesh.h"
+#include "cli/info/info_scene.h"
 #include "cli/info/info_volume.h"
 #include "cli/input/gaussian_files.h"
 #include "cli/input/import.h"
@@ -418,6 +419,10 @@ static int run(const void *data) {
         if (arguments->volume.dims.count || ewa_volume_is_named(path)) {
             if (!info_volume(&session, &arguments->volume, path, arguments->json ? &json : NULL))
                 exit_status = EXIT_FAILED;
+            continue;
+        }
+        if (ewa_scene_file_probe(path)) {
+            if (!info_scene(&session, path, arguments->json ? &json : NULL)) exit_status = EXIT_FAILED;
             continue;
         }
         const ewa_gaussian_format gaussians = gaussian_files_format(&session, path);

@@ -33,6 +33,9 @@ typedef enum ewa_asset_kind {
     EWA_ASSET_VOLUME = 5,    ///< voxels under a transfer function
 } ewa_asset_kind;
 
+/// Returns "points", "mesh", "surfels", "octree", "gaussians" or "volume". Any thread.
+EWA_API const char *ewa_asset_kind_name(ewa_asset_kind kind);
+
 /// Whether octrees (COPC, EPT) are drawn from their levels.
 typedef enum ewa_octree_levels {
     EWA_OCTREE_AUTO = 0,   ///< those of more than EWA_OCTREE_WHOLE_POINTS points are, unless all are needed: by a filter or columns

@@ -2647,6 +2647,7 @@ class Functions:
     ewa_texture_options_init: Callable[..., None]
     ewa_asset_create: Callable[..., int]
     ewa_asset_describe: Callable[..., None]
+    ewa_asset_kind_name: Callable[..., bytes | None]
     ewa_asset_load: Callable[..., int]
     ewa_asset_options_init: Callable[..., None]
     ewa_asset_release: Callable[..., None]
@@ -3002,6 +3003,7 @@ class Functions:
         self.ewa_texture_options_init = bind("ewa_texture_options_init", None, c.POINTER(ewa_texture_options), c.c_size_t)
         self.ewa_asset_create = bind("ewa_asset_create", c.c_int, c.c_void_p, c.POINTER(ewa_asset_source), c.POINTER(ewa_asset_options), c.c_void_p)
         self.ewa_asset_describe = bind("ewa_asset_describe", None, c.c_void_p, c.POINTER(ewa_asset_info))
+        self.ewa_asset_kind_name = bind("ewa_asset_kind_name", c.c_char_p, c.c_int)
         self.ewa_asset_load = bind("ewa_asset_load", c.c_int, c.c_void_p, c.c_char_p, c.POINTER(ewa_asset_options), c.c_void_p)
         self.ewa_asset_options_init = bind("ewa_asset_options_init", None, c.POINTER(ewa_asset_options), c.c_size_t)
         self.ewa_asset_release = bind("ewa_asset_release", None, c.c_void_p)

@@ -74,6 +74,11 @@ static ewa_status make(ewa_context *context, const char *name, const ewa_asset_o
     return status;
 }
 
+const char *ewa_asset_kind_name(ewa_asset_kind kind) {
+    static const char *const names[] = {"points", "mesh", "surfels", "octree", "gaussians", "volume"};
+    return (unsigned)kind < sizeof names / sizeof names[0] ? names[kind] : "unknown";
+}
+
 ewa_asset *ewa_asset_retain(ewa_asset *asset) {
     atomic_fetch_add(&asset->references, 1);
     return asset;

@@ -243,7 +243,6 @@ static bool add_box(cJSON *object, const ewa_bounds *bounds) {
 
 ewa_status ewa_scene_describe_json(const ewa_scene *scene, char **text) {
     if (!scene || !text) return EWA_ERROR_ARGUMENT;
-    static const char *const kinds[] = {"points", "mesh", "surfels", "octree", "gaussians", "volume"};
     *text = NULL;
     cJSON *root = cJSON_CreateObject();
     cJSON *items = root ? cJSON_AddArrayToObject(root, "items") : NULL;
@@ -252,7 +251,7 @@ ewa_status ewa_scene_describe_json(const ewa_scene *scene, char **text) {
         const ewa_asset *asset = scene->items[i].asset;
         cJSON *object = cJSON_CreateObject();
         done = cJSON_AddItemToArray(items, object) && cJSON_AddStringToObject(object, "name", asset->name) &&
-               cJSON_AddStringToObject(object, "kind", kinds[asset->kind]) &&
+               cJSON_AddStringToObject(object, "kind", ewa_asset_kind_name(asset->kind)) &&
                cJSON_AddNumberToObject(object, "count", (double)asset->count) &&
                add_box(object, &asset->bounds) &&
                (!asset->transfer || cJSON_AddStringToObject(object, "transfer", asset->transfer)) &&

@@ -195,6 +195,31 @@ static void test_procedure(void **state) {
     run_fails(2, "exclude", "ewa generate plane --procedure wood --texture a.png -o a.ply");
 }
 
+/// Scene files: written by render, told of by info, refused with their place by both.
+static void test_scenes(void **state) {
+    (void)state;
+    run_done("ewa generate torus -o ring.ply -n 2000");
+    run_done("ewa render ring.ply ring.ply -o made.png --size 64x48 --save-scene two.json --color-by z --filter 'z>0'");
+    run_done("ewa render two.json -o again.png");
+    assert_true(scratch_same("made.png", "again.png"));
+    run_done("ewa info two.json");
+    assert_non_null(strstr(last_run.out, "items       2"));
+    assert_non_null(strstr(last_run.out, "camera      64 x 48"));
+    run_done("ewa info --json two.json");
+    assert_non_null(strstr(last_run.out, "\"format\": \"scene\""));
+    assert_non_null(strstr(last_run.out, "\"kind\": \"points\""));
+    scratch_text("bad.json", "{\"ewa_scene\": 1, \"items\": [{\"file\": \"ring.ply\", \"opacity\": 7}]}");
+    run_fails(1, "bad.json: items[0].opacity: 7 is outside [0, 1]", "ewa info ring.ply bad.json");
+    run_fails(1, "bad.json: items[0].opacity: 7 is outside [0, 1]", "ewa render bad.json -o never.png");
+    assert_int_equal(scratch_size("never.png"), -1);
+    scratch_text("none.json", "{\"ewa_scene\": 1}");
+    run_fails(1, "there is nothing to draw", "ewa render none.json -o never.png");
+    // A file that lies elsewhere cannot be named.
+    run_done("mkdir -p below");
+    run_fails(1, "ring.ply|below/elsewhere.json", "ewa render ring.ply -o below/p.png --save-scene below/elsewhere.json");
+    assert_int_equal(scratch_size("below/elsewhere.json"), -1);
+}
+
 static void test_failures_leave_nothing(void **state) {
     (void)state;
     assert_int_equal(scratch_enter("cli_files_none"), 0);
@@ -234,6 +259,7 @@ int main(void) {
         cmocka_unit_test(test_surfels),
         cmocka_unit_test(test_refit),
         cmocka_unit_test(test_procedure),
+        cmocka_unit_test(test_scenes),
         cmocka_unit_test(test_failures_leave_nothing),
     };
     return cmocka_run_group_tests(tests, enter, NULL);
