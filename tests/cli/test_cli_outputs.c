@@ -25,6 +25,7 @@ static const writing writings[] = {
     {"render", "output", "in.ply --turntable 3 %s", "_%d.exr"},
     {"render", "aov", "in.ply -o a.png %s", ".pfm"},
     {"render", "save-camera", "in.ply -o a.png %s", ".json"},
+    {"render", "save-scene", "in.ply -o a.png %s", ".json"},
     {"render", "stats", "in.ply -o a.png %s", ".json"},
     {"convert", "output", "in.ply %s", ".ply"},
     {"surfels", "output", "in.ply %s", ".ply"},
