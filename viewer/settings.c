@@ -105,20 +105,16 @@ bool viewer_setting_get(const viewer *v, const char *name, char text[EWA_OPTION_
     return option != NULL;
 }
 
-/// sRGB numbers or "transparent".
 static bool set_background(viewer *v, const char *text) {
-    double n[4] = {0, 0, 0, 1};
-    char end;
-    const bool clear = strcmp(text, "transparent") == 0;
-    const int count = sscanf(text, "%lf,%lf,%lf,%lf%c", &n[0], &n[1], &n[2], &n[3], &end);
-    bool fine = clear || count == 3 || count == 4;
-    for (int c = 0; c < 4; c++) fine = fine && n[c] >= 0 && n[c] <= 1;
-    if (!fine) {
-        viewer_tell(v, "background: '%s' is neither r,g,b[,a] in [0, 1] nor transparent", text);
+    double srgba[4];
+    if (!ewa_color_read(text, srgba)) {
+        viewer_tell(v,
+                    "background: '%s' is not r,g,b[,a] in [0, 1], #rrggbb, white, black, gray or transparent",
+                    text);
         return false;
     }
-    for (int c = 0; c < 3; c++) v->render.background[c] = clear ? 0 : ewa_linear_from_srgb((float)n[c]);
-    v->render.background[3] = clear ? 0 : (float)n[3];
+    for (int c = 0; c < 3; c++) v->render.background[c] = ewa_linear_from_srgb((float)srgba[c]);
+    v->render.background[3] = (float)srgba[3];
     return true;
 }
 

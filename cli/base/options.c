@@ -139,19 +139,9 @@ static bool parse_bounds(const cli_option *option, const char *text, option_boun
 
 static bool parse_color(const cli_option *option, const char *text, option_color *color,
                         char message[OPTION_ERROR_BYTES]) {
-    if (strcmp(text, "transparent") == 0) {
-        *color = (option_color){{0, 0, 0, 0}};
-        return true;
-    }
-    cli_option numbers = *option;
-    numbers.range = "[0, 1]";
-    numbers.low = 3;
-    numbers.high = 4;
-    option_vector vector;
-    if (!parse_vector(&numbers, text, &vector, message)) return false;
-    if (vector.count == 3) vector.values[3] = 1;
-    memcpy(color->rgba, vector.values, sizeof color->rgba);
-    return true;
+    return ewa_color_read(text, color->rgba) ||
+           wrong(message, "--%s: '%s' is not r,g,b[,a] in [0, 1], #rrggbb, white, black, gray or transparent",
+                 option->key, text);
 }
 
 void option_color_linear(const option_color *color, float linear[4]) {

@@ -12,6 +12,9 @@
 #include "ewa/options.h"
 #include "ewa/select.h"
 
+/// What ewa_color_read() reads.
+#define OPTION_COLOR_HELP "sRGB numbers in [0, 1], #rrggbb, white, black, gray or transparent"
+
 /// What the value of an option is, and the type of the member that it fills.
 typedef enum option_kind {
     OPTION_FLAG,    ///< bool: given or not, no value

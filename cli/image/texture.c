@@ -26,9 +26,8 @@ static const cli_option output_table[] = {
      .help = "the picture: .png (8-bit sRGB, straight alpha), .exr (linear floats, premultiplied), .pfm "
              "(linear RGB); -: PNG to standard output",
      .letter = 'o'},
-    {"background", OPTION_COLOR, AT(background), "r,g,b[,a]",
-     .help = "sRGB numbers in [0, 1], or transparent", .aliases = "background-color",
-     .absent = "transparent"},
+    {"background", OPTION_COLOR, AT(background), "r,g,b[,a]", .help = OPTION_COLOR_HELP,
+     .aliases = "background-color", .absent = "transparent"},
 };
 
 static const cli_option map_table[] = {

@@ -71,8 +71,8 @@ static const cli_option warp_table[] = {
     {"tolerance", RENDER(tolerance)},
     {"edge-aa", RENDER(edge_antialiasing)},
     {"tau", RENDER(edge_threshold)},
-    {"background", OPTION_COLOR, AT(background), "r,g,b[,a]",
-     .help = "sRGB numbers in [0, 1], or transparent", .aliases = "background-color"},
+    {"background", OPTION_COLOR, AT(background), "r,g,b[,a]", .help = OPTION_COLOR_HELP,
+     .aliases = "background-color"},
 };
 
 static void set_defaults(void *data) {

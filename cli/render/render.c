@@ -109,8 +109,8 @@ static const cli_option volume_table[] = {
 static const cli_option section_table[] = {SECTION_OPTIONS(AT(section))};
 
 static const cli_option look_table[] = {
-    {"background", OPTION_COLOR, AT(background), "r,g,b[,a]",
-     .help = "sRGB numbers in [0, 1], or transparent", .aliases = "background-color"},
+    {"background", OPTION_COLOR, AT(background), "r,g,b[,a]", .help = OPTION_COLOR_HELP,
+     .aliases = "background-color"},
     {"color-by", OPTION_TEXT, AT(color_by), "ATTR",
      .help = "colour by an attribute ('ewa info' lists them), one component of it (normal.x), x, y, z, red, "
              "green or blue; rgb: the file's colours",

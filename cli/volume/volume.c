@@ -85,8 +85,8 @@ static const cli_option look_table[] = {
     {"light", OPTION_VECTORS, LIGHT_OFFSET + offsetof(light_arguments, lights), "x,y,z[,r,g,b]",
      .help = "direction towards a light, and its linear colour (default 1,1,1); may be given up to 8 times",
      .low = 3, .high = 6, .absent = "headlight"},
-    {"background", OPTION_COLOR, AT(background), "r,g,b[,a]",
-     .help = "sRGB numbers in [0, 1], or transparent", .aliases = "background-color"},
+    {"background", OPTION_COLOR, AT(background), "r,g,b[,a]", .help = OPTION_COLOR_HELP,
+     .aliases = "background-color"},
 };
 
 static const cli_option furniture_table[] = {FURNISH_OPTIONS(AT(furniture))};

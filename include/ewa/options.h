@@ -77,6 +77,11 @@ EWA_API void ewa_option_get(const ewa_option *option, const void *options, char 
 EWA_API ewa_status ewa_option_set(const ewa_option *option, void *options, const char *text,
                                   char problem[EWA_OPTION_TEXT_BYTES]);
 
+/// Reads a colour, sRGB and straight alpha, [0, 1]: "white", "black", "gray", "grey", "transparent", "#f80", "#ff8800",
+/// either with a further digit or two for alpha, or 3 or 4 numbers "r,g,b[,a]". False: it is none; `srgba` is unchanged.
+/// Any thread.
+EWA_API bool ewa_color_read(const char *text, double srgba[4]);
+
 #ifdef __cplusplus
 }
 #endif

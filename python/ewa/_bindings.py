@@ -2609,6 +2609,7 @@ class Functions:
     ewa_model_load: Callable[..., int]
     ewa_model_load_memory: Callable[..., int]
     ewa_model_probe: Callable[..., int]
+    ewa_color_read: Callable[..., bool]
     ewa_option_find: Callable[..., Any]
     ewa_option_get: Callable[..., None]
     ewa_option_range: Callable[..., None]
@@ -2965,6 +2966,7 @@ class Functions:
         self.ewa_model_load = bind("ewa_model_load", c.c_int, c.c_void_p, c.c_char_p, c.c_uint32, c.POINTER(ewa_cloud_load_options), c.POINTER(ewa_model))
         self.ewa_model_load_memory = bind("ewa_model_load_memory", c.c_int, c.c_void_p, c.c_void_p, c.c_size_t, c.c_char_p, c.c_char_p, c.c_uint32, c.POINTER(ewa_cloud_load_options), c.POINTER(ewa_model))
         self.ewa_model_probe = bind("ewa_model_probe", c.c_int, c.c_void_p, c.c_char_p, c.c_void_p)
+        self.ewa_color_read = bind("ewa_color_read", c.c_bool, c.c_char_p, c.c_void_p)
         self.ewa_option_find = bind("ewa_option_find", c.POINTER(ewa_option), c.POINTER(ewa_option_table), c.c_char_p)
         self.ewa_option_get = bind("ewa_option_get", None, c.POINTER(ewa_option), c.c_void_p, c.c_void_p)
         self.ewa_option_range = bind("ewa_option_range", None, c.POINTER(ewa_option), c.c_void_p)

@@ -18,11 +18,9 @@ from ._library import functions as lib
 from ._struct import initialised, path_bytes
 from .camera import Camera, PathLike
 
-#: Linear light (r, g, b[, a]), straight alpha, as in C; or text: "white", "transparent", "#ff8800", and "r,g,b[,a]" of
-#: sRGB numbers in [0, 1] as the program takes them.
+#: Linear light (r, g, b[, a]), straight alpha, as in C; or text as the program takes it: "white", "transparent",
+#: "#ff8800", and "r,g,b[,a]" of sRGB numbers in [0, 1].
 Color = Union[str, Sequence[float]]
-
-_NAMES = {"white": "1,1,1", "black": "0,0,0", "transparent": "0,0,0,0", "gray": "0.5,0.5,0.5", "grey": "0.5,0.5,0.5"}
 
 
 def linear(color: Color, label: str = "background") -> tuple[float, ...]:
@@ -32,18 +30,10 @@ def linear(color: Color, label: str = "background") -> tuple[float, ...]:
         if len(numbers) not in (3, 4):
             raise ArgumentError(f"{label}: {color!r} is no colour: 3 or 4 numbers, or text")
         return numbers if len(numbers) == 4 else numbers + (1.0,)
-    text = _NAMES.get(color, color)
-    try:
-        if text.startswith("#"):
-            digits = text[1:] if len(text) > 5 else "".join(2 * digit for digit in text[1:])
-            srgb = [int(digits[i:i + 2], 16) / 255 for i in range(0, len(digits), 2)]
-        else:
-            srgb = [float(number) for number in text.split(",")]
-    except ValueError:
-        srgb = []
-    if len(srgb) not in (3, 4) or not all(0 <= number <= 1 for number in srgb):
+    srgba = (ctypes.c_double * 4)()
+    if not lib.ewa_color_read(color.encode(), srgba):
         raise ArgumentError(f"{label}: '{color}' is no colour")
-    return tuple(lib.ewa_linear_from_srgb(number) for number in srgb[:3]) + tuple(srgb[3:] or [1.0])
+    return tuple(lib.ewa_linear_from_srgb(number) for number in srgba[:3]) + (srgba[3],)
 
 
 class Image:

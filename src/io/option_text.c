@@ -107,3 +107,45 @@ void ewa_option_get(const ewa_option *option, const void *options, char text[EWA
                                  (int)length, from);
     }
 }
+
+/// Reads "f80", "ff8800", or with alpha "f80c", "ff8800cc".
+static bool read_hex(const char *digits, double srgba[4]) {
+    const size_t length = strlen(digits), per_channel = length > 4 ? 2 : 1;
+    if (length < 3 || length == 5 || length == 7 || length > 8 ||
+        strspn(digits, "0123456789abcdefABCDEF") != length)
+        return false;
+    srgba[3] = 1;
+    for (size_t c = 0; c * per_channel < length; c++) {
+        const char pair[3] = {digits[c * per_channel], digits[c * per_channel + per_channel - 1], 0};
+        unsigned value;
+        if (sscanf(pair, "%2x", &value) != 1) return false;
+        srgba[c] = value / 255.0;
+    }
+    return true;
+}
+
+bool ewa_color_read(const char *text, double srgba[4]) {
+    static const struct {
+        const char *name;
+        double srgba[4];
+    } names[] = {{"white", {1, 1, 1, 1}},
+                 {"black", {0, 0, 0, 1}},
+                 {"gray", {0.5, 0.5, 0.5, 1}},
+                 {"grey", {0.5, 0.5, 0.5, 1}},
+                 {"transparent", {0, 0, 0, 0}}};
+    double found[4] = {0, 0, 0, 1};
+    if (!text) return false;
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++)
+        if (strcmp(text, names[i].name) == 0) return memcpy(srgba, names[i].srgba, sizeof found);
+    if (*text == '#') return read_hex(text + 1, found) && memcpy(srgba, found, sizeof found);
+    const char *end = text + strlen(text);
+    uint32_t count = 0;
+    for (const char *at = text; count < 4; at++) {
+        at = ewa_number_read_f64(at, end, &found[count]);
+        if (!at || !(found[count] >= 0 && found[count] <= 1)) return false;
+        count++;
+        if (at == end) return count >= 3 && memcpy(srgba, found, sizeof found);
+        if (*at != ',') return false;
+    }
+    return false;
+}

@@ -146,7 +146,7 @@ static void test_refusals(void **state) {
         {"--bounds 1%%,3", "--bounds: '1%%,3' is not a,b"},
         {"--bounds 1,101%", "--bounds: 101% is outside [0, 100]"},
         {"--bounds -1%,2", "--bounds: -1% is outside [0, 100]"},
-        {"--color 1,2,3", "--color: 2 is outside [0, 1]"},
+        {"--color 1,2,3", "--color: '1,2,3' is not r,g,b[,a] in [0, 1], #rrggbb, white"},
         {"--color red", "--color: 'red' is not r,g,b[,a]"},
         {"--size abc", "--size: 'abc' is not WxH"},
         {"--size 640", "--size: '640' is not WxH"},

@@ -12,30 +12,18 @@
 #include "ewa/ewa.h"
 
 static const ewa_option_table *const tables[] = {
-    &ewa_acquire_options_table,
-    &ewa_cloud_save_options_table,
-    &ewa_context_options_table,
-    &ewa_csg_options_table,
-    &ewa_estimate_options_table,
-    &ewa_feature_options_table,
-    &ewa_furniture_options_table,
-    &ewa_generate_options_table,
-    &ewa_image_save_options_table,
-    &ewa_material_table,
-    &ewa_mesh_sample_options_table,
-    &ewa_procedure_options_table,
-    &ewa_refit_options_table,
-    &ewa_render_options_table,
-    &ewa_surfels_options_table,
-    &ewa_texture_options_table,
-    &ewa_volume_generate_options_table,
-    &ewa_volume_load_options_table,
-    &ewa_gaussian_options_table,
-    &ewa_volume_options_table,
-    &ewa_volume_save_options_table,
-    &ewa_gaussians_save_options_table,
-    &ewa_voxels_options_table,
-    &ewa_warp_options_table,
+    &ewa_acquire_options_table,         &ewa_cloud_save_options_table,
+    &ewa_context_options_table,         &ewa_csg_options_table,
+    &ewa_estimate_options_table,        &ewa_feature_options_table,
+    &ewa_furniture_options_table,       &ewa_generate_options_table,
+    &ewa_image_save_options_table,      &ewa_material_table,
+    &ewa_mesh_sample_options_table,     &ewa_procedure_options_table,
+    &ewa_refit_options_table,           &ewa_render_options_table,
+    &ewa_surfels_options_table,         &ewa_texture_options_table,
+    &ewa_volume_generate_options_table, &ewa_volume_load_options_table,
+    &ewa_gaussian_options_table,        &ewa_volume_options_table,
+    &ewa_volume_save_options_table,     &ewa_gaussians_save_options_table,
+    &ewa_voxels_options_table,          &ewa_warp_options_table,
 };
 
 /// Defaults are allowed, survive as text, and every member is named once, said in a sentence and in its
@@ -258,10 +246,42 @@ static void test_callers(void **state) {
     ewa_context_destroy(&context);
 }
 
+static void test_colors(void **state) {
+    (void)state;
+    static const struct {
+        const char *text;
+        double srgba[4];
+    } good[] = {{"white", {1, 1, 1, 1}},
+                {"black", {0, 0, 0, 1}},
+                {"transparent", {0, 0, 0, 0}},
+                {"grey", {0.5, 0.5, 0.5, 1}},
+                {"#f80", {1, 136 / 255.0, 0, 1}},
+                {"#FF8800", {1, 136 / 255.0, 0, 1}},
+                {"#f80c", {1, 136 / 255.0, 0, 0.8}},
+                {"#ff8800cc", {1, 136 / 255.0, 0, 0.8}},
+                {"0,0.25,1", {0, 0.25, 1, 1}},
+                {"1,0,0.5,0.125", {1, 0, 0.5, 0.125}}};
+    for (size_t i = 0; i < sizeof good / sizeof good[0]; i++) {
+        double srgba[4];
+        assert_true(ewa_color_read(good[i].text, srgba));
+        for (int c = 0; c < 4; c++) assert_true(fabs(srgba[c] - good[i].srgba[c]) < 1e-15);
+    }
+    static const char *const bad[] = {"",       "red",      "#",          "#f8",     "#f8000",
+                                      "#ff880", "#ff88000", "#ff8800ccc", "#gg0000", "#+f-f 1",
+                                      "1,2,3",  "1,1",      "1,1,1,1,1",  "1,1,",    ",1,1,1",
+                                      "1,1,1,", "-1,0,0",   "nan,0,0",    "1 1 1",   "white "};
+    for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
+        double srgba[4] = {7, 7, 7, 7};
+        if (ewa_color_read(bad[i], srgba)) fail_msg("'%s' is a colour", bad[i]);
+        for (int c = 0; c < 4; c++) assert_true(srgba[c] == 7);
+    }
+    assert_false(ewa_color_read(NULL, NULL));
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_tables), cmocka_unit_test(test_ranges),  cmocka_unit_test(test_text),
-        cmocka_unit_test(test_sizes),  cmocka_unit_test(test_callers),
+        cmocka_unit_test(test_tables), cmocka_unit_test(test_ranges), cmocka_unit_test(test_text),
+        cmocka_unit_test(test_sizes),  cmocka_unit_test(test_colors), cmocka_unit_test(test_callers),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
