@@ -53,10 +53,9 @@ check: build asan-build clang-build tsan-build
 	@sh tools/setup.sh xvfb xdotool || echo "Without these it is skipped."
 	@sh tools/check.sh build/release build/asan:quick build/clang:parallel build/tsan:parallel
 
-# Optimised, so that the tests take minutes and not an hour.
 asan-build: setup
 	@echo "Building build/asan"
-	$(call quietly,cmake --preset asan -DCMAKE_BUILD_TYPE=RelWithDebInfo)
+	$(call quietly,cmake --preset asan)
 	$(call quietly,cmake --build build/asan -j $(JOBS))
 
 asan: asan-build
@@ -65,12 +64,12 @@ asan: asan-build
 # What runs in threads; `make tsan` runs everything.
 tsan-build: setup
 	@echo "Building build/tsan"
-	$(call quietly,cmake --preset tsan -DCMAKE_BUILD_TYPE=RelWithDebInfo)
+	$(call quietly,cmake --preset tsan)
 	$(call quietly,cmake --build build/tsan -j $(JOBS) --target parallel_tests)
 
 tsan: setup
 	@echo "Building build/tsan"
-	$(call quietly,cmake --preset tsan -DCMAKE_BUILD_TYPE=RelWithDebInfo)
+	$(call quietly,cmake --preset tsan)
 	$(call quietly,cmake --build build/tsan -j $(JOBS))
 	@sh tools/check.sh build/tsan
 

@@ -7,10 +7,10 @@
 
 #include <math.h>
 
-/// Sixty steps of a thirtieth of the way through a Gaussian, at most that far from its middle.
-enum { STEPS = 4000 };
+/// Of at most 6.5 units: four steps in the thinnest standard deviation, where the midpoint rule is exact but for rounding.
+enum { STEPS = 1000 };
 
-/// Integral of a Gaussian of peak 1 along a ray from the eye, by the trapezoid rule, in double precision.
+/// Integral of a Gaussian of peak 1 along a ray from the eye, by the midpoint rule, in double precision.
 static double integrate(const double eye[3], const double direction[3], const double center[3],
                         const double axes[3][3], const double scales[3], double length) {
     double sum = 0;
@@ -22,7 +22,7 @@ static double integrate(const double eye[3], const double direction[3], const do
             for (int k = 0; k < 3; k++) along += axes[a][k] * (eye[k] + t * direction[k] - center[k]);
             m2 += along * along / (scales[a] * scales[a]);
         }
-        sum += exp(-m2 / 2);
+        if (m2 < 100) sum += exp(-m2 / 2); // beyond, less than 2e-22
     }
     return sum * length / STEPS;
 }
