@@ -297,7 +297,9 @@ void help_print_markdown(FILE *file, size_t count, const cli_command *const *com
           "the options. Exit status: 0 done, 1 the work failed (the message says which file, where in it, "
           "and why),\n"
           "2 wrong usage. Messages go to standard error as `ewa: FILE: what`. Output files appear whole or "
-          "not at all.\n",
+          "not at all.\n"
+          "A default that is written out changes nothing; one that is worked out is written as the word before its colon:\n"
+          "auto, none or all (files of these names: `./auto`).\n",
           file);
     for (size_t i = 0; i < count; i++) {
         const cli_command *command = commands[i];

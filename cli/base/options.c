@@ -19,8 +19,7 @@ enum { MAX_WORD = 64, MAX_SIDE_PX = 65536 };
 
 static const cli_option common_table[] = {
     {"threads", OPTION_INTEGER, offsetof(common_arguments, threads), "N", "[0, 256]",
-     .help = "worker threads; 0: one per processor. The result does not depend on it",
-     .absent = "one per processor"},
+     .help = "worker threads; 0: one per processor. The result does not depend on it"},
     {"progress", OPTION_TOGGLE, offsetof(common_arguments, progress),
      .help = "draw a progress bar on standard error, or do not", .absent = "on a terminal"},
     {"quiet", OPTION_FLAG, offsetof(common_arguments, quiet), .help = "print errors only", .letter = 'q',
@@ -262,6 +261,47 @@ static bool parse_frames(const cli_option *option, const char *text, film_part *
     return part_add(part, text, problem) || wrong(message, "--%s: %s", option->key, problem);
 }
 
+/// Whether a value is the word that stands for a default that is worked out.
+static bool is_default_word(const cli_option *option, const char *value) {
+    static const char *const words[] = {"auto", "none", "all"};
+    bool is = false;
+    for (size_t i = 0; i < sizeof words / sizeof words[0]; i++) is = is || strcmp(value, words[i]) == 0;
+    const size_t length = strlen(value);
+    return is && option->absent && strncmp(option->absent, value, length) == 0 &&
+           (!option->absent[length] || option->absent[length] == ':');
+}
+
+/// Gives a member its default again, as if the option had not been written before.
+static bool restore_default(const cli_command *command, const cli_option *option, char *arguments,
+                            char message[OPTION_ERROR_BYTES]) {
+    static const size_t bytes_by_kind[] = {
+        [OPTION_FLAG] = sizeof(bool),
+        [OPTION_TOGGLE] = sizeof(int),
+        [OPTION_ON_OFF] = sizeof(bool),
+        [OPTION_NUMBER] = sizeof(double),
+        [OPTION_INTEGER] = sizeof(int64_t),
+        [OPTION_TEXT] = sizeof(char *),
+        [OPTION_OUTPUT] = sizeof(char *),
+        [OPTION_OUTPUTS] = sizeof(char *),
+        [OPTION_CHOICE] = sizeof(int),
+        [OPTION_VECTOR] = sizeof(option_vector),
+        [OPTION_VECTORS] = sizeof(option_vectors),
+        [OPTION_BOUNDS] = sizeof(option_bounds),
+        [OPTION_COLOR] = sizeof(option_color),
+        [OPTION_SIZE] = sizeof(option_size),
+        [OPTION_FRAMES] = sizeof(film_part),
+        [OPTION_FILTER] = sizeof(ewa_filter),
+        [OPTION_SET] = sizeof(uint32_t),
+        [OPTION_LIBRARY] = sizeof(double), // the only type of those whose default is worked out
+    };
+    char *defaults = malloc(command->arguments_bytes);
+    if (!defaults) return wrong(message, "out of memory for the options of %s", command->name);
+    options_default(command, defaults);
+    memcpy(arguments + option->offset, defaults + option->offset, bytes_by_kind[option->kind]);
+    free(defaults);
+    return true;
+}
+
 static bool parse_value(const cli_option *option, const char *text, void *member,
                         char message[OPTION_ERROR_BYTES]) {
     int choice = 0;
@@ -414,8 +454,8 @@ static bool take_option(const cli_command *command, size_t count, const char *co
             return wrong(message, "%.80s: no such option; see 'ewa %s --help'", word, command->name);
         if (word[2]) value = word + 2;
     }
-    given[found] = true;
     const cli_option *option = options_at(command, found);
+    given[found] = true;
     void *member = arguments + option->offset;
     if (option->kind == OPTION_FLAG || option->kind == OPTION_TOGGLE) {
         if (value) return wrong(message, "--%s: takes no value", option->key);
@@ -433,6 +473,8 @@ static bool take_option(const cli_command *command, size_t count, const char *co
         }
         value = words[++*index];
     }
+    given[found] = !is_default_word(option, value);
+    if (!given[found]) return restore_default(command, option, arguments, message);
     return parse_value(option, value, member, message);
 }
 

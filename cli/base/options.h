@@ -82,7 +82,9 @@ typedef struct cli_option {
     char letter;          ///< short name
     const char *aliases;  ///< further long names, separated by blanks
     uint32_t low, high;   ///< vectors: fewest and most numbers
-    const char *absent;   ///< help's words for a default that is worked out; else the member's value is shown
+    /// Help's words for a default that is worked out, "auto: from --fov"; NULL: the member's value is shown. One that
+    /// begins with auto, none or all can be written out as that word, which is as if the option was not given.
+    const char *absent;
     const char *excludes; ///< keys, separated by blanks, of options that may not be given beside this one
     const char *needs;    ///< keys, separated by blanks: one of these options has to be given too
     const ewa_option_table *table; ///< OPTION_LIBRARY: the struct's

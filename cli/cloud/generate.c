@@ -34,14 +34,14 @@ static const cli_option object_table[] = {
     {"jitter", GENERATE(jitter)},
     {"checks", GENERATE(checks),
      .help = "squares along an edge of the checkerboard and of the cube's faces, cubes of checkerbox"},
-    {"radius-scale", GENERATE(radius_scale), .absent = "closed for the jitter"},
+    {"radius-scale", GENERATE(radius_scale), .absent = "auto: closed for the jitter"},
     {"positions-only", OPTION_FLAG, AT(options.positions_only),
      .help = "leave out normals and radii, as a scanner does"},
     {"sharp", OPTION_FLAG, AT(options.sharp),
      .help = "cube and csg: clip lines on every edge, and points on the edges"},
     {"dims", OPTION_VECTOR, AT(dims), "x,y,z",
      .help = "volumes: voxels along each axis; one number: along all", .low = 1, .high = 3,
-     .absent = "128,128,128"},
+     .absent = "auto: 128,128,128"},
 };
 
 static void set_defaults(void *data) {

@@ -13,16 +13,16 @@ static const cli_option procedure_table[] = {
     {"procedure", OPTION_CHOICE, AT(procedure), NULL, "off|checker|marble|wood|noise",
      .help = "colour the points by a solid texture, filtered by each surfel's own kernel"},
     {"frequency", OPTION_NUMBER, AT(frequency), "F", "(0, 1e9]",
-     .help = "features per world unit: cubes, veins, rings, waves", .absent = "8 over the longest side",
+     .help = "features per world unit: cubes, veins, rings, waves", .absent = "auto: 8 over the longest side",
      .needs = "procedure"},
     {"prefilter-scale", PROCEDURE(prefilter), .needs = "procedure"},
     {"procedure-seed", PROCEDURE(seed), .needs = "procedure"},
     {"first-color", OPTION_VECTOR, AT(colors[0]), "r,g,b",
      .help = "linear colour in [0, 1] of one kind of cubes, the stone, early wood, the low", .low = 3,
-     .high = 3, .absent = "by --procedure", .needs = "procedure"},
+     .high = 3, .absent = "auto: by --procedure", .needs = "procedure"},
     {"second-color", OPTION_VECTOR, AT(colors[1]), "r,g,b",
      .help = "linear colour in [0, 1] of the other cubes, the veins, late wood, the high", .low = 3,
-     .high = 3, .absent = "by --procedure", .needs = "procedure"},
+     .high = 3, .absent = "auto: by --procedure", .needs = "procedure"},
 };
 
 const option_group procedure_options = OPTION_GROUP("Solid texture", procedure_table);

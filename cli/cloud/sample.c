@@ -20,7 +20,7 @@ typedef struct sample_arguments {
 static const cli_option sample_table[] = {
     {"points", OPTION_INTEGER, AT(options.point_count), "N", "[1, 4294967279]",
      .help = "about how many points, within a few percent", .letter = 'n', .excludes = "spacing"},
-    {"spacing", SAMPLE(spacing_world), .value = "S", .absent = "from --points"},
+    {"spacing", SAMPLE(spacing_world), .value = "S", .absent = "auto: from --points"},
     {"seed", SAMPLE(seed)},
     {"crease", SAMPLE(crease_degrees)},
     {"clip-lines", SAMPLE(clip_lines)},

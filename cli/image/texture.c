@@ -43,7 +43,7 @@ static const cli_option map_table[] = {
     {"plane", OPTION_VECTOR, AT(plane), "o,a,d",
      .help = "for a camera: where the image is in the world, three times x,y,z: its upper left corner, the "
              "way along its upper edge, the way down its left edge",
-     .low = 9, .high = 9, .absent = "1 high, upright in the x-y plane, its middle at the origin"},
+     .low = 9, .high = 9, .absent = "auto: 1 high, upright in the x-y plane, its middle at the origin"},
     {"repeat", TEXTURE(repeat)},
 };
 

@@ -9,7 +9,7 @@
 static const cli_option table[] = {
     {"texture", OPTION_TEXT, AT(picture), "IMAGE",
      .help = "picture to put onto the points (PNG, JPEG, OpenEXR, PFM, HDR)",
-     .absent = "the object's own colours", .excludes = "procedure"},
+     .absent = "none: the object's own colours", .excludes = "procedure"},
     {"texture-filter", OPTION_OF(ewa_acquire_options, AT(acquire), filter)},
     {"pixel-sigma", OPTION_OF(ewa_acquire_options, AT(acquire), pixel_sigma_px)},
 };

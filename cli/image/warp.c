@@ -45,14 +45,14 @@ static const cli_option output_table[] = {
 static const cli_option target_table[] = {
     {"camera", OPTION_TEXT, AT(camera_path), "FILE",
      .help = "the new camera; formats as --source-camera. Poses have the lens of the first pair",
-     .absent = "that of the first pair"},
+     .absent = "auto: that of the first pair"},
     {"camera-index", OPTION_INTEGER, AT(camera_index), "N", "[0, 4294967295]",
      .help = "which camera of the file, counted from 0", .needs = "camera"},
     {"shift", OPTION_VECTOR, AT(shift), "x,y,z",
      .help = "moves the new camera so far to its right, down and ahead, in world units", .low = 3, .high = 3,
      .absent = "0,0,0"},
     {"size", OPTION_SIZE, AT(size), "WxH", .help = "scales the picture to so many pixels",
-     .aliases = "resolution", .absent = "the camera's"},
+     .aliases = "resolution", .absent = "auto: the camera's"},
 };
 
 static const cli_option warp_table[] = {

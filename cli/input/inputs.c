@@ -13,14 +13,14 @@
 static const cli_option input_table[] = {
     {"columns", OPTION_TEXT, offsetof(common_arguments, columns), "NAMES",
      .help = "what the columns of text files are, as x,y,z,intensity,-,r,g,b; -: a column that is left out",
-     .absent = "as the file's head or its numbers say"},
+     .absent = "auto: as the file's head or its numbers say"},
     {"keep-going", OPTION_FLAG, offsetof(common_arguments, keep_going),
      .help = "step over damaged pieces of files of points, and say what is lost"},
     {"filter", OPTION_FILTER, offsetof(common_arguments, filter), "EXPR",
      .help = "take the points that fulfil conditions on their attributes, x, y, z, red, green, blue: "
              "classification=2,6, classification=ground,building, \"intensity>100 and z<=12.5\", "
              "return_number=1..2, !=; given more than once, all hold",
-     .absent = "all points"},
+     .absent = "all"},
 };
 
 const option_group cloud_input_options = OPTION_GROUP("Files of points", input_table);

@@ -20,17 +20,17 @@ typedef struct volume_input_arguments {
 #define VOLUME_INPUT_OPTIONS(at)                                                                             \
     {"dims", OPTION_VECTOR, (at) + offsetof(volume_input_arguments, dims), "x,y,z",                          \
      .help = "the file is raw numbers, also in gzip, x fastest: how many along each axis", .low = 3,         \
-     .high = 3, .absent = "as the file or its name says"},                                                   \
+     .high = 3, .absent = "auto: as the file or its name says"},                                                   \
         {"type", OPTION_CHOICE, (at) + offsetof(volume_input_arguments, type), NULL,                         \
          "float|double|char|uchar|short|ushort|int|uint", .help = "type of raw numbers",                     \
-         .absent = "as the file's name says, else uchar", .needs = "dims"},                                  \
+         .absent = "auto: as the file's name says, else uchar", .needs = "dims"},                                  \
         {"big-endian", OPTION_FLAG, (at) + offsetof(volume_input_arguments, big_endian),                     \
          .help = "raw numbers have their highest byte first", .needs = "dims"},                              \
         {"header-bytes", OPTION_INTEGER, (at) + offsetof(volume_input_arguments, header_bytes), "N",         \
          "[0, inf)", .help = "bytes in front of raw numbers", .needs = "dims"},                              \
     {                                                                                                        \
         "spacing", OPTION_VECTOR, (at) + offsetof(volume_input_arguments, spacing), "x,y,z", .low = 3,       \
-            .high = 3, .absent = "as the file says, else 1,1,1",                                             \
+            .high = 3, .absent = "auto: as the file says, else 1,1,1",                                             \
             .help = "distances of the voxels along each axis, in world units"                                \
     }
 // clang-format on

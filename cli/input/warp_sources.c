@@ -21,20 +21,20 @@ static const cli_option source_table[] = {
      .help = "cameras of the pictures: one file for each pair, or one file with a camera for each; formats "
              "as --camera of render, or poses as text (.txt, .log, .tum: 4 x 4 matrices or TUM's lines, "
              "camera to world), which need --intrinsics",
-     .absent = "at the origin, looking along +z"},
+     .absent = "none: at the origin, looking along +z"},
     {"source-index", OPTION_VECTOR, AT(camera_indices), "N[,N...]", "[0, 4294967295]",
      .help = "which camera of its file each pair has, counted from 0", .low = 1, .high = OPTION_VECTOR_MAX,
-     .absent = "0,1,2,... of one file, 0 of each of several", .needs = "source-camera"},
+     .absent = "auto: 0,1,2,... of one file, 0 of each of several", .needs = "source-camera"},
     {"intrinsics", OPTION_TEXT, AT(intrinsics), "fx,fy,cx,cy|FILE",
      .help = "focal lengths and principal point in pixels, for poses, pixel centres at halves: where they "
              "count as whole numbers, as in OpenCV and TUM's files, add 0.5 to cx and cy; or a file with a "
              "lens, such as Open3D's",
-     .absent = "those of --source-camera"},
+     .absent = "auto: those of --source-camera"},
     {"depth-is", OPTION_CHOICE, AT(depth_kind), NULL, "z|ray|disparity",
      .help = "what the numbers are: depth along the view, distance to the eye, or a shift in pixels"},
     {"depth-scale", OPTION_NUMBER, AT(depth_scale), "S", "[0, 1000000000]",
      .help = "numbers per unit: 1000 for millimetres in metres, 5000 for TUM's files",
-     .absent = "1000 for PNG, else 1"},
+     .absent = "auto: 1000 for PNG, else 1"},
     {"baseline", OPTION_NUMBER, AT(baseline_world), "B", "[0, 1000000000]",
      .help = "with --depth-is disparity: distance of the two eyes; z = fx B / (disparity + offset)",
      .absent = "none"},

@@ -35,7 +35,7 @@ static const cli_option making_table[] = {
     {"memory", BUILD(memory_bytes), .help = "memory for points at hand: 512M, 8G"},
     {"subset", OPTION_TEXT, AT(subset), "I/N",
      .help = "make part I of N only, 1/N to N/N, on any machine: --merge joins them",
-     .absent = "the whole at once", .excludes = "merge"},
+     .absent = "none: the whole at once", .excludes = "merge"},
     {"merge", OPTION_FLAG, AT(merge),
      .help = "the inputs are all parts of --subset; the file is the one that is made at once"},
     {"keep-going", OPTION_FLAG, offsetof(common_arguments, keep_going),

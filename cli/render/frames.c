@@ -17,7 +17,7 @@ static const cli_option frames_table[] = {
      .help =
          "N frames of one turn about the up axis through --target, starting at the view that the options of "
          "the camera give. Without --eye and --camera, the distance is such that all is in every frame",
-     .absent = "one picture", .excludes = "path"},
+     .absent = "none: one picture", .excludes = "path"},
     {"path", OPTION_TEXT, offsetof(frames_arguments, path_file), "FILE",
      .help = "one frame for each camera of a file, in its order; formats as --camera",
      .excludes = "camera camera-index eye target up ortho view azimuth elevation"},
@@ -27,15 +27,15 @@ static const cli_option frames_table[] = {
          "time; A-B or I/N: only a part of the film, frames A to B, or every Nth from frame I - 1 (part I of "
          "N), with the numbers and the bytes of the whole. A number and a part may both be given, each by "
          "its own --frames",
-     .absent = "the cameras as they are, all frames", .needs = "turntable path"},
+     .absent = "all: the cameras as they are, all frames", .needs = "turntable path"},
     {"skip-existing", OPTION_FLAG, offsetof(frames_arguments, skip_existing),
      .help = "leave out frames whose files are all there", .needs = "turntable path"},
     {"loop", OPTION_FLAG, offsetof(frames_arguments, loop),
      .help = "with --frames: the way goes on from the last camera to the first", .needs = "frames"},
     {"fps", OPTION_NUMBER, offsetof(frames_arguments, frames_per_s), "F", "(0, 1000]",
-     .help = "frames per second of a film", .absent = "30"},
+     .help = "frames per second of a film", .absent = "auto: 30"},
     {"quality", OPTION_INTEGER, offsetof(frames_arguments, quality), "Q", "[0, 100]",
-     .help = "quality of a film, from 0 (small) to 100 (good)", .absent = "75"},
+     .help = "quality of a film, from 0 (small) to 100 (good)", .absent = "auto: 75"},
 };
 
 const option_group frames_options = OPTION_GROUP("Frames", frames_table);

@@ -15,11 +15,11 @@ _Static_assert(EWA_MAX_LIGHTS == 8 && OPTION_VECTORS_MAX == 8, "the help of --li
 static const cli_option light_table[] = {
     {"shading", OPTION_CHOICE, AT(shading), NULL, "none|lambert|phong",
      .help = "light: none gives the bare colours, lambert matt surfaces, phong materials with highlights",
-     .absent = "phong with --materials or --env, else lambert"},
+     .absent = "auto: phong with --materials or --env, else lambert"},
     {"light", OPTION_VECTORS, AT(lights), "x,y,z[,r,g,b]",
      .help = "direction towards a light, and its linear colour (default 1,1,1); may be given up to 8 times; "
              "0,0,0,r,g,b is a headlight of that colour",
-     .low = 3, .high = 6, .absent = "headlight"},
+     .low = 3, .high = 6, .absent = "auto: headlight"},
     {"ambient", RENDER(ambient)},
     {"materials", OPTION_TEXT, AT(materials_path), "FILE",
      .help = "JSON table of materials (ambient, diffuse, specular, shininess, reflection), by the points' "

@@ -114,15 +114,15 @@ static const cli_option look_table[] = {
     {"color-by", OPTION_TEXT, AT(color_by), "ATTR",
      .help = "colour by an attribute ('ewa info' lists them), one component of it (normal.x), x, y, z, red, "
              "green or blue; rgb: the file's colours",
-     .absent = "the file's colours, else grey"},
+     .absent = "auto: the file's colours, else grey"},
     {"colormap", OPTION_CHOICE, AT(colormap), NULL,
      "viridis|turbo|gray|plasma|inferno|magma|cividis|coolwarm|classes",
      .help = "colours for --color-by; classes: whole numbers by the colours of LAS classes (ground, "
              "vegetation, building, ...)",
-     .absent = "classes for whole numbers named classification, else viridis", .needs = "color-by"},
+     .absent = "auto: classes for whole numbers named classification, else viridis", .needs = "color-by"},
     {"range", OPTION_BOUNDS, AT(range), "a,b",
      .help = "numbers that get the first and the last colour; with a percent sign, percentiles: 2%,98%",
-     .aliases = "coloring-range", .absent = "smallest to largest; 2%,98% for intensities",
+     .aliases = "coloring-range", .absent = "auto: smallest to largest; 2%,98% for intensities",
      .needs = "color-by"},
 };
 
@@ -157,9 +157,9 @@ static bool parse_paths(const render_arguments *arguments, picture_paths *paths,
 
 /// Sets `layers` as ewa_render_options has them.
 static bool read_layers(const render_arguments *arguments, uint32_t *layers) {
-    const char *word = arguments->layers ? arguments->layers : "auto";
-    *layers = strcmp(word, "exact") == 0 ? EWA_LAYERS_EXACT : 0;
-    if (*layers || strcmp(word, "auto") == 0) return true;
+    const char *word = arguments->layers;
+    *layers = word && strcmp(word, "exact") == 0 ? EWA_LAYERS_EXACT : 0;
+    if (*layers || !word) return true;
     for (; *word >= '0' && *word <= '9' && *layers <= 255; word++)
         *layers = 10 * *layers + (uint32_t)(*word - '0');
     return !*word && *layers >= 1 && *layers <= 255;

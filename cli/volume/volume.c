@@ -61,11 +61,11 @@ static const cli_option voxel_table[] = {
      .help = "write the transfer function that was used, to change it and come back with --transfer"},
     {"range", OPTION_BOUNDS, AT(scene.range), "a,b",
      .help = "values to which its first and its last point go; with a percent sign, percentiles: 50%,99%",
-     .absent = "as the transfer function says"},
+     .absent = "auto: as the transfer function says"},
     {"gradient", OPTION_VECTOR, AT(scene.gradient), "low,high",
      .help = "show boundaries: voxels whose value changes by less than low per world unit are empty, by high "
              "or more as they are, a ramp between",
-     .low = 2, .high = 2, .absent = "as the transfer function says"},
+     .low = 2, .high = 2, .absent = "auto: as the transfer function says"},
     {"opacity-scale", VOLUME(density_scale)},
     {"method", VOLUME(method)},
     {"footprint", VOLUME(index)},
@@ -81,10 +81,10 @@ static const cli_option section_table[] = {SECTION_OPTIONS(AT(section))};
 static const cli_option look_table[] = {
     {"shading", OPTION_CHOICE, LIGHT_OFFSET + offsetof(light_arguments, shading), NULL, "none|lambert|phong",
      .help = "light, by the gradient: none gives the bare colours, lambert matt matter, phong highlights",
-     .absent = "phong; none with the presets gray and fog"},
+     .absent = "auto: phong; none with the presets gray and fog"},
     {"light", OPTION_VECTORS, LIGHT_OFFSET + offsetof(light_arguments, lights), "x,y,z[,r,g,b]",
      .help = "direction towards a light, and its linear colour (default 1,1,1); may be given up to 8 times",
-     .low = 3, .high = 6, .absent = "headlight"},
+     .low = 3, .high = 6, .absent = "auto: headlight"},
     {"background", OPTION_COLOR, AT(background), "r,g,b[,a]", .help = OPTION_COLOR_HELP,
      .aliases = "background-color"},
 };

@@ -43,7 +43,7 @@ static void test_command_help(void **state) {
     }
     run_done("ewa render --help");
     assert_non_null(strstr(last_run.out, "--size WxH"));
-    assert_non_null(strstr(last_run.out, "(default: 1280x720); also --resolution"));
+    assert_non_null(strstr(last_run.out, "; also --resolution"));
     run_done("ewa help render");
     assert_non_null(strstr(last_run.out, "usage: ewa render "));
 }

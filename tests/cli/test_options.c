@@ -24,6 +24,7 @@ typedef struct sample_arguments {
     option_size size;
     option_bounds bounds;
     uint32_t set;
+    option_size fitting;
 } sample_arguments;
 
 #define AT(member) offsetof(sample_arguments, member)
@@ -41,6 +42,7 @@ static const cli_option sample_table[] = {
     {"size", OPTION_SIZE, AT(size), "WxH", .help = "h"},
     {"bounds", OPTION_BOUNDS, AT(bounds), "a,b", .help = "h"},
     {"set", OPTION_SET, AT(set), "WORD,...", "one|two|three", .help = "h"},
+    {"fitting", OPTION_SIZE, AT(fitting), "WxH", .help = "h", .absent = "auto: as it fits", .excludes = "flag"},
 };
 
 static const option_group sample_group = OPTION_GROUP("Sample", sample_table);
@@ -109,6 +111,25 @@ static void test_values(void **state) {
     assert_int_equal(arguments.common.progress, 1);
     assert_true(parse("--help --nonsense"));
     assert_true(arguments.common.help);
+}
+
+/// The word of a default that is worked out is as if the option was not given, whatever was before it.
+static void test_default_words(void **state) {
+    (void)state;
+    assert_true(parse("--fitting 3x4 --fitting auto -f") && !arguments.fitting.given && arguments.flag);
+    assert_int_equal(arguments.fitting.width_px, 0);
+    assert_true(parse("--fitting auto --fitting=3x4") && arguments.fitting.given);
+    assert_false(parse("--fitting auto --fitting 3x4 -f"));
+    assert_false(parse("--fitting all"));
+    assert_false(parse("--fitting aut"));
+    assert_false(parse("--size auto"));
+    for (size_t c = 0; c < all_commands_count; c++) {
+        const cli_option *option;
+        for (size_t i = 0; (option = options_at(all_commands[c], i)); i++) {
+            const ewa_option *of = options_library(option);
+            assert_true(!option->absent || !of || of->type == EWA_OPTION_F64);
+        }
+    }
 }
 
 static void test_refusals(void **state) {
@@ -382,7 +403,7 @@ static void test_nearest(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_values),  cmocka_unit_test(test_refusals),
-        cmocka_unit_test(test_tables),  cmocka_unit_test(test_defaults_in_range),
+        cmocka_unit_test(test_default_words), cmocka_unit_test(test_tables),  cmocka_unit_test(test_defaults_in_range),
         cmocka_unit_test(test_nearest), cmocka_unit_test(test_together),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
