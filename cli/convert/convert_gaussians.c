@@ -50,7 +50,10 @@ bool convert_gaussians(cli_session *session, const char *from, const char *to,
                        const ewa_gaussians_save_options *options, const double *corners_world,
                        const double (*matrices)[16], uint32_t count) {
     ewa_gaussians set;
-    if (!gaussian_files_load(session, from, &set, NULL)) return false;
+    ewa_gaussian_facts facts;
+    ewa_gaussians_save_options chosen = *options;
+    if (!gaussian_files_load(session, from, &set, &facts)) return false;
+    memcpy(chosen.up_world, facts.up_world, sizeof chosen.up_world);
     ewa_status status = corners_world ? crop(&set, corners_world) : EWA_OK;
     if (status == EWA_OK && !set.count) {
         session_fail(session, "%s: no Gaussian has its centre in the box of --crop", from);
@@ -60,7 +63,7 @@ bool convert_gaussians(cli_session *session, const char *from, const char *to,
     for (uint32_t i = 0; i < count && status == EWA_OK; i++)
         status = ewa_gaussians_transform(&set, matrices[i]);
     session->subject = to;
-    if (status == EWA_OK) status = ewa_gaussians_save(&set, to, options);
+    if (status == EWA_OK) status = ewa_gaussians_save(&set, to, &chosen);
     if (status != EWA_OK)
         session_failed(session, status);
     else

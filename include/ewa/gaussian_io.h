@@ -44,7 +44,7 @@ EWA_API ewa_status ewa_gaussians_probe(ewa_context *context, const char *path, e
 
 /// Reads a file of Gaussians, the format by content; "-" reads standard input. Numbers are what the set says:
 /// scales are standard deviations and opacities shares, whatever the file stores. Axes are the file's, but for
-/// SPZ that names its own, which become the right-down-front of 3DGS. Centres in doubles get an origin, in
+/// SPZ, whose right-up-back, or what it names instead, becomes the right-down-front of 3DGS. Centres in doubles get an origin, in
 /// floats the origin 0. `facts` may be NULL. The caller frees the set; it is zeroed after a failure.
 ///
 /// Errors, with the Gaussian and the reason: EWA_ERROR_IO, EWA_ERROR_FORMAT (also a quaternion of zeros, a
@@ -68,12 +68,14 @@ typedef struct ewa_gaussians_save_options {
     size_t struct_size;
     uint32_t sh_degree;   ///< highest one of the harmonics that are kept, [0, 4]; default 4; .splat: 0
     uint32_t spz_version; ///< [2, 4]; default 3: quaternions of 32 bits, gzip; 4: zstd
+    double up_world[3];   ///< up in the set, in the plane of y and z, any length; zeros: -y, as in 3DGS; default zeros
 } ewa_gaussians_save_options;
 
 EWA_API extern const ewa_option_table ewa_gaussians_save_options_table;
 EWA_API void ewa_gaussians_save_options_init(ewa_gaussians_save_options *options, size_t struct_size);
 
-/// Writes a set, the format by suffix; docs/files.md says what each keeps. Axes stay as they are. What a format
+/// Writes a set, the format by suffix; docs/files.md says what each keeps. Numbers are turned about x so
+/// that `up_world`, which ewa_gaussian_facts has of files that say so, is -y in .ply and .splat, y in .spz. What a format
 /// cannot keep, such as harmonics in .splat, is said in a warning. The same set gives the same file on every
 /// machine. `options` may be NULL. Errors: EWA_ERROR_ARGUMENT (no Gaussians, a number that is none),
 /// EWA_ERROR_UNSUPPORTED (suffix), EWA_ERROR_LIMIT (coordinates beyond the 24 bits of SPZ), EWA_ERROR_IO,

@@ -865,10 +865,12 @@ class ewa_gaussians_save_options(c.Structure):
     struct_size: int
     sh_degree: int
     spz_version: int
+    up_world: c.Array[c.c_double]
     _fields_ = [
         ("struct_size", c.c_size_t),
         ("sh_degree", c.c_uint32),
         ("spz_version", c.c_uint32),
+        ("up_world", c.c_double * 3),
     ]
 
 

@@ -399,6 +399,8 @@ class GaussiansSaveOptions(TypedDict, total=False):
 
     #: highest degree of the spherical harmonics that are kept; .splat: 0; [0, 4], default 4
     sh_degree: int
+    #: what is up in the set, which is turned to what is up in files; zeros: -y, as in 3DGS; (-inf, inf), default 0
+    up_world: Sequence[float]
     #: of .spz: 2 and 3 are gzip, 3 has finer quaternions, 4 is zstd; [2, 4], default 3
     spz_version: int
 

@@ -154,14 +154,16 @@ class Gaussians(Held):
         Parameters
         ----------
         **options
-            Members of ``ewa_gaussians_save_options``: ``sh_degree``, ``spz_version``.
+            Members of ``ewa_gaussians_save_options``: ``sh_degree``, ``spz_version``, ``up_world`` (default: as the file
+            that was read says).
 
         Raises
         ------
         FileError, ArgumentError, FormatError
         """
         made = initialised(b.ewa_gaussians_save_options, lib.ewa_gaussians_save_options_init)
-        fill(made, "ewa_gaussians_save_options", dict(options))
+        up = {"-y": (0, -1, 0), "y": (0, 1, 0), "z": (0, 0, 1), "-z": (0, 0, -1)}[self._up]
+        fill(made, "ewa_gaussians_save_options", {"up_world": up, **options})
         self._call(lib.ewa_gaussians_save, path_bytes(path), ctypes.byref(made))
 
     def to_cloud(self) -> Cloud:

@@ -65,7 +65,7 @@ static void converted(void **state) {
     (void)state;
     run_done("ewa convert three.ply -o b.spz --spz-version 4 && ewa info b.spz");
     said("version 4");
-    said("up          0 -1 0"); // named there
+    said("up          0 -1 0"); // right, up, back there
     run_done("ewa convert three.ply -o b.spz --spz-version 2 --sh-degree 0 && ewa info b.spz");
     said("version 2");
     said("degree 0");

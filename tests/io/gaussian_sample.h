@@ -101,6 +101,24 @@ static inline void sample_check(const ewa_gaussians *set, uint32_t sh_degree, co
     }
 }
 
+/// Turns y and z of a set to their other end, by signs written out: of x, yz, and of harmonics of degree 1 to 4 from the
+/// lowest order on.
+static inline void sample_turn_over(ewa_gaussians *set) {
+    static const char signs[] = "+--+-++-+-+--+-+-+-++-+-+";
+    const uint32_t coefficients = (set->sh_degree + 1) * (set->sh_degree + 1);
+    for (uint32_t i = 0; i < set->count; i++) {
+        for (uint32_t k = 1; k < 3; k++) {
+            set->centers[3 * i + k] = -set->centers[3 * i + k];
+            set->rotations[4 * i + 1 + k] = -set->rotations[4 * i + 1 + k];
+        }
+        for (uint32_t n = 0; n < coefficients; n++)
+            for (uint32_t k = 0; k < 3; k++)
+                if (signs[n] == '-')
+                    set->harmonics[3 * (i * coefficients + n) + k] =
+                        -set->harmonics[3 * (i * coefficients + n) + k];
+    }
+}
+
 /// A byte for a share of 255.
 static inline unsigned sample_byte(double value) { return (unsigned)floor(fmin(fmax(value, 0), 255) + 0.5); }
 static inline unsigned sample_color_byte(uint32_t i) {

@@ -70,6 +70,41 @@ static void round_trips(void **state) {
         }
 }
 
+/// What is up in a set becomes what is up in files, and -y when these are read; colours go along.
+static void upright(void **state) {
+    (void)state;
+    static const double ups[3][3] = {{0, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    static const double wanted[3][3] = {{1, 2, 3}, {1, -2, -3}, {1, -3, 2}}; // of (1, 2, 3) with -y up
+    ewa_context *context = check_context(1, NULL);
+    for (int u = 0; u < 3; u++)
+        for (int form = 0; form < 3; form++) {
+            static const char *const names[] = {"u.ply", "u.splat", "u.spz"};
+            char path[512];
+            ewa_gaussians set, read;
+            ewa_gaussians_save_options options;
+            ewa_gaussians_save_options_init(&options, sizeof options);
+            memcpy(options.up_world, ups[u], sizeof ups[u]);
+            options.spz_version = 4;
+            make_set(context, 1, &set);
+            for (int k = 0; k < 3; k++) set.centers[k] = (float)(k + 1);
+            assert_int_equal(ewa_gaussians_save(&set, scratch_path(names[form], path), &options), EWA_OK);
+            assert_int_equal(ewa_gaussians_load(context, path, &read, NULL), EWA_OK);
+            for (uint32_t k = 0; k < 3; k++) {
+                sample_near("centre", k, read.centers[k], wanted[u][k], 1e-5);
+                assert_true(set.centers[k] == (float)(k + 1));
+            }
+            // The harmonics of degree 1 are -y, z and -x: their coefficients are a vector that turns along.
+            const double v[3] = {-sample_rest(3, 0), -sample_rest(1, 0), sample_rest(2, 0)};
+            const double turned[3][3] = {{v[0], v[1], v[2]}, {v[0], -v[1], -v[2]}, {v[0], -v[2], v[1]}};
+            const uint32_t of[3] = {9, 3, 6}; // x y z
+            for (uint32_t k = 0; k < 3 && read.sh_degree; k++)
+                sample_near("colour", k, (k < 2 ? -1 : 1) * read.harmonics[of[k]], turned[u][k], 1e-2);
+            ewa_gaussians_free(&set);
+            ewa_gaussians_free(&read);
+        }
+    ewa_context_destroy(&context);
+}
+
 /// Random turns come back, whichever component is the largest.
 static void turns(void **state) {
     (void)state;
@@ -226,7 +261,7 @@ static void same_bytes(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(round_trips), cmocka_unit_test(turns),   cmocka_unit_test(corners),
+        cmocka_unit_test(round_trips), cmocka_unit_test(upright), cmocka_unit_test(turns),   cmocka_unit_test(corners),
         cmocka_unit_test(losses),      cmocka_unit_test(refused), cmocka_unit_test(same_bytes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -101,6 +101,22 @@ static inline float ewa_file_f16(const uint8_t *bytes) {
     return bits >> 15 ? -value : value;
 }
 
+/// What is multiplied with the numbers of a Gaussian when axes are turned to their other end.
+enum { EWA_SH_ROOM = (EWA_MAX_SH_DEGREE + 1) * (EWA_MAX_SH_DEGREE + 1) };
+typedef struct ewa_gaussian_signs {
+    float center[3], rotation[3]; ///< of x y z of the quaternion
+    float harmonics[EWA_SH_ROOM];
+} ewa_gaussian_signs;
+
+/// Fills the signs of a half turn about x, which leads from the right-down-front of 3DGS to right-up-back, and back.
+void ewa_gaussian_signs_turn(ewa_gaussian_signs *signs);
+
+/// Turns a set so.
+void ewa_gaussians_turn(ewa_gaussians *gaussians);
+
+/// Turns the axes k to their other end whose sign[k] is -1; the others are 1.
+void ewa_gaussians_mirror(ewa_gaussians *gaussians, const int sign[3]);
+
 /// Makes 2D Gaussians of a set that is said to hold such, whatever its third scales.
 void ewa_gaussians_flatten(ewa_gaussians *gaussians);
 

@@ -12,6 +12,8 @@
 static const ewa_option option_rows[] = {
     {"sh_degree", EWA_OPTION_U32, AT(sh_degree), 0, EWA_MAX_SH_DEGREE, .initial = EWA_MAX_SH_DEGREE,
      .help = "highest degree of the spherical harmonics that are kept; .splat: 0"},
+    {"up_world", EWA_OPTION_F64, AT(up_world), -INFINITY, INFINITY, EWA_OPTION_ABOVE | EWA_OPTION_BELOW, 3,
+     .help = "what is up in the set, which is turned to what is up in files; zeros: -y, as in 3DGS"},
     {"spz_version", EWA_OPTION_U32, AT(spz_version), 2, 4, .initial = 3,
      .help = "of .spz: 2 and 3 are gzip, 3 has finer quaternions, 4 is zstd"},
 };
@@ -70,6 +72,46 @@ static ewa_status check_set(const ewa_gaussians *set) {
     return EWA_OK;
 }
 
+/// Makes a copy of a set that is turned about x so that -y is up, as in 3DGS. Errors: EWA_ERROR_ARGUMENT (up is along
+/// x), EWA_ERROR_LIMIT, EWA_ERROR_MEMORY, EWA_ERROR_NUMERIC.
+static ewa_status turn_up(const ewa_gaussians *set, const double up_world[3], ewa_gaussians *turned) {
+    const double length = hypot(up_world[1], up_world[2]), y = up_world[1] / length, z = up_world[2] / length;
+    *turned = (ewa_gaussians){0};
+    if (!(length > 0))
+        return ewa_fail(set->context, EWA_ERROR_ARGUMENT, "up_world: %g, %g, %g is along x", up_world[0],
+                        up_world[1], up_world[2]);
+    const double matrix[16] = {1, 0, 0, 0, 0, -y, -z, 0, 0, z, -y, 0, 0, 0, 0, 1};
+    ewa_status status = ewa_gaussians_create(set->context, set->count, set->sh_degree, turned);
+    if (status != EWA_OK) return status;
+    turned->flat = set->flat, turned->antialiased = set->antialiased;
+    memcpy(turned->origin, set->origin, sizeof turned->origin);
+    memcpy(turned->centers, set->centers, 3 * (size_t)set->count * sizeof(float));
+    memcpy(turned->scales, set->scales, 3 * (size_t)set->count * sizeof(float));
+    memcpy(turned->rotations, set->rotations, 4 * (size_t)set->count * sizeof(float));
+    memcpy(turned->opacities, set->opacities, (size_t)set->count * sizeof(float));
+    memcpy(turned->harmonics, set->harmonics,
+           3 * (size_t)ewa_sh_count(set->sh_degree) * set->count * sizeof(float));
+    status = ewa_gaussians_transform(turned, matrix);
+    if (status != EWA_OK) ewa_gaussians_free(turned);
+    return status;
+}
+
+static ewa_status write_set(const ewa_gaussians *set, const char *path, size_t format,
+                            const ewa_gaussians_save_options *chosen) {
+    ewa_gaussian_target target = {
+        .set = set,
+        .name = path,
+        .sh_degree = chosen->sh_degree < set->sh_degree ? chosen->sh_degree : set->sh_degree,
+        .spz_version = chosen->spz_version,
+    };
+    ewa_status status = ewa_writer_open(set->context, path, &target.writer);
+    if (status != EWA_OK) return status;
+    status = formats[format].write(&target);
+    if (status == EWA_OK) return ewa_writer_commit(&target.writer);
+    ewa_writer_abort(&target.writer);
+    return status;
+}
+
 ewa_status ewa_gaussians_save(const ewa_gaussians *gaussians, const char *path,
                               const ewa_gaussians_save_options *options) {
     if (!gaussians || !gaussians->context || !path) return EWA_ERROR_ARGUMENT;
@@ -87,16 +129,11 @@ ewa_status ewa_gaussians_save(const ewa_gaussians *gaussians, const char *path,
                         path, gaussians->sh_degree);
     status = check_set(gaussians);
     if (status != EWA_OK) return status;
-    ewa_gaussian_target target = {
-        .set = gaussians,
-        .name = path,
-        .sh_degree = chosen.sh_degree < gaussians->sh_degree ? chosen.sh_degree : gaussians->sh_degree,
-        .spz_version = chosen.spz_version,
-    };
-    status = ewa_writer_open(context, path, &target.writer);
-    if (status != EWA_OK) return status;
-    status = formats[format].write(&target);
-    if (status == EWA_OK) return ewa_writer_commit(&target.writer);
-    ewa_writer_abort(&target.writer);
+    const double *up = chosen.up_world;
+    if (up[1] <= 0 && up[0] == 0 && up[2] == 0) return write_set(gaussians, path, format, &chosen);
+    ewa_gaussians turned;
+    status = turn_up(gaussians, up, &turned);
+    if (status == EWA_OK) status = write_set(&turned, path, format, &chosen);
+    ewa_gaussians_free(&turned);
     return status;
 }

@@ -60,7 +60,9 @@ static ewa_status read_packed(const filling *f, const splats *from, ewa_gaussian
                                         (size_t)from->packed_bytes};
     ewa_gaussian_facts facts = {0};
     *set = (ewa_gaussians){0};
-    return ewa_gaussians_spz.read(&source, set, &facts);
+    const ewa_status status = ewa_gaussians_spz.read(&source, set, &facts);
+    if (status == EWA_OK) ewa_gaussians_turn(set); // y is up in glTF, as in the SPZ that it packs
+    return status;
 }
 
 /// The name of an attribute, in the form of a draft where only that is there.

@@ -4,18 +4,15 @@
 // SPZ: Gaussians in few bytes. Centres are fixed-point numbers of 24 bits, scales logarithms in sixteenths, the rest
 // bytes; of quaternions the smallest three components, or x y z, are there.
 //
-// Its documentation says that axes are right, up, back; but converters, its own among them, put the numbers of 3DGS
-// there as they are, and the file does not say which. So numbers are kept, unless the file names its axes.
+// Axes are right, up, back, or those that the file names; sets have the right, down, front of 3DGS.
 //
 // Based on: Niantic Labs, "spz", README and sources, versions 1 to 4.
 #include "io/gaussian/spz.h"
 #include "io/source.h"
 
-#include <stdlib.h>
-
 /// Coordinate systems that a file can name: number 1 + bits, set for right, up, front; from 9 on the second and
 /// third axis are exchanged.
-enum { AXES_RIGHT = 1, AXES_UP = 2, AXES_FRONT = 4, AXES_PLAIN = 8 };
+enum { AXES_RIGHT = 1, AXES_UP = 2, AXES_FRONT = 4, AXES_PLAIN = 8, AXES_USUAL = 1 + AXES_RIGHT + AXES_UP };
 
 typedef struct spz_job {
     const ewa_spz_header *header;
@@ -79,39 +76,16 @@ static void decode(void *data, uint32_t first, uint32_t end) {
     }
 }
 
-/// Mirrors the axes of a set: sign[k] is -1 where axis k turns.
-static void mirror(ewa_gaussians *set, const int sign[3]) {
-    const uint32_t coefficients = ewa_sh_count(set->sh_degree);
-    for (uint32_t i = 0; i < set->count; i++) {
-        for (uint32_t k = 0; k < 3; k++) {
-            set->centers[3 * (size_t)i + k] *= (float)sign[k];
-            // Of a turn about an axis, the axes beside it count.
-            set->rotations[4 * (size_t)i + 1 + k] *= (float)(sign[(k + 1) % 3] * sign[(k + 2) % 3]);
-        }
-        for (uint32_t n = 1; n < coefficients; n++) {
-            uint32_t degree = 1;
-            while (ewa_sh_count(degree) <= n) degree++;
-            const int order = (int)n - (int)(degree * degree + degree), size = abs(order);
-            // In x, in y and in z, a harmonic is even or odd.
-            const bool odd_y = order < 0, odd_z = ((int)degree - size) % 2, odd_x = (size % 2) != odd_y;
-            const int turned = (odd_x ? sign[0] : 1) * (odd_y ? sign[1] : 1) * (odd_z ? sign[2] : 1);
-            for (uint32_t k = 0; k < 3; k++)
-                set->harmonics[3 * ((size_t)i * coefficients + n) + k] *= (float)turned;
-        }
-    }
-}
-
-/// Turns axes that the file names to right, down, front. Errors: EWA_ERROR_UNSUPPORTED.
+/// Turns the axes of a file, 0: the usual ones, to right, down, front. Errors: EWA_ERROR_UNSUPPORTED.
 static ewa_status turn(const ewa_gaussian_source *source, uint32_t axes, ewa_gaussians *set,
                        ewa_gaussian_facts *facts) {
-    if (axes == 0) return EWA_OK;
     if (axes > AXES_PLAIN)
         return ewa_fail(source->context, EWA_ERROR_UNSUPPORTED,
                         "%s: SPZ: axes of number %u; 1 to 8, whose second one is up or down, are read",
                         source->name, axes);
-    const uint32_t bits = axes - 1;
-    mirror(set,
-           (const int[]){bits & AXES_RIGHT ? 1 : -1, bits & AXES_UP ? -1 : 1, bits & AXES_FRONT ? 1 : -1});
+    const uint32_t bits = (axes ? axes : AXES_USUAL) - 1;
+    ewa_gaussians_mirror(set, (const int[]){bits & AXES_RIGHT ? 1 : -1, bits & AXES_UP ? -1 : 1,
+                                            bits & AXES_FRONT ? 1 : -1});
     facts->up_world[1] = -1;
     return EWA_OK;
 }

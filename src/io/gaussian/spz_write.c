@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Gaussians as SPZ: see spz.c for its numbers. Version 4 says that the axes are those of 3DGS, as the numbers are
-// written; the versions before have no place for it.
+// Gaussians as SPZ: see spz.c for its numbers. They are turned to right, up, back: what all versions mean when they
+// name no axes, and all that many readers know.
 #include "io/gaussian/save.h"
 #include "io/gaussian/spz.h"
 
@@ -16,8 +16,6 @@ enum {
     FRACTION_BITS = 12,   ///< at least, where coordinates allow it
     MAX_FRACTION_BITS = 22,
     BOX_STEPS = 1 << 18, ///< of the longest side of the box, where coordinates allow it
-    AXES_RIGHT_DOWN_FRONT = 6,
-    EXTENSION_BYTES = 12,
     TABLE_ENTRY_BYTES = 16,
 };
 
@@ -53,12 +51,14 @@ typedef struct packing {
     const ewa_gaussians *set;
     ewa_spz_header header;
     uint8_t *streams[EWA_SPZ_STREAMS];
+    ewa_gaussian_signs signs;
 } packing;
 
 static void pack_center(const packing *p, size_t i) {
     uint8_t *to = p->streams[EWA_SPZ_CENTERS] + 9 * i;
     for (size_t k = 0; k < 3; k++) {
-        const double world = p->set->origin[k] + (double)p->set->centers[3 * i + k];
+        const double world =
+            (double)p->signs.center[k] * (p->set->origin[k] + (double)p->set->centers[3 * i + k]);
         const int32_t fixed = (int32_t)floor(ldexp(world, (int)p->header.fraction_bits) + 0.5);
         for (int b = 0; b < 3; b++) *to++ = (uint8_t)((uint32_t)fixed >> 8 * b);
     }
@@ -68,7 +68,8 @@ static void pack_rotation(const packing *p, size_t i) {
     const float *rotation = p->set->rotations + 4 * i;
     double q[4]; // x y z w
     uint32_t largest = 3;
-    for (uint32_t k = 0; k < 4; k++) q[k] = (double)rotation[(k + 1) % 4];
+    for (uint32_t k = 0; k < 3; k++) q[k] = (double)(p->signs.rotation[k] * rotation[k + 1]);
+    q[3] = (double)rotation[0];
     if (p->header.version == 2) {
         uint8_t *to = p->streams[EWA_SPZ_ROTATIONS] + 3 * i;
         for (uint32_t k = 0; k < 3; k++) to[k] = ewa_byte_of(127.5 + (q[3] < 0 ? -127.5 : 127.5) * q[k]);
@@ -101,7 +102,8 @@ static void pack(void *data, uint32_t first, uint32_t end) {
         }
         p->streams[EWA_SPZ_OPACITIES][i] = ewa_byte_of(255 * (double)set->opacities[i]);
         for (size_t k = 0; k < rest; k++)
-            p->streams[EWA_SPZ_HARMONICS][i * rest + k] = ewa_byte_of(128 + 128 * (double)harmonics[3 + k]);
+            p->streams[EWA_SPZ_HARMONICS][i * rest + k] = 
+                ewa_byte_of(128 + 128 * (double)(p->signs.harmonics[1 + k / 3] * harmonics[3 + k]));
     }
 }
 
@@ -135,13 +137,11 @@ static ewa_status put_gzip(const ewa_gaussian_target *target, const uint8_t *byt
 static ewa_status put_zstd(const ewa_gaussian_target *target, packing *p) {
     ewa_context *context = target->set->context;
     const uint32_t streams = p->header.sh_degree ? EWA_SPZ_STREAMS : EWA_SPZ_STREAMS - 1;
-    uint8_t head[EWA_SPZ_OPEN_BYTES + EXTENSION_BYTES + EWA_SPZ_STREAMS * TABLE_ENTRY_BYTES] = {0};
+    uint8_t head[EWA_SPZ_OPEN_BYTES  + EWA_SPZ_STREAMS * TABLE_ENTRY_BYTES] = {0};
     p->header.stream_count = streams;
-    p->header.flags |= EWA_SPZ_EXTENDED;
     put_head(&p->header, head);
-    ewa_put_u32(head + EWA_SPZ_HEAD_BYTES, EWA_SPZ_OPEN_BYTES + EXTENSION_BYTES);
-    uint8_t *to = ewa_put_u32(head + EWA_SPZ_OPEN_BYTES, EWA_SPZ_AXES);
-    to = ewa_put_u32(ewa_put_u32(to, 4), AXES_RIGHT_DOWN_FRONT);
+    ewa_put_u32(head + EWA_SPZ_HEAD_BYTES, EWA_SPZ_OPEN_BYTES );
+    uint8_t *to = head + EWA_SPZ_OPEN_BYTES;
     size_t room = 0, used = 0;
     for (uint32_t k = 0; k < streams; k++)
         room += ZSTD_compressBound((size_t)ewa_spz_stream_bytes(&p->header, k) * p->header.count);
@@ -170,6 +170,7 @@ ewa_status ewa_gaussians_write_spz(const ewa_gaussian_target *target) {
                             .count = set->count,
                             .sh_degree = target->sh_degree,
                             .flags = set->antialiased ? EWA_SPZ_ANTIALIASED : 0}};
+    ewa_gaussian_signs_turn(&p.signs);
     ewa_status status = choose_fraction(target, &p.header.fraction_bits);
     if (status != EWA_OK) return status;
     size_t size_bytes = EWA_SPZ_HEAD_BYTES;
