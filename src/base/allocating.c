@@ -17,10 +17,9 @@ ewa_status ewa_parallel_allocating_stoppable(ewa_context *context, const char *s
                                              void *data, uint32_t count) {
     if (context->options.allocator.allocate == ewa_allocate_default)
         return ewa_parallel_stoppable(context, stage, task, data, count);
-    ewa_status status = EWA_OK;
-    for (uint32_t i = 0; i < count && status == EWA_OK; i++) {
+    for (uint32_t i = 0; i < count; i++) {
         task(data, i, 0);
-        status = ewa_progress(context, stage, (i + 1.0) / count);
+        EWA_TRY(ewa_progress(context, stage, (i + 1.0) / count));
     }
-    return status;
+    return EWA_OK;
 }

@@ -77,4 +77,12 @@ static inline uint64_t ewa_split(uint64_t count, uint32_t parts, uint32_t part) 
     return count / parts * part + count % parts * part / parts;
 }
 
+/// Returns from the function with the status of `call` unless that is EWA_OK: for functions, or the inner part of one, that
+/// have nothing to give back on their way out.
+#define EWA_TRY(call)                                                                                        \
+    do {                                                                                                     \
+        const ewa_status tried_ = (call);                                                                    \
+        if (tried_ != EWA_OK) return tried_;                                                                 \
+    } while (0)
+
 #endif

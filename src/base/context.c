@@ -98,8 +98,7 @@ ewa_status ewa_context_create(const ewa_context_options *options, ewa_context **
     *context = NULL;
     ewa_context_options chosen;
     ewa_context_options_init(&chosen, sizeof chosen);
-    const ewa_status taken = ewa_options_take(NULL, &ewa_context_options_table, options, &chosen);
-    if (taken != EWA_OK) return taken;
+    EWA_TRY(ewa_options_take(NULL, &ewa_context_options_table, options, &chosen));
     if (!chosen.allocator.allocate || !chosen.allocator.release ||
         chosen.executor.worker_count > MAX_WORKERS ||
         (chosen.executor.run && chosen.executor.worker_count == 0))

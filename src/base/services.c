@@ -65,9 +65,8 @@ ewa_status ewa_buffer_grow(ewa_context *context, ewa_buffer *buffer, size_t kept
     if (!__builtin_mul_overflow(count, size_bytes, &wanted) && wanted <= buffer->capacity_bytes)
         return EWA_OK;
     ewa_buffer larger = {0};
-    const ewa_status status =
-        ewa_buffer_reserve(context, &larger, count < SIZE_MAX / 2 ? count + count / 2 : count, size_bytes);
-    if (status != EWA_OK) return status;
+    EWA_TRY(
+        ewa_buffer_reserve(context, &larger, count < SIZE_MAX / 2 ? count + count / 2 : count, size_bytes));
     if (kept) memcpy(larger.data, buffer->data, kept * size_bytes);
     ewa_buffer_free(context, buffer);
     *buffer = larger;

@@ -101,15 +101,14 @@ static ewa_status put(ewa_cloud *cloud, const ewa_attribute *attribute) {
 ewa_status ewa_cloud_add(ewa_cloud *cloud, const char *name, ewa_type type, uint32_t component_count,
                          void **data) {
     if (!cloud) return EWA_ERROR_ARGUMENT;
-    ewa_status status = check_shape(cloud, name, type, component_count);
-    if (status != EWA_OK) return status;
+    EWA_TRY(check_shape(cloud, name, type, component_count));
     ewa_attribute attribute = {.type = type,
                                .component_count = component_count,
                                .stride_bytes = component_count * ewa_type_bytes(type)};
     memcpy(attribute.name, name, strlen(name) + 1);
     attribute.data = ewa_allocate(cloud->context, cloud->point_capacity, attribute.stride_bytes);
     if (!attribute.data) return EWA_ERROR_MEMORY;
-    status = put(cloud, &attribute);
+    ewa_status status = put(cloud, &attribute);
     if (status != EWA_OK)
         release_attribute(cloud, &attribute);
     else if (data)
@@ -120,8 +119,7 @@ ewa_status ewa_cloud_add(ewa_cloud *cloud, const char *name, ewa_type type, uint
 ewa_status ewa_cloud_borrow(ewa_cloud *cloud, const char *name, ewa_type type, uint32_t component_count,
                             const void *data, size_t stride_bytes) {
     if (!cloud) return EWA_ERROR_ARGUMENT;
-    const ewa_status status = check_shape(cloud, name, type, component_count);
-    if (status != EWA_OK) return status;
+    EWA_TRY(check_shape(cloud, name, type, component_count));
     const size_t packed_bytes = component_count * ewa_type_bytes(type);
     if (stride_bytes == 0) stride_bytes = packed_bytes;
     if ((!data && cloud->point_count) || stride_bytes < packed_bytes || stride_bytes % ewa_type_bytes(type) ||
@@ -176,14 +174,13 @@ const char *ewa_cloud_note_name(const ewa_cloud *cloud, uint32_t index) {
 }
 
 ewa_status ewa_cloud_follow(ewa_cloud *cloud, const ewa_cloud *source) {
-    ewa_status status = EWA_OK;
     memcpy(cloud->origin_world, source->origin_world, sizeof cloud->origin_world);
     cloud->grid = source->grid;
-    for (uint32_t i = 0; i < source->notes.count && status == EWA_OK; i++) {
+    for (uint32_t i = 0; i < source->notes.count; i++) {
         const ewa_note *note = &source->notes.notes[i];
-        status = ewa_notes_set(cloud->context, &cloud->notes, note->name, note->bytes, note->size_bytes);
+        EWA_TRY(ewa_notes_set(cloud->context, &cloud->notes, note->name, note->bytes, note->size_bytes));
     }
-    return status;
+    return EWA_OK;
 }
 
 ewa_status ewa_cloud_like(const ewa_cloud *cloud, ewa_cloud **like) {

@@ -143,16 +143,15 @@ ewa_status ewa_cloud_transform(ewa_cloud *cloud, const double world_to_world[16]
         sided[i] = inverse_transpose[i] / determinant;
         mirrored[i] = determinant < 0 ? -linear[i] : linear[i];
     }
-    ewa_status status = map_triples(cloud, EWA_POSITION, linear, false);
-    if (status == EWA_OK) status = map_triples(cloud, EWA_NORMAL, sided, true);
-    if (status == EWA_OK) status = map_triples(cloud, EWA_TANGENT_U, linear, false);
+    EWA_TRY(map_triples(cloud, EWA_POSITION, linear, false));
+    EWA_TRY(map_triples(cloud, EWA_NORMAL, sided, true));
+    EWA_TRY(map_triples(cloud, EWA_TANGENT_U, linear, false));
     // A reflection turns u x v inside out: v changes its sign, and with it b of the clip lines.
-    if (status == EWA_OK) status = map_triples(cloud, EWA_TANGENT_V, mirrored, false);
+    EWA_TRY(map_triples(cloud, EWA_TANGENT_V, mirrored, false));
     const double sign = determinant < 0 ? -1 : 1;
-    if (status == EWA_OK) status = scale_component(cloud, EWA_CLIP0, 1, sign);
-    if (status == EWA_OK) status = scale_component(cloud, EWA_CLIP1, 1, sign);
-    if (status == EWA_OK) status = scale_component(cloud, EWA_RADIUS, 0, cbrt(fabs(determinant)));
-    if (status != EWA_OK) return status;
+    EWA_TRY(scale_component(cloud, EWA_CLIP0, 1, sign));
+    EWA_TRY(scale_component(cloud, EWA_CLIP1, 1, sign));
+    EWA_TRY(scale_component(cloud, EWA_RADIUS, 0, cbrt(fabs(determinant))));
     double origin_world[3], moved_world[3];
     ewa_cloud_origin(cloud, origin_world);
     for (int r = 0; r < 3; r++)

@@ -49,8 +49,7 @@ ewa_status ewa_filter_mark(const ewa_filter *filter, const ewa_cloud *cloud, uin
     if (!filter || !cloud || !marks) return EWA_ERROR_ARGUMENT;
     for (uint32_t t = 0; t < filter->term_count; t++) {
         bound_term bound;
-        const ewa_status status = ewa_cloud_find_scalar(cloud, filter->terms[t].name, &bound.scalar);
-        if (status != EWA_OK) return status;
+        EWA_TRY(ewa_cloud_find_scalar(cloud, filter->terms[t].name, &bound.scalar));
         bind_ranges(&filter->terms[t], &bound);
         ewa_mark_blocks(cloud, mark_block, &bound, marks);
     }

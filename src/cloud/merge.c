@@ -165,12 +165,11 @@ static void fill_missing(const merged_stream *stream, uint64_t count, char *byte
 /// Adds the stream of all clouds.
 static ewa_status merge_stream(const merge_job *job, const merged_stream *stream) {
     void *data = NULL;
-    const ewa_status status =
-        ewa_cloud_add(job->made, stream->name, stream->type, stream->component_count, &data);
+    EWA_TRY(ewa_cloud_add(job->made, stream->name, stream->type, stream->component_count, &data));
     double origin_world[3], shift_world[3];
     ewa_cloud_origin(job->clouds[0], origin_world);
     char *bytes = data;
-    for (uint32_t k = 0; k < job->count && status == EWA_OK; k++) {
+    for (uint32_t k = 0; k < job->count; k++) {
         const ewa_attribute *from = ewa_cloud_find(job->clouds[k], stream->name);
         const uint64_t point_count = ewa_cloud_point_count(job->clouds[k]);
         ewa_cloud_origin(job->clouds[k], shift_world);
@@ -185,7 +184,7 @@ static ewa_status merge_stream(const merge_job *job, const merged_stream *stream
             merge_numbers(from, stream, point_count, shift_world, bytes);
         bytes += point_count * stream->component_count * ewa_type_bytes(stream->type);
     }
-    if (status == EWA_OK && stream->lacking_count) {
+    if (stream->lacking_count) {
         const bool is_float = stream->type == EWA_F32 || stream->type == EWA_F64;
         ewa_report(job->context, EWA_SEVERITY_WARNING,
                    "attribute '%s': %u of %u clouds lack it, their points get %s", stream->name,
@@ -194,26 +193,25 @@ static ewa_status merge_stream(const merge_job *job, const merged_stream *stream
                    : is_float                           ? "NaN"
                                                         : "0");
     }
-    return status;
+    return EWA_OK;
 }
 
 /// Merges the attributes of cloud `k` that no earlier one has; says which the merged cloud does without.
 static ewa_status merge_attributes(const merge_job *job, uint32_t k) {
     const ewa_attribute *attribute;
-    ewa_status status = EWA_OK;
-    for (uint32_t a = 0; status == EWA_OK && (attribute = ewa_cloud_attribute_at(job->clouds[k], a)); a++) {
+    for (uint32_t a = 0; (attribute = ewa_cloud_attribute_at(job->clouds[k], a)); a++) {
         bool seen = false;
         for (uint32_t e = 0; e < k && !seen; e++)
             seen = ewa_cloud_find(job->clouds[e], attribute->name) != NULL;
         merged_stream stream;
         if (!seen && plan_stream(job, attribute, &stream))
-            status = merge_stream(job, &stream);
+            EWA_TRY(merge_stream(job, &stream));
         else if (!seen || !ewa_cloud_find(job->made, attribute->name))
             ewa_report(job->context, EWA_SEVERITY_WARNING,
                        "attribute '%s' of cloud %u is dropped: not every cloud has it in the same shape",
                        attribute->name, k + 1);
     }
-    return status;
+    return EWA_OK;
 }
 
 /// Keeps the grid of the first cloud on the axes on which all have the same.

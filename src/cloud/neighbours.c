@@ -282,17 +282,17 @@ static void fill_levels(ewa_neighbours *tree) {
 
 static ewa_status build(build_job *job) {
     ewa_neighbours *tree = job->tree;
-    ewa_status status = ewa_morton_order(tree->context, job->position, tree->point_count, tree->order,
-                                         job->split_level, &job->finite_count);
-    if (status == EWA_OK) status = find_places(job);
-    if (status != EWA_OK || tree->place_count == 0) return status;
+    EWA_TRY(ewa_morton_order(tree->context, job->position, tree->point_count, tree->order, job->split_level,
+                             &job->finite_count));
+    EWA_TRY(find_places(job));
+    if (tree->place_count == 0) return EWA_OK;
     const uint32_t whole = tree->place_count / SECTION_PLACES;
     job->section_count = whole ? whole : 1;
     const size_t borders = (size_t)job->section_count + 1;
     job->section_border = ewa_allocate(tree->context, borders, 2 * sizeof *job->section_border);
     if (!job->section_border) return EWA_ERROR_MEMORY;
     job->section_leaves = job->section_border + borders;
-    status = find_leaves(job);
+    ewa_status status = find_leaves(job);
     if (status == EWA_OK) fill_levels(tree);
     ewa_release(tree->context, job->section_border, borders, 2 * sizeof *job->section_border);
     return status;

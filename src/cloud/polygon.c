@@ -109,14 +109,14 @@ ewa_status ewa_polygon_create(ewa_context *context, const double *corners_world,
     *polygon = NULL;
     if (!context || !corners_world || !ring_counts || ring_count == 0) return EWA_ERROR_ARGUMENT;
     uint64_t total;
-    ewa_status status = check_corners(context, corners_world, ring_counts, ring_count, &total);
-    if (status != EWA_OK) return status;
+    EWA_TRY(check_corners(context, corners_world, ring_counts, ring_count, &total));
     ewa_polygon *made = ewa_allocate_zeroed(context, 1, sizeof *made);
     if (!made) return EWA_ERROR_MEMORY;
     made->context = context;
     made->box_world[0] = made->box_world[1] = INFINITY;
     made->box_world[2] = made->box_world[3] = -INFINITY;
     made->edges = ewa_allocate(context, total, sizeof *made->edges);
+    ewa_status status = EWA_OK;
     if (made->edges) {
         for (uint32_t r = 0; r < ring_count; corners_world += 2 * (size_t)ring_counts[r++])
             add_ring(made, corners_world, ring_counts[r]);
@@ -180,8 +180,8 @@ ewa_status ewa_polygon_mark(const ewa_polygon *polygon, const ewa_cloud *cloud, 
     if (!polygon || !cloud || !marks) return EWA_ERROR_ARGUMENT;
     polygon_view view = {.polygon = polygon};
     if (!ewa_marks_position(cloud)) return EWA_ERROR_ARGUMENT;
-    ewa_status status = ewa_cloud_find_scalar(cloud, EWA_POSITION ".x", &view.x);
-    if (status == EWA_OK) status = ewa_cloud_find_scalar(cloud, EWA_POSITION ".y", &view.y);
-    if (status == EWA_OK) ewa_mark_blocks(cloud, mark_block, &view, marks);
-    return status;
+    EWA_TRY(ewa_cloud_find_scalar(cloud, EWA_POSITION ".x", &view.x));
+    EWA_TRY(ewa_cloud_find_scalar(cloud, EWA_POSITION ".y", &view.y));
+    ewa_mark_blocks(cloud, mark_block, &view, marks);
+    return EWA_OK;
 }

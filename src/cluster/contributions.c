@@ -170,13 +170,11 @@ static void address_keys(ewa_joint *joint, bool back) {
 }
 
 ewa_status ewa_joint_find_nearest(ewa_joint *joint) {
-    ewa_status status = place_keys(joint);
-    if (status != EWA_OK || joint->whole) return status;
-    status = ewa_parallel_stoppable(joint->context, "render", find_keys, joint, joint->active_count);
-    if (status != EWA_OK) return status;
+    EWA_TRY(place_keys(joint));
+    if (joint->whole) return EWA_OK;
+    EWA_TRY(ewa_parallel_stoppable(joint->context, "render", find_keys, joint, joint->active_count));
     address_keys(joint, false);
-    status = ewa_messages_send(&joint->exchange, &joint->messages);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_messages_send(&joint->exchange, &joint->messages));
     ewa_parallel(joint->context, take_largest, joint, joint->tiles.reduction_count);
     address_keys(joint, true);
     return ewa_messages_send(&joint->exchange, &joint->messages);
@@ -250,9 +248,8 @@ static ewa_status pack_contributions(ewa_joint *joint) {
 ewa_status ewa_joint_gather(ewa_joint *joint) {
     ewa_context *context = joint->context;
     const ewa_joint_tiles *tiles = &joint->tiles;
-    ewa_status status = pack_contributions(joint);
-    if (status == EWA_OK) status = ewa_messages_send_any(context, &joint->exchange, &joint->messages);
-    if (status != EWA_OK) return status;
+    EWA_TRY(pack_contributions(joint));
+    EWA_TRY(ewa_messages_send_any(context, &joint->exchange, &joint->messages));
     joint->messages.taken[joint->exchange.rank] = joint->messages.given[joint->exchange.rank];
     for (uint32_t p = 0; p < tiles->incoming_count; p++) {
         ewa_parcel *from = &joint->messages.taken[tiles->incoming[p].rank];

@@ -19,8 +19,7 @@ ewa_status ewa_exchange_check(ewa_context *context, const ewa_exchange *exchange
 
 ewa_status ewa_messages_open(ewa_context *context, const ewa_exchange *exchange, ewa_messages *messages) {
     const size_t count = exchange->rank_count, of_rank = 4 * sizeof(ewa_parcel) + 2 * sizeof(uint64_t);
-    const ewa_status status = ewa_buffer_reserve(context, &messages->memory, count, of_rank);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_buffer_reserve(context, &messages->memory, count, of_rank));
     memset(messages->memory.data, 0, count * of_rank);
     messages->given = messages->memory.data;
     messages->taken = messages->given + count;
@@ -42,18 +41,17 @@ ewa_status ewa_messages_send_any(ewa_context *context, const ewa_exchange *excha
         messages->given_sizes[r] = (ewa_parcel){&mine[r], sizeof *mine};
         messages->taken_sizes[r] = (ewa_parcel){&theirs[r], sizeof *theirs};
     }
-    ewa_status status = exchange->swap(exchange->user, messages->given_sizes, messages->taken_sizes);
-    if (status != EWA_OK) return status;
+    EWA_TRY(exchange->swap(exchange->user, messages->given_sizes, messages->taken_sizes));
     theirs[exchange->rank] = 0;
     size_t bytes = 0;
     for (uint32_t r = 0; r < count; r++) bytes += (size_t)theirs[r];
-    status = ewa_buffer_reserve(context, &messages->received, bytes, 1);
+    EWA_TRY(ewa_buffer_reserve(context, &messages->received, bytes, 1));
     char *at = messages->received.data;
-    for (uint32_t r = 0; r < count && status == EWA_OK; r++) {
+    for (uint32_t r = 0; r < count; r++) {
         messages->taken[r] = (ewa_parcel){at, (size_t)theirs[r]};
         at += theirs[r];
     }
-    return status == EWA_OK ? ewa_messages_send(exchange, messages) : status;
+    return ewa_messages_send(exchange, messages);
 }
 
 void ewa_messages_free(ewa_context *context, ewa_messages *messages) {
@@ -87,8 +85,7 @@ static ewa_status add_parts(const ewa_exchange *exchange, ewa_messages *messages
         messages->given[r] = (ewa_parcel){values + from, (end - from) * sizeof *values};
         messages->taken[r] = (ewa_parcel){parts + r * own_count, own_count * sizeof *parts};
     }
-    ewa_status status = ewa_messages_send(exchange, messages);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_messages_send(exchange, messages));
     for (uint32_t r = 0; r < ranks; r++)
         for (size_t i = 0; i < own_count && r != own; i++) values[first + i] += parts[r * own_count + i];
     for (uint32_t r = 0; r < ranks; r++) {
@@ -102,12 +99,11 @@ static ewa_status add_parts(const ewa_exchange *exchange, ewa_messages *messages
 ewa_status ewa_exchange_add(ewa_context *context, const ewa_exchange *exchange, int64_t *values,
                             size_t count) {
     ewa_messages messages = {.given = NULL};
-    ewa_status status = ewa_exchange_check(context, exchange);
-    if (status == EWA_OK) status = ewa_messages_open(context, exchange, &messages);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_exchange_check(context, exchange));
+    EWA_TRY(ewa_messages_open(context, exchange, &messages));
     const size_t room = count + exchange->rank_count;
     int64_t *parts = ewa_allocate(context, room, sizeof *parts);
-    status = parts ? add_parts(exchange, &messages, values, count, parts) : EWA_ERROR_MEMORY;
+    ewa_status status = parts ? add_parts(exchange, &messages, values, count, parts) : EWA_ERROR_MEMORY;
     ewa_release(context, parts, room, sizeof *parts);
     ewa_messages_free(context, &messages);
     return status;

@@ -64,17 +64,14 @@ static ewa_status reserve_tile_caches(ewa_joint *joint) {
         if (bytes > joint->tile_cache_bytes) break;
         ewa_joint_tile_cache *tile_caches = joint->tile_caches.data;
         if (joint->tile_cache_count == joint->tile_cache_capacity) {
-            const ewa_status status =
-                ewa_buffer_grow(joint->context, &joint->tile_caches, joint->tile_cache_capacity,
-                                (size_t)joint->tile_cache_capacity + 1, sizeof *tile_caches);
-            if (status != EWA_OK) return status;
+            EWA_TRY(ewa_buffer_grow(joint->context, &joint->tile_caches, joint->tile_cache_capacity,
+                                    (size_t)joint->tile_cache_capacity + 1, sizeof *tile_caches));
             tile_caches = joint->tile_caches.data;
             memset(&tile_caches[joint->tile_cache_capacity++], 0, sizeof *tile_caches);
         }
         ewa_joint_tile_cache *cache = &tile_caches[joint->tile_cache_count];
         cache->kept = cache->behind = false;
-        const ewa_status status = ewa_tile_scratch_reserve(joint->context, &cache->scratch, &own);
-        if (status != EWA_OK) return status;
+        EWA_TRY(ewa_tile_scratch_reserve(joint->context, &cache->scratch, &own));
     }
     return EWA_OK;
 }
@@ -100,9 +97,7 @@ static ewa_status reserve(ewa_joint *joint) {
         {&joint->totals, joint->worker_count * ewa_joint_total_numbers(job), sizeof(int64_t)},
     };
     for (size_t i = 0; i < sizeof needs / sizeof needs[0]; i++) {
-        const ewa_status status =
-            ewa_buffer_reserve(context, needs[i].buffer, needs[i].count, needs[i].size_bytes);
-        if (status != EWA_OK) return status;
+        EWA_TRY(ewa_buffer_reserve(context, needs[i].buffer, needs[i].count, needs[i].size_bytes));
     }
     joint->contribution_rows = joint->rows.data;
     joint->contribution_places = joint->places.data;
@@ -111,8 +106,7 @@ static ewa_status reserve(ewa_joint *joint) {
     joint->active = (uint32_t *)(void *)(joint->incoming_sums + incoming);
     if (tiles->reduction_count) memset(joint->kept.data, 0, tiles->reduction_count * sizeof(ewa_joint_kept));
     for (uint32_t i = 0; i < joint->worker_count; i++) {
-        const ewa_status status = ewa_tile_scratch_reserve(context, &joint->scratch[i], job);
-        if (status != EWA_OK) return status;
+        EWA_TRY(ewa_tile_scratch_reserve(context, &joint->scratch[i], job));
     }
     return reserve_tile_caches(joint);
 }
@@ -144,20 +138,19 @@ static ewa_status count_all(ewa_joint *joint, uint64_t *broken, ewa_render_stats
 /// Draws the surfaces of shared tiles, one behind the other, until nothing is open on any rank.
 static ewa_status draw_shared(ewa_joint *joint) {
     const ewa_tile_job *job = &joint->job;
-    ewa_status status = EWA_OK;
     uint64_t open = 0;
-    for (uint32_t layer = 0; layer < job->layers && status == EWA_OK; layer++) {
+    for (uint32_t layer = 0; layer < job->layers; layer++) {
         uint64_t mine = 0;
         for (uint32_t m = 0; m < joint->tiles.reduction_count; m++) mine += joint->tiles.reductions[m].open;
-        status = add_up(joint, mine, &open);
-        if (status != EWA_OK || !open) break;
+        EWA_TRY(add_up(joint, mine, &open));
+        if (!open) break;
         joint->surface = layer > 0;
         joint->whole = layer > 0 && job->merge_last && layer + 1 == job->layers;
-        status = ewa_joint_find_nearest(joint);
-        if (status == EWA_OK) status = ewa_joint_gather(joint);
-        if (status == EWA_OK) status = ewa_joint_settle(joint);
+        EWA_TRY(ewa_joint_find_nearest(joint));
+        EWA_TRY(ewa_joint_gather(joint));
+        EWA_TRY(ewa_joint_settle(joint));
     }
-    return status;
+    return EWA_OK;
 }
 
 /// The side of the tiles, the same on all ranks: of many splats, fewer tiles' records fit in cache.
@@ -174,14 +167,12 @@ static ewa_status draw(void *state, const ewa_render_job *own, ewa_render_stats 
         return ewa_fail(context, EWA_ERROR_UNSUPPORTED,
                         "render: a frame of several ranks is not drawn in bands");
     ewa_render_job frame;
-    ewa_status status = ewa_joint_sources_gather(context, &joint->exchange, &joint->sources, own, &frame);
-    if (status == EWA_OK)
-        status = ewa_tile_job_make(context, &joint->room, &frame, tile_side_px(joint), &joint->job);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_joint_sources_gather(context, &joint->exchange, &joint->sources, own, &frame));
+    EWA_TRY(ewa_tile_job_make(context, &joint->room, &frame, tile_side_px(joint), &joint->job));
     joint->job.scratch = joint->scratch;
     // A rank without sources exchanges what the others do.
     joint->job.with_clips |= own->options.section_count > 0 && own->options.point_size_px == 0;
-    status = ewa_messages_open(context, &joint->exchange, &joint->messages);
+    ewa_status status = ewa_messages_open(context, &joint->exchange, &joint->messages);
     if (status == EWA_OK)
         status = ewa_joint_tiles_settle(context, &joint->exchange, &joint->job, &joint->tiles);
     if (status == EWA_OK) status = reserve(joint);
@@ -200,7 +191,7 @@ static ewa_status draw(void *state, const ewa_render_job *own, ewa_render_stats 
     }
     ewa_job_count(&joint->job, joint->worker_count, stats);
     if (status == EWA_OK) status = count_all(joint, &broken, stats);
-    if (status != EWA_OK) return status;
+    EWA_TRY(status);
     const uint32_t to = joint->exchange.picture_rank;
     if (to == EWA_ALL_RANKS || to == joint->exchange.rank)
         ewa_job_finish(context, &joint->room, &frame, broken);
@@ -215,9 +206,8 @@ ewa_status ewa_renderer_create_joint(ewa_context *context, const ewa_exchange *e
                                      ewa_renderer **renderer) {
     if (!context || !exchange || !renderer) return EWA_ERROR_ARGUMENT;
     *renderer = NULL;
-    ewa_status status = ewa_exchange_check(context, exchange);
-    if (status == EWA_OK) status = ewa_renderer_create_by(context, &joint_backend, renderer);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_exchange_check(context, exchange));
+    EWA_TRY(ewa_renderer_create_by(context, &joint_backend, renderer));
     void *state = NULL;
     ewa_renderer_backend(*renderer, &context, &state);
     ((ewa_joint *)state)->exchange = *exchange;

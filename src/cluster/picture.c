@@ -62,8 +62,7 @@ ewa_status ewa_joint_collect(ewa_joint *joint) {
         messages->taken[r] = (ewa_parcel){NULL, comes ? copy_tiles(joint, r, NULL, false) : 0};
     }
     for (uint32_t r = 0; r < exchange->rank_count; r++) bytes += messages->taken[r].size_bytes;
-    ewa_status status = ewa_buffer_reserve(joint->context, &joint->pixels, bytes, 1);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_buffer_reserve(joint->context, &joint->pixels, bytes, 1));
     char *packed_pixels = joint->pixels.data;
     const size_t own_bytes = copy_tiles(joint, own, packed_pixels, false);
     char *at = packed_pixels + own_bytes;
@@ -72,8 +71,8 @@ ewa_status ewa_joint_collect(ewa_joint *joint) {
         messages->taken[r].data = at;
         at += messages->taken[r].size_bytes;
     }
-    status = ewa_messages_send(exchange, messages);
-    for (uint32_t r = 0; r < exchange->rank_count && status == EWA_OK; r++)
+    EWA_TRY(ewa_messages_send(exchange, messages));
+    for (uint32_t r = 0; r < exchange->rank_count; r++)
         if (messages->taken[r].size_bytes) copy_tiles(joint, r, messages->taken[r].data, true);
-    return status;
+    return EWA_OK;
 }

@@ -112,8 +112,7 @@ static ewa_status write_updates(ewa_joint *joint, const bool *was_open) {
         const bool open = tiles->reductions[m].open;
         const size_t more = sizeof(tile_update) +
                             (open ? ewa_joint_count_blocks(kept[m].open_rows) * LANES * sizeof(float) : 0);
-        const ewa_status status = ewa_buffer_grow(joint->context, &joint->packed, bytes, bytes + more, 1);
-        if (status != EWA_OK) return status;
+        EWA_TRY(ewa_buffer_grow(joint->context, &joint->packed, bytes, bytes + more, 1));
         char *at = (char *)joint->packed.data + bytes;
         tile_update update = {.open = open};
         if (open) memcpy(update.rows, kept[m].open_rows, sizeof update.rows);

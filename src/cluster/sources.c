@@ -60,14 +60,12 @@ static ewa_surfels proxy_of(ewa_context *context, const source_facts *facts) {
 static ewa_status gather(ewa_context *context, const ewa_exchange *exchange, ewa_joint_sources *room,
                          const ewa_render_job *frame, uint64_t *counts, uint64_t *maximum) {
     const uint64_t mine = frame->source_count;
-    ewa_status status = ewa_exchange_gather(context, exchange, &mine, sizeof mine, counts);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_exchange_gather(context, exchange, &mine, sizeof mine, counts));
     *maximum = 0;
     for (uint32_t i = 0; i < exchange->rank_count; i++)
         *maximum = counts[i] > *maximum ? counts[i] : *maximum;
-    status = ewa_buffer_reserve(context, &room->facts, (size_t)*maximum * (exchange->rank_count + 1u),
-                                sizeof(source_facts));
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_buffer_reserve(context, &room->facts, (size_t)*maximum * (exchange->rank_count + 1u),
+                               sizeof(source_facts)));
     source_facts *all = room->facts.data, *own = all + (size_t)*maximum * exchange->rank_count;
     if (*maximum) memset(own, 0, (size_t)*maximum * sizeof *own);
     for (uint32_t i = 0; i < frame->source_count; i++) describe(&frame->sources[i], &own[i]);
@@ -82,9 +80,8 @@ static ewa_status list(ewa_context *context, const ewa_exchange *exchange, ewa_j
     for (uint32_t i = 0; i < exchange->rank_count; i++) count += counts[i];
     if (count > UINT32_MAX)
         return ewa_fail(context, EWA_ERROR_LIMIT, "render: more than %u sources", UINT32_MAX);
-    ewa_status status = ewa_buffer_reserve(context, &room->sources, count, sizeof(ewa_frame_source));
-    if (status == EWA_OK) status = ewa_buffer_reserve(context, &room->proxy, count, sizeof(ewa_surfels));
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_buffer_reserve(context, &room->sources, count, sizeof(ewa_frame_source)));
+    EWA_TRY(ewa_buffer_reserve(context, &room->proxy, count, sizeof(ewa_surfels)));
     ewa_frame_source *sources = room->sources.data;
     ewa_surfels *proxy = room->proxy.data;
     const source_facts *all = room->facts.data;
@@ -115,7 +112,7 @@ ewa_status ewa_joint_sources_gather(ewa_context *context, const ewa_exchange *ex
     ewa_status status = gather(context, exchange, room, frame, counts, &maximum);
     if (status == EWA_OK) status = list(context, exchange, room, frame, counts, maximum);
     ewa_release(context, counts, exchange->rank_count, sizeof *counts);
-    if (status != EWA_OK) return status;
+    EWA_TRY(status);
     *joint = *frame;
     joint->sources = room->sources.data;
     joint->source_count = room->count;

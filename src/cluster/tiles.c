@@ -22,9 +22,8 @@ static bool is_busy(const ewa_joint_tiles *tiles, uint32_t rank, uint32_t tile) 
 static ewa_status gather_busy(ewa_context *context, const ewa_exchange *exchange, const ewa_tile_job *job,
                               ewa_joint_tiles *tiles) {
     const size_t words = word_count(tiles->tile_count);
-    const ewa_status status = ewa_buffer_reserve(
-        context, &tiles->busy, words * ((size_t)exchange->rank_count + 1), sizeof(uint64_t));
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_buffer_reserve(context, &tiles->busy, words * ((size_t)exchange->rank_count + 1),
+                               sizeof(uint64_t)));
     uint64_t *mine = tiles->busy.data;
     memset(mine, 0, words * sizeof *mine);
     for (uint32_t i = 0; i < job->source_count; i++) {
@@ -58,19 +57,15 @@ static void choose_owners(const ewa_exchange *exchange, ewa_joint_tiles *tiles) 
 
 static ewa_status reserve(ewa_context *context, const ewa_exchange *exchange, ewa_joint_tiles *tiles) {
     const uint32_t ranks = exchange->rank_count;
-    ewa_status status = ewa_buffer_reserve(context, &tiles->contribution_buffer, tiles->contribution_count,
-                                           sizeof *tiles->contributions);
-    if (status == EWA_OK)
-        status = ewa_buffer_reserve(context, &tiles->reduction_buffer, tiles->reduction_count + (size_t)1,
-                                    sizeof *tiles->reductions);
-    if (status == EWA_OK)
-        status = ewa_buffer_reserve(context, &tiles->incoming_buffer, tiles->incoming_count,
-                                    sizeof *tiles->incoming);
-    if (status == EWA_OK)
-        status = ewa_buffer_grow(context, &tiles->numbers, 2 * (size_t)tiles->tile_count,
-                                 3 * (size_t)tiles->tile_count + ranks + 1 + tiles->incoming_count,
-                                 sizeof(uint32_t));
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_buffer_reserve(context, &tiles->contribution_buffer, tiles->contribution_count,
+                               sizeof *tiles->contributions));
+    EWA_TRY(ewa_buffer_reserve(context, &tiles->reduction_buffer, tiles->reduction_count + (size_t)1,
+                               sizeof *tiles->reductions));
+    EWA_TRY(
+        ewa_buffer_reserve(context, &tiles->incoming_buffer, tiles->incoming_count, sizeof *tiles->incoming));
+    EWA_TRY(ewa_buffer_grow(context, &tiles->numbers, 2 * (size_t)tiles->tile_count,
+                            3 * (size_t)tiles->tile_count + ranks + 1 + tiles->incoming_count,
+                            sizeof(uint32_t)));
     tiles->contributions = tiles->contribution_buffer.data;
     tiles->reductions = tiles->reduction_buffer.data;
     tiles->incoming = tiles->incoming_buffer.data;
@@ -131,16 +126,12 @@ static void list_contributions(const ewa_exchange *exchange, ewa_joint_tiles *ti
 ewa_status ewa_joint_tiles_settle(ewa_context *context, const ewa_exchange *exchange, const ewa_tile_job *job,
                                   ewa_joint_tiles *tiles) {
     tiles->tile_count = ewa_tiles_count(&job->tiles);
-    ewa_status status = gather_busy(context, exchange, job, tiles);
-    if (status == EWA_OK)
-        status =
-            ewa_buffer_reserve(context, &tiles->numbers, 2 * (size_t)tiles->tile_count, sizeof(uint32_t));
-    if (status != EWA_OK) return status;
+    EWA_TRY(gather_busy(context, exchange, job, tiles));
+    EWA_TRY(ewa_buffer_reserve(context, &tiles->numbers, 2 * (size_t)tiles->tile_count, sizeof(uint32_t)));
     tiles->owners = tiles->numbers.data;
     tiles->busy_counts = tiles->owners + tiles->tile_count;
     choose_owners(exchange, tiles);
-    status = reserve(context, exchange, tiles);
-    if (status != EWA_OK) return status;
+    EWA_TRY(reserve(context, exchange, tiles));
     list_owned(exchange, tiles);
     list_contributions(exchange, tiles);
     return EWA_OK;

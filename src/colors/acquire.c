@@ -267,9 +267,7 @@ static ewa_status make_textures(acquire_job *job) {
         if (!job->images[i].pixels) continue;
         ewa_image image = job->images[i];
         image.context = set->context;
-        const ewa_status status =
-            ewa_texture_make(&image, job->options->wrap_s, job->options->wrap_t, &set->textures[i]);
-        if (status != EWA_OK) return status;
+        EWA_TRY(ewa_texture_make(&image, job->options->wrap_s, job->options->wrap_t, &set->textures[i]));
     }
     return EWA_OK;
 }
@@ -322,18 +320,16 @@ static ewa_status run(ewa_cloud *cloud, acquire_job *job, ewa_acquire_report *re
     ewa_acquire_set *set = &job->set;
     ewa_context *context = set->context;
     const bool is_optimal = job->options->filter == EWA_TEXTURE_OPTIMAL;
-    ewa_status status = find_streams(cloud, job);
-    if (status == EWA_OK) status = make_textures(job);
-    if (status != EWA_OK) return status;
+    EWA_TRY(find_streams(cloud, job));
+    EWA_TRY(make_textures(job));
     set->order = ewa_allocate(context, set->count, sizeof *set->order);
     set->points = ewa_allocate(context, set->count, sizeof *set->points);
     job->colors = ewa_allocate(context, set->count, sizeof *job->colors);
     if (!set->order || !set->points || !job->colors) return EWA_ERROR_MEMORY;
-    status = ewa_morton_order(context, job->position, set->count, set->order, NULL, NULL);
-    if (status == EWA_OK) status = ewa_acquire_run(set, read_points, &job->stretch, 0, 0.1);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_morton_order(context, job->position, set->count, set->order, NULL, NULL));
+    EWA_TRY(ewa_acquire_run(set, read_points, &job->stretch, 0, 0.1));
     fill_report(job, report);
-    status = ewa_acquire_run(set, filter_points, &job->stretch, 0.1, is_optimal ? 0.2 : 1);
+    ewa_status status = ewa_acquire_run(set, filter_points, &job->stretch, 0.1, is_optimal ? 0.2 : 1);
     if (status == EWA_OK && is_optimal)
         status = ewa_acquire_optimize(set, job->options, job->channel_count, job->colors, report);
     void *output = NULL;
@@ -357,8 +353,7 @@ ewa_status ewa_cloud_acquire(ewa_cloud *cloud, const ewa_image *textures, uint32
     ewa_acquire_report ignored;
     if (!report) report = &ignored;
     *report = (ewa_acquire_report){0};
-    ewa_status status = ewa_options_take(context, &ewa_acquire_options_table, given, options);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_options_take(context, &ewa_acquire_options_table, given, options));
     if (ewa_cloud_point_count(cloud) >= UINT32_MAX)
         return ewa_fail(context, EWA_ERROR_LIMIT, "texture: more than 4294967294 points");
     acquire_job job = {.options = options, .images = textures};
@@ -369,7 +364,7 @@ ewa_status ewa_cloud_acquire(ewa_cloud *cloud, const ewa_image *textures, uint32
         .cutoff = options->cutoff,
         .pixel_variance_px2 = options->pixel_sigma_px * options->pixel_sigma_px,
     };
-    status = run(cloud, &job, report);
+    ewa_status status = run(cloud, &job, report);
     for (uint32_t i = 0; job.set.textures && i < texture_count; i++) ewa_texture_free(&job.set.textures[i]);
     ewa_release(context, job.set.textures, texture_count, sizeof *job.set.textures);
     ewa_release(context, job.set.order, job.set.count, sizeof *job.set.order);

@@ -181,7 +181,7 @@ static ewa_status solve(optimal_job *job, const ewa_acquire_options *options, ew
         if (try == RIDGE_TRIES - 1) how.unsolved_severity = EWA_SEVERITY_ERROR;
         status = ewa_sparse_solve(context, &matrix, channels, job->sides, job->solution, &how, &solved);
     }
-    if (status != EWA_OK) return status;
+    EWA_TRY(status);
     for (uint32_t i = 0; i < count; i++)
         for (uint32_t c = 0; c < channels; c++)
             job->colors[i][c] = scale * (job->colors[i][c] + job->solution[(size_t)i * channels + c]);

@@ -11,8 +11,7 @@ ewa_status ewa_acquire_run(const ewa_acquire_set *set, ewa_task *task, ewa_acqui
                            double begin, double end) {
     for (stretch->first = 0; stretch->first < set->count; stretch->first = stretch->end) {
         const double share = (double)stretch->first / set->count;
-        const ewa_status status = ewa_progress(set->context, "texture", begin + share * (end - begin));
-        if (status != EWA_OK) return status;
+        EWA_TRY(ewa_progress(set->context, "texture", begin + share * (end - begin)));
         const uint32_t left = set->count - stretch->first;
         stretch->end = left < STRETCH_POINTS ? set->count : stretch->first + STRETCH_POINTS;
         ewa_parallel(set->context, task, stretch,

@@ -144,9 +144,8 @@ ewa_status ewa_cloud_color_by_procedure(ewa_cloud *cloud, const ewa_procedure_op
     ewa_procedure_options chosen, *options = &chosen;
     ewa_procedure_options_init(options, EWA_PROCEDURE_CHECKER, sizeof *options);
     color_job job = {.options = options, .point_count = ewa_cloud_point_count(cloud)};
-    ewa_status status = ewa_options_take(context, &ewa_procedure_options_table, given, options);
-    if (status == EWA_OK) status = find_streams(cloud, &job);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_options_take(context, &ewa_procedure_options_table, given, options));
+    EWA_TRY(find_streams(cloud, &job));
     job.component_count = job.color ? 4 : 3;
     ewa_cloud_origin(cloud, job.origin_world);
     ewa_pattern_make(options, &job.pattern);
@@ -154,6 +153,7 @@ ewa_status ewa_cloud_color_by_procedure(ewa_cloud *cloud, const ewa_procedure_op
     job.made = ewa_allocate(context, bytes, 1);
     if (!job.made) return EWA_ERROR_MEMORY;
     const uint32_t tasks = (uint32_t)((job.point_count + TASK_POINTS - 1) / TASK_POINTS);
+    ewa_status status = EWA_OK;
     for (job.first_task = 0; status == EWA_OK && job.first_task < tasks; job.first_task += STAGE_TASKS) {
         status = ewa_progress(context, "procedure", (double)job.first_task / tasks);
         const uint32_t left = tasks - job.first_task;

@@ -135,8 +135,7 @@ static ewa_status solve(refit_job *job, ewa_refit_report *report) {
                                  .stage = "refit",
                                  .begin = 0.3,
                                  .end = 1};
-    const ewa_status status = ewa_gradient_run(&system, &report->iteration_count);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_gradient_run(&system, &report->iteration_count));
     for (size_t i = 0; i < (size_t)job->matrix.count * CHANNELS; i++) job->change[i] += job->color[i];
     report->after_rms = find_rest(job, job->change);
     return ewa_progress(job->context, "refit", 1);
@@ -235,19 +234,16 @@ ewa_status ewa_cloud_refit_colors(ewa_cloud *cloud, const ewa_refit_options *opt
     if (!cloud) return EWA_ERROR_ARGUMENT;
     ewa_refit_options chosen;
     ewa_refit_options_init(&chosen, sizeof chosen);
-    ewa_status status =
-        ewa_options_take(ewa_cloud_context(cloud), &ewa_refit_options_table, options, &chosen);
-    if (status == EWA_OK) status = check_colors(cloud);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_options_take(ewa_cloud_context(cloud), &ewa_refit_options_table, options, &chosen));
+    EWA_TRY(check_colors(cloud));
     ewa_refit_report made = {.low = INFINITY, .high = -INFINITY};
     refit_job job = {.context = ewa_cloud_context(cloud),
                      .cloud = cloud,
                      .damping = chosen.goal == EWA_REFIT_FIT ? FIT_DAMPING : INTERPOLATE_DAMPING};
     double origin_world[3];
     ewa_cloud_origin(cloud, origin_world);
-    status = ewa_progress(job.context, "refit", 0);
-    if (status != EWA_OK) return status;
-    status = ewa_solid_open(cloud, "refit", origin_world, chosen.cutoff, &job.solid);
+    EWA_TRY(ewa_progress(job.context, "refit", 0));
+    ewa_status status = ewa_solid_open(cloud, "refit", origin_world, chosen.cutoff, &job.solid);
     if (status == EWA_OK) status = ewa_progress(job.context, "refit", 0.1);
     if (status == EWA_OK) status = ewa_refit_matrix_make(&job.solid, chosen.cutoff, &job.matrix);
     if (status == EWA_OK) status = ewa_progress(job.context, "refit", 0.3);

@@ -144,21 +144,18 @@ static double largest_residual(const double residual2[SIDES], const double side2
 
 static ewa_status apply_factor(solve_job *job, uint32_t count) {
     double residual2[SIDES], side2[SIDES];
-    ewa_status status = ewa_sparse_factor_apply(job->factor, count, job->sides, job->solution);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_sparse_factor_apply(job->factor, count, job->sides, job->solution));
     find_residual(job->context, job->matrix, count, job->sides, job->solution, job->residual, job->partial,
                   residual2, side2);
-    status = ewa_sparse_factor_apply(job->factor, count, job->residual, job->residual);
-    for (size_t i = 0; status == EWA_OK && i < (size_t)job->matrix->size * count; i++)
-        job->solution[i] += job->residual[i];
-    return status;
+    EWA_TRY(ewa_sparse_factor_apply(job->factor, count, job->residual, job->residual));
+    for (size_t i = 0; i < (size_t)job->matrix->size * count; i++) job->solution[i] += job->residual[i];
+    return EWA_OK;
 }
 
 /// Makes the factor; job->factor stays NULL where it does not fit.
 static ewa_status make_factor(solve_job *job) {
     uint64_t bytes = 0;
-    ewa_status status = ewa_sparse_factor_analyse(job->context, job->matrix, &job->factor, &bytes);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_sparse_factor_analyse(job->context, job->matrix, &job->factor, &bytes));
     if (bytes > job->options.max_factor_bytes) {
         ewa_sparse_factor_destroy(&job->factor);
         if (job->options.method == EWA_SPARSE_AUTO) return EWA_OK;
@@ -190,9 +187,9 @@ static ewa_status find_solution(solve_job *job, uint32_t count, uint32_t *iterat
                             job->matrix->row_starts[job->matrix->size] <= INT32_MAX &&
                             gradient.max_iterations > PATIENT_ITERATIONS;
     if (may_change) gradient.max_iterations = PATIENT_ITERATIONS;
-    ewa_status status = ewa_sparse_gradient_run(&gradient, iterations);
-    if (status != EWA_OK || !may_change || *iterations < PATIENT_ITERATIONS) return status;
-    status = make_factor(job);
+    EWA_TRY(ewa_sparse_gradient_run(&gradient, iterations));
+    if (!may_change || *iterations < PATIENT_ITERATIONS) return EWA_OK;
+    ewa_status status = make_factor(job);
     job->unfit = !job->factor;
     return status == EWA_OK ? find_solution(job, count, iterations) : status;
 }
@@ -200,8 +197,7 @@ static ewa_status find_solution(solve_job *job, uint32_t count, uint32_t *iterat
 static ewa_status solve_group(solve_job *job, uint32_t count) {
     double residual2[SIDES], side2[SIDES];
     uint32_t iterations = 0;
-    const ewa_status status = find_solution(job, count, &iterations);
-    if (status != EWA_OK) return status;
+    EWA_TRY(find_solution(job, count, &iterations));
     find_residual(job->context, job->matrix, count, job->sides, job->solution, job->residual, job->partial,
                   residual2, side2);
     const double residual = largest_residual(residual2, side2, count);
@@ -225,8 +221,7 @@ static ewa_status solve_groups(solve_job *job, uint32_t side_count, const double
         for (size_t i = 0; i < size; i++)
             for (uint32_t s = 0; s < count; s++)
                 job->sides[i * count + s] = sides[i * side_count + first + s];
-        const ewa_status status = solve_group(job, count);
-        if (status != EWA_OK) return status;
+        EWA_TRY(solve_group(job, count));
         for (size_t i = 0; i < size; i++)
             for (uint32_t s = 0; s < count; s++)
                 solution[i * side_count + first + s] = job->solution[i * count + s];

@@ -375,15 +375,11 @@ static ewa_status merge_rest(const ewa_cloud *const operands[2], ewa_cloud **mer
 static ewa_status add_streams(ewa_cloud *cloud, csg_streams *streams) {
     void *data[6] = {NULL};
     static const char *const names[] = {EWA_NORMAL, EWA_TANGENT_U, EWA_TANGENT_V, EWA_CLIP0, EWA_CLIP1};
-    ewa_status status = EWA_OK;
-    for (int i = 0; i < 5 && status == EWA_OK; i++)
-        status = ewa_cloud_add(cloud, names[i], EWA_F32, 3, &data[i]);
-    if (status == EWA_OK) status = ewa_cloud_add(cloud, EWA_CLIP_MODE, EWA_U8, 1, &data[5]);
-    if (status != EWA_OK) return status;
+    for (int i = 0; i < 5; i++) EWA_TRY(ewa_cloud_add(cloud, names[i], EWA_F32, 3, &data[i]));
+    EWA_TRY(ewa_cloud_add(cloud, EWA_CLIP_MODE, EWA_U8, 1, &data[5]));
     const ewa_attribute *position = ewa_cloud_find(cloud, EWA_POSITION);
     if (position->type != EWA_F32 && position->type != EWA_F64) {
-        status = ewa_cloud_add(cloud, EWA_POSITION, EWA_F64, 3, NULL);
-        if (status != EWA_OK) return status;
+        EWA_TRY(ewa_cloud_add(cloud, EWA_POSITION, EWA_F64, 3, NULL));
         position = ewa_cloud_find(cloud, EWA_POSITION);
     }
     streams->position = *position;
@@ -410,7 +406,7 @@ static ewa_status assemble(const ewa_cloud *const operands[2], const csg_job job
     ewa_release(context, indices, count, sizeof *indices);
     csg_streams streams;
     if (status == EWA_OK) status = add_streams(*result, &streams);
-    if (status != EWA_OK) return status;
+    EWA_TRY(status);
     gather(&jobs[0], 0, 0, NULL, &streams);
     gather(&jobs[1], of_first, shift, NULL, &streams);
     return EWA_OK;
@@ -484,13 +480,12 @@ ewa_status ewa_cloud_csg(const ewa_cloud *a, const ewa_cloud *b, const ewa_csg_o
     ewa_context *context = ewa_cloud_context(a);
     ewa_csg_options chosen, *options = &chosen;
     ewa_csg_options_init(options, sizeof *options);
-    ewa_status status = ewa_options_take(context, &ewa_csg_options_table, given, options);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_options_take(context, &ewa_csg_options_table, given, options));
     const ewa_cloud *const operands[2] = {a, b};
     double origin_world[3];
     ewa_cloud_origin(a, origin_world);
     ewa_solid solids[2] = {{.context = context}, {.context = context}};
-    status = ewa_progress(context, "csg", 0);
+    ewa_status status = ewa_progress(context, "csg", 0);
     for (int k = 0; k < 2 && status == EWA_OK; k++) {
         status =
             ewa_solid_open(operands[k], operand_name(options, k), origin_world, options->cutoff, &solids[k]);

@@ -176,7 +176,7 @@ static ewa_status edit_stream(ewa_cloud *cloud, const char *name, edited *stream
         const ewa_status status = ewa_cloud_add(cloud, name, wide ? EWA_F64 : EWA_F32, 3, &data);
         if (status == EWA_OK) memcpy(data, copy, 3 * count * size);
         ewa_release(context, copy, 3 * count, size);
-        if (status != EWA_OK) return status;
+        EWA_TRY(status);
     }
     *stream = (edited){wide ? NULL : data, wide ? data : NULL};
     return EWA_OK;
@@ -201,9 +201,9 @@ static ewa_status edit_axes(ewa_cloud *cloud, const char *name, bool given, floa
 
 static ewa_status add_zeros(ewa_cloud *cloud, const char *name, ewa_type type, uint32_t components,
                             void **data) {
-    const ewa_status status = ewa_cloud_add(cloud, name, type, components, data);
-    if (status == EWA_OK) memset(*data, 0, components * ewa_type_bytes(type) * ewa_cloud_point_count(cloud));
-    return status;
+    EWA_TRY(ewa_cloud_add(cloud, name, type, components, data));
+    memset(*data, 0, components * ewa_type_bytes(type) * ewa_cloud_point_count(cloud));
+    return EWA_OK;
 }
 
 static bool is_axis(const ewa_cloud *cloud, const char *name) {

@@ -254,8 +254,7 @@ static ewa_status measure_noise(feature_job *job) {
     for (uint32_t place = 0; place < job->place_count; place++) job->noise_of[place] = -1;
     const uint32_t step = job->place_count / (EWA_BLOCK_LANES * NOISE_BLOCKS);
     const ewa_visit_choice choice = {NOISE_NEIGHBOURS, step ? step : 1, NULL, "noise", 0, NULL};
-    const ewa_status status = ewa_neighbours_visit(job->neighbours, &choice, visit_noise, job);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_neighbours_visit(job->neighbours, &choice, visit_noise, job));
     uint32_t count = 0;
     for (uint32_t place = 0; place < job->place_count; place++)
         if (job->noise_of[place] >= 0) job->noise_of[count++] = job->noise_of[place];
@@ -276,8 +275,8 @@ static ewa_status number_models(feature_job *job) {
 
 static ewa_status detect(feature_job *job, const ewa_feature_options *options) {
     ewa_parallel(job->context, normals_task, job, (job->place_count + TASK_PLACES - 1) / TASK_PLACES);
-    ewa_status status = EWA_OK;
     job->noise = options->noise;
+    ewa_status status = EWA_OK;
     if (options->noise < 0) status = measure_noise(job);
     const double wanted = EXACT_NEIGHBOURS + NOISE_GAIN * job->noise;
     job->neighbour_count = options->neighbour_count;
@@ -290,11 +289,12 @@ static ewa_status detect(feature_job *job, const ewa_feature_options *options) {
     const double k = job->neighbour_count, from_noise = 2 * EWA_PI * job->noise * job->noise / k;
     job->min_variation = from_noise * (1 + 2 * sqrt(2 / k)) + FOLD_VARIATION * half2;
     ewa_visit_choice choice = {job->neighbour_count, 1, NULL, "choose", 0, NULL};
-    if (status == EWA_OK) status = ewa_neighbours_visit(job->neighbours, &choice, visit_choose, job);
-    if (status == EWA_OK) status = number_models(job);
+    EWA_TRY(status);
+    EWA_TRY(ewa_neighbours_visit(job->neighbours, &choice, visit_choose, job));
+    EWA_TRY(number_models(job));
     choice.chosen = job->chosen;
     choice.stage = "fit";
-    if (status == EWA_OK) status = ewa_neighbours_visit(job->neighbours, &choice, visit_fit, job);
+    EWA_TRY(ewa_neighbours_visit(job->neighbours, &choice, visit_fit, job));
     choice.stage = "agree";
     for (int round = 0; round < ROUNDS && status == EWA_OK; round++) {
         status = ewa_neighbours_visit(job->neighbours, &choice, visit_agree, job);
@@ -388,17 +388,15 @@ ewa_status ewa_cloud_detect_features(ewa_cloud *cloud, const ewa_feature_options
     ewa_context *context = ewa_cloud_context(cloud);
     ewa_feature_options chosen, *options = &chosen;
     ewa_feature_options_init(options, sizeof *options);
-    ewa_status status = ewa_options_take(context, &ewa_feature_options_table, given, options);
-    if (status == EWA_OK) status = check(cloud);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_options_take(context, &ewa_feature_options_table, given, options));
+    EWA_TRY(check(cloud));
     feature_job job = {.context = context,
                        .kernels = EWA_CHOOSE(ewa_context_cpu_features(context), ewa_local_kernels),
                        .normal = *ewa_cloud_find(cloud, EWA_NORMAL)};
-    status = ewa_neighbours_create(context, ewa_cloud_find(cloud, EWA_POSITION),
-                                   (uint32_t)ewa_cloud_point_count(cloud), &job.neighbours);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_neighbours_create(context, ewa_cloud_find(cloud, EWA_POSITION),
+                                  (uint32_t)ewa_cloud_point_count(cloud), &job.neighbours));
     job.place_count = ewa_neighbours_place_count(job.neighbours);
-    status = detect_with(cloud, options, &job, &found);
+    ewa_status status = detect_with(cloud, options, &job, &found);
     ewa_neighbours_destroy(&job.neighbours);
     if (status == EWA_OK && counts) *counts = found;
     return status;

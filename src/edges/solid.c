@@ -231,8 +231,7 @@ ewa_status ewa_solid_open(const ewa_cloud *cloud, const char *name, const double
     ewa_context *context = ewa_cloud_context(cloud);
     *solid = (ewa_solid){.context = context, .cloud = cloud};
     read_job job = {.cutoff = cutoff};
-    ewa_status status = find_streams(cloud, name, &job);
-    if (status != EWA_OK) return status;
+    EWA_TRY(find_streams(cloud, name, &job));
     const uint64_t point_count = ewa_cloud_point_count(cloud);
     if (point_count >= UINT32_MAX)
         return ewa_fail(context, EWA_ERROR_LIMIT, "%s: %llu points are over the limit of 2^32 - 2", name,
@@ -243,7 +242,7 @@ ewa_status ewa_solid_open(const ewa_cloud *cloud, const char *name, const double
     solid->capacity = (uint32_t)point_count;
     solid->surfels = ewa_allocate(context, point_count, sizeof *solid->surfels);
     uint32_t *order = ewa_allocate(context, point_count, sizeof *order);
-    status = EWA_ERROR_MEMORY;
+    ewa_status status = EWA_ERROR_MEMORY;
     if (solid->surfels && order)
         status = ewa_morton_order(context, job.position, (uint32_t)point_count, order, NULL, &job.count);
     if (status == EWA_OK) {

@@ -238,10 +238,10 @@ static void visit_again(void *user, const ewa_block *block, uint32_t worker) {
 static ewa_status measure_again(ewa_context *context, estimate_job *job, const ewa_visit_choice *choice) {
     const uint32_t workers = ewa_context_worker_count(context);
     for (uint32_t w = 0; w < workers; w++) job->batches[w].lane_count = 0;
-    const ewa_status status = ewa_neighbours_visit(job->neighbours, choice, visit_again, job);
-    for (uint32_t w = 0; w < workers && status == EWA_OK; w++)
+    EWA_TRY(ewa_neighbours_visit(job->neighbours, choice, visit_again, job));
+    for (uint32_t w = 0; w < workers; w++)
         if (job->batches[w].lane_count) settle(job, &job->batches[w]);
-    return status;
+    return EWA_OK;
 }
 
 /// Turns v so that u x v is along the normal.
@@ -279,8 +279,7 @@ static void finish_task(void *data, uint32_t task, uint32_t worker) {
 static ewa_status add_output(ewa_cloud *cloud, const char *name, uint32_t components, bool has_gaps,
                              float **out) {
     void *data = NULL;
-    const ewa_status status = ewa_cloud_add(cloud, name, EWA_F32, components, &data);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_cloud_add(cloud, name, EWA_F32, components, &data));
     if (has_gaps) memset(data, 0, components * sizeof **out * ewa_cloud_point_count(cloud));
     *out = data;
     return EWA_OK;
@@ -463,8 +462,7 @@ ewa_status ewa_cloud_estimate(ewa_cloud **cloud, const ewa_estimate_options *giv
     ewa_context *context = ewa_cloud_context(*cloud);
     ewa_estimate_options chosen, *options = &chosen;
     ewa_estimate_options_init(options, sizeof *options);
-    ewa_status status = ewa_options_take(context, &ewa_estimate_options_table, given, options);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_options_take(context, &ewa_estimate_options_table, given, options));
     if (!has_components(*cloud, EWA_POSITION, 3))
         return ewa_fail(context, EWA_ERROR_ARGUMENT,
                         "estimate: the cloud has no positions of three components");
@@ -472,6 +470,6 @@ ewa_status ewa_cloud_estimate(ewa_cloud **cloud, const ewa_estimate_options *giv
         return ewa_fail(context, EWA_ERROR_LIMIT, "estimate: %llu points are over the limit of 2^32 - 2",
                         (unsigned long long)ewa_cloud_point_count(*cloud));
     if (options->outlier_factor > 0)
-        status = ewa_remove_outliers(cloud, options->neighbour_count, options->outlier_factor);
-    return status == EWA_OK ? estimate(*cloud, options) : status;
+        EWA_TRY(ewa_remove_outliers(cloud, options->neighbour_count, options->outlier_factor));
+    return estimate(*cloud, options);
 }

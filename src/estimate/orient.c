@@ -288,8 +288,7 @@ static ewa_status grow_forest(ewa_context *context, orient_job *job) {
         for (uint32_t section = 0; section < section_count; section++)
             for (uint32_t i = 0; i < job->waiting_count[section]; i++)
                 join_waiting(job, (section << SECTION_BITS) + job->waiting[(section << SECTION_BITS) + i]);
-        const ewa_status status = ewa_progress(context, "orient", (job->class + 1.0) / COST_CLASSES);
-        if (status != EWA_OK) return status;
+        EWA_TRY(ewa_progress(context, "orient", (job->class + 1.0) / COST_CLASSES));
     }
     return EWA_OK;
 }

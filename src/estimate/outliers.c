@@ -55,14 +55,13 @@ ewa_status ewa_remove_outliers(ewa_cloud **cloud, uint32_t neighbour_count, doub
     ewa_context *context = ewa_cloud_context(*cloud);
     const uint64_t point_count = ewa_cloud_point_count(*cloud);
     ewa_neighbours *neighbours = NULL;
-    ewa_status status = ewa_neighbours_create(context, ewa_cloud_find(*cloud, EWA_POSITION),
-                                              (uint32_t)point_count, &neighbours);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_neighbours_create(context, ewa_cloud_find(*cloud, EWA_POSITION), (uint32_t)point_count,
+                                  &neighbours));
     const size_t place_count = ewa_neighbours_place_count(neighbours);
     distance_job job = {.kernels = EWA_CHOOSE(ewa_context_cpu_features(context), ewa_local_kernels)};
     job.mean_distance = ewa_allocate(context, place_count, sizeof *job.mean_distance);
     uint8_t *keep = ewa_allocate_zeroed(context, point_count, sizeof *keep);
-    status = EWA_ERROR_MEMORY;
+    ewa_status status = EWA_ERROR_MEMORY;
     if (job.mean_distance && keep) {
         const ewa_visit_choice choice = {neighbour_count, 1, NULL, "outliers", 0, NULL};
         status = ewa_neighbours_visit(neighbours, &choice, visit, &job);

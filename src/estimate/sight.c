@@ -94,10 +94,9 @@ ewa_status ewa_sight_make(const ewa_cloud *cloud, const ewa_estimate_options *op
         return add_places(cloud, &options->viewpoint_world, 1, made);
     }
     if (options->orientation != EWA_ORIENT_AUTO) return EWA_OK;
-    const ewa_status status = add_scanners(cloud, made);
-    if (status == EWA_OK && made->kind == SIGHT_NONE && ewa_cloud_find(cloud, "return_number"))
-        made->kind = SIGHT_UPWARD;
-    return status;
+    EWA_TRY(add_scanners(cloud, made));
+    if (made->kind == SIGHT_NONE && ewa_cloud_find(cloud, "return_number")) made->kind = SIGHT_UPWARD;
+    return EWA_OK;
 }
 
 void ewa_sight_free(ewa_context *context, sight *made) {

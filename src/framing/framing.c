@@ -161,11 +161,10 @@ ewa_status ewa_framing_create(const ewa_cloud *cloud, double radius_scale, ewa_f
         return ewa_fail(context, EWA_ERROR_ARGUMENT, "framing: radius_scale is %g, allowed is [0, inf)",
                         radius_scale);
     ewa_bounds box;
-    ewa_status status = ewa_cloud_measure(cloud, &box);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_cloud_measure(cloud, &box));
     if (box.finite_count == 0) return ewa_fail(context, EWA_ERROR_NUMERIC, "no point has finite coordinates");
     point_sample sample;
-    status = ewa_sample_choose(cloud, SAMPLES, &sample);
+    ewa_status status = ewa_sample_choose(cloud, SAMPLES, &sample);
     double *numbers = NULL;
     if (status == EWA_OK) status = ewa_framing_make(context, sample.count, framing);
     if (status == EWA_OK) numbers = ewa_allocate(context, sample.count, sizeof *numbers);

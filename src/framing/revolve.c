@@ -90,9 +90,7 @@ ewa_status ewa_framing_revolve(const ewa_framing *framing, const double pivot_wo
     if (!(length > 0) || !isfinite(length))
         return ewa_fail(framing->context, EWA_ERROR_ARGUMENT, "framing: the axis %g,%g,%g has no direction",
                         axis_world[0], axis_world[1], axis_world[2]);
-    const ewa_status status =
-        ewa_framing_make(framing->context, framing->count ? 2 * SLICES * CORNERS : 0, solid);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_framing_make(framing->context, framing->count ? 2 * SLICES * CORNERS : 0, solid));
     double axis[3], shift[3], ahead[3], low = INFINITY, high = -INFINITY;
     for (int c = 0; c < 3; c++) {
         axis[c] = axis_world[c] / length;

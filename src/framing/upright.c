@@ -5,6 +5,7 @@
 // Based on: H. Fu, D. Cohen-Or, G. Dror, A. Sheffer, "Upright Orientation of Man-Made Objects", 2008 (what
 // stands has a base that its weight is over).
 #include "framing/upright.h"
+#include "base/base.h"
 #include "framing/upright_measure.h"
 
 #include <math.h>
@@ -209,15 +210,15 @@ ewa_status ewa_upright_turn(const double axis_world[3], double azimuth_deg, doub
     static const double origin[3] = {0, 0, 0};
     ewa_camera camera;
     ewa_camera_init(&camera);
-    ewa_status status = ewa_camera_look_at(&camera, origin, direction_world, up_world);
-    if (status == EWA_OK) status = ewa_camera_orbit(&camera, origin, axis_world, azimuth_deg);
+    EWA_TRY(ewa_camera_look_at(&camera, origin, direction_world, up_world));
+    EWA_TRY(ewa_camera_orbit(&camera, origin, axis_world, azimuth_deg));
     const double *m = camera.world_to_camera, right[3] = {m[0], m[1], m[2]};
-    if (status == EWA_OK) status = ewa_camera_orbit(&camera, origin, right, -elevation_deg);
-    for (int c = 0; c < 3 && status == EWA_OK; c++) {
+    EWA_TRY(ewa_camera_orbit(&camera, origin, right, -elevation_deg));
+    for (int c = 0; c < 3; c++) {
         up_world[c] = -m[4 + c];
         direction_world[c] = m[8 + c];
     }
-    return status;
+    return EWA_OK;
 }
 
 ewa_upright ewa_upright_choose(size_t count, const double (*offsets)[3], const double middle_world[3],

@@ -215,12 +215,12 @@ static void draw_scale_bar(ewa_layout *layout, const ewa_camera *camera, double 
 static ewa_status take_options(ewa_context *context, const ewa_furniture_options *given,
                                ewa_furniture_options *chosen) {
     ewa_furniture_options_init(chosen, sizeof *chosen);
-    const ewa_status status = ewa_options_take(context, &ewa_furniture_options_table, given, chosen);
-    if (status == EWA_OK && chosen->category_count > 0 && !chosen->categories)
+    EWA_TRY(ewa_options_take(context, &ewa_furniture_options_table, given, chosen));
+    if (chosen->category_count > 0 && !chosen->categories)
         return ewa_fail(context, EWA_ERROR_ARGUMENT,
                         "ewa_furniture_options: category_count is %u, but there are no categories",
                         chosen->category_count);
-    return status;
+    return EWA_OK;
 }
 
 ewa_status ewa_furniture_draw(ewa_context *context, const ewa_camera *camera,
@@ -233,9 +233,8 @@ ewa_status ewa_furniture_draw(ewa_context *context, const ewa_camera *camera,
                         "ewa_furniture_draw: the canvas has %u x %u pixels, allowed are 1 to %d", width,
                         height, MAX_SIDE_PX);
     ewa_furniture_options chosen;
-    ewa_status status = take_options(context, options, &chosen);
-    if (status == EWA_OK) status = ewa_camera_check(context, camera);
-    if (status != EWA_OK) return status;
+    EWA_TRY(take_options(context, options, &chosen));
+    EWA_TRY(ewa_camera_check(context, camera));
     const double smaller = width < height ? width : height;
     const double point = chosen.pixel_scale > 0 ? chosen.pixel_scale : fmax(smaller / SIDE_PT, MIN_POINT_PX);
     const double margin = floor(EWA_MARGIN_PT * point);

@@ -112,10 +112,9 @@ static void chart_points(void *data, uint32_t part, uint32_t worker) {
 ewa_status ewa_generate_charts(const ewa_generate_options *options, ewa_cloud *cloud) {
     ewa_context *context = ewa_cloud_context(cloud);
     void *texcoord = NULL, *gradient[2] = {NULL, NULL};
-    ewa_status status = ewa_cloud_add(cloud, EWA_TEXCOORD, EWA_F32, 2, &texcoord);
-    if (status == EWA_OK) status = ewa_cloud_add(cloud, EWA_TEXCOORD_S, EWA_F32, 3, &gradient[0]);
-    if (status == EWA_OK) status = ewa_cloud_add(cloud, EWA_TEXCOORD_T, EWA_F32, 3, &gradient[1]);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_cloud_add(cloud, EWA_TEXCOORD, EWA_F32, 2, &texcoord));
+    EWA_TRY(ewa_cloud_add(cloud, EWA_TEXCOORD_S, EWA_F32, 3, &gradient[0]));
+    EWA_TRY(ewa_cloud_add(cloud, EWA_TEXCOORD_T, EWA_F32, 3, &gradient[1]));
     chart_job job = {
         .options = options,
         .count = ewa_cloud_point_count(cloud),

@@ -219,8 +219,7 @@ static ewa_status run(ewa_context *context, generate_job *job) {
     const uint64_t row_count = (uint64_t)job->patch_count * job->row_count;
     const uint32_t stretches = (uint32_t)(point_count / STRETCH_POINTS + 1);
     for (uint32_t stretch = 0; stretch < stretches; stretch++) {
-        const ewa_status status = ewa_progress(context, "generate", (double)stretch / stretches);
-        if (status != EWA_OK) return status;
+        EWA_TRY(ewa_progress(context, "generate", (double)stretch / stretches));
         job->first_row = ewa_split(row_count, stretches, stretch);
         job->end_row = ewa_split(row_count, stretches, stretch + 1);
         job->parts = (uint32_t)(point_count / stretches / TASK_POINTS + 1);
@@ -249,11 +248,11 @@ ewa_status ewa_cloud_generate(ewa_context *context, const ewa_generate_options *
     *cloud = NULL;
     ewa_generate_options chosen, *options = &chosen;
     ewa_generate_options_init(options, sizeof *options);
-    ewa_status status = ewa_options_take(context, &ewa_generate_options_table, given, options);
-    if (status == EWA_OK) status = check_together(context, options);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_options_take(context, &ewa_generate_options_table, given, options));
+    EWA_TRY(check_together(context, options));
     options->radius_scale = choose_radius_scale(options);
     ewa_cloud *made = NULL;
+    ewa_status status = EWA_OK;
     if (options->sharp || options->object == EWA_OBJECT_CSG) {
         status = ewa_generate_solid(context, options, &made);
         if (status == EWA_OK && options->texcoords) status = ewa_generate_charts(options, made);
@@ -261,8 +260,7 @@ ewa_status ewa_cloud_generate(ewa_context *context, const ewa_generate_options *
         *cloud = made;
         return status;
     }
-    status = ewa_cloud_create(context, options->point_count, &made);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_cloud_create(context, options->point_count, &made));
 
     const uint64_t count = options->point_count ? options->point_count : 1;
     generate_job job = {.options = options, .patch_count = options->object == EWA_OBJECT_CUBE ? 6 : 1};

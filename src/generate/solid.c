@@ -394,9 +394,7 @@ static ewa_status add_streams(ewa_cloud *cloud, solid_job *job) {
     };
     for (int i = 0; i < 9; i++) {
         if (!streams[i].wanted) continue;
-        const ewa_status status =
-            ewa_cloud_add(cloud, streams[i].name, streams[i].type, streams[i].component_count, &data[i]);
-        if (status != EWA_OK) return status;
+        EWA_TRY(ewa_cloud_add(cloud, streams[i].name, streams[i].type, streams[i].component_count, &data[i]));
     }
     job->position = data[0];
     job->normal = data[1];
@@ -418,12 +416,9 @@ ewa_status ewa_generate_solid(ewa_context *context, const ewa_generate_options *
                         "generate: point_count is %llu; rows on every edge take at least %llu here",
                         (unsigned long long)options->point_count,
                         (unsigned long long)(options->point_count ? job.count : 1));
-    ewa_status status = ewa_progress(context, "generate", 0.5);
-    if (status == EWA_OK) status = ewa_cloud_create(context, job.count, made);
-    if (status == EWA_OK) status = add_streams(*made, &job);
-    if (status == EWA_OK) {
-        put_all(&job);
-        status = ewa_progress(context, "generate", 1);
-    }
-    return status;
+    EWA_TRY(ewa_progress(context, "generate", 0.5));
+    EWA_TRY(ewa_cloud_create(context, job.count, made));
+    EWA_TRY(add_streams(*made, &job));
+    put_all(&job);
+    return ewa_progress(context, "generate", 1);
 }

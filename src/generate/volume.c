@@ -181,13 +181,12 @@ static void draw_tube(const generator *job, const tube *t) {
 }
 
 static ewa_status draw_tree(ewa_context *context, generator *job) {
-    ewa_status status = EWA_OK;
-    for (uint32_t i = 0; i < TREE_TUBES && status == EWA_OK; i++) {
+    for (uint32_t i = 0; i < TREE_TUBES; i++) {
         grow(job->options->seed, job->tubes, i);
         draw_tube(job, &job->tubes[i]);
-        if (i % 64 == 0) status = ewa_progress(context, "generate", (double)i / TREE_TUBES);
+        if (i % 64 == 0) EWA_TRY(ewa_progress(context, "generate", (double)i / TREE_TUBES));
     }
-    return status;
+    return EWA_OK;
 }
 
 #define AT(member) offsetof(ewa_volume_generate_options, member)
@@ -218,10 +217,9 @@ ewa_status ewa_volume_generate(ewa_context *context, const ewa_volume_generate_o
     *volume = (ewa_volume){0};
     ewa_volume_generate_options chosen, *options = &chosen;
     ewa_volume_generate_options_init(options, sizeof *options);
-    ewa_status status = ewa_options_take(context, &ewa_volume_generate_options_table, given, options);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_options_take(context, &ewa_volume_generate_options_table, given, options));
     const bool floats = options->object == EWA_VOLUME_BLOB || options->object == EWA_VOLUME_BALL;
-    status = ewa_volume_create(context, options->dims, floats ? EWA_F32 : EWA_U8, volume);
+    ewa_status status = ewa_volume_create(context, options->dims, floats ? EWA_F32 : EWA_U8, volume);
     generator *job = status == EWA_OK ? ewa_allocate(context, 1, sizeof *job) : NULL;
     if (!job) {
         ewa_volume_free(volume);

@@ -172,15 +172,14 @@ ewa_status ewa_volume_outline(const ewa_volume *volume, const ewa_transfer *tran
         return EWA_ERROR_ARGUMENT;
     *cloud = NULL;
     ewa_context *context = volume->context;
-    ewa_status status = ewa_transfer_check(context, "transfer function", transfer);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_transfer_check(context, "transfer function", transfer));
     const size_t slice = (size_t)volume->dims[0] * volume->dims[1];
     outline *o = ewa_allocate_zeroed(context, 1, sizeof *o);
     if (!o) return EWA_ERROR_MEMORY;
     o->volume = volume;
     o->masks = ewa_allocate(context, slice, SLICES);
     void *places = NULL;
-    status = o->masks ? EWA_OK : EWA_ERROR_MEMORY;
+    ewa_status status = o->masks ? EWA_OK : EWA_ERROR_MEMORY;
     if (status == EWA_OK) {
         make_visibility(volume, transfer, &o->seen);
         find_groups(o);

@@ -90,9 +90,7 @@ ewa_status ewa_gl_band_start(ewa_context *context, ewa_gl_band *band, const ewa_
                  {&band->masks, pair_count, sizeof(uint32_t)},
                  {&band->counts, band->tile_count, sizeof(uint32_t)}};
     for (size_t i = 0; i < sizeof needs / sizeof needs[0]; i++) {
-        const ewa_status status =
-            ewa_buffer_reserve(context, needs[i].buffer, needs[i].count, needs[i].size_bytes);
-        if (status != EWA_OK) return status;
+        EWA_TRY(ewa_buffer_reserve(context, needs[i].buffer, needs[i].count, needs[i].size_bytes));
     }
     for (uint32_t i = 0; i < job->source_count; i++) {
         const uint32_t pages =
@@ -125,10 +123,8 @@ static uint32_t field_count(const ewa_gl_band *band, const ewa_tile_job *job) {
 static ewa_status reserve_answers(ewa_context *context, ewa_gl_band *band, const ewa_tile_job *job) {
     const uint32_t fields = field_count(band, job), *masks = band->masks.data;
     const ewa_gl_pair *pairs = band->pairs.data;
-    ewa_status status = ewa_buffer_reserve(context, &band->near_starts, (size_t)2 * fields, sizeof(uint32_t));
-    if (status == EWA_OK)
-        status = ewa_buffer_reserve(context, &band->clipped, band->pair_count, 2 * sizeof(uint32_t));
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_buffer_reserve(context, &band->near_starts, (size_t)2 * fields, sizeof(uint32_t)));
+    EWA_TRY(ewa_buffer_reserve(context, &band->clipped, band->pair_count, 2 * sizeof(uint32_t)));
     uint32_t *starts = band->near_starts.data, *ends = starts + fields;
     memset(starts, 0, (size_t)fields * sizeof *starts);
     band->near_count = band->clip_count = 0;
@@ -141,14 +137,12 @@ static ewa_status reserve_answers(ewa_context *context, ewa_gl_band *band, const
         starts[i] = ends[i] = band->near_count;
         band->near_count += here;
     }
-    status = ewa_buffer_reserve(context, &band->nears, band->near_count, sizeof(ewa_gl_near));
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_buffer_reserve(context, &band->nears, band->near_count, sizeof(ewa_gl_near)));
     return ewa_buffer_reserve(context, &band->clips, band->clip_count, sizeof(ewa_gl_clip));
 }
 
 ewa_status ewa_gl_band_answer(ewa_context *context, ewa_gl_band *band, const ewa_tile_job *job) {
-    const ewa_status status = reserve_answers(context, band, job);
-    if (status != EWA_OK) return status;
+    EWA_TRY(reserve_answers(context, band, job));
     const uint32_t *masks = band->masks.data, *ids = band->ids.data;
     const ewa_gl_pair *pairs = band->pairs.data;
     const ewa_gl_batch *batches = band->batches.data;
@@ -184,9 +178,8 @@ ewa_status ewa_gl_band_answer(ewa_context *context, ewa_gl_band *band, const ewa
 static ewa_status append_units(ewa_context *context, ewa_gl_band *band, uint32_t tile, uint32_t first,
                                uint32_t end, uint32_t near, uint32_t maximum) {
     const uint32_t count = (end - first + maximum - 1) / maximum;
-    const ewa_status status = ewa_buffer_grow(context, &band->units, band->unit_count,
-                                              (size_t)band->unit_count + count, sizeof(ewa_gl_unit));
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_buffer_grow(context, &band->units, band->unit_count, (size_t)band->unit_count + count,
+                            sizeof(ewa_gl_unit)));
     ewa_gl_unit *units = band->units.data;
     for (uint32_t at = first; at < end; at += maximum)
         units[band->unit_count++] = (ewa_gl_unit){tile, at, end - at < maximum ? end : at + maximum, near};

@@ -42,11 +42,10 @@ ewa_status ewa_gl_try(ewa_gl *device, ewa_gl_verdict *verdict) {
             device->context, EWA_ERROR_UNSUPPORTED,
             "OpenGL: %s (%s) has no compute programs, or small ones: %u storage blocks, groups of %u",
             facts->renderer, facts->version, facts->storage_count, facts->group_threads);
-    ewa_status status = ewa_gl_enter(device);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_gl_enter(device));
     const uint64_t lose_at = device->lose_at, hang_at = device->hang_at;
     device->lose_at = device->hang_at = 0; // which tests mean of frames
-    status = ewa_gl_selftest(device, verdict);
+    ewa_status status = ewa_gl_selftest(device, verdict);
     ewa_gl_leave(device);
     device->wait_count = 0, device->lose_at = lose_at, device->hang_at = hang_at;
     return status;
@@ -149,16 +148,14 @@ static uint32_t sum_words(const ewa_tile_job *job) {
 static ewa_status set_up(ewa_gl_compute *gl, const ewa_tile_job *job) {
     ewa_gl_band *band = &gl->band;
     GLuint program = 0;
-    ewa_status status = program_for(gl, job, EWA_GL_SETUP, &program);
+    EWA_TRY(program_for(gl, job, EWA_GL_SETUP, &program));
     const uint64_t pairs = band->pair_count, lanes = pairs * EWA_PACKET_LANES;
-    if (status == EWA_OK)
-        status = put(gl, EWA_GL_PAIRS, "packets", band->pairs.data, pairs * sizeof(ewa_gl_pair));
-    if (status == EWA_OK) status = put(gl, EWA_GL_PLACES, "places", band->places.data, pairs * 24);
-    if (status == EWA_OK) status = put(gl, EWA_GL_WORDS, "packets", band->words.data, pairs * 8);
-    if (status == EWA_OK) status = reserve(gl, EWA_GL_RECORDS, "splats", lanes * EWA_GL_RECORD_BYTES);
-    if (status == EWA_OK) status = reserve(gl, EWA_GL_MASKS, "masks", pairs * 4);
-    if (status == EWA_OK) status = reserve(gl, EWA_GL_COUNTS, "tiles", (uint64_t)band->tile_count * 4);
-    if (status != EWA_OK) return status;
+    EWA_TRY(put(gl, EWA_GL_PAIRS, "packets", band->pairs.data, pairs * sizeof(ewa_gl_pair)));
+    EWA_TRY(put(gl, EWA_GL_PLACES, "places", band->places.data, pairs * 24));
+    EWA_TRY(put(gl, EWA_GL_WORDS, "packets", band->words.data, pairs * 8));
+    EWA_TRY(reserve(gl, EWA_GL_RECORDS, "splats", lanes * EWA_GL_RECORD_BYTES));
+    EWA_TRY(reserve(gl, EWA_GL_MASKS, "masks", pairs * 4));
+    EWA_TRY(reserve(gl, EWA_GL_COUNTS, "tiles", (uint64_t)band->tile_count * 4));
     ewa_gl_buffer_fill(&gl->buffers[EWA_GL_MASKS], pairs * 4, 0);
     ewa_gl_buffer_fill(&gl->buffers[EWA_GL_COUNTS], (uint64_t)band->tile_count * 4, 0);
     bind(gl, 0, EWA_GL_VIEWS), bind(gl, 2, EWA_GL_PAIRS), bind(gl, 3, EWA_GL_PLACES),
@@ -190,29 +187,22 @@ static ewa_status set_up(ewa_gl_compute *gl, const ewa_tile_job *job) {
 /// Asks the device what it found, gives it what it needs, and lists the splats of each tile.
 static ewa_status list(ewa_gl_compute *gl, const ewa_tile_job *job) {
     ewa_gl_band *band = &gl->band;
-    ewa_status status = ewa_gl_wait(gl->device, "set-up");
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_gl_wait(gl->device, "set-up"));
     read_back(gl, EWA_GL_MASKS, 0, (uint64_t)band->pair_count * 4, band->masks.data);
     read_back(gl, EWA_GL_COUNTS, 0, (uint64_t)band->tile_count * 4, band->counts.data);
-    status = ewa_gl_band_answer(gl->context, band, job);
-    if (status == EWA_OK) status = ewa_gl_band_divide(gl->context, band, job, gl->unit_splats);
+    EWA_TRY(ewa_gl_band_answer(gl->context, band, job));
+    EWA_TRY(ewa_gl_band_divide(gl->context, band, job, gl->unit_splats));
     GLuint program = 0;
-    if (status == EWA_OK) status = program_for(gl, job, EWA_GL_FILL, &program);
-    if (status == EWA_OK)
-        status = put(gl, EWA_GL_NEARS, "near surfels", band->nears.data,
-                     (uint64_t)band->near_count * sizeof(ewa_gl_near));
-    if (status == EWA_OK)
-        status = put(gl, EWA_GL_CLIPS, "clip lines", band->clips.data,
-                     (uint64_t)band->clip_count * sizeof(ewa_gl_clip));
-    if (status == EWA_OK)
-        status = put(gl, EWA_GL_CLIPPED, "clip lines", band->clipped.data, (uint64_t)band->pair_count * 8);
-    if (status == EWA_OK)
-        status = put(gl, EWA_GL_COUNTS, "tiles", band->starts.data, (uint64_t)band->tile_count * 4);
-    if (status == EWA_OK)
-        status =
-            put(gl, EWA_GL_UNITS, "work", band->units.data, (uint64_t)band->unit_count * sizeof(ewa_gl_unit));
-    if (status == EWA_OK) status = reserve(gl, EWA_GL_LIST, "lists", band->list_count * 4);
-    if (status != EWA_OK) return status;
+    EWA_TRY(program_for(gl, job, EWA_GL_FILL, &program));
+    EWA_TRY(put(gl, EWA_GL_NEARS, "near surfels", band->nears.data,
+                (uint64_t)band->near_count * sizeof(ewa_gl_near)));
+    EWA_TRY(put(gl, EWA_GL_CLIPS, "clip lines", band->clips.data,
+                (uint64_t)band->clip_count * sizeof(ewa_gl_clip)));
+    EWA_TRY(put(gl, EWA_GL_CLIPPED, "clip lines", band->clipped.data, (uint64_t)band->pair_count * 8));
+    EWA_TRY(put(gl, EWA_GL_COUNTS, "tiles", band->starts.data, (uint64_t)band->tile_count * 4));
+    EWA_TRY(
+        put(gl, EWA_GL_UNITS, "work", band->units.data, (uint64_t)band->unit_count * sizeof(ewa_gl_unit)));
+    EWA_TRY(reserve(gl, EWA_GL_LIST, "lists", band->list_count * 4));
     bind(gl, 4, EWA_GL_CLIPPED), bind(gl, 5, EWA_GL_RECORDS), bind(gl, 6, EWA_GL_LIST),
         bind(gl, 7, EWA_GL_COUNTS);
     const uint32_t record_count = band->pair_count * EWA_PACKET_LANES;
@@ -249,8 +239,7 @@ static ewa_status reserve_planes(ewa_gl_compute *gl, const ewa_tile_job *job) {
                  {EWA_GL_CODES, to->rgba8 ? picture_px : 0, false, 0},
                  {EWA_GL_PLANES, floats * picture_px, false, 0}};
     for (size_t i = 0; i < sizeof needs / sizeof needs[0]; i++) {
-        const ewa_status status = reserve(gl, needs[i].kind, "the picture", needs[i].words * 4);
-        if (status != EWA_OK) return status;
+        EWA_TRY(reserve(gl, needs[i].kind, "the picture", needs[i].words * 4));
         if (needs[i].filled)
             ewa_gl_buffer_fill(&gl->buffers[needs[i].kind], needs[i].words * 4, needs[i].word);
     }
@@ -274,8 +263,7 @@ static ewa_status gather(ewa_gl_compute *gl, const ewa_tile_job *job, bool behin
     bind(gl, 11, EWA_GL_CUT), bind(gl, 12, EWA_GL_MATERIALS);
     for (int pass = whole ? EWA_GL_SUMS : EWA_GL_VISIBILITY; pass <= EWA_GL_SUMS; pass++) {
         GLuint program = 0;
-        const ewa_status status = program_for(gl, job, (ewa_gl_pass)pass, &program);
-        if (status != EWA_OK) return status;
+        EWA_TRY(program_for(gl, job, (ewa_gl_pass)pass, &program));
         set_place(band, program);
         set_uint(program, "behind", behind);
         set_uint(program, "whole", whole);
@@ -289,9 +277,7 @@ static ewa_status gather(ewa_gl_compute *gl, const ewa_tile_job *job, bool behin
 static ewa_status make_surface(ewa_gl_compute *gl, const ewa_tile_job *job, bool behind, bool whole) {
     const ewa_gl_band *band = &gl->band;
     GLuint program = 0;
-    const ewa_status status =
-        program_for(gl, job, behind ? EWA_GL_NEXT_SURFACE : EWA_GL_FIRST_SURFACE, &program);
-    if (status != EWA_OK) return status;
+    EWA_TRY(program_for(gl, job, behind ? EWA_GL_NEXT_SURFACE : EWA_GL_FIRST_SURFACE, &program));
     bind(gl, 0, EWA_GL_RESOLVE), bind(gl, 1, EWA_GL_NEAREST), bind(gl, 2, EWA_GL_PASSED),
         bind(gl, 3, EWA_GL_OPEN);
     bind(gl, 4, EWA_GL_SUM_WORDS), bind(gl, 8, EWA_GL_BACK_FACING), bind(gl, 11, EWA_GL_CUT);
@@ -309,18 +295,16 @@ static ewa_status draw_layers(ewa_gl_compute *gl, const ewa_tile_job *job) {
     const uint64_t counter_at = (uint64_t)gl->band.tile_count * 4;
     for (uint32_t layer = 1; layer < job->layers; layer++) {
         uint32_t open = 0;
-        ewa_status status = ewa_gl_wait(gl->device, "surfaces");
-        if (status != EWA_OK) return status;
+        EWA_TRY(ewa_gl_wait(gl->device, "surfaces"));
         read_back(gl, EWA_GL_OPEN, counter_at, 4, &open);
         if (!open) return EWA_OK;
         static const uint32_t none = 0;
         glBindBuffer(GL_COPY_WRITE_BUFFER, gl->buffers[EWA_GL_OPEN].name);
         glBufferSubData(GL_COPY_WRITE_BUFFER, (GLintptr)counter_at, 4, &none);
         const bool whole = job->merge_last && layer + 1 == job->layers;
-        status = gather(gl, job, true, whole);
-        if (status == EWA_OK) status = make_surface(gl, job, true, whole);
-        if (status == EWA_OK) status = ewa_progress(gl->context, "render", 0);
-        if (status != EWA_OK) return status;
+        EWA_TRY(gather(gl, job, true, whole));
+        EWA_TRY(make_surface(gl, job, true, whole));
+        EWA_TRY(ewa_progress(gl->context, "render", 0));
     }
     return EWA_OK;
 }
@@ -330,8 +314,7 @@ static ewa_status finish_band(ewa_gl_compute *gl, const ewa_tile_job *job, uint6
     const ewa_gl_band *band = &gl->band;
     const ewa_resolve *to = &job->resolve;
     GLuint program = 0;
-    ewa_status status = program_for(gl, job, EWA_GL_PICTURE, &program);
-    if (status != EWA_OK) return status;
+    EWA_TRY(program_for(gl, job, EWA_GL_PICTURE, &program));
     const uint64_t width = job->tiles.width_px, first = width * band->first_row_px,
                    pixels = width * (band->end_row_px - band->first_row_px);
     const struct {
@@ -355,8 +338,7 @@ static ewa_status finish_band(ewa_gl_compute *gl, const ewa_tile_job *job, uint6
     set_uint(program, "tile_count", band->tile_count);
     set_uint(program, "layered", job->layers > 1);
     dispatch(gl, program, "first_tile", 1, 0, band->tile_count);
-    status = ewa_gl_wait(gl->device, "the picture");
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_gl_wait(gl->device, "the picture"));
     if (to->rgba8) read_back(gl, EWA_GL_CODES, 0, pixels * 4, to->rgba8 + first * 4);
     for (int i = 0; i < 4; i++)
         if (planes[i].plane)
@@ -371,15 +353,15 @@ static ewa_status finish_band(ewa_gl_compute *gl, const ewa_tile_job *job, uint6
 /// Draws rows of the picture.
 static ewa_status draw_band(ewa_gl_compute *gl, const ewa_tile_job *job, uint32_t first_row_px,
                             uint32_t end_row_px, uint64_t *broken) {
-    ewa_status status = ewa_gl_band_start(gl->context, &gl->band, job, first_row_px, end_row_px, gl->tile_px,
-                                          gl->page_packets.data);
-    if (status == EWA_OK) status = reserve_planes(gl, job);
-    if (status == EWA_OK) status = set_up(gl, job);
-    if (status == EWA_OK) status = list(gl, job);
-    if (status == EWA_OK) status = gather(gl, job, false, false);
-    if (status == EWA_OK) status = make_surface(gl, job, false, false);
-    if (status == EWA_OK) status = draw_layers(gl, job);
-    return status == EWA_OK ? finish_band(gl, job, broken) : status;
+    EWA_TRY(ewa_gl_band_start(gl->context, &gl->band, job, first_row_px, end_row_px, gl->tile_px,
+                              gl->page_packets.data));
+    EWA_TRY(reserve_planes(gl, job));
+    EWA_TRY(set_up(gl, job));
+    EWA_TRY(list(gl, job));
+    EWA_TRY(gather(gl, job, false, false));
+    EWA_TRY(make_surface(gl, job, false, false));
+    EWA_TRY(draw_layers(gl, job));
+    return finish_band(gl, job, broken);
 }
 
 /// Draws rows, in halves where they do not fit the device.
@@ -398,12 +380,11 @@ static ewa_status draw_rows(ewa_gl_compute *gl, const ewa_tile_job *job, uint32_
             ends[++depth] = row + fields / 2 * EWA_FIELD_PX;
             continue;
         }
-        if (status != EWA_OK) return status;
+        EWA_TRY(status);
         row = end;
         if (depth) depth--;
-        const ewa_status told =
-            ewa_progress(gl->context, "render", (double)(row - first_row_px) / (end_row_px - first_row_px));
-        if (told != EWA_OK) return told;
+        EWA_TRY(
+            ewa_progress(gl->context, "render", (double)(row - first_row_px) / (end_row_px - first_row_px)));
     }
     return EWA_OK;
 }
@@ -433,29 +414,23 @@ static ewa_status put_environment(ewa_gl_compute *gl, const ewa_environment *env
 /// What all bands of the frame see: views, lights, materials, the environment, surfels.
 static ewa_status put_frame(ewa_gl_compute *gl, const ewa_tile_job *job) {
     ewa_context *context = gl->context;
-    ewa_status status = ewa_buffer_reserve(context, &gl->views, job->source_count, sizeof(ewa_gl_view));
-    if (status == EWA_OK)
-        status = ewa_buffer_reserve(context, &gl->indices, job->source_count, sizeof(uint32_t));
-    if (status == EWA_OK)
-        status = ewa_buffer_reserve(context, &gl->page_packets, job->source_count, sizeof(uint32_t));
+    EWA_TRY(ewa_buffer_reserve(context, &gl->views, job->source_count, sizeof(ewa_gl_view)));
+    EWA_TRY(ewa_buffer_reserve(context, &gl->indices, job->source_count, sizeof(uint32_t)));
+    EWA_TRY(ewa_buffer_reserve(context, &gl->page_packets, job->source_count, sizeof(uint32_t)));
     ewa_gl_view *views = gl->views.data;
     uint32_t *indices = gl->indices.data, *page_packets = gl->page_packets.data;
     ewa_gl_residents_start(gl->device, &gl->residents);
-    for (uint32_t i = 0; i < job->source_count && status == EWA_OK; i++) {
+    for (uint32_t i = 0; i < job->source_count; i++) {
         ewa_gl_view_set(&views[i], &job->sources[i].view, job->sources[i].hides);
-        status = ewa_gl_residents_get(gl->device, &gl->residents, job->sources[i].surfels, &indices[i]);
-        if (status != EWA_OK) return status;
+        EWA_TRY(ewa_gl_residents_get(gl->device, &gl->residents, job->sources[i].surfels, &indices[i]));
         page_packets[i] = ewa_gl_residents_at(&gl->residents, indices[i])->pages[0].count;
     }
     ewa_gl_resolve resolve;
     ewa_gl_resolve_set(&resolve, &job->resolve);
-    if (status == EWA_OK)
-        status = put(gl, EWA_GL_VIEWS, "views", views, (uint64_t)job->source_count * sizeof *views);
-    if (status == EWA_OK) status = put(gl, EWA_GL_RESOLVE, "lights", &resolve, sizeof resolve);
-    if (status == EWA_OK)
-        status = put(gl, EWA_GL_MATERIALS, "materials", job->materials, sizeof job->materials);
-    if (status == EWA_OK) status = put_environment(gl, job->resolve.environment);
-    if (status != EWA_OK) return status;
+    EWA_TRY(put(gl, EWA_GL_VIEWS, "views", views, (uint64_t)job->source_count * sizeof *views));
+    EWA_TRY(put(gl, EWA_GL_RESOLVE, "lights", &resolve, sizeof resolve));
+    EWA_TRY(put(gl, EWA_GL_MATERIALS, "materials", job->materials, sizeof job->materials));
+    EWA_TRY(put_environment(gl, job->resolve.environment));
     return ewa_gl_check(gl->device, "the frame");
 }
 
@@ -463,16 +438,14 @@ ewa_status ewa_gl_compute_draw(void *state, const ewa_render_job *frame, ewa_ren
     ewa_gl_compute *gl = state;
     const double start_s = ewa_now_s();
     ewa_tile_job job;
-    ewa_status status = ewa_tile_job_make(gl->context, &gl->room, frame, EWA_FIELD_PX, &job);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_tile_job_make(gl->context, &gl->room, frame, EWA_FIELD_PX, &job));
     const double binned_s = ewa_now_s();
     uint64_t broken = 0;
-    status = ewa_gl_enter(gl->device);
-    if (status != EWA_OK) return status;
-    status = put_frame(gl, &job);
+    EWA_TRY(ewa_gl_enter(gl->device));
+    ewa_status status = put_frame(gl, &job);
     if (status == EWA_OK) status = draw_rows(gl, &job, frame->first_row_px, frame->end_row_px, &broken);
     ewa_gl_leave(gl->device);
-    if (status != EWA_OK) return status;
+    EWA_TRY(status);
     ewa_job_finish(gl->context, &gl->room, frame, broken);
     *stats = (ewa_render_stats){.bin_s = binned_s - start_s};
     ewa_job_count(&job, 0, stats);

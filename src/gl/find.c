@@ -9,8 +9,7 @@
 
 ewa_status ewa_gpu_find(ewa_context *context, ewa_gpu_info *info) {
     ewa_gl *device;
-    ewa_status status = ewa_gl_open(context, &device);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_gl_open(context, &device));
     const ewa_gl_facts *facts = &device->facts;
     snprintf(info->vendor, sizeof info->vendor, "%s", facts->vendor);
     snprintf(info->renderer, sizeof info->renderer, "%s", facts->renderer);
@@ -20,7 +19,7 @@ ewa_status ewa_gpu_find(ewa_context *context, ewa_gpu_info *info) {
     info->group_threads = facts->group_threads, info->texture_px = facts->texture_px;
     ewa_gl_verdict verdict;
     ewa_failures_soften(context, true);
-    status = ewa_gl_try(device, &verdict);
+    ewa_status status = ewa_gl_try(device, &verdict);
     ewa_failures_soften(context, false);
     ewa_gl_close(&device);
     if (status != EWA_OK) { // there is one: no failure of the question

@@ -41,10 +41,10 @@ static ewa_status check_size(ewa_context *context, size_t size, size_t known) {
 ewa_status ewa_gpu_describe(ewa_context *context, ewa_gpu_info *info) {
     if (!context || !info) return EWA_ERROR_ARGUMENT;
     ewa_gpu_info all = {.struct_size = info->struct_size};
-    ewa_status status = check_size(context, all.struct_size, sizeof all);
-    if (status == EWA_OK) status = ewa_gpu_find(context, &all);
-    if (status == EWA_OK) memcpy(info, &all, all.struct_size);
-    return status;
+    EWA_TRY(check_size(context, all.struct_size, sizeof all));
+    EWA_TRY(ewa_gpu_find(context, &all));
+    memcpy(info, &all, all.struct_size);
+    return EWA_OK;
 }
 
 ewa_status ewa_renderer_describe(const ewa_renderer *renderer, ewa_renderer_info *info) {
@@ -53,8 +53,7 @@ ewa_status ewa_renderer_describe(const ewa_renderer *renderer, ewa_renderer_info
     void *state;
     const ewa_backend *backend = ewa_renderer_backend(renderer, &context, &state);
     ewa_renderer_info all = {.struct_size = info->struct_size};
-    const ewa_status status = check_size(context, all.struct_size, sizeof all);
-    if (status != EWA_OK) return status;
+    EWA_TRY(check_size(context, all.struct_size, sizeof all));
     snprintf(all.backend, sizeof all.backend, "%s", backend->name);
     if (backend->describe) backend->describe(state, &all);
     memcpy(info, &all, all.struct_size);

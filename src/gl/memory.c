@@ -14,20 +14,19 @@ ewa_status ewa_gl_buffer_reserve(ewa_gl *device, ewa_gl_buffer *buffer, const ch
                         "OpenGL: %llu bytes for %s are more than the %llu that programs of %s can see",
                         (unsigned long long)size_bytes, what, (unsigned long long)device->facts.storage_bytes,
                         device->facts.renderer);
-    ewa_status status = ewa_gl_check(device, what); // not for what came before
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_gl_check(device, what)); // not for what came before
     if (!buffer->name) glGenBuffers(1, &buffer->name);
     glBindBuffer(GL_COPY_WRITE_BUFFER, buffer->name);
     glBufferData(GL_COPY_WRITE_BUFFER, (GLsizeiptr)size_bytes, NULL, GL_DYNAMIC_COPY);
-    status = ewa_gl_check(device, what);
+    ewa_status status = ewa_gl_check(device, what);
     buffer->size_bytes = status == EWA_OK ? size_bytes : 0;
     return status;
 }
 
 ewa_status ewa_gl_buffer_put(ewa_gl *device, ewa_gl_buffer *buffer, const char *what, const void *bytes,
                              uint64_t size_bytes) {
-    const ewa_status status = ewa_gl_buffer_reserve(device, buffer, what, size_bytes);
-    if (status != EWA_OK || !size_bytes) return status;
+    EWA_TRY(ewa_gl_buffer_reserve(device, buffer, what, size_bytes));
+    if (!size_bytes) return EWA_OK;
     glBindBuffer(GL_COPY_WRITE_BUFFER, buffer->name);
     glBufferSubData(GL_COPY_WRITE_BUFFER, 0, (GLsizeiptr)size_bytes, bytes);
     return EWA_OK;

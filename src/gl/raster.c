@@ -108,15 +108,14 @@ static uint32_t wanted_pictures(const ewa_tile_job *job) {
 /// The numbers of materials, and the environment, as pictures and blocks.
 static ewa_status put_shading(ewa_raster *raster, const ewa_tile_job *job) {
     ewa_gl *device = raster->device;
-    ewa_status status = EWA_OK;
     if (job->with_materials) {
         float blocks[EWA_MAX_MATERIALS][8] = {{0}};
         for (int i = 0; i < EWA_MAX_MATERIALS; i++)
             memcpy(blocks[i], job->materials[i], sizeof job->materials[i]);
-        status = ewa_gl_buffer_put(device, &raster->material_block, "materials", blocks, sizeof blocks);
+        EWA_TRY(ewa_gl_buffer_put(device, &raster->material_block, "materials", blocks, sizeof blocks));
     }
     const ewa_environment *environment = job->resolve.environment;
-    if (status != EWA_OK || !environment || job->resolve.shading != EWA_PIPELINE_PHONG) return status;
+    if (!environment || job->resolve.shading != EWA_PIPELINE_PHONG) return EWA_OK;
     uint64_t count = 0;
     for (uint32_t i = 0; i < environment->level_count; i++)
         count += (uint64_t)environment->levels[i].width * environment->levels[i].height;
@@ -126,8 +125,7 @@ static ewa_status put_shading(ewa_raster *raster, const ewa_tile_job *job) {
         return ewa_fail(raster->context, EWA_ERROR_LIMIT,
                         "OpenGL: an environment of %llu texels is larger than pictures of %s",
                         (unsigned long long)count, device->facts.renderer);
-    status = ewa_buffer_reserve(raster->context, &raster->row, (size_t)rows * width, 3 * sizeof(float));
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_buffer_reserve(raster->context, &raster->row, (size_t)rows * width, 3 * sizeof(float)));
     float *texels = raster->row.data;
     memset(texels, 0, (size_t)rows * width * 3 * sizeof *texels);
     for (uint32_t i = 0; i < environment->level_count; i++) {
@@ -148,8 +146,7 @@ static ewa_status put_shading(ewa_raster *raster, const ewa_tile_job *job) {
 static ewa_status put_band(ewa_raster *raster, const ewa_tile_job *job) {
     const ewa_raster_band *band = &raster->band;
     const uint64_t views_bytes = (uint64_t)job->source_count * EWA_RASTER_VIEW_STRIDE;
-    ewa_status status = ewa_buffer_reserve(raster->context, &raster->views, views_bytes, 1);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_buffer_reserve(raster->context, &raster->views, views_bytes, 1));
     memset(raster->views.data, 0, views_bytes);
     for (uint32_t i = 0; i < job->source_count; i++) {
         ewa_raster_view view;
@@ -158,18 +155,13 @@ static ewa_status put_band(ewa_raster *raster, const ewa_tile_job *job) {
     }
     ewa_raster_resolve resolve;
     ewa_raster_resolve_set(&resolve, job, band);
-    status =
-        ewa_gl_buffer_put(raster->device, &raster->view_blocks, "views", raster->views.data, views_bytes);
-    if (status == EWA_OK)
-        status =
-            ewa_gl_buffer_put(raster->device, &raster->resolve_block, "lights", &resolve, sizeof resolve);
-    if (status == EWA_OK)
-        status = ewa_gl_buffer_put(raster->device, &raster->packets, "packets", band->packets.data,
-                                   (uint64_t)band->packet_count * sizeof(ewa_raster_packet));
-    if (status == EWA_OK)
-        status = ewa_raster_targets_reserve(raster->device, &raster->targets, job->tiles.width_px,
-                                            band->end_row_px - band->first_row_px, wanted_pictures(job));
-    return status;
+    EWA_TRY(
+        ewa_gl_buffer_put(raster->device, &raster->view_blocks, "views", raster->views.data, views_bytes));
+    EWA_TRY(ewa_gl_buffer_put(raster->device, &raster->resolve_block, "lights", &resolve, sizeof resolve));
+    EWA_TRY(ewa_gl_buffer_put(raster->device, &raster->packets, "packets", band->packets.data,
+                              (uint64_t)band->packet_count * sizeof(ewa_raster_packet)));
+    return ewa_raster_targets_reserve(raster->device, &raster->targets, job->tiles.width_px,
+                                      band->end_row_px - band->first_row_px, wanted_pictures(job));
 }
 
 static void start_target(const ewa_raster *raster, ewa_raster_target target) {
@@ -247,9 +239,7 @@ static ewa_status gather(ewa_raster *raster, const ewa_tile_job *job, bool behin
 static ewa_status draw_stage(ewa_raster *raster, const ewa_tile_job *job, ewa_raster_stage stage,
                              ewa_raster_target target, uint32_t maps, bool behind, bool whole) {
     GLuint program = 0;
-    const ewa_status status =
-        ewa_raster_stage_program(raster->device, &raster->programs, stage, job->with_clips, &program);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_raster_stage_program(raster->device, &raster->programs, stage, job->with_clips, &program));
     glUseProgram(program);
     glUniform1i(glGetUniformLocation(program, "behind"), behind);
     glUniform1i(glGetUniformLocation(program, "whole"), whole);
@@ -297,21 +287,20 @@ static ewa_status draw_counted(ewa_raster *raster, const ewa_tile_job *job, ewa_
 
 /// Draws what lies behind the first surface, while any pixel is open.
 static ewa_status draw_layers(ewa_raster *raster, const ewa_tile_job *job) {
-    ewa_status status = EWA_OK;
     if (job->with_clips && job->layers > 1)
-        status = draw_stage(raster, job, EWA_RASTER_CUT, EWA_TARGET_FIRST_CUT, SUM_MAPS, false, false);
-    for (uint32_t layer = 1; layer < job->layers && status == EWA_OK; layer++) {
+        EWA_TRY(draw_stage(raster, job, EWA_RASTER_CUT, EWA_TARGET_FIRST_CUT, SUM_MAPS, false, false));
+    for (uint32_t layer = 1; layer < job->layers; layer++) {
         GLuint open = 0;
         clear(raster, EWA_TARGET_PASSED, EWA_PICTURE_PASSED, 0, (float)EWA_RASTER_NEVER);
-        status = draw_counted(raster, job, EWA_RASTER_PEEL, EWA_TARGET_PASSED,
-                              COMPOSED_MAP | 1u << EWA_PICTURE_NEAREST, GL_SAMPLES_PASSED, &open);
-        if (status != EWA_OK || !open) break;
+        EWA_TRY(draw_counted(raster, job, EWA_RASTER_PEEL, EWA_TARGET_PASSED,
+                             COMPOSED_MAP | 1u << EWA_PICTURE_NEAREST, GL_SAMPLES_PASSED, &open));
+        if (!open) break;
         const bool whole = job->merge_last && layer + 1 == job->layers;
-        status = gather(raster, job, true, whole);
-        if (status == EWA_OK) status = compose(raster, job, true, whole);
-        if (status == EWA_OK) status = ewa_progress(raster->context, "render", 0);
+        EWA_TRY(gather(raster, job, true, whole));
+        EWA_TRY(compose(raster, job, true, whole));
+        EWA_TRY(ewa_progress(raster->context, "render", 0));
     }
-    return status;
+    return EWA_OK;
 }
 
 static ewa_status read_target(ewa_raster *raster, ewa_raster_target target, GLuint output, GLenum format,
@@ -330,14 +319,11 @@ static ewa_status read_planes(ewa_raster *raster, const ewa_tile_job *job) {
     const uint64_t first = (uint64_t)job->tiles.width_px * raster->band.first_row_px,
                    pixels =
                        (uint64_t)job->tiles.width_px * (raster->band.end_row_px - raster->band.first_row_px);
-    ewa_status status = EWA_OK;
     if (to->coverage)
-        status = read_target(raster, EWA_TARGET_PLANES, 1, GL_RED, GL_FLOAT, job, to->coverage + first);
-    if (status != EWA_OK || !(to->normal || to->depth)) return status;
-    status = ewa_buffer_reserve(raster->context, &raster->row, pixels, 4 * sizeof(float));
-    if (status == EWA_OK)
-        status = read_target(raster, EWA_TARGET_PLANES, 0, GL_RGBA, GL_FLOAT, job, raster->row.data);
-    if (status != EWA_OK) return status;
+        EWA_TRY(read_target(raster, EWA_TARGET_PLANES, 1, GL_RED, GL_FLOAT, job, to->coverage + first));
+    if (!(to->normal || to->depth)) return EWA_OK;
+    EWA_TRY(ewa_buffer_reserve(raster->context, &raster->row, pixels, 4 * sizeof(float)));
+    EWA_TRY(read_target(raster, EWA_TARGET_PLANES, 0, GL_RGBA, GL_FLOAT, job, raster->row.data));
     const float *from = raster->row.data;
     for (uint64_t i = 0; i < pixels; i++) {
         if (to->normal) memcpy(to->normal + 3 * (first + i), from + 4 * i, 3 * sizeof *from);
@@ -360,29 +346,29 @@ static ewa_status finish_band(ewa_raster *raster, const ewa_tile_job *job, uint6
             status =
                 draw_stage(raster, job, EWA_RASTER_PICTURE, EWA_TARGET_PICTURE, COMPOSED_MAP, false, false);
     }
-    if (status == EWA_OK) status = ewa_gl_wait(raster->device, "the picture");
-    if (status == EWA_OK && to->rgba8)
-        status =
-            read_target(raster, EWA_TARGET_PICTURE, 0, GL_RGBA, GL_UNSIGNED_BYTE, job, to->rgba8 + 4 * first);
-    if (status == EWA_OK && to->rgba)
-        status = read_target(raster, EWA_TARGET_PICTURE, 1, GL_RGBA, GL_FLOAT, job, to->rgba + 4 * first);
-    return status == EWA_OK ? read_planes(raster, job) : status;
+    EWA_TRY(status);
+    EWA_TRY(ewa_gl_wait(raster->device, "the picture"));
+    if (to->rgba8)
+        EWA_TRY(read_target(raster, EWA_TARGET_PICTURE, 0, GL_RGBA, GL_UNSIGNED_BYTE, job,
+                            to->rgba8 + 4 * first));
+    if (to->rgba)
+        EWA_TRY(read_target(raster, EWA_TARGET_PICTURE, 1, GL_RGBA, GL_FLOAT, job, to->rgba + 4 * first));
+    return read_planes(raster, job);
 }
 
 static ewa_status draw_band(ewa_raster *raster, const ewa_tile_job *job, uint32_t first_row_px,
                             uint32_t end_row_px, uint64_t *broken) {
     const ewa_resolve *to = &job->resolve;
-    ewa_status status = ewa_raster_band_start(raster->context, &raster->band, job, first_row_px, end_row_px);
-    if (status == EWA_OK) status = put_band(raster, job);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_raster_band_start(raster->context, &raster->band, job, first_row_px, end_row_px));
+    EWA_TRY(put_band(raster, job));
     glViewport(0, 0, (GLsizei)job->tiles.width_px, (GLsizei)(end_row_px - first_row_px));
     clear(raster, EWA_TARGET_COMPOSED, EWA_PICTURE_COMPOSED, 0, 0);
-    status = gather(raster, job, false, false);
-    if (status == EWA_OK) status = compose(raster, job, false, false);
-    if (status == EWA_OK && (to->depth || to->normal || to->coverage))
-        status = draw_stage(raster, job, EWA_RASTER_PLANES, EWA_TARGET_PLANES, SUM_MAPS, false, false);
-    if (status == EWA_OK) status = draw_layers(raster, job);
-    return status == EWA_OK ? finish_band(raster, job, broken) : status;
+    EWA_TRY(gather(raster, job, false, false));
+    EWA_TRY(compose(raster, job, false, false));
+    if (to->depth || to->normal || to->coverage)
+        EWA_TRY(draw_stage(raster, job, EWA_RASTER_PLANES, EWA_TARGET_PLANES, SUM_MAPS, false, false));
+    EWA_TRY(draw_layers(raster, job));
+    return finish_band(raster, job, broken);
 }
 
 /// Draws rows, in bands of pictures that the device can hold.
@@ -400,7 +386,7 @@ static ewa_status draw_rows(ewa_raster *raster, const ewa_tile_job *job, uint32_
         if (status == EWA_OK)
             status = ewa_progress(raster->context, "render",
                                   (double)(end - first_row_px) / (end_row_px - first_row_px));
-        if (status != EWA_OK) return status;
+        EWA_TRY(status);
     }
     return EWA_OK;
 }
@@ -420,22 +406,20 @@ ewa_status ewa_raster_draw(void *state, const ewa_render_job *frame, ewa_render_
     ewa_raster *raster = state;
     const double start_s = ewa_now_s();
     ewa_tile_job job;
-    ewa_status status = ewa_tile_job_make(raster->context, &raster->room, frame, EWA_FIELD_PX, &job);
-    if (status == EWA_OK) status = check(raster, &job);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_tile_job_make(raster->context, &raster->room, frame, EWA_FIELD_PX, &job));
+    EWA_TRY(check(raster, &job));
     const double binned_s = ewa_now_s();
     uint64_t broken = 0, surfel_count = 0;
-    status = ewa_gl_enter(raster->device);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_gl_enter(raster->device));
     glDisable(GL_DEPTH_TEST);
     glDisable(GL_CULL_FACE);
     glDisable(GL_DITHER);
-    status = put_surfels(raster, &job);
+    ewa_status status = put_surfels(raster, &job);
     if (status == EWA_OK) status = put_shading(raster, &job);
     if (status == EWA_OK)
         status = draw_rows(raster, &job, frame->first_row_px, frame->end_row_px, &broken, &surfel_count);
     ewa_gl_leave(raster->device);
-    if (status != EWA_OK) return status;
+    EWA_TRY(status);
     ewa_job_finish(raster->context, &raster->room, frame, broken);
     *stats = (ewa_render_stats){.bin_s = binned_s - start_s};
     ewa_job_count(&job, 0, stats);

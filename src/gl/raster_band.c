@@ -98,16 +98,14 @@ ewa_status ewa_raster_band_start(ewa_context *context, ewa_raster_band *band, co
     if (packet_count > UINT32_MAX)
         return ewa_fail(context, EWA_ERROR_LIMIT, "OpenGL: %llu packets of surfels are more than %u",
                         (unsigned long long)packet_count, UINT32_MAX);
-    ewa_status status = ewa_buffer_reserve(context, &band->live, maximum, 1);
-    if (status == EWA_OK)
-        status = ewa_buffer_reserve(context, &band->packets, packet_count, sizeof(ewa_raster_packet));
-    if (status == EWA_OK)
-        status = ewa_buffer_reserve(context, &band->runs, packet_count, sizeof(ewa_raster_run));
-    for (uint32_t i = 0; i < job->source_count && status == EWA_OK; i++) {
+    EWA_TRY(ewa_buffer_reserve(context, &band->live, maximum, 1));
+    EWA_TRY(ewa_buffer_reserve(context, &band->packets, packet_count, sizeof(ewa_raster_packet)));
+    EWA_TRY(ewa_buffer_reserve(context, &band->runs, packet_count, sizeof(ewa_raster_run)));
+    for (uint32_t i = 0; i < job->source_count; i++) {
         mark_live(band, job, &job->sources[i], band->live.data);
         list_source(band, &job->sources[i], i, band->live.data);
     }
-    return status;
+    return EWA_OK;
 }
 
 void ewa_raster_band_free(ewa_context *context, ewa_raster_band *band) {

@@ -101,8 +101,7 @@ ewa_status ewa_raster_splat_program(ewa_gl *device, ewa_raster_programs *program
     static const char *const fragment[] = {ewa_shader_raster_scene, ewa_shader_raster_splat};
     const ewa_gl_stage stages[] = {{GL_VERTEX_SHADER, head, vertex, count},
                                    {GL_FRAGMENT_SHADER, head, fragment, 2}};
-    const ewa_status status = ewa_gl_program_make(device, names[pass], stages, 2, made);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_gl_program_make(device, names[pass], stages, 2, made));
     *program = *made;
     bind_names(*made);
     return EWA_OK;
@@ -125,8 +124,7 @@ ewa_status ewa_raster_stage_program(ewa_gl *device, ewa_raster_programs *program
     static const char *const fragment[] = {ewa_shader_raster_surface};
     const ewa_gl_stage stages[] = {{GL_VERTEX_SHADER, head, vertex, 1},
                                    {GL_FRAGMENT_SHADER, head, fragment, 1}};
-    const ewa_status status = ewa_gl_program_make(device, names[stage], stages, 2, made);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_gl_program_make(device, names[stage], stages, 2, made));
     *program = *made;
     bind_names(*made);
     return EWA_OK;

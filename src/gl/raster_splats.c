@@ -79,10 +79,8 @@ ewa_status ewa_raster_draw_splats(ewa_raster *raster, const ewa_tile_job *job, e
             if (near && !runs[i].near) continue;
             if (pass == EWA_RASTER_VISIBILITY && !job->sources[runs[i].source].hides) continue;
             if (!program) {
-                const ewa_status status =
-                    ewa_raster_splat_program(raster->device, &raster->programs, pass,
-                                             near ? EWA_RASTER_NEAR : plain, job->with_clips, &program);
-                if (status != EWA_OK) return status;
+                EWA_TRY(ewa_raster_splat_program(raster->device, &raster->programs, pass,
+                                                 near ? EWA_RASTER_NEAR : plain, job->with_clips, &program));
                 glUseProgram(program);
                 set_int(program, "back_facing_only",
                         pass == EWA_RASTER_VISIBILITY || pass == EWA_RASTER_SINGLE ? -1 : is_back);
@@ -96,8 +94,7 @@ ewa_status ewa_raster_draw_splats(ewa_raster *raster, const ewa_tile_job *job, e
             glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, CORNERS, (GLsizei)(runs[i].count * EWA_PACKET_LANES));
             told += runs[i].count;
             if (told < PACKETS_PER_WAIT) continue;
-            const ewa_status status = ewa_gl_wait(raster->device, "splats");
-            if (status != EWA_OK) return status;
+            EWA_TRY(ewa_gl_wait(raster->device, "splats"));
             told = 0;
         }
     }

@@ -124,12 +124,11 @@ static ewa_status put_surfels(ewa_gl *device, ewa_raster_residents *residents, c
     const uint32_t page_count = (surfels->packet_count + MAX_PAGE_PACKETS - 1) / MAX_PAGE_PACKETS;
     ewa_raster_resident made = {
         .serial = surfels->serial, .page_count = page_count, .used = residents->frame};
-    ewa_status status = ewa_buffer_grow(device->context, &residents->items, residents->count,
-                                        (size_t)residents->count + 1, sizeof made);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_buffer_grow(device->context, &residents->items, residents->count,
+                            (size_t)residents->count + 1, sizeof made));
     made.pages = ewa_allocate_zeroed(device->context, page_count, sizeof *made.pages);
     if (!made.pages) return EWA_ERROR_MEMORY;
-    status = put_lines(device, surfels, &made);
+    ewa_status status = put_lines(device, surfels, &made);
     for (uint32_t i = 0; i < page_count && status == EWA_OK; i++) {
         ewa_raster_page *page = &made.pages[i];
         const uint32_t left = surfels->packet_count - i * MAX_PAGE_PACKETS;

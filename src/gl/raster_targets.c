@@ -58,8 +58,7 @@ void ewa_raster_targets_free(ewa_raster_targets *targets) {
 }
 
 static ewa_status make_picture(ewa_gl *device, ewa_raster_targets *targets, int picture) {
-    ewa_status status = ewa_gl_check(device, "pictures");
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_gl_check(device, "pictures"));
     glGenTextures(1, &targets->pictures[picture]);
     glBindTexture(GL_TEXTURE_2D, targets->pictures[picture]);
     glTexImage2D(GL_TEXTURE_2D, 0, forms[picture].inner, (GLsizei)targets->width_px,
@@ -68,9 +67,9 @@ static ewa_status make_picture(ewa_gl *device, ewa_raster_targets *targets, int 
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
-    status = ewa_gl_check(device, "pictures");
-    if (status == EWA_OK) targets->made |= 1u << picture;
-    return status;
+    EWA_TRY(ewa_gl_check(device, "pictures"));
+    targets->made |= 1u << picture;
+    return EWA_OK;
 }
 
 /// Makes or remakes the frame buffer of the pictures that are there; nothing where there are none.

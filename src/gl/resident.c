@@ -45,7 +45,7 @@ static ewa_status put_page(ewa_gl *device, const ewa_surfels *surfels, ewa_gl_pa
     page->materials_at = material_bytes ? (int32_t)(opacity_bytes / 4) : -1;
     if (status == EWA_OK)
         status = ewa_gl_buffer_reserve(device, &page->attributes, "surfels", opacity_bytes + material_bytes);
-    if (status != EWA_OK) return status;
+    EWA_TRY(status);
     glBindBuffer(GL_COPY_WRITE_BUFFER, page->attributes.name);
     if (opacity_bytes)
         glBufferSubData(GL_COPY_WRITE_BUFFER, 0, (GLsizeiptr)opacity_bytes, surfels->opacities + first);

@@ -159,14 +159,13 @@ static ewa_status run(ewa_gl *device, const ewa_gl_arithmetic *arithmetic, bool 
     static const char *const pieces[] = {ewa_shader_wide, ewa_shader_selftest};
     const ewa_gl_stage stage = {GL_COMPUTE_SHADER, head, pieces, 2};
     GLuint program = 0;
-    ewa_status status = ewa_gl_program_make(device, "self-test", &stage, 1, &program);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_gl_program_make(device, "self-test", &stage, 1, &program));
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, inputs->name);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, results->name);
     glUseProgram(program);
     glDispatchCompute(COUNT / GROUP, 1, 1);
     glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
-    status = ewa_gl_wait(device, "the self-test");
+    ewa_status status = ewa_gl_wait(device, "the self-test");
     if (status == EWA_OK) {
         glBindBuffer(GL_COPY_READ_BUFFER, results->name);
         glGetBufferSubData(GL_COPY_READ_BUFFER, 0, sizeof memory->results, memory->results);
@@ -181,15 +180,13 @@ static ewa_status run(ewa_gl *device, const ewa_gl_arithmetic *arithmetic, bool 
 static ewa_status evaluate(ewa_gl *device, const ewa_gl_buffer *inputs, const ewa_gl_buffer *results,
                            trial_memory *memory, ewa_gl_verdict *verdict) {
     ewa_gl_arithmetic *use = &verdict->arithmetic;
-    ewa_status status = run(device, use, true, inputs, results, memory);
-    if (status != EWA_OK) return status;
+    EWA_TRY(run(device, use, true, inputs, results, memory));
     verdict->differs = evaluate_own(memory, &verdict->own);
     *use = verdict->own;
     if (ewa_gl_tuning_is("arith", "emulated")) *use = (ewa_gl_arithmetic){false, false, false};
     if (ewa_gl_tuning_is("arith", "close")) *use = (ewa_gl_arithmetic){true, true, true};
     if (!verdict->differs) {
-        status = run(device, use, false, inputs, results, memory);
-        if (status != EWA_OK) return status;
+        EWA_TRY(run(device, use, false, inputs, results, memory));
         verdict->differs = find_difference(memory);
         verdict->exact = !verdict->differs;
     }

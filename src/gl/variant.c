@@ -108,8 +108,7 @@ ewa_status ewa_gl_variant_get(ewa_gl *device, ewa_gl_variants *variants, const e
             *program = variants->programs[i];
             return EWA_OK;
         }
-    const ewa_status status = make(device, variants, wanted, program);
-    if (status != EWA_OK) return status;
+    EWA_TRY(make(device, variants, wanted, program));
     uint32_t place = variants->count;
     if (place == EWA_GL_MAX_VARIANTS) {
         place = variants->oldest++ % EWA_GL_MAX_VARIANTS;

@@ -227,8 +227,7 @@ ewa_status ewa_camera_path_create(ewa_context *context, const ewa_camera *keys, 
                                   ewa_camera_path **path) {
     if (path) *path = NULL;
     if (!context || !keys || count == 0 || !path) return EWA_ERROR_ARGUMENT;
-    ewa_status status = check_keys(context, keys, count);
-    if (status != EWA_OK) return status;
+    EWA_TRY(check_keys(context, keys, count));
     ewa_camera_path *made = ewa_allocate_zeroed(context, 1, sizeof *made);
     if (!made) return EWA_ERROR_MEMORY;
     made->context = context;
@@ -236,6 +235,7 @@ ewa_status ewa_camera_path_create(ewa_context *context, const ewa_camera *keys, 
     made->knot_count = count + closed;
     made->keys = ewa_allocate(context, made->count, sizeof *made->keys);
     made->knots = ewa_allocate_zeroed(context, made->knot_count, sizeof *made->knots);
+    ewa_status status = EWA_OK;
     if (made->keys && made->knots) {
         memcpy(made->keys, keys, count * sizeof *keys);
         make_knots(made);

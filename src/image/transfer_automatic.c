@@ -260,8 +260,7 @@ static ewa_status look_at(const ewa_volume *volume, const material_map *map, con
 static ewa_status open_containers(const ewa_volume *volume, const material_map *map, class_list *list) {
     for (int inner = 1; list->natural && inner < list->count;) {
         ewa_volume_sight sight;
-        const ewa_status status = look_at(volume, map, list, inner, &sight);
-        if (status != EWA_OK) return status;
+        EWA_TRY(look_at(volume, map, list, inner, &sight));
         const bool content = map->surfaces.above[list->edges[inner].at] > CONTENT_SHARE * map->surfaces.count;
         if (content && sight.hidden > CONTAINER_SHARE && sight.apart > CONTAINER_SHARE) {
             list->count -= inner;
@@ -331,14 +330,12 @@ static void add_points(const material_map *map, const ewa_volume_facts *facts, c
 ewa_status ewa_transfer_automatic(const ewa_volume *volume, const ewa_volume_facts *facts,
                                   ewa_transfer *transfer) {
     if (!volume || !volume->voxels || !facts || !transfer) return EWA_ERROR_ARGUMENT;
-    ewa_status status = ewa_transfer_check_facts(volume, facts);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_transfer_check_facts(volume, facts));
     material_map map;
     class_list list;
     make_map(volume, facts, &map);
     list_classes(&map, &list);
-    status = open_containers(volume, &map, &list);
-    if (status != EWA_OK) return status;
+    EWA_TRY(open_containers(volume, &map, &list));
     *transfer = (ewa_transfer){.unit_length_world = ewa_transfer_unit(facts)};
     add_points(&map, facts, &list, transfer);
     const double seen = transfer->points[0].value;

@@ -112,8 +112,7 @@ ewa_status ewa_transfer_preset(const ewa_volume *volume, const ewa_volume_facts 
     for (size_t i = 0; i < sizeof presets / sizeof presets[0]; i++)
         if (strcmp(presets[i].name, name) == 0) found = &presets[i];
     if (!found) return ewa_fail(volume->context, EWA_ERROR_ARGUMENT, "no preset '%.80s'", name);
-    const ewa_status status = ewa_transfer_check_facts(volume, facts);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_transfer_check_facts(volume, facts));
     double range[2];
     find_range(facts, range);
     const bool hounsfield = is_hounsfield(facts) && !isnan(found->stops[0].hounsfield);

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Filters from text: "classification=2,6 and intensity>100".
+#include "base/base.h"
 #include "ewa/image.h"
 #include "ewa/select.h"
 #include "io/number.h"
@@ -89,8 +90,8 @@ static ewa_status add_values(ewa_filter_term *term, ewa_text values, char proble
     const char *at = values.chars, *end = values.chars + values.length;
     for (;;) {
         const char *comma = at < end ? memchr(at, ',', (size_t)(end - at)) : NULL;
-        const ewa_status status = add_value(term, trimmed(at, comma ? comma : end), problem);
-        if (status != EWA_OK || !comma) return status;
+        EWA_TRY(add_value(term, trimmed(at, comma ? comma : end), problem));
+        if (!comma) return EWA_OK;
         at = comma + 1;
     }
 }

@@ -36,10 +36,10 @@ bool ewa_octree_is(ewa_context *context, const char *path) {
 }
 
 ewa_status ewa_octree_add(ewa_octree *octree, const ewa_octree_node *node) {
-    const ewa_status status = ewa_buffer_grow(octree->context, &octree->nodes, octree->node_count,
-                                              octree->node_count + 1, sizeof *node);
-    if (status == EWA_OK) ((ewa_octree_node *)octree->nodes.data)[octree->node_count++] = *node;
-    return status;
+    EWA_TRY(ewa_buffer_grow(octree->context, &octree->nodes, octree->node_count, octree->node_count + 1,
+                            sizeof *node));
+    ((ewa_octree_node *)octree->nodes.data)[octree->node_count++] = *node;
+    return EWA_OK;
 }
 
 /// Puts the nodes in order and counts their points.

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Options from text and as text.
+#include "base/base.h"
 #include "base/options.h"
 #include "io/number.h"
 
@@ -67,8 +68,7 @@ ewa_status ewa_option_set(const ewa_option *option, void *options, const char *t
     const uint32_t count = option->count ? option->count : 1;
     const char *next = text;
     for (uint32_t i = 0; i < count; i++) {
-        const ewa_status status = read_value(option, &next, &values[i], problem);
-        if (status != EWA_OK) return status;
+        EWA_TRY(read_value(option, &next, &values[i], problem));
         if (*next != (i + 1 < count ? ',' : 0))
             return wrong(problem, "'%.80s' is not %u numbers separated by commas", text, count);
         next += i + 1 < count;

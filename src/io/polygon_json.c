@@ -18,8 +18,7 @@ static ewa_status add_ring(ewa_rings *rings, const cJSON *ring) {
         const cJSON *x = cJSON_IsArray(position) ? position->child : NULL, *y = x ? x->next : NULL;
         if (!cJSON_IsNumber(x) || !cJSON_IsNumber(y))
             return fail_shape(rings, "a position is no array of two numbers");
-        const ewa_status status = ewa_rings_add(rings, x->valuedouble, y->valuedouble);
-        if (status != EWA_OK) return status;
+        EWA_TRY(ewa_rings_add(rings, x->valuedouble, y->valuedouble));
     }
     return ewa_rings_close(rings);
 }

@@ -14,9 +14,8 @@ ewa_status ewa_rings_add(ewa_rings *rings, double x, double y) {
                         (unsigned long long)(rings->corner_count + 1));
     if (rings->corner_count == MAX_CORNERS)
         return ewa_fail(rings->context, EWA_ERROR_LIMIT, "%s: over %d corners", rings->name, MAX_CORNERS);
-    const ewa_status status = ewa_buffer_grow(rings->context, &rings->corners, rings->corner_count,
-                                              rings->corner_count + 1, 2 * sizeof(double));
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_buffer_grow(rings->context, &rings->corners, rings->corner_count, rings->corner_count + 1,
+                            2 * sizeof(double)));
     double *corner = (double *)rings->corners.data + 2 * rings->corner_count++;
     corner[0] = x;
     corner[1] = y;
@@ -36,9 +35,8 @@ ewa_status ewa_rings_close(ewa_rings *rings) {
         return ewa_fail(rings->context, EWA_ERROR_FORMAT,
                         "%s: ring %u of the outline has %u corners, fewer than 3", rings->name,
                         rings->ring_count + 1, rings->open_count);
-    const ewa_status status = ewa_buffer_grow(rings->context, &rings->counts, rings->ring_count,
-                                              rings->ring_count + 1, sizeof(uint32_t));
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_buffer_grow(rings->context, &rings->counts, rings->ring_count, rings->ring_count + 1,
+                            sizeof(uint32_t)));
     ((uint32_t *)rings->counts.data)[rings->ring_count++] = rings->open_count;
     rings->open_count = 0;
     return EWA_OK;

@@ -62,9 +62,7 @@ static ewa_status read_position(ewa_rings *rings, ewa_cursor *cursor) {
 static ewa_status read_group(ewa_rings *rings, ewa_cursor *cursor, int depth) {
     if (!take(cursor, '(')) return fail_line(rings, cursor, "'(' of WKT wanted");
     do {
-        const ewa_status status =
-            depth == 1 ? read_position(rings, cursor) : read_group(rings, cursor, depth - 1);
-        if (status != EWA_OK) return status;
+        EWA_TRY(depth == 1 ? read_position(rings, cursor) : read_group(rings, cursor, depth - 1));
     } while (take(cursor, ','));
     if (!take(cursor, ')')) return fail_line(rings, cursor, "',' or ')' of WKT wanted");
     return depth == 1 ? ewa_rings_close(rings) : EWA_OK;
@@ -111,9 +109,7 @@ static ewa_status read_corners(ewa_rings *rings, ewa_cursor *cursor) {
             }
         }
         if (count == 1) return fail_line(rings, cursor, "two numbers of a corner wanted");
-        const ewa_status status =
-            count ? ewa_rings_add(rings, numbers[0], numbers[1]) : ewa_rings_close(rings);
-        if (status != EWA_OK) return status;
+        EWA_TRY(count ? ewa_rings_add(rings, numbers[0], numbers[1]) : ewa_rings_close(rings));
         if (cursor->at < cursor->end && *cursor->at == ';')
             cursor->at++;
         else
@@ -144,10 +140,9 @@ ewa_status ewa_polygon_read(ewa_context *context, const char *name, const void *
     ewa_cursor cursor;
     char *owned = NULL;
     size_t owned_bytes = 0;
-    ewa_status status = ewa_text_open(context, name, text, size_bytes, &cursor, &owned, &owned_bytes);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_text_open(context, name, text, size_bytes, &cursor, &owned, &owned_bytes));
     ewa_rings rings = {.context = context, .name = name};
-    status = read_text(&rings, &cursor);
+    ewa_status status = read_text(&rings, &cursor);
     if (status == EWA_OK && rings.ring_count == 0)
         status = ewa_fail(context, EWA_ERROR_FORMAT, "%s: there is no polygon", name);
     if (status == EWA_OK)
@@ -164,9 +159,8 @@ ewa_status ewa_polygon_load(ewa_context *context, const char *path, ewa_polygon 
     *polygon = NULL;
     if (!context || !path) return EWA_ERROR_ARGUMENT;
     ewa_file file;
-    ewa_status status = ewa_file_map(context, path, &file);
-    if (status != EWA_OK) return status;
-    status = ewa_polygon_read(context, path, file.bytes, file.size_bytes, polygon);
+    EWA_TRY(ewa_file_map(context, path, &file));
+    ewa_status status = ewa_polygon_read(context, path, file.bytes, file.size_bytes, polygon);
     ewa_file_unmap(context, &file);
     return status;
 }

@@ -59,7 +59,7 @@ static ewa_status put(ewa_scene_text *text, const char *chars, size_t length) {
         ewa_buffer_grow(text->context, &buffer, text->values_size, text->values_size + length, 1);
     text->values = buffer.data;
     text->values_bytes = buffer.capacity_bytes;
-    if (status != EWA_OK) return status;
+    EWA_TRY(status);
     memcpy(text->values + text->values_size, chars, length);
     text->values_size += length;
     return EWA_OK;
@@ -83,12 +83,12 @@ static ewa_status add(ewa_scene_text *text, ewa_scene_section section, uint32_t 
                                         sizeof *text->members);
     text->members = buffer.data;
     text->members_bytes = buffer.capacity_bytes;
-    if (status != EWA_OK) return status;
+    EWA_TRY(status);
     const ewa_scene_member member = {section, index, item->string, text->values_size};
     text->members[text->member_count++] = member;
     bool known = true;
     if (!cJSON_IsArray(item)) {
-        status = put_single(text, item, &known);
+        EWA_TRY(put_single(text, item, &known));
     } else {
         const cJSON *value;
         cJSON_ArrayForEach(value, item) {
@@ -129,7 +129,6 @@ static ewa_status read_list(ewa_scene_text *text, ewa_scene_section section, con
                             uint32_t *count) {
     const ewa_scene_member at = {EWA_SCENE_OPTIONS, 0, list->string, 0};
     if (!cJSON_IsArray(list)) return fail(text, &at, "is no array");
-    ewa_status status = EWA_OK;
     const cJSON *item;
     cJSON_ArrayForEach(item, list) {
         if (*count == EWA_SCENE_FILE_ITEMS)
@@ -137,12 +136,11 @@ static ewa_status read_list(ewa_scene_text *text, ewa_scene_section section, con
                             list->string, EWA_SCENE_FILE_ITEMS);
         const ewa_scene_member plane = {section, *count, NULL, 0};
         if (section == EWA_SCENE_SECTION_PLANE && !cJSON_IsArray(item))
-            status = fail(text, &plane, "is no array");
+            return fail(text, &plane, "is no array");
         else if (section == EWA_SCENE_SECTION_PLANE)
-            status = add(text, section, *count, item);
+            EWA_TRY(add(text, section, *count, item));
         else
-            status = add_object(text, section, *count, item);
-        if (status != EWA_OK) return status;
+            EWA_TRY(add_object(text, section, *count, item));
         (*count)++;
     }
     return EWA_OK;
@@ -210,7 +208,7 @@ static ewa_status read_root(ewa_scene_text *text, const cJSON *root) {
         if (which == 1) status = read_options(text, item);
         if (which == 2) status = read_camera(text, item);
         if (which == 3) status = read_list(text, EWA_SCENE_ITEM, item, &text->item_count);
-        if (status != EWA_OK) return status;
+        EWA_TRY(status);
     }
     return EWA_OK;
 }
@@ -222,10 +220,9 @@ ewa_status ewa_scene_text_read(ewa_context *context, const char *name, const uin
         return ewa_fail(context, EWA_ERROR_LIMIT, "%s: %zu bytes, more than a scene file may have (%d)", name,
                         size_bytes, EWA_SCENE_FILE_BYTES);
     cJSON *root = NULL;
-    ewa_status status = ewa_json_parse(context, name, "a scene file", bytes, size_bytes, &root);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_json_parse(context, name, "a scene file", bytes, size_bytes, &root));
     text->tree = root;
-    status = read_root(text, root);
+    ewa_status status = read_root(text, root);
     if (status != EWA_OK) ewa_scene_text_free(text);
     return status;
 }

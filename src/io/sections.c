@@ -11,9 +11,9 @@
 enum { HEAD_BYTES = 16 };
 
 ewa_status ewa_section_put(ewa_context *context, ewa_section *section, const void *bytes, size_t size_bytes) {
-    const ewa_status status =
-        ewa_buffer_grow(context, &section->buffer, section->size_bytes, section->size_bytes + size_bytes, 1);
-    if (status != EWA_OK || !size_bytes) return status;
+    EWA_TRY(
+        ewa_buffer_grow(context, &section->buffer, section->size_bytes, section->size_bytes + size_bytes, 1));
+    if (!size_bytes) return EWA_OK;
     memcpy((uint8_t *)section->buffer.data + section->size_bytes, bytes, size_bytes);
     section->size_bytes += size_bytes;
     return EWA_OK;

@@ -10,8 +10,8 @@
 
 /// Appends a region's nodes and pages to the file.
 static ewa_status take(ewa_lod_builder *b, ewa_region_result *result) {
-    ewa_status status = EWA_OK;
     ewa_octree_chunk *chunks = result->chunks.data;
+    ewa_status status = EWA_OK;
     for (uint32_t i = 0; i < result->chunk_count && status == EWA_OK; i++) {
         status = ewa_octree_append(b->plan.writer, &chunks[i]);
         if ((uint32_t)chunks[i].key.level >= b->stats.level_count)
@@ -19,29 +19,27 @@ static ewa_status take(ewa_lod_builder *b, ewa_region_result *result) {
     }
     b->stats.node_count += result->chunk_count;
     uint64_t at_bytes = 0;
-    if (status == EWA_OK)
-        status = ewa_spool_put(b->blocks, result->blocks.data, result->blocks_bytes, &at_bytes);
-    if (status == EWA_OK)
-        status = ewa_buffer_grow(b->context, &b->pages, b->page_count,
-                                 (size_t)b->page_count + result->page_count, sizeof(ewa_levels_page));
-    for (uint32_t i = 0; i < result->page_count && status == EWA_OK; i++) {
+    EWA_TRY(status);
+    EWA_TRY(ewa_spool_put(b->blocks, result->blocks.data, result->blocks_bytes, &at_bytes));
+    EWA_TRY(ewa_buffer_grow(b->context, &b->pages, b->page_count, (size_t)b->page_count + result->page_count,
+                            sizeof(ewa_levels_page)));
+    for (uint32_t i = 0; i < result->page_count; i++) {
         ewa_levels_page *page = (ewa_levels_page *)b->pages.data + b->page_count++;
         *page = ((const ewa_levels_page *)result->pages.data)[i];
         page->at_bytes += at_bytes;
         b->stats.merged_count += page->surfel_count;
     }
     const size_t record_bytes = b->plan.record_bytes;
-    for (uint32_t level = 0; level < EWA_CODE_LEVELS && status == EWA_OK; level++) {
+    for (uint32_t level = 0; level < EWA_CODE_LEVELS; level++) {
         const uint32_t count = result->above_counts[level];
         if (!count) continue;
-        status = ewa_buffer_grow(b->context, &b->above[level], b->above_counts[level],
-                                 (size_t)b->above_counts[level] + count, record_bytes);
-        if (status != EWA_OK) break;
+        EWA_TRY(ewa_buffer_grow(b->context, &b->above[level], b->above_counts[level],
+                                (size_t)b->above_counts[level] + count, record_bytes));
         memcpy((uint8_t *)b->above[level].data + b->above_counts[level] * record_bytes,
                result->above[level].data, count * record_bytes);
         b->above_counts[level] += count;
     }
-    return status;
+    return EWA_OK;
 }
 
 /// Makes the regions [first, end) of the node `key` and the node itself.
@@ -110,13 +108,13 @@ static ewa_status write_pages(ewa_lod_builder *b) {
     enum { STEP_BYTES = 1 << 20 };
     ewa_levels levels = {
         .pages = b->pages.data, .page_count = b->page_count, .surfel_count = b->stats.merged_count};
-    ewa_status status = find_coverage(b, &levels.unit_coverage);
-    if (status != EWA_OK) return status;
+    EWA_TRY(find_coverage(b, &levels.unit_coverage));
     if (levels.page_count) qsort(levels.pages, levels.page_count, sizeof *levels.pages, compare_pages);
     const size_t table_bytes = EWA_LEVELS_HEAD_BYTES + (size_t)levels.page_count * EWA_LEVELS_PAGE_BYTES;
     const uint64_t blocks_bytes = ewa_spool_size(b->blocks);
     uint8_t *bytes = ewa_allocate(b->context, table_bytes, 1),
             *step = ewa_allocate(b->context, STEP_BYTES, 1);
+    ewa_status status = EWA_OK;
     if (!bytes || !step) status = EWA_ERROR_MEMORY;
     if (status == EWA_OK) {
         ewa_levels_write(&levels, bytes);

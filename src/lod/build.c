@@ -84,13 +84,12 @@ ewa_status ewa_lod_build(ewa_context *context, const char *const *paths, uint32_
     if (stats) *stats = (ewa_lod_build_stats){0};
     ewa_lod_build_options chosen;
     ewa_lod_build_options_init(&chosen, sizeof chosen);
-    ewa_status status = ewa_options_take(context, &ewa_lod_build_options_table, options, &chosen);
-    if (status == EWA_OK && chosen.subset >= chosen.subset_count)
-        status = ewa_fail(context, EWA_ERROR_ARGUMENT, "options: subset is %u of %u", chosen.subset,
-                          chosen.subset_count);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_options_take(context, &ewa_lod_build_options_table, options, &chosen));
+    if (chosen.subset >= chosen.subset_count)
+        return ewa_fail(context, EWA_ERROR_ARGUMENT, "options: subset is %u of %u", chosen.subset,
+                        chosen.subset_count);
     ewa_inputs inputs;
-    status = ewa_inputs_open(context, paths, path_count, chosen.keep_going, &inputs);
+    ewa_status status = ewa_inputs_open(context, paths, path_count, chosen.keep_going, &inputs);
     if (status == EWA_OK) status = build(context, &inputs, out, &chosen, stats);
     ewa_inputs_free(&inputs);
     return status;

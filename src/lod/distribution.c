@@ -252,18 +252,17 @@ static ewa_status flush(ewa_distribution *s, ewa_region_stream *stream) {
 
 static ewa_status append(ewa_distribution *s, ewa_region_stream *stream, const uint8_t *bytes,
                          size_t size_bytes) {
-    ewa_status status = EWA_OK;
     if (!stream->buffer && !(stream->buffer = ewa_allocate(s->context, BLOCK_BYTES, 1)))
         return EWA_ERROR_MEMORY;
-    while (size_bytes && status == EWA_OK) {
+    while (size_bytes) {
         const size_t room = BLOCK_BYTES - stream->filled, part = size_bytes < room ? size_bytes : room;
         memcpy(stream->buffer + stream->filled, bytes, part);
         stream->filled += (uint32_t)part;
         bytes += part;
         size_bytes -= part;
-        if (stream->filled == BLOCK_BYTES) status = flush(s, stream);
+        if (stream->filled == BLOCK_BYTES) EWA_TRY(flush(s, stream));
     }
-    return status;
+    return EWA_OK;
 }
 
 /// Gives the points of a slice to the regions beside them.
@@ -328,11 +327,10 @@ ewa_status ewa_distribution_make(const ewa_inputs *inputs, const ewa_statistics 
                                  const char *output_path, uint64_t max_points, uint32_t subset,
                                  uint32_t subset_count, ewa_distribution *distribution) {
     *distribution = (ewa_distribution){.context = inputs->context, .statistics = statistics};
-    ewa_status status = prepare(distribution, max_points, subset, subset_count);
-    if (status == EWA_OK) status = ewa_spool_open(inputs->context, output_path, &distribution->spool);
-    if (status != EWA_OK) return status;
+    EWA_TRY(prepare(distribution, max_points, subset, subset_count));
+    EWA_TRY(ewa_spool_open(inputs->context, output_path, &distribution->spool));
     distributor s;
-    status = make_distributor(distribution, &s);
+    ewa_status status = make_distributor(distribution, &s);
     if (status == EWA_OK) status = ewa_inputs_read(inputs, "distribute", distribute_piece, &s);
     for (uint32_t i = 0; i < distribution->region_count && status == EWA_OK; i++) {
         ewa_region *region = &distribution->regions[i];

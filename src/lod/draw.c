@@ -238,16 +238,16 @@ static ewa_status load_some(chooser *c, double until_s, ewa_lod_stats *stats) {
         c->items[i].lod->nodes[c->items[i].node].last_frame = c->items[i].lod->frame;
     qsort(c->items, c->item_count, sizeof *c->items, compare_urgency);
     uint32_t step[STEP], count = 0;
-    ewa_status status = EWA_OK;
     ewa_lod *of_step = NULL;
+    ewa_status status = EWA_OK;
     for (uint32_t i = 0; i < c->item_count && status == EWA_OK; i++) {
         ewa_lod *lod = c->items[i].lod;
         const uint32_t node = c->items[i].node;
         const uint64_t memory_bytes = less(c->options->memory_bytes, bytes_beside(c->scene, lod));
         if (count && of_step != lod) {
-            status = ewa_tree_load(of_step, step, count, c->options->memory_bytes);
+            EWA_TRY(ewa_tree_load(of_step, step, count, c->options->memory_bytes));
             count = 0;
-            if (status != EWA_OK || ewa_now_s() > until_s) return status;
+            if (ewa_now_s() > until_s) return EWA_OK;
         }
         if (lod->nodes[node].surfels) continue;
         if (lod->resident_bytes + lod->cloud_bytes + bytes_of(&lod->nodes[node]) > memory_bytes) {
@@ -290,10 +290,9 @@ static ewa_status load_items(const ewa_lod_scene *scene, const item *items, uint
         node->last_frame = items[i].lod->frame;
         if (!node->surfels) all_bytes += bytes_of(node);
     }
-    ewa_status status = EWA_OK;
-    for (uint32_t i = 0; i < scene->lod_count && status == EWA_OK; i++)
-        status = load_items_of(scene->lods[i], scene, items, count, all_bytes, memory_bytes, stats);
-    return status;
+    for (uint32_t i = 0; i < scene->lod_count; i++)
+        EWA_TRY(load_items_of(scene->lods[i], scene, items, count, all_bytes, memory_bytes, stats));
+    return EWA_OK;
 }
 
 /// What was wanted before may go.
@@ -311,18 +310,17 @@ static ewa_status draw_rows(const ewa_lod_scene *scene, ewa_renderer *renderer, 
     for (uint32_t i = 0; i < count; i++) surfel_count += items[i].lod->nodes[items[i].node].count;
     for (uint32_t i = 0; i < scene->surfels_count; i++) surfel_count += scene->surfels[i]->count;
     ewa_renderer_set_tile(renderer, surfel_count > MANY_SURFELS ? DENSE_TILE_PX : 0);
-    ewa_status status = ewa_render_begin(renderer, camera, options, frame);
-    if (status == EWA_OK && proxies) status = ewa_render_set_rows(renderer, first_row, end_row);
-    for (uint32_t i = 0; i < count && status == EWA_OK; i++) {
+    EWA_TRY(ewa_render_begin(renderer, camera, options, frame));
+    if (proxies) EWA_TRY(ewa_render_set_rows(renderer, first_row, end_row));
+    for (uint32_t i = 0; i < count; i++) {
         const bool touches = items[i].first_row < end_row && items[i].end_row > first_row;
         const ewa_surfels *surfels =
             !proxies || touches ? items[i].lod->nodes[items[i].node].surfels : proxies[i];
         const ewa_render_source how = {items[i].weight, items[i].hides};
-        status = ewa_render_add_source(renderer, surfels, &how);
+        EWA_TRY(ewa_render_add_source(renderer, surfels, &how));
     }
-    for (uint32_t i = 0; i < scene->surfels_count && status == EWA_OK; i++)
-        status = ewa_render_add(renderer, scene->surfels[i]);
-    return status == EWA_OK ? ewa_render_finish(renderer, stats) : status;
+    for (uint32_t i = 0; i < scene->surfels_count; i++) EWA_TRY(ewa_render_add(renderer, scene->surfels[i]));
+    return ewa_render_finish(renderer, stats);
 }
 
 static void add_stats(ewa_render_stats *sum, const ewa_render_stats *more) {
@@ -349,14 +347,12 @@ static uint64_t bytes_of_rows(const item *items, uint32_t count, uint32_t first_
 /// Learns what all nodes are like that a picture needs, however few of them fit in memory at a time.
 static ewa_status make_proxies(const ewa_lod_scene *scene, const item *items, uint32_t count,
                                uint64_t memory_bytes, ewa_surfels **proxies, ewa_lod_stats *stats) {
-    ewa_status status = EWA_OK;
-    for (uint32_t i = 0; i < count && status == EWA_OK; i++) {
+    for (uint32_t i = 0; i < count; i++) {
         next_frame(scene);
-        status = load_items(scene, &items[i], 1, memory_bytes, stats);
-        if (status == EWA_OK)
-            status = ewa_surfels_proxy(items[i].lod->nodes[items[i].node].surfels, &proxies[i]);
+        EWA_TRY(load_items(scene, &items[i], 1, memory_bytes, stats));
+        EWA_TRY(ewa_surfels_proxy(items[i].lod->nodes[items[i].node].surfels, &proxies[i]));
     }
-    return status;
+    return EWA_OK;
 }
 
 /// Draws a picture whose nodes do not fit in memory together.
@@ -449,7 +445,7 @@ static ewa_status render(const ewa_lod_scene *scene, ewa_renderer *renderer, con
     const double before_s = ewa_now_s();
     if (status == EWA_OK) status = choose_nodes(&c, chosen->load_s > 0);
     if (status == EWA_OK && chosen->share_count) status = keep_share(&c);
-    if (status != EWA_OK) return status;
+    EWA_TRY(status);
     stats->choose_s = ewa_now_s() - before_s;
     stats->missing_count = c.missing_count;
     stats->node_count = c.item_count;
@@ -478,10 +474,9 @@ static ewa_status render(const ewa_lod_scene *scene, ewa_renderer *renderer, con
 static ewa_status render_surfels(const ewa_lod_scene *scene, ewa_renderer *renderer, const ewa_camera *camera,
                                  const ewa_render_options *options, const ewa_frame *frame,
                                  ewa_render_stats *stats) {
-    ewa_status status = ewa_render_begin(renderer, camera, options, frame);
-    for (uint32_t i = 0; i < scene->surfels_count && status == EWA_OK; i++)
-        status = ewa_render_add(renderer, scene->surfels[i]);
-    return status == EWA_OK ? ewa_render_finish(renderer, stats) : status;
+    EWA_TRY(ewa_render_begin(renderer, camera, options, frame));
+    for (uint32_t i = 0; i < scene->surfels_count; i++) EWA_TRY(ewa_render_add(renderer, scene->surfels[i]));
+    return ewa_render_finish(renderer, stats);
 }
 
 /// Finds the context that messages go to, and what is wrong with the octrees.
@@ -502,10 +497,9 @@ ewa_status ewa_lod_scene_render(const ewa_lod_scene *scene, ewa_renderer *render
     ewa_context *context;
     ewa_lod_options chosen;
     ewa_lod_options_init(&chosen, sizeof chosen);
-    ewa_status status = check_octrees(scene, &context);
-    if (status == EWA_OK) status = ewa_options_take(context, &ewa_lod_options_table, lod_options, &chosen);
-    if (status == EWA_OK && context) status = ewa_camera_check(context, camera);
-    if (status != EWA_OK) return status;
+    EWA_TRY(check_octrees(scene, &context));
+    EWA_TRY(ewa_options_take(context, &ewa_lod_options_table, lod_options, &chosen));
+    if (context) EWA_TRY(ewa_camera_check(context, camera));
     if (chosen.share_count && (chosen.share >= chosen.share_count || chosen.load_s > 0))
         return ewa_fail(context, EWA_ERROR_ARGUMENT, "lod: part %u of %u, or parts that a time limit makes",
                         chosen.share, chosen.share_count);
@@ -523,6 +517,7 @@ ewa_status ewa_lod_scene_render(const ewa_lod_scene *scene, ewa_renderer *render
             kept[own.surfels_count++] = scene->surfels[i];
         }
     }
+    ewa_status status = EWA_OK;
     if (own.lod_count) {
         ewa_render_options plain;
         ewa_render_options_init(&plain, sizeof plain);

@@ -109,11 +109,8 @@ static void blur_part(void *data, uint32_t part, uint32_t worker) {
 static ewa_status blur(ewa_evaluator *evaluator, const ewa_representatives *merged, uint32_t level,
                        double cell_world) {
     const size_t cells = (size_t)GRID_SIDE * GRID_SIDE * GRID_SIDE;
-    ewa_status status = ewa_buffer_reserve(evaluator->context, &evaluator->grid, cells, sizeof(int32_t));
-    if (status == EWA_OK)
-        status =
-            ewa_buffer_reserve(evaluator->context, &evaluator->blurred, merged->count, 3 * sizeof(float));
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_buffer_reserve(evaluator->context, &evaluator->grid, cells, sizeof(int32_t)));
+    EWA_TRY(ewa_buffer_reserve(evaluator->context, &evaluator->blurred, merged->count, 3 * sizeof(float)));
     blur_job job = {merged, level, cell_world, evaluator->grid.data, evaluator->blurred.data};
     memset(job.first, 0xff, cells * sizeof *job.first);
     for (uint32_t i = merged->count; i-- > 0;) {
@@ -195,9 +192,7 @@ static ewa_status pack(ewa_evaluator *evaluator, const ewa_representatives *list
                        uint32_t end, float radius_scale, const float (*blurred)[3], ewa_surfels **surfels) {
     enum { FLOATS = 3 + 3 + 1 + 4 };
     const uint32_t count = end - first;
-    ewa_status status =
-        ewa_buffer_reserve(evaluator->context, &evaluator->chosen, count, FLOATS * sizeof(float));
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_buffer_reserve(evaluator->context, &evaluator->chosen, count, FLOATS * sizeof(float)));
     float *stream = evaluator->chosen.data;
     for (uint32_t i = 0; i < count; i++) {
         const ewa_representative *s = &list->items[first + i];
@@ -215,7 +210,7 @@ static ewa_status pack(ewa_evaluator *evaluator, const ewa_representatives *list
     ewa_surfels_options options;
     ewa_surfels_options_init(&options, sizeof options);
     options.radius_scale = (double)radius_scale;
-    status = ewa_cloud_create(evaluator->context, count, &cloud);
+    ewa_status status = ewa_cloud_create(evaluator->context, count, &cloud);
     if (status == EWA_OK) ewa_cloud_set_origin(cloud, list->items[first].at_world);
     if (status == EWA_OK) status = ewa_cloud_borrow(cloud, EWA_POSITION, EWA_F32, 3, stream, stride);
     if (status == EWA_OK) status = ewa_cloud_borrow(cloud, EWA_NORMAL, EWA_F32, 3, stream + 3, stride);
@@ -242,11 +237,11 @@ static ewa_status draw(ewa_evaluator *evaluator, const ewa_camera *camera, ewa_s
     ewa_render_options_init(&options, sizeof options);
     options.shading = evaluator->lit ? EWA_SHADING_LAMBERT : EWA_SHADING_NONE;
     const ewa_frame frame = {.rgba = picture};
-    ewa_status status = ewa_render_begin(evaluator->renderer, camera, &options, &frame);
-    for (uint32_t i = 0; i < count && status == EWA_OK; i++) {
-        if (surfels[i]) status = ewa_render_add(evaluator->renderer, surfels[i]);
+    EWA_TRY(ewa_render_begin(evaluator->renderer, camera, &options, &frame));
+    for (uint32_t i = 0; i < count; i++) {
+        if (surfels[i]) EWA_TRY(ewa_render_add(evaluator->renderer, surfels[i]));
     }
-    return status == EWA_OK ? ewa_render_finish(evaluator->renderer, NULL) : status;
+    return ewa_render_finish(evaluator->renderer, NULL);
 }
 
 static float encode(float linear) {
@@ -299,9 +294,8 @@ static ewa_status try_scales(ewa_evaluator *evaluator, const ewa_camera *camera,
     for (size_t k = 0; k < sizeof RADIUS_SCALES / sizeof *RADIUS_SCALES && status == EWA_OK; k++) {
         for (int sharp = 0; sharp < 2 && status == EWA_OK; sharp++) {
             ewa_surfels *surfels = NULL;
-            status = pack(evaluator, merged, first, end, RADIUS_SCALES[k],
-                          sharp ? (const float(*)[3])evaluator->blurred.data : NULL, &surfels);
-            if (status != EWA_OK) break;
+            EWA_TRY(pack(evaluator, merged, first, end, RADIUS_SCALES[k],
+                         sharp ? (const float(*)[3])evaluator->blurred.data : NULL, &surfels));
             surfels->unit_coverage = (double)(unit_coverage * RADIUS_SCALES[k] * RADIUS_SCALES[k]);
             status = draw(evaluator, camera, &surfels, 1, pictures[sharp]);
             ewa_surfels_destroy(&surfels);

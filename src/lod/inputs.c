@@ -31,8 +31,7 @@ static ewa_status add_prototype(ewa_inputs *inputs, const ewa_cloud *prototype) 
     if (are_alike(inputs->prototype, prototype)) return EWA_OK;
     const ewa_cloud *both[2] = {inputs->prototype, prototype};
     ewa_cloud *merged = NULL;
-    const ewa_status status = ewa_cloud_merge(both, 2, &merged);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_cloud_merge(both, 2, &merged));
     ewa_cloud_destroy(&inputs->prototype);
     inputs->prototype = merged;
     return EWA_OK;
@@ -71,8 +70,7 @@ static ewa_status conform(const ewa_inputs *inputs, ewa_cloud **piece) {
     if (are_alike(inputs->prototype, *piece)) return EWA_OK;
     const ewa_cloud *both[2] = {inputs->prototype, *piece};
     ewa_cloud *merged = NULL;
-    const ewa_status status = ewa_cloud_merge(both, 2, &merged);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_cloud_merge(both, 2, &merged));
     ewa_cloud_destroy(piece);
     *piece = merged;
     return EWA_OK;

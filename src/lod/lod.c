@@ -16,12 +16,12 @@ bool ewa_lod_probe(ewa_context *context, const char *path) {
 static bool has(const ewa_cloud *cloud, const char *name) { return ewa_cloud_find(cloud, name) != NULL; }
 
 static ewa_status open_tree(ewa_lod *lod, const char *path) {
-    ewa_status status = ewa_octree_open(lod->context, path, &lod->octree);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_octree_open(lod->context, path, &lod->octree));
     lod->facts = ewa_octree_describe(lod->octree);
     const ewa_cloud *prototype = lod->facts->prototype;
     lod->has_surfels = (has(prototype, EWA_NORMAL) && has(prototype, EWA_RADIUS)) ||
                        (has(prototype, EWA_TANGENT_U) && has(prototype, EWA_TANGENT_V));
+    ewa_status status = EWA_OK;
     if (lod->facts->levels) {
         status =
             ewa_levels_read(lod->context, path, lod->facts->levels, lod->facts->levels_bytes, &lod->levels);
@@ -145,7 +145,7 @@ static ewa_status cut(ewa_lod *lod, const double low[3], const double high[3], e
     ewa_cloud *selected = NULL;
     const ewa_status status = ewa_cloud_select(*cloud, indices, kept, &selected);
     ewa_release(lod->context, indices, count, sizeof *indices);
-    if (status != EWA_OK) return status;
+    EWA_TRY(status);
     ewa_cloud_destroy(cloud);
     *cloud = selected;
     return EWA_OK;

@@ -151,9 +151,9 @@ ewa_status ewa_region_page(ewa_region_plan *plan, const ewa_octree_key *key, uin
                            const ewa_representatives *children, uint32_t child_count,
                            ewa_region_result *result, ewa_representatives *representatives) {
     ewa_levels_page page = {.key = *key, .point_count = point_count, .radius_scale = 1};
-    ewa_status status = EWA_OK;
     for (uint32_t i = 0; i < representatives->count && !child_count; i++)
         page.largest_radius_world = fmaxf(page.largest_radius_world, representatives->items[i].radius_world);
+    ewa_status status = EWA_OK;
     if (!child_count && representatives->count && is_measured(plan->leaf_count++))
         status = ewa_representatives_cover(plan->evaluator, representatives, &page.unit_coverage);
     if (child_count) {
@@ -179,9 +179,9 @@ ewa_status ewa_region_page(ewa_region_plan *plan, const ewa_octree_key *key, uin
         page.surfel_count = representatives->count;
         page.radius_scale = representatives->radius_scale;
     }
-    if (status == EWA_OK)
-        status = ewa_buffer_grow(plan->context, &result->pages, result->page_count,
-                                 (size_t)result->page_count + 1, sizeof page);
-    if (status == EWA_OK) ((ewa_levels_page *)result->pages.data)[result->page_count++] = page;
-    return status;
+    EWA_TRY(status);
+    EWA_TRY(ewa_buffer_grow(plan->context, &result->pages, result->page_count, (size_t)result->page_count + 1,
+                            sizeof page));
+    ((ewa_levels_page *)result->pages.data)[result->page_count++] = page;
+    return EWA_OK;
 }

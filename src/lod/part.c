@@ -34,17 +34,14 @@ static part_head make_head(uint32_t subset, uint32_t subset_count) {
 }
 
 static ewa_status put_statistics(ewa_context *context, const ewa_statistics *statistics, ewa_section *to) {
-    ewa_status status = ewa_section_put(context, to, &statistics->lattice, sizeof statistics->lattice);
+    EWA_TRY(ewa_section_put(context, to, &statistics->lattice, sizeof statistics->lattice));
     const uint64_t numbers[4] = {statistics->point_count, statistics->left_out_count,
                                  statistics->column_count, statistics->record_bytes};
-    if (status == EWA_OK) status = ewa_section_put(context, to, numbers, sizeof numbers);
-    if (status == EWA_OK)
-        status = ewa_section_put(context, to, statistics->minimum, sizeof statistics->minimum);
-    if (status == EWA_OK)
-        status = ewa_section_put(context, to, statistics->maximum, sizeof statistics->maximum);
-    return status == EWA_OK ? ewa_section_put(context, to, statistics->columns,
-                                              statistics->column_count * sizeof *statistics->columns)
-                            : status;
+    EWA_TRY(ewa_section_put(context, to, numbers, sizeof numbers));
+    EWA_TRY(ewa_section_put(context, to, statistics->minimum, sizeof statistics->minimum));
+    EWA_TRY(ewa_section_put(context, to, statistics->maximum, sizeof statistics->maximum));
+    return ewa_section_put(context, to, statistics->columns,
+                           statistics->column_count * sizeof *statistics->columns);
 }
 
 static ewa_status put_prototype(ewa_context *context, const ewa_cloud *cloud, ewa_section *to) {
@@ -74,47 +71,39 @@ static ewa_status put_prototype(ewa_context *context, const ewa_cloud *cloud, ew
 
 static ewa_status put_chunks(ewa_context *context, const ewa_region_result *result, ewa_section *to) {
     const ewa_octree_chunk *chunks = result->chunks.data;
-    ewa_status status = ewa_section_put(context, to, &result->chunk_count, sizeof result->chunk_count);
-    for (uint32_t i = 0; i < result->chunk_count && status == EWA_OK; i++) {
+    EWA_TRY(ewa_section_put(context, to, &result->chunk_count, sizeof result->chunk_count));
+    for (uint32_t i = 0; i < result->chunk_count; i++) {
         const ewa_octree_chunk *chunk = &chunks[i];
         const uint64_t size_bytes = chunk->size_bytes;
-        status = ewa_section_put(context, to, &chunk->key, sizeof chunk->key);
-        if (status == EWA_OK)
-            status = ewa_section_put(context, to, &chunk->point_count, sizeof chunk->point_count);
-        if (status == EWA_OK) status = ewa_section_put(context, to, &chunk->sums, sizeof chunk->sums);
-        if (status == EWA_OK) status = ewa_section_put(context, to, &size_bytes, sizeof size_bytes);
-        if (status == EWA_OK) status = ewa_section_put(context, to, chunk->bytes.data, chunk->size_bytes);
+        EWA_TRY(ewa_section_put(context, to, &chunk->key, sizeof chunk->key));
+        EWA_TRY(ewa_section_put(context, to, &chunk->point_count, sizeof chunk->point_count));
+        EWA_TRY(ewa_section_put(context, to, &chunk->sums, sizeof chunk->sums));
+        EWA_TRY(ewa_section_put(context, to, &size_bytes, sizeof size_bytes));
+        EWA_TRY(ewa_section_put(context, to, chunk->bytes.data, chunk->size_bytes));
     }
-    return status;
+    return EWA_OK;
 }
 
 static ewa_status put_result(ewa_context *context, const ewa_region_result *result, uint32_t region,
                              uint32_t record_bytes, ewa_section *to) {
     const uint64_t blocks_bytes = result->blocks_bytes;
-    ewa_status status = ewa_section_put(context, to, &region, sizeof region);
-    if (status == EWA_OK) status = put_chunks(context, result, to);
-    if (status == EWA_OK)
-        status = ewa_section_put(context, to, &result->page_count, sizeof result->page_count);
-    if (status == EWA_OK)
-        status =
-            ewa_section_put(context, to, result->pages.data, result->page_count * sizeof(ewa_levels_page));
-    if (status == EWA_OK) status = ewa_section_put(context, to, &blocks_bytes, sizeof blocks_bytes);
-    if (status == EWA_OK) status = ewa_section_put(context, to, result->blocks.data, result->blocks_bytes);
-    for (uint32_t level = 0; level < EWA_CODE_LEVELS && status == EWA_OK; level++) {
+    EWA_TRY(ewa_section_put(context, to, &region, sizeof region));
+    EWA_TRY(put_chunks(context, result, to));
+    EWA_TRY(ewa_section_put(context, to, &result->page_count, sizeof result->page_count));
+    EWA_TRY(ewa_section_put(context, to, result->pages.data, result->page_count * sizeof(ewa_levels_page)));
+    EWA_TRY(ewa_section_put(context, to, &blocks_bytes, sizeof blocks_bytes));
+    EWA_TRY(ewa_section_put(context, to, result->blocks.data, result->blocks_bytes));
+    for (uint32_t level = 0; level < EWA_CODE_LEVELS; level++) {
         const uint32_t count = result->above_counts[level];
-        status = ewa_section_put(context, to, &count, sizeof count);
-        if (status == EWA_OK)
-            status = ewa_section_put(context, to, result->above[level].data, (size_t)count * record_bytes);
+        EWA_TRY(ewa_section_put(context, to, &count, sizeof count));
+        EWA_TRY(ewa_section_put(context, to, result->above[level].data, (size_t)count * record_bytes));
     }
     const ewa_representatives *representatives = &result->representatives;
     const float drawn[2] = {representatives->radius_scale, representatives->unit_coverage};
-    if (status == EWA_OK)
-        status = ewa_section_put(context, to, &representatives->count, sizeof representatives->count);
-    if (status == EWA_OK) status = ewa_section_put(context, to, drawn, sizeof drawn);
-    if (status == EWA_OK)
-        status = ewa_section_put(context, to, representatives->items,
-                                 representatives->count * sizeof *representatives->items);
-    return status;
+    EWA_TRY(ewa_section_put(context, to, &representatives->count, sizeof representatives->count));
+    EWA_TRY(ewa_section_put(context, to, drawn, sizeof drawn));
+    return ewa_section_put(context, to, representatives->items,
+                           representatives->count * sizeof *representatives->items);
 }
 
 /// Writes what all parts have in common.
@@ -189,8 +178,7 @@ static ewa_status fail_part(ewa_context *context, const open_part *part, const c
 
 static ewa_status open_part_file(ewa_context *context, const char *path, open_part *part) {
     part->path = path;
-    ewa_status status = ewa_file_map(context, path, &part->file);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_file_map(context, path, &part->file));
     ewa_section_view file = {part->file.bytes, part->file.size_bytes};
     for (uint32_t i = 0; i <= COMMON_SECTIONS; i++) {
         ewa_section_view section;
@@ -422,13 +410,13 @@ static ewa_status open_parts(part_builder *p, const char *const *paths, uint32_t
 static ewa_status prepare(part_builder *p) {
     ewa_lod_builder *b = &p->base;
     const open_part *any = &p->parts[0];
-    ewa_status status = ewa_cloud_create(b->context, 0, &p->inputs);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_cloud_create(b->context, 0, &p->inputs));
+    ewa_status status = EWA_OK;
     const bool good = take_statistics(b->context, any->common[0], &p->statistics, &status) &&
                       take_prototype(any->common[1], &p->statistics, p->inputs, &status);
     if (status == EWA_OK && !good)
         status = fail_part(b->context, any, "what it says of all points is damaged");
-    if (status != EWA_OK) return status;
+    EWA_TRY(status);
     ewa_section_view from = any->common[2];
     b->region_count = (uint32_t)(from.size_bytes / sizeof *p->regions);
     p->regions = ewa_allocate(b->context, b->region_count, sizeof *p->regions);
@@ -437,8 +425,8 @@ static ewa_status prepare(part_builder *p) {
     b->regions = p->regions;
     if (!are_regions(p->regions, b->region_count))
         return fail_part(b->context, any, "its regions are damaged");
-    status = find_results(p);
-    return status == EWA_OK ? ewa_region_plan_make(b->context, &p->statistics, p->inputs, &b->plan) : status;
+    EWA_TRY(find_results(p));
+    return ewa_region_plan_make(b->context, &p->statistics, p->inputs, &b->plan);
 }
 
 ewa_status ewa_lod_merge(ewa_context *context, const char *const *parts, uint32_t part_count, const char *out,

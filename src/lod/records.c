@@ -220,7 +220,7 @@ ewa_status ewa_records_to_representatives(const ewa_region_plan *plan, const uin
     const ewa_status status =
         ewa_buffer_reserve(plan->context, &buffer, count, sizeof *representatives->items);
     representatives->items = buffer.data, representatives->capacity_bytes = buffer.capacity_bytes;
-    if (status != EWA_OK) return status;
+    EWA_TRY(status);
     representatives->radius_scale = 1;
     representatives->unit_coverage = 0;
     surfel_job job = {.plan = plan,

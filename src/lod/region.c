@@ -130,30 +130,29 @@ static ewa_status make_neighbourhood(const ewa_region_plan *plan, estimate_job *
     void *positions = NULL, *scans = NULL, *returns = NULL;
     double origin[3];
     for (int c = 0; c < 3; c++) origin[c] = ewa_lattice_world(lattice, c, lattice->low[c] + job->middle[c]);
-    ewa_status status = ewa_cloud_create(plan->context, job->all_count, cloud);
-    if (status == EWA_OK) status = ewa_cloud_add(*cloud, EWA_POSITION, EWA_F32, 3, &positions);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_cloud_create(plan->context, job->all_count, cloud));
+    EWA_TRY(ewa_cloud_add(*cloud, EWA_POSITION, EWA_F32, 3, &positions));
     ewa_cloud_set_origin(*cloud, origin);
     job->positions = positions;
     ewa_parallel(plan->context, position_task, job, task_count(job->all_count));
     const ewa_attribute *scan = ewa_cloud_find(plan->inputs, "scan");
     size_t note_bytes = 0;
     const char *note = ewa_cloud_note(plan->inputs, "scanners", &note_bytes);
-    if (note) status = ewa_cloud_set_note(*cloud, "scanners", note, note_bytes);
-    if (status == EWA_OK && note && scan && scan->type == EWA_U16 && scan->component_count == 1) {
-        status = ewa_cloud_add(*cloud, "scan", EWA_U16, 1, &scans);
-        for (uint64_t i = 0; i < job->all_count && status == EWA_OK; i++) {
+    if (note) EWA_TRY(ewa_cloud_set_note(*cloud, "scanners", note, note_bytes));
+    if (note && scan && scan->type == EWA_U16 && scan->component_count == 1) {
+        EWA_TRY(ewa_cloud_add(*cloud, "scan", EWA_U16, 1, &scans));
+        for (uint64_t i = 0; i < job->all_count; i++) {
             uint8_t *to = (uint8_t *)scans + 2 * i;
             memset(to, 0, 2);
             if (i < job->points->count)
                 ewa_record_get(plan, job->points->records + i * plan->record_bytes, "scan", to);
         }
     }
-    if (status == EWA_OK && ewa_cloud_find(plan->inputs, "return_number")) {
-        status = ewa_cloud_add(*cloud, "return_number", EWA_U8, 1, &returns);
-        if (status == EWA_OK) memset(returns, 1, job->all_count);
+    if (ewa_cloud_find(plan->inputs, "return_number")) {
+        EWA_TRY(ewa_cloud_add(*cloud, "return_number", EWA_U8, 1, &returns));
+        memset(returns, 1, job->all_count);
     }
-    return status;
+    return EWA_OK;
 }
 
 /// Gives the points normals and radii.
@@ -240,14 +239,14 @@ static ewa_status gather(const ewa_region_plan *plan, const ewa_region_points *p
                          uint32_t level, ewa_buffer *to, uint32_t *count) {
     *count = 0;
     for (uint32_t i = 0; i < points->count; i++) *count += taken[i] == level;
-    const ewa_status status = ewa_buffer_reserve(plan->context, to, *count, plan->record_bytes);
+    EWA_TRY(ewa_buffer_reserve(plan->context, to, *count, plan->record_bytes));
     uint8_t *records = to->data;
-    for (uint32_t i = 0; i < points->count && status == EWA_OK; i++) {
+    for (uint32_t i = 0; i < points->count; i++) {
         if (taken[i] != level) continue;
         memcpy(records, points->records + (size_t)i * plan->record_bytes, plan->record_bytes);
         records += plan->record_bytes;
     }
-    return status;
+    return EWA_OK;
 }
 
 static ewa_status make_nodes(ewa_region_plan *plan, const ewa_region *region, const ewa_region_points *points,

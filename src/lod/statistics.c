@@ -219,11 +219,10 @@ static ewa_status count_piece(void *user, const ewa_cloud *piece) {
     if (!s->begun) s->shift = side_bits > FIRST_CELLS_BITS ? side_bits - FIRST_CELLS_BITS : 0;
     s->begun = true;
     // Codes have so many levels only.
-    ewa_status status = EWA_OK;
-    while (status == EWA_OK && side_bits > s->shift + EWA_CODE_LEVELS - 2) status = coarsen(s);
-    if (status != EWA_OK) return status;
+    while (side_bits > s->shift + EWA_CODE_LEVELS - 2) EWA_TRY(coarsen(s));
     ewa_parallel(s->context, count_slice, s, s->slice_count);
     const uint32_t counted_shift = s->shift;
+    ewa_status status = EWA_OK;
     for (uint32_t i = 0; i < s->slice_count; i++)
         for (uint32_t k = 0; k < s->slices[i].cell_count && status == EWA_OK; k++) {
             count_cell *cell = &s->slices[i].cells[k];
@@ -360,8 +359,9 @@ static ewa_status choose_steps(const ewa_inputs *inputs, ewa_lattice *lattice) {
 ewa_status ewa_statistics_make(const ewa_inputs *inputs, ewa_statistics *statistics) {
     enum { COARSER = 10, TRIES = 12 };
     *statistics = (ewa_statistics){0};
-    ewa_status status = make_columns(inputs, statistics);
-    if (status == EWA_OK) status = choose_steps(inputs, &statistics->lattice);
+    EWA_TRY(make_columns(inputs, statistics));
+    EWA_TRY(choose_steps(inputs, &statistics->lattice));
+    ewa_status status = EWA_OK;
     for (int i = 0; status == EWA_OK; i++) {
         statistics_job s;
         statistics->point_count = statistics->left_out_count = 0;

@@ -25,7 +25,7 @@ static ewa_status add_node(ewa_lod *lod, const ewa_octree_key *key, uint32_t *in
     const ewa_status status = ewa_buffer_grow(lod->context, &buffer, lod->node_count,
                                               (size_t)lod->node_count + 1, sizeof *lod->nodes);
     lod->nodes = buffer.data, lod->node_capacity_bytes = buffer.capacity_bytes;
-    if (status != EWA_OK) return status;
+    EWA_TRY(status);
     ewa_lod_node *node = &lod->nodes[lod->node_count];
     *node = (ewa_lod_node){.key = *key, .file_node = UINT32_MAX, .page = UINT32_MAX};
     for (int i = 0; i < 8; i++) node->children[i] = EWA_NO_NODE;
@@ -40,30 +40,26 @@ static ewa_status add_node(ewa_lod *lod, const ewa_octree_key *key, uint32_t *in
 
 /// Finds the node of a key below the root, making those that lie between.
 static ewa_status reach_node(ewa_lod *lod, const ewa_octree_key *key, uint32_t *index) {
-    ewa_status status = EWA_OK;
     *index = 0;
-    for (int32_t level = 1; level <= key->level && status == EWA_OK; level++) {
+    for (int32_t level = 1; level <= key->level; level++) {
         ewa_octree_key at = {.level = level};
         for (int c = 0; c < 3; c++) at.cell[c] = key->cell[c] >> (key->level - level);
         uint32_t next = lod->nodes[*index].children[child_of(&at)];
         if (next == EWA_NO_NODE) {
-            status = add_node(lod, &at, &next);
-            if (status != EWA_OK) break;
+            EWA_TRY(add_node(lod, &at, &next));
             lod->nodes[*index].children[child_of(&at)] = next;
             lod->nodes[*index].divided = true;
         }
         *index = next;
     }
-    return status;
+    return EWA_OK;
 }
 
 static ewa_status add_pages(ewa_lod *lod) {
-    ewa_status status = EWA_OK;
-    for (uint32_t i = 0; i < lod->levels.page_count && status == EWA_OK; i++) {
+    for (uint32_t i = 0; i < lod->levels.page_count; i++) {
         const ewa_levels_page *page = &lod->levels.pages[i];
         uint32_t index;
-        status = reach_node(lod, &page->key, &index);
-        if (status != EWA_OK) break;
+        EWA_TRY(reach_node(lod, &page->key, &index));
         ewa_lod_node *node = &lod->nodes[index];
         node->page = i;
         node->divided = page->size_bytes > 0;
@@ -73,13 +69,12 @@ static ewa_status add_pages(ewa_lod *lod) {
         // A surface that crosses cells in any way has half as many surfels more as one along them.
         if (node->divided) node->spacing_world *= CELLS_CROSSED;
     }
-    return status;
+    return EWA_OK;
 }
 
 static ewa_status add_nodes(ewa_lod *lod) {
     const ewa_octree_facts *facts = lod->facts;
-    ewa_status status = EWA_OK;
-    for (uint32_t i = 0; i < facts->node_count && status == EWA_OK; i++) {
+    for (uint32_t i = 0; i < facts->node_count; i++) {
         uint32_t index = EWA_NO_NODE;
         if (lod->has_levels) {
             // A node of the file without a page belongs to nothing that is drawn: the record is of another
@@ -97,12 +92,12 @@ static ewa_status add_nodes(ewa_lod *lod) {
                                 facts->nodes[i].key.level, facts->nodes[i].key.cell[0],
                                 facts->nodes[i].key.cell[1], facts->nodes[i].key.cell[2]);
         } else {
-            status = reach_node(lod, &facts->nodes[i].key, &index);
+            EWA_TRY(reach_node(lod, &facts->nodes[i].key, &index));
         }
-        if (status == EWA_OK) lod->nodes[index].file_node = i;
-        if (status == EWA_OK && !lod->has_levels) lod->nodes[index].count = facts->nodes[i].point_count;
+        lod->nodes[index].file_node = i;
+        if (!lod->has_levels) lod->nodes[index].count = facts->nodes[i].point_count;
     }
-    return status;
+    return EWA_OK;
 }
 
 /// Makes the children of divided nodes that the file has no node for: points of their ancestors may lie in
@@ -240,12 +235,12 @@ static ewa_status fetch_nodes(ewa_lod *lod, const uint32_t *file_nodes, uint32_t
         if (!known) missing[missing_count++] = file_nodes[i];
     }
     if (!missing_count) return EWA_OK;
-    const ewa_status status = ewa_octree_read(lod->octree, missing, missing_count, SURFEL_ATTRIBUTES, clouds);
-    for (uint32_t i = 0; i < missing_count && status == EWA_OK; i++) {
+    EWA_TRY(ewa_octree_read(lod->octree, missing, missing_count, SURFEL_ATTRIBUTES, clouds));
+    for (uint32_t i = 0; i < missing_count; i++) {
         lod->clouds[missing[i]] = clouds[i];
         lod->cloud_bytes += cloud_bytes(clouds[i]);
     }
-    return status;
+    return EWA_OK;
 }
 
 /// Which points of a file node lie in the cube of another node.
@@ -324,8 +319,7 @@ static ewa_status keep(ewa_lod *lod, ewa_lod_node *node, const ewa_cloud *cloud,
     ewa_surfels_options options;
     ewa_surfels_options_init(&options, sizeof options);
     options.radius_scale = radius_scale;
-    const ewa_status status = ewa_surfels_create(cloud, &options, &node->surfels);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_surfels_create(cloud, &options, &node->surfels));
     if (lod->levels.unit_coverage > 0)
         ewa_surfels_set_unit_coverage(node->surfels, lod->levels.unit_coverage * radius_scale * radius_scale);
     ewa_surfels_info info;
@@ -435,8 +429,7 @@ static ewa_status load_leaves(ewa_lod *lod, const uint32_t *nodes, uint32_t coun
 
 ewa_status ewa_tree_load(ewa_lod *lod, const uint32_t *nodes, uint32_t count, uint64_t memory_bytes) {
     uint32_t pages[BATCH], leaves[BATCH], page_count = 0, leaf_count = 0;
-    ewa_status status = EWA_OK;
-    for (uint32_t i = 0; i < count && status == EWA_OK; i++) {
+    for (uint32_t i = 0; i < count; i++) {
         const ewa_lod_node *node = &lod->nodes[nodes[i]];
         if (node->surfels) continue;
         if (node->page == UINT32_MAX || !node->divided)
@@ -444,15 +437,15 @@ ewa_status ewa_tree_load(ewa_lod *lod, const uint32_t *nodes, uint32_t count, ui
         else
             pages[page_count++] = nodes[i];
         if (leaf_count == BATCH) {
-            status = load_leaves(lod, leaves, leaf_count, memory_bytes);
+            EWA_TRY(load_leaves(lod, leaves, leaf_count, memory_bytes));
             leaf_count = 0;
         }
-        if (page_count == BATCH && status == EWA_OK) {
-            status = load_pages(lod, pages, page_count);
+        if (page_count == BATCH) {
+            EWA_TRY(load_pages(lod, pages, page_count));
             page_count = 0;
         }
     }
-    if (status == EWA_OK && leaf_count) status = load_leaves(lod, leaves, leaf_count, memory_bytes);
-    if (status == EWA_OK && page_count) status = load_pages(lod, pages, page_count);
-    return status;
+    if (leaf_count) EWA_TRY(load_leaves(lod, leaves, leaf_count, memory_bytes));
+    if (page_count) EWA_TRY(load_pages(lod, pages, page_count));
+    return EWA_OK;
 }

@@ -246,8 +246,7 @@ static ewa_status sort_candidates(poisson_job *job) {
                                (int32_t)(cell[2] / BLOCK_CELLS)};
         if (last == NONE || at[0] != last_at[0] || at[1] != last_at[1] || at[2] != last_at[2]) {
             if (job->block_count == job->block_capacity) {
-                const ewa_status status = grow_blocks(job);
-                if (status != EWA_OK) return status;
+                EWA_TRY(grow_blocks(job));
             }
             const size_t slot = slot_of(job, at);
             if (job->table[slot] == NONE) {
@@ -440,10 +439,10 @@ static void throw_blocks(void *data, uint32_t part, uint32_t worker) {
 static ewa_status throw_all(poisson_job *job) {
     ewa_context *context = job->surface->context;
     ewa_parallel(context, find_neighbours, job, job->block_count / 256 + 1);
-    ewa_status status = make_scratch(job);
-    if (status != EWA_OK) return status;
+    EWA_TRY(make_scratch(job));
     job->turn = ewa_allocate(context, job->block_count, sizeof *job->turn);
     if (!job->turn) return EWA_ERROR_MEMORY;
+    ewa_status status = EWA_OK;
     for (int32_t parity = 0; parity < 8 && status == EWA_OK; parity++) {
         job->turn_count = 0;
         for (uint32_t b = 0; b < job->block_count; b++) {

@@ -253,11 +253,10 @@ static ewa_status add_attributes(sample_job *job, ewa_cloud *cloud) {
         {EWA_CLIP1, EWA_F32, 3, sharp, &job->clip[1]},
         {EWA_CLIP_MODE, EWA_U8, 1, sharp, &job->clip_mode},
     };
-    ewa_status status = EWA_OK;
-    for (size_t i = 0; i < sizeof rows / sizeof rows[0] && status == EWA_OK; i++)
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++)
         if (rows[i].wanted)
-            status = ewa_cloud_add(cloud, rows[i].name, rows[i].type, rows[i].component_count, rows[i].data);
-    return status;
+            EWA_TRY(ewa_cloud_add(cloud, rows[i].name, rows[i].type, rows[i].component_count, rows[i].data));
+    return EWA_OK;
 }
 
 /// The spacing that gives about so many points: of area / s^2 + rows / s = count.
@@ -297,12 +296,12 @@ static ewa_status sample(ewa_context *context, sample_job *job, ewa_cloud **clou
     uint64_t capacity = 0;
     job->spacing = choose_spacing(job->surface, job->options);
     job->unit = ewa_mesh_poisson_unit(job->surface);
-    ewa_status status = ewa_mesh_sample_poisson_disc(job->surface, job->spacing, job->options->seed, &samples,
-                                                     &capacity, &job->count);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_mesh_sample_poisson_disc(job->surface, job->spacing, job->options->seed, &samples, &capacity,
+                                         &job->count));
     job->samples = samples;
     ewa_cloud *made = NULL;
-    status = ewa_mesh_edge_grid_make(job->surface, job->options->radius_scale * job->spacing, &job->grid);
+    ewa_status status =
+        ewa_mesh_edge_grid_make(job->surface, job->options->radius_scale * job->spacing, &job->grid);
     if (status == EWA_OK) status = ewa_mesh_colors_make(job->surface->mesh, &job->colors);
     if (status == EWA_OK) status = ewa_cloud_create(context, job->count, &made);
     if (status == EWA_OK) status = add_attributes(job, made);
@@ -359,15 +358,14 @@ ewa_status ewa_mesh_sample(const ewa_mesh *mesh, const ewa_mesh_sample_options *
     *cloud = NULL;
     ewa_mesh_sample_options chosen, *options = &chosen;
     ewa_mesh_sample_options_init(options, sizeof *options);
-    ewa_status status = ewa_options_take(mesh->context, &ewa_mesh_sample_options_table, given, options);
-    if (status == EWA_OK) status = check_count(mesh->context, options);
-    if (status == EWA_OK) status = check_mesh(mesh, options);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_options_take(mesh->context, &ewa_mesh_sample_options_table, given, options));
+    EWA_TRY(check_count(mesh->context, options));
+    EWA_TRY(check_mesh(mesh, options));
     ewa_mesh near = *mesh;
     double corner_world[3];
     near.positions = place_near(mesh, corner_world);
     mesh_surface surface;
-    status = near.positions ? ewa_mesh_surface_make(&near, options, &surface) : EWA_ERROR_MEMORY;
+    ewa_status status = near.positions ? ewa_mesh_surface_make(&near, options, &surface) : EWA_ERROR_MEMORY;
     if (status == EWA_OK) {
         sample_job job = {.surface = &surface, .options = options};
         status = sample(mesh->context, &job, cloud);

@@ -439,21 +439,19 @@ static double cosine_of_degrees(double degrees) {
 
 static ewa_status run(surface_job *job, const ewa_mesh_sample_options *options) {
     mesh_surface *surface = job->surface;
-    ewa_status status =
-        ewa_mesh_weld(surface->context, surface->mesh->positions, surface->mesh->vertex_count, job->weld);
-    if (status != EWA_OK) return status;
+    EWA_TRY(
+        ewa_mesh_weld(surface->context, surface->mesh->positions, surface->mesh->vertex_count, job->weld));
     bool again = classify_edges(job);
-    if (again) status = drop_copies(job, &again);
-    if (status != EWA_OK) return status;
+    if (again) EWA_TRY(drop_copies(job, &again));
     if (again) classify_edges(job);
     const double area = surface->area_below[surface->triangle_count];
     job->spacing =
         options->spacing_world > 0 ? options->spacing_world : sqrt(area / (double)options->point_count);
     unite_parts(job);
-    status = drop_short_borders(job);
-    if (status == EWA_OK) status = make_group_normals(job, options->smooth_normals);
-    if (status == EWA_OK && options->clip_lines) status = collect_edges(job);
-    return status;
+    EWA_TRY(drop_short_borders(job));
+    EWA_TRY(make_group_normals(job, options->smooth_normals));
+    if (options->clip_lines) EWA_TRY(collect_edges(job));
+    return EWA_OK;
 }
 
 ewa_status ewa_mesh_surface_make(const ewa_mesh *mesh, const ewa_mesh_sample_options *options,

@@ -341,9 +341,8 @@ static ewa_status gather_row(reference *work, uint32_t y, size_t *count) {
         const double left = fmax(0, ceil(at->center_px[0] - at->reach_px[0] - 0.5));
         const double right = fmin(work->width_px, floor(at->center_px[0] + at->reach_px[0] - 0.5) + 1);
         if (!(left < right)) continue;
-        const ewa_status status = ewa_buffer_grow(work->set->context, &work->hits, *count,
-                                                  *count + (size_t)(right - left), sizeof(hit));
-        if (status != EWA_OK) return status;
+        EWA_TRY(ewa_buffer_grow(work->set->context, &work->hits, *count, *count + (size_t)(right - left),
+                                sizeof(hit)));
         hit *hits = work->hits.data;
         for (double x = left; x < right; x++) *count += meet(work, at, (uint32_t)x, y, &hits[*count]);
     }
@@ -467,13 +466,11 @@ ewa_status ewa_gaussian_render_reference(const ewa_gaussians *gaussians, const e
     ewa_context *context = gaussians->context;
     reference work = {.set = gaussians, .order = order, .frame = *frame, .given = *camera};
     ewa_gaussian_options_init(&work.options, sizeof work.options);
-    ewa_status status = ewa_options_take(context, &ewa_gaussian_options_table, options, &work.options);
-    if (status == EWA_OK) status = ewa_option_check_background(context, work.options.background);
-    if (status == EWA_OK)
-        status = ewa_option_check_sections(context, (const double(*)[4])work.options.section_planes,
-                                           work.options.section_count);
-    if (status == EWA_OK) status = ewa_camera_check(context, camera);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_options_take(context, &ewa_gaussian_options_table, options, &work.options));
+    EWA_TRY(ewa_option_check_background(context, work.options.background));
+    EWA_TRY(ewa_option_check_sections(context, (const double(*)[4])work.options.section_planes,
+                                      work.options.section_count));
+    EWA_TRY(ewa_camera_check(context, camera));
     work.width_px = camera->width_px, work.height_px = camera->height_px;
     work.camera = make_view(camera, &work.options, gaussians);
     return render(&work);

@@ -382,11 +382,10 @@ ewa_status ewa_render_reference(const ewa_cloud *cloud, const ewa_surfels_option
     reference work = {
         .unit_coverage = unit_coverage, .surfel_count = ewa_cloud_point_count(cloud), .frame = *frame};
     ewa_surfels_options chosen;
-    ewa_status status = ewa_surfels_options_choose(context, surfels_options, &chosen);
-    if (status == EWA_OK) status = ewa_render_options_choose(context, options, &work.options);
-    if (status == EWA_OK) status = ewa_camera_check(context, camera);
-    if (status == EWA_OK) status = ewa_surfel_reader_open(cloud, &chosen, &work.reader);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_surfels_options_choose(context, surfels_options, &chosen));
+    EWA_TRY(ewa_render_options_choose(context, options, &work.options));
+    EWA_TRY(ewa_camera_check(context, camera));
+    EWA_TRY(ewa_surfel_reader_open(cloud, &chosen, &work.reader));
     set_layers(&work);
     if (work.options.point_size_px > 0)
         work.unit_coverage = ewa_point_profile_make(&work.options).unit_coverage;

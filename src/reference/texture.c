@@ -67,8 +67,7 @@ ewa_status ewa_texture_map_reference(ewa_context *context, const ewa_texture_sou
                                      const ewa_mat3 *map, const ewa_texture_options *options,
                                      const ewa_texture_target *target) {
     ewa_texture_plan plan;
-    const ewa_status status = ewa_texture_plan_make(context, source, map, options, target, &plan);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_texture_plan_make(context, source, map, options, target, &plan));
     if (plan.options.repeat)
         return ewa_fail(context, EWA_ERROR_ARGUMENT, "texture: the reference does not repeat textures");
     if (plan.options.method == EWA_TEXTURE_BILINEAR) {

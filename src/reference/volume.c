@@ -109,12 +109,12 @@ static view make_view(const ewa_volume *volume, const ewa_camera *camera, const 
         // that are equally far away stay so.
         const double *r = m + 4 * row;
         for (int axis = 0; axis < 3; axis++)
-            v.axes.m[axis][row] =
-                (r[0] * (g[axis] / spacing) + r[1] * (g[4 + axis] / spacing) + r[2] * (g[8 + axis] / spacing)) *
-                (1 / scale);
-        origin[row] = (r[0] * (g[3] / spacing) + r[1] * (g[7] / spacing) + r[2] * (g[11] / spacing) +
-                       r[3] / spacing) *
-                      (1 / scale);
+            v.axes.m[axis][row] = (r[0] * (g[axis] / spacing) + r[1] * (g[4 + axis] / spacing) +
+                                   r[2] * (g[8 + axis] / spacing)) *
+                                  (1 / scale);
+        origin[row] =
+            (r[0] * (g[3] / spacing) + r[1] * (g[7] / spacing) + r[2] * (g[11] / spacing) + r[3] / spacing) *
+            (1 / scale);
     }
     v.origin = vec3_load(origin);
     for (int axis = 0; axis < 3; axis++) shortest = fmin(shortest, vec3_length(mat3_row(&v.axes, axis)));
@@ -130,8 +130,7 @@ static view make_view(const ewa_volume *volume, const ewa_camera *camera, const 
     v.splat_peak = 1 / (2 * PI * sigma * sigma * sigma * (1 - exp(-v.cutoff2 / 2)));
     v.depth_unit = shortest * options->depth_unit;
     // Units in front of it: rays that meet a kernel's rim may do so less than three standard deviations ahead.
-    v.first_far_unit =
-        v.orthographic ? -INFINITY : unit_of(&v, v.depth_sigma * sqrt(v.cutoff2 + 9)) + 1;
+    v.first_far_unit = v.orthographic ? -INFINITY : unit_of(&v, v.depth_sigma * sqrt(v.cutoff2 + 9)) + 1;
     return v;
 }
 
@@ -325,8 +324,7 @@ static void write_geometry(const reference *work, size_t index) {
                            : o->surface_rgba   ? (double)o->surface_rgba[4 * index + 3]
                                                : 0;
     if (frame->depth) frame->depth[index] = (float)fmin(voxels, own);
-    if (frame->coverage)
-        frame->coverage[index] = (float)(covered + (1 - at->through) * fmax(0, 1 - covered));
+    if (frame->coverage) frame->coverage[index] = (float)(covered + (1 - at->through) * fmax(0, 1 - covered));
     for (size_t c = 0; c < 3 && frame->normal; c++)
         frame->normal[3 * index + c] =
             o->surface_normal && own <= voxels ? o->surface_normal[3 * index + c] : 0;
@@ -436,18 +434,17 @@ static ewa_shading_setup make_shading(const ewa_volume_options *options) {
 static ewa_status choose_options(ewa_context *context, const ewa_volume_options *given,
                                  ewa_volume_options *chosen) {
     ewa_volume_options_init(chosen, sizeof *chosen);
-    ewa_status status = ewa_options_take(context, &ewa_volume_options_table, given, chosen);
-    if (status == EWA_OK) status = ewa_option_check_lights(context, chosen->lights, chosen->light_count);
-    if (status == EWA_OK) status = ewa_material_check(context, "options", 0, &chosen->material);
-    if (status == EWA_OK) status = ewa_option_check_background(context, chosen->background);
-    if (status == EWA_OK)
-        status = ewa_option_check_sections(context, (const double(*)[4])chosen->section_planes,
-                                           chosen->section_count);
+    EWA_TRY(ewa_options_take(context, &ewa_volume_options_table, given, chosen));
+    EWA_TRY(ewa_option_check_lights(context, chosen->lights, chosen->light_count));
+    EWA_TRY(ewa_material_check(context, "options", 0, &chosen->material));
+    EWA_TRY(ewa_option_check_background(context, chosen->background));
+    EWA_TRY(ewa_option_check_sections(context, (const double(*)[4])chosen->section_planes,
+                                      chosen->section_count));
     const bool first = chosen->surface_depth, second = chosen->surface_rgba;
     const bool more = chosen->surface_normal || chosen->surface_coverage;
-    if (status == EWA_OK && (first != second || (more && !first)))
+    if (first != second || (more && !first))
         return ewa_fail(context, EWA_ERROR_ARGUMENT, "reference: planes of a surface that lack others");
-    return status;
+    return EWA_OK;
 }
 
 ewa_status ewa_volume_render_reference(const ewa_volume *volume, const ewa_transfer *transfer,
@@ -457,12 +454,11 @@ ewa_status ewa_volume_render_reference(const ewa_volume *volume, const ewa_trans
         return EWA_ERROR_ARGUMENT;
     ewa_context *context = volume->context;
     reference work = {.camera = *camera, .frame = *frame, .volume = volume, .transfer = transfer};
-    ewa_status status = choose_options(context, options, &work.options);
-    if (status == EWA_OK) status = ewa_camera_check(context, camera);
-    if (status == EWA_OK) status = ewa_transfer_check(context, "transfer function", transfer);
-    if (status == EWA_OK && ewa_reference_spacing(volume) == 0)
-        status = ewa_fail(context, EWA_ERROR_ARGUMENT, "reference: index_to_world is not invertible");
-    if (status != EWA_OK) return status;
+    EWA_TRY(choose_options(context, options, &work.options));
+    EWA_TRY(ewa_camera_check(context, camera));
+    EWA_TRY(ewa_transfer_check(context, "transfer function", transfer));
+    if (ewa_reference_spacing(volume) == 0)
+        return ewa_fail(context, EWA_ERROR_ARGUMENT, "reference: index_to_world is not invertible");
     work.grid = make_view(volume, camera, &work.options);
     work.shading = make_shading(&work.options);
     return render(context, &work);

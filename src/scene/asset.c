@@ -147,11 +147,8 @@ static ewa_status open_octree(const ewa_asset_job *job, const char *path, ewa_lo
                         "%s needs all points of the octree, its levels do without; leave one of both out, or "
                         "`ewa convert` what is wanted to a file of its own",
                         needs_all);
-    ewa_status status = EWA_OK;
-    if (options->own_context) status = ewa_context_create(&context->options, &job->asset->lod_context);
-    if (status == EWA_OK)
-        status = ewa_lod_open(options->own_context ? job->asset->lod_context : context, path, lod);
-    if (status != EWA_OK) return status;
+    if (options->own_context) EWA_TRY(ewa_context_create(&context->options, &job->asset->lod_context));
+    EWA_TRY(ewa_lod_open(options->own_context ? job->asset->lod_context : context, path, lod));
     ewa_lod_info info;
     ewa_lod_describe(*lod, &info);
     if (options->levels == EWA_OCTREE_AUTO && info.point_count <= EWA_OCTREE_WHOLE_POINTS) ewa_lod_close(lod);
@@ -163,14 +160,13 @@ static ewa_status load_gaussians(const ewa_asset_job *job, const char *path) {
     ewa_gaussians set;
     ewa_gaussian_facts facts;
     const double started_s = ewa_now_s();
-    ewa_status status = ewa_gaussians_load(asset->context, path, &set, &facts);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_gaussians_load(asset->context, path, &set, &facts));
     ewa_report(asset->context, EWA_SEVERITY_INFO, "%u Gaussians read in %.3f s (%s)", set.count,
                ewa_now_s() - started_s, ewa_gaussian_format_name(facts.format));
     // Without a word of the file: y down and z ahead, as the cameras that took the pictures have it.
     static const double usual[3] = {0, -1, 0};
     const double *up = facts.up_world;
-    status = ewa_asset_take_gaussians(job, &set, up[0] || up[1] || up[2] ? up : usual);
+    ewa_status status = ewa_asset_take_gaussians(job, &set, up[0] || up[1] || up[2] ? up : usual);
     ewa_gaussians_free(&set);
     return status;
 }
@@ -227,8 +223,7 @@ static ewa_status load(const ewa_asset_job *job, const char *path) {
         gaussians != EWA_GAUSSIANS_NONE)
         return load_gaussians(job, path);
     ewa_lod *lod;
-    const ewa_status status = open_octree(job, path, &lod);
-    if (status != EWA_OK) return status;
+    EWA_TRY(open_octree(job, path, &lod));
     return lod ? ewa_asset_take_octree(job, lod) : load_model(job, path);
 }
 
@@ -243,12 +238,12 @@ bool ewa_asset_map_is_good(const double m[16]) {
 ewa_status ewa_asset_take_options(ewa_context *context, const ewa_asset_options *given,
                                   ewa_asset_options *options) {
     ewa_asset_options_init(options, sizeof *options);
-    const ewa_status status = ewa_options_take(context, &ewa_asset_options_table, given, options);
-    if (status == EWA_OK && !ewa_asset_map_is_good(options->to_world))
+    EWA_TRY(ewa_options_take(context, &ewa_asset_options_table, given, options));
+    if (!ewa_asset_map_is_good(options->to_world))
         return ewa_fail(context, EWA_ERROR_ARGUMENT,
                         "to_world: is no map that can be turned back: its last row must be 0 0 0 1, and its "
                         "determinant neither zero nor infinite");
-    return status;
+    return EWA_OK;
 }
 
 ewa_status ewa_asset_load(ewa_context *context, const char *path, const ewa_asset_options *given,
@@ -278,10 +273,9 @@ static ewa_status borrow_cloud(const ewa_asset_job *job, const ewa_cloud *cloud)
     ewa_cloud *view = NULL;
     const bool moved = memcmp(job->options->to_world, IDENTITY, sizeof IDENTITY) != 0;
     // A map changes the streams.
-    const ewa_status status =
-        moved ? ewa_cloud_merge(&cloud, 1, &view)
-              : ewa_cloud_view(job->asset->context, cloud, 0, ewa_cloud_point_count(cloud), &view);
-    return status == EWA_OK ? ewa_asset_take_cloud(job, view) : status;
+    EWA_TRY(moved ? ewa_cloud_merge(&cloud, 1, &view)
+                  : ewa_cloud_view(job->asset->context, cloud, 0, ewa_cloud_point_count(cloud), &view));
+    return ewa_asset_take_cloud(job, view);
 }
 
 /// Splats, voxels, surfels and octrees are where they are.
@@ -305,8 +299,7 @@ static ewa_status take_source(const ewa_asset_job *job, const ewa_asset_source *
         ewa_volume volume = *source->volume;
         return ewa_asset_take_volume(job, &volume);
     }
-    ewa_status status = refuse_map(job);
-    if (status != EWA_OK) return status;
+    EWA_TRY(refuse_map(job));
     if (source->lod) return ewa_asset_take_octree(job, source->lod);
     if (source->surfels) {
         ewa_surfels_info info;

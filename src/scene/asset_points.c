@@ -3,9 +3,9 @@
 //
 // Assets of points: clouds, meshes that are sampled, Gaussians, octrees.
 #include "base/base.h"
+#include "ewa/diagnosis.h"
 #include "ewa/prepare.h"
 #include "scene/asset.h"
-#include "ewa/diagnosis.h"
 
 #include <math.h>
 #include <string.h>
@@ -50,13 +50,13 @@ ewa_status ewa_asset_take_cloud(const ewa_asset_job *job, ewa_cloud *cloud) {
     asset->cloud = cloud;
     if (!ewa_cloud_find(cloud, EWA_POSITION))
         return ewa_fail(asset->context, EWA_ERROR_ARGUMENT, "the points have no positions");
-    ewa_status status = filter_points(asset->context, job->options->filter, &asset->cloud);
+    EWA_TRY(filter_points(asset->context, job->options->filter, &asset->cloud));
     static const double identity[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
-    if (status == EWA_OK && memcmp(asset->to_world, identity, sizeof identity) != 0)
-        status = ewa_cloud_transform(asset->cloud, asset->to_world);
-    if (status != EWA_OK) return status;
+    if (memcmp(asset->to_world, identity, sizeof identity) != 0)
+        EWA_TRY(ewa_cloud_transform(asset->cloud, asset->to_world));
     asset->count = ewa_cloud_point_count(asset->cloud);
     asset->drawable = is_drawable(asset->cloud);
+    ewa_status status = EWA_OK;
     if (!asset->drawable) {
         status = ewa_cloud_refuse_gaussians(asset->cloud);
         if (status == EWA_OK) ewa_cloud_drop_zero_normals(asset->cloud);
@@ -74,11 +74,12 @@ ewa_status ewa_asset_sample_mesh(const ewa_asset_job *job, const ewa_mesh *mesh)
     options.texture_filter = EWA_TEXTURE_EWA; // least squares would take most of the time
     const double started_s = ewa_now_s();
     ewa_cloud *cloud = NULL;
-    ewa_status status = ewa_mesh_sample(mesh, &options, &cloud);
-    if (status != EWA_OK) return status;
-    ewa_report(context, EWA_SEVERITY_INFO, "%llu points on %u triangles in %.3f s; `ewa sample` has options for this",
-               (unsigned long long)ewa_cloud_point_count(cloud), mesh->triangle_count, ewa_now_s() - started_s);
-    status = ewa_asset_take_cloud(job, cloud);
+    EWA_TRY(ewa_mesh_sample(mesh, &options, &cloud));
+    ewa_report(context, EWA_SEVERITY_INFO,
+               "%llu points on %u triangles in %.3f s; `ewa sample` has options for this",
+               (unsigned long long)ewa_cloud_point_count(cloud), mesh->triangle_count,
+               ewa_now_s() - started_s);
+    ewa_status status = ewa_asset_take_cloud(job, cloud);
     job->asset->kind = EWA_ASSET_MESH;
     return status;
 }
@@ -108,11 +109,12 @@ ewa_status ewa_asset_take_gaussians(const ewa_asset_job *job, ewa_gaussians *set
         return status == EWA_OK ? ewa_asset_take_cloud(job, cloud) : status;
     }
     if (job->options->filter && job->options->filter->term_count)
-        return ewa_fail(asset->context, EWA_ERROR_UNSUPPORTED,
-                        "a filter is for points; Gaussians have none of their attributes, but drawn as surfels");
+        return ewa_fail(
+            asset->context, EWA_ERROR_UNSUPPORTED,
+            "a filter is for points; Gaussians have none of their attributes, but drawn as surfels");
     ewa_status status = moved ? ewa_gaussians_transform(set, asset->to_world) : EWA_OK;
     if (status == EWA_OK) status = ewa_splats_create(set, &asset->splats);
-    if (status != EWA_OK) return status;
+    EWA_TRY(status);
     ewa_splats_info info;
     ewa_splats_describe(asset->splats, &info);
     asset->kind = EWA_ASSET_GAUSSIANS;
@@ -137,12 +139,12 @@ ewa_status ewa_asset_take_octree(const ewa_asset_job *job, ewa_lod *lod) {
                         "to_world: an octree that is drawn from its levels stays where it is; read whole "
                         "(levels: never), or by `ewa convert`, it can be moved");
     if (!info.merged)
-        ewa_report(asset->context, EWA_SEVERITY_NOTE,
-                   "its levels have points only, none that stand for others: what is far away is drawn by few of "
-                   "them; `ewa lod %s -o FILE.copc.laz` makes better levels",
-                   asset->name);
-    ewa_status status = ewa_lod_sample(lod, EWA_OCTREE_SAMPLE_POINTS, &asset->outline);
-    if (status != EWA_OK) return status;
+        ewa_report(
+            asset->context, EWA_SEVERITY_NOTE,
+            "its levels have points only, none that stand for others: what is far away is drawn by few of "
+            "them; `ewa lod %s -o FILE.copc.laz` makes better levels",
+            asset->name);
+    EWA_TRY(ewa_lod_sample(lod, EWA_OCTREE_SAMPLE_POINTS, &asset->outline));
     if (ewa_cloud_point_count(asset->outline) == 0)
         return ewa_fail(asset->context, EWA_ERROR_FORMAT, "the file has no points");
     if (is_drawable(asset->outline)) return EWA_OK;

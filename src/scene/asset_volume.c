@@ -3,8 +3,8 @@
 //
 // Assets of volumes: the transfer function, voxels, from where they are seen.
 #include "base/base.h"
-#include "ewa/prepare.h"
 #include "ewa/io.h"
+#include "ewa/prepare.h"
 #include "scene/asset.h"
 
 #include <math.h>
@@ -26,13 +26,12 @@ static ewa_status choose_transfer(ewa_context *context, const char *word, const 
                                   ewa_transfer *transfer) {
     const bool automatic = !word || strcmp(word, "auto") == 0;
     ewa_volume_facts facts;
-    ewa_status status = ewa_volume_measure(volume, &facts);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_volume_measure(volume, &facts));
     if (!facts.finite_count) return ewa_fail(context, EWA_ERROR_FORMAT, "no voxel is a finite number");
     if (automatic) return ewa_transfer_automatic(volume, &facts, transfer);
     if (is_preset(word)) return ewa_transfer_preset(volume, &facts, word, transfer);
     const char *before = ewa_context_about(context, word);
-    status = ewa_transfer_load(context, word, transfer);
+    ewa_status status = ewa_transfer_load(context, word, transfer);
     ewa_context_about(context, before);
     if (status != EWA_ERROR_IO) return status;
     char names[256] = "auto";
@@ -70,7 +69,6 @@ static int choose_view(const ewa_volume *volume) {
     return volume->anatomical ? EWA_VIEW_FRONT : EWA_VIEW_ISO;
 }
 
-
 /// Puts the map of an asset before the one of the voxels' indices.
 static void move(const double to_world[16], ewa_volume *volume) {
     double moved[12];
@@ -99,9 +97,10 @@ ewa_status ewa_asset_take_volume(const ewa_asset_job *job, ewa_volume *volume) {
     options.level_count = job->options->voxel_level_count;
     ewa_status status = choose_transfer(context, word, volume, transfer);
     if (status == EWA_OK) status = ewa_voxels_create(volume, transfer, &options, &asset->voxels);
-    if (status == EWA_OK) status = ewa_volume_outline(volume, transfer, job->options->reach_steps, &asset->outline);
+    if (status == EWA_OK)
+        status = ewa_volume_outline(volume, transfer, job->options->reach_steps, &asset->outline);
     ewa_release(context, transfer, 1, sizeof *transfer);
-    if (status != EWA_OK) return status;
+    EWA_TRY(status);
     ewa_voxels_info info;
     ewa_voxels_describe(asset->voxels, &info);
     if (!info.occupied_count)

@@ -39,9 +39,8 @@ static bool streams_differ(const ewa_cloud *a, const ewa_cloud *b, const char *n
 static ewa_status discs_to_axes(ewa_cloud *cloud, double cutoff) {
     const uint64_t count = ewa_cloud_point_count(cloud);
     void *u_data = NULL, *v_data = NULL;
-    ewa_status status = ewa_cloud_add(cloud, EWA_TANGENT_U, EWA_F32, 3, &u_data);
-    if (status == EWA_OK) status = ewa_cloud_add(cloud, EWA_TANGENT_V, EWA_F32, 3, &v_data);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_cloud_add(cloud, EWA_TANGENT_U, EWA_F32, 3, &u_data));
+    EWA_TRY(ewa_cloud_add(cloud, EWA_TANGENT_V, EWA_F32, 3, &v_data));
     const ewa_attribute *normal = ewa_cloud_find(cloud, EWA_NORMAL),
                         *radius = ewa_cloud_find(cloud, EWA_RADIUS);
     float *u = u_data, *v = v_data;
@@ -127,15 +126,14 @@ static void drop_undrawn(ewa_cloud *cloud) {
 /// Adds the clip lines that another cloud has: zeros, which cut nothing.
 static ewa_status add_clip_lines(ewa_cloud *cloud, const bool wanted[3]) {
     static const char *const names[3] = {EWA_CLIP0, EWA_CLIP1, EWA_CLIP_MODE};
-    ewa_status status = EWA_OK;
-    for (int k = 0; k < 3 && status == EWA_OK; k++) {
+    for (int k = 0; k < 3; k++) {
         if (!wanted[k] || ewa_cloud_find(cloud, names[k])) continue;
         const uint32_t components = k < 2 ? 3 : 1;
         void *data = NULL;
-        status = ewa_cloud_add(cloud, names[k], EWA_F32, components, &data);
-        if (status == EWA_OK) memset(data, 0, ewa_cloud_point_count(cloud) * components * sizeof(float));
+        EWA_TRY(ewa_cloud_add(cloud, names[k], EWA_F32, components, &data));
+        memset(data, 0, ewa_cloud_point_count(cloud) * components * sizeof(float));
     }
-    return status;
+    return EWA_OK;
 }
 
 ewa_status ewa_clouds_make_alike(ewa_cloud *const *clouds, uint32_t count, double cutoff) {
@@ -151,11 +149,10 @@ ewa_status ewa_clouds_make_alike(ewa_cloud *const *clouds, uint32_t count, doubl
         clip[2] |= ewa_cloud_find(clouds[i], EWA_CLIP_MODE) != NULL;
     }
     for (uint32_t i = 0; i < count; i++) {
-        ewa_status status = any_axes && !has_axes(clouds[i]) ? discs_to_axes(clouds[i], cutoff) : EWA_OK;
-        if (status == EWA_OK && colors_differ) status = ewa_cloud_colors_to_linear(clouds[i]);
-        if (status == EWA_OK && materials_differ) status = materials_to_doubles(clouds[i]);
-        if (status == EWA_OK) status = add_clip_lines(clouds[i], clip);
-        if (status != EWA_OK) return status;
+        if (any_axes && !has_axes(clouds[i])) EWA_TRY(discs_to_axes(clouds[i], cutoff));
+        if (colors_differ) EWA_TRY(ewa_cloud_colors_to_linear(clouds[i]));
+        if (materials_differ) EWA_TRY(materials_to_doubles(clouds[i]));
+        EWA_TRY(add_clip_lines(clouds[i], clip));
         if (any_axes) ewa_cloud_remove(clouds[i], EWA_RADIUS);
         if (normals_differ) ewa_cloud_remove(clouds[i], EWA_NORMAL);
         drop_undrawn(clouds[i]);

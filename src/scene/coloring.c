@@ -198,11 +198,10 @@ static ewa_status choose_scale(const numbers *from, const ewa_coloring *coloring
     legend->colormap =
         automatic || classes ? EWA_COLORMAP_VIRIDIS : (ewa_colormap)(coloring->map - EWA_COLORING_VIRIDIS);
     const char *word = coloring->attribute;
-    const ewa_status status = classes ? list_classes(from, legend) : find_range(from, coloring, legend->range);
-    if (status != EWA_OK) return status;
+    EWA_TRY(classes ? list_classes(from, legend) : find_range(from, coloring, legend->range));
     if (classes)
-        ewa_report(from->context, EWA_SEVERITY_INFO, "%s has %u classes, drawn in the colours of classes%s", word,
-                   legend->category_count, automatic ? " (viridis shows the numbers)" : "");
+        ewa_report(from->context, EWA_SEVERITY_INFO, "%s has %u classes, drawn in the colours of classes%s",
+                   word, legend->category_count, automatic ? " (viridis shows the numbers)" : "");
     else
         ewa_report(from->context, EWA_SEVERITY_INFO, "colours: %s from %g to %g", word, legend->range[0],
                    legend->range[1]);
@@ -234,7 +233,8 @@ static ewa_status color_cloud(const ewa_scalar *scalar, ewa_legend *legend, ewa_
     for (uint64_t first = 0; status == EWA_OK && first < count; first += BLOCK) {
         const uint64_t in_block = count - first < BLOCK ? count - first : BLOCK;
         ewa_scalar_read(scalar, first, in_block, block);
-        for (uint64_t i = 0; i < in_block; i++) legend->grey_count += !find_color(legend, block[i], colors[first + i]);
+        for (uint64_t i = 0; i < in_block; i++)
+            legend->grey_count += !find_color(legend, block[i], colors[first + i]);
     }
     if (status == EWA_OK) status = ewa_cloud_add(cloud, EWA_COLOR, EWA_U8, 3, &data);
     if (status == EWA_OK) memcpy(data, colors, 3 * count);
@@ -255,45 +255,42 @@ static ewa_status tint_cloud(const double srgb[3], ewa_cloud *cloud) {
 
 /// Colours by an attribute.
 static ewa_status color_by(const numbers *from, const ewa_coloring *coloring, ewa_legend *legend) {
-    ewa_status status = EWA_OK;
-    for (uint32_t k = 0; k < from->count && status == EWA_OK; k++)
-        status = ewa_cloud_find_scalar(from->clouds[k], coloring->attribute, &from->scalars[k]);
-    if (status != EWA_OK) return status;
+    for (uint32_t k = 0; k < from->count; k++)
+        EWA_TRY(ewa_cloud_find_scalar(from->clouds[k], coloring->attribute, &from->scalars[k]));
     legend->length = strcmp(from->scalars[0].attribute.name, EWA_POSITION) == 0;
-    status = choose_scale(from, coloring, legend);
+    EWA_TRY(choose_scale(from, coloring, legend));
     uint64_t count = 0;
-    for (uint32_t k = 0; k < from->count && status == EWA_OK; k++) {
-        status = color_cloud(&from->scalars[k], legend, from->clouds[k]);
+    for (uint32_t k = 0; k < from->count; k++) {
+        EWA_TRY(color_cloud(&from->scalars[k], legend, from->clouds[k]));
         count += ewa_cloud_point_count(from->clouds[k]);
     }
-    if (status == EWA_OK && legend->grey_count)
+    if (legend->grey_count)
         ewa_report(from->context, EWA_SEVERITY_WARNING,
                    "%llu of %llu numbers of %s are %s; these points are drawn in grey",
                    (unsigned long long)legend->grey_count, (unsigned long long)count, coloring->attribute,
                    legend->categories ? "no classes" : "not finite");
-    return status;
+    return EWA_OK;
 }
 
-ewa_status ewa_clouds_color(ewa_cloud *const *clouds, uint32_t count, const ewa_coloring *given, ewa_legend *legend) {
+ewa_status ewa_clouds_color(ewa_cloud *const *clouds, uint32_t count, const ewa_coloring *given,
+                            ewa_legend *legend) {
     if (!clouds || !count || !legend) return EWA_ERROR_ARGUMENT;
     *legend = (ewa_legend){.context = NULL};
     ewa_context *context = ewa_cloud_context(clouds[0]);
     ewa_coloring coloring;
     ewa_coloring_init(&coloring, sizeof coloring);
-    ewa_status status = ewa_options_take(context, &ewa_coloring_table, given, &coloring);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_options_take(context, &ewa_coloring_table, given, &coloring));
     if (ewa_coloring_is_own(coloring.attribute)) {
         bool colored = !coloring.attribute[0];
         for (uint32_t k = 0; k < count; k++) colored = colored || ewa_cloud_find(clouds[k], EWA_COLOR);
         if (!colored) return ewa_fail(context, EWA_ERROR_ARGUMENT, "colours: there are none");
-        for (uint32_t k = 0; k < count && status == EWA_OK && coloring.tinted; k++)
-            status = tint_cloud(coloring.tint, clouds[k]);
-        return status;
+        for (uint32_t k = 0; k < count && coloring.tinted; k++) EWA_TRY(tint_cloud(coloring.tint, clouds[k]));
+        return EWA_OK;
     }
     numbers from = {context, clouds, ewa_allocate_zeroed(context, count, sizeof *from.scalars), count};
     if (!from.scalars) return EWA_ERROR_MEMORY;
     legend->context = context;
-    status = color_by(&from, &coloring, legend);
+    ewa_status status = color_by(&from, &coloring, legend);
     ewa_release(context, from.scalars, count, sizeof *from.scalars);
     if (status != EWA_OK) ewa_legend_free(legend);
     return status;

@@ -86,7 +86,8 @@ static uint32_t scanner_count(const ewa_cloud *cloud) {
     const char *note = ewa_cloud_note(cloud, "scanners", &bytes);
     const size_t count = note ? bytes / (3 * sizeof(double)) : 0;
     const ewa_attribute *scan = ewa_cloud_find(cloud, "scan");
-    if (!count || bytes % (3 * sizeof(double)) || count > UINT16_MAX || (scan && scan->component_count != 1)) return 0;
+    if (!count || bytes % (3 * sizeof(double)) || count > UINT16_MAX || (scan && scan->component_count != 1))
+        return 0;
     return count > 1 && !scan ? 0 : (uint32_t)count;
 }
 
@@ -144,8 +145,8 @@ static ewa_status merge_positions(ewa_completed *group) {
         for (size_t w = 0; w < sizeof wanted / sizeof wanted[0] && status == EWA_OK; w++) {
             const ewa_attribute *a = ewa_cloud_find(from, wanted[w]);
             if (a && all_have(group, wanted[w]))
-                status =
-                    ewa_cloud_borrow(group->clouds[i], a->name, a->type, a->component_count, a->data, a->stride_bytes);
+                status = ewa_cloud_borrow(group->clouds[i], a->name, a->type, a->component_count, a->data,
+                                          a->stride_bytes);
         }
     }
     if (status == EWA_OK)
@@ -157,14 +158,13 @@ static ewa_status merge_positions(ewa_completed *group) {
 /// Adds what was estimated of all to the view of one.
 static ewa_status borrow_estimated(const ewa_completed *group, uint64_t first, ewa_cloud *view) {
     static const char *const estimated[] = {EWA_NORMAL, EWA_RADIUS};
-    ewa_status status = EWA_OK;
-    for (int i = 0; i < 2 && status == EWA_OK; i++) {
+    for (int i = 0; i < 2; i++) {
         const ewa_attribute *a = ewa_cloud_find(group->merged, estimated[i]);
         if (!a || ewa_cloud_find(view, estimated[i])) continue;
-        status = ewa_cloud_borrow(view, a->name, a->type, a->component_count,
-                                  (const char *)a->data + first * a->stride_bytes, a->stride_bytes);
+        EWA_TRY(ewa_cloud_borrow(view, a->name, a->type, a->component_count,
+                                 (const char *)a->data + first * a->stride_bytes, a->stride_bytes));
     }
-    return status;
+    return EWA_OK;
 }
 
 /// Says what was estimated of which files.
@@ -210,8 +210,8 @@ static ewa_status estimate(ewa_completed *group) {
 }
 
 /// Whether a group that was made before is of these items.
-static bool is_of(const ewa_completed *group, const ewa_scene *scene, uint32_t first, const uint32_t *group_of,
-                  uint32_t count) {
+static bool is_of(const ewa_completed *group, const ewa_scene *scene, uint32_t first,
+                  const uint32_t *group_of, uint32_t count) {
     if (!group || group->count != count) return false;
     uint32_t member = 0;
     for (uint32_t i = first; i < scene->count; i++)
@@ -258,14 +258,17 @@ static void check_systems(const ewa_scene *scene) {
     const char *first = NULL, *first_name = NULL;
     for (uint32_t i = 0; i < scene->count; i++) {
         const ewa_asset *asset = scene->items[i].asset;
-        const ewa_cloud *cloud = asset->cloud ? asset->cloud : asset->kind == EWA_ASSET_OCTREE ? asset->outline : NULL;
+        const ewa_cloud *cloud = asset->cloud                      ? asset->cloud
+                                 : asset->kind == EWA_ASSET_OCTREE ? asset->outline
+                                                                   : NULL;
         const char *system = cloud ? ewa_cloud_note(cloud, "crs", NULL) : NULL;
         if (!system) continue;
         if (!first) {
             first = system, first_name = asset->name;
         } else if (strcmp(first, system) != 0) {
             ewa_report(scene->context, EWA_SEVERITY_WARNING,
-                       "%s: its coordinate reference system (%.60s) is not that of %s (%.60s): coordinates are taken "
+                       "%s: its coordinate reference system (%.60s) is not that of %s (%.60s): coordinates "
+                       "are taken "
                        "as they are",
                        asset->name, system, first_name, first);
         }
@@ -279,7 +282,8 @@ ewa_status ewa_scene_complete_items(ewa_scene *scene) {
     ewa_status status = EWA_OK;
     for (uint32_t i = 0; i < scene->count && status == EWA_OK; i++) {
         const ewa_asset *asset = scene->items[i].asset;
-        if (group_of[i] != UINT32_MAX || !ewa_asset_is_points(asset) || asset->drawable || !asset->count) continue;
+        if (group_of[i] != UINT32_MAX || !ewa_asset_is_points(asset) || asset->drawable || !asset->count)
+            continue;
         const uint32_t count = mark_group(scene, i, group_of);
         ewa_completed *group = scene->items[i].completed;
         if (is_of(group, scene, i, group_of, count)) {

@@ -10,8 +10,8 @@
 #include <math.h>
 #include <string.h>
 
-ewa_status ewa_scene_renderer_create(ewa_context *context, ewa_backend_kind backend, const ewa_exchange *exchange,
-                                     ewa_scene_renderer **made) {
+ewa_status ewa_scene_renderer_create(ewa_context *context, ewa_backend_kind backend,
+                                     const ewa_exchange *exchange, ewa_scene_renderer **made) {
     if (!context || !made) return EWA_ERROR_ARGUMENT;
     *made = NULL;
     if (exchange && backend != EWA_BACKEND_CPU)
@@ -58,14 +58,14 @@ static ewa_status list_shown(const ewa_scene *scene, ewa_scene_renderer *rendere
     ewa_context *context = renderer->context;
     *shown = (ewa_scene_shown){.near_world = INFINITY};
     const size_t room = scene->count + (size_t)1;
-    ewa_status status = ewa_buffer_reserve(context, &renderer->surfels, room, sizeof(ewa_surfels *));
-    if (status == EWA_OK) status = ewa_buffer_reserve(context, &renderer->lods, room, sizeof(ewa_lod *));
-    if (status == EWA_OK) status = ewa_buffer_reserve(context, &renderer->splats, room, sizeof(ewa_splats *));
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_buffer_reserve(context, &renderer->surfels, room, sizeof(ewa_surfels *)));
+    EWA_TRY(ewa_buffer_reserve(context, &renderer->lods, room, sizeof(ewa_lod *)));
+    EWA_TRY(ewa_buffer_reserve(context, &renderer->splats, room, sizeof(ewa_splats *)));
     shown->surfels = renderer->surfels.data;
     shown->lods = renderer->lods.data;
     shown->splats = renderer->splats.data;
-    if (scene->surface && scene->surface->surfels) shown->surfels[shown->surfels_count++] = scene->surface->surfels;
+    if (scene->surface && scene->surface->surfels)
+        shown->surfels[shown->surfels_count++] = scene->surface->surfels;
     for (uint32_t i = 0; i < scene->count; i++) {
         const ewa_asset *asset = scene->items[i].asset;
         if (!scene->items[i].instance.visible) continue;
@@ -85,9 +85,10 @@ static ewa_status list_shown(const ewa_scene *scene, ewa_scene_renderer *rendere
 }
 
 /// Draws all surfaces in one frame.
-static ewa_status draw_surfaces(ewa_scene_renderer *renderer, const ewa_scene_shown *shown, const ewa_camera *camera,
-                                const ewa_scene_options *options, const ewa_render_options *render,
-                                const ewa_frame *frame, ewa_scene_stats *stats) {
+static ewa_status draw_surfaces(ewa_scene_renderer *renderer, const ewa_scene_shown *shown,
+                                const ewa_camera *camera, const ewa_scene_options *options,
+                                const ewa_render_options *render, const ewa_frame *frame,
+                                ewa_scene_stats *stats) {
     ewa_lod_options lod = options->lod;
     if (renderer->exchange.swap) {
         lod.share = renderer->exchange.rank;
@@ -102,22 +103,22 @@ static ewa_status draw_surfaces(ewa_scene_renderer *renderer, const ewa_scene_sh
 }
 
 /// Makes a plane of a picture's size.
-static ewa_status make_plane(ewa_context *context, const ewa_camera *camera, uint32_t channels, ewa_image *plane) {
+static ewa_status make_plane(ewa_context *context, const ewa_camera *camera, uint32_t channels,
+                             ewa_image *plane) {
     if (plane->width_px == camera->width_px && plane->height_px == camera->height_px) return EWA_OK;
     ewa_image_free(plane);
     return ewa_image_create(context, camera->width_px, camera->height_px, channels, plane);
 }
 
 /// Draws the surfaces to planes of their own, over nothing, for what lies among them.
-static ewa_status draw_among(ewa_scene_renderer *renderer, const ewa_scene_shown *shown, const ewa_camera *camera,
-                             const ewa_scene_options *options, const ewa_frame *frame, ewa_gaussian_options *among,
-                             ewa_scene_stats *stats) {
+static ewa_status draw_among(ewa_scene_renderer *renderer, const ewa_scene_shown *shown,
+                             const ewa_camera *camera, const ewa_scene_options *options,
+                             const ewa_frame *frame, ewa_gaussian_options *among, ewa_scene_stats *stats) {
     ewa_context *context = renderer->context;
-    ewa_status status = make_plane(context, camera, 4, &renderer->rgba);
-    if (status == EWA_OK) status = make_plane(context, camera, 1, &renderer->depth);
-    if (status == EWA_OK) status = make_plane(context, camera, 1, &renderer->coverage);
-    if (status == EWA_OK && frame->normal) status = make_plane(context, camera, 3, &renderer->normal);
-    if (status != EWA_OK) return status;
+    EWA_TRY(make_plane(context, camera, 4, &renderer->rgba));
+    EWA_TRY(make_plane(context, camera, 1, &renderer->depth));
+    EWA_TRY(make_plane(context, camera, 1, &renderer->coverage));
+    if (frame->normal) EWA_TRY(make_plane(context, camera, 3, &renderer->normal));
     ewa_render_options over_nothing = options->render;
     memset(over_nothing.background, 0, sizeof over_nothing.background);
     over_nothing.eye_dome = 0; // of the whole picture, in the end
@@ -156,9 +157,10 @@ static void add_volume_stats(const ewa_volume_stats *volume, ewa_render_stats *s
 }
 
 /// Draws what lets light through, among surfaces where there are some.
-static ewa_status draw_mixture(ewa_scene_renderer *renderer, const ewa_scene_shown *shown, const ewa_camera *camera,
-                               const ewa_scene_options *options, const ewa_gaussian_options *among,
-                               const ewa_frame *frame, ewa_scene_stats *stats) {
+static ewa_status draw_mixture(ewa_scene_renderer *renderer, const ewa_scene_shown *shown,
+                               const ewa_camera *camera, const ewa_scene_options *options,
+                               const ewa_gaussian_options *among, const ewa_frame *frame,
+                               ewa_scene_stats *stats) {
     ewa_context *context = renderer->context;
     ewa_volume_options volumes[EWA_MAX_MIXED_VOLUMES];
     ewa_volume_stats took[EWA_MAX_MIXED_VOLUMES];
@@ -169,19 +171,18 @@ static ewa_status draw_mixture(ewa_scene_renderer *renderer, const ewa_scene_sho
         volumes[i] = volume_options(options, shown->volumes[i]);
         mixed[i] = (ewa_mixed_volume){renderer->volumes[i], shown->volumes[i]->voxels, &volumes[i], &took[i]};
     }
-    if (status != EWA_OK) return status;
+    EWA_TRY(status);
     if (shown->volume_count == 1 && !shown->splats_count && !among->surface_depth) {
-        status = ewa_volume_render(renderer->volumes[0], shown->volumes[0]->voxels, camera, &volumes[0], frame, &took[0]);
-        if (status == EWA_OK) add_volume_stats(&took[0], &stats->render);
-        return status;
+        EWA_TRY(ewa_volume_render(renderer->volumes[0], shown->volumes[0]->voxels, camera, &volumes[0], frame,
+                                  &took[0]));
+        add_volume_stats(&took[0], &stats->render);
+        return EWA_OK;
     }
-    if (!renderer->gaussians) status = ewa_gaussian_renderer_create(context, &renderer->gaussians);
-    const ewa_mixture mixture = {(const ewa_splats *const *)shown->splats, shown->splats_count, shown->volume_count,
-                                 mixed};
+    if (!renderer->gaussians) EWA_TRY(ewa_gaussian_renderer_create(context, &renderer->gaussians));
+    const ewa_mixture mixture = {(const ewa_splats *const *)shown->splats, shown->splats_count,
+                                 shown->volume_count, mixed};
     ewa_gaussian_stats drawn;
-    if (status == EWA_OK)
-        status = ewa_mixture_render(renderer->gaussians, &mixture, camera, among, frame, &drawn);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_mixture_render(renderer->gaussians, &mixture, camera, among, frame, &drawn));
     stats->render.splat_count += drawn.splat_count;
     stats->render.culled_count += drawn.splat_count - drawn.visible_count;
     stats->render.drawn_count += drawn.visible_count;
@@ -200,12 +201,12 @@ static ewa_gaussian_options mixture_options(const ewa_scene_shown *shown, const 
 }
 
 /// Draws what lets light through over nothing, and lights the whole picture by its depths.
-static ewa_status draw_lit(ewa_scene_renderer *renderer, const ewa_scene_shown *shown, const ewa_camera *camera,
-                           const ewa_scene_options *options, const ewa_gaussian_options *among, const ewa_frame *frame,
+static ewa_status draw_lit(ewa_scene_renderer *renderer, const ewa_scene_shown *shown,
+                           const ewa_camera *camera, const ewa_scene_options *options,
+                           const ewa_gaussian_options *among, const ewa_frame *frame,
                            ewa_scene_stats *stats) {
-    ewa_status status = make_plane(renderer->context, camera, 4, &renderer->lit_rgba);
-    if (status == EWA_OK) status = make_plane(renderer->context, camera, 1, &renderer->lit_depth);
-    if (status != EWA_OK) return status;
+    EWA_TRY(make_plane(renderer->context, camera, 4, &renderer->lit_rgba));
+    EWA_TRY(make_plane(renderer->context, camera, 1, &renderer->lit_depth));
     ewa_frame lit = *frame;
     lit.rgba8 = NULL;
     if (!lit.rgba) lit.rgba = renderer->lit_rgba.pixels;
@@ -214,27 +215,25 @@ static ewa_status draw_lit(ewa_scene_renderer *renderer, const ewa_scene_shown *
     ewa_scene_options bare = *options;
     memset(over_nothing.background, 0, sizeof over_nothing.background);
     memset(bare.render.background, 0, sizeof bare.render.background);
-    status = draw_mixture(renderer, shown, camera, &bare, &over_nothing, &lit, stats);
+    EWA_TRY(draw_mixture(renderer, shown, camera, &bare, &over_nothing, &lit, stats));
     lit.rgba8 = frame->rgba8;
-    return status == EWA_OK ? ewa_eye_dome_apply(renderer->context, camera, options->render.eye_dome,
-                                                 options->render.background, &lit)
-                            : status;
+    return ewa_eye_dome_apply(renderer->context, camera, options->render.eye_dome, options->render.background,
+                              &lit);
 }
 
 static ewa_status draw(ewa_scene *scene, ewa_scene_renderer *renderer, const ewa_camera *camera,
                        const ewa_scene_options *options, const ewa_frame *frame, ewa_scene_stats *stats) {
     ewa_scene_shown shown;
-    ewa_status status = list_shown(scene, renderer, &shown);
-    if (status != EWA_OK) return status;
+    EWA_TRY(list_shown(scene, renderer, &shown));
     if (!shown.splats_count && !shown.volume_count)
         return draw_surfaces(renderer, &shown, camera, options, &options->render, frame, stats);
     ewa_gaussian_options among = mixture_options(&shown, options);
     const ewa_exchange *exchange = &renderer->exchange;
     if (shown.surfels_count || shown.lod_count)
-        status = draw_among(renderer, &shown, camera, options, frame, &among, stats);
+        EWA_TRY(draw_among(renderer, &shown, camera, options, frame, &among, stats));
     const bool elsewhere =
         exchange->swap && exchange->picture_rank != EWA_ALL_RANKS && exchange->picture_rank != exchange->rank;
-    if (status != EWA_OK || elsewhere) return status;
+    if (elsewhere) return EWA_OK;
     return options->render.eye_dome > 0 && (frame->rgba || frame->rgba8)
                ? draw_lit(renderer, &shown, camera, options, &among, frame, stats)
                : draw_mixture(renderer, &shown, camera, options, &among, frame, stats);

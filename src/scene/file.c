@@ -134,10 +134,9 @@ static ewa_status apply_light(const reading *in, const ewa_scene_member *member,
 
 static ewa_status apply_plane(const reading *in, const ewa_scene_member *member, ewa_scene_options *options) {
     double *plane = options->render.section_planes[member->index];
-    const ewa_status status = set_option(in, member, &plane_row, plane);
-    if (status == EWA_OK && plane[0] == 0 && plane[1] == 0 && plane[2] == 0)
-        return fail_at(in, member, "its normal is 0, 0, 0");
-    return status;
+    EWA_TRY(set_option(in, member, &plane_row, plane));
+    if (plane[0] == 0 && plane[1] == 0 && plane[2] == 0) return fail_at(in, member, "its normal is 0, 0, 0");
+    return EWA_OK;
 }
 
 /// Sets all that a text says of options.
@@ -340,18 +339,17 @@ static ewa_status read_item(ewa_scene_file *file, const reading *in, const ewa_s
 
 static ewa_status read_items(ewa_scene_file *file, const reading *in) {
     const ewa_scene_text *text = in->text;
-    ewa_status status = EWA_OK;
     size_t first = 0;
-    for (uint32_t index = 0; index < text->item_count && status == EWA_OK; index++) {
+    for (uint32_t index = 0; index < text->item_count; index++) {
         while (first < text->member_count && text->members[first].section != EWA_SCENE_ITEM) first++;
         size_t end = first;
         while (end < text->member_count && text->members[end].section == EWA_SCENE_ITEM &&
                text->members[end].index == index)
             end++;
-        status = read_item(file, in, text->members + first, end - first, index);
+        EWA_TRY(read_item(file, in, text->members + first, end - first, index));
         first = end;
     }
-    return status;
+    return EWA_OK;
 }
 
 /// Whether two paths are of one file.
@@ -375,12 +373,11 @@ static ewa_status read_file(ewa_scene_file *file, const reading *by, const char 
         return ewa_fail(context, EWA_ERROR_LIMIT, "%s: names more than %d scene files", file->path,
                         EWA_SCENE_FILE_COUNT);
     ewa_file bytes;
-    ewa_status status = ewa_file_map(context, path, &bytes);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_file_map(context, path, &bytes));
     ewa_scene_text text;
-    status = ewa_scene_text_read(context, path, bytes.bytes, bytes.size_bytes, &text);
+    ewa_status status = ewa_scene_text_read(context, path, bytes.bytes, bytes.size_bytes, &text);
     ewa_file_unmap(context, &bytes);
-    if (status != EWA_OK) return status;
+    EWA_TRY(status);
     reading in = {.by = by, .path = path, .text = &text, .visible = visible, .depth = by ? by->depth + 1 : 1};
     memcpy(in.to_world, to_world, sizeof in.to_world);
     ewa_scene_options options;
@@ -458,8 +455,8 @@ void ewa_scene_file_apply(const ewa_scene_file *file, ewa_scene_options *options
 /// Adds one file. Points of which a filter leaves none are left out.
 static ewa_status add_entry(ewa_scene *scene, const ewa_scene_entry *entry) {
     ewa_asset *asset = NULL;
-    ewa_status status = ewa_asset_load(scene->context, entry->path, &entry->asset, &asset);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_asset_load(scene->context, entry->path, &entry->asset, &asset));
+    ewa_status status = EWA_OK;
     if (ewa_asset_is_points(asset) && !asset->count)
         ewa_report(scene->context, EWA_SEVERITY_NOTE,
                    "%s: the filter takes none of its points; it is left out", entry->path);

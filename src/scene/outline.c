@@ -28,8 +28,7 @@ static ewa_status make_places(ewa_context *context, uint64_t count, ewa_cloud **
 ewa_status ewa_asset_outline_surfels(ewa_context *context, const ewa_surfels *surfels, ewa_cloud **outline) {
     double *position;
     float *radius;
-    const ewa_status status = make_places(context, surfels->count, outline, &position, &radius);
-    if (status != EWA_OK) return status;
+    EWA_TRY(make_places(context, surfels->count, outline, &position, &radius));
     uint32_t left = surfels->count;
     for (uint32_t p = 0; p < surfels->packet_count && left; p++) {
         const ewa_vec3 center = ewa_packet_center(surfels, p);
@@ -55,10 +54,12 @@ static double axis_length(const ewa_attribute *u, const ewa_attribute *v, uint64
 }
 
 /// Adds the places of a cloud, and its radii times a scale.
-static void add_cloud(const ewa_cloud *cloud, double cutoff, double scale, double **position, float **radius) {
+static void add_cloud(const ewa_cloud *cloud, double cutoff, double scale, double **position,
+                      float **radius) {
     const uint64_t count = ewa_cloud_point_count(cloud);
-    const ewa_attribute *places = ewa_cloud_find(cloud, EWA_POSITION), *radii = ewa_cloud_find(cloud, EWA_RADIUS),
-                        *u = ewa_cloud_find(cloud, EWA_TANGENT_U), *v = ewa_cloud_find(cloud, EWA_TANGENT_V);
+    const ewa_attribute *places = ewa_cloud_find(cloud, EWA_POSITION),
+                        *radii = ewa_cloud_find(cloud, EWA_RADIUS), *u = ewa_cloud_find(cloud, EWA_TANGENT_U),
+                        *v = ewa_cloud_find(cloud, EWA_TANGENT_V);
     double origin_world[3];
     ewa_cloud_origin(cloud, origin_world);
     ewa_attribute_read_f64(places, 0, count, *position);
@@ -104,12 +105,12 @@ static uint64_t count_places(const ewa_scene *scene, const ewa_scene_item **only
 static ewa_status make_box(ewa_context *context, ewa_cloud **cloud) {
     double *position;
     float *radius;
-    const ewa_status status = make_places(context, CORNERS, cloud, &position, &radius);
-    for (int i = 0; status == EWA_OK && i < CORNERS; i++) {
+    EWA_TRY(make_places(context, CORNERS, cloud, &position, &radius));
+    for (int i = 0; i < CORNERS; i++) {
         *radius++ = 0;
         for (int c = 0; c < 3; c++) *position++ = i >> c & 1 ? 1 : -1;
     }
-    return status;
+    return EWA_OK;
 }
 
 ewa_status ewa_scene_outline(ewa_scene *scene, ewa_cloud **outline, bool *made) {
@@ -120,10 +121,8 @@ ewa_status ewa_scene_outline(ewa_scene *scene, ewa_cloud **outline, bool *made) 
     ewa_cloud *cloud = NULL, *resident = NULL;
     *outline = NULL;
     *made = true;
-    ewa_status status = EWA_OK;
     if (gone && scene->surface && scene->surface->surfels)
-        status = ewa_asset_outline_surfels(scene->context, scene->surface->surfels, &resident);
-    if (status != EWA_OK) return status;
+        EWA_TRY(ewa_asset_outline_surfels(scene->context, scene->surface->surfels, &resident));
     if (resident && !total) {
         *outline = resident;
         return EWA_OK;
@@ -134,8 +133,10 @@ ewa_status ewa_scene_outline(ewa_scene *scene, ewa_cloud **outline, bool *made) 
         ewa_cloud *places = places_of(only);
         *made = ewa_cloud_context(places) != scene->context; // which is the one of this thread
         *outline = places;
-        return *made ? ewa_cloud_view(scene->context, places, 0, ewa_cloud_point_count(places), outline) : EWA_OK;
+        return *made ? ewa_cloud_view(scene->context, places, 0, ewa_cloud_point_count(places), outline)
+                     : EWA_OK;
     }
+    ewa_status status = EWA_OK;
     if (!total) {
         status = make_box(scene->context, &cloud);
         *outline = cloud;
@@ -149,7 +150,8 @@ ewa_status ewa_scene_outline(ewa_scene *scene, ewa_cloud **outline, bool *made) 
         const ewa_scene_item *item = &scene->items[i];
         const ewa_cloud *places = item->instance.visible && item->asset->count ? places_of(item) : NULL;
         const bool surface = ewa_asset_is_points(item->asset);
-        if (places) add_cloud(places, cutoff, surface ? scale * item->instance.radius_scale : 1, &position, &radius);
+        if (places)
+            add_cloud(places, cutoff, surface ? scale * item->instance.radius_scale : 1, &position, &radius);
     }
     if (status == EWA_OK && resident) add_cloud(resident, cutoff, 1, &position, &radius);
     ewa_cloud_destroy(&resident);

@@ -28,7 +28,8 @@ static double nearest_depth(const float *depth, int side, int reach_px, int *awa
 }
 
 /// The place of the world that a pixel shows at a depth.
-static void unproject(const ewa_camera *camera, double x_px, double y_px, double depth, double place_world[3]) {
+static void unproject(const ewa_camera *camera, double x_px, double y_px, double depth,
+                      double place_world[3]) {
     const double *m = camera->world_to_camera;
     const double scale = camera->projection == EWA_PERSPECTIVE ? depth : 1;
     const double seen[3] = {(x_px - camera->cx_px) / camera->fx_px * scale - m[3],
@@ -82,10 +83,12 @@ static bool find_in_cloud(search *s, const ewa_cloud *cloud, ewa_scene_hit *hit)
 }
 
 /// Looks among the points of an octree about the place; those that were read become the hit's, the nearest first.
-static ewa_status find_in_octree(search *s, ewa_lod *lod, double reach_world, ewa_scene_hit *hit, bool *found) {
+static ewa_status find_in_octree(search *s, ewa_lod *lod, double reach_world, ewa_scene_hit *hit,
+                                 bool *found) {
     double low[3], high[3];
     ewa_cloud *cloud = NULL;
-    for (int c = 0; c < 3; c++) low[c] = s->place_world[c] - reach_world, high[c] = s->place_world[c] + reach_world;
+    for (int c = 0; c < 3; c++)
+        low[c] = s->place_world[c] - reach_world, high[c] = s->place_world[c] + reach_world;
     ewa_status status = ewa_lod_read(lod, low, high, 0, &cloud);
     *found = status == EWA_OK && find_in_cloud(s, cloud, hit);
     if (*found) {
@@ -127,10 +130,12 @@ ewa_status ewa_scene_pick(ewa_scene *scene, ewa_scene_renderer *renderer, const 
     if (!scene || !renderer || !camera || !hit) return EWA_ERROR_ARGUMENT;
     *hit = (ewa_scene_hit){.depth = INFINITY};
     if (!(reach_px >= 0) || !(reach_world >= 0) || !isfinite(x_px) || !isfinite(y_px))
-        return ewa_fail(scene->context, EWA_ERROR_ARGUMENT, "pick: at %g, %g within %g pixels and %g of the world", x_px,
-                        y_px, reach_px, reach_world);
+        return ewa_fail(scene->context, EWA_ERROR_ARGUMENT,
+                        "pick: at %g, %g within %g pixels and %g of the world", x_px, y_px, reach_px,
+                        reach_world);
     const int reach = (int)fmin(reach_px, MAX_REACH_PX), side = 2 * reach + 1;
-    if (x_px < -reach || y_px < -reach || x_px >= camera->width_px + reach || y_px >= camera->height_px + reach)
+    if (x_px < -reach || y_px < -reach || x_px >= camera->width_px + reach ||
+        y_px >= camera->height_px + reach)
         return EWA_OK;
     const int middle_x = (int)floor(x_px), middle_y = (int)floor(y_px);
     float depth[MAX_SIDE_PX * MAX_SIDE_PX];
@@ -140,8 +145,7 @@ ewa_status ewa_scene_pick(ewa_scene *scene, ewa_scene_renderer *renderer, const 
     ewa_camera window = *camera;
     window.cx_px -= middle_x - reach, window.cy_px -= middle_y - reach;
     window.width_px = window.height_px = (uint32_t)side;
-    ewa_status status = ewa_scene_draw(scene, renderer, &window, &options, &(ewa_frame){.depth = depth}, NULL);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_scene_draw(scene, renderer, &window, &options, &(ewa_frame){.depth = depth}, NULL));
     int dx = 0, dy = 0;
     hit->depth = nearest_depth(depth, side, reach, &dx, &dy);
     if (!isfinite(hit->depth)) return EWA_OK;
@@ -149,7 +153,7 @@ ewa_status ewa_scene_pick(ewa_scene *scene, ewa_scene_renderer *renderer, const 
     const bool there = dx == 0 && dy == 0;
     unproject(camera, there ? x_px : middle_x + dx + 0.5, there ? y_px : middle_y + dy + 0.5, hit->depth,
               hit->place_world);
-    status = reach_world > 0 ? find_point(scene, &options.render, reach_world, hit) : EWA_OK;
+    ewa_status status = reach_world > 0 ? find_point(scene, &options.render, reach_world, hit) : EWA_OK;
     if (status != EWA_OK) ewa_cloud_destroy(&hit->points);
     return status;
 }

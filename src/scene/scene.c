@@ -62,7 +62,7 @@ static ewa_status take_options(ewa_context *context, const ewa_scene_options *gi
                                ewa_scene_options *options) {
     ewa_scene_options_init(options, sizeof *options);
     if (!given) return EWA_OK;
-    ewa_status status = ewa_options_take(context, &ewa_scene_options_table, given, options);
+    EWA_TRY(ewa_options_take(context, &ewa_scene_options_table, given, options));
     const struct {
         const ewa_option_table *table;
         const void *given;
@@ -72,9 +72,9 @@ static ewa_status take_options(ewa_context *context, const ewa_scene_options *gi
                  {&ewa_render_options_table, &given->render, &options->render},
                  {&ewa_gaussian_options_table, &given->gaussians, &options->gaussians},
                  {&ewa_volume_options_table, &given->volumes, &options->volumes}};
-    for (size_t i = 0; i < sizeof parts / sizeof parts[0] && status == EWA_OK; i++)
-        status = ewa_options_take(context, parts[i].table, parts[i].given, parts[i].taken);
-    return status;
+    for (size_t i = 0; i < sizeof parts / sizeof parts[0]; i++)
+        EWA_TRY(ewa_options_take(context, parts[i].table, parts[i].given, parts[i].taken));
+    return EWA_OK;
 }
 
 ewa_status ewa_scene_create(ewa_context *context, const ewa_scene_options *options, ewa_scene **made) {
@@ -164,10 +164,8 @@ static ewa_status take_instance(const ewa_scene *scene, const ewa_asset *asset, 
     ewa_context *context = scene->context;
     ewa_instance_init(taken, sizeof *taken);
     if (!given) return EWA_OK;
-    ewa_status status = ewa_options_take(context, &ewa_instance_table, given, taken);
-    if (status == EWA_OK)
-        status = ewa_options_take(context, &ewa_coloring_table, &given->coloring, &taken->coloring);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_options_take(context, &ewa_instance_table, given, taken));
+    EWA_TRY(ewa_options_take(context, &ewa_coloring_table, &given->coloring, &taken->coloring));
     if (taken->material != EWA_MATERIAL_OWN && taken->material >= EWA_MAX_MATERIALS)
         return ewa_fail(context, EWA_ERROR_ARGUMENT, "%s: material %u is beyond %d", asset->name,
                         taken->material, EWA_MAX_MATERIALS - 1);
@@ -187,16 +185,15 @@ static ewa_status take_instance(const ewa_scene *scene, const ewa_asset *asset, 
 ewa_status ewa_scene_add(ewa_scene *scene, ewa_asset *asset, const ewa_instance *instance) {
     if (!scene || !asset) return EWA_ERROR_ARGUMENT;
     ewa_instance taken;
-    ewa_status status = take_instance(scene, asset, instance, &taken);
-    if (status == EWA_OK && scene->points_gone && ewa_asset_is_points(asset))
-        status =
-            ewa_fail(scene->context, EWA_ERROR_ARGUMENT,
-                     "%s: the points of this scene are gone (keep_points), none can be added", asset->name);
-    if (status == EWA_OK && scene->count == EWA_SCENE_MAX_INSTANCES)
-        status = ewa_fail(scene->context, EWA_ERROR_LIMIT,
-                          "%s: the scene has %u instances already, its maximum", asset->name, scene->count);
-    if (status == EWA_OK) status = grow(scene);
-    if (status != EWA_OK) return status;
+    EWA_TRY(take_instance(scene, asset, instance, &taken));
+    if (scene->points_gone && ewa_asset_is_points(asset))
+        return ewa_fail(scene->context, EWA_ERROR_ARGUMENT,
+                        "%s: the points of this scene are gone (keep_points), none can be added",
+                        asset->name);
+    if (scene->count == EWA_SCENE_MAX_INSTANCES)
+        return ewa_fail(scene->context, EWA_ERROR_LIMIT,
+                        "%s: the scene has %u instances already, its maximum", asset->name, scene->count);
+    EWA_TRY(grow(scene));
     scene->items[scene->count++] = (ewa_scene_item){.asset = ewa_asset_retain(asset), .instance = taken};
     scene->complete = scene->complete && (!ewa_asset_is_points(asset) || asset->drawable);
     scene->committed = false;
@@ -234,8 +231,7 @@ ewa_status ewa_scene_set(ewa_scene *scene, uint32_t index, const ewa_instance *i
     if (!scene || index >= scene->count || !instance) return EWA_ERROR_ARGUMENT;
     ewa_scene_item *item = &scene->items[index];
     ewa_instance taken;
-    const ewa_status status = take_instance(scene, item->asset, instance, &taken);
-    if (status != EWA_OK) return status;
+    EWA_TRY(take_instance(scene, item->asset, instance, &taken));
     if (scene->points_gone && ewa_asset_is_points(item->asset))
         return ewa_fail(scene->context, EWA_ERROR_ARGUMENT,
                         "%s: the points of this scene are gone (keep_points), they stay as they are",
@@ -250,8 +246,7 @@ void ewa_scene_get_options(const ewa_scene *scene, ewa_scene_options *options) {
 ewa_status ewa_scene_set_options(ewa_scene *scene, const ewa_scene_options *given) {
     if (!scene || !given) return EWA_ERROR_ARGUMENT;
     ewa_scene_options options;
-    const ewa_status status = take_options(scene->context, given, &options);
-    if (status != EWA_OK) return status;
+    EWA_TRY(take_options(scene->context, given, &options));
     scene->options = options;
     scene->committed = scene->committed && (scene->points_gone || ewa_surface_is_of(scene->surface, scene));
     return EWA_OK;
@@ -283,12 +278,10 @@ static void drop_points(ewa_scene *scene) {
 ewa_status ewa_scene_commit(ewa_scene *scene) {
     if (!scene) return EWA_ERROR_ARGUMENT;
     if (scene->committed) return EWA_OK;
-    ewa_status status = ewa_scene_complete(scene);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_scene_complete(scene));
     if (!scene->points_gone && !ewa_surface_is_of(scene->surface, scene)) {
         ewa_surface *surface = NULL;
-        status = ewa_surface_make(scene, &surface);
-        if (status != EWA_OK) return status;
+        EWA_TRY(ewa_surface_make(scene, &surface));
         ewa_surface_release(&scene->surface);
         scene->surface = surface;
     }

@@ -5,8 +5,8 @@
 // that what is added and what was merged before are the same bytes.
 #include "base/base.h"
 #include "cloud/cloud.h"
-#include "ewa/prepare.h"
 #include "ewa/diagnosis.h"
+#include "ewa/prepare.h"
 #include "scene/parts.h"
 
 #include <math.h>
@@ -25,7 +25,8 @@ void ewa_surface_release(ewa_surface **given) {
     if (atomic_fetch_sub(&surface->references, 1) > 1) return;
     ewa_context *context = surface->context;
     ewa_surfels_destroy(&surface->surfels);
-    for (uint32_t i = 0; surface->legends && i < surface->legend_count; i++) ewa_legend_free(&surface->legends[i]);
+    for (uint32_t i = 0; surface->legends && i < surface->legend_count; i++)
+        ewa_legend_free(&surface->legends[i]);
     ewa_release(context, surface->legends, surface->count, sizeof *surface->legends);
     ewa_release(context, surface->legend_of, surface->count, sizeof *surface->legend_of);
     ewa_release(context, surface->keys, surface->count, sizeof *surface->keys);
@@ -50,7 +51,8 @@ static int compare_keys(const void *a, const void *b) {
 }
 
 static ewa_surface_key key_of(const ewa_scene_item *item) {
-    ewa_surface_key key = {item->asset, item->asset->drawable ? NULL : item->completed, item->instance, item->member};
+    ewa_surface_key key = {item->asset, item->asset->drawable ? NULL : item->completed, item->instance,
+                           item->member};
     return key;
 }
 
@@ -93,7 +95,7 @@ bool ewa_surface_is_of(const ewa_surface *surface, const ewa_scene *scene) {
 
 /// The clouds that a surface is made of, changed as their instances say.
 typedef struct shown_clouds {
-    ewa_cloud **clouds; ///< [surface->count]
+    ewa_cloud **clouds;  ///< [surface->count]
     ewa_cloud **colored; ///< likewise: those of one colouring
 } shown_clouds;
 
@@ -117,14 +119,14 @@ static ewa_status scale_stream(ewa_cloud *cloud, const char *name, uint32_t comp
 
 /// Changes radii, alpha and material as an instance says.
 static ewa_status apply_instance(const ewa_instance *instance, ewa_cloud *cloud) {
-    ewa_status status = EWA_OK;
     const uint64_t count = ewa_cloud_point_count(cloud);
     if (instance->radius_scale != 1) {
-        status = scale_stream(cloud, EWA_RADIUS, 1, instance->radius_scale);
-        if (status == EWA_OK) status = scale_stream(cloud, EWA_TANGENT_U, 3, instance->radius_scale);
-        if (status == EWA_OK) status = scale_stream(cloud, EWA_TANGENT_V, 3, instance->radius_scale);
+        EWA_TRY(scale_stream(cloud, EWA_RADIUS, 1, instance->radius_scale));
+        EWA_TRY(scale_stream(cloud, EWA_TANGENT_U, 3, instance->radius_scale));
+        EWA_TRY(scale_stream(cloud, EWA_TANGENT_V, 3, instance->radius_scale));
     }
-    if (status == EWA_OK && instance->opacity < 1) {
+    ewa_status status = EWA_OK;
+    if (instance->opacity < 1) {
         status = ewa_cloud_colors_to_linear(cloud);
         float *colors = status == EWA_OK ? ewa_cloud_find(cloud, EWA_COLOR)->data : NULL;
         for (uint64_t i = 0; colors && i < count; i++) colors[4 * i + 3] *= (float)instance->opacity;
@@ -139,22 +141,23 @@ static ewa_status apply_instance(const ewa_instance *instance, ewa_cloud *cloud)
 
 /// Colours the clouds, those of one colouring on one scale.
 static ewa_status apply_colorings(ewa_surface *surface, const shown_clouds *shown) {
-    ewa_status status = EWA_OK;
     for (uint32_t i = 0; i < surface->count; i++) surface->legend_of[i] = UINT32_MAX;
-    for (uint32_t i = 0; i < surface->count && status == EWA_OK; i++) {
+    for (uint32_t i = 0; i < surface->count; i++) {
         const ewa_coloring *coloring = &surface->keys[i].instance.coloring;
         const bool own = ewa_coloring_is_own(coloring->attribute);
         // Of the points' own colours, only "rgb" insists that there are some.
-        if (surface->legend_of[i] != UINT32_MAX || (own && !coloring->attribute[0] && !coloring->tinted)) continue;
+        if (surface->legend_of[i] != UINT32_MAX || (own && !coloring->attribute[0] && !coloring->tinted))
+            continue;
         uint32_t count = 0;
         for (uint32_t k = i; k < surface->count; k++) {
             if (!ewa_colorings_agree(coloring, &surface->keys[k].instance.coloring)) continue;
             shown->colored[count++] = shown->clouds[k];
             surface->legend_of[k] = surface->legend_count;
         }
-        status = ewa_clouds_color(shown->colored, count, coloring, &surface->legends[surface->legend_count++]);
+        EWA_TRY(
+            ewa_clouds_color(shown->colored, count, coloring, &surface->legends[surface->legend_count++]));
     }
-    return status;
+    return EWA_OK;
 }
 
 /// The discs' median support radius in units of the spacing 1 / sqrt(d) (d: density): from the unit coverage
@@ -177,7 +180,8 @@ static ewa_status make_surfels(ewa_surface *surface, const ewa_cloud *cloud) {
 static ewa_status close_gaps(ewa_surface *surface, ewa_cloud **cloud) {
     const double radius = radius_in_spacings(surface);
     const bool gaps = surface->info.point_count >= GAP_POINTS && radius < GAP_RADIUS;
-    if (surface->as_points || !gaps || !ewa_cloud_find(*cloud, EWA_RADIUS) || ewa_cloud_find(*cloud, EWA_TANGENT_U))
+    if (surface->as_points || !gaps || !ewa_cloud_find(*cloud, EWA_RADIUS) ||
+        ewa_cloud_find(*cloud, EWA_TANGENT_U))
         return EWA_OK;
     if (!surface->close_gaps) {
         ewa_report(surface->context, EWA_SEVERITY_NOTE,
@@ -201,24 +205,22 @@ static ewa_status close_gaps(ewa_surface *surface, ewa_cloud **cloud) {
 
 /// Makes surfels of the one cloud that the shown ones become.
 static ewa_status make_resident(ewa_surface *surface, ewa_cloud **cloud) {
-    ewa_status status = make_surfels(surface, *cloud);
-    if (status == EWA_OK) status = close_gaps(surface, cloud);
-    if (status == EWA_OK) status = ewa_cloud_report_invalid_points(*cloud, &surface->info);
-    return status;
+    EWA_TRY(make_surfels(surface, *cloud));
+    EWA_TRY(close_gaps(surface, cloud));
+    return ewa_cloud_report_invalid_points(*cloud, &surface->info);
 }
 
 static ewa_status fill(ewa_scene *scene, ewa_surface *surface, const shown_clouds *shown) {
     ewa_context *context = surface->context;
-    ewa_status status = EWA_OK;
-    for (uint32_t i = 0; i < surface->count && status == EWA_OK; i++) {
+    for (uint32_t i = 0; i < surface->count; i++) {
         const ewa_surface_key *key = &surface->keys[i];
         const ewa_cloud *cloud = key->completed ? key->completed->clouds[key->member] : key->asset->cloud;
-        status = ewa_cloud_view(context, cloud, 0, ewa_cloud_point_count(cloud), &shown->clouds[i]);
+        EWA_TRY(ewa_cloud_view(context, cloud, 0, ewa_cloud_point_count(cloud), &shown->clouds[i]));
     }
-    if (status == EWA_OK) status = apply_colorings(surface, shown);
-    for (uint32_t i = 0; i < surface->count && status == EWA_OK; i++)
-        status = apply_instance(&surface->keys[i].instance, shown->clouds[i]);
-    if (status != EWA_OK) return status;
+    EWA_TRY(apply_colorings(surface, shown));
+    for (uint32_t i = 0; i < surface->count; i++)
+        EWA_TRY(apply_instance(&surface->keys[i].instance, shown->clouds[i]));
+    ewa_status status = EWA_OK;
     if (surface->count == 1) {
         const char *before = ewa_context_about(context, surface->keys[0].asset->name);
         status = make_resident(surface, &shown->clouds[0]);

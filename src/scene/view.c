@@ -197,8 +197,7 @@ static ewa_status place(const placement *p, const double pivot_world[3], ewa_cam
 static ewa_status place_by_framing(placement *p, ewa_camera *camera, ewa_view_info *info) {
     const ewa_view_options *options = p->options;
     ewa_framing_describe(p->framing, &p->of);
-    ewa_status status = choose_direction(p);
-    if (status != EWA_OK) return status;
+    EWA_TRY(choose_direction(p));
     const double *axis = p->axis_world,
                  length = sqrt(axis[0] * axis[0] + axis[1] * axis[1] + axis[2] * axis[2]);
     *info = (ewa_view_info){.upright = p->upright, .trimmed = p->of.trimmed};
@@ -212,10 +211,10 @@ static ewa_status place_by_framing(placement *p, ewa_camera *camera, ewa_view_in
     ewa_camera_init(camera);
     camera->width_px = options->width_px ? options->width_px : DEFAULT_WIDTH_PX;
     camera->height_px = options->height_px ? options->height_px : DEFAULT_HEIGHT_PX;
-    status = options->ortho_height_world > 0
-                 ? ewa_camera_set_ortho(camera, options->ortho_height_world)
-                 : ewa_camera_set_fov(camera, options->fov_deg > 0 ? options->fov_deg : DEFAULT_FOV_DEG);
-    return status == EWA_OK ? place(p, info->pivot_world, camera) : status;
+    EWA_TRY(options->ortho_height_world > 0
+                ? ewa_camera_set_ortho(camera, options->ortho_height_world)
+                : ewa_camera_set_fov(camera, options->fov_deg > 0 ? options->fov_deg : DEFAULT_FOV_DEG));
+    return place(p, info->pivot_world, camera);
 }
 
 /// Measures an outline and places a camera at it.
@@ -223,13 +222,12 @@ static ewa_status place_at(placement *p, const ewa_cloud *outline, double radius
                            const ewa_view_options *given, ewa_camera *camera, ewa_view_info *info) {
     ewa_view_options options;
     ewa_view_options_init(&options, sizeof options);
-    ewa_status status = ewa_options_take(p->context, &ewa_view_options_table, given, &options);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_options_take(p->context, &ewa_view_options_table, given, &options));
     if (options.view > EWA_VIEW_ISO)
         return ewa_fail(p->context, EWA_ERROR_ARGUMENT, "view: %d is none of the named ones", options.view);
     ewa_framing *framing = NULL;
     ewa_view_info own;
-    status = ewa_framing_create(outline, radius_scale, &framing);
+    ewa_status status = ewa_framing_create(outline, radius_scale, &framing);
     p->options = &options;
     p->framing = framing;
     if (status == EWA_OK) status = place_by_framing(p, camera, info ? info : &own);
@@ -252,8 +250,7 @@ ewa_status ewa_cloud_place_camera(const ewa_cloud *cloud, double radius_scale, e
 
 ewa_status ewa_scene_set_camera(ewa_scene *scene, const ewa_camera *camera) {
     if (!scene) return EWA_ERROR_ARGUMENT;
-    const ewa_status status = camera ? ewa_camera_check(scene->context, camera) : EWA_OK;
-    if (status != EWA_OK) return status;
+    if (camera) EWA_TRY(ewa_camera_check(scene->context, camera));
     scene->has_camera = camera != NULL;
     if (camera) scene->camera = *camera;
     return EWA_OK;

@@ -17,10 +17,9 @@ ewa_status ewa_bins_start(ewa_context *context, ewa_bins *bins, const ewa_pipeli
                           const ewa_view *view, const ewa_surfels *surfels) {
     const size_t stride = surfels->bounds_stride;
     enum { STREAMS = offsetof(ewa_packet_places, lanes) / sizeof(float *) };
-    ewa_status status = ewa_buffer_reserve(context, &bins->places_buffer, STREAMS * stride, sizeof(float));
-    if (status == EWA_OK && view->section_count)
-        status = ewa_buffer_reserve(context, &bins->lanes_buffer, 2 * stride, sizeof(uint16_t));
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_buffer_reserve(context, &bins->places_buffer, STREAMS * stride, sizeof(float)));
+    if (view->section_count)
+        EWA_TRY(ewa_buffer_reserve(context, &bins->lanes_buffer, 2 * stride, sizeof(uint16_t)));
     float *places = bins->places_buffer.data;
     uint16_t *lanes = view->section_count ? bins->lanes_buffer.data : NULL;
     bins->places = (ewa_packet_places){places,

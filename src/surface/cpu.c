@@ -56,10 +56,8 @@ static ewa_status draw_tiles(cpu_state *cpu, ewa_tile_job *job, const ewa_render
     const uint32_t side_px = job->tiles.side_px, first_row = frame->first_row_px / side_px,
                    end_row = (frame->end_row_px + side_px - 1) / side_px;
     job->first_tile = first_row * job->tiles.columns;
-    ewa_status status = EWA_OK;
-    for (uint32_t i = 0; i < cpu->worker_count && status == EWA_OK; i++)
-        status = ewa_tile_scratch_reserve(cpu->context, &cpu->scratch[i], job);
-    if (status != EWA_OK) return status;
+    for (uint32_t i = 0; i < cpu->worker_count; i++)
+        EWA_TRY(ewa_tile_scratch_reserve(cpu->context, &cpu->scratch[i], job));
     return ewa_parallel_stoppable(cpu->context, "render", ewa_tile_draw, job,
                                   (end_row - first_row) * job->tiles.columns);
 }
@@ -72,12 +70,10 @@ static ewa_status draw(void *state, const ewa_render_job *frame, ewa_render_stat
     for (uint32_t i = 0; i < frame->source_count; i++) splat_count += frame->sources[i].surfels->count;
     const uint32_t side_px = frame->tile_px ? frame->tile_px : tile_side_px(&frame->camera, splat_count);
     ewa_tile_job job;
-    ewa_status status = ewa_tile_job_make(context, &cpu->room, frame, side_px, &job);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_tile_job_make(context, &cpu->room, frame, side_px, &job));
     job.scratch = cpu->scratch;
     const double binned_s = ewa_now_s();
-    status = draw_tiles(cpu, &job, frame);
-    if (status != EWA_OK) return status;
+    EWA_TRY(draw_tiles(cpu, &job, frame));
     uint64_t broken = 0;
     for (uint32_t i = 0; i < cpu->worker_count; i++) broken += cpu->scratch[i].broken_pixel_count;
     ewa_job_finish(context, &cpu->room, frame, broken);

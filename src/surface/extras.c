@@ -146,9 +146,9 @@ static ewa_status set_clips(ewa_context *context, work *w) {
 ewa_status ewa_extras_make(ewa_context *context, ewa_surfels *surfels, const ewa_surfel_reader *reader,
                            const uint32_t *order) {
     work w = {surfels, reader, order};
-    ewa_status status = set_opacities(context, &w);
-    if (status == EWA_OK) status = set_materials(context, &w);
-    return status == EWA_OK ? set_clips(context, &w) : status;
+    EWA_TRY(set_opacities(context, &w));
+    EWA_TRY(set_materials(context, &w));
+    return set_clips(context, &w);
 }
 
 void ewa_extras_free(ewa_context *context, ewa_surfels *surfels) {

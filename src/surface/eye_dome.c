@@ -16,9 +16,8 @@ static ewa_status set_dome(ewa_context *context, ewa_eye_dome_pass *pass, const 
     const size_t width = camera->width_px, height = camera->height_px;
     const size_t key_stride =
         (width + 2 * EWA_EYE_DOME_REACH + 2 * (EWA_BLOCK_LANES - 1)) / EWA_BLOCK_LANES * EWA_BLOCK_LANES;
-    const ewa_status status = ewa_buffer_reserve(
-        context, &pass->keys, (height + 2 * EWA_EYE_DOME_REACH) * key_stride, sizeof(float));
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_buffer_reserve(context, &pass->keys, (height + 2 * EWA_EYE_DOME_REACH) * key_stride,
+                               sizeof(float)));
     pass->eye_dome = (ewa_eye_dome){
         .width_px = camera->width_px,
         .height_px = camera->height_px,
@@ -40,16 +39,13 @@ static ewa_status set_dome(ewa_context *context, ewa_eye_dome_pass *pass, const 
 ewa_status ewa_eye_dome_pass_start(ewa_context *context, ewa_eye_dome_pass *pass, const ewa_camera *camera,
                                    const ewa_frame *frame, ewa_render_options *options, ewa_frame *drawn) {
     const size_t pixel_count = (size_t)camera->width_px * camera->height_px;
-    ewa_status status = EWA_OK;
-    if (!frame->depth) status = ewa_buffer_reserve(context, &pass->depth, pixel_count, sizeof(float));
-    if (status == EWA_OK && !frame->rgba)
-        status = ewa_buffer_reserve(context, &pass->surfaces, 4 * pixel_count, sizeof(float));
-    if (status != EWA_OK) return status;
+    if (!frame->depth) EWA_TRY(ewa_buffer_reserve(context, &pass->depth, pixel_count, sizeof(float)));
+    if (!frame->rgba) EWA_TRY(ewa_buffer_reserve(context, &pass->surfaces, 4 * pixel_count, sizeof(float)));
     *drawn = *frame;
     drawn->rgba8 = NULL;
     if (!drawn->depth) drawn->depth = pass->depth.data;
     if (!drawn->rgba) drawn->rgba = pass->surfaces.data;
-    status = set_dome(context, pass, camera, options->eye_dome, options->background, drawn, frame);
+    ewa_status status = set_dome(context, pass, camera, options->eye_dome, options->background, drawn, frame);
     memset(options->background, 0, sizeof options->background);
     return status;
 }

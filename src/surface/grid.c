@@ -15,11 +15,8 @@ ewa_status ewa_grid_reserve(ewa_context *context, ewa_grid *grid, uint64_t group
         return ewa_fail(context, EWA_ERROR_LIMIT, "%llu samples are more than a renderer holds",
                         (unsigned long long)(packet_count * LANES));
     ewa_surfels *s = &grid->surfels;
-    ewa_status status =
-        ewa_buffer_reserve(context, &grid->packet_buffer, (size_t)packet_count, sizeof *s->packets);
-    if (status == EWA_OK)
-        status = ewa_buffer_reserve(context, &grid->bounds_buffer, (size_t)packet_count, EWA_BOUNDS_BYTES);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_buffer_reserve(context, &grid->packet_buffer, (size_t)packet_count, sizeof *s->packets));
+    EWA_TRY(ewa_buffer_reserve(context, &grid->bounds_buffer, (size_t)packet_count, EWA_BOUNDS_BYTES));
     grid->kernels = EWA_CHOOSE(ewa_context_cpu_features(context), ewa_pack_kernels);
     *s = (ewa_surfels){
         .context = context,

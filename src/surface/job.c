@@ -13,9 +13,7 @@
 static ewa_status reserve_sources(ewa_context *context, ewa_job_room *room, uint32_t count) {
     const uint32_t before = room->source_count;
     if (count <= before) return EWA_OK;
-    const ewa_status status =
-        ewa_buffer_grow(context, &room->sources, before, count, sizeof(ewa_tile_source));
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_buffer_grow(context, &room->sources, before, count, sizeof(ewa_tile_source)));
     ewa_tile_source *sources = room->sources.data;
     memset(sources + before, 0, (count - before) * sizeof *sources);
     room->source_count = count;
@@ -102,9 +100,7 @@ static int compare_sources(const void *a, const void *b) {
 /// Orders the sources that have something to draw: what is in front saves looking at what it hides.
 static ewa_status order_sources(ewa_context *context, ewa_job_room *room, ewa_tile_job *job,
                                 const ewa_render_job *frame, const ewa_scales *scales) {
-    const ewa_status status =
-        ewa_buffer_reserve(context, &room->order, frame->source_count, sizeof(source_order));
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_buffer_reserve(context, &room->order, frame->source_count, sizeof(source_order)));
     source_order *order = room->order.data;
     job->source_count = 0;
     job->all_hide = true;
@@ -125,34 +121,30 @@ static ewa_status set_views(ewa_context *context, ewa_job_room *room, ewa_tile_j
     ewa_tile_source *sources = job->sources;
     const ewa_camera *camera = &frame->camera;
     *scales = ewa_scales_make(frame->sources, frame->source_count, camera, &frame->options);
-    ewa_status status = order_sources(context, room, job, frame, scales);
-    if (status == EWA_OK)
-        status = ewa_view_set(context, &job->view, NULL, camera, &frame->options, scales, job->tiles.side_px);
+    EWA_TRY(order_sources(context, room, job, frame, scales));
+    EWA_TRY(ewa_view_set(context, &job->view, NULL, camera, &frame->options, scales, job->tiles.side_px));
     const source_order *order = room->order.data;
-    for (uint32_t i = 0; i < job->source_count && status == EWA_OK; i++) {
+    for (uint32_t i = 0; i < job->source_count; i++) {
         const ewa_frame_source *source = &frame->sources[order[i].index];
         sources[i].surfels = source->surfels;
         sources[i].hides = source->hides;
-        status = ewa_view_set(context, &sources[i].view, source, camera, &frame->options, scales,
-                              job->tiles.side_px);
+        EWA_TRY(ewa_view_set(context, &sources[i].view, source, camera, &frame->options, scales,
+                             job->tiles.side_px));
     }
-    return status;
+    return EWA_OK;
 }
 
 /// Which tiles see what of each source.
 static ewa_status fill_bins(ewa_context *context, ewa_job_room *room, ewa_tile_job *job) {
-    ewa_status status =
-        ewa_buffer_reserve(context, &room->requests, job->source_count, sizeof(ewa_bin_request));
+    EWA_TRY(ewa_buffer_reserve(context, &room->requests, job->source_count, sizeof(ewa_bin_request)));
     ewa_bin_request *requests = room->requests.data;
-    for (uint32_t i = 0; i < job->source_count && status == EWA_OK; i++) {
+    for (uint32_t i = 0; i < job->source_count; i++) {
         ewa_tile_source *source = &job->sources[i];
-        status = ewa_bins_start(context, &source->bins, job->kernels, &source->view, source->surfels);
-        if (status == EWA_OK) requests[i] = ewa_bins_request(&source->bins);
+        EWA_TRY(ewa_bins_start(context, &source->bins, job->kernels, &source->view, source->surfels));
+        requests[i] = ewa_bins_request(&source->bins);
     }
-    if (status == EWA_OK)
-        status = ewa_bin_lists_fill_all(context, &room->bins, requests, job->source_count, job->tiles.columns,
-                                        job->tiles.rows);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_bin_lists_fill_all(context, &room->bins, requests, job->source_count, job->tiles.columns,
+                                   job->tiles.rows));
     for (uint32_t tile = 0; tile < ewa_tiles_count(&job->tiles); tile++) {
         uint64_t count = 0;
         for (uint32_t i = 0; i < job->source_count; i++) {
@@ -190,7 +182,7 @@ ewa_status ewa_tile_job_make(ewa_context *context, ewa_job_room *room, const ewa
     if (status == EWA_OK && room->with_eye_dome)
         status = ewa_eye_dome_pass_start(context, &room->eye_dome, &frame->camera, &frame->frame, &options,
                                          &drawn);
-    if (status != EWA_OK) return status;
+    EWA_TRY(status);
     *job = (ewa_tile_job){.kernels = room->eye_dome.kernels,
                           .sources = room->sources.data,
                           .tiles = ewa_tiles_make(frame->camera.width_px, frame->camera.height_px, side_px),
@@ -198,11 +190,9 @@ ewa_status ewa_tile_job_make(ewa_context *context, ewa_job_room *room, const ewa
                           .with_depth = drawn.depth != NULL,
                           .count_fragments = frame->count_fragments};
     ewa_scales scales;
-    status = set_views(context, room, job, frame, &scales);
-    if (status != EWA_OK) return status;
+    EWA_TRY(set_views(context, room, job, frame, &scales));
     set_channels(job, frame, &options, &scales, &drawn);
-    status = fill_bins(context, room, job);
-    if (status != EWA_OK) return status;
+    EWA_TRY(fill_bins(context, room, job));
     for (uint32_t i = 0; i < frame->source_count; i++)
         job->with_clips |= frame->sources[i].surfels->with_clips && options.point_size_px == 0;
     for (uint32_t i = 0; i < job->source_count; i++) {

@@ -432,8 +432,7 @@ static ewa_status allocate_level(level_job *job) {
     ewa_surfels *coarse = job->coarse;
     ewa_context *context = coarse->context;
     const size_t packets = coarse->packet_count, lanes = packets * LANES;
-    const ewa_status status = ewa_packets_allocate(coarse, coarse->packet_count);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_packets_allocate(coarse, coarse->packet_count));
     job->lane_counts = ewa_allocate(context, packets, sizeof *job->lane_counts);
     if (fine->opacities) coarse->opacities = ewa_allocate(context, lanes, sizeof *coarse->opacities);
     if (fine->materials) coarse->materials = ewa_allocate(context, lanes, sizeof *coarse->materials);
@@ -506,8 +505,8 @@ static ewa_status make_level(ewa_surfels *fine, double growth) {
 ewa_status ewa_levels_make(ewa_surfels *surfels, uint32_t level_count) {
     for (uint32_t level = 1; level < level_count; level++) {
         // What grew once stays grown: areas add up.
-        const ewa_status status = make_level(surfels, level == 1 ? EWA_LEVEL_GROWTH : 1);
-        if (status != EWA_OK || !surfels->coarser) return status;
+        EWA_TRY(make_level(surfels, level == 1 ? EWA_LEVEL_GROWTH : 1));
+        if (!surfels->coarser) return EWA_OK;
         surfels = surfels->coarser;
     }
     return EWA_OK;

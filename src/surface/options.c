@@ -107,10 +107,9 @@ static ewa_status check_materials(ewa_context *context, const ewa_render_options
     if (!options->materials != !options->material_count)
         return ewa_fail(context, EWA_ERROR_ARGUMENT, "options: material_count is %u %s materials",
                         options->material_count, options->materials ? "with" : "without");
-    ewa_status status = EWA_OK;
-    for (uint32_t i = 0; status == EWA_OK && i < options->material_count; i++)
-        status = ewa_material_check(context, "options", i, &options->materials[i]);
-    return status;
+    for (uint32_t i = 0; i < options->material_count; i++)
+        EWA_TRY(ewa_material_check(context, "options", i, &options->materials[i]));
+    return EWA_OK;
 }
 
 ewa_status ewa_option_check_sections(ewa_context *context, const double planes[][4], uint32_t count) {
@@ -127,16 +126,15 @@ ewa_status ewa_option_check_sections(ewa_context *context, const double planes[]
 }
 
 static ewa_status check_together(ewa_context *context, const ewa_render_options *options) {
-    ewa_status status = ewa_option_check_lights(context, options->lights, options->light_count);
-    if (status == EWA_OK) status = check_materials(context, options);
-    if (status == EWA_OK) status = ewa_option_check_background(context, options->background);
-    if (status == EWA_OK)
-        status = ewa_option_check_sections(context, (const double(*)[4])options->section_planes,
-                                           options->section_count);
+    EWA_TRY(ewa_option_check_lights(context, options->lights, options->light_count));
+    EWA_TRY(check_materials(context, options));
+    EWA_TRY(ewa_option_check_background(context, options->background));
+    EWA_TRY(ewa_option_check_sections(context, (const double(*)[4])options->section_planes,
+                                      options->section_count));
     const double *up = options->environment_up;
-    if (status == EWA_OK && up[0] == 0 && up[1] == 0 && up[2] == 0)
-        status = ewa_fail(context, EWA_ERROR_ARGUMENT, "options: environment_up is 0, 0, 0: no direction");
-    return status;
+    if (up[0] == 0 && up[1] == 0 && up[2] == 0)
+        return ewa_fail(context, EWA_ERROR_ARGUMENT, "options: environment_up is 0, 0, 0: no direction");
+    return EWA_OK;
 }
 
 void ewa_surfels_options_init(ewa_surfels_options *options, size_t struct_size) {

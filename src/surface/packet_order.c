@@ -80,7 +80,7 @@ ewa_status ewa_packet_order_make(ewa_context *context, const ewa_surfel_reader *
         status = ewa_morton_order_in(context, reader->position, count, box, room, order->points, split_level);
     if (status == EWA_OK) status = order_ties(context, reader, split_level, count, order->points);
     ewa_release(context, split_level, count, sizeof *split_level);
-    if (status != EWA_OK) return status;
+    EWA_TRY(status);
     if (drawable_count < count) {
         uint32_t kept = 0;
         for (uint32_t i = 0; i < count; i++)

@@ -274,16 +274,13 @@ static ewa_status build_surfels(build *b, ewa_context *context) {
     if (b->are_discs) set_color_codes(b);
     ewa_surfels *s = b->surfels;
     const uint32_t count = (uint32_t)b->point_count;
-    ewa_status status = ewa_packets_allocate(s, (uint32_t)(((uint64_t)s->count + LANES - 1) / LANES));
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_packets_allocate(s, (uint32_t)(((uint64_t)s->count + LANES - 1) / LANES)));
     // The sort may use the packets' memory before there are packets.
     const bool fits = s->packet_count * sizeof *s->packets >= ewa_morton_room_bytes(count);
-    status = ewa_packet_order_make(context, &b->reader, count, b->drawable, s->count, &s->extent,
-                                   fits ? s->packets : NULL, &b->order);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_packet_order_make(context, &b->reader, count, b->drawable, s->count, &s->extent,
+                                  fits ? s->packets : NULL, &b->order));
     s->unit = choose_unit(b);
-    status = encode(b, context);
-    if (status != EWA_OK) return status;
+    EWA_TRY(encode(b, context));
     s->unit_coverage = ewa_packets_unit_coverage(s);
     ewa_packets_sum_up(s);
     return ewa_extras_make(context, s, &b->reader, b->order.points);
@@ -296,8 +293,7 @@ ewa_status ewa_surfels_create(const ewa_cloud *cloud, const ewa_surfels_options 
     if (!cloud) return EWA_ERROR_ARGUMENT;
     ewa_context *context = ewa_cloud_context(cloud);
     ewa_surfels_options chosen;
-    ewa_status status = ewa_surfels_options_choose(context, options, &chosen);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_surfels_options_choose(context, options, &chosen));
     build *b = ewa_allocate_zeroed(context, 1, sizeof *b);
     ewa_surfels *made = ewa_allocate_zeroed(context, 1, sizeof *made);
     if (!b || !made) {
@@ -311,7 +307,7 @@ ewa_status ewa_surfels_create(const ewa_cloud *cloud, const ewa_surfels_options 
     b->point_count = ewa_cloud_point_count(cloud);
     b->parts =
         b->point_count / READ_BLOCK + 1 < MAX_PARTS ? (uint32_t)(b->point_count / READ_BLOCK + 1) : MAX_PARTS;
-    status = ewa_surfel_reader_open(cloud, &chosen, &b->reader);
+    ewa_status status = ewa_surfel_reader_open(cloud, &chosen, &b->reader);
     if (status == EWA_OK && b->point_count > UINT32_MAX - LANES)
         status = ewa_fail(context, EWA_ERROR_LIMIT, "%llu points are more than a renderer holds",
                           (unsigned long long)b->point_count);

@@ -67,9 +67,8 @@ ewa_status ewa_render_begin(ewa_renderer *renderer, const ewa_camera *camera,
     ewa_render_job *job = &renderer->job;
     renderer->begun = false;
     *job = (ewa_render_job){.camera = *camera, .frame = *frame, .tile_px = renderer->tile_px};
-    ewa_status status = ewa_render_options_choose(renderer->context, options, &job->options);
-    if (status == EWA_OK) status = ewa_camera_check(renderer->context, camera);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_render_options_choose(renderer->context, options, &job->options));
+    EWA_TRY(ewa_camera_check(renderer->context, camera));
     ewa_shading_setup_make(&job->options, &job->shading);
     job->end_row_px = camera->height_px;
     renderer->begun = true;
@@ -97,11 +96,9 @@ ewa_status ewa_render_add_source(ewa_renderer *renderer, const ewa_surfels *surf
         return ewa_fail(renderer->context, EWA_ERROR_ARGUMENT, "render: a weight of %g is not in (0, 1]",
                         how->weight);
     ewa_render_job *job = &renderer->job;
-    ewa_status status = check_source(renderer, surfels);
-    if (status == EWA_OK)
-        status = ewa_buffer_grow(renderer->context, &renderer->sources, job->source_count,
-                                 (size_t)job->source_count + 1, sizeof(ewa_frame_source));
-    if (status != EWA_OK) return status;
+    EWA_TRY(check_source(renderer, surfels));
+    EWA_TRY(ewa_buffer_grow(renderer->context, &renderer->sources, job->source_count,
+                            (size_t)job->source_count + 1, sizeof(ewa_frame_source)));
     ewa_frame_source *sources = renderer->sources.data;
     sources[job->source_count++] =
         (ewa_frame_source){surfels, how->weight, how->hides || job->options.passes == 1};
@@ -189,8 +186,7 @@ ewa_status ewa_render_finish(ewa_renderer *renderer, ewa_render_stats *stats) {
     level = take_level(renderer, level);
     ewa_render_stats took;
     job->count_fragments = stats != NULL;
-    const ewa_status status = renderer->backend->draw(renderer->state, job, &took);
-    if (status != EWA_OK) return status;
+    EWA_TRY(renderer->backend->draw(renderer->state, job, &took));
     took.level = level;
     if (job->end_row_px - job->first_row_px == job->camera.height_px) learn(renderer, &took);
     if (stats) *stats = took;
@@ -200,7 +196,7 @@ ewa_status ewa_render_finish(ewa_renderer *renderer, ewa_render_stats *stats) {
 ewa_status ewa_render(ewa_renderer *renderer, const ewa_surfels *surfels, const ewa_camera *camera,
                       const ewa_render_options *options, const ewa_frame *frame, ewa_render_stats *stats) {
     if (!surfels) return EWA_ERROR_ARGUMENT;
-    ewa_status status = ewa_render_begin(renderer, camera, options, frame);
-    if (status == EWA_OK) status = ewa_render_add(renderer, surfels);
-    return status == EWA_OK ? ewa_render_finish(renderer, stats) : status;
+    EWA_TRY(ewa_render_begin(renderer, camera, options, frame));
+    EWA_TRY(ewa_render_add(renderer, surfels));
+    return ewa_render_finish(renderer, stats);
 }

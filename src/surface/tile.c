@@ -98,9 +98,7 @@ ewa_status ewa_tile_scratch_reserve(ewa_context *context, ewa_tile_scratch *s, c
         {&s->split_buffer, job->source_count, sizeof *s->split},
     };
     for (size_t i = 0; i < sizeof needs / sizeof needs[0]; i++) {
-        const ewa_status status =
-            ewa_buffer_reserve(context, needs[i].buffer, needs[i].count, needs[i].size_bytes);
-        if (status != EWA_OK) return status;
+        EWA_TRY(ewa_buffer_reserve(context, needs[i].buffer, needs[i].count, needs[i].size_bytes));
     }
     s->records = s->record_buffer.data;
     s->loads = s->load_buffer.data;

@@ -93,8 +93,9 @@ static ewa_status draw_all(ewa_texture_plan *plan, texture_job *job, ewa_texture
     const uint32_t tile_count = ewa_tiles_count(&job->tiles);
     const uint32_t worker_count = ewa_context_worker_count(plan->context);
     const ewa_texture_method method = plan->options.method;
-    ewa_status status = ewa_progress(plan->context, "texture", 0);
-    if (status == EWA_OK && (method == EWA_TEXTURE_HYBRID || method == EWA_TEXTURE_POINT)) {
+    EWA_TRY(ewa_progress(plan->context, "texture", 0));
+    ewa_status status = EWA_OK;
+    if (method == EWA_TEXTURE_HYBRID || method == EWA_TEXTURE_POINT) {
         const double started_s = ewa_now_s();
         ewa_parallel(plan->context, measure_tile, job, tile_count);
         uint8_t *wanted = job->workspaces[0].wanted;
@@ -110,7 +111,7 @@ static ewa_status draw_all(ewa_texture_plan *plan, texture_job *job, ewa_texture
         stats->levels_s = ewa_now_s() - started_s;
     }
     if (status == EWA_OK) status = ewa_progress(plan->context, "texture", 0.3);
-    if (status != EWA_OK) return status;
+    EWA_TRY(status);
     ewa_parallel(plan->context, draw_tile, job, tile_count);
     for (uint32_t k = 0; k < worker_count; k++) {
         const ewa_texture_counts *counts = &job->workspaces[k].brush.counts;
@@ -127,8 +128,7 @@ ewa_status ewa_texture_map(ewa_context *context, const ewa_texture_source *sourc
                            ewa_texture_stats *stats) {
     const double started_s = ewa_now_s();
     ewa_texture_plan plan;
-    ewa_status status = ewa_texture_plan_make(context, source, map, options, target, &plan);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_texture_plan_make(context, source, map, options, target, &plan));
     plan.flat = plan.options.method == EWA_TEXTURE_SPLAT;
     const uint32_t worker_count = ewa_context_worker_count(context);
     workspace *workspaces = ewa_allocate(context, worker_count, sizeof *workspaces);
@@ -146,7 +146,7 @@ ewa_status ewa_texture_map(ewa_context *context, const ewa_texture_source *sourc
     texture_job job = {&plan, workspaces,
                        ewa_tiles_make(target->width_px, target->height_px, EWA_TEXTURE_TILE)};
     ewa_texture_stats counted = {0};
-    status = draw_all(&plan, &job, &counted);
+    ewa_status status = draw_all(&plan, &job, &counted);
     ewa_texture_levels_free(&plan);
     ewa_release(context, workspaces, worker_count, sizeof *workspaces);
     counted.total_s = ewa_now_s() - started_s;

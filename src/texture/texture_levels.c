@@ -98,8 +98,7 @@ static ewa_status make_level(ewa_texture_plan *plan, uint32_t u, uint32_t v, ewa
     if ((u == 0 && v == 0) || plan->levels[u][v]) return EWA_OK;
     const bool along_v = v > 0 && (u == 0 || plan->levels[u][v - 1] || (!plan->levels[u - 1][v] && v >= u));
     level_task task = {plan, u, v, {along_v ? u : u - 1, along_v ? v - 1 : v}, NULL};
-    const ewa_status status = make_level(plan, task.from[0], task.from[1], stats);
-    if (status != EWA_OK) return status;
+    EWA_TRY(make_level(plan, task.from[0], task.from[1], stats));
     task.finer = plan->levels[task.from[0]][task.from[1]];
     plan->levels[u][v] = ewa_allocate(plan->context, level_texels(plan, u, v), 4 * sizeof(float));
     if (!plan->levels[u][v]) return EWA_ERROR_MEMORY;

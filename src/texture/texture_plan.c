@@ -73,11 +73,11 @@ static ewa_status check_rasters(ewa_context *context, const ewa_texture_source *
                                           source->width_px,
                                           source->height_px,
                                           source->stride_bytes};
-    ewa_status status = check_raster(context, "source", &looked_at);
-    if (status == EWA_OK) status = check_raster(context, "target", target);
-    if (status == EWA_OK && target->channel_count == 1 && source->channel_count != 1)
+    EWA_TRY(check_raster(context, "source", &looked_at));
+    EWA_TRY(check_raster(context, "target", target));
+    if (target->channel_count == 1 && source->channel_count != 1)
         return ewa_fail(context, EWA_ERROR_ARGUMENT, "texture: a grey target needs a grey source");
-    return status;
+    return EWA_OK;
 }
 
 /// Whether some texel of a source with alpha is not opaque.
@@ -196,23 +196,21 @@ ewa_status ewa_texture_plan_make(ewa_context *context, const ewa_texture_source 
         return ewa_fail(context, EWA_ERROR_ARGUMENT, "texture: an argument is NULL");
     ewa_texture_options chosen;
     ewa_texture_options_init(&chosen, sizeof chosen);
-    ewa_status status = ewa_options_take(context, &ewa_texture_options_table, options, &chosen);
-    if (status == EWA_OK && chosen.repeat && chosen.method == EWA_TEXTURE_SPLAT)
+    EWA_TRY(ewa_options_take(context, &ewa_texture_options_table, options, &chosen));
+    if (chosen.repeat && chosen.method == EWA_TEXTURE_SPLAT)
         return ewa_fail(context, EWA_ERROR_ARGUMENT,
                         "texture: splats alone cannot repeat a texture without end; hybrid can");
-    if (status == EWA_OK && chosen.background[3] > 1)
+    if (chosen.background[3] > 1)
         return ewa_fail(context, EWA_ERROR_ARGUMENT, "texture: background[3] is %g, allowed is [0, 1]",
                         (double)chosen.background[3]);
-    if (status == EWA_OK) status = check_rasters(context, source, target);
-    if (status != EWA_OK) return status;
+    EWA_TRY(check_rasters(context, source, target));
     memset(plan, 0, sizeof *plan);
     plan->context = context;
     plan->source = *source;
     plan->target = *target;
     plan->options = chosen;
     plan->with_alpha = source->channel_count == 4 && has_holes(source);
-    status = set_map(plan, map);
-    if (status != EWA_OK) return status;
+    EWA_TRY(set_map(plan, map));
     plan->tangent_w = chosen.sigma_texels * hypot(plan->map[0][2], plan->map[1][2]);
     set_edges(plan);
     ewa_texture_levels_describe(plan);
@@ -270,8 +268,7 @@ ewa_status ewa_texture_map_from_camera(ewa_context *context, uint32_t width_px, 
     if (!context) return EWA_ERROR_ARGUMENT;
     if (!camera || !origin_world || !across_world || !down_world || !map || width_px == 0 || height_px == 0)
         return ewa_fail(context, EWA_ERROR_ARGUMENT, "texture: no camera, no plane or an empty texture");
-    const ewa_status status = ewa_camera_check(context, camera);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_camera_check(context, camera));
     const double *vectors[3] = {across_world, down_world, origin_world};
     const double size[3] = {width_px, height_px, 1};
     ewa_mat3 seen;

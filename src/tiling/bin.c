@@ -123,12 +123,9 @@ static ewa_status start(ewa_context *context, const ewa_bin_request *request, ui
     const uint64_t bin_count = (uint64_t)columns * rows;
     const size_t stride =
         ((size_t)request->candidate_count + EWA_BIN_ALIGNMENT - 1) / EWA_BIN_ALIGNMENT * EWA_BIN_ALIGNMENT;
-    ewa_status status = ewa_buffer_reserve(context, &lists->item_buffer, 3 * stride + 1, sizeof(int32_t));
-    if (status == EWA_OK)
-        status = ewa_buffer_reserve(context, &lists->count_buffer, (bin_count + 1) * parts, sizeof(uint64_t));
-    if (status == EWA_OK)
-        status = ewa_buffer_reserve(context, &lists->start_buffer, bin_count + 1, sizeof(uint64_t));
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_buffer_reserve(context, &lists->item_buffer, 3 * stride + 1, sizeof(int32_t)));
+    EWA_TRY(ewa_buffer_reserve(context, &lists->count_buffer, (bin_count + 1) * parts, sizeof(uint64_t)));
+    EWA_TRY(ewa_buffer_reserve(context, &lists->start_buffer, bin_count + 1, sizeof(uint64_t)));
     int32_t *items = lists->item_buffer.data;
     uint64_t *counts = lists->count_buffer.data;
     *job = (bin_job){.lists = lists,
@@ -157,20 +154,17 @@ static ewa_status fill(ewa_context *context, const ewa_bin_request *requests, ui
     for (uint32_t i = 0; i < all->count; i++) {
         const uint32_t parts =
             part_count(requests[i].candidate_count, (uint64_t)columns * rows, workers, all->count);
-        const ewa_status status = start(context, &requests[i], columns, rows, parts, &all->jobs[i]);
-        if (status != EWA_OK) return status;
+        EWA_TRY(start(context, &requests[i], columns, rows, parts, &all->jobs[i]));
         all->jobs[i].first_task = all->task_count;
         all->task_count += parts;
         stoppable |= parts > workers;
     }
-    ewa_status status = run(context, count_part, all, stoppable);
-    if (status != EWA_OK) return status;
+    EWA_TRY(run(context, count_part, all, stoppable));
     ewa_parallel(context, place, all, all->count);
     for (uint32_t i = 0; i < all->count; i++) {
         bin_job *job = &all->jobs[i];
         ewa_bin_lists *lists = job->lists;
-        status = ewa_buffer_reserve(context, &lists->id_buffer, job->id_count, sizeof *job->ids);
-        if (status != EWA_OK) return status;
+        EWA_TRY(ewa_buffer_reserve(context, &lists->id_buffer, job->id_count, sizeof *job->ids));
         lists->starts = lists->start_buffer.data;
         lists->ids = job->ids = lists->id_buffer.data;
     }
@@ -180,8 +174,7 @@ static ewa_status fill(ewa_context *context, const ewa_bin_request *requests, ui
 ewa_status ewa_bin_lists_fill_all(ewa_context *context, ewa_buffer *room, const ewa_bin_request *requests,
                                   uint32_t count, uint32_t columns, uint32_t rows) {
     if (count == 0) return EWA_OK;
-    const ewa_status status = ewa_buffer_reserve(context, room, count, sizeof(bin_job));
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_buffer_reserve(context, room, count, sizeof(bin_job)));
     return fill(context, requests, columns, rows, &(bin_jobs){.jobs = room->data, .count = count});
 }
 

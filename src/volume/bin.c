@@ -187,9 +187,8 @@ ewa_status ewa_volume_bins_fill(ewa_context *context, ewa_volume_bins *bins, con
                                 const ewa_camera *camera) {
     const uint32_t worker_count = ewa_context_worker_count(context);
     const size_t worker_bytes = sizeof(bin_facts) + slices->count * sizeof(uint32_t);
-    ewa_status status = ewa_buffer_reserve(context, &bins->found, level->block_count, sizeof(ewa_block_view));
-    if (status == EWA_OK) status = ewa_buffer_reserve(context, &bins->workers, worker_count, worker_bytes);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_buffer_reserve(context, &bins->found, level->block_count, sizeof(ewa_block_view)));
+    EWA_TRY(ewa_buffer_reserve(context, &bins->workers, worker_count, worker_bytes));
     memset(bins->workers.data, 0, worker_count * worker_bytes);
     bin_job job = {.level = level,
                    .grid = grid,
@@ -202,13 +201,11 @@ ewa_status ewa_volume_bins_fill(ewa_context *context, ewa_volume_bins *bins, con
     job.expiries = (uint32_t *)(job.facts + worker_count);
     bins->views = job.views;
     bins->tiles = ewa_tiles_make(camera->width_px, camera->height_px, EWA_VOLUME_TILE_PX);
-    status = ewa_bin_lists_fill(context, &bins->by_slice, job.slice_columns,
-                                (slices->count + job.slice_columns - 1) / job.slice_columns,
-                                (uint32_t)level->block_count, find_blocks, &job);
-    if (status == EWA_OK)
-        status = ewa_bin_lists_fill(context, &bins->by_tile, bins->tiles.columns, bins->tiles.rows,
-                                    (uint32_t)bins->by_slice.item_count, find_tiles, &job);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_bin_lists_fill(context, &bins->by_slice, job.slice_columns,
+                               (slices->count + job.slice_columns - 1) / job.slice_columns,
+                               (uint32_t)level->block_count, find_blocks, &job));
+    EWA_TRY(ewa_bin_lists_fill(context, &bins->by_tile, bins->tiles.columns, bins->tiles.rows,
+                               (uint32_t)bins->by_slice.item_count, find_tiles, &job));
     ewa_parallel(context, measure_tile, &job, ewa_tiles_count(&bins->tiles));
     bins->culled_voxel_count = level->voxel_count;
     bins->longest_span = 0, bins->max_in_flight = 0;

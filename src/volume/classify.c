@@ -39,9 +39,8 @@ static ewa_status check_volume(ewa_context *context, const ewa_volume *volume) {
 
 ewa_status ewa_classifier_make(ewa_context *context, const ewa_volume *volume, const ewa_transfer *transfer,
                                ewa_classifier *classifier) {
-    ewa_status status = check_volume(context, volume);
-    if (status == EWA_OK) status = ewa_transfer_check(context, "transfer function", transfer);
-    if (status != EWA_OK) return status;
+    EWA_TRY(check_volume(context, volume));
+    EWA_TRY(ewa_transfer_check(context, "transfer function", transfer));
     const double *m = volume->index_to_world;
     ewa_classifier c = {.volume = volume, .transfer = transfer, .spacing_world = INFINITY};
     double longest = 0;

@@ -153,9 +153,8 @@ static ewa_status set_views(gaussian_job *job, const ewa_camera *camera, const e
     const ewa_mixture *mixture = job->mixture;
     const double unit = choose_unit(mixture);
     ewa_buffer *room = &job->renderer->views;
-    const ewa_status status =
-        ewa_buffer_reserve(job->renderer->context, room, mixture->splats_count, sizeof(ewa_gaussian_view));
-    if (status != EWA_OK) return status;
+    EWA_TRY(
+        ewa_buffer_reserve(job->renderer->context, room, mixture->splats_count, sizeof(ewa_gaussian_view)));
     ewa_gaussian_view *views = room->data;
     set_view(&job->view, NULL, unit, camera, options, &job->tiles);
     for (uint32_t i = 0; i < mixture->splats_count; i++) {
@@ -205,12 +204,10 @@ static ewa_status project_all(gaussian_job *job) {
                         (unsigned long long)splat_count, mixture->splats_count, EWA_SPLATS_MAX);
     job->part_count = (uint32_t)part_count;
     const size_t room = (size_t)job->part_count * PART_ROOM;
-    ewa_status status = ewa_buffer_reserve(context, &renderer->records, room, sizeof(ewa_gaussian_record));
-    if (status == EWA_OK) status = ewa_buffer_reserve(context, &renderer->keys, room, sizeof(uint32_t));
-    if (status == EWA_OK) status = ewa_buffer_reserve(context, &renderer->corners, 2 * room, sizeof(int32_t));
-    if (status == EWA_OK)
-        status = ewa_buffer_reserve(context, &renderer->parts, job->part_count, sizeof(gaussian_part));
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_buffer_reserve(context, &renderer->records, room, sizeof(ewa_gaussian_record)));
+    EWA_TRY(ewa_buffer_reserve(context, &renderer->keys, room, sizeof(uint32_t)));
+    EWA_TRY(ewa_buffer_reserve(context, &renderer->corners, 2 * room, sizeof(int32_t)));
+    EWA_TRY(ewa_buffer_reserve(context, &renderer->parts, job->part_count, sizeof(gaussian_part)));
     job->parts = renderer->parts.data;
     gaussian_part *part = job->parts;
     for (uint32_t set = 0; set < mixture->splats_count; set++)
@@ -235,9 +232,7 @@ static ewa_status sort_all(gaussian_job *job) {
     job->visible_count = 0;
     for (uint32_t i = 0; i < job->part_count; i++) job->visible_count += job->parts[i].found.count;
     const size_t room = job->visible_count;
-    const ewa_status status =
-        ewa_buffer_reserve(renderer->context, &renderer->order, 4 * room + 1, sizeof(uint32_t));
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_buffer_reserve(renderer->context, &renderer->order, 4 * room + 1, sizeof(uint32_t)));
     uint32_t *numbers = renderer->order.data, *keys = numbers + 2 * room, count = 0;
     for (uint32_t i = 0; i < job->part_count; i++) {
         memcpy(keys + count, job->parts[i].found.keys, job->parts[i].found.count * sizeof *keys);
@@ -280,9 +275,7 @@ static ewa_status reserve_scratch(ewa_context *context, gaussian_scratch *scratc
         {&scratch->sort_buffer, 1, sizeof(ewa_gaussian_sort_buffer)},
     };
     for (size_t i = 0; i < sizeof wanted / sizeof *wanted; i++) {
-        const ewa_status status =
-            ewa_buffer_reserve(context, wanted[i].buffer, wanted[i].count, wanted[i].size_bytes);
-        if (status != EWA_OK) return status;
+        EWA_TRY(ewa_buffer_reserve(context, wanted[i].buffer, wanted[i].count, wanted[i].size_bytes));
     }
     scratch->block_count = scratch->sorted_count = 0;
     return EWA_OK;
@@ -413,9 +406,8 @@ static ewa_status check_mixture(ewa_context *context, const ewa_mixture *mixture
             if (mixture->volumes[k].renderer == volume->renderer)
                 return ewa_fail(context, EWA_ERROR_ARGUMENT,
                                 "mixture: volumes %u and %u have the same renderer", k, i);
-        ewa_status status = ewa_volume_options_choose(context, volume->options, &chosen[i]);
-        if (status == EWA_OK) status = ewa_volume_level_check(context, volume->voxels, &chosen[i]);
-        if (status != EWA_OK) return status;
+        EWA_TRY(ewa_volume_options_choose(context, volume->options, &chosen[i]));
+        EWA_TRY(ewa_volume_level_check(context, volume->voxels, &chosen[i]));
     }
     return EWA_OK;
 }
@@ -461,24 +453,22 @@ static ewa_status draw_frame(gaussian_job *job, ewa_gaussian_stats *stats) {
         scratch->project_s = scratch->draw_s = 0;
         scratch->status = EWA_OK;
     }
-    ewa_status status = project_all(job);
+    EWA_TRY(project_all(job));
     const double projected_s = ewa_now_s();
-    if (status == EWA_OK) status = sort_all(job);
-    if (status == EWA_OK)
-        status = ewa_bin_lists_fill(context, &renderer->by_tile, job->tiles.columns, job->tiles.rows,
-                                    job->visible_count, find_tiles, job);
+    EWA_TRY(sort_all(job));
+    EWA_TRY(ewa_bin_lists_fill(context, &renderer->by_tile, job->tiles.columns, job->tiles.rows,
+                               job->visible_count, find_tiles, job));
     const double binned_s = ewa_now_s();
-    for (uint32_t i = 0; i < renderer->worker_count && status == EWA_OK; i++)
-        status = reserve_scratch(context, &renderer->scratch[i], renderer->by_tile.largest);
-    if (status == EWA_OK) status = draw_areas(job);
-    for (uint32_t i = 0; i < renderer->worker_count && status == EWA_OK; i++)
-        status = renderer->scratch[i].status;
-    if (status == EWA_OK && stats) gather_stats(job, start_s, binned_s - projected_s, stats);
-    for (uint32_t i = 0; i < job->mixture->volume_count && status == EWA_OK; i++) {
+    for (uint32_t i = 0; i < renderer->worker_count; i++)
+        EWA_TRY(reserve_scratch(context, &renderer->scratch[i], renderer->by_tile.largest));
+    EWA_TRY(draw_areas(job));
+    for (uint32_t i = 0; i < renderer->worker_count; i++) EWA_TRY(renderer->scratch[i].status);
+    if (stats) gather_stats(job, start_s, binned_s - projected_s, stats);
+    for (uint32_t i = 0; i < job->mixture->volume_count; i++) {
         const ewa_mixed_volume *volume = &job->mixture->volumes[i];
         if (volume->stats) ewa_volume_frame_measure(volume->renderer, &job->volumes[i], volume->stats);
     }
-    return status;
+    return EWA_OK;
 }
 
 ewa_status ewa_mixture_render(ewa_gaussian_renderer *renderer, const ewa_mixture *mixture,
@@ -489,11 +479,10 @@ ewa_status ewa_mixture_render(ewa_gaussian_renderer *renderer, const ewa_mixture
     const double start_s = ewa_now_s();
     ewa_gaussian_options chosen;
     ewa_volume_options volumes[EWA_MAX_MIXED_VOLUMES];
-    ewa_status status = ewa_gaussian_options_choose(context, options, &chosen);
-    if (status == EWA_OK) status = ewa_camera_check(context, camera);
-    if (status == EWA_OK) status = check_mixture(context, mixture, volumes);
-    if (status == EWA_OK) status = ewa_progress(context, "gaussians", 0);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_gaussian_options_choose(context, options, &chosen));
+    EWA_TRY(ewa_camera_check(context, camera));
+    EWA_TRY(check_mixture(context, mixture, volumes));
+    EWA_TRY(ewa_progress(context, "gaussians", 0));
 
     gaussian_job job = {.renderer = renderer,
                         .mixture = mixture,
@@ -506,11 +495,11 @@ ewa_status ewa_mixture_render(ewa_gaussian_renderer *renderer, const ewa_mixture
     ewa_volume_target_set(&job.target, camera, frame, &surface, chosen.background);
     ewa_ray_sections_make(&job.sections, camera, (const double(*)[4])chosen.section_planes,
                           chosen.section_count);
-    status = set_views(&job, camera, &chosen, frame->depth || frame->normal);
-    if (status == EWA_OK) status = make_volumes(&job, camera, &chosen, volumes);
-    if (status == EWA_OK) status = draw_frame(&job, stats);
-    if (status == EWA_OK && stats) stats->total_s = ewa_now_s() - start_s;
-    return status;
+    EWA_TRY(set_views(&job, camera, &chosen, frame->depth || frame->normal));
+    EWA_TRY(make_volumes(&job, camera, &chosen, volumes));
+    EWA_TRY(draw_frame(&job, stats));
+    if (stats) stats->total_s = ewa_now_s() - start_s;
+    return EWA_OK;
 }
 
 ewa_status ewa_gaussian_render(ewa_gaussian_renderer *renderer, const ewa_splats *splats,

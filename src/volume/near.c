@@ -103,11 +103,10 @@ ewa_status ewa_near_list_fill(ewa_context *context, ewa_near_list *list, const e
     if (room >= UINT32_MAX / 2)
         return ewa_fail(context, EWA_ERROR_MEMORY, "volume: %llu voxels at the eye",
                         (unsigned long long)room);
-    ewa_status status = ewa_buffer_reserve(context, &list->found, room, sizeof(ewa_near_voxel));
-    if (status == EWA_OK) status = ewa_buffer_reserve(context, &list->sorted, room, sizeof(ewa_near_voxel));
-    if (status == EWA_OK) status = ewa_buffer_reserve(context, &list->order, 2 * room, sizeof(uint32_t));
-    if (status == EWA_OK) status = ewa_buffer_reserve(context, &list->keys, 2 * room, sizeof(uint32_t));
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_buffer_reserve(context, &list->found, room, sizeof(ewa_near_voxel)));
+    EWA_TRY(ewa_buffer_reserve(context, &list->sorted, room, sizeof(ewa_near_voxel)));
+    EWA_TRY(ewa_buffer_reserve(context, &list->order, 2 * room, sizeof(uint32_t)));
+    EWA_TRY(ewa_buffer_reserve(context, &list->keys, 2 * room, sizeof(uint32_t)));
     ewa_near_voxel *voxels = list->found.data;
     const double reach = view->cutoff;
     for (uint64_t b = 0; b < level->block_count; b++) {

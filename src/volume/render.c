@@ -123,21 +123,19 @@ ewa_status ewa_volume_render(ewa_volume_renderer *renderer, const ewa_voxels *vo
     if (!renderer || !voxels || !camera || !frame) return EWA_ERROR_ARGUMENT;
     ewa_context *context = renderer->context;
     ewa_volume_options chosen;
-    ewa_status status = ewa_volume_options_choose(context, options, &chosen);
-    if (status == EWA_OK) status = ewa_camera_check(context, camera);
-    if (status == EWA_OK) status = ewa_volume_level_check(context, voxels, &chosen);
-    if (status == EWA_OK) status = ewa_progress(context, "volume", 0);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_volume_options_choose(context, options, &chosen));
+    EWA_TRY(ewa_camera_check(context, camera));
+    EWA_TRY(ewa_volume_level_check(context, voxels, &chosen));
+    EWA_TRY(ewa_progress(context, "volume", 0));
 
     ewa_volume_frame drawn;
-    status = ewa_volume_frame_make(renderer, voxels, camera, &chosen, stats != NULL, &drawn);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_volume_frame_make(renderer, voxels, camera, &chosen, stats != NULL, &drawn));
     ewa_volume_job *job = &drawn.job;
     job->view.with_depth = frame->depth || frame->normal;
     const ewa_surface_planes surface = EWA_SURFACE_PLANES_OF(&chosen);
     ewa_volume_target_set(&job->target, camera, frame, &surface, chosen.background);
-    status = ewa_parallel_stoppable(context, "volume", ewa_volume_tile_draw, job,
-                                    ewa_tiles_count(&renderer->bins.tiles));
-    if (status == EWA_OK && stats) ewa_volume_frame_measure(renderer, &drawn, stats);
-    return status;
+    EWA_TRY(ewa_parallel_stoppable(context, "volume", ewa_volume_tile_draw, job,
+                                   ewa_tiles_count(&renderer->bins.tiles)));
+    if (stats) ewa_volume_frame_measure(renderer, &drawn, stats);
+    return EWA_OK;
 }

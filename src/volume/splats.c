@@ -213,9 +213,9 @@ static ewa_status fill(ewa_splats *splats, const ewa_gaussians *set, const uint3
     splats->unit_world = choose_unit(set, order, splats->info.splat_count);
     memcpy(splats->origin_world, set->origin, sizeof splats->origin_world);
     build_job job = {set, order, splats};
-    const ewa_status status = ewa_parallel_stoppable(
-        context, "splats", build, &job, (uint32_t)((packets + PACKETS_PER_TASK - 1) / PACKETS_PER_TASK));
-    return status == EWA_OK ? measure(splats) : status;
+    EWA_TRY(ewa_parallel_stoppable(context, "splats", build, &job,
+                                   (uint32_t)((packets + PACKETS_PER_TASK - 1) / PACKETS_PER_TASK)));
+    return measure(splats);
 }
 
 ewa_status ewa_splats_create(const ewa_gaussians *gaussians, ewa_splats **splats) {

@@ -51,9 +51,7 @@ ewa_status ewa_volume_scratch_reserve(ewa_context *context, ewa_volume_scratch *
         return ewa_fail(context, EWA_ERROR_MEMORY, "volume: %llu voxels in one tile at a time",
                         (unsigned long long)job->bins->max_in_flight);
     for (size_t i = 0; i < sizeof wanted / sizeof *wanted; i++) {
-        const ewa_status status =
-            ewa_buffer_reserve(context, wanted[i].buffer, wanted[i].count, wanted[i].size_bytes);
-        if (status != EWA_OK) return status;
+        EWA_TRY(ewa_buffer_reserve(context, wanted[i].buffer, wanted[i].count, wanted[i].size_bytes));
     }
     scratch->hidden_count = scratch->splat_count = scratch->point_count = 0;
     scratch->setup_s = scratch->points_s = scratch->splats_s = scratch->resolve_s = 0;
@@ -242,9 +240,8 @@ static ewa_status take_layers(const ewa_volume_job *job, const ewa_volume_tile *
                               const layer_taker *taker) {
     if (!taker) return EWA_OK;
     const size_t count = taker->layers->count;
-    const ewa_status status = ewa_buffer_grow(taker->context, taker->room, count,
-                                              count + EWA_VOLUME_TILE_BLOCKS, sizeof(ewa_volume_layer));
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_buffer_grow(taker->context, taker->room, count, count + EWA_VOLUME_TILE_BLOCKS,
+                            sizeof(ewa_volume_layer)));
     taker->layers->layers = taker->room->data;
     job->kernels->take_layers(tile, (float)z, taker->layers);
     return EWA_OK;
@@ -311,8 +308,7 @@ void ewa_volume_tile_draw(void *data, uint32_t index, uint32_t worker) {
 ewa_status ewa_volume_tile_layers(ewa_context *context, const ewa_volume_job *job, uint32_t index,
                                   uint32_t worker, bool everything, const ewa_volume_layers **layers) {
     ewa_volume_scratch *scratch = &job->scratch[worker];
-    ewa_status status = ewa_buffer_reserve(context, &scratch->lists, 2, sizeof(ewa_volume_layers));
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_buffer_reserve(context, &scratch->lists, 2, sizeof(ewa_volume_layers)));
     ewa_volume_layers *lists = (ewa_volume_layers *)scratch->lists.data + everything;
     lists->count = 0;
     for (uint32_t block = 0; block < EWA_VOLUME_TILE_BLOCKS; block++) {
@@ -325,7 +321,7 @@ ewa_status ewa_volume_tile_layers(ewa_context *context, const ewa_volume_job *jo
     start_tile(job, scratch, index, everything, &tile);
     const layer_taker taker = {context, &scratch->layers[everything], lists};
     const uint64_t counts[3] = {scratch->hidden_count, scratch->splat_count, scratch->point_count};
-    status = composite_tile(job, scratch, &tile, index, &last_s, &taker);
+    ewa_status status = composite_tile(job, scratch, &tile, index, &last_s, &taker);
     if (everything) // the same voxels once more
         scratch->hidden_count = counts[0], scratch->splat_count = counts[1], scratch->point_count = counts[2];
     *layers = lists;

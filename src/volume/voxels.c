@@ -367,9 +367,8 @@ ewa_status ewa_voxels_create(const ewa_volume *volume, const ewa_transfer *trans
     ewa_context *context = volume->context;
     ewa_voxels_options chosen;
     ewa_classifier classifier;
-    ewa_status status = ewa_voxels_options_choose(context, options, &chosen);
-    if (status == EWA_OK) status = ewa_classifier_make(context, volume, transfer, &classifier);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_voxels_options_choose(context, options, &chosen));
+    EWA_TRY(ewa_classifier_make(context, volume, transfer, &classifier));
     ewa_voxels *made = ewa_allocate_zeroed(context, 1, sizeof *made);
     if (!made) return EWA_ERROR_MEMORY;
     made->context = context;
@@ -377,7 +376,7 @@ ewa_status ewa_voxels_create(const ewa_volume *volume, const ewa_transfer *trans
     made->color_scale = color_scale(transfer);
     memcpy(made->levels[0].dims, volume->dims, sizeof made->levels[0].dims);
     memcpy(made->levels[0].index_to_world, volume->index_to_world, sizeof volume->index_to_world);
-    status = build_levels(context, made, &classifier);
+    ewa_status status = build_levels(context, made, &classifier);
     if (status != EWA_OK) {
         ewa_voxels_destroy(&made);
         return status;

@@ -86,8 +86,7 @@ static ewa_status lay_out(ewa_warp *warp, const ewa_depth_image *images, uint32_
                           const ewa_warp_options *options, uint64_t *group_count, uint32_t *widest_px,
                           double origin_world[3]) {
     ewa_context *context = warp->context;
-    ewa_status status = ewa_buffer_reserve(context, &warp->source_buffer, count, sizeof *warp->sources);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_buffer_reserve(context, &warp->source_buffer, count, sizeof *warp->sources));
     warp->sources = warp->source_buffer.data;
     warp->strip_count = 0;
     *group_count = *widest_px = 0;
@@ -95,8 +94,7 @@ static ewa_status lay_out(ewa_warp *warp, const ewa_depth_image *images, uint32_
     for (uint32_t i = 0; i < count; i++) {
         ewa_warp_source *source = &warp->sources[i];
         *source = (ewa_warp_source){.first_group = *group_count, .first_strip = warp->strip_count};
-        status = ewa_depth_image_choose(context, i, &images[i], &source->image);
-        if (status != EWA_OK) return status;
+        EWA_TRY(ewa_depth_image_choose(context, i, &images[i], &source->image));
         const ewa_camera *camera = &source->image.camera;
         set_source(source, options);
         const ewa_vec3 eye = set_pose(camera, source->lens.from_camera);
@@ -339,18 +337,15 @@ static ewa_status reserve(taking *t, uint64_t group_count, uint32_t widest_px,
     enum { ROWS = MEASURED_ROWS + 5 * EWA_WARP_STRIP_PX + MEASURED_ROWS + 2 * EWA_WARP_REACH };
     ewa_warp *warp = t->warp;
     ewa_context *context = warp->context;
-    ewa_status status =
-        ewa_buffer_reserve(context, &warp->strip_buffer, warp->strip_count, sizeof *t->strips);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_buffer_reserve(context, &warp->strip_buffer, warp->strip_count, sizeof *t->strips));
     t->strips = warp->strip_buffer.data;
     for (int i = 0; i < 256; i++) t->codes[i] = ewa_color_unit_code((double)ewa_srgb_decoded[i]);
     t->grey_code = ewa_color_unit_code(EWA_DEFAULT_GREY);
     t->stride = EWA_WARP_FRONT + ((size_t)widest_px + 15) / 16 * 16 + EWA_WARP_BACK;
     t->floats_per_worker = ROWS * t->stride;
-    status = ewa_buffer_reserve(context, &warp->row_buffer, ewa_context_worker_count(context),
-                                t->floats_per_worker * sizeof(float));
-    if (status == EWA_OK) status = ewa_grid_reserve(context, &warp->grid, group_count, options->cutoff);
-    return status;
+    EWA_TRY(ewa_buffer_reserve(context, &warp->row_buffer, ewa_context_worker_count(context),
+                               t->floats_per_worker * sizeof(float)));
+    return ewa_grid_reserve(context, &warp->grid, group_count, options->cutoff);
 }
 
 ewa_status ewa_warp_create(ewa_context *context, ewa_warp **warp) {
@@ -462,9 +457,8 @@ static ewa_status draw_with_holes(ewa_warp *warp, const ewa_camera *target, cons
     const size_t pixel_count = (size_t)target->width_px * target->height_px;
     ewa_frame drawn = *frame;
     if (!drawn.rgba) {
-        const ewa_status status =
-            ewa_buffer_reserve(warp->context, &warp->surface_buffer, pixel_count, 4 * sizeof *drawn.rgba);
-        if (status != EWA_OK) return status;
+        EWA_TRY(
+            ewa_buffer_reserve(warp->context, &warp->surface_buffer, pixel_count, 4 * sizeof *drawn.rgba));
         drawn.rgba = warp->surface_buffer.data;
     }
     finishing f = {.frame = frame, .surfaces = drawn.rgba, .holes = holes, .pixel_count = pixel_count};
@@ -472,10 +466,9 @@ static ewa_status draw_with_holes(ewa_warp *warp, const ewa_camera *target, cons
     ewa_render_options over_nothing = *options;
     memset(over_nothing.background, 0, sizeof over_nothing.background);
     if (f.background[3] > 0) drawn.rgba8 = NULL;
-    const ewa_status status =
-        ewa_render(warp->renderer, &warp->grid.surfels, target, &over_nothing, &drawn, stats);
-    if (status == EWA_OK) ewa_parallel(warp->context, finish_part, &f, FINISH_PARTS);
-    return status;
+    EWA_TRY(ewa_render(warp->renderer, &warp->grid.surfels, target, &over_nothing, &drawn, stats));
+    ewa_parallel(warp->context, finish_part, &f, FINISH_PARTS);
+    return EWA_OK;
 }
 
 ewa_status ewa_warp_draw(ewa_warp *warp, const ewa_camera *target, ewa_warp_method method,
@@ -487,9 +480,8 @@ ewa_status ewa_warp_draw(ewa_warp *warp, const ewa_camera *target, ewa_warp_meth
         return ewa_fail(context, EWA_ERROR_ARGUMENT, "warp: no depth image was taken");
     ewa_render_options standard, chosen;
     ewa_warp_render_options_init(&standard, sizeof standard);
-    ewa_status status = ewa_render_options_choose(context, options ? options : &standard, &chosen);
-    if (status == EWA_OK) status = ewa_camera_check(context, target);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_render_options_choose(context, options ? options : &standard, &chosen));
+    EWA_TRY(ewa_camera_check(context, target));
     if (method == EWA_WARP_MCMILLAN) return ewa_warp_draw_nearest(warp, target, &chosen, frame, holes);
     if (method != EWA_WARP_HYBRID)
         return ewa_fail(context, EWA_ERROR_ARGUMENT, "warp: method %d is none of EWA_WARP_*", (int)method);

@@ -214,12 +214,10 @@ ewa_status ewa_warp_draw_nearest(ewa_warp *warp, const ewa_camera *target, const
         const size_t count = (size_t)camera->width_px * camera->height_px;
         maximum = count > maximum ? count : maximum;
     }
-    ewa_status status = ewa_buffer_reserve(context, &n->pixel_buffer, maximum, sizeof(uint32_t));
-    if (status == EWA_OK)
-        status = ewa_buffer_reserve(context, &n->winner_buffer, pixel_count, sizeof(uint32_t));
-    if (status == EWA_OK && warp->source_count > 1)
-        status = ewa_buffer_reserve(context, &n->layer_buffer, pixel_count, sizeof(uint32_t));
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_buffer_reserve(context, &n->pixel_buffer, maximum, sizeof(uint32_t)));
+    EWA_TRY(ewa_buffer_reserve(context, &n->winner_buffer, pixel_count, sizeof(uint32_t)));
+    if (warp->source_count > 1)
+        EWA_TRY(ewa_buffer_reserve(context, &n->layer_buffer, pixel_count, sizeof(uint32_t)));
     drawing d = {.warp = warp,
                  .target = target,
                  .options = options,

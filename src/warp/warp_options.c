@@ -63,11 +63,11 @@ void ewa_warp_render_options_init(ewa_render_options *options, size_t struct_siz
 ewa_status ewa_warp_options_choose(ewa_context *context, const ewa_warp_options *given,
                                    ewa_warp_options *chosen) {
     ewa_warp_options_init(chosen, sizeof *chosen);
-    const ewa_status status = ewa_options_take(context, &ewa_warp_options_table, given, chosen);
-    if (status == EWA_OK && !(chosen->nearest_world < chosen->farthest_world))
+    EWA_TRY(ewa_options_take(context, &ewa_warp_options_table, given, chosen));
+    if (!(chosen->nearest_world < chosen->farthest_world))
         return ewa_fail(context, EWA_ERROR_ARGUMENT, "ewa_warp_options: farthest_world is %g, not above %g",
                         chosen->farthest_world, chosen->nearest_world);
-    return status;
+    return EWA_OK;
 }
 
 static ewa_status fail_image(ewa_context *context, uint32_t number, const char *what) {
@@ -133,9 +133,8 @@ static ewa_status check_color(ewa_context *context, uint32_t number, const ewa_d
 ewa_status ewa_depth_image_choose(ewa_context *context, uint32_t number, const ewa_depth_image *given,
                                   ewa_depth_image *chosen) {
     *chosen = *given;
-    ewa_status status = ewa_camera_check(context, &chosen->camera);
-    if (status == EWA_OK) status = check_lens(context, number, &chosen->camera);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_camera_check(context, &chosen->camera));
+    EWA_TRY(check_lens(context, number, &chosen->camera));
     const size_t width = chosen->camera.width_px;
     const bool known = chosen->depth_type == EWA_U16 || chosen->depth_type == EWA_F32;
     if (chosen->depth_stride_bytes == 0 && known)
@@ -143,6 +142,6 @@ ewa_status ewa_depth_image_choose(ewa_context *context, uint32_t number, const e
     const bool known_color = chosen->color_type == EWA_U8 || chosen->color_type == EWA_F32;
     if (chosen->color_stride_bytes == 0 && known_color)
         chosen->color_stride_bytes = width * chosen->color_channel_count * ewa_type_bytes(chosen->color_type);
-    status = check_depth(context, number, chosen);
-    return status != EWA_OK ? status : check_color(context, number, chosen);
+    EWA_TRY(check_depth(context, number, chosen));
+    return check_color(context, number, chosen);
 }

@@ -89,8 +89,7 @@ static ewa_status add_lens(loader *in, uint32_t id, const model *kind, uint64_t 
         in->warned = true;
     }
     if (in->lens_count == in->lens_capacity) {
-        const ewa_status status = reserve_lenses(in, in->lens_capacity ? 2 * in->lens_capacity : 8);
-        if (status != EWA_OK) return status;
+        EWA_TRY(reserve_lenses(in, in->lens_capacity ? 2 * in->lens_capacity : 8));
     }
     // What does not fit stays out of range, for the check of the whole camera to name.
     in->lenses[in->lens_count++] = (lens){
@@ -214,8 +213,7 @@ static ewa_status read_text_lenses(loader *in, ewa_reader text) {
         for (int i = 0; i < kind->parameter_count; i++)
             if (!take_f64(&at, &parameters[i]))
                 return fail_at(in, "cameras.txt", "line", at.number, "parameter of the camera model wanted");
-        const ewa_status status = add_lens(in, id, kind, width, height, parameters);
-        if (status != EWA_OK) return status;
+        EWA_TRY(add_lens(in, id, kind, width, height, parameters));
     }
     return EWA_OK;
 }
@@ -231,8 +229,7 @@ static ewa_status read_text_images(loader *in, ewa_reader text) {
         if (!good || !take_u32(&at, &lens_id))
             return fail_at(in, "images.txt", "line", at.number,
                            "image id, quaternion, translation and camera id wanted");
-        const ewa_status status = add_image(in, id, pose, lens_id);
-        if (status != EWA_OK) return status;
+        EWA_TRY(add_image(in, id, pose, lens_id));
         next_line(&text, &at); // the image's points, possibly none: never looked at
     }
     return EWA_OK;
@@ -264,8 +261,8 @@ static ewa_status take_count(const loader *in, const char *file, ewa_reader *byt
 
 static ewa_status read_binary_lenses(loader *in, ewa_reader bytes) {
     uint64_t count;
-    ewa_status status = take_count(in, "cameras.bin", &bytes, LENS_MIN_BYTES, &count);
-    for (uint64_t i = 0; status == EWA_OK && i < count; i++) {
+    EWA_TRY(take_count(in, "cameras.bin", &bytes, LENS_MIN_BYTES, &count));
+    for (uint64_t i = 0; i < count; i++) {
         const uint64_t start = bytes.at_bytes;
         const uint32_t id = (uint32_t)take_unsigned(&bytes, 4);
         const uint64_t kind = take_unsigned(&bytes, 4), width = take_unsigned(&bytes, 8);
@@ -276,15 +273,15 @@ static ewa_status read_binary_lenses(loader *in, ewa_reader bytes) {
         for (int p = 0; !bytes.failed && p < MODELS[kind].parameter_count; p++)
             parameters[p] = take_double(&bytes);
         if (bytes.failed) return fail_at(in, "cameras.bin", "byte", start, "the file ends within a camera");
-        status = add_lens(in, id, &MODELS[kind], width, height, parameters);
+        EWA_TRY(add_lens(in, id, &MODELS[kind], width, height, parameters));
     }
-    return status;
+    return EWA_OK;
 }
 
 static ewa_status read_binary_images(loader *in, ewa_reader bytes) {
     uint64_t count;
-    ewa_status status = take_count(in, "images.bin", &bytes, IMAGE_MIN_BYTES, &count);
-    for (uint64_t i = 0; status == EWA_OK && i < count; i++) {
+    EWA_TRY(take_count(in, "images.bin", &bytes, IMAGE_MIN_BYTES, &count));
+    for (uint64_t i = 0; i < count; i++) {
         const uint64_t start = bytes.at_bytes;
         const uint32_t id = (uint32_t)take_unsigned(&bytes, 4);
         double pose[7];
@@ -296,9 +293,9 @@ static ewa_status read_binary_images(loader *in, ewa_reader bytes) {
         if (!bytes.failed && point_count > ewa_reader_left(&bytes) / POINT_BYTES) bytes.failed = true;
         if (!bytes.failed) ewa_reader_take(&bytes, point_count * POINT_BYTES);
         if (bytes.failed) return fail_at(in, "images.bin", "byte", start, "the file ends within an image");
-        status = add_image(in, id, pose, lens_id);
+        EWA_TRY(add_image(in, id, pose, lens_id));
     }
-    return status;
+    return EWA_OK;
 }
 
 ewa_status ewa_camera_list_read_colmap_memory(ewa_camera_list *list, bool is_text, const uint8_t *cameras,
@@ -334,9 +331,8 @@ ewa_status ewa_camera_list_read_colmap(ewa_camera_list *list, const char *folder
         return ewa_fail(list->context, EWA_ERROR_FORMAT,
                         "%s: a folder without a COLMAP model (cameras and images, .bin or .txt)", folder);
     ewa_file cameras, images = {0};
-    ewa_status status = ewa_file_map(list->context, cameras_path, &cameras);
-    if (status != EWA_OK) return status;
-    status = ewa_file_map(list->context, images_path, &images);
+    EWA_TRY(ewa_file_map(list->context, cameras_path, &cameras));
+    ewa_status status = ewa_file_map(list->context, images_path, &images);
     if (status == EWA_OK)
         status = ewa_camera_list_read_colmap_memory(list, is_text, cameras.bytes, cameras.size_bytes,
                                                     images.bytes, images.size_bytes);

@@ -20,9 +20,8 @@ static bool is_folder(const char *path) {
 static ewa_status read_list(ewa_camera_list *list, const char *path) {
     if (is_folder(path)) return ewa_camera_list_read_colmap(list, path);
     ewa_file file;
-    ewa_status status = ewa_file_map(list->context, path, &file);
-    if (status != EWA_OK) return status;
-    status = ewa_camera_list_read_json(list, path, file.bytes, file.size_bytes);
+    EWA_TRY(ewa_file_map(list->context, path, &file));
+    ewa_status status = ewa_camera_list_read_json(list, path, file.bytes, file.size_bytes);
     ewa_file_unmap(list->context, &file);
     return status;
 }
@@ -71,10 +70,9 @@ ewa_status ewa_camera_load_poses(ewa_context *context, const char *path, const e
                                  ewa_camera_callback *receive, void *user) {
     if (!context || !path || !lens || !receive) return EWA_ERROR_ARGUMENT;
     ewa_file file;
-    ewa_status status = ewa_file_map(context, path, &file);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_file_map(context, path, &file));
     ewa_camera_list list = {.context = context, .name = path};
-    status = ewa_camera_list_read_poses(&list, lens, file.bytes, file.size_bytes);
+    ewa_status status = ewa_camera_list_read_poses(&list, lens, file.bytes, file.size_bytes);
     ewa_file_unmap(context, &file);
     for (size_t i = 0; status == EWA_OK && i < list.count; i++) receive(user, (uint32_t)i, &list.cameras[i]);
     ewa_camera_list_free(&list);
@@ -115,10 +113,9 @@ void ewa_camera_write(ewa_writer *writer, const ewa_camera *camera) {
 
 ewa_status ewa_camera_save(ewa_context *context, const ewa_camera *camera, const char *path) {
     if (!context || !camera || !path) return EWA_ERROR_ARGUMENT;
-    ewa_status status = ewa_camera_check(context, camera);
+    EWA_TRY(ewa_camera_check(context, camera));
     ewa_writer *writer = NULL;
-    if (status == EWA_OK) status = ewa_writer_open(context, path, &writer);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_writer_open(context, path, &writer));
     ewa_camera_write(writer, camera);
     put_text(writer, "\n");
     return ewa_writer_commit(&writer);
@@ -127,11 +124,9 @@ ewa_status ewa_camera_save(ewa_context *context, const ewa_camera *camera, const
 ewa_status ewa_camera_save_list(ewa_context *context, const ewa_camera *cameras, size_t count,
                                 const char *path) {
     if (!context || !cameras || count == 0 || !path) return EWA_ERROR_ARGUMENT;
-    ewa_status status = EWA_OK;
-    for (size_t i = 0; i < count && status == EWA_OK; i++) status = ewa_camera_check(context, &cameras[i]);
+    for (size_t i = 0; i < count; i++) EWA_TRY(ewa_camera_check(context, &cameras[i]));
     ewa_writer *writer = NULL;
-    if (status == EWA_OK) status = ewa_writer_open(context, path, &writer);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_writer_open(context, path, &writer));
     for (size_t i = 0; i < count; i++) {
         put_text(writer, i ? ",\n" : "[\n");
         ewa_camera_write(writer, &cameras[i]);

@@ -48,8 +48,7 @@ static ewa_status read_optional(const source *in, const cJSON *object, const cha
 
 static ewa_status read_side(const source *in, const cJSON *object, const char *member, uint32_t *side_px) {
     double value = 0;
-    const ewa_status status = read_number(in, object, member, &value);
-    if (status != EWA_OK) return status;
+    EWA_TRY(read_number(in, object, member, &value));
     if (!(value >= 1 && value <= UINT32_MAX) || value != (double)(uint32_t)value)
         return fail_member(in, member, "is not a positive whole number");
     *side_px = (uint32_t)value;
@@ -57,8 +56,8 @@ static ewa_status read_side(const source *in, const cJSON *object, const char *m
 }
 
 static ewa_status read_size(const source *in, const cJSON *object, ewa_camera *camera) {
-    const ewa_status status = read_side(in, object, "width", &camera->width_px);
-    return status != EWA_OK ? status : read_side(in, object, "height", &camera->height_px);
+    EWA_TRY(read_side(in, object, "width", &camera->width_px));
+    return read_side(in, object, "height", &camera->height_px);
 }
 
 /// Appends the numbers of an array, nested or not, while there is room; false when anything else is in it or
@@ -99,15 +98,13 @@ static ewa_status read_native(const source *in, const cJSON *object) {
         else if (!text || strcmp(text, "perspective") != 0)
             return fail_member(in, "projection", "is neither \"perspective\" nor \"orthographic\"");
     }
-    ewa_status status = read_size(in, object, &camera);
-    if (status == EWA_OK) status = read_number(in, object, "fx", &camera.fx_px);
-    if (status == EWA_OK) status = read_number(in, object, "fy", &camera.fy_px);
-    if (status == EWA_OK) status = read_number(in, object, "cx", &camera.cx_px);
-    if (status == EWA_OK) status = read_number(in, object, "cy", &camera.cy_px);
-    if (status == EWA_OK)
-        status =
-            read_array(in, find(object, "world_to_camera"), "world_to_camera", 16, camera.world_to_camera);
-    return status != EWA_OK ? status : ewa_camera_list_add(in->list, in->where, &camera);
+    EWA_TRY(read_size(in, object, &camera));
+    EWA_TRY(read_number(in, object, "fx", &camera.fx_px));
+    EWA_TRY(read_number(in, object, "fy", &camera.fy_px));
+    EWA_TRY(read_number(in, object, "cx", &camera.cx_px));
+    EWA_TRY(read_number(in, object, "cy", &camera.cy_px));
+    EWA_TRY(read_array(in, find(object, "world_to_camera"), "world_to_camera", 16, camera.world_to_camera));
+    return ewa_camera_list_add(in->list, in->where, &camera);
 }
 
 /// INRIA: `rotation` and `position` are camera to world, the principal point is in the middle.
@@ -115,12 +112,11 @@ static ewa_status read_inria(const source *in, const cJSON *object) {
     ewa_camera camera;
     ewa_camera_init(&camera);
     double rotation[9], position[3];
-    ewa_status status = read_size(in, object, &camera);
-    if (status == EWA_OK) status = read_number(in, object, "fx", &camera.fx_px);
-    if (status == EWA_OK) status = read_number(in, object, "fy", &camera.fy_px);
-    if (status == EWA_OK) status = read_array(in, find(object, "rotation"), "rotation", 9, rotation);
-    if (status == EWA_OK) status = read_array(in, find(object, "position"), "position", 3, position);
-    if (status != EWA_OK) return status;
+    EWA_TRY(read_size(in, object, &camera));
+    EWA_TRY(read_number(in, object, "fx", &camera.fx_px));
+    EWA_TRY(read_number(in, object, "fy", &camera.fy_px));
+    EWA_TRY(read_array(in, find(object, "rotation"), "rotation", 9, rotation));
+    EWA_TRY(read_array(in, find(object, "position"), "position", 3, position));
     camera.cx_px = 0.5 * camera.width_px;
     camera.cy_px = 0.5 * camera.height_px;
     ewa_camera_set_inverse(&camera, rotation, position);
@@ -134,10 +130,8 @@ static const double OPEN3D_SHIFT_PX = 0.5;
 /// Open3D's PinholeCameraIntrinsic; the matrix is column-major.
 static ewa_status read_open3d_lens(const source *in, const cJSON *intrinsic, ewa_camera *camera) {
     double k[9];
-    ewa_status status = read_size(in, intrinsic, camera);
-    if (status == EWA_OK)
-        status = read_array(in, find(intrinsic, "intrinsic_matrix"), "intrinsic_matrix", 9, k);
-    if (status != EWA_OK) return status;
+    EWA_TRY(read_size(in, intrinsic, camera));
+    EWA_TRY(read_array(in, find(intrinsic, "intrinsic_matrix"), "intrinsic_matrix", 9, k));
     if (k[3] != 0) return fail_member(in, "intrinsic_matrix", "is skewed");
     camera->fx_px = k[0];
     camera->fy_px = k[4];
@@ -153,9 +147,8 @@ static ewa_status read_open3d(const source *in, const cJSON *object) {
     const cJSON *intrinsic = find(object, "intrinsic");
     if (!intrinsic) return fail_member(in, "intrinsic", "is missing");
     double extrinsic[16];
-    ewa_status status = read_open3d_lens(in, intrinsic, &camera);
-    if (status == EWA_OK) status = read_array(in, find(object, "extrinsic"), "extrinsic", 16, extrinsic);
-    if (status != EWA_OK) return status;
+    EWA_TRY(read_open3d_lens(in, intrinsic, &camera));
+    EWA_TRY(read_array(in, find(object, "extrinsic"), "extrinsic", 16, extrinsic));
     for (int r = 0; r < 4; r++)
         for (int c = 0; c < 4; c++) camera.world_to_camera[4 * r + c] = extrinsic[4 * c + r];
     return ewa_camera_list_add(in->list, in->where, &camera);
@@ -168,8 +161,8 @@ static ewa_status read_lens_alone(const source *in, const cJSON *intrinsic) {
                         "%s: holds an intrinsic matrix only: member 'extrinsic' is missing", in->list->name);
     ewa_camera camera;
     ewa_camera_init(&camera);
-    const ewa_status status = read_open3d_lens(in, intrinsic, &camera);
-    return status != EWA_OK ? status : ewa_camera_list_add(in->list, in->where, &camera);
+    EWA_TRY(read_open3d_lens(in, intrinsic, &camera));
+    return ewa_camera_list_add(in->list, in->where, &camera);
 }
 
 /// Calls `read` for each object of an array.
@@ -180,8 +173,7 @@ static ewa_status read_each(source *in, const cJSON *array, const char *member,
     const cJSON *item;
     cJSON_ArrayForEach(item, array) {
         snprintf(in->where, sizeof in->where, "%s[%zu]", member, index++);
-        const ewa_status status = read(in, item);
-        if (status != EWA_OK) return status;
+        EWA_TRY(read(in, item));
     }
     return EWA_OK;
 }
@@ -190,24 +182,21 @@ static ewa_status read_each(source *in, const cJSON *array, const char *member,
 static ewa_status read_stacks(source *in, const cJSON *object, const cJSON *matrices) {
     ewa_camera camera;
     ewa_camera_init(&camera);
-    ewa_status status = read_size(in, object, &camera);
-    if (status != EWA_OK) return status;
+    EWA_TRY(read_size(in, object, &camera));
     const cJSON *intrinsics = find(object, "Ks");
     if (!cJSON_IsArray(intrinsics)) return fail_member(in, "Ks", "is missing or not an array");
     const cJSON *matrix = matrices->child, *intrinsic = intrinsics->child;
     for (size_t index = 0; matrix; matrix = matrix->next, intrinsic = intrinsic->next, index++) {
         snprintf(in->where, sizeof in->where, "camera %zu", index);
         double k[9];
-        status = read_array(in, matrix, matrices->string, 16, camera.world_to_camera);
-        if (status == EWA_OK) status = read_array(in, intrinsic, "Ks", 9, k);
-        if (status != EWA_OK) return status;
+        EWA_TRY(read_array(in, matrix, matrices->string, 16, camera.world_to_camera));
+        EWA_TRY(read_array(in, intrinsic, "Ks", 9, k));
         if (k[1] != 0) return fail_member(in, "Ks", "is skewed");
         camera.fx_px = k[0];
         camera.fy_px = k[4];
         camera.cx_px = k[2];
         camera.cy_px = k[5];
-        status = ewa_camera_list_add(in->list, in->where, &camera);
-        if (status != EWA_OK) return status;
+        EWA_TRY(ewa_camera_list_add(in->list, in->where, &camera));
     }
     return EWA_OK;
 }
@@ -232,12 +221,11 @@ static ewa_status read_picture_size(const source *in, const cJSON *frame, ewa_ca
     }
     if (!found) return fail_member(in, "w", "is missing, and so is the frame's picture");
     ewa_file file;
-    ewa_status status = ewa_file_map(in->list->context, path, &file);
-    if (status != EWA_OK) return status;
-    status = ewa_png_recognise(file.bytes, file.size_bytes)
-                 ? ewa_png_size(in->list->context, path, file.bytes, file.size_bytes, &camera->width_px,
-                                &camera->height_px)
-                 : fail_member(in, "w", "is missing, and the frame's picture is not PNG");
+    EWA_TRY(ewa_file_map(in->list->context, path, &file));
+    ewa_status status = ewa_png_recognise(file.bytes, file.size_bytes)
+                            ? ewa_png_size(in->list->context, path, file.bytes, file.size_bytes,
+                                           &camera->width_px, &camera->height_px)
+                            : fail_member(in, "w", "is missing, and the frame's picture is not PNG");
     ewa_file_unmap(in->list->context, &file);
     return status;
 }
@@ -262,15 +250,13 @@ static ewa_status read_frame_lens(const source *in, const cJSON *root, const cJS
                         {"camera_angle_x", &angle_x},
                         {"camera_angle_y", &angle_y}};
         for (size_t i = 0; i < sizeof optional / sizeof optional[0]; i++) {
-            const ewa_status status = read_optional(in, object, optional[i].member, optional[i].value);
-            if (status != EWA_OK) return status;
+            EWA_TRY(read_optional(in, object, optional[i].member, optional[i].value));
         }
         has_centre_x |= find(object, "cx") != NULL;
         has_centre_y |= find(object, "cy") != NULL;
     }
     if (width == 0 && height == 0) {
-        const ewa_status status = read_picture_size(in, frame, camera);
-        if (status != EWA_OK) return status;
+        EWA_TRY(read_picture_size(in, frame, camera));
     } else {
         if (!(width >= 1 && width <= UINT32_MAX && height >= 1 && height <= UINT32_MAX) ||
             width != (double)(uint32_t)width || height != (double)(uint32_t)height)
@@ -299,8 +285,7 @@ static ewa_status check_lens_model(const source *in, const cJSON *root) {
     static const char *const distortions[] = {"k1", "k2", "k3", "k4", "p1", "p2"};
     for (size_t i = 0; i < sizeof distortions / sizeof distortions[0]; i++) {
         double value = 0;
-        const ewa_status status = read_optional(in, root, distortions[i], &value);
-        if (status != EWA_OK) return status;
+        EWA_TRY(read_optional(in, root, distortions[i], &value));
         if (value == 0) continue;
         ewa_report(in->list->context, EWA_SEVERITY_WARNING, "%s: lens distortion (%s = %g) is left out",
                    in->list->name, distortions[i], value);
@@ -313,27 +298,25 @@ static ewa_status check_lens_model(const source *in, const cJSON *root) {
 static ewa_status read_transforms(source *in, const cJSON *root, const cJSON *frames) {
     if (!cJSON_IsArray(frames) || !frames->child)
         return fail_member(in, "frames", "is not an array of frames");
-    ewa_status status = check_lens_model(in, root);
+    EWA_TRY(check_lens_model(in, root));
     size_t index = 0;
     const cJSON *frame;
     cJSON_ArrayForEach(frame, frames) {
-        if (status != EWA_OK) return status;
         snprintf(in->where, sizeof in->where, "frames[%zu]", index++);
         ewa_camera camera;
         ewa_camera_init(&camera);
         double matrix[16];
-        status = read_array(in, find(frame, "transform_matrix"), "transform_matrix", 16, matrix);
-        if (status == EWA_OK) status = read_frame_lens(in, root, frame, &camera);
-        if (status != EWA_OK) return status;
+        EWA_TRY(read_array(in, find(frame, "transform_matrix"), "transform_matrix", 16, matrix));
+        EWA_TRY(read_frame_lens(in, root, frame, &camera));
         double rotation[9], centre[3];
         for (int r = 0; r < 3; r++) {
             for (int c = 0; c < 3; c++) rotation[3 * r + c] = c == 0 ? matrix[4 * r] : -matrix[4 * r + c];
             centre[r] = matrix[4 * r + 3];
         }
         ewa_camera_set_inverse(&camera, rotation, centre);
-        status = ewa_camera_list_add(in->list, in->where, &camera);
+        EWA_TRY(ewa_camera_list_add(in->list, in->where, &camera));
     }
-    return status;
+    return EWA_OK;
 }
 
 /// One camera of an array at the top: ours or INRIA's.
@@ -364,10 +347,9 @@ ewa_status ewa_camera_list_read_tree(ewa_camera_list *list, const cJSON *root) {
 ewa_status ewa_camera_list_read_json(ewa_camera_list *list, const char *path, const uint8_t *bytes,
                                      size_t size_bytes) {
     cJSON *root;
-    ewa_status status = ewa_json_parse(list->context, list->name, "a camera file", bytes, size_bytes, &root);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_json_parse(list->context, list->name, "a camera file", bytes, size_bytes, &root));
     source in = {.list = list, .path = path};
-    status = read_root(&in, root);
+    ewa_status status = read_root(&in, root);
     cJSON_Delete(root);
     return status;
 }

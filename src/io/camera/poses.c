@@ -78,8 +78,7 @@ static ewa_status read_matrix(text *in, const ewa_camera *lens, const double fir
     memcpy(row, first, 4 * sizeof *row);
     for (int r = 0; r < MATRIX_ROWS; r++) {
         int count = 4;
-        const ewa_status status = r > 0 ? read_line(in, row, &count) : EWA_OK;
-        if (status != EWA_OK) return status;
+        if (r > 0) EWA_TRY(read_line(in, row, &count));
         if (count != 4) return fail_line(in, "four numbers of a 4 x 4 matrix wanted");
         if (r == 3) break;
         memcpy(rotation + 3 * r, row, 3 * sizeof *row);
@@ -97,16 +96,14 @@ ewa_status ewa_camera_list_read_poses(ewa_camera_list *list, const ewa_camera *l
     for (;;) {
         double numbers[MAX_NUMBERS];
         int count;
-        ewa_status status = read_line(&in, numbers, &count);
-        if (status != EWA_OK) return status;
+        EWA_TRY(read_line(&in, numbers, &count));
         if (count == 0) break;
         if (count == 8 && !headed)
-            status = add_quaternion(&in, lens, numbers);
+            EWA_TRY(add_quaternion(&in, lens, numbers));
         else if (count == 4)
-            status = read_matrix(&in, lens, numbers);
+            EWA_TRY(read_matrix(&in, lens, numbers));
         else if (count > HEADER_NUMBERS || headed)
-            status = fail_line(&in, "neither a row of a 4 x 4 matrix nor time, position and quaternion");
-        if (status != EWA_OK) return status;
+            return fail_line(&in, "neither a row of a 4 x 4 matrix nor time, position and quaternion");
         headed = count <= HEADER_NUMBERS;
     }
     if (list->count == 0 || headed)

@@ -27,9 +27,9 @@ static ewa_status load(ewa_context *context, const uint8_t *bytes, size_t size_b
                                      .size_bytes = size_bytes,
                                      .options = &options,
                                      .lost_count = &lost_count};
-    const ewa_status status = ewa_cloud_read_all(&source, format, cloud);
-    if (status == EWA_OK) ewa_cloud_settle(*cloud);
-    return status;
+    EWA_TRY(ewa_cloud_read_all(&source, format, cloud));
+    ewa_cloud_settle(*cloud);
+    return EWA_OK;
 }
 
 ewa_status ewa_cloud_load_memory(ewa_context *context, const void *bytes, size_t size_bytes, const char *name,
@@ -43,11 +43,10 @@ ewa_status ewa_cloud_load(ewa_context *context, const char *path, ewa_cloud **cl
     if (!context || !path || !cloud) return EWA_ERROR_ARGUMENT;
     *cloud = NULL;
     ewa_file file;
-    ewa_status status = ewa_file_map(context, path, &file);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_file_map(context, path, &file));
     const bool stream = strcmp(path, "-") == 0;
-    status = load(context, file.bytes, file.size_bytes, stream ? "standard input" : path,
-                  stream ? NULL : path, cloud);
+    ewa_status status = load(context, file.bytes, file.size_bytes, stream ? "standard input" : path,
+                             stream ? NULL : path, cloud);
     ewa_file_unmap(context, &file);
     return status;
 }
@@ -55,11 +54,10 @@ ewa_status ewa_cloud_load(ewa_context *context, const char *path, ewa_cloud **cl
 ewa_status ewa_ply_describe(ewa_context *context, const char *path, ewa_line_callback *line, void *user) {
     if (!context || !path || !line) return EWA_ERROR_ARGUMENT;
     ewa_file file;
-    ewa_status status = ewa_file_map(context, path, &file);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_file_map(context, path, &file));
     const ewa_ply_source source = {context, path, file.bytes, file.size_bytes};
     ewa_ply_header *header = ewa_allocate(context, 1, sizeof *header);
-    status = header ? ewa_ply_header_read(&source, header) : EWA_ERROR_MEMORY;
+    ewa_status status = header ? ewa_ply_header_read(&source, header) : EWA_ERROR_MEMORY;
     if (status == EWA_OK) ewa_ply_header_lines(&source, header, line, user);
     ewa_release(context, header, 1, sizeof *header);
     ewa_file_unmap(context, &file);
@@ -73,11 +71,9 @@ ewa_status ewa_cloud_save(const ewa_cloud *cloud, const char *path, const ewa_cl
     const bool measured = format && format->needs_bounds && ewa_cloud_find(cloud, EWA_POSITION) &&
                           ewa_cloud_measure(cloud, &bounds) == EWA_OK;
     ewa_cloud_writer *writer = NULL;
-    ewa_status status =
-        ewa_cloud_writer_open(ewa_cloud_context(cloud), path, options, cloud, ewa_cloud_point_count(cloud),
-                              measured ? &bounds : NULL, &writer);
-    if (status != EWA_OK) return status;
-    status = ewa_cloud_writer_put(writer, cloud);
+    EWA_TRY(ewa_cloud_writer_open(ewa_cloud_context(cloud), path, options, cloud,
+                                  ewa_cloud_point_count(cloud), measured ? &bounds : NULL, &writer));
+    ewa_status status = ewa_cloud_writer_put(writer, cloud);
     if (status == EWA_OK) return ewa_cloud_writer_commit(&writer);
     ewa_cloud_writer_abort(&writer);
     return status;

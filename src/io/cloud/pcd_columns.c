@@ -210,12 +210,11 @@ static ewa_status add_other(const ewa_cloud_source *source, const ewa_pcd_field 
             if (is_spelt(field->name, names[i].spelling))
                 snprintf(attribute, sizeof attribute, "%s", names[i].attribute);
     if (field->count <= 4) return add(source, field, attribute, 0, field->count, columns, count);
-    ewa_status status = EWA_OK;
-    for (uint32_t e = 0; e < field->count && status == EWA_OK; e++) {
+    for (uint32_t e = 0; e < field->count; e++) {
         snprintf(attribute + length, sizeof attribute - (size_t)length, "_%u", e);
-        status = add(source, field, attribute, e, 1, columns, count);
+        EWA_TRY(add(source, field, attribute, e, 1, columns, count));
     }
-    return status;
+    return EWA_OK;
 }
 
 ewa_status ewa_pcd_columns_map(const ewa_cloud_source *source, const ewa_pcd_header *header,

@@ -184,8 +184,7 @@ ewa_status ewa_pcd_header_read(const ewa_cloud_source *source, ewa_pcd_header *h
         if (r.cursor.at == r.cursor.end)
             return ewa_fail(source->context, EWA_ERROR_FORMAT, "%s: the PCD header has no line DATA",
                             source->name);
-        const ewa_status status = read_line(&r);
-        if (status != EWA_OK) return status;
+        EWA_TRY(read_line(&r));
         while (r.cursor.at < r.cursor.end && !ewa_is_line_end(*r.cursor.at)) r.cursor.at++;
         ewa_cursor_step_line(&r.cursor);
     }

@@ -116,8 +116,7 @@ static ewa_status open_compressed(pcd_state *state) {
         return ewa_fail(context, EWA_ERROR_FORMAT, "%s: byte %llu: %llu bytes cannot unpack to %llu",
                         source->name, (unsigned long long)at, (unsigned long long)packed_bytes,
                         (unsigned long long)bytes);
-    const ewa_status status = place_columns(state, bytes);
-    if (status != EWA_OK) return status;
+    EWA_TRY(place_columns(state, bytes));
     state->unpacked = ewa_allocate(context, bytes, 1);
     if (!state->unpacked) return EWA_ERROR_MEMORY;
     state->unpacked_bytes = bytes;
@@ -199,40 +198,37 @@ static ewa_status set_notes(const pcd_state *state, ewa_cloud *prototype) {
     int length =
         snprintf(text, sizeof text, "PCD %.*s %s", (int)(h->version.length < 16 ? h->version.length : 16),
                  h->version.chars, kinds[h->data]);
-    ewa_status status = ewa_cloud_set_note(prototype, "file.format", text, (size_t)length);
-    if (status == EWA_OK && h->height > 1 && h->width > 1) {
+    EWA_TRY(ewa_cloud_set_note(prototype, "file.format", text, (size_t)length));
+    if (h->height > 1 && h->width > 1) {
         length = snprintf(text, sizeof text, "%llu x %llu", (unsigned long long)h->width,
                           (unsigned long long)h->height);
-        status = ewa_cloud_set_note(prototype, "file.organised", text, (size_t)length);
+        EWA_TRY(ewa_cloud_set_note(prototype, "file.organised", text, (size_t)length));
     }
-    if (status == EWA_OK && state->invalid_count) {
+    if (state->invalid_count) {
         length = snprintf(text, sizeof text, "%llu of %llu points have no place and are left out",
                           (unsigned long long)state->invalid_count, (unsigned long long)h->point_count);
-        status = ewa_cloud_set_note(prototype, "file.invalid", text, (size_t)length);
+        EWA_TRY(ewa_cloud_set_note(prototype, "file.invalid", text, (size_t)length));
     }
     static const double identity[7] = {0, 0, 0, 1, 0, 0, 0};
-    if (status == EWA_OK && memcmp(h->viewpoint, identity, sizeof identity) != 0) {
+    if (memcmp(h->viewpoint, identity, sizeof identity) != 0) {
         const double *v = h->viewpoint;
         length = snprintf(text, sizeof text, "%.17g %.17g %.17g", v[0], v[1], v[2]);
-        status = ewa_cloud_set_note(prototype, "scanners", text, (size_t)length);
+        EWA_TRY(ewa_cloud_set_note(prototype, "scanners", text, (size_t)length));
     }
-    return status;
+    return EWA_OK;
 }
 
 static ewa_status open_points(pcd_state *state) {
     const ewa_cloud_source *source = state->source;
     ewa_pcd_header *header = &state->header;
     ewa_pcd_records *records = &state->records;
-    ewa_status status = ewa_pcd_header_read(source, header);
-    if (status == EWA_OK)
-        status = ewa_pcd_columns_map(source, header, state->columns, &records->column_count);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_pcd_header_read(source, header));
+    EWA_TRY(ewa_pcd_columns_map(source, header, state->columns, &records->column_count));
     records->columns = state->columns;
     if (header->data == EWA_PCD_ASCII)
         return ewa_pcd_text_open(source, header, state->columns, records->column_count, &state->text,
                                  &state->invalid_count);
-    status = header->data == EWA_PCD_BINARY ? open_binary(state) : open_compressed(state);
-    if (status != EWA_OK) return status;
+    EWA_TRY(header->data == EWA_PCD_BINARY ? open_binary(state) : open_compressed(state));
     look_at_colors(state);
     count_invalid(state);
     return EWA_OK;

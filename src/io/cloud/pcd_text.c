@@ -404,8 +404,7 @@ static ewa_status look_ahead(ewa_pcd_text *text, ewa_pcd_column *columns, uint64
     ewa_pcd_colors colors = {0, 0};
     uint64_t invalid = 0;
     while (text->points_left && text->at < text->end) {
-        const ewa_status status = next_wave(text, true);
-        if (status != EWA_OK) return status;
+        EWA_TRY(next_wave(text, true));
         for (uint32_t i = 0; i < text->chunk_count; i++) {
             const chunk *c = &text->chunks[i];
             ewa_pcd_records records = text->records;

@@ -309,9 +309,7 @@ static ewa_status finish(void *opened) {
     if (state->target->point_count != EWA_POINTS_UNKNOWN) return EWA_OK;
     char text[COUNT_DIGITS + 1];
     const int length = snprintf(text, sizeof text, "%llu", (unsigned long long)state->written_count);
-    const ewa_status status =
-        ewa_writer_patch(state->target->writer, state->width_at_bytes, text, (size_t)length);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_writer_patch(state->target->writer, state->width_at_bytes, text, (size_t)length));
     return ewa_writer_patch(state->target->writer, state->points_at_bytes, text, (size_t)length);
 }
 

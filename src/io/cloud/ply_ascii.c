@@ -328,8 +328,7 @@ static ewa_status read_by_line(const ewa_ply_source *source, const ewa_ply_heade
             if (!job.regular[chunk]) return EWA_OK;
         job.first = chunk_start(&job, count);
         const double done = (double)(job.first - (const char *)source->bytes) / (double)source->size_bytes;
-        const ewa_status status = ewa_progress(source->context, "read", done);
-        if (status != EWA_OK) return status;
+        EWA_TRY(ewa_progress(source->context, "read", done));
     }
     if (job.after) *at = (uint64_t)(job.after - (const char *)source->bytes);
     *regular = job.after != NULL;

@@ -76,9 +76,7 @@ static ewa_status walk_record(const ewa_ply_source *source, const ewa_ply_header
         bytes = ewa_reader_take(reader, wanted);
         if (!bytes) return fail_truncated(source, element, index, reader->at_bytes, wanted);
         if (!lists) continue;
-        const ewa_status status =
-            keep_list(source, property->type, ewa_ply_is_swapped(header), bytes, count, index, lists++);
-        if (status != EWA_OK) return status;
+        EWA_TRY(keep_list(source, property->type, ewa_ply_is_swapped(header), bytes, count, index, lists++));
     }
     return EWA_OK;
 }
@@ -91,8 +89,7 @@ ewa_status ewa_ply_binary_skip(const ewa_ply_source *source, const ewa_ply_heade
     }
     ewa_reader reader = {.bytes = source->bytes, .size_bytes = source->size_bytes, .at_bytes = *at};
     for (uint64_t i = 0; i < element->count; i++) {
-        const ewa_status status = walk_record(source, header, element, i, &reader, NULL, NULL);
-        if (status != EWA_OK) return status;
+        EWA_TRY(walk_record(source, header, element, i, &reader, NULL, NULL));
     }
     *at = reader.at_bytes;
     return EWA_OK;
@@ -151,9 +148,8 @@ static ewa_status read_with_lists(const ewa_ply_source *source, const ewa_ply_he
     for (uint64_t first = 0; first < element->count;) {
         const uint64_t count = element->count - first < block ? element->count - first : block;
         for (uint64_t i = 0; i < count; i++) {
-            const ewa_status status = walk_record(source, header, element, first + i, &reader,
-                                                  records + i * element->record_bytes, sink->lists);
-            if (status != EWA_OK) return status;
+            EWA_TRY(walk_record(source, header, element, first + i, &reader,
+                                records + i * element->record_bytes, sink->lists));
         }
         ewa_ply_sink_put(sink, first, records, element->record_bytes, count);
         first += count;

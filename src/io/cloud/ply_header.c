@@ -197,22 +197,19 @@ ewa_status ewa_ply_header_read(const ewa_ply_source *source, ewa_ply_header *hea
             reader.at_bytes = reader.size_bytes;
         line.length = (size_t)length;
         const uint32_t word_count = split(line, words);
-        ewa_status status = EWA_OK;
         if (word_count == 0 || ewa_text_is(words[0], "comment") || ewa_text_is(words[0], "obj_info"))
             continue;
         if (ewa_text_is(words[0], "end_header")) break;
         if (ewa_text_is(words[0], "format")) {
-            status = read_format(source, header, words, word_count, &format_known);
+            EWA_TRY(read_format(source, header, words, word_count, &format_known));
         } else if (ewa_text_is(words[0], "element")) {
-            status = read_element(source, header, words, word_count);
+            EWA_TRY(read_element(source, header, words, word_count));
         } else if (ewa_text_is(words[0], "property")) {
-            status = read_property(source, header, words, word_count);
+            EWA_TRY(read_property(source, header, words, word_count));
         } else {
             char quote[EWA_QUOTE_BYTES];
-            status =
-                fail_line(source, header, EWA_ERROR_FORMAT, "unknown word %s", ewa_quote(words[0], quote));
+            return fail_line(source, header, EWA_ERROR_FORMAT, "unknown word %s", ewa_quote(words[0], quote));
         }
-        if (status != EWA_OK) return status;
     }
     if (!format_known) return fail_line(source, header, EWA_ERROR_FORMAT, "the header has no 'format'");
     header->body_at = reader.at_bytes;

@@ -39,8 +39,7 @@ ewa_status ewa_ply_check_size(const ewa_ply_source *source, const ewa_ply_header
 
 static ewa_status skip_element(const ewa_ply_source *source, const ewa_ply_header *header,
                                const ewa_ply_element *element, uint64_t *at) {
-    const ewa_status status = ewa_ply_check_size(source, header, element, *at);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_ply_check_size(source, header, element, *at));
     return header->encoding == EWA_PLY_ASCII ? ewa_ply_ascii_skip(source, header, element, at)
                                              : ewa_ply_binary_skip(source, header, element, at);
 }
@@ -114,11 +113,10 @@ void ewa_ply_points_close(ewa_ply_points *points) {
 }
 
 ewa_status ewa_ply_points_add(const ewa_ply_points *points, ewa_cloud *cloud) {
-    ewa_status status = EWA_OK;
-    for (uint32_t i = 0; i < points->column_count && status == EWA_OK; i++)
-        status = ewa_cloud_add(cloud, points->columns[i].attribute, points->columns[i].type,
-                               points->columns[i].component_count, NULL);
-    return status;
+    for (uint32_t i = 0; i < points->column_count; i++)
+        EWA_TRY(ewa_cloud_add(cloud, points->columns[i].attribute, points->columns[i].type,
+                              points->columns[i].component_count, NULL));
+    return EWA_OK;
 }
 
 ewa_status ewa_ply_points_read(ewa_ply_points *points, uint64_t maximum, const ewa_cloud_sink *sinks,
@@ -133,11 +131,9 @@ ewa_status ewa_ply_points_read(ewa_ply_points *points, uint64_t maximum, const e
     piece.after_count = left - piece.count;
     *got_count = 0;
     if (piece.count == 0) return EWA_OK;
-    const ewa_status status =
-        points->header->encoding == EWA_PLY_ASCII
-            ? ewa_ply_ascii_read(points->source, points->header, &piece, &sink, &points->at)
-            : ewa_ply_binary_read(points->source, points->header, &piece, &sink, &points->at);
-    if (status != EWA_OK) return status;
+    EWA_TRY(points->header->encoding == EWA_PLY_ASCII
+                ? ewa_ply_ascii_read(points->source, points->header, &piece, &sink, &points->at)
+                : ewa_ply_binary_read(points->source, points->header, &piece, &sink, &points->at));
     points->read_count += piece.count;
     *got_count = piece.count;
     return EWA_OK;
@@ -147,10 +143,9 @@ ewa_status ewa_ply_read_vertices(const ewa_ply_source *source, const ewa_ply_hea
                                  const ewa_ply_element *vertices, uint64_t *at, ewa_cloud **cloud) {
     ewa_ply_points points;
     ewa_cloud *prototype = NULL, *made = NULL;
-    ewa_status status = ewa_ply_points_open(source, header, vertices, *at, &points);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_ply_points_open(source, header, vertices, *at, &points));
     ewa_cloud_sink *sinks = ewa_allocate(source->context, points.column_count, sizeof *sinks);
-    status = sinks ? ewa_cloud_create(source->context, 0, &prototype) : EWA_ERROR_MEMORY;
+    ewa_status status = sinks ? ewa_cloud_create(source->context, 0, &prototype) : EWA_ERROR_MEMORY;
     if (status == EWA_OK) status = ewa_ply_points_add(&points, prototype);
     if (status == EWA_OK)
         status = ewa_cloud_make_room(source->name, prototype, NULL, vertices->count, &made, sinks);
@@ -192,19 +187,16 @@ static void close_ply(void *state) {
 /// Reads the header and steps over what stands before the vertices.
 static ewa_status open_vertices(ply_state *state) {
     const ewa_ply_source *source = &state->source;
-    ewa_status status = ewa_ply_header_read(source, state->header);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_ply_header_read(source, state->header));
     const ewa_ply_header *header = state->header;
     state->vertices = ewa_ply_vertices(header);
     if (!state->vertices)
         return ewa_fail(source->context, EWA_ERROR_FORMAT, "%s: the header has no element 'vertex'",
                         source->name);
     uint64_t at = header->body_at;
-    for (const ewa_ply_element *element = header->elements; element < state->vertices && status == EWA_OK;
-         element++)
-        status = skip_element(source, header, element, &at);
-    if (status == EWA_OK) status = ewa_ply_points_open(source, header, state->vertices, at, &state->points);
-    return status;
+    for (const ewa_ply_element *element = header->elements; element < state->vertices; element++)
+        EWA_TRY(skip_element(source, header, element, &at));
+    return ewa_ply_points_open(source, header, state->vertices, at, &state->points);
 }
 
 static ewa_status note_faces(const ewa_ply_header *header, ewa_cloud *prototype) {
@@ -236,8 +228,7 @@ static ewa_status open_ply(const ewa_cloud_source *file, ewa_cloud *prototype, u
 
 static ewa_status read_ply(void *state, uint64_t maximum, const ewa_cloud_sink *sinks, uint64_t *got_count) {
     ply_state *own = state;
-    const ewa_status status = ewa_ply_points_read(&own->points, maximum, sinks, got_count);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_ply_points_read(&own->points, maximum, sinks, got_count));
     ewa_cloud_passed(own->file, own->points.at);
     if (own->points.read_count == own->vertices->count && (*got_count || own->vertices->count == 0))
         inspect_rest(&own->source, own->header, own->vertices, own->points.at);

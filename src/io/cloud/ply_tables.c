@@ -55,9 +55,9 @@ static ewa_status make_table(const ewa_ply_source *source, const ewa_ply_element
 /// Reads an element into its table.
 static ewa_status read_table(const ewa_ply_source *source, const ewa_ply_header *header,
                              const ewa_ply_element *element, uint64_t *at, ewa_ply_table *table) {
-    ewa_status status = ewa_ply_check_size(source, header, element, *at);
-    if (status == EWA_OK) status = make_table(source, element, table);
-    if (status != EWA_OK || element->count == 0 || element->property_count == 0) return status;
+    EWA_TRY(ewa_ply_check_size(source, header, element, *at));
+    EWA_TRY(make_table(source, element, table));
+    if (element->count == 0 || element->property_count == 0) return EWA_OK;
     ewa_ply_sink sink = {.stream_capacity = element->property_count,
                          .lists = element->list_count ? table->lists : NULL};
     sink.streams = ewa_allocate(source->context, sink.stream_capacity, sizeof *sink.streams);
@@ -73,8 +73,9 @@ static ewa_status read_table(const ewa_ply_source *source, const ewa_ply_header 
                                                              .to = table->records + property->offset_bytes,
                                                              .to_stride_bytes = element->record_bytes};
     }
-    status = header->encoding == EWA_PLY_ASCII ? ewa_ply_ascii_read(source, header, element, &sink, at)
-                                               : ewa_ply_binary_read(source, header, element, &sink, at);
+    ewa_status status = header->encoding == EWA_PLY_ASCII
+                            ? ewa_ply_ascii_read(source, header, element, &sink, at)
+                            : ewa_ply_binary_read(source, header, element, &sink, at);
     ewa_release(source->context, sink.streams, sink.stream_capacity, sizeof *sink.streams);
     return status;
 }
@@ -107,16 +108,15 @@ static ewa_status read_elements(const ewa_ply_source *source, ewa_elements *elem
         return ewa_fail(source->context, EWA_ERROR_FORMAT, "%s: the header has no element 'vertex'",
                         source->name);
     uint64_t at = header->body_at;
-    ewa_status status = EWA_OK;
-    for (uint32_t i = 0; i < header->element_count && status == EWA_OK; i++) {
+    for (uint32_t i = 0; i < header->element_count; i++) {
         const ewa_ply_element *element = &header->elements[i];
         elements->tables[i].element = element;
         if (element == vertices)
-            status = ewa_ply_read_vertices(source, header, element, &at, cloud);
+            EWA_TRY(ewa_ply_read_vertices(source, header, element, &at, cloud));
         else
-            status = read_table(source, header, element, &at, &elements->tables[i]);
+            EWA_TRY(read_table(source, header, element, &at, &elements->tables[i]));
     }
-    return status;
+    return EWA_OK;
 }
 
 ewa_status ewa_ply_read_all(const ewa_ply_source *source, ewa_cloud **cloud, ewa_elements **elements) {

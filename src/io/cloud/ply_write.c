@@ -219,28 +219,27 @@ static ewa_status write_header(write_job *job, const ewa_elements *elements, ewa
     char line[64];
     const int length =
         snprintf(line, sizeof line, "ply\nformat %s 1.0\n", formats[job->target->options->ply_encoding]);
-    ewa_status status = ewa_writer_put(writer, line, (size_t)length);
-    if (status == EWA_OK && elements) status = ewa_ply_write_comments(elements, writer);
+    EWA_TRY(ewa_writer_put(writer, line, (size_t)length));
+    if (elements) EWA_TRY(ewa_ply_write_comments(elements, writer));
     const uint32_t count = elements ? elements->table_count : 1;
-    for (uint32_t i = 0; i < count && status == EWA_OK; i++)
-        status = is_other(elements, i) ? ewa_ply_write_element_header(elements, i, writer)
-                                       : write_vertex_header(job, writer);
-    return status == EWA_OK ? ewa_writer_put(writer, "end_header\n", 11) : status;
+    for (uint32_t i = 0; i < count; i++)
+        EWA_TRY(is_other(elements, i) ? ewa_ply_write_element_header(elements, i, writer)
+                                      : write_vertex_header(job, writer));
+    return ewa_writer_put(writer, "end_header\n", 11);
 }
 
 /// Writes the other elements that stand before the vertices, or behind them.
 static ewa_status write_others(const write_job *job, bool behind) {
     const ewa_elements *elements = job->target->options->elements;
     bool passed = false;
-    ewa_status status = EWA_OK;
-    for (uint32_t i = 0; elements && i < elements->table_count && status == EWA_OK; i++) {
+    for (uint32_t i = 0; elements && i < elements->table_count; i++) {
         const bool other = is_other(elements, i);
         if (other && passed == behind)
-            status =
-                ewa_ply_write_element(elements, i, job->target->options->ply_encoding, job->target->writer);
+            EWA_TRY(
+                ewa_ply_write_element(elements, i, job->target->options->ply_encoding, job->target->writer));
         passed |= !other;
     }
-    return status;
+    return EWA_OK;
 }
 
 static void close_job(void *state) {
@@ -286,8 +285,8 @@ static ewa_status put_piece(void *state, const ewa_cloud *piece) {
 static ewa_status finish_job(void *state) {
     write_job *job = state;
     const ewa_cloud_target *target = job->target;
-    const ewa_status status = write_others(job, true);
-    if (status != EWA_OK || target->point_count != EWA_POINTS_UNKNOWN) return status;
+    EWA_TRY(write_others(job, true));
+    if (target->point_count != EWA_POINTS_UNKNOWN) return EWA_OK;
     char digits[COUNT_DIGITS + 1];
     const int length = snprintf(digits, sizeof digits, "%llu", (unsigned long long)job->put_count);
     return ewa_writer_patch(target->writer, job->count_at, digits, (size_t)length);

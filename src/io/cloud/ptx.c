@@ -133,10 +133,9 @@ static ewa_status add_scan(ptx_state *state, const scan *head) {
     if (state->scan_count == MAX_SCANS)
         return ewa_fail(context, EWA_ERROR_LIMIT, "%s: more than %d scans", state->rows.source->name,
                         MAX_SCANS);
-    const ewa_status status =
-        ewa_buffer_grow(context, &state->scans, state->scan_count, state->scan_count + 1, sizeof *head);
-    if (status == EWA_OK) ((scan *)state->scans.data)[state->scan_count++] = *head;
-    return status;
+    EWA_TRY(ewa_buffer_grow(context, &state->scans, state->scan_count, state->scan_count + 1, sizeof *head));
+    ((scan *)state->scans.data)[state->scan_count++] = *head;
+    return EWA_OK;
 }
 
 /// Says that the text goes on with something else than a scan.
@@ -352,16 +351,14 @@ static void close_ptx(void *data) {
 static ewa_status fill_prototype(ptx_state *state, ewa_cloud *prototype) {
     double first_world[3] = {0};
     uint32_t index;
-    ewa_status status = take_scans(state, first_world);
-    if (status != EWA_OK) return status;
+    EWA_TRY(take_scans(state, first_world));
     set_origin(state, first_world, prototype);
-    status = add_attribute(state, prototype, EWA_POSITION, EWA_F64, 3, &index);
-    if (status == EWA_OK) status = add_attribute(state, prototype, "intensity", EWA_F32, 1, &index);
-    if (status == EWA_OK && state->color)
-        status = add_attribute(state, prototype, EWA_COLOR, EWA_U8, 3, &state->color_index);
-    if (status == EWA_OK && state->scan_count > 1)
-        status = add_attribute(state, prototype, "scan", EWA_U16, 1, &state->scan_index);
-    return status == EWA_OK ? set_scanners(state, prototype) : status;
+    EWA_TRY(add_attribute(state, prototype, EWA_POSITION, EWA_F64, 3, &index));
+    EWA_TRY(add_attribute(state, prototype, "intensity", EWA_F32, 1, &index));
+    if (state->color) EWA_TRY(add_attribute(state, prototype, EWA_COLOR, EWA_U8, 3, &state->color_index));
+    if (state->scan_count > 1)
+        EWA_TRY(add_attribute(state, prototype, "scan", EWA_U16, 1, &state->scan_index));
+    return set_scanners(state, prototype);
 }
 
 static ewa_status open_ptx(const ewa_cloud_source *source, ewa_cloud *prototype, uint64_t *point_count,

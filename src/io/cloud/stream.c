@@ -44,10 +44,8 @@ static void free_text(ewa_context *context, char *text) {
 /// Opens the points of a source and makes the sinks for them.
 static ewa_status open_points(ewa_cloud_reader *reader) {
     ewa_context *context = reader->source.context;
-    ewa_status status = ewa_cloud_create(context, 0, &reader->whole);
-    if (status == EWA_OK)
-        status = reader->format->open(&reader->source, reader->whole, &reader->max_points, &reader->state);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_cloud_create(context, 0, &reader->whole));
+    EWA_TRY(reader->format->open(&reader->source, reader->whole, &reader->max_points, &reader->state));
     reader->sinks = ewa_allocate(context, ewa_cloud_attribute_count(reader->whole), sizeof *reader->sinks);
     if (!reader->sinks) return EWA_ERROR_MEMORY;
     return ewa_cloud_make_room(reader->source.name, reader->whole, reader->options.attributes, 0,
@@ -137,7 +135,7 @@ static ewa_status open_reader(ewa_cloud_reader *reader, ewa_context *context, co
     reader->options.attributes = reader->attributes = copy_text(context, reader->options.attributes, &status);
     reader->options.columns = reader->columns = copy_text(context, reader->options.columns, &status);
     if (status == EWA_OK) status = ewa_file_map(context, path, &reader->file);
-    if (status != EWA_OK) return status;
+    EWA_TRY(status);
     const bool stream = strcmp(path, "-") == 0;
     reader->source = (ewa_cloud_source){.context = context,
                                         .name = stream ? "standard input" : reader->path,
@@ -231,17 +229,16 @@ static ewa_status open_writer(ewa_cloud_writer *writer, const char *path,
     ewa_status status = ewa_options_take(context, &ewa_cloud_save_options_table, options, &writer->options);
     writer->name = copy_text(context, strcmp(path, "-") == 0 ? "standard output" : path, &status);
     if (status == EWA_OK) status = ewa_cloud_like(prototype, &writer->prototype);
-    if (status != EWA_OK) return status;
+    EWA_TRY(status);
     writer->target.name = writer->name;
     writer->target.options = &writer->options;
     writer->target.prototype = writer->prototype;
-    status = choose_format(writer, path);
-    if (status == EWA_OK) status = ewa_writer_open(context, path, &writer->target.writer);
-    if (status == EWA_OK && writer->target.point_count == EWA_POINTS_UNKNOWN &&
-        !ewa_writer_can_patch(writer->target.writer))
-        status = ewa_fail(context, EWA_ERROR_UNSUPPORTED,
-                          "%s: the number of points comes before them and is not known", writer->name);
-    return status == EWA_OK ? writer->format->open(&writer->target, &writer->state) : status;
+    EWA_TRY(choose_format(writer, path));
+    EWA_TRY(ewa_writer_open(context, path, &writer->target.writer));
+    if (writer->target.point_count == EWA_POINTS_UNKNOWN && !ewa_writer_can_patch(writer->target.writer))
+        return ewa_fail(context, EWA_ERROR_UNSUPPORTED,
+                        "%s: the number of points comes before them and is not known", writer->name);
+    return writer->format->open(&writer->target, &writer->state);
 }
 
 bool ewa_cloud_writer_needs_bounds(const char *path, const ewa_cloud *prototype) {

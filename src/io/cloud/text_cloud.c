@@ -285,14 +285,13 @@ static ewa_status read_begin(text_state *state, ewa_cloud *prototype) {
                         "%s: the first lines are no table of at least three columns of numbers",
                         source->name);
     state->table = (ewa_text_table){begin.layout, rows->text.at, state->targets, begin.has_count};
-    ewa_status status = look(state, &begin);
-    if (status == EWA_OK)
-        status = ewa_text_scan(rows, &state->table.layout, begin.data, state->ranges, &state->row_count);
-    if (status == EWA_OK && begin.has_count && begin.stated_count > state->row_count)
-        status = ewa_cloud_damage(
+    EWA_TRY(look(state, &begin));
+    EWA_TRY(ewa_text_scan(rows, &state->table.layout, begin.data, state->ranges, &state->row_count));
+    if (begin.has_count && begin.stated_count > state->row_count)
+        EWA_TRY(ewa_cloud_damage(
             source, begin.stated_count - state->row_count, "%s: %llu points are announced, %llu lines follow",
-            source->name, (unsigned long long)begin.stated_count, (unsigned long long)state->row_count);
-    return status == EWA_OK ? lay_out(state, prototype) : status;
+            source->name, (unsigned long long)begin.stated_count, (unsigned long long)state->row_count));
+    return lay_out(state, prototype);
 }
 
 static void close_text(void *data) {

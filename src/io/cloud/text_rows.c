@@ -16,9 +16,8 @@ char ewa_rows_end_of_lines(ewa_cursor text) {
 
 ewa_status ewa_rows_open(ewa_rows *rows, const ewa_cloud_source *source) {
     *rows = (ewa_rows){.source = source};
-    const ewa_status status = ewa_text_open(source->context, source->name, source->bytes, source->size_bytes,
-                                            &rows->text, &rows->owned, &rows->owned_bytes);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_text_open(source->context, source->name, source->bytes, source->size_bytes, &rows->text,
+                          &rows->owned, &rows->owned_bytes));
     rows->line_end = ewa_rows_end_of_lines(rows->text);
     rows->counted_to = rows->text.at;
     return EWA_OK;
@@ -32,10 +31,10 @@ void ewa_rows_close(ewa_rows *rows) {
 }
 
 ewa_status ewa_rows_add(ewa_rows *rows, const ewa_rows_chunk *chunk) {
-    const ewa_status status = ewa_buffer_grow(rows->source->context, &rows->chunks, rows->chunk_count,
-                                              rows->chunk_count + 1, sizeof *chunk);
-    if (status == EWA_OK) ((ewa_rows_chunk *)rows->chunks.data)[rows->chunk_count++] = *chunk;
-    return status;
+    EWA_TRY(ewa_buffer_grow(rows->source->context, &rows->chunks, rows->chunk_count, rows->chunk_count + 1,
+                            sizeof *chunk));
+    ((ewa_rows_chunk *)rows->chunks.data)[rows->chunk_count++] = *chunk;
+    return EWA_OK;
 }
 
 uint64_t ewa_rows_line(ewa_rows *rows, const char *place) {
@@ -141,15 +140,13 @@ ewa_status ewa_rows_read(ewa_rows *rows, uint64_t maximum, const ewa_cloud_sink 
         while (count < WAVE_CHUNKS && count < left && chunks[count].row_count <= room - total)
             total += chunks[count++].row_count;
         if (count == 0 && *got_count > 0) break; // the next call has room for the whole chunk, or cuts it
-        ewa_status status = read_wave(rows, count ? count : 1, room, sinks, got_count);
-        if (status != EWA_OK) return status;
+        EWA_TRY(read_wave(rows, count ? count : 1, room, sinks, got_count));
         const char *at = rows->next_chunk < rows->chunk_count
                              ? ((const ewa_rows_chunk *)rows->chunks.data)[rows->next_chunk].at
                              : rows->text.end;
         if (!rows->owned) ewa_cloud_passed(source, (uint64_t)(at - (const char *)source->bytes));
-        status = ewa_progress(source->context, "read",
-                              (double)(at - rows->text.at) / (double)(rows->text.end - rows->text.at));
-        if (status != EWA_OK) return status;
+        EWA_TRY(ewa_progress(source->context, "read",
+                             (double)(at - rows->text.at) / (double)(rows->text.end - rows->text.at)));
     }
     if (*got_count == 0 && rows->nowhere_count > 0) {
         ewa_report(source->context, EWA_SEVERITY_WARNING, "%s: %llu points without a place are left out",

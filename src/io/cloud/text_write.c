@@ -311,14 +311,14 @@ static ewa_status write_count(text_writer *writer) {
 static ewa_status write_head(const text_writer *writer) {
     const bool comma = writer->separator == ',';
     if (!comma && writer->column_count == 3) return EWA_OK;
-    ewa_status status = comma ? EWA_OK : ewa_writer_put(writer->target->writer, "//", 2);
-    for (uint32_t c = 0; c < writer->column_count && status == EWA_OK; c++) {
+    if (!comma) EWA_TRY(ewa_writer_put(writer->target->writer, "//", 2));
+    for (uint32_t c = 0; c < writer->column_count; c++) {
         const char *name = comma ? writer->columns[c].name : comment_name(&writer->columns[c]);
-        status = ewa_writer_put(writer->target->writer, name, strlen(name));
+        EWA_TRY(ewa_writer_put(writer->target->writer, name, strlen(name)));
         const char end = c + 1 < writer->column_count ? writer->separator : '\n';
-        if (status == EWA_OK) status = ewa_writer_put(writer->target->writer, &end, 1);
+        EWA_TRY(ewa_writer_put(writer->target->writer, &end, 1));
     }
-    return status;
+    return EWA_OK;
 }
 
 static void close_text(void *state) {
@@ -336,8 +336,7 @@ static ewa_status begin(text_writer *writer) {
     const char *dot = strrchr(target->name, '.');
     writer->pts = dot && strcasecmp(dot, ".pts") == 0;
     writer->separator = dot && strcasecmp(dot, ".csv") == 0 ? ',' : ' ';
-    ewa_status status = choose_columns(writer);
-    if (status != EWA_OK) return status;
+    EWA_TRY(choose_columns(writer));
     const size_t line_bytes = (size_t)writer->column_count * CELL_BYTES;
     const uint32_t wave = WAVE_TASKS_PER_WORKER * ewa_context_worker_count(target->context);
     writer->task_points = TASK_BYTES / line_bytes;

@@ -227,8 +227,7 @@ ewa_status ewa_e57_columns_map(const ewa_cloud_source *source, const ewa_e57_con
     if (placed == 0)
         return ewa_fail(source->context, EWA_ERROR_FORMAT, "%s: no scan has coordinates", source->name);
     for (uint32_t i = 0; i < contents->scan_count; i++) {
-        const ewa_status status = add_numbers(source, contents, ewa_e57_scan_at(contents, i), columns);
-        if (status != EWA_OK) return status;
+        EWA_TRY(add_numbers(source, contents, ewa_e57_scan_at(contents, i), columns));
     }
     settle_place(contents, columns);
     settle_types(source, contents, columns);

@@ -103,9 +103,8 @@ static ewa_status append(ewa_e57_streams *s, uint32_t field, const uint8_t *byte
     ewa_e57_stream *stream = &s->streams[field];
     const uint32_t bits = s->fields[field].bits;
     if (!bits || !size_bytes) return EWA_OK;
-    ewa_status status = ewa_buffer_grow(context, &stream->buffer, stream->byte_count,
-                                        stream->byte_count + size_bytes + SPARE_BYTES, 1);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_buffer_grow(context, &stream->buffer, stream->byte_count,
+                            stream->byte_count + size_bytes + SPARE_BYTES, 1));
     const uint64_t first_bit = stream->taken_bits + stream->byte_count * 8;
     memcpy((uint8_t *)stream->buffer.data + stream->byte_count, bytes, size_bytes);
     stream->byte_count += size_bytes;
@@ -118,9 +117,9 @@ static ewa_status append(ewa_e57_streams *s, uint32_t field, const uint8_t *byte
         last->end = gap.end > last->end ? gap.end : last->end;
         return EWA_OK;
     }
-    status = ewa_buffer_grow(context, &s->gaps, s->gap_count, s->gap_count + 1, sizeof gap);
-    if (status == EWA_OK) ((ewa_e57_gap *)s->gaps.data)[s->gap_count++] = gap;
-    return status;
+    EWA_TRY(ewa_buffer_grow(context, &s->gaps, s->gap_count, s->gap_count + 1, sizeof gap));
+    ((ewa_e57_gap *)s->gaps.data)[s->gap_count++] = gap;
+    return EWA_OK;
 }
 
 /// Gives up the rest of a scan: nothing says where its next packet begins.
@@ -163,8 +162,7 @@ static ewa_status next_packet(ewa_e57_streams *s) {
     at = PACKET_HEAD_BYTES + table_bytes;
     for (uint32_t i = 0; i < s->field_count; i++) {
         const uint64_t bytes = ewa_e57_read_le(packet + PACKET_HEAD_BYTES + 2 * i, 2);
-        const ewa_status status = append(s, i, packet + at, bytes, damaged);
-        if (status != EWA_OK) return status;
+        EWA_TRY(append(s, i, packet + at, bytes, damaged));
         at += bytes;
     }
     s->at += size;
@@ -177,7 +175,7 @@ ewa_status ewa_e57_streams_next(ewa_e57_streams *s, uint64_t maximum) {
     step(s);
     const uint64_t left = s->record_count - s->record, wanted = left < maximum ? left : maximum;
     while (status == EWA_OK && s->at < s->end && whole_records(s) < wanted) status = next_packet(s);
-    if (status != EWA_OK) return status;
+    EWA_TRY(status);
     s->held_count = whole_records(s);
     if (s->held_count > maximum) s->held_count = maximum;
     if (s->held_count || s->record == s->record_count) return EWA_OK;

@@ -103,8 +103,7 @@ ewa_status ewa_e57_pages_open(const ewa_cloud_source *source, uint64_t page_byte
 #endif
     if (!job.hardware) make_tables(&job.tables);
     const uint32_t tasks = (uint32_t)((pages->page_count + TASK_PAGES - 1) / TASK_PAGES);
-    const ewa_status status = ewa_parallel_stoppable(source->context, "check", check_task, &job, tasks);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_parallel_stoppable(source->context, "check", check_task, &job, tasks));
     uint64_t first = pages->page_count;
     for (uint64_t i = pages->page_count; i-- > 0;)
         if (pages->damaged[i]) {

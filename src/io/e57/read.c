@@ -56,14 +56,11 @@ static ewa_status open_contents(e57_state *state) {
         return ewa_fail(context, EWA_ERROR_FORMAT, "%s: pages of %llu bytes", source->name,
                         (unsigned long long)page_bytes);
     if (size > source->size_bytes) {
-        const ewa_status status =
-            ewa_cloud_damage(source, 0, "%s: %llu bytes of %llu are there", source->name,
-                             (unsigned long long)source->size_bytes, (unsigned long long)size);
-        if (status != EWA_OK) return status;
+        EWA_TRY(ewa_cloud_damage(source, 0, "%s: %llu bytes of %llu are there", source->name,
+                                 (unsigned long long)source->size_bytes, (unsigned long long)size));
     }
-    ewa_status status = ewa_e57_pages_open(
-        source, page_bytes, size < source->size_bytes ? size : source->size_bytes, &state->pages);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_e57_pages_open(source, page_bytes, size < source->size_bytes ? size : source->size_bytes,
+                               &state->pages));
     uint64_t logical;
     if (!ewa_e57_logical(&state->pages, xml_at, &logical))
         return ewa_fail(context, EWA_ERROR_FORMAT, "%s: the XML, from byte %llu on, is not there",
@@ -75,10 +72,10 @@ static ewa_status open_contents(e57_state *state) {
         if (state->pages.damaged[page])
             return ewa_fail(context, EWA_ERROR_FORMAT, "%s: the XML is damaged in page %llu, at byte %llu",
                             source->name, (unsigned long long)page, (unsigned long long)(page * page_bytes));
-    status = ewa_e57_xml_read(&state->pages, logical, xml_bytes, &state->contents);
-    if (status == EWA_OK && state->contents.scan_count == 0)
+    EWA_TRY(ewa_e57_xml_read(&state->pages, logical, xml_bytes, &state->contents));
+    if (state->contents.scan_count == 0)
         return ewa_fail(context, EWA_ERROR_FORMAT, "%s: there are no scans in it", source->name);
-    return status;
+    return EWA_OK;
 }
 
 /// Says where the scanners stood, unless some scan does not say so.
@@ -134,9 +131,7 @@ static ewa_status count_points(e57_state *state, uint64_t *point_count) {
     *point_count = 0;
     for (uint32_t i = 0; i < state->contents.scan_count; i++) {
         uint64_t count;
-        const ewa_status status =
-            ewa_e57_streams_open(&state->pages, &state->contents, i, false, &state->streams, &count);
-        if (status != EWA_OK) return status;
+        EWA_TRY(ewa_e57_streams_open(&state->pages, &state->contents, i, false, &state->streams, &count));
         *point_count += count;
     }
     return EWA_OK;
@@ -153,17 +148,16 @@ static void close_file(void *opened) {
 }
 
 static ewa_status open_points(e57_state *state, ewa_cloud *prototype, uint64_t *point_count) {
-    ewa_status status = open_contents(state);
-    if (status == EWA_OK) status = ewa_e57_columns_map(state->source, &state->contents, &state->columns);
-    for (uint32_t i = 0; i < state->columns.count && status == EWA_OK; i++) {
+    EWA_TRY(open_contents(state));
+    EWA_TRY(ewa_e57_columns_map(state->source, &state->contents, &state->columns));
+    for (uint32_t i = 0; i < state->columns.count; i++) {
         const ewa_e57_column *column = &state->columns.columns[i];
-        status = ewa_cloud_add(prototype, column->name, column->type, column->component_count, NULL);
+        EWA_TRY(ewa_cloud_add(prototype, column->name, column->type, column->component_count, NULL));
     }
-    if (status == EWA_OK) status = set_notes(state, prototype);
-    if (status != EWA_OK) return status;
+    EWA_TRY(set_notes(state, prototype));
     ewa_cloud_set_origin(prototype, state->columns.origin_world);
     ewa_cloud_set_grid(prototype, &state->columns.grid);
-    status = count_points(state, point_count);
+    ewa_status status = count_points(state, point_count);
     state->announced = *point_count;
     return status;
 }

@@ -130,19 +130,16 @@ static ewa_status note_system(const description *d) {
 /// Takes what the description says, but for the points.
 static ewa_status take(const description *d, uint64_t *point_count) {
     const cJSON *points = item(d, "points");
-    ewa_status status = take_encoding(d);
-    if (status == EWA_OK) status = take_box(d);
-    if (status == EWA_OK &&
-        (!cJSON_IsNumber(points) || !(points->valuedouble >= 0) || points->valuedouble >= 0x1p53))
-        status =
-            ewa_fail(d->ept->context, EWA_ERROR_FORMAT, "%s: \"points\" is no number of points", d->path);
-    if (status != EWA_OK) return status;
+    EWA_TRY(take_encoding(d));
+    EWA_TRY(take_box(d));
+    if (!cJSON_IsNumber(points) || !(points->valuedouble >= 0) || points->valuedouble >= 0x1p53)
+        return ewa_fail(d->ept->context, EWA_ERROR_FORMAT, "%s: \"points\" is no number of points", d->path);
     *point_count = (uint64_t)points->valuedouble;
     d->octree->facts.bounds.finite_count = *point_count;
     if (d->ept->encoding != EWA_EPT_LASZIP)
-        status = ewa_ept_schema(d->path, item(d, "schema"), d->octree->facts.bounds.low_world, d->ept);
-    if (status == EWA_OK) status = note_system(d);
-    return status == EWA_OK ? note(d, "file.format", d->ept->kind) : status;
+        EWA_TRY(ewa_ept_schema(d->path, item(d, "schema"), d->octree->facts.bounds.low_world, d->ept));
+    EWA_TRY(note_system(d));
+    return note(d, "file.format", d->ept->kind);
 }
 
 ewa_status ewa_ept_describe(ewa_octree *octree, ewa_ept *ept, uint64_t *point_count) {
@@ -153,10 +150,10 @@ ewa_status ewa_ept_describe(ewa_octree *octree, ewa_ept *ept, uint64_t *point_co
         return ewa_fail(context, EWA_ERROR_LIMIT, "%s: a path of more than %d bytes", ept->folder,
                         EWA_EPT_PATH_BYTES);
     ewa_file file;
-    ewa_status status = ewa_file_map(context, path, &file);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_file_map(context, path, &file));
     cJSON *root = NULL;
-    status = ewa_json_parse(context, path, "a description of EPT", file.bytes, file.size_bytes, &root);
+    ewa_status status =
+        ewa_json_parse(context, path, "a description of EPT", file.bytes, file.size_bytes, &root);
     const description d = {octree, ept, path, root};
     if (status == EWA_OK) status = take(&d, point_count);
     cJSON_Delete(root);

@@ -49,7 +49,6 @@ static bool is_within(const ewa_octree_key *key, const ewa_octree_key *root) {
 static ewa_status take_entries(ewa_octree *octree, const char *path, const cJSON *entries,
                                const ewa_octree_key *root, key_list *list) {
     ewa_context *context = octree->context;
-    ewa_status status = EWA_OK;
     const cJSON *entry;
     char shown[EWA_EPT_SHOWN_BYTES];
     cJSON_ArrayForEach(entry, entries) {
@@ -67,13 +66,12 @@ static ewa_status take_entries(ewa_octree *octree, const char *path, const cJSON
                 path, ewa_ept_show(entry->string, shown), root->level, root->cell[0], root->cell[1],
                 root->cell[2]);
         if (count < 0) {
-            status = ewa_buffer_grow(context, &list->buffer, list->count, list->count + 1, sizeof node.key);
-            if (status == EWA_OK) ((ewa_octree_key *)list->buffer.data)[list->count++] = node.key;
+            EWA_TRY(ewa_buffer_grow(context, &list->buffer, list->count, list->count + 1, sizeof node.key));
+            ((ewa_octree_key *)list->buffer.data)[list->count++] = node.key;
         } else if (count > 0) {
             node.point_count = (uint64_t)count;
-            status = ewa_octree_add(octree, &node);
+            EWA_TRY(ewa_octree_add(octree, &node));
         }
-        if (status != EWA_OK) return status;
     }
     return EWA_OK;
 }
@@ -83,11 +81,11 @@ static ewa_status read_file(ewa_octree *octree, const ewa_ept *ept, const ewa_oc
     ewa_context *context = octree->context;
     char path[EWA_EPT_PATH_BYTES];
     ewa_file file;
-    ewa_status status = ewa_ept_path(ept, "ept-hierarchy/", root, "json", path);
-    if (status == EWA_OK) status = ewa_file_map(context, path, &file);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_ept_path(ept, "ept-hierarchy/", root, "json", path));
+    EWA_TRY(ewa_file_map(context, path, &file));
     cJSON *entries = NULL;
-    status = ewa_json_parse(context, path, "a hierarchy of EPT", file.bytes, file.size_bytes, &entries);
+    ewa_status status =
+        ewa_json_parse(context, path, "a hierarchy of EPT", file.bytes, file.size_bytes, &entries);
     if (status == EWA_OK && !cJSON_IsObject(entries))
         status =
             ewa_fail(context, EWA_ERROR_FORMAT, "%s: no object of nodes and their numbers of points", path);

@@ -82,18 +82,17 @@ static ewa_status open_laz(ewa_ept *ept, const char *path, const ewa_octree_node
     ewa_las_header header;
     if (source.size_bytes < 4 || memcmp(source.bytes, "LASF", 4) != 0)
         return ewa_fail(ept->context, EWA_ERROR_FORMAT, "%s: no LAZ file", path);
-    ewa_status status = ewa_las_header_read(&source, &header);
-    if (status == EWA_OK && !header.compressed)
-        status = ewa_fail(ept->context, EWA_ERROR_FORMAT, "%s: its points are not compressed", path);
-    if (status == EWA_OK) status = ewa_laz_layout_read(&source, &header, &file->layout);
-    if (status == EWA_OK && first) {
+    EWA_TRY(ewa_las_header_read(&source, &header));
+    if (!header.compressed)
+        return ewa_fail(ept->context, EWA_ERROR_FORMAT, "%s: its points are not compressed", path);
+    EWA_TRY(ewa_laz_layout_read(&source, &header, &file->layout));
+    if (first) {
         ept->header = header;
         ept->laz = file->layout.plan;
         ewa_las_table_make(&source, &header, &ept->table);
         memcpy(ept->offset_world, header.offset, sizeof header.offset);
-        status = ewa_las_notes(&source, &header, octree->prototype);
+        EWA_TRY(ewa_las_notes(&source, &header, octree->prototype));
     }
-    if (status != EWA_OK) return status;
     if (!is_like(ept, &header, &file->layout.plan))
         return ewa_fail(
             ept->context, EWA_ERROR_FORMAT,
@@ -129,9 +128,8 @@ static ewa_status check_size(const ewa_ept *ept, const char *path, const ewa_oct
 static ewa_status open_file(ewa_octree *octree, const ewa_octree_node *node, bool first, ewa_ept_file *file) {
     ewa_ept *ept = octree->state;
     char path[EWA_EPT_PATH_BYTES];
-    ewa_status status = ewa_ept_path(ept, "ept-data/", &node->key, suffixes[ept->encoding], path);
-    if (status == EWA_OK) status = ewa_file_map(ept->context, path, &file->bytes);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_ept_path(ept, "ept-data/", &node->key, suffixes[ept->encoding], path));
+    EWA_TRY(ewa_file_map(ept->context, path, &file->bytes));
     return ept->encoding == EWA_EPT_LASZIP ? open_laz(ept, path, node, first, octree, file)
                                            : check_size(ept, path, node, file);
 }
@@ -226,10 +224,9 @@ static void read_node(ewa_octree *octree, const ewa_octree_node *node, uint32_t 
 
 static ewa_status begin_wave(ewa_octree *octree, const uint32_t *indices, uint32_t count) {
     ewa_ept *ept = octree->state;
-    ewa_status status = EWA_OK;
-    for (uint32_t i = 0; i < count && status == EWA_OK; i++)
-        status = open_file(octree, &octree->facts.nodes[indices[i]], false, &ept->files[i]);
-    return status;
+    for (uint32_t i = 0; i < count; i++)
+        EWA_TRY(open_file(octree, &octree->facts.nodes[indices[i]], false, &ept->files[i]));
+    return EWA_OK;
 }
 
 static void end_wave(ewa_octree *octree) {
@@ -300,11 +297,10 @@ static ewa_status open_ept(ewa_octree *octree) {
     ept->records = ewa_allocate_zeroed(context, ept->worker_count, sizeof *ept->records);
     if (!ept->memories || !ept->records) return EWA_ERROR_MEMORY;
     uint64_t said_count, point_count = 0;
-    ewa_status status = ewa_ept_describe(octree, ept, &said_count);
-    if (status == EWA_OK) status = ewa_ept_hierarchy(octree, ept);
-    if (status == EWA_OK && ept->encoding == EWA_EPT_LASZIP) status = look_at_first(octree);
-    if (status == EWA_OK) status = choose_colors(octree);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_ept_describe(octree, ept, &said_count));
+    EWA_TRY(ewa_ept_hierarchy(octree, ept));
+    if (ept->encoding == EWA_EPT_LASZIP) EWA_TRY(look_at_first(octree));
+    EWA_TRY(choose_colors(octree));
     for (uint64_t i = 0; i < octree->node_count; i++)
         point_count += ((const ewa_octree_node *)octree->nodes.data)[i].point_count;
     if (point_count != said_count)

@@ -193,8 +193,7 @@ ewa_status ewa_ept_schema(const char *name, const cJSON *schema, const double lo
                 add_single(table, &d);
         }
         if (round == 1) break;
-        const ewa_status status = check_position(ept, name, gathered);
-        if (status != EWA_OK) return status;
+        EWA_TRY(check_position(ept, name, gathered));
         add_position(gathered, low_world, ept);
     }
     add_colors(table, gathered);

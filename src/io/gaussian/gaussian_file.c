@@ -57,10 +57,10 @@ ewa_status ewa_gaussians_load(ewa_context *context, const char *path, ewa_gaussi
     *gaussians = (ewa_gaussians){0};
     const bool stream = strcmp(path, "-") == 0;
     ewa_file file;
-    ewa_status status = ewa_file_map(context, path, &file);
-    if (status != EWA_OK) return status;
-    status = ewa_gaussians_load_memory(context, file.bytes, file.size_bytes, stream ? "standard input" : path,
-                                       stream ? NULL : path, gaussians, facts);
+    EWA_TRY(ewa_file_map(context, path, &file));
+    ewa_status status =
+        ewa_gaussians_load_memory(context, file.bytes, file.size_bytes, stream ? "standard input" : path,
+                                  stream ? NULL : path, gaussians, facts);
     ewa_file_unmap(context, &file);
     return status;
 }
@@ -69,8 +69,7 @@ ewa_status ewa_gaussians_probe(ewa_context *context, const char *path, ewa_gauss
     if (!context || !path || !format) return EWA_ERROR_ARGUMENT;
     *format = EWA_GAUSSIANS_NONE;
     ewa_file file;
-    const ewa_status status = ewa_file_map(context, path, &file);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_file_map(context, path, &file));
     const ewa_gaussian_source source = {context, path, path, file.bytes, file.size_bytes};
     const ewa_gaussian_reader *reader = find_reader(&source);
     if (reader) *format = reader->format;

@@ -81,8 +81,7 @@ static ewa_status turn_up(const ewa_gaussians *set, const double up_world[3], ew
         return ewa_fail(set->context, EWA_ERROR_ARGUMENT, "up_world: %g, %g, %g is along x", up_world[0],
                         up_world[1], up_world[2]);
     const double matrix[16] = {1, 0, 0, 0, 0, -y, -z, 0, 0, z, -y, 0, 0, 0, 0, 1};
-    ewa_status status = ewa_gaussians_create(set->context, set->count, set->sh_degree, turned);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_gaussians_create(set->context, set->count, set->sh_degree, turned));
     turned->flat = set->flat, turned->antialiased = set->antialiased;
     memcpy(turned->origin, set->origin, sizeof turned->origin);
     memcpy(turned->centers, set->centers, 3 * (size_t)set->count * sizeof(float));
@@ -91,7 +90,7 @@ static ewa_status turn_up(const ewa_gaussians *set, const double up_world[3], ew
     memcpy(turned->opacities, set->opacities, (size_t)set->count * sizeof(float));
     memcpy(turned->harmonics, set->harmonics,
            3 * (size_t)ewa_sh_count(set->sh_degree) * set->count * sizeof(float));
-    status = ewa_gaussians_transform(turned, matrix);
+    ewa_status status = ewa_gaussians_transform(turned, matrix);
     if (status != EWA_OK) ewa_gaussians_free(turned);
     return status;
 }
@@ -104,9 +103,8 @@ static ewa_status write_set(const ewa_gaussians *set, const char *path, size_t f
         .sh_degree = chosen->sh_degree < set->sh_degree ? chosen->sh_degree : set->sh_degree,
         .spz_version = chosen->spz_version,
     };
-    ewa_status status = ewa_writer_open(set->context, path, &target.writer);
-    if (status != EWA_OK) return status;
-    status = formats[format].write(&target);
+    EWA_TRY(ewa_writer_open(set->context, path, &target.writer));
+    ewa_status status = formats[format].write(&target);
     if (status == EWA_OK) return ewa_writer_commit(&target.writer);
     ewa_writer_abort(&target.writer);
     return status;
@@ -118,8 +116,7 @@ ewa_status ewa_gaussians_save(const ewa_gaussians *gaussians, const char *path,
     ewa_context *context = gaussians->context;
     ewa_gaussians_save_options chosen;
     ewa_gaussians_save_options_init(&chosen, sizeof chosen);
-    ewa_status status = ewa_options_take(context, &ewa_gaussians_save_options_table, options, &chosen);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_options_take(context, &ewa_gaussians_save_options_table, options, &chosen));
     const size_t format = find_format(path);
     if (format == FORMAT_COUNT)
         return ewa_fail(context, EWA_ERROR_UNSUPPORTED, "%s: Gaussians are written to .ply, .splat and .spz",
@@ -127,12 +124,11 @@ ewa_status ewa_gaussians_save(const ewa_gaussians *gaussians, const char *path,
     if (gaussians->count == 0 || gaussians->sh_degree > EWA_MAX_SH_DEGREE)
         return ewa_fail(context, EWA_ERROR_ARGUMENT, "%s: there are no Gaussians, or harmonics of degree %u",
                         path, gaussians->sh_degree);
-    status = check_set(gaussians);
-    if (status != EWA_OK) return status;
+    EWA_TRY(check_set(gaussians));
     const double *up = chosen.up_world;
     if (up[1] <= 0 && up[0] == 0 && up[2] == 0) return write_set(gaussians, path, format, &chosen);
     ewa_gaussians turned;
-    status = turn_up(gaussians, up, &turned);
+    ewa_status status = turn_up(gaussians, up, &turned);
     if (status == EWA_OK) status = write_set(&turned, path, format, &chosen);
     ewa_gaussians_free(&turned);
     return status;

@@ -36,8 +36,7 @@ static ewa_status open_primitive(gltf *g, uint64_t mesh, const cJSON *item, spla
     *made = (splats){.extension = ewa_gltf_extension(item, extension_name),
                      .attributes = ewa_gltf_member(item, "attributes")};
     if (!made->extension) return EWA_OK;
-    const ewa_status status = ewa_gltf_spend(g, PRIMITIVE_ITEMS); // many nodes may have one mesh
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_gltf_spend(g, PRIMITIVE_ITEMS)); // many nodes may have one mesh
     uint64_t mode, view, stride;
     if (!ewa_gltf_count(item, "mode", 4, &mode) || mode != POINTS)
         return ewa_gltf_fail(g, "meshes", mesh, "a primitive of Gaussians is not of points");
@@ -60,9 +59,9 @@ static ewa_status read_packed(const filling *f, const splats *from, ewa_gaussian
                                         (size_t)from->packed_bytes};
     ewa_gaussian_facts facts = {0};
     *set = (ewa_gaussians){0};
-    const ewa_status status = ewa_gaussians_spz.read(&source, set, &facts);
-    if (status == EWA_OK) ewa_gaussians_turn(set); // y is up in glTF, as in the SPZ that it packs
-    return status;
+    EWA_TRY(ewa_gaussians_spz.read(&source, set, &facts));
+    ewa_gaussians_turn(set); // y is up in glTF, as in the SPZ that it packs
+    return EWA_OK;
 }
 
 /// The name of an attribute, in the form of a draft where only that is there.
@@ -97,10 +96,11 @@ static ewa_status count_primitive(gltf *g, uint64_t mesh, const cJSON *item, con
     (void)at;
     filling *f = g->user;
     splats from;
-    ewa_status status = open_primitive(g, mesh, item, &from);
-    if (status != EWA_OK || !from.extension) return status;
+    EWA_TRY(open_primitive(g, mesh, item, &from));
+    if (!from.extension) return EWA_OK;
     uint64_t count = 0;
     uint32_t degree;
+    ewa_status status = EWA_OK;
     if (from.packed) {
         ewa_gaussians set;
         status = read_packed(f, &from, &set);
@@ -170,21 +170,20 @@ static ewa_status read_attributes(gltf *g, uint64_t mesh, const splats *from, ew
         q[3] = q[2], q[2] = q[1], q[1] = q[0], q[0] = w;
     }
     const uint32_t coefficients = ewa_sh_count(find_degree(attributes));
-    if (status == EWA_OK)
-        status = read_to(g, mesh, from, name_of(attributes, "OPACITY", name), 1, part->count, part->opacities,
-                         1, &found);
-    if (status == EWA_OK)
-        status = read_to(g, mesh, from, harmonic_name(attributes, 0, name), 3, part->count, part->harmonics,
-                         stride, &shown);
-    if (status == EWA_OK && !(found && shown)) {
-        status = read_color(g, mesh, from, part, stride, &found);
-        if (status == EWA_OK && !found)
+    EWA_TRY(status);
+    EWA_TRY(read_to(g, mesh, from, name_of(attributes, "OPACITY", name), 1, part->count, part->opacities, 1,
+                    &found));
+    EWA_TRY(read_to(g, mesh, from, harmonic_name(attributes, 0, name), 3, part->count, part->harmonics,
+                    stride, &shown));
+    if (!(found && shown)) {
+        EWA_TRY(read_color(g, mesh, from, part, stride, &found));
+        if (!found)
             return ewa_gltf_fail(g, "meshes", mesh, "Gaussians without OPACITY or SH_DEGREE_0_COEF_0");
     }
-    for (uint32_t k = 1; k < coefficients && status == EWA_OK; k++)
-        status = read_to(g, mesh, from, harmonic_name(attributes, k, name), 3, part->count,
-                         part->harmonics + 3 * k, stride, &found);
-    return status;
+    for (uint32_t k = 1; k < coefficients; k++)
+        EWA_TRY(read_to(g, mesh, from, harmonic_name(attributes, k, name), 3, part->count,
+                        part->harmonics + 3 * k, stride, &found));
+    return EWA_OK;
 }
 
 /// Copies a set of its own to a part of another, which may have more harmonics.
@@ -210,19 +209,19 @@ static ewa_status place_part(const gltf_placement *at, ewa_gaussians *part) {
         }
     matrix[15] = 1;
     if (!moves) return EWA_OK;
-    const ewa_status status = ewa_gaussians_transform(part, matrix);
-    for (size_t i = 0; i < part->count && status == EWA_OK; i++)
+    EWA_TRY(ewa_gaussians_transform(part, matrix));
+    for (size_t i = 0; i < part->count; i++)
         for (size_t k = 0; k < 3; k++)
             part->centers[3 * i + k] = (float)((double)part->centers[3 * i + k] + part->origin[k]);
-    return status;
+    return EWA_OK;
 }
 
 /// Fills the next part of the set from a primitive.
 static ewa_status fill_primitive(gltf *g, uint64_t mesh, const cJSON *item, const gltf_placement *at) {
     filling *f = g->user;
     splats from;
-    ewa_status status = open_primitive(g, mesh, item, &from);
-    if (status != EWA_OK || !from.extension) return status;
+    EWA_TRY(open_primitive(g, mesh, item, &from));
+    if (!from.extension) return EWA_OK;
     const size_t first = (size_t)f->count, numbers = 3 * (size_t)ewa_sh_count(f->set->sh_degree);
     ewa_gaussians packed = {0}, part = {.context = f->set->context,
                                         .sh_degree = f->set->sh_degree,
@@ -231,6 +230,7 @@ static ewa_status fill_primitive(gltf *g, uint64_t mesh, const cJSON *item, cons
                                         .rotations = f->set->rotations + 4 * first,
                                         .opacities = f->set->opacities + first,
                                         .harmonics = f->set->harmonics + numbers * first};
+    ewa_status status = EWA_OK;
     if (from.packed) {
         status = read_packed(f, &from, &packed);
         part.count = packed.count;
@@ -270,15 +270,13 @@ static ewa_status walk(const ewa_gaussian_source *source, gltf_take *take, filli
 static ewa_status read_gltf(const ewa_gaussian_source *source, ewa_gaussians *set,
                             ewa_gaussian_facts *facts) {
     filling f = {.source = source, .set = set};
-    ewa_status status = walk(source, count_primitive, &f);
-    if (status == EWA_OK) status = ewa_gaussians_make(source, f.count, 0, 0, f.sh_degree, set);
-    if (status != EWA_OK) return status;
+    EWA_TRY(walk(source, count_primitive, &f));
+    EWA_TRY(ewa_gaussians_make(source, f.count, 0, 0, f.sh_degree, set));
     if (f.linear)
         ewa_report(source->context, EWA_SEVERITY_WARNING,
                    "%s: colours of linear light are taken for those of a display", source->name);
     f.count = 0;
-    status = walk(source, fill_primitive, &f);
-    if (status != EWA_OK) return status;
+    EWA_TRY(walk(source, fill_primitive, &f));
     facts->up_world[1] = 1; // glTF says so
     return ewa_gaussians_settle(source, &(ewa_gaussian_form){.log_scales = false}, set);
 }

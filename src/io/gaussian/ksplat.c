@@ -173,8 +173,7 @@ static ewa_status open_file(const ewa_gaussian_source *source, ksplat *file) {
     uint64_t at = HEAD_BYTES + file->section_count * SECTION_BYTES, sum = 0;
     for (uint64_t s = 0; s < file->section_count; s++) {
         section found;
-        const ewa_status status = open_section(file, s, &at, &found);
-        if (status != EWA_OK) return status;
+        EWA_TRY(open_section(file, s, &at, &found));
         sum += found.count;
         if (found.sh_degree > file->sh_degree) file->sh_degree = found.sh_degree;
     }
@@ -185,19 +184,17 @@ static ewa_status open_file(const ewa_gaussian_source *source, ksplat *file) {
 static ewa_status read_ksplat(const ewa_gaussian_source *source, ewa_gaussians *set,
                               ewa_gaussian_facts *facts) {
     ksplat file;
-    ewa_status status = open_file(source, &file);
-    if (status == EWA_OK)
-        status = ewa_gaussians_make(source, file.count, file.layout->rest_at, source->size_bytes,
-                                    file.sh_degree, set);
-    uint64_t at = HEAD_BYTES + (status == EWA_OK ? file.section_count : 0) * SECTION_BYTES;
+    EWA_TRY(open_file(source, &file));
+    EWA_TRY(ewa_gaussians_make(source, file.count, file.layout->rest_at, source->size_bytes, file.sh_degree,
+                               set));
+    uint64_t at = HEAD_BYTES + file.section_count * SECTION_BYTES;
     uint32_t first = 0;
-    for (uint64_t s = 0; status == EWA_OK && s < file.section_count; s++) {
+    for (uint64_t s = 0; s < file.section_count; s++) {
         section from;
-        status = open_section(&file, s, &at, &from);
-        if (status == EWA_OK) status = decode_section(&file, &from, first, set);
+        EWA_TRY(open_section(&file, s, &at, &from));
+        EWA_TRY(decode_section(&file, &from, first, set));
         first += (uint32_t)from.count;
     }
-    if (status != EWA_OK) return status;
     facts->version = source->bytes[1];
     return ewa_gaussians_settle(source, &(ewa_gaussian_form){.log_scales = false}, set);
 }

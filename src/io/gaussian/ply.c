@@ -119,14 +119,12 @@ static void fill_sink(const ewa_ply_header *header, const columns *from, double 
 
 ewa_status ewa_gaussians_ply_skip_to(const ewa_ply_source *ply, const ewa_ply_header *header,
                                      const ewa_ply_element *element, uint64_t *at) {
-    ewa_status status = EWA_OK;
-    for (const ewa_ply_element *before = header->elements; before < element && status == EWA_OK; before++) {
-        status = ewa_ply_check_size(ply, header, before, *at);
-        if (status == EWA_OK)
-            status = header->encoding == EWA_PLY_ASCII ? ewa_ply_ascii_skip(ply, header, before, at)
-                                                       : ewa_ply_binary_skip(ply, header, before, at);
+    for (const ewa_ply_element *before = header->elements; before < element; before++) {
+        EWA_TRY(ewa_ply_check_size(ply, header, before, *at));
+        EWA_TRY(header->encoding == EWA_PLY_ASCII ? ewa_ply_ascii_skip(ply, header, before, at)
+                                                  : ewa_ply_binary_skip(ply, header, before, at));
     }
-    return status == EWA_OK ? ewa_ply_check_size(ply, header, element, *at) : status;
+    return ewa_ply_check_size(ply, header, element, *at);
 }
 
 ewa_status ewa_gaussians_ply_read_element(const ewa_ply_source *ply, const ewa_ply_header *header,
@@ -143,8 +141,7 @@ static ewa_status read_records(const ewa_gaussian_source *source, const ewa_ply_
     ewa_ply_stream streams[3 + 3 + 3 + 4 + 1 + 1 + MAX_REST];
     ewa_ply_sink sink = {.streams = streams, .stream_capacity = sizeof streams / sizeof streams[0]};
     fill_sink(header, from, centers, filter, set, &sink);
-    const ewa_status status = ewa_gaussians_ply_read_element(ply, header, from->element, &sink, &at);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_gaussians_ply_read_element(ply, header, from->element, &sink, &at));
     if (centers) ewa_gaussians_place(centers, set);
     const ewa_gaussian_form form = {.log_scales = true, .logits = true, .filter = filter};
     return ewa_gaussians_settle(source, &form, set);
@@ -154,16 +151,16 @@ static ewa_status read_plain(const ewa_gaussian_source *source, const ewa_ply_so
                              const ewa_ply_header *header, ewa_gaussians *set, ewa_gaussian_facts *facts) {
     columns from;
     uint64_t at = header->body_at;
-    ewa_status status = find_columns(source, header, &from);
-    if (status == EWA_OK) status = ewa_gaussians_ply_skip_to(ply, header, from.element, &at);
-    if (status == EWA_OK) status = ewa_gaussians_make(source, from.element->count, 0, 0, from.sh_degree, set);
-    if (status != EWA_OK) return status;
+    EWA_TRY(find_columns(source, header, &from));
+    EWA_TRY(ewa_gaussians_ply_skip_to(ply, header, from.element, &at));
+    EWA_TRY(ewa_gaussians_make(source, from.element->count, 0, 0, from.sh_degree, set));
     set->flat = from.flat;
     set->antialiased = facts->filtered = from.filtered;
     const size_t center_count = from.exact ? 3 * (size_t)set->count : 0,
                  filter_count = from.filtered ? set->count : 0;
     double *centers = center_count ? ewa_allocate(source->context, center_count, sizeof *centers) : NULL;
     float *filter = filter_count ? ewa_allocate(source->context, filter_count, sizeof *filter) : NULL;
+    ewa_status status = EWA_OK;
     if ((center_count && !centers) || (filter_count && !filter))
         status = EWA_ERROR_MEMORY;
     else
@@ -200,12 +197,10 @@ static void take_comment(void *user, const char *line) {
 static ewa_status read_with(const ewa_gaussian_source *source, ewa_ply_header *header, ewa_gaussians *set,
                             ewa_gaussian_facts *facts) {
     const ewa_ply_source ply = {source->context, source->name, source->bytes, source->size_bytes};
-    ewa_status status = ewa_ply_header_read(&ply, header);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_ply_header_read(&ply, header));
     header_words words = {.z_up = false};
     ewa_ply_header_lines(&ply, header, take_comment, &words);
-    status = read_plain(source, &ply, header, set, facts);
-    if (status != EWA_OK) return status;
+    EWA_TRY(read_plain(source, &ply, header, set, facts));
     if (words.antialiased || words.plain) set->antialiased = words.antialiased;
     facts->up_world[2] = words.z_up;
     if (words.flat) ewa_gaussians_flatten(set);

@@ -83,9 +83,8 @@ static ewa_status fail_property(const packed *p, const char *name, const char *t
 /// Reads an element through a sink.
 static ewa_status read_element(const packed *p, const ewa_ply_element *element, const ewa_ply_sink *sink) {
     uint64_t at = p->header->body_at;
-    ewa_status status = ewa_gaussians_ply_skip_to(&p->ply, p->header, element, &at);
-    if (status == EWA_OK) status = ewa_gaussians_ply_read_element(&p->ply, p->header, element, sink, &at);
-    return status;
+    EWA_TRY(ewa_gaussians_ply_skip_to(&p->ply, p->header, element, &at));
+    return ewa_gaussians_ply_read_element(&p->ply, p->header, element, sink, &at);
 }
 
 static ewa_status read_chunks(const packed *p) {
@@ -171,10 +170,9 @@ static void decode(void *data, uint32_t first, uint32_t end) {
 
 /// Reads with the elements known and memory for them made.
 static ewa_status read_into(packed *p) {
-    ewa_status status = read_chunks(p);
-    if (status == EWA_OK) status = read_vertices(p);
-    if (status == EWA_OK && p->harmonics) status = read_harmonics(p);
-    if (status != EWA_OK) return status;
+    EWA_TRY(read_chunks(p));
+    EWA_TRY(read_vertices(p));
+    if (p->harmonics) EWA_TRY(read_harmonics(p));
     ewa_gaussians_decode(p->source->context, p->set->count, decode, p);
     return ewa_gaussians_settle(p->source, &(ewa_gaussian_form){.log_scales = true}, p->set);
 }
@@ -210,13 +208,12 @@ static ewa_status find_elements(packed *p, uint32_t *sh_degree) {
     }
     // All elements are there before anything is made for them.
     uint64_t at = p->header->body_at;
-    ewa_status status = ewa_gaussians_ply_skip_to(&p->ply, p->header, p->chunks, &at);
+    EWA_TRY(ewa_gaussians_ply_skip_to(&p->ply, p->header, p->chunks, &at));
     at = p->header->body_at;
-    if (status == EWA_OK) status = ewa_gaussians_ply_skip_to(&p->ply, p->header, p->vertices, &at);
+    EWA_TRY(ewa_gaussians_ply_skip_to(&p->ply, p->header, p->vertices, &at));
     at = p->header->body_at;
-    if (status == EWA_OK && p->harmonics)
-        status = ewa_gaussians_ply_skip_to(&p->ply, p->header, p->harmonics, &at);
-    return status;
+    if (p->harmonics) EWA_TRY(ewa_gaussians_ply_skip_to(&p->ply, p->header, p->harmonics, &at));
+    return EWA_OK;
 }
 
 static ewa_status read_with(const ewa_gaussian_source *source, ewa_ply_header *header, ewa_gaussians *set) {
@@ -226,15 +223,14 @@ static ewa_status read_with(const ewa_gaussian_source *source, ewa_ply_header *h
                 .header = header,
                 .set = set};
     uint32_t sh_degree = 0;
-    ewa_status status = ewa_ply_header_read(&p.ply, header);
-    if (status == EWA_OK) status = find_elements(&p, &sh_degree);
-    if (status == EWA_OK) status = ewa_gaussians_make(source, p.vertices->count, 0, 0, sh_degree, set);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_ply_header_read(&p.ply, header));
+    EWA_TRY(find_elements(&p, &sh_degree));
+    EWA_TRY(ewa_gaussians_make(source, p.vertices->count, 0, 0, sh_degree, set));
     const size_t chunk_count = (size_t)p.chunks->count, count = set->count;
     p.bounds = ewa_allocate(context, chunk_count, BOUNDS * sizeof *p.bounds);
     p.words = ewa_allocate(context, count, WORDS * sizeof *p.words);
     p.rest = ewa_allocate(context, count, p.rest_count);
-    status = p.bounds && p.words && p.rest ? read_into(&p) : EWA_ERROR_MEMORY;
+    ewa_status status = p.bounds && p.words && p.rest ? read_into(&p) : EWA_ERROR_MEMORY;
     ewa_release(context, p.bounds, chunk_count, BOUNDS * sizeof *p.bounds);
     ewa_release(context, p.words, count, WORDS * sizeof *p.words);
     ewa_release(context, p.rest, count, p.rest_count);

@@ -76,7 +76,7 @@ static ewa_status put_record(const ewa_gaussian_target *target, size_t i) {
 }
 
 ewa_status ewa_gaussians_write_ply(const ewa_gaussian_target *target) {
-    ewa_status status = put_header(target);
-    for (size_t i = 0; i < target->set->count && status == EWA_OK; i++) status = put_record(target, i);
-    return status;
+    EWA_TRY(put_header(target));
+    for (size_t i = 0; i < target->set->count; i++) EWA_TRY(put_record(target, i));
+    return EWA_OK;
 }

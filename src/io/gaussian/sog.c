@@ -140,8 +140,7 @@ static ewa_status read_pictures(sog *s) {
                          {"sh0", 0},   {"shN", 0},   {"shN", 1}};
     const uint32_t pictures = s->bands ? PICTURES : PALETTES;
     for (uint32_t k = 0; k < pictures; k++) {
-        const ewa_status status = read_picture(s, named[k].member, named[k].index, &s->pictures[k]);
-        if (status != EWA_OK) return status;
+        EWA_TRY(read_picture(s, named[k].member, named[k].index, &s->pictures[k]));
         const uint64_t pixels = (uint64_t)s->pictures[k].width_px * s->pictures[k].height_px;
         if (k != PALETTES && pixels < s->count)
             return ewa_fail(s->source->context, EWA_ERROR_FORMAT,
@@ -203,10 +202,9 @@ static void decode(void *data, uint32_t first, uint32_t end) {
 }
 
 static ewa_status read_with(sog *s, ewa_gaussian_facts *facts) {
-    ewa_status status = read_meta(s);
-    if (status == EWA_OK) status = read_pictures(s);
-    if (status == EWA_OK) status = ewa_gaussians_make(s->source, s->count, 0, 0, s->bands, s->set);
-    if (status != EWA_OK) return status;
+    EWA_TRY(read_meta(s));
+    EWA_TRY(read_pictures(s));
+    EWA_TRY(ewa_gaussians_make(s->source, s->count, 0, 0, s->bands, s->set));
     ewa_gaussians_decode(s->source->context, s->set->count, decode, s);
     if (atomic_load(&s->bad_tag))
         return fail(s, "a quaternion's alpha is below 252, which names no component");

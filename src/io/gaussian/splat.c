@@ -43,9 +43,8 @@ static ewa_status read_splat(const ewa_gaussian_source *source, ewa_gaussians *s
             source->context, EWA_ERROR_FORMAT,
             "%s: %zu bytes are no whole number of records of 32: the file is cut short, or no .splat",
             source->name, source->size_bytes);
-    const ewa_status status = ewa_gaussians_make(source, source->size_bytes / RECORD_BYTES, RECORD_BYTES,
-                                                 source->size_bytes, 0, set);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_gaussians_make(source, source->size_bytes / RECORD_BYTES, RECORD_BYTES, source->size_bytes, 0,
+                               set));
     splat_job job = {source->bytes, set};
     ewa_gaussians_decode(source->context, set->count, decode, &job);
     return ewa_gaussians_settle(source, &(ewa_gaussian_form){.log_scales = false}, set);

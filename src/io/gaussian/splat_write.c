@@ -27,13 +27,11 @@ static bool make_record(const ewa_gaussians *set, size_t i, uint8_t record[RECOR
 ewa_status ewa_gaussians_write_splat(const ewa_gaussian_target *target) {
     const ewa_gaussians *set = target->set;
     uint32_t clamped_count = 0;
-    ewa_status status = EWA_OK;
-    for (size_t i = 0; i < set->count && status == EWA_OK; i++) {
+    for (size_t i = 0; i < set->count; i++) {
         uint8_t record[RECORD_BYTES];
         clamped_count += !make_record(set, i, record);
-        status = ewa_writer_put(target->writer, record, sizeof record);
+        EWA_TRY(ewa_writer_put(target->writer, record, sizeof record));
     }
-    if (status != EWA_OK) return status;
     if (set->sh_degree > 0)
         ewa_report(
             set->context, EWA_SEVERITY_WARNING,

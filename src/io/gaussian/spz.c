@@ -95,9 +95,8 @@ static ewa_status read_spz(const ewa_gaussian_source *source, ewa_gaussians *set
     uint8_t *bytes;
     size_t size_bytes, at[EWA_SPZ_STREAMS];
     uint32_t axes;
-    ewa_status status = ewa_spz_unpack(source, &header, &axes, &bytes, &size_bytes, at);
-    if (status != EWA_OK) return status;
-    status = ewa_gaussians_make(source, header.count, 0, 0, header.sh_degree, set);
+    EWA_TRY(ewa_spz_unpack(source, &header, &axes, &bytes, &size_bytes, at));
+    ewa_status status = ewa_gaussians_make(source, header.count, 0, 0, header.sh_degree, set);
     if (status == EWA_OK) {
         spz_job job = {.header = &header, .set = set};
         for (int k = 0; k < EWA_SPZ_STREAMS; k++) job.streams[k] = bytes + at[k];

@@ -171,32 +171,29 @@ static ewa_status unpack_zstd(const ewa_gaussian_source *source, ewa_spz_header 
                         source->name);
     read_header(source->bytes, header);
     header->table_at = ewa_file_u32(source->bytes + 16);
-    ewa_status status = check_header(source, header);
+    EWA_TRY(check_header(source, header));
     const uint32_t streams = header->sh_degree ? EWA_SPZ_STREAMS : EWA_SPZ_STREAMS - 1;
-    if (status == EWA_OK && header->version < 4)
-        status = ewa_fail(source->context, EWA_ERROR_FORMAT, "%s: SPZ of version %u that is not packed",
-                          source->name, header->version);
-    if (status == EWA_OK &&
-        (header->stream_count != streams || header->table_at < EWA_SPZ_OPEN_BYTES ||
-         header->table_at > source->size_bytes || source->size_bytes - header->table_at < 16u * streams))
-        status = ewa_fail(
+    if (header->version < 4)
+        return ewa_fail(source->context, EWA_ERROR_FORMAT, "%s: SPZ of version %u that is not packed",
+                        source->name, header->version);
+    if (header->stream_count != streams || header->table_at < EWA_SPZ_OPEN_BYTES ||
+        header->table_at > source->size_bytes || source->size_bytes - header->table_at < 16u * streams)
+        return ewa_fail(
             source->context, EWA_ERROR_FORMAT,
             "%s: SPZ: a table of %u streams at byte %u; %u streams are wanted in a file of %zu bytes",
             source->name, header->stream_count, header->table_at, streams, source->size_bytes);
-    if (status == EWA_OK && header->flags & EWA_SPZ_EXTENDED) status = read_extensions(source, header, axes);
-    if (status == EWA_OK)
-        status = place_streams(source, header,
-                               (uint64_t)source->size_bytes * MAX_RATIO /
-                                   ewa_spz_stream_bytes(header, EWA_SPZ_CENTERS),
-                               at, size_bytes);
-    if (status != EWA_OK) return status;
+    if (header->flags & EWA_SPZ_EXTENDED) EWA_TRY(read_extensions(source, header, axes));
+    EWA_TRY(place_streams(source, header,
+                          (uint64_t)source->size_bytes * MAX_RATIO /
+                              ewa_spz_stream_bytes(header, EWA_SPZ_CENTERS),
+                          at, size_bytes));
     *bytes = ewa_allocate(source->context, *size_bytes, 1);
     if (!*bytes) return EWA_ERROR_MEMORY;
     uint64_t from = header->table_at + 16u * streams;
-    for (uint32_t k = 0; k < streams && status == EWA_OK; k++)
-        status = unpack_stream(source, k, source->bytes + header->table_at + 16 * (size_t)k, &from,
-                               *bytes + at[k], (size_t)ewa_spz_stream_bytes(header, k) * header->count);
-    return status;
+    for (uint32_t k = 0; k < streams; k++)
+        EWA_TRY(unpack_stream(source, k, source->bytes + header->table_at + 16 * (size_t)k, &from,
+                              *bytes + at[k], (size_t)ewa_spz_stream_bytes(header, k) * header->count));
+    return EWA_OK;
 }
 
 ewa_status ewa_spz_unpack(const ewa_gaussian_source *source, ewa_spz_header *header, uint32_t *axes,

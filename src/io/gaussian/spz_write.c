@@ -24,8 +24,7 @@ static ewa_status choose_fraction(const ewa_gaussian_target *target, uint32_t *b
     const ewa_gaussians *set = target->set;
     ewa_bounds box;
     double largest = 0, side = 0;
-    const ewa_status status = ewa_gaussians_measure(set, &box);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_gaussians_measure(set, &box));
     for (int k = 0; k < 3; k++) {
         largest = fmax(largest, fmax(fabs(box.low_world[k]), fabs(box.high_world[k])));
         side = fmax(side, box.high_world[k] - box.low_world[k]);
@@ -102,7 +101,7 @@ static void pack(void *data, uint32_t first, uint32_t end) {
         }
         p->streams[EWA_SPZ_OPACITIES][i] = ewa_byte_of(255 * (double)set->opacities[i]);
         for (size_t k = 0; k < rest; k++)
-            p->streams[EWA_SPZ_HARMONICS][i * rest + k] = 
+            p->streams[EWA_SPZ_HARMONICS][i * rest + k] =
                 ewa_byte_of(128 + 128 * (double)(p->signs.harmonics[1 + k / 3] * harmonics[3 + k]));
     }
 }
@@ -137,10 +136,10 @@ static ewa_status put_gzip(const ewa_gaussian_target *target, const uint8_t *byt
 static ewa_status put_zstd(const ewa_gaussian_target *target, packing *p) {
     ewa_context *context = target->set->context;
     const uint32_t streams = p->header.sh_degree ? EWA_SPZ_STREAMS : EWA_SPZ_STREAMS - 1;
-    uint8_t head[EWA_SPZ_OPEN_BYTES  + EWA_SPZ_STREAMS * TABLE_ENTRY_BYTES] = {0};
+    uint8_t head[EWA_SPZ_OPEN_BYTES + EWA_SPZ_STREAMS * TABLE_ENTRY_BYTES] = {0};
     p->header.stream_count = streams;
     put_head(&p->header, head);
-    ewa_put_u32(head + EWA_SPZ_HEAD_BYTES, EWA_SPZ_OPEN_BYTES );
+    ewa_put_u32(head + EWA_SPZ_HEAD_BYTES, EWA_SPZ_OPEN_BYTES);
     uint8_t *to = head + EWA_SPZ_OPEN_BYTES;
     size_t room = 0, used = 0;
     for (uint32_t k = 0; k < streams; k++)
@@ -171,8 +170,7 @@ ewa_status ewa_gaussians_write_spz(const ewa_gaussian_target *target) {
                             .sh_degree = target->sh_degree,
                             .flags = set->antialiased ? EWA_SPZ_ANTIALIASED : 0}};
     ewa_gaussian_signs_turn(&p.signs);
-    ewa_status status = choose_fraction(target, &p.header.fraction_bits);
-    if (status != EWA_OK) return status;
+    EWA_TRY(choose_fraction(target, &p.header.fraction_bits));
     size_t size_bytes = EWA_SPZ_HEAD_BYTES;
     for (uint32_t k = 0; k < EWA_SPZ_STREAMS; k++)
         size_bytes += (size_t)ewa_spz_stream_bytes(&p.header, k) * set->count;
@@ -185,7 +183,7 @@ ewa_status ewa_gaussians_write_spz(const ewa_gaussian_target *target) {
         to += (size_t)ewa_spz_stream_bytes(&p.header, k) * set->count;
     }
     ewa_gaussians_decode(set->context, set->count, pack, &p);
-    status = target->spz_version < 4 ? put_gzip(target, bytes, size_bytes) : put_zstd(target, &p);
+    ewa_status status = target->spz_version < 4 ? put_gzip(target, bytes, size_bytes) : put_zstd(target, &p);
     ewa_release(set->context, bytes, size_bytes, 1);
     if (status == EWA_OK && set->flat)
         ewa_report(set->context, EWA_SEVERITY_WARNING,

@@ -133,8 +133,7 @@ static ewa_status check_header(reader *in) {
                         (long long)height, limits->max_image_side);
     in->width_px = (uint32_t)width;
     in->height_px = (uint32_t)height;
-    const ewa_status status = choose_channels(in, channels);
-    if (status != EWA_OK) return status;
+    EWA_TRY(choose_channels(in, channels));
 
     uint64_t chunk_bytes = 0;
     error = exr_get_chunk_unpacked_size(in->file, PART, &chunk_bytes);

@@ -177,12 +177,11 @@ ewa_status ewa_hdr_decode(ewa_context *context, const char *name, const uint8_t 
                   .name = name,
                   .reader = {.bytes = bytes, .size_bytes = size_bytes},
                   .exposure = 1};
-    ewa_status status = read_head(&in);
-    if (status == EWA_OK) status = read_size(&in);
-    if (status == EWA_OK) status = ewa_image_create(context, in.width_px, in.height_px, 3, image);
-    if (status != EWA_OK) return status;
+    EWA_TRY(read_head(&in));
+    EWA_TRY(read_size(&in));
+    EWA_TRY(ewa_image_create(context, in.width_px, in.height_px, 3, image));
     uint8_t *pixels = ewa_allocate(context, in.width_px, PIXEL_BYTES);
-    status = pixels ? read_rows(&in, pixels, image) : EWA_ERROR_MEMORY;
+    ewa_status status = pixels ? read_rows(&in, pixels, image) : EWA_ERROR_MEMORY;
     ewa_release(context, pixels, in.width_px, PIXEL_BYTES);
     if (status != EWA_OK) ewa_image_free(image);
     return status;

@@ -99,9 +99,7 @@ ewa_status ewa_image_save(const ewa_image *image, const char *path, const ewa_im
     if (!image || !image->pixels || !path) return EWA_ERROR_ARGUMENT;
     ewa_image_save_options chosen;
     ewa_image_save_options_init(&chosen, sizeof chosen);
-    const ewa_status status =
-        ewa_options_take(image->context, &ewa_image_save_options_table, options, &chosen);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_options_take(image->context, &ewa_image_save_options_table, options, &chosen));
     if (has_suffix(path, ".png") || strcmp(path, "-") == 0) return save_png(image, path, &chosen);
     if (has_suffix(path, ".exr")) return ewa_exr_save(image, path, &chosen);
     if (has_suffix(path, ".pfm")) return ewa_pfm_save(image, path);
@@ -141,8 +139,8 @@ ewa_status ewa_depth_load_memory(ewa_context *context, const void *bytes, size_t
     if (!ewa_exr_recognise(bytes, size_bytes) && !ewa_pfm_recognise(bytes, size_bytes))
         return ewa_fail(context, EWA_ERROR_UNSUPPORTED,
                         "%s: depths are PNG, OpenEXR or PFM, this is none by its first bytes", name);
-    const ewa_status status = ewa_image_load_memory(context, bytes, size_bytes, name, depth);
-    if (status != EWA_OK || depth->channel_count == 1) return status;
+    EWA_TRY(ewa_image_load_memory(context, bytes, size_bytes, name, depth));
+    if (depth->channel_count == 1) return EWA_OK;
     const uint32_t channel_count = depth->channel_count;
     ewa_image_free(depth);
     return ewa_fail(context, EWA_ERROR_UNSUPPORTED, "%s: a picture of %u channels; depths are one", name,
@@ -157,10 +155,9 @@ static ewa_status load_file(ewa_context *context, const char *path, load_memory 
     if (!context || !path || !image) return EWA_ERROR_ARGUMENT;
     *image = (ewa_image){0};
     ewa_file file;
-    ewa_status status = ewa_file_map(context, path, &file);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_file_map(context, path, &file));
     const char *name = strcmp(path, "-") == 0 ? "standard input" : path;
-    status = load(context, file.bytes, file.size_bytes, name, image);
+    ewa_status status = load(context, file.bytes, file.size_bytes, name, image);
     ewa_file_unmap(context, &file);
     return status;
 }

@@ -61,8 +61,7 @@ static ewa_status decode(ewa_context *context, const char *name, const uint8_t *
     if (image_bytes > ewa_context_limits(context)->max_memory_bytes)
         return ewa_fail(context, EWA_ERROR_LIMIT, "%s: JPEG of %u x %u pixels is over max_memory_bytes", name,
                         width, height);
-    const ewa_status status = ewa_image_create(context, width, height, channels, image);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_image_create(context, width, height, channels, image));
     jpeg_start_decompress(decoder);
     while (decoder->output_scanline < height) {
         float *to = image->pixels + (size_t)decoder->output_scanline * width * channels;

@@ -86,8 +86,7 @@ ewa_status ewa_pfm_decode(ewa_context *context, const char *name, const uint8_t 
                         "%s: PFM: %u x %u pixels of %u channels need %llu bytes, %llu follow", name, width_px,
                         height_px, channel_count, (unsigned long long)wanted_bytes,
                         (unsigned long long)held_bytes);
-    const ewa_status status = ewa_image_create(context, width_px, height_px, channel_count, image);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_image_create(context, width_px, height_px, channel_count, image));
     for (uint32_t y = height_px; y-- > 0; at.next += row_numbers * sizeof(float)) {
         float *row = image->pixels + y * row_numbers;
         memcpy(row, at.next, row_numbers * sizeof(float));

@@ -45,10 +45,10 @@ ewa_status ewa_webp_decode(ewa_context *context, const char *name, const uint8_t
     if (count * (sizeof(float) + 1) > ewa_context_limits(context)->max_memory_bytes)
         return ewa_fail(context, EWA_ERROR_LIMIT, "%s: WebP of %u x %u pixels is over max_memory_bytes", name,
                         width, height);
-    ewa_status status = ewa_image_create(context, width, height, channels, image);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_image_create(context, width, height, channels, image));
     uint8_t *codes = ewa_allocate(context, count, 1);
-    status = codes ? decode(context, name, bytes, size_bytes, straight, codes, image) : EWA_ERROR_MEMORY;
+    ewa_status status =
+        codes ? decode(context, name, bytes, size_bytes, straight, codes, image) : EWA_ERROR_MEMORY;
     ewa_release(context, codes, count, 1);
     if (status != EWA_OK) ewa_image_free(image);
     return status;

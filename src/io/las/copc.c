@@ -28,10 +28,9 @@ typedef struct page_list {
 } page_list;
 
 static ewa_status push_page(ewa_context *context, page_list *pages, uint64_t at_bytes, uint64_t size_bytes) {
-    const ewa_status status =
-        ewa_buffer_grow(context, &pages->buffer, pages->count, pages->count + 1, sizeof(page));
-    if (status == EWA_OK) ((page *)pages->buffer.data)[pages->count++] = (page){at_bytes, size_bytes};
-    return status;
+    EWA_TRY(ewa_buffer_grow(context, &pages->buffer, pages->count, pages->count + 1, sizeof(page)));
+    ((page *)pages->buffer.data)[pages->count++] = (page){at_bytes, size_bytes};
+    return EWA_OK;
 }
 
 /// Keeps what is wrong first.
@@ -53,9 +52,8 @@ static bool is_cube(const ewa_octree_key *key) {
 
 /// Takes the entries of a page, whose own pages join the list.
 static ewa_status read_page(const ewa_cloud_source *source, page p, page_list *pages, ewa_copc_tree *tree) {
-    ewa_status status = EWA_OK;
     ewa_octree_node *nodes = tree->nodes.data;
-    for (uint64_t i = 0; i < p.size_bytes / EWA_COPC_ENTRY_BYTES && status == EWA_OK; i++) {
+    for (uint64_t i = 0; i < p.size_bytes / EWA_COPC_ENTRY_BYTES; i++) {
         const uint8_t *entry = source->bytes + p.at_bytes + i * EWA_COPC_ENTRY_BYTES;
         const int32_t point_count = (int32_t)ewa_las_u32(entry + 28), size = (int32_t)ewa_las_u32(entry + 24);
         ewa_octree_node node = {.key = {.level = (int32_t)ewa_las_u32(entry)},
@@ -76,11 +74,11 @@ static ewa_status read_page(const ewa_cloud_source *source, page p, page_list *p
         node.size_bytes = (uint64_t)size;
         node.point_count = (uint64_t)point_count;
         if (point_count == -1)
-            status = push_page(source->context, pages, node.at_bytes, node.size_bytes);
+            EWA_TRY(push_page(source->context, pages, node.at_bytes, node.size_bytes));
         else
             nodes[tree->node_count++] = node;
     }
-    return status;
+    return EWA_OK;
 }
 
 ewa_status ewa_copc_tree_read(const ewa_cloud_source *source, const ewa_las_header *header,
@@ -127,8 +125,7 @@ void ewa_copc_tree_free(ewa_context *context, ewa_copc_tree *tree) {
 ewa_status ewa_copc_note(const ewa_cloud_source *source, const ewa_las_header *header, ewa_cloud *prototype) {
     if (!ewa_copc_is(source, header)) return EWA_OK;
     ewa_copc_tree tree;
-    const ewa_status status = ewa_copc_tree_read(source, header, &tree);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_copc_tree_read(source, header, &tree));
     const ewa_octree_node *nodes = tree.nodes.data;
     uint64_t point_count = 0;
     int32_t levels = 0;

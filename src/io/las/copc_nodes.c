@@ -84,8 +84,7 @@ static ewa_status take_tree(ewa_octree *octree, const copc_state *state, const e
     }
     facts->bounds.finite_count = state->file.header.point_count;
     const uint64_t max_bytes = ewa_context_limits(octree->context)->max_memory_bytes;
-    ewa_status status = EWA_OK;
-    for (size_t i = 0; i < tree->node_count && status == EWA_OK; i++) {
+    for (size_t i = 0; i < tree->node_count; i++) {
         const ewa_octree_node *node = &nodes[i];
         const ewa_octree_key *k = &node->key;
         if (node->point_count / MAX_POINTS_PER_BYTE > node->size_bytes)
@@ -98,9 +97,9 @@ static ewa_status take_tree(ewa_octree *octree, const copc_state *state, const e
                             "%s: node %d-%d-%d-%d, %llu points, is over the limit of %llu bytes",
                             octree->path, k->level, k->cell[0], k->cell[1], k->cell[2],
                             (unsigned long long)node->point_count, (unsigned long long)max_bytes);
-        status = ewa_octree_add(octree, node);
+        EWA_TRY(ewa_octree_add(octree, node));
     }
-    return status;
+    return EWA_OK;
 }
 
 /// Finds the levels among the extended records.
@@ -137,8 +136,7 @@ static ewa_status open_copc(ewa_octree *octree) {
     octree->state = state;
     if (!state) return EWA_ERROR_MEMORY;
     state->descriptor = -1;
-    ewa_status status = ewa_file_map(context, octree->path, &state->bytes);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_file_map(context, octree->path, &state->bytes));
     ewa_cloud_load_options_init(&state->options, sizeof state->options);
     state->source = (ewa_cloud_source){.context = context,
                                        .name = octree->path,
@@ -147,8 +145,7 @@ static ewa_status open_copc(ewa_octree *octree) {
                                        .size_bytes = state->bytes.size_bytes,
                                        .options = &state->options,
                                        .lost_count = &state->lost_count};
-    status = ewa_las_file_open(&state->source, octree->prototype, &state->file);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_las_file_open(&state->source, octree->prototype, &state->file));
     if (!state->file.header.compressed || !ewa_copc_is(&state->source, &state->file.header))
         return ewa_fail(context, EWA_ERROR_FORMAT,
                         "%s: the points of COPC are compressed as LAZ, these are not", octree->path);
@@ -160,9 +157,8 @@ static ewa_status open_copc(ewa_octree *octree) {
     state->records = ewa_allocate_zeroed(context, state->worker_count, sizeof *state->records);
     if (!state->memories || !state->records) return EWA_ERROR_MEMORY;
     ewa_copc_tree tree;
-    status = ewa_copc_tree_read(&state->source, &state->file.header, &tree);
-    if (status != EWA_OK) return status;
-    status = take_tree(octree, state, &tree);
+    EWA_TRY(ewa_copc_tree_read(&state->source, &state->file.header, &tree));
+    ewa_status status = take_tree(octree, state, &tree);
     ewa_copc_tree_free(context, &tree);
     find_levels(octree, state);
     if (status == EWA_OK) give_up_nodes(octree, state);

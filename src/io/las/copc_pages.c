@@ -50,23 +50,21 @@ static uint64_t sort(ewa_octree_node *nodes, uint64_t count) {
 
 /// Adds the parents that are missing, and theirs, up to the root.
 static ewa_status add_parents(ewa_context *context, ewa_buffer *buffer, uint64_t *count) {
-    ewa_status status = EWA_OK;
-    for (bool added = true; added && status == EWA_OK;) {
+    for (bool added = true; added;) {
         *count = sort(buffer->data, *count);
         const uint64_t sorted_count = *count;
         added = false;
-        for (uint64_t i = 0; i < sorted_count && status == EWA_OK; i++) {
+        for (uint64_t i = 0; i < sorted_count; i++) {
             const ewa_octree_node *nodes = buffer->data;
             if (nodes[i].key.level == 0) continue;
             const ewa_octree_node parent = {.key = parent_of(&nodes[i].key)};
             if (find(nodes, sorted_count, &parent.key)) continue;
-            status = ewa_buffer_grow(context, buffer, *count, *count + 1, sizeof parent);
-            if (status != EWA_OK) break;
+            EWA_TRY(ewa_buffer_grow(context, buffer, *count, *count + 1, sizeof parent));
             ((ewa_octree_node *)buffer->data)[(*count)++] = parent;
             added = true;
         }
     }
-    return status;
+    return EWA_OK;
 }
 
 /// Gives each node its page. `pages` has room for as many as there are nodes; returns how many there are.

@@ -128,9 +128,8 @@ static ewa_status open_writer(ewa_octree_writer *w, const char *path) {
     w->memories = ewa_allocate_zeroed(context, w->worker_count, sizeof *w->memories);
     w->records = ewa_allocate_zeroed(context, w->worker_count, sizeof *w->records);
     if (!w->memories || !w->records) return EWA_ERROR_MEMORY;
-    ewa_status status = check_plan(w);
-    if (status == EWA_OK) status = ewa_writer_open(context, path, &w->target.writer);
-    if (status != EWA_OK) return status;
+    EWA_TRY(check_plan(w));
+    EWA_TRY(ewa_writer_open(context, path, &w->target.writer));
     if (!ewa_writer_can_patch(w->target.writer))
         return ewa_fail(context, EWA_ERROR_UNSUPPORTED,
                         "%s: what COPC says first is known last: write to a file", w->name);
@@ -253,8 +252,7 @@ ewa_status ewa_octree_encode(ewa_octree_writer *writer, const ewa_octree_key *ke
                              const ewa_cloud *const *pieces, uint32_t count, ewa_octree_chunk *chunks) {
     ewa_context *context = writer->target.context;
     for (uint32_t i = 0; i < count; i++) {
-        const ewa_status status = check_node(writer, &keys[i], pieces[i]);
-        if (status != EWA_OK) return status;
+        EWA_TRY(check_node(writer, &keys[i], pieces[i]));
     }
     encode_job job = {.writer = writer, .keys = keys, .pieces = pieces, .chunks = chunks};
     job.statuses = ewa_allocate_zeroed(context, count, sizeof *job.statuses);
@@ -292,8 +290,7 @@ static ewa_status add_slots(ewa_octree_writer *w) {
 }
 
 static ewa_status take_key(ewa_octree_writer *w, const ewa_octree_key *key) {
-    const ewa_status status = 2 * (w->node_count + 1) > w->slot_count ? add_slots(w) : EWA_OK;
-    if (status != EWA_OK) return status;
+    if (2 * (w->node_count + 1) > w->slot_count) EWA_TRY(add_slots(w));
     ewa_octree_key *slot = find_slot(w->keys, w->slot_count, key);
     if (slot->level != SLOT_FREE)
         return ewa_fail(w->target.context, EWA_ERROR_ARGUMENT, "%s: node %d-%d-%d-%d comes twice", w->name,
@@ -333,12 +330,10 @@ ewa_status ewa_octree_append(ewa_octree_writer *writer, const ewa_octree_chunk *
                                   .point_count = chunk->point_count,
                                   .at_bytes = ewa_writer_size(writer->target.writer),
                                   .size_bytes = chunk->size_bytes};
-    ewa_status status = ewa_buffer_grow(context, &writer->chunks, count, count + 1, sizeof(ewa_laz_chunk));
-    if (status == EWA_OK) status = ewa_buffer_grow(context, &writer->nodes, count, count + 1, sizeof node);
-    if (status == EWA_OK) status = take_key(writer, k);
-    if (status == EWA_OK)
-        status = ewa_writer_put(writer->target.writer, chunk->bytes.data, chunk->size_bytes);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_buffer_grow(context, &writer->chunks, count, count + 1, sizeof(ewa_laz_chunk)));
+    EWA_TRY(ewa_buffer_grow(context, &writer->nodes, count, count + 1, sizeof node));
+    EWA_TRY(take_key(writer, k));
+    EWA_TRY(ewa_writer_put(writer->target.writer, chunk->bytes.data, chunk->size_bytes));
     ((ewa_laz_chunk *)writer->chunks.data)[count] = (ewa_laz_chunk){chunk->point_count, chunk->size_bytes};
     ((ewa_octree_node *)writer->nodes.data)[count] = node;
     writer->node_count++;
@@ -404,11 +399,10 @@ static ewa_status finish(ewa_octree_writer *w) {
     if (w->levels_left_bytes)
         return ewa_fail(context, EWA_ERROR_ARGUMENT, "%s: the levels are %llu bytes shorter than was said",
                         w->name, (unsigned long long)w->levels_left_bytes);
-    ewa_status status = end_points(w);
-    if (status != EWA_OK) return status;
+    EWA_TRY(end_points(w));
     const uint64_t pages_at = ewa_writer_size(w->target.writer) + EWA_LAS_EXTENDED_BYTES;
     ewa_copc_pages pages = {0};
-    status = ewa_copc_pages_make(context, w->nodes.data, w->node_count, pages_at, &pages);
+    ewa_status status = ewa_copc_pages_make(context, w->nodes.data, w->node_count, pages_at, &pages);
     if (status == EWA_OK)
         status = begin_extended(w, "copc", EWA_COPC_PAGES_ID, "COPC hierarchy", pages.size_bytes);
     if (status == EWA_OK) status = ewa_writer_put(w->target.writer, pages.bytes.data, pages.size_bytes);

@@ -106,9 +106,9 @@ ewa_status ewa_las_crs_text(ewa_context *context, const ewa_las_crs *crs, bool p
     while (wkt_bytes && crs->wkt[wkt_bytes - 1] <= ' ') wkt_bytes--;
     // Where the keys only hold a definition, well-known text says more.
     if (wkt_bytes && (prefer_wkt || code == 0 || code == USER_DEFINED)) {
-        const ewa_status status = copy_text(context, crs->wkt, (size_t)wkt_bytes, text, text_bytes);
-        if (status == EWA_OK) wkt_name(*text, name);
-        return status;
+        EWA_TRY(copy_text(context, crs->wkt, (size_t)wkt_bytes, text, text_bytes));
+        wkt_name(*text, name);
+        return EWA_OK;
     }
     if (!is_projected || !key_text(crs, KEY_PROJECTED_CITATION, name))
         if (!key_text(crs, KEY_CITATION, name) &&

@@ -87,8 +87,8 @@ ewa_status ewa_las_header_read(const ewa_cloud_source *source, ewa_las_header *h
         const uint64_t count = ewa_las_u64(bytes + 247);
         if (count) header->point_count = count;
     }
-    const ewa_status status = check_numbers(source, header);
-    return status == EWA_OK ? check_places(source, header) : status;
+    EWA_TRY(check_numbers(source, header));
+    return check_places(source, header);
 }
 
 /// Takes the record at `at` that must end at `end` or before; false when it does not.

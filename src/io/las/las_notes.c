@@ -22,8 +22,7 @@ static bool is_kept(const ewa_las_vlr *vlr) {
 /// Appends a record, an extended one with the shorter head of the others.
 static ewa_status append(ewa_context *context, const ewa_las_vlr *vlr, ewa_buffer *kept, size_t *kept_bytes) {
     const size_t size_bytes = (size_t)vlr->size_bytes, max_bytes = EWA_LAS_RECORD_BYTES + size_bytes;
-    const ewa_status status = ewa_buffer_grow(context, kept, *kept_bytes, *kept_bytes + max_bytes, 1);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_buffer_grow(context, kept, *kept_bytes, *kept_bytes + max_bytes, 1));
     uint8_t *to = (uint8_t *)kept->data + *kept_bytes;
     memcpy(to, vlr->head, 20);
     ewa_las_put_u16(to + 20, (uint16_t)size_bytes);
@@ -70,13 +69,13 @@ static ewa_status note_head(const ewa_las_header *header, ewa_cloud *prototype) 
     ewa_las_text(header->software, 32, text);
     if (status == EWA_OK) status = note_text(prototype, "file.software", text);
     ewa_las_text(header->system, 32, text);
-    if (status == EWA_OK) status = note_text(prototype, "file.system", text);
+    EWA_TRY(status);
+    EWA_TRY(note_text(prototype, "file.system", text));
     snprintf(text, sizeof text, "%u", header->global_encoding);
-    if (status == EWA_OK) status = note_text(prototype, EWA_LAS_NOTE_ENCODING, text);
+    EWA_TRY(note_text(prototype, EWA_LAS_NOTE_ENCODING, text));
     snprintf(text, sizeof text, "%u", header->point_format);
-    if (status == EWA_OK) status = note_text(prototype, EWA_LAS_NOTE_FORMAT, text);
-    if (status == EWA_OK) status = note_date(header, prototype);
-    return status;
+    EWA_TRY(note_text(prototype, EWA_LAS_NOTE_FORMAT, text));
+    return note_date(header, prototype);
 }
 
 ewa_status ewa_las_notes(const ewa_cloud_source *source, const ewa_las_header *header, ewa_cloud *prototype) {

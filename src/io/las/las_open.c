@@ -51,8 +51,7 @@ static ewa_status look_at_colors(ewa_las_file *file) {
                                .record_bytes = table->record_bytes};
     bool is_all = file->point_count <= LOOK_POINTS;
     if (file->stream) {
-        const ewa_status status = ewa_laz_stream_sample(file->stream, ewa_las_look, &look, &is_all);
-        if (status != EWA_OK) return status;
+        EWA_TRY(ewa_laz_stream_sample(file->stream, ewa_las_look, &look, &is_all));
     } else {
         const uint8_t *records = file->source->bytes + file->header.points_at;
         const uint32_t runs = is_all ? 1 : LOOK_POINTS / LOOK_RUN_POINTS;
@@ -109,10 +108,10 @@ static ewa_status note_compression(const ewa_las_file *file, ewa_cloud *prototyp
 static ewa_status open_points(ewa_las_file *file, ewa_cloud *prototype) {
     const ewa_cloud_source *source = file->source;
     if (!file->header.compressed) return count_records(file);
-    ewa_status status = ewa_laz_layout_read(source, &file->header, &file->layout);
-    if (status == EWA_OK) status = note_compression(file, prototype);
-    if (status == EWA_OK) status = ewa_copc_note(source, &file->header, prototype);
-    return status == EWA_OK ? ewa_laz_stream_open(source, &file->layout, &file->stream) : status;
+    EWA_TRY(ewa_laz_layout_read(source, &file->header, &file->layout));
+    EWA_TRY(note_compression(file, prototype));
+    EWA_TRY(ewa_copc_note(source, &file->header, prototype));
+    return ewa_laz_stream_open(source, &file->layout, &file->stream);
 }
 
 ewa_status ewa_las_lay_out(const ewa_las_table *table, const double offset_world[3], ewa_cloud *prototype) {
@@ -125,22 +124,21 @@ ewa_status ewa_las_lay_out(const ewa_las_table *table, const double offset_world
     }
     ewa_cloud_set_origin(prototype, origin_world);
     ewa_cloud_set_grid(prototype, &grid);
-    ewa_status status = EWA_OK;
-    for (uint32_t i = 0; i < table->column_count && status == EWA_OK; i++) {
+    for (uint32_t i = 0; i < table->column_count; i++) {
         const ewa_las_column *column = &table->columns[i];
-        status = ewa_cloud_add(prototype, column->name, column->type, column->component_count, NULL);
+        EWA_TRY(ewa_cloud_add(prototype, column->name, column->type, column->component_count, NULL));
     }
-    return status;
+    return EWA_OK;
 }
 
 ewa_status ewa_las_file_open(const ewa_cloud_source *source, ewa_cloud *prototype, ewa_las_file *file) {
     *file = (ewa_las_file){.source = source};
-    ewa_status status = ewa_las_header_read(source, &file->header);
-    if (status == EWA_OK) status = ewa_las_notes(source, &file->header, prototype);
-    if (status == EWA_OK) status = open_points(file, prototype);
-    if (status == EWA_OK) ewa_las_table_make(source, &file->header, &file->table);
-    if (status == EWA_OK) status = look_at_colors(file);
-    return status == EWA_OK ? ewa_las_lay_out(&file->table, file->header.offset, prototype) : status;
+    EWA_TRY(ewa_las_header_read(source, &file->header));
+    EWA_TRY(ewa_las_notes(source, &file->header, prototype));
+    EWA_TRY(open_points(file, prototype));
+    ewa_las_table_make(source, &file->header, &file->table);
+    EWA_TRY(look_at_colors(file));
+    return ewa_las_lay_out(&file->table, file->header.offset, prototype);
 }
 
 void ewa_las_file_close(ewa_las_file *file) {

@@ -94,9 +94,7 @@ static ewa_status describe(const ewa_cloud_target *target, ewa_las_plan *plan, c
                            uint8_t options, double scale) {
     enum { SCALED = 8, SCALES_AT = 112 };
     const size_t at = (size_t)plan->extra_count * EWA_LAS_EXTRA_BYTES;
-    const ewa_status status =
-        ewa_buffer_grow(target->context, &plan->extras, at, at + EWA_LAS_EXTRA_BYTES, 1);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_buffer_grow(target->context, &plan->extras, at, at + EWA_LAS_EXTRA_BYTES, 1));
     uint8_t *bytes = (uint8_t *)plan->extras.data + at;
     memset(bytes, 0, EWA_LAS_EXTRA_BYTES);
     bytes[2] = type;
@@ -144,16 +142,15 @@ static ewa_status add_extra(const ewa_cloud_target *target, ewa_las_plan *plan, 
     if (count < 4 && !has_parts)
         return describe(target, plan, count == 1 ? ewa_las_alias(attribute->name) : attribute->name,
                         (uint8_t)(raw + 10 * (count - 1)), 0, scale);
-    ewa_status status = EWA_OK;
-    for (uint32_t c = 0; c < count && status == EWA_OK; c++) {
+    for (uint32_t c = 0; c < count; c++) {
         char name[EWA_NAME_BYTES + 12];
         if (has_parts)
             snprintf(name, sizeof name, "%s", ewa_las_part_name(attribute->name, c));
         else
             snprintf(name, sizeof name, "%s_%u", attribute->name, c);
-        status = describe(target, plan, name, raw, 0, scale);
+        EWA_TRY(describe(target, plan, name, raw, 0, scale));
     }
-    return status;
+    return EWA_OK;
 }
 
 /// Gives a colour's alpha a field behind those of the point format.
@@ -198,9 +195,8 @@ ewa_status ewa_las_plan_make(const ewa_cloud_target *target, const ewa_cloud *pi
     plan->compressed = length >= 4 && (target->name[length - 1] | 32) == 'z';
     plan->point_format = choose_format(target, piece, is_whole, is_new);
     ewa_las_table_begin(plan->point_format, &plan->table);
-    ewa_status status = assign(target, plan);
-    if (status == EWA_OK) status = ewa_las_grid_choose(target, plan);
-    if (status != EWA_OK) return status;
+    EWA_TRY(assign(target, plan));
+    EWA_TRY(ewa_las_grid_choose(target, plan));
     // A count of 32 bits and the records of older versions are what most programs read.
     const bool is_long = target->point_count > UINT32_MAX; // also when unknown
     plan->version_minor = plan->point_format >= 6 || plan->extra_count || is_long ? 4 : 2;

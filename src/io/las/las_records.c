@@ -17,9 +17,7 @@ enum { MAX_RECORD_BYTES = 65535, WKT_ID = 2112, KEYS_ID = 34735 };
 ewa_status ewa_las_record_append(ewa_context *context, const char *user, uint16_t id, const char *description,
                                  const void *bytes, size_t size_bytes, ewa_buffer *records,
                                  size_t *at_bytes) {
-    const ewa_status status =
-        ewa_buffer_grow(context, records, *at_bytes, *at_bytes + EWA_LAS_RECORD_BYTES + size_bytes, 1);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_buffer_grow(context, records, *at_bytes, *at_bytes + EWA_LAS_RECORD_BYTES + size_bytes, 1));
     uint8_t *to = (uint8_t *)records->data + *at_bytes;
     memset(to, 0, EWA_LAS_RECORD_BYTES);
     memcpy(to + 2, user, strnlen(user, 16));
@@ -51,9 +49,7 @@ static ewa_status compare_crs(const ewa_cloud_target *target, const ewa_las_crs 
     for (int prefer_wkt = 0; prefer_wkt < 2 && !*same; prefer_wkt++) {
         char *text, name[EWA_LAS_NAME_BYTES];
         size_t text_bytes;
-        const ewa_status status =
-            ewa_las_crs_text(target->context, crs, prefer_wkt, &text, &text_bytes, name);
-        if (status != EWA_OK) return status;
+        EWA_TRY(ewa_las_crs_text(target->context, crs, prefer_wkt, &text, &text_bytes, name));
         *same = text ? note && strcmp(text, note) == 0 : !note;
         ewa_release(target->context, text, text_bytes, 1);
     }

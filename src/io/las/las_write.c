@@ -131,17 +131,16 @@ static ewa_status flush_chunks(las_writer *w) {
     ewa_context *context = w->target->context;
     const uint32_t count = (uint32_t)((w->wave_filled + w->chunk_points - 1) / w->chunk_points);
     ewa_parallel_allocating(context, encode_chunk, w, count);
-    ewa_status status = ewa_buffer_grow(context, &w->chunks, (size_t)w->chunk_count,
-                                        (size_t)w->chunk_count + count, sizeof(ewa_laz_chunk));
-    for (uint32_t i = 0; i < count && status == EWA_OK; i++) {
+    EWA_TRY(ewa_buffer_grow(context, &w->chunks, (size_t)w->chunk_count, (size_t)w->chunk_count + count,
+                            sizeof(ewa_laz_chunk)));
+    for (uint32_t i = 0; i < count; i++) {
         const uint64_t left = w->wave_filled - (uint64_t)i * w->chunk_points;
-        status = w->chunk_statuses[i];
-        if (status != EWA_OK) break;
+        EWA_TRY(w->chunk_statuses[i]);
         ((ewa_laz_chunk *)w->chunks.data)[w->chunk_count++] =
             (ewa_laz_chunk){left < w->chunk_points ? left : w->chunk_points, w->chunk_sizes[i]};
-        status = put_bytes(w, w->chunk_buffers[i].data, w->chunk_sizes[i]);
+        EWA_TRY(put_bytes(w, w->chunk_buffers[i].data, w->chunk_sizes[i]));
     }
-    return status;
+    return EWA_OK;
 }
 
 static ewa_status flush(las_writer *w) {
@@ -174,8 +173,7 @@ static void pack_task(void *data, uint32_t index, uint32_t worker) {
 
 static ewa_status put_finite(las_writer *w, const ewa_cloud *piece) {
     const uint64_t count = ewa_cloud_point_count(piece);
-    ewa_status status = EWA_OK;
-    for (uint64_t first = 0; first < count && status == EWA_OK;) {
+    for (uint64_t first = 0; first < count;) {
         const uint64_t left = count - first, room = w->wave_points - w->wave_filled;
         const pack_job job = {
             .writer = w, .piece = piece, .first = first, .count = left < room ? left : room};
@@ -185,11 +183,11 @@ static ewa_status put_finite(las_writer *w, const ewa_cloud *piece) {
         w->wave_filled += job.count;
         w->point_count += job.count;
         first += job.count;
-        if (w->wave_filled == w->wave_points) status = flush(w);
+        if (w->wave_filled == w->wave_points) EWA_TRY(flush(w));
         // What is in the wave of a dry run is packed again.
-        if (status == EWA_OK && w->dry && first == count) status = flush(w);
+        if (w->dry && first == count) EWA_TRY(flush(w));
     }
-    return status;
+    return EWA_OK;
 }
 
 /// Makes the piece without the points whose coordinates are not finite; NULL: all are.
@@ -269,10 +267,9 @@ static ewa_status begin(las_writer *w, const ewa_cloud *piece, bool is_whole) {
 static ewa_status put_points(void *data, const ewa_cloud *piece) {
     las_writer *w = data;
     ewa_bounds bounds;
-    ewa_status status = ewa_cloud_measure(piece, &bounds);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_cloud_measure(piece, &bounds));
     ewa_cloud *finite = NULL;
-    status = drop_unplaced(w, piece, bounds.finite_count, &finite);
+    ewa_status status = drop_unplaced(w, piece, bounds.finite_count, &finite);
     if (status == EWA_OK && !w->begun)
         status = begin(w, finite ? finite : piece, ewa_cloud_point_count(piece) == w->target->point_count);
     if (status == EWA_OK) status = check_range(w, &bounds);

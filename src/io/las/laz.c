@@ -150,8 +150,7 @@ ewa_status ewa_laz_decode(ewa_context *context, const ewa_laz_plan *plan, const 
                           ewa_laz_memory **memory, ewa_laz_result *result) {
     *result = (ewa_laz_result){0};
     if (point_count == 0) return EWA_OK;
-    const ewa_status status = prepare(context, plan, memory);
-    if (status != EWA_OK) return status;
+    EWA_TRY(prepare(context, plan, memory));
     if (plan->layered)
         ewa_laz_layered_decode(*memory, bytes, size_bytes, point_count, records, result);
     else
@@ -162,8 +161,7 @@ ewa_status ewa_laz_decode(ewa_context *context, const ewa_laz_plan *plan, const 
 ewa_status ewa_laz_encode(ewa_context *context, const ewa_laz_plan *plan, const uint8_t *records,
                           uint64_t point_count, ewa_buffer *to, size_t *at_bytes, ewa_laz_memory **memory) {
     if (point_count == 0) return EWA_OK;
-    const ewa_status status = prepare(context, plan, memory);
-    if (status != EWA_OK) return status;
+    EWA_TRY(prepare(context, plan, memory));
     return plan->layered ? ewa_laz_layered_encode(context, *memory, records, point_count, to, at_bytes)
                          : ewa_laz_flat_encode(context, *memory, records, point_count, to, at_bytes);
 }

@@ -185,8 +185,7 @@ ewa_status ewa_laz_flat_encode(ewa_context *context, ewa_laz_memory *memory, con
     const uint32_t stride = memory->plan.record_bytes;
     size_t record_room = AHEAD_ROOM;
     for (uint32_t i = 0; i < memory->plan.item_count; i++) record_room += room(&memory->plan.items[i]);
-    ewa_status status = ewa_laz_room(context, to, *at_bytes, stride + record_room);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_laz_room(context, to, *at_bytes, stride + record_room));
     memcpy((uint8_t *)to->data + *at_bytes, records, stride);
     start(memory, records);
     size_t at = *at_bytes + stride;
@@ -194,14 +193,12 @@ ewa_status ewa_laz_flat_encode(ewa_context *context, ewa_laz_memory *memory, con
     ewa_laz_encoder_start(&c, (uint8_t *)to->data + at, memory->generation);
     for (uint64_t i = 1; i < point_count; i++) {
         at = (size_t)(c.to - (uint8_t *)to->data);
-        status = ewa_laz_room(context, to, at, record_room);
-        if (status != EWA_OK) return status;
+        EWA_TRY(ewa_laz_room(context, to, at, record_room));
         c.to = (uint8_t *)to->data + at;
         code_record(true, &c, memory, (uint8_t *)(uintptr_t)(records += stride));
     }
     at = (size_t)(c.to - (uint8_t *)to->data);
-    status = ewa_laz_room(context, to, at, EWA_LAZ_FINISH_BYTES);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_laz_room(context, to, at, EWA_LAZ_FINISH_BYTES));
     c.to = (uint8_t *)to->data + at;
     ewa_laz_encoder_finish(&c);
     *at_bytes = (size_t)(c.to - (uint8_t *)to->data);

@@ -314,9 +314,8 @@ static ewa_status make_room(ewa_context *context, ewa_laz_memory *memory) {
             ewa_buffer *output = &memory->outputs[i];
             uint8_t **to = &memory->layers[i].coder.to;
             const size_t at = output->data ? (size_t)(*to - (uint8_t *)output->data) : 0;
-            const ewa_status status = ewa_laz_room(
-                context, output, at, BLOCK_RECORDS * record_room + AHEAD_ROOM + EWA_LAZ_FINISH_BYTES);
-            if (status != EWA_OK) return status;
+            EWA_TRY(ewa_laz_room(context, output, at,
+                                 BLOCK_RECORDS * record_room + AHEAD_ROOM + EWA_LAZ_FINISH_BYTES));
             *to = (uint8_t *)output->data + at;
         }
     }
@@ -333,19 +332,18 @@ ewa_status ewa_laz_layered_encode(ewa_context *context, ewa_laz_memory *memory, 
         memory->layers[i].changed = i <= EWA_LAZ_LAYER_Z; // these two are always written
         ewa_laz_encoder_start(&memory->layers[i].coder, memory->outputs[i].data, memory->generation);
     }
-    ewa_status status = make_room(context, memory);
-    for (uint64_t i = 1; i < point_count && status == EWA_OK; i++) {
+    EWA_TRY(make_room(context, memory));
+    for (uint64_t i = 1; i < point_count; i++) {
         code_record(true, memory, (uint8_t *)(uintptr_t)(records += stride));
-        if (i % BLOCK_RECORDS == 0) status = make_room(context, memory);
+        if (i % BLOCK_RECORDS == 0) EWA_TRY(make_room(context, memory));
     }
     size_t chunk_bytes = head_bytes;
-    for (uint32_t i = 0; i < memory->layer_count && status == EWA_OK; i++) {
+    for (uint32_t i = 0; i < memory->layer_count; i++) {
         ewa_laz_coder *c = &memory->layers[i].coder;
         ewa_laz_encoder_finish(c);
         if (memory->layers[i].changed) chunk_bytes += (size_t)(c->to - (uint8_t *)memory->outputs[i].data);
     }
-    if (status == EWA_OK) status = ewa_laz_room(context, to, *at_bytes, chunk_bytes);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_laz_room(context, to, *at_bytes, chunk_bytes));
     uint8_t *head = (uint8_t *)to->data + *at_bytes, *body = head + head_bytes;
     memcpy(head, first, stride);
     ewa_laz_store32(head + stride, (uint32_t)point_count);

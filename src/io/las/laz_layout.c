@@ -78,8 +78,7 @@ static ewa_status make_chunks(ewa_context *context, ewa_laz_layout *layout, uint
 /// All points in one chunk without a table, which ends where the extended records begin, or the file.
 static ewa_status read_single(const ewa_cloud_source *source, const ewa_las_header *header, uint64_t at,
                               ewa_laz_layout *layout) {
-    const ewa_status status = make_chunks(source->context, layout, 1);
-    if (status != EWA_OK) return status;
+    EWA_TRY(make_chunks(source->context, layout, 1));
     const bool ends_before = header->evlr_count && header->evlrs_at >= at;
     const uint64_t end =
         ends_before && header->evlrs_at < source->size_bytes ? header->evlrs_at : source->size_bytes;
@@ -110,8 +109,8 @@ static ewa_status read_table(const ewa_cloud_source *source, const ewa_las_heade
                         "before it",
                         source->name, (unsigned long long)table_at, version, count,
                         (unsigned long long)maximum);
-    ewa_status status = make_chunks(source->context, layout, count);
-    if (status != EWA_OK || count == 0) return status;
+    EWA_TRY(make_chunks(source->context, layout, count));
+    if (count == 0) return EWA_OK;
     const char *fault =
         ewa_laz_table_decode(head + TABLE_HEAD_BYTES, source->size_bytes - table_at - TABLE_HEAD_BYTES, count,
                              layout->variable, layout->chunks);
@@ -191,9 +190,8 @@ ewa_status ewa_laz_layout_read(const ewa_cloud_source *source, const ewa_las_hea
                                ewa_laz_layout *layout) {
     *layout = (ewa_laz_layout){0};
     uint32_t chunk_points = 0;
-    ewa_status status = read_record(source, header, layout, &chunk_points);
-    if (status == EWA_OK) status = check_plan(source, header, layout);
-    if (status != EWA_OK) return status;
+    EWA_TRY(read_record(source, header, layout, &chunk_points));
+    EWA_TRY(check_plan(source, header, layout));
     const bool pointwise = layout->packing == EWA_LAZ_POINTWISE;
     layout->variable = !pointwise && chunk_points == EWA_LAZ_VARIABLE;
     if (header->point_count == 0 && !layout->variable) return EWA_OK;
@@ -201,15 +199,15 @@ ewa_status ewa_laz_layout_read(const ewa_cloud_source *source, const ewa_las_hea
     const uint64_t first = pointwise ? header->points_at : header->points_at + 8;
     if (pointwise || (table_at == 0 && !layout->variable && header->point_count <= chunk_points &&
                       source->size_bytes > first)) {
-        status = read_single(source, header, first, layout);
-        return status == EWA_OK ? place_chunks(source, first, source->size_bytes, layout) : status;
+        EWA_TRY(read_single(source, header, first, layout));
+        return place_chunks(source, first, source->size_bytes, layout);
     }
     if (table_at == 0)
         return ewa_cloud_damage(source, header->point_count,
                                 "%s: the table of chunks, which says where the %llu points are, is missing: "
                                 "the file is cut short or was never finished",
                                 source->name, (unsigned long long)header->point_count);
-    status = read_table(source, header, table_at, layout);
+    ewa_status status = read_table(source, header, table_at, layout);
     if (status == EWA_OK && !layout->variable)
         status = share_points(source, header->point_count, chunk_points, layout);
     if (status == EWA_OK) status = place_chunks(source, first, table_at, layout);

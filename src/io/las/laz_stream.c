@@ -112,15 +112,13 @@ ewa_status ewa_laz_stream_sample(ewa_laz_stream *stream,
                                  bool *is_all) {
     const uint64_t chunk_count = stream->layout->chunk_count;
     const uint32_t maximum = chunk_count < MAX_SAMPLES ? (uint32_t)chunk_count : MAX_SAMPLES;
-    ewa_status status = EWA_OK;
     uint64_t bytes = 0;
-    for (uint32_t i = 0; i < maximum && status == EWA_OK; i++) {
+    for (uint32_t i = 0; i < maximum; i++) {
         const uint64_t chunk = ewa_split(chunk_count, maximum, i);
         bytes += chunk_bytes(stream, chunk);
         if (i && bytes > SAMPLE_BYTES) break;
-        status = add_kept(stream, chunk);
+        EWA_TRY(add_kept(stream, chunk));
     }
-    if (status != EWA_OK) return status;
     const keep_job job = {stream, 0};
     ewa_parallel_allocating(stream->source->context, decode_kept, (void *)&job, stream->kept_count);
     *is_all = stream->kept_count == chunk_count;
@@ -153,7 +151,6 @@ static ewa_status damage(const ewa_laz_stream *stream, uint64_t chunk, uint64_t 
 /// Decodes and keeps the next chunks, one per worker as far as there is room.
 static ewa_status keep_next(ewa_laz_stream *stream) {
     const uint64_t chunk_count = stream->layout->chunk_count;
-    ewa_status status = EWA_OK;
     const uint32_t first = stream->kept_count;
     uint64_t bytes = 0;
     for (uint64_t chunk = stream->next_chunk; chunk < chunk_count && stream->kept_count <= MAX_SAMPLES &&
@@ -162,8 +159,7 @@ static ewa_status keep_next(ewa_laz_stream *stream) {
         if (find_kept(stream, chunk)) continue;
         bytes += chunk_bytes(stream, chunk);
         if (chunk > stream->next_chunk && bytes > SAMPLE_BYTES) break;
-        status = add_kept(stream, chunk);
-        if (status != EWA_OK) return status;
+        EWA_TRY(add_kept(stream, chunk));
     }
     const keep_job job = {stream, first};
     ewa_parallel_allocating(stream->source->context, decode_kept, (void *)&job, stream->kept_count - first);
@@ -175,13 +171,11 @@ static ewa_status read_part(ewa_laz_stream *stream, const ewa_las_table *table, 
                             const ewa_cloud_sink *sinks, uint64_t *got_count, uint64_t *above_count) {
     const uint64_t chunk = stream->next_chunk;
     kept_chunk *kept = find_kept(stream, chunk);
-    ewa_status status = EWA_OK;
     if (!kept) {
-        status = keep_next(stream);
-        if (status != EWA_OK) return status;
+        EWA_TRY(keep_next(stream));
         kept = find_kept(stream, chunk);
     }
-    status = kept->status;
+    ewa_status status = kept->status;
     const uint64_t point_count = stream->layout->chunks[chunk].point_count;
     if (status == EWA_OK && kept->result.fault) {
         status = damage(stream, chunk, stream->points_before, &kept->result);
@@ -260,8 +254,7 @@ static ewa_status settle(const wave *w, uint64_t *got_count, uint64_t *above_cou
         const uint64_t chunk = stream->next_chunk, point_count = stream->layout->chunks[chunk].point_count;
         if (r->status != EWA_OK) return r->status;
         if (r->result.fault) {
-            const ewa_status status = damage(stream, chunk, stream->points_before, &r->result);
-            if (status != EWA_OK) return status;
+            EWA_TRY(damage(stream, chunk, stream->points_before, &r->result));
         } else {
             if (*got_count != r->first_point) move_down(w, *got_count, r->first_point, point_count);
             *got_count += point_count;

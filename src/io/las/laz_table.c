@@ -36,9 +36,8 @@ const char *ewa_laz_table_decode(const uint8_t *bytes, uint64_t size_bytes, uint
 
 ewa_status ewa_laz_table_encode(ewa_context *context, const ewa_laz_chunk *chunks, uint32_t chunk_count,
                                 bool variable, ewa_buffer *to, size_t *at_bytes) {
-    const ewa_status status = ewa_laz_room(
-        context, to, *at_bytes, HEAD_BYTES + (size_t)chunk_count * ENTRY_ROOM + EWA_LAZ_FINISH_BYTES);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_laz_room(context, to, *at_bytes,
+                         HEAD_BYTES + (size_t)chunk_count * ENTRY_ROOM + EWA_LAZ_FINISH_BYTES));
     uint8_t *head = (uint8_t *)to->data + *at_bytes;
     ewa_laz_store32(head, 0); // version
     ewa_laz_store32(head + 4, chunk_count);

@@ -70,8 +70,7 @@ ewa_status ewa_mesh_list_grow(ewa_mesh_build *build, ewa_mesh_list *list, uint64
 /// Makes a list as long as `count`, with copies of an item.
 static ewa_status fill_up(ewa_mesh_build *build, ewa_mesh_list *list, uint64_t count, const void *item) {
     if (list->count >= count) return EWA_OK;
-    const ewa_status status = ewa_mesh_list_grow(build, list, count - list->count);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_mesh_list_grow(build, list, count - list->count));
     for (; list->count < count; list->count++)
         memcpy((uint8_t *)list->items + list->count * list->item_bytes, item, list->item_bytes);
     return EWA_OK;
@@ -145,10 +144,9 @@ ewa_status ewa_mesh_add_triangle(ewa_mesh_build *build, const ewa_mesh_corner *a
     if (!to) return status;
     to[0] = a->position, to[1] = b->position, to[2] = c->position;
     const uint64_t before = build->corners.count - 1;
-    status = add_corners(build, &build->texcoord_corners, a->texcoord, b->texcoord, c->texcoord);
-    if (status == EWA_OK)
-        status = add_corners(build, &build->normal_corners, a->normal, b->normal, c->normal);
-    if (status == EWA_OK && build->look != EWA_MESH_NONE) {
+    EWA_TRY(add_corners(build, &build->texcoord_corners, a->texcoord, b->texcoord, c->texcoord));
+    EWA_TRY(add_corners(build, &build->normal_corners, a->normal, b->normal, c->normal));
+    if (build->look != EWA_MESH_NONE) {
         status = fill_up(build, &build->face_looks, before, &none);
         uint32_t *look = status == EWA_OK ? ewa_mesh_list_add(build, &build->face_looks, &status) : NULL;
         if (look) *look = build->look;

@@ -273,9 +273,7 @@ static ewa_status fill_mesh(finish_job *job, bool same, ewa_mesh *mesh) {
         (build->colors.count || build->face_colors.count ? EWA_MESH_COLORS : 0u) |
         (build->texcoord_corners.count && build->texcoords.count ? EWA_MESH_TEXCOORDS : 0u) |
         (build->normal_corners.count && build->normals.count ? EWA_MESH_NORMALS : 0u);
-    const ewa_status status =
-        ewa_mesh_create(build->context, vertex_count, triangle_count, material_count, streams, mesh);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_mesh_create(build->context, vertex_count, triangle_count, material_count, streams, mesh));
     for (uint32_t v = 0; v < vertex_count; v++) {
         const vertex_key key =
             same ? (vertex_key){v, EWA_MESH_NONE, EWA_MESH_NONE, EWA_MESH_NONE, EWA_MESH_NONE}
@@ -303,7 +301,7 @@ ewa_status ewa_mesh_build_mesh(ewa_mesh_build *build, ewa_mesh *mesh) {
     ewa_release(context, job.table, job.slots, sizeof *job.table);
     ewa_release(context, job.triangles, job.vertex_capacity, sizeof *job.triangles);
     ewa_release(context, job.vertices, job.vertex_capacity, sizeof *job.vertices);
-    if (status != EWA_OK) return status;
+    EWA_TRY(status);
     const uint32_t not_finite = count_not_finite(mesh);
     say_losses(build, true, not_finite);
     if (not_finite < mesh->triangle_count) {

@@ -89,8 +89,8 @@ ewa_status ewa_gltf_read_attribute(gltf *g, uint64_t mesh, const cJSON *attribut
     if (!ewa_gltf_member(attributes, name)) return EWA_OK;
     if (!ewa_gltf_count(attributes, name, 0, &accessor))
         return ewa_gltf_fail(g, "meshes", mesh, "the number of an accessor is wrong");
-    const ewa_status status = ewa_gltf_read_accessor(g, accessor, low, high, array);
-    if (status != EWA_OK || !wanted_count || array->count == wanted_count) return status;
+    EWA_TRY(ewa_gltf_read_accessor(g, accessor, low, high, array));
+    if (!wanted_count || array->count == wanted_count) return EWA_OK;
     ewa_gltf_free_array(g, array);
     return ewa_gltf_fail(g, "meshes", mesh, "a primitive has attributes of different lengths");
 }
@@ -124,11 +124,12 @@ static ewa_status add_colors(gltf *g, const primitive *p) {
     static const float white[4] = {1, 1, 1, 1};
     gltf_array array;
     ewa_mesh_build *build = g->build;
-    ewa_status status = read_attribute(g, p, "COLOR_0", 3, 4, &array);
-    if (status != EWA_OK || !array.count) return status;
+    EWA_TRY(read_attribute(g, p, "COLOR_0", 3, 4, &array));
+    if (!array.count) return EWA_OK;
     // Colours go by place: what has none before this primitive is white.
     const uint64_t end = build->positions.count;
     build->positions.count = p->position;
+    ewa_status status = EWA_OK;
     for (uint64_t i = 0; i < array.count && build->positions.count < end && status == EWA_OK; i++) {
         const double *from = array.numbers + array.components * i;
         float color[4] = {1, 1, 1, 1};
@@ -187,8 +188,7 @@ static ewa_mesh_corner corner_at(const primitive *p, uint64_t index) {
 static ewa_status add_triangles(gltf *g, const primitive *p, uint64_t mode) {
     const uint64_t count = p->indices.numbers ? p->indices.count : p->count;
     const uint64_t triangles = mode == TRIANGLES ? count / 3 : count < 3 ? 0 : count - 2;
-    ewa_status status = EWA_OK;
-    for (uint64_t t = 0; t < triangles && status == EWA_OK; t++) {
+    for (uint64_t t = 0; t < triangles; t++) {
         uint64_t a = t, b = t + 1, c = t + 2;
         if (mode == TRIANGLES) a = 3 * t, b = a + 1, c = a + 2;
         if (mode == FAN) a = 0;
@@ -196,16 +196,15 @@ static ewa_status add_triangles(gltf *g, const primitive *p, uint64_t mode) {
         const bool turned = p->mirrored != (mode == STRIP && t % 2);
         const ewa_mesh_corner corners[3] = {corner_at(p, a), corner_at(p, turned ? c : b),
                                             corner_at(p, turned ? b : c)};
-        status = ewa_mesh_add_polygon(g->build, corners, 3);
+        EWA_TRY(ewa_mesh_add_polygon(g->build, corners, 3));
     }
-    return status;
+    return EWA_OK;
 }
 
 static ewa_status add_primitive(gltf *g, uint64_t mesh, const cJSON *item, const gltf_placement *at) {
     primitive p = {.mesh = mesh, .attributes = ewa_gltf_member(item, "attributes")};
     uint64_t mode, material, indices, set = 0;
-    ewa_status status = ewa_gltf_spend(g, PRIMITIVE_ITEMS); // many nodes may have one mesh
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_gltf_spend(g, PRIMITIVE_ITEMS)); // many nodes may have one mesh
     if (!ewa_gltf_count(item, "mode", TRIANGLES, &mode) || mode > FAN ||
         !ewa_gltf_count(item, "material", UINT64_MAX, &material) ||
         !ewa_gltf_count(item, "indices", UINT64_MAX, &indices))
@@ -217,11 +216,11 @@ static ewa_status add_primitive(gltf *g, uint64_t mesh, const cJSON *item, const
     double cofactor[3][3];
     p.mirrored = cofactors(at, cofactor) < 0;
     g->build->look = EWA_MESH_NONE;
-    if (material != UINT64_MAX) status = ewa_gltf_look(g, material, &g->build->look, &set);
-    if (status == EWA_OK) status = add_positions(g, &p, at);
-    if (status == EWA_OK) status = add_colors(g, &p);
-    if (status != EWA_OK || mode == POINTS) return status;
-    status = add_texcoords(g, &p, set);
+    if (material != UINT64_MAX) EWA_TRY(ewa_gltf_look(g, material, &g->build->look, &set));
+    EWA_TRY(add_positions(g, &p, at));
+    EWA_TRY(add_colors(g, &p));
+    if (mode == POINTS) return EWA_OK;
+    ewa_status status = add_texcoords(g, &p, set);
     if (status == EWA_OK) status = add_normals(g, &p, at);
     if (status == EWA_OK && indices != UINT64_MAX)
         status = ewa_gltf_read_accessor(g, indices, 1, 1, &p.indices);
@@ -238,21 +237,18 @@ static ewa_status add_node(gltf *g, uint64_t index, const gltf_placement *above,
     const cJSON *node = g->nodes.items[index], *item;
     gltf_placement own;
     uint64_t mesh, child;
-    ewa_status status = read_placement(g, index, &own);
-    if (status != EWA_OK) return status;
+    EWA_TRY(read_placement(g, index, &own));
     const gltf_placement at = multiply(above, &own);
     if (!ewa_gltf_count(node, "mesh", UINT64_MAX, &mesh) || (mesh != UINT64_MAX && mesh >= g->meshes.count))
         return ewa_gltf_fail(g, "nodes", index, "there is no such mesh");
-    if (mesh != UINT64_MAX) cJSON_ArrayForEach(item, ewa_gltf_member(g->meshes.items[mesh], "primitives")) {
-            status = g->take(g, mesh, item, &at);
-            if (status != EWA_OK) return status;
-        }
+    if (mesh != UINT64_MAX)
+        cJSON_ArrayForEach(item, ewa_gltf_member(g->meshes.items[mesh], "primitives"))
+            EWA_TRY(g->take(g, mesh, item, &at));
     cJSON_ArrayForEach(item, ewa_gltf_member(node, "children")) {
         if (!cJSON_IsNumber(item) || !(item->valuedouble >= 0 && item->valuedouble < 0x1p32))
             return ewa_gltf_fail(g, "nodes", index, "a child is no number of a node");
         child = (uint64_t)item->valuedouble;
-        status = add_node(g, child, &at, depth + 1);
-        if (status != EWA_OK) return status;
+        EWA_TRY(add_node(g, child, &at, depth + 1));
     }
     return ewa_progress(g->build->context, "read", 0.5);
 }
@@ -262,7 +258,6 @@ static ewa_status add_scene(gltf *g) {
     static const gltf_placement identity = {{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
     const cJSON *scenes = ewa_gltf_member(g->root, "scenes"), *item;
     uint64_t number;
-    ewa_status status = EWA_OK;
     if (!ewa_gltf_count(g->root, "scene", 0, &number))
         return ewa_gltf_fail(g, "scenes", 0, "scene is no number");
     if (cJSON_GetArraySize(scenes) > 0) {
@@ -272,8 +267,7 @@ static ewa_status add_scene(gltf *g) {
         cJSON_ArrayForEach(item, ewa_gltf_member(scene, "nodes")) {
             if (!cJSON_IsNumber(item) || !(item->valuedouble >= 0 && item->valuedouble < 0x1p32))
                 return ewa_gltf_fail(g, "scenes", number, "a node is no number");
-            status = add_node(g, (uint64_t)item->valuedouble, &identity, 0);
-            if (status != EWA_OK) return status;
+            EWA_TRY(add_node(g, (uint64_t)item->valuedouble, &identity, 0));
         }
         return EWA_OK;
     }
@@ -285,6 +279,7 @@ static ewa_status add_scene(gltf *g) {
                                                                                      item->valuedouble <
                                                                                          g->nodes.count)
             is_child[(uint32_t)item->valuedouble] = true;
+    ewa_status status = EWA_OK;
     for (uint32_t n = 0; n < g->nodes.count && status == EWA_OK; n++)
         if (!is_child[n]) status = add_node(g, n, &identity, 0);
     ewa_release(g->build->context, is_child, g->nodes.count, sizeof *is_child);
@@ -416,12 +411,11 @@ ewa_status ewa_gltf_walk(ewa_mesh_build *build, gltf_take *take, void *user, con
     ewa_gltf_grant(&g, source->size_bytes);
     const uint8_t *json = source->bytes;
     size_t json_bytes = source->size_bytes;
-    ewa_status status = EWA_OK;
-    if (json_bytes >= 4 && memcmp(json, "glTF", 4) == 0) status = open_container(&g, &json, &json_bytes);
-    if (status != EWA_OK) return status;
+    if (json_bytes >= 4 && memcmp(json, "glTF", 4) == 0) EWA_TRY(open_container(&g, &json, &json_bytes));
     if (json_bytes >= 3 && memcmp(json, "\xef\xbb\xbf", 3) == 0) json += 3, json_bytes -= 3;
     while (json_bytes && json[json_bytes - 1] == 0) json_bytes--; // padding that should be blanks
-    status = ewa_json_parse(build->context, source->name, "a glTF file", json, json_bytes, &g.root);
+    ewa_status status =
+        ewa_json_parse(build->context, source->name, "a glTF file", json, json_bytes, &g.root);
     if (status == EWA_OK) status = read_tree(&g);
     cJSON_Delete(g.root);
     return status;

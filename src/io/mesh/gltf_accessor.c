@@ -85,9 +85,8 @@ static ewa_status open_buffer(gltf *g, uint64_t index) {
     } else if (!cJSON_IsString(uri)) {
         return ewa_gltf_fail(g, "buffers", index, "there is neither a uri nor a binary chunk");
     } else if (strncmp(uri->valuestring, "data:", 5) == 0) {
-        const ewa_status status = ewa_gltf_decode_uri(g, "buffers", index, uri->valuestring, &buffer->decoded,
-                                                      &buffer->decoded_room, &buffer->size_bytes);
-        if (status != EWA_OK) return status;
+        EWA_TRY(ewa_gltf_decode_uri(g, "buffers", index, uri->valuestring, &buffer->decoded,
+                                    &buffer->decoded_room, &buffer->size_bytes));
         buffer->bytes = buffer->decoded;
     } else {
         char path[4096], reason[EWA_REASON_BYTES] = "its name is too long", quote[EWA_QUOTE_BYTES];
@@ -129,8 +128,7 @@ ewa_status ewa_gltf_view(gltf *g, uint64_t index, const uint8_t **bytes, uint64_
         !ewa_gltf_count(view, "byteLength", 0, size_bytes) || !ewa_gltf_count(view, "byteStride", 0, stride))
         return ewa_gltf_fail(g, "bufferViews", index,
                              "buffer, byteOffset, byteLength or byteStride is wrong");
-    const ewa_status status = open_buffer(g, buffer);
-    if (status != EWA_OK) return status;
+    EWA_TRY(open_buffer(g, buffer));
     const uint64_t there = g->opened[buffer].size_bytes;
     if (offset > there || *size_bytes > there - offset)
         return ewa_gltf_fail(g, "bufferViews", index, "it ends behind its buffer");
@@ -170,8 +168,7 @@ static uint32_t component_count(const cJSON *accessor) {
 static ewa_status open_records(gltf *g, uint64_t accessor, uint64_t view, uint64_t offset, uint64_t count,
                                uint64_t bytes, const uint8_t **records, uint64_t *stride) {
     uint64_t size_bytes, last;
-    const ewa_status status = ewa_gltf_view(g, view, records, &size_bytes, stride);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_gltf_view(g, view, records, &size_bytes, stride));
     if (*stride == 0) *stride = bytes;
     if (*stride < bytes || (count && (__builtin_mul_overflow(count - 1, *stride, &last) ||
                                       __builtin_add_overflow(last, offset, &last) ||
@@ -196,12 +193,11 @@ static ewa_status apply_sparse(gltf *g, uint64_t index, const cJSON *sparse, uin
         !ewa_gltf_count(values, "bufferView", UINT64_MAX, &view[1]) ||
         !ewa_gltf_count(values, "byteOffset", 0, &offset[1]))
         return ewa_gltf_fail(g, "accessors", index, "its sparse part is wrong");
-    ewa_status status = open_records(g, index, view[0], offset[0], count, component_bytes(index_type),
-                                     &records[0], &stride[0]);
-    if (status == EWA_OK)
-        status = open_records(g, index, view[1], offset[1], count, (uint64_t)bytes * array->components,
-                              &records[1], &stride[1]);
-    for (uint64_t i = 0; i < count && status == EWA_OK; i++) {
+    EWA_TRY(open_records(g, index, view[0], offset[0], count, component_bytes(index_type), &records[0],
+                         &stride[0]));
+    EWA_TRY(open_records(g, index, view[1], offset[1], count, (uint64_t)bytes * array->components,
+                         &records[1], &stride[1]));
+    for (uint64_t i = 0; i < count; i++) {
         const double at = load_component(records[0] + i * stride[0], index_type, false);
         if (!(at < (double)array->count))
             return ewa_gltf_fail(g, "accessors", index, "its sparse part replaces what is not there");
@@ -209,7 +205,7 @@ static ewa_status apply_sparse(gltf *g, uint64_t index, const cJSON *sparse, uin
             array->numbers[(uint64_t)at * array->components + c] =
                 load_component(records[1] + i * stride[1] + c * bytes, type, normalized);
     }
-    return status;
+    return EWA_OK;
 }
 
 static ewa_status read_numbers(gltf *g, uint64_t index, const cJSON *accessor, uint64_t type,
@@ -218,14 +214,12 @@ static ewa_status read_numbers(gltf *g, uint64_t index, const cJSON *accessor, u
     const uint32_t bytes = component_bytes(type);
     uint64_t view, offset, stride = 0;
     const uint8_t *records = NULL;
-    ewa_status status = EWA_OK;
     if (!ewa_gltf_count(accessor, "bufferView", UINT64_MAX, &view) ||
         !ewa_gltf_count(accessor, "byteOffset", 0, &offset))
         return ewa_gltf_fail(g, "accessors", index, "bufferView or byteOffset is wrong");
     if (view != UINT64_MAX)
-        status = open_records(g, index, view, offset, array->count, (uint64_t)bytes * array->components,
-                              &records, &stride);
-    if (status != EWA_OK) return status;
+        EWA_TRY(open_records(g, index, view, offset, array->count, (uint64_t)bytes * array->components,
+                             &records, &stride));
     array->numbers =
         ewa_allocate_zeroed(g->build->context, array->count, array->components * sizeof *array->numbers);
     if (!array->numbers) return EWA_ERROR_MEMORY;
@@ -249,9 +243,8 @@ ewa_status ewa_gltf_read_accessor(gltf *g, uint64_t index, uint32_t low, uint32_
     if (!ewa_gltf_count(accessor, "count", 0, &array->count))
         return ewa_gltf_fail(g, "accessors", index, "count is no count");
     // A short file may name one accessor many times, or one that is all zeros.
-    ewa_status status = ewa_gltf_spend(g, array->count);
-    if (status != EWA_OK) return status;
-    status = read_numbers(g, index, accessor, type, array);
+    EWA_TRY(ewa_gltf_spend(g, array->count));
+    ewa_status status = read_numbers(g, index, accessor, type, array);
     if (status != EWA_OK) ewa_gltf_free_array(g, array);
     return status;
 }

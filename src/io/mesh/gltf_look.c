@@ -87,8 +87,7 @@ ewa_status ewa_gltf_look(gltf *g, uint64_t material, uint32_t *look, uint64_t *t
                 *older = ewa_gltf_extension(item, "KHR_materials_pbrSpecularGlossiness");
     const cJSON *info = ewa_gltf_member(older ? older : base, older ? "diffuseTexture" : "baseColorTexture");
     const bool known = g->looks[material] != EWA_MESH_NONE;
-    ewa_status status = known ? EWA_OK : ewa_mesh_add_look(g->build, &g->looks[material]);
-    if (status != EWA_OK) return status;
+    if (!known) EWA_TRY(ewa_mesh_add_look(g->build, &g->looks[material]));
     *look = g->looks[material];
     ewa_mesh_look made = *ewa_mesh_look_at(g->build, *look);
     if (!ewa_gltf_count(info, "texCoord", 0, texcoord_set)) *texcoord_set = 0;
@@ -115,8 +114,8 @@ ewa_status ewa_gltf_look(gltf *g, uint64_t material, uint32_t *look, uint64_t *t
         if (image == UINT64_MAX)
             ewa_mesh_miss_picture(g->build, name, reason);
         else
-            status = read_image(g, image, alpha, limit, &made.picture);
+            EWA_TRY(read_image(g, image, alpha, limit, &made.picture));
     }
-    if (status == EWA_OK) *ewa_mesh_look_at(g->build, *look) = made;
-    return status;
+    *ewa_mesh_look_at(g->build, *look) = made;
+    return EWA_OK;
 }

@@ -33,10 +33,7 @@ static ewa_status read_material(ewa_context *context, const char *name, uint32_t
     if (!cJSON_IsObject(object))
         return ewa_fail(context, EWA_ERROR_FORMAT, "%s: material %u is not an object", name, index);
     const cJSON *item;
-    cJSON_ArrayForEach(item, object) {
-        const ewa_status status = read_member(context, name, index, item, material);
-        if (status != EWA_OK) return status;
-    }
+    cJSON_ArrayForEach(item, object) { EWA_TRY(read_member(context, name, index, item, material)); }
     return ewa_material_check(context, name, index, material) == EWA_OK ? EWA_OK : EWA_ERROR_FORMAT;
 }
 
@@ -44,9 +41,9 @@ ewa_status ewa_materials_read(ewa_context *context, const char *name, const uint
                               ewa_material materials[EWA_MAX_MATERIALS], uint32_t *count) {
     *count = 0;
     cJSON *root;
-    ewa_status status = ewa_json_parse(context, name, "a material table", bytes, size_bytes, &root);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_json_parse(context, name, "a material table", bytes, size_bytes, &root));
     const cJSON *list = cJSON_IsObject(root) ? cJSON_GetObjectItemCaseSensitive(root, "materials") : root;
+    ewa_status status = EWA_OK;
     if (!cJSON_IsArray(list) || !list->child)
         status = ewa_fail(context, EWA_ERROR_FORMAT,
                           "%s: neither an array of materials nor an object with one, 'materials'", name);
@@ -69,9 +66,8 @@ ewa_status ewa_materials_load(ewa_context *context, const char *path,
     if (!context || !path || !materials || !count) return EWA_ERROR_ARGUMENT;
     *count = 0;
     ewa_file file;
-    ewa_status status = ewa_file_map(context, path, &file);
-    if (status != EWA_OK) return status;
-    status = ewa_materials_read(context, path, file.bytes, file.size_bytes, materials, count);
+    EWA_TRY(ewa_file_map(context, path, &file));
+    ewa_status status = ewa_materials_read(context, path, file.bytes, file.size_bytes, materials, count);
     ewa_file_unmap(context, &file);
     return status;
 }

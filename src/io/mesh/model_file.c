@@ -13,15 +13,12 @@ typedef ewa_status read_format(ewa_mesh_build *build);
 
 /// Makes what is wanted of a build.
 static ewa_status take_build(ewa_mesh_build *build, uint32_t wanted, ewa_model *model) {
-    ewa_status status = EWA_OK;
     const bool faces = build->face_count > 0;
     model->face_count = build->face_count;
-    if (!faces || wanted & EWA_MODEL_POINTS) status = ewa_mesh_build_points(build, &model->points);
-    if (status == EWA_OK && faces && wanted & EWA_MODEL_ELEMENTS)
-        status = ewa_mesh_build_elements(build, &model->elements);
-    if (status == EWA_OK && faces && wanted & EWA_MODEL_MESH)
-        status = ewa_mesh_build_mesh(build, &model->mesh);
-    return status;
+    if (!faces || wanted & EWA_MODEL_POINTS) EWA_TRY(ewa_mesh_build_points(build, &model->points));
+    if (faces && wanted & EWA_MODEL_ELEMENTS) EWA_TRY(ewa_mesh_build_elements(build, &model->elements));
+    if (faces && wanted & EWA_MODEL_MESH) EWA_TRY(ewa_mesh_build_mesh(build, &model->mesh));
+    return EWA_OK;
 }
 
 /// Reads a format other than PLY.
@@ -59,8 +56,7 @@ static ewa_status read_points(const ewa_mesh_source *source, const ewa_cloud_for
                               const ewa_cloud_load_options *options, ewa_model *model) {
     ewa_cloud_load_options chosen;
     ewa_cloud_load_options_init(&chosen, sizeof chosen);
-    ewa_status status = ewa_options_take(source->context, &ewa_cloud_load_options_table, options, &chosen);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_options_take(source->context, &ewa_cloud_load_options_table, options, &chosen));
     model->format = format->format;
     const ewa_cloud_source points = {.context = source->context,
                                      .name = source->name,
@@ -69,17 +65,17 @@ static ewa_status read_points(const ewa_mesh_source *source, const ewa_cloud_for
                                      .size_bytes = source->size_bytes,
                                      .options = &chosen,
                                      .lost_count = &model->lost_count};
-    status = ewa_cloud_read_all(&points, format, &model->points);
-    if (status == EWA_OK) ewa_cloud_settle(model->points);
-    return status;
+    EWA_TRY(ewa_cloud_read_all(&points, format, &model->points));
+    ewa_cloud_settle(model->points);
+    return EWA_OK;
 }
 
 static ewa_status read_ply(const ewa_mesh_source *source, uint32_t wanted,
                            const ewa_cloud_load_options *options, ewa_model *model) {
     const ewa_ply_source ply = {source->context, source->name, source->bytes, source->size_bytes};
-    ewa_status status = count_ply_faces(&ply, &model->face_count);
-    if (status != EWA_OK) return status;
+    EWA_TRY(count_ply_faces(&ply, &model->face_count));
     const bool faces = model->face_count > 0;
+    ewa_status status = EWA_OK;
     // Faces that nobody asks for need not be whole.
     if (!(wanted & (EWA_MODEL_ELEMENTS | (faces ? EWA_MODEL_MESH : 0u)))) {
         status = read_points(source, &ewa_format_ply, options, model);
@@ -107,8 +103,7 @@ static ewa_model_format probe(const char *name, const uint8_t *bytes, size_t siz
 ewa_status ewa_model_probe(ewa_context *context, const char *path, ewa_model_format *format) {
     if (!context || !path || !format) return EWA_ERROR_ARGUMENT;
     ewa_file file;
-    const ewa_status status = ewa_file_map(context, path, &file);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_file_map(context, path, &file));
     const ewa_cloud_format *points;
     *format = probe(path, file.bytes, file.size_bytes, &points);
     ewa_file_unmap(context, &file);
@@ -158,10 +153,10 @@ ewa_status ewa_model_load(ewa_context *context, const char *path, uint32_t wante
     *model = (ewa_model){0};
     const bool stream = strcmp(path, "-") == 0;
     ewa_file file;
-    ewa_status status = ewa_file_map(context, path, &file);
-    if (status != EWA_OK) return status;
-    status = ewa_model_load_memory(context, file.bytes, file.size_bytes, stream ? "standard input" : path,
-                                   stream ? NULL : path, wanted, options, model);
+    EWA_TRY(ewa_file_map(context, path, &file));
+    ewa_status status =
+        ewa_model_load_memory(context, file.bytes, file.size_bytes, stream ? "standard input" : path,
+                              stream ? NULL : path, wanted, options, model);
     ewa_file_unmap(context, &file);
     return status;
 }
@@ -178,8 +173,8 @@ ewa_status ewa_mesh_load(ewa_context *context, const char *path, ewa_mesh *mesh)
     if (!context || !path || !mesh) return EWA_ERROR_ARGUMENT;
     *mesh = (ewa_mesh){0};
     ewa_model model;
-    ewa_status status = ewa_model_load(context, path, EWA_MODEL_MESH, NULL, &model);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_model_load(context, path, EWA_MODEL_MESH, NULL, &model));
+    ewa_status status = EWA_OK;
     if (model.mesh.triangle_count) {
         *mesh = model.mesh;
         model.mesh = (ewa_mesh){0};

@@ -71,7 +71,7 @@ static ewa_status grow_table(ewa_mesh_build *build, ewa_mtl *mtl) {
 static ewa_status begin_material(ewa_mesh_build *build, ewa_mtl *mtl, ewa_text name,
                                  mtl_material **material) {
     ewa_status status = grow_table(build, mtl);
-    if (status != EWA_OK) return status;
+    EWA_TRY(status);
     const size_t slot = slot_of(mtl, name);
     if (mtl->table[slot] == EWA_MESH_NONE) {
         if (!ewa_mesh_list_add(build, &mtl->materials, &status)) return status;
@@ -158,7 +158,6 @@ static bool is_known(const ewa_mtl *mtl, ewa_text name) {
 /// such file.
 static ewa_status open_library(ewa_mesh_build *build, ewa_mtl *mtl, ewa_text name, bool *found,
                                char reason[EWA_REASON_BYTES]) {
-    ewa_status status = EWA_OK;
     if (is_known(mtl, name)) {
         *found = true; // or said
         return EWA_OK;
@@ -166,6 +165,7 @@ static ewa_status open_library(ewa_mesh_build *build, ewa_mtl *mtl, ewa_text nam
     if (mtl->libraries.count == MAX_LIBRARIES)
         return ewa_fail(build->context, EWA_ERROR_LIMIT, "%s: more than %d material libraries",
                         build->source->name, MAX_LIBRARIES);
+    ewa_status status = EWA_OK;
     mtl_library *kept = ewa_mesh_list_add(build, &mtl->libraries, &status);
     if (!kept) return status;
     *kept = (mtl_library){.name = name};
@@ -175,9 +175,9 @@ static ewa_status open_library(ewa_mesh_build *build, ewa_mtl *mtl, ewa_text nam
     if (!*found) return EWA_OK;
     ewa_cursor cursor;
     char quote[EWA_QUOTE_BYTES];
-    status = ewa_text_open(build->context, ewa_quote(name, quote), kept->file.bytes, kept->file.size_bytes,
-                           &cursor, &kept->owned, &kept->owned_bytes);
-    return status == EWA_OK ? read_library(build, mtl, cursor) : status;
+    EWA_TRY(ewa_text_open(build->context, ewa_quote(name, quote), kept->file.bytes, kept->file.size_bytes,
+                          &cursor, &kept->owned, &kept->owned_bytes));
+    return read_library(build, mtl, cursor);
 }
 
 static ewa_status make_mtl(ewa_mesh_build *build, ewa_mtl **materials) {
@@ -204,23 +204,22 @@ static ewa_status open_own(ewa_mesh_build *build, ewa_mtl *mtl, bool *found) {
 
 ewa_status ewa_mtl_read(ewa_mesh_build *build, ewa_text names, ewa_mtl **materials) {
     if (!names.length) return EWA_OK;
-    ewa_status status = make_mtl(build, materials);
-    if (status != EWA_OK) return status;
+    EWA_TRY(make_mtl(build, materials));
     char reason[EWA_REASON_BYTES] = "", quote[EWA_QUOTE_BYTES];
     bool found, missing = false, own = false;
     // One name with blanks, or several names.
-    status = open_library(build, *materials, names, &found, reason);
-    if (status != EWA_OK || found) return status;
+    EWA_TRY(open_library(build, *materials, names, &found, reason));
+    if (found) return EWA_OK;
     ewa_cursor cursor = {names.chars, names.chars + names.length, 1};
     ewa_text name = ewa_cursor_word(&cursor);
     const bool single = name.length == names.length;
+    ewa_status status = EWA_OK;
     for (; !single && name.length && status == EWA_OK; name = ewa_cursor_word(&cursor)) {
         status = open_library(build, *materials, name, &found, reason);
         missing = missing || !found;
     }
     if (status != EWA_OK || !(single || missing)) return status;
-    status = open_own(build, *materials, &own);
-    if (status != EWA_OK) return status;
+    EWA_TRY(open_own(build, *materials, &own));
     const ewa_text own_name = {(*materials)->own_name, strlen((*materials)->own_name)};
     char own_quote[EWA_QUOTE_BYTES];
     ewa_report(build->context, EWA_SEVERITY_WARNING, "%s: the material library %s is left out: %s%s%s",
@@ -232,10 +231,9 @@ ewa_status ewa_mtl_read(ewa_mesh_build *build, ewa_text names, ewa_mtl **materia
 /// Makes a material's look. The picture stands for the colour, as programs write grey beside it.
 static ewa_status make_look(ewa_mesh_build *build, mtl_material *material) {
     uint32_t picture = EWA_MESH_NONE;
-    ewa_status status = ewa_mesh_add_look(build, &material->look);
-    if (status == EWA_OK && material->picture.length)
-        status = ewa_mesh_find_picture(build, material->picture, EWA_MESH_ALPHA_KEEP, 0, &picture);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_mesh_add_look(build, &material->look));
+    if (material->picture.length)
+        EWA_TRY(ewa_mesh_find_picture(build, material->picture, EWA_MESH_ALPHA_KEEP, 0, &picture));
     ewa_mesh_look *look = ewa_mesh_look_at(build, material->look);
     look->picture = picture;
     for (int c = 0; c < 3 && material->has_color && picture == EWA_MESH_NONE; c++)

@@ -69,8 +69,8 @@ static ewa_status read_place(obj_reader *reader) {
         ewa_mesh_note_unread(build, line);
         values[0] = NAN;
     }
-    ewa_status status = ewa_mesh_add_position(build, values);
-    if (status != EWA_OK || count < 6) return status;
+    EWA_TRY(ewa_mesh_add_position(build, values));
+    if (count < 6) return EWA_OK;
     // Three or four behind the place are a colour; a lone fourth is a weight, which surfaces of planes have
     // not.
     float color[4] = {(float)values[3], (float)values[4], (float)values[5],
@@ -214,11 +214,10 @@ ewa_status ewa_mesh_read_obj(ewa_mesh_build *build) {
     obj_reader reader = {.build = build, .corners = {.item_bytes = sizeof(ewa_mesh_corner)}};
     char *owned;
     size_t owned_bytes;
-    ewa_status status = ewa_text_open(build->context, source->name, source->bytes, source->size_bytes,
-                                      &reader.cursor, &owned, &owned_bytes);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_text_open(build->context, source->name, source->bytes, source->size_bytes, &reader.cursor,
+                          &owned, &owned_bytes));
     const ewa_cursor start = reader.cursor;
-    status = read_numbered(&reader);
+    ewa_status status = read_numbered(&reader);
     if (status == EWA_OK) {
         finish_colors(&reader);
         reader.cursor = start;

@@ -138,12 +138,12 @@ static ewa_status read_face(off_reader *reader) {
 static ewa_status read_body(off_reader *reader) {
     ewa_mesh_build *build = reader->build;
     double counts[2], edges;
-    ewa_status status = read_keyword(reader);
-    if (status != EWA_OK) return status;
+    EWA_TRY(read_keyword(reader));
     if (!take_numbers(reader, 2, counts) || !(counts[0] >= 0 && counts[1] >= 0))
         return fail_line(reader, "the numbers of vertices and faces are wanted");
     ewa_cursor_numbers(&reader->cursor, 1, &edges); // of edges, which is often wrong
     ewa_cursor_next_line(&reader->cursor);
+    ewa_status status = EWA_OK;
     for (double i = 0; i < counts[0] && status == EWA_OK; i++) status = read_vertex(reader);
     for (double i = 0; i < counts[1] && status == EWA_OK; i++) status = read_face(reader);
     build->has_face_color = false;

@@ -58,8 +58,7 @@ static void cut_alpha(ewa_image *image, double limit) {
 static ewa_status drop_alpha(ewa_image *image) {
     ewa_image colors;
     const size_t count = (size_t)image->width_px * image->height_px;
-    const ewa_status status = ewa_image_create(image->context, image->width_px, image->height_px, 3, &colors);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_image_create(image->context, image->width_px, image->height_px, 3, &colors));
     for (size_t i = 0; i < count; i++)
         memcpy(colors.pixels + 3 * i, image->pixels + 4 * i, 3 * sizeof(float));
     ewa_image_free(image);
@@ -113,10 +112,10 @@ ewa_status ewa_mesh_decode_picture(ewa_mesh_build *build, ewa_text name, const u
     *picture = EWA_MESH_NONE;
     if (find_known(build, text, picture)) return EWA_OK;
     ewa_mesh_picture *entry;
-    ewa_status status = add_entry(build, text, &entry);
-    if (status == EWA_OK) status = decode(build, name, bytes, size_bytes, alpha, limit, entry);
-    if (status == EWA_OK && entry->image.pixels) *picture = (uint32_t)(build->pictures.count - 1);
-    return status;
+    EWA_TRY(add_entry(build, text, &entry));
+    EWA_TRY(decode(build, name, bytes, size_bytes, alpha, limit, entry));
+    if (entry->image.pixels) *picture = (uint32_t)(build->pictures.count - 1);
+    return EWA_OK;
 }
 
 ewa_status ewa_mesh_find_picture(ewa_mesh_build *build, ewa_text name, ewa_mesh_alpha alpha, double limit,
@@ -126,9 +125,9 @@ ewa_status ewa_mesh_find_picture(ewa_mesh_build *build, ewa_text name, ewa_mesh_
     *picture = EWA_MESH_NONE;
     if (find_known(build, text, picture)) return EWA_OK;
     ewa_mesh_picture *entry;
-    ewa_status status = add_entry(build, text, &entry);
-    if (status != EWA_OK) return status;
+    EWA_TRY(add_entry(build, text, &entry));
     ewa_file file;
+    ewa_status status = EWA_OK;
     if (!build->source->path) {
         ewa_mesh_miss_picture(build, name, "the mesh is no file that pictures could lie beside");
     } else if (!text.length || !ewa_referenced_file_map(build->source->path, name, &file, reason)) {

@@ -110,25 +110,25 @@ static ewa_status add_vertices(ply_mesh *mesh, const ewa_cloud *vertices) {
                         *normal = ewa_cloud_find(vertices, EWA_NORMAL);
     const uint64_t count = ewa_cloud_point_count(vertices);
     build->float_positions = position->type == EWA_F32;
-    ewa_status status = ewa_mesh_list_grow(build, &build->positions, count);
-    if (status == EWA_OK && color) status = ewa_mesh_list_grow(build, &build->colors, count);
-    if (status == EWA_OK && normal) status = ewa_mesh_list_grow(build, &build->normals, count);
-    for (uint64_t i = 0; i < count && status == EWA_OK; i++) {
+    EWA_TRY(ewa_mesh_list_grow(build, &build->positions, count));
+    if (color) EWA_TRY(ewa_mesh_list_grow(build, &build->colors, count));
+    if (normal) EWA_TRY(ewa_mesh_list_grow(build, &build->normals, count));
+    for (uint64_t i = 0; i < count; i++) {
         double values[4];
         float rgba[4];
         ewa_attribute_read_f64(position, i, 1, values);
-        status = ewa_mesh_add_position(build, values);
-        if (status == EWA_OK && color) {
+        EWA_TRY(ewa_mesh_add_position(build, values));
+        if (color) {
             ewa_attribute_read_f64(color, i, 1, values);
             color_of(build, values, color->component_count, color->type, rgba);
-            status = ewa_mesh_add_color(build, rgba, rgba);
+            EWA_TRY(ewa_mesh_add_color(build, rgba, rgba));
         }
-        if (status == EWA_OK && normal) {
+        if (normal) {
             ewa_attribute_read_f64(normal, i, 1, values);
-            status = ewa_mesh_add_normal(build, values);
+            EWA_TRY(ewa_mesh_add_normal(build, values));
         }
     }
-    return status == EWA_OK ? add_texcoords(mesh, vertices) : status;
+    return add_texcoords(mesh, vertices);
 }
 
 // ---- pictures
@@ -148,8 +148,7 @@ static ewa_status add_texture(ply_mesh *mesh, ewa_text name) {
         if (length > 0 && (size_t)length < sizeof whole) name = (ewa_text){whole, (size_t)length};
     }
     uint32_t look;
-    const ewa_status status = ewa_mesh_add_look(build, &look);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_mesh_add_look(build, &look));
     mesh->look_count++;
     uint32_t picture;
     const ewa_status found = ewa_mesh_find_picture(build, name, EWA_MESH_ALPHA_KEEP, 0, &picture);
@@ -243,13 +242,12 @@ static ewa_status take_texcoords(ply_mesh *mesh, const ewa_ply_list *list, ewa_t
                                  uint64_t count) {
     const uint64_t first = list->first[face];
     if (list->first[face + 1] - first != 2 * count) return EWA_OK;
-    ewa_status status = EWA_OK;
-    for (uint64_t i = 0; i < count && status == EWA_OK; i++) {
+    for (uint64_t i = 0; i < count; i++) {
         mesh->corners[i].texcoord = (uint32_t)mesh->build->texcoords.count;
-        status = ewa_mesh_add_texcoord(mesh->build, ewa_ply_list_number(list, type, first + 2 * i),
-                                       ewa_ply_list_number(list, type, first + 2 * i + 1));
+        EWA_TRY(ewa_mesh_add_texcoord(mesh->build, ewa_ply_list_number(list, type, first + 2 * i),
+                                      ewa_ply_list_number(list, type, first + 2 * i + 1)));
     }
-    return status;
+    return EWA_OK;
 }
 
 /// Texture coordinates of a face in elements of their own; `*texture` gets the number of the picture.
@@ -262,16 +260,15 @@ static ewa_status take_multi_texture(ply_mesh *mesh, const multi_texture *multi,
     const uint64_t first = list->first[record];
     if (list->first[record + 1] - first != count) return EWA_OK;
     if (multi->has_texture) *texture = ewa_ply_table_number(header, multi->faces, multi->texture, record);
-    ewa_status status = EWA_OK;
-    for (uint64_t i = 0; i < count && status == EWA_OK; i++) {
+    for (uint64_t i = 0; i < count; i++) {
         const double at = ewa_ply_list_number(list, header->properties[multi->indices].type, first + i);
         if (!(at >= 0 && at < (double)multi->vertices->element->count)) continue;
         mesh->corners[i].texcoord = (uint32_t)mesh->build->texcoords.count;
-        status = ewa_mesh_add_texcoord(mesh->build,
-                                       ewa_ply_table_number(header, multi->vertices, multi->u, (uint64_t)at),
-                                       ewa_ply_table_number(header, multi->vertices, multi->v, (uint64_t)at));
+        EWA_TRY(ewa_mesh_add_texcoord(mesh->build,
+                                      ewa_ply_table_number(header, multi->vertices, multi->u, (uint64_t)at),
+                                      ewa_ply_table_number(header, multi->vertices, multi->v, (uint64_t)at)));
     }
-    return status;
+    return EWA_OK;
 }
 
 /// The look of a texture number: none when there is no such picture.
@@ -322,12 +319,11 @@ static ewa_status add_strips(ply_mesh *mesh, const ewa_ply_table *table, uint32_
     const ewa_ply_list *list = ewa_ply_table_list(header, table, vertices);
     const ewa_type type = header->properties[vertices].type;
     ewa_mesh_build *build = mesh->build;
-    ewa_status status = EWA_OK;
     build->look = look_of(mesh, 0);
-    for (uint64_t s = 0; s < table->element->count && status == EWA_OK; s++) {
+    for (uint64_t s = 0; s < table->element->count; s++) {
         uint64_t run = 0;
         ewa_mesh_corner last[3] = {{0, 0, 0}};
-        for (uint64_t i = list->first[s]; i < list->first[s + 1] && status == EWA_OK; i++) {
+        for (uint64_t i = list->first[s]; i < list->first[s + 1]; i++) {
             const double number = ewa_ply_list_number(list, type, i);
             if (number < 0 || number == (double)UINT32_MAX) { // -1, also where it is stored without a sign
                 run = 0;
@@ -345,10 +341,10 @@ static ewa_status add_strips(ply_mesh *mesh, const ewa_ply_table *table, uint32_
                 continue;
             const bool turned = run % 2 == 0;
             const ewa_mesh_corner corners[3] = {last[turned], last[!turned], last[2]};
-            status = ewa_mesh_add_polygon(build, corners, 3);
+            EWA_TRY(ewa_mesh_add_polygon(build, corners, 3));
         }
     }
-    return status;
+    return EWA_OK;
 }
 
 ewa_status ewa_mesh_read_ply(ewa_mesh_build *build, const ewa_cloud *vertices, const ewa_elements *elements) {

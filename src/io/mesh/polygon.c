@@ -210,10 +210,9 @@ static ewa_status clip_ears(polygon *p) {
 }
 
 static ewa_status add_fan(ewa_mesh_build *build, const ewa_mesh_corner *corners, uint64_t count) {
-    ewa_status status = EWA_OK;
-    for (uint64_t i = 2; i < count && status == EWA_OK; i++)
-        status = ewa_mesh_add_triangle(build, &corners[0], &corners[i - 1], &corners[i]);
-    return status;
+    for (uint64_t i = 2; i < count; i++)
+        EWA_TRY(ewa_mesh_add_triangle(build, &corners[0], &corners[i - 1], &corners[i]));
+    return EWA_OK;
 }
 
 /// Adds the triangles of a polygon of more than three corners whose places are there.
@@ -224,17 +223,16 @@ static ewa_status cut_polygon(ewa_mesh_build *build, const ewa_mesh_corner *corn
     // The corners, the sums of at most as many cells, and the reflex corners.
     const uint64_t bytes = count * sizeof(polygon_corner) + (2 * count + 2) * sizeof(uint32_t);
     build->scratch.count = 0;
-    ewa_status status = ewa_mesh_list_grow(build, &build->scratch, bytes);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_mesh_list_grow(build, &build->scratch, bytes));
     polygon p = {.build = build, .corners = corners, .at = build->scratch.items};
     p.first = (uint32_t *)(p.at + count);
     p.reflex = p.first + count + 2;
     if (!project(&p, count)) return add_fan(build, corners, count);
     if (is_convex(&p)) {
-        for (uint32_t i = 2; i < p.count && status == EWA_OK; i++)
-            status = ewa_mesh_add_triangle(build, &corners[p.at[0].source], &corners[p.at[i - 1].source],
-                                           &corners[p.at[i].source]);
-        return status;
+        for (uint32_t i = 2; i < p.count; i++)
+            EWA_TRY(ewa_mesh_add_triangle(build, &corners[p.at[0].source], &corners[p.at[i - 1].source],
+                                          &corners[p.at[i].source]));
+        return EWA_OK;
     }
     build->cut_tests_left += TESTS_PER_CORNER * count;
     fill_grid(&p);

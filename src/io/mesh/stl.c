@@ -131,15 +131,14 @@ static ewa_status read_facet(ewa_mesh_build *build, ewa_cursor *cursor, ewa_mesh
             *corner = (ewa_mesh_corner){(uint32_t)build->positions.count, EWA_MESH_NONE, EWA_MESH_NONE};
             status = ewa_mesh_add_position(build, place);
         }
-        if (status != EWA_OK) return status;
+        EWA_TRY(status);
     }
     return ewa_mesh_add_polygon(build, corners->items, corners->count);
 }
 
 static ewa_status read_ascii(ewa_mesh_build *build, ewa_cursor cursor, ewa_mesh_list *corners) {
-    ewa_status status = EWA_OK;
     bool inside = false;
-    while (status == EWA_OK) {
+    while (true) {
         const ewa_text word = take_word(&cursor);
         if (!word.length) {
             if (inside) return fail_ascii(build, &cursor, "'endsolid' is wanted", word);
@@ -149,12 +148,12 @@ static ewa_status read_ascii(ewa_mesh_build *build, ewa_cursor cursor, ewa_mesh_
             inside = ewa_text_is_any_case(word, "solid");
             ewa_cursor_next_line(&cursor); // the rest is a name
         } else if (ewa_text_is_any_case(word, "facet")) {
-            status = read_facet(build, &cursor, corners);
+            EWA_TRY(read_facet(build, &cursor, corners));
         } else {
             return fail_ascii(build, &cursor, "'facet', 'solid' or 'endsolid' is wanted", word);
         }
     }
-    return status;
+    return EWA_OK;
 }
 
 ewa_status ewa_mesh_read_stl(ewa_mesh_build *build) {
@@ -166,12 +165,12 @@ ewa_status ewa_mesh_read_stl(ewa_mesh_build *build) {
     ewa_cursor cursor;
     char *owned;
     size_t owned_bytes;
-    ewa_status status = ewa_text_open(build->context, source->name, source->bytes, source->size_bytes,
-                                      &cursor, &owned, &owned_bytes);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_text_open(build->context, source->name, source->bytes, source->size_bytes, &cursor, &owned,
+                          &owned_bytes));
     // Some binary ones begin with "solid" too; then the size tells, or a byte that no text has.
     ewa_cursor peek = cursor;
     const size_t looked = source->size_bytes < TEXT_BYTES ? source->size_bytes : TEXT_BYTES;
+    ewa_status status = EWA_OK;
     if (exact || !ewa_text_is_any_case(take_word(&peek), "solid") ||
         (!owned && memchr(source->bytes, 0, looked))) {
         status = read_binary(build);

@@ -159,8 +159,7 @@ static ewa_status skip_bytes(const decoder *job, uint64_t count) {
     while (count) {
         const size_t wanted = count < sizeof skipped ? (size_t)count : sizeof skipped;
         size_t got;
-        const ewa_status status = ewa_source_read(job->source, skipped, wanted, &got);
-        if (status != EWA_OK) return status;
+        EWA_TRY(ewa_source_read(job->source, skipped, wanted, &got));
         if (got < wanted)
             return ewa_volume_fail(job->in, EWA_ERROR_FORMAT, "the data end before the voxels begin");
         count -= got;
@@ -172,11 +171,9 @@ static ewa_status open_piece(decoder *job) {
     const ewa_volume_header *header = job->header;
     const ewa_file *piece = &header->pieces.files[job->piece];
     size_t at_bytes;
-    ewa_status status = skip_lines(job, piece, &at_bytes);
-    if (status != EWA_OK) return status;
+    EWA_TRY(skip_lines(job, piece, &at_bytes));
     job->left_numbers = job->piece_numbers;
-    status = check_piece_size(job, piece->size_bytes - at_bytes);
-    if (status != EWA_OK) return status;
+    EWA_TRY(check_piece_size(job, piece->size_bytes - at_bytes));
     if (header->packing == EWA_PACKING_TEXT) {
         job->text = (const char *)piece->bytes + at_bytes;
         job->text_end = (const char *)piece->bytes + piece->size_bytes;
@@ -184,9 +181,9 @@ static ewa_status open_piece(decoder *job) {
     }
     if (header->at_end)
         at_bytes = piece->size_bytes - (size_t)(job->piece_numbers * ewa_file_number_bytes(header->number));
-    status = ewa_source_open(job->in->context, job->in->name, header->packing, piece->bytes + at_bytes,
-                             piece->size_bytes - at_bytes, &job->source);
-    return status == EWA_OK ? skip_bytes(job, header->skipped_bytes) : status;
+    EWA_TRY(ewa_source_open(job->in->context, job->in->name, header->packing, piece->bytes + at_bytes,
+                            piece->size_bytes - at_bytes, &job->source));
+    return skip_bytes(job, header->skipped_bytes);
 }
 
 /// After the last number of a piece: what packs it must end well, and nothing may follow where the header
@@ -223,8 +220,7 @@ static ewa_status read_text(decoder *job, size_t count, double *numbers) {
 static ewa_status read_binary(decoder *job, size_t count, uint8_t *bytes) {
     const size_t number_bytes = ewa_file_number_bytes(job->header->number), wanted = count * number_bytes;
     size_t got;
-    const ewa_status status = ewa_source_read(job->source, bytes, wanted, &got);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_source_read(job->source, bytes, wanted, &got));
     if (got < wanted)
         return ewa_volume_fail(
             job->in, EWA_ERROR_FORMAT, "the data end after %llu of %llu numbers",
@@ -244,9 +240,7 @@ static ewa_status read_block(decoder *job, size_t count, uint8_t *bytes, double 
     const ewa_type type = job->volume->type;
     if (!text && !scaled && (int)type == header->number && components == 1 && type != EWA_F32)
         return read_binary(job, count, voxels);
-    ewa_status status =
-        text ? read_text(job, count * components, numbers) : read_binary(job, count * components, bytes);
-    if (status != EWA_OK) return status;
+    EWA_TRY(text ? read_text(job, count * components, numbers) : read_binary(job, count * components, bytes));
     if (!text) numbers_to_doubles(header->number, bytes, count * components, numbers);
     if (components > 1) fold_colors(components, count, numbers);
     if (scaled)
@@ -374,23 +368,20 @@ ewa_status ewa_volume_decode(const ewa_volume_input *in, const ewa_volume_header
     *volume = (ewa_volume){0};
     uint64_t voxel_count;
     double index_to_world[12];
-    ewa_status status = check_header(in, header, &voxel_count);
-    if (status == EWA_OK) status = make_place(in, header, spacing_world, index_to_world);
-    if (status != EWA_OK) return status;
+    EWA_TRY(check_header(in, header, &voxel_count));
+    EWA_TRY(make_place(in, header, spacing_world, index_to_world));
     decoder job = {.in = in, .header = header, .volume = volume};
     job.piece_numbers = voxel_count / header->pieces.count * header->component_count;
     // Before memory is asked for: the first piece can hold what it has to.
-    status = check_piece_size(&job, header->pieces.files[0].size_bytes);
-    if (status != EWA_OK) return status;
+    EWA_TRY(check_piece_size(&job, header->pieces.files[0].size_bytes));
     const bool kept = is_voxel_type(header->number) && header->component_count == 1 && header->slope == 1 &&
                       header->intercept == 0;
     const uint32_t dims[3] = {(uint32_t)header->dims[0], (uint32_t)header->dims[1],
                               (uint32_t)header->dims[2]};
-    status = ewa_volume_create(in->context, dims, kept ? (ewa_type)header->number : EWA_F32, volume);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_volume_create(in->context, dims, kept ? (ewa_type)header->number : EWA_F32, volume));
     memcpy(volume->index_to_world, index_to_world, sizeof index_to_world);
     volume->anatomical = header->anatomical;
-    status = read_voxels(&job, voxel_count);
+    ewa_status status = read_voxels(&job, voxel_count);
     if (status != EWA_OK) {
         ewa_volume_free(volume);
         return status;

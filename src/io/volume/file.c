@@ -58,8 +58,7 @@ static ewa_status parse(const ewa_volume_input *in, const ewa_volume_load_option
     if (ewa_vti_recognise(bytes, size_bytes)) return ewa_vti_parse(in, header);
     if (ewa_meta_recognise(bytes, size_bytes)) return ewa_meta_parse(in, header);
     bool nifti;
-    const ewa_status status = ewa_nifti_recognise(in, &nifti);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_nifti_recognise(in, &nifti));
     return nifti ? ewa_nifti_parse(in, header) : ewa_raw_parse(in, options, header);
 }
 
@@ -67,11 +66,10 @@ static ewa_status load(const ewa_volume_input *in, const ewa_volume_load_options
                        ewa_volume *volume) {
     ewa_volume_load_options chosen;
     ewa_volume_load_options_init(&chosen, sizeof chosen);
-    ewa_status status = ewa_options_take(in->context, &ewa_volume_load_options_table, options, &chosen);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_options_take(in->context, &ewa_volume_load_options_table, options, &chosen));
     ewa_volume_header header;
     ewa_volume_header_init(&header);
-    status = parse(in, &chosen, &header);
+    ewa_status status = parse(in, &chosen, &header);
     if (status == EWA_OK) status = ewa_volume_decode(in, &header, chosen.spacing_world, volume);
     ewa_volume_free_pieces(in->context, &header.pieces);
     return status;
@@ -91,15 +89,14 @@ ewa_status ewa_volume_load(ewa_context *context, const char *path, const ewa_vol
     if (!context || !path || !volume) return EWA_ERROR_ARGUMENT;
     *volume = (ewa_volume){0};
     ewa_file file;
-    ewa_status status = ewa_file_map(context, path, &file);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_file_map(context, path, &file));
     const bool piped = strcmp(path, "-") == 0;
     const ewa_volume_input in = {.context = context,
                                  .name = piped ? "standard input" : path,
                                  .path = piped ? NULL : path,
                                  .bytes = file.bytes,
                                  .size_bytes = file.size_bytes};
-    status = load(&in, options, volume);
+    ewa_status status = load(&in, options, volume);
     ewa_file_unmap(context, &file);
     return status;
 }

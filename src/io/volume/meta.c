@@ -75,12 +75,10 @@ static ewa_status take_tag(meta *file, const char *key, const char *value) {
         if (!n || read < 0 || (uint64_t)read != n) return broken(file, key, value);
     } else if (strcmp(key, "ElementSpacing") == 0 ||
                (strcmp(key, "ElementSize") == 0 && !file->has_spacings)) {
-        const ewa_status status = take_numbers(file, key, value, n, numbers, &file->has_spacings);
-        if (status != EWA_OK) return status;
+        EWA_TRY(take_numbers(file, key, value, n, numbers, &file->has_spacings));
         memcpy(file->spacings, numbers, n * sizeof *numbers);
     } else if (is_one_of(key, offsets)) {
-        const ewa_status status = take_numbers(file, key, value, n, numbers, &file->has_offset);
-        if (status != EWA_OK) return status;
+        EWA_TRY(take_numbers(file, key, value, n, numbers, &file->has_offset));
         memcpy(file->offset, numbers, n * sizeof *numbers);
     } else if (is_one_of(key, matrices)) {
         return take_numbers(file, key, value, n * n, file->matrix, &file->has_matrix);
@@ -127,8 +125,8 @@ static ewa_status read_tags(meta *file, ewa_reader *reader) {
     while (ewa_text_line(reader, line)) {
         if (!line[0]) continue;
         if (!split_line(line, &key, &value)) return broken(file, "the line", line);
-        const ewa_status status = take_tag(file, key, value);
-        if (status != EWA_OK || file->data_file[0]) return status; // that tag is the last
+        EWA_TRY(take_tag(file, key, value));
+        if (file->data_file[0]) return EWA_OK; // that tag is the last
     }
     return ewa_volume_fail(file->in, EWA_ERROR_FORMAT, "MetaImage: the header ends without ElementDataFile");
 }
@@ -184,8 +182,7 @@ bool ewa_meta_recognise(const uint8_t *bytes, size_t size_bytes) {
 ewa_status ewa_meta_parse(const ewa_volume_input *in, ewa_volume_header *header) {
     meta file = {.in = in, .header = header, .channel_count = 1};
     ewa_reader reader = {.bytes = in->bytes, .size_bytes = in->size_bytes};
-    ewa_status status = read_tags(&file, &reader);
-    if (status != EWA_OK) return status;
+    EWA_TRY(read_tags(&file, &reader));
     if (!file.has_sizes || header->number < 0)
         return ewa_volume_fail(in, EWA_ERROR_FORMAT, "MetaImage: no %s",
                                file.has_sizes ? "ElementType" : "DimSize");
@@ -198,6 +195,6 @@ ewa_status ewa_meta_parse(const ewa_volume_input *in, ewa_volume_header *header)
     header->at_end = file.at_end;
     if (file.at_end && header->packing != EWA_PACKING_NONE)
         return ewa_volume_fail(in, EWA_ERROR_UNSUPPORTED, "MetaImage: HeaderSize -1 of packed data");
-    status = take_axes(&file);
-    return status == EWA_OK ? add_data(&file, &reader) : status;
+    EWA_TRY(take_axes(&file));
+    return add_data(&file, &reader);
 }

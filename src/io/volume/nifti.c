@@ -109,10 +109,8 @@ static ewa_status find_head(const ewa_volume_input *in, uint8_t head[HEADER2_BYT
     *size_bytes = in->size_bytes;
     if (!is_gzip(in->bytes, in->size_bytes)) return EWA_OK;
     ewa_source *source;
-    ewa_status status =
-        ewa_source_open(in->context, in->name, EWA_PACKING_DEFLATE, in->bytes, in->size_bytes, &source);
-    if (status != EWA_OK) return status;
-    status = ewa_source_read(source, head, HEADER2_BYTES, size_bytes);
+    EWA_TRY(ewa_source_open(in->context, in->name, EWA_PACKING_DEFLATE, in->bytes, in->size_bytes, &source));
+    ewa_status status = ewa_source_read(source, head, HEADER2_BYTES, size_bytes);
     ewa_source_close(&source);
     *bytes = head;
     return status;
@@ -225,16 +223,15 @@ static ewa_status add_image_file(const ewa_volume_input *in, ewa_volume_header *
     memcpy(name, base, length - 3);
     memcpy(name + length - 3, "img", 4);
     if (!ewa_volume_has_file(in, name)) memcpy(name + length, ".gz", 4);
-    const ewa_status status = ewa_volume_add_file(in, name, &header->pieces);
-    if (status == EWA_OK && is_gzip(header->pieces.files[0].bytes, header->pieces.files[0].size_bytes))
+    EWA_TRY(ewa_volume_add_file(in, name, &header->pieces));
+    if (is_gzip(header->pieces.files[0].bytes, header->pieces.files[0].size_bytes))
         header->packing = EWA_PACKING_DEFLATE;
-    return status;
+    return EWA_OK;
 }
 
 static ewa_status parse_header(const ewa_volume_input *in, const nifti *file, ewa_volume_header *header) {
-    ewa_status status = take_type(in, file->type, header);
-    if (status == EWA_OK) status = take_dims(in, file, header);
-    if (status != EWA_OK) return status;
+    EWA_TRY(take_type(in, file->type, header));
+    EWA_TRY(take_dims(in, file, header));
     header->big_endian = file->swapped;
     if (file->nifti && file->slope != 0 && isfinite(file->slope) && isfinite(file->intercept)) {
         header->slope = file->slope;
@@ -254,14 +251,12 @@ ewa_status ewa_nifti_parse(const ewa_volume_input *in, ewa_volume_header *header
     uint8_t head[HEADER2_BYTES];
     const uint8_t *bytes;
     size_t size_bytes;
-    ewa_status status = find_head(in, head, &bytes, &size_bytes);
-    if (status != EWA_OK) return status;
+    EWA_TRY(find_head(in, head, &bytes, &size_bytes));
     nifti file;
     if (!read_magic(bytes, size_bytes, &file))
         return ewa_volume_fail(in, EWA_ERROR_FORMAT, "NIfTI: no header");
     read_fields(&file);
-    status = parse_header(in, &file, header);
-    if (status != EWA_OK) return status;
+    EWA_TRY(parse_header(in, &file, header));
     if (file.detached) return add_image_file(in, header);
     if (bytes == head) header->packing = EWA_PACKING_DEFLATE;
     return ewa_volume_add_bytes(in, in->bytes, in->size_bytes, &header->pieces);

@@ -241,8 +241,7 @@ static ewa_status read_fields(nrrd *file, ewa_reader *reader) {
         char *colon = strchr(line, ':');
         if (!colon) return broken(file, "the line", line);
         *colon = 0;
-        const ewa_status status = take_field(file, line, ewa_text_skip_blanks(colon + 1));
-        if (status != EWA_OK) return status;
+        EWA_TRY(take_field(file, line, ewa_text_skip_blanks(colon + 1)));
         if (strncmp(file->data_file, "LIST", 4) == 0) return EWA_OK;
     }
     if (reader->failed)
@@ -338,8 +337,7 @@ bool ewa_nrrd_recognise(const uint8_t *bytes, size_t size_bytes) {
 ewa_status ewa_nrrd_parse(const ewa_volume_input *in, ewa_volume_header *header) {
     nrrd file = {.in = in, .header = header, .mirror = {1, 1, 1}};
     ewa_reader reader = {.bytes = in->bytes, .size_bytes = in->size_bytes};
-    ewa_status status = read_fields(&file, &reader);
-    if (status != EWA_OK) return status;
+    EWA_TRY(read_fields(&file, &reader));
     const char *missing = !file.axis_count     ? "dimension"
                           : !file.has_sizes    ? "sizes"
                           : header->number < 0 ? "type"
@@ -350,6 +348,6 @@ ewa_status ewa_nrrd_parse(const ewa_volume_input *in, ewa_volume_header *header)
     if (bytes && !file.has_endian) return ewa_volume_fail(in, EWA_ERROR_FORMAT, "NRRD: no field 'endian'");
     if (header->at_end && header->packing != EWA_PACKING_NONE)
         return ewa_volume_fail(in, EWA_ERROR_UNSUPPORTED, "NRRD: byte skip -1 of packed data");
-    status = sort_axes(&file);
-    return status == EWA_OK ? add_data(&file, &reader) : status;
+    EWA_TRY(sort_axes(&file));
+    return add_data(&file, &reader);
 }

@@ -86,10 +86,9 @@ ewa_status ewa_volume_add_file(const ewa_volume_input *in, const char *file_name
     if (stat(path, &facts) == 0 && !S_ISREG(facts.st_mode))
         return ewa_volume_fail(in, EWA_ERROR_FORMAT, "'%.200s' is no regular file", file_name);
     ewa_file file;
-    ewa_status status = ewa_file_map(in->context, path, &file);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_file_map(in->context, path, &file));
     pieces->detached = true;
-    status = add_piece(in, &file, pieces);
+    ewa_status status = add_piece(in, &file, pieces);
     if (status != EWA_OK) ewa_file_unmap(in->context, &file);
     return status;
 }
@@ -151,13 +150,12 @@ ewa_status ewa_volume_add_pattern(const ewa_volume_input *in, const char *text, 
     if (!parse_pattern(text, name, range))
         return ewa_volume_fail(in, EWA_ERROR_FORMAT, "'%.80s' is no pattern, first, last and step", text);
     const int64_t step = range[2];
-    ewa_status status = EWA_OK;
-    for (int64_t i = range[0]; status == EWA_OK && (step > 0 ? i <= range[1] : i >= range[1]); i += step) {
+    for (int64_t i = range[0]; step > 0 ? i <= range[1] : i >= range[1]; i += step) {
         if (!expand_pattern(name, i, file_name))
             return ewa_volume_fail(in, EWA_ERROR_FORMAT, "'%.80s' has no single %%d", name);
-        status = ewa_volume_add_file(in, file_name, pieces);
+        EWA_TRY(ewa_volume_add_file(in, file_name, pieces));
     }
-    return status;
+    return EWA_OK;
 }
 
 void ewa_volume_free_pieces(ewa_context *context, ewa_volume_pieces *pieces) {

@@ -55,8 +55,7 @@ static ewa_status read_point(const transfer_text *file, uint32_t index, const cJ
         const char *member = item->string;
         const double number = cJSON_IsNumber(item) ? item->valuedouble : NAN;
         if (strcmp(member, "color") == 0) {
-            const ewa_status status = read_color(file, index, item, point);
-            if (status != EWA_OK) return status;
+            EWA_TRY(read_color(file, index, item, point));
             has_color = true;
         } else if (strcmp(member, "value") == 0) {
             if (!isfinite(number)) return fail_member(file, index, member, "is no number");
@@ -109,8 +108,7 @@ static ewa_status read_members(transfer_text *file, const cJSON *root, const cJS
                 return ewa_fail(file->context, EWA_ERROR_FORMAT,
                                 "%s: 'color_space' is neither \"srgb\" nor \"linear\"", file->name);
         } else if (strcmp(item->string, "gradient") == 0) {
-            const ewa_status status = read_gradient(file, item, transfer);
-            if (status != EWA_OK) return status;
+            EWA_TRY(read_gradient(file, item, transfer));
         } else {
             return ewa_fail(file->context, EWA_ERROR_FORMAT, "%s: unknown member '%.40s'", file->name,
                             item->string);
@@ -123,10 +121,10 @@ static ewa_status read_root(transfer_text *file, const cJSON *root, ewa_transfer
     const cJSON *points = NULL;
     if (!cJSON_IsObject(root))
         return ewa_fail(file->context, EWA_ERROR_FORMAT, "%s: no object with an array 'points'", file->name);
-    ewa_status status = read_members(file, root, &points, transfer);
-    if (status != EWA_OK) return status;
+    EWA_TRY(read_members(file, root, &points, transfer));
     if (!cJSON_IsArray(points))
         return ewa_fail(file->context, EWA_ERROR_FORMAT, "%s: no array 'points'", file->name);
+    ewa_status status = EWA_OK;
     for (const cJSON *item = points->child; item && status == EWA_OK; item = item->next) {
         const uint32_t index = transfer->point_count;
         if (index == EWA_MAX_TRANSFER_POINTS)
@@ -135,7 +133,7 @@ static ewa_status read_root(transfer_text *file, const cJSON *root, ewa_transfer
         status = read_point(file, index, item, &transfer->points[index]);
         transfer->point_count++;
     }
-    if (status != EWA_OK) return status;
+    EWA_TRY(status);
     return ewa_transfer_check(file->context, file->name, transfer) == EWA_OK ? EWA_OK : EWA_ERROR_FORMAT;
 }
 
@@ -143,10 +141,9 @@ ewa_status ewa_transfer_read(ewa_context *context, const char *name, const uint8
                              ewa_transfer *transfer) {
     *transfer = (ewa_transfer){0};
     cJSON *root;
-    ewa_status status = ewa_json_parse(context, name, "a transfer function", bytes, size_bytes, &root);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_json_parse(context, name, "a transfer function", bytes, size_bytes, &root));
     transfer_text file = {.context = context, .name = name};
-    status = read_root(&file, root, transfer);
+    ewa_status status = read_root(&file, root, transfer);
     cJSON_Delete(root);
     if (status != EWA_OK) *transfer = (ewa_transfer){0};
     return status;
@@ -156,10 +153,9 @@ ewa_status ewa_transfer_load(ewa_context *context, const char *path, ewa_transfe
     if (!context || !path || !transfer) return EWA_ERROR_ARGUMENT;
     *transfer = (ewa_transfer){0};
     ewa_file file;
-    ewa_status status = ewa_file_map(context, path, &file);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_file_map(context, path, &file));
     const char *name = strcmp(path, "-") == 0 ? "standard input" : path;
-    status = ewa_transfer_read(context, name, file.bytes, file.size_bytes, transfer);
+    ewa_status status = ewa_transfer_read(context, name, file.bytes, file.size_bytes, transfer);
     ewa_file_unmap(context, &file);
     return status;
 }
@@ -191,9 +187,8 @@ static void put_point(ewa_writer *writer, const ewa_transfer_point *point) {
 ewa_status ewa_transfer_save(ewa_context *context, const ewa_transfer *transfer, const char *path) {
     if (!context || !transfer || !path) return EWA_ERROR_ARGUMENT;
     ewa_writer *writer;
-    ewa_status status = ewa_transfer_check(context, path, transfer);
-    if (status == EWA_OK) status = ewa_writer_open(context, path, &writer);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_transfer_check(context, path, transfer));
+    EWA_TRY(ewa_writer_open(context, path, &writer));
     put_text(writer, "{\n \"color_space\": \"linear\",\n");
     if (transfer->unit_length_world > 0) {
         put_text(writer, " \"unit_length\": ");

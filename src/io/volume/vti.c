@@ -245,8 +245,7 @@ static ewa_status measure_array(const vti *file, const array_bytes *array, uint6
 static ewa_status add_array(const vti *file, const array_bytes *array, ewa_volume_header *header) {
     const ewa_volume_input *in = file->in;
     uint64_t head_bytes = 0, data_bytes = 0;
-    const ewa_status status = measure_array(file, array, &head_bytes, &data_bytes);
-    if (status != EWA_OK) return status;
+    EWA_TRY(measure_array(file, array, &head_bytes, &data_bytes));
     header->packing = file->packed ? EWA_PACKING_DEFLATE : EWA_PACKING_NONE;
     if (!array->base64)
         return ewa_volume_add_bytes(in, (const uint8_t *)array->text + head_bytes, (size_t)data_bytes,
@@ -269,8 +268,8 @@ static ewa_status take_numbers(const vti *file, const ewa_xml_tag *array, ewa_vo
         uint64_t offset = 0;
         if (!read_attribute(array, "offset", value) || ewa_text_counts(value, 1, &offset) != 1)
             return broken(file, "offset", value);
-        const ewa_status status = find_appended(file, offset, &bytes);
-        return status == EWA_OK ? add_array(file, &bytes, header) : status;
+        EWA_TRY(find_appended(file, offset, &bytes));
+        return add_array(file, &bytes, header);
     }
     if (strcmp(value, "binary") == 0) return add_array(file, &bytes, header);
     if (strcmp(value, "ascii") != 0) return broken(file, "format", value);
@@ -286,16 +285,15 @@ ewa_status ewa_vti_parse(const ewa_volume_input *in, ewa_volume_header *header) 
     vti file = {.in = in, .text = (const char *)in->bytes};
     file.end = file.text + in->size_bytes;
     find_tags(&file);
-    ewa_status status = check_tags(&file);
-    if (status != EWA_OK) return status;
+    EWA_TRY(check_tags(&file));
     const bool cells = file.points.rank == 0;
     const ewa_xml_tag *array = cells ? &file.cells.tag : &file.points.tag;
-    status = take_place(&file, cells, header);
-    if (status == EWA_OK) status = take_type(&file, array, header);
-    if (status == EWA_OK) status = take_numbers(&file, array, header);
+    EWA_TRY(take_place(&file, cells, header));
+    EWA_TRY(take_type(&file, array, header));
+    EWA_TRY(take_numbers(&file, array, header));
     char name[ATTRIBUTE_BYTES];
-    if (status == EWA_OK && read_attribute(array, "Name", name))
+    if (read_attribute(array, "Name", name))
         ewa_report(in->context, EWA_SEVERITY_INFO, "%s: the array '%.80s'%s", in->name, name,
                    cells ? " of the cells" : "");
-    return status;
+    return EWA_OK;
 }

@@ -100,8 +100,7 @@ ewa_status ewa_vtk_parse(const ewa_volume_input *in, ewa_volume_header *header) 
     for (int count = 0; !ready; count++) {
         if (count == HEAD_LINES || !ewa_text_line(&reader, line))
             return ewa_volume_fail(in, EWA_ERROR_FORMAT, "VTK: the header does not end in LOOKUP_TABLE");
-        const ewa_status status = take_line(in, line, &has_dims, &ready, header);
-        if (status != EWA_OK) return status;
+        EWA_TRY(take_line(in, line, &has_dims, &ready, header));
     }
     if (!has_dims || header->number < 0)
         return ewa_volume_fail(in, EWA_ERROR_FORMAT, "VTK: no %s", has_dims ? "SCALARS" : "DIMENSIONS");

@@ -91,17 +91,15 @@ ewa_status ewa_volume_save(const ewa_volume *volume, const char *path,
     if (!volume || !volume->voxels || !path) return EWA_ERROR_ARGUMENT;
     ewa_volume_save_options chosen;
     ewa_volume_save_options_init(&chosen, sizeof chosen);
-    ewa_status status = ewa_options_take(volume->context, &ewa_volume_save_options_table, options, &chosen);
-    if (status != EWA_OK) return status;
+    EWA_TRY(ewa_options_take(volume->context, &ewa_volume_save_options_table, options, &chosen));
     const size_t length = strlen(path);
     if (strcmp(path, "-") != 0 && (length < 6 || strcasecmp(path + length - 5, ".nrrd") != 0))
         return ewa_fail(volume->context, EWA_ERROR_UNSUPPORTED, "%s: the suffix of a volume is .nrrd", path);
     const size_t size_bytes =
         (size_t)volume->dims[0] * volume->dims[1] * volume->dims[2] * ewa_type_bytes(volume->type);
     ewa_writer *writer;
-    status = ewa_writer_open(volume->context, path, &writer);
-    if (status != EWA_OK) return status;
-    status = put_header(volume, chosen.plain, writer);
+    EWA_TRY(ewa_writer_open(volume->context, path, &writer));
+    ewa_status status = put_header(volume, chosen.plain, writer);
     if (status == EWA_OK)
         status = chosen.plain ? ewa_writer_put(writer, volume->voxels, size_bytes)
                               : put_packed(volume, size_bytes, writer);
