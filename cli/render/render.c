@@ -365,16 +365,8 @@ static bool save_scene(cli_session *session, const render_arguments *arguments, 
 static bool draw(cli_session *session, const render_arguments *arguments, const picture_paths *paths,
                  render_scene *scene, render_report *report) {
     const bool many = frames_many(&arguments->frames);
-    const sequence_output output = {
-        .paths = paths,
-        .numbered = many,
-        .film = video_find_format(arguments->output) ? arguments->output : NULL,
-        .source =
-            arguments->frames.path_file ? arguments->frames.path_file : arguments->frames.view.camera_path,
-        .frames_per_s = arguments->frames.frames_per_s > 0 ? arguments->frames.frames_per_s : 30,
-        .quality = arguments->frames.quality >= 0 ? (int)arguments->frames.quality : 75,
-        .opaque = arguments->background.rgba[3] == 1,
-    };
+    const sequence_output output =
+        sequence_output_of(&arguments->frames, arguments->output, paths, arguments->background.rgba[3] == 1);
     scene_painter painting = {.session = session, .scene = scene, .report = report};
     const frame_cameras *frames = &scene->frames;
     const bool saves_camera = arguments->save_camera_path && process_group_leads(session->group);

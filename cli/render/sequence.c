@@ -20,6 +20,19 @@ typedef struct frame_files {
     char color[1024];
 } frame_files;
 
+sequence_output sequence_output_of(const frames_arguments *frames, const char *output, const picture_paths *paths,
+                                   bool opaque) {
+    return (sequence_output){
+        .paths = paths,
+        .numbered = frames_many(frames),
+        .film = video_find_format(output) ? output : NULL,
+        .source = frames->path_file ? frames->path_file : frames->view.camera_path,
+        .frames_per_s = frames->frames_per_s > 0 ? frames->frames_per_s : 30,
+        .quality = frames->quality >= 0 ? (int)frames->quality : 75,
+        .opaque = opaque,
+    };
+}
+
 bool sequence_check_paths(const picture_paths *paths, char message[OPTION_ERROR_BYTES]) {
     const char *const all[] = {paths->color, paths->depth, paths->normal, paths->coverage};
     for (size_t i = 0; i < sizeof all / sizeof all[0]; i++) {

@@ -19,6 +19,10 @@ typedef struct sequence_output {
     bool opaque; ///< alpha says nothing
 } sequence_output;
 
+/// Where the pictures of a command go whose --output is `output`, over an opaque background or none.
+sequence_output sequence_output_of(const frames_arguments *frames, const char *output, const picture_paths *paths,
+                                   bool opaque);
+
 /// Says in `message` which of the paths has no place for a number; returns false then.
 bool sequence_check_paths(const picture_paths *paths, char message[OPTION_ERROR_BYTES]);
 

@@ -132,137 +132,84 @@ static bool check(const void *data, char message[OPTION_ERROR_BYTES]) {
 /// What paint() works with.
 typedef struct volume_painter {
     cli_session *session;
-    const volume_scene *scene;
-    ewa_volume_renderer *renderer;
-    ewa_volume_options options;
+    ewa_scene *scene;
+    ewa_scene_renderer *renderer;
+    ewa_scene_options options;
+    ewa_voxels_info voxels;
+    double load_s, classify_s;
     furnishing furniture;
     ewa_volume_stats stats; // counts and times summed over all frames
-    ewa_renderer *surface_renderer;
-    ewa_render_options surface_options;
-    ewa_gaussian_renderer *mixture_renderer;
-    ewa_image surface_rgba, surface_depth;
 } volume_painter;
-
-/// Draws surfels to planes of their own, over nothing, for what lets light through.
-static ewa_status paint_surface(ewa_context *context, ewa_renderer *renderer, const ewa_surfels *surfels,
-                                const ewa_camera *camera, const ewa_render_options *options, ewa_image *rgba,
-                                ewa_image *depth, ewa_render_stats *stats) {
-    const uint32_t width = camera->width_px, height = camera->height_px;
-    ewa_status status = EWA_OK;
-    if (rgba->width_px != width || rgba->height_px != height) {
-        ewa_image_free(rgba);
-        ewa_image_free(depth);
-        status = ewa_image_create(context, width, height, 1, depth);
-        if (status == EWA_OK) status = ewa_image_create(context, width, height, 4, rgba);
-    }
-    if (status != EWA_OK) return status;
-    ewa_render_options over_nothing = *options;
-    memset(over_nothing.background, 0, sizeof over_nothing.background);
-    const ewa_frame frame = {.rgba = rgba->pixels, .depth = depth->pixels};
-    return ewa_render(renderer, surfels, camera, &over_nothing, &frame, stats);
-}
-
-/// Draws the volume and the surfaces within.
-static ewa_status paint_among(volume_painter *painter, const ewa_camera *camera, const ewa_frame *frame,
-                              ewa_volume_stats *drawn, ewa_render_stats *surface) {
-    ewa_gaussian_options options;
-    ewa_gaussian_options_init(&options, sizeof options);
-    memcpy(options.background, painter->options.background, sizeof options.background);
-    memcpy(options.section_planes, painter->options.section_planes, sizeof options.section_planes);
-    options.section_count = painter->options.section_count;
-    ewa_status status =
-        paint_surface(painter->session->context, painter->surface_renderer, painter->scene->surfels, camera,
-                      &painter->surface_options, &painter->surface_rgba, &painter->surface_depth, surface);
-    options.surface_rgba = painter->surface_rgba.pixels;
-    options.surface_depth = painter->surface_depth.pixels;
-    const ewa_mixed_volume volume = {painter->renderer, painter->scene->voxels, &painter->options, drawn};
-    const ewa_mixture mixture = {.volumes = &volume, .volume_count = 1};
-    return status == EWA_OK
-               ? ewa_mixture_render(painter->mixture_renderer, &mixture, camera, &options, frame, NULL)
-               : status;
-}
 
 static ewa_status paint(void *user, const ewa_camera *camera, const ewa_frame *frame,
                         ewa_render_stats *stats) {
     volume_painter *painter = user;
-    ewa_volume_stats drawn = {.voxel_count = 0};
-    ewa_render_stats surface = {.splat_count = 0};
-    const ewa_status status = painter->scene->surfels
-                                  ? paint_among(painter, camera, frame, &drawn, &surface)
-                                  : ewa_volume_render(painter->renderer, painter->scene->voxels, camera,
-                                                      &painter->options, frame, &drawn);
-    *stats = (ewa_render_stats){.splat_count = drawn.voxel_count + surface.splat_count,
-                                .culled_count = drawn.culled_count + surface.culled_count,
-                                .drawn_count = drawn.splat_count + drawn.point_count + surface.drawn_count,
-                                .total_s = drawn.total_s};
+    ewa_scene_stats took;
+    const ewa_status status =
+        ewa_scene_draw(painter->scene, painter->renderer, camera, &painter->options, frame, &took);
+    if (status != EWA_OK) return status;
+    *stats = took.render;
+    const ewa_volume_stats *drawn = &took.volumes;
     ewa_volume_stats *sum = &painter->stats;
-    sum->voxel_count = drawn.voxel_count;
-    sum->culled_count += drawn.culled_count;
-    sum->hidden_count += drawn.hidden_count;
-    sum->near_count += drawn.near_count;
-    sum->splat_count += drawn.splat_count;
-    sum->point_count += drawn.point_count;
-    sum->bin_s += drawn.bin_s;
-    sum->setup_s += drawn.setup_s;
-    sum->points_s += drawn.points_s;
-    sum->splats_s += drawn.splats_s;
-    sum->resolve_s += drawn.resolve_s;
-    return status == EWA_OK ? furnish_draw(painter->session, &painter->furniture, camera, frame) : status;
+    sum->voxel_count = drawn->voxel_count;
+    sum->culled_count += drawn->culled_count;
+    sum->hidden_count += drawn->hidden_count;
+    sum->near_count += drawn->near_count;
+    sum->splat_count += drawn->splat_count;
+    sum->point_count += drawn->point_count;
+    sum->bin_s += drawn->bin_s;
+    sum->setup_s += drawn->setup_s;
+    sum->points_s += drawn->points_s;
+    sum->splats_s += drawn->splats_s;
+    sum->resolve_s += drawn->resolve_s;
+    return furnish_draw(painter->session, &painter->furniture, camera, frame);
 }
 
-/// Sets up what the frames are drawn with. Returns false after reporting.
-static bool prepare_painter(const volume_arguments *arguments, volume_painter *painter) {
+/// Makes the scene, places the cameras and gets ready to draw. Returns false after reporting.
+static bool prepare(const volume_arguments *arguments, frame_cameras *frames, volume_painter *painter) {
+    cli_session *session = painter->session;
     const light_objects nothing = {.material_count = 0};
-    ewa_render_options *surface = &painter->surface_options;
-    ewa_volume_options *options = &painter->options;
-    *surface = light_apply(&arguments->light, &nothing);
-    *options = arguments->scene.options;
-    option_color_linear(&arguments->background, options->background);
-    section_fill(&arguments->section, options->section_planes, &options->section_count);
-    section_fill(&arguments->section, surface->section_planes, &surface->section_count);
-    options->shading = arguments->light.shading >= 0 ? (ewa_shading)arguments->light.shading
-                       : painter->scene->flat        ? EWA_SHADING_NONE
-                                                     : EWA_SHADING_PHONG;
-    options->light_count = surface->light_count;
-    memcpy(options->lights, surface->lights, sizeof options->lights);
-    ewa_status status = ewa_volume_renderer_create(painter->session->context, &painter->renderer);
-    if (status == EWA_OK && painter->scene->surfels)
-        status = ewa_renderer_create(painter->session->context, &painter->surface_renderer);
-    if (status == EWA_OK && painter->scene->surfels)
-        status = ewa_gaussian_renderer_create(painter->session->context, &painter->mixture_renderer);
-    if (status != EWA_OK) session_failed(painter->session, status);
-    return status == EWA_OK;
-}
-
-static void free_painter(volume_painter *painter) {
-    ewa_volume_renderer_destroy(&painter->renderer);
-    ewa_renderer_destroy(&painter->surface_renderer);
-    ewa_gaussian_renderer_destroy(&painter->mixture_renderer);
-    ewa_image_free(&painter->surface_rgba);
-    ewa_image_free(&painter->surface_depth);
+    const double started_s = clock_now_s();
+    ewa_scene_options *options = &painter->options;
+    ewa_scene_options_init(options, sizeof *options);
+    options->render = light_apply(&arguments->light, &nothing);
+    option_color_linear(&arguments->background, options->render.background);
+    section_fill(&arguments->section, options->render.section_planes, &options->render.section_count);
+    options->volumes = arguments->scene.options;
+    options->shade_volumes = arguments->light.shading < 0;
+    if (!options->shade_volumes) options->volumes.shading = (ewa_shading)arguments->light.shading;
+    ewa_status status = ewa_scene_create(session->context, options, &painter->scene);
+    if (status == EWA_OK)
+        status = ewa_scene_renderer_create(session->context, EWA_BACKEND_CPU, NULL, &painter->renderer);
+    if (status != EWA_OK) return session_failed(session, status) == EXIT_DONE;
+    if (!volume_scene_fill(session, &arguments->input, &arguments->scene,
+                           arguments->frames.view.common.operands[0], arguments->progressive ? 2 : 1,
+                           painter->scene))
+        return false;
+    ewa_asset_info volume;
+    ewa_asset_describe(ewa_scene_asset(painter->scene, 0), &volume);
+    ewa_voxels_describe(volume.voxels, &painter->voxels);
+    painter->classify_s = volume.load_s;
+    painter->load_s = clock_now_s() - started_s - volume.load_s;
+    const view_subject subject = {.scene = painter->scene};
+    return frames_make(session, &arguments->frames, &subject, frames) &&
+           furnish_make(session, &arguments->furniture, &arguments->frames, &arguments->background, &subject,
+                        &painter->furniture);
 }
 
 /// Draws and writes everything, coarse first when asked for. False after reporting.
 static bool draw(const volume_arguments *arguments, const picture_paths *paths, const frame_cameras *frames,
                  volume_painter *painter, render_report *report) {
-    const sequence_output output = {
-        .paths = paths,
-        .numbered = frames_many(&arguments->frames),
-        .film = video_find_format(arguments->output) ? arguments->output : NULL,
-        .source =
-            arguments->frames.path_file ? arguments->frames.path_file : arguments->frames.view.camera_path,
-        .frames_per_s = arguments->frames.frames_per_s > 0 ? arguments->frames.frames_per_s : 30,
-        .quality = arguments->frames.quality >= 0 ? (int)arguments->frames.quality : 75,
-        .opaque = arguments->background.rgba[3] == 1,
-    };
+    const sequence_output output = sequence_output_of(&arguments->frames, arguments->output, paths,
+                                                      arguments->background.rgba[3] == 1);
     const frame_painter paints = {paint, painter};
     cli_session *session = painter->session;
-    if (arguments->progressive && painter->scene->info.level_count > 1) {
-        painter->options.level = painter->scene->info.level_count - 1;
+    if (arguments->progressive && painter->voxels.level_count > 1) {
+        painter->options.volumes.level = painter->voxels.level_count - 1;
         if (!sequence_draw(session, &output, frames, &paints, report)) return false;
         session_say(session, "%s: a first picture after %.3f s", arguments->output,
                     clock_now_s() - session->started_s);
-        painter->options.level = 0;
+        painter->options.volumes.level = 0;
         painter->stats = (ewa_volume_stats){.voxel_count = 0};
     }
     return sequence_draw(session, &output, frames, &paints, report) &&
@@ -275,7 +222,7 @@ static bool write_stats(cli_session *session, const volume_arguments *arguments,
                         const volume_painter *painter, const render_report *report) {
     text_file text;
     if (!text_file_open(session, &text, arguments->stats_path)) return false;
-    const ewa_voxels_info *info = &painter->scene->info;
+    const ewa_voxels_info *info = &painter->voxels;
     const ewa_volume_stats *stats = &painter->stats;
     const uint64_t drawn = stats->splat_count + stats->point_count;
     json_writer json;
@@ -299,8 +246,8 @@ static bool write_stats(cli_session *session, const volume_arguments *arguments,
     json_count(&json, "points_drawn", stats->point_count);
     json_number(&json, "point_share", drawn ? (double)stats->point_count / (double)drawn : 0);
     json_object(&json, "wall_s");
-    json_number(&json, "load", painter->scene->load_s);
-    json_number(&json, "classify", painter->scene->classify_s);
+    json_number(&json, "load", painter->load_s);
+    json_number(&json, "classify", painter->classify_s);
     json_number(&json, "render", report->render_s);
     json_number(&json, "write", report->write_s);
     json_number(&json, "total", clock_now_s() - session->started_s);
@@ -324,9 +271,8 @@ static int run(const void *data) {
     if (!session_start(&session, common)) return session_end(&session, EXIT_FAILED);
     char message[OPTION_ERROR_BYTES];
     picture_paths paths;
-    volume_scene scene = {.voxels = NULL};
     frame_cameras frames = {.count = 0};
-    volume_painter painter = {.session = &session, .scene = &scene};
+    volume_painter painter = {.session = &session};
     render_report report = {.load_s = 0};
     const bool film = video_find_format(arguments->output) != NULL;
     bool done = frame_partition_check(&session, frames_many(&arguments->frames), film, true) &&
@@ -336,27 +282,19 @@ static int run(const void *data) {
     const bool idle = done && !frames.chosen_count && !arguments->save_camera_path &&
                       !arguments->stats_path && !arguments->scene.save_transfer_path;
     done = done && !idle &&
-           volume_scene_load(&session, &arguments->input, &arguments->scene, common->operands[0],
-                             arguments->progressive ? 2 : 1, &scene) &&
-           volume_scene_frame(&session, &arguments->frames, &scene, &frames) &&
-           prepare_painter(arguments, &painter) &&
-           furnish_make(&session, &arguments->furniture, &arguments->frames, &arguments->background,
-                        ewa_cloud_point_count(scene.outline)
-                            ? &(view_subject){.cloud = scene.outline, .radius_scale = 1, .up_axis = 2}
-                            : NULL,
-                        &painter.furniture) &&
+           prepare(arguments, &frames, &painter) &&
            draw(arguments, &paths, &frames, &painter, &report) &&
            (!arguments->stats_path || !process_group_leads(session.group) ||
             write_stats(&session, arguments, &frames, &painter, &report));
     if (done && frames.chosen_count)
         session_say(&session, "%s: %llu of %llu voxels, drawn in %.1f ms, %.3f s in all", arguments->output,
-                    (unsigned long long)scene.info.occupied_count, (unsigned long long)scene.info.voxel_count,
+                    (unsigned long long)painter.voxels.occupied_count, (unsigned long long)painter.voxels.voxel_count,
                     1e3 * report.render_s / (double)frames.chosen_count, clock_now_s() - session.started_s);
-    free_painter(&painter);
+    ewa_scene_renderer_destroy(&painter.renderer);
     render_report_free(&report);
     const int ended = done || idle ? EXIT_DONE : frames.beyond ? EXIT_USAGE : EXIT_FAILED;
     frames_free(&frames);
-    volume_scene_free(&scene);
+    ewa_scene_destroy(&painter.scene);
     return session_end(&session, ended);
 }
 

@@ -287,6 +287,12 @@ EWA_API ewa_status ewa_volume_save(const ewa_volume *volume, const char *path,
 /// EWA_ERROR_LIMIT, EWA_ERROR_MEMORY.
 EWA_API ewa_status ewa_transfer_load(ewa_context *context, const char *path, ewa_transfer *transfer);
 
+/// Makes the transfer function that a word stands for: a preset's name, "auto" (NULL too: ewa_transfer_automatic()), or a
+/// file, of which a note names the presets where it is not there. Errors: those of ewa_transfer_load() and
+/// ewa_transfer_preset(); EWA_ERROR_FORMAT (no voxel is finite).
+EWA_API ewa_status ewa_transfer_choose(ewa_context *context, const char *word, const ewa_volume *volume,
+                                       ewa_transfer *transfer);
+
 /// Writes a transfer function so that ewa_transfer_load() gives the same numbers. Errors: EWA_ERROR_ARGUMENT
 /// (a member that is not what ewa_transfer says), EWA_ERROR_IO, EWA_ERROR_MEMORY.
 EWA_API ewa_status ewa_transfer_save(ewa_context *context, const ewa_transfer *transfer, const char *path);

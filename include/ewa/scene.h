@@ -90,10 +90,12 @@ typedef struct ewa_asset_source {
     const ewa_voxels *voxels;      ///< borrowed
     const ewa_mesh *mesh;          ///< converted: points on its faces
     const ewa_gaussians *gaussians; ///< converted
-    const ewa_volume *volume;      ///< converted
+    const ewa_volume *volume;      ///< converted; or, beside `voxels`, what they were made of: from where they are seen
+    /// Of `volume`: what it looks like, needed during the call only; NULL: as ewa_asset_options.transfer says.
+    const ewa_transfer *transfer;
     const ewa_cloud *outline;      ///< of splats and voxels: places where something can be seen; borrowed
     double up_world[3];            ///< what is up, where something says so; zeros: nothing does
-    bool flat;                     ///< of voxels: they look best without light
+    bool flat;                     ///< of `voxels` and `transfer`: they look best without light
     void (*release)(void *user);   ///< called when the asset is gone, also after a failure; NULL: nobody asks
     void *user;
 } ewa_asset_source;
@@ -317,6 +319,7 @@ EWA_API ewa_renderer *ewa_scene_renderer_surfaces(ewa_scene_renderer *renderer);
 typedef struct ewa_scene_stats {
     ewa_render_stats render;   ///< surfaces, and what of Gaussians and volumes is counted alike: splats, culled, drawn
     ewa_lod_stats lod;         ///< of octrees; zeros without
+    ewa_volume_stats volumes;  ///< of volumes, summed; zeros without
     double total_s;            ///< wall clock
 } ewa_scene_stats;
 

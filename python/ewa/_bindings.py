@@ -1980,6 +1980,32 @@ class ewa_asset_options(c.Structure):
     ]
 
 
+class ewa_transfer_point(c.Structure):
+    value: float
+    color: c.Array[c.c_float]
+    extinction: float
+    _fields_ = [
+        ("value", c.c_double),
+        ("color", c.c_float * 3),
+        ("extinction", c.c_float),
+    ]
+
+
+class ewa_transfer(c.Structure):
+    points: c.Array[ewa_transfer_point]
+    point_count: int
+    unit_length_world: float
+    gradient_low: float
+    gradient_high: float
+    _fields_ = [
+        ("points", ewa_transfer_point * 1024),
+        ("point_count", c.c_uint32),
+        ("unit_length_world", c.c_double),
+        ("gradient_low", c.c_double),
+        ("gradient_high", c.c_double),
+    ]
+
+
 class ewa_volume(c.Structure):
     context: int | None
     dims: c.Array[c.c_uint32]
@@ -2007,6 +2033,7 @@ class ewa_asset_source(c.Structure):
     mesh: Any
     gaussians: Any
     volume: Any
+    transfer: Any
     outline: int | None
     up_world: c.Array[c.c_double]
     flat: bool
@@ -2022,6 +2049,7 @@ class ewa_asset_source(c.Structure):
         ("mesh", c.POINTER(ewa_mesh)),
         ("gaussians", c.POINTER(ewa_gaussians)),
         ("volume", c.POINTER(ewa_volume)),
+        ("transfer", c.POINTER(ewa_transfer)),
         ("outline", c.c_void_p),
         ("up_world", c.c_double * 3),
         ("flat", c.c_bool),
@@ -2127,10 +2155,12 @@ class ewa_scene_options(c.Structure):
 class ewa_scene_stats(c.Structure):
     render: ewa_render_stats
     lod: ewa_lod_stats
+    volumes: ewa_volume_stats
     total_s: float
     _fields_ = [
         ("render", ewa_render_stats),
         ("lod", ewa_lod_stats),
+        ("volumes", ewa_volume_stats),
         ("total_s", c.c_double),
     ]
 
@@ -2202,32 +2232,6 @@ class ewa_scalar(c.Structure):
         ("component", c.c_uint32),
         ("shift_world", c.c_double),
         ("grid", ewa_coordinate_grid),
-    ]
-
-
-class ewa_transfer_point(c.Structure):
-    value: float
-    color: c.Array[c.c_float]
-    extinction: float
-    _fields_ = [
-        ("value", c.c_double),
-        ("color", c.c_float * 3),
-        ("extinction", c.c_float),
-    ]
-
-
-class ewa_transfer(c.Structure):
-    points: c.Array[ewa_transfer_point]
-    point_count: int
-    unit_length_world: float
-    gradient_low: float
-    gradient_high: float
-    _fields_ = [
-        ("points", ewa_transfer_point * 1024),
-        ("point_count", c.c_uint32),
-        ("unit_length_world", c.c_double),
-        ("gradient_low", c.c_double),
-        ("gradient_high", c.c_double),
     ]
 
 
@@ -2578,6 +2582,7 @@ class Functions:
     ewa_materials_load: Callable[..., int]
     ewa_ply_describe: Callable[..., int]
     ewa_png_save: Callable[..., int]
+    ewa_transfer_choose: Callable[..., int]
     ewa_transfer_load: Callable[..., int]
     ewa_transfer_save: Callable[..., int]
     ewa_volume_is_named: Callable[..., bool]
@@ -2935,6 +2940,7 @@ class Functions:
         self.ewa_materials_load = bind("ewa_materials_load", c.c_int, c.c_void_p, c.c_char_p, c.POINTER(ewa_material), c.c_void_p)
         self.ewa_ply_describe = bind("ewa_ply_describe", c.c_int, c.c_void_p, c.c_char_p, ewa_line_callback, c.c_void_p)
         self.ewa_png_save = bind("ewa_png_save", c.c_int, c.c_void_p, c.c_char_p, c.c_uint32, c.c_uint32, c.c_uint32, c.c_void_p, c.c_size_t)
+        self.ewa_transfer_choose = bind("ewa_transfer_choose", c.c_int, c.c_void_p, c.c_char_p, c.POINTER(ewa_volume), c.POINTER(ewa_transfer))
         self.ewa_transfer_load = bind("ewa_transfer_load", c.c_int, c.c_void_p, c.c_char_p, c.POINTER(ewa_transfer))
         self.ewa_transfer_save = bind("ewa_transfer_save", c.c_int, c.c_void_p, c.POINTER(ewa_transfer), c.c_char_p)
         self.ewa_volume_is_named = bind("ewa_volume_is_named", c.c_bool, c.c_char_p)

@@ -176,7 +176,7 @@ static ewa_status load_volume(const ewa_asset_job *job, const char *path) {
     ewa_volume_load_options options;
     ewa_volume_load_options_init(&options, sizeof options);
     ewa_status status = ewa_volume_load(job->asset->context, path, &options, &volume);
-    if (status == EWA_OK) status = ewa_asset_take_volume(job, &volume);
+    if (status == EWA_OK) status = ewa_asset_take_volume(job, NULL, &volume);
     ewa_volume_free(&volume);
     return status;
 }
@@ -295,9 +295,9 @@ static ewa_status take_source(const ewa_asset_job *job, const ewa_asset_source *
         ewa_gaussians set = *source->gaussians;
         return ewa_asset_take_gaussians(job, &set, source->up_world);
     }
-    if (source->volume) {
+    if (source->volume && !source->voxels) {
         ewa_volume volume = *source->volume;
-        return ewa_asset_take_volume(job, &volume);
+        return ewa_asset_take_volume(job, source->transfer, &volume);
     }
     EWA_TRY(refuse_map(job));
     if (source->lod) return ewa_asset_take_octree(job, source->lod);
@@ -329,6 +329,7 @@ static ewa_status take_source(const ewa_asset_job *job, const ewa_asset_source *
         asset->count = info.voxel_count;
         asset->bounds = info.bounds;
         asset->flat = source->flat;
+        if (source->volume) asset->view = ewa_asset_view_of_volume(source->volume);
     }
     return ewa_cloud_view(context, source->outline, 0, ewa_cloud_point_count(source->outline),
                           &asset->outline);
@@ -339,7 +340,7 @@ ewa_status ewa_asset_create(ewa_context *context, const ewa_asset_source *source
     if (!context || !source || !made) return EWA_ERROR_ARGUMENT;
     *made = NULL;
     const void *const objects[] = {source->cloud,  source->surfels, source->lod,       source->splats,
-                                   source->voxels, source->mesh,    source->gaussians, source->volume};
+                                   source->voxels, source->mesh,    source->gaussians, source->voxels ? NULL : source->volume};
     static const char *const names[] = {"points", "surfels", "octree",    "Gaussians",
                                         "volume", "mesh",    "Gaussians", "volume"};
     size_t count = 0, last = 0;
@@ -357,7 +358,7 @@ ewa_status ewa_asset_create(ewa_context *context, const ewa_asset_source *source
     }
     asset->source = *source;
     // What is converted becomes the asset's own.
-    asset->owns_parts = source->gaussians || source->volume;
+    asset->owns_parts = source->gaussians || (source->volume && !source->voxels);
     const char *before = ewa_context_about(context, source->name);
     const double started_s = ewa_now_s();
     status = take_source(&(ewa_asset_job){asset, &options}, source);

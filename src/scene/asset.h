@@ -26,8 +26,11 @@ ewa_status ewa_asset_sample_mesh(const ewa_asset_job *job, const ewa_mesh *mesh)
 /// still owns it.
 ewa_status ewa_asset_take_cloud(const ewa_asset_job *job, ewa_cloud *cloud);
 
-/// Makes voxels of a volume, whose axes may be changed.
-ewa_status ewa_asset_take_volume(const ewa_asset_job *job, ewa_volume *volume);
+/// Makes voxels of a volume, whose axes may be changed, by a transfer function, or, where that is NULL, by the options.
+ewa_status ewa_asset_take_volume(const ewa_asset_job *job, const ewa_transfer *given, ewa_volume *volume);
+
+/// The named view that suits a volume.
+int ewa_asset_view_of_volume(const ewa_volume *volume);
 
 /// Reads what of an octree stands for the whole.
 ewa_status ewa_asset_take_octree(const ewa_asset_job *job, ewa_lod *lod);

@@ -8,45 +8,14 @@
 #include "scene/asset.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 /// How many times as wide as thick a volume is when it is a slice or a picture.
 static const double SLICE_RATIO = 8;
 
-static bool is_preset(const char *word) {
-    const char *name;
-    for (uint32_t i = 0; (name = ewa_transfer_preset_name(i, NULL)); i++)
-        if (strcmp(name, word) == 0) return true;
-    return false;
-}
-
-/// Chooses the transfer function: from a file, a preset, or the histogram.
-static ewa_status choose_transfer(ewa_context *context, const char *word, const ewa_volume *volume,
-                                  ewa_transfer *transfer) {
-    const bool automatic = !word || strcmp(word, "auto") == 0;
-    ewa_volume_facts facts;
-    EWA_TRY(ewa_volume_measure(volume, &facts));
-    if (!facts.finite_count) return ewa_fail(context, EWA_ERROR_FORMAT, "no voxel is a finite number");
-    if (automatic) return ewa_transfer_automatic(volume, &facts, transfer);
-    if (is_preset(word)) return ewa_transfer_preset(volume, &facts, word, transfer);
-    const char *before = ewa_context_about(context, word);
-    ewa_status status = ewa_transfer_load(context, word, transfer);
-    ewa_context_about(context, before);
-    if (status != EWA_ERROR_IO) return status;
-    char names[256] = "auto";
-    const char *name;
-    for (uint32_t i = 0; (name = ewa_transfer_preset_name(i, NULL)); i++) {
-        const size_t length = strlen(names);
-        snprintf(names + length, sizeof names - length, ", %s", name);
-    }
-    ewa_report(context, EWA_SEVERITY_NOTE, "the presets of transfer functions are %s", names);
-    return status;
-}
-
 /// A patient is seen from the front, a slice from where it is not a line (a picture upright), and what
 /// nothing is known of from a corner, which shows most of any shape.
-static int choose_view(const ewa_volume *volume) {
+int ewa_asset_view_of_volume(const ewa_volume *volume) {
     double thickness = INFINITY, width = INFINITY;
     int thin = 0, single_count = 0;
     for (int axis = 0; axis < 3; axis++) {
@@ -81,25 +50,26 @@ static void move(const double to_world[16], ewa_volume *volume) {
     memcpy(volume->index_to_world, moved, sizeof moved);
 }
 
-ewa_status ewa_asset_take_volume(const ewa_asset_job *job, ewa_volume *volume) {
+ewa_status ewa_asset_take_volume(const ewa_asset_job *job, const ewa_transfer *given, ewa_volume *volume) {
     ewa_asset *asset = job->asset;
     ewa_context *context = asset->context;
     const char *word = asset->transfer;
     static const double up_world[3] = {0, 0, 1}; // scanners' volumes stand on z
     asset->kind = EWA_ASSET_VOLUME;
-    asset->flat = word && (strcmp(word, "fog") == 0 || strcmp(word, "gray") == 0);
+    asset->flat = given ? asset->source.flat : word && (strcmp(word, "fog") == 0 || strcmp(word, "gray") == 0);
     memcpy(asset->up_world, up_world, sizeof asset->up_world);
     move(asset->to_world, volume);
-    ewa_transfer *transfer = ewa_allocate(context, 1, sizeof *transfer);
-    if (!transfer) return EWA_ERROR_MEMORY;
+    ewa_transfer *chosen = given ? NULL : ewa_allocate(context, 1, sizeof *chosen);
+    if (!given && !chosen) return EWA_ERROR_MEMORY;
+    const ewa_transfer *transfer = given ? given : chosen;
     ewa_voxels_options options;
     ewa_voxels_options_init(&options, sizeof options);
     options.level_count = job->options->voxel_level_count;
-    ewa_status status = choose_transfer(context, word, volume, transfer);
+    ewa_status status = given ? EWA_OK : ewa_transfer_choose(context, word, volume, chosen);
     if (status == EWA_OK) status = ewa_voxels_create(volume, transfer, &options, &asset->voxels);
     if (status == EWA_OK)
         status = ewa_volume_outline(volume, transfer, job->options->reach_steps, &asset->outline);
-    ewa_release(context, transfer, 1, sizeof *transfer);
+    ewa_release(context, chosen, 1, sizeof *chosen);
     EWA_TRY(status);
     ewa_voxels_info info;
     ewa_voxels_describe(asset->voxels, &info);
@@ -107,6 +77,6 @@ ewa_status ewa_asset_take_volume(const ewa_asset_job *job, ewa_volume *volume) {
         ewa_report(context, EWA_SEVERITY_WARNING, "the transfer function leaves all voxels empty");
     asset->count = info.voxel_count;
     asset->bounds = info.bounds;
-    asset->view = choose_view(volume);
+    asset->view = ewa_asset_view_of_volume(volume);
     return EWA_OK;
 }

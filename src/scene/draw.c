@@ -150,10 +150,26 @@ static ewa_volume_options volume_options(const ewa_scene_options *options, const
     return own;
 }
 
-static void add_volume_stats(const ewa_volume_stats *volume, ewa_render_stats *stats) {
-    stats->splat_count += volume->voxel_count;
-    stats->culled_count += volume->culled_count;
-    stats->drawn_count += volume->splat_count + volume->point_count;
+static void add_volume_stats(const ewa_volume_stats *volume, ewa_scene_stats *stats) {
+    ewa_render_stats *all = &stats->render;
+    ewa_volume_stats *sum = &stats->volumes;
+    all->splat_count += volume->voxel_count;
+    all->culled_count += volume->culled_count;
+    all->drawn_count += volume->splat_count + volume->point_count;
+    sum->voxel_count += volume->voxel_count;
+    sum->culled_count += volume->culled_count;
+    sum->near_count += volume->near_count;
+    sum->hidden_count += volume->hidden_count;
+    sum->splat_count += volume->splat_count;
+    sum->point_count += volume->point_count;
+    sum->bin_s += volume->bin_s;
+    sum->setup_s += volume->setup_s;
+    sum->points_s += volume->points_s;
+    sum->splats_s += volume->splats_s;
+    sum->resolve_s += volume->resolve_s;
+    sum->total_s += volume->total_s;
+    if (sum->splat_count + sum->point_count)
+        sum->point_share = (double)sum->point_count / (double)(sum->splat_count + sum->point_count);
 }
 
 /// Draws what lets light through, among surfaces where there are some.
@@ -175,7 +191,7 @@ static ewa_status draw_mixture(ewa_scene_renderer *renderer, const ewa_scene_sho
     if (shown->volume_count == 1 && !shown->splats_count && !among->surface_depth) {
         EWA_TRY(ewa_volume_render(renderer->volumes[0], shown->volumes[0]->voxels, camera, &volumes[0], frame,
                                   &took[0]));
-        add_volume_stats(&took[0], &stats->render);
+        add_volume_stats(&took[0], stats);
         return EWA_OK;
     }
     if (!renderer->gaussians) EWA_TRY(ewa_gaussian_renderer_create(context, &renderer->gaussians));
@@ -186,7 +202,7 @@ static ewa_status draw_mixture(ewa_scene_renderer *renderer, const ewa_scene_sho
     stats->render.splat_count += drawn.splat_count;
     stats->render.culled_count += drawn.splat_count - drawn.visible_count;
     stats->render.drawn_count += drawn.visible_count;
-    for (uint32_t i = 0; i < shown->volume_count; i++) add_volume_stats(&took[i], &stats->render);
+    for (uint32_t i = 0; i < shown->volume_count; i++) add_volume_stats(&took[i], stats);
     return EWA_OK;
 }
 

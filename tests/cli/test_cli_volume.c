@@ -248,6 +248,10 @@ static void test_surfels_within(void **state) {
     assert_true(both.pixels[middle + 3] > 0.99f);
     ewa_image_free(&fog);
     ewa_image_free(&both);
+    // It is the scene of `ewa render`.
+    run_done("ewa volume ball.nrrd -o both.png --size 48x48 --transfer fog --surfels sphere.ply --background white");
+    run_done("ewa render ball.nrrd -o scene.png --size 48x48 --transfer fog sphere.ply");
+    assert_true(scratch_same("both.png", "scene.png"));
 }
 
 static void test_wrong_usage(void **state) {

@@ -13,6 +13,7 @@
 #include "io/volume/transfer.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 /// A file that is being read.
@@ -157,6 +158,28 @@ ewa_status ewa_transfer_load(ewa_context *context, const char *path, ewa_transfe
     const char *name = strcmp(path, "-") == 0 ? "standard input" : path;
     ewa_status status = ewa_transfer_read(context, name, file.bytes, file.size_bytes, transfer);
     ewa_file_unmap(context, &file);
+    return status;
+}
+
+ewa_status ewa_transfer_choose(ewa_context *context, const char *word, const ewa_volume *volume,
+                               ewa_transfer *transfer) {
+    if (!context || !volume || !transfer) return EWA_ERROR_ARGUMENT;
+    ewa_volume_facts facts;
+    EWA_TRY(ewa_volume_measure(volume, &facts));
+    if (!facts.finite_count) return ewa_fail(context, EWA_ERROR_FORMAT, "no voxel is a finite number");
+    if (!word || strcmp(word, "auto") == 0) return ewa_transfer_automatic(volume, &facts, transfer);
+    char names[256] = "auto";
+    const char *name;
+    for (uint32_t i = 0; (name = ewa_transfer_preset_name(i, NULL)); i++) {
+        if (strcmp(name, word) == 0) return ewa_transfer_preset(volume, &facts, word, transfer);
+        const size_t length = strlen(names);
+        snprintf(names + length, sizeof names - length, ", %s", name);
+    }
+    const char *before = ewa_context_about(context, word);
+    const ewa_status status = ewa_transfer_load(context, word, transfer);
+    ewa_context_about(context, before);
+    if (status == EWA_ERROR_IO)
+        ewa_report(context, EWA_SEVERITY_NOTE, "the presets of transfer functions are %s", names);
     return status;
 }
 
