@@ -65,10 +65,10 @@ typedef struct ewa_transfer {
     double gradient_low, gradient_high;
 } ewa_transfer;
 
-/// Fills a transfer function from the volume's histogram: the largest peak near the low end counts as empty,
-/// what lies between it and the sparse high end is translucent and becomes denser, the high end is solid. The
+/// Fills a transfer function from the volume alone, by its kind (docs/volume_files.md): labels get a colour each, one
+/// slice greys, a field translucent shells, a scan its materials, the densest solid; noise gets fog, and a warning. The
 /// unit of length goes with the volume's size, so that it looks the same at every resolution. Errors:
-/// EWA_ERROR_ARGUMENT, EWA_ERROR_NUMERIC (no finite voxel, or all are equal).
+/// EWA_ERROR_ARGUMENT, EWA_ERROR_NUMERIC (no finite voxel, or all are equal), EWA_ERROR_MEMORY.
 EWA_API ewa_status ewa_transfer_automatic(const ewa_volume *volume, const ewa_volume_facts *facts,
                                           ewa_transfer *transfer);
 

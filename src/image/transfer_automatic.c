@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// A transfer function from the volume alone: what surrounds and what encloses is left out, materials that
-// hide others are drawn translucent, the densest is solid. docs/volume_files.md says the rule and its limits.
+// A transfer function from the volume alone. Of scans, what surrounds and what encloses is left out, materials
+// that hide others are drawn translucent, the densest is solid; other kinds of volumes: transfer_kinds.c.
+// docs/volume_files.md says the rules and their limits.
 //
 // Materials are told apart by the areas of the surfaces between values (volume_surfaces.h). A material fills
 // a range of values in which any surface is ragged with its noise: a peak of the area. Between two peaks lies
@@ -14,7 +15,7 @@
 // over surfaces); N. Otsu, "A Threshold Selection Method from Gray-Level Histograms", 1979, equation 12.
 #include "base/base.h"
 #include "image/transfer.h"
-#include "image/volume_surfaces.h"
+#include "image/transfer_kinds.h"
 
 #include <math.h>
 #include <string.h>
@@ -72,9 +73,9 @@ typedef struct material_map {
 typedef struct class_list {
     boundary edges[MAXIMUM];
     int count;
-    bool natural;  ///< they are materials; else one class, or none, cut in two
-    double hidden; ///< share of the lines of sight to the others that the lowest stands in
-    int opened;    ///< containers left out
+    bool natural;           ///< they are materials; else one class, or none, cut in two
+    ewa_volume_sight sight; ///< of what lies behind the lowest
+    int opened;             ///< containers left out
 } class_list;
 
 static void smooth(const double area[BINS], double smoothed[BINS]) {
@@ -154,9 +155,7 @@ static void add_boundary(material_map *map, boundary made) {
         map->found[map->found_count++] = made;
 }
 
-static void make_map(const ewa_volume *volume, const ewa_volume_facts *facts, material_map *map) {
-    *map = (material_map){.last = BINS - 1};
-    ewa_volume_surfaces_measure(volume, facts, &map->surfaces);
+static void find_materials(material_map *map) {
     smooth(map->surfaces.area, map->area);
     find_peaks(map);
     add_boundary(map, (boundary){.at = 1}); // above constant values
@@ -273,10 +272,7 @@ static ewa_status open_containers(const ewa_volume *volume, const material_map *
         }
     }
     cut_in_two(map, list);
-    ewa_volume_sight sight;
-    const ewa_status status = look_at(volume, map, list, 1, &sight);
-    list->hidden = sight.hidden;
-    return status;
+    return look_at(volume, map, list, 1, &list->sight);
 }
 
 /// The extinction per unit length of the lowest class.
@@ -285,13 +281,15 @@ static double lowest_extinction(const material_map *map, const ewa_volume_facts 
     const ewa_volume_surfaces *s = &map->surfaces;
     const double volume = s->above[list->edges[0].at] - s->above[list->edges[1].at];
     // A mean chord is 4 V / A, and faces of voxels have 1.5 times the area of the surface that they stand
-    // for.
+    // for. Where matter is full of holes, lines of sight pass more of it than a chord.
     const double chord_voxels = 6 * volume / fmax(map->area[list->edges[0].at], 1);
-    const double *step = facts->spacing_world;
-    const double chord_world = chord_voxels * 3 / (1 / step[0] + 1 / step[1] + 1 / step[2]);
-    const double open = 1 - list->hidden, depth = OPEN_DEPTH * open * open + TRANSLUCENT_DEPTH * list->hidden;
-    return chord_world > 0 ? fmin(fmax(depth * ewa_transfer_unit(facts) / chord_world, MINIMUM), SOLID)
-                           : SOLID;
+    const double path_voxels = fmax(chord_voxels, list->sight.passed), hidden = list->sight.hidden,
+                 open = 1 - hidden;
+    if (!(chord_voxels > 0)) return SOLID;
+    const double *step = facts->spacing_world, step_world = 3 / (1 / step[0] + 1 / step[1] + 1 / step[2]);
+    const double per_voxel =
+        OPEN_DEPTH * open * open / chord_voxels + TRANSLUCENT_DEPTH * hidden / path_voxels;
+    return fmin(fmax(per_voxel * ewa_transfer_unit(facts) / step_world, MINIMUM), SOLID);
 }
 
 /// Adds a point that looks like the last one.
@@ -327,17 +325,15 @@ static void add_points(const material_map *map, const ewa_volume_facts *facts, c
     repeat_point(transfer, facts->high);
 }
 
-ewa_status ewa_transfer_automatic(const ewa_volume *volume, const ewa_volume_facts *facts,
-                                  ewa_transfer *transfer) {
-    if (!volume || !volume->voxels || !facts || !transfer) return EWA_ERROR_ARGUMENT;
-    EWA_TRY(ewa_transfer_check_facts(volume, facts));
-    material_map map;
+/// The look of a scan.
+static ewa_status make_scan(const ewa_volume *volume, const ewa_volume_facts *facts, material_map *map,
+                            ewa_transfer *transfer) {
     class_list list;
-    make_map(volume, facts, &map);
-    list_classes(&map, &list);
-    EWA_TRY(open_containers(volume, &map, &list));
+    find_materials(map);
+    list_classes(map, &list);
+    EWA_TRY(open_containers(volume, map, &list));
     *transfer = (ewa_transfer){.unit_length_world = ewa_transfer_unit(facts)};
-    add_points(&map, facts, &list, transfer);
+    add_points(map, facts, &list, transfer);
     const double seen = transfer->points[0].value;
     if (list.opened)
         ewa_report(volume->context, EWA_SEVERITY_INFO,
@@ -346,4 +342,39 @@ ewa_status ewa_transfer_automatic(const ewa_volume *volume, const ewa_volume_fac
     else
         ewa_report(volume->context, EWA_SEVERITY_INFO, "values below %g are left out: surroundings", seen);
     return EWA_OK;
+}
+
+ewa_status ewa_transfer_automatic(const ewa_volume *volume, const ewa_volume_facts *facts,
+                                  ewa_transfer *transfer) {
+    if (!volume || !volume->voxels || !facts || !transfer) return EWA_ERROR_ARGUMENT;
+    EWA_TRY(ewa_transfer_check_facts(volume, facts));
+    ewa_context *context = volume->context;
+    material_map map = {.last = BINS - 1};
+    ewa_volume_surfaces_measure(volume, facts, &map.surfaces);
+    ewa_volume_labels labels;
+    switch (ewa_volume_find_kind(volume, facts, &map.surfaces, &labels)) {
+    case EWA_KIND_LABELS:
+        ewa_report(context, EWA_SEVERITY_INFO, "%u labels: a colour each, %g is left out", labels.count - 1,
+                   (double)labels.codes[labels.surrounding]);
+        return ewa_transfer_labels(volume, facts, &labels, transfer);
+    case EWA_KIND_PICTURE:
+        ewa_report(context, EWA_SEVERITY_INFO, "one slice: a picture, black at %g, white at %g",
+                   map.surfaces.low, map.surfaces.high);
+        ewa_transfer_picture(facts, &map.surfaces, transfer);
+        return EWA_OK;
+    case EWA_KIND_NOISE:
+        ewa_report(context, EWA_SEVERITY_WARNING,
+                   "neighbouring voxels have nothing in common: noise, or numbers of other sizes or of "
+                   "another type");
+        ewa_transfer_noise(facts, transfer);
+        return EWA_OK;
+    case EWA_KIND_FIELD:
+        ewa_transfer_field(facts, &map.surfaces, transfer);
+        ewa_report(context, EWA_SEVERITY_INFO,
+                   "values change gradually: shells, the outermost at %g, a core from %g on",
+                   transfer->points[1].value, transfer->points[transfer->point_count - 2].value);
+        return EWA_OK;
+    default:
+        return make_scan(volume, facts, &map, transfer);
+    }
 }

@@ -12,7 +12,7 @@ enum { COLUMNS = 48, THICK = 3, RUN = 2 };
 
 /// Sums over lines of sight.
 typedef struct sight_sums {
-    double hit, hidden, apart;
+    double hit, hidden, passed, apart;
 } sight_sums;
 
 /// One line of sight, from `at` on in steps of `step`.
@@ -27,6 +27,7 @@ static void look_along(const float *at, ptrdiff_t step, uint32_t count, double o
             const uint32_t before = passed - (RUN - 1); // the run's own first voxel was passed, too
             sums->hit++;
             sums->hidden += before >= THICK;
+            sums->passed += before >= THICK ? before : 0;
             sums->apart += gap;
             return;
         }
@@ -63,6 +64,7 @@ ewa_status ewa_volume_sight_measure(const ewa_volume *volume, double outer, doub
     ewa_release(volume->context, numbers, longest, sizeof *numbers);
     sight->hit = sums.hit;
     sight->hidden = sums.hit > 0 ? sums.hidden / sums.hit : 0;
+    sight->passed = sums.hidden > 0 ? sums.passed / sums.hidden : 0;
     sight->apart = sums.hit > 0 ? sums.apart / sums.hit : 0;
     return EWA_OK;
 }

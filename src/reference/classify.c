@@ -96,7 +96,9 @@ bool ewa_reference_classify(const ewa_volume *volume, const ewa_transfer *transf
         const double length = vec3_length(gradient) / spacing;
         voxel->extinction *= length >= high ? 1 : length <= low ? 0 : (length - low) / (high - low);
     }
-    voxel->normal_world = vec3_scale(gradient, -1);
+    // One slice is a picture, not a surface.
+    const bool slice = volume->dims[0] == 1 || volume->dims[1] == 1 || volume->dims[2] == 1;
+    voxel->normal_world = slice ? vec3_make(0, 0, 0) : vec3_scale(gradient, -1);
     if (!vec3_normalize(&voxel->normal_world)) voxel->normal_world = vec3_make(0, 0, 0);
     return voxel->extinction > 0;
 }

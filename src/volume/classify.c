@@ -63,6 +63,8 @@ ewa_status ewa_classifier_make(ewa_context *context, const ewa_volume *volume, c
     const ewa_mat3 adjugate = mat3_adjugate(&axes);
     c.units_to_index = mat3_scale(&adjugate, 1 / determinant);
     c.unit_length_world = transfer->unit_length_world > 0 ? transfer->unit_length_world : c.spacing_world;
+    // The values of one slice say nothing of surfaces: as a picture it is as light as its colours.
+    c.has_normals = volume->dims[0] > 1 && volume->dims[1] > 1 && volume->dims[2] > 1;
     c.with_ramp = transfer->gradient_low != 0 || transfer->gradient_high != 0;
     *classifier = c;
     return EWA_OK;
@@ -243,13 +245,14 @@ bool ewa_classify(const ewa_classifier *classifier, uint32_t i, uint32_t j, uint
     if (!(extinction > 0)) return false;
     voxel->extinction = extinction * (classifier->spacing_world / classifier->unit_length_world);
     voxel->normal_world = vec3_make(0, 0, 0);
-    if (!with_normal && !classifier->with_ramp) return voxel->extinction > 0;
+    if (!(with_normal && classifier->has_normals) && !classifier->with_ramp) return voxel->extinction > 0;
     const ewa_vec3 slope = gradient(classifier, i, j, k);
     if (classifier->with_ramp) {
         const double low = transfer->gradient_low, high = transfer->gradient_high;
         const double length = vec3_length(slope) / classifier->spacing_world;
         voxel->extinction *= length >= high ? 1 : length <= low ? 0 : (length - low) / (high - low);
     }
+    if (!classifier->has_normals) return voxel->extinction > 0;
     voxel->normal_world = vec3_scale(slope, -1);
     if (!vec3_normalize(&voxel->normal_world)) voxel->normal_world = vec3_make(0, 0, 0);
     return voxel->extinction > 0;

@@ -21,6 +21,7 @@ typedef struct ewa_classifier {
     const ewa_transfer *transfer;
     double unit_length_world; ///< of the transfer function's extinctions
     bool with_ramp;           ///< the gradient counts
+    bool has_normals;         ///< it is a grid of more than one slice
     ewa_mat3 units_to_index;  ///< of row vectors, world over the shortest step
     double spacing_world;     ///< the shortest step
 } ewa_classifier;

@@ -191,7 +191,10 @@ static void test_odd_volumes(void **state) {
                 const ewa_transfer transfer = look_of(&volume);
                 const ewa_transfer_point *last = &transfer.points[transfer.point_count - 1];
                 assert_true(last->value >= (double)largest && last->extinction > 0);
-                assert_true(transfer.points[0].extinction == 0);
+                // One slice is a picture, of which all is seen.
+                const uint32_t *size = sizes[s];
+                if ((size[0] == 1) + (size[1] == 1) + (size[2] == 1) != 1)
+                    assert_true(transfer.points[0].extinction == 0);
             }
             ewa_volume_free(&volume);
         }
