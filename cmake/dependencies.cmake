@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 #
 # What Debian's packages give us: spng (PNG in), libdeflate (PNG out), OpenEXRCore (EXR), cJSON (camera
-# files, glTF), libjpeg (JPEG in), libwebp (WebP in), expat (E57), CHOLMOD of SuiteSparse (sparse factors), zlib and
+# files, glTF), libjpeg (JPEG), libwebp (WebP in), expat (E57), CHOLMOD of SuiteSparse (sparse factors), zlib and
 # libbz2 (volumes in), libzstd (EPT), pthreads.
 find_package(Threads REQUIRED)
 find_package(PkgConfig REQUIRED)

@@ -28,7 +28,7 @@ static bool save_picture(viewer *v, const char *path, uint32_t width_px, uint32_
         rgba8 ? paint_scene_draw(&v->probe, &scene, &(ewa_frame){.rgba8 = rgba8}, NULL) : EWA_ERROR_MEMORY;
     if (status == EWA_OK) {
         overlay_draw(v, &scene.camera, rgba8);
-        status = ewa_png_save(v->probe.context, path, width_px, height_px, 4, rgba8, 4 * (size_t)width_px);
+        status = ewa_pixels_save(v->probe.context, path, width_px, height_px, 4, rgba8, 4 * (size_t)width_px);
     }
     free(rgba8);
     if (status != EWA_OK)

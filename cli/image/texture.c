@@ -23,7 +23,7 @@ typedef struct texture_arguments {
 
 static const cli_option output_table[] = {
     {"output", OPTION_OUTPUT, AT(output), "FILE",
-     .help = "the picture: .png (8-bit sRGB, straight alpha), .exr (linear floats, premultiplied), .pfm "
+     .help = "the picture: .png or .jpg (8-bit sRGB), .exr (linear floats, premultiplied), .pfm "
              "(linear RGB); -: PNG to standard output",
      .letter = 'o'},
     {"background", OPTION_COLOR, AT(background), "r,g,b[,a]", .help = OPTION_COLOR_HELP,

@@ -31,7 +31,7 @@ typedef struct warp_arguments {
 
 static const cli_option output_table[] = {
     {"output", OPTION_OUTPUT, AT(output), "FILE",
-     .help = "the picture: .png (8-bit sRGB), .exr (linear floats, premultiplied: R G B A Z N.X N.Y N.Z "
+     .help = "the picture: .png or .jpg (8-bit sRGB), .exr (linear floats, premultiplied: R G B A Z N.X N.Y N.Z "
              "coverage), .pfm (linear RGB); -: PNG to standard output",
      .letter = 'o'},
     {"aov", OPTION_OUTPUTS, AT(aov), "NAME=FILE,...",

@@ -60,6 +60,8 @@ static const char *check_output(const frames_arguments *arguments, const char *o
     if (film && !frames_many(arguments)) return "--output: a film needs --turntable or --path";
     if (film && !video_has_alpha(film) && !opaque)
         return "--background: this film has no transparency; .webm has, and so have numbered pictures";
+    if (!film && !opaque && output && path_has_suffix(output, ".jpg|.jpeg"))
+        return "--background: JPEG has no transparency; .png has";
     if (!film && frames_many(arguments) && !pattern_is_numbered(output))
         return "--output: frames go to a film (.mp4, .webm, .mkv, .gif) or to numbered files: one %d, %4d or "
                "%04d in the name, %% for a percent sign";

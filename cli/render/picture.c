@@ -36,7 +36,7 @@ static bool take_aov(const char *word, size_t length, picture_paths *paths,
 bool picture_parse_paths(const char *color, const char *aov, picture_paths *paths,
                          char message[OPTION_ERROR_BYTES]) {
     *paths = (picture_paths){.color = color};
-    if (color && !output_check_suffix("output", color, ".png|.exr|.pfm|-", message)) return false;
+    if (color && !output_check_suffix("output", color, ".png|.jpg|.jpeg|.exr|.pfm|-", message)) return false;
     while (aov) {
         const size_t length = strcspn(aov, ",");
         if (!take_aov(aov, length, paths, message)) return false;
@@ -50,9 +50,9 @@ bool picture_make(cli_session *session, const picture_paths *paths, const ewa_ca
     *picture = (cli_picture){.rgba8 = NULL};
     ewa_context *context = session->context;
     const uint32_t width = camera->width_px, height = camera->height_px;
-    const bool exr = is_exr(paths->color), png = !paths->color || path_has_suffix(paths->color, ".png|-");
+    const bool exr = is_exr(paths->color), codes = !paths->color || path_has_suffix(paths->color, ".png|.jpg|.jpeg|-");
     ewa_status status = EWA_OK;
-    if (png) {
+    if (codes) {
         picture->rgba8 = malloc((size_t)width * height * 4);
         if (!picture->rgba8) status = EWA_ERROR_MEMORY;
     } else {
@@ -116,12 +116,12 @@ static ewa_status save_linear(const picture_paths *paths, const ewa_image_save_o
 }
 
 /// Writes the 8-bit picture, without alpha where that says nothing.
-static ewa_status save_png(ewa_context *context, const char *path, const ewa_camera *camera, bool opaque,
+static ewa_status save_codes(ewa_context *context, const char *path, const ewa_camera *camera, bool opaque,
                            uint8_t *rgba8) {
     const size_t width = camera->width_px, pixel_count = width * camera->height_px;
-    if (!opaque) return ewa_png_save(context, path, camera->width_px, camera->height_px, 4, rgba8, 4 * width);
+    if (!opaque) return ewa_pixels_save(context, path, camera->width_px, camera->height_px, 4, rgba8, 4 * width);
     for (size_t i = 0; i < pixel_count; i++) memmove(rgba8 + 3 * i, rgba8 + 4 * i, 3);
-    return ewa_png_save(context, path, camera->width_px, camera->height_px, 3, rgba8, 3 * width);
+    return ewa_pixels_save(context, path, camera->width_px, camera->height_px, 3, rgba8, 3 * width);
 }
 
 bool picture_save(cli_session *session, const picture_paths *paths, const ewa_camera *camera, bool opaque,
@@ -145,7 +145,7 @@ bool picture_save(cli_session *session, const picture_paths *paths, const ewa_ca
     options.channel_names = NULL;
     if (status == EWA_OK && paths->color) {
         session->subject = paths->color;
-        status = picture->rgba8 ? save_png(session->context, paths->color, camera, opaque, picture->rgba8)
+        status = picture->rgba8 ? save_codes(session->context, paths->color, camera, opaque, picture->rgba8)
                                 : save_linear(paths, &options, picture);
     }
     if (status != EWA_OK) session_failed(session, status);

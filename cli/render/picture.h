@@ -9,7 +9,7 @@
 
 /// Paths of what is written of a frame; NULL: not asked for.
 typedef struct picture_paths {
-    /// .png, .exr or .pfm; "-": PNG to standard output; NULL: the 8-bit picture is made, but not written here
+    /// .png, .jpg, .jpeg, .exr or .pfm; "-": PNG to standard output; NULL: the 8-bit picture is made, but not written here
     const char *color;
     char depth[1024], normal[1024], coverage[1024]; ///< .exr or .pfm; empty: not asked for
     bool no_normals; ///< what is drawn has none: .exr goes without their channels

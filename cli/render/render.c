@@ -49,7 +49,7 @@ _Static_assert(offsetof(render_arguments, light) == LIGHT_OFFSET, "light_options
 
 static const cli_option output_table[] = {
     {"output", OPTION_OUTPUT, AT(output), "FILE",
-     .help = "the picture: .png (8-bit sRGB), .exr (linear floats, premultiplied: R G B A Z N.X N.Y N.Z "
+     .help = "the picture: .png or .jpg (8-bit sRGB), .exr (linear floats, premultiplied: R G B A Z N.X N.Y N.Z "
              "coverage), .pfm (linear RGB); -: PNG to standard output. Frames: NAME_%04d.png and such, or a "
              "film: .mp4, .mkv (H.264), .webm (VP9), .gif, by the program ffmpeg",
      .letter = 'o'},

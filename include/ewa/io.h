@@ -173,14 +173,14 @@ typedef struct ewa_image_save_options {
     /// 16 numbers as in ewa_camera, or NULL: EXR attribute worldToCamera (m44f), transposed there, since
     /// OpenEXR's matrices act on row vectors.
     const double *world_to_camera;
-    bool srgb_alpha_straight; ///< PNG: un-premultiply before encoding; default true
+    bool srgb_alpha_straight; ///< PNG, JPEG: un-premultiply before encoding; default true
 } ewa_image_save_options;
 
 EWA_API extern const ewa_option_table ewa_image_save_options_table;
 EWA_API void ewa_image_save_options_init(ewa_image_save_options *options, size_t struct_size);
 
 /// Writes a float image by suffix: .png (8-bit sRGB from linear light; RGBA loses its alpha when that is 1
-/// all over), .exr (linear, ZIP), .pfm (linear, rows bottom-up; of RGBA the colours as they are, which is
+/// all over), .jpg or .jpeg (the same by ewa_jpeg_save()), .exr (linear, ZIP), .pfm (linear, rows bottom-up; of RGBA the colours as they are, which is
 /// over black).
 /// "-" writes PNG to standard output. `options` may be NULL.
 /// Errors: EWA_ERROR_ARGUMENT (channel names), EWA_ERROR_IO, EWA_ERROR_UNSUPPORTED (suffix, channel count of
@@ -194,6 +194,17 @@ EWA_API ewa_status ewa_image_save(const ewa_image *image, const char *path,
 /// EWA_ERROR_MEMORY.
 EWA_API ewa_status ewa_png_save(ewa_context *context, const char *path, uint32_t width_px, uint32_t height_px,
                                 uint32_t channel_count, const uint8_t *pixels, size_t stride_bytes);
+
+/// Writes 8-bit pixels as JPEG of quality 95, colours as fine as light; arguments as ewa_png_save(). Transparent pixels
+/// are put over white, which a warning tells. The same pixels give the same file for any number of threads. Errors:
+/// EWA_ERROR_ARGUMENT (over 65,500 pixels a side, too), EWA_ERROR_IO, EWA_ERROR_UNSUPPORTED (channel count),
+/// EWA_ERROR_MEMORY.
+EWA_API ewa_status ewa_jpeg_save(ewa_context *context, const char *path, uint32_t width_px, uint32_t height_px,
+                                 uint32_t channel_count, const uint8_t *pixels, size_t stride_bytes);
+
+/// Writes 8-bit pixels by suffix: .jpg and .jpeg by ewa_jpeg_save(), all else by ewa_png_save(), which see.
+EWA_API ewa_status ewa_pixels_save(ewa_context *context, const char *path, uint32_t width_px, uint32_t height_px,
+                                   uint32_t channel_count, const uint8_t *pixels, size_t stride_bytes);
 
 /// Reads PNG, JPEG, WebP, OpenEXR, PFM or Radiance (.hdr), by content; "-" reads standard input. The caller
 /// frees the image. PNG: sRGB of up to 16 bits to linear light; grey gives 1 channel, RGB and palettes 3,

@@ -148,7 +148,7 @@ class ImageSaveOptions(TypedDict, total=False):
 
     #: EXR: store half floats; on|off, default off
     exr_half: bool
-    #: PNG: un-premultiply before encoding; on|off, default on
+    #: PNG, JPEG: un-premultiply before encoding; on|off, default on
     srgb_alpha_straight: bool
 
 

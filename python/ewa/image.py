@@ -109,7 +109,7 @@ class Image:
         return f"<ewa.Image {self.size[0]}x{self.size[1]}: {', '.join(planes)}>"
 
     def save(self, path: PathLike) -> None:
-        """Write the picture: .png (8-bit sRGB), .exr (linear floats, all planes), .pfm (linear RGB).
+        """Write the picture: .png, .jpg (8-bit sRGB), .exr (linear floats, all planes), .pfm (linear RGB).
 
         The bytes are those that the program writes.
 
@@ -120,13 +120,13 @@ class Image:
         FileError, FormatError
         """
         file = path_bytes(path)
-        if file.lower().endswith(b".png"):
+        if file.lower().endswith((b".png", b".jpg", b".jpeg")):
             if self.rgba8 is None:
-                raise ArgumentError("save: a .png is made of the plane rgba8, which was not drawn")
+                raise ArgumentError("save: .png and .jpg are made of the plane rgba8, which was not drawn")
             pixels = np.ascontiguousarray(self.rgba8[:, :, :3] if self.opaque else self.rgba8)
             height, width, channels = pixels.shape
             core = core_of(None)
-            core.call(lib.ewa_png_save, core.address, file, width, height, channels, pixels.ctypes.data,
+            core.call(lib.ewa_pixels_save, core.address, file, width, height, channels, pixels.ctypes.data,
                       width * channels)
             return
         if self.rgba is None:
@@ -158,7 +158,7 @@ class Image:
 
 
 def save_image(path: PathLike, pixels: Any, *, channel_names: str | None = None, camera: Camera | None = None) -> None:
-    """Write float pixels: .png (sRGB from linear light), .exr or .pfm.
+    """Write float pixels: .png, .jpg (sRGB from linear light), .exr or .pfm.
 
     Parameters
     ----------

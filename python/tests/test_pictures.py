@@ -80,6 +80,8 @@ class Pictures(Case):
         self.assertIs(again.rgba8, image.rgba8)
         png = again._repr_png_()
         self.assertTrue(png is not None and png.startswith(b"\x89PNG"))
+        image.save(self.path("a.jpg"))
+        np.testing.assert_allclose(ewa.read_image(self.path("a.jpg"))[5, 5], [0, 0, 1], atol=0.05)
         image.save(self.path("a.exr"))
         np.testing.assert_array_equal(ewa.read_image(self.path("a.exr")).shape, (60, 80, 4))
 

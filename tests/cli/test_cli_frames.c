@@ -124,6 +124,7 @@ static void test_usage(void **state) {
         {"-o a.gif --turntable 4 --quality 20", "--quality"},
         {"-o a.mp4", "--turntable or --path"},
         {"-o a.mp4 --turntable 4 --background transparent", "transparency|.webm"},
+        {"-o a.jpg --background transparent", "transparency|.png"},
         {"-o a.png --eye 0,0,9 --azimuth 20", "--azimuth"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++)
@@ -135,6 +136,15 @@ static void test_stats(void **state) {
     run_done("ewa render torus.ply -o t_%%d.png --turntable 3 --size 64x48 --stats s.json && "
              "test $(grep -c render_s s.json) = 3 && grep -q '\"frame_count\": 3' s.json");
     run_done("ewa render torus.ply -o t.png --size 64x48 --stats s.json && ! grep -q frame s.json");
+}
+
+/// JPEG by its suffix, of one frame and of several.
+static void test_jpeg(void **state) {
+    (void)state;
+    run_done("ewa render torus.ply -o one.jpg --size 64x48 && ewa render torus.ply -o two_%%d.JPEG "
+             "--turntable 2 --size 64x48 && "
+             "for f in one.jpg two_0.JPEG two_1.JPEG; do test \"$(head -c 3 $f | od -An -tx1 | tr -d ' ')\" "
+             "= ffd8ff || exit 1; done");
 }
 
 /// What the fake ffmpeg is asked for, every byte of every frame, and nothing beside the film at the end.
@@ -232,11 +242,11 @@ static void test_real_film(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_turntable),  cmocka_unit_test(test_turntable_camera),
-        cmocka_unit_test(test_path),       cmocka_unit_test(test_usage),
-        cmocka_unit_test(test_stats),      cmocka_unit_test(test_film),
-        cmocka_unit_test(test_film_fails), cmocka_unit_test(test_interrupt),
-        cmocka_unit_test(test_real_film),
+        cmocka_unit_test(test_turntable), cmocka_unit_test(test_turntable_camera),
+        cmocka_unit_test(test_path),      cmocka_unit_test(test_usage),
+        cmocka_unit_test(test_stats),     cmocka_unit_test(test_film),
+        cmocka_unit_test(test_jpeg),      cmocka_unit_test(test_film_fails),
+        cmocka_unit_test(test_interrupt), cmocka_unit_test(test_real_film),
     };
     return cmocka_run_group_tests(tests, enter, leave);
 }

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Tests of src/io/image/jpeg_read.c: known pixels, every truncation, broken bytes, too many scans, limits.
+// Tests of src/io/image/jpeg_read.c: known pixels, every truncation, broken bytes, too many scans, limits; and of
+// jpeg_write.c: pixels that come back, what is transparent, what cannot be written.
 #include "image/srgb.h"
 #include "scratch.h"
 
@@ -178,11 +179,139 @@ static void test_failing_allocations(void **state) {
     scratch_fail_each(load_colour, NULL);
 }
 
+/// A smooth picture with a line of another colour, which coarser colours would smear.
+static void fill_codes(uint8_t *codes, uint32_t width, uint32_t height, uint32_t channels) {
+    for (uint32_t j = 0; j < height; j++)
+        for (uint32_t i = 0; i < width; i++, codes += channels) {
+            const uint8_t all[4] = {(uint8_t)(i == width / 2 ? 250 : 200 * i / width),
+                                    (uint8_t)(200 * j / height), (uint8_t)(255 - 200 * i / width), 255};
+            for (uint32_t c = 0; c < channels; c++) codes[c] = all[c];
+        }
+}
+
+/// The mean and largest difference of codes from a file's.
+static void compare(ewa_context *context, const char *path, const uint8_t *codes, uint32_t channels,
+                    double *mean, int *largest) {
+    ewa_image image;
+    assert_int_equal(ewa_image_load(context, path, &image), EWA_OK);
+    assert_int_equal(image.channel_count, channels == 1 ? 1 : 3);
+    const size_t count = (size_t)image.width_px * image.height_px;
+    *mean = 0, *largest = 0;
+    for (size_t i = 0; i < count; i++)
+        for (uint32_t c = 0; c < image.channel_count; c++) {
+            const int code = ewa_srgb8_from_linear(image.pixels[i * image.channel_count + c]);
+            const int off = abs(code - codes[i * channels + c]);
+            *mean += off / (double)(count * image.channel_count);
+            *largest = off > *largest ? off : *largest;
+        }
+    ewa_image_free(&image);
+}
+
+/// Grey, RGB and opaque RGBA come back, whatever the suffix's case, from 8 bits and from floats; nothing is said.
+static void test_round_trip(void **state) {
+    (void)state;
+    check_log log = {.count = 0};
+    ewa_context *context = check_context(2, &log);
+    static const uint32_t sizes[][2] = {{1, 1}, {7, 300}, {160, 90}}, counts[] = {1, 3, 4};
+    static const char *const names[] = {"trip.jpg", "trip.jpeg", "trip.JPG"};
+    for (int s = 0; s < 3; s++)
+        for (int n = 0; n < 3; n++) {
+            const uint32_t width = sizes[s][0], height = sizes[s][1], channels = counts[n];
+            uint8_t *codes = malloc((size_t)width * height * channels);
+            char path[512];
+            double mean;
+            int largest;
+            fill_codes(codes, width, height, channels);
+            assert_int_equal(ewa_pixels_save(context, scratch_path(names[n], path), width, height, channels,
+                                             codes, (size_t)width * channels),
+                             EWA_OK);
+            compare(context, path, codes, channels, &mean, &largest);
+            if (mean > 1.2 || largest > 14)
+                fail_msg("%ux%u of %u: %g, at most %d off", width, height, channels, mean, largest);
+            ewa_image image;
+            assert_int_equal(ewa_image_create(context, width, height, channels, &image), EWA_OK);
+            for (size_t i = 0; i < (size_t)width * height * channels; i++)
+                image.pixels[i] = channels == 4 && i % 4 == 3 ? 1 : ewa_srgb_decoded[codes[i]];
+            size_t first_bytes, second_bytes;
+            uint8_t *first = scratch_read(path, &first_bytes);
+            assert_int_equal(ewa_image_save(&image, path, NULL), EWA_OK);
+            uint8_t *second = scratch_read(path, &second_bytes);
+            assert_int_equal(first_bytes, second_bytes);
+            assert_memory_equal(first, second, first_bytes);
+            free(first);
+            free(second);
+            ewa_image_free(&image);
+            free(codes);
+        }
+    assert_int_equal(log.count, 0);
+    ewa_context_destroy(&context);
+}
+
+/// What is transparent is over white, by light: half of black over white is 188, and a warning says so.
+static void test_over_white(void **state) {
+    (void)state;
+    check_log log = {.count = 0};
+    ewa_context *context = check_context(1, &log);
+    uint8_t codes[16 * 16 * 4] = {0}, wanted[16 * 16 * 3];
+    char path[512];
+    double mean;
+    int largest;
+    for (int alpha = 0; alpha < 256; alpha += 51) {
+        for (int i = 0; i < 256; i++) codes[4 * i + 3] = (uint8_t)alpha;
+        const float light = 1 - (float)alpha / 255;
+        memset(wanted, ewa_srgb8_from_linear(light), sizeof wanted);
+        log.count = 0;
+        assert_int_equal(ewa_jpeg_save(context, scratch_path("white.jpg", path), 16, 16, 4, codes, 64),
+                         EWA_OK);
+        assert_int_equal(log.count, alpha < 255);
+        if (log.count) assert_non_null(strstr(log.text, "no transparency"));
+        compare(context, path, wanted, 3, &mean, &largest);
+        assert_true(largest <= 2);
+    }
+    ewa_context_destroy(&context);
+}
+
+static void test_not_written(void **state) {
+    (void)state;
+    check_log log = {.count = 0};
+    ewa_context *context = check_context(1, &log);
+    char path[512];
+    remove(scratch_path("never.jpg", path));
+    const uint8_t codes[12] = {0};
+    assert_int_equal(ewa_jpeg_save(context, path, 2, 2, 2, codes, 6), EWA_ERROR_UNSUPPORTED);
+    assert_int_equal(ewa_jpeg_save(context, path, 2, 2, 3, codes, 5), EWA_ERROR_ARGUMENT);
+    assert_int_equal(ewa_jpeg_save(context, path, 0, 2, 3, codes, 6), EWA_ERROR_ARGUMENT);
+    assert_int_equal(ewa_jpeg_save(context, path, 65501, 1, 1, codes, 65501), EWA_ERROR_ARGUMENT);
+    assert_int_equal(ewa_pixels_save(context, NULL, 2, 2, 3, codes, 6), EWA_ERROR_ARGUMENT);
+    assert_null(fopen(path, "rb"));
+    assert_int_equal(ewa_jpeg_save(context, "/nowhere/x.jpg", 2, 2, 3, codes, 6), EWA_ERROR_IO);
+    assert_non_null(strstr(log.text, "/nowhere/x.jpg"));
+    assert_int_equal(ewa_jpeg_save(context, "/dev/full", 2, 2, 3, codes, 6), EWA_ERROR_IO);
+    ewa_context_destroy(&context);
+}
+
+static ewa_status save_colour(ewa_context *context, void *user) {
+    uint8_t *codes = malloc(300 * 200 * 3);
+    fill_codes(codes, 300, 200, 3);
+    const ewa_status status = ewa_jpeg_save(context, user, 300, 200, 3, codes, 900);
+    free(codes);
+    return status;
+}
+
+static void test_failing_saves(void **state) {
+    (void)state;
+    char path[512];
+    scratch_path("failing.jpg", path);
+    scratch_fail_each(save_colour, path);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_known_pixels), cmocka_unit_test(test_every_truncation),
         cmocka_unit_test(test_broken_bytes), cmocka_unit_test(test_refused),
         cmocka_unit_test(test_limits),       cmocka_unit_test(test_failing_allocations),
+        cmocka_unit_test(test_round_trip),   cmocka_unit_test(test_over_white),
+        cmocka_unit_test(test_not_written),  cmocka_unit_test(test_failing_saves),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -59,26 +59,36 @@ static bool is_opaque(const ewa_image *image) {
     return true;
 }
 
-static ewa_status save_png(const ewa_image *image, const char *path, const ewa_image_save_options *options) {
+static bool has_suffix(const char *path, const char *suffix) {
+    const size_t length = strlen(path), suffix_length = strlen(suffix);
+    return length > suffix_length && strcasecmp(path + length - suffix_length, suffix) == 0;
+}
+
+static bool is_jpeg(const char *path) { return has_suffix(path, ".jpg") || has_suffix(path, ".jpeg"); }
+
+ewa_status ewa_pixels_save(ewa_context *context, const char *path, uint32_t width_px, uint32_t height_px,
+                           uint32_t channel_count, const uint8_t *pixels, size_t stride_bytes) {
+    if (!path) return EWA_ERROR_ARGUMENT;
+    return (is_jpeg(path) ? ewa_jpeg_save : ewa_png_save)(context, path, width_px, height_px, channel_count,
+                                                          pixels, stride_bytes);
+}
+
+static ewa_status save_codes(const ewa_image *image, const char *path,
+                             const ewa_image_save_options *options) {
     ewa_context *context = image->context;
     const uint32_t count = image->channel_count;
     if (count != 1 && count != 3 && count != 4)
-        return ewa_fail(context, EWA_ERROR_UNSUPPORTED, "%s: PNG of %u channels (1, 3 or 4 can be written)",
-                        path, count);
+        return ewa_fail(context, EWA_ERROR_UNSUPPORTED,
+                        "%s: pictures of 8 bits have 1, 3 or 4 channels, not %u", path, count);
     quantiser job = {image, options->srgb_alpha_straight, count == 4 && is_opaque(image) ? 3 : count, NULL};
     const size_t row_bytes = (size_t)image->width_px * job.channel_count;
     job.codes = ewa_allocate(context, image->height_px, row_bytes);
     if (!job.codes) return EWA_ERROR_MEMORY;
     ewa_parallel(context, quantise_rows, &job, (image->height_px - 1) / ROWS_PER_TASK + 1);
-    const ewa_status status = ewa_png_save(context, path, image->width_px, image->height_px,
-                                           job.channel_count, job.codes, row_bytes);
+    const ewa_status status = ewa_pixels_save(context, path, image->width_px, image->height_px,
+                                              job.channel_count, job.codes, row_bytes);
     ewa_release(context, job.codes, image->height_px, row_bytes);
     return status;
-}
-
-static bool has_suffix(const char *path, const char *suffix) {
-    const size_t length = strlen(path), suffix_length = strlen(suffix);
-    return length > suffix_length && strcasecmp(path + length - suffix_length, suffix) == 0;
 }
 
 #define AT(member) offsetof(ewa_image_save_options, member)
@@ -86,7 +96,7 @@ static bool has_suffix(const char *path, const char *suffix) {
 static const ewa_option option_rows[] = {
     {"exr_half", EWA_OPTION_BOOL, AT(exr_half), .help = "EXR: store half floats"},
     {"srgb_alpha_straight", EWA_OPTION_BOOL, AT(srgb_alpha_straight), .initial = true,
-     .help = "PNG: un-premultiply before encoding"},
+     .help = "PNG, JPEG: un-premultiply before encoding"},
 };
 
 const ewa_option_table ewa_image_save_options_table = EWA_OPTION_TABLE(ewa_image_save_options, option_rows);
@@ -100,10 +110,12 @@ ewa_status ewa_image_save(const ewa_image *image, const char *path, const ewa_im
     ewa_image_save_options chosen;
     ewa_image_save_options_init(&chosen, sizeof chosen);
     EWA_TRY(ewa_options_take(image->context, &ewa_image_save_options_table, options, &chosen));
-    if (has_suffix(path, ".png") || strcmp(path, "-") == 0) return save_png(image, path, &chosen);
+    if (has_suffix(path, ".png") || is_jpeg(path) || strcmp(path, "-") == 0)
+        return save_codes(image, path, &chosen);
     if (has_suffix(path, ".exr")) return ewa_exr_save(image, path, &chosen);
     if (has_suffix(path, ".pfm")) return ewa_pfm_save(image, path);
-    return ewa_fail(image->context, EWA_ERROR_UNSUPPORTED, "%s: the suffix is none of .png .exr .pfm", path);
+    return ewa_fail(image->context, EWA_ERROR_UNSUPPORTED,
+                    "%s: the suffix is none of .png .jpg .jpeg .exr .pfm", path);
 }
 
 ewa_status ewa_image_decode(ewa_context *context, const void *bytes, size_t size_bytes, const char *name,
