@@ -14,6 +14,7 @@
 #                               BENCH_PREFIX="chrt -f 50" keeps other work out of them; Embree is measured
 #                               beside, where `make` has found it
 #   make interop                compares files with what laspy, laszip, libE57Format and others read and write
+#   make measure                programs of the figures in docs/, into build/release/measure
 #   make gallery docs           pictures and pages that the program makes
 #   make wheel                  the Python package as a wheel, into build/wheels; PYTHONS names interpreters to test it with
 #   make install                to PREFIX (default /usr/local)
@@ -23,14 +24,14 @@ OUT ?= out
 PREFIX ?= /usr/local
 FUZZ_SECONDS ?= 60
 BENCH_PREFIX ?=
-BENCH_AGAINST ?= $(wildcard build/release/tests/quality/measure_embree)
+BENCH_AGAINST ?= $(wildcard build/release/measure/measure_embree)
 JOBS ?= $(shell nproc)
 EWA = build/release/cli/ewa
 
 # $(call quietly,COMMAND): prints what a command said only when it fails.
 quietly = @mkdir -p build && { $(1) >build/log-$@.txt 2>&1 || { cat build/log-$@.txt; exit 1; }; }
 
-.PHONY: interop build program setup demo check asan asan-build tsan tsan-build clang clang-build mutate fuzz bench sweep gallery docs wheel format install clean
+.PHONY: interop build program measure setup demo check asan asan-build tsan tsan-build clang clang-build mutate fuzz bench sweep gallery docs wheel format install clean
 
 build: setup
 	@echo "Building build/release"
@@ -41,6 +42,9 @@ program: setup
 	@echo "Building $(EWA)"
 	$(call quietly,cmake --preset release)
 	$(call quietly,cmake --build build/release -j $(JOBS) --target ewa)
+
+measure: build
+	$(call quietly,cmake --build build/release -j $(JOBS) --target measure)
 
 setup:
 	@sh tools/setup.sh
@@ -108,7 +112,7 @@ sweep: program
 	python3 tools/bench_sweep.py $(EWA) build/sweep.csv --page docs/performance.md --prefix "$(BENCH_PREFIX)"
 	gnuplot -e "csv='build/sweep.csv'; png='docs/sweep.png'" tools/bench_sweep.gnuplot
 
-gallery: build
+gallery: measure
 	@sh tools/gallery.sh $(EWA)
 
 docs: program

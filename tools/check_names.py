@@ -22,7 +22,7 @@ import sys
 from pathlib import Path
 
 LAW = "docs/math.md"
-CODE = ("src", "include", "cli", "bench", "viewer", "examples", "import", "mpi", "tests", "scenes")
+CODE = ("src", "include", "cli", "bench", "viewer", "examples", "import", "mpi", "measure", "tests", "scenes")
 
 # Options of other programs, by a word of the same paragraph.
 FOREIGN_OPTIONS = {
@@ -104,7 +104,9 @@ class Tree:
         self.words |= {Path(name).stem for name in self.files if name.endswith((".c", ".h"))}  # programs among them
         for path in sorted((root / "python").rglob("*.py")):
             self.words |= set(re.findall(r"(?m)^\s*def (\w+)\(", path.read_text()))
-        self.build_words = set(re.findall(r"[\w.-]+", " ".join(built)))
+        measuring = {"measure_" + Path(name).stem for name in self.files if re.match(r"measure/\w+\.c", name)}
+        self.words |= measuring
+        self.build_words = set(re.findall(r"[\w.-]+", " ".join(built))) | measuring
         self.system_headers = set(re.findall(r"# *include +<([^>]+)>", " ".join(self.code)))
         self.structs = {}
         for code in self.code:
@@ -223,7 +225,7 @@ def check_paths(tree, found):
                     exists(tree, name, beside) or exists(tree, name + ".c", beside):
                 continue
             found.append((text.path, text.line(match.start()), f"{name}: no such file"))
-        for match in re.finditer(r"build/\w+/(tests|cli|examples)/([\w/]*?)(\w+)\b(?![./])", text.text):
+        for match in re.finditer(r"build/\w+/(tests|cli|examples|measure)/([\w/]*?)(\w+)\b(?![./])", text.text):
             if match.group(3) not in tree.build_words and re.sub("^test_", "", match.group(3)) not in tree.build_words:
                 found.append((text.path, text.line(match.start()), f"{match.group()}: no such program"))
 

@@ -2,7 +2,7 @@
 # SPDX-FileCopyrightText: 2026 The ewa authors
 # SPDX-License-Identifier: MIT
 #
-# Draws the textured floor of tests/quality/texture_scene.h with ImageMagick and with ewa, and prints time and error
+# Draws the textured floor of measure/texture_scene.h with ImageMagick and with ewa, and prints time and error
 # of each as rows of a table: compare_texture.sh BUILD_FOLDER [IMAGE...]
 #
 # Without ImageMagick's convert, only ewa's rows. All run with one thread; times are the processor's for the whole
@@ -10,7 +10,7 @@
 set -eu
 build=$1
 shift
-measure=$build/tests/quality/measure_texture
+measure=$build/measure/measure_texture
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 export OMP_NUM_THREADS=1 MAGICK_THREAD_LIMIT=1

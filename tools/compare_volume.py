@@ -8,7 +8,7 @@ The volumes are those of `measure_volume_speed`: 256^3, 8 bit, at 400x400, shade
 threads; what counts is the mapper's own time. Both are run in turns, and the least of all rounds counts.
 
 Debian: apt install --no-install-recommends python3-vtk9 xvfb; then, with the system's Python,
-    xvfb-run -a /usr/bin/python3 tools/compare_volume.py build/release/tests/quality/measure_volume_speed
+    xvfb-run -a /usr/bin/python3 tools/compare_volume.py build/release/measure/measure_volume_speed
 
 compare_volume.py MEASURE_VOLUME_SPEED [ROUNDS]
 """

@@ -32,10 +32,10 @@ awk -v have_data="${EWA_DATA:+1}" -v have_ffmpeg="$have_ffmpeg" -v have_screen="
 ewa() { "$program" "$@"; }
 frustum() { "$(dirname "$program")/../examples/frustum" "$@"; }
 make_environment() { python3 "$tools/make_environment.py" "$@"; }
-measure_acquire() { "$(dirname "$program")/../tests/quality/measure_acquire" "$@"; }
-measure_layers() { "$(dirname "$program")/../tests/quality/measure_layers" "$@"; }
-measure_warp() { "$(dirname "$program")/../tests/quality/measure_warp" "$@"; }
-measure_textured() { "$(dirname "$program")/../tests/quality/measure_textured" "$@"; }
+measure_acquire() { "$(dirname "$program")/../measure/measure_acquire" "$@"; }
+measure_layers() { "$(dirname "$program")/../measure/measure_layers" "$@"; }
+measure_warp() { "$(dirname "$program")/../measure/measure_warp" "$@"; }
+measure_textured() { "$(dirname "$program")/../measure/measure_textured" "$@"; }
 # mpirun -n N ewa-mpi COMMAND ...: as it is, or by one process where there is no MPI, which makes the same bytes.
 mpirun() {
     ranks=$2

@@ -96,7 +96,7 @@ const cli_command bench_command = {
     .examples = "ewa bench\n"
                 "ewa bench --scene plane,hidden --workers 1,2 --frames 31 --json bench.json\n"
                 "ewa bench --scene plane --splats 1e6 --pixels 9 --cpu all,avx2\n"
-                "ewa bench --scene peer --stages off --against build/release/tests/quality/measure_embree\n"
+                "ewa bench --scene peer --stages off --against build/release/measure/measure_embree\n"
                 "ewa bench scan.ply --size 1920x1080\n"
                 "ewa bench --backend gl --scene peer --passes 1 --workers 1 --stages off --json gl.json\n",
     .high_operands = 64,

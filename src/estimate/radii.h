@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // How large the surfel of a place is: closed where the surface is sampled, limited where it is not, small for
-// what is no surface. Constants were chosen with tests/quality/measure_radii (docs/quality.md).
+// what is no surface. Constants were chosen with measure/radii.c (docs/quality.md).
 #ifndef EWA_SRC_ESTIMATE_RADII_H
 #define EWA_SRC_ESTIMATE_RADII_H
 

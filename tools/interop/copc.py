@@ -6,7 +6,7 @@ all nodes, which must be those that laspy and ewa read from the file as LAZ.
 
 Usage: copc.py EWA [FOLDER OR FILES...]
 Folders are searched for *.copc.laz. EWA may be "-": then laspy is held to itself alone, which is how files of the writer are
-tried that no command makes (build/release/tests/quality/measure_copc FILE POINTS writes one).
+tried that no command makes (build/release/measure/measure_copc FILE POINTS writes one).
 Needs laspy, lazrs, numpy.
 """
 import pathlib

@@ -6,6 +6,7 @@
 #include "base/base.h"
 #include "ewa/ewa.h"
 #include "io/octree.h"
+#include "measure/measure.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -14,27 +15,6 @@
 
 enum { LEVELS = 5, NODES = 341, ROUNDS = 3 };
 static const double side_world = 1000;
-
-static void check(ewa_status status) {
-    if (status == EWA_OK) return;
-    fprintf(stderr, "measure_copc: %s\n", ewa_status_name(status));
-    exit(1);
-}
-
-static void print_message(void *user, ewa_severity severity, const char *text) {
-    (void)user, (void)severity;
-    fprintf(stderr, "measure_copc: %s\n", text);
-}
-
-static ewa_context *make_context(uint32_t threads) {
-    ewa_context_options options;
-    ewa_context_options_init(&options, sizeof options);
-    options.thread_count = threads;
-    options.message = print_message;
-    ewa_context *context = NULL;
-    check(ewa_context_create(&options, &context));
-    return context;
-}
 
 static double uniform(uint64_t *state) {
     *state = *state * 6364136223846793005u + 1442695040888963407u;
@@ -59,7 +39,8 @@ static ewa_cloud *make_node(ewa_context *context, const ewa_octree_key *key, uin
     // Along lines, as scanners and those who sort points have them.
     for (uint64_t i = 0; i < count; i++) {
         const double lines = sqrt((double)count), line = floor((double)i / lines);
-        const double x = (key->cell[0] + ((double)i - line * lines + uniform(&state)) / (lines + 1)) * cell_world;
+        const double x =
+            (key->cell[0] + ((double)i - line * lines + uniform(&state)) / (lines + 1)) * cell_world;
         const double y = (key->cell[1] + (line + uniform(&state)) / (lines + 1)) * cell_world;
         const double slope = 0.4 * cos(x / 50) * cos(y / 70), shade = 128 + 60 * sin(x / 20) * sin(y / 30);
         position[3 * i] = x;

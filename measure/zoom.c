@@ -5,6 +5,7 @@
 // horizon. Each frame is compared with the one before it, resampled by the known zoom, and with the truth:
 // what the error against the truth changes from frame to frame, on the same point of the board, is what
 // flickers.
+#include "measure/measure.h"
 #include "quality/checker_scene.h"
 
 #include <math.h>
@@ -120,8 +121,7 @@ int main(void) {
         {.name = "one pass, h = 0.35", .setting = {EWA_KERNEL_PERSPECTIVE, 3, 0.35, 0.38, 0.4, true}},
     };
     enum { COUNT = sizeof sequences / sizeof sequences[0] };
-    ewa_context *context = NULL;
-    if (ewa_context_create(NULL, &context) != EWA_OK) return 1;
+    ewa_context *context = make_context(0);
     checker_truth *truth = allocate(sizeof *truth);
     float *rgba = allocate((size_t)SIDE * SIDE * 4 * sizeof *rgba);
     sequences[0].setting = sequences[1].setting;

@@ -5,6 +5,7 @@
 // points, with and without occlusion culling. The scans are those of $EWA_DATA/volumes; where the paper's are
 // not there, volumes of the same size stand in. Prints the table of docs/volume.md.
 #include "base/base.h"
+#include "measure/measure.h"
 #include "volume/scene.h"
 
 #include <math.h>
@@ -13,17 +14,6 @@
 #include <string.h>
 
 enum { FRAMES = 7, SIDE_PX = 400, VIEWS = 3 };
-
-static void check(ewa_status status, const char *what) {
-    if (status == EWA_OK) return;
-    fprintf(stderr, "measure_volume_table: %s: %s\n", what, ewa_status_name(status));
-    exit(1);
-}
-
-static int by_value(const void *a, const void *b) {
-    const double left = *(const double *)a, right = *(const double *)b;
-    return (left > right) - (left < right);
-}
 
 /// A camera from which the spacing on the screen of voxels at `share` of the way through the volume (0: its
 /// nearest corner) is `pixels`.
@@ -42,7 +32,7 @@ static ewa_camera view_at(const ewa_bounds *bounds, double share, double pixels)
     camera.width_px = camera.height_px = SIDE_PX;
     camera.cx_px = camera.cy_px = SIDE_PX / 2;
     camera.fx_px = camera.fy_px = pixels * (distance + (2 * share - 1) * radius);
-    check(ewa_camera_look_at(&camera, eye, middle, up), "camera");
+    check(ewa_camera_look_at(&camera, eye, middle, up));
     return camera;
 }
 
@@ -51,13 +41,13 @@ static double time_frames(ewa_volume_renderer *renderer, const ewa_voxels *voxel
                           const ewa_volume_options *options, uint8_t *pixels, ewa_volume_stats *stats) {
     const ewa_frame frame = {.rgba8 = pixels};
     double times_s[FRAMES];
-    check(ewa_volume_render(renderer, voxels, camera, options, &frame, stats), "render");
+    check(ewa_volume_render(renderer, voxels, camera, options, &frame, stats));
     for (int i = 0; i < FRAMES; i++) {
         const double start_s = ewa_now_s();
-        check(ewa_volume_render(renderer, voxels, camera, options, &frame, NULL), "render");
+        check(ewa_volume_render(renderer, voxels, camera, options, &frame, NULL));
         times_s[i] = ewa_now_s() - start_s;
     }
-    qsort(times_s, FRAMES, sizeof *times_s, by_value);
+    qsort(times_s, FRAMES, sizeof *times_s, compare_doubles);
     return times_s[FRAMES / 4] * 1e3;
 }
 
@@ -69,7 +59,7 @@ static void print_row(ewa_context *context, const char *name, const ewa_volume *
     ewa_voxels_info info;
     ewa_voxels_describe(voxels, &info);
     ewa_volume_renderer *renderer;
-    check(ewa_volume_renderer_create(context, &renderer), "renderer");
+    check(ewa_volume_renderer_create(context, &renderer));
     printf("| %s | %u x %u x %u | %.2f M |", name, volume->dims[0], volume->dims[1], volume->dims[2],
            (double)info.occupied_count * 1e-6);
     double each_ns[VIEWS];
@@ -114,7 +104,7 @@ int main(void) {
     };
     const char *folder = getenv("EWA_DATA");
     ewa_context *context;
-    check(ewa_context_create(NULL, &context), "context");
+    check(ewa_context_create(NULL, &context));
     printf(
         "| volume | voxels | of these seen | all splats: ms, culled ms (splats; hidden) | mixed | all points "
         "| splat to point |\n|---|---|---|---|---|---|---|\n");

@@ -4,21 +4,13 @@
 // Prints what a frame takes when its surfels are one source, and when they are many: a wavy ground of 2.5 million
 // surfels, seen from above its near end, cut into square pieces.
 #include "ewa/ewa.h"
+#include "measure/measure.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 
 enum { SIDE = 1582, FRAMES = 9, MAX_PER_SIDE = 40, WIDTH_PX = 1280, HEIGHT_PX = 720 };
-
-static void fail(const char *what) {
-    fprintf(stderr, "measure_sources: %s failed\n", what);
-    exit(1);
-}
-
-static void require(ewa_status status, const char *what) {
-    if (status != EWA_OK) fail(what);
-}
 
 /// Columns [left, right) and rows [first, end) of the ground's grid, on [-1, 1] x [0, 4].
 static ewa_surfels *make_piece(ewa_context *context, uint32_t left, uint32_t right, uint32_t first,
@@ -27,11 +19,11 @@ static ewa_surfels *make_piece(ewa_context *context, uint32_t left, uint32_t rig
     float *position, *normal, *radius;
     uint8_t *color;
     const uint32_t columns = right - left;
-    require(ewa_cloud_create(context, (uint64_t)columns * (end - first), &cloud), "memory");
-    require(ewa_cloud_add(cloud, EWA_POSITION, EWA_F32, 3, (void **)&position), "memory");
-    require(ewa_cloud_add(cloud, EWA_NORMAL, EWA_F32, 3, (void **)&normal), "memory");
-    require(ewa_cloud_add(cloud, EWA_RADIUS, EWA_F32, 1, (void **)&radius), "memory");
-    require(ewa_cloud_add(cloud, EWA_COLOR, EWA_U8, 3, (void **)&color), "memory");
+    check(ewa_cloud_create(context, (uint64_t)columns * (end - first), &cloud));
+    check(ewa_cloud_add(cloud, EWA_POSITION, EWA_F32, 3, (void **)&position));
+    check(ewa_cloud_add(cloud, EWA_NORMAL, EWA_F32, 3, (void **)&normal));
+    check(ewa_cloud_add(cloud, EWA_RADIUS, EWA_F32, 1, (void **)&radius));
+    check(ewa_cloud_add(cloud, EWA_COLOR, EWA_U8, 3, (void **)&color));
     for (uint32_t row = first; row < end; row++)
         for (uint32_t column = left; column < right; column++) {
             const size_t i = (size_t)(row - first) * columns + column - left;
@@ -46,7 +38,7 @@ static ewa_surfels *make_piece(ewa_context *context, uint32_t left, uint32_t rig
             color[3 * i] = (uint8_t)column, color[3 * i + 1] = (uint8_t)row, color[3 * i + 2] = 90;
         }
     ewa_surfels *surfels = NULL;
-    require(ewa_surfels_create(cloud, NULL, &surfels), "surfels");
+    check(ewa_surfels_create(cloud, NULL, &surfels));
     ewa_cloud_destroy(&cloud);
     return surfels;
 }
@@ -58,7 +50,7 @@ static ewa_camera make_camera(void) {
     camera.fx_px = camera.fy_px = WIDTH_PX;
     camera.cx_px = WIDTH_PX / 2.0, camera.cy_px = HEIGHT_PX / 2.0;
     const double eye[3] = {0, -1.2, 1.2}, target[3] = {0, 1.6, 0}, up[3] = {0, 0, 1};
-    require(ewa_camera_look_at(&camera, eye, target, up), "camera");
+    check(ewa_camera_look_at(&camera, eye, target, up));
     return camera;
 }
 
@@ -70,14 +62,14 @@ static int compare_numbers(const void *a, const void *b) {
 /// Draws the pieces FRAMES times; prints the median, and returns it in seconds.
 static double measure(ewa_context *context, ewa_surfels *const *pieces, uint32_t count, uint8_t *rgba8) {
     ewa_renderer *renderer = NULL;
-    require(ewa_renderer_create(context, &renderer), "memory");
+    check(ewa_renderer_create(context, &renderer));
     const ewa_camera camera = make_camera();
     double times_s[FRAMES], stages_s[5] = {0};
     ewa_render_stats stats;
     for (int frame = -1; frame < FRAMES; frame++) {
-        require(ewa_render_begin(renderer, &camera, NULL, &(ewa_frame){.rgba8 = rgba8}), "frame");
-        for (uint32_t i = 0; i < count; i++) require(ewa_render_add(renderer, pieces[i]), "source");
-        require(ewa_render_finish(renderer, &stats), "frame");
+        check(ewa_render_begin(renderer, &camera, NULL, &(ewa_frame){.rgba8 = rgba8}));
+        for (uint32_t i = 0; i < count; i++) check(ewa_render_add(renderer, pieces[i]));
+        check(ewa_render_finish(renderer, &stats));
         if (frame < 0) continue;
         times_s[frame] = stats.total_s;
         const double now_s[5] = {stats.bin_s, stats.setup_s, stats.visibility_s, stats.accumulate_s,
@@ -95,13 +87,9 @@ static double measure(ewa_context *context, ewa_surfels *const *pieces, uint32_t
 int main(void) {
     static const uint32_t per_side[] = {1, 5, 22, MAX_PER_SIDE};
     static ewa_surfels *pieces[MAX_PER_SIDE * MAX_PER_SIDE];
-    ewa_context_options context_options;
-    ewa_context_options_init(&context_options, sizeof context_options);
-    context_options.thread_count = 2;
-    ewa_context *context = NULL;
-    require(ewa_context_create(&context_options, &context), "context");
+    ewa_context *context = make_context(2);
     uint8_t *rgba8 = malloc((size_t)4 * WIDTH_PX * HEIGHT_PX);
-    if (!rgba8) fail("memory");
+    if (!rgba8) check(EWA_ERROR_MEMORY);
     printf(" sources frame_ms   bin_ms setup_ms  seen_ms   sum_ms pixel_ms     splats\n");
     double one_s = 0;
     for (size_t k = 0; k < sizeof per_side / sizeof per_side[0]; k++) {

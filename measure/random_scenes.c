@@ -10,17 +10,13 @@
 //
 // Ends with quantiles over all scenes and lists those whose pipeline is below DB (default 50) or whose
 // reference is below 80, with what is special about them.
+#include "measure/measure.h"
 #include "tests/independent/random_scene.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-static int compare_doubles(const void *a, const void *b) {
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
 
 static void print_quantiles(const char *name, double *values, uint64_t count) {
     qsort(values, count, sizeof *values, compare_doubles);

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Transparent surfaces that cross, and what others do with them.
-#include "quality/layers_scene.h"
+#include "measure/layers_scene.h"
 #include "cloud/cloud.h"
 
 #include "base/base.h"

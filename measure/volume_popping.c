@@ -6,6 +6,7 @@
 //
 // measure_volume_popping [FOLDER]: with a folder, also writes the pictures at 44.5 and 45.5 degrees there.
 #include "image_difference.h"
+#include "measure/measure.h"
 #include "volume/scene.h"
 
 #include <math.h>
@@ -13,12 +14,6 @@
 #include <stdlib.h>
 
 enum { SIDE_PX = 400, FIRST_DEG = 0, LAST_DEG = 90, STEPS = (LAST_DEG - FIRST_DEG) * 4 };
-
-static void check(ewa_status status) {
-    if (status == EWA_OK) return;
-    fprintf(stderr, "measure_volume_popping: %s\n", ewa_status_name(status));
-    exit(1);
-}
 
 static void save(const ewa_image *image, const char *folder, double degrees) {
     char path[1024];

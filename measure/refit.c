@@ -4,6 +4,7 @@
 // Prints the table of docs/colors.md on refitted colours; with a fine cloud and a coarse one of the same
 // object as arguments, what refitting the coarse one's colours does to its picture, against that of the fine
 // one.
+#include "measure/measure.h"
 #include "quality/refit_scene.h"
 
 #include <math.h>
@@ -82,8 +83,7 @@ int main(int count, char **words) {
         {EWA_PROCEDURE_NOISE, 4, 10000, 1, 1.6, 0},       {EWA_PROCEDURE_NOISE, 4, 10000, 0.5, 1.6, 0.02},
         {EWA_PROCEDURE_NOISE, 4, 10000, 1, 1.6, 0.02},    {EWA_PROCEDURE_NOISE, 4, 10000, 1, 1.6, 0.05},
     };
-    ewa_context *context = NULL;
-    if (ewa_context_create(NULL, &context) != EWA_OK) return 1;
+    ewa_context *context = make_context(0);
     if (count == 3) {
         const int failed = compare_clouds(context, words[1], words[2]);
         ewa_context_destroy(&context);

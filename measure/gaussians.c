@@ -4,28 +4,13 @@
 // Prints the times of docs/gaussians.md: measure_gaussians FILE [COPIES [WIDTH HEIGHT [THREADS]]]. The file is seen
 // from +x, with y down; copies stand side by side and in rows, with harmonics of degree 3.
 #include "ewa/ewa.h"
+#include "measure/measure.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 enum { ROUNDS = 21, DEGREE = 3, HARMONICS = 48 };
-
-static void check(ewa_status status) {
-    if (status == EWA_OK) return;
-    fprintf(stderr, "measure_gaussians: %s\n", ewa_status_name(status));
-    exit(1);
-}
-
-static void print_message(void *user, ewa_severity severity, const char *text) {
-    (void)user, (void)severity;
-    fprintf(stderr, "measure_gaussians: %s\n", text);
-}
-
-static int compare(const void *a, const void *b) {
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
 
 /// As many copies, 0.9 apart along z, four to a row; rows are 2 apart along x.
 static ewa_gaussians copy_set(const ewa_gaussians *one, uint32_t copies) {
@@ -53,14 +38,9 @@ static ewa_gaussians copy_set(const ewa_gaussians *one, uint32_t copies) {
 
 int main(int argc, char **argv) {
     const uint32_t copies = argc > 2 ? (uint32_t)atoi(argv[2]) : 1;
-    ewa_context_options chosen;
-    ewa_context_options_init(&chosen, sizeof chosen);
-    chosen.message = print_message;
-    if (argc > 5) chosen.thread_count = (uint32_t)atoi(argv[5]);
-    ewa_context *context;
     ewa_gaussians set;
     if (argc < 2) return fprintf(stderr, "measure_gaussians FILE [COPIES [WIDTH HEIGHT [THREADS]]]\n"), 2;
-    check(ewa_context_create(&chosen, &context));
+    ewa_context *context = make_context(argc > 5 ? (uint32_t)atoi(argv[5]) : 0);
     check(ewa_gaussians_load(context, argv[1], &set, NULL));
     if (copies > 1) {
         ewa_gaussians all = copy_set(&set, copies);
@@ -96,7 +76,7 @@ int main(int argc, char **argv) {
             check(ewa_gaussian_render(renderer, splats, &camera, &options, &frame, &stats));
             if (i >= 0) times[i] = stats.total_s;
         }
-        qsort(times, ROUNDS, sizeof *times, compare);
+        qsort(times, ROUNDS, sizeof *times, compare_doubles);
         printf("%s: median %.1f ms, least %.1f ms; %llu in tiles, %llu in blocks, %llu sorted; thread ms: "
                "project %.1f, "
                "bin %.1f, draw %.1f\n",

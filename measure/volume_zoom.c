@@ -6,6 +6,7 @@
 //
 // measure_volume_zoom [FOLDER]: with a folder, also writes pictures there.
 #include "image_difference.h"
+#include "measure/measure.h"
 #include "volume/scene.h"
 
 #include <math.h>
@@ -13,12 +14,6 @@
 #include <stdlib.h>
 
 enum { SIDE_PX = 128, SUPER = 16, METHODS = 4 };
-
-static void check(ewa_status status) {
-    if (status == EWA_OK) return;
-    fprintf(stderr, "measure_volume_zoom: %s\n", ewa_status_name(status));
-    exit(1);
-}
 
 /// The mean of SUPER x SUPER samples of each pixel, without a filter: as dense as that, all voxels are
 /// magnified.

@@ -3,14 +3,14 @@
 //
 // Prints the table of docs/features.md: measure_features [POINTS [MESH.obj]]. Without a mesh the part is left
 // out.
+#include "measure/measure.h"
 #include "quality/feature_scene.h"
 
 int main(int argument_count, char **arguments) {
     static const char *const names[] = {"cube", "cylinder", "part"};
     const long wanted = argument_count > 1 ? strtol(arguments[1], NULL, 10) : 60000;
     const uint32_t count = wanted > 600 && wanted < 100000000 ? (uint32_t)wanted : 60000;
-    ewa_context *context = NULL;
-    if (ewa_context_create(NULL, &context) != EWA_OK) return 1;
+    ewa_context *context = make_context(0);
     printf("| solid | points | noise | measured noise | k | clipped | recall | precision | at 1.5: recall | "
            "at 1.5: "
            "precision | line error | seconds |\n|---|---|---|---|---|---|---|---|---|---|---|---|\n");

@@ -5,7 +5,7 @@
 // with Embree 3 or 4. The nearest disc of each pixel's centre, no blending, no antialiasing, one headlight on
 // the 8-bit colours as they are: less than ewa draws.
 //
-// ewa bench --scene peer --against build/release/tests/quality/measure_embree
+// ewa bench --scene peer --against build/release/measure/measure_embree
 //
 // measure_embree CLOUD.ply CAMERA.json THREADS [PICTURE.png]: a line with its name when the scene is built,
 // then an empty line after each frame, which it draws for every line that it reads; `ewa bench --help` says

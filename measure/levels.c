@@ -3,19 +3,14 @@
 //
 // Prints the tables of docs/levels.md: how closed levels of detail are, how far from the full picture, what
 // they take to make and to draw. measure_levels [POINTS...]
-#include "splat/level_scene.h"
 #include "surface/levels.h"
+#include "measure/measure.h"
+#include "splat/level_scene.h"
 
 #include <math.h>
 #include <time.h>
 
 enum { COVER_POINTS = 160000, SIDE_PX = 512, WIDTH_PX = 1280, HEIGHT_PX = 1024, ROUNDS = 15 };
-
-static double now_s(void) {
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
 
 static ewa_surfels *make_surfels(const ewa_cloud *cloud, uint32_t level_count, double *took_s) {
     ewa_surfels_options options;
@@ -81,11 +76,6 @@ static double psnr_db(const uint8_t *a, const uint8_t *b, size_t pixels) {
     return 10 * log10(255.0 * 255.0 * (double)count / sum);
 }
 
-static int compare(const void *a, const void *b) {
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 /// Frames of each level of a closed sphere, framed whole, and their distance from the full picture, at the
 /// whole size and at a quarter of it.
 static void print_frames(ewa_context *context, uint32_t points) {
@@ -98,7 +88,7 @@ static void print_frames(ewa_context *context, uint32_t points) {
         ewa_surfels_destroy(&surfels);
         surfels = make_surfels(cloud, EWA_MAX_LEVELS, &times[1][round]);
     }
-    for (int k = 0; k < 2; k++) qsort(times[k], 7, sizeof(double), compare);
+    for (int k = 0; k < 2; k++) qsort(times[k], 7, sizeof(double), compare_doubles);
     ewa_surfels_info info;
     ewa_surfels_describe(surfels, &info);
     printf("\n%u points: surfels %.1f ms, with levels %.1f ms (+%.0f %%), %.2f B/point\n\n", points,
@@ -125,7 +115,7 @@ static void print_frames(ewa_context *context, uint32_t points) {
             }
             psnr[size] = psnr_db(whole[size], frame.rgba8, pixels >> 4 * size);
         }
-        qsort(level_s, ROUNDS, sizeof *level_s, compare);
+        qsort(level_s, ROUNDS, sizeof *level_s, compare_doubles);
         uint32_t found = level;
         printf("| %u | %u | %.1f | %.1f | %.1f |\n", level, ewa_levels_find(surfels, &found)->count,
                1e3 * level_s[ROUNDS / 4], psnr[0], psnr[1]);

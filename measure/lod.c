@@ -9,6 +9,7 @@
 //   measure_lod dolly FILE [FRAMES]            steps between the frames of a slow dolly
 //   measure_lod speed FILE [SPACING]        cold and warm frames
 #include "ewa/ewa.h"
+#include "measure/measure.h"
 
 #include <math.h>
 #include <stdbool.h>
@@ -19,23 +20,6 @@
 #include <time.h>
 
 enum { WIDTH_PX = 1280, HEIGHT_PX = 720, PIXELS = WIDTH_PX * HEIGHT_PX, INSIDE_PX = 3 };
-
-static double now_s(void) {
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
-
-static void must(ewa_status status, const char *what) {
-    if (status == EWA_OK) return;
-    fprintf(stderr, "%s: %s\n", what, ewa_status_name(status));
-    exit(1);
-}
-
-static void print_message(void *user, ewa_severity severity, const char *text) {
-    (void)user;
-    fprintf(stderr, "%s%s\n", severity == EWA_SEVERITY_WARNING ? "warning: " : "", text);
-}
 
 static double peak_mib(void) {
     struct rusage usage;
@@ -49,15 +33,15 @@ static ewa_camera camera_at(const ewa_bounds *bounds, double times) {
     ewa_camera camera;
     ewa_camera_init(&camera);
     camera.width_px = WIDTH_PX, camera.height_px = HEIGHT_PX;
-    must(ewa_camera_set_fov(&camera, 40), "camera");
-    must(ewa_camera_frame(&camera, bounds, direction, up, 0), "camera");
+    check(ewa_camera_set_fov(&camera, 40));
+    check(ewa_camera_frame(&camera, bounds, direction, up, 0));
     double eye[3], middle[3];
     ewa_camera_eye(&camera, eye);
     for (int c = 0; c < 3; c++) {
         middle[c] = (bounds->low_world[c] + bounds->high_world[c]) / 2;
         eye[c] = middle[c] + (eye[c] - middle[c]) * times;
     }
-    must(ewa_camera_look_at(&camera, eye, middle, up), "camera");
+    check(ewa_camera_look_at(&camera, eye, middle, up));
     return camera;
 }
 
@@ -115,7 +99,7 @@ static void save(ewa_context *context, const char *name, const uint8_t *rgba) {
     char path[512];
     if (!folder) return;
     snprintf(path, sizeof path, "%s/%s.png", folder, name);
-    must(ewa_png_save(context, path, WIDTH_PX, HEIGHT_PX, 4, rgba, (size_t)4 * WIDTH_PX), path);
+    check(ewa_png_save(context, path, WIDTH_PX, HEIGHT_PX, 4, rgba, (size_t)4 * WIDTH_PX));
 }
 
 /// Loads all points as surfels.
@@ -123,8 +107,8 @@ static ewa_cloud *load(ewa_context *context, const char *path, bool has_surfels)
     ewa_cloud *cloud = NULL;
     ewa_estimate_options options;
     ewa_estimate_options_init(&options, sizeof options);
-    must(ewa_cloud_load(context, path, &cloud), path);
-    if (!has_surfels) must(ewa_cloud_estimate(&cloud, &options), path);
+    check(ewa_cloud_load(context, path, &cloud));
+    if (!has_surfels) check(ewa_cloud_estimate(&cloud, &options));
     return cloud;
 }
 
@@ -133,9 +117,8 @@ static int build(ewa_context *context, int count, char **words) {
     ewa_lod_build_options_init(&options, sizeof options);
     if (getenv("MEMORY")) options.memory_bytes = strtoull(getenv("MEMORY"), NULL, 10);
     ewa_lod_build_stats stats;
-    must(ewa_lod_build(context, (const char *const *)words + 1, (uint32_t)count - 1, words[0], &options,
-                       &stats),
-         words[0]);
+    check(ewa_lod_build(context, (const char *const *)words + 1, (uint32_t)count - 1, words[0], &options,
+                        &stats));
     printf("%llu points, %llu left out, %llu merged, %u nodes, %u levels, %.1f B/point temporary, %.0f MiB "
            "resident\n",
            (unsigned long long)stats.point_count, (unsigned long long)stats.left_out_count,
@@ -159,13 +142,13 @@ static ewa_surfels *pick(ewa_context *context, const ewa_cloud *cloud, uint64_t 
         if (indices[i] >= all) indices[i] = all - 1;
     }
     ewa_cloud *some = NULL;
-    must(ewa_cloud_select(cloud, indices, count, &some), "select");
+    check(ewa_cloud_select(cloud, indices, count, &some));
     free(indices);
     ewa_surfels_options options;
     ewa_surfels_options_init(&options, sizeof options);
     options.radius_scale = sqrt((double)all / (double)count);
     ewa_surfels *surfels = NULL;
-    must(ewa_surfels_create(some, &options, &surfels), "surfels");
+    check(ewa_surfels_create(some, &options, &surfels));
     ewa_cloud_destroy(&some);
     (void)context;
     return surfels;
@@ -174,15 +157,15 @@ static ewa_surfels *pick(ewa_context *context, const ewa_cloud *cloud, uint64_t 
 static int quality(ewa_context *context, int count, char **words) {
     ewa_lod *lod = NULL;
     ewa_lod_info info;
-    must(ewa_lod_open(context, words[0], &lod), words[0]);
+    check(ewa_lod_open(context, words[0], &lod));
     ewa_lod_describe(lod, &info);
     ewa_cloud *cloud = load(context, words[0], info.surfels);
     ewa_surfels *surfels = NULL;
-    must(ewa_surfels_create(cloud, NULL, &surfels), "surfels");
+    check(ewa_surfels_create(cloud, NULL, &surfels));
     ewa_surfels_info facts;
     ewa_surfels_describe(surfels, &facts);
     ewa_renderer *renderer = NULL;
-    must(ewa_renderer_create(context, &renderer), "renderer");
+    check(ewa_renderer_create(context, &renderer));
     uint8_t *full = malloc((size_t)4 * PIXELS), *other = malloc((size_t)4 * PIXELS);
     printf("%llu points, q0 %.4f\n", (unsigned long long)info.point_count, facts.unit_coverage);
     printf("distance spacing   surfels cubes  object  inside | picks object  inside | pixels\n");
@@ -191,7 +174,7 @@ static int quality(ewa_context *context, int count, char **words) {
         const ewa_camera camera = camera_at(&info.bounds, distances[d]);
         const ewa_render_options options = unlit();
         const ewa_frame frame = {.rgba8 = full}, frame2 = {.rgba8 = other};
-        must(ewa_render(renderer, surfels, &camera, &options, &frame, NULL), "render");
+        check(ewa_render(renderer, surfels, &camera, &options, &frame, NULL));
         char full_name[64];
         snprintf(full_name, sizeof full_name, "full_%g", distances[d]);
         save(context, full_name, full);
@@ -202,7 +185,7 @@ static int quality(ewa_context *context, int count, char **words) {
             lod_options.error = getenv("ERROR") ? atof(getenv("ERROR")) : 255;
             lod_options.memory_bytes = (uint64_t)1 << 33;
             ewa_lod_stats stats;
-            must(ewa_lod_render(lod, renderer, &camera, &options, &lod_options, &frame2, &stats), "render");
+            check(ewa_lod_render(lod, renderer, &camera, &options, &lod_options, &frame2, &stats));
             const comparison c = compare(full, other);
             char name[64];
             snprintf(name, sizeof name, "lod_%g_%g", distances[d], lod_options.spacing_px);
@@ -210,7 +193,7 @@ static int quality(ewa_context *context, int count, char **words) {
             comparison p = {0, 0, 0, 0};
             if (stats.surfel_count < info.point_count) {
                 ewa_surfels *picks = pick(context, cloud, stats.surfel_count);
-                must(ewa_render(renderer, picks, &camera, &options, &frame2, NULL), "render");
+                check(ewa_render(renderer, picks, &camera, &options, &frame2, NULL));
                 ewa_surfels_destroy(&picks);
                 p = compare(full, other);
             }
@@ -239,13 +222,13 @@ static int dolly(ewa_context *context, int count, char **words) {
     const int frame_count = count > 1 ? atoi(words[1]) : 240;
     ewa_lod *lod = NULL;
     ewa_lod_info info;
-    must(ewa_lod_open(context, words[0], &lod), words[0]);
+    check(ewa_lod_open(context, words[0], &lod));
     ewa_lod_describe(lod, &info);
     ewa_cloud *cloud = load(context, words[0], info.surfels);
     ewa_surfels *surfels = NULL;
-    must(ewa_surfels_create(cloud, NULL, &surfels), "surfels");
+    check(ewa_surfels_create(cloud, NULL, &surfels));
     ewa_renderer *renderer = NULL;
-    must(ewa_renderer_create(context, &renderer), "renderer");
+    check(ewa_renderer_create(context, &renderer));
     uint8_t *pictures[4];
     for (int i = 0; i < 4; i++) pictures[i] = malloc((size_t)4 * PIXELS);
     double largest_step = 0, last_rms = 0;
@@ -258,8 +241,8 @@ static int dolly(ewa_context *context, int count, char **words) {
         ewa_lod_options lod_options;
         ewa_lod_options_init(&lod_options, sizeof lod_options);
         lod_options.memory_bytes = (uint64_t)1 << 33;
-        must(ewa_render(renderer, surfels, &camera, &options, &full, NULL), "render");
-        must(ewa_lod_render(lod, renderer, &camera, &options, &lod_options, &part, NULL), "render");
+        check(ewa_render(renderer, surfels, &camera, &options, &full, NULL));
+        check(ewa_lod_render(lod, renderer, &camera, &options, &lod_options, &part, NULL));
         put_over_black(full.rgba8);
         put_over_black(part.rgba8);
         double square = 0;
@@ -301,10 +284,10 @@ static int speed(ewa_context *context, int count, char **words) {
     const double start_s = now_s();
     ewa_lod *lod = NULL;
     ewa_lod_info info;
-    must(ewa_lod_open(context, words[0], &lod), words[0]);
+    check(ewa_lod_open(context, words[0], &lod));
     ewa_lod_describe(lod, &info);
     ewa_renderer *renderer = NULL;
-    must(ewa_renderer_create(context, &renderer), "renderer");
+    check(ewa_renderer_create(context, &renderer));
     uint8_t *rgba = malloc((size_t)4 * PIXELS);
     const ewa_camera camera = camera_at(&info.bounds, 1);
     const ewa_render_options options = unlit();
@@ -316,7 +299,7 @@ static int speed(ewa_context *context, int count, char **words) {
     double warm_s = INFINITY;
     for (int i = 0; i < ROUNDS; i++) {
         const double before_s = i ? now_s() : start_s;
-        must(ewa_lod_render(lod, renderer, &camera, &options, &lod_options, &frame, &stats), "render");
+        check(ewa_lod_render(lod, renderer, &camera, &options, &lod_options, &frame, &stats));
         const double took_s = now_s() - before_s;
         if (i == 0)
             printf(
@@ -340,12 +323,7 @@ static int speed(ewa_context *context, int count, char **words) {
 }
 
 int main(int count, char **words) {
-    ewa_context_options options;
-    ewa_context_options_init(&options, sizeof options);
-    options.message = print_message;
-    if (getenv("THREADS")) options.thread_count = (uint32_t)atoi(getenv("THREADS"));
-    ewa_context *context = NULL;
-    must(ewa_context_create(&options, &context), "context");
+    ewa_context *context = make_context(getenv("THREADS") ? (uint32_t)atoi(getenv("THREADS")) : 0);
     int status = 2;
     if (count > 3 && strcmp(words[1], "build") == 0) status = build(context, count - 2, words + 2);
     if (count > 2 && strcmp(words[1], "quality") == 0) status = quality(context, count - 2, words + 2);

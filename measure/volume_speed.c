@@ -9,6 +9,7 @@
 // measure_volume_speed occupied PERCENT EXTINCTION [VOLUME.nrrd]: one row of the curve; saves its volume
 #include "base/base.h"
 #include "ewa/ewa.h"
+#include "measure/measure.h"
 #include "volume/scene.h"
 
 #include <math.h>
@@ -44,11 +45,6 @@ typedef struct figures {
     ewa_volume_stats stats;
     double made_s, frame_s;
 } figures;
-
-static int by_value(const void *a, const void *b) {
-    const double left = *(const double *)a, right = *(const double *)b;
-    return (left > right) - (left < right);
-}
 
 /// 8-bit walls of a gyroid of four periods.
 static ewa_volume make_volume(ewa_context *context, uint32_t side, double wall) {
@@ -103,7 +99,7 @@ static figures measure(ewa_context *context, const scene *at) {
         if (ewa_volume_render(renderer, voxels, &camera, &options, &frame, NULL) != EWA_OK) exit(1);
         if (i >= 0) times_s[i] = ewa_now_s() - frame_s;
     }
-    qsort(times_s, FRAMES, sizeof *times_s, by_value);
+    qsort(times_s, FRAMES, sizeof *times_s, compare_doubles);
     out.frame_s = times_s[FRAMES / 4];
     ewa_volume_renderer_destroy(&renderer);
     free(pixels);

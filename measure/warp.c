@@ -3,7 +3,8 @@
 //
 // Prints the tables of docs/warp.md: measure_warp quality|settings|speed|real DATA; writes the files of the
 // gallery's pictures into the working folder: measure_warp scene.
-#include "warp_scene.h"
+#include "measure/measure.h"
+#include "quality/warp_scene.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -12,33 +13,6 @@
 #include <time.h>
 
 enum { ROUNDS = 15 };
-
-static double now_s(void) {
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
-static void check(ewa_status status) {
-    if (status == EWA_OK) return;
-    fprintf(stderr, "measure_warp: %s\n", ewa_status_name(status));
-    exit(1);
-}
-
-static void print_message(void *user, ewa_severity severity, const char *text) {
-    (void)user, (void)severity;
-    fprintf(stderr, "measure_warp: %s\n", text);
-}
-
-static ewa_context *make_context(uint32_t threads) {
-    ewa_context_options options;
-    ewa_context_options_init(&options, sizeof options);
-    options.thread_count = threads;
-    options.message = print_message;
-    ewa_context *context = NULL;
-    check(ewa_context_create(&options, &context));
-    return context;
-}
 
 /// A warped picture, the holes black.
 typedef struct warped {
@@ -305,11 +279,6 @@ static void real(const char *data) {
     compare_real(context, "motorcycle, left to right", eyes, 1, &eyes[1], &common, 0);
     for (int i = 0; i < 2; i++) free_view(&eyes[i]);
     ewa_context_destroy(&context);
-}
-
-static int compare_doubles(const void *a, const void *b) {
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
 }
 
 static double lower_quartile(double times_s[ROUNDS]) {

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Textured floors with supersampled truth.
-#include "quality/texture_scene.h"
+#include "measure/texture_scene.h"
 
 #include <math.h>
 #include <string.h>

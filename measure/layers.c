@@ -4,7 +4,8 @@
 // Prints the tables of docs/layers.md: surfaces that cross, by layers and by the paper's A-buffer; a
 // transparent sphere, by layers and splat by splat. With an argument, also writes pictures into that folder.
 #include "image_difference.h"
-#include "quality/layers_scene.h"
+#include "measure/layers_scene.h"
+#include "measure/measure.h"
 #include "reference/surface.h"
 #include "splat/abuffer.h"
 
@@ -16,12 +17,6 @@ enum { SIDE = 300, POINTS = 40000, SPHERE_POINTS = 20000, LIMITS = 4, PANEL = SI
 
 static const uint32_t limits[LIMITS] = {1, 2, 3, 8};
 static const double OPACITY = 0.5;
-
-static void check(ewa_status status) {
-    if (status == EWA_OK) return;
-    fprintf(stderr, "measure_layers: %s\n", ewa_status_name(status));
-    exit(1);
-}
 
 static float *make_plane(void) {
     float *rgba = calloc((size_t)SIDE * SIDE, 4 * sizeof *rgba);
@@ -189,8 +184,7 @@ static void measure_sphere(ewa_context *context, const char *folder) {
 
 int main(int argument_count, char **arguments) {
     const char *folder = argument_count > 1 ? arguments[1] : NULL;
-    ewa_context *context = NULL;
-    check(ewa_context_create(NULL, &context));
+    ewa_context *context = make_context(0);
     measure_crossing(context, folder);
     measure_sphere(context, folder);
     ewa_context_destroy(&context);

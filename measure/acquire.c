@@ -4,6 +4,7 @@
 // Prints a table of docs/acquisition.md: a checkerboard (and a photograph, when its path is the second
 // argument) on irregular points, by every filter, from far away to very near. With a folder as first argument
 // ("": none), the first setting only, and its pictures.
+#include "measure/measure.h"
 #include "quality/acquire_scene.h"
 
 #include <stdio.h>
@@ -28,18 +29,12 @@ static const way ways[WAYS] = {
     {"optimal-sum", EWA_TEXTURE_OPTIMAL, EWA_FIT_SUM},
 };
 
-static void check(ewa_status status, const char *what) {
-    if (status == EWA_OK) return;
-    fprintf(stderr, "measure_acquire: %s: %s\n", what, ewa_status_name(status));
-    exit(1);
-}
-
 static void save(const char *folder, const char *scene, const char *name, const char *view,
                  const ewa_image *picture) {
     char path[1024];
     if (!folder) return;
     snprintf(path, sizeof path, "%s/%s_%s_%s.png", folder, scene, name, view);
-    check(ewa_image_save(picture, path, NULL), path);
+    check(ewa_image_save(picture, path, NULL));
 }
 
 static void measure(acquire_scene *scene, const char *name, const char *folder) {
@@ -53,13 +48,13 @@ static void measure(acquire_scene *scene, const char *name, const char *folder) 
         options.wrap_s = options.wrap_t = EWA_TEXTURE_CLAMP;
         options.pixel_sigma_px = scene->pixel_sigma_px;
         ewa_cloud *cloud = NULL;
-        check(acquire_points(scene, &cloud), "points");
-        check(ewa_cloud_acquire(cloud, &scene->texture, 1, &options, &reports[w]), ways[w].name);
+        check(acquire_points(scene, &cloud));
+        check(ewa_cloud_acquire(cloud, &scene->texture, 1, &options, &reports[w]));
         for (int v = 0; v < VIEWS; v++) {
             ewa_image truth = {0}, picture = {0};
             scene->view_px_per_cell = views_px_per_cell[v];
-            check(acquire_truth(scene, &truth), "truth");
-            check(acquire_draw(scene, cloud, &picture), "picture");
+            check(acquire_truth(scene, &truth));
+            check(acquire_draw(scene, cloud, &picture));
             rms[w][v] = acquire_rms(scene, &truth, &picture);
             save(folder, name, ways[w].name, view_names[v], &picture);
             if (w == 0) save(folder, name, "truth", view_names[v], &truth);
@@ -78,8 +73,7 @@ static void measure(acquire_scene *scene, const char *name, const char *folder) 
 
 int main(int argument_count, char **arguments) {
     const char *folder = argument_count > 1 && *arguments[1] ? arguments[1] : NULL;
-    ewa_context *context = NULL;
-    check(ewa_context_create(NULL, &context), "context");
+    ewa_context *context = make_context(0);
     static const struct {
         double radius_scale, jitter, pixel_sigma_px;
     } settings[] = {{1.44, 1, 1}, {1.44, 1, 0.5}, {1.14, 0.5, 1}, {1.14, 0.5, 0.5}};
@@ -91,11 +85,11 @@ int main(int argument_count, char **arguments) {
                                .radius_scale = settings[i].radius_scale,
                                .jitter = settings[i].jitter,
                                .pixel_sigma_px = settings[i].pixel_sigma_px};
-        check(acquire_checker(context, 1024, 8, &scene.texture), "checker");
+        check(acquire_checker(context, 1024, 8, &scene.texture));
         measure(&scene, "checker", folder);
         ewa_image_free(&scene.texture);
         if (argument_count < 3) continue;
-        check(ewa_image_load(context, arguments[2], &scene.texture), arguments[2]);
+        check(ewa_image_load(context, arguments[2], &scene.texture));
         measure(&scene, "photo", folder);
         ewa_image_free(&scene.texture);
     }

@@ -3,6 +3,7 @@
 //
 // Prints the table of docs/quality.md: errors of the checkerboard to the horizon over kernel, cutoff,
 // prefilter and sigma. The only argument, if any, is the jitter (default 0.4).
+#include "measure/measure.h"
 #include "quality/checker_scene.h"
 
 #include <stdio.h>
@@ -53,8 +54,7 @@ int main(int argument_count, char **arguments) {
         {EWA_KERNEL_PERSPECTIVE, 3, 0, 0.38, jitter, false},
         {EWA_KERNEL_PERSPECTIVE, 3, 0.35, 0.367, jitter, false},
     };
-    ewa_context *context = NULL;
-    if (ewa_context_create(NULL, &context) != EWA_OK) return 1;
+    ewa_context *context = make_context(0);
     checker_truth *truth = malloc(sizeof *truth);
     if (!truth) return 1;
     checker_trace(context, 1, truth);

@@ -4,6 +4,7 @@
 // Prints the table of docs/acquisition.md on textured meshes: PSNR of their points against the mesh, by
 // filter and number of points. Arguments: mesh, picture ("" for the mesh's own), azimuth in degrees, and a
 // folder for pictures, if any.
+#include "measure/measure.h"
 #include "quality/textured_scene.h"
 
 #include <math.h>
@@ -17,28 +18,17 @@ static const char *const filter_names[] = {"nearest", "ewa", "optimal"};
 static const uint64_t point_counts[] = {10000, 30000, 100000};
 static const double pixel_sigmas_px[] = {0.5, 1};
 
-static void check(ewa_status status, const char *what) {
-    if (status == EWA_OK) return;
-    fprintf(stderr, "measure_textured: %s: %s\n", what, ewa_status_name(status));
-    exit(1);
-}
-
-static void say(void *user, ewa_severity severity, const char *text) {
-    (void)user;
-    if (severity == EWA_SEVERITY_ERROR) fprintf(stderr, "measure_textured: %s\n", text);
-}
-
 static void draw(ewa_context *context, const ewa_cloud *cloud, const ewa_camera *camera, ewa_image *picture) {
     ewa_render_options options;
     ewa_render_options_init(&options, sizeof options);
     options.shading = EWA_SHADING_NONE;
     ewa_surfels *surfels = NULL;
     ewa_renderer *renderer = NULL;
-    check(ewa_surfels_create(cloud, NULL, &surfels), "surfels");
-    check(ewa_renderer_create(context, &renderer), "renderer");
-    check(ewa_image_create(context, SIDE_PX, SIDE_PX, 4, picture), "picture");
+    check(ewa_surfels_create(cloud, NULL, &surfels));
+    check(ewa_renderer_create(context, &renderer));
+    check(ewa_image_create(context, SIDE_PX, SIDE_PX, 4, picture));
     const ewa_frame frame = {.rgba = picture->pixels};
-    check(ewa_render(renderer, surfels, camera, &options, &frame, NULL), "render");
+    check(ewa_render(renderer, surfels, camera, &options, &frame, NULL));
     ewa_renderer_destroy(&renderer);
     ewa_surfels_destroy(&surfels);
 }
@@ -47,7 +37,7 @@ static void save(const char *folder, const char *name, uint64_t count, const ewa
     char path[1024];
     if (!folder) return;
     snprintf(path, sizeof path, "%s/%s_%llu.png", folder, name, (unsigned long long)count);
-    check(ewa_image_save(picture, path, NULL), path);
+    check(ewa_image_save(picture, path, NULL));
 }
 
 /// A camera that sees the whole mesh.
@@ -77,21 +67,17 @@ int main(int argument_count, char **arguments) {
         return 2;
     }
     const char *folder = argument_count > 4 ? arguments[4] : NULL;
-    ewa_context_options how;
-    ewa_context_options_init(&how, sizeof how);
-    how.message = say;
-    ewa_context *context = NULL;
-    check(ewa_context_create(&how, &context), "context");
+    ewa_context *context = make_context(0);
     ewa_mesh mesh;
     ewa_image picture = {0}, truth;
-    check(ewa_mesh_load(context, arguments[1], &mesh), arguments[1]);
+    check(ewa_mesh_load(context, arguments[1], &mesh));
     if (*arguments[2]) {
-        check(ewa_image_load(context, arguments[2], &picture), arguments[2]);
-        check(ewa_mesh_set_picture(&mesh, &picture), arguments[2]);
+        check(ewa_image_load(context, arguments[2], &picture));
+        check(ewa_mesh_set_picture(&mesh, &picture));
     }
     ewa_camera camera;
     frame_mesh(&mesh, atof(arguments[3]), &camera);
-    check(textured_cast(&mesh, &camera, SAMPLES, false, &truth), "truth");
+    check(textured_cast(&mesh, &camera, SAMPLES, false, &truth));
     save(folder, "mesh", 0, &truth);
     printf("| points | pixel sigma |");
     for (int f = 0; f <= EWA_TEXTURE_OPTIMAL; f++) printf(" %s |", filter_names[f]);
@@ -107,7 +93,7 @@ int main(int argument_count, char **arguments) {
                 options.pixel_sigma_px = pixel_sigmas_px[s];
                 ewa_cloud *cloud = NULL;
                 ewa_image drawn;
-                check(ewa_mesh_sample(&mesh, &options, &cloud), "points");
+                check(ewa_mesh_sample(&mesh, &options, &cloud));
                 draw(context, cloud, &camera, &drawn);
                 printf(" %.2f |", textured_psnr(&truth, &drawn));
                 if (pixel_sigmas_px[s] == 0.5) save(folder, filter_names[f], point_counts[n], &drawn);

@@ -4,6 +4,7 @@
 // Prints the tables of docs/kernels.md: the kernels on the checkerboard to the horizon (figure 8 of Zwicker,
 // Pfister, van Baar, Gross, "Surface Splatting", 2001), and raycast against perspective over the discs'
 // radius.
+#include "measure/measure.h"
 #include "quality/checker_scene.h"
 
 #include <math.h>
@@ -147,8 +148,7 @@ static void print_floor(ewa_context *context, double radius) {
 }
 
 int main(void) {
-    ewa_context *context = NULL;
-    if (ewa_context_create(NULL, &context) != EWA_OK) return 1;
+    ewa_context *context = make_context(0);
     checker_truth *truth = malloc(sizeof *truth);
     if (!truth) return 1;
     checker_trace(context, 1, truth);

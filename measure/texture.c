@@ -9,7 +9,8 @@
 //   measure_texture ratio FILE.csv      hybrid over splat: time and difference, over the minified share
 //   measure_texture files FOLDER [IMAGE]       writes texture.png and truth.png; prints a perspective for
 //   others measure_texture error PICTURE [IMAGE]      compares a picture with the truth
-#include "quality/texture_scene.h"
+#include "measure/measure.h"
+#include "measure/texture_scene.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -18,18 +19,6 @@
 #include <time.h>
 
 static const char *const method_names[] = {"hybrid", "splat", "point", "bilinear"};
-
-static void check(ewa_status status, const char *what) {
-    if (status == EWA_OK) return;
-    fprintf(stderr, "measure_texture: %s failed\n", what);
-    exit(1);
-}
-
-static double now_s(void) {
-    struct timespec time;
-    clock_gettime(CLOCK_MONOTONIC, &time);
-    return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
-}
 
 static ewa_texture_options options_of(ewa_texture_method method) {
     ewa_texture_options options;
@@ -46,7 +35,7 @@ static void print_errors(const char *name, const texture_errors *errors) {
 static texture_errors errors_of(ewa_context *context, const texture_scene *scene,
                                 const ewa_texture_options *options) {
     ewa_image picture;
-    check(texture_scene_draw(context, scene, options, &picture, NULL), "drawing");
+    check(texture_scene_draw(context, scene, options, &picture, NULL));
     const texture_errors errors = texture_scene_compare(scene, &picture);
     ewa_image_free(&picture);
     return errors;
@@ -54,12 +43,12 @@ static texture_errors errors_of(ewa_context *context, const texture_scene *scene
 
 static void measure_quality(ewa_context *context, const char *path) {
     texture_scene scene;
-    check(texture_scene_make(context, path, &scene), path ? path : "the checkerboard");
+    check(texture_scene_make(context, path, &scene));
     printf("\n| %-28s |   near | middle | horizon |   all |\n|---|---:|---:|---:|---:|\n",
            path ? path : "checker");
     ewa_image splats;
     ewa_texture_options options = options_of(EWA_TEXTURE_SPLAT);
-    check(texture_scene_draw(context, &scene, &options, &splats, NULL), "drawing");
+    check(texture_scene_draw(context, &scene, &options, &splats, NULL));
     for (int method = 0; method < 4; method++) {
         options = options_of((ewa_texture_method)method);
         const texture_errors errors = errors_of(context, &scene, &options);
@@ -67,7 +56,7 @@ static void measure_quality(ewa_context *context, const char *path) {
     }
     ewa_image hybrid;
     options = options_of(EWA_TEXTURE_HYBRID);
-    check(texture_scene_draw(context, &scene, &options, &hybrid, NULL), "drawing");
+    check(texture_scene_draw(context, &scene, &options, &hybrid, NULL));
     texture_errors between;
     for (int band = 0; band < TEXTURE_BANDS; band++)
         between.psnr_db[band] = texture_psnr_db(&scene, &hybrid, &splats, band);
@@ -80,7 +69,7 @@ static void measure_quality(ewa_context *context, const char *path) {
 
 static void measure_tuning(ewa_context *context, const char *path) {
     texture_scene scene;
-    check(texture_scene_make(context, path, &scene), path ? path : "the checkerboard");
+    check(texture_scene_make(context, path, &scene));
     printf("\n%s\n", path ? path : "checker");
     static const double kernels[][4] = {// h, F, sigma, spacing
                                         {0.5, 2, 0.5, 0.5},     {0.4, 2.5, 0.5, 0.5},  {0.4, 2.5, 0.45, 0.5},
@@ -106,7 +95,7 @@ static void measure_tuning(ewa_context *context, const char *path) {
 /// Textures of noise over a few scales, RGBA8, opaque.
 static uint8_t *make_noise(uint32_t side) {
     uint8_t *pixels = malloc((size_t)side * side * 4);
-    if (!pixels) check(EWA_ERROR_MEMORY, "memory");
+    if (!pixels) check(EWA_ERROR_MEMORY);
     uint32_t state = 1;
     for (uint32_t i = 0; i < side * side; i++) {
         state = state * 1664525u + 1013904223u;
@@ -138,18 +127,17 @@ static double best_s(ewa_context *context, const speed_case *one, const uint8_t 
     const ewa_texture_source source = {
         pixels, EWA_PIXEL_SRGB8, 4, one->texture_side, one->texture_side, one->texture_side * 4u};
     uint8_t *out = calloc((size_t)one->width * one->height, 4);
-    if (!out) check(EWA_ERROR_MEMORY, "memory");
+    if (!out) check(EWA_ERROR_MEMORY);
     const ewa_texture_target target = {out, EWA_PIXEL_SRGB8, 4, one->width, one->height, one->width * 4u};
     ewa_mat3 map;
-    check(ewa_texture_map_from_corners(context, one->texture_side, one->texture_side, one->corners, &map),
-          "map");
+    check(ewa_texture_map_from_corners(context, one->texture_side, one->texture_side, one->corners, &map));
     ewa_texture_options options = options_of(method);
     options.repeat = one->repeat;
     double best = INFINITY;
     const double started_s = now_s();
     for (int i = 0; i < 9 && (i < 2 || now_s() - started_s < 1); i++) {
         ewa_texture_stats run;
-        check(ewa_texture_map(context, &source, &map, &options, &target, &run), "drawing");
+        check(ewa_texture_map(context, &source, &map, &options, &target, &run));
         if (run.total_s < best) {
             best = run.total_s;
             *stats = run;
@@ -183,10 +171,10 @@ static void measure_speed(ewa_context *context) {
 /// Floors seen from ever higher up: the share of the texels that are points goes from 0 to 1.
 static void measure_ratio(ewa_context *context, const char *path) {
     FILE *file = fopen(path, "w");
-    if (!file) check(EWA_ERROR_IO, path);
+    if (!file) check(EWA_ERROR_IO);
     fprintf(file, "scale,minified_share,hybrid_ms,splat_ms,ratio,psnr_db\n");
     texture_scene scene;
-    check(texture_scene_make(context, NULL, &scene), "the checkerboard");
+    check(texture_scene_make(context, NULL, &scene));
     const ewa_mat3 floor_map = scene.map;
     for (double scale = 4; scale > 0.08; scale /= 1.3) {
         const ewa_mat3 zoom = {{{scale, 0, 0}, {0, scale, 0}, {256 - 256 * scale, 380 - 380 * scale, 1}}};
@@ -197,7 +185,7 @@ static void measure_ratio(ewa_context *context, const char *path) {
             const ewa_texture_options options = options_of(i % 2 ? EWA_TEXTURE_SPLAT : EWA_TEXTURE_HYBRID);
             ewa_texture_stats stats;
             ewa_image_free(&pictures[i % 2]);
-            check(texture_scene_draw(context, &scene, &options, &pictures[i % 2], &stats), "drawing");
+            check(texture_scene_draw(context, &scene, &options, &pictures[i % 2], &stats));
             if (stats.total_s < best[i % 2].total_s) best[i % 2] = stats;
         }
         // Where both apply: pixels inside of the texture.
@@ -221,12 +209,12 @@ static void measure_ratio(ewa_context *context, const char *path) {
 
 static void write_files(ewa_context *context, const char *folder, const char *image) {
     texture_scene scene;
-    check(texture_scene_make(context, image, &scene), "the scene");
+    check(texture_scene_make(context, image, &scene));
     char path[1024];
     snprintf(path, sizeof path, "%s/texture.png", folder);
-    check(ewa_image_save(&scene.texture, path, NULL), path);
+    check(ewa_image_save(&scene.texture, path, NULL));
     snprintf(path, sizeof path, "%s/truth.png", folder);
-    check(ewa_image_save(&scene.truth, path, NULL), path);
+    check(ewa_image_save(&scene.truth, path, NULL));
     // Control points for others: texels inside the picture's view, and where they go.
     const double width = scene.texture.width_px, height = scene.texture.height_px;
     const double texels[4][2] = {
@@ -242,7 +230,7 @@ static void write_files(ewa_context *context, const char *folder, const char *im
 /// Nine numbers for ewa texture --homography.
 static void print_homography(ewa_context *context, const char *image) {
     texture_scene scene;
-    check(texture_scene_make(context, image, &scene), "the scene");
+    check(texture_scene_make(context, image, &scene));
     for (int i = 0; i < 9; i++) printf("%s%.17g", i ? "," : "", scene.map.m[i % 3][i / 3]);
     printf("\n");
     texture_scene_free(&scene);
@@ -250,11 +238,11 @@ static void print_homography(ewa_context *context, const char *image) {
 
 static void print_file_error(ewa_context *context, const char *name, const char *image) {
     texture_scene scene;
-    check(texture_scene_make(context, image, &scene), "the scene");
+    check(texture_scene_make(context, image, &scene));
     ewa_image picture;
-    check(ewa_image_load(context, name, &picture), name);
+    check(ewa_image_load(context, name, &picture));
     if (picture.width_px != TEXTURE_SIDE || picture.height_px != TEXTURE_SIDE || picture.channel_count < 3)
-        check(EWA_ERROR_FORMAT, name);
+        check(EWA_ERROR_FORMAT);
     const texture_errors errors = texture_scene_compare(&scene, &picture);
     print_errors(name, &errors);
     ewa_image_free(&picture);
@@ -263,13 +251,9 @@ static void print_file_error(ewa_context *context, const char *name, const char 
 
 int main(int count, char **words) {
     const char *what = count > 1 ? words[1] : "quality";
-    ewa_context_options options;
-    ewa_context_options_init(&options, sizeof options);
-    if (strcmp(what, "speed") == 0)
-        options.thread_count = count > 2 ? (uint32_t)strtoul(words[2], NULL, 10) : 1;
-    if (strcmp(what, "ratio") == 0) options.thread_count = 1;
-    ewa_context *context = NULL;
-    check(ewa_context_create(&options, &context), "the context");
+    uint32_t thread_count = strcmp(what, "ratio") == 0 ? 1 : 0;
+    if (strcmp(what, "speed") == 0) thread_count = count > 2 ? (uint32_t)strtoul(words[2], NULL, 10) : 1;
+    ewa_context *context = make_context(thread_count);
     if (strcmp(what, "quality") == 0 || strcmp(what, "tune") == 0) {
         void (*measure)(ewa_context *, const char *) = *what == 'q' ? measure_quality : measure_tuning;
         measure(context, NULL);
