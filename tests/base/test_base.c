@@ -15,7 +15,6 @@ static void keep_text(void *user, ewa_severity severity, const char *text) {
 }
 
 static void test_defaults(void **state) {
-    (void)state;
     ewa_context *context = NULL;
     assert_int_equal(ewa_context_create(NULL, &context), EWA_OK);
     assert_true(ewa_context_worker_count(context) >= 1);
@@ -26,7 +25,6 @@ static void test_defaults(void **state) {
 }
 
 static void test_bad_options(void **state) {
-    (void)state;
     ewa_context *context = NULL;
     ewa_context_options options;
     ewa_context_options_init(&options, sizeof options);
@@ -39,7 +37,6 @@ static void test_bad_options(void **state) {
 }
 
 static void test_overflowing_allocation_is_a_message(void **state) {
-    (void)state;
     char text[256] = "";
     ewa_context_options options;
     ewa_context_options_init(&options, sizeof options);
@@ -65,7 +62,6 @@ static void count_hit(void *data, uint32_t index, uint32_t worker) {
 }
 
 static void test_parallel_visits_each_index_once(void **state) {
-    (void)state;
     static const uint32_t counts[] = {1, 2, 7, 32};
     for (size_t c = 0; c < sizeof counts / sizeof counts[0]; c++) {
         ewa_context_options options;
@@ -85,7 +81,6 @@ static void test_parallel_visits_each_index_once(void **state) {
 }
 
 static void test_split_covers(void **state) {
-    (void)state;
     for (uint64_t count = 0; count < 40; count++) {
         for (uint32_t parts = 1; parts < 9; parts++) {
             assert_int_equal(ewa_split(count, parts, 0), 0);

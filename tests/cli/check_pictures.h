@@ -11,7 +11,6 @@ static ewa_context *context;
 
 /// For cmocka's teardown.
 static inline int leave(void **state) {
-    (void)state;
     ewa_context_destroy(&context);
     return 0;
 }

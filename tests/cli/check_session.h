@@ -11,14 +11,12 @@
 static cli_session session;
 
 static inline int session_begin(void **state) {
-    (void)state;
     static const common_arguments common = {.threads = 1, .progress = 0};
     assert_true(session_start(&session, &common));
     return 0;
 }
 
 static inline int session_finish(void **state) {
-    (void)state;
     session_end(&session, 0);
     return 0;
 }

@@ -6,10 +6,7 @@
 
 #include <string.h>
 
-static int enter(void **state) {
-    (void)state;
-    return scratch_enter("cli_acquire");
-}
+static int enter(void **state) { return scratch_enter("cli_acquire"); }
 
 /// A quad with texture coordinates, but without a picture.
 static const char quad[] = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n"
@@ -22,7 +19,6 @@ static void make_picture(void) {
 }
 
 static void test_mesh(void **state) {
-    (void)state;
     make_picture();
     scratch_text("quad.obj", quad);
     assert_int_equal(run("ewa sample quad.obj -o grey.ply -n 500"), 0);
@@ -41,7 +37,6 @@ static void test_mesh(void **state) {
 }
 
 static void test_objects(void **state) {
-    (void)state;
     make_picture();
     static const char *const objects[] = {"plane", "cube", "sphere", "torus", "terrain", "csg"};
     for (size_t i = 0; i < sizeof objects / sizeof objects[0]; i++) {
@@ -52,7 +47,6 @@ static void test_objects(void **state) {
 }
 
 static void test_what_fails(void **state) {
-    (void)state;
     make_picture();
     scratch_text("bare.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n");
     run_fails(1, "texture coordinates", "ewa sample bare.obj --texture board.png -o x.ply");

@@ -10,10 +10,7 @@
 
 #include "run_ewa.h"
 
-static int enter(void **state) {
-    (void)state;
-    return scratch_enter("cli_bench");
-}
+static int enter(void **state) { return scratch_enter("cli_bench"); }
 
 /// The last number of a member of the object of `label` with `threads` in the JSON of the last run; -1: none.
 static double member(const char *label, int threads, const char *name) {
@@ -30,7 +27,6 @@ static double member(const char *label, int threads, const char *name) {
 }
 
 static void test_stages(void **state) {
-    (void)state;
     run_done("TMPDIR=. ewa bench --scene plane --splats 2000 --pixels 20,40 --size 96x64 --frames 3 "
              "--workers 1,2 --cpu all,plain --json b.json && cat b.json");
     assert_non_null(strstr(last_run.out, "plane 0.002 M of 20 px"));
@@ -53,7 +49,6 @@ static void test_stages(void **state) {
 }
 
 static void test_files(void **state) {
-    (void)state;
     run_done("ewa generate sphere -n 3000 -o ball.ply && "
              "ewa bench ball.ply --size 96x64 --frames 1 --workers 1 --stages off --json - 2>tables");
     assert_non_null(strstr(last_run.out, "\"scene\": \"ball.ply\""));
@@ -61,7 +56,6 @@ static void test_files(void **state) {
 }
 
 static void test_unseen(void **state) {
-    (void)state;
     run_done(
         "ewa bench --scene hidden,culled,closed,seen --splats 20000 --pixels 60 --size 256x256 --frames 1 "
         "--workers 1 --stages off --json - 2>tables");
@@ -77,7 +71,6 @@ static void test_unseen(void **state) {
 }
 
 static void test_recipes(void **state) {
-    (void)state;
     run_done(
         "ewa bench --scene points,peer,color --splats 5000 --pixels 30 --frames 1 --workers 1 --stages off "
         "--json - 2>tables");
@@ -90,7 +83,6 @@ static void test_recipes(void **state) {
 }
 
 static void test_refusals(void **state) {
-    (void)state;
     run_fails(1, "the pixel filter alone covers |more than 2", "ewa bench --splats 100 --pixels 2");
     run_fails(2, "--scene: 'plain' is not one of plane|color", "ewa bench --scene plain");
     run_fails(2, "--cpu: 'sse' is not one of all", "ewa bench --cpu all,sse");
@@ -98,7 +90,6 @@ static void test_refusals(void **state) {
 
 /// Every way of drawing has its row, and all but the first say what they are of it.
 static void test_ways(void **state) {
-    (void)state;
     run_done("ewa bench --scene layers --splats 5000 --size 128x96 --frames 1 --workers 1,2 --stages off "
              "--json - 2>tables");
     static const char *const ways[] = {"opaque", "3 layers", "exact", "1 edge layer", "no edges", "no light"};
@@ -127,7 +118,6 @@ static void make_competitor(const char *lines) {
 
 /// Another program gets the scene as files that it can read, and is asked for every frame in turn.
 static void test_against(void **state) {
-    (void)state;
     run_done("rm -rf *");
     make_competitor("cp \"$1\" got.ply; cp \"$2\" got.json; echo \"a \\\"competitor\\\" with $3 threads\"\n"
                     "while read -r ask; do echo >>asked; sleep 0.02; echo; done; echo >>ended");
@@ -152,7 +142,6 @@ static void test_against(void **state) {
 }
 
 static void test_bad_competitors(void **state) {
-    (void)state;
     static const struct {
         const char *lines, *said;
     } cases[] = {

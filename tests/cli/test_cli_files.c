@@ -8,10 +8,7 @@
 
 #include "run_ewa.h"
 
-static int enter(void **state) {
-    (void)state;
-    return scratch_enter("cli_files");
-}
+static int enter(void **state) { return scratch_enter("cli_files"); }
 
 static const char small_cloud[] = "ply\nformat ascii 1.0\ncomment three points\nelement vertex 3\n"
                                   "property double x\nproperty double y\nproperty double z\n"
@@ -30,7 +27,6 @@ static double number_after(const char *key) {
 }
 
 static void test_info(void **state) {
-    (void)state;
     scratch_text("small.ply", small_cloud);
     run_done("ewa info small.ply");
     assert_non_null(strstr(last_run.out, "comment three points"));
@@ -45,7 +41,6 @@ static void test_info(void **state) {
 }
 
 static void test_info_problems(void **state) {
-    (void)state;
     scratch_text("odd.ply", "ply\nformat ascii 1.0\nelement vertex 5\nproperty float x\nproperty float y\n"
                             "property float z\nproperty float nx\nproperty float ny\nproperty float nz\n"
                             "property float radius\nend_header\n"
@@ -64,7 +59,6 @@ static void test_info_problems(void **state) {
 }
 
 static void test_generate(void **state) {
-    (void)state;
     static const char *const kinds[] = {"plane", "checker", "cube", "sphere", "torus", "terrain"};
     for (size_t i = 0; i < sizeof kinds / sizeof kinds[0]; i++) {
         run_done("ewa generate %s -n 1000 -o a.ply && ewa generate %s -n 1000 -o b.ply --threads 3 && "
@@ -83,7 +77,6 @@ static void test_generate(void **state) {
 }
 
 static void test_encodings(void **state) {
-    (void)state;
     run_done("ewa generate terrain -n 2000 -o a.ply && ewa convert a.ply -o big.ply --big-endian && "
              "ewa convert big.ply -o text.ply --ascii && ewa convert text.ply -o back.ply");
     assert_true(scratch_same("a.ply", "back.ply"));
@@ -96,7 +89,6 @@ static void test_encodings(void **state) {
 }
 
 static void test_part(void **state) {
-    (void)state;
     run_done("ewa generate plane -n 10000 -o a.ply && ewa convert a.ply -o b.ply --crop 0,0,-1,1,1,1 && "
              "ewa info --json b.ply");
     assert_true(fabs(number_after("\"points\": ") - 2500) < 200);
@@ -113,7 +105,6 @@ static void test_part(void **state) {
 }
 
 static void test_move(void **state) {
-    (void)state;
     scratch_text(
         "disc.ply",
         "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\n"
@@ -131,7 +122,6 @@ static void test_move(void **state) {
 }
 
 static void test_merge(void **state) {
-    (void)state;
     run_done("ewa generate sphere -n 300 -o a.ply && ewa generate torus -n 200 -o b.ply && "
              "ewa convert a.ply b.ply -o c.ply && ewa info --json c.ply");
     assert_true(number_after("\"points\": ") == 500);
@@ -146,7 +136,6 @@ static void test_merge(void **state) {
 }
 
 static void test_surfels(void **state) {
-    (void)state;
     run_done("ewa generate sphere -n 5000 --positions-only -o a.ply && ewa surfels a.ply -o b.ply && "
              "ewa info --json b.ply");
     assert_non_null(strstr(last_run.out, "\"name\": \"normal\""));
@@ -159,7 +148,6 @@ static void test_surfels(void **state) {
 
 /// Refitted colours are floats beyond [0, 1]; what they need and a file lacks is estimated.
 static void test_refit(void **state) {
-    (void)state;
     run_done("ewa generate checker -n 4000 --radius-scale 1.6 -o a.ply && "
              "ewa convert a.ply -o b.ply --refit-colors interpolate && ewa info --json b.ply");
     const char *color = strstr(last_run.out, "\"color\"");
@@ -177,7 +165,6 @@ static void test_refit(void **state) {
 
 /// Solid textures on all that makes clouds, the same for any number of threads.
 static void test_procedure(void **state) {
-    (void)state;
     run_done("ewa generate torus -n 3000 --procedure marble -o a.ply && "
              "ewa generate torus -n 3000 --procedure marble -o b.ply --threads 3 && "
              "ewa generate torus -n 3000 --procedure marble --procedure-seed 2 -o c.ply && "
@@ -197,9 +184,9 @@ static void test_procedure(void **state) {
 
 /// Scene files: written by render, told of by info, refused with their place by both.
 static void test_scenes(void **state) {
-    (void)state;
     run_done("ewa generate torus -o ring.ply -n 2000");
-    run_done("ewa render ring.ply ring.ply -o made.png --size 64x48 --save-scene two.json --color-by z --filter 'z>0'");
+    run_done("ewa render ring.ply ring.ply -o made.png --size 64x48 --save-scene two.json --color-by z "
+             "--filter 'z>0'");
     run_done("ewa render two.json -o again.png");
     assert_true(scratch_same("made.png", "again.png"));
     run_done("ewa info two.json");
@@ -216,12 +203,12 @@ static void test_scenes(void **state) {
     run_fails(1, "there is nothing to draw", "ewa render none.json -o never.png");
     // A file that lies elsewhere cannot be named.
     run_done("mkdir -p below");
-    run_fails(1, "ring.ply|below/elsewhere.json", "ewa render ring.ply -o below/p.png --save-scene below/elsewhere.json");
+    run_fails(1, "ring.ply|below/elsewhere.json",
+              "ewa render ring.ply -o below/p.png --save-scene below/elsewhere.json");
     assert_int_equal(scratch_size("below/elsewhere.json"), -1);
 }
 
 static void test_failures_leave_nothing(void **state) {
-    (void)state;
     assert_int_equal(scratch_enter("cli_files_none"), 0);
     run_fails(1, "none.ply: |No such file", "ewa convert none.ply -o a.ply");
     run_fails(2, "missing/a.ply|No such file", "ewa generate sphere -o missing/a.ply");
@@ -249,18 +236,12 @@ static void test_failures_leave_nothing(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_info),
-        cmocka_unit_test(test_info_problems),
-        cmocka_unit_test(test_generate),
-        cmocka_unit_test(test_encodings),
-        cmocka_unit_test(test_part),
-        cmocka_unit_test(test_move),
-        cmocka_unit_test(test_merge),
-        cmocka_unit_test(test_surfels),
-        cmocka_unit_test(test_refit),
-        cmocka_unit_test(test_procedure),
-        cmocka_unit_test(test_scenes),
-        cmocka_unit_test(test_failures_leave_nothing),
+        cmocka_unit_test(test_info),     cmocka_unit_test(test_info_problems),
+        cmocka_unit_test(test_generate), cmocka_unit_test(test_encodings),
+        cmocka_unit_test(test_part),     cmocka_unit_test(test_move),
+        cmocka_unit_test(test_merge),    cmocka_unit_test(test_surfels),
+        cmocka_unit_test(test_refit),    cmocka_unit_test(test_procedure),
+        cmocka_unit_test(test_scenes),   cmocka_unit_test(test_failures_leave_nothing),
     };
     return cmocka_run_group_tests(tests, enter, NULL);
 }

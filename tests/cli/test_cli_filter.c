@@ -4,10 +4,7 @@
 // Tests of --filter, thinning, cropping by outlines, merging, and of what ewa info says of scans.
 #include "run_ewa.h"
 
-static int enter(void **state) {
-    (void)state;
-    return scratch_enter("filter");
-}
+static int enter(void **state) { return scratch_enter("filter"); }
 
 /// Rows of a cloud: x y z class intensity.
 static void write_scan(const char *name, const char *rows, int count) {
@@ -32,7 +29,6 @@ static const char *converted(const char *options) {
 }
 
 static void test_convert(void **state) {
-    (void)state;
     write_scan("a.ply", rows, 6);
     assert_string_equal(converted("--filter classification=ground"),
                         "500000.25 4200000 1 2 10\n500002.25 4200001 3 2 30\n500004.25 4200003 5 2 50\n");
@@ -55,7 +51,6 @@ static void test_convert(void **state) {
 
 /// Every command that reads points takes the same ones.
 static void test_other_commands(void **state) {
-    (void)state;
     run_done("ewa generate terrain -n 4000 -o t.ply && ewa convert t.ply -o low.ply --filter 'z<=0.02'");
     run_done("ewa info --json low.ply");
     char kept[64] = "";
@@ -95,7 +90,6 @@ static void test_other_commands(void **state) {
 }
 
 static void test_polygons(void **state) {
-    (void)state;
     write_scan("a.ply", rows, 6);
     static const char inside[] = "500001.25 4200000 2 6 20\n500002.25 4200001 3 2 30\n";
     assert_string_equal(
@@ -118,7 +112,6 @@ static void test_polygons(void **state) {
 }
 
 static void test_thinning(void **state) {
-    (void)state;
     write_scan("a.ply", rows, 6);
     assert_string_equal(converted("--voxel 4"), "500001.25 4200000 2 6 20\n500003.25 4200002 4 9 40\n"
                                                 "500004.25 4200003 5 2 50\n500005.25 4200009 6 18 60\n");
@@ -135,7 +128,6 @@ static void test_thinning(void **state) {
 }
 
 static void test_merge(void **state) {
-    (void)state;
     write_scan("a.ply", rows, 6);
     scratch_text("c.ply", "ply\nformat ascii 1.0\nelement vertex 1\nproperty double x\nproperty double y\n"
                           "property double z\nproperty uchar red\nproperty uchar green\nproperty uchar blue\n"
@@ -156,7 +148,6 @@ static void test_merge(void **state) {
 }
 
 static void test_info(void **state) {
-    (void)state;
     write_scan("a.ply", rows, 6);
     run_done("ewa info a.ply");
     assert_non_null(strstr(last_run.out,
@@ -173,7 +164,6 @@ static void test_info(void **state) {
 }
 
 static void test_degrees(void **state) {
-    (void)state;
     write_scan("d.ply",
                "7.001 50.001 100 2 1\n7.002 50.001 120 2 1\n7.001 50.002 110 2 1\n7.002 50.002 150 2 1\n", 4);
     assert_int_equal(run("ewa info d.ply"), 0);
@@ -187,7 +177,6 @@ static void test_degrees(void **state) {
 }
 
 static void test_colors(void **state) {
-    (void)state;
     run_done("ewa generate sphere -n 2000 -o s.ply && ewa render s.ply -o a.png --size 64x64 && "
              "ewa render s.ply -o b.png --size 64x64 --color-by rgb");
     assert_true(scratch_same("a.png", "b.png"));

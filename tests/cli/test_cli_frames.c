@@ -20,7 +20,6 @@ static void fake_program(const char *name, const char *lines) {
 }
 
 static int enter(void **state) {
-    (void)state;
     context = check_context(0, NULL);
     if (scratch_enter("cli_frames") != 0) return -1;
     // The last word is file:PATH.
@@ -32,7 +31,6 @@ static int enter(void **state) {
 
 /// Whole in every frame, with little room to spare in the worst, and the first frame again after a full turn.
 static void test_turntable(void **state) {
-    (void)state;
     static const char *const objects[] = {"torus", "cube"};
     static const char *const views[] = {
         "", "--elevation 30", "--view top", "--up 1,1,0.3", "--azimuth 45", "--target 0.3,0.2,0.1"};
@@ -67,7 +65,6 @@ static void test_turntable(void **state) {
 }
 
 static void test_turntable_camera(void **state) {
-    (void)state;
     // A quarter of the turn is what the camera sees from there: right-handed about up.
     run_done(
         "ewa render torus.ply -o q_%%d.png --turntable 4 --size 80x60 --eye 0,-5,1 --target 0,0,0 "
@@ -88,7 +85,6 @@ static void test_turntable_camera(void **state) {
 }
 
 static void test_path(void **state) {
-    (void)state;
     run_done("ewa render torus.ply -o k_%%d.exr --turntable 4 --size 64x48 --save-camera keys.json && "
              "ewa render torus.ply -o p_%%02d.exr --path keys.json --frames 8 --loop && "
              "ewa render torus.ply -o o_%%02d.exr --path keys.json --frames 7 && "
@@ -107,7 +103,6 @@ static void test_path(void **state) {
 }
 
 static void test_usage(void **state) {
-    (void)state;
     static const struct {
         const char *options, *said;
     } cases[] = {
@@ -132,7 +127,6 @@ static void test_usage(void **state) {
 }
 
 static void test_stats(void **state) {
-    (void)state;
     run_done("ewa render torus.ply -o t_%%d.png --turntable 3 --size 64x48 --stats s.json && "
              "test $(grep -c render_s s.json) = 3 && grep -q '\"frame_count\": 3' s.json");
     run_done("ewa render torus.ply -o t.png --size 64x48 --stats s.json && ! grep -q frame s.json");
@@ -149,7 +143,6 @@ static void test_jpeg(void **state) {
 
 /// What the fake ffmpeg is asked for, every byte of every frame, and nothing beside the film at the end.
 static void test_film(void **state) {
-    (void)state;
     run_done("rm -rf films && mkdir films && PATH=$PWD/fake:$PATH && "
              "ewa render torus.ply -o films/a.mp4 --turntable 5 --size 64x48 --fps 24 --quality 100 && "
              "test $(cat films/a.mp4) = %d && test $(ls -A films) = a.mp4 && "
@@ -165,7 +158,6 @@ static void test_film(void **state) {
 }
 
 static void test_film_fails(void **state) {
-    (void)state;
     run_done("rm -rf films && mkdir films");
     // Under PATH=/nonexistent the shell finds its own commands only.
     run_fails(2, "a.mp4|ffmpeg|not in PATH",
@@ -203,7 +195,6 @@ static void test_film_fails(void **state) {
 
 /// An interrupt removes the film and what was begun, and ends by the signal.
 static void test_interrupt(void **state) {
-    (void)state;
     run("rm -rf films && mkdir films");
     const int ended =
         run("PATH=$PWD/fake:$PATH; $EWA_PROGRAM render torus.ply -o films/a.mp4 --turntable 100000 "
@@ -213,7 +204,6 @@ static void test_interrupt(void **state) {
 }
 
 static void test_real_film(void **state) {
-    (void)state;
     if (run("command -v ffmpeg && command -v ffprobe") != 0) skip();
     static const char *const films[] = {"a.mp4", "a.mkv", "a.webm"};
     run("rm -rf films && mkdir films");

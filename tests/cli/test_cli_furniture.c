@@ -7,7 +7,6 @@
 #include "check_pictures.h"
 
 static int enter(void **state) {
-    (void)state;
     context = check_context(0, NULL);
     if (scratch_enter("cli_furniture") != 0) return -1;
     return run("ewa generate terrain -n 20000 -o terrain.ply && ewa generate ball --dims 16 -o ball.nrrd");
@@ -40,7 +39,6 @@ static void count_changes(const char *a, const char *b, const corner *box, size_
 
 /// Each piece changes its part of the picture and nothing else; without one, and by default, the picture is as it was.
 static void test_places(void **state) {
-    (void)state;
     static const struct {
         const char *options;
         const corner *box;
@@ -65,7 +63,6 @@ static void test_places(void **state) {
 
 /// Every frame has its furniture, in one ink; units, labels and orthographic cameras are seen in the bytes.
 static void test_frames(void **state) {
-    (void)state;
     run_done("ewa render terrain.ply -o t%%d.png --turntable 3 --size 320x240");
     run_done(
         "ewa render terrain.ply -o f%%d.png --turntable 3 --size 320x240 --title Frames --scale-bar --axes");
@@ -85,7 +82,6 @@ static void test_frames(void **state) {
 }
 
 static void test_usage(void **state) {
-    (void)state;
     run_fails(2, "--color-bar needs --color-by", "ewa render a.ply -o a.png --color-bar");
     run_fails(2, "--unit needs --scale-bar or --color-bar", "ewa render a.ply -o a.png --unit m");
     run_fails(2, "--colormap classes takes no --range",
@@ -130,7 +126,6 @@ static void check_stripes(const char *picture, const uint8_t srgb[4][3]) {
 /// An attribute that is called so has the colours of classes, unless a colormap or a range is asked for; others have
 /// them when asked.
 static void test_classes(void **state) {
-    (void)state;
     static const char view[] = "--view top --ortho 20 --size 80x40 --shading none";
     static const char *const codes[] = {"2", "6", "9", "37"}, *const mixed[] = {"2", "6.5", "-1", "nan"};
     uint8_t classes[4][3], viridis[4][3], partly[4][3];

@@ -14,7 +14,6 @@ static const char head[] =
     "end_header\n%s";
 
 static int enter(void **state) {
-    (void)state;
     static char text[4096], rest[1024];
     rest[0] = 0;
     for (int k = 0; k < 9; k++)
@@ -38,7 +37,6 @@ static void said(const char *what) {
 }
 
 static void told(void **state) {
-    (void)state;
     run_done("ewa info three.ply");
     said("holds       3D Gaussians, spherical harmonics of degree 1");
     said("with a filter that thickens");
@@ -62,7 +60,6 @@ static void told(void **state) {
 }
 
 static void converted(void **state) {
-    (void)state;
     run_done("ewa convert three.ply -o b.spz --spz-version 4 && ewa info b.spz");
     said("version 4");
     said("up          0 -1 0"); // right, up, back there
@@ -92,7 +89,6 @@ static void converted(void **state) {
 
 /// Scales follow, and where they are.
 static void moved(void **state) {
-    (void)state;
     run_done("ewa convert three.ply -o m.ply --scale 2 --translate 0,0,1000000 && ewa info m.ply");
     said("sizes       median 0.09957"); // 2 e^-3
     said("low         2 4 1000006");
@@ -108,7 +104,6 @@ static void moved(void **state) {
 }
 
 static void refused(void **state) {
-    (void)state;
     const int before = scratch_count();
     run_fails(1, "broken.ply: Gaussian 1 of 2: a scale is not finite", "ewa info broken.ply");
     run_fails(1, "broken.ply: Gaussian 1 of 2: a scale is not finite", "ewa convert broken.ply -o x.spz");

@@ -7,7 +7,6 @@
 #include "run_ewa.h"
 
 static int enter(void **state) {
-    (void)state;
     const int entered = scratch_enter("cli_gpu");
     run_done("ewa generate torus -n 2000 -o torus.ply");
     return entered;
@@ -21,7 +20,6 @@ static bool exact(void) {
 }
 
 static void test_info(void **state) {
-    (void)state;
     if (!exact()) return;
     assert_non_null(strstr(last_run.out, "\"native_fma\": "));
     assert_non_null(strstr(last_run.out, "\"files\": []"));
@@ -34,7 +32,6 @@ static void test_info(void **state) {
 }
 
 static void test_no_device(void **state) {
-    (void)state;
     run_fails(1, "OpenGL", "EWA_GL_TUNING=nodevice=1 ewa info --gpu");
     run_fails(1, "OpenGL",
               "EWA_GL_TUNING=nodevice=1 ewa render torus.ply -o none.png --size 32x24 --backend gl");
@@ -45,7 +42,6 @@ static void test_no_device(void **state) {
 
 /// A film of four frames: auto has found out by then that there is nothing to choose.
 static void test_auto(void **state) {
-    (void)state;
     run_done("ewa render torus.ply -o cpu_%%d.png --size 32x24 --turntable 4 && "
              "EWA_GL_TUNING=nodevice=1 ewa render torus.ply -o auto_%%d.png --size 32x24 --turntable 4 "
              "--backend auto --stats - ");
@@ -60,7 +56,6 @@ static void test_auto(void **state) {
 }
 
 static void test_same_pictures(void **state) {
-    (void)state;
     if (!exact()) return;
     run_done("ewa render torus.ply -o a.png --aov depth=a.pfm --size 64x48");
     assert_int_equal(
@@ -85,7 +80,6 @@ static void test_same_pictures(void **state) {
 
 /// Three frames, of which the device is lost in one: the same film as ever, and a warning.
 static void test_lost(void **state) {
-    (void)state;
     if (!exact()) return;
     assert_int_equal(
         run("ewa render torus.ply -o whole_%%d.png --size 32x24 --turntable 3 && "
@@ -102,7 +96,6 @@ static void test_lost(void **state) {
 
 /// The viewer draws by it too.
 static void test_view(void **state) {
-    (void)state;
     if (!exact()) return;
     scratch_text("cpu.txt", "shot view_cpu.png\n");
     scratch_text("gl.txt", "shot view_gl.png\n");

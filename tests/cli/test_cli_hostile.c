@@ -8,10 +8,7 @@
 
 #include "run_ewa.h"
 
-static int enter(void **state) {
-    (void)state;
-    return scratch_enter("cli_hostile");
-}
+static int enter(void **state) { return scratch_enter("cli_hostile"); }
 
 #define HEADER(count)                                                                                        \
     "ply\nformat ascii 1.0\nelement vertex " count "\nproperty float x\nproperty float y\nproperty float "   \
@@ -33,14 +30,12 @@ static void refuse_everywhere(const char *name, const char *said) {
 }
 
 static void test_no_file(void **state) {
-    (void)state;
     refuse_everywhere("none.ply", "No such file");
     run_done("mkdir -p folder.ply");
     refuse_everywhere("folder.ply", "");
 }
 
 static void test_broken_files(void **state) {
-    (void)state;
     scratch_text("empty.ply", "");
     refuse_everywhere("empty.ply", "");
     scratch_text("text.ply", "not a cloud at all\n");
@@ -66,7 +61,6 @@ static void test_broken_files(void **state) {
 
 /// A truncated binary file at every length that matters.
 static void test_every_truncation(void **state) {
-    (void)state;
     run_done("ewa generate sphere -n 3 -o whole.ply");
     const long size = scratch_size("whole.ply");
     static char bytes[4096];
@@ -81,7 +75,6 @@ static void test_every_truncation(void **state) {
 }
 
 static void test_nothing_to_draw(void **state) {
-    (void)state;
     scratch_text("nan.ply", HEADER("2") END "nan 0 0\ninf 1 1\n");
     run_fails(1, "nan.ply: ", "ewa render nan.ply -o out.png");
     scratch_text("zeronormal.ply", HEADER("2") NORMAL RADIUS END "0 0 0 0 0 0 1\n1 0 0 0 0 0 1\n");
@@ -96,7 +89,6 @@ static void test_nothing_to_draw(void **state) {
 
 /// Odd but honest clouds are drawn.
 static void test_odd_clouds(void **state) {
-    (void)state;
     scratch_text("one.ply", HEADER("1") NORMAL RADIUS END "5 5 5 0 0 1 1\n");
     run_done("ewa render one.ply -o one.png --size 32x32");
     scratch_text("same.ply", HEADER("3") NORMAL RADIUS END "1 1 1 0 0 1 1\n1 1 1 0 0 1 1\n1 1 1 0 0 1 1\n");
@@ -121,7 +113,6 @@ static void test_odd_clouds(void **state) {
 }
 
 static void test_outputs(void **state) {
-    (void)state;
     run_done("ewa generate sphere -n 500 -o ball.ply && mkdir -p taken.png");
     const int before = scratch_count();
     run_fails(2, "--output: taken.png: is a folder", "ewa render ball.ply -o taken.png");
@@ -166,7 +157,6 @@ static void write_doubles(const char *name, int count, const double *numbers) {
 
 /// Extents that overflow, that vanish when they are divided, and that are nothing but rounding.
 static void test_extents(void **state) {
-    (void)state;
     enum { COUNT = 4000 };
     static double numbers[3 * COUNT];
     static const double scales[][3] = {
@@ -199,7 +189,6 @@ static void test_extents(void **state) {
 }
 
 static void test_out_of_memory(void **state) {
-    (void)state;
 #ifdef __SANITIZE_ADDRESS__
     skip(); // needs address space of its own
 #elif defined(__SANITIZE_THREAD__)
@@ -217,7 +206,6 @@ static void test_out_of_memory(void **state) {
 }
 
 static void test_interruption(void **state) {
-    (void)state;
     const int before = scratch_count();
     // Terminated while it works: ends by the signal, and what it was writing is gone.
     assert_int_equal(

@@ -23,7 +23,6 @@ static const char DISC[] = "ply\nformat ascii 1.0\nelement vertex 1\nproperty fl
 #define VIEW "--size 60x60 --eye 0,0,5 --target 0,0,0 --up 0,1,0 --fov 45"
 
 static int enter(void **state) {
-    (void)state;
     context = check_context(0, NULL);
     if (scratch_enter("cli_light") != 0) return -1;
     scratch_text("discs.ply", DISCS);
@@ -39,7 +38,6 @@ static int enter(void **state) {
 }
 
 static int leave(void **state) {
-    (void)state;
     ewa_context_destroy(&context);
     return 0;
 }
@@ -54,7 +52,6 @@ static float red_at(const char *name, uint32_t x, uint32_t y) {
 }
 
 static void test_materials_and_surroundings(void **state) {
-    (void)state;
     run_done("ewa render discs.ply -o a.pfm --materials table.json --env sky.hdr " VIEW);
     assert_true(fabsf(red_at("a.pfm", 15, 30) - 0.5f * 0.6f) < 1e-5f); // grey of 0.6
     assert_true(fabsf(red_at("a.pfm", 44, 30) - 4 * 128.5f / 128) < 1e-4f);
@@ -68,13 +65,11 @@ static void test_materials_and_surroundings(void **state) {
 }
 
 static void test_lights(void **state) {
-    (void)state;
     run_done("ewa render disc.ply -o a.pfm --ambient 0 --light 0,0,1,0.5,1,1 --light 0,0,1,0.25,0,0 " VIEW);
     assert_true(fabsf(red_at("a.pfm", 30, 15) - 0.75f * 0.6f) < 1e-5f);
 }
 
 static void test_what_is_wrong_is_named(void **state) {
-    (void)state;
     scratch_text("short.json", "[{}]");
     scratch_text("wrong.json", "[{\"shine\": 1}]");
     run_fails(1, "material 1, the table has 1", "ewa render discs.ply -o a.png --materials short.json");

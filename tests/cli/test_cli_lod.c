@@ -5,7 +5,6 @@
 #include "check_pictures.h"
 
 static int enter(void **state) {
-    (void)state;
     context = check_context(0, NULL);
     if (scratch_enter("lod") != 0) return 1;
     run_done("ewa generate torus -n 60000 -o t.ply && ewa lod t.ply -o t.copc.laz");
@@ -19,7 +18,6 @@ static bool holds(const char *name, const char *text) {
 }
 
 static void test_make(void **state) {
-    (void)state;
     run_done("ewa lod t.ply -o again.copc.laz --threads 1 --memory 64M --stats s.json");
     assert_true(scratch_same("t.copc.laz", "again.copc.laz"));
     assert_true(holds("s.json", "\"points\": 60000"));
@@ -47,7 +45,6 @@ static void test_make(void **state) {
 
 /// Parts that are made alone become the file that is made at once.
 static void test_parts(void **state) {
-    (void)state;
     for (int part = 1; part <= 3; part++) run_done("ewa lod t.ply -o p%d.copc.laz --subset %d/3", part, part);
     run_done("ewa lod p2.copc.laz p3.copc.laz p1.copc.laz -o joined.copc.laz --merge --stats s.json");
     assert_true(scratch_same("t.copc.laz", "joined.copc.laz"));
@@ -58,7 +55,6 @@ static void test_parts(void **state) {
 }
 
 static void test_sizes(void **state) {
-    (void)state;
     static const char *const fine[] = {"64M", "64m", "0.5G", "1GiB", "100MB", "67108864", "1T"};
     for (size_t i = 0; i < sizeof fine / sizeof fine[0]; i++)
         run_done("ewa lod t.ply -o x.copc.laz --memory %s", fine[i]);
@@ -69,7 +65,6 @@ static void test_sizes(void **state) {
 }
 
 static void test_info(void **state) {
-    (void)state;
     run_done("ewa info t.copc.laz");
     assert_non_null(strstr(last_run.out, "octree      COPC 1.0"));
     assert_non_null(strstr(last_run.out, "stand for the points at its levels"));
@@ -96,7 +91,6 @@ static double mean_square(const char *a, const char *b) {
 }
 
 static void test_render(void **state) {
-    (void)state;
     // A small octree is drawn as any file; --lod-error 0 asks for that.
     run_done("ewa render t.copc.laz -o plain.png --size 300x300");
     run_done("ewa render t.copc.laz -o all.png --size 300x300 --lod-error 0 --memory 1G");
@@ -124,7 +118,6 @@ static void test_render(void **state) {
 }
 
 static void test_refusals(void **state) {
-    (void)state;
     run_fails(1, "a filter needs all points",
               "ewa render t.copc.laz -o x.png --levels always --filter 'z>0'");
     run_fails(1, "--color-by needs all points",
@@ -137,7 +130,6 @@ static void test_refusals(void **state) {
 
 /// What a box keeps is the same whether the file is read whole or by nodes.
 static void test_crop(void **state) {
-    (void)state;
     static const char sorted[] = "--ascii | sort";
     run_done("ewa convert t.copc.laz -o - --filter 'x=0.2..0.7 and y=0.1..0.6 and z>=0' %s > a.txt", sorted);
     run_done("ewa convert t.copc.laz -o - --crop 0.2,0.1,0,0.7,0.6,1 %s > b.txt", sorted);
@@ -155,7 +147,6 @@ static void test_crop(void **state) {
 
 /// Folders of EPT are inputs as any file, and are drawn from their levels when that is asked for.
 static void test_folder(void **state) {
-    (void)state;
     run_done("mkdir -p e/ept-data e/ept-hierarchy && ewa generate sphere -n 5000 -o s.ply");
     run_done("ewa convert s.ply -o e/ept-data/0-0-0-0.laz && ewa convert s.ply -o - --ascii "
              "--crop 0,-1,-1,1,0,0 | sed '1,/end_header/d' | wc -l");

@@ -4,10 +4,7 @@
 // Octrees of so many points that they are drawn from their levels, and told about by a sample, without being asked to.
 #include "run_ewa.h"
 
-static int enter(void **state) {
-    (void)state;
-    return scratch_enter("lod_large");
-}
+static int enter(void **state) { return scratch_enter("lod_large"); }
 
 /// Whether a file of the scratch folder holds a text.
 static bool holds(const char *name, const char *text) {
@@ -16,7 +13,6 @@ static bool holds(const char *name, const char *text) {
 }
 
 static void test_large(void **state) {
-    (void)state;
     run_done("ewa generate plane -n 4010000 -o big.ply && ewa lod big.ply -o big.copc.laz && rm big.ply");
     run_done("ewa render big.copc.laz -o big.png --size 200x200 --stats s.json");
     assert_true(holds("s.json", "\"nodes_drawn\": "));

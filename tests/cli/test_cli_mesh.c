@@ -9,10 +9,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-static int enter(void **state) {
-    (void)state;
-    return scratch_enter("cli_mesh");
-}
+static int enter(void **state) { return scratch_enter("cli_mesh"); }
 
 #define XYZ(type) "property " type " x\nproperty " type " y\nproperty " type " z\n"
 
@@ -52,7 +49,6 @@ static const double origin[3] = {-1, -1, -1};
 
 /// The same picture from every format and under every name, also through a pipe.
 static void test_formats(void **state) {
-    (void)state;
     write_cube("cube", origin, 2);
     run_done("ewa render cube.obj -o obj.png --size 120x90");
     run_done("ewa render cube.ply -o ply.png --size 120x90");
@@ -104,7 +100,6 @@ static bool nearly_same(const char *first, const char *second) {
 /// At map coordinates and those of the earth's centre, the picture is that at the origin. The matrix of the
 /// camera that frames it holds its place to 2^-30 there.
 static void test_map_coordinates(void **state) {
-    (void)state;
     static const double places[][3] = {{-1, -1, -1}, {500000, 4200000, 0}, {6000000.5, -3000000.25, 1048576}};
     for (int i = 0; i < 3; i++) {
         char name[16];
@@ -147,7 +142,6 @@ static void test_map_coordinates(void **state) {
 }
 
 static void test_info(void **state) {
-    (void)state;
     write_cube("cube", origin, 2);
     static const char *const files[] = {"cube.ply", "cube.obj", "cube.off"}, *const formats[] = {"PLY", "OBJ",
                                                                                                  "OFF"};
@@ -169,7 +163,6 @@ static void test_info(void **state) {
 
 /// Faces stay where their vertices stay; else it is said.
 static void test_convert(void **state) {
-    (void)state;
     write_cube("cube", origin, 2);
     run_done("ewa convert cube.ply -o same.ply --ascii && ewa convert same.ply -o again.ply --big-endian && "
              "ewa convert again.ply -o back.ply --ascii");
@@ -201,7 +194,6 @@ static void test_convert(void **state) {
 
 /// Commands for points take the vertices, and say so.
 static void test_points_of_meshes(void **state) {
-    (void)state;
     write_cube("cube", origin, 2);
     static const char *const commands[] = {"surfels", "features --neighbours 0"};
     for (int c = 0; c < 2; c++)
@@ -217,7 +209,6 @@ static void test_points_of_meshes(void **state) {
 
 /// A mesh that names files of the machine gets none of them.
 static void test_named_files(void **state) {
-    (void)state;
     scratch_text("m.mtl", "newmtl m\nmap_Kd ../../../../../../etc/passwd\n");
     scratch_text("m.obj", "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nusemtl m\nf 1/1 2/1 3/1\n");
     assert_int_equal(run("ewa render m.obj -o m.png --size 40x40"), 0);

@@ -11,7 +11,6 @@
 static const char *mpi; // how ewa-mpi is started, up to the number of ranks
 
 static int enter(void **state) {
-    (void)state;
     if (scratch_enter("cli_mpi") != 0) return -1;
     return run("ewa generate terrain -n 60000 -o terrain.ply && ewa generate torus -n 20000 -o torus.ply && "
                "ewa generate ball -o ball.nrrd --dims 24,24,24 && ewa lod terrain.ply -o terrain.copc.laz && "
@@ -19,7 +18,6 @@ static int enter(void **state) {
 }
 
 static void test_one_picture(void **state) {
-    (void)state;
     static const char *const looks[] = {
         "",
         "--lod-spacing 2 --shading lambert --aov depth=%c_z.pfm,normal=%c_n.exr",
@@ -36,21 +34,22 @@ static void test_one_picture(void **state) {
         char look[2][256];
         for (int k = 0; k < 2; k++) // each writes planes of its own
             snprintf(look[k], sizeof look[k], looks[i], "ab"[k], "ab"[k]);
-        run_done("rm -f a.* b.* a_* b_*; ewa render %s.copc.laz --levels always --memory 64M --size 160x120 -o a.png %s",
+        run_done("rm -f a.* b.* a_* b_*; ewa render %s.copc.laz --levels always --memory 64M --size 160x120 "
+                 "-o a.png %s",
                  cloud, look[0]);
-        run_done(
-            "%s %d $EWA_MPI_PROGRAM render %s.copc.laz --levels always --memory 64M --size 160x120 -o b.png %s --threads 1",
-            mpi, 2 + (int)i % 3, cloud, look[1]);
+        run_done("%s %d $EWA_MPI_PROGRAM render %s.copc.laz --levels always --memory 64M --size 160x120 -o "
+                 "b.png %s --threads 1",
+                 mpi, 2 + (int)i % 3, cloud, look[1]);
         assert_true(scratch_same("a.png", "b.png"));
         if (i == 1) assert_true(scratch_same("a_z.pfm", "b_z.pfm") && scratch_same("a_n.exr", "b_n.exr"));
     }
-    run_done("%s 2 $EWA_MPI_PROGRAM render torus.copc.laz --levels always --memory 64M --size 64x48 -o b.png --stats s.json",
+    run_done("%s 2 $EWA_MPI_PROGRAM render torus.copc.laz --levels always --memory 64M --size 64x48 -o b.png "
+             "--stats s.json",
              mpi);
     assert_true(scratch_size("s.json") > 0);
 }
 
 static void test_films(void **state) {
-    (void)state;
     static const char *const films[] = {
         "render torus.ply --turntable 5 --size 64x48 --color-by z",
         "volume ball.nrrd --turntable 5 --size 32x32",
@@ -79,7 +78,6 @@ static void test_films(void **state) {
 }
 
 static void test_octree(void **state) {
-    (void)state;
     for (int ranks = 2; ranks <= 4; ranks++) {
         run_done("%s %d $EWA_MPI_PROGRAM lod terrain.ply torus.ply -o together.copc.laz", mpi, ranks);
         run_done("ewa lod terrain.ply torus.ply -o alone.copc.laz");
@@ -90,7 +88,6 @@ static void test_octree(void **state) {
 }
 
 static void test_refusals(void **state) {
-    (void)state;
     // Gaussians with sizes, colours and turns of some kind: 32 bytes each.
     uint8_t splats[4][32];
     for (int i = 0; i < 4; i++) {
@@ -125,17 +122,17 @@ static void test_refusals(void **state) {
 
 /// A rank that dies or stops amid a film: that has an end, soon, with an error, and every file that is there is whole.
 static void test_lost_ranks(void **state) {
-    (void)state;
-    run_done(
-        "rm -f [wp]_*; ewa render torus.copc.laz --levels always --memory 64M --turntable 400 --frames 0-0 --size 320x240 -o "
-        "w_%%03d.png");
+    run_done("rm -f [wp]_*; ewa render torus.copc.laz --levels always --memory 64M --turntable 400 --frames "
+             "0-0 --size 320x240 -o "
+             "w_%%03d.png");
     static const char *const signals[] = {"KILL", "STOP"};
     for (int i = 0; i < 2; i++)
         for (int shares_cloud = 0; shares_cloud < 2; shares_cloud++) {
             run_done("rm -f p_*");
             // The newest of the ranks is hit once the first frame is there.
             assert_int_not_equal(
-                run("%s 3 sh -c 'echo $$ >> pids; exec $EWA_MPI_PROGRAM render torus.copc.laz --levels always --memory 64M "
+                run("%s 3 sh -c 'echo $$ >> pids; exec $EWA_MPI_PROGRAM render torus.copc.laz --levels "
+                    "always --memory 64M "
                     "--turntable 400 --size "
                     "320x240 --threads 1 -o p_%%03d.png --time-limit 1 --split %s' & all=$!; while [ ! -e "
                     "p_000.png ]; do sleep 0.05; done; kill -%s $(tail -n 1 pids); date +%%s > hit; wait "

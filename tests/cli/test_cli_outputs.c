@@ -9,10 +9,7 @@
 #include "cli/base/outputs.h"
 #include "run_ewa.h"
 
-static int enter(void **state) {
-    (void)state;
-    return scratch_enter("cli_outputs");
-}
+static int enter(void **state) { return scratch_enter("cli_outputs"); }
 
 /// A command line that works but for where an option writes; %s: "--option file".
 typedef struct writing {
@@ -53,7 +50,6 @@ enum { WRITINGS = sizeof writings / sizeof writings[0] };
 
 /// The table above is whole: it has each option that writes, and what help says to write is such an option.
 static void test_table(void **state) {
-    (void)state;
     for (size_t c = 0; c < all_commands_count; c++) {
         const cli_option *option;
         for (size_t i = 0; (option = options_at(all_commands[c], i)); i++) {
@@ -85,7 +81,6 @@ static void refuse(const writing *what, const char *file, const char *said) {
 }
 
 static void test_no_folder(void **state) {
-    (void)state;
     for (size_t i = 0; i < WRITINGS; i++) {
         char file[64];
         snprintf(file, sizeof file, "nowhere/a%s", writings[i].suffix);
@@ -94,7 +89,6 @@ static void test_no_folder(void **state) {
 }
 
 static void test_folder_in_the_way(void **state) {
-    (void)state;
     run_done(
         "mkdir taken.png taken.copc.laz taken.pfm taken.json taken.ply taken.exr taken.nrrd taken_0.exr");
     for (size_t i = 0; i < WRITINGS; i++) {
@@ -106,7 +100,6 @@ static void test_folder_in_the_way(void **state) {
 }
 
 static void test_written_twice(void **state) {
-    (void)state;
     run_fails(2, "--stats: 'a.png' would be written twice", "ewa render in.ply -o a.png --stats a.png");
     run_fails(2, "--save-transfer: 'a.json' would be written twice",
               "ewa volume in.nrrd -o a.png --save-camera a.json --save-transfer a.json");
@@ -117,7 +110,6 @@ static void test_written_twice(void **state) {
 
 /// What is over all bounds is refused, not cut.
 static void test_long_names(void **state) {
-    (void)state;
     const cli_command *command = command_find("convert");
     static char arguments[1 << 17];
     char message[OPTION_ERROR_BYTES], path[6000];

@@ -10,7 +10,6 @@
 #include <sys/stat.h>
 
 static int enter(void **state) {
-    (void)state;
     if (scratch_enter("cli_parts") != 0) return -1;
     return run("ewa generate torus -n 5000 -o torus.ply && ewa generate ball -o ball.nrrd --dims 32,24,28 && "
                "ewa lod torus.ply -o torus.copc.laz && "
@@ -53,7 +52,6 @@ static void check_part(const film *of, int first, int last, int step) {
 }
 
 static void test_ranges(void **state) {
-    (void)state;
     static const int ranges[][2] = {{1, 2}, {0, 0}, {3, 3}, {2, 99}};
     for (size_t k = 0; k < FILM_COUNT; k++) {
         draw_whole(&films[k]);
@@ -66,7 +64,6 @@ static void test_ranges(void **state) {
 }
 
 static void test_round_robin(void **state) {
-    (void)state;
     for (size_t k = 0; k < FILM_COUNT; k++) {
         draw_whole(&films[k]);
         for (int part = 1; part <= 3; part++) {
@@ -86,7 +83,6 @@ static void test_round_robin(void **state) {
 
 /// Planes beside the picture, statistics and cameras of a part.
 static void test_beside(void **state) {
-    (void)state;
     run_done(
         "ewa render torus.ply -o a_%%d.exr --aov depth=ad_%%d.pfm --turntable 6 --size 64x48 --save-camera "
         "a.json "
@@ -107,7 +103,6 @@ static struct stat facts_of(const char *name) {
 }
 
 static void test_skip_existing(void **state) {
-    (void)state;
     const film *of = &films[0];
     draw_whole(of);
     run_done("ewa %s -o p_%%03d.png && rm p_002.png && : >p_004.png", of->command);
@@ -147,7 +142,6 @@ static void test_skip_existing(void **state) {
 }
 
 static void test_usage(void **state) {
-    (void)state;
     static const struct {
         const char *options, *said;
     } cases[] = {
@@ -183,7 +177,6 @@ static void test_usage(void **state) {
 
 /// A frame that cannot be written: the status says so, what is written stays, and is named by its own number.
 static void test_failure(void **state) {
-    (void)state;
     run("mkdir f_5.png");
     run_fails(1, "f_5.png|of 4 frames, |are written and stay: 1, 3",
               "ewa render torus.ply -o f_%%d.png --turntable 8 --size 64x48 --frames 2/2 --threads 1");
@@ -195,7 +188,6 @@ static void test_failure(void **state) {
 
 /// A film's range is that part of the film.
 static void test_film(void **state) {
-    (void)state;
     run_done("mkdir fake && printf '%%s\\n' '#!/bin/sh' 'for last; do :; done' 'cat >\"${last#file:}\"' "
              ">fake/ffmpeg && "
              "chmod +x fake/ffmpeg && PATH=$PWD/fake:$PATH && "
@@ -207,7 +199,6 @@ static void test_film(void **state) {
 
 /// Whatever moment it is killed at, what has a name is whole, and the rest can be drawn afterwards.
 static void test_killed(void **state) {
-    (void)state;
     static const char command[] = "render torus.ply --turntable 150 --size 320x240 --threads 2";
     run_done("ewa %s -o w_%%03d.png", command);
     for (int wanted = 1; wanted <= 9; wanted += 4) {
@@ -229,7 +220,6 @@ static void test_killed(void **state) {
 
 /// The script for Slurm, as a task of an array and by itself.
 static void test_script(void **state) {
-    (void)state;
     const film *of = &films[0];
     draw_whole(of);
     assert_int_equal(setenv("EWA", getenv("EWA_PROGRAM"), 1), 0);

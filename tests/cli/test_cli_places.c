@@ -17,10 +17,7 @@ static const char *const names[PLACES] = {"near", "map", "earth"};
 static const long long shifts_mm[PLACES][3] = {
     {0, 0, 0}, {500000000, 4200000000, 100000}, {4123456000, 654321000, 4808080000}};
 
-static int set_up(void **state) {
-    (void)state;
-    return scratch_enter("places");
-}
+static int set_up(void **state) { return scratch_enter("places"); }
 
 /// Writes a number of millimetres as metres.
 static int put_metres(FILE *file, long long mm) {
@@ -45,7 +42,6 @@ static void write_points(int place) {
 }
 
 static void test_points(void **state) {
-    (void)state;
     static const char *const suffixes[] = {"xyz", "csv", "ply", "pcd", "las", "laz"};
     for (int p = 0; p < PLACES; p++) {
         write_points(p);
@@ -80,7 +76,6 @@ static char *read_places(const char *name) {
 }
 
 static void test_digits(void **state) {
-    (void)state;
     static const char *const suffixes[] = {"xyz", "csv", "las", "laz"};
     for (int p = 0; p < PLACES; p++) {
         write_points(p);
@@ -128,7 +123,6 @@ static void write_mesh(int place, const char *suffix) {
 /// The matrix of a camera that counts from the centre of the earth holds its place to a nanometre, which a
 /// pixel may show; test_cli_mesh.c says how few.
 static void test_meshes(void **state) {
-    (void)state;
     static const char *const suffixes[] = {"obj", "off"};
     for (int p = 0; p < PLACES - 1; p++)
         for (int s = 0; s < 2; s++) {

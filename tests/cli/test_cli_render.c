@@ -9,7 +9,6 @@
 #include "image_difference.h"
 
 static int enter(void **state) {
-    (void)state;
     context = check_context(0, NULL);
     if (scratch_enter("cli_render") != 0) return -1;
     return run("ewa generate torus -n 20000 -o torus.ply && ewa generate sphere -n 5000 -o ball.ply && "
@@ -25,7 +24,6 @@ static double share_over(const ewa_image *image, uint32_t channel, float thresho
 }
 
 static void test_png(void **state) {
-    (void)state;
     run_done("ewa render ball.ply -o a.png --size 200x100");
     ewa_image image = load("a.png");
     assert_int_equal(image.width_px, 200);
@@ -48,7 +46,6 @@ static void test_png(void **state) {
 }
 
 static void test_exr(void **state) {
-    (void)state;
     run_done("ewa render torus.ply -o a.exr --size 160x90 --background transparent");
     ewa_image image = load("a.exr");
     assert_int_equal(image.channel_count, 4); // the loader takes R G B A
@@ -70,7 +67,6 @@ static void test_exr(void **state) {
 }
 
 static void test_planes(void **state) {
-    (void)state;
     run_done("ewa render ball.ply -o a.pfm --size 80x60 --aov depth=d.pfm,normal=n.exr,coverage=c.pfm "
              "--eye 0,-5,0 --up 0,0,1 --fov 30");
     ewa_image color = load("a.pfm"), depth = load("d.pfm"), normal = load("n.exr"), coverage = load("c.pfm");
@@ -88,7 +84,6 @@ static void test_planes(void **state) {
 }
 
 static void test_camera(void **state) {
-    (void)state;
     run_done("ewa render torus.ply -o a.png --size 160x90 --view right --save-camera c.json && "
              "ewa render torus.ply -o b.png --camera c.json");
     assert_true(scratch_same("a.png", "b.png"));
@@ -104,7 +99,6 @@ static void test_camera(void **state) {
 
 /// Every named view shows the whole torus: something in the middle half, nothing on the border.
 static void test_views(void **state) {
-    (void)state;
     static const char *const views[] = {"front", "back", "left", "right", "top", "bottom", "iso"};
     static const char *const projections[] = {"", "--ortho 2.6"};
     for (size_t i = 0; i < 14; i++) {
@@ -124,7 +118,6 @@ static void test_views(void **state) {
 
 /// The default view is one that options can ask for: docs/framing.md, test_cli_view.c.
 static void test_default_view(void **state) {
-    (void)state;
     static const char *const views[][3] = {{"plane", "", "--view top"},
                                            {"ball", "", "--view front --up 0,1,0"},
                                            {"ball", "--translate 500000,4000000,0", "--view iso --up 0,0,1"}};
@@ -137,7 +130,6 @@ static void test_default_view(void **state) {
 }
 
 static void test_far_points(void **state) {
-    (void)state;
     scratch_text("far.ply", "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\n"
                             "property float z\nproperty float nx\nproperty float ny\nproperty float nz\n"
                             "property uchar red\nproperty uchar green\nproperty uchar blue\n"
@@ -152,7 +144,6 @@ static void test_far_points(void **state) {
 
 /// A point far from all others is drawn, small: the picture is that without it but for a few pixels.
 static void test_isolated_point(void **state) {
-    (void)state;
     run_done(
         "ewa generate sphere -n 5000 --positions-only -o bare.ply && ewa convert bare.ply -o - --ascii "
         ">bare.txt && "
@@ -174,7 +165,6 @@ static void test_isolated_point(void **state) {
 }
 
 static void test_looks_differ(void **state) {
-    (void)state;
     static const char *const looks[] = {
         "",
         "--kernel affine --fov 90",
@@ -218,7 +208,6 @@ static void test_looks_differ(void **state) {
 
 /// Percentiles of numbers 0, 1, ..., 100 are the numbers; every colormap is another picture.
 static void test_colors(void **state) {
-    (void)state;
     static char text[8192] = "ply\nformat ascii 1.0\nelement vertex 102\nproperty float x\nproperty float y\n"
                              "property float z\nproperty float nx\nproperty float ny\nproperty float nz\n"
                              "property float radius\nproperty float q\nend_header\n";
@@ -258,7 +247,6 @@ static void test_colors(void **state) {
 
 /// Discs that the options make small stay so: gaps are closed where the file has them.
 static void test_small_discs(void **state) {
-    (void)state;
     run_done("ewa render ball.ply -o a.png --size 90x90 --radius-scale 0.3");
     assert_null(strstr(last_run.err, "gaps"));
     run_done("ewa render ball.ply -o b.png --size 90x90 --radius-scale 0.3 --close-gaps off");
@@ -267,7 +255,6 @@ static void test_small_discs(void **state) {
 
 /// The radii of discs do not depend on the cutoff, also beside files with axes, for which they become axes.
 static void test_cutoff_of_several(void **state) {
-    (void)state;
     scratch_text(
         "beside.ply",
         "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\n"
@@ -287,7 +274,6 @@ static void test_cutoff_of_several(void **state) {
 
 /// Coordinates whose differences are not finite are an error that says so.
 static void test_huge_coordinates(void **state) {
-    (void)state;
     scratch_text("huge.ply", "ply\nformat ascii 1.0\nelement vertex 3\nproperty double x\nproperty double y\n"
                              "property double z\nend_header\n1e300 0 0\n-1e300 1 0\n0 1e300 2\n");
     run_fails(1, "huge.ply: no camera can be placed: the coordinates, from -1e+300,0,0",
@@ -295,7 +281,6 @@ static void test_huge_coordinates(void **state) {
 }
 
 static void test_several_inputs(void **state) {
-    (void)state;
     run_done("ewa convert torus.ply ball.ply -o joined.ply && ewa render joined.ply -o a.png --size 96x64 && "
              "ewa render torus.ply ball.ply -o b.png --size 96x64");
     assert_true(scratch_same("a.png", "b.png"));
@@ -311,7 +296,6 @@ static void test_several_inputs(void **state) {
 
 /// A mesh is sampled.
 static void test_mesh(void **state) {
-    (void)state;
     scratch_text("square.obj", "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nf 1 2 3 4\n");
     run_done("ewa render square.obj -o a.png --size 100x100 --view top --background transparent "
              "--shading none");
@@ -325,7 +309,6 @@ static void test_mesh(void **state) {
 
 /// Files with clip lines keep them beside files without.
 static void test_clip_lines_of_one_file(void **state) {
-    (void)state;
     run_done("ewa generate cube --sharp -n 600 -o cube.ply");
     // Few points, so that the median coverage stays the cube's.
     run_done("ewa generate sphere -n 100 -o few.ply");
@@ -344,7 +327,6 @@ static void test_clip_lines_of_one_file(void **state) {
 /// A box and planes leave their part of a square, seen from above with the view of the whole; of the far side
 /// nothing is drawn.
 static void test_sections(void **state) {
-    (void)state;
     static const struct {
         const char *options;
         double part;
@@ -371,7 +353,6 @@ static void test_sections(void **state) {
 }
 
 static void test_streams(void **state) {
-    (void)state;
     run_done("ewa render torus.ply -o a.png --size 96x64 && cat torus.ply | ewa render - -o - --size 96x64 "
              ">b.png");
     assert_true(scratch_same("a.png", "b.png"));

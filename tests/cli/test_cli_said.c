@@ -14,7 +14,6 @@
 #define END     "end_header\n"
 
 static int enter(void **state) {
-    (void)state;
     if (scratch_enter("cli_said") != 0) return -1;
     return run("ewa generate sphere -n 3000 -o ball.ply && ewa generate plane -n 2000 -o sheet.ply && "
                "ewa generate torus -n 2000 -o torus.ply");
@@ -33,7 +32,6 @@ static void says(const char *words, const char *command) {
 }
 
 static void test_one_place(void **state) {
-    (void)state;
     scratch_text("lone.ply", HEAD("1") END "1 2 3\n");
     run_fails(1, "lone.ply: |one point only, at 1,2,3|radius", "ewa render lone.ply -o a.png");
     assert_null(strstr(last_run.err, "finite"));
@@ -48,7 +46,6 @@ static void test_one_place(void **state) {
 
 /// What is wrong with points that are left out is counted by its kind.
 static void test_faults(void **state) {
-    (void)state;
     scratch_text(
         "faults.ply", HEAD("6") NORMAL
         "property float radius\n" END
@@ -65,7 +62,6 @@ static void test_faults(void **state) {
 
 /// Colours that are no numbers are counted, as points are; those are drawn in grey.
 static void test_colors(void **state) {
-    (void)state;
     scratch_text("colors.ply", HEAD("4") NORMAL
                  "property float radius\nproperty float red\nproperty float green\n"
                  "property float blue\n" END
@@ -81,7 +77,6 @@ static void test_colors(void **state) {
 }
 
 static void test_csg_names_files(void **state) {
-    (void)state;
     run_fails(1, "sheet.ply is not closed", "ewa csg ball.ply sheet.ply --op union -o a.ply");
     assert_null(strstr(last_run.err, "operand"));
     run_fails(1, "sheet.ply is not closed", "ewa csg sheet.ply ball.ply --op difference -o a.ply");
@@ -89,7 +84,6 @@ static void test_csg_names_files(void **state) {
 
 /// Scenes of Gaussian splatting are named, whatever their columns hold besides.
 static void test_gaussians(void **state) {
-    (void)state;
     static const char columns[] = NORMAL
         "property float f_dc_0\nproperty float f_dc_1\nproperty float f_dc_2\n%sproperty float opacity\n"
         "property float scale_0\nproperty float scale_1\n%sproperty float rot_0\nproperty float rot_1\n"
@@ -138,7 +132,6 @@ static void test_gaussians(void **state) {
 
 /// Normals that are all zero are none, and estimated; surfels of them are drawn.
 static void test_zero_normals(void **state) {
-    (void)state;
     static char text[1 << 16];
     snprintf(text, sizeof text, HEAD("400") NORMAL END);
     for (int i = 0; i < 400; i++)
@@ -154,7 +147,6 @@ static void test_zero_normals(void **state) {
 
 /// Floats that are too coarse for where they are: a warning with both lengths.
 static void test_steps(void **state) {
-    (void)state;
     static const struct {
         double at, apart;
         bool warned;
@@ -189,7 +181,6 @@ static void test_steps(void **state) {
 
 /// A camera that sees nothing of what there is: a warning, once, with the number of frames.
 static void test_nothing_seen(void **state) {
-    (void)state;
     scratch_text("away.json", CAMERA("-9"));
     says("warning: the picture shows nothing|3000 splats", "ewa render ball.ply -o a.png --camera away.json");
     assert_ptr_equal(strchr(last_run.err, '\n'), last_run.err + strlen(last_run.err) - 1);
@@ -207,7 +198,6 @@ static void test_nothing_seen(void **state) {
 
 /// A path that fails midway: which file, which of its frames, and which pictures are there.
 static void test_path_fails(void **state) {
-    (void)state;
     scratch_text(
         "beside.json",
         "[" CAMERA("3") ", " CAMERA(
@@ -222,7 +212,6 @@ static void test_path_fails(void **state) {
 
 /// Poses with a lens from --fov, from numbers or from a file are cameras like others.
 static void test_poses(void **state) {
-    (void)state;
     static const char matrix[] = "1 0 0 0\n0 -1 0 0\n0 0 -1 4\n0 0 0 1\n"; // from +z, y up
     scratch_text("one.txt", matrix);
     scratch_text("two.log",

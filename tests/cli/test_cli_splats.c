@@ -15,7 +15,6 @@ static const char head[] =
 
 /// One of an upright pair: red above (y is down), blue below; with green ahead of both, or behind them.
 static int enter(void **state) {
-    (void)state;
     char text[4096];
     const int status = scratch_enter("cli_splats");
     snprintf(text, sizeof text, head, 2,
@@ -55,7 +54,6 @@ static void check_upright(const char *name) {
 }
 
 static void upright(void **state) {
-    (void)state;
     run_done("ewa render pair.ply -o trained.png --size 100x200");
     check_upright("trained.png");
     run_done("ewa render pair.ply -o exact.png --size 100x200 --projection exact --azimuth 30");
@@ -74,7 +72,6 @@ static void upright(void **state) {
 
 /// What is ahead hides what is behind; a wall hides all of what is behind it.
 static void hidden(void **state) {
-    (void)state;
     run_done("ewa render translucent.ply -o veiled.png --size 100x200");
     ewa_image image = load("veiled.png");
     assert_true(pixel(&image, 0.5, 0.3)[1] > 0.8f && pixel(&image, 0.5, 0.3)[0] < 0.3f);
@@ -92,7 +89,6 @@ static void hidden(void **state) {
 
 /// Several sets, volumes and surfaces are in one order of depth, in whichever order they are named.
 static void together(void **state) {
-    (void)state;
     run_done("ewa generate ball -o ball.nrrd --extent 3 && ewa generate sphere -o sphere.ply --extent 0.8");
     run_done("ewa render pair.ply ball.nrrd -o ball.png --size 100x200 --shading none");
     ewa_image image = load("ball.png"); // between red and blue, neither
@@ -147,7 +143,6 @@ static void together(void **state) {
 }
 
 static void surfaces(void **state) {
-    (void)state;
     run_done(
         "ewa render pair.ply -o surface.png --surface --shading none --size 100x200 --up 0,-1,0 --view back "
         "--aov normal=normal.pfm");
@@ -158,7 +153,6 @@ static void surfaces(void **state) {
 }
 
 static void films(void **state) {
-    (void)state;
     run_done("ewa render pair.ply -o turn_%%d.png --turntable 4 --size 60x120 --stats stats.json "
              "--save-camera cameras.json");
     for (int i = 0; i < 4; i++) {
@@ -171,7 +165,6 @@ static void films(void **state) {
 }
 
 static void refused(void **state) {
-    (void)state;
     const int before = scratch_count();
     run_fails(1, "pair.ply: |--color-by", "ewa render pair.ply -o x.png --color-by x");
     assert_int_equal(run("ewa render pair.ply -o lit.png --size 20x20 --shading phong --opacity 0.5"), 0);

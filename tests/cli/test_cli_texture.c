@@ -19,7 +19,6 @@ static void save(const char *name, uint32_t channels) {
 }
 
 static int enter(void **state) {
-    (void)state;
     context = check_context(0, NULL);
     if (scratch_enter("cli_texture") != 0) return -1;
     save("grey.exr", 1);
@@ -30,7 +29,6 @@ static int enter(void **state) {
 
 /// The same map said in four ways gives the same picture.
 static void test_maps(void **state) {
-    (void)state;
     run_done("ewa texture rgb.pfm -o a.exr --homography 2,0,10,0,2,5,0,0,1 --size 140x90");
     run_done("ewa texture rgb.pfm -o b.exr --homography -2,0,-10,0,-2,-5,0,0,-1 --size 140x90");
     run_done("ewa texture rgb.pfm -o c.exr --corners 10,5,130,5,130,85,10,85 --size 140x90");
@@ -52,7 +50,6 @@ static void test_maps(void **state) {
 
 /// All formats in and out, all methods; without a camera's options the whole image is seen.
 static void test_files(void **state) {
-    (void)state;
     static const char *const inputs[] = {"grey.exr", "rgb.png", "rgb.pfm"}, *const outputs[] = {
                                                                                 "o.png", "o.exr", "o.pfm"};
     static const char *const methods[] = {"hybrid", "splat", "point", "bilinear"};
@@ -80,7 +77,6 @@ static void test_files(void **state) {
 }
 
 static void test_usage(void **state) {
-    (void)state;
     run_fails(2, "texture: no output", "ewa texture rgb.png");
     run_fails(2, "an input is missing", "ewa texture -o n.png");
     run_fails(2, "one operand too many", "ewa texture rgb.png rgb.pfm -o n.png");

@@ -6,16 +6,12 @@
 
 #include "run_ewa.h"
 
-static int enter(void **state) {
-    (void)state;
-    return scratch_enter("cli_usage");
-}
+static int enter(void **state) { return scratch_enter("cli_usage"); }
 
 static const char *const commands[] = {"render", "info", "convert", "surfels", "generate", "bench"};
 enum { COMMAND_COUNT = sizeof commands / sizeof commands[0] };
 
 static void test_program_help(void **state) {
-    (void)state;
     run_done("ewa --help");
     for (size_t i = 0; i < COMMAND_COUNT; i++) assert_non_null(strstr(last_run.out, commands[i]));
     run_done("ewa --version");
@@ -27,7 +23,6 @@ static void test_program_help(void **state) {
 }
 
 static void test_command_help(void **state) {
-    (void)state;
     for (size_t i = 0; i < COMMAND_COUNT; i++) {
         run_done("ewa %s --help", commands[i]);
         char usage[64];
@@ -49,7 +44,6 @@ static void test_command_help(void **state) {
 }
 
 static void test_page(void **state) {
-    (void)state;
     static const char *const rows[][2] = {{"--help-markdown", "cli.md"}, {"--help-json", "options.json"}};
     for (int i = 0; i < 2; i++) {
         run_done("ewa %s", rows[i][0]);
@@ -66,7 +60,6 @@ static void test_page(void **state) {
 }
 
 static void test_wrong_usage(void **state) {
-    (void)state;
     run_fails(2, "'rendr': no such command; did you mean 'render'?", "ewa rendr");
     run_fails(2, "'--vresion': no such option; did you mean '--version'?", "ewa --vresion");
     run_fails(2, "'xyzzy': no such command; see 'ewa --help'", "ewa help xyzzy");

@@ -9,10 +9,7 @@
 
 #include "run_ewa.h"
 
-static int enter(void **state) {
-    (void)state;
-    return scratch_enter("cli_view");
-}
+static int enter(void **state) { return scratch_enter("cli_view"); }
 
 /// Points of a test object.
 typedef struct shape {
@@ -162,7 +159,6 @@ static void expect_shape(const char *name, shape of, const char *up, const char 
 
 /// What stands has a base that its weight is over, whichever axis is the longest.
 static void test_bases(void **state) {
-    (void)state;
     shape to = animal();
     expect_shape("animal.ply", to, "y", "iso"); // long in z: seen at an angle
     to = animal();
@@ -199,7 +195,6 @@ static void test_bases(void **state) {
 
 /// A man with his arms out is flat in z, and has two sides: no ground.
 static void test_flat_body(void **state) {
-    (void)state;
     shape to = {.random = {5}};
     add_box(&to, (double[3]){-0.2, 0.9, -0.1}, (double[3]){0.2, 1.75, 0.12}, 20000);
     add_box(&to, (double[3]){-0.9, 1.3, -0.05}, (double[3]){0.9, 1.42, 0.06}, 20000);
@@ -211,7 +206,6 @@ static void test_flat_body(void **state) {
 
 /// Ground is seen from above; so is what stands at map coordinates, flat or not, unless it is a tower.
 static void test_ground(void **state) {
-    (void)state;
     shape to = hills(0.4);
     expect_shape("ground_y.ply", to, "y", "iso");
     to = hills(0.4);
@@ -233,7 +227,6 @@ static void test_ground(void **state) {
 
 /// What is long and has no base lies; a box lies on its largest side.
 static void test_what_lies(void **state) {
-    (void)state;
     shape to = {.random = {8}};
     add_egg(&to, (double[3]){0.5, 2.2, 0.4}, -9, false, 20000);
     expect_shape("fish.ply", to, "z", "iso");
@@ -251,7 +244,6 @@ static void test_what_lies(void **state) {
 
 /// A drawing is seen face on, whichever plane it lies in.
 static void test_planes(void **state) {
-    (void)state;
     static const char *const ups[] = {"y", "z", "z"}, *const views[] = {"right", "front", "top"};
     for (int axis = 0; axis < 3; axis++) {
         shape to = {.random = {2}};
@@ -285,7 +277,6 @@ static ewa_camera saved_camera(const char *name) {
 
 /// What a camera at the origin saw is seen from there: upright, all of it, filling the picture.
 static void test_range_images(void **state) {
-    (void)state;
     for (int pixels = 0; pixels < 2; pixels++) {
         for (int sign = -1; sign <= 1; sign += 2) {
             expect_shape("range.ply", range_image(160, pixels, sign), sign > 0 ? "-y" : "y", "the origin");
@@ -328,7 +319,6 @@ static void test_range_images(void **state) {
 
 /// The kind of a file speaks where its shape does not.
 static void test_conventions(void **state) {
-    (void)state;
     static const char ascii[] =
         "solid s\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0.4\n"
         "vertex 0 1 0.7\nendloop\nendfacet\nfacet normal 0 0 1\nouter loop\n"
@@ -341,7 +331,6 @@ static void test_conventions(void **state) {
 
 /// Few points with discs of unequal sizes: none is cut by the frame, from any side.
 static void test_unequal_discs(void **state) {
-    (void)state;
     scratch_text("few.ply", "ply\nformat ascii 1.0\nelement vertex 5\nproperty float x\nproperty float y\n"
                             "property float z\nproperty float nx\nproperty float ny\nproperty float nz\n"
                             "property float radius\nend_header\n0 0 0 0 0 1 0.3\n0.2 0.1 0 0 0 1 0.3\n"
@@ -368,7 +357,6 @@ static void test_unequal_discs(void **state) {
 
 /// The camera depends neither on the order of the points, nor on copies of them, nor on the threads.
 static void test_order(void **state) {
-    (void)state;
     shape to = animal();
     while (to.count < 200000) add_box(&to, (double[3]){-0.4, 0.8, -1.5}, (double[3]){0.4, 1.6, 1.5}, 1500);
     shape shuffled = {.random = {13}};

@@ -8,13 +8,9 @@
 
 #include "run_ewa.h"
 
-static int enter(void **state) {
-    (void)state;
-    return scratch_enter("cli_view_real");
-}
+static int enter(void **state) { return scratch_enter("cli_view_real"); }
 
 static void test_real_files(void **state) {
-    (void)state;
     static const struct {
         const char *path, *up, *view;
     } files[] = {

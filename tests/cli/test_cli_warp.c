@@ -8,7 +8,6 @@
 
 /// A picture, its depth and its camera, from the program itself.
 static int enter(void **state) {
-    (void)state;
     if (scratch_enter("cli_warp")) return 1;
     run_done("ewa generate sphere --points 20000 -o ball.ply");
     run_done("ewa render ball.ply -o color.png --size 96x64 --aov depth=depth.pfm --save-camera cam.json");
@@ -18,7 +17,6 @@ static int enter(void **state) {
 }
 
 static void test_outputs(void **state) {
-    (void)state;
     run_done("ewa warp color.png depth.pfm --source-camera cam.json --camera cam.json -o same.png");
     run_done("ewa warp color.png depth.pfm --source-camera cam.json --shift 0.1,0,0.2 --method mcmillan -o "
              "near.png "
@@ -36,7 +34,6 @@ static void test_outputs(void **state) {
 }
 
 static void test_said(void **state) {
-    (void)state;
     // 8-bit depths are integers; their scale is guessed aloud.
     assert_int_equal(
         run("ewa warp color.png depth.pfm --source-camera cam.json --camera cam.json -o a.png --verbose"), 0);
@@ -47,7 +44,6 @@ static void test_said(void **state) {
 }
 
 static void test_usage(void **state) {
-    (void)state;
     static const char *const wrong[][2] = {
         {"color.png depth.pfm --source-camera cam.json --camera cam.json", "no output"},
         {"color.png depth.pfm --source-camera cam.json -o a.png", "no new camera"},
@@ -79,7 +75,6 @@ static void test_usage(void **state) {
 }
 
 static void test_failures(void **state) {
-    (void)state;
     static const char *const failing[][2] = {
         {"none.png depth.pfm --source-camera cam.json --shift 0,0,0", "none.png: |No such file"},
         {"color.png none.pfm --source-camera cam.json --shift 0,0,0", "none.pfm: |No such file"},

@@ -45,7 +45,6 @@ static bool run_helper(const char *helper, const char *path, double wall_s, uint
 }
 
 static void test_helpers(void **state) {
-    (void)state;
     static const struct {
         const char *script, *said; ///< NULL: it is well
     } cases[] = {
@@ -96,7 +95,6 @@ static void test_helpers(void **state) {
 }
 
 static void test_names(void **state) {
-    (void)state;
     static const char *const imported[] = {"a.fbx", "a.FBX", "x/y.dae", "a.3ds"}, *const not_imported[] = {
                                                                                       "a.obj",  "a.ply",
                                                                                       "a",      "fbx",
@@ -125,7 +123,6 @@ static const char collada[] =
 
 /// The real helper: a mesh, broken files, files that are none, no memory.
 static void test_real_helper(void **state) {
-    (void)state;
     const char *helper = getenv("EWA_IMPORT");
     char path[512];
     uint8_t *bytes;

@@ -42,7 +42,8 @@ static const cli_option sample_table[] = {
     {"size", OPTION_SIZE, AT(size), "WxH", .help = "h"},
     {"bounds", OPTION_BOUNDS, AT(bounds), "a,b", .help = "h"},
     {"set", OPTION_SET, AT(set), "WORD,...", "one|two|three", .help = "h"},
-    {"fitting", OPTION_SIZE, AT(fitting), "WxH", .help = "h", .absent = "auto: as it fits", .excludes = "flag"},
+    {"fitting", OPTION_SIZE, AT(fitting), "WxH", .help = "h", .absent = "auto: as it fits",
+     .excludes = "flag"},
 };
 
 static const option_group sample_group = OPTION_GROUP("Sample", sample_table);
@@ -72,7 +73,6 @@ static bool parse(const char *line) {
 }
 
 static void test_values(void **state) {
-    (void)state;
     assert_true(parse("--number 2.5 --integer=-3 --text a=b -f --antialias on --choice two a b"));
     assert_true(arguments.number == 2.5);
     assert_int_equal(arguments.integer, -3);
@@ -115,7 +115,6 @@ static void test_values(void **state) {
 
 /// The word of a default that is worked out is as if the option was not given, whatever was before it.
 static void test_default_words(void **state) {
-    (void)state;
     assert_true(parse("--fitting 3x4 --fitting auto -f") && !arguments.fitting.given && arguments.flag);
     assert_int_equal(arguments.fitting.width_px, 0);
     assert_true(parse("--fitting auto --fitting=3x4") && arguments.fitting.given);
@@ -133,7 +132,6 @@ static void test_default_words(void **state) {
 }
 
 static void test_refusals(void **state) {
-    (void)state;
     static const struct {
         const char *line, *said;
     } cases[] = {
@@ -197,7 +195,6 @@ static void test_refusals(void **state) {
 }
 
 static void test_tables(void **state) {
-    (void)state;
     for (size_t c = 0; c < all_commands_count; c++) {
         const cli_command *command = all_commands[c];
         assert_ptr_equal(command_find(command->name), command);
@@ -226,7 +223,6 @@ static void test_tables(void **state) {
 
 /// The default of each option, written as help shows it, is accepted by the parser.
 static void test_defaults_in_range(void **state) {
-    (void)state;
     for (size_t c = 0; c < all_commands_count; c++) {
         const cli_command *command = all_commands[c];
         char *defaults = calloc(1, command->arguments_bytes), *again = calloc(1, command->arguments_bytes);
@@ -352,7 +348,6 @@ static const cli_option *find_key(const cli_command *command, const char *key, s
 
 /// What the tables say of options beside each other holds in every command, in either order.
 static void test_together(void **state) {
-    (void)state;
     size_t pairs = 0, needs = 0;
     for (size_t c = 0; c < all_commands_count; c++) {
         const cli_command *command = all_commands[c];
@@ -393,7 +388,6 @@ static void test_together(void **state) {
 }
 
 static void test_nearest(void **state) {
-    (void)state;
     static const char *const names[] = {"render", "info", "convert"};
     assert_string_equal(options_nearest("rendr", 3, names), "render");
     assert_string_equal(options_nearest("convret", 3, names), "convert");
@@ -402,9 +396,13 @@ static void test_nearest(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_values),  cmocka_unit_test(test_refusals),
-        cmocka_unit_test(test_default_words), cmocka_unit_test(test_tables),  cmocka_unit_test(test_defaults_in_range),
-        cmocka_unit_test(test_nearest), cmocka_unit_test(test_together),
+        cmocka_unit_test(test_values),
+        cmocka_unit_test(test_refusals),
+        cmocka_unit_test(test_default_words),
+        cmocka_unit_test(test_tables),
+        cmocka_unit_test(test_defaults_in_range),
+        cmocka_unit_test(test_nearest),
+        cmocka_unit_test(test_together),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

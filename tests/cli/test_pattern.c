@@ -8,7 +8,6 @@
 #include <string.h>
 
 static void test_numbered(void **state) {
-    (void)state;
     static const char *const good[] = {"%d", "a%d.png", "a%04d.png", "a%9d", "%%%d%%", "f%%d_%02d.exr"};
     static const char *const bad[] = {"",      "a.png", "%%d",   "%d%d", "%i",   "%5",  "%s",    "%n",
                                       "a%10d", "a%ld",  "a%-3d", "a%+d", "a% d", "%0d", "%00d",  "%",
@@ -20,7 +19,6 @@ static void test_numbered(void **state) {
 }
 
 static void test_expand(void **state) {
-    (void)state;
     static const struct {
         const char *pattern;
         uint64_t number;

@@ -8,7 +8,6 @@
 #include <string.h>
 
 static void test_streams(void **state) {
-    (void)state;
     ewa_context *context = check_context(0, NULL);
     ewa_cloud *cloud = NULL;
     assert_int_equal(ewa_cloud_create(context, 3, &cloud), EWA_OK);
@@ -34,7 +33,6 @@ static void test_streams(void **state) {
 }
 
 static void test_borrowed_stride_and_bounds(void **state) {
-    (void)state;
     ewa_context *context = check_context(0, NULL);
     struct record {
         float x, y, z, unused;
@@ -56,7 +54,6 @@ static void test_borrowed_stride_and_bounds(void **state) {
 
 /// Packed numbers and those with others between them read the same, whatever their type.
 static void test_packed_and_strided(void **state) {
-    (void)state;
     enum { COUNT = 37, MAX_BYTES = 8 };
     ewa_context *context = check_context(0, NULL);
     for (int type = EWA_F32; type <= EWA_U32; type++) {
@@ -82,7 +79,6 @@ static void test_packed_and_strided(void **state) {
 }
 
 static void test_too_many_points(void **state) {
-    (void)state;
     check_log log = {0};
     ewa_context *context = check_context(0, &log);
     ewa_cloud *cloud = NULL;

@@ -11,13 +11,11 @@ static ewa_context *context;
 static check_log messages;
 
 static int enter(void **state) {
-    (void)state;
     context = check_context(2, &messages);
     return 0;
 }
 
 static int leave(void **state) {
-    (void)state;
     ewa_context_destroy(&context);
     return 0;
 }
@@ -54,7 +52,6 @@ static double number(const ewa_cloud *cloud, const char *name, uint64_t point, u
 }
 
 static void test_select(void **state) {
-    (void)state;
     ewa_cloud *cloud = make(10, EWA_F32, "intensity", EWA_U8), *part = NULL;
     const double origin[3] = {1e6, 2e6, 3};
     ewa_cloud_set_origin(cloud, origin);
@@ -80,7 +77,6 @@ static void test_select(void **state) {
 
 /// Streams with gaps between the points are read through their stride.
 static void test_select_borrowed(void **state) {
-    (void)state;
     const float records[] = {1, 2, 3, -1, 4, 5, 6, -1, 7, 8, 9, -1};
     ewa_cloud *cloud = NULL, *part = NULL, *both = NULL;
     assert_int_equal(ewa_cloud_create(context, 3, &cloud), EWA_OK);
@@ -97,7 +93,6 @@ static void test_select_borrowed(void **state) {
 }
 
 static void test_merge(void **state) {
-    (void)state;
     ewa_cloud *a = make(300, EWA_F32, "intensity", EWA_U8), *b = make(700, EWA_F64, "intensity", EWA_F32),
               *all = NULL;
     void *times = NULL;
@@ -148,7 +143,6 @@ static void add_constant(ewa_cloud *cloud, const char *name, ewa_type type, uint
 
 /// Colours of every kind become one, and those without become grey; classes become 0; normals need all.
 static void test_merge_colors(void **state) {
-    (void)state;
     static const struct {
         ewa_type types[2];
         uint32_t components[2];
@@ -197,7 +191,6 @@ static void test_merge_colors(void **state) {
 
 /// Reference systems that differ are named; one that is missing or the same says nothing.
 static void test_merge_systems(void **state) {
-    (void)state;
     ewa_cloud *parts[3], *all = NULL;
     for (int i = 0; i < 3; i++) parts[i] = make(4, EWA_F32, "intensity", EWA_U8);
     assert_int_equal(ewa_cloud_set_note(parts[0], "crs", "EPSG:32632", 10), EWA_OK);
@@ -227,7 +220,6 @@ static void add_triple(ewa_cloud *cloud, const char *name, float x, float y, flo
 
 /// A random affine map keeps what geometry says: normals stay across the axes, clip lines keep their points.
 static void test_transform(void **state) {
-    (void)state;
     check_random random = {7};
     for (int round = 0; round < 200; round++) {
         double m[16] = {0};
@@ -276,7 +268,6 @@ static void test_transform(void **state) {
 }
 
 static void test_transform_refusals(void **state) {
-    (void)state;
     ewa_cloud *cloud = make(2, EWA_F32, "a", EWA_U8);
     double m[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1};
     assert_int_equal(ewa_cloud_transform(cloud, m), EWA_ERROR_NUMERIC);

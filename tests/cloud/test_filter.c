@@ -12,13 +12,11 @@ static ewa_context *context;
 static check_log messages;
 
 static int enter(void **state) {
-    (void)state;
     context = check_context(2, &messages);
     return 0;
 }
 
 static int leave(void **state) {
-    (void)state;
     ewa_context_destroy(&context);
     return 0;
 }
@@ -68,7 +66,6 @@ static bool is_no_tenth(int i) { return i != 1 && i % 100 != 99; }
 static bool is_high(int i) { return 10 + 0.25 * i > 400; }
 
 static void test_expressions(void **state) {
-    (void)state;
     static const struct {
         const char *texts[2];
         expected *fulfils;
@@ -117,7 +114,6 @@ static void test_expressions(void **state) {
 }
 
 static void test_bad_texts(void **state) {
-    (void)state;
     static const char *const cases[][2] = {
         {"", "name of an attribute is missing"},
         {"classification", "a comparison (= != < <= > >=) is missing"},
@@ -155,7 +151,6 @@ static void test_bad_texts(void **state) {
 }
 
 static void test_unknown_attribute(void **state) {
-    (void)state;
     ewa_cloud *cloud = make_cloud();
     static const char *const words[] = {"height>1", "normal.x>1", "nx>1", "color.w>1", "alpha>1", ".x>1"};
     uint8_t marks[POINTS] = {0};
@@ -181,7 +176,6 @@ static void test_unknown_attribute(void **state) {
 
 /// A name that is the same wins over one that is alike, an attribute over a word for a component.
 static void test_names(void **state) {
-    (void)state;
     ewa_cloud *cloud = make_cloud();
     ewa_scalar scalar;
     assert_int_equal(ewa_cloud_add(cloud, "ReturnNumber", EWA_U8, 1, NULL), EWA_OK);
@@ -210,7 +204,6 @@ static void test_names(void **state) {
 
 /// Coordinates of a grid are the decimals of the file, whatever the binary fractions make of them.
 static void test_grid(void **state) {
-    (void)state;
     ewa_cloud *cloud = NULL;
     void *data;
     assert_int_equal(ewa_cloud_create(context, 1000, &cloud), EWA_OK);
@@ -236,7 +229,6 @@ static void test_grid(void **state) {
 
 /// The pieces of a cloud, of any size, give what the whole does, and so does any number of threads.
 static void test_pieces_and_keep(void **state) {
-    (void)state;
     ewa_cloud *cloud = make_cloud();
     ewa_filter filter = {.term_count = 0};
     assert_int_equal(ewa_filter_add(&filter, "classification=2,6 and red<100", NULL), EWA_OK);
@@ -285,7 +277,6 @@ static int compare_numbers(const void *a, const void *b) {
 
 /// A number by its rank is that of the sorted ones, of any sign and size, equal ones among them.
 static void test_ranks(void **state) {
-    (void)state;
     enum { MAXIMUM = 300 };
     check_random random = {12};
     for (size_t count = 1; count <= MAXIMUM; count += count < 10 ? 1 : 29) {

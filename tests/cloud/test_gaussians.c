@@ -90,7 +90,6 @@ static void check_moved(const double m[16], const double turn[9], uint32_t sh_de
 }
 
 static void similar(void **state) {
-    (void)state;
     // A turn about a slanted axis, twice as large.
     const double turn[9] = {2.0 / 3,  -1.0 / 3, 2.0 / 3, 2.0 / 3, 2.0 / 3,
                             -1.0 / 3, -1.0 / 3, 2.0 / 3, 2.0 / 3};
@@ -104,13 +103,11 @@ static void similar(void **state) {
 }
 
 static void mirrored(void **state) {
-    (void)state;
     const double m[16] = {1, 0, 0, 0, 0, -1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
     check_moved(m, (const double[]){1, 0, 0, 0, -1, 0, 0, 0, 1}, 4);
 }
 
 static void stretched(void **state) {
-    (void)state;
     const double m[16] = {2, 0, 0, 0, 0, 0.5, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
     check_moved(m, (const double[]){1, 0, 0, 0, 1, 0, 0, 0, 1}, 2);
     const double sheared[16] = {1, 0.5, 0, 0, 0, 1, 0.25, 0, 0, 0, 1, 0, 0, 0, 0, 1};
@@ -119,7 +116,6 @@ static void stretched(void **state) {
 
 /// Flat ones stay flat, with the third axis as the normal.
 static void flat(void **state) {
-    (void)state;
     ewa_context *context = check_context(1, NULL);
     ewa_gaussians set;
     assert_int_equal(ewa_gaussians_create(context, 1, 0, &set), EWA_OK);
@@ -139,7 +135,6 @@ static void flat(void **state) {
 
 /// The shortest axis is the normal, wherever it is; colours are of the display, clouds hold light.
 static void surfels(void **state) {
-    (void)state;
     static const float scales[3][3] = {{3, 2, 1}, {3, 1, 2}, {1, 3, 2}};
     for (int shortest = 2, n = 0; shortest >= 0; shortest--, n++) {
         ewa_context *context = check_context(1, NULL);

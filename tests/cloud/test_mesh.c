@@ -7,7 +7,6 @@
 #include "prepare/mesh_shapes.h"
 
 static void test_streams(void **state) {
-    (void)state;
     check_log log = {0};
     ewa_context *context = check_context(1, &log);
     ewa_mesh mesh;
@@ -35,7 +34,6 @@ static void test_streams(void **state) {
 }
 
 static void test_weld(void **state) {
-    (void)state;
     ewa_context *context = check_context(1, NULL);
     const double places[][3] = {{1, 2, 3},
                                 {0, 0, 0},
@@ -74,7 +72,6 @@ static bool is_closed(const ewa_mesh *mesh) {
 }
 
 static void test_closed(void **state) {
-    (void)state;
     check_log log = {0};
     ewa_context *context = check_context(1, &log);
     ewa_mesh mesh;

@@ -45,7 +45,6 @@ static void order_points(uint32_t threads, const float *xyz, uint32_t count, uin
 
 /// Interleaves bit by bit the cells of the one grid that a cloud without dense cells needs.
 static void test_against_plain_sort(void **state) {
-    (void)state;
     enum { COUNT = 200000 };
     float *xyz = random_points(COUNT, 1);
     plain_item *items = calloc(COUNT, sizeof *items);
@@ -100,7 +99,6 @@ static float *hostile_points(uint32_t count) {
 }
 
 static void test_threads(void **state) {
-    (void)state;
     enum { COUNT = 150000 };
     static const uint32_t threads[] = {2, 7, 32};
     float *xyz = hostile_points(COUNT);
@@ -135,7 +133,6 @@ static void test_threads(void **state) {
 
 /// An outlier so far away that all others share a cell leaves their order as it was.
 static void test_outlier(void **state) {
-    (void)state;
     enum { COUNT = 100000 };
     float *xyz = random_points(COUNT, 4);
     uint32_t *alone = calloc(COUNT, sizeof *alone), *order = calloc(COUNT, sizeof *order);
@@ -151,7 +148,6 @@ static void test_outlier(void **state) {
 
 /// Doubles of georeferenced data are told apart to the last digit.
 static void test_double(void **state) {
-    (void)state;
     enum { COUNT = 1000 };
     double xyz[3 * COUNT];
     uint32_t order[COUNT], finite = 0;
@@ -173,7 +169,6 @@ static void test_double(void **state) {
 /// The smallest level inside a run says how large a cell holds it: runs cut there are boxes that do not
 /// overlap.
 static void test_split_levels(void **state) {
-    (void)state;
     enum { COUNT = 50000 };
     float *xyz = random_points(COUNT, 5);
     uint32_t *order = calloc(COUNT, sizeof *order);
@@ -200,7 +195,6 @@ static void test_split_levels(void **state) {
 }
 
 static void test_few(void **state) {
-    (void)state;
     ewa_context *context = check_context(2, NULL);
     float xyz[3 * 40] = {0};
     const ewa_attribute position = positions_of(xyz);

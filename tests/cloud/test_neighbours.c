@@ -171,7 +171,6 @@ static void check_against_brute_force(int kind, uint32_t count, uint32_t k) {
 }
 
 static void test_against_brute_force(void **state) {
-    (void)state;
     for (int kind = 0; kind < KINDS; kind++) {
         check_against_brute_force(kind, 5000, 16);
         check_against_brute_force(kind, 3000, 6);
@@ -180,14 +179,12 @@ static void test_against_brute_force(void **state) {
 }
 
 static void test_few_points(void **state) {
-    (void)state;
     for (int kind = 0; kind < KINDS; kind++)
         for (uint32_t count = 0; count < 40; count++) check_against_brute_force(kind, count, 16);
 }
 
 /// The same neighbourhoods for any number of threads and any instruction set.
 static void test_threads_and_machines(void **state) {
-    (void)state;
     enum { COUNT = 20000 };
     static const uint32_t threads[] = {1, 7, 32, 2, 2};
     static const uint32_t masks[] = {EWA_CPU_ALL, EWA_CPU_ALL, EWA_CPU_ALL, EWA_CPU_AVX2, 0};
@@ -216,7 +213,6 @@ static void test_threads_and_machines(void **state) {
 
 /// Georeferenced doubles: the neighbourhoods of the same points near the origin.
 static void test_double(void **state) {
-    (void)state;
     enum { COUNT = 4000, K = 12 };
     double *xyz = calloc(3 * (size_t)COUNT, sizeof *xyz);
     check_random random = {5};
@@ -245,7 +241,6 @@ static void test_double(void **state) {
 
 /// Places are where their points are, read from any place on.
 static void test_positions(void **state) {
-    (void)state;
     enum { COUNT = 3000, STEP = 700 };
     double *xyz = calloc(3 * (size_t)COUNT, sizeof *xyz);
     float *single = calloc(3 * (size_t)COUNT, sizeof *single);
@@ -286,7 +281,6 @@ static void count_lanes(void *user, const ewa_block *block, uint32_t worker) {
 
 /// Clumps and far outliers cost no more than in proportion.
 static void test_clumps(void **state) {
-    (void)state;
     enum { COUNT = 200000 };
     float *xyz = calloc(3 * (size_t)COUNT, sizeof *xyz);
     check_random random = {6};
@@ -330,7 +324,6 @@ static void keep_radii(void *user, const ewa_block *block, uint32_t worker) {
 /// Places that are searched alone find what they find among others, whatever the search begins with: the
 /// radius of a sparse leaf before a dense one, or a spacing that is wrong by any factor.
 static void test_chosen(void **state) {
-    (void)state;
     enum { SPARSE = 200, COUNT = 4000 };
     static float xyz[3 * COUNT], spacing[COUNT];
     static double all[COUNT], some[COUNT];
@@ -376,7 +369,6 @@ static void check_places(void *user, const ewa_block *block, uint32_t worker) {
 
 /// Doubles whose squared distances overflow: only places that are there are found, or none.
 static void test_overflow(void **state) {
-    (void)state;
     enum { COUNT = 600 };
     double *xyz = calloc(3 * (size_t)COUNT, sizeof *xyz);
     check_random random = {7};

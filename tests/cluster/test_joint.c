@@ -58,7 +58,6 @@ static void hold(subject *of, int index) {
 }
 
 static void test_bytes_of_one_process(void **state) {
-    (void)state;
     ewa_context *context = check_context(1, NULL);
     for (int i = 0; i < JOINT_FRAMES; i++) {
         subject of;
@@ -124,7 +123,6 @@ static void give_plane(const ewa_exchange *exchange, void *data) {
 }
 
 static void test_bytes_of_the_model(void **state) {
-    (void)state;
     for (uint32_t count = 2; count <= 4; count++) {
         double shares[RANKS_MAX] = {0};
         ranks_run(count, 0, give_plane, shares);
@@ -154,7 +152,6 @@ static void gather_and_add(const ewa_exchange *exchange, void *data) {
 }
 
 static void test_gather_and_add(void **state) {
-    (void)state;
     for (uint32_t count = 1; count <= RANKS_MAX; count++) {
         bool right[RANKS_MAX] = {false};
         ranks_run(count, 0, gather_and_add, right);
@@ -163,7 +160,6 @@ static void test_gather_and_add(void **state) {
 }
 
 static void test_bad_exchanges(void **state) {
-    (void)state;
     ewa_context *context = check_context(1, NULL);
     ewa_renderer *renderer = NULL;
     const ewa_exchange nothing = {.rank_count = 1};

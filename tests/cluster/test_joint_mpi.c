@@ -12,7 +12,6 @@ static mpi_exchange ranks;
 static bool never(void) { return false; }
 
 static void test_bytes_of_one_process(void **state) {
-    (void)state;
     const ewa_exchange exchange = mpi_exchange_of(&ranks);
     ewa_context *context = check_context(1, NULL);
     ewa_renderer *joint = NULL, *alone = NULL;

@@ -11,13 +11,11 @@
 static ewa_context *context;
 
 static int begin(void **state) {
-    (void)state;
     context = check_context(1, NULL);
     return 0;
 }
 
 static int finish(void **state) {
-    (void)state;
     ewa_context_destroy(&context);
     return 0;
 }
@@ -104,7 +102,6 @@ static const double AHEAD[3] = {0, 0, -1};
 
 /// Discs that face the camera end at 0.04 of the width from either side.
 static void test_room(void **state) {
-    (void)state;
     const disc discs[] = {
         {{-1, 0, 0}, 0.02, {0, 0, 1}}, {{0, 0.1, 0}, 0.02, {0, 0, 1}}, {{1, 0, 0}, 0.05, {0, 0, 1}}};
     ewa_cloud *cloud = make_cloud(discs, 3);
@@ -118,7 +115,6 @@ static void test_room(void **state) {
 /// No disc of a few unequal ones reaches over the frame, whichever way it faces and from wherever it is seen;
 /// nor is the frame much larger than they are.
 static void test_unequal_discs(void **state) {
-    (void)state;
     static const double directions[][3] = {{0, 0, -1}, {1, 0, 0}, {0, -1, 0}, {-1, -1, -1}, {-0.3, 0.2, 0.5}};
     check_random random = {5};
     for (int round = 0; round < 40; round++) {
@@ -159,7 +155,6 @@ static double distance_of(const ewa_camera *camera) {
 
 /// A disc of 2.9 times the median is framed as any other; of a giant one as much as of one of three times.
 static void test_giant_disc(void **state) {
-    (void)state;
     enum { COUNT = 100 };
     static const double radii[] = {0.1, 0.29, 0.3, 100, 1e30};
     disc discs[COUNT];
@@ -186,7 +181,6 @@ static void test_giant_disc(void **state) {
 
 /// Axes of surfels count by the longer axis of their ellipse, which need not be one of them.
 static void test_axes(void **state) {
-    (void)state;
     ewa_cloud *cloud = NULL;
     double *position = NULL;
     float *u = NULL, *v = NULL;
@@ -209,7 +203,6 @@ static void test_axes(void **state) {
 
 /// Points without a radius that is drawn have no rim, and do not count for the median.
 static void test_no_radius(void **state) {
-    (void)state;
     const disc discs[] = {{{0, 0, 0}, NAN, {0, 0, 1}},
                           {{1, 0, 0}, 0, {0, 0, 1}},
                           {{0, 1, 0}, -1, {0, 0, 1}},
@@ -226,7 +219,6 @@ static void test_no_radius(void **state) {
 
 /// The lens of an eye at the origin shows all discs, as large as it goes.
 static void test_zoom(void **state) {
-    (void)state;
     static const double origin[3] = {0, 0, 0}, up[3] = {0, 1, 0};
     const disc discs[] = {{{-1, 0.2, -4}, 0.2, {0, 0, 1}},
                           {{0, 0, -5}, 0.3, {0, 0, 1}},
@@ -247,7 +239,6 @@ static void test_zoom(void **state) {
 
 /// A share of less than 0.005 of the points that makes the box three times as large is left outside.
 static void test_far_points(void **state) {
-    (void)state;
     enum { COUNT = 10000 };
     static disc discs[COUNT];
     static const struct {
@@ -280,7 +271,6 @@ static void test_far_points(void **state) {
 
 /// The body of all turns holds every point in every turn, closely, with its disc.
 static void test_revolve(void **state) {
-    (void)state;
     static const double axis[3] = {0, 0, 2}, directions[][3] = {{0, 1, 0}, {0, 0, -1}, {1, 2, -1}};
     const disc discs[] = {
         {{1, 0, 0}, 0.1, {0, 0, 1}}, {{3, 4, 1}, 0.2, {0, 0, 1}}, {{0, 2, 3}, 0.15, {1, 0, 0}}};
@@ -320,7 +310,6 @@ static void test_revolve(void **state) {
 
 /// What a caller may know of a framing, which outlives its cloud.
 static void test_info(void **state) {
-    (void)state;
     const disc discs[] = {
         {{-1, 0, 2}, 0.1, {0, 0, 1}}, {{3, 4, 1}, 0.1, {0, 0, 1}}, {{0, 2, 3}, 0.1, {1, 0, 0}}};
     ewa_cloud *cloud = make_cloud(discs, 3);
@@ -351,7 +340,6 @@ static void expect_failure(ewa_status status, ewa_status expected, check_log *lo
 
 /// What cannot be framed says why, and leaves cameras as they were.
 static void test_failures(void **state) {
-    (void)state;
     static const double zero[3] = {0, 0, 0}, up[3] = {0, 1, 0};
     check_log log = {.count = 0};
     ewa_context *own = check_context(1, &log), *others = context;
@@ -406,7 +394,6 @@ static void test_failures(void **state) {
 
 /// Whichever allocation fails, all memory is given back.
 static void test_memory(void **state) {
-    (void)state;
     check_memory memory = {.calls_left = -1};
     ewa_context_options options;
     ewa_context_options_init(&options, sizeof options);

@@ -80,7 +80,6 @@ static ewa_upright chosen_at_origin(ewa_up_convention convention) {
 
 /// A plane is thinner than 1e-4 of the size, and wider than that.
 static void test_planes(void **state) {
-    (void)state;
     start();
     add_block(0, 1.85e-4, -1, 1, -1, 1, 5000);
     EXPECT(EWA_UP_ANY, 1, EWA_VIEW_RIGHT, "plane");
@@ -98,7 +97,6 @@ static void test_planes(void **state) {
 
 /// Map coordinates are over 100 sizes from the origin; what is 1.5 times higher than wide there is a tower.
 static void test_maps(void **state) {
-    (void)state;
     for (int tower = 0; tower < 2; tower++) {
         const double size = tower ? 3.2 : 2.8;
         start();
@@ -113,7 +111,6 @@ static void test_maps(void **state) {
 
 /// Ground is lower than 0.4 of its width, and has something above it in less than 0.3 of its places.
 static void test_ground(void **state) {
-    (void)state;
     for (int within = 0; within < 2; within++) {
         start();
         const double height = within ? 0.74 : 0.86;
@@ -145,7 +142,6 @@ static void make_pixels(int columns, int rows, double across, double down, int k
 
 /// Pixels are few columns or rows against the points, lie within 45 degrees and are no strip.
 static void test_pixels(void **state) {
-    (void)state;
     for (int within = 0; within < 2; within++) {
         make_pixels(80, 60, within ? 0.93 : 1.08, 0.5, 20);
         ewa_upright chosen = chosen_at_origin(EWA_UP_ANY);
@@ -180,7 +176,6 @@ static void make_view(double layered, int columns) {
 /// Where less than 0.15 of the directions have something behind another, 0.3 of those of pixels, a camera
 /// took what is aimed at.
 static void test_camera_views(void **state) {
-    (void)state;
     for (int within = 0; within < 2; within++) {
         make_view(within ? 0.135 : 0.165, 0);
         ewa_upright chosen = chosen_at_origin(EWA_UP_ANY);
@@ -223,7 +218,6 @@ static double share_of(int axis, bool *stable) {
 
 /// What stands has a base of 0.2 of its footprint, 0.3 against the usual axis.
 static void test_base_shares(void **state) {
-    (void)state;
     for (int large = 0; large < 2; large++) {
         make_footed(large ? 0.22 : 0.18);
         assert_float_equal(share_of(1, NULL), large ? 0.22 : 0.18, 0.005);
@@ -252,7 +246,6 @@ static void make_prism(double bottom, double depth) {
 /// A base is twice as large as the other one; bases of 0.6 are those of a box, which lies when it is lower
 /// than 0.4 of its width.
 static void test_boxes(void **state) {
-    (void)state;
     for (int large = 0; large < 2; large++) {
         make_prism(large ? 0.55 : 0.45, 1.5);
         assert_float_equal(share_of(1, NULL), large ? 0.55 : 0.45, 0.03);
@@ -276,7 +269,6 @@ static void test_boxes(void **state) {
 
 /// What is twice as long as wide, and has no base, lies.
 static void test_tall(void **state) {
-    (void)state;
     start();
     add_diamond(0, 0.5, 0.92, 0.4);
     EXPECT(EWA_UP_ANY, 1, EWA_VIEW_FRONT, "nothing speaks");
@@ -295,7 +287,6 @@ static void test_tall(void **state) {
 
 /// From the front; iso where it is lower than 0.4 of its width, or 1.5 times as deep as wide and not higher.
 static void test_views(void **state) {
-    (void)state;
     assert_int_equal(ewa_upright_view((double[3]){1, 0.37, 1.2}, 1), EWA_VIEW_ISO);
     assert_int_equal(ewa_upright_view((double[3]){1, 0.43, 1.2}, 1), EWA_VIEW_FRONT);
     assert_int_equal(ewa_upright_view((double[3]){1, 1.2, 0.37}, 2), EWA_VIEW_ISO);
@@ -308,7 +299,6 @@ static void test_views(void **state) {
 
 /// A floor with a peak in its middle, and a roof over a share of it: an open sheet has no base.
 static void test_open_sheets(void **state) {
-    (void)state;
     for (int closed = 0; closed < 2; closed++) {
         start();
         const double roof = closed ? 0.165 : 0.135;
@@ -338,7 +328,6 @@ static void make_on_plate(double end, double lift, int below) {
 
 /// The middle has to be over the base, 0.05 of the footprint's size from its rim.
 static void test_stable(void **state) {
-    (void)state;
     bool stable = false;
     make_on_plate(0.466, 0, 0);
     assert_float_equal(share_of(1, &stable), 0.534, 0.01);
@@ -359,7 +348,6 @@ static void test_stable(void **state) {
 
 /// A base is what is within 0.02 of the size above the lowest points, but for 0.002 of them.
 static void test_base_height(void **state) {
-    (void)state;
     make_on_plate(0.3, 0.018, 0);
     assert_float_equal(share_of(1, NULL), 0.7, 0.02);
     make_on_plate(0.3, 0.022, 0);
@@ -372,7 +360,6 @@ static void test_base_height(void **state) {
 
 /// One surface is behind another when it is three cells away.
 static void test_layers(void **state) {
-    (void)state;
     for (int apart = 0; apart < 2; apart++) {
         start();
         for (int i = 0; i < 60000; i++)
@@ -392,7 +379,6 @@ static void test_layers(void **state) {
 
 /// The convention that all names share, by their suffixes in any case.
 static void test_conventions(void **state) {
-    (void)state;
     static const struct {
         size_t count;
         const char *paths[3];
@@ -425,7 +411,6 @@ static void expect_look(int axis, bool reversed, ewa_named_view view, const doub
 
 /// Where each side is, with y, z and -y up.
 static void test_looks(void **state) {
-    (void)state;
     expect_look(2, false, EWA_VIEW_FRONT, V(0, 1, 0), V(0, 0, 1), __LINE__);
     expect_look(2, false, EWA_VIEW_BACK, V(0, -1, 0), V(0, 0, 1), __LINE__);
     expect_look(2, false, EWA_VIEW_LEFT, V(1, 0, 0), V(0, 0, 1), __LINE__);
@@ -442,7 +427,6 @@ static void test_looks(void **state) {
 
 /// The eye goes counter-clockwise about the axis, then up; over a pole up turns along.
 static void test_turns(void **state) {
-    (void)state;
     const double *axis = V(0, 0, 1);
     double ahead[3] = {0, 1, 0}, up[3] = {0, 0, 1};
     assert_int_equal(ewa_upright_turn(axis, 90, 0, ahead, up), EWA_OK); // the eye from -y to +x
@@ -460,7 +444,6 @@ static void test_turns(void **state) {
 
 /// The words that a program prints.
 static void test_words(void **state) {
-    (void)state;
     char text[EWA_UPRIGHT_TEXT_BYTES];
     ewa_upright upright = {.axis = 2, .view = EWA_VIEW_ISO, .why = "map coordinates"};
     ewa_upright_describe(&upright, text);
@@ -473,7 +456,6 @@ static void test_words(void **state) {
 
 /// What a cloud's framing chooses is what its points choose; in another order too.
 static void test_of_cloud(void **state) {
-    (void)state;
     ewa_context *context = check_context(1, NULL);
     make_footed(0.33);
     const ewa_upright direct = chosen_at_origin(EWA_UP_Z_USUAL);

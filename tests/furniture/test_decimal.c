@@ -22,7 +22,6 @@ static const char *ticks_text(double low, double high, uint32_t maximum) {
 }
 
 static void test_ticks(void **state) {
-    (void)state;
     static const struct {
         double low, high;
         uint32_t maximum;
@@ -62,7 +61,6 @@ static void test_ticks(void **state) {
 /// However the range lies: no more steps than asked for, at least a fifth as many less one, all within the range, and
 /// no neighbour left out.
 static void test_tick_properties(void **state) {
-    (void)state;
     check_random random = {5};
     for (int i = 0; i < 20000; i++) {
         const double size = pow(10, check_uniform(&random, -250, 250));
@@ -87,7 +85,6 @@ static void test_tick_properties(void **state) {
 }
 
 static void test_write(void **state) {
-    (void)state;
     static const struct {
         ewa_decimal number;
         const char *text;
@@ -118,7 +115,6 @@ static void test_write(void **state) {
 }
 
 static void test_near(void **state) {
-    (void)state;
     static const struct {
         double value;
         const char *text;
@@ -151,7 +147,6 @@ static void test_near(void **state) {
 }
 
 static void test_nice(void **state) {
-    (void)state;
     static const struct {
         double maximum;
         int64_t digits;

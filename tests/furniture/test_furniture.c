@@ -51,7 +51,6 @@ static uint32_t lowest_run(const ewa_canvas *canvas, uint32_t *end) {
 
 /// The scale bar is as long as it says, on canvases of the picture's size and of others, near the lower right corner.
 static void test_scale_bar(void **state) {
-    (void)state;
     static const struct {
         double scale_px;
         uint32_t wanted_px;
@@ -105,7 +104,6 @@ static int count_of(const ewa_canvas *canvas, int channel, double x, double y, i
 
 /// Axes point where the camera sees them point: red x, green y, blue z.
 static void test_axes(void **state) {
-    (void)state;
     ewa_canvas canvas = painting_make(720, 720, white);
     ewa_furniture_options options = no_furniture();
     options.axes = true;
@@ -133,7 +131,6 @@ static void test_axes(void **state) {
 
 /// The colour bar has the colormap's colours, the last one at the top; a legend has those of its categories.
 static void test_colors(void **state) {
-    (void)state;
     ewa_canvas canvas = painting_make(1280, 720, white);
     const ewa_camera camera = map_camera(&canvas, 10);
     ewa_furniture_options options = no_furniture();
@@ -191,7 +188,6 @@ static double luminance(const uint8_t *pixel) {
 /// On any ground, given ink or not, all of the letters' ink has something near it that it can be told from: a contrast
 /// of 4.5 at least, as WCAG 2 asks of text.
 static void test_legible(void **state) {
-    (void)state;
     const uint8_t *const grounds[] = {black, white, grey};
     for (int ground = 0; ground < 3; ground++) {
         for (int ink = EWA_INK_AUTO; ink <= EWA_INK_LIGHT; ink++) {
@@ -237,7 +233,6 @@ static void test_legible(void **state) {
 
 /// Titles that are too long end in dots, within the canvas, and in the middle of it.
 static void test_shorten(void **state) {
-    (void)state;
     char text[EWA_LAYOUT_TEXT_BYTES];
     assert_true(ewa_layout_shorten("Short", 20, 500, text));
     assert_string_equal(text, "Short");
@@ -294,7 +289,6 @@ static ewa_furniture_options all_furniture(bool legend) {
 
 /// Canvases of every shape: nothing beside them is written, and what has no room is left out.
 static void test_room(void **state) {
-    (void)state;
     static const uint32_t sizes[][2] = {{1, 1},      {16, 16},    {1, 500},    {500, 1},
                                         {40, 30},    {64, 48},    {100, 80},   {160, 120},
                                         {200, 2000}, {2000, 200}, {320, 1200}, {3840, 2160}};
@@ -319,7 +313,6 @@ static void test_room(void **state) {
 
 /// One number as range, and one that is too narrow to be told apart: no ticks that lie, no crash.
 static void test_degenerate_ranges(void **state) {
-    (void)state;
     static const double ranges[][2] = {{5, 5},          {0, 0},           {1e16, 1e16 + 2},
                                        {-1e308, 1e308}, {5e-324, 1e-323}, {1e-310, 1}};
     for (size_t k = 0; k < sizeof ranges / sizeof ranges[0]; k++) {
@@ -338,7 +331,6 @@ static void test_degenerate_ranges(void **state) {
 
 /// What the contract excludes is refused with the name of the member, and nothing is drawn.
 static void test_refused(void **state) {
-    (void)state;
     check_log log = {.count = 0};
     ewa_context *context = check_context(1, &log);
     ewa_canvas canvas = painting_make(640, 480, white), bare = painting_make(640, 480, white);
@@ -383,7 +375,6 @@ static void test_refused(void **state) {
 
 /// The same bytes on every machine.
 static void test_golden(void **state) {
-    (void)state;
     static const uint64_t wanted[2] = {UINT64_C(0x63f8a141e555b726), UINT64_C(0xad321c233212d2e1)};
     for (int legend = 0; legend < 2; legend++) {
         ewa_canvas canvas = painting_make(900, 720, white);

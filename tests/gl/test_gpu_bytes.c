@@ -42,7 +42,6 @@ static void draw(ewa_renderer *renderer, ewa_surfels *const *parts, const char *
 }
 
 static void test_division_has_no_say(void **state) {
-    (void)state;
     static const char *const tunings[][2] = {{"tile_px=8 unit=1 page=3", "tile_px=16 storage=4500000"},
                                              {"tile_px=4 unit=7 page=100", "tile_px=16 unit=5000"},
                                              {"tile_px=16 unit=100 page=7", "storage=4500000"}};
@@ -76,7 +75,6 @@ static void test_division_has_no_say(void **state) {
 }
 
 static void test_order_has_no_say(void **state) {
-    (void)state;
     static const scene_kind kinds[] = {SCENE_SPHERE, SCENE_CUBE, SCENE_TORUS};
     ewa_context *context = check_context(0, NULL);
     picture expected = picture_make(WIDTH_PX, HEIGHT_PX), found = picture_make(WIDTH_PX, HEIGHT_PX);
@@ -107,7 +105,6 @@ static void test_order_has_no_say(void **state) {
 
 /// Surfels that are freed and made again at the same address are other surfels.
 static void test_surfels_come_and_go(void **state) {
-    (void)state;
     ewa_context *context = check_context(0, NULL);
     picture expected = picture_make(WIDTH_PX, HEIGHT_PX), found = picture_make(WIDTH_PX, HEIGHT_PX);
     ewa_renderer *cpu = NULL, *gl = open_tuned(context, "");

@@ -26,7 +26,6 @@ static ewa_gl_verdict try_arithmetic(const char *text) {
 
 /// Emulation gives the bits of the processor where a device's own operations do not; without it, it is only close.
 static void test_classes(void **state) {
-    (void)state;
     const ewa_gl_verdict own = try_arithmetic(""), emulated = try_arithmetic("arith=emulated"),
                          close = try_arithmetic("arith=close");
     assert_true(emulated.exact && !emulated.differs);
@@ -46,7 +45,6 @@ static void test_classes(void **state) {
 
 /// Arithmetic that rounds otherwise: at least 60 dB, and at most one pixel in 10^5 off by more than a level.
 static void test_close_pictures(void **state) {
-    (void)state;
     enum { SIDE_PX = GPU_MAX_PX };
     static uint8_t planes[2][4 * SIDE_PX * SIDE_PX];
     tune("arith=close");
@@ -88,7 +86,6 @@ static long resident_kib(void) {
 
 /// A thousand sizes: no error of OpenGL, and no more memory than the largest takes.
 static void test_resizes(void **state) {
-    (void)state;
     enum { SIZES = 1000, WARM = 100, MAX_PX = 40, ALLOWED_KIB = 24 << 10 };
     static uint8_t rgba8[4 * MAX_PX * MAX_PX];
     gpu_scene at;
@@ -115,7 +112,6 @@ static void test_resizes(void **state) {
 
 /// A hundred renderers, each with its device, programs and surfels.
 static void test_creations(void **state) {
-    (void)state;
     enum { RENDERERS = 100, WARM = 20, SIDE_PX = 16, ALLOWED_KIB = 64 << 10 };
     static uint8_t rgba8[4 * SIDE_PX * SIDE_PX];
     check_memory memory = {.calls_left = -1};
@@ -150,7 +146,6 @@ static void test_creations(void **state) {
 
 /// A context of the caller's own stays current.
 static void test_outside_stays(void **state) {
-    (void)state;
     tune("");
     ewa_context *context = check_context(1, NULL);
     ewa_gl *outside = NULL;

@@ -11,13 +11,11 @@ static gpu_scene at;
 static uint8_t rgba8[4 * GPU_MAX_PX * GPU_MAX_PX];
 
 static int enter(void **state) {
-    (void)state;
     gpu_scene_make(&at, POINTS, WIDTH_PX, HEIGHT_PX);
     return 0;
 }
 
 static int leave(void **state) {
-    (void)state;
     unsetenv("EWA_GL_TUNING");
     gpu_scene_free(&at);
     return 0;
@@ -45,7 +43,6 @@ static void draw_same(ewa_renderer *renderer, int frames) {
 }
 
 static void test_no_device(void **state) {
-    (void)state;
     tune("nodevice=1");
     ewa_renderer *renderer = NULL;
     assert_int_equal(ewa_renderer_create_on(at.context, EWA_BACKEND_GL, &renderer), EWA_ERROR_UNSUPPORTED);
@@ -65,7 +62,6 @@ static void test_no_device(void **state) {
 }
 
 static void test_arguments(void **state) {
-    (void)state;
     tune("");
     ewa_renderer *renderer = NULL;
     assert_int_equal(ewa_renderer_create_on(at.context, (ewa_backend_kind)77, &renderer), EWA_ERROR_ARGUMENT);
@@ -91,7 +87,6 @@ static void test_arguments(void **state) {
 
 /// Software is not what anybody wants to wait for.
 static void test_software_is_not_taken(void **state) {
-    (void)state;
     tune("");
     ewa_gpu_info info = {.struct_size = sizeof info};
     assert_int_equal(ewa_gpu_describe(at.context, &info), EWA_OK);
@@ -108,7 +103,6 @@ static void test_software_is_not_taken(void **state) {
 
 /// Both are measured; the bytes never tell which it was.
 static void test_both_draw(void **state) {
-    (void)state;
     tune("software=1 auto=gl");
     ewa_renderer *renderer = make(EWA_BACKEND_AUTO);
     static const char *const wanted[] = {"cpu", "gl", "cpu", "gl", "gl"};
@@ -134,7 +128,6 @@ static void test_both_draw(void **state) {
 
 /// The device ends in one of the waits of a frame; whichever it is, nothing is missing from the picture.
 static void test_device_goes(void **state) {
-    (void)state;
     static const char *const ways[] = {"lose", "hang"}, *const said[] = {"was reset", "hangs"};
     for (int way = 0; way < 2; way++)
         for (int wait = 1; wait <= 4; wait++) {
@@ -160,7 +153,6 @@ static void test_device_goes(void **state) {
 
 /// Storage so small that frames are drawn in bands, then so small that none can be drawn.
 static void test_little_memory(void **state) {
-    (void)state;
     gpu_scene_resize(&at, 96, 384);
     tune("storage=1500000");
     at.log.count = 0;
@@ -192,7 +184,6 @@ static void test_little_memory(void **state) {
 /// A device that has too few storage blocks is none for this pipeline; one that takes few groups at a time
 /// gets them in turns.
 static void test_small_limits(void **state) {
-    (void)state;
     tune("blocks=8");
     ewa_renderer *renderer = NULL;
     assert_int_equal(ewa_renderer_create_on(at.context, EWA_BACKEND_GL, &renderer), EWA_ERROR_UNSUPPORTED);

@@ -21,7 +21,6 @@ typedef struct fixture {
 static fixture shared;
 
 static int set_up(void **state) {
-    (void)state;
     shared.context = check_context(0, &shared.log);
     assert_int_equal(ewa_renderer_create(shared.context, &shared.cpu), EWA_OK);
     const ewa_status status = ewa_renderer_create_on(shared.context, EWA_BACKEND_GL_RASTER, &shared.raster);
@@ -31,7 +30,6 @@ static int set_up(void **state) {
 }
 
 static int tear_down(void **state) {
-    (void)state;
     ewa_renderer_destroy(&shared.cpu);
     ewa_renderer_destroy(&shared.raster);
     ewa_context_destroy(&shared.context);
@@ -151,7 +149,6 @@ static void hold(const char *what, const ewa_surfels *surfels, const view *of) {
 }
 
 static void test_kernels(void **state) {
-    (void)state;
     if (!shared.raster) skip();
     static const char *const names[] = {"perspective", "affine", "source", "circular", "raycast"};
     ewa_bounds bounds;
@@ -175,7 +172,6 @@ static void test_kernels(void **state) {
 }
 
 static void test_options(void **state) {
-    (void)state;
     if (!shared.raster) skip();
     ewa_bounds bounds;
     ewa_surfels *surfels = make_surfels(EWA_OBJECT_TERRAIN, false, &bounds);
@@ -203,7 +199,6 @@ static void test_options(void **state) {
 }
 
 static void test_lines(void **state) {
-    (void)state;
     if (!shared.raster) skip();
     ewa_bounds bounds;
     ewa_surfels *surfels = make_surfels(EWA_OBJECT_CSG, true, &bounds);
@@ -225,7 +220,6 @@ static void test_lines(void **state) {
 
 /// Several sources of different weights; rows of a picture that is drawn in bands are those of the whole.
 static void test_sources_and_bands(void **state) {
-    (void)state;
     if (!shared.raster) skip();
     ewa_bounds bounds;
     ewa_surfels *surfels[2] = {make_surfels(EWA_OBJECT_CUBE, false, &bounds),
@@ -261,7 +255,6 @@ static void test_sources_and_bands(void **state) {
 
 /// Three materials, highlights and what mirrors.
 static void test_materials(void **state) {
-    (void)state;
     if (!shared.raster) skip();
     enum { SKY_HEIGHT = 32, SKY_WIDTH = 2 * SKY_HEIGHT, MATERIALS = 3 };
     static float sky[3 * SKY_WIDTH * SKY_HEIGHT];
@@ -304,7 +297,6 @@ static void test_materials(void **state) {
 
 /// What is wider than any device's pictures is refused, with a reason; the renderer goes on.
 static void test_refusal(void **state) {
-    (void)state;
     if (!shared.raster) skip();
     enum { WIDE = 65535 };
     ewa_bounds bounds;
@@ -357,7 +349,6 @@ static object_counts count_objects(void) {
 
 /// Other sizes and options leave no objects behind.
 static void test_objects(void **state) {
-    (void)state;
     if (!shared.raster) skip();
     enum { TURNS = 61, WARM = 30 };
     ewa_renderer *renderer = NULL;

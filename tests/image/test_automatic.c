@@ -27,7 +27,6 @@ static void expect(const char *what, double value, double low, double high) {
 
 /// A tree in noisy air, whatever the noise, with and without zeros around it.
 static void test_bonsai(void **state) {
-    (void)state;
     static const phantom_scan scans[] = {
         {12, 5, true}, {12, 5, false}, {14, 7, true}, {2, 1, false}, {30, 5, true}};
     ewa_context *context = check_context(1, NULL);
@@ -52,7 +51,6 @@ static void test_bonsai(void **state) {
 
 /// A nut in a cup: the cup is left out.
 static void test_walnut(void **state) {
-    (void)state;
     static const struct {
         phantom_scan scan;
         double cup, thick, shell, kernel;
@@ -80,7 +78,6 @@ static void test_walnut(void **state) {
 /// A head in computed tomography: skin and bone, the one through the other. In magnetic resonance, where bone
 /// is dark, the skin is solid.
 static void test_heads(void **state) {
-    (void)state;
     ewa_context *context = check_context(1, NULL);
     phantom scene = phantom_make(4);
     phantom_add_head(&scene, 70, 72, 170);
@@ -115,7 +112,6 @@ static void test_heads(void **state) {
 
 /// The same look of the same matter: turned, mirrored, in other numbers, with a few that are far off or none.
 static void test_same_look(void **state) {
-    (void)state;
     ewa_context *context = check_context(1, NULL);
     phantom scene = phantom_make(12);
     phantom_add_bonsai(&scene, 60, 80, 100, 140);
@@ -164,7 +160,6 @@ static void test_same_look(void **state) {
 
 /// Whatever comes, there is a look, and it shows something where there is something.
 static void test_odd_volumes(void **state) {
-    (void)state;
     static const uint32_t sizes[][3] = {{1, 1, 2},   {2, 1, 1}, {27, 1, 1},   {1, 9, 3},
                                         {64, 64, 1}, {5, 5, 5}, {40, 3, 2000}};
     ewa_context *context = check_context(1, NULL);
@@ -203,7 +198,6 @@ static void test_odd_volumes(void **state) {
 
 /// Volumes that are filled to their faces show their denser half.
 static void test_full_volume(void **state) {
-    (void)state;
     ewa_context *context = check_context(1, NULL);
     phantom scene = phantom_make(40);
     for (int i = 0; i < PHANTOM_VOXELS; i++)
@@ -222,7 +216,6 @@ static void test_full_volume(void **state) {
 /// Nearly all voxels have the value next to the highest, and the lowest is in a row that is not looked at: no
 /// class begins above the last threshold.
 static void test_highest_class(void **state) {
-    (void)state;
     enum { SIDE = 128 };
     ewa_context *context = check_context(1, NULL);
     const uint32_t dims[3] = {SIDE, SIDE, SIDE};
@@ -242,7 +235,6 @@ static void test_highest_class(void **state) {
 /// A look along one column of voxels, from its two ends: three voxels in front hide, two do not; a gap of
 /// three parts, one of two does not. Across, lines are too short to meet anything.
 static void test_sight(void **state) {
-    (void)state;
     static const struct {
         const char *column; // o: outer, i: inner, anything else: neither
         double hit, hidden, apart;

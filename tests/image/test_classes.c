@@ -7,7 +7,6 @@
 #include <math.h>
 
 static void test_names(void **state) {
-    (void)state;
     static const struct {
         uint32_t code;
         const char *name;
@@ -31,7 +30,6 @@ static void test_names(void **state) {
 
 /// What the classes are called is what they look like.
 static void test_known_colors(void **state) {
-    (void)state;
     uint8_t ground[3], tree[3], building[3], water[3];
     ewa_class_color(2, ground), ewa_class_color(5, tree), ewa_class_color(6, building),
         ewa_class_color(9, water);
@@ -49,7 +47,6 @@ static double distance(const uint8_t a[3], const uint8_t b[3]) {
 
 /// Known classes are told apart, and so are any twelve codes in a row beyond; of the first 120 no two are alike.
 static void test_apart(void **state) {
-    (void)state;
     for (uint32_t i = 0; i < 400; i++) {
         for (uint32_t j = i < 19 ? 0 : i < 31 ? 19 : i - 12; j < i; j++) {
             uint8_t a[3], b[3];

@@ -16,7 +16,6 @@ enum { MAPS = sizeof maps / sizeof maps[0] };
 
 /// Colours of the published tables, exact at their places: first, entry 128, last.
 static void test_known(void **state) {
-    (void)state;
     static const struct {
         ewa_colormap map;
         uint8_t rgb[3][3];
@@ -42,7 +41,6 @@ static void test_known(void **state) {
 /// Moreland's own table of "cool to warm" (33 places) at its ends, quarters and middle. Published rounded,
 /// from another conversion to XYZ: within 4.
 static void test_coolwarm(void **state) {
-    (void)state;
     static const int anchors[5][3] = {
         {59, 76, 192}, {141, 176, 254}, {221, 221, 221}, {244, 154, 123}, {180, 4, 38}};
     for (int k = 0; k < 5; k++) {
@@ -64,7 +62,6 @@ static double lightness(ewa_colormap map, double number) {
 
 /// Sequential maps get lighter all the way, evenly; coolwarm rises to its middle and falls from there.
 static void test_lightness(void **state) {
-    (void)state;
     for (int k = 0; k < MAPS; k++) {
         if (maps[k] == EWA_COLORMAP_TURBO) continue;
         const double low = lightness(maps[k], 0), high = lightness(maps[k], 1);
@@ -80,7 +77,6 @@ static void test_lightness(void **state) {
 
 /// No jumps, and clamped outside of [0, 1].
 static void test_smooth(void **state) {
-    (void)state;
     for (int map = 0; map < MAPS; map++) {
         uint8_t last[3], next[3], end[3];
         ewa_colormap_color(maps[map], 0, last);

@@ -31,7 +31,6 @@ static float constant(uint32_t x, uint32_t y, uint32_t channel) {
 }
 
 static void test_constants_stay(void **state) {
-    (void)state;
     static const uint32_t sizes[][2] = {{1, 1}, {2, 1}, {64, 32}, {37, 21}, {5, 40}, {100, 3}};
     ewa_context *context = check_context(1, NULL);
     for (size_t i = 0; i < sizeof sizes / sizeof sizes[0]; i++)
@@ -72,7 +71,6 @@ static double mean_of(const ewa_environment_level *level) {
 }
 
 static void test_levels_keep_the_mean(void **state) {
-    (void)state;
     ewa_context *context = check_context(1, NULL);
     ewa_environment *made = make(context, 96, 48, 3, noise);
     const double mean = mean_of(&made->levels[0]);
@@ -90,7 +88,6 @@ static float lone_texel(uint32_t x, uint32_t y, uint32_t channel) {
 }
 
 static void test_texels_are_round(void **state) {
-    (void)state;
     enum { WIDTH = 64, HEIGHT = 32 };
     ewa_context *context = check_context(1, NULL);
     ewa_environment *made = make(context, WIDTH, HEIGHT, 1, lone_texel);
@@ -116,7 +113,6 @@ static float wild(uint32_t x, uint32_t y, uint32_t channel) {
 }
 
 static void test_wild_numbers(void **state) {
-    (void)state;
     check_log log = {0};
     ewa_context *context = check_context(1, &log);
     ewa_environment *made = make(context, 12, 6, 3, wild);

@@ -9,7 +9,6 @@
 #include <string.h>
 
 static void test_create_and_free(void **state) {
-    (void)state;
     check_log log = {0};
     ewa_context *context = check_context(1, &log);
     ewa_image image;
@@ -28,7 +27,6 @@ static void test_create_and_free(void **state) {
 
 /// What many tests measure with.
 static void test_difference(void **state) {
-    (void)state;
     ewa_context *context = check_context(1, NULL);
     ewa_image a, b, c;
     assert_int_equal(ewa_image_create(context, 2, 2, 3, &a), EWA_OK);

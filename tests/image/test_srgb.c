@@ -16,7 +16,6 @@ static double decode_by_pow(double srgb) {
 }
 
 static void test_thresholds_are_where_the_code_changes(void **state) {
-    (void)state;
     for (int code = 1; code < 256; code++) {
         const float threshold = ewa_srgb_threshold[code], before = nextafterf(threshold, 0);
         const double exact = decode_by_pow((code - 0.5) / 255);
@@ -27,7 +26,6 @@ static void test_thresholds_are_where_the_code_changes(void **state) {
 }
 
 static void test_eight_bits_everywhere(void **state) {
-    (void)state;
     union {
         uint32_t bits;
         float value;
@@ -45,7 +43,6 @@ static void test_eight_bits_everywhere(void **state) {
 }
 
 static void test_outside_is_clamped(void **state) {
-    (void)state;
     assert_int_equal(ewa_srgb8_from_linear(NAN), 0);
     assert_int_equal(ewa_srgb8_from_linear(-INFINITY), 0);
     assert_int_equal(ewa_srgb8_from_linear(-0.0f), 0);
@@ -58,7 +55,6 @@ static void test_outside_is_clamped(void **state) {
 }
 
 static void test_codes_survive_the_round_trip(void **state) {
-    (void)state;
     for (int code = 0; code < 256; code++) {
         assert_int_equal(ewa_srgb8_from_linear(ewa_srgb_decoded[code]), code);
         assert_true(ewa_srgb_decoded[code] == (float)decode_by_pow(code / 255.0));
@@ -67,7 +63,6 @@ static void test_codes_survive_the_round_trip(void **state) {
 }
 
 static void test_curve_matches_pow(void **state) {
-    (void)state;
     for (int i = 0; i <= 1000000; i++) {
         const double x = i / 1e6;
         if (fabs(ewa_srgb_encode(x) - encode_by_pow(x)) > 1e-15) fail_msg("encode(%.6f)", x);

@@ -182,7 +182,6 @@ static void hold_scene(ewa_context *context, uint64_t seed, random_scene *made) 
 }
 
 static void test_random(void **state) {
-    (void)state;
     ewa_context *context = check_context(0, NULL);
     for (uint64_t seed = 0; seed < EWA_RANDOM_SCENES; seed++) {
         random_scene made;
@@ -194,7 +193,6 @@ static void test_random(void **state) {
 }
 
 static void test_named(void **state) {
-    (void)state;
     ewa_context *context = check_context(0, NULL);
     random_scene made;
     for (uint32_t i = 0; named_scene_make(context, i, &made); i++) {

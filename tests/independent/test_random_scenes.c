@@ -52,7 +52,6 @@ static double hold(ewa_context *context, const char *set, uint64_t number, rando
 }
 
 static void test_random(void **state) {
-    (void)state;
     ewa_context *context = check_context(0, NULL);
     double pipeline[SCENES];
     for (uint64_t i = 0; i < SCENES; i++) {
@@ -68,7 +67,6 @@ static void test_random(void **state) {
 }
 
 static void test_named(void **state) {
-    (void)state;
     ewa_context *context = check_context(0, NULL);
     random_scene made;
     for (uint32_t i = 0; named_scene_make(context, i, &made); i++) {
@@ -80,7 +78,6 @@ static void test_named(void **state) {
 
 /// The scale must not read zero where something is wrong.
 static void test_distance(void **state) {
-    (void)state;
     ewa_context *context = check_context(0, NULL);
     random_scene made;
     random_scene_make(context, 1, &made);

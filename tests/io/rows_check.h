@@ -14,14 +14,12 @@ static ewa_context *context;
 static check_log messages;
 
 static inline int set_up(void **state) {
-    (void)state;
     memset(&messages, 0, sizeof messages);
     context = check_context(2, &messages);
     return 0;
 }
 
 static inline int tear_down(void **state) {
-    (void)state;
     ewa_context_destroy(&context);
     return 0;
 }

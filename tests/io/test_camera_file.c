@@ -55,7 +55,6 @@ static ewa_status load_text(ewa_context *context, const char *text, uint32_t ind
 }
 
 static void test_every_format_gives_the_same_camera(void **state) {
-    (void)state;
     ewa_context *context = check_context(1, NULL);
     ewa_camera camera;
     const char *const texts[] = {NATIVE, OPEN3D, TRANSFORMS, STACKS};
@@ -70,7 +69,6 @@ static void test_every_format_gives_the_same_camera(void **state) {
 
 /// Open3D has pixel centres at whole numbers: what it calls the middle of its pictures is the middle of ours.
 static void test_open3d_middle(void **state) {
-    (void)state;
     ewa_context *context = check_context(1, NULL);
     ewa_camera camera;
     char text[600];
@@ -85,7 +83,6 @@ static void test_open3d_middle(void **state) {
 
 /// A lens comes from every format, without the pose, and from Open3D's file of a lens alone.
 static void test_lens(void **state) {
-    (void)state;
     check_log log = {0};
     ewa_context *context = check_context(1, &log);
     static const char alone[] =
@@ -122,7 +119,6 @@ static void test_lens(void **state) {
 }
 
 static void test_many_cameras(void **state) {
-    (void)state;
     check_log log = {0};
     ewa_context *context = check_context(1, &log);
     char path[512], text[2000];
@@ -144,7 +140,6 @@ static void test_many_cameras(void **state) {
 }
 
 static void test_round_trip_is_exact(void **state) {
-    (void)state;
     ewa_context *context = check_context(1, NULL);
     char path[512];
     scratch_path("saved.json", path);
@@ -171,7 +166,6 @@ static void test_round_trip_is_exact(void **state) {
 }
 
 static void test_transforms_lens(void **state) {
-    (void)state;
     check_log log = {0};
     ewa_context *context = check_context(1, &log);
     ewa_camera camera;
@@ -210,7 +204,6 @@ static void test_transforms_lens(void **state) {
 }
 
 static void test_messages_name_the_member(void **state) {
-    (void)state;
     static const struct {
         const char *text, *said;
     } cases[] = {
@@ -287,7 +280,6 @@ static void test_messages_name_the_member(void **state) {
 }
 
 static void test_every_truncation_is_refused(void **state) {
-    (void)state;
     check_log log = {0};
     ewa_context *context = check_context(1, &log);
     const char *const texts[] = {NATIVE, OPEN3D, TRANSFORMS, INRIA, STACKS};
@@ -321,7 +313,6 @@ static void receive(void *user, uint32_t index, const ewa_camera *camera) {
 
 /// A list that was written comes back bit by bit, in order; a broken file hands over nothing.
 static void test_list(void **state) {
-    (void)state;
     ewa_context *context = check_context(1, NULL);
     char path[512];
     scratch_path("list.json", path);
@@ -351,7 +342,6 @@ static void test_list(void **state) {
 }
 
 static void test_refuses_to_write_nonsense(void **state) {
-    (void)state;
     check_log log = {0};
     ewa_context *context = check_context(1, &log);
     char path[512];
@@ -425,7 +415,6 @@ static void check_colmap(ewa_context *context, check_log *log, const char *folde
 }
 
 static void test_colmap(void **state) {
-    (void)state;
     check_log log = {0};
     ewa_context *context = check_context(1, &log);
     static const char *const names[] = {"cameras.txt", "images.txt", "cameras.bin", "images.bin"};
@@ -474,7 +463,6 @@ static ewa_status read_colmap(ewa_context *context, bool is_text, const void *le
 }
 
 static void test_broken_colmap(void **state) {
-    (void)state;
     check_log log = {0};
     ewa_context *context = check_context(1, &log);
     packer lenses, images;
@@ -520,7 +508,6 @@ static void test_broken_colmap(void **state) {
 }
 
 static void test_real_files(void **state) {
-    (void)state;
     check_log log = {0};
     ewa_context *context = check_context(1, &log);
     char path[512];
@@ -565,7 +552,6 @@ static ewa_status colmap_work(ewa_context *context, void *user) {
 }
 
 static void test_failing_allocations(void **state) {
-    (void)state;
     char path[512];
     scratch_fail_each(save_and_load_work, (void *)(uintptr_t)scratch_path("memory.json", path));
     scratch_fail_each(colmap_work, NULL);

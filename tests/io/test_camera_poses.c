@@ -32,7 +32,6 @@ static const char TUM[] = "# time tx ty tz qx qy qz qw\n1305031102.17 1 2 3 0 0 
                           "1305031102.21 4 5 6 0 0 0.7071067811865476 0.7071067811865476\n";
 
 static void test_matrices(void **state) {
-    (void)state;
     ewa_context *context = check_context(1, NULL);
     ewa_camera_list list;
     assert_int_equal(read_text(context, MATRICES, &list), EWA_OK);
@@ -46,7 +45,6 @@ static void test_matrices(void **state) {
 }
 
 static void test_tum(void **state) {
-    (void)state;
     ewa_context *context = check_context(1, NULL);
     ewa_camera_list list;
     assert_int_equal(read_text(context, TUM, &list), EWA_OK);
@@ -59,7 +57,6 @@ static void test_tum(void **state) {
 }
 
 static void test_broken(void **state) {
-    (void)state;
     static const struct {
         const char *text, *said;
     } broken[] = {
@@ -107,10 +104,7 @@ static ewa_status work(ewa_context *context, void *user) {
     return status;
 }
 
-static void test_failing_allocations(void **state) {
-    (void)state;
-    scratch_fail_each(work, NULL);
-}
+static void test_failing_allocations(void **state) { scratch_fail_each(work, NULL); }
 
 static void count_pose(void *user, uint32_t index, const ewa_camera *camera) {
     assert_int_equal(index, *(uint32_t *)user);
@@ -119,7 +113,6 @@ static void count_pose(void *user, uint32_t index, const ewa_camera *camera) {
 }
 
 static void test_files(void **state) {
-    (void)state;
     char path[512];
     ewa_context *context = check_context(1, NULL);
     scratch_write(scratch_path("poses.txt", path), TUM, sizeof TUM - 1);
@@ -140,7 +133,6 @@ static void test_files(void **state) {
 
 /// Depths in PNG are integers, not colours.
 static void test_depths(void **state) {
-    (void)state;
     char path[512];
     check_log log = {0};
     ewa_context *context = check_context(1, &log);
@@ -183,7 +175,6 @@ static void test_depths(void **state) {
 
 /// Every beginning of a file is refused.
 static void test_cut_short(void **state) {
-    (void)state;
     char path[512];
     if (!check_data("rgbd/sensor_sequence/frame-000065.depth.png", path, sizeof path)) skip();
     ewa_context *context = check_context(1, NULL);

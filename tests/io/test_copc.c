@@ -11,7 +11,6 @@ static ewa_context *context;
 static char path[512];
 
 static int begin(void **state) {
-    (void)state;
     messages = (check_log){0};
     context = check_context(2, &messages);
     scratch_path("made.copc.laz", path);
@@ -19,7 +18,6 @@ static int begin(void **state) {
 }
 
 static int end(void **state) {
-    (void)state;
     unlink(path);
     ewa_context_destroy(&context);
     return 0;
@@ -65,7 +63,6 @@ static void expect_point(const ewa_cloud *before, const ewa_cloud *after) {
 }
 
 static void gives_back_what_was_written(void **state) {
-    (void)state;
     for (int wide = 0; wide < 2; wide++) {
         ewa_cloud *cloud = copc_cloud(context, 5000, wide);
         copc_nodes nodes = copc_share(cloud, 4);
@@ -107,7 +104,6 @@ static void gives_back_what_was_written(void **state) {
 }
 
 static void has_the_points_of_the_whole_file(void **state) {
-    (void)state;
     for (int wide = 0; wide < 2; wide++) {
         write_made(20000, 5, wide, 77);
         ewa_cloud *whole = NULL;
@@ -121,7 +117,6 @@ static void has_the_points_of_the_whole_file(void **state) {
 }
 
 static void counts_colors_that_others_do_not_lead_to_expect(void **state) {
-    (void)state;
     enum { NODES = 40, ODD = 7 }; // not among the eight chunks that are looked at
     ewa_cloud *cloud = copc_cloud(context, 2 * NODES, true);
     copc_nodes nodes = {calloc(NODES, sizeof *nodes.keys), calloc(NODES, sizeof(ewa_cloud *)), NODES};
@@ -149,7 +144,6 @@ static void counts_colors_that_others_do_not_lead_to_expect(void **state) {
 }
 
 static void notes_the_times_of_the_points(void **state) {
-    (void)state;
     size_t size_bytes;
     write_made(101, 2, false, 0);
     uint8_t *bytes = scratch_read(path, &size_bytes);
@@ -158,7 +152,6 @@ static void notes_the_times_of_the_points(void **state) {
 }
 
 static void reads_files_of_others(void **state) {
-    (void)state;
     static const char *const files[] = {"simple.copc.laz", "simple_with_page.copc.laz",
                                         "lion_takanawa.copc.laz"};
     for (size_t i = 0; i < sizeof files / sizeof files[0]; i++) {
@@ -178,7 +171,6 @@ static void reads_files_of_others(void **state) {
 }
 
 static void reads_the_attributes_that_are_wanted(void **state) {
-    (void)state;
     write_made(100, 1, false, 0);
     ewa_octree *octree = open_made();
     const uint32_t index = 0;
@@ -195,7 +187,6 @@ static void reads_the_attributes_that_are_wanted(void **state) {
 }
 
 static void is_the_same_for_any_number_of_threads(void **state) {
-    (void)state;
     size_t size_bytes = 0, other_bytes;
     uint8_t *bytes = NULL;
     ewa_context *kept = context;
@@ -218,7 +209,6 @@ static void is_the_same_for_any_number_of_threads(void **state) {
 }
 
 static void keeps_levels_of_any_size(void **state) {
-    (void)state;
     for (uint64_t size = 1; size < 70000; size = size * 5 + 2) {
         write_made(50, 2, false, size);
         ewa_octree *octree = open_made();
@@ -251,7 +241,6 @@ static copc_nodes make_many(const ewa_cloud *cloud, uint32_t count) {
 }
 
 static void writes_many_nodes_in_pages(void **state) {
-    (void)state;
     enum { COUNT = 5461, PAGE_ENTRIES = 1000, ENTRY_BYTES = 32 };
     ewa_cloud *cloud = copc_cloud(context, 1, false);
     copc_nodes nodes = make_many(cloud, COUNT);
@@ -303,7 +292,6 @@ static void writes_many_nodes_in_pages(void **state) {
 }
 
 static void writes_trees_without_nodes(void **state) {
-    (void)state;
     ewa_cloud *cloud = copc_cloud(context, 0, false);
     const ewa_octree_plan plan = copc_plan(cloud);
     const ewa_octree_key key = {0, {0, 0, 0}};
@@ -320,7 +308,6 @@ static void writes_trees_without_nodes(void **state) {
 }
 
 static void refuses_what_it_cannot_write(void **state) {
-    (void)state;
     ewa_cloud *cloud = copc_cloud(context, 10, false), *other = copc_cloud(context, 10, true);
     ewa_octree_plan plan = copc_plan(cloud);
     ewa_octree_key keys[2] = {{1, {0, 1, 0}}, {1, {0, 1, 0}}};
@@ -378,7 +365,6 @@ static ewa_status try_bytes(const uint8_t *bytes, size_t size_bytes) {
 }
 
 static void refuses_every_beginning(void **state) {
-    (void)state;
     size_t size_bytes;
     write_made(12, 2, false, 0);
     uint8_t *bytes = scratch_read(path, &size_bytes);
@@ -399,7 +385,6 @@ static void refuses_every_beginning(void **state) {
 }
 
 static void refuses_hierarchies_that_lie(void **state) {
-    (void)state;
     enum { ENTRY_BYTES = 32 };
     size_t size_bytes;
     write_made(400, 2, false, 0);
@@ -444,7 +429,6 @@ static void refuses_hierarchies_that_lie(void **state) {
 }
 
 static void is_no_other_file(void **state) {
-    (void)state;
     ewa_octree *octree = NULL;
     assert_false(ewa_octree_is(context, "/nowhere/at/all"));
     assert_false(ewa_octree_is(context, "/tmp"));
@@ -473,7 +457,6 @@ static ewa_status write_and_read(ewa_context *failing, void *user) {
 }
 
 static void survives_memory_that_fails(void **state) {
-    (void)state;
     ewa_cloud *cloud = copc_cloud(context, 40, false);
     copc_nodes nodes = copc_share(cloud, 2);
     scratch_fail_each(write_and_read, &nodes);

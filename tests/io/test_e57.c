@@ -14,14 +14,12 @@ static ewa_context *context;
 static check_log messages;
 
 static int begin(void **state) {
-    (void)state;
     messages = (check_log){0};
     context = check_context(2, &messages);
     return 0;
 }
 
 static int end(void **state) {
-    (void)state;
     ewa_context_destroy(&context);
     return 0;
 }
@@ -273,7 +271,6 @@ static uint32_t count_points(uint32_t record_count) {
 }
 
 static void test_floats_colors_and_states(void **state) {
-    (void)state;
     cloud_bytes file = make(&float_scan, 1, "<coordinateMetadata>EPSG:32632</coordinateMetadata>");
     ewa_cloud *cloud = load(&file);
     assert_int_equal(ewa_cloud_point_count(cloud), count_points(3000));
@@ -298,7 +295,6 @@ static void test_floats_colors_and_states(void **state) {
 }
 
 static void test_spherical(void **state) {
-    (void)state;
     cloud_bytes file = make(&spherical_scan, 1, "");
     ewa_cloud *cloud = load(&file);
     assert_int_equal(ewa_cloud_point_count(cloud), 700);
@@ -320,7 +316,6 @@ static void test_spherical(void **state) {
 }
 
 static void test_scaled_integers_of_any_width(void **state) {
-    (void)state;
     cloud_bytes file = make(&scaled_scan, 1, "");
     ewa_cloud *cloud = load(&file);
     double origin[3];
@@ -347,7 +342,6 @@ static void test_scaled_integers_of_any_width(void **state) {
 }
 
 static void test_several_scans_are_one_cloud(void **state) {
-    (void)state;
     const made_scan scans[3] = {posed_scan, spherical_scan, {float_fields, 3, 0, POSE}};
     cloud_bytes file = make(scans, 3, "");
     ewa_cloud *cloud = load(&file);
@@ -383,7 +377,6 @@ static void test_several_scans_are_one_cloud(void **state) {
 // ---- what is wrong ---------------------------------------------------------------------------------------
 
 static void test_checksums(void **state) {
-    (void)state;
     uint8_t bytes[2048];
     check_random random = {4};
     for (size_t i = 0; i < sizeof bytes; i++) bytes[i] = (uint8_t)check_random_u64(&random);
@@ -397,7 +390,6 @@ static void test_checksums(void **state) {
 
 /// Every page counts, whatever its bytes are for, with the instruction and without.
 static void test_every_page_is_checked(void **state) {
-    (void)state;
     static const uint32_t masks[2] = {EWA_CPU_ALL, 0};
     const made_scan scan = {float_fields, 8, 300, ""};
     cloud_bytes file = make(&scan, 1, "");
@@ -422,7 +414,6 @@ static void test_every_page_is_checked(void **state) {
 }
 
 static void test_damaged_pages_are_stepped_over(void **state) {
-    (void)state;
     cloud_bytes file = make(&scaled_scan, 1, "");
     // Within the first packet: 500 records are lost, the others are what they were.
     file.bytes[5 * PAGE + 100] ^= 1;
@@ -477,7 +468,6 @@ static void change(cloud_bytes *file, const char *from, const char *to) {
 }
 
 static void test_files_that_are_wrong(void **state) {
-    (void)state;
     static const struct {
         const char *from, *to, *message;
     } cases[] = {
@@ -519,7 +509,6 @@ static void test_files_that_are_wrong(void **state) {
 }
 
 static void test_truncated(void **state) {
-    (void)state;
     const made_scan scans[2] = {{float_fields, 8, 20, ""}, {spherical_fields, 8, 9, ""}};
     cloud_bytes file = make(scans, 2, "");
     cloud_check_truncations(&file, "cut.e57", 0);
@@ -528,7 +517,6 @@ static void test_truncated(void **state) {
 
 /// Changed bytes behind checksums that fit.
 static void test_damaged_bytes_are_survived(void **state) {
-    (void)state;
     const made_scan scans[2] = {{scaled_fields, 12, 30, POSE}, {spherical_fields, 8, 9, ""}};
     cloud_bytes file = make(scans, 2, "");
     check_random random = {8};
@@ -558,7 +546,6 @@ static ewa_status load_each(ewa_context *failing, void *user) {
 }
 
 static void test_memory_that_fails(void **state) {
-    (void)state;
     const made_scan scans[2] = {{scaled_fields, 12, 30, POSE}, {spherical_fields, 8, 9, ""}};
     cloud_bytes file = make(scans, 2, "<coordinateMetadata>EPSG:32632</coordinateMetadata>");
     scratch_fail_each(load_each, &file);

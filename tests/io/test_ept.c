@@ -188,7 +188,6 @@ static void write_folder(int encoding) {
 }
 
 static int begin(void **state) {
-    (void)state;
     messages = (check_log){0};
     context = check_context(2, &messages);
     scratch_path("tiles", folder);
@@ -203,7 +202,6 @@ static int begin(void **state) {
 }
 
 static int end(void **state) {
-    (void)state;
     empty_folder();
     copc_nodes_free(&nodes);
     ewa_cloud_destroy(&cloud);
@@ -234,7 +232,6 @@ static ewa_status try_folder(void) {
 }
 
 static void reads_all_encodings(void **state) {
-    (void)state;
     for (int encoding = 0; encoding < ENCODING_COUNT; encoding++) {
         write_folder(encoding);
         char description[600];
@@ -295,7 +292,6 @@ static void reads_all_encodings(void **state) {
 }
 
 static void reads_positions_of_any_type(void **state) {
-    (void)state;
     static const struct {
         const char *type;
         int size_bytes;
@@ -333,7 +329,6 @@ static void reads_positions_of_any_type(void **state) {
 }
 
 static void takes_narrow_colors_for_all(void **state) {
-    (void)state;
     write_folder(BINARY);
     // One byte twice in all nodes, of which each would be looked at alone.
     for (uint32_t i = 0; i < nodes.count; i++) {
@@ -358,7 +353,6 @@ static void takes_narrow_colors_for_all(void **state) {
 }
 
 static void says_which_node_is_missing_or_miscounted(void **state) {
-    (void)state;
     for (int encoding = 0; encoding < ENCODING_COUNT; encoding++) {
         // The last node: at every level the first is the tree's pattern.
         const ewa_octree_key *k = &nodes.keys[nodes.count - 1];
@@ -395,7 +389,6 @@ static void says_which_node_is_missing_or_miscounted(void **state) {
 }
 
 static void refuses_files_that_are_not_alike(void **state) {
-    (void)state;
     char path[600];
     ewa_cloud *piece = nodes.pieces[nodes.count - 1];
     ewa_coordinate_grid grid;
@@ -414,7 +407,6 @@ static void refuses_files_that_are_not_alike(void **state) {
 }
 
 static void refuses_hierarchies_that_lead_nowhere(void **state) {
-    (void)state;
     write_folder(BINARY);
     static const char *const bad[] = {
         "",
@@ -458,7 +450,6 @@ static void refuses_hierarchies_that_lead_nowhere(void **state) {
 }
 
 static void refuses_descriptions_that_are_none(void **state) {
-    (void)state;
 #define HEAD                                                                                                 \
     "{\"version\":\"1.1.0\",\"dataType\":\"binary\",\"hierarchyType\":\"json\",\"points\":1,\"span\":128,"
 #define BOUNDS "\"bounds\":[0,0,0,1,1,1],"
@@ -502,7 +493,6 @@ static void refuses_descriptions_that_are_none(void **state) {
 }
 
 static void survives_changed_bytes(void **state) {
-    (void)state;
     char path[600];
     check_random random = {3};
     write_folder(ZSTANDARD);
@@ -537,7 +527,6 @@ static ewa_status open_and_read(ewa_context *failing, void *user) {
 }
 
 static void survives_memory_that_fails(void **state) {
-    (void)state;
     for (int encoding = 0; encoding < ENCODING_COUNT; encoding++) {
         char entries[128];
         uint32_t root = 0, below = 0;

@@ -27,7 +27,6 @@ static void assert_same(const ewa_image *a, const ewa_image *b) {
 }
 
 static void test_round_trip_is_exact(void **state) {
-    (void)state;
     static const uint32_t sizes[][2] = {{1, 1}, {3, 16}, {17, 33}, {500, 1}, {1, 100}};
     char path[512];
     scratch_path("saved.exr", path);
@@ -57,7 +56,6 @@ static void test_round_trip_is_exact(void **state) {
 }
 
 static void test_channels_go_by_name(void **state) {
-    (void)state;
     ewa_context *context = check_context(1, NULL);
     char path[512];
     scratch_path("named.exr", path);
@@ -84,7 +82,6 @@ static void test_channels_go_by_name(void **state) {
 }
 
 static void test_half(void **state) {
-    (void)state;
     ewa_context *context = check_context(1, NULL);
     char path[512];
     scratch_path("half.exr", path);
@@ -105,7 +102,6 @@ static void test_half(void **state) {
 }
 
 static void test_camera_attribute(void **state) {
-    (void)state;
     ewa_context *context = check_context(1, NULL);
     char path[512];
     scratch_path("camera.exr", path);
@@ -135,7 +131,6 @@ static void test_camera_attribute(void **state) {
 }
 
 static void test_names_are_checked(void **state) {
-    (void)state;
     check_log log = {0};
     ewa_context *context = check_context(1, &log);
     char path[512];
@@ -162,7 +157,6 @@ static void test_names_are_checked(void **state) {
 }
 
 static void test_real_files(void **state) {
-    (void)state;
     check_log log = {0};
     ewa_context *context = check_context(1, &log);
     char path[512];
@@ -190,7 +184,6 @@ static void test_real_files(void **state) {
 }
 
 static void test_hostile(void **state) {
-    (void)state;
     scratch_pictures t = {0};
     t.context = check_context(1, &t.log);
     const int count = scratch_each("hostile/exr", scratch_load_picture, &t);
@@ -200,7 +193,6 @@ static void test_hostile(void **state) {
 }
 
 static void test_every_truncation_is_refused(void **state) {
-    (void)state;
     check_log log = {0};
     ewa_context *context = check_context(1, &log);
     char path[512];
@@ -227,7 +219,6 @@ static void test_every_truncation_is_refused(void **state) {
 }
 
 static void test_lost_chunk_table_is_refused(void **state) {
-    (void)state;
     check_log log = {0};
     ewa_context *context = check_context(1, &log);
     char path[512];
@@ -248,7 +239,6 @@ static void test_lost_chunk_table_is_refused(void **state) {
 }
 
 static void test_limits(void **state) {
-    (void)state;
     check_log log = {0};
     ewa_context *context = check_context(1, &log);
     char path[512];
@@ -286,7 +276,6 @@ static ewa_status load_work(ewa_context *context, void *user) {
 }
 
 static void test_failing_allocations(void **state) {
-    (void)state;
     char path[512];
     scratch_path("memory.exr", path);
     scratch_fail_each(save_work, path);

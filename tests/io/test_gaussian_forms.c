@@ -9,7 +9,6 @@
 static bool file_is_spz(int number) { return number >= 5 && number <= 8; }
 
 static void forms(void **state) {
-    (void)state;
     static sample_file file;
     uint32_t degree;
     sample_limits limits;
@@ -76,7 +75,6 @@ static ewa_status load_exact(ewa_context *context, const uint8_t *bytes, size_t 
 }
 
 static void cut_short(void **state) {
-    (void)state;
     static sample_file file;
     uint32_t degree;
     sample_limits limits;
@@ -94,7 +92,6 @@ static void cut_short(void **state) {
 }
 
 static void broken(void **state) {
-    (void)state;
     static sample_file file;
     uint32_t degree;
     sample_limits limits;
@@ -136,7 +133,6 @@ static void refuse(const sample_file *file, ewa_status status, const char *reaso
 
 /// Versions, counts and numbers that cannot be.
 static void lies(void **state) {
-    (void)state;
     static sample_file file;
     uint32_t degree;
     sample_limits limits;
@@ -199,7 +195,6 @@ static void replace(sample_file *file, const char *old, const char *with) {
 }
 
 static void words(void **state) {
-    (void)state;
     static sample_file file;
     const struct {
         int number;
@@ -234,7 +229,6 @@ static void words(void **state) {
 
 /// A picture of SOG with other bytes.
 static void palettes(void **state) {
-    (void)state;
     static sample_file meta, file, directory;
     static const struct {
         int picture;
@@ -271,7 +265,6 @@ static void palettes(void **state) {
 
 /// meta.json with its pictures beside it, and without.
 static void beside(void **state) {
-    (void)state;
     static sample_file meta;
     char path[512], name[64];
     for (int picture = 0; picture < SAMPLE_PICTURES; picture++) {
@@ -300,7 +293,6 @@ static void beside(void **state) {
 
 /// A node moves, turns and scales what hangs on it.
 static void placed(void **state) {
-    (void)state;
     static sample_file file;
     sample_glb(&file, 1,
                "\"translation\":[10,20,30],\"rotation\":[0,0,0.70710678,0.70710678],\"scale\":[2,2,2],",
@@ -345,7 +337,6 @@ static void make_glb(sample_file *file, const char *json, const sample_file *bod
 
 /// SPZ in a buffer view, twice: where it is and moved; beside a primitive of triangles, which is left out.
 static void packed_in_gltf(void **state) {
-    (void)state;
     static sample_file body, file;
     sample_spz(&body, 3, 1);
     make_glb(
@@ -383,7 +374,6 @@ static void packed_in_gltf(void **state) {
 
 /// The first draft: colours and opacities of the display in COLOR_0.
 static void draft(void **state) {
-    (void)state;
     static sample_file body, file;
     body.size = 0;
     const double numbers[14] = {1, 2, 3, 0.1, 0.2, 0.3, 0, 0, 0, 1, 1, 0.5, 0, 0.25};
@@ -416,7 +406,6 @@ static void draft(void **state) {
 
 /// SPZ that names its axes: whichever these are, a set has right, down, front.
 static void axes(void **state) {
-    (void)state;
     static sample_file plain, file;
     for (uint32_t number = 4; number <= 9; number++) {
         sample_spz(&plain, 4, 4);
@@ -448,7 +437,6 @@ static void axes(void **state) {
 
 /// Memory that runs out anywhere leaves nothing behind.
 static void memory(void **state) {
-    (void)state;
     static sample_file file;
     uint32_t degree;
     sample_limits limits;

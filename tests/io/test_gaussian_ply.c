@@ -28,7 +28,6 @@ static const char plain[] = "property float x\nproperty float y\nproperty float 
                             "property float rot_2\nproperty float rot_3\n";
 
 static void columns(void **state) {
-    (void)state;
     char text[2048];
     snprintf(text, sizeof text,
              "%scomment SplatRenderMode: mip\ncomment Vertical axis: z\nelement vertex 2\n%send_header\n"
@@ -63,7 +62,6 @@ static void columns(void **state) {
 
 /// What trainers write about their scenes.
 static void comments(void **state) {
-    (void)state;
     static const struct {
         const char *comment;
         bool antialiased, flat, z_up;
@@ -98,7 +96,6 @@ static void comments(void **state) {
 
 /// Red comes first as a whole in files, each coefficient as a whole in sets.
 static void harmonics(void **state) {
-    (void)state;
     for (uint32_t degree = 0; degree <= 4; degree++) {
         char text[8192];
         const uint32_t count = (degree + 1) * (degree + 1), rest = 3 * (count - 1);
@@ -125,7 +122,6 @@ static void harmonics(void **state) {
 }
 
 static void flat(void **state) {
-    (void)state;
     const char text[] =
         "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\n"
         "property float f_dc_0\nproperty float f_dc_1\nproperty float f_dc_2\nproperty float opacity\n"
@@ -142,7 +138,6 @@ static void flat(void **state) {
 
 /// A filter widens, and the opacity falls as the volume grows.
 static void filtered(void **state) {
-    (void)state;
     char text[2048];
     snprintf(text, sizeof text,
              "%selement vertex 1\n%sproperty float filter_3D\nend_header\n0 0 0 0 0 0 0 0 0 0.69314718 1 0 0 "
@@ -163,7 +158,6 @@ static void filtered(void **state) {
 
 /// Coordinates of a map in doubles keep their digits by the origin.
 static void doubles(void **state) {
-    (void)state;
     char text[4096] =
         "ply\nformat binary_big_endian 1.0\nelement first 1\nproperty uchar skipped\nelement vertex 2\n"
         "property double x\nproperty double y\nproperty double z\n";
@@ -202,7 +196,6 @@ static void doubles(void **state) {
 }
 
 static void refused(void **state) {
-    (void)state;
     static const struct {
         const char *count, *more, *record, *reason;
     } cases[] = {
@@ -237,7 +230,6 @@ static void refused(void **state) {
 
 /// Logits of any size are opacities.
 static void steep(void **state) {
-    (void)state;
     char text[2048];
     snprintf(text, sizeof text,
              "%selement vertex 2\n%send_header\n0 0 0 0 0 0 1e30 -inf 0 0 1 0 0 0\n0 0 0 0 0 0 -1e30 -1e30 0 "

@@ -60,7 +60,6 @@ static differences compare(const ewa_gaussians *a, const ewa_gaussians *b, const
 }
 
 static void guitar(void **state) {
-    (void)state;
     ewa_context *context = check_context(2, NULL);
     loaded plain, packed, splat, spz, flat;
     if (load(context, "gaussians/guitar_3dgs.ply", &plain) &&
@@ -125,7 +124,6 @@ static void guitar(void **state) {
 
 /// Small ones: what is in them is known.
 static void small(void **state) {
-    (void)state;
     static const struct {
         const char *name;
         ewa_gaussian_format format;

@@ -37,7 +37,6 @@ static void pass(ewa_context *context, const ewa_gaussians *set, const char *nam
 }
 
 static void round_trips(void **state) {
-    (void)state;
     static const struct {
         const char *name;
         uint32_t version, degree;
@@ -72,7 +71,6 @@ static void round_trips(void **state) {
 
 /// What is up in a set becomes what is up in files, and -y when these are read; colours go along.
 static void upright(void **state) {
-    (void)state;
     static const double ups[3][3] = {{0, 0, 0}, {0, 1, 0}, {0, 0, 1}};
     static const double wanted[3][3] = {{1, 2, 3}, {1, -2, -3}, {1, -3, 2}}; // of (1, 2, 3) with -y up
     ewa_context *context = check_context(1, NULL);
@@ -107,7 +105,6 @@ static void upright(void **state) {
 
 /// Random turns come back, whichever component is the largest.
 static void turns(void **state) {
-    (void)state;
     enum { TURNS = 500 };
     static const struct {
         const char *name;
@@ -146,7 +143,6 @@ static void turns(void **state) {
 
 /// Flat ones, opacities of 0 and 1, scales of 0, places far away.
 static void corners(void **state) {
-    (void)state;
     check_log log = {.count = 0};
     ewa_context *context = check_context(1, &log);
     ewa_gaussians set, read;
@@ -179,7 +175,6 @@ static void corners(void **state) {
 
 /// What is lost is said, with numbers.
 static void losses(void **state) {
-    (void)state;
     check_log log = {.count = 0};
     ewa_context *context = check_context(1, &log);
     ewa_gaussians set, read;
@@ -197,7 +192,6 @@ static void losses(void **state) {
 }
 
 static void refused(void **state) {
-    (void)state;
     check_log log = {.count = 0};
     ewa_context *context = check_context(1, &log);
     ewa_gaussians set, none = {.context = context};
@@ -232,7 +226,6 @@ static void refused(void **state) {
 
 /// The same bytes for any number of threads.
 static void same_bytes(void **state) {
-    (void)state;
     static const char *const names[] = {"s.ply", "s.splat", "s.spz"};
     for (int n = 0; n < 3; n++) {
         uint8_t *first = NULL;
@@ -261,8 +254,9 @@ static void same_bytes(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(round_trips), cmocka_unit_test(upright), cmocka_unit_test(turns),   cmocka_unit_test(corners),
-        cmocka_unit_test(losses),      cmocka_unit_test(refused), cmocka_unit_test(same_bytes),
+        cmocka_unit_test(round_trips), cmocka_unit_test(upright), cmocka_unit_test(turns),
+        cmocka_unit_test(corners),     cmocka_unit_test(losses),  cmocka_unit_test(refused),
+        cmocka_unit_test(same_bytes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -32,7 +32,6 @@ static bool is_near(const ewa_image *image, uint32_t x, uint32_t y, const int co
 }
 
 static void test_known_pixels(void **state) {
-    (void)state;
     ewa_context *context = check_context(1, NULL);
     static const int red[3] = {200, 60, 40}, blue[3] = {40, 80, 220};
     static const char *const names[] = {"colour.jpg", "progressive.jpg"};
@@ -59,7 +58,6 @@ static void test_known_pixels(void **state) {
 
 /// What is cut in its pixels is a picture with a warning, as other programs have it; all else is an error.
 static void test_every_truncation(void **state) {
-    (void)state;
     check_log log = {0};
     ewa_context *context = check_context(1, &log);
     static const char *const names[] = {"colour.jpg", "progressive.jpg", "grey.jpg"};
@@ -84,7 +82,6 @@ static void test_every_truncation(void **state) {
 }
 
 static void test_broken_bytes(void **state) {
-    (void)state;
     ewa_context *context = check_context(1, NULL);
     static const char *const names[] = {"colour.jpg", "progressive.jpg", "grey.jpg", "cmyk.jpg"};
     check_random random = {3};
@@ -107,7 +104,6 @@ static void test_broken_bytes(void **state) {
 }
 
 static void test_refused(void **state) {
-    (void)state;
     check_log log = {0};
     ewa_context *context = check_context(1, &log);
     ewa_image image;
@@ -139,7 +135,6 @@ static void test_refused(void **state) {
 
 /// Sizes are checked before pixels are allocated, whatever the head says.
 static void test_limits(void **state) {
-    (void)state;
     size_t size_bytes;
     uint8_t *bytes = read_picture("colour.jpg", &size_bytes);
     size_t head = 0; // the frame's: ff c0, length, bits, height, width
@@ -174,10 +169,7 @@ static ewa_status load_colour(ewa_context *context, void *user) {
     return status;
 }
 
-static void test_failing_allocations(void **state) {
-    (void)state;
-    scratch_fail_each(load_colour, NULL);
-}
+static void test_failing_allocations(void **state) { scratch_fail_each(load_colour, NULL); }
 
 /// A smooth picture with a line of another colour, which coarser colours would smear.
 static void fill_codes(uint8_t *codes, uint32_t width, uint32_t height, uint32_t channels) {

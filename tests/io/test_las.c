@@ -8,20 +8,17 @@ static check_log messages;
 static ewa_context *context;
 
 static int begin(void **state) {
-    (void)state;
     messages = (check_log){0};
     context = check_context(2, &messages);
     return 0;
 }
 
 static int end(void **state) {
-    (void)state;
     ewa_context_destroy(&context);
     return 0;
 }
 
 static void test_fields_of_all_formats(void **state) {
-    (void)state;
     enum { COUNT = 20000 }; // more than a task takes
     for (uint8_t format = 0; format < LAS_FORMATS; format++) {
         las_sample s = las_make(format, format < 4 ? 2 : format < 6 ? 3 : 4, 0, COUNT, NULL, 0, 0);
@@ -76,7 +73,6 @@ static void describe(uint8_t *to, const char *name, uint8_t type, uint8_t option
 }
 
 static void test_extra_bytes(void **state) {
-    (void)state;
     static const uint8_t sizes[11] = {0, 1, 1, 2, 2, 4, 4, 8, 8, 4, 8};
     static const char *const names[11] = {"",    "u8",  "i8",  "u16", "i16", "u32",
                                           "i32", "u64", "i64", "f32", "f64"};
@@ -140,7 +136,6 @@ static void test_extra_bytes(void **state) {
 }
 
 static void test_names_of_parts(void **state) {
-    (void)state;
     uint8_t fields[4 * 192], vlr[54 + sizeof fields];
     describe(fields, "ny", 9, 0);
     describe(fields + 192, "nx", 9, 0);
@@ -159,7 +154,6 @@ static void test_names_of_parts(void **state) {
 }
 
 static void test_colors_of_eight_bits(void **state) {
-    (void)state;
     enum { COUNT = 1000 };
     las_sample s = las_make(2, 2, 0, COUNT, NULL, 0, 0);
     for (int kind = 0; kind < 4; kind++) {
@@ -185,7 +179,6 @@ static void test_colors_of_eight_bits(void **state) {
 }
 
 static void test_notes(void **state) {
-    (void)state;
     const char wkt[] = "PROJCS[\"Somewhere / zone 1\",GEOGCS[\"Somewhere\"]]";
     uint8_t vlrs[600];
     size_t at = las_vlr(vlrs, "LASF_Projection", 2112, wkt, sizeof wkt);
@@ -232,7 +225,6 @@ static void test_notes(void **state) {
 }
 
 static void test_headers_that_lie(void **state) {
-    (void)state;
     las_sample s = las_make(3, 4, 0, 10, NULL, 0, 0);
     // The count of 64 bits is 0: that of 32 bits counts.
     las_put(s.bytes + 247, 0, 8);
@@ -275,7 +267,6 @@ static void test_headers_that_lie(void **state) {
 }
 
 static void test_only_what_is_wanted(void **state) {
-    (void)state;
     las_sample s = las_make(3, 2, 0, 50, NULL, 0, 0);
     const char *path = "las_wanted.las";
     FILE *file = fopen(path, "wb");

@@ -10,14 +10,12 @@ static check_log messages;
 static ewa_context *context;
 
 static int begin(void **state) {
-    (void)state;
     messages = (check_log){0};
     context = check_context(2, &messages);
     return 0;
 }
 
 static int end(void **state) {
-    (void)state;
     ewa_context_destroy(&context);
     return 0;
 }
@@ -54,7 +52,6 @@ static ewa_status load(const uint8_t *bytes, size_t size_bytes, uint64_t *point_
 }
 
 static void test_every_truncation(void **state) {
-    (void)state;
     for (uint8_t format = 3; format <= 7; format += 4) {
         las_sample s = las_make(format, 4, 4, 40, NULL, 0, 0);
         for (size_t size = 0; size < s.size_bytes; size++) {
@@ -75,7 +72,6 @@ static void test_every_truncation(void **state) {
 }
 
 static void test_every_byte_of_the_header(void **state) {
-    (void)state;
     las_sample s = las_make(7, 4, 0, 40, NULL, 0, 0);
     size_t size_bytes;
     uint8_t *bytes = compress(&s, 15, &size_bytes);
@@ -99,7 +95,6 @@ static void test_every_byte_of_the_header(void **state) {
 }
 
 static void test_damaged_chunk(void **state) {
-    (void)state;
     las_sample s = las_make(6, 4, 0, 1000, NULL, 0, 0);
     size_t size_bytes;
     uint8_t *bytes = compress(&s, 100, &size_bytes);
@@ -142,7 +137,6 @@ static void test_damaged_chunk(void **state) {
 }
 
 static void test_lies_about_chunks(void **state) {
-    (void)state;
     las_sample s = las_make(6, 4, 0, 100, NULL, 0, 0);
     size_t size_bytes;
     uint8_t *bytes = compress(&s, 30, &size_bytes);
@@ -203,7 +197,6 @@ static void test_lies_about_chunks(void **state) {
 }
 
 static void test_pipes(void **state) {
-    (void)state;
     // What cannot be patched is written at once, or not at all.
     las_sample s = las_make(1, 2, 0, 500, NULL, 0, 0);
     ewa_cloud *cloud = las_load(context, &s);

@@ -10,14 +10,12 @@ static check_log messages;
 static ewa_context *context;
 
 static int begin(void **state) {
-    (void)state;
     messages = (check_log){0};
     context = check_context(0, &messages);
     return 0;
 }
 
 static int end(void **state) {
-    (void)state;
     ewa_context_destroy(&context);
     return 0;
 }
@@ -135,7 +133,6 @@ static const struct {
 };
 
 static void test_counts_bounds_and_formats(void **state) {
-    (void)state;
     for (size_t k = 0; k < sizeof files / sizeof *files; k++) {
         char relative[256];
         snprintf(relative, sizeof relative, "clouds/%s", files[k].path);
@@ -164,7 +161,6 @@ static void test_counts_bounds_and_formats(void **state) {
 }
 
 static void test_twins(void **state) {
-    (void)state;
     static const char *const twins[][2] = {{"laz/point10.las", "laz/point10.laz"},
                                            {"laz/point-time.las", "laz/point-time.laz"},
                                            {"laz/point-color.las", "laz/point-color.laz"},
@@ -217,7 +213,6 @@ static void round_trip(void *user, const char *path) {
 }
 
 static void test_round_trips(void **state) {
-    (void)state;
     if (scratch_each("clouds/las", round_trip, NULL) == 0) skip();
     scratch_each("clouds/laz", round_trip, NULL);
 }
@@ -234,7 +229,6 @@ static void refuse_or_read(void *user, const char *path) {
 }
 
 static void test_hostile(void **state) {
-    (void)state;
     visit v = {0};
     if (scratch_each("hostile/las", refuse_or_read, &v) == 0) skip();
     assert_int_equal(v.refused, 1); // the other two are merely odd

@@ -10,14 +10,12 @@ static check_log messages;
 static ewa_context *context;
 
 static int begin(void **state) {
-    (void)state;
     messages = (check_log){0};
     context = check_context(2, &messages);
     return 0;
 }
 
 static int end(void **state) {
-    (void)state;
     ewa_context_destroy(&context);
     return 0;
 }
@@ -36,7 +34,6 @@ static ewa_cloud *save_and_load(const ewa_cloud *cloud, const char *name,
 }
 
 static void test_round_trips(void **state) {
-    (void)state;
     enum { COUNT = 12345 };
     for (uint8_t format = 0; format < LAS_FORMATS; format++) {
         las_sample s = las_make(format, format < 4 ? 2 : format < 6 ? 3 : 4, 0, COUNT, NULL, 0, 0);
@@ -68,7 +65,6 @@ static void test_round_trips(void **state) {
 }
 
 static void test_header(void **state) {
-    (void)state;
     enum { COUNT = 5000 };
     las_sample s = las_make(1, 2, 0, COUNT, NULL, 0, 0);
     ewa_cloud *cloud = las_load(context, &s);
@@ -94,7 +90,6 @@ static void test_header(void **state) {
 }
 
 static void test_pieces(void **state) {
-    (void)state;
     enum { COUNT = 4321 };
     las_sample s = las_make(7, 4, 0, COUNT, NULL, 0, 0);
     ewa_cloud *cloud = las_load(context, &s);
@@ -147,7 +142,6 @@ static ewa_cloud *make_cloud(uint64_t count, double **positions) {
 }
 
 static void test_attributes_of_every_type(void **state) {
-    (void)state;
     enum { COUNT = 300 };
     static const struct {
         const char *name;
@@ -183,7 +177,6 @@ static void test_attributes_of_every_type(void **state) {
 }
 
 static void test_colors(void **state) {
-    (void)state;
     double *positions;
     ewa_cloud *cloud = make_cloud(256, &positions);
     uint8_t *color;
@@ -213,7 +206,6 @@ static void test_colors(void **state) {
 }
 
 static void test_grids(void **state) {
-    (void)state;
     static const struct {
         double low, high, step, offset;
         const char *crs;
@@ -265,7 +257,6 @@ static void test_grids(void **state) {
 }
 
 static void test_points_without_a_place(void **state) {
-    (void)state;
     double *positions;
     ewa_cloud *cloud = make_cloud(5, &positions);
     for (int i = 0; i < 15; i++) positions[i] = i;
@@ -280,7 +271,6 @@ static void test_points_without_a_place(void **state) {
 }
 
 static void test_format_that_holds_the_numbers(void **state) {
-    (void)state;
     static const struct {
         const char *name;
         double value;
@@ -309,7 +299,6 @@ static void test_format_that_holds_the_numbers(void **state) {
 }
 
 static void test_records_and_systems(void **state) {
-    (void)state;
     const char wkt[] = "GEOGCS[\"WGS 84\"]";
     uint8_t vlrs[300];
     size_t at = las_vlr(vlrs, "LASF_Projection", 2112, wkt, sizeof wkt), bytes_count;
@@ -336,7 +325,6 @@ static void test_records_and_systems(void **state) {
 }
 
 static void test_memory(void **state) {
-    (void)state;
     // Every allocation of reading and of writing fails once.
     las_sample s = las_make(8, 4, 0, 700, NULL, 0, 0);
     for (int compressed = 0; compressed < 2; compressed++) {

@@ -12,13 +12,11 @@
 static ewa_context *context;
 
 static int begin(void **state) {
-    (void)state;
     context = check_context(1, NULL);
     return 0;
 }
 
 static int end(void **state) {
-    (void)state;
     ewa_context_destroy(&context);
     return 0;
 }
@@ -86,7 +84,6 @@ static void check_back(chunk *c) {
 }
 
 static void test_facts(void **state) {
-    (void)state;
     for (size_t i = 0; i < sizeof laz_fact_chunks / sizeof laz_fact_chunks[0]; i++) {
         const uint8_t format = laz_fact_chunks[i].point_format;
         const uint32_t record_bytes = laz_fact_chunks[i].record_bytes;
@@ -106,7 +103,6 @@ static void test_facts(void **state) {
 }
 
 static void test_round_trips(void **state) {
-    (void)state;
     static const uint32_t COUNTS[] = {1, 2, 3, 1000};
     for (uint8_t format = 0; format < 11; format++)
         for (int kind = 0; kind < LAZ_SAMPLE_KIND_COUNT; kind++)
@@ -124,7 +120,6 @@ static void test_round_trips(void **state) {
 }
 
 static void test_no_points(void **state) {
-    (void)state;
     chunk c = chunk_make(plan_of(3, 0), LAZ_SAMPLE_SMOOTH, 3, 0);
     assert_int_equal(c.size_bytes, 0);
     assert_null(decode(&c, NULL, 0, 0).fault);
@@ -133,7 +128,6 @@ static void test_no_points(void **state) {
 }
 
 static void test_constant_is_small(void **state) {
-    (void)state;
     for (uint8_t format = 0; format < 11; format++) {
         chunk c = chunk_make(plan_of(format, 0), LAZ_SAMPLE_CONSTANT, format, 5000);
         if (c.size_bytes > 1000) fail_msg("format %d: %u bytes", format, (unsigned)c.size_bytes);
@@ -142,7 +136,6 @@ static void test_constant_is_small(void **state) {
 }
 
 static void test_truncations(void **state) {
-    (void)state;
     for (uint8_t format = 0; format < 11; format++) {
         chunk c = chunk_make(plan_of(format, 2), LAZ_SAMPLE_JUMPS, format, 20);
         const uint32_t record_bytes = c.plan.record_bytes;
@@ -159,7 +152,6 @@ static void test_truncations(void **state) {
 }
 
 static void test_changes(void **state) {
-    (void)state;
     static const uint8_t CHANGES[] = {1, 0x80, 0xFF};
     for (uint8_t format = 0; format < 11; format++) {
         uint64_t told = 0, tried = 0;
@@ -181,7 +173,6 @@ static void test_changes(void **state) {
 }
 
 static void test_layers(void **state) {
-    (void)state;
     chunk c = chunk_make(plan_of(7, 1), LAZ_SAMPLE_SMOOTH, 7, 50);
     uint8_t *bytes = c.bytes.data, *count = bytes + c.plan.record_bytes, *sizes = count + 4;
     laz_sample_put(count, 51, 4);
@@ -208,7 +199,6 @@ static void test_layers(void **state) {
 }
 
 static void test_plans(void **state) {
-    (void)state;
     static const struct {
         ewa_laz_item items[3];
         uint32_t item_count;
@@ -268,7 +258,6 @@ static void check_table(const uint64_t (*chunks)[2], uint32_t count, bool variab
 }
 
 static void test_tables(void **state) {
-    (void)state;
     const uint32_t count = sizeof laz_fact_table / sizeof laz_fact_table[0];
     check_table(laz_fact_table, count, false, laz_fact_table_fixed, sizeof laz_fact_table_fixed);
     check_table(laz_fact_table, count, true, laz_fact_table_variable, sizeof laz_fact_table_variable);
@@ -284,7 +273,6 @@ static void test_tables(void **state) {
 
 /// One memory for several plans, as a program has it that reads one file after the other.
 static void test_memory(void **state) {
-    (void)state;
     ewa_laz_memory *memory = NULL;
     for (int turn = 0; turn < 4; turn++) {
         const uint8_t format = turn % 2 ? 3 : 7;
@@ -300,7 +288,6 @@ static void test_memory(void **state) {
 }
 
 static void test_allocations_fail(void **state) {
-    (void)state;
     for (uint8_t format = 3; format < 8; format += 4) {
         long calls = 0;
         for (ewa_status status = EWA_ERROR_MEMORY; status != EWA_OK; calls++) {

@@ -12,7 +12,6 @@ static ewa_status read_text(ewa_context *context, const char *text, ewa_material
 }
 
 static void test_known_table(void **state) {
-    (void)state;
     ewa_context *context = check_context(1, NULL);
     ewa_material materials[EWA_MAX_MATERIALS], initial;
     ewa_material_init(&initial);
@@ -43,7 +42,6 @@ static void test_known_table(void **state) {
 }
 
 static void test_broken_tables(void **state) {
-    (void)state;
     static const struct {
         const char *text, *words;
     } tables[] = {
@@ -74,7 +72,6 @@ static void test_broken_tables(void **state) {
 }
 
 static void test_as_many_as_indices(void **state) {
-    (void)state;
     ewa_context *context = check_context(1, NULL);
     ewa_material materials[EWA_MAX_MATERIALS];
     for (uint32_t wanted = EWA_MAX_MATERIALS; wanted <= EWA_MAX_MATERIALS + 1; wanted++) {

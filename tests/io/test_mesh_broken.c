@@ -130,7 +130,6 @@ enum { SAMPLES = 8 };
 static sample samples[SAMPLES];
 
 static int make_samples(void **state) {
-    (void)state;
     const sample made[SAMPLES] = {
         {"a.ply", (const uint8_t *)ply, sizeof ply - 1},    {"b.ply", binary_ply, make_binary_ply()},
         {"a.obj", (const uint8_t *)obj, sizeof obj - 1},    {"a.stl", (const uint8_t *)stl, sizeof stl - 1},
@@ -168,7 +167,6 @@ static ewa_status try_bytes(ewa_context *context, mesh_messages *messages, const
 }
 
 static void test_samples_load(void **state) {
-    (void)state;
     mesh_messages messages;
     ewa_context *context = mesh_context(&messages);
     for (int i = 0; i < SAMPLES; i++) {
@@ -180,7 +178,6 @@ static void test_samples_load(void **state) {
 }
 
 static void test_every_truncation(void **state) {
-    (void)state;
     mesh_messages messages;
     ewa_context *context = mesh_context(&messages);
     for (int i = 0; i < SAMPLES; i++)
@@ -229,7 +226,6 @@ static size_t change(check_random *random, const sample *from, uint8_t *to, size
 }
 
 static void test_changed_bytes(void **state) {
-    (void)state;
     mesh_messages messages;
     ewa_context *context = mesh_context(&messages);
     const char *wanted = getenv("EWA_MUTATIONS");
@@ -261,7 +257,6 @@ static ewa_status load_file(ewa_context *context, void *user) {
 }
 
 static void test_failing_allocations(void **state) {
-    (void)state;
     char path[512];
     mesh_messages messages;
     ewa_context *context = mesh_context(&messages);
@@ -282,7 +277,6 @@ static void test_failing_allocations(void **state) {
 
 /// Limits hold before memory is taken: as many points, triangles and bytes as the context allows.
 static void test_limits(void **state) {
-    (void)state;
     for (int i = 0; i < SAMPLES; i++)
         for (int kind = 0; kind < 2; kind++) {
             mesh_messages messages = {.errors = 0};
@@ -326,7 +320,6 @@ static void test_limits(void **state) {
 
 /// Polygons that clip_ears() would work on for hours.
 static void test_time(void **state) {
-    (void)state;
     enum { CORNERS = 3000, FACES = 40 };
     mesh_messages messages;
     ewa_context *context = mesh_context(&messages);
@@ -359,7 +352,6 @@ static void test_time(void **state) {
 
 /// Every format under every name, and what is none.
 static void test_probe(void **state) {
-    (void)state;
     mesh_messages messages;
     ewa_context *context = mesh_context(&messages);
     static const ewa_model_format formats[SAMPLES] = {EWA_MODEL_PLY,  EWA_MODEL_PLY, EWA_MODEL_OBJ,

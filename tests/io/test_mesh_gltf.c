@@ -8,13 +8,11 @@ static mesh_messages messages;
 static ewa_context *context;
 
 static int begin(void **state) {
-    (void)state;
     context = mesh_context(&messages);
     return 0;
 }
 
 static int end(void **state) {
-    (void)state;
     ewa_context_destroy(&context);
     return 0;
 }
@@ -29,7 +27,6 @@ static void check_square(const ewa_mesh *mesh) {
 
 /// Modes, and indices of every type.
 static void test_primitives(void **state) {
-    (void)state;
     static const struct {
         const char *primitive;
         const float *places;
@@ -72,7 +69,6 @@ static void test_primitives(void **state) {
 
 /// Positions as integers of every kind, plain and normalised, with strides and offsets, and sparse ones.
 static void test_accessors(void **state) {
-    (void)state;
     static const struct {
         int type;
         bool normalized;
@@ -159,7 +155,6 @@ static void test_accessors(void **state) {
 /// Matrices, translation, rotation and scale, one below the other; what mirrors keeps its outside;
 /// coordinates of maps keep their digits.
 static void test_nodes(void **state) {
-    (void)state;
     static const struct {
         const char *nodes;
         double low[3], high[3], up; ///< box, and the z of the area
@@ -211,7 +206,6 @@ static void test_nodes(void **state) {
 
 /// Floats that are too coarse are said, unless a node puts them where they are.
 static void test_coarse_floats(void **state) {
-    (void)state;
     static const float far[12] = {500000, 4200000, 0, 500001, 4200000, 0,
                                   500001, 4200001, 0, 500000, 4200001, 0};
     for (int moved = 0; moved < 2; moved++) {
@@ -232,7 +226,6 @@ static void test_coarse_floats(void **state) {
 
 /// Normals go by the inverse transpose; a mirrored one still points out.
 static void test_normals_and_colors(void **state) {
-    (void)state;
     glb g = {.size = 0};
     static const float normals[12] = {0, 0, 1, 0, 0, 1, 0, 0, 1, 1, 0, 1}, uv[8] = {0, 0, 1, 0, 1, 1, 0, 1};
     put_floats(&g, 12, gltf_square);
@@ -272,7 +265,6 @@ static void test_normals_and_colors(void **state) {
 
 /// A buffer in text, in a file beside, in a file elsewhere.
 static void test_buffers(void **state) {
-    (void)state;
     static const char text[] =
         "{\"asset\":{\"version\":\"2.0\"},\"scenes\":[{\"nodes\":[0]}],\"nodes\":[{\"mesh\":0}],\"meshes\":[{"
         "\"primitives\":[{\"attributes\":{\"POSITION\":0}}]}],"
@@ -323,7 +315,6 @@ static void test_buffers(void **state) {
 
 /// Points are a cloud where there are no triangles, and counted beside them, as lines are.
 static void test_points_and_lines(void **state) {
-    (void)state;
     glb g = {.size = 0};
     uint8_t file[16384];
     put_floats(&g, 12, gltf_square);
@@ -355,7 +346,6 @@ static void test_points_and_lines(void **state) {
 
 /// Numbers that lie: each is an error that names the place.
 static void test_lies(void **state) {
-    (void)state;
     static const struct {
         const char *from, *to, *said;
         ewa_status status;
@@ -425,7 +415,6 @@ static void test_lies(void **state) {
 /// A tree that names a child twice at each level would have 2^n nodes; a short file that names one accessor a
 /// thousand times, or a huge one of zeros, is refused before it takes memory.
 static void test_amplification(void **state) {
-    (void)state;
     static char text[1 << 16];
     size_t at = (size_t)snprintf(text, sizeof text,
                                  "{\"asset\":{\"version\":\"2.0\"},\"scenes\":[{\"nodes\":[0]}],\"nodes\":[");
@@ -458,7 +447,6 @@ static void test_amplification(void **state) {
 
 /// A short file over a large buffer beside it: how much it may hold goes by both.
 static void test_large_buffer(void **state) {
-    (void)state;
     enum { PLACES = 3, CORNERS = 4500000, BYTES = 12 * PLACES + CORNERS };
     uint8_t *bytes = calloc(BYTES, 1);
     assert_non_null(bytes);
@@ -486,7 +474,6 @@ static void test_large_buffer(void **state) {
 /// What is looked at again and again costs little each time: empty primitives of a mesh that many nodes have,
 /// and objects of more members than glTF has names for.
 static void test_repetition(void **state) {
-    (void)state;
     static char text[1 << 17];
     size_t at = (size_t)snprintf(text, sizeof text, "{\"asset\":{\"version\":\"2.0\"},\"nodes\":[{}");
     for (int i = 0; i < 4000; i++) at += (size_t)snprintf(text + at, sizeof text - at, ",{\"mesh\":0}");

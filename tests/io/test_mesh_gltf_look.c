@@ -8,13 +8,11 @@ static mesh_messages messages;
 static ewa_context *context;
 
 static int begin(void **state) {
-    (void)state;
     context = mesh_context(&messages);
     return 0;
 }
 
 static int end(void **state) {
-    (void)state;
     ewa_context_destroy(&context);
     return 0;
 }
@@ -48,7 +46,6 @@ static glb textured(const char *json) {
     "pLvAAAAAElFTkSuQmCC"
 
 static void test_materials(void **state) {
-    (void)state;
     ewa_mesh mesh;
     glb g = textured(TEXTURED("{\"pbrMetallicRoughness\":{\"baseColorFactor\":[0.5,0.25,1,0.5],"
                               "\"baseColorTexture\":{\"index\":0}}}",
@@ -92,7 +89,6 @@ static void test_materials(void **state) {
 
 /// Alpha of pictures: kept where it blends, dropped where the material is opaque, cut where it is a mask.
 static void test_alpha(void **state) {
-    (void)state;
     char path[512];
     ewa_mesh mesh;
     const uint8_t pixels[8] = {255, 0, 0, 51, 0, 255, 0, 204};
@@ -134,7 +130,6 @@ static void test_alpha(void **state) {
     "8gP+IXeyAwAA=="
 
 static void test_extensions(void **state) {
-    (void)state;
     ewa_mesh mesh;
     glb g = textured(TEXTURED(
         "{\"pbrMetallicRoughness\":{\"baseColorTexture\":{\"index\":0}}}",

@@ -8,13 +8,11 @@ static mesh_messages messages;
 static ewa_context *context;
 
 static int begin(void **state) {
-    (void)state;
     context = mesh_context(&messages);
     return 0;
 }
 
 static int end(void **state) {
-    (void)state;
     ewa_context_destroy(&context);
     return 0;
 }
@@ -23,7 +21,6 @@ static int end(void **state) {
 
 /// The same square in many spellings.
 static void test_spellings(void **state) {
-    (void)state;
     static const char *const texts[] = {
         SQUARE "f 1 2 3 4\n",
         SQUARE "f 1 2 3 4",
@@ -65,7 +62,6 @@ static void test_spellings(void **state) {
 
 /// The same text in two bytes per letter, both orders; letters beyond ASCII and beyond 16 bits in remarks.
 static void test_utf16(void **state) {
-    (void)state;
     static const char text[] = "# caf\xc3\xa9 \xf0\x9f\x90\x80\n" SQUARE "f 1 2 3 4\n";
     for (int big = 0; big < 2; big++) {
         uint8_t bytes[1024];
@@ -96,7 +92,6 @@ static void test_utf16(void **state) {
 }
 
 static void test_texcoords_and_normals(void **state) {
-    (void)state;
     ewa_mesh mesh;
     mesh_load_text(context, &messages, "a.obj",
                    SQUARE "vt 0 0\nvt 1 0 0.5\nvt 0.25\nvn 0 0 2\nvn 1 0 0\n"
@@ -118,7 +113,6 @@ static void test_texcoords_and_normals(void **state) {
 }
 
 static void test_vertex_colors(void **state) {
-    (void)state;
     ewa_mesh mesh;
     mesh_load_text(context, &messages, "a.obj",
                    "v 0 0 0\nv 1 0 0 0.5 0 1\nv 0 1 0 1 0 0 0.25\nv 1 1 0\nf 1 2 3\nf 2 4 3\n", &mesh);
@@ -139,7 +133,6 @@ static void test_vertex_colors(void **state) {
 
 /// What is no number, no corner, no face: the rest is a mesh, and it is said.
 static void test_bad_statements(void **state) {
-    (void)state;
     ewa_mesh mesh;
     static const struct {
         const char *text, *said;
@@ -170,7 +163,6 @@ static void test_bad_statements(void **state) {
 
 /// Without faces, places are points.
 static void test_points(void **state) {
-    (void)state;
     static const char *const texts[] = {"v 1 2 3\nv 4 5 6\nv 7 8 9\n", "v 1 2 3\nv 4 5 6\nv 7 8 9\np 1 2 3\n",
                                         "vn 0 0 1\nv 1 2 3\nvn 0 0 1\nv 4 5 6\nv 7 8 9\n"};
     for (size_t i = 0; i < sizeof texts / sizeof texts[0]; i++) {
@@ -212,7 +204,6 @@ static void load_with(const char *library, const char *object, ewa_mesh *mesh) {
 
 /// Several materials, colours, pictures with blanks in their names, options before them.
 static void test_materials(void **state) {
-    (void)state;
     ewa_mesh mesh;
     mesh_picture(context, "mtl red.png", 255, 0, 0);
     mesh_picture(context, "mtl_green.png", 0, 255, 0);
@@ -247,7 +238,6 @@ static void test_materials(void **state) {
 /// What is written as PLY is the same mesh when it is read again: places, pictures, their coordinates,
 /// colours.
 static void test_written_as_ply(void **state) {
-    (void)state;
     static const char *const library =
         "newmtl a\nmap_Kd -s 2 1 one picture.png\nnewmtl b\nKd 0.2 0.4 0.6\nd 0.4\nnewmtl c\n"
         "map_Kd written.png\n";
@@ -299,7 +289,6 @@ static void test_written_as_ply(void **state) {
 
 /// One picture that many materials name is there once.
 static void test_shared_picture(void **state) {
-    (void)state;
     ewa_mesh mesh;
     mesh_picture(context, "shared.png", 255, 0, 0);
     load_with(
@@ -314,7 +303,6 @@ static void test_shared_picture(void **state) {
 }
 
 static void test_libraries(void **state) {
-    (void)state;
     char path[512];
     ewa_mesh mesh;
     static const char *const library = "newmtl m\nKd 0 1 0\n";
@@ -359,7 +347,6 @@ static void test_libraries(void **state) {
 
 /// A mesh that was renamed together with its library.
 static void test_renamed(void **state) {
-    (void)state;
     char path[512];
     ewa_mesh mesh;
     static const char *const library = "newmtl m\nKd 0 1 0\n", *const text =
@@ -391,7 +378,6 @@ static void test_renamed(void **state) {
 
 /// A library that is a folder, a pipe, a device or elsewhere is not opened.
 static void test_hostile_names(void **state) {
-    (void)state;
     char path[512];
     ewa_mesh mesh;
     unlink(scratch_path("pipe.png", path));
@@ -440,7 +426,6 @@ static void test_hostile_names(void **state) {
 
 /// Many pictures that are missing are named a few times and counted.
 static void test_many_missing(void **state) {
-    (void)state;
     ewa_mesh mesh;
     char library[4096] = "", object[8192] = TEXTURED("mtl.mtl");
     for (int i = 0; i < 50; i++) {

@@ -11,13 +11,11 @@ static mesh_messages messages;
 static ewa_context *context;
 
 static int begin(void **state) {
-    (void)state;
     context = mesh_context(&messages);
     return 0;
 }
 
 static int end(void **state) {
-    (void)state;
     ewa_context_destroy(&context);
     return 0;
 }
@@ -25,7 +23,6 @@ static int end(void **state) {
 #define SQUARE_VERTICES "0 0 0\n2 0 0\n2 3 0\n0 3 0\n"
 
 static void test_polygons(void **state) {
-    (void)state;
     ewa_mesh mesh;
     double sum[3];
     mesh_load_text(context, &messages, "a.ply",
@@ -52,7 +49,6 @@ static void test_polygons(void **state) {
 
 /// Faces first, an element of unknown kind between, and numbers of the other byte order.
 static void test_order_of_elements(void **state) {
-    (void)state;
     static const char head[] =
         "ply\nformat %s 1.0\nelement face 2\nproperty list uchar short vertex_indices\n"
         "element odd 2\nproperty list uchar uchar things\nproperty short n\n"
@@ -86,7 +82,6 @@ static void test_order_of_elements(void **state) {
 
 /// Header lines that end in a lone carriage return; a line feed that belongs to the data.
 static void test_line_ends(void **state) {
-    (void)state;
     static const char *const ends[] = {"\n", "\r\n", "\r"};
     for (int e = 0; e < 3; e++) {
         char text[2048] = "";
@@ -116,7 +111,6 @@ static void test_line_ends(void **state) {
 
 /// A strip turns every other triangle; -1 begins anew; a vertex twice in a row turns it.
 static void test_strips(void **state) {
-    (void)state;
     static const char head[] = "ply\nformat ascii 1.0\nelement vertex 8\n" XYZ
                                "element tristrips %d\nproperty list int int vertex_indices\nend_header\n"
                                "0 0 0\n1 0 0\n0 1 0\n1 1 0\n0 2 0\n1 2 0\n0 3 0\n1 3 0\n%s";
@@ -149,7 +143,6 @@ static void test_strips(void **state) {
 }
 
 static void test_colors_and_normals(void **state) {
-    (void)state;
     ewa_mesh mesh;
     // 8 bits are sRGB, alpha is linear.
     mesh_load_text(context, &messages, "a.ply",
@@ -193,7 +186,6 @@ static void test_colors_and_normals(void **state) {
 
 /// Texture coordinates by vertex, under each of their names.
 static void test_texcoords_of_vertices(void **state) {
-    (void)state;
     static const char *const names[][2] = {
         {"s", "t"}, {"u", "v"}, {"texture_u", "texture_v"}, {"texture_s", "texture_t"}};
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
@@ -213,7 +205,6 @@ static void test_texcoords_of_vertices(void **state) {
 
 /// As MeshLab writes them: by corner, a number of a picture per face, pictures in comments.
 static void test_texcoords_of_faces(void **state) {
-    (void)state;
     char path[512];
     ewa_mesh mesh;
     static const char text[] =
@@ -245,7 +236,6 @@ static void test_texcoords_of_faces(void **state) {
 
 /// As Artec writes them: in elements of their own, behind the faces.
 static void test_multi_texture(void **state) {
-    (void)state;
     ewa_mesh mesh;
     mesh_load_text(context, &messages, "a.ply",
                    "ply\nformat ascii 1.0\nelement vertex 4\n" XYZ
@@ -263,7 +253,6 @@ static void test_multi_texture(void **state) {
 
 /// Faces that cannot be used are counted and said; the rest is a mesh.
 static void test_bad_faces(void **state) {
-    (void)state;
     static const char head[] =
         "ply\nformat ascii 1.0\nelement vertex 4\nproperty double x\nproperty double y\n"
         "property double z\nelement face %d\nproperty list int int vertex_indices\nend_header\n"
@@ -293,7 +282,6 @@ static void test_bad_faces(void **state) {
 
 /// Colours that are not finite, or not as floats, are counted and white; others stay.
 static void test_odd_colors(void **state) {
-    (void)state;
     static const char text[] = "ply\nformat ascii 1.0\nelement vertex 4\n" XYZ
                                "property double red\nproperty double green\nproperty double blue\n"
                                "element face 2\nproperty list uchar int vertex_indices\nend_header\n"
@@ -312,7 +300,6 @@ static void test_odd_colors(void **state) {
 
 /// Without faces it is a cloud, whatever is declared; with them, a mesh whatever the name.
 static void test_what_is_a_mesh(void **state) {
-    (void)state;
     static const struct {
         const char *elements;
         uint64_t faces;
@@ -342,7 +329,6 @@ static void test_what_is_a_mesh(void **state) {
 
 /// Coordinates keep every digit: floats as they are, doubles far from the origin too.
 static void test_digits(void **state) {
-    (void)state;
     ewa_mesh mesh;
     mesh_load_text(
         context, &messages, "a.ply",
@@ -363,7 +349,6 @@ static void test_digits(void **state) {
 
 /// Everything that is no vertex is written again as it was read, in every encoding.
 static void test_elements_round_trip(void **state) {
-    (void)state;
     static const char text[] =
         "ply\nformat ascii 1.0\ncomment first\nobj_info second\nelement camera 1\nproperty float focal\n"
         "property list ushort double k\nelement vertex 4\n" XYZ "property int flags\n"

@@ -11,14 +11,12 @@ static ewa_context *context;
 static ewa_mesh_source source;
 
 static int begin(void **state) {
-    (void)state;
     context = mesh_context(&messages);
     source = (ewa_mesh_source){.context = context, .name = "polygon"};
     return 0;
 }
 
 static int end(void **state) {
-    (void)state;
     ewa_context_destroy(&context);
     return 0;
 }
@@ -93,7 +91,6 @@ static void hold(const double (*outline)[2], uint32_t count, const char *name) {
 }
 
 static void test_shapes(void **state) {
-    (void)state;
     static const double concave_quad[][2] = {{0, 0}, {2, 1}, {4, 0}, {2, 4}},
                         turned_quad[][2] = {{2, 4}, {4, 0}, {2, 1}, {0, 0}};
     static const double arrow[][2] = {{2, 1}, {4, 0}, {2, 4}, {0, 0}};
@@ -118,7 +115,6 @@ static void test_shapes(void **state) {
 
 /// Stars around a point, of up to 2,000 corners, turned both ways.
 static void test_stars(void **state) {
-    (void)state;
     static double outline[2000][2], turned[2000][2];
     static const uint32_t counts[] = {5, 17, 100, 2000};
     check_random random = {11};
@@ -137,7 +133,6 @@ static void test_stars(void **state) {
 
 /// What has no area, crosses itself, repeats itself or is no number becomes some triangles, and ends soon.
 static void test_degenerate(void **state) {
-    (void)state;
     static const double point[][2] = {{1, 1}, {1, 1}, {1, 1}, {1, 1}},
                         line[][2] = {{0, 0}, {1, 0}, {2, 0}, {3, 0}, {1.5, 0}};
     static const double bow[][2] = {{0, 0}, {2, 2}, {2, 0}, {0, 2}},

@@ -9,19 +9,16 @@ static mesh_messages messages;
 static ewa_context *context;
 
 static int begin(void **state) {
-    (void)state;
     context = mesh_context(&messages);
     return 0;
 }
 
 static int end(void **state) {
-    (void)state;
     ewa_context_destroy(&context);
     return 0;
 }
 
 static void test_ply(void **state) {
-    (void)state;
     static const struct {
         const char *path;
         uint32_t triangles;
@@ -58,7 +55,6 @@ static void test_ply(void **state) {
 }
 
 static void test_obj(void **state) {
-    (void)state;
     static const struct {
         const char *path;
         uint32_t triangles;
@@ -97,7 +93,6 @@ static void test_obj(void **state) {
 }
 
 static void test_stl(void **state) {
-    (void)state;
     static const struct {
         const char *path;
         uint32_t triangles;
@@ -134,7 +129,6 @@ static void load_hostile(void *user, const char *path) {
 }
 
 static void test_hostile_files(void **state) {
-    (void)state;
     static const char *const folders[] = {"hostile/mesh", "hostile/img", "hostile/text"};
     for (size_t i = 0; i < sizeof folders / sizeof folders[0]; i++)
         assert_true(scratch_each(folders[i], load_hostile, NULL) > 0);

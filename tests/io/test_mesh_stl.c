@@ -8,13 +8,11 @@ static mesh_messages messages;
 static ewa_context *context;
 
 static int begin(void **state) {
-    (void)state;
     context = mesh_context(&messages);
     return 0;
 }
 
 static int end(void **state) {
-    (void)state;
     ewa_context_destroy(&context);
     return 0;
 }
@@ -24,7 +22,6 @@ static int end(void **state) {
 #define TWO_FACETS FACET("0 0 0", "2 0 0", "2 3 0") FACET("0 0 0", "2 3 0", "0 3 0")
 
 static void test_ascii_stl(void **state) {
-    (void)state;
     static const char *const texts[] = {
         "solid s\n" TWO_FACETS "endsolid s\n",
         "SOLID\n" TWO_FACETS "ENDSOLID",
@@ -91,7 +88,6 @@ static void check_color(const ewa_mesh *mesh, uint32_t triangle, double red, dou
 }
 
 static void test_binary_stl(void **state) {
-    (void)state;
     uint8_t bytes[256];
     ewa_mesh mesh;
     // A head that begins as text does, or is empty; any name.
@@ -119,7 +115,6 @@ static void test_binary_stl(void **state) {
 }
 
 static void test_colors_of_stl(void **state) {
-    (void)state;
     uint8_t bytes[256];
     ewa_mesh mesh;
     // Magics: components from the low end, the high bit means the common colour.
@@ -137,7 +132,6 @@ static void test_colors_of_stl(void **state) {
 }
 
 static void test_off(void **state) {
-    (void)state;
 #define BODY "4 1 0\n0 0 0\n2 0 0\n2 3 0\n0 3 0\n4 0 1 2 3\n"
     static const char *const texts[] = {
         "OFF\n" BODY,

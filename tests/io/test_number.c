@@ -57,7 +57,6 @@ static void assert_like_library(const char *text) {
 }
 
 static void test_plain_numbers(void **state) {
-    (void)state;
     static const char *const texts[] = {
         "0",
         "-0",
@@ -108,7 +107,6 @@ static void test_plain_numbers(void **state) {
 }
 
 static void test_edges_of_the_formats(void **state) {
-    (void)state;
     static const char *const texts[] = {
         // around the largest and least double, the normal limit, and halves between neighbours
         "1.7976931348623157e308",
@@ -174,7 +172,6 @@ static void test_edges_of_the_formats(void **state) {
 }
 
 static void test_random_decimals(void **state) {
-    (void)state;
     check_random random = {1};
     char text[1100];
     for (int i = 0; i < 60000; i++) {
@@ -196,7 +193,6 @@ static void test_random_decimals(void **state) {
 }
 
 static void test_decimals_near_halves(void **state) {
-    (void)state;
     // Exact decimal expansions of midpoints between neighbours, and those with the last digit changed.
     check_random random = {2};
     char text[1200];
@@ -221,7 +217,6 @@ static void test_decimals_near_halves(void **state) {
 }
 
 static void test_words(void **state) {
-    (void)state;
     static const struct {
         const char *text;
         int kind; // 0 NaN, else the sign of infinity
@@ -245,7 +240,6 @@ static void test_words(void **state) {
 }
 
 static void test_what_is_no_number(void **state) {
-    (void)state;
     static const char *const texts[] = {"",    "-",   "+",  ".",  "-.", "e5",  ".e5", "abc",
                                         "--1", "+-1", "na", "in", " 1", "1.#", "#"};
     for (size_t i = 0; i < sizeof texts / sizeof texts[0]; i++) {
@@ -269,7 +263,6 @@ static void test_what_is_no_number(void **state) {
 }
 
 static void test_integers(void **state) {
-    (void)state;
     static const struct {
         const char *text;
         int64_t value;
@@ -302,7 +295,6 @@ static void test_integers(void **state) {
 }
 
 static void test_written_text(void **state) {
-    (void)state;
     static const struct {
         double value;
         const char *text;
@@ -350,7 +342,6 @@ static void test_written_text(void **state) {
 }
 
 static void test_written_numbers_read_back(void **state) {
-    (void)state;
     check_random random = {3};
     for (int i = 0; i < 100000; i++) {
         uint64_t bits = check_random_u64(&random);
@@ -382,7 +373,6 @@ static void test_written_numbers_read_back(void **state) {
 }
 
 static void test_locale_changes_nothing(void **state) {
-    (void)state;
     static const char *const names[] = {"de_DE.UTF-8", "de_DE.utf8", "fr_FR.UTF-8", "fr_FR.utf8",
                                         "ru_RU.UTF-8"};
     bool found = false;

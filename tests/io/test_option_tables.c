@@ -29,7 +29,6 @@ static const ewa_option_table *const tables[] = {
 /// Defaults are allowed, survive as text, and every member is named once, said in a sentence and in its
 /// struct.
 static void test_tables(void **state) {
-    (void)state;
     check_log log = {0};
     ewa_context *context = check_context(1, &log);
     static double made[512], again[512];
@@ -85,7 +84,6 @@ static const ewa_option sample_rows[] = {
 static const ewa_option_table sample_table = EWA_OPTION_TABLE(sample_options, sample_rows);
 
 static void test_ranges(void **state) {
-    (void)state;
     static const struct {
         int row;
         const char *range;
@@ -110,7 +108,6 @@ static void test_ranges(void **state) {
 }
 
 static void test_text(void **state) {
-    (void)state;
     static const struct {
         int row;
         const char *text, *said; ///< said NULL: accepted, and written as it was read
@@ -176,7 +173,6 @@ typedef struct later_options {
 
 /// What an older header does not have gets its default; what a newer one has may be zero only.
 static void test_sizes(void **state) {
-    (void)state;
     check_log log = {0};
     ewa_context *context = check_context(1, &log);
     sample_options given, chosen;
@@ -219,7 +215,6 @@ static void test_sizes(void **state) {
 
 /// The same through the public functions.
 static void test_callers(void **state) {
-    (void)state;
     check_log log = {0};
     ewa_context *context = check_context(1, &log);
     ewa_cloud *cloud = NULL;
@@ -247,7 +242,6 @@ static void test_callers(void **state) {
 }
 
 static void test_colors(void **state) {
-    (void)state;
     static const struct {
         const char *text;
         double srgba[4];

@@ -13,14 +13,12 @@ static ewa_context *context;
 static check_log messages;
 
 static int begin(void **state) {
-    (void)state;
     messages = (check_log){0};
     context = check_context(3, &messages);
     return 0;
 }
 
 static int end(void **state) {
-    (void)state;
     ewa_context_destroy(&context);
     return 0;
 }
@@ -178,7 +176,6 @@ static size_t to_columns(bool padding, uint8_t *columns) {
 }
 
 static void test_every_type_in_every_encoding(void **state) {
-    (void)state;
     cloud_bytes file = make(ALL_TYPES, "binary", records, sizeof records);
     check_all_types(load(&file));
     free(file.bytes);
@@ -198,7 +195,6 @@ static void test_every_type_in_every_encoding(void **state) {
 }
 
 static void test_colors(void **state) {
-    (void)state;
     // The bits of a float.
     ewa_cloud *cloud =
         load_text(HEADER("x y z rgb", "4 4 4 4", "F F F F", "1 1 1 1", "1") "DATA ascii\n0 0 0 4.2108e+06\n");
@@ -232,7 +228,6 @@ static void test_colors(void **state) {
 }
 
 static void test_names_of_scans(void **state) {
-    (void)state;
     ewa_cloud *cloud = load_text(HEADER(
         "x y z nx ny nz Intensity ReturnNumber ScanAngleRank GpsTime other", "4 4 4 4 4 4 2 1 1 4 4",
         "F F F F F F U U I F I", "1 1 1 1 1 1 1 1 1 1 1", "1") "DATA ascii\n1 2 3 0 0 1 500 2 -9 0.5 7\n");
@@ -246,7 +241,6 @@ static void test_names_of_scans(void **state) {
 }
 
 static void test_histograms_are_split(void **state) {
-    (void)state;
     float body[3 + 33];
     for (int i = 0; i < 36; i++) body[i] = (float)i;
     cloud_bytes file =
@@ -260,7 +254,6 @@ static void test_histograms_are_split(void **state) {
 }
 
 static void test_names_that_clash_are_left_out(void **state) {
-    (void)state;
     ewa_cloud *cloud = load_text(HEADER("x y z a a normal", "4 4 4 4 4 4", "F F F F F F", "1 1 1 1 1 1",
                                         "1") "DATA ascii\n1 2 3 4 5 6\n");
     assert_int_equal(messages.count, 2);
@@ -272,7 +265,6 @@ static void test_names_that_clash_are_left_out(void **state) {
 // ---- text ------------------------------------------------------------------------------------------------
 
 static void test_text_keeps_digits(void **state) {
-    (void)state;
     ewa_cloud *cloud = load_text(XYZ("2") "DATA ascii\n289814.15,4320978.61,170.76\r\n\r\n# no point\r\n"
                                           "\t289814.64 ,\t4320978.84 170.76");
     cloud_expect_world(cloud, 0, (const double[]){289814.15, 4320978.61, 170.76});
@@ -310,7 +302,6 @@ static cloud_bytes make_text(uint32_t point_count, uint32_t *finite_count) {
 }
 
 static void test_text_of_many_pieces(void **state) {
-    (void)state;
     uint32_t finite_count;
     cloud_bytes file = make_text(60000, &finite_count);
     assert_true(file.size > 1 << 20);
@@ -337,7 +328,6 @@ static void test_text_of_many_pieces(void **state) {
 }
 
 static void test_more_lines_than_points(void **state) {
-    (void)state;
     ewa_cloud *cloud = load_text(XYZ("1") "DATA ascii\n1 2 3\n4 5 6\nrubbish\n");
     assert_int_equal(ewa_cloud_point_count(cloud), 1);
     ewa_cloud_destroy(&cloud);
@@ -346,7 +336,6 @@ static void test_more_lines_than_points(void **state) {
 // ---- points without a place ------------------------------------------------------------------------------
 
 static void test_organised_clouds(void **state) {
-    (void)state;
     enum { WIDTH = 100, HEIGHT = 70, COUNT = WIDTH * HEIGHT };
     static float body[COUNT][4];
     check_random random = {9};
@@ -386,7 +375,6 @@ static void test_organised_clouds(void **state) {
 // ---- what is wrong ---------------------------------------------------------------------------------------
 
 static void test_headers_and_their_messages(void **state) {
-    (void)state;
     static const struct {
         const char *text, *message;
     } cases[] = {
@@ -443,7 +431,6 @@ static void test_headers_and_their_messages(void **state) {
 }
 
 static void test_what_lzf_packs(void **state) {
-    (void)state;
     static const struct {
         const char *packed;
         size_t packed_bytes;
@@ -519,7 +506,6 @@ static void test_what_lzf_packs(void **state) {
 
 /// Every beginning of a file is refused, or stepped over with all its points counted.
 static void test_truncated(void **state) {
-    (void)state;
     uint8_t columns[2 * sizeof(record)];
     const size_t size = to_columns(false, columns);
     cloud_bytes files[3] = {make(ALL_TYPES, "binary", records, sizeof records),
@@ -532,7 +518,6 @@ static void test_truncated(void **state) {
 }
 
 static void test_keeps_going(void **state) {
-    (void)state;
     cloud_bytes file = make(XYZ("5"), "ascii", "1 2 3\n4 5\nx\n7 8 9\n", 18);
     uint64_t lost_count;
     ewa_cloud *cloud = cloud_keep_going(context, &file, "keep.pcd", &lost_count);
@@ -551,7 +536,6 @@ static void test_keeps_going(void **state) {
 }
 
 static void test_damaged_bytes_are_survived(void **state) {
-    (void)state;
     uint8_t columns[2 * sizeof(record)];
     const size_t size = to_columns(true, columns);
     cloud_bytes files[2] = {compress(ALL_TYPES, columns, size),
@@ -571,7 +555,6 @@ static ewa_status load_each(ewa_context *failing, void *user) {
 }
 
 static void test_memory_that_fails(void **state) {
-    (void)state;
     uint8_t columns[2 * sizeof(record)];
     const size_t size = to_columns(true, columns);
     cloud_bytes files[2] = {compress(ALL_TYPES, columns, size), make(XYZ("1"), "ascii", "1 2 3\n", 6)};

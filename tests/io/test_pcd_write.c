@@ -8,14 +8,12 @@ static ewa_context *context;
 static check_log messages;
 
 static int begin(void **state) {
-    (void)state;
     messages = (check_log){0};
     context = check_context(3, &messages);
     return 0;
 }
 
 static int end(void **state) {
-    (void)state;
     ewa_context_destroy(&context);
     return 0;
 }
@@ -69,7 +67,6 @@ static void check_written(const ewa_cloud *cloud, const ewa_cloud *back) {
 }
 
 static void test_written_files_read_back(void **state) {
-    (void)state;
     char path[512];
     scratch_path("back.pcd", path);
     for (int encoding = 0; encoding < 3; encoding += 2)
@@ -92,7 +89,6 @@ static void test_written_files_read_back(void **state) {
 }
 
 static void test_written_in_pieces_of_unknown_count(void **state) {
-    (void)state;
     char path[512];
     scratch_path("pieces.pcd", path);
     ewa_cloud *cloud = make_cloud(300, EWA_F32), *back = NULL;
@@ -108,7 +104,6 @@ static void test_written_in_pieces_of_unknown_count(void **state) {
 }
 
 static void test_world_coordinates_are_written(void **state) {
-    (void)state;
     char path[512];
     scratch_path("world.pcd", path);
     ewa_cloud *cloud = NULL, *back = NULL;
@@ -125,7 +120,6 @@ static void test_world_coordinates_are_written(void **state) {
 }
 
 static void test_what_is_not_written(void **state) {
-    (void)state;
     char path[512];
     scratch_path("refused.pcd", path);
     ewa_cloud *cloud = make_cloud(1, EWA_F32);

@@ -7,7 +7,6 @@
 #include <math.h>
 
 static void test_known_bytes(void **state) {
-    (void)state;
     ewa_context *context = check_context(1, NULL);
     // 1 x 2, rows from the bottom up: the first in the file is the lower one.
     static const char little[] = "Pf\n1 2\n-1.0\n\0\0\x80\x3f\0\0\0\xc0",
@@ -32,7 +31,6 @@ static void test_known_bytes(void **state) {
 }
 
 static void test_round_trip_is_exact(void **state) {
-    (void)state;
     ewa_context *context = check_context(1, NULL);
     char path[512];
     scratch_path("saved.pfm", path);
@@ -61,7 +59,6 @@ static void test_round_trip_is_exact(void **state) {
 }
 
 static void test_broken_heads(void **state) {
-    (void)state;
     check_log log = {0};
     ewa_context *context = check_context(1, &log);
     static const char *const heads[] = {
@@ -93,7 +90,6 @@ static void test_broken_heads(void **state) {
 }
 
 static void test_every_truncation_is_refused(void **state) {
-    (void)state;
     ewa_context *context = check_context(1, NULL);
     static const char whole[] = "PF\n1 2\n-0.5\nabcdefghijklmnopqrstuvwx";
     ewa_image image;
@@ -109,7 +105,6 @@ static void test_every_truncation_is_refused(void **state) {
 }
 
 static void test_real_file(void **state) {
-    (void)state;
     ewa_context *context = check_context(1, NULL);
     char path[512];
     if (check_data("rgbd/stereo/motorcycle_disp.pfm", path, sizeof path)) {
@@ -140,13 +135,11 @@ static ewa_status round_trip_work(ewa_context *context, void *user) {
 }
 
 static void test_failing_allocations(void **state) {
-    (void)state;
     char path[512];
     scratch_fail_each(round_trip_work, (void *)(uintptr_t)scratch_path("memory.pfm", path));
 }
 
 static void test_unwritable(void **state) {
-    (void)state;
     check_log log = {0};
     ewa_context *context = check_context(1, &log);
     float pixels[3] = {0};

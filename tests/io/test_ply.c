@@ -11,14 +11,12 @@ static ewa_context *context;
 static check_log messages;
 
 static int open_context(void **state) {
-    (void)state;
     memset(&messages, 0, sizeof messages);
     context = check_context(2, &messages);
     return 0;
 }
 
 static int close_context(void **state) {
-    (void)state;
     ewa_context_destroy(&context);
     return 0;
 }
@@ -40,7 +38,6 @@ static const double type_values[TYPES][4] = {
     {0, 4294967295, 2147483648, 16909060}};
 
 static void test_every_type_in_every_encoding(void **state) {
-    (void)state;
     for (int encoding = 0; encoding < ENCODINGS; encoding++)
         for (int type = 0; type < TYPES; type++)
             for (int spelling = 0; spelling < 2; spelling++) {
@@ -77,7 +74,6 @@ static void test_every_type_in_every_encoding(void **state) {
 }
 
 static void test_positions_are_exact(void **state) {
-    (void)state;
     static const ewa_type expected[TYPES] = {EWA_F32, EWA_F64, EWA_F32, EWA_F32,
                                              EWA_F32, EWA_F32, EWA_F64, EWA_F64};
     for (int encoding = 0; encoding < ENCODINGS; encoding++)
@@ -111,7 +107,6 @@ static void test_positions_are_exact(void **state) {
 }
 
 static void test_any_order_of_properties(void **state) {
-    (void)state;
     static const struct {
         const char *name, *attribute;
         ewa_type type;
@@ -180,7 +175,6 @@ static ewa_cloud *load_counting(const char *properties) {
 #define XYZ "property float x\nproperty float y\nproperty float z\n"
 
 static void test_other_names_of_attributes(void **state) {
-    (void)state;
     ewa_cloud *cloud =
         load_counting(XYZ "property float normal_x\nproperty float normal_y\nproperty float normal_z\n"
                           "property uchar diffuse_red\nproperty uchar diffuse_green\n"
@@ -201,7 +195,6 @@ static void test_other_names_of_attributes(void **state) {
 }
 
 static void test_types_of_colors(void **state) {
-    (void)state;
     static const ewa_type expected[TYPES] = {EWA_F32, EWA_F32, EWA_U8, EWA_U8,
                                              EWA_U8,  EWA_U16, EWA_U8, EWA_U8};
     for (int encoding = 0; encoding < ENCODINGS; encoding++)
@@ -234,7 +227,6 @@ static void test_types_of_colors(void **state) {
 }
 
 static void test_incomplete_groups_stay_scalars(void **state) {
-    (void)state;
     ewa_cloud *cloud =
         load_counting(XYZ "property float nx\nproperty float ny\nproperty uchar red\nproperty uchar green\n"
                           "property float blue\nproperty uchar r\nproperty uchar g\n");
@@ -254,7 +246,6 @@ static void test_incomplete_groups_stay_scalars(void **state) {
 }
 
 static void test_names_that_no_attribute_can_have(void **state) {
-    (void)state;
     ewa_cloud *cloud = load_counting(XYZ "property float color\nproperty float intensity\n");
     assert_int_equal(ewa_cloud_attribute_count(cloud), 2);
     assert_true(sample_value(cloud, "intensity", EWA_F32, 1, 0, 0) == 5);
@@ -277,7 +268,6 @@ static void test_names_that_no_attribute_can_have(void **state) {
 }
 
 static void test_elements_and_lists_around_the_vertices(void **state) {
-    (void)state;
     for (int encoding = 0; encoding < ENCODINGS; encoding++) {
         sample s = sample_start((ewa_ply_encoding)encoding, "\n");
         sample_text(
@@ -327,7 +317,6 @@ static void test_elements_and_lists_around_the_vertices(void **state) {
 }
 
 static void test_line_ends(void **state) {
-    (void)state;
     static const char *const ends[] = {"\n", "\r\n", "\r"};
     for (int encoding = 0; encoding < ENCODINGS; encoding++)
         for (int end = 0; end < 3; end++) {
@@ -356,7 +345,6 @@ static void test_line_ends(void **state) {
 #define ASCII_HEADER(count) "ply\nformat ascii 1.0\nelement vertex " #count "\n" XYZ "end_header\n"
 
 static void test_ascii_layouts(void **state) {
-    (void)state;
     static const struct {
         const char *text;
         bool warns;
@@ -383,7 +371,6 @@ static void test_ascii_layouts(void **state) {
 }
 
 static void test_ascii_words_and_integers(void **state) {
-    (void)state;
     ewa_cloud *cloud;
     assert_int_equal(sample_load_text(context,
                                       "ply\nformat ascii 1.0\nelement vertex 2\n" XYZ
@@ -425,7 +412,6 @@ static sample make_long_ascii(uint64_t points, uint64_t blank_after, const char 
 }
 
 static void test_long_ascii(void **state) {
-    (void)state;
     enum { POINTS = 140000 }; // more text than one wave of parallel tasks takes
     static const struct {
         uint64_t blank_after;
@@ -454,7 +440,6 @@ static void test_long_ascii(void **state) {
 }
 
 static void test_empty_cloud(void **state) {
-    (void)state;
     for (int encoding = 0; encoding < ENCODINGS; encoding++) {
         sample s = sample_start((ewa_ply_encoding)encoding, "\n");
         sample_text(&s, "element vertex 0\n" XYZ "end_header");
@@ -470,7 +455,6 @@ static void test_empty_cloud(void **state) {
 /// What the models' README says of the files that hold vertices.
 
 static void test_real_models(void **state) {
-    (void)state;
     for (size_t i = 0; i < sizeof model_facts / sizeof model_facts[0]; i++) {
         char path[512];
         if (!check_data(model_facts[i].path, path, sizeof path)) skip();
@@ -490,7 +474,6 @@ static void test_real_models(void **state) {
 }
 
 static void test_one_model_in_both_byte_orders(void **state) {
-    (void)state;
     char path[512];
     ewa_cloud *little, *big;
     if (!check_data("models/variants/dolphins_le.ply", path, sizeof path)) skip();

@@ -12,14 +12,12 @@ static ewa_context *context;
 static check_log messages;
 
 static int open_context(void **state) {
-    (void)state;
     memset(&messages, 0, sizeof messages);
     context = check_context(1, &messages);
     return 0;
 }
 
 static int close_context(void **state) {
-    (void)state;
     ewa_context_destroy(&context);
     return 0;
 }
@@ -30,7 +28,6 @@ static int close_context(void **state) {
 #define VERTEX_1 "element vertex 1\n" XYZ
 
 static void test_headers_and_their_messages(void **state) {
-    (void)state;
     static const struct {
         const char *text, *message;
         ewa_status status;
@@ -94,7 +91,6 @@ static void test_headers_and_their_messages(void **state) {
 }
 
 static void test_bodies_and_their_messages(void **state) {
-    (void)state;
     static const struct {
         const char *text, *message;
     } cases[] = {
@@ -144,7 +140,6 @@ static void test_bodies_and_their_messages(void **state) {
 }
 
 static void test_lying_counts(void **state) {
-    (void)state;
     static const char *const counts[] = {"2",
                                          "3",
                                          "1000",
@@ -173,7 +168,6 @@ static void test_lying_counts(void **state) {
 }
 
 static void test_warnings_about_the_rest(void **state) {
-    (void)state;
     ewa_cloud *cloud;
     assert_int_equal(
         sample_load_text(context,
@@ -194,7 +188,6 @@ static void test_warnings_about_the_rest(void **state) {
 }
 
 static void test_limits(void **state) {
-    (void)state;
     ewa_context_options options;
     ewa_context_options_init(&options, sizeof options);
     options.limits.max_points = 2;
@@ -257,7 +250,6 @@ static sample make_rich(ewa_ply_encoding encoding, bool lists) {
 }
 
 static void test_every_truncation(void **state) {
-    (void)state;
     for (int encoding = 0; encoding < 3; encoding++)
         for (int lists = 0; lists < 2; lists++) {
             sample s = make_rich((ewa_ply_encoding)encoding, lists);
@@ -279,7 +271,6 @@ static void test_every_truncation(void **state) {
 }
 
 static void test_changed_bytes_do_no_harm(void **state) {
-    (void)state;
     check_random random = {5};
     for (int encoding = 0; encoding < 3; encoding++)
         for (int lists = 0; lists < 2; lists++) {
@@ -299,7 +290,6 @@ static void test_changed_bytes_do_no_harm(void **state) {
 }
 
 static void test_failing_allocations(void **state) {
-    (void)state;
     check_memory memory = {.calls_left = -1};
     ewa_context_options options;
     ewa_context_options_init(&options, sizeof options);
@@ -351,7 +341,6 @@ static bool cancel_now(void *user, const char *stage, double fraction) {
 }
 
 static void test_cancelling(void **state) {
-    (void)state;
     for (int encoding = 0; encoding < 3; encoding++) {
         int calls_left = 1;
         ewa_context_options options;
@@ -368,7 +357,6 @@ static void test_cancelling(void **state) {
 }
 
 static void test_hostile_files(void **state) {
-    (void)state;
     static const struct {
         const char *path;
         ewa_status status;
@@ -393,7 +381,6 @@ static void test_hostile_files(void **state) {
 }
 
 static void test_wrong_arguments(void **state) {
-    (void)state;
     ewa_cloud *cloud;
     assert_int_equal(ewa_cloud_load(NULL, "a.ply", &cloud), EWA_ERROR_ARGUMENT);
     assert_int_equal(ewa_cloud_load(context, NULL, &cloud), EWA_ERROR_ARGUMENT);

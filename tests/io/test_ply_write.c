@@ -17,7 +17,6 @@ static check_log messages;
 static char folder[64];
 
 static int set_up(void **state) {
-    (void)state;
     memset(&messages, 0, sizeof messages);
     context = check_context(2, &messages);
     snprintf(folder, sizeof folder, "/tmp/ewa-test-ply-XXXXXX");
@@ -37,7 +36,6 @@ static int count_files(bool remove_them) {
 }
 
 static int tear_down(void **state) {
-    (void)state;
     count_files(true);
     ewa_context_destroy(&context);
     return rmdir(folder);
@@ -94,7 +92,6 @@ static ewa_cloud *make_everything(ewa_context *owner, uint64_t points, ewa_type 
 }
 
 static void test_round_trips_are_exact(void **state) {
-    (void)state;
     static const ewa_type colors[] = {EWA_U8, EWA_U16, EWA_F32};
     static const uint64_t counts[] = {0, 1, 2, 1000};
     char path[128];
@@ -115,7 +112,6 @@ static void test_round_trips_are_exact(void **state) {
 }
 
 static void test_bits_of_nan_survive_in_binary(void **state) {
-    (void)state;
     char path[128];
     inside("nan.ply", path);
     for (int encoding = 0; encoding < 2; encoding++) {
@@ -140,7 +136,6 @@ static void assert_file(const char *path, const char *text) {
 }
 
 static void test_text_that_is_written(void **state) {
-    (void)state;
     // Interleaved memory of the caller, an attribute of several components that has no canonical names,
     // blanks.
     struct vertex {
@@ -168,7 +163,6 @@ static void test_text_that_is_written(void **state) {
 }
 
 static void test_origin_gives_doubles(void **state) {
-    (void)state;
     char path[128];
     inside("georeferenced.ply", path);
     for (int encoding = 0; encoding < 3; encoding++)
@@ -197,7 +191,6 @@ static void test_origin_gives_doubles(void **state) {
 }
 
 static void test_threads_change_no_byte(void **state) {
-    (void)state;
     for (int encoding = 0; encoding < 3; encoding++) {
         char first_path[128];
         ewa_file first;
@@ -226,7 +219,6 @@ static void test_threads_change_no_byte(void **state) {
 }
 
 static void test_many_points(void **state) {
-    (void)state;
     enum { POINTS = 300000 }; // more bytes than one wave of parallel tasks takes
     char path[128];
     ewa_cloud *cloud, *back;
@@ -248,7 +240,6 @@ static void test_many_points(void **state) {
 }
 
 static void test_outputs_that_fail_leave_nothing(void **state) {
-    (void)state;
     char path[128];
     ewa_cloud *cloud = make_everything(context, 100, EWA_F32, EWA_U8);
     assert_int_equal(save_as(cloud, inside("cloud.obj", path), 0), EWA_ERROR_UNSUPPORTED);
@@ -287,7 +278,6 @@ static bool stop_writing(void *user, const char *stage, double fraction) {
 }
 
 static void test_cancelled_output_keeps_the_old_file(void **state) {
-    (void)state;
     char path[128];
     ewa_cloud *cloud = make_everything(context, 10, EWA_F32, EWA_U8), *back;
     assert_int_equal(save_as(cloud, inside("cloud.ply", path), 0), EWA_OK);
@@ -313,7 +303,6 @@ static void collect_line(void *user, const char *line) {
 }
 
 static void test_description(void **state) {
-    (void)state;
     char path[128], text[1024] = "";
     FILE *file = fopen(inside("described.ply", path), "wb");
     fputs("ply\r\nformat ascii 1.0\r\ncomment by\thand \xff\r\nelement vertex 0\r\nproperty float "

@@ -27,7 +27,6 @@ static uint8_t *make_codes(uint32_t width, uint32_t height, uint32_t channels) {
 }
 
 static void test_save_and_load(void **state) {
-    (void)state;
     static const uint32_t sizes[][2] = {{1, 1}, {1, 300},     {300, 1},
                                         {7, 5}, {1100, 1100}, {44000, 3}}; // the fifth: several IDAT chunks
     ewa_context *context = check_context(2, NULL);
@@ -61,7 +60,6 @@ static void test_save_and_load(void **state) {
 }
 
 static void test_same_file_for_any_thread_count(void **state) {
-    (void)state;
     enum { WIDTH = 700, HEIGHT = 900 };
     static const uint32_t threads[] = {1, 2, 7, 32};
     uint8_t *codes = make_codes(WIDTH, HEIGHT, 3), *first = NULL;
@@ -88,7 +86,6 @@ static void test_same_file_for_any_thread_count(void **state) {
 }
 
 static void test_float_to_codes(void **state) {
-    (void)state;
     ewa_context *context = check_context(1, NULL);
     char path[512];
     scratch_path("float.png", path);
@@ -128,7 +125,6 @@ static void test_float_to_codes(void **state) {
 }
 
 static void test_head_says_srgb(void **state) {
-    (void)state;
     ewa_context *context = check_context(1, NULL);
     char path[512];
     const uint8_t code = 77;
@@ -151,7 +147,6 @@ static void load_good(void *user, const char *path) {
 }
 
 static void test_pngsuite(void **state) {
-    (void)state;
     ewa_context *context = check_context(1, NULL);
     scratch_each("images/pngsuite", load_good, context);
     char path[512];
@@ -182,7 +177,6 @@ static void test_pngsuite(void **state) {
 }
 
 static void test_hostile(void **state) {
-    (void)state;
     scratch_pictures t = {0};
     t.context = check_context(1, &t.log);
     if (scratch_each("hostile/png", scratch_load_picture, &t) > 0) assert_true(t.refused >= 7);
@@ -195,7 +189,6 @@ static void test_hostile(void **state) {
 }
 
 static void test_every_truncation_is_refused(void **state) {
-    (void)state;
     check_log log = {0};
     ewa_context *context = check_context(1, &log);
     char path[512];
@@ -227,7 +220,6 @@ static void test_every_truncation_is_refused(void **state) {
 }
 
 static void test_limits_come_before_memory(void **state) {
-    (void)state;
     check_log log = {0};
     ewa_context_options options;
     ewa_context_options_init(&options, sizeof options);
@@ -258,7 +250,6 @@ static void test_limits_come_before_memory(void **state) {
 }
 
 static void test_arguments(void **state) {
-    (void)state;
     check_log log = {0};
     ewa_context *context = check_context(1, &log);
     char path[512];
@@ -303,7 +294,6 @@ static ewa_status save_float_work(ewa_context *context, void *user) {
 }
 
 static void test_failing_allocations(void **state) {
-    (void)state;
     char path[512];
     scratch_path("memory.png", path);
     remove(path);

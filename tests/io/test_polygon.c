@@ -10,13 +10,11 @@ static ewa_context *context;
 static check_log messages;
 
 static int enter(void **state) {
-    (void)state;
     context = check_context(2, &messages);
     return 0;
 }
 
 static int leave(void **state) {
-    (void)state;
     ewa_context_destroy(&context);
     return 0;
 }
@@ -72,7 +70,6 @@ static const char square_with_hole[] = "...........\n"
 
 /// The same outline in all forms; what is on an edge, of a hole too, is inside.
 static void test_forms(void **state) {
-    (void)state;
     static const char *const texts[] = {
         "1,1;8,1;8,8;1,8;;3,3;6,3;6,6;3,6",
         "1 1\n8 1\n8 8\n1 8\n1 1\n\n3 3\n6 3\n6 6\n3 6\n",
@@ -109,7 +106,6 @@ static void test_forms(void **state) {
 }
 
 static void test_bad(void **state) {
-    (void)state;
     static const char *const cases[][2] = {
         {"", "there is no polygon"},
         {"1 2\n3 4\n", "ring 1 of the outline has 2 corners"},
@@ -143,7 +139,6 @@ static void test_bad(void **state) {
 
 /// Every begin of a text is read or refused, with a message then.
 static void test_truncations(void **state) {
-    (void)state;
     static const char *const texts[] = {
         "1,1;8,1;8,8;1,8;;3,3;6,3;6,6;3,6",
         "SRID=4326;MULTIPOLYGON ZM (((1 1 2 3, 8 1 2 3, 8 8 2 3)), ((1 1 0 0, 2 2 0 0, 3 1 0 0)))",
@@ -167,7 +162,6 @@ static void test_truncations(void **state) {
 
 /// Many corners in many bands: against the definition, edge by edge.
 static void test_many_corners(void **state) {
-    (void)state;
     enum { CORNERS = 5000, POINTS = 3000 };
     static double corners[2 * CORNERS];
     check_random random = {5};

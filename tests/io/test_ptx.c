@@ -9,7 +9,6 @@
 #define TURNED "10 20 30\n0 1 0\n-1 0 0\n0 0 1\n0 1 0 0\n-1 0 0 0\n0 0 1 0\n10 20 30 1\n"
 
 static void test_scans(void **state) {
-    (void)state;
     ewa_cloud *cloud = rows_load("2\n2\n" STILL "1 2 3 0.5\n0 0 0 0.5\n4 5 6 0.25\n-1 0 0 1\n"
                                  "1\n2\n" TURNED "1 2 3 0.125 255 7 0\n4 5 6 0 1 2 3\n");
     rows_expect(cloud, 5, "position,intensity,color,scan");
@@ -29,7 +28,6 @@ static void test_scans(void **state) {
 }
 
 static void test_places(void **state) {
-    (void)state;
     ewa_cloud *far = rows_load("1\r\n3\r\n" STILL
                                "4200000.125 5200007.3 1 0.5\r\n0 0 0 0.5\r\n4200001.1 5200000.7 2 1\r\n"),
               *near = rows_load("1\n3\n" STILL "0.125 7.3 1 0.5\n0 0 0 0.5\n1.1 0.7 2 1");
@@ -49,7 +47,6 @@ static void test_places(void **state) {
 }
 
 static void test_damage(void **state) {
-    (void)state;
     static const struct {
         const char *text, *said;
     } files[] = {
@@ -67,7 +64,6 @@ static void test_damage(void **state) {
 }
 
 static void test_keep_going(void **state) {
-    (void)state;
     ewa_cloud_load_options options;
     ewa_cloud_load_options_init(&options, sizeof options);
     options.keep_going = true;
@@ -82,7 +78,6 @@ static void test_keep_going(void **state) {
 }
 
 static void test_truncation(void **state) {
-    (void)state;
     const char *text =
         "1\n2\n" STILL "1 2 3 0.5 1 2 3\n4 5 6 0.25 4 5 6\n2\n1\n" TURNED "1 2 3 0 1 2 3\n4 5 6 0 1 2 3\n";
     const size_t length = strlen(text),
@@ -103,7 +98,6 @@ static void test_truncation(void **state) {
 }
 
 static void test_threads(void **state) {
-    (void)state;
     enum { POINTS = 20000, BYTES = 64 };
     char *text = malloc(POINTS * BYTES);
     assert_non_null(text);

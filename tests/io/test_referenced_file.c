@@ -10,7 +10,6 @@ static char mesh[512];
 
 /// A folder "beside" with a mesh, files and folders, links and a pipe.
 static int make_folder(void **state) {
-    (void)state;
     char path[512], target[512];
     scratch_path("beside_outside.txt", path);
     scratch_write(path, "outside", 7);
@@ -41,7 +40,6 @@ static int make_folder(void **state) {
 }
 
 static void test_names(void **state) {
-    (void)state;
     static const struct {
         const char *name, *content, *reason; ///< one of the two
     } cases[] = {
@@ -108,7 +106,6 @@ static void test_names(void **state) {
 
 /// A mesh in the working folder, and one in the root.
 static void test_folders(void **state) {
-    (void)state;
     char reason[EWA_REASON_BYTES], back[4096], folder[512];
     ewa_file file;
     ewa_context *context = check_context(1, NULL);
@@ -123,7 +120,6 @@ static void test_folders(void **state) {
 }
 
 static void test_base64(void **state) {
-    (void)state;
     static const struct {
         const char *letters, *bytes; ///< NULL: refused
     } cases[] = {{"", ""},

@@ -11,20 +11,17 @@ static check_log messages;
 static ewa_context *context;
 
 static int begin(void **state) {
-    (void)state;
     messages = (check_log){0};
     context = check_context(0, &messages);
     return 0;
 }
 
 static int end(void **state) {
-    (void)state;
     ewa_context_destroy(&context);
     return 0;
 }
 
 static void test_counts_boxes_and_attributes(void **state) {
-    (void)state;
     static const struct {
         const char *path;
         uint64_t point_count;
@@ -160,7 +157,6 @@ static void test_counts_boxes_and_attributes(void **state) {
 }
 
 static void test_spherical_and_empty(void **state) {
-    (void)state;
     char path[512];
     ewa_cloud *cloud = NULL;
     if (!check_data("clouds/e57/tiny_spherical.e57", path, sizeof path)) skip();
@@ -179,7 +175,6 @@ static void test_spherical_and_empty(void **state) {
 }
 
 static void test_broken(void **state) {
-    (void)state;
     static const struct {
         const char *path, *message; ///< NULL: merely odd
     } files[] = {{"pcd/missingheader.pcd", "line 1: '289814.15' is no word of a PCD header"},

@@ -12,14 +12,12 @@ static ewa_context *context;
 static check_log messages;
 
 static int set_up(void **state) {
-    (void)state;
     memset(&messages, 0, sizeof messages);
     context = check_context(2, &messages);
     return 0;
 }
 
 static int tear_down(void **state) {
-    (void)state;
     ewa_context_destroy(&context);
     return 0;
 }
@@ -67,7 +65,6 @@ static void world_of(const ewa_cloud *cloud, uint64_t point, double world[3]) {
 
 /// Every format that is written, and the pieces of prime sizes that it is read and written in.
 static void test_pieces(void **state) {
-    (void)state;
     static const char *const suffixes[] = {".ply", ".las", ".laz", ".pcd", ".csv"};
     static const uint64_t sizes[] = {1, 7, 997, 5003, 100000};
     ewa_cloud *scan = make_scan();
@@ -136,7 +133,6 @@ static void let_go(void *user, void *block, size_t size_bytes) {
 
 /// A file that is passed through needs memory for a piece, not for its points.
 static void test_memory(void **state) {
-    (void)state;
     enum { MANY = 400000, PIECE = 4096, MAX_BYTES = 3 << 20 };
     ewa_cloud *cloud = NULL;
     float *position = NULL;
@@ -187,7 +183,6 @@ static void test_memory(void **state) {
 
 /// Only what is wanted is read, and positions always.
 static void test_wanted(void **state) {
-    (void)state;
     char path[512];
     ewa_cloud *scan = make_scan(), *piece = NULL;
     assert_int_equal(ewa_cloud_save(scan, scratch_path("wanted.ply", path), NULL), EWA_OK);
@@ -211,7 +206,6 @@ static void test_wanted(void **state) {
 
 /// A writer that was promised other points than it gets says so, and leaves nothing behind.
 static void test_promises(void **state) {
-    (void)state;
     char path[512];
     ewa_cloud *scan = make_scan();
     scratch_path("promised.ply", path);
@@ -233,7 +227,6 @@ static void test_promises(void **state) {
 
 /// A number of points that is only known at the end is put where it belongs.
 static void test_unknown_count(void **state) {
-    (void)state;
     char path[512];
     ewa_cloud *scan = make_scan();
     ewa_cloud_writer *writer = NULL;
@@ -250,7 +243,6 @@ static void test_unknown_count(void **state) {
 
 /// Decimals are those that were there, also where the sum of two doubles is another double.
 static void test_grid(void **state) {
-    (void)state;
     const ewa_coordinate_grid grid = {{0.01, 0.001, 0.25}, {600000, 0, 0.125}};
     assert_true(ewa_grid_world(&grid, 0, 600000 + 35619.85) == 635619.85);
     uint32_t inexact = 0;
@@ -269,7 +261,6 @@ static void test_grid(void **state) {
 
 /// Notes are copies, are replaced, removed, and handed on.
 static void test_notes(void **state) {
-    (void)state;
     ewa_cloud *scan = make_scan(), *some = NULL, *both = NULL;
     size_t size_bytes;
     assert_int_equal(ewa_cloud_set_note(scan, "file.what", "a\0b", 3), EWA_OK);

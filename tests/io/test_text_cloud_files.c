@@ -5,7 +5,6 @@
 #include "io/rows_check.h"
 
 static void test_files(void **state) {
-    (void)state;
     static const struct {
         const char *path;
         ewa_model_format format;
@@ -93,7 +92,6 @@ static void test_files(void **state) {
 
 /// By hand from the matrix and the line of the file: x y z 1 times the matrix, whose rows come in the file's order.
 static void test_matrix(void **state) {
-    (void)state;
     char path[512];
     if (!check_data("clouds/text/complex-transform.ptx", path, sizeof path)) skip();
     ewa_cloud *cloud = NULL;
@@ -110,7 +108,6 @@ static void test_matrix(void **state) {
 }
 
 static void test_mesh_and_broken(void **state) {
-    (void)state;
     char path[512];
     ewa_cloud *cloud = NULL;
     if (!check_data("hostile/text/badheader.txt", path, sizeof path)) skip();

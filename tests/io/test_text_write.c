@@ -17,7 +17,6 @@ static void expect_file(const ewa_cloud *cloud, const char *name, const char *ex
 
 /// Text that is read and written is the same text.
 static void test_same(void **state) {
-    (void)state;
     static const struct {
         const char *name, *text;
     } files[] = {
@@ -46,7 +45,6 @@ static void test_same(void **state) {
 
 /// Any decimals and any whole number of steps, also where origin and offset differ.
 static void test_every_digit(void **state) {
-    (void)state;
     enum { POINTS = 500 };
     check_random random = {11};
     for (int decimals = 0; decimals <= 9; decimals++) {
@@ -76,7 +74,6 @@ static void test_every_digit(void **state) {
 
 /// Coordinates of no grid and floats read back as they were.
 static void test_shortest(void **state) {
-    (void)state;
     enum { POINTS = 1000 };
     check_random random = {5};
     ewa_cloud *cloud = NULL, *back = NULL;
@@ -109,7 +106,6 @@ static void test_shortest(void **state) {
 }
 
 static void test_linear_colors(void **state) {
-    (void)state;
     ewa_cloud *cloud = NULL;
     const float position[3] = {0.1f, 2, 3}, color[3] = {1, 0, 0.21404114f};
     assert_int_equal(ewa_cloud_create(context, 1, &cloud), EWA_OK);
@@ -122,7 +118,6 @@ static void test_linear_colors(void **state) {
 
 /// The file does not depend on pieces and threads; a count that comes late is put in front.
 static void test_pieces(void **state) {
-    (void)state;
     enum { POINTS = 20000, BYTES = 48 };
     char *text = malloc(POINTS * BYTES);
     assert_non_null(text);
@@ -157,7 +152,6 @@ static void test_pieces(void **state) {
 }
 
 static void test_refused(void **state) {
-    (void)state;
     char path[512];
     ewa_cloud *cloud = rows_load("1 2 3\n");
     void *value;

@@ -18,7 +18,6 @@ static ewa_status read_text(ewa_context *context, const char *text, ewa_transfer
 }
 
 static void test_opacity(void **state) {
-    (void)state;
     // Against the library's own logarithm.
     for (int i = 0; i < 100000; i++) {
         const double opacity = i / 100000.0, wanted = -log1p(-opacity);
@@ -35,7 +34,6 @@ static const char WHOLE[] =
     "  {\"value\": 10, \"color\": [1, 0, 0], \"extinction\": 3}]}\n";
 
 static void test_known_file(void **state) {
-    (void)state;
     ewa_context *context = check_context(1, NULL);
     ewa_transfer transfer;
     assert_int_equal(read_text(context, WHOLE, &transfer), EWA_OK);
@@ -68,7 +66,6 @@ static void test_known_file(void **state) {
 #define FILE_OF(points) "{\"points\": [" points "]}"
 
 static void test_broken_files(void **state) {
-    (void)state;
     static const struct {
         const char *text, *said;
     } files[] = {
@@ -114,7 +111,6 @@ static void test_broken_files(void **state) {
 }
 
 static void test_every_truncation_fails(void **state) {
-    (void)state;
     ewa_context *context = check_context(1, NULL);
     for (size_t size = 0; size < sizeof WHOLE - 2; size++) {
         char text[sizeof WHOLE];
@@ -127,7 +123,6 @@ static void test_every_truncation_fails(void **state) {
 }
 
 static void test_too_many_points(void **state) {
-    (void)state;
     ewa_context *context = check_context(1, NULL);
     char *text = malloc(EWA_MAX_TRANSFER_POINTS * 64 + 256);
     for (int more = 0; more < 2; more++) {
@@ -168,7 +163,6 @@ static double extinction_at(const ewa_transfer *transfer, double value) {
 }
 
 static void test_automatic(void **state) {
-    (void)state;
     ewa_context *context = check_context(1, NULL);
     ewa_volume volume;
     ewa_volume_facts facts;
@@ -208,7 +202,6 @@ static void test_automatic(void **state) {
 
 /// What a volume holds, against sums of our own: every type, numbers that are none, a slanted grid.
 static void test_measure(void **state) {
-    (void)state;
     static const ewa_type types[] = {EWA_U8, EWA_I8, EWA_U16, EWA_I16, EWA_F32};
     enum { X = 13, Y = 7, Z = 29, COUNT = X * Y * Z };
     ewa_context *context = check_context(1, NULL);
@@ -279,7 +272,6 @@ static void test_measure(void **state) {
 
 /// Every preset's points, where values are Hounsfield units and where they are shares of the range.
 static void test_preset_points(void **state) {
-    (void)state;
     static const struct {
         const char *name, *points;
     } presets[] = {
@@ -336,7 +328,6 @@ static void test_preset_points(void **state) {
 }
 
 static void test_presets(void **state) {
-    (void)state;
     check_log log = {0};
     ewa_context *context = check_context(1, &log);
     ewa_volume volume;
@@ -380,7 +371,6 @@ static ewa_status save_and_load(ewa_context *context, void *user) {
 }
 
 static void test_failing_allocations(void **state) {
-    (void)state;
     char path[512];
     scratch_fail_each(save_and_load, (void *)(uintptr_t)scratch_path("failing.json", path));
     ewa_context *context = check_context(1, NULL);

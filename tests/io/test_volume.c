@@ -20,7 +20,6 @@ static void check_place(ewa_context *context, const sample_file *file, const cha
 }
 
 static void test_every_format(void **state) {
-    (void)state;
     check_log log = {0};
     ewa_context *context = check_context(1, &log);
     sample_file file;
@@ -37,7 +36,6 @@ static void test_every_format(void **state) {
 }
 
 static void test_every_type(void **state) {
-    (void)state;
     static const struct {
         const char *word;
         ewa_type type, becomes;
@@ -64,7 +62,6 @@ static void test_every_type(void **state) {
 }
 
 static void test_nrrd_places(void **state) {
-    (void)state;
     ewa_context *context = check_context(1, NULL);
     sample_file file;
     static const struct {
@@ -112,7 +109,6 @@ static void test_nrrd_places(void **state) {
 }
 
 static void test_nrrd_axes(void **state) {
-    (void)state;
     static const struct {
         const char *text;
         ewa_status status;
@@ -154,7 +150,6 @@ static void test_nrrd_axes(void **state) {
 }
 
 static void test_nifti_places(void **state) {
-    (void)state;
     ewa_context *context = check_context(1, NULL);
     for (int kind = 0; kind < 4; kind++) {
         const bool second = kind & 1, big = kind & 2;
@@ -193,7 +188,6 @@ static void test_nifti_places(void **state) {
 }
 
 static void test_nifti_packed_and_pairs(void **state) {
-    (void)state;
     ewa_context *context = check_context(1, NULL);
     sample_file whole, packed = {.size_bytes = 0}, head;
     sample_make(4, &whole);
@@ -220,7 +214,6 @@ static void test_nifti_packed_and_pairs(void **state) {
 }
 
 static void test_meta_places(void **state) {
-    (void)state;
     ewa_context *context = check_context(1, NULL);
     sample_file file = {.size_bytes = 0};
     sample_text(&file, "NDims = 3\nDimSize = 2 3 4\nElementType = MET_SHORT\nElementByteOrderMSB = True\n"
@@ -234,7 +227,6 @@ static void test_meta_places(void **state) {
 
 /// Cells, axes that are turned, places of extents that do not begin at zero.
 static void test_vti_places(void **state) {
-    (void)state;
     ewa_context *context = check_context(1, NULL);
     static const struct {
         const char *image, *section;
@@ -272,7 +264,6 @@ static void test_vti_places(void **state) {
 
 /// Three bytes for each place: colours, by the kinds, by what early writers did, and in XML images.
 static void test_colors(void **state) {
-    (void)state;
     ewa_context *context = check_context(1, NULL);
     sample_file files[2] = {{.size_bytes = 0}, {.size_bytes = 0}};
     sample_text(&files[0], "NRRD0001\ntype: unsigned char\ndimension: 3\nsizes: 3 4 5\nencoding: raw\n\n");
@@ -303,7 +294,6 @@ static void test_colors(void **state) {
 
 /// Which files say how a patient lies.
 static void test_anatomical(void **state) {
-    (void)state;
     ewa_context *context = check_context(1, NULL);
     static const char *const fields[] = {"", "space: RAS\n", "space: left-posterior-superior\n",
                                          "space: 3D-right-handed\n"};
@@ -322,7 +312,6 @@ static void test_anatomical(void **state) {
 }
 
 static void test_raw_numbers(void **state) {
-    (void)state;
     ewa_context *context = check_context(1, NULL);
     sample_file file = {.size_bytes = 0};
     ewa_volume volume;
@@ -366,7 +355,6 @@ static void test_raw_numbers(void **state) {
 }
 
 static void test_parts(void **state) {
-    (void)state;
     ewa_context *context = check_context(1, NULL);
     uint8_t numbers[8 * SAMPLE_VOXELS];
     sample_numbers(EWA_U8, false, numbers);
@@ -418,7 +406,6 @@ static void test_parts(void **state) {
 }
 
 static void test_numbers_that_are_none(void **state) {
-    (void)state;
     check_log log = {0};
     ewa_context *context = check_context(1, &log);
     sample_file file = {.size_bytes = 0};
@@ -437,7 +424,6 @@ static void test_numbers_that_are_none(void **state) {
 }
 
 static void test_saving(void **state) {
-    (void)state;
     static const ewa_type types[] = {EWA_U8, EWA_I8, EWA_U16, EWA_I16, EWA_F32};
     ewa_context *context = check_context(1, NULL);
     char path[512];
@@ -477,7 +463,6 @@ static bool load_data(ewa_context *context, const char *name, ewa_volume *volume
 }
 
 static void test_real_files(void **state) {
-    (void)state;
     ewa_context *context = check_context(0, NULL);
     for (size_t i = 0; i < sizeof volume_facts / sizeof volume_facts[0]; i++) {
         ewa_volume volume;
@@ -495,7 +480,6 @@ static void test_real_files(void **state) {
 
 /// The same voxels in different wrappings.
 static void test_real_twins(void **state) {
-    (void)state;
     static const char *const twins[][2] = {
         {"aneurism.vti", "aneurism_256x256x256_uint8.raw.gz"},
         {"nrrd_variants/BallBinary30x30x30.nrrd", "nrrd_variants/BallBinary30x30x30.nhdr"},

@@ -5,7 +5,6 @@
 #include "volume_sample.h"
 
 static void test_every_truncation_fails(void **state) {
-    (void)state;
     check_log log = {0};
     ewa_context *context = check_context(1, &log);
     sample_file file;
@@ -34,7 +33,6 @@ static void test_every_truncation_fails(void **state) {
 
 /// Every byte of every file is changed in a few ways: whatever comes back, nothing breaks.
 static void test_every_changed_byte(void **state) {
-    (void)state;
     static const uint8_t others[] = {0x00, 0x20, 0x2d, 0x39, 0x7f, 0x80, 0xff};
     ewa_context_options options;
     ewa_context_options_init(&options, sizeof options);
@@ -72,7 +70,6 @@ static void test_every_changed_byte(void **state) {
 #define ZLIB    "compressor=\"vtkZLibDataCompressor\""
 
 static void test_broken_files(void **state) {
-    (void)state;
     static const struct {
         const char *text, *said;
         ewa_status status;
@@ -195,7 +192,6 @@ static void test_broken_files(void **state) {
 }
 
 static void test_broken_nifti(void **state) {
-    (void)state;
     static const struct {
         size_t at, size;
         uint64_t bits;
@@ -228,7 +224,6 @@ static void test_broken_nifti(void **state) {
 }
 
 static void test_limit(void **state) {
-    (void)state;
     ewa_context_options options;
     ewa_context_options_init(&options, sizeof options);
     options.limits.max_memory_bytes = 1000;
@@ -254,7 +249,6 @@ static ewa_status load_one(ewa_context *context, void *user) {
 }
 
 static void test_failing_allocations(void **state) {
-    (void)state;
     sample_file file;
     for (int which = 0; sample_make(which, &file); which++) scratch_fail_each(load_one, &which);
 }
@@ -268,7 +262,6 @@ static ewa_status save_one(ewa_context *context, void *user) {
 }
 
 static void test_failing_save(void **state) {
-    (void)state;
     char path[512];
     scratch_fail_each(save_one, (void *)(uintptr_t)scratch_path("failing.nrrd", path));
     ewa_context *context = check_context(1, NULL);

@@ -23,7 +23,6 @@ static const uint8_t animation[] = {0x52, 0x49, 0x46, 0x46, 0xc0, 0x00, 0x00, 0x
                                     0x4d, 0x06, 0x00, 0x00, 0x00, 0xff, 0xff, 0xff, 0xff, 0x00, 0x00};
 
 static void test_known_pixels(void **state) {
-    (void)state;
     mesh_messages messages;
     ewa_context *context = mesh_context(&messages);
     ewa_image image;
@@ -48,7 +47,6 @@ static void test_known_pixels(void **state) {
 }
 
 static void test_broken(void **state) {
-    (void)state;
     mesh_messages messages;
     ewa_context *context = mesh_context(&messages);
     ewa_image image;
@@ -89,7 +87,6 @@ static ewa_status work(ewa_context *context, void *user) {
 }
 
 static void test_limits(void **state) {
-    (void)state;
     scratch_fail_each(work, NULL);
     ewa_context_options options;
     ewa_context_options_init(&options, sizeof options);

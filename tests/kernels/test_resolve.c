@@ -59,7 +59,6 @@ static void assert_code(uint32_t value, uint8_t code) {
 }
 
 static void test_codes_are_those_of_the_curve(void **state) {
-    (void)state;
     float *sums = calloc(PIXELS * CHANNELS, sizeof *sums);
     uint8_t *rgba8 = calloc(PIXELS, 4);
     const ewa_tile tile = whole_tile(sums);
@@ -85,7 +84,6 @@ static void test_codes_are_those_of_the_curve(void **state) {
 
 /// Values that no picture should hold stay within the codes.
 static void test_codes_are_clamped(void **state) {
-    (void)state;
     float *sums = calloc(PIXELS * CHANNELS, sizeof *sums);
     uint8_t *rgba8 = calloc(PIXELS, 4);
     const ewa_tile tile = whole_tile(sums);
@@ -107,7 +105,6 @@ static void test_codes_are_clamped(void **state) {
 /// A tile of which the picture holds 37x30 pixels, with covered, half covered and empty ones: alpha, colour
 /// over the background, nothing beyond the picture's edge, the same in 8 bits as in floats.
 static void test_partial_tile_over_background(void **state) {
-    (void)state;
     enum { WIDTH_PX = 37, HEIGHT_PX = 30, GUARD = 64 };
     float *sums = calloc(PIXELS * CHANNELS, sizeof *sums);
     for (uint32_t i = 0; i < PIXELS; i++) {

@@ -40,7 +40,6 @@ static void make_sample(sample *s, uint64_t seed) {
 }
 
 static void test_round_trip(void **state) {
-    (void)state;
     ewa_context *context = check_context(1, NULL);
     static sample given, got;
     static uint8_t scratch[16 * SURFELS];
@@ -133,7 +132,6 @@ static ewa_status read_record(ewa_context *context, const uint8_t *bytes, size_t
 }
 
 static void test_record(void **state) {
-    (void)state;
     ewa_context *context = check_context(1, NULL);
     size_t size_bytes;
     uint8_t *bytes = make_record(context, &size_bytes);
@@ -159,7 +157,6 @@ static void test_record(void **state) {
 }
 
 static void test_damage(void **state) {
-    (void)state;
     ewa_context *context = check_context(1, NULL);
     size_t size_bytes;
     uint8_t *bytes = make_record(context, &size_bytes);
@@ -196,7 +193,6 @@ static ewa_status read_with(ewa_context *context, const uint8_t *bytes, size_t r
 }
 
 static void test_refusals(void **state) {
-    (void)state;
     check_log log = {0};
     ewa_context *context = check_context(1, &log);
     size_t size_bytes;

@@ -12,7 +12,6 @@ static const char *const files[FILES] = {"a.las", "b.las", "c.las"};
 
 /// A folder without files but those that are made here.
 static int enter(void **state) {
-    (void)state;
     lod_clear();
     return 0;
 }
@@ -38,7 +37,6 @@ static void hold_surfels(const ewa_cloud *cloud) {
 }
 
 static void test_points(void **state) {
-    (void)state;
     ewa_context *context = check_context(2, NULL);
     make_files(context, (lod_look){.colors = true});
     ewa_lod_build_stats stats;
@@ -76,7 +74,6 @@ static void test_points(void **state) {
 }
 
 static void test_threads(void **state) {
-    (void)state;
     static const uint32_t threads[] = {1, 2, 4};
     char names[3][16];
     for (int i = 0; i < 3; i++) {
@@ -92,7 +89,6 @@ static void test_threads(void **state) {
 
 /// Normals and radii that points have stay as they are, in files of different kinds.
 static void test_own_surfels(void **state) {
-    (void)state;
     static const char *const names[] = {"a.las", "b.ply"};
     ewa_context *context = check_context(2, NULL);
     const lod_look look = {true, true};
@@ -109,7 +105,6 @@ static void test_own_surfels(void **state) {
 }
 
 static void test_without_colors(void **state) {
-    (void)state;
     static const char *const names[] = {"a.ply"};
     ewa_context *context = check_context(2, NULL);
     lod_save(lod_ground(context, 0, 20000, (lod_look){.colors = false}), names[0]);
@@ -139,7 +134,6 @@ static ewa_cloud *build_of(ewa_context *context, ewa_cloud *cloud, ewa_lod_build
 }
 
 static void test_few(void **state) {
-    (void)state;
     ewa_context *context = check_context(2, NULL);
     static const uint64_t counts[] = {0, 1, 2, 3, 10};
     for (int i = 0; i < 5; i++) {
@@ -158,7 +152,6 @@ static void test_few(void **state) {
 }
 
 static void test_one_place(void **state) {
-    (void)state;
     enum { COUNT = 5000 };
     ewa_context *context = check_context(2, NULL);
     ewa_cloud *cloud = lod_ground(context, 0, COUNT, (lod_look){.colors = true});
@@ -180,7 +173,6 @@ static void test_one_place(void **state) {
 }
 
 static void test_left_out(void **state) {
-    (void)state;
     enum { COUNT = 5000 };
     ewa_context *context = check_context(2, NULL);
     ewa_cloud *cloud = lod_ground(context, 0, COUNT, (lod_look){.colors = true});
@@ -199,7 +191,6 @@ static void test_left_out(void **state) {
 }
 
 static void test_refusals(void **state) {
-    (void)state;
     static const char *const names[] = {"a.ply", "nothing.ply"};
     check_log log = {0};
     ewa_context *context = check_context(1, &log);

@@ -19,7 +19,6 @@ static const char file[] = "ground.copc.laz";
 
 /// One octree for all tests, of points with normals and radii.
 static int enter(void **state) {
-    (void)state;
     static const char *const names[] = {"ground.ply"};
     lod_clear();
     ewa_context *context = check_context(2, NULL);
@@ -30,7 +29,6 @@ static int enter(void **state) {
 }
 
 static int leave(void **state) {
-    (void)state;
     lod_clear();
     return 0;
 }
@@ -141,7 +139,6 @@ static void hold_like(const char *what, const shot *plain, const shot *made, dou
 }
 
 static void test_like_plain(void **state) {
-    (void)state;
     ewa_context *context = check_context(2, NULL);
     ewa_lod *lod = open_file(context, file);
     static const double distances[] = {0.6, 2.2, 8, 25};
@@ -167,7 +164,6 @@ static void test_like_plain(void **state) {
 }
 
 static void test_threads(void **state) {
-    (void)state;
     static const uint32_t threads[] = {1, 2, 4, 8};
     const ewa_camera camera = camera_at(2.2);
     const ewa_lod_options options = lod_options_of(16, 2, 1 << 30);
@@ -189,7 +185,6 @@ static void test_threads(void **state) {
 }
 
 static void test_memory(void **state) {
-    (void)state;
     static const uint64_t memories[] = {1 << 30, 1 << 26, 1 << 24};
     static const double errors[] = {0, 16};
     ewa_context *context = check_context(2, NULL);
@@ -220,7 +215,6 @@ static void test_memory(void **state) {
 
 /// With next to no time each picture shows more, until nothing is missing.
 static void test_load(void **state) {
-    (void)state;
     enum { MAX_CALLS = 400 };
     ewa_context *context = check_context(2, NULL);
     const ewa_camera camera = camera_at(1);
@@ -249,7 +243,6 @@ static void test_load(void **state) {
 
 /// Points of a box are those of the whole file that lie in it.
 static void test_read(void **state) {
-    (void)state;
     ewa_context *context = check_context(2, NULL);
     ewa_lod *lod = open_file(context, file);
     ewa_lod_info info;
@@ -302,7 +295,6 @@ static void test_read(void **state) {
 }
 
 static void test_sample(void **state) {
-    (void)state;
     ewa_context *context = check_context(2, NULL);
     ewa_lod *lod = open_file(context, file);
     ewa_cloud *few = NULL, *some = NULL, *all = NULL;
@@ -339,7 +331,6 @@ static void strip(const char *from, const char *to) {
 }
 
 static void test_without_levels(void **state) {
-    (void)state;
     ewa_context *context = check_context(2, NULL);
     strip(file, "plain.copc.laz");
     ewa_lod *lod = open_file(context, "plain.copc.laz");
@@ -371,7 +362,6 @@ static void test_without_levels(void **state) {
 /// Points of a node that lie in a part of it without a node are drawn, too: other programs leave such parts
 /// out.
 static void test_parts_without_nodes(void **state) {
-    (void)state;
     enum { COUNT = 40000 };
     ewa_context *context = check_context(2, NULL);
     ewa_cloud *coarse = lod_ground(context, 0, COUNT, (lod_look){true, true}),

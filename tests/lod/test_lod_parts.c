@@ -25,7 +25,6 @@ static void make_parts(ewa_context *context, const char *const *names, uint32_t 
 
 /// Makes the whole at once and in parts, for all tests.
 static int enter(void **state) {
-    (void)state;
     lod_clear();
     ewa_context *context = check_context(2, NULL);
     const lod_look look = {true, true};
@@ -38,7 +37,6 @@ static int enter(void **state) {
 }
 
 static int leave(void **state) {
-    (void)state;
     lod_clear();
     return 0;
 }
@@ -53,7 +51,6 @@ static ewa_status merge(ewa_context *context, const char *const *names, uint32_t
 }
 
 static void test_orders(void **state) {
-    (void)state;
     static const uint32_t orders[][PARTS] = {{0, 1, 2}, {1, 2, 0}, {2, 1, 0}};
     uint64_t sum = 0;
     // Several regions, so that there is something to merge.
@@ -86,7 +83,6 @@ static void hold_refused(ewa_context *context, const char *const *names, uint32_
 }
 
 static void test_wrong_parts(void **state) {
-    (void)state;
     check_log log;
     ewa_context *context = check_context(1, &log);
     hold_refused(context, (const char *const[]){"p0", "p1"}, 2, &log);
@@ -106,7 +102,6 @@ static void test_wrong_parts(void **state) {
 
 /// Fewer regions than parts, or none at all.
 static void test_empty_parts(void **state) {
-    (void)state;
     static const char *const files[] = {"e.ply"}, *const parts[] = {"e0", "e1", "e2"};
     static const uint64_t counts[] = {0, 1, 1000};
     ewa_context *context = check_context(2, NULL);
@@ -124,7 +119,6 @@ static void test_empty_parts(void **state) {
 
 /// A byte that is another, at many places, and ends of all kinds.
 static void test_damage(void **state) {
-    (void)state;
     enum { PLACES = 60 };
     check_log log;
     ewa_context *context = check_context(2, &log);

@@ -33,7 +33,6 @@ static void assert_near(double value, double expected, double tolerance) {
 }
 
 static void test_tangent(void **state) {
-    (void)state;
     for (int i = 0; i < 100000; i++) {
         const double angle = i * (EWA_PI / 2 / 100000), expected = tan(angle);
         assert_near(ewa_tan(angle), expected, 4 * DBL_EPSILON * fmax(expected, 1e-3) * fmax(1, expected));
@@ -41,7 +40,6 @@ static void test_tangent(void **state) {
 }
 
 static void test_defaults(void **state) {
-    (void)state;
     ewa_context *context = check_context(1, NULL);
     const ewa_camera camera = default_camera();
     assert_int_equal(ewa_camera_check(context, &camera), EWA_OK);
@@ -57,7 +55,6 @@ static void test_defaults(void **state) {
 }
 
 static void test_look_at_known(void **state) {
-    (void)state;
     ewa_camera camera = default_camera();
     const double eye[3] = {10, 0, 0}, target[3] = {0, 0, 0}, up[3] = {0, 0, 1};
     assert_int_equal(ewa_camera_look_at(&camera, eye, target, up), EWA_OK);
@@ -70,7 +67,6 @@ static void test_look_at_known(void **state) {
 }
 
 static void test_look_at_properties(void **state) {
-    (void)state;
     ewa_context *context = check_context(1, NULL);
     check_random random = {7};
     for (int round = 0; round < 1000; round++) {
@@ -103,7 +99,6 @@ static void test_look_at_properties(void **state) {
 }
 
 static void test_map_from_above_has_north_up(void **state) {
-    (void)state;
     ewa_camera camera = default_camera();
     const double eye[3] = {0, 0, 10}, target[3] = {0, 0, 0}, up[3] = {0, 0, 1}, north[3] = {0, 1, 0};
     assert_int_equal(ewa_camera_look_at(&camera, eye, target, up), EWA_OK);
@@ -113,7 +108,6 @@ static void test_map_from_above_has_north_up(void **state) {
 }
 
 static void test_failures_leave_the_camera_alone(void **state) {
-    (void)state;
     ewa_camera camera = default_camera();
     const ewa_camera before = camera;
     const double zero[3] = {0, 0, 0}, up[3] = {0, 1, 0}, ahead[3] = {0, 0, 1}, broken[3] = {NAN, 0, 0};
@@ -139,7 +133,6 @@ static void test_failures_leave_the_camera_alone(void **state) {
 }
 
 static void test_ortho_shows_its_height(void **state) {
-    (void)state;
     ewa_camera camera = default_camera();
     assert_int_equal(ewa_camera_set_ortho(&camera, 4), EWA_OK);
     double pixel[2];
@@ -179,7 +172,6 @@ static void check_frame(ewa_camera camera, const ewa_bounds *box, const double d
 }
 
 static void test_frame_random_boxes(void **state) {
-    (void)state;
     check_random random = {11};
     for (int round = 0; round < 4000; round++) {
         ewa_camera camera = default_camera();
@@ -206,7 +198,6 @@ static void test_frame_random_boxes(void **state) {
 }
 
 static void test_frame_degenerate_boxes(void **state) {
-    (void)state;
     const double directions[3][3] = {{0, 0, 1}, {1, 0, 0}, {0.3, -0.5, 0.8}}, up[3] = {0, -1, 0};
     const ewa_bounds boxes[] = {
         {{5e5, 5.4e6, 100}, {5e5, 5.4e6, 100}, 1}, // a point
@@ -225,7 +216,6 @@ static void test_frame_degenerate_boxes(void **state) {
 }
 
 static void test_frame_of_a_point_is_of_size_one(void **state) {
-    (void)state;
     ewa_camera camera = default_camera();
     ewa_camera_set_ortho(&camera, 77);
     const ewa_bounds point = {{3, 4, 5}, {3, 4, 5}, 1};
@@ -235,7 +225,6 @@ static void test_frame_of_a_point_is_of_size_one(void **state) {
 }
 
 static void test_check_names_the_member(void **state) {
-    (void)state;
     check_log log = {0};
     ewa_context *context = check_context(1, &log);
     const ewa_camera good = default_camera();

@@ -12,13 +12,11 @@
 static ewa_context *context;
 
 static int enter(void **state) {
-    (void)state;
     context = check_context(1, NULL);
     return context ? 0 : -1;
 }
 
 static int leave(void **state) {
-    (void)state;
     ewa_context_destroy(&context);
     return 0;
 }
@@ -62,7 +60,6 @@ static double turn_deg(const ewa_camera *a, const ewa_camera *b) {
 }
 
 static void test_functions(void **state) {
-    (void)state;
     for (int i = 0; i <= 100000; i++) {
         const double angle = i * (EWA_PI / 100000), slope = tan(0.5 * angle);
         double sine, cosine;
@@ -75,7 +72,6 @@ static void test_functions(void **state) {
 }
 
 static void test_keys(void **state) {
-    (void)state;
     ewa_camera keys[7];
     check_random random = {5};
     for (int i = 0; i < 7; i++) {
@@ -115,7 +111,6 @@ static void test_keys(void **state) {
 /// On a circle, the rotation turns at one speed to rounding; the eye stays within 3 % (4 keys), 0.2 % (8
 /// keys) of the radius, and its angular speed within 7 % and 0.5 % of its mean.
 static void test_circle(void **state) {
-    (void)state;
     static const struct {
         size_t count;
         double radius, speed;
@@ -144,7 +139,6 @@ static void test_circle(void **state) {
 
 /// Through uneven keys, the turn's speed and the eye's speed and acceleration go on without a jump.
 static void test_smooth(void **state) {
-    (void)state;
     enum { KEYS = 6 };
     ewa_camera keys[KEYS], frames[5];
     check_random random = {11};
@@ -186,7 +180,6 @@ static void test_smooth(void **state) {
 
 /// A loop over the pole, whose quaternions come with either sign: no step is much longer than the mean.
 static void test_pole(void **state) {
-    (void)state;
     enum { KEYS = 12, FRAMES = 600 };
     ewa_camera keys[KEYS];
     for (int i = 0; i < KEYS; i++) {
@@ -207,7 +200,6 @@ static void test_pole(void **state) {
 
 /// Few and odd keys: a straight line at even speed, one key, twice the same key, opposite directions.
 static void test_few(void **state) {
-    (void)state;
     ewa_camera camera, keys[3] = {look(0, 0, 0, 1, 0, 0), look(2, 4, 6, 3, 4, 6), look(2, 4, 6, 3, 4, 6)};
     ewa_camera_path *path = make(keys, 2, false);
     double eye[3];
@@ -236,7 +228,6 @@ static void test_few(void **state) {
 }
 
 static void test_refused(void **state) {
-    (void)state;
     ewa_camera_path *path = NULL;
     ewa_camera keys[2] = {look(0, 0, 0, 1, 0, 0), look(2, 4, 6, 3, 4, 6)};
     assert_int_equal(ewa_camera_path_create(context, keys, 0, false, &path), EWA_ERROR_ARGUMENT);
@@ -253,7 +244,6 @@ static void test_refused(void **state) {
 }
 
 static void test_orbit(void **state) {
-    (void)state;
     ewa_camera camera = look(7, 1, 1, 1, 1, 1);
     const double pivot[3] = {1, 1, 0}, axis[3] = {0, 0, 3}, none[3] = {0, 0, 0};
     double eye[3];

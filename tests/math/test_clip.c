@@ -46,7 +46,6 @@ static void check_part(ewa_vec4 p1, ewa_vec4 p2, const ewa_segment_part *part, d
 }
 
 static void test_segments_by_sampling(void **state) {
-    (void)state;
     check_random random = {1};
     int seen[4] = {0};
     for (int i = 0; i < SEGMENTS; i++) {
@@ -77,7 +76,6 @@ static void test_segments_by_sampling(void **state) {
 
 /// An external segment: from one side of the picture through infinity to the other.
 static void test_external_segment(void **state) {
-    (void)state;
     ewa_segment_part parts[2];
     uint32_t visible;
     // (0.5, 0) with w = 1 and (-0.5, 0) with w = -1: what is drawn is the outside of the two, cut at the
@@ -99,7 +97,6 @@ static void test_external_segment(void **state) {
 }
 
 static void test_degenerate_segments(void **state) {
-    (void)state;
     ewa_segment_part parts[2];
     uint32_t visible;
     ewa_vec4 inside = {0.1, 0.2, 0.3, 1}, outside = {2, 0, 0.5, 1}, corner = {1, 1, 1, 1};
@@ -144,7 +141,6 @@ static void test_degenerate_segments(void **state) {
 }
 
 static void test_alphas_of_all_planes(void **state) {
-    (void)state;
     check_random random = {3};
     for (int i = 0; i < SEGMENTS; i++) {
         ewa_vec4 p1 = random_clip_point(&random, i), p2 = random_clip_point(&random, i / 4);
@@ -194,7 +190,6 @@ static double inside_by(const ewa_vec4 *points, uint32_t count, double x, double
 }
 
 static void test_polygons_by_sampling(void **state) {
-    (void)state;
     check_random random = {4};
     int seen[4] = {0};
     enum { MAXIMUM = 9 };
@@ -240,7 +235,6 @@ static void test_polygons_by_sampling(void **state) {
 
 /// Neighbours share an edge in opposite directions; the corners that clipping makes on it are the same bytes.
 static void test_polygons_stay_joined(void **state) {
-    (void)state;
     check_random random = {5};
     int shared = 0;
     for (int i = 0; i < 1000; i++) {
@@ -269,7 +263,6 @@ static void test_polygons_stay_joined(void **state) {
 }
 
 static void test_polygon_input(void **state) {
-    (void)state;
     ewa_vec4 points[5] = {
         {0, 0, 0.5, 1}, {0.5, 0, 0.5, 1}, {0.5, 0.5, 0.5, 1}, {0, 0.5, 0.5, 1}, {9, 9, 9, 9}};
     ewa_vec4 clipped[3 * 11];
@@ -297,7 +290,6 @@ static void test_polygon_input(void **state) {
 
 /// Object space, a triangle with attributes; the map of a frustum; the picture: the same numbers both ways.
 static void test_hyperbolic_is_3d_interpolation(void **state) {
-    (void)state;
     check_random random = {7};
     ewa_mat4 map;
     assert_int_equal(check_window_map((const double[]){-0.7, 1.1, -0.4, 0.6}, 0.5, 20, false, &map), EWA_OK);
@@ -354,7 +346,6 @@ static void test_hyperbolic_is_3d_interpolation(void **state) {
 }
 
 static void test_not_finite(void **state) {
-    (void)state;
     double bad[3] = {NAN, INFINITY, -INFINITY}, alpha[6];
     ewa_segment_part parts[2];
     uint32_t bits = 77;
@@ -371,7 +362,6 @@ static void test_not_finite(void **state) {
 
 /// Every combination of w = 0 and zero boundary coordinates: no division by zero, nothing invalid.
 static void test_no_division_by_zero(void **state) {
-    (void)state;
     feclearexcept(FE_ALL_EXCEPT);
     ewa_segment_part parts[2];
     uint32_t bits, count[2];

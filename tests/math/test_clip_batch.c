@@ -129,7 +129,6 @@ static void check_ends(const batch *b, int i) {
 }
 
 static void test_against_double(void **state) {
-    (void)state;
     batch *b = make_batch();
     ewa_context *context = check_context_of(1, EWA_CPU_ALL);
     int seen[4] = {0};
@@ -150,7 +149,6 @@ static void test_against_double(void **state) {
 
 /// Touching counts: a corner of the frustum, an edge from inside, a point on a face.
 static void test_touching(void **state) {
-    (void)state;
     static const float segments[3][8] = {
         {2, 0, 1, 1, 0, 2, 1, 1}, {0, 0, 0, 1, 0, 0, -1, 1}, {1, 0, 0.5f, 1, 1, 0, 0.5f, 1}};
     static const float alpha[3][2] = {{0.5f, 0.5f}, {0, 0}, {0, 1}};
@@ -172,7 +170,6 @@ static void test_touching(void **state) {
 }
 
 static void test_same_bytes(void **state) {
-    (void)state;
     static const uint32_t masks[] = {0, EWA_CPU_AVX2, EWA_CPU_ALL}, threads[] = {1, 2, 7};
     batch *reference = make_batch(), *b = make_batch();
     fill(reference, 9);
@@ -216,7 +213,6 @@ static void test_same_bytes(void **state) {
 }
 
 static void test_invalid(void **state) {
-    (void)state;
     static const float bad[] = {NAN, INFINITY, -INFINITY, 0x1.1p124f, -FLT_MAX};
     batch *b = make_batch(), *good = make_batch();
     fill(b, 5);

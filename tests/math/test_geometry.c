@@ -12,7 +12,6 @@ enum { ROUNDS = 2000 };
 #define SMALL 1e-14
 
 static void test_plane_duality(void **state) {
-    (void)state;
     check_random random = {1};
     for (int i = 0; i < ROUNDS; i++) {
         ewa_vec3 p = check_random_vec3(&random), q = check_random_vec3(&random), k, l, r;
@@ -33,7 +32,6 @@ static void test_plane_duality(void **state) {
 }
 
 static void test_space_duality(void **state) {
-    (void)state;
     check_random random = {2};
     for (int i = 0; i < ROUNDS; i++) {
         ewa_vec4 p = check_random_vec4(&random), q = check_random_vec4(&random),
@@ -63,7 +61,6 @@ static ewa_vec4 check_whole_vec4(check_random *random) {
 /// A line of space from two points and as the meet of two planes through them; meets and joins with planes
 /// and points.
 static void test_plucker_lines(void **state) {
-    (void)state;
     check_random random = {3};
     for (int i = 0; i < ROUNDS; i++) {
         ewa_vec4 p = check_random_vec4(&random), q = check_random_vec4(&random),
@@ -122,7 +119,6 @@ static void test_plucker_lines(void **state) {
 }
 
 static void test_line_transform(void **state) {
-    (void)state;
     check_random random = {4};
     for (int i = 0; i < ROUNDS; i++) {
         ewa_vec4 p = check_random_vec4(&random), q = check_random_vec4(&random);
@@ -137,7 +133,6 @@ static void test_line_transform(void **state) {
 }
 
 static void test_distances(void **state) {
-    (void)state;
     double distance;
     assert_int_equal(ewa_line2_distance(vec3_make(3, 4, -10), vec3_make(2, 6, 2), &distance), EWA_OK);
     check_near(distance, (3 * 1 + 4 * 3 - 10) / 5.0, SMALL);
@@ -155,7 +150,6 @@ static void test_distances(void **state) {
 }
 
 static void test_triangle_round_trips(void **state) {
-    (void)state;
     check_random random = {5};
     for (int i = 0; i < ROUNDS; i++) {
         double offset = i % 3 == 1 ? 4e6 : 0; // as far out as map projections go
@@ -193,7 +187,6 @@ static void test_triangle_round_trips(void **state) {
 
 /// What does not exist is a status, exactly and to within rounding.
 static void test_degenerate(void **state) {
-    (void)state;
     check_random random = {6};
     for (int i = 0; i < ROUNDS; i++) {
         ewa_vec3 p = check_random_vec3(&random), l;
@@ -217,7 +210,6 @@ static void test_degenerate(void **state) {
 }
 
 static void test_not_finite(void **state) {
-    (void)state;
     double bad[3] = {NAN, INFINITY, -INFINITY}, xy[3], number;
     for (int i = 0; i < 3; i++) {
         ewa_vec3 v = {1, bad[i], 1}, good = {1, 2, 3}, line;
@@ -248,7 +240,6 @@ static void test_not_finite(void **state) {
 
 /// w = 0 everywhere and nothing divides by it.
 static void test_no_division_by_zero(void **state) {
-    (void)state;
     feclearexcept(FE_ALL_EXCEPT);
     double xy[3];
     ewa_vec3 triangle[3] = {{1, 1, 0}, {0, 1, 0}, {1, 0, 0}}, line, zero = {0, 0, 0};

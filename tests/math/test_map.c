@@ -19,7 +19,6 @@ static double largest_of(const double *numbers, int count) {
 }
 
 static void test_composition_is_product(void **state) {
-    (void)state;
     check_random random = {1};
     for (int i = 0; i < ROUNDS; i++) {
         ewa_mat3 a = check_random_mat3(&random), b = check_random_mat3(&random),
@@ -37,7 +36,6 @@ static void test_composition_is_product(void **state) {
 }
 
 static void test_inverse(void **state) {
-    (void)state;
     check_random random = {2};
     for (int i = 0; i < ROUNDS; i++) {
         ewa_mat4 a = check_random_mat4(&random), inverse, product;
@@ -70,7 +68,6 @@ static void test_inverse(void **state) {
 }
 
 static void test_singular(void **state) {
-    (void)state;
     check_random random = {3};
     for (int i = 0; i < ROUNDS; i++) {
         ewa_mat4 a = check_random_mat4(&random), inverse;
@@ -99,7 +96,6 @@ static void test_singular(void **state) {
 }
 
 static void test_action_on_lines_and_planes(void **state) {
-    (void)state;
     check_random random = {5};
     for (int i = 0; i < ROUNDS; i++) {
         ewa_mat3 map = check_random_mat3(&random), inverse;
@@ -131,7 +127,6 @@ static void test_action_on_lines_and_planes(void **state) {
 static ewa_vec3 on_circle(double angle) { return vec3_make(cos(angle), sin(angle), 1); }
 
 static void test_conics(void **state) {
-    (void)state;
     check_random random = {6};
     const ewa_conic circle = {1, 0, 0, 1, 0, -1};
     for (int i = 0; i < ROUNDS; i++) {
@@ -159,7 +154,6 @@ static void test_conics(void **state) {
 
 /// The ellipse of a dual conic against the points of a mapped circle.
 static void test_ellipse(void **state) {
-    (void)state;
     check_random random = {7};
     for (int i = 0; i < 200; i++) {
         const double a[2][2] = {{check_uniform(&random, -2, 2), check_uniform(&random, -2, 2)},
@@ -206,7 +200,6 @@ static double depth_of(const ewa_mat4 *map, double z) {
 }
 
 static void test_window_maps(void **state) {
-    (void)state;
     const double window[4] = {-1, 3, -2, 0.5};
     ewa_mat4 map;
     for (int variant = 0; variant < 3; variant++) { // perspective, infinite far, box
@@ -247,7 +240,6 @@ static void test_window_maps(void **state) {
 
 /// A camera's clip map against its pixels, and the planes against the clip conditions they come from.
 static void test_camera_and_planes(void **state) {
-    (void)state;
     check_random random = {8};
     for (int i = 0; i < 400; i++) {
         ewa_camera camera;
@@ -302,7 +294,6 @@ static void test_camera_and_planes(void **state) {
 
 /// The plane at infinity as far plane, and maps that have no frustum.
 static void test_planes_at_infinity(void **state) {
-    (void)state;
     const double window[4] = {-1, 1, -1, 1};
     ewa_mat4 map, view = {{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {3, 4, 1e5, 1}}};
     ewa_vec4 planes[6];
@@ -323,7 +314,6 @@ static void test_planes_at_infinity(void **state) {
 }
 
 static void test_no_division_by_zero(void **state) {
-    (void)state;
     feclearexcept(FE_ALL_EXCEPT);
     ewa_mat4 zero = {{{0}}}, map;
     ewa_vec4 planes[6];

@@ -32,7 +32,6 @@ static void make_picture(ewa_context *context, uint32_t width, uint32_t height, 
 /// The mean under a Gaussian is the sum over all pixels, near and far, less what is under its outermost part;
 /// of a picture turned upside down or around it is the same, wherever the Gaussian begins and ends.
 static void test_means_are_sums(void **state) {
-    (void)state;
     enum { WIDTH = 23, HEIGHT = 19 };
     ewa_context *context = check_context(1, NULL);
     check_random random = {21};
@@ -93,7 +92,6 @@ static void test_means_are_sums(void **state) {
 
 /// The mean on a small copy of a picture is near that on the picture itself.
 static void test_means_of_levels_agree(void **state) {
-    (void)state;
     ewa_context *context = check_context(1, NULL);
     ewa_image image;
     ewa_texture texture;
@@ -151,7 +149,6 @@ static void fill(const ewa_image *image, float r, float g, float b) {
 }
 
 static void test_a_constant_stays(void **state) {
-    (void)state;
     static const ewa_object objects[] = {EWA_OBJECT_PLANE, EWA_OBJECT_SPHERE, EWA_OBJECT_TORUS,
                                          EWA_OBJECT_CUBE, EWA_OBJECT_TERRAIN};
     ewa_context *context = check_context(0, NULL);
@@ -231,7 +228,6 @@ static double measure(ewa_context *context, const ewa_image *image, ewa_texture_
 
 /// A ramp of 1 over the plane, 50 points wide: within an eighth of the step from point to point.
 static void test_a_ramp_is_kept(void **state) {
-    (void)state;
     ewa_context *context = check_context(0, NULL);
     ewa_image image;
     assert_int_equal(ewa_image_create(context, 200, 200, 3, &image), EWA_OK);
@@ -254,7 +250,6 @@ static void test_a_ramp_is_kept(void **state) {
 }
 
 static void test_optimal_is_better(void **state) {
-    (void)state;
     ewa_context *context = check_context(0, NULL);
     ewa_image image;
     assert_int_equal(ewa_image_create(context, 100, 100, 3, &image), EWA_OK);
@@ -273,7 +268,6 @@ static void test_optimal_is_better(void **state) {
 
 /// The gradient of what is minimised, by quadrature: nearly nothing at the optimal colours, much elsewhere.
 static void test_the_gradient_vanishes(void **state) {
-    (void)state;
     enum { POINTS = 100, STEPS = 700 };
     ewa_context *context = check_context(0, NULL);
     ewa_image image;
@@ -324,7 +318,6 @@ static void test_the_gradient_vanishes(void **state) {
 }
 
 static void test_threads_change_nothing(void **state) {
-    (void)state;
     static const uint32_t threads[] = {1, 2, 7};
     float *first = NULL;
     for (int k = 0; k < 3; k++) {
@@ -349,7 +342,6 @@ static void test_threads_change_nothing(void **state) {
 
 /// Straight alpha comes back; colours are multiplied; what has no coordinates or no picture is white.
 static void test_alpha_tint_and_gaps(void **state) {
-    (void)state;
     ewa_context *context = check_context(0, NULL);
     ewa_image image[2] = {{0}};
     assert_int_equal(ewa_image_create(context, 8, 8, 4, &image[0]), EWA_OK);
@@ -388,7 +380,6 @@ static void test_alpha_tint_and_gaps(void **state) {
 
 /// Points that are no surfels, at one place, or without area on the picture: finite colours.
 static void test_odd_points(void **state) {
-    (void)state;
     ewa_context *context = check_context(2, NULL);
     ewa_image image;
     make_picture(context, 32, 32, 2, &image);
@@ -416,7 +407,6 @@ static void test_odd_points(void **state) {
 }
 
 static void test_wrong_use_is_named(void **state) {
-    (void)state;
     check_log log = {0};
     ewa_context *context = check_context(1, &log);
     ewa_image image;
@@ -458,7 +448,6 @@ static void test_wrong_use_is_named(void **state) {
 }
 
 static void test_every_failing_allocation_is_clean(void **state) {
-    (void)state;
     bool done = false;
     for (long n = 0; !done; n++) {
         check_memory memory = {.calls_left = -1};
@@ -492,7 +481,6 @@ static bool stop_at(void *user, const char *stage, double fraction) {
 }
 
 static void test_every_cancel_is_clean(void **state) {
-    (void)state;
     bool done = false;
     for (int n = 0; !done; n += 1 + n / 8) {
         int left = 1000;
@@ -521,7 +509,6 @@ static void test_every_cancel_is_clean(void **state) {
 
 /// Gradients say where points a little further on the surface are on the picture, to a thousandth of the way.
 static void test_charts_of_objects(void **state) {
-    (void)state;
     static const ewa_object objects[] = {EWA_OBJECT_PLANE, EWA_OBJECT_CUBE, EWA_OBJECT_SPHERE,
                                          EWA_OBJECT_TORUS, EWA_OBJECT_TERRAIN};
     ewa_context *context = check_context(0, NULL);

@@ -209,7 +209,6 @@ static double distance_back(ewa_context *context, const solid_pair *pair, ewa_cs
 }
 
 static void test_against_closed_form(void **state) {
-    (void)state;
     static const solid_pair pairs[] = {
         {{EWA_OBJECT_SPHERE, EWA_OBJECT_SPHERE}, {2, 1.6}, {{0, 0, 0}, {0.7, 0.5, 0.3}}, {4000, 4000}},
         {{EWA_OBJECT_CUBE, EWA_OBJECT_SPHERE}, {2, 2.5}, {{0, 0, 0}, {0, 0, 0}}, {4000, 4000}},
@@ -288,7 +287,6 @@ static double distance_from_faces(const plain_surfels *s, uint64_t i, const doub
 /// Where every face is a plane, lines are exact: each lies in the plane of a face, that of the own cube
 /// beyond an edge or one of the other cube, on whole surfels as on their parts.
 static void test_lines_of_planes(void **state) {
-    (void)state;
     ewa_context *context = check_context(0, NULL);
     const double here[3] = {0, 0, 0}, half[2] = {1, 0.75};
     // The second cube is turned by 3-4-5 about z, then by 5-12-13 about x, so that no edge is along an axis.
@@ -337,7 +335,6 @@ static uint64_t count_on_plane(const ewa_cloud *cloud, double at) {
 }
 
 static void test_coinciding_faces(void **state) {
-    (void)state;
     check_log log = {.count = 0};
     ewa_context *context = check_context(0, &log);
     const double here[3] = {0, 0, 0}, beside[3] = {2, 0, 0};
@@ -368,7 +365,6 @@ static void test_coinciding_faces(void **state) {
 }
 
 static void test_far_apart_and_within(void **state) {
-    (void)state;
     ewa_context *context = check_context(0, NULL);
     const double here[3] = {0, 0, 0}, far[3] = {50, 0, 0};
     ewa_cloud *a = make(context, EWA_OBJECT_SPHERE, 2000, 2, here);
@@ -415,7 +411,6 @@ static ewa_cloud *cut_off(const ewa_cloud *cloud, int axis, double limit) {
 }
 
 static void test_open_operands(void **state) {
-    (void)state;
     check_log log = {.count = 0};
     ewa_context *context = check_context(0, &log);
     const double here[3] = {0, 0, 0}, up[3] = {0, 0, 1};
@@ -436,7 +431,6 @@ static void test_open_operands(void **state) {
 }
 
 static void test_same_bytes(void **state) {
-    (void)state;
     ewa_cloud *results[3];
     ewa_context *contexts[3];
     for (uint32_t t = 0; t < 3; t++) {
@@ -466,7 +460,6 @@ static void test_same_bytes(void **state) {
 
 /// A point so far off that squares overflow is no surfel, in either operand.
 static void test_overflow(void **state) {
-    (void)state;
     enum { POINTS = 500 };
     ewa_context *context = check_context(1, NULL);
     const double here[3] = {0, 0, 0}, aside[3] = {0.5, 0, 0};
@@ -490,7 +483,6 @@ static void test_overflow(void **state) {
 }
 
 static void test_refused(void **state) {
-    (void)state;
     check_log log = {.count = 0};
     ewa_context *context = check_context(0, &log);
     const double here[3] = {0, 0, 0};
@@ -553,7 +545,6 @@ static ewa_status combine_work(ewa_context *context, void *user) {
 }
 
 static void test_failing_allocations(void **state) {
-    (void)state;
     for (ewa_csg_operation operation = EWA_CSG_UNION; operation <= EWA_CSG_DIFFERENCE; operation++)
         scratch_fail_each(combine_work, &operation);
 }

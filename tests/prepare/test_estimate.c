@@ -44,7 +44,6 @@ static uint32_t sample_square(sampling kind, float *xyz) {
 static bool is_inner(const float *p) { return fminf(fminf(p[0], p[1]), fminf(SIDE - p[0], SIDE - p[1])) > 6; }
 
 static void test_spacing(void **state) {
-    (void)state;
     ewa_context *context = check_context(2, NULL);
     for (int kind = 0; kind < SAMPLINGS; kind++) {
         float xyz[3 * MAXIMUM];
@@ -91,7 +90,6 @@ static void test_spacing(void **state) {
 /// Shares of the inner square that no disc covers: the plain 1.2 spacings would leave 1 % of a random
 /// sampling open.
 static void test_no_holes(void **state) {
-    (void)state;
     ewa_context *context = check_context(2, NULL);
     for (int kind = 0; kind < SAMPLINGS; kind++) {
         float xyz[3 * MAXIMUM];
@@ -122,7 +120,6 @@ static void test_no_holes(void **state) {
 }
 
 static void test_axes(void **state) {
-    (void)state;
     ewa_context *context = check_context(2, NULL);
     float xyz[3 * MAXIMUM];
     const uint32_t count = sample_square(STRETCHED, xyz);
@@ -157,7 +154,6 @@ static void test_axes(void **state) {
 
 /// A scanner's lines 20 samples apart: 16 neighbours are all on one line, and say nothing about the surface.
 static void test_scan_lines(void **state) {
-    (void)state;
     enum { ALONG = 600, LINES = 40, GAP = 20, LINE_COUNT = ALONG * LINES };
     ewa_context *context = check_context(2, NULL);
     float *xyz = NULL;
@@ -185,7 +181,6 @@ static void test_scan_lines(void **state) {
 
 /// PCA against the true normal of a sphere, also for doubles far from the origin.
 static void test_normals(void **state) {
-    (void)state;
     enum { COUNT = 20000 };
     ewa_context *context = check_context(2, NULL);
     for (int far = 0; far < 2; far++) {
@@ -222,7 +217,6 @@ static void test_normals(void **state) {
 }
 
 static void test_keep(void **state) {
-    (void)state;
     ewa_context *context = check_context(2, NULL);
     float xyz[3 * MAXIMUM];
     const uint32_t count = sample_square(JITTERED, xyz);
@@ -297,7 +291,6 @@ static void make_degenerate(int kind, uint32_t i, check_random *random, float p[
 }
 
 static void test_degenerate(void **state) {
-    (void)state;
     static const uint32_t counts[] = {0, 1, 2, 3, 4, 7, 16, 17, 1000};
     ewa_context *context = check_context(2, NULL);
     for (int kind = 0; kind < 11; kind++)
@@ -369,7 +362,6 @@ static ewa_cloud *estimate_uneven(uint32_t threads, uint32_t mask, const float *
 
 /// Around doubles beyond the range of floats there are no numbers, but nothing that is not finite comes out.
 static void test_overflow(void **state) {
-    (void)state;
     enum { COUNT = 400 };
     for (int shape = 0; shape < 2; shape++) {
         ewa_context *context = check_context(1, NULL);
@@ -396,7 +388,6 @@ static void test_overflow(void **state) {
 }
 
 static void test_threads_and_machines(void **state) {
-    (void)state;
     enum { COUNT = 60000 };
     static const uint32_t threads[] = {2, 7, 32, 1, 1};
     static const uint32_t masks[] = {EWA_CPU_ALL, EWA_CPU_ALL, EWA_CPU_ALL, EWA_CPU_AVX2, 0};
@@ -427,7 +418,6 @@ static void test_threads_and_machines(void **state) {
 
 /// Each point's surfel is the same wherever it stands in the file.
 static void test_order_of_points(void **state) {
-    (void)state;
     enum { COUNT = 20000, STEP = 7919 };
     float *xyz = calloc(6 * (size_t)COUNT, sizeof *xyz), *shuffled = xyz + 3 * (size_t)COUNT;
     make_uneven(xyz, COUNT);
@@ -460,7 +450,6 @@ static void test_order_of_points(void **state) {
 }
 
 static void test_out_of_memory(void **state) {
-    (void)state;
     enum { COUNT = 2000 };
     float *xyz = calloc(3 * (size_t)COUNT, sizeof *xyz);
     make_uneven(xyz, COUNT);
@@ -507,7 +496,6 @@ static bool cancel_at(void *user, const char *stage, double fraction) {
 }
 
 static void test_cancel_and_options(void **state) {
-    (void)state;
     float xyz[3 * MAXIMUM];
     const uint32_t count = sample_square(JITTERED, xyz);
     static char stages[3][16] = {"outliers", "estimate", "orient"};

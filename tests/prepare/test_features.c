@@ -128,7 +128,6 @@ static void check_crease(double angle_deg, bool valley) {
 }
 
 static void test_creases(void **state) {
-    (void)state;
     static const double angles[] = {25, 40, 60, 90, 120};
     for (size_t i = 0; i < sizeof angles / sizeof angles[0]; i++) {
         check_crease(angles[i], false);
@@ -139,7 +138,6 @@ static void test_creases(void **state) {
 /// Points over the surface are put onto it up to 0.3 spacings, or 4 times the noise where that is more; those
 /// that are farther off are left alone.
 static void test_outliers(void **state) {
-    (void)state;
     static const struct {
         double noise;  ///< in spacings, which are 0.87 here
         double height; ///< in world units
@@ -176,7 +174,6 @@ static void test_outliers(void **state) {
 
 /// Below the threshold nothing changes, not even the streams.
 static void test_threshold(void **state) {
-    (void)state;
     ewa_context *context = check_context(2, NULL);
     ewa_cloud *cloud = make_crease(context, 22, false), *before = make_crease(context, 22, false);
     const ewa_feature_options options = default_options();
@@ -194,7 +191,6 @@ static void test_threshold(void **state) {
 /// Exact points have 24 neighbours looked at, those with noise of a quarter of a spacing or more all 64, and
 /// between these as many more as there is noise.
 static void test_neighbour_counts(void **state) {
-    (void)state;
     static const double noise[] = {0, 0.0625, 0.125, 0.1875, 0.25, 0.5};
     static const uint32_t expected[] = {24, 34, 44, 54, 64, 64};
     ewa_context *context = check_context(2, NULL);
@@ -242,7 +238,6 @@ static void count_at_step(double step, uint32_t *lines, uint32_t *moved) {
 /// Neighbours whose planes are less than 0.6 spacings apart have one edge, the mean of theirs; at a higher
 /// step each side keeps its own.
 static void test_steps(void **state) {
-    (void)state;
     static const double high[] = {0.7, 0.75, 0.8, 0.9};
     uint32_t lines, moved;
     count_at_step(0, &lines, &moved);
@@ -314,13 +309,11 @@ static void check_corner(corner_kind kind) {
 }
 
 static void test_corners(void **state) {
-    (void)state;
     for (int kind = CORNER_CUBE; kind <= CORNER_NOTCH; kind++) check_corner((corner_kind)kind);
 }
 
 /// Smooth objects have no edges, exact or noisy; their bytes stay.
 static void test_smooth(void **state) {
-    (void)state;
     static const ewa_object objects[] = {EWA_OBJECT_PLANE, EWA_OBJECT_SPHERE, EWA_OBJECT_TORUS};
     ewa_context *context = check_context(0, NULL);
     for (int i = 0; i < 6; i++) {
@@ -350,7 +343,6 @@ static void test_smooth(void **state) {
 }
 
 static void test_threads(void **state) {
-    (void)state;
     static const uint32_t threads[] = {1, 2, 5};
     static const char *const names[] = {EWA_POSITION,  EWA_NORMAL, EWA_TANGENT_U,
                                         EWA_TANGENT_V, EWA_CLIP0,  EWA_CLIP1};
@@ -380,7 +372,6 @@ static void test_threads(void **state) {
 
 /// Clouds of few points, of one place, on a line, and with coordinates that are not finite.
 static void test_odd_clouds(void **state) {
-    (void)state;
     ewa_context *context = check_context(2, NULL);
     for (uint32_t count = 0; count < 90; count += count < 8 ? 1 : 27) {
         for (int kind = 0; kind < 3; kind++) {
@@ -413,7 +404,6 @@ static void test_odd_clouds(void **state) {
 
 /// Doubles stay doubles, borrowed memory is not written to, axes that are there keep their size.
 static void test_streams(void **state) {
-    (void)state;
     ewa_context *context = check_context(2, NULL);
     ewa_cloud *cloud = make_crease(context, 90, false);
     const uint64_t count = ewa_cloud_point_count(cloud);
@@ -440,7 +430,6 @@ static void test_streams(void **state) {
 }
 
 static void test_refusals(void **state) {
-    (void)state;
     check_log log = {{0}, 0};
     ewa_context *context = check_context(1, &log);
     ewa_cloud *cloud = make_crease(context, 90, false);
@@ -491,7 +480,6 @@ static ewa_status detect_work(ewa_context *context, void *user) {
 }
 
 static void test_failing_allocations(void **state) {
-    (void)state;
     uint64_t edges = 0;
     scratch_fail_each(detect_work, &edges);
     assert_true(edges > 20);

@@ -57,7 +57,6 @@ static double distance2(const float *a, const double *b) {
 }
 
 static void test_sine_and_cosine(void **state) {
-    (void)state;
     const double circle = 6.283185307179586;
     double largest = 0, largest_coarse = 0;
     for (int i = -4000; i <= 4000; i++) {
@@ -72,7 +71,6 @@ static void test_sine_and_cosine(void **state) {
 }
 
 static void test_counts_and_attributes(void **state) {
-    (void)state;
     static const uint64_t counts[] = {0, 1, 2, 3, 5, 7, 64, 65, 1000, 12345};
     ewa_context *context = check_context(2, NULL);
     for (int object = 0; object < OBJECT_COUNT; object++) {
@@ -127,7 +125,6 @@ static void check_on_surface(ewa_object object, double size, const float *positi
 }
 
 static void test_positions_and_normals(void **state) {
-    (void)state;
     ewa_context *context = check_context(2, NULL);
     for (int object = 0; object < EWA_OBJECT_TERRAIN; object++) {
         ewa_generate_options options = options_of((ewa_object)object, 10000);
@@ -142,7 +139,6 @@ static void test_positions_and_normals(void **state) {
 }
 
 static void test_terrain_normals_are_its_derivatives(void **state) {
-    (void)state;
     ewa_terrain terrain;
     ewa_terrain_init(&terrain, 3, 100000);
     check_random random = {5};
@@ -160,7 +156,6 @@ static void test_terrain_normals_are_its_derivatives(void **state) {
 }
 
 static void test_terrain_has_land_water_and_upward_unit_normals(void **state) {
-    (void)state;
     ewa_context *context = check_context(2, NULL);
     for (uint64_t seed = 0; seed < 5; seed++) {
         ewa_generate_options options = options_of(EWA_OBJECT_TERRAIN, 50000);
@@ -220,7 +215,6 @@ static void random_place(ewa_object object, const ewa_terrain *terrain, check_ra
 }
 
 static void test_discs_cover_every_place(void **state) {
-    (void)state;
     ewa_context *context = check_context(2, NULL);
     for (int object = 0; object < OBJECT_COUNT; object++) {
         for (int jittered = 0; jittered < 2; jittered++) {
@@ -261,7 +255,6 @@ static int area_bin(ewa_object object, const float *p) {
 }
 
 static void test_density_is_even(void **state) {
-    (void)state;
     static const ewa_object objects[] = {EWA_OBJECT_PLANE, EWA_OBJECT_SPHERE, EWA_OBJECT_TORUS,
                                          EWA_OBJECT_TERRAIN};
     ewa_context *context = check_context(2, NULL);
@@ -285,7 +278,6 @@ static void test_density_is_even(void **state) {
 }
 
 static void test_regular_grid(void **state) {
-    (void)state;
     ewa_context *context = check_context(1, NULL);
     ewa_generate_options options = options_of(EWA_OBJECT_PLANE, 16);
     options.jitter = 0;
@@ -302,7 +294,6 @@ static void test_regular_grid(void **state) {
 }
 
 static void test_checks(void **state) {
-    (void)state;
     ewa_context *context = check_context(1, NULL);
     ewa_generate_options options = options_of(EWA_OBJECT_CHECKER, 10000);
     options.checks = 5;
@@ -320,7 +311,6 @@ static void test_checks(void **state) {
 }
 
 static void test_same_bytes_for_every_thread_count(void **state) {
-    (void)state;
     static const uint32_t threads[] = {1, 2, 7, 32};
     for (int object = 0; object < OBJECT_COUNT; object++) {
         uint64_t first = 0;
@@ -346,7 +336,6 @@ static void test_same_bytes_for_every_thread_count(void **state) {
 /// The bytes are a promise to everybody who names an object, a count and a seed: a change here needs a
 /// changelog line.
 static void test_bytes_are_known(void **state) {
-    (void)state;
     static const uint64_t known[OBJECT_COUNT] = {0x4b5329827d8f3eda, 0x3fc871025e145fa5, 0xd45a56f3a3a49a4a,
                                                  0x44e5aaf74563f086, 0x04fddea08cd65368, 0xf927b2c3daffc417};
     int wrong = 0;
@@ -375,7 +364,6 @@ static void check_refused(ewa_context *context, const check_log *log, const ewa_
 }
 
 static void test_bad_options(void **state) {
-    (void)state;
     check_log log = {0};
     ewa_context *context = check_context(1, &log);
     const ewa_generate_options good = options_of(EWA_OBJECT_CHECKER, 10);
@@ -411,7 +399,6 @@ static void test_bad_options(void **state) {
 }
 
 static void test_extreme_sizes_stay_finite(void **state) {
-    (void)state;
     ewa_context *context = check_context(1, NULL);
     static const double sizes[] = {1e-25, 1e25}, scales[] = {1e-6, 1e6};
     for (int object = 0; object < OBJECT_COUNT; object++) {
@@ -429,7 +416,6 @@ static void test_extreme_sizes_stay_finite(void **state) {
 }
 
 static void test_every_failing_allocation(void **state) {
-    (void)state;
     for (int fail_at = 0;; fail_at++) {
         check_memory memory = {.calls_left = -1};
         ewa_context_options context_options;
@@ -462,7 +448,6 @@ static bool cancel(void *user, const char *stage, double fraction) {
 }
 
 static void test_progress_cancels(void **state) {
-    (void)state;
     ewa_context_options context_options;
     ewa_context_options_init(&context_options, sizeof context_options);
     context_options.progress = cancel;
@@ -476,7 +461,6 @@ static void test_progress_cancels(void **state) {
 }
 
 static void test_sharp_objects(void **state) {
-    (void)state;
     check_log log = {.count = 0};
     ewa_context *context = check_context(0, &log);
     for (int object = 0; object <= EWA_OBJECT_CSG; object++) {
@@ -522,7 +506,6 @@ static void test_sharp_objects(void **state) {
 /// The part measures what docs/sharp.md says: its box, the floors of slot and notch, and its holes, whose
 /// axes are a radius in front of every place of their walls.
 static void test_part_measures(void **state) {
-    (void)state;
     enum { WALLS = 2 };
     static const struct {
         int axis;

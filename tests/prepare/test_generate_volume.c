@@ -26,7 +26,6 @@ static void index_to_world(const ewa_volume *volume, const double index[3], doub
 /// Sums along each column of z are the documented line integrals: for these smooth functions the trapezoidal
 /// rule is exact to many digits.
 static void test_line_integrals(void **state) {
-    (void)state;
     ewa_context *context = check_context(0, NULL);
     for (int kind = 0; kind < 2; kind++) {
         ewa_volume volume;
@@ -52,7 +51,6 @@ static void test_line_integrals(void **state) {
 }
 
 static void test_checkerbox(void **state) {
-    (void)state;
     ewa_context *context = check_context(0, NULL);
     ewa_volume volume;
     make(context, EWA_VOLUME_CHECKERBOX, 129, 129, 129, &volume);
@@ -80,7 +78,6 @@ static uint64_t hash(const ewa_volume *volume) {
 }
 
 static void test_same_bytes(void **state) {
-    (void)state;
     uint64_t sums[4][2];
     for (uint32_t threads = 1; threads <= 2; threads++) {
         ewa_context *context = check_context(3 * threads - 2, NULL);
@@ -97,7 +94,6 @@ static void test_same_bytes(void **state) {
 
 /// The tree is thin, inside, of the documented brightness, and another one for another seed.
 static void test_vessels(void **state) {
-    (void)state;
     ewa_context *context = check_context(0, NULL);
     ewa_volume_generate_options options;
     ewa_volume_generate_options_init(&options, sizeof options);
@@ -135,7 +131,6 @@ static ewa_bounds outline_box(const ewa_volume *volume, const ewa_transfer *tran
 }
 
 static void test_outline(void **state) {
-    (void)state;
     ewa_context *context = check_context(1, NULL);
     ewa_volume volume;
     assert_int_equal(ewa_volume_create(context, (const uint32_t[3]){20, 20, 20}, EWA_U8, &volume), EWA_OK);
@@ -178,7 +173,6 @@ static void test_outline(void **state) {
 }
 
 static void test_bad_options(void **state) {
-    (void)state;
     ewa_context *context = check_context(1, NULL);
     ewa_volume volume;
     for (int i = 0; i < 7; i++) {
@@ -221,7 +215,6 @@ static ewa_status generate_and_outline(ewa_context *context, void *user) {
 }
 
 static void test_failing_allocations(void **state) {
-    (void)state;
     for (int object = 0; object < 4; object++) {
         ewa_volume_object chosen = (ewa_volume_object)object;
         scratch_fail_each(generate_and_outline, &chosen);

@@ -438,7 +438,6 @@ static void hold_distances(const local_kernels *kernels, const ewa_block *block)
 }
 
 static void test_tables(void **state) {
-    (void)state;
     static const uint32_t masks[] = {0, EWA_CPU_AVX2, EWA_CPU_ALL};
     static ewa_block block;
     for (int k = 0; k < 3; k++) {

@@ -60,7 +60,6 @@ static pages_seen look_at_book(ewa_context *context, uint32_t pages, double spac
 /// However many pages meet in one edge, each is sampled and cut as if it were alone; and the work is that of
 /// the pages, not of all pairs of them, or this would take very long.
 static void test_book(void **state) {
-    (void)state;
     enum { PAGES = 5000, ALONE = 200 };
     const double spacing = 0.3;
     ewa_context *context = check_context(1, NULL);
@@ -128,7 +127,6 @@ static ewa_status sample_square(progress_log *log, uint64_t point_count, ewa_clo
 /// Sampling asks all along whether to go on, also while many points get their colours and lines; it ends at
 /// whichever no.
 static void test_progress(void **state) {
-    (void)state;
     ewa_cloud *cloud;
     progress_log many = {.stop_at = -1}, all = {.stop_at = -1};
     assert_int_equal(sample_square(&many, 700000, &cloud), EWA_OK);

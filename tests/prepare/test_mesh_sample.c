@@ -28,7 +28,6 @@ static int face_of(const float *normal) {
 /// All on the faces, as many on each, within the count, no two of a face too near, bytes the same for any
 /// number of threads.
 static void test_cube_points(void **state) {
-    (void)state;
     ewa_context *context = check_context(1, NULL), *many = check_context(5, NULL);
     ewa_mesh mesh;
     shape_cube(context, &mesh);
@@ -155,20 +154,13 @@ static void hold_outline(void (*make)(ewa_context *, ewa_mesh *), outline *insid
     ewa_context_destroy(&context);
 }
 
-static void test_cube_lines(void **state) {
-    (void)state;
-    hold_outline(shape_cube, cube_outline);
-}
+static void test_cube_lines(void **state) { hold_outline(shape_cube, cube_outline); }
 
 /// Its ends have a concave corner, where one of two lines is enough.
-static void test_angle_lines(void **state) {
-    (void)state;
-    hold_outline(shape_angle, angle_outline);
-}
+static void test_angle_lines(void **state) { hold_outline(shape_angle, angle_outline); }
 
 /// No sharp edges: radii, smooth normals, no lines; an opened one has lines along its border only.
 static void test_sphere(void **state) {
-    (void)state;
     ewa_context *context = check_context(0, NULL);
     ewa_mesh mesh;
     shape_sphere(context, 32, &mesh);
@@ -208,7 +200,6 @@ static void test_sphere(void **state) {
 }
 
 static void test_colors(void **state) {
-    (void)state;
     static const double positions[12] = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0};
     static const float texcoords[8] = {0, 0, 1, 0, 1, 1, 0, 1};
     static const uint32_t triangles[6] = {0, 1, 2, 0, 2, 3};
@@ -254,7 +245,6 @@ static void test_colors(void **state) {
 
 /// A picture in place of materials and vertex colours; its coordinates stay when asked for.
 static void test_picture(void **state) {
-    (void)state;
     static const double positions[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
     static const float texcoords[6] = {0, 0, 1, 0, 0, 1};
     ewa_context *context = check_context(0, NULL);
@@ -307,7 +297,6 @@ static void refuse(const ewa_mesh *mesh, const ewa_mesh_sample_options *options,
 }
 
 static void test_bad_meshes(void **state) {
-    (void)state;
     check_log log = {0};
     ewa_context *context = check_context(0, &log);
     ewa_mesh mesh;
@@ -348,7 +337,6 @@ static void test_bad_meshes(void **state) {
 
 /// Random triangles through each other, with huge, tiny and doubled ones: finite surfels on their planes.
 static void test_soup(void **state) {
-    (void)state;
     ewa_context *context = check_context(0, NULL);
     for (uint64_t seed = 1; seed < 20; seed++) {
         check_random random = {seed};
@@ -388,7 +376,6 @@ static void same_points(const ewa_cloud *a, const ewa_cloud *b) {
 /// A mesh far from the origin is sampled as the same mesh at it, bit for bit, where the shift is exact; the
 /// origin of the cloud says where it is.
 static void test_map_coordinates(void **state) {
-    (void)state;
     static const double shifts[][3] = {{500000, 4200000, 0}, {-6378137, 6378137.5, 1e6}, {1e9, -1e9, 1e9}};
     ewa_context *context = check_context(0, NULL);
     for (int shape = 0; shape < 3; shape++) {
@@ -422,7 +409,6 @@ static void test_map_coordinates(void **state) {
 
 /// Two small cubes far apart: places are doubles, and lie on their faces to a billionth of the distance.
 static void test_far_parts(void **state) {
-    (void)state;
     ewa_context *context = check_context(0, NULL);
     ewa_mesh cube, mesh;
     shape_cube(context, &cube);
@@ -456,7 +442,6 @@ static void test_far_parts(void **state) {
 
 /// Triangles that are there twice count once; those of another side stay.
 static void test_copies(void **state) {
-    (void)state;
     ewa_context *context = check_context(0, NULL);
     ewa_mesh cube, mesh;
     shape_cube(context, &cube);
@@ -499,7 +484,6 @@ static void test_copies(void **state) {
 
 /// Normals of the mesh are used where they are within the crease angle of the triangle, and only there.
 static void test_given_normals(void **state) {
-    (void)state;
     static const double positions[12] = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0};
     static const uint32_t triangles[6] = {0, 1, 2, 0, 2, 3};
     ewa_context *context = check_context(0, NULL);
@@ -556,14 +540,10 @@ static ewa_status sample_all(ewa_context *context, void *user) {
     return status;
 }
 
-static void test_failing_allocations(void **state) {
-    (void)state;
-    scratch_fail_each(sample_all, NULL);
-}
+static void test_failing_allocations(void **state) { scratch_fail_each(sample_all, NULL); }
 
 /// A needle of 1e20 by 1e32: its rows, not its area, say how far points are from each other.
 static void test_needle(void **state) {
-    (void)state;
     ewa_context *context = NULL;
     assert_int_equal(ewa_context_create(NULL, &context), EWA_OK);
     static const double places[9] = {0, 0, 0, 1e20, 0, 0, 0, 1e32, 0};

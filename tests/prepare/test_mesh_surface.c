@@ -44,7 +44,6 @@ static double lean_of(ewa_context *context, const double angle_deg[2], const dou
 /// A vertex faces more as that triangle does which has the larger angle there, whatever their areas; between
 /// equal angles it faces half way.
 static void test_normal_of_vertex(void **state) {
-    (void)state;
     static const double even[2] = {1, 1}, uneven[2] = {0.2, 7};
     ewa_context *context = check_context(1, NULL);
     for (double first = 20; first < 170; first += 20) {
@@ -91,7 +90,6 @@ static void check_line(const double line[3], const double turn[2], int side, con
 
 /// A disc on a plate is cut by the two of its sides that are nearest, in whatever way its axes are turned.
 static void test_nearest_sides(void **state) {
-    (void)state;
     enum { DISCS = 4000 };
     static const uint32_t triangles[9] = {0, 1, 2, 0, 2, 3, 0, 3, 4};
     const double tilt[2] = {0.8, 0.6}; // of the plate about x

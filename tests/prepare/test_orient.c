@@ -91,7 +91,6 @@ static void make_point(object kind, uint32_t i, check_random *random, double p[3
 }
 
 static void test_propagation(void **state) {
-    (void)state;
     ewa_context *context = check_context(2, NULL);
     for (int run = 0; run < 3 * OBJECTS; run++) {
         const int kind = run % OBJECTS;
@@ -123,7 +122,6 @@ static void test_propagation(void **state) {
 }
 
 static void test_viewpoint_and_none(void **state) {
-    (void)state;
     ewa_context *context = check_context(2, NULL);
     for (int none = 0; none < 2; none++) {
         float *xyz = NULL;
@@ -194,7 +192,6 @@ static uint32_t count_turned(ewa_cloud **cloud, const double (*seen_from)[3], co
 
 /// Scanners decide before returns do, and returns before the shape does.
 static void test_what_the_cloud_knows(void **state) {
-    (void)state;
     static const char *const notes[] = {"1003 0 0\n997 0 0\n", "1003 0 0", NULL, "1003 0", "here"};
     static const double seen_from[2][3] = {{3, 0, 0}, {-3, 0, 0}};
     ewa_context *context = check_context(2, NULL);
@@ -219,7 +216,6 @@ static void test_what_the_cloud_knows(void **state) {
 /// The limit by its definition: over the mean of all mean distances to 16 neighbours plus so many of their
 /// deviations.
 static void test_outlier_limit(void **state) {
-    (void)state;
     enum { OUTLIER_POINTS = 1200, K = 16 };
     static const double factors[] = {0.3, 1, 2.5};
     static double distance[OUTLIER_POINTS];
@@ -269,7 +265,6 @@ static void test_outlier_limit(void **state) {
 }
 
 static void test_outliers(void **state) {
-    (void)state;
     ewa_context *context = check_context(2, NULL);
     float *xyz = NULL;
     uint16_t *label = NULL;

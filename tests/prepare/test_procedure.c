@@ -48,7 +48,6 @@ static double checker_value(ewa_vec3 p, const void *user) {
 
 /// Round and elongated footprints of all sizes, across and along the axes too.
 static void test_checker_means(void **state) {
-    (void)state;
     check_random random = {31};
     const double sizes[][2] = {{0.02, 0.02}, {0.2, 0.2},  {0.4, 0.4}, {0.7, 0.7}, {0.79, 3},
                                {0.2, 0.8},   {0.85, 0.9}, {1.2, 1.2}, {2, 2},     {0.9, 3}};
@@ -89,7 +88,6 @@ static pattern make_pattern(ewa_procedure procedure, double frequency) {
 /// Noise is exact where it is not clamped to [0, 1]; bands bent by noise are near, root mean square over
 /// places, at every size.
 static void test_wave_means(void **state) {
-    (void)state;
     const struct {
         ewa_procedure procedure;
         double rms;
@@ -115,7 +113,6 @@ static void test_wave_means(void **state) {
 
 /// Whatever the frequency, what is too fine becomes the mean of the texture, everywhere.
 static void test_high_frequency(void **state) {
-    (void)state;
     for (int procedure = EWA_PROCEDURE_CHECKER; procedure <= EWA_PROCEDURE_NOISE; procedure++) {
         check_random random = {41};
         const pattern texture = make_pattern((ewa_procedure)procedure, 1);
@@ -148,7 +145,6 @@ static ewa_cloud *sphere(ewa_context *context, uint64_t count) {
 
 /// The same bytes for any number of threads; a disc and its axes give the same colours; the seed matters.
 static void test_clouds(void **state) {
-    (void)state;
     ewa_context *one = check_context(1, NULL), *many = check_context(7, NULL);
     for (int procedure = EWA_PROCEDURE_CHECKER; procedure <= EWA_PROCEDURE_NOISE; procedure++) {
         ewa_procedure_options options;
@@ -194,7 +190,6 @@ static void test_clouds(void **state) {
 /// Without a filter points have the texture's own two colours; alpha stays; the origin counts; what is no
 /// number is the mean.
 static void test_values(void **state) {
-    (void)state;
     ewa_context *context = check_context(0, NULL);
     float *xyz;
     ewa_cloud *cloud = check_cloud(context, 3, &xyz);
@@ -223,7 +218,6 @@ static void test_values(void **state) {
 }
 
 static void test_arguments(void **state) {
-    (void)state;
     check_log log = {0};
     ewa_context *context = check_context(1, &log);
     ewa_cloud *cloud = sphere(context, 10);
@@ -277,7 +271,6 @@ static ewa_status color_points(ewa_context *context, void *user) {
 
 /// The default colours are those of the table in docs/colors.md.
 static void test_default_colors(void **state) {
-    (void)state;
     static const char *const names[] = {"checker", "marble", "wood", "noise"};
     char path[512], line[512], name[32];
     snprintf(path, sizeof path, "%s/docs/colors.md", getenv("EWA_SOURCE_DIR"));
@@ -301,7 +294,6 @@ static void test_default_colors(void **state) {
 }
 
 static void test_cancel_and_memory(void **state) {
-    (void)state;
     uint64_t count = 100;
     scratch_fail_each(color_points, &count);
     count = 600000;

@@ -36,7 +36,6 @@ static ewa_cloud *make_roof(ewa_context *context, double half_angle) {
 /// What there is to see from a place above the ridge: one bent surface up to 37 degrees, from there on two
 /// planes, each with its own normal and distance.
 static void test_roofs(void **state) {
-    (void)state;
     static const double origin[3] = {0, 0, 0};
     static const double degrees[] = {10, 30, 45, 55, 80, 120};
     ewa_context *context = check_context(1, NULL);

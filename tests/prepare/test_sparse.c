@@ -9,7 +9,6 @@
 /// Both methods find the known solution, for one to seven right sides, in the same bytes for any number of
 /// threads.
 static void test_known_solution(void **state) {
-    (void)state;
     ewa_context *contexts[3] = {check_context(1, NULL), check_context(2, NULL), check_context(7, NULL)};
     owned matrix = make_gram(90, 0.5);
     for (uint32_t side_count = 1; side_count <= 7; side_count += 2) {
@@ -47,7 +46,6 @@ static void test_known_solution(void **state) {
 
 /// A dense little system by hand, one row, no rows, no sides, sides of zeros.
 static void test_small(void **state) {
-    (void)state;
     ewa_context *context = check_context(2, NULL);
     for (int method = EWA_SPARSE_AUTO; method <= EWA_SPARSE_GRADIENT; method++) {
         const ewa_sparse_options options = {.method = (ewa_sparse_method)method};
@@ -76,7 +74,6 @@ static void test_small(void **state) {
 
 /// Each bad system gives its status and a message, by either method.
 static void test_unsolvable(void **state) {
-    (void)state;
     check_log log = {0};
     ewa_context *context = check_context(1, &log);
     const struct {
@@ -110,7 +107,6 @@ static void test_unsolvable(void **state) {
 
 /// Too few steps are an error that says so; a factor over the limit is one, or, by AUTO, the gradient.
 static void test_limits(void **state) {
-    (void)state;
     check_log log = {0};
     ewa_context *context = check_context(1, &log);
     owned matrix = make_gram(30, 0.5);
@@ -140,7 +136,6 @@ static void test_limits(void **state) {
 
 /// AUTO takes the gradient for many rows, and a factor where that needs more than 500 steps.
 static void test_choice(void **state) {
-    (void)state;
     ewa_context *context = check_context(0, NULL);
     const struct {
         double sigma;
@@ -182,7 +177,6 @@ static ewa_status solve_system(ewa_context *context, void *user) {
 
 /// Progress grows to 1; it may cancel at any call; each allocation may fail; nothing leaks.
 static void test_cancel_and_memory(void **state) {
-    (void)state;
     owned matrix = make_gram(20, 0.5);
     double *truth, *sides = make_sides(&matrix.view, 2, &truth);
     double *solution = malloc(2 * matrix.view.size * sizeof(double));

@@ -37,7 +37,6 @@ static void measure(acquire_scene *scene, ewa_texture_filter filter, double rms[
 }
 
 static void test_figure_6(void **state) {
-    (void)state;
     ewa_context *context = check_context(0, NULL);
     acquire_scene scene = {.context = context, .radius_scale = 1.14, .jitter = 0.5, .pixel_sigma_px = 1};
     double filtered[VIEWS], optimal[VIEWS];
@@ -54,7 +53,6 @@ static void test_figure_6(void **state) {
 
 /// A quad with a checkerboard, whose ray-cast picture is known in its middle.
 static void test_ray_caster(void **state) {
-    (void)state;
     static const double positions[12] = {-1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0};
     static const float texcoords[8] = {0, 0, 1, 0, 1, 1, 0, 1};
     static const uint32_t triangles[6] = {0, 1, 2, 0, 2, 3};

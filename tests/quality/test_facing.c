@@ -232,7 +232,6 @@ static void count_rims(ewa_renderer *renderer, const ewa_cloud *cloud, const tru
 }
 
 static void test_no_rims_of_far_sides(void **state) {
-    (void)state;
     ewa_context *context = check_context(0, NULL);
     ewa_renderer *renderer = NULL;
     assert_int_equal(ewa_renderer_create(context, &renderer), EWA_OK);
@@ -335,7 +334,6 @@ static double largest_difference(const float *a, const float *b, int channels, i
 }
 
 static void test_cover_is_blind_to_normals(void **state) {
-    (void)state;
     static float rgba[2][4 * SIDE * SIDE], coverage[2][SIDE * SIDE];
     static const double eyes[][3] = {{2.2, -2.6, 1.9}, {1.5, -2.2, -2.2}, {3, -0.4, 0.3}, {0.3, -0.2, -3}};
     static const char *const names[SIGN_KINDS] = {"all", "in patches", "at random"};
@@ -363,7 +361,6 @@ static void test_cover_is_blind_to_normals(void **state) {
 
 /// A sphere seen from inside shows its whole inner side, whichever way its normals point, and the same.
 static void test_inside_is_shown(void **state) {
-    (void)state;
     static float rgba[2][4 * SIDE * SIDE], coverage[SIDE * SIDE];
     static const double eye[3] = {0.2, -0.5, 0.1};
     ewa_context *context = check_context(0, NULL);

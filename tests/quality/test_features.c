@@ -9,7 +9,6 @@
 enum { SIDE = 192, CAMERAS = 40, MARGIN = 4 };
 
 static void test_scores(void **state) {
-    (void)state;
     // The floors leave some room below what docs/features.md says.
     static const struct {
         feature_solid solid;
@@ -123,7 +122,6 @@ static void count_holes(ewa_context *context, double noise, hole_counts *found) 
 }
 
 static void test_no_holes(void **state) {
-    (void)state;
     static const double noises[] = {0, 0.1, 0.25};
     ewa_context *context = check_context(0, NULL);
     for (int i = 0; i < 3; i++) {

@@ -108,7 +108,6 @@ static void render_cameras(ewa_kernel kernel, double prefilter_px, hole_counts *
 }
 
 static void test_perspective_has_no_holes(void **state) {
-    (void)state;
     ewa_render_options options;
     ewa_render_options_init(&options, sizeof options);
     hole_counts counts;
@@ -121,7 +120,6 @@ static void test_perspective_has_no_holes(void **state) {
 
 /// The affine kernel does leave holes: so the test above can see them.
 static void test_affine_has_holes(void **state) {
-    (void)state;
     ewa_render_options options;
     ewa_render_options_init(&options, sizeof options);
     hole_counts counts;
@@ -132,7 +130,6 @@ static void test_affine_has_holes(void **state) {
 
 /// Objects with the radii that ewa_cloud_generate() chooses are opaque up to a few pixels from the outline.
 static void test_generated_discs_close(void **state) {
-    (void)state;
     enum { VIEW_PX = 400, RIM_PX = 8 };
     static float rgba[VIEW_PX * VIEW_PX * 4];
     static const double jitters[] = {0, 0.25, 0.5, 1};

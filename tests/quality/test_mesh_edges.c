@@ -141,15 +141,9 @@ static void hold(const solid *of) {
     }
 }
 
-static void test_cube(void **state) {
-    (void)state;
-    hold(&cube);
-}
+static void test_cube(void **state) { hold(&cube); }
 
-static void test_angle(void **state) {
-    (void)state;
-    hold(&angle);
-}
+static void test_angle(void **state) { hold(&angle); }
 
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_cube), cmocka_unit_test(test_angle)};

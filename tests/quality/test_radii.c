@@ -21,7 +21,6 @@ static ewa_cloud *make_scene(ewa_context *context, radii_kind kind, double detai
 
 /// Gaps that larger discs would close are none, and pixels inside are opaque.
 static void test_closed(void **state) {
-    (void)state;
     static const struct {
         const char *name;
         radii_kind kind;
@@ -54,7 +53,6 @@ static void test_closed(void **state) {
 
 /// No disc is much larger than the spacing around it.
 static void test_limited(void **state) {
-    (void)state;
     static const struct {
         const char *name;
         radii_kind kind;
@@ -80,7 +78,6 @@ static void test_limited(void **state) {
 
 /// Single points above a plane get the plain radius of what is nearest, those of the plane stay as they were.
 static void test_lone_points(void **state) {
-    (void)state;
     enum { COUNT = 20000 };
     ewa_context *context = check_context(0, NULL);
     ewa_cloud *cloud = make_scene(context, RADII_LONE, 0, COUNT);
@@ -126,7 +123,6 @@ static double radius_in_hole(ewa_context *context, double hole) {
 /// A place in a gap is enlarged to close it, but in a hole that is much wider than the spacing it is alone:
 /// it gets the plain radius of what is around.
 static void test_holes(void **state) {
-    (void)state;
     ewa_context *context = check_context(0, NULL);
     for (int hole = 2; hole < 12; hole++) {
         const double radius = radius_in_hole(context, hole);

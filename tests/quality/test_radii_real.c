@@ -6,7 +6,6 @@
 #include "quality/radii_scene.h"
 
 static void test_garden(void **state) {
-    (void)state;
     char path[1024];
     const char *file = check_data("gaussians/garden_sfm_points.ply", path, sizeof path);
     if (!file) skip();

@@ -79,7 +79,6 @@ static double psnr(const float *picture, const float *truth, const uint8_t *mask
 }
 
 static void test_edges_close_up(void **state) {
-    (void)state;
     static const struct {
         const char *name;
         ewa_object object;
@@ -203,7 +202,6 @@ static void hold_outlines(ewa_context *context, ewa_renderer *renderer, ewa_obje
 }
 
 static void test_outlines(void **state) {
-    (void)state;
     // Not circles: those of discs that are seen edge-on reach far beyond what their clip lines leave.
     static const struct {
         ewa_kernel kernel;
@@ -280,7 +278,6 @@ static void count_holes(ewa_object object, uint64_t points) {
 }
 
 static void test_no_holes_along_edges(void **state) {
-    (void)state;
     count_holes(EWA_OBJECT_CUBE, 6000);
     count_holes(EWA_OBJECT_CSG, 7000);
 }

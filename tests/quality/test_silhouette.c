@@ -99,7 +99,6 @@ static bool surrounded_by(const scene *s, int x, int y, float truth) {
 }
 
 static void test_silhouettes(void **state) {
-    (void)state;
     ewa_context *context = check_context(0, NULL);
     scene *s = calloc(1, sizeof *s);
     assert_non_null(s);

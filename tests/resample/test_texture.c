@@ -11,13 +11,11 @@
 static ewa_context *context;
 
 static int enter(void **state) {
-    (void)state;
     context = check_context(2, NULL);
     return 0;
 }
 
 static int leave(void **state) {
-    (void)state;
     ewa_context_destroy(&context);
     return 0;
 }
@@ -49,7 +47,6 @@ static const char *const methods[] = {"hybrid", "splat", "point", "bilinear"};
 
 /// Floats differ by rounding; the hybrid's blocks decide together what texels are, and use levels.
 static void test_reference(void **state) {
-    (void)state;
     for (int channels = 1; channels <= 4; channels++) {
         if (channels == 2) continue;
         raster source = raster_make(EWA_PIXEL_LINEAR, (uint32_t)channels, 96, 80);
@@ -78,7 +75,6 @@ static void test_reference(void **state) {
 
 /// Wide kernels, whose points do not fit into two by two pixels, and narrow ones.
 static void test_reference_kernels(void **state) {
-    (void)state;
     static const double kernels[][4] = {
         {0.3, 2, 0.3, 0.5}, {0.7, 3, 0.5, 0.8}, {2, 4, 2, 1}, {0.1, 1, 1, 0.1}};
     raster source = raster_make(EWA_PIXEL_SRGB8, 3, 96, 80);
@@ -111,7 +107,6 @@ static void test_reference_kernels(void **state) {
 
 /// The same bytes for one thread and for many, and from each instruction set.
 static void test_same_bytes(void **state) {
-    (void)state;
     raster source = raster_make(EWA_PIXEL_SRGB8, 4, 130, 117);
     raster_paint(&source, 8);
     for (int m = 0; m < MAPS; m++) {
@@ -146,7 +141,6 @@ static void test_same_bytes(void **state) {
 /// Identity keeps every pixel covered and blurs a little: by the filter and the discs together, whose
 /// standard deviation is half a pixel. A smooth image comes back within 1 %.
 static void test_identity(void **state) {
-    (void)state;
     raster source = raster_make(EWA_PIXEL_LINEAR, 3, 100, 90),
            target = raster_make(EWA_PIXEL_LINEAR, 4, 100, 90);
     for (uint32_t y = 0; y < 90; y++)
@@ -186,7 +180,6 @@ static void test_identity(void **state) {
 
 /// Whole shifts move the bytes, also across tiles.
 static void test_shift(void **state) {
-    (void)state;
     raster source = raster_make(EWA_PIXEL_SRGB8, 4, 90, 70);
     raster_paint(&source, 12);
     for (int method = 0; method < 4; method++) {
@@ -215,7 +208,6 @@ static void test_shift(void **state) {
 /// One colour stays that colour, wherever it is seen, and alpha is the share of the pixel that is covered:
 /// all of it together is the area of the quadrangle.
 static void test_constant_and_area(void **state) {
-    (void)state;
     raster source = raster_make(EWA_PIXEL_LINEAR, 3, 96, 80),
            target = raster_make(EWA_PIXEL_LINEAR, 4, 150, 110);
     static const double color[3] = {0.2, 0.5, 0.8};
@@ -259,7 +251,6 @@ static void test_constant_and_area(void **state) {
 
 /// Where a texture is minified, its mean stays.
 static void test_energy(void **state) {
-    (void)state;
     raster source = raster_make(EWA_PIXEL_LINEAR, 1, 512, 384),
            target = raster_make(EWA_PIXEL_LINEAR, 1, 128, 96);
     check_random random = {3};
@@ -284,7 +275,6 @@ static void test_energy(void **state) {
 
 /// 8-bit and float sources and targets say the same; straight and premultiplied alpha too.
 static void test_formats(void **state) {
-    (void)state;
     const ewa_mat3 map = texture_map_of(maps[6].h);
     const ewa_texture_options options = texture_options(EWA_TEXTURE_HYBRID);
     for (uint32_t channels = 1; channels <= 4; channels++) {
@@ -329,7 +319,6 @@ static void test_formats(void **state) {
 
 /// What lies behind the eye does not show: the picture above the horizon stays empty.
 static void test_horizon(void **state) {
-    (void)state;
     raster source = raster_make(EWA_PIXEL_SRGB8, 3, 64, 64),
            target = raster_make(EWA_PIXEL_LINEAR, 4, 100, 100);
     raster_paint(&source, 2);
@@ -358,7 +347,6 @@ static void test_horizon(void **state) {
 /// Repeating is the same as a texture of copies, for sides of any factors; where one draws levels and the
 /// other does not, the noise of these textures differs by up to 1.5 %.
 static void test_repeat(void **state) {
-    (void)state;
     static const uint32_t sides[][2] = {{32, 32}, {12, 20}, {7, 5}, {1, 1}, {13, 64}};
     for (size_t k = 0; k < 5; k++) {
         const uint32_t width = sides[k][0], height = sides[k][1], across = 1200 / width, down = 1200 / height;
@@ -409,7 +397,6 @@ static bool pull_back(const double h[9], double x, double y, double *u, double *
 /// Backward mapping is the sum of the texels around where a pixel's centre is from, each weighted by what the
 /// distance leaves of a texel along u and along v.
 static void test_bilinear(void **state) {
-    (void)state;
     enum { WIDTH = 150, HEIGHT = 110, U = 96, V = 80 };
     raster source = raster_make(EWA_PIXEL_LINEAR, 4, U, V);
     raster target = raster_make(EWA_PIXEL_LINEAR, 4, WIDTH, HEIGHT);
@@ -450,7 +437,6 @@ static void test_bilinear(void **state) {
 /// Where neighbours along one axis part ever farther along the other, like the ribs of a fan, only texels
 /// that are close along both axes are points: not more than by the definition, and not a few.
 static void test_points_of_a_fan(void **state) {
-    (void)state;
     enum { RIBS = 128, LONG = 24 };
     const double wide = 0.5, high = 0.3, tilt = 0.02;
     for (int k = 0; k < 4; k++) {
@@ -486,7 +472,6 @@ static void test_points_of_a_fan(void **state) {
 
 /// The least textures and pictures.
 static void test_tiny(void **state) {
-    (void)state;
     static const uint32_t sides[][2] = {{1, 1}, {1, 9}, {33, 1}, {2, 2}};
     for (size_t k = 0; k < 4; k++) {
         raster source = raster_make(EWA_PIXEL_SRGB8, 4, sides[k][0], sides[k][1]);

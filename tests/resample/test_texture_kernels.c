@@ -157,7 +157,6 @@ static void hold(const ewa_texture_kernels **sets, const task *of, bool as_point
 }
 
 static void test_points(void **state) {
-    (void)state;
     const ewa_texture_kernels *sets[SETS];
     kernel_sets(sets);
     check_random random = {91};
@@ -169,7 +168,6 @@ static void test_points(void **state) {
 }
 
 static void test_splats(void **state) {
-    (void)state;
     const ewa_texture_kernels *sets[SETS];
     kernel_sets(sets);
     check_random random = {92};
@@ -197,7 +195,6 @@ static void resolve_plainly(const float sums[4], double weight, bool with_weight
 }
 
 static void test_pixels(void **state) {
-    (void)state;
     static const uint32_t channel_counts[] = {1, 3, 4};
     enum { WIDTH = 90, HEIGHT = 70 };
     static float color[4 * NUMBERS], weight[NUMBERS], coverage[64 * 64], made[4 * WIDTH * HEIGHT];

@@ -14,19 +14,16 @@ static check_log said;
 static ewa_context *context;
 
 static int enter(void **state) {
-    (void)state;
     context = check_context(2, &said);
     return 0;
 }
 
 static int leave(void **state) {
-    (void)state;
     ewa_context_destroy(&context);
     return 0;
 }
 
 static void test_corners(void **state) {
-    (void)state;
     static const double corners[4][2] = {{10, 20}, {300, -40}, {250, 180}, {-30, 90}};
     ewa_mat3 map;
     assert_int_equal(ewa_texture_map_from_corners(context, 64, 48, corners, &map), EWA_OK);
@@ -56,7 +53,6 @@ static void test_corners(void **state) {
 
 /// Points of the plane go where the camera sees them.
 static void test_camera(void **state) {
-    (void)state;
     static const double origin[3] = {-2, 1, 0.5}, across[3] = {3, 0.5, 0}, down[3] = {0.2, -2, 1};
     for (int projection = 0; projection < 2; projection++) {
         ewa_camera camera;
@@ -103,7 +99,6 @@ static void refuse(const raster *source, const ewa_mat3 *map, const ewa_texture_
 }
 
 static void test_refused(void **state) {
-    (void)state;
     raster source = raster_make(EWA_PIXEL_LINEAR, 3, 8, 6), target = raster_make(EWA_PIXEL_LINEAR, 4, 10, 9);
     const ewa_mat3 good = mat3_identity();
     static const double singular[][9] = {
@@ -170,7 +165,6 @@ static void test_refused(void **state) {
 
 /// Whatever the numbers of a map are, drawing ends, and what is drawn is finite.
 static void test_wild_maps(void **state) {
-    (void)state;
     check_random random = {77};
     raster source = raster_make(EWA_PIXEL_SRGB8, 4, 40, 30),
            target = raster_make(EWA_PIXEL_LINEAR, 4, 70, 66);
@@ -220,7 +214,6 @@ static void test_wild_maps(void **state) {
 
 /// A failing allocation, whichever it is, fails the call and leaves nothing behind.
 static void test_memory(void **state) {
-    (void)state;
     raster source = raster_make(EWA_PIXEL_SRGB8, 3, 256, 256),
            target = raster_make(EWA_PIXEL_SRGB8, 3, 64, 64);
     raster_paint(&source, 1);
@@ -257,7 +250,6 @@ static bool cancel(void *user, const char *stage, double fraction) {
 }
 
 static void test_cancelled(void **state) {
-    (void)state;
     static const double ends[] = {0, 0.2, 0.9};
     raster source = raster_make(EWA_PIXEL_SRGB8, 3, 64, 64), target = raster_make(EWA_PIXEL_SRGB8, 3, 64, 64);
     const ewa_mat3 map = mat3_identity();

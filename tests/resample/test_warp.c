@@ -11,7 +11,6 @@ static plane_image plane;
 static plane_frame drawn, other;
 
 static void test_masked_depths(void **state) {
-    (void)state;
     ewa_context *context = check_context(2, NULL);
     ewa_warp *warp = plane_warp(context);
     plane_set(&plane, 2);
@@ -44,7 +43,6 @@ static void test_masked_depths(void **state) {
 }
 
 static void test_sixteen_bits(void **state) {
-    (void)state;
     ewa_context *context = check_context(2, NULL);
     ewa_warp *warp = plane_warp(context);
     plane_set(&plane, 2);
@@ -72,7 +70,6 @@ static void test_sixteen_bits(void **state) {
 
 /// z, distance and disparity of one slanted plane give the same surface, whose normals are known.
 static void test_kinds(void **state) {
-    (void)state;
     ewa_context *context = check_context(2, NULL);
     ewa_warp *warp = plane_warp(context);
     const double n[3] = {0.4, -0.3, -0.866025403784}, at = -2 * n[2]; // n.p = -at
@@ -106,7 +103,6 @@ static void test_kinds(void **state) {
 
 /// The covariance of the packed ellipses is that of the axes they were made of.
 static void test_packed_ellipses(void **state) {
-    (void)state;
     ewa_context *context = check_context(1, NULL);
     ewa_warp *warp = plane_warp(context);
     plane_set(&plane, 1);
@@ -156,7 +152,6 @@ static ewa_vec3 normal_at(const ewa_warp *warp, uint32_t column, uint32_t row) {
 /// Roofs whose sides' slopes differ by more than 0.36 have a crease: a surfel at the ridge lies on one side.
 /// Flatter ones are bent, and it lies between both. Along rows and columns, with pixels that are no squares.
 static void test_creases(void **state) {
-    (void)state;
     ewa_context *context = check_context(1, NULL);
     ewa_warp *warp = plane_warp(context);
     static const double slopes[] = {0.05, 0.12, 0.16, 0.2, 0.25, 0.33};
@@ -187,7 +182,6 @@ static void test_creases(void **state) {
 /// What a plane's grid adds up to, seen from where it was taken, whatever the kernels' size and cutoff are:
 /// the sum is told as the coverage that a whole surface has.
 static void test_coverage_of_planes(void **state) {
-    (void)state;
     ewa_context *context = check_context(1, NULL);
     ewa_warp *warp = plane_warp(context);
     static const double cutoffs[] = {1.5, 2, 3}, radii[] = {1.1, 1.3, 1.5};
@@ -213,7 +207,6 @@ static void test_coverage_of_planes(void **state) {
 
 /// Rows with gaps between them, floats instead of bytes, grey and alpha.
 static void test_layouts(void **state) {
-    (void)state;
     enum { STRIDE = PLANE_WIDTH + 13 };
     static float depth[PLANE_HEIGHT * STRIDE], color[4 * PLANE_HEIGHT * STRIDE];
     static uint8_t color8[4 * PLANE_HEIGHT * STRIDE];
@@ -283,7 +276,6 @@ static void expect(ewa_warp *warp, check_log *log, ewa_status status, const char
 }
 
 static void test_bad_images(void **state) {
-    (void)state;
     check_log log = {0};
     ewa_context *context = check_context(1, &log);
     ewa_warp *warp = plane_warp(context);
@@ -334,7 +326,6 @@ static void test_bad_images(void **state) {
 }
 
 static void test_bad_options(void **state) {
-    (void)state;
     check_log log = {0};
     ewa_context *context = check_context(1, &log);
     ewa_warp *warp = plane_warp(context);
@@ -384,14 +375,12 @@ static ewa_status work(ewa_context *context, void *user) {
 }
 
 static void test_failing_allocations(void **state) {
-    (void)state;
     plane_set(&plane, 2);
     scratch_fail_each(work, &plane.image);
 }
 
 /// Nothing is allocated from the second frame on.
 static void test_warm(void **state) {
-    (void)state;
     check_memory memory = {.calls_left = -1};
     check_log log = {0};
     ewa_context *context = scratch_context(&memory, &log);

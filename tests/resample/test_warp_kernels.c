@@ -66,7 +66,6 @@ static void expect_slope(const sheet *of, int x, double slope, double distance) 
 
 /// A plane: the key's own differences; at the ends those of the one side there is.
 static void test_planes(void **state) {
-    (void)state;
     const ewa_warp_kernels *sets[SETS];
     kernel_sets(sets);
     const ewa_warp_lens lens = make_lens();
@@ -89,7 +88,6 @@ static void test_planes(void **state) {
 /// A roof: each side keeps its own slope up to the ridge, which the straighter side has; a valley likewise.
 /// Across a crease of less than the limit the two sides are averaged.
 static void test_creases(void **state) {
-    (void)state;
     const ewa_warp_kernels *sets[SETS];
     kernel_sets(sets);
     ewa_warp_lens lens = make_lens();
@@ -123,7 +121,6 @@ static void test_creases(void **state) {
 
 /// A step: the rims look at their own side only; the nearer one is 0.7 pixels long, the farther one a whole.
 static void test_rims(void **state) {
-    (void)state;
     const ewa_warp_kernels *sets[SETS];
     kernel_sets(sets);
     const ewa_warp_lens lens = make_lens();
@@ -146,7 +143,6 @@ static void test_rims(void **state) {
 
 /// A steep plane goes on where its second difference says so, and not beyond the steepest.
 static void test_steep_planes(void **state) {
-    (void)state;
     const ewa_warp_kernels *sets[SETS];
     kernel_sets(sets);
     const ewa_warp_lens lens = make_lens();
@@ -169,7 +165,6 @@ static void test_steep_planes(void **state) {
 
 /// Single pixels without a depth are looked across; two are an end.
 static void test_gaps(void **state) {
-    (void)state;
     const ewa_warp_kernels *sets[SETS];
     kernel_sets(sets);
     const ewa_warp_lens lens = make_lens();
@@ -196,7 +191,6 @@ static void test_gaps(void **state) {
 
 /// What hangs between a near and a far surface is dropped, what stands before both is not.
 static void test_flying(void **state) {
-    (void)state;
     const ewa_warp_kernels *sets[SETS];
     kernel_sets(sets);
     ewa_warp_lens lens = make_lens();
@@ -258,7 +252,6 @@ static double slope_plainly(const ewa_warp_lens *lens, double crease, const doub
 
 /// Steps, creases, gaps and single pixels at random, on a scale of which all differences are exact in floats.
 static void test_random_rows(void **state) {
-    (void)state;
     const ewa_warp_kernels *sets[SETS];
     kernel_sets(sets);
     const ewa_warp_lens lens = make_lens();
@@ -313,7 +306,6 @@ static void test_random_rows(void **state) {
 
 /// The mean of what differs by at most 2.5 times the noise, 5 x 5; alone where nothing does.
 static void test_smoothing(void **state) {
-    (void)state;
     const ewa_warp_kernels *sets[SETS];
     kernel_sets(sets);
     static sheet made;
@@ -357,7 +349,6 @@ static void place(const ewa_warp_lens *lens, double x, double y, double key, dou
 
 /// Axes are what the place changes per pixel times sigma and the distances; normals look at the eye.
 static void test_surfels(void **state) {
-    (void)state;
     const ewa_warp_kernels *sets[SETS];
     kernel_sets(sets);
     enum { SIDE = 8, ROW = 64 };

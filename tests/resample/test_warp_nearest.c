@@ -40,7 +40,6 @@ static void make_scene(void) {
 /// From in front, behind, all sides, and where the epipole is in the picture, on its border, far outside or
 /// at infinity: no more than rounding separates the order from the depth test.
 static void test_order(void **state) {
-    (void)state;
     static const double places[][3] = {{0, 0, 0.5},    {0.1, 0.05, 0.6}, {0, 0, -1},        {0.3, 0.1, -0.8},
                                        {0.4, 0, 0},    {-0.4, 0, 0},     {0, 0.3, 0},       {0, -0.3, 0},
                                        {0.3, 0.3, 0},  {-0.3, 0.2, 0.1}, {-0.3, -0.3, 0.7}, {0.5, -0.2, -0.3},
@@ -77,7 +76,6 @@ static void test_order(void **state) {
 
 /// The identity gives the bytes of the picture.
 static void test_identity(void **state) {
-    (void)state;
     ewa_context *context = check_context(1, NULL);
     ewa_warp *warp = plane_warp(context);
     make_scene();
@@ -96,7 +94,6 @@ static void test_identity(void **state) {
 
 /// Of two sources the nearer one shows, whichever comes first.
 static void test_two_sources(void **state) {
-    (void)state;
     static plane_image near;
     ewa_context *context = check_context(2, NULL);
     ewa_warp *warp = plane_warp(context);

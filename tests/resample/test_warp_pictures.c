@@ -9,7 +9,6 @@ static plane_image plane;
 static plane_frame drawn, other;
 
 static void test_identity(void **state) {
-    (void)state;
     enum { WIDTH = 320, HEIGHT = 240, COUNT = WIDTH * HEIGHT };
     static uint8_t color[3 * COUNT], rgba8[4 * COUNT], rgb8[3 * COUNT];
     static float depth[COUNT];
@@ -35,7 +34,6 @@ static void test_identity(void **state) {
 
 /// A step of the camera that is five pixels on the plane.
 static void test_shift(void **state) {
-    (void)state;
     ewa_context *context = check_context(2, NULL);
     ewa_warp *warp = plane_warp(context);
     plane_set(&plane, 2);
@@ -60,7 +58,6 @@ static void test_shift(void **state) {
 }
 
 static void test_constant(void **state) {
-    (void)state;
     ewa_context *context = check_context(2, NULL);
     ewa_warp *warp = plane_warp(context);
     plane_set(&plane, 2);
@@ -81,7 +78,6 @@ static void test_constant(void **state) {
 /// A white half at 1 before a black one at 2, moved by 6 and 3 pixels: where the edge is, how wide, and the
 /// three columns that nothing fills.
 static void test_step(void **state) {
-    (void)state;
     ewa_context *context = check_context(2, NULL);
     ewa_warp *warp = plane_warp(context);
     plane_set(&plane, 2);
@@ -125,7 +121,6 @@ static void test_step(void **state) {
 
 /// What hangs between two surfaces is dropped, unless it is asked for.
 static void test_flying(void **state) {
-    (void)state;
     ewa_context *context = check_context(1, NULL);
     ewa_warp *warp = plane_warp(context);
     plane_set(&plane, 2);
@@ -152,7 +147,6 @@ static void test_flying(void **state) {
 
 /// Rows and columns without depth, as depth cameras leave them, are covered; wider gaps are not.
 static void test_lattice(void **state) {
-    (void)state;
     ewa_context *context = check_context(2, NULL);
     ewa_warp *warp = plane_warp(context);
     const ewa_camera target = plane_camera_at(0.02, 0.01, 0.3);
@@ -172,7 +166,6 @@ static void test_lattice(void **state) {
 
 /// Steps of a sensor fade out; edges stay.
 static void test_noise(void **state) {
-    (void)state;
     ewa_context *context = check_context(2, NULL);
     ewa_warp *warp = plane_warp(context);
     plane_set(&plane, 2);
@@ -204,7 +197,6 @@ static void test_noise(void **state) {
 
 /// Two views of one plane, in either order.
 static void test_source_order(void **state) {
-    (void)state;
     static plane_image second;
     ewa_context *context = check_context(2, NULL);
     ewa_warp *warp = plane_warp(context);
@@ -227,7 +219,6 @@ static void test_source_order(void **state) {
 
 /// The same bytes from any number of threads and every instruction set, also from ragged sizes and noise.
 static void test_same_bytes(void **state) {
-    (void)state;
     static plane_frame first[2];
     static const struct {
         uint32_t threads, mask;
@@ -265,7 +256,6 @@ static void test_same_bytes(void **state) {
 /// A camera behind the scene, one inside of it, one that looks away; the backs of all samples are dropped on
 /// request.
 static void test_strange_cameras(void **state) {
-    (void)state;
     ewa_context *context = check_context(2, NULL);
     ewa_warp *warp = plane_warp(context);
     plane_set(&plane, 2);
@@ -296,7 +286,6 @@ static void test_strange_cameras(void **state) {
 
 /// The background behind holes is the renderer's, whether or not the holes are asked for.
 static void test_background(void **state) {
-    (void)state;
     ewa_context *context = check_context(2, NULL);
     ewa_warp *warp = plane_warp(context);
     plane_set(&plane, 2);
@@ -320,7 +309,6 @@ static void test_background(void **state) {
 
 /// Known answers of the measures that docs/warp.md uses.
 static void test_likeness(void **state) {
-    (void)state;
     enum { SIDE = 32, COUNT = SIDE * SIDE };
     static uint8_t a[3 * COUNT], b[3 * COUNT], counts[COUNT];
     check_random random = {1};

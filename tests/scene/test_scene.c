@@ -84,7 +84,6 @@ static ewa_camera place(ewa_scene *scene) {
 }
 
 static void test_added_is_merged(void **state) {
-    (void)state;
     ewa_context *context = check_context(0, NULL);
     ewa_cloud *clouds[2] = {make_object(context, EWA_OBJECT_TORUS, 0),
                             make_object(context, EWA_OBJECT_SPHERE, 1.25)};
@@ -141,7 +140,6 @@ static double largest_difference(const planes *a, const planes *b) {
 /// Tiles and interleaved scans of one place are the picture of the one file. Not to the byte: among neighbours that are
 /// equally far, as on the regular grid of a torus, the numbering of points decides which ones count.
 static void test_estimated_together(void **state) {
-    (void)state;
     ewa_context *context = check_context(0, NULL);
     ewa_cloud *object = make_object(context, EWA_OBJECT_TORUS, 0), *whole = bare_part(context, object, all);
     ewa_scene *one = make_scene(context);
@@ -173,7 +171,6 @@ static void test_estimated_together(void **state) {
 
 /// Gaussians out of sight change none of the planes of a surface but where colours are rounded.
 static void test_planes_among_gaussians(void **state) {
-    (void)state;
     ewa_context *context = check_context(0, NULL);
     ewa_cloud *cloud = make_object(context, EWA_OBJECT_SPHERE, 0);
     ewa_scene *scene = make_scene(context);
@@ -201,7 +198,6 @@ static void test_planes_among_gaussians(void **state) {
 
 /// A hidden instance is not drawn, a tint is one colour, and a copy goes its own way.
 static void test_instances(void **state) {
-    (void)state;
     ewa_context *context = check_context(0, NULL);
     ewa_cloud *clouds[2] = {make_object(context, EWA_OBJECT_TORUS, 0),
                             make_object(context, EWA_OBJECT_SPHERE, 1.25)};
@@ -243,7 +239,6 @@ static void test_instances(void **state) {
 
 /// A range is one for all clouds that are coloured alike, and percentiles are those of all their numbers.
 static void test_one_range(void **state) {
-    (void)state;
     ewa_context *context = check_context(0, NULL);
     ewa_cloud *clouds[2];
     for (int k = 0; k < 2; k++) {
@@ -272,7 +267,6 @@ static void test_one_range(void **state) {
 }
 
 static void test_refused(void **state) {
-    (void)state;
     check_log log = {.count = 0};
     ewa_context *context = check_context(1, &log);
     ewa_cloud *cloud = make_object(context, EWA_OBJECT_PLANE, 0);
@@ -312,7 +306,6 @@ static void test_refused(void **state) {
 
 /// Picks find the point that is nearest to what is seen, and sections hide points.
 static void test_pick(void **state) {
-    (void)state;
     ewa_context *context = check_context(1, NULL);
     ewa_cloud *cloud = make_object(context, EWA_OBJECT_SPHERE, 0);
     ewa_scene *scene = make_scene(context);

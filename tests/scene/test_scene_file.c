@@ -43,7 +43,6 @@ static void save_object(ewa_context *context, ewa_object object, const char *pat
 }
 
 static int set_up(void **state) {
-    (void)state;
     char folder[512];
     assert_int_equal(chdir(scratch_path("", folder)), 0);
     ewa_context *context = check_context(0, NULL);
@@ -111,7 +110,6 @@ static ewa_scene_options make_options(void) {
 }
 
 static void test_saved_opens_alike(void **state) {
-    (void)state;
     ewa_context *context = check_context(0, NULL);
     ewa_scene *made = NULL, *opened = NULL;
     const ewa_scene_options options = make_options();
@@ -131,7 +129,8 @@ static void test_saved_opens_alike(void **state) {
     instance.radius_scale = 1.1;
     add(context, made, "torus.ply", &asset, &instance);
     asset.filter = NULL;
-    const double to_world[16] = {0.3, 0, 0, 1.0 / 3, 0, 0, 0.3 * 1.1, 0, 0, -0.3 / 1.3, 0, 0.1 + 0.2, 0, 0, 0, 1};
+    const double to_world[16] = {0.3, 0,          0, 1.0 / 3,   0, 0, 0.3 * 1.1, 0,
+                                 0,   -0.3 / 1.3, 0, 0.1 + 0.2, 0, 0, 0,         1};
     memcpy(asset.to_world, to_world, sizeof to_world);
     ewa_instance_init(&instance, sizeof instance);
     instance.opacity = 0.6;
@@ -173,7 +172,6 @@ static void test_saved_opens_alike(void **state) {
 }
 
 static void test_files_in_files(void **state) {
-    (void)state;
     write_text("deep/inner.json",
                "{\"ewa_scene\": 1, \"options\": {\"render\": {\"ambient\": 0.9}}, \"items\": ["
                "{\"file\": \"sphere.ply\", \"to_world\": [0.5,0,0,0, 0,0.5,0,0.25, 0,0,0.5,0, 0,0,0,1]},"
@@ -216,7 +214,6 @@ static void test_files_in_files(void **state) {
 }
 
 static void test_callers_options_win(void **state) {
-    (void)state;
     write_text("options.json",
                "{\"ewa_scene\": 1, \"options\": {\"up\": \"z\", \"render\": {\"ambient\": 0.5, "
                "\"eye_dome\": 0.5}, \"lights\": [{\"color\": [1, 0, 0]}]}, \"items\": []}");
@@ -239,7 +236,6 @@ static void test_callers_options_win(void **state) {
 }
 
 static void test_cameras_keep_their_heights(void **state) {
-    (void)state;
     ewa_context *context = check_context(0, NULL);
     ewa_scene *scene = NULL;
     assert_int_equal(ewa_scene_create(context, NULL, &scene), EWA_OK);
@@ -294,7 +290,6 @@ static void refuse(const char *text, ewa_status expected, const char *part) {
     "{\"ewa_scene\": 1, \"items\": [{\"file\": \"torus.ply\"}], \"options\": {" members "}}"
 
 static void test_bad_is_refused(void **state) {
-    (void)state;
     static const struct {
         const char *text;
         ewa_status status;
@@ -310,7 +305,8 @@ static void test_bad_is_refused(void **state) {
         {"{\"ewa_scene\": 1, \"items\": [3]}", EWA_ERROR_FORMAT, "items[0]"},
         {"{\"ewa_scene\": 1, \"camera\": []}", EWA_ERROR_FORMAT, "camera"},
         {"{\"ewa_scene\": 1, \"camera\": {\"width\": 3}}", EWA_ERROR_FORMAT, "height"},
-        {"{\"ewa_scene\": 1, \"items\": [{\"file\": \"\"}]}", EWA_ERROR_FORMAT, "items[0].file: it has no name"},
+        {"{\"ewa_scene\": 1, \"items\": [{\"file\": \"\"}]}", EWA_ERROR_FORMAT,
+         "items[0].file: it has no name"},
         {ITEM(""), EWA_ERROR_FORMAT, "items[1]: names no file"},
         {ITEM("\"file\": \"none.ply\""), EWA_ERROR_FORMAT, "items[1].file: it is not there"},
         {ITEM("\"file\": \"\""), EWA_ERROR_FORMAT, "items[1].file"},
@@ -361,7 +357,6 @@ static void test_bad_is_refused(void **state) {
 }
 
 static void test_depth_and_number(void **state) {
-    (void)state;
     char name[64], text[1 << 12];
     for (int i = 1; i <= 9; i++) {
         snprintf(name, sizeof name, "level%d.json", i);
@@ -392,7 +387,6 @@ static void test_depth_and_number(void **state) {
 }
 
 static void test_truncations(void **state) {
-    (void)state;
     ewa_context *context = check_context(0, NULL);
     char *text = read_text("saved.json");
     const size_t size = strlen(text);
@@ -411,7 +405,6 @@ static void test_truncations(void **state) {
 }
 
 static void test_unsaveable(void **state) {
-    (void)state;
     check_log heard = {.count = 0};
     ewa_context *context = check_context(0, &heard);
     ewa_scene *scene = NULL;
@@ -438,7 +431,6 @@ static void test_unsaveable(void **state) {
 }
 
 static void test_filters_as_text(void **state) {
-    (void)state;
     static const char *const texts[] = {"classification=2,6",
                                         "z>0.1",
                                         "z>=0.1",

@@ -69,7 +69,6 @@ static void assert_rgba(const double found[4], double r, double g, double b, dou
 
 /// With room for all, every order gives equation 12 from front to back.
 static void test_room_for_all(void **state) {
-    (void)state;
     const disc orders[][3] = {{red, green, blue}, {blue, green, red}, {green, blue, red}, {red, blue, green}};
     for (size_t i = 0; i < sizeof orders / sizeof orders[0]; i++) {
         double rgba[4];
@@ -80,7 +79,6 @@ static void test_room_for_all(void **state) {
 
 /// With too few fragments the points' order decides: what was merged cannot be parted any more.
 static void test_order_decides(void **state) {
-    (void)state;
     const disc in_order[3] = {red, green, blue}, out_of_order[3] = {red, blue, green};
     double rgba[4];
     draw_discs(in_order, 3, 1, NULL, NULL, rgba);
@@ -105,7 +103,6 @@ static ewa_vec3 square(const void *data, ewa_vec3 color, ewa_vec3 normal_world, 
 /// Contributions of one surface are averaged and then shaded; fragments are shaded, once each, and then
 /// merged.
 static void test_shading(void **state) {
-    (void)state;
     int calls = 0, *const counter = &calls;
     double rgba[4];
     const disc one_surface[2] = {{2, {0.2f, 0, 0}}, {2, {0.6f, 0, 0}}};
@@ -121,7 +118,6 @@ static void test_shading(void **state) {
 
 /// In the middle of a sphere, front and back, as many fragments as surfaces are exact layers.
 static void test_exact_on_separate_surfaces(void **state) {
-    (void)state;
     ewa_context *context = check_context(0, NULL);
     scene of = picture_measured_scene(context, SCENE_SPHERE, 20000, NULL);
     ewa_render_options options;
@@ -153,7 +149,6 @@ static void test_exact_on_separate_surfaces(void **state) {
 }
 
 static void test_arguments(void **state) {
-    (void)state;
     ewa_context *context = check_context(1, NULL);
     ewa_cloud *cloud = make_discs(context, &red, 1);
     ewa_camera camera = disc_camera();

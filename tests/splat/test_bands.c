@@ -116,7 +116,6 @@ static void hold(scene_kind kind, const ewa_render_options *options, bool clips,
 }
 
 static void test_bands(void **state) {
-    (void)state;
     ewa_render_options options;
     ewa_render_options_init(&options, sizeof options);
     for (scene_kind kind = 0; kind < SCENE_COUNT; kind++) hold(kind, &options, false, "as it is");
@@ -136,7 +135,6 @@ static void test_bands(void **state) {
 
 /// Eye-dome lighting where neither depths nor linear colours are asked for.
 static void test_eye_dome_bytes(void **state) {
-    (void)state;
     bench b = start(2, SCENE_TORUS, false);
     ewa_render_options options;
     ewa_render_options_init(&options, sizeof options);
@@ -158,7 +156,6 @@ static void test_eye_dome_bytes(void **state) {
 
 /// What only some sources have: alphas and materials of a proxy count.
 static void test_proxy_facts(void **state) {
-    (void)state;
     ewa_context *context = check_context(2, NULL);
     scene of;
     assert_int_equal(scene_make(context, SCENE_TORUS, POINTS, WIDTH, HEIGHT, &of), EWA_OK);
@@ -217,7 +214,6 @@ static void test_proxy_facts(void **state) {
 
 /// q0 that is set is what coverage is measured by.
 static void test_unit_coverage(void **state) {
-    (void)state;
     bench b = start(2, SCENE_SPHERE, false);
     picture drawn[2] = {picture_make(WIDTH, HEIGHT), picture_make(WIDTH, HEIGHT)};
     ewa_surfels *surfels = NULL;
@@ -240,7 +236,6 @@ static void test_unit_coverage(void **state) {
 }
 
 static void test_refusals(void **state) {
-    (void)state;
     bench b = start(1, SCENE_SPHERE, false);
     picture drawn = picture_make(WIDTH, HEIGHT);
     assert_int_equal(ewa_render_set_rows(b.renderer, 0, BAND), EWA_ERROR_ARGUMENT);

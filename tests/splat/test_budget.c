@@ -46,7 +46,6 @@ static const machine fast = {{10e-9, 14e-9, 25e-9, 60e-9, 180e-9}, 2e-9, 0.5};
 static const machine slow = {{90e-9, 120e-9, 200e-9, 480e-9, 1000e-9}, 8e-9, 0.9};
 
 static void test_first_frame_is_careful(void **state) {
-    (void)state;
     ewa_budget budget;
     ewa_budget_start(&budget);
     assert_true(frame_s(&slow, draw(&budget, &slow, 0.2, 0, 1)) <= 0.2);
@@ -55,7 +54,6 @@ static void test_first_frame_is_careful(void **state) {
 }
 
 static void test_settles_and_stays(void **state) {
-    (void)state;
     static const double budgets_s[] = {0.01, 0.025, 0.04, 0.08, 0.2, 1};
     const machine *const machines[] = {&fast, &slow};
     for (int i = 0; i < 12; i++) {
@@ -77,7 +75,6 @@ static void test_settles_and_stays(void **state) {
 }
 
 static void test_reacts_to_a_slower_view(void **state) {
-    (void)state;
     ewa_budget budget;
     ewa_budget_start(&budget);
     machine m = fast;
@@ -95,7 +92,6 @@ static void test_reacts_to_a_slower_view(void **state) {
 }
 
 static void test_one_slow_frame_changes_nothing(void **state) {
-    (void)state;
     ewa_budget budget;
     ewa_budget_start(&budget);
     for (int k = 0; k < 24; k++) draw(&budget, &fast, 0.06, 0, 1);
@@ -106,7 +102,6 @@ static void test_one_slow_frame_changes_nothing(void **state) {
 
 /// A coarse level whose splats cost far more each does not make finer ones look dear, nor the other way round.
 static void test_levels_are_not_mixed_up(void **state) {
-    (void)state;
     ewa_budget budget;
     ewa_budget_start(&budget);
     for (int k = 0; k < 24; k++) draw(&budget, &fast, 0.06, 0, 1);
@@ -117,7 +112,6 @@ static void test_levels_are_not_mixed_up(void **state) {
 }
 
 static void test_not_finer_than_asked(void **state) {
-    (void)state;
     ewa_budget budget;
     ewa_budget_start(&budget);
     for (uint32_t level = 0; level < EWA_MAX_LEVELS; level++)
@@ -129,7 +123,6 @@ static void test_not_finer_than_asked(void **state) {
 
 /// Where nothing is fast enough, what is fastest is drawn, not what is coarsest.
 static void test_fastest_where_time_lacks(void **state) {
-    (void)state;
     machine m = fast;
     m.splat_s[3] = 500e-9, m.splat_s[4] = 4000e-9; // level 2 takes the least
     ewa_budget budget;
@@ -142,7 +135,6 @@ static void test_fastest_where_time_lacks(void **state) {
 
 /// Frames without anything that is visible, pixels or time say nothing.
 static void test_empty_frames(void **state) {
-    (void)state;
     ewa_budget budget;
     ewa_budget_start(&budget);
     const ewa_budget fresh = budget;

@@ -22,7 +22,6 @@ static void hold(scene_kind kind, const ewa_render_options *options, bool orthog
 }
 
 static void test_pipeline_holds(void **state) {
-    (void)state;
     static const scene_kind kinds[] = {SCENE_ELLIPSES, SCENE_NEAR};
     static const char *const names[] = {"perspective", "affine", "source", "circular", "raycast"};
     for (size_t i = 0; i < sizeof kinds / sizeof kinds[0]; i++) {
@@ -67,7 +66,6 @@ static ewa_cloud *one_surfel(ewa_context *context, const float lines[2][3], uint
 }
 
 static void test_known_answers(void **state) {
-    (void)state;
     // Picture x = -v, y = u / 2 in world units; 32 pixels per unit.
     static const struct {
         float lines[2][3];
@@ -115,7 +113,6 @@ static void test_known_answers(void **state) {
 
 /// A scaled radius moves no line; a line elsewhere than through the centre is where it should be.
 static void test_line_stays(void **state) {
-    (void)state;
     static const float lines[2][3] = {{0, 1, 0.25f},
                                       {0, 0, 0}}; // v > -0.25: x < 0.25, 8 pixels right of the middle
     ewa_context *context = check_context(0, NULL);

@@ -44,7 +44,6 @@ static void hold(scene_kind kind, const ewa_render_options *options, int minimum
 }
 
 static void test_pipeline_holds(void **state) {
-    (void)state;
     static const scene_kind kinds[] = {SCENE_SPHERE, SCENE_TORUS, SCENE_ELLIPSES, SCENE_NEAR};
     for (size_t i = 0; i < sizeof kinds / sizeof kinds[0]; i++) {
         ewa_render_options o;
@@ -108,7 +107,6 @@ static ewa_camera sheet_camera(void) {
 /// Colours over each other in front-to-back order, whatever the number of layers allows; a layer's own alpha
 /// is that of its surfels times the opacity.
 static void test_sheets_over_each_other(void **state) {
-    (void)state;
     static const uint8_t rgba[4][4] = {
         {255, 0, 0, 51}, {0, 255, 0, 102}, {0, 0, 255, 204}, {255, 255, 255, 255}};
     ewa_context *context = check_context(0, NULL);
@@ -152,7 +150,6 @@ static void test_sheets_over_each_other(void **state) {
 
 /// A transparent sphere's middle has even opacity: 1 - (1 - a)^2.
 static void test_sphere_is_even(void **state) {
-    (void)state;
     ewa_context *context = check_context(0, NULL);
     scene of = picture_measured_scene(context, SCENE_SPHERE, 20000, NULL);
     ewa_render_options o;
@@ -186,7 +183,6 @@ static void assert_same(const picture *a, const picture *b) {
 
 /// The same bytes from every instruction set, any number of threads, and the points in reverse.
 static void test_same_bytes(void **state) {
-    (void)state;
     static const uint32_t threads[] = {1, 2, 7}, masks[] = {UINT32_MAX, EWA_CPU_AVX2, 0};
     ewa_context *context = check_context(0, NULL);
     scene of = picture_measured_scene(context, SCENE_TORUS, POINTS, NULL);

@@ -47,7 +47,6 @@ static void assert_same_level(const ewa_surfels *a, const ewa_surfels *b) {
 }
 
 static void test_first_level_is_all_surfels(void **state) {
-    (void)state;
     ewa_context *context = check_context(2, NULL);
     ewa_cloud *cloud = level_cloud(context, LEVEL_SPHERE, POINTS);
     ewa_surfels *plain = surfels_of(cloud, 1), *levels = surfels_of(cloud, EWA_MAX_LEVELS);
@@ -74,7 +73,6 @@ static void test_first_level_is_all_surfels(void **state) {
 
 /// Every pixel inside of a closed surface is opaque, at every level, from near and far, from above and aslant.
 static void test_levels_are_closed(void **state) {
-    (void)state;
     static const double distances[] = {0.4, 1.3, 4}, tilts[] = {0, 40, 65};
     static uint8_t rgba8[4 * PIXELS];
     ewa_context *context = check_context(2, NULL);
@@ -129,7 +127,6 @@ static ewa_cloud *shuffled(ewa_context *context, const ewa_cloud *of) {
 }
 
 static void test_same_bytes(void **state) {
-    (void)state;
     static const struct {
         uint32_t threads, cpu_mask;
     } ways[] = {{2, EWA_CPU_ALL}, {3, EWA_CPU_AVX2}, {1, EWA_CPU_ALL}};
@@ -170,7 +167,6 @@ static void mean_color(const ewa_surfels *surfels, double mean[4]) {
 }
 
 static void test_colors_are_kept(void **state) {
-    (void)state;
     ewa_context *context = check_context(2, NULL);
     for (int constant = 0; constant < 2; constant++) {
         ewa_cloud *cloud = level_cloud(context, LEVEL_EVEN, POINTS);
@@ -196,7 +192,6 @@ static void test_colors_are_kept(void **state) {
 
 /// A picture of a budget's level is that of the level itself; what is beyond the last one is the last one.
 static void test_budget_draws_a_level(void **state) {
-    (void)state;
     static uint8_t pictures[2][4 * PIXELS];
     ewa_context *context = check_context(2, NULL);
     ewa_cloud *cloud = level_cloud(context, LEVEL_GRID, POINTS);
@@ -243,7 +238,6 @@ static ewa_cloud *discs_at(ewa_context *context, uint32_t count, const double (*
 }
 
 static void test_few_points(void **state) {
-    (void)state;
     static const uint32_t counts[] = {0, 1, 3, 5, 15, 17, 1023, 1024, 4095, 4096, 4200, 5000};
     static double places[5000][3];
     ewa_context *context = check_context(2, NULL);
@@ -263,7 +257,6 @@ static void test_few_points(void **state) {
 
 /// Points upon each other do not grow; two patches far from each other stay what each of them is alone.
 static void test_odd_places(void **state) {
-    (void)state;
     enum { COUNT = 20000, HALF = COUNT / 2 };
     static double places[COUNT][3];
     ewa_context *context = check_context(2, NULL);
@@ -300,7 +293,6 @@ static void test_odd_places(void **state) {
 
 /// Clip lines stay where they are in the world; materials are some member's; opacities are means.
 static void test_extras(void **state) {
-    (void)state;
     enum { SIDE = 128, COUNT = SIDE * SIDE };
     ewa_context *context = check_context(2, NULL);
     ewa_cloud *cloud = NULL;
@@ -359,7 +351,6 @@ static void test_extras(void **state) {
 
 /// Callers of before levels have smaller structs, and no levels.
 static void test_older_callers(void **state) {
-    (void)state;
     ewa_context *context = check_context(1, NULL);
     ewa_cloud *cloud = level_cloud(context, LEVEL_GRID, POINTS);
     ewa_surfels_options options;
@@ -378,7 +369,6 @@ static void test_older_callers(void **state) {
 
 /// Whichever allocation fails, nothing is left behind.
 static void test_out_of_memory(void **state) {
-    (void)state;
     ewa_context *plain = check_context(1, NULL);
     ewa_cloud *cloud = level_cloud(plain, LEVEL_GRID, 6000);
     for (long call = 0;; call++) {
@@ -417,7 +407,6 @@ static bool stop_after(void *user, const char *stage, double fraction) {
 }
 
 static void test_cancelled_frame_changes_nothing(void **state) {
-    (void)state;
     static uint8_t pictures[2][4 * PIXELS];
     int left = -1;
     ewa_context_options options;
@@ -450,7 +439,6 @@ static void test_cancelled_frame_changes_nothing(void **state) {
 
 /// What is said of a frame is its coarsest part: 0 says that all surfels were drawn.
 static void level_of_several_sources(void **state) {
-    (void)state;
     ewa_context *context = check_context(2, NULL);
     ewa_cloud *cloud = level_cloud(context, LEVEL_SPHERE, POINTS);
     ewa_surfels *sources[2] = {surfels_of(cloud, 1), surfels_of(cloud, EWA_MAX_LEVELS)};

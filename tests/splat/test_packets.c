@@ -90,7 +90,6 @@ static void assert_same_packets(const ewa_surfels *a, const ewa_surfels *b) {
 }
 
 static void test_same_bytes_from_all_kernels(void **state) {
-    (void)state;
     static numbers of;
     make_numbers(&of);
     ewa_context *plain = check_context_of(1, 0);
@@ -110,7 +109,6 @@ static void test_same_bytes_from_all_kernels(void **state) {
 
 /// Records of all numbers side by side, and positions in double precision: the same packets.
 static void test_same_bytes_from_all_layouts(void **state) {
-    (void)state;
     static numbers of;
     static struct {
         double position[3];
@@ -143,7 +141,6 @@ static void test_same_bytes_from_all_layouts(void **state) {
 /// Discs by the vectorised path and surfel by surfel, which normals in double precision ask for: as equal as
 /// their codes are.
 static void test_discs_equal_surfels(void **state) {
-    (void)state;
     static numbers of;
     static double normal[POINTS][3];
     make_numbers(&of);
@@ -179,7 +176,6 @@ static void test_discs_equal_surfels(void **state) {
 
 /// The code of a normal is the nearest one, or nearly.
 static void test_normals_are_kept(void **state) {
-    (void)state;
     check_random random = {3};
     ewa_context *context = check_context_of(1, EWA_CPU_ALL);
     for (int turn = 0; turn < 2000; turn++) {
@@ -224,7 +220,6 @@ static double radius_of(const ewa_surfels *surfels, uint32_t packet) {
 
 /// Spheres and cones hold their surfels, and are hardly larger.
 static void test_bounds_hold(void **state) {
-    (void)state;
     static numbers of;
     make_numbers(&of);
     for (int i = 0; i < POINTS; i++) of.normal[i][2] = 30 * fabsf(of.normal[i][0]); // narrow and wide cones
@@ -255,7 +250,6 @@ static void test_bounds_hold(void **state) {
 
 /// The largest sigmas are those of some surfel, of discs and of ellipses, wherever in the set it is.
 static void test_largest_sigmas(void **state) {
-    (void)state;
     static float position[POINTS][3], axis_u[POINTS][3], axis_v[POINTS][3];
     static const uint32_t counts[] = {1, 17, 16 * 64 - 1, POINTS};
     check_random random = {11};

@@ -115,7 +115,6 @@ static void hold_parts(scene_kind kind, sort_point *sort, bool materials, const 
 }
 
 static void test_parts_are_the_whole(void **state) {
-    (void)state;
     static const scene_kind kinds[] = {SCENE_SPHERE, SCENE_CUBE, SCENE_TORUS};
     ewa_render_options options;
     ewa_render_options_init(&options, sizeof options);
@@ -133,7 +132,6 @@ static void test_parts_are_the_whole(void **state) {
 
 /// A source whose surfels all have one material beside one with another: as if each surfel had its own.
 static void test_materials_of_sources(void **state) {
-    (void)state;
     ewa_material materials[2];
     ewa_render_options options;
     ewa_render_options_init(&options, sizeof options);
@@ -147,7 +145,6 @@ static void test_materials_of_sources(void **state) {
 }
 
 static void test_refusals(void **state) {
-    (void)state;
     check_log log = {.count = 0};
     ewa_context *context = check_context(1, &log);
     scene of;
@@ -276,7 +273,6 @@ static void hold_stop(uint32_t threads, bool foreign_executor) {
 }
 
 static void test_stops_between_tiles(void **state) {
-    (void)state;
     hold_stop(1, false);
     hold_stop(3, false);
     hold_stop(1, true);

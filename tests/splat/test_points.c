@@ -88,7 +88,6 @@ static void draw_one(ewa_context *context, const ewa_camera *camera, const doubl
 /// Alpha adds up to the area of the disc, whatever the depth, the lens, the radius and the normal; the rim is
 /// where it should be.
 static void test_size(void **state) {
-    (void)state;
     static const double sizes_px[] = {1, 1.4, 2, 3, 5, 10, 24, 100};
     static const double depths[] = {1e-4, 0.7, 3, 1e5}, zooms[] = {0.3, 1, 40};
     static float rgba[4 * SIDE * SIDE];
@@ -130,7 +129,6 @@ static void test_size(void **state) {
 /// The pipeline against the reference: many points, hidden ones and half hidden ones, with axes and clip
 /// lines that must not count.
 static void test_against_reference(void **state) {
-    (void)state;
     enum { COUNT = 700 };
     static float fast[4 * SIDE * SIDE], depth[SIDE * SIDE], normal_out[3 * SIDE * SIDE];
     static float plain[4 * SIDE * SIDE], plain_depth[SIDE * SIDE], plain_normal[3 * SIDE * SIDE];
@@ -198,7 +196,6 @@ static void test_against_reference(void **state) {
 }
 
 static void test_options(void **state) {
-    (void)state;
     static const double wrong_px[] = {-1, 0.5, 0.999, 256.5, INFINITY, NAN};
     static float rgba[4 * SIDE * SIDE];
     check_log log = {.count = 0};

@@ -40,7 +40,6 @@ static double sphere_depth(const ewa_camera *camera, double x_px, double y_px, d
 /// A sphere against its ray-traced truth: no holes, nothing outside, depth and normals right, edges
 /// antialiased.
 static void test_sphere(void **state) {
-    (void)state;
     enum { WIDTH = 256 };
     ewa_context *context = check_context(0, NULL);
     scene made;
@@ -93,7 +92,6 @@ static void test_sphere(void **state) {
 /// A plane of coplanar discs, oblique to the view: its depth is exact, its normal too, in both projections
 /// and kernels.
 static void test_plane_depth(void **state) {
-    (void)state;
     ewa_context *context = check_context(0, NULL);
     scene made = picture_small_scene(context, SCENE_PLANE);
     const double eye[3] = {0.3, -1.1, 0.8}, target[3] = {0, 0, 0}, up[3] = {0, 0, 1};
@@ -135,7 +133,6 @@ static void test_plane_depth(void **state) {
 /// disc's middle, which discs as large as here (0.6 of their distance) do not even out at F = 3, where two
 /// rows have alpha 0.81.
 static void test_floor_through_the_eye(void **state) {
-    (void)state;
     enum { ROWS = 40, COUNT = ROWS * ROWS };
     ewa_context *context = check_context(0, NULL);
     scene made = {.unit_coverage = 0.3};
@@ -190,7 +187,6 @@ static void test_floor_through_the_eye(void **state) {
 
 /// One disc in front of the middle of a picture, radius and colour given; the frame's planes by hand.
 static void test_resolve(void **state) {
-    (void)state;
     ewa_context *context = check_context(1, NULL);
     const float position[3] = {0, 0, 2}, normal[3] = {0, 0.6f, -0.8f}, radius = 4,
                 color[4] = {0.5f, 0.25f, 1, 1};
@@ -261,7 +257,6 @@ static void test_resolve(void **state) {
 
 /// A disc in front hides one behind it unless both lie within the tolerance.
 static void test_visibility(void **state) {
-    (void)state;
     ewa_context *context = check_context(1, NULL);
     const float normal[6] = {0, 0, -1, 0, 0, -1}, radius[2] = {0.5f, 0.5f};
     const float color[6] = {1, 0, 0, 0, 0, 1};
@@ -295,7 +290,6 @@ static void test_visibility(void **state) {
 
 /// Arguments that are refused, planes that are not wanted, clouds of nothing.
 static void test_arguments(void **state) {
-    (void)state;
     check_log log = {0};
     ewa_context *context = check_context(0, &log);
     scene made = picture_small_scene(context, SCENE_SPHERE);
@@ -336,7 +330,6 @@ static bool refuse_to_go_on(void *user, const char *stage, double fraction) {
 
 /// Every allocation that fails and every moment to cancel gives its status and frees what there was.
 static void test_failures(void **state) {
-    (void)state;
     check_memory memory = {.calls_left = -1};
     double patience = 2;
     ewa_context_options options;
@@ -371,7 +364,6 @@ static void test_failures(void **state) {
 
 /// The comparison finds what differs and the mask where it may.
 static void test_comparison(void **state) {
-    (void)state;
     ewa_context *context = check_context(0, NULL);
     scene made = picture_small_scene(context, SCENE_TORUS);
     for (uint32_t passes = 1; passes <= 3; passes += 2) {

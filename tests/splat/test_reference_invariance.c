@@ -90,7 +90,6 @@ static void assert_same(const char *name, const picture *a, const picture *b, do
 
 /// Colours are weighted means: one colour in, the same colour out, wherever there is something.
 static void test_constant_color(void **state) {
-    (void)state;
     ewa_context *context = check_context(0, NULL);
     const float color[3] = {0.25f, 0.5f, 0.75f};
     for (int kind = 0; kind < 2 * SCENE_COUNT; kind++) {
@@ -123,7 +122,6 @@ static void test_constant_color(void **state) {
 
 /// Moving the principal point by whole pixels moves the picture.
 static void test_shift(void **state) {
-    (void)state;
     ewa_context *context = check_context(0, NULL);
     for (int kind = 0; kind < SCENE_COUNT; kind++) {
         scene made = picture_small_scene(context, (scene_kind)kind);
@@ -150,7 +148,6 @@ static void test_shift(void **state) {
 /// Order of the points, number of threads, rotation and place of the world, scale of the camera: the same
 /// picture.
 static void test_invariance(void **state) {
-    (void)state;
     ewa_context *context = check_context(0, NULL), *lonely = check_context(1, NULL);
     for (int kind = 0; kind < 2 * SCENE_COUNT; kind++) {
         scene made = picture_small_scene(context, (scene_kind)(kind / 2)), other = made;
@@ -219,7 +216,6 @@ static void test_invariance(void **state) {
 
 /// A quarter turn of the camera around its view turns the picture.
 static void test_quarter_turn(void **state) {
-    (void)state;
     ewa_context *context = check_context(0, NULL);
     for (int kind = 0; kind < SCENE_COUNT; kind++) {
         scene made = picture_small_scene(context, (scene_kind)kind);
@@ -248,7 +244,6 @@ static void test_quarter_turn(void **state) {
 
 /// Points that coincide but for their colour: one pass has a rule for who wins that is not the order.
 static void test_coincident_points(void **state) {
-    (void)state;
     ewa_context *context = check_context(1, NULL);
     float shown[2][4];
     for (int order = 0; order < 2; order++) {

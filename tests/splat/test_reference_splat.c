@@ -8,7 +8,6 @@
 
 /// PAS equations 4 and 7 to 11: the conic Q' = M^-1 Q M^-T, its centre and its central form.
 static void test_conic_by_inverse_map(void **state) {
-    (void)state;
     const ewa_camera camera = odd_camera();
     const double F = 1.7;
     const ewa_reference_view view = make_view(&camera, F, 0.5, EWA_KERNEL_PERSPECTIVE);
@@ -47,7 +46,6 @@ static void test_conic_by_inverse_map(void **state) {
 /// The rim of a disc, point by point, lies on the ellipse; the ellipse's box is as large as the rim's; the
 /// weight's determinant is that of V; the inverse is one.
 static void test_rim(void **state) {
-    (void)state;
     const ewa_camera camera = odd_camera();
     const double F = 2;
     check_random random = {2};
@@ -85,7 +83,6 @@ static void test_rim(void **state) {
 /// Whatever the kernel, every pixel that counts is in the box; and where that is the ellipse's own, no row or
 /// column of it that lies within the picture is wasted.
 static void test_boxes(void **state) {
-    (void)state;
     ewa_camera camera = odd_camera();
     camera.width_px = 120;
     camera.height_px = 90;
@@ -137,7 +134,6 @@ static void test_boxes(void **state) {
 /// A disc that faces the eye is the section of a round cone: half angle a around an axis at angle t from the
 /// view, its picture reaches from tan(t - a) to tan(t + a).
 static void test_round_cone(void **state) {
-    (void)state;
     ewa_camera camera = odd_camera();
     camera.fx_px = camera.fy_px = 300;
     const double F = 1.5;
@@ -160,7 +156,6 @@ static void test_round_cone(void **state) {
 
 /// From very far away through a long lens a perspective camera is an orthographic one.
 static void test_orthographic_limit(void **state) {
-    (void)state;
     const double F = 2, scale = 40;
     ewa_camera camera = odd_camera();
     check_random random = {4};
@@ -203,7 +198,6 @@ static void test_orthographic_limit(void **state) {
 /// The affine kernel is what the perspective one becomes for small discs; the difference falls with their
 /// square.
 static void test_affine_limit(void **state) {
-    (void)state;
     const ewa_camera camera = odd_camera();
     const ewa_reference_view exact = make_view(&camera, 2, 0, EWA_KERNEL_PERSPECTIVE);
     const ewa_reference_view affine = make_view(&camera, 2, 0, EWA_KERNEL_AFFINE);
@@ -233,7 +227,6 @@ static void test_affine_limit(void **state) {
 
 /// The Jacobian of the projection by differences of projected points (SS 3; docs/math.md section 3, affine).
 static void test_affine_jacobian(void **state) {
-    (void)state;
     const ewa_camera camera = odd_camera();
     const ewa_reference_view view = make_view(&camera, 2, 0.5, EWA_KERNEL_AFFINE);
     check_random random = {6};
@@ -259,7 +252,6 @@ static void test_affine_jacobian(void **state) {
 /// Pixel rays against points of the disc: without a prefilter the kernel's own coordinates come back exactly,
 /// with one the variance in the tangent frame is I + h^2 times the derivatives found by differences.
 static void test_rays(void **state) {
-    (void)state;
     ewa_camera camera = odd_camera();
     check_random random = {7};
     int compared = 0;
@@ -320,7 +312,6 @@ static void test_rays(void **state) {
 
 /// For small discs the pixel rays and the ellipse are the same kernel.
 static void test_rays_meet_ellipse(void **state) {
-    (void)state;
     const ewa_camera camera = odd_camera();
     const ewa_reference_view view = make_view(&camera, 2, 0.5, EWA_KERNEL_PERSPECTIVE);
     check_random random = {8};
@@ -353,7 +344,6 @@ static void test_rays_meet_ellipse(void **state) {
 
 /// A disc parallel to the picture: sigma f / z pixels, peak by hand, and all of its kernel on the pixels.
 static void test_frontal_disc(void **state) {
-    (void)state;
     ewa_camera camera = odd_camera();
     camera.fx_px = camera.fy_px = 300;
     const double F = 2, sigma = 0.5, z = 10, sigma_px = 15;
@@ -387,7 +377,6 @@ static void test_frontal_disc(void **state) {
 /// Depth is that of ray and plane on the disc, and stays within the disc's range beyond it; the tolerance's
 /// slope is that of the depth itself.
 static void test_depth(void **state) {
-    (void)state;
     ewa_camera camera = odd_camera();
     check_random random = {9};
     for (int i = 0; i < 1000; i++) {
@@ -439,7 +428,6 @@ static void test_depth(void **state) {
 
 /// What is dropped, what is turned, what goes by rays.
 static void test_sides(void **state) {
-    (void)state;
     ewa_camera camera = odd_camera();
     ewa_render_options options;
     ewa_render_options_init(&options, sizeof options);

@@ -61,7 +61,6 @@ static void hold(scene_kind kind, const ewa_surfels_options *surfels_options,
 }
 
 static void test_defaults_hold(void **state) {
-    (void)state;
     for (int kind = 0; kind < SCENE_COUNT; kind++) {
         ewa_render_options options;
         ewa_render_options_init(&options, sizeof options);
@@ -72,7 +71,6 @@ static void test_defaults_hold(void **state) {
 }
 
 static void test_kernels_hold(void **state) {
-    (void)state;
     static const struct {
         ewa_kernel kernel;
         const char *name;
@@ -106,7 +104,6 @@ static void test_kernels_hold(void **state) {
 }
 
 static void test_options_hold(void **state) {
-    (void)state;
     ewa_render_options init;
     ewa_render_options_init(&init, sizeof init);
     init.edge_layers = 1;
@@ -143,7 +140,6 @@ static void assert_same_bytes(const picture *a, const picture *b) {
 }
 
 static void test_same_bytes_of_every_kernel(void **state) {
-    (void)state;
     static const uint32_t masks[] = {EWA_CPU_ALL, EWA_CPU_AVX2, 0};
     static const scene_kind kinds[] = {SCENE_PLANE, SCENE_ELLIPSES, SCENE_NEAR};
     for (int kernel = EWA_KERNEL_AFFINE; kernel <= EWA_KERNEL_RAYCAST; kernel++) {
@@ -174,7 +170,6 @@ static void test_same_bytes_of_every_kernel(void **state) {
 /// The source kernel is the affine one (SS 3.2: equations 7 and 8 are equivalent), in the pipeline's single
 /// precision.
 static void test_source_is_affine(void **state) {
-    (void)state;
     ewa_context *context = check_context(0, NULL);
     double worst = 0;
     for (int kind = 0; kind < SCENE_COUNT; kind++) {
@@ -206,7 +201,6 @@ static void test_source_is_affine(void **state) {
 }
 
 static void test_same_bytes_on_all_threads_and_instruction_sets(void **state) {
-    (void)state;
     static const struct {
         uint32_t threads, mask;
     } runs[] = {{1, EWA_CPU_ALL},  {2, EWA_CPU_ALL},  {7, EWA_CPU_ALL},
@@ -254,7 +248,6 @@ static ewa_cloud *reordered(const ewa_cloud *cloud, uint64_t step) {
 }
 
 static void test_order_of_points_does_not_matter(void **state) {
-    (void)state;
     ewa_context *context = check_context(0, NULL);
     for (int kind = 0; kind < SCENE_COUNT; kind++) {
         scene of;
@@ -276,7 +269,6 @@ static void test_order_of_points_does_not_matter(void **state) {
 
 /// More splats in a tile than are kept from pass to pass: the runs are set up again, with the same result.
 static void test_dense_tile_holds(void **state) {
-    (void)state;
     ewa_context *context = check_context(0, NULL);
     scene of;
     assert_int_equal(scene_make(context, SCENE_TORUS, 300000, 48, 40, &of), EWA_OK);
@@ -298,7 +290,6 @@ static void test_dense_tile_holds(void **state) {
 }
 
 static void test_empty_and_lonely(void **state) {
-    (void)state;
     ewa_context *context = check_context(0, NULL);
     for (uint64_t count = 0; count < 2; count++) {
         ewa_cloud *cloud = NULL;
@@ -338,7 +329,6 @@ static bool is_some_surfel(const ewa_cloud *cloud, const float rgb[3]) {
 /// One pass (PAS 6): every pixel shows one surfel, opaque and whole; three passes blend.
 /// Cameras whose scale takes depths beyond the range of floats draw something or nothing, safely.
 static void test_scales_beyond_floats(void **state) {
-    (void)state;
     static const double scales[] = {1e-40, 1e-30, 1e20, 3e38, 1e60};
     ewa_context *context = check_context(1, NULL);
     ewa_generate_options generate;
@@ -366,7 +356,6 @@ static void test_scales_beyond_floats(void **state) {
 }
 
 static void test_one_pass_shows_one_surfel(void **state) {
-    (void)state;
     ewa_context *context = check_context(0, NULL);
     scene of;
     assert_int_equal(scene_make(context, SCENE_ELLIPSES, 600, 96, 96, &of), EWA_OK);
@@ -396,7 +385,6 @@ static void test_one_pass_shows_one_surfel(void **state) {
 }
 
 static void test_every_failing_allocation_is_clean(void **state) {
-    (void)state;
     bool done = false;
     for (long n = 0; !done; n++) {
         check_memory memory = {.calls_left = n};
@@ -429,7 +417,6 @@ static void test_every_failing_allocation_is_clean(void **state) {
 
 /// A warm renderer allocates nothing.
 static void test_warm_frames_allocate_nothing(void **state) {
-    (void)state;
     check_memory memory = {.calls_left = -1};
     ewa_context_options options;
     ewa_context_options_init(&options, sizeof options);

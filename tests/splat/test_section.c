@@ -154,7 +154,6 @@ static void check_cut(const ewa_render_options *options, double spacing, const d
 }
 
 static void test_grid(void **state) {
-    (void)state;
     static const double none[3] = {0, 0, 0};
     static const double planes[][4] = {{1, 0, 0, 0},          {0, -1, 0, 0.25},      {3, 4, 0, -5.25},
                                        {1, 1, 0, 0.125},      {-1, 0.5, 7, 0.03125}, {1e-300, 0, 0, 0},
@@ -183,7 +182,6 @@ static void test_grid(void **state) {
 
 /// A box in the middle of a grid; nothing of one beside it.
 static void test_box(void **state) {
-    (void)state;
     static const double none[3] = {0, 0, 0};
     static drawn to;
     ewa_context *context = check_context(2, NULL);
@@ -234,7 +232,6 @@ static void hold(scene_kind kind, const ewa_render_options *options, uint32_t pl
 }
 
 static void test_pipeline_holds(void **state) {
-    (void)state;
     static const char *const names[] = {"perspective", "affine", "source", "circular", "raycast"};
     for (int kind = 0; kind < SCENE_COUNT; kind++) {
         ewa_render_options options = plain_options();
@@ -269,7 +266,6 @@ static void test_pipeline_holds(void **state) {
 
 /// Planes that touch nothing change no byte; nor does the length of a normal.
 static void test_untouched(void **state) {
-    (void)state;
     static drawn whole, cut;
     ewa_context *context = check_context(2, NULL);
     for (int kind = 0; kind < SCENE_COUNT; kind++) {
@@ -293,7 +289,6 @@ static void test_untouched(void **state) {
 }
 
 static void test_threads_and_instructions(void **state) {
-    (void)state;
     static const struct {
         uint32_t threads, mask;
     } runs[] = {{1, EWA_CPU_ALL}, {7, EWA_CPU_ALL}, {2, EWA_CPU_AVX2}, {2, 0}};
@@ -315,7 +310,6 @@ static void test_threads_and_instructions(void **state) {
 
 /// Neither the order of the points, nor a distant origin, nor another source beside changes a byte.
 static void test_order_and_origin(void **state) {
-    (void)state;
     static const double none[3] = {0, 0, 0}, far[3] = {4194304, -524288, 2048};
     static drawn whole, first, other;
     ewa_context *context = check_context(2, NULL);
@@ -350,7 +344,6 @@ static void test_order_and_origin(void **state) {
 
 /// What a source beside draws is cut, too, by the same planes of the world, whatever its origin.
 static void test_sources(void **state) {
-    (void)state;
     static const double none[3] = {0, 0, 0}, beside[3] = {2, 0, 0};
     static drawn one, two, other;
     ewa_context *context = check_context(2, NULL);
@@ -376,7 +369,6 @@ static void test_sources(void **state) {
 }
 
 static void test_bad_planes(void **state) {
-    (void)state;
     static const double none[3] = {0, 0, 0};
     static const double planes[][4] = {
         {0, 0, 0, 1}, {NAN, 0, 0, 1}, {1, INFINITY, 0, 0}, {1, 0, 0, -INFINITY}, {0, 0, 1, NAN}};
@@ -412,7 +404,6 @@ static double now_s(void) {
 
 /// What a box saves, to be read: nothing is asserted of times.
 static void test_time_is_printed(void **state) {
-    (void)state;
     static drawn to;
     ewa_context *context = check_context(1, NULL);
     scene of;

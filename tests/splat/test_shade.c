@@ -38,7 +38,6 @@ static ewa_vec3 unit(double x, double y, double z) {
 /// A sphere lit from one direction shows the formula of ewa_material at every pixel that is not at its edge,
 /// and its brightest pixel where N is H.
 static void test_highlight_on_a_sphere(void **state) {
-    (void)state;
     ewa_context *context = check_context(0, NULL);
     ewa_cloud *cloud = shade_sphere(context, POINTS, GREY);
     const ewa_material material = {.ambient = 0.1f, .diffuse = 0.5f, .specular = 0.8f, .shininess = 40};
@@ -84,7 +83,6 @@ static void test_highlight_on_a_sphere(void **state) {
 
 /// Lights add up, each with its colour, and a zero direction is the eye's.
 static void test_lights_add_up(void **state) {
-    (void)state;
     ewa_context *context = check_context(0, NULL);
     ewa_cloud *cloud = shade_sphere(context, POINTS, GREY);
     const ewa_camera camera = shade_camera(SIDE_PX, EYE, 32, 0);
@@ -127,7 +125,6 @@ static void test_lights_add_up(void **state) {
 
 /// A mirror sphere shows the light of the direction that it mirrors, for an environment any way up.
 static void test_mirror_sphere(void **state) {
-    (void)state;
     static const double ups[4][3] = {{0, 1, 0}, {0, 0, 2}, {0, -1, 0}, {1, 2, -1}};
     const ewa_material mirror = {.shininess = 1, .reflection = 1};
     ewa_context *context = check_context(0, NULL);
@@ -180,7 +177,6 @@ static void constant_light(ewa_vec3 direction, float rgb[3]) {
 
 /// A constant environment is a constant, whatever the footprint.
 static void test_constant_environment(void **state) {
-    (void)state;
     const ewa_material mirror = {.shininess = 1, .reflection = 1};
     ewa_context *context = check_context(0, NULL);
     ewa_cloud *cloud = shade_sphere(context, POINTS, GREY);
@@ -216,7 +212,6 @@ static void checker_light(ewa_vec3 direction, float rgb[3]) {
 
 /// Where a pixel mirrors many squares, it shows their mean; a lookup of single texels is black or white.
 static void test_fine_environment_does_not_alias(void **state) {
-    (void)state;
     const ewa_material mirror = {.shininess = 1, .reflection = 1};
     ewa_context *context = check_context(0, NULL);
     ewa_cloud *cloud = shade_sphere(context, POINTS, GREY);
@@ -284,7 +279,6 @@ static bool near_rim(const picture *of, size_t pixel) {
 /// rim it may lose a little where it is seen at a grazing angle: there the depths of discs end with the
 /// discs.
 static void test_eye_dome_leaves_planes_alone(void **state) {
-    (void)state;
     ewa_context *context = check_context(0, NULL);
     static const double eyes[3][3] = {{0, 0, 4}, {2.5, -1, 2.5}, {-2, 2, 1.2}};
     for (int run = 0; run < 12; run++) {
@@ -317,7 +311,6 @@ static void test_eye_dome_leaves_planes_alone(void **state) {
 /// A square in front of another: the one behind gets darker beside it and nowhere else, the one in front
 /// keeps its light.
 static void test_eye_dome_darkens_behind_steps(void **state) {
-    (void)state;
     ewa_context *context = check_context(0, NULL);
     ewa_cloud *cloud = make_squares(context, 2, 0);
     for (int run = 0; run < 4; run++) {

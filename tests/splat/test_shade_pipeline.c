@@ -77,7 +77,6 @@ static scene make_scene(ewa_context *context, scene_kind kind, bool orthographic
 }
 
 static void test_pipeline_holds_to_the_reference(void **state) {
-    (void)state;
     ewa_context *context = check_context(0, NULL);
     ewa_environment *environment = shade_environment(context, 64, shade_linear_light);
     for (int kind = 0; kind < 2 * SCENE_COUNT; kind++) {
@@ -115,7 +114,6 @@ static void test_pipeline_holds_to_the_reference(void **state) {
 
 /// Surfels with an alpha and a material each: colours are weighted by the alpha, materials are not.
 static void test_transparent_materials_hold(void **state) {
-    (void)state;
     ewa_context *context = check_context(0, NULL);
     const float white[3] = {1, 1, 1};
     const double eye[3] = {1, 0.6, 4};
@@ -148,7 +146,6 @@ static void assert_same_bytes(const picture *a, const picture *b) {
 }
 
 static void test_same_bytes_everywhere(void **state) {
-    (void)state;
     static const struct {
         uint32_t threads, mask;
     } runs[] = {{1, EWA_CPU_ALL}, {5, EWA_CPU_ALL}, {2, EWA_CPU_AVX2}, {2, 0}};
@@ -184,7 +181,6 @@ static void test_same_bytes_everywhere(void **state) {
 
 /// Two points at the same place that differ in nothing but their material.
 static void test_order_of_materials_does_not_matter(void **state) {
-    (void)state;
     ewa_context *context = check_context(0, NULL);
     enum { COUNT = 64 };
     const double eye[3] = {0, 0, 5};
@@ -219,7 +215,6 @@ static int alternate(const float position[3]) { return (int)(1000 + floor((doubl
 
 /// Where pixels hold surfels of two materials in equal parts, they look like the material between them.
 static void test_materials_are_averaged(void **state) {
-    (void)state;
     ewa_context *context = check_context(0, NULL);
     const float white[3] = {1, 1, 1};
     const double eye[3] = {0, 0, 5};
@@ -258,7 +253,6 @@ static void test_materials_are_averaged(void **state) {
 
 /// One material that all surfels have needs no memory of its own and looks as the table's only one does.
 static void test_one_material_of_many(void **state) {
-    (void)state;
     ewa_context *context = check_context(0, NULL);
     scene of;
     assert_int_equal(scene_make(context, SCENE_TORUS, POINTS, 64, 64, &of), EWA_OK);
@@ -310,7 +304,6 @@ static void refuse(ewa_context *context, const check_log *log, const scene *of,
 }
 
 static void test_wrong_options_are_refused(void **state) {
-    (void)state;
     check_log log = {.count = 0};
     ewa_context *context = check_context(0, &log);
     scene of;
@@ -345,7 +338,6 @@ static void test_wrong_options_are_refused(void **state) {
 }
 
 static void test_every_failing_allocation_is_clean(void **state) {
-    (void)state;
     float pixels[8 * 4 * 3] = {1};
     uint8_t rgba8[64 * 64 * 4], material[300];
     for (int i = 0; i < 300; i++) material[i] = (uint8_t)(i % MATERIALS);

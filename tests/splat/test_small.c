@@ -111,7 +111,6 @@ static void hold(ewa_context *context, const ewa_surfels *surfels, const ewa_ren
 }
 
 static void test_planes_do_not_depend_on_depths(void **state) {
-    (void)state;
     static const struct {
         const char *name;
         uint32_t points;

@@ -35,7 +35,6 @@ static void open_reader(const ewa_cloud *cloud, double cutoff, double radius_sca
 
 /// Discs: orthogonal axes of length radius * scale / F across the unit normal, right-handed with it.
 static void test_discs(void **state) {
-    (void)state;
     enum { COUNT = 1000 };
     ewa_context *context = check_context(1, NULL);
     ewa_cloud *cloud = make_cloud(context, COUNT);
@@ -84,7 +83,6 @@ static void test_discs(void **state) {
 /// Any two tangent axes: the principal ones have the same covariance, are orthogonal and sorted; the normal
 /// follows the given one.
 static void test_ellipses(void **state) {
-    (void)state;
     enum { COUNT = 1000 };
     ewa_context *context = check_context(1, NULL);
     ewa_cloud *cloud = make_cloud(context, COUNT);
@@ -125,7 +123,6 @@ static void test_ellipses(void **state) {
 
 /// Every reason to leave a point out.
 static void test_left_out(void **state) {
-    (void)state;
     static const float rows[][7] = {
         // position, normal, radius
         {0, 0, 1, 0, 0, 1, 1},         {NAN, 0, 1, 0, 0, 1, 1},   {0, INFINITY, 1, 0, 0, 1, 1},
@@ -184,7 +181,6 @@ static double read_one_color(ewa_context *context, ewa_type type, uint32_t compo
 static double curve(double s) { return s <= 0.04045 ? s / 12.92 : pow((s + 0.055) / 1.055, 2.4); }
 
 static void test_colors(void **state) {
-    (void)state;
     ewa_context *context = check_context(1, NULL);
     ewa_surfel surfel;
     for (int i = 0; i < 256; i++) {
@@ -208,7 +204,6 @@ static void test_colors(void **state) {
 
 /// Missing and misshapen attributes are named.
 static void test_refused_clouds(void **state) {
-    (void)state;
     static const struct {
         const char *names[4];
         uint32_t components[4];
@@ -244,7 +239,6 @@ static void test_refused_clouds(void **state) {
 
 /// Every member out of its range, named in the message.
 static void test_options(void **state) {
-    (void)state;
     check_log log = {0};
     ewa_context *context = check_context(1, &log);
     ewa_surfels_options surfels, chosen_surfels;

@@ -61,7 +61,6 @@ static void look(const picture made[2], int x, int channel, bool there[2]) {
 }
 
 static void test_tolerance_at_each_pixel(void **state) {
-    (void)state;
     static const double origin[3] = {0, 0, 0};
     static const double beyond[] = {0.5, 0.9, 0.98, 1.02, 1.1, 1.5};
     ewa_context *context = check_context(0, NULL);

@@ -62,7 +62,6 @@ static void hold_halves(scene_kind kind, const ewa_render_options *options, bool
 }
 
 static void test_halves(void **state) {
-    (void)state;
     ewa_render_options options;
     ewa_render_options_init(&options, sizeof options);
     options.background[0] = 0.3f, options.background[3] = 1; // no colour is divided by a small alpha
@@ -132,7 +131,6 @@ static void read_middle(const picture *from, double mean[2]) {
 
 /// Two sheets at one place: the picture goes from one to the other as the weights do.
 static void test_cross_fade(void **state) {
-    (void)state;
     ewa_context *context = check_context(0, NULL);
     scene of = sheet_scene();
     ewa_surfels *red = make_sheet(context, 4, 255, 0, 1), *blue = make_sheet(context, 4, 0, 255, 1);
@@ -158,7 +156,6 @@ static void test_cross_fade(void **state) {
 
 /// A faint sheet a little in front hides what is behind it only if it is to.
 static void test_hiding(void **state) {
-    (void)state;
     ewa_context *context = check_context(0, NULL);
     scene of = sheet_scene();
     ewa_surfels *front = make_sheet(context, 3.5, 255, 0, 1), *back = make_sheet(context, 4, 0, 255, 0.7),
@@ -243,7 +240,6 @@ static void hold_invariance(scene_kind kind, const ewa_render_options *options, 
 }
 
 static void test_invariance(void **state) {
-    (void)state;
     ewa_render_options options;
     ewa_render_options_init(&options, sizeof options);
     for (scene_kind kind = 0; kind < SCENE_COUNT; kind++) hold_invariance(kind, &options, "as it is");
@@ -259,7 +255,6 @@ static void test_invariance(void **state) {
 }
 
 static void test_refusals(void **state) {
-    (void)state;
     check_log log = {0};
     ewa_context *context = check_context(0, &log);
     scene of = sheet_scene();

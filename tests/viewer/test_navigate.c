@@ -12,13 +12,11 @@ enum { TRIALS = 200 };
 static ewa_context *context;
 
 static int make_context(void **state) {
-    (void)state;
     context = check_context(1, NULL);
     return 0;
 }
 
 static int end_context(void **state) {
-    (void)state;
     ewa_context_destroy(&context);
     return 0;
 }
@@ -52,7 +50,6 @@ static void assert_place(const ewa_camera *camera, const double point_world[3], 
 }
 
 static void projects_both_ways(void **state) {
-    (void)state;
     check_random random = {1};
     for (int i = 0; i < TRIALS; i++) {
         const ewa_camera camera = random_camera(&random, i);
@@ -66,7 +63,6 @@ static void projects_both_ways(void **state) {
 }
 
 static void zoom_keeps_the_point_in_its_place(void **state) {
-    (void)state;
     check_random random = {2};
     for (int i = 0; i < TRIALS; i++) {
         ewa_camera camera = random_camera(&random, i);
@@ -84,7 +80,6 @@ static void zoom_keeps_the_point_in_its_place(void **state) {
 }
 
 static void pan_moves_the_point_with_the_hand(void **state) {
-    (void)state;
     check_random random = {3};
     for (int i = 0; i < TRIALS; i++) {
         ewa_camera camera = random_camera(&random, i);
@@ -104,7 +99,6 @@ static double roll(const ewa_camera *camera, const double up_world[3]) {
 }
 
 static void orbit_keeps_pivot_and_horizon(void **state) {
-    (void)state;
     static const double up_world[3] = {0, 0, 1};
     check_random random = {4};
     for (int i = 0; i < TRIALS; i++) {
@@ -136,7 +130,6 @@ static void orbit_keeps_pivot_and_horizon(void **state) {
 }
 
 static void orbit_follows_the_hand(void **state) {
-    (void)state;
     static const double up_world[3] = {0, 0, 1}, eye_world[3] = {0, -5, 0}, middle[3] = {0, 0, 0};
     static const double front[3] = {0, -1, 0};
     ewa_camera camera;
@@ -153,7 +146,6 @@ static void orbit_follows_the_hand(void **state) {
 }
 
 static void turntable_stops_at_the_poles(void **state) {
-    (void)state;
     static const double up_world[3] = {0, 0, 1}, eye_world[3] = {0, -5, 0}, middle[3] = {0, 0, 0};
     ewa_camera camera;
     ewa_camera_init(&camera);
@@ -169,7 +161,6 @@ static void turntable_stops_at_the_poles(void **state) {
 }
 
 static void centers_at_the_same_depth(void **state) {
-    (void)state;
     check_random random = {5};
     for (int i = 0; i < TRIALS; i++) {
         ewa_camera camera = random_camera(&random, i);
@@ -183,7 +174,6 @@ static void centers_at_the_same_depth(void **state) {
 }
 
 static void resize_keeps_what_the_height_shows(void **state) {
-    (void)state;
     check_random random = {6};
     for (int i = 0; i < TRIALS; i++) {
         ewa_camera camera = random_camera(&random, i);
@@ -202,7 +192,6 @@ static void resize_keeps_what_the_height_shows(void **state) {
 }
 
 static void ortho_and_back_keep_the_size_at_a_point(void **state) {
-    (void)state;
     check_random random = {7};
     for (int i = 0; i < TRIALS; i += 2) {
         ewa_camera camera = random_camera(&random, i & ~1);

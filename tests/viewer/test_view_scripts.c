@@ -73,7 +73,6 @@ static void save_gaussians(ewa_context *context) {
 }
 
 static int make_files(void **state) {
-    (void)state;
     char folder[1024];
     snprintf(folder, sizeof folder, "%s/%s", getenv("EWA_BINARY_DIR"), getenv("EWA_TEST"));
     snprintf(scripts_folder, sizeof scripts_folder, "%s/tests/viewer/scripts", getenv("EWA_SOURCE_DIR"));
@@ -178,25 +177,15 @@ static void run_all(uint32_t cpu_mask, int64_t threads) {
     assert_int_equal(failed, 0);
 }
 
-static void scripts_with_everything(void **state) {
-    (void)state;
-    run_all(EWA_CPU_ALL, 2);
-}
+static void scripts_with_everything(void **state) { run_all(EWA_CPU_ALL, 2); }
 
 #ifndef EVENTS_ONLY
-static void scripts_without_avx512(void **state) {
-    (void)state;
-    run_all(EWA_CPU_AVX2, 1);
-}
+static void scripts_without_avx512(void **state) { run_all(EWA_CPU_AVX2, 1); }
 
-static void scripts_portable(void **state) {
-    (void)state;
-    run_all(0, 3);
-}
+static void scripts_portable(void **state) { run_all(0, 3); }
 #endif
 
 static void wrong_scripts_fail(void **state) {
-    (void)state;
     static const char *const wrong[] = {"nothing\n",       "1 frame\n0.5 frame\n",
                                         "press 1\n",       "do nothing\n",
                                         "key\n",           "expect-hash 0123456789abcdef\n",

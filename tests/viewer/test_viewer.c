@@ -66,7 +66,6 @@ static void drag(viewer *v, double x0, double y0, double x1, double y1) {
 }
 
 static void still_pictures_are_the_renderers(void **state) {
-    (void)state;
     for (int waits = 0; waits < 2; waits++) {
         viewer *v = make_viewer(waits);
         assert_true(viewer_open(v, "torus"));
@@ -105,7 +104,6 @@ static void still_pictures_are_the_renderers(void **state) {
 }
 
 static void moving_ends_in_the_same_picture(void **state) {
-    (void)state;
     viewer *v = make_viewer(false);
     viewer_do(v, "set budget_ms 1");
     assert_true(viewer_open(v, "sphere"));
@@ -126,7 +124,6 @@ static void moving_ends_in_the_same_picture(void **state) {
 }
 
 static void failing_loads_leave_the_scene(void **state) {
-    (void)state;
     viewer *v = make_viewer(true);
     assert_true(viewer_open(v, "sphere"));
     viewer_picture picture = settle(v);
@@ -147,7 +144,6 @@ static void failing_loads_leave_the_scene(void **state) {
 }
 
 static void dropped_files_queue(void **state) {
-    (void)state;
     viewer *v = make_viewer(false);
     contents.holds = true;
     handle(v, (viewer_event){.kind = VIEWER_DROP, .text = "sphere"});
@@ -175,7 +171,6 @@ static void dropped_files_queue(void **state) {
 }
 
 static void cancelled_loads_come_to_nothing(void **state) {
-    (void)state;
     viewer *v = make_viewer(false);
     assert_true(viewer_open(v, "torus"));
     settle(v);
@@ -194,7 +189,6 @@ static void cancelled_loads_come_to_nothing(void **state) {
 }
 
 static void previews_come_first(void **state) {
-    (void)state;
     viewer *v = make_viewer(false);
     contents.preview = true;
     viewer_open(v, "sphere");
@@ -209,7 +203,6 @@ static void previews_come_first(void **state) {
 }
 
 static void picks_name_points_exactly(void **state) {
-    (void)state;
     viewer *v = make_viewer(true);
     assert_true(viewer_open(v, "sphere"));
     settle(v);
@@ -234,7 +227,6 @@ static void picks_name_points_exactly(void **state) {
 }
 
 static void picks_respect_the_box(void **state) {
-    (void)state;
     viewer *v = make_viewer(true);
     assert_true(viewer_open(v, "sphere"));
     assert_true(viewer_do(v, "box -2,0,-2,2,2,2")); // the half that is behind
@@ -252,7 +244,6 @@ static void picks_respect_the_box(void **state) {
 
 /// Beside the cut, where the nearest point of all may have been cut off.
 static void picks_beside_the_box_are_inside(void **state) {
-    (void)state;
     viewer *v = make_viewer(true);
     assert_true(viewer_open(v, "plane"));
     assert_true(viewer_do(v, "view top"));
@@ -275,7 +266,6 @@ static void picks_beside_the_box_are_inside(void **state) {
 }
 
 static void cameras_are_copied(void **state) {
-    (void)state;
     viewer *v = make_viewer(true);
     assert_true(viewer_open(v, "torus"));
     settle(v);
@@ -296,7 +286,6 @@ static void cameras_are_copied(void **state) {
 }
 
 static void opening_more_never_moves_the_camera(void **state) {
-    (void)state;
     viewer *v = make_viewer(true);
     assert_true(viewer_open(v, "sphere"));
     settle(v);
@@ -312,7 +301,6 @@ static void opening_more_never_moves_the_camera(void **state) {
 }
 
 static void commands_refuse_what_is_wrong(void **state) {
-    (void)state;
     static const char *const wrong[] = {"",
                                         "nothing",
                                         "close 7",
@@ -367,7 +355,6 @@ static void commands_refuse_what_is_wrong(void **state) {
 }
 
 static void hostile_events_do_no_harm(void **state) {
-    (void)state;
     check_random random = {9};
     viewer *v = make_viewer(true);
     assert_true(viewer_open(v, "torus"));
@@ -400,7 +387,6 @@ static size_t count_descriptors(void) {
 }
 
 static void resizes_and_loads_leave_nothing_behind(void **state) {
-    (void)state;
     enum { RESIZES = 1000, LOADS = 100 };
     viewer *v = make_viewer(false);
     viewer_picture picture;
@@ -428,7 +414,6 @@ static void resizes_and_loads_leave_nothing_behind(void **state) {
 
 /// What is seen of an octree gets finer until nothing is missing: then it is the picture of viewers that wait.
 static void octrees_get_finer(void **state) {
-    (void)state;
     uint8_t *pictures[2];
     for (int waits = 0; waits < 2; waits++) {
         viewer *v = make_viewer(waits);

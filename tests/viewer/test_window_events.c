@@ -10,14 +10,12 @@
 static events_window shown;
 
 static int open_window(void **state) {
-    (void)state;
     if (SDL_Init(SDL_INIT_VIDEO) != 0) return -1;
     shown = (events_window){.window = SDL_CreateWindow("", 0, 0, 640, 480, 0), .zoom = 1, .scale = 1};
     return shown.window ? 0 : -1;
 }
 
 static int close_window(void **state) {
-    (void)state;
     SDL_DestroyWindow(shown.window);
     SDL_Quit();
     return 0;
@@ -34,7 +32,6 @@ static int key_of(SDL_Keycode code, SDL_Scancode place, uint16_t modifiers) {
 }
 
 static void keys_of_keyboards(void **state) {
-    (void)state;
     assert_int_equal(key_of('w', SDL_SCANCODE_W, 0), 'w');
     assert_int_equal(key_of('w', SDL_SCANCODE_Z, 0), 'w'); // AZERTY: what is written on it
     assert_int_equal(key_of('&', SDL_SCANCODE_1, 0), '1');
@@ -54,7 +51,6 @@ static void keys_of_keyboards(void **state) {
 }
 
 static void presses_of_panels_end_there(void **state) {
-    (void)state;
     viewer_event to;
     SDL_Event event = {.button = {.type = SDL_MOUSEBUTTONUP, .button = SDL_BUTTON_LEFT}};
     assert_false(events_translate(&shown, &event, 1, &to));
@@ -83,7 +79,6 @@ static void presses_of_panels_end_there(void **state) {
 }
 
 static void wheels_and_fingers(void **state) {
-    (void)state;
     viewer_event to;
     SDL_Event event = {
         .wheel = {.type = SDL_MOUSEWHEEL, .preciseX = 0.25f, .preciseY = 0.1f, .mouseX = 300, .mouseY = 200}};
@@ -110,7 +105,6 @@ static void wheels_and_fingers(void **state) {
 }
 
 static void way_back(void **state) {
-    (void)state;
     static const viewer_event sent[] = {
         {.kind = VIEWER_MOVE, .x = 12, .y = 34, .modifiers = VIEWER_SHIFT},
         {.kind = VIEWER_PRESS, .x = 5, .y = 6, .button = VIEWER_RIGHT, .clicks = 2, .modifiers = VIEWER_CTRL},
@@ -149,7 +143,6 @@ static void way_back(void **state) {
 }
 
 static void rows_of_pictures(void **state) {
-    (void)state;
     const uint8_t opaque[8] = {1, 2, 3, 255, 200, 100, 50, 255};
     uint32_t xrgb[6];
     picture_row(opaque, 2, 0, 4, xrgb);

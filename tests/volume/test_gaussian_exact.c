@@ -57,7 +57,6 @@ static ewa_image draw_integrals(ewa_context *context, const ewa_camera *camera, 
 
 /// Places in the picture under 120 degrees, shapes, and what either projection makes of them.
 static void test_integrals(void **state) {
-    (void)state;
     static const double white[3] = {1, 1, 1}, ahead[3] = {0, 0, -1};
     static const double shapes[3][3] = {{0.2, 0.2, 0.2}, {0.5, 0.15, 0.1}, {0.4, 0.3, 0.03}};
     static const double angles[3] = {0, 35, 55};
@@ -166,7 +165,6 @@ static double popped(const ewa_gaussians *set, double first_deg, bool by_centers
 /// a degree: what passes before what changes pixel by pixel. Sorted by centres whole shields do, and the
 /// largest change from frame to frame is several times as large.
 static void test_popping(void **state) {
-    (void)state;
     ewa_context *context = check_context(2, NULL);
     ewa_gaussians set = gaussians_random(context, 10, 0, 21);
     for (size_t i = 0; i < set.count; i++) {

@@ -7,7 +7,6 @@
 #include <math.h>
 
 static void test_scenes(void **state) {
-    (void)state;
     static const char *const files[] = {"gaussians/guitar_3dgs.ply", "gaussians/pc_short_100_sh3.ply",
                                         "gaussians/train_3_points.ply",
                                         "gaussians/guitar_40k_2dgs_derived.ply"};

@@ -32,7 +32,6 @@ static void check_held(const ewa_gaussians *set, const ewa_camera *camera,
 
 /// Both projections, all degrees, both filters, flat ones, orthographic, from within, under 130 degrees.
 static void test_reference(void **state) {
-    (void)state;
     ewa_context *context = check_context(2, NULL);
     for (uint32_t degree = 0; degree <= EWA_MAX_SH_DEGREE; degree++)
         for (int exact = 0; exact < 2; exact++) {
@@ -70,7 +69,6 @@ static void test_reference(void **state) {
 
 /// More faint ones behind each other than are sorted at once: over many octaves of depth, at one depth.
 static void test_dense(void **state) {
-    (void)state;
     ewa_context *context = check_context(2, NULL);
     for (int many = 0; many < 2; many++)
         for (int flat = 0; flat < 2; flat++) {
@@ -107,7 +105,6 @@ static void test_dense(void **state) {
 
 /// Threads, instruction sets, order of the set: nothing changes a byte.
 static void test_bytes(void **state) {
-    (void)state;
     static const uint32_t masks[3] = {0, EWA_CPU_AVX2, EWA_CPU_ALL};
     const ewa_camera camera = gaussians_camera(203, 131, 70, FRONT, 1.2);
     for (int exact = 0; exact < 2; exact++) {
@@ -151,7 +148,6 @@ static void test_bytes(void **state) {
 
 /// A colour that all have is that of the picture, whatever is behind what.
 static void test_constant(void **state) {
-    (void)state;
     ewa_context *context = check_context(1, NULL);
     ewa_gaussians set = gaussians_random(context, 3000, 0, 11);
     for (size_t i = 0; i < set.count; i++)
@@ -177,7 +173,6 @@ static void test_constant(void **state) {
 
 /// None, those without opacity, numbers that are none: the background.
 static void test_nothing(void **state) {
-    (void)state;
     ewa_context *context = check_context(1, NULL);
     const ewa_camera camera = gaussians_camera(40, 30, 50, FRONT, 2);
     ewa_gaussian_options options = options_of(EWA_PROJECTION_EXACT);
@@ -203,7 +198,6 @@ static void test_nothing(void **state) {
 
 /// One that covers the picture: alpha is its opacity, to 0.99; depth is where half of the light is gone.
 static void test_one(void **state) {
-    (void)state;
     static const double center[3] = {0, 0, 0}, scales[3] = {50, 50, 0.1}, color[3] = {1, 0.25, 0.5};
     static const double front[3] = {0, 0, -1};
     ewa_context *context = check_context(1, NULL);
@@ -232,7 +226,6 @@ static void test_one(void **state) {
 
 /// A surface a standard deviation behind the middle of a Gaussian leaves 84 % of it, one before it nothing, one behind it all.
 static void test_surface(void **state) {
-    (void)state;
     enum { PIXELS = 64 * 48 };
     static const double center[3] = {0, 0, 0}, scales[3] = {20, 20, 0.5}, color[3] = {1, 0, 0};
     static const double front[3] = {0, 0, -1};
@@ -266,7 +259,6 @@ static void test_surface(void **state) {
 
 /// Section planes cut along every ray; also with edges of surfaces, whose share of a pixel is what the reference has.
 static void test_sections(void **state) {
-    (void)state;
     enum { PIXELS = 150 * 110 };
     static float depth[PIXELS], rgba[4 * PIXELS];
     static const double planes[3][4] = {{0, 2, 0, 0.4}, {-3, 0, 1, 1}, {0.1, 0.2, 1, 0.1}};
@@ -338,7 +330,6 @@ static void test_sections(void **state) {
 
 /// Harmonics are orthonormal: means over directions of products of two, from the colours that they give.
 static void test_harmonics(void **state) {
-    (void)state;
     enum { COUNT = 25, AROUND = 24, DOWN = 12 };
     // Gauss-Legendre places and weights for polynomials up to degree 23.
     static const double places[6] = {0.1252334085114689, 0.3678314989981802, 0.5873179542866175,
@@ -390,7 +381,6 @@ static void test_harmonics(void **state) {
 
 /// Whichever allocation fails, the calls say so and leave nothing behind.
 static void test_memory(void **state) {
-    (void)state;
     const ewa_camera camera = gaussians_camera(40, 30, 50, FRONT, 2);
     for (long n = 0;; n++) {
         check_memory memory = {.calls_left = -1};

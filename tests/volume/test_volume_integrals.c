@@ -14,7 +14,6 @@ static const double PI = 3.14159265358979323846, UNIT[3] = {1, 1, 1}, DIRECTION[
 
 /// d = sin(atan(i tan alpha)) / sin alpha; with tan alpha below, as printed, the rim is at cos alpha.
 static void test_index(void **state) {
-    (void)state;
     for (int degrees = 1; degrees <= 80; degrees += 7) {
         const double alpha = degrees * PI / 180, sine2 = sin(alpha) * sin(alpha);
         for (double i = 0; i <= 1; i += 0.125) {
@@ -29,7 +28,6 @@ static void test_index(void **state) {
 }
 
 static void test_table(void **state) {
-    (void)state;
     ewa_footprint_table table;
     ewa_footprint_table_make(&table);
     double maximum = 0;
@@ -52,7 +50,6 @@ static double optical_depth(const ewa_image *image, size_t pixel) {
 
 /// A Gaussian blob of Gaussian kernels is a Gaussian blob, whose line integrals are known.
 static void test_blob(void **state) {
-    (void)state;
     static const uint32_t dims[3] = {48, 48, 48};
     enum { SIDE = 64 };
     const double q = 5, kappa = 0.05;
@@ -88,7 +85,6 @@ static void test_blob(void **state) {
 
 /// Through single voxels and thin tubes, near enough for large cone angles.
 static void test_marched(void **state) {
-    (void)state;
     static const uint32_t dims[3] = {16, 16, 16};
     enum { SIDE = 48 };
     const double half = 6;
@@ -145,7 +141,6 @@ static void turn_past_diagonal(ewa_context *context, const ewa_voxels *voxels, b
 
 /// Turning past the diagonal changes a checker box no more than turning elsewhere.
 static void test_no_popping(void **state) {
-    (void)state;
     static const uint32_t dims[3] = {32, 32, 32};
     static const double sides[2] = {4, 13};
     ewa_context *context = check_context(2, NULL);

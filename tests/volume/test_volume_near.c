@@ -39,7 +39,6 @@ static double optical_depth(const ewa_image *image, size_t pixel) {
 
 /// What begins at the eye is all there: rays marched from it through the sum of all kernels.
 static void test_marched(void **state) {
-    (void)state;
     static const uint32_t dims[3] = {15, 14, 16};
     static const double eyes[][3] = {
         {0, 0, 0}, {1.3, -2.2, 0.4}, {0.5, 0.5, 0.5}, {-4.1, 3.3, -7.6}, {0, 0, 9.5}};
@@ -116,7 +115,6 @@ static double error_of(const double spacing[3], ewa_volume_options options, doub
 }
 
 static void test_equals_reference(void **state) {
-    (void)state;
     static const double oblong[3] = {0.6, 1.7, 1};
     ewa_volume_options options = defaults();
     options.method = EWA_VOLUME_SPLATS;
@@ -137,7 +135,6 @@ static void test_equals_reference(void **state) {
 
 /// Moving through a volume changes pictures by little at a time: nothing comes or goes at once.
 static void test_moving(void **state) {
-    (void)state;
     static const uint32_t dims[3] = {24, 24, 24};
     static const double ahead[3] = {0.1, 0.05, -1};
     enum { SIDE = 64, STEPS = 160 };
@@ -172,7 +169,6 @@ static void test_moving(void **state) {
 
 /// Within homogeneous fog, a plane at any distance shows through exp(-kappa d), however near it is.
 static void test_plane_in_fog(void **state) {
-    (void)state;
     static const uint32_t dims[3] = {40, 40, 40};
     static const double eye[3] = {0.2, 0.1, 0.3}, ahead[3] = {0, 0, -1};
     enum { SIDE = 32 };
@@ -199,7 +195,6 @@ static void test_plane_in_fog(void **state) {
 
 /// The same bytes from any number of threads and any instruction set, and nothing to see through from within.
 static void test_same_bytes(void **state) {
-    (void)state;
     static const uint32_t dims[3] = {30, 30, 30};
     static const double eye[3] = {3.2, -4.1, 2.2}, ahead[3] = {-0.4, 0.7, -1};
     enum { WIDTH = 150, HEIGHT = 90, FLOATS = 4 * WIDTH * HEIGHT };
@@ -237,7 +232,6 @@ static void test_same_bytes(void **state) {
 /// The picture does not depend on the unit of the world, nor on the camera's: scaled by a power of two, every
 /// byte is the same, and depths are scaled.
 static void test_scales(void **state) {
-    (void)state;
     static const uint32_t dims[3] = {19, 22, 17};
     static const double aheads[2][3] = {{0.4, 0.3, -1}, {0, 0.2, 1}};
     static const double scales[] = {1, 0x1p-46, 0x1p43, 0x1p-100, 0x1p100, 0x1p-400, 0x1p400};
@@ -297,7 +291,6 @@ static void test_scales(void **state) {
 
 /// From as far away as cameras can be, and with any focal length, pictures are numbers.
 static void test_extremes(void **state) {
-    (void)state;
     static const uint32_t dims[3] = {8, 8, 8};
     static const double eye[3] = {0, 0, 0}, ahead[3] = {0, 0, -1};
     enum { SIDE = 16 };
@@ -338,7 +331,6 @@ static double angle_of(ewa_vec3 a, ewa_vec3 b) {
 /// All rays of a rectangle of pixels are in its cone, which is no wider than the rectangle is across; it
 /// meets balls at these rays, and none that lies farther off than it is wide.
 static void test_ray_cones(void **state) {
-    (void)state;
     check_random random = {12};
     for (int round = 0; round < 200; round++) {
         ewa_grid_view grid = {.fx_px = check_uniform(&random, 60, 300),

@@ -133,7 +133,6 @@ static void hold(const char *what, bool slanted, colors look, const ewa_volume_o
 }
 
 static void test_bare(void **state) {
-    (void)state;
     ewa_volume_options options = make_options();
     hold("cubes", false, WHITE, &options, 2e-5, 1e-4);
     hold("cubes, coloured", false, COLORED, &options, 5e-5, 6e-3);
@@ -143,7 +142,6 @@ static void test_bare(void **state) {
 }
 
 static void test_slanted(void **state) {
-    (void)state;
     const ewa_volume_options options = make_options();
     // The renderer takes the length of a standard deviation in the middle, not along each ray.
     hold("slanted", true, WHITE, &options, 1e-4, 0.02);
@@ -151,14 +149,12 @@ static void test_slanted(void **state) {
 }
 
 static void test_ramp(void **state) {
-    (void)state;
     const ewa_volume_options options = make_options();
     hold("gradient ramp", false, RAMP, &options, 5e-5, 6e-3);
     hold("gradient ramp, slanted", true, RAMP, &options, 1e-4, 0.03);
 }
 
 static void test_lit(void **state) {
-    (void)state;
     ewa_volume_options options = make_options();
     light_up(&options);
     hold("coloured lights", false, COLORED, &options, 5e-5, 0.015);
@@ -170,7 +166,6 @@ static void test_lit(void **state) {
 }
 
 static void test_filtered(void **state) {
-    (void)state;
     ewa_volume_options options = make_options();
     options.prefilter_px = 0.35;
     hold("filtered", false, WHITE, &options, 2e-5, 1e-4);

@@ -60,7 +60,6 @@ static ewa_camera look(double distance, double focal_px, double shift_px) {
 /// One voxel: extinction times cell, seen from p with the Jacobian fx fy |p| / z^3, is all there is; it is as
 /// wide as its kernel and the pixel's filter together.
 static void test_single_voxels(void **state) {
-    (void)state;
     static const uint32_t dims[3] = {3, 3, 3};
     const double kappa = 0.02, spacing[3] = {1.3, 1.3, 1.3}, cell = 1.3 * 1.3 * 1.3;
     ewa_context *context = check_context(1, NULL);
@@ -116,7 +115,6 @@ static void test_single_voxels(void **state) {
 
 /// Voxels are points while they are at most 1.2 px apart and their filter at most 0.8 px wide.
 static void test_threshold(void **state) {
-    (void)state;
     static const uint32_t dims[3] = {6, 6, 6};
     static const struct {
         double step_px, prefilter_px, threshold_px;
@@ -147,7 +145,6 @@ static void test_threshold(void **state) {
 
 /// Coarser levels hold the means of eight: in thin fog the same light, from the middle of these eight.
 static void test_levels(void **state) {
-    (void)state;
     static const uint32_t dims[3] = {4, 4, 4};
     ewa_context *context = check_context(1, NULL);
     ewa_volume volume = scene_volume(context, dims, UNIT, scene_ones, NULL);

@@ -54,7 +54,6 @@ static double error_of(const double spacing[3], double distance, ewa_volume_opti
 }
 
 static void test_splats_equal_reference(void **state) {
-    (void)state;
     static const double oblong[3] = {0.8, 1.3, 1};
     ewa_volume_options options = defaults();
     options.method = EWA_VOLUME_SPLATS;
@@ -71,7 +70,6 @@ static void test_splats_equal_reference(void **state) {
 }
 
 static void test_points_are_near_reference(void **state) {
-    (void)state;
     ewa_volume_options options = defaults();
     // 71 px for 40 degrees: voxels of 1 px at a distance of 97.
     assert_true(error_of(UNIT, 120, options, false) < 0.05);
@@ -80,7 +78,6 @@ static void test_points_are_near_reference(void **state) {
 
 /// Through a slab of thickness t gets exp(-kappa t), from any direction in which it is thick enough.
 static void test_slab(void **state) {
-    (void)state;
     static const uint32_t dims[3] = {64, 64, 12};
     static const double direction[3] = {0, 0, -1};
     const double kappa = 0.11, truth = 1 - exp(-kappa * 12);
@@ -113,7 +110,6 @@ static void test_slab(void **state) {
 
 /// The same bytes from any number of threads and any instruction set.
 static void test_same_bytes(void **state) {
-    (void)state;
     static const uint32_t dims[3] = {60, 60, 60};
     static const double direction[3] = {0.7, 0.4, -1};
     const double half = 28;
@@ -154,7 +150,6 @@ static void test_same_bytes(void **state) {
 
 /// What is culled because it is hidden does not show.
 static void test_culling_changes_nothing(void **state) {
-    (void)state;
     static const uint32_t dims[3] = {48, 48, 48};
     static const double direction[3] = {0.3, 0.2, -1};
     const double radius = 20;
@@ -201,7 +196,6 @@ static bool on_progress(void *user, const char *stage, double fraction) {
 }
 
 static void test_stops_between_tiles(void **state) {
-    (void)state;
     static const uint32_t dims[3] = {32, 32, 32};
     static const double direction[3] = {0.3, 0.2, -1};
     const double radius = 12;
@@ -261,7 +255,6 @@ static void free_fog(fog *f) {
 
 /// A plane in homogeneous fog: exp(-kappa d) of it is seen through d of fog.
 static void test_surface_in_fog(void **state) {
-    (void)state;
     fog f = make_fog();
     float depth[SIDE * SIDE], rgba[4 * SIDE * SIDE];
     for (int method = EWA_VOLUME_HYBRID; method <= EWA_VOLUME_POINTS; method++)
@@ -290,7 +283,6 @@ static void test_surface_in_fog(void **state) {
 /// Coarser levels are the same fog in fewer voxels.
 /// What section planes leave of fog keeps the light off as far as it reaches; the rest is as the reference has it.
 static void test_sections(void **state) {
-    (void)state;
     fog f = make_fog();
     for (int method = EWA_VOLUME_HYBRID; method <= EWA_VOLUME_POINTS; method++)
         for (double low = -15.2; low < 10; low += 6.1) {
@@ -327,7 +319,6 @@ static void test_sections(void **state) {
 }
 
 static void test_levels(void **state) {
-    (void)state;
     static const uint32_t dims[3] = {50, 50, 50};
     static const double direction[3] = {0.3, 0.2, -1};
     const double sigma = 9;

@@ -13,7 +13,6 @@
 static const double UNIT[3] = {1, 1, 1}, DIRECTION[3] = {0.7, 0.4, -1};
 
 static void test_counts_and_bytes(void **state) {
-    (void)state;
     static const uint32_t dims[3] = {61, 70, 83};
     const double radius = 22;
     ewa_context *context = check_context(2, NULL);
@@ -41,7 +40,6 @@ static void test_counts_and_bytes(void **state) {
 
 /// Where a volume is does not matter, nor in which type its numbers are, nor what is NaN or out of range.
 static void test_types_and_holes(void **state) {
-    (void)state;
     static const uint32_t dims[3] = {20, 20, 20};
     enum { COUNT = 8000 };
     ewa_context *context = check_context(2, NULL);
@@ -104,7 +102,6 @@ static void refuse(ewa_context *context, const ewa_volume *volume, const ewa_tra
 /// A volume of values that are a plane has that plane's gradient in every voxel, the border among them, and
 /// for every type. Around it in memory lie other numbers, that no border may look at.
 static void test_gradients_up_to_the_border(void **state) {
-    (void)state;
     enum { GUARD = 400, MAXIMUM = 7 * 6 * 9 };
     static const uint32_t shapes[][3] = {{7, 6, 3}, {3, 7, 6}, {6, 3, 7}, {2, 5, 9}, {5, 2, 2}, {4, 4, 4}};
     static const ewa_type types[] = {EWA_U8, EWA_I8, EWA_U16, EWA_I16, EWA_F32};
@@ -165,7 +162,6 @@ static void test_gradients_up_to_the_border(void **state) {
 }
 
 static void test_bad_input(void **state) {
-    (void)state;
     static const uint32_t dims[3] = {4, 4, 4};
     check_log log = {0};
     ewa_context *context = check_context(1, &log);
@@ -194,7 +190,6 @@ static void test_bad_input(void **state) {
 }
 
 static void test_bad_options(void **state) {
-    (void)state;
     static const uint32_t dims[3] = {4, 4, 4};
     check_log log = {0};
     ewa_context *context = check_context(1, &log);
@@ -303,7 +298,6 @@ static ewa_status draw_all(ewa_context *context, uint32_t frames, const check_me
 }
 
 static void test_failing_memory(void **state) {
-    (void)state;
     check_memory memory = {.calls_left = -1};
     ewa_context_options options;
     ewa_context_options_init(&options, sizeof options);
@@ -333,7 +327,6 @@ static void test_failing_memory(void **state) {
 
 /// From within, from behind, from far away, of nothing: finite pictures.
 static void test_odd_views(void **state) {
-    (void)state;
     static const uint32_t dims[3] = {30, 30, 30};
     ewa_context *context = check_context(2, NULL);
     ewa_volume volume = scene_volume(context, dims, UNIT, scene_ones, NULL);
