@@ -153,10 +153,9 @@ static ewa_status draw_shared(ewa_joint *joint) {
     return EWA_OK;
 }
 
-/// The side of the tiles, the same on all ranks: of many splats, fewer tiles' records fit in cache.
+/// The side of the tiles, the same on all ranks.
 static uint32_t tile_side_px(const ewa_joint *joint) {
-    enum { MANY_SURFELS = 5000000 };
-    return joint->sources.splat_count > MANY_SURFELS ? 32 : 64;
+    return joint->sources.splat_count > EWA_DENSE_SURFELS ? EWA_DENSE_TILE_PX : 64;
 }
 
 static ewa_status draw(void *state, const ewa_render_job *own, ewa_render_stats *stats) {

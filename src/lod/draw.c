@@ -22,9 +22,6 @@
 enum {
     BAND_PX = 128,
     BYTES_PER_SURFEL = 40,
-    MANY_SURFELS =
-        5000000, // surfels of a picture of which fewer fit in cache than a tile of the usual size has
-    DENSE_TILE_PX = 32,
     MAX_SURFELS_SETS = 1024, // of a picture's sets, of one part of it
 };
 
@@ -309,7 +306,7 @@ static ewa_status draw_rows(const ewa_lod_scene *scene, ewa_renderer *renderer, 
     uint64_t surfel_count = 0;
     for (uint32_t i = 0; i < count; i++) surfel_count += items[i].lod->nodes[items[i].node].count;
     for (uint32_t i = 0; i < scene->surfels_count; i++) surfel_count += scene->surfels[i]->count;
-    ewa_renderer_set_tile(renderer, surfel_count > MANY_SURFELS ? DENSE_TILE_PX : 0);
+    ewa_renderer_set_tile(renderer, surfel_count > EWA_DENSE_SURFELS ? EWA_DENSE_TILE_PX : 0);
     EWA_TRY(ewa_render_begin(renderer, camera, options, frame));
     if (proxies) EWA_TRY(ewa_render_set_rows(renderer, first_row, end_row));
     for (uint32_t i = 0; i < count; i++) {

@@ -36,6 +36,10 @@ ewa_status ewa_render_add_source(ewa_renderer *renderer, const ewa_surfels *surf
 /// rows), EWA_ERROR_UNSUPPORTED (a frame with a budget: bands would be of different levels).
 ewa_status ewa_render_set_rows(ewa_renderer *renderer, uint32_t first_px, uint32_t end_px);
 
+/// Frames of many sources, from octrees or ranks, with more surfels than so many have tiles of this side: fewer tiles' records
+/// fit in cache than in one of the usual size.
+enum { EWA_DENSE_SURFELS = 5000000, EWA_DENSE_TILE_PX = 32 };
+
 /// Sets the side of tiles: 16, 32, 64 or 128 pixels; 0: by the size of the picture. Pictures are the same.
 void ewa_renderer_set_tile(ewa_renderer *renderer, uint32_t tile_px);
 

@@ -88,7 +88,6 @@ static void fill_labels(ewa_volume *volume, bool body) {
 
 /// The colour of its class for each label, whatever the type; what is around all others lets them be seen.
 static void test_labels(void **state) {
-    (void)state;
     static const ewa_type types[] = {EWA_U8, EWA_I16, EWA_F32};
     ewa_context *context = check_context(1, NULL);
     for (int n = 0; n < 6; n++) {
@@ -119,7 +118,6 @@ static void test_labels(void **state) {
 
 /// Things that are no labels: a ball in few steps, two values, a scan without noise.
 static void test_no_labels(void **state) {
-    (void)state;
     ewa_context *context = check_context(1, NULL);
     ewa_volume volume = make_volume(context, EWA_U8);
     uint8_t *voxels = volume.voxels;
@@ -155,7 +153,6 @@ static double depth_along(const ewa_volume *volume, const ewa_transfer *transfer
 /// A hydrogen atom, |3d z2|^2: two lobes, and a ring of a quarter of their density, are seen; what is far off is not. The
 /// same in other units.
 static void test_field(void **state) {
-    (void)state;
     ewa_context *context = check_context(1, NULL);
     ewa_volume volume = make_volume(context, EWA_F32);
     float *numbers = volume.voxels;
@@ -184,7 +181,6 @@ static void test_field(void **state) {
 
 /// Fields that reach the faces of the box have shells, too.
 static void test_full_field(void **state) {
-    (void)state;
     ewa_context *context = check_context(1, NULL);
     ewa_volume volume = make_volume(context, EWA_F32);
     for (int i = 0; i < ALL; i++) {
@@ -204,7 +200,6 @@ static void test_full_field(void **state) {
 
 /// One slice along any axis: greys that become lighter, all of it solid.
 static void test_picture(void **state) {
-    (void)state;
     ewa_context *context = check_context(1, NULL);
     for (int axis = 0; axis < 3; axis++) {
         uint32_t dims[3] = {SIDE, SIDE, SIDE};
@@ -234,7 +229,6 @@ static void test_picture(void **state) {
 
 /// Noise is told of, and scans with noise are not.
 static void test_noise(void **state) {
-    (void)state;
     check_log log = {.count = 0};
     ewa_context *context = check_context(1, &log);
     ewa_volume volume = make_volume(context, EWA_U8);
@@ -260,7 +254,6 @@ static void test_noise(void **state) {
 
 /// A nut packed in foam in a cup: lines of sight pass much of the foam, which lets the nut be seen.
 static void test_packed(void **state) {
-    (void)state;
     ewa_context *context = check_context(1, NULL);
     phantom scene = phantom_make(12);
     phantom_add_walnut(&scene, 60, 3, false, 150, 110);

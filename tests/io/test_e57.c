@@ -6,23 +6,10 @@
 #include "io/cloud_check.h"
 
 #include "io/e57/e57.h"
+#include "io/fixture.h"
 #include "io/scratch.h"
 
 #include <math.h>
-
-static ewa_context *context;
-static check_log messages;
-
-static int begin(void **state) {
-    messages = (check_log){0};
-    context = check_context(2, &messages);
-    return 0;
-}
-
-static int end(void **state) {
-    ewa_context_destroy(&context);
-    return 0;
-}
 
 // ---- a writer --------------------------------------------------------------------------------------------
 
@@ -553,18 +540,16 @@ static void test_memory_that_fails(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(test_floats_colors_and_states, begin, end),
-        cmocka_unit_test_setup_teardown(test_spherical, begin, end),
-        cmocka_unit_test_setup_teardown(test_scaled_integers_of_any_width, begin, end),
-        cmocka_unit_test_setup_teardown(test_several_scans_are_one_cloud, begin, end),
-        cmocka_unit_test_setup_teardown(test_checksums, begin, end),
-        cmocka_unit_test_setup_teardown(test_every_page_is_checked, begin, end),
-        cmocka_unit_test_setup_teardown(test_damaged_pages_are_stepped_over, begin, end),
-        cmocka_unit_test_setup_teardown(test_files_that_are_wrong, begin, end),
-        cmocka_unit_test_setup_teardown(test_truncated, begin, end),
-        cmocka_unit_test_setup_teardown(test_damaged_bytes_are_survived, begin, end),
-        cmocka_unit_test_setup_teardown(test_memory_that_fails, begin, end),
-    };
+    const struct CMUnitTest tests[] = {CASE(test_floats_colors_and_states),
+                                       CASE(test_spherical),
+                                       CASE(test_scaled_integers_of_any_width),
+                                       CASE(test_several_scans_are_one_cloud),
+                                       CASE(test_checksums),
+                                       CASE(test_every_page_is_checked),
+                                       CASE(test_damaged_pages_are_stepped_over),
+                                       CASE(test_files_that_are_wrong),
+                                       CASE(test_truncated),
+                                       CASE(test_damaged_bytes_are_survived),
+                                       CASE(test_memory_that_fails)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -2,21 +2,8 @@
 // SPDX-License-Identifier: MIT
 //
 // Reading LAS: every field of every point format, extra bytes, headers that lie, notes.
+#include "io/fixture.h"
 #include "io/las_sample.h"
-
-static check_log messages;
-static ewa_context *context;
-
-static int begin(void **state) {
-    messages = (check_log){0};
-    context = check_context(2, &messages);
-    return 0;
-}
-
-static int end(void **state) {
-    ewa_context_destroy(&context);
-    return 0;
-}
 
 static void test_fields_of_all_formats(void **state) {
     enum { COUNT = 20000 }; // more than a task takes
@@ -297,13 +284,8 @@ static void test_only_what_is_wanted(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(test_fields_of_all_formats, begin, end),
-        cmocka_unit_test_setup_teardown(test_extra_bytes, begin, end),
-        cmocka_unit_test_setup_teardown(test_names_of_parts, begin, end),
-        cmocka_unit_test_setup_teardown(test_colors_of_eight_bits, begin, end),
-        cmocka_unit_test_setup_teardown(test_notes, begin, end),
-        cmocka_unit_test_setup_teardown(test_headers_that_lie, begin, end),
-        cmocka_unit_test_setup_teardown(test_only_what_is_wanted, begin, end),
-    };
+        CASE(test_fields_of_all_formats), CASE(test_extra_bytes), CASE(test_names_of_parts),
+        CASE(test_colors_of_eight_bits),  CASE(test_notes),       CASE(test_headers_that_lie),
+        CASE(test_only_what_is_wanted)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -3,22 +3,9 @@
 //
 // Broken LAS and LAZ files: every truncation, every byte of the header changed, damaged chunks, what breaks
 // readers.
+#include "io/fixture.h"
 #include "io/las_sample.h"
 #include "io/scratch.h"
-
-static check_log messages;
-static ewa_context *context;
-
-static int begin(void **state) {
-    messages = (check_log){0};
-    context = check_context(2, &messages);
-    return 0;
-}
-
-static int end(void **state) {
-    ewa_context_destroy(&context);
-    return 0;
-}
 
 /// A sample as the bytes of LAZ, in chunks of `chunk_points`.
 static uint8_t *compress(const las_sample *s, uint32_t chunk_points, size_t *size_bytes) {
@@ -224,12 +211,8 @@ static void test_pipes(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(test_every_truncation, begin, end),
-        cmocka_unit_test_setup_teardown(test_every_byte_of_the_header, begin, end),
-        cmocka_unit_test_setup_teardown(test_damaged_chunk, begin, end),
-        cmocka_unit_test_setup_teardown(test_lies_about_chunks, begin, end),
-        cmocka_unit_test_setup_teardown(test_pipes, begin, end),
-    };
+    const struct CMUnitTest tests[] = {CASE(test_every_truncation), CASE(test_every_byte_of_the_header),
+                                       CASE(test_damaged_chunk), CASE(test_lies_about_chunks),
+                                       CASE(test_pipes)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -3,22 +3,10 @@
 //
 // LAS and LAZ files of the data set, which others' programs have written: counts, bounds and attributes as
 // its README has them, and every LAZ equal to its LAS. Only where the data set is there.
+#define FIXTURE_THREADS 0
+#include "io/fixture.h"
 #include "io/las_sample.h"
 #include "io/scratch.h"
-
-static check_log messages;
-static ewa_context *context;
-
-static int begin(void **state) {
-    messages = (check_log){0};
-    context = check_context(0, &messages);
-    return 0;
-}
-
-static int end(void **state) {
-    ewa_context_destroy(&context);
-    return 0;
-}
 
 static ewa_cloud *load(const char *relative) {
     char path[512];
@@ -36,10 +24,17 @@ static const struct {
     const char *format, *said;
     int color; ///< bits of a colour; 0: none
 } files[] = {
-#define ONE_POINT  {470692.44, 4602888.9, 16}, {470692.44, 4602888.9, 16}, 0.006
-#define AUTZEN     {635619.85, 848899.7, 406.59}, {638982.55, 853535.43, 586.38}, 0.006
-#define AUTZEN_UTM {493994.87, 4877429.6, 123.93}, {494993.68, 4878817, 178.73}, 0.05
-#define NEW_MEXICO {1694038.4, 1816492.7, 5592.7499}, {1694539.7, 1816498, 5599.0697}, 0.06
+#define ONE_POINT         {470692.44, 4602888.9, 16}, {470692.44, 4602888.9, 16}, 0.006
+#define AUTZEN            {635619.85, 848899.7, 406.59}, {638982.55, 853535.43, 586.38}, 0.006
+#define AUTZEN_UTM        {493994.87, 4877429.6, 123.93}, {494993.68, 4878817, 178.73}, 0.05
+#define NEW_MEXICO        {1694038.4, 1816492.7, 5592.7499}, {1694539.7, 1816498, 5599.0697}, 0.06
+#define SIMPLE1_3         {-235434.519, 5800843.14, 265.094}, {-234935.841, 5800946.25, 273.811}, 0.006
+#define VEGETATION_1_3    {-98451.205, -55975.417, -81460.091}, {-98447.447, -55969.405, -81455.203}, 1e-6
+#define AUTZEN_TRIM       {636001.76, 848935.2, 406.26}, {637179.22, 849497.9, 520.51}, 0.006
+#define AUTZEN_LOD01_350K {635578.31, 848884.55, 406.4}, {639003.73, 853535.09, 615.26}, 0.006
+#define PLANE             {1423214.5, 4189096.6, 67.860001}, {1423216.8, 4189098.6, 67.900002}, 0.06
+#define FULLWAVE          {194267.42, 8249096, 989.944}, {194318.3, 8249137.3, 1003.704}, 0.06
+#define LION_TAKANAWA     {-4.985, 1.039, -3.445}, {-0.789, 6.724, 1.124}, 0.006
     {"las/v1.0_pf0.las", 1, ONE_POINT, "LAS 1.0, point format 0, 20", "", 0},
     {"las/v1.0_pf1.las", 1, ONE_POINT, "LAS 1.0, point format 1, 28", "", 0},
     {"las/v1.1_pf0.las", 1, ONE_POINT, "LAS 1.1, point format 0, 20", "", 0},
@@ -50,86 +45,30 @@ static const struct {
     {"las/v1.2_pf3.las", 1, ONE_POINT, "LAS 1.2, point format 3, 34", "", 8},
     {"las/v1.2_no_points.las", 0, {0}, {0}, 0, "LAS 1.2, point format 3, 34", "counts 1065 points", 8},
     {"las/simple1_1.las", 1065, AUTZEN, "LAS 1.1, point format 1, 28", "", 0},
-    {"las/simple1_3.las",
-     999,
-     {-235434.519, 5800843.14, 265.094},
-     {-234935.841, 5800946.25, 273.811},
-     0.006,
-     "LAS 1.3, point format 4, 57",
-     "",
-     0},
+    {"las/simple1_3.las", 999, SIMPLE1_3, "LAS 1.3, point format 4, 57", "", 0},
     {"las/simple1_4.las", 22600, {1, 1, 44}, {226, 100, 254}, 1e-9, "LAS 1.4, point format 7, 36", "", 16},
     {"las/simple.las", 1065, AUTZEN, "LAS 1.2, point format 3, 34", "", 8},
-    {"las/vegetation_1_3.las",
-     10683,
-     {-98451.205, -55975.417, -81460.091},
-     {-98447.447, -55969.405, -81455.203},
-     1e-6,
-     "LAS 1.3, point format 1, 28",
-     "",
-     0},
+    {"las/vegetation_1_3.las", 10683, VEGETATION_1_3, "LAS 1.3, point format 1, 28", "", 0},
     {"las/test1_4.las", 1000, NEW_MEXICO, "LAS 1.4, point format 6, 30", "", 0},
     {"las/1_4_w_evlr.las", 1000, NEW_MEXICO, "LAS 1.4, point format 6, 30", "", 0},
     {"las/extrabytes.las", 1065, AUTZEN, "LAS 1.4, point format 3, 61", "", 8},
     {"las/unregistered_extra_bytes.las", 4, {1, 1, 1}, {4, 4, 4}, 1e-9, "LAS 1.4, point format 6, 34", "", 0},
-    {"las/autzen_trim.las",
-     110000,
-     {636001.76, 848935.2, 406.26},
-     {637179.22, 849497.9, 520.51},
-     0.006,
-     "LAS 1.2, point format 3, 34",
-     "",
-     8},
+    {"las/autzen_trim.las", 110000, AUTZEN_TRIM, "LAS 1.2, point format 3, 34", "", 8},
     {"las/1.2-with-color.las", 1065, AUTZEN, "LAS 1.2, point format 3, 34", "", 8},
-    {"las/autzen_lod01_350k.las",
-     350000,
-     {635578.31, 848884.55, 406.4},
-     {639003.73, 853535.09, 615.26},
-     0.006,
-     "LAS 1.2, point format 2, 26",
-     "",
-     8},
+    {"las/autzen_lod01_350k.las", 350000, AUTZEN_LOD01_350K, "LAS 1.2, point format 2, 26", "", 8},
     {"laz/simple.laz", 1065, AUTZEN, "LAS 1.2, point format 3, 34", "", 8},
-    {"laz/plane.laz",
-     28185,
-     {1423214.5, 4189096.6, 67.860001},
-     {1423216.8, 4189098.6, 67.900002},
-     0.06,
-     "LAS 1.2, point format 3, 34",
-     "",
-     0},
+    {"laz/plane.laz", 28185, PLANE, "LAS 1.2, point format 3, 34", "", 0},
     {"laz/extra.laz", 1065, AUTZEN, "LAS 1.4, point format 3, 61", "", 8},
-    {"laz/fullwave.laz",
-     10750,
-     {194267.42, 8249096, 989.944},
-     {194318.3, 8249137.3, 1003.704},
-     0.06,
-     "LAS 1.4, point format 10, 67",
-     "",
-     -1},
+    {"laz/fullwave.laz", 10750, FULLWAVE, "LAS 1.4, point format 10, 67", "", -1},
     {"laz/1_4_w_evlr.laz", 1000, NEW_MEXICO, "LAS 1.4, point format 6, 30", "", 0},
-    {"laz/autzen_trim.laz",
-     110000,
-     {636001.76, 848935.2, 406.26},
-     {637179.22, 849497.9, 520.51},
-     0.006,
-     "LAS 1.2, point format 3, 34",
-     "",
-     8},
+    {"laz/autzen_trim.laz", 110000, AUTZEN_TRIM, "LAS 1.2, point format 3, 34", "", 8},
     {"laz/simple.copc.laz", 1065, AUTZEN, "LAS 1.4, point format 7, 36", "", -1},
     {"laz/simple_with_page.copc.laz", 1065, AUTZEN, "LAS 1.4, point format 7, 36", "", -1},
     {"laz/point10.laz", 1065, AUTZEN_UTM, "LAS 1.2, point format 0, 20", "", 0},
     {"laz/point-time.laz", 1065, AUTZEN_UTM, "LAS 1.2, point format 1, 28", "", 0},
     {"laz/point-color.laz", 1065, AUTZEN_UTM, "LAS 1.2, point format 2, 26", "", 8},
     {"laz/point-time-color.laz", 1065, AUTZEN_UTM, "LAS 1.2, point format 3, 34", "", 8},
-    {"laz/lion_takanawa.copc.laz",
-     341989,
-     {-4.985, 1.039, -3.445},
-     {-0.789, 6.724, 1.124},
-     0.006,
-     "LAS 1.4, point format 7, 40",
-     "",
-     -1},
+    {"laz/lion_takanawa.copc.laz", 341989, LION_TAKANAWA, "LAS 1.4, point format 7, 40", "", -1},
 };
 
 static void test_counts_bounds_and_formats(void **state) {
@@ -235,11 +174,7 @@ static void test_hostile(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(test_counts_bounds_and_formats, begin, end),
-        cmocka_unit_test_setup_teardown(test_twins, begin, end),
-        cmocka_unit_test_setup_teardown(test_round_trips, begin, end),
-        cmocka_unit_test_setup_teardown(test_hostile, begin, end),
-    };
+    const struct CMUnitTest tests[] = {CASE(test_counts_bounds_and_formats), CASE(test_twins),
+                                       CASE(test_round_trips), CASE(test_hostile)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

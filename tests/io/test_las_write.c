@@ -3,22 +3,9 @@
 //
 // Writing LAS and LAZ: what was read comes out bit for bit, attributes find their fields or extra bytes,
 // headers hold counts and bounds, coordinates find a grid.
+#include "io/fixture.h"
 #include "io/las_sample.h"
 #include "io/scratch.h"
-
-static check_log messages;
-static ewa_context *context;
-
-static int begin(void **state) {
-    messages = (check_log){0};
-    context = check_context(2, &messages);
-    return 0;
-}
-
-static int end(void **state) {
-    ewa_context_destroy(&context);
-    return 0;
-}
 
 /// Saves and reads again; `*bytes` (may be NULL) gets the file, which the caller frees.
 static ewa_cloud *save_and_load(const ewa_cloud *cloud, const char *name,
@@ -354,17 +341,15 @@ static void test_memory(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(test_round_trips, begin, end),
-        cmocka_unit_test_setup_teardown(test_header, begin, end),
-        cmocka_unit_test_setup_teardown(test_pieces, begin, end),
-        cmocka_unit_test_setup_teardown(test_attributes_of_every_type, begin, end),
-        cmocka_unit_test_setup_teardown(test_colors, begin, end),
-        cmocka_unit_test_setup_teardown(test_grids, begin, end),
-        cmocka_unit_test_setup_teardown(test_points_without_a_place, begin, end),
-        cmocka_unit_test_setup_teardown(test_format_that_holds_the_numbers, begin, end),
-        cmocka_unit_test_setup_teardown(test_records_and_systems, begin, end),
-        cmocka_unit_test_setup_teardown(test_memory, begin, end),
-    };
+    const struct CMUnitTest tests[] = {CASE(test_round_trips),
+                                       CASE(test_header),
+                                       CASE(test_pieces),
+                                       CASE(test_attributes_of_every_type),
+                                       CASE(test_colors),
+                                       CASE(test_grids),
+                                       CASE(test_points_without_a_place),
+                                       CASE(test_format_that_holds_the_numbers),
+                                       CASE(test_records_and_systems),
+                                       CASE(test_memory)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -3,19 +3,7 @@
 //
 // glTF and GLB: where buffers may be, how numbers may be stored, nodes, primitives.
 #include "io/gltf_check.h"
-
-static mesh_messages messages;
-static ewa_context *context;
-
-static int begin(void **state) {
-    context = mesh_context(&messages);
-    return 0;
-}
-
-static int end(void **state) {
-    ewa_context_destroy(&context);
-    return 0;
-}
+#include "io/mesh_fixture.h"
 
 static const float strip[12] = {0, 0, 0, 2, 0, 0, 0, 3, 0, 2, 3, 0};
 
@@ -494,7 +482,6 @@ static void test_repetition(void **state) {
 }
 
 int main(void) {
-#define CASE(f) cmocka_unit_test_setup_teardown(f, begin, end)
     const struct CMUnitTest tests[] = {CASE(test_primitives),
                                        CASE(test_accessors),
                                        CASE(test_nodes),

@@ -3,19 +3,7 @@
 //
 // Materials of glTF: colours, pictures and where they lie, alpha, extensions.
 #include "io/gltf_check.h"
-
-static mesh_messages messages;
-static ewa_context *context;
-
-static int begin(void **state) {
-    context = mesh_context(&messages);
-    return 0;
-}
-
-static int end(void **state) {
-    ewa_context_destroy(&context);
-    return 0;
-}
+#include "io/mesh_fixture.h"
 
 /// The rectangle with two sets of texture coordinates and one material.
 #define TEXTURED(material, textures, images)                                                                 \
@@ -158,7 +146,6 @@ static void test_extensions(void **state) {
 }
 
 int main(void) {
-#define CASE(f) cmocka_unit_test_setup_teardown(f, begin, end)
     const struct CMUnitTest tests[] = {CASE(test_materials), CASE(test_alpha), CASE(test_extensions)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -2,20 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // OBJ and its material libraries: every way to write faces, colours, numbers, names and text.
-#include "io/mesh_check.h"
-
-static mesh_messages messages;
-static ewa_context *context;
-
-static int begin(void **state) {
-    context = mesh_context(&messages);
-    return 0;
-}
-
-static int end(void **state) {
-    ewa_context_destroy(&context);
-    return 0;
-}
+#include "io/mesh_fixture.h"
 
 #define SQUARE "v 0 0 0\nv 2 0 0\nv 2 3 0\nv 0 3 0\n"
 
@@ -441,7 +428,6 @@ static void test_many_missing(void **state) {
 }
 
 int main(void) {
-#define CASE(f) cmocka_unit_test_setup_teardown(f, begin, end)
     const struct CMUnitTest tests[] = {
         CASE(test_spellings),     CASE(test_utf16),          CASE(test_texcoords_and_normals),
         CASE(test_vertex_colors), CASE(test_bad_statements), CASE(test_points),

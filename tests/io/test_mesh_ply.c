@@ -3,22 +3,9 @@
 //
 // Meshes in PLY files: faces of any kind, strips, where texture coordinates and colours are, and what convert
 // keeps.
-#include "io/mesh_check.h"
+#include "io/mesh_fixture.h"
 
-#define XYZ "property float x\nproperty float y\nproperty float z\n"
-
-static mesh_messages messages;
-static ewa_context *context;
-
-static int begin(void **state) {
-    context = mesh_context(&messages);
-    return 0;
-}
-
-static int end(void **state) {
-    ewa_context_destroy(&context);
-    return 0;
-}
+#define XYZ             "property float x\nproperty float y\nproperty float z\n"
 
 #define SQUARE_VERTICES "0 0 0\n2 0 0\n2 3 0\n0 3 0\n"
 
@@ -391,7 +378,6 @@ static void test_elements_round_trip(void **state) {
 }
 
 int main(void) {
-#define CASE(f) cmocka_unit_test_setup_teardown(f, begin, end)
     const struct CMUnitTest tests[] = {CASE(test_polygons),           CASE(test_order_of_elements),
                                        CASE(test_line_ends),          CASE(test_strips),
                                        CASE(test_colors_and_normals), CASE(test_texcoords_of_vertices),

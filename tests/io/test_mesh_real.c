@@ -3,20 +3,7 @@
 //
 // Meshes of the data set, which others' programs have written, and broken ones. Only where that is there:
 // what is read of each format, and what is refused, is held by files that the other tests make.
-#include "io/mesh_check.h"
-
-static mesh_messages messages;
-static ewa_context *context;
-
-static int begin(void **state) {
-    context = mesh_context(&messages);
-    return 0;
-}
-
-static int end(void **state) {
-    ewa_context_destroy(&context);
-    return 0;
-}
+#include "io/mesh_fixture.h"
 
 static void test_ply(void **state) {
     static const struct {
@@ -135,7 +122,6 @@ static void test_hostile_files(void **state) {
 }
 
 int main(void) {
-#define CASE(f) cmocka_unit_test_setup_teardown(f, begin, end)
     const struct CMUnitTest tests[] = {CASE(test_ply), CASE(test_obj), CASE(test_stl),
                                        CASE(test_hostile_files)};
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -2,20 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // STL and OFF: text and bytes, several solids, colours of both kinds of STL, every head of OFF.
-#include "io/mesh_check.h"
-
-static mesh_messages messages;
-static ewa_context *context;
-
-static int begin(void **state) {
-    context = mesh_context(&messages);
-    return 0;
-}
-
-static int end(void **state) {
-    ewa_context_destroy(&context);
-    return 0;
-}
+#include "io/mesh_fixture.h"
 
 #define FACET(a, b, c)                                                                                       \
     "facet normal 0 0 1\nouter loop\nvertex " a "\nvertex " b "\nvertex " c "\nendloop\nendfacet\n"
@@ -188,7 +175,6 @@ static void test_off(void **state) {
 }
 
 int main(void) {
-#define CASE(f) cmocka_unit_test_setup_teardown(f, begin, end)
     const struct CMUnitTest tests[] = {CASE(test_ascii_stl), CASE(test_binary_stl), CASE(test_colors_of_stl),
                                        CASE(test_off)};
     return cmocka_run_group_tests(tests, NULL, NULL);

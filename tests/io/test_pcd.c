@@ -2,26 +2,14 @@
 // SPDX-License-Identifier: MIT
 //
 // Tests of PCD: what is read in each encoding, what is refused. The files are made here.
+#define FIXTURE_THREADS 3
 #include "io/cloud_check.h"
 
 #include "io/cloud/pcd.h"
+#include "io/fixture.h"
 #include "io/scratch.h"
 
 #include <math.h>
-
-static ewa_context *context;
-static check_log messages;
-
-static int begin(void **state) {
-    messages = (check_log){0};
-    context = check_context(3, &messages);
-    return 0;
-}
-
-static int end(void **state) {
-    ewa_context_destroy(&context);
-    return 0;
-}
 
 #define HEADER(fields, sizes, types, counts, points)                                                         \
     "# .PCD v0.7\nVERSION 0.7\nFIELDS " fields "\nSIZE " sizes "\nTYPE " types "\nCOUNT " counts             \
@@ -565,22 +553,20 @@ static void test_memory_that_fails(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(test_every_type_in_every_encoding, begin, end),
-        cmocka_unit_test_setup_teardown(test_colors, begin, end),
-        cmocka_unit_test_setup_teardown(test_names_of_scans, begin, end),
-        cmocka_unit_test_setup_teardown(test_histograms_are_split, begin, end),
-        cmocka_unit_test_setup_teardown(test_names_that_clash_are_left_out, begin, end),
-        cmocka_unit_test_setup_teardown(test_text_keeps_digits, begin, end),
-        cmocka_unit_test_setup_teardown(test_text_of_many_pieces, begin, end),
-        cmocka_unit_test_setup_teardown(test_more_lines_than_points, begin, end),
-        cmocka_unit_test_setup_teardown(test_organised_clouds, begin, end),
-        cmocka_unit_test_setup_teardown(test_headers_and_their_messages, begin, end),
-        cmocka_unit_test_setup_teardown(test_what_lzf_packs, begin, end),
-        cmocka_unit_test_setup_teardown(test_truncated, begin, end),
-        cmocka_unit_test_setup_teardown(test_keeps_going, begin, end),
-        cmocka_unit_test_setup_teardown(test_damaged_bytes_are_survived, begin, end),
-        cmocka_unit_test_setup_teardown(test_memory_that_fails, begin, end),
-    };
+    const struct CMUnitTest tests[] = {CASE(test_every_type_in_every_encoding),
+                                       CASE(test_colors),
+                                       CASE(test_names_of_scans),
+                                       CASE(test_histograms_are_split),
+                                       CASE(test_names_that_clash_are_left_out),
+                                       CASE(test_text_keeps_digits),
+                                       CASE(test_text_of_many_pieces),
+                                       CASE(test_more_lines_than_points),
+                                       CASE(test_organised_clouds),
+                                       CASE(test_headers_and_their_messages),
+                                       CASE(test_what_lzf_packs),
+                                       CASE(test_truncated),
+                                       CASE(test_keeps_going),
+                                       CASE(test_damaged_bytes_are_survived),
+                                       CASE(test_memory_that_fails)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

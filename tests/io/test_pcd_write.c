@@ -2,21 +2,9 @@
 // SPDX-License-Identifier: MIT
 //
 // Tests of PCD files that are written: they read back as they were, whole and in pieces.
+#define FIXTURE_THREADS 3
 #include "io/cloud_check.h"
-
-static ewa_context *context;
-static check_log messages;
-
-static int begin(void **state) {
-    messages = (check_log){0};
-    context = check_context(3, &messages);
-    return 0;
-}
-
-static int end(void **state) {
-    ewa_context_destroy(&context);
-    return 0;
-}
+#include "io/fixture.h"
 
 static ewa_cloud *make_cloud(uint64_t point_count, ewa_type position_type) {
     ewa_cloud *cloud = NULL;
@@ -136,10 +124,7 @@ static void test_what_is_not_written(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(test_written_files_read_back, begin, end),
-        cmocka_unit_test_setup_teardown(test_written_in_pieces_of_unknown_count, begin, end),
-        cmocka_unit_test_setup_teardown(test_world_coordinates_are_written, begin, end),
-        cmocka_unit_test_setup_teardown(test_what_is_not_written, begin, end),
-    };
+        CASE(test_written_files_read_back), CASE(test_written_in_pieces_of_unknown_count),
+        CASE(test_world_coordinates_are_written), CASE(test_what_is_not_written)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -3,132 +3,51 @@
 //
 // PCD and E57 files of the data set, which others' programs have written, and broken ones: counts, boxes and
 // attributes. Only where that is there: what is read of each format is held by files that other tests make.
+#define FIXTURE_THREADS 0
 #include "io/cloud_check.h"
+#include "io/fixture.h"
 
 #include <math.h>
-
-static check_log messages;
-static ewa_context *context;
-
-static int begin(void **state) {
-    messages = (check_log){0};
-    context = check_context(0, &messages);
-    return 0;
-}
-
-static int end(void **state) {
-    ewa_context_destroy(&context);
-    return 0;
-}
 
 static void test_counts_boxes_and_attributes(void **state) {
     static const struct {
         const char *path;
+        double box[6]; ///< lower corner, upper corner
         uint64_t point_count;
-        double low[3], high[3];
         const char *attribute; ///< NULL: positions alone
         ewa_type type;
         uint32_t component_count;
     } files[] = {
-        {"pcd/bun0.pcd",
-         397,
-         {-0.093938, 0.03742, -0.055026},
-         {0.059562, 0.1845, 0.057803},
-         "curvature",
-         EWA_F32,
-         1},
-        {"pcd/bunny.pcd",
-         397,
-         {-0.093938, 0.03742, -0.055026},
-         {0.059562, 0.1845, 0.057803},
-         NULL,
-         EWA_F32,
-         0},
-        {"pcd/colored_cloud.pcd",
-         1000,
-         {-0.887101, -0.650735, 0.882},
-         {0.4888, -0.37549, 1.532},
-         "color",
-         EWA_U8,
-         3},
-        {"pcd/five_people.pcd",
-         239075,
-         {-1.93112, -3.87492, 1.759},
-         {2.98851, 1.14061, 9.757},
-         "color",
-         EWA_U8,
-         4},
-        {"pcd/milk_color.pcd",
-         13704,
-         {-0.140083, -0.26378, 0.714},
-         {0.0138067, -0.0117286, 0.891},
-         "color",
-         EWA_U8,
-         4},
-        {"pcd/pcl_logo.pcd", 12909, {-0.963, -0.3286, 0}, {1, 0.3656, 0}, "color", EWA_U8, 3},
-        {"pcd/simple_ascii.pcd", 213, {-0.95526, -0.31546, 0}, {0.99185, 0.35641, 0}, "color", EWA_U8, 3},
-        {"pcd/autzen-utm.pcd",
-         1065,
-         {493995, 4.87743e6, 123.93},
-         {494994, 4.87882e6, 178.73},
-         "gps_time",
-         EWA_F64,
-         1},
-        {"pcd/utm17_comma.pcd",
-         10,
-         {289814.15, 4320978.61, 170.58},
-         {289818.50, 4320980.59, 170.76},
-         NULL,
-         EWA_F32,
-         0},
-        {"pcd/utm17_space.pcd",
-         10,
-         {289814.15, 4320978.61, 170.58},
-         {289818.50, 4320980.59, 170.76},
-         NULL,
-         EWA_F32,
-         0},
-        {"pcd/utm17_tab.pcd",
-         10,
-         {289814.15, 4320978.61, 170.58},
-         {289818.50, 4320980.59, 170.76},
-         NULL,
-         EWA_F32,
-         0},
-        {"pcd/cloud_bin_0.pcd",
-         3903,
-         {1.2317, -0.00485198, -2.29001},
-         {2.94904, 2.08607, -0.808995},
-         "normal",
-         EWA_F32,
-         3},
-        {"e57/bunnyDouble.e57",
-         30571,
-         {-0.094689, 0.040011, -0.061873},
-         {0.061009, 0.187321, 0.058799},
-         NULL,
-         EWA_F32,
-         0},
-        {"e57/bunnyInt21.e57",
-         30571,
-         {-0.094689, 0.040011, -0.061873},
-         {0.061009, 0.187321, 0.058799},
-         NULL,
-         EWA_F32,
-         0},
-        {"e57/tinyCartesianFloatRgb.e57",
-         2090,
-         {-9.77952957, 4.51387930, 295.524689},
-         {-6.77423811, 7.51546049, 298.532166},
-         "color",
-         EWA_U8,
-         3},
-        {"e57/ColouredCubeFloat.e57", 7680, {-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5}, "color", EWA_U8, 3},
-        {"e57/testWithNormals.e57", 2, {1, 0, 0}, {2, 0, 0}, "normal", EWA_F32, 3},
-        {"e57/tiny_pc_with_extension.e57", 1, {1, 2, 3}, {1, 2, 3}, "normal", EWA_F32, 3},
-        {"e57/tiny_pc_and_images.e57", 2, {0, 0, 0}, {1, 1, 1}, NULL, EWA_F32, 0},
-        {"e57/integer_intensity.e57", 2, {1.1, 2.2, 3.3}, {4.4, 5.5, 6.6}, "intensity", EWA_I8, 1},
-        {"e57/scaled_integer_intensity.e57", 2, {1.1, 2.2, 3.3}, {4.4, 5.5, 6.6}, "intensity", EWA_F64, 1},
+#define BUN0           {-0.093938, 0.03742, -0.055026, 0.059562, 0.1845, 0.057803}, 397
+#define COLORED_CLOUD  {-0.887101, -0.650735, 0.882, 0.4888, -0.37549, 1.532}, 1000
+#define FIVE_PEOPLE    {-1.93112, -3.87492, 1.759, 2.98851, 1.14061, 9.757}, 239075
+#define MILK_COLOR     {-0.140083, -0.26378, 0.714, 0.0138067, -0.0117286, 0.891}, 13704
+#define AUTZEN_UTM     {493995, 4.87743e6, 123.93, 494994, 4.87882e6, 178.73}, 1065
+#define UTM17_COMMA    {289814.15, 4320978.61, 170.58, 289818.50, 4320980.59, 170.76}, 10
+#define CLOUD_BIN_0    {1.2317, -0.00485198, -2.29001, 2.94904, 2.08607, -0.808995}, 3903
+#define BUNNY_DOUBLE   {-0.094689, 0.040011, -0.061873, 0.061009, 0.187321, 0.058799}, 30571
+#define TINY_CARTESIAN {-9.77952957, 4.51387930, 295.524689, -6.77423811, 7.51546049, 298.532166}, 2090
+        {"pcd/bun0.pcd", BUN0, "curvature", EWA_F32, 1},
+        {"pcd/bunny.pcd", BUN0, NULL, EWA_F32, 0},
+        {"pcd/colored_cloud.pcd", COLORED_CLOUD, "color", EWA_U8, 3},
+        {"pcd/five_people.pcd", FIVE_PEOPLE, "color", EWA_U8, 4},
+        {"pcd/milk_color.pcd", MILK_COLOR, "color", EWA_U8, 4},
+        {"pcd/pcl_logo.pcd", {-0.963, -0.3286, 0, 1, 0.3656, 0}, 12909, "color", EWA_U8, 3},
+        {"pcd/simple_ascii.pcd", {-0.95526, -0.31546, 0, 0.99185, 0.35641, 0}, 213, "color", EWA_U8, 3},
+        {"pcd/autzen-utm.pcd", AUTZEN_UTM, "gps_time", EWA_F64, 1},
+        {"pcd/utm17_comma.pcd", UTM17_COMMA, NULL, EWA_F32, 0},
+        {"pcd/utm17_space.pcd", UTM17_COMMA, NULL, EWA_F32, 0},
+        {"pcd/utm17_tab.pcd", UTM17_COMMA, NULL, EWA_F32, 0},
+        {"pcd/cloud_bin_0.pcd", CLOUD_BIN_0, "normal", EWA_F32, 3},
+        {"e57/bunnyDouble.e57", BUNNY_DOUBLE, NULL, EWA_F32, 0},
+        {"e57/bunnyInt21.e57", BUNNY_DOUBLE, NULL, EWA_F32, 0},
+        {"e57/tinyCartesianFloatRgb.e57", TINY_CARTESIAN, "color", EWA_U8, 3},
+        {"e57/ColouredCubeFloat.e57", {-0.5, -0.5, -0.5, 0.5, 0.5, 0.5}, 7680, "color", EWA_U8, 3},
+        {"e57/testWithNormals.e57", {1, 0, 0, 2, 0, 0}, 2, "normal", EWA_F32, 3},
+        {"e57/tiny_pc_with_extension.e57", {1, 2, 3, 1, 2, 3}, 1, "normal", EWA_F32, 3},
+        {"e57/tiny_pc_and_images.e57", {0, 0, 0, 1, 1, 1}, 2, NULL, EWA_F32, 0},
+        {"e57/integer_intensity.e57", {1.1, 2.2, 3.3, 4.4, 5.5, 6.6}, 2, "intensity", EWA_I8, 1},
+        {"e57/scaled_integer_intensity.e57", {1.1, 2.2, 3.3, 4.4, 5.5, 6.6}, 2, "intensity", EWA_F64, 1},
     };
     for (size_t i = 0; i < sizeof files / sizeof files[0]; i++) {
         char relative[128], path[512];
@@ -141,7 +60,7 @@ static void test_counts_boxes_and_attributes(void **state) {
             fail_msg("%s: %llu points", path, (unsigned long long)ewa_cloud_point_count(cloud));
         assert_int_equal(ewa_cloud_measure(cloud, &box), EWA_OK);
         for (int c = 0; c < 3; c++) { // the facts have six digits
-            const double low = files[i].low[c], high = files[i].high[c];
+            const double low = files[i].box[c], high = files[i].box[3 + c];
             if (fabs(box.low_world[c] - low) > 1e-5 * fabs(low) + 1e-9 ||
                 fabs(box.high_world[c] - high) > 1e-5 * fabs(high) + 1e-9)
                 fail_msg("%s: axis %d from %.9g to %.9g", path, c, box.low_world[c], box.high_world[c]);
@@ -196,10 +115,7 @@ static void test_broken(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(test_counts_boxes_and_attributes, begin, end),
-        cmocka_unit_test_setup_teardown(test_spherical_and_empty, begin, end),
-        cmocka_unit_test_setup_teardown(test_broken, begin, end),
-    };
+    const struct CMUnitTest tests[] = {CASE(test_counts_boxes_and_attributes), CASE(test_spherical_and_empty),
+                                       CASE(test_broken)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

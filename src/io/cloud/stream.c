@@ -273,8 +273,7 @@ ewa_status ewa_cloud_writer_open(ewa_context *context, const char *path,
     return status;
 }
 
-/// Whether a piece has the attributes of the prototype in their order.
-static bool is_alike(const ewa_cloud *piece, const ewa_cloud *prototype) {
+bool ewa_cloud_is_alike(const ewa_cloud *piece, const ewa_cloud *prototype) {
     const uint32_t count = ewa_cloud_attribute_count(prototype);
     bool alike = ewa_cloud_attribute_count(piece) == count;
     for (uint32_t i = 0; i < count && alike; i++) {
@@ -287,7 +286,7 @@ static bool is_alike(const ewa_cloud *piece, const ewa_cloud *prototype) {
 
 ewa_status ewa_cloud_writer_put(ewa_cloud_writer *writer, const ewa_cloud *piece) {
     if (!writer || !piece) return EWA_ERROR_ARGUMENT;
-    if (!is_alike(piece, writer->prototype))
+    if (!ewa_cloud_is_alike(piece, writer->prototype))
         return ewa_fail(writer->target.context, EWA_ERROR_ARGUMENT,
                         "%s: a piece has other attributes than the file", writer->name);
     writer->put_count += ewa_cloud_point_count(piece);

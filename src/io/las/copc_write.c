@@ -219,25 +219,13 @@ static void encode_node(void *data, uint32_t index, uint32_t worker) {
     job->statuses[index] = status;
 }
 
-/// Whether a piece has the attributes of the prototype in their order.
-static bool is_alike(const ewa_cloud *piece, const ewa_cloud *prototype) {
-    const uint32_t count = ewa_cloud_attribute_count(prototype);
-    bool alike = ewa_cloud_attribute_count(piece) == count;
-    for (uint32_t i = 0; i < count && alike; i++) {
-        const ewa_attribute *a = ewa_cloud_attribute_at(piece, i), *b = ewa_cloud_attribute_at(prototype, i);
-        alike =
-            strcmp(a->name, b->name) == 0 && a->type == b->type && a->component_count == b->component_count;
-    }
-    return alike;
-}
-
 static ewa_status check_node(const ewa_octree_writer *w, const ewa_octree_key *k, const ewa_cloud *piece) {
     bool is_cube = k->level >= 0 && k->level < EWA_OCTREE_LEVELS;
     for (int c = 0; c < 3 && is_cube; c++) is_cube = k->cell[c] >= 0 && k->cell[c] < (int64_t)1 << k->level;
     if (!is_cube)
         return ewa_fail(w->target.context, EWA_ERROR_ARGUMENT, "%s: there is no node %d-%d-%d-%d", w->name,
                         k->level, k->cell[0], k->cell[1], k->cell[2]);
-    if (!is_alike(piece, w->target.prototype))
+    if (!ewa_cloud_is_alike(piece, w->target.prototype))
         return ewa_fail(w->target.context, EWA_ERROR_ARGUMENT,
                         "%s: node %d-%d-%d-%d has other attributes than the file", w->name, k->level,
                         k->cell[0], k->cell[1], k->cell[2]);
