@@ -3,7 +3,7 @@
 #
 # What Debian's packages give us: spng (PNG in), libdeflate (PNG out), OpenEXRCore (EXR), cJSON (camera
 # files, glTF), libjpeg (JPEG), libwebp (WebP in), expat (E57), CHOLMOD of SuiteSparse (sparse factors), zlib and
-# libbz2 (volumes in), libzstd (EPT), pthreads.
+# libbz2 (volumes in), libzstd (EPT), meshoptimizer and Draco (glTF), pthreads.
 find_package(Threads REQUIRED)
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(SPNG REQUIRED IMPORTED_TARGET spng)
@@ -37,6 +37,27 @@ if(EWA_WITH_CHOLMOD)
   set(EWA_CHOLMOD_TARGET ewa_cholmod)
 endif()
 
+# glTF's two kinds of packed meshes. Draco is C++: its one source here needs a compiler for it, and its library libstdc++.
+option(EWA_WITH_MESHOPT "Read glTF that meshoptimizer has packed" ON)
+option(EWA_WITH_DRACO "Read glTF that Draco has packed" ON)
+set(EWA_PACKED_INSTALLED "")
+set(EWA_PACKED_PC_LIBS "")
+set(EWA_PACKED_TARGETS "")
+if(EWA_WITH_MESHOPT)
+  ewa_find_library(ewa_meshopt meshoptimizer.h meshoptimizer)
+  string(APPEND EWA_PACKED_INSTALLED "meshoptimizer;")
+  string(APPEND EWA_PACKED_PC_LIBS "-lmeshoptimizer ")
+  list(APPEND EWA_PACKED_TARGETS ewa_meshopt)
+endif()
+if(EWA_WITH_DRACO)
+  enable_language(CXX)
+  ewa_find_library(ewa_draco draco/compression/decode.h draco)
+  target_link_libraries(ewa_draco INTERFACE stdc++)
+  string(APPEND EWA_PACKED_INSTALLED "draco;stdc++;")
+  string(APPEND EWA_PACKED_PC_LIBS "-ldraco -lstdc++ ")
+  list(APPEND EWA_PACKED_TARGETS ewa_draco)
+endif()
+
 add_library(ewa_dependencies INTERFACE)
 target_link_libraries(ewa_dependencies INTERFACE PkgConfig::SPNG PkgConfig::DEFLATE PkgConfig::CJSON
-  PkgConfig::JPEG PkgConfig::WEBP PkgConfig::EXPAT PkgConfig::ZLIB PkgConfig::ZSTD ${EWA_CHOLMOD_TARGET} ewa_bzip2 OpenEXR::OpenEXRCore Threads::Threads m)
+  PkgConfig::JPEG PkgConfig::WEBP PkgConfig::EXPAT PkgConfig::ZLIB PkgConfig::ZSTD ${EWA_CHOLMOD_TARGET} ${EWA_PACKED_TARGETS} ewa_bzip2 OpenEXR::OpenEXRCore Threads::Threads m)

@@ -78,7 +78,8 @@ typedef struct primitive {
     const cJSON *attributes;
     uint64_t count; ///< of its vertices
     uint32_t position, texcoord, normal;
-    gltf_array indices; ///< or none
+    gltf_array indices;  ///< or none
+    gltf_packed *packed; ///< by Draco, or NULL
     bool mirrored;
 } primitive;
 
@@ -98,6 +99,9 @@ ewa_status ewa_gltf_read_attribute(gltf *g, uint64_t mesh, const cJSON *attribut
 /// Reads an attribute of as many items as there are vertices; `array` is empty when it is not there.
 static ewa_status read_attribute(gltf *g, const primitive *p, const char *name, uint32_t low, uint32_t high,
                                  gltf_array *array) {
+    uint64_t accessor;
+    if (ewa_gltf_packed_has(p->packed, name) && ewa_gltf_count(p->attributes, name, UINT64_MAX, &accessor))
+        return ewa_gltf_packed_attribute(g, p->mesh, p->packed, name, accessor, low, high, array);
     return ewa_gltf_read_attribute(g, p->mesh, p->attributes, p->count, name, low, high, array);
 }
 
@@ -201,9 +205,24 @@ static ewa_status add_triangles(gltf *g, const primitive *p, uint64_t mode) {
     return EWA_OK;
 }
 
+/// Adds the vertices of a primitive and its triangles.
+static ewa_status add_parts(gltf *g, primitive *p, const gltf_placement *at, uint64_t mode, uint64_t indices,
+                            uint64_t set) {
+    EWA_TRY(add_positions(g, p, at));
+    EWA_TRY(add_colors(g, p));
+    if (mode == POINTS) return EWA_OK;
+    EWA_TRY(add_texcoords(g, p, set));
+    EWA_TRY(add_normals(g, p, at));
+    if (p->packed)
+        EWA_TRY(ewa_gltf_packed_indices(g, p->packed, &p->indices));
+    else if (indices != UINT64_MAX)
+        EWA_TRY(ewa_gltf_read_accessor(g, indices, 1, 1, &p->indices));
+    return add_triangles(g, p, mode);
+}
+
 static ewa_status add_primitive(gltf *g, uint64_t mesh, const cJSON *item, const gltf_placement *at) {
     primitive p = {.mesh = mesh, .attributes = ewa_gltf_member(item, "attributes")};
-    uint64_t mode, material, indices, set = 0;
+    uint64_t mode, material, indices, positions, set = 0;
     EWA_TRY(ewa_gltf_spend(g, PRIMITIVE_ITEMS)); // many nodes may have one mesh
     if (!ewa_gltf_count(item, "mode", TRIANGLES, &mode) || mode > FAN ||
         !ewa_gltf_count(item, "material", UINT64_MAX, &material) ||
@@ -217,14 +236,11 @@ static ewa_status add_primitive(gltf *g, uint64_t mesh, const cJSON *item, const
     p.mirrored = cofactors(at, cofactor) < 0;
     g->build->look = EWA_MESH_NONE;
     if (material != UINT64_MAX) EWA_TRY(ewa_gltf_look(g, material, &g->build->look, &set));
-    EWA_TRY(add_positions(g, &p, at));
-    EWA_TRY(add_colors(g, &p));
-    if (mode == POINTS) return EWA_OK;
-    ewa_status status = add_texcoords(g, &p, set);
-    if (status == EWA_OK) status = add_normals(g, &p, at);
-    if (status == EWA_OK && indices != UINT64_MAX)
-        status = ewa_gltf_read_accessor(g, indices, 1, 1, &p.indices);
-    if (status == EWA_OK) status = add_triangles(g, &p, mode);
+    if (mode == TRIANGLES && indices != UINT64_MAX &&
+        ewa_gltf_count(p.attributes, "POSITION", UINT64_MAX, &positions))
+        EWA_TRY(ewa_gltf_open_packed(g, mesh, item, positions, indices, &p.packed));
+    const ewa_status status = add_parts(g, &p, at, mode, indices, set);
+    ewa_gltf_close_packed(g, &p.packed);
     ewa_gltf_free_array(g, &p.indices);
     return status;
 }
@@ -301,9 +317,11 @@ static ewa_status open_table(const gltf *g, const char *name, gltf_table *table)
 
 /// Extensions without which the file would be drawn wrongly.
 static ewa_status check_extensions(const gltf *g) {
-    static const char *const known[] = {"KHR_texture_transform", "KHR_mesh_quantization",
-                                        "EXT_texture_webp",      "KHR_materials_pbrSpecularGlossiness",
-                                        "KHR_lights_punctual",   "KHR_gaussian_splatting"};
+    static const char *const known[] = {"KHR_texture_transform",     "KHR_mesh_quantization",
+                                        "EXT_texture_webp",          "KHR_materials_pbrSpecularGlossiness",
+                                        "KHR_lights_punctual",       "KHR_gaussian_splatting",
+                                        "EXT_meshopt_compression",   "KHR_meshopt_compression",
+                                        "KHR_draco_mesh_compression"};
     const cJSON *item;
     char quote[EWA_QUOTE_BYTES];
     cJSON_ArrayForEach(item, ewa_gltf_member(g->root, "extensionsRequired")) {

@@ -34,6 +34,7 @@ typedef struct gltf_array {
 } gltf_array;
 
 typedef struct gltf gltf;
+typedef struct gltf_packed gltf_packed; ///< a primitive that Draco has packed
 
 /// Where a node puts its mesh: three rows of an affine map on column vectors.
 typedef struct gltf_placement {
@@ -50,9 +51,10 @@ struct gltf {
     const char *extension; ///< one more that may be required; or NULL
     cJSON *root;
     gltf_table nodes, meshes, accessors, views, buffers, materials, textures, images;
-    gltf_buffer *opened;  ///< by buffer
-    uint32_t *looks;      ///< by material, none while it was not used
-    const uint8_t *chunk; ///< binary chunk of a .glb
+    gltf_buffer *opened;   ///< by buffer
+    gltf_buffer *unpacked; ///< by view; NULL while none was
+    uint32_t *looks;       ///< by material, none while it was not used
+    const uint8_t *chunk;  ///< binary chunk of a .glb
     size_t chunk_bytes;
     bool *visited; ///< by node
     bool has_triangles;
@@ -94,6 +96,23 @@ ewa_status ewa_gltf_view(gltf *g, uint64_t index, const uint8_t **bytes, uint64_
                          uint64_t *stride);
 void ewa_gltf_close_buffers(gltf *g);
 
+/// Unpacks a view whose extension EXT_meshopt_compression or KHR_meshopt_compression is `packed`, from the bytes and the
+/// stride that it names. Errors: EWA_ERROR_FORMAT, EWA_ERROR_UNSUPPORTED, EWA_ERROR_LIMIT, EWA_ERROR_MEMORY.
+ewa_status ewa_gltf_unpack_view(gltf *g, uint64_t index, const cJSON *packed, const uint8_t *bytes,
+                                uint64_t size_bytes, uint64_t stride, gltf_buffer *unpacked);
+
+/// Opens what Draco has packed of a primitive with these accessors, or sets NULL where it has not. Close it.
+ewa_status ewa_gltf_open_packed(gltf *g, uint64_t mesh, const cJSON *item, uint64_t positions,
+                                uint64_t indices, gltf_packed **packed);
+void ewa_gltf_close_packed(const gltf *g, gltf_packed **packed);
+
+/// Whether the numbers of an attribute are in it (not of NULL), and these, as ewa_gltf_read_accessor() gives them;
+/// the triangles' corners.
+bool ewa_gltf_packed_has(const gltf_packed *packed, const char *name);
+ewa_status ewa_gltf_packed_attribute(gltf *g, uint64_t mesh, const gltf_packed *packed, const char *name,
+                                     uint64_t accessor, uint32_t low, uint32_t high, gltf_array *array);
+ewa_status ewa_gltf_packed_indices(gltf *g, const gltf_packed *packed, gltf_array *array);
+
 /// Decodes the bytes of a data: URI; `*decoded` has `*room` bytes for ewa_release(). Errors: EWA_ERROR_FORMAT
 /// (a message names `array` and `index`), EWA_ERROR_MEMORY.
 ewa_status ewa_gltf_decode_uri(const gltf *g, const char *array, uint64_t index, const char *uri,
@@ -106,6 +125,15 @@ bool ewa_gltf_path_of(const char *uri, char *path, size_t room);
 /// with ewa_gltf_free_array().
 ewa_status ewa_gltf_read_accessor(gltf *g, uint64_t index, uint32_t low, uint32_t high, gltf_array *array);
 void ewa_gltf_free_array(const gltf *g, gltf_array *array);
+
+/// What the integers of an accessor stand for: themselves times `share`, at least `lowest`.
+typedef struct gltf_numbers {
+    double share, lowest;
+} gltf_numbers;
+
+/// Fills components and count of `array`, without numbers, and what they stand for.
+ewa_status ewa_gltf_describe(const gltf *g, uint64_t index, uint32_t low, uint32_t high, gltf_array *array,
+                             gltf_numbers *form);
 
 /// The look of a material, made when it is used first; which set of texture coordinates its picture wants.
 ewa_status ewa_gltf_look(gltf *g, uint64_t material, uint32_t *look, uint64_t *texcoord_set);

@@ -9,6 +9,7 @@
 #include "io/mesh/gltf.h"
 #include "io/mesh/referenced_file.h"
 
+#include <math.h>
 #include <stdio.h>
 
 /// Component types.
@@ -116,12 +117,15 @@ void ewa_gltf_close_buffers(gltf *g) {
     }
     ewa_release(g->build->context, g->opened, g->buffers.count, sizeof *g->opened);
     g->opened = NULL;
+    for (uint32_t i = 0; g->unpacked && i < g->views.count; i++)
+        ewa_release(g->build->context, g->unpacked[i].decoded, g->unpacked[i].decoded_room, 1);
+    ewa_release(g->build->context, g->unpacked, g->views.count, sizeof *g->unpacked);
+    g->unpacked = NULL;
 }
 
-ewa_status ewa_gltf_view(gltf *g, uint64_t index, const uint8_t **bytes, uint64_t *size_bytes,
-                         uint64_t *stride) {
-    if (index >= g->views.count) return ewa_gltf_fail(g, "bufferViews", index, "there is no such one");
-    const cJSON *view = g->views.items[index];
+/// The bytes that a view, or its extension, names.
+static ewa_status open_range(gltf *g, uint64_t index, const cJSON *view, const uint8_t **bytes,
+                             uint64_t *size_bytes, uint64_t *stride) {
     uint64_t buffer, offset;
     if (!ewa_gltf_count(view, "buffer", UINT64_MAX, &buffer) || buffer >= g->buffers.count ||
         !ewa_gltf_count(view, "byteOffset", 0, &offset) ||
@@ -133,6 +137,27 @@ ewa_status ewa_gltf_view(gltf *g, uint64_t index, const uint8_t **bytes, uint64_
     if (offset > there || *size_bytes > there - offset)
         return ewa_gltf_fail(g, "bufferViews", index, "it ends behind its buffer");
     *bytes = there ? g->opened[buffer].bytes + offset : (const uint8_t *)"";
+    return EWA_OK;
+}
+
+ewa_status ewa_gltf_view(gltf *g, uint64_t index, const uint8_t **bytes, uint64_t *size_bytes,
+                         uint64_t *stride) {
+    if (index >= g->views.count) return ewa_gltf_fail(g, "bufferViews", index, "there is no such one");
+    const cJSON *view = g->views.items[index], *packed = ewa_gltf_extension(view, "EXT_meshopt_compression");
+    if (!packed) packed = ewa_gltf_extension(view, "KHR_meshopt_compression");
+    if (!packed) return open_range(g, index, view, bytes, size_bytes, stride);
+    EWA_TRY(open_range(g, index, packed, bytes, size_bytes, stride));
+    if (!g->unpacked)
+        g->unpacked = ewa_allocate_zeroed(g->build->context, g->views.count, sizeof *g->unpacked);
+    if (!g->unpacked) return EWA_ERROR_MEMORY;
+    gltf_buffer *unpacked = &g->unpacked[index];
+    if (!unpacked->opened) {
+        // A second try would forget the room of a first that failed.
+        if (unpacked->decoded) return ewa_gltf_fail(g, "bufferViews", index, "its packed bytes are broken");
+        EWA_TRY(ewa_gltf_unpack_view(g, index, packed, *bytes, *size_bytes, *stride, unpacked));
+    }
+    *bytes = unpacked->bytes;
+    *size_bytes = unpacked->size_bytes;
     return EWA_OK;
 }
 
@@ -231,20 +256,39 @@ static ewa_status read_numbers(gltf *g, uint64_t index, const cJSON *accessor, u
     return sparse ? apply_sparse(g, index, sparse, type, normalized, array) : EWA_OK;
 }
 
-ewa_status ewa_gltf_read_accessor(gltf *g, uint64_t index, uint32_t low, uint32_t high, gltf_array *array) {
+static ewa_status open_accessor(const gltf *g, uint64_t index, uint32_t low, uint32_t high, gltf_array *array,
+                                uint64_t *type) {
     *array = (gltf_array){0};
     if (index >= g->accessors.count) return ewa_gltf_fail(g, "accessors", index, "there is no such one");
     const cJSON *accessor = g->accessors.items[index];
-    uint64_t type;
     array->components = component_count(accessor);
-    if (!ewa_gltf_count(accessor, "componentType", 0, &type) || !component_bytes(type) ||
+    if (!ewa_gltf_count(accessor, "componentType", 0, type) || !component_bytes(*type) ||
         array->components < low || array->components > high)
         return ewa_gltf_fail(g, "accessors", index, "its type is not what it is used for");
     if (!ewa_gltf_count(accessor, "count", 0, &array->count))
         return ewa_gltf_fail(g, "accessors", index, "count is no count");
+    return EWA_OK;
+}
+
+ewa_status ewa_gltf_describe(const gltf *g, uint64_t index, uint32_t low, uint32_t high, gltf_array *array,
+                             gltf_numbers *form) {
+    uint64_t type;
+    EWA_TRY(open_accessor(g, index, low, high, array, &type));
+    *form = (gltf_numbers){1, -INFINITY};
+    if (!cJSON_IsTrue(ewa_gltf_member(g->accessors.items[index], "normalized")) || type == GLTF_F32)
+        return EWA_OK;
+    const bool is_signed = type == GLTF_I8 || type == GLTF_I16;
+    form->share = 1 / (ldexp(1, (int)(8 * component_bytes(type)) - is_signed) - 1);
+    form->lowest = is_signed ? -1 : 0;
+    return EWA_OK;
+}
+
+ewa_status ewa_gltf_read_accessor(gltf *g, uint64_t index, uint32_t low, uint32_t high, gltf_array *array) {
+    uint64_t type;
+    EWA_TRY(open_accessor(g, index, low, high, array, &type));
     // A short file may name one accessor many times, or one that is all zeros.
     EWA_TRY(ewa_gltf_spend(g, array->count));
-    ewa_status status = read_numbers(g, index, accessor, type, array);
+    ewa_status status = read_numbers(g, index, g->accessors.items[index], type, array);
     if (status != EWA_OK) ewa_gltf_free_array(g, array);
     return status;
 }
