@@ -196,6 +196,16 @@ ewa_status ewa_cloud_like(const ewa_cloud *cloud, ewa_cloud **like) {
     return status;
 }
 
+bool ewa_cloud_is_alike(const ewa_cloud *a, const ewa_cloud *b) {
+    bool alike = a->attribute_count == b->attribute_count;
+    for (uint32_t i = 0; i < b->attribute_count && alike; i++) {
+        const ewa_attribute *p = &a->attributes[i], *q = &b->attributes[i];
+        alike =
+            strcmp(p->name, q->name) == 0 && p->type == q->type && p->component_count == q->component_count;
+    }
+    return alike;
+}
+
 void ewa_cloud_truncate(ewa_cloud *cloud, uint64_t point_count) {
     if (point_count < cloud->point_count) cloud->point_count = point_count;
 }

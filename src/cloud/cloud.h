@@ -16,6 +16,9 @@ ewa_status ewa_cloud_follow(ewa_cloud *cloud, const ewa_cloud *source);
 /// EWA_ERROR_MEMORY.
 ewa_status ewa_cloud_like(const ewa_cloud *cloud, ewa_cloud **like);
 
+/// Whether two clouds have the same attributes in the same order.
+bool ewa_cloud_is_alike(const ewa_cloud *a, const ewa_cloud *b);
+
 /// Leaves only the first points; their memory stays until the cloud is destroyed.
 void ewa_cloud_truncate(ewa_cloud *cloud, uint64_t point_count);
 

@@ -214,16 +214,16 @@ static bool is_axis(const ewa_cloud *cloud, const char *name) {
 static ewa_status prepare_streams(ewa_cloud *cloud, write_job *job) {
     const bool has_axes = is_axis(cloud, EWA_TANGENT_U) && is_axis(cloud, EWA_TANGENT_V);
     void *clip[2] = {NULL, NULL}, *either = NULL;
-    ewa_status status = edit_stream(cloud, EWA_POSITION, &job->position);
-    if (status == EWA_OK) status = edit_stream(cloud, EWA_NORMAL, &job->normal);
-    if (status == EWA_OK) status = edit_axes(cloud, EWA_TANGENT_U, has_axes, &job->u);
-    if (status == EWA_OK) status = edit_axes(cloud, EWA_TANGENT_V, has_axes, &job->v);
-    if (status == EWA_OK) status = add_zeros(cloud, EWA_CLIP0, EWA_F32, 3, &clip[0]);
-    if (status == EWA_OK) status = add_zeros(cloud, EWA_CLIP1, EWA_F32, 3, &clip[1]);
-    if (status == EWA_OK) status = add_zeros(cloud, EWA_CLIP_MODE, EWA_U8, 1, &either);
+    EWA_TRY(edit_stream(cloud, EWA_POSITION, &job->position));
+    EWA_TRY(edit_stream(cloud, EWA_NORMAL, &job->normal));
+    EWA_TRY(edit_axes(cloud, EWA_TANGENT_U, has_axes, &job->u));
+    EWA_TRY(edit_axes(cloud, EWA_TANGENT_V, has_axes, &job->v));
+    EWA_TRY(add_zeros(cloud, EWA_CLIP0, EWA_F32, 3, &clip[0]));
+    EWA_TRY(add_zeros(cloud, EWA_CLIP1, EWA_F32, 3, &clip[1]));
+    EWA_TRY(add_zeros(cloud, EWA_CLIP_MODE, EWA_U8, 1, &either));
     job->clip[0] = clip[0], job->clip[1] = clip[1], job->either = either;
     job->radius = has_axes ? NULL : ewa_cloud_find(cloud, EWA_RADIUS);
-    return status;
+    return EWA_OK;
 }
 
 static void drop_clips(ewa_cloud *cloud) {

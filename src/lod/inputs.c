@@ -8,18 +8,6 @@
 #include <math.h>
 #include <string.h>
 
-/// Whether two clouds have the same attributes in the same order.
-static bool are_alike(const ewa_cloud *a, const ewa_cloud *b) {
-    const uint32_t count = ewa_cloud_attribute_count(a);
-    if (ewa_cloud_attribute_count(b) != count) return false;
-    for (uint32_t i = 0; i < count; i++) {
-        const ewa_attribute *p = ewa_cloud_attribute_at(a, i), *q = ewa_cloud_attribute_at(b, i);
-        if (strcmp(p->name, q->name) != 0 || p->type != q->type || p->component_count != q->component_count)
-            return false;
-    }
-    return true;
-}
-
 static ewa_status add_prototype(ewa_inputs *inputs, const ewa_cloud *prototype) {
     ewa_coordinate_grid grid;
     ewa_cloud_grid(prototype, &grid);
@@ -28,7 +16,7 @@ static ewa_status add_prototype(ewa_inputs *inputs, const ewa_cloud *prototype) 
         if (grid.step_world[c] > 0) inputs->min_step_world = fmin(inputs->min_step_world, grid.step_world[c]);
     }
     if (!inputs->prototype) return ewa_cloud_like(prototype, &inputs->prototype);
-    if (are_alike(inputs->prototype, prototype)) return EWA_OK;
+    if (ewa_cloud_is_alike(inputs->prototype, prototype)) return EWA_OK;
     const ewa_cloud *both[2] = {inputs->prototype, prototype};
     ewa_cloud *merged = NULL;
     EWA_TRY(ewa_cloud_merge(both, 2, &merged));
@@ -49,10 +37,9 @@ ewa_status ewa_inputs_open(ewa_context *context, const char *const *paths, uint3
     ewa_status status = EWA_OK;
     for (uint32_t i = 0; i < path_count && status == EWA_OK; i++) {
         ewa_cloud_reader *reader = NULL;
-        status = strcmp(paths[i], "-") == 0
-                     ? ewa_fail(context, EWA_ERROR_UNSUPPORTED, "standard input cannot be read twice")
-                     : ewa_cloud_reader_open(context, paths[i], &inputs->options, &reader);
-        if (status != EWA_OK) break;
+        EWA_TRY(strcmp(paths[i], "-") == 0
+                    ? ewa_fail(context, EWA_ERROR_UNSUPPORTED, "standard input cannot be read twice")
+                    : ewa_cloud_reader_open(context, paths[i], &inputs->options, &reader));
         inputs->max_points += ewa_cloud_reader_maximum_points(reader);
         status = add_prototype(inputs, ewa_cloud_reader_prototype(reader));
         ewa_cloud_reader_close(&reader);
@@ -67,7 +54,7 @@ void ewa_inputs_free(ewa_inputs *inputs) { ewa_cloud_destroy(&inputs->prototype)
 
 /// Gives a piece the attributes of all files.
 static ewa_status conform(const ewa_inputs *inputs, ewa_cloud **piece) {
-    if (are_alike(inputs->prototype, *piece)) return EWA_OK;
+    if (ewa_cloud_is_alike(inputs->prototype, *piece)) return EWA_OK;
     const ewa_cloud *both[2] = {inputs->prototype, *piece};
     ewa_cloud *merged = NULL;
     EWA_TRY(ewa_cloud_merge(both, 2, &merged));

@@ -46,27 +46,27 @@ static ewa_status put_statistics(ewa_context *context, const ewa_statistics *sta
 
 static ewa_status put_prototype(ewa_context *context, const ewa_cloud *cloud, ewa_section *to) {
     const uint32_t count = ewa_cloud_attribute_count(cloud);
-    ewa_status status = ewa_section_put(context, to, &count, sizeof count);
-    for (uint32_t a = 0; a < count && status == EWA_OK; a++) {
+    EWA_TRY(ewa_section_put(context, to, &count, sizeof count));
+    for (uint32_t a = 0; a < count; a++) {
         const ewa_attribute *attribute = ewa_cloud_attribute_at(cloud, a);
         const uint32_t shape[2] = {(uint32_t)attribute->type, attribute->component_count};
-        status = ewa_section_put(context, to, attribute->name, EWA_NAME_BYTES);
-        if (status == EWA_OK) status = ewa_section_put(context, to, shape, sizeof shape);
+        EWA_TRY(ewa_section_put(context, to, attribute->name, EWA_NAME_BYTES));
+        EWA_TRY(ewa_section_put(context, to, shape, sizeof shape));
     }
     uint32_t note_count = 0;
     while (ewa_cloud_note_name(cloud, note_count)) note_count++;
-    if (status == EWA_OK) status = ewa_section_put(context, to, &note_count, sizeof note_count);
-    for (uint32_t n = 0; n < note_count && status == EWA_OK; n++) {
+    EWA_TRY(ewa_section_put(context, to, &note_count, sizeof note_count));
+    for (uint32_t n = 0; n < note_count; n++) {
         char name[EWA_NAME_BYTES] = {0};
         strncpy(name, ewa_cloud_note_name(cloud, n), sizeof name - 1);
         size_t size = 0;
         const char *bytes = ewa_cloud_note(cloud, name, &size);
         const uint64_t note_bytes = size;
-        status = ewa_section_put(context, to, name, sizeof name);
-        if (status == EWA_OK) status = ewa_section_put(context, to, &note_bytes, sizeof note_bytes);
-        if (status == EWA_OK) status = ewa_section_put(context, to, bytes, size);
+        EWA_TRY(ewa_section_put(context, to, name, sizeof name));
+        EWA_TRY(ewa_section_put(context, to, &note_bytes, sizeof note_bytes));
+        EWA_TRY(ewa_section_put(context, to, bytes, size));
     }
-    return status;
+    return EWA_OK;
 }
 
 static ewa_status put_chunks(ewa_context *context, const ewa_region_result *result, ewa_section *to) {

@@ -132,24 +132,24 @@ ewa_status ewa_surfel_reader_open(const ewa_cloud *cloud, const ewa_surfels_opti
         reader->clip[1] = ewa_cloud_find(cloud, EWA_CLIP1);
         reader->clip_mode = ewa_cloud_find(cloud, EWA_CLIP_MODE);
     }
-    ewa_status status = check_presence(cloud, reader);
-    for (int i = 0; i < 2 && status == EWA_OK; i++) status = check_components(cloud, reader->clip[i], 3, 3);
-    if (status == EWA_OK) status = check_components(cloud, reader->clip_mode, 1, 1);
-    if (status == EWA_OK) status = check_components(cloud, reader->position, 3, 3);
-    if (status == EWA_OK) status = check_components(cloud, reader->normal, 3, 3);
-    if (status == EWA_OK) status = check_components(cloud, reader->color, 3, 4);
-    if (status == EWA_OK) status = check_components(cloud, reader->material, 1, 1);
+    EWA_TRY(check_presence(cloud, reader));
+    for (int i = 0; i < 2; i++) EWA_TRY(check_components(cloud, reader->clip[i], 3, 3));
+    EWA_TRY(check_components(cloud, reader->clip_mode, 1, 1));
+    EWA_TRY(check_components(cloud, reader->position, 3, 3));
+    EWA_TRY(check_components(cloud, reader->normal, 3, 3));
+    EWA_TRY(check_components(cloud, reader->color, 3, 4));
+    EWA_TRY(check_components(cloud, reader->material, 1, 1));
     if (reader->tangent_u && reader->tangent_v) {
         reader->radius = NULL;
-        if (status == EWA_OK) status = check_components(cloud, reader->tangent_u, 3, 3);
-        if (status == EWA_OK) status = check_components(cloud, reader->tangent_v, 3, 3);
+        EWA_TRY(check_components(cloud, reader->tangent_u, 3, 3));
+        EWA_TRY(check_components(cloud, reader->tangent_v, 3, 3));
     } else {
         reader->tangent_u = reader->tangent_v = NULL;
-        if (status == EWA_OK) status = check_components(cloud, reader->radius, 1, 1);
+        EWA_TRY(check_components(cloud, reader->radius, 1, 1));
     }
     ewa_cloud_origin(cloud, reader->origin_world);
     ewa_color_table_make(&reader->colors);
-    return status;
+    return EWA_OK;
 }
 
 /// At most BLOCK points.

@@ -49,13 +49,12 @@ void ewa_gaussian_options_init(ewa_gaussian_options *options, size_t struct_size
 ewa_status ewa_gaussian_options_choose(ewa_context *context, const ewa_gaussian_options *given,
                                        ewa_gaussian_options *chosen) {
     ewa_gaussian_options_init(chosen, sizeof *chosen);
-    ewa_status status = ewa_options_take(context, &ewa_gaussian_options_table, given, chosen);
-    if (status == EWA_OK) status = ewa_option_check_background(context, chosen->background);
-    if (status == EWA_OK)
-        status = ewa_option_check_sections(context, (const double(*)[4])chosen->section_planes,
-                                           chosen->section_count);
+    EWA_TRY(ewa_options_take(context, &ewa_gaussian_options_table, given, chosen));
+    EWA_TRY(ewa_option_check_background(context, chosen->background));
+    EWA_TRY(ewa_option_check_sections(context, (const double(*)[4])chosen->section_planes,
+                                      chosen->section_count));
     const ewa_surface_planes planes = EWA_SURFACE_PLANES_OF(chosen);
-    return status == EWA_OK ? ewa_surface_planes_check(context, &planes) : status;
+    return ewa_surface_planes_check(context, &planes);
 }
 
 /// Rotation and scale of the camera, and where the origin and the eye are.

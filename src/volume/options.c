@@ -85,15 +85,14 @@ ewa_status ewa_surface_planes_check(ewa_context *context, const ewa_surface_plan
 ewa_status ewa_volume_options_choose(ewa_context *context, const ewa_volume_options *given,
                                      ewa_volume_options *chosen) {
     ewa_volume_options_init(chosen, sizeof *chosen);
-    ewa_status status = ewa_options_take(context, &ewa_volume_options_table, given, chosen);
-    if (status == EWA_OK) status = ewa_option_check_lights(context, chosen->lights, chosen->light_count);
-    if (status == EWA_OK) status = ewa_material_check(context, "options", 0, &chosen->material);
-    if (status == EWA_OK) status = ewa_option_check_background(context, chosen->background);
-    if (status == EWA_OK)
-        status = ewa_option_check_sections(context, (const double(*)[4])chosen->section_planes,
-                                           chosen->section_count);
+    EWA_TRY(ewa_options_take(context, &ewa_volume_options_table, given, chosen));
+    EWA_TRY(ewa_option_check_lights(context, chosen->lights, chosen->light_count));
+    EWA_TRY(ewa_material_check(context, "options", 0, &chosen->material));
+    EWA_TRY(ewa_option_check_background(context, chosen->background));
+    EWA_TRY(ewa_option_check_sections(context, (const double(*)[4])chosen->section_planes,
+                                      chosen->section_count));
     const ewa_surface_planes planes = EWA_SURFACE_PLANES_OF(chosen);
-    return status == EWA_OK ? ewa_surface_planes_check(context, &planes) : status;
+    return ewa_surface_planes_check(context, &planes);
 }
 
 void ewa_volume_shading_make(const ewa_volume_options *options, ewa_shading_setup *setup) {

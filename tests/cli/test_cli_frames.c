@@ -134,7 +134,6 @@ static void test_stats(void **state) {
 
 /// JPEG by its suffix, of one frame and of several.
 static void test_jpeg(void **state) {
-    (void)state;
     run_done("ewa render torus.ply -o one.jpg --size 64x48 && ewa render torus.ply -o two_%%d.JPEG "
              "--turntable 2 --size 64x48 && "
              "for f in one.jpg two_0.JPEG two_1.JPEG; do test \"$(head -c 3 $f | od -An -tx1 | tr -d ' ')\" "

@@ -13,18 +13,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-static inline void fuzz_require(int holds, const char *what) {
-    if (holds) return;
-    fprintf(stderr, "does not hold: %s\n", what);
-    abort();
-}
-
-static inline void fuzz_message(void *user, ewa_severity severity, const char *text) {
-    for (const char *c = text; *c; c++)
-        fuzz_require((unsigned char)*c >= ' ', "messages are one line of text");
-    if (severity == EWA_SEVERITY_ERROR) ++*(int *)user;
-}
-
 /// Reads all points, at most `maximum` at a time, into memory that ends with them.
 static inline ewa_status fuzz_cloud_pieces(const ewa_cloud_source *source, const ewa_cloud_format *format,
                                            uint64_t maximum) {
@@ -62,14 +50,7 @@ static inline void fuzz_cloud(const ewa_cloud_format *format, const char *name, 
     for (int keep_going = 0; keep_going < 2; keep_going++) {
         int errors = 0;
         uint64_t lost_count = 0;
-        ewa_context_options options;
-        ewa_context_options_init(&options, sizeof options);
-        options.thread_count = 1;
-        options.message = fuzz_message;
-        options.message_user = &errors;
-        options.limits.max_memory_bytes = 1 << 26;
-        ewa_context *context = NULL;
-        fuzz_require(ewa_context_create(&options, &context) == EWA_OK, "a context");
+        ewa_context *context = fuzz_context(1, 0, &errors);
         ewa_cloud_load_options load;
         ewa_cloud_load_options_init(&load, sizeof load);
         load.keep_going = keep_going;

@@ -33,7 +33,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size_bytes) {
     static const char *const names[] = {"input", "input.splat", "input.ksplat"};
     for (int n = 0; n < 3; n++) {
         int errors = 0;
-        ewa_context *context = fuzz_context(&errors);
+        ewa_context *context = fuzz_context(1, 0, &errors);
         ewa_gaussians set;
         ewa_gaussian_facts facts;
         const ewa_status status =

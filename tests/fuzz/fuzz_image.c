@@ -6,12 +6,7 @@
 #include "fuzz.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size_bytes) {
-    ewa_context_options options;
-    ewa_context_options_init(&options, sizeof options);
-    options.thread_count = 1;
-    options.limits.max_memory_bytes = 1 << 26;
-    ewa_context *context = NULL;
-    if (ewa_context_create(&options, &context) != EWA_OK) return 0;
+    ewa_context *context = fuzz_context(1, 0, NULL);
     ewa_image image;
     if (ewa_image_load_memory(context, bytes, size_bytes, "fuzz", &image) == EWA_OK) ewa_image_free(&image);
     ewa_context_destroy(&context);

@@ -14,22 +14,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-static void require(int holds, const char *what) {
-    if (holds) return;
-    fprintf(stderr, "does not hold: %s\n", what);
-    abort();
-}
-
-static ewa_context *make_context(void) {
-    ewa_context_options options;
-    ewa_context_options_init(&options, sizeof options);
-    options.thread_count = 1;
-    options.limits.max_memory_bytes = 1 << 26;
-    ewa_context *context = NULL;
-    require(ewa_context_create(&options, &context) == EWA_OK, "a context");
-    return context;
-}
-
 static void try_table(ewa_context *context, const uint8_t *bytes, size_t size_bytes) {
     if (size_bytes < 3) return;
     const uint32_t count = bytes[0] | (uint32_t)bytes[1] << 8;
@@ -38,10 +22,10 @@ static void try_table(ewa_context *context, const uint8_t *bytes, size_t size_by
     if (!ewa_laz_table_decode(bytes + 3, size_bytes - 3, count, variable, chunks)) {
         ewa_buffer to = {0};
         size_t at = 0;
-        require(ewa_laz_table_encode(context, chunks, count, variable, &to, &at) == EWA_OK, "a table");
-        require(!ewa_laz_table_decode((const uint8_t *)to.data + 8, at - 8, count, variable, back),
-                "a table that is read");
-        require(memcmp(chunks, back, count * sizeof *chunks) == 0, "the same table");
+        fuzz_require(ewa_laz_table_encode(context, chunks, count, variable, &to, &at) == EWA_OK, "a table");
+        fuzz_require(!ewa_laz_table_decode((const uint8_t *)to.data + 8, at - 8, count, variable, back),
+                     "a table that is read");
+        fuzz_require(memcmp(chunks, back, count * sizeof *chunks) == 0, "the same table");
         ewa_buffer_free(context, &to);
     }
     free(chunks);
@@ -54,11 +38,11 @@ static void try_chunk(ewa_context *context, ewa_laz_plan plan, const uint8_t *by
             *back = calloc(point_count + 1, plan.record_bytes);
     ewa_laz_memory *memory = NULL, *encoder = NULL;
     ewa_laz_result result;
-    require(ewa_laz_decode(context, &plan, bytes, size_bytes, point_count, records, &memory, &result) ==
-                EWA_OK,
-            "memory");
-    require(result.point_count <= point_count, "no more points than were asked for");
-    require(result.fault || result.point_count == point_count, "a fault, or all points");
+    fuzz_require(ewa_laz_decode(context, &plan, bytes, size_bytes, point_count, records, &memory, &result) ==
+                     EWA_OK,
+                 "memory");
+    fuzz_require(result.point_count <= point_count, "no more points than were asked for");
+    fuzz_require(result.fault || result.point_count == point_count, "a fault, or all points");
     bool first = false;
     for (uint32_t i = 0; i < plan.item_count; i++)
         first |= plan.items[i].version == 1 && plan.items[i].type != EWA_LAZ_WAVEPACKET13;
@@ -66,11 +50,11 @@ static void try_chunk(ewa_context *context, ewa_laz_plan plan, const uint8_t *by
         ewa_buffer to = {0};
         size_t at = 0;
         const uint64_t count = result.point_count;
-        require(ewa_laz_encode(context, &plan, records, count, &to, &at, &encoder) == EWA_OK, "a chunk");
-        require(ewa_laz_decode(context, &plan, to.data, at, count, back, &memory, &result) == EWA_OK,
-                "memory");
-        require(!result.fault && result.point_count == count, "what was encoded is decoded");
-        require(memcmp(records, back, count * plan.record_bytes) == 0, "the same records");
+        fuzz_require(ewa_laz_encode(context, &plan, records, count, &to, &at, &encoder) == EWA_OK, "a chunk");
+        fuzz_require(ewa_laz_decode(context, &plan, to.data, at, count, back, &memory, &result) == EWA_OK,
+                     "memory");
+        fuzz_require(!result.fault && result.point_count == count, "what was encoded is decoded");
+        fuzz_require(memcmp(records, back, count * plan.record_bytes) == 0, "the same records");
         ewa_buffer_free(context, &to);
     }
     ewa_laz_memory_free(context, &memory);
@@ -81,7 +65,7 @@ static void try_chunk(ewa_context *context, ewa_laz_plan plan, const uint8_t *by
 
 int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size_bytes) {
     if (size_bytes < 1) return 0;
-    ewa_context *context = make_context();
+    ewa_context *context = fuzz_context(1, 0, NULL);
     ewa_laz_plan plan = {.item_count = bytes[0]};
     const size_t head_bytes = 1 + 3 * (size_t)plan.item_count + 2;
     if (plan.item_count == 0) {

@@ -26,13 +26,7 @@ static void try_page(const ewa_levels_page *page, const uint8_t *bytes) {
 
 int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size_bytes) {
     int errors = 0;
-    ewa_context_options options;
-    ewa_context_options_init(&options, sizeof options);
-    options.thread_count = 1;
-    options.message = fuzz_message;
-    options.message_user = &errors;
-    ewa_context *context = NULL;
-    fuzz_require(ewa_context_create(&options, &context) == EWA_OK, "a context");
+    ewa_context *context = fuzz_context(1, 0, &errors);
     ewa_levels levels;
     const ewa_status status = ewa_levels_read(context, "fuzz", bytes, size_bytes, &levels);
     fuzz_require((status == EWA_OK) == (errors == 0), "a message on failure only");

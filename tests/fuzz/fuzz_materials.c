@@ -9,11 +9,7 @@
 #include <stdlib.h>
 
 int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size_bytes) {
-    ewa_context_options options;
-    ewa_context_options_init(&options, sizeof options);
-    options.thread_count = 1;
-    ewa_context *context = NULL;
-    if (ewa_context_create(&options, &context) != EWA_OK) return 0;
+    ewa_context *context = fuzz_context(1, 0, NULL);
     ewa_material materials[EWA_MAX_MATERIALS];
     uint32_t count;
     const ewa_status status = ewa_materials_read(context, "fuzz", bytes, size_bytes, materials, &count);

@@ -14,31 +14,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-static inline void fuzz_require(int holds, const char *what) {
-    if (holds) return;
-    fprintf(stderr, "does not hold: %s\n", what);
-    abort();
-}
-
-static inline void fuzz_message(void *user, ewa_severity severity, const char *text) {
-    for (const char *c = text; *c; c++)
-        fuzz_require((unsigned char)*c >= ' ', "messages are one line of text");
-    if (severity == EWA_SEVERITY_ERROR) ++*(int *)user;
-}
-
-/// A context of one thread with 64 MiB that counts errors.
-static inline ewa_context *fuzz_context(int *errors) {
-    ewa_context_options options;
-    ewa_context_options_init(&options, sizeof options);
-    options.thread_count = 1;
-    options.message = fuzz_message;
-    options.message_user = errors;
-    options.limits.max_memory_bytes = 1 << 26;
-    ewa_context *context = NULL;
-    fuzz_require(ewa_context_create(&options, &context) == EWA_OK, "a context");
-    return context;
-}
-
 /// Looks at all numbers of a mesh, and samples it when it is small.
 static inline void fuzz_check_mesh(const ewa_mesh *mesh) {
     for (uint64_t i = 0; i < 3 * (uint64_t)mesh->triangle_count; i++)
@@ -66,7 +41,7 @@ static inline void fuzz_check_mesh(const ewa_mesh *mesh) {
 static inline int fuzz_mesh(const uint8_t *bytes, size_t size_bytes, const char *path,
                             ewa_status (*read)(ewa_mesh_build *build)) {
     int errors = 0;
-    ewa_context *context = fuzz_context(&errors);
+    ewa_context *context = fuzz_context(1, 0, &errors);
     const ewa_mesh_source source = {context, "input", path, bytes, size_bytes};
     ewa_mesh_build build;
     ewa_mesh_build_open(&source, &build);

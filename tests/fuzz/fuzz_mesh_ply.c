@@ -10,7 +10,7 @@
 int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size_bytes) {
     int errors = 0;
     if (!size_bytes) return 0;
-    ewa_context *context = fuzz_context(&errors);
+    ewa_context *context = fuzz_context(1, 0, &errors);
     ewa_model model;
     ewa_status status = ewa_model_load_memory(context, bytes, size_bytes, "input.ply", NULL,
                                               EWA_MODEL_POINTS | EWA_MODEL_ELEMENTS, NULL, &model);

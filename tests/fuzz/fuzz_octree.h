@@ -24,7 +24,7 @@ static inline void fuzz_octree_facts(const ewa_octree *octree, const ewa_octree_
 
 static inline ewa_status fuzz_octree_nodes(ewa_octree *octree, const ewa_octree_facts *facts) {
     enum { MAX_NODES = 64 };
-    uint32_t indices[MAX_NODES], count = 0;
+    uint32_t indices[MAX_NODES] = {0}, count = 0;
     ewa_cloud *clouds[MAX_NODES], *alone = NULL;
     for (; count < facts->node_count && count < MAX_NODES; count++) indices[count] = count;
     ewa_status status = ewa_octree_read(octree, indices, count, NULL, clouds);
@@ -43,15 +43,7 @@ static inline ewa_status fuzz_octree_nodes(ewa_octree *octree, const ewa_octree_
 /// Opens and reads the tree at a path; `size_bytes` is what its levels lie within.
 static inline void fuzz_octree(const char *path, size_t size_bytes) {
     int errors = 0;
-    ewa_context_options options;
-    ewa_context_options_init(&options, sizeof options);
-    options.thread_count = 1;
-    options.message = fuzz_message;
-    options.message_user = &errors;
-    options.limits.max_memory_bytes = 1 << 26;
-    options.limits.max_points = 1 << 22;
-    ewa_context *context = NULL;
-    fuzz_require(ewa_context_create(&options, &context) == EWA_OK, "a context");
+    ewa_context *context = fuzz_context(1, 1 << 22, &errors);
     ewa_octree *octree = NULL;
     ewa_octree_is(context, path);
     fuzz_require(errors == 0, "no word about what a file is not");

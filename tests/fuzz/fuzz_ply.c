@@ -11,51 +11,33 @@
 #include <string.h>
 #include <unistd.h>
 
-static void require(int holds, const char *what) {
-    if (holds) return;
-    fprintf(stderr, "does not hold: %s\n", what);
-    abort();
-}
-
 /// The numbers of both; equal bits, or both NaN, whose bits ascii does not keep.
 static void compare(const ewa_cloud *a, const ewa_cloud *b) {
-    require(ewa_cloud_point_count(a) == ewa_cloud_point_count(b), "as many points");
-    require(ewa_cloud_attribute_count(a) == ewa_cloud_attribute_count(b), "as many attributes");
+    fuzz_require(ewa_cloud_point_count(a) == ewa_cloud_point_count(b), "as many points");
+    fuzz_require(ewa_cloud_attribute_count(a) == ewa_cloud_attribute_count(b), "as many attributes");
     for (uint32_t i = 0; i < ewa_cloud_attribute_count(a); i++) {
         const ewa_attribute *left = ewa_cloud_attribute_at(a, i), *right = ewa_cloud_attribute_at(b, i);
-        require(strcmp(left->name, right->name) == 0, "the same names");
-        require(left->type == right->type && left->component_count == right->component_count,
-                "the same types");
+        fuzz_require(strcmp(left->name, right->name) == 0, "the same names");
+        fuzz_require(left->type == right->type && left->component_count == right->component_count,
+                     "the same types");
         for (uint64_t point = 0; point < ewa_cloud_point_count(a); point++) {
             double x[4], y[4];
             ewa_attribute_read_f64(left, point, 1, x);
             ewa_attribute_read_f64(right, point, 1, y);
             for (uint32_t c = 0; c < left->component_count; c++)
-                require(memcmp(&x[c], &y[c], sizeof x[c]) == 0 || (x[c] != x[c] && y[c] != y[c]),
-                        "the same numbers");
+                fuzz_require(memcmp(&x[c], &y[c], sizeof x[c]) == 0 || (x[c] != x[c] && y[c] != y[c]),
+                             "the same numbers");
         }
     }
 }
 
-static void count_message(void *user, ewa_severity severity, const char *text) {
-    for (const char *c = text; *c; c++) require((unsigned char)*c >= ' ', "messages are one line of text");
-    if (severity == EWA_SEVERITY_ERROR) ++*(int *)user;
-}
-
 int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size_bytes) {
     int errors = 0;
-    ewa_context_options options;
-    ewa_context_options_init(&options, sizeof options);
-    options.thread_count = 1;
-    options.message = count_message;
-    options.message_user = &errors;
-    options.limits.max_memory_bytes = 1 << 26;
-    ewa_context *context = NULL;
-    require(ewa_context_create(&options, &context) == EWA_OK, "a context");
+    ewa_context *context = fuzz_context(1, 0, &errors);
     ewa_cloud *cloud = NULL;
     const ewa_status status = ewa_cloud_load_memory(context, bytes, size_bytes, "input", &cloud);
-    require((status == EWA_OK) == (cloud != NULL), "a cloud on success only");
-    require((status == EWA_OK) == (errors == 0), "a message on failure only");
+    fuzz_require((status == EWA_OK) == (cloud != NULL), "a cloud on success only");
+    fuzz_require((status == EWA_OK) == (errors == 0), "a message on failure only");
     for (int encoding = 0; cloud && encoding < 3; encoding++) {
         char path[64];
         snprintf(path, sizeof path, "/tmp/ewa-fuzz-%ld.ply", (long)getpid());
@@ -63,8 +45,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size_bytes) {
         ewa_cloud_save_options_init(&save_options, sizeof save_options);
         save_options.ply_encoding = (ewa_ply_encoding)encoding;
         ewa_cloud *back = NULL;
-        require(ewa_cloud_save(cloud, path, &save_options) == EWA_OK, "what was read can be written");
-        require(ewa_cloud_load(context, path, &back) == EWA_OK, "what was written can be read");
+        fuzz_require(ewa_cloud_save(cloud, path, &save_options) == EWA_OK, "what was read can be written");
+        fuzz_require(ewa_cloud_load(context, path, &back) == EWA_OK, "what was written can be read");
         unlink(path);
         compare(cloud, back);
         ewa_cloud_destroy(&back);

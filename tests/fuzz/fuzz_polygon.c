@@ -28,11 +28,7 @@ static void try_filter(const uint8_t *bytes, size_t size_bytes) {
 
 int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size_bytes) {
     try_filter(bytes, size_bytes);
-    ewa_context_options options;
-    ewa_context_options_init(&options, sizeof options);
-    options.thread_count = 1;
-    ewa_context *context = NULL;
-    if (ewa_context_create(&options, &context) != EWA_OK) return 0;
+    ewa_context *context = fuzz_context(1, 0, NULL);
     ewa_polygon *polygon = NULL;
     if (ewa_polygon_read(context, "fuzz", bytes, size_bytes, &polygon) == EWA_OK) {
         double box[4], points[6] = {0};

@@ -16,37 +16,15 @@
 #include <string.h>
 #include <unistd.h>
 
-static inline void require(int holds, const char *what) {
-    if (holds) return;
-    fprintf(stderr, "does not hold: %s\n", what);
-    abort();
-}
-
-static inline void count_message(void *user, ewa_severity severity, const char *text) {
-    for (const char *c = text; *c; c++) require((unsigned char)*c >= ' ', "messages are one line of text");
-    if (severity == EWA_SEVERITY_ERROR) ++*(int *)user;
-}
-
-static inline ewa_context *make_context(uint32_t thread_count, int *errors) {
-    ewa_context_options options;
-    ewa_context_options_init(&options, sizeof options);
-    options.thread_count = thread_count;
-    options.message = count_message;
-    options.message_user = errors;
-    options.limits.max_memory_bytes = 1 << 26;
-    ewa_context *context = NULL;
-    require(ewa_context_create(&options, &context) == EWA_OK, "a context");
-    return context;
-}
-
 static inline void require_same(const ewa_cloud *a, const ewa_cloud *b) {
-    require(ewa_cloud_point_count(a) == ewa_cloud_point_count(b), "as many points");
-    require(ewa_cloud_attribute_count(a) == ewa_cloud_attribute_count(b), "as many attributes");
+    fuzz_require(ewa_cloud_point_count(a) == ewa_cloud_point_count(b), "as many points");
+    fuzz_require(ewa_cloud_attribute_count(a) == ewa_cloud_attribute_count(b), "as many attributes");
     for (uint32_t i = 0; i < ewa_cloud_attribute_count(a); i++) {
         const ewa_attribute *left = ewa_cloud_attribute_at(a, i), *right = ewa_cloud_attribute_at(b, i);
-        require(strcmp(left->name, right->name) == 0 && left->type == right->type, "the same attributes");
-        require(memcmp(left->data, right->data, ewa_cloud_point_count(a) * left->stride_bytes) == 0,
-                "the same numbers");
+        fuzz_require(strcmp(left->name, right->name) == 0 && left->type == right->type,
+                     "the same attributes");
+        fuzz_require(memcmp(left->data, right->data, ewa_cloud_point_count(a) * left->stride_bytes) == 0,
+                     "the same numbers");
     }
 }
 
@@ -58,9 +36,9 @@ static inline ewa_status read_rows(const ewa_cloud_source *source, const ewa_clo
     uint64_t point_count = 0, count = 0, got = 0;
     void *state = NULL;
     *cloud = NULL;
-    require(ewa_cloud_create(source->context, 0, &prototype) == EWA_OK, "a prototype");
+    fuzz_require(ewa_cloud_create(source->context, 0, &prototype) == EWA_OK, "a prototype");
     ewa_status status = format->open(source, prototype, &point_count, &state);
-    require((status == EWA_OK) == (state != NULL), "a state on success only");
+    fuzz_require((status == EWA_OK) == (state != NULL), "a state on success only");
     ewa_cloud_sink sinks[300];
     if (status == EWA_OK)
         status = ewa_cloud_make_room(source->name, prototype, NULL, point_count, cloud, sinks);
@@ -68,7 +46,7 @@ static inline ewa_status read_rows(const ewa_cloud_source *source, const ewa_clo
         const uint64_t room = point_count - count < maximum ? point_count - count : maximum;
         if (room == 0) break;
         status = format->read(state, room, sinks, &got);
-        require(got <= room, "no more points than there is room for");
+        fuzz_require(got <= room, "no more points than there is room for");
         if (got == 0) break;
         count += got;
         for (uint32_t i = 0; i < ewa_cloud_attribute_count(prototype); i++)
@@ -86,7 +64,7 @@ static inline ewa_status read_rows(const ewa_cloud_source *source, const ewa_clo
 /// Tries one input.
 static inline int try_rows(const ewa_cloud_format *format, const uint8_t *bytes, size_t size_bytes) {
     int errors = 0;
-    ewa_context *context = make_context(1, &errors);
+    ewa_context *context = fuzz_context(1, 0, &errors);
     format->probe("input", bytes, size_bytes);
     ewa_cloud_load_options options;
     ewa_cloud_load_options_init(&options, sizeof options);
@@ -99,12 +77,12 @@ static inline int try_rows(const ewa_cloud_format *format, const uint8_t *bytes,
                                .lost_count = &lost_count};
     ewa_cloud *strict = NULL, *going = NULL, *pieces = NULL, *back = NULL;
     const ewa_status status = read_rows(&source, format, 0, &strict);
-    require((status == EWA_OK) == (strict != NULL), "a cloud on success only");
-    require((status == EWA_OK) == (errors == 0), "a message on failure only");
+    fuzz_require((status == EWA_OK) == (strict != NULL), "a cloud on success only");
+    fuzz_require((status == EWA_OK) == (errors == 0), "a message on failure only");
     options.keep_going = true;
     const ewa_status kept = read_rows(&source, format, 0, &going);
-    require(status != EWA_OK || kept == EWA_OK, "what is right is read with keep_going too");
-    require(kept != EWA_OK || read_rows(&source, format, 3, &pieces) == EWA_OK, "in pieces as at once");
+    fuzz_require(status != EWA_OK || kept == EWA_OK, "what is right is read with keep_going too");
+    fuzz_require(kept != EWA_OK || read_rows(&source, format, 3, &pieces) == EWA_OK, "in pieces as at once");
     if (strict) require_same(strict, going);
     if (going) {
         require_same(going, pieces);
@@ -112,8 +90,8 @@ static inline int try_rows(const ewa_cloud_format *format, const uint8_t *bytes,
         snprintf(path, sizeof path, "/tmp/ewa-fuzz-%ld.csv", (long)getpid());
         errors = 0;
         if (ewa_cloud_save(going, path, NULL) == EWA_OK && ewa_cloud_point_count(going) > 0) {
-            require(ewa_cloud_load(context, path, &back) == EWA_OK, "what was written can be read");
-            require(ewa_cloud_point_count(back) == ewa_cloud_point_count(going), "all of it");
+            fuzz_require(ewa_cloud_load(context, path, &back) == EWA_OK, "what was written can be read");
+            fuzz_require(ewa_cloud_point_count(back) == ewa_cloud_point_count(going), "all of it");
         }
         unlink(path);
     }

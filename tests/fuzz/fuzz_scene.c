@@ -9,11 +9,7 @@
 #include <string.h>
 
 int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size_bytes) {
-    ewa_context_options options;
-    ewa_context_options_init(&options, sizeof options);
-    options.thread_count = 1;
-    ewa_context *context = NULL;
-    if (ewa_context_create(&options, &context) != EWA_OK) return 0;
+    ewa_context *context = fuzz_context(1, 0, NULL);
     ewa_scene_text text;
     (void)ewa_scene_text_probe(bytes, size_bytes);
     if (ewa_scene_text_read(context, "fuzz", bytes, size_bytes, &text) == EWA_OK) {

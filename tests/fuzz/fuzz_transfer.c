@@ -10,11 +10,7 @@
 #include <stdlib.h>
 
 int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size_bytes) {
-    ewa_context_options options;
-    ewa_context_options_init(&options, sizeof options);
-    options.thread_count = 1;
-    ewa_context *context = NULL;
-    if (ewa_context_create(&options, &context) != EWA_OK) return 0;
+    ewa_context *context = fuzz_context(1, 0, NULL);
     ewa_transfer transfer;
     const ewa_status status = ewa_transfer_read(context, "fuzz", bytes, size_bytes, &transfer);
     if ((status == EWA_OK) != (transfer.point_count > 0)) abort();

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// What tests of files begin and end with: a context of FIXTURE_THREADS workers, and the last that it said.
+// What tests of files begin and end with: a context of FIXTURE_THREADS workers, and the last that it said. Comes last of all
+// headers, whose functions have arguments of these names.
 #ifndef EWA_TESTS_FIXTURE_H
 #define EWA_TESTS_FIXTURE_H
 

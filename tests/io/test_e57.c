@@ -6,10 +6,11 @@
 #include "io/cloud_check.h"
 
 #include "io/e57/e57.h"
-#include "io/fixture.h"
 #include "io/scratch.h"
 
 #include <math.h>
+
+#include "io/fixture.h"
 
 // ---- a writer --------------------------------------------------------------------------------------------
 

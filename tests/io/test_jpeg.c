@@ -201,7 +201,6 @@ static void compare(ewa_context *context, const char *path, const uint8_t *codes
 
 /// Grey, RGB and opaque RGBA come back, whatever the suffix's case, from 8 bits and from floats; nothing is said.
 static void test_round_trip(void **state) {
-    (void)state;
     check_log log = {.count = 0};
     ewa_context *context = check_context(2, &log);
     static const uint32_t sizes[][2] = {{1, 1}, {7, 300}, {160, 90}}, counts[] = {1, 3, 4};
@@ -241,7 +240,6 @@ static void test_round_trip(void **state) {
 
 /// What is transparent is over white, by light: half of black over white is 188, and a warning says so.
 static void test_over_white(void **state) {
-    (void)state;
     check_log log = {.count = 0};
     ewa_context *context = check_context(1, &log);
     uint8_t codes[16 * 16 * 4] = {0}, wanted[16 * 16 * 3];
@@ -264,7 +262,6 @@ static void test_over_white(void **state) {
 }
 
 static void test_not_written(void **state) {
-    (void)state;
     check_log log = {.count = 0};
     ewa_context *context = check_context(1, &log);
     char path[512];
@@ -291,7 +288,6 @@ static ewa_status save_colour(ewa_context *context, void *user) {
 }
 
 static void test_failing_saves(void **state) {
-    (void)state;
     char path[512];
     scratch_path("failing.jpg", path);
     scratch_fail_each(save_colour, path);

@@ -2,8 +2,9 @@
 // SPDX-License-Identifier: MIT
 //
 // Reading LAS: every field of every point format, extra bytes, headers that lie, notes.
-#include "io/fixture.h"
 #include "io/las_sample.h"
+
+#include "io/fixture.h"
 
 static void test_fields_of_all_formats(void **state) {
     enum { COUNT = 20000 }; // more than a task takes

@@ -3,9 +3,10 @@
 //
 // Broken LAS and LAZ files: every truncation, every byte of the header changed, damaged chunks, what breaks
 // readers.
-#include "io/fixture.h"
 #include "io/las_sample.h"
 #include "io/scratch.h"
+
+#include "io/fixture.h"
 
 /// A sample as the bytes of LAZ, in chunks of `chunk_points`.
 static uint8_t *compress(const las_sample *s, uint32_t chunk_points, size_t *size_bytes) {

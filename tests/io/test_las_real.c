@@ -3,10 +3,11 @@
 //
 // LAS and LAZ files of the data set, which others' programs have written: counts, bounds and attributes as
 // its README has them, and every LAZ equal to its LAS. Only where the data set is there.
-#define FIXTURE_THREADS 0
-#include "io/fixture.h"
 #include "io/las_sample.h"
 #include "io/scratch.h"
+
+#define FIXTURE_THREADS 0
+#include "io/fixture.h"
 
 static ewa_cloud *load(const char *relative) {
     char path[512];

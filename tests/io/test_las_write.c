@@ -3,9 +3,10 @@
 //
 // Writing LAS and LAZ: what was read comes out bit for bit, attributes find their fields or extra bytes,
 // headers hold counts and bounds, coordinates find a grid.
-#include "io/fixture.h"
 #include "io/las_sample.h"
 #include "io/scratch.h"
+
+#include "io/fixture.h"
 
 /// Saves and reads again; `*bytes` (may be NULL) gets the file, which the caller frees.
 static ewa_cloud *save_and_load(const ewa_cloud *cloud, const char *name,

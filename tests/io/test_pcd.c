@@ -2,14 +2,15 @@
 // SPDX-License-Identifier: MIT
 //
 // Tests of PCD: what is read in each encoding, what is refused. The files are made here.
-#define FIXTURE_THREADS 3
 #include "io/cloud_check.h"
 
 #include "io/cloud/pcd.h"
-#include "io/fixture.h"
 #include "io/scratch.h"
 
 #include <math.h>
+
+#define FIXTURE_THREADS 3
+#include "io/fixture.h"
 
 #define HEADER(fields, sizes, types, counts, points)                                                         \
     "# .PCD v0.7\nVERSION 0.7\nFIELDS " fields "\nSIZE " sizes "\nTYPE " types "\nCOUNT " counts             \

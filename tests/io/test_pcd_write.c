@@ -2,8 +2,9 @@
 // SPDX-License-Identifier: MIT
 //
 // Tests of PCD files that are written: they read back as they were, whole and in pieces.
-#define FIXTURE_THREADS 3
 #include "io/cloud_check.h"
+
+#define FIXTURE_THREADS 3
 #include "io/fixture.h"
 
 static ewa_cloud *make_cloud(uint64_t point_count, ewa_type position_type) {

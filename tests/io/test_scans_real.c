@@ -3,11 +3,12 @@
 //
 // PCD and E57 files of the data set, which others' programs have written, and broken ones: counts, boxes and
 // attributes. Only where that is there: what is read of each format is held by files that other tests make.
-#define FIXTURE_THREADS 0
 #include "io/cloud_check.h"
-#include "io/fixture.h"
 
 #include <math.h>
+
+#define FIXTURE_THREADS 0
+#include "io/fixture.h"
 
 static void test_counts_boxes_and_attributes(void **state) {
     static const struct {

@@ -128,7 +128,4 @@ void ewa_cloud_settle(ewa_cloud *cloud);
 ewa_status ewa_cloud_read_all(const ewa_cloud_source *source, const ewa_cloud_format *format,
                               ewa_cloud **cloud);
 
-/// Whether a piece has the attributes of the prototype in their order.
-bool ewa_cloud_is_alike(const ewa_cloud *piece, const ewa_cloud *prototype);
-
 #endif

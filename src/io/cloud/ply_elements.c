@@ -45,21 +45,21 @@ ewa_status ewa_ply_write_comments(const ewa_elements *elements, ewa_writer *writ
 ewa_status ewa_ply_write_element_header(const ewa_elements *elements, uint32_t table, ewa_writer *writer) {
     const ewa_ply_element *element = elements->tables[table].element;
     char line[64];
-    ewa_status status = ewa_writer_put(writer, "element ", 8);
-    if (status == EWA_OK) status = put_text(writer, element->name);
+    EWA_TRY(ewa_writer_put(writer, "element ", 8));
+    EWA_TRY(put_text(writer, element->name));
     int length = snprintf(line, sizeof line, " %llu\n", (unsigned long long)element->count);
-    if (status == EWA_OK) status = ewa_writer_put(writer, line, (size_t)length);
-    for (uint32_t i = 0; i < element->property_count && status == EWA_OK; i++) {
+    EWA_TRY(ewa_writer_put(writer, line, (size_t)length));
+    for (uint32_t i = 0; i < element->property_count; i++) {
         const ewa_ply_property *property = &elements->header->properties[element->first_property + i];
         length = property->is_list
                      ? snprintf(line, sizeof line, "property list %s %s ",
                                 ewa_type_name(property->count_type), ewa_type_name(property->type))
                      : snprintf(line, sizeof line, "property %s ", ewa_type_name(property->type));
-        status = ewa_writer_put(writer, line, (size_t)length);
-        if (status == EWA_OK) status = put_text(writer, property->name);
-        if (status == EWA_OK) status = ewa_writer_put(writer, "\n", 1);
+        EWA_TRY(ewa_writer_put(writer, line, (size_t)length));
+        EWA_TRY(put_text(writer, property->name));
+        EWA_TRY(ewa_writer_put(writer, "\n", 1));
     }
-    return status;
+    return EWA_OK;
 }
 
 /// Where numbers go, in which form.

@@ -273,17 +273,6 @@ ewa_status ewa_cloud_writer_open(ewa_context *context, const char *path,
     return status;
 }
 
-bool ewa_cloud_is_alike(const ewa_cloud *piece, const ewa_cloud *prototype) {
-    const uint32_t count = ewa_cloud_attribute_count(prototype);
-    bool alike = ewa_cloud_attribute_count(piece) == count;
-    for (uint32_t i = 0; i < count && alike; i++) {
-        const ewa_attribute *a = ewa_cloud_attribute_at(piece, i), *b = ewa_cloud_attribute_at(prototype, i);
-        alike =
-            strcmp(a->name, b->name) == 0 && a->type == b->type && a->component_count == b->component_count;
-    }
-    return alike;
-}
-
 ewa_status ewa_cloud_writer_put(ewa_cloud_writer *writer, const ewa_cloud *piece) {
     if (!writer || !piece) return EWA_ERROR_ARGUMENT;
     if (!ewa_cloud_is_alike(piece, writer->prototype))

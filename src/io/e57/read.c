@@ -107,23 +107,21 @@ static ewa_status set_notes(const e57_state *state, ewa_cloud *prototype) {
     char text[128];
     int length = snprintf(text, sizeof text, "E57 %u.%u", (unsigned)ewa_e57_read_le(header + 8, 4),
                           (unsigned)ewa_e57_read_le(header + 12, 4));
-    ewa_status status = ewa_cloud_set_note(prototype, "file.format", text, (size_t)length);
-    if (status == EWA_OK && c->guid_bytes)
-        status = ewa_cloud_set_note(prototype, "file.guid", c->guid.data, c->guid_bytes);
-    if (status == EWA_OK && c->library_bytes)
-        status = ewa_cloud_set_note(prototype, "file.library", c->library.data, c->library_bytes);
-    if (status == EWA_OK && c->crs_bytes)
-        status = ewa_cloud_set_note(prototype, "crs", c->crs.data, c->crs_bytes);
-    if (status == EWA_OK && c->image_count) {
+    EWA_TRY(ewa_cloud_set_note(prototype, "file.format", text, (size_t)length));
+    if (c->guid_bytes) EWA_TRY(ewa_cloud_set_note(prototype, "file.guid", c->guid.data, c->guid_bytes));
+    if (c->library_bytes)
+        EWA_TRY(ewa_cloud_set_note(prototype, "file.library", c->library.data, c->library_bytes));
+    if (c->crs_bytes) EWA_TRY(ewa_cloud_set_note(prototype, "crs", c->crs.data, c->crs_bytes));
+    if (c->image_count) {
         length = snprintf(text, sizeof text, "%llu", (unsigned long long)c->image_count);
-        status = ewa_cloud_set_note(prototype, "file.images", text, (size_t)length);
+        EWA_TRY(ewa_cloud_set_note(prototype, "file.images", text, (size_t)length));
     }
     const ewa_e57_limits limits = ewa_e57_scan_at(c, 0)->intensity;
-    if (status == EWA_OK && limits.low <= limits.high) {
+    if (limits.low <= limits.high) {
         length = snprintf(text, sizeof text, "%.17g to %.17g", limits.low, limits.high);
-        status = ewa_cloud_set_note(prototype, "file.intensity", text, (size_t)length);
+        EWA_TRY(ewa_cloud_set_note(prototype, "file.intensity", text, (size_t)length));
     }
-    return status == EWA_OK ? note_scanners(state, prototype) : status;
+    return note_scanners(state, prototype);
 }
 
 /// How many points can be there.

@@ -7,6 +7,7 @@
 // Based on: Hobu, "COPC: Cloud Optimized Point Cloud Specification 1.0", 2021.
 #include "io/las/copc_write.h"
 #include "base/allocating.h"
+#include "cloud/cloud.h"
 #include "io/file.h"
 #include "io/las/copc.h"
 #include "io/las/las_write.h"

@@ -164,9 +164,8 @@ static ewa_status add_alpha(const ewa_cloud_target *target, ewa_las_plan *plan, 
 static ewa_status assign(const ewa_cloud_target *target, ewa_las_plan *plan) {
     ewa_las_table *table = &plan->table;
     const uint32_t own_count = table->column_count;
-    ewa_status status = EWA_OK;
     for (uint32_t i = 0; i < EWA_LAS_MAX_COLUMNS; i++) plan->sources[i] = -1;
-    for (uint32_t i = 0; i < ewa_cloud_attribute_count(target->prototype) && status == EWA_OK; i++) {
+    for (uint32_t i = 0; i < ewa_cloud_attribute_count(target->prototype); i++) {
         const ewa_attribute *attribute = ewa_cloud_attribute_at(target->prototype, i);
         ewa_las_column *column = ewa_las_table_find(table, attribute->name);
         if (column && column - table->columns >= own_count) column = NULL;
@@ -178,11 +177,11 @@ static ewa_status assign(const ewa_cloud_target *target, ewa_las_plan *plan) {
             continue;
         }
         if (!column || !is_held(column, attribute))
-            status = add_extra(target, plan, i);
+            EWA_TRY(add_extra(target, plan, i));
         else if (column->kind == EWA_LAS_COLOR && attribute->component_count == 4)
-            status = add_alpha(target, plan, column);
+            EWA_TRY(add_alpha(target, plan, column));
     }
-    return status;
+    return EWA_OK;
 }
 
 ewa_status ewa_las_plan_make(const ewa_cloud_target *target, const ewa_cloud *piece, bool is_whole,
