@@ -4,6 +4,8 @@
 // Tests of src/cloud: streams, borrowed memory, reading as floats, bounds.
 #include "check.h"
 
+#include "cloud/cloud.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -78,6 +80,29 @@ static void test_packed_and_strided(void **state) {
     ewa_context_destroy(&context);
 }
 
+/// Names, types, components and their order count; points do not.
+static void test_alike(void **state) {
+    static const struct {
+        const char *names[2];
+        ewa_type type;
+        uint32_t component_count, count;
+    } others[] = {{{"a", "b"}, EWA_F32, 1, 2}, {{"a", "b"}, EWA_U16, 1, 2}, {{"a", "b"}, EWA_F32, 2, 2},
+                  {{"b", "a"}, EWA_F32, 1, 2}, {{"a", "c"}, EWA_F32, 1, 2}, {{"a", "b"}, EWA_F32, 1, 1}};
+    ewa_context *context = check_context(0, NULL);
+    ewa_cloud *clouds[6];
+    for (uint32_t i = 0; i < 6; i++) {
+        assert_int_equal(ewa_cloud_create(context, i, &clouds[i]), EWA_OK);
+        for (uint32_t k = 0; k < others[i].count; k++)
+            assert_int_equal(
+                ewa_cloud_add(clouds[i], others[i].names[k], others[i].type, others[i].component_count, NULL),
+                EWA_OK);
+        assert_int_equal(ewa_cloud_is_alike(clouds[i], clouds[0]), i == 0);
+        assert_int_equal(ewa_cloud_is_alike(clouds[0], clouds[i]), i == 0);
+    }
+    for (uint32_t i = 0; i < 6; i++) ewa_cloud_destroy(&clouds[i]);
+    ewa_context_destroy(&context);
+}
+
 static void test_too_many_points(void **state) {
     check_log log = {0};
     ewa_context *context = check_context(0, &log);
@@ -92,6 +117,7 @@ int main(void) {
         cmocka_unit_test(test_streams),
         cmocka_unit_test(test_borrowed_stride_and_bounds),
         cmocka_unit_test(test_packed_and_strided),
+        cmocka_unit_test(test_alike),
         cmocka_unit_test(test_too_many_points),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -15,13 +15,11 @@ static const char *const packed_names[] = {"torus_draco.glb", "torus_draco_seq.g
 enum { PACKED = sizeof packed_names / sizeof packed_names[0] };
 
 static int begin(void **state) {
-    (void)state;
     context = mesh_context(&messages);
     return 0;
 }
 
 static int end(void **state) {
-    (void)state;
     ewa_context_destroy(&context);
     return 0;
 }
@@ -53,7 +51,6 @@ static uint32_t nearest(const ewa_mesh *mesh, const double place[3], double *dis
 
 /// Places within a step of 14 bits, colours within one of 8, the same faces and area.
 static void test_same_torus(void **state) {
-    (void)state;
     ewa_mesh plain, packed;
     load_corpus("torus.glb", &plain);
     double sum[3];
@@ -96,7 +93,6 @@ static ewa_status try_bytes(const uint8_t *bytes, size_t size_bytes) {
 }
 
 static void test_every_truncation(void **state) {
-    (void)state;
     for (int n = 0; n < PACKED; n++) {
         size_t size_bytes;
         uint8_t *bytes = read_corpus(packed_names[n], &size_bytes);
@@ -113,7 +109,6 @@ static size_t read_length(const uint8_t *bytes) {
 
 /// Every byte of the packed streams turned over and set to ends of its range; and whole streams of one byte.
 static void test_wrong_bytes(void **state) {
-    (void)state;
     static const uint8_t values[] = {0, 1, 0x7f, 0x80, 0xff};
     for (int n = 0; n < PACKED; n++) {
         size_t size_bytes;
@@ -151,7 +146,6 @@ static void replace(uint8_t *bytes, size_t size_bytes, const char *from, const c
 
 /// What extensions claim that is not so.
 static void test_wrong_claims(void **state) {
-    (void)state;
     static const struct {
         int file;
         const char *from, *to, *said;
@@ -200,7 +194,6 @@ static ewa_status load_packed(ewa_context *failing, void *user) {
 }
 
 static void test_failing_allocations(void **state) {
-    (void)state;
     for (int n = 0; n < PACKED; n++) {
         char name[64];
         snprintf(name, sizeof name, "%s", packed_names[n]);
