@@ -89,7 +89,7 @@ static void test_usage(void **state) {
     run_fails(2, "--repeat", "ewa texture rgb.png -o n.png --repeat on --method splat");
     run_fails(2, "--method", "ewa texture rgb.png -o n.png --method cubic");
     run_fails(2, "--prefilter", "ewa texture rgb.png -o n.png --prefilter 0");
-    run_fails(2, "--output", "ewa texture rgb.png -o n.jpg");
+    run_fails(2, "--output", "ewa texture rgb.png -o n.bmp");
     run_fails(1, "singular", "ewa texture rgb.png -o n.png --homography 1,2,3,2,4,6,0,0,1");
     run_fails(1, "singular", "ewa texture rgb.png -o n.png --homography 0,0,0,0,0,0,0,0,0");
     run_fails(1, "corners", "ewa texture rgb.png -o n.png --corners 0,0,5,5,5,0,0,5");

@@ -73,7 +73,7 @@ static void test_wrong_usage(void **state) {
     run_fails(2, "render: no output; say -o FILE", "ewa render a.ply");
     run_fails(2, "--size: 'abc' is not WxH", "ewa render a.ply -o a.png --size abc");
     run_fails(2, "--siez: no such option; did you mean --size?", "ewa render a.ply -o a.png --siez 1x1");
-    run_fails(2, "--output: 'a.jpg' is no .png, .exr or .pfm file", "ewa render a.ply -o a.jpg");
+    run_fails(2, "--output: 'a.bmp' is no .png, .jpg, .jpeg, .exr or .pfm file", "ewa render a.ply -o a.bmp");
     run_fails(2, "--aov: 'depth' is not", "ewa render a.ply -o a.png --aov depth");
     run_fails(2, "--aov: 'd.png' is no .exr or .pfm file", "ewa render a.ply -o a.png --aov depth=d.png");
     run_fails(2, "--aov: 'a.exr' would be written twice", "ewa render a.ply -o a.exr --aov depth=a.exr");

@@ -63,7 +63,7 @@ static void test_usage(void **state) {
         {"color.png depth.pfm --source-camera cam.json --shift 0,0,0 --baseline 1 -o a.png",
          "--depth-is disparity"},
         {"color.png depth.pfm --source-camera cam.json --shift 0,0,0 --near 3 --far 2 -o a.png", "--near"},
-        {"color.png depth.pfm --source-camera cam.json --shift 0,0,0 -o a.jpg", "no .png"},
+        {"color.png depth.pfm --source-camera cam.json --shift 0,0,0 -o a.bmp", "no .png"},
         {"color.png depth.pfm --source-camera cam.json --shift 0,0,0 --camera-index 1 -o a.png",
          "--camera-index"},
         {"color.png --source-camera cam.json --shift 0,0,0 -o a.png", ""},
@@ -71,7 +71,7 @@ static void test_usage(void **state) {
     };
     for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++)
         run_fails(2, wrong[i][1], "ewa warp %s", wrong[i][0]);
-    assert_int_equal(scratch_size("a.jpg"), -1);
+    assert_int_equal(scratch_size("a.bmp"), -1);
 }
 
 static void test_failures(void **state) {
