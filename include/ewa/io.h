@@ -19,7 +19,7 @@
 extern "C" {
 #endif
 
-/// Reads a point cloud, the format by content: PLY, LAS and LAZ, E57, PCD, PTX, and text in columns (XYZ, PTS,
+/// Reads a point cloud, the format by content: PLY, LAS and LAZ, E57, PCD, PTX, ASCII grids, and text in columns (XYZ, PTS,
 /// CSV); docs/files.md says what is read of each. Of PLY (ascii, binary of both byte orders), the element
 /// "vertex" holds the points; other elements and lists are skipped. Its properties become the attributes of
 /// ewa/cloud.h by their names:

@@ -249,6 +249,7 @@ class ewa_model_format(IntEnum):
     EWA_MODEL_PCD = 8
     EWA_MODEL_PTX = 9
     EWA_MODEL_TEXT = 10
+    EWA_MODEL_GRID = 11
 
 
 class ewa_option_type(IntEnum):
