@@ -81,6 +81,17 @@ static inline ewa_allocator check_allocator(check_memory *memory) {
     return (ewa_allocator){memory, check_allocate, check_release};
 }
 
+/// A context with `threads` workers that takes from `memory`.
+static inline ewa_context *check_context_on(uint32_t threads, check_memory *memory) {
+    ewa_context_options options;
+    ewa_context_options_init(&options, sizeof options);
+    options.allocator = check_allocator(memory);
+    options.thread_count = threads;
+    ewa_context *context = NULL;
+    assert_int_equal(ewa_context_create(&options, &context), EWA_OK);
+    return context;
+}
+
 /// Says that a file of the shared test data is not there; a failure where the folder is said to have all of
 /// them.
 static inline void check_data_missing(const char *relative) {

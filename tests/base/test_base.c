@@ -64,11 +64,7 @@ static void count_hit(void *data, uint32_t index, uint32_t worker) {
 static void test_parallel_visits_each_index_once(void **state) {
     static const uint32_t counts[] = {1, 2, 7, 32};
     for (size_t c = 0; c < sizeof counts / sizeof counts[0]; c++) {
-        ewa_context_options options;
-        ewa_context_options_init(&options, sizeof options);
-        options.thread_count = counts[c];
-        ewa_context *context = NULL;
-        assert_int_equal(ewa_context_create(&options, &context), EWA_OK);
+        ewa_context *context = check_context(counts[c], NULL);
         tally *t = calloc(1, sizeof *t);
         t->workers = ewa_context_worker_count(context);
         for (int round = 0; round < 50; round++) ewa_parallel(context, count_hit, t, 1000);

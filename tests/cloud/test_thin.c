@@ -263,12 +263,7 @@ static void test_memory(void **state) {
         for (long fails = 0; status != EWA_OK; fails++) {
             assert_in_range(fails, 0, 40);
             check_memory memory = {.calls_left = -1};
-            ewa_context_options options;
-            ewa_context_options_init(&options, sizeof options);
-            options.thread_count = 2;
-            options.allocator = check_allocator(&memory);
-            ewa_context *context = NULL;
-            assert_int_equal(ewa_context_create(&options, &context), EWA_OK);
+            ewa_context *context = check_context_on(2, &memory);
             ewa_cloud *cloud = make_cloud(context, COUNT, p, no_origin);
             uint8_t marks[COUNT];
             memset(marks, 1, sizeof marks);

@@ -115,12 +115,7 @@ static void test_creations(void **state) {
     enum { RENDERERS = 100, WARM = 20, SIDE_PX = 16, ALLOWED_KIB = 64 << 10 };
     static uint8_t rgba8[4 * SIDE_PX * SIDE_PX];
     check_memory memory = {.calls_left = -1};
-    ewa_context_options options;
-    ewa_context_options_init(&options, sizeof options);
-    options.allocator = check_allocator(&memory);
-    options.thread_count = 1;
-    ewa_context *context = NULL;
-    assert_int_equal(ewa_context_create(&options, &context), EWA_OK);
+    ewa_context *context = check_context_on(1, &memory);
     const int64_t held_bytes = memory.held_bytes;
     long warm_kib = 0;
     for (int i = 0; i < RENDERERS; i++) {

@@ -8,7 +8,6 @@
 
 /// Rows from the north, points in the middles of cells, none where there is no height.
 static void test_places(void **state) {
-    (void)state;
     ewa_cloud *cloud = rows_load(HEAD "NODATA_value -1\n1 2 3\n4 -1.0 6.5\n");
     rows_expect(cloud, 5, "position");
     rows_find(cloud, EWA_POSITION, EWA_F64, 3);
@@ -35,7 +34,6 @@ static void test_places(void **state) {
 }
 
 static void test_refused(void **state) {
-    (void)state;
     static const struct {
         const char *text, *said;
     } files[] = {
@@ -56,7 +54,6 @@ static void test_refused(void **state) {
 }
 
 static void test_keep_going(void **state) {
-    (void)state;
     ewa_cloud_load_options options;
     ewa_cloud_load_options_init(&options, sizeof options);
     options.keep_going = true;
@@ -72,7 +69,6 @@ static void test_keep_going(void **state) {
 
 /// Cut anywhere it is refused, but within the last number, which only is a shorter one.
 static void test_truncation(void **state) {
-    (void)state;
     const char *text = HEAD "1 2 3\n4 5 678\n";
     const size_t length = strlen(text);
     for (size_t cut = 0; cut < length; cut++) {
@@ -92,7 +88,6 @@ static void test_truncation(void **state) {
 
 /// Piece by piece as at once.
 static void test_pieces(void **state) {
-    (void)state;
     char path[512];
     FILE *file = fopen(scratch_path("pieces.asc", path), "wb");
     assert_non_null(file);

@@ -445,12 +445,7 @@ static void memory(void **state) {
         long calls = 0;
         for (; reached; calls++) {
             check_memory held = {.calls_left = -1};
-            ewa_context_options options;
-            ewa_context_options_init(&options, sizeof options);
-            options.thread_count = 1;
-            options.allocator = check_allocator(&held);
-            ewa_context *context = NULL;
-            assert_int_equal(ewa_context_create(&options, &context), EWA_OK);
+            ewa_context *context = check_context_on(1, &held);
             held.calls_left = calls;
             ewa_gaussians set;
             const ewa_status status =

@@ -292,12 +292,7 @@ static void test_allocations_fail(void **state) {
         long calls = 0;
         for (ewa_status status = EWA_ERROR_MEMORY; status != EWA_OK; calls++) {
             check_memory memory = {.calls_left = calls + 1000};
-            ewa_context_options options;
-            ewa_context_options_init(&options, sizeof options);
-            options.thread_count = 1;
-            options.allocator = check_allocator(&memory);
-            ewa_context *poor = NULL;
-            assert_int_equal(ewa_context_create(&options, &poor), EWA_OK);
+            ewa_context *poor = check_context_on(1, &memory);
             const ewa_laz_plan plan = plan_of(format, 0);
             enum { COUNT = 400 };
             uint8_t *records = calloc(COUNT, plan.record_bytes);

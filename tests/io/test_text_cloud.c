@@ -397,12 +397,7 @@ static void test_memory(void **state) {
     bool done = false;
     for (long call = 0; !done; call++) {
         check_memory memory = {-1, 0};
-        ewa_context_options options;
-        ewa_context_options_init(&options, sizeof options);
-        options.allocator = check_allocator(&memory);
-        options.thread_count = 1;
-        ewa_context *poor = NULL;
-        assert_int_equal(ewa_context_create(&options, &poor), EWA_OK);
+        ewa_context *poor = check_context_on(1, &memory);
         const int64_t held_bytes = memory.held_bytes;
         memory.calls_left = call;
         ewa_cloud *cloud = NULL;

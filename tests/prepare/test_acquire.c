@@ -451,12 +451,7 @@ static void test_every_failing_allocation_is_clean(void **state) {
     bool done = false;
     for (long n = 0; !done; n++) {
         check_memory memory = {.calls_left = -1};
-        ewa_context_options options;
-        ewa_context_options_init(&options, sizeof options);
-        options.allocator = check_allocator(&memory);
-        options.thread_count = 2;
-        ewa_context *context = NULL;
-        assert_int_equal(ewa_context_create(&options, &context), EWA_OK);
+        ewa_context *context = check_context_on(2, &memory);
         ewa_image image;
         make_picture(context, 8, 8, 2, &image);
         ewa_cloud *cloud = make_object(context, EWA_OBJECT_PLANE, 500, 1.5);

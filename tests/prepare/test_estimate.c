@@ -458,12 +458,7 @@ static void test_out_of_memory(void **state) {
         int calls = 0;
         for (; status == EWA_ERROR_MEMORY && calls < 500; calls++) {
             check_memory memory = {.calls_left = -1};
-            ewa_context_options context_options;
-            ewa_context_options_init(&context_options, sizeof context_options);
-            context_options.allocator = check_allocator(&memory);
-            context_options.thread_count = 2;
-            ewa_context *context = NULL;
-            assert_int_equal(ewa_context_create(&context_options, &context), EWA_OK);
+            ewa_context *context = check_context_on(2, &memory);
             ewa_cloud *cloud = NULL;
             assert_int_equal(ewa_cloud_create(context, COUNT, &cloud), EWA_OK);
             assert_int_equal(ewa_cloud_borrow(cloud, EWA_POSITION, EWA_F32, 3, xyz, 0), EWA_OK);

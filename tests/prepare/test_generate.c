@@ -418,11 +418,7 @@ static void test_extreme_sizes_stay_finite(void **state) {
 static void test_every_failing_allocation(void **state) {
     for (int fail_at = 0;; fail_at++) {
         check_memory memory = {.calls_left = -1};
-        ewa_context_options context_options;
-        ewa_context_options_init(&context_options, sizeof context_options);
-        context_options.allocator = check_allocator(&memory);
-        ewa_context *context = NULL;
-        assert_int_equal(ewa_context_create(&context_options, &context), EWA_OK);
+        ewa_context *context = check_context_on(0, &memory);
         const int64_t before = memory.held_bytes;
         memory.calls_left = fail_at;
         const ewa_generate_options options = options_of(EWA_OBJECT_TORUS, 1000);

@@ -116,12 +116,7 @@ static void test_same_bytes(void **state) {
             const uint32_t masks[] = {EWA_CPU_ALL, EWA_CPU_ALL, EWA_CPU_AVX2, 0};
             const uint32_t threads[] = {1, 5, 2, 2};
             for (int k = 0; k < 4; k++) {
-                ewa_context_options made;
-                ewa_context_options_init(&made, sizeof made);
-                made.cpu_mask = masks[k];
-                made.thread_count = threads[k];
-                ewa_context *other = NULL;
-                assert_int_equal(ewa_context_create(&made, &other), EWA_OK);
+                ewa_context *other = check_context_of(threads[k], masks[k]);
                 raster again = raster_make(EWA_PIXEL_SRGB8, 4, 150, 110);
                 ewa_texture_options options = texture_options((ewa_texture_method)method);
                 options.repeat = m % 2 && method != EWA_TEXTURE_SPLAT;

@@ -222,11 +222,7 @@ static void test_memory(void **state) {
         int failures = 0;
         for (long fail_at = 0;; fail_at++) {
             check_memory memory = {.calls_left = -1};
-            ewa_context_options options;
-            ewa_context_options_init(&options, sizeof options);
-            options.allocator = check_allocator(&memory);
-            ewa_context *scarce = NULL;
-            assert_int_equal(ewa_context_create(&options, &scarce), EWA_OK);
+            ewa_context *scarce = check_context_on(0, &memory);
             const int64_t held_bytes = memory.held_bytes;
             memory.calls_left = fail_at;
             const ewa_status status =

@@ -231,12 +231,7 @@ static void test_same_bytes(void **state) {
     plane.image.camera.width_px = 61;
     plane.image.camera.height_px = 53;
     for (size_t k = 0; k < sizeof machines / sizeof machines[0]; k++) {
-        ewa_context_options options;
-        ewa_context_options_init(&options, sizeof options);
-        options.thread_count = machines[k].threads;
-        options.cpu_mask = machines[k].mask;
-        ewa_context *context = NULL;
-        assert_int_equal(ewa_context_create(&options, &context), EWA_OK);
+        ewa_context *context = check_context_of(machines[k].threads, machines[k].mask);
         ewa_warp *warp = plane_warp(context);
         ewa_warp_options warp_options;
         ewa_warp_options_init(&warp_options, sizeof warp_options);

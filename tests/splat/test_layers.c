@@ -192,12 +192,7 @@ static void test_same_bytes(void **state) {
     o.opacity = 0.7;
     picture first = picture_draw(context, of.cloud, &of.camera, NULL, &o);
     for (int i = 0; i < 9; i++) {
-        ewa_context_options options;
-        ewa_context_options_init(&options, sizeof options);
-        options.thread_count = threads[i % 3];
-        options.cpu_mask = masks[i / 3];
-        ewa_context *other = NULL;
-        assert_int_equal(ewa_context_create(&options, &other), EWA_OK);
+        ewa_context *other = check_context_of(threads[i % 3], masks[i / 3]);
         ewa_cloud *reversed = NULL;
         const uint64_t count = ewa_cloud_point_count(of.cloud);
         assert_int_equal(ewa_cloud_create(other, count, &reversed), EWA_OK);

@@ -373,12 +373,7 @@ static void test_out_of_memory(void **state) {
     ewa_cloud *cloud = level_cloud(plain, LEVEL_GRID, 6000);
     for (long call = 0;; call++) {
         check_memory memory = {.calls_left = -1};
-        ewa_context_options options;
-        ewa_context_options_init(&options, sizeof options);
-        options.allocator = check_allocator(&memory);
-        options.thread_count = 1;
-        ewa_context *context = NULL;
-        assert_int_equal(ewa_context_create(&options, &context), EWA_OK);
+        ewa_context *context = check_context_on(1, &memory);
         ewa_cloud *own = shuffled(context, cloud);
         const int64_t held = memory.held_bytes;
         ewa_surfels_options surfels_options;

@@ -418,11 +418,7 @@ static void test_every_failing_allocation_is_clean(void **state) {
 /// A warm renderer allocates nothing.
 static void test_warm_frames_allocate_nothing(void **state) {
     check_memory memory = {.calls_left = -1};
-    ewa_context_options options;
-    ewa_context_options_init(&options, sizeof options);
-    options.allocator = check_allocator(&memory);
-    ewa_context *context = NULL;
-    assert_int_equal(ewa_context_create(&options, &context), EWA_OK);
+    ewa_context *context = check_context_on(0, &memory);
     scene of;
     assert_int_equal(scene_make(context, SCENE_TORUS, POINTS, SIDE_PX, SIDE_PX, &of), EWA_OK);
     ewa_surfels *surfels = NULL;

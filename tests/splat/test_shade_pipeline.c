@@ -152,12 +152,7 @@ static void test_same_bytes_everywhere(void **state) {
     for (int kind = 0; kind < 2 * SCENE_COUNT; kind++) {
         picture first = {0};
         for (size_t i = 0; i < sizeof runs / sizeof runs[0]; i++) {
-            ewa_context_options context_options;
-            ewa_context_options_init(&context_options, sizeof context_options);
-            context_options.thread_count = runs[i].threads;
-            context_options.cpu_mask = runs[i].mask;
-            ewa_context *context = NULL;
-            assert_int_equal(ewa_context_create(&context_options, &context), EWA_OK);
+            ewa_context *context = check_context_of(runs[i].threads, runs[i].mask);
             scene of;
             assert_int_equal(scene_make(context, (scene_kind)(kind / 2), POINTS / 3, 83, 77, &of), EWA_OK);
             shade_set_material(of.cloud, slab);

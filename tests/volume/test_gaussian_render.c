@@ -384,12 +384,7 @@ static void test_memory(void **state) {
     const ewa_camera camera = gaussians_camera(40, 30, 50, FRONT, 2);
     for (long n = 0;; n++) {
         check_memory memory = {.calls_left = -1};
-        ewa_context_options chosen;
-        ewa_context_options_init(&chosen, sizeof chosen);
-        chosen.thread_count = 1;
-        chosen.allocator = check_allocator(&memory);
-        ewa_context *context;
-        assert_int_equal(ewa_context_create(&chosen, &context), EWA_OK);
+        ewa_context *context = check_context_on(1, &memory);
         ewa_gaussians set = gaussians_random(context, 50, 1, 4);
         memory.calls_left = n;
         ewa_splats *splats = NULL;

@@ -394,12 +394,7 @@ static void test_bad(void **state) {
 static void test_memory(void **state) {
     const ewa_camera camera = scene_camera(WIDTH, HEIGHT, SLANTED, 3);
     check_memory memory = {.calls_left = -1};
-    ewa_context_options chosen;
-    ewa_context_options_init(&chosen, sizeof chosen);
-    chosen.thread_count = 1;
-    chosen.allocator = check_allocator(&memory);
-    ewa_context *context;
-    assert_int_equal(ewa_context_create(&chosen, &context), EWA_OK);
+    ewa_context *context = check_context_on(1, &memory);
     for (long n = 0, done = 0; !done; n++) {
         cast c = start_on(context);
         add_ball(&c, -20, 20, 1);

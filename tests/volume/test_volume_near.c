@@ -200,12 +200,9 @@ static void test_same_bytes(void **state) {
     enum { WIDTH = 150, HEIGHT = 90, FLOATS = 4 * WIDTH * HEIGHT };
     float *first = NULL;
     for (int variant = 0; variant < 4; variant++) {
-        ewa_context_options context_options;
-        ewa_context_options_init(&context_options, sizeof context_options);
-        context_options.thread_count = variant == 1 ? 3 : 1;
-        context_options.cpu_mask = variant == 2 ? EWA_CPU_AVX2 : variant == 3 ? 0 : EWA_CPU_ALL;
-        ewa_context *context;
-        assert_int_equal(ewa_context_create(&context_options, &context), EWA_OK);
+        ewa_context *context = check_context_of(variant == 1 ? 3 : 1, variant == 2   ? EWA_CPU_AVX2
+                                                                      : variant == 3 ? 0
+                                                                                     : EWA_CPU_ALL);
         ewa_volume volume = scene_volume(context, dims, UNIT, scene_ones, NULL);
         const ewa_transfer transfer = scene_linear(0.9f, 0.5f, 0.2f, 9);
         ewa_voxels *voxels = scene_voxels(&volume, &transfer);

@@ -299,12 +299,7 @@ static ewa_status draw_all(ewa_context *context, uint32_t frames, const check_me
 
 static void test_failing_memory(void **state) {
     check_memory memory = {.calls_left = -1};
-    ewa_context_options options;
-    ewa_context_options_init(&options, sizeof options);
-    options.allocator = check_allocator(&memory);
-    options.thread_count = 2;
-    ewa_context *context;
-    assert_int_equal(ewa_context_create(&options, &context), EWA_OK);
+    ewa_context *context = check_context_on(2, &memory);
     const int64_t held_bytes = memory.held_bytes;
     long failed = 0;
     for (;; failed++) {
