@@ -58,6 +58,7 @@ void ewa_laz_plan_make(uint8_t point_format, uint32_t record_bytes, ewa_laz_plan
 typedef struct ewa_laz_result {
     uint64_t point_count; ///< of the records that were decoded before the fault; all of them without one
     const char *fault;    ///< what is wrong, a text that stays; NULL: nothing
+    uint64_t used_bytes;  ///< of a flat chunk, up to the end of its last point
 } ewa_laz_result;
 
 /// Decodes the `point_count` records of one chunk, whose bytes are [bytes, bytes + size_bytes), into

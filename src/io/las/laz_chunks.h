@@ -36,6 +36,14 @@ ewa_status ewa_laz_layout_read(const ewa_cloud_source *source, const ewa_las_hea
                                ewa_laz_layout *layout);
 void ewa_laz_layout_free(ewa_context *context, ewa_laz_layout *layout);
 
+/// No point takes less than 1 / 2048 byte: the arithmetic coder's surest symbol costs more.
+enum { EWA_LAZ_MAX_POINTS_PER_BYTE = 2048 };
+
+/// Finds the chunks of a file without a table, from byte `first` on, by walking through them; what is not there is damage
+/// (ewa_cloud_damage()). `layout` has its plan. Errors: EWA_ERROR_FORMAT, EWA_ERROR_LIMIT, EWA_ERROR_MEMORY.
+ewa_status ewa_laz_layout_rebuild(const ewa_cloud_source *source, uint64_t first, uint64_t point_count,
+                                  uint32_t chunk_points, ewa_laz_layout *layout);
+
 /// Decodes chunks in the order of the file.
 typedef struct ewa_laz_stream ewa_laz_stream;
 

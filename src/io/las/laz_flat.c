@@ -172,6 +172,7 @@ void ewa_laz_flat_decode(ewa_laz_memory *memory, const uint8_t *bytes, uint64_t 
     ewa_laz_decoder_start(&c, bytes + stride, size_bytes - stride, memory->generation);
     for (result->point_count = 1; result->point_count < point_count && !c.damaged; result->point_count++)
         code_record(false, &c, memory, records += stride);
+    result->used_bytes = (uint64_t)(c.at - bytes);
     if (c.damaged) {
         result->fault = EWA_LAZ_DAMAGED;
         if (result->point_count > 1) result->point_count--;

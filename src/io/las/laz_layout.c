@@ -14,8 +14,6 @@ enum {
     VLR_BYTES = 34, // before the items
     ITEM_BYTES = 6,
     TABLE_HEAD_BYTES = 8,
-    /// No point takes less than 1 / 2048 byte: the arithmetic coder's surest symbol costs more.
-    MAX_POINTS_PER_BYTE = 2048,
 };
 
 static ewa_status read_record(const ewa_cloud_source *source, const ewa_las_header *header,
@@ -153,7 +151,7 @@ static ewa_status place_chunks(const ewa_cloud_source *source, uint64_t at, uint
                             source->name, (unsigned long long)i + 1, (unsigned long long)layout->chunk_count,
                             (unsigned long long)chunk->size_bytes, (unsigned long long)at,
                             (unsigned long long)end);
-        if (chunk->point_count / MAX_POINTS_PER_BYTE > chunk->size_bytes)
+        if (chunk->point_count / EWA_LAZ_MAX_POINTS_PER_BYTE > chunk->size_bytes)
             return ewa_fail(source->context, EWA_ERROR_FORMAT,
                             "%s: chunk %llu of %llu is said to hold %llu points in %llu bytes", source->name,
                             (unsigned long long)i + 1, (unsigned long long)layout->chunk_count,
@@ -197,6 +195,10 @@ ewa_status ewa_laz_layout_read(const ewa_cloud_source *source, const ewa_las_hea
     if (header->point_count == 0 && !layout->variable) return EWA_OK;
     const uint64_t table_at = pointwise ? 0 : find_table(source, header);
     const uint64_t first = pointwise ? header->points_at : header->points_at + 8;
+    if (!pointwise && table_at == 0 && !layout->variable && chunk_points && source->options->keep_going) {
+        EWA_TRY(ewa_laz_layout_rebuild(source, first, header->point_count, chunk_points, layout));
+        return place_chunks(source, first, source->size_bytes, layout);
+    }
     if (pointwise || (table_at == 0 && !layout->variable && header->point_count <= chunk_points &&
                       source->size_bytes > first)) {
         EWA_TRY(read_single(source, header, first, layout));
