@@ -372,6 +372,27 @@ static void packed_in_gltf(void **state) {
     ewa_context_destroy(&context);
 }
 
+/// A count that a short file cannot have, of accessors without a buffer: refused wherever it is met.
+static void counts(void **state) {
+    (void)state;
+    static sample_file file;
+    static const char accessor[] = "{\"componentType\":5126,\"count\":%s,\"type\":\"%s\"}";
+    for (int large = 0; large < 5; large++) {
+        char text[2048] = "{\"asset\":{\"version\":\"2.0\"},\"nodes\":[{\"mesh\":0}],\"meshes\":[{\"primitives\":[{\"mode\":"
+                          "0,\"attributes\":{\"POSITION\":0,\"_SCALE\":1,\"_ROTATION\":2,\"COLOR_0\":3,\"_OPACITY\":4},"
+                          "\"extensions\":{\"KHR_gaussian_splatting\":{}}}]}],\"accessors\":[";
+        static const char *const types[5] = {"VEC3", "VEC3", "VEC4", "VEC4", "SCALAR"};
+        for (int i = 0; i < 5; i++) {
+            const size_t length = strlen(text);
+            snprintf(text + length, sizeof text - length, accessor, i == large ? "4294967295" : "1", types[i]);
+            strcat(text, i < 4 ? "," : "]}");
+        }
+        file.size = 0;
+        sample_text(&file, text);
+        refuse(&file, EWA_ERROR_LIMIT, "more vertices and corners than a file of");
+    }
+}
+
 /// The first draft: colours and opacities of the display in COLOR_0.
 static void draft(void **state) {
     static sample_file body, file;
@@ -472,6 +493,7 @@ int main(void) {
         cmocka_unit_test(lies),   cmocka_unit_test(words),     cmocka_unit_test(palettes),
         cmocka_unit_test(beside), cmocka_unit_test(placed),    cmocka_unit_test(packed_in_gltf),
         cmocka_unit_test(draft),  cmocka_unit_test(axes),      cmocka_unit_test(memory),
+        cmocka_unit_test(counts),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

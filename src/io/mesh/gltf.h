@@ -122,7 +122,7 @@ ewa_status ewa_gltf_decode_uri(const gltf *g, const char *array, uint64_t index,
 bool ewa_gltf_path_of(const char *uri, char *path, size_t room);
 
 /// Reads all numbers of an accessor with `low` to `high` components. Normalised integers are shares. Free
-/// with ewa_gltf_free_array().
+/// with ewa_gltf_free_array(); after a failure `*array` is zeroed.
 ewa_status ewa_gltf_read_accessor(gltf *g, uint64_t index, uint32_t low, uint32_t high, gltf_array *array);
 void ewa_gltf_free_array(const gltf *g, gltf_array *array);
 

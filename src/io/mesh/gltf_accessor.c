@@ -285,11 +285,17 @@ ewa_status ewa_gltf_describe(const gltf *g, uint64_t index, uint32_t low, uint32
 
 ewa_status ewa_gltf_read_accessor(gltf *g, uint64_t index, uint32_t low, uint32_t high, gltf_array *array) {
     uint64_t type;
-    EWA_TRY(open_accessor(g, index, low, high, array, &type));
+    gltf_array made;
+    *array = (gltf_array){0};
+    EWA_TRY(open_accessor(g, index, low, high, &made, &type));
     // A short file may name one accessor many times, or one that is all zeros.
-    EWA_TRY(ewa_gltf_spend(g, array->count));
-    ewa_status status = read_numbers(g, index, g->accessors.items[index], type, array);
-    if (status != EWA_OK) ewa_gltf_free_array(g, array);
+    EWA_TRY(ewa_gltf_spend(g, made.count));
+    const ewa_status status = read_numbers(g, index, g->accessors.items[index], type, &made);
+    // Nobody may see a count whose numbers are not there.
+    if (status == EWA_OK)
+        *array = made;
+    else
+        ewa_gltf_free_array(g, &made);
     return status;
 }
 
