@@ -222,6 +222,14 @@ static void test_failures_leave_nothing(void **state) {
         run_fails(1, "No space left", "ewa generate sphere -o - >/dev/full");
         run_fails(1, "standard output: cannot write: No space left", "ewa render --help >/dev/full");
     }
+    // Files that lie in memory are of the format of their suffix, too.
+    if (access("/dev/shm", W_OK) == 0) {
+        run_done("f=$(mktemp /dev/shm/ewa_XXXXXX.laz) && ewa generate sphere -n 50 -o $f; head -c 4 $f >magic; "
+                 "rm -f $f; test $(cat magic) = LASF");
+        run_done("f=$(mktemp /dev/shm/ewa_XXXXXX.xyz) && ewa generate sphere -n 50 -o s.ply && "
+                 "ewa convert s.ply -o $f; head -c 3 $f >magic; rm -f $f; test $(cat magic) != ply");
+        run_fails(2, "/dev/shm/a.abc", "ewa generate sphere -n 10 -o /dev/shm/a.abc");
+    }
     // What is no regular file takes the bytes and stays what it is; a link stays one; a mode stays.
     run_done("mkfifo pipe && (cat pipe >got &) && ewa generate sphere -n 50 -o s.ply && "
              "ewa render s.ply -o s.png --size 9x9 --stats pipe && sleep 0.1 && test -p pipe && grep -q "

@@ -4,6 +4,7 @@
 // Tests of clouds in pieces: pieces of any size put together are the whole, in and out, of every format that is
 // written; grid and notes travel with a cloud; what a file promises of counts is held.
 #include "ewa/ewa.h"
+#include "io/cloud/format.h"
 #include "io/scratch.h"
 
 #include <math.h>
@@ -259,6 +260,28 @@ static void test_grid(void **state) {
     assert_true(ewa_grid_world(&(ewa_coordinate_grid){{0}, {0}}, 0, 0.1 + 0.2) == 0.1 + 0.2);
 }
 
+/// The suffix chooses, wherever a file lies; streams and devices have none.
+static void test_places(void **state) {
+    (void)state;
+    static const struct {
+        const char *path, *suffixes;
+    } cases[] = {{"-", ".ply"},
+                 {"/dev/stdout", ".ply"},
+                 {"/dev/fd/3", ".ply"},
+                 {"/dev/shm/a.laz", ".las|.laz"},
+                 {"/dev/shm/a.PCD", ".pcd"},
+                 {"/dev/shm/a.b/c.xyz", ".xyz|.txt|.csv|.asc|.pts"},
+                 {"/dev/shm/a.abc", NULL},
+                 {"a", NULL}};
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        const ewa_cloud_write_format *format = ewa_cloud_write_format_of(cases[i].path);
+        if (cases[i].suffixes)
+            assert_string_equal(format->suffixes, cases[i].suffixes);
+        else
+            assert_null(format);
+    }
+}
+
 /// Notes are copies, are replaced, removed, and handed on.
 static void test_notes(void **state) {
     ewa_cloud *scan = make_scan(), *some = NULL, *both = NULL;
@@ -304,6 +327,7 @@ int main(void) {
         cmocka_unit_test_setup_teardown(test_unknown_count, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_grid, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_notes, set_up, tear_down),
+        cmocka_unit_test(test_places),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -99,7 +99,7 @@ extern const ewa_cloud_write_format ewa_write_ply, ewa_write_las, ewa_write_pcd,
 #define EWA_CLOUD_FORMATS  "PLY, LAS, LAZ, E57, PCD, PTX, PTS, XYZ, CSV, ASCII grids"
 #define EWA_CLOUD_SUFFIXES ".ply, .las, .laz, .pcd, .xyz, .txt, .asc, .pts or .csv"
 
-/// Finds the format that a path is written in, by its suffix; "-" and devices: PLY. NULL: none.
+/// Finds the format that a path is written in, by its suffix; "-" and devices, which have none: PLY. NULL: none.
 const ewa_cloud_write_format *ewa_cloud_write_format_of(const char *path);
 
 /// Which formats are asked.

@@ -128,13 +128,13 @@ const ewa_cloud_write_format *ewa_cloud_write_format_of(const char *path) {
     static const ewa_cloud_write_format *const known[] = {&ewa_write_ply, &ewa_write_las, &ewa_write_pcd,
                                                           &ewa_write_text};
     const char *slash = strrchr(path, '/'), *dot = strrchr(slash ? slash : path, '.');
-    // Streams and devices have no suffix to choose by.
-    if (strcmp(path, "-") == 0 || strncmp(path, "/dev/", 5) == 0) return known[0];
     for (size_t i = 0; dot && i < sizeof known / sizeof known[0]; i++)
         for (const char *at = known[i]->suffixes; *at;) {
             const size_t length = strcspn(at, "|");
             if (strlen(dot) == length && strncasecmp(dot, at, length) == 0) return known[i];
             at += length + (at[length] == '|');
         }
-    return NULL;
+    // Streams and devices have no suffix to choose by; files that lie in memory, below /dev/shm, have one.
+    const bool stream = strcmp(path, "-") == 0 || strncmp(path, "/dev/", 5) == 0;
+    return stream && !dot ? known[0] : NULL;
 }
