@@ -58,7 +58,7 @@ static inline ewa_context *check_context_of(uint32_t threads, uint32_t cpu_mask)
 /// Memory of which one allocation fails, and what of it is not given back.
 typedef struct check_memory {
     long calls_left; ///< allocations before the one that fails; negative: none fails
-    int64_t held_bytes;
+    int64_t held_bytes, peak_bytes;
 } check_memory;
 
 static inline void *check_allocate(void *user, size_t size_bytes) {
@@ -68,6 +68,7 @@ static inline void *check_allocate(void *user, size_t size_bytes) {
     // So that a sanitizer sees what is read before it is written.
     if (block) memset(block, 0xa5, size_bytes);
     if (block) memory->held_bytes += (int64_t)size_bytes;
+    if (memory->held_bytes > memory->peak_bytes) memory->peak_bytes = memory->held_bytes;
     return block;
 }
 

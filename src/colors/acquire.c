@@ -259,17 +259,39 @@ static void write_points(void *data, uint32_t part, uint32_t worker) {
     }
 }
 
+/// The first of the pictures that has the pixels of another: many materials may have one.
+static uint32_t first_alike(const acquire_job *job, uint32_t index) {
+    const ewa_image *image = &job->images[index];
+    uint32_t first = 0;
+    while (job->images[first].pixels != image->pixels || job->images[first].width_px != image->width_px ||
+           job->images[first].height_px != image->height_px ||
+           job->images[first].channel_count != image->channel_count)
+        first++;
+    return first;
+}
+
+/// Makes the textures, of alike pictures the first; the others are views of it.
 static ewa_status make_textures(acquire_job *job) {
     ewa_acquire_set *set = &job->set;
     set->textures = ewa_allocate_zeroed(set->context, set->texture_count, sizeof *set->textures);
     if (!set->textures) return EWA_ERROR_MEMORY;
     for (uint32_t i = 0; i < set->texture_count; i++) {
         if (!job->images[i].pixels) continue;
+        const uint32_t first = first_alike(job, i);
         ewa_image image = job->images[i];
         image.context = set->context;
-        EWA_TRY(ewa_texture_make(&image, job->options->wrap_s, job->options->wrap_t, &set->textures[i]));
+        if (first == i)
+            EWA_TRY(ewa_texture_make(&image, job->options->wrap_s, job->options->wrap_t, &set->textures[i]));
+        set->textures[i] = set->textures[first];
     }
     return EWA_OK;
+}
+
+static void free_textures(acquire_job *job) {
+    ewa_acquire_set *set = &job->set;
+    for (uint32_t i = 0; set->textures && i < set->texture_count; i++)
+        if (set->textures[i].level_count && first_alike(job, i) == i) ewa_texture_free(&set->textures[i]);
+    ewa_release(set->context, set->textures, set->texture_count, sizeof *set->textures);
 }
 
 /// The larger standard deviation of a kernel.
@@ -364,9 +386,8 @@ ewa_status ewa_cloud_acquire(ewa_cloud *cloud, const ewa_image *textures, uint32
         .cutoff = options->cutoff,
         .pixel_variance_px2 = options->pixel_sigma_px * options->pixel_sigma_px,
     };
-    ewa_status status = run(cloud, &job, report);
-    for (uint32_t i = 0; job.set.textures && i < texture_count; i++) ewa_texture_free(&job.set.textures[i]);
-    ewa_release(context, job.set.textures, texture_count, sizeof *job.set.textures);
+    const ewa_status status = run(cloud, &job, report);
+    free_textures(&job);
     ewa_release(context, job.set.order, job.set.count, sizeof *job.set.order);
     ewa_release(context, job.set.points, job.set.count, sizeof *job.set.points);
     ewa_release(context, job.colors, job.set.count, sizeof *job.colors);

@@ -112,6 +112,30 @@ static void test_alpha(void **state) {
     assert_string_equal(messages.text, "");
 }
 
+/// Materials with one picture have it once, whatever is done with alpha, where it has none.
+static void test_shared(void **state) {
+    (void)state;
+    ewa_mesh mesh;
+#define PART(material)                                                                                       \
+    "{\"attributes\":{\"POSITION\":0,\"TEXCOORD_0\":1},\"mode\":6,\"material\":" material "}"
+#define LOOK(mode) "{\"alphaMode\":\"" mode "\",\"pbrMetallicRoughness\":{\"baseColorTexture\":{\"index\":0}}}"
+    glb g = {.size = 0};
+    snprintf(g.json, sizeof g.json, "%s",
+             GLTF_HEAD(GLTF_NODE) "\"meshes\":[{\"primitives\":[" PART("0") "," PART("1") "," PART("2") "]}],"
+             "\"materials\":[" LOOK("OPAQUE") "," LOOK("MASK") "," LOOK("BLEND") "],\"textures\":[{\"source\":0}],"
+             "\"images\":[{\"uri\":\"" RED_PNG "\"}],\"accessors\":[" GLTF_POSITIONS ","
+             "{\"bufferView\":0,\"componentType\":5126,\"count\":4,\"type\":\"VEC2\"}]," GLTF_VIEW);
+    put_floats(&g, 12, gltf_square);
+    glb_load(context, &messages, &g, false, &mesh);
+    assert_int_equal(mesh.material_count, 3);
+    assert_non_null(mesh.textures[0].pixels);
+    for (uint32_t m = 1; m < 3; m++) {
+        assert_int_equal(mesh.materials[m].texture, 0);
+        assert_null(mesh.textures[m].pixels);
+    }
+    ewa_mesh_free(&mesh);
+}
+
 /// A WebP picture of one blue pixel.
 #define BLUE_WEBP                                                                                            \
     "data:image/webp;base64,UklGRjgAAABXRUJQVlA4ICwAAACQAQCdASoBAAEAAgA0JaACdLoAA5gA/vmTb/+QH/+QH/+QH/"      \
@@ -145,6 +169,6 @@ static void test_extensions(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {CASE(test_materials), CASE(test_alpha), CASE(test_extensions)};
+    const struct CMUnitTest tests[] = {CASE(test_materials), CASE(test_alpha), CASE(test_shared), CASE(test_extensions)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -559,6 +559,60 @@ static void test_needle(void **state) {
     ewa_context_destroy(&context);
 }
 
+/// A quad of two triangles for each of `count` materials, which all have the picture shared.png; OBJ.
+static void write_atlas(const char *name, int count) {
+    char path[512], text[8192] = "mtllib shared.mtl\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n", materials[4096] = "";
+    for (int i = 0; i < count; i++) {
+        const size_t length = strlen(text), more = strlen(materials);
+        snprintf(text + length, sizeof text - length,
+                 "v %d 0 0\nv %d.5 0 0\nv %d.5 1 0\nv %d 1 0\nusemtl m%d\nf -4/1 -3/2 -2/3 -1/4\n", i, i, i, i, i);
+        snprintf(materials + more, sizeof materials - more, "newmtl m%d\nmap_Kd shared.png\n", i);
+    }
+    scratch_write(scratch_path(name, path), text, strlen(text));
+    scratch_write(scratch_path("shared.mtl", path), materials, strlen(materials));
+}
+
+/// The most memory that loading and sampling an atlas takes.
+static int64_t peak_of(int material_count) {
+    char path[512];
+    check_memory held = {.calls_left = -1};
+    ewa_context_options options;
+    ewa_context_options_init(&options, sizeof options);
+    options.thread_count = 1;
+    options.allocator = check_allocator(&held);
+    ewa_context *context = NULL;
+    assert_int_equal(ewa_context_create(&options, &context), EWA_OK);
+    write_atlas("atlas.obj", material_count);
+    ewa_mesh mesh;
+    assert_int_equal(ewa_mesh_load(context, scratch_path("atlas.obj", path), &mesh), EWA_OK);
+    assert_int_equal(mesh.material_count, material_count);
+    const ewa_mesh_sample_options sampling = options_of(2000);
+    ewa_cloud *cloud = shape_sample(&mesh, &sampling);
+    const float *color = stream(cloud, EWA_COLOR);
+    for (uint64_t i = 0; i < ewa_cloud_point_count(cloud); i++) // every material shows the picture: grey
+        if (!(fabsf(color[3 * i] - 0.2158605f) < 1e-3f)) fail_msg("point %d: %g", (int)i, (double)color[3 * i]);
+    ewa_cloud_destroy(&cloud);
+    ewa_mesh_free(&mesh);
+    ewa_context_destroy(&context);
+    assert_int_equal(held.held_bytes, 0);
+    return held.peak_bytes;
+}
+
+/// A picture that many materials have is held once, with its smaller copies.
+static void test_shared_picture(void **state) {
+    (void)state;
+    enum { SIDE = 512 };
+    static uint8_t pixels[SIDE * SIDE * 3];
+    char path[512];
+    memset(pixels, 128, sizeof pixels);
+    ewa_context *context = check_context(1, NULL);
+    assert_int_equal(
+        ewa_png_save(context, scratch_path("shared.png", path), SIDE, SIDE, 3, pixels, sizeof pixels), EWA_OK);
+    ewa_context_destroy(&context);
+    const int64_t one = peak_of(1), many = peak_of(20);
+    if (many > one + one / 10) fail_msg("%lld bytes for 20 materials, %lld for one", (long long)many, (long long)one);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_needle),        cmocka_unit_test(test_cube_points),
@@ -568,6 +622,7 @@ int main(void) {
         cmocka_unit_test(test_soup),          cmocka_unit_test(test_map_coordinates),
         cmocka_unit_test(test_far_parts),     cmocka_unit_test(test_copies),
         cmocka_unit_test(test_given_normals), cmocka_unit_test(test_failing_allocations),
+        cmocka_unit_test(test_shared_picture),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

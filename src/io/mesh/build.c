@@ -30,7 +30,7 @@ void ewa_mesh_build_close(ewa_mesh_build *build) {
     ewa_context *context = build->context;
     ewa_mesh_picture *pictures = build->pictures.items;
     for (uint64_t i = 0; i < build->pictures.count; i++) {
-        ewa_release(context, pictures[i].key, pictures[i].key_bytes, 1);
+        ewa_release(context, pictures[i].name, pictures[i].name_bytes, 1);
         ewa_image_free(&pictures[i].image);
     }
     ewa_mesh_list *const lists[] = {&build->positions,      &build->colors,      &build->texcoords,

@@ -40,11 +40,21 @@ typedef struct ewa_mesh_look {
     double map[2][3]; ///< (u, v, 1) as a column to the new u and v
 } ewa_mesh_look;
 
-/// A picture and the name that it was asked for by; pixels NULL: it cannot be had.
+/// What becomes of a picture's alpha.
+typedef enum ewa_mesh_alpha {
+    EWA_MESH_ALPHA_KEEP = 0,
+    EWA_MESH_ALPHA_DROP, ///< as if it were 1
+    EWA_MESH_ALPHA_CUT,  ///< 0 or 1, by a limit
+} ewa_mesh_alpha;
+
+/// A picture and how it was asked for; pixels NULL: it cannot be had.
 typedef struct ewa_mesh_picture {
-    char *key;
-    size_t key_bytes;
-    size_t name_bytes; ///< of the key, the name of its file; 0: it is in the mesh's
+    char *name;
+    size_t name_bytes;
+    bool beside; ///< it is a file of that name, not in the mesh's
+    ewa_mesh_alpha alpha;
+    double limit;   ///< of EWA_MESH_ALPHA_CUT
+    bool has_alpha; ///< else the same for every `alpha`
     ewa_image image;
 } ewa_mesh_picture;
 
@@ -130,13 +140,6 @@ ewa_status ewa_mesh_add_triangle(ewa_mesh_build *build, const ewa_mesh_corner *a
 static inline void ewa_mesh_note_unread(ewa_mesh_build *build, uint64_t line) {
     if (build->unread_count++ == 0) build->unread_line = line;
 }
-
-/// What becomes of a picture's alpha.
-typedef enum ewa_mesh_alpha {
-    EWA_MESH_ALPHA_KEEP = 0,
-    EWA_MESH_ALPHA_DROP, ///< as if it were 1
-    EWA_MESH_ALPHA_CUT,  ///< 0 or 1, by a limit
-} ewa_mesh_alpha;
 
 /// Finds a picture below the mesh's folder, reading it once. `*picture` is EWA_MESH_NONE, after a warning
 /// that names it, when it cannot be had. `limit` is that of EWA_MESH_ALPHA_CUT. Errors: EWA_ERROR_LIMIT

@@ -61,7 +61,7 @@ static ewa_status make_text(face_writer *w) {
     for (uint64_t i = 0; i < build->looks.count; i++) {
         const uint32_t picture = look_at(build, (uint32_t)i)->picture;
         w->picture[i] = EWA_MESH_NONE;
-        if (picture == EWA_MESH_NONE || !pictures[picture].name_bytes) continue;
+        if (picture == EWA_MESH_NONE || !pictures[picture].beside) continue;
         w->picture[i] = count++;
         bytes += sizeof lead - 1 + pictures[picture].name_bytes + 1;
     }
@@ -76,7 +76,7 @@ static ewa_status make_text(face_writer *w) {
         memcpy(to, lead, sizeof lead - 1);
         to += sizeof lead - 1;
         for (size_t k = 0; k < picture->name_bytes; k++)
-            *to++ = (char)((unsigned char)picture->key[k] < ' ' ? '?' : picture->key[k]);
+            *to++ = (char)((unsigned char)picture->name[k] < ' ' ? '?' : picture->name[k]);
         *to++ = '\n';
     }
     *to++ = '\n'; // the words are no comment

@@ -34,9 +34,10 @@ static ewa_status read_image(gltf *g, uint64_t index, ewa_mesh_alpha alpha, doub
     *picture = EWA_MESH_NONE;
     if (cJSON_IsString(uri) && strncmp(uri->valuestring, "data:", 5) != 0) {
         char path[4096];
-        const bool fits = ewa_gltf_path_of(uri->valuestring, path, sizeof path);
-        return ewa_mesh_find_picture(g->build, (ewa_text){path, fits ? strlen(path) : 0}, alpha, limit,
-                                     picture);
+        if (ewa_gltf_path_of(uri->valuestring, path, sizeof path))
+            return ewa_mesh_find_picture(g->build, (ewa_text){path, strlen(path)}, alpha, limit, picture);
+        ewa_mesh_miss_picture(g->build, name, "its name is too long");
+        return EWA_OK;
     }
     uint8_t *decoded = NULL;
     const uint8_t *bytes = NULL;

@@ -12,27 +12,35 @@
 
 enum { NAMED_PICTURES = 5 }; // further ones that are missing are counted
 
-static bool find_known(const ewa_mesh_build *build, ewa_text key, uint32_t *picture) {
+/// Finds what was asked for before: the same picture, whose alpha counts only where it has one.
+static bool find_known(const ewa_mesh_build *build, const ewa_mesh_picture *wanted, uint32_t *picture) {
     const ewa_mesh_picture *pictures = build->pictures.items;
-    for (uint64_t i = 0; i < build->pictures.count; i++)
-        if (pictures[i].key_bytes == key.length && memcmp(pictures[i].key, key.chars, key.length) == 0) {
-            *picture = pictures[i].image.pixels ? (uint32_t)i : EWA_MESH_NONE;
-            return true;
-        }
+    *picture = EWA_MESH_NONE;
+    for (uint64_t i = 0; i < build->pictures.count; i++) {
+        const ewa_mesh_picture *known = &pictures[i];
+        if (known->beside != wanted->beside || known->name_bytes != wanted->name_bytes ||
+            memcmp(known->name, wanted->name, known->name_bytes) != 0 ||
+            (known->has_alpha && (known->alpha != wanted->alpha || known->limit != wanted->limit)))
+            continue;
+        *picture = known->image.pixels ? (uint32_t)i : EWA_MESH_NONE;
+        return true;
+    }
     return false;
 }
 
-/// Keeps an entry under a key; the image is empty then.
-static ewa_status add_entry(ewa_mesh_build *build, ewa_text key, ewa_mesh_picture **entry) {
-    char *copy = ewa_allocate(build->context, key.length, 1);
+/// Keeps what is asked for; the image is empty then.
+static ewa_status add_entry(ewa_mesh_build *build, const ewa_mesh_picture *wanted, ewa_mesh_picture **entry) {
+    char *copy = ewa_allocate(build->context, wanted->name_bytes, 1);
     if (!copy) return EWA_ERROR_MEMORY;
-    if (key.length) memcpy(copy, key.chars, key.length);
+    if (wanted->name_bytes) memcpy(copy, wanted->name, wanted->name_bytes);
     ewa_status status = EWA_OK;
     *entry = ewa_mesh_list_add(build, &build->pictures, &status);
-    if (*entry)
-        **entry = (ewa_mesh_picture){.key = copy, .key_bytes = key.length};
-    else
-        ewa_release(build->context, copy, key.length, 1);
+    if (*entry) {
+        **entry = *wanted;
+        (*entry)->name = copy;
+    } else {
+        ewa_release(build->context, copy, wanted->name_bytes, 1);
+    }
     return status;
 }
 
@@ -67,8 +75,10 @@ static ewa_status drop_alpha(ewa_image *image) {
 }
 
 /// Decodes into an entry. What is wrong with the picture is a warning, not a failure of the mesh.
-static ewa_status decode(ewa_mesh_build *build, ewa_text name, const uint8_t *bytes, size_t size_bytes,
-                         ewa_mesh_alpha alpha, double limit, ewa_mesh_picture *entry) {
+static ewa_status decode(ewa_mesh_build *build, const uint8_t *bytes, size_t size_bytes,
+                         ewa_mesh_picture *entry) {
+    const ewa_mesh_alpha alpha = entry->alpha;
+    const ewa_text name = {entry->name, entry->name_bytes};
     char label[512], quote[EWA_QUOTE_BYTES];
     snprintf(label, sizeof label, "%.400s: picture %s", build->source->name, ewa_quote(name, quote));
     ewa_failures_soften(build->context, true);
@@ -91,52 +101,47 @@ static ewa_status decode(ewa_mesh_build *build, ewa_text name, const uint8_t *by
                         "%s: the pictures need %llu bytes together, max_memory_bytes is %llu",
                         build->source->name, (unsigned long long)build->picture_bytes,
                         (unsigned long long)limit_bytes);
-    if (channels == 4 && alpha == EWA_MESH_ALPHA_CUT) cut_alpha(&entry->image, limit);
+    entry->has_alpha = channels == 4;
+    if (channels == 4 && alpha == EWA_MESH_ALPHA_CUT) cut_alpha(&entry->image, entry->limit);
     return channels == 4 && alpha == EWA_MESH_ALPHA_DROP ? drop_alpha(&entry->image) : EWA_OK;
 }
 
-/// Appends to a key what is done with alpha, so that one picture may be had in several ways.
-static size_t make_key(ewa_text name, ewa_mesh_alpha alpha, double limit, char *key, size_t room) {
-    if (name.length >= room - 40) return 0;
-    memcpy(key, name.chars, name.length);
-    if (alpha == EWA_MESH_ALPHA_KEEP) return name.length;
-    return name.length + (size_t)snprintf(key + name.length, room - name.length, "|%d|%.9g", (int)alpha,
-                                          alpha == EWA_MESH_ALPHA_CUT ? limit : 0.0);
+static ewa_mesh_picture make_wanted(ewa_text name, bool beside, ewa_mesh_alpha alpha, double limit) {
+    return (ewa_mesh_picture){.name = (char *)(uintptr_t)name.chars,
+                              .name_bytes = name.length,
+                              .beside = beside,
+                              .alpha = alpha,
+                              .limit = alpha == EWA_MESH_ALPHA_CUT ? limit : 0};
 }
 
 ewa_status ewa_mesh_decode_picture(ewa_mesh_build *build, ewa_text name, const uint8_t *bytes,
                                    size_t size_bytes, ewa_mesh_alpha alpha, double limit, uint32_t *picture) {
-    char key[512];
-    const size_t length = make_key(name, alpha, limit, key, sizeof key);
-    const ewa_text text = {key, length};
-    *picture = EWA_MESH_NONE;
-    if (find_known(build, text, picture)) return EWA_OK;
+    const ewa_mesh_picture wanted = make_wanted(name, false, alpha, limit);
+    if (find_known(build, &wanted, picture)) return EWA_OK;
     ewa_mesh_picture *entry;
-    EWA_TRY(add_entry(build, text, &entry));
-    EWA_TRY(decode(build, name, bytes, size_bytes, alpha, limit, entry));
+    EWA_TRY(add_entry(build, &wanted, &entry));
+    EWA_TRY(decode(build, bytes, size_bytes, entry));
     if (entry->image.pixels) *picture = (uint32_t)(build->pictures.count - 1);
     return EWA_OK;
 }
 
 ewa_status ewa_mesh_find_picture(ewa_mesh_build *build, ewa_text name, ewa_mesh_alpha alpha, double limit,
                                  uint32_t *picture) {
-    char key[4096 + 64], reason[EWA_REASON_BYTES] = "its name is too long";
-    const ewa_text text = {key, make_key(name, alpha, limit, key, sizeof key)};
-    *picture = EWA_MESH_NONE;
-    if (find_known(build, text, picture)) return EWA_OK;
+    const ewa_mesh_picture wanted = make_wanted(name, true, alpha, limit);
+    if (find_known(build, &wanted, picture)) return EWA_OK;
     ewa_mesh_picture *entry;
-    EWA_TRY(add_entry(build, text, &entry));
+    EWA_TRY(add_entry(build, &wanted, &entry));
+    char reason[EWA_REASON_BYTES];
     ewa_file file;
     ewa_status status = EWA_OK;
     if (!build->source->path) {
         ewa_mesh_miss_picture(build, name, "the mesh is no file that pictures could lie beside");
-    } else if (!text.length || !ewa_referenced_file_map(build->source->path, name, &file, reason)) {
+    } else if (!ewa_referenced_file_map(build->source->path, name, &file, reason)) {
         ewa_mesh_miss_picture(build, name, reason);
     } else {
-        status = decode(build, name, file.bytes, file.size_bytes, alpha, limit, entry);
+        status = decode(build, file.bytes, file.size_bytes, entry);
         ewa_file_unmap(build->context, &file);
     }
-    if (status == EWA_OK && entry->image.pixels) entry->name_bytes = name.length;
     if (status == EWA_OK && entry->image.pixels) *picture = (uint32_t)(build->pictures.count - 1);
     return status;
 }
