@@ -6,10 +6,10 @@
 // from strangers. It limits its memory, its time and its files, opens nothing but the mesh and regular files
 // below the mesh's folder, and can write nothing but its standard output.
 //
-//   ewa-import MEMORY_BYTES CPU_SECONDS FILE
+//   ewa-import MEMORY_BYTES CPU_SECONDS FILE NAMED_FILES
 #define _DEFAULT_SOURCE // RLIMIT_NPROC
 #include "import_scene.h"
-#include "io/mesh/referenced_file.h"
+#include "io/referenced_file.h"
 
 #include <assimp/cfileio.h>
 #include <assimp/cimport.h>
@@ -66,16 +66,23 @@ static enum aiReturn seek(struct aiFile *file, size_t offset, enum aiOrigin orig
 
 static void flush_nothing(struct aiFile *file) { (void)file; }
 
-/// Opens the mesh itself, or a file below its folder.
+/// The mesh, and which files are opened that it names.
+typedef struct import_input {
+    const char *path;
+    ewa_named_files named_files;
+} import_input;
+
+/// Opens the mesh itself, or a file that it names.
 static struct aiFile *open_file(struct aiFileIO *io, const char *name, const char *mode) {
-    const char *mesh = (const char *)io->UserData, *slash = strrchr(mesh, '/');
+    const import_input *input = (const void *)io->UserData;
+    const char *mesh = input->path, *slash = strrchr(mesh, '/');
     char reason[EWA_REASON_BYTES];
     if (!mode || mode[0] != 'r') return NULL;
     const size_t folder = slash ? (size_t)(slash - mesh) + 1 : 0;
     const char *inner = strncmp(name, mesh, folder) == 0 ? name + folder : name;
     const int opened = strcmp(name, mesh) == 0
                            ? open(mesh, O_RDONLY | O_CLOEXEC | O_NOCTTY)
-                           : ewa_referenced_file_open(mesh, (ewa_text){inner, strlen(inner)}, reason);
+                           : ewa_referenced_file_open(input->named_files, mesh, (ewa_text){inner, strlen(inner)}, reason);
     FILE *stream = opened >= 0 ? fdopen(opened, "rb") : NULL;
     struct aiFile *file = stream ? malloc(sizeof *file) : NULL;
     if (!file) {
@@ -116,7 +123,7 @@ static bool faces_hold(const struct aiScene *scene) {
 }
 
 int main(int argument_count, char **arguments) {
-    if (argument_count != 4) return fail("usage: ewa-import MEMORY_BYTES CPU_SECONDS FILE");
+    if (argument_count != 5) return fail("usage: ewa-import MEMORY_BYTES CPU_SECONDS FILE NAMED_FILES");
     char *path = arguments[3];
     limit(RLIMIT_CORE, 0);
     limit(RLIMIT_FSIZE, 0);
@@ -129,7 +136,9 @@ int main(int argument_count, char **arguments) {
     struct stat facts;
     if (stat(path, &facts) != 0) return fail(strerror(errno));
     if (!S_ISREG(facts.st_mode)) return fail("it has to be a regular file, no pipe");
-    struct aiFileIO io = {.OpenProc = open_file, .CloseProc = close_file, .UserData = path};
+    // As a number, as the library has them.
+    import_input input = {path, (ewa_named_files)strtoul(arguments[4], NULL, 10)};
+    struct aiFileIO io = {.OpenProc = open_file, .CloseProc = close_file, .UserData = (char *)&input};
     const struct aiScene *scene = aiImportFileEx(path, 0, &io);
     if (!scene) return fail(aiGetErrorString());
     if (!faces_hold(scene)) return fail("a face has a vertex that is not there");

@@ -20,6 +20,14 @@ enum { MAX_WORD = 64, MAX_SIDE_PX = 65536 };
 static const cli_option common_table[] = {
     {"threads", OPTION_INTEGER, offsetof(common_arguments, threads), "N", "[0, 256]",
      .help = "worker threads; 0: one per processor. The result does not depend on it"},
+    {"max-memory", OPTION_OF(ewa_limits, offsetof(common_arguments, limits), max_memory_bytes),
+     .help = "memory that may be held at a time, with what decoders take: 512M, 8G; 0: three quarters of the machine's"},
+    {"max-seconds", OPTION_OF(ewa_limits, offsetof(common_arguments, limits), max_seconds),
+     .help = "give up after this time; 0: never"},
+    {"named-files", OPTION_CHOICE, offsetof(common_arguments, named_files), "WHERE", "below|anywhere|none",
+     .help = "open files that a file or folder names where they are below its own folder, anywhere, or not at all"},
+    {"untrusted", OPTION_FLAG, offsetof(common_arguments, untrusted),
+     .help = "for files from anyone: 1 GiB and other small limits, no file that another names, no helper programs"},
     {"progress", OPTION_TOGGLE, offsetof(common_arguments, progress),
      .help = "draw a progress bar on standard error, or do not", .absent = "on a terminal"},
     {"quiet", OPTION_FLAG, offsetof(common_arguments, quiet), .help = "print errors only", .letter = 'q',
@@ -213,7 +221,7 @@ void options_write_range(const ewa_option *option, char range[EWA_OPTION_TEXT_BY
     if (!options_counts_bytes(option) || !isfinite(option->maximum)) return;
     bytes_write((uint64_t)option->minimum, low);
     bytes_write((uint64_t)option->maximum, high);
-    snprintf(range, EWA_OPTION_TEXT_BYTES, "[%s, %s]", low, high);
+    snprintf(range, EWA_OPTION_TEXT_BYTES, "%s[%s, %s]", option->limits & EWA_OPTION_OR_ZERO ? "0 or " : "", low, high);
 }
 
 void options_name_value(const cli_option *option, char text[EWA_OPTION_TEXT_BYTES]) {
@@ -239,7 +247,8 @@ static bool parse_library(const cli_option *option, const char *text, void *memb
     if (options_counts_bytes(of) && bytes_read(text, &bytes)) {
         char range[EWA_OPTION_TEXT_BYTES];
         options_write_range(of, range);
-        if (!((double)bytes >= of->minimum && (double)bytes <= of->maximum))
+        const bool zero = bytes == 0 && of->limits & EWA_OPTION_OR_ZERO;
+        if (!zero && !((double)bytes >= of->minimum && (double)bytes <= of->maximum))
             return wrong(message, "--%s: %.80s is outside %s", option->key, text, range);
         snprintf(number, sizeof number, "%" PRIu64, bytes);
         text = number;

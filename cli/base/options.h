@@ -114,6 +114,9 @@ typedef struct common_arguments {
     size_t word_count;
     const cli_process_group *group; ///< NULL: this process alone
     int64_t threads;
+    ewa_limits limits; ///< zeros: the library's defaults
+    int named_files;   ///< ewa_named_files
+    bool untrusted;
     bool quiet, verbose, help;
     int progress;        ///< 1 or 0 when asked for, -1: where standard error is a terminal
     bool keep_going;     ///< of cloud_input_options

@@ -112,6 +112,12 @@ bool outputs_check(const cli_command *command, const void *arguments, char messa
     if (!list_outputs(command, arguments, &list, message)) return false;
     for (size_t i = 0; i < list.count; i++) {
         if (!check_place(&each[i], message)) return false;
+        if (video_find_format(each[i].path) && ((const common_arguments *)arguments)->untrusted) {
+            snprintf(message, OPTION_ERROR_BYTES,
+                     "--%s: %.200s: films are written by the program ffmpeg, which --untrusted does not start",
+                     each[i].key, each[i].path);
+            return false;
+        }
         if (video_find_format(each[i].path) && !video_is_possible()) {
             snprintf(message, OPTION_ERROR_BYTES,
                      "--%s: %.200s: films are written by the program ffmpeg, which is not in PATH (Debian: "

@@ -118,6 +118,9 @@ ewa_context *session_context(cli_session *session, uint32_t thread_count, uint32
     options.message_level = session->quiet     ? EWA_SEVERITY_ERROR
                             : session->verbose ? EWA_SEVERITY_INFO
                                                : EWA_SEVERITY_NOTE;
+    options.limits = session->limits;
+    options.named_files = session->named_files;
+    options.untrusted = session->untrusted;
     options.progress = on_progress;
     options.progress_user = session;
     ewa_context *context = NULL;
@@ -132,6 +135,9 @@ bool session_start(cli_session *session, const common_arguments *common) {
     *session = (cli_session){.quiet = common->quiet,
                              .verbose = common->verbose,
                              .group = common->group,
+                             .limits = common->limits,
+                             .named_files = (ewa_named_files)common->named_files,
+                             .untrusted = common->untrusted,
                              .started_s = clock_now_s()};
     session->progress =
         process_group_leads(session->group) &&

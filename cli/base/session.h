@@ -24,6 +24,9 @@ typedef struct cli_session {
     const session_listener *listener; ///< NULL: the terminal
     const cli_process_group *group;   ///< NULL: this process alone
     const char *subject;              ///< the file that messages are about, or NULL
+    ewa_limits limits;                ///< of every context
+    ewa_named_files named_files;
+    bool untrusted;
     bool quiet, verbose;
     bool reported;     ///< an error was printed
     bool progress;     ///< a bar may be drawn

@@ -49,10 +49,11 @@ static bool start(const char *helper, const char *path, const import_limits *lim
         // An input that is at its end: not /dev/null, which some containers do not have or have as a file.
         close(input[1]);
         input[1] = -1;
-        char memory[32], seconds[32];
+        char memory[32], seconds[32], named[32];
         snprintf(memory, sizeof memory, "%llu", (unsigned long long)limits->memory_bytes);
         snprintf(seconds, sizeof seconds, "%u", limits->cpu_s);
-        const char *const words[] = {helper, memory, seconds, path, NULL};
+        snprintf(named, sizeof named, "%d", (int)limits->named_files);
+        const char *const words[] = {helper, memory, seconds, path, named, NULL};
         error = child_spawn(helper, words, (const int[3]){input[0], output[1], errors[1]}, true, &child->pid);
     }
     if (!error) {
@@ -169,6 +170,10 @@ bool import_run(cli_session *session, const char *helper, const char *path, cons
 bool import_load(cli_session *session, const char *path, uint32_t wanted, ewa_model *model) {
     char helper[PATH_MAX];
     *model = (ewa_model){.points = NULL};
+    if (session->untrusted) {
+        session_fail(session, "%s: this format is read by a helper program, which --untrusted does not start", path);
+        return false;
+    }
     if (!child_find_helper("import", "ewa-import", helper)) {
         session_fail(session,
                      "%s: this format is read by the helper program ewa-import, which is not installed (it "
@@ -178,7 +183,12 @@ bool import_load(cli_session *session, const char *path, uint32_t wanted, ewa_mo
     }
     uint8_t *bytes;
     size_t size_bytes;
-    if (!import_run(session, helper, path, &usual_limits, &bytes, &size_bytes)) return false;
+    import_limits limits = usual_limits;
+    const uint64_t memory_bytes = session->limits.max_memory_bytes;
+    limits.named_files = session->named_files;
+    if (memory_bytes && memory_bytes < limits.memory_bytes) limits.memory_bytes = memory_bytes;
+    if (memory_bytes && memory_bytes < limits.output_bytes) limits.output_bytes = memory_bytes;
+    if (!import_run(session, helper, path, &limits, &bytes, &size_bytes)) return false;
     const ewa_status status =
         ewa_model_load_memory(session->context, bytes, size_bytes, path, path, wanted, NULL, model);
     free(bytes);

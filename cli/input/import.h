@@ -14,6 +14,7 @@ typedef struct import_limits {
     uint32_t cpu_s;        ///< of the processor
     uint64_t memory_bytes; ///< of its address space
     uint64_t output_bytes; ///< that it hands back
+    ewa_named_files named_files; ///< which files it opens beside
 } import_limits;
 
 /// Whether a name has a suffix of formats that only the helper reads.

@@ -202,6 +202,9 @@ bool window_services_make(window_services *own, const view_arguments *view, view
     own->loading = (cli_session){.load = own->session.load,
                                  .filter = own->session.filter,
                                  .listener = &own->listener,
+                                 .limits = own->session.limits,
+                                 .named_files = own->session.named_files,
+                                 .untrusted = own->session.untrusted,
                                  .quiet = common->quiet,
                                  .started_s = clock_now_s()};
     return true;

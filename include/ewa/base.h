@@ -27,13 +27,13 @@ extern "C" {
 typedef enum ewa_status {
     EWA_OK = 0,
     EWA_ERROR_ARGUMENT = -1,    ///< the caller passed something the function's contract excludes
-    EWA_ERROR_MEMORY = -2,      ///< the allocator returned NULL
+    EWA_ERROR_MEMORY = -2,      ///< the allocator returned NULL, or max_memory_bytes of the context are taken
     EWA_ERROR_IO = -3,          ///< the operating system refused: open, read, write, rename
     EWA_ERROR_FORMAT = -4,      ///< the bytes of a file contradict its format
     EWA_ERROR_UNSUPPORTED = -5, ///< well-formed, but outside of what this library reads or draws
     EWA_ERROR_LIMIT = -6,       ///< a limit of ewa_limits would be exceeded
     EWA_ERROR_NUMERIC = -7,     ///< singular map, no finite value, no solution
-    EWA_CANCELLED = -8,         ///< the progress callback returned false
+    EWA_CANCELLED = -8,         ///< the progress callback returned false, or max_seconds have passed
 } ewa_status;
 
 /// Returns the name of a status, such as "EWA_ERROR_FORMAT"; never NULL. Any thread.
@@ -109,12 +109,24 @@ typedef void ewa_message_callback(void *user, ewa_severity severity, const char 
 /// returns EWA_CANCELLED. Comes on the thread that called the library.
 typedef bool ewa_progress_callback(void *user, const char *stage, double fraction);
 
-/// Bounds that are checked before anything is allocated for untrusted input.
+/// What a context may use, whatever its inputs ask for. Sizes are looked at before anything is allocated for them, and all
+/// memory that the context holds counts against max_memory_bytes, with what libraries take that decode for it; files that
+/// are mapped do not.
 typedef struct ewa_limits {
-    uint64_t max_points;       ///< points in one cloud; default 2^32 - 17
-    uint64_t max_memory_bytes; ///< one file's decoded content; default: the machine's physical memory
-    uint32_t max_image_side;   ///< pixels; default 65536
+    uint64_t max_points;       ///< points in one cloud; 0 stands for 2^32 - 17, untrusted for 2^26
+    uint64_t max_memory_bytes; ///< held at a time; 0 stands for three quarters of the machine's, untrusted for 2^30 at most
+    uint32_t max_image_side;   ///< pixels; 0 stands for 65536, untrusted for 16384
+    double max_seconds;        ///< of the clock, [0, inf), from ewa_context_create() on, after which calls end at their next
+                               ///< report of progress; 0: no limit
 } ewa_limits;
+
+/// Which of the files are opened that a file or a folder names: pictures and buffers of meshes, voxels beside a header, the
+/// parts of folders and scenes. Only regular files ever are: no device, no pipe.
+typedef enum ewa_named_files {
+    EWA_NAMED_BELOW = 0,    ///< those below its own folder, when links and ".." are resolved
+    EWA_NAMED_ANYWHERE = 1, ///< links and names may lead out of it
+    EWA_NAMED_NONE = 2,     ///< none
+} ewa_named_files;
 
 /// How a context is made. Fill with ewa_context_options_init().
 typedef struct ewa_context_options {
@@ -129,6 +141,8 @@ typedef struct ewa_context_options {
     ewa_progress_callback *progress; ///< default NULL
     void *progress_user;
     ewa_limits limits;
+    ewa_named_files named_files; ///< default EWA_NAMED_BELOW
+    bool untrusted; ///< for services: small limits where `limits` has defaults, and EWA_NAMED_NONE; default false
 } ewa_context_options;
 
 /// Sets every member to its default; `struct_size` is sizeof of the caller's struct. Any thread.

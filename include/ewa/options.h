@@ -57,8 +57,9 @@ typedef struct ewa_option_table {
     size_t struct_size;
 } ewa_option_table;
 
-/// That of ewa_context_options; each other header has its own.
+/// Those of ewa_context_options and its limits; each other header has its own.
 EWA_API extern const ewa_option_table ewa_context_options_table;
+EWA_API extern const ewa_option_table ewa_limits_table;
 
 enum { EWA_OPTION_TEXT_BYTES = 256 };
 

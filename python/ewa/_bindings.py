@@ -75,6 +75,12 @@ EWA_MAX_TRANSFER_POINTS = 1024
 EWA_MAX_VOLUME_LEVELS = 4
 
 
+class ewa_named_files(IntEnum):
+    EWA_NAMED_BELOW = 0
+    EWA_NAMED_ANYWHERE = 1
+    EWA_NAMED_NONE = 2
+
+
 class ewa_severity(IntEnum):
     EWA_SEVERITY_ERROR = 0
     EWA_SEVERITY_WARNING = 1
@@ -530,10 +536,12 @@ class ewa_limits(c.Structure):
     max_points: int
     max_memory_bytes: int
     max_image_side: int
+    max_seconds: float
     _fields_ = [
         ("max_points", c.c_uint64),
         ("max_memory_bytes", c.c_uint64),
         ("max_image_side", c.c_uint32),
+        ("max_seconds", c.c_double),
     ]
 
 
@@ -549,6 +557,8 @@ class ewa_context_options(c.Structure):
     progress: Any
     progress_user: int | None
     limits: ewa_limits
+    named_files: int
+    untrusted: bool
     _fields_ = [
         ("struct_size", c.c_size_t),
         ("allocator", ewa_allocator),
@@ -561,6 +571,8 @@ class ewa_context_options(c.Structure):
         ("progress", ewa_progress_callback),
         ("progress_user", c.c_void_p),
         ("limits", ewa_limits),
+        ("named_files", c.c_int),
+        ("untrusted", c.c_bool),
     ]
 
 
@@ -2368,6 +2380,7 @@ TABLES = (
     "ewa_lod_build_options_table",
     "ewa_mesh_sample_options_table",
     "ewa_context_options_table",
+    "ewa_limits_table",
     "ewa_estimate_options_table",
     "ewa_csg_options_table",
     "ewa_feature_options_table",

@@ -23,12 +23,15 @@ from typing import TYPE_CHECKING, Any, Callable, Union
 from . import _bindings as b
 from ._errors import ClosedError, Error, EwaWarning, make
 from ._library import functions as lib
-from ._struct import fill, initialised
+from ._struct import fill, initialised, table
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
 
-    from ._options import ContextOptions
+    from ._options import ContextOptions, LimitsOptions
+
+    class ContextArguments(ContextOptions, LimitsOptions, total=False):
+        """What a context is made with."""
 
 #: Receives a stage and the share of it that is done, in [0, 1]; returning False stops the call.
 ProgressFunction = Callable[[str, float], Union[bool, None]]
@@ -303,17 +306,25 @@ class Context:
         Worker threads, 0 to 256; 0 (default): one per processor. Results do not depend on it.
     progress : callable, optional
         ``progress(stage, fraction)`` of every call; returning False stops it with :class:`Cancelled`.
+    named_files : {"below", "anywhere", "none"}, optional
+        Which files are opened that a file or folder names: regular ones below its own folder (default), anywhere, none.
+    untrusted : bool, optional
+        For inputs from anyone: small limits where none are given, and no file that another one names.
     **options
-        Members of ``ewa_context_options``: ``cpu_mask``, ``message_level``.
+        Further members of ``ewa_context_options``: ``cpu_mask``, ``message_level``; and of ``ewa_limits``:
+        ``max_memory_bytes``, all that the context may hold at a time; ``max_seconds``, after which calls raise
+        :class:`Cancelled`, counted from here; ``max_points``, ``max_image_side``.
 
     Raises
     ------
     ArgumentError, OutOfMemory
     """
 
-    def __init__(self, *, progress: ProgressFunction | None = None, **options: Unpack[ContextOptions]) -> None:
+    def __init__(self, *, progress: ProgressFunction | None = None, **options: Unpack[ContextArguments]) -> None:
         made = initialised(b.ewa_context_options, lib.ewa_context_options_init)
-        fill(made, "ewa_context_options", options)
+        limits = table("ewa_limits")
+        fill(made.limits, "ewa_limits", {key: value for key, value in options.items() if key in limits})
+        fill(made, "ewa_context_options", {key: value for key, value in options.items() if key not in limits})
         self._core = Core(made, progress)
 
     @property

@@ -50,6 +50,10 @@ class ContextOptions(TypedDict, total=False):
     cpu_mask: int
     #: most detailed messages to report; error|warning|note|info|debug, default warning
     message_level: Literal["error", "warning", "note", "info", "debug"] | int
+    #: which files are opened that a file or folder names: regular ones below its own folder, anywhere, or none; below|anywhere|none, default below
+    named_files: Literal["below", "anywhere", "none"] | int
+    #: for inputs from anyone: small limits where none are set, and no file opened that another names; on|off, default off
+    untrusted: bool
 
 
 class CsgOptions(TypedDict, total=False):
@@ -150,6 +154,19 @@ class ImageSaveOptions(TypedDict, total=False):
     exr_half: bool
     #: PNG, JPEG: un-premultiply before encoding; on|off, default on
     srgb_alpha_straight: bool
+
+
+class LimitsOptions(TypedDict, total=False):
+    """Members of ewa_limits."""
+
+    #: points in one cloud; 0: 4294967279, of untrusted inputs 67108864; 0 or [1, 9.007199255e15], default 0
+    max_points: int
+    #: memory held at a time, 512M or 8G; 0: three quarters of the machine's, of untrusted inputs 1G at most; 0 or [1, 4.611686018e18], bytes, default 0
+    max_memory_bytes: int
+    #: width and height of a picture; 0: 65536, of untrusted inputs 16384; 0 or [1, 4294967295], px, default 0
+    max_image_side: int
+    #: time after which work is given up, from the start on; 0: none; [0, inf), s, default 0
+    max_seconds: float
 
 
 class LodBuildOptions(TypedDict, total=False):
@@ -455,6 +472,7 @@ __all__ = [
     "GaussiansSaveOptions",
     "GenerateOptions",
     "ImageSaveOptions",
+    "LimitsOptions",
     "LodBuildOptions",
     "LodOptions",
     "MaterialOptions",

@@ -16,6 +16,33 @@ import ewa
 from common import Case
 
 
+class Limits(Case):
+    def test_memory_time_and_names(self) -> None:
+        ewa.generate("torus", 20000).save(self.path("many.ply"))
+        with ewa.Context(thread_count=1, max_memory_bytes=100_000) as small:
+            with self.assertRaisesRegex(ewa.OutOfMemory, "bytes are needed, .* of max_memory_bytes 100000 are left"):
+                ewa.read(self.path("many.ply"), context=small)
+        with ewa.Context(thread_count=1, max_points=19999) as few, self.assertRaises(ewa.OutOfMemory):
+            ewa.read(self.path("many.ply"), context=few)
+        with ewa.Context(thread_count=1, max_seconds=1e-6) as short, self.assertRaises(ewa.Cancelled):
+            ewa.read(self.path("many.ply"), context=short).estimate()
+        with open(self.path("grid.nhdr"), "w", encoding="ascii") as file:
+            file.write("NRRD0004\ntype: uint8\ndimension: 3\nsizes: 4 4 4\nencoding: raw\ndata file: grid.raw\n\n")
+        with open(self.path("grid.raw"), "wb") as file:
+            file.write(bytes(range(64)))
+        self.assertEqual(ewa.read_volume(self.path("grid.nhdr")).voxels.shape, (4, 4, 4))
+        with ewa.Context(thread_count=1, untrusted=True) as untrusted:
+            with self.assertRaisesRegex(ewa.FileError, "files that others name are not opened"):
+                ewa.read_volume(self.path("grid.nhdr"), context=untrusted)
+            self.assertEqual(len(ewa.read(self.path("many.ply"), context=untrusted)), 20000)
+        with self.assertRaises(ewa.ArgumentError):
+            ewa.Context(max_seconds=-1)
+        with self.assertRaises(ewa.ArgumentError):
+            ewa.Context(named_files="everywhere")
+        with self.assertRaises(TypeError):
+            ewa.Context(max_bytes=1)  # type: ignore[call-arg]
+
+
 class Closed(Case):
     def test_everything_of_a_closed_context_raises(self) -> None:
         context = ewa.Context(thread_count=1)

@@ -7,11 +7,26 @@
 
 #include "ewa/base.h"
 
-/// Stable facts of a context that other rooms read.
+/// Stable facts of a context that other rooms read; the limits have no member that stands for a default.
 const ewa_limits *ewa_context_limits(const ewa_context *context);
+ewa_named_files ewa_context_named_files(const ewa_context *context);
+
+/// Returns the bytes that may still be held. Any thread.
+uint64_t ewa_memory_left(const ewa_context *context);
+
+/// Fails unless `bytes` more may be held, which a reader asks as soon as it knows sizes: "<formatted text>: N bytes are
+/// needed, M of max_memory_bytes L are left". Errors: EWA_ERROR_LIMIT.
+ewa_status ewa_memory_check(ewa_context *context, uint64_t bytes, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+
+/// The same, and counts what a library is about to take by itself as held, until ewa_memory_give() of as many bytes.
+ewa_status ewa_memory_take(ewa_context *context, uint64_t bytes, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+void ewa_memory_give(ewa_context *context, uint64_t bytes);
 
 /// Returns count * size bytes aligned to 64, uninitialised, or NULL after reporting; a product of zero gives
-/// one byte. Pair with ewa_release() of the same count and size.
+/// one byte. They count as held until ewa_release() of the same count and size, and are not given where more than
+/// max_memory_bytes would be held.
 void *ewa_allocate(ewa_context *context, size_t count, size_t size_bytes);
 
 /// Like ewa_allocate(), set to zero.
@@ -58,7 +73,8 @@ void ewa_parallel(ewa_context *context, ewa_task *task, void *data, uint32_t cou
 ewa_status ewa_parallel_stoppable(ewa_context *context, const char *stage, ewa_task *task, void *data,
                                   uint32_t count);
 
-/// Tells the progress callback; returns EWA_CANCELLED when it wants to stop, else EWA_OK.
+/// Tells the progress callback; returns EWA_CANCELLED when it wants to stop or max_seconds are over, which is reported
+/// once; else EWA_OK.
 ewa_status ewa_progress(ewa_context *context, const char *stage, double fraction);
 
 /// Monotonic time in seconds.

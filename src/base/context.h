@@ -16,6 +16,9 @@ struct ewa_context {
     uint32_t cpu_features;
     int soft_failures, hushed_failures; ///< how many ask for it
     atomic_uint_fast64_t serial;        ///< the last that ewa_serial_next() has given
+    atomic_uint_fast64_t held_bytes;    ///< of memory, against max_memory_bytes
+    double started_s;
+    bool time_is_over; ///< and that was reported
     const char *subject;                ///< what messages are about; NULL: they say so themselves
 };
 

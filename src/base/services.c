@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// What a context does for the library: memory, messages, progress, work for its threads.
+// What a context does for the library: messages, progress, work for its threads.
 #include "base/context.h"
 
 #include <stdarg.h>
@@ -17,66 +17,6 @@ uint32_t ewa_context_worker_count(const ewa_context *context) {
 }
 
 uint32_t ewa_context_cpu_features(const ewa_context *context) { return context->cpu_features; }
-
-const ewa_limits *ewa_context_limits(const ewa_context *context) { return &context->options.limits; }
-
-void *ewa_allocate(ewa_context *context, size_t count, size_t size_bytes) {
-    size_t total;
-    if (__builtin_mul_overflow(count, size_bytes, &total)) {
-        ewa_fail(context, EWA_ERROR_MEMORY, "%zu items of %zu bytes do not fit the address space", count,
-                 size_bytes);
-        return NULL;
-    }
-    const ewa_allocator *allocator = &context->options.allocator;
-    void *memory = allocator->allocate(allocator->user, total ? total : 1);
-    if (!memory) ewa_fail(context, EWA_ERROR_MEMORY, "out of memory: %zu bytes wanted", total);
-    return memory;
-}
-
-void *ewa_allocate_zeroed(ewa_context *context, size_t count, size_t size_bytes) {
-    void *memory = ewa_allocate(context, count, size_bytes);
-    if (memory) memset(memory, 0, count * size_bytes);
-    return memory;
-}
-
-void ewa_release(ewa_context *context, void *memory, size_t count, size_t size_bytes) {
-    if (!memory) return;
-    const size_t total = count * size_bytes;
-    const ewa_allocator *allocator = &context->options.allocator;
-    allocator->release(allocator->user, memory, total ? total : 1);
-}
-
-ewa_status ewa_buffer_reserve(ewa_context *context, ewa_buffer *buffer, size_t count, size_t size_bytes) {
-    size_t wanted;
-    if (__builtin_mul_overflow(count, size_bytes, &wanted))
-        return ewa_fail(context, EWA_ERROR_MEMORY, "%zu items of %zu bytes do not fit the address space",
-                        count, size_bytes);
-    if (wanted <= buffer->capacity_bytes) return EWA_OK;
-    ewa_buffer_free(context, buffer);
-    buffer->data = ewa_allocate(context, wanted, 1);
-    if (!buffer->data) return EWA_ERROR_MEMORY;
-    buffer->capacity_bytes = wanted;
-    return EWA_OK;
-}
-
-ewa_status ewa_buffer_grow(ewa_context *context, ewa_buffer *buffer, size_t kept, size_t count,
-                           size_t size_bytes) {
-    size_t wanted;
-    if (!__builtin_mul_overflow(count, size_bytes, &wanted) && wanted <= buffer->capacity_bytes)
-        return EWA_OK;
-    ewa_buffer larger = {0};
-    EWA_TRY(
-        ewa_buffer_reserve(context, &larger, count < SIZE_MAX / 2 ? count + count / 2 : count, size_bytes));
-    if (kept) memcpy(larger.data, buffer->data, kept * size_bytes);
-    ewa_buffer_free(context, buffer);
-    *buffer = larger;
-    return EWA_OK;
-}
-
-void ewa_buffer_free(ewa_context *context, ewa_buffer *buffer) {
-    ewa_release(context, buffer->data, buffer->capacity_bytes, 1);
-    *buffer = (ewa_buffer){0};
-}
 
 static void report(ewa_context *context, ewa_severity severity, const char *format, va_list arguments) {
     const ewa_context_options *options = &context->options;
@@ -125,6 +65,12 @@ void ewa_report(ewa_context *context, ewa_severity severity, const char *format,
 
 ewa_status ewa_progress(ewa_context *context, const char *stage, double fraction) {
     const ewa_context_options *options = &context->options;
+    const double limit_s = options->limits.max_seconds;
+    if (limit_s > 0 && ewa_now_s() - context->started_s > limit_s) {
+        if (!context->time_is_over) ewa_fail(context, EWA_CANCELLED, "%g s are over (max_seconds)", limit_s);
+        context->time_is_over = true;
+        return EWA_CANCELLED;
+    }
     return !options->progress || options->progress(options->progress_user, stage, fraction) ? EWA_OK
                                                                                             : EWA_CANCELLED;
 }
@@ -165,7 +111,8 @@ ewa_status ewa_parallel_stoppable(ewa_context *context, const char *stage, ewa_t
     enum { PARTS = 16 };
     stoppable_run run = {context, stage, task, data, .count = count};
     // Threads of others' executors may all be other ones: their runs are stopped between parts.
-    const uint32_t step = context->pool || !context->options.progress ? count : count / PARTS + 1;
+    const bool watched = context->options.progress || context->options.limits.max_seconds > 0;
+    const uint32_t step = context->pool || !watched ? count : count / PARTS + 1;
     ewa_status status = ewa_progress(context, stage, 0);
     for (; run.first < count && status == EWA_OK; run.first += step) {
         const uint32_t left = count - run.first;

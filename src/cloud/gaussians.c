@@ -23,9 +23,7 @@ ewa_status ewa_gaussians_create(ewa_context *context, uint32_t count, uint32_t s
     if (count > limits->max_points)
         return ewa_fail(context, EWA_ERROR_LIMIT, "gaussians: %u, max_points is %llu", count,
                         (unsigned long long)limits->max_points);
-    if (bytes > limits->max_memory_bytes)
-        return ewa_fail(context, EWA_ERROR_LIMIT, "gaussians: %llu bytes, max_memory_bytes is %llu",
-                        (unsigned long long)bytes, (unsigned long long)limits->max_memory_bytes);
+    EWA_TRY(ewa_memory_check(context, bytes, "%u Gaussians of degree %u", count, sh_degree));
     *gaussians = (ewa_gaussians){.context = context, .count = count, .sh_degree = sh_degree};
     gaussians->centers = ewa_allocate_zeroed(context, count, 3 * sizeof(float));
     gaussians->scales = ewa_allocate_zeroed(context, count, 3 * sizeof(float));

@@ -27,9 +27,7 @@ ewa_status ewa_mesh_create(ewa_context *context, uint32_t vertex_count, uint32_t
     if (vertex_count > limits->max_points || triangle_count > limits->max_points)
         return ewa_fail(context, EWA_ERROR_LIMIT, "mesh: %u vertices and %u triangles, max_points is %llu",
                         vertex_count, triangle_count, (unsigned long long)limits->max_points);
-    if (bytes > limits->max_memory_bytes)
-        return ewa_fail(context, EWA_ERROR_LIMIT, "mesh: %llu bytes, max_memory_bytes is %llu",
-                        (unsigned long long)bytes, (unsigned long long)limits->max_memory_bytes);
+    EWA_TRY(ewa_memory_check(context, bytes, "mesh of %u vertices and %u triangles", vertex_count, triangle_count));
     ewa_mesh made = {.context = context,
                      .vertex_count = vertex_count,
                      .triangle_count = triangle_count,

@@ -17,17 +17,13 @@ ewa_status ewa_volume_create(ewa_context *context, const uint32_t dims[3], ewa_t
         return ewa_fail(context, EWA_ERROR_ARGUMENT, "volume: voxels of type %d", (int)type);
     const size_t type_bytes = ewa_type_bytes(type);
     uint64_t bytes = type_bytes;
-    const uint64_t limit = ewa_context_limits(context)->max_memory_bytes;
     for (int axis = 0; axis < 3; axis++) {
         if (dims[axis] == 0)
             return ewa_fail(context, EWA_ERROR_ARGUMENT, "volume: %u x %u x %u voxels", dims[0], dims[1],
                             dims[2]);
-        if (bytes > limit / dims[axis])
-            return ewa_fail(context, EWA_ERROR_LIMIT,
-                            "volume: %u x %u x %u voxels of %zu bytes, max_memory_bytes is %llu", dims[0],
-                            dims[1], dims[2], type_bytes, (unsigned long long)limit);
-        bytes *= dims[axis];
+        if (__builtin_mul_overflow(bytes, dims[axis], &bytes)) bytes = UINT64_MAX / UINT32_MAX;
     }
+    EWA_TRY(ewa_memory_check(context, bytes, "volume of %u x %u x %u voxels", dims[0], dims[1], dims[2]));
     ewa_volume made = {.context = context, .dims = {dims[0], dims[1], dims[2]}, .type = type};
     made.voxels = ewa_allocate_zeroed(context, bytes / type_bytes, type_bytes);
     if (!made.voxels) return EWA_ERROR_MEMORY;

@@ -47,16 +47,16 @@ static ewa_status fail_errno(ewa_context *context, const char *path, int error) 
 
 /// Reads a stream to its end into memory of the allocator that doubles as it fills.
 static ewa_status read_stream(ewa_context *context, const char *path, int descriptor, ewa_file *file) {
-    const uint64_t limit = ewa_context_limits(context)->max_memory_bytes;
     uint8_t *bytes = NULL;
     size_t size = 0, capacity = 0;
     ewa_status status = EWA_OK;
     for (;;) {
         if (size == capacity) {
             const size_t larger = capacity ? 2 * capacity : READ_STEP_BYTES;
-            uint8_t *moved = larger > capacity ? ewa_allocate(context, larger, 1) : NULL;
+            status = ewa_memory_check(context, larger, "%s: more than %zu bytes", path, size);
+            uint8_t *moved = status == EWA_OK ? ewa_allocate(context, larger, 1) : NULL;
             if (!moved) {
-                status = EWA_ERROR_MEMORY;
+                if (status == EWA_OK) status = EWA_ERROR_MEMORY;
                 break;
             }
             if (size) memcpy(moved, bytes, size);
@@ -72,11 +72,6 @@ static ewa_status read_stream(ewa_context *context, const char *path, int descri
             break;
         }
         size += (size_t)got;
-        if (size > limit) {
-            status = ewa_fail(context, EWA_ERROR_LIMIT, "%s: longer than the limit of %llu bytes", path,
-                              (unsigned long long)limit);
-            break;
-        }
     }
     if (status != EWA_OK)
         ewa_release(context, bytes, capacity, 1);
@@ -101,6 +96,15 @@ bool ewa_file_map_descriptor(int descriptor, ewa_file *file) {
     struct stat facts;
     *file = (ewa_file){0};
     return fstat(descriptor, &facts) == 0 && (facts.st_size == 0 || map_file(descriptor, &facts, file));
+}
+
+size_t ewa_file_head(const char *path, uint8_t *bytes, size_t room) {
+    struct stat facts;
+    const int descriptor = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
+    if (descriptor < 0) return 0;
+    const ssize_t got = fstat(descriptor, &facts) == 0 && S_ISREG(facts.st_mode) ? read(descriptor, bytes, room) : 0;
+    close(descriptor);
+    return got > 0 ? (size_t)got : 0;
 }
 
 static ewa_status read_descriptor(ewa_context *context, const char *path, int descriptor, ewa_file *file) {

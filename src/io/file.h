@@ -28,6 +28,10 @@ ewa_status ewa_file_map(ewa_context *context, const char *path, ewa_file *file);
 /// An empty file has no bytes and is held by nothing.
 bool ewa_file_map_descriptor(int descriptor, ewa_file *file);
 
+/// Reads the first bytes of a regular file, as many as there is room for, and returns how many; 0 where it is none or cannot
+/// be read, which is not reported.
+size_t ewa_file_head(const char *path, uint8_t *bytes, size_t room);
+
 /// Lets the first pages of a mapped file, up to byte `at_bytes`, leave memory; they come back when read.
 void ewa_file_passed(const uint8_t *bytes, uint64_t at_bytes);
 

@@ -9,10 +9,19 @@
 
 #include <cjson/cJSON.h>
 
-/// Parses one JSON text of at most 64 MiB; `what` ("a camera file") is for messages. The caller deletes
-/// `*root` by cJSON_Delete(); it is NULL after a failure. Errors: EWA_ERROR_LIMIT, EWA_ERROR_FORMAT with line
-/// and column.
+enum { EWA_JSON_BYTES = 1 << 26 }; ///< a text may have
+
+/// A tree and what it holds of the context's memory; zeroed: none.
+typedef struct ewa_json {
+    cJSON *root;
+    uint64_t held_bytes;
+} ewa_json;
+
+/// Parses one JSON text of at most EWA_JSON_BYTES; `what` ("a camera file") is for messages. Before anything is made, the nodes of
+/// the tree are counted against max_memory_bytes. Free with ewa_json_free(); `*json` is zeroed after a failure. Errors:
+/// EWA_ERROR_LIMIT, EWA_ERROR_FORMAT with line and column.
 ewa_status ewa_json_parse(ewa_context *context, const char *name, const char *what, const uint8_t *bytes,
-                          size_t size_bytes, cJSON **root);
+                          size_t size_bytes, ewa_json *json);
+void ewa_json_free(ewa_context *context, ewa_json *json);
 
 #endif

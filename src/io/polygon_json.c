@@ -60,10 +60,10 @@ static ewa_status add_object(ewa_rings *rings, const cJSON *object) {
 }
 
 ewa_status ewa_rings_read_json(ewa_rings *rings, ewa_text text) {
-    cJSON *root = NULL;
+    ewa_json json;
     ewa_status status = ewa_json_parse(rings->context, rings->name, "an outline", (const uint8_t *)text.chars,
-                                       text.length, &root);
-    if (status == EWA_OK) status = add_object(rings, root);
-    cJSON_Delete(root);
+                                       text.length, &json);
+    if (status == EWA_OK) status = add_object(rings, json.root);
+    ewa_json_free(rings->context, &json);
     return status;
 }

@@ -219,10 +219,8 @@ ewa_status ewa_scene_text_read(ewa_context *context, const char *name, const uin
     if (size_bytes > EWA_SCENE_FILE_BYTES)
         return ewa_fail(context, EWA_ERROR_LIMIT, "%s: %zu bytes, more than a scene file may have (%d)", name,
                         size_bytes, EWA_SCENE_FILE_BYTES);
-    cJSON *root = NULL;
-    EWA_TRY(ewa_json_parse(context, name, "a scene file", bytes, size_bytes, &root));
-    text->tree = root;
-    ewa_status status = read_root(text, root);
+    EWA_TRY(ewa_json_parse(context, name, "a scene file", bytes, size_bytes, &text->tree));
+    ewa_status status = read_root(text, text->tree.root);
     if (status != EWA_OK) ewa_scene_text_free(text);
     return status;
 }
@@ -230,6 +228,6 @@ ewa_status ewa_scene_text_read(ewa_context *context, const char *name, const uin
 void ewa_scene_text_free(ewa_scene_text *text) {
     ewa_release(text->context, text->members, text->members_bytes, 1);
     ewa_release(text->context, text->values, text->values_bytes, 1);
-    cJSON_Delete(text->tree);
+    ewa_json_free(text->context, &text->tree);
     *text = (ewa_scene_text){.context = NULL};
 }

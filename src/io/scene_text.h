@@ -7,6 +7,7 @@
 #define EWA_SRC_SCENE_TEXT_H
 
 #include "ewa/camera.h"
+#include "io/json_text.h"
 
 /// Where in the file a member stands.
 typedef enum ewa_scene_section {
@@ -39,7 +40,7 @@ typedef struct ewa_scene_member {
 typedef struct ewa_scene_text {
     ewa_context *context;
     const char *name; ///< of the file, for messages; borrowed
-    void *tree;       ///< what names point into
+    ewa_json tree;    ///< what names point into
     ewa_scene_member *members;
     size_t member_count, members_bytes;
     char *

@@ -122,9 +122,7 @@ ewa_status ewa_text_open(ewa_context *context, const char *name, const uint8_t *
         return EWA_OK;
     }
     const size_t unit_count = size_bytes / 2 - 1, room = 3 * unit_count;
-    if (room > ewa_context_limits(context)->max_memory_bytes)
-        return ewa_fail(context, EWA_ERROR_LIMIT, "%s: %zu bytes of UTF-16 are over max_memory_bytes", name,
-                        size_bytes);
+    EWA_TRY(ewa_memory_check(context, room, "%s: %zu bytes of UTF-16", name, size_bytes));
     char *text = ewa_allocate(context, room, 1);
     if (!text) return EWA_ERROR_MEMORY;
     *owned = text;

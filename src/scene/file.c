@@ -6,7 +6,7 @@
 #include "base/base.h"
 #include "base/context.h"
 #include "ewa/scene_file.h"
-#include "io/mesh/referenced_file.h"
+#include "io/referenced_file.h"
 #include "io/number.h"
 #include "io/scene_text.h"
 #include "scene/file.h"
@@ -234,7 +234,7 @@ static ewa_status set_transfer(const reading *in, const ewa_scene_member *member
         preset = ewa_transfer_preset_name(i, NULL);
     if (preset) return copy_text(in->text->context, value, &item->transfer);
     char found[EWA_PATH_BYTES], reason[EWA_REASON_BYTES];
-    if (!ewa_referenced_file_find(in->path, value, false, found, reason)) return fail_at(in, member, reason);
+    if (!ewa_referenced_file_find(in->text->context, in->path, value, false, found, reason)) return fail_at(in, member, reason);
     return copy_text(in->text->context, found, &item->transfer);
 }
 
@@ -322,7 +322,7 @@ static ewa_status read_item(ewa_scene_file *file, const reading *in, const ewa_s
             status = fail_at(in, &members[i], "is of files, not of scenes");
     char found[EWA_PATH_BYTES], reason[EWA_REASON_BYTES];
     if (status == EWA_OK &&
-        !ewa_referenced_file_find(in->path, ewa_scene_text_value(in->text, named), !is_scene, found, reason))
+        !ewa_referenced_file_find(in->text->context, in->path, ewa_scene_text_value(in->text, named), !is_scene, found, reason))
         status = fail_at(in, named, reason);
     if (status == EWA_OK) status = move(in, &at, item.asset.to_world);
     item.instance.visible = item.instance.visible && in->visible;
@@ -392,14 +392,8 @@ static ewa_status read_file(ewa_scene_file *file, const reading *by, const char 
 }
 
 bool ewa_scene_file_probe(const char *path) {
-    struct stat facts;
     uint8_t bytes[256];
-    if (!path || stat(path, &facts) != 0 || !S_ISREG(facts.st_mode)) return false;
-    FILE *file = fopen(path, "rb");
-    if (!file) return false;
-    const size_t count = fread(bytes, 1, sizeof bytes, file);
-    fclose(file);
-    return ewa_scene_text_probe(bytes, count);
+    return path && ewa_scene_text_probe(bytes, ewa_file_head(path, bytes, sizeof bytes));
 }
 
 ewa_status ewa_scene_file_load(ewa_context *context, const char *path, const ewa_asset_options *options,

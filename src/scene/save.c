@@ -6,7 +6,7 @@
 #include "base/context.h"
 #include "io/camera/file.h"
 #include "io/file.h"
-#include "io/mesh/referenced_file.h"
+#include "io/referenced_file.h"
 #include "io/number.h"
 #include "scene/file.h"
 

@@ -49,6 +49,101 @@ static void test_overflowing_allocation_is_a_message(void **state) {
     ewa_context_destroy(&context);
 }
 
+static ewa_context *limited(const ewa_limits *limits, bool untrusted, char text[256]) {
+    ewa_context_options options;
+    ewa_context_options_init(&options, sizeof options);
+    options.thread_count = 1;
+    options.limits = *limits;
+    options.untrusted = untrusted;
+    options.message = keep_text;
+    options.message_user = text;
+    ewa_context *context = NULL;
+    assert_int_equal(ewa_context_create(&options, &context), EWA_OK);
+    return context;
+}
+
+/// One budget for blocks, buffers and what libraries take: what is given back can be had again.
+static void test_memory_is_counted(void **state) {
+    char text[256] = "";
+    ewa_context *context = limited(&(ewa_limits){.max_memory_bytes = 1000}, false, text);
+    assert_int_equal(ewa_memory_left(context), 1000);
+    void *first = ewa_allocate(context, 6, 100), *none = ewa_allocate(context, 401, 1);
+    assert_non_null(first);
+    assert_null(none);
+    assert_string_equal(text, "out of memory: 401 bytes are needed, 400 of max_memory_bytes 1000 are left");
+    void *second = ewa_allocate_zeroed(context, 400, 1);
+    assert_non_null(second);
+    assert_int_equal(ewa_memory_left(context), 0);
+    assert_int_equal(ewa_memory_check(context, 0, "nothing"), EWA_OK);
+    assert_int_equal(ewa_memory_check(context, 1, "a.png: PNG of %u x %u pixels", 2u, 3u), EWA_ERROR_LIMIT);
+    assert_string_equal(text, "a.png: PNG of 2 x 3 pixels: 1 bytes are needed, 0 of max_memory_bytes 1000 are left");
+    ewa_release(context, first, 600, 1);
+    assert_int_equal(ewa_memory_take(context, 500, "a library"), EWA_OK);
+    assert_int_equal(ewa_memory_take(context, 101, "a library"), EWA_ERROR_LIMIT);
+    assert_int_equal(ewa_memory_take(context, UINT64_MAX, "a library"), EWA_ERROR_LIMIT);
+    ewa_memory_give(context, 500);
+    ewa_release(context, second, 400, 1);
+    ewa_buffer buffer = {0};
+    assert_int_equal(ewa_buffer_reserve(context, &buffer, 1001, 1), EWA_ERROR_MEMORY);
+    assert_int_equal(ewa_buffer_reserve(context, &buffer, 900, 1), EWA_OK);
+    assert_int_equal(ewa_memory_left(context), 100);
+    ewa_buffer_free(context, &buffer);
+    assert_int_equal(ewa_memory_left(context), 1000);
+    void *empty = ewa_allocate(context, 0, 8); // which is one byte
+    assert_int_equal(ewa_memory_left(context), 999);
+    ewa_release(context, empty, 0, 8);
+    assert_int_equal(ewa_memory_left(context), 1000);
+    ewa_context_destroy(&context);
+}
+
+static void test_limits(void **state) {
+    char text[256] = "";
+    ewa_context *context = limited(&(ewa_limits){0}, false, text);
+    const ewa_limits usual = *ewa_context_limits(context);
+    assert_int_equal(usual.max_points, 4294967279u);
+    assert_int_equal(usual.max_image_side, 65536);
+    assert_int_equal(ewa_context_named_files(context), EWA_NAMED_BELOW);
+    ewa_context_destroy(&context);
+    context = limited(&(ewa_limits){.max_image_side = 20000}, true, text);
+    const ewa_limits small = *ewa_context_limits(context);
+    assert_int_equal(small.max_points, 1 << 26);
+    assert_int_equal(small.max_image_side, 20000); // what is set stays
+    assert_true(small.max_memory_bytes <= 1 << 30 && small.max_memory_bytes <= usual.max_memory_bytes);
+    assert_int_equal(ewa_context_named_files(context), EWA_NAMED_NONE);
+    ewa_context_destroy(&context);
+    ewa_context_options options;
+    ewa_context_options_init(&options, sizeof options);
+    options.limits.max_seconds = -1;
+    assert_int_equal(ewa_context_create(&options, &context), EWA_ERROR_ARGUMENT);
+    // The struct of a header without the last members.
+    ewa_context_options_init(&options, offsetof(ewa_context_options, limits.max_seconds));
+    options.limits.max_image_side = 77;
+    assert_int_equal(ewa_context_create(&options, &context), EWA_OK);
+    assert_int_equal(ewa_context_limits(context)->max_image_side, 77);
+    ewa_context_destroy(&context);
+}
+
+static void wait_a_little(void *data, uint32_t index, uint32_t worker) {
+    (void)index, (void)worker;
+    const double end_s = ewa_now_s() + 0.01;
+    while (ewa_now_s() < end_s) {}
+    atomic_fetch_add((atomic_uint *)data, 1);
+}
+
+static void test_time_is_over(void **state) {
+    char text[256] = "";
+    ewa_context *context = limited(&(ewa_limits){.max_seconds = 0.05}, false, text);
+    atomic_uint done = 0;
+    assert_int_equal(ewa_progress(context, "begin", 0), EWA_OK);
+    assert_int_equal(ewa_parallel_stoppable(context, "wait", wait_a_little, &done, 1000), EWA_CANCELLED);
+    assert_true(atomic_load(&done) > 0 && atomic_load(&done) < 100);
+    assert_string_equal(text, "0.05 s are over (max_seconds)");
+    text[0] = 0;
+    assert_int_equal(ewa_progress(context, "further", 0), EWA_CANCELLED);
+    assert_string_equal(text, ""); // said once
+    ewa_context_destroy(&context);
+}
+
 typedef struct tally {
     atomic_uint hits[1000];
     uint32_t workers;
@@ -93,6 +188,9 @@ int main(void) {
         cmocka_unit_test(test_bad_options),
         cmocka_unit_test(test_overflowing_allocation_is_a_message),
         cmocka_unit_test(test_parallel_visits_each_index_once),
+        cmocka_unit_test(test_memory_is_counted),
+        cmocka_unit_test(test_limits),
+        cmocka_unit_test(test_time_is_over),
         cmocka_unit_test(test_split_covers),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

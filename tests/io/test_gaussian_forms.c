@@ -374,7 +374,6 @@ static void packed_in_gltf(void **state) {
 
 /// A count that a short file cannot have, of accessors without a buffer: refused wherever it is met.
 static void counts(void **state) {
-    (void)state;
     static sample_file file;
     static const char accessor[] = "{\"componentType\":5126,\"count\":%s,\"type\":\"%s\"}";
     for (int large = 0; large < 5; large++) {

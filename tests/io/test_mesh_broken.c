@@ -293,7 +293,10 @@ static void test_limits(void **state) {
             assert_int_equal(ewa_context_create(&options, &context), EWA_OK);
             const ewa_status status =
                 try_bytes(context, &messages, samples[i].name, samples[i].bytes, samples[i].size_bytes);
-            if (status != EWA_ERROR_LIMIT) fail_msg("%s: %d %s", samples[i].name, status, messages.text);
+            // What is small is asked for without a look at its size first.
+            if (status != EWA_ERROR_LIMIT && !(kind && status == EWA_ERROR_MEMORY))
+                fail_msg("%s: %d %s", samples[i].name, status, messages.text);
+            if (kind) mesh_says(&messages, " of max_memory_bytes 96 are left");
             ewa_context_destroy(&context);
         }
     // Counts that lie need no memory: of faces, of corners, of triangles.

@@ -114,7 +114,6 @@ static void test_alpha(void **state) {
 
 /// Materials with one picture have it once, whatever is done with alpha, where it has none.
 static void test_shared(void **state) {
-    (void)state;
     ewa_mesh mesh;
 #define PART(material)                                                                                       \
     "{\"attributes\":{\"POSITION\":0,\"TEXCOORD_0\":1},\"mode\":6,\"material\":" material "}"

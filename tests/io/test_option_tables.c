@@ -13,7 +13,8 @@
 
 static const ewa_option_table *const tables[] = {
     &ewa_acquire_options_table,         &ewa_cloud_save_options_table,
-    &ewa_context_options_table,         &ewa_csg_options_table,
+    &ewa_context_options_table,         &ewa_limits_table,
+    &ewa_csg_options_table,
     &ewa_estimate_options_table,        &ewa_feature_options_table,
     &ewa_furniture_options_table,       &ewa_generate_options_table,
     &ewa_image_save_options_table,      &ewa_material_table,

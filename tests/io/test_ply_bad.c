@@ -200,11 +200,16 @@ static void test_limits(void **state) {
     assert_int_equal(sample_load_text(small, three, &cloud), EWA_ERROR_LIMIT);
     assert_string_equal(messages.text, "sample.ply: 3 points are over the limit of 2");
     ewa_context_destroy(&small);
-    options.limits.max_points = 3;
-    options.limits.max_memory_bytes = 35;
+    enum { MANY = 100000 };
+    options.limits.max_points = MANY;
+    options.limits.max_memory_bytes = 1000000;
+    static char many[200 + 6 * MANY];
+    size_t length = (size_t)snprintf(many, sizeof many, "%s", ASCII "element vertex 100000\n" XYZ "end_header\n");
+    for (int i = 0; i < MANY; i++, length += 6) memcpy(many + length, "1 2 3\n", 7);
     assert_int_equal(ewa_context_create(&options, &small), EWA_OK);
-    assert_int_equal(sample_load_text(small, three, &cloud), EWA_ERROR_LIMIT);
-    assert_string_equal(messages.text, "sample.ply: 3 points of 12 bytes are over the limit of 35 bytes");
+    assert_int_equal(sample_load_text(small, many, &cloud), EWA_ERROR_LIMIT);
+    assert_non_null(strstr(messages.text, "sample.ply: 100000 points of 12 bytes: 1200000 bytes are needed, "));
+    assert_non_null(strstr(messages.text, " of max_memory_bytes 1000000 are left"));
     ewa_context_destroy(&small);
 
     sample s = {0};

@@ -3,7 +3,7 @@
 //
 // Files that another file names: which are opened, and which are not, whatever the name.
 #include "io/mesh/base64.h"
-#include "io/mesh/referenced_file.h"
+#include "io/referenced_file.h"
 #include "io/scratch.h"
 
 static char mesh[512];
@@ -83,7 +83,7 @@ static void test_names(void **state) {
         char reason[EWA_REASON_BYTES] = "";
         ewa_file file;
         const bool there =
-            ewa_referenced_file_map(mesh, (ewa_text){cases[i].name, strlen(cases[i].name)}, &file, reason);
+            ewa_referenced_file_map(context, mesh, (ewa_text){cases[i].name, strlen(cases[i].name)}, &file, reason);
         if (there != (cases[i].content != NULL)) fail_msg("'%s': %s", cases[i].name, reason);
         if (there) {
             assert_int_equal(file.size_bytes, strlen(cases[i].content));
@@ -96,11 +96,11 @@ static void test_names(void **state) {
     char reason[EWA_REASON_BYTES], longest[6000];
     ewa_file file;
     memset(longest, 'x', sizeof longest);
-    assert_false(ewa_referenced_file_map(mesh, (ewa_text){longest, sizeof longest}, &file, reason));
+    assert_false(ewa_referenced_file_map(context, mesh, (ewa_text){longest, sizeof longest}, &file, reason));
     assert_string_equal(reason, "its name is too long");
-    assert_false(ewa_referenced_file_map(mesh, (ewa_text){longest, 300}, &file, reason));
-    assert_false(ewa_referenced_file_map(mesh, (ewa_text){"a\0b", 3}, &file, reason));
-    assert_false(ewa_referenced_file_map("/no/such/folder/mesh.obj", (ewa_text){"a", 1}, &file, reason));
+    assert_false(ewa_referenced_file_map(context, mesh, (ewa_text){longest, 300}, &file, reason));
+    assert_false(ewa_referenced_file_map(context, mesh, (ewa_text){"a\0b", 3}, &file, reason));
+    assert_false(ewa_referenced_file_map(context, "/no/such/folder/mesh.obj", (ewa_text){"a", 1}, &file, reason));
     ewa_context_destroy(&context);
 }
 
@@ -111,10 +111,10 @@ static void test_folders(void **state) {
     ewa_context *context = check_context(1, NULL);
     assert_non_null(getcwd(back, sizeof back));
     assert_int_equal(chdir(scratch_path("beside", folder)), 0);
-    assert_true(ewa_referenced_file_map("mesh.obj", (ewa_text){"a file.txt", 10}, &file, reason));
+    assert_true(ewa_referenced_file_map(context, "mesh.obj", (ewa_text){"a file.txt", 10}, &file, reason));
     ewa_file_unmap(context, &file);
-    assert_false(ewa_referenced_file_map("mesh.obj", (ewa_text){"../beside_outside.txt", 21}, &file, reason));
-    assert_false(ewa_referenced_file_map("/mesh.obj", (ewa_text){"no/such", 7}, &file, reason));
+    assert_false(ewa_referenced_file_map(context, "mesh.obj", (ewa_text){"../beside_outside.txt", 21}, &file, reason));
+    assert_false(ewa_referenced_file_map(context, "/mesh.obj", (ewa_text){"no/such", 7}, &file, reason));
     assert_int_equal(chdir(back), 0);
     ewa_context_destroy(&context);
 }

@@ -262,7 +262,6 @@ static void test_grid(void **state) {
 
 /// The suffix chooses, wherever a file lies; streams and devices have none.
 static void test_places(void **state) {
-    (void)state;
     static const struct {
         const char *path, *suffixes;
     } cases[] = {{"-", ".ply"},

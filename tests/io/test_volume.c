@@ -388,8 +388,8 @@ static void test_parts(void **state) {
                {"slice.%03d 10", EWA_ERROR_FORMAT},
                {"slice.%03d 10 4 0", EWA_ERROR_FORMAT},
                {"slice.010", EWA_ERROR_FORMAT},
-               {"/dev/zero", EWA_ERROR_FORMAT},
-               {".", EWA_ERROR_FORMAT},
+               {"/dev/zero", EWA_ERROR_IO},
+               {".", EWA_ERROR_IO},
                {"no such file", EWA_ERROR_IO}};
     for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
         char text[512];

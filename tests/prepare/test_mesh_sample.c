@@ -600,14 +600,13 @@ static int64_t peak_of(int material_count) {
 
 /// A picture that many materials have is held once, with its smaller copies.
 static void test_shared_picture(void **state) {
-    (void)state;
     enum { SIDE = 512 };
     static uint8_t pixels[SIDE * SIDE * 3];
     char path[512];
     memset(pixels, 128, sizeof pixels);
     ewa_context *context = check_context(1, NULL);
     assert_int_equal(
-        ewa_png_save(context, scratch_path("shared.png", path), SIDE, SIDE, 3, pixels, sizeof pixels), EWA_OK);
+        ewa_png_save(context, scratch_path("shared.png", path), SIDE, SIDE, 3, pixels, 3 * SIDE), EWA_OK);
     ewa_context_destroy(&context);
     const int64_t one = peak_of(1), many = peak_of(20);
     if (many > one + one / 10) fail_msg("%lld bytes for 20 materials, %lld for one", (long long)many, (long long)one);

@@ -5,9 +5,9 @@
 // Based on: J. L. Schoenberger, COLMAP documentation, "Output Format" (cameras, images).
 #include "base/base.h"
 #include "io/camera/file.h"
-#include "io/file.h"
 #include "io/number.h"
 #include "io/reader.h"
+#include "io/referenced_file.h"
 
 #include <limits.h>
 #include <math.h>
@@ -313,28 +313,25 @@ ewa_status ewa_camera_list_read_colmap_memory(ewa_camera_list *list, bool is_tex
     return status;
 }
 
-static bool make_path(char path[PATH_MAX], const char *folder, const char *name) {
-    const int length = snprintf(path, PATH_MAX, "%s/%s", folder, name);
-    return length > 0 && length < PATH_MAX;
+/// Whether a folder has a file; what kind of file it is shows when it is opened.
+static bool has_part(const char *folder, const char *name) {
+    char path[PATH_MAX];
+    const int length = snprintf(path, sizeof path, "%s/%s", folder, name);
+    return length > 0 && length < (int)sizeof path && access(path, F_OK) == 0;
 }
 
 ewa_status ewa_camera_list_read_colmap(ewa_camera_list *list, const char *folder) {
-    char cameras_path[PATH_MAX], images_path[PATH_MAX];
-    bool is_text = false, found = false;
-    for (int kind = 0; kind < 2 && !found; kind++) {
-        is_text = kind == 1;
-        found = make_path(cameras_path, folder, is_text ? "cameras.txt" : "cameras.bin") &&
-                make_path(images_path, folder, is_text ? "images.txt" : "images.bin") &&
-                access(cameras_path, F_OK) == 0 && access(images_path, F_OK) == 0;
-    }
-    if (!found)
+    static const char *const names[2][2] = {{"cameras.bin", "images.bin"}, {"cameras.txt", "images.txt"}};
+    int kind = 0;
+    while (kind < 2 && !(has_part(folder, names[kind][0]) && has_part(folder, names[kind][1]))) kind++;
+    if (kind == 2)
         return ewa_fail(list->context, EWA_ERROR_FORMAT,
                         "%s: a folder without a COLMAP model (cameras and images, .bin or .txt)", folder);
     ewa_file cameras, images = {0};
-    EWA_TRY(ewa_file_map(list->context, cameras_path, &cameras));
-    ewa_status status = ewa_file_map(list->context, images_path, &images);
+    ewa_status status = ewa_referenced_file_part(list->context, folder, names[kind][0], &cameras);
+    if (status == EWA_OK) status = ewa_referenced_file_part(list->context, folder, names[kind][1], &images);
     if (status == EWA_OK)
-        status = ewa_camera_list_read_colmap_memory(list, is_text, cameras.bytes, cameras.size_bytes,
+        status = ewa_camera_list_read_colmap_memory(list, kind == 1, cameras.bytes, cameras.size_bytes,
                                                     images.bytes, images.size_bytes);
     ewa_file_unmap(list->context, &images);
     ewa_file_unmap(list->context, &cameras);

@@ -6,15 +6,14 @@
 // splatting, and stacks of matrices as gsplat takes them (viewmats, Ks).
 #include "base/base.h"
 #include "io/camera/file.h"
-#include "io/file.h"
 #include "io/image/png.h"
 #include "io/json_text.h"
+#include "io/referenced_file.h"
 #include "math/angle.h"
 
 #include <limits.h>
 #include <stdio.h>
 #include <string.h>
-#include <sys/stat.h>
 
 enum { WHERE_BYTES = 64 };
 
@@ -201,31 +200,23 @@ static ewa_status read_stacks(source *in, const cJSON *object, const cJSON *matr
     return EWA_OK;
 }
 
-static bool is_regular_file(const char *path) {
-    struct stat facts;
-    return stat(path, &facts) == 0 && S_ISREG(facts.st_mode);
-}
-
 /// Takes the size from the PNG picture of a frame, as the synthetic NeRF scenes want it: "file_path" beside
 /// the JSON file, with or without ".png".
 static ewa_status read_picture_size(const source *in, const cJSON *frame, ewa_camera *camera) {
     const char *picture = cJSON_GetStringValue(find(frame, "file_path"));
-    char path[PATH_MAX];
-    const char *slash = in->path ? strrchr(in->path, '/') : NULL;
-    const int folder_bytes = slash ? (int)(slash - in->path) + 1 : 0;
+    char name[PATH_MAX], reason[EWA_REASON_BYTES];
+    ewa_file file;
     bool found = false;
     for (int attempt = 0; picture && in->path && attempt < 2 && !found; attempt++) {
-        const int length =
-            snprintf(path, sizeof path, "%.*s%s%s", folder_bytes, in->path, picture, attempt ? ".png" : "");
-        found = length > 0 && (size_t)length < sizeof path && is_regular_file(path);
+        const int length = snprintf(name, sizeof name, "%s%s", picture, attempt ? ".png" : "");
+        found = length > 0 && (size_t)length < sizeof name &&
+                ewa_referenced_file_map(in->list->context, in->path, (ewa_text){name, (size_t)length}, &file, reason);
     }
     if (!found) return fail_member(in, "w", "is missing, and so is the frame's picture");
-    ewa_file file;
-    EWA_TRY(ewa_file_map(in->list->context, path, &file));
-    ewa_status status = ewa_png_recognise(file.bytes, file.size_bytes)
-                            ? ewa_png_size(in->list->context, path, file.bytes, file.size_bytes,
-                                           &camera->width_px, &camera->height_px)
-                            : fail_member(in, "w", "is missing, and the frame's picture is not PNG");
+    const ewa_status status = ewa_png_recognise(file.bytes, file.size_bytes)
+                                  ? ewa_png_size(in->list->context, name, file.bytes, file.size_bytes,
+                                                 &camera->width_px, &camera->height_px)
+                                  : fail_member(in, "w", "is missing, and the frame's picture is not PNG");
     ewa_file_unmap(in->list->context, &file);
     return status;
 }
@@ -346,10 +337,10 @@ ewa_status ewa_camera_list_read_tree(ewa_camera_list *list, const cJSON *root) {
 
 ewa_status ewa_camera_list_read_json(ewa_camera_list *list, const char *path, const uint8_t *bytes,
                                      size_t size_bytes) {
-    cJSON *root;
-    EWA_TRY(ewa_json_parse(list->context, list->name, "a camera file", bytes, size_bytes, &root));
+    ewa_json json;
+    EWA_TRY(ewa_json_parse(list->context, list->name, "a camera file", bytes, size_bytes, &json));
     source in = {.list = list, .path = path};
-    ewa_status status = read_root(&in, root);
-    cJSON_Delete(root);
+    ewa_status status = read_root(&in, json.root);
+    ewa_json_free(list->context, &json);
     return status;
 }

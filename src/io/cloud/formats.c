@@ -96,12 +96,9 @@ static ewa_status check_limits(ewa_context *context, const char *name, const ewa
     const ewa_attribute *attribute;
     for (uint32_t i = 0; (attribute = ewa_cloud_attribute_at(prototype, i)); i++)
         if (is_wanted(wanted, attribute->name)) point_bytes += attribute->stride_bytes;
-    if (__builtin_mul_overflow(point_bytes, point_count, &total) || total > limits->max_memory_bytes)
-        return ewa_fail(context, EWA_ERROR_LIMIT,
-                        "%s: %llu points of %llu bytes are over the limit of %llu bytes", name,
-                        (unsigned long long)point_count, (unsigned long long)point_bytes,
-                        (unsigned long long)limits->max_memory_bytes);
-    return EWA_OK;
+    if (__builtin_mul_overflow(point_bytes, point_count, &total)) total = UINT64_MAX;
+    return ewa_memory_check(context, total, "%s: %llu points of %llu bytes", name, (unsigned long long)point_count,
+                            (unsigned long long)point_bytes);
 }
 
 ewa_status ewa_cloud_make_room(const char *name, const ewa_cloud *prototype, const char *wanted,

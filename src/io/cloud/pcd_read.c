@@ -107,15 +107,11 @@ static ewa_status open_compressed(pcd_state *state) {
                         "%s: byte %llu: %llu bytes of packed points, of which %llu are there", source->name,
                         (unsigned long long)at, (unsigned long long)packed_bytes,
                         (unsigned long long)(left - 8));
-    const ewa_limits *limits = ewa_context_limits(context);
-    if (bytes > limits->max_memory_bytes)
-        return ewa_fail(context, EWA_ERROR_LIMIT, "%s: the points unpack to %llu bytes; the limit is %llu",
-                        source->name, (unsigned long long)bytes,
-                        (unsigned long long)limits->max_memory_bytes);
     if (bytes > packed_bytes * EWA_LZF_MAX)
         return ewa_fail(context, EWA_ERROR_FORMAT, "%s: byte %llu: %llu bytes cannot unpack to %llu",
                         source->name, (unsigned long long)at, (unsigned long long)packed_bytes,
                         (unsigned long long)bytes);
+    EWA_TRY(ewa_memory_check(context, bytes, "%s: the points unpacked", source->name));
     EWA_TRY(place_columns(state, bytes));
     state->unpacked = ewa_allocate(context, bytes, 1);
     if (!state->unpacked) return EWA_ERROR_MEMORY;

@@ -4,6 +4,7 @@
 // "ept.json": the root's cube, how points are held, the coordinate reference system.
 #include "base/base.h"
 #include "io/ept/ept.h"
+#include "io/referenced_file.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -17,13 +18,12 @@ typedef struct description {
     const cJSON *root;
 } description;
 
-ewa_status ewa_ept_path(const ewa_ept *ept, const char *what, const ewa_octree_key *key, const char *suffix,
-                        char path[EWA_EPT_PATH_BYTES]) {
-    const int length = snprintf(path, EWA_EPT_PATH_BYTES, "%s/%s%d-%d-%d-%d.%s", ept->folder, what,
-                                key->level, key->cell[0], key->cell[1], key->cell[2], suffix);
-    if (length > 0 && length < EWA_EPT_PATH_BYTES) return EWA_OK;
-    return ewa_fail(ept->context, EWA_ERROR_LIMIT, "%s: a path of more than %d bytes", ept->folder,
-                    EWA_EPT_PATH_BYTES);
+ewa_status ewa_ept_open(const ewa_ept *ept, const char *what, const ewa_octree_key *key, const char *suffix,
+                        char path[EWA_EPT_PATH_BYTES], ewa_file *file) {
+    char name[EWA_EPT_NAME_BYTES];
+    snprintf(name, sizeof name, "%s%d-%d-%d-%d.%s", what, key->level, key->cell[0], key->cell[1], key->cell[2], suffix);
+    snprintf(path, EWA_EPT_PATH_BYTES, "%s/%s", ept->folder, name);
+    return ewa_referenced_file_part(ept->context, ept->folder, name, file);
 }
 
 static const cJSON *item(const description *d, const char *name) {
@@ -145,18 +145,14 @@ static ewa_status take(const description *d, uint64_t *point_count) {
 ewa_status ewa_ept_describe(ewa_octree *octree, ewa_ept *ept, uint64_t *point_count) {
     ewa_context *context = octree->context;
     char path[EWA_EPT_PATH_BYTES];
-    const int length = snprintf(path, sizeof path, "%s/ept.json", ept->folder);
-    if (length < 0 || length >= (int)sizeof path)
-        return ewa_fail(context, EWA_ERROR_LIMIT, "%s: a path of more than %d bytes", ept->folder,
-                        EWA_EPT_PATH_BYTES);
+    snprintf(path, sizeof path, "%s/ept.json", ept->folder);
     ewa_file file;
-    EWA_TRY(ewa_file_map(context, path, &file));
-    cJSON *root = NULL;
-    ewa_status status =
-        ewa_json_parse(context, path, "a description of EPT", file.bytes, file.size_bytes, &root);
-    const description d = {octree, ept, path, root};
+    EWA_TRY(ewa_referenced_file_part(context, ept->folder, "ept.json", &file));
+    ewa_json json;
+    ewa_status status = ewa_json_parse(context, path, "a description of EPT", file.bytes, file.size_bytes, &json);
+    const description d = {octree, ept, path, json.root};
     if (status == EWA_OK) status = take(&d, point_count);
-    cJSON_Delete(root);
+    ewa_json_free(context, &json);
     ewa_file_unmap(context, &file);
     return status;
 }

@@ -12,7 +12,12 @@
 #include "io/las/las_open.h"
 #include "io/octree_format.h"
 
-enum { EWA_EPT_VERSION_BYTES = 24, EWA_EPT_PATH_BYTES = 4096 };
+enum {
+    EWA_EPT_VERSION_BYTES = 24,
+    EWA_EPT_NAME_BYTES = 96, ///< of a file in the folder
+    EWA_EPT_FOLDER_BYTES = 4000,
+    EWA_EPT_PATH_BYTES = EWA_EPT_FOLDER_BYTES + EWA_EPT_NAME_BYTES,
+};
 
 /// How the files hold the points of nodes.
 typedef enum ewa_ept_encoding {
@@ -29,7 +34,7 @@ typedef struct ewa_ept_file {
 
 typedef struct ewa_ept {
     ewa_context *context;
-    char folder[EWA_EPT_PATH_BYTES];
+    char folder[EWA_EPT_FOLDER_BYTES];
     char kind[EWA_EPT_VERSION_BYTES];
     ewa_ept_encoding encoding;
     ewa_las_table table;    ///< of the records that the files have or unpack to
@@ -51,10 +56,10 @@ static inline const char *ewa_ept_show(const char *text, char shown[EWA_EPT_SHOW
     return shown;
 }
 
-/// Writes the path of a file of the folder; `what` is "ept-data/" or such, which keys and suffix follow. Errors:
-/// EWA_ERROR_LIMIT.
-ewa_status ewa_ept_path(const ewa_ept *ept, const char *what, const ewa_octree_key *key, const char *suffix,
-                        char path[EWA_EPT_PATH_BYTES]);
+/// Maps a file of the folder; `what` is "ept-data/" or such, which keys and suffix follow. `path` stands for it in messages.
+/// Errors: EWA_ERROR_IO.
+ewa_status ewa_ept_open(const ewa_ept *ept, const char *what, const ewa_octree_key *key, const char *suffix,
+                        char path[EWA_EPT_PATH_BYTES], ewa_file *file);
 
 /// Reads "ept.json": the facts of the tree, how points are held, notes; of binary points the table of their records.
 /// Errors: EWA_ERROR_IO, EWA_ERROR_FORMAT, EWA_ERROR_UNSUPPORTED, EWA_ERROR_LIMIT, EWA_ERROR_MEMORY.

@@ -81,16 +81,14 @@ static ewa_status read_file(ewa_octree *octree, const ewa_ept *ept, const ewa_oc
     ewa_context *context = octree->context;
     char path[EWA_EPT_PATH_BYTES];
     ewa_file file;
-    EWA_TRY(ewa_ept_path(ept, "ept-hierarchy/", root, "json", path));
-    EWA_TRY(ewa_file_map(context, path, &file));
-    cJSON *entries = NULL;
-    ewa_status status =
-        ewa_json_parse(context, path, "a hierarchy of EPT", file.bytes, file.size_bytes, &entries);
-    if (status == EWA_OK && !cJSON_IsObject(entries))
+    EWA_TRY(ewa_ept_open(ept, "ept-hierarchy/", root, "json", path, &file));
+    ewa_json json;
+    ewa_status status = ewa_json_parse(context, path, "a hierarchy of EPT", file.bytes, file.size_bytes, &json);
+    if (status == EWA_OK && !cJSON_IsObject(json.root))
         status =
             ewa_fail(context, EWA_ERROR_FORMAT, "%s: no object of nodes and their numbers of points", path);
-    if (status == EWA_OK) status = take_entries(octree, path, entries, root, list);
-    cJSON_Delete(entries);
+    if (status == EWA_OK) status = take_entries(octree, path, json.root, root, list);
+    ewa_json_free(context, &json);
     ewa_file_unmap(context, &file);
     return status;
 }

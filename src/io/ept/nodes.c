@@ -28,14 +28,14 @@ static bool is_file(const char *path) {
 }
 
 /// Writes the folder of a tree; false when the path is none and leads to none.
-static bool find_folder(const char *path, char folder[EWA_EPT_PATH_BYTES]) {
+static bool find_folder(const char *path, char folder[EWA_EPT_FOLDER_BYTES]) {
     char file[EWA_EPT_PATH_BYTES];
     const char *slash = strrchr(path, '/');
     const size_t length = strlen(path);
-    if (length == 0 || length + sizeof "/ept.json" > sizeof file) return false;
+    if (length == 0 || length >= EWA_EPT_FOLDER_BYTES) return false;
     if (strcmp(slash ? slash + 1 : path, "ept.json") == 0 && is_file(path)) {
         const size_t folder_length = slash ? (size_t)(slash - path) : 0;
-        snprintf(folder, EWA_EPT_PATH_BYTES, "%.*s", slash ? (int)folder_length : 1, slash ? path : ".");
+        snprintf(folder, EWA_EPT_FOLDER_BYTES, "%.*s", slash ? (int)folder_length : 1, slash ? path : ".");
         return true;
     }
     snprintf(file, sizeof file, "%s/ept.json", path);
@@ -44,7 +44,7 @@ static bool find_folder(const char *path, char folder[EWA_EPT_PATH_BYTES]) {
 }
 
 static bool is_ept(const char *path) {
-    char folder[EWA_EPT_PATH_BYTES];
+    char folder[EWA_EPT_FOLDER_BYTES];
     return find_folder(path, folder);
 }
 
@@ -128,8 +128,7 @@ static ewa_status check_size(const ewa_ept *ept, const char *path, const ewa_oct
 static ewa_status open_file(ewa_octree *octree, const ewa_octree_node *node, bool first, ewa_ept_file *file) {
     ewa_ept *ept = octree->state;
     char path[EWA_EPT_PATH_BYTES];
-    EWA_TRY(ewa_ept_path(ept, "ept-data/", &node->key, suffixes[ept->encoding], path));
-    EWA_TRY(ewa_file_map(ept->context, path, &file->bytes));
+    EWA_TRY(ewa_ept_open(ept, "ept-data/", &node->key, suffixes[ept->encoding], path, &file->bytes));
     return ept->encoding == EWA_EPT_LASZIP ? open_laz(ept, path, node, first, octree, file)
                                            : check_size(ept, path, node, file);
 }

@@ -9,7 +9,7 @@
 #include "io/gaussian/zip.h"
 #include "io/image/webp.h"
 #include "io/json_text.h"
-#include "io/mesh/referenced_file.h"
+#include "io/referenced_file.h"
 #include "math/gaussian.h"
 
 #include <stdatomic.h>
@@ -111,7 +111,7 @@ static ewa_status read_picture(sog *s, const char *member, int index, sog_pictur
     snprintf(shown, sizeof shown, "%s: %s", s->source->name, name->valuestring);
     if (s->archive) {
         ewa_zip_file file;
-        ewa_status status = ewa_zip_open(s->source, name->valuestring, &file);
+        ewa_status status = ewa_zip_open(s->source, name->valuestring, UINT32_MAX, &file);
         if (status == EWA_OK)
             status = ewa_webp_decode_codes(context, shown, file.bytes, file.size_bytes, &picture->width_px,
                                            &picture->height_px, &picture->codes, &picture->code_bytes);
@@ -122,7 +122,7 @@ static ewa_status read_picture(sog *s, const char *member, int index, sog_pictur
     ewa_file file;
     if (!s->source->path)
         return ewa_fail(context, EWA_ERROR_IO, "%s: there is no folder that it could be in", shown);
-    if (!ewa_referenced_file_map(s->source->path, (ewa_text){name->valuestring, strlen(name->valuestring)},
+    if (!ewa_referenced_file_map(context, s->source->path, (ewa_text){name->valuestring, strlen(name->valuestring)},
                                  &file, reason))
         return ewa_fail(context, EWA_ERROR_IO, "%s: %s", shown, reason);
     const ewa_status status =
@@ -221,16 +221,16 @@ static ewa_status read_with(sog *s, ewa_gaussian_facts *facts) {
 static ewa_status read_sog(const ewa_gaussian_source *source, ewa_gaussians *set, ewa_gaussian_facts *facts) {
     sog s = {.source = source, .set = set, .archive = memcmp(source->bytes, "PK", 2) == 0};
     ewa_zip_file meta = {.bytes = source->bytes, .size_bytes = source->size_bytes};
-    cJSON *root = NULL;
-    ewa_status status = s.archive ? ewa_zip_open(source, "meta.json", &meta) : EWA_OK;
+    ewa_json json = {0};
+    ewa_status status = s.archive ? ewa_zip_open(source, "meta.json", EWA_JSON_BYTES, &meta) : EWA_OK;
     if (status == EWA_OK)
         status = ewa_json_parse(source->context, source->name, "meta.json of SOG", meta.bytes,
-                                meta.size_bytes, &root);
-    s.root = root;
+                                meta.size_bytes, &json);
+    s.root = json.root;
     if (status == EWA_OK) status = read_with(&s, facts);
     for (int k = 0; k < PICTURES; k++)
         ewa_release(source->context, s.pictures[k].codes, s.pictures[k].code_bytes, 1);
-    cJSON_Delete(root);
+    ewa_json_free(source->context, &json);
     ewa_zip_close(source->context, &meta);
     return status;
 }

@@ -66,10 +66,7 @@ static ewa_status place_streams(const ewa_gaussian_source *source, const ewa_spz
         return ewa_fail(source->context, EWA_ERROR_FORMAT,
                         "%s: SPZ: %u Gaussians take %llu bytes, which a file of %zu cannot hold",
                         source->name, header->count, (unsigned long long)all, source->size_bytes);
-    if (all > ewa_context_limits(source->context)->max_memory_bytes)
-        return ewa_fail(source->context, EWA_ERROR_LIMIT,
-                        "%s: %u Gaussians of %llu bytes are over max_memory_bytes", source->name,
-                        header->count, (unsigned long long)each);
+    EWA_TRY(ewa_memory_check(source->context, all, "%s: SPZ: %u Gaussians of %llu bytes", source->name, header->count, (unsigned long long)each));
     *size_bytes = 0;
     for (uint32_t k = 0; k < EWA_SPZ_STREAMS; k++) {
         at[k] = *size_bytes;

@@ -75,14 +75,15 @@ bool ewa_zip_has(const uint8_t *bytes, size_t size_bytes, const char *name) {
     return size_bytes >= 4 && memcmp(bytes, "PK", 2) == 0 && find_entry(bytes, size_bytes, name, &entry);
 }
 
-static ewa_status inflate_file(const ewa_gaussian_source *archive, const char *name, const uint8_t *packed,
+static ewa_status inflate_file(const ewa_gaussian_source *archive, const char *name, uint32_t max_bytes, const uint8_t *packed,
                                const zip_entry *entry, ewa_zip_file *file) {
     if (entry->whole_bytes / MAX_RATIO > entry->packed_bytes)
         return ewa_fail(archive->context, EWA_ERROR_FORMAT, "%s: %s: %u bytes do not unpack to %u",
                         archive->name, name, entry->packed_bytes, entry->whole_bytes);
-    if (entry->whole_bytes > ewa_context_limits(archive->context)->max_memory_bytes)
-        return ewa_fail(archive->context, EWA_ERROR_LIMIT, "%s: %s: %u bytes are over max_memory_bytes",
-                        archive->name, name, entry->whole_bytes);
+    if (entry->whole_bytes > max_bytes)
+        return ewa_fail(archive->context, EWA_ERROR_LIMIT, "%s: %s: %u bytes, more than it may have (%u)", archive->name, name,
+                        entry->whole_bytes, max_bytes);
+    EWA_TRY(ewa_memory_check(archive->context, entry->whole_bytes, "%s: %s unpacked", archive->name, name));
     struct libdeflate_decompressor *decompressor = libdeflate_alloc_decompressor();
     if (!decompressor) return ewa_fail(archive->context, EWA_ERROR_MEMORY, "no memory for the decompressor");
     file->size_bytes = entry->whole_bytes;
@@ -99,7 +100,7 @@ static ewa_status inflate_file(const ewa_gaussian_source *archive, const char *n
     return status;
 }
 
-ewa_status ewa_zip_open(const ewa_gaussian_source *archive, const char *name, ewa_zip_file *file) {
+ewa_status ewa_zip_open(const ewa_gaussian_source *archive, const char *name, uint32_t max_bytes, ewa_zip_file *file) {
     *file = (ewa_zip_file){.bytes = NULL};
     zip_entry entry;
     if (!find_entry(archive->bytes, archive->size_bytes, name, &entry))
@@ -119,7 +120,7 @@ ewa_status ewa_zip_open(const ewa_gaussian_source *archive, const char *name, ew
         return ewa_fail(archive->context, EWA_ERROR_UNSUPPORTED,
                         "%s: %s is encrypted, or packed by method %u; 0 and 8 are read", archive->name, name,
                         entry.method);
-    if (entry.method == DEFLATED) return inflate_file(archive, name, archive->bytes + data_at, &entry, file);
+    if (entry.method == DEFLATED) return inflate_file(archive, name, max_bytes, archive->bytes + data_at, &entry, file);
     *file = (ewa_zip_file){.bytes = archive->bytes + data_at, .size_bytes = entry.packed_bytes};
     return EWA_OK;
 }

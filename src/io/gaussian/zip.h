@@ -17,9 +17,9 @@ typedef struct ewa_zip_file {
 /// Whether bytes are a zip archive that lists a file.
 bool ewa_zip_has(const uint8_t *bytes, size_t size_bytes, const char *name);
 
-/// Takes a file out of an archive, also from a folder in it; free with ewa_zip_close(). Errors:
+/// Takes a file of at most `max_bytes` out of an archive, also from a folder in it; free with ewa_zip_close(). Errors:
 /// EWA_ERROR_FORMAT, EWA_ERROR_UNSUPPORTED, EWA_ERROR_LIMIT, EWA_ERROR_MEMORY.
-ewa_status ewa_zip_open(const ewa_gaussian_source *archive, const char *name, ewa_zip_file *file);
+ewa_status ewa_zip_open(const ewa_gaussian_source *archive, const char *name, uint32_t max_bytes, ewa_zip_file *file);
 void ewa_zip_close(ewa_context *context, ewa_zip_file *file);
 
 #endif

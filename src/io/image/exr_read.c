@@ -16,6 +16,7 @@ enum {
     // the pixels that its header claims.
     MAX_RATIO = 1032,
     PART = 0,
+    OWN_CHUNKS = 3, // that the library holds: packed, unpacked, and between
 };
 
 typedef struct reader {
@@ -31,6 +32,7 @@ typedef struct reader {
     int selected[MAX_CHANNELS]; // by channel of the image: its index among the file's
     exr_decode_pipeline_t pipeline;
     bool pipeline_ready;
+    uint64_t own_bytes; // what the library takes to decode
 } reader;
 
 static void keep_message(exr_const_context_t file, exr_result_t code, const char *text) {
@@ -139,12 +141,9 @@ static ewa_status check_header(reader *in) {
     error = exr_get_chunk_unpacked_size(in->file, PART, &chunk_bytes);
     if (error) return fail_exr(in, error);
     const uint64_t pixel_count = (uint64_t)width * (uint64_t)height;
-    const uint64_t decoded_bytes = pixel_count * in->channel_count * sizeof(float) + chunk_bytes;
-    if (decoded_bytes > limits->max_memory_bytes)
-        return ewa_fail(in->context, EWA_ERROR_LIMIT,
-                        "%s: %u x %u pixels need %llu bytes, over the limit of %llu", in->name, in->width_px,
-                        in->height_px, (unsigned long long)decoded_bytes,
-                        (unsigned long long)limits->max_memory_bytes);
+    in->own_bytes = OWN_CHUNKS * chunk_bytes;
+    const uint64_t decoded_bytes = pixel_count * in->channel_count * sizeof(float) + in->own_bytes;
+    EWA_TRY(ewa_memory_check(in->context, decoded_bytes, "%s: OpenEXR of %u x %u pixels", in->name, in->width_px, in->height_px));
     const bool is_dwa = compression == EXR_COMPRESSION_DWAA || compression == EXR_COMPRESSION_DWAB;
     const uint64_t min_stored_bytes = pixel_count * in->channel_count * sizeof(uint16_t);
     if (!is_dwa && min_stored_bytes / MAX_RATIO > in->size_bytes)
@@ -224,7 +223,11 @@ ewa_status ewa_exr_decode(ewa_context *context, const char *name, const uint8_t 
     if (status == EWA_OK) status = check_header(&in);
     if (status == EWA_OK)
         status = ewa_image_create(context, in.width_px, in.height_px, in.channel_count, image);
-    if (status == EWA_OK) status = decode_pixels(&in, image);
+    if (status == EWA_OK) status = ewa_memory_take(context, in.own_bytes, "%s: OpenEXR", name);
+    if (status == EWA_OK) {
+        status = decode_pixels(&in, image);
+        ewa_memory_give(context, in.own_bytes);
+    }
     if (in.file) exr_finish(&in.file);
     if (status != EWA_OK) ewa_image_free(image);
     return status;

@@ -14,13 +14,18 @@
 /// Progressive files repeat scans; more than this is an attempt to keep us busy.
 enum { MAX_SCANS = 200 };
 
+/// What libjpeg takes for any picture.
+enum { OWN_BYTES = 1 << 20 };
+
 typedef struct jpeg_reader {
     struct jpeg_decompress_struct decoder; // first: the callbacks get a pointer to it
     struct jpeg_error_mgr errors;
     struct jpeg_progress_mgr progress;
     jmp_buf failed;
     char text[JMSG_LENGTH_MAX];
-    JSAMPLE *row; // of max_image_side pixels of 3 bytes
+    JSAMPLE *row; // of the picture's width
+    size_t row_bytes;
+    uint64_t own_bytes; // of libjpeg's memory, counted as held
 } jpeg_reader;
 
 static void leave(j_common_ptr decoder) {
@@ -57,11 +62,17 @@ static ewa_status decode(ewa_context *context, const char *name, const uint8_t *
                         decoder->num_components);
     decoder->out_color_space = grey ? JCS_GRAYSCALE : JCS_RGB;
     const uint32_t width = decoder->image_width, height = decoder->image_height, channels = grey ? 1 : 3;
+    // Of several scans libjpeg holds all coefficients, 16 bits each; else some lines.
+    const uint64_t numbers = (uint64_t)width * height * (uint64_t)decoder->num_components;
+    const uint64_t own_bytes = OWN_BYTES + (jpeg_has_multiple_scans(decoder) ? numbers * sizeof(JCOEF) : 0);
     const uint64_t image_bytes = (uint64_t)width * height * channels * sizeof(float);
-    if (image_bytes > ewa_context_limits(context)->max_memory_bytes)
-        return ewa_fail(context, EWA_ERROR_LIMIT, "%s: JPEG of %u x %u pixels is over max_memory_bytes", name,
-                        width, height);
+    EWA_TRY(ewa_memory_check(context, own_bytes + image_bytes, "%s: JPEG of %u x %u pixels", name, width, height));
     EWA_TRY(ewa_image_create(context, width, height, channels, image));
+    EWA_TRY(ewa_memory_take(context, own_bytes, "%s: JPEG", name));
+    reader->own_bytes = own_bytes;
+    reader->row_bytes = (size_t)width * channels;
+    reader->row = ewa_allocate(context, reader->row_bytes, 1);
+    if (!reader->row) return EWA_ERROR_MEMORY;
     jpeg_start_decompress(decoder);
     while (decoder->output_scanline < height) {
         float *to = image->pixels + (size_t)decoder->output_scanline * width * channels;
@@ -80,18 +91,16 @@ bool ewa_jpeg_recognise(const uint8_t *bytes, size_t size_bytes) {
 
 ewa_status ewa_jpeg_decode(ewa_context *context, const char *name, const uint8_t *bytes, size_t size_bytes,
                            ewa_image *image) {
-    const size_t row_bytes = 3 * (size_t)ewa_context_limits(context)->max_image_side;
     jpeg_reader *reader = ewa_allocate_zeroed(context, 1, sizeof *reader);
     if (!reader) return EWA_ERROR_MEMORY;
-    reader->row = ewa_allocate(context, row_bytes, 1);
     reader->decoder.err = jpeg_std_error(&reader->errors);
     reader->errors.error_exit = leave;
     reader->errors.output_message = keep_silent;
-    const ewa_status status =
-        reader->row ? decode(context, name, bytes, size_bytes, reader, image) : EWA_ERROR_MEMORY;
+    const ewa_status status = decode(context, name, bytes, size_bytes, reader, image);
     if (reader->decoder.mem) jpeg_destroy_decompress(&reader->decoder);
+    ewa_memory_give(context, reader->own_bytes);
     if (status != EWA_OK) ewa_image_free(image);
-    ewa_release(context, reader->row, row_bytes, 1);
+    ewa_release(context, reader->row, reader->row_bytes, 1);
     ewa_release(context, reader, 1, sizeof *reader);
     return status;
 }

@@ -62,12 +62,8 @@ static ewa_status check_size(reader *in, size_t size_bytes) {
                         in->name, size_bytes, header->width, header->height);
     const uint64_t decoded_bytes =
         pixel_count * (in->channel_count * sizeof(float) + (header->bit_depth == 16 ? 8 : 4));
-    if (decoded_bytes > limits->max_memory_bytes)
-        return ewa_fail(in->context, EWA_ERROR_LIMIT,
-                        "%s: %u x %u pixels need %llu bytes, over the limit of %llu", in->name, header->width,
-                        header->height, (unsigned long long)decoded_bytes,
-                        (unsigned long long)limits->max_memory_bytes);
-    return EWA_OK;
+    return ewa_memory_check(in->context, decoded_bytes, "%s: PNG of %u x %u pixels", in->name, header->width,
+                            header->height);
 }
 
 /// RGBA of 8 bits to the image's channels, linear, and premultiplied unless `straight`.

@@ -9,7 +9,6 @@
 #include "io/octree_format.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -34,10 +33,7 @@ typedef struct copc_state {
 
 static bool is_copc(const char *path) {
     uint8_t bytes[MAGIC_BYTES];
-    FILE *file = fopen(path, "rb");
-    if (!file) return false;
-    const bool there = fread(bytes, 1, sizeof bytes, file) == sizeof bytes;
-    fclose(file);
+    const bool there = ewa_file_head(path, bytes, sizeof bytes) == sizeof bytes;
     const uint8_t *record = bytes + EWA_LAS_HEAD_14_BYTES;
     return there && memcmp(bytes, "LASF", 4) == 0 && ewa_las_u16(bytes + 94) == EWA_LAS_HEAD_14_BYTES &&
            ewa_las_u32(bytes + 100) > 0 && strncmp((const char *)record + 2, "copc", 16) == 0 &&

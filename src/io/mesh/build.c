@@ -45,25 +45,19 @@ void ewa_mesh_build_close(ewa_mesh_build *build) {
 ewa_status ewa_mesh_list_grow(ewa_mesh_build *build, ewa_mesh_list *list, uint64_t more) {
     const uint64_t wanted = list->count + more;
     if (wanted <= list->capacity) return EWA_OK;
-    const ewa_limits *limits = ewa_context_limits(build->context);
     uint64_t capacity = list->capacity ? 2 * list->capacity : FIRST_ITEMS;
     if (capacity < wanted) capacity = wanted;
-    const uint64_t others = build->list_bytes - list->capacity * list->item_bytes;
-    uint64_t bytes;
     // All numbers of items are of 32 bits, and one is none.
-    if (wanted >= EWA_MESH_NONE || __builtin_mul_overflow(wanted, list->item_bytes, &bytes) ||
-        bytes > limits->max_memory_bytes || others > limits->max_memory_bytes - bytes)
-        return ewa_fail(build->context, EWA_ERROR_LIMIT,
-                        "%s: the mesh needs over %llu bytes, max_memory_bytes is %llu", build->source->name,
-                        (unsigned long long)(others + wanted * list->item_bytes),
-                        (unsigned long long)limits->max_memory_bytes);
+    if (wanted >= EWA_MESH_NONE)
+        return ewa_fail(build->context, EWA_ERROR_LIMIT, "%s: the mesh has over %u vertices or corners", build->source->name,
+                        EWA_MESH_NONE - 1);
+    EWA_TRY(ewa_memory_check(build->context, capacity * list->item_bytes, "%s: the mesh", build->source->name));
     void *items = ewa_allocate(build->context, capacity, list->item_bytes);
     if (!items) return EWA_ERROR_MEMORY;
     if (list->count) memcpy(items, list->items, list->count * list->item_bytes);
     ewa_release(build->context, list->items, list->capacity, list->item_bytes);
     list->items = items;
     list->capacity = capacity;
-    build->list_bytes = others + capacity * list->item_bytes;
     return EWA_OK;
 }
 

@@ -77,8 +77,6 @@ typedef struct ewa_mesh_build {
     ewa_mesh_list face_looks;       ///< look per triangle; as texcoord_corners
     ewa_mesh_list looks, pictures;
     ewa_mesh_list scratch; ///< of the polygon that is being cut
-    uint64_t list_bytes;   ///< of all lists together
-    uint64_t picture_bytes;
     uint32_t look;       ///< of the next polygons, or none
     float face_color[4]; ///< of the next polygons when has_face_color
     bool has_face_color;

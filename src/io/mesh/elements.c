@@ -165,10 +165,10 @@ ewa_status ewa_mesh_build_elements(ewa_mesh_build *build, ewa_elements **element
     *elements = NULL;
     if (!build->corners.count) return EWA_OK; // none of the faces can be used, which the points say
     const uint64_t bytes = build->corners.count * (11 * sizeof(uint32_t) + 2 * sizeof(uint64_t));
-    const uint64_t limit = ewa_context_limits(context)->max_memory_bytes;
-    if (build->positions.count > INT32_MAX || bytes > limit)
-        return ewa_fail(context, EWA_ERROR_LIMIT, "%s: faces of %llu bytes, max_memory_bytes is %llu",
-                        build->source->name, (unsigned long long)bytes, (unsigned long long)limit);
+    if (build->positions.count > INT32_MAX)
+        return ewa_fail(context, EWA_ERROR_LIMIT, "%s: faces of %llu places, PLY has numbers up to %d",
+                        build->source->name, (unsigned long long)build->positions.count, INT32_MAX);
+    EWA_TRY(ewa_memory_check(context, bytes, "%s: %llu faces", build->source->name, (unsigned long long)build->corners.count));
     face_writer w = {.build = build,
                      .texcoords = build->texcoord_corners.count && build->texcoords.count,
                      .colors = build->face_colors.count > 0};

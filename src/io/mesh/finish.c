@@ -251,11 +251,10 @@ static ewa_status make_vertices(finish_job *job, bool *same) {
     while (job->slots < 6 * triangles) job->slots *= 2;
     const uint64_t bytes =
         3 * triangles * (sizeof *job->vertices + sizeof *job->triangles) + job->slots * sizeof *job->table;
-    const uint64_t limit = ewa_context_limits(build->context)->max_memory_bytes;
-    if (3 * triangles >= EWA_MESH_NONE || bytes > limit)
-        return ewa_fail(build->context, EWA_ERROR_LIMIT,
-                        "%s: %llu triangles need %llu bytes, max_memory_bytes is %llu", build->source->name,
-                        (unsigned long long)triangles, (unsigned long long)bytes, (unsigned long long)limit);
+    if (3 * triangles >= EWA_MESH_NONE)
+        return ewa_fail(build->context, EWA_ERROR_LIMIT, "%s: %llu triangles, over %u", build->source->name,
+                        (unsigned long long)triangles, EWA_MESH_NONE / 3);
+    EWA_TRY(ewa_memory_check(build->context, bytes, "%s: %llu triangles", build->source->name, (unsigned long long)triangles));
     job->vertex_capacity = (uint32_t)(3 * triangles);
     job->vertices = ewa_allocate(build->context, job->vertex_capacity, sizeof *job->vertices);
     job->triangles = ewa_allocate(build->context, job->vertex_capacity, sizeof *job->triangles);

@@ -429,12 +429,13 @@ ewa_status ewa_gltf_walk(ewa_mesh_build *build, gltf_take *take, void *user, con
     ewa_gltf_grant(&g, source->size_bytes);
     const uint8_t *json = source->bytes;
     size_t json_bytes = source->size_bytes;
+    ewa_json tree;
     if (json_bytes >= 4 && memcmp(json, "glTF", 4) == 0) EWA_TRY(open_container(&g, &json, &json_bytes));
     if (json_bytes >= 3 && memcmp(json, "\xef\xbb\xbf", 3) == 0) json += 3, json_bytes -= 3;
     while (json_bytes && json[json_bytes - 1] == 0) json_bytes--; // padding that should be blanks
-    ewa_status status =
-        ewa_json_parse(build->context, source->name, "a glTF file", json, json_bytes, &g.root);
+    ewa_status status = ewa_json_parse(build->context, source->name, "a glTF file", json, json_bytes, &tree);
+    g.root = tree.root;
     if (status == EWA_OK) status = read_tree(&g);
-    cJSON_Delete(g.root);
+    ewa_json_free(build->context, &tree);
     return status;
 }

@@ -49,7 +49,7 @@ struct gltf {
     gltf_take *take;
     void *user;            ///< of `take`
     const char *extension; ///< one more that may be required; or NULL
-    cJSON *root;
+    const cJSON *root;
     gltf_table nodes, meshes, accessors, views, buffers, materials, textures, images;
     gltf_buffer *opened;   ///< by buffer
     gltf_buffer *unpacked; ///< by view; NULL while none was

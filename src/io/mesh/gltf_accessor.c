@@ -7,7 +7,7 @@
 #include "base/base.h"
 #include "io/mesh/base64.h"
 #include "io/mesh/gltf.h"
-#include "io/mesh/referenced_file.h"
+#include "io/referenced_file.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -96,7 +96,7 @@ static ewa_status open_buffer(gltf *g, uint64_t index) {
         if (!g->build->source->path)
             snprintf(reason, sizeof reason, "the mesh is no file that it could lie beside");
         if (!g->build->source->path || !fits ||
-            !ewa_referenced_file_map(g->build->source->path, name, &buffer->file, reason))
+            !ewa_referenced_file_map(g->build->context, g->build->source->path, name, &buffer->file, reason))
             return ewa_fail(g->build->context, EWA_ERROR_IO, "%s: buffer %llu, %s: %s",
                             g->build->source->name, (unsigned long long)index,
                             ewa_quote((ewa_text){uri->valuestring, strlen(uri->valuestring)}, quote), reason);

@@ -10,11 +10,15 @@
 
 #include <math.h>
 
-enum { REASON_BYTES = 128 };
+enum {
+    REASON_BYTES = 128,
+    ITEM_BYTES = 160, // that Draco holds for a face or a vertex while it decodes: corners, maps, numbers
+};
 
 struct gltf_packed {
     ewa_draco *mesh;
     const cJSON *attributes; ///< ids by name
+    uint64_t held_bytes;     ///< by Draco
 };
 
 static ewa_status count_of(const gltf *g, uint64_t accessor, uint64_t *count) {
@@ -41,12 +45,20 @@ ewa_status ewa_gltf_open_packed(gltf *g, uint64_t mesh, const cJSON *item, uint6
     gltf_packed *made = ewa_allocate_zeroed(context, 1, sizeof *made);
     if (!made) return EWA_ERROR_MEMORY;
     made->attributes = ewa_gltf_member(extension, "attributes");
+    made->held_bytes = ITEM_BYTES * (points + corners / 3);
+    const ewa_status room = ewa_memory_take(context, made->held_bytes, "%s: a Draco mesh of %llu vertices",
+                                            g->build->source->name, (unsigned long long)points);
+    if (room != EWA_OK) {
+        ewa_release(context, made, 1, sizeof *made);
+        return room;
+    }
     const ewa_draco_result result =
         ewa_draco_open(bytes, (size_t)size_bytes, corners / 3, points, &made->mesh, reason, sizeof reason);
     if (result == EWA_DRACO_DONE) {
         *packed = made;
         return EWA_OK;
     }
+    ewa_memory_give(context, made->held_bytes);
     ewa_release(context, made, 1, sizeof *made);
     if (result == EWA_DRACO_MEMORY)
         return ewa_fail(context, EWA_ERROR_MEMORY, "%s: out of memory for what Draco has packed",
@@ -57,6 +69,7 @@ ewa_status ewa_gltf_open_packed(gltf *g, uint64_t mesh, const cJSON *item, uint6
 void ewa_gltf_close_packed(const gltf *g, gltf_packed **packed) {
     if (!*packed) return;
     ewa_draco_close(&(*packed)->mesh);
+    ewa_memory_give(g->build->context, (*packed)->held_bytes);
     ewa_release(g->build->context, *packed, 1, sizeof **packed);
     *packed = NULL;
 }
@@ -69,27 +82,31 @@ ewa_status ewa_gltf_packed_attribute(gltf *g, uint64_t mesh, const gltf_packed *
                                      uint64_t accessor, uint32_t low, uint32_t high, gltf_array *array) {
     uint64_t id;
     gltf_numbers form;
-    EWA_TRY(ewa_gltf_describe(g, accessor, low, high, array, &form));
-    array->count = ewa_draco_points(packed->mesh);
-    EWA_TRY(ewa_gltf_spend(g, array->count));
-    array->numbers =
-        ewa_allocate_zeroed(g->build->context, array->count, array->components * sizeof *array->numbers);
-    if (!array->numbers) return EWA_ERROR_MEMORY;
+    gltf_array made;
+    *array = (gltf_array){0};
+    EWA_TRY(ewa_gltf_describe(g, accessor, low, high, &made, &form));
+    made.count = ewa_draco_points(packed->mesh);
+    EWA_TRY(ewa_gltf_spend(g, made.count));
+    made.numbers = ewa_allocate_zeroed(g->build->context, made.count, made.components * sizeof *made.numbers);
+    if (!made.numbers) return EWA_ERROR_MEMORY;
     if (!ewa_gltf_count(packed->attributes, name, UINT64_MAX, &id) || id > UINT32_MAX ||
-        !ewa_draco_attribute(packed->mesh, (uint32_t)id, array->components, array->numbers)) {
-        ewa_gltf_free_array(g, array);
+        !ewa_draco_attribute(packed->mesh, (uint32_t)id, made.components, made.numbers)) {
+        ewa_gltf_free_array(g, &made);
         return ewa_gltf_fail(g, "meshes", mesh, "its Draco mesh has no such attribute");
     }
-    for (uint64_t i = 0; i < array->count * array->components; i++)
-        array->numbers[i] = fmax(array->numbers[i] * form.share, form.lowest);
+    for (uint64_t i = 0; i < made.count * made.components; i++)
+        made.numbers[i] = fmax(made.numbers[i] * form.share, form.lowest);
+    *array = made;
     return EWA_OK;
 }
 
 ewa_status ewa_gltf_packed_indices(gltf *g, const gltf_packed *packed, gltf_array *array) {
-    *array = (gltf_array){.count = 3 * ewa_draco_faces(packed->mesh), .components = 1};
-    EWA_TRY(ewa_gltf_spend(g, array->count));
-    array->numbers = ewa_allocate_zeroed(g->build->context, array->count, sizeof *array->numbers);
-    if (!array->numbers) return EWA_ERROR_MEMORY;
-    ewa_draco_corners(packed->mesh, array->numbers);
+    gltf_array made = {.count = 3 * ewa_draco_faces(packed->mesh), .components = 1};
+    *array = (gltf_array){0};
+    EWA_TRY(ewa_gltf_spend(g, made.count));
+    made.numbers = ewa_allocate_zeroed(g->build->context, made.count, sizeof *made.numbers);
+    if (!made.numbers) return EWA_ERROR_MEMORY;
+    ewa_draco_corners(packed->mesh, made.numbers);
+    *array = made;
     return EWA_OK;
 }

@@ -74,10 +74,8 @@ ewa_status ewa_gltf_unpack_view(gltf *g, uint64_t index, const cJSON *packed, co
     const char *problem = find_problem(&view);
     if (problem) return ewa_gltf_fail(g, "bufferViews", index, problem);
     const uint64_t all = view.count * view.stride;
-    if (all > ewa_context_limits(g->build->context)->max_memory_bytes)
-        return ewa_fail(g->build->context, EWA_ERROR_LIMIT,
-                        "%s: bufferViews[%llu] unpacked is over max_memory_bytes", g->build->source->name,
-                        (unsigned long long)index);
+    EWA_TRY(ewa_memory_check(g->build->context, all, "%s: bufferViews[%llu] unpacked", g->build->source->name,
+                             (unsigned long long)index));
     unpacked->decoded = ewa_allocate(g->build->context, (size_t)view.count, (size_t)view.stride);
     if (!unpacked->decoded) return EWA_ERROR_MEMORY;
     unpacked->decoded_room = (size_t)all;

@@ -40,8 +40,9 @@ static ewa_status read_material(ewa_context *context, const char *name, uint32_t
 ewa_status ewa_materials_read(ewa_context *context, const char *name, const uint8_t *bytes, size_t size_bytes,
                               ewa_material materials[EWA_MAX_MATERIALS], uint32_t *count) {
     *count = 0;
-    cJSON *root;
-    EWA_TRY(ewa_json_parse(context, name, "a material table", bytes, size_bytes, &root));
+    ewa_json json;
+    EWA_TRY(ewa_json_parse(context, name, "a material table", bytes, size_bytes, &json));
+    const cJSON *root = json.root;
     const cJSON *list = cJSON_IsObject(root) ? cJSON_GetObjectItemCaseSensitive(root, "materials") : root;
     ewa_status status = EWA_OK;
     if (!cJSON_IsArray(list) || !list->child)
@@ -56,7 +57,7 @@ ewa_status ewa_materials_read(ewa_context *context, const char *name, const uint
             status = read_material(context, name, read, item, &materials[read]);
         read++;
     }
-    cJSON_Delete(root);
+    ewa_json_free(context, &json);
     if (status == EWA_OK) *count = read;
     return status;
 }

@@ -8,7 +8,7 @@
 #include "base/base.h"
 #include "image/srgb.h"
 #include "io/mesh/formats.h"
-#include "io/mesh/referenced_file.h"
+#include "io/referenced_file.h"
 
 #include <limits.h>
 #include <math.h>
@@ -169,7 +169,7 @@ static ewa_status open_library(ewa_mesh_build *build, ewa_mtl *mtl, ewa_text nam
     mtl_library *kept = ewa_mesh_list_add(build, &mtl->libraries, &status);
     if (!kept) return status;
     *kept = (mtl_library){.name = name};
-    *found = build->source->path && ewa_referenced_file_map(build->source->path, name, &kept->file, reason);
+    *found = build->source->path && ewa_referenced_file_map(build->context, build->source->path, name, &kept->file, reason);
     if (!build->source->path)
         snprintf(reason, EWA_REASON_BYTES, "the mesh is no file that it could lie beside");
     if (!*found) return EWA_OK;
@@ -270,10 +270,8 @@ void ewa_mtl_free(ewa_mesh_build *build, ewa_mtl **materials) {
         ewa_release(context, libraries[i].owned, libraries[i].owned_bytes, 1);
     }
     ewa_mesh_list *const lists[] = {&old->libraries, &old->materials};
-    for (int i = 0; i < 2; i++) {
-        build->list_bytes -= lists[i]->capacity * lists[i]->item_bytes;
+    for (int i = 0; i < 2; i++)
         ewa_release(context, lists[i]->items, lists[i]->capacity, lists[i]->item_bytes);
-    }
     ewa_release(context, old->table, old->slots, sizeof *old->table);
     ewa_release(context, old, 1, sizeof *old);
     *materials = NULL;

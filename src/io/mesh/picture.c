@@ -6,7 +6,7 @@
 #include "base/base.h"
 #include "io/image/image_file.h"
 #include "io/mesh/build.h"
-#include "io/mesh/referenced_file.h"
+#include "io/referenced_file.h"
 
 #include <stdio.h>
 
@@ -93,14 +93,6 @@ static ewa_status decode(ewa_mesh_build *build, const uint8_t *bytes, size_t siz
                               status == EWA_OK ? "its channels are no colours" : "it cannot be read");
         return EWA_OK;
     }
-    const uint64_t limit_bytes = ewa_context_limits(build->context)->max_memory_bytes;
-    build->picture_bytes +=
-        (uint64_t)entry->image.width_px * entry->image.height_px * channels * sizeof(float);
-    if (build->picture_bytes > limit_bytes)
-        return ewa_fail(build->context, EWA_ERROR_LIMIT,
-                        "%s: the pictures need %llu bytes together, max_memory_bytes is %llu",
-                        build->source->name, (unsigned long long)build->picture_bytes,
-                        (unsigned long long)limit_bytes);
     entry->has_alpha = channels == 4;
     if (channels == 4 && alpha == EWA_MESH_ALPHA_CUT) cut_alpha(&entry->image, entry->limit);
     return channels == 4 && alpha == EWA_MESH_ALPHA_DROP ? drop_alpha(&entry->image) : EWA_OK;
@@ -136,7 +128,7 @@ ewa_status ewa_mesh_find_picture(ewa_mesh_build *build, ewa_text name, ewa_mesh_
     ewa_status status = EWA_OK;
     if (!build->source->path) {
         ewa_mesh_miss_picture(build, name, "the mesh is no file that pictures could lie beside");
-    } else if (!ewa_referenced_file_map(build->source->path, name, &file, reason)) {
+    } else if (!ewa_referenced_file_map(build->context, build->source->path, name, &file, reason)) {
         ewa_mesh_miss_picture(build, name, reason);
     } else {
         status = decode(build, file.bytes, file.size_bytes, entry);

@@ -2,16 +2,14 @@
 // SPDX-License-Identifier: MIT
 //
 // What the parsers of volume files share: messages, and the files and bytes that a header names.
-#define _XOPEN_SOURCE 700 // stat
 #include "base/base.h"
 #include "io/number.h"
+#include "io/referenced_file.h"
 #include "io/volume/file.h"
 
-#include <limits.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
-#include <sys/stat.h>
 
 enum { MESSAGE_BYTES = 512, PATTERN_WIDTH = 9 };
 
@@ -60,35 +58,22 @@ ewa_status ewa_volume_add_memory(const ewa_volume_input *in, uint8_t *bytes, siz
     return status;
 }
 
-/// Puts a name beside the input's file; false when that makes no usable path.
-static bool make_path(const ewa_volume_input *in, const char *file_name, char path[PATH_MAX]) {
-    const char *slash = file_name[0] == '/' ? NULL : strrchr(in->path, '/');
-    const int folder = slash ? (int)(slash - in->path) + 1 : 0;
-    const int length = snprintf(path, PATH_MAX, "%.*s%s", folder, in->path, file_name);
-    return file_name[0] && length >= 0 && length < PATH_MAX;
-}
-
 bool ewa_volume_has_file(const ewa_volume_input *in, const char *file_name) {
-    char path[PATH_MAX];
-    struct stat facts;
-    return in->path && make_path(in, file_name, path) && stat(path, &facts) == 0;
+    char found[EWA_PATH_BYTES], reason[EWA_REASON_BYTES];
+    return in->path && ewa_referenced_file_find(in->context, in->path, file_name, false, found, reason);
 }
 
 ewa_status ewa_volume_add_file(const ewa_volume_input *in, const char *file_name, ewa_volume_pieces *pieces) {
     if (!in->path)
         return ewa_volume_fail(in, EWA_ERROR_UNSUPPORTED,
                                "the voxels are in another file, which needs the name of this one");
-    char path[PATH_MAX];
-    struct stat facts;
-    if (!make_path(in, file_name, path))
-        return ewa_volume_fail(in, EWA_ERROR_FORMAT, "no usable name of the file with the voxels");
-    // A header from elsewhere must not make us wait for a pipe or read a device.
-    if (stat(path, &facts) == 0 && !S_ISREG(facts.st_mode))
-        return ewa_volume_fail(in, EWA_ERROR_FORMAT, "'%.200s' is no regular file", file_name);
+    if (!*file_name) return ewa_volume_fail(in, EWA_ERROR_FORMAT, "no usable name of the file with the voxels");
     ewa_file file;
-    EWA_TRY(ewa_file_map(in->context, path, &file));
+    char reason[EWA_REASON_BYTES];
+    if (!ewa_referenced_file_map(in->context, in->path, (ewa_text){file_name, strlen(file_name)}, &file, reason))
+        return ewa_volume_fail(in, EWA_ERROR_IO, "'%.200s': %s", file_name, reason);
     pieces->detached = true;
-    ewa_status status = add_piece(in, &file, pieces);
+    const ewa_status status = add_piece(in, &file, pieces);
     if (status != EWA_OK) ewa_file_unmap(in->context, &file);
     return status;
 }

@@ -141,11 +141,11 @@ static ewa_status read_root(transfer_text *file, const cJSON *root, ewa_transfer
 ewa_status ewa_transfer_read(ewa_context *context, const char *name, const uint8_t *bytes, size_t size_bytes,
                              ewa_transfer *transfer) {
     *transfer = (ewa_transfer){0};
-    cJSON *root;
-    EWA_TRY(ewa_json_parse(context, name, "a transfer function", bytes, size_bytes, &root));
+    ewa_json json;
+    EWA_TRY(ewa_json_parse(context, name, "a transfer function", bytes, size_bytes, &json));
     transfer_text file = {.context = context, .name = name};
-    ewa_status status = read_root(&file, root, transfer);
-    cJSON_Delete(root);
+    ewa_status status = read_root(&file, json.root, transfer);
+    ewa_json_free(context, &json);
     if (status != EWA_OK) *transfer = (ewa_transfer){0};
     return status;
 }

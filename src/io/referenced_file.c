@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Files that another file names: resolved, kept below the folder, opened step by step without following
+// Files that another file or a folder names: resolved, kept below the folder, opened step by step without following
 // links, so that nothing can be exchanged between the check and the opening.
 #define _XOPEN_SOURCE 700 // realpath
-#include "io/mesh/referenced_file.h"
+#include "io/referenced_file.h"
 #include "base/base.h"
 
 #include <errno.h>
@@ -28,6 +28,9 @@ static int fail_errno(char reason[EWA_REASON_BYTES], int error) {
     return -1;
 }
 
+// A pipe would make open() wait, and a terminal would become ours.
+enum { OPEN_FLAGS = O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY };
+
 /// Opens `inner`, which has no links in it, from a folder on, one name after the other.
 static int open_steps(const char *folder, const char *inner, char reason[EWA_REASON_BYTES]) {
     int at = open(folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
@@ -43,10 +46,7 @@ static int open_steps(const char *folder, const char *inner, char reason[EWA_REA
         }
         memcpy(name, step, length);
         name[length] = 0;
-        // A pipe would make open() wait, and a terminal would become ours.
-        const int flags =
-            O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK | O_NOCTTY | (slash ? O_DIRECTORY : 0);
-        const int next = openat(at, name, flags), error = errno;
+        const int next = openat(at, name, OPEN_FLAGS | O_NOFOLLOW | (slash ? O_DIRECTORY : 0)), error = errno;
         close(at);
         errno = error;
         at = next;
@@ -56,28 +56,37 @@ static int open_steps(const char *folder, const char *inner, char reason[EWA_REA
     return at < 0 ? fail_errno(reason, errno) : at;
 }
 
-/// Joins a relative name to a folder, below which it must lie when links are resolved: `full`, within `base`.
-static bool resolve_below(const char *folder, const char *name, char joined[PATH_MAX], char base[PATH_MAX],
-                          char full[PATH_MAX], char reason[EWA_REASON_BYTES]) {
-    const int length = snprintf(joined, PATH_MAX, "%s/%s", folder, name);
+/// Joins a name to a folder, below which it must lie when links are resolved unless `anywhere`: `full`, within `base`.
+static bool resolve(const char *folder, const char *name, bool anywhere, char joined[PATH_MAX], char base[PATH_MAX],
+                    char full[PATH_MAX], char reason[EWA_REASON_BYTES]) {
+    const int length =
+        *name == '/' ? snprintf(joined, PATH_MAX, "%s", name) : snprintf(joined, PATH_MAX, "%s/%s", folder, name);
     if (length < 0 || length >= PATH_MAX) return fail(reason, "its name is too long") == 0;
     if (!realpath(folder, base) || !realpath(joined, full)) return fail_errno(reason, errno) == 0;
     const size_t base_length = strcmp(base, "/") == 0 ? 0 : strlen(base);
-    if (strncmp(full, base, base_length) != 0 || full[base_length] != '/' || !full[base_length + 1])
-        return fail(reason, "it is not below the folder of the file that names it") == 0;
+    const bool below = strncmp(full, base, base_length) == 0 && full[base_length] == '/' && full[base_length + 1];
+    if (!below && !anywhere)
+        return fail(reason, "it is not below the folder of the file that names it; named_files anywhere opens it") == 0;
+    if (!below) strcpy(base, "/");
     return true;
 }
 
-/// Opens a relative name below a folder.
-static int open_below(const char *folder, const char *name, char reason[EWA_REASON_BYTES]) {
+/// Opens a name in a folder.
+static int open_in(const char *folder, const char *name, bool anywhere, char reason[EWA_REASON_BYTES]) {
     char joined[PATH_MAX], base[PATH_MAX], full[PATH_MAX];
-    if (!resolve_below(folder, name, joined, base, full, reason)) return -1;
+    if (!resolve(folder, name, anywhere, joined, base, full, reason)) return -1;
     const int opened = open_steps(base, full + (strcmp(base, "/") == 0 ? 0 : strlen(base)) + 1, reason);
     struct stat facts;
     if (opened < 0) return -1;
     if (fstat(opened, &facts) == 0 && S_ISREG(facts.st_mode)) return opened;
     close(opened);
     return fail(reason, "it is no regular file");
+}
+
+/// Whether files may be opened that others name at all; else the reason.
+static bool is_allowed(ewa_named_files allowed, char reason[EWA_REASON_BYTES]) {
+    return allowed != EWA_NAMED_NONE ||
+           fail(reason, "files that others name are not opened (named_files none)") == 0;
 }
 
 /// Writes the folder that a file lies in, "." where its path has none.
@@ -90,29 +99,37 @@ static bool folder_of(const char *path, char folder[PATH_MAX], char reason[EWA_R
     return true;
 }
 
-int ewa_referenced_file_open(const char *path, ewa_text name, char reason[EWA_REASON_BYTES]) {
+int ewa_referenced_file_open(ewa_named_files allowed, const char *path, ewa_text name, char reason[EWA_REASON_BYTES]) {
     char relative[PATH_MAX], folder[PATH_MAX];
+    const bool anywhere = allowed == EWA_NAMED_ANYWHERE;
+    if (!is_allowed(allowed, reason)) return -1;
     if (name.length == 0 || memchr(name.chars, 0, name.length)) return fail(reason, "it has no name");
     if (name.length >= sizeof relative) return fail(reason, "its name is too long");
     if (!folder_of(path, folder, reason)) return -1;
     for (size_t i = 0; i < name.length; i++) relative[i] = name.chars[i] == '\\' ? '/' : name.chars[i];
     relative[name.length] = 0;
     const char *last = strrchr(relative, '/');
-    const bool foreign = relative[0] == '/' || (relative[0] && relative[1] == ':') || strstr(relative, "://");
-    const int opened = foreign ? fail(reason, "its name is absolute") : open_below(folder, relative, reason);
+    const bool absolute = relative[0] == '/',
+               foreign = (absolute && !anywhere) || (relative[0] && relative[1] == ':') || strstr(relative, "://");
+    const int opened =
+        foreign ? fail(reason, "its name is absolute") : open_in(folder, relative, anywhere, reason);
     if (opened >= 0 || !(last || foreign)) return opened;
     char second[EWA_REASON_BYTES];
     const char *own = last ? last + 1 : relative + 2;
-    const int beside = *own ? open_below(folder, own, second) : -1;
+    const int beside = *own ? open_in(folder, own, anywhere, second) : -1;
     return beside >= 0 || !foreign ? beside
                                    : fail(reason, "its name is absolute, and it is not beside the file");
 }
 
-bool ewa_referenced_file_find(const char *path, const char *name, bool folders, char found[EWA_PATH_BYTES],
-                              char reason[EWA_REASON_BYTES]) {
+bool ewa_referenced_file_find(const ewa_context *context, const char *path, const char *name, bool folders,
+                              char found[EWA_PATH_BYTES], char reason[EWA_REASON_BYTES]) {
     char folder[PATH_MAX], joined[PATH_MAX], base[PATH_MAX], full[PATH_MAX];
-    if (!*name || *name == '/') return fail(reason, *name ? "its name is absolute" : "it has no name") == 0;
-    if (!folder_of(path, folder, reason) || !resolve_below(folder, name, joined, base, full, reason))
+    const ewa_named_files allowed = ewa_context_named_files(context);
+    const bool anywhere = allowed == EWA_NAMED_ANYWHERE;
+    if (!is_allowed(allowed, reason)) return false;
+    if (!*name) return fail(reason, "it has no name") == 0;
+    if (*name == '/' && !anywhere) return fail(reason, "its name is absolute") == 0;
+    if (!folder_of(path, folder, reason) || !resolve(folder, name, anywhere, joined, base, full, reason))
         return false;
     struct stat facts;
     const bool good =
@@ -121,7 +138,7 @@ bool ewa_referenced_file_find(const char *path, const char *name, bool folders, 
         return fail(reason,
                     folders ? "it is neither a regular file nor a folder" : "it is no regular file") == 0;
     // As it was named, for messages; a file of this folder by its own name.
-    const int length = snprintf(found, EWA_PATH_BYTES, "%s", strchr(path, '/') ? joined : name);
+    const int length = snprintf(found, EWA_PATH_BYTES, "%s", *name == '/' || strchr(path, '/') ? joined : name);
     return (length > 0 && length < EWA_PATH_BYTES) || fail(reason, "its name is too long") == 0;
 }
 
@@ -137,12 +154,27 @@ bool ewa_referenced_file_relate(const char *path, const char *target, char name[
            fail(reason, "its name is too long") == 0;
 }
 
-bool ewa_referenced_file_map(const char *path, ewa_text name, ewa_file *file, char reason[EWA_REASON_BYTES]) {
+/// Maps what was opened, and closes it.
+static bool map_opened(int descriptor, ewa_file *file, char reason[EWA_REASON_BYTES]) {
     *file = (ewa_file){0};
-    const int descriptor = ewa_referenced_file_open(path, name, reason);
     if (descriptor < 0) return false;
     const bool mapped = ewa_file_map_descriptor(descriptor, file);
     if (!mapped) fail(reason, "it cannot be mapped");
     close(descriptor);
     return mapped;
+}
+
+bool ewa_referenced_file_map(const ewa_context *context, const char *path, ewa_text name, ewa_file *file,
+                             char reason[EWA_REASON_BYTES]) {
+    return map_opened(ewa_referenced_file_open(ewa_context_named_files(context), path, name, reason), file, reason);
+}
+
+ewa_status ewa_referenced_file_part(ewa_context *context, const char *folder, const char *name, ewa_file *file) {
+    char reason[EWA_REASON_BYTES];
+    const ewa_named_files allowed = ewa_context_named_files(context);
+    *file = (ewa_file){0};
+    if (is_allowed(allowed, reason) &&
+        map_opened(open_in(folder, name, allowed == EWA_NAMED_ANYWHERE, reason), file, reason))
+        return EWA_OK;
+    return ewa_fail(context, EWA_ERROR_IO, "%s/%s: %s", folder, name, reason);
 }
