@@ -68,7 +68,9 @@ static ewa_status fail_exr(reader *in, exr_result_t error) {
                               : error == EXR_ERR_FEATURE_NOT_IMPLEMENTED ? EWA_ERROR_UNSUPPORTED
                                                                          : EWA_ERROR_FORMAT;
     const char *text = in->message[0] ? in->message : exr_get_default_error_message(error);
-    return ewa_fail(in->context, status, "%s: OpenEXR: %s", in->name, text);
+    // DWA: OpenEXRCore 3.1 does not decode it.
+    const char *way_out = status == EWA_ERROR_UNSUPPORTED ? "; packed another way, such as ZIP, it is read" : "";
+    return ewa_fail(in->context, status, "%s: OpenEXR: %s%s", in->name, text, way_out);
 }
 
 static ewa_status open_exr(reader *in) {
