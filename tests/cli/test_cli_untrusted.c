@@ -110,7 +110,7 @@ static void test_scenes(void **state) {
 enum { LIMIT_MIB = 256, SLACK_MIB = 64 };
 
 /// The largest resident memory of any command so far, in MiB.
-static long peak_mib(void) {
+static inline long peak_mib(void) {
     struct rusage used;
     assert_int_equal(getrusage(RUSAGE_CHILDREN, &used), 0);
     return used.ru_maxrss / 1024;
@@ -186,8 +186,10 @@ static void test_bombs(void **state) {
     scratch_text("huge.nrrd", "NRRD0004\ntype: uint8\ndimension: 3\nsizes: 4000 4000 4000\nencoding: gzip\n\n0123456789");
     run_fails(1, "huge.nrrd", "ewa info huge.nrrd --max-memory %dM", LIMIT_MIB);
     run_fails(1, "bytes are needed", "head -c 400000000 /dev/zero | ewa info - --max-memory %dM", LIMIT_MIB);
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) // which hold memory of their own
     if (peak_mib() > LIMIT_MIB + SLACK_MIB)
         fail_msg("%ld MiB by a limit of %d MiB", peak_mib(), LIMIT_MIB);
+#endif
 }
 
 static void test_limits(void **state) {
@@ -202,7 +204,7 @@ static void test_limits(void **state) {
     scratch_text("old.fbx", "FBX");
     run_fails(1, "--untrusted does not start", "ewa info old.fbx --untrusted");
     run_fails(2, "--untrusted does not start", "ewa render many.ply -o film.mp4 --turntable 3 --untrusted");
-    run_done("{ printf 'P5'; } >/dev/null; ewa info many.ply --untrusted");
+    run_done("ewa info many.ply --untrusted");
     uint8_t webp[64];
     scratch_write("bomb.webp", webp, make_webp(webp));
     run_fails(1, "max_memory_bytes 1073741824", "ewa texture bomb.webp -o never.png --untrusted");

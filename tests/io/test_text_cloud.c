@@ -396,7 +396,7 @@ static void test_memory(void **state) {
     const char *text = "x;y;z;name;intensity\n1,5;2,5;3;a b;0,5\n1,5;2,5;4;c;NA\n";
     bool done = false;
     for (long call = 0; !done; call++) {
-        check_memory memory = {-1, 0};
+        check_memory memory = {.calls_left = -1};
         ewa_context *poor = check_context_on(1, &memory);
         const int64_t held_bytes = memory.held_bytes;
         memory.calls_left = call;
