@@ -71,8 +71,7 @@ static bool open_lane(cli_session *session, bench_lane *lane, const bench_sets *
     if (status == EWA_OK) status = ewa_surfels_create(borrowed, &surfels, &lane->surfels);
     if (status == EWA_OK) status = ewa_renderer_create_on(lane->context, backend, &lane->renderer);
     ewa_cloud_destroy(&borrowed);
-    if (status != EWA_OK) session_failed(session, status);
-    return status == EWA_OK;
+    return session_passed(session, status);
 }
 
 static void close_lane(bench_lane *lane) {
@@ -98,10 +97,7 @@ static bool draw_frame(cli_session *session, bench_lane *lane, const ewa_camera 
     const double started_s = clock_now_s();
     const ewa_status status = ewa_render(lane->renderer, lane->surfels, camera, &options, &planes, last);
     const double took_s = clock_now_s() - started_s;
-    if (status != EWA_OK) {
-        session_failed(session, status);
-        return false;
-    }
+    if (!session_passed(session, status)) return false;
     double competitor_s = 0;
     if (lane->competitor.program && !bench_competitor_draw(session, &lane->competitor, &competitor_s))
         return false;

@@ -276,11 +276,7 @@ bool bench_scene_make(cli_session *session, bench_scene_kind kind, uint64_t poin
                       const option_size *size, double prefilter_px, bench_scene *scene) {
     *scene = (bench_scene){
         .name = bench_recipes[kind].name, .color_only = kind == BENCH_COLOR, .glossy = kind == BENCH_PHONG};
-    const ewa_status status = makers[kind](session, point_count, size, scene);
-    if (status != EWA_OK) {
-        session_failed(session, status);
-        return false;
-    }
+    if (!session_passed(session, makers[kind](session, point_count, size, scene))) return false;
     if (covered_px > 0 && !bench_cover_scale(session, scene->cloud, &scene->camera, prefilter_px, covered_px))
         return false;
     scene->covered_px = bench_cover_px(scene->cloud, &scene->camera, prefilter_px);

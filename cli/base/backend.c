@@ -61,11 +61,7 @@ static void print_gpu(const ewa_gpu_info *gpu) {
 
 bool backend_print_gpu(cli_session *session, json_writer *json) {
     ewa_gpu_info gpu = {.struct_size = sizeof gpu};
-    const ewa_status status = ewa_gpu_describe(session->context, &gpu);
-    if (status != EWA_OK) {
-        session_failed(session, status);
-        return false;
-    }
+    if (!session_passed(session, ewa_gpu_describe(session->context, &gpu))) return false;
     if (json)
         write_gpu(json, &gpu);
     else

@@ -181,6 +181,11 @@ int session_failed(cli_session *session, ewa_status status) {
     return session_fail(session, "%s", status == EWA_CANCELLED ? "given up" : ewa_status_name(status));
 }
 
+bool session_passed(cli_session *session, ewa_status status) {
+    if (status != EWA_OK) session_failed(session, status);
+    return status == EWA_OK;
+}
+
 void session_warn(cli_session *session, const char *format, ...) {
     if (session->quiet) return;
     va_list arguments;

@@ -48,7 +48,10 @@ int session_end(cli_session *session, int exit_status);
 /// Prints "ewa: SUBJECT: what" and returns EXIT_FAILED.
 int session_fail(cli_session *session, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
-/// Makes sure that a failed call of the library has been reported; returns EXIT_FAILED.
+/// Makes sure that a failed call of the library has been reported; returns whether it succeeded.
+bool session_passed(cli_session *session, ewa_status status);
+
+/// The same for a call that is known to have failed; returns EXIT_FAILED.
 int session_failed(cli_session *session, ewa_status status);
 
 /// Prints a warning, unless --quiet.

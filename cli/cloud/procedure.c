@@ -67,7 +67,5 @@ bool procedure_apply(cli_session *session, const procedure_arguments *arguments,
     for (int i = 0; i < 2; i++)
         for (uint32_t c = 0; c < arguments->colors[i].count; c++)
             options.colors[i][c] = (float)arguments->colors[i].values[c];
-    const ewa_status status = ewa_cloud_color_by_procedure(cloud, &options);
-    if (status != EWA_OK) session_failed(session, status);
-    return status == EWA_OK;
+    return session_passed(session, ewa_cloud_color_by_procedure(cloud, &options));
 }

@@ -57,11 +57,7 @@ static bool color_gaussians(cli_session *session, ewa_cloud *cloud) {
     static const char *const names[] = {"f_dc_0", "f_dc_1", "f_dc_2"};
     uint8_t *colors = NULL;
     if (ewa_cloud_find(cloud, EWA_COLOR) || !ewa_cloud_find_gaussians(cloud).dimensions) return true;
-    const ewa_status status = ewa_cloud_add(cloud, EWA_COLOR, EWA_U8, 3, (void **)&colors);
-    if (status != EWA_OK) {
-        session_failed(session, status);
-        return false;
-    }
+    if (!session_passed(session, ewa_cloud_add(cloud, EWA_COLOR, EWA_U8, 3, (void **)&colors))) return false;
     for (int c = 0; c < 3; c++) {
         const ewa_attribute *attribute = ewa_cloud_find(cloud, names[c]);
         for (uint64_t i = 0; i < ewa_cloud_point_count(cloud); i++) {

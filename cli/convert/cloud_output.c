@@ -56,11 +56,7 @@ bool cloud_output_save(cli_session *session, const output_arguments *output, con
     cloud_output_options_fill(output, &options);
     options.elements = elements;
     session->subject = output->path;
-    const ewa_status status = ewa_cloud_save(cloud, output->path, &options);
-    if (status != EWA_OK) {
-        session_failed(session, status);
-        return false;
-    }
+    if (!session_passed(session, ewa_cloud_save(cloud, output->path, &options))) return false;
     session_say(session, "%s: %llu points written", output->path,
                 (unsigned long long)ewa_cloud_point_count(cloud));
     return true;

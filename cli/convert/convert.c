@@ -101,11 +101,7 @@ static bool check(const void *data, char message[OPTION_ERROR_BYTES]) {
 /// Replaces a cloud by some of its points; false after reporting.
 static bool keep(cli_session *session, ewa_cloud **cloud, const uint64_t *indices, uint64_t count) {
     ewa_cloud *selected = NULL;
-    const ewa_status status = ewa_cloud_select(*cloud, indices, count, &selected);
-    if (status != EWA_OK) {
-        session_failed(session, status);
-        return false;
-    }
+    if (!session_passed(session, ewa_cloud_select(*cloud, indices, count, &selected))) return false;
     ewa_cloud_destroy(cloud);
     *cloud = selected;
     return true;
@@ -169,8 +165,7 @@ static bool move(cli_session *session, ewa_cloud *cloud, const convert_arguments
     const uint32_t count = list_maps(arguments, maps);
     ewa_status status = EWA_OK;
     for (uint32_t m = 0; m < count && status == EWA_OK; m++) status = ewa_cloud_transform(cloud, maps[m]);
-    if (status != EWA_OK) session_failed(session, status);
-    return status == EWA_OK;
+    return session_passed(session, status);
 }
 
 /// Estimates normals and radii that the cloud lacks for new colours; returns false after reporting.
@@ -181,9 +176,7 @@ static bool complete(cli_session *session, ewa_cloud **cloud, const convert_argu
     ewa_estimate_options options;
     ewa_estimate_options_init(&options, sizeof options);
     options.cutoff = arguments->options.cutoff;
-    const ewa_status status = ewa_cloud_estimate(cloud, &options);
-    if (status != EWA_OK) session_failed(session, status);
-    return status == EWA_OK;
+    return session_passed(session, ewa_cloud_estimate(cloud, &options));
 }
 
 /// Turns colours into coefficients.

@@ -49,10 +49,8 @@ static void widen(ewa_bounds *box, const ewa_bounds *other) {
 /// Opens the file anew, at its begin; false after reporting.
 static bool reopen(stream_job *p) {
     ewa_cloud_reader_close(&p->reader);
-    const ewa_status status =
-        ewa_cloud_reader_open(p->session->context, p->path, &p->session->load, &p->reader);
-    if (status != EWA_OK) session_failed(p->session, status);
-    return status == EWA_OK;
+    return session_passed(p->session,
+                          ewa_cloud_reader_open(p->session->context, p->path, &p->session->load, &p->reader));
 }
 
 /// Reads all pieces and changes them; each goes to `take`. False after reporting.
@@ -95,10 +93,7 @@ static bool make_prototype(stream_job *p, ewa_cloud **prototype) {
         session_fail(p->session, "%s: the file has no points", p->path);
         return false;
     }
-    if (status != EWA_OK) {
-        session_failed(p->session, status);
-        return false;
-    }
+    if (!session_passed(p->session, status)) return false;
     return p->change(p->session, p->arguments, prototype);
 }
 
@@ -109,10 +104,9 @@ static bool open_output(stream_job *p, const ewa_cloud *prototype, bool counted,
     const uint64_t point_count = counted       ? p->count
                                  : keeps_count ? ewa_cloud_reader_maximum_points(p->reader)
                                                : EWA_POINTS_UNKNOWN;
-    const ewa_status status = ewa_cloud_writer_open(p->session->context, p->output->path, &options, prototype,
-                                                    point_count, counted ? &p->bounds : NULL, &p->writer);
-    if (status != EWA_OK) session_failed(p->session, status);
-    return status == EWA_OK;
+    return session_passed(p->session,
+                          ewa_cloud_writer_open(p->session->context, p->output->path, &options, prototype,
+                                                point_count, counted ? &p->bounds : NULL, &p->writer));
 }
 
 /// Whether the number of points comes before them and cannot be put there later.

@@ -135,8 +135,7 @@ static bool make_map(cli_session *session, const texture_arguments *arguments, c
         status = ewa_texture_map_from_camera(session->context, image->width_px, image->height_px, camera,
                                              plane[0], plane[1], plane[2], map);
     }
-    if (status != EWA_OK) session_failed(session, status);
-    return status == EWA_OK;
+    return session_passed(session, status);
 }
 
 /// Draws into a new picture, which the caller frees in any case. False after reporting.
@@ -153,10 +152,7 @@ static bool draw(cli_session *session, const texture_arguments *arguments, const
     option_color_linear(&arguments->background, options.background);
     ewa_texture_stats stats;
     if (status == EWA_OK) status = ewa_texture_map(session->context, &source, map, &options, &target, &stats);
-    if (status != EWA_OK) {
-        session_failed(session, status);
-        return false;
-    }
+    if (!session_passed(session, status)) return false;
     if (arguments->options.method != EWA_TEXTURE_BILINEAR && stats.splat_count + stats.point_count == 0)
         session_warn(session, "nothing of the image is in the picture");
     session_say(session,

@@ -25,7 +25,5 @@ bool textured_load(cli_session *session, const textured_arguments *arguments, ew
     *picture = (ewa_image){0};
     if (!arguments->picture) return true;
     session->subject = arguments->picture;
-    const ewa_status status = ewa_image_load(session->context, arguments->picture, picture);
-    if (status != EWA_OK) session_failed(session, status);
-    return status == EWA_OK;
+    return session_passed(session, ewa_image_load(session->context, arguments->picture, picture));
 }

@@ -31,8 +31,9 @@ typedef struct warp_arguments {
 
 static const cli_option output_table[] = {
     {"output", OPTION_OUTPUT, AT(output), "FILE",
-     .help = "the picture: .png or .jpg (8-bit sRGB), .exr (linear floats, premultiplied: R G B A Z N.X N.Y N.Z "
-             "coverage), .pfm (linear RGB); -: PNG to standard output",
+     .help =
+         "the picture: .png or .jpg (8-bit sRGB), .exr (linear floats, premultiplied: R G B A Z N.X N.Y N.Z "
+         "coverage), .pfm (linear RGB); -: PNG to standard output",
      .letter = 'o'},
     {"aov", OPTION_OUTPUTS, AT(aov), "NAME=FILE,...",
      .help = "further planes, .pfm or .exr: depth (camera z, infinite where nothing is), normal (world, "
@@ -111,20 +112,16 @@ static bool make_target(cli_session *session, const warp_arguments *arguments, c
     for (int i = 0; i < 3 && arguments->shift.count; i++)
         target->world_to_camera[4 * i + 3] -= sqrt(scale2) * arguments->shift.values[i];
     view_resize(target, &arguments->size);
-    const ewa_status status = ewa_camera_check(session->context, target);
-    if (status != EWA_OK) session_failed(session, status);
-    return status == EWA_OK;
+    return session_passed(session, ewa_camera_check(session->context, target));
 }
 
 /// Takes the samples; warns when there is none.
 static bool take(cli_session *session, const warp_arguments *arguments, const warp_sources *sources,
                  ewa_warp *warp) {
     ewa_warp_facts facts;
-    const ewa_status status = ewa_warp_take(warp, sources->images, sources->count, &arguments->warp, &facts);
-    if (status != EWA_OK) {
-        session_failed(session, status);
+    if (!session_passed(session,
+                        ewa_warp_take(warp, sources->images, sources->count, &arguments->warp, &facts)))
         return false;
-    }
     if (facts.sample_count == 0) {
         session_fail(session, "%s: no pixel has a depth between %g and %g",
                      arguments->sources.common.operands[1], arguments->warp.nearest_world,

@@ -172,10 +172,7 @@ static bool gather(cli_session *session, const char *path, const ewa_model *mode
     facts->sampled_count = facts->point_count < SPACING_SAMPLES ? facts->point_count : SPACING_SAMPLES;
     if (status == EWA_OK && facts->bounds.finite_count > 1)
         status = ewa_cloud_measure_spacing(cloud, SPACING_SAMPLES, &facts->spacing);
-    if (status != EWA_OK) {
-        session_failed(session, status);
-        return false;
-    }
+    if (!session_passed(session, status)) return false;
     facts->shape = measure_shape(cloud, &facts->bounds);
     ewa_cloud_count_invalid_points(cloud, &facts->invalid);
     const int up_axis = facts->gaussians.count ? gaussian_files_up_axis(&facts->gaussians.file) : 0;

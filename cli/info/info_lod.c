@@ -16,9 +16,7 @@ bool info_lod_open(cli_session *session, const char *path, ewa_lod **lod, ewa_cl
     ewa_lod_info info;
     ewa_lod_describe(*lod, &info);
     if (info.point_count <= EWA_OCTREE_WHOLE_POINTS || session->filter || session->load.columns) return true;
-    const ewa_status status = ewa_lod_sample(*lod, EWA_OCTREE_SAMPLE_POINTS, sample);
-    if (status != EWA_OK) session_failed(session, status);
-    return status == EWA_OK;
+    return session_passed(session, ewa_lod_sample(*lod, EWA_OCTREE_SAMPLE_POINTS, sample));
 }
 
 void info_lod_print(const ewa_lod *lod, uint64_t sampled_count) {

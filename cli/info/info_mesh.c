@@ -41,9 +41,7 @@ bool info_mesh_gather(cli_session *session, const ewa_model *model, mesh_facts *
         else
             facts->flat_count++;
     }
-    const ewa_status status = ewa_mesh_is_closed(mesh, &facts->closed);
-    if (status != EWA_OK) session_failed(session, status);
-    return status == EWA_OK;
+    return session_passed(session, ewa_mesh_is_closed(mesh, &facts->closed));
 }
 
 void info_mesh_print(const mesh_facts *facts) {

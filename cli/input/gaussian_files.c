@@ -23,11 +23,7 @@ bool gaussian_files_load(cli_session *session, const char *path, ewa_gaussians *
     ewa_gaussian_facts found;
     session->subject = path;
     const double started_s = clock_now_s();
-    const ewa_status status = ewa_gaussians_load(session->context, path, set, &found);
-    if (status != EWA_OK) {
-        session_failed(session, status);
-        return false;
-    }
+    if (!session_passed(session, ewa_gaussians_load(session->context, path, set, &found))) return false;
     session_say(session, "%s: %u Gaussians read in %.3f s (%s)", path, set->count, clock_now_s() - started_s,
                 ewa_gaussian_format_name(found.format));
     if (facts) *facts = found;

@@ -192,6 +192,5 @@ bool import_load(cli_session *session, const char *path, uint32_t wanted, ewa_mo
     const ewa_status status =
         ewa_model_load_memory(session->context, bytes, size_bytes, path, path, wanted, NULL, model);
     free(bytes);
-    if (status != EWA_OK) session_failed(session, status);
-    return status == EWA_OK;
+    return session_passed(session, status);
 }

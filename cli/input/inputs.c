@@ -200,10 +200,7 @@ static bool add_default_colors(cli_session *session, const loaded_clouds *loaded
         if (ewa_cloud_find(loaded->clouds[i], EWA_COLOR)) continue;
         const ewa_status status = cloud_set_color(loaded->clouds[i], srgb);
         session->subject = loaded->paths[i];
-        if (status != EWA_OK) {
-            session_failed(session, status);
-            return false;
-        }
+        if (!session_passed(session, status)) return false;
         session_note(session,
                      "it has no colours; its points become (%.3g, %.3g, %.3g), --default-color decides",
                      srgb[0], srgb[1], srgb[2]);
@@ -234,11 +231,7 @@ bool input_complete(cli_session *session, const char *path, ewa_cloud **cloud, d
     ewa_estimate_options options;
     ewa_estimate_options_init(&options, sizeof options);
     const double started_s = clock_now_s();
-    const ewa_status status = ewa_cloud_estimate(cloud, &options);
-    if (status != EWA_OK) {
-        session_failed(session, status);
-        return false;
-    }
+    if (!session_passed(session, ewa_cloud_estimate(cloud, &options))) return false;
     const double took_s = clock_now_s() - started_s;
     *estimate_s += took_s;
     session_say(session, "%s: %s from %u neighbours in %.3f s", path,

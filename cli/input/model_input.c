@@ -36,11 +36,8 @@ bool model_input_load(cli_session *session, const char *path, uint32_t wanted, e
         model->points = lod_input_read(session, path, NULL);
         if (!model->points) return false;
     } else {
-        const ewa_status status = ewa_model_load(session->context, path, wanted, &session->load, model);
-        if (status != EWA_OK) {
-            session_failed(session, status);
+        if (!session_passed(session, ewa_model_load(session->context, path, wanted, &session->load, model)))
             return false;
-        }
     }
     if (model->lost_count)
         session_note(session, "%s: %llu points are lost", path, (unsigned long long)model->lost_count);

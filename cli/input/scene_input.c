@@ -58,8 +58,7 @@ static bool add_file(cli_session *session, const char *path, const ewa_asset_opt
         status = ewa_scene_add(scene, asset, &instance);
     }
     ewa_asset_release(&asset);
-    if (status != EWA_OK) session_failed(session, status);
-    return status == EWA_OK;
+    return session_passed(session, status);
 }
 
 /// Adds what a scene file names; points that have their own colours there get those of the command.
@@ -78,8 +77,7 @@ static bool add_scene(cli_session *session, const char *path, const ewa_asset_op
         instance.coloring = *coloring;
         if (status == EWA_OK) status = ewa_scene_set(scene, i, &instance);
     }
-    if (status != EWA_OK) session_failed(session, status);
-    return status == EWA_OK;
+    return session_passed(session, status);
 }
 
 bool scene_input_add(cli_session *session, const common_arguments *common, const ewa_asset_options *options,

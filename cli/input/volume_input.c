@@ -37,11 +37,7 @@ bool volume_input_load(cli_session *session, const volume_input_arguments *argum
     options.big_endian = arguments->big_endian;
     options.header_bytes = (uint64_t)arguments->header_bytes;
     const double started_s = clock_now_s();
-    const ewa_status status = ewa_volume_load(session->context, path, &options, volume);
-    if (status != EWA_OK) {
-        session_failed(session, status);
-        return false;
-    }
+    if (!session_passed(session, ewa_volume_load(session->context, path, &options, volume))) return false;
     session_say(session, "%s: %u x %u x %u voxels of %s read in %.3f s", path, volume->dims[0],
                 volume->dims[1], volume->dims[2], ewa_type_name(volume->type), clock_now_s() - started_s);
     return true;

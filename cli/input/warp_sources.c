@@ -153,10 +153,7 @@ static bool load_pair(cli_session *session, const source_arguments *arguments, u
         session->subject = depth_path;
         status = ewa_depth_load(session->context, depth_path, depth);
     }
-    if (status != EWA_OK) {
-        session_failed(session, status);
-        return false;
-    }
+    if (!session_passed(session, status)) return false;
     if (color->width_px != depth->width_px || color->height_px != depth->height_px) {
         session_fail(session, "%s has %u x %u pixels, %s has %u x %u", color_path, color->width_px,
                      color->height_px, depth_path, depth->width_px, depth->height_px);

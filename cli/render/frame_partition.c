@@ -24,11 +24,7 @@ static ewa_status agree(cli_session *session, frame_cameras *frames) {
 bool frame_partition_choose(cli_session *session, frame_cameras *frames) {
     const cli_process_group *group = session->group;
     if (!group) return true;
-    const ewa_status status = agree(session, frames);
-    if (status != EWA_OK) {
-        session_failed(session, status);
-        return false;
-    }
+    if (!session_passed(session, agree(session, frames))) return false;
     if (group->shares_cloud) return true;
     size_t kept = 0;
     for (size_t i = group->exchange.rank; i < frames->chosen_count; i += group->exchange.rank_count)

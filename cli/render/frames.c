@@ -118,8 +118,7 @@ static bool make_turntable(cli_session *session, const frames_arguments *argumen
         status = ewa_camera_orbit(&frames->cameras[i], turn.pivot_world, turn.axis_world,
                                   360 * (double)i / (double)count);
     }
-    if (status != EWA_OK) session_failed(session, status);
-    return status == EWA_OK;
+    return session_passed(session, status);
 }
 
 /// Cameras as they come from a file.
@@ -172,8 +171,7 @@ static bool load_keys(cli_session *session, const frames_arguments *arguments, c
         view_resize(&keys->cameras[i], &arguments->view.size);
         status = ewa_camera_check(session->context, &keys->cameras[i]);
     }
-    if (status != EWA_OK) session_failed(session, status);
-    return status == EWA_OK;
+    return session_passed(session, status);
 }
 
 static bool make_path(cli_session *session, const frames_arguments *arguments, frame_cameras *frames) {

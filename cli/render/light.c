@@ -78,8 +78,7 @@ bool light_load(cli_session *session, const light_arguments *arguments, light_ob
         session->subject = arguments->environment_path;
         status = load_environment(session, arguments->environment_path, &objects->environment);
     }
-    if (status != EWA_OK) session_failed(session, status);
-    return status == EWA_OK;
+    return session_passed(session, status);
 }
 
 void light_free(light_objects *objects) { ewa_environment_destroy(&objects->environment); }

@@ -50,7 +50,8 @@ bool picture_make(cli_session *session, const picture_paths *paths, const ewa_ca
     *picture = (cli_picture){.rgba8 = NULL};
     ewa_context *context = session->context;
     const uint32_t width = camera->width_px, height = camera->height_px;
-    const bool exr = is_exr(paths->color), codes = !paths->color || path_has_suffix(paths->color, ".png|.jpg|.jpeg|-");
+    const bool exr = is_exr(paths->color),
+               codes = !paths->color || path_has_suffix(paths->color, ".png|.jpg|.jpeg|-");
     ewa_status status = EWA_OK;
     if (codes) {
         picture->rgba8 = malloc((size_t)width * height * 4);
@@ -117,9 +118,10 @@ static ewa_status save_linear(const picture_paths *paths, const ewa_image_save_o
 
 /// Writes the 8-bit picture, without alpha where that says nothing.
 static ewa_status save_codes(ewa_context *context, const char *path, const ewa_camera *camera, bool opaque,
-                           uint8_t *rgba8) {
+                             uint8_t *rgba8) {
     const size_t width = camera->width_px, pixel_count = width * camera->height_px;
-    if (!opaque) return ewa_pixels_save(context, path, camera->width_px, camera->height_px, 4, rgba8, 4 * width);
+    if (!opaque)
+        return ewa_pixels_save(context, path, camera->width_px, camera->height_px, 4, rgba8, 4 * width);
     for (size_t i = 0; i < pixel_count; i++) memmove(rgba8 + 3 * i, rgba8 + 4 * i, 3);
     return ewa_pixels_save(context, path, camera->width_px, camera->height_px, 3, rgba8, 3 * width);
 }
@@ -148,6 +150,5 @@ bool picture_save(cli_session *session, const picture_paths *paths, const ewa_ca
         status = picture->rgba8 ? save_codes(session->context, paths->color, camera, opaque, picture->rgba8)
                                 : save_linear(paths, &options, picture);
     }
-    if (status != EWA_OK) session_failed(session, status);
-    return status == EWA_OK;
+    return session_passed(session, status);
 }

@@ -49,9 +49,10 @@ _Static_assert(offsetof(render_arguments, light) == LIGHT_OFFSET, "light_options
 
 static const cli_option output_table[] = {
     {"output", OPTION_OUTPUT, AT(output), "FILE",
-     .help = "the picture: .png or .jpg (8-bit sRGB), .exr (linear floats, premultiplied: R G B A Z N.X N.Y N.Z "
-             "coverage), .pfm (linear RGB); -: PNG to standard output. Frames: NAME_%04d.png and such, or a "
-             "film: .mp4, .mkv (H.264), .webm (VP9), .gif, by the program ffmpeg",
+     .help =
+         "the picture: .png or .jpg (8-bit sRGB), .exr (linear floats, premultiplied: R G B A Z N.X N.Y N.Z "
+         "coverage), .pfm (linear RGB); -: PNG to standard output. Frames: NAME_%04d.png and such, or a "
+         "film: .mp4, .mkv (H.264), .webm (VP9), .gif, by the program ffmpeg",
      .letter = 'o'},
     {"aov", OPTION_OUTPUTS, AT(aov), "NAME=FILE,...",
      .help = "further planes, .pfm or .exr: depth (camera z, infinite where nothing is), normal (world, "
@@ -356,9 +357,8 @@ static bool make_renderer(cli_session *session, int backend, ewa_scene_renderer 
 /// Writes the scene file that was asked for, with the first camera. False after reporting.
 static bool save_scene(cli_session *session, const render_arguments *arguments, const render_scene *scene) {
     if (!arguments->save_scene_path || !process_group_leads(session->group)) return true;
-    const ewa_status status = ewa_scene_save(scene->scene, scene->frames.cameras, arguments->save_scene_path);
-    if (status != EWA_OK) session_failed(session, status);
-    return status == EWA_OK;
+    return session_passed(session,
+                          ewa_scene_save(scene->scene, scene->frames.cameras, arguments->save_scene_path));
 }
 
 /// Draws and writes everything. False after reporting.

@@ -20,8 +20,8 @@ typedef struct frame_files {
     char color[1024];
 } frame_files;
 
-sequence_output sequence_output_of(const frames_arguments *frames, const char *output, const picture_paths *paths,
-                                   bool opaque) {
+sequence_output sequence_output_of(const frames_arguments *frames, const char *output,
+                                   const picture_paths *paths, bool opaque) {
     return (sequence_output){
         .paths = paths,
         .numbered = frames_many(frames),
@@ -187,10 +187,7 @@ static bool draw_frame(sequence *all, size_t place) {
     const ewa_status status =
         all->painter->paint(all->painter->user, camera, &slot->picture.frame, &slot->stats);
     slot->render_s = clock_now_s() - started_s;
-    if (status != EWA_OK) {
-        session_failed(all->session, status);
-        return false;
-    }
+    if (!session_passed(all->session, status)) return false;
     all->session->subject = slot->session->subject = NULL;
     if (all->mute) return all->written[place] = true;
     const bool put = !all->output->film || video_put(all->session, &all->video, slot->picture.rgba8);

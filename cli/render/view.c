@@ -35,7 +35,8 @@ static const cli_option view_table[] = {
      .help = "vertical field of view in degrees", .aliases = "camera-view-angle",
      .absent = "auto: 30, but for what a camera at the origin took", .excludes = "ortho"},
     {"ortho", OPTION_NUMBER, offsetof(view_arguments, ortho_height), "HEIGHT", "(0, inf)",
-     .help = "orthographic camera that shows HEIGHT world units from bottom to top", .absent = "none: perspective"},
+     .help = "orthographic camera that shows HEIGHT world units from bottom to top",
+     .absent = "none: perspective"},
     {"view", OPTION_CHOICE, offsetof(view_arguments, view), NULL, "front|back|left|right|top|bottom|iso",
      .help = "side from which the cloud is seen, framed whole", .absent = "auto: see above"},
     {"azimuth", OPTION_NUMBER, offsetof(view_arguments, azimuth_deg), "DEG", "[-360, 360]",
@@ -114,13 +115,12 @@ static bool place(cli_session *session, const view_arguments *arguments, const v
                   bool turntable, ewa_camera *camera, ewa_view_info *info) {
     const common_arguments *common = &arguments->common;
     const ewa_view_options options = options_of(arguments, subject->scene, turntable);
-    const ewa_status status =
-        subject->scene ? ewa_scene_place_camera(subject->scene, &options, camera, info)
-                       : ewa_cloud_place_camera(subject->cloud, subject->radius_scale,
-                                                ewa_up_convention_of(common->operand_count, common->operands),
-                                                up_of(subject->up_axis), &options, camera, info);
-    if (status != EWA_OK) session_failed(session, status);
-    return status == EWA_OK;
+    return session_passed(
+        session, subject->scene
+                     ? ewa_scene_place_camera(subject->scene, &options, camera, info)
+                     : ewa_cloud_place_camera(subject->cloud, subject->radius_scale,
+                                              ewa_up_convention_of(common->operand_count, common->operands),
+                                              up_of(subject->up_axis), &options, camera, info));
 }
 
 bool view_default(cli_session *session, const char *path, const ewa_cloud *cloud, int up_axis,
@@ -190,9 +190,7 @@ static bool load_camera(cli_session *session, const view_arguments *arguments, e
         return false;
     session->subject = path;
     view_resize(camera, &arguments->size);
-    const ewa_status status = ewa_camera_check(session->context, camera);
-    if (status != EWA_OK) session_failed(session, status);
-    return status == EWA_OK;
+    return session_passed(session, ewa_camera_check(session->context, camera));
 }
 
 static view_turn turn_of(const ewa_view_info *info) {

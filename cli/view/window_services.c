@@ -130,11 +130,8 @@ static bool load(void *user, const char *path, const ewa_scene_entry *entry, con
     if (options.levels == EWA_OCTREE_AUTO) options.levels = own->levels;
     options.voxel_level_count = VOXEL_LEVELS;
     options.own_context = true;
-    const ewa_status status = ewa_asset_load(own->loading.context, path, &options, asset);
-    if (status != EWA_OK) {
-        session_failed(&own->loading, status);
+    if (!session_passed(&own->loading, ewa_asset_load(own->loading.context, path, &options, asset)))
         return false;
-    }
     ewa_asset_info info;
     ewa_asset_describe(*asset, &info);
     if (info.cloud && !info.count) {

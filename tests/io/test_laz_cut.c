@@ -65,7 +65,6 @@ static uint32_t number_at(const uint8_t *bytes) {
 }
 
 static void test_cut(void **state) {
-    (void)state;
     check_log log = {.count = 0};
     ewa_context *context = check_context(2, &log);
     for (int layered = 0; layered < 2; layered++) {
@@ -134,7 +133,6 @@ static ewa_status load_failing(ewa_context *context, void *user) {
 }
 
 static void test_failing_allocations(void **state) {
-    (void)state;
     char path[512];
     scratch_fail_each(load_failing, (void *)(uintptr_t)scratch_path("cut.laz", path));
 }
