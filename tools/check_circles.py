@@ -7,10 +7,12 @@
 
 A unit is a file of src/ or cli/ with its header: room/name.c and room/name.h. Unit A needs unit B when A names a function
 that B defines: one with external linkage in B's .c, or an inline one in B's .h that A includes, itself or by way of others.
-(Types alone do not count: a header that several files share lies below all of them.) Fails, and lists the functions, for
+(Types alone do not count: a header that several files share lies below all of them.) A file of python/ewa needs another
+one when it imports from it, wherever in the file, but for the eyes of type checkers alone. Fails, and lists the functions, for
 every circle, and for every need of a room of src/ that the table of docs/architecture.md has on the same or a higher
 floor, whatever header declares the function; otherwise prints how many units there are and how many needs.
 """
+import ast
 import re
 import sys
 from pathlib import Path
@@ -81,6 +83,23 @@ def needs_of(files):
     return needs
 
 
+def needs_of_python(root):
+    """module -> other module -> the names that are imported from it."""
+    needs = {}
+    for path in sorted((root / "python" / "ewa").glob("*.py")):
+        tree = ast.parse(path.read_text())
+        for_types = {id(inner) for node in ast.walk(tree) if isinstance(node, ast.If)
+                     and getattr(node.test, "id", "") == "TYPE_CHECKING" for inner in ast.walk(node)}
+        own = needs.setdefault(f"python/ewa/{path.stem}", {})
+        for node in ast.walk(tree):
+            if not isinstance(node, ast.ImportFrom) or node.level != 1 or id(node) in for_types:
+                continue
+            for alias in node.names:
+                other = (node.module or alias.name).split(".")[0]
+                own.setdefault(f"python/ewa/{other}", set()).add(alias.name)
+    return needs
+
+
 def circles_of(needs):
     """Tarjan's strongly connected components of more than one unit."""
     index, low, stack, found = {}, {}, [], []
@@ -118,7 +137,7 @@ def climbs_of(root, needs):
 def main():
     root = Path(sys.argv[1] if len(sys.argv) > 1 else Path(__file__).resolve().parent.parent).resolve()
     sys.setrecursionlimit(10000)
-    needs = needs_of(read(root))
+    needs = {**needs_of(read(root)), **needs_of_python(root)}
     circles = circles_of(needs)
     for circle in circles:
         print("circle: " + " ".join(circle))

@@ -270,7 +270,7 @@ def write_options(options):
             elif option["type"] == "bool":
                 default = "on" if default else "off"
             unit = f", {option['unit']}" if option.get("unit") else ""
-            lines += [f"    #: {option['help']}; {option['range']}{unit}, default {default}", f"    {member}: {kind}"]
+            lines += [f"    #: {option['help']}; {option['range']}{unit}, default {default}", f"    {member}: {kind} | None"]
         lines.append("")
     lines += ["", "#: Members that are no keyword arguments: the package sets them by arguments of its own.",
               "OWN: dict[str, frozenset[str]] = {"]

@@ -227,8 +227,8 @@ EWA_API ewa_status ewa_scene_complete(ewa_scene *scene);
 /// Makes everything resident that is visible: all clouds and meshes become one set of surfels, as if they were one
 /// file, coloured and measured as the instances say. Called by ewa_scene_draw() and ewa_scene_pick(). Without
 /// keep_points the clouds are gone afterwards, and instances of points can no longer change. Errors: those of
-/// ewa_surfels_create() and ewa_scene_complete(); EWA_ERROR_ARGUMENT (an attribute that is not there; nothing can be
-/// drawn of any cloud).
+/// ewa_surfels_create() and ewa_scene_complete(); EWA_ERROR_ARGUMENT (an attribute that is not there),
+/// EWA_ERROR_FORMAT (nothing can be drawn of any cloud).
 EWA_API ewa_status ewa_scene_commit(ewa_scene *scene);
 
 /// What a scene is, and what making it took.
@@ -267,6 +267,7 @@ typedef struct ewa_view_options {
     double azimuth_deg;            ///< carries the camera about the up axis; [-360, 360]; default 0
     double elevation_deg;          ///< then raises it; [-180, 180]; default 0
     bool turntable;                ///< all must be in the picture in every turn about the axis; default false
+    double direction_world[3];     ///< in which it looks, any length, in place of `view`; zeros (default): as `view` says
 } ewa_view_options;
 
 EWA_API extern const ewa_option_table ewa_view_options_table;

@@ -2206,6 +2206,7 @@ class ewa_view_options(c.Structure):
     azimuth_deg: float
     elevation_deg: float
     turntable: bool
+    direction_world: c.Array[c.c_double]
     _fields_ = [
         ("struct_size", c.c_size_t),
         ("width_px", c.c_uint32),
@@ -2221,6 +2222,7 @@ class ewa_view_options(c.Structure):
         ("azimuth_deg", c.c_double),
         ("elevation_deg", c.c_double),
         ("turntable", c.c_bool),
+        ("direction_world", c.c_double * 3),
     ]
 
 

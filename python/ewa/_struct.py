@@ -114,8 +114,8 @@ def _flat(value: Any, label: str) -> list[Any]:
 def fill(struct: ctypes.Structure, name: str, values: Mapping[str, Any], own: bool = False) -> None:
     """Set members of a struct of options from keyword arguments.
 
-    Raises ArgumentError, a ValueError, with the member and what it may be; TypeError for one that there is not.
-    `own`: also those that the package sets by arguments of its own.
+    None stands for the default. Raises ArgumentError, a ValueError, with the member and what it may be; TypeError for one
+    that there is not. `own`: also those that the package sets by arguments of its own.
     """
     if not values:
         return
@@ -125,6 +125,8 @@ def fill(struct: ctypes.Structure, name: str, values: Mapping[str, Any], own: bo
         if option is None or (not own and key in OWN.get(name, ())):
             known = [option for option in options if option not in OWN.get(name, ())]
             raise TypeError(f"{key} is no option of {name}; those are {', '.join(known)}")
+        if value is None:
+            continue
         if not option.length:
             setattr(struct, key, _convert(option, value, key))
             continue

@@ -7,7 +7,7 @@ import ctypes
 import math
 import operator
 import os
-from typing import TYPE_CHECKING, Any, Sequence, Union
+from typing import Any, Sequence, Union
 
 import numpy as np
 
@@ -16,11 +16,8 @@ from ._arrays import Array
 from ._context import Context, core_of
 from ._errors import ArgumentError, make
 from ._library import functions as lib
+from ._scene import World, core_of_object, place_at_box, view_options
 from ._struct import numbers, path_bytes
-
-if TYPE_CHECKING:
-    from .cloud import Cloud
-    from .surfels import Surfels
 
 #: Vertical field of view where nobody says, degrees; that of the program.
 DEFAULT_FOV_DEG = 30.0
@@ -128,17 +125,18 @@ class Camera:
         return cls._of(_checked(made))
 
     @classmethod
-    def frame(cls, what: Cloud | Surfels | Any, view: str | Sequence[float] | None = None,
+    def frame(cls, what: Any, view: str | Sequence[float] | None = None,
               up: str | Sequence[float] | None = None, *, size: Sequence[int] = DEFAULT_SIZE,
               fov: float | None = None, ortho: float | None = None, azimuth: float = 0, elevation: float = 0,
               radius_scale: float = 1) -> Camera:
         """Make a camera that has the whole of something in its picture, as large as it goes.
 
-        Of a cloud the camera is that of ``ewa render`` with the same options, to the last bit.
+        The camera is that of ``ewa render`` with the same options, to the last bit; that of a cloud without normals and
+        radii sees what is estimated.
 
         Parameters
         ----------
-        what : Cloud, Surfels or array_like of shape (2, 3)
+        what : Cloud, Surfels, or anything else that a scene takes but files; a list of these; array_like of shape (2, 3)
             What is to be seen; an array: the lower and the upper corner of a box.
         view : {"front", "back", "left", "right", "top", "bottom", "iso"} or array_like of shape (3,), optional
             Side from which it is seen, or the direction of the view. Default: by the shape.
@@ -158,11 +156,18 @@ class Camera:
         NumericError
             There is no finite point.
         """
-        from ._framing import frame
-
-        camera = cls(size=size, fov=fov, ortho=ortho)
-        return cls._of(_checked(frame(camera._copy(), what, view, up, float(azimuth), float(elevation), ortho,
-                                      fov, radius_scale)))
+        cls(size=size, fov=fov, ortho=ortho)  # which says what is wrong with these
+        hangs = isinstance(up, str) and up in ("-y", "-z")
+        asked = view_options(view, None if hangs else up, size=size, fov=fov, ortho=ortho, azimuth=azimuth,
+                             elevation=elevation)
+        own = str(up) if hangs else "auto"
+        things = list(what) if isinstance(what, (list, tuple)) else [what]
+        if not things or not all(hasattr(thing, "_asset_members") for thing in things):
+            return cls._of(_checked(place_at_box(core_of(None), what, asked, own)))
+        world = World(core_of_object(things[0]), up=own, surfels={"radius_scale": radius_scale})
+        for thing in things:
+            world.add(thing)
+        return cls._of(_checked(world.place(asked)))
 
     @property
     def size(self) -> tuple[int, int]:

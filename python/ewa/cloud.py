@@ -16,13 +16,13 @@ from ._library import functions as lib
 from ._library import library
 from ._struct import fill, initialised, numbers, path_bytes, text_bytes
 from .camera import PathLike
+from .surfels import Surfels
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
 
     from ._options import (CloudSaveOptions, EstimateOptions, FeatureOptions, GenerateOptions, ProcedureOptions,
                            RefitOptions, SurfelsOptions)
-    from .surfels import Surfels
 
 # Notes may hold zeros, which end a text of ctypes.
 _note = library["ewa_cloud_note"]
@@ -66,7 +66,7 @@ class Cloud:
     """
 
     _handle: Handle | None
-    _convention = 0  # what is up in files of its kind, of ewa_up_convention
+    _name: bytes | None = None  # its file, if that says by its kind what is up
 
     def __init__(self, positions: Any, *, normals: Any = None, colors: Any = None, radius: Any = None,
                  origin: Sequence[float] | None = None, copy: bool | None = None, context: Context | None = None,
@@ -254,7 +254,7 @@ class Cloud:
         core.value(lib.ewa_cloud_set_grid, h, ctypes.byref(grid))
         for name, text in self.notes.items():
             core.call(lib.ewa_cloud_set_note, h, name.encode(), text, len(text))
-        derived._convention = self._convention
+        derived._name = self._name
         return derived
 
     def estimate(self, **options: Unpack[EstimateOptions]) -> Cloud:
@@ -263,7 +263,8 @@ class Cloud:
         Parameters
         ----------
         **options
-            Members of ``ewa_estimate_options``: ``neighbour_count``, ``orientation``, ``viewpoint_world``, ``shape``,
+            Members of ``ewa_estimate_options``: ``neighbour_count``, ``orientation``, ``viewpoint_world`` (default None; one
+            that is given is what normals point to, unless ``orientation`` says otherwise), ``shape``,
             ``radius_scale``, ``radius_limit``, ``cutoff``, ``keep_normals``, ``keep_radii``, ``outlier_factor``.
 
         Raises
@@ -272,7 +273,7 @@ class Cloud:
         """
         made = initialised(b.ewa_estimate_options, lib.ewa_estimate_options_init)
         fill(made, "ewa_estimate_options", options)
-        if "viewpoint_world" in options and "orientation" not in options:
+        if options.get("viewpoint_world") is not None and options.get("orientation") is None:
             made.orientation = b.ewa_orientation.EWA_ORIENT_VIEWPOINT
         cloud = self._derive()
         handle = cloud._h
@@ -305,12 +306,24 @@ class Cloud:
         Raises
         ------
         ArgumentError
-            An attribute of a wrong shape, none of the points can be drawn, a scene of Gaussian splatting.
+            An attribute of a wrong shape.
+        FormatError
+            None of the points can be drawn; columns of Gaussian splatting, which are no surfels.
         OutOfMemory
         """
-        from .surfels import make_surfels
+        return Surfels._made(self, close_gaps, options)
 
-        return make_surfels(self, close_gaps, options)
+    def _asset_members(self) -> dict[str, Any]:
+        return {"cloud": self._h, **({"name": self._name} if self._name else {})}
+
+    def _completed(self) -> Cloud:
+        """The cloud with normals and radii, estimated where it has none, as the program does with its inputs."""
+        if self._is_drawable():
+            return self
+        cloud = self._derive()
+        self._core.call(lib.ewa_cloud_refuse_gaussians, cloud._h)
+        self._core.value(lib.ewa_cloud_drop_zero_normals, cloud._h)
+        return cloud.estimate()
 
     def transform(self, matrix: Any) -> Cloud:
         """Return the cloud mapped by a matrix that acts on columns, (4, 4) or (3, 4), with all directions and sizes.
@@ -453,7 +466,8 @@ class Cloud:
         Parameters
         ----------
         **options
-            Members of ``ewa_procedure_options``: ``frequency``, ``prefilter``, ``cutoff``, ``seed``, ``colors``.
+            Members of ``ewa_procedure_options``: ``frequency``, ``prefilter``, ``cutoff``, ``seed``, ``colors``
+            (default None: as suits the procedure).
 
         Raises
         ------
@@ -563,11 +577,9 @@ def csg(a: Cloud, other: Cloud, operation: str = "union", *, cutoff: float = 3) 
     ArgumentError
         An operand is not closed.
     """
-    from .surfels import complete
-
     made = initialised(b.ewa_csg_options, lib.ewa_csg_options_init)
     fill(made, "ewa_csg_options", {"operation": operation, "cutoff": cutoff})
-    first, second = (complete(cloud) for cloud in (a, other))
+    first, second = (cloud._completed() for cloud in (a, other))
     return Cloud._made(first._core, lib.ewa_cloud_csg, first._h, second._h, ctypes.byref(made))
 
 

@@ -14,18 +14,22 @@ from ._context import Context, Core, Handle, Pin, core_of
 from ._errors import ArgumentError
 from ._held import Held
 from ._library import functions as lib
+from ._scene import World
 from ._struct import fill, initialised, numbers, path_bytes
 from .camera import Camera, PathLike
-from .cloud import Cloud, merge
+from .cloud import Cloud
 from .image import Color, Image
-from .rendering import new_frame, renderer_of, set_surfaces
-from .shade import Light, set_background, set_lights, set_section
+from .rendering import draw
+from .shade import Light
 from .volume import Voxels
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
 
     from ._options import GaussianOptions, GaussiansSaveOptions
+
+
+_UPS = {"y": (0.0, 1.0, 0.0), "-y": (0.0, -1.0, 0.0), "z": (0.0, 0.0, 1.0), "-z": (0.0, 0.0, -1.0)}
 
 
 class Gaussians(Held):
@@ -57,6 +61,9 @@ class Gaussians(Held):
 
     _what = "the Gaussians"
     _up: str = "-y"
+
+    def _asset_members(self) -> dict[str, Any]:
+        return {"gaussians": self, "up_world": _UPS[self._up]}
 
     def __init__(self, centers: Any, scales: Any, rotations: Any, opacities: Any, harmonics: Any, *,
                  origin: Any = None, antialiased: bool = False, context: Context | None = None) -> None:
@@ -162,8 +169,7 @@ class Gaussians(Held):
         FileError, ArgumentError, FormatError
         """
         made = initialised(b.ewa_gaussians_save_options, lib.ewa_gaussians_save_options_init)
-        up = {"-y": (0, -1, 0), "y": (0, 1, 0), "z": (0, 0, 1), "-z": (0, 0, -1)}[self._up]
-        fill(made, "ewa_gaussians_save_options", {"up_world": up, **options})
+        fill(made, "ewa_gaussians_save_options", {"up_world": _UPS[self._up], **options})
         self._call(lib.ewa_gaussians_save, path_bytes(path), ctypes.byref(made))
 
     def to_cloud(self) -> Cloud:
@@ -198,6 +204,8 @@ class Splats:
     ArgumentError, OutOfMemory
     """
 
+    _asset: Handle | None = None
+
     def __init__(self, gaussians: Gaussians) -> None:
         if not isinstance(gaussians, Gaussians):
             raise TypeError(f"gaussians: an ewa.Gaussians, not {type(gaussians).__name__}")
@@ -227,6 +235,9 @@ class Splats:
         """Return points that a camera has to have in its picture."""
         return self._outline
 
+    def _asset_members(self) -> dict[str, Any]:
+        return {"splats": self._handle, "outline": self._outline._h, "up_world": _UPS[self._up]}
+
 
 def _listed(what: Any, kinds: tuple[type, ...], label: str) -> list[Any]:
     found = list(what) if isinstance(what, (list, tuple)) else [what]
@@ -254,7 +265,7 @@ def render_gaussians(gaussians: Gaussians | Splats | Sequence[Gaussians | Splats
     volumes : Voxels or a list of these, optional
         Lit by `lights`, but for those of the presets gray and fog.
     size, planes, background, out
-        As of :func:`render`; there are no normals.
+        As of :func:`render`.
     surfaces : Image, optional
         With the planes rgba (over nothing: background="transparent") and depth, of the same size: what stands
         among them, opaque, with what is seen past its edges.
@@ -262,7 +273,7 @@ def render_gaussians(gaussians: Gaussians | Splats | Sequence[Gaussians | Splats
         As of :func:`render`.
     **options
         Members of ``ewa_gaussian_options``: ``projection`` ("trained", "exact"), ``filter``, ``prefilter_px2``,
-        ``cutoff``, ``minimum_alpha``, ``minimum_transmittance``, ``near_world``, ``sh_degree``.
+        ``cutoff``, ``minimum_alpha``, ``minimum_transmittance``, ``near_world`` (default 0: as suits them), ``sh_degree``.
 
     Raises
     ------
@@ -273,49 +284,8 @@ def render_gaussians(gaussians: Gaussians | Splats | Sequence[Gaussians | Splats
     among = _listed(volumes, (Voxels,), "volumes")
     if not sets and not among:
         raise ArgumentError("gaussians: none, and no volumes")
-    core = (sets or among)[0]._core
-    if any(item._core is not core for item in [*sets, *among]):
-        raise ArgumentError("gaussians, volumes: of different contexts")
-    made = initialised(b.ewa_gaussian_options, lib.ewa_gaussian_options_init)
-    made.near_world = min([made.near_world, *(item._info.near_world for item in sets)])
-    fill(made, "ewa_gaussian_options", dict(options))
-    set_section(made, section_box, section_planes)
-    opaque = set_background(made, background)
-    if camera is None:
-        outlines = [outline for outline in (item.outline() for item in [*sets, *among]) if len(outline)]
-        outlines = outlines or [Cloud(np.array([[-1.0] * 3, [1.0] * 3]))]
-        outline = outlines[0] if len(outlines) == 1 else merge(
-            [Cloud(cloud["position"], radius=cloud["radius"] if "radius" in cloud else np.zeros(len(cloud), np.float32))
-             for cloud in outlines])
-        camera = Camera.frame(outline, None, sets[0]._up if sets else "z", size=size or (1280, 720))
-    if size is not None and tuple(size) != camera.size:
-        camera = camera.resized(*size)
-    keep = set_surfaces(made, surfaces, camera.size)
-    image = Image(camera, opaque)
-    frame = new_frame(image, camera.size, planes, out, without=("normal",))
-    stats = b.ewa_gaussian_stats()
-    renderer = renderer_of(core, "gaussians", lib.ewa_gaussian_renderer_create, lib.ewa_gaussian_renderer_destroy)
-    volume_renderers = [renderer_of(core, f"volume {i}" if i else "volume", lib.ewa_volume_renderer_create,
-                                  lib.ewa_volume_renderer_destroy) for i in range(len(among))]
-    volume_options = [initialised(b.ewa_volume_options, lib.ewa_volume_options_init) for _ in among]
-    for voxels, own in zip(among, volume_options):
-        own.shading = b.ewa_shading.EWA_SHADING_NONE if voxels._flat else b.ewa_shading.EWA_SHADING_PHONG
-        set_lights(own, lights)
-
-    def draw(address: Any, *rest: Any) -> int:
-        listed = (ctypes.c_void_p * max(len(sets), 1))(*[core.resolve(item._handle) for item in sets])
-        mixed = (b.ewa_mixed_volume * max(len(among), 1))()
-        for i, voxels in enumerate(among):
-            mixed[i].renderer = core.resolve(volume_renderers[i])
-            mixed[i].voxels = core.resolve(voxels._handle)
-            mixed[i].options = ctypes.pointer(volume_options[i])
-        mixture = b.ewa_mixture(splats=ctypes.addressof(listed), splats_count=len(sets), volume_count=len(among),
-                                volumes=ctypes.cast(mixed, ctypes.POINTER(b.ewa_mixed_volume)))
-        status: int = lib.ewa_mixture_render(address, ctypes.byref(mixture), *rest)
-        return status
-
-    core.call(draw, renderer, ctypes.byref(camera._struct), ctypes.byref(made), ctypes.byref(frame),
-              ctypes.byref(stats))
-    del keep
-    image._stats = stats
-    return image
+    world = World((sets or among)[0]._core)
+    for item in [*sets, *among]:
+        world.add(item)
+    return draw(world, camera, size=size, planes=planes, background=background, lights=lights, surfaces=surfaces,
+                section_box=section_box, section_planes=section_planes, out=out, gaussians=options)

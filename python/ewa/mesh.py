@@ -13,7 +13,6 @@ from . import _bindings as b
 from ._arrays import Array, as_contiguous, export
 from ._context import Context, Core, Handle, Pin, core_of
 from ._errors import ArgumentError, ClosedError, FormatError
-from ._framing import convention_of
 from ._library import functions as lib
 from ._struct import fill, initialised, path_bytes
 from .camera import PathLike
@@ -124,6 +123,9 @@ class Mesh:
 
         return checked
 
+    def _asset_members(self) -> dict[str, Any]:
+        return {"mesh": self}
+
     def sample(self, **options: Unpack[MeshSampleOptions]) -> Cloud:
         """Return surfels on the triangles, sharp edges as clip lines.
 
@@ -182,12 +184,18 @@ class _Model:
 
     def take_points(self) -> Cloud:
         cloud = Cloud._of(self.take("points", lib.ewa_cloud_destroy, "the cloud"))
-        cloud._convention = self.convention
+        cloud._name = self.name
         return cloud
 
     @property
-    def convention(self) -> int:
-        return convention_of([self.path])
+    def name(self) -> bytes | None:
+        return _name_of([self.path])
+
+
+def _name_of(paths: Sequence[PathLike]) -> bytes | None:
+    """The name of files whose kind says what is up; None: it does not."""
+    names = (ctypes.c_char_p * len(paths))(*[path_bytes(path) for path in paths])
+    return names[0] if lib.ewa_up_convention_of(len(paths), names) else None
 
 
 def _load(core: Core, path: PathLike, wanted: int, keep_going: bool, attributes: Sequence[str] | None,
@@ -229,7 +237,7 @@ def read(path: PathLike, *more: PathLike, filter: str | Sequence[str] | None = N
     if more:
         merged = merge([read(one, filter=filter, vertices=vertices, keep_going=keep_going, attributes=attributes,
                              columns=columns, context=context) for one in (path, *more)])
-        merged._convention = convention_of([path, *more])
+        merged._name = _name_of([path, *more])
         return merged
     core = core_of(context)
     if is_folder(core, path):
@@ -243,7 +251,7 @@ def read(path: PathLike, *more: PathLike, filter: str | Sequence[str] | None = N
         mesh = Mesh._loaded(model)
         count = max(_MESH_POINTS, _MESH_POINTS_PER_TRIANGLE * mesh._mesh.triangle_count)
         cloud = mesh.sample(point_count=count, texture_filter="ewa")
-        cloud._convention = model.convention
+        cloud._name = model.name
     if filter is not None:
         cloud = cloud.filter(*([filter] if isinstance(filter, str) else filter))
     return cloud

@@ -15,13 +15,13 @@ from ._arrays import Array
 from ._context import Context, Core, Handle, core_of
 from ._errors import ArgumentError, ClosedError
 from ._library import functions as lib
+from ._scene import World
 from ._struct import fill, initialised, numbers, path_bytes
 from .camera import Camera, PathLike
 from .cloud import Cloud
 from .image import Color, Image
-from .rendering import Renderer, _shared, new_frame, options_of
+from .rendering import Renderer, draw
 from .shade import Light
-from .surfels import complete
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
@@ -46,6 +46,8 @@ class Octree:
     """
 
     _handle: Handle | None
+    _world: World | None = None
+    _asset: Handle | None = None
 
     def __init__(self, path: PathLike, *, context: Context | None = None) -> None:
         core = core_of(context)
@@ -123,7 +125,7 @@ class Octree:
         Parameters
         ----------
         camera, size, planes, background, lights, section_box, section_planes, renderer
-            As of :func:`render`. Default camera: that of a sample.
+            As of :func:`render`. Default camera: that of ``ewa render``.
         render : dict, optional
             Members of ``ewa_render_options``.
         **options
@@ -133,30 +135,18 @@ class Octree:
         ------
         ArgumentError, FileError, FormatError, OutOfMemory, ClosedError
         """
-        if camera is None:
-            camera = Camera.frame(complete(self.sample()), size=size or (1280, 720))
-        elif not isinstance(camera, Camera):
-            raise TypeError(f"camera: an ewa.Camera, not {type(camera).__name__}")
-        if size is not None and tuple(size) != camera.size:
-            camera = camera.resized(*size)
-        core = self._core
-        made, opaque, keep = options_of(dict(render or {}), lights, None, None, background, None, section_box,
-                                        section_planes, core)
-        chosen = initialised(b.ewa_lod_options, lib.ewa_lod_options_init)
-        fill(chosen, "ewa_lod_options", options)
-        image = Image(camera, opaque)
-        frame = new_frame(image, camera.size, planes, None)
-        stats = b.ewa_lod_stats()
-        handle = renderer._handle if renderer is not None else _shared(core, "cpu")
-        core.call(lib.ewa_lod_render, self._h, handle, ctypes.byref(camera._struct), ctypes.byref(made),
-                  ctypes.byref(chosen), ctypes.byref(frame), ctypes.byref(stats))
-        del keep
-        image._stats = stats
-        return image
+        if self._world is None:
+            self._world = World(self._core)
+            self._world.add(self)
+        return draw(self._world, camera, size=size, planes=planes, background=background, lights=lights,
+                    section_box=section_box, section_planes=section_planes, renderer=renderer, render=render, lod=options)
 
     def close(self) -> None:
         """Close the file and free the nodes; later use raises ClosedError."""
-        self._handle = None
+        self._handle = self._world = self._asset = None
+
+    def _asset_members(self) -> dict[str, Any]:
+        return {"lod": self._h}
 
     def __repr__(self) -> str:
         return "<ewa.Octree, closed>" if self._handle is None else f"<ewa.Octree of {len(self)} points>"

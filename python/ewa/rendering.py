@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import ctypes
-from typing import TYPE_CHECKING, Any, Iterable, Sequence, Union
+from typing import TYPE_CHECKING, Any, Iterable, Mapping, Sequence, Union
 
 import numpy as np
 
@@ -13,6 +13,7 @@ from ._arrays import Array
 from ._context import Context, Core, Handle, core_of
 from ._errors import ArgumentError
 from ._library import functions as lib
+from ._scene import World, view_options
 from ._struct import fill, initialised
 from .camera import Camera
 from .cloud import Cloud
@@ -60,15 +61,6 @@ def new_frame(image: Image, size: tuple[int, int], planes: str | Iterable[str], 
     return frame
 
 
-def renderer_of(core: Core, name: str, create: Any, destroy: Any) -> Handle:
-    """The context's own renderer of a kind."""
-    renderer = core.renderers.get(name)
-    if renderer is None or renderer.address is None:
-        renderer = core.make(create, core.address, destroy=destroy, what="the renderer")
-        core.renderers[name] = renderer
-    return renderer
-
-
 def set_surfaces(made: Any, surfaces: Image | None, size: tuple[int, int]) -> Any:
     """Fill in the planes of opaque surfaces; returns what has to live as long as they are used."""
     if surfaces is None:
@@ -85,9 +77,8 @@ def set_surfaces(made: Any, surfaces: Image | None, size: tuple[int, int]) -> An
 def options_of(options: dict[str, Any], lights: Sequence[Light] | None, materials: Materials | None,
                environment: Environment | Any, background: Color | None, layers: int | str | None,
                section_box: Any, section_planes: Sequence[Sequence[float]] | None, core: Core,
-               base: b.ewa_render_options | None = None) -> tuple[b.ewa_render_options, bool, tuple[Any, ...]]:
-    """The struct of options, from `base` or the defaults on; whether the background is opaque; what has to live as long."""
-    made = initialised(b.ewa_render_options, lib.ewa_render_options_init) if base is None else base
+               made: b.ewa_render_options) -> tuple[b.ewa_render_options, bool, tuple[Any, ...]]:
+    """The struct of options, from what it has on; whether the background is opaque; what has to live as long."""
     fill(made, "ewa_render_options", options)
     keep: tuple[Any, ...] = ()
     if lights is not None:
@@ -136,8 +127,8 @@ class Renderer:
 def _renderer(core: Core, backend: str) -> Handle:
     if backend not in _BACKENDS:
         raise ArgumentError(f"backend: '{backend}' is none of {', '.join(_BACKENDS)}")
-    return core.make(lib.ewa_renderer_create_on, core.address, _BACKENDS.index(backend),
-                     destroy=lib.ewa_renderer_destroy, what="the renderer")
+    return core.make(lib.ewa_scene_renderer_create, core.address, _BACKENDS.index(backend), None,
+                     destroy=lib.ewa_scene_renderer_destroy, what="the renderer")
 
 
 def _shared(core: Core, backend: str) -> Handle:
@@ -145,23 +136,6 @@ def _shared(core: Core, backend: str) -> Handle:
     if handle is None or handle.address is None:
         handle = core.renderers[backend] = _renderer(core, backend)
     return handle
-
-
-def _sources(scene: Scene, making: dict[str, Any]) -> list[Surfels]:
-    """The surfels of a scene, made of clouds where need be."""
-    parts = [scene] if isinstance(scene, (Surfels, Cloud)) else list(scene)
-    if not parts:
-        raise ArgumentError("scene: there is nothing")
-    made = []
-    for part in parts:
-        if isinstance(part, Cloud):
-            part = part.surfels(**making)
-        elif not isinstance(part, Surfels):
-            raise TypeError(f"scene: surfels or clouds, not {type(part).__name__}")
-        elif making:
-            raise TypeError(f"{', '.join(making)}: said where surfels are made, Cloud.surfels()")
-        made.append(part)
-    return made
 
 
 def render(scene: Scene, camera: Camera | None = None, *, size: Sequence[int] | None = None,
@@ -221,53 +195,58 @@ def render(scene: Scene, camera: Camera | None = None, *, size: Sequence[int] | 
     making: dict[str, Any] = {}
     if not _SURFELS.isdisjoint(options):
         making = {name: options.pop(name) for name in tuple(options) if name in _SURFELS}  # type: ignore[misc]
-    if type(scene) is Surfels and not making:
-        sources = [scene]
-    else:
-        if options.get("point_size_px"):
-            making.setdefault("close_gaps", False)
-        if not isinstance(scene, (Surfels, Cloud)) and any(isinstance(part, Cloud) for part in scene) and \
-                renderer is None and backend == "cpu":
-            from .scene import Scene
+    parts = [scene] if isinstance(scene, (Surfels, Cloud)) else list(scene)
+    if not parts:
+        raise ArgumentError("scene: there is nothing")
+    for part in parts:
+        if not isinstance(part, (Surfels, Cloud)):
+            raise TypeError(f"scene: surfels or clouds, not {type(part).__name__}")
+        if making and isinstance(part, Surfels):
+            raise TypeError(f"{', '.join(making)}: said where surfels are made, Cloud.surfels()")
+    close_gaps = making.pop("close_gaps", not options.get("point_size_px"))
+    world = parts[0]._world if len(parts) == 1 and isinstance(parts[0], Surfels) and parts[0]._h else None
+    if world is None:
+        world = World(parts[0]._core, close_gaps=close_gaps, surfels=making)
+        for part in parts:
+            world.add(part)
+    return draw(world, camera, size=size, planes=planes, background=background, lights=lights, materials=materials,
+                environment=environment, layers=layers, section_box=section_box, section_planes=section_planes,
+                renderer=renderer if renderer is not None else backend, out=out, render=options)
 
-            together = Scene(*scene, **making)
-            made_of = together.render(camera, size=size, planes=planes, background=background, lights=lights,
-                                      materials=materials, environment=environment, layers=layers,
-                                      section_box=section_box, section_planes=section_planes, out=out, **options)
-            together.close()
-            return made_of
-        if camera is None and isinstance(scene, Cloud):
-            from .surfels import complete
 
-            scene = complete(scene)
-            camera = Camera.frame(scene, size=size or (1280, 720), radius_scale=making.get("radius_scale", 1.0))
-        sources = _sources(scene, making)
-    core = sources[0]._core
+def draw(world: World, camera: Camera | None, *, size: Sequence[int] | None, planes: str | Iterable[str],
+         background: Color | None, lights: Sequence[Light] | None, section_box: Any,
+         section_planes: Sequence[Sequence[float]] | None, materials: Materials | None = None,
+         environment: Environment | Any = None, layers: int | str | None = None, surfaces: Image | None = None,
+         renderer: Renderer | str | None = None, out: Image | None = None, render: Mapping[str, Any] | None = None,
+         lod: Mapping[str, Any] | None = None, gaussians: Mapping[str, Any] | None = None,
+         volumes: Mapping[str, Any] | None = None) -> Image:
+    """Draw a scene: what every call that makes a picture of something ends in; arguments as of :func:`render`.
+
+    `render`, `lod`, `gaussians` and `volumes` are members of the structs of options of these.
+    """
+    core = world.core
     if camera is None:
-        camera = Camera.frame(sources if len(sources) > 1 else sources[0], size=size or (1280, 720))
+        camera = Camera._of(world.place(view_options(size=size)))
     elif not isinstance(camera, Camera):
         raise TypeError(f"camera: an ewa.Camera, not {type(camera).__name__}")
     if size is not None and tuple(size) != camera.size:
         camera = camera.resized(*size)
-    made, opaque, keep = options_of(dict(options), lights, materials, environment, background, layers, section_box,
-                                    section_planes, core)
+    made = initialised(b.ewa_scene_options, lib.ewa_scene_options_init)
+    core.value(lib.ewa_scene_get_options, world.handle, ctypes.byref(made))
+    _, opaque, keep = options_of(dict(render or {}), lights, materials, environment, background, layers, section_box,
+                                 section_planes, core, made.render)
+    fill(made.lod, "ewa_lod_options", lod or {})
+    fill(made.gaussians, "ewa_gaussian_options", gaussians or {})
+    fill(made.volumes, "ewa_volume_options", volumes or {})
+    made.shade_volumes = made.shade_volumes and (volumes or {}).get("shading") is None
+    keep += (set_surfaces(made.gaussians, surfaces, camera.size),)
     image = Image(camera, opaque)
     frame = new_frame(image, camera.size, planes, out)
-    stats = b.ewa_render_stats()
-    handle = renderer._handle if renderer is not None else _shared(core, backend)
-    where = (ctypes.byref(camera._struct), ctypes.byref(made), ctypes.byref(frame))
-    if len(sources) == 1:
-        core.call(lib.ewa_render, handle, sources[0]._h, *where, ctypes.byref(stats))
-    else:
-        core.call(_render_several, handle, where, stats, *[source._h for source in sources])
+    stats = b.ewa_scene_stats()
+    handle = renderer._handle if isinstance(renderer, Renderer) else _shared(core, renderer or "cpu")
+    core.call(lib.ewa_scene_draw, world.handle, handle, ctypes.byref(camera._struct), ctypes.byref(made),
+              ctypes.byref(frame), ctypes.byref(stats))
     del keep
-    image._stats = stats
+    image._stats = stats.render
     return image
-
-
-def _render_several(renderer: int, where: tuple[Any, ...], stats: b.ewa_render_stats, *sources: int) -> int:
-    """One frame of several sources, while the context is locked."""
-    status: int = lib.ewa_render_begin(renderer, *where)
-    for source in sources:
-        status = status or lib.ewa_render_add(renderer, source)
-    return status or lib.ewa_render_finish(renderer, ctypes.byref(stats))

@@ -9,26 +9,24 @@ from typing import Any, Iterable, Sequence, Union
 
 from . import _bindings as b
 from ._arrays import Array
-from ._context import Context, Core, core_of
-from ._errors import ArgumentError
+from ._context import Context, Core, Handle, core_of
+from ._errors import ArgumentError, ClosedError
 from ._library import functions as lib
-from ._struct import fill, initialised, numbers, path_bytes, text_bytes
+from ._scene import World, core_of_object, view_options
+from ._struct import fill, initialised, path_bytes, text_bytes
 from .camera import Camera, PathLike
 from .cloud import Cloud
 from .gaussians import Gaussians, Splats
 from .image import Color, Image
 from .mesh import Mesh
 from .octree import Octree
-from .rendering import new_frame, options_of, renderer_of
+from .rendering import draw
 from .shade import Environment, Light, Materials
 from .surfels import Surfels
 from .volume import Volume, Voxels
 
 #: What a scene takes beside the names of files.
 Drawable = Union[Cloud, Mesh, Surfels, Octree, Gaussians, Splats, Volume, Voxels]
-
-_VIEWS = ("front", "back", "left", "right", "top", "bottom", "iso")
-_UPS = {"y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
 
 
 class Scene:
@@ -55,14 +53,9 @@ class Scene:
 
     def __init__(self, *things: PathLike | Drawable, close_gaps: bool = True, up: str = "auto",
                  context: Context | None = None, **surfels: Any) -> None:
-        own = next((thing for thing in things if hasattr(thing, "_core") or hasattr(thing, "_h")), None)
-        self._core: Core = _core_of(own) if own is not None and context is None else core_of(context)
-        options = initialised(b.ewa_scene_options, lib.ewa_scene_options_init)
-        fill(options, "ewa_scene_options", {"close_gaps": close_gaps, "up": up})
-        fill(options.surfels, "ewa_surfels_options", surfels)
-        self._keep: list[Any] = []
-        self._handle = self._core.make(lib.ewa_scene_create, self._core.address, ctypes.byref(options),
-                                       destroy=lib.ewa_scene_destroy, what="the scene")
+        own = next((thing for thing in things if _is_object(thing)), None)
+        self._core: Core = core_of_object(own) if own is not None and context is None else core_of(context)
+        self._world = World(self._core, close_gaps=close_gaps, up=up, surfels=surfels)
         for thing in things:
             self.add(thing)
 
@@ -104,51 +97,27 @@ class Scene:
         fill(instance.coloring, "ewa_coloring", coloring)
         instance.coloring.attribute = text_bytes(color_by, b.EWA_SCALAR_NAME_BYTES, "color_by")
         number = len(self)
-        if not (hasattr(thing, "_core") or hasattr(thing, "_h")) and \
-                self._core.value(lib.ewa_scene_file_probe, path_bytes(thing)):
+        if _is_object(thing):
+            if not hasattr(thing, "_asset_members"):
+                raise TypeError(f"thing: a path, a cloud, a mesh, surfels, an octree, Gaussians, splats, a volume or "
+                                f"voxels, not {type(thing).__name__}")
+            plain = transfer is None and not options
+            self._world.add(thing, None if plain else made, instance)
+        elif self._core.value(lib.ewa_scene_file_probe, path_bytes(thing)):
             if not visible or opacity != 1 or radius_scale != 1 or color_by or range is not None or tint is not None:
                 raise ArgumentError(f"{thing}: how its items are shown is said in the scene file")
             self._core.call(lib.ewa_scene_open, self._handle, path_bytes(thing), ctypes.byref(made))
-            return number
-        asset = self._load(thing, made)
-        self._core.call(lib.ewa_scene_add, self._handle, asset, ctypes.byref(instance))
-        self._keep.append(thing)
+        else:
+            self._world.add_asset(self._core.make(lib.ewa_asset_load, self._core.address, path_bytes(thing),
+                                                  ctypes.byref(made), destroy=lib.ewa_asset_release, what="the asset"),
+                                  instance)
         return number
 
-    def _load(self, thing: Any, options: b.ewa_asset_options) -> Any:
-        """The asset of a file or an object."""
-        core = self._core
-
-        def make(function: Any, *arguments: Any) -> Any:
-            return core.make(function, *arguments, destroy=lib.ewa_asset_release, what="the asset")
-
-        source = b.ewa_asset_source()
-        if isinstance(thing, (Mesh, Gaussians, Volume)):
-            name = {Mesh: "mesh", Gaussians: "gaussians", Volume: "volume"}[type(thing)]
-
-            def create(pointer: Any, *given: Any) -> int:
-                setattr(source, name, ctypes.cast(pointer, type(getattr(source, name))))
-                status: int = lib.ewa_asset_create(core.address, ctypes.byref(source), *given)
-                return status
-
-            if isinstance(thing, Gaussians):
-                source.up_world[:] = _up_of(thing._up)
-            return make(thing._bound(create), ctypes.byref(options))
-        if isinstance(thing, (Cloud, Surfels, Octree, Splats, Voxels)):
-            name = {Cloud: "cloud", Surfels: "surfels", Octree: "lod", Splats: "splats", Voxels: "voxels"}[type(thing)]
-            handle = thing._h if isinstance(thing, (Cloud, Surfels, Octree)) else thing._handle
-            setattr(source, name, core.resolve(handle))
-            if isinstance(thing, (Splats, Voxels)):
-                outline = thing.outline()
-                self._keep.append(outline)
-                source.outline = core.resolve(outline._h)
-                source.up_world[:] = _up_of(thing._up) if isinstance(thing, Splats) else (0.0, 0.0, 1.0)
-                source.flat = isinstance(thing, Voxels) and thing._flat
-            return make(lib.ewa_asset_create, core.address, ctypes.byref(source), ctypes.byref(options))
-        if hasattr(thing, "_core") or hasattr(thing, "_h"):
-            raise TypeError(f"thing: a path, a cloud, a mesh, surfels, an octree, Gaussians, splats, a volume or voxels, "
-                            f"not {type(thing).__name__}")
-        return make(lib.ewa_asset_load, core.address, path_bytes(thing), ctypes.byref(options))
+    @property
+    def _handle(self) -> Handle:
+        if self._world is None:
+            raise ClosedError("the scene is closed")
+        return self._world.handle
 
     @property
     def bounds(self) -> Array:
@@ -159,7 +128,7 @@ class Scene:
         self._core.value(lib.ewa_scene_bounds, self._handle, ctypes.byref(box))
         return np.array([box.low_world, box.high_world])
 
-    def camera(self, view: str | None = None, up: str | Sequence[float] | None = None, *,
+    def camera(self, view: str | Sequence[float] | None = None, up: str | Sequence[float] | None = None, *,
                size: Sequence[int] | None = None, fov: float | None = None, ortho: float | None = None,
                eye: Sequence[float] | None = None, target: Sequence[float] | None = None, azimuth: float = 0,
                elevation: float = 0) -> Camera:
@@ -177,30 +146,9 @@ class Scene:
         ------
         ArgumentError, NumericError
         """
-        made = initialised(b.ewa_view_options, lib.ewa_view_options_init)
-        members: dict[str, Any] = {"azimuth_deg": float(azimuth), "elevation_deg": float(elevation)}
-        if size is not None:
-            members.update(width_px=size[0], height_px=size[1])
-        if fov is not None:
-            members["fov_deg"] = fov
-        if ortho is not None:
-            members["ortho_height_world"] = ortho
-        if up is not None:
-            if isinstance(up, str) and up not in _UPS:
-                raise ArgumentError(f"up: '{up}' is none of {', '.join(_UPS)}, nor 3 numbers")
-            members["up_world"] = _UPS[up] if isinstance(up, str) else list(numbers(up, 3, "up"))
-        if eye is not None:
-            members.update(has_eye=True, eye_world=list(numbers(eye, 3, "eye")))
-        if target is not None:
-            members.update(has_target=True, target_world=list(numbers(target, 3, "target")))
-        fill(made, "ewa_view_options", members)
-        if view is not None:
-            if view not in _VIEWS:
-                raise ArgumentError(f"view: '{view}' is none of {', '.join(_VIEWS)}")
-            made.view = _VIEWS.index(view)
-        camera = b.ewa_camera()
-        self._core.call(lib.ewa_scene_place_camera, self._handle, ctypes.byref(made), ctypes.byref(camera), None)
-        return Camera._of(camera)
+        asked = view_options(view, up, size=size, fov=fov, ortho=ortho, eye=eye, target=target, azimuth=azimuth,
+                             elevation=elevation)
+        return Camera._of(self._world.place(asked))
 
     def render(self, camera: Camera | None = None, *, size: Sequence[int] | None = None,
                planes: str | Iterable[str] = ("rgba8",), background: Color | None = None,
@@ -225,24 +173,9 @@ class Scene:
         ------
         ArgumentError, FormatError, OutOfMemory, ClosedError
         """
-        core = self._core
-        if camera is None:
-            camera = self.camera(size=size)
-        if size is not None and tuple(size) != camera.size:
-            camera = camera.resized(*size)
-        made = initialised(b.ewa_scene_options, lib.ewa_scene_options_init)
-        core.value(lib.ewa_scene_get_options, self._handle, ctypes.byref(made))
-        _, opaque, keep = options_of(dict(options), lights, materials, environment, background, layers,
-                                          section_box, section_planes, core, made.render)
-        image = Image(camera, opaque)
-        frame = new_frame(image, camera.size, planes, out)
-        stats = b.ewa_scene_stats()
-        renderer = renderer_of(core, "scene", _create_renderer, lib.ewa_scene_renderer_destroy)
-        core.call(lib.ewa_scene_draw, self._handle, renderer, ctypes.byref(camera._struct), ctypes.byref(made),
-                  ctypes.byref(frame), ctypes.byref(stats))
-        del keep
-        image._stats = stats.render
-        return image
+        return draw(self._world, camera, size=size, planes=planes, background=background, lights=lights,
+                    materials=materials, environment=environment, layers=layers, section_box=section_box,
+                    section_planes=section_planes, out=out, render=options)
 
     def save(self, path: PathLike, camera: Camera | None = None) -> None:
         """Write a scene file: everything, which must have been added from files below the file's folder, and `camera`.
@@ -265,20 +198,8 @@ class Scene:
 
     def close(self) -> None:
         """Free what was made for the scene; what was added to it stays."""
-        self._handle = None  # type: ignore[assignment]
-        self._keep.clear()
+        self._world = None  # type: ignore[assignment]
 
 
-def _create_renderer(context: Any, made: Any) -> int:
-    status: int = lib.ewa_scene_renderer_create(context, 0, None, made)
-    return status
-
-
-def _core_of(thing: Any) -> Core:
-    core: Core = thing._core if hasattr(thing, "_core") else thing._h.core
-    return core
-
-
-def _up_of(name: str) -> tuple[float, float, float]:
-    sign = -1.0 if name.startswith("-") else 1.0
-    return (0.0, sign, 0.0) if name.endswith("y") else (0.0, 0.0, sign)
+def _is_object(thing: Any) -> bool:
+    return hasattr(thing, "_core") or hasattr(thing, "_h")

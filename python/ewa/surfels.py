@@ -4,24 +4,19 @@
 from __future__ import annotations
 
 import ctypes
-import math
-import warnings
-from typing import Any, Mapping
+from typing import TYPE_CHECKING, Any, Mapping
 
 import numpy as np
 
 from . import _bindings as b
 from ._arrays import Array
 from ._context import Core, Handle
-from ._errors import ArgumentError, ClosedError, EwaWarning
+from ._errors import ClosedError
 from ._library import functions as lib
-from ._struct import fill, initialised
-from .cloud import Cloud
+from ._scene import World
 
-# Points from which gaps are looked for, and the support radius in spacings under which there are some.
-_GAP_POINTS, _GAP_RADIUS = 1000, 1.0
-# What scenes of Gaussian splatting have.
-_GAUSSIAN = ("f_dc_0", "f_dc_1", "f_dc_2", "opacity", "scale_0", "scale_1", "rot_0", "rot_1", "rot_2", "rot_3")
+if TYPE_CHECKING:
+    from .cloud import Cloud
 
 
 class Surfels:
@@ -31,16 +26,34 @@ class Surfels:
     """
 
     _handle: Handle | None
+    _world: World | None
+    _asset: Handle | None = None
 
     def __init__(self) -> None:
         raise TypeError("Cloud.surfels() makes these")
 
     @staticmethod
-    def _made(cloud: Cloud, options: b.ewa_surfels_options) -> Surfels:
+    def _made(cloud: Cloud, close_gaps: bool, options: Mapping[str, Any]) -> Surfels:
+        """What a scene of the cloud alone makes resident."""
+        world = World(cloud._core, close_gaps=close_gaps, keep_points=False, surfels=options)
+        world.add(cloud)
+
+        def commit(scene: int, made: Any) -> int:
+            info = b.ewa_scene_info()
+            status: int = lib.ewa_scene_commit(scene)
+            lib.ewa_scene_describe(scene, ctypes.byref(info))
+            made._obj.value = None if status else info.resident
+            return status
+
         surfels = Surfels.__new__(Surfels)
-        surfels._handle = cloud._core.make(lib.ewa_surfels_create, cloud._h, ctypes.byref(options),
-                                           destroy=lib.ewa_surfels_destroy, what="the surfels")
+        surfels._handle = world.core.make(commit, world.handle, destroy=_nothing, what="the surfels",
+                                          keep=(world.handle,))
+        world.handle.keep = ()  # the points are gone
+        surfels._world = world
         return surfels
+
+    def _asset_members(self) -> dict[str, Any]:
+        return {"surfels": self._h}
 
     @property
     def _h(self) -> Handle:
@@ -90,57 +103,11 @@ class Surfels:
 
     def close(self) -> None:
         """Free the surfels; later use raises ClosedError."""
-        self._handle = None
+        self._handle = self._world = self._asset = None
 
     def __repr__(self) -> str:
         return "<ewa.Surfels, closed>" if self._handle is None else f"<ewa.Surfels, {len(self)}>"
 
 
-def _has_zero_normals(cloud: Cloud) -> bool:
-    """Whether no point with finite coordinates has a normal with a length."""
-    normals = cloud["normal"]
-    positions = cloud["position"]
-    for first in range(0, len(normals), 1 << 16):
-        block = slice(first, first + (1 << 16))
-        good = np.isfinite(normals[block]).all(1) & (normals[block] != 0).any(1)
-        if (good & np.isfinite(positions[block]).all(1)).any():
-            return False
-    return True
-
-
-def complete(cloud: Cloud) -> Cloud:
-    """The cloud with normals and radii, estimated where it has none, as the program does with its inputs."""
-    if cloud._is_drawable():
-        return cloud
-    if all(name in cloud for name in _GAUSSIAN):
-        raise ArgumentError("a scene of Gaussian splatting, which cannot be drawn as surfels; "
-                            "estimate(keep_normals=False) makes surfels of the centres")
-    if "normal" in cloud and cloud["normal"].ndim == 2 and _has_zero_normals(cloud):
-        warnings.warn("all normals are zero or not finite, and count as missing", EwaWarning, stacklevel=4)
-        cloud = cloud._derive(without="normal")
-    return cloud.estimate()
-
-
-def make_surfels(cloud: Cloud, close_gaps: bool, options: Mapping[str, Any]) -> Surfels:
-    """The surfels that the program would draw."""
-    made = initialised(b.ewa_surfels_options, lib.ewa_surfels_options_init)
-    fill(made, "ewa_surfels_options", options)
-    cloud = complete(cloud)
-    surfels = Surfels._made(cloud, made)
-    info = surfels._info
-    if close_gaps and "radius" in cloud and "tangent_u" not in cloud and info.point_count >= _GAP_POINTS:
-        # From the unit coverage q = s^2 d (1 - exp(-F^2 / 2)), s = radius / F, d the density.
-        kernel = 1 - math.exp(-0.5 * made.cutoff * made.cutoff)
-        radius = made.cutoff * math.sqrt(info.unit_coverage / kernel) / min(made.radius_scale, 1.0)
-        if radius < _GAP_RADIUS:
-            warnings.warn(f"the radii are {radius:.2f} of the points' spacing, which leaves gaps: larger ones are used "
-                          "(close_gaps=False keeps them)", EwaWarning, stacklevel=3)
-            surfels = Surfels._made(cloud.estimate(cutoff=made.cutoff, keep_radii=False), made)
-            info = surfels._info
-    if info.point_count == 0 and len(cloud):
-        raise ArgumentError(f"none of the {len(cloud)} points can be drawn: their coordinates are not finite, their "
-                            "normals zero, or nothing says how large they are")
-    if info.left_out_count:
-        warnings.warn(f"{info.left_out_count} of {len(cloud)} points are left out: coordinates, normals or radii that "
-                      "are zero or not finite", EwaWarning, stacklevel=3)
-    return surfels
+def _nothing(_: Any) -> None:
+    """The scene owns its surfels."""

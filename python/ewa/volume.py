@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 import ctypes
-import math
 from typing import TYPE_CHECKING, Any, Iterable, Sequence
 
 import numpy as np
@@ -15,12 +14,13 @@ from ._context import Context, Core, Handle, Pin, core_of
 from ._errors import ArgumentError, ClosedError
 from ._held import Held
 from ._library import functions as lib
+from ._scene import World
 from ._struct import fill, initialised, numbers, path_bytes
 from .camera import Camera, PathLike
 from .cloud import Cloud
 from .image import Color, Image
-from .rendering import new_frame, renderer_of, set_surfaces
-from .shade import Light, set_background, set_lights, set_section
+from .rendering import draw
+from .shade import Light
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
@@ -29,7 +29,6 @@ if TYPE_CHECKING:
 
 _T = b.ewa_type
 _VOXELS = tuple(DTYPE_OF[kind] for kind in (_T.EWA_U8, _T.EWA_I8, _T.EWA_U16, _T.EWA_I16, _T.EWA_F32))
-_SLICE_RATIO = 8.0  # how many times as wide as thick a volume is when it is a slice
 
 
 class Volume(Held):
@@ -51,6 +50,9 @@ class Volume(Held):
     """
 
     _what = "the volume"
+
+    def _asset_members(self) -> dict[str, Any]:
+        return {"volume": self}
 
     def __init__(self, voxels: Any, *, spacing: float | Sequence[float] = 1.0, index_to_world: Any = None,
                  context: Context | None = None) -> None:
@@ -231,16 +233,13 @@ class Transfer:
         ------
         ArgumentError, NumericError, FileError, FormatError
         """
-        struct = b.ewa_transfer()
-        if name != "auto" and name not in Transfer.presets():
-            core = volume._h.core
-            core.call(lib.ewa_transfer_load, core.address, path_bytes(name, "transfer"), ctypes.byref(struct))
-            return Transfer._of(struct)
-        facts = volume._facts()
-        if name == "auto":
-            volume._call(lib.ewa_transfer_automatic, ctypes.byref(facts), ctypes.byref(struct))
-        else:
-            volume._call(lib.ewa_transfer_preset, ctypes.byref(facts), str(name).encode(), ctypes.byref(struct))
+        struct, core, word = b.ewa_transfer(), volume._h.core, path_bytes(name, "transfer")
+
+        def choose(pointer: Any, made: Any) -> int:
+            status: int = lib.ewa_transfer_choose(core.address, word, pointer, made)
+            return status
+
+        volume._call(choose, ctypes.byref(struct))
         return Transfer._of(struct)
 
     @property
@@ -276,6 +275,8 @@ class Voxels:
     ArgumentError, OutOfMemory
     """
 
+    _asset: Handle | None = None
+
     def __init__(self, volume: Volume, transfer: Transfer | str = "auto", *, level_count: int = 2) -> None:
         if not isinstance(volume, Volume):
             raise TypeError(f"volume: an ewa.Volume, not {type(volume).__name__}")
@@ -298,30 +299,14 @@ class Voxels:
         self._core.value(lib.ewa_voxels_describe, self._handle, ctypes.byref(info))
         return info.occupied_count
 
+    def _asset_members(self) -> dict[str, Any]:
+        return {"voxels": self._handle, "outline": self.outline()._h, "volume": self._volume, "flat": self._flat,
+                "up_world": (0.0, 0.0, 1.0)}
+
     def outline(self, reach_steps: float = 1.8) -> Cloud:
         """Return points that a camera has to have in its picture, `reach_steps` steps of the grid around."""
         return Cloud._made(self._core, self._volume._bound(lib.ewa_volume_outline),
                            ctypes.byref(self._transfer._struct), float(reach_steps))
-
-
-def default_view(volume: Volume) -> str:
-    """The view of the program: a patient from the front, a slice where it is no line, anything else from a corner."""
-    struct = volume._struct
-    thickness, width, thin, single_count = math.inf, math.inf, 0, 0
-    m = struct.index_to_world
-    for axis in range(3):
-        single = struct.dims[axis] == 1
-        step = math.hypot(math.hypot(m[axis], m[4 + axis]), m[8 + axis])
-        extent = 0.0 if single else struct.dims[axis] * step
-        single_count += single
-        if extent < thickness:
-            width, thickness, thin = thickness, extent, axis
-        elif extent < width:
-            width = extent
-    x, y, z = abs(m[thin]), abs(m[4 + thin]), abs(m[8 + thin])
-    if single_count < 2 and width > _SLICE_RATIO * thickness:
-        return "bottom" if z >= x and z >= y else "left" if x > y else "front"
-    return "front" if struct.anatomical else "iso"
 
 
 def render_volume(volume: Volume | Voxels, camera: Camera | None = None, *, transfer: Transfer | str = "auto",
@@ -340,7 +325,7 @@ def render_volume(volume: Volume | Voxels, camera: Camera | None = None, *, tran
     transfer : Transfer or str, optional
         Of a volume: a preset, "auto" (default), a JSON file.
     size, planes, background, out
-        As of :func:`render`; there are no normals. Default background: black.
+        As of :func:`render`. Default background: black.
     lights : sequence, optional
     surfaces : Image, optional
         With the planes rgba and depth, of the same size: what stands in the volume, opaque.
@@ -349,34 +334,15 @@ def render_volume(volume: Volume | Voxels, camera: Camera | None = None, *, tran
     **options
         Members of ``ewa_volume_options``: ``method``, ``index``, ``sigma``, ``cutoff``, ``prefilter_px``,
         ``point_threshold_px``, ``depth_unit``, ``level``, ``density_scale``, ``minimum_transmittance``, ``shading``.
-        Default shading: "phong"; "none" of the presets gray and fog.
+        Default shading: "auto", which is "phong", and "none" of the presets gray and fog.
 
     Raises
     ------
     ArgumentError, OutOfMemory, ClosedError
     """
     voxels = volume if isinstance(volume, Voxels) else Voxels(volume, transfer, level_count=1)
-    made = initialised(b.ewa_volume_options, lib.ewa_volume_options_init)
-    made.shading = b.ewa_shading.EWA_SHADING_NONE if voxels._flat else b.ewa_shading.EWA_SHADING_PHONG
-    fill(made, "ewa_volume_options", dict(options))
-    set_lights(made, lights)
-    set_section(made, section_box, section_planes)
-    opaque = set_background(made, background)
-    if camera is None:
-        outline = voxels.outline(made.sigma * made.cutoff)
-        if not len(outline):
-            outline = Cloud(np.array([[-1.0] * 3, [1.0] * 3]))
-        camera = Camera.frame(outline, default_view(voxels._volume), "z", size=size or (1280, 720))
-    if size is not None and tuple(size) != camera.size:
-        camera = camera.resized(*size)
-    keep = set_surfaces(made, surfaces, camera.size)
-    image = Image(camera, opaque)
-    frame = new_frame(image, camera.size, planes, out, without=("normal",))
-    stats = b.ewa_volume_stats()
-    core = voxels._core
-    renderer = renderer_of(core, "volume", lib.ewa_volume_renderer_create, lib.ewa_volume_renderer_destroy)
-    core.call(lib.ewa_volume_render, renderer, voxels._handle, ctypes.byref(camera._struct), ctypes.byref(made),
-              ctypes.byref(frame), ctypes.byref(stats))
-    del keep
-    image._stats = stats
-    return image
+    world = World(voxels._core)
+    world.add(voxels)
+    chosen = {name: value for name, value in options.items() if (name, value) != ("shading", "auto")}
+    return draw(world, camera, size=size, planes=planes, background=background, lights=lights, surfaces=surfaces,
+                section_box=section_box, section_planes=section_planes, out=out, volumes=chosen)

@@ -76,7 +76,7 @@ class Arrays(Case):
         with self.assertWarns(ewa.EwaWarning):
             surfels = ewa.Cloud(points).surfels()
         self.assertEqual((len(surfels), surfels.left_out_count), (1000, 7))
-        with self.assertRaises(ewa.ArgumentError):
+        with self.assertRaises(ewa.FormatError):
             ewa.Cloud(points[-7:]).surfels()
         with self.assertRaises(ewa.NumericError):
             ewa.Camera.frame(ewa.Cloud(points[-7:]))

@@ -94,7 +94,7 @@ class Pictures(Case):
                                      planes=("rgba",), sh_degree=0)
         assert exact.rgba is not None
         self.assertGreater(float(np.abs(exact.rgba - image.rgba).max()), 0.01)
-        for wrong in ({"projection": "affine"}, {"cutoff": 9}, {"planes": "normal"}, {"surfaces": exact}):
+        for wrong in ({"projection": "affine"}, {"cutoff": 9}, {"planes": "axes"}, {"surfaces": exact}):
             with self.subTest(wrong), self.assertRaises(ewa.Error):
                 ewa.render_gaussians(splats, image.camera, **wrong)
         for what in ([], [1], "set.ply"):

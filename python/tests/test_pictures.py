@@ -14,6 +14,13 @@ from common import Case
 
 
 class Cameras(Case):
+    def test_a_camera_by_its_direction(self) -> None:
+        cloud = ewa.generate("cube", 500)
+        for view, direction in (("front", (0, 2, 0)), ("right", (-1, 0, 0)), ("left", (0.5, 0, 0))):
+            camera = ewa.Camera.frame(cloud, direction, "z")
+            np.testing.assert_allclose(camera.world_to_camera, ewa.Camera.frame(cloud, view, "z").world_to_camera, atol=1e-12)
+            self.assertEqual(camera, ewa.Scene(cloud).camera(direction, "z"))
+
     def test_pinhole(self) -> None:
         matrix = np.array([[0, -1, 0, 0.5], [0, 0, -1, 1], [1, 0, 0, 2], [0, 0, 0, 1.0]])
         camera = ewa.Camera([[500, 0, 320], [0, 510, 240], [0, 0, 1]], matrix, (640, 480))
@@ -157,7 +164,7 @@ class Others(Case):
                 ewa.Volume(voxels)
         for make in (lambda: ewa.Volume(field, spacing=0), lambda: ewa.Volume(field, index_to_world=np.zeros((3, 4)))
                      and ewa.render_volume(ewa.Volume(field, index_to_world=np.zeros((3, 4)))),
-                     lambda: ewa.Transfer([(1, (0, 0, 0), 0)]), lambda: ewa.render_volume(volume, planes="normal"),
+                     lambda: ewa.Transfer([(1, (0, 0, 0), 0)]), lambda: ewa.render_volume(volume, planes="axes"),
                      lambda: ewa.render_volume(volume, transfer=ewa.Transfer([(1, (0, 0, 0), 1), (0, (0, 0, 0), 1)])),
                      lambda: ewa.render_volume(volume, transfer="nothing"),
                      lambda: ewa.render_volume(ewa.Volume(np.full((4, 4, 4), np.nan, np.float32))),

@@ -39,6 +39,8 @@ static const ewa_option view_rows[] = {
     {"elevation_deg", EWA_OPTION_F64, AT(elevation_deg), -180, 180, .unit = "deg", .help = "then raises it"},
     {"turntable", EWA_OPTION_BOOL, AT(turntable),
      .help = "all is in the picture in every turn about the axis"},
+    {"direction_world", EWA_OPTION_F64, AT(direction_world), -INFINITY, INFINITY,
+     EWA_OPTION_ABOVE | EWA_OPTION_BELOW, 3, .help = "in which it looks; zeros: as the view says"},
 };
 
 const ewa_option_table ewa_view_options_table = EWA_OPTION_TABLE(ewa_view_options, view_rows);
@@ -130,9 +132,11 @@ static ewa_status choose_direction(placement *p) {
     choose_upright(p);
     ewa_upright *chosen = &p->upright;
     const double *up = options->up_world;
+    const double *direction = options->direction_world;
     const bool given = up[0] != 0 || up[1] != 0 || up[2] != 0,
+               directed = direction[0] != 0 || direction[1] != 0 || direction[2] != 0,
                carried = options->azimuth_deg != 0 || options->elevation_deg != 0;
-    chosen->from_origin = chosen->from_origin && options->view < 0 && !carried;
+    chosen->from_origin = chosen->from_origin && options->view < 0 && !carried && !directed;
     if (options->view >= 0)
         chosen->view = (ewa_named_view)options->view;
     else if (p->suited_view >= 0)
@@ -140,7 +144,8 @@ static ewa_status choose_direction(placement *p) {
     ewa_upright_look(chosen, p->direction_world, p->up_world);
     for (int c = 0; c < 3; c++)
         p->axis_world[c] = given ? up[c] : c == chosen->axis ? (chosen->reversed ? -1 : 1) : 0;
-    if (given) memcpy(p->up_world, up, sizeof p->up_world);
+    if (given || directed) memcpy(p->up_world, p->axis_world, sizeof p->up_world);
+    if (directed) memcpy(p->direction_world, direction, sizeof p->direction_world);
     return !carried ? EWA_OK
                     : ewa_upright_turn(p->axis_world, options->azimuth_deg, options->elevation_deg,
                                        p->direction_world, p->up_world);
@@ -264,10 +269,10 @@ bool ewa_scene_get_camera(const ewa_scene *scene, ewa_camera *camera) {
 
 /// Whether options say anything of a camera but its size.
 static bool says_where(const ewa_view_options *options) {
-    const double *up = options->up_world;
-    return options->fov_deg > 0 || options->ortho_height_world > 0 || options->view >= 0 || up[0] != 0 ||
-           up[1] != 0 || up[2] != 0 || options->has_eye || options->has_target || options->azimuth_deg != 0 ||
-           options->elevation_deg != 0;
+    const double *up = options->up_world, *direction = options->direction_world;
+    return direction[0] != 0 || direction[1] != 0 || direction[2] != 0 || options->fov_deg > 0 ||
+           options->ortho_height_world > 0 || options->view >= 0 || up[0] != 0 || up[1] != 0 || up[2] != 0 ||
+           options->has_eye || options->has_target || options->azimuth_deg != 0 || options->elevation_deg != 0;
 }
 
 /// Takes the scene's camera at another size: what is seen from the upper edge to the lower one stays.

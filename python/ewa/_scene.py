@@ -1,0 +1,122 @@
+# SPDX-FileCopyrightText: 2026 The ewa authors
+# SPDX-License-Identifier: MIT
+"""The library's scenes, below all that is drawn, looked at or made resident: what is shown is decided there."""
+from __future__ import annotations
+
+import ctypes
+from typing import Any, Mapping, Sequence
+
+from . import _bindings as b
+from ._context import Core, Handle
+from ._errors import ArgumentError
+from ._library import functions as lib
+from ._struct import fill, initialised, numbers
+
+VIEWS = ("front", "back", "left", "right", "top", "bottom", "iso")
+_UPS = {"y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
+
+
+def view_options(view: Any = None, up: Any = None, *, size: Sequence[int] | None = None, fov: float | None = None,
+                 ortho: float | None = None, eye: Any = None, target: Any = None, azimuth: float = 0,
+                 elevation: float = 0) -> b.ewa_view_options:
+    """How a camera is placed, as :meth:`Camera.frame` and :meth:`Scene.camera` are asked."""
+    made = initialised(b.ewa_view_options, lib.ewa_view_options_init)
+    members: dict[str, Any] = {"azimuth_deg": float(azimuth), "elevation_deg": float(elevation)}
+    if size is not None:
+        members.update(width_px=size[0], height_px=size[1])
+    if fov is not None:
+        members["fov_deg"] = fov
+    if ortho is not None:
+        members["ortho_height_world"] = ortho
+    if isinstance(up, str) and up not in _UPS:
+        raise ArgumentError(f"up: '{up}' is none of {', '.join(_UPS)}, nor 3 numbers")
+    if up is not None:
+        members["up_world"] = _UPS[up] if isinstance(up, str) else list(numbers(up, 3, "up"))
+    if eye is not None:
+        members.update(has_eye=True, eye_world=list(numbers(eye, 3, "eye")))
+    if target is not None:
+        members.update(has_target=True, target_world=list(numbers(target, 3, "target")))
+    if isinstance(view, str) and view not in VIEWS:
+        raise ArgumentError(f"view: '{view}' is none of {', '.join(VIEWS)}, nor 3 numbers")
+    if view is not None and not isinstance(view, str):
+        members["direction_world"] = list(numbers(view, 3, "view"))
+    fill(made, "ewa_view_options", members)
+    if isinstance(view, str):
+        made.view = VIEWS.index(view)
+    return made
+
+
+def core_of_object(thing: Any) -> Core:
+    """The context of an object that a scene takes."""
+    core: Core = thing._core if hasattr(thing, "_core") else thing._h.core
+    return core
+
+
+def make_asset(core: Core, members: Mapping[str, Any], options: b.ewa_asset_options | None = None) -> Handle:
+    """The asset of an object, whose `_asset_members()` are members of ``ewa_asset_source``."""
+    handles = tuple(value for value in members.values() if isinstance(value, Handle))
+    held = next((value for value in members.values() if hasattr(value, "_bound")), None)
+    if any(handle.core is not core for handle in handles) or (held is not None and held._h.core is not core):
+        raise ArgumentError("objects of different contexts do not make one picture")
+
+    def create(*given: Any) -> int:
+        source = b.ewa_asset_source()
+        for name, value in members.items():
+            if isinstance(value, Handle):
+                setattr(source, name, core.resolve(value))
+            elif value is held:
+                setattr(source, name, ctypes.cast(given[0], type(getattr(source, name))))
+            elif name == "up_world":
+                source.up_world[:] = value
+            else:
+                setattr(source, name, value)
+        status: int = lib.ewa_asset_create(core.address, ctypes.byref(source), *given[-2:])
+        return status
+
+    made = ctypes.byref(options) if options is not None else None
+    return core.make(create if held is None else held._bound(create), made, destroy=lib.ewa_asset_release,
+                     what="the asset", keep=handles)
+
+
+class World:
+    """A scene of the library, and what it needs."""
+
+    def __init__(self, core: Core, *, close_gaps: bool = True, up: str = "auto", keep_points: bool = True,
+                 surfels: Mapping[str, Any] | None = None) -> None:
+        options = initialised(b.ewa_scene_options, lib.ewa_scene_options_init)
+        fill(options, "ewa_scene_options", {"close_gaps": close_gaps, "up": up, "keep_points": keep_points})
+        fill(options.surfels, "ewa_surfels_options", surfels or {})
+        self.core = core
+        self.handle = core.make(lib.ewa_scene_create, core.address, ctypes.byref(options),
+                                destroy=lib.ewa_scene_destroy, what="the scene")
+
+    def add(self, thing: Any, options: b.ewa_asset_options | None = None, instance: b.ewa_instance | None = None) -> None:
+        """Add an object; what never changes is made an asset once."""
+        asset: Handle | None = getattr(thing, "_asset", None) if options is None else None
+        if asset is None or asset.core is not self.core:
+            asset = make_asset(self.core, thing._asset_members(), options)
+            if options is None and hasattr(thing, "_asset"):
+                thing._asset = asset
+        self.add_asset(asset, instance)
+
+    def add_asset(self, asset: Handle, instance: b.ewa_instance | None = None) -> None:
+        self.core.call(lib.ewa_scene_add, self.handle, asset, ctypes.byref(instance) if instance is not None else None)
+        self.handle.keep += (asset,)
+
+    def place(self, options: b.ewa_view_options) -> b.ewa_camera:
+        """The camera of ``ewa render`` with the same options."""
+        camera = b.ewa_camera()
+        self.core.call(lib.ewa_scene_place_camera, self.handle, ctypes.byref(options), ctypes.byref(camera), None)
+        return camera
+
+
+def place_at_box(core: Core, corners: Any, options: b.ewa_view_options, up: str) -> b.ewa_camera:
+    """A camera that has a box in its picture."""
+    box = numbers(corners, 6, "what")
+    places = (ctypes.c_double * 24)(*[box[3 * (i >> c & 1) + c] for i in range(8) for c in range(3)])
+    cloud = core.make(lib.ewa_cloud_create, core.address, 8, destroy=lib.ewa_cloud_destroy, what="the box")
+    core.call(lib.ewa_cloud_borrow, cloud, b"position", b.ewa_type.EWA_F64, 3, ctypes.addressof(places), 24)
+    camera, scene = b.ewa_camera(), initialised(b.ewa_scene_options, lib.ewa_scene_options_init)
+    fill(scene, "ewa_scene_options", {"up": up})
+    core.call(lib.ewa_cloud_place_camera, cloud, 1.0, 0, scene.up, ctypes.byref(options), ctypes.byref(camera), None)
+    return camera
