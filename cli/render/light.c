@@ -19,7 +19,7 @@ static const cli_option light_table[] = {
     {"light", OPTION_VECTORS, AT(lights), "x,y,z[,r,g,b]",
      .help = "direction towards a light, and its linear colour (default 1,1,1); may be given up to 8 times; "
              "0,0,0,r,g,b is a headlight of that colour",
-     .low = 3, .high = 6, .absent = "auto: headlight"},
+     .low = 3, .high = 6, .absent = "auto: from above left of the eye where nothing has colours, else headlight"},
     {"ambient", RENDER(ambient)},
     {"materials", OPTION_TEXT, AT(materials_path), "FILE",
      .help = "JSON table of materials (ambient, diffuse, specular, shininess, reflection), by the points' "

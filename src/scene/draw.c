@@ -64,11 +64,15 @@ static ewa_status list_shown(const ewa_scene *scene, ewa_scene_renderer *rendere
     shown->surfels = renderer->surfels.data;
     shown->lods = renderer->lods.data;
     shown->splats = renderer->splats.data;
-    if (scene->surface && scene->surface->surfels)
+    if (scene->surface && scene->surface->surfels) {
         shown->surfels[shown->surfels_count++] = scene->surface->surfels;
+        shown->colored = scene->surface->colored;
+    }
     for (uint32_t i = 0; i < scene->count; i++) {
         const ewa_asset *asset = scene->items[i].asset;
         if (!scene->items[i].instance.visible) continue;
+        // Nobody knows whether these have colours.
+        shown->colored = shown->colored || asset->surfels || asset->lod;
         if (asset->surfels) shown->surfels[shown->surfels_count++] = asset->surfels;
         if (asset->lod) shown->lods[shown->lod_count++] = asset->lod;
         if (asset->splats) {
@@ -84,6 +88,22 @@ static ewa_status list_shown(const ewa_scene *scene, ewa_scene_renderer *rendere
     return EWA_OK;
 }
 
+/// Towards the light of surfaces without colours, in camera space: from above left, not so far from the eye that half
+/// of what is seen is dark.
+static const double BARE_LIGHT_CAMERA[3] = {-0.5, -0.6, -1};
+
+/// Lights surfaces without colours from above left of the eye, unless lights are given: their form is all there is to
+/// see, and a headlight shows little of it. Colours keep the headlight, which leaves them as they are where they are
+/// faced.
+static void light_bare(const ewa_scene_shown *shown, const ewa_camera *camera, ewa_render_options *render) {
+    if (shown->colored || render->light_count || render->shading != EWA_SHADING_LAMBERT) return;
+    ewa_light_init(&render->lights[0]);
+    render->light_count = 1;
+    for (int c = 0; c < 3; c++)
+        for (int row = 0; row < 3; row++)
+            render->lights[0].direction_world[c] += camera->world_to_camera[4 * row + c] * BARE_LIGHT_CAMERA[row];
+}
+
 /// Draws all surfaces in one frame.
 static ewa_status draw_surfaces(ewa_scene_renderer *renderer, const ewa_scene_shown *shown,
                                 const ewa_camera *camera, const ewa_scene_options *options,
@@ -94,10 +114,12 @@ static ewa_status draw_surfaces(ewa_scene_renderer *renderer, const ewa_scene_sh
         lod.share = renderer->exchange.rank;
         lod.share_count = renderer->exchange.rank_count;
     }
+    ewa_render_options lit = *render;
+    light_bare(shown, camera, &lit);
     const ewa_lod_scene together = {shown->lods, shown->lod_count, shown->surfels_count,
                                     (const ewa_surfels *const *)shown->surfels};
     const ewa_status status =
-        ewa_lod_scene_render(&together, renderer->surfaces, camera, render, &lod, frame, &stats->lod);
+        ewa_lod_scene_render(&together, renderer->surfaces, camera, &lit, &lod, frame, &stats->lod);
     stats->render = stats->lod.render;
     return status;
 }

@@ -26,6 +26,7 @@ typedef struct ewa_scene_shown {
     const ewa_splats **splats;
     const ewa_asset *volumes[EWA_MAX_MIXED_VOLUMES];
     uint32_t surfels_count, lod_count, splats_count, volume_count;
+    bool colored;      ///< some surface has colours
     double near_world; ///< that suits the Gaussians
 } ewa_scene_shown;
 

@@ -87,6 +87,7 @@ typedef struct ewa_surface {
     ewa_surface_key *keys; ///< what it was made of
     ewa_surfels_options options;
     bool close_gaps;
+    bool colored;   ///< some of it has colours
     bool as_points; ///< drawn as discs of pixels: gaps do not matter
     ewa_surfels *surfels;
     ewa_surfels_info info;

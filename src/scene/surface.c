@@ -219,6 +219,8 @@ static ewa_status fill(ewa_scene *scene, ewa_surface *surface, const shown_cloud
     }
     EWA_TRY(apply_colorings(surface, shown));
     for (uint32_t i = 0; i < surface->count; i++)
+        surface->colored = surface->colored || ewa_cloud_find(shown->clouds[i], EWA_COLOR);
+    for (uint32_t i = 0; i < surface->count; i++)
         EWA_TRY(apply_instance(&surface->keys[i].instance, shown->clouds[i]));
     ewa_status status = EWA_OK;
     if (surface->count == 1) {

@@ -341,6 +341,51 @@ static void test_pick(void **state) {
     ewa_context_destroy(&context);
 }
 
+/// By how much the left half is brighter than the right one, the upper than the lower one, in shares of all light.
+static void measure_slant(const planes *of, double slant[2]) {
+    double sum = 0;
+    slant[0] = slant[1] = 0;
+    for (int i = 0; i < PIXELS; i++) {
+        const double light = of->coverage[i] > 0.99f ? (double)of->rgba[4 * i] : 0;
+        sum += light;
+        slant[0] += i % WIDTH < WIDTH / 2 ? light : -light;
+        slant[1] += i / WIDTH < HEIGHT / 2 ? light : -light;
+    }
+    for (int k = 0; k < 2; k++) slant[k] /= sum;
+}
+
+/// A sphere without colours is lit from above left, wherever it is seen from; one with colours, or by lights that are
+/// given, is not.
+static void test_bare_light(void **state) {
+    (void)state;
+    ewa_context *context = check_context(1, NULL);
+    ewa_cloud *cloud = make_object(context, EWA_OBJECT_SPHERE, 0);
+    ewa_cloud_remove(cloud, EWA_COLOR);
+    for (int kind = 0; kind < 3; kind++) {
+        uint8_t(*colors)[3] = NULL;
+        if (kind == 1) {
+            assert_int_equal(ewa_cloud_add(cloud, EWA_COLOR, EWA_U8, 3, (void **)&colors), EWA_OK);
+            memset(colors, 200, 3 * POINTS);
+        }
+        ewa_scene *scene = make_scene(context);
+        add_cloud(context, scene, cloud, NULL);
+        ewa_scene_options options;
+        ewa_scene_get_options(scene, &options);
+        options.render.light_count = kind == 2; // the headlight
+        ewa_light_init(&options.render.lights[0]);
+        assert_int_equal(ewa_scene_set_options(scene, &options), EWA_OK);
+        const ewa_camera camera = place(scene);
+        double slant[2];
+        draw(context, scene, &camera, &first);
+        measure_slant(&first, slant);
+        for (int k = 0; k < 2; k++) assert_true(kind ? fabs(slant[k]) < 0.01 : slant[k] > 0.1);
+        ewa_scene_destroy(&scene);
+        if (kind == 1) ewa_cloud_remove(cloud, EWA_COLOR);
+    }
+    ewa_cloud_destroy(&cloud);
+    ewa_context_destroy(&context);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_added_is_merged),
                                        cmocka_unit_test(test_estimated_together),
@@ -348,6 +393,7 @@ int main(void) {
                                        cmocka_unit_test(test_instances),
                                        cmocka_unit_test(test_one_range),
                                        cmocka_unit_test(test_refused),
-                                       cmocka_unit_test(test_pick)};
+                                       cmocka_unit_test(test_pick),
+                                       cmocka_unit_test(test_bare_light)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
