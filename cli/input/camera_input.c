@@ -32,8 +32,6 @@ bool camera_input_check_lens(const char *intrinsics, char message[OPTION_ERROR_B
             wrong = "--intrinsics: the focal lengths have to be positive";
     } else if (strspn(intrinsics, "0123456789.,+-eE ") == strlen(intrinsics)) {
         wrong = "--intrinsics: neither fx,fy,cx,cy nor a file";
-    } else if (camera_input_is_poses(intrinsics)) {
-        wrong = "--intrinsics: poses have no lens";
     }
     return options_fine(wrong, message);
 }

@@ -227,12 +227,15 @@ static ewa_scene_options scene_options(const render_arguments *arguments, const 
 /// Says which options of surfaces are given where there are none.
 static void warn_of_surface_options(cli_session *session, const render_arguments *arguments, bool volumes) {
     const light_arguments *light = &arguments->light;
+    ewa_render_options usual;
+    ewa_render_options_init(&usual, sizeof usual);
     const struct {
         const char *name;
         bool given;
     } options[] = {{"opacity", light->render.opacity < 1},
                    {"layers", arguments->layers},
                    {"point-size", light->render.point_size_px > 0},
+                   {"prefilter", light->render.prefilter_px != usual.prefilter_px},
                    {"shading", light->shading > EWA_SHADING_NONE && !volumes}};
     for (size_t i = 0; i < sizeof options / sizeof options[0]; i++)
         if (options[i].given)

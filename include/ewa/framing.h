@@ -27,15 +27,16 @@ typedef enum ewa_named_view {
     EWA_VIEW_ISO = 6, ///< from above, 35.3 degrees, in the direction (-1, 1, -1) with z up
 } ewa_named_view;
 
-/// What the kind of a file says about its axes.
+/// What the kind of a file says about its axes: the table in docs/framing.md.
 typedef enum ewa_up_convention {
     EWA_UP_ANY = 0,        ///< nothing: y is as good as z
     EWA_UP_Y_USUAL = 1,    ///< OBJ
     EWA_UP_Z_USUAL = 2,    ///< STL
     EWA_UP_Y_REQUIRED = 3, ///< glTF
+    EWA_UP_Z_SURVEYED = 4, ///< LAS, LAZ, COPC, EPT, E57, PTX, PTS: instruments that stand upright
 } ewa_up_convention;
 
-/// Returns the convention that the suffixes of all of `path_count` file names share, in any case. Any thread.
+/// Returns the convention that all of `path_count` files share by the ends of their names, in any case. Any thread.
 EWA_API ewa_up_convention ewa_up_convention_of(size_t path_count, const char *const *paths);
 
 /// How something is looked at.

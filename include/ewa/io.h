@@ -327,8 +327,8 @@ EWA_API ewa_status ewa_camera_load(ewa_context *context, const char *path, uint3
                                    ewa_camera *camera);
 
 /// Reads size, projection and intrinsics of the first camera of a file; `*lens` is at the origin then.
-/// Formats as ewa_camera_load(), and Open3D's PinholeCameraIntrinsic, which has no pose. Errors (lens
-/// unchanged) as there.
+/// Formats as ewa_camera_load(), and Open3D's PinholeCameraIntrinsic, which has no pose; of the text of a 3 x 3 matrix
+/// (fx 0 cx, 0 fy cy, 0 0 1) intrinsics alone, and `*lens` keeps all else. Errors (lens unchanged) as there.
 EWA_API ewa_status ewa_camera_load_lens(ewa_context *context, const char *path, ewa_camera *lens);
 
 /// Receives camera `index`, counted from 0, of a file; `*camera` is valid during the call.

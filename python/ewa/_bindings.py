@@ -150,6 +150,7 @@ class ewa_up_convention(IntEnum):
     EWA_UP_Y_USUAL = 1
     EWA_UP_Z_USUAL = 2
     EWA_UP_Y_REQUIRED = 3
+    EWA_UP_Z_SURVEYED = 4
 
 
 class ewa_ink(IntEnum):

@@ -6,18 +6,20 @@
 // stands has a base that its weight is over).
 #include "framing/upright.h"
 #include "base/base.h"
+#include "framing/conventions.h"
 #include "framing/upright_measure.h"
 
 #include <math.h>
 #include <stdio.h>
-#include <string.h>
-#include <strings.h>
 
 /// Thickness over size under which points are a drawing in a plane.
 static const double PLANE_RATIO = 1e-4;
 
 /// Height over width under which a sheet is ground, and a box lies.
 static const double FLAT_RATIO = 0.4;
+
+/// Height over width under which a sheet is ground though its kind of file has another axis up.
+static const double RELIEF_RATIO = 0.2;
 
 /// Distance from the origin over size from which coordinates are those of a map.
 static const double MAP_RATIO = 100;
@@ -36,9 +38,14 @@ static const double PIXEL_SHARE = 0.1;
 /// Height over width, or the other way, under which a picture is a strip.
 static const double NARROW_RATIO = 0.05;
 
-/// A base is so much of the footprint at least, more where that speaks against the usual axis, and so many
-/// times that of the other axis.
-static const double BASE_SHARE = 0.2, UNUSUAL_SHARE = 0.3, BASE_RATIO = 2;
+/// A base is so much of the footprint at least, and so many times what is lowest along the other axis.
+static const double BASE_SHARE = 0.2, BASE_RATIO = 2;
+
+/// What a base has to be to overrule the kind of a file.
+static const double UNUSUAL_SHARE = 0.3, SURVEYED_SHARE = 0.5, SURVEYED_RATIO = 10;
+
+/// Feet: so much of a base tells that something stands, and that its flat back is none.
+static const double FEET_SHARE = 0.1;
 
 /// What has so much of a base along y and along z is a box.
 static const double BOX_SHARE = 0.6;
@@ -49,30 +56,6 @@ static const double TALL_RATIO = 2;
 /// What is so many times deeper than wide, and deepest, is seen at an angle; so much higher than wide is a
 /// tower.
 static const double DEEP_RATIO = 1.5;
-
-static bool has_suffix(const char *path, const char *suffix) {
-    const size_t length = strlen(path), suffix_length = strlen(suffix);
-    return length > suffix_length && strcasecmp(path + length - suffix_length, suffix) == 0;
-}
-
-ewa_up_convention ewa_up_convention_of(size_t path_count, const char *const *paths) {
-    static const struct {
-        const char *suffix;
-        ewa_up_convention convention;
-    } kinds[] = {{".gltf", EWA_UP_Y_REQUIRED},
-                 {".glb", EWA_UP_Y_REQUIRED},
-                 {".obj", EWA_UP_Y_USUAL},
-                 {".stl", EWA_UP_Z_USUAL}};
-    ewa_up_convention shared = EWA_UP_ANY;
-    for (size_t i = 0; i < path_count; i++) {
-        ewa_up_convention own = EWA_UP_ANY;
-        for (size_t k = 0; k < sizeof kinds / sizeof kinds[0]; k++)
-            if (has_suffix(paths[i], kinds[k].suffix)) own = kinds[k].convention;
-        if (i > 0 && own != shared) return EWA_UP_ANY;
-        shared = own;
-    }
-    return shared;
-}
 
 /// Whether the axis of a camera at the origin passes well within the points.
 static bool is_aimed_at(const point_cloud_sample *points) {
@@ -107,48 +90,73 @@ static bool choose_camera(const point_cloud_sample *points, bool pixels_wanted, 
     return false;
 }
 
-/// Whether a sheet lies flat across an axis.
-static bool is_ground(const point_cloud_sample *points, int axis) {
-    const double *e = points->extent;
-    return e[axis] < FLAT_RATIO * fmin(e[0], e[3 - axis]) && ewa_measure_layers(points, axis) < BROKEN_SHARE;
+/// Whether a sheet lies flat across an axis that may be up. Across another axis than the usual one of its kind, a sheet is
+/// a wall or a relief that stands: only that of an OBJ, which many programs write with z up, may be ground, where it
+/// is flatter than reliefs are.
+static bool is_ground(const point_cloud_sample *points, int axis, ewa_up_convention convention) {
+    const int usual = ewa_up_axis_of(convention);
+    if (usual && axis != usual && convention != EWA_UP_Y_USUAL) return false;
+    const double ratio = usual && axis != usual ? RELIEF_RATIO : FLAT_RATIO, *e = points->extent;
+    return e[axis] < ratio * fmin(e[0], e[3 - axis]) && ewa_measure_layers(points, axis) < BROKEN_SHARE;
+}
+
+/// Whether points lie all around the origin, where the instrument stood that took them.
+static bool surrounds_origin(const point_cloud_sample *points) {
+    bool inside = true;
+    for (int c = 0; c < 3; c++) {
+        const double room = 0.02 * points->extent[c], middle = points->middle_world[c];
+        inside = inside && middle + points->low[c] < -room && middle + points->high[c] > room;
+    }
+    return inside;
 }
 
 /// Share of the footprint that is the base; 0 where the weight is not over it, and for open sheets, which end
-/// in a rim.
-static double base_share(const point_cloud_sample *points, int axis) {
+/// in a rim. `*lowest`: the share of what is lowest, whatever it is.
+static double base_share(const point_cloud_sample *points, int axis, double *lowest) {
     base_facts facts;
     ewa_measure_base(points, axis, &facts);
+    *lowest = facts.share;
     return facts.stable && ewa_measure_layers(points, axis) >= SHEET_SHARE ? facts.share : 0;
 }
 
 /// Which axis is up in a body.
 static ewa_upright choose_body(const point_cloud_sample *points, ewa_up_convention convention) {
-    const double y = base_share(points, 1), z = base_share(points, 2), *e = points->extent;
-    const int usual = convention == EWA_UP_Z_USUAL ? 2 : 1, other = 3 - usual, larger = y > z ? 1 : 2;
-    const double minimum = convention == EWA_UP_ANY || larger == usual ? BASE_SHARE : UNUSUAL_SHARE;
-    if (fmax(y, z) >= fmax(minimum, BASE_RATIO * fmin(y, z)))
-        return (ewa_upright){.axis = larger, .why = "it stands on a base"};
-    const bool box = fmin(y, z) >= BOX_SHARE;
-    if (box && convention != EWA_UP_Y_USUAL && fmin(e[1], e[2]) < FLAT_RATIO * fmin(e[0], fmax(e[1], e[2])))
+    const bool any = convention == EWA_UP_ANY, surveyed = convention == EWA_UP_Z_SURVEYED;
+    const int usual = any ? 1 : ewa_up_axis_of(convention), other = 3 - usual;
+    double lowest, its_lowest;
+    const double own = base_share(points, usual, &lowest), its = base_share(points, other, &its_lowest);
+    const double *e = points->extent;
+    if (own >= fmax(BASE_SHARE, BASE_RATIO * its))
+        return (ewa_upright){.axis = usual, .why = "it stands on a base"};
+    // A flank that something flat could lie on is no base where it has feet, or its kind an axis. Plates and rings lie.
+    const bool feet = own >= FEET_SHARE && its < BOX_SHARE;
+    const bool flank = e[other] < FLAT_RATIO * e[usual] && (!any || feet);
+    const double minimum = any ? BASE_SHARE : surveyed ? SURVEYED_SHARE : UNUSUAL_SHARE;
+    const double ratio = surveyed ? SURVEYED_RATIO : BASE_RATIO;
+    if (its >= fmax(minimum, ratio * lowest) && !flank && !(surveyed && surrounds_origin(points)))
+        return (ewa_upright){.axis = other, .why = "it stands on a base"};
+    const bool box = fmin(own, its) >= BOX_SHARE;
+    if (box && (any || convention == EWA_UP_Z_USUAL) &&
+        fmin(e[1], e[2]) < FLAT_RATIO * fmin(e[0], fmax(e[1], e[2])))
         return (ewa_upright){.axis = e[1] < e[2] ? 1 : 2, .why = "what is flat lies"};
-    if (e[usual] > TALL_RATIO * fmax(e[0], e[other]) && (usual == 1 ? y : z) < BASE_SHARE)
+    if (any && e[usual] > TALL_RATIO * fmax(e[0], e[other]) && own < FEET_SHARE)
         return (ewa_upright){.axis = other, .why = "what is long and has no base lies"};
-    return (ewa_upright){.axis = usual,
-                         .why = convention == EWA_UP_ANY ? "nothing speaks for another axis"
-                                                         : "files of this kind mostly have it so"};
+    return (ewa_upright){
+        .axis = usual,
+        .why = any ? "nothing speaks for another axis" : "files of this kind mostly have it so"};
 }
 
 static ewa_upright choose_axis(const point_cloud_sample *points, ewa_up_convention convention) {
     const double *e = points->extent, *middle = points->middle_world;
     const double size = fmax(e[0], fmax(e[1], e[2]));
     static const ewa_named_view face_on[] = {EWA_VIEW_RIGHT, EWA_VIEW_FRONT, EWA_VIEW_TOP}; // across x, y, z
-    ewa_upright chosen = {.axis = 1, .why = "there is one place only"};
+    ewa_upright chosen = {.axis = ewa_up_axis_of(convention) == 2 ? 2 : 1, .why = "there is one place only"};
     if (!(size > 0)) return chosen;
     if (convention == EWA_UP_Y_REQUIRED)
         return (ewa_upright){.axis = 1, .view = ewa_upright_view(e, 1), .why = "glTF has y up"};
     for (int axis = 0; axis < 3; axis++)
         if (e[axis] < PLANE_RATIO * size && fmin(e[(axis + 1) % 3], e[(axis + 2) % 3]) > PLANE_RATIO * size)
-            return (ewa_upright){.axis = axis == 0 ? 1 : 2,
+            return (ewa_upright){.axis = axis > 0 || ewa_up_axis_of(convention) == 2 ? 2 : 1,
                                  .view = face_on[axis],
                                  .why = "all lies in a plane, which is seen face on"};
     if (choose_camera(points, true, &chosen)) return chosen;
@@ -157,9 +165,9 @@ static ewa_upright choose_axis(const point_cloud_sample *points, ewa_up_conventi
                              .view = e[2] > DEEP_RATIO * fmax(e[0], e[1]) ? EWA_VIEW_FRONT : EWA_VIEW_ISO,
                              .why = "map coordinates"};
     for (int axis = 2; axis >= 1; axis--)
-        if (is_ground(points, axis))
+        if (is_ground(points, axis, convention))
             return (ewa_upright){.axis = axis, .view = EWA_VIEW_ISO, .why = "a sheet that lies flat: ground"};
-    if (choose_camera(points, false, &chosen)) return chosen;
+    if (convention != EWA_UP_Z_SURVEYED && choose_camera(points, false, &chosen)) return chosen;
     chosen = choose_body(points, convention);
     chosen.view = ewa_upright_view(e, chosen.axis);
     return chosen;

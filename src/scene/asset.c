@@ -8,12 +8,16 @@
 #include "base/context.h"
 #include "base/options.h"
 #include "ewa/gaussian_io.h"
+#include "framing/conventions.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>
 
 static const double IDENTITY[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+
+enum { PATH_BYTES = 4096 };
 
 #define AT(member) offsetof(ewa_asset_options, member)
 
@@ -163,10 +167,8 @@ static ewa_status load_gaussians(const ewa_asset_job *job, const char *path) {
     EWA_TRY(ewa_gaussians_load(asset->context, path, &set, &facts));
     ewa_report(asset->context, EWA_SEVERITY_INFO, "%u Gaussians read in %.3f s (%s)", set.count,
                ewa_now_s() - started_s, ewa_gaussian_format_name(facts.format));
-    // Without a word of the file: y down and z ahead, as the cameras that took the pictures have it.
-    static const double usual[3] = {0, -1, 0};
     const double *up = facts.up_world;
-    ewa_status status = ewa_asset_take_gaussians(job, &set, up[0] || up[1] || up[2] ? up : usual);
+    ewa_status status = ewa_asset_take_gaussians(job, &set, up[0] || up[1] || up[2] ? up : ewa_up_of_gaussians);
     ewa_gaussians_free(&set);
     return status;
 }
@@ -214,8 +216,21 @@ static ewa_status load_model(const ewa_asset_job *job, const char *path) {
     return status;
 }
 
+/// Refuses a folder that is no octree, and says what to name instead.
+static ewa_status check_folder(ewa_context *context, const char *path) {
+    struct stat facts;
+    if (stat(path, &facts) != 0 || !S_ISDIR(facts.st_mode) || ewa_lod_probe(context, path)) return EWA_OK;
+    char file[PATH_BYTES];
+    const int length = snprintf(file, sizeof file, "%s%smeta.json", path, path[0] && path[strlen(path) - 1] == '/' ? "" : "/");
+    if (length > 0 && (size_t)length < sizeof file && is_regular(file))
+        return ewa_fail(context, EWA_ERROR_UNSUPPORTED, "%s: a folder; of Gaussians (SOG) name the file in it: %s", path, file);
+    return ewa_fail(context, EWA_ERROR_UNSUPPORTED,
+                    "%s: a folder, and no octree (EPT): name the files in it", path);
+}
+
 static ewa_status load(const ewa_asset_job *job, const char *path) {
     ewa_context *context = job->asset->context;
+    EWA_TRY(check_folder(context, path));
     if (ewa_volume_is_named(path)) return load_volume(job, path);
     ewa_gaussian_format gaussians = EWA_GAUSSIANS_NONE;
     // What is missing or cannot be opened is said by who reads it.
@@ -258,6 +273,7 @@ ewa_status ewa_asset_load(ewa_context *context, const char *path, const ewa_asse
     const double started_s = ewa_now_s();
     if (status == EWA_OK) {
         asset->of_file = true;
+        asset->of_octree = is_octree_folder(context, path);
         asset->owns_parts = true;
         status = load(&(ewa_asset_job){asset, &options}, path);
         asset->load_s = ewa_now_s() - started_s;

@@ -5,6 +5,7 @@
 #include "base/base.h"
 #include "ewa/io.h"
 #include "ewa/prepare.h"
+#include "framing/conventions.h"
 #include "scene/asset.h"
 
 #include <math.h>
@@ -54,10 +55,9 @@ ewa_status ewa_asset_take_volume(const ewa_asset_job *job, const ewa_transfer *g
     ewa_asset *asset = job->asset;
     ewa_context *context = asset->context;
     const char *word = asset->transfer;
-    static const double up_world[3] = {0, 0, 1}; // scanners' volumes stand on z
     asset->kind = EWA_ASSET_VOLUME;
     asset->flat = given ? asset->source.flat : word && (strcmp(word, "fog") == 0 || strcmp(word, "gray") == 0);
-    memcpy(asset->up_world, up_world, sizeof asset->up_world);
+    memcpy(asset->up_world, ewa_up_of_volumes, sizeof asset->up_world);
     move(asset->to_world, volume);
     ewa_transfer *chosen = given ? NULL : ewa_allocate(context, 1, sizeof *chosen);
     if (!given && !chosen) return EWA_ERROR_MEMORY;

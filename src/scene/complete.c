@@ -5,6 +5,7 @@
 // file, so that tiles of one survey have no seams and scans of one place no two spacings.
 #include "base/base.h"
 #include "cloud/cloud.h"
+#include "estimate/sparse.h"
 #include "ewa/prepare.h"
 #include "scene/parts.h"
 
@@ -14,6 +15,9 @@
 
 /// Boxes that are no farther from each other than so many spacings touch.
 static const double TOUCH_SPACINGS = 4;
+
+/// Radius of a dot over the scene's size.
+static const double DOT_RATIO = 0.004;
 
 enum { NAMES_BYTES = 400 };
 
@@ -179,8 +183,46 @@ static void report(const ewa_completed *group, bool normals, uint32_t neighbour_
                group->count > 1 ? " together" : "", neighbour_count, group->estimate_s);
 }
 
+/// Radius of the dots of a scene.
+static double dot_radius(const ewa_scene *scene) {
+    double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY}, size2 = 0, far = 0;
+    for (uint32_t i = 0; i < scene->count; i++)
+        for (int c = 0; c < 3; c++) {
+            const ewa_bounds *box = &scene->items[i].asset->bounds;
+            low[c] = fmin(low[c], box->low_world[c]);
+            high[c] = fmax(high[c], box->high_world[c]);
+        }
+    for (int c = 0; c < 3; c++) {
+        if (high[c] > low[c]) size2 += (high[c] - low[c]) * (high[c] - low[c]);
+        if (isfinite(high[c])) far = fmax(far, fabs(high[c]));
+    }
+    const double size = sqrt(size2);
+    return DOT_RATIO * (size > 0 ? size : far > 0 ? far : 1);
+}
+
+/// Makes dots of the points of a group that is no surface: what was estimated of their distances is of no use.
+static ewa_status make_dots(const ewa_scene *scene, ewa_completed *group) {
+    const double radius = dot_radius(scene);
+    bool sparse = true;
+    ewa_status status = EWA_OK;
+    for (uint32_t i = 0; i < group->count && sparse && status == EWA_OK; i++) {
+        const ewa_cloud *own = group->assets[i]->cloud;
+        const bool sized = ewa_cloud_find(own, EWA_RADIUS) || ewa_cloud_find(own, EWA_TANGENT_U);
+        status = sized ? EWA_OK : ewa_cloud_is_sparse(own, &sparse);
+        sparse = sparse && !sized;
+    }
+    for (uint32_t i = 0; i < group->count && sparse && status == EWA_OK; i++) {
+        void *data = NULL;
+        const uint64_t count = ewa_cloud_point_count(group->clouds[i]);
+        status = ewa_cloud_add(group->clouds[i], EWA_RADIUS, EWA_F32, 1, &data);
+        for (uint64_t k = 0; k < count && status == EWA_OK; k++) ((float *)data)[k] = (float)radius;
+    }
+    group->sparse = sparse;
+    return status;
+}
+
 /// Estimates what the clouds of a group lack.
-static ewa_status estimate(ewa_completed *group) {
+static ewa_status estimate(const ewa_scene *scene, ewa_completed *group) {
     ewa_estimate_options options;
     ewa_estimate_options_init(&options, sizeof options);
     const bool normals = !ewa_cloud_find(group->assets[0]->cloud, EWA_NORMAL);
@@ -202,6 +244,7 @@ static ewa_status estimate(ewa_completed *group) {
                                       : ewa_cloud_estimate(&group->clouds[i], &options);
         first += count;
     }
+    if (status == EWA_OK) status = make_dots(scene, group);
     ewa_context_about(group->context, before);
     group->estimated_count = first;
     group->estimate_s = ewa_now_s() - started_s;
@@ -234,7 +277,7 @@ static ewa_status make_group(ewa_scene *scene, uint32_t first, const uint32_t *g
     uint32_t member = 0;
     for (uint32_t i = first; i < scene->count && status == EWA_OK; i++)
         if (group_of[i] == first) group->assets[member++] = ewa_asset_retain(scene->items[i].asset);
-    if (status == EWA_OK) status = estimate(group);
+    if (status == EWA_OK) status = estimate(scene, group);
     *made = group;
     if (status != EWA_OK) ewa_completed_release(made);
     return status;

@@ -260,9 +260,17 @@ static ewa_status draw_lit(ewa_scene_renderer *renderer, const ewa_scene_shown *
 }
 
 static ewa_status draw(ewa_scene *scene, ewa_scene_renderer *renderer, const ewa_camera *camera,
-                       const ewa_scene_options *options, const ewa_frame *frame, ewa_scene_stats *stats) {
+                       const ewa_scene_options *given, const ewa_frame *frame, ewa_scene_stats *stats) {
     ewa_scene_shown shown;
+    ewa_scene_options dotted;
+    const ewa_scene_options *options = given;
     EWA_TRY(list_shown(scene, renderer, &shown));
+    if (given->render.point_size_px == 0 && scene->surface && scene->surface->sparse && shown.surfels_count == 1 &&
+        !shown.lod_count) {
+        dotted = *given;
+        dotted.render.point_size_px = EWA_DOT_PX;
+        options = &dotted;
+    }
     if (!shown.splats_count && !shown.volume_count)
         return draw_surfaces(renderer, &shown, camera, options, &options->render, frame, stats);
     ewa_gaussian_options among = mixture_options(&shown, options);

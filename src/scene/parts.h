@@ -19,6 +19,7 @@ struct ewa_asset {
     char *name; ///< of a file: its path as it was given
     size_t name_bytes;
     bool of_file;
+    bool of_octree; ///< of a folder of one, whose name says nothing
     ewa_asset_source source; ///< of objects in memory, whose release() is called in the end
 
     // What a scene file says of it.
@@ -51,6 +52,9 @@ struct ewa_asset {
     int view;           ///< of volumes: the ewa_named_view that suits them; -1: none does
 };
 
+/// Diameter of dots that nobody says the size of.
+enum { EWA_DOT_PX = 6 };
+
 /// Clouds of which some lack normals or radii, completed together.
 typedef struct ewa_completed {
     ewa_context *context;
@@ -60,6 +64,7 @@ typedef struct ewa_completed {
     ewa_cloud **clouds; ///< of each asset: its streams and those that were estimated
     ewa_cloud *merged;  ///< what was estimated, of several; NULL: of one
     uint64_t estimated_count;
+    bool sparse; ///< no surface, all of it: radii are those of dots
     double estimate_s;
 } ewa_completed;
 
@@ -89,6 +94,7 @@ typedef struct ewa_surface {
     bool close_gaps;
     bool colored;   ///< some of it has colours
     bool as_points; ///< drawn as discs of pixels: gaps do not matter
+    bool sparse;    ///< all of it is: drawn so unless somebody says how
     ewa_surfels *surfels;
     ewa_surfels_info info;
     uint32_t legend_count;

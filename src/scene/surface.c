@@ -251,6 +251,11 @@ ewa_status ewa_surface_make(ewa_scene *scene, ewa_surface **made) {
     ewa_status status = list_keys(scene, &surface->keys, &surface->count);
     const uint32_t count = surface->count;
     shown_clouds shown = {.clouds = NULL};
+    surface->sparse = count > 0 && surface->options.radius_scale == 1;
+    for (uint32_t i = 0; i < count && status == EWA_OK; i++) {
+        const ewa_completed *completed = surface->keys[i].completed;
+        surface->sparse = surface->sparse && completed && completed->sparse && surface->keys[i].instance.radius_scale == 1;
+    }
     if (status == EWA_OK && count) {
         surface->legends = ewa_allocate_zeroed(context, count, sizeof *surface->legends);
         surface->legend_of = ewa_allocate_zeroed(context, count, sizeof *surface->legend_of);
@@ -262,6 +267,10 @@ ewa_status ewa_surface_make(ewa_scene *scene, ewa_surface **made) {
     for (uint32_t i = 0; shown.clouds && i < count; i++) ewa_cloud_destroy(&shown.clouds[i]);
     ewa_release(context, shown.clouds, count, sizeof *shown.clouds);
     ewa_release(context, shown.colored, count, sizeof *shown.colored);
+    if (status == EWA_OK && surface->sparse && !surface->as_points)
+        ewa_report(context, EWA_SEVERITY_NOTE, "%llu point%s: drawn as dots of %d pixels, --point-size decides otherwise",
+                   (unsigned long long)surface->info.point_count,
+                   surface->info.point_count == 1 ? "" : "s on no surface", EWA_DOT_PX);
     if (status == EWA_OK)
         *made = surface;
     else

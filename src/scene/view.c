@@ -92,7 +92,8 @@ static ewa_status find_convention(const ewa_scene *scene, ewa_up_convention *con
     size_t count = 0;
     if (!names) return EWA_ERROR_MEMORY;
     for (uint32_t i = 0; i < scene->count; i++)
-        if (scene->items[i].instance.visible) names[count++] = scene->items[i].asset->name;
+        if (scene->items[i].instance.visible)
+            names[count++] = scene->items[i].asset->of_octree ? "ept.json" : scene->items[i].asset->name;
     *convention = ewa_up_convention_of(count, names);
     ewa_release(scene->context, names, scene->count, sizeof *names);
     return EWA_OK;

@@ -70,7 +70,7 @@ static void test_formats(void **state) {
     run_done("ewa info points.ply");
     assert_null(strstr(last_run.out, "mesh"));
     scratch_text("points.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\np 1 2 3\n");
-    run_done("ewa render points.obj -o p.png --size 50x50");
+    run_done("ewa render points.obj -o p.png --size 50x50 --point-size 4");
     run_fails(1, "points.obj: there are no faces to sample|ewa surfels", "ewa sample points.obj -o p.ply");
 }
 

@@ -33,12 +33,13 @@ static void says(const char *words, const char *command) {
 
 static void test_one_place(void **state) {
     scratch_text("lone.ply", HEAD("1") END "1 2 3\n");
-    run_fails(1, "lone.ply: |one point only, at 1,2,3|radius", "ewa render lone.ply -o a.png");
-    assert_null(strstr(last_run.err, "finite"));
+    says("1 point: drawn as dots", "ewa render lone.ply -o a.png --size 32x32");
     scratch_text("heap.ply", HEAD("3") END "1 2 3\n1 2 3\n1 2 3\n");
-    run_fails(1, "heap.ply: |all points lie at one place, 1,2,3|radius", "ewa render heap.ply -o a.png");
+    says("3 points on no surface", "ewa render heap.ply -o b.png --size 32x32");
     scratch_text("some.ply", HEAD("3") END "1 2 3\n1 2 3\nnan 2 3\n");
-    run_fails(1, "some.ply: |at one place, 1,2,3", "ewa render some.ply -o a.png");
+    says("some.ply: 1 of 3 points are left out: 1 with coordinates", "ewa render some.ply -o b.png --size 32x32");
+    // Of discs somebody has to say how large one is.
+    run_fails(1, "s.ply: |one point only, at 1,2,3|radius", "ewa surfels lone.ply -o s.ply && ewa render s.ply -o a.png");
     // With a radius a point is drawn.
     scratch_text("disc.ply", HEAD("1") NORMAL "property float radius\n" END "1 2 3 0 0 1 1\n");
     run_done("ewa render disc.ply -o disc.png --size 32x32");
@@ -245,9 +246,54 @@ static void test_poses(void **state) {
     scratch_text("cut.log", "0 0 1\n1 0 0 0\n0 -1 0 0\n");
     run_fails(1, "cut.log: |line 3", "ewa render torus.ply -o a_%%d.png --path cut.log --fov 40");
     run_fails(1, "none.json: ", "ewa render torus.ply -o a.png --camera one.txt --intrinsics none.json");
+    // A lens as the matrix K of a text; poses are none.
+    scratch_text("K.txt", "60 0 32\n0 60 24\n0 0 1\n");
+    run_done("ewa render torus.ply -o k.png --size 64x48 --camera one.txt --intrinsics K.txt");
+    assert_true(scratch_same("numbers.png", "k.png"));
+    scratch_text("bent.txt", "60 1 32\n0 60 24\n0 0 1\n");
+    run_fails(1, "bent.txt: a lens with a skew of 1", "ewa render torus.ply -o a.png --camera one.txt --intrinsics bent.txt");
+    scratch_text("behind.txt", "-60 0 32\n0 60 24\n0 0 1\n");
+    run_fails(1, "behind.txt: no lens", "ewa render torus.ply -o a.png --camera one.txt --intrinsics behind.txt");
+    run_fails(1, "one.txt: line 1: no row of a 3 x 3 matrix",
+              "ewa render torus.ply -o a.png --camera one.txt --intrinsics one.txt");
     run_fails(1, "away.json: |skewed",
               "echo '{\"width\":4,\"height\":4,\"intrinsic_matrix\":[1,0,0,9,1,0,0,0,1]}' >away.json; "
               "ewa render torus.ply -o a.png --camera one.txt --intrinsics away.json");
+}
+
+/// What cannot be drawn says what can.
+static void ways_out(void **state) {
+    (void)state;
+    run_done("ewa render torus.ply -o shot.png --size 16x16 && cp shot.png shot.hdr");
+    run_fails(1, "shot.png: a picture (PNG), which has no points: 'ewa texture'", "ewa render shot.png -o a.png");
+    run_fails(1, "shot.hdr: a picture (PNG), which has no voxels", "ewa render shot.hdr -o a.png");
+    run_done("mkdir -p folder sog && echo '{}' >sog/meta.json");
+    run_fails(1, "folder: a folder, and no octree (EPT): name the files in it", "ewa render folder -o a.png");
+    run_fails(1, "sog: a folder; of Gaussians (SOG) name the file in it: sog/meta.json", "ewa render sog -o a.png");
+    scratch_text("title.xyz", "Yard scan\n0 0 0\n1 0 0\n0 1 0\n1 1 0\n");
+    run_fails(1, "title.xyz: line 1: 'Yard scan' is neither", "ewa render title.xyz -o a.png");
+    scratch_text("odd.xyz", "0 0 0\n1 0 0\n0 1 0\n1 x 0\n2 2 2\n");
+    run_fails(1, "odd.xyz: line 4, column 2: 'x' is no number (--keep-going leaves out what is damaged)",
+              "ewa render odd.xyz -o a.png");
+    assert_int_equal(run("ewa render odd.xyz -o a.png --size 16x16 --keep-going"), 0);
+}
+
+/// Points that are no surface are dots, one alone too, of a size that a message names.
+static void dots(void **state) {
+    (void)state;
+    scratch_text("one.xyz", "1 2 3\n");
+    scratch_text("eight.xyz", "0 0 0\n1 0 0\n0 1 0\n1 1 0\n0 0 1\n1 0 1\n0 1 1\n1 1 1\n");
+    says("8 points on no surface: drawn as dots of 6 pixels|--point-size", "ewa render eight.xyz -o auto.png --size 64x48");
+    run_done("ewa render eight.xyz -o six.png --size 64x48 --point-size 6");
+    assert_null(strstr(last_run.err, "--point-size"));
+    assert_true(scratch_same("auto.png", "six.png"));
+    says("1 point: drawn", "ewa render one.xyz -o one.png --size 64x48");
+    run_done("ewa render one.xyz -o other.png --size 64x48 --point-size 12");
+    assert_false(scratch_same("one.png", "other.png"));
+    // A size of the file's own counts.
+    scratch_text("disc.csv", "x,y,z,nx,ny,nz,radius\n0,0,0,0,0,1,1\n3,0,0,0,0,1,1\n");
+    run_done("ewa render disc.csv -o disc.png --size 64x48");
+    assert_null(strstr(last_run.err, "--point-size"));
 }
 
 int main(void) {
@@ -257,6 +303,7 @@ int main(void) {
         cmocka_unit_test(test_gaussians),  cmocka_unit_test(test_zero_normals),
         cmocka_unit_test(test_steps),      cmocka_unit_test(test_nothing_seen),
         cmocka_unit_test(test_path_fails), cmocka_unit_test(test_poses),
+        cmocka_unit_test(ways_out),        cmocka_unit_test(dots),
     };
     return cmocka_run_group_tests(tests, enter, NULL);
 }

@@ -60,6 +60,8 @@ static void upright(void **state) {
     check_upright("exact.png");
     run_done("ewa convert pair.ply -o pair.spz && ewa render pair.spz -o spz.png --size 100x200");
     check_upright("spz.png");
+    assert_int_equal(run("ewa render pair.ply -o a.png --size 10x20 --prefilter 0.5"), 0);
+    assert_non_null(strstr(last_run.err, "--prefilter is for surfaces"));
     run_done("ewa convert pair.ply -o pair.splat && ewa render pair.splat -o splat.png --size 100x200");
     check_upright("splat.png");
     run_done("ewa convert pair.ply -o small.ply --scale 0.001 && ewa render small.ply -o small.png --size "

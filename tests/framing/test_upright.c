@@ -277,7 +277,7 @@ static void test_tall(void **state) {
     EXPECT(EWA_UP_ANY, 2, EWA_VIEW_ISO, "long");
     start();
     add_diamond(0, 0.4, 0.5, 1.08);
-    EXPECT(EWA_UP_Z_USUAL, 1, EWA_VIEW_ISO, "long");
+    EXPECT(EWA_UP_Z_USUAL, 2, EWA_VIEW_FRONT, "files");
     // With a base that is too small against the usual axis it lies no more.
     start();
     add_diamond(1.08, 0.5, 1.08, 0.4);
@@ -387,6 +387,9 @@ static void test_conventions(void **state) {
                  {1, {"folder/a.OBJ"}, EWA_UP_Y_USUAL},
                  {2, {"a.glb", "b.gltf"}, EWA_UP_Y_REQUIRED},
                  {3, {"a.stl", "b.stl", "c.STL"}, EWA_UP_Z_USUAL},
+                 {3, {"a.las", "b.copc.laz", "folder/ept.json"}, EWA_UP_Z_SURVEYED},
+                 {3, {"a.e57", "b.PTX", "c.pts"}, EWA_UP_Z_SURVEYED},
+                 {2, {"a.las", "b.stl"}, EWA_UP_ANY},
                  {3, {"a.stl", "b.stl", "c.obj"}, EWA_UP_ANY},
                  {2, {"a.stl", "b.ply"}, EWA_UP_ANY},
                  {2, {"a.ply", "b.stl"}, EWA_UP_ANY},

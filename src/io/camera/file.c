@@ -38,8 +38,31 @@ ewa_status ewa_camera_load(ewa_context *context, const char *path, uint32_t inde
     return status;
 }
 
+/// Whether a file begins with a number, as the text of a matrix does and JSON does not.
+static bool begins_with_number(const ewa_file *file) {
+    size_t at = 0;
+    while (at < file->size_bytes && file->bytes[at] && strchr(" \t\r\n", file->bytes[at])) at++;
+    return at < file->size_bytes && file->bytes[at] && strchr("+-.0123456789#", file->bytes[at]);
+}
+
+/// Reads a lens from the text of a matrix. `*found`: the file may be one.
+static ewa_status load_matrix(ewa_context *context, const char *path, ewa_camera *lens, bool *found) {
+    *found = false;
+    if (is_folder(path)) return EWA_OK;
+    ewa_file file;
+    EWA_TRY(ewa_file_map(context, path, &file));
+    ewa_status status = EWA_OK;
+    *found = begins_with_number(&file);
+    if (*found) status = ewa_camera_read_matrix(context, path, file.bytes, file.size_bytes, lens);
+    ewa_file_unmap(context, &file);
+    return status;
+}
+
 ewa_status ewa_camera_load_lens(ewa_context *context, const char *path, ewa_camera *lens) {
     if (!context || !path || !lens) return EWA_ERROR_ARGUMENT;
+    bool matrix;
+    const ewa_status read = load_matrix(context, path, lens, &matrix);
+    if (read != EWA_OK || matrix) return read;
     ewa_camera_list list = {.context = context, .name = path, .lens_suffices = true};
     const ewa_status status = read_list(&list, path);
     if (status == EWA_OK) {

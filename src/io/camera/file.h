@@ -45,6 +45,11 @@ ewa_status ewa_camera_list_read_colmap_memory(ewa_camera_list *list, bool is_tex
 ewa_status ewa_camera_list_read_poses(ewa_camera_list *list, const ewa_camera *lens, const uint8_t *bytes,
                                       size_t size_bytes);
 
+/// Reads a lens from the text of a 3 x 3 matrix, fx s cx, 0 fy cy, 0 0 1, whose size and all else stay those of `lens`.
+/// Errors (lens unchanged): EWA_ERROR_FORMAT, EWA_ERROR_UNSUPPORTED (s is not zero).
+ewa_status ewa_camera_read_matrix(ewa_context *context, const char *name, const uint8_t *bytes, size_t size_bytes,
+                                  ewa_camera *lens);
+
 /// Writes a camera as an object of our format, without a line's end.
 void ewa_camera_write(ewa_writer *writer, const ewa_camera *camera);
 

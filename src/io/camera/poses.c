@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Camera poses as text: 4 x 4 matrices, one after another, and trajectories of the TUM benchmark.
+// Cameras as text: poses as 4 x 4 matrices, one after another, or trajectories of the TUM benchmark; a lens as a 3 x 3 matrix.
 // Based on: J. Sturm et al., "A Benchmark for the Evaluation of RGB-D SLAM Systems", 2012 (file formats).
 #include "base/base.h"
 #include "io/camera/file.h"
@@ -109,5 +109,30 @@ ewa_status ewa_camera_list_read_poses(ewa_camera_list *list, const ewa_camera *l
     if (list->count == 0 || headed)
         return ewa_fail(list->context, EWA_ERROR_FORMAT, "%s: %s", list->name,
                         headed ? "ends before a matrix" : "no camera pose");
+    return EWA_OK;
+}
+
+ewa_status ewa_camera_read_matrix(ewa_context *context, const char *name, const uint8_t *bytes, size_t size_bytes,
+                                  ewa_camera *lens) {
+    ewa_camera_list list = {.context = context, .name = name};
+    text in = {&list, (const char *)bytes, (const char *)bytes + size_bytes, 0};
+    double rows[4][MAX_NUMBERS];
+    for (int r = 0; r < 4; r++) {
+        int count;
+        EWA_TRY(read_line(&in, rows[r], &count));
+        if (count != (r < 3 ? 3 : 0))
+            return fail_line(&in, "no row of a 3 x 3 matrix fx 0 cx, 0 fy cy, 0 0 1, as a lens is in a text");
+    }
+    const double scale = rows[2][2];
+    if (rows[1][0] != 0 || rows[2][0] != 0 || rows[2][1] != 0 || !(rows[0][0] / scale > 0) || !(rows[1][1] / scale > 0))
+        return ewa_fail(context, EWA_ERROR_FORMAT, "%s: no lens: its matrix has to be fx 0 cx, 0 fy cy, 0 0 1, fx and fy above 0",
+                        name);
+    if (rows[0][1] != 0)
+        return ewa_fail(context, EWA_ERROR_UNSUPPORTED, "%s: a lens with a skew of %g, which has to be 0", name,
+                        rows[0][1] / scale);
+    lens->fx_px = rows[0][0] / scale;
+    lens->fy_px = rows[1][1] / scale;
+    lens->cx_px = rows[0][2] / scale;
+    lens->cy_px = rows[1][2] / scale;
     return EWA_OK;
 }

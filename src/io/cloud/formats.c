@@ -63,7 +63,8 @@ ewa_status ewa_cloud_damage(const ewa_cloud_source *source, uint64_t lost_count,
     va_start(arguments, format);
     vsnprintf(text, sizeof text, format, arguments);
     va_end(arguments);
-    if (!source->options->keep_going) return ewa_fail(source->context, EWA_ERROR_FORMAT, "%s", text);
+    if (!source->options->keep_going)
+        return ewa_fail(source->context, EWA_ERROR_FORMAT, "%s (--keep-going leaves out what is damaged)", text);
     *source->lost_count += lost_count;
     ewa_report(source->context, EWA_SEVERITY_WARNING, "%s; %llu points lost", text,
                (unsigned long long)lost_count);

@@ -10,6 +10,7 @@
 
 enum {
     PROBE_BYTES = 1 << 14,
+    MAX_ODD_LINES = 8, // before a table
     SAMPLE_ROWS = 1024,
     SAMPLE_PLACES = 8, // of the file, beside its begin
     MAX_DECIMALS = 9,
@@ -41,19 +42,50 @@ static size_t narrow(const uint8_t *bytes, size_t size_bytes, bool big_endian, c
     return length;
 }
 
+/// The first lines of a file that may be text; `text` has room for those of wide characters.
+static bool look_at_text(const uint8_t *bytes, uint64_t size_bytes, char text[PROBE_BYTES / 2], ewa_cursor *cursor, bool *whole) {
+    const size_t looked = size_bytes < PROBE_BYTES ? (size_t)size_bytes : PROBE_BYTES;
+    *cursor = (ewa_cursor){(const char *)bytes, (const char *)bytes + looked, 1};
+    *whole = looked == size_bytes;
+    if (looked >= 2 && (memcmp(bytes, "\xff\xfe", 2) == 0 || memcmp(bytes, "\xfe\xff", 2) == 0))
+        *cursor = (ewa_cursor){text, text + narrow(bytes, looked, bytes[0] == 0xfe, text), 1};
+    else if (looked >= 3 && memcmp(bytes, "\xef\xbb\xbf", 3) == 0)
+        cursor->at += 3;
+    for (const char *c = cursor->at; c < cursor->end; c++)
+        if ((unsigned char)*c < ' ' && !ewa_is_blank(*c) && !ewa_is_line_end(*c)) return false;
+    return true;
+}
+
 static bool probe(const char *name, const uint8_t *bytes, uint64_t size_bytes) {
     (void)name;
     char text[PROBE_BYTES / 2];
-    const size_t looked = size_bytes < PROBE_BYTES ? (size_t)size_bytes : PROBE_BYTES;
-    ewa_cursor cursor = {(const char *)bytes, (const char *)bytes + looked, 1};
-    if (looked >= 2 && (memcmp(bytes, "\xff\xfe", 2) == 0 || memcmp(bytes, "\xfe\xff", 2) == 0))
-        cursor = (ewa_cursor){text, text + narrow(bytes, looked, bytes[0] == 0xfe, text), 1};
-    else if (looked >= 3 && memcmp(bytes, "\xef\xbb\xbf", 3) == 0)
-        cursor.at += 3;
-    for (const char *c = cursor.at; c < cursor.end; c++)
-        if ((unsigned char)*c < ' ' && !ewa_is_blank(*c) && !ewa_is_line_end(*c)) return false;
+    ewa_cursor cursor;
     ewa_text_begin begin;
-    return ewa_text_begin_find(cursor, looked == size_bytes, &begin);
+    bool whole;
+    return look_at_text(bytes, size_bytes, text, &cursor, &whole) && ewa_text_begin_find(cursor, whole, &begin);
+}
+
+ewa_status ewa_text_refuse_odd(ewa_context *context, const char *name, const uint8_t *bytes, uint64_t size_bytes) {
+    char text[PROBE_BYTES / 2], quote[EWA_QUOTE_BYTES];
+    ewa_cursor cursor;
+    ewa_text odd = {NULL, 0};
+    bool whole;
+    if (!look_at_text(bytes, size_bytes, text, &cursor, &whole)) return EWA_OK;
+    uint64_t odd_line = 0;
+    for (int skipped = 0; skipped < MAX_ODD_LINES && cursor.at < cursor.end;) {
+        ewa_text_begin begin;
+        const uint64_t number = cursor.line;
+        const ewa_text line = ewa_cursor_rest(&cursor);
+        ewa_cursor_step_line(&cursor);
+        if (line.length == 0 || ewa_text_is_comment(line)) continue;
+        if (skipped++ == 0) odd = line, odd_line = number;
+        if (!ewa_text_begin_find(cursor, whole, &begin)) continue;
+        ewa_quote(odd, quote);
+        return ewa_fail(context, EWA_ERROR_FORMAT,
+                        "%s: line %llu: %s is neither numbers, as they follow, nor the names of columns, x y z among them",
+                        name, (unsigned long long)odd_line, quote);
+    }
+    return EWA_OK;
 }
 
 // ---- what the columns are --------------------------------------------------------------------------------

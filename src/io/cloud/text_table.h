@@ -63,6 +63,10 @@ typedef struct ewa_text_begin {
 /// when it is no table of numbers. `text_ends`: the text is whole, its last line too.
 bool ewa_text_begin_find(ewa_cursor text, bool text_ends, ewa_text_begin *begin);
 
+/// Fails with the first line of a text that keeps it from being a table, where it would be one without some of its first
+/// lines; EWA_OK: it would not. Errors: EWA_ERROR_FORMAT.
+ewa_status ewa_text_refuse_odd(ewa_context *context, const char *name, const uint8_t *bytes, uint64_t size_bytes);
+
 /// Whether a head names x, y and z.
 bool ewa_text_head_has_place(ewa_text head);
 

@@ -20,6 +20,19 @@
 
 enum { ROWS_PER_TASK = 16 };
 
+const char *ewa_image_kind(const uint8_t *bytes, size_t size_bytes) {
+    static const struct {
+        size_t at, length;
+        const char *magic, *name;
+    } kinds[] = {{0, 8, "\x89PNG\r\n\x1a\n", "PNG"}, {0, 3, "\xff\xd8\xff", "JPEG"},   {0, 4, "\x76\x2f\x31\x01", "OpenEXR"},
+                 {8, 4, "WEBP", "WebP"},              {0, 2, "#?", "Radiance HDR"},  {0, 4, "II*\0", "TIFF"},
+                 {0, 4, "MM\0*", "TIFF"},             {0, 4, "GIF8", "GIF"}};
+    for (size_t i = 0; i < sizeof kinds / sizeof kinds[0]; i++)
+        if (size_bytes >= kinds[i].at + kinds[i].length && memcmp(bytes + kinds[i].at, kinds[i].magic, kinds[i].length) == 0)
+            return kinds[i].name;
+    return NULL;
+}
+
 typedef struct quantiser {
     const ewa_image *image;
     bool unpremultiply;

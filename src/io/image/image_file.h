@@ -12,4 +12,7 @@
 ewa_status ewa_image_decode(ewa_context *context, const void *bytes, size_t size_bytes, const char *name,
                             bool straight, ewa_image *image);
 
+/// The name of the format of a picture, by its first bytes, of those too that are not read; NULL: it is none.
+const char *ewa_image_kind(const uint8_t *bytes, size_t size_bytes);
+
 #endif

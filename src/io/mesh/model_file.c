@@ -6,7 +6,9 @@
 #include "base/options.h"
 #include "io/cloud/format.h"
 #include "io/cloud/ply.h"
+#include "io/cloud/text_table.h"
 #include "io/file.h"
+#include "io/image/image_file.h"
 #include "io/mesh/formats.h"
 
 typedef ewa_status read_format(ewa_mesh_build *build);
@@ -110,6 +112,19 @@ ewa_status ewa_model_probe(ewa_context *context, const char *path, ewa_model_for
     return EWA_OK;
 }
 
+/// Says why a file holds neither points nor triangles.
+static ewa_status refuse(const ewa_mesh_source *source) {
+    const char *picture = ewa_image_kind(source->bytes, source->size_bytes);
+    if (picture)
+        return ewa_fail(source->context, EWA_ERROR_UNSUPPORTED,
+                        "%s: a picture (%s), which has no points: 'ewa texture' draws pictures, 'ewa warp' those with depths",
+                        source->name, picture);
+    EWA_TRY(ewa_text_refuse_odd(source->context, source->name, source->bytes, source->size_bytes));
+    return ewa_fail(source->context, EWA_ERROR_UNSUPPORTED,
+                    "%s: no file of points or triangles of a known format (" EWA_CLOUD_FORMATS ", OBJ, STL, OFF, glTF)",
+                    source->name);
+}
+
 static ewa_status load(const ewa_mesh_source *source, uint32_t wanted, const ewa_cloud_load_options *options,
                        ewa_model *model) {
     if (source->size_bytes == 0)
@@ -129,10 +144,7 @@ static ewa_status load(const ewa_mesh_source *source, uint32_t wanted, const ewa
         return read_other(source, ewa_mesh_read_gltf, wanted, model);
     default:
         if (points) return read_points(source, points, options, model);
-        return ewa_fail(source->context, EWA_ERROR_UNSUPPORTED,
-                        "%s: no file of points or triangles of a known format (" EWA_CLOUD_FORMATS
-                        ", OBJ, STL, OFF, glTF)",
-                        source->name);
+        return refuse(source);
     }
 }
 

@@ -4,6 +4,7 @@
 // Raw numbers: what they are is said by options or by the name, as in the collections of the field
 // (aneurism_256x256x256_uint8.raw.gz).
 #include "base/base.h"
+#include "io/image/image_file.h"
 #include "io/volume/file.h"
 #include "io/volume/text.h"
 
@@ -64,6 +65,12 @@ ewa_status ewa_raw_parse(const ewa_volume_input *in, const ewa_volume_load_optio
                          ewa_volume_header *header) {
     const bool told = options->dims[0] || options->dims[1] || options->dims[2];
     const bool guessed = guess(in->name, header);
+    const char *picture = ewa_image_kind(in->bytes, in->size_bytes);
+    if (!told && picture)
+        return ewa_volume_fail(in, EWA_ERROR_UNSUPPORTED,
+                               "a picture (%s), which has no voxels: 'ewa texture' draws pictures, 'ewa warp' those with "
+                               "depths",
+                               picture);
     if (!told && !guessed)
         return ewa_volume_fail(
             in, EWA_ERROR_FORMAT,
