@@ -81,7 +81,26 @@ static ewa_status check_count(ewa_context *context, const ewa_mesh_sample_option
 
 static ewa_vec3 load_normal(const float n[3]) { return vec3_make((double)n[0], (double)n[1], (double)n[2]); }
 
-/// Weights of the three vertices of a triangle at a sample on it, and its place in the triangle's plane.
+/// Weights of the place on a triangle's rim that is nearest to a point; `to` leads from it to the three vertices.
+static void weights_on_rim(const ewa_vec3 to[3], double weight[3]) {
+    double nearest2 = INFINITY;
+    for (int c = 0; c < 3; c++) {
+        const int next = (c + 1) % 3;
+        const ewa_vec3 edge = vec3_sub(to[next], to[c]);
+        const double length2 = vec3_dot(edge, edge);
+        const double along = length2 > 0 ? fmin(fmax(-vec3_dot(to[c], edge) / length2, 0), 1) : 0;
+        const ewa_vec3 off = vec3_add(to[c], vec3_scale(edge, along));
+        const double off2 = vec3_dot(off, off);
+        if (!(off2 < nearest2)) continue;
+        nearest2 = off2;
+        weight[c] = 1 - along;
+        weight[next] = along;
+        weight[(c + 2) % 3] = 0;
+    }
+}
+
+/// Weights of the three vertices of a triangle at a sample on it, and its place in the triangle's plane. Samples are
+/// rounded to the mesh's unit, and needles may be thinner: what lies beside the triangle is put on its rim.
 static ewa_vec3 weights_at(const sample_job *job, const poisson_sample *sample, double weight[3]) {
     const mesh_surface *surface = job->surface;
     const uint32_t *vertex = surface->mesh->triangles + 3 * (size_t)surface->source[sample->triangle];
@@ -95,14 +114,16 @@ static ewa_vec3 weights_at(const sample_job *job, const poisson_sample *sample, 
         to[c] = vec3_sub(place[c], at);
     }
     double sum = 0;
+    bool inside = true;
     for (int c = 0; c < 3; c++) {
-        weight[c] = fmax(0, vec3_dot(vec3_cross(to[(c + 1) % 3], to[(c + 2) % 3]), n));
+        weight[c] = vec3_dot(vec3_cross(to[(c + 1) % 3], to[(c + 2) % 3]), n);
+        inside &= weight[c] >= 0;
         sum += weight[c];
     }
-    for (int c = 0; c < 3; c++) {
-        weight[c] = sum > 0 ? weight[c] / sum : 1.0 / 3;
-        sum_place = vec3_add(sum_place, vec3_scale(place[c], weight[c]));
-    }
+    inside &= sum > 0;
+    for (int c = 0; c < 3 && inside; c++) weight[c] /= sum;
+    if (!inside) weights_on_rim(to, weight);
+    for (int c = 0; c < 3; c++) sum_place = vec3_add(sum_place, vec3_scale(place[c], weight[c]));
     return sum_place;
 }
 

@@ -612,6 +612,42 @@ static void test_shared_picture(void **state) {
     if (many > one + one / 10) fail_msg("%lld bytes for 20 materials, %lld for one", (long long)many, (long long)one);
 }
 
+static int by_value(const void *a, const void *b) {
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+/// A strip that is thinner than samples are exact, 2^-32 of its length, has its points all along it.
+static void test_thin_strip(void **state) {
+    (void)state;
+    static const double lengths[] = {1e6, 1e33}, widths[] = {1e-9, 1};
+    for (int i = 0; i < 2; i++) {
+        ewa_context *context = check_context(2, NULL);
+        const double length = lengths[i], width = widths[i];
+        const double places[12] = {0, 0, 0, length, 0, 0, length, width, 0, 0, width, 0};
+        ewa_mesh mesh;
+        shape_fill(context, 4, places, 2, (const uint32_t[]){0, 1, 2, 0, 2, 3}, &mesh);
+        const ewa_mesh_sample_options options = options_of(1000);
+        ewa_cloud *cloud = shape_sample(&mesh, &options);
+        const uint64_t count = ewa_cloud_point_count(cloud);
+        assert_in_range(count, 500, 2000);
+        double *p = shape_places(cloud), *along = calloc(count, sizeof *along);
+        assert_non_null(along);
+        for (uint64_t k = 0; k < count; k++) {
+            along[k] = p[3 * k] / length;
+            assert_true(along[k] >= 0 && along[k] <= 1 && p[3 * k + 1] >= 0 && p[3 * k + 1] <= width);
+        }
+        qsort(along, count, sizeof *along, by_value);
+        for (uint64_t k = 1; k < count; k++) assert_true(along[k] - along[k - 1] < 8.0 / (double)count);
+        assert_true(along[0] < 0.01 && along[count - 1] > 0.99);
+        free(along);
+        free(p);
+        ewa_cloud_destroy(&cloud);
+        ewa_mesh_free(&mesh);
+        ewa_context_destroy(&context);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_needle),        cmocka_unit_test(test_cube_points),
@@ -621,7 +657,7 @@ int main(void) {
         cmocka_unit_test(test_soup),          cmocka_unit_test(test_map_coordinates),
         cmocka_unit_test(test_far_parts),     cmocka_unit_test(test_copies),
         cmocka_unit_test(test_given_normals), cmocka_unit_test(test_failing_allocations),
-        cmocka_unit_test(test_shared_picture),
+        cmocka_unit_test(test_shared_picture), cmocka_unit_test(test_thin_strip),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
