@@ -73,6 +73,11 @@ void ewa_parallel(ewa_context *context, ewa_task *task, void *data, uint32_t cou
 ewa_status ewa_parallel_stoppable(ewa_context *context, const char *stage, ewa_task *task, void *data,
                                   uint32_t count);
 
+/// For tasks of ewa_parallel_stoppable() that take long: whether to go on. `worker` is the task's; on the thread that called
+/// the library the progress callback is asked now and then, on others whether it has stopped the run. A task that is told
+/// not to go on returns soon and may leave its work undone, for the run is EWA_CANCELLED.
+bool ewa_goes_on(ewa_context *context, uint32_t worker);
+
 /// Tells the progress callback; returns EWA_CANCELLED when it wants to stop or max_seconds are over, which is reported
 /// once; else EWA_OK.
 ewa_status ewa_progress(ewa_context *context, const char *stage, double fraction);

@@ -19,6 +19,7 @@ struct ewa_context {
     atomic_uint_fast64_t held_bytes;    ///< of memory, against max_memory_bytes
     double started_s;
     bool time_is_over; ///< and that was reported
+    struct ewa_stoppable_run *run;      ///< the one that ewa_goes_on() is about; NULL: none
     const char *subject;                ///< what messages are about; NULL: they say so themselves
 };
 

@@ -84,8 +84,11 @@ void ewa_parallel(ewa_context *context, ewa_task *task, void *data, uint32_t cou
     }
 }
 
+/// Between questions from within a task, which may come often.
+static const double ASKING_STEP_S = 0.02;
+
 /// A run that the progress callback may stop.
-typedef struct stoppable_run {
+typedef struct ewa_stoppable_run {
     ewa_context *context;
     const char *stage;
     ewa_task *task;
@@ -93,27 +96,47 @@ typedef struct stoppable_run {
     uint32_t first, count;
     atomic_uint_fast32_t done;
     atomic_bool stopped;
+    double asked_s; // of the thread that called the library
 } stoppable_run;
+
+/// Asks the progress callback, on the thread that called the library.
+static void ask(stoppable_run *run) {
+    const double done = (double)atomic_load_explicit(&run->done, memory_order_relaxed);
+    if (ewa_progress(run->context, run->stage, done / run->count) != EWA_OK)
+        atomic_store_explicit(&run->stopped, true, memory_order_relaxed);
+}
 
 static void run_one(void *data, uint32_t index, uint32_t worker) {
     stoppable_run *run = data;
     if (atomic_load_explicit(&run->stopped, memory_order_relaxed)) return;
     run->task(run->data, run->first + index, worker);
-    const uint32_t done = (uint32_t)atomic_fetch_add_explicit(&run->done, 1, memory_order_relaxed) + 1;
+    atomic_fetch_add_explicit(&run->done, 1, memory_order_relaxed);
     // Worker 0 of the built-in pool is the thread that called the library, on which the callback comes.
-    if (run->context->pool && worker == 0 &&
-        ewa_progress(run->context, run->stage, (double)done / run->count) != EWA_OK)
-        atomic_store_explicit(&run->stopped, true, memory_order_relaxed);
+    if (run->context->pool && worker == 0) ask(run);
+}
+
+bool ewa_goes_on(ewa_context *context, uint32_t worker) {
+    stoppable_run *run = context->run;
+    if (!run) return true;
+    if (context->pool && worker == 0) {
+        const double now_s = ewa_now_s();
+        if (now_s - run->asked_s >= ASKING_STEP_S) {
+            run->asked_s = now_s;
+            ask(run);
+        }
+    }
+    return !atomic_load_explicit(&run->stopped, memory_order_relaxed);
 }
 
 ewa_status ewa_parallel_stoppable(ewa_context *context, const char *stage, ewa_task *task, void *data,
                                   uint32_t count) {
     enum { PARTS = 16 };
-    stoppable_run run = {context, stage, task, data, .count = count};
+    stoppable_run run = {context, stage, task, data, .count = count, .asked_s = ewa_now_s()};
     // Threads of others' executors may all be other ones: their runs are stopped between parts.
     const bool watched = context->options.progress || context->options.limits.max_seconds > 0;
     const uint32_t step = context->pool || !watched ? count : count / PARTS + 1;
     ewa_status status = ewa_progress(context, stage, 0);
+    context->run = &run;
     for (; run.first < count && status == EWA_OK; run.first += step) {
         const uint32_t left = count - run.first;
         ewa_parallel(context, run_one, &run, left < step ? left : step);
@@ -121,6 +144,7 @@ ewa_status ewa_parallel_stoppable(ewa_context *context, const char *stage, ewa_t
                      ? EWA_CANCELLED
                      : ewa_progress(context, stage, (double)atomic_load(&run.done) / count);
     }
+    context->run = NULL;
     return status;
 }
 

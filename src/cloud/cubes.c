@@ -218,16 +218,18 @@ ewa_status ewa_cubes_make(const ewa_cloud *cloud, const ewa_cell_frame *frame, u
     cubes->slots = ewa_allocate(context, slot_capacity(cubes), sizeof *cubes->slots);
     const bool ready =
         job.places && job.points && job.groups && cubes->order && cubes->starts && cubes->slots;
-    if (ready) {
-        ewa_parallel(context, count_part, &job, job.parts);
+    ewa_status status = ready ? EWA_OK : EWA_ERROR_MEMORY;
+    if (status == EWA_OK) status = ewa_parallel_stoppable(context, "thinning", count_part, &job, job.parts);
+    if (status == EWA_OK) {
         sum_places(&job);
-        ewa_parallel(context, place_part, &job, job.parts);
-        ewa_parallel(context, group_bucket, &job, cubes->bucket_count);
+        status = ewa_parallel_stoppable(context, "thinning", place_part, &job, job.parts);
     }
+    if (status == EWA_OK)
+        status = ewa_parallel_stoppable(context, "thinning", group_bucket, &job, cubes->bucket_count);
     ewa_release(context, job.groups, point_count, sizeof *job.groups);
     ewa_release(context, job.points, point_count, sizeof *job.points);
     ewa_release(context, job.places, place_count, sizeof *job.places);
-    return ready ? EWA_OK : EWA_ERROR_MEMORY;
+    return status;
 }
 
 void ewa_cubes_free(ewa_cubes *cubes) {

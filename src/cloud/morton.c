@@ -370,14 +370,14 @@ static uint32_t place_buckets(sorter *s, uint32_t low, bool to_spare, range *lar
 }
 
 /// Splits the range at work by its next digit.
-static void split_large(ewa_context *context, sorter *s, range *large, uint32_t *large_count) {
+static ewa_status split_large(ewa_context *context, sorter *s, range *large, uint32_t *large_count) {
     s->digit_bits = LARGE_DIGIT_BITS;
-    ewa_parallel(context, histogram_task, s, s->parts);
+    EWA_TRY(ewa_parallel_stoppable(context, "order", histogram_task, s, s->parts));
     bool moved;
     const uint32_t small_count =
         place_buckets(s, large_low(&s->now), !s->now.in_spare, large, large_count, &moved);
-    if (moved) ewa_parallel(context, scatter_task, s, s->parts);
-    ewa_parallel(context, sort_small_task, s, small_count);
+    if (moved) EWA_TRY(ewa_parallel_stoppable(context, "order", scatter_task, s, s->parts));
+    return ewa_parallel_stoppable(context, "order", sort_small_task, s, small_count);
 }
 
 static ewa_status sort_all(ewa_context *context, sorter *s, uint32_t count, range *large) {
@@ -386,23 +386,24 @@ static ewa_status sort_all(ewa_context *context, sorter *s, uint32_t count, rang
     s->digit_bits = FIRST_DIGIT_BITS;
     uint32_t large_count = 0;
     bool moved;
-    ewa_parallel(context, first_histogram_task, s, s->parts);
+    EWA_TRY(ewa_parallel_stoppable(context, "order", first_histogram_task, s, s->parts));
     const uint32_t small_count =
         place_buckets(s, CODE_BITS - FIRST_DIGIT_BITS, false, large, &large_count, &moved);
-    ewa_parallel(context, first_scatter_task, s, s->parts);
-    ewa_parallel(context, sort_small_task, s, small_count);
+    EWA_TRY(ewa_parallel_stoppable(context, "order", first_scatter_task, s, s->parts));
+    EWA_TRY(ewa_parallel_stoppable(context, "order", sort_small_task, s, small_count));
     if (large_count == 0) return EWA_OK;
     s->spare = ewa_allocate(context, count, sizeof *s->spare);
     if (!s->spare) return EWA_ERROR_MEMORY;
-    while (large_count) {
+    ewa_status status = EWA_OK;
+    while (large_count && status == EWA_OK) {
         set_now(context, s, &large[--large_count]);
         if (s->now.shift > 0 || refine(context, s))
-            split_large(context, s, large, &large_count);
+            status = split_large(context, s, large, &large_count);
         else
-            ewa_parallel(context, emit_same_task, s, s->parts);
+            status = ewa_parallel_stoppable(context, "order", emit_same_task, s, s->parts);
     }
     ewa_release(context, s->spare, count, sizeof *s->spare);
-    return EWA_OK;
+    return status;
 }
 
 /// Orders the points within a grid over `box`; `items` has room for all of them and their codes.

@@ -198,7 +198,7 @@ static ewa_status find_places(build_job *job) {
     ewa_context *context = tree->context;
     sort_short_runs(job);
     job->parts = 64;
-    ewa_parallel(context, count_places_task, job, job->parts);
+    EWA_TRY(ewa_parallel_stoppable(context, "order", count_places_task, job, job->parts));
     uint32_t sum = 0;
     for (uint32_t part = 0; part < job->parts; part++) {
         const uint32_t count = job->part_count[part];
@@ -208,7 +208,7 @@ static ewa_status find_places(build_job *job) {
     tree->place_count = sum;
     tree->first = ewa_allocate(context, (size_t)sum + 1, sizeof *tree->first);
     if (!tree->first) return EWA_ERROR_MEMORY;
-    ewa_parallel(context, list_places_task, job, job->parts);
+    EWA_TRY(ewa_parallel_stoppable(context, "order", list_places_task, job, job->parts));
     tree->first[sum] = job->finite_count;
     // From here on the levels are those between places.
     if (sum < job->finite_count)
@@ -227,7 +227,7 @@ static ewa_status find_leaves(build_job *job) {
             coarsest(job->split_level, middle - SECTION_WINDOW, middle + SECTION_WINDOW);
     }
     job->section_border[job->section_count] = tree->place_count;
-    ewa_parallel(context, cut_section_task, job, job->section_count);
+    EWA_TRY(ewa_parallel_stoppable(context, "order", cut_section_task, job, job->section_count));
     uint32_t sum = 0;
     for (uint32_t section = 0; section < job->section_count; section++) {
         const uint32_t count = job->section_leaves[section];
@@ -255,9 +255,8 @@ static ewa_status find_leaves(build_job *job) {
         for (int c = 0; c < 3; c++)
             for (int i = 0; i < TREE_ARITY; i++)
                 tree->groups[g].low[c][i] = INFINITY, tree->groups[g].high[c][i] = -INFINITY;
-    ewa_parallel(context, fill_section_task, job, job->section_count);
     tree->leaf_first[sum] = tree->place_count;
-    return EWA_OK;
+    return ewa_parallel_stoppable(context, "order", fill_section_task, job, job->section_count);
 }
 
 /// Sets the boxes of each level from those below.

@@ -16,7 +16,6 @@
 
 enum {
     TASK_LEAVES = 64,
-    PROGRESS_STEPS = 16,
     MAX_TRIES = 4, // radii for a whole leaf before its places are searched one by one
     STACK_NODES = TREE_MAX_LEVELS * TREE_ARITY,
     MAX_UNIT_EXPONENT = 126, // of single precision
@@ -59,7 +58,6 @@ typedef struct search_job {
     ewa_block_visit *visit;
     void *user;
     scratch *scratch; // one per worker
-    uint32_t first_task;
 } search_job;
 
 typedef struct node {
@@ -434,7 +432,7 @@ static void search_leaf(const search_job *job, uint32_t leaf, double *guess, uin
 
 static void search_task(void *data, uint32_t index, uint32_t worker) {
     const search_job *job = data;
-    const uint32_t leaf_count = job->tree->leaf_count, begin = (job->first_task + index) * TASK_LEAVES;
+    const uint32_t leaf_count = job->tree->leaf_count, begin = index * TASK_LEAVES;
     const uint32_t end = leaf_count - begin < TASK_LEAVES ? leaf_count : begin + TASK_LEAVES;
     double guess = -1;
     job->scratch[worker].list.group = UINT32_MAX;
@@ -456,13 +454,7 @@ ewa_status ewa_neighbours_visit(const ewa_neighbours *neighbours, const ewa_visi
     job.scratch = ewa_allocate(context, worker_count, sizeof *job.scratch);
     if (!job.scratch) return EWA_ERROR_MEMORY;
     const uint32_t tasks = (neighbours->leaf_count + TASK_LEAVES - 1) / TASK_LEAVES;
-    ewa_status status = EWA_OK;
-    for (uint32_t step = 0; step < PROGRESS_STEPS && status == EWA_OK; step++) {
-        job.first_task = (uint32_t)ewa_split(tasks, PROGRESS_STEPS, step);
-        const uint32_t end = (uint32_t)ewa_split(tasks, PROGRESS_STEPS, step + 1);
-        ewa_parallel(context, search_task, &job, end - job.first_task);
-        status = ewa_progress(context, choice->stage, (step + 1.0) / PROGRESS_STEPS);
-    }
+    const ewa_status status = ewa_parallel_stoppable(context, choice->stage, search_task, &job, tasks);
     ewa_release(context, job.scratch, worker_count, sizeof *job.scratch);
     return status;
 }

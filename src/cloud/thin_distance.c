@@ -241,12 +241,10 @@ static ewa_status thin(distance_job *job, double distance_world) {
             memset(job->scratch[w].heads, 0, sizeof job->scratch[w].heads);
             job->scratch[w].node_count = 0;
         }
-        ewa_parallel(context, order_bucket, job, buckets);
-        status = check_far(job, distance_world);
-        for (job->color = 0; job->color < COLORS && status == EWA_OK; job->color++) {
-            status = ewa_progress(context, "thinning", (double)job->color / COLORS);
-            if (status == EWA_OK) ewa_parallel(context, thin_bucket, job, buckets);
-        }
+        status = ewa_parallel_stoppable(context, "thinning", order_bucket, job, buckets);
+        if (status == EWA_OK) status = check_far(job, distance_world);
+        for (job->color = 0; job->color < COLORS && status == EWA_OK; job->color++)
+            status = ewa_parallel_stoppable(context, "thinning", thin_bucket, job, buckets);
     }
     ewa_release(context, job->scratch, workers, sizeof *job->scratch);
     ewa_release(context, job->far, buckets, sizeof *job->far);

@@ -324,7 +324,8 @@ static ewa_status finish_normals(ewa_cloud *cloud, estimate_job *job, bool has_g
     ewa_neighbours_end_visits(job->neighbours);
     if (status == EWA_OK) status = add_output(cloud, EWA_NORMAL, 3, has_gaps, &job->normal_out);
     if (status == EWA_OK)
-        ewa_parallel(context, finish_task, job, (job->place_count + TASK_PLACES - 1) / TASK_PLACES);
+        status = ewa_parallel_stoppable(context, "estimate", finish_task, job,
+                                        (job->place_count + TASK_PLACES - 1) / TASK_PLACES);
     return status;
 }
 

@@ -284,7 +284,7 @@ static void join_waiting(const orient_job *job, uint32_t place) {
 static ewa_status grow_forest(ewa_context *context, orient_job *job) {
     const uint32_t section_count = section_count_of(job);
     for (job->class = 0; job->class < COST_CLASSES; job->class ++) {
-        ewa_parallel(context, join_section, job, section_count);
+        EWA_TRY(ewa_parallel_stoppable(context, "orient", join_section, job, section_count));
         for (uint32_t section = 0; section < section_count; section++)
             for (uint32_t i = 0; i < job->waiting_count[section]; i++)
                 join_waiting(job, (section << SECTION_BITS) + job->waiting[(section << SECTION_BITS) + i]);

@@ -41,6 +41,8 @@ struct ewa_writer {
 
 static ewa_status fail_errno(ewa_context *context, const char *path, int error) {
     char reason[128];
+    if (error == ENOLINK)
+        return ewa_fail(context, EWA_ERROR_IO, "%s: is a link to a file that is not there", path);
     if (strerror_r(error, reason, sizeof reason) != 0) snprintf(reason, sizeof reason, "error %d", error);
     return ewa_fail(context, EWA_ERROR_IO, "%s: %s", path, reason);
 }
@@ -67,8 +69,9 @@ static ewa_status read_stream(ewa_context *context, const char *path, int descri
         const ssize_t got = read(descriptor, bytes + size, capacity - size);
         if (got == 0) break;
         if (got < 0) {
-            if (errno == EINTR) continue;
-            status = fail_errno(context, path, errno);
+            // A signal may want what waits for a pipe to be given up.
+            status = errno == EINTR ? ewa_progress(context, "read", 0) : fail_errno(context, path, errno);
+            if (status == EWA_OK) continue;
             break;
         }
         size += (size_t)got;
@@ -240,6 +243,10 @@ static int open_output(ewa_writer *writer) {
     struct stat facts;
     if (stat(writer->shown, &facts) != 0) {
         if (errno != ENOENT) return -1;
+        if (lstat(writer->shown, &facts) == 0) {
+            errno = ENOLINK;
+            return -1;
+        }
         memcpy(writer->target, writer->shown, sizeof writer->target);
         writer->temporary = true;
         return open_temporary(writer);
@@ -337,6 +344,9 @@ ewa_status ewa_writer_patch(ewa_writer *writer, uint64_t at_bytes, const void *d
 ewa_status ewa_writer_commit(ewa_writer **writer) {
     ewa_writer *done = *writer;
     if (done->status == EWA_OK) flush(done);
+    // The name is to lead to whole bytes after a power cut, too.
+    if (done->status == EWA_OK && done->temporary && fsync(done->descriptor) != 0 && errno != EINVAL)
+        done->status = fail_errno(done->context, done->shown, errno);
     name_file(done);
     // Some file systems report a full disk only now.
     const bool closed = close(done->descriptor) == 0;

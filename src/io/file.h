@@ -55,7 +55,7 @@ typedef struct ewa_writer ewa_writer;
 /// Starts an output file. The bytes go to a new file in the folder of `path` that takes its name on commit, and has none
 /// before where the system can, so that nothing is left of it when the process is killed;
 /// the permissions are those of the file that is replaced, or what the umask allows. A symbolic link is
-/// followed.
+/// followed; one that leads nowhere is refused, for it is not to be replaced, nor to choose where a new file lies.
 /// "-" and "/dev/stdout" are standard output; what exists and is no regular file (a device, a pipe) is
 /// written directly, since there is nothing to rename. Errors, with the message "PATH: reason": EWA_ERROR_IO,
 /// EWA_ERROR_MEMORY; `*writer` is then NULL.

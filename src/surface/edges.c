@@ -57,7 +57,7 @@ static void draw_runs(const ewa_tile_job *job, const ewa_tile *tile, const ewa_t
     ewa_tile behind = *tile;
     behind.nearest = s->edges.nearest, behind.sums = s->edges.sums, behind.passed = s->edges.passed;
     behind.side = s->edges.side;
-    for (uint32_t i = 0; i < s->kept_count; i++) {
+    for (uint32_t i = 0; i < s->kept_count && ewa_tile_goes_on(job, s); i++) {
         if (!ewa_takes_part(s->kept[i].source, what)) continue;
         const ewa_view *view = &s->kept[i].source->view;
         if (what == EWA_PASS_EDGE_VISIBILITY)
@@ -73,10 +73,10 @@ static void draw_batch(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_s
     if (dense)
         draw_runs(job, tile, s, what);
     else
-        for (uint32_t row = 0; row < tile->block_rows; row++)
+        for (uint32_t row = 0; row < tile->block_rows && ewa_tile_goes_on(job, s); row++)
             for (uint32_t marked = s->edges.rows[row]; marked; marked &= marked - 1)
                 draw_block(job, tile, s, from, row, (uint32_t)__builtin_ctz(marked), what);
-    for (uint32_t i = 0; i < s->kept_count; i++) {
+    for (uint32_t i = 0; i < s->kept_count && ewa_tile_goes_on(job, s); i++) {
         const ewa_kept_run *kept = &s->kept[i];
         ewa_tile_draw_near(job, kept->source, tile, &s->edges, s->near_surfels + kept->near_first,
                            kept->near_count, what);
@@ -144,7 +144,7 @@ static bool something_behind(const ewa_tile_job *job, const ewa_tile *tile, cons
 static void draw_some(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_scratch *s,
                       const ewa_tile_packets *packets, ewa_edge_lists *current, ewa_tile_pass what,
                       bool dense) {
-    for (uint64_t run = 0, end = ewa_run_count(packets); run < end;) {
+    for (uint64_t run = 0, end = ewa_run_count(packets); run < end && ewa_tile_goes_on(job, s);) {
         ewa_tile_drop_runs(s);
         run = ewa_tile_keep_runs(job, tile, s, packets, run, end, false);
         if (!dense) start_lists(job, s, false, current);
@@ -249,7 +249,7 @@ bool ewa_tile_draw_edges(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile
     if (!marked) return false;
     ewa_edge_lists current;
     bool listed = false; // `current` holds what is kept
-    for (uint32_t layer = 1; layer < job->layers && marked; layer++) {
+    for (uint32_t layer = 1; layer < job->layers && marked && ewa_tile_goes_on(job, s); layer++) {
         const bool dense = close_others(job, tile, s, marked),
                    last = job->merge_last && layer + 1 == job->layers;
         if (last) job->kernels->edge_take_all(tile, &s->edges);

@@ -183,7 +183,8 @@ ewa_status ewa_tile_job_make(ewa_context *context, ewa_job_room *room, const ewa
         status = ewa_eye_dome_pass_start(context, &room->eye_dome, &frame->camera, &frame->frame, &options,
                                          &drawn);
     EWA_TRY(status);
-    *job = (ewa_tile_job){.kernels = room->eye_dome.kernels,
+    *job = (ewa_tile_job){.context = context,
+                          .kernels = room->eye_dome.kernels,
                           .sources = room->sources.data,
                           .tiles = ewa_tiles_make(frame->camera.width_px, frame->camera.height_px, side_px),
                           .with_normals = frame->shading.lit || drawn.normal,

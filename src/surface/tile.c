@@ -188,7 +188,7 @@ static void draw_visible(const ewa_tile_job *job, const ewa_tile_source *source,
     uint64_t drawn_runs = 0;
     uint32_t passed = 0; // chunks since the last that was asked, and until the next
     uint32_t to_pass = job->resolve.transparent ? UINT32_MAX : 1;
-    for (uint64_t first = 0; first < count; first += CHUNK_PACKETS) {
+    for (uint64_t first = 0; first < count && ewa_tile_goes_on(job, s); first += CHUNK_PACKETS) {
         const uint32_t here = count - first < CHUNK_PACKETS ? (uint32_t)(count - first) : CHUNK_PACKETS;
         const double before = ewa_now_s();
         if (passed < to_pass) {

@@ -99,6 +99,7 @@ typedef struct ewa_tile_source {
 
 /// What all tiles of a frame share.
 typedef struct ewa_tile_job {
+    ewa_context *context;
     const ewa_pipeline_kernels *kernels;
     ewa_tile_source *sources;
     uint32_t source_count;

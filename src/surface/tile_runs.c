@@ -125,7 +125,7 @@ static void visit_run(const ewa_tile_job *job, const ewa_tile_source *source, co
 }
 
 void ewa_tile_walk_kept(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_scratch *s) {
-    for (uint32_t i = 0; i < s->kept_count; i++) {
+    for (uint32_t i = 0; i < s->kept_count && ewa_tile_goes_on(job, s); i++) {
         const ewa_kept_run *kept = &s->kept[i];
         visit_run(job, kept->source, tile, &kept->sorted, EWA_PASS_ACCUMULATE);
         ewa_tile_draw_near(job, kept->source, tile, NULL, s->near_surfels + kept->near_first,
@@ -135,7 +135,7 @@ void ewa_tile_walk_kept(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_
 
 void ewa_tile_walk_again(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_scratch *s,
                          const ewa_tile_packets *packets, uint64_t first, uint64_t end, ewa_tile_pass what) {
-    for (uint64_t i = first; i < end; i++) {
+    for (uint64_t i = first; i < end && ewa_tile_goes_on(job, s); i++) {
         ewa_sorted_run sorted;
         const double before = ewa_now_s();
         prepare_run(job, tile, s, packets, i, 0, &sorted);

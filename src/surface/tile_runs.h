@@ -5,10 +5,16 @@
 #ifndef EWA_SRC_SURFACE_TILE_RUNS_H
 #define EWA_SRC_SURFACE_TILE_RUNS_H
 
+#include "base/base.h"
 #include "surface/tile.h"
 
 static inline uint64_t ewa_run_count(const ewa_tile_packets *packets) {
     return (packets->count + EWA_RUN_PACKETS - 1) / EWA_RUN_PACKETS;
+}
+
+/// Whether the frame is still wanted. What is left of a tile may be left out if not.
+static inline bool ewa_tile_goes_on(const ewa_tile_job *job, const ewa_tile_scratch *scratch) {
+    return ewa_goes_on(job->context, (uint32_t)(scratch - job->scratch));
 }
 
 /// Whether a source takes part in a pass.

@@ -86,12 +86,12 @@ static ewa_status read_plain(las_state *state, uint64_t maximum, const ewa_cloud
     unpack_job job = {.state = state, .sinks = sinks, .records = state->source->bytes + at, .count = count};
     job.above_counts = ewa_allocate_zeroed(context, tasks, sizeof *job.above_counts);
     if (!job.above_counts) return EWA_ERROR_MEMORY;
-    ewa_parallel(context, unpack_task, &job, tasks);
+    const ewa_status status = ewa_parallel_stoppable(context, "read", unpack_task, &job, tasks);
     for (uint32_t i = 0; i < tasks; i++) state->above_count += job.above_counts[i];
     ewa_release(context, job.above_counts, tasks, sizeof *job.above_counts);
     state->next_point += count;
     ewa_cloud_passed(state->source, at + count * state->file.table.record_bytes);
-    return EWA_OK;
+    return status;
 }
 
 static ewa_status read_las(void *data, uint64_t maximum, const ewa_cloud_sink *sinks, uint64_t *got_count) {

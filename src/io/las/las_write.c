@@ -130,7 +130,7 @@ static void encode_chunk(void *data, uint32_t index, uint32_t worker) {
 static ewa_status flush_chunks(las_writer *w) {
     ewa_context *context = w->target->context;
     const uint32_t count = (uint32_t)((w->wave_filled + w->chunk_points - 1) / w->chunk_points);
-    ewa_parallel_allocating(context, encode_chunk, w, count);
+    EWA_TRY(ewa_parallel_allocating_stoppable(context, "write", encode_chunk, w, count));
     EWA_TRY(ewa_buffer_grow(context, &w->chunks, (size_t)w->chunk_count, (size_t)w->chunk_count + count,
                             sizeof(ewa_laz_chunk)));
     for (uint32_t i = 0; i < count; i++) {
@@ -178,7 +178,7 @@ static ewa_status put_finite(las_writer *w, const ewa_cloud *piece) {
         const pack_job job = {
             .writer = w, .piece = piece, .first = first, .count = left < room ? left : room};
         const uint32_t tasks = (uint32_t)((job.count + TASK_POINTS - 1) / TASK_POINTS);
-        ewa_parallel(w->target->context, pack_task, (void *)&job, tasks);
+        EWA_TRY(ewa_parallel_stoppable(w->target->context, "write", pack_task, (void *)&job, tasks));
         for (uint32_t i = 0; i < tasks; i++) ewa_las_sums_add(&w->sums, &w->task_sums[i]);
         w->wave_filled += job.count;
         w->point_count += job.count;

@@ -289,7 +289,7 @@ static ewa_status read_wave(ewa_laz_stream *stream, const ewa_las_table *table, 
     if (status == EWA_OK && chunk_count == 1)
         read_chunk(&w, 0, 0);
     else if (status == EWA_OK)
-        ewa_parallel_allocating(context, read_chunk, &w, (uint32_t)chunk_count);
+        status = ewa_parallel_allocating_stoppable(context, "read", read_chunk, &w, (uint32_t)chunk_count);
     if (status == EWA_OK) status = settle(&w, got_count, above_count);
     ewa_release(context, w.results, chunk_count, sizeof *w.results);
     return status;
