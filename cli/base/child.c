@@ -3,6 +3,7 @@
 //
 // A program of somebody else that runs beside this one.
 #include "cli/base/child.h"
+#include "cli/base/interruption.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -49,6 +50,7 @@ int child_spawn(const char *program, const char *const *words, const int streams
             posix_spawnp(process, program, &actions, &attributes, (char *const *)(uintptr_t)words, environ);
     posix_spawnattr_destroy(&attributes);
     posix_spawn_file_actions_destroy(&actions);
+    if (!error) interruption_watch_process(own_group ? -*process : *process);
     return error;
 }
 
@@ -130,6 +132,7 @@ static int await_end(child_process *child) {
         }
         if (session_interrupted() && !told) told = kill(child->process, SIGTERM) == 0;
     }
+    if (child->process > 0) interruption_release_process(child->process);
     child->process = 0;
     return ended;
 }

@@ -10,16 +10,37 @@
 #include <stdlib.h>
 #include <string.h>
 
+/// Bytes of the UTF-8 character at `text`; 0 where there is none.
+static int utf8_bytes(const char *text) {
+    const unsigned char *c = (const unsigned char *)text;
+    if (c[0] < 0x80) return 1;
+    const int count = c[0] >= 0xc2 && c[0] < 0xe0   ? 2
+                      : c[0] >= 0xe0 && c[0] < 0xf0 ? 3
+                      : c[0] >= 0xf0 && c[0] < 0xf5 ? 4
+                                                    : 0;
+    for (int i = 1; i < count; i++)
+        if ((c[i] & 0xc0) != 0x80) return 0;
+    // Characters that have a shorter form, halves of pairs of UTF-16, and what is beyond Unicode.
+    if ((c[0] == 0xe0 && c[1] < 0xa0) || (c[0] == 0xed && c[1] > 0x9f) || (c[0] == 0xf0 && c[1] < 0x90) ||
+        (c[0] == 0xf4 && c[1] > 0x8f))
+        return 0;
+    return count;
+}
+
+/// Names of files may be any bytes, JSON is UTF-8: what is none becomes U+FFFD.
 static void print_quoted(FILE *file, const char *text) {
     fputc('"', file);
-    for (; *text; text++) {
+    for (int bytes; *text; text += bytes) {
         const unsigned char c = (unsigned char)*text;
+        bytes = utf8_bytes(text);
         if (c == '"' || c == '\\')
             fprintf(file, "\\%c", c);
         else if (c < 0x20)
             fprintf(file, "\\u%04x", c);
+        else if (bytes)
+            fwrite(text, 1, (size_t)bytes, file);
         else
-            fputc(c, file);
+            fputs("\xef\xbf\xbd", file), bytes = 1;
     }
     fputc('"', file);
 }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Whether the files that a command is asked to write can be written, before any work.
+#define _DEFAULT_SOURCE // lstat
 #include "cli/base/outputs.h"
 #include "cli/base/pattern.h"
 #include "cli/render/video.h"
@@ -91,6 +92,11 @@ static bool check_place(const named_output *output, char message[OPTION_ERROR_BY
     if (strcmp(path, "-") == 0) return true;
     if (stat(path, &found) == 0 && S_ISDIR(found.st_mode)) {
         snprintf(message, OPTION_ERROR_BYTES, "--%s: %.300s: is a folder", output->key, path);
+        return false;
+    }
+    if (lstat(path, &found) == 0 && S_ISLNK(found.st_mode) && access(path, F_OK) != 0) {
+        snprintf(message, OPTION_ERROR_BYTES, "--%s: %.300s: is a link to a file that is not there",
+                 output->key, path);
         return false;
     }
     char folder[PATH_BYTES] = ".";

@@ -3,9 +3,9 @@
 //
 // One run of the program: the library's context, messages, progress, interruption, timing, exit status.
 #include "cli/base/session.h"
+#include "cli/base/interruption.h"
 
 #include <errno.h>
-#include <signal.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -18,12 +18,6 @@ enum { BAR_COLUMNS = 40, LINE_BYTES = 2048 };
 
 /// The bar appears after this time, so that short runs stay silent, and is redrawn in these steps.
 static const double BAR_DELAY_S = 0.4, BAR_STEP_S = 0.05;
-
-/// Set by the first SIGINT or SIGTERM: the run stops at the next report of progress and cleans up. The second
-/// ends it.
-static volatile sig_atomic_t caught_signal;
-
-static void catch_signal(int number) { caught_signal = number; }
 
 double clock_now_s(void) {
     struct timespec now;
@@ -59,19 +53,19 @@ static void draw_bar(cli_session *session, const char *label, double fraction) {
 static bool on_progress(void *user, const char *stage, double fraction) {
     cli_session *session = user;
     const session_listener *listener = session->listener;
-    if (listener) return listener->progress(listener->user, stage, fraction) && caught_signal == 0;
+    if (listener) return listener->progress(listener->user, stage, fraction) && !session_interrupted();
     if (!session->stepping) draw_bar(session, stage, fraction);
-    return caught_signal == 0;
+    return !session_interrupted();
 }
 
-bool session_interrupted(void) { return caught_signal != 0; }
+bool session_interrupted(void) { return interruption_signal() != 0; }
 
 bool session_step(cli_session *session, const char *what, uint64_t done, uint64_t count) {
     char label[64];
     snprintf(label, sizeof label, "%s %llu/%llu", what, (unsigned long long)done, (unsigned long long)count);
     session->stepping = true;
     draw_bar(session, label, (double)done / (double)count);
-    return caught_signal == 0;
+    return !session_interrupted();
 }
 
 /// Prints one line: program, then the file unless the text begins with it, then the text.
@@ -142,15 +136,7 @@ bool session_start(cli_session *session, const common_arguments *common) {
     session->progress =
         process_group_leads(session->group) &&
         (common->progress == 1 || (common->progress == -1 && !common->quiet && isatty(STDERR_FILENO)));
-    struct sigaction action = {.sa_handler = catch_signal, .sa_flags = (int)SA_RESETHAND};
-    sigemptyset(&action.sa_mask);
-    // Whoever started us to ignore an interrupt, as shells do in the background, is obeyed.
-    static const int numbers[] = {SIGINT, SIGTERM, SIGHUP};
-    for (size_t i = 0; i < sizeof numbers / sizeof numbers[0]; i++) {
-        struct sigaction inherited;
-        if (sigaction(numbers[i], NULL, &inherited) == 0 && inherited.sa_handler != SIG_IGN)
-            sigaction(numbers[i], &action, NULL);
-    }
+    interruption_start();
     ewa_cloud_load_options_init(&session->load, sizeof session->load);
     session->load.keep_going = common->keep_going;
     session->load.columns = common->columns;
@@ -162,7 +148,7 @@ bool session_start(cli_session *session, const common_arguments *common) {
 int session_end(cli_session *session, int exit_status) {
     wipe_bar(session);
     ewa_context_destroy(&session->context);
-    if (caught_signal) raise(caught_signal);
+    interruption_obey();
     return exit_status;
 }
 
@@ -176,7 +162,7 @@ int session_fail(cli_session *session, const char *format, ...) {
 }
 
 int session_failed(cli_session *session, ewa_status status) {
-    if (caught_signal) return EXIT_FAILED;
+    if (session_interrupted()) return EXIT_FAILED;
     if (session->reported) return EXIT_FAILED;
     return session_fail(session, "%s", status == EWA_CANCELLED ? "given up" : ewa_status_name(status));
 }

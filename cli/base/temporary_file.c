@@ -4,6 +4,7 @@
 // A file that appears whole or not at all.
 #define _DEFAULT_SOURCE // realpath
 #include "cli/base/temporary_file.h"
+#include "cli/base/interruption.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -20,6 +21,7 @@ int temporary_file_choose(const char *path, temporary_file *pending) {
     struct stat facts;
     if (stat(path, &facts) != 0) {
         if (errno != ENOENT) return errno;
+        if (lstat(path, &facts) == 0) return ENOENT; // a link that leads nowhere
         strcpy(pending->target, path);
     } else if (!S_ISREG(facts.st_mode)) {
         pending->temporary = false;
@@ -39,18 +41,30 @@ int temporary_file_choose(const char *path, temporary_file *pending) {
     clock_gettime(CLOCK_REALTIME, &now);
     const int length = snprintf(pending->written, sizeof pending->written, "%.*s.ewa-%ld-%09ld.tmp",
                                 folder_bytes, pending->target, (long)getpid(), now.tv_nsec);
-    return length < 0 || (size_t)length >= sizeof pending->written ? ENAMETOOLONG : 0;
+    if (length < 0 || (size_t)length >= sizeof pending->written) return ENAMETOOLONG;
+    interruption_watch_file(pending->written);
+    return 0;
 }
 
 int temporary_file_commit(temporary_file *pending) {
     if (!pending->temporary) return 0;
     if (pending->replaces && chmod(pending->written, pending->mode) != 0) return errno;
+    const int descriptor = open(pending->written, O_RDONLY | O_CLOEXEC);
+    if (descriptor < 0) return errno;
+    // The name is to lead to whole bytes after a power cut, too.
+    const int unsafe = fsync(descriptor) != 0 && errno != EINVAL ? errno : 0;
+    close(descriptor);
+    if (unsafe) return unsafe;
     if (rename(pending->written, pending->target) != 0) return errno;
+    interruption_release_file(pending->written);
     pending->temporary = false;
     return 0;
 }
 
 void temporary_file_drop(temporary_file *pending) {
-    if (pending->temporary && pending->written[0]) unlink(pending->written);
+    if (pending->temporary && pending->written[0]) {
+        unlink(pending->written);
+        interruption_release_file(pending->written);
+    }
     pending->temporary = false;
 }

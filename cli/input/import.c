@@ -5,6 +5,7 @@
 #include "cli/input/import.h"
 
 #include "cli/base/child.h"
+#include "cli/base/interruption.h"
 
 #include <errno.h>
 #include <limits.h>
@@ -147,6 +148,7 @@ bool import_run(cli_session *session, const char *helper, const char *path, cons
         }
         if (!given_up) poll(NULL, 0, 1);
     }
+    interruption_release_process(-child.pid);
     close(child.output);
     close(child.errors);
     child.error[child.error_bytes] = 0;

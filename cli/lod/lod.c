@@ -3,6 +3,7 @@
 //
 // ewa lod: clouds of any size to an octree with surfels at every level.
 #include "cli/base/commands.h"
+#include "cli/base/interruption.h"
 #include "cli/base/json.h"
 #include "cli/base/outputs.h"
 #include "cli/base/session.h"
@@ -146,6 +147,12 @@ static ewa_status build_together(cli_session *session, const lod_command_argumen
         session_fail(session, "%.200s: the path is too long", arguments->output);
         return EWA_ERROR_ARGUMENT;
     }
+    // A rank that is killed cannot remove its part: the next one does, which ends by a signal for its sake.
+    const uint32_t killed = (all->rank + all->rank_count - 1) % all->rank_count;
+    char other[PART_NAME_BYTES];
+    name_part(arguments->output, killed, all->rank_count, other);
+    interruption_watch_file(part);
+    interruption_watch_file(other);
     ewa_status status =
         ewa_lod_build(session->context, common->operands, (uint32_t)common->operand_count, part, &own, stats);
     if (status != EWA_OK) return status; // and there is no part
@@ -153,6 +160,8 @@ static ewa_status build_together(cli_session *session, const lod_command_argumen
     if (status == EWA_OK && all->rank == 0) status = join_parts(session, arguments->output, stats);
     if (status == EWA_OK) status = meet(session);
     remove(part);
+    interruption_release_file(part);
+    interruption_release_file(other);
     return status;
 }
 
