@@ -33,11 +33,12 @@ typedef struct ewa_exchange {
 } ewa_exchange;
 
 /// Gives `size_bytes` bytes of each rank to all, in the order of the ranks: rank_count * size_bytes. Errors:
-/// EWA_ERROR_MEMORY, those of the exchange.
+/// EWA_ERROR_ARGUMENT, EWA_ERROR_MEMORY, those of the exchange.
 EWA_API ewa_status ewa_exchange_gather(ewa_context *context, const ewa_exchange *exchange, const void *mine,
                                        size_t size_bytes, void *all);
 
-/// Replaces each number by its sum over all ranks. Errors: EWA_ERROR_MEMORY, those of the exchange.
+/// Replaces each number by its sum over all ranks. Errors: EWA_ERROR_ARGUMENT, EWA_ERROR_MEMORY, those of the
+/// exchange.
 EWA_API ewa_status ewa_exchange_add(ewa_context *context, const ewa_exchange *exchange, int64_t *values,
                                     size_t count);
 

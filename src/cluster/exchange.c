@@ -7,7 +7,7 @@
 #include <string.h>
 
 ewa_status ewa_exchange_check(ewa_context *context, const ewa_exchange *exchange) {
-    if (!exchange) return EWA_ERROR_ARGUMENT;
+    if (!context || !exchange) return EWA_ERROR_ARGUMENT;
     if (exchange->swap && exchange->rank_count && exchange->rank_count <= EWA_MAX_RANKS &&
         exchange->rank < exchange->rank_count &&
         (exchange->picture_rank < exchange->rank_count || exchange->picture_rank == EWA_ALL_RANKS))
@@ -62,8 +62,9 @@ void ewa_messages_free(ewa_context *context, ewa_messages *messages) {
 ewa_status ewa_exchange_gather(ewa_context *context, const ewa_exchange *exchange, const void *mine,
                                size_t size_bytes, void *all) {
     ewa_messages messages = {.given = NULL};
-    ewa_status status = ewa_exchange_check(context, exchange);
-    if (status == EWA_OK) status = ewa_messages_open(context, exchange, &messages);
+    EWA_TRY(ewa_exchange_check(context, exchange));
+    if (size_bytes && (!mine || !all)) return EWA_ERROR_ARGUMENT;
+    ewa_status status = ewa_messages_open(context, exchange, &messages);
     for (uint32_t r = 0; r < exchange->rank_count && status == EWA_OK; r++) {
         messages.given[r] = (ewa_parcel){(void *)mine, size_bytes};
         messages.taken[r] = (ewa_parcel){(char *)all + r * size_bytes, size_bytes};
@@ -100,6 +101,7 @@ ewa_status ewa_exchange_add(ewa_context *context, const ewa_exchange *exchange, 
                             size_t count) {
     ewa_messages messages = {.given = NULL};
     EWA_TRY(ewa_exchange_check(context, exchange));
+    if (count && !values) return EWA_ERROR_ARGUMENT;
     EWA_TRY(ewa_messages_open(context, exchange, &messages));
     const size_t room = count + exchange->rank_count;
     int64_t *parts = ewa_allocate(context, room, sizeof *parts);

@@ -29,7 +29,7 @@ typedef struct ewa_gaussian_reader {
     ewa_gaussian_format format;
 
     /// Whether the bytes are of this format.
-    bool (*probe)(const ewa_gaussian_source *source);
+    bool (*probe)(const ewa_gaussian_source *source, ewa_status *status);
 
     /// Makes and fills the set; `facts` has the format and the size already. The set is freed by the caller, also
     /// after a failure. Numbers are checked by the caller (ewa_gaussians_settle()).

@@ -17,17 +17,21 @@ const char *ewa_gaussian_format_name(ewa_gaussian_format format) {
     return (unsigned)format < sizeof names / sizeof names[0] ? names[format] : names[0];
 }
 
-static const ewa_gaussian_reader *find_reader(const ewa_gaussian_source *source) {
-    for (size_t i = 0; i < sizeof readers / sizeof readers[0]; i++)
-        if (source->size_bytes && readers[i]->probe(source)) return readers[i];
-    return NULL;
+/// Sets `*reader` to who reads the file, or NULL.
+static ewa_status find_reader(const ewa_gaussian_source *source, const ewa_gaussian_reader **reader) {
+    ewa_status status = EWA_OK;
+    *reader = NULL;
+    for (size_t i = 0; i < sizeof readers / sizeof readers[0] && !*reader && status == EWA_OK; i++)
+        if (source->size_bytes && readers[i]->probe(source, &status)) *reader = readers[i];
+    return status;
 }
 
 static ewa_status load(const ewa_gaussian_source *source, ewa_gaussians *gaussians,
                        ewa_gaussian_facts *facts) {
     if (source->size_bytes == 0)
         return ewa_fail(source->context, EWA_ERROR_FORMAT, "%s: the file is empty", source->name);
-    const ewa_gaussian_reader *reader = find_reader(source);
+    const ewa_gaussian_reader *reader;
+    EWA_TRY(find_reader(source, &reader));
     if (!reader)
         return ewa_fail(
             source->context, EWA_ERROR_UNSUPPORTED,
@@ -71,8 +75,9 @@ ewa_status ewa_gaussians_probe(ewa_context *context, const char *path, ewa_gauss
     ewa_file file;
     EWA_TRY(ewa_file_map(context, path, &file));
     const ewa_gaussian_source source = {context, path, path, file.bytes, file.size_bytes};
-    const ewa_gaussian_reader *reader = find_reader(&source);
+    const ewa_gaussian_reader *reader;
+    const ewa_status status = find_reader(&source, &reader);
     if (reader) *format = reader->format;
     ewa_file_unmap(context, &file);
-    return EWA_OK;
+    return status;
 }

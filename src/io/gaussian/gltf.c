@@ -282,7 +282,8 @@ static ewa_status read_gltf(const ewa_gaussian_source *source, ewa_gaussians *se
 }
 
 /// Whether the bytes are glTF that uses the extension: its name stands in the JSON.
-static bool probe(const ewa_gaussian_source *source) {
+static bool probe(const ewa_gaussian_source *source, ewa_status *status) {
+    (void)status;
     if (ewa_mesh_probe(source->name, source->bytes, source->size_bytes) != EWA_MODEL_GLTF) return false;
     const uint8_t *at = source->bytes, *end = at + source->size_bytes;
     if (source->size_bytes >= 20 && memcmp(at, "glTF", 4) == 0) {

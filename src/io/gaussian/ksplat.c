@@ -200,7 +200,8 @@ static ewa_status read_ksplat(const ewa_gaussian_source *source, ewa_gaussians *
 }
 
 /// There is no magic: the version, a level, and a first section that can be.
-static bool probe(const ewa_gaussian_source *source) {
+static bool probe(const ewa_gaussian_source *source, ewa_status *status) {
+    (void)status;
     const size_t length = strlen(source->name);
     if (length > 7 && strcasecmp(source->name + length - 7, ".ksplat") == 0) return true;
     const uint8_t *head = source->bytes;

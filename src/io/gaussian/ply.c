@@ -214,10 +214,14 @@ static ewa_status read_ply(const ewa_gaussian_source *source, ewa_gaussians *set
     return status;
 }
 
-bool ewa_gaussians_ply_probe(const ewa_gaussian_source *source, bool (*fits)(const ewa_ply_header *header)) {
+bool ewa_gaussians_ply_probe(const ewa_gaussian_source *source, bool (*fits)(const ewa_ply_header *header),
+                             ewa_status *status) {
     if (source->size_bytes < 4 || memcmp(source->bytes, "ply", 3) != 0) return false;
     ewa_ply_header *header = ewa_allocate(source->context, 1, sizeof *header);
-    if (!header) return false;
+    if (!header) {
+        *status = EWA_ERROR_MEMORY;
+        return false;
+    }
     // Nobody wants to be told here what is wrong with files of other readers.
     const ewa_ply_source ply = {NULL, source->name, source->bytes, source->size_bytes};
     const bool found = ewa_ply_header_read(&ply, header) == EWA_OK && fits(header);
@@ -225,6 +229,8 @@ bool ewa_gaussians_ply_probe(const ewa_gaussian_source *source, bool (*fits)(con
     return found;
 }
 
-static bool probe(const ewa_gaussian_source *source) { return ewa_gaussians_ply_probe(source, is_plain); }
+static bool probe(const ewa_gaussian_source *source, ewa_status *status) {
+    return ewa_gaussians_ply_probe(source, is_plain, status);
+}
 
 const ewa_gaussian_reader ewa_gaussians_ply = {EWA_GAUSSIANS_PLY, probe, read_ply};

@@ -9,7 +9,8 @@
 #include "io/gaussian/gaussian.h"
 
 /// Whether a file is PLY whose header, which can be read, fits.
-bool ewa_gaussians_ply_probe(const ewa_gaussian_source *source, bool (*fits)(const ewa_ply_header *header));
+bool ewa_gaussians_ply_probe(const ewa_gaussian_source *source, bool (*fits)(const ewa_ply_header *header),
+                             ewa_status *status);
 
 /// Steps `*at` over the elements before one, whose records are there then. Errors: EWA_ERROR_FORMAT.
 ewa_status ewa_gaussians_ply_skip_to(const ewa_ply_source *ply, const ewa_ply_header *header,

@@ -246,6 +246,8 @@ static ewa_status read_packed(const ewa_gaussian_source *source, ewa_gaussians *
     return status;
 }
 
-static bool probe(const ewa_gaussian_source *source) { return ewa_gaussians_ply_probe(source, is_packed); }
+static bool probe(const ewa_gaussian_source *source, ewa_status *status) {
+    return ewa_gaussians_ply_probe(source, is_packed, status);
+}
 
 const ewa_gaussian_reader ewa_gaussians_packed_ply = {EWA_GAUSSIANS_PACKED_PLY, probe, read_packed};

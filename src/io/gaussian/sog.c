@@ -245,7 +245,8 @@ static bool has_word(const uint8_t *bytes, size_t size_bytes, const char *word) 
     return false;
 }
 
-static bool probe(const ewa_gaussian_source *source) {
+static bool probe(const ewa_gaussian_source *source, ewa_status *status) {
+    (void)status;
     if (source->size_bytes < 4) return false;
     if (memcmp(source->bytes, "PK", 2) == 0)
         return ewa_zip_has(source->bytes, source->size_bytes, "meta.json");

@@ -64,7 +64,8 @@ static bool is_plausible(const uint8_t *record) {
     return norm2 > 0.81 && norm2 < 1.21;
 }
 
-static bool probe(const ewa_gaussian_source *source) {
+static bool probe(const ewa_gaussian_source *source, ewa_status *status) {
+    (void)status;
     const size_t length = strlen(source->name);
     if (length > 6 && strcasecmp(source->name + length - 6, ".splat") == 0) return true;
     if (source->size_bytes % RECORD_BYTES) return false;

@@ -84,8 +84,8 @@ static ewa_status turn(const ewa_gaussian_source *source, uint32_t axes, ewa_gau
                         "%s: SPZ: axes of number %u; 1 to 8, whose second one is up or down, are read",
                         source->name, axes);
     const uint32_t bits = (axes ? axes : AXES_USUAL) - 1;
-    ewa_gaussians_mirror(set, (const int[]){bits & AXES_RIGHT ? 1 : -1, bits & AXES_UP ? -1 : 1,
-                                            bits & AXES_FRONT ? 1 : -1});
+    ewa_gaussians_mirror(
+        set, (const int[]){bits & AXES_RIGHT ? 1 : -1, bits & AXES_UP ? -1 : 1, bits & AXES_FRONT ? 1 : -1});
     facts->up_world[1] = -1;
     return EWA_OK;
 }
@@ -111,23 +111,25 @@ static ewa_status read_spz(const ewa_gaussian_source *source, ewa_gaussians *set
 }
 
 /// Whether bytes are a gzip stream that begins as SPZ does.
-static bool is_packed_spz(const ewa_gaussian_source *source) {
+static bool is_packed_spz(const ewa_gaussian_source *source, ewa_status *status) {
     if (source->size_bytes < 18 || source->bytes[0] != 0x1f || source->bytes[1] != 0x8b) return false;
     ewa_source *packed = NULL;
     uint8_t magic[4];
     size_t got = 0;
     ewa_failures_soften(source->context, true);
-    const bool found = ewa_source_open(source->context, source->name, EWA_PACKING_DEFLATE, source->bytes,
-                                       source->size_bytes, &packed) == EWA_OK &&
-                       ewa_source_read(packed, magic, sizeof magic, &got) == EWA_OK && got == sizeof magic &&
-                       ewa_file_u32(magic) == EWA_SPZ_MAGIC;
+    ewa_status opened = ewa_source_open(source->context, source->name, EWA_PACKING_DEFLATE, source->bytes,
+                                        source->size_bytes, &packed);
+    if (opened == EWA_OK) opened = ewa_source_read(packed, magic, sizeof magic, &got);
+    if (opened == EWA_ERROR_MEMORY) *status = opened;
+    const bool found = opened == EWA_OK && got == sizeof magic && ewa_file_u32(magic) == EWA_SPZ_MAGIC;
     ewa_source_close(&packed);
     ewa_failures_soften(source->context, false);
     return found;
 }
 
-static bool probe(const ewa_gaussian_source *source) {
-    return (source->size_bytes >= 4 && ewa_file_u32(source->bytes) == EWA_SPZ_MAGIC) || is_packed_spz(source);
+static bool probe(const ewa_gaussian_source *source, ewa_status *status) {
+    return (source->size_bytes >= 4 && ewa_file_u32(source->bytes) == EWA_SPZ_MAGIC) ||
+           is_packed_spz(source, status);
 }
 
 const ewa_gaussian_reader ewa_gaussians_spz = {EWA_GAUSSIANS_SPZ, probe, read_spz};
