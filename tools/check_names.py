@@ -99,7 +99,7 @@ class Tree:
         self.basenames = {Path(name).name for name in self.files}
         built = [(root / name).read_text() for name in sorted(self.files) if
                  name.endswith(("CMakeLists.txt", ".cmake", ".sh", ".yml", ".in", "Makefile")) or
-                 (name.startswith("tools/") and name.endswith(".py") and name != "tools/check_names.py")]
+                 (name.startswith(("tools/", "tests/hostile/")) and name.endswith(".py") and name != "tools/check_names.py")]
         self.words = set(re.findall(r"\w+", " ".join(self.code + built)))
         self.words |= {Path(name).stem for name in self.files if name.endswith((".c", ".h"))}  # programs among them
         for path in sorted((root / "python").rglob("*.py")):
