@@ -347,6 +347,8 @@ ewa_status ewa_writer_commit(ewa_writer **writer) {
     // The name is to lead to whole bytes after a power cut, too.
     if (done->status == EWA_OK && done->temporary && fsync(done->descriptor) != 0 && errno != EINVAL)
         done->status = fail_errno(done->context, done->shown, errno);
+    // Flushing takes long; who has said stop meanwhile keeps what was there before.
+    if (done->status == EWA_OK) done->status = ewa_progress(done->context, "write", 1);
     name_file(done);
     // Some file systems report a full disk only now.
     const bool closed = close(done->descriptor) == 0;
