@@ -92,7 +92,8 @@ static void hidden(void **state) {
 /// Several sets, volumes and surfaces are in one order of depth, in whichever order they are named.
 static void together(void **state) {
     run_done("ewa generate ball -o ball.nrrd --extent 3 && ewa generate sphere -o sphere.ply --extent 0.8");
-    run_done("ewa render pair.ply ball.nrrd -o ball.png --size 100x200 --shading none");
+    run_done("ewa generate ball -o between.nrrd --extent 1 && "
+             "ewa render pair.ply between.nrrd -o ball.png --size 100x200 --shading none");
     ewa_image image = load("ball.png"); // between red and blue, neither
     const float *middle = pixel(&image, 0.5, 0.5);
     assert_true(fabsf(middle[0] - 1) + fabsf(middle[1] - 1) + fabsf(middle[2] - 1) > 0.05f);
