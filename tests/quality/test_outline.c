@@ -1,0 +1,199 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// Outlines of closed shapes and borders of open ones against analytic coverage: how fat they are in pixels,
+// how far alpha is off along them, and how much of what is inside is open; from generated surfels, from
+// meshes and from bare points.
+#include "check.h"
+
+#include <math.h>
+#include <stdbool.h>
+
+#include "prepare/mesh_shapes.h"
+#include "quality/outline_scene.h"
+
+static ewa_cloud *generated(ewa_context *context, ewa_object object, uint64_t point_count) {
+    ewa_generate_options options;
+    ewa_generate_options_init(&options, sizeof options);
+    options.object = object;
+    options.size_world = 2;
+    options.radius_scale = EWA_DEFAULT_RADIUS_SCALE;
+    options.point_count = point_count;
+    ewa_cloud *cloud = NULL;
+    assert_int_equal(ewa_cloud_generate(context, &options, &cloud), EWA_OK);
+    return cloud;
+}
+
+static ewa_cloud *sampled(ewa_mesh *mesh, uint64_t point_count) {
+    ewa_mesh_sample_options options;
+    ewa_mesh_sample_options_init(&options, sizeof options);
+    options.point_count = point_count;
+    ewa_cloud *cloud = shape_sample(mesh, &options);
+    ewa_mesh_free(mesh);
+    return cloud;
+}
+
+static ewa_cloud *sphere_from_mesh(ewa_context *context, uint64_t point_count) {
+    ewa_mesh mesh;
+    shape_sphere(context, 100, &mesh);
+    return sampled(&mesh, point_count);
+}
+
+/// A fan, whose border a mesh knows.
+static ewa_cloud *disc_from_mesh(ewa_context *context, uint64_t point_count) {
+    enum { CORNERS = 200 };
+    double positions[3 * (CORNERS + 1)] = {0};
+    uint32_t triangles[3 * CORNERS];
+    for (uint32_t i = 0; i < CORNERS; i++) {
+        const double angle = 2 * 3.141592653589793 * i / CORNERS;
+        positions[3 * i] = cos(angle), positions[3 * i + 1] = sin(angle);
+        triangles[3 * i] = CORNERS, triangles[3 * i + 1] = i, triangles[3 * i + 2] = (i + 1) % CORNERS;
+    }
+    ewa_mesh mesh;
+    shape_fill(context, CORNERS + 1, positions, CORNERS, triangles, &mesh);
+    return sampled(&mesh, point_count);
+}
+
+static ewa_cloud *estimated(ewa_context *context, outline_shape shape, uint64_t point_count) {
+    ewa_cloud *cloud = outline_points(context, shape, point_count);
+    ewa_estimate_options options;
+    ewa_estimate_options_init(&options, sizeof options);
+    assert_int_equal(ewa_cloud_estimate(&cloud, &options), EWA_OK);
+    return cloud;
+}
+
+static outline_errors draw(ewa_context *context, const ewa_cloud *cloud, const ewa_camera *camera,
+                           const outline_truth *truth) {
+    static float rgba[OUTLINE_SIDE_PX * OUTLINE_SIDE_PX][4];
+    ewa_surfels *surfels = NULL;
+    ewa_renderer *renderer = NULL;
+    assert_int_equal(ewa_surfels_create(cloud, NULL, &surfels), EWA_OK);
+    assert_int_equal(ewa_renderer_create(context, &renderer), EWA_OK);
+    const ewa_frame frame = {.rgba = &rgba[0][0]};
+    assert_int_equal(ewa_render(renderer, surfels, camera, NULL, &frame, NULL), EWA_OK);
+    ewa_renderer_destroy(&renderer);
+    ewa_surfels_destroy(&surfels);
+    return outline_compare(truth, &rgba[0][3], 4);
+}
+
+/// Draws a cloud, which it takes, and tells what it found.
+static outline_errors measure(ewa_context *context, const char *name, outline_shape shape,
+                              const double eye[3], ewa_cloud *cloud) {
+    static outline_truth truth;
+    ewa_camera camera;
+    outline_camera(eye, 42, &camera);
+    outline_trace(context, shape, &camera, &truth);
+    const outline_errors found = draw(context, cloud, &camera, &truth);
+    print_message("%-36s fat %+.3f px, rms %.3f, open inside %.4f %% (deepest %.3f), outside %.4f %%\n", name,
+                  found.fat_px, found.rms, 100 * found.open, found.deepest, 100 * found.strewn);
+    ewa_cloud_destroy(&cloud);
+    return found;
+}
+
+static const double oblique[3] = {1.2, -2.6, 1.7};
+
+static void test_silhouettes(void **state) {
+    ewa_context *context = check_context(0, NULL);
+    // What is sparser than pixels ends where its discs do.
+    static const uint64_t counts[] = {3000, 20000, 100000};
+    static const double fat_px[] = {1.4, 0.6, 0.51}, rms[] = {0.6, 0.55, 0.49};
+    for (int i = 0; i < 3; i++) {
+        const uint64_t n = counts[i];
+        print_message("%llu points\n", (unsigned long long)n);
+        const struct {
+            const char *name;
+            outline_shape shape;
+            ewa_cloud *cloud;
+        } scenes[] = {
+            {"sphere, surfels", OUTLINE_SPHERE, generated(context, EWA_OBJECT_SPHERE, n)},
+            {"sphere, mesh", OUTLINE_SPHERE, sphere_from_mesh(context, n)},
+            {"sphere, random points", OUTLINE_SPHERE, estimated(context, OUTLINE_SPHERE, n)},
+            {"torus, random points", OUTLINE_TORUS, estimated(context, OUTLINE_TORUS, n)},
+        };
+        for (size_t k = 0; k < sizeof scenes / sizeof scenes[0]; k++) {
+            const outline_errors found =
+                measure(context, scenes[k].name, scenes[k].shape, oblique, scenes[k].cloud);
+            assert_true(fabs(found.fat_px) < fat_px[i] && found.rms < rms[i]);
+            assert_true(found.open < 5e-4 && found.deepest < 0.1 && found.strewn < 1e-3);
+        }
+    }
+    ewa_context_destroy(&context);
+}
+
+static void test_borders(void **state) {
+    ewa_context *context = check_context(0, NULL);
+    static const uint64_t counts[] = {1000, 20000, 100000};
+    for (int i = 0; i < 3; i++) {
+        const uint64_t n = counts[i];
+        print_message("%llu points\n", (unsigned long long)n);
+        const outline_errors mesh =
+            measure(context, "disc, mesh", OUTLINE_DISC, oblique, disc_from_mesh(context, n));
+        assert_true(fabs(mesh.fat_px) < 0.05 && mesh.rms < 0.1 && mesh.open == 0);
+        measure(context, "disc, random points", OUTLINE_DISC, oblique, estimated(context, OUTLINE_DISC, n));
+        measure(context, "square, random points", OUTLINE_SQUARE, oblique,
+                estimated(context, OUTLINE_SQUARE, n));
+    }
+    ewa_context_destroy(&context);
+}
+
+static void test_flat_angles(void **state) {
+    ewa_context *context = check_context(0, NULL);
+    static const double angles_deg[] = {5, 7, 10, 20, 45, 90};
+    for (int i = 0; i < 6; i++) {
+        const double angle = angles_deg[i] * 3.141592653589793 / 180;
+        const double eye[3] = {0.3 * cos(angle), -3.2 * cos(angle), 3.2 * sin(angle) + 1e-3};
+        char name[64];
+        snprintf(name, sizeof name, "square at %g degrees, random points", angles_deg[i]);
+        const outline_errors found =
+            measure(context, name, OUTLINE_SQUARE, eye, estimated(context, OUTLINE_SQUARE, 20000));
+        assert_true(found.open < 2e-3);
+    }
+    ewa_context_destroy(&context);
+}
+
+/// A square of points whose normals are noisy, or point to either side at random.
+static ewa_cloud *doubtful_square(ewa_context *context, bool noisy) {
+    enum { POINTS = 20000 };
+    ewa_cloud *cloud = noisy ? outline_points(context, OUTLINE_SQUARE, POINTS)
+                             : estimated(context, OUTLINE_SQUARE, POINTS);
+    float *numbers = ewa_cloud_find(cloud, noisy ? EWA_POSITION : EWA_NORMAL)->data;
+    check_random random = {5};
+    for (int i = 0; i < POINTS; i++) {
+        const double spacing = 2 / sqrt(POINTS), up = check_uniform(&random, -0.5, 0.5) * spacing;
+        const bool turn = check_uniform(&random, 0, 1) < 0.5;
+        if (noisy) numbers[3 * i + 2] += (float)up;
+        for (int c = 0; c < 3 && !noisy && turn; c++) numbers[3 * i + c] *= -1;
+    }
+    ewa_estimate_options options;
+    ewa_estimate_options_init(&options, sizeof options);
+    assert_int_equal(ewa_cloud_estimate(&cloud, &options), EWA_OK);
+    return cloud;
+}
+
+/// Where both sides of one plane face the viewer it stays closed.
+static void test_doubtful_normals(void **state) {
+    ewa_context *context = check_context(0, NULL);
+    static const double angles_deg[] = {7, 30, 90};
+    for (int noisy = 0; noisy < 2; noisy++)
+        for (int i = 0; i < 3; i++) {
+            const double angle = angles_deg[i] * 3.141592653589793 / 180;
+            const double eye[3] = {0.3 * cos(angle), -3.2 * cos(angle), 3.2 * sin(angle) + 1e-3};
+            char name[64];
+            snprintf(name, sizeof name, "square at %g degrees, %s", angles_deg[i],
+                     noisy ? "noise" : "random signs");
+            const outline_errors found =
+                measure(context, name, OUTLINE_SQUARE, eye, doubtful_square(context, noisy));
+            assert_true(found.open < 0.08);
+        }
+    ewa_context_destroy(&context);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_silhouettes),
+        cmocka_unit_test(test_borders),
+        cmocka_unit_test(test_flat_angles),
+        cmocka_unit_test(test_doubtful_normals),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
