@@ -21,7 +21,7 @@ ewa_status ewa_volume_create(ewa_context *context, const uint32_t dims[3], ewa_t
         if (dims[axis] == 0)
             return ewa_fail(context, EWA_ERROR_ARGUMENT, "volume: %u x %u x %u voxels", dims[0], dims[1],
                             dims[2]);
-        if (__builtin_mul_overflow(bytes, dims[axis], &bytes)) bytes = UINT64_MAX / UINT32_MAX;
+        if (__builtin_mul_overflow(bytes, dims[axis], &bytes)) bytes = UINT64_MAX;
     }
     EWA_TRY(ewa_memory_check(context, bytes, "volume of %u x %u x %u voxels", dims[0], dims[1], dims[2]));
     ewa_volume made = {.context = context, .dims = {dims[0], dims[1], dims[2]}, .type = type};

@@ -53,9 +53,11 @@ typedef struct check_progress {
 
 static inline bool check_progress_take(void *user, const char *stage, double fraction) {
     check_progress *progress = user;
-    assert_string_equal(stage, progress->stage);
-    assert_true(fraction >= progress->last && fraction <= 1);
-    progress->last = fraction;
+    // Points are put in order within many stages: a stage of its own, as often as that is needed.
+    const bool orders = strcmp(stage, "order") == 0;
+    if (!orders) assert_string_equal(stage, progress->stage);
+    assert_true(fraction >= (orders ? 0 : progress->last) && fraction <= 1);
+    if (!orders) progress->last = fraction;
     return progress->calls_left-- > 0;
 }
 
