@@ -144,6 +144,51 @@ static void test_time_is_over(void **state) {
     ewa_context_destroy(&context);
 }
 
+/// A run of tasks that go on until they are told not to, and a callback that stops it once all have begun.
+typedef struct endless {
+    ewa_context *context;
+    atomic_uint begun, told;
+    uint32_t count, asked;
+} endless;
+
+static bool stop_when_all_run(void *user, const char *stage, double fraction) {
+    endless *run = user;
+    (void)stage, (void)fraction;
+    if (atomic_load(&run->begun) < run->count) return true;
+    return ++run->asked != 3; // said once
+}
+
+static void run_until_told(void *data, uint32_t index, uint32_t worker) {
+    endless *run = data;
+    (void)index;
+    atomic_fetch_add(&run->begun, 1);
+    const double end_s = ewa_now_s() + 10; // a run that nobody stops fails, rather than hang
+    while (ewa_now_s() < end_s)
+        if (!ewa_goes_on(run->context, worker)) {
+            atomic_fetch_add(&run->told, 1);
+            return;
+        }
+}
+
+/// Long tasks hear of a stop while they run, on the thread that is asked and on the others.
+static void test_long_tasks_are_stopped(void **state) {
+    for (uint32_t workers = 1; workers <= 3; workers++) {
+        endless run = {.count = workers};
+        ewa_context_options options;
+        ewa_context_options_init(&options, sizeof options);
+        options.thread_count = workers;
+        options.progress = stop_when_all_run;
+        options.progress_user = &run;
+        assert_int_equal(ewa_context_create(&options, &run.context), EWA_OK);
+        assert_true(ewa_goes_on(run.context, 0)); // of no run
+        assert_int_equal(ewa_parallel_stoppable(run.context, "wait", run_until_told, &run, workers),
+                         EWA_CANCELLED);
+        assert_int_equal(atomic_load(&run.told), workers);
+        assert_true(ewa_goes_on(run.context, 0));
+        ewa_context_destroy(&run.context);
+    }
+}
+
 typedef struct tally {
     atomic_uint hits[1000];
     uint32_t workers;
@@ -191,6 +236,7 @@ int main(void) {
         cmocka_unit_test(test_memory_is_counted),
         cmocka_unit_test(test_limits),
         cmocka_unit_test(test_time_is_over),
+        cmocka_unit_test(test_long_tasks_are_stopped),
         cmocka_unit_test(test_split_covers),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

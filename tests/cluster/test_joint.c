@@ -166,6 +166,12 @@ static void test_bad_exchanges(void **state) {
     assert_int_equal(ewa_renderer_create_joint(context, &nothing, &renderer), EWA_ERROR_ARGUMENT);
     assert_null(renderer);
     assert_int_equal(ewa_renderer_create_joint(context, NULL, &renderer), EWA_ERROR_ARGUMENT);
+    int64_t value = 1, all = 0;
+    assert_int_equal(ewa_exchange_gather(context, NULL, &value, sizeof value, &all), EWA_ERROR_ARGUMENT);
+    assert_int_equal(ewa_exchange_gather(context, &nothing, &value, sizeof value, &all), EWA_ERROR_ARGUMENT);
+    assert_int_equal(ewa_exchange_add(context, NULL, &value, 1), EWA_ERROR_ARGUMENT);
+    assert_int_equal(ewa_exchange_add(context, &nothing, &value, 1), EWA_ERROR_ARGUMENT);
+    assert_true(value == 1 && all == 0);
     ewa_context_destroy(&context);
 }
 
