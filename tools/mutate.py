@@ -104,7 +104,7 @@ NEAR = [
     ("src/scene", ["scene", "scene_file", "planes", "cli_render", "cli_gaussians", "cli_volume", "view_scripts"]),
     ("src/lod", ["lod_build", "lod_draw", "lod_levels", "lod_parts", "cli_lod"]),
     ("src/cluster", ["joint", "parts"]),
-    ("src/framing", ["framing", "upright", "cli_places", "cli_render"]),
+    ("src/framing", ["framing", "upright", "upright_bodies", "cli_places", "cli_render"]),
     ("src/furniture", ["furniture", "shapes", "text_drawing", "decimal", "cli_furniture"]),
     ("src/gl", ["gpu_bytes", "gpu_raster", "gpu_device", "gpu_fallback"]),
     ("src/tiling", ["bin", "render", "small"]),

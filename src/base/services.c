@@ -99,8 +99,9 @@ typedef struct ewa_stoppable_run {
     double asked_s; // of the thread that called the library
 } stoppable_run;
 
-/// Asks the progress callback, on the thread that called the library.
+/// Asks the progress callback, on the thread that called the library; not again once it has said stop.
 static void ask(stoppable_run *run) {
+    if (atomic_load_explicit(&run->stopped, memory_order_relaxed)) return;
     const double done = (double)atomic_load_explicit(&run->done, memory_order_relaxed);
     if (ewa_progress(run->context, run->stage, done / run->count) != EWA_OK)
         atomic_store_explicit(&run->stopped, true, memory_order_relaxed);
