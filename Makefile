@@ -99,7 +99,7 @@ mutate:
 	python3 tools/mutate.py run --jobs $(JOBS)
 
 fuzz:
-	@sh tools/setup.sh clang
+	@sh tools/setup.sh clang libclang-rt-14-dev
 	@sh tools/fuzz.sh $(FUZZ_SECONDS)
 
 bench: program
