@@ -100,6 +100,7 @@ NEAR = [
     ("src/estimate", ["local", "estimate", "orient", "features", "feature_quality", "holes", "radii"]),
     ("src/texture", ["texture_kernels", "texture", "texture_maps", "cli_texture"]),
     ("src/warp", ["warp_kernels", "warp", "warp_nearest", "warp_pictures", "cli_warp"]),
+    ("src/scene/coloring", ["coloring", "scene", "cli_filter"]),
     ("src/scene/file", ["scene_file", "cli_render"]), ("src/scene/save", ["scene_file"]),
     ("src/scene", ["scene", "scene_file", "planes", "cli_render", "cli_gaussians", "cli_volume", "view_scripts"]),
     ("src/lod", ["lod_build", "lod_draw", "lod_levels", "lod_parts", "cli_lod"]),

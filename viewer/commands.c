@@ -135,9 +135,9 @@ static bool do_color(viewer *v, const char *rest) {
     if (!read_item(v, "color", word, &index)) return false;
     viewer_coloring wish = v->items[index].wish;
     rest = take_word(rest, word);
-    if (!word[0]) return refuse(v, "color", word, "the name of an attribute or none");
+    if (!word[0]) return refuse(v, "color", word, "the name of an attribute, auto or none");
     if (strlen(word) >= sizeof wish.attribute) return refuse(v, "color", word, "an attribute");
-    snprintf(wish.attribute, sizeof wish.attribute, "%.60s", strcmp(word, "none") == 0 ? "" : word);
+    snprintf(wish.attribute, sizeof wish.attribute, "%.60s", strcmp(word, "auto") == 0 ? "" : word);
     wish.ranged = wish.percent[0] = wish.percent[1] = false;
     rest = take_word(rest, map);
     for (int i = 0; map[0] && colormap_name(i); i++)
@@ -163,7 +163,7 @@ static bool do_colormap(viewer *v, const char *rest) {
             while (colormap_name(map) && strcmp(colormap_name(map), rest) != 0) map++;
         if (!colormap_name(map)) return refuse(v, "colormap", rest, "a colour map or next");
         wish->colormap = map;
-        if (wish->attribute[0]) items_recolor(v, i);
+        if (!ewa_coloring_is_own(v->items[i].coloring.attribute)) items_recolor(v, i);
     }
     return true;
 }

@@ -312,6 +312,7 @@ static void take_asset(viewer *v, loader_note *note) {
 static void take_legend(const ewa_legend *legend, viewer_coloring *coloring) {
     coloring->class_count = 0;
     if (!legend) return;
+    memcpy(coloring->attribute, legend->attribute, sizeof coloring->attribute);
     memcpy(coloring->range, legend->range, sizeof coloring->range);
     coloring->percent[0] = coloring->percent[1] = false;
     for (uint32_t k = 0; k < legend->category_count && k < VIEWER_MAX_CLASSES; k++) {

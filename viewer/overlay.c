@@ -99,7 +99,7 @@ static void set_color_bar(const viewer *v, ewa_category categories[VIEWER_MAX_CL
     furniture->color_bar = false;
     for (size_t i = 0; i < v->item_count; i++) {
         const scene_item *item = &v->items[i];
-        if (!item->visible || !item->coloring.attribute[0]) continue;
+        if (!item->visible || ewa_coloring_is_own(item->coloring.attribute)) continue;
         furniture->color_bar = true;
         const viewer_coloring *coloring = &item->coloring;
         furniture->colormap =

@@ -47,7 +47,7 @@ typedef struct viewer_class {
 
 /// What is chosen of a cloud's surfels. Fill with viewer_coloring_init().
 typedef struct viewer_coloring {
-    char attribute[EWA_NAME_BYTES + 4]; ///< "name" or "name.x"; empty: the file's colours
+    char attribute[EWA_NAME_BYTES + 4]; ///< as of ewa_coloring; of what is shown, that which was chosen
     int colormap;         ///< ewa_colormap, or automatic (default): classes for classes, else viridis
     uint32_t class_count; ///< filled in: of `classes`; 0: colours go from the first number to the last
     viewer_class classes[VIEWER_MAX_CLASSES];

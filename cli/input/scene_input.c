@@ -72,7 +72,7 @@ static bool add_scene(cli_session *session, const char *path, const ewa_asset_op
         ewa_asset_describe(ewa_scene_asset(scene, i), &info);
         status = ewa_scene_get(scene, i, &instance);
         if (!(info.kind == EWA_ASSET_POINTS || info.kind == EWA_ASSET_MESH) || instance.coloring.tinted ||
-            !ewa_coloring_is_own(instance.coloring.attribute))
+            instance.coloring.attribute[0])
             continue;
         instance.coloring = *coloring;
         if (status == EWA_OK) status = ewa_scene_set(scene, i, &instance);

@@ -52,11 +52,10 @@ bool furnish_make(cli_session *session, const furnish_arguments *arguments, cons
     return view_middle(session, &frames->view, subject, made->middle_world);
 }
 
-void furnish_color_bar(const furnish_arguments *arguments, const char *word, const ewa_legend *legend,
-                       furnishing *made) {
+void furnish_color_bar(const furnish_arguments *arguments, const ewa_legend *legend, furnishing *made) {
     ewa_furniture_options *options = &made->options;
     options->color_bar = true;
-    options->color_label = word;
+    options->color_label = legend->attribute;
     options->color_unit = legend->length ? arguments->unit : NULL;
     options->colormap = legend->colormap;
     memcpy(options->range, legend->range, sizeof options->range);

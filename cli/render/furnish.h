@@ -45,9 +45,8 @@ typedef struct furnishing {
 bool furnish_make(cli_session *session, const furnish_arguments *arguments, const frames_arguments *frames,
                   const option_color *background, const view_subject *subject, furnishing *made);
 
-/// Says what the colour bar means: `word` is what --color-by was given, `legend` what came of it. Both stay as long as
-/// the furnishing.
-void furnish_color_bar(const furnish_arguments *arguments, const char *word, const ewa_legend *legend,
+/// Says what the colour bar means by a legend, which stays as long as the furnishing.
+void furnish_color_bar(const furnish_arguments *arguments, const ewa_legend *legend,
                        furnishing *made);
 
 /// Draws it over a frame's 8-bit picture; the status of the library.

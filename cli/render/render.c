@@ -114,8 +114,8 @@ static const cli_option look_table[] = {
      .aliases = "background-color"},
     {"color-by", OPTION_TEXT, AT(color_by), "ATTR",
      .help = "colour by an attribute ('ewa info' lists them), one component of it (normal.x), x, y, z, red, "
-             "green or blue; rgb: the file's colours",
-     .absent = "auto: the file's colours, else grey"},
+             "green or blue; rgb: the file's colours; none: these or grey",
+     .absent = "auto: the file's colours, else, of scans, intensity or height, else grey"},
     {"colormap", OPTION_CHOICE, AT(colormap), NULL,
      "viridis|turbo|gray|plasma|inferno|magma|cividis|coolwarm|classes",
      .help = "colours for --color-by; classes: whole numbers by the colours of LAS classes (ground, "
@@ -130,8 +130,7 @@ static const cli_option look_table[] = {
 static const cli_option furniture_table[] = {
     FURNISH_OPTIONS(AT(furniture)),
     {"color-bar", OPTION_FLAG, AT(furniture.color_bar),
-     .help = "show on the right what the colours of --color-by mean: a scale, or the classes there are",
-     .needs = "color-by"},
+     .help = "show on the right what colours of numbers mean: a scale, or the classes there are"},
 };
 
 static void set_defaults(void *data) {
@@ -181,8 +180,7 @@ static bool check(const void *data, char message[OPTION_ERROR_BYTES]) {
         missing = "--opacity below 1 needs --passes 3";
     else if (arguments->colormap == EWA_COLORING_CLASSES - 1 && arguments->range.given)
         missing = "--colormap classes takes no --range: each class has its own colour";
-    else if (arguments->furniture.color_bar &&
-             (!arguments->color_by || ewa_coloring_is_own(arguments->color_by)))
+    else if (arguments->furniture.color_bar && arguments->color_by && ewa_coloring_is_own(arguments->color_by))
         missing = "--color-bar has nothing to show for the file's own colours";
     if (!options_fine(missing, message)) return false;
     return light_check(&arguments->light, message) && section_check(&arguments->section, message) &&
@@ -309,9 +307,12 @@ static bool prepare(cli_session *session, const render_arguments *arguments, con
     report->surfels = info.surfels;
     const ewa_legend *legend = NULL;
     for (uint32_t i = 0; i < info.instance_count && !legend; i++) legend = ewa_scene_legend(scene->scene, i);
-    if (arguments->furniture.color_bar && legend)
-        furnish_color_bar(&arguments->furniture, arguments->color_by, legend, &scene->furniture);
-    return true;
+    if (!arguments->furniture.color_bar) return true;
+    if (legend)
+        furnish_color_bar(&arguments->furniture, legend, &scene->furniture);
+    else
+        session_fail(session, "--color-bar has nothing to show for the file's own colours; --color-by ATTR shows a number");
+    return legend;
 }
 
 static bool make_scene(cli_session *session, const render_arguments *arguments, const light_objects *lit_by,

@@ -34,8 +34,9 @@ enum { EWA_SCALAR_NAME_BYTES = EWA_NAME_BYTES + 4 };
 /// How points are coloured. Fill with ewa_coloring_init().
 typedef struct ewa_coloring {
     size_t struct_size;
-    /// What ewa_cloud_find_scalar() takes: "intensity", "normal.x", "z", "red"; empty (default), "rgb" or "color": the
-    /// points' own colours.
+    /// What ewa_cloud_find_scalar() takes: "intensity", "normal.x", "z", "red"; "rgb" or "color": the points' own colours;
+    /// "none": these, or grey; empty (default) or "auto": likewise, but in scenes scans without colours show a strength of
+    /// light or their height (docs/scene.md).
     char attribute[EWA_SCALAR_NAME_BYTES];
     ewa_coloring_map map; ///< default EWA_COLORING_AUTO
     bool ranged;          ///< `range` is given; default false: the smallest to the largest number, of strengths of light
@@ -49,7 +50,7 @@ typedef struct ewa_coloring {
 EWA_API extern const ewa_option_table ewa_coloring_table;
 EWA_API void ewa_coloring_init(ewa_coloring *coloring, size_t struct_size);
 
-/// Whether a word means the points' own colours: empty, "rgb" or "color". Any thread.
+/// Whether a word means the points' own colours: empty, "auto", "none", "rgb" or "color". Any thread.
 EWA_API bool ewa_coloring_is_own(const char *attribute);
 
 /// Whether an attribute of this name holds codes of classes, where it holds whole numbers. Any thread.
@@ -65,6 +66,7 @@ typedef struct ewa_legend {
     ewa_category *categories; ///< by code
     char *names; ///< their names, EWA_CLASS_NAME_BYTES each
     uint64_t grey_count; ///< points whose number has no colour: not finite, or no class where these are shown
+    char attribute[EWA_SCALAR_NAME_BYTES]; ///< the word for the number
 } ewa_legend;
 
 /// Replaces the colours of clouds by those of a number, on one scale for all of them; without an attribute by the tint,

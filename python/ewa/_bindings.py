@@ -706,6 +706,7 @@ class ewa_legend(c.Structure):
     categories: Any
     names: bytes | None
     grey_count: int
+    attribute: bytes
     _fields_ = [
         ("context", c.c_void_p),
         ("colormap", c.c_int),
@@ -715,6 +716,7 @@ class ewa_legend(c.Structure):
         ("categories", c.POINTER(ewa_category)),
         ("names", c.c_char_p),
         ("grey_count", c.c_uint64),
+        ("attribute", c.c_char * 68),
     ]
 
 

@@ -10,6 +10,7 @@
 #include "scene/parts.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 #include <strings.h>
 
@@ -17,7 +18,11 @@
 static const uint8_t GREY_SRGB = 128;
 
 /// Percentiles of the first and the last colour of strengths of light.
-static const double SIGNAL_PERCENT[2] = {2, 98};
+#define SIGNAL_PERCENT_LOW 2.0
+#define SIGNAL_PERCENT_HIGH 98.0
+
+/// What surveys show without any other number.
+static const char HEIGHT[] = "z";
 
 /// Codes of classes are below.
 enum { CLASS_COUNT = 1 << 16, BLOCK = 512 };
@@ -42,8 +47,15 @@ void ewa_coloring_init(ewa_coloring *coloring, size_t struct_size) {
     ewa_options_init(&ewa_coloring_table, coloring, struct_size);
 }
 
+bool ewa_coloring_is_auto(const char *attribute) { return !attribute[0] || strcmp(attribute, "auto") == 0; }
+
+/// Whether a word means colours of the points that have to be there.
+static bool is_rgb(const char *attribute) {
+    return strcmp(attribute, "rgb") == 0 || strcmp(attribute, EWA_COLOR) == 0;
+}
+
 bool ewa_coloring_is_own(const char *attribute) {
-    return !attribute[0] || strcmp(attribute, "rgb") == 0 || strcmp(attribute, EWA_COLOR) == 0;
+    return ewa_coloring_is_auto(attribute) || strcmp(attribute, "none") == 0 || is_rgb(attribute);
 }
 
 bool ewa_colorings_agree(const ewa_coloring *a, const ewa_coloring *b) {
@@ -86,13 +98,21 @@ static void each_block(const numbers *from, take_block *take, void *user) {
     }
 }
 
-/// Whether an attribute is a strength of light, of which a few mirrors give numbers far above all others.
-static bool is_signal(const char *name) {
-    static const char *const names[] = {"intensity", "nir", "amplitude", "reflectance"};
+/// Strengths of light, of which a few mirrors give numbers far above all others.
+static const char *const signals[] = {"intensity", "reflectance", "amplitude", "nir"};
+
+enum { SIGNAL_COUNT = sizeof signals / sizeof signals[0] };
+
+/// Whether an attribute has this name, with or without what some programs put before it.
+static bool is_called(const char *name, const char *word) {
     static const char before[] = "scalar_";
     if (strncmp(name, before, sizeof before - 1) == 0) name += sizeof before - 1;
-    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++)
-        if (strcasecmp(name, names[i]) == 0) return true;
+    return strcasecmp(name, word) == 0;
+}
+
+static bool is_signal(const char *name) {
+    for (size_t i = 0; i < SIGNAL_COUNT; i++)
+        if (is_called(name, signals[i])) return true;
     return false;
 }
 
@@ -115,8 +135,8 @@ static bool take_finite(void *user, uint32_t count, const double *block) {
 static ewa_status find_range(const numbers *from, const ewa_coloring *coloring, double ends[2]) {
     bool percent[2] = {true, true};
     const bool signal = is_signal(from->scalars[0].attribute.name);
-    ends[0] = signal ? SIGNAL_PERCENT[0] : 0;
-    ends[1] = signal ? SIGNAL_PERCENT[1] : 100;
+    ends[0] = signal ? SIGNAL_PERCENT_LOW : 0;
+    ends[1] = signal ? SIGNAL_PERCENT_HIGH : 100;
     if (coloring->ranged) {
         memcpy(ends, coloring->range, sizeof coloring->range);
         memcpy(percent, coloring->percent, sizeof percent);
@@ -272,6 +292,92 @@ static ewa_status color_by(const numbers *from, const ewa_coloring *coloring, ew
     return EWA_OK;
 }
 
+/// Whether a cloud has an attribute of one number that is called so.
+static bool has_called(const ewa_cloud *cloud, const char *word) {
+    const ewa_attribute *a;
+    for (uint32_t k = 0; (a = ewa_cloud_attribute_at(cloud, k)); k++)
+        if (a->component_count == 1 && is_called(a->name, word)) return true;
+    return false;
+}
+
+/// Whether a cloud has colours that show something: writers of LAS leave them black where they know none.
+static bool has_colors(const ewa_cloud *cloud) {
+    const ewa_attribute *color = ewa_cloud_find(cloud, EWA_COLOR);
+    if (!color) return false;
+    if (color->component_count < 3 || color->component_count > 4) return true;
+    double block[4 * BLOCK];
+    const uint64_t count = ewa_cloud_point_count(cloud);
+    for (uint64_t first = 0; first < count; first += BLOCK) {
+        const uint64_t in_block = count - first < BLOCK ? count - first : BLOCK;
+        ewa_attribute_read_f64(color, first, in_block, block);
+        for (uint64_t i = 0; i < in_block * color->component_count; i++)
+            if (i % color->component_count < 3 && block[i] != 0) return true;
+    }
+    return false;
+}
+
+/// Whether a laser scanned the points, by what files of such scans have.
+static bool is_surveyed(const ewa_cloud *cloud) {
+    bool classes = false;
+    const ewa_attribute *a;
+    for (uint32_t k = 0; (a = ewa_cloud_attribute_at(cloud, k)); k++)
+        classes = classes || ewa_coloring_names_classes(a->name);
+    return classes || ewa_cloud_find(cloud, "return_number");
+}
+
+/// Whether an attribute of a cloud is worth to be seen in place of colours.
+static bool is_offered(const ewa_cloud *cloud, const char *word) {
+    return strcmp(word, HEIGHT) == 0 ? is_surveyed(cloud) : has_called(cloud, word);
+}
+
+/// Has the clouds that offer an attribute, and have no colours yet, coloured by it where its numbers differ. `from` has
+/// room for all.
+static ewa_status choose_attribute(ewa_cloud **clouds, uint32_t count, const char *word, ewa_coloring **colorings,
+                                   numbers *from) {
+    static const ewa_coloring most = {
+        .ranged = true, .percent = {true, true}, .range = {SIGNAL_PERCENT_LOW, SIGNAL_PERCENT_HIGH}};
+    double ends[2];
+    uint32_t offered = 0; // these come first
+    for (uint32_t k = 0; k < count; k++) {
+        ewa_cloud *cloud = clouds[k];
+        ewa_coloring *coloring = colorings[k];
+        if (!ewa_coloring_is_auto(coloring->attribute) || !is_offered(cloud, word)) continue;
+        clouds[k] = clouds[offered], clouds[offered] = cloud;
+        colorings[k] = colorings[offered], colorings[offered] = coloring;
+        EWA_TRY(ewa_cloud_find_scalar(cloud, word, &from->scalars[offered++]));
+    }
+    from->count = offered;
+    if (offered) EWA_TRY(find_range(from, &most, ends));
+    if (!offered || !(ends[0] < ends[1])) return EWA_OK;
+    for (uint32_t k = 0; k < offered; k++) {
+        snprintf(colorings[k]->attribute, sizeof colorings[k]->attribute, "%s", word);
+        if (!colorings[k]->ranged) memcpy(colorings[k]->range, ends, sizeof ends);
+        colorings[k]->ranged = true;
+    }
+    ewa_report(from->context, EWA_SEVERITY_NOTE,
+               "no colours: coloured by %s; --color-by says otherwise (another number, or none)",
+               strcmp(word, HEIGHT) == 0 ? "height (z)" : word);
+    return EWA_OK;
+}
+
+ewa_status ewa_colorings_choose(ewa_cloud **clouds, uint32_t count, ewa_coloring **colorings) {
+    uint32_t bare = 0;
+    for (uint32_t k = 0; k < count; k++) {
+        if (has_colors(clouds[k])) continue;
+        clouds[bare] = clouds[k];
+        colorings[bare++] = colorings[k];
+    }
+    if (!bare) return EWA_OK;
+    ewa_context *context = ewa_cloud_context(clouds[0]);
+    numbers from = {context, clouds, ewa_allocate_zeroed(context, bare, sizeof *from.scalars), 0};
+    ewa_status status = from.scalars ? EWA_OK : EWA_ERROR_MEMORY;
+    for (size_t i = 0; i < SIGNAL_COUNT && status == EWA_OK; i++)
+        status = choose_attribute(clouds, bare, signals[i], colorings, &from);
+    if (status == EWA_OK) status = choose_attribute(clouds, bare, HEIGHT, colorings, &from);
+    ewa_release(context, from.scalars, bare, sizeof *from.scalars);
+    return status;
+}
+
 ewa_status ewa_clouds_color(ewa_cloud *const *clouds, uint32_t count, const ewa_coloring *given,
                             ewa_legend *legend) {
     if (!clouds || !count || !legend) return EWA_ERROR_ARGUMENT;
@@ -281,7 +387,7 @@ ewa_status ewa_clouds_color(ewa_cloud *const *clouds, uint32_t count, const ewa_
     ewa_coloring_init(&coloring, sizeof coloring);
     EWA_TRY(ewa_options_take(context, &ewa_coloring_table, given, &coloring));
     if (ewa_coloring_is_own(coloring.attribute)) {
-        bool colored = !coloring.attribute[0];
+        bool colored = !is_rgb(coloring.attribute);
         for (uint32_t k = 0; k < count; k++) colored = colored || ewa_cloud_find(clouds[k], EWA_COLOR);
         if (!colored) return ewa_fail(context, EWA_ERROR_ARGUMENT, "colours: there are none");
         for (uint32_t k = 0; k < count && coloring.tinted; k++) EWA_TRY(tint_cloud(coloring.tint, clouds[k]));
@@ -290,6 +396,7 @@ ewa_status ewa_clouds_color(ewa_cloud *const *clouds, uint32_t count, const ewa_
     numbers from = {context, clouds, ewa_allocate_zeroed(context, count, sizeof *from.scalars), count};
     if (!from.scalars) return EWA_ERROR_MEMORY;
     legend->context = context;
+    memcpy(legend->attribute, coloring.attribute, sizeof legend->attribute);
     ewa_status status = color_by(&from, &coloring, legend);
     ewa_release(context, from.scalars, count, sizeof *from.scalars);
     if (status != EWA_OK) ewa_legend_free(legend);

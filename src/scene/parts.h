@@ -150,6 +150,13 @@ void ewa_surface_release(ewa_surface **surface);
 /// where there is nothing; `*made`: it is the caller's to destroy.
 ewa_status ewa_scene_outline(ewa_scene *scene, ewa_cloud **outline, bool *made);
 
+/// Whether a word means the points' own colours, or, of scans without any, a number: empty or "auto".
+bool ewa_coloring_is_auto(const char *attribute);
+
+/// Has scans whose colouring is automatic, and that have no colours, coloured by a strength of light, or by height where
+/// that is the same everywhere: sets the attribute and the range of their colourings. Reorders both lists.
+ewa_status ewa_colorings_choose(ewa_cloud **clouds, uint32_t count, ewa_coloring **colorings);
+
 /// Whether two colourings give the same colours.
 bool ewa_colorings_agree(const ewa_coloring *a, const ewa_coloring *b);
 

@@ -112,7 +112,7 @@ static bool add_all_options(cJSON *root, const ewa_scene *scene) {
 }
 
 static bool add_coloring(cJSON *object, const ewa_coloring *coloring) {
-    bool done = ewa_coloring_is_own(coloring->attribute) ||
+    bool done = ewa_coloring_is_auto(coloring->attribute) ||
                 cJSON_AddStringToObject(object, "color_by", coloring->attribute);
     char map[EWA_OPTION_TEXT_BYTES];
     ewa_option_get(ewa_option_find(&ewa_coloring_table, "map"), coloring, map);

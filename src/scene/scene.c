@@ -166,6 +166,7 @@ static ewa_status take_instance(const ewa_scene *scene, const ewa_asset *asset, 
     if (!given) return EWA_OK;
     EWA_TRY(ewa_options_take(context, &ewa_instance_table, given, taken));
     EWA_TRY(ewa_options_take(context, &ewa_coloring_table, &given->coloring, &taken->coloring));
+    if (ewa_coloring_is_auto(taken->coloring.attribute)) taken->coloring.attribute[0] = 0;
     if (taken->material != EWA_MATERIAL_OWN && taken->material >= EWA_MAX_MATERIALS)
         return ewa_fail(context, EWA_ERROR_ARGUMENT, "%s: material %u is beyond %d", asset->name,
                         taken->material, EWA_MAX_MATERIALS - 1);

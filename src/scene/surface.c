@@ -97,6 +97,8 @@ bool ewa_surface_is_of(const ewa_surface *surface, const ewa_scene *scene) {
 typedef struct shown_clouds {
     ewa_cloud **clouds;  ///< [surface->count]
     ewa_cloud **colored; ///< likewise: those of one colouring
+    ewa_coloring *colorings; ///< of each, with what automatic ones choose
+    ewa_coloring **chosen;   ///< of those in `colored`
 } shown_clouds;
 
 /// Multiplies numbers of some components by a factor.
@@ -139,18 +141,29 @@ static ewa_status apply_instance(const ewa_instance *instance, ewa_cloud *cloud)
     return status;
 }
 
+/// Decides by what the points are coloured.
+static ewa_status choose_colorings(const ewa_surface *surface, const shown_clouds *shown) {
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < surface->count; i++) {
+        ewa_coloring *coloring = &shown->colorings[i];
+        *coloring = surface->keys[i].instance.coloring;
+        if (coloring->tinted || !ewa_coloring_is_auto(coloring->attribute)) continue;
+        shown->colored[count] = shown->clouds[i];
+        shown->chosen[count++] = coloring;
+    }
+    return ewa_colorings_choose(shown->colored, count, shown->chosen);
+}
+
 /// Colours the clouds, those of one colouring on one scale.
 static ewa_status apply_colorings(ewa_surface *surface, const shown_clouds *shown) {
+    EWA_TRY(choose_colorings(surface, shown));
     for (uint32_t i = 0; i < surface->count; i++) surface->legend_of[i] = UINT32_MAX;
     for (uint32_t i = 0; i < surface->count; i++) {
-        const ewa_coloring *coloring = &surface->keys[i].instance.coloring;
-        const bool own = ewa_coloring_is_own(coloring->attribute);
-        // Of the points' own colours, only "rgb" insists that there are some.
-        if (surface->legend_of[i] != UINT32_MAX || (own && !coloring->attribute[0] && !coloring->tinted))
-            continue;
+        const ewa_coloring *coloring = &shown->colorings[i];
+        if (surface->legend_of[i] != UINT32_MAX) continue;
         uint32_t count = 0;
         for (uint32_t k = i; k < surface->count; k++) {
-            if (!ewa_colorings_agree(coloring, &surface->keys[k].instance.coloring)) continue;
+            if (!ewa_colorings_agree(coloring, &shown->colorings[k])) continue;
             shown->colored[count++] = shown->clouds[k];
             surface->legend_of[k] = surface->legend_count;
         }
@@ -261,12 +274,17 @@ ewa_status ewa_surface_make(ewa_scene *scene, ewa_surface **made) {
         surface->legend_of = ewa_allocate_zeroed(context, count, sizeof *surface->legend_of);
         shown.clouds = ewa_allocate_zeroed(context, count, sizeof *shown.clouds);
         shown.colored = ewa_allocate_zeroed(context, count, sizeof *shown.colored);
-        const bool room = surface->legends && surface->legend_of && shown.clouds && shown.colored;
+        shown.colorings = ewa_allocate_zeroed(context, count, sizeof *shown.colorings);
+        shown.chosen = ewa_allocate_zeroed(context, count, sizeof *shown.chosen);
+        const bool room = surface->legends && surface->legend_of && shown.clouds && shown.colored &&
+                          shown.colorings && shown.chosen;
         status = room ? fill(scene, surface, &shown) : EWA_ERROR_MEMORY;
     }
     for (uint32_t i = 0; shown.clouds && i < count; i++) ewa_cloud_destroy(&shown.clouds[i]);
     ewa_release(context, shown.clouds, count, sizeof *shown.clouds);
     ewa_release(context, shown.colored, count, sizeof *shown.colored);
+    ewa_release(context, shown.colorings, count, sizeof *shown.colorings);
+    ewa_release(context, shown.chosen, count, sizeof *shown.chosen);
     if (status == EWA_OK && surface->sparse && !surface->as_points)
         ewa_report(context, EWA_SEVERITY_NOTE, "%llu point%s: drawn as dots of %d pixels, --point-size decides otherwise",
                    (unsigned long long)surface->info.point_count,

@@ -195,6 +195,16 @@ static void test_colors(void **state) {
     assert_non_null(strstr(last_run.err, "intensity from 4 to 196"));
     assert_int_equal(run("ewa render i.ply -o i.png --size 64x64 --color-by other --verbose"), 0);
     assert_non_null(strstr(last_run.err, "other from 0 to 60000"));
+    // A scan without colours shows its intensity, and says so; none is kept by a scene file.
+    assert_int_equal(run("ewa render i.ply -o i.png --size 64x64 --color-bar"), 0);
+    assert_non_null(strstr(last_run.err, "no colours: coloured by intensity; --color-by says otherwise"));
+    assert_int_equal(run("ewa render i.ply -o b.png --size 64x64 --color-by intensity --color-bar"), 0);
+    assert_true(scratch_same("i.png", "b.png"));
+    assert_int_equal(run("ewa render i.ply -o n.png --size 64x64 --color-by none --save-scene n.json"), 0);
+    assert_null(strstr(last_run.err, "no colours"));
+    run_done("ewa render n.json -o m.png --size 64x64");
+    assert_true(scratch_same("n.png", "m.png"));
+    assert_false(scratch_same("n.png", "i.png"));
 }
 
 int main(void) {

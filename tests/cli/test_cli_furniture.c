@@ -82,7 +82,8 @@ static void test_frames(void **state) {
 }
 
 static void test_usage(void **state) {
-    run_fails(2, "--color-bar needs --color-by", "ewa render a.ply -o a.png --color-bar");
+    run_done("ewa generate sphere -n 1000 -o sphere.ply");
+    run_fails(1, "--color-bar has nothing to show", "ewa render sphere.ply -o a.png --color-bar");
     run_fails(2, "--unit needs --scale-bar or --color-bar", "ewa render a.ply -o a.png --unit m");
     run_fails(2, "--colormap classes takes no --range",
               "ewa render a.ply -o a.png --color-by z --colormap classes --range 0,1");

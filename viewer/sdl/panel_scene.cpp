@@ -41,15 +41,19 @@ void views(const panel_page *page) {
 /// Chooses the file's colours, one colour, or an attribute's.
 void choose_colors(const panel_page *page, int index, const viewer_item *item) {
     const viewer_coloring &now = item->coloring;
-    static const char own[] = "as in the file", one[] = "one colour";
+    static const char own[] = "automatic", one[] = "one colour", none[] = "none";
     panel_label(page, "Colours");
     if (!ImGui::BeginCombo("##colors", now.attribute[0] ? now.attribute : now.tinted ? one : own)) return;
     if (ImGui::Selectable(own, !now.attribute[0] && !now.tinted)) {
+        panel_say(page, "color %d auto", index);
+        panel_say(page, "tint %d none", index);
+    }
+    if (ImGui::Selectable(none, strcmp(now.attribute, none) == 0)) {
         panel_say(page, "color %d none", index);
         panel_say(page, "tint %d none", index);
     }
     if (ImGui::Selectable(one, !now.attribute[0] && now.tinted)) {
-        panel_say(page, "color %d none", index);
+        panel_say(page, "color %d auto", index);
         panel_say(page, "tint %d 0.8,0.8,0.8", index);
     }
     char name[EWA_NAME_BYTES + 4];
@@ -167,7 +171,7 @@ bool item_row(panel_page *page, int index, const viewer_item *item, bool open_fi
                                           : "points");
     if (item->volume || item->gaussians) return true;
     choose_colors(page, index, item);
-    if (item->coloring.attribute[0])
+    if (!ewa_coloring_is_own(item->coloring.attribute))
         choose_map(page, index, item);
     else if (item->coloring.tinted)
         choose_tint(page, index, item);

@@ -1,0 +1,200 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// Colours of scans that have none: a strength of light, else their height, unless somebody says otherwise.
+#include "check.h"
+
+#include <math.h>
+
+enum { SIDE = 40, POINTS = SIDE * SIDE, WIDTH = 64, HEIGHT = 48, PIXELS = WIDTH * HEIGHT };
+
+/// What a made-up scan has beside places, normals and radii.
+typedef struct scan {
+    const char *signal; ///< name of a number; NULL: none
+    double first, step; ///< of that number, from point to point
+    bool returns;       ///< has return numbers, as scans from the air
+    int colors;         ///< -1: none; else all channels
+} scan;
+
+/// A square with a step, shifted along x.
+static ewa_cloud *make_scan(ewa_context *context, const scan *of, double shift_world) {
+    ewa_cloud *cloud = NULL;
+    void *position = NULL, *normal = NULL, *radius = NULL, *data = NULL;
+    assert_int_equal(ewa_cloud_create(context, POINTS, &cloud), EWA_OK);
+    assert_int_equal(ewa_cloud_add(cloud, EWA_POSITION, EWA_F64, 3, &position), EWA_OK);
+    assert_int_equal(ewa_cloud_add(cloud, EWA_NORMAL, EWA_F32, 3, &normal), EWA_OK);
+    assert_int_equal(ewa_cloud_add(cloud, EWA_RADIUS, EWA_F32, 1, &radius), EWA_OK);
+    for (int i = 0; i < POINTS; i++) {
+        const double place[3] = {i % SIDE + shift_world, (double)(i / SIDE), i % SIDE < SIDE / 2 ? 0 : 3};
+        memcpy((double *)position + 3 * i, place, sizeof place);
+        memcpy((float *)normal + 3 * i, (const float[3]){0, 0, 1}, 3 * sizeof(float));
+        ((float *)radius)[i] = 1.2F;
+    }
+    if (of->signal) {
+        assert_int_equal(ewa_cloud_add(cloud, of->signal, EWA_F64, 1, &data), EWA_OK);
+        for (int i = 0; i < POINTS; i++) ((double *)data)[i] = of->first + of->step * i;
+    }
+    if (of->returns) {
+        assert_int_equal(ewa_cloud_add(cloud, "return_number", EWA_U8, 1, &data), EWA_OK);
+        memset(data, 1, POINTS);
+    }
+    if (of->colors >= 0) {
+        assert_int_equal(ewa_cloud_add(cloud, EWA_COLOR, EWA_U8, 3, &data), EWA_OK);
+        memset(data, of->colors, 3 * (size_t)POINTS);
+    }
+    return cloud;
+}
+
+/// How a scene of one or two scans looks.
+typedef struct look {
+    uint8_t rgba8[4 * PIXELS];
+    char attribute[EWA_SCALAR_NAME_BYTES]; ///< of the first one's legend; empty: none
+    double range[2];
+    int notes;
+} look;
+
+static void count_notes(void *user, ewa_severity severity, const char *message) {
+    int *notes = user;
+    *notes += severity == EWA_SEVERITY_NOTE && strstr(message, "no colours") != NULL;
+}
+
+/// Draws scans from above, coloured as `coloring` (NULL: the default) says.
+static void draw(const scan *scans, int count, const ewa_coloring *coloring, look *to) {
+    *to = (look){.notes = 0};
+    ewa_context_options options;
+    ewa_context_options_init(&options, sizeof options);
+    options.message = count_notes;
+    options.message_user = &to->notes;
+    options.message_level = EWA_SEVERITY_NOTE;
+    ewa_context *context = NULL;
+    assert_int_equal(ewa_context_create(&options, &context), EWA_OK);
+    ewa_scene *scene = NULL;
+    ewa_scene_renderer *renderer = NULL;
+    assert_int_equal(ewa_scene_create(context, NULL, &scene), EWA_OK);
+    ewa_cloud *clouds[2] = {NULL};
+    for (int k = 0; k < count; k++) {
+        clouds[k] = make_scan(context, &scans[k], k * (SIDE + 10.0));
+        ewa_asset *asset = NULL;
+        ewa_instance instance;
+        ewa_instance_init(&instance, sizeof instance);
+        if (coloring) instance.coloring = *coloring;
+        assert_int_equal(ewa_asset_create(context, &(ewa_asset_source){.cloud = clouds[k]}, NULL, &asset), EWA_OK);
+        assert_int_equal(ewa_scene_add(scene, asset, &instance), EWA_OK);
+        ewa_asset_release(&asset);
+    }
+    ewa_camera camera = {.projection = EWA_ORTHOGRAPHIC, .width_px = WIDTH, .height_px = HEIGHT};
+    const double pixels_per_unit = WIDTH / (count * (SIDE + 10.0)), down[16] = {1, 0, 0, 0, 0, -1, 0, 0, 0, 0, -1, 50, 0, 0, 0, 1};
+    memcpy(camera.world_to_camera, down, sizeof down);
+    camera.fx_px = camera.fy_px = pixels_per_unit;
+    camera.cy_px = HEIGHT;
+    assert_int_equal(ewa_scene_renderer_create(context, EWA_BACKEND_CPU, NULL, &renderer), EWA_OK);
+    assert_int_equal(ewa_scene_draw(scene, renderer, &camera, NULL, &(ewa_frame){.rgba8 = to->rgba8}, NULL), EWA_OK);
+    const ewa_legend *legend = ewa_scene_legend(scene, 0);
+    if (legend) {
+        memcpy(to->attribute, legend->attribute, sizeof to->attribute);
+        memcpy(to->range, legend->range, sizeof to->range);
+    }
+    ewa_scene_renderer_destroy(&renderer);
+    ewa_scene_destroy(&scene);
+    for (int k = 0; k < count; k++) ewa_cloud_destroy(&clouds[k]);
+    ewa_context_destroy(&context);
+}
+
+static ewa_coloring by(const char *word) {
+    ewa_coloring coloring;
+    ewa_coloring_init(&coloring, sizeof coloring);
+    snprintf(coloring.attribute, sizeof coloring.attribute, "%s", word);
+    return coloring;
+}
+
+static bool same(const look *a, const look *b) { return memcmp(a->rgba8, b->rgba8, sizeof a->rgba8) == 0; }
+
+static look automatic, asked;
+
+static void test_signal(void **state) {
+    (void)state;
+    static const char *const names[] = {"intensity", "scalar_Intensity", "Reflectance", "amplitude"};
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
+        const scan scanned = {names[i], 5, 1, i % 2, -1};
+        const ewa_coloring coloring = by(names[i]), word = by("auto");
+        draw(&scanned, 1, &coloring, &asked);
+        assert_int_equal(asked.notes, 0);
+        draw(&scanned, 1, NULL, &automatic);
+        assert_true(same(&asked, &automatic));
+        assert_int_equal(automatic.notes, 1);
+        assert_true(automatic.range[0] == 5 + 32 && automatic.range[1] == 5 + 1567); // of 1600, 2 and 98 per cent
+        draw(&scanned, 1, &word, &asked);
+        assert_true(same(&asked, &automatic));
+    }
+    assert_string_equal(automatic.attribute, "amplitude");
+}
+
+/// Numbers that are the same everywhere show nothing; then surveys show their height, and bodies stay grey.
+static void test_height(void **state) {
+    (void)state;
+    const scan survey = {"intensity", 7, 0, true, -1}, body = {"intensity", 7, 0, false, -1}, bare = {NULL, 0, 0, false, -1};
+    ewa_coloring height = by("z");
+    height.ranged = height.percent[0] = height.percent[1] = true;
+    height.range[0] = 2, height.range[1] = 98;
+    draw(&survey, 1, &height, &asked);
+    draw(&survey, 1, NULL, &automatic);
+    assert_true(same(&asked, &automatic));
+    assert_string_equal(automatic.attribute, "z");
+    draw(&bare, 1, NULL, &asked);
+    draw(&body, 1, NULL, &automatic);
+    assert_true(same(&asked, &automatic));
+    assert_int_equal(automatic.notes, 0);
+    assert_string_equal(automatic.attribute, "");
+    const ewa_coloring none = by("none");
+    draw(&survey, 1, &none, &automatic);
+    assert_true(same(&asked, &automatic));
+}
+
+/// Colours are kept, but for those that are black everywhere, which writers leave where they know none.
+static void test_own(void **state) {
+    (void)state;
+    const scan colored = {"intensity", 0, 1, true, 90}, plain = {NULL, 0, 0, false, 90};
+    draw(&plain, 1, NULL, &asked);
+    draw(&colored, 1, NULL, &automatic);
+    assert_true(same(&asked, &automatic));
+    const scan black = {"intensity", 0, 1, true, 0}, bare = {"intensity", 0, 1, true, -1};
+    draw(&bare, 1, NULL, &asked);
+    draw(&black, 1, NULL, &automatic);
+    assert_true(same(&asked, &automatic));
+    ewa_coloring tint = by("");
+    tint.tinted = true;
+    tint.tint[1] = 1;
+    draw(&bare, 1, &tint, &automatic);
+    assert_string_equal(automatic.attribute, "");
+    // What a caller says of the colours holds for what is chosen.
+    ewa_coloring map = by("intensity"), chosen = by("");
+    map.map = chosen.map = EWA_COLORING_TURBO;
+    map.ranged = chosen.ranged = true;
+    map.range[1] = chosen.range[1] = 800;
+    draw(&bare, 1, &map, &asked);
+    draw(&bare, 1, &chosen, &automatic);
+    assert_true(same(&asked, &automatic));
+}
+
+/// Scans are coloured together: on one scale, and by a number that tells them apart although it is one in each.
+static void test_together(void **state) {
+    (void)state;
+    const scan tiles[2] = {{"intensity", 1, 0, true, -1}, {"intensity", 3, 0, true, -1}};
+    const ewa_coloring coloring = by("intensity");
+    draw(tiles, 2, &coloring, &asked);
+    draw(tiles, 2, NULL, &automatic);
+    assert_true(same(&asked, &automatic));
+    assert_true(automatic.range[0] == 1 && automatic.range[1] == 3);
+    assert_int_equal(automatic.notes, 1);
+    // A coloured one beside a bare one: each as if alone.
+    const scan mixed[2] = {{"intensity", 1, 1, true, 200}, {"intensity", 5, 2, true, -1}};
+    draw(mixed, 2, NULL, &automatic);
+    assert_string_equal(automatic.attribute, "");
+    assert_int_equal(automatic.notes, 1);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_signal), cmocka_unit_test(test_height),
+                                       cmocka_unit_test(test_own), cmocka_unit_test(test_together)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
