@@ -43,6 +43,17 @@ static void try_chunk(ewa_context *context, ewa_laz_plan plan, const uint8_t *by
                  "memory");
     fuzz_require(result.point_count <= point_count, "no more points than were asked for");
     fuzz_require(result.fault || result.point_count == point_count, "a fault, or all points");
+    if (plan.layered) {
+        // What is cut has no more points, and as far as the whole one is read, the same places.
+        ewa_laz_result cut;
+        const size_t there_bytes = size_bytes - (size_bytes ? point_count % size_bytes : 0);
+        fuzz_require(ewa_laz_decode_cut(context, &plan, bytes, there_bytes, point_count, back, &memory, &cut) == EWA_OK,
+                     "memory");
+        fuzz_require(cut.point_count <= point_count && cut.poor_count <= cut.point_count, "counts of a cut chunk");
+        for (uint64_t i = 0; i < cut.point_count && i < result.point_count && !result.fault; i++)
+            fuzz_require(memcmp(records + i * plan.record_bytes, back + i * plan.record_bytes, 12) == 0,
+                         "the same places");
+    }
     bool first = false;
     for (uint32_t i = 0; i < plan.item_count; i++)
         first |= plan.items[i].version == 1 && plan.items[i].type != EWA_LAZ_WAVEPACKET13;

@@ -158,6 +158,16 @@ ewa_status ewa_laz_decode(ewa_context *context, const ewa_laz_plan *plan, const 
     return EWA_OK;
 }
 
+ewa_status ewa_laz_decode_cut(ewa_context *context, const ewa_laz_plan *plan, const uint8_t *bytes,
+                              uint64_t size_bytes, uint64_t point_count, uint8_t *records,
+                              ewa_laz_memory **memory, ewa_laz_result *result) {
+    *result = (ewa_laz_result){0};
+    if (point_count == 0) return EWA_OK;
+    EWA_TRY(prepare(context, plan, memory));
+    ewa_laz_layered_decode_cut(*memory, bytes, size_bytes, point_count, records, result);
+    return EWA_OK;
+}
+
 ewa_status ewa_laz_encode(ewa_context *context, const ewa_laz_plan *plan, const uint8_t *records,
                           uint64_t point_count, ewa_buffer *to, size_t *at_bytes, ewa_laz_memory **memory) {
     if (point_count == 0) return EWA_OK;

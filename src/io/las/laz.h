@@ -54,11 +54,29 @@ const char *ewa_laz_plan_check(ewa_laz_plan *plan);
 /// for 6 to 10, and bytes that are left over.
 void ewa_laz_plan_make(uint8_t point_format, uint32_t record_bytes, ewa_laz_plan *plan);
 
+/// What cut chunks may lack.
+typedef enum ewa_laz_field {
+    EWA_LAZ_FIELD_CLASSIFICATION,
+    EWA_LAZ_FIELD_FLAGS,
+    EWA_LAZ_FIELD_INTENSITY,
+    EWA_LAZ_FIELD_ANGLE,
+    EWA_LAZ_FIELD_USER,
+    EWA_LAZ_FIELD_SOURCE,
+    EWA_LAZ_FIELD_TIME,
+    EWA_LAZ_FIELD_COLOR,
+    EWA_LAZ_FIELD_INFRARED,
+    EWA_LAZ_FIELD_WAVE,
+    EWA_LAZ_FIELD_EXTRA,
+    EWA_LAZ_FIELD_COUNT,
+} ewa_laz_field;
+
 /// What a chunk came to.
 typedef struct ewa_laz_result {
     uint64_t point_count; ///< of the records that were decoded before the fault; all of them without one
     const char *fault;    ///< what is wrong, a text that stays; NULL: nothing
     uint64_t used_bytes;  ///< of a flat chunk, up to the end of its last point
+    uint64_t poor_count;  ///< of a cut layered chunk: points that lack fields
+    uint32_t lost_fields; ///< which, a bit for each ewa_laz_field
 } ewa_laz_result;
 
 /// Decodes the `point_count` records of one chunk, whose bytes are [bytes, bytes + size_bytes), into
@@ -69,6 +87,12 @@ typedef struct ewa_laz_memory ewa_laz_memory;
 ewa_status ewa_laz_decode(ewa_context *context, const ewa_laz_plan *plan, const uint8_t *bytes,
                           uint64_t size_bytes, uint64_t point_count, uint8_t *records,
                           ewa_laz_memory **memory, ewa_laz_result *result);
+
+/// The same for what is there of a layered chunk whose end is missing: as many points as have positions. What else is
+/// missing of them becomes 0; the result says what and of how many points.
+ewa_status ewa_laz_decode_cut(ewa_context *context, const ewa_laz_plan *plan, const uint8_t *bytes,
+                              uint64_t size_bytes, uint64_t point_count, uint8_t *records,
+                              ewa_laz_memory **memory, ewa_laz_result *result);
 
 /// Encodes `point_count` records as one chunk, appended to `to` from byte `*at_bytes` on, which steps behind
 /// it, by a plan of ewa_laz_plan_make(). The same bytes as LASzip gives for the same records. Errors:

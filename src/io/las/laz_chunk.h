@@ -32,6 +32,8 @@ ewa_status ewa_laz_flat_encode(ewa_context *context, ewa_laz_memory *memory, con
 
 void ewa_laz_layered_decode(ewa_laz_memory *memory, const uint8_t *bytes, uint64_t size_bytes,
                             uint64_t point_count, uint8_t *records, ewa_laz_result *result);
+void ewa_laz_layered_decode_cut(ewa_laz_memory *memory, const uint8_t *bytes, uint64_t size_bytes,
+                                uint64_t point_count, uint8_t *records, ewa_laz_result *result);
 ewa_status ewa_laz_layered_encode(ewa_context *context, ewa_laz_memory *memory, const uint8_t *records,
                                   uint64_t point_count, ewa_buffer *to, size_t *at_bytes);
 

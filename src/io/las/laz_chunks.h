@@ -27,6 +27,7 @@ typedef struct ewa_laz_layout {
     uint8_t version_major, version_minor;
     uint16_t packing;
     bool variable;
+    bool cut; ///< the last chunk is layered and lacks its end
 } ewa_laz_layout;
 
 /// Reads the LASzip record and the table of chunks, and checks that all chunks lie within the file. Free with
@@ -40,7 +41,8 @@ void ewa_laz_layout_free(ewa_context *context, ewa_laz_layout *layout);
 enum { EWA_LAZ_MAX_POINTS_PER_BYTE = 2048 };
 
 /// Finds the chunks of a file without a table, from byte `first` on, by walking through them; what is not there is damage
-/// (ewa_cloud_damage()). `layout` has its plan. Errors: EWA_ERROR_FORMAT, EWA_ERROR_LIMIT, EWA_ERROR_MEMORY.
+/// (ewa_cloud_damage()). `layout` has its plan; chunks of variable sizes have to be layered. Errors: EWA_ERROR_FORMAT,
+/// EWA_ERROR_LIMIT, EWA_ERROR_MEMORY.
 ewa_status ewa_laz_layout_rebuild(const ewa_cloud_source *source, uint64_t first, uint64_t point_count,
                                   uint32_t chunk_points, ewa_laz_layout *layout);
 

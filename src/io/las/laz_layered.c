@@ -302,6 +302,96 @@ void ewa_laz_layered_decode(ewa_laz_memory *memory, const uint8_t *bytes, uint64
         if (memory->layers[i].coder.at != memory->layers[i].coder.end) result->fault = EWA_LAZ_LEFT_OVER;
 }
 
+/// Finds the layers in what is there of a chunk: one that is cut is decoded as far as it goes, those behind it are
+/// missing.
+static void open_cut_layers(ewa_laz_memory *memory, const uint8_t *bytes, uint64_t size_bytes) {
+    const uint64_t head_bytes = 4 + 4 * (uint64_t)memory->layer_count;
+    const uint8_t *sizes = bytes + 4;
+    bytes += head_bytes;
+    size_bytes -= head_bytes;
+    for (uint32_t i = 0; i < memory->layer_count; i++) {
+        const uint32_t layer_bytes = ewa_laz_load32(sizes + 4 * (size_t)i);
+        const uint64_t there_bytes = layer_bytes < size_bytes ? layer_bytes : size_bytes;
+        const bool missing = layer_bytes > 0 && there_bytes == 0;
+        memory->layers[i] =
+            (ewa_laz_layer){.present = there_bytes > 0, .known_count = missing ? 1 : UINT64_MAX};
+        if (there_bytes > 0)
+            ewa_laz_decoder_start(&memory->layers[i].coder, bytes, there_bytes, memory->generation);
+        bytes += there_bytes;
+        size_bytes -= there_bytes;
+    }
+}
+
+/// Sets `count` bytes of every record from the layer's first unknown one on to 0 where `mask` has bits.
+static void clear_unknown(const ewa_laz_layer *layer, uint32_t stride, uint32_t at, uint32_t count, uint8_t mask,
+                          ewa_laz_field field, uint8_t *records, ewa_laz_result *result) {
+    if (layer->known_count >= result->point_count) return;
+    const uint64_t poor_count = result->point_count - layer->known_count;
+    if (poor_count > result->poor_count) result->poor_count = poor_count;
+    result->lost_fields |= 1u << field;
+    for (uint64_t p = layer->known_count; p < result->point_count; p++)
+        for (uint32_t i = 0; i < count; i++) records[p * stride + at + i] &= (uint8_t)~mask;
+}
+
+/// Clears what is not known of the points.
+static void clear_missing(const ewa_laz_memory *memory, uint8_t *records, ewa_laz_result *result) {
+    enum { FLAG_BITS = 0xCF, ALL_BITS = 0xFF, CORE_FIELDS = EWA_LAZ_POINT14_LAYERS - EWA_LAZ_LAYER_CLASSIFICATION };
+    // Where ewa_laz_point14_store() puts them; the channel, between the flags, belongs to the positions.
+    static const uint8_t AT[CORE_FIELDS] = {16, 15, 12, 18, 17, 20, 22}, BYTES[CORE_FIELDS] = {1, 1, 2, 2, 1, 2, 8};
+    const uint32_t stride = memory->plan.record_bytes;
+    const ewa_laz_layer *layer = &memory->layers[EWA_LAZ_LAYER_CLASSIFICATION];
+    for (uint32_t i = 0; i < CORE_FIELDS; i++, layer++) {
+        const ewa_laz_field field = EWA_LAZ_FIELD_CLASSIFICATION + i;
+        clear_unknown(layer, stride, AT[i], BYTES[i], field == EWA_LAZ_FIELD_FLAGS ? FLAG_BITS : ALL_BITS, field,
+                      records, result);
+    }
+    uint32_t at = EWA_LAZ_POINT14_BYTES;
+    for (uint32_t i = 1; i < memory->plan.item_count; i++) {
+        const ewa_laz_item *item = &memory->plan.items[i];
+        if (item->type == EWA_LAZ_BYTE14) {
+            // A number of several bytes is one of several layers: all are known, or none.
+            ewa_laz_layer least = {.known_count = UINT64_MAX};
+            for (uint32_t k = 0; k < item->size_bytes; k++, layer++)
+                if (layer->known_count < least.known_count) least.known_count = layer->known_count;
+            clear_unknown(&least, stride, at, item->size_bytes, ALL_BITS, EWA_LAZ_FIELD_EXTRA, records, result);
+        } else if (item->type == EWA_LAZ_WAVEPACKET14) {
+            clear_unknown(layer++, stride, at, EWA_LAZ_PACKET_BYTES, ALL_BITS, EWA_LAZ_FIELD_WAVE, records, result);
+        } else {
+            clear_unknown(layer++, stride, at, COLOR_BYTES, ALL_BITS, EWA_LAZ_FIELD_COLOR, records, result);
+            if (item->type == EWA_LAZ_RGBNIR14)
+                clear_unknown(layer++, stride, at + COLOR_BYTES, 2, ALL_BITS, EWA_LAZ_FIELD_INFRARED, records,
+                              result);
+        }
+        at += item->size_bytes;
+    }
+}
+
+void ewa_laz_layered_decode_cut(ewa_laz_memory *memory, const uint8_t *bytes, uint64_t size_bytes,
+                                uint64_t point_count, uint8_t *records, ewa_laz_result *result) {
+    const uint32_t stride = memory->plan.record_bytes;
+    if (size_bytes < stride) return;
+    memcpy(records, bytes, stride);
+    result->point_count = 1;
+    if (size_bytes - stride < 4 + 4 * (uint64_t)memory->layer_count) return;
+    start(memory, records);
+    open_cut_layers(memory, bytes + stride, size_bytes - stride);
+    ewa_laz_layer *layers = memory->layers;
+    // Layers of positions without bytes are those of points that are all at one place; of a cut one some are there.
+    const bool there = layers[EWA_LAZ_LAYER_XY].present && layers[EWA_LAZ_LAYER_Z].known_count > 1;
+    uint64_t count = 1;
+    for (; there && count < point_count; count++) {
+        code_record(false, memory, records + count * stride);
+        if (layers[EWA_LAZ_LAYER_XY].coder.damaged || layers[EWA_LAZ_LAYER_Z].coder.damaged) break;
+        for (uint32_t i = EWA_LAZ_LAYER_CLASSIFICATION; i < memory->layer_count; i++) {
+            if (!layers[i].present || !layers[i].coder.damaged) continue;
+            layers[i].present = false;
+            layers[i].known_count = count;
+        }
+    }
+    result->point_count = count;
+    clear_missing(memory, records, result);
+}
+
 /// Makes room in all layers for a block of records and what ends them.
 static ewa_status make_room(ewa_context *context, ewa_laz_memory *memory) {
     uint32_t i = 0;

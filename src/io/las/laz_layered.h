@@ -30,8 +30,9 @@ enum {
 /// A layer. Where nothing changes in a chunk it has no bytes: then nothing is decoded.
 typedef struct ewa_laz_layer {
     ewa_laz_coder coder;
-    bool present; ///< decoder: it has bytes
-    bool changed; ///< encoder: something changed
+    bool present;         ///< decoder: it has bytes
+    bool changed;         ///< encoder: something changed
+    uint64_t known_count; ///< decoder of cut chunks: its fields are known of as many points
 } ewa_laz_layer;
 
 /// The core of a record of the formats 6 to 10.

@@ -195,7 +195,8 @@ ewa_status ewa_laz_layout_read(const ewa_cloud_source *source, const ewa_las_hea
     if (header->point_count == 0 && !layout->variable) return EWA_OK;
     const uint64_t table_at = pointwise ? 0 : find_table(source, header);
     const uint64_t first = pointwise ? header->points_at : header->points_at + 8;
-    if (!pointwise && table_at == 0 && !layout->variable && chunk_points && source->options->keep_going) {
+    const bool walkable = layout->variable ? layout->plan.layered : chunk_points > 0;
+    if (!pointwise && table_at == 0 && walkable && source->options->keep_going) {
         EWA_TRY(ewa_laz_layout_rebuild(source, first, header->point_count, chunk_points, layout));
         return place_chunks(source, first, source->size_bytes, layout);
     }

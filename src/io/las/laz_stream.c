@@ -79,9 +79,11 @@ static ewa_status decode(ewa_laz_stream *stream, uint64_t chunk, uint8_t *record
                          ewa_laz_result *result) {
     const ewa_laz_layout *layout = stream->layout;
     const ewa_cloud_source *source = stream->source;
-    return ewa_laz_decode(source->context, &layout->plan, source->bytes + layout->at_bytes[chunk],
-                          layout->chunks[chunk].size_bytes, layout->chunks[chunk].point_count, records,
-                          &stream->memories[worker], result);
+    const bool cut = layout->cut && chunk == layout->chunk_count - 1;
+    return (cut ? ewa_laz_decode_cut : ewa_laz_decode)(
+        source->context, &layout->plan, source->bytes + layout->at_bytes[chunk],
+        layout->chunks[chunk].size_bytes, layout->chunks[chunk].point_count, records,
+        &stream->memories[worker], result);
 }
 
 /// Kept chunks from `first` on that are to be decoded.
