@@ -400,15 +400,20 @@ static const char *const sample_picture_names[SAMPLE_PICTURES] = {
     "means_l.webp", "means_u.webp",       "scales.webp",    "quats.webp",
     "sh0.webp",     "shN_centroids.webp", "shN_labels.webp"};
 
-static inline size_t sample_sog_picture(int picture, uint8_t **webp) {
+/// A byte of 255 even steps from `low` to `high`, as version 1 of SOG has them.
+static inline uint8_t sample_step(double value, double low, double high) {
+    return (uint8_t)sample_byte(255 * (value - low) / (high - low));
+}
+
+static inline size_t sample_sog_picture(int picture, bool steps, uint8_t **webp) {
     static uint8_t codes[4 * 64 * 3];
     memset(codes, 0, sizeof codes);
     const int width = picture == 5 ? 64 * 3 : SAMPLE_COUNT;
     for (uint32_t i = 0; i < SAMPLE_COUNT && picture != 5; i++)
         for (uint32_t k = 0; k < 4; k++) {
             const double center = k < 3 ? sample_center(i, k) : 0;
-            const double steps = ((center < 0 ? -1 : 1) * log(1 + fabs(center)) + 4) / 8 * 65535;
-            const unsigned whole = (unsigned)floor(steps + 0.5);
+            const double place = ((center < 0 ? -1 : 1) * log(1 + fabs(center)) + 4) / 8 * 65535;
+            const unsigned whole = (unsigned)floor(place + 0.5);
             codes[4 * i + k] =
                 (uint8_t)(picture == 0   ? whole & 255
                           : picture == 1 ? whole >> 8
@@ -420,9 +425,18 @@ static inline size_t sample_sog_picture(int picture, uint8_t **webp) {
                                             : k == 3 ? 255
                                                      : 0));
         }
+    for (uint32_t i = 0; i < SAMPLE_COUNT && steps; i++) {
+        const double logit = log(sample_opacity(i) / (1 - sample_opacity(i)));
+        for (uint32_t k = 0; k < 3 && picture == 2; k++) codes[4 * i + k] = sample_step(log(sample_scale(i, k)), -3, 1);
+        for (uint32_t k = 0; k < 4 && picture == 4; k++)
+            codes[4 * i + k] = k < 3 ? sample_step(sample_first(i), -1, 1) : sample_step(logit, -2, 2);
+    }
     // Palette 1: the harmonics of the sample.
     for (uint32_t n = 0; n < 3 && picture == 5; n++)
-        for (uint32_t k = 0; k < 4; k++) codes[4 * (3 + n) + k] = (uint8_t)(k < 3 ? 10 * (n + 1) + k : 255);
+        for (uint32_t k = 0; k < 4; k++)
+            codes[4 * (3 + n) + k] = k == 3  ? 255
+                                     : steps ? sample_step(sample_rest(n + 1, k), -0.25, 0.25)
+                                             : (uint8_t)(10 * (n + 1) + k);
     if (picture < 2)
         for (uint32_t i = 0; i < SAMPLE_COUNT; i++) codes[4 * i + 3] = 255;
     return WebPEncodeLosslessRGBA(codes, width, 1, 4 * width, webp);
@@ -501,17 +515,33 @@ static inline void sample_zip_add(sample_file *file, sample_file *directory, con
     sample_put(file, bytes, packed_size);
 }
 
+/// meta.json of version 1, which does not say so.
+static inline void sample_sog_meta_1(sample_file *file) {
+    file->size = 0;
+    sample_text(file, "{\"means\":{\"shape\":[3,3],\"dtype\":\"float32\",\"mins\":[-4,-4,-4],\"maxs\":[4,4,4],"
+                      "\"files\":[\"means_l.webp\",\"means_u.webp\"]},"
+                      "\"scales\":{\"shape\":[3,3],\"mins\":[-3,-3,-3],\"maxs\":[1,1,1],\"files\":[\"scales.webp\"]},"
+                      "\"quats\":{\"encoding\":\"quaternion_packed\",\"files\":[\"quats.webp\"]},"
+                      "\"sh0\":{\"mins\":[-1,-1,-1,-2],\"maxs\":[1,1,1,2],\"files\":[\"sh0.webp\"]},"
+                      "\"shN\":{\"shape\":[3,9],\"mins\":-0.25,\"maxs\":0.25,\"quantization\":8,"
+                      "\"files\":[\"shN_centroids.webp\",\"shN_labels.webp\"]}}");
+}
+
+/// An archive of a version; NULL: version 1.
 static inline void sample_sog(sample_file *file, const char *version) {
     static sample_file directory, meta;
     file->size = directory.size = 0;
     for (int picture = 0; picture < SAMPLE_PICTURES; picture++) {
         uint8_t *webp = NULL;
-        const size_t size = sample_sog_picture(picture, &webp);
+        const size_t size = sample_sog_picture(picture, !version, &webp);
         assert_true(size > 0);
         sample_zip_add(file, &directory, sample_picture_names[picture], webp, size, false);
         WebPFree(webp);
     }
-    sample_sog_meta(&meta, version);
+    if (version)
+        sample_sog_meta(&meta, version);
+    else
+        sample_sog_meta_1(&meta);
     sample_zip_add(file, &directory, "meta.json", meta.bytes, meta.size, true);
     const uint32_t at = (uint32_t)file->size;
     sample_put(file, directory.bytes, directory.size);
@@ -531,7 +561,8 @@ static inline bool sample_make(int number, sample_file *file, uint32_t *degree, 
                                splat = {1e-6, 1e-6, 2e-4, 2e-3, 1e-2, 1e-2},
                                spz = {1e-3, 4e-2, 2e-4, 2e-3, 2e-2, 1e-2},
                                ksplat = {1e-3, 1e-3, 2e-6, 2e-3, 1e-2, 1e-2},
-                               sog = {2e-3, 1e-6, 2e-5, 2e-3, 1e-6, 1e-6};
+                               sog = {2e-3, 1e-6, 2e-5, 2e-3, 1e-6, 1e-6},
+                               sog_1 = {2e-3, 1e-2, 2e-5, 4e-3, 5e-3, 2e-3};
     *degree = 0;
     if (number < 4) {
         sample_packed_ply(file, number % 2, number / 2);
@@ -554,10 +585,10 @@ static inline bool sample_make(int number, sample_file *file, uint32_t *degree, 
         *limits = exact;
     } else {
         *degree = 1;
-        sample_sog(file, "2");
-        *limits = sog;
+        sample_sog(file, number == 16 ? "2" : NULL);
+        *limits = number == 16 ? sog : sog_1;
     }
-    return number <= 16;
+    return number <= 17;
 }
 
 #endif

@@ -19,13 +19,13 @@ static void forms(void **state) {
         ewa_gaussian_facts facts;
         if (ewa_gaussians_load_memory(context, file.bytes, file.size, "test", NULL, &set, &facts) != EWA_OK)
             fail_msg("form %d: %s", number, log.text);
-        static const ewa_gaussian_format formats[17] = {
+        static const ewa_gaussian_format formats[18] = {
             EWA_GAUSSIANS_PACKED_PLY, EWA_GAUSSIANS_PACKED_PLY, EWA_GAUSSIANS_PACKED_PLY,
             EWA_GAUSSIANS_PACKED_PLY, EWA_GAUSSIANS_SPLAT,      EWA_GAUSSIANS_SPZ,
             EWA_GAUSSIANS_SPZ,        EWA_GAUSSIANS_SPZ,        EWA_GAUSSIANS_SPZ,
             EWA_GAUSSIANS_KSPLAT,     EWA_GAUSSIANS_KSPLAT,     EWA_GAUSSIANS_KSPLAT,
             EWA_GAUSSIANS_GLTF,       EWA_GAUSSIANS_GLTF,       EWA_GAUSSIANS_GLTF,
-            EWA_GAUSSIANS_GLTF,       EWA_GAUSSIANS_SOG};
+            EWA_GAUSSIANS_GLTF,       EWA_GAUSSIANS_SOG,        EWA_GAUSSIANS_SOG};
         assert_int_equal(facts.format, formats[number]);
         assert_int_equal(facts.size_bytes, file.size);
         assert_int_equal(log.count, 0);
@@ -33,8 +33,9 @@ static void forms(void **state) {
         if (file_is_spz(number)) sample_turn_over(&set);
         sample_check(&set, degree, &limits);
         assert_true(set.antialiased ==
-                    (facts.format == EWA_GAUSSIANS_SPZ || facts.format == EWA_GAUSSIANS_SOG));
+                    (facts.format == EWA_GAUSSIANS_SPZ || number == 16)); // SOG 1 cannot say so
         if (facts.format == EWA_GAUSSIANS_SPZ) assert_int_equal(facts.version, number - 4);
+        if (facts.format == EWA_GAUSSIANS_SOG) assert_int_equal(facts.version, number == 16 ? 2 : 1);
         ewa_gaussians_free(&set);
         ewa_context_destroy(&context);
     }
@@ -222,9 +223,28 @@ static void words(void **state) {
         refuse(&file, cases[i].status, cases[i].reason);
     }
     sample_sog(&file, "7");
-    refuse(&file, EWA_ERROR_UNSUPPORTED, "SOG of version 7; 2 is read");
+    refuse(&file, EWA_ERROR_UNSUPPORTED, "SOG of version 7; 1 and 2 are read");
     sample_sog(&file, "\"2\"");
     refuse(&file, EWA_ERROR_FORMAT, "version is no number");
+}
+
+/// What version 1 of SOG may not say.
+static void steps(void **state) {
+    static sample_file meta;
+    static const struct {
+        const char *old, *with, *reason;
+    } cases[] = {
+        {"\"shape\":[3,3],\"dtype\"", "\"shape\":\"333\",\"dtype\"", "means.shape begins with no number"},
+        {"\"maxs\":[4,4,4]", "\"maxs\":[4,444]", "means.mins or means.maxs are no three numbers"},
+        {"\"mins\":[-3,-3,-3]", "\"mins\":[-3,-3,\"\"]", "scales.mins or scales.maxs are no three numbers"},
+        {"\"maxs\":[1,1,1,2]", "\"maxs\":[1,1,112]", "sh0.mins or sh0.maxs are no four numbers"},
+        {"\"mins\":-0.25", "\"mins\":[0.2]", "shN.mins or shN.maxs is no number"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        sample_sog_meta_1(&meta);
+        replace(&meta, cases[i].old, cases[i].with);
+        refuse(&meta, EWA_ERROR_FORMAT, cases[i].reason);
+    }
 }
 
 /// A picture of SOG with other bytes.
@@ -241,7 +261,7 @@ static void palettes(void **state) {
         file.size = directory.size = 0;
         for (int picture = 0; picture < SAMPLE_PICTURES; picture++) {
             uint8_t *webp = NULL, codes[4 * SAMPLE_COUNT];
-            size_t size = sample_sog_picture(picture, &webp);
+            size_t size = sample_sog_picture(picture, false, &webp);
             if (picture == cases[i].picture) {
                 WebPFree(webp);
                 for (size_t k = 0; k < sizeof codes; k++) codes[k] = cases[i].rgba[k % 4];
@@ -269,7 +289,7 @@ static void beside(void **state) {
     char path[512], name[64];
     for (int picture = 0; picture < SAMPLE_PICTURES; picture++) {
         uint8_t *webp = NULL;
-        const size_t size = sample_sog_picture(picture, &webp);
+        const size_t size = sample_sog_picture(picture, false, &webp);
         snprintf(name, sizeof name, "%s", sample_picture_names[picture]);
         scratch_write(scratch_path(name, path), webp, size);
         WebPFree(webp);
@@ -492,7 +512,7 @@ static void memory(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(forms),  cmocka_unit_test(cut_short), cmocka_unit_test(broken),
-        cmocka_unit_test(lies),   cmocka_unit_test(words),     cmocka_unit_test(palettes),
+        cmocka_unit_test(lies),   cmocka_unit_test(words),     cmocka_unit_test(steps),    cmocka_unit_test(palettes),
         cmocka_unit_test(beside), cmocka_unit_test(placed),    cmocka_unit_test(packed_in_gltf),
         cmocka_unit_test(draft),  cmocka_unit_test(axes),      cmocka_unit_test(memory),
         cmocka_unit_test(counts),

@@ -3,9 +3,10 @@
 //
 // SOG: a Gaussian for each pixel of some lossless WebP pictures, which meta.json names, in a zip archive or beside it.
 // Centres are 16 bits of a symmetric logarithm, scales and colours indices into tables of numbers, quaternions their
-// three smallest components; harmonics beyond the first an index into a picture of palettes.
+// three smallest components; harmonics beyond the first an index into a picture of palettes. Version 1 has even steps
+// between two numbers where version 2 has tables: its tables are made of them.
 //
-// Based on: PlayCanvas, "SOG format", version 2.
+// Based on: PlayCanvas, "SOG format", version 2; splat-transform's and the engine's readers of version 1.
 #include "io/gaussian/zip.h"
 #include "io/image/webp.h"
 #include "io/json_text.h"
@@ -30,11 +31,11 @@ typedef struct sog {
     const ewa_gaussian_source *source;
     bool archive;
     const cJSON *root;
-    uint64_t count;
+    uint64_t version, count;
     uint32_t bands; ///< degree of the harmonics
     uint64_t palette_count;
     double low[3], high[3]; ///< of the logarithms of centres
-    float scales[TABLE], colors[TABLE], harmonics[TABLE];
+    float scales[3][TABLE], colors[3][TABLE], opacities[TABLE], harmonics[TABLE];
     sog_picture pictures[PICTURES];
     ewa_gaussians *set;
     atomic_bool bad_tag, bad_label;
@@ -55,11 +56,23 @@ static bool read_numbers(const cJSON *array, uint32_t count, double *numbers) {
     return true;
 }
 
-static bool read_table(const cJSON *object, float table[TABLE]) {
+/// Reads a table into `count` ones.
+static bool read_table(const cJSON *object, uint32_t count, float tables[][TABLE]) {
     double numbers[TABLE];
     if (!read_numbers(cJSON_GetObjectItemCaseSensitive(object, "codebook"), TABLE, numbers)) return false;
-    for (int i = 0; i < TABLE; i++) table[i] = (float)numbers[i];
+    for (uint32_t k = 0; k < count; k++)
+        for (int i = 0; i < TABLE; i++) tables[k][i] = (float)numbers[i];
     return true;
+}
+
+static void fill_steps(double low, double high, float table[TABLE]) {
+    for (int i = 0; i < TABLE; i++) table[i] = (float)(low + (high - low) * (i / (TABLE - 1.0)));
+}
+
+/// Reads the ends of `count` ranges.
+static bool read_ranges(const cJSON *object, uint32_t count, double *low, double *high) {
+    return read_numbers(cJSON_GetObjectItemCaseSensitive(object, "mins"), count, low) &&
+           read_numbers(cJSON_GetObjectItemCaseSensitive(object, "maxs"), count, high);
 }
 
 static bool read_count(const cJSON *object, const char *name, uint64_t *count) {
@@ -69,31 +82,61 @@ static bool read_count(const cJSON *object, const char *name, uint64_t *count) {
     return (double)*count == item->valuedouble;
 }
 
+/// Reads what version 1 says; how many harmonics there are its picture of palettes does.
+static ewa_status read_steps(sog *s, const cJSON *means, const cJSON *scales, const cJSON *colors,
+                             const cJSON *harmonics) {
+    double low[4], high[4];
+    const cJSON *shape = cJSON_GetObjectItemCaseSensitive(means, "shape"), *count = cJSON_GetArrayItem(shape, 0);
+    if (!cJSON_IsNumber(count) || !(count->valuedouble >= 0 && count->valuedouble < 0x1p32) ||
+        count->valuedouble != floor(count->valuedouble))
+        return fail(s, "means.shape begins with no number of Gaussians");
+    s->count = (uint64_t)count->valuedouble;
+    if (!read_ranges(scales, 3, low, high)) return fail(s, "scales.mins or scales.maxs are no three numbers");
+    for (int k = 0; k < 3; k++) fill_steps(low[k], high[k], s->scales[k]);
+    if (!read_ranges(colors, 4, low, high)) return fail(s, "sh0.mins or sh0.maxs are no four numbers");
+    for (int k = 0; k < 3; k++) fill_steps(low[k], high[k], s->colors[k]);
+    fill_steps(low[3], high[3], s->opacities);
+    if (!harmonics) return EWA_OK;
+    const cJSON *least = cJSON_GetObjectItemCaseSensitive(harmonics, "mins"),
+                *most = cJSON_GetObjectItemCaseSensitive(harmonics, "maxs");
+    if (!cJSON_IsNumber(least) || !cJSON_IsNumber(most)) return fail(s, "shN.mins or shN.maxs is no number");
+    fill_steps(least->valuedouble, most->valuedouble, s->harmonics);
+    s->bands = MAX_BANDS;
+    return EWA_OK;
+}
+
+/// Reads what version 2 says.
+static ewa_status read_tables(sog *s, const cJSON *scales, const cJSON *colors, const cJSON *harmonics) {
+    uint64_t bands = 0;
+    if (!read_count(s->root, "count", &s->count)) return fail(s, "count is no number of Gaussians");
+    if (!read_table(scales, 3, s->scales) || !read_table(colors, 3, s->colors))
+        return fail(s, "scales.codebook or sh0.codebook are no 256 numbers");
+    fill_steps(0, 1, s->opacities);
+    if (!harmonics) return EWA_OK;
+    if (!read_count(harmonics, "bands", &bands) || bands > MAX_BANDS ||
+        !read_count(harmonics, "count", &s->palette_count))
+        return fail(s, "shN.bands is not 0 to 3, or shN.count no number");
+    if (bands && !read_table(harmonics, 1, &s->harmonics)) return fail(s, "shN.codebook are no 256 numbers");
+    s->bands = (uint32_t)bands;
+    return EWA_OK;
+}
+
 /// Reads what is no picture.
 static ewa_status read_meta(sog *s) {
     const cJSON *means = cJSON_GetObjectItemCaseSensitive(s->root, "means"),
                 *scales = cJSON_GetObjectItemCaseSensitive(s->root, "scales"),
                 *colors = cJSON_GetObjectItemCaseSensitive(s->root, "sh0"),
                 *harmonics = cJSON_GetObjectItemCaseSensitive(s->root, "shN");
-    uint64_t version = 1, bands = 0;
-    if (cJSON_GetObjectItemCaseSensitive(s->root, "version") && !read_count(s->root, "version", &version))
+    s->version = 1;
+    if (cJSON_GetObjectItemCaseSensitive(s->root, "version") && !read_count(s->root, "version", &s->version))
         return fail(s, "version is no number");
-    if (version != 2)
-        return ewa_fail(s->source->context, EWA_ERROR_UNSUPPORTED, "%s: SOG of version %llu; 2 is read",
-                        s->source->name, (unsigned long long)version);
-    if (!read_count(s->root, "count", &s->count)) return fail(s, "count is no number of Gaussians");
-    if (!read_numbers(cJSON_GetObjectItemCaseSensitive(means, "mins"), 3, s->low) ||
-        !read_numbers(cJSON_GetObjectItemCaseSensitive(means, "maxs"), 3, s->high))
+    if (s->version != 1 && s->version != 2)
+        return ewa_fail(s->source->context, EWA_ERROR_UNSUPPORTED, "%s: SOG of version %llu; 1 and 2 are read",
+                        s->source->name, (unsigned long long)s->version);
+    if (!read_ranges(means, 3, s->low, s->high))
         return fail(s, "means.mins or means.maxs are no three numbers");
-    if (!read_table(scales, s->scales) || !read_table(colors, s->colors))
-        return fail(s, "scales.codebook or sh0.codebook are no 256 numbers");
-    if (!harmonics) return EWA_OK;
-    if (!read_count(harmonics, "bands", &bands) || bands > MAX_BANDS ||
-        !read_count(harmonics, "count", &s->palette_count))
-        return fail(s, "shN.bands is not 0 to 3, or shN.count no number");
-    if (bands && !read_table(harmonics, s->harmonics)) return fail(s, "shN.codebook are no 256 numbers");
-    s->bands = (uint32_t)bands;
-    return EWA_OK;
+    return s->version == 1 ? read_steps(s, means, scales, colors, harmonics)
+                           : read_tables(s, scales, colors, harmonics);
 }
 
 /// Decodes a picture, file `index` of a member.
@@ -149,6 +192,11 @@ static ewa_status read_pictures(sog *s) {
     }
     if (!s->bands) return EWA_OK;
     const sog_picture *palettes = &s->pictures[PALETTES];
+    if (s->version == 1) {
+        while (s->bands && palettes->width_px != PALETTE_COLUMNS * (ewa_sh_count(s->bands) - 1)) s->bands--;
+        s->palette_count = (uint64_t)PALETTE_COLUMNS * palettes->height_px;
+        if (!s->bands) return fail(s, "the picture of palettes is not 192, 512 or 960 pixels wide");
+    }
     if (palettes->width_px != PALETTE_COLUMNS * (ewa_sh_count(s->bands) - 1) ||
         s->palette_count > (uint64_t)PALETTE_COLUMNS * palettes->height_px)
         return ewa_fail(s->source->context, EWA_ERROR_FORMAT,
@@ -188,11 +236,11 @@ static void decode(void *data, uint32_t first, uint32_t end) {
             const uint32_t steps = s->pictures[MEANS_LOW].codes[4 * i + k] |
                                    (uint32_t)s->pictures[MEANS_HIGH].codes[4 * i + k] << 8;
             set->centers[3 * i + k] = (float)spread(s->low[k] + (s->high[k] - s->low[k]) * (steps / 65535.0));
-            set->scales[3 * i + k] = s->scales[s->pictures[SCALES].codes[4 * i + k]];
-            harmonics[k] = s->colors[s->pictures[COLORS].codes[4 * i + k]];
+            set->scales[3 * i + k] = s->scales[k][s->pictures[SCALES].codes[4 * i + k]];
+            harmonics[k] = s->colors[k][s->pictures[COLORS].codes[4 * i + k]];
             others[k] = (quaternion[k] / 255.0 * 2 - 1) * sqrt(0.5);
         }
-        set->opacities[i] = (float)(s->pictures[COLORS].codes[4 * i + 3] / 255.0);
+        set->opacities[i] = s->opacities[s->pictures[COLORS].codes[4 * i + 3]];
         if (quaternion[3] < FIRST_TAG)
             atomic_store(&s->bad_tag, true);
         else
@@ -214,8 +262,9 @@ static ewa_status read_with(sog *s, ewa_gaussian_facts *facts) {
     s->set->antialiased = cJSON_IsTrue(cJSON_GetObjectItemCaseSensitive(s->root, "antialias")) ||
                           strcmp(word, "antialiased") == 0;
     if (strcmp(word, "2dgs") == 0) ewa_gaussians_flatten(s->set);
-    facts->version = 2;
-    return ewa_gaussians_settle(s->source, &(ewa_gaussian_form){.log_scales = true}, s->set);
+    facts->version = (uint32_t)s->version;
+    const ewa_gaussian_form form = {.log_scales = true, .logits = s->version == 1};
+    return ewa_gaussians_settle(s->source, &form, s->set);
 }
 
 static ewa_status read_sog(const ewa_gaussian_source *source, ewa_gaussians *set, ewa_gaussian_facts *facts) {
