@@ -133,11 +133,11 @@ size_t items_find_instance(const viewer *v, uint32_t instance) {
 }
 
 /// What of an item the scene shows.
-static ewa_instance instance_of(const scene_item *item, bool points) {
+static ewa_instance instance_of(const scene_item *item, bool changeable) {
     ewa_instance instance;
     ewa_instance_init(&instance, sizeof instance);
     instance.visible = item->visible;
-    if (!points) return instance;
+    if (!changeable) return instance;
     const viewer_coloring *wish = &item->wish;
     memcpy(instance.coloring.attribute, wish->attribute, sizeof instance.coloring.attribute);
     instance.coloring.map = (ewa_coloring_map)(wish->colormap + 1);
@@ -152,21 +152,22 @@ static ewa_instance instance_of(const scene_item *item, bool points) {
     return instance;
 }
 
-static bool has_points(const ewa_asset *asset) {
+static bool is_changeable(const ewa_asset *asset) {
     ewa_asset_info info;
     ewa_asset_describe(asset, &info);
-    return info.kind == EWA_ASSET_POINTS || info.kind == EWA_ASSET_MESH;
+    return info.changeable;
 }
 
 /// Orders a scene of the items as they are now.
 static void items_reorder(viewer *v) {
     loader_scene of = {.count = 0, .options = v->base};
+    of.options.lod = v->lod;
     for (size_t i = 0; i < v->item_count; i++) {
         const scene_item *item = &v->items[i];
         if (!item->asset) continue;
         of.items[of.count] = item->id;
         of.assets[of.count] = ewa_asset_retain(item->asset);
-        of.instances[of.count] = instance_of(item, has_points(item->asset));
+        of.instances[of.count] = instance_of(item, is_changeable(item->asset));
         of.colorings[of.count++] = item->wish;
     }
     if (!loader_make(v->loader, &of)) viewer_tell(v, "out of memory for the scene");
@@ -230,11 +231,7 @@ bool items_close(viewer *v, size_t index) {
 void items_recolor(viewer *v, size_t index) {
     scene_item *item = &v->items[index];
     if (!item->asset) return;
-    ewa_asset_info info;
-    ewa_asset_describe(item->asset, &info);
-    if (info.kind == EWA_ASSET_OCTREE)
-        viewer_tell(v, "%s: an octree has the colours of its points", item->name);
-    if (!has_points(item->asset)) {
+    if (!is_changeable(item->asset)) {
         item->wish = item->coloring;
         return;
     }
@@ -414,8 +411,10 @@ const char *viewer_attribute_at(const viewer *v, size_t index, uint32_t wanted,
                                 char name[EWA_NAME_BYTES + 4]) {
     ewa_asset_info info = {.cloud = NULL};
     if (index < v->item_count && v->items[index].asset) ewa_asset_describe(v->items[index].asset, &info);
-    if (!info.cloud) return NULL;
-    const ewa_cloud *cloud = info.cloud;
+    ewa_lod_info octree = {.prototype = NULL};
+    if (info.lod) ewa_lod_describe(info.lod, &octree);
+    const ewa_cloud *cloud = info.cloud ? info.cloud : octree.prototype;
+    if (!cloud) return NULL;
     const ewa_attribute *attribute;
     for (uint32_t k = 0; (attribute = ewa_cloud_attribute_at(cloud, k)); k++) {
         if (wanted >= attribute->component_count) {

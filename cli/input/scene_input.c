@@ -46,15 +46,14 @@ static bool add_file(cli_session *session, const char *path, const ewa_asset_opt
     ewa_status status = ewa_asset_load(session->context, path, options, &asset);
     ewa_asset_info info = {.count = 0};
     if (status == EWA_OK) ewa_asset_describe(asset, &info);
-    const bool points = info.kind == EWA_ASSET_POINTS || info.kind == EWA_ASSET_MESH;
-    if (status == EWA_OK && points && !info.count) {
+    if (status == EWA_OK && info.changeable && !info.count) {
         session->subject = path;
         session_note(session, "--filter takes none of its points; it is left out");
         session->subject = NULL;
     } else if (status == EWA_OK) {
         ewa_instance instance;
         ewa_instance_init(&instance, sizeof instance);
-        if (points) instance.coloring = *coloring;
+        if (info.changeable) instance.coloring = *coloring;
         status = ewa_scene_add(scene, asset, &instance);
     }
     ewa_asset_release(&asset);
@@ -71,8 +70,7 @@ static bool add_scene(cli_session *session, const char *path, const ewa_asset_op
         ewa_asset_info info;
         ewa_asset_describe(ewa_scene_asset(scene, i), &info);
         status = ewa_scene_get(scene, i, &instance);
-        if (!(info.kind == EWA_ASSET_POINTS || info.kind == EWA_ASSET_MESH) || instance.coloring.tinted ||
-            instance.coloring.attribute[0])
+        if (!info.changeable || instance.coloring.tinted || instance.coloring.attribute[0])
             continue;
         instance.coloring = *coloring;
         if (status == EWA_OK) status = ewa_scene_set(scene, i, &instance);

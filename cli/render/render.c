@@ -249,16 +249,11 @@ static bool check_scene(cli_session *session, const render_arguments *arguments,
     ewa_surfels_options_init(&surfels, sizeof surfels);
     ewa_scene_describe(scene, &info);
     const bool colored = arguments->color_by && !ewa_coloring_is_own(arguments->color_by);
-    const char *clash = colored                                                   ? "--color-by"
-                        : arguments->surfels.cutoff != surfels.cutoff             ? "--cutoff"
-                        : arguments->surfels.radius_scale != surfels.radius_scale ? "--radius-scale"
-                                                                                  : NULL;
-    if (info.octrees && clash) {
-        session_fail(session,
-                     "%s needs all points of an octree; --levels never reads them, or `ewa convert` what is "
-                     "wanted to a "
-                     "file of its own",
-                     clash);
+    if (info.octrees && arguments->surfels.cutoff != surfels.cutoff) {
+        session_fail(
+            session,
+            "--cutoff needs all points of an octree; --levels never reads them, or `ewa convert` what "
+            "is wanted to a file of its own");
         return false;
     }
     if (colored && !info.surfaces) {

@@ -59,7 +59,7 @@ typedef struct ewa_asset_options {
     const ewa_cloud_load_options *load; ///< of files of points, borrowed during the call; default NULL: its defaults
     const ewa_filter *filter;           ///< which points are taken, borrowed during the call; default NULL: all
     /// Where its coordinates lie in the scene: row-major, acts on columns, affine and invertible, last row 0 0 0 1;
-    /// default: where they are. Octrees that are drawn from their levels stay where they are: EWA_ERROR_UNSUPPORTED.
+    /// default: where they are.
     double to_world[16];
     bool gaussians_as_surfels; ///< trained Gaussians become a surface, in their constant colours; default false
     ewa_octree_levels levels;  ///< default EWA_OCTREE_AUTO
@@ -118,6 +118,8 @@ typedef struct ewa_asset_info {
     double up_world[3];     ///< what is up, as the file says; zeros: it does not
     double load_s;          ///< what loading took
     bool drawable;          ///< points have normals and radii, or axes, of their own
+    bool
+        changeable; ///< opacity, radius scale, material and colouring of instances count: points, meshes, octrees
 } ewa_asset_info;
 
 /// Loads a file of any kind: points, meshes, octrees, Gaussians, volumes. The kind goes by content, of volumes by the
@@ -169,7 +171,9 @@ typedef struct ewa_scene_options {
 EWA_API extern const ewa_option_table ewa_scene_options_table;
 EWA_API void ewa_scene_options_init(ewa_scene_options *options, size_t struct_size);
 
-/// An asset in a scene. Fill with ewa_instance_init().
+/// An asset in a scene. Octrees that are drawn from their levels are coloured and filtered by what their representatives
+/// have, too (places, normals, radii, colours); by all else with ewa_lod_options.error 0, or where there are none: else
+/// EWA_ERROR_UNSUPPORTED when it is drawn. Fill with ewa_instance_init().
 typedef struct ewa_instance {
     size_t struct_size;
     bool visible;         ///< default true
@@ -228,7 +232,8 @@ EWA_API ewa_status ewa_scene_complete(ewa_scene *scene);
 /// file, coloured and measured as the instances say. Called by ewa_scene_draw() and ewa_scene_pick(). Without
 /// keep_points the clouds are gone afterwards, and instances of points can no longer change. Errors: those of
 /// ewa_surfels_create() and ewa_scene_complete(); EWA_ERROR_ARGUMENT (an attribute that is not there),
-/// EWA_ERROR_FORMAT (nothing can be drawn of any cloud).
+/// EWA_ERROR_FORMAT (nothing can be drawn of any cloud), EWA_ERROR_UNSUPPORTED (an octree that cannot be drawn as its
+/// instance says with the scene's `lod` options).
 EWA_API ewa_status ewa_scene_commit(ewa_scene *scene);
 
 /// What a scene is, and what making it took.

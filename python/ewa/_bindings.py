@@ -1914,6 +1914,7 @@ class ewa_asset_info(c.Structure):
     up_world: c.Array[c.c_double]
     load_s: float
     drawable: bool
+    changeable: bool
     _fields_ = [
         ("kind", c.c_int),
         ("name", c.c_char_p),
@@ -1927,6 +1928,7 @@ class ewa_asset_info(c.Structure):
         ("up_world", c.c_double * 3),
         ("load_s", c.c_double),
         ("drawable", c.c_bool),
+        ("changeable", c.c_bool),
     ]
 
 

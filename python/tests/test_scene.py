@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import itertools
+import json
 import os
 import shutil
 import struct
@@ -42,7 +43,23 @@ class SameScene(Case):
             for i in range(4):
                 file.write(struct.pack("<6f", 0.4 * i - 0.6, 0.1 * i, 1, 0.1, 0.2, 0.3))
                 file.write(bytes([200, 100, 50, 250, 255, 128, 128, 128]))
-        self.kinds = ["bare.ply", "surfels.ply", "mesh.obj", "tree.copc.laz", "four.splat", "ball.nrrd"]
+        # An octree that is moved, enlarged, coloured, filtered and lets light through.
+        with open(self.path("moved.json"), "w", encoding="ascii") as file:
+            json.dump({"ewa_scene": 1, "items": [
+                {"file": "tree.copc.laz", "levels": "always", "to_world": [0, -1.2, 0, 0.5, 1.2, 0, 0, 0, 0, 0, 1.2, 0.3,
+                                                                           0, 0, 0, 1],
+                 "color_by": "z", "filter": "x>-0.7", "opacity": 0.7, "radius_scale": 1.2}]}, file)
+        self.kinds = ["bare.ply", "surfels.ply", "mesh.obj", "moved.json", "four.splat", "ball.nrrd"]
+        self.triples = [("bare.ply", "tree.copc.laz", "four.splat"), ("surfels.ply", "mesh.obj", "ball.nrrd"),
+                        ("moved.json", "tree.copc.laz", "ball.nrrd")]
+
+    def sets(self) -> list[tuple[str, ...]]:
+        """Every kind, every pair and some triples."""
+        return [*((kind,) for kind in self.kinds), *itertools.combinations(self.kinds, 2), *self.triples]
+
+    def save_camera(self) -> None:
+        self.run_program("render", "torus.ply", "--size", f"{SIZE[0]}x{SIZE[1]}", "-o", "any.png", "--elevation", "20",
+                         "--save-camera", "camera.json")
 
     def plane(self, name: str) -> np.ndarray:
         with open(self.path(name), "rb") as file:
@@ -78,19 +95,20 @@ class SameScene(Case):
 
     def test_scene_files(self) -> None:
         size = f"{SIZE[0]}x{SIZE[1]}"
-        self.run_program("render", *self.kinds, "--levels", "always", "--size", size, "-o", "made.png", "--elevation", "30",
+        files = [*self.kinds, "tree.copc.laz"]
+        self.run_program("render", *files, "--levels", "always", "--size", size, "-o", "made.png", "--elevation", "30",
                          "--background", "0.2,0.4,0.6", "--ambient", "0.4", "--edl", "0.5", "--save-scene", "scene.json")
         self.run_program("render", "scene.json", "-o", "opened.png", "--save-scene", "again.json")
         self.assertEqual(self.bytes("made.png"), self.bytes("opened.png"))
         self.assertEqual(self.bytes("scene.json"), self.bytes("again.json"))
         with ewa.Context() as context:
             scene = ewa.Scene(self.path("scene.json"), context=context)
-            self.assertEqual(len(scene), len(self.kinds))
+            self.assertEqual(len(scene), len(files))
             scene.render().save(self.path("ours.png"))
             self.assertEqual(self.bytes("made.png"), self.bytes("ours.png"))
             told = scene.describe()
             self.assertEqual([item["kind"] for item in told["items"]],
-                             ["points", "points", "mesh", "octree", "gaussians", "volume"])
+                             ["points", "points", "mesh", "octree", "gaussians", "volume", "octree"])
             np.testing.assert_allclose([told["low_world"], told["high_world"]], scene.bounds)
             scene.save(self.path("python.json"), scene.camera())
             self.assertEqual(self.bytes("scene.json"), self.bytes("python.json"))
@@ -110,24 +128,23 @@ class SameScene(Case):
         ranks = os.path.join(os.path.dirname(program() or ""), os.pardir, "mpi", "ewa-mpi")
         if not os.path.exists(ranks) or not shutil.which("mpirun"):
             self.skipTest("there is no ewa-mpi or no mpirun")
-        outputs = ("--levels", "always", "--size", f"{SIZE[0]}x{SIZE[1]}", "--aov")
-        for files in itertools.combinations_with_replacement(self.kinds, 2):
-            files = files[:1] if len(set(files)) == 1 else files
+        self.save_camera()
+        shown = [(files, ("--size", f"{SIZE[0]}x{SIZE[1]}")) for files in self.sets()]
+        shown += [(files, ("--camera", "camera.json")) for files in self.triples]
+        for files, placed in shown:
             with self.subTest(" ".join(files)):
-                self.run_program("render", *files, *outputs, "depth=z1.pfm,normal=n1.pfm,coverage=c1.pfm", "-o", "1.png")
-                done = subprocess.run(["mpirun", "--allow-run-as-root", "--oversubscribe", "-n", "2", ranks, "render", *files,
-                                       *outputs, "depth=z2.pfm,normal=n2.pfm,coverage=c2.pfm", "-o", "2.png", "--split",
-                                       "cloud", "--threads", "1"], cwd=self.path(""), capture_output=True, text=True)
+                outputs = (*files, "--levels", "always", *placed, "--aov")
+                self.run_program("render", *outputs, "depth=z1.pfm,normal=n1.pfm,coverage=c1.pfm", "-o", "1.png")
+                done = subprocess.run(["mpirun", "--allow-run-as-root", "--oversubscribe", "-n", "2", ranks, "render", *outputs,
+                                       "depth=z2.pfm,normal=n2.pfm,coverage=c2.pfm", "-o", "2.png", "--split", "cloud",
+                                       "--threads", "1"], cwd=self.path(""), capture_output=True, text=True)
                 self.assertEqual(done.returncode, 0, done.stderr)
                 for name in ("{}.png", "z{}.pfm", "n{}.pfm", "c{}.pfm"):
                     self.assertEqual(self.bytes(name.format(1)), self.bytes(name.format(2)), name)
 
     def test_every_pair(self) -> None:
-        self.run_program("render", "torus.ply", "--size", f"{SIZE[0]}x{SIZE[1]}", "-o", "any.png", "--elevation", "20",
-                         "--save-camera", "camera.json")
-        triples = [("bare.ply", "tree.copc.laz", "four.splat"), ("surfels.ply", "mesh.obj", "ball.nrrd")]
-        for files in [*itertools.combinations_with_replacement(self.kinds, 2), *triples]:
-            files = files[:1] if len(set(files)) == 1 else files
+        self.save_camera()
+        for files in self.sets():
             with self.subTest(" ".join(files)):
                 self.check(files, None)
                 self.check(files, "camera.json")

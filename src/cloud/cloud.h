@@ -19,6 +19,9 @@ ewa_status ewa_cloud_like(const ewa_cloud *cloud, ewa_cloud **like);
 /// Whether two clouds have the same attributes in the same order.
 bool ewa_cloud_is_alike(const ewa_cloud *a, const ewa_cloud *b);
 
+/// Whether ewa_cloud_find_scalar() finds what a word means. Reports nothing.
+bool ewa_cloud_has_scalar(const ewa_cloud *cloud, const char *word);
+
 /// Leaves only the first points; their memory stays until the cloud is destroyed.
 void ewa_cloud_truncate(ewa_cloud *cloud, uint64_t point_count);
 

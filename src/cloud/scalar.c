@@ -79,6 +79,11 @@ static const ewa_attribute *find_component(const ewa_cloud *cloud, const char *w
     return NULL;
 }
 
+bool ewa_cloud_has_scalar(const ewa_cloud *cloud, const char *word) {
+    uint32_t component;
+    return find_component(cloud, word, &component) != NULL;
+}
+
 /// Lists the attributes with the words for their components; "..." stands for those that find no room.
 static void list_attributes(const ewa_cloud *cloud, char list[LIST_BYTES]) {
     size_t used = 0;

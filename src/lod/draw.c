@@ -70,8 +70,9 @@ typedef struct chooser {
     ewa_lod *home; ///< the first octree, which keeps the list
     ewa_lod *lod;  ///< in which nodes are chosen
     const ewa_camera *camera;
+    double to_camera[12]; ///< of the octree's space: rows of an affine map
     const ewa_lod_options *options;
-    double scale; ///< camera units per world unit
+    double scale; ///< camera units that a unit of the octree's space has at most
     double margin_px;
     bool loaded_only; ///< nodes that are not in memory are drawn by what represents them
     item *items;
@@ -91,8 +92,8 @@ typedef struct sight_of {
 /// Rows and columns of the picture that a box in camera space may touch.
 static sight_of look_at(const chooser *c, const ewa_lod_node *node) {
     const ewa_camera *camera = c->camera;
-    const double *m = camera->world_to_camera;
-    const double reach = node->largest_radius_world * c->scale;
+    const double *m = c->to_camera;
+    const double reach = node->largest_radius_world * c->lod->look.radius_scale * c->scale;
     double at[3], half[3];
     for (int r = 0; r < 3; r++) {
         at[r] = m[4 * r + 3], half[r] = reach;
@@ -185,12 +186,23 @@ static void choose_ways(chooser *c, uint32_t index) {
             if (node->children[i] != EWA_NO_NODE) choose_ways(c, node->children[i]);
 }
 
+/// Looks at an octree: cuts are made in its own space.
+static void look_into(chooser *c, ewa_lod *lod) {
+    const double *view = c->camera->world_to_camera, *place = lod->look.to_world;
+    c->lod = lod;
+    c->scale = vec3_length(vec3_load(&view[8])) * lod->stretch;
+    for (int r = 0; r < 3; r++)
+        for (int k = 0; k < 4; k++)
+            c->to_camera[4 * r + k] = view[4 * r] * place[k] + view[4 * r + 1] * place[4 + k] +
+                                      view[4 * r + 2] * place[8 + k] + (k == 3 ? view[4 * r + 3] : 0);
+}
+
 static ewa_status choose_nodes(chooser *c, bool loaded_only) {
     c->loaded_only = loaded_only;
     c->item_count = c->missing_count = 0;
     c->status = EWA_OK;
     for (uint32_t i = 0; i < c->scene->lod_count; i++) {
-        c->lod = c->scene->lods[i];
+        look_into(c, c->scene->lods[i]);
         choose(c, 0, 1);
     }
     return c->status;
@@ -227,7 +239,7 @@ static ewa_status load_some(chooser *c, double until_s, ewa_lod_stats *stats) {
     c->item_count = 0;
     c->status = EWA_OK;
     for (uint32_t i = 0; i < c->scene->lod_count; i++) {
-        c->lod = c->scene->lods[i];
+        look_into(c, c->scene->lods[i]);
         choose_ways(c, 0);
     }
     if (c->status != EWA_OK) return c->status;
@@ -418,10 +430,6 @@ static ewa_status keep_share(chooser *c) {
                     (unsigned long long)options->memory_bytes);
 }
 
-static double scale_of(const ewa_camera *camera) {
-    return vec3_length(vec3_load(&camera->world_to_camera[8]));
-}
-
 static ewa_status render(const ewa_lod_scene *scene, ewa_renderer *renderer, const ewa_camera *camera,
                          const ewa_render_options *options, const ewa_lod_options *chosen,
                          const ewa_frame *frame, ewa_lod_stats *stats) {
@@ -431,7 +439,6 @@ static ewa_status render(const ewa_lod_scene *scene, ewa_renderer *renderer, con
                  .home = scene->lods[0],
                  .camera = camera,
                  .options = chosen,
-                 .scale = scale_of(camera),
                  .margin_px = 16};
     next_frame(scene);
     ewa_status status = EWA_OK;
@@ -487,9 +494,10 @@ static ewa_status check_octrees(const ewa_lod_scene *scene, ewa_context **contex
     return EWA_OK;
 }
 
-ewa_status ewa_lod_scene_render(const ewa_lod_scene *scene, ewa_renderer *renderer, const ewa_camera *camera,
-                                const ewa_render_options *options, const ewa_lod_options *lod_options,
-                                const ewa_frame *frame, ewa_lod_stats *stats) {
+ewa_status ewa_lod_scene_draw(const ewa_lod_scene *scene, const ewa_lod_look *const *looks,
+                              ewa_renderer *renderer, const ewa_camera *camera,
+                              const ewa_render_options *options, const ewa_lod_options *lod_options,
+                              const ewa_frame *frame, ewa_lod_stats *stats) {
     if (!scene || !renderer || !camera || !frame) return EWA_ERROR_ARGUMENT;
     ewa_context *context;
     ewa_lod_options chosen;
@@ -514,6 +522,8 @@ ewa_status ewa_lod_scene_render(const ewa_lod_scene *scene, ewa_renderer *render
             kept[own.surfels_count++] = scene->surfels[i];
         }
     }
+    for (uint32_t i = 0; i < own.lod_count; i++)
+        EWA_TRY(ewa_tree_set_look(own.lods[i], looks ? looks[i] : NULL));
     ewa_status status = EWA_OK;
     if (own.lod_count) {
         ewa_render_options plain;
@@ -526,6 +536,12 @@ ewa_status ewa_lod_scene_render(const ewa_lod_scene *scene, ewa_renderer *render
     }
     if (stats) *stats = took;
     return status;
+}
+
+ewa_status ewa_lod_scene_render(const ewa_lod_scene *scene, ewa_renderer *renderer, const ewa_camera *camera,
+                                const ewa_render_options *options, const ewa_lod_options *lod_options,
+                                const ewa_frame *frame, ewa_lod_stats *stats) {
+    return ewa_lod_scene_draw(scene, NULL, renderer, camera, options, lod_options, frame, stats);
 }
 
 ewa_status ewa_lod_render(ewa_lod *lod, ewa_renderer *renderer, const ewa_camera *camera,

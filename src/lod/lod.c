@@ -36,7 +36,8 @@ ewa_status ewa_lod_open(ewa_context *context, const char *path, ewa_lod **lod) {
     ewa_lod *made = ewa_allocate_zeroed(context, 1, sizeof *made);
     if (!made) return EWA_ERROR_MEMORY;
     made->context = context;
-    const ewa_status status = open_tree(made, path);
+    ewa_status status = open_tree(made, path);
+    if (status == EWA_OK) status = ewa_tree_set_look(made, NULL);
     if (status == EWA_OK)
         *lod = made;
     else
@@ -55,6 +56,7 @@ void ewa_lod_close(ewa_lod **lod) {
     ewa_release(context, old->cloud_frames, node_count, sizeof *old->cloud_frames);
     ewa_buffer nodes = {old->nodes, old->node_capacity_bytes};
     ewa_buffer_free(context, &nodes);
+    ewa_buffer_free(context, &old->look_user);
     ewa_buffer_free(context, &old->items);
     ewa_buffer_free(context, &old->wanted);
     ewa_levels_free(context, &old->levels);

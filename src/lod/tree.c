@@ -209,6 +209,58 @@ void ewa_tree_trim(ewa_lod *lod, uint64_t memory_bytes) {
     EWA_NORMAL "," EWA_RADIUS "," EWA_TANGENT_U "," EWA_TANGENT_V "," EWA_COLOR "," EWA_MATERIAL             \
                "," EWA_CLIP0 "," EWA_CLIP1 "," EWA_CLIP_MODE
 
+/// Whether what was made with one look is what another one makes.
+static bool looks_agree(const ewa_lod_look *a, const ewa_lod_look *b) {
+    return a->place == b->place && a->paint == b->paint && a->radius_scale == b->radius_scale &&
+           a->user_bytes == b->user_bytes && memcmp(a->to_world, b->to_world, sizeof a->to_world) == 0 &&
+           strcmp(a->attributes, b->attributes) == 0 &&
+           (!a->user_bytes || memcmp(a->user, b->user, a->user_bytes) == 0);
+}
+
+/// The most that a map makes of a length, of rotations times a scale that scale: the root of the largest sum of a row
+/// of A A^T, which bounds its eigenvalues (Gershgorin).
+static double stretch_of(const double m[16]) {
+    double most = 0;
+    for (int r = 0; r < 3; r++) {
+        double sum = 0;
+        for (int k = 0; k < 3; k++)
+            sum += fabs(m[4 * r] * m[4 * k] + m[4 * r + 1] * m[4 * k + 1] + m[4 * r + 2] * m[4 * k + 2]);
+        most = fmax(most, sum);
+    }
+    return sqrt(most);
+}
+
+/// Whether a map keeps angles, so that densities and squares of radii change alike.
+static bool is_similar(const double m[16]) {
+    double scale2[3], across = 0;
+    for (int r = 0; r < 3; r++) {
+        const double *a = m + 4 * r, *b = m + 4 * ((r + 1) % 3);
+        scale2[r] = a[0] * a[0] + a[1] * a[1] + a[2] * a[2];
+        across = fmax(across, fabs(a[0] * b[0] + a[1] * b[1] + a[2] * b[2]));
+    }
+    const double off = fmax(fabs(scale2[0] - scale2[1]), fabs(scale2[0] - scale2[2]));
+    return fmax(off, across) <= 1e-6 * scale2[0];
+}
+
+ewa_status ewa_tree_set_look(ewa_lod *lod, const ewa_lod_look *given) {
+    static const ewa_lod_look as_it_is = {.to_world = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1},
+                                          .radius_scale = 1};
+    const ewa_lod_look *look = given ? given : &as_it_is;
+    if (looks_agree(look, &lod->look)) return EWA_OK;
+    for (uint32_t i = 0; i < lod->node_count; i++) ewa_tree_drop(lod, i);
+    if (strcmp(look->attributes, lod->look.attributes) != 0) trim_clouds(lod, 0);
+    lod->look = as_it_is;
+    lod->stretch = 1;
+    lod->is_similar = true;
+    if (look->user_bytes) EWA_TRY(ewa_buffer_reserve(lod->context, &lod->look_user, look->user_bytes, 1));
+    if (look->user_bytes) memcpy(lod->look_user.data, look->user, look->user_bytes);
+    lod->look = *look;
+    lod->look.user = lod->look_user.data;
+    lod->stretch = stretch_of(look->to_world);
+    lod->is_similar = is_similar(look->to_world);
+    return EWA_OK;
+}
+
 /// File nodes on the way from the root to a node, itself included.
 static uint32_t find_path(const ewa_lod *lod, const ewa_lod_node *node,
                           uint32_t file_nodes[EWA_OCTREE_LEVELS]) {
@@ -235,7 +287,9 @@ static ewa_status fetch_nodes(ewa_lod *lod, const uint32_t *file_nodes, uint32_t
         if (!known) missing[missing_count++] = file_nodes[i];
     }
     if (!missing_count) return EWA_OK;
-    EWA_TRY(ewa_octree_read(lod->octree, missing, missing_count, SURFEL_ATTRIBUTES, clouds));
+    char attributes[sizeof SURFEL_ATTRIBUTES + EWA_LOD_LOOK_NAMES_BYTES] = SURFEL_ATTRIBUTES;
+    strcat(attributes, lod->look.attributes);
+    EWA_TRY(ewa_octree_read(lod->octree, missing, missing_count, attributes, clouds));
     for (uint32_t i = 0; i < missing_count; i++) {
         lod->clouds[missing[i]] = clouds[i];
         lod->cloud_bytes += cloud_bytes(clouds[i]);
@@ -314,14 +368,25 @@ static ewa_status gather_points(ewa_lod *lod, const ewa_lod_node *node, const ui
     return status;
 }
 
+/// Changes a node's points as the look says, before what they lack is estimated, or afterwards.
+static ewa_status place(const ewa_lod *lod, ewa_cloud **cloud) {
+    return lod->look.place ? lod->look.place(lod->look.user, cloud) : EWA_OK;
+}
+
+static ewa_status paint(const ewa_lod *lod, ewa_cloud **cloud) {
+    return lod->look.paint ? lod->look.paint(lod->look.user, cloud) : EWA_OK;
+}
+
 /// Makes surfels of a node, of its cloud.
 static ewa_status keep(ewa_lod *lod, ewa_lod_node *node, const ewa_cloud *cloud, double radius_scale) {
     ewa_surfels_options options;
     ewa_surfels_options_init(&options, sizeof options);
-    options.radius_scale = radius_scale;
+    options.radius_scale = radius_scale * lod->look.radius_scale;
     EWA_TRY(ewa_surfels_create(cloud, &options, &node->surfels));
-    if (lod->levels.unit_coverage > 0)
-        ewa_surfels_set_unit_coverage(node->surfels, lod->levels.unit_coverage * radius_scale * radius_scale);
+    // What the file says of its surface no longer holds where it is pressed together.
+    if (lod->levels.unit_coverage > 0 && lod->is_similar)
+        ewa_surfels_set_unit_coverage(node->surfels, lod->levels.unit_coverage * options.radius_scale *
+                                                         options.radius_scale);
     ewa_surfels_info info;
     ewa_surfels_describe(node->surfels, &info);
     node->resident_bytes = info.resident_bytes;
@@ -337,6 +402,7 @@ static ewa_status load_points(ewa_lod *lod, ewa_lod_node *node) {
     ewa_estimate_options_init(&options, sizeof options);
     ewa_status status = fetch_nodes(lod, file_nodes, count);
     if (status == EWA_OK) status = gather_points(lod, node, file_nodes, count, &cloud);
+    if (status == EWA_OK) status = place(lod, &cloud);
     if (status == EWA_OK && !lod->has_surfels && ewa_cloud_point_count(cloud))
         status = ewa_cloud_estimate(&cloud, &options);
     if (status == EWA_OK && ewa_cloud_point_count(cloud) == 0 && !lod->has_surfels) {
@@ -344,6 +410,7 @@ static ewa_status load_points(ewa_lod *lod, ewa_lod_node *node) {
         status = ewa_cloud_add(cloud, EWA_NORMAL, EWA_F32, 3, NULL);
         if (status == EWA_OK) status = ewa_cloud_add(cloud, EWA_RADIUS, EWA_F32, 1, NULL);
     }
+    if (status == EWA_OK) status = paint(lod, &cloud);
     if (status == EWA_OK) status = keep(lod, node, cloud, 1);
     ewa_cloud_destroy(&cloud);
     return status;
@@ -408,6 +475,8 @@ static ewa_status load_pages(ewa_lod *lod, const uint32_t *nodes, uint32_t count
             status = ewa_fail(lod->context, EWA_ERROR_FORMAT,
                               "the surfels of node %d-%d-%d-%d are damaged: %s", node->key.level,
                               node->key.cell[0], node->key.cell[1], node->key.cell[2], pages[i].fault);
+        if (status == EWA_OK) status = place(lod, &pages[i].cloud);
+        if (status == EWA_OK) status = paint(lod, &pages[i].cloud);
         if (status == EWA_OK) status = keep(lod, node, pages[i].cloud, (double)entry->radius_scale);
         ewa_release(lod->context, pages[i].scratch, ewa_level_raw_bytes(entry->surfel_count), 1);
         ewa_cloud_destroy(&pages[i].cloud);

@@ -8,6 +8,7 @@
 #include "ewa/lod.h"
 #include "io/levels.h"
 #include "io/octree.h"
+#include "lod/look.h"
 
 #define EWA_NO_NODE UINT32_MAX
 
@@ -43,9 +44,17 @@ struct ewa_lod {
     ewa_cloud **clouds;     ///< [node]: its points, of those that are kept; else NULL
     uint64_t *cloud_frames; ///< [node]: when its points were wanted last
     size_t cloud_bytes;
+    ewa_lod_look look;    ///< of what is in memory
+    double stretch;       ///< that no length grows by more in `look`
+    bool is_similar;      ///< `look` keeps angles
+    ewa_buffer look_user; ///< the copy that it has
     ewa_buffer items;  ///< of the frame (draw.c)
     ewa_buffer wanted; ///< nodes to load
 };
+
+/// Sets how an octree looks, NULL: as it is, and drops what is in memory if it looked otherwise. Errors:
+/// EWA_ERROR_MEMORY; then nothing is in memory.
+ewa_status ewa_tree_set_look(ewa_lod *lod, const ewa_lod_look *look);
 
 /// Makes the nodes of an open octree. Errors: EWA_ERROR_MEMORY, EWA_ERROR_FORMAT.
 ewa_status ewa_tree_make(ewa_lod *lod);

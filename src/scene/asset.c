@@ -118,7 +118,8 @@ void ewa_asset_describe(const ewa_asset *asset, ewa_asset_info *info) {
                              .splats = asset->splats,
                              .voxels = asset->voxels,
                              .load_s = asset->load_s,
-                             .drawable = asset->drawable};
+                             .drawable = asset->drawable,
+                             .changeable = ewa_asset_is_changeable(asset)};
     memcpy(info->up_world, asset->up_world, sizeof info->up_world);
 }
 
@@ -142,15 +143,14 @@ static ewa_status open_octree(const ewa_asset_job *job, const char *path, ewa_lo
     *lod = NULL;
     if (options->levels == EWA_OCTREE_NEVER || strcmp(path, "-") == 0 || !ewa_lod_probe(context, path))
         return EWA_OK;
-    const bool columns = options->load && (options->load->columns || options->load->attributes);
-    const char *needs_all = options->filter ? "a filter" : columns ? "a choice of columns" : NULL;
-    const bool keep_going = options->load && options->load->keep_going;
-    if (options->levels == EWA_OCTREE_AUTO && (needs_all || keep_going)) return EWA_OK;
-    if (needs_all)
-        return ewa_fail(context, EWA_ERROR_ARGUMENT,
-                        "%s needs all points of the octree, its levels do without; leave one of both out, or "
-                        "`ewa convert` what is wanted to a file of its own",
-                        needs_all);
+    const bool columns = job->asset->of_columns, keep_going = options->load && options->load->keep_going;
+    if (options->levels == EWA_OCTREE_AUTO && (columns || keep_going || job->asset->filter.term_count))
+        return EWA_OK;
+    if (columns)
+        return ewa_fail(
+            context, EWA_ERROR_ARGUMENT,
+            "a choice of columns needs all points of the octree, its levels do without; leave one of both "
+            "out, or `ewa convert` what is wanted to a file of its own");
     if (options->own_context) EWA_TRY(ewa_context_create(&context->options, &job->asset->lod_context));
     EWA_TRY(ewa_lod_open(options->own_context ? job->asset->lod_context : context, path, lod));
     ewa_lod_info info;
@@ -287,18 +287,17 @@ ewa_status ewa_asset_load(ewa_context *context, const char *path, const ewa_asse
 /// Borrows a cloud's streams.
 static ewa_status borrow_cloud(const ewa_asset_job *job, const ewa_cloud *cloud) {
     ewa_cloud *view = NULL;
-    const bool moved = memcmp(job->options->to_world, IDENTITY, sizeof IDENTITY) != 0;
     // A map changes the streams.
-    EWA_TRY(moved ? ewa_cloud_merge(&cloud, 1, &view)
-                  : ewa_cloud_view(job->asset->context, cloud, 0, ewa_cloud_point_count(cloud), &view));
+    EWA_TRY(ewa_asset_is_moved(job->asset)
+                ? ewa_cloud_merge(&cloud, 1, &view)
+                : ewa_cloud_view(job->asset->context, cloud, 0, ewa_cloud_point_count(cloud), &view));
     return ewa_asset_take_cloud(job, view);
 }
 
-/// Splats, voxels, surfels and octrees are where they are.
+/// Splats, voxels and surfels are where they are.
 static ewa_status refuse_map(const ewa_asset_job *job) {
-    if (memcmp(job->options->to_world, IDENTITY, sizeof IDENTITY) == 0) return EWA_OK;
-    return ewa_fail(job->asset->context, EWA_ERROR_UNSUPPORTED,
-                    "to_world: what is resident, or stays in its file, cannot be moved");
+    if (!ewa_asset_is_moved(job->asset)) return EWA_OK;
+    return ewa_fail(job->asset->context, EWA_ERROR_UNSUPPORTED, "to_world: what is resident cannot be moved");
 }
 
 static ewa_status take_source(const ewa_asset_job *job, const ewa_asset_source *source) {
@@ -315,8 +314,8 @@ static ewa_status take_source(const ewa_asset_job *job, const ewa_asset_source *
         ewa_volume volume = *source->volume;
         return ewa_asset_take_volume(job, source->transfer, &volume);
     }
-    EWA_TRY(refuse_map(job));
     if (source->lod) return ewa_asset_take_octree(job, source->lod);
+    EWA_TRY(refuse_map(job));
     if (source->surfels) {
         ewa_surfels_info info;
         ewa_surfels_describe(source->surfels, &info);

@@ -32,7 +32,7 @@ ewa_status ewa_asset_take_volume(const ewa_asset_job *job, const ewa_transfer *g
 /// The named view that suits a volume.
 int ewa_asset_view_of_volume(const ewa_volume *volume);
 
-/// Reads what of an octree stands for the whole.
+/// Reads what of an octree stands for the whole, and has it look as the asset's options say.
 ewa_status ewa_asset_take_octree(const ewa_asset_job *job, ewa_lod *lod);
 
 /// Makes the outline of resident surfels: their places and radii.

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Assets of points: clouds, meshes that are sampled, Gaussians, octrees.
+// Assets of points: clouds, meshes that are sampled, Gaussians.
 #include "base/base.h"
 #include "ewa/diagnosis.h"
 #include "ewa/prepare.h"
@@ -16,46 +16,20 @@ static const uint64_t MESH_POINTS = 200000, MESH_POINTS_PER_TRIANGLE = 4;
 /// Smallest cutoff that axes of a mesh's points are made for.
 static const double MESH_CUTOFF = 1e-3;
 
-static bool has_axes(const ewa_cloud *cloud) {
-    return ewa_cloud_find(cloud, EWA_TANGENT_U) && ewa_cloud_find(cloud, EWA_TANGENT_V);
-}
-
-/// Whether a cloud has all that a surfel needs.
-static bool is_drawable(const ewa_cloud *cloud) {
-    return has_axes(cloud) || (ewa_cloud_find(cloud, EWA_NORMAL) && ewa_cloud_find(cloud, EWA_RADIUS));
-}
-
-/// Replaces a cloud by the points that a filter takes, at least one.
-static ewa_status filter_points(ewa_context *context, const ewa_filter *filter, ewa_cloud **cloud) {
-    const uint64_t count = ewa_cloud_point_count(*cloud);
-    if (!filter || !filter->term_count) return EWA_OK;
-    uint8_t *marks = ewa_allocate(context, count, 1);
-    if (!marks) return EWA_ERROR_MEMORY;
-    memset(marks, 1, count);
-    ewa_cloud *chosen = NULL;
-    ewa_status status = ewa_filter_mark(filter, *cloud, marks);
-    if (status == EWA_OK && memchr(marks, 0, count)) status = ewa_cloud_keep(*cloud, marks, &chosen);
-    ewa_release(context, marks, count, 1);
-    if (!chosen) return status;
-    ewa_report(context, EWA_SEVERITY_INFO, "%llu of %llu points are taken",
-               (unsigned long long)ewa_cloud_point_count(chosen), (unsigned long long)count);
-    ewa_cloud_destroy(cloud);
-    *cloud = chosen;
-    return EWA_OK;
-}
-
 ewa_status ewa_asset_take_cloud(const ewa_asset_job *job, ewa_cloud *cloud) {
     ewa_asset *asset = job->asset;
     asset->kind = EWA_ASSET_POINTS;
     asset->cloud = cloud;
     if (!ewa_cloud_find(cloud, EWA_POSITION))
         return ewa_fail(asset->context, EWA_ERROR_ARGUMENT, "the points have no positions");
-    EWA_TRY(filter_points(asset->context, job->options->filter, &asset->cloud));
-    static const double identity[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
-    if (memcmp(asset->to_world, identity, sizeof identity) != 0)
-        EWA_TRY(ewa_cloud_transform(asset->cloud, asset->to_world));
+    const uint64_t all = ewa_cloud_point_count(cloud);
+    EWA_TRY(ewa_cloud_filter(asset->context, &asset->filter, &asset->cloud));
+    if (ewa_cloud_point_count(asset->cloud) < all)
+        ewa_report(asset->context, EWA_SEVERITY_INFO, "%llu of %llu points are taken",
+                   (unsigned long long)ewa_cloud_point_count(asset->cloud), (unsigned long long)all);
+    if (ewa_asset_is_moved(asset)) EWA_TRY(ewa_cloud_transform(asset->cloud, asset->to_world));
     asset->count = ewa_cloud_point_count(asset->cloud);
-    asset->drawable = is_drawable(asset->cloud);
+    asset->drawable = ewa_cloud_is_drawable(asset->cloud);
     ewa_status status = EWA_OK;
     if (!asset->drawable) {
         status = ewa_cloud_refuse_gaussians(asset->cloud);
@@ -100,19 +74,17 @@ ewa_status ewa_asset_take_model(const ewa_asset_job *job, ewa_model *model) {
 
 ewa_status ewa_asset_take_gaussians(const ewa_asset_job *job, ewa_gaussians *set, const double up_world[3]) {
     ewa_asset *asset = job->asset;
-    static const double identity[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
-    const bool moved = memcmp(asset->to_world, identity, sizeof identity) != 0;
     memcpy(asset->up_world, up_world, sizeof asset->up_world);
     if (job->options->gaussians_as_surfels) {
         ewa_cloud *cloud = NULL;
         const ewa_status status = ewa_gaussians_to_cloud(set, &cloud);
         return status == EWA_OK ? ewa_asset_take_cloud(job, cloud) : status;
     }
-    if (job->options->filter && job->options->filter->term_count)
+    if (asset->filter.term_count)
         return ewa_fail(
             asset->context, EWA_ERROR_UNSUPPORTED,
             "a filter is for points; Gaussians have none of their attributes, but drawn as surfels");
-    ewa_status status = moved ? ewa_gaussians_transform(set, asset->to_world) : EWA_OK;
+    ewa_status status = ewa_asset_is_moved(asset) ? ewa_gaussians_transform(set, asset->to_world) : EWA_OK;
     if (status == EWA_OK) status = ewa_splats_create(set, &asset->splats);
     EWA_TRY(status);
     ewa_splats_info info;
@@ -122,33 +94,4 @@ ewa_status ewa_asset_take_gaussians(const ewa_asset_job *job, ewa_gaussians *set
     asset->bounds = info.core;
     asset->near_world = info.near_world;
     return ewa_gaussians_outline(set, &info.core, &asset->outline);
-}
-
-ewa_status ewa_asset_take_octree(const ewa_asset_job *job, ewa_lod *lod) {
-    ewa_asset *asset = job->asset;
-    ewa_lod_info info;
-    static const double identity[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
-    asset->kind = EWA_ASSET_OCTREE;
-    asset->lod = lod;
-    ewa_lod_describe(lod, &info);
-    asset->count = info.point_count;
-    asset->bounds = info.bounds;
-    asset->bounds.finite_count = info.point_count;
-    if (memcmp(asset->to_world, identity, sizeof identity) != 0)
-        return ewa_fail(asset->context, EWA_ERROR_UNSUPPORTED,
-                        "to_world: an octree that is drawn from its levels stays where it is; read whole "
-                        "(levels: never), or by `ewa convert`, it can be moved");
-    if (!info.merged)
-        ewa_report(
-            asset->context, EWA_SEVERITY_NOTE,
-            "its levels have points only, none that stand for others: what is far away is drawn by few of "
-            "them; `ewa lod %s -o FILE.copc.laz` makes better levels",
-            asset->name);
-    EWA_TRY(ewa_lod_sample(lod, EWA_OCTREE_SAMPLE_POINTS, &asset->outline));
-    if (ewa_cloud_point_count(asset->outline) == 0)
-        return ewa_fail(asset->context, EWA_ERROR_FORMAT, "the file has no points");
-    if (is_drawable(asset->outline)) return EWA_OK;
-    ewa_estimate_options options;
-    ewa_estimate_options_init(&options, sizeof options);
-    return ewa_cloud_estimate(&asset->outline, &options);
 }

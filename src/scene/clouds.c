@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Clouds that become one: views of their streams, and the same kinds of streams in all of them.
+// Clouds that become one: views of their streams, some of their points, and the same kinds of streams in all of them.
 #include "base/base.h"
 #include "cloud/cloud.h"
 #include "scene/parts.h"
@@ -14,6 +14,26 @@ static const uint8_t GREY_SRGB = 203;
 
 static bool has_axes(const ewa_cloud *cloud) {
     return ewa_cloud_find(cloud, EWA_TANGENT_U) && ewa_cloud_find(cloud, EWA_TANGENT_V);
+}
+
+bool ewa_cloud_is_drawable(const ewa_cloud *cloud) {
+    return has_axes(cloud) || (ewa_cloud_find(cloud, EWA_NORMAL) && ewa_cloud_find(cloud, EWA_RADIUS));
+}
+
+ewa_status ewa_cloud_filter(ewa_context *context, const ewa_filter *filter, ewa_cloud **cloud) {
+    const uint64_t count = ewa_cloud_point_count(*cloud);
+    if (!filter->term_count) return EWA_OK;
+    uint8_t *marks = ewa_allocate(context, count, 1);
+    if (!marks) return EWA_ERROR_MEMORY;
+    memset(marks, 1, count);
+    ewa_cloud *chosen = NULL;
+    ewa_status status = ewa_filter_mark(filter, *cloud, marks);
+    if (status == EWA_OK && memchr(marks, 0, count)) status = ewa_cloud_keep(*cloud, marks, &chosen);
+    ewa_release(context, marks, count, 1);
+    if (!chosen) return status;
+    ewa_cloud_destroy(cloud);
+    *cloud = chosen;
+    return EWA_OK;
 }
 
 ewa_status ewa_cloud_view(ewa_context *context, const ewa_cloud *cloud, uint64_t first, uint64_t count,

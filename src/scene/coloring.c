@@ -229,20 +229,25 @@ static ewa_status choose_scale(const numbers *from, const ewa_coloring *coloring
 }
 
 /// The colour of a number; false, and grey, when it has none.
-static bool find_color(const ewa_legend *legend, double number, uint8_t srgb[3]) {
-    const double extent = legend->range[1] - legend->range[0];
-    const bool has = legend->categories ? is_class(number) : isfinite(number);
+static bool find_color(const ewa_color_scale *scale, double number, uint8_t srgb[3]) {
+    const double extent = scale->range[1] - scale->range[0];
+    const bool has = scale->classes ? is_class(number) : isfinite(number);
     if (!has)
         memset(srgb, GREY_SRGB, 3);
-    else if (legend->categories)
+    else if (scale->classes)
         ewa_class_color((uint32_t)number, srgb);
     else
-        ewa_colormap_color(legend->colormap, extent != 0 ? (number - legend->range[0]) / extent : 0.5, srgb);
+        ewa_colormap_color(scale->colormap, extent != 0 ? (number - scale->range[0]) / extent : 0.5, srgb);
     return has;
 }
 
-/// Colours one cloud by its numbers.
-static ewa_status color_cloud(const ewa_scalar *scalar, ewa_legend *legend, ewa_cloud *cloud) {
+ewa_color_scale ewa_color_scale_of(const ewa_legend *legend) {
+    return (ewa_color_scale){
+        legend->colormap, legend->categories != NULL, {legend->range[0], legend->range[1]}};
+}
+
+ewa_status ewa_cloud_color_by(ewa_cloud *cloud, const ewa_scalar *scalar, const ewa_color_scale *scale,
+                              uint64_t *grey_count) {
     // Under a name of its own first: the colours themselves may be what is read.
     static const char made[] = "ewa_color_by";
     const uint64_t count = ewa_cloud_point_count(cloud);
@@ -254,7 +259,7 @@ static ewa_status color_cloud(const ewa_scalar *scalar, ewa_legend *legend, ewa_
         const uint64_t in_block = count - first < BLOCK ? count - first : BLOCK;
         ewa_scalar_read(scalar, first, in_block, block);
         for (uint64_t i = 0; i < in_block; i++)
-            legend->grey_count += !find_color(legend, block[i], colors[first + i]);
+            *grey_count += !find_color(scale, block[i], colors[first + i]);
     }
     if (status == EWA_OK) status = ewa_cloud_add(cloud, EWA_COLOR, EWA_U8, 3, &data);
     if (status == EWA_OK) memcpy(data, colors, 3 * count);
@@ -262,8 +267,7 @@ static ewa_status color_cloud(const ewa_scalar *scalar, ewa_legend *legend, ewa_
     return status;
 }
 
-/// Gives all points of a cloud one colour.
-static ewa_status tint_cloud(const double srgb[3], ewa_cloud *cloud) {
+ewa_status ewa_cloud_tint(ewa_cloud *cloud, const double srgb[3]) {
     void *data = NULL;
     const ewa_status status = ewa_cloud_add(cloud, EWA_COLOR, EWA_U8, 3, &data);
     uint8_t *colors = data;
@@ -279,9 +283,10 @@ static ewa_status color_by(const numbers *from, const ewa_coloring *coloring, ew
         EWA_TRY(ewa_cloud_find_scalar(from->clouds[k], coloring->attribute, &from->scalars[k]));
     legend->length = strcmp(from->scalars[0].attribute.name, EWA_POSITION) == 0;
     EWA_TRY(choose_scale(from, coloring, legend));
+    const ewa_color_scale scale = ewa_color_scale_of(legend);
     uint64_t count = 0;
     for (uint32_t k = 0; k < from->count; k++) {
-        EWA_TRY(color_cloud(&from->scalars[k], legend, from->clouds[k]));
+        EWA_TRY(ewa_cloud_color_by(from->clouds[k], &from->scalars[k], &scale, &legend->grey_count));
         count += ewa_cloud_point_count(from->clouds[k]);
     }
     if (legend->grey_count)
@@ -390,7 +395,8 @@ ewa_status ewa_clouds_color(ewa_cloud *const *clouds, uint32_t count, const ewa_
         bool colored = !is_rgb(coloring.attribute);
         for (uint32_t k = 0; k < count; k++) colored = colored || ewa_cloud_find(clouds[k], EWA_COLOR);
         if (!colored) return ewa_fail(context, EWA_ERROR_ARGUMENT, "colours: there are none");
-        for (uint32_t k = 0; k < count && coloring.tinted; k++) EWA_TRY(tint_cloud(coloring.tint, clouds[k]));
+        for (uint32_t k = 0; k < count && coloring.tinted; k++)
+            EWA_TRY(ewa_cloud_tint(clouds[k], coloring.tint));
         return EWA_OK;
     }
     numbers from = {context, clouds, ewa_allocate_zeroed(context, count, sizeof *from.scalars), count};

@@ -5,6 +5,7 @@
 #include "scene/draw.h"
 #include "base/base.h"
 #include "base/options.h"
+#include "scene/octree.h"
 #include "surface/eye_dome.h"
 
 #include <math.h>
@@ -48,13 +49,34 @@ void ewa_scene_renderer_destroy(ewa_scene_renderer **given) {
     ewa_buffer_free(context, &renderer->surfels);
     ewa_buffer_free(context, &renderer->lods);
     ewa_buffer_free(context, &renderer->splats);
+    ewa_buffer_free(context, &renderer->looks);
+    ewa_buffer_free(context, &renderer->look_list);
     ewa_release(context, renderer, 1, sizeof *renderer);
 }
 
 ewa_renderer *ewa_scene_renderer_surfaces(ewa_scene_renderer *renderer) { return renderer->surfaces; }
 
+/// Says how the visible octrees are drawn, which are listed.
+static ewa_status look_at_octrees(const ewa_scene *scene, const ewa_lod_options *options,
+                                  ewa_scene_renderer *renderer, ewa_scene_shown *shown) {
+    EWA_TRY(ewa_buffer_reserve(renderer->context, &renderer->looks, shown->lod_count + (size_t)1,
+                               sizeof(ewa_octree_look)));
+    EWA_TRY(ewa_buffer_reserve(renderer->context, &renderer->look_list, shown->lod_count + (size_t)1,
+                               sizeof *shown->looks));
+    ewa_octree_look *looks = renderer->looks.data;
+    shown->looks = renderer->look_list.data;
+    for (uint32_t i = 0, k = 0; i < scene->count; i++) {
+        if (!scene->items[i].instance.visible || !scene->items[i].asset->lod) continue;
+        EWA_TRY(ewa_scene_look_at_octree(scene, i, options, &looks[k]));
+        shown->looks[k] = &looks[k].look;
+        k++;
+    }
+    return EWA_OK;
+}
+
 /// Lists what is visible.
-static ewa_status list_shown(const ewa_scene *scene, ewa_scene_renderer *renderer, ewa_scene_shown *shown) {
+static ewa_status list_shown(const ewa_scene *scene, const ewa_lod_options *options,
+                             ewa_scene_renderer *renderer, ewa_scene_shown *shown) {
     ewa_context *context = renderer->context;
     *shown = (ewa_scene_shown){.near_world = INFINITY};
     const size_t room = scene->count + (size_t)1;
@@ -85,7 +107,7 @@ static ewa_status list_shown(const ewa_scene *scene, ewa_scene_renderer *rendere
                             EWA_MAX_MIXED_VOLUMES);
         shown->volumes[shown->volume_count++] = asset;
     }
-    return EWA_OK;
+    return look_at_octrees(scene, options, renderer, shown);
 }
 
 /// Towards the light of surfaces without colours, in camera space: from above left, not so far from the eye that half
@@ -118,8 +140,8 @@ static ewa_status draw_surfaces(ewa_scene_renderer *renderer, const ewa_scene_sh
     light_bare(shown, camera, &lit);
     const ewa_lod_scene together = {shown->lods, shown->lod_count, shown->surfels_count,
                                     (const ewa_surfels *const *)shown->surfels};
-    const ewa_status status =
-        ewa_lod_scene_render(&together, renderer->surfaces, camera, &lit, &lod, frame, &stats->lod);
+    const ewa_status status = ewa_lod_scene_draw(&together, shown->looks, renderer->surfaces, camera, &lit,
+                                                 &lod, frame, &stats->lod);
     stats->render = stats->lod.render;
     return status;
 }
@@ -264,7 +286,7 @@ static ewa_status draw(ewa_scene *scene, ewa_scene_renderer *renderer, const ewa
     ewa_scene_shown shown;
     ewa_scene_options dotted;
     const ewa_scene_options *options = given;
-    EWA_TRY(list_shown(scene, renderer, &shown));
+    EWA_TRY(list_shown(scene, &given->lod, renderer, &shown));
     if (given->render.point_size_px == 0 && scene->surface && scene->surface->sparse && shown.surfels_count == 1 &&
         !shown.lod_count) {
         dotted = *given;
@@ -289,7 +311,7 @@ ewa_status ewa_scene_draw(ewa_scene *scene, ewa_scene_renderer *renderer, const 
                           const ewa_scene_options *options, const ewa_frame *frame, ewa_scene_stats *stats) {
     if (!scene || !renderer || !camera || !frame) return EWA_ERROR_ARGUMENT;
     const double started_s = ewa_now_s();
-    ewa_status status = ewa_scene_commit(scene);
+    ewa_status status = ewa_scene_make_resident(scene);
     ewa_scene_stats took = {.total_s = 0};
     if (status == EWA_OK)
         status = draw(scene, renderer, camera, options ? options : &scene->options, frame, &took);

@@ -6,6 +6,7 @@
 #define EWA_SRC_SCENE_DRAW_H
 
 #include "base/base.h"
+#include "lod/look.h"
 #include "scene/parts.h"
 
 struct ewa_scene_renderer {
@@ -17,12 +18,14 @@ struct ewa_scene_renderer {
     ewa_image rgba, depth, normal, coverage; ///< of surfaces among others, of the size of the last frame
     ewa_image lit_rgba, lit_depth;           ///< of everything, before eye-dome lighting
     ewa_buffer surfels, lods, splats;        ///< lists of what is visible
+    ewa_buffer looks, look_list; ///< of the octrees: one ewa_octree_look each, and a pointer to its look
 };
 
 /// What of a scene is visible; the lists are the renderer's.
 typedef struct ewa_scene_shown {
     const ewa_surfels **surfels;
     ewa_lod **lods;
+    const ewa_lod_look **looks; ///< of the octrees
     const ewa_splats **splats;
     const ewa_asset *volumes[EWA_MAX_MIXED_VOLUMES];
     uint32_t surfels_count, lod_count, splats_count, volume_count;

@@ -128,8 +128,8 @@ ewa_status ewa_scene_outline(ewa_scene *scene, ewa_cloud **outline, bool *made) 
         return EWA_OK;
     }
     // The framing reads radii and axes by itself, and as they are drawn where nothing scales them.
-    const bool points = only && ewa_asset_is_points(only->asset);
-    if (only && !resident && (!points || (scale == 1 && only->instance.radius_scale == 1))) {
+    const bool scaled = only && ewa_asset_is_changeable(only->asset);
+    if (only && !resident && (!scaled || (scale == 1 && only->instance.radius_scale == 1))) {
         ewa_cloud *places = places_of(only);
         *made = ewa_cloud_context(places) != scene->context; // which is the one of this thread
         *outline = places;
@@ -149,9 +149,10 @@ ewa_status ewa_scene_outline(ewa_scene *scene, ewa_cloud **outline, bool *made) 
     for (uint32_t i = 0; i < scene->count && status == EWA_OK; i++) {
         const ewa_scene_item *item = &scene->items[i];
         const ewa_cloud *places = item->instance.visible && item->asset->count ? places_of(item) : NULL;
-        const bool surface = ewa_asset_is_points(item->asset);
         if (places)
-            add_cloud(places, cutoff, surface ? scale * item->instance.radius_scale : 1, &position, &radius);
+            add_cloud(places, cutoff,
+                      ewa_asset_is_changeable(item->asset) ? scale * item->instance.radius_scale : 1,
+                      &position, &radius);
     }
     if (status == EWA_OK && resident) add_cloud(resident, cutoff, 1, &position, &radius);
     ewa_cloud_destroy(&resident);

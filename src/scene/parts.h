@@ -88,8 +88,8 @@ typedef struct ewa_surface_key {
 typedef struct ewa_surface {
     ewa_context *context;
     atomic_uint_fast32_t references;
-    uint32_t count;
-    ewa_surface_key *keys; ///< what it was made of
+    uint32_t count, cloud_count; ///< of keys; of those that are of clouds and meshes, the first
+    ewa_surface_key *keys;       ///< what it was made of
     ewa_surfels_options options;
     bool close_gaps;
     bool colored;   ///< some of it has colours
@@ -119,6 +119,18 @@ static inline bool ewa_asset_is_points(const ewa_asset *asset) {
     return asset->kind == EWA_ASSET_POINTS || asset->kind == EWA_ASSET_MESH;
 }
 
+/// Whether more of an instance counts than whether it is visible.
+static inline bool ewa_asset_is_changeable(const ewa_asset *asset) {
+    return ewa_asset_is_points(asset) || asset->kind == EWA_ASSET_OCTREE;
+}
+
+/// Whether coordinates lie elsewhere in the scene than in the asset's file.
+static inline bool ewa_asset_is_moved(const ewa_asset *asset) {
+    bool moved = false;
+    for (int i = 0; i < 16; i++) moved = moved || asset->to_world[i] != (i % 5 == 0);
+    return moved;
+}
+
 /// Whether a map is affine and can be turned back.
 bool ewa_asset_map_is_good(const double to_world[16]);
 
@@ -130,6 +142,12 @@ ewa_status ewa_asset_take_options(ewa_context *context, const ewa_asset_options 
 ewa_status ewa_cloud_view(ewa_context *context, const ewa_cloud *cloud, uint64_t first, uint64_t count,
                           ewa_cloud **view);
 
+/// Whether a cloud has all that a surfel needs.
+bool ewa_cloud_is_drawable(const ewa_cloud *cloud);
+
+/// Replaces a cloud by one of the points that a filter takes.
+ewa_status ewa_cloud_filter(ewa_context *context, const ewa_filter *filter, ewa_cloud **cloud);
+
 /// Gives clouds that become one the same kinds of colours, axes and materials, and leaves nothing that is not drawn.
 /// Discs become axes for kernels that end at `cutoff`.
 ewa_status ewa_clouds_make_alike(ewa_cloud *const *clouds, uint32_t count, double cutoff);
@@ -140,6 +158,9 @@ ewa_status ewa_cloud_colors_to_linear(ewa_cloud *cloud);
 /// Gives the items of points what they lack (complete.c).
 ewa_status ewa_scene_complete_items(ewa_scene *scene);
 void ewa_completed_release(ewa_completed **completed);
+
+/// Does what ewa_scene_commit() does, but for looking whether octrees can be drawn with the scene's own options.
+ewa_status ewa_scene_make_resident(ewa_scene *scene);
 
 /// Makes the surfels of all visible items of points (surface.c).
 ewa_status ewa_surface_make(ewa_scene *scene, ewa_surface **surface);
@@ -159,5 +180,24 @@ ewa_status ewa_colorings_choose(ewa_cloud **clouds, uint32_t count, ewa_coloring
 
 /// Whether two colourings give the same colours.
 bool ewa_colorings_agree(const ewa_coloring *a, const ewa_coloring *b);
+
+/// Which colours numbers have.
+typedef struct ewa_color_scale {
+    ewa_colormap colormap;
+    bool classes;    ///< whole numbers, by ewa_class_color()
+    double range[2]; ///< of the first and the last colour, where there are no classes
+} ewa_color_scale;
+
+ewa_color_scale ewa_color_scale_of(const ewa_legend *legend);
+
+/// Replaces a cloud's colours by those of its numbers, and counts those that have none and are grey.
+ewa_status ewa_cloud_color_by(ewa_cloud *cloud, const ewa_scalar *scalar, const ewa_color_scale *scale,
+                              uint64_t *grey_count);
+
+/// Gives all points of a cloud one colour.
+ewa_status ewa_cloud_tint(ewa_cloud *cloud, const double srgb[3]);
+
+/// Multiplies the alpha of a cloud's colours, and sets the material of its points unless it is EWA_MATERIAL_OWN.
+ewa_status ewa_cloud_show(ewa_cloud *cloud, double opacity, uint32_t material);
 
 #endif

@@ -5,7 +5,7 @@
 #include "base/base.h"
 #include "cloud/cloud.h"
 #include "homogeneous/camera.h"
-#include "scene/parts.h"
+#include "scene/octree.h"
 
 #include <math.h>
 #include <string.h>
@@ -83,13 +83,10 @@ static bool find_in_cloud(search *s, const ewa_cloud *cloud, ewa_scene_hit *hit)
 }
 
 /// Looks among the points of an octree about the place; those that were read become the hit's, the nearest first.
-static ewa_status find_in_octree(search *s, ewa_lod *lod, double reach_world, ewa_scene_hit *hit,
+static ewa_status find_in_octree(search *s, const ewa_asset *asset, double reach_world, ewa_scene_hit *hit,
                                  bool *found) {
-    double low[3], high[3];
     ewa_cloud *cloud = NULL;
-    for (int c = 0; c < 3; c++)
-        low[c] = s->place_world[c] - reach_world, high[c] = s->place_world[c] + reach_world;
-    ewa_status status = ewa_lod_read(lod, low, high, 0, &cloud);
+    ewa_status status = ewa_asset_read_octree(asset, s->place_world, reach_world, &cloud);
     *found = status == EWA_OK && find_in_cloud(s, cloud, hit);
     if (*found) {
         ewa_cloud *nearest = NULL;
@@ -115,7 +112,7 @@ static ewa_status find_point(const ewa_scene *scene, const ewa_render_options *r
             found = find_in_cloud(&s, asset->cloud, hit);
             if (found) ewa_cloud_destroy(&hit->points);
         } else if (asset->lod) {
-            status = find_in_octree(&s, asset->lod, reach_world, hit, &found);
+            status = find_in_octree(&s, asset, reach_world, hit, &found);
         }
         if (!found) continue;
         hit->has_point = true;

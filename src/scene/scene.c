@@ -5,7 +5,7 @@
 #include "base/base.h"
 #include "base/options.h"
 #include "homogeneous/camera.h"
-#include "scene/parts.h"
+#include "scene/octree.h"
 
 #include <math.h>
 #include <string.h>
@@ -173,14 +173,15 @@ static ewa_status take_instance(const ewa_scene *scene, const ewa_asset *asset, 
     const bool plain = taken->opacity == 1 && taken->radius_scale == 1 &&
                        taken->material == EWA_MATERIAL_OWN &&
                        ewa_coloring_is_own(taken->coloring.attribute) && !taken->coloring.tinted;
-    if (plain || ewa_asset_is_points(asset)) return EWA_OK;
-    static const char *const kinds[] = {
-        "points", "a mesh", "resident surfels", "an octree", "trained Gaussians", "a volume"};
+    if (plain || ewa_asset_is_changeable(asset)) return EWA_OK;
+    const char *kind = asset->kind == EWA_ASSET_SURFELS     ? "resident surfels"
+                       : asset->kind == EWA_ASSET_GAUSSIANS ? "trained Gaussians"
+                                                            : "a volume";
     return ewa_fail(
         context, EWA_ERROR_UNSUPPORTED,
         "%s: opacity, radius scale, material and colouring are of points; this is %s, with colours of "
         "its own",
-        asset->name, kinds[asset->kind]);
+        asset->name, kind);
 }
 
 ewa_status ewa_scene_add(ewa_scene *scene, ewa_asset *asset, const ewa_instance *instance) {
@@ -276,8 +277,7 @@ static void drop_points(ewa_scene *scene) {
     scene->points_gone = true;
 }
 
-ewa_status ewa_scene_commit(ewa_scene *scene) {
-    if (!scene) return EWA_ERROR_ARGUMENT;
+ewa_status ewa_scene_make_resident(ewa_scene *scene) {
     if (scene->committed) return EWA_OK;
     EWA_TRY(ewa_scene_complete(scene));
     if (!scene->points_gone && !ewa_surface_is_of(scene->surface, scene)) {
@@ -288,6 +288,17 @@ ewa_status ewa_scene_commit(ewa_scene *scene) {
     }
     if (!scene->options.keep_points && !scene->points_gone) drop_points(scene);
     scene->committed = true;
+    return EWA_OK;
+}
+
+ewa_status ewa_scene_commit(ewa_scene *scene) {
+    if (!scene) return EWA_ERROR_ARGUMENT;
+    EWA_TRY(ewa_scene_make_resident(scene));
+    for (uint32_t i = 0; i < scene->count; i++) {
+        ewa_octree_look look;
+        if (scene->items[i].instance.visible && scene->items[i].asset->lod)
+            EWA_TRY(ewa_scene_look_at_octree(scene, i, &scene->options.lod, &look));
+    }
     return EWA_OK;
 }
 
@@ -331,16 +342,4 @@ void ewa_scene_bounds(const ewa_scene *scene, ewa_bounds *bounds) {
             bounds->high_world[c] = fmax(bounds->high_world[c], own->high_world[c]);
         }
     }
-}
-
-const ewa_legend *ewa_scene_legend(const ewa_scene *scene, uint32_t index) {
-    const ewa_surface *surface = scene->surface;
-    if (index >= scene->count || !scene->committed || !surface) return NULL;
-    for (uint32_t i = 0; i < surface->count; i++) {
-        if (surface->keys[i].asset != scene->items[index].asset || surface->legend_of[i] == UINT32_MAX)
-            continue;
-        const ewa_legend *legend = &surface->legends[surface->legend_of[i]];
-        return legend->context ? legend : NULL;
-    }
-    return NULL;
 }

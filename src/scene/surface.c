@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: MIT
 //
 // The one surface of a scene: the surfels of all visible clouds and meshes, made of them as if they were one file, so
-// that what is added and what was merged before are the same bytes.
+// that what is added and what was merged before are the same bytes. Octrees that are coloured by numbers take part in
+// the scale of these colours, by the points that stand for them; they are drawn from their nodes (octree.c).
 #include "base/base.h"
 #include "cloud/cloud.h"
 #include "ewa/diagnosis.h"
@@ -33,14 +34,18 @@ void ewa_surface_release(ewa_surface **given) {
     ewa_release(context, surface, 1, sizeof *surface);
 }
 
-/// Whether an item's points are part of the surface.
+/// Whether an item's points are part of the surface, or of its colours.
 static bool is_shown(const ewa_scene_item *item) {
-    return item->instance.visible && ewa_asset_is_points(item->asset) && item->asset->count;
+    const bool colored =
+        item->asset->kind == EWA_ASSET_OCTREE && !ewa_coloring_is_own(item->instance.coloring.attribute);
+    return item->instance.visible && (ewa_asset_is_points(item->asset) || colored) && item->asset->count;
 }
 
-/// An order of the clouds that does not depend on that of the instances: by their places.
+/// An order of the clouds that does not depend on that of the instances: by their places, octrees last.
 static int compare_keys(const void *a, const void *b) {
     const ewa_surface_key *p = a, *q = b;
+    const bool whole[] = {ewa_asset_is_points(p->asset), ewa_asset_is_points(q->asset)};
+    if (whole[0] != whole[1]) return whole[0] ? -1 : 1;
     const ewa_bounds *m = &p->asset->bounds, *n = &q->asset->bounds;
     for (int c = 0; c < 3; c++) {
         if (m->low_world[c] != n->low_world[c]) return m->low_world[c] < n->low_world[c] ? -1 : 1;
@@ -59,9 +64,10 @@ static ewa_surface_key key_of(const ewa_scene_item *item) {
 /// Whether two keys give the same surfels.
 static bool keys_agree(const ewa_surface_key *a, const ewa_surface_key *b) {
     const ewa_instance *m = &a->instance, *n = &b->instance;
-    return a->asset == b->asset && a->completed == b->completed && m->opacity == n->opacity &&
-           m->radius_scale == n->radius_scale && m->material == n->material &&
-           ewa_colorings_agree(&m->coloring, &n->coloring);
+    const bool alike =
+        m->opacity == n->opacity && m->radius_scale == n->radius_scale && m->material == n->material;
+    return a->asset == b->asset && a->completed == b->completed &&
+           (alike || !ewa_asset_is_points(a->asset)) && ewa_colorings_agree(&m->coloring, &n->coloring);
 }
 
 /// Lists what is shown, in the order in which it is merged; `*count` keys of `scene->count` that there is room for.
@@ -119,26 +125,30 @@ static ewa_status scale_stream(ewa_cloud *cloud, const char *name, uint32_t comp
     return status;
 }
 
+ewa_status ewa_cloud_show(ewa_cloud *cloud, double opacity, uint32_t material) {
+    const uint64_t count = ewa_cloud_point_count(cloud);
+    ewa_status status = EWA_OK;
+    if (opacity < 1) {
+        status = ewa_cloud_colors_to_linear(cloud);
+        float *colors = status == EWA_OK ? ewa_cloud_find(cloud, EWA_COLOR)->data : NULL;
+        for (uint64_t i = 0; colors && i < count; i++) colors[4 * i + 3] *= (float)opacity;
+    }
+    if (status == EWA_OK && material != EWA_MATERIAL_OWN) {
+        void *data = NULL;
+        status = ewa_cloud_add(cloud, EWA_MATERIAL, EWA_U8, 1, &data);
+        if (status == EWA_OK) memset(data, (int)material, count);
+    }
+    return status;
+}
+
 /// Changes radii, alpha and material as an instance says.
 static ewa_status apply_instance(const ewa_instance *instance, ewa_cloud *cloud) {
-    const uint64_t count = ewa_cloud_point_count(cloud);
     if (instance->radius_scale != 1) {
         EWA_TRY(scale_stream(cloud, EWA_RADIUS, 1, instance->radius_scale));
         EWA_TRY(scale_stream(cloud, EWA_TANGENT_U, 3, instance->radius_scale));
         EWA_TRY(scale_stream(cloud, EWA_TANGENT_V, 3, instance->radius_scale));
     }
-    ewa_status status = EWA_OK;
-    if (instance->opacity < 1) {
-        status = ewa_cloud_colors_to_linear(cloud);
-        float *colors = status == EWA_OK ? ewa_cloud_find(cloud, EWA_COLOR)->data : NULL;
-        for (uint64_t i = 0; colors && i < count; i++) colors[4 * i + 3] *= (float)instance->opacity;
-    }
-    if (status == EWA_OK && instance->material != EWA_MATERIAL_OWN) {
-        void *data = NULL;
-        status = ewa_cloud_add(cloud, EWA_MATERIAL, EWA_U8, 1, &data);
-        if (status == EWA_OK) memset(data, (int)instance->material, count);
-    }
-    return status;
+    return ewa_cloud_show(cloud, instance->opacity, instance->material);
 }
 
 /// Decides by what the points are coloured.
@@ -227,25 +237,28 @@ static ewa_status fill(ewa_scene *scene, ewa_surface *surface, const shown_cloud
     ewa_context *context = surface->context;
     for (uint32_t i = 0; i < surface->count; i++) {
         const ewa_surface_key *key = &surface->keys[i];
-        const ewa_cloud *cloud = key->completed ? key->completed->clouds[key->member] : key->asset->cloud;
+        const ewa_cloud *cloud = key->completed                    ? key->completed->clouds[key->member]
+                                 : ewa_asset_is_points(key->asset) ? key->asset->cloud
+                                                                   : key->asset->outline;
         EWA_TRY(ewa_cloud_view(context, cloud, 0, ewa_cloud_point_count(cloud), &shown->clouds[i]));
     }
     EWA_TRY(apply_colorings(surface, shown));
-    for (uint32_t i = 0; i < surface->count; i++)
+    const uint32_t count = surface->cloud_count;
+    for (uint32_t i = 0; i < count; i++)
         surface->colored = surface->colored || ewa_cloud_find(shown->clouds[i], EWA_COLOR);
-    for (uint32_t i = 0; i < surface->count; i++)
+    for (uint32_t i = 0; i < count; i++)
         EWA_TRY(apply_instance(&surface->keys[i].instance, shown->clouds[i]));
     ewa_status status = EWA_OK;
-    if (surface->count == 1) {
+    if (!count) return EWA_OK;
+    if (count == 1) {
         const char *before = ewa_context_about(context, surface->keys[0].asset->name);
         status = make_resident(surface, &shown->clouds[0]);
         ewa_context_about(context, before);
         return status;
     }
     ewa_cloud *merged = NULL;
-    status = ewa_clouds_make_alike(shown->clouds, surface->count, scene->options.surfels.cutoff);
-    if (status == EWA_OK)
-        status = ewa_cloud_merge((const ewa_cloud *const *)shown->clouds, surface->count, &merged);
+    status = ewa_clouds_make_alike(shown->clouds, count, scene->options.surfels.cutoff);
+    if (status == EWA_OK) status = ewa_cloud_merge((const ewa_cloud *const *)shown->clouds, count, &merged);
     if (status == EWA_OK) status = make_resident(surface, &merged);
     ewa_cloud_destroy(&merged);
     return status;
@@ -264,8 +277,10 @@ ewa_status ewa_surface_make(ewa_scene *scene, ewa_surface **made) {
     ewa_status status = list_keys(scene, &surface->keys, &surface->count);
     const uint32_t count = surface->count;
     shown_clouds shown = {.clouds = NULL};
-    surface->sparse = count > 0 && surface->options.radius_scale == 1;
-    for (uint32_t i = 0; i < count && status == EWA_OK; i++) {
+    for (uint32_t i = 0; i < count && status == EWA_OK; i++)
+        surface->cloud_count += ewa_asset_is_points(surface->keys[i].asset);
+    surface->sparse = surface->cloud_count > 0 && surface->options.radius_scale == 1;
+    for (uint32_t i = 0; i < surface->cloud_count; i++) {
         const ewa_completed *completed = surface->keys[i].completed;
         surface->sparse = surface->sparse && completed && completed->sparse && surface->keys[i].instance.radius_scale == 1;
     }
@@ -294,4 +309,16 @@ ewa_status ewa_surface_make(ewa_scene *scene, ewa_surface **made) {
     else
         ewa_surface_release(&surface);
     return status;
+}
+
+const ewa_legend *ewa_scene_legend(const ewa_scene *scene, uint32_t index) {
+    const ewa_surface *surface = scene->surface;
+    if (index >= scene->count || !scene->committed || !surface) return NULL;
+    for (uint32_t i = 0; i < surface->count; i++) {
+        if (surface->keys[i].asset != scene->items[index].asset || surface->legend_of[i] == UINT32_MAX)
+            continue;
+        const ewa_legend *legend = &surface->legends[surface->legend_of[i]];
+        return legend->context ? legend : NULL;
+    }
+    return NULL;
 }

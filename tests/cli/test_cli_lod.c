@@ -118,12 +118,15 @@ static void test_render(void **state) {
 }
 
 static void test_refusals(void **state) {
-    run_fails(1, "a filter needs all points",
-              "ewa render t.copc.laz -o x.png --levels always --filter 'z>0'");
-    run_fails(1, "--color-by needs all points",
-              "ewa render t.copc.laz -o x.png --levels always --color-by z");
-    run_fails(1, "--radius-scale needs all points",
-              "ewa render t.copc.laz -o x.png --levels always --radius-scale 2");
+    run_fails(1, "represents points at its levels has no intensity",
+              "ewa render t.copc.laz -o x.png --levels always --filter 'intensity>0'");
+    run_fails(1, "represents points at its levels has no classification",
+              "ewa render t.copc.laz -o x.png --levels always --color-by classification");
+    run_fails(1, "there is no attribute 'warmth'",
+              "ewa render t.copc.laz -o x.png --levels always --color-by warmth");
+    run_fails(1, "there is no attribute 'warmth'",
+              "ewa render t.copc.laz -o x.png --levels always --filter 'warmth>0'");
+    run_fails(1, "--cutoff needs all points", "ewa render t.copc.laz -o x.png --levels always --cutoff 2");
     run_fails(2, "--lod-spacing: 0 is outside (0, 64]", "ewa render t.copc.laz -o x.png --lod-spacing 0");
     assert_int_equal(scratch_size("x.png"), -1);
 }

@@ -433,11 +433,17 @@ static void octrees_get_finer(void **state) {
                (viewer_event){.kind = VIEWER_RELEASE, .x = 80, .y = 60, .button = VIEWER_LEFT, .clicks = 1});
         assert_non_null(strstr(contents.said, "pick octree point at"));
         settle(v);
-        // Other things beside it; a wish that it cannot fulfil.
+        // Other things beside it; colours, and some that it cannot have.
         assert_true(viewer_open(v, "sphere"));
+        assert_true(viewer_do(v, "color 0 z"));
         settle(v);
-        viewer_do(v, "color 0 intensity");
-        assert_non_null(strstr(contents.message, "an octree has the colours of its points"));
+        assert_true(viewer_item_get(v, 0, &item));
+        assert_string_equal(item.coloring.attribute, "z");
+        assert_true(item.coloring.range[1] > item.coloring.range[0]);
+        assert_true(viewer_do(v, "color 0 intensity")); // which what stands for its points does not have
+        settle(v);
+        assert_true(viewer_item_get(v, 0, &item));
+        assert_string_equal(item.coloring.attribute, "z");
         viewer_do(v, "close 0");
         settle(v);
         viewer_destroy(&v);

@@ -1,0 +1,183 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// Octrees in scenes: what of them stands for the whole, and how they are moved, filtered and coloured node by node.
+#include "scene/octree.h"
+#include "base/base.h"
+#include "cloud/cloud.h"
+#include "ewa/homogeneous.h"
+#include "ewa/prepare.h"
+#include "scene/asset.h"
+
+#include <math.h>
+#include <string.h>
+
+/// Puts a box around what an affine map makes of another.
+static void move_box(const double m[16], ewa_bounds *box) {
+    const ewa_bounds from = *box;
+    for (int r = 0; r < 3; r++) {
+        box->low_world[r] = box->high_world[r] = m[4 * r + 3];
+        for (int c = 0; c < 3; c++) {
+            const double a = m[4 * r + c] * from.low_world[c], b = m[4 * r + c] * from.high_world[c];
+            box->low_world[r] += fmin(a, b);
+            box->high_world[r] += fmax(a, b);
+        }
+    }
+}
+
+/// Reads some points that stand for the whole, filtered and moved as the asset's; all where a filter takes none of them.
+static ewa_status make_outline(ewa_asset *asset) {
+    EWA_TRY(ewa_lod_sample(asset->lod, EWA_OCTREE_SAMPLE_POINTS, &asset->outline));
+    if (ewa_cloud_point_count(asset->outline) == 0)
+        return ewa_fail(asset->context, EWA_ERROR_FORMAT, "the file has no points");
+    if (asset->filter.term_count) {
+        ewa_cloud *taken = NULL;
+        ewa_status status = ewa_cloud_view(ewa_cloud_context(asset->outline), asset->outline, 0,
+                                           ewa_cloud_point_count(asset->outline), &taken);
+        if (status == EWA_OK)
+            status = ewa_cloud_filter(ewa_cloud_context(asset->outline), &asset->filter, &taken);
+        const uint64_t count = status == EWA_OK ? ewa_cloud_point_count(taken) : 0;
+        // A view of all points would end with them.
+        if (count && count < ewa_cloud_point_count(asset->outline)) {
+            ewa_cloud_destroy(&asset->outline);
+            asset->outline = taken;
+            taken = NULL;
+        }
+        ewa_cloud_destroy(&taken);
+        EWA_TRY(status);
+    }
+    if (ewa_asset_is_moved(asset)) EWA_TRY(ewa_cloud_transform(asset->outline, asset->to_world));
+    if (ewa_cloud_is_drawable(asset->outline)) return EWA_OK;
+    ewa_estimate_options options;
+    ewa_estimate_options_init(&options, sizeof options);
+    return ewa_cloud_estimate(&asset->outline, &options);
+}
+
+ewa_status ewa_asset_take_octree(const ewa_asset_job *job, ewa_lod *lod) {
+    ewa_asset *asset = job->asset;
+    ewa_lod_info info;
+    asset->kind = EWA_ASSET_OCTREE;
+    asset->lod = lod;
+    ewa_lod_describe(lod, &info);
+    asset->count = info.point_count;
+    asset->bounds = info.bounds;
+    asset->bounds.finite_count = info.point_count;
+    if (ewa_asset_is_moved(asset)) move_box(asset->to_world, &asset->bounds);
+    if (!info.merged)
+        ewa_report(
+            asset->context, EWA_SEVERITY_NOTE,
+            "its levels have points only, none that stand for others: what is far away is drawn by few of "
+            "them; `ewa lod %s -o FILE.copc.laz` makes better levels",
+            asset->name);
+    return make_outline(asset);
+}
+
+/// Whether what represents points has an attribute, too.
+static bool is_of_levels(const char *name) {
+    static const char *const names[] = {EWA_POSITION, EWA_NORMAL, EWA_RADIUS, EWA_COLOR};
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++)
+        if (strcmp(names[i], name) == 0) return true;
+    return false;
+}
+
+/// Has the nodes' points come with what a word means; `levels`: what represents them needs it, too.
+static ewa_status need(const ewa_scene *scene, const ewa_asset *asset, const char *word, bool levels,
+                       ewa_lod_look *look) {
+    ewa_scalar scalar;
+    EWA_TRY(ewa_cloud_find_scalar(asset->outline, word, &scalar));
+    const char *name = scalar.attribute.name;
+    if (is_of_levels(name)) return EWA_OK;
+    if (levels)
+        return ewa_fail(scene->context, EWA_ERROR_UNSUPPORTED,
+                        "%s: what represents points at its levels has no %s; with an error of 0 (--lod-error "
+                        "0) the points "
+                        "themselves are drawn, which have it",
+                        asset->name, word);
+    // A term has a name of EWA_NAME_BYTES at most, as a colouring: there is room for all.
+    strcat(strcat(look->attributes, ","), name);
+    return EWA_OK;
+}
+
+static ewa_status place(const void *user, ewa_cloud **cloud) {
+    const ewa_octree_change *change = user;
+    bool whole = true;
+    for (uint32_t t = 0; t < change->filter.term_count; t++)
+        whole = whole && ewa_cloud_has_scalar(*cloud, change->filter.terms[t].name);
+    // What represents points that have not been read yet may lack it.
+    if (whole) EWA_TRY(ewa_cloud_filter(ewa_cloud_context(*cloud), &change->filter, cloud));
+    return change->moved ? ewa_cloud_transform(*cloud, change->to_world) : EWA_OK;
+}
+
+static ewa_status paint(const void *user, ewa_cloud **cloud) {
+    const ewa_octree_change *change = user;
+    if (change->attribute[0] && ewa_cloud_has_scalar(*cloud, change->attribute)) {
+        ewa_scalar scalar;
+        uint64_t grey_count = 0; // the sample's have been told
+        EWA_TRY(ewa_cloud_find_scalar(*cloud, change->attribute, &scalar));
+        EWA_TRY(ewa_cloud_color_by(*cloud, &scalar, &change->scale, &grey_count));
+    } else if (change->tinted || change->attribute[0]) {
+        EWA_TRY(ewa_cloud_tint(*cloud, change->tint));
+    }
+    return ewa_cloud_show(*cloud, change->opacity, change->material);
+}
+
+ewa_status ewa_asset_read_octree(const ewa_asset *asset, const double place_world[3], double reach_world,
+                                 ewa_cloud **cloud) {
+    ewa_bounds box;
+    for (int c = 0; c < 3; c++)
+        box.low_world[c] = place_world[c] - reach_world, box.high_world[c] = place_world[c] + reach_world;
+    if (ewa_asset_is_moved(asset)) {
+        ewa_mat4 map;
+        double back[16];
+        memcpy(map.m, asset->to_world, sizeof map.m);
+        EWA_TRY(ewa_mat4_invert(&map, &map));
+        memcpy(back, map.m, sizeof back);
+        move_box(back, &box);
+    }
+    EWA_TRY(ewa_lod_read(asset->lod, box.low_world, box.high_world, 0, cloud));
+    ewa_status status = ewa_cloud_filter(ewa_cloud_context(*cloud), &asset->filter, cloud);
+    if (status == EWA_OK && ewa_asset_is_moved(asset)) status = ewa_cloud_transform(*cloud, asset->to_world);
+    if (status != EWA_OK) ewa_cloud_destroy(cloud);
+    return status;
+}
+
+ewa_status ewa_scene_look_at_octree(const ewa_scene *scene, uint32_t index, const ewa_lod_options *options,
+                                    ewa_octree_look *shown) {
+    const ewa_asset *asset = scene->items[index].asset;
+    const ewa_instance *instance = &scene->items[index].instance;
+    const ewa_coloring *coloring = &instance->coloring;
+    const ewa_legend *legend = ewa_scene_legend(scene, index);
+    ewa_octree_change *change = &shown->change;
+    ewa_lod_look *look = &shown->look;
+    ewa_lod_info info;
+    // All bytes of both are compared, so that none must be left to chance.
+    memset(shown, 0, sizeof *shown);
+    ewa_lod_describe(asset->lod, &info);
+    const bool levels = info.merged && options->error > 0;
+    memcpy(&change->filter, &asset->filter, sizeof change->filter);
+    memcpy(change->to_world, asset->to_world, sizeof change->to_world);
+    change->moved = ewa_asset_is_moved(asset);
+    change->opacity = instance->opacity;
+    change->material = instance->material;
+    for (int c = 0; c < 3; c++) change->tint[c] = 0.5;
+    for (uint32_t t = 0; t < asset->filter.term_count; t++)
+        EWA_TRY(need(scene, asset, asset->filter.terms[t].name, levels, look));
+    if (legend) {
+        EWA_TRY(need(scene, asset, legend->attribute, levels, look));
+        memcpy(change->attribute, legend->attribute, sizeof change->attribute);
+        const ewa_color_scale scale = ewa_color_scale_of(legend);
+        change->scale.colormap = scale.colormap;
+        change->scale.classes = scale.classes;
+        memcpy(change->scale.range, scale.range, sizeof scale.range);
+    } else if (coloring->tinted) {
+        change->tinted = true;
+        memcpy(change->tint, coloring->tint, sizeof change->tint);
+    }
+    memcpy(look->to_world, asset->to_world, sizeof look->to_world);
+    look->radius_scale = instance->radius_scale * scene->options.surfels.radius_scale;
+    look->place = place;
+    look->paint = paint;
+    look->user = change;
+    look->user_bytes = sizeof *change;
+    return EWA_OK;
+}

@@ -1,0 +1,366 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// Octrees in scenes that are moved, coloured, filtered: what is drawn of their nodes is what is drawn of a cloud of the
+// same points, and nothing of it stays when they are drawn as they are.
+#include "lod/lod_scene.h"
+
+#include <math.h>
+
+enum { WIDTH = 160, HEIGHT = 120, PIXELS = WIDTH * HEIGHT, POINTS = 150000 };
+
+static const char file[] = "ground.copc.laz", points[] = "ground.ply";
+
+/// A turn about an axis that is none of the coordinates', twice as large, and away.
+static const double turned[16] = {2.0 / 3, -4.0 / 3, 4.0 / 3, 3,  4.0 / 3, -2.0 / 3, -4.0 / 3, -5,
+                                  4.0 / 3, 4.0 / 3,  2.0 / 3, 40, 0,       0,        0,        1};
+/// The same in a mirror, and flattened.
+static const double mirrored[16] = {-2.0 / 3, -4.0 / 3, 2.0 / 3, 3,  -4.0 / 3, -2.0 / 3, -2.0 / 3, -5,
+                                    -4.0 / 3, 4.0 / 3,  1.0 / 3, 40, 0,        0,        0,        1};
+
+typedef struct picture {
+    ewa_scene_stats stats;
+    uint8_t rgba8[4 * PIXELS];
+    float depth[PIXELS];
+} picture;
+
+static picture first, second, third;
+
+/// One octree, and its points as a cloud, for all tests.
+static int enter(void **state) {
+    static const char *const names[] = {points};
+    lod_clear();
+    ewa_context *context = check_context(2, NULL);
+    ewa_cloud *cloud = lod_ground(context, 0, POINTS, (lod_look){true, true});
+    const ewa_attribute *position = ewa_cloud_find(cloud, EWA_POSITION);
+    void *data = NULL;
+    assert_int_equal(ewa_cloud_add(cloud, "intensity", EWA_U16, 1, &data), EWA_OK);
+    for (uint64_t i = 0; i < POINTS; i++) {
+        double p[3];
+        ewa_attribute_read_f64(position, i, 1, p);
+        ((uint16_t *)data)[i] = (uint16_t)(30000 + 10000 * (p[0] + p[1]));
+    }
+    lod_save(cloud, points);
+    assert_int_equal(lod_build(context, names, 1, file, NULL, NULL), EWA_OK);
+    ewa_context_destroy(&context);
+    return 0;
+}
+
+static int leave(void **state) {
+    lod_clear();
+    return 0;
+}
+
+static ewa_asset_options asset_options(const double to_world[16]) {
+    ewa_asset_options options;
+    ewa_asset_options_init(&options, sizeof options);
+    options.levels = EWA_OCTREE_ALWAYS;
+    if (to_world) memcpy(options.to_world, to_world, sizeof options.to_world);
+    return options;
+}
+
+/// A scene of the octree, or of the cloud.
+static ewa_scene *make_scene(ewa_context *context, const char *name, const ewa_asset_options *options) {
+    char path[512];
+    ewa_asset *asset = NULL;
+    ewa_scene *scene = NULL;
+    ewa_scene_options of;
+    ewa_scene_options_init(&of, sizeof of);
+    of.close_gaps = false; // the radii of both are those of the file
+    assert_int_equal(ewa_asset_load(context, scratch_path(name, path), options, &asset), EWA_OK);
+    assert_int_equal(ewa_scene_create(context, &of, &scene), EWA_OK);
+    assert_int_equal(ewa_scene_add(scene, asset, NULL), EWA_OK);
+    ewa_asset_release(&asset);
+    return scene;
+}
+
+static ewa_camera place(ewa_scene *scene) {
+    ewa_view_options options;
+    ewa_view_options_init(&options, sizeof options);
+    options.width_px = WIDTH, options.height_px = HEIGHT;
+    ewa_camera camera;
+    assert_int_equal(ewa_scene_place_camera(scene, &options, &camera, NULL), EWA_OK);
+    return camera;
+}
+
+static ewa_status try_draw(ewa_context *context, ewa_scene *scene, const ewa_camera *camera, double error,
+                           picture *to) {
+    ewa_scene_renderer *renderer = NULL;
+    ewa_scene_options options;
+    ewa_scene_get_options(scene, &options);
+    options.lod.error = error;
+    options.lod.spacing_px = 4;                // the picture is small
+    options.render.shading = EWA_SHADING_NONE; // so that only places and colours differ
+    assert_int_equal(ewa_scene_renderer_create(context, EWA_BACKEND_CPU, NULL, &renderer), EWA_OK);
+    const ewa_frame frame = {.rgba8 = to->rgba8, .depth = to->depth};
+    const ewa_status status = ewa_scene_draw(scene, renderer, camera, &options, &frame, &to->stats);
+    ewa_scene_renderer_destroy(&renderer);
+    return status;
+}
+
+static void draw(ewa_context *context, ewa_scene *scene, const ewa_camera *camera, double error,
+                 picture *to) {
+    assert_int_equal(try_draw(context, scene, camera, error, to), EWA_OK);
+}
+
+static double psnr_db(const picture *a, const picture *b) {
+    double sum = 0;
+    for (int i = 0; i < 4 * PIXELS; i++) {
+        const double off = (double)a->rgba8[i] - (double)b->rgba8[i];
+        sum += off * off;
+    }
+    return sum > 0 ? 10 * log10(255.0 * 255 * 4 * PIXELS / sum) : (double)INFINITY;
+}
+
+static void hold_like(const char *what, const picture *a, const picture *b, double min_db) {
+    const double found = psnr_db(a, b);
+    print_message("%s: %.1f dB, %llu surfels\n", what, found, (unsigned long long)b->stats.lod.surfel_count);
+    assert_true(found >= min_db);
+}
+
+static void set(ewa_scene *scene, const ewa_instance *instance) {
+    assert_int_equal(ewa_scene_set(scene, 0, instance), EWA_OK);
+}
+
+/// What is done to the octree is done to the camera the other way round: cuts and places are those of its own space.
+static void test_moves_like_a_camera(void **state) {
+    ewa_context *context = check_context(2, NULL);
+    const ewa_asset_options still = asset_options(NULL), moved = asset_options(turned);
+    ewa_scene *scene = make_scene(context, file, &still), *away = make_scene(context, file, &moved);
+    ewa_camera camera = place(scene);
+    for (int near = 0; near < 2; near++) {
+        ewa_camera with = camera;
+        ewa_mat4 map;
+        memcpy(map.m, turned, sizeof turned);
+        assert_int_equal(ewa_mat4_invert(&map, &map), EWA_OK);
+        for (int r = 0; r < 4; r++)
+            for (int c = 0; c < 4; c++) {
+                double sum = 0;
+                for (int k = 0; k < 4; k++) sum += camera.world_to_camera[4 * r + k] * map.m[k][c];
+                with.world_to_camera[4 * r + c] = sum;
+            }
+        draw(context, scene, &camera, 16, &first);
+        draw(context, away, &with, 16, &second);
+        hold_like(near ? "moved, near" : "moved, far", &first, &second, 60);
+        for (int i = 0; i < PIXELS; i++) {
+            assert_int_equal(isfinite(first.depth[i]), isfinite(second.depth[i]));
+            if (isfinite(first.depth[i])) assert_true(fabsf(first.depth[i] - second.depth[i]) < 1e-3f);
+        }
+        camera.fx_px *= 20, camera.fy_px *= 20; // a few nodes, and all of their points
+    }
+    ewa_scene_destroy(&scene), ewa_scene_destroy(&away);
+    ewa_context_destroy(&context);
+}
+
+/// All points of the octree are those of the cloud, wherever both are put; its levels are like them.
+static void test_moves_like_a_cloud(void **state) {
+    const double *const maps[] = {turned, mirrored};
+    ewa_context *context = check_context(2, NULL);
+    for (int m = 0; m < 2; m++) {
+        const ewa_asset_options options = asset_options(maps[m]);
+        ewa_scene *octree = make_scene(context, file, &options),
+                  *cloud = make_scene(context, points, &options);
+        const ewa_camera camera = place(cloud);
+        draw(context, cloud, &camera, 0, &first);
+        draw(context, octree, &camera, 0, &second);
+        draw(context, octree, &camera, 16, &third);
+        hold_like("all points", &first, &second, 65);
+        hold_like("levels", &first, &third, 40);
+        ewa_bounds boxes[2];
+        ewa_scene_bounds(octree, &boxes[0]), ewa_scene_bounds(cloud, &boxes[1]);
+        for (int c = 0; c < 3; c++) { // of the moved box, in which the moved points are
+            assert_true(boxes[0].low_world[c] <= boxes[1].low_world[c] + 1e-5);
+            assert_true(boxes[0].high_world[c] >= boxes[1].high_world[c] - 1e-5);
+            assert_true(boxes[0].high_world[c] - boxes[0].low_world[c] < 9);
+        }
+        ewa_scene_destroy(&octree), ewa_scene_destroy(&cloud);
+    }
+    ewa_context_destroy(&context);
+}
+
+/// Colours by numbers, a tint, opacity, sizes: as the cloud's; and the old picture when all is as it was.
+static void test_instances(void **state) {
+    static const char *const attributes[] = {"z", "normal.x", "red", "intensity", "", ""};
+    ewa_context *context = check_context(2, NULL);
+    const ewa_asset_options options = asset_options(turned);
+    ewa_scene *octree = make_scene(context, file, &options), *cloud = make_scene(context, points, &options);
+    const ewa_camera camera = place(cloud);
+    draw(context, octree, &camera, 0, &third);
+    for (int k = 0; k < 6; k++) {
+        ewa_instance instance;
+        ewa_instance_init(&instance, sizeof instance);
+        snprintf(instance.coloring.attribute, sizeof instance.coloring.attribute, "%s", attributes[k]);
+        instance.coloring.ranged = instance.coloring.percent[0] = k == 1; // of all, and of given ends
+        instance.coloring.range[1] = 0.3;
+        instance.coloring.tinted = k == 4;
+        instance.coloring.tint[1] = 0.75;
+        if (k > 3) instance.opacity = 0.5, instance.radius_scale = 1.5;
+        set(octree, &instance), set(cloud, &instance);
+        draw(context, cloud, &camera, 0, &first);
+        draw(context, octree, &camera, 0, &second);
+        hold_like(attributes[k], &first, &second, 65);
+        assert_true(psnr_db(&second, &third) < 40);
+        if (k == 3) continue; // what represents points has none
+        draw(context, octree, &camera, 16, &second);
+        hold_like("its levels", &first, &second, k < 4 ? 40 : 33); // whose rims are wider
+        assert_true((ewa_scene_legend(octree, 0) != NULL) == (k < 4));
+    }
+    ewa_instance plain;
+    ewa_instance_init(&plain, sizeof plain);
+    set(octree, &plain);
+    draw(context, octree, &camera, 0, &second);
+    assert_memory_equal(second.rgba8, third.rgba8, sizeof second.rgba8);
+    ewa_scene_destroy(&octree), ewa_scene_destroy(&cloud);
+    ewa_context_destroy(&context);
+}
+
+/// A scale is one for a cloud and an octree that are coloured alike.
+static void test_one_scale(void **state) {
+    ewa_context *context = check_context(1, NULL);
+    const ewa_asset_options still = asset_options(NULL), away = asset_options(turned);
+    ewa_scene *scene = make_scene(context, file, &still);
+    ewa_asset *cloud = NULL;
+    char path[512];
+    ewa_instance instance;
+    ewa_instance_init(&instance, sizeof instance);
+    snprintf(instance.coloring.attribute, sizeof instance.coloring.attribute, "z");
+    assert_int_equal(ewa_asset_load(context, scratch_path(points, path), &away, &cloud), EWA_OK);
+    set(scene, &instance);
+    assert_int_equal(ewa_scene_commit(scene), EWA_OK);
+    const ewa_legend *legend = ewa_scene_legend(scene, 0);
+    assert_true(legend->length && fabs(legend->range[0] + 0.1) < 0.01 && fabs(legend->range[1] - 0.1) < 0.01);
+    assert_int_equal(ewa_scene_add(scene, cloud, &instance), EWA_OK);
+    assert_int_equal(ewa_scene_commit(scene), EWA_OK);
+    legend = ewa_scene_legend(scene, 0);
+    assert_ptr_equal(legend, ewa_scene_legend(scene, 1));
+    assert_true(fabs(legend->range[0] + 0.1) < 0.01 && legend->range[1] > 41);
+    ewa_asset_release(&cloud);
+    ewa_scene_destroy(&scene);
+    ewa_context_destroy(&context);
+}
+
+/// A filter takes the points that it takes of a cloud, in the octree's own space.
+static void test_filters(void **state) {
+    static const char *const terms[] = {"x > 0.25 and normal.z > 0.97", "intensity < 30000"};
+    ewa_context *context = check_context(2, NULL);
+    for (int k = 0; k < 2; k++) {
+        ewa_filter filter = {.term_count = 0};
+        assert_int_equal(ewa_filter_add(&filter, terms[k], NULL), EWA_OK);
+        ewa_asset_options options = asset_options(turned);
+        options.filter = &filter;
+        ewa_scene *octree = make_scene(context, file, &options),
+                  *cloud = make_scene(context, points, &options);
+        const ewa_camera camera = place(cloud);
+        draw(context, cloud, &camera, 0, &first);
+        draw(context, octree, &camera, 0, &second);
+        hold_like(terms[k], &first, &second, 65);
+        if (k) assert_int_equal(try_draw(context, octree, &camera, 16, &second), EWA_ERROR_UNSUPPORTED);
+        ewa_scene_destroy(&octree), ewa_scene_destroy(&cloud);
+    }
+    // One that takes nothing of the points that stand for the whole leaves nothing to see, and a camera.
+    ewa_filter none = {.term_count = 0};
+    assert_int_equal(ewa_filter_add(&none, "x > 5", NULL), EWA_OK);
+    ewa_asset_options options = asset_options(NULL);
+    options.filter = &none;
+    ewa_scene *empty = make_scene(context, file, &options);
+    const ewa_camera camera = place(empty);
+    draw(context, empty, &camera, 16, &first);
+    for (int i = 0; i < PIXELS; i++) assert_true(isinf(first.depth[i]));
+    ewa_scene_destroy(&empty);
+    ewa_context_destroy(&context);
+}
+
+/// What cannot be is refused with the file's name, and leaves the octree as it was.
+static void test_refused(void **state) {
+    check_log log = {.count = 0};
+    ewa_context *context = check_context(1, &log);
+    const ewa_asset_options options = asset_options(NULL);
+    ewa_scene *scene = make_scene(context, file, &options);
+    const ewa_camera camera = place(scene);
+    draw(context, scene, &camera, 16, &first);
+    ewa_instance instance;
+    ewa_instance_init(&instance, sizeof instance);
+    snprintf(instance.coloring.attribute, sizeof instance.coloring.attribute, "intensity");
+    set(scene, &instance);
+    assert_int_equal(try_draw(context, scene, &camera, 16, &second), EWA_ERROR_UNSUPPORTED);
+    assert_non_null(
+        strstr(log.text, "ground.copc.laz: what represents points at its levels has no intensity"));
+    draw(context, scene, &camera, 0, &second);
+    snprintf(instance.coloring.attribute, sizeof instance.coloring.attribute, "warmth");
+    set(scene, &instance);
+    assert_int_equal(try_draw(context, scene, &camera, 0, &second), EWA_ERROR_ARGUMENT);
+    assert_non_null(strstr(log.text, "warmth"));
+    ewa_instance_init(&instance, sizeof instance);
+    set(scene, &instance);
+    draw(context, scene, &camera, 16, &second);
+    assert_memory_equal(first.rgba8, second.rgba8, sizeof first.rgba8);
+    ewa_scene_destroy(&scene);
+    ewa_context_destroy(&context);
+}
+
+/// Picks find points where they were moved to.
+static void test_pick(void **state) {
+    ewa_context *context = check_context(1, NULL);
+    const ewa_asset_options options = asset_options(turned);
+    ewa_scene *scene = make_scene(context, file, &options);
+    const ewa_camera camera = place(scene);
+    ewa_scene_renderer *renderer = NULL;
+    assert_int_equal(ewa_scene_renderer_create(context, EWA_BACKEND_CPU, NULL, &renderer), EWA_OK);
+    ewa_scene_hit hit;
+    assert_int_equal(ewa_scene_pick(scene, renderer, &camera, NULL, WIDTH / 2, HEIGHT / 2, 2, 0.1, &hit),
+                     EWA_OK);
+    assert_true(hit.hit && hit.has_point && hit.points);
+    double back[3], away[3], height = 0;
+    for (int c = 0; c < 3; c++) away[c] = hit.point_world[c] - turned[4 * c + 3];
+    for (int c = 0; c < 3; c++) // the map is a rotation times 2: its inverse is its transpose over 4
+        back[c] = (turned[c] * away[0] + turned[4 + c] * away[1] + turned[8 + c] * away[2]) / 4;
+    height = 0.1 * sin(4 * back[0]) * cos(3 * back[1]); // of the ground that the octree was made of
+    assert_true(fabs(back[2] - height) < 1e-5 && fabs(back[0]) <= 1 && fabs(back[1]) <= 1);
+    ewa_cloud_destroy(&hit.points);
+    ewa_scene_renderer_destroy(&renderer);
+    ewa_scene_destroy(&scene);
+    ewa_context_destroy(&context);
+}
+
+/// An octree that is lent to a scene is drawn as it is where nobody says otherwise.
+static void test_lent(void **state) {
+    char path[512];
+    ewa_context *context = check_context(1, NULL);
+    ewa_lod *lod = NULL;
+    assert_int_equal(ewa_lod_open(context, scratch_path(file, path), &lod), EWA_OK);
+    const ewa_asset_options options = asset_options(turned);
+    ewa_asset *asset = NULL;
+    ewa_scene *scene = NULL;
+    assert_int_equal(ewa_scene_create(context, NULL, &scene), EWA_OK);
+    assert_int_equal(ewa_asset_create(context, &(ewa_asset_source){.lod = lod}, &options, &asset), EWA_OK);
+    assert_int_equal(ewa_scene_add(scene, asset, NULL), EWA_OK);
+    const ewa_camera camera = place(scene);
+    ewa_renderer *renderer = NULL;
+    assert_int_equal(ewa_renderer_create(context, &renderer), EWA_OK);
+    ewa_frame frame = {.rgba8 = third.rgba8};
+    assert_int_equal(ewa_lod_render(lod, renderer, &camera, NULL, NULL, &frame, NULL), EWA_OK);
+    draw(context, scene, &camera, 16, &first);
+    frame.rgba8 = second.rgba8;
+    assert_int_equal(ewa_lod_render(lod, renderer, &camera, NULL, NULL, &frame, NULL), EWA_OK);
+    assert_memory_equal(second.rgba8, third.rgba8, sizeof second.rgba8);
+    assert_true(psnr_db(&first, &second) < 30);
+    ewa_renderer_destroy(&renderer);
+    ewa_asset_release(&asset);
+    ewa_scene_destroy(&scene);
+    ewa_lod_close(&lod);
+    ewa_context_destroy(&context);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_moves_like_a_camera),
+        cmocka_unit_test(test_moves_like_a_cloud),
+        cmocka_unit_test(test_instances),
+        cmocka_unit_test(test_one_scale),
+        cmocka_unit_test(test_filters),
+        cmocka_unit_test(test_refused),
+        cmocka_unit_test(test_pick),
+        cmocka_unit_test(test_lent),
+    };
+    return cmocka_run_group_tests(tests, enter, leave);
+}
