@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 #
 # What Debian's packages give us: spng (PNG in), libdeflate (PNG out), OpenEXRCore (EXR), cJSON (camera
-# files, glTF), libjpeg (JPEG), libwebp (WebP in), expat (E57), CHOLMOD of SuiteSparse (sparse factors), zlib and
+# files, glTF), libjpeg (JPEG), libwebp (WebP in), libtiff (GeoTIFF), expat (E57), CHOLMOD of SuiteSparse (sparse factors), zlib and
 # libbz2 (volumes in), libzstd (EPT), meshoptimizer and Draco (glTF), pthreads.
 find_package(Threads REQUIRED)
 find_package(PkgConfig REQUIRED)
@@ -11,6 +11,7 @@ pkg_check_modules(DEFLATE REQUIRED IMPORTED_TARGET libdeflate)
 pkg_check_modules(CJSON REQUIRED IMPORTED_TARGET libcjson)
 pkg_check_modules(JPEG REQUIRED IMPORTED_TARGET libjpeg)
 pkg_check_modules(WEBP REQUIRED IMPORTED_TARGET libwebp)
+pkg_check_modules(TIFF REQUIRED IMPORTED_TARGET libtiff-4>=4.5)
 pkg_check_modules(EXPAT REQUIRED IMPORTED_TARGET expat)
 pkg_check_modules(ZLIB REQUIRED IMPORTED_TARGET zlib)
 pkg_check_modules(ZSTD REQUIRED IMPORTED_TARGET libzstd)
@@ -60,4 +61,4 @@ endif()
 
 add_library(ewa_dependencies INTERFACE)
 target_link_libraries(ewa_dependencies INTERFACE PkgConfig::SPNG PkgConfig::DEFLATE PkgConfig::CJSON
-  PkgConfig::JPEG PkgConfig::WEBP PkgConfig::EXPAT PkgConfig::ZLIB PkgConfig::ZSTD ${EWA_CHOLMOD_TARGET} ${EWA_PACKED_TARGETS} ewa_bzip2 OpenEXR::OpenEXRCore Threads::Threads m)
+  PkgConfig::JPEG PkgConfig::WEBP PkgConfig::TIFF PkgConfig::EXPAT PkgConfig::ZLIB PkgConfig::ZSTD ${EWA_CHOLMOD_TARGET} ${EWA_PACKED_TARGETS} ewa_bzip2 OpenEXR::OpenEXRCore Threads::Threads m)

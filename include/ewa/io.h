@@ -19,8 +19,8 @@
 extern "C" {
 #endif
 
-/// Reads a point cloud, the format by content: PLY, LAS and LAZ, E57, PCD, PTX, ASCII grids, and text in columns (XYZ, PTS,
-/// CSV); docs/files.md says what is read of each. Of PLY (ascii, binary of both byte orders), the element
+/// Reads a point cloud, the format by content: PLY, LAS and LAZ, E57, PCD, PTX, ASCII grids, GeoTIFF, and text in columns
+/// (XYZ, PTS, CSV); docs/files.md says what is read of each. Of PLY (ascii, binary of both byte orders), the element
 /// "vertex" holds the points; other elements and lists are skipped. Its properties become the attributes of
 /// ewa/cloud.h by their names:
 ///   - x y z: "position", F64 when one of them is a double or a 32-bit integer, so that it is exact, else

@@ -257,6 +257,7 @@ class ewa_model_format(IntEnum):
     EWA_MODEL_PTX = 9
     EWA_MODEL_TEXT = 10
     EWA_MODEL_GRID = 11
+    EWA_MODEL_TIFF = 12
 
 
 class ewa_option_type(IntEnum):

@@ -21,6 +21,7 @@ static const struct {
     {".las", EWA_UP_Z_SURVEYED},     {".laz", EWA_UP_Z_SURVEYED}, // elevations, COPC too
     {"ept.json", EWA_UP_Z_SURVEYED}, {".e57", EWA_UP_Z_SURVEYED}, // and levelled instruments
     {".ptx", EWA_UP_Z_SURVEYED},     {".pts", EWA_UP_Z_SURVEYED},
+    {".tif", EWA_UP_Z_SURVEYED},     {".tiff", EWA_UP_Z_SURVEYED}, // heights
 };
 
 static bool ends_with(const char *path, const char *end) {

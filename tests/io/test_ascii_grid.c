@@ -33,6 +33,24 @@ static void test_places(void **state) {
     ewa_cloud_destroy(&cloud);
 }
 
+/// Degrees with heights in metres, which slopes tell, become metres; of marks and gentle slopes nothing is said.
+static void test_degrees(void **state) {
+    ewa_cloud *cloud = rows_load("ncols 3\nnrows 2\nxllcorner 7\nyllcorner 49.99\ncellsize 0.01\n"
+                                 "-9999 200 230\n190 -9999 250\n");
+    rows_expect(cloud, 4, "position");
+    assert_string_equal(ewa_cloud_note(cloud, "file.degrees", NULL), "longitude 7.015, latitude 50");
+    double places[12];
+    ewa_attribute_read_f64(ewa_cloud_find(cloud, EWA_POSITION), 0, 4, places);
+    // A degree of longitude is 71,696 m at 50 degrees, one of latitude 111,229 m.
+    assert_true(fabs(places[3] - places[0] - 716.96) < 0.01 && fabs(places[1] - places[10] - 1112.29) < 0.01);
+    assert_true(places[2] == 200 && places[11] == 250);
+    ewa_cloud_destroy(&cloud);
+    cloud = rows_load("ncols 3\nnrows 2\nxllcorner 7\nyllcorner 49\ncellsize 1\n-9999 8 9\n7 -9999 9\n");
+    rows_expect_world(cloud, 0, 8.5, 50.5, 8);
+    assert_null(ewa_cloud_note(cloud, "file.degrees", NULL));
+    ewa_cloud_destroy(&cloud);
+}
+
 static void test_refused(void **state) {
     static const struct {
         const char *text, *said;
@@ -115,6 +133,7 @@ static void test_pieces(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(test_places, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(test_degrees, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_refused, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_keep_going, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_truncation, set_up, tear_down),

@@ -6,7 +6,7 @@
 //
 // Based on: Esri, "Esri ASCII raster format"; GDAL, "AAIGrid" (dx and dy for cells that are not square).
 #include "base/base.h"
-#include "io/cloud/format.h"
+#include "io/cloud/height_grid.h"
 #include "io/cloud/text_table.h"
 #include "io/number.h"
 #include "io/text.h"
@@ -22,17 +22,16 @@ static const char *const keys[KEYS] = {"ncols",     "nrows",        "xllcorner",
                                        "yllcorner", "yllcenter",    "cellsize",    "dx",
                                        "dy",        "nodata_value", "nodata-value"};
 
-/// What stands for no height where the head does not say; heights beyond are such marks, rounded: -3.4e38.
-static const double USUAL_NO_DATA = -9999, LARGEST = 1e30;
+/// How many cells are looked at for the unit of heights.
+enum { LOOK_CELLS = 1 << 20 };
 
 typedef struct grid_state {
     const ewa_cloud_source *source;
     char *owned;
     size_t owned_bytes;
     ewa_cursor text;
-    uint64_t columns, rows, cell;   ///< the next cell
-    double first_world[2], step[2]; ///< the middle of the north-west cell; to the east, to the north
-    double no_data, origin_world[3];
+    ewa_height_grid grid;
+    uint64_t cell; ///< the next one
 } grid_state;
 
 static bool is_space(char c) { return ewa_is_blank(c) || ewa_is_line_end(c); }
@@ -108,29 +107,49 @@ static bool place_axis(const double values[KEYS], const bool given[KEYS], int ax
     return *step > 0 && isfinite(*low_world + *step * (double)count);
 }
 
+/// How much neighbouring cells differ on the average, of the first ones.
+static double mean_step(const grid_state *state) {
+    ewa_cursor text = state->text;
+    double before = NAN, height, sum = 0, count = 0;
+    for (uint64_t cell = 0; cell < LOOK_CELLS; cell++) {
+        const ewa_text word = take_word(&text);
+        if (!word.length) break;
+        if (cell % state->grid.columns == 0) before = NAN;
+        if (!read_word(word, &height) || !ewa_height_is(&state->grid, height)) height = NAN;
+        if (isfinite(height - before)) {
+            sum += fabs(height - before);
+            count++;
+        }
+        before = height;
+    }
+    return count ? sum / count : 0;
+}
+
 static ewa_status read_head(grid_state *state) {
     const ewa_cloud_source *source = state->source;
-    double values[KEYS] = {0}, low_world[2];
+    ewa_height_grid *grid = &state->grid;
+    double values[KEYS] = {0}, low_world[2], step[2];
     bool given[KEYS] = {false};
     EWA_TRY(take_head(state, values, given));
     for (int k = COLUMNS; k <= ROWS; k++)
         if (!given[k] || !(values[k] >= 1 && values[k] <= MAX_SIDE) || values[k] != floor(values[k]))
             return ewa_fail(source->context, EWA_ERROR_FORMAT, "%s: %s of the ASCII grid is %g, not 1 to %d",
                             source->name, keys[k], values[k], MAX_SIDE);
-    state->columns = (uint64_t)values[COLUMNS];
-    state->rows = (uint64_t)values[ROWS];
-    if (!place_axis(values, given, 0, state->columns, &state->step[0], &low_world[0]) ||
-        !place_axis(values, given, 1, state->rows, &state->step[1], &low_world[1]))
+    grid->columns = (uint64_t)values[COLUMNS];
+    grid->rows = (uint64_t)values[ROWS];
+    if (!place_axis(values, given, 0, grid->columns, &step[0], &low_world[0]) ||
+        !place_axis(values, given, 1, grid->rows, &step[1], &low_world[1]))
         return ewa_fail(
             source->context, EWA_ERROR_FORMAT,
             "%s: the ASCII grid does not say where its cells are: xllcorner, yllcorner and cellsize",
             source->name);
-    state->first_world[0] = low_world[0];
-    state->first_world[1] = low_world[1] + state->step[1] * (double)(state->rows - 1);
-    state->no_data = given[NO_DATA]       ? values[NO_DATA]
-                     : given[NO_DATA_TOO] ? values[NO_DATA_TOO]
-                                          : USUAL_NO_DATA;
-    for (int axis = 0; axis < 2; axis++) state->origin_world[axis] = (double)ewa_text_origin(low_world[axis]);
+    grid->to_world[0] = step[0];
+    grid->to_world[2] = low_world[0];
+    grid->to_world[4] = -step[1];
+    grid->to_world[5] = low_world[1] + step[1] * (double)(grid->rows - 1);
+    grid->has_no_data = given[NO_DATA] || given[NO_DATA_TOO];
+    grid->no_data = values[given[NO_DATA] ? NO_DATA : NO_DATA_TOO];
+    grid->is_degrees = ewa_height_grid_looks_like_degrees(grid, mean_step(state));
     return EWA_OK;
 }
 
@@ -151,14 +170,13 @@ static ewa_status open_grid(const ewa_cloud_source *source, ewa_cloud *prototype
         ewa_text_open(source->context, source->name, source->bytes, (size_t)source->size_bytes, &state->text,
                       &state->owned, &state->owned_bytes);
     if (status == EWA_OK) status = read_head(state);
-    if (status == EWA_OK) status = ewa_cloud_add(prototype, EWA_POSITION, EWA_F64, 3, NULL);
+    if (status == EWA_OK) status = ewa_height_grid_settle(source, &state->grid, prototype);
     if (status != EWA_OK) {
         close_grid(state);
         return status;
     }
-    ewa_cloud_set_origin(prototype, state->origin_world);
     // A number takes a letter and a blank.
-    const uint64_t cells = state->columns * state->rows,
+    const uint64_t cells = state->grid.columns * state->grid.rows,
                    room = (uint64_t)(state->text.end - state->text.at) / 2 + 1;
     *point_count = cells < room ? cells : room;
     *data = state;
@@ -168,7 +186,7 @@ static ewa_status open_grid(const ewa_cloud_source *source, ewa_cloud *prototype
 /// Takes the height of the next cell; NaN where there is none.
 static ewa_status take_height(grid_state *state, double *height) {
     const ewa_cloud_source *source = state->source;
-    const uint64_t cells = state->columns * state->rows, row = state->cell / state->columns + 1;
+    const uint64_t cells = state->grid.columns * state->grid.rows, row = state->cell / state->grid.columns + 1;
     const ewa_text word = take_word(&state->text);
     char quote[EWA_QUOTE_BYTES];
     *height = NAN;
@@ -176,30 +194,28 @@ static ewa_status take_height(grid_state *state, double *height) {
         const uint64_t lost = cells - state->cell;
         state->cell = cells;
         return ewa_cloud_damage(source, lost, "%s: the file ends in row %llu of %llu", source->name,
-                                (unsigned long long)row, (unsigned long long)state->rows);
+                                (unsigned long long)row, (unsigned long long)state->grid.rows);
     }
     state->cell++;
     if (!read_word(word, height))
         return ewa_cloud_damage(source, 1, "%s: line %llu, row %llu: %s is no number", source->name,
                                 (unsigned long long)state->text.line, (unsigned long long)row,
                                 ewa_quote(word, quote));
-    if (*height == state->no_data || !(fabs(*height) <= LARGEST)) *height = NAN;
+    if (!ewa_height_is(&state->grid, *height)) *height = NAN;
     return EWA_OK;
 }
 
 static ewa_status read_grid(void *data, uint64_t maximum, const ewa_cloud_sink *sinks, uint64_t *got_count) {
     grid_state *state = data;
-    const uint64_t cells = state->columns * state->rows;
+    const uint64_t columns = state->grid.columns, cells = columns * state->grid.rows;
     uint64_t got = 0;
     while (got < maximum && state->cell < cells) {
-        const uint64_t column = state->cell % state->columns, row = state->cell / state->columns;
+        const uint64_t column = state->cell % columns, row = state->cell / columns;
         double height;
         EWA_TRY(take_height(state, &height));
         if (isnan(height)) continue;
-        const double position[3] = {
-            state->first_world[0] + state->step[0] * (double)column - state->origin_world[0],
-            state->first_world[1] - state->step[1] * (double)row - state->origin_world[1], height};
-        if (sinks[0].to) memcpy(sinks[0].to + got * sinks[0].stride_bytes, position, sizeof position);
+        if (sinks[0].to)
+            ewa_height_grid_place(&state->grid, column, row, height, sinks[0].to + got * sinks[0].stride_bytes);
         got++;
     }
     *got_count = got;

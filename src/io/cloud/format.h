@@ -92,11 +92,11 @@ typedef struct ewa_cloud_write_format {
 
 /// The formats, in the order in which they are asked. Each lives in a file of its own.
 extern const ewa_cloud_format ewa_format_ply, ewa_format_las, ewa_format_e57, ewa_format_pcd, ewa_format_ptx,
-    ewa_format_grid, ewa_format_text;
+    ewa_format_tiff, ewa_format_grid, ewa_format_text;
 extern const ewa_cloud_write_format ewa_write_ply, ewa_write_las, ewa_write_pcd, ewa_write_text;
 
 /// What messages say is read and written.
-#define EWA_CLOUD_FORMATS  "PLY, LAS, LAZ, E57, PCD, PTX, PTS, XYZ, CSV, ASCII grids"
+#define EWA_CLOUD_FORMATS  "PLY, LAS, LAZ, E57, PCD, PTX, PTS, XYZ, CSV, ASCII grids, GeoTIFF"
 #define EWA_CLOUD_SUFFIXES ".ply, .las, .laz, .pcd, .xyz, .txt, .asc, .pts or .csv"
 
 /// Finds the format that a path is written in, by its suffix; "-" and devices, which have none: PLY. NULL: none.

@@ -16,8 +16,8 @@
 
 /// Those with a magic first, then text.
 static const ewa_cloud_format *const formats[] = {&ewa_format_ply, &ewa_format_las, &ewa_format_e57,
-                                                  &ewa_format_pcd, &ewa_format_grid, &ewa_format_ptx, &ewa_format_text};
-enum { MAGIC_COUNT = 5 };
+                                                  &ewa_format_pcd, &ewa_format_tiff, &ewa_format_grid, &ewa_format_ptx, &ewa_format_text};
+enum { MAGIC_COUNT = 6 };
 
 const ewa_cloud_format *ewa_cloud_format_of(const char *name, const uint8_t *bytes, uint64_t size_bytes,
                                             ewa_probe probe) {
