@@ -121,6 +121,7 @@ typedef struct common_arguments {
     int progress;        ///< 1 or 0 when asked for, -1: where standard error is a terminal
     bool keep_going;     ///< of cloud_input_options
     const char *columns; ///< of cloud_input_options; NULL: as the file says
+    int heights;         ///< of cloud_input_options: ewa_picture_heights
     ewa_filter filter;   ///< of cloud_input_options
 } common_arguments;
 

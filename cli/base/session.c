@@ -140,6 +140,7 @@ bool session_start(cli_session *session, const common_arguments *common) {
     ewa_cloud_load_options_init(&session->load, sizeof session->load);
     session->load.keep_going = common->keep_going;
     session->load.columns = common->columns;
+    session->load.heights = (ewa_picture_heights)common->heights;
     session->filter = common->filter.term_count ? &common->filter : NULL;
     session->context = session_context(session, (uint32_t)common->threads, EWA_CPU_ALL);
     return session->context != NULL;

@@ -14,6 +14,8 @@ static const cli_option input_table[] = {
     {"columns", OPTION_TEXT, offsetof(common_arguments, columns), "NAMES",
      .help = "what the columns of text files are, as x,y,z,intensity,-,r,g,b; -: a column that is left out",
      .absent = "auto: as the file's head or its numbers say"},
+    {"heights", OPTION_CHOICE, offsetof(common_arguments, heights), NULL, "none|terrain-rgb|terrarium",
+     .help = "what the colours of pictures (PNG, WebP) say: nothing, or heights as in tiles of Mapbox or of Mapzen"},
     {"keep-going", OPTION_FLAG, offsetof(common_arguments, keep_going),
      .help = "step over damaged pieces of files of points, and say what is lost"},
     {"filter", OPTION_FILTER, offsetof(common_arguments, filter), "EXPR",

@@ -19,8 +19,8 @@
 extern "C" {
 #endif
 
-/// Reads a point cloud, the format by content: PLY, LAS and LAZ, E57, PCD, PTX, ASCII grids, GeoTIFF, and text in columns
-/// (XYZ, PTS, CSV); docs/files.md says what is read of each. Of PLY (ascii, binary of both byte orders), the element
+/// Reads a point cloud, the format by content: PLY, LAS and LAZ, E57, PCD, PTX, ASCII grids, GeoTIFF, and text in
+/// columns (XYZ, PTS, CSV); docs/files.md says what is read of each. Of PLY (ascii, binary of both byte orders), the element
 /// "vertex" holds the points; other elements and lists are skipped. Its properties become the attributes of
 /// ewa/cloud.h by their names:
 ///   - x y z: "position", F64 when one of them is a double or a 32-bit integer, so that it is exact, else
@@ -41,6 +41,13 @@ EWA_API ewa_status ewa_cloud_load(ewa_context *context, const char *path, ewa_cl
 EWA_API ewa_status ewa_cloud_load_memory(ewa_context *context, const void *bytes, size_t size_bytes,
                                          const char *name, ewa_cloud **cloud);
 
+/// What the colours of a picture say about heights.
+typedef enum ewa_picture_heights {
+    EWA_HEIGHTS_NONE = 0,    ///< nothing: it is a picture
+    EWA_HEIGHTS_TERRAIN_RGB, ///< of Mapbox: (65536 R + 256 G + B) / 10 - 10000 metres
+    EWA_HEIGHTS_TERRARIUM,   ///< 256 R + G + B / 256 - 32768 metres
+} ewa_picture_heights;
+
 /// How a cloud is read. Fill with ewa_cloud_load_options_init().
 typedef struct ewa_cloud_load_options {
     size_t struct_size;
@@ -52,6 +59,8 @@ typedef struct ewa_cloud_load_options {
     /// Columns of a text file in their order, comma-separated: x, y, z, r, g, b, nx, ny, nz, intensity, ...
     /// or "-" for one that is left out; default NULL: as the file's head or its numbers say.
     const char *columns;
+    /// PNG and WebP are grids of heights, a point for each pixel; default EWA_HEIGHTS_NONE: refused as pictures.
+    ewa_picture_heights heights;
 } ewa_cloud_load_options;
 
 EWA_API extern const ewa_option_table ewa_cloud_load_options_table;

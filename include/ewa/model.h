@@ -28,10 +28,11 @@ typedef enum ewa_model_format {
     EWA_MODEL_TEXT, ///< XYZ, PTS, CSV: numbers in columns
     EWA_MODEL_GRID, ///< ASCII grid: heights of cells
     EWA_MODEL_TIFF, ///< TIFF with heights of cells (GeoTIFF)
+    EWA_MODEL_TERRAIN, ///< picture with heights in its colours (ewa_cloud_load_options.heights)
 } ewa_model_format;
 
-/// Returns "PLY", "OBJ", "STL", "OFF", "glTF", "LAS", "E57", "PCD", "PTX", "text", "ASCII grid", "GeoTIFF" or
-/// "unknown".
+/// Returns "PLY", "OBJ", "STL", "OFF", "glTF", "LAS", "E57", "PCD", "PTX", "text", "ASCII grid", "GeoTIFF",
+/// "terrain picture" or "unknown".
 EWA_API const char *ewa_model_format_name(ewa_model_format format);
 
 /// Says which format a regular file has, by its content; EWA_MODEL_UNKNOWN: none that is read here. Errors:

@@ -238,6 +238,12 @@ class ewa_texture_wrap(IntEnum):
     EWA_TEXTURE_CLAMP = 1
 
 
+class ewa_picture_heights(IntEnum):
+    EWA_HEIGHTS_NONE = 0
+    EWA_HEIGHTS_TERRAIN_RGB = 1
+    EWA_HEIGHTS_TERRARIUM = 2
+
+
 class ewa_ply_encoding(IntEnum):
     EWA_PLY_BINARY_LITTLE_ENDIAN = 0
     EWA_PLY_BINARY_BIG_ENDIAN = 1
@@ -258,6 +264,7 @@ class ewa_model_format(IntEnum):
     EWA_MODEL_TEXT = 10
     EWA_MODEL_GRID = 11
     EWA_MODEL_TIFF = 12
+    EWA_MODEL_TERRAIN = 13
 
 
 class ewa_option_type(IntEnum):
@@ -1118,11 +1125,13 @@ class ewa_cloud_load_options(c.Structure):
     keep_going: bool
     attributes: bytes | None
     columns: bytes | None
+    heights: int
     _fields_ = [
         ("struct_size", c.c_size_t),
         ("keep_going", c.c_bool),
         ("attributes", c.c_char_p),
         ("columns", c.c_char_p),
+        ("heights", c.c_int),
     ]
 
 

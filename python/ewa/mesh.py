@@ -199,9 +199,9 @@ def _name_of(paths: Sequence[PathLike]) -> bytes | None:
 
 
 def _load(core: Core, path: PathLike, wanted: int, keep_going: bool, attributes: Sequence[str] | None,
-          columns: Sequence[str] | None) -> _Model:
+          columns: Sequence[str] | None, heights: str = "none") -> _Model:
     options = initialised(b.ewa_cloud_load_options, lib.ewa_cloud_load_options_init)
-    options.keep_going = bool(keep_going)
+    fill(options, "ewa_cloud_load_options", {"keep_going": keep_going, "heights": heights})
     if attributes is not None:
         options.attributes = ",".join(attributes).encode()
     if columns is not None:
@@ -211,7 +211,7 @@ def _load(core: Core, path: PathLike, wanted: int, keep_going: bool, attributes:
 
 def read(path: PathLike, *more: PathLike, filter: str | Sequence[str] | None = None, vertices: bool = False,
          keep_going: bool = False, attributes: Sequence[str] | None = None, columns: Sequence[str] | None = None,
-         context: Context | None = None) -> Cloud:
+         heights: str = "none", context: Context | None = None) -> Cloud:
     """Read points: PLY, LAS, LAZ, COPC, EPT, E57, PCD, PTX, PTS, XYZ, CSV; or a mesh, onto whose faces points are put.
 
     Parameters
@@ -228,6 +228,8 @@ def read(path: PathLike, *more: PathLike, filter: str | Sequence[str] | None = N
         Names of the streams that are wanted besides "position". Default: all.
     columns : sequence of str, optional
         What the columns of a text file are. Default: as its head or its numbers say.
+    heights : {"none", "terrain-rgb", "terrarium"}, optional
+        What the colours of a picture say: nothing, or heights as in tiles of Mapbox or of Mapzen.
     context : Context, optional
 
     Raises
@@ -236,7 +238,7 @@ def read(path: PathLike, *more: PathLike, filter: str | Sequence[str] | None = N
     """
     if more:
         merged = merge([read(one, filter=filter, vertices=vertices, keep_going=keep_going, attributes=attributes,
-                             columns=columns, context=context) for one in (path, *more)])
+                             columns=columns, heights=heights, context=context) for one in (path, *more)])
         merged._name = _name_of([path, *more])
         return merged
     core = core_of(context)
@@ -244,7 +246,7 @@ def read(path: PathLike, *more: PathLike, filter: str | Sequence[str] | None = N
         cloud = Octree(path, context=context).read()
         return cloud if filter is None else cloud.filter(*([filter] if isinstance(filter, str) else filter))
     wanted = b.EWA_MODEL_POINTS if vertices else b.EWA_MODEL_MESH
-    model = _load(core, path, wanted, keep_going, attributes, columns)
+    model = _load(core, path, wanted, keep_going, attributes, columns, heights)
     if model.struct.points:
         cloud = model.take_points()
     else:

@@ -67,7 +67,7 @@ static ewa_status make(ewa_context *context, const char *name, const ewa_asset_o
     asset->cutoff = options->cutoff;
     asset->voxel_level_count = options->voxel_level_count;
     asset->reach_steps = options->reach_steps;
-    asset->of_columns = options->load && (options->load->columns || options->load->attributes);
+    asset->of_columns = options->load && (options->load->columns || options->load->attributes || options->load->heights);
     memcpy(asset->to_world, options->to_world, sizeof asset->to_world);
     ewa_status status = copy_text(context, name, &asset->name, &asset->name_bytes);
     if (status == EWA_OK)

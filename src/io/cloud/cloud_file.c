@@ -13,7 +13,7 @@
 static ewa_status load(ewa_context *context, const uint8_t *bytes, size_t size_bytes, const char *name,
                        const char *path, ewa_cloud **cloud) {
     if (size_bytes == 0) return ewa_fail(context, EWA_ERROR_FORMAT, "%s: the file is empty", name);
-    const ewa_cloud_format *format = ewa_cloud_format_of(name, bytes, size_bytes, EWA_PROBE_ALL);
+    const ewa_cloud_format *format = ewa_cloud_format_of(name, bytes, size_bytes, EWA_PROBE_ALL, NULL);
     if (!format)
         return ewa_fail(context, EWA_ERROR_UNSUPPORTED,
                         "%s: not a point file of a known format (" EWA_CLOUD_FORMATS ")", name);

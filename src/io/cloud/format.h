@@ -92,7 +92,7 @@ typedef struct ewa_cloud_write_format {
 
 /// The formats, in the order in which they are asked. Each lives in a file of its own.
 extern const ewa_cloud_format ewa_format_ply, ewa_format_las, ewa_format_e57, ewa_format_pcd, ewa_format_ptx,
-    ewa_format_tiff, ewa_format_grid, ewa_format_text;
+    ewa_format_tiff, ewa_format_terrain, ewa_format_grid, ewa_format_text;
 extern const ewa_cloud_write_format ewa_write_ply, ewa_write_las, ewa_write_pcd, ewa_write_text;
 
 /// What messages say is read and written.
@@ -108,9 +108,10 @@ typedef enum ewa_probe {
     EWA_PROBE_ALL,   ///< text in columns too, for what is no mesh
 } ewa_probe;
 
-/// Finds the format of a file; NULL when it is of none of them.
+/// Finds the format of a file, pictures among them when the options (may be NULL) say so; NULL when it is of none
+/// of them.
 const ewa_cloud_format *ewa_cloud_format_of(const char *name, const uint8_t *bytes, uint64_t size_bytes,
-                                            ewa_probe probe);
+                                            ewa_probe probe, const ewa_cloud_load_options *options);
 
 /// Makes a cloud with room for `point_count` points that have the attributes of a prototype that are wanted
 /// (names, comma-separated, besides "position"; NULL: all), its origin, grid and notes, and one sink for each

@@ -20,7 +20,8 @@ static const ewa_cloud_format *const formats[] = {&ewa_format_ply, &ewa_format_l
 enum { MAGIC_COUNT = 6 };
 
 const ewa_cloud_format *ewa_cloud_format_of(const char *name, const uint8_t *bytes, uint64_t size_bytes,
-                                            ewa_probe probe) {
+                                            ewa_probe probe, const ewa_cloud_load_options *options) {
+    if (options && options->heights && ewa_format_terrain.probe(name, bytes, size_bytes)) return &ewa_format_terrain;
     const size_t count = probe == EWA_PROBE_MAGIC ? MAGIC_COUNT : sizeof formats / sizeof formats[0];
     for (size_t i = 0; i < count; i++)
         if (formats[i]->probe(name, bytes, size_bytes)) return formats[i];
@@ -33,6 +34,8 @@ const ewa_cloud_format *ewa_cloud_format_of(const char *name, const uint8_t *byt
 static const ewa_option load_rows[] = {
     {"keep_going", EWA_OPTION_BOOL, LOAD_AT(keep_going),
      .help = "step over damaged pieces of a file, with a warning, and count the points that are lost"},
+    {"heights", EWA_OPTION_CHOICE, LOAD_AT(heights), .words = "none|terrain-rgb|terrarium",
+     .help = "PNG and WebP are grids of heights, in colours as Mapbox or as Mapzen has them"},
 };
 
 const ewa_option_table ewa_cloud_load_options_table = EWA_OPTION_TABLE(ewa_cloud_load_options, load_rows);

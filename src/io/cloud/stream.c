@@ -146,7 +146,7 @@ static ewa_status open_reader(ewa_cloud_reader *reader, ewa_context *context, co
                                         .lost_count = &reader->lost_count,
                                         .mapped = reader->file.mapped};
     reader->format = ewa_cloud_format_of(reader->source.name, reader->source.bytes, reader->source.size_bytes,
-                                         EWA_PROBE_ALL);
+                                         EWA_PROBE_ALL, &reader->options);
     if (!reader->format)
         return ewa_fail(context, EWA_ERROR_UNSUPPORTED, "%s: no file of points of a known format",
                         reader->source.name);

@@ -19,6 +19,11 @@ ewa_status ewa_png_decode(ewa_context *context, const char *name, const uint8_t 
 ewa_status ewa_png_decode_numbers(ewa_context *context, const char *name, const uint8_t *bytes,
                                   size_t size_bytes, ewa_image *image);
 
+/// Decodes a PNG file to its codes as they are, red green blue alpha of 8 bits; the caller releases `*code_bytes`
+/// bytes.
+ewa_status ewa_png_decode_codes(ewa_context *context, const char *name, const uint8_t *bytes, size_t size_bytes,
+                                uint32_t *width_px, uint32_t *height_px, uint8_t **codes, size_t *code_bytes);
+
 /// Reads the size from the head of a PNG file.
 ewa_status ewa_png_size(ewa_context *context, const char *name, const uint8_t *bytes, size_t size_bytes,
                         uint32_t *width_px, uint32_t *height_px);

@@ -170,6 +170,35 @@ ewa_status ewa_png_decode_numbers(ewa_context *context, const char *name, const 
     return status;
 }
 
+/// Decodes to memory that the caller releases also after a failure.
+static ewa_status read_codes(const reader *in, uint8_t **codes, size_t *code_bytes) {
+    const size_t all_bytes = 4 * (size_t)in->header.width * in->header.height;
+    *codes = ewa_allocate(in->context, all_bytes, 1);
+    if (!*codes) return EWA_ERROR_MEMORY;
+    *code_bytes = all_bytes;
+    int error = spng_decode_image(in->png, *codes, all_bytes, SPNG_FMT_RGBA8, SPNG_DECODE_TRNS);
+    if (!error) error = spng_decode_chunks(in->png);
+    return error ? fail_spng(in, error) : EWA_OK;
+}
+
+ewa_status ewa_png_decode_codes(ewa_context *context, const char *name, const uint8_t *bytes, size_t size_bytes,
+                                uint32_t *width_px, uint32_t *height_px, uint8_t **codes, size_t *code_bytes) {
+    *codes = NULL;
+    *code_bytes = 0;
+    reader in = {.context = context, .name = name};
+    ewa_status status = open_png(&in, bytes, size_bytes);
+    if (status == EWA_OK) status = check_size(&in, size_bytes);
+    if (status == EWA_OK) status = read_codes(&in, codes, code_bytes);
+    spng_ctx_free(in.png);
+    *width_px = in.header.width;
+    *height_px = in.header.height;
+    if (status == EWA_OK) return EWA_OK;
+    ewa_release(context, *codes, *code_bytes, 1);
+    *codes = NULL;
+    *code_bytes = 0;
+    return status;
+}
+
 ewa_status ewa_png_size(ewa_context *context, const char *name, const uint8_t *bytes, size_t size_bytes,
                         uint32_t *width_px, uint32_t *height_px) {
     reader in = {.context = context, .name = name};

@@ -56,16 +56,13 @@ static ewa_status count_ply_faces(const ewa_ply_source *source, uint64_t *count)
 /// Reads a file of points alone.
 static ewa_status read_points(const ewa_mesh_source *source, const ewa_cloud_format *format,
                               const ewa_cloud_load_options *options, ewa_model *model) {
-    ewa_cloud_load_options chosen;
-    ewa_cloud_load_options_init(&chosen, sizeof chosen);
-    EWA_TRY(ewa_options_take(source->context, &ewa_cloud_load_options_table, options, &chosen));
     model->format = format->format;
     const ewa_cloud_source points = {.context = source->context,
                                      .name = source->name,
                                      .path = source->path,
                                      .bytes = source->bytes,
                                      .size_bytes = source->size_bytes,
-                                     .options = &chosen,
+                                     .options = options,
                                      .lost_count = &model->lost_count};
     EWA_TRY(ewa_cloud_read_all(&points, format, &model->points));
     ewa_cloud_settle(model->points);
@@ -93,12 +90,12 @@ static ewa_status read_ply(const ewa_mesh_source *source, uint32_t wanted,
 /// Finds the format: those with a magic first, then meshes, then text, which has none. `*points` is NULL for
 /// meshes.
 static ewa_model_format probe(const char *name, const uint8_t *bytes, size_t size_bytes,
-                              const ewa_cloud_format **points) {
-    *points = ewa_cloud_format_of(name, bytes, size_bytes, EWA_PROBE_MAGIC);
+                              const ewa_cloud_load_options *options, const ewa_cloud_format **points) {
+    *points = ewa_cloud_format_of(name, bytes, size_bytes, EWA_PROBE_MAGIC, options);
     if (*points) return (*points)->format;
     const ewa_model_format mesh = ewa_mesh_probe(name, bytes, size_bytes);
     if (mesh != EWA_MODEL_UNKNOWN) return mesh;
-    *points = ewa_cloud_format_of(name, bytes, size_bytes, EWA_PROBE_ALL);
+    *points = ewa_cloud_format_of(name, bytes, size_bytes, EWA_PROBE_ALL, options);
     return *points ? (*points)->format : EWA_MODEL_UNKNOWN;
 }
 
@@ -107,7 +104,7 @@ ewa_status ewa_model_probe(ewa_context *context, const char *path, ewa_model_for
     ewa_file file;
     EWA_TRY(ewa_file_map(context, path, &file));
     const ewa_cloud_format *points;
-    *format = probe(path, file.bytes, file.size_bytes, &points);
+    *format = probe(path, file.bytes, file.size_bytes, NULL, &points);
     ewa_file_unmap(context, &file);
     return EWA_OK;
 }
@@ -117,7 +114,8 @@ static ewa_status refuse(const ewa_mesh_source *source) {
     const char *picture = ewa_image_kind(source->bytes, source->size_bytes);
     if (picture)
         return ewa_fail(source->context, EWA_ERROR_UNSUPPORTED,
-                        "%s: a picture (%s), which has no points: 'ewa texture' draws pictures, 'ewa warp' those with depths",
+                        "%s: a picture (%s), which has no points: 'ewa texture' draws pictures, 'ewa warp' those with "
+                        "depths, --heights says that its colours are heights",
                         source->name, picture);
     EWA_TRY(ewa_text_refuse_odd(source->context, source->name, source->bytes, source->size_bytes));
     return ewa_fail(source->context, EWA_ERROR_UNSUPPORTED,
@@ -125,12 +123,15 @@ static ewa_status refuse(const ewa_mesh_source *source) {
                     source->name);
 }
 
-static ewa_status load(const ewa_mesh_source *source, uint32_t wanted, const ewa_cloud_load_options *options,
+static ewa_status load(const ewa_mesh_source *source, uint32_t wanted, const ewa_cloud_load_options *given,
                        ewa_model *model) {
     if (source->size_bytes == 0)
         return ewa_fail(source->context, EWA_ERROR_FORMAT, "%s: the file is empty", source->name);
     const ewa_cloud_format *points;
-    model->format = probe(source->name, source->bytes, source->size_bytes, &points);
+    ewa_cloud_load_options chosen, *options = &chosen;
+    ewa_cloud_load_options_init(&chosen, sizeof chosen);
+    EWA_TRY(ewa_options_take(source->context, &ewa_cloud_load_options_table, given, &chosen));
+    model->format = probe(source->name, source->bytes, source->size_bytes, options, &points);
     switch (model->format) {
     case EWA_MODEL_PLY:
         return read_ply(source, wanted, options, model);

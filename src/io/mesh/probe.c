@@ -12,7 +12,7 @@ enum { LOOKED_BYTES = 1 << 16, LOOKED_LETTERS = 1 << 11, STL_HEAD_BYTES = 84, ST
 
 const char *ewa_model_format_name(ewa_model_format format) {
     static const char *const names[] = {"unknown", "PLY", "OBJ", "STL", "OFF", "glTF",
-                                        "LAS",     "E57", "PCD", "PTX", "text", "ASCII grid", "GeoTIFF"};
+                                        "LAS",     "E57", "PCD", "PTX", "text", "ASCII grid", "GeoTIFF", "terrain picture"};
     return (unsigned)format < sizeof names / sizeof names[0] ? names[format] : names[0];
 }
 
