@@ -49,7 +49,7 @@ class File:
 def read(root):
     files = {}
     for room in ROOMS:
-        for path in sorted((root / room).rglob("*.[ch]")):
+        for path in sorted([*(root / room).rglob("*.[ch]"), *(root / room).rglob("*.cpp")]):
             files[str(path.relative_to(root))] = File(path)
     return files
 

@@ -56,7 +56,7 @@ def check(path, shown, found):
 
 def main():
     root = Path(sys.argv[1] if len(sys.argv) > 1 else Path(__file__).resolve().parent.parent).resolve()
-    files = sorted(path for room in ("include", "src", "cli", "bench", "viewer") for path in (root / room).rglob("*.[ch]"))
+    files = sorted(path for room in ("include", "src", "cli", "bench", "viewer") for end in ("*.[ch]", "*.cpp") for path in (root / room).rglob(end))
     found = []
     for path in files:
         check(path, str(path.relative_to(root)), found)

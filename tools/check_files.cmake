@@ -5,7 +5,7 @@
 # those of more than 600. Fails for packages of others and for files of more than 1 MiB beside the sources.
 #
 # cmake -DROOT=folder -P check_files.cmake
-file(GLOB_RECURSE files RELATIVE "${ROOT}" "${ROOT}/include/*.h" "${ROOT}/src/*.[ch]" "${ROOT}/cli/*.[ch]"
+file(GLOB_RECURSE files RELATIVE "${ROOT}" "${ROOT}/include/*.h" "${ROOT}/src/*.[ch]" "${ROOT}/src/*.cpp" "${ROOT}/cli/*.[ch]"
   "${ROOT}/examples/*.[ch]" "${ROOT}/tests/*.[ch]" "${ROOT}/bench/*.[ch]" "${ROOT}/scenes/*.[ch]" "${ROOT}/import/*.[ch]"
   "${ROOT}/viewer/*.[ch]" "${ROOT}/viewer/*.cpp")
 set(wrong "")

@@ -22,8 +22,11 @@ foreach(row IN LISTS rows)
   endforeach()
 endforeach()
 
-file(GLOB_RECURSE files RELATIVE "${ROOT}" "${ROOT}/include/*.h" "${ROOT}/src/*.[ch]" "${ROOT}/cli/*.[ch]"
-  "${ROOT}/bench/*.[ch]" "${ROOT}/examples/*.[ch]" "${ROOT}/viewer/*.[ch]")
+set(patterns "${ROOT}/include/*.h")
+foreach(folder src cli bench examples viewer)
+  list(APPEND patterns "${ROOT}/${folder}/*.[ch]" "${ROOT}/${folder}/*.cpp")
+endforeach()
+file(GLOB_RECURSE files RELATIVE "${ROOT}" ${patterns})
 foreach(path IN LISTS files)
   string(REGEX MATCH "^((src|include)/)?([^/]+)/([^/]*)" _ ${path})
   set(inside "${CMAKE_MATCH_2}")

@@ -83,7 +83,7 @@ class Tree:
             self.texts.append(Text(name, 1, text))
         self.sources, self.messages = {}, []
         for room in CODE:
-            for path in sorted((root / room).rglob("*.[ch]")):
+            for path in sorted([*(root / room).rglob("*.[ch]"), *(root / room).rglob("*.cpp")]):
                 name = str(path.relative_to(root))
                 if name.startswith("tests/house/"):
                     continue  # is wrong on purpose

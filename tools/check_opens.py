@@ -35,7 +35,7 @@ NO_CODE = re.compile(r"//[^\n]*|/\*.*?\*/|\"(?:\\.|[^\"\\\n])*\"", re.S)
 def main():
     root = Path(sys.argv[1] if len(sys.argv) > 1 else Path(__file__).resolve().parent.parent).resolve()
     found, seen = [], set()
-    for path in sorted((root / "src").rglob("*.[ch]")):
+    for path in sorted([*(root / "src").rglob("*.[ch]"), *(root / "src").rglob("*.cpp")]):
         shown = path.relative_to(root).as_posix()
         text = NO_CODE.sub(lambda match: "\n" * match.group().count("\n"), path.read_text())
         for number, line in enumerate(text.splitlines(), 1):

@@ -23,7 +23,7 @@ CHAIN = re.compile(r"\n *(?:const )?ewa_status status\s+=[^;{}]*;" + STEP + r"+\
 def main():
     root = Path(sys.argv[1] if len(sys.argv) > 1 else Path(__file__).resolve().parent.parent).resolve()
     found = []
-    for path in sorted((root / "src").rglob("*.[ch]")):
+    for path in sorted([*(root / "src").rglob("*.[ch]"), *(root / "src").rglob("*.cpp")]):
         text = path.read_text()
         for pattern, what in ((HANDED_ON, "handed on without EWA_TRY"), (CHAIN, "a chain that gives nothing back")):
             for match in pattern.finditer(text):

@@ -46,8 +46,23 @@ def export(handle: Handle, address: int | None, shape: tuple[int, ...], dtype: n
                                          "strides": strides}))
 
 
+def _converted(array: Array) -> Array:
+    """The same numbers in a type that the library has, where one holds all of them: 64-bit integers, as lists make them, in
+    32 bits or as doubles, half floats as floats. Else the array as it is."""
+    if array.dtype == np.float16:
+        return array.astype(np.float32)
+    if array.dtype.kind in "iu" and array.dtype.itemsize == 8:
+        low, high = (int(array.min()), int(array.max())) if array.size else (0, 0)
+        for dtype in (np.int32, np.uint32):
+            if np.iinfo(dtype).min <= low and high <= np.iinfo(dtype).max:
+                return array.astype(dtype)
+        if max(-low, high) <= 2**53:
+            return array.astype(np.float64)
+    return array
+
+
 def as_numbers(value: Any, label: str) -> Array:
-    """An array of a type that the library has."""
+    """An array of a type that the library has, the given one itself where it is of such."""
     if isinstance(value, np.ma.MaskedArray):
         raise ArgumentError(f"{label}: a masked array; fill it first, with NaN where nothing is")
     try:
@@ -58,6 +73,8 @@ def as_numbers(value: Any, label: str) -> Array:
         array = array.view(np.uint8)
     if not array.dtype.isnative and array.dtype.newbyteorder("=") in TYPE_OF:
         array = array.astype(array.dtype.newbyteorder("="))
+    if array.dtype not in TYPE_OF:
+        array = _converted(array)
     if array.dtype not in TYPE_OF:
         raise ArgumentError(f"{label}: numbers of type {array.dtype}; there are "
                             f"{', '.join(str(dtype) for dtype in TYPE_OF)}")
@@ -74,6 +91,8 @@ def as_points(value: Any, label: str, copy: bool | None) -> Array:
     packed = array.ndim == 1 or width == 1 or array.strides[1] == size
     step = array.strides[0] if len(array) > 1 else size * width
     fits = packed and array.flags.aligned and step >= size * width and step % size == 0
+    if copy is False and isinstance(value, np.ndarray) and not np.shares_memory(array, value) and array.size:
+        raise ArgumentError(f"{label}: numbers of type {value.dtype} cannot be borrowed")
     if copy is False and not fits:
         raise ArgumentError(f"{label}: strides {array.strides} of {size}-byte numbers cannot be borrowed")
     return array if fits and not copy else np.array(array, order="C", copy=True)

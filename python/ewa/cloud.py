@@ -44,7 +44,7 @@ class Cloud:
     Parameters
     ----------
     positions : array_like, shape (n, 3)
-        World units, relative to `origin`; float32 or float64. NaN: a point that is not drawn.
+        World units, relative to `origin`; float32 or float64, integers become float64. NaN: a point that is not drawn.
     normals : array_like, shape (n, 3), optional
         Outward, any length but zero.
     colors : array_like, shape (n, 3) or (n, 4), optional
@@ -74,8 +74,10 @@ class Cloud:
         position = as_points(positions, "positions", copy)
         if position.ndim != 2 or position.shape[1] != 3:
             raise ArgumentError(f"positions: shape {position.shape}; (n, 3) is needed")
-        if position.dtype.kind != "f":
+        if position.dtype.kind != "f" and copy is False:
             raise ArgumentError(f"positions: numbers of type {position.dtype}; float32 or float64 is needed")
+        if position.dtype.kind != "f":
+            position = position.astype(np.float64)
         streams = {"position": position}
         given = {"normal": normals, "color": colors, "radius": radius, **attributes}
         for name, value in given.items():

@@ -60,6 +60,8 @@ class Volume(Held):
         array = as_numbers(voxels, "voxels")
         if array.ndim != 3 or 0 in array.shape or max(array.shape) >= 2**32:
             raise ArgumentError(f"voxels: shape {array.shape}; (nz, ny, nx) is needed")
+        if array.dtype not in _VOXELS and (array.dtype.kind == "f" or np.array_equal(array, array.astype(np.float32))):
+            array = array.astype(np.float32)
         if array.dtype not in _VOXELS:
             raise ArgumentError(f"voxels: numbers of type {array.dtype}; {', '.join(map(str, _VOXELS))} are")
         array = np.require(array, None, ["C", "A"])

@@ -42,6 +42,21 @@ class Arrays(Case):
         with self.assertRaises(ewa.ArgumentError):
             ewa.Cloud(self.points[::-1], copy=False)
 
+    def test_converts_what_loses_nothing(self) -> None:
+        corners = [[0, 0, 0], [1, 0, 0], [0, 2, 0]]
+        for dtype in (np.int8, np.uint16, np.int32, np.int64, np.uint64, np.float16):
+            cloud = ewa.Cloud(np.array(corners, dtype), colors=[[255, 0, 0]] * 3, big=np.array([0, 1, 2**40]))
+            np.testing.assert_array_equal(cloud["position"], corners)
+            # Whole numbers stay such: they are codes of colours.
+            self.assertEqual([cloud[name].dtype for name in cloud], [np.float16 == dtype and np.float32 or np.float64,
+                                                                     np.int32, np.float64])
+            with self.assertRaises(ewa.ArgumentError):
+                ewa.Cloud(np.array(corners, dtype), copy=False)
+        volume = ewa.Volume(np.arange(27).reshape(3, 3, 3))
+        self.assertEqual(volume.voxels.dtype, np.float32)
+        with self.assertRaises(ewa.ArgumentError):
+            ewa.Volume(np.full((3, 3, 3), 2**24 + 1))
+
     def test_strided_surfels_are_those_of_contiguous_ones(self) -> None:
         made = ewa.generate("torus", 3000)
         wide = np.zeros((3000, 10), np.float32)
@@ -56,14 +71,14 @@ class Arrays(Case):
     def test_refuses_wrong_arrays(self) -> None:
         n = len(self.points)
         wrong: list[Any] = [
-            np.zeros((4, 2)), np.zeros(3), np.zeros((2, 3, 1)), np.zeros((4, 3), np.int32), np.zeros((4, 3), complex),
-            np.zeros((4, 3), object), np.zeros((4, 3), np.float16), np.ma.masked_array(np.zeros((4, 3))), "abc", None,
+            np.zeros((4, 2)), np.zeros(3), np.zeros((2, 3, 1)), np.full((4, 3), 2**60 + 1), np.zeros((4, 3), complex),
+            np.zeros((4, 3), object), np.ma.masked_array(np.zeros((4, 3))), "abc", None,
             [[1, 2], [3]], {"a": 1}]
         for value in wrong:
             with self.subTest(repr(value)[:40]), self.assertRaises(ewa.ArgumentError):
                 ewa.Cloud(value)
         for name, value in (("normals", np.zeros((n - 1, 3))), ("colors", np.zeros((n, 5))), ("radius", np.zeros((n, 2, 2))),
-                            ("intensity", np.zeros(n, np.int64)), ("x" * 64, np.zeros(n)), ("", np.zeros(n))):
+                            ("intensity", np.arange(n) + 2**60), ("x" * 64, np.zeros(n)), ("", np.zeros(n))):
             with self.subTest(name), self.assertRaises(ewa.ArgumentError):
                 ewa.Cloud(self.points, **{name: value})
         with self.assertRaises(ewa.ArgumentError):
@@ -156,6 +171,9 @@ class Meshes(Case):
         cloud = mesh.sample(point_count=2000)
         self.assertEqual(set(map(tuple, cloud["color"])), {(255, 0, 0)})
         np.testing.assert_array_equal(mesh.vertices, corners)
+        whole = ewa.Mesh([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], faces.tolist(), normals=np.eye(4, 3, dtype=int),
+                         colors=np.ones((4, 4), np.float16))
+        np.testing.assert_array_equal(whole.vertices, corners)
         wrong: list[Any] = [[[0, 1, 4]], [[0, 1, -1]], [[0.0, 1, 2]], [[0, 1]], [0, 1, 2]]
         for triangles in wrong:
             with self.assertRaises(ewa.ArgumentError):
