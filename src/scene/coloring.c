@@ -321,13 +321,13 @@ static bool has_colors(const ewa_cloud *cloud) {
     return false;
 }
 
-/// Whether a laser scanned the points, by what files of such scans have.
+/// Whether the points are of the ground: a grid of heights, or what a laser scanned, by what files of such scans have.
 static bool is_surveyed(const ewa_cloud *cloud) {
     bool classes = false;
     const ewa_attribute *a;
     for (uint32_t k = 0; (a = ewa_cloud_attribute_at(cloud, k)); k++)
         classes = classes || ewa_coloring_names_classes(a->name);
-    return classes || ewa_cloud_find(cloud, "return_number");
+    return classes || ewa_cloud_find(cloud, "return_number") || ewa_cloud_note(cloud, "file.heights", NULL);
 }
 
 /// Whether an attribute of a cloud is worth to be seen in place of colours.

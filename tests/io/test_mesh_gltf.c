@@ -212,8 +212,8 @@ static void test_coarse_floats(void **state) {
     }
 }
 
-/// Normals go by the inverse transpose; a mirrored one still points out.
-static void test_normals_and_colors(void **state) {
+/// Normals go by the inverse transpose; a mirrored one still points out. Alpha of colours counts where the material blends.
+static void try_normals_and_colors(const char *material, float alpha) {
     glb g = {.size = 0};
     static const float normals[12] = {0, 0, 1, 0, 0, 1, 0, 0, 1, 1, 0, 1}, uv[8] = {0, 0, 1, 0, 1, 1, 0, 1};
     put_floats(&g, 12, gltf_square);
@@ -226,7 +226,7 @@ static void test_normals_and_colors(void **state) {
         g.json, sizeof g.json,
         GLTF_HEAD(
             "{\"mesh\":0,\"scale\":[-2,1,1]}") "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0,"
-                                               "\"NORMAL\":1,\"TEXCOORD_0\":2,\"COLOR_0\":3},\"mode\":6}]}],"
+                                               "\"NORMAL\":1,\"TEXCOORD_0\":2,\"COLOR_0\":3},\"mode\":6,\"material\":0}]}],\"materials\":[{%s}],"
                                                "\"accessors\":[" GLTF_POSITIONS
                                                ",{\"bufferView\":1,\"componentType\":5126,\"count\":4,"
                                                "\"type\":\"VEC3\"},{\"bufferView\":2,\"componentType\":5126,"
@@ -237,7 +237,7 @@ static void test_normals_and_colors(void **state) {
                                                "\"byteLength\":48},"
                                                "{\"buffer\":0,\"byteOffset\":96,\"byteLength\":32},{"
                                                "\"buffer\":0,\"byteOffset\":128,\"byteLength\":16}],"
-                                               "\"buffers\":[{\"byteLength\":144}]}");
+                                               "\"buffers\":[{\"byteLength\":144}]}", material);
     ewa_mesh mesh;
     glb_load(context, &messages, &g, false, &mesh);
     const uint32_t last = mesh_corner(&mesh, 1, 0, 3, 0), first = mesh_corner(&mesh, 0, 0, 0, 0),
@@ -247,8 +247,13 @@ static void test_normals_and_colors(void **state) {
     assert_float_equal(n[0] / n[2], -0.5, 1e-6); // (1, 0, 1) through diag(-2, 1, 1) to the inverse transpose
     assert_true(mesh.texcoords[2 * first + 1] == 1 && mesh.texcoords[2 * last + 1] == 0); // from below
     assert_float_equal(mesh.colors[4 * last], 0.2, 1e-6);                                 // linear
-    assert_float_equal(mesh.colors[4 * second + 3], 128 / 255.0, 1e-6);
+    assert_float_equal(mesh.colors[4 * second + 3], alpha, 1e-6);
     ewa_mesh_free(&mesh);
+}
+
+static void test_normals_and_colors(void **state) {
+    try_normals_and_colors("\"alphaMode\":\"BLEND\"", 128 / 255.0f);
+    try_normals_and_colors("", 1);
 }
 
 /// A buffer in text, in a file beside, in a file elsewhere.

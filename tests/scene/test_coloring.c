@@ -14,6 +14,7 @@ typedef struct scan {
     double first, step; ///< of that number, from point to point
     bool returns;       ///< has return numbers, as scans from the air
     int colors;         ///< -1: none; else all channels
+    bool grid;          ///< says that it is a grid of heights
 } scan;
 
 /// A square with a step, shifted along x.
@@ -42,6 +43,7 @@ static ewa_cloud *make_scan(ewa_context *context, const scan *of, double shift_w
         assert_int_equal(ewa_cloud_add(cloud, EWA_COLOR, EWA_U8, 3, &data), EWA_OK);
         memset(data, of->colors, 3 * (size_t)POINTS);
     }
+    if (of->grid) assert_int_equal(ewa_cloud_set_note(cloud, "file.heights", "40 x 40", 7), EWA_OK);
     return cloud;
 }
 
@@ -132,12 +134,15 @@ static void test_signal(void **state) {
 /// Numbers that are the same everywhere show nothing; then surveys show their height, and bodies stay grey.
 static void test_height(void **state) {
     (void)state;
-    const scan survey = {"intensity", 7, 0, true, -1}, body = {"intensity", 7, 0, false, -1}, bare = {NULL, 0, 0, false, -1};
+    const scan survey = {"intensity", 7, 0, true, -1}, body = {"intensity", 7, 0, false, -1}, bare = {NULL, 0, 0, false, -1},
+               grid = {.colors = -1, .grid = true};
     ewa_coloring height = by("z");
     height.ranged = height.percent[0] = height.percent[1] = true;
     height.range[0] = 2, height.range[1] = 98;
     draw(&survey, 1, &height, &asked);
     draw(&survey, 1, NULL, &automatic);
+    assert_true(same(&asked, &automatic));
+    draw(&grid, 1, NULL, &automatic);
     assert_true(same(&asked, &automatic));
     assert_string_equal(automatic.attribute, "z");
     draw(&bare, 1, NULL, &asked);

@@ -86,6 +86,9 @@ ewa_status ewa_height_grid_settle(const ewa_cloud_source *source, ewa_height_gri
         }
     }
     for (int axis = 0; axis < 2; axis++) grid->origin_world[axis] = (double)ewa_text_origin(low_world[axis]);
+    char text[64];
+    snprintf(text, sizeof text, "%llu x %llu", (unsigned long long)grid->columns, (unsigned long long)grid->rows);
+    EWA_TRY(ewa_cloud_set_note(prototype, "file.heights", text, strlen(text)));
     EWA_TRY(ewa_cloud_add(prototype, EWA_POSITION, EWA_F64, 3, NULL));
     ewa_cloud_set_origin(prototype, grid->origin_world);
     return EWA_OK;

@@ -81,6 +81,7 @@ typedef struct primitive {
     gltf_array indices;  ///< or none
     gltf_packed *packed; ///< by Draco, or NULL
     bool mirrored;
+    bool opaque; ///< alpha of its colours means nothing
 } primitive;
 
 ewa_status ewa_gltf_read_attribute(gltf *g, uint64_t mesh, const cJSON *attributes, uint64_t wanted_count,
@@ -141,6 +142,7 @@ static ewa_status add_colors(gltf *g, const primitive *p) {
         for (uint32_t c = 0; c < array.components; c++) odd |= !isfinite(from[c]);
         for (uint32_t c = 0; c < array.components && !odd; c++)
             color[c] = (float)(from[c] >= 0 ? fmin(from[c], 1) : 0);
+        if (p->opaque) color[3] = 1;
         build->odd_color_count += odd;
         build->positions.count++;
         status = ewa_mesh_add_color(build, white, color);
@@ -236,6 +238,7 @@ static ewa_status add_primitive(gltf *g, uint64_t mesh, const cJSON *item, const
     p.mirrored = cofactors(at, cofactor) < 0;
     g->build->look = EWA_MESH_NONE;
     if (material != UINT64_MAX) EWA_TRY(ewa_gltf_look(g, material, &g->build->look, &set));
+    p.opaque = material == UINT64_MAX || ewa_gltf_alpha(g, material) == EWA_MESH_ALPHA_DROP;
     if (mode == TRIANGLES && indices != UINT64_MAX &&
         ewa_gltf_count(p.attributes, "POSITION", UINT64_MAX, &positions))
         EWA_TRY(ewa_gltf_open_packed(g, mesh, item, positions, indices, &p.packed));
@@ -319,6 +322,7 @@ static ewa_status open_table(const gltf *g, const char *name, gltf_table *table)
 static ewa_status check_extensions(const gltf *g) {
     static const char *const known[] = {"KHR_texture_transform",     "KHR_mesh_quantization",
                                         "EXT_texture_webp",          "KHR_materials_pbrSpecularGlossiness",
+                                        "KHR_texture_basisu", // such pictures are left out
                                         "KHR_lights_punctual",       "KHR_gaussian_splatting",
                                         "EXT_meshopt_compression",   "KHR_meshopt_compression",
                                         "KHR_draco_mesh_compression"};

@@ -135,6 +135,9 @@ typedef struct gltf_numbers {
 ewa_status ewa_gltf_describe(const gltf *g, uint64_t index, uint32_t low, uint32_t high, gltf_array *array,
                              gltf_numbers *form);
 
+/// What alpha means in a material that is there.
+ewa_mesh_alpha ewa_gltf_alpha(const gltf *g, uint64_t material);
+
 /// The look of a material, made when it is used first; which set of texture coordinates its picture wants.
 ewa_status ewa_gltf_look(gltf *g, uint64_t material, uint32_t *look, uint64_t *texcoord_set);
 

@@ -80,6 +80,13 @@ static void read_transform(const cJSON *info, ewa_mesh_look *look, uint64_t *tex
     look->mapped = true;
 }
 
+ewa_mesh_alpha ewa_gltf_alpha(const gltf *g, uint64_t material) {
+    const cJSON *mode = ewa_gltf_member(g->materials.items[material], "alphaMode");
+    if (cJSON_IsString(mode) && strcmp(mode->valuestring, "MASK") == 0) return EWA_MESH_ALPHA_CUT;
+    if (cJSON_IsString(mode) && strcmp(mode->valuestring, "BLEND") == 0) return EWA_MESH_ALPHA_KEEP;
+    return EWA_MESH_ALPHA_DROP;
+}
+
 ewa_status ewa_gltf_look(gltf *g, uint64_t material, uint32_t *look, uint64_t *texcoord_set) {
     if (material >= g->materials.count)
         return ewa_gltf_fail(g, "materials", material, "there is no such one");
@@ -97,10 +104,8 @@ ewa_status ewa_gltf_look(gltf *g, uint64_t material, uint32_t *look, uint64_t *t
     double factor[4] = {1, 1, 1, 1}, limit = 0.5;
     if (!ewa_gltf_numbers(older ? older : base, older ? "diffuseFactor" : "baseColorFactor", 4, factor))
         return ewa_gltf_fail(g, "materials", material, "its factor is no array of 4 numbers");
-    const cJSON *mode = ewa_gltf_member(item, "alphaMode"), *cutoff = ewa_gltf_member(item, "alphaCutoff");
-    ewa_mesh_alpha alpha = EWA_MESH_ALPHA_DROP;
-    if (cJSON_IsString(mode) && strcmp(mode->valuestring, "MASK") == 0) alpha = EWA_MESH_ALPHA_CUT;
-    if (cJSON_IsString(mode) && strcmp(mode->valuestring, "BLEND") == 0) alpha = EWA_MESH_ALPHA_KEEP;
+    const cJSON *cutoff = ewa_gltf_member(item, "alphaCutoff");
+    const ewa_mesh_alpha alpha = ewa_gltf_alpha(g, material);
     if (cJSON_IsNumber(cutoff)) limit = cutoff->valuedouble;
     for (int c = 0; c < 3; c++) made.base_color[c] = factor[c] >= 0 ? (float)fmin(factor[c], 1) : 1;
     made.base_color[3] = alpha == EWA_MESH_ALPHA_KEEP && factor[3] >= 0 ? (float)fmin(factor[3], 1) : 1;
