@@ -16,6 +16,7 @@
 #   make interop                compares files with what laspy, laszip, libE57Format and others read and write
 #   make measure                programs of the figures in docs/, into build/release/measure
 #   make gallery docs           pictures and pages that the program makes
+#   make papers                 every figure, table and claim of the papers into docs/papers; PAPER=pas ITEM=fig3: one of them
 #   make wheel                  the Python package as a wheel, into build/wheels; PYTHONS names interpreters to test it with
 #   make install                to PREFIX (default /usr/local)
 
@@ -23,6 +24,8 @@ FILE ?=
 OUT ?= out
 PREFIX ?= /usr/local
 FUZZ_SECONDS ?= 60
+PAPER ?=
+ITEM ?=
 BENCH_PREFIX ?=
 BENCH_AGAINST ?= $(wildcard build/release/measure/measure_embree)
 JOBS ?= $(shell nproc)
@@ -31,7 +34,7 @@ EWA = build/release/cli/ewa
 # $(call quietly,COMMAND): prints what a command said only when it fails.
 quietly = @mkdir -p build && { $(1) >build/log-$@.txt 2>&1 || { cat build/log-$@.txt; exit 1; }; }
 
-.PHONY: interop build program measure setup demo check asan asan-build tsan tsan-build clang clang-build mutate fuzz bench sweep gallery docs wheel format install clean
+.PHONY: interop build program measure setup demo check asan asan-build tsan tsan-build clang clang-build mutate fuzz bench sweep gallery papers docs wheel format install clean
 
 build: setup
 	@echo "Building build/release"
@@ -114,6 +117,10 @@ sweep: program
 
 gallery: measure
 	@sh tools/gallery.sh $(EWA)
+
+papers: measure
+	@sh tools/setup.sh python3 python3-matplotlib ffmpeg glslang-tools spirv-tools
+	python3 tools/papers.py make $(EWA) $(PAPER) $(ITEM)
 
 docs: program
 	@sh tools/setup.sh python3

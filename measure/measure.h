@@ -7,6 +7,7 @@
 
 #include "ewa/ewa.h"
 
+#include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <time.h>
@@ -35,6 +36,9 @@ static inline ewa_context *make_context(uint32_t thread_count) {
     check(ewa_context_create(&options, &context));
     return context;
 }
+
+/// Whether this is the run of a test (EWA_QUICK), which sees that the program works and wants few of everything.
+static inline bool is_quick(void) { return getenv("EWA_QUICK") != NULL; }
 
 static inline double now_s(void) {
     struct timespec now;

@@ -236,7 +236,8 @@ def slug(heading):
 
 
 def check_links(tree, found):
-    anchors = {name: {slug(h) for h in re.findall(r"(?m)^#+ (.*)$", text)} for name, text in tree.pages.items()}
+    anchors = {name: {slug(h) for h in re.findall(r"(?m)^#+ (.*)$", text)} | set(re.findall(r'<a id="([\w-]+)"></a>', text))
+               for name, text in tree.pages.items()}
     for name, text in tree.pages.items():
         for match in re.finditer(r"\]\(([^)#\s]*)(?:#([^)\s]*))?\)", text):
             target, anchor = match.groups()
