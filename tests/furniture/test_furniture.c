@@ -4,6 +4,7 @@
 // Tests of src/furniture: furniture.c, layout.c, color_bar.c.
 #include <math.h>
 
+#include "furniture/decimal.h"
 #include "furniture/layout.h"
 #include "painting.h"
 
@@ -311,6 +312,132 @@ static void test_room(void **state) {
     }
 }
 
+/// A colour bar as it was drawn: the pixels of its colours, and rows of the marks of its ticks.
+typedef struct found_bar {
+    uint32_t left, right, top, bottom; ///< first, and one behind the last
+    uint32_t tick_count, ticks[64];    ///< first rows, from the top
+} found_bar;
+
+/// Whether a pixel has one of a colormap's colours.
+static bool is_mapped(const uint8_t *pixel) {
+    for (int k = 0; k <= 1024; k++) {
+        uint8_t srgb[3];
+        ewa_colormap_color(EWA_COLORMAP_VIRIDIS, k / 1024.0, srgb);
+        if (abs(srgb[0] - pixel[0]) <= 1 && abs(srgb[1] - pixel[1]) <= 1 && abs(srgb[2] - pixel[2]) <= 1) return true;
+    }
+    return false;
+}
+
+static found_bar find_bar(const ewa_canvas *canvas) {
+    found_bar bar = {.left = canvas->width_px};
+    uint32_t x = canvas->width_px, y = canvas->height_px / 2 + 40; // beside no text of a tick that is as bright
+    while (x-- > 0 && !is_mapped(painting_at(canvas, x, y))) {}
+    if (x == UINT32_MAX) return bar;
+    bar.right = x + 1;
+    while (is_mapped(painting_at(canvas, x - 1, y))) x--;
+    bar.left = x;
+    for (bar.top = y; is_mapped(painting_at(canvas, x, bar.top - 1)); bar.top--) {}
+    for (bar.bottom = y; is_mapped(painting_at(canvas, x, bar.bottom)); bar.bottom++) {}
+    for (y = 0; y < canvas->height_px; y++) { // behind the frame, before the texts
+        const bool mark = is_dark(painting_at(canvas, bar.right + 3, y));
+        if (mark && !is_dark(painting_at(canvas, bar.right + 3, y - 1)) && bar.tick_count < 64)
+            bar.ticks[bar.tick_count++] = y;
+    }
+    return bar;
+}
+
+/// The colour bar stands on whole pixels at the right end of the room that its widest number leaves, and its ticks are
+/// where their numbers are, no nearer to each other than 30 points.
+static void test_color_bar_places(void **state) {
+    static const double scales[] = {1, 1.3, 1.9}, ranges[][2] = {{0, 1}, {-3, 12}, {-1.7e308, 1.7e308}};
+    for (uint32_t height = 250; height < 560; height += 31)
+        for (int k = 0; k < 9; k++) {
+            const double point = scales[k % 3], *range = ranges[k / 3];
+            ewa_canvas canvas = painting_make(1000, height, white);
+            const ewa_camera camera = map_camera(&canvas, 1);
+            ewa_furniture_options options = no_furniture();
+            options.color_bar = true;
+            options.pixel_scale = point;
+            memcpy(options.range, range, sizeof options.range);
+            draw(&canvas, &camera, &options);
+            const found_bar bar = find_bar(&canvas);
+            free(canvas.rgba8);
+            assert_true(bar.right > bar.left && bar.tick_count >= 1);
+            const double tall = bar.bottom - bar.top, room = height - 2 * floor(14 * point) - 12 * point;
+            assert_int_equal(bar.right - bar.left, floor(14 * point));
+            assert_true(tall == floor(fmin(fmin(room, 0.6 * height), 300 * point)));
+            const double above = floor(14 * point) + 6 * point + (room - tall) / 2; // half a text over the middle
+            assert_true(bar.top <= above && bar.top > above - 1);
+            double widest_px = 0;
+            ewa_ticks ticks;
+            assert_true(ewa_ticks_find(range[0], range[1], (uint32_t)floor(tall / point / 30), &ticks));
+            for (int64_t i = ticks.first; i <= ticks.last; i++) {
+                char text[EWA_DECIMAL_BYTES];
+                ewa_decimal_write(ewa_ticks_at(&ticks, i), text);
+                widest_px = fmax(widest_px, ewa_text_width_px(text, 12 * point));
+            }
+            const double end = 1000 - floor(14 * point) - 10 * point - widest_px;
+            assert_true(bar.right <= end && bar.right > end - 1);
+            assert_int_equal(bar.tick_count, ticks.last - ticks.first + 1);
+            for (uint32_t i = 0; i < bar.tick_count; i++) {
+                const double value = ewa_decimal_value(ewa_ticks_at(&ticks, ticks.last - (int64_t)i));
+                const double share = (value / 2 - range[0] / 2) / (range[1] / 2 - range[0] / 2);
+                const double middle = bar.bottom - share * tall, thick = fmax(1, floor(point));
+                assert_true(fabs(bar.ticks[i] + thick / 2 - middle) <= 0.5 + thick);
+                if (i) assert_true(bar.ticks[i] - bar.ticks[i - 1] >= 30 * point - 1);
+            }
+        }
+}
+
+/// The ink of the scale bar is that of what is behind it, and of nothing else; it is no shorter than 20 points.
+static void test_scale_bar_ground(void **state) {
+    for (int inside = 0; inside < 2; inside++) { // black under it, white around it, and the other way round
+        ewa_canvas canvas = painting_make(1280, 720, inside ? white : black);
+        const ewa_camera camera = map_camera(&canvas, 10); // a bar of 100 pixels, longer than its text
+        ewa_furniture_options options = no_furniture();
+        options.scale_bar = true;
+        options.pixel_scale = 1;
+        for (uint32_t y = 681; y < 706; y++)
+            for (uint32_t x = 1166; x < 1266; x++)
+                memcpy(canvas.rgba8 + 4 * (y * 1280 + x), inside ? black : white, 4);
+        draw(&canvas, &camera, &options);
+        const uint8_t *ink = painting_at(&canvas, 1166 + 50, 705);
+        assert_true(inside ? ink[0] > 240 : ink[0] < 40);
+        free(canvas.rgba8);
+    }
+    static const struct {
+        double scale_px;
+        bool drawn;
+    } cases[] = {{1, true}, {1.05, true}, {0.95, false}, {10, true}, {9.5, false}};
+    for (int k = 0; k < 5; k++) { // a quarter of the picture are 25 pixels, of which 20 or so are a nice length
+        ewa_canvas canvas = painting_make(100, 400, white), bare = painting_make(100, 400, white);
+        const ewa_camera camera = map_camera(&canvas, cases[k].scale_px);
+        ewa_furniture_options options = no_furniture();
+        options.scale_bar = true;
+        options.pixel_scale = 1;
+        draw(&canvas, &camera, &options);
+        assert_int_equal(!painting_same(&canvas, &bare), cases[k].drawn);
+        free(canvas.rgba8), free(bare.rgba8);
+    }
+}
+
+/// Of a box about 64 pixels of a row and of a column are looked at: every third of 128.
+static void test_looks(void **state) {
+    for (int rows = 0; rows < 2; rows++) {
+        ewa_canvas canvas = painting_make(200, 200, white);
+        ewa_furniture_options options = no_furniture();
+        const ewa_layout layout = {.canvas = &canvas, .options = &options, .point_px = 1};
+        for (uint32_t y = 0; y < 200; y++)
+            for (uint32_t x = 0; x < 200; x++)
+                if (((rows ? y : x) - 10) % 3 == 0) memcpy(canvas.rgba8 + 4 * (y * 200 + x), black, 4);
+        const ewa_box box = {10, 10, 138, 138};
+        assert_true(ewa_layout_inks(&layout, &box).ink[0] > 240);
+        const ewa_box beside = {11, 11, 139, 139};
+        assert_true(ewa_layout_inks(&layout, &beside).ink[0] < 40);
+        free(canvas.rgba8);
+    }
+}
+
 /// One number as range, and one that is too narrow to be told apart: no ticks that lie, no crash.
 static void test_degenerate_ranges(void **state) {
     static const double ranges[][2] = {{5, 5},          {0, 0},           {1e16, 1e16 + 2},
@@ -402,6 +529,9 @@ int main(void) {
         cmocka_unit_test(test_legible),
         cmocka_unit_test(test_shorten),
         cmocka_unit_test(test_room),
+        cmocka_unit_test(test_color_bar_places),
+        cmocka_unit_test(test_scale_bar_ground),
+        cmocka_unit_test(test_looks),
         cmocka_unit_test(test_degenerate_ranges),
         cmocka_unit_test(test_refused),
         cmocka_unit_test(test_golden),

@@ -65,6 +65,15 @@ static void test_points(void **state) {
     assert_int_equal(info.level_count, stats.level_count);
     assert_int_equal(info.merged_count, stats.merged_count);
     assert_true(info.merged && info.surfels);
+    // The box that the file says is that of the points, exactly: they lie on its grid.
+    ewa_bounds bounds;
+    assert_int_equal(ewa_cloud_measure(output, &bounds), EWA_OK);
+    for (int c = 0; c < 3; c++) {
+        assert_true(info.bounds.low_world[c] == bounds.low_world[c]);
+        assert_true(info.bounds.high_world[c] == bounds.high_world[c]);
+        assert_true(info.low_world[c] <= bounds.low_world[c]);
+        assert_true(info.low_world[c] + info.side_world >= bounds.high_world[c]);
+    }
     ewa_lod_close(&lod);
     for (int i = 0; i < FILES; i++) ewa_cloud_destroy(&inputs[i]);
     ewa_cloud_destroy(&output);

@@ -1,0 +1,145 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// Surfels that represent others: areas are added, all else is a mean by area, sheets stay apart, cells too.
+#include "check.h"
+#include "lod/representative.h"
+
+#include <math.h>
+
+enum { CELL_LEVEL = 2, MANY = 1000 };
+
+/// Surfel number `index` of a cell.
+static ewa_representative surfel_of(uint64_t cell, uint32_t index, const float normal[3], float radius) {
+    ewa_representative s = {.code = (cell << 3 * (EWA_CODE_LEVELS - CELL_LEVEL)) + index,
+                            .radius_world = radius,
+                            .alpha = 0.25f * (float)(1 + index % 3)};
+    for (int c = 0; c < 3; c++) {
+        s.at_world[c] = (double)(index + (uint32_t)c);
+        s.normal[c] = normal[c];
+        s.color[c] = 0.125f * (float)((index + (uint32_t)c) % 8);
+    }
+    return s;
+}
+
+static ewa_representatives merge(const ewa_representative *fine, uint32_t count) {
+    ewa_context *context = check_context(2, NULL);
+    ewa_representatives merged = {.count = 0};
+    assert_int_equal(ewa_representatives_merge(context, fine, count, CELL_LEVEL, &merged), EWA_OK);
+    ewa_representatives kept = merged; // of no context
+    kept.items = malloc((merged.count + (size_t)1) * sizeof *kept.items);
+    memcpy(kept.items, merged.items, merged.count * sizeof *kept.items);
+    ewa_representatives_free(context, &merged);
+    ewa_context_destroy(&context);
+    return kept;
+}
+
+static const float up[3] = {0, 0, 1}, ahead[3] = {1, 0, 0};
+
+static void hold_near(double found, double wanted) {
+    assert_true(fabs(found - wanted) <= 1e-6 * fmax(1, fabs(wanted)));
+}
+
+/// One alone stays as it is; of two of a sheet, areas are added and all else is their mean by area.
+static void test_means(void **state) {
+    const ewa_representative alone = surfel_of(3, 5, up, 2);
+    ewa_representatives merged = merge(&alone, 1);
+    assert_int_equal(merged.count, 1);
+    assert_memory_equal(merged.items->at_world, alone.at_world, sizeof alone.at_world);
+    assert_memory_equal(merged.items->shown, alone.color, sizeof alone.color);
+    assert_true(merged.items->radius_world == 2);
+    free(merged.items);
+    const ewa_representative two[2] = {surfel_of(3, 1, up, 1), surfel_of(3, 5, up, 3)};
+    merged = merge(two, 2);
+    assert_int_equal(merged.count, 1);
+    const ewa_representative *s = merged.items;
+    hold_near((double)s->radius_world, sqrt(1 + 9));
+    hold_near((double)s->alpha, 0.1 * (double)two[0].alpha + 0.9 * (double)two[1].alpha);
+    for (int c = 0; c < 3; c++) {
+        hold_near(s->at_world[c], 0.1 * two[0].at_world[c] + 0.9 * two[1].at_world[c]);
+        hold_near((double)s->color[c], 0.1 * (double)two[0].color[c] + 0.9 * (double)two[1].color[c]);
+        assert_true(s->shown[c] == s->color[c] && s->normal[c] == up[c]);
+    }
+    assert_int_equal(s->code, two[0].code);
+    free(merged.items);
+}
+
+/// Normals up to 60 degrees apart are of one sheet, which is that of the first that is nearest.
+static void test_sheets(void **state) {
+    const float edge[3] = {sqrtf(0.75f), 0, 0.5f}, beyond[3] = {sqrtf(0.7501f), 0, 0.4999f},
+                between[3] = {sqrtf(0.5f), 0, sqrtf(0.5f)};
+    ewa_representative of[3] = {surfel_of(0, 0, up, 1), surfel_of(0, 1, edge, 1)};
+    ewa_representatives merged = merge(of, 2);
+    assert_int_equal(merged.count, 1);
+    free(merged.items);
+    of[1] = surfel_of(0, 1, beyond, 1);
+    merged = merge(of, 2);
+    assert_int_equal(merged.count, 2);
+    free(merged.items);
+    of[1] = surfel_of(0, 1, ahead, 1), of[2] = surfel_of(0, 2, between, 2);
+    merged = merge(of, 3);
+    assert_int_equal(merged.count, 2);
+    hold_near((double)merged.items[0].radius_world, sqrt(5)); // as far from both: to the first
+    hold_near((double)merged.items[1].radius_world, 1);
+    free(merged.items);
+    // Eight directions, each more than 60 degrees from all others, make six sheets, and two go to the nearest.
+    ewa_representative corners[8];
+    const float part = sqrtf(1.0f / 3);
+    for (uint32_t k = 0; k < 8; k++) {
+        const float corner[3] = {k & 1 ? part : -part, k & 2 ? part : -part, k & 4 ? part : -part};
+        corners[k] = surfel_of(0, k, corner, 1);
+    }
+    merged = merge(corners, 8);
+    assert_int_equal(merged.count, 6);
+    double area = 0;
+    for (uint32_t k = 0; k < 6; k++)
+        area += (double)merged.items[k].radius_world * (double)merged.items[k].radius_world;
+    hold_near(area, 8);
+    hold_near((double)merged.items[2].radius_world, sqrt(2)); // corner 6 is as near to 2 as to 4
+    hold_near((double)merged.items[3].radius_world, sqrt(2)); // corner 7 to 3, before 5
+    free(merged.items);
+    // Two that look against each other have no mean: the first one's.
+    const float down[3] = {0, 0, -1};
+    of[0] = surfel_of(0, 0, up, 1), of[1] = surfel_of(0, 1, down, 1);
+    merged = merge(of, 2);
+    assert_int_equal(merged.count, 2);
+    free(merged.items);
+}
+
+/// From five surfels on, radii count up to three times their median.
+static void test_large_radii(void **state) {
+    ewa_representative few[5];
+    for (uint32_t k = 0; k < 5; k++) few[k] = surfel_of(0, k, up, k == 4 ? 100 : 1);
+    ewa_representatives merged = merge(few, 5);
+    hold_near((double)merged.items->radius_world, sqrt(4 + 9));
+    free(merged.items);
+    merged = merge(few + 1, 4);
+    hold_near((double)merged.items->radius_world, sqrt(3 + 1e4));
+    free(merged.items);
+    few[4].radius_world = 2.75f; // below the limit, and counted whole
+    merged = merge(few, 5);
+    hold_near((double)merged.items->radius_world, sqrt(4 + 2.75 * 2.75));
+    free(merged.items);
+}
+
+/// Cells stay apart, in their order, wherever the parts of the work end.
+static void test_cells(void **state) {
+    static ewa_representative fine[MANY];
+    uint32_t count = 0;
+    for (uint64_t cell = 0; cell < 64; cell++)
+        for (uint32_t k = 0; k < 1 + cell * 7 % 23 && count < MANY; k++)
+            fine[count++] = surfel_of(cell, k, up, 1);
+    ewa_representatives merged = merge(fine, count);
+    assert_int_equal(merged.count, 64);
+    for (uint64_t cell = 0; cell < 64; cell++) {
+        assert_int_equal(ewa_code_prefix(merged.items[cell].code, CELL_LEVEL), cell);
+        hold_near((double)merged.items[cell].radius_world, sqrt((double)(1 + cell * 7 % 23)));
+    }
+    free(merged.items);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_means), cmocka_unit_test(test_sheets),
+                                       cmocka_unit_test(test_large_radii), cmocka_unit_test(test_cells)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
