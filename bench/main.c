@@ -8,7 +8,7 @@
 #include "bench/stages.h"
 #include "cli/base/commands.h"
 #include "cli/bench/bench.h"
-#include "cli/input/inputs.h"
+#include "cli/input/scene_input.h"
 
 #include <signal.h>
 #include <stdio.h>
@@ -79,11 +79,10 @@ static bool measure_files(bench_run *bench) {
     const view_arguments *view = &bench->arguments->view;
     ewa_surfels_options surfels;
     ewa_surfels_options_init(&surfels, sizeof surfels);
-    double estimate_s;
     const char *path = view->common.operands[0], *slash = strrchr(path, '/');
     bench_scene scene = {.name = slash ? slash + 1 : path};
     snprintf(scene.label, sizeof scene.label, "%.24s", scene.name);
-    scene.cloud = inputs_as_surfels(&bench->session, &view->common, surfels.cutoff, &estimate_s);
+    scene.cloud = scene_input_cloud(&bench->session, view->common.operand_count, view->common.operands, surfels.cutoff);
     const bool done =
         scene.cloud &&
         view_make(&bench->session, view, &(view_subject){.cloud = scene.cloud, .radius_scale = 1},

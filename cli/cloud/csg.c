@@ -5,6 +5,7 @@
 #include "cli/base/commands.h"
 #include "cli/convert/cloud_output.h"
 #include "cli/input/inputs.h"
+#include "cli/input/scene_input.h"
 
 #include <stdio.h>
 
@@ -33,10 +34,9 @@ static ewa_cloud *make(cli_session *session, const void *data) {
     const csg_arguments *arguments = data;
     ewa_csg_options options = arguments->options;
     ewa_cloud *operands[2] = {NULL, NULL}, *result = NULL;
-    double estimate_s = 0;
     for (int k = 0; k < 2; k++) {
         options.names[k] = arguments->output.common.operands[k];
-        operands[k] = input_as_surfels(session, options.names[k], options.cutoff, &estimate_s);
+        operands[k] = scene_input_cloud(session, 1, &options.names[k], options.cutoff);
         if (!operands[k]) break;
     }
     if (operands[0] && operands[1]) {

@@ -172,7 +172,7 @@ static bool move(cli_session *session, ewa_cloud *cloud, const convert_arguments
 static bool complete(cli_session *session, ewa_cloud **cloud, const convert_arguments *arguments) {
     const bool wanted = arguments->refit != REFIT_OFF ||
                         (arguments->procedure.procedure && arguments->procedure.options.prefilter > 0);
-    if (!wanted || cloud_is_drawable(*cloud)) return true;
+    if (!wanted || ewa_cloud_is_drawable(*cloud)) return true;
     ewa_estimate_options options;
     ewa_estimate_options_init(&options, sizeof options);
     options.cutoff = arguments->options.cutoff;

@@ -175,8 +175,8 @@ static bool gather(cli_session *session, const char *path, const ewa_model *mode
     if (!session_passed(session, status)) return false;
     facts->shape = measure_shape(cloud, &facts->bounds);
     ewa_cloud_count_invalid_points(cloud, &facts->invalid);
-    const int up_axis = facts->gaussians.count ? gaussian_files_up_axis(&facts->gaussians.file) : 0;
-    if (facts->bounds.finite_count && !view_default(session, path, cloud, up_axis, &facts->view))
+    const ewa_scene_up up = facts->gaussians.count ? gaussian_files_up(&facts->gaussians.file) : EWA_UP_AUTO;
+    if (facts->bounds.finite_count && !view_default(session, path, cloud, up, &facts->view))
         return false;
     return true;
 }
@@ -389,7 +389,7 @@ static bool load(cli_session *session, const char *path, ewa_model *model, ewa_l
     *sampled = sample != NULL;
     if (sample) {
         model->points = sample;
-        return lod_input_is_folder(session, path) ||
+        return ewa_lod_is_folder(session->context, path) ||
                ewa_model_probe(session->context, path, &model->format) == EWA_OK;
     }
     const uint32_t wanted = session->filter ? EWA_MODEL_POINTS : EWA_MODEL_POINTS | EWA_MODEL_MESH;

@@ -12,7 +12,7 @@ bool info_lod_open(cli_session *session, const char *path, ewa_lod **lod, ewa_cl
     *sample = NULL;
     if (!ewa_lod_probe(session->context, path)) return true;
     *lod = lod_input_open(session, path);
-    if (!*lod) return !lod_input_is_folder(session, path); // of a file there may be more to tell
+    if (!*lod) return !ewa_lod_is_folder(session->context, path); // of a file there may be more to tell
     ewa_lod_info info;
     ewa_lod_describe(*lod, &info);
     if (info.point_count <= EWA_OCTREE_WHOLE_POINTS || session->filter || session->load.columns) return true;

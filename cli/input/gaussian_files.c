@@ -30,10 +30,10 @@ bool gaussian_files_load(cli_session *session, const char *path, ewa_gaussians *
     return true;
 }
 
-int gaussian_files_up_axis(const ewa_gaussian_facts *facts) {
+ewa_scene_up gaussian_files_up(const ewa_gaussian_facts *facts) {
     const double *up = facts->up_world;
-    if (fabs(up[2]) > fabs(up[1])) return up[2] > 0 ? 2 : -2;
-    return up[1] > 0 ? 1 : -1;
+    if (fabs(up[2]) > fabs(up[1])) return up[2] > 0 ? EWA_UP_Z : EWA_UP_MINUS_Z;
+    return up[1] > 0 ? EWA_UP_Y : EWA_UP_MINUS_Y;
 }
 
 ewa_cloud *gaussian_files_load_surfels(cli_session *session, const char *path) {

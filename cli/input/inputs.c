@@ -27,10 +27,6 @@ static const cli_option input_table[] = {
 
 const option_group cloud_input_options = OPTION_GROUP("Files of points", input_table);
 
-static bool has_axes(const ewa_cloud *cloud) {
-    return ewa_cloud_find(cloud, EWA_TANGENT_U) && ewa_cloud_find(cloud, EWA_TANGENT_V);
-}
-
 /// Says that faces of a file are not used, and how they can be.
 static void note_faces(cli_session *session, const char *path, uint64_t face_count) {
     session_note(session,
@@ -87,48 +83,6 @@ ewa_cloud *input_load_elements(cli_session *session, const char *path, ewa_eleme
     }
     ewa_model_free(&model);
     return cloud;
-}
-
-/// Loads the points that the filter takes of one file, maybe none; of a mesh, points on its faces; of Gaussians their discs.
-static ewa_cloud *load_or_sample(cli_session *session, const char *path, double cutoff, bool *sampled) {
-    ewa_model model;
-    ewa_cloud *cloud = NULL;
-    const ewa_gaussian_format gaussians = gaussian_files_format(session, path);
-    if (gaussians == EWA_GAUSSIANS_PLY || gaussians == EWA_GAUSSIANS_GLTF) {
-        *sampled = false;
-        cloud = gaussian_files_load_surfels(session, path);
-        if (cloud) filter_points(session, &cloud);
-        return cloud;
-    }
-    if (model_input_load(session, path, EWA_MODEL_MESH, &model)) {
-        cloud = model.points;
-        model.points = NULL;
-        *sampled = !cloud;
-        if (!cloud) cloud = model_input_sample(session, path, &model.mesh, cutoff);
-        if (cloud) filter_points(session, &cloud);
-    }
-    ewa_model_free(&model);
-    return cloud;
-}
-
-ewa_cloud *input_points(cli_session *session, const char *path, double cutoff, bool *sampled) {
-    ewa_cloud *cloud = load_or_sample(session, path, cutoff, sampled);
-    has_points(session, &cloud);
-    return cloud;
-}
-
-bool cloud_is_drawable(const ewa_cloud *cloud) {
-    return has_axes(cloud) || (ewa_cloud_find(cloud, EWA_NORMAL) && ewa_cloud_find(cloud, EWA_RADIUS));
-}
-
-ewa_status cloud_set_color(ewa_cloud *cloud, const double srgb[3]) {
-    void *data = NULL;
-    const ewa_status status = ewa_cloud_add(cloud, EWA_COLOR, EWA_U8, 3, &data);
-    uint8_t *colors = data;
-    const uint64_t count = status == EWA_OK ? ewa_cloud_point_count(cloud) : 0;
-    for (uint64_t i = 0; i < count; i++)
-        for (int c = 0; c < 3; c++) colors[3 * i + (uint64_t)c] = (uint8_t)(255 * srgb[c] + 0.5);
-    return status;
 }
 
 /// Frees clouds [0, count) and their array.
@@ -196,11 +150,16 @@ static bool any_loaded(cli_session *session, const loaded_clouds *loaded) {
 /// Gives clouds without colours one, if others have some; says so. False after reporting.
 static bool add_default_colors(cli_session *session, const loaded_clouds *loaded, const double srgb[3]) {
     size_t colored_count = 0;
+    ewa_legend legend; // of a tint there is none
+    ewa_coloring coloring;
+    ewa_coloring_init(&coloring, sizeof coloring);
+    coloring.tinted = true;
+    memcpy(coloring.tint, srgb, sizeof coloring.tint);
     for (size_t i = 0; i < loaded->count; i++)
         colored_count += ewa_cloud_find(loaded->clouds[i], EWA_COLOR) != NULL;
     for (size_t i = 0; colored_count && i < loaded->count; i++) {
         if (ewa_cloud_find(loaded->clouds[i], EWA_COLOR)) continue;
-        const ewa_status status = cloud_set_color(loaded->clouds[i], srgb);
+        const ewa_status status = ewa_clouds_color(&loaded->clouds[i], 1, &coloring, &legend);
         session->subject = loaded->paths[i];
         if (!session_passed(session, status)) return false;
         session_note(session,
@@ -221,49 +180,5 @@ ewa_cloud *inputs_merge(cli_session *session, const common_arguments *common, co
     done = done && any_loaded(session, &loaded) && add_default_colors(session, &loaded, srgb);
     ewa_cloud *merged = done ? merge(session, &loaded) : NULL;
     release_loaded(&loaded);
-    return merged;
-}
-
-bool input_complete(cli_session *session, const char *path, ewa_cloud **cloud, double *estimate_s) {
-    if (cloud_is_drawable(*cloud)) return true;
-    session->subject = path;
-    if (ewa_cloud_refuse_gaussians(*cloud) != EWA_OK) return false;
-    ewa_cloud_drop_zero_normals(*cloud);
-    const bool has_normals = ewa_cloud_find(*cloud, EWA_NORMAL) != NULL;
-    ewa_estimate_options options;
-    ewa_estimate_options_init(&options, sizeof options);
-    const double started_s = clock_now_s();
-    if (!session_passed(session, ewa_cloud_estimate(cloud, &options))) return false;
-    const double took_s = clock_now_s() - started_s;
-    *estimate_s += took_s;
-    session_say(session, "%s: %s from %u neighbours in %.3f s", path,
-                has_normals ? "radii estimated" : "normals and radii estimated", options.neighbour_count,
-                took_s);
-    return true;
-}
-
-ewa_cloud *input_as_surfels(cli_session *session, const char *path, double cutoff, double *estimate_s) {
-    bool sampled;
-    ewa_cloud *cloud = input_points(session, path, cutoff, &sampled);
-    if (cloud && !input_complete(session, path, &cloud, estimate_s)) ewa_cloud_destroy(&cloud);
-    return cloud;
-}
-
-ewa_cloud *inputs_as_surfels(cli_session *session, const common_arguments *common, double cutoff,
-                             double *estimate_s) {
-    *estimate_s = 0;
-    loaded_clouds loaded;
-    bool done = begin_loaded(session, common, &loaded);
-    for (size_t i = 0; done && i < common->operand_count; i++) {
-        bool sampled;
-        ewa_cloud *cloud = load_or_sample(session, common->operands[i], cutoff, &sampled);
-        done = cloud != NULL;
-        if (done) add_loaded(session, &loaded, common->operands[i], cloud);
-    }
-    done = done && any_loaded(session, &loaded);
-    const char *path = done ? loaded.paths[0] : NULL;
-    ewa_cloud *merged = done ? merge(session, &loaded) : NULL;
-    release_loaded(&loaded);
-    if (merged && !input_complete(session, path, &merged, estimate_s)) ewa_cloud_destroy(&merged);
     return merged;
 }

@@ -21,14 +21,6 @@ ewa_octree_levels lod_input_levels(const lod_arguments *arguments) {
     return whole ? EWA_OCTREE_NEVER : (ewa_octree_levels)arguments->levels;
 }
 
-bool lod_input_is_folder(cli_session *session, const char *path) {
-    struct stat status;
-    const char *slash = strrchr(path, '/');
-    const bool folder = stat(path, &status) == 0 && S_ISDIR(status.st_mode);
-    return (folder || strcmp(slash ? slash + 1 : path, "ept.json") == 0) &&
-           ewa_lod_probe(session->context, path);
-}
-
 ewa_lod *lod_input_open(cli_session *session, const char *path) {
     ewa_lod *lod = NULL;
     session->subject = path;
@@ -39,7 +31,7 @@ ewa_lod *lod_input_open(cli_session *session, const char *path) {
 
 bool lod_input_serves(cli_session *session, const char *path, const double corners_world[6]) {
     if (!ewa_lod_probe(session->context, path)) return false;
-    if (lod_input_is_folder(session, path)) return true;
+    if (ewa_lod_is_folder(session->context, path)) return true;
     ewa_lod *lod = lod_input_open(session, path);
     if (!lod) return false;
     ewa_lod_info info;

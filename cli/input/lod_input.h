@@ -42,9 +42,6 @@ void lod_input_set_defaults(lod_arguments *arguments);
 /// Whether octrees are drawn from their levels: without an error, all points are.
 ewa_octree_levels lod_input_levels(const lod_arguments *arguments);
 
-/// Whether a path is a folder of EPT, or its "ept.json".
-bool lod_input_is_folder(cli_session *session, const char *path);
-
 /// Opens the octree at a path; NULL after reporting.
 ewa_lod *lod_input_open(cli_session *session, const char *path);
 

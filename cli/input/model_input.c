@@ -8,14 +8,6 @@
 #include "cli/input/lod_input.h"
 #include "cli/input/volume_input.h"
 
-#include <math.h>
-
-/// A mesh is drawn from at least so many points, and from so many per triangle.
-static const uint64_t MESH_POINTS = 200000, MESH_POINTS_PER_TRIANGLE = 4;
-
-/// Smallest cutoff that axes of a mesh's points are made for.
-static const double MESH_CUTOFF = 1e-3;
-
 bool model_input_load(cli_session *session, const char *path, uint32_t wanted, ewa_model *model) {
     *model = (ewa_model){.points = NULL};
     session->subject = path;
@@ -32,7 +24,7 @@ bool model_input_load(cli_session *session, const char *path, uint32_t wanted, e
         if (!model->points) return false;
     } else if (import_is_named(path)) {
         if (!import_load(session, path, wanted, model)) return false;
-    } else if (lod_input_is_folder(session, path)) {
+    } else if (ewa_lod_is_folder(session->context, path)) {
         model->points = lod_input_read(session, path, NULL);
         if (!model->points) return false;
     } else {
@@ -58,23 +50,4 @@ bool model_input_load(cli_session *session, const char *path, uint32_t wanted, e
         ewa_cloud_check_degrees(model->points);
     }
     return true;
-}
-
-ewa_cloud *model_input_sample(cli_session *session, const char *path, const ewa_mesh *mesh, double cutoff) {
-    ewa_mesh_sample_options options;
-    ewa_mesh_sample_options_init(&options, sizeof options);
-    options.cutoff = fmax(cutoff, MESH_CUTOFF);
-    options.point_count = MESH_POINTS_PER_TRIANGLE * mesh->triangle_count;
-    if (options.point_count < MESH_POINTS) options.point_count = MESH_POINTS;
-    options.texture_filter = EWA_TEXTURE_EWA; // least squares would take most of the time
-    const double started_s = clock_now_s();
-    ewa_cloud *cloud = NULL;
-    const ewa_status status = ewa_mesh_sample(mesh, &options, &cloud);
-    if (status != EWA_OK)
-        session_failed(session, status);
-    else
-        session_say(session, "%s: %llu points on %u triangles in %.3f s; `ewa sample` has options for this",
-                    path, (unsigned long long)ewa_cloud_point_count(cloud), mesh->triangle_count,
-                    clock_now_s() - started_s);
-    return cloud;
 }

@@ -12,7 +12,4 @@
 /// without points; free with ewa_model_free() in any case.
 bool model_input_load(cli_session *session, const char *path, uint32_t wanted, ewa_model *model);
 
-/// Makes points of a mesh, for kernels that end at `cutoff` standard deviations; NULL after reporting.
-ewa_cloud *model_input_sample(cli_session *session, const char *path, const ewa_mesh *mesh, double cutoff);
-
 #endif

@@ -78,16 +78,32 @@ static bool add_scene(cli_session *session, const char *path, const ewa_asset_op
     return session_passed(session, status);
 }
 
-bool scene_input_add(cli_session *session, const common_arguments *common, const ewa_asset_options *options,
+bool scene_input_add(cli_session *session, size_t count, const char *const *paths, const ewa_asset_options *options,
                      const ewa_coloring *coloring, ewa_scene *scene) {
     session->subject = NULL;
-    for (size_t i = 0; i < common->operand_count; i++) {
-        const char *path = common->operands[i];
-        const bool is_scene = ewa_scene_file_probe(path);
-        if (!(is_scene ? add_scene : add_file)(session, path, options, coloring, scene)) return false;
+    for (size_t i = 0; i < count; i++) {
+        const bool is_scene = ewa_scene_file_probe(paths[i]);
+        if (!(is_scene ? add_scene : add_file)(session, paths[i], options, coloring, scene)) return false;
     }
     if (ewa_scene_count(scene)) return true;
     session_fail(session,
                  session->filter ? "--filter: none of the points is left" : "there is nothing to draw");
     return false;
+}
+
+ewa_cloud *scene_input_cloud(cli_session *session, size_t count, const char *const *paths, double cutoff) {
+    ewa_asset_options options = scene_input_asset_options(session);
+    options.gaussians_as_surfels = true;
+    options.levels = EWA_OCTREE_NEVER;
+    options.cutoff = cutoff;
+    ewa_coloring own;
+    ewa_coloring_init(&own, sizeof own);
+    strcpy(own.attribute, "none");
+    ewa_scene *scene = NULL;
+    ewa_cloud *cloud = NULL;
+    if (session_passed(session, ewa_scene_create(session->context, NULL, &scene)) &&
+        scene_input_add(session, count, paths, &options, &own, scene))
+        (void)session_passed(session, ewa_scene_cloud(scene, &cloud));
+    ewa_scene_destroy(&scene);
+    return cloud;
 }

@@ -281,7 +281,7 @@ static bool prepare(cli_session *session, const render_arguments *arguments, con
     scene_input_coloring(arguments->color_by, arguments->colormap, &arguments->range, &coloring);
     ewa_status status = ewa_scene_create(session->context, &options, &scene->scene);
     if (status != EWA_OK) return session_failed(session, status) == EXIT_DONE;
-    if (!scene_input_add(session, common, &assets, &coloring, scene->scene)) return false;
+    if (!scene_input_add(session, common->operand_count, common->operands, &assets, &coloring, scene->scene)) return false;
     session->subject = common->operand_count == 1 ? common->operands[0] : NULL;
     if (!check_scene(session, arguments, scene->scene)) return false;
     const view_subject subject = {.scene = scene->scene};

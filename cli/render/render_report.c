@@ -17,19 +17,7 @@ bool render_report_add(cli_session *session, render_report *report, size_t index
     report->frames[index] = (frame_report){render_s, write_s, stats->culled_count, stats->drawn_count};
     report->render_s += render_s;
     report->write_s += write_s;
-    ewa_render_stats *sum = &report->stats;
-    sum->splat_count = stats->splat_count;
-    sum->culled_count += stats->culled_count;
-    sum->hidden_count += stats->hidden_count;
-    sum->drawn_count += stats->drawn_count;
-    sum->fragment_count += stats->fragment_count;
-    sum->bin_s += stats->bin_s;
-    sum->setup_s += stats->setup_s;
-    sum->visibility_s += stats->visibility_s;
-    sum->accumulate_s += stats->accumulate_s;
-    sum->edge_s += stats->edge_s;
-    sum->resolve_s += stats->resolve_s;
-    sum->total_s += stats->total_s;
+    ewa_render_stats_add(&report->stats, stats);
     return true;
 }
 

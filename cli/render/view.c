@@ -50,9 +50,6 @@ static const cli_option view_table[] = {
 
 const option_group view_options = OPTION_GROUP("Camera", view_table);
 
-/// Where neither --fov nor --ortho says.
-static const double DEFAULT_FOV_DEG = 30;
-
 void view_set_defaults(view_arguments *arguments) {
     arguments->view = -1;
     arguments->size = (option_size){1280, 720, false};
@@ -76,15 +73,6 @@ bool view_is_placed(const view_arguments *arguments) {
     return arguments->camera_path || arguments->eye.count || arguments->target.count || arguments->up.count ||
            arguments->fov_deg > 0 || arguments->ortho_height > 0 || arguments->view >= 0 ||
            arguments->azimuth_deg != 0 || arguments->elevation_deg != 0;
-}
-
-/// What the library calls what is up.
-static ewa_scene_up up_of(int axis) {
-    return axis == 1    ? EWA_UP_Y
-           : axis == 2  ? EWA_UP_Z
-           : axis == -1 ? EWA_UP_MINUS_Y
-           : axis == -2 ? EWA_UP_MINUS_Z
-                        : EWA_UP_AUTO;
 }
 
 /// The library's options of a camera.
@@ -120,13 +108,13 @@ static bool place(cli_session *session, const view_arguments *arguments, const v
                      ? ewa_scene_place_camera(subject->scene, &options, camera, info)
                      : ewa_cloud_place_camera(subject->cloud, subject->radius_scale,
                                               ewa_up_convention_of(common->operand_count, common->operands),
-                                              up_of(subject->up_axis), &options, camera, info));
+                                              subject->up, &options, camera, info));
 }
 
-bool view_default(cli_session *session, const char *path, const ewa_cloud *cloud, int up_axis,
+bool view_default(cli_session *session, const char *path, const ewa_cloud *cloud, ewa_scene_up up,
                   ewa_upright *chosen) {
     view_arguments arguments = {.common = {.operands = &path, .operand_count = 1}};
-    const view_subject subject = {.cloud = cloud, .radius_scale = 1, .up_axis = up_axis};
+    const view_subject subject = {.cloud = cloud, .radius_scale = 1, .up = up};
     ewa_view_info info;
     view_set_defaults(&arguments);
     if (!place(session, &arguments, &subject, false, NULL, &info)) return false;
@@ -160,7 +148,7 @@ static ewa_status set_lens(const view_arguments *arguments, ewa_camera *camera) 
     camera->height_px = arguments->size.height_px;
     return arguments->ortho_height > 0
                ? ewa_camera_set_ortho(camera, arguments->ortho_height)
-               : ewa_camera_set_fov(camera, arguments->fov_deg > 0 ? arguments->fov_deg : DEFAULT_FOV_DEG);
+               : ewa_camera_set_fov(camera, arguments->fov_deg > 0 ? arguments->fov_deg : EWA_VIEW_FOV_DEG);
 }
 
 bool view_load_lens(cli_session *session, const view_arguments *arguments, const char *path,
@@ -177,7 +165,7 @@ bool view_load_lens(cli_session *session, const view_arguments *arguments, const
         session_note(session,
                      "%s: poses have no lens: drawn with --fov %g; that or --intrinsics fx,fy,cx,cy says "
                      "otherwise",
-                     path, DEFAULT_FOV_DEG);
+                     path, EWA_VIEW_FOV_DEG);
     }
     return true;
 }

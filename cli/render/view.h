@@ -36,7 +36,7 @@ bool view_is_placed(const view_arguments *arguments);
 
 /// Chooses how a cloud of a file, which has a finite point, is looked at without any option. Returns false
 /// after reporting.
-bool view_default(cli_session *session, const char *path, const ewa_cloud *cloud, int up_axis,
+bool view_default(cli_session *session, const char *path, const ewa_cloud *cloud, ewa_scene_up up,
                   ewa_upright *chosen);
 
 /// What a camera looks at: a scene, or one cloud.
@@ -44,7 +44,7 @@ typedef struct view_subject {
     ewa_scene *scene;       ///< NULL: the cloud
     const ewa_cloud *cloud; ///< with at least one finite point
     double radius_scale;    ///< that the cloud's radii are drawn times
-    int up_axis; ///< of the cloud's file: 1 y, 2 z, below 0 the negative one is up; 0: by the cloud's shape
+    ewa_scene_up up;        ///< what the cloud's file says
 } view_subject;
 
 /// Finds the middle of what is looked at, or the target. Returns false after reporting.

@@ -74,17 +74,14 @@ static bool add(cli_session *session, const char *path, const ewa_asset_source *
 bool volume_scene_fill(cli_session *session, const volume_input_arguments *input,
                        const volume_scene_arguments *arguments, const char *path, uint32_t level_count,
                        ewa_scene *scene) {
-    const char *word = arguments->transfer;
     ewa_asset_options options = scene_input_asset_options(session);
+    options.transfer = arguments->transfer; // by which what is made of it is lit, or not
     options.voxel_level_count = level_count;
     options.reach_steps = arguments->options.sigma * arguments->options.cutoff;
     options.gaussians_as_surfels = true; // opaque, as all else within
     ewa_volume volume = {.context = NULL};
     ewa_transfer transfer;
-    const ewa_asset_source source = {.name = path,
-                                     .volume = &volume,
-                                     .transfer = &transfer,
-                                     .flat = word && (strcmp(word, "fog") == 0 || strcmp(word, "gray") == 0)};
+    const ewa_asset_source source = {.name = path, .volume = &volume, .transfer = &transfer};
     const bool done = volume_input_load(session, input, path, &volume) &&
                       make_transfer(session, arguments, &volume, &transfer) &&
                       add(session, path, &source, &options, scene) &&

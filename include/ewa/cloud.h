@@ -84,6 +84,9 @@ EWA_API void ewa_cloud_remove(ewa_cloud *cloud, const char *name);
 /// Returns the stream of that name or NULL; valid until the next add, borrow or remove.
 EWA_API const ewa_attribute *ewa_cloud_find(const ewa_cloud *cloud, const char *name);
 
+/// Whether a cloud has all that surfels need: normals and radii, or both axes. Any thread.
+EWA_API bool ewa_cloud_is_drawable(const ewa_cloud *cloud);
+
 EWA_API uint32_t ewa_cloud_attribute_count(const ewa_cloud *cloud);
 
 /// Returns stream `index` in order of addition, NULL beyond the last.

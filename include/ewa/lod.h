@@ -23,6 +23,9 @@ typedef struct ewa_lod ewa_lod;
 /// Whether a path is a COPC file, by content, a folder of EPT or its "ept.json". Reports nothing.
 EWA_API bool ewa_lod_probe(ewa_context *context, const char *path);
 
+/// Whether a path is an octree that no other reader takes: a folder of EPT or its "ept.json". Reports nothing.
+EWA_API bool ewa_lod_is_folder(ewa_context *context, const char *path);
+
 /// Opens an octree and reads its hierarchy. The caller closes `*lod`, which is NULL after a failure. Errors:
 /// EWA_ERROR_IO, EWA_ERROR_FORMAT, EWA_ERROR_UNSUPPORTED, EWA_ERROR_LIMIT, EWA_ERROR_MEMORY.
 EWA_API ewa_status ewa_lod_open(ewa_context *context, const char *path, ewa_lod **lod);

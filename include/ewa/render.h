@@ -170,6 +170,9 @@ typedef struct ewa_render_stats {
     uint32_t level; ///< of detail that was drawn: the coarsest of the sources; 0: all surfels
 } ewa_render_stats;
 
+/// Adds what another frame took: counts and times; of the splats, which are there for both, and of the level the larger.
+EWA_API void ewa_render_stats_add(ewa_render_stats *sum, const ewa_render_stats *more);
+
 /// A reusable object that owns all memory of a frame; nothing is allocated once it is warm.
 typedef struct ewa_renderer ewa_renderer;
 

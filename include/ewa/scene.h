@@ -228,6 +228,11 @@ EWA_API ewa_status ewa_scene_set_options(ewa_scene *scene, const ewa_scene_optio
 /// ewa_cloud_estimate(); EWA_ERROR_UNSUPPORTED (columns of Gaussians without what Gaussians need).
 EWA_API ewa_status ewa_scene_complete(ewa_scene *scene);
 
+/// Makes one cloud of all visible clouds and meshes: of what ewa_scene_commit() makes surfels, with what they lacked, before
+/// gaps are closed. The caller destroys `*cloud`. Errors: those of ewa_scene_commit(); EWA_ERROR_ARGUMENT (no points are
+/// visible, or they are gone).
+EWA_API ewa_status ewa_scene_cloud(ewa_scene *scene, ewa_cloud **cloud);
+
 /// Makes everything resident that is visible: all clouds and meshes become one set of surfels, as if they were one
 /// file, coloured and measured as the instances say. Called by ewa_scene_draw() and ewa_scene_pick(). Without
 /// keep_points the clouds are gone afterwards, and instances of points can no longer change. Errors: those of
@@ -256,13 +261,16 @@ EWA_API void ewa_scene_bounds(const ewa_scene *scene, ewa_bounds *bounds);
 /// or the scene is not committed.
 EWA_API const ewa_legend *ewa_scene_legend(const ewa_scene *scene, uint32_t index);
 
+/// Vertical field of view of cameras where nobody says.
+#define EWA_VIEW_FOV_DEG 30.0
+
 /// How a camera is placed where no file says. Fill with ewa_view_options_init().
 typedef struct ewa_view_options {
     size_t struct_size;
     uint32_t width_px, height_px;  ///< of the picture; [1, 65536], or both 0 (default): those of the scene's camera, else
                                    ///< 1280 x 720
-    double fov_deg;                ///< vertical field of view; (0, 180), or 0 (default): 30, but for what a camera at the
-                                   ///< origin took, which is seen from there as wide as it is
+    double fov_deg;                ///< vertical field of view; (0, 180), or 0 (default): EWA_VIEW_FOV_DEG, but for what a
+                                   ///< camera at the origin took, which is seen from there as wide as it is
     double ortho_height_world;     ///< an orthographic camera that shows so much; 0 (default): perspective
     int32_t view;                  ///< ewa_named_view; -1 (default): as suits what is seen
     double up_world[3];            ///< up in the picture; zeros (default): the scene's

@@ -65,6 +65,7 @@ EWA_OCTREE_WHOLE_POINTS = 4000000
 EWA_OCTREE_SAMPLE_POINTS = 400000
 EWA_SCENE_MAX_INSTANCES = 65536
 EWA_MATERIAL_OWN = 4294967295
+EWA_VIEW_FOV_DEG = 30.0
 EWA_SCENE_FILE_DEPTH = 8
 EWA_SCENE_FILE_COUNT = 1024
 EWA_FILTER_TERMS = 16
@@ -2454,6 +2455,7 @@ class Functions:
     ewa_cloud_destroy: Callable[..., None]
     ewa_cloud_find: Callable[..., Any]
     ewa_cloud_grid: Callable[..., None]
+    ewa_cloud_is_drawable: Callable[..., bool]
     ewa_cloud_measure: Callable[..., int]
     ewa_cloud_merge: Callable[..., int]
     ewa_cloud_note: Callable[..., bytes | None]
@@ -2628,6 +2630,7 @@ class Functions:
     ewa_lod_build_options_init: Callable[..., None]
     ewa_lod_close: Callable[..., None]
     ewa_lod_describe: Callable[..., None]
+    ewa_lod_is_folder: Callable[..., bool]
     ewa_lod_merge: Callable[..., int]
     ewa_lod_open: Callable[..., int]
     ewa_lod_options_init: Callable[..., None]
@@ -2676,6 +2679,7 @@ class Functions:
     ewa_render_begin: Callable[..., int]
     ewa_render_finish: Callable[..., int]
     ewa_render_options_init: Callable[..., None]
+    ewa_render_stats_add: Callable[..., None]
     ewa_renderer_create: Callable[..., int]
     ewa_renderer_destroy: Callable[..., None]
     ewa_surfels_create: Callable[..., int]
@@ -2698,6 +2702,7 @@ class Functions:
     ewa_scene_add: Callable[..., int]
     ewa_scene_asset: Callable[..., int | None]
     ewa_scene_bounds: Callable[..., None]
+    ewa_scene_cloud: Callable[..., int]
     ewa_scene_commit: Callable[..., int]
     ewa_scene_complete: Callable[..., int]
     ewa_scene_copy: Callable[..., int]
@@ -2814,6 +2819,7 @@ class Functions:
         self.ewa_cloud_destroy = bind("ewa_cloud_destroy", None, c.c_void_p)
         self.ewa_cloud_find = bind("ewa_cloud_find", c.POINTER(ewa_attribute), c.c_void_p, c.c_char_p)
         self.ewa_cloud_grid = bind("ewa_cloud_grid", None, c.c_void_p, c.POINTER(ewa_coordinate_grid))
+        self.ewa_cloud_is_drawable = bind("ewa_cloud_is_drawable", c.c_bool, c.c_void_p)
         self.ewa_cloud_measure = bind("ewa_cloud_measure", c.c_int, c.c_void_p, c.POINTER(ewa_bounds))
         self.ewa_cloud_merge = bind("ewa_cloud_merge", c.c_int, c.c_void_p, c.c_uint32, c.c_void_p)
         self.ewa_cloud_note = bind("ewa_cloud_note", c.c_char_p, c.c_void_p, c.c_char_p, c.c_void_p)
@@ -2988,6 +2994,7 @@ class Functions:
         self.ewa_lod_build_options_init = bind("ewa_lod_build_options_init", None, c.POINTER(ewa_lod_build_options), c.c_size_t)
         self.ewa_lod_close = bind("ewa_lod_close", None, c.c_void_p)
         self.ewa_lod_describe = bind("ewa_lod_describe", None, c.c_void_p, c.POINTER(ewa_lod_info))
+        self.ewa_lod_is_folder = bind("ewa_lod_is_folder", c.c_bool, c.c_void_p, c.c_char_p)
         self.ewa_lod_merge = bind("ewa_lod_merge", c.c_int, c.c_void_p, c.c_void_p, c.c_uint32, c.c_char_p, c.POINTER(ewa_lod_build_stats))
         self.ewa_lod_open = bind("ewa_lod_open", c.c_int, c.c_void_p, c.c_char_p, c.c_void_p)
         self.ewa_lod_options_init = bind("ewa_lod_options_init", None, c.POINTER(ewa_lod_options), c.c_size_t)
@@ -3036,6 +3043,7 @@ class Functions:
         self.ewa_render_begin = bind("ewa_render_begin", c.c_int, c.c_void_p, c.POINTER(ewa_camera), c.POINTER(ewa_render_options), c.POINTER(ewa_frame))
         self.ewa_render_finish = bind("ewa_render_finish", c.c_int, c.c_void_p, c.POINTER(ewa_render_stats))
         self.ewa_render_options_init = bind("ewa_render_options_init", None, c.POINTER(ewa_render_options), c.c_size_t)
+        self.ewa_render_stats_add = bind("ewa_render_stats_add", None, c.POINTER(ewa_render_stats), c.POINTER(ewa_render_stats))
         self.ewa_renderer_create = bind("ewa_renderer_create", c.c_int, c.c_void_p, c.c_void_p)
         self.ewa_renderer_destroy = bind("ewa_renderer_destroy", None, c.c_void_p)
         self.ewa_surfels_create = bind("ewa_surfels_create", c.c_int, c.c_void_p, c.POINTER(ewa_surfels_options), c.c_void_p)
@@ -3058,6 +3066,7 @@ class Functions:
         self.ewa_scene_add = bind("ewa_scene_add", c.c_int, c.c_void_p, c.c_void_p, c.POINTER(ewa_instance))
         self.ewa_scene_asset = bind("ewa_scene_asset", c.c_void_p, c.c_void_p, c.c_uint32)
         self.ewa_scene_bounds = bind("ewa_scene_bounds", None, c.c_void_p, c.POINTER(ewa_bounds))
+        self.ewa_scene_cloud = bind("ewa_scene_cloud", c.c_int, c.c_void_p, c.c_void_p)
         self.ewa_scene_commit = bind("ewa_scene_commit", c.c_int, c.c_void_p)
         self.ewa_scene_complete = bind("ewa_scene_complete", c.c_int, c.c_void_p)
         self.ewa_scene_copy = bind("ewa_scene_copy", c.c_int, c.c_void_p, c.c_void_p, c.c_void_p)

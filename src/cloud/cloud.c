@@ -65,6 +65,11 @@ const ewa_attribute *ewa_cloud_find(const ewa_cloud *cloud, const char *name) {
     return NULL;
 }
 
+bool ewa_cloud_is_drawable(const ewa_cloud *cloud) {
+    return (ewa_cloud_find(cloud, EWA_TANGENT_U) && ewa_cloud_find(cloud, EWA_TANGENT_V)) ||
+           (ewa_cloud_find(cloud, EWA_NORMAL) && ewa_cloud_find(cloud, EWA_RADIUS));
+}
+
 static ewa_status check_shape(ewa_cloud *cloud, const char *name, ewa_type type, uint32_t component_count) {
     const size_t length = name ? strlen(name) : 0;
     if (length == 0 || length >= EWA_NAME_BYTES)

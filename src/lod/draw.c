@@ -332,18 +332,6 @@ static ewa_status draw_rows(const ewa_lod_scene *scene, ewa_renderer *renderer, 
     return ewa_render_finish(renderer, stats);
 }
 
-static void add_stats(ewa_render_stats *sum, const ewa_render_stats *more) {
-    sum->splat_count = more->splat_count > sum->splat_count ? more->splat_count : sum->splat_count;
-    sum->culled_count += more->culled_count;
-    sum->hidden_count += more->hidden_count;
-    sum->drawn_count += more->drawn_count;
-    sum->fragment_count += more->fragment_count;
-    sum->bin_s += more->bin_s, sum->setup_s += more->setup_s;
-    sum->visibility_s += more->visibility_s, sum->accumulate_s += more->accumulate_s;
-    sum->edge_s += more->edge_s, sum->resolve_s += more->resolve_s;
-    sum->total_s += more->total_s;
-}
-
 /// Bytes of the nodes that touch some rows.
 static uint64_t bytes_of_rows(const item *items, uint32_t count, uint32_t first_row, uint32_t end_row) {
     uint64_t bytes = 0;
@@ -395,7 +383,7 @@ static ewa_status draw_bands(const ewa_lod_scene *scene, ewa_renderer *renderer,
         if (status == EWA_OK)
             status =
                 draw_rows(scene, renderer, camera, options, frame, items, count, proxies, first, end, &took);
-        add_stats(&stats->render, &took);
+        ewa_render_stats_add(&stats->render, &took);
         stats->band_count++;
     }
     for (uint32_t i = 0; proxies && i < count; i++) ewa_surfels_destroy(&proxies[i]);

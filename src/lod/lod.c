@@ -8,19 +8,24 @@
 
 #include <math.h>
 #include <string.h>
+#include <sys/stat.h>
 
 bool ewa_lod_probe(ewa_context *context, const char *path) {
     return context && path && ewa_octree_is(context, path);
 }
 
-static bool has(const ewa_cloud *cloud, const char *name) { return ewa_cloud_find(cloud, name) != NULL; }
+bool ewa_lod_is_folder(ewa_context *context, const char *path) {
+    if (!context || !path) return false;
+    struct stat facts;
+    const char *slash = strrchr(path, '/');
+    const bool folder = stat(path, &facts) == 0 && S_ISDIR(facts.st_mode);
+    return (folder || strcmp(slash ? slash + 1 : path, "ept.json") == 0) && ewa_octree_is(context, path);
+}
 
 static ewa_status open_tree(ewa_lod *lod, const char *path) {
     EWA_TRY(ewa_octree_open(lod->context, path, &lod->octree));
     lod->facts = ewa_octree_describe(lod->octree);
-    const ewa_cloud *prototype = lod->facts->prototype;
-    lod->has_surfels = (has(prototype, EWA_NORMAL) && has(prototype, EWA_RADIUS)) ||
-                       (has(prototype, EWA_TANGENT_U) && has(prototype, EWA_TANGENT_V));
+    lod->has_surfels = ewa_cloud_is_drawable(lod->facts->prototype);
     ewa_status status = EWA_OK;
     if (lod->facts->levels) {
         status =

@@ -61,6 +61,7 @@ static ewa_status make(ewa_context *context, const char *name, const ewa_asset_o
     if (!asset) return EWA_ERROR_MEMORY;
     asset->context = context;
     atomic_init(&asset->references, 1);
+    asset->serial = ewa_serial_next(context);
     asset->view = -1;
     asset->levels = options->levels;
     asset->gaussians_as_surfels = options->gaussians_as_surfels;
@@ -128,14 +129,6 @@ static bool is_regular(const char *path) {
     return strcmp(path, "-") != 0 && stat(path, &facts) == 0 && S_ISREG(facts.st_mode);
 }
 
-/// Whether a path is a folder of EPT, or its "ept.json", which cannot be read otherwise.
-static bool is_octree_folder(ewa_context *context, const char *path) {
-    struct stat facts;
-    const char *slash = strrchr(path, '/');
-    const bool folder = stat(path, &facts) == 0 && S_ISDIR(facts.st_mode);
-    return (folder || strcmp(slash ? slash + 1 : path, "ept.json") == 0) && ewa_lod_probe(context, path);
-}
-
 /// Opens an octree that is drawn from its levels; `*lod` is NULL where the file is none of these.
 static ewa_status open_octree(const ewa_asset_job *job, const char *path, ewa_lod **lod) {
     const ewa_asset_options *options = job->options;
@@ -193,7 +186,7 @@ static ewa_status load_model(const ewa_asset_job *job, const char *path) {
     bool taken = false;
     if (options->reader) status = options->reader(options->reader_user, context, path, &model, &taken);
     if (status == EWA_OK && !taken) {
-        if (is_octree_folder(context, path)) {
+        if (ewa_lod_is_folder(context, path)) {
             static const double low_world[3] = {-INFINITY, -INFINITY, -INFINITY},
                                 high_world[3] = {INFINITY, INFINITY, INFINITY};
             ewa_lod *lod = NULL;
@@ -273,7 +266,7 @@ ewa_status ewa_asset_load(ewa_context *context, const char *path, const ewa_asse
     const double started_s = ewa_now_s();
     if (status == EWA_OK) {
         asset->of_file = true;
-        asset->of_octree = is_octree_folder(context, path);
+        asset->of_octree = ewa_lod_is_folder(context, path);
         asset->owns_parts = true;
         status = load(&(ewa_asset_job){asset, &options}, path);
         asset->load_s = ewa_now_s() - started_s;

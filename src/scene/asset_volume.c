@@ -56,7 +56,7 @@ ewa_status ewa_asset_take_volume(const ewa_asset_job *job, const ewa_transfer *g
     ewa_context *context = asset->context;
     const char *word = asset->transfer;
     asset->kind = EWA_ASSET_VOLUME;
-    asset->flat = given ? asset->source.flat : word && (strcmp(word, "fog") == 0 || strcmp(word, "gray") == 0);
+    asset->flat = asset->source.flat || (word && (strcmp(word, "fog") == 0 || strcmp(word, "gray") == 0));
     memcpy(asset->up_world, ewa_up_of_volumes, sizeof asset->up_world);
     move(asset->to_world, volume);
     ewa_transfer *chosen = given ? NULL : ewa_allocate(context, 1, sizeof *chosen);

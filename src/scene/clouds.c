@@ -16,10 +16,6 @@ static bool has_axes(const ewa_cloud *cloud) {
     return ewa_cloud_find(cloud, EWA_TANGENT_U) && ewa_cloud_find(cloud, EWA_TANGENT_V);
 }
 
-bool ewa_cloud_is_drawable(const ewa_cloud *cloud) {
-    return has_axes(cloud) || (ewa_cloud_find(cloud, EWA_NORMAL) && ewa_cloud_find(cloud, EWA_RADIUS));
-}
-
 ewa_status ewa_cloud_filter(ewa_context *context, const ewa_filter *filter, ewa_cloud **cloud) {
     const uint64_t count = ewa_cloud_point_count(*cloud);
     if (!filter->term_count) return EWA_OK;

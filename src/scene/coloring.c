@@ -67,6 +67,19 @@ bool ewa_colorings_agree(const ewa_coloring *a, const ewa_coloring *b) {
     return agree;
 }
 
+ewa_status ewa_coloring_take(ewa_context *context, const ewa_coloring *given, ewa_coloring *taken) {
+    ewa_coloring_init(taken, sizeof *taken);
+    EWA_TRY(ewa_options_take(context, &ewa_coloring_table, given, taken));
+    if (!memchr(taken->attribute, 0, sizeof taken->attribute))
+        return ewa_fail(context, EWA_ERROR_ARGUMENT, "attribute: a name has at most %d characters",
+                        (int)sizeof taken->attribute - 1);
+    for (int end = 0; end < 2 && taken->ranged; end++)
+        if (taken->percent[end] && !(taken->range[end] >= 0 && taken->range[end] <= 100))
+            return ewa_fail(context, EWA_ERROR_ARGUMENT, "range: %g is no percentile, which is in [0, 100]",
+                            taken->range[end]);
+    return EWA_OK;
+}
+
 void ewa_legend_free(ewa_legend *legend) {
     if (!legend || !legend->context) return;
     const size_t room = legend->category_count + (size_t)1;
@@ -389,8 +402,7 @@ ewa_status ewa_clouds_color(ewa_cloud *const *clouds, uint32_t count, const ewa_
     *legend = (ewa_legend){.context = NULL};
     ewa_context *context = ewa_cloud_context(clouds[0]);
     ewa_coloring coloring;
-    ewa_coloring_init(&coloring, sizeof coloring);
-    EWA_TRY(ewa_options_take(context, &ewa_coloring_table, given, &coloring));
+    EWA_TRY(ewa_coloring_take(context, given, &coloring));
     if (ewa_coloring_is_own(coloring.attribute)) {
         bool colored = !is_rgb(coloring.attribute);
         for (uint32_t k = 0; k < count; k++) colored = colored || ewa_cloud_find(clouds[k], EWA_COLOR);

@@ -63,22 +63,21 @@ static bool belong_together(const ewa_asset *a, const ewa_asset *b) {
     return true;
 }
 
-/// Marks all items that belong to the group of item `first`, directly or by others. Returns how many these are.
-static uint32_t mark_group(const ewa_scene *scene, uint32_t first, uint32_t *group_of) {
-    uint32_t count = 1, before = 0;
+/// Marks all items that belong to the group of item `first`, directly or by others; `members` has room for all. Returns
+/// how many these are.
+static uint32_t mark_group(const ewa_scene *scene, uint32_t first, uint32_t *group_of, uint32_t *members) {
+    uint32_t count = 0;
     group_of[first] = first;
-    while (before != count) {
-        before = count;
+    members[count++] = first;
+    for (uint32_t next = 0; next < count; next++) {
+        const ewa_asset *member = scene->items[members[next]].asset;
         for (uint32_t i = first + 1; i < scene->count; i++) {
             const ewa_asset *asset = scene->items[i].asset;
-            if (group_of[i] != UINT32_MAX || !ewa_asset_is_points(asset) || asset->drawable) continue;
-            bool member = false;
-            for (uint32_t k = first; k < scene->count && !member; k++)
-                member = group_of[k] == first && k != i &&
-                         (scene->items[k].asset == asset || belong_together(scene->items[k].asset, asset));
-            if (!member) continue;
+            if (group_of[i] != UINT32_MAX || !ewa_asset_is_points(asset) || asset->drawable ||
+                !(asset == member || belong_together(member, asset)))
+                continue;
             group_of[i] = first;
-            count++;
+            members[count++] = i;
         }
     }
     return count;
@@ -320,14 +319,14 @@ static void check_systems(const ewa_scene *scene) {
 
 ewa_status ewa_scene_complete_items(ewa_scene *scene) {
     uint32_t *group_of = ewa_allocate(scene->context, scene->count, sizeof *group_of);
-    if (!group_of) return EWA_ERROR_MEMORY;
-    memset(group_of, 0xff, scene->count * sizeof *group_of);
-    ewa_status status = EWA_OK;
+    uint32_t *members = ewa_allocate(scene->context, scene->count, sizeof *members);
+    ewa_status status = group_of && members ? EWA_OK : EWA_ERROR_MEMORY;
+    if (status == EWA_OK) memset(group_of, 0xff, scene->count * sizeof *group_of);
     for (uint32_t i = 0; i < scene->count && status == EWA_OK; i++) {
         const ewa_asset *asset = scene->items[i].asset;
         if (group_of[i] != UINT32_MAX || !ewa_asset_is_points(asset) || asset->drawable || !asset->count)
             continue;
-        const uint32_t count = mark_group(scene, i, group_of);
+        const uint32_t count = mark_group(scene, i, group_of, members);
         ewa_completed *group = scene->items[i].completed;
         if (is_of(group, scene, i, group_of, count)) {
             atomic_fetch_add(&group->references, 1);
@@ -339,6 +338,7 @@ ewa_status ewa_scene_complete_items(ewa_scene *scene) {
         ewa_completed_release(&group);
     }
     ewa_release(scene->context, group_of, scene->count, sizeof *group_of);
+    ewa_release(scene->context, members, scene->count, sizeof *members);
     if (status == EWA_OK) check_systems(scene);
     return status;
 }

@@ -25,6 +25,14 @@ static void move_box(const double m[16], ewa_bounds *box) {
     }
 }
 
+static bool is_box(const ewa_bounds *box) {
+    bool fine = true;
+    for (int c = 0; c < 3; c++)
+        fine = fine && isfinite(box->low_world[c]) && isfinite(box->high_world[c]) &&
+               box->low_world[c] <= box->high_world[c];
+    return fine;
+}
+
 /// Reads some points that stand for the whole, filtered and moved as the asset's; all where a filter takes none of them.
 static ewa_status make_outline(ewa_asset *asset) {
     EWA_TRY(ewa_lod_sample(asset->lod, EWA_OCTREE_SAMPLE_POINTS, &asset->outline));
@@ -60,16 +68,19 @@ ewa_status ewa_asset_take_octree(const ewa_asset_job *job, ewa_lod *lod) {
     asset->lod = lod;
     ewa_lod_describe(lod, &info);
     asset->count = info.point_count;
-    asset->bounds = info.bounds;
-    asset->bounds.finite_count = info.point_count;
-    if (ewa_asset_is_moved(asset)) move_box(asset->to_world, &asset->bounds);
     if (!info.merged)
         ewa_report(
             asset->context, EWA_SEVERITY_NOTE,
             "its levels have points only, none that stand for others: what is far away is drawn by few of "
             "them; `ewa lod %s -o FILE.copc.laz` makes better levels",
             asset->name);
-    return make_outline(asset);
+    EWA_TRY(make_outline(asset));
+    asset->bounds = info.bounds;
+    if (ewa_asset_is_moved(asset)) move_box(asset->to_world, &asset->bounds);
+    // Of a file whose header says no box, that of the sample.
+    if (!is_box(&asset->bounds)) EWA_TRY(ewa_cloud_measure(asset->outline, &asset->bounds));
+    asset->bounds.finite_count = info.point_count;
+    return EWA_OK;
 }
 
 /// Whether what represents points has an attribute, too.

@@ -15,6 +15,7 @@
 struct ewa_asset {
     ewa_context *context;
     atomic_uint_fast32_t references;
+    uint64_t serial; ///< another one of each asset: one that comes later may lie where one was that is gone
     ewa_asset_kind kind;
     char *name; ///< of a file: its path as it was given
     size_t name_bytes;
@@ -78,7 +79,8 @@ typedef struct ewa_scene_item {
 
 /// What of an item decides how its points look as surfels.
 typedef struct ewa_surface_key {
-    const ewa_asset *asset;
+    const ewa_asset *asset; ///< not retained: it may be gone
+    uint64_t serial;        ///< of the asset
     const ewa_completed *completed; ///< NULL: the asset's cloud is complete
     ewa_instance instance;
     uint32_t member; ///< of the completed clouds
@@ -142,9 +144,6 @@ ewa_status ewa_asset_take_options(ewa_context *context, const ewa_asset_options 
 ewa_status ewa_cloud_view(ewa_context *context, const ewa_cloud *cloud, uint64_t first, uint64_t count,
                           ewa_cloud **view);
 
-/// Whether a cloud has all that a surfel needs.
-bool ewa_cloud_is_drawable(const ewa_cloud *cloud);
-
 /// Replaces a cloud by one of the points that a filter takes.
 ewa_status ewa_cloud_filter(ewa_context *context, const ewa_filter *filter, ewa_cloud **cloud);
 
@@ -164,6 +163,8 @@ ewa_status ewa_scene_make_resident(ewa_scene *scene);
 
 /// Makes the surfels of all visible items of points (surface.c).
 ewa_status ewa_surface_make(ewa_scene *scene, ewa_surface **surface);
+/// Makes one cloud of them, the caller's; NULL: there are none.
+ewa_status ewa_surface_gather(ewa_scene *scene, ewa_cloud **cloud);
 bool ewa_surface_is_of(const ewa_surface *surface, const ewa_scene *scene);
 void ewa_surface_release(ewa_surface **surface);
 
@@ -177,6 +178,9 @@ bool ewa_coloring_is_auto(const char *attribute);
 /// Has scans whose colouring is automatic, and that have no colours, coloured by a strength of light, or by height where
 /// that is the same everywhere: sets the attribute and the range of their colourings. Reorders both lists.
 ewa_status ewa_colorings_choose(ewa_cloud **clouds, uint32_t count, ewa_coloring **colorings);
+
+/// Takes a colouring, and checks what its table cannot say. Errors: EWA_ERROR_ARGUMENT.
+ewa_status ewa_coloring_take(ewa_context *context, const ewa_coloring *given, ewa_coloring *taken);
 
 /// Whether two colourings give the same colours.
 bool ewa_colorings_agree(const ewa_coloring *a, const ewa_coloring *b);

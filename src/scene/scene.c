@@ -165,7 +165,7 @@ static ewa_status take_instance(const ewa_scene *scene, const ewa_asset *asset, 
     ewa_instance_init(taken, sizeof *taken);
     if (!given) return EWA_OK;
     EWA_TRY(ewa_options_take(context, &ewa_instance_table, given, taken));
-    EWA_TRY(ewa_options_take(context, &ewa_coloring_table, &given->coloring, &taken->coloring));
+    EWA_TRY(ewa_coloring_take(context, &given->coloring, &taken->coloring));
     if (ewa_coloring_is_auto(taken->coloring.attribute)) taken->coloring.attribute[0] = 0;
     if (taken->material != EWA_MATERIAL_OWN && taken->material >= EWA_MAX_MATERIALS)
         return ewa_fail(context, EWA_ERROR_ARGUMENT, "%s: material %u is beyond %d", asset->name,
@@ -300,6 +300,16 @@ ewa_status ewa_scene_commit(ewa_scene *scene) {
             EWA_TRY(ewa_scene_look_at_octree(scene, i, &scene->options.lod, &look));
     }
     return EWA_OK;
+}
+
+ewa_status ewa_scene_cloud(ewa_scene *scene, ewa_cloud **cloud) {
+    if (!scene || !cloud) return EWA_ERROR_ARGUMENT;
+    *cloud = NULL;
+    EWA_TRY(ewa_scene_complete(scene));
+    if (scene->points_gone)
+        return ewa_fail(scene->context, EWA_ERROR_ARGUMENT, "the points of this scene are gone (keep_points)");
+    EWA_TRY(ewa_surface_gather(scene, cloud));
+    return *cloud ? EWA_OK : ewa_fail(scene->context, EWA_ERROR_ARGUMENT, "the scene shows no points");
 }
 
 void ewa_scene_describe(const ewa_scene *scene, ewa_scene_info *info) {

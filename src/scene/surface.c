@@ -56,9 +56,8 @@ static int compare_keys(const void *a, const void *b) {
 }
 
 static ewa_surface_key key_of(const ewa_scene_item *item) {
-    ewa_surface_key key = {item->asset, item->asset->drawable ? NULL : item->completed, item->instance,
-                           item->member};
-    return key;
+    return (ewa_surface_key){item->asset, item->asset->serial, item->asset->drawable ? NULL : item->completed,
+                             item->instance, item->member};
 }
 
 /// Whether two keys give the same surfels.
@@ -66,7 +65,7 @@ static bool keys_agree(const ewa_surface_key *a, const ewa_surface_key *b) {
     const ewa_instance *m = &a->instance, *n = &b->instance;
     const bool alike =
         m->opacity == n->opacity && m->radius_scale == n->radius_scale && m->material == n->material;
-    return a->asset == b->asset && a->completed == b->completed &&
+    return a->asset == b->asset && a->serial == b->serial && a->completed == b->completed &&
            (alike || !ewa_asset_is_points(a->asset)) && ewa_colorings_agree(&m->coloring, &n->coloring);
 }
 
@@ -233,8 +232,11 @@ static ewa_status make_resident(ewa_surface *surface, ewa_cloud **cloud) {
     return ewa_cloud_report_invalid_points(*cloud, &surface->info);
 }
 
-static ewa_status fill(ewa_scene *scene, ewa_surface *surface, const shown_clouds *shown) {
+/// Makes one cloud of all that is shown, coloured and measured as the instances say; NULL: there is none. One that is
+/// alone is shown's, and borrows its streams.
+static ewa_status gather(ewa_scene *scene, ewa_surface *surface, const shown_clouds *shown, ewa_cloud **whole) {
     ewa_context *context = surface->context;
+    *whole = NULL;
     for (uint32_t i = 0; i < surface->count; i++) {
         const ewa_surface_key *key = &surface->keys[i];
         const ewa_cloud *cloud = key->completed                    ? key->completed->clouds[key->member]
@@ -248,23 +250,33 @@ static ewa_status fill(ewa_scene *scene, ewa_surface *surface, const shown_cloud
         surface->colored = surface->colored || ewa_cloud_find(shown->clouds[i], EWA_COLOR);
     for (uint32_t i = 0; i < count; i++)
         EWA_TRY(apply_instance(&surface->keys[i].instance, shown->clouds[i]));
-    ewa_status status = EWA_OK;
-    if (!count) return EWA_OK;
     if (count == 1) {
-        const char *before = ewa_context_about(context, surface->keys[0].asset->name);
-        status = make_resident(surface, &shown->clouds[0]);
-        ewa_context_about(context, before);
-        return status;
+        *whole = shown->clouds[0];
+        shown->clouds[0] = NULL;
     }
-    ewa_cloud *merged = NULL;
-    status = ewa_clouds_make_alike(shown->clouds, count, scene->options.surfels.cutoff);
-    if (status == EWA_OK) status = ewa_cloud_merge((const ewa_cloud *const *)shown->clouds, count, &merged);
-    if (status == EWA_OK) status = make_resident(surface, &merged);
-    ewa_cloud_destroy(&merged);
+    if (count < 2) return EWA_OK;
+    EWA_TRY(ewa_clouds_make_alike(shown->clouds, count, scene->options.surfels.cutoff));
+    return ewa_cloud_merge((const ewa_cloud *const *)shown->clouds, count, whole);
+}
+
+/// Makes surfels of all that is shown, or, with `cloud`, one cloud.
+static ewa_status fill(ewa_scene *scene, ewa_surface *surface, const shown_clouds *shown, ewa_cloud **cloud) {
+    ewa_cloud *whole;
+    ewa_status status = gather(scene, surface, shown, &whole);
+    const char *before =
+        ewa_context_about(surface->context, surface->cloud_count == 1 ? surface->keys[0].asset->name : NULL);
+    // The streams of one cloud are not the caller's.
+    if (status == EWA_OK && whole && cloud)
+        status = ewa_cloud_merge((const ewa_cloud *const *)&whole, 1, cloud);
+    else if (status == EWA_OK && whole)
+        status = make_resident(surface, &whole);
+    ewa_context_about(surface->context, before);
+    ewa_cloud_destroy(&whole);
     return status;
 }
 
-ewa_status ewa_surface_make(ewa_scene *scene, ewa_surface **made) {
+/// Makes the surface of a scene, or, with `cloud`, what it would be made of.
+static ewa_status make(ewa_scene *scene, ewa_surface **made, ewa_cloud **cloud) {
     ewa_context *context = scene->context;
     *made = NULL;
     ewa_surface *surface = ewa_allocate_zeroed(context, 1, sizeof *surface);
@@ -293,14 +305,14 @@ ewa_status ewa_surface_make(ewa_scene *scene, ewa_surface **made) {
         shown.chosen = ewa_allocate_zeroed(context, count, sizeof *shown.chosen);
         const bool room = surface->legends && surface->legend_of && shown.clouds && shown.colored &&
                           shown.colorings && shown.chosen;
-        status = room ? fill(scene, surface, &shown) : EWA_ERROR_MEMORY;
+        status = room ? fill(scene, surface, &shown, cloud) : EWA_ERROR_MEMORY;
     }
     for (uint32_t i = 0; shown.clouds && i < count; i++) ewa_cloud_destroy(&shown.clouds[i]);
     ewa_release(context, shown.clouds, count, sizeof *shown.clouds);
     ewa_release(context, shown.colored, count, sizeof *shown.colored);
     ewa_release(context, shown.colorings, count, sizeof *shown.colorings);
     ewa_release(context, shown.chosen, count, sizeof *shown.chosen);
-    if (status == EWA_OK && surface->sparse && !surface->as_points)
+    if (status == EWA_OK && surface->sparse && !surface->as_points && !cloud)
         ewa_report(context, EWA_SEVERITY_NOTE, "%llu point%s: drawn as dots of %d pixels, --point-size decides otherwise",
                    (unsigned long long)surface->info.point_count,
                    surface->info.point_count == 1 ? "" : "s on no surface", EWA_DOT_PX);
@@ -308,6 +320,16 @@ ewa_status ewa_surface_make(ewa_scene *scene, ewa_surface **made) {
         *made = surface;
     else
         ewa_surface_release(&surface);
+    return status;
+}
+
+ewa_status ewa_surface_make(ewa_scene *scene, ewa_surface **surface) { return make(scene, surface, NULL); }
+
+ewa_status ewa_surface_gather(ewa_scene *scene, ewa_cloud **cloud) {
+    ewa_surface *surface;
+    *cloud = NULL;
+    const ewa_status status = make(scene, &surface, cloud);
+    ewa_surface_release(&surface);
     return status;
 }
 

@@ -11,10 +11,6 @@
 #include <math.h>
 #include <string.h>
 
-/// Where nobody says.
-static const double DEFAULT_FOV_DEG = 30;
-enum { DEFAULT_WIDTH_PX = 1280, DEFAULT_HEIGHT_PX = 720 };
-
 #define AT(member) offsetof(ewa_view_options, member)
 
 static const ewa_option view_rows[] = {
@@ -215,11 +211,11 @@ static ewa_status place_by_framing(placement *p, ewa_camera *camera, ewa_view_in
     ewa_upright_describe(&p->upright, text);
     ewa_report(p->context, EWA_SEVERITY_INFO, "up: %s", text);
     ewa_camera_init(camera);
-    camera->width_px = options->width_px ? options->width_px : DEFAULT_WIDTH_PX;
-    camera->height_px = options->height_px ? options->height_px : DEFAULT_HEIGHT_PX;
+    if (options->width_px) camera->width_px = options->width_px;
+    if (options->height_px) camera->height_px = options->height_px;
     EWA_TRY(options->ortho_height_world > 0
                 ? ewa_camera_set_ortho(camera, options->ortho_height_world)
-                : ewa_camera_set_fov(camera, options->fov_deg > 0 ? options->fov_deg : DEFAULT_FOV_DEG));
+                : ewa_camera_set_fov(camera, options->fov_deg > 0 ? options->fov_deg : EWA_VIEW_FOV_DEG));
     return place(p, info->pivot_world, camera);
 }
 

@@ -237,6 +237,22 @@ void ewa_job_count(const ewa_tile_job *job, uint32_t worker_count, ewa_render_st
     }
 }
 
+void ewa_render_stats_add(ewa_render_stats *sum, const ewa_render_stats *more) {
+    if (more->splat_count > sum->splat_count) sum->splat_count = more->splat_count;
+    if (more->level > sum->level) sum->level = more->level;
+    sum->culled_count += more->culled_count;
+    sum->hidden_count += more->hidden_count;
+    sum->drawn_count += more->drawn_count;
+    sum->fragment_count += more->fragment_count;
+    sum->bin_s += more->bin_s;
+    sum->setup_s += more->setup_s;
+    sum->visibility_s += more->visibility_s;
+    sum->accumulate_s += more->accumulate_s;
+    sum->edge_s += more->edge_s;
+    sum->resolve_s += more->resolve_s;
+    sum->total_s += more->total_s;
+}
+
 void ewa_job_room_free(ewa_context *context, ewa_job_room *room) {
     ewa_tile_source *sources = room->sources.data;
     for (uint32_t i = 0; i < room->source_count; i++) ewa_bins_free(context, &sources[i].bins);

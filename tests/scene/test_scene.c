@@ -296,11 +296,98 @@ static void test_refused(void **state) {
     assert_int_equal(ewa_scene_set(scene, 0, &instance), EWA_OK);
     assert_int_equal(ewa_scene_commit(scene), EWA_ERROR_ARGUMENT);
     assert_non_null(strstr(log.text, "nothing"));
+    instance.coloring.ranged = instance.coloring.percent[1] = true;
+    instance.coloring.range[1] = 101;
+    assert_int_equal(ewa_scene_set(scene, 0, &instance), EWA_ERROR_ARGUMENT);
+    assert_non_null(strstr(log.text, "101 is no percentile"));
+    memset(instance.coloring.attribute, 'a', sizeof instance.coloring.attribute);
+    instance.coloring.ranged = false;
+    assert_int_equal(ewa_scene_set(scene, 0, &instance), EWA_ERROR_ARGUMENT);
+    assert_non_null(strstr(log.text, "attribute: a name has at most"));
     assert_int_equal(ewa_scene_remove(scene, 1), EWA_ERROR_ARGUMENT);
     assert_int_equal(ewa_scene_remove(scene, 0), EWA_OK);
     ewa_scene_destroy(&scene);
     ewa_scene_destroy(&scene);
     ewa_cloud_destroy(&cloud);
+    ewa_context_destroy(&context);
+}
+
+/// What was made for an asset that is gone is not taken for another one, which may lie in the same place of memory.
+static void test_another_asset(void **state) {
+    ewa_context *context = check_context(1, NULL);
+    ewa_cloud *clouds[2] = {make_object(context, EWA_OBJECT_TORUS, 0), make_object(context, EWA_OBJECT_SPHERE, 0)};
+    ewa_scene *scene = make_scene(context), *alone = make_scene(context);
+    add_cloud(context, alone, clouds[1], NULL);
+    const ewa_camera camera = place(alone);
+    draw(context, alone, &camera, &first);
+    for (int i = 0; i < 8; i++) {
+        add_cloud(context, scene, clouds[i % 2], NULL);
+        draw(context, scene, &camera, &second);
+        assert_int_equal(memcmp(&first, &second, sizeof first) == 0, i % 2);
+        assert_int_equal(ewa_scene_remove(scene, 0), EWA_OK);
+    }
+    ewa_scene_destroy(&scene), ewa_scene_destroy(&alone);
+    ewa_cloud_destroy(&clouds[0]), ewa_cloud_destroy(&clouds[1]);
+    ewa_context_destroy(&context);
+}
+
+/// A thousand tiles without normals, each of which touches the next, in an order in which none comes after a neighbour: one
+/// group, found before long.
+static void test_chain_of_tiles(void **state) {
+    enum { TILES = 1000, OF_TILE = 4 };
+    check_log log = {.count = 0};
+    ewa_context *context = check_context(1, &log);
+    ewa_scene *scene = make_scene(context);
+    static double places[TILES][OF_TILE][3];
+    ewa_cloud *clouds[TILES];
+    for (int t = 0; t < TILES; t++) {
+        for (int k = 0; k < OF_TILE; k++) places[t][k][0] = t + 0.5 * (k & 1), places[t][k][1] = 0.5 * (k >> 1);
+        assert_int_equal(ewa_cloud_create(context, OF_TILE, &clouds[t]), EWA_OK);
+        assert_int_equal(ewa_cloud_borrow(clouds[t], EWA_POSITION, EWA_F64, 3, places[t], sizeof places[t][0]), EWA_OK);
+    }
+    add_cloud(context, scene, clouds[0], NULL);
+    for (int t = TILES; t-- > 1;) add_cloud(context, scene, clouds[t], NULL);
+    assert_int_equal(ewa_scene_complete(scene), EWA_OK);
+    ewa_scene_info info;
+    ewa_scene_describe(scene, &info);
+    assert_int_equal(info.estimated_count, TILES * OF_TILE);
+    ewa_cloud *whole = NULL;
+    assert_int_equal(ewa_scene_cloud(scene, &whole), EWA_OK);
+    assert_int_equal(ewa_cloud_point_count(whole), TILES * OF_TILE);
+    assert_true(ewa_cloud_is_drawable(whole));
+    ewa_cloud_destroy(&whole);
+    ewa_scene_destroy(&scene);
+    for (int t = 0; t < TILES; t++) ewa_cloud_destroy(&clouds[t]);
+    ewa_context_destroy(&context);
+}
+
+/// The cloud of a scene is what its surfels are made of: their picture is the scene's.
+static void test_cloud_of_scene(void **state) {
+    check_log log = {.count = 0};
+    ewa_context *context = check_context(1, &log);
+    ewa_cloud *clouds[2] = {make_object(context, EWA_OBJECT_TORUS, 0), make_object(context, EWA_OBJECT_SPHERE, 1.25)};
+    ewa_scene *scene = make_scene(context), *of_cloud = make_scene(context);
+    ewa_cloud *whole = NULL;
+    assert_int_equal(ewa_scene_cloud(scene, &whole), EWA_ERROR_ARGUMENT);
+    assert_non_null(strstr(log.text, "shows no points"));
+    for (int i = 0; i < 2; i++) {
+        ewa_instance instance;
+        ewa_instance_init(&instance, sizeof instance);
+        instance.radius_scale = 1 + i;
+        add_cloud(context, scene, clouds[i], &instance);
+        assert_int_equal(ewa_scene_cloud(scene, &whole), EWA_OK);
+        assert_int_equal(ewa_cloud_point_count(whole), POINTS * (1 + i));
+        if (!i) ewa_cloud_destroy(&whole);
+    }
+    const ewa_camera camera = place(scene);
+    draw(context, scene, &camera, &first);
+    ewa_scene_destroy(&scene); // what was made of it stays
+    ewa_cloud_destroy(&clouds[0]), ewa_cloud_destroy(&clouds[1]);
+    add_cloud(context, of_cloud, whole, NULL);
+    draw(context, of_cloud, &camera, &second);
+    assert_memory_equal(&first, &second, sizeof first);
+    ewa_scene_destroy(&of_cloud);
+    ewa_cloud_destroy(&whole);
     ewa_context_destroy(&context);
 }
 
@@ -393,7 +480,8 @@ int main(void) {
                                        cmocka_unit_test(test_instances),
                                        cmocka_unit_test(test_one_range),
                                        cmocka_unit_test(test_refused),
-                                       cmocka_unit_test(test_pick),
+                                       cmocka_unit_test(test_another_asset), cmocka_unit_test(test_chain_of_tiles),
+        cmocka_unit_test(test_cloud_of_scene), cmocka_unit_test(test_pick),
                                        cmocka_unit_test(test_bare_light)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
