@@ -117,7 +117,7 @@ static void test_signal(void **state) {
     (void)state;
     static const char *const names[] = {"intensity", "scalar_Intensity", "Reflectance", "amplitude"};
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
-        const scan scanned = {names[i], 5, 1, i % 2, -1};
+        const scan scanned = {names[i], 5, 1, i % 2, -1, false};
         const ewa_coloring coloring = by(names[i]), word = by("auto");
         draw(&scanned, 1, &coloring, &asked);
         assert_int_equal(asked.notes, 0);
@@ -134,7 +134,9 @@ static void test_signal(void **state) {
 /// Numbers that are the same everywhere show nothing; then surveys show their height, and bodies stay grey.
 static void test_height(void **state) {
     (void)state;
-    const scan survey = {"intensity", 7, 0, true, -1}, body = {"intensity", 7, 0, false, -1}, bare = {NULL, 0, 0, false, -1},
+    const scan survey = {"intensity", 7, 0, true, -1, false},
+               body = {"intensity", 7, 0, false, -1, false},
+               bare = {NULL, 0, 0, false, -1, false},
                grid = {.colors = -1, .grid = true};
     ewa_coloring height = by("z");
     height.ranged = height.percent[0] = height.percent[1] = true;
@@ -158,11 +160,11 @@ static void test_height(void **state) {
 /// Colours are kept, but for those that are black everywhere, which writers leave where they know none.
 static void test_own(void **state) {
     (void)state;
-    const scan colored = {"intensity", 0, 1, true, 90}, plain = {NULL, 0, 0, false, 90};
+    const scan colored = {"intensity", 0, 1, true, 90, false}, plain = {NULL, 0, 0, false, 90, false};
     draw(&plain, 1, NULL, &asked);
     draw(&colored, 1, NULL, &automatic);
     assert_true(same(&asked, &automatic));
-    const scan black = {"intensity", 0, 1, true, 0}, bare = {"intensity", 0, 1, true, -1};
+    const scan black = {"intensity", 0, 1, true, 0, false}, bare = {"intensity", 0, 1, true, -1, false};
     draw(&bare, 1, NULL, &asked);
     draw(&black, 1, NULL, &automatic);
     assert_true(same(&asked, &automatic));
@@ -184,7 +186,7 @@ static void test_own(void **state) {
 /// Scans are coloured together: on one scale, and by a number that tells them apart although it is one in each.
 static void test_together(void **state) {
     (void)state;
-    const scan tiles[2] = {{"intensity", 1, 0, true, -1}, {"intensity", 3, 0, true, -1}};
+    const scan tiles[2] = {{"intensity", 1, 0, true, -1, false}, {"intensity", 3, 0, true, -1, false}};
     const ewa_coloring coloring = by("intensity");
     draw(tiles, 2, &coloring, &asked);
     draw(tiles, 2, NULL, &automatic);
@@ -192,7 +194,7 @@ static void test_together(void **state) {
     assert_true(automatic.range[0] == 1 && automatic.range[1] == 3);
     assert_int_equal(automatic.notes, 1);
     // A coloured one beside a bare one: each as if alone.
-    const scan mixed[2] = {{"intensity", 1, 1, true, 200}, {"intensity", 5, 2, true, -1}};
+    const scan mixed[2] = {{"intensity", 1, 1, true, 200, false}, {"intensity", 5, 2, true, -1, false}};
     draw(mixed, 2, NULL, &automatic);
     assert_string_equal(automatic.attribute, "");
     assert_int_equal(automatic.notes, 1);
