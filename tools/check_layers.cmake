@@ -3,7 +3,8 @@
 #
 # Fails when a room includes a room of a higher floor or a neighbour on its own, when a room of src/ or a public header has
 # no floor, and when a program includes anything but public headers. A public header is of the room that the table in
-# docs/architecture.md gives it to, and counts as that room, whoever includes it and whatever it includes.
+# docs/architecture.md gives it to, and counts as that room, whoever includes it and whatever it includes. Messages of src/
+# do not name options and commands of the program: it does so itself (cli/base/ways_out.c).
 #
 # cmake -DROOT=folder -P check_layers.cmake
 set(wrong "")
@@ -37,6 +38,13 @@ foreach(path IN LISTS files)
   if(inside AND NOT DEFINED floor_of_${room})
     string(APPEND wrong "${path}: ${room} has no floor in docs/architecture.md\n")
     continue()
+  endif()
+  if(inside STREQUAL "src")
+    file(STRINGS "${ROOT}/${path}" messages REGEX "^[^/]*\"[^\"]*([ ('`]--[a-z]|['`]ewa [a-z])")
+    foreach(line IN LISTS messages)
+      string(STRIP "${line}" line)
+      string(APPEND wrong "${path}: names what the program calls things: ${line}\n")
+    endforeach()
   endif()
   file(STRINGS "${ROOT}/${path}" includes REGEX "^ *# *include *\"")
   foreach(line IN LISTS includes)

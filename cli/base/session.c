@@ -4,6 +4,7 @@
 // One run of the program: the library's context, messages, progress, interruption, timing, exit status.
 #include "cli/base/session.h"
 #include "cli/base/interruption.h"
+#include "cli/base/ways_out.h"
 
 #include <errno.h>
 #include <stdarg.h>
@@ -92,7 +93,9 @@ static void print_line(cli_session *session, ewa_severity severity, const char *
 static void on_message(void *user, ewa_severity severity, const char *text) {
     cli_session *session = user;
     if (severity == EWA_SEVERITY_ERROR) session->reported = true;
-    print_line(session, severity, text);
+    char line[LINE_BYTES / 2];
+    ways_out_put(text, line, sizeof line);
+    print_line(session, severity, line);
 }
 
 static void print_formatted(cli_session *session, ewa_severity severity, const char *format,

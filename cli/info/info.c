@@ -18,6 +18,7 @@
 #include "cli/input/model_input.h"
 #include "cli/input/point_choice.h"
 #include "cli/render/view.h"
+#include "cli/base/ways_out.h"
 
 #include <float.h>
 #include <inttypes.h>
@@ -211,7 +212,9 @@ static size_t list_problems(const ewa_cloud *cloud, const cloud_facts *facts,
         snprintf(problems[count++], PROBLEM_BYTES,
                  "%" PRIu64 " of %" PRIu64 " points share their place with another",
                  facts->spacing.duplicate_count, facts->sampled_count);
-    if (!facts->is_mesh && ewa_cloud_find_degrees(cloud, problems[count])) count++;
+    char degrees[EWA_DIAGNOSIS_TEXT_BYTES];
+    if (!facts->is_mesh && ewa_cloud_find_degrees(cloud, degrees))
+        ways_out_put(degrees, problems[count++], PROBLEM_BYTES);
     if (facts->shape == SHAPE_POINT)
         snprintf(problems[count++], PROBLEM_BYTES, "%s",
                  facts->bounds.finite_count == 1 ? "there is one point only"

@@ -143,7 +143,7 @@ static ewa_status open_octree(const ewa_asset_job *job, const char *path, ewa_lo
         return ewa_fail(
             context, EWA_ERROR_ARGUMENT,
             "a choice of columns needs all points of the octree, its levels do without; leave one of both "
-            "out, or `ewa convert` what is wanted to a file of its own");
+            "out, or write what is wanted to a file of its own");
     if (options->own_context) EWA_TRY(ewa_context_create(&context->options, &job->asset->lod_context));
     EWA_TRY(ewa_lod_open(options->own_context ? job->asset->lod_context : context, path, lod));
     ewa_lod_info info;

@@ -50,7 +50,7 @@ ewa_status ewa_asset_sample_mesh(const ewa_asset_job *job, const ewa_mesh *mesh)
     ewa_cloud *cloud = NULL;
     EWA_TRY(ewa_mesh_sample(mesh, &options, &cloud));
     ewa_report(context, EWA_SEVERITY_INFO,
-               "%llu points on %u triangles in %.3f s; `ewa sample` has options for this",
+               "%llu points on %u triangles in %.3f s; ewa_mesh_sample() has options for this",
                (unsigned long long)ewa_cloud_point_count(cloud), mesh->triangle_count,
                ewa_now_s() - started_s);
     ewa_status status = ewa_asset_take_cloud(job, cloud);

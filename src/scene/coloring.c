@@ -373,7 +373,7 @@ static ewa_status choose_attribute(ewa_cloud **clouds, uint32_t count, const cha
         colorings[k]->ranged = true;
     }
     ewa_report(from->context, EWA_SEVERITY_NOTE,
-               "no colours: coloured by %s; --color-by says otherwise (another number, or none)",
+               "no colours: coloured by %s; ewa_coloring says otherwise (another number, or none)",
                strcmp(word, HEIGHT) == 0 ? "height (z)" : word);
     return EWA_OK;
 }

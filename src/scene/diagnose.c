@@ -54,8 +54,8 @@ ewa_status ewa_cloud_refuse_gaussians(const ewa_cloud *cloud) {
     ewa_gaussian_columns_describe(&columns, text);
     return ewa_fail(
         ewa_cloud_context(cloud), EWA_ERROR_UNSUPPORTED,
-        "%llu %s: a scene of Gaussian splatting, which cannot be drawn; 'ewa surfels --keep-normals off' "
-        "makes surfels of the centres",
+        "%llu %s: a scene of Gaussian splatting, which cannot be drawn; ewa_cloud_estimate() of the "
+        "centres makes surfels",
         (unsigned long long)ewa_cloud_point_count(cloud), text);
 }
 
@@ -114,8 +114,7 @@ bool ewa_cloud_find_degrees(const ewa_cloud *cloud, char text[EWA_DIAGNOSIS_TEXT
     snprintf(
         text, EWA_DIAGNOSIS_TEXT_BYTES,
         "coordinates %s degrees of longitude and latitude, so that shapes are flat and heights stand out; "
-        "'ewa convert --scale %.0f,%.0f,1' makes about metres of them, exact ones a projection such as UTM "
-        "zone %d",
+        "times %.0f,%.0f,1 they are about metres, exact ones a projection such as UTM zone %d makes",
         is_geographic(crs) ? "are" : "look like", DEGREE_M * cos(radians), DEGREE_M,
         (int)fmin(60, floor((0.5 * (low[0] + high[0]) + 180) / 6) + 1));
     return true;
@@ -221,8 +220,8 @@ ewa_status ewa_cloud_report_invalid_points(const ewa_cloud *cloud, const ewa_sur
     if (surfels->point_count == 0)
         return ewa_fail(
             context, EWA_ERROR_FORMAT,
-            "none of the %llu points can be drawn: %s; 'ewa surfels --keep-normals off --keep-radii off' "
-            "makes new normals and radii",
+            "none of the %llu points can be drawn: %s; ewa_cloud_estimate() makes new normals "
+            "and radii",
             all, why);
     if (left_out)
         ewa_report(context, EWA_SEVERITY_WARNING, "%llu of %llu points are left out: %s", left_out, all, why);

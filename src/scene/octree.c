@@ -72,8 +72,7 @@ ewa_status ewa_asset_take_octree(const ewa_asset_job *job, ewa_lod *lod) {
         ewa_report(
             asset->context, EWA_SEVERITY_NOTE,
             "its levels have points only, none that stand for others: what is far away is drawn by few of "
-            "them; `ewa lod %s -o FILE.copc.laz` makes better levels",
-            asset->name);
+            "them; ewa_lod_build() makes better levels");
     EWA_TRY(make_outline(asset));
     asset->bounds = info.bounds;
     if (ewa_asset_is_moved(asset)) move_box(asset->to_world, &asset->bounds);
@@ -100,8 +99,7 @@ static ewa_status need(const ewa_scene *scene, const ewa_asset *asset, const cha
     if (is_of_levels(name)) return EWA_OK;
     if (levels)
         return ewa_fail(scene->context, EWA_ERROR_UNSUPPORTED,
-                        "%s: what represents points at its levels has no %s; with an error of 0 (--lod-error "
-                        "0) the points "
+                        "%s: what represents points at its levels has no %s; with an error of 0 the points "
                         "themselves are drawn, which have it",
                         asset->name, word);
     // A term has a name of EWA_NAME_BYTES at most, as a colouring: there is room for all.

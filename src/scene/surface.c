@@ -212,7 +212,7 @@ static ewa_status close_gaps(ewa_surface *surface, ewa_cloud **cloud) {
     }
     ewa_report(surface->context, EWA_SEVERITY_NOTE,
                "the radii are %.2f of the points' spacing, which leaves gaps: larger ones are used "
-               "(--close-gaps off keeps the file's)",
+               "(close_gaps = false keeps the file's)",
                radius);
     ewa_estimate_options options;
     ewa_estimate_options_init(&options, sizeof options);
@@ -313,7 +313,7 @@ static ewa_status make(ewa_scene *scene, ewa_surface **made, ewa_cloud **cloud) 
     ewa_release(context, shown.colorings, count, sizeof *shown.colorings);
     ewa_release(context, shown.chosen, count, sizeof *shown.chosen);
     if (status == EWA_OK && surface->sparse && !surface->as_points && !cloud)
-        ewa_report(context, EWA_SEVERITY_NOTE, "%llu point%s: drawn as dots of %d pixels, --point-size decides otherwise",
+        ewa_report(context, EWA_SEVERITY_NOTE, "%llu point%s: drawn as dots of %d pixels, point_size_px decides otherwise",
                    (unsigned long long)surface->info.point_count,
                    surface->info.point_count == 1 ? "" : "s on no surface", EWA_DOT_PX);
     if (status == EWA_OK)

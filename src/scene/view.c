@@ -176,7 +176,7 @@ static ewa_status place(const placement *p, const double pivot_world[3], ewa_cam
     }
     if (p->of.trimmed)
         ewa_report(context, EWA_SEVERITY_NOTE,
-                   "a few points lie far off and are left outside the picture; --eye decides otherwise");
+                   "a few points lie far off and are left outside the picture; eye_world decides otherwise");
     ewa_status status = EWA_OK;
     if (options->turntable) {
         ewa_framing *solid = NULL;

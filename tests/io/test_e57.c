@@ -398,7 +398,7 @@ static void test_every_page_is_checked(void **state) {
     assert_string_equal(
         messages.text,
         "sample.e57: page 1 at byte 1024 is damaged: its checksum does not fit (1 of 6 pages are) "
-        "(--keep-going leaves out what is damaged)");
+        "(keep_going leaves out what is damaged)");
     free(file.bytes);
 }
 

@@ -240,7 +240,7 @@ static void test_headers_that_lie(void **state) {
                      EWA_ERROR_FORMAT);
     assert_string_equal(messages.text,
                         "made.las: the file ends in point 11 of 4294967295: records of 34 bytes "
-                        "from byte 375 on, 340 bytes are there (--keep-going leaves out what is damaged)");
+                        "from byte 375 on, 340 bytes are there (keep_going leaves out what is damaged)");
     cloud = NULL;
     assert_int_equal(ewa_cloud_load_memory(context, s.bytes, s.points_at, "made.las", &cloud), EWA_OK);
     assert_int_equal(ewa_cloud_point_count(cloud), 0);

@@ -67,7 +67,7 @@ ewa_status ewa_cloud_damage(const ewa_cloud_source *source, uint64_t lost_count,
     vsnprintf(text, sizeof text, format, arguments);
     va_end(arguments);
     if (!source->options->keep_going)
-        return ewa_fail(source->context, EWA_ERROR_FORMAT, "%s (--keep-going leaves out what is damaged)", text);
+        return ewa_fail(source->context, EWA_ERROR_FORMAT, "%s (keep_going leaves out what is damaged)", text);
     *source->lost_count += lost_count;
     ewa_report(source->context, EWA_SEVERITY_WARNING, "%s; %llu points lost", text,
                (unsigned long long)lost_count);

@@ -32,8 +32,8 @@ static ewa_status choose_fraction(const ewa_gaussian_target *target, uint32_t *b
     if (!(largest < FIXED_HALF - 1))
         return ewa_fail(
             set->context, EWA_ERROR_LIMIT,
-            "%s: coordinates up to %.9g do not fit the 24 bits of SPZ; 'ewa convert --translate' moves "
-            "them",
+            "%s: coordinates up to %.9g do not fit the 24 bits of SPZ; moved nearer to the origin they "
+            "do",
             target->name, largest);
     *bits = FRACTION_BITS;
     while (*bits < MAX_FRACTION_BITS && ldexp(side, (int)*bits) < BOX_STEPS) ++*bits;

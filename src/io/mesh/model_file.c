@@ -114,8 +114,7 @@ static ewa_status refuse(const ewa_mesh_source *source) {
     const char *picture = ewa_image_kind(source->bytes, source->size_bytes);
     if (picture)
         return ewa_fail(source->context, EWA_ERROR_UNSUPPORTED,
-                        "%s: a picture (%s), which has no points: 'ewa texture' draws pictures, 'ewa warp' those with "
-                        "depths, --heights says that its colours are heights",
+                        "%s: a picture (%s), which has no points: heights says that its colours are such",
                         source->name, picture);
     EWA_TRY(ewa_text_refuse_odd(source->context, source->name, source->bytes, source->size_bytes));
     return ewa_fail(source->context, EWA_ERROR_UNSUPPORTED,

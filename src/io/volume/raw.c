@@ -68,9 +68,7 @@ ewa_status ewa_raw_parse(const ewa_volume_input *in, const ewa_volume_load_optio
     const char *picture = ewa_image_kind(in->bytes, in->size_bytes);
     if (!told && picture)
         return ewa_volume_fail(in, EWA_ERROR_UNSUPPORTED,
-                               "a picture (%s), which has no voxels: 'ewa texture' draws pictures, 'ewa warp' those with "
-                               "depths",
-                               picture);
+                               "a picture (%s), which has no voxels", picture);
     if (!told && !guessed)
         return ewa_volume_fail(
             in, EWA_ERROR_FORMAT,

@@ -51,7 +51,8 @@ static ewa_status take_line(const ewa_volume_input *in, const char *line, bool *
     const char *rest = ewa_text_skip_blanks(line) + strlen(words[0]);
     if (strcasecmp(words[0], "DATASET") == 0) {
         if (count < 2 || strcasecmp(words[1], "STRUCTURED_POINTS") != 0)
-            return ewa_volume_fail(in, EWA_ERROR_UNSUPPORTED, "VTK: dataset '%.40s' is no STRUCTURED_POINTS",
+            return ewa_volume_fail(in, EWA_ERROR_UNSUPPORTED,
+                                   "VTK: dataset '%.40s' is no STRUCTURED_POINTS; resampled to them it is read",
                                    count > 1 ? words[1] : "");
     } else if (strcasecmp(words[0], "DIMENSIONS") == 0) {
         *has_dims = ewa_text_counts(rest, 3, header->dims) == 3;
