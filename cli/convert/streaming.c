@@ -16,12 +16,12 @@ static const uint64_t PIECE_POINTS = 1 << 19;
 
 /// Whether a file holds points of a known format, which `*format` gets, and can be read twice.
 static bool is_possible(cli_session *session, const char *path, ewa_model_format *format) {
-    if (strcmp(path, "-") == 0 || strncmp(path, "/dev/", 5) == 0 || ewa_volume_is_named(path) ||
+    if (strcmp(path, "-") == 0 || strncmp(path, "/dev/", 5) == 0 || ewa_volume_is_file(session->context, path) ||
         import_is_named(path) || ewa_lod_is_folder(session->context, path) ||
         gaussian_files_format(session, path) > EWA_GAUSSIANS_PLY ||
         ewa_model_probe(session->context, path, format) != EWA_OK)
         return false;
-    return *format == EWA_MODEL_PLY || *format >= EWA_MODEL_LAS;
+    return *format == EWA_MODEL_PLY || (*format >= EWA_MODEL_LAS && *format != EWA_MODEL_VTK);
 }
 
 typedef struct stream_job {

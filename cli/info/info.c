@@ -416,7 +416,7 @@ static int run(const void *data) {
     for (size_t i = 0; i < arguments->common.operand_count; i++) {
         const char *path = arguments->common.operands[i];
         session.reported = false;
-        if (arguments->volume.dims.count || ewa_volume_is_named(path)) {
+        if (arguments->volume.dims.count || ewa_volume_is_file(session.context, path)) {
             if (!info_volume(&session, &arguments->volume, path, arguments->json ? &json : NULL))
                 exit_status = EXIT_FAILED;
             continue;

@@ -11,7 +11,7 @@
 bool model_input_load(cli_session *session, const char *path, uint32_t wanted, ewa_model *model) {
     *model = (ewa_model){.points = NULL};
     session->subject = path;
-    if (ewa_volume_is_named(path)) {
+    if (ewa_volume_is_file(session->context, path)) {
         session_fail(session, "%s: a volume; `ewa volume %s -o FILE.png` draws it", path, path);
         return false;
     }

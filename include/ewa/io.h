@@ -250,6 +250,9 @@ EWA_API ewa_status ewa_materials_load(ewa_context *context, const char *path,
 /// Whether a name has a suffix of volumes, which is how they are told from other files. Any thread.
 EWA_API bool ewa_volume_is_named(const char *path);
 
+/// Whether a file is to be read as a volume: by its name, but for VTK files of polygons or cells, which are meshes.
+EWA_API bool ewa_volume_is_file(ewa_context *context, const char *path);
+
 /// What a volume file does not say itself. Fill with ewa_volume_load_options_init().
 typedef struct ewa_volume_load_options {
     size_t struct_size;

@@ -29,10 +29,11 @@ typedef enum ewa_model_format {
     EWA_MODEL_GRID, ///< ASCII grid: heights of cells
     EWA_MODEL_TIFF, ///< TIFF with heights of cells (GeoTIFF)
     EWA_MODEL_TERRAIN, ///< picture with heights in its colours (ewa_cloud_load_options.heights)
+    EWA_MODEL_VTK,     ///< polygons, and flat cells of unstructured grids; grids of voxels are volumes
 } ewa_model_format;
 
 /// Returns "PLY", "OBJ", "STL", "OFF", "glTF", "LAS", "E57", "PCD", "PTX", "text", "ASCII grid", "GeoTIFF",
-/// "terrain picture" or "unknown".
+/// "terrain picture", "VTK" or "unknown".
 EWA_API const char *ewa_model_format_name(ewa_model_format format);
 
 /// Says which format a regular file has, by its content; EWA_MODEL_UNKNOWN: none that is read here. Errors:
@@ -56,7 +57,7 @@ typedef struct ewa_model {
     ewa_elements *elements; ///< NULL: none; the caller may take it
 } ewa_model;
 
-/// Reads a file of points or triangles, the format by content: PLY, OBJ (with MTL), STL, OFF, glTF and GLB.
+/// Reads a file of points or triangles, the format by content: PLY, OBJ (with MTL), STL, OFF, glTF and GLB, VTK.
 /// Clouds of every format that ewa_cloud_load() knows are read as there, by `options` (may be NULL).
 /// `wanted` are EWA_MODEL_* bits; without EWA_MODEL_POINTS, `points` are made only where there are no faces.
 /// "-" reads standard input.

@@ -266,6 +266,7 @@ class ewa_model_format(IntEnum):
     EWA_MODEL_GRID = 11
     EWA_MODEL_TIFF = 12
     EWA_MODEL_TERRAIN = 13
+    EWA_MODEL_VTK = 14
 
 
 class ewa_option_type(IntEnum):
@@ -2620,6 +2621,7 @@ class Functions:
     ewa_transfer_choose: Callable[..., int]
     ewa_transfer_load: Callable[..., int]
     ewa_transfer_save: Callable[..., int]
+    ewa_volume_is_file: Callable[..., bool]
     ewa_volume_is_named: Callable[..., bool]
     ewa_volume_load: Callable[..., int]
     ewa_volume_load_memory: Callable[..., int]
@@ -2984,6 +2986,7 @@ class Functions:
         self.ewa_transfer_choose = bind("ewa_transfer_choose", c.c_int, c.c_void_p, c.c_char_p, c.POINTER(ewa_volume), c.POINTER(ewa_transfer))
         self.ewa_transfer_load = bind("ewa_transfer_load", c.c_int, c.c_void_p, c.c_char_p, c.POINTER(ewa_transfer))
         self.ewa_transfer_save = bind("ewa_transfer_save", c.c_int, c.c_void_p, c.POINTER(ewa_transfer), c.c_char_p)
+        self.ewa_volume_is_file = bind("ewa_volume_is_file", c.c_bool, c.c_void_p, c.c_char_p)
         self.ewa_volume_is_named = bind("ewa_volume_is_named", c.c_bool, c.c_char_p)
         self.ewa_volume_load = bind("ewa_volume_load", c.c_int, c.c_void_p, c.c_char_p, c.POINTER(ewa_volume_load_options), c.POINTER(ewa_volume))
         self.ewa_volume_load_memory = bind("ewa_volume_load_memory", c.c_int, c.c_void_p, c.c_void_p, c.c_size_t, c.c_char_p, c.POINTER(ewa_volume_load_options), c.POINTER(ewa_volume))

@@ -224,7 +224,7 @@ static ewa_status check_folder(ewa_context *context, const char *path) {
 static ewa_status load(const ewa_asset_job *job, const char *path) {
     ewa_context *context = job->asset->context;
     EWA_TRY(check_folder(context, path));
-    if (ewa_volume_is_named(path)) return load_volume(job, path);
+    if (ewa_volume_is_file(context, path)) return load_volume(job, path);
     ewa_gaussian_format gaussians = EWA_GAUSSIANS_NONE;
     // What is missing or cannot be opened is said by who reads it.
     if (is_regular(path) && ewa_gaussians_probe(context, path, &gaussians) == EWA_OK &&

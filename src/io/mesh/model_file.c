@@ -118,7 +118,7 @@ static ewa_status refuse(const ewa_mesh_source *source) {
                         source->name, picture);
     EWA_TRY(ewa_text_refuse_odd(source->context, source->name, source->bytes, source->size_bytes));
     return ewa_fail(source->context, EWA_ERROR_UNSUPPORTED,
-                    "%s: no file of points or triangles of a known format (" EWA_CLOUD_FORMATS ", OBJ, STL, OFF, glTF)",
+                    "%s: no file of points or triangles of a known format (" EWA_CLOUD_FORMATS ", OBJ, STL, OFF, glTF, VTK)",
                     source->name);
 }
 
@@ -140,6 +140,8 @@ static ewa_status load(const ewa_mesh_source *source, uint32_t wanted, const ewa
         return read_other(source, ewa_mesh_read_stl, wanted, model);
     case EWA_MODEL_OFF:
         return read_other(source, ewa_mesh_read_off, wanted, model);
+    case EWA_MODEL_VTK:
+        return read_other(source, ewa_mesh_read_vtk, wanted, model);
     case EWA_MODEL_GLTF:
         return read_other(source, ewa_mesh_read_gltf, wanted, model);
     default:

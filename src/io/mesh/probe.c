@@ -12,7 +12,7 @@ enum { LOOKED_BYTES = 1 << 16, LOOKED_LETTERS = 1 << 11, STL_HEAD_BYTES = 84, ST
 
 const char *ewa_model_format_name(ewa_model_format format) {
     static const char *const names[] = {"unknown", "PLY", "OBJ", "STL", "OFF", "glTF",
-                                        "LAS",     "E57", "PCD", "PTX", "text", "ASCII grid", "GeoTIFF", "terrain picture"};
+                                        "LAS",     "E57", "PCD", "PTX", "text", "ASCII grid", "GeoTIFF", "terrain picture", "VTK"};
     return (unsigned)format < sizeof names / sizeof names[0] ? names[format] : names[0];
 }
 
@@ -94,6 +94,7 @@ static size_t narrow(const uint8_t *bytes, size_t size_bytes, size_t room, char 
 ewa_model_format ewa_mesh_probe(const char *name, const uint8_t *bytes, size_t size_bytes) {
     if (size_bytes >= 3 && memcmp(bytes, "ply", 3) == 0) return EWA_MODEL_PLY;
     if (size_bytes >= 4 && memcmp(bytes, "glTF", 4) == 0) return EWA_MODEL_GLTF;
+    if (ewa_mesh_is_vtk(bytes, size_bytes)) return EWA_MODEL_VTK;
     if (is_binary_stl(bytes, size_bytes)) return EWA_MODEL_STL;
     const char *text = size_bytes ? (const char *)bytes : "";
     char letters[LOOKED_LETTERS];

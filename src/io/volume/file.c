@@ -7,6 +7,7 @@
 #include "base/base.h"
 #include "base/options.h"
 #include "ewa/io.h"
+#include "ewa/model.h"
 #include "io/number.h"
 
 #include <limits.h>
@@ -16,6 +17,7 @@
 #include <string.h>
 #include <strings.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #define AT(member) offsetof(ewa_volume_load_options, member)
 
@@ -46,6 +48,15 @@ bool ewa_volume_is_named(const char *path) {
         if (length > suffix && strcasecmp(path + length - suffix, suffixes[i]) == 0) return true;
     }
     return false;
+}
+
+bool ewa_volume_is_file(ewa_context *context, const char *path) {
+    if (!ewa_volume_is_named(path)) return false;
+    ewa_model_format format = EWA_MODEL_UNKNOWN;
+    const size_t length = strlen(path);
+    // What cannot be opened is said by who reads it.
+    return strcasecmp(path + length - 4, ".vtk") != 0 || access(path, R_OK) != 0 ||
+           ewa_model_probe(context, path, &format) != EWA_OK || format != EWA_MODEL_VTK;
 }
 
 static ewa_status parse(const ewa_volume_input *in, const ewa_volume_load_options *options,

@@ -50,6 +50,8 @@ static ewa_status take_line(const ewa_volume_input *in, const char *line, bool *
     if (!count) return EWA_OK;
     const char *rest = ewa_text_skip_blanks(line) + strlen(words[0]);
     if (strcasecmp(words[0], "DATASET") == 0) {
+        if (count > 1 && (strcasecmp(words[1], "POLYDATA") == 0 || strcasecmp(words[1], "UNSTRUCTURED_GRID") == 0))
+            return ewa_volume_fail(in, EWA_ERROR_UNSUPPORTED, "VTK: a mesh (%.40s), no grid of voxels", words[1]);
         if (count < 2 || strcasecmp(words[1], "STRUCTURED_POINTS") != 0)
             return ewa_volume_fail(in, EWA_ERROR_UNSUPPORTED,
                                    "VTK: dataset '%.40s' is no STRUCTURED_POINTS; resampled to them it is read",

@@ -1,0 +1,481 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// Meshes in VTK's legacy files: polygonal data, and the flat cells of unstructured grids, in text or in binary. Of the
+// data of points, normals and colours of bytes are taken; all else is stepped over.
+//
+// Based on: Kitware, "VTK File Formats", The VTK User's Guide, 2010, pages 3 to 17; VTK's reader of legacy files
+// (cells of version 5).
+#include "base/base.h"
+#include "image/srgb.h"
+#include "io/mesh/formats.h"
+#include "io/number.h"
+
+#include <math.h>
+
+enum { MAX_FIELDS = 1000, MAX_COMPONENTS = 1000, HEAD_BYTES = 1024 };
+
+/// Cells of VTK, by its numbers.
+enum {
+    CELL_VERTEX = 1,
+    CELL_LINE = 3,
+    CELL_LINES = 4,
+    CELL_TRIANGLE = 5,
+    CELL_STRIP = 6,
+    CELL_POLYGON = 7,
+    CELL_PIXEL = 8,
+    CELL_QUAD = 9,
+    FIRST_SOLID = 10,
+    LAST_SOLID = 14,
+};
+
+typedef struct vtk_reader {
+    ewa_mesh_build *build;
+    ewa_cursor cursor;
+    bool text, of_points; ///< the data that come are those of points
+    uint64_t data_count;
+    ewa_mesh_list cells;   ///< numbers: how many corners, which
+    ewa_mesh_list kinds;   ///< of VTK's numbers, by cell
+    ewa_mesh_list offsets; ///< of OFFSETS
+    ewa_mesh_list corners; ///< of one polygon
+    bool has_colors, has_normals;
+} vtk_reader;
+
+/// A type of numbers; bytes are in big-endian order.
+typedef struct number_type {
+    const char *name;
+    uint32_t bytes;
+    char kind; ///< f, i, u
+} number_type;
+
+static const number_type types[] = {
+    {"float", 4, 'f'},         {"double", 8, 'f'},         {"int", 4, 'i'},          {"unsigned_int", 4, 'u'},
+    {"long", 8, 'i'},          {"unsigned_long", 8, 'u'},  {"short", 2, 'i'},        {"unsigned_short", 2, 'u'},
+    {"char", 1, 'i'},          {"signed_char", 1, 'i'},    {"unsigned_char", 1, 'u'}, {"vtkIdType", 4, 'i'},
+    {"vtktypeint64", 8, 'i'},  {"vtktypeint32", 4, 'i'},   {"vtktypeuint8", 1, 'u'}, {"vtktypeint8", 1, 'i'},
+    {"vtktypeint16", 2, 'i'},  {"vtktypeuint16", 2, 'u'},  {"vtktypeuint32", 4, 'u'}, {"vtktypeuint64", 8, 'u'},
+};
+static const number_type BYTES = {"unsigned_char", 1, 'u'}, INTS = {"int", 4, 'i'}, FLOATS = {"float", 4, 'f'};
+
+static ewa_status fail(const vtk_reader *r, const char *what) {
+    return ewa_fail(r->build->context, EWA_ERROR_FORMAT, "%s: line %llu: VTK: %s", r->build->source->name,
+                    (unsigned long long)r->cursor.line, what);
+}
+
+static bool is_space(char c) { return ewa_is_blank(c) || ewa_is_line_end(c); }
+
+/// Takes the next word, on this line or a later one; none at the end.
+static ewa_text take_word(ewa_cursor *cursor) {
+    while (cursor->at < cursor->end && is_space(*cursor->at))
+        if (ewa_is_line_end(*cursor->at))
+            ewa_cursor_step_line(cursor);
+        else
+            cursor->at++;
+    const char *start = cursor->at;
+    while (cursor->at < cursor->end && !is_space(*cursor->at)) cursor->at++;
+    return (ewa_text){start, (size_t)(cursor->at - start)};
+}
+
+/// Steps behind this line.
+static void end_line(ewa_cursor *cursor) {
+    while (cursor->at < cursor->end && !ewa_is_line_end(*cursor->at)) cursor->at++;
+    ewa_cursor_step_line(cursor);
+}
+
+static bool take_count(vtk_reader *r, uint64_t *count) {
+    int64_t value;
+    if (!ewa_text_integer(take_word(&r->cursor), &value) || value < 0) return false;
+    *count = (uint64_t)value;
+    return true;
+}
+
+static bool take_type(vtk_reader *r, number_type *type) {
+    const ewa_text word = take_word(&r->cursor);
+    for (size_t i = 0; i < sizeof types / sizeof types[0]; i++)
+        if (ewa_text_is_any_case(word, types[i].name)) {
+            *type = types[i];
+            return true;
+        }
+    return false;
+}
+
+/// Begins the numbers behind a line; in binary they have to be there, so that no room is made for what is not.
+static ewa_status begin_numbers(vtk_reader *r, const number_type *type, uint64_t count) {
+    if (r->text) return EWA_OK;
+    end_line(&r->cursor);
+    return count > (uint64_t)(r->cursor.end - r->cursor.at) / type->bytes ? fail(r, "the file ends early") : EWA_OK;
+}
+
+/// Takes the next number; begin_numbers() has seen that it is there.
+static ewa_status take_number(vtk_reader *r, const number_type *type, double *value) {
+    if (r->text) {
+        const ewa_text word = take_word(&r->cursor);
+        const char *end = word.chars + word.length;
+        if (word.length && ewa_number_read_f64(word.chars, end, value) == end) return EWA_OK;
+        return fail(r, word.length ? "a number is wanted" : "the file ends early");
+    }
+    uint64_t bits = 0;
+    for (uint32_t i = 0; i < type->bytes; i++) bits = bits << 8 | (uint8_t)r->cursor.at[i];
+    r->cursor.at += type->bytes;
+    const uint32_t unused = 64 - 8 * type->bytes;
+    if (type->kind == 'u') {
+        *value = (double)bits;
+    } else if (type->kind == 'i') {
+        *value = (double)((int64_t)(bits << unused) >> unused);
+    } else if (type->bytes == 4) {
+        const uint32_t half = (uint32_t)bits;
+        float number;
+        memcpy(&number, &half, sizeof number);
+        *value = (double)number;
+    } else {
+        memcpy(value, &bits, sizeof *value);
+    }
+    return EWA_OK;
+}
+
+static ewa_status skip_numbers(vtk_reader *r, const number_type *type, uint64_t count) {
+    EWA_TRY(begin_numbers(r, type, count));
+    if (!r->text) {
+        r->cursor.at += count * type->bytes;
+        return EWA_OK;
+    }
+    double value;
+    for (uint64_t i = 0; i < count; i++) EWA_TRY(take_number(r, type, &value));
+    return EWA_OK;
+}
+
+static ewa_status read_points(vtk_reader *r) {
+    uint64_t count, all;
+    number_type type;
+    if (!take_count(r, &count) || !take_type(r, &type) || __builtin_mul_overflow(count, 3, &all))
+        return fail(r, "POINTS has no number and type");
+    r->build->float_positions = type.kind == 'f' && type.bytes == 4 && !r->text;
+    EWA_TRY(begin_numbers(r, &type, all));
+    for (uint64_t i = 0; i < count; i++) {
+        double place[3];
+        for (int c = 0; c < 3; c++) EWA_TRY(take_number(r, &type, &place[c]));
+        EWA_TRY(ewa_mesh_add_position(r->build, place));
+    }
+    return EWA_OK;
+}
+
+static ewa_status append(vtk_reader *r, ewa_mesh_list *list, double value) {
+    ewa_status status = EWA_OK;
+    uint32_t *number = ewa_mesh_list_add(r->build, list, &status);
+    if (number) *number = value >= 0 && value < (double)EWA_MESH_NONE ? (uint32_t)value : EWA_MESH_NONE;
+    return status;
+}
+
+/// Reads numbers of corners and which, of cells of one kind; `kind` is that of VTK's cells, 0 where their types follow.
+static ewa_status read_cells(vtk_reader *r, uint32_t kind) {
+    uint64_t count, all, taken = 0;
+    if (!take_count(r, &count) || !take_count(r, &all)) return fail(r, "cells have no numbers");
+    const ewa_cursor before = r->cursor;
+    double value = 0;
+    if (ewa_text_is_any_case(take_word(&r->cursor), "OFFSETS")) {
+        number_type type;
+        r->offsets.count = 0;
+        if (!take_type(r, &type)) return fail(r, "OFFSETS has no type");
+        EWA_TRY(begin_numbers(r, &type, count));
+        for (uint64_t i = 0; i < count; i++) {
+            EWA_TRY(take_number(r, &type, &value));
+            EWA_TRY(append(r, &r->offsets, value));
+        }
+        if (!ewa_text_is_any_case(take_word(&r->cursor), "CONNECTIVITY") || !take_type(r, &type))
+            return fail(r, "CONNECTIVITY and its type are wanted");
+        EWA_TRY(begin_numbers(r, &type, all));
+        const uint32_t *offsets = r->offsets.items;
+        for (uint64_t i = 0; i + 1 < count; i++) {
+            if (offsets[i] != taken || offsets[i + 1] < taken || offsets[i + 1] > all)
+                return fail(r, "OFFSETS do not ascend, or lead beyond CONNECTIVITY");
+            EWA_TRY(append(r, &r->cells, offsets[i + 1] - offsets[i]));
+            EWA_TRY(kind ? append(r, &r->kinds, kind) : EWA_OK);
+            for (; taken < offsets[i + 1]; taken++) {
+                EWA_TRY(take_number(r, &type, &value));
+                EWA_TRY(append(r, &r->cells, value));
+            }
+        }
+        return taken == all ? EWA_OK : fail(r, "CONNECTIVITY has more than OFFSETS say");
+    }
+    r->cursor = before;
+    EWA_TRY(begin_numbers(r, &INTS, all));
+    for (uint64_t i = 0; i < count; i++) {
+        double corners;
+        if (taken == all) return fail(r, "there are fewer cells than their number");
+        EWA_TRY(take_number(r, &INTS, &corners));
+        taken++;
+        if (!(corners >= 0 && corners <= (double)(all - taken))) return fail(r, "a cell is larger than all of them");
+        EWA_TRY(append(r, &r->cells, corners));
+        EWA_TRY(kind ? append(r, &r->kinds, kind) : EWA_OK);
+        for (double k = 0; k < corners; k++, taken++) {
+            EWA_TRY(take_number(r, &INTS, &value));
+            EWA_TRY(append(r, &r->cells, value));
+        }
+    }
+    return taken == all ? EWA_OK : fail(r, "there are more cells than their number");
+}
+
+static ewa_status read_cell_types(vtk_reader *r) {
+    uint64_t count;
+    double value;
+    if (!take_count(r, &count)) return fail(r, "CELL_TYPES has no number");
+    EWA_TRY(begin_numbers(r, &INTS, count));
+    for (uint64_t i = 0; i < count; i++) {
+        EWA_TRY(take_number(r, &INTS, &value));
+        EWA_TRY(append(r, &r->kinds, value));
+    }
+    return EWA_OK;
+}
+
+/// Reads colours of points, codes of bytes or, in text of COLOR_SCALARS, shares.
+static ewa_status read_colors(vtk_reader *r, const number_type *type, uint32_t components) {
+    static const float white[4] = {1, 1, 1, 1};
+    ewa_mesh_build *build = r->build;
+    const double scale = type->kind == 'f' ? 1 : 1.0 / 255;
+    const uint64_t end = build->positions.count;
+    if (r->data_count != end) return fail(r, "there are not as many colours as points");
+    EWA_TRY(begin_numbers(r, type, r->data_count * components));
+    ewa_status status = EWA_OK;
+    r->has_colors = true;
+    // Colours go by place, the last one's.
+    for (build->positions.count = 0; build->positions.count < end && status == EWA_OK;) {
+        double value[4] = {1, 1, 1, 1 / scale};
+        float color[4];
+        build->positions.count++;
+        for (uint32_t c = 0; c < components && status == EWA_OK; c++) status = take_number(r, type, &value[c]);
+        for (uint32_t c = 0; c < 4; c++) {
+            const double share = fmin(fmax(value[c] * scale, 0), 1);
+            color[c] = (float)(c < 3 ? ewa_srgb_decode(share) : share);
+        }
+        if (status == EWA_OK) status = ewa_mesh_add_color(build, white, color);
+    }
+    build->positions.count = end;
+    return status;
+}
+
+static ewa_status read_normals(vtk_reader *r, const number_type *type) {
+    if (r->data_count != r->build->positions.count) return fail(r, "there are not as many normals as points");
+    EWA_TRY(begin_numbers(r, type, 3 * r->data_count));
+    r->has_normals = true;
+    for (uint64_t i = 0; i < r->data_count; i++) {
+        double normal[3];
+        for (int c = 0; c < 3; c++) EWA_TRY(take_number(r, type, &normal[c]));
+        EWA_TRY(ewa_mesh_add_normal(r->build, normal));
+    }
+    return EWA_OK;
+}
+
+/// Takes an array of the data of points or cells, as colours where it is such.
+static ewa_status take_data(vtk_reader *r, const number_type *type, uint64_t components, uint64_t count) {
+    const bool bytes = type->bytes == 1 && type->kind == 'u';
+    uint64_t all;
+    if (r->of_points && !r->has_colors && bytes && (components == 3 || components == 4) && count == r->data_count)
+        return read_colors(r, type, (uint32_t)components);
+    if (components > MAX_COMPONENTS || __builtin_mul_overflow(count, components, &all))
+        return fail(r, "an array is too large");
+    return skip_numbers(r, type, all);
+}
+
+/// Reads arrays; `*known` becomes false at one of no numbers.
+static ewa_status read_fields(vtk_reader *r, bool *known) {
+    uint64_t fields, components, count;
+    number_type type;
+    take_word(&r->cursor);
+    if (!take_count(r, &fields) || fields > MAX_FIELDS) return fail(r, "FIELD has no number of arrays");
+    for (uint64_t i = 0; i < fields; i++) {
+        take_word(&r->cursor);
+        if (!take_count(r, &components) || !take_count(r, &count)) return fail(r, "an array of FIELD has no sizes");
+        *known = take_type(r, &type);
+        if (!*known) return EWA_OK;
+        EWA_TRY(take_data(r, &type, components, count));
+    }
+    return EWA_OK;
+}
+
+/// Reads an array; `*known` becomes false when it is one of bits.
+static ewa_status read_scalars(vtk_reader *r, bool *known) {
+    number_type type;
+    uint64_t components = 1;
+    take_word(&r->cursor);
+    *known = take_type(r, &type);
+    if (!*known) return EWA_OK;
+    ewa_cursor_skip_blanks(&r->cursor);
+    if (r->cursor.at < r->cursor.end && !ewa_is_line_end(*r->cursor.at) && !take_count(r, &components))
+        return fail(r, "SCALARS has no number of components");
+    const ewa_cursor before = r->cursor;
+    if (ewa_text_is_any_case(take_word(&r->cursor), "LOOKUP_TABLE"))
+        take_word(&r->cursor);
+    else
+        r->cursor = before;
+    return take_data(r, &type, components, r->data_count);
+}
+
+/// Numbers of each vector or matrix that stands behind a word, its name and its type; 0: none is.
+static uint32_t numbers_of(ewa_text word) {
+    static const struct {
+        const char *name;
+        uint32_t count;
+    } kinds[] = {{"VECTORS", 3},  {"NORMALS", 3},    {"TENSORS", 9},
+                 {"TENSORS6", 6}, {"GLOBAL_IDS", 1}, {"PEDIGREE_IDS", 1}};
+    for (size_t i = 0; i < sizeof kinds / sizeof kinds[0]; i++)
+        if (ewa_text_is_any_case(word, kinds[i].name)) return kinds[i].count;
+    return 0;
+}
+
+/// Steps over what says how arrays are to be understood, up to an empty line.
+static void skip_metadata(vtk_reader *r) {
+    end_line(&r->cursor);
+    while (r->cursor.at < r->cursor.end && !ewa_is_line_end(*r->cursor.at)) end_line(&r->cursor);
+}
+
+/// Reads what a word begins; `*known` is whether it is known.
+static ewa_status read_section(vtk_reader *r, ewa_text word, bool *known) {
+    number_type type;
+    uint64_t count;
+    *known = true;
+    if (ewa_text_is_any_case(word, "POINTS")) return read_points(r);
+    if (ewa_text_is_any_case(word, "POLYGONS")) return read_cells(r, CELL_POLYGON);
+    if (ewa_text_is_any_case(word, "TRIANGLE_STRIPS")) return read_cells(r, CELL_STRIP);
+    if (ewa_text_is_any_case(word, "VERTICES")) return read_cells(r, CELL_VERTEX);
+    if (ewa_text_is_any_case(word, "LINES")) return read_cells(r, CELL_LINES);
+    if (ewa_text_is_any_case(word, "CELLS")) return read_cells(r, 0);
+    if (ewa_text_is_any_case(word, "CELL_TYPES")) return read_cell_types(r);
+    if (ewa_text_is_any_case(word, "FIELD")) return read_fields(r, known);
+    if (ewa_text_is_any_case(word, "SCALARS")) return read_scalars(r, known);
+    if (ewa_text_is_any_case(word, "METADATA")) {
+        skip_metadata(r);
+        return EWA_OK;
+    }
+    const bool of_points = ewa_text_is_any_case(word, "POINT_DATA");
+    if (of_points || ewa_text_is_any_case(word, "CELL_DATA")) {
+        r->of_points = of_points;
+        return take_count(r, &r->data_count) ? EWA_OK : fail(r, "data have no number");
+    }
+    if (ewa_text_is_any_case(word, "COLOR_SCALARS") || ewa_text_is_any_case(word, "TEXTURE_COORDINATES")) {
+        const bool colors = ewa_text_is_any_case(word, "COLOR_SCALARS");
+        take_word(&r->cursor);
+        if (!take_count(r, &count)) return fail(r, "data have no number of components");
+        type = r->text ? FLOATS : BYTES;
+        if (!colors && !take_type(r, &type)) return fail(r, "TEXTURE_COORDINATES has no type");
+        if (colors && r->of_points && !r->has_colors && (count == 3 || count == 4))
+            return read_colors(r, &type, (uint32_t)count);
+        if (count > MAX_COMPONENTS || r->data_count > UINT64_MAX / MAX_COMPONENTS)
+            return fail(r, "an array is too large");
+        return skip_numbers(r, &type, count * r->data_count);
+    }
+    if (ewa_text_is_any_case(word, "LOOKUP_TABLE")) {
+        take_word(&r->cursor);
+        type = r->text ? FLOATS : BYTES;
+        return take_count(r, &count) && count < UINT64_MAX / 4 ? skip_numbers(r, &type, 4 * count)
+                                                               : fail(r, "LOOKUP_TABLE has no size");
+    }
+    const uint32_t numbers = numbers_of(word);
+    *known = numbers > 0;
+    if (!*known) return EWA_OK;
+    take_word(&r->cursor);
+    if (!take_type(r, &type)) return fail(r, "vectors have no type");
+    if (ewa_text_is_any_case(word, "NORMALS") && r->of_points && !r->has_normals) return read_normals(r, &type);
+    return r->data_count > UINT64_MAX / 16 ? fail(r, "an array is too large")
+                                           : skip_numbers(r, &type, numbers * r->data_count);
+}
+
+static ewa_status add_polygon(vtk_reader *r, const uint32_t *places, uint64_t count) {
+    ewa_status status = EWA_OK;
+    r->corners.count = 0;
+    for (uint64_t i = 0; i < count; i++) {
+        ewa_mesh_corner *corner = ewa_mesh_list_add(r->build, &r->corners, &status);
+        if (!corner) return status;
+        *corner = (ewa_mesh_corner){places[i], EWA_MESH_NONE, r->has_normals ? places[i] : EWA_MESH_NONE};
+    }
+    return ewa_mesh_add_polygon(r->build, r->corners.items, count);
+}
+
+/// Adds the flat cells; returns through `*solid_count` how many are none.
+static ewa_status add_cells(vtk_reader *r, uint64_t *solid_count) {
+    const uint32_t *cell = r->cells.items, *end = cell + r->cells.count, *kinds = r->kinds.items;
+    for (uint64_t i = 0; cell < end && i < r->kinds.count; i++) {
+        const uint32_t count = *cell++, *places = cell;
+        cell += count;
+        switch (kinds[i]) {
+        case CELL_TRIANGLE:
+        case CELL_POLYGON:
+        case CELL_QUAD:
+            EWA_TRY(add_polygon(r, places, count));
+            break;
+        case CELL_PIXEL:
+            if (count == 4)
+                EWA_TRY(add_polygon(r, (const uint32_t[4]){places[0], places[1], places[3], places[2]}, 4));
+            break;
+        case CELL_STRIP:
+            for (uint32_t k = 0; k + 2 < count; k++)
+                EWA_TRY(add_polygon(
+                    r, (const uint32_t[3]){places[k], places[k + 1 + k % 2], places[k + 2 - k % 2]}, 3));
+            break;
+        case CELL_LINE:
+        case CELL_LINES:
+            r->build->line_count++;
+            break;
+        default:
+            *solid_count += kinds[i] >= FIRST_SOLID && kinds[i] <= LAST_SOLID;
+        }
+    }
+    return EWA_OK;
+}
+
+static ewa_status read_body(vtk_reader *r) {
+    const char *name = r->build->source->name;
+    for (int line = 0; line < 2; line++) end_line(&r->cursor); // magic and title
+    const ewa_text encoding = take_word(&r->cursor);
+    r->text = ewa_text_is_any_case(encoding, "ASCII");
+    if (!r->text && !ewa_text_is_any_case(encoding, "BINARY")) return fail(r, "ASCII or BINARY is wanted");
+    take_word(&r->cursor); // DATASET
+    take_word(&r->cursor);
+    for (;;) {
+        const ewa_text word = take_word(&r->cursor);
+        bool known;
+        char quote[EWA_QUOTE_BYTES];
+        if (!word.length) break;
+        EWA_TRY(read_section(r, word, &known));
+        if (known) continue;
+        if (!r->build->positions.count) return fail(r, "there are no POINTS");
+        ewa_report(r->build->context, EWA_SEVERITY_WARNING,
+                   "%s: line %llu: VTK: what %s begins is left out, and all behind it", name,
+                   (unsigned long long)r->cursor.line, ewa_quote(word, quote));
+        break;
+    }
+    uint64_t solid_count = 0;
+    EWA_TRY(add_cells(r, &solid_count));
+    if (solid_count)
+        ewa_report(r->build->context, EWA_SEVERITY_WARNING,
+                   "%s: VTK: %llu cells with a volume are left out; their surface, extracted, is read", name,
+                   (unsigned long long)solid_count);
+    return EWA_OK;
+}
+
+bool ewa_mesh_is_vtk(const uint8_t *bytes, size_t size_bytes) {
+    static const char magic[] = "# vtk DataFile Version";
+    if (size_bytes < sizeof magic || memcmp(bytes, magic, sizeof magic - 1) != 0) return false;
+    const char *start = (const char *)bytes;
+    ewa_cursor cursor = {start, start + (size_bytes < HEAD_BYTES ? size_bytes : HEAD_BYTES), 1};
+    for (int line = 0; line < 2; line++) end_line(&cursor);
+    take_word(&cursor); // encoding
+    if (!ewa_text_is_any_case(take_word(&cursor), "DATASET")) return false;
+    const ewa_text kind = take_word(&cursor);
+    return ewa_text_is_any_case(kind, "POLYDATA") || ewa_text_is_any_case(kind, "UNSTRUCTURED_GRID");
+}
+
+ewa_status ewa_mesh_read_vtk(ewa_mesh_build *build) {
+    const ewa_mesh_source *source = build->source;
+    const char *bytes = (const char *)source->bytes;
+    vtk_reader r = {.build = build,
+                    .cursor = {bytes, bytes + source->size_bytes, 1},
+                    .cells = {.item_bytes = sizeof(uint32_t)},
+                    .kinds = {.item_bytes = sizeof(uint32_t)},
+                    .offsets = {.item_bytes = sizeof(uint32_t)},
+                    .corners = {.item_bytes = sizeof(ewa_mesh_corner)}};
+    const ewa_status status = read_body(&r);
+    ewa_mesh_list *const lists[] = {&r.cells, &r.kinds, &r.offsets, &r.corners};
+    for (int i = 0; i < 4; i++)
+        ewa_release(build->context, lists[i]->items, lists[i]->capacity, lists[i]->item_bytes);
+    return status;
+}

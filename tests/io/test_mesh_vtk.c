@@ -1,0 +1,211 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// Legacy files of VTK: polygons, strips and flat cells in text and in bytes, old and new ways of writing cells, normals
+// and colours of points, what is stepped over, what is refused, every truncation.
+#include "io/mesh_fixture.h"
+
+#define HEAD    "# vtk DataFile Version 3.0\na title\n"
+#define TEXT    HEAD "ASCII\nDATASET POLYDATA\n"
+#define POINTS  "POINTS 4 float\n0 0 0 2 0 0\n2 3 0 0 3 0\n"
+#define SQUARE  TEXT POINTS "POLYGONS 1 5\n4 0 1 2 3\n"
+
+/// Loads a mesh of the square, six of area.
+static void load_square(const char *text, ewa_mesh *mesh) {
+    double sum[3];
+    mesh_load_text(context, &messages, "a.vtk", text, mesh);
+    assert_int_equal(mesh->vertex_count >= 4, 1);
+    assert_float_equal(mesh_area(mesh, sum), 6, 0);
+    if (sum[2] != 6) fail_msg("%g of %s", sum[2], text);
+}
+
+static void test_cells(void **state) {
+    static const char *const texts[] = {
+        SQUARE,
+        TEXT POINTS "POLYGONS 2 8\n3 0 1 2 3 0\n2 3\n",
+        TEXT POINTS "TRIANGLE_STRIPS 1 5\n4 0 1 3 2\n",
+        TEXT POINTS "VERTICES 1 2 1 0\nLINES 1 3 2 0 1\nPOLYGONS 1 5 4 0 1 2 3\n",
+        "# vtk DataFile Version 5.1\nvtk output\nASCII\nDATASET POLYDATA\n" POINTS
+        "METADATA\nINFORMATION 0\n\nPOLYGONS 3 6\nOFFSETS vtktypeint64\n0 3 6 \n"
+        "CONNECTIVITY vtktypeint64\n0 1 2 0 2 3\n",
+        HEAD "ascii\nDATASET UNSTRUCTURED_GRID\n" POINTS "CELLS 2 8\n3 0 1 2\n3 0 2 3\nCELL_TYPES 2\n5 5\n",
+        HEAD "ASCII\r\nDATASET UNSTRUCTURED_GRID\r\n" POINTS "CELLS 1 5 4 0 1 3 2 CELL_TYPES 1 8\n",
+        HEAD "ASCII\nDATASET UNSTRUCTURED_GRID\n" POINTS "CELLS 1 5 4 0 1 2 3 CELL_TYPES 1 9\n",
+        SQUARE "CELL_DATA 1\nSCALARS s float 2\nLOOKUP_TABLE default\n1 2\nNORMALS n float\n0 0 1\n"
+               "FIELD f 2\na 1 1 int\n7\nb 3 1 double\n1 2 3\nPOINT_DATA 4\nVECTORS v float\n1 2 3 1 2 3 1 2 3 1 2 3\n"
+               "TEXTURE_COORDINATES t 2 float\n0 0 1 0 1 1 0 1\nLOOKUP_TABLE l 1\n1 1 1 1\n",
+    };
+    for (size_t i = 0; i < sizeof texts / sizeof texts[0]; i++) {
+        ewa_mesh mesh;
+        if (i == 3) {
+            mesh_load_bytes(context, &messages, "a.vtk", texts[i], strlen(texts[i]), true, &mesh);
+            assert_float_equal(mesh_area(&mesh, NULL), 6, 0);
+        } else {
+            load_square(texts[i], &mesh);
+        }
+        ewa_mesh_free(&mesh);
+    }
+}
+
+static void test_data(void **state) {
+    static const char *const colors[] = {
+        "SCALARS rgb unsigned_char 4\nLOOKUP_TABLE default\n255 0 0 255 255 0 0 51 255 0 0 255 255 0 0 255\n",
+        "COLOR_SCALARS rgba 4\n1 0 0 1 1 0 0 0.2 1 0 0 1 1 0 0 1\n",
+        "FIELD FieldData 1\nrgb 4 4 unsigned_char\n255 0 0 255 255 0 0 51 255 0 0 255 255 0 0 255\n",
+    };
+    for (size_t i = 0; i < sizeof colors / sizeof colors[0]; i++) {
+        char text[1024];
+        ewa_mesh mesh;
+        snprintf(text, sizeof text, SQUARE "POINT_DATA 4\nNORMALS n double\n0 0 1 0 0.1 1 0 0 1 0 0 1\n%s",
+                 colors[i]);
+        load_square(text, &mesh);
+        assert_non_null(mesh.colors);
+        assert_non_null(mesh.normals);
+        const uint32_t second = mesh_corner(&mesh, 0, 2, 0, 0);
+        assert_true(mesh.colors[4 * second] == 1 && mesh.colors[4 * second + 1] == 0);
+        assert_float_equal(mesh.colors[4 * second + 3], 0.2, 1e-6);
+        assert_float_equal(mesh.normals[3 * second + 1] / mesh.normals[3 * second + 2], 0.1, 1e-6);
+        ewa_mesh_free(&mesh);
+    }
+}
+
+static void put(uint8_t *bytes, size_t *size, const char *text) {
+    memcpy(bytes + *size, text, strlen(text));
+    *size += strlen(text);
+}
+
+/// Numbers with the highest byte first.
+static void put_numbers(uint8_t *bytes, size_t *size, int type_bytes, int count, const double *numbers) {
+    for (int i = 0; i < count; i++) {
+        uint64_t bits = (uint64_t)(int64_t)numbers[i];
+        const float number = (float)numbers[i];
+        uint32_t half;
+        memcpy(&half, &number, 4);
+        if (type_bytes == -4) bits = half;
+        for (int k = abs(type_bytes) - 1; k >= 0; k--) bytes[(*size)++] = (uint8_t)(bits >> 8 * k);
+    }
+    put(bytes, size, "\n");
+}
+
+/// The square in bytes, as old versions or as version 5 write it.
+static size_t make_bytes(bool new, uint8_t bytes[1024]) {
+    static const double places[12] = {0, 0, 0, 2, 0, 0, 2, 3, 0, 0, 3, 0}, faces[5] = {4, 0, 1, 2, 3},
+                        offsets[2] = {0, 4}, colors[12] = {255, 0, 0, 255, 0, 0, 255, 0, 0, 255, 0, 0},
+                        scalars[4] = {10, 32, 35, 10};
+    size_t size = 0;
+    put(bytes, &size, HEAD "BINARY\nDATASET POLYDATA\nPOINTS 4 float\n");
+    put_numbers(bytes, &size, -4, 12, places);
+    put(bytes, &size, new ? "POLYGONS 2 4\nOFFSETS vtktypeint64\n" : "POLYGONS 1 5\n");
+    put_numbers(bytes, &size, new ? 8 : 4, new ? 2 : 5, new ? offsets : faces);
+    if (new) put(bytes, &size, "CONNECTIVITY vtktypeint64\n");
+    if (new) put_numbers(bytes, &size, 8, 4, faces + 1);
+    // Numbers that look like ends of lines and remarks.
+    put(bytes, &size, "POINT_DATA 4\nSCALARS s short 1\nLOOKUP_TABLE default\n");
+    put_numbers(bytes, &size, 2, 4, scalars);
+    put(bytes, &size, "COLOR_SCALARS c 3\n");
+    put_numbers(bytes, &size, 1, 12, colors);
+    return size;
+}
+
+static void test_bytes(void **state) {
+    for (int new = 0; new < 2; new++) {
+        uint8_t bytes[1024];
+        const size_t size = make_bytes(new, bytes);
+        ewa_mesh mesh;
+        mesh_load_bytes(context, &messages, "a.bin", bytes, size, false, &mesh);
+        assert_float_equal(mesh_area(&mesh, NULL), 6, 0);
+        assert_true(mesh.colors[0] == 1 && mesh.colors[1] == 0 && mesh.colors[3] == 1);
+        ewa_mesh_free(&mesh);
+        // Cut anywhere: refused, or as much as there is.
+        for (size_t cut = 0; cut < size; cut++) {
+            uint8_t *part = malloc(cut + 1);
+            assert_non_null(part);
+            memcpy(part, bytes, cut);
+            ewa_model model;
+            const ewa_status status =
+                ewa_model_load_memory(context, part, cut, "a.vtk", NULL, EWA_MODEL_MESH, NULL, &model);
+            if (status == EWA_OK && model.mesh.triangle_count)
+                assert_float_equal(mesh_area(&model.mesh, NULL), 6, 0);
+            ewa_model_free(&model);
+            free(part);
+        }
+    }
+}
+
+static void test_refused(void **state) {
+    static const struct {
+        const char *text, *said;
+    } broken[] = {
+        {TEXT, "there are neither faces nor points"},
+        {TEXT "PIINTS 4 float\n", "there are no POINTS"},
+        {TEXT "POINTS 4\n0 0 0", "POINTS has no number and type"},
+        {TEXT "POINTS 4 float\n0 0 0 1", "the file ends early"},
+        {TEXT "POINTS 2 float\n0 0 0 1 x 0", "a number is wanted"},
+        {TEXT POINTS "POLYGONS 1 5\n5 0 1 2 3\n", "a cell is larger than all of them"},
+        {TEXT POINTS "POLYGONS 2 5\n4 0 1 2 3\n", "there are fewer cells than their number"},
+        {TEXT POINTS "POLYGONS 1 6\n4 0 1 2 3 0\n", "there are more cells than their number"},
+        {TEXT POINTS "POLYGONS 1 5\n4 0 1 2 9\n", "none of the faces can be used"},
+        {TEXT POINTS "POLYGONS 3 4\nOFFSETS vtktypeint64\n0 3 2\nCONNECTIVITY int\n0 1 2 3\n",
+         "OFFSETS do not ascend"},
+        {TEXT POINTS "POLYGONS 2 4\nOFFSETS int\n0 5\nCONNECTIVITY int\n0 1 2 3\n", "OFFSETS do not ascend"},
+        {TEXT POINTS "POLYGONS 2 4\nOFFSETS int\n0 3\nCONNECTIVITY int\n0 1 2 3\n", "more than OFFSETS say"},
+        {SQUARE "POINT_DATA 3\nNORMALS n float\n0 0 1 0 0 1 0 0 1\n", "not as many normals as points"},
+        {SQUARE "POINT_DATA 3\nCOLOR_SCALARS c 3\n0 0 1 0 0 1 0 0 1\n", "not as many colours as points"},
+        {SQUARE "POINT_DATA 9999999999999999999\n", "data have no number"},
+        {HEAD "BINARY\nDATASET POLYDATA\nPOINTS 400000000000 float\n", "the file ends early"},
+        {HEAD "BINARY\nDATASET POLYDATA\nPOINTS 9000000000000000000 float\n", "POINTS has no number"},
+        {HEAD "HEX\nDATASET POLYDATA\n", "ASCII or BINARY is wanted"},
+    };
+    for (size_t i = 0; i < sizeof broken / sizeof broken[0]; i++)
+        mesh_refuse(context, &messages, "a.vtk", broken[i].text, strlen(broken[i].text), EWA_ERROR_FORMAT,
+                    broken[i].said);
+}
+
+/// Cells with a volume are left out, words that are not known end the file; points alone are points. Grids of voxels
+/// are none.
+static void test_left_out(void **state) {
+    ewa_mesh mesh;
+    static const char mixed[] = HEAD "ASCII\nDATASET UNSTRUCTURED_GRID\n" POINTS
+                                     "CELLS 2 10\n4 0 1 2 3\n4 0 1 2 3\nCELL_TYPES 2\n10 9\n",
+                      odd[] = SQUARE "POINT_DATA 4\nSCALARS b bit\nLOOKUP_TABLE default\n0 1 1 0\n";
+    mesh_load_bytes(context, &messages, "a.vtk", mixed, sizeof mixed - 1, true, &mesh);
+    mesh_says(&messages, "1 cells with a volume are left out");
+    ewa_mesh_free(&mesh);
+    mesh_load_bytes(context, &messages, "a.vtk", odd, sizeof odd - 1, true, &mesh);
+    mesh_says(&messages, "what 'SCALARS' begins is left out");
+    ewa_mesh_free(&mesh);
+    ewa_model model;
+    const char *points = TEXT POINTS;
+    assert_int_equal(
+        ewa_model_load_memory(context, points, strlen(points), "a.vtk", NULL, EWA_MODEL_MESH, NULL, &model), EWA_OK);
+    assert_int_equal(ewa_cloud_point_count(model.points), 4);
+    ewa_model_free(&model);
+    char path[512];
+    scratch_write(scratch_path("a.vtk", path), SQUARE, strlen(SQUARE));
+    assert_true(ewa_volume_is_named(path) && !ewa_volume_is_file(context, path));
+    const char *voxels = HEAD "ASCII\nDATASET STRUCTURED_POINTS\n";
+    scratch_write(path, voxels, strlen(voxels));
+    assert_true(ewa_volume_is_file(context, path));
+    assert_true(ewa_volume_is_file(context, "/nowhere/a.vtk") && !ewa_volume_is_file(context, "a.ply"));
+    assert_string_equal(ewa_model_format_name(EWA_MODEL_VTK), "VTK");
+}
+
+static ewa_status load_failing(ewa_context *failing, void *user) {
+    uint8_t bytes[1024];
+    const size_t size = make_bytes(true, bytes);
+    ewa_model model;
+    const ewa_status status =
+        ewa_model_load_memory(failing, bytes, size, "a.vtk", NULL, EWA_MODEL_MESH, NULL, &model);
+    ewa_model_free(&model);
+    return status;
+}
+
+static void test_failing_allocations(void **state) { scratch_fail_each(load_failing, NULL); }
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        CASE(test_cells),   CASE(test_data),     CASE(test_bytes),
+        CASE(test_refused), CASE(test_left_out), cmocka_unit_test(test_failing_allocations),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
