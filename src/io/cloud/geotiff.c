@@ -92,13 +92,6 @@ static int keep_quiet(TIFF *tiff, void *user, const char *module, const char *fo
     return 1;
 }
 
-bool ewa_tiff_recognise(const uint8_t *bytes, uint64_t size_bytes) {
-    static const char *const MARKS[] = {"II*\0", "MM\0*", "II+\0", "MM\0+"};
-    for (int i = 0; i < 4 && size_bytes >= 8; i++)
-        if (memcmp(bytes, MARKS[i], 4) == 0) return true;
-    return false;
-}
-
 static bool probe(const char *name, const uint8_t *bytes, uint64_t size_bytes) {
     (void)name;
     return ewa_tiff_recognise(bytes, size_bytes);

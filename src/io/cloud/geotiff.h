@@ -7,6 +7,8 @@
 
 #include "io/cloud/height_grid.h"
 
+#include <string.h>
+
 struct tiff;
 
 /// What x and y are.
@@ -25,7 +27,12 @@ typedef struct ewa_geotiff_place {
 } ewa_geotiff_place;
 
 /// Whether bytes begin like a TIFF file, classic or of 64 bits.
-bool ewa_tiff_recognise(const uint8_t *bytes, uint64_t size_bytes);
+static inline bool ewa_tiff_recognise(const uint8_t *bytes, uint64_t size_bytes) {
+    static const char *const MARKS[] = {"II*\0", "MM\0*", "II+\0", "MM\0+"};
+    for (int i = 0; i < 4 && size_bytes >= 8; i++)
+        if (memcmp(bytes, MARKS[i], 4) == 0) return true;
+    return false;
+}
 
 /// Reads the tags of the first directory. Errors: EWA_ERROR_UNSUPPORTED (places of single points only, a geocentric
 /// system), EWA_ERROR_FORMAT (cells of no area).
