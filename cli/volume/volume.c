@@ -69,6 +69,8 @@ static const cli_option voxel_table[] = {
     {"opacity-scale", VOLUME(density_scale)},
     {"method", VOLUME(method)},
     {"footprint", VOLUME(index)},
+    {"mark-splats", OPTION_FLAG, AT(scene.options.mark_splats),
+     .help = "draw voxels that are splats in red, points as they are"},
     {"sigma", VOLUME(sigma)},
     {"cutoff", VOLUME(cutoff)},
     {"prefilter", VOLUME(prefilter_px)},

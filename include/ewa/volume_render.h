@@ -111,7 +111,12 @@ typedef struct ewa_volume_options {
     /// ewa_render() gives them: planes of the camera's size, borrowed during the call. NULL (default): normals are 0,
     /// coverage is the alpha of surface_rgba. Without surface_depth: NULL
     const float *surface_normal, *surface_coverage;
+    bool mark_splats; ///< voxels that are splats are red, so that points are told from them; default false
 } ewa_volume_options;
+
+/// What splats have in place of their colour when they are marked, before light (linear).
+#define EWA_MARKED_SPLAT_RED   0.8
+#define EWA_MARKED_SPLAT_OTHER 0.03 ///< green and blue
 
 EWA_API extern const ewa_option_table ewa_volume_options_table;
 EWA_API void ewa_volume_options_init(ewa_volume_options *options, size_t struct_size);

@@ -74,6 +74,8 @@ EWA_MAX_LIGHTS = 8
 EWA_MAX_MATERIALS = 256
 EWA_MAX_TRANSFER_POINTS = 1024
 EWA_MAX_VOLUME_LEVELS = 4
+EWA_MARKED_SPLAT_OTHER = 0.03
+EWA_MARKED_SPLAT_RED = 0.8
 
 
 class ewa_named_files(IntEnum):
@@ -1428,6 +1430,7 @@ class ewa_volume_options(c.Structure):
     section_count: int
     surface_normal: int | None
     surface_coverage: int | None
+    mark_splats: bool
     _fields_ = [
         ("struct_size", c.c_size_t),
         ("method", c.c_int),
@@ -1451,6 +1454,7 @@ class ewa_volume_options(c.Structure):
         ("section_count", c.c_uint32),
         ("surface_normal", c.c_void_p),
         ("surface_coverage", c.c_void_p),
+        ("mark_splats", c.c_bool),
     ]
 
 

@@ -402,6 +402,8 @@ class VolumeOptions(TypedDict, total=False):
     minimum_transmittance: float | None
     #: light, by the gradient: none gives the bare colours, lambert matt matter, phong highlights; none|lambert|phong, default none
     shading: Literal["none", "lambert", "phong"] | int | None
+    #: draw voxels that are splats in red, points as they are; on|off, default off
+    mark_splats: bool | None
 
 
 class VolumeSaveOptions(TypedDict, total=False):

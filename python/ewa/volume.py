@@ -335,7 +335,8 @@ def render_volume(volume: Volume | Voxels, camera: Camera | None = None, *, tran
         As of :func:`render`.
     **options
         Members of ``ewa_volume_options``: ``method``, ``index``, ``sigma``, ``cutoff``, ``prefilter_px``,
-        ``point_threshold_px``, ``depth_unit``, ``level``, ``density_scale``, ``minimum_transmittance``, ``shading``.
+        ``point_threshold_px``, ``depth_unit``, ``level``, ``density_scale``, ``minimum_transmittance``, ``shading``,
+        ``mark_splats``.
         Default shading: "auto", which is "phong", and "none" of the presets gray and fog.
 
     Raises

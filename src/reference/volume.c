@@ -136,7 +136,8 @@ static view make_view(const ewa_volume *volume, const ewa_camera *camera, const 
 
 static ewa_vec3 shade(const reference *work, const ewa_reference_voxel *voxel, ewa_vec3 place) {
     const ewa_material *m = &work->shading.materials[0];
-    const ewa_vec3 color = voxel->color;
+    const ewa_vec3 marked = {EWA_MARKED_SPLAT_RED, EWA_MARKED_SPLAT_OTHER, EWA_MARKED_SPLAT_OTHER};
+    const ewa_vec3 color = work->options.mark_splats ? marked : voxel->color;
     if (!work->shading.lit) return color;
     if (vec3_length(voxel->normal_world) == 0)
         return vec3_scale(color, (double)m->ambient + (double)m->diffuse);

@@ -108,7 +108,7 @@ typedef struct ewa_volume_queue {
 
 /// Camera, grid and options of a frame in single precision.
 typedef struct ewa_volume_view {
-    bool orthographic, exact, lit, highlights, with_depth, with_surface, with_sections, has_near;
+    bool orthographic, exact, lit, highlights, with_depth, with_surface, with_sections, has_near, mark_splats;
     float fx_px, fy_px, cx_px, cy_px;
     float axes[3][3];          ///< steps along i, j, k in camera space
     float to_deviations[3][3]; ///< row vectors of camera space to standard deviations along i, j, k
@@ -118,6 +118,7 @@ typedef struct ewa_volume_view {
     float unit_inverse, unit_offset; ///< slice = floor(z unit_inverse + unit_offset)
     int32_t point_slice;             ///< slices from there on are of points
     float color_scale;               ///< of 16-bit colours
+    float marked_color[3];           ///< of splats, with mark_splats
     float point_mass, splat_peak, density;
     float covariance[6], inverse[6]; ///< xx xy xz yy yz zz
     float bend;                      ///< of ewa_grid_view

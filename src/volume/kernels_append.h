@@ -239,6 +239,7 @@ static uint32_t append(const ewa_volume_view *frame_view, const ewa_volume_sourc
                                    [QUEUE_LENGTH] = v.length};
         load_colors(view, source, first, values + QUEUE_COLOR);
         if (has_splats) {
+            if (view->mark_splats) mark_colors(view, wm_of_bits(splats), values + QUEUE_COLOR);
             values[QUEUE_PLACE] = x, values[QUEUE_PLACE + 1] = y, values[QUEUE_PLACE + 2] = v.z;
             values[QUEUE_PLACE + 3] =
                 view->orthographic ? wf_fma(wf_fma(v.x, v.x, wf_mul(v.y, v.y)), wf_set(view->bend), v.z)

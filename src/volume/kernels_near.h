@@ -32,6 +32,7 @@ static uint32_t append_near(const ewa_volume_view *view, const ewa_volume_source
         v.ahead = wf_div(v.place[2], shrink), v.length = wf_set(1);
         lit_lanes lit = {wi_load(source->normals + first), v.x, v.y, v.ahead, v.length, {zero, zero, zero}};
         load_colors(view, source, first, lit.color);
+        if (view->mark_splats) mark_colors(view, wm_of_bits(0xffff), lit.color);
         if (view->lit) shade_each(view, &lit, 1);
         wf d[3];
         const wf deviation = wf_set(view->deviations_per_step);

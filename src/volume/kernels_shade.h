@@ -52,6 +52,11 @@ static ALWAYS_INLINE void load_colors(const ewa_volume_view *view, const ewa_vol
         color[c] = wf_mul(wf_from_i(wi_load_u16(source->colors[c] + first)), wf_set(view->color_scale));
 }
 
+/// Gives marked splats their colour.
+static ALWAYS_INLINE void mark_colors(const ewa_volume_view *view, wm splats, wf color[3]) {
+    for (int c = 0; c < 3; c++) color[c] = wf_select(splats, wf_set(view->marked_color[c]), color[c]);
+}
+
 /// What the light on sixteen voxels depends on.
 typedef struct lit_lanes {
     wi normal;           ///< packed

@@ -50,6 +50,8 @@ static const ewa_option volume_rows[] = {
      .help = "how many lights there are; 0: a headlight"},
     {"background", EWA_OPTION_F32, OF_VOLUME(background), 0, 1e15, .count = 4,
      .help = "linear light, straight alpha, which is at most 1"},
+    {"mark_splats", EWA_OPTION_BOOL, OF_VOLUME(mark_splats),
+     .help = "draw voxels that are splats in red, points as they are"},
     {"section_count", EWA_OPTION_U32, OF_VOLUME(section_count), 0, EWA_MAX_SECTION_PLANES,
      .help = "how many section planes there are"},
 };

@@ -137,6 +137,8 @@ void ewa_volume_view_set(ewa_volume_view *view, const ewa_grid_view *grid, const
     view->prefilter2_px2 = (float)grid->prefilter2_px2;
     // The trace bounds the largest variance whatever the angles between the axes.
     view->reach = (float)(grid->cutoff * sqrt(3 * grid->mean_variance));
+    view->mark_splats = options->mark_splats;
+    for (int c = 0; c < 3; c++) view->marked_color[c] = (float)(c == 0 ? EWA_MARKED_SPLAT_RED : EWA_MARKED_SPLAT_OTHER);
     view->minimum_transmittance = (float)options->minimum_transmittance;
     view->surface_reach = (float)(0.75 * sqrt(2 * 3.14159265358979323846) * grid->depth_sigma);
     set_shading(view, grid, camera, shading);

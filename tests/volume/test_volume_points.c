@@ -198,11 +198,63 @@ static void test_levels(void **state) {
     ewa_context_destroy(&context);
 }
 
+/// Marked splats are red, in the reference as well; points keep their colours, to the bit.
+static void test_marks(void **state) {
+    static const uint32_t dims[3] = {8, 8, 8};
+    ewa_context *context = check_context(1, NULL);
+    ewa_volume volume = scene_volume(context, dims, UNIT, scene_ones, NULL);
+    const ewa_transfer transfer = scene_linear(0.2f, 0.9f, 0.4f, 0.05f);
+    ewa_voxels *voxels = scene_voxels(&volume, &transfer);
+    const ewa_camera camera = look(40, 60, 0);
+    ewa_volume_options plain = defaults(), marked = defaults();
+    marked.mark_splats = true;
+    for (int points = 0; points < 2; points++) {
+        plain.method = marked.method = points ? EWA_VOLUME_POINTS : EWA_VOLUME_SPLATS;
+        ewa_image before = scene_draw(context, voxels, &camera, &plain), after = scene_draw(context, voxels, &camera, &marked);
+        ewa_image reference = scene_draw_reference(&volume, &transfer, &camera, &marked);
+        for (int i = 0; i < PIXELS; i++) {
+            const float *was = before.pixels + 4 * i, *is = after.pixels + 4 * i, alpha = is[3];
+            assert_true(alpha == was[3]);
+            if (points)
+                assert_memory_equal(is, was, 4 * sizeof *is);
+            else
+                for (int c = 0; c < 3; c++) {
+                    const double color = c == 0 ? EWA_MARKED_SPLAT_RED : EWA_MARKED_SPLAT_OTHER;
+                    expect("a marked splat", (double)is[c], color * (double)alpha, 1e-5);
+                    expect("the reference's", (double)reference.pixels[4 * i + c], color * (double)alpha, 1e-4);
+                }
+        }
+        ewa_image_free(&reference);
+        ewa_image_free(&before);
+        ewa_image_free(&after);
+    }
+    // Both at once: the near half of a long volume is of splats.
+    static const uint32_t long_dims[3] = {4, 4, 60};
+    ewa_volume row = scene_volume(context, long_dims, UNIT, scene_ones, NULL);
+    ewa_voxels *mixed = scene_voxels(&row, &transfer);
+    const ewa_camera ahead = look(60, 72, 0); // 2.4 px at 30, 0.8 px at 90
+    marked.method = EWA_VOLUME_HYBRID;
+    const double share = scene_point_share(context, mixed, &ahead, &marked);
+    ewa_image image = scene_draw(context, mixed, &ahead, &marked);
+    double sums[3] = {0};
+    for (int i = 0; i < PIXELS; i++)
+        for (int c = 0; c < 3; c++) sums[c] += (double)image.pixels[4 * i + c];
+    assert_true(share > 0.3 && share < 0.7);
+    assert_true(sums[0] > sums[1] && sums[1] > 0.1 * sums[0]); // red, and green behind it
+    ewa_image_free(&image);
+    ewa_voxels_destroy(&mixed);
+    ewa_volume_free(&row);
+    ewa_voxels_destroy(&voxels);
+    ewa_volume_free(&volume);
+    ewa_context_destroy(&context);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_single_voxels),
         cmocka_unit_test(test_threshold),
         cmocka_unit_test(test_levels),
+        cmocka_unit_test(test_marks),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
