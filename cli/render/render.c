@@ -5,6 +5,7 @@
 #include "cli/base/backend.h"
 #include "cli/base/commands.h"
 #include "cli/base/json.h"
+#include "cli/base/pattern.h"
 #include "cli/input/inputs.h"
 #include "cli/input/lod_input.h"
 #include "cli/input/scene_input.h"
@@ -38,6 +39,7 @@ typedef struct render_arguments {
     option_bounds range;
     option_color background;
     furnish_arguments furniture;
+    uint64_t outlines; ///< how many surfels' outlines are drawn over the picture
 } render_arguments;
 
 #define AT(member)       offsetof(render_arguments, member)
@@ -129,6 +131,8 @@ static const cli_option look_table[] = {
 
 static const cli_option furniture_table[] = {
     FURNISH_OPTIONS(AT(furniture)),
+    {"outlines", OPTION_INTEGER, AT(outlines), "N", "[0, 1000000]",
+     .help = "draw the outlines of N of the surfels that are seen, as their kernels end; 0: none"},
     {"color-bar", OPTION_FLAG, AT(furniture.color_bar),
      .help = "show on the right what colours of numbers mean: a scale, or the classes there are"},
 };
@@ -182,6 +186,10 @@ static bool check(const void *data, char message[OPTION_ERROR_BYTES]) {
         missing = "--colormap classes takes no --range: each class has its own colour";
     else if (arguments->furniture.color_bar && arguments->color_by && ewa_coloring_is_own(arguments->color_by))
         missing = "--color-bar has nothing to show for the file's own colours";
+    else if (arguments->outlines && path_has_suffix(arguments->output, ".exr|.pfm"))
+        missing = "--outlines are not drawn on .exr and .pfm, which hold data";
+    else if (arguments->outlines && arguments->light.render.point_size_px > 0)
+        missing = "--outlines are of surfels, and --point-size draws none";
     if (!options_fine(missing, message)) return false;
     return light_check(&arguments->light, message) && section_check(&arguments->section, message) &&
            frames_check(&arguments->frames, arguments->output, arguments->background.rgba[3] == 1, message) &&
@@ -203,6 +211,7 @@ typedef struct render_scene {
     ewa_scene *scene;
     bool octrees;
     furnishing furniture;
+    uint32_t outlines;
 } render_scene;
 
 /// The scene's options as the program's say.
@@ -210,7 +219,7 @@ static ewa_scene_options scene_options(const render_arguments *arguments, const 
     ewa_scene_options options;
     ewa_scene_options_init(&options, sizeof options);
     options.close_gaps = arguments->close_gaps;
-    options.keep_points = false;
+    options.keep_points = arguments->outlines > 0;
     options.surfels = arguments->surfels;
     options.lod = arguments->lod.options;
     options.render = *render;
@@ -271,6 +280,7 @@ static bool prepare(cli_session *session, const render_arguments *arguments, con
                     render_scene *scene, render_report *report) {
     const common_arguments *common = &arguments->frames.view.common;
     const ewa_scene_options options = scene_options(arguments, render);
+    scene->outlines = (uint32_t)arguments->outlines;
     ewa_asset_options assets = scene_input_asset_options(session);
     assets.gaussians_as_surfels = arguments->gaussians_as_surfels;
     assets.levels = lod_input_levels(&arguments->lod);
@@ -284,6 +294,10 @@ static bool prepare(cli_session *session, const render_arguments *arguments, con
     if (!scene_input_add(session, common->operand_count, common->operands, &assets, &coloring, scene->scene)) return false;
     session->subject = common->operand_count == 1 ? common->operands[0] : NULL;
     if (!check_scene(session, arguments, scene->scene)) return false;
+    if (arguments->outlines && process_group_shares_cloud(session->group)) {
+        session_fail(session, "--outlines needs all points in one process");
+        return false;
+    }
     const view_subject subject = {.scene = scene->scene};
     if (!frames_make(session, &arguments->frames, &subject, &scene->frames) ||
         !furnish_make(session, &arguments->furniture, &arguments->frames, &arguments->background, &subject,
@@ -333,6 +347,12 @@ static ewa_status paint(void *user, const ewa_camera *camera, const ewa_frame *f
     if (status != EWA_OK) return status;
     *stats = took.render;
     if (scene->octrees) render_report_add_lod(painter->report, &took.lod);
+    const ewa_canvas canvas = {frame->rgba8, camera->width_px, camera->height_px};
+    const ewa_status drawn =
+        scene->outlines
+            ? ewa_scene_draw_outlines(scene->scene, painter->renderer, camera, NULL, scene->outlines, &canvas)
+            : EWA_OK;
+    if (drawn != EWA_OK) return drawn;
     return furnish_draw(painter->session, &scene->furniture, camera, frame);
 }
 

@@ -2717,6 +2717,7 @@ class Functions:
     ewa_scene_describe: Callable[..., None]
     ewa_scene_destroy: Callable[..., None]
     ewa_scene_draw: Callable[..., int]
+    ewa_scene_draw_outlines: Callable[..., int]
     ewa_scene_get: Callable[..., int]
     ewa_scene_get_camera: Callable[..., bool]
     ewa_scene_get_options: Callable[..., None]
@@ -3082,6 +3083,7 @@ class Functions:
         self.ewa_scene_describe = bind("ewa_scene_describe", None, c.c_void_p, c.POINTER(ewa_scene_info))
         self.ewa_scene_destroy = bind("ewa_scene_destroy", None, c.c_void_p)
         self.ewa_scene_draw = bind("ewa_scene_draw", c.c_int, c.c_void_p, c.c_void_p, c.POINTER(ewa_camera), c.POINTER(ewa_scene_options), c.POINTER(ewa_frame), c.POINTER(ewa_scene_stats))
+        self.ewa_scene_draw_outlines = bind("ewa_scene_draw_outlines", c.c_int, c.c_void_p, c.c_void_p, c.POINTER(ewa_camera), c.POINTER(ewa_scene_options), c.c_uint32, c.POINTER(ewa_canvas))
         self.ewa_scene_get = bind("ewa_scene_get", c.c_int, c.c_void_p, c.c_uint32, c.POINTER(ewa_instance))
         self.ewa_scene_get_camera = bind("ewa_scene_get_camera", c.c_bool, c.c_void_p, c.POINTER(ewa_camera))
         self.ewa_scene_get_options = bind("ewa_scene_get_options", None, c.c_void_p, c.POINTER(ewa_scene_options))

@@ -250,3 +250,14 @@ def draw(world: World, camera: Camera | None, *, size: Sequence[int] | None, pla
     del keep
     image._stats = stats.render
     return image
+
+
+def draw_outlines(world: World, image: Image, count: int) -> None:
+    """Draw outlines over a picture that `draw()` made with the plane rgba8."""
+    if image.rgba8 is None or image.camera is None or not image.rgba8.flags.carray:
+        raise ArgumentError("outlines: an image with the plane rgba8, as render() makes it")
+    canvas = b.ewa_canvas()
+    canvas.rgba8 = image.rgba8.ctypes.data
+    canvas.width_px, canvas.height_px = image.size
+    world.core.call(lib.ewa_scene_draw_outlines, world.handle, _shared(world.core, "cpu"), ctypes.byref(image.camera._struct),
+                    None, count, ctypes.byref(canvas))

@@ -20,7 +20,7 @@ from .gaussians import Gaussians, Splats
 from .image import Color, Image
 from .mesh import Mesh
 from .octree import Octree
-from .rendering import draw
+from .rendering import draw, draw_outlines
 from .shade import Environment, Light, Materials
 from .surfels import Surfels
 from .volume import Volume, Voxels
@@ -176,6 +176,15 @@ class Scene:
         return draw(self._world, camera, size=size, planes=planes, background=background, lights=lights,
                     materials=materials, environment=environment, layers=layers, section_box=section_box,
                     section_planes=section_planes, out=out, render=options)
+
+    def draw_outlines(self, image: Image, count: int) -> None:
+        """Draw the outlines of `count` of the surfels that are seen over a picture that :meth:`render` made.
+
+        Raises
+        ------
+        ArgumentError, OutOfMemory
+        """
+        draw_outlines(self._world, image, count)
 
     def save(self, path: PathLike, camera: Camera | None = None) -> None:
         """Write a scene file: everything, which must have been added from files below the file's folder, and `camera`.

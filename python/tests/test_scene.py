@@ -53,6 +53,20 @@ class SameScene(Case):
         self.triples = [("bare.ply", "tree.copc.laz", "four.splat"), ("surfels.ply", "mesh.obj", "ball.nrrd"),
                         ("moved.json", "tree.copc.laz", "ball.nrrd")]
 
+    def test_outlines(self) -> None:
+        scene = ewa.Scene(self.path("surfels.ply"))
+        image = scene.render(size=SIZE)
+        assert image.rgba8 is not None
+        before = image.rgba8.copy()
+        scene.draw_outlines(image, 0)
+        self.assertTrue((image.rgba8 == before).all())
+        scene.draw_outlines(image, 12)
+        changed = (image.rgba8 != before).any(2)
+        self.assertTrue(50 < changed.sum() < SIZE[0] * SIZE[1] / 2)
+        self.run_program("render", "surfels.ply", "-o", "outlines.png", "--size", "96x72", "--outlines", "12")
+        image.save(self.path("ours.png"))
+        self.assertEqual(open(self.path("ours.png"), "rb").read(), open(self.path("outlines.png"), "rb").read())
+
     def sets(self) -> list[tuple[str, ...]]:
         """Every kind, every pair and some triples."""
         return [*((kind,) for kind in self.kinds), *itertools.combinations(self.kinds, 2), *self.triples]
