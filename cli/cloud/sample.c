@@ -95,7 +95,7 @@ static const option_group sample_options = OPTION_GROUP("Sampling", sample_table
 const cli_command sample_command = {
     .name = "sample",
     .operands = "MESH -o OUT",
-    .summary = "make surfels from a mesh (PLY, OBJ, STL, OFF, glTF), sharp edges as clip lines",
+    .summary = "make surfels from a mesh (PLY, OBJ, STL, OFF, glTF, VTK), sharp edges as clip lines",
     .details =
         "Points keep their distance (Poisson-disc) and are even in area; vertex colours and textures go "
         "onto them. Radii close the surface. Where edges are sharp, the file gets tangent axes and clip "

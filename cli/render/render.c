@@ -456,7 +456,7 @@ const cli_command render_command = {
         "Several inputs are drawn together. Normals and radii that a file lacks are estimated from "
         "the neighbours "
         "of each point; 'ewa surfels' does the same with options and keeps the result. A file that has "
-        "faces (PLY, OBJ, STL, OFF, glTF), whatever its name, is a mesh: points are put onto its faces, "
+        "faces (PLY, OBJ, STL, OFF, glTF, VTK), whatever its name, is a mesh: points are put onto its faces, "
         "'ewa sample' does it with options. Clouds that are no surface, such as the points of a curve, look "
         "best with --point-size.\n"
         "\n"

@@ -212,7 +212,7 @@ def _load(core: Core, path: PathLike, wanted: int, keep_going: bool, attributes:
 def read(path: PathLike, *more: PathLike, filter: str | Sequence[str] | None = None, vertices: bool = False,
          keep_going: bool = False, attributes: Sequence[str] | None = None, columns: Sequence[str] | None = None,
          heights: str = "none", context: Context | None = None) -> Cloud:
-    """Read points: PLY, LAS, LAZ, COPC, EPT, E57, PCD, PTX, PTS, XYZ, CSV; or a mesh, onto whose faces points are put.
+    """Read points: PLY, LAS, LAZ, COPC, EPT, E57, PCD, PTX, PTS, XYZ, CSV, grids of heights; or a mesh, onto whose faces points are put.
 
     Parameters
     ----------
@@ -260,7 +260,7 @@ def read(path: PathLike, *more: PathLike, filter: str | Sequence[str] | None = N
 
 
 def read_mesh(path: PathLike, *, context: Context | None = None) -> Mesh:
-    """Read triangles: PLY, OBJ, STL, OFF, glTF.
+    """Read triangles: PLY, OBJ, STL, OFF, glTF, VTK.
 
     Raises
     ------
