@@ -15,9 +15,14 @@
 static void compare(const ewa_cloud *a, const ewa_cloud *b) {
     fuzz_require(ewa_cloud_point_count(a) == ewa_cloud_point_count(b), "as many points");
     fuzz_require(ewa_cloud_attribute_count(a) == ewa_cloud_attribute_count(b), "as many attributes");
+    double a_origin[3], b_origin[3];
+    ewa_cloud_origin(a, a_origin);
+    ewa_cloud_origin(b, b_origin);
     for (uint32_t i = 0; i < ewa_cloud_attribute_count(a); i++) {
         const ewa_attribute *left = ewa_cloud_attribute_at(a, i), *right = ewa_cloud_attribute_at(b, i);
         fuzz_require(strcmp(left->name, right->name) == 0, "the same names");
+        // Other formats than PLY, which any bytes may be, choose other origins, and other roundings with them.
+        if (strcmp(left->name, EWA_POSITION) == 0 && memcmp(a_origin, b_origin, sizeof a_origin) != 0) continue;
         fuzz_require(left->type == right->type && left->component_count == right->component_count,
                      "the same types");
         for (uint64_t point = 0; point < ewa_cloud_point_count(a); point++) {

@@ -33,7 +33,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size_bytes) {
     if (ewa_polygon_read(context, "fuzz", bytes, size_bytes, &polygon) == EWA_OK) {
         double box[4], points[6] = {0};
         ewa_polygon_box(polygon, box);
-        if (!(box[0] <= box[2] && box[1] <= box[3]) || !isfinite(box[0] + box[3])) abort();
+        if (!(box[0] <= box[2] && box[1] <= box[3]) || !isfinite(box[0]) || !isfinite(box[3])) abort();
         ewa_cloud *cloud = NULL;
         uint8_t marks[2] = {1, 1};
         points[3] = 0.5 * box[0] + 0.5 * box[2];
