@@ -450,12 +450,14 @@ static ALWAYS_INLINE void stage_emit(const ewa_view *view, const ewa_packet_sour
     const wf whole_first_x = wf_add(wf_floor(wf_sub(wf_sub(cx, t->half_x), half)), one);
     const wf whole_last_x = wf_floor(wf_sub(wf_add(cx, t->half_x), half));
     const wf first_x = wf_sub(wf_max(whole_first_x, wf_set(left)), wf_set(left));
-    const wf first_y =
-        wf_sub(wf_max(wf_add(wf_floor(wf_sub(wf_sub(cy, t->half_y), half)), one), wf_set(top)), wf_set(top));
+    const wf whole_first_y = wf_add(wf_floor(wf_sub(wf_sub(cy, t->half_y), half)), one);
+    const wf whole_last_y = wf_floor(wf_sub(wf_add(cy, t->half_y), half));
+    const wf first_y = wf_sub(wf_max(whole_first_y, wf_set(top)), wf_set(top));
     const wf last_x = wf_min(wf_sub(whole_last_x, wf_set(left)), wf_set((float)(tile->width_px - 1)));
-    const wf last_y = wf_min(wf_sub(wf_floor(wf_sub(wf_add(cy, t->half_y), half)), wf_set(top)),
-                             wf_set((float)(tile->height_px - 1)));
-    const wm alive = wm_and(t->alive, wm_and(wf_le(first_x, last_x), wf_le(first_y, last_y)));
+    const wf last_y = wf_min(wf_sub(whole_last_y, wf_set(top)), wf_set((float)(tile->height_px - 1)));
+    // A box that is no number would be as large as the tile without being wide, and of a class that is none.
+    const wm is_box = wm_and(wf_le(whole_first_x, whole_last_x), wf_le(whole_first_y, whole_last_y));
+    const wm alive = wm_and(wm_and(t->alive, is_box), wm_and(wf_le(first_x, last_x), wf_le(first_y, last_y)));
     const uint32_t alive_bits = wm_bits(alive);
     if (!alive_bits) return;
     const wi pixel_x = wi_from_f(wf_keep(alive, first_x)), column = wi_sar(pixel_x, 2);

@@ -235,7 +235,7 @@ static bool draw_sources(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile
         const ewa_tile_source *source = &job->sources[i];
         const uint64_t first = source->bins.lists.starts[index],
                        count = source->bins.lists.starts[index + 1] - first;
-        const uint32_t *ids = source->bins.lists.ids + first;
+        const uint32_t *ids = count ? source->bins.lists.ids + first : NULL;
         s->split[i] = (ewa_tile_split){.shown = packets, .hidden = packets + count + 1};
         packets += 2 * (count + 1);
         if (!job->resolve.transparent) ids = front_to_back(job, source, s, ids, count);
@@ -259,7 +259,7 @@ void ewa_tile_sum_nearest(const ewa_tile_job *job, const ewa_tile *tile, ewa_til
         const ewa_tile_source *source = &job->sources[i];
         const uint64_t first = source->bins.lists.starts[index],
                        count = source->bins.lists.starts[index + 1] - first;
-        const uint32_t *ids = source->bins.lists.ids + first;
+        const uint32_t *ids = count ? source->bins.lists.ids + first : NULL;
         ewa_tile_packets shown = {source, s->packets, 0};
         shown.count =
             job->kernels->hide(&source->view, &source->surfels->bounds, &source->packets.places, tile,
