@@ -23,6 +23,9 @@ static void report(ewa_context *context, ewa_severity severity, const char *form
     if (!options->message || severity > options->message_level) return;
     char text[MESSAGE_BYTES];
     vsnprintf(text, sizeof text, format, arguments);
+    // Names of files and words in them may be anything; a message is one line.
+    for (char *c = text; *c; c++)
+        if ((unsigned char)*c < ' ' || *c == 127) *c = '?';
     const char *subject = context->subject;
     if (!subject || strncmp(text, subject, strlen(subject)) == 0) {
         options->message(options->message_user, severity, text);

@@ -41,7 +41,8 @@ static size_t bucket_of(const mesh_edge_grid *grid, const int64_t cell[3], uint3
 }
 
 static int64_t cell_at(const mesh_edge_grid *grid, double place) {
-    return (int64_t)floor(place / grid->cell_world);
+    // Places farther away than numbers of cells go share the last one.
+    return (int64_t)fmin(fmax(floor(place / grid->cell_world), -0x1p62), 0x1p62);
 }
 
 /// Calls for the buckets of all cells within reach of an edge: those of the boxes around places along it.

@@ -70,18 +70,23 @@ static uint32_t try_layout(const first_lines *sample, ewa_text_layout *layout, s
     return votes[layout->column_count];
 }
 
+/// Whether a line names columns: words, or x, y and z among what may be numbers, for a name can be "nan".
+static bool is_head(const sample_line *line) {
+    return line->word_count >= 3 && (line->number_count == 0 || ewa_text_head_has_place(line->text));
+}
+
 /// Takes what stands before the rows: the number of points and a head, each at most once.
 static bool take_begin(const first_lines *sample, const sample_line *lines, ewa_text_begin *begin) {
     const ewa_text_layout *layout = &begin->layout;
     uint32_t i = 0, row_count = 0;
     begin->head = sample->comment;
     begin->head_is_comment = true;
-    for (; i < sample->count && !is_row(&lines[i], layout); i++) {
+    for (; i < sample->count && (!is_row(&lines[i], layout) || is_head(&lines[i])); i++) {
         int64_t count;
         if (!begin->has_count && ewa_text_integer(sample->lines[i], &count) && count >= 0) {
             begin->has_count = true;
             begin->stated_count = (uint64_t)count;
-        } else if (begin->head_is_comment && lines[i].number_count == 0 && lines[i].word_count >= 3) {
+        } else if (begin->head_is_comment && is_head(&lines[i])) {
             begin->head = sample->lines[i];
             begin->head_is_comment = false;
         } else {

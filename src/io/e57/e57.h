@@ -128,7 +128,7 @@ static inline ewa_e57_scan *ewa_e57_scan_at(const ewa_e57_contents *contents, ui
 }
 
 static inline ewa_e57_field *ewa_e57_fields_of(const ewa_e57_contents *contents, const ewa_e57_scan *scan) {
-    return (ewa_e57_field *)contents->fields.data + scan->first_field;
+    return contents->fields.data ? (ewa_e57_field *)contents->fields.data + scan->first_field : NULL;
 }
 
 /// Reads the XML part: `size_bytes` bytes from a logical place. Errors: EWA_ERROR_FORMAT,

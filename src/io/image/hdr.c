@@ -72,7 +72,7 @@ static const char *read_side(const char *text, const char *end, char axis, uint3
 static ewa_status read_size(decoder *in) {
     uint64_t length;
     const uint8_t *line = ewa_reader_take_line(&in->reader, '\n', &length);
-    const char *text = (const char *)line, *end = text + (line ? length : 0);
+    const char *text = line ? (const char *)line : "", *end = text + (line ? length : 0);
     if (!line || length < 2 || (text[0] != '-' && text[0] != '+'))
         return fail(in, EWA_ERROR_FORMAT, "no line with the size");
     in->from_bottom = text[0] == '+';

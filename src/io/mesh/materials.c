@@ -9,6 +9,7 @@
 #include "image/material.h"
 #include "io/file.h"
 #include "io/json_text.h"
+#include "io/text.h"
 
 #include <string.h>
 
@@ -23,8 +24,9 @@ static ewa_status read_member(ewa_context *context, const char *name, uint32_t i
         ewa_option_put(member, material, 0, item->valuedouble);
         return EWA_OK;
     }
-    return ewa_fail(context, EWA_ERROR_FORMAT, "%s: material %u has an unknown member '%.40s'", name, index,
-                    item->string);
+    char quote[EWA_QUOTE_BYTES];
+    return ewa_fail(context, EWA_ERROR_FORMAT, "%s: material %u has an unknown member %s", name, index,
+                    ewa_quote((ewa_text){item->string, strlen(item->string)}, quote));
 }
 
 static ewa_status read_material(ewa_context *context, const char *name, uint32_t index, const cJSON *object,
