@@ -111,7 +111,7 @@ typedef bool ewa_progress_callback(void *user, const char *stage, double fractio
 
 /// What a context may use, whatever its inputs ask for. Sizes are looked at before anything is allocated for them, and all
 /// memory that the context holds counts against max_memory_bytes, with what libraries take that decode for it; files that
-/// are mapped do not.
+/// are mapped do not. Where it is 0, an input unpacks to more than 2^30 bytes as far as its own explain: 1032 to 1, JSON 16.
 typedef struct ewa_limits {
     uint64_t max_points;       ///< points in one cloud; 0 stands for 2^32 - 17, untrusted for 2^26
     uint64_t max_memory_bytes; ///< held at a time; 0 stands for three quarters of the machine's, untrusted for 2^30 at most

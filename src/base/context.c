@@ -131,6 +131,7 @@ ewa_status ewa_context_create(const ewa_context_options *options, ewa_context **
     EWA_TRY(ewa_options_take(NULL, &ewa_context_options_table, options, &chosen));
     // Counts beyond the ranges of the table are no limits.
     if (!(chosen.limits.max_seconds >= 0 && isfinite(chosen.limits.max_seconds))) return EWA_ERROR_ARGUMENT;
+    const bool memory_is_set = chosen.limits.max_memory_bytes > 0;
     settle_limits(&chosen);
     if (!chosen.allocator.allocate || !chosen.allocator.release ||
         chosen.executor.worker_count > MAX_WORKERS ||
@@ -140,6 +141,7 @@ ewa_status ewa_context_create(const ewa_context_options *options, ewa_context **
     if (!made) return EWA_ERROR_MEMORY;
     *made = (ewa_context){.options = chosen,
                           .cpu_features = ewa_cpu_detect() & chosen.cpu_mask,
+                          .memory_is_set = memory_is_set,
                           .started_s = ewa_now_s()};
     if (!chosen.executor.run) {
         uint32_t workers = chosen.thread_count;

@@ -3,6 +3,7 @@
 //
 // Memory of a context, all of it counted against one limit: blocks, buffers that grow, and what libraries take by themselves.
 #include "base/context.h"
+#include "base/unpacking.h"
 
 #include <stdarg.h>
 #include <stdio.h>
@@ -50,6 +51,25 @@ ewa_status ewa_memory_check(ewa_context *context, uint64_t bytes, const char *fo
     const ewa_status status = refuse(context, bytes, format, arguments);
     va_end(arguments);
     return status;
+}
+
+/// What any input may unpack to by default, however small it is: a picture of 8192 x 8192 pixels with alpha.
+static const uint64_t UNPACKED_BYTES = (uint64_t)1 << 30;
+
+ewa_status ewa_memory_check_unpacked(ewa_context *context, uint64_t packed_bytes, uint32_t ratio, uint64_t bytes,
+                                     const char *format, ...) {
+    const bool explained = context->memory_is_set || bytes <= UNPACKED_BYTES || bytes / ratio <= packed_bytes;
+    const bool fits = bytes <= ewa_memory_left(context);
+    if (explained && fits) return EWA_OK;
+    va_list arguments;
+    va_start(arguments, format);
+    char what[WHAT_BYTES];
+    vsnprintf(what, sizeof what, format, arguments);
+    va_end(arguments);
+    if (!fits) return ewa_memory_check(context, bytes, "%s", what);
+    return ewa_fail(context, EWA_ERROR_LIMIT,
+                    "%s: %llu bytes are needed, which %llu bytes of input do not explain; setting max_memory_bytes allows it", what,
+                    (unsigned long long)bytes, (unsigned long long)packed_bytes);
 }
 
 ewa_status ewa_memory_take(ewa_context *context, uint64_t bytes, const char *format, ...) {

@@ -4,6 +4,7 @@
 // JSON text to cJSON's tree, with the place of what is wrong.
 #include "io/json_text.h"
 #include "base/base.h"
+#include "base/unpacking.h"
 
 enum {
     NODE_BYTES = (sizeof(cJSON) + 8 + 15) / 16 * 16, // of a block of the C library's memory
@@ -36,6 +37,7 @@ ewa_status ewa_json_parse(ewa_context *context, const char *name, const char *wh
         return ewa_fail(context, EWA_ERROR_LIMIT, "%s: %zu bytes, more than %s may have (%d)", name,
                         size_bytes, what, EWA_JSON_BYTES);
     ewa_json made = {.held_bytes = tree_bytes(bytes, size_bytes)};
+    EWA_TRY(ewa_memory_check_unpacked(context, size_bytes, EWA_JSON_RATIO, made.held_bytes, "%s: JSON of %zu bytes", name, size_bytes));
     EWA_TRY(ewa_memory_take(context, made.held_bytes, "%s: JSON of %zu bytes", name, size_bytes));
     const char *text = size_bytes ? (const char *)bytes : "", *end = text;
     made.root = cJSON_ParseWithLengthOpts(text, size_bytes, &end, false);

@@ -192,6 +192,24 @@ static void test_bombs(void **state) {
 #endif
 }
 
+/// By default a small input unpacks to 1 GiB at most, whatever the machine has; who sets a limit gets it.
+static void test_defaults(void **state) {
+    uint8_t webp[64];
+    const size_t webp_bytes = make_webp(webp);
+    scratch_write("bomb.webp", webp, webp_bytes);
+    run_fails(1, "WebP of 16383 x 16383 pixels: |44 bytes of input do not explain|max_memory_bytes",
+              "ewa texture bomb.webp -o never.png --corners 0,0,1,0,1,1,0,1");
+    run_done("{ printf '{\"asset\":{\"version\":\"2.0\"},\"extras\":['; yes '1,' | head -c 50000000 | tr -d '\n'; printf '1]}'; } "
+             ">tree.gltf");
+    run_fails(1, "tree.gltf: JSON of |bytes of input do not explain", "ewa info tree.gltf");
+    // A picture of one colour of an ordinary size is no bomb.
+    run_done("ewa generate sphere -n 50 -o dots.ply && ewa render dots.ply -o dots.png --size 4096x4096");
+    run_done("ewa texture dots.png -o small.png --size 16x16");
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+    if (peak_mib() > 1024 + SLACK_MIB) fail_msg("%ld MiB by default", peak_mib());
+#endif
+}
+
 static void test_limits(void **state) {
     run_done("ewa generate sphere -n 400000 -o many.ply");
     run_fails(1, "0.01 s are over (max_seconds)", "ewa surfels many.ply -o never.ply --max-seconds 0.01");
@@ -213,6 +231,7 @@ static void test_limits(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_bombs), // first: memory is that of the largest command
+        cmocka_unit_test(test_defaults),
         cmocka_unit_test(test_folders), cmocka_unit_test(test_volumes),
         cmocka_unit_test(test_scenes),  cmocka_unit_test(test_limits),
     };

@@ -7,6 +7,7 @@
 // between two numbers where version 2 has tables: its tables are made of them.
 //
 // Based on: PlayCanvas, "SOG format", version 2; splat-transform's and the engine's readers of version 1.
+#include "base/unpacking.h"
 #include "io/gaussian/zip.h"
 #include "io/image/webp.h"
 #include "io/json_text.h"
@@ -17,6 +18,10 @@
 #include <stdio.h>
 
 enum { TABLE = 256, FIRST_TAG = 252, PALETTE_COLUMNS = 64, MAX_BANDS = 3 };
+
+/// How many times the pixels that are needed a picture may have, and how many it may have besides: sides may be multiples of
+/// something, and writers do not all choose the same shape. Lossless WebP takes little more than a pixel's four bytes.
+enum { MAX_SPARE = 4, SPARE_PIXELS = 1 << 16, MAX_PIXEL_BYTES = 5 };
 
 /// The pictures.
 enum { MEANS_LOW, MEANS_HIGH, SCALES, QUATERNIONS, COLORS, PALETTES, LABELS, PICTURES };
@@ -37,6 +42,7 @@ typedef struct sog {
     double low[3], high[3]; ///< of the logarithms of centres
     float scales[3][TABLE], colors[3][TABLE], opacities[TABLE], harmonics[TABLE];
     sog_picture pictures[PICTURES];
+    uint64_t packed_bytes, picture_count; ///< of the pictures so far
     ewa_gaussians *set;
     atomic_bool bad_tag, bad_label;
 } sog;
@@ -139,6 +145,35 @@ static ewa_status read_meta(sog *s) {
                            : read_tables(s, scales, colors, harmonics);
 }
 
+/// Pixels that a picture may have: of as many as there are numbers, but for rows that are filled up.
+static uint64_t max_pixels(const sog *s, const sog_picture *picture) {
+    if (picture != &s->pictures[PALETTES]) return MAX_SPARE * s->count + SPARE_PIXELS;
+    // Version 1 does not say how many there are; labels have 16 bits.
+    const uint64_t palette_count = s->version == 1 ? 1 << 16 : s->palette_count;
+    return MAX_SPARE * palette_count * (ewa_sh_count(s->bands) - 1) + SPARE_PIXELS;
+}
+
+/// What the pictures of the numbers so far unpack to has to be explained by their files: a picture of one colour takes 40 bytes,
+/// however large it is.
+static ewa_status check_pictures(sog *s, const char *name, size_t size_bytes) {
+    s->packed_bytes += size_bytes;
+    s->picture_count++;
+    return ewa_memory_check_unpacked(s->source->context, s->packed_bytes, EWA_UNPACKED_RATIO,
+                                     4 * s->count * s->picture_count, "%s: %llu Gaussians", name, (unsigned long long)s->count);
+}
+
+/// Decodes a picture that is there.
+static ewa_status decode_picture(sog *s, const char *name, const uint8_t *bytes, size_t size_bytes, sog_picture *picture) {
+    ewa_context *context = s->source->context;
+    EWA_TRY(check_pictures(s, name, size_bytes));
+    EWA_TRY(ewa_webp_look(context, name, bytes, size_bytes, &picture->width_px, &picture->height_px));
+    if ((uint64_t)picture->width_px * picture->height_px > max_pixels(s, picture))
+        return ewa_fail(context, EWA_ERROR_FORMAT, "%s: SOG: %u x %u pixels, of which at most %llu are needed", name,
+                        picture->width_px, picture->height_px, (unsigned long long)max_pixels(s, picture));
+    return ewa_webp_decode_codes(context, name, bytes, size_bytes, &picture->width_px, &picture->height_px, &picture->codes,
+                                 &picture->code_bytes);
+}
+
 /// Decodes a picture, file `index` of a member.
 static ewa_status read_picture(sog *s, const char *member, int index, sog_picture *picture) {
     ewa_context *context = s->source->context;
@@ -154,10 +189,10 @@ static ewa_status read_picture(sog *s, const char *member, int index, sog_pictur
     snprintf(shown, sizeof shown, "%s: %s", s->source->name, name->valuestring);
     if (s->archive) {
         ewa_zip_file file;
-        ewa_status status = ewa_zip_open(s->source, name->valuestring, UINT32_MAX, &file);
-        if (status == EWA_OK)
-            status = ewa_webp_decode_codes(context, shown, file.bytes, file.size_bytes, &picture->width_px,
-                                           &picture->height_px, &picture->codes, &picture->code_bytes);
+        const uint64_t max_bytes = MAX_PIXEL_BYTES * max_pixels(s, picture);
+        ewa_status status = ewa_zip_open(s->source, name->valuestring,
+                                         max_bytes < UINT32_MAX ? (uint32_t)max_bytes : UINT32_MAX, &file);
+        if (status == EWA_OK) status = decode_picture(s, shown, file.bytes, file.size_bytes, picture);
         ewa_zip_close(context, &file);
         return status;
     }
@@ -168,9 +203,7 @@ static ewa_status read_picture(sog *s, const char *member, int index, sog_pictur
     if (!ewa_referenced_file_map(context, s->source->path, (ewa_text){name->valuestring, strlen(name->valuestring)},
                                  &file, reason))
         return ewa_fail(context, EWA_ERROR_IO, "%s: %s", shown, reason);
-    const ewa_status status =
-        ewa_webp_decode_codes(context, shown, file.bytes, file.size_bytes, &picture->width_px,
-                              &picture->height_px, &picture->codes, &picture->code_bytes);
+    const ewa_status status = decode_picture(s, shown, file.bytes, file.size_bytes, picture);
     ewa_file_unmap(context, &file);
     return status;
 }
@@ -252,6 +285,9 @@ static void decode(void *data, uint32_t first, uint32_t end) {
 static ewa_status read_with(sog *s, ewa_gaussian_facts *facts) {
     EWA_TRY(read_meta(s));
     EWA_TRY(read_pictures(s));
+    EWA_TRY(ewa_memory_check_unpacked(s->source->context, s->packed_bytes, EWA_UNPACKED_RATIO,
+                                      s->count * sizeof(float) * (11 + 3 * ewa_sh_count(s->bands)), "%s: %llu Gaussians",
+                                      s->source->name, (unsigned long long)s->count));
     EWA_TRY(ewa_gaussians_make(s->source, s->count, 0, 0, s->bands, s->set));
     ewa_gaussians_decode(s->source->context, s->set->count, decode, s);
     if (atomic_load(&s->bad_tag))

@@ -3,6 +3,7 @@
 //
 // The containers of SPZ: one gzip stream up to version 3, one zstd stream for each kind of number from version 4
 // on. Sizes are checked against what the header says before anything is made for it.
+#include "base/unpacking.h"
 #include "io/gaussian/spz.h"
 #include "io/source.h"
 
@@ -66,7 +67,9 @@ static ewa_status place_streams(const ewa_gaussian_source *source, const ewa_spz
         return ewa_fail(source->context, EWA_ERROR_FORMAT,
                         "%s: SPZ: %u Gaussians take %llu bytes, which a file of %zu cannot hold",
                         source->name, header->count, (unsigned long long)all, source->size_bytes);
-    EWA_TRY(ewa_memory_check(source->context, all, "%s: SPZ: %u Gaussians of %llu bytes", source->name, header->count, (unsigned long long)each));
+    EWA_TRY(ewa_memory_check_unpacked(source->context, source->size_bytes, EWA_UNPACKED_RATIO, all,
+                                      "%s: SPZ: %u Gaussians of %llu bytes", source->name, header->count,
+                                      (unsigned long long)each));
     *size_bytes = 0;
     for (uint32_t k = 0; k < EWA_SPZ_STREAMS; k++) {
         at[k] = *size_bytes;

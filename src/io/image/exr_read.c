@@ -3,6 +3,7 @@
 //
 // OpenEXR in: chunk by chunk through OpenEXRCore's decoding pipeline.
 #include "base/base.h"
+#include "base/unpacking.h"
 #include "io/image/exr.h"
 
 #include <openexr.h>
@@ -145,7 +146,8 @@ static ewa_status check_header(reader *in) {
     const uint64_t pixel_count = (uint64_t)width * (uint64_t)height;
     in->own_bytes = OWN_CHUNKS * chunk_bytes;
     const uint64_t decoded_bytes = pixel_count * in->channel_count * sizeof(float) + in->own_bytes;
-    EWA_TRY(ewa_memory_check(in->context, decoded_bytes, "%s: OpenEXR of %u x %u pixels", in->name, in->width_px, in->height_px));
+    EWA_TRY(ewa_memory_check_unpacked(in->context, in->size_bytes, EWA_UNPACKED_RATIO, decoded_bytes,
+                                      "%s: OpenEXR of %u x %u pixels", in->name, in->width_px, in->height_px));
     const bool is_dwa = compression == EXR_COMPRESSION_DWAA || compression == EXR_COMPRESSION_DWAB;
     const uint64_t min_stored_bytes = pixel_count * in->channel_count * sizeof(uint16_t);
     if (!is_dwa && min_stored_bytes / MAX_RATIO > in->size_bytes)

@@ -3,6 +3,7 @@
 //
 // JPEG through libjpeg. Its errors leave by longjmp into decode(), which owns no memory of ours.
 #include "base/base.h"
+#include "base/unpacking.h"
 #include "image/srgb.h"
 #include "io/image/jpeg.h"
 
@@ -66,7 +67,8 @@ static ewa_status decode(ewa_context *context, const char *name, const uint8_t *
     const uint64_t numbers = (uint64_t)width * height * (uint64_t)decoder->num_components;
     const uint64_t own_bytes = OWN_BYTES + (jpeg_has_multiple_scans(decoder) ? numbers * sizeof(JCOEF) : 0);
     const uint64_t image_bytes = (uint64_t)width * height * channels * sizeof(float);
-    EWA_TRY(ewa_memory_check(context, own_bytes + image_bytes, "%s: JPEG of %u x %u pixels", name, width, height));
+    EWA_TRY(ewa_memory_check_unpacked(context, size_bytes, EWA_UNPACKED_RATIO, own_bytes + image_bytes,
+                                      "%s: JPEG of %u x %u pixels", name, width, height));
     EWA_TRY(ewa_image_create(context, width, height, channels, image));
     EWA_TRY(ewa_memory_take(context, own_bytes, "%s: JPEG", name));
     reader->own_bytes = own_bytes;

@@ -3,6 +3,7 @@
 //
 // PNG in, by libspng, to linear light.
 #include "base/base.h"
+#include "base/unpacking.h"
 #include "image/srgb.h"
 #include "io/image/png.h"
 
@@ -62,8 +63,8 @@ static ewa_status check_size(reader *in, size_t size_bytes) {
                         in->name, size_bytes, header->width, header->height);
     const uint64_t decoded_bytes =
         pixel_count * (in->channel_count * sizeof(float) + (header->bit_depth == 16 ? 8 : 4));
-    return ewa_memory_check(in->context, decoded_bytes, "%s: PNG of %u x %u pixels", in->name, header->width,
-                            header->height);
+    return ewa_memory_check_unpacked(in->context, size_bytes, EWA_UNPACKED_RATIO, decoded_bytes, "%s: PNG of %u x %u pixels",
+                                     in->name, header->width, header->height);
 }
 
 /// RGBA of 8 bits to the image's channels, linear, and premultiplied unless `straight`.

@@ -16,6 +16,10 @@ bool ewa_webp_recognise(const uint8_t *bytes, size_t size_bytes);
 ewa_status ewa_webp_decode(ewa_context *context, const char *name, const uint8_t *bytes, size_t size_bytes,
                            bool straight, ewa_image *image);
 
+/// Reads the size from the header. Errors: EWA_ERROR_FORMAT, EWA_ERROR_UNSUPPORTED (animations).
+ewa_status ewa_webp_look(ewa_context *context, const char *name, const uint8_t *bytes, size_t size_bytes, uint32_t *width_px,
+                         uint32_t *height_px);
+
 /// Decodes to bytes as they are, red green blue alpha, rows from the top: `*codes` of `*code_bytes` for
 /// ewa_release(). Errors: EWA_ERROR_FORMAT, EWA_ERROR_UNSUPPORTED, EWA_ERROR_LIMIT, EWA_ERROR_MEMORY.
 ewa_status ewa_webp_decode_codes(ewa_context *context, const char *name, const uint8_t *bytes,

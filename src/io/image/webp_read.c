@@ -3,6 +3,7 @@
 //
 // WebP through libwebp, into memory of the context.
 #include "base/base.h"
+#include "base/unpacking.h"
 #include "image/srgb.h"
 #include "io/image/webp.h"
 
@@ -64,7 +65,8 @@ ewa_status ewa_webp_decode(ewa_context *context, const char *name, const uint8_t
     const uint64_t count = (uint64_t)width * height * channels;
     // The library's own is given back before there are floats.
     const uint64_t more = own_bytes(&facts) > count * sizeof(float) ? own_bytes(&facts) : count * sizeof(float);
-    EWA_TRY(ewa_memory_check(context, count + more, "%s: WebP of %u x %u pixels", name, width, height));
+    EWA_TRY(ewa_memory_check_unpacked(context, size_bytes, EWA_UNPACKED_RATIO, count + more, "%s: WebP of %u x %u pixels", name,
+                                      width, height));
     uint8_t *codes = ewa_allocate(context, count, 1);
     if (!codes) return EWA_ERROR_MEMORY;
     ewa_status status = unpack(context, name, bytes, size_bytes, &facts, channels, codes);
@@ -72,6 +74,15 @@ ewa_status ewa_webp_decode(ewa_context *context, const char *name, const uint8_t
     if (status == EWA_OK) convert(codes, straight, image);
     ewa_release(context, codes, count, 1);
     return status;
+}
+
+ewa_status ewa_webp_look(ewa_context *context, const char *name, const uint8_t *bytes, size_t size_bytes, uint32_t *width_px,
+                         uint32_t *height_px) {
+    WebPBitstreamFeatures facts;
+    EWA_TRY(look(context, name, bytes, size_bytes, &facts));
+    *width_px = (uint32_t)facts.width;
+    *height_px = (uint32_t)facts.height;
+    return EWA_OK;
 }
 
 ewa_status ewa_webp_decode_codes(ewa_context *context, const char *name, const uint8_t *bytes,
@@ -82,7 +93,8 @@ ewa_status ewa_webp_decode_codes(ewa_context *context, const char *name, const u
     WebPBitstreamFeatures facts;
     EWA_TRY(look(context, name, bytes, size_bytes, &facts));
     const size_t all_bytes = 4 * (size_t)facts.width * (size_t)facts.height;
-    EWA_TRY(ewa_memory_check(context, all_bytes + own_bytes(&facts), "%s: WebP of %d x %d pixels", name, facts.width, facts.height));
+    EWA_TRY(ewa_memory_check_unpacked(context, size_bytes, EWA_UNPACKED_RATIO, all_bytes + own_bytes(&facts),
+                                      "%s: WebP of %d x %d pixels", name, facts.width, facts.height));
     uint8_t *made = ewa_allocate(context, all_bytes, 1);
     if (!made) return EWA_ERROR_MEMORY;
     ewa_status status = unpack(context, name, bytes, size_bytes, &facts, 4, made);

@@ -6,6 +6,7 @@
 // Based on: A. Kapoulkine, D. McCurdy, "EXT_meshopt_compression", 2020, and its draft of Khronos with the same name for
 // its members.
 #include "base/base.h"
+#include "base/unpacking.h"
 #include "io/mesh/gltf.h"
 
 #include <meshoptimizer.h>
@@ -74,8 +75,8 @@ ewa_status ewa_gltf_unpack_view(gltf *g, uint64_t index, const cJSON *packed, co
     const char *problem = find_problem(&view);
     if (problem) return ewa_gltf_fail(g, "bufferViews", index, problem);
     const uint64_t all = view.count * view.stride;
-    EWA_TRY(ewa_memory_check(g->build->context, all, "%s: bufferViews[%llu] unpacked", g->build->source->name,
-                             (unsigned long long)index));
+    EWA_TRY(ewa_memory_check_unpacked(g->build->context, size_bytes, EWA_UNPACKED_RATIO, all, "%s: bufferViews[%llu] unpacked",
+                                      g->build->source->name, (unsigned long long)index));
     unpacked->decoded = ewa_allocate(g->build->context, (size_t)view.count, (size_t)view.stride);
     if (!unpacked->decoded) return EWA_ERROR_MEMORY;
     unpacked->decoded_room = (size_t)all;

@@ -4,6 +4,7 @@
 // Pictures of meshes: each is read once, whatever number of materials has it; one that is missing or broken
 // is a warning, and the mesh comes without.
 #include "base/base.h"
+#include "base/unpacking.h"
 #include "io/image/image_file.h"
 #include "io/mesh/build.h"
 #include "io/referenced_file.h"
@@ -80,13 +81,18 @@ static ewa_status decode(ewa_mesh_build *build, const uint8_t *bytes, size_t siz
     const ewa_mesh_alpha alpha = entry->alpha;
     const ewa_text name = {entry->name, entry->name_bytes};
     char label[512], quote[EWA_QUOTE_BYTES];
+    build->packed_picture_bytes += size_bytes;
     snprintf(label, sizeof label, "%.400s: picture %s", build->source->name, ewa_quote(name, quote));
     ewa_failures_soften(build->context, true);
-    const ewa_status status = ewa_image_decode(build->context, bytes, size_bytes, label,
-                                               alpha != EWA_MESH_ALPHA_KEEP, &entry->image);
+    // Many small pictures are bounded as one is, by those before them.
+    ewa_status status =
+        ewa_memory_check_unpacked(build->context, build->packed_picture_bytes, EWA_UNPACKED_RATIO, build->picture_bytes, "%s", label);
+    if (status == EWA_OK)
+        status = ewa_image_decode(build->context, bytes, size_bytes, label, alpha != EWA_MESH_ALPHA_KEEP, &entry->image);
     ewa_failures_soften(build->context, false);
     if (status == EWA_ERROR_MEMORY) return status;
     const uint32_t channels = entry->image.channel_count;
+    build->picture_bytes += (uint64_t)entry->image.width_px * entry->image.height_px * channels * sizeof(float);
     if (status != EWA_OK || (channels != 1 && channels != 3 && channels != 4)) {
         ewa_image_free(&entry->image);
         ewa_mesh_miss_picture(build, name,
