@@ -438,7 +438,7 @@ static void throw_blocks(void *data, uint32_t part, uint32_t worker) {
 
 static ewa_status throw_all(poisson_job *job) {
     ewa_context *context = job->surface->context;
-    ewa_parallel(context, find_neighbours, job, job->block_count / 256 + 1);
+    EWA_TRY(ewa_parallel_stoppable(context, "sample", find_neighbours, job, job->block_count / 256 + 1));
     EWA_TRY(make_scratch(job));
     job->turn = ewa_allocate(context, job->block_count, sizeof *job->turn);
     if (!job->turn) return EWA_ERROR_MEMORY;
@@ -450,8 +450,7 @@ static ewa_status throw_all(poisson_job *job) {
             if (((at[0] & 1) | (at[1] & 1) << 1 | (at[2] & 1) << 2) == parity)
                 job->turn[job->turn_count++] = b;
         }
-        ewa_parallel(context, throw_blocks, job, (job->turn_count + TASK_BLOCKS - 1) / TASK_BLOCKS);
-        status = ewa_progress(context, "sample", 0.1 * job->which + 0.01 * parity);
+        status = ewa_parallel_stoppable(context, "sample", throw_blocks, job, (job->turn_count + TASK_BLOCKS - 1) / TASK_BLOCKS);
     }
     ewa_release(context, job->turn, job->block_count, sizeof *job->turn);
     job->turn = NULL;
@@ -513,10 +512,10 @@ static ewa_status run(poisson_job *job) {
         if (job->which == CORNERS)
             fill_corners(job, job->thrown);
         else if (job->which == ROWS)
-            ewa_parallel(context, fill_rows, job, job->surface->edge_count / 64 + 1);
+            status = ewa_parallel_stoppable(context, "sample", fill_rows, job, job->surface->edge_count / 64 + 1);
         else
-            ewa_parallel(context, fill_inside, job, inner_parts(job));
-        status = sort_candidates(job);
+            status = ewa_parallel_stoppable(context, "sample", fill_inside, job, inner_parts(job));
+        if (status == EWA_OK) status = sort_candidates(job);
         if (status == EWA_OK) status = throw_all(job);
     }
     return status;

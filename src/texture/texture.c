@@ -93,11 +93,10 @@ static ewa_status draw_all(ewa_texture_plan *plan, texture_job *job, ewa_texture
     const uint32_t tile_count = ewa_tiles_count(&job->tiles);
     const uint32_t worker_count = ewa_context_worker_count(plan->context);
     const ewa_texture_method method = plan->options.method;
-    EWA_TRY(ewa_progress(plan->context, "texture", 0));
     ewa_status status = EWA_OK;
     if (method == EWA_TEXTURE_HYBRID || method == EWA_TEXTURE_POINT) {
         const double started_s = ewa_now_s();
-        ewa_parallel(plan->context, measure_tile, job, tile_count);
+        EWA_TRY(ewa_parallel_stoppable(plan->context, "levels", measure_tile, job, tile_count));
         uint8_t *wanted = job->workspaces[0].wanted;
         double spared = 0;
         for (uint32_t k = 0; k < worker_count; k++) {
@@ -110,9 +109,8 @@ static ewa_status draw_all(ewa_texture_plan *plan, texture_job *job, ewa_texture
         if (!plan->flat) status = ewa_texture_levels_make(plan, wanted, stats);
         stats->levels_s = ewa_now_s() - started_s;
     }
-    if (status == EWA_OK) status = ewa_progress(plan->context, "texture", 0.3);
     EWA_TRY(status);
-    ewa_parallel(plan->context, draw_tile, job, tile_count);
+    EWA_TRY(ewa_parallel_stoppable(plan->context, "texture", draw_tile, job, tile_count));
     for (uint32_t k = 0; k < worker_count; k++) {
         const ewa_texture_counts *counts = &job->workspaces[k].brush.counts;
         stats->splat_count += counts->splat_count;
@@ -120,7 +118,7 @@ static ewa_status draw_all(ewa_texture_plan *plan, texture_job *job, ewa_texture
         stats->texel_count += counts->texel_count;
         stats->point_texel_count += counts->point_texel_count;
     }
-    return ewa_progress(plan->context, "texture", 1);
+    return EWA_OK;
 }
 
 ewa_status ewa_texture_map(ewa_context *context, const ewa_texture_source *source, const ewa_mat3 *map,

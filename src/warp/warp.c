@@ -391,11 +391,11 @@ ewa_status ewa_warp_take(ewa_warp *warp, const ewa_depth_image *images, uint32_t
         status = lay_out(warp, images, count, &chosen, &group_count, &widest_px, origin_world);
     taking t = {.warp = warp, .kernels = EWA_CHOOSE(ewa_context_cpu_features(context), ewa_warp_kernels)};
     if (status == EWA_OK) status = reserve(&t, group_count, widest_px, &chosen);
+    if (status == EWA_OK) status = ewa_parallel_stoppable(context, "warp", take_strip, &t, warp->strip_count);
     if (status != EWA_OK) {
         warp->source_count = 0;
         return status;
     }
-    ewa_parallel(context, take_strip, &t, warp->strip_count);
     ewa_surfels *surfels = &warp->grid.surfels;
     ewa_warp_facts all = {.pixel_count = 0};
     for (uint32_t i = 0; i < count; i++)
@@ -467,8 +467,7 @@ static ewa_status draw_with_holes(ewa_warp *warp, const ewa_camera *target, cons
     memset(over_nothing.background, 0, sizeof over_nothing.background);
     if (f.background[3] > 0) drawn.rgba8 = NULL;
     EWA_TRY(ewa_render(warp->renderer, &warp->grid.surfels, target, &over_nothing, &drawn, stats));
-    ewa_parallel(warp->context, finish_part, &f, FINISH_PARTS);
-    return EWA_OK;
+    return ewa_parallel_stoppable(warp->context, "warp", finish_part, &f, FINISH_PARTS);
 }
 
 ewa_status ewa_warp_draw(ewa_warp *warp, const ewa_camera *target, ewa_warp_method method,

@@ -230,14 +230,13 @@ ewa_status ewa_warp_draw_nearest(ewa_warp *warp, const ewa_camera *target, const
     const uint32_t tasks = (target->height_px + ROWS_PER_TASK - 1) / ROWS_PER_TASK;
     for (uint32_t i = 0; i < warp->source_count; i++) {
         d.source = &warp->sources[i];
-        ewa_parallel(context, project_strip, &d, d.source->strip_count);
+        EWA_TRY(ewa_parallel_stoppable(context, "warp", project_strip, &d, d.source->strip_count));
         uint32_t *winners = i == 0 ? d.winners : n->layer_buffer.data;
         memset(winners, 0, pixel_count * sizeof *winners);
         write_in_order(&d, winners);
-        if (i > 0) ewa_parallel(context, merge_rows, &d, tasks);
+        if (i > 0) EWA_TRY(ewa_parallel_stoppable(context, "warp", merge_rows, &d, tasks));
     }
-    ewa_parallel(context, resolve_rows, &d, tasks);
-    return EWA_OK;
+    return ewa_parallel_stoppable(context, "warp", resolve_rows, &d, tasks);
 }
 
 void ewa_warp_nearest_free(ewa_context *context, ewa_warp_nearest *nearest) {

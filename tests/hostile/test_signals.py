@@ -11,7 +11,7 @@ import struct
 import time
 import zlib
 
-from hostile import Failed, check, done, finish, listing, main, start
+from hostile import PROGRAM, Failed, check, done, finish, listing, main, start
 
 # What is promised is 0.3 s. A machine that has other things to do takes longer to run what is asked, so that only a quiet one
 # is held to it.
@@ -24,13 +24,16 @@ OLD = b"what was there before\n"
 longest = {}
 
 
+WINDOWLESS = {"SDL_VIDEODRIVER": "dummy"}  # a window that nobody sees
+
+
 def interrupt(words, output, delay_s, number=signal.SIGTERM):
     """Sends one signal after a delay and holds the command to what is promised; false when it was faster than that."""
     if output:
         with open(output, "wb") as file:
             file.write(OLD)
     before = listing(".")
-    process = start(words)
+    process = start(words, env=WINDOWLESS)
     time.sleep(delay_s)
     os.kill(process.pid, number)
     sent = time.monotonic()
@@ -118,13 +121,17 @@ COMMANDS = [
       "-o", "out.png"], "out.png"),
     (["bench", "--scene", "plane"], None),
 ]
+# Where the program was built with a window.
+VIEW = (["view", "bare.ply"], None)
 
 
 def every_command():
     inputs()
     chance = random.Random(SEED)
     wrong = []
-    for words, output in COMMANDS:
+    places = ("ewa-view", "../viewer/sdl/ewa-view")
+    has_window = any(os.path.exists(os.path.join(os.path.dirname(PROGRAM), place)) for place in places)
+    for words, output in COMMANDS + [VIEW] * has_window:
         for _ in range(ROUNDS):
             delay_s = chance.uniform(0.05, 0.8)
             try:

@@ -379,6 +379,41 @@ static void test_failing_allocations(void **state) {
     scratch_fail_each(work, &plane.image);
 }
 
+static bool stop_at(void *user, const char *stage, double fraction) {
+    (void)stage;
+    (void)fraction;
+    return (*(int *)user)-- > 0;
+}
+
+/// Whoever says no at any time, while images are taken, too, is heard, and nothing is left.
+static void test_every_stop_is_clean(void **state) {
+    plane_set(&plane, 2);
+    ewa_status status = EWA_CANCELLED;
+    int stops = 0;
+    for (; status != EWA_OK; stops++) {
+        int left = stops;
+        check_memory memory = {.calls_left = -1};
+        ewa_context_options options;
+        ewa_context_options_init(&options, sizeof options);
+        options.allocator = check_allocator(&memory);
+        options.progress = stop_at;
+        options.progress_user = &left;
+        ewa_context *context = NULL;
+        assert_int_equal(ewa_context_create(&options, &context), EWA_OK);
+        status = work(context, &plane.image);
+        if (status != EWA_OK) assert_int_equal(status, EWA_CANCELLED);
+        if (stops == 0) {
+            ewa_warp *warp = NULL;
+            assert_int_equal(ewa_warp_create(context, &warp), EWA_OK);
+            assert_int_equal(ewa_warp_take(warp, &plane.image, 1, NULL, NULL), EWA_CANCELLED);
+            ewa_warp_destroy(&warp);
+        }
+        ewa_context_destroy(&context);
+        assert_int_equal(memory.held_bytes, 0);
+    }
+    assert_true(stops > 10);
+}
+
 /// Nothing is allocated from the second frame on.
 static void test_warm(void **state) {
     check_memory memory = {.calls_left = -1};
@@ -405,6 +440,7 @@ int main(void) {
         cmocka_unit_test(test_creases),       cmocka_unit_test(test_coverage_of_planes),
         cmocka_unit_test(test_layouts),       cmocka_unit_test(test_bad_images),
         cmocka_unit_test(test_bad_options),   cmocka_unit_test(test_failing_allocations),
+        cmocka_unit_test(test_every_stop_is_clean),
         cmocka_unit_test(test_warm),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
