@@ -178,7 +178,7 @@ def has(what):
 
 def run_section(section, program, python, work, quick):
     """Runs the blocks of an item; returns whether all of them could be run."""
-    environment = dict(os.environ, EWA_PYTHON=python, EWA_PROGRAM=str(program), EWA_TOOLS=str(ROOT / "tools"),
+    environment = dict(os.environ, EWA_PYTHON=python, EWA_PROGRAM=str(program), EWA_TOOLS=str(ROOT / "tools"), EWA_PAGES=str(ROOT / "docs" / "papers"),
                        EWA_MEASURE=str(program.parent.parent / "measure"),
                        EWA_LIBRARY=str(program.parent.parent / "libewa.so"),
                        PYTHONPATH=str(ROOT / "python"), PYTHONDONTWRITEBYTECODE="1")
