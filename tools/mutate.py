@@ -37,7 +37,7 @@ GOAL = 0.95
 
 # Tables, files of one instruction set, and what only reports or allocates say nothing about the pictures.
 LEFT_OUT = re.compile(
-    r"_table\.c$|kernels/pixels|colormap\.h|_presets\.c$|_avx2\.|_avx512\.|wide_portable\.h$|base/|options\.[ch]$")
+    r"_table\.c$|kernels/pixels|colormap\.h|_presets\.c$|_avx2\.|_avx512\.|_neon\.|wide_(portable|fused)\.h$|base/|options\.[ch]$")
 QUIET_LINES = re.compile(
     r"ewa_fail|ewa_report|ewa_volume_fail|fail_|broken\(|ewa_progress|ewa_allocate|ewa_release|sizeof|snprintf|printf|"
     r"struct_size|static_assert|capacity|reserve|prefetch|stats|_s [+-]?=|^\s*#\s*(if|else|end|include)|"

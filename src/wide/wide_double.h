@@ -68,29 +68,66 @@ static inline wf wf_from_d(wd a) {
 
 #undef EACH_PART
 
+#elif defined(WIDE_NEON)
+
+typedef struct wd {
+    float64x2_t part[8];
+} wd;
+
+#define EACH_PART(expression)                                                                                \
+    wd result;                                                                                               \
+    for (int i = 0; i < 8; i++) result.part[i] = (expression);                                               \
+    return result
+
+static inline wd wd_set(double a) { EACH_PART(vdupq_n_f64(a)); }
+static inline wd wd_load(const double *p) { EACH_PART(vld1q_f64(p + 2 * i)); }
+static inline void wd_store(double *p, wd a) {
+    for (int i = 0; i < 8; i++) vst1q_f64(p + 2 * i, a.part[i]);
+}
+static inline wd wd_add(wd a, wd b) { EACH_PART(vaddq_f64(a.part[i], b.part[i])); }
+static inline wd wd_sub(wd a, wd b) { EACH_PART(vsubq_f64(a.part[i], b.part[i])); }
+static inline wd wd_fma(wd a, wd b, wd c) { EACH_PART(vfmaq_f64(c.part[i], a.part[i], b.part[i])); }
+static inline wd wd_fnma(wd a, wd b, wd c) { EACH_PART(vfmsq_f64(c.part[i], a.part[i], b.part[i])); }
+static inline wd wd_from_f(wf a) {
+    EACH_PART(i % 2 ? vcvt_high_f64_f32(a.q[i / 2]) : vcvt_f64_f32(vget_low_f32(a.q[i / 2])));
+}
+static inline wf wf_from_d(wd a) {
+    wf result;
+    for (int i = 0; i < 4; i++) result.q[i] = vcvt_high_f32_f64(vcvt_f32_f64(a.part[2 * i]), a.part[2 * i + 1]);
+    return result;
+}
+
+#undef EACH_PART
+
 #else
 
-typedef double wd __attribute__((vector_size(128)));
+typedef struct wd {
+    double lane[16];
+} wd;
 
-#define EACH_LANE(type, expression)                                                                          \
-    type result;                                                                                             \
-    for (int i = 0; i < 16; i++) result[i] = (expression);                                                   \
+#define EACH_LANE(expression)                                                                                \
+    wd result;                                                                                               \
+    for (int i = 0; i < 16; i++) result.lane[i] = (expression);                                              \
     return result
 #define CALLED static __attribute__((noinline, unused))
 
-CALLED wd wd_set(double a) { EACH_LANE(wd, a); }
+CALLED wd wd_set(double a) { EACH_LANE(a); }
 static inline wd wd_load(const double *p) {
     wd result;
     memcpy(&result, p, sizeof result);
     return result;
 }
 static inline void wd_store(double *p, wd a) { memcpy(p, &a, sizeof a); }
-static inline wd wd_add(wd a, wd b) { return a + b; }
-static inline wd wd_sub(wd a, wd b) { return a - b; }
-CALLED wd wd_fma(wd a, wd b, wd c) { EACH_LANE(wd, fma(a[i], b[i], c[i])); }
-CALLED wd wd_fnma(wd a, wd b, wd c) { EACH_LANE(wd, fma(-a[i], b[i], c[i])); }
-CALLED wd wd_from_f(wf a) { EACH_LANE(wd, (double)a[i]); }
-CALLED wf wf_from_d(wd a) { EACH_LANE(wf, (float)a[i]); }
+static inline wd wd_add(wd a, wd b) { EACH_LANE(a.lane[i] + b.lane[i]); }
+static inline wd wd_sub(wd a, wd b) { EACH_LANE(a.lane[i] - b.lane[i]); }
+CALLED wd wd_fma(wd a, wd b, wd c) { EACH_LANE(fma(a.lane[i], b.lane[i], c.lane[i])); }
+CALLED wd wd_fnma(wd a, wd b, wd c) { EACH_LANE(fma(-a.lane[i], b.lane[i], c.lane[i])); }
+CALLED wd wd_from_f(wf a) { EACH_LANE((double)a.q[i >> 2][i & 3]); }
+CALLED wf wf_from_d(wd a) {
+    wf result;
+    for (int i = 0; i < 16; i++) result.q[i >> 2][i & 3] = (float)a.lane[i];
+    return result;
+}
 
 #undef CALLED
 #undef EACH_LANE

@@ -1,11 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Sixteen lanes of float, int and mask in C with the vector types of GCC and Clang, which become whatever
-// vectors there are (NEON on 64-bit Arm, SSE2 on any x86-64). See wide.h for what each operation means.
+// Sixteen lanes of float, int and mask as four vectors of GCC and Clang, which become whatever vectors there are (SSE2 on
+// any x86-64). See wide.h for what each operation means.
 //
-// Without a fused multiply-add in the base instruction set every lane is a call of fmaf(): those operations
-// are functions then.
+// Without a fused multiply-add in the base instruction set (wide_fused.h) what takes many instructions is a function.
 #include <math.h>
 #include <string.h>
 
@@ -13,10 +12,19 @@
 #define ALWAYS_INLINE inline
 #define UNROLL_COLUMNS
 
-typedef float wf __attribute__((vector_size(64)));
-typedef int32_t wi __attribute__((vector_size(64)));
-typedef int32_t wm __attribute__((vector_size(64)));  // -1 or 0
-typedef uint32_t wu __attribute__((vector_size(64))); // for what wraps
+typedef float w4f __attribute__((vector_size(16)));
+typedef int32_t w4i __attribute__((vector_size(16)));
+typedef uint32_t w4u __attribute__((vector_size(16))); // for what wraps
+
+typedef struct wf {
+    w4f q[4];
+} wf;
+typedef struct wi {
+    w4i q[4];
+} wi;
+typedef struct wm {
+    w4i q[4]; // -1 or 0
+} wm;
 
 /// Sixteens that go through a long chain of steps at once: the registers hold one.
 enum { WIDE_TOGETHER = 1 };
@@ -27,38 +35,80 @@ enum { WIDE_TOGETHER = 1 };
 #define FUSED static __attribute__((noinline, unused))
 #endif
 
-#define EACH(type, expression)                                                                               \
+#define QUARTER(i, expression)                                                                               \
+    {                                                                                                        \
+        enum { n = i };                                                                                      \
+        result.q[i] = (expression);                                                                          \
+    }
+/// A value of the type whose quarters are `expression` of n = 0 .. 3.
+#define QUARTERS(type, expression)                                                                           \
     type result;                                                                                             \
-    for (int i = 0; i < 16; i++) result[i] = (expression);                                                   \
+    QUARTER(0, expression)                                                                                   \
+    QUARTER(1, expression)                                                                                   \
+    QUARTER(2, expression)                                                                                   \
+    QUARTER(3, expression)                                                                                   \
     return result
+/// Likewise of lanes, of i = 0 .. 15, by a plain array: compilers make vectors of such a loop where there is an instruction.
+#define LANES(type, number, expression)                                                                      \
+    number lane[16];                                                                                         \
+    for (int i = 0; i < 16; i++) lane[i] = (expression);                                                     \
+    type result;                                                                                             \
+    memcpy(&result, lane, sizeof result);                                                                    \
+    return result
+/// Lane i.
+#define LANE(a, i) (a).q[(i) >> 2][(i)&3]
 
-static inline wf wf_set(float a) { return (wf){a, a, a, a, a, a, a, a, a, a, a, a, a, a, a, a}; }
-static inline wf wf_load(const float *p) {
-    wf result;
+static inline w4f w4f_load(const float *p) {
+    w4f result;
     memcpy(&result, p, sizeof result);
     return result;
 }
-static inline void wf_store(float *p, wf a) { memcpy(p, &a, sizeof a); }
-static inline wf wf_of_bits(wi a) { return (wf)a; }
-static inline wi wi_of_bits(wf a) { return (wi)a; }
-static inline wf wf_add(wf a, wf b) { return a + b; }
-static inline wf wf_sub(wf a, wf b) { return a - b; }
-static inline wf wf_mul(wf a, wf b) { return a * b; }
-static inline wf wf_div(wf a, wf b) { return a / b; }
-static inline wm wf_lt(wf a, wf b) { return a < b; }
-static inline wm wf_le(wf a, wf b) { return a <= b; }
-static inline wf wf_select(wm m, wf a, wf b) { return (wf)((m & (wi)a) | (~m & (wi)b)); }
-static inline wf wf_keep(wm m, wf a) { return (wf)(m & (wi)a); }
-static inline wf wf_min(wf a, wf b) { return wf_select(a < b, a, b); }
-static inline wf wf_max(wf a, wf b) { return wf_select(a > b, a, b); }
-static inline wf wf_from_i(wi a) { return __builtin_convertvector(a, wf); }
-static inline wi wi_from_f(wf a) { return __builtin_convertvector(a, wi); }
-FUSED wf wf_fma(wf a, wf b, wf c) { EACH(wf, fmaf(a[i], b[i], c[i])); }
-FUSED wf wf_fnma(wf a, wf b, wf c) { EACH(wf, fmaf(-a[i], b[i], c[i])); }
-FUSED wf wf_floor(wf a) { EACH(wf, floorf(a[i])); }
+static inline w4f w4f_select(w4i m, w4f a, w4f b) { return (w4f)((m & (w4i)a) | (~m & (w4i)b)); }
+static inline w4i w4i_select(w4i m, w4i a, w4i b) { return (m & a) | (~m & b); }
 
-static inline wi wi_set(int32_t a) { return (wi){a, a, a, a, a, a, a, a, a, a, a, a, a, a, a, a}; }
-static inline wf wf_abs(wf a) { return (wf)((wi)a & wi_set(0x7fffffff)); }
+static inline wf wf_set(float a) { QUARTERS(wf, ((w4f){a, a, a, a})); }
+static inline wf wf_load(const float *p) { QUARTERS(wf, w4f_load(p + 4 * n)); }
+static inline void wf_store(float *p, wf a) { memcpy(p, &a, sizeof a); }
+static inline wf wf_of_bits(wi a) { QUARTERS(wf, (w4f)a.q[n]); }
+static inline wi wi_of_bits(wf a) { QUARTERS(wi, (w4i)a.q[n]); }
+static inline wf wf_add(wf a, wf b) { QUARTERS(wf, a.q[n] + b.q[n]); }
+static inline wf wf_sub(wf a, wf b) { QUARTERS(wf, a.q[n] - b.q[n]); }
+static inline wf wf_mul(wf a, wf b) { QUARTERS(wf, a.q[n] * b.q[n]); }
+static inline wf wf_div(wf a, wf b) { QUARTERS(wf, a.q[n] / b.q[n]); }
+static inline wm wf_lt(wf a, wf b) { QUARTERS(wm, a.q[n] < b.q[n]); }
+static inline wm wf_le(wf a, wf b) { QUARTERS(wm, a.q[n] <= b.q[n]); }
+static inline wf wf_select(wm m, wf a, wf b) { QUARTERS(wf, w4f_select(m.q[n], a.q[n], b.q[n])); }
+static inline wf wf_keep(wm m, wf a) { QUARTERS(wf, (w4f)(m.q[n] & (w4i)a.q[n])); }
+static inline wf wf_min(wf a, wf b) { QUARTERS(wf, w4f_select(a.q[n] < b.q[n], a.q[n], b.q[n])); }
+static inline wf wf_max(wf a, wf b) { QUARTERS(wf, w4f_select(a.q[n] > b.q[n], a.q[n], b.q[n])); }
+static inline wf wf_abs(wf a) { QUARTERS(wf, (w4f)((w4i)a.q[n] & 0x7fffffff)); }
+static inline wf wf_from_i(wi a) { QUARTERS(wf, __builtin_convertvector(a.q[n], w4f)); }
+static inline wi wi_from_f(wf a) { QUARTERS(wi, __builtin_convertvector(a.q[n], w4i)); }
+#if defined(__FP_FAST_FMAF)
+FUSED wf wf_fma(wf a, wf b, wf c) {
+    float x[16], y[16], z[16];
+    wf_store(x, a), wf_store(y, b), wf_store(z, c);
+    LANES(wf, float, fmaf(x[i], y[i], z[i]));
+}
+FUSED wf wf_floor(wf a) { LANES(wf, float, floorf(LANE(a, i))); }
+#else
+#include "wide/wide_fused.h"
+
+/// From 2^23 on floats are whole numbers. A floor of 0 keeps its sign.
+static inline w4f w4f_floor(w4f a) {
+    const w4i sign = (w4i)a & INT32_MIN, bits = (w4i)a & 0x7fffffff, fraction = bits < 0x4b000000;
+    const w4f cut = __builtin_convertvector(__builtin_convertvector((w4f)((w4i)a & fraction), w4i), w4f);
+    const w4f down = cut - (w4f)((cut > a) & (w4i)(w4f){1, 1, 1, 1});
+    return w4f_select(fraction, (w4f)((w4i)down | sign), a);
+}
+static inline wf wf_floor(wf a) { QUARTERS(wf, w4f_floor(a.q[n])); }
+#endif
+static inline wf wf_fnma(wf a, wf b, wf c) {
+    for (int i = 0; i < 4; i++) a.q[i] = -a.q[i];
+    return wf_fma(a, b, c);
+}
+
+static inline wi wi_set(int32_t a) { QUARTERS(wi, ((w4i){a, a, a, a})); }
 static inline wi wi_load(const int32_t *p) {
     wi result;
     memcpy(&result, p, sizeof result);
@@ -66,62 +116,61 @@ static inline wi wi_load(const int32_t *p) {
 }
 static inline void wi_store(int32_t *p, wi a) { memcpy(p, &a, sizeof a); }
 static inline void wi_store_u8(uint8_t *p, wi a) {
-    for (int i = 0; i < 16; i++) p[i] = (uint8_t)a[i];
+    for (int i = 0; i < 16; i++) p[i] = (uint8_t)LANE(a, i);
 }
-FUSED wi wi_load_u16(const uint16_t *p) { EACH(wi, p[i]); }
-FUSED wi wi_load_i16(const int16_t *p) { EACH(wi, p[i]); }
-static inline wi wi_add(wi a, wi b) { return (wi)((wu)a + (wu)b); }
-static inline wi wi_sub(wi a, wi b) { return (wi)((wu)a - (wu)b); }
-static inline wi wi_min(wi a, wi b) { return ((a < b) & a) | (~(a < b) & b); }
-static inline wi wi_max(wi a, wi b) { return ((a > b) & a) | (~(a > b) & b); }
-static inline wi wi_or(wi a, wi b) { return a | b; }
-static inline wi wi_and(wi a, wi b) { return a & b; }
-static inline wi wi_shl(wi a, int n) { return (wi)((wu)a << n); }
-static inline wi wi_sar(wi a, int n) { return a >> n; }
+FUSED wi wi_load_u16(const uint16_t *p) { LANES(wi, int32_t, p[i]); }
+FUSED wi wi_load_i16(const int16_t *p) { LANES(wi, int32_t, p[i]); }
+static inline wi wi_add(wi a, wi b) { QUARTERS(wi, (w4i)((w4u)a.q[n] + (w4u)b.q[n])); }
+static inline wi wi_sub(wi a, wi b) { QUARTERS(wi, (w4i)((w4u)a.q[n] - (w4u)b.q[n])); }
+static inline wi wi_min(wi a, wi b) { QUARTERS(wi, w4i_select(a.q[n] < b.q[n], a.q[n], b.q[n])); }
+static inline wi wi_max(wi a, wi b) { QUARTERS(wi, w4i_select(a.q[n] > b.q[n], a.q[n], b.q[n])); }
+static inline wi wi_or(wi a, wi b) { QUARTERS(wi, a.q[n] | b.q[n]); }
+static inline wi wi_and(wi a, wi b) { QUARTERS(wi, a.q[n] & b.q[n]); }
+static inline wi wi_shl(wi a, int count) { QUARTERS(wi, (w4i)((w4u)a.q[n] << count)); }
+static inline wi wi_sar(wi a, int count) { QUARTERS(wi, a.q[n] >> count); }
 
-static inline wm wm_and(wm a, wm b) { return a & b; }
-static inline wm wm_or(wm a, wm b) { return a | b; }
-static inline wm wm_not(wm a) { return ~a; }
-FUSED uint32_t wm_bits(wm a) {
-    uint32_t bits = 0;
-    for (int i = 0; i < 16; i++) bits |= (uint32_t)(a[i] & 1) << i;
-    return bits;
+static inline wm wm_and(wm a, wm b) { QUARTERS(wm, a.q[n] & b.q[n]); }
+static inline wm wm_or(wm a, wm b) { QUARTERS(wm, a.q[n] | b.q[n]); }
+static inline wm wm_not(wm a) { QUARTERS(wm, ~a.q[n]); }
+static inline uint32_t wm_bits(wm a) {
+    const w4i all = (a.q[0] & (w4i){1, 2, 4, 8}) | (a.q[1] & (w4i){16, 32, 64, 128}) |
+                   (a.q[2] & (w4i){256, 512, 1024, 2048}) | (a.q[3] & (w4i){4096, 8192, 16384, 32768});
+    return (uint32_t)(all[0] | all[1] | all[2] | all[3]);
 }
-FUSED wm wm_of_bits(uint32_t bits) { EACH(wm, -(int32_t)(bits >> i & 1)); }
-FUSED wf wf_sqrt(wf a) { EACH(wf, sqrtf(a[i])); }
+static inline wm wm_of_bits(uint32_t bits) {
+    const int32_t b = (int32_t)bits;
+    QUARTERS(wm, ((w4i){b, b, b, b} & (w4i){1 << 4 * n, 2 << 4 * n, 4 << 4 * n, 8 << 4 * n}) != 0);
+}
+FUSED wf wf_sqrt(wf a) { LANES(wf, float, sqrtf(LANE(a, i))); }
 
 /// p[at] per lane.
-FUSED wf wf_gather(const float *p, wi at) { EACH(wf, p[at[i]]); }
+FUSED wf wf_gather(const float *p, wi at) { LANES(wf, float, p[LANE(at, i)]); }
 
 /// table[index mod 16] per lane.
-FUSED wf wf_lookup(const float table[16], wi index) { EACH(wf, table[index[i] & 15]); }
+FUSED wf wf_lookup(const float table[16], wi index) { LANES(wf, float, table[LANE(index, i) & 15]); }
 
 /// table[index mod 32] per lane.
-FUSED wf wf_lookup32(const float table[32], wi index) { EACH(wf, table[index[i] & 31]); }
+FUSED wf wf_lookup32(const float table[32], wi index) { LANES(wf, float, table[LANE(index, i) & 31]); }
 
 /// Lanes 4 i .. 4 i + 3 from p + i stride numbers.
-static inline wf wf_load_rows(const float *p, size_t stride) {
-    wf result;
-    for (size_t i = 0; i < 4; i++) memcpy((char *)&result + 16 * i, p + i * stride, 16);
-    return result;
-}
+static inline wf wf_load_rows(const float *p, size_t stride) { QUARTERS(wf, w4f_load(p + n * stride)); }
 
 /// Writes lanes 4 i .. 4 i + 3 to out + i stride_bytes.
 static inline void wi_store_rows(uint8_t *out, size_t stride_bytes, wi a) {
-    for (size_t i = 0; i < 4; i++) memcpy(out + i * stride_bytes, (const char *)&a + 16 * i, 16);
+    for (size_t i = 0; i < 4; i++) memcpy(out + i * stride_bytes, &a.q[i], 16);
 }
 
 /// Writes the lanes where m is set one after another; may write 16 numbers.
 FUSED void wf_pack(float *p, wm m, wf a) {
     for (int i = 0; i < 16; i++) {
-        *p = a[i];
-        p -= m[i];
+        *p = LANE(a, i);
+        p -= LANE(m, i);
     }
 }
 FUSED void wi_pack(int32_t *p, wm m, wi a) {
     for (int i = 0; i < 16; i++) {
-        *p = a[i];
-        p -= m[i];
+        *p = LANE(a, i);
+        p -= LANE(m, i);
     }
 }
 
@@ -129,9 +178,9 @@ FUSED void wi_pack(int32_t *p, wm m, wi a) {
 FUSED void w_transpose(wf rows[16]) {
     for (int i = 0; i < 16; i++) {
         for (int j = 0; j < i; j++) {
-            const float swap = rows[i][j];
-            rows[i][j] = rows[j][i];
-            rows[j][i] = swap;
+            const float swap = LANE(rows[i], j);
+            LANE(rows[i], j) = LANE(rows[j], i);
+            LANE(rows[j], i) = swap;
         }
     }
 }
@@ -139,45 +188,45 @@ FUSED void w_transpose(wf rows[16]) {
 /// Writes a, b, c, d lane by lane: out[4 i .. 4 i + 3] = lane i of each.
 FUSED void w_store4(float *out, wf a, wf b, wf c, wf d) {
     for (int i = 0; i < 16; i++, out += 4) {
-        out[0] = a[i];
-        out[1] = b[i];
-        out[2] = c[i];
-        out[3] = d[i];
+        out[0] = LANE(a, i);
+        out[1] = LANE(b, i);
+        out[2] = LANE(c, i);
+        out[3] = LANE(d, i);
     }
 }
 
 /// p[0..3] over and over.
-FUSED wf wf_repeat4(const float *p) { EACH(wf, p[i & 3]); }
+static inline wf wf_repeat4(const float *p) { QUARTERS(wf, w4f_load(p)); }
 
 /// p[0] four times, p[1] four times, p[2], p[3].
-FUSED wf wf_spread4(const float *p) { EACH(wf, p[i >> 2]); }
+static inline wf wf_spread4(const float *p) { QUARTERS(wf, ((w4f){p[n], p[n], p[n], p[n]})); }
 
 /// What w_store4() wrote, from four rows of 16 numbers: lane 4 i + j of out[c] = p[i stride + 4 j + c].
 FUSED void w_load4(const float *p, size_t stride, wf out[4]) {
-    for (size_t c = 0; c < 4; c++)
-        for (size_t i = 0; i < 16; i++) out[c][i] = p[(i >> 2) * stride + 4 * (i & 3) + c];
+    for (int c = 0; c < 4; c++)
+        for (int i = 0; i < 16; i++) LANE(out[c], i) = p[(size_t)(i >> 2) * stride + (size_t)(4 * (i & 3) + c)];
 }
 
 /// Eight lanes, for the numbers of one pixel.
-typedef float w8 __attribute__((vector_size(32)));
+typedef struct w8 {
+    w4f l, h;
+} w8;
 
-static inline w8 w8_set(float a) { return (w8){a, a, a, a, a, a, a, a}; }
-static inline w8 w8_load(const float *p) {
-    w8 result;
-    memcpy(&result, p, sizeof result);
-    return result;
-}
+static inline w8 w8_set(float a) { return (w8){(w4f){a, a, a, a}, (w4f){a, a, a, a}}; }
+static inline w8 w8_load(const float *p) { return (w8){w4f_load(p), w4f_load(p + 4)}; }
 static inline void w8_store(float *p, w8 a) { memcpy(p, &a, sizeof a); }
-FUSED w8 w8_fma(w8 a, w8 b, w8 c) {
-    w8 result;
-    for (int i = 0; i < 8; i++) result[i] = fmaf(a[i], b[i], c[i]);
-    return result;
+static inline w8 w8_fma(w8 a, w8 b, w8 c) {
+    const wf sum = wf_fma((wf){{a.l, a.h}}, (wf){{b.l, b.h}}, (wf){{c.l, c.h}});
+    return (w8){sum.q[0], sum.q[1]};
 }
 
 /// p[0..3], q[0..2], 0; reads q[3].
 static inline w8 w8_join(const float *p, const float *q) {
-    return (w8){p[0], p[1], p[2], p[3], q[0], q[1], q[2], 0};
+    return (w8){w4f_load(p), (w4f){q[0], q[1], q[2], 0}};
 }
 
-#undef EACH
+#undef QUARTER
+#undef QUARTERS
+#undef LANE
+#undef LANES
 #undef FUSED
