@@ -34,7 +34,7 @@ EWA = build/release/cli/ewa
 # $(call quietly,COMMAND): prints what a command said only when it fails.
 quietly = @mkdir -p build && { $(1) >build/log-$@.txt 2>&1 || { cat build/log-$@.txt; exit 1; }; }
 
-.PHONY: interop build program measure setup demo check asan asan-build tsan tsan-build clang clang-build mutate fuzz bench sweep gallery papers docs wheel format install clean
+.PHONY: interop build program measure setup demo check asan asan-build tsan tsan-build clang clang-build mutate fuzz arm64 bench sweep gallery papers docs wheel format install clean
 
 build: setup
 	@echo "Building build/release"
@@ -96,6 +96,19 @@ clang:
 	$(call quietly,cmake --preset clang)
 	$(call quietly,cmake --build build/clang -j $(JOBS))
 	@sh tools/check.sh build/clang
+
+# Another machine: cross-compiled, what holds all instruction sets to each other run under an emulator, and the bytes of
+# twenty jobs compared with this machine's.
+arm64: program
+	@sh tools/setup.sh gcc-aarch64-linux-gnu g++-aarch64-linux-gnu qemu-user-static
+	@sh tools/sysroot.sh arm64 build/sysroot/arm64
+	@echo "Building build/arm64"
+	$(call quietly,cmake --preset arm64)
+	$(call quietly,cmake --build build/arm64 -j $(JOBS) --target ewa parallel_tests)
+	@sh tools/check.sh build/arm64:parallel
+	@sh tools/hash_jobs.sh $(CURDIR)/$(EWA) >build/hashes-here.tsv
+	@sh tools/hash_jobs.sh qemu-aarch64-static -L $(CURDIR)/build/sysroot/arm64 $(CURDIR)/build/arm64/cli/ewa >build/hashes-arm64.tsv
+	diff build/hashes-here.tsv build/hashes-arm64.tsv && echo "20 jobs: the same bytes"
 
 mutate:
 	@sh tools/setup.sh python3

@@ -19,9 +19,12 @@ if(EWA_BUILD_FUZZERS)
 endif()
 set(flags_avx2 ${kernel_level} -mavx2 -mfma)
 set(flags_avx512 ${kernel_level} -mavx512f -mavx512dq -mavx512bw -mavx512vl -mavx2 -mfma)
+set(flags_neon ${kernel_level})
 set(instruction_sets portable)
 if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
   list(APPEND instruction_sets avx2 avx512)
+elseif(CMAKE_SYSTEM_PROCESSOR MATCHES "aarch64|arm64|ARM64")
+  list(APPEND instruction_sets neon)
 endif()
 
 foreach(body cloud/cells cloud/neighbours estimate/local homogeneous/clip_batch surface/pack surface/pipeline texture/texture

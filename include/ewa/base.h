@@ -54,6 +54,7 @@ typedef enum ewa_severity {
 enum {
     EWA_CPU_AVX2 = 1u << 0,   ///< AVX2 with FMA3
     EWA_CPU_AVX512 = 1u << 1, ///< AVX-512 F, DQ, BW, VL
+    EWA_CPU_NEON = 1u << 2,   ///< Advanced SIMD of 64-bit Arm
     EWA_CPU_ALL = 0x7fffffff,
 };
 

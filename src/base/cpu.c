@@ -13,6 +13,8 @@ uint32_t ewa_cpu_detect(void) {
         __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw") &&
         __builtin_cpu_supports("avx512vl"))
         features |= EWA_CPU_AVX512;
+#elif defined(__aarch64__)
+    features |= EWA_CPU_NEON; // part of the base instruction set
 #endif
     return features;
 }

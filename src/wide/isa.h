@@ -14,6 +14,9 @@
 #define EWA_DECLARE_VERSIONS(type, name) extern type name##_portable, name##_avx2, name##_avx512
 #define EWA_CHOOSE(features, name)                                                                           \
     ((features)&EWA_CPU_AVX512 ? &name##_avx512 : (features)&EWA_CPU_AVX2 ? &name##_avx2 : &name##_portable)
+#elif defined(__aarch64__)
+#define EWA_DECLARE_VERSIONS(type, name) extern type name##_portable, name##_neon
+#define EWA_CHOOSE(features, name)       ((features)&EWA_CPU_NEON ? &name##_neon : &name##_portable)
 #else
 #define EWA_DECLARE_VERSIONS(type, name) extern type name##_portable
 #define EWA_CHOOSE(features, name)       ((void)(features), &name##_portable)
@@ -24,6 +27,8 @@
 #define EWA_VERSION(name) name##_avx512
 #elif defined(WIDE_AVX2)
 #define EWA_VERSION(name) name##_avx2
+#elif defined(WIDE_NEON)
+#define EWA_VERSION(name) name##_neon
 #elif defined(WIDE_PORTABLE)
 #define EWA_VERSION(name) name##_portable
 #endif

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// The wide type: sixteen lanes, written three times, so that a kernel's body is written once.
+// The wide type: sixteen lanes, written four times, so that a kernel's body is written once.
 //
-// A file that includes this defines WIDE_AVX512, WIDE_AVX2 or WIDE_PORTABLE first. Every operation is exact
+// A file that includes this defines WIDE_AVX512, WIDE_AVX2, WIDE_NEON or WIDE_PORTABLE first. Every operation is exact
 // or correctly rounded, so that each version gives the same bytes: fma(a, b, c) = a b + c and fnma = c - a b
 // round once; min(a, b) is a < b ? a : b and max is a > b ? a : b, so that a NaN on either side gives b;
 // comparisons with a NaN are false; wi_from_f truncates and is only for values within int32, wi_store_u8 for
@@ -22,10 +22,12 @@
 #elif defined(WIDE_AVX2)
 #include "wide/wide_avx2.h"
 #include "wide/wide_eight.h"
+#elif defined(WIDE_NEON)
+#include "wide/wide_neon.h"
 #elif defined(WIDE_PORTABLE)
 #include "wide/wide_portable.h"
 #else
-#error "define WIDE_AVX512, WIDE_AVX2 or WIDE_PORTABLE"
+#error "define WIDE_AVX512, WIDE_AVX2, WIDE_NEON or WIDE_PORTABLE"
 #endif
 
 #endif
