@@ -389,7 +389,7 @@ static void test_probe(void **state) {
                          EWA_ERROR_UNSUPPORTED);
         mesh_says(&messages,
                   "a.txt: no file of points or triangles of a known format (PLY, LAS, LAZ, E57, PCD, "
-                  "PTX, PTS, XYZ, CSV, ASCII grids, OBJ, STL, OFF, glTF)");
+                  "PTX, PTS, XYZ, CSV, ASCII grids, GeoTIFF, OBJ, STL, OFF, glTF, VTK)");
     }
     ewa_model model;
     assert_int_equal(ewa_model_load_memory(context, "", 0, "a.obj", NULL, EWA_MODEL_MESH, NULL, &model),
