@@ -236,10 +236,12 @@ static ewa_status grow_blocks(poisson_job *job) {
 
 /// Finds the block of every candidate of the present throw, making new ones, and sorts them into the pool.
 static ewa_status sort_candidates(poisson_job *job) {
+    enum { STEP = 1 << 19 }; // after which the progress callback is asked
     const uint64_t count = job->throw_count[job->which];
     int32_t last_at[3] = {-1, -1, -1};
     uint32_t last = NONE;
     for (uint64_t i = 0; i < count; i++) {
+        if (i % STEP == 0) EWA_TRY(ewa_progress(job->surface->context, "sample", (double)i / (double)count));
         int64_t cell[3];
         cell_of(job, &job->thrown[i], cell);
         const int32_t at[3] = {(int32_t)(cell[0] / BLOCK_CELLS), (int32_t)(cell[1] / BLOCK_CELLS),
@@ -266,8 +268,10 @@ static ewa_status sort_candidates(poisson_job *job) {
         job->blocks[b].first[job->which] = first;
         first += job->blocks[b].candidates[job->which];
     }
-    for (uint64_t i = 0; i < count; i++)
+    for (uint64_t i = 0; i < count; i++) {
+        if (i % STEP == 0) EWA_TRY(ewa_progress(job->surface->context, "sample", (double)i / (double)count));
         job->pool[job->blocks[job->block_of[i]].first[job->which]++] = job->thrown[i];
+    }
     for (uint32_t b = 0; b < job->block_count; b++)
         job->blocks[b].first[job->which] -= job->blocks[b].candidates[job->which];
     return EWA_OK;
