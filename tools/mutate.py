@@ -97,7 +97,7 @@ NEAR = [
     ("src/colors/gradient", ["procedure", "acquire", "refit"]), ("src/colors/pattern", ["procedure", "acquire"]), ("src/colors/procedure", ["procedure"]),
     ("src/colors/refit", ["refit", "sparse"]), ("src/colors/sparse", ["sparse", "acquire", "refit"]),
     ("src/generate/volume_outline", ["generate_volume", "cli_volume"]),
-    ("src/estimate", ["local", "estimate", "orient", "features", "feature_quality", "holes", "radii"]),
+    ("src/estimate", ["local", "estimate", "orient", "features", "feature_quality", "holes", "radii", "outline"]),
     ("src/texture", ["texture_kernels", "texture", "texture_maps", "cli_texture"]),
     ("src/warp", ["warp_kernels", "warp", "warp_nearest", "warp_pictures", "cli_warp"]),
     ("src/scene/coloring", ["coloring", "scene", "cli_filter"]),

@@ -26,6 +26,8 @@ extern "C" {
 /// | clip0, clip1 |          3 | clip line (a, b, c): keep a u + b v + c >= 0 at                           |
 /// |              |            | position + u tangent_u + v tangent_v                                      |
 /// | clip_mode    |          1 | 0: both lines hold, 1: either holds                                       |
+/// | border       |          3 | of discs: vector b from the position to where the surface ends, world     |
+/// |              |            | units: of the disc, x with (x - position).b <= b.b are kept; 0: all       |
 ///
 /// Readers of scans give these names, with one component each, to what the formats have in common: intensity,
 /// return_number, number_of_returns, scan_direction_flag, edge_of_flight_line, classification, synthetic,
@@ -43,6 +45,7 @@ extern "C" {
 #define EWA_CLIP0     "clip0"
 #define EWA_CLIP1     "clip1"
 #define EWA_CLIP_MODE "clip_mode"
+#define EWA_BORDER    "border"
 
 enum { EWA_NAME_BYTES = 64 };
 

@@ -28,8 +28,8 @@ extern "C" {
 ///   - nx ny nz or normal_x normal_y normal_z: "normal", F32;
 ///   - red green blue [alpha], or diffuse_red ..., or r g b [a]: "color"; U16 from ushort, F32 from float
 ///     and double, U8 from every other integer type, clamped to [0, 255];
-///   - radius, tu_x tu_y tu_z, tv_x tv_y tv_z, clip0_a clip0_b clip0_c, clip1_a clip1_b clip1_c: "radius",
-///     "tangent_u", "tangent_v", "clip0", "clip1", F32;
+///   - radius, tu_x tu_y tu_z, tv_x tv_y tv_z, clip0_a clip0_b clip0_c, clip1_a clip1_b clip1_c, border_x border_y
+///     border_z: "radius", "tangent_u", "tangent_v", "clip0", "clip1", "border", F32;
 ///   - every other scalar: an attribute of that name and type.
 ///
 /// "-" reads standard input. The caller owns `*cloud`, which is NULL after a failure. A file that another

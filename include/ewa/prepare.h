@@ -56,7 +56,8 @@ typedef struct ewa_estimate_options {
 EWA_API extern const ewa_option_table ewa_estimate_options_table;
 EWA_API void ewa_estimate_options_init(ewa_estimate_options *options, size_t struct_size);
 
-/// Adds what a surfel needs and the cloud lacks: "normal", and "radius" or tangent axes.
+/// Adds what a surfel needs and the cloud lacks: "normal", and "radius" or tangent axes; with these "border" or
+/// "clip0" where the surface ends.
 ///
 /// - Neighbours are the k nearest other places, duplicates being one place, with all that are as far as the
 ///   k-th. Where they lie almost on a line (a scanner's lines far apart) 64 are asked instead.
@@ -66,7 +67,10 @@ EWA_API void ewa_estimate_options_init(ewa_estimate_options *options, size_t str
 ///   for `radius_limit`. Points that are no part of what is around them get no more than radius_scale times
 ///   the spacing there. Axes have the same area and the proportions of the point's cell among its neighbours,
 ///   at most 4 : 1, with u x v along the normal. What the old sizes meant goes: "radius" beside new axes,
-///   axes and clip lines beside new radii.
+///   axes beside new radii, clip lines and borders beside either.
+/// - Borders are where the 64 nearest places end at a line within the disc's reach, beyond which 12 of them would
+///   be by chance: discs end 0.2 spacings behind the outermost places. Gaps that discs may close are none, nor are
+///   those between lines of samples; a cloud without borders gets no such stream.
 /// - Points with coordinates that are not finite get zeros. Coplanar, collinear and identical points get
 ///   finite results; an info message says how many have no plane.
 /// - Outlier removal replaces the cloud by a smaller one, which also lacks the points that are not finite.
@@ -75,7 +79,7 @@ EWA_API void ewa_estimate_options_init(ewa_estimate_options *options, size_t str
 /// that orientation breaks ties between equal costs by the order of places along the Z-order curve. After a
 /// failure the cloud has none of the new streams, and may lack those that they replace. Errors:
 /// EWA_ERROR_ARGUMENT, EWA_ERROR_LIMIT, EWA_ERROR_MEMORY, EWA_CANCELLED. One thread per context. Cost: about
-/// 0.2 s and 80 bytes per point meanwhile for a million points on two cores (40 without propagation). Based
+/// 0.2 s and 100 bytes per point meanwhile for a million points on two cores (60 without propagation). Based
 /// on H. Hoppe et al., "Surface reconstruction from unorganized points", 1992, sections 3.2 and 3.3.
 EWA_API ewa_status ewa_cloud_estimate(ewa_cloud **cloud, const ewa_estimate_options *options);
 

@@ -24,6 +24,7 @@ EWA_TEXCOORD_T = 'texcoord_t'
 EWA_TEXTURE = 'texture'
 EWA_TEXTURE_PART = 'texture_part'
 EWA_NAME_BYTES = 64
+EWA_BORDER = 'border'
 EWA_CLIP0 = 'clip0'
 EWA_CLIP1 = 'clip1'
 EWA_CLIP_MODE = 'clip_mode'

@@ -35,7 +35,7 @@ _ALIASES = {"normals": "normal", "colors": "color"}
 
 class Cloud:
     """Points as named streams, of which the library knows ``position normal color radius tangent_u tangent_v
-    material clip0 clip1 clip_mode``; every other name is kept.
+    material clip0 clip1 clip_mode border``; every other name is kept.
 
     Arrays are borrowed, not copied, where they are of a type that the library has (float32, float64, integers of 8 to
     32 bits), aligned, and the numbers of one point lie side by side; points may be any distance apart. Others are

@@ -111,6 +111,35 @@ static ewa_status scale_component(ewa_cloud *cloud, const char *name, uint32_t c
     return status;
 }
 
+/// Maps borders, of which each, b, stands for the plane b.x = b.b: like normals, and by the length that they get.
+static ewa_status map_borders(ewa_cloud *cloud, const double inverse_transpose[9]) {
+    const ewa_attribute *found = ewa_cloud_find(cloud, EWA_BORDER);
+    if (!found) return EWA_OK;
+    const ewa_attribute from = *found;
+    ewa_context *context = ewa_cloud_context(cloud);
+    if (from.component_count != 3)
+        return ewa_fail(context, EWA_ERROR_ARGUMENT, "attribute '%s' has %u components, not 3", EWA_BORDER,
+                        from.component_count);
+    const uint64_t count = ewa_cloud_point_count(cloud);
+    double(*mapped)[3] = ewa_allocate(context, count, sizeof *mapped);
+    if (!mapped) return EWA_ERROR_MEMORY;
+    ewa_attribute_read_f64(&from, 0, count, mapped[0]);
+    void *data = NULL;
+    const ewa_status status = ewa_cloud_add(cloud, EWA_BORDER, EWA_F32, 3, &data);
+    for (uint64_t i = 0; status == EWA_OK && i < count; i++) {
+        const double *b = mapped[i], length2 = b[0] * b[0] + b[1] * b[1] + b[2] * b[2];
+        double n[3];
+        for (int r = 0; r < 3; r++)
+            n[r] = inverse_transpose[3 * r] * b[0] + inverse_transpose[3 * r + 1] * b[1] +
+                   inverse_transpose[3 * r + 2] * b[2];
+        const double normal2 = n[0] * n[0] + n[1] * n[1] + n[2] * n[2];
+        const double scale = normal2 > 0 ? length2 / normal2 : 0;
+        for (int r = 0; r < 3; r++) ((float *)data)[3 * i + (uint64_t)r] = (float)(n[r] * scale);
+    }
+    ewa_release(context, mapped, count, sizeof *mapped);
+    return status;
+}
+
 /// A cloud that is shifted as a whole keeps its grid, shifted; any other map leaves none.
 static void move_grid(ewa_cloud *cloud, const double linear[9], const double shift_world[3]) {
     static const double identity[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
@@ -151,6 +180,7 @@ ewa_status ewa_cloud_transform(ewa_cloud *cloud, const double world_to_world[16]
     const double sign = determinant < 0 ? -1 : 1;
     EWA_TRY(scale_component(cloud, EWA_CLIP0, 1, sign));
     EWA_TRY(scale_component(cloud, EWA_CLIP1, 1, sign));
+    EWA_TRY(map_borders(cloud, sided));
     EWA_TRY(scale_component(cloud, EWA_RADIUS, 0, cbrt(fabs(determinant))));
     double origin_world[3], moved_world[3];
     ewa_cloud_origin(cloud, origin_world);

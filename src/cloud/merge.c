@@ -49,7 +49,7 @@ static ewa_type common_color_type(ewa_type a, ewa_type b) {
 /// Whether an attribute makes surfels: half of a cloud with made-up ones would be worse than none.
 static bool shapes_surfels(const char *name) {
     static const char *const names[] = {EWA_POSITION,  EWA_NORMAL, EWA_RADIUS, EWA_TANGENT_U,
-                                        EWA_TANGENT_V, EWA_CLIP0,  EWA_CLIP1,  EWA_CLIP_MODE};
+                                        EWA_TANGENT_V, EWA_CLIP0,  EWA_CLIP1,  EWA_CLIP_MODE, EWA_BORDER};
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++)
         if (strcmp(name, names[i]) == 0) return true;
     return false;

@@ -3,6 +3,7 @@
 //
 // Surfels beside edges: plane, axes and clip lines from the model of their place.
 #include "base/base.h"
+#include "cloud/border.h"
 #include "cloud/cloud.h"
 #include "edges/features.h"
 #include "homogeneous/frame.h"
@@ -34,6 +35,7 @@ typedef struct write_job {
     bool project;
     edited position, normal;
     const ewa_attribute *radius; // NULL: axes are there
+    const ewa_attribute *border; // of discs; NULL: none
     float (*u)[3], (*v)[3], (*clip[2])[3];
     uint8_t *either;
     uint32_t (*counted)[3]; // by task: snapped, with one line, with two
@@ -132,6 +134,17 @@ static uint32_t snap(write_job *job, uint64_t point, const feature_model *model,
     return count;
 }
 
+/// Gives a disc that got axes the clip line of its border.
+static void set_border(const write_job *job, uint64_t point) {
+    const float *u = job->u[point], *v = job->v[point];
+    const double axis_u[3] = {(double)u[0], (double)u[1], (double)u[2]},
+                 axis_v[3] = {(double)v[0], (double)v[1], (double)v[2]};
+    double to[3], line[3];
+    ewa_attribute_read_f64(job->border, point, 1, to);
+    ewa_border_line(to, axis_u, axis_v, line);
+    for (int c = 0; c < 3; c++) job->clip[0][point][c] = (float)line[c];
+}
+
 static void write_task(void *data, uint32_t task, uint32_t worker) {
     (void)worker;
     static const double middle[3] = {0, 0, 0};
@@ -151,10 +164,12 @@ static void write_task(void *data, uint32_t task, uint32_t worker) {
                 const uint32_t lines = snap(job, point, model, active, height);
                 job->counted[task][0]++;
                 if (lines) job->counted[task][lines]++;
+                if (!lines && job->border) set_border(job, point);
                 continue;
             }
         }
         if (job->radius) set_axes(job, point, size_of(job, point));
+        if (job->border) set_border(job, point);
     }
 }
 
@@ -223,6 +238,7 @@ static ewa_status prepare_streams(ewa_cloud *cloud, write_job *job) {
     EWA_TRY(add_zeros(cloud, EWA_CLIP_MODE, EWA_U8, 1, &either));
     job->clip[0] = clip[0], job->clip[1] = clip[1], job->either = either;
     job->radius = has_axes ? NULL : ewa_cloud_find(cloud, EWA_RADIUS);
+    job->border = has_axes ? NULL : ewa_cloud_find(cloud, EWA_BORDER);
     return EWA_OK;
 }
 
@@ -265,6 +281,7 @@ ewa_status ewa_feature_write(ewa_cloud *cloud, const ewa_feature_options *option
             else
                 drop_clips(cloud);
             if (status == EWA_OK && job.radius) ewa_cloud_remove(cloud, EWA_RADIUS);
+            if (status == EWA_OK) ewa_cloud_remove(cloud, EWA_BORDER);
         }
     }
     for (uint32_t task = 0; task < tasks && status == EWA_OK; task++) {

@@ -5,6 +5,7 @@
 #include "base/base.h"
 #include "base/options.h"
 #include "cloud/cloud.h"
+#include "estimate/borders.h"
 #include "estimate/local.h"
 #include "estimate/orient.h"
 #include "estimate/outliers.h"
@@ -44,6 +45,7 @@ typedef struct estimate_job {
     float *spacing;
     uint32_t (*links)[LOCAL_GRAPH_DEGREE];
     uint8_t *notes; // RADIUS_*
+    border_set *borders; // NULL when no sizes are wanted
     // by point; NULL when not wanted
     float *radius_out, *tangent_u_out, *tangent_v_out, *normal_out;
     ewa_attribute position;
@@ -167,9 +169,9 @@ static void visit_thin(void *user, const ewa_block *block, uint32_t worker) {
     }
 }
 
-/// Gives a place its size by many neighbours.
-static void settle_lane(const estimate_job *job, const local_batch *batch, uint32_t lane, double around,
-                        double limit, local_surface *s) {
+/// Gives a place its size by many neighbours; returns that, in the lane's units.
+static double settle_lane(const estimate_job *job, const local_batch *batch, uint32_t lane, double around,
+                          double limit, local_surface *s) {
     const uint32_t place = batch->place[lane];
     drop_overflow(job->wanted, s, lane);
     const double spacing = (double)job->spacing[place] / batch->unit_world[lane];
@@ -182,41 +184,64 @@ static void settle_lane(const estimate_job *job, const local_batch *batch, uint3
                              .scatter = scatter > lone ? scatter : lone};
     const double radius = ewa_radius(&at, job->options->radius_scale, job->options->cutoff);
     set_size(job, place, s, lane, radius * batch->unit_world[lane]);
+    return radius;
 }
 
 static double smaller(float a, double b) { return (double)a < b ? (double)a : b; }
 
-/// 1 / sqrt(neighbours per area) of a lane, wherever they are: less than along one surface where there are several
-/// or leaves.
-static double spread_of(const local_batch *batch, uint32_t lane) {
-    const uint32_t count = batch->count[lane];
-    double farthest2 = 0;
-    for (uint32_t i = 0; i < count; i++)
-        if ((double)batch->row[i].distance2[lane] > farthest2)
-            farthest2 = (double)batch->row[i].distance2[lane];
-    return count > 1 ? sqrt(PI * farthest2 / (count - 1)) : 0;
+/// 1 / sqrt(neighbours per area), wherever they are: less than along one surface where there are several or leaves.
+static double spread_of(uint32_t count, float farthest2) {
+    return count > 1 ? sqrt(PI * (double)farthest2 / (count - 1)) : 0;
+}
+
+/// Notes where the surface ends near places, and whose discs around reach over that.
+static void note_borders(const estimate_job *job, const local_batch *batch, uint32_t lanes,
+                         const local_border *border) {
+    for (; lanes; lanes &= lanes - 1) {
+        const uint32_t lane = (uint32_t)__builtin_ctz(lanes), place = batch->place[lane];
+        const double unit = batch->unit_world[lane], distance = (double)border->distance[lane];
+        float to_world[3];
+        for (int c = 0; c < 3; c++) to_world[c] = (float)((double)border->direction[c][lane] * distance * unit);
+        // What looks like one may be a gap between lines of samples.
+        if (job->notes[place] & RADIUS_THIN) continue;
+        ewa_borders_note(job->borders, place, to_world);
+        for (uint32_t i = 0; i < batch->count[lane]; i++) {
+            const local_row *row = &batch->row[i];
+            const uint8_t note = job->notes[row->place[lane]];
+            const double ratio = (double)(note >> RADIUS_NOTE_SHIFT) / RADIUS_NOTE_RATIO;
+            const double reach = (double)row->x[lane] + ratio * (double)row->value[lane] / unit;
+            if (!(note & RADIUS_AGAIN) && reach > distance) ewa_borders_ask(job->borders, row->place[lane]);
+        }
+    }
 }
 
 /// Settles the places that wait, and empties their list.
 static void settle(const estimate_job *job, local_batch *batch) {
     const uint32_t count = batch->lane_count;
     local_surface s;
-    float around[EWA_BLOCK_LANES], limit[EWA_BLOCK_LANES], normal[3][EWA_BLOCK_LANES];
-    job->kernels->median(batch, around);
+    local_sizes sizes = {.radius = {0}};
+    float normal[3][EWA_BLOCK_LANES], farthest2[EWA_BLOCK_LANES];
+    job->kernels->median(batch, sizes.around, farthest2);
     for (uint32_t lane = 0; lane < EWA_BLOCK_LANES; lane++) {
         const uint32_t from = lane < count ? lane : 0, place = batch->place[from];
         for (int c = 0; c < 3 && job->normals; c++)
             normal[c][lane] = job->normals[3 * (size_t)place + (size_t)c];
-        around[lane] = (float)((double)around[from] / batch->unit_world[from]);
+        sizes.around[lane] = (float)((double)sizes.around[from] / batch->unit_world[from]);
+        sizes.farthest[lane] = sqrtf(farthest2[from]);
+        const float around = sizes.around[lane];
         const bool line = job->notes[place] & RADIUS_THIN;
-        const double apart =
-            line ? LINE_LIMIT * (double)around[lane] : smaller(around[lane], spread_of(batch, from));
-        limit[lane] = (float)(job->options->radius_limit * apart);
+        const double apart = line ? LINE_LIMIT * (double)around
+                                  : smaller(around, spread_of(batch->count[from], farthest2[from]));
+        sizes.limit[lane] = (float)(job->options->radius_limit * apart);
     }
     job->kernels->enclose(batch, job->wanted, job->normals ? (const float(*)[EWA_BLOCK_LANES])normal : NULL,
-                          limit, &s);
+                          sizes.limit, &s);
     for (uint32_t lane = 0; lane < count; lane++)
-        settle_lane(job, batch, lane, (double)around[lane], (double)limit[lane], &s);
+        sizes.radius[lane] = (float)settle_lane(job, batch, lane, (double)sizes.around[lane],
+                                                (double)sizes.limit[lane], &s);
+    local_border border;
+    const uint32_t lanes = ~0u >> (32 - count);
+    note_borders(job, batch, job->kernels->border(batch, &s, &sizes, &border) & lanes, &border);
     batch->lane_count = 0;
 }
 
@@ -299,6 +324,9 @@ static ewa_status measure(ewa_context *context, estimate_job *job) {
     ewa_radius_doubt_sparse(context, job->spacing, job->place_count, job->options->radius_limit, job->notes);
     choice.chosen_bits = RADIUS_AGAIN;
     choice.spacing = job->spacing;
+    EWA_TRY(measure_again(context, job, &choice));
+    // The fourth visit: to places with closed cells whose discs reach over a border.
+    if (!ewa_borders_take_asked(job->borders, RADIUS_DOUBTFUL, job->notes)) return EWA_OK;
     return measure_again(context, job, &choice);
 }
 
@@ -341,6 +369,8 @@ static ewa_status estimate_with(ewa_cloud *cloud, estimate_job *job, bool normal
     job->wanted = !sizes ? 0 : ellipse ? LOCAL_SHAPE : LOCAL_REACH;
     job->sizing =
         ewa_radius_sizing(job->options->radius_limit, job->options->radius_scale, job->options->cutoff);
+    border_set borders = {0};
+    if (sizes) job->borders = &borders;
     ewa_status status = EWA_OK;
     if (sizes && !ellipse) status = add_output(cloud, EWA_RADIUS, 1, has_gaps, &job->radius_out);
     if (sizes && ellipse) status = add_output(cloud, EWA_TANGENT_U, 3, has_gaps, &job->tangent_u_out);
@@ -357,12 +387,16 @@ static ewa_status estimate_with(ewa_cloud *cloud, estimate_job *job, bool normal
             complete = (job->links = ewa_allocate(context, places, sizeof *job->links)) && complete;
         if (propagate || sizes)
             complete = (job->spacing = ewa_allocate(context, places, sizeof *job->spacing)) && complete;
+        if (sizes) complete = ewa_borders_make(context, job->place_count, &borders) == EWA_OK && complete;
         status = complete ? measure(context, job) : EWA_ERROR_MEMORY;
     }
     if (status == EWA_OK) {
         report_degenerate(context, job);
         if (normals) status = finish_normals(cloud, job, has_gaps);
     }
+    if (status == EWA_OK && sizes)
+        status = ewa_borders_add(job->borders, job->neighbours, job->tangent_u_out, job->tangent_v_out, cloud);
+    ewa_borders_free(context, &borders);
     ewa_release(context, job->spacing, places, sizeof *job->spacing);
     ewa_release(context, job->links, places, sizeof *job->links);
     ewa_release(context, job->normals, places, 3 * sizeof *job->normals);
@@ -410,10 +444,6 @@ static ewa_status estimate(ewa_cloud *cloud, const ewa_estimate_options *options
     }
     // What described the old sizes would contradict the new ones.
     if (job.tangent_u_out) ewa_cloud_remove(cloud, EWA_RADIUS);
-    if (sizes) {
-        static const char *const clip_lines[] = {EWA_CLIP0, EWA_CLIP1, EWA_CLIP_MODE};
-        for (int i = 0; i < 3; i++) ewa_cloud_remove(cloud, clip_lines[i]);
-    }
     if (job.radius_out) {
         ewa_cloud_remove(cloud, EWA_TANGENT_U);
         ewa_cloud_remove(cloud, EWA_TANGENT_V);

@@ -26,6 +26,7 @@ typedef struct local_surface {
     uint8_t ratio[EWA_BLOCK_LANES];       ///< of radius to spacing, in the steps of local_sizing, rounded up
     float mean_distance[EWA_BLOCK_LANES]; ///< of the neighbours
     float variation[EWA_BLOCK_LANES];     ///< share of the variance along the normal, [0, 1/3]
+    float lean[EWA_BLOCK_LANES];          ///< how far off the mean of the neighbours is, by enclose() only
     float median_spacing;                 ///< of the block's places
     uint32_t thin;                        ///< bits of the lanes whose neighbours are almost on a line
     uint32_t degenerate; ///< bits of the lanes without a plane: fewer than 3 places, or on one line
@@ -54,10 +55,25 @@ typedef struct local_sizing {
 /// UINT32_MAX.
 typedef uint32_t local_graph[EWA_BLOCK_LANES][LOCAL_GRAPH_DEGREE];
 
+/// What a border is judged by; in the lane's units.
+typedef struct local_sizes {
+    _Alignas(64) float around[EWA_BLOCK_LANES]; ///< spacing of the places around
+    float farthest[EWA_BLOCK_LANES];            ///< distance of the farthest neighbour
+    float radius[EWA_BLOCK_LANES];              ///< of the place's disc
+    float limit[EWA_BLOCK_LANES];               ///< of radii that close gaps
+} local_sizes;
+
+/// Where a surface ends: at a plane across it, so far from the place in a unit direction.
+typedef struct local_border {
+    _Alignas(64) float direction[3][EWA_BLOCK_LANES];
+    float distance[EWA_BLOCK_LANES]; ///< > 0
+} local_border;
+
 /// One neighbour of each lane, from its place.
 typedef struct local_row {
     _Alignas(64) float x[EWA_BLOCK_LANES];
     float y[EWA_BLOCK_LANES], z[EWA_BLOCK_LANES], distance2[EWA_BLOCK_LANES], value[EWA_BLOCK_LANES];
+    uint32_t place[EWA_BLOCK_LANES]; ///< by collect() only
 } local_row;
 
 /// A batch of places from any blocks, one per lane, each with its own neighbours, itself included, in units
@@ -83,13 +99,18 @@ typedef struct local_kernels {
     /// as many as it has room for; returns those that are left.
     uint32_t (*collect)(const ewa_block *block, uint32_t lanes, const float *values, local_batch *batch);
     /// The median of the values of each lane's neighbours and its own, to 1 / 256 of the ratio of the largest
-    /// to the least, in logarithms.
-    void (*median)(local_batch *batch, float around[EWA_BLOCK_LANES]);
+    /// to the least, in logarithms; and the squared distance of the farthest neighbour.
+    void (*median)(local_batch *batch, float around[EWA_BLOCK_LANES], float farthest2[EWA_BLOCK_LANES]);
     /// What measure() tells, by many neighbours: cells are closed up to `limit` (in the lane's units) where
     /// neighbours stand around them, in planes of these normals (NULL: of their own). No median_spacing,
     /// nothing doubtful.
     void (*enclose)(local_batch *batch, uint32_t wanted, const float normal[3][EWA_BLOCK_LANES],
                     const float limit[EWA_BLOCK_LANES], local_surface *surface);
+    /// After enclose() of the same batch: finds the lanes (bits) whose discs reach over the end of the surface,
+    /// and where that is. Leaves in x of the rows of these how far the neighbours are in its direction; of the
+    /// rows nothing but that and `value` counts then.
+    uint32_t (*border)(local_batch *batch, const local_surface *surface, const local_sizes *sizes,
+                       local_border *border);
     void (*measure_distance)(const ewa_block *block, local_surface *surface); ///< mean_distance only
     /// After measure() of the same block.
     void (*link)(const ewa_block *block, const local_batch *batch, local_graph graph);

@@ -36,6 +36,7 @@ static void collect_lane(const ewa_block *block, uint32_t from, int32_t inside[W
             row->z[lane] = block->z[i] - z;
             row->distance2[lane] = block->distance2[i][from];
             row->value[lane] = values[block->place[i]];
+            row->place[lane] = block->place[i];
         }
     }
     batch->count[lane] = (uint32_t)(row - batch->row);
@@ -59,16 +60,19 @@ static wf count_of(const local_batch *batch) {
 }
 
 /// By bisection in the logarithm: steps of 1 / 256 of the lane's range.
-static void find_around(local_batch *batch, float around[EWA_BLOCK_LANES]) {
+static void find_around(local_batch *batch, float around[EWA_BLOCK_LANES], float farthest2[EWA_BLOCK_LANES]) {
     enum { STEPS = 8, CHAINS = 4 }; // sums beside each other
     const uint32_t rows = fill_rows(batch);
     const wf count = count_of(batch), one = wf_set(1), half = wf_set(0.5f);
     wf low = wf_set(3e38f), high = wf_set(0);
+    wf farthest = high;
     for (uint32_t i = 0; i < rows; i++) {
         const wf value = wf_load(batch->row[i].value);
         low = wf_min(low, value);
         high = wf_max(high, wf_keep(wf_lt(wf_set((float)i), count), value));
+        farthest = wf_max(farthest, wf_load(batch->row[i].distance2));
     }
+    wf_store(farthest2, farthest);
     low = wf_max(low, wf_set(1e-30f));
     high = wf_max(low, high);
     const wf wanted = wf_mul(count, half);
@@ -131,6 +135,7 @@ static void enclose(local_batch *batch, uint32_t wanted, const float normal[3][E
     frame f = find_frame(&m);
     if (normal) turn_frame(&f, normal);
     const wf spacing = measure_plane(&m, &f, surface);
+    wf_store(surface->lean, wf_div(wf_sqrt(v_dot(m.first, m.first)), wf_max(m.count, wf_set(1))));
     if (wanted & LOCAL_SHAPE) align_frame(batch, rows, &f);
     cell c;
     find_enclosed_cell(batch, rows, &f, wf_load(limit), &c);

@@ -207,7 +207,7 @@ void ewa_tree_trim(ewa_lod *lod, uint64_t memory_bytes) {
 /// What surfels are made of; everything else of the points is left out.
 #define SURFEL_ATTRIBUTES                                                                                    \
     EWA_NORMAL "," EWA_RADIUS "," EWA_TANGENT_U "," EWA_TANGENT_V "," EWA_COLOR "," EWA_MATERIAL             \
-               "," EWA_CLIP0 "," EWA_CLIP1 "," EWA_CLIP_MODE
+               "," EWA_CLIP0 "," EWA_CLIP1 "," EWA_CLIP_MODE "," EWA_BORDER
 
 /// Whether what was made with one look is what another one makes.
 static bool looks_agree(const ewa_lod_look *a, const ewa_lod_look *b) {
@@ -405,6 +405,8 @@ static ewa_status load_points(ewa_lod *lod, ewa_lod_node *node) {
     if (status == EWA_OK) status = place(lod, &cloud);
     if (status == EWA_OK && !lod->has_surfels && ewa_cloud_point_count(cloud))
         status = ewa_cloud_estimate(&cloud, &options);
+    // Points of a node end where its cell does, not where their surface does.
+    if (!lod->has_surfels) ewa_cloud_remove(cloud, EWA_BORDER);
     if (status == EWA_OK && ewa_cloud_point_count(cloud) == 0 && !lod->has_surfels) {
         // An empty cloud has no shape either.
         status = ewa_cloud_add(cloud, EWA_NORMAL, EWA_F32, 3, NULL);

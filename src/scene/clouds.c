@@ -3,6 +3,7 @@
 //
 // Clouds that become one: views of their streams, some of their points, and the same kinds of streams in all of them.
 #include "base/base.h"
+#include "cloud/border.h"
 #include "cloud/cloud.h"
 #include "scene/parts.h"
 
@@ -51,15 +52,17 @@ static bool streams_differ(const ewa_cloud *a, const ewa_cloud *b, const char *n
     return first->type != second->type || first->component_count != second->component_count;
 }
 
-/// Gives discs two equal axes, so that they can be merged with ellipses.
+/// Gives discs two equal axes, so that they can be merged with ellipses, and clip lines at their borders.
 static ewa_status discs_to_axes(ewa_cloud *cloud, double cutoff) {
     const uint64_t count = ewa_cloud_point_count(cloud);
-    void *u_data = NULL, *v_data = NULL;
+    void *u_data = NULL, *v_data = NULL, *clip_data = NULL;
     EWA_TRY(ewa_cloud_add(cloud, EWA_TANGENT_U, EWA_F32, 3, &u_data));
     EWA_TRY(ewa_cloud_add(cloud, EWA_TANGENT_V, EWA_F32, 3, &v_data));
+    const bool ends = ewa_cloud_find(cloud, EWA_BORDER) != NULL;
+    if (ends) EWA_TRY(ewa_cloud_add(cloud, EWA_CLIP0, EWA_F32, 3, &clip_data));
     const ewa_attribute *normal = ewa_cloud_find(cloud, EWA_NORMAL),
-                        *radius = ewa_cloud_find(cloud, EWA_RADIUS);
-    float *u = u_data, *v = v_data;
+                        *radius = ewa_cloud_find(cloud, EWA_RADIUS), *border = ewa_cloud_find(cloud, EWA_BORDER);
+    float *u = u_data, *v = v_data, *clip = clip_data;
     for (uint64_t i = 0; i < count; i++, u += 3, v += 3) {
         double n[3], r;
         ewa_attribute_read_f64(normal, i, 1, n);
@@ -81,6 +84,13 @@ static ewa_status discs_to_axes(ewa_cloud *cloud, double cutoff) {
             u[c] = (float)a[c];
             v[c] = (float)(n[(c + 1) % 3] * a[(c + 2) % 3] - n[(c + 2) % 3] * a[(c + 1) % 3]);
         }
+        if (!ends) continue;
+        double to[3], line[3];
+        const double axis_u[3] = {(double)u[0], (double)u[1], (double)u[2]},
+                     axis_v[3] = {(double)v[0], (double)v[1], (double)v[2]};
+        ewa_attribute_read_f64(border, i, 1, to);
+        ewa_border_line(to, axis_u, axis_v, line);
+        for (int c = 0; c < 3; c++) clip[3 * i + (uint64_t)c] = (float)line[c];
     }
     return EWA_OK;
 }
@@ -129,7 +139,8 @@ static ewa_status materials_to_doubles(ewa_cloud *cloud) {
 /// Removes what is not drawn, so that merging need not speak about it.
 static void drop_undrawn(ewa_cloud *cloud) {
     static const char *const drawn[] = {EWA_POSITION,  EWA_NORMAL,   EWA_COLOR, EWA_RADIUS, EWA_TANGENT_U,
-                                        EWA_TANGENT_V, EWA_MATERIAL, EWA_CLIP0, EWA_CLIP1,  EWA_CLIP_MODE};
+                                        EWA_TANGENT_V, EWA_MATERIAL, EWA_CLIP0, EWA_CLIP1,  EWA_CLIP_MODE,
+                                        EWA_BORDER};
     for (uint32_t k = ewa_cloud_attribute_count(cloud); k-- > 0;) {
         bool kept = false;
         char name[EWA_NAME_BYTES];
@@ -139,14 +150,16 @@ static void drop_undrawn(ewa_cloud *cloud) {
     }
 }
 
-/// Adds the clip lines that another cloud has: zeros, which cut nothing.
-static ewa_status add_clip_lines(ewa_cloud *cloud, const bool wanted[3]) {
-    static const char *const names[3] = {EWA_CLIP0, EWA_CLIP1, EWA_CLIP_MODE};
-    for (int k = 0; k < 3; k++) {
-        if (!wanted[k] || ewa_cloud_find(cloud, names[k])) continue;
-        const uint32_t components = k < 2 ? 3 : 1;
+enum { CLIP_STREAMS = 4 };
+static const char *const clip_streams[CLIP_STREAMS] = {EWA_CLIP0, EWA_CLIP1, EWA_CLIP_MODE, EWA_BORDER};
+
+/// Adds the clip lines and borders that another cloud has: zeros, which cut nothing.
+static ewa_status add_clip_lines(ewa_cloud *cloud, const bool wanted[CLIP_STREAMS]) {
+    for (int k = 0; k < CLIP_STREAMS; k++) {
+        if (!wanted[k] || ewa_cloud_find(cloud, clip_streams[k])) continue;
+        const uint32_t components = strcmp(clip_streams[k], EWA_CLIP_MODE) == 0 ? 1 : 3;
         void *data = NULL;
-        EWA_TRY(ewa_cloud_add(cloud, names[k], EWA_F32, components, &data));
+        EWA_TRY(ewa_cloud_add(cloud, clip_streams[k], EWA_F32, components, &data));
         memset(data, 0, ewa_cloud_point_count(cloud) * components * sizeof(float));
     }
     return EWA_OK;
@@ -154,22 +167,21 @@ static ewa_status add_clip_lines(ewa_cloud *cloud, const bool wanted[3]) {
 
 ewa_status ewa_clouds_make_alike(ewa_cloud *const *clouds, uint32_t count, double cutoff) {
     bool any_axes = false, colors_differ = false, normals_differ = false, materials_differ = false;
-    bool clip[3] = {false};
+    bool clip[CLIP_STREAMS] = {false};
     for (uint32_t i = 0; i < count; i++) {
         any_axes |= has_axes(clouds[i]);
         colors_differ |= streams_differ(clouds[0], clouds[i], EWA_COLOR);
         normals_differ |= !ewa_cloud_find(clouds[i], EWA_NORMAL);
         materials_differ |= streams_differ(clouds[0], clouds[i], EWA_MATERIAL);
-        clip[0] |= ewa_cloud_find(clouds[i], EWA_CLIP0) != NULL;
-        clip[1] |= ewa_cloud_find(clouds[i], EWA_CLIP1) != NULL;
-        clip[2] |= ewa_cloud_find(clouds[i], EWA_CLIP_MODE) != NULL;
+        for (int k = 0; k < CLIP_STREAMS; k++) clip[k] |= ewa_cloud_find(clouds[i], clip_streams[k]) != NULL;
     }
+    if (any_axes) clip[0] |= clip[3], clip[3] = false;
     for (uint32_t i = 0; i < count; i++) {
         if (any_axes && !has_axes(clouds[i])) EWA_TRY(discs_to_axes(clouds[i], cutoff));
         if (colors_differ) EWA_TRY(ewa_cloud_colors_to_linear(clouds[i]));
         if (materials_differ) EWA_TRY(materials_to_doubles(clouds[i]));
         EWA_TRY(add_clip_lines(clouds[i], clip));
-        if (any_axes) ewa_cloud_remove(clouds[i], EWA_RADIUS);
+        if (any_axes) ewa_cloud_remove(clouds[i], EWA_RADIUS), ewa_cloud_remove(clouds[i], EWA_BORDER);
         if (normals_differ) ewa_cloud_remove(clouds[i], EWA_NORMAL);
         drop_undrawn(clouds[i]);
     }

@@ -7,12 +7,14 @@
 #include "base/base.h"
 #include "surface/packet_order.h"
 
-enum { LANES = EWA_PACKET_LANES, PART_PACKETS = 1024 };
+enum { LANES = EWA_PACKET_LANES, PART_PACKETS = 1024, PART_POINTS = LANES * PART_PACKETS };
 
 typedef struct work {
     ewa_surfels *surfels;
     const ewa_surfel_reader *reader;
     const uint32_t *order;
+    uint64_t point_count;
+    uint8_t *clipped; // by point
 } work;
 
 /// Packets [first, end) of a part.
@@ -79,6 +81,13 @@ static ewa_status set_materials(ewa_context *context, work *w) {
     return EWA_OK;
 }
 
+static void find_clipped(void *data, uint32_t part, uint32_t worker) {
+    (void)worker;
+    const work *w = data;
+    const uint64_t first = (uint64_t)part * PART_POINTS, left = w->point_count - first;
+    ewa_surfel_mark_clipped(w->reader, first, left < PART_POINTS ? left : PART_POINTS, w->clipped + first);
+}
+
 static void mark_clips(void *data, uint32_t part, uint32_t worker) {
     (void)worker;
     const work *w = data;
@@ -87,7 +96,7 @@ static void mark_clips(void *data, uint32_t part, uint32_t worker) {
         uint32_t mask = 0;
         const uint32_t *points = w->order + p * LANES;
         for (uint32_t lane = 0; lane < LANES && points[lane] != EWA_NO_POINT; lane++)
-            mask |= (uint32_t)ewa_surfel_is_clipped(w->reader, points[lane]) << lane;
+            mask |= (uint32_t)w->clipped[points[lane]] << lane;
         surfels->clip_masks[p] = (uint16_t)mask;
     }
 }
@@ -128,11 +137,17 @@ static void encode_clips(void *data, uint32_t part, uint32_t worker) {
 
 static ewa_status set_clips(ewa_context *context, work *w) {
     ewa_surfels *surfels = w->surfels;
-    if (!w->reader->clip[0] && !w->reader->clip[1]) return EWA_OK;
+    if (!w->reader->clip[0] && !w->reader->clip[1] && !w->reader->border) return EWA_OK;
     surfels->clip_masks = ewa_allocate(context, surfels->packet_count, sizeof *surfels->clip_masks);
     surfels->clip_first = ewa_allocate(context, surfels->packet_count, sizeof *surfels->clip_first);
-    if (!surfels->clip_masks || !surfels->clip_first) return EWA_ERROR_MEMORY;
-    ewa_parallel(context, mark_clips, w, part_count(surfels));
+    w->clipped = ewa_allocate(context, w->point_count, 1);
+    const bool complete = surfels->clip_masks && surfels->clip_first && w->clipped;
+    if (complete) {
+        ewa_parallel(context, find_clipped, w, (uint32_t)((w->point_count + PART_POINTS - 1) / PART_POINTS));
+        ewa_parallel(context, mark_clips, w, part_count(surfels));
+    }
+    ewa_release(context, w->clipped, w->point_count, 1);
+    if (!complete) return EWA_ERROR_MEMORY;
     for (uint32_t p = 0; p < surfels->packet_count; p++) {
         surfels->clip_first[p] = (uint32_t)surfels->clip_count;
         surfels->clip_count += (uint64_t)__builtin_popcount(surfels->clip_masks[p]);
@@ -144,8 +159,8 @@ static ewa_status set_clips(ewa_context *context, work *w) {
 }
 
 ewa_status ewa_extras_make(ewa_context *context, ewa_surfels *surfels, const ewa_surfel_reader *reader,
-                           const uint32_t *order) {
-    work w = {surfels, reader, order};
+                           uint64_t point_count, const uint32_t *order) {
+    work w = {.surfels = surfels, .reader = reader, .order = order, .point_count = point_count};
     EWA_TRY(set_opacities(context, &w));
     EWA_TRY(set_materials(context, &w));
     return set_clips(context, &w);

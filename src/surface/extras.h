@@ -8,10 +8,10 @@
 #include "surface/packets.h"
 #include "surface/surfel.h"
 
-/// Makes the streams that the reader's cloud calls for; order[i] is the point in lane i % 16 of packet i
-/// / 16, or EWA_NO_POINT. What it leaves after an error is freed with the rest.
+/// Makes the streams that the reader's cloud of `point_count` points calls for; order[i] is the point in lane i % 16
+/// of packet i / 16, or EWA_NO_POINT. What it leaves after an error is freed with the rest.
 ewa_status ewa_extras_make(ewa_context *context, ewa_surfels *surfels, const ewa_surfel_reader *reader,
-                           const uint32_t *order);
+                           uint64_t point_count, const uint32_t *order);
 
 void ewa_extras_free(ewa_context *context, ewa_surfels *surfels);
 

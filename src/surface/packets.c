@@ -283,7 +283,7 @@ static ewa_status build_surfels(build *b, ewa_context *context) {
     EWA_TRY(encode(b, context));
     s->unit_coverage = ewa_packets_unit_coverage(s);
     ewa_packets_sum_up(s);
-    return ewa_extras_make(context, s, &b->reader, b->order.points);
+    return ewa_extras_make(context, s, &b->reader, b->point_count, b->order.points);
 }
 
 ewa_status ewa_surfels_create(const ewa_cloud *cloud, const ewa_surfels_options *options,

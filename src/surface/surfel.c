@@ -7,6 +7,7 @@
 // Basis, Revisited", 2017.
 #include "surface/surfel.h"
 #include "base/base.h"
+#include "cloud/border.h"
 #include "cloud/cloud.h"
 #include "cloud/color.h"
 #include "homogeneous/frame.h"
@@ -77,6 +78,12 @@ static void set_clip(const double line[3], double axis_scale, const double turn[
     clip[2] = line[2];
 }
 
+/// The line in which the plane at a border cuts a disc.
+static void set_border(const double border[3], ewa_surfel *surfel) {
+    static const double none[3] = {0};
+    ewa_border_line(all_finite(border, 3) ? border : none, surfel->axis_u_world, surfel->axis_v_world, surfel->clip[0]);
+}
+
 uint8_t ewa_surfel_material(const ewa_surfel_reader *reader, uint64_t point) {
     double value = 0;
     if (reader->material) ewa_attribute_read_f64(reader->material, point, 1, &value);
@@ -144,6 +151,8 @@ ewa_status ewa_surfel_reader_open(const ewa_cloud *cloud, const ewa_surfels_opti
         EWA_TRY(check_components(cloud, reader->tangent_u, 3, 3));
         EWA_TRY(check_components(cloud, reader->tangent_v, 3, 3));
     } else {
+        reader->border = ewa_cloud_find(cloud, EWA_BORDER);
+        EWA_TRY(check_components(cloud, reader->border, 3, 3));
         reader->tangent_u = reader->tangent_v = NULL;
         EWA_TRY(check_components(cloud, reader->radius, 1, 1));
     }
@@ -156,7 +165,7 @@ ewa_status ewa_surfel_reader_open(const ewa_cloud *cloud, const ewa_surfels_opti
 static uint64_t read_block(const ewa_surfel_reader *reader, uint64_t first, uint64_t count,
                            ewa_surfel *surfels, bool *drawable) {
     double position[3 * BLOCK], normal[3 * BLOCK], first_axis[3 * BLOCK], second_axis[3 * BLOCK],
-        color[4 * BLOCK], clip[2][3 * BLOCK] = {{0}}, mode[BLOCK] = {0};
+        color[4 * BLOCK], clip[2][3 * BLOCK] = {{0}}, mode[BLOCK] = {0}, border[3 * BLOCK];
     ewa_attribute_read_f64(reader->position, first, count, position);
     if (reader->normal) ewa_attribute_read_f64(reader->normal, first, count, normal);
     if (reader->color) ewa_attribute_read_f64(reader->color, first, count, color);
@@ -165,6 +174,7 @@ static uint64_t read_block(const ewa_surfel_reader *reader, uint64_t first, uint
     for (int k = 0; k < 2; k++)
         if (reader->clip[k]) ewa_attribute_read_f64(reader->clip[k], first, count, clip[k]);
     if (reader->clip_mode) ewa_attribute_read_f64(reader->clip_mode, first, count, mode);
+    if (reader->border) ewa_attribute_read_f64(reader->border, first, count, border);
     uint64_t kept = 0;
     for (uint64_t i = 0; i < count; i++) {
         ewa_surfel *surfel = &surfels[i];
@@ -181,6 +191,7 @@ static uint64_t read_block(const ewa_surfel_reader *reader, uint64_t first, uint
         drawable[i] = drawable[i] && within_limit(center);
         kept += drawable[i];
         for (int k = 0; k < 2; k++) set_clip(&clip[k][3 * i], reader->axis_scale, turn, surfel->clip[k]);
+        if (reader->border) set_border(&border[3 * i], surfel);
         surfel->clip_either = mode[i] == 1;
         surfel->alpha = 1;
         surfel->material = ewa_surfel_material(reader, first + i);
@@ -212,11 +223,23 @@ double ewa_surfel_alpha(const ewa_surfel_reader *reader, uint64_t point) {
     return ewa_color_alpha(reader->color, color);
 }
 
-bool ewa_surfel_is_clipped(const ewa_surfel_reader *reader, uint64_t point) {
-    for (int k = 0; k < 2; k++) {
-        double line[3] = {0};
-        if (reader->clip[k]) ewa_attribute_read_f64(reader->clip[k], point, 1, line);
-        if (all_finite(line, 3) && (line[0] != 0 || line[1] != 0)) return true;
+/// Whether numbers of a stream are a line: finite, the first two, or all three, not all zero.
+static void mark_lines(const ewa_attribute *attribute, uint64_t first, uint64_t count, int numbers, uint8_t *clipped) {
+    double values[3 * BLOCK];
+    if (!attribute) return;
+    ewa_attribute_read_f64(attribute, first, count, values);
+    for (uint64_t i = 0; i < count; i++) {
+        const double *v = &values[3 * i];
+        const bool some = v[0] != 0 || v[1] != 0 || (numbers == 3 && v[2] != 0);
+        clipped[i] |= some && all_finite(v, 3);
     }
-    return false;
+}
+
+void ewa_surfel_mark_clipped(const ewa_surfel_reader *reader, uint64_t first, uint64_t count, uint8_t *clipped) {
+    memset(clipped, 0, count);
+    for (uint64_t done = 0; done < count; done += BLOCK) {
+        const uint64_t part = count - done < BLOCK ? count - done : BLOCK;
+        for (int k = 0; k < 2; k++) mark_lines(reader->clip[k], first + done, part, 2, clipped + done);
+        mark_lines(reader->border, first + done, part, 3, clipped + done);
+    }
 }

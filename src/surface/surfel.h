@@ -32,7 +32,7 @@ typedef struct ewa_surfel {
 /// The streams of a cloud that make surfels. Valid until the cloud's streams change.
 typedef struct ewa_surfel_reader {
     const ewa_attribute *position, *normal, *radius, *tangent_u, *tangent_v, *color; ///< NULL: not used
-    const ewa_attribute *clip[2], *clip_mode, *material;
+    const ewa_attribute *clip[2], *clip_mode, *border, *material;
     double origin_world[3];  ///< of the positions
     double sigma_per_radius; ///< radius_scale / F
     double axis_scale;       ///< radius_scale
@@ -60,8 +60,8 @@ ewa_status ewa_surfel_reader_open(const ewa_cloud *cloud, const ewa_surfels_opti
 uint64_t ewa_surfel_read(const ewa_surfel_reader *reader, uint64_t first, uint64_t count, ewa_surfel *surfels,
                          bool *drawable);
 
-/// Whether a point has a clip line. Any thread.
-bool ewa_surfel_is_clipped(const ewa_surfel_reader *reader, uint64_t point);
+/// Sets for each of the points [first, first + count) whether it has a clip line. Any thread.
+void ewa_surfel_mark_clipped(const ewa_surfel_reader *reader, uint64_t first, uint64_t count, uint8_t *clipped);
 
 /// Reads the material of one point as ewa_surfel_read() does. Any thread.
 uint8_t ewa_surfel_material(const ewa_surfel_reader *reader, uint64_t point);

@@ -235,6 +235,7 @@ static void test_transform(void **state) {
         add_triple(cloud, EWA_TANGENT_V, 0, 0.2f, 0);
         add_triple(cloud, EWA_NORMAL, -0.1f, 0, 0.3f); // u x v, not normalised
         add_triple(cloud, EWA_CLIP0, 1, 2, 0.5f);
+        add_triple(cloud, EWA_BORDER, 0.5f, -1, 0.25f);
         void *radius = NULL;
         assert_int_equal(ewa_cloud_add(cloud, EWA_RADIUS, EWA_F32, 1, &radius), EWA_OK);
         *(float *)radius = 2;
@@ -263,6 +264,17 @@ static void test_transform(void **state) {
         assert_true(along > 0);
         assert_true(fabs(number(cloud, EWA_CLIP0, 0, 1) - (det < 0 ? -2 : 2)) < 1e-6);
         assert_true(fabs(number(cloud, EWA_RADIUS, 0, 0) - 2 * cbrt(fabs(det))) < 1e-5);
+        // What lay on the plane through the border, across it, lies on that of the new one.
+        static const double on_plane[3][3] = {{0.5, -1, 0.25}, {2.5, 0, 0.25}, {0.5, 0, 4.25}};
+        for (int k = 0; k < 3; k++) {
+            double there = 0, border2 = 0;
+            for (uint32_t r = 0; r < 3; r++) {
+                const double b = number(cloud, EWA_BORDER, 0, r), *p = on_plane[k];
+                there += b * (m[4 * r] * p[0] + m[4 * r + 1] * p[1] + m[4 * r + 2] * p[2]);
+                border2 += b * b;
+            }
+            assert_true(border2 > 0 && fabs(there - border2) < 1e-5 * (1 + border2));
+        }
         ewa_cloud_destroy(&cloud);
     }
 }

@@ -124,7 +124,9 @@ static void test_any_order_of_properties(void **state) {
         {"clip0_a", "clip0", EWA_F32, 3, 0},      {"clip0_b", "clip0", EWA_F32, 3, 1},
         {"clip0_c", "clip0", EWA_F32, 3, 2},      {"clip1_a", "clip1", EWA_F32, 3, 0},
         {"clip1_b", "clip1", EWA_F32, 3, 1},      {"clip1_c", "clip1", EWA_F32, 3, 2},
-        {"clip_mode", "clip_mode", EWA_U8, 1, 0}, {"scalar_gps", "scalar_gps", EWA_F64, 1, 0},
+        {"border_x", "border", EWA_F32, 3, 0},     {"border_y", "border", EWA_F32, 3, 1},
+        {"border_z", "border", EWA_F32, 3, 2},     {"clip_mode", "clip_mode", EWA_U8, 1, 0},
+        {"scalar_gps", "scalar_gps", EWA_F64, 1, 0},
     };
     enum { PARTS = sizeof parts / sizeof parts[0], POINTS = 37 };
     check_random random = {11};

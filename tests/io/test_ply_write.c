@@ -68,9 +68,10 @@ static ewa_cloud *make_everything(ewa_context *owner, uint64_t points, ewa_type 
         uint32_t components;
     } parts[] = {
         {"normal", EWA_F32, 3},  {"radius", EWA_F32, 1}, {"tangent_u", EWA_F32, 3}, {"tangent_v", EWA_F32, 3},
-        {"clip0", EWA_F32, 3},   {"clip1", EWA_F32, 3},  {"clip_mode", EWA_U8, 1},  {"material", EWA_U16, 1},
-        {"quality", EWA_F32, 1}, {"gps", EWA_F64, 1},    {"i8", EWA_I8, 1},         {"u8", EWA_U8, 1},
-        {"i16", EWA_I16, 1},     {"u16", EWA_U16, 1},    {"i32", EWA_I32, 1},       {"u32", EWA_U32, 1}};
+        {"clip0", EWA_F32, 3},   {"clip1", EWA_F32, 3},  {"border", EWA_F32, 3},    {"clip_mode", EWA_U8, 1},
+        {"material", EWA_U16, 1}, {"quality", EWA_F32, 1}, {"gps", EWA_F64, 1},     {"i8", EWA_I8, 1},
+        {"u8", EWA_U8, 1},       {"i16", EWA_I16, 1},    {"u16", EWA_U16, 1},       {"i32", EWA_I32, 1},
+        {"u32", EWA_U32, 1}};
     ewa_cloud *cloud;
     void *data;
     check_random random = {points};

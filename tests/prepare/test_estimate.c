@@ -387,6 +387,112 @@ static void test_overflow(void **state) {
     }
 }
 
+/// Estimates a sampled square, with or without a hole of radius 12 in its middle.
+static ewa_cloud *with_borders(ewa_context *context, sampling kind, ewa_surfel_shape shape, bool hole) {
+    static float xyz[3 * MAXIMUM];
+    uint32_t count = sample_square(kind, xyz), kept = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        if (hole && hypot((double)xyz[3 * i] - SIDE / 2.0, (double)xyz[3 * i + 1] - SIDE / 2.0) < 12) continue;
+        memmove(&xyz[3 * kept++], &xyz[3 * i], 3 * sizeof *xyz);
+    }
+    ewa_cloud *cloud = NULL;
+    void *data = NULL;
+    assert_int_equal(ewa_cloud_create(context, kept, &cloud), EWA_OK);
+    assert_int_equal(ewa_cloud_add(cloud, EWA_POSITION, EWA_F32, 3, &data), EWA_OK);
+    memcpy(data, xyz, 3 * kept * sizeof *xyz);
+    ewa_estimate_options options = check_estimate_options();
+    options.shape = shape;
+    assert_int_equal(ewa_cloud_estimate(&cloud, &options), EWA_OK);
+    return cloud;
+}
+
+/// How far a place is inside of the square, and of the hole's rim.
+static double depth_of(const float *p, bool hole) {
+    const double side = (double)fminf(fminf(p[0], p[1]), fminf(SIDE - p[0], SIDE - p[1]));
+    return hole ? fmin(side, hypot((double)p[0] - SIDE / 2.0, (double)p[1] - SIDE / 2.0) - 12) : side;
+}
+
+/// Where two borders meet.
+static bool is_at_corner(const float *p) {
+    return fminf(fabsf(p[0] - SIDE / 2), fabsf(p[1] - SIDE / 2)) > SIDE / 2 - 8;
+}
+
+/// Borders are where the samples end, and nowhere else; discs reach no farther, lengths in spacings.
+static void test_borders(void **state) {
+    static const sampling kinds[] = {REGULAR, JITTERED, SCATTERED, HEXAGONAL, POISSON};
+    ewa_context *context = check_context(2, NULL);
+    for (int k = 0; k < 10; k++) {
+        const bool hole = k >= 5;
+        ewa_cloud *cloud = with_borders(context, kinds[k % 5], EWA_SHAPE_DISC, hole);
+        const float *p = check_stream(cloud, EWA_POSITION), *to = check_stream(cloud, EWA_BORDER);
+        const float *radius = check_stream(cloud, EWA_RADIUS);
+        double off = 0, over = 0;
+        uint64_t near = 0;
+        for (uint64_t i = 0; i < ewa_cloud_point_count(cloud); i++, p += 3, to += 3) {
+            const double depth = depth_of(p, hole), x = (double)to[0], y = (double)to[1], length = hypot(x, y);
+            const bool ends = length > 0;
+            assert_true(to[2] == 0 && (depth < 3.5 || !ends)); // far from all borders there is none
+            assert_true(!ends || length < (double)radius[i]);
+            if (is_at_corner(p)) continue;
+            over = fmax(over, (ends ? length : (double)radius[i]) - depth);
+            off += ends ? fabs(length - depth) : 0;
+            near += ends;
+        }
+        print_message("%d%s: %llu at borders, %.3f off, %.3f over\n", (int)kinds[k % 5], hole ? ", hole" : "",
+                      (unsigned long long)near, off / (double)near, over);
+        assert_true(near >= 4 * (SIDE - 16) && off / (double)near < 0.4 && over < 3);
+        ewa_cloud_destroy(&cloud);
+    }
+    ewa_context_destroy(&context);
+}
+
+/// What has no border gets no stream; axes get clip lines where discs get borders.
+static void test_borders_as_streams(void **state) {
+    enum { POINTS = 20000 };
+    ewa_context *context = check_context(2, NULL);
+    for (int s = 0; s < 2; s++) {
+        ewa_cloud *cloud = with_borders(context, POISSON, (ewa_surfel_shape)s, false);
+        assert_true((ewa_cloud_find(cloud, EWA_BORDER) != NULL) == (s == EWA_SHAPE_DISC));
+        assert_true((ewa_cloud_find(cloud, EWA_CLIP0) != NULL) == (s == EWA_SHAPE_ELLIPSE));
+        // The nearest point of a line is where the border is.
+        double off = 0, lines = 0;
+        for (uint64_t i = 0; s == EWA_SHAPE_ELLIPSE && i < ewa_cloud_point_count(cloud); i++) {
+            const float *p = check_stream(cloud, EWA_POSITION) + 3 * i, *line = check_stream(cloud, EWA_CLIP0) + 3 * i;
+            const float *u = check_stream(cloud, EWA_TANGENT_U) + 3 * i,
+                        *v = check_stream(cloud, EWA_TANGENT_V) + 3 * i;
+            if ((line[0] == 0 && line[1] == 0) || is_at_corner(p)) continue;
+            double uu = 0, vv = 0, to[2];
+            for (int c = 0; c < 3; c++)
+                uu += (double)u[c] * (double)u[c], vv += (double)v[c] * (double)v[c];
+            const double a = (double)line[0] / uu, b = (double)line[1] / vv;
+            for (int c = 0; c < 2; c++) to[c] = a * (double)u[c] + b * (double)v[c];
+            const double slope = hypot(to[0], to[1]), length = (double)line[2] / slope;
+            assert_true(length > 0 && length < 4);
+            for (int c = 0; c < 2; c++) to[c] = (double)p[c] - to[c] / slope * length;
+            off += fabs(fmax(fabs(to[0] - SIDE / 2.0), fabs(to[1] - SIDE / 2.0)) - SIDE / 2.0);
+            lines++;
+        }
+        if (s == EWA_SHAPE_ELLIPSE) print_message("ellipses: %.0f lines, %.3f off\n", lines, off / lines);
+        assert_true(s == EWA_SHAPE_DISC || (lines > 300 && off < 0.3 * lines));
+        ewa_cloud_destroy(&cloud);
+    }
+    check_random random = {3};
+    ewa_cloud *sphere = NULL;
+    float *p;
+    assert_int_equal(ewa_cloud_create(context, POINTS, &sphere), EWA_OK);
+    assert_int_equal(ewa_cloud_add(sphere, EWA_POSITION, EWA_F32, 3, (void **)&p), EWA_OK);
+    for (int i = 0; i < POINTS; i++) {
+        const double z = check_uniform(&random, -1, 1), angle = check_uniform(&random, 0, 6.283185307179586);
+        p[3 * i] = (float)(sqrt(1 - z * z) * cos(angle)), p[3 * i + 1] = (float)(sqrt(1 - z * z) * sin(angle));
+        p[3 * i + 2] = (float)z;
+    }
+    ewa_estimate_options options = check_estimate_options();
+    assert_int_equal(ewa_cloud_estimate(&sphere, &options), EWA_OK);
+    assert_null(ewa_cloud_find(sphere, EWA_BORDER));
+    ewa_cloud_destroy(&sphere);
+    ewa_context_destroy(&context);
+}
+
 static void test_threads_and_machines(void **state) {
     enum { COUNT = 60000 };
     static const uint32_t threads[] = {2, 7, 32, 1, 1};
@@ -437,10 +543,13 @@ static void test_order_of_points(void **state) {
                 *normal_of_shuffled = check_stream(clouds[1], EWA_NORMAL);
     const float *radius = check_stream(clouds[0], EWA_RADIUS),
                 *radius_of_shuffled = check_stream(clouds[1], EWA_RADIUS);
+    const float *border = check_stream(clouds[0], EWA_BORDER),
+                *border_of_shuffled = check_stream(clouds[1], EWA_BORDER);
     for (uint64_t i = 0; i < COUNT; i++) {
         const uint64_t from = i * STEP % COUNT;
         assert_memory_equal(&normal_of_shuffled[3 * i], &normal[3 * from], 3 * sizeof *normal);
         assert_true(radius_of_shuffled[i] == radius[from]);
+        assert_memory_equal(&border_of_shuffled[3 * i], &border[3 * from], 3 * sizeof *border);
     }
     for (int c = 0; c < 2; c++) {
         ewa_cloud_destroy(&clouds[c]);
@@ -534,6 +643,8 @@ int main(void) {
         cmocka_unit_test(test_keep),
         cmocka_unit_test(test_degenerate),
         cmocka_unit_test(test_overflow),
+        cmocka_unit_test(test_borders),
+        cmocka_unit_test(test_borders_as_streams),
         cmocka_unit_test(test_threads_and_machines),
         cmocka_unit_test(test_order_of_points),
         cmocka_unit_test(test_out_of_memory),

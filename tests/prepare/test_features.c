@@ -42,6 +42,12 @@ static ewa_cloud *make_cloud(ewa_context *context, uint32_t count, const float *
     return cloud;
 }
 
+/// The same cloud without the borders of its squares, which are no features.
+static ewa_cloud *without_borders(ewa_cloud *cloud) {
+    ewa_cloud_remove(cloud, EWA_BORDER);
+    return cloud;
+}
+
 static ewa_feature_options default_options(void) {
     ewa_feature_options options;
     ewa_feature_options_init(&options, sizeof options);
@@ -49,7 +55,7 @@ static ewa_feature_options default_options(void) {
 }
 
 /// Two squares that meet along the y axis; their normals differ by `angle`, upwards (convex) or as a valley.
-static ewa_cloud *make_crease(ewa_context *context, double angle_deg, bool valley) {
+static ewa_cloud *make_bordered_crease(ewa_context *context, double angle_deg, bool valley) {
     static float xyz[3 * MAXIMUM], normals[3 * MAXIMUM];
     const double half = angle_deg * 3.141592653589793 / 360, c = cos(half),
                  s = valley ? sin(half) : -sin(half);
@@ -60,6 +66,10 @@ static ewa_cloud *make_crease(ewa_context *context, double angle_deg, bool valle
         count = add_square(origin, a, y, normal, (uint64_t)(side + 5), xyz, normals, count);
     }
     return make_cloud(context, count, xyz, normals);
+}
+
+static ewa_cloud *make_crease(ewa_context *context, double angle_deg, bool valley) {
+    return without_borders(make_bordered_crease(context, angle_deg, valley));
 }
 
 static bool has_line(const float *clip, uint64_t i) { return clip[3 * i] != 0 || clip[3 * i + 1] != 0; }
@@ -279,7 +289,7 @@ static void check_corner(corner_kind kind) {
     static float xyz[3 * MAXIMUM], normals[3 * MAXIMUM];
     ewa_context *context = check_context(2, NULL);
     const uint32_t count = make_corner(kind, xyz, normals);
-    ewa_cloud *cloud = make_cloud(context, count, xyz, normals);
+    ewa_cloud *cloud = without_borders(make_cloud(context, count, xyz, normals));
     const ewa_feature_options options = default_options();
     ewa_feature_counts counts;
     assert_int_equal(ewa_cloud_detect_features(cloud, &options, &counts), EWA_OK);
@@ -485,6 +495,38 @@ static void test_failing_allocations(void **state) {
     assert_true(edges > 20);
 }
 
+/// Discs get axes where there are features; their borders become clip lines, which end the surface where it ended.
+static void test_borders_become_lines(void **state) {
+    ewa_context *context = check_context(2, NULL);
+    ewa_cloud *cloud = make_bordered_crease(context, 90, false);
+    const uint64_t count = ewa_cloud_point_count(cloud);
+    float *ends = malloc(3 * count * sizeof *ends);
+    assert_non_null(ends);
+    memcpy(ends, check_stream(cloud, EWA_BORDER), 3 * count * sizeof *ends);
+    const ewa_feature_options options = default_options();
+    ewa_feature_counts counts;
+    assert_int_equal(ewa_cloud_detect_features(cloud, &options, &counts), EWA_OK);
+    assert_true(counts.edge_count > 50);
+    assert_null(ewa_cloud_find(cloud, EWA_BORDER));
+    const float *clip = check_stream(cloud, EWA_CLIP0), *position = check_stream(cloud, EWA_POSITION);
+    uint64_t bordered = 0;
+    for (uint64_t i = 0; i < count; i++) {
+        const float *b = &ends[3 * i];
+        if (fabsf(position[3 * i]) < 6 || (b[0] == 0 && b[1] == 0 && b[2] == 0)) continue;
+        double foot[3], off = 0;
+        assert_true(has_line(clip, i));
+        line_in_world(cloud, clip, i, foot);
+        for (int c = 0; c < 3; c++)
+            off = fmax(off, fabs(foot[c] - (double)position[3 * i + (uint64_t)c] - (double)b[c]));
+        assert_true(off < 1e-4);
+        bordered++;
+    }
+    assert_true(bordered > 40);
+    free(ends);
+    ewa_cloud_destroy(&cloud);
+    ewa_context_destroy(&context);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_creases),    cmocka_unit_test(test_outliers),
@@ -493,6 +535,7 @@ int main(void) {
         cmocka_unit_test(test_odd_clouds), cmocka_unit_test(test_streams),
         cmocka_unit_test(test_refusals),   cmocka_unit_test(test_neighbour_counts),
         cmocka_unit_test(test_steps),      cmocka_unit_test(test_failing_allocations),
+        cmocka_unit_test(test_borders_become_lines),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -393,20 +393,22 @@ static void hold_size(const local_kernels *kernels, check_random *random) {
 }
 
 static void hold_median(const local_kernels *kernels, const ewa_block *block, check_random *random) {
-    float values[PLACES], around[EWA_BLOCK_LANES];
+    float values[PLACES], around[EWA_BLOCK_LANES], farthest2[EWA_BLOCK_LANES];
     for (int i = 0; i < PLACES; i++) values[i] = (float)exp(check_uniform(random, -3, 3));
     hold_batch(kernels, block, values);
-    kernels->median(collect(kernels, block, values), around);
+    kernels->median(collect(kernels, block, values), around, farthest2);
     for (uint32_t lane = 0; lane < block->lane_count; lane++) {
-        float sorted[PLACES];
+        float sorted[PLACES], farthest = 0;
         uint32_t count = 0;
         for (uint32_t i = 0; i < PLACES; i++) {
             if (!is_inside(block, i, block->lane_count - 1 - lane)) continue;
+            farthest = fmaxf(farthest, block->distance2[i][block->lane_count - 1 - lane]);
             uint32_t to = count++;
             for (; to > 0 && sorted[to - 1] > values[i]; to--) sorted[to] = sorted[to - 1];
             sorted[to] = values[i];
         }
         assert_true(fabs(log((double)(around[lane] / sorted[(count - 1) / 2]))) < 6.0 / 256 + 1e-5);
+        assert_true(farthest2[lane] == farthest);
     }
 }
 

@@ -122,16 +122,20 @@ static void test_silhouettes(void **state) {
 
 static void test_borders(void **state) {
     ewa_context *context = check_context(0, NULL);
-    static const uint64_t counts[] = {1000, 20000, 100000};
+    static const uint64_t counts[] = {1000, 20000, 100000}; // spacings of 6, 1.4 and 0.6 px
+    static const double fat_px[] = {0.6, 0.06, 0.06}, rms[] = {0.45, 0.23, 0.15}, open[] = {0.015, 1e-3, 1e-4};
     for (int i = 0; i < 3; i++) {
         const uint64_t n = counts[i];
         print_message("%llu points\n", (unsigned long long)n);
         const outline_errors mesh =
             measure(context, "disc, mesh", OUTLINE_DISC, oblique, disc_from_mesh(context, n));
         assert_true(fabs(mesh.fat_px) < 0.05 && mesh.rms < 0.1 && mesh.open == 0);
-        measure(context, "disc, random points", OUTLINE_DISC, oblique, estimated(context, OUTLINE_DISC, n));
-        measure(context, "square, random points", OUTLINE_SQUARE, oblique,
-                estimated(context, OUTLINE_SQUARE, n));
+        const outline_errors disc =
+            measure(context, "disc, random points", OUTLINE_DISC, oblique, estimated(context, OUTLINE_DISC, n));
+        const outline_errors square = measure(context, "square, random points", OUTLINE_SQUARE, oblique,
+                                              estimated(context, OUTLINE_SQUARE, n));
+        assert_true(fabs(disc.fat_px) < fat_px[i] && disc.rms < rms[i] && disc.open < open[i]);
+        assert_true(fabs(square.fat_px) < fat_px[i] && square.rms < rms[i] && square.open < open[i]);
     }
     ewa_context_destroy(&context);
 }

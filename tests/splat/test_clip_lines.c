@@ -135,10 +135,56 @@ static void test_line_stays(void **state) {
     ewa_context_destroy(&context);
 }
 
+/// A disc of radius 3 seen straight on, whose surface ends at `border`.
+static ewa_cloud *one_disc(ewa_context *context, const float normal[3], const float border[3]) {
+    ewa_cloud *cloud = NULL;
+    float *position, *n, *radius, *to;
+    assert_int_equal(ewa_cloud_create(context, 1, &cloud), EWA_OK);
+    assert_int_equal(ewa_cloud_add(cloud, EWA_POSITION, EWA_F32, 3, (void **)&position), EWA_OK);
+    assert_int_equal(ewa_cloud_add(cloud, EWA_NORMAL, EWA_F32, 3, (void **)&n), EWA_OK);
+    assert_int_equal(ewa_cloud_add(cloud, EWA_RADIUS, EWA_F32, 1, (void **)&radius), EWA_OK);
+    assert_int_equal(ewa_cloud_add(cloud, EWA_BORDER, EWA_F32, 3, (void **)&to), EWA_OK);
+    position[0] = position[1] = 0, position[2] = 4;
+    memcpy(n, normal, 3 * sizeof *n);
+    *radius = 3;
+    memcpy(to, border, 3 * sizeof *to);
+    return cloud;
+}
+
+/// Discs end at their borders, whichever way normals point; borders off the plane cut it where they meet it.
+static void test_borders(void **state) {
+    static const float normals[][3] = {{0, 0, -1}, {0, 0, 2}};
+    static const struct {
+        float border[3];
+        int first, end; // pixels of the middle row that show; 32 per unit
+    } rows[] = {
+        {{0.25f, 0, 0}, -40, 8},        {{-0.25f, 0, 0}, -8, 40}, {{0.25f, 0, 0.25f}, -40, 16},
+        {{0, 0, 0}, -40, 40},           {{NAN, 0, 0}, -40, 40},   {{9, 0, 0}, -40, 40},
+        {{0, 0, 1}, -40, 40}, // beyond the disc, along its normal
+    };
+    ewa_context *context = check_context(0, NULL);
+    ewa_camera camera;
+    ewa_camera_init(&camera);
+    camera.width_px = camera.height_px = SIDE;
+    camera.fx_px = camera.fy_px = SIDE;
+    camera.cx_px = camera.cy_px = SIDE / 2;
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++)
+        for (int side = 0; side < 2; side++) {
+            ewa_cloud *cloud = one_disc(context, normals[side], rows[i].border);
+            picture made = picture_draw(context, cloud, &camera, NULL, NULL);
+            const float *row = &made.frame.coverage[SIDE / 2 * SIDE + SIDE / 2];
+            for (int x = -40; x < 40; x++) assert_true((row[x] > 0) == (x >= rows[i].first && x < rows[i].end));
+            picture_free(&made);
+            ewa_cloud_destroy(&cloud);
+        }
+    ewa_context_destroy(&context);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_known_answers),
         cmocka_unit_test(test_line_stays),
+        cmocka_unit_test(test_borders),
         cmocka_unit_test(test_pipeline_holds),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -110,15 +110,15 @@ static void test_levels_are_closed(void **state) {
 
 /// The same cloud with its points in another order.
 static ewa_cloud *shuffled(ewa_context *context, const ewa_cloud *of) {
-    static const char *const names[] = {EWA_POSITION, EWA_NORMAL, EWA_RADIUS, EWA_COLOR};
+    static const char *const names[] = {EWA_POSITION, EWA_NORMAL, EWA_RADIUS, EWA_BORDER, EWA_COLOR};
     const uint64_t count = ewa_cloud_point_count(of);
     ewa_cloud *made = NULL;
     assert_int_equal(ewa_cloud_create(context, count, &made), EWA_OK);
-    for (int k = 0; k < 4; k++) {
+    for (int k = 0; k < 5; k++) {
         const ewa_attribute *from = ewa_cloud_find(of, names[k]);
         void *to = NULL;
         assert_int_equal(ewa_cloud_add(made, names[k], from->type, from->component_count, &to), EWA_OK);
-        const size_t bytes = from->component_count * (k == 3 ? 1 : sizeof(float));
+        const size_t bytes = from->component_count * (k == 4 ? 1 : sizeof(float));
         for (uint64_t i = 0; i < count; i++)
             memcpy((char *)to + i * bytes,
                    (const char *)from->data + (i * 7919 + 13) % count * from->stride_bytes, bytes);

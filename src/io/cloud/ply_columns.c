@@ -41,6 +41,7 @@ static const group groups[] = {
     {EWA_TANGENT_V, RULE_FLOAT, 3, 3, {{"tv_x", "tv_y", "tv_z"}}},
     {EWA_CLIP0, RULE_FLOAT, 3, 3, {{"clip0_a", "clip0_b", "clip0_c"}}},
     {EWA_CLIP1, RULE_FLOAT, 3, 3, {{"clip1_a", "clip1_b", "clip1_c"}}},
+    {EWA_BORDER, RULE_FLOAT, 3, 3, {{"border_x", "border_y", "border_z"}}},
 };
 enum { GROUP_COUNT = sizeof groups / sizeof groups[0] };
 

@@ -181,7 +181,7 @@ static bool is_counted(const char *name) {
 
 static bool is_float(const char *name) {
     static const char *const names[] = {EWA_NORMAL, EWA_RADIUS, EWA_TANGENT_U, EWA_TANGENT_V,
-                                        EWA_CLIP0,  EWA_CLIP1,  "scan_angle"};
+                                        EWA_CLIP0,  EWA_CLIP1,  EWA_BORDER,    "scan_angle"};
     return is_one_of(name, names, sizeof names / sizeof names[0]);
 }
 

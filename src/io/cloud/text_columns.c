@@ -77,6 +77,9 @@ static const alias aliases[] = {
     {"clip1a", EWA_CLIP1, 0},
     {"clip1b", EWA_CLIP1, 1},
     {"clip1c", EWA_CLIP1, 2},
+    {"borderx", EWA_BORDER, 0},
+    {"bordery", EWA_BORDER, 1},
+    {"borderz", EWA_BORDER, 2},
     {"radius", EWA_RADIUS, 0},
     {"intensity", "intensity", 0},
     {"i", "intensity", 0},
@@ -324,7 +327,7 @@ static const struct {
     const char *name;
     uint32_t minimum, maximum;
 } groups[] = {{EWA_POSITION, 3, 3},  {EWA_NORMAL, 3, 3}, {EWA_COLOR, 3, 4}, {EWA_TANGENT_U, 3, 3},
-              {EWA_TANGENT_V, 3, 3}, {EWA_CLIP0, 3, 3},  {EWA_CLIP1, 3, 3}};
+              {EWA_TANGENT_V, 3, 3}, {EWA_CLIP0, 3, 3},  {EWA_CLIP1, 3, 3}, {EWA_BORDER, 3, 3}};
 
 /// Makes a scalar of a column, called what the head calls it.
 static void demote(ewa_text_column *column, uint32_t index) {

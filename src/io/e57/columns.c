@@ -93,7 +93,7 @@ static ewa_type type_of(const ewa_e57_column *column) {
 /// Names that mean attributes of several components, or what the reader adds.
 static bool is_reserved(const char *name) {
     static const char *const reserved[] = {EWA_POSITION,  EWA_NORMAL, EWA_COLOR, EWA_TANGENT_U,
-                                           EWA_TANGENT_V, EWA_CLIP0,  EWA_CLIP1, "scan"};
+                                           EWA_TANGENT_V, EWA_CLIP0,  EWA_CLIP1, EWA_BORDER,   "scan"};
     for (size_t i = 0; i < sizeof reserved / sizeof reserved[0]; i++)
         if (strcmp(name, reserved[i]) == 0) return true;
     return false;

@@ -79,7 +79,8 @@ static const struct {
 } groups[] = {
     {EWA_NORMAL, {"NormalX", "NormalY", "NormalZ"}}, {EWA_NORMAL, {"nx", "ny", "nz"}},
     {EWA_TANGENT_U, {"tu_x", "tu_y", "tu_z"}},       {EWA_TANGENT_V, {"tv_x", "tv_y", "tv_z"}},
-    {EWA_CLIP0, {"clip0_a", "clip0_b", "clip0_c"}},  {EWA_CLIP1, {"clip1_a", "clip1_b", "clip1_c"}}};
+    {EWA_CLIP0, {"clip0_a", "clip0_b", "clip0_c"}},  {EWA_CLIP1, {"clip1_a", "clip1_b", "clip1_c"}},
+    {EWA_BORDER, {"border_x", "border_y", "border_z"}}};
 enum { GROUP_COUNT = sizeof groups / sizeof groups[0] };
 
 /// Attributes of one number whose field has another name, as it is written.
