@@ -34,11 +34,10 @@ void ewa_reference_gather(ewa_reference_gathered *to, const ewa_reference_splat 
 ewa_reference_sums ewa_reference_settle(const ewa_reference_gathered *surface, double unit_coverage,
                                         bool merged) {
     const double front = surface->facing.weight, back = surface->is_back.weight;
-    const double shown = merged ? 1 : fmax(0, 1 - front / (EWA_FRONT * unit_coverage));
+    const double share = back > 0 ? fmin(1, front / (EWA_FRONT * unit_coverage)) : 1;
     ewa_reference_sums sums = {.weight = 0};
-    const double mixed = front + shown * back, scale = mixed > 0 ? (front + back) / mixed : 0;
-    add_scaled(&sums, &surface->facing, scale);
-    add_scaled(&sums, &surface->is_back, scale * shown);
+    if (front > 0) add_scaled(&sums, &surface->facing, merged ? 1 : (front + back) * share / front);
+    if (back > 0) add_scaled(&sums, &surface->is_back, merged ? 1 : (front + back) * (1 - share) / back);
     return sums;
 }
 

@@ -73,17 +73,18 @@ static ALWAYS_INLINE void add_cut(const ewa_tile *tile, uint32_t row, uint32_t c
 static ALWAYS_INLINE void join_back_facing(const ewa_tile *tile, const ewa_resolve *to, const float *is_back,
                                            float *sums, bool merged) {
     const wf zero = wf_set(0), one = wf_set(1), front = wf_load(sums), back = wf_load(is_back);
-    wf shown = one, scale = one;
+    wf of_front = one, of_back = one;
     if (!merged) {
-        shown = wf_max(wf_sub(one, wf_mul(front, wf_set(to->front_scale))), zero);
-        const wf mixed = wf_fma(shown, back, front);
-        const wm some = wf_lt(zero, mixed);
-        scale = wf_keep(some, wf_div(wf_add(front, back), wf_select(some, mixed, one)));
+        const wm some_front = wf_lt(zero, front), some_back = wf_lt(zero, back);
+        const wf share = wf_min(wf_mul(front, wf_set(to->front_scale)), one), all = wf_add(front, back);
+        const wf behind = wf_keep(some_back, wf_sub(one, share));
+        of_front = wf_keep(some_front, wf_div(wf_mul(all, wf_sub(one, behind)), wf_select(some_front, front, one)));
+        of_back = wf_div(wf_mul(all, behind), wf_select(some_back, back, one));
     }
     for (uint32_t c = 0; c < tile->channel_count; c++) {
         float *plane = sums + (size_t)c * EWA_BLOCK_LANES;
         const wf other = wf_load(is_back + (size_t)c * EWA_BLOCK_LANES);
-        wf_store(plane, wf_mul(scale, wf_fma(shown, other, wf_load(plane))));
+        wf_store(plane, wf_fma(of_back, other, wf_mul(of_front, wf_load(plane))));
     }
 }
 

@@ -85,8 +85,9 @@
 // Facing: back-facing splats hide others and cover the pixel as all do, but are seen only where nothing faces
 // the viewer. With S_f the sums of weight, colour, normal, depth, material and opacity over the splats that
 // are front-facing, S_b those over the back-facing ones, q_f and q_b their weights, the surface's sums are
-//   S = (S_f + (1 - s) S_b) (q_f + q_b) / (q_f + (1 - s) q_b),    s = min(1, q_f / (EWA_FRONT q0)),
-// of weight q = q_f + q_b. At sharp edges the far side's discs reach past the near side's and lie in front of
+//   S = (q_f + q_b) (s S_f / q_f + (1 - s) S_b / q_b),    s = min(1, q_f / (EWA_FRONT q0)),
+// of weight q = q_f + q_b; where one of these is 0, the other's. The mean goes over from one to the other as
+// s grows, however little weight either has. At sharp edges the far side's discs reach past the near side's and lie in front of
 // them there; without this they draw a rim in the far side's colour, with its normals turned over. Alpha,
 // coverage and visibility do not depend on which way normals point.
 //

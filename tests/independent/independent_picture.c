@@ -130,12 +130,12 @@ static real within(real value, real low, real high) {
 static void settle(const drawing *d, pixel *at, bool all) {
     const sums *faces = &at->sides[0], *backs = &at->sides[1];
     const real q0 = (real)d->scene->unit_coverage, minimum = (real)d->scene->options.edge_threshold * q0;
-    const real hidden = all ? 0 : within(faces->weight / (FRONT * q0), 0, 1);
-    const real q = faces->weight + backs->weight, seen = faces->weight + (1 - hidden) * backs->weight;
+    const real hidden = within(faces->weight / (FRONT * q0), 0, 1), q = faces->weight + backs->weight;
     at->sum = (sums){0};
     if (!(q > 0)) return;
-    mix(&at->sum, faces, q / seen);
-    mix(&at->sum, backs, (1 - hidden) * q / seen);
+    const bool one_side = all || !(faces->weight > 0) || !(backs->weight > 0);
+    mix(&at->sum, faces, one_side ? 1 : hidden * q / faces->weight);
+    mix(&at->sum, backs, one_side ? 1 : (1 - hidden) * q / backs->weight);
     cut *c = &at->cut;
     c->alpha = c->plain = within(q / minimum, 0, 1);
     c->mean[0] = c->mean[1] = 0;

@@ -264,6 +264,62 @@ static void test_no_rims_of_far_sides(void **state) {
     ewa_context_destroy(&context);
 }
 
+/// A disc that faces the viewer, in a sheet that does not: as its weight grows the mean goes over to it evenly,
+/// however much more the sheet weighs.
+static void test_means_go_over(void **state) {
+    enum { ROWS = 60 };
+    static float both[4 * SIDE * SIDE], all[SIDE * SIDE], front[SIDE * SIDE];
+    static const double eye[3] = {0.3, -0.4, 3}, target[3] = {0, 0, 0}, up[3] = {0.1, 1, 0};
+    ewa_context *context = check_context(0, NULL);
+    points made = {calloc(3 * (ROWS * ROWS + 1), sizeof(float)), calloc(3 * (ROWS * ROWS + 1), sizeof(float)), 0, {1}};
+    assert_true(made.position && made.normal);
+    for (int i = 0; i <= ROWS * ROWS; i++) {
+        const bool disc = i == ROWS * ROWS;
+        float *p = made.position + 3 * i, *n = made.normal + 3 * i;
+        p[0] = disc ? 0.1f : 2 * ((float)(i % ROWS) + 0.5f) / ROWS - 1;
+        p[1] = disc ? 0.2f : 2 * ((float)(i / ROWS) + 0.5f) / ROWS - 1;
+        n[2] = disc ? 1 : -1;
+        made.count++;
+    }
+    ewa_cloud *cloud = make_cloud(context, &made, 0.06);
+    ((float *)ewa_cloud_find(cloud, EWA_RADIUS)->data)[ROWS * ROWS] = 0.4f;
+    float *color = NULL;
+    assert_int_equal(ewa_cloud_add(cloud, EWA_COLOR, EWA_F32, 3, (void **)&color), EWA_OK);
+    memset(color, 0, 3 * made.count * sizeof *color);
+    for (uint64_t i = 0; i < made.count; i++) color[3 * i + (i == ROWS * ROWS ? 0 : 2)] = 1;
+    ewa_camera camera;
+    ewa_camera_init(&camera);
+    camera.width_px = camera.height_px = SIDE;
+    assert_int_equal(ewa_camera_set_fov(&camera, 45), EWA_OK);
+    assert_int_equal(ewa_camera_look_at(&camera, eye, target, up), EWA_OK);
+    ewa_render_options options;
+    ewa_render_options_init(&options, sizeof options);
+    options.shading = EWA_SHADING_NONE;
+    ewa_surfels *surfels = NULL;
+    ewa_renderer *renderer = NULL;
+    assert_int_equal(ewa_surfels_create(cloud, NULL, &surfels), EWA_OK);
+    assert_int_equal(ewa_renderer_create(context, &renderer), EWA_OK);
+    const ewa_frame frames[2] = {{.rgba = both, .coverage = all}, {.coverage = front}};
+    for (int f = 0; f < 2; f++) {
+        options.cull = f ? EWA_CULL_BACK : EWA_CULL_NONE;
+        assert_int_equal(ewa_render(renderer, surfels, &camera, &options, &frames[f], NULL), EWA_OK);
+    }
+    uint64_t between = 0;
+    for (int i = 0; i < SIDE * SIDE; i++) {
+        if (!(all[i] > front[i]) || !(both[4 * i + 3] == 1)) continue;
+        const double share = fmin(1, (double)front[i] / 0.05);
+        between += share > 0.1 && share < 0.9;
+        assert_true(fabs((double)both[4 * i] - share) < 2e-3 && fabs((double)both[4 * i + 2] - (1 - share)) < 2e-3);
+    }
+    assert_true(between > 500);
+    ewa_renderer_destroy(&renderer);
+    ewa_surfels_destroy(&surfels);
+    ewa_cloud_destroy(&cloud);
+    free(made.position);
+    free(made.normal);
+    ewa_context_destroy(&context);
+}
+
 /// A sheet in waves that hang over: it folds twice in each, and shows both of its sides from everywhere.
 static ewa_cloud *make_waves(ewa_context *context) {
     enum { ALONG = 220, ACROSS = 110 };
@@ -381,6 +437,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_no_rims_of_far_sides),
         cmocka_unit_test(test_cover_is_blind_to_normals),
+        cmocka_unit_test(test_means_go_over),
         cmocka_unit_test(test_inside_is_shown),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -67,15 +67,16 @@ void settle() {
     opacity = has(WITH_OPACITY) ? texelFetch(opacity_map, pixel, 0).r : color.w;
     if (has(BOTH_SIDES)) {
         vec4 is_back = texelFetch(color_back_map, pixel, 0);
-        float shown = whole != 0 ? 1.0 : max(1.0 - color.w * scales.w, 0.0), mixed = shown * is_back.w + color.w;
-        float scale = whole != 0 ? 1.0 : 0.0 < mixed ? (color.w + is_back.w) / mixed : 0.0;
+        float all_weight = color.w + is_back.w, share = 0.0 < is_back.w ? min(color.w * scales.w, 1.0) : 1.0;
+        float front = whole != 0 ? 1.0 : 0.0 < color.w ? all_weight * share / color.w : 0.0;
+        float behind = whole != 0 ? 1.0 : 0.0 < is_back.w ? all_weight * (1.0 - share) / is_back.w : 0.0;
         float back_opacity = has(WITH_OPACITY) ? texelFetch(opacity_back_map, pixel, 0).r : is_back.w;
-        color = scale * (color + shown * is_back);
-        normal = scale * (normal + shown * texelFetch(normal_back_map, pixel, 0));
-        opacity = scale * (opacity + shown * back_opacity);
+        color = front * color + behind * is_back;
+        normal = front * normal + behind * texelFetch(normal_back_map, pixel, 0);
+        opacity = front * opacity + behind * back_opacity;
         if (has(WITH_MATERIAL)) {
-            material_sum = scale * (material_sum + shown * texelFetch(material_back_map, pixel, 0));
-            reflection_sum = scale * (reflection_sum + shown * texelFetch(reflection_back_map, pixel, 0).r);
+            material_sum = front * material_sum + behind * texelFetch(material_back_map, pixel, 0);
+            reflection_sum = front * reflection_sum + behind * texelFetch(reflection_back_map, pixel, 0).r;
         }
     }
     if (has(WITH_MATERIAL)) {

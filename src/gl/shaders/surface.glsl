@@ -143,14 +143,15 @@ Surface settle(bool block_is_cut, bool first) {
         other[DEPTH_CHANNEL] = wf_mul(mean_depth(true), other[0]);
     }
 #endif
-    float shown = 1.0, scale = 1.0, front = s.sums[0], back = other[0];
+    float of_front = 1.0, of_back = 1.0, front = s.sums[0], back = other[0];
     if (!merged) {
-        shown = wf_max(wf_sub(1.0, wf_mul(front, to.front_scale)), 0.0);
-        float mixed = wf_fma(shown, back, front);
-        bool some = 0.0 < mixed;
-        scale = wf_keep(some, wf_div(wf_add(front, back), some ? mixed : 1.0));
+        bool some_front = 0.0 < front, some_back = 0.0 < back;
+        float share = wf_min(wf_mul(front, to.front_scale), 1.0), all_weight = wf_add(front, back);
+        float behind = wf_keep(some_back, wf_sub(1.0, share));
+        of_front = wf_keep(some_front, wf_div(wf_mul(all_weight, wf_sub(1.0, behind)), some_front ? front : 1.0));
+        of_back = wf_div(wf_mul(all_weight, behind), some_back ? back : 1.0);
     }
-    for (uint c = 0u; c < uint(CHANNELS); c++) s.sums[c] = wf_mul(scale, wf_fma(shown, other[c], s.sums[c]));
+    for (uint c = 0u; c < uint(CHANNELS); c++) s.sums[c] = wf_fma(of_back, other[c], wf_mul(of_front, s.sums[c]));
     s.cover = s.cut_x = s.cut_y = 0.0;
 #if WITH_CLIPS
     if (block_is_cut && !merged) {
