@@ -87,9 +87,9 @@
 // are front-facing, S_b those over the back-facing ones, q_f and q_b their weights, the surface's sums are
 //   S = (q_f + q_b) (s S_f / q_f + (1 - s) S_b / q_b),    s = min(1, q_f / (EWA_FRONT q0)),
 // of weight q = q_f + q_b; where one of these is 0, the other's. The mean goes over from one to the other as
-// s grows, however little weight either has. At sharp edges the far side's discs reach past the near side's and lie in front of
-// them there; without this they draw a rim in the far side's colour, with its normals turned over. Alpha,
-// coverage and visibility do not depend on which way normals point.
+// s grows, however little weight either has. At sharp edges the far side's discs reach past the near side's
+// and lie in front of them there; without this they draw a rim in the far side's colour, with its normals
+// turned over. Alpha, coverage and visibility do not depend on which way normals point.
 //
 // ---- Section 7: resolve, alpha, shading
 //
@@ -111,7 +111,10 @@
 //
 // The normal that is shaded by is the weighted sum over max(its length, EWA_SHADED_NORMAL q): of unit length
 // where the normals of a pixel agree, shorter where they cancel. Both sides of a silhouette do, as each is
-// turned to the viewer: a unit normal would face him there, and draw a bright rim around what is closed.
+// turned to the viewer: a unit normal would face him there, and draw a bright rim around what is closed. At a
+// sharp edge the faces do: light goes with N.L, so that the mean normal as it is gives the mean of their light,
+// and one made longer a line brighter than either. Nearly equal normals are smoothed to unit length, so that
+// surfaces that bend are not darker between their discs.
 // Shading: colour (ambient + diffuse sum light max(0, N.L)) [+ specular sum light max(0, N.H)^shininess where
 // N.L > 0, + reflection environment(R)], the part in brackets with EWA_SHADING_PHONG. V is the direction to
 // the eye along the pixel's ray (orthographic: against the view direction); a headlight has L = H = V, others
@@ -232,8 +235,9 @@
 #define EWA_EDGES_AGREE  0.95
 #define EWA_EDGES_OPPOSE 0.8
 
-/// Length of the mean of a pixel's unit normals below which it is shaded as if turned away.
-#define EWA_SHADED_NORMAL 0.5
+/// Length of the mean of a pixel's unit normals from which on it is shaded by a unit normal: 18 degrees to either
+/// side of the mean.
+#define EWA_SHADED_NORMAL 0.95
 
 /// Eye-dome lighting: pairs of opposite pixels, and what their mean is multiplied by at strength 1: a step of
 /// 1 % of the depth behind a straight edge takes about half of the light.

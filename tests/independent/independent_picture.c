@@ -10,7 +10,7 @@
 #include <stdlib.h>
 
 // The numbers of semantics.h, written down again.
-static const real SHADED_NORMAL = 0.5L;
+static const real SHADED_NORMAL = 0.95L;
 static const real FRONT = 0.05L, CUT = 0.05L, EDGES_AGREE = 0.95L, EDGES_OPPOSE = 0.8L;
 enum { MERGED_SURFACES = 64 };
 

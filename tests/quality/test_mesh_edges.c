@@ -7,6 +7,7 @@
 //
 // EWA_QUALITY_CAMERAS sets the number of cameras (default 30; the documented run takes 500).
 #include "../prepare/mesh_shapes.h"
+#include "cloud/color.h"
 
 #include <stdbool.h>
 
@@ -145,7 +146,59 @@ static void test_cube(void **state) { hold(&cube); }
 
 static void test_angle(void **state) { hold(&angle); }
 
+/// Where faces meet the light is between theirs: no line along the edge is brighter than both, nor darker.
+static void test_light_at_edges(void **state) {
+    static const double eye[3] = {3.1, 2.9, 2.7}, target[3] = {0, 0, 0}, up[3] = {0, 0, 1};
+    static float rgba[4 * SIDE * SIDE];
+    ewa_context *context = check_context(0, NULL);
+    ewa_mesh mesh;
+    shape_cube(context, &mesh);
+    ewa_mesh_sample_options sample;
+    ewa_mesh_sample_options_init(&sample, sizeof sample);
+    sample.point_count = 100000;
+    ewa_cloud *cloud = shape_sample(&mesh, &sample);
+    ewa_surfels *surfels = NULL;
+    ewa_renderer *renderer = NULL;
+    assert_int_equal(ewa_surfels_create(cloud, NULL, &surfels), EWA_OK);
+    assert_int_equal(ewa_renderer_create(context, &renderer), EWA_OK);
+    ewa_render_options options;
+    ewa_render_options_init(&options, sizeof options);
+    ewa_camera camera;
+    ewa_camera_init(&camera);
+    camera.width_px = camera.height_px = SIDE;
+    assert_int_equal(ewa_camera_set_fov(&camera, 40), EWA_OK);
+    assert_int_equal(ewa_camera_look_at(&camera, eye, target, up), EWA_OK);
+    const ewa_frame frame = {.rgba = rgba};
+    assert_int_equal(ewa_render(renderer, surfels, &camera, &options, &frame, NULL), EWA_OK);
+    double brighter = 0, darker = 0;
+    for (int y = 0; y < SIDE; y++)
+        for (int x = 0; x < SIDE; x++) {
+            const double *m = camera.world_to_camera;
+            const double px = (x + 0.5 - camera.cx_px) / camera.fx_px, py = (y + 0.5 - camera.cy_px) / camera.fy_px;
+            double ray[3], length2 = 0, low = INFINITY, high = 0;
+            for (int c = 0; c < 3; c++) {
+                ray[c] = m[c] * px + m[4 + c] * py + m[8 + c];
+                length2 += ray[c] * ray[c];
+            }
+            if (!(rgba[4 * (y * SIDE + x) + 3] == 1)) continue;
+            for (int c = 0; c < 3; c++) { // the three faces that are seen, under a headlight
+                const double light = options.ambient + (1 - options.ambient) * -ray[c] / sqrt(length2);
+                low = fmin(low, light), high = fmax(high, light);
+            }
+            const double light = (double)rgba[4 * (y * SIDE + x)] / EWA_DEFAULT_GREY;
+            brighter = fmax(brighter, light / high - 1), darker = fmax(darker, 1 - light / low);
+        }
+    print_message("pixels of a cube: up to %.3f brighter than its faces, %.3f darker\n", brighter, darker);
+    assert_true(brighter < 0.06 && darker < 0.03);
+    ewa_renderer_destroy(&renderer);
+    ewa_surfels_destroy(&surfels);
+    ewa_cloud_destroy(&cloud);
+    ewa_mesh_free(&mesh);
+    ewa_context_destroy(&context);
+}
+
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_cube), cmocka_unit_test(test_angle)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_cube), cmocka_unit_test(test_angle),
+                                       cmocka_unit_test(test_light_at_edges)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
