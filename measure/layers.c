@@ -110,7 +110,7 @@ static void draw_greedy(const subject *of, const ewa_cloud *cloud, uint32_t frag
 
 static void measure_crossing(ewa_context *context, const char *folder) {
     ewa_cloud *cloud = NULL, *shuffled = NULL;
-    check(layers_crossing_make(context, POINTS, &cloud));
+    check(layers_crossing_make(context, is_quick() ? POINTS / 8 : POINTS, &cloud));
     check(layers_shuffle(cloud, &shuffled));
     subject of = subject_make(context, cloud);
     float *exact = make_plane(), *layers = make_plane(), *greedy = make_plane(), *other = make_plane();
