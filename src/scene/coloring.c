@@ -310,6 +310,14 @@ static ewa_status color_by(const numbers *from, const ewa_coloring *coloring, ew
     return EWA_OK;
 }
 
+void ewa_cloud_drop_signals(ewa_cloud *cloud) {
+    for (uint32_t k = ewa_cloud_attribute_count(cloud); k-- > 0;) {
+        char name[EWA_NAME_BYTES];
+        memcpy(name, ewa_cloud_attribute_at(cloud, k)->name, sizeof name);
+        if (is_signal(name)) ewa_cloud_remove(cloud, name);
+    }
+}
+
 /// Whether a cloud has an attribute of one number that is called so.
 static bool has_called(const ewa_cloud *cloud, const char *word) {
     const ewa_attribute *a;

@@ -7,6 +7,7 @@
 #include "base/options.h"
 #include "scene/octree.h"
 #include "surface/eye_dome.h"
+#include "surface/packets.h"
 
 #include <math.h>
 #include <string.h>
@@ -74,6 +75,14 @@ static ewa_status look_at_octrees(const ewa_scene *scene, const ewa_lod_options 
     return EWA_OK;
 }
 
+/// Whether an item of resident surfels or an octree has colours, of its own or given.
+static bool has_colors(const ewa_scene *scene, uint32_t index) {
+    const ewa_scene_item *item = &scene->items[index];
+    if (item->asset->surfels) return item->asset->surfels->colored;
+    return item->asset->lod && (item->instance.coloring.tinted || ewa_scene_legend(scene, index) ||
+                                ewa_asset_has_colors(item->asset));
+}
+
 /// Lists what is visible.
 static ewa_status list_shown(const ewa_scene *scene, const ewa_lod_options *options,
                              ewa_scene_renderer *renderer, ewa_scene_shown *shown) {
@@ -93,8 +102,7 @@ static ewa_status list_shown(const ewa_scene *scene, const ewa_lod_options *opti
     for (uint32_t i = 0; i < scene->count; i++) {
         const ewa_asset *asset = scene->items[i].asset;
         if (!scene->items[i].instance.visible) continue;
-        // Nobody knows whether these have colours.
-        shown->colored = shown->colored || asset->surfels || asset->lod;
+        shown->colored = shown->colored || has_colors(scene, i);
         if (asset->surfels) shown->surfels[shown->surfels_count++] = asset->surfels;
         if (asset->lod) shown->lods[shown->lod_count++] = asset->lod;
         if (asset->splats) {

@@ -172,6 +172,12 @@ void ewa_surface_release(ewa_surface **surface);
 /// where there is nothing; `*made`: it is the caller's to destroy.
 ewa_status ewa_scene_outline(ewa_scene *scene, ewa_cloud **outline, bool *made);
 
+/// Whether the points of an octree have colours.
+bool ewa_asset_has_colors(const ewa_asset *asset);
+
+/// Leaves out the strengths of light of a cloud.
+void ewa_cloud_drop_signals(ewa_cloud *cloud);
+
 /// Whether a word means the points' own colours, or, of scans without any, a number: empty or "auto".
 bool ewa_coloring_is_auto(const char *attribute);
 

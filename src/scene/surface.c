@@ -36,8 +36,11 @@ void ewa_surface_release(ewa_surface **given) {
 
 /// Whether an item's points are part of the surface, or of its colours.
 static bool is_shown(const ewa_scene_item *item) {
+    const ewa_coloring *coloring = &item->instance.coloring;
+    const bool bare = item->asset->lod && ewa_coloring_is_auto(coloring->attribute) && !coloring->tinted &&
+                      !ewa_asset_has_colors(item->asset);
     const bool colored =
-        item->asset->kind == EWA_ASSET_OCTREE && !ewa_coloring_is_own(item->instance.coloring.attribute);
+        item->asset->kind == EWA_ASSET_OCTREE && (bare || !ewa_coloring_is_own(coloring->attribute));
     return item->instance.visible && (ewa_asset_is_points(item->asset) || colored) && item->asset->count;
 }
 
@@ -157,6 +160,12 @@ static ewa_status choose_colorings(const ewa_surface *surface, const shown_cloud
         ewa_coloring *coloring = &shown->colorings[i];
         *coloring = surface->keys[i].instance.coloring;
         if (coloring->tinted || !ewa_coloring_is_auto(coloring->attribute)) continue;
+        if (surface->keys[i].asset->lod) {
+            ewa_lod_info info;
+            ewa_lod_describe(surface->keys[i].asset->lod, &info);
+            // What represents points has places, but no strength of light.
+            if (info.merged) ewa_cloud_drop_signals(shown->clouds[i]);
+        }
         shown->colored[count] = shown->clouds[i];
         shown->chosen[count++] = coloring;
     }

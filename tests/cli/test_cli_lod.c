@@ -104,6 +104,16 @@ static void test_render(void **state) {
     run_done("ewa render t.copc.laz -o again.png --size 300x300 --levels always --memory 16M --lod-spacing 2 "
              "--threads 1");
     assert_true(scratch_same("levels.png", "again.png"));
+    // Without colours it is lit as the whole file is, and shows the height, as what represents points has no intensity.
+    run_done("ewa convert t.ply -o t.xyz && awk '{print $1, $2, $3}' t.xyz >bare.xyz && ewa lod bare.xyz -o bare.copc.laz");
+    run_done("ewa render bare.copc.laz -o none.png --size 300x300 --levels always --color-by none --lod-spacing 2 && "
+             "ewa render bare.copc.laz -o head.png --size 300x300 --levels always --color-by none --light 0,0,0,1,1,1 && "
+             "ewa render bare.copc.laz -o whole.png --size 300x300 --levels never --color-by none && "
+             "ewa render bare.copc.laz -o z.png --size 300x300 --levels always --color-by z --range 2%%,98%%");
+    assert_true(mean_square("none.png", "whole.png") < 25 && mean_square("none.png", "head.png") > 100);
+    assert_int_equal(run("ewa render bare.copc.laz -o auto.png --size 300x300 --levels always"), 0);
+    assert_non_null(strstr(last_run.err, "no colours: coloured by height"));
+    assert_true(scratch_same("auto.png", "z.png"));
     // Frames share what was read.
     run_done("ewa render t.copc.laz -o f%%d.png --size 300x300 --levels always --lod-spacing 2 --turntable 3 "
              "--stats s.json "

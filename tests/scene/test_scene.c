@@ -441,21 +441,37 @@ static void measure_slant(const planes *of, double slant[2]) {
     for (int k = 0; k < 2; k++) slant[k] /= sum;
 }
 
-/// A sphere without colours is lit from above left, wherever it is seen from; one with colours, or by lights that are
-/// given, is not.
+/// Adds a cloud, or the surfels made of it.
+static ewa_surfels *add_as(ewa_context *context, ewa_scene *scene, const ewa_cloud *cloud, bool resident) {
+    ewa_surfels *surfels = NULL;
+    if (!resident) {
+        add_cloud(context, scene, cloud, NULL);
+        return NULL;
+    }
+    ewa_asset *asset = NULL;
+    assert_int_equal(ewa_surfels_create(cloud, NULL, &surfels), EWA_OK);
+    assert_int_equal(ewa_asset_create(context, &(ewa_asset_source){.surfels = surfels}, NULL, &asset), EWA_OK);
+    assert_int_equal(ewa_scene_add(scene, asset, NULL), EWA_OK);
+    ewa_asset_release(&asset);
+    return surfels;
+}
+
+/// A sphere without colours is lit from above left, wherever it is seen from, as points and as resident surfels; one with
+/// colours, or by lights that are given, is not.
 static void test_bare_light(void **state) {
     (void)state;
     ewa_context *context = check_context(1, NULL);
     ewa_cloud *cloud = make_object(context, EWA_OBJECT_SPHERE, 0);
     ewa_cloud_remove(cloud, EWA_COLOR);
-    for (int kind = 0; kind < 3; kind++) {
+    for (int round = 0; round < 6; round++) {
+        const int kind = round % 3;
         uint8_t(*colors)[3] = NULL;
         if (kind == 1) {
             assert_int_equal(ewa_cloud_add(cloud, EWA_COLOR, EWA_U8, 3, (void **)&colors), EWA_OK);
             memset(colors, 200, 3 * POINTS);
         }
         ewa_scene *scene = make_scene(context);
-        add_cloud(context, scene, cloud, NULL);
+        ewa_surfels *surfels = add_as(context, scene, cloud, round >= 3);
         ewa_scene_options options;
         ewa_scene_get_options(scene, &options);
         options.render.light_count = kind == 2; // the headlight
@@ -467,6 +483,7 @@ static void test_bare_light(void **state) {
         measure_slant(&first, slant);
         for (int k = 0; k < 2; k++) assert_true(kind ? fabs(slant[k]) < 0.01 : slant[k] > 0.1);
         ewa_scene_destroy(&scene);
+        ewa_surfels_destroy(&surfels);
         if (kind == 1) ewa_cloud_remove(cloud, EWA_COLOR);
     }
     ewa_cloud_destroy(&cloud);
