@@ -114,6 +114,7 @@ static void settle(build *b) {
     s->count = (uint32_t)all.drawable_count;
     s->left_out_count = b->point_count - all.drawable_count;
     s->ellipses = all.ellipses;
+    s->colored = b->reader.color;
     s->extent.finite_count = all.drawable_count;
     memcpy(s->extent.low_world, all.low, sizeof all.low);
     memcpy(s->extent.high_world, all.high, sizeof all.high);

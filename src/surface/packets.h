@@ -41,6 +41,7 @@ struct ewa_surfels {
     bool fine_colors;               ///< some are large, and others far smaller
     double cutoff;
     bool ellipses; ///< some kernel is not a circle
+    bool colored;  ///< the cloud had colours
     double unit_coverage;
     ewa_surfels *coarser;                            ///< the next level of detail; NULL: none
     bool with_opacities, with_materials, with_clips; ///< of a proxy: what its original has (proxy.h)
