@@ -424,18 +424,83 @@ static void test_scale_bar_ground(void **state) {
 /// Of a box about 64 pixels of a row and of a column are looked at: every third of 128.
 static void test_looks(void **state) {
     for (int rows = 0; rows < 2; rows++) {
-        ewa_canvas canvas = painting_make(200, 200, white);
+        ewa_canvas canvas = painting_make(300, 300, white);
         ewa_furniture_options options = no_furniture();
         const ewa_layout layout = {.canvas = &canvas, .options = &options, .point_px = 1};
-        for (uint32_t y = 0; y < 200; y++)
-            for (uint32_t x = 0; x < 200; x++)
-                if (((rows ? y : x) - 10) % 3 == 0) memcpy(canvas.rgba8 + 4 * (y * 200 + x), black, 4);
-        const ewa_box box = {10, 10, 138, 138};
+        for (uint32_t y = 0; y < 300; y++)
+            for (uint32_t x = 0; x < 300; x++)
+                if (((rows ? y : x) + 2) % 3 == 0) memcpy(canvas.rgba8 + 4 * (y * 300 + x), black, 4);
+        const ewa_box box = {100, 100, 228, 228};
         assert_true(ewa_layout_inks(&layout, &box).ink[0] > 240);
-        const ewa_box beside = {11, 11, 139, 139};
+        const ewa_box beside = {101, 101, 229, 229};
         assert_true(ewa_layout_inks(&layout, &beside).ink[0] < 40);
         free(canvas.rgba8);
     }
+}
+
+/// The title's ink is that of what is behind it; a legend stands on whole pixels, as far right as its texts let it.
+static void test_title_and_legend_places(void **state) {
+    ewa_canvas canvas = painting_make(400, 100, white);
+    ewa_camera camera = map_camera(&canvas, 1);
+    ewa_furniture_options options = no_furniture();
+    options.title = "Title";
+    options.pixel_scale = 1;
+    const double half_px = ewa_text_width_px("Title", 18) / 2;
+    for (uint32_t y = 14; y < 32; y++)
+        for (uint32_t x = (uint32_t)(200 - half_px); x < 200 + half_px; x++)
+            memcpy(canvas.rgba8 + 4 * (y * 400 + x), black, 4);
+    draw(&canvas, &camera, &options);
+    uint32_t bright = 0; // a rim is less white than ink
+    for (uint32_t y = 16; y < 30; y++)
+        for (uint32_t x = (uint32_t)(202 - half_px); x < 198 + half_px; x++)
+            bright += painting_at(&canvas, x, y)[0] == 255;
+    assert_true(bright > 10);
+    free(canvas.rgba8);
+    const ewa_category categories[] = {{.value = 0, .srgb = {255, 1, 0}}, {.value = 8, .srgb = {254, 2, 0}}};
+    canvas = painting_make(1280, 720, white);
+    camera = map_camera(&canvas, 1);
+    options = no_furniture();
+    options.color_bar = true;
+    options.pixel_scale = 1.3;
+    options.categories = categories;
+    options.category_count = 2;
+    draw(&canvas, &camera, &options);
+    const double widest_px = fmax(ewa_text_width_px("0", 12 * 1.3), ewa_text_width_px("8", 12 * 1.3));
+    const double left = 1280 - floor(14 * 1.3) - widest_px - 6 * 1.3 - floor(12 * 1.3);
+    uint32_t found = 1280;
+    for (uint32_t y = 0; y < 720; y++)
+        for (uint32_t x = 0; x < found; x++)
+            if (memcmp(painting_at(&canvas, x, y), categories[0].srgb, 3) == 0) found = x;
+    assert_true(left != floor(left));
+    assert_int_equal(found, floor(left));
+    free(canvas.rgba8);
+}
+
+/// The scale bar is there where it and its text stay a margin away from the axes.
+static void test_scale_bar_beside_axes(void **state) {
+    int drawn_count = 0;
+    for (uint32_t width = 212; width < 420; width += 8) {
+        ewa_canvas canvas = painting_make(width, 500, white), alone = painting_make(width, 500, white);
+        const ewa_camera camera = map_camera(&canvas, 10);
+        ewa_furniture_options options = no_furniture();
+        options.pixel_scale = 1;
+        options.axes = true;
+        draw(&alone, &camera, &options);
+        options.scale_bar = true;
+        options.unit = "lengths of a longer unit";
+        draw(&canvas, &camera, &options);
+        ewa_decimal length;
+        assert_true(ewa_decimal_nice(fmin(0.25 * width, 180) / 10, &length));
+        char number[EWA_DECIMAL_BYTES], text[128];
+        ewa_decimal_write(length, number);
+        snprintf(text, sizeof text, "%s %s", number, options.unit);
+        const double wide = fmax(10 * ewa_decimal_value(length), ewa_text_width_px(text, 12));
+        const bool drawn = width - 14 - wide >= 2 * 45 + 14 + 14; // the axes reach 45 points to both sides
+        assert_int_equal(!painting_same(&canvas, &alone), drawn);
+        drawn_count += drawn;
+        free(canvas.rgba8), free(alone.rgba8);
+    }
+    assert_in_range(drawn_count, 3, 22);
 }
 
 /// One number as range, and one that is too narrow to be told apart: no ticks that lie, no crash.
@@ -532,6 +597,8 @@ int main(void) {
         cmocka_unit_test(test_color_bar_places),
         cmocka_unit_test(test_scale_bar_ground),
         cmocka_unit_test(test_looks),
+        cmocka_unit_test(test_title_and_legend_places),
+        cmocka_unit_test(test_scale_bar_beside_axes),
         cmocka_unit_test(test_degenerate_ranges),
         cmocka_unit_test(test_refused),
         cmocka_unit_test(test_golden),

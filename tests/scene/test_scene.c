@@ -428,6 +428,54 @@ static void test_pick(void **state) {
     ewa_context_destroy(&context);
 }
 
+/// From wherever a sphere is seen, what is picked lies on it, behind the pixel that was asked for.
+static void test_pick_aslant(void **state) {
+    ewa_context *context = check_context(1, NULL);
+    ewa_cloud *cloud = make_object(context, EWA_OBJECT_SPHERE, 0);
+    ewa_scene *scene = make_scene(context);
+    add_cloud(context, scene, cloud, NULL);
+    ewa_camera camera = place(scene);
+    const double eye[3] = {3, 2, 4}, target[3] = {0.1, 0, 0}, up[3] = {0.2, 1, 0};
+    assert_int_equal(ewa_camera_look_at(&camera, eye, target, up), EWA_OK);
+    ewa_scene_renderer *renderer = NULL;
+    assert_int_equal(ewa_scene_renderer_create(context, EWA_BACKEND_CPU, NULL, &renderer), EWA_OK);
+    const double x_px = WIDTH / 2 + 5, y_px = HEIGHT / 2 - 7;
+    ewa_scene_hit hit;
+    assert_int_equal(ewa_scene_pick(scene, renderer, &camera, NULL, x_px, y_px, 2, 0.2, &hit), EWA_OK);
+    assert_true(hit.hit && hit.has_point);
+    const double *m = camera.world_to_camera, *at = hit.place_world;
+    double seen[3];
+    for (int r = 0; r < 3; r++) seen[r] = m[4 * r] * at[0] + m[4 * r + 1] * at[1] + m[4 * r + 2] * at[2] + m[4 * r + 3];
+    assert_true(fabs(camera.fx_px * seen[0] / seen[2] + camera.cx_px - x_px) < 1e-6);
+    assert_true(fabs(camera.fy_px * seen[1] / seen[2] + camera.cy_px - y_px) < 1e-6);
+    assert_true(fabs(sqrt(at[0] * at[0] + at[1] * at[1] + at[2] * at[2]) - 1) < 0.02);
+    ewa_scene_renderer_destroy(&renderer);
+    ewa_scene_destroy(&scene);
+    ewa_cloud_destroy(&cloud);
+    ewa_context_destroy(&context);
+}
+
+/// A description has the options that are no defaults, and all that is there.
+static void test_described(void **state) {
+    ewa_context *context = check_context(1, NULL);
+    ewa_cloud *cloud = make_object(context, EWA_OBJECT_PLANE, 0);
+    ewa_scene *scene = make_scene(context);
+    add_cloud(context, scene, cloud, NULL);
+    ewa_scene_options options;
+    ewa_scene_get_options(scene, &options);
+    options.up = EWA_UP_Z;
+    assert_int_equal(ewa_scene_set_options(scene, &options), EWA_OK);
+    char *text = NULL;
+    assert_int_equal(ewa_scene_describe_json(scene, &text), EWA_OK);
+    assert_non_null(strstr(text, "\"up\":\t\"z\""));
+    assert_non_null(strstr(text, "\"count\":\t6000"));
+    ewa_text_free(&text);
+    assert_null(text);
+    ewa_scene_destroy(&scene);
+    ewa_cloud_destroy(&cloud);
+    ewa_context_destroy(&context);
+}
+
 /// By how much the left half is brighter than the right one, the upper than the lower one, in shares of all light.
 static void measure_slant(const planes *of, double slant[2]) {
     double sum = 0;
@@ -499,6 +547,7 @@ int main(void) {
                                        cmocka_unit_test(test_refused),
                                        cmocka_unit_test(test_another_asset), cmocka_unit_test(test_chain_of_tiles),
         cmocka_unit_test(test_cloud_of_scene), cmocka_unit_test(test_pick),
+                                       cmocka_unit_test(test_pick_aslant), cmocka_unit_test(test_described),
                                        cmocka_unit_test(test_bare_light)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
