@@ -430,9 +430,9 @@ static void test_looks(void **state) {
         for (uint32_t y = 0; y < 300; y++)
             for (uint32_t x = 0; x < 300; x++)
                 if (((rows ? y : x) + 2) % 3 == 0) memcpy(canvas.rgba8 + 4 * (y * 300 + x), black, 4);
-        const ewa_box box = {100, 100, 228, 228};
+        const ewa_box box = {40, 40, 168, 168};
         assert_true(ewa_layout_inks(&layout, &box).ink[0] > 240);
-        const ewa_box beside = {101, 101, 229, 229};
+        const ewa_box beside = {41, 41, 169, 169};
         assert_true(ewa_layout_inks(&layout, &beside).ink[0] < 40);
         free(canvas.rgba8);
     }

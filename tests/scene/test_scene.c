@@ -455,6 +455,76 @@ static void test_pick_aslant(void **state) {
     ewa_context_destroy(&context);
 }
 
+/// Few points are dots of 0.004 of the scene's size; those that have radii keep them.
+static void test_dots(void **state) {
+    static double places[3][3] = {{0, 0, 0}, {3, 0, 0}, {0, 4, 0}};
+    static float radii[3] = {1, 2, 3};
+    ewa_context *context = check_context(1, NULL);
+    for (int sized = 0; sized < 2; sized++) {
+        ewa_cloud *cloud = NULL, *whole = NULL;
+        assert_int_equal(ewa_cloud_create(context, 3, &cloud), EWA_OK);
+        assert_int_equal(ewa_cloud_borrow(cloud, EWA_POSITION, EWA_F64, 3, places, sizeof places[0]), EWA_OK);
+        if (sized)
+            assert_int_equal(ewa_cloud_borrow(cloud, EWA_RADIUS, EWA_F32, 1, radii, sizeof radii[0]), EWA_OK);
+        ewa_scene *scene = make_scene(context);
+        add_cloud(context, scene, cloud, NULL);
+        assert_int_equal(ewa_scene_cloud(scene, &whole), EWA_OK);
+        for (uint64_t i = 0; i < 3; i++) {
+            double radius;
+            ewa_attribute_read_f64(ewa_cloud_find(whole, EWA_RADIUS), i, 1, &radius);
+            assert_true(fabs(radius - (sized ? (double)radii[i] : 0.004 * 5)) < 1e-7);
+        }
+        ewa_cloud_destroy(&whole);
+        ewa_scene_destroy(&scene);
+        ewa_cloud_destroy(&cloud);
+    }
+    ewa_context_destroy(&context);
+}
+
+/// What is asked to be up is up, along any axis.
+static void test_asked_up(void **state) {
+    ewa_context *context = check_context(1, NULL);
+    ewa_cloud *cloud = make_object(context, EWA_OBJECT_TORUS, 0);
+    ewa_scene *scene = make_scene(context);
+    add_cloud(context, scene, cloud, NULL);
+    for (int axis = 0; axis < 3; axis++) {
+        ewa_view_options options;
+        ewa_view_options_init(&options, sizeof options);
+        options.up_world[axis] = axis == 1 ? -2 : 3;
+        ewa_view_info info;
+        ewa_camera camera;
+        assert_int_equal(ewa_scene_place_camera(scene, &options, &camera, &info), EWA_OK);
+        for (int c = 0; c < 3; c++) assert_true(info.up_world[c] == (c != axis ? 0 : axis == 1 ? -1 : 1));
+    }
+    ewa_scene_destroy(&scene);
+    ewa_cloud_destroy(&cloud);
+    ewa_context_destroy(&context);
+}
+
+/// Small coordinates far from the origin whose heights stand out are degrees, unless no degrees are so many.
+static void test_degrees(void **state) {
+    static const struct {
+        double x, y, z;
+        bool degrees;
+    } cases[] = {{13, 52, 100, true},   {13, 52, -5000, true}, {179, -89, 9000, true}, {181, 52, 100, false},
+                 {-181, 52, 100, false}, {13, 91, 100, false},  {13, -91, 100, false}, {0.001, 52, 100, false}};
+    ewa_context *context = check_context(1, NULL);
+    for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
+        double places[8][3];
+        for (int i = 0; i < 8; i++) {
+            places[i][0] = cases[k].x + 0.01 * (i & 1) - 0.005, places[i][1] = cases[k].y + 0.01 * (i >> 1 & 1) - 0.005;
+            places[i][2] = cases[k].z + 20 * (i >> 2);
+        }
+        ewa_cloud *cloud = NULL;
+        char text[EWA_DIAGNOSIS_TEXT_BYTES];
+        assert_int_equal(ewa_cloud_create(context, 8, &cloud), EWA_OK);
+        assert_int_equal(ewa_cloud_borrow(cloud, EWA_POSITION, EWA_F64, 3, places, sizeof places[0]), EWA_OK);
+        assert_int_equal(ewa_cloud_find_degrees(cloud, text), cases[k].degrees);
+        ewa_cloud_destroy(&cloud);
+    }
+    ewa_context_destroy(&context);
+}
+
 /// A description has the options that are no defaults, and all that is there.
 static void test_described(void **state) {
     ewa_context *context = check_context(1, NULL);
@@ -548,6 +618,8 @@ int main(void) {
                                        cmocka_unit_test(test_another_asset), cmocka_unit_test(test_chain_of_tiles),
         cmocka_unit_test(test_cloud_of_scene), cmocka_unit_test(test_pick),
                                        cmocka_unit_test(test_pick_aslant), cmocka_unit_test(test_described),
+                                       cmocka_unit_test(test_asked_up), cmocka_unit_test(test_degrees),
+                                       cmocka_unit_test(test_dots),
                                        cmocka_unit_test(test_bare_light)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
