@@ -236,12 +236,10 @@ static ewa_status grow_blocks(poisson_job *job) {
 
 /// Finds the block of every candidate of the present throw, making new ones, and sorts them into the pool.
 static ewa_status sort_candidates(poisson_job *job) {
-    enum { STEP = 1 << 19 }; // after which the progress callback is asked
     const uint64_t count = job->throw_count[job->which];
     int32_t last_at[3] = {-1, -1, -1};
     uint32_t last = NONE;
     for (uint64_t i = 0; i < count; i++) {
-        if (i % STEP == 0) EWA_TRY(ewa_progress(job->surface->context, "sample", (double)i / (double)count));
         int64_t cell[3];
         cell_of(job, &job->thrown[i], cell);
         const int32_t at[3] = {(int32_t)(cell[0] / BLOCK_CELLS), (int32_t)(cell[1] / BLOCK_CELLS),
@@ -268,10 +266,8 @@ static ewa_status sort_candidates(poisson_job *job) {
         job->blocks[b].first[job->which] = first;
         first += job->blocks[b].candidates[job->which];
     }
-    for (uint64_t i = 0; i < count; i++) {
-        if (i % STEP == 0) EWA_TRY(ewa_progress(job->surface->context, "sample", (double)i / (double)count));
+    for (uint64_t i = 0; i < count; i++)
         job->pool[job->blocks[job->block_of[i]].first[job->which]++] = job->thrown[i];
-    }
     for (uint32_t b = 0; b < job->block_count; b++)
         job->blocks[b].first[job->which] -= job->blocks[b].candidates[job->which];
     return EWA_OK;
@@ -442,7 +438,7 @@ static void throw_blocks(void *data, uint32_t part, uint32_t worker) {
 
 static ewa_status throw_all(poisson_job *job) {
     ewa_context *context = job->surface->context;
-    EWA_TRY(ewa_parallel_stoppable(context, "sample", find_neighbours, job, job->block_count / 256 + 1));
+    ewa_parallel(context, find_neighbours, job, job->block_count / 256 + 1);
     EWA_TRY(make_scratch(job));
     job->turn = ewa_allocate(context, job->block_count, sizeof *job->turn);
     if (!job->turn) return EWA_ERROR_MEMORY;
@@ -454,7 +450,8 @@ static ewa_status throw_all(poisson_job *job) {
             if (((at[0] & 1) | (at[1] & 1) << 1 | (at[2] & 1) << 2) == parity)
                 job->turn[job->turn_count++] = b;
         }
-        status = ewa_parallel_stoppable(context, "sample", throw_blocks, job, (job->turn_count + TASK_BLOCKS - 1) / TASK_BLOCKS);
+        ewa_parallel(context, throw_blocks, job, (job->turn_count + TASK_BLOCKS - 1) / TASK_BLOCKS);
+        status = ewa_progress(context, "sample", 0.1 * job->which + 0.01 * parity);
     }
     ewa_release(context, job->turn, job->block_count, sizeof *job->turn);
     job->turn = NULL;
@@ -516,10 +513,10 @@ static ewa_status run(poisson_job *job) {
         if (job->which == CORNERS)
             fill_corners(job, job->thrown);
         else if (job->which == ROWS)
-            status = ewa_parallel_stoppable(context, "sample", fill_rows, job, job->surface->edge_count / 64 + 1);
+            ewa_parallel(context, fill_rows, job, job->surface->edge_count / 64 + 1);
         else
-            status = ewa_parallel_stoppable(context, "sample", fill_inside, job, inner_parts(job));
-        if (status == EWA_OK) status = sort_candidates(job);
+            ewa_parallel(context, fill_inside, job, inner_parts(job));
+        status = sort_candidates(job);
         if (status == EWA_OK) status = throw_all(job);
     }
     return status;

@@ -82,12 +82,6 @@ ewa_status ewa_asset_take_octree(const ewa_asset_job *job, ewa_lod *lod) {
     return EWA_OK;
 }
 
-bool ewa_asset_has_colors(const ewa_asset *asset) {
-    ewa_lod_info info;
-    ewa_lod_describe(asset->lod, &info);
-    return ewa_cloud_find(info.prototype, EWA_COLOR) != NULL;
-}
-
 /// Whether what represents points has an attribute, too.
 static bool is_of_levels(const char *name) {
     static const char *const names[] = {EWA_POSITION, EWA_NORMAL, EWA_RADIUS, EWA_COLOR};

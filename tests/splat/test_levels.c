@@ -116,6 +116,7 @@ static ewa_cloud *shuffled(ewa_context *context, const ewa_cloud *of) {
     assert_int_equal(ewa_cloud_create(context, count, &made), EWA_OK);
     for (int k = 0; k < 5; k++) {
         const ewa_attribute *from = ewa_cloud_find(of, names[k]);
+        if (!from) continue; // no borders where nothing ends
         void *to = NULL;
         assert_int_equal(ewa_cloud_add(made, names[k], from->type, from->component_count, &to), EWA_OK);
         const size_t bytes = from->component_count * (k == 4 ? 1 : sizeof(float));
