@@ -37,7 +37,8 @@ class Volume(Held):
     Parameters
     ----------
     voxels : array_like, shape (nz, ny, nx)
-        uint8, int8, uint16, int16 or float32; borrowed where it is C-contiguous. NaN is no matter at all.
+        uint8, int8, uint16, int16 or float32; borrowed where it is C-contiguous. Other floats are rounded to float32,
+        other whole numbers taken where that changes none. NaN is no matter at all.
     spacing : float or array_like of shape (3,), optional
         Distances of voxels along x, y, z, world units. Default 1.
     index_to_world : array_like, shape (3, 4), optional

@@ -158,7 +158,7 @@ class Others(Case):
         self.assertGreater(int(image.rgba8[20, 20, 0]), int(image.rgba8[0, 0, 0]))
         surface = ewa.render(ewa.generate("sphere", 2000, size_world=0.5), image.camera, planes=("rgba", "depth"))
         ewa.render_volume(volume, image.camera, transfer=transfer, surfaces=surface)
-        wrong: list[Any] = [np.zeros((2, 2)), np.full((2, 2, 2), 0.1), np.zeros((0, 2, 2), np.uint8), "a", np.zeros(8, np.uint8)]
+        wrong: list[Any] = [np.zeros((2, 2)), np.full((2, 2, 2), 2**24 + 1), np.zeros((0, 2, 2), np.uint8), "a", np.zeros(8, np.uint8)]
         for voxels in wrong:
             with self.assertRaises(ewa.ArgumentError):
                 ewa.Volume(voxels)

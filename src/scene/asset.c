@@ -376,9 +376,3 @@ ewa_status ewa_asset_create(ewa_context *context, const ewa_asset_source *source
     *made = asset;
     return status;
 }
-
-bool ewa_asset_has_colors(const ewa_asset *asset) {
-    ewa_lod_info info;
-    ewa_lod_describe(asset->lod, &info);
-    return ewa_cloud_find(info.prototype, EWA_COLOR) != NULL;
-}

@@ -310,6 +310,12 @@ static ewa_status color_by(const numbers *from, const ewa_coloring *coloring, ew
     return EWA_OK;
 }
 
+bool ewa_asset_has_colors(const ewa_asset *asset) {
+    ewa_lod_info info;
+    ewa_lod_describe(asset->lod, &info);
+    return ewa_cloud_find(info.prototype, EWA_COLOR) != NULL;
+}
+
 void ewa_cloud_drop_signals(ewa_cloud *cloud) {
     for (uint32_t k = ewa_cloud_attribute_count(cloud); k-- > 0;) {
         char name[EWA_NAME_BYTES];
