@@ -49,7 +49,7 @@ static void hold_halves(scene_kind kind, const ewa_render_options *options, bool
     draw(renderer, &of, options, (part[]){{surfels, 0.5, true}, {surfels, 0.5, true}}, 2, &to[2]);
     const uint32_t step = cubes_largest_step(&drawn[0], &drawn[2]);
     print_message("%s, %s: two halves are %u off\n", scene_name(kind), what, step);
-    // Of few units of a side that is turned away the mean is coarse (math.md section 6): one number may be 2 off.
+    // Of few units of a side that is turned away the mean is coarse (docs/math.md section 6): one number may be 2 off.
     size_t apart = 0;
     for (size_t i = 0; i < 4 * (size_t)SIDE * SIDE; i++)
         apart += abs((int)drawn[0].frame.rgba8[i] - (int)drawn[2].frame.rgba8[i]) > 1;
