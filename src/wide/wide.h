@@ -3,13 +3,13 @@
 //
 // The wide type: sixteen lanes, written four times, so that a kernel's body is written once.
 //
-// A file that includes this defines WIDE_AVX512, WIDE_AVX2, WIDE_NEON or WIDE_PORTABLE first. Every operation is exact
-// or correctly rounded, so that each version gives the same bytes: fma(a, b, c) = a b + c and fnma = c - a b
-// round once; min(a, b) is a < b ? a : b and max is a > b ? a : b, so that a NaN on either side gives b;
-// comparisons with a NaN are false; wi_from_f truncates and is only for values within int32, wi_store_u8 for
-// values in [0, 255]; sar is an
-// arithmetic shift. Masks: select(m, a, b) takes a where m is set; keep(m, a) is a where set, else 0. Only
-// `static inline` in here: a file compiled for one instruction set must not lend code to the others.
+// A file that includes this defines WIDE_AVX512, WIDE_AVX2, WIDE_NEON or WIDE_PORTABLE first. Every operation
+// is exact or correctly rounded, so that each version gives the same bytes: fma(a, b, c) = a b + c and fnma =
+// c - a b round once; min(a, b) is a < b ? a : b and max is a > b ? a : b, so that a NaN on either side gives
+// b; comparisons with a NaN are false; wi_from_f truncates and is only for values within int32, wi_store_u8
+// for values in [0, 255]; sar is an arithmetic shift. Masks: select(m, a, b) takes a where m is set; keep(m,
+// a) is a where set, else 0. Only `static inline` in here: a file compiled for one instruction set must not
+// lend code to the others.
 #ifndef EWA_SRC_WIDE_H
 #define EWA_SRC_WIDE_H
 
@@ -21,11 +21,14 @@
 #include "wide/wide_eight.h"
 #elif defined(WIDE_AVX2)
 #include "wide/wide_avx2.h"
+#include "wide/wide_pack.h"
 #include "wide/wide_eight.h"
 #elif defined(WIDE_NEON)
 #include "wide/wide_neon.h"
+#include "wide/wide_pack.h"
 #elif defined(WIDE_PORTABLE)
 #include "wide/wide_portable.h"
+#include "wide/wide_pack.h"
 #else
 #error "define WIDE_AVX512, WIDE_AVX2, WIDE_NEON or WIDE_PORTABLE"
 #endif

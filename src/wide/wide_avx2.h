@@ -165,18 +165,6 @@ static inline void wi_store_rows(uint8_t *out, size_t stride_bytes, wi a) {
     _mm_storeu_si128((__m128i *)(void *)(out + 3 * stride_bytes), _mm256_extracti128_si256(a.h, 1));
 }
 
-/// Writes the lanes where m is set one after another; may write 16 numbers.
-static inline void wf_pack(float *p, wm m, wf a) {
-    float lanes[16];
-    wf_store(lanes, a);
-    for (uint32_t bits = wm_bits(m); bits; bits &= bits - 1) *p++ = lanes[__builtin_ctz(bits)];
-}
-static inline void wi_pack(int32_t *p, wm m, wi a) {
-    int32_t lanes[16];
-    wi_store(lanes, a);
-    for (uint32_t bits = wm_bits(m); bits; bits &= bits - 1) *p++ = lanes[__builtin_ctz(bits)];
-}
-
 static inline void transpose_8x8(__m256 r[8]) {
     __m256 t[8];
     for (int i = 0; i < 8; i += 2) {

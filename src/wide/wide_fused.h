@@ -1,14 +1,15 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Part of wide_portable.h: a b + c rounded once, for sixteen floats at a time, where the instruction set has no fused
-// multiply-add and fmaf() would be called for every lane.
+// Part of wide_portable.h: a b + c rounded once, for sixteen floats at a time, where the instruction set has
+// no fused multiply-add and fmaf() would be called for every lane.
 //
-// In double precision the product of two floats is exact, and only the sum is rounded; rounding that to float can be wrong
-// in two cases alone: where the rounded sum stands halfway between two floats though the exact one does not, and where the
-// float is below the normal numbers, which have fewer digits. Both are seen from the bits of the sum. There the sum is
-// rounded to odd first: S. Boldo and G. Melquiond, "Emulation of FMA and Correctly Rounded Sums: Proved Algorithms Using
-// Rounding to Odd", IEEE Transactions on Computers 57(4), 2008.
+// In double precision the product of two floats is exact, and only the sum is rounded; rounding that to float
+// can be wrong in two cases alone: where the rounded sum stands halfway between two floats though the exact
+// one does not, and where the float is below the normal numbers, which have fewer digits. Both are seen from
+// the bits of the sum. There the sum is rounded to odd first: S. Boldo and G. Melquiond, "Emulation of FMA
+// and Correctly Rounded Sums: Proved Algorithms Using Rounding to Odd", IEEE Transactions on Computers 57(4),
+// 2008.
 typedef float w2f __attribute__((vector_size(8)));
 typedef double w2d __attribute__((vector_size(16)));
 typedef int64_t w2l __attribute__((vector_size(16)));
@@ -30,7 +31,8 @@ static inline w4i fused_doubtful(w2d low, w2d high) {
     return (last == 0x10000000) | ((first > 0) & (first < 0x38100000)); // below 2^-126, but not 0
 }
 
-/// product + c rounded to odd: the exact sum where that is a double, else of the two beside it the one with an odd last bit.
+/// product + c rounded to odd: the exact sum where that is a double, else of the two beside it the one with
+/// an odd last bit.
 static inline w2d fused_odd(w2d product, w2d c) {
     const w2d sum = product + c, c_part = sum - product;
     const w2d lost = (product - (sum - c_part)) + (c - c_part);

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Sixteen lanes of float, int and mask as four NEON registers each (64-bit Arm). See wide.h for what each operation
-// means.
+// Sixteen lanes of float, int and mask as four NEON registers each (64-bit Arm). See wide.h for what each
+// operation means.
 #include <arm_neon.h>
 
 // With the checks of a sanitizer, inlined copies take minutes to compile.
@@ -164,18 +164,6 @@ static inline wf wf_load_rows(const float *p, size_t stride) {
 /// Writes lanes 4 i .. 4 i + 3 to out + i stride_bytes.
 static inline void wi_store_rows(uint8_t *out, size_t stride_bytes, wi a) {
     for (size_t i = 0; i < 4; i++) vst1q_u8(out + i * stride_bytes, vreinterpretq_u8_s32(a.q[i]));
-}
-
-/// Writes the lanes where m is set one after another; may write 16 numbers.
-static inline void wf_pack(float *p, wm m, wf a) {
-    float lanes[16];
-    wf_store(lanes, a);
-    for (uint32_t bits = wm_bits(m); bits; bits &= bits - 1) *p++ = lanes[__builtin_ctz(bits)];
-}
-static inline void wi_pack(int32_t *p, wm m, wi a) {
-    int32_t lanes[16];
-    wi_store(lanes, a);
-    for (uint32_t bits = wm_bits(m); bits; bits &= bits - 1) *p++ = lanes[__builtin_ctz(bits)];
 }
 
 static inline void transpose_4x4(const float32x4_t in[4], float32x4_t out[4]) {

@@ -1,10 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Sixteen lanes of float, int and mask as four vectors of GCC and Clang, which become whatever vectors there are (SSE2 on
-// any x86-64). See wide.h for what each operation means.
+// Sixteen lanes of float, int and mask as four vectors of GCC and Clang, which become whatever vectors there
+// are (SSE2 on any x86-64). See wide.h for what each operation means.
 //
-// Without a fused multiply-add in the base instruction set (wide_fused.h) what takes many instructions is a function.
+// Without a fused multiply-add in the base instruction set (wide_fused.h) what takes many instructions is a
+// function.
 #include <math.h>
 #include <string.h>
 
@@ -48,7 +49,8 @@ enum { WIDE_TOGETHER = 1 };
     QUARTER(2, expression)                                                                                   \
     QUARTER(3, expression)                                                                                   \
     return result
-/// Likewise of lanes, of i = 0 .. 15, by a plain array: compilers make vectors of such a loop where there is an instruction.
+/// Likewise of lanes, of i = 0 .. 15, by a plain array: compilers make vectors of such a loop where there is
+/// an instruction.
 #define LANES(type, number, expression)                                                                      \
     number lane[16];                                                                                         \
     for (int i = 0; i < 16; i++) lane[i] = (expression);                                                     \
@@ -158,20 +160,6 @@ static inline wf wf_load_rows(const float *p, size_t stride) { QUARTERS(wf, w4f_
 /// Writes lanes 4 i .. 4 i + 3 to out + i stride_bytes.
 static inline void wi_store_rows(uint8_t *out, size_t stride_bytes, wi a) {
     for (size_t i = 0; i < 4; i++) memcpy(out + i * stride_bytes, &a.q[i], 16);
-}
-
-/// Writes the lanes where m is set one after another; may write 16 numbers.
-FUSED void wf_pack(float *p, wm m, wf a) {
-    for (int i = 0; i < 16; i++) {
-        *p = LANE(a, i);
-        p -= LANE(m, i);
-    }
-}
-FUSED void wi_pack(int32_t *p, wm m, wi a) {
-    for (int i = 0; i < 16; i++) {
-        *p = LANE(a, i);
-        p -= LANE(m, i);
-    }
 }
 
 /// Transposes a 16x16 matrix in place: afterwards rows[i] lane j is what rows[j] lane i was.

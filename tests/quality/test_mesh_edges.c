@@ -91,15 +91,20 @@ static void count_pixels(const solid *of, const ewa_camera *camera, const double
     }
 }
 
+/// About so many points of a mesh.
+static ewa_cloud *sample_points(const ewa_mesh *mesh, uint64_t points) {
+    ewa_mesh_sample_options sample;
+    ewa_mesh_sample_options_init(&sample, sizeof sample);
+    sample.point_count = points;
+    return shape_sample(mesh, &sample);
+}
+
 static void render_cameras(const solid *of, uint64_t points, ewa_cull cull, edge_counts *counts) {
     *counts = (edge_counts){0};
     ewa_context *context = check_context(0, NULL);
     ewa_mesh mesh;
     of->make(context, &mesh);
-    ewa_mesh_sample_options sample;
-    ewa_mesh_sample_options_init(&sample, sizeof sample);
-    sample.point_count = points;
-    ewa_cloud *cloud = shape_sample(&mesh, &sample);
+    ewa_cloud *cloud = sample_points(&mesh, points);
     ewa_surfels *surfels = NULL;
     ewa_renderer *renderer = NULL;
     assert_int_equal(ewa_surfels_create(cloud, NULL, &surfels), EWA_OK);
@@ -153,10 +158,7 @@ static void test_light_at_edges(void **state) {
     ewa_context *context = check_context(0, NULL);
     ewa_mesh mesh;
     shape_cube(context, &mesh);
-    ewa_mesh_sample_options sample;
-    ewa_mesh_sample_options_init(&sample, sizeof sample);
-    sample.point_count = 100000;
-    ewa_cloud *cloud = shape_sample(&mesh, &sample);
+    ewa_cloud *cloud = sample_points(&mesh, 100000);
     ewa_surfels *surfels = NULL;
     ewa_renderer *renderer = NULL;
     assert_int_equal(ewa_surfels_create(cloud, NULL, &surfels), EWA_OK);

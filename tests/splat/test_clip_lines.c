@@ -65,6 +65,16 @@ static ewa_cloud *one_surfel(ewa_context *context, const float lines[2][3], uint
     return cloud;
 }
 
+/// At the origin, one unit at depth 1 as wide as the picture.
+static ewa_camera ahead(void) {
+    ewa_camera camera;
+    ewa_camera_init(&camera);
+    camera.width_px = camera.height_px = SIDE;
+    camera.fx_px = camera.fy_px = SIDE;
+    camera.cx_px = camera.cy_px = SIDE / 2;
+    return camera;
+}
+
 static void test_known_answers(void **state) {
     // Picture x = -v, y = u / 2 in world units; 32 pixels per unit.
     static const struct {
@@ -81,11 +91,7 @@ static void test_known_answers(void **state) {
         {{{NAN, 1, 0}, {1, 0, INFINITY}}, 0, 0xf}, {{{0, 1, -9}, {0, 0, 0}}, 0, 0}, // all cut off
     };
     ewa_context *context = check_context(0, NULL);
-    ewa_camera camera;
-    ewa_camera_init(&camera);
-    camera.width_px = camera.height_px = SIDE;
-    camera.fx_px = camera.fy_px = SIDE;
-    camera.cx_px = camera.cy_px = SIDE / 2;
+    const ewa_camera camera = ahead();
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         ewa_cloud *cloud = one_surfel(context, rows[i].lines, rows[i].mode);
         for (int kernel = 0; kernel < 5; kernel++) {
@@ -116,11 +122,7 @@ static void test_line_stays(void **state) {
     static const float lines[2][3] = {{0, 1, 0.25f},
                                       {0, 0, 0}}; // v > -0.25: x < 0.25, 8 pixels right of the middle
     ewa_context *context = check_context(0, NULL);
-    ewa_camera camera;
-    ewa_camera_init(&camera);
-    camera.width_px = camera.height_px = SIDE;
-    camera.fx_px = camera.fy_px = SIDE;
-    camera.cx_px = camera.cy_px = SIDE / 2;
+    const ewa_camera camera = ahead();
     ewa_cloud *cloud = one_surfel(context, lines, 0);
     for (double scale = 0.5; scale < 3; scale *= 2) {
         ewa_surfels_options surfels;
@@ -163,11 +165,7 @@ static void test_borders(void **state) {
         {{0, 0, 1}, -40, 40}, // beyond the disc, along its normal
     };
     ewa_context *context = check_context(0, NULL);
-    ewa_camera camera;
-    ewa_camera_init(&camera);
-    camera.width_px = camera.height_px = SIDE;
-    camera.fx_px = camera.fy_px = SIDE;
-    camera.cx_px = camera.cy_px = SIDE / 2;
+    const ewa_camera camera = ahead();
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++)
         for (int side = 0; side < 2; side++) {
             ewa_cloud *cloud = one_disc(context, normals[side], rows[i].border);
