@@ -67,7 +67,6 @@ class Section:
                       for word in re.findall(r"[\w.${}-]+\.(?:png|svg|mp4|table)", block)]
         self.tables = re.findall(r"^<!-- table (\w+) -->$", text, re.M)
 
-
     def makes(self, name):
         """Whether a command names that file."""
         return any(re.fullmatch(pattern, name) for pattern in self.named)

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The ewa authors
 # SPDX-License-Identifier: MIT
-"""PSNR of pictures to the first of them, in 8-bit sRGB numbers: compare.py NAME.table TRUTH.png NAME=PICTURE.png ..."""
+"""PSNR of pictures to a true one, in sRGB numbers: compare.py NAME.table TRUTH.png NAME=PICTURE.png ..."""
 import sys
 
 import ewa
@@ -19,4 +19,4 @@ for argument in sys.argv[3:]:
     name, path = argument.rsplit("=", 1)
     error = ((display(path) - truth) ** 2).mean()
     rows.append((name, "the same pixels" if error == 0 else f"{-10 * np.log10(error):.2f}"))
-table(sys.argv[1], ("picture", "PSNR to the truth, dB"), rows)
+table(sys.argv[1], ("picture", "PSNR, dB"), rows)

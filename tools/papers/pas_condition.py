@@ -23,7 +23,7 @@ for name, eye, color in (("from 4 away", (0, -3.46, 2), OURS), ("from the ring's
     ahead = depth > 0
     condition = np.linalg.cond(matrices[ahead])
     # The same with the axes in units of the distance: what is left is how flatly the disc is seen.
-    scaled = matrices[ahead] / np.array([1, 1, 1])[None, :, None]
+    scaled = matrices[ahead]
     scaled[:, :2] *= (np.linalg.norm(scaled[:, 2], axis=1) / np.linalg.norm(scaled[:, 0], axis=1))[:, None, None]
     flat = np.linalg.cond(scaled)
     for numbers, style, what in ((condition, "-", "M"), (flat, "--", "axes as long as p")):

@@ -1,10 +1,10 @@
 # SPDX-FileCopyrightText: 2026 The ewa authors
 # SPDX-License-Identifier: MIT
-"""Figures 2 to 5 of SS, computed: ss_functions.py FUNCTIONS.svg JACOBIAN.md
+"""Figures 2 to 5 of SS, computed: ss_functions.py FUNCTIONS.svg NAME.table
 
 In one dimension: samples at irregular places u_k of a line carry Gaussians; the line is seen by a pinhole, x = m(u); the
 picture is filtered by a Gaussian of half a pixel and sampled. Then the Jacobian of one splat, by the paper's construction,
-by the library's ellipse, and by differences of the projection itself."""
+by docs/math.md, and by differences of the projection itself."""
 import sys
 
 import numpy as np
@@ -89,7 +89,7 @@ def jacobian():
         ("the paper's construction, inverted", paper), ("differences of the projection", differences),
         ("docs/math.md section 3, F → 0", ours))]
     shape = affine(p, axes)[1]
-    rows.append(("V = J Jᵀ of the library's affine ellipse", *(f"{number:.6f}" for number in shape.ravel())))
+    rows.append(("V = J Jᵀ of docs/math.md section 3", *(f"{number:.6f}" for number in shape.ravel())))
     rows.append(("J Jᵀ of the first row", *(f"{number:.6f}" for number in (paper @ paper.T).ravel())))
     table(sys.argv[2], ("J", "∂x/∂u₀", "∂x/∂u₁", "∂y/∂u₀", "∂y/∂u₁"), rows)
 

@@ -8,7 +8,7 @@ import matplotlib
 matplotlib.use("svg")
 import matplotlib.pyplot as plt  # noqa: E402
 
-#: Colours that colour-blind readers tell apart (Okabe and Ito 2008): the exact or ours, the paper's, the one before, more.
+#: Colours that colour-blind readers tell apart (Okabe and Ito 2008): the exact or ours, the paper's, and what stands beside them.
 OURS, PAPER, OTHER, FOURTH, GREY = "#0072b2", "#d55e00", "#009e73", "#cc79a7", "#777777"
 
 #: Whether this is the quick run of the tests, which wants few of everything.
