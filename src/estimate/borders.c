@@ -36,7 +36,8 @@ void ewa_borders_ask(border_set *set, uint32_t place) {
 
 bool ewa_borders_take_asked(border_set *set, uint8_t value, uint8_t *notes) {
     bool any = false;
-    for (uint32_t place = 0; place < set->place_count && set->end_count; place++) {
+    if (!set->end_count) return false; // only places near borders ask
+    for (uint32_t place = 0; place < set->place_count; place++) {
         const bool asked = set->notes[place] == ASKED;
         notes[place] = asked ? value : 0;
         any |= asked;

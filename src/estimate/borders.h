@@ -33,8 +33,8 @@ void ewa_borders_note(border_set *set, uint32_t place, const float to_world[3]);
 /// Asks a place to look for a border. Any thread.
 void ewa_borders_ask(border_set *set, uint32_t place);
 
-/// Sets the notes of the places that have been asked and know of no border to `value`, those of all others to 0;
-/// returns whether there are any.
+/// Whether there are places that have been asked and know of no border. If so, sets the notes of these to `value`,
+/// those of all others to 0.
 bool ewa_borders_take_asked(border_set *set, uint8_t value, uint8_t *notes);
 
 /// Adds what is known to the cloud: "border" to discs, "clip0" to ellipses of these tangent axes (by point; NULL:
