@@ -142,6 +142,7 @@ static void test_refused(void **state) {
         {TEXT "POINTS 4 float\n0 0 0 1", "the file ends early"},
         {TEXT "POINTS 2 float\n0 0 0 1 x 0", "a number is wanted"},
         {TEXT POINTS "POLYGONS 1 5\n5 0 1 2 3\n", "a cell is larger than all of them"},
+        {TEXT POINTS "POLYGONS 2 8\n2.5 0 1 400000000\n3 0 1 2\n", "a number of corners is not whole"},
         {TEXT POINTS "POLYGONS 2 5\n4 0 1 2 3\n", "there are fewer cells than their number"},
         {TEXT POINTS "POLYGONS 1 6\n4 0 1 2 3 0\n", "there are more cells than their number"},
         {TEXT POINTS "POLYGONS 1 5\n4 0 1 2 9\n", "none of the faces can be used"},

@@ -205,6 +205,7 @@ static ewa_status read_cells(vtk_reader *r, uint32_t kind) {
         EWA_TRY(take_number(r, &INTS, &corners));
         taken++;
         if (!(corners >= 0 && corners <= (double)(all - taken))) return fail(r, "a cell is larger than all of them");
+        if (corners != floor(corners)) return fail(r, "a number of corners is not whole");
         EWA_TRY(append(r, &r->cells, corners));
         EWA_TRY(kind ? append(r, &r->kinds, kind) : EWA_OK);
         for (double k = 0; k < corners; k++, taken++) {
@@ -392,10 +393,10 @@ static ewa_status add_polygon(vtk_reader *r, const uint32_t *places, uint64_t co
 
 /// Adds the flat cells; returns through `*solid_count` how many are none.
 static ewa_status add_cells(vtk_reader *r, uint64_t *solid_count) {
-    const uint32_t *cell = r->cells.items, *end = cell + r->cells.count, *kinds = r->kinds.items;
-    for (uint64_t i = 0; cell < end && i < r->kinds.count; i++) {
-        const uint32_t count = *cell++, *places = cell;
-        cell += count;
+    const uint32_t *cells = r->cells.items, *kinds = r->kinds.items;
+    for (uint64_t i = 0, at = 0; at < r->cells.count && i < r->kinds.count; i++) {
+        const uint32_t count = cells[at], *places = cells + at + 1;
+        at += 1 + (uint64_t)count;
         switch (kinds[i]) {
         case CELL_TRIANGLE:
         case CELL_POLYGON:
