@@ -18,11 +18,12 @@ static ewa_cloud *load(const tiff_file *f, int message_count) {
     return cloud;
 }
 
-static void refuse(const tiff_file *f, ewa_status status, const char *said) {
+static void refuse(tiff_kind kind, ewa_status status, const char *said) {
     ewa_cloud *cloud = NULL;
+    tiff_make(&file, kind);
     messages.count = 0;
     messages.text[0] = 0;
-    const ewa_status got = ewa_cloud_load_memory(context, f->bytes, f->size, "t", &cloud);
+    const ewa_status got = ewa_cloud_load_memory(context, file.bytes, file.size, "t", &cloud);
     if (got != status || !strstr(messages.text, said)) fail_msg("status %d: %s\nlacks: %s", got, messages.text, said);
     assert_null(cloud);
 }
@@ -175,30 +176,36 @@ static void test_refused(void **state) {
     tiff_kind kind = PLACED;
     kind.photometric = PHOTOMETRIC_RGB;
     kind.bands = 3;
-    tiff_make(&file, kind);
-    refuse(&file, EWA_ERROR_UNSUPPORTED, "a TIFF picture");
-    tiff_make(&file, (tiff_kind){.bits = 8, .kind = SAMPLE_UINT});
-    refuse(&file, EWA_ERROR_UNSUPPORTED, "a TIFF picture");
+    refuse(kind, EWA_ERROR_UNSUPPORTED, "a TIFF picture");
+    refuse((tiff_kind){.bits = 8, .kind = SAMPLE_UINT}, EWA_ERROR_UNSUPPORTED, "a TIFF picture");
     kind = PLACED;
     kind.points_only = true;
-    tiff_make(&file, kind);
-    refuse(&file, EWA_ERROR_UNSUPPORTED, "the places of 1 single points");
+    refuse(kind, EWA_ERROR_UNSUPPORTED, "the places of 1 single points");
     kind = PLACED;
     kind.model = 3;
-    tiff_make(&file, kind);
-    refuse(&file, EWA_ERROR_UNSUPPORTED, "geocentric");
+    refuse(kind, EWA_ERROR_UNSUPPORTED, "geocentric");
     kind = PLACED;
     kind.compression = 4242;
-    tiff_make(&file, kind);
-    refuse(&file, EWA_ERROR_UNSUPPORTED, "compression 4242");
+    refuse(kind, EWA_ERROR_UNSUPPORTED, "compression 4242");
     kind = PLACED;
     kind.bits = 16;
-    tiff_make(&file, kind);
-    refuse(&file, EWA_ERROR_UNSUPPORTED, "numbers of 16 bits");
+    refuse(kind, EWA_ERROR_UNSUPPORTED, "numbers of 16 bits");
     kind = PLACED;
     kind.scale = INFINITY;
-    tiff_make(&file, kind);
-    refuse(&file, EWA_ERROR_FORMAT, "cells of no area");
+    refuse(kind, EWA_ERROR_FORMAT, "cells of no area");
+}
+
+/// Makes the entry of a tag one number of 32 bits, if the directory has it.
+static void set_tag(uint16_t wanted, uint32_t number) {
+    for (int i = 0; i < file.entries; i++) {
+        const size_t at = 10 + 12 * (size_t)i;
+        const uint16_t tag = (uint16_t)(file.bytes[at] | file.bytes[at + 1] << 8), type = 4;
+        const uint32_t count = 1;
+        if (tag != wanted) continue;
+        tiff_put_at(&file, at + 2, &type, 2);
+        tiff_put_at(&file, at + 4, &count, 4);
+        tiff_put_at(&file, at + 8, &number, 4);
+    }
 }
 
 /// A directory that claims any size costs no memory and no time.
@@ -211,21 +218,28 @@ static void test_sizes(void **state) {
                 kind.tiled = tiled;
                 tiff_make(&file, kind);
                 // Of width and height, or of the blocks, as numbers of 32 bits.
-                for (int blocks = 0; blocks < 2; blocks++)
-                    for (int i = 0; i < file.entries; i++) {
-                        const size_t at = 10 + 12 * (size_t)i;
-                        const uint32_t tag = file.bytes[at] | (uint32_t)file.bytes[at + 1] << 8;
-                        const uint32_t first = blocks ? (tiled ? 322 : 278) : 256;
-                        if (tag != first && tag != first + 1) continue;
-                        if (blocks && !tiled && tag != 278) continue;
-                        file.bytes[at + 2] = 4;
-                        const uint32_t number = tag == first ? sizes[a] : sizes[b];
-                        tiff_put_at(&file, at + 8, &number, 4);
-                    }
+                for (int blocks = 0; blocks < 2; blocks++) {
+                    set_tag(blocks ? (tiled ? 322 : 278) : 256, sizes[a]);
+                    if (!blocks || tiled) set_tag(blocks ? 323 : 257, sizes[b]);
+                }
                 ewa_cloud *cloud = NULL;
                 ewa_cloud_load_memory(context, file.bytes, file.size, "t", &cloud);
                 ewa_cloud_destroy(&cloud);
             }
+}
+
+/// Nor do 2^40 cells in strips that are not there, also where their slopes have to say whether they are in degrees.
+static void test_empty(void **state) {
+    for (int model = 0; model < 2; model++) {
+        tiff_make(&file, (tiff_kind){.scale = 1e-5, .model = model});
+        set_tag(256, 1 << 20); // columns
+        set_tag(257, 1 << 20); // rows
+        set_tag(278, 16);      // of a strip
+        set_tag(279, 0);       // bytes of the strips
+        ewa_cloud *cloud = load(&file, 0);
+        assert_int_equal(ewa_cloud_point_count(cloud), 0);
+        ewa_cloud_destroy(&cloud);
+    }
 }
 
 static void test_truncation(void **state) {
@@ -293,6 +307,7 @@ int main(void) {
         cmocka_unit_test_setup_teardown(test_no_data, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_refused, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_sizes, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(test_empty, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_truncation, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_name, set_up, tear_down),
         cmocka_unit_test(test_failing_allocations),

@@ -149,7 +149,7 @@ static ewa_status read_head(grid_state *state) {
     grid->to_world[5] = low_world[1] + step[1] * (double)(grid->rows - 1);
     grid->has_no_data = given[NO_DATA] || given[NO_DATA_TOO];
     grid->no_data = values[given[NO_DATA] ? NO_DATA : NO_DATA_TOO];
-    grid->is_degrees = ewa_height_grid_looks_like_degrees(grid, mean_step(state));
+    grid->is_degrees = ewa_height_grid_fits_degrees(grid) && ewa_height_grid_is_too_steep(grid, mean_step(state));
     return EWA_OK;
 }
 

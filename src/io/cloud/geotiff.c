@@ -8,6 +8,7 @@
 #include "io/cloud/geotiff.h"
 
 #include "base/base.h"
+#include "base/unpacking.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -187,8 +188,9 @@ static ewa_status read_blocks(tiff_state *state) {
                         state->block_columns, state->block_rows);
     // The room for a band, and what libtiff takes for one block of it.
     if (__builtin_add_overflow(state->band_bytes, state->block_bytes + OWN_BYTES, &bytes)) bytes = UINT64_MAX;
-    EWA_TRY(ewa_memory_check(context, bytes, "%s: TIFF with blocks of %u x %u cells", source->name,
-                             state->block_columns, state->block_rows));
+    EWA_TRY(ewa_memory_check_unpacked(context, source->size_bytes, EWA_UNPACKED_RATIO, bytes,
+                                      "%s: TIFF with blocks of %u x %u cells", source->name, state->block_columns,
+                                      state->block_rows));
     state->band = ewa_allocate(context, state->band_bytes, 1);
     state->good = ewa_allocate_zeroed(context, state->across, sizeof *state->good);
     return state->band && state->good ? EWA_OK : EWA_ERROR_MEMORY;
@@ -225,6 +227,13 @@ static ewa_status read_band(tiff_state *state, uint64_t row) {
                                  column + 1, state->file.fault[0] ? state->file.fault : "the block ends early"));
     }
     return EWA_OK;
+}
+
+/// Whether no block of the band could be read. Grids of any size take no bytes in such blocks, and should take no time.
+static bool band_is_empty(const tiff_state *state) {
+    for (uint32_t i = 0; i < state->across; i++)
+        if (state->good[i]) return false;
+    return true;
 }
 
 /// The number of a cell in the band; NaN where its block is not there.
@@ -267,6 +276,8 @@ static ewa_status find_mean_step(tiff_state *state, double *mean_step) {
     state->looking = true;
     for (uint64_t first = 0; first < state->grid.rows && count == 0; first += state->block_rows) {
         EWA_TRY(read_band(state, first));
+        EWA_TRY(ewa_progress(state->source->context, "read", 0));
+        if (band_is_empty(state)) continue;
         for (uint64_t row = first; row < first + state->block_rows && row < state->grid.rows; row++)
             for (uint64_t column = 1; column < state->grid.columns; column++) {
                 const double a = number_at(state, column - 1, row), b = number_at(state, column, row);
@@ -305,10 +316,10 @@ static ewa_status prepare(tiff_state *state, ewa_cloud *prototype) {
                         ? (double)(float)place.no_data
                         : place.no_data;
     grid->is_degrees = place.model == EWA_GEOTIFF_GEOGRAPHIC;
-    if (place.is_placed && place.model == EWA_GEOTIFF_UNKNOWN) {
+    if (place.is_placed && place.model == EWA_GEOTIFF_UNKNOWN && ewa_height_grid_fits_degrees(grid)) {
         double mean_step;
         EWA_TRY(find_mean_step(state, &mean_step));
-        grid->is_degrees = ewa_height_grid_looks_like_degrees(grid, mean_step);
+        grid->is_degrees = ewa_height_grid_is_too_steep(grid, mean_step);
     }
     if (!place.is_placed)
         ewa_report(state->source->context, EWA_SEVERITY_WARNING,
@@ -340,9 +351,14 @@ static ewa_status read_grid(void *data, uint64_t maximum, const ewa_cloud_sink *
     uint64_t got = 0;
     for (; got < maximum && state->cell < cells; state->cell++) {
         const uint64_t column = state->cell % columns, row = state->cell / columns;
-        if (column == 0 || state->band_index == UINT64_MAX) {
+        if (column == 0) {
             EWA_TRY(read_band(state, row));
             EWA_TRY(ewa_progress(state->source->context, "read", (double)state->cell / (double)cells));
+            if (band_is_empty(state)) {
+                const uint64_t next_row = (state->band_index + 1) * state->block_rows;
+                state->cell = (next_row < state->grid.rows ? next_row : state->grid.rows) * columns - 1;
+                continue;
+            }
         }
         const double height = number_at(state, column, row);
         if (!ewa_height_is(&state->grid, height)) continue;

@@ -34,13 +34,18 @@ static void middle(const ewa_height_grid *grid, double column, double row, doubl
     place[1] = m[3] * column + m[4] * row + m[5];
 }
 
-bool ewa_height_grid_looks_like_degrees(const ewa_height_grid *grid, double mean_step) {
-    const double last[2] = {(double)grid->columns - 1, (double)grid->rows - 1}, *m = grid->to_world;
+bool ewa_height_grid_fits_degrees(const ewa_height_grid *grid) {
+    const double last[2] = {(double)grid->columns - 1, (double)grid->rows - 1};
     for (int corner = 0; corner < 4; corner++) {
         double place[2];
         middle(grid, corner & 1 ? last[0] : 0, corner & 2 ? last[1] : 0, place);
         if (!(fabs(place[0]) <= 360 && fabs(place[1]) <= 90)) return false;
     }
+    return true;
+}
+
+bool ewa_height_grid_is_too_steep(const ewa_height_grid *grid, double mean_step) {
+    const double *m = grid->to_world;
     return mean_step > ABSURD_SLOPE * sqrt(m[0] * m[0] + m[3] * m[3]);
 }
 

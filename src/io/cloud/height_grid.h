@@ -22,10 +22,13 @@ typedef struct ewa_height_grid {
 /// Whether a number is a height: finite, of a size that is no mark, and not the number that stands for none.
 bool ewa_height_is(const ewa_height_grid *grid, double number);
 
-/// Whether a grid that does not say so is one of degrees with metres for heights: its places can be longitudes and
-/// latitudes, and neighbouring cells differ on the average by `mean_step`, which in one unit would be a slope of over 83
-/// degrees.
-bool ewa_height_grid_looks_like_degrees(const ewa_height_grid *grid, double mean_step);
+/// Whether the places of a grid can be longitudes and latitudes. One that does not say so is of degrees with metres for
+/// heights where it is too steep as well.
+bool ewa_height_grid_fits_degrees(const ewa_height_grid *grid);
+
+/// Whether neighbouring cells that differ by `mean_step` on the average would have a slope of over 83 degrees if all were
+/// in one unit.
+bool ewa_height_grid_is_too_steep(const ewa_height_grid *grid, double mean_step);
 
 /// Prepares a prototype for the points of a grid: their attribute, an origin near them. Degrees become metres to the east
 /// and to the north of the grid's middle, by the ellipsoid of WGS 84 there, which a note and a message tell. Errors:

@@ -51,7 +51,7 @@ static bool find_tile(const char *path, uint64_t tile[3]) {
     for (int i = 2; i >= 0; i--) {
         if (!take_number(path, &end, &tile[i])) return false;
         if (i && end == path) return false;
-        end--;
+        if (i) end--;
     }
     return tile[0] <= MAX_ZOOM && tile[1] >> tile[0] == 0 && tile[2] >> tile[0] == 0;
 }
