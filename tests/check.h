@@ -93,6 +93,24 @@ static inline ewa_context *check_context_on(uint32_t threads, check_memory *memo
     return context;
 }
 
+/// Goes on as often as the number says that `user` points to.
+static inline bool check_go_on(void *user, const char *stage, double fraction) {
+    (void)stage, (void)fraction;
+    return (*(int *)user)-- > 0;
+}
+
+/// A context that takes from `memory` and is stopped when it has asked `*left` times.
+static inline ewa_context *check_context_stopped(int *left, check_memory *memory) {
+    ewa_context_options options;
+    ewa_context_options_init(&options, sizeof options);
+    options.allocator = check_allocator(memory);
+    options.progress = check_go_on;
+    options.progress_user = left;
+    ewa_context *context = NULL;
+    assert_int_equal(ewa_context_create(&options, &context), EWA_OK);
+    return context;
+}
+
 /// Says that a file of the shared test data is not there; a failure where the folder is said to have all of
 /// them.
 static inline void check_data_missing(const char *relative) {

@@ -469,24 +469,12 @@ static void test_every_failing_allocation_is_clean(void **state) {
     }
 }
 
-static bool stop_at(void *user, const char *stage, double fraction) {
-    (void)stage;
-    (void)fraction;
-    return (*(int *)user)-- > 0;
-}
-
 static void test_every_cancel_is_clean(void **state) {
     bool done = false;
     for (int n = 0; !done; n += 1 + n / 8) {
         int left = 1000;
         check_memory memory = {.calls_left = -1};
-        ewa_context_options options;
-        ewa_context_options_init(&options, sizeof options);
-        options.allocator = check_allocator(&memory);
-        options.progress = stop_at;
-        options.progress_user = &left;
-        ewa_context *context = NULL;
-        assert_int_equal(ewa_context_create(&options, &context), EWA_OK);
+        ewa_context *context = check_context_stopped(&left, &memory);
         ewa_image image;
         make_picture(context, 8, 8, 2, &image);
         ewa_cloud *cloud = make_object(context, EWA_OBJECT_PLANE, 500, 1.5);

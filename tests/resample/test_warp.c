@@ -379,12 +379,6 @@ static void test_failing_allocations(void **state) {
     scratch_fail_each(work, &plane.image);
 }
 
-static bool stop_at(void *user, const char *stage, double fraction) {
-    (void)stage;
-    (void)fraction;
-    return (*(int *)user)-- > 0;
-}
-
 /// Whoever says no at any time, while images are taken, too, is heard, and nothing is left.
 static void test_every_stop_is_clean(void **state) {
     plane_set(&plane, 2);
@@ -393,13 +387,7 @@ static void test_every_stop_is_clean(void **state) {
     for (; status != EWA_OK; stops++) {
         int left = stops;
         check_memory memory = {.calls_left = -1};
-        ewa_context_options options;
-        ewa_context_options_init(&options, sizeof options);
-        options.allocator = check_allocator(&memory);
-        options.progress = stop_at;
-        options.progress_user = &left;
-        ewa_context *context = NULL;
-        assert_int_equal(ewa_context_create(&options, &context), EWA_OK);
+        ewa_context *context = check_context_stopped(&left, &memory);
         status = work(context, &plane.image);
         if (status != EWA_OK) assert_int_equal(status, EWA_CANCELLED);
         if (stops == 0) {

@@ -81,22 +81,22 @@ static bool read_ranges(const cJSON *object, uint32_t count, double *low, double
            read_numbers(cJSON_GetObjectItemCaseSensitive(object, "maxs"), count, high);
 }
 
-static bool read_count(const cJSON *object, const char *name, uint64_t *count) {
-    const cJSON *item = cJSON_GetObjectItemCaseSensitive(object, name);
+static bool take_count(const cJSON *item, uint64_t *count) {
     if (!cJSON_IsNumber(item) || !(item->valuedouble >= 0 && item->valuedouble < 0x1p32)) return false;
     *count = (uint64_t)item->valuedouble;
     return (double)*count == item->valuedouble;
+}
+
+static bool read_count(const cJSON *object, const char *name, uint64_t *count) {
+    return take_count(cJSON_GetObjectItemCaseSensitive(object, name), count);
 }
 
 /// Reads what version 1 says; how many harmonics there are its picture of palettes does.
 static ewa_status read_steps(sog *s, const cJSON *means, const cJSON *scales, const cJSON *colors,
                              const cJSON *harmonics) {
     double low[4], high[4];
-    const cJSON *shape = cJSON_GetObjectItemCaseSensitive(means, "shape"), *count = cJSON_GetArrayItem(shape, 0);
-    if (!cJSON_IsNumber(count) || !(count->valuedouble >= 0 && count->valuedouble < 0x1p32) ||
-        count->valuedouble != floor(count->valuedouble))
+    if (!take_count(cJSON_GetArrayItem(cJSON_GetObjectItemCaseSensitive(means, "shape"), 0), &s->count))
         return fail(s, "means.shape begins with no number of Gaussians");
-    s->count = (uint64_t)count->valuedouble;
     if (!read_ranges(scales, 3, low, high)) return fail(s, "scales.mins or scales.maxs are no three numbers");
     for (int k = 0; k < 3; k++) fill_steps(low[k], high[k], s->scales[k]);
     if (!read_ranges(colors, 4, low, high)) return fail(s, "sh0.mins or sh0.maxs are no four numbers");
