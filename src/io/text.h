@@ -94,6 +94,18 @@ static inline ewa_text ewa_cursor_word(ewa_cursor *cursor) {
     return (ewa_text){start, (size_t)(cursor->at - start)};
 }
 
+/// Takes the next word of this line or a later one, whatever it begins with; none at the end.
+static inline ewa_text ewa_cursor_any_word(ewa_cursor *cursor) {
+    while (cursor->at < cursor->end && (ewa_is_blank(*cursor->at) || ewa_is_line_end(*cursor->at)))
+        if (ewa_is_line_end(*cursor->at))
+            ewa_cursor_step_line(cursor);
+        else
+            cursor->at++;
+    const char *start = cursor->at;
+    while (cursor->at < cursor->end && !ewa_is_blank(*cursor->at) && !ewa_is_line_end(*cursor->at)) cursor->at++;
+    return (ewa_text){start, (size_t)(cursor->at - start)};
+}
+
 /// Takes the rest of this line without blanks around it.
 static inline ewa_text ewa_cursor_rest(ewa_cursor *cursor) {
     while (cursor->at < cursor->end && ewa_is_blank(*cursor->at)) cursor->at++;

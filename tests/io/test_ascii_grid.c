@@ -77,7 +77,7 @@ static void test_keep_going(void **state) {
     options.keep_going = true;
     ewa_cloud *cloud = NULL;
     uint64_t lost_count = 0;
-    assert_int_equal(rows_read(HEAD "1 x 3\n4", &options, &cloud, &lost_count), EWA_OK);
+    assert_int_equal(rows_read(HEAD "1 2x 3\n4", &options, &cloud, &lost_count), EWA_OK);
     assert_int_equal(lost_count, 3); // a word, and two cells that are not there
     rows_expect(cloud, 3, "position");
     rows_expect_world(cloud, 1, 125, 65, 3); // in its own cell

@@ -8,7 +8,6 @@
 #include "base/base.h"
 #include "io/cloud/height_grid.h"
 #include "io/cloud/text_table.h"
-#include "io/number.h"
 #include "io/text.h"
 
 #include <math.h>
@@ -34,29 +33,6 @@ typedef struct grid_state {
     uint64_t cell; ///< the next one
 } grid_state;
 
-static bool is_space(char c) { return ewa_is_blank(c) || ewa_is_line_end(c); }
-
-static void skip_space(ewa_cursor *cursor) {
-    while (cursor->at < cursor->end && is_space(*cursor->at))
-        if (ewa_is_line_end(*cursor->at))
-            ewa_cursor_step_line(cursor);
-        else
-            cursor->at++;
-}
-
-/// The word at the cursor, which steps over it.
-static ewa_text take_word(ewa_cursor *cursor) {
-    skip_space(cursor);
-    const char *start = cursor->at;
-    while (cursor->at < cursor->end && !is_space(*cursor->at)) cursor->at++;
-    return (ewa_text){start, (size_t)(cursor->at - start)};
-}
-
-static bool read_word(ewa_text word, double *value) {
-    return word.length &&
-           ewa_number_read_f64(word.chars, word.chars + word.length, value) == word.chars + word.length;
-}
-
 static int find_key(ewa_text word) {
     for (int k = 0; k < KEYS; k++)
         if (ewa_text_is_any_case(word, keys[k])) return k;
@@ -68,8 +44,8 @@ static bool probe(const char *name, const uint8_t *bytes, uint64_t size_bytes) {
     ewa_cursor cursor = {(const char *)bytes, (const char *)bytes + (size_bytes < 64 ? size_bytes : 64), 1};
     if (size_bytes >= 3 && memcmp(bytes, "\xef\xbb\xbf", 3) == 0) cursor.at += 3;
     double value;
-    const int key = find_key(take_word(&cursor));
-    return (key == COLUMNS || key == ROWS) && read_word(take_word(&cursor), &value);
+    const int key = find_key(ewa_cursor_any_word(&cursor));
+    return (key == COLUMNS || key == ROWS) && ewa_text_number(ewa_cursor_any_word(&cursor), &value);
 }
 
 /// Takes the names and numbers of the head; `given[k]` says which there are.
@@ -77,9 +53,9 @@ static ewa_status take_head(grid_state *state, double values[KEYS], bool given[K
     const ewa_cloud_source *source = state->source;
     for (;;) {
         ewa_cursor next = state->text;
-        const ewa_text word = take_word(&next);
+        const ewa_text word = ewa_cursor_any_word(&next);
         double value;
-        if (!word.length || read_word(word, &value)) return EWA_OK;
+        if (!word.length || ewa_text_number(word, &value)) return EWA_OK;
         const int key = find_key(word);
         char quote[EWA_QUOTE_BYTES];
         const unsigned long long line = next.line;
@@ -87,8 +63,8 @@ static ewa_status take_head(grid_state *state, double values[KEYS], bool given[K
             return ewa_fail(source->context, EWA_ERROR_FORMAT,
                             "%s: line %llu: %s is no name of an ASCII grid's head", source->name, line,
                             ewa_quote(word, quote));
-        const ewa_text number = take_word(&next);
-        if (!read_word(number, &values[key]))
+        const ewa_text number = ewa_cursor_any_word(&next);
+        if (!ewa_text_number(number, &values[key]))
             return ewa_fail(source->context, EWA_ERROR_FORMAT, "%s: line %llu: %s of %s is no number",
                             source->name, line, ewa_quote(number, quote), keys[key]);
         given[key] = true;
@@ -112,10 +88,11 @@ static double mean_step(const grid_state *state) {
     ewa_cursor text = state->text;
     double before = NAN, height, sum = 0, count = 0;
     for (uint64_t cell = 0; cell < LOOK_CELLS; cell++) {
-        const ewa_text word = take_word(&text);
+        const ewa_text word = ewa_cursor_any_word(&text);
         if (!word.length) break;
         if (cell % state->grid.columns == 0) before = NAN;
-        if (!read_word(word, &height) || !ewa_height_is(&state->grid, height)) height = NAN;
+        ewa_text_number(word, &height);
+        if (!ewa_height_is(&state->grid, height)) height = NAN;
         if (isfinite(height - before)) {
             sum += fabs(height - before);
             count++;
@@ -187,7 +164,7 @@ static ewa_status open_grid(const ewa_cloud_source *source, ewa_cloud *prototype
 static ewa_status take_height(grid_state *state, double *height) {
     const ewa_cloud_source *source = state->source;
     const uint64_t cells = state->grid.columns * state->grid.rows, row = state->cell / state->grid.columns + 1;
-    const ewa_text word = take_word(&state->text);
+    const ewa_text word = ewa_cursor_any_word(&state->text);
     char quote[EWA_QUOTE_BYTES];
     *height = NAN;
     if (!word.length) {
@@ -197,7 +174,7 @@ static ewa_status take_height(grid_state *state, double *height) {
                                 (unsigned long long)row, (unsigned long long)state->grid.rows);
     }
     state->cell++;
-    if (!read_word(word, height))
+    if (!ewa_text_number(word, height))
         return ewa_cloud_damage(source, 1, "%s: line %llu, row %llu: %s is no number", source->name,
                                 (unsigned long long)state->text.line, (unsigned long long)row,
                                 ewa_quote(word, quote));

@@ -7,7 +7,7 @@
 #include "base/base.h"
 #include "io/cloud/geotiff.h"
 #include "io/las/las.h"
-#include "io/number.h"
+#include "io/text.h"
 
 #include <math.h>
 #include <string.h>
@@ -93,7 +93,7 @@ ewa_status ewa_geotiff_read(const ewa_cloud_source *source, TIFF *tiff, ewa_geot
     uint32_t count;
     const char *text = find_tag(tiff, NO_DATA, TIFF_ASCII, &count);
     while (text && count && (text[count - 1] == 0 || text[count - 1] == ' ')) count--;
-    place->has_no_data = text && count && ewa_number_read_f64(text, text + count, &place->no_data) == text + count;
+    place->has_no_data = text && ewa_text_number((ewa_text){text, count}, &place->no_data);
     return EWA_OK;
 }
 

@@ -9,7 +9,6 @@
 #include "base/base.h"
 #include "image/srgb.h"
 #include "io/mesh/formats.h"
-#include "io/number.h"
 
 #include <math.h>
 
@@ -62,20 +61,6 @@ static ewa_status fail(const vtk_reader *r, const char *what) {
                     (unsigned long long)r->cursor.line, what);
 }
 
-static bool is_space(char c) { return ewa_is_blank(c) || ewa_is_line_end(c); }
-
-/// Takes the next word, on this line or a later one; none at the end.
-static ewa_text take_word(ewa_cursor *cursor) {
-    while (cursor->at < cursor->end && is_space(*cursor->at))
-        if (ewa_is_line_end(*cursor->at))
-            ewa_cursor_step_line(cursor);
-        else
-            cursor->at++;
-    const char *start = cursor->at;
-    while (cursor->at < cursor->end && !is_space(*cursor->at)) cursor->at++;
-    return (ewa_text){start, (size_t)(cursor->at - start)};
-}
-
 /// Steps behind this line.
 static void end_line(ewa_cursor *cursor) {
     while (cursor->at < cursor->end && !ewa_is_line_end(*cursor->at)) cursor->at++;
@@ -84,13 +69,13 @@ static void end_line(ewa_cursor *cursor) {
 
 static bool take_count(vtk_reader *r, uint64_t *count) {
     int64_t value;
-    if (!ewa_text_integer(take_word(&r->cursor), &value) || value < 0) return false;
+    if (!ewa_text_integer(ewa_cursor_any_word(&r->cursor), &value) || value < 0) return false;
     *count = (uint64_t)value;
     return true;
 }
 
 static bool take_type(vtk_reader *r, number_type *type) {
-    const ewa_text word = take_word(&r->cursor);
+    const ewa_text word = ewa_cursor_any_word(&r->cursor);
     for (size_t i = 0; i < sizeof types / sizeof types[0]; i++)
         if (ewa_text_is_any_case(word, types[i].name)) {
             *type = types[i];
@@ -109,9 +94,8 @@ static ewa_status begin_numbers(vtk_reader *r, const number_type *type, uint64_t
 /// Takes the next number; begin_numbers() has seen that it is there.
 static ewa_status take_number(vtk_reader *r, const number_type *type, double *value) {
     if (r->text) {
-        const ewa_text word = take_word(&r->cursor);
-        const char *end = word.chars + word.length;
-        if (word.length && ewa_number_read_f64(word.chars, end, value) == end) return EWA_OK;
+        const ewa_text word = ewa_cursor_any_word(&r->cursor);
+        if (ewa_text_number(word, value)) return EWA_OK;
         return fail(r, word.length ? "a number is wanted" : "the file ends early");
     }
     uint64_t bits = 0;
@@ -172,7 +156,7 @@ static ewa_status read_cells(vtk_reader *r, uint32_t kind) {
     if (!take_count(r, &count) || !take_count(r, &all)) return fail(r, "cells have no numbers");
     const ewa_cursor before = r->cursor;
     double value = 0;
-    if (ewa_text_is_any_case(take_word(&r->cursor), "OFFSETS")) {
+    if (ewa_text_is_any_case(ewa_cursor_any_word(&r->cursor), "OFFSETS")) {
         number_type type;
         r->offsets.count = 0;
         if (!take_type(r, &type)) return fail(r, "OFFSETS has no type");
@@ -181,7 +165,7 @@ static ewa_status read_cells(vtk_reader *r, uint32_t kind) {
             EWA_TRY(take_number(r, &type, &value));
             EWA_TRY(append(r, &r->offsets, value));
         }
-        if (!ewa_text_is_any_case(take_word(&r->cursor), "CONNECTIVITY") || !take_type(r, &type))
+        if (!ewa_text_is_any_case(ewa_cursor_any_word(&r->cursor), "CONNECTIVITY") || !take_type(r, &type))
             return fail(r, "CONNECTIVITY and its type are wanted");
         EWA_TRY(begin_numbers(r, &type, all));
         const uint32_t *offsets = r->offsets.items;
@@ -281,10 +265,10 @@ static ewa_status take_data(vtk_reader *r, const number_type *type, uint64_t com
 static ewa_status read_fields(vtk_reader *r, bool *known) {
     uint64_t fields, components, count;
     number_type type;
-    take_word(&r->cursor);
+    ewa_cursor_any_word(&r->cursor);
     if (!take_count(r, &fields) || fields > MAX_FIELDS) return fail(r, "FIELD has no number of arrays");
     for (uint64_t i = 0; i < fields; i++) {
-        take_word(&r->cursor);
+        ewa_cursor_any_word(&r->cursor);
         if (!take_count(r, &components) || !take_count(r, &count)) return fail(r, "an array of FIELD has no sizes");
         *known = take_type(r, &type);
         if (!*known) return EWA_OK;
@@ -297,15 +281,15 @@ static ewa_status read_fields(vtk_reader *r, bool *known) {
 static ewa_status read_scalars(vtk_reader *r, bool *known) {
     number_type type;
     uint64_t components = 1;
-    take_word(&r->cursor);
+    ewa_cursor_any_word(&r->cursor);
     *known = take_type(r, &type);
     if (!*known) return EWA_OK;
     ewa_cursor_skip_blanks(&r->cursor);
     if (r->cursor.at < r->cursor.end && !ewa_is_line_end(*r->cursor.at) && !take_count(r, &components))
         return fail(r, "SCALARS has no number of components");
     const ewa_cursor before = r->cursor;
-    if (ewa_text_is_any_case(take_word(&r->cursor), "LOOKUP_TABLE"))
-        take_word(&r->cursor);
+    if (ewa_text_is_any_case(ewa_cursor_any_word(&r->cursor), "LOOKUP_TABLE"))
+        ewa_cursor_any_word(&r->cursor);
     else
         r->cursor = before;
     return take_data(r, &type, components, r->data_count);
@@ -354,7 +338,7 @@ static ewa_status read_section(vtk_reader *r, ewa_text word, bool *known) {
     }
     if (ewa_text_is_any_case(word, "COLOR_SCALARS") || ewa_text_is_any_case(word, "TEXTURE_COORDINATES")) {
         const bool colors = ewa_text_is_any_case(word, "COLOR_SCALARS");
-        take_word(&r->cursor);
+        ewa_cursor_any_word(&r->cursor);
         if (!take_count(r, &count)) return fail(r, "data have no number of components");
         type = r->text ? FLOATS : BYTES;
         if (!colors && !take_type(r, &type)) return fail(r, "TEXTURE_COORDINATES has no type");
@@ -365,7 +349,7 @@ static ewa_status read_section(vtk_reader *r, ewa_text word, bool *known) {
         return skip_numbers(r, &type, count * r->data_count);
     }
     if (ewa_text_is_any_case(word, "LOOKUP_TABLE")) {
-        take_word(&r->cursor);
+        ewa_cursor_any_word(&r->cursor);
         type = r->text ? FLOATS : BYTES;
         return take_count(r, &count) && count < UINT64_MAX / 4 ? skip_numbers(r, &type, 4 * count)
                                                                : fail(r, "LOOKUP_TABLE has no size");
@@ -373,7 +357,7 @@ static ewa_status read_section(vtk_reader *r, ewa_text word, bool *known) {
     const uint32_t numbers = numbers_of(word);
     *known = numbers > 0;
     if (!*known) return EWA_OK;
-    take_word(&r->cursor);
+    ewa_cursor_any_word(&r->cursor);
     if (!take_type(r, &type)) return fail(r, "vectors have no type");
     if (ewa_text_is_any_case(word, "NORMALS") && r->of_points && !r->has_normals) return read_normals(r, &type);
     return r->data_count > UINT64_MAX / 16 ? fail(r, "an array is too large")
@@ -426,13 +410,13 @@ static ewa_status add_cells(vtk_reader *r, uint64_t *solid_count) {
 static ewa_status read_body(vtk_reader *r) {
     const char *name = r->build->source->name;
     for (int line = 0; line < 2; line++) end_line(&r->cursor); // magic and title
-    const ewa_text encoding = take_word(&r->cursor);
+    const ewa_text encoding = ewa_cursor_any_word(&r->cursor);
     r->text = ewa_text_is_any_case(encoding, "ASCII");
     if (!r->text && !ewa_text_is_any_case(encoding, "BINARY")) return fail(r, "ASCII or BINARY is wanted");
-    take_word(&r->cursor); // DATASET
-    take_word(&r->cursor);
+    ewa_cursor_any_word(&r->cursor); // DATASET
+    ewa_cursor_any_word(&r->cursor);
     for (;;) {
-        const ewa_text word = take_word(&r->cursor);
+        const ewa_text word = ewa_cursor_any_word(&r->cursor);
         bool known;
         char quote[EWA_QUOTE_BYTES];
         if (!word.length) break;
@@ -459,9 +443,9 @@ bool ewa_mesh_is_vtk(const uint8_t *bytes, size_t size_bytes) {
     const char *start = (const char *)bytes;
     ewa_cursor cursor = {start, start + (size_bytes < HEAD_BYTES ? size_bytes : HEAD_BYTES), 1};
     for (int line = 0; line < 2; line++) end_line(&cursor);
-    take_word(&cursor); // encoding
-    if (!ewa_text_is_any_case(take_word(&cursor), "DATASET")) return false;
-    const ewa_text kind = take_word(&cursor);
+    ewa_cursor_any_word(&cursor); // encoding
+    if (!ewa_text_is_any_case(ewa_cursor_any_word(&cursor), "DATASET")) return false;
+    const ewa_text kind = ewa_cursor_any_word(&cursor);
     return ewa_text_is_any_case(kind, "POLYDATA") || ewa_text_is_any_case(kind, "UNSTRUCTURED_GRID");
 }
 
