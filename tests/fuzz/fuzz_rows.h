@@ -16,6 +16,8 @@
 #include <string.h>
 #include <unistd.h>
 
+enum { MAX_WRITTEN = 1 << 14 };
+
 static inline void require_same(const ewa_cloud *a, const ewa_cloud *b) {
     fuzz_require(ewa_cloud_point_count(a) == ewa_cloud_point_count(b), "as many points");
     fuzz_require(ewa_cloud_attribute_count(a) == ewa_cloud_attribute_count(b), "as many attributes");
@@ -89,9 +91,11 @@ static inline int try_rows(const ewa_cloud_format *format, const uint8_t *bytes,
         char path[64];
         snprintf(path, sizeof path, "/tmp/ewa-fuzz-%ld.csv", (long)getpid());
         errors = 0;
-        if (ewa_cloud_save(going, path, NULL) == EWA_OK && ewa_cloud_point_count(going) > 0) {
+        // What a small file unpacks to takes longer to write in decimals and to read again than to unpack.
+        const uint64_t count = ewa_cloud_point_count(going);
+        if (count > 0 && count <= MAX_WRITTEN && ewa_cloud_save(going, path, NULL) == EWA_OK) {
             fuzz_require(ewa_cloud_load(context, path, &back) == EWA_OK, "what was written can be read");
-            fuzz_require(ewa_cloud_point_count(back) == ewa_cloud_point_count(going), "all of it");
+            fuzz_require(ewa_cloud_point_count(back) == count, "all of it");
         }
         unlink(path);
     }
