@@ -18,6 +18,7 @@ struct ewa_context {
     atomic_uint_fast64_t serial;        ///< the last that ewa_serial_next() has given
     atomic_uint_fast64_t held_bytes;    ///< of memory, against max_memory_bytes
     bool memory_is_set;                 ///< max_memory_bytes is the caller's: nothing unpacks to more than is explained otherwise
+    uint64_t packed_before_bytes, unpacked_before_bytes; ///< of ewa_memory_unpacked_before()
     double started_s;
     bool time_is_over; ///< and that was reported
     struct ewa_stoppable_run *run;      ///< the one that ewa_goes_on() is about; NULL: none

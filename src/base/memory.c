@@ -56,9 +56,16 @@ ewa_status ewa_memory_check(ewa_context *context, uint64_t bytes, const char *fo
 /// What any input may unpack to by default, however small it is: a picture of 8192 x 8192 pixels with alpha.
 static const uint64_t UNPACKED_BYTES = (uint64_t)1 << 30;
 
+void ewa_memory_unpacked_before(ewa_context *context, uint64_t packed_bytes, uint64_t bytes) {
+    context->packed_before_bytes = packed_bytes;
+    context->unpacked_before_bytes = bytes;
+}
+
 ewa_status ewa_memory_check_unpacked(ewa_context *context, uint64_t packed_bytes, uint32_t ratio, uint64_t bytes,
                                      const char *format, ...) {
-    const bool explained = context->memory_is_set || bytes <= UNPACKED_BYTES || bytes / ratio <= packed_bytes;
+    const uint64_t before = context->unpacked_before_bytes, all = bytes < UINT64_MAX - before ? bytes + before : UINT64_MAX;
+    packed_bytes += context->packed_before_bytes;
+    const bool explained = context->memory_is_set || all <= UNPACKED_BYTES || all / ratio <= packed_bytes;
     const bool fits = bytes <= ewa_memory_left(context);
     if (explained && fits) return EWA_OK;
     va_list arguments;
@@ -69,7 +76,7 @@ ewa_status ewa_memory_check_unpacked(ewa_context *context, uint64_t packed_bytes
     if (!fits) return ewa_memory_check(context, bytes, "%s", what);
     return ewa_fail(context, EWA_ERROR_LIMIT,
                     "%s: %llu bytes are needed, which %llu bytes of input do not explain; setting max_memory_bytes allows it", what,
-                    (unsigned long long)bytes, (unsigned long long)packed_bytes);
+                    (unsigned long long)all, (unsigned long long)packed_bytes);
 }
 
 ewa_status ewa_memory_take(ewa_context *context, uint64_t bytes, const char *format, ...) {

@@ -18,4 +18,8 @@ enum {
 ewa_status ewa_memory_check_unpacked(ewa_context *context, uint64_t packed_bytes, uint32_t ratio, uint64_t bytes,
                                      const char *format, ...) __attribute__((format(printf, 5, 6)));
 
+/// What of the same file has been unpacked, and is still held, from how many bytes: until it is set to 0, 0 again,
+/// ewa_memory_check_unpacked() counts it with what comes. So many small pictures are bounded as one large one is.
+void ewa_memory_unpacked_before(ewa_context *context, uint64_t packed_bytes, uint64_t bytes);
+
 #endif

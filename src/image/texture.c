@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Means of a picture under Gaussians: sums over pixels with Gaussian weights, on a copy of the picture that
-// is so small that few pixels count.
+// Means of a picture under Gaussians: sums over pixels with Gaussian weights, on the picture or a copy of it
+// that is so small that few pixels count.
 //
 // Along a row the logarithm of the weight is quadratic, so that the ratio of a weight to the one before
 // changes by a constant factor: two multiplications per pixel instead of an exponential.
@@ -19,33 +19,58 @@
 
 static uint32_t halved(uint32_t size) { return size / 2 + size % 2; }
 
-static ewa_status allocate_level(ewa_texture *texture, uint32_t width_px, uint32_t height_px) {
-    ewa_texture_level *level = &texture->levels[texture->level_count];
-    level->pixels = ewa_allocate(texture->context, (size_t)width_px * height_px, 4 * sizeof *level->pixels);
-    if (!level->pixels) return EWA_ERROR_MEMORY;
+static void add_level(ewa_texture *texture, const float *pixels, uint32_t channel_count, uint32_t width_px,
+                      uint32_t height_px) {
+    ewa_texture_level *level = &texture->levels[texture->level_count++];
+    level->pixels = pixels;
+    level->channel_count = channel_count;
     level->width_px = width_px;
     level->height_px = height_px;
-    texture->level_count++;
     const ewa_texture_level *first = &texture->levels[0];
     level->scale[0] = (double)width_px / first->width_px;
     level->scale[1] = (double)height_px / first->height_px;
     for (int c = 0; c < 2; c++) level->blur[c] = (1 / (level->scale[c] * level->scale[c]) - 1) / 12;
+}
+
+/// Red, green, blue and alpha of a pixel.
+static inline void read_pixel(const float *pixel, uint32_t channel_count, float color[4]) {
+    for (uint32_t c = 0; c < 3; c++) color[c] = pixel[channel_count == 1 ? 0 : c];
+    color[3] = channel_count == 4 ? pixel[3] : 1;
+}
+
+static const float *pixel_at(const ewa_texture_level *level, uint32_t x, uint32_t y) {
+    return level->pixels + level->channel_count * ((size_t)y * level->width_px + x);
+}
+
+/// A copy without what is no number.
+static ewa_status copy_finite(const ewa_image *image, ewa_texture *texture) {
+    const size_t count = (size_t)image->width_px * image->height_px;
+    float *pixels = ewa_allocate(texture->context, count, 4 * sizeof *pixels);
+    if (!pixels) return EWA_ERROR_MEMORY;
+    for (size_t i = 0; i < count; i++) {
+        read_pixel(image->pixels + i * image->channel_count, image->channel_count, pixels + 4 * i);
+        for (size_t c = 4 * i; c < 4 * i + 4; c++)
+            if (!isfinite(pixels[c])) pixels[c] = 0;
+    }
+    add_level(texture, pixels, 4, image->width_px, image->height_px);
+    texture->owns_first = true;
     return EWA_OK;
 }
 
-static void copy_pixels(const ewa_image *image, ewa_texture *texture) {
-    const size_t count = (size_t)image->width_px * image->height_px;
-    const uint32_t channels = image->channel_count;
-    float *to = texture->levels[0].pixels;
+/// Makes the first level: the image's own pixels, where all are numbers, for they may be large.
+static ewa_status make_first(const ewa_image *image, ewa_texture *texture) {
+    const size_t count = (size_t)image->width_px * image->height_px * image->channel_count;
+    bool finite = true;
+    for (size_t i = 0; i < count && finite; i++) finite = isfinite(image->pixels[i]);
+    if (finite)
+        add_level(texture, image->pixels, image->channel_count, image->width_px, image->height_px);
+    else
+        EWA_TRY(copy_finite(image, texture));
+    const ewa_texture_level *first = &texture->levels[0];
     texture->opaque = true;
-    for (size_t i = 0; i < count; i++, to += 4) {
-        const float *from = image->pixels + i * channels;
-        for (uint32_t c = 0; c < 3; c++) to[c] = from[channels == 1 ? 0 : c];
-        to[3] = channels == 4 ? from[3] : 1;
-        for (uint32_t c = 0; c < 4; c++)
-            if (!isfinite(to[c])) to[c] = 0;
-        texture->opaque = texture->opaque && to[3] >= 1;
-    }
+    for (size_t i = 3; i < count && first->channel_count == 4 && texture->opaque; i += 4)
+        texture->opaque = first->pixels[i] >= 1;
+    return EWA_OK;
 }
 
 /// What of a row of `from` pixels pixel `index` of `to` covers: the first pixel, and shares of up to three.
@@ -59,24 +84,25 @@ static void cover(uint32_t from, uint32_t to, uint32_t index, uint32_t *first, f
     }
 }
 
-static void shrink(const ewa_texture_level *from, const ewa_texture_level *to) {
-    for (uint32_t y = 0; y < to->height_px; y++) {
+/// Fills the next level with means of one, 4 numbers a pixel.
+static void shrink(const ewa_texture_level *from, uint32_t width_px, uint32_t height_px, float *to) {
+    for (uint32_t y = 0; y < height_px; y++) {
         uint32_t first_y, first_x;
         float share_y[3], share_x[3];
-        cover(from->height_px, to->height_px, y, &first_y, share_y);
-        for (uint32_t x = 0; x < to->width_px; x++) {
-            cover(from->width_px, to->width_px, x, &first_x, share_x);
+        cover(from->height_px, height_px, y, &first_y, share_y);
+        for (uint32_t x = 0; x < width_px; x++) {
+            cover(from->width_px, width_px, x, &first_x, share_x);
             float sum[4] = {0};
             for (uint32_t j = 0; j < 3; j++) {
                 for (uint32_t i = 0; i < 3; i++) {
                     const float share = share_x[i] * share_y[j];
                     if (share == 0) continue; // also: no such pixel
-                    const float *pixel =
-                        from->pixels + 4 * ((size_t)(first_y + j) * from->width_px + first_x + i);
-                    for (int c = 0; c < 4; c++) sum[c] += share * pixel[c];
+                    float color[4];
+                    read_pixel(pixel_at(from, first_x + i, first_y + j), from->channel_count, color);
+                    for (int c = 0; c < 4; c++) sum[c] += share * color[c];
                 }
             }
-            memcpy(to->pixels + 4 * ((size_t)y * to->width_px + x), sum, sizeof sum);
+            memcpy(to + 4 * ((size_t)y * width_px + x), sum, sizeof sum);
         }
     }
 }
@@ -89,24 +115,27 @@ ewa_status ewa_texture_make(const ewa_image *image, ewa_texture_wrap wrap_s, ewa
                         "texture: a picture of %u channels, must be 1, 3 or 4", image->channel_count);
     texture->repeats[0] = wrap_s == EWA_TEXTURE_REPEAT;
     texture->repeats[1] = wrap_t == EWA_TEXTURE_REPEAT;
-    texture->levels[0].width_px = image->width_px;
-    texture->levels[0].height_px = image->height_px;
-    ewa_status status = allocate_level(texture, image->width_px, image->height_px);
-    if (status == EWA_OK) copy_pixels(image, texture);
+    ewa_status status = make_first(image, texture);
     while (status == EWA_OK && texture->level_count < EWA_TEXTURE_LEVELS) {
         const ewa_texture_level *last = &texture->levels[texture->level_count - 1];
         if (last->width_px == 1 && last->height_px == 1) break;
-        status = allocate_level(texture, halved(last->width_px), halved(last->height_px));
-        if (status == EWA_OK) shrink(last, last + 1);
+        const uint32_t width = halved(last->width_px), height = halved(last->height_px);
+        float *pixels = ewa_allocate(texture->context, (size_t)width * height, 4 * sizeof *pixels);
+        if (!pixels) {
+            status = EWA_ERROR_MEMORY;
+            break;
+        }
+        shrink(last, width, height, pixels);
+        add_level(texture, pixels, 4, width, height);
     }
     if (status != EWA_OK) ewa_texture_free(texture);
     return status;
 }
 
 void ewa_texture_free(ewa_texture *texture) {
-    for (uint32_t l = 0; l < texture->level_count; l++) {
+    for (uint32_t l = texture->owns_first ? 0 : 1; l < texture->level_count; l++) {
         ewa_texture_level *level = &texture->levels[l];
-        ewa_release(texture->context, level->pixels, (size_t)level->width_px * level->height_px,
+        ewa_release(texture->context, (float *)(uintptr_t)level->pixels, (size_t)level->width_px * level->height_px,
                     4 * sizeof *level->pixels);
     }
     *texture = (ewa_texture){0};
@@ -157,29 +186,40 @@ static uint32_t wrap(int64_t index, uint32_t size, bool repeats) {
     return (uint32_t)(rest < 0 ? rest + size : rest);
 }
 
-/// Adds a run of pixels of one row. `weight` is that of the first, `ratio` the second's over it, which
-/// changes by the factor `bend` from pixel to pixel.
-static void add_run(const float *row, int64_t first, int64_t last, uint32_t width, bool repeats,
-                    double weight, double ratio, double bend, double total[5]) {
-    float sum[5] = {0};
-    const bool is_inside = first >= 0 && last < width;
-    if (is_inside) {
-        for (const float *pixel = row + 4 * first; pixel <= row + 4 * last; pixel += 4) {
-            const float w = (float)weight;
-            for (int c = 0; c < 4; c++) sum[c] += w * pixel[c];
-            sum[4] += w;
-            weight *= ratio;
-            ratio *= bend;
-        }
-    }
-    for (int64_t x = first; x <= last && !is_inside; x++) {
-        const float *pixel = row + 4 * (size_t)wrap(x, width, repeats), w = (float)weight;
-        for (int c = 0; c < 4; c++) sum[c] += w * pixel[c];
+/// A run of pixels of one row. `weight` is that of the first, `ratio` the second's over it, which changes by the
+/// factor `bend` from pixel to pixel.
+typedef struct pixel_run {
+    const float *row;
+    int64_t first, last;
+    uint32_t width;
+    bool repeats;
+    double weight, ratio, bend;
+} pixel_run;
+
+/// Adds a run, for each number of channels by itself.
+static inline void add_channels(const pixel_run *run, uint32_t channel_count, double total[5]) {
+    float sum[5] = {0}, color[4];
+    double weight = run->weight, ratio = run->ratio;
+    const bool is_inside = run->first >= 0 && run->last < run->width;
+    for (int64_t x = run->first; x <= run->last; x++) {
+        const size_t column = is_inside ? (size_t)x : wrap(x, run->width, run->repeats);
+        const float w = (float)weight;
+        read_pixel(run->row + channel_count * column, channel_count, color);
+        for (int c = 0; c < 4; c++) sum[c] += w * color[c];
         sum[4] += w;
         weight *= ratio;
-        ratio *= bend;
+        ratio *= run->bend;
     }
     for (int c = 0; c < 5; c++) total[c] += (double)sum[c];
+}
+
+static void add_run(const pixel_run *run, uint32_t channel_count, double total[5]) {
+    if (channel_count == 4)
+        add_channels(run, 4, total);
+    else if (channel_count == 3)
+        add_channels(run, 3, total);
+    else
+        add_channels(run, 1, total);
 }
 
 /// A side of the Gaussian that is many times the picture's needs no more: everything is under it already.
@@ -197,8 +237,9 @@ void ewa_texture_nearest(const ewa_texture *texture, double x_px, double y_px, d
                             texture->repeats[0]),
                    y = wrap((int64_t)fmin(fmax(floor(y_px), -reach), reach), level->height_px,
                             texture->repeats[1]);
-    const float *pixel = level->pixels + 4 * ((size_t)y * level->width_px + x);
-    for (int c = 0; c < 4; c++) color[c] = (double)pixel[c];
+    float found[4];
+    read_pixel(pixel_at(level, x, y), level->channel_count, found);
+    for (int c = 0; c < 4; c++) color[c] = (double)found[c];
 }
 
 void ewa_texture_mean(const ewa_texture *texture, uint32_t index, const ewa_texture_gauss *gauss,
@@ -206,7 +247,9 @@ void ewa_texture_mean(const ewa_texture *texture, uint32_t index, const ewa_text
     const ewa_texture_level *level = &texture->levels[index];
     ewa_texture_gauss g = on_level(level, gauss);
     if (level->width_px == 1 && level->height_px == 1) {
-        for (int c = 0; c < 4; c++) color[c] = (double)level->pixels[c];
+        float found[4];
+        read_pixel(level->pixels, level->channel_count, found);
+        for (int c = 0; c < 4; c++) color[c] = (double)found[c];
         return;
     }
     bound_side(&g.xx_px2, &g.xy_px2, level->width_px);
@@ -234,8 +277,9 @@ void ewa_texture_mean(const ewa_texture *texture, uint32_t index, const ewa_text
         const double weight = ewa_exp(-0.5 * (a * dx * dx + 2 * b * dx * dy + c * dy * dy));
         const double ratio = ewa_exp(-0.5 * a * (2 * dx + 1) - b * dy);
         const uint32_t line = wrap(y, level->height_px, texture->repeats[1]);
-        add_run(level->pixels + 4 * (size_t)line * level->width_px, first, last, level->width_px,
-                texture->repeats[0], weight, ratio, bend, sum);
+        const pixel_run run = {pixel_at(level, 0, line), first,  last, level->width_px,
+                               texture->repeats[0],      weight, ratio, bend};
+        add_run(&run, level->channel_count, sum);
     }
     if (!(sum[4] > 0)) {
         ewa_texture_nearest(texture, gauss->x_px, gauss->y_px, color);

@@ -9,9 +9,10 @@
 
 enum { EWA_TEXTURE_LEVELS = 17 };
 
-/// A copy of the picture, a box mean of the one before.
+/// The picture, or a copy of it, a box mean of the one before.
 typedef struct ewa_texture_level {
-    float *pixels; ///< 4 each: red, green, blue, alpha, premultiplied
+    const float *pixels;    ///< premultiplied
+    uint32_t channel_count; ///< 1, 3 or 4, as an image has them; 4 of copies
     uint32_t width_px, height_px;
     double scale[2]; ///< pixels of this level per pixel of the picture, across and down
     double blur[2];  ///< variance of the boxes, in pixels^2 of the picture
@@ -22,11 +23,11 @@ typedef struct ewa_texture {
     ewa_texture_level levels[EWA_TEXTURE_LEVELS]; ///< the last has one pixel
     uint32_t level_count;                         ///< 0: no picture
     bool repeats[2];                              ///< across, down
-    bool opaque;
+    bool opaque, owns_first; ///< owns_first: the first level is a copy
 } ewa_texture;
 
-/// Copies a picture of 1, 3 or 4 channels and makes the smaller ones. Errors: EWA_ERROR_ARGUMENT,
-/// EWA_ERROR_MEMORY; the texture is then zeroed.
+/// Makes the smaller copies of a picture of 1, 3 or 4 channels, whose pixels it borrows; where some are no numbers, it takes a
+/// copy with zeros there. Errors: EWA_ERROR_ARGUMENT, EWA_ERROR_MEMORY; the texture is then zeroed.
 ewa_status ewa_texture_make(const ewa_image *image, ewa_texture_wrap wrap_s, ewa_texture_wrap wrap_t,
                             ewa_texture *texture);
 void ewa_texture_free(ewa_texture *texture);

@@ -90,6 +90,46 @@ static void test_means_are_sums(void **state) {
     ewa_context_destroy(&context);
 }
 
+/// A picture of one, three or four channels gives the same means, bit for bit, and so does one with a number that is none, which
+/// counts as 0.
+static void test_means_of_channels_agree(void **state) {
+    ewa_context *context = check_context(1, NULL);
+    enum { SIDE = 37, FORMS = 4 };
+    static const uint32_t channels[FORMS] = {1, 3, 4, 3};
+    ewa_image images[FORMS];
+    ewa_texture textures[FORMS];
+    for (int k = 0; k < FORMS; k++) {
+        check_random random = {31};
+        assert_int_equal(ewa_image_create(context, SIDE, SIDE, channels[k], &images[k]), EWA_OK);
+        for (uint32_t i = 0; i < SIDE * SIDE; i++) {
+            const float grey = i == 700 ? 0 : (float)check_uniform(&random, 0, 1);
+            for (uint32_t c = 0; c < channels[k]; c++) images[k].pixels[channels[k] * i + c] = c == 3 ? 1 : grey;
+        }
+        if (k == 3) images[k].pixels[3 * 700 + 1] = NAN;
+        assert_int_equal(ewa_texture_make(&images[k], EWA_TEXTURE_CLAMP, EWA_TEXTURE_REPEAT, &textures[k]), EWA_OK);
+        assert_true(textures[k].opaque && textures[k].level_count == textures[0].level_count);
+        assert_true((textures[k].levels[0].pixels == images[k].pixels) == (k != 3)); // no copy of what may be large
+    }
+    check_random random = {32};
+    for (int i = 0; i < 500; i++) {
+        const double size = check_uniform(&random, 0.5, 40);
+        const ewa_texture_gauss gauss = {check_uniform(&random, -5, 42), check_uniform(&random, -50, 90), size, 0, 1.5 * size};
+        double first[4], other[4];
+        const uint32_t level = ewa_texture_level_of(&textures[0], &gauss);
+        for (int k = 0; k < FORMS; k++) {
+            ewa_texture_mean(&textures[k], level, &gauss, k ? other : first);
+            if (k) assert_memory_equal(first, other, sizeof first);
+            ewa_texture_nearest(&textures[k], gauss.x_px, gauss.y_px, other);
+            assert_true(other[0] == other[1] && other[1] == other[2] && other[3] == 1);
+        }
+    }
+    for (int k = 0; k < FORMS; k++) {
+        ewa_texture_free(&textures[k]);
+        ewa_image_free(&images[k]);
+    }
+    ewa_context_destroy(&context);
+}
+
 /// The mean on a small copy of a picture is near that on the picture itself.
 static void test_means_of_levels_agree(void **state) {
     ewa_context *context = check_context(1, NULL);
@@ -534,6 +574,7 @@ static void test_charts_of_objects(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_means_are_sums),
+        cmocka_unit_test(test_means_of_channels_agree),
         cmocka_unit_test(test_means_of_levels_agree),
         cmocka_unit_test(test_a_constant_stays),
         cmocka_unit_test(test_a_ramp_is_kept),

@@ -77,7 +77,7 @@ typedef struct ewa_mesh_build {
     ewa_mesh_list face_looks;       ///< look per triangle; as texcoord_corners
     ewa_mesh_list looks, pictures;
     uint64_t packed_picture_bytes, picture_bytes; ///< of the pictures so far, in files and decoded
-    ewa_mesh_list scratch; ///< of the polygon that is being cut
+    ewa_mesh_list scratch;                        ///< of the polygon that is being cut
     uint32_t look;       ///< of the next polygons, or none
     float face_color[4]; ///< of the next polygons when has_face_color
     bool has_face_color;

@@ -11,7 +11,10 @@
 
 #include <stdio.h>
 
-enum { NAMED_PICTURES = 5 }; // further ones that are missing are counted
+enum {
+    NAMED_PICTURES = 5, // further ones that are missing are counted
+    COLORS = 3,
+};
 
 /// Finds what was asked for before: the same picture, whose alpha counts only where it has one.
 static bool find_known(const ewa_mesh_build *build, const ewa_mesh_picture *wanted, uint32_t *picture) {
@@ -81,18 +84,19 @@ static ewa_status decode(ewa_mesh_build *build, const uint8_t *bytes, size_t siz
     const ewa_mesh_alpha alpha = entry->alpha;
     const ewa_text name = {entry->name, entry->name_bytes};
     char label[512], quote[EWA_QUOTE_BYTES];
-    build->packed_picture_bytes += size_bytes;
     snprintf(label, sizeof label, "%.400s: picture %s", build->source->name, ewa_quote(name, quote));
     ewa_failures_soften(build->context, true);
-    // Many small pictures are bounded as one is, by those before them.
+    ewa_memory_unpacked_before(build->context, build->packed_picture_bytes, build->picture_bytes);
     ewa_status status =
-        ewa_memory_check_unpacked(build->context, build->packed_picture_bytes, EWA_UNPACKED_RATIO, build->picture_bytes, "%s", label);
-    if (status == EWA_OK)
-        status = ewa_image_decode(build->context, bytes, size_bytes, label, alpha != EWA_MESH_ALPHA_KEEP, &entry->image);
+        ewa_image_decode(build->context, bytes, size_bytes, label, alpha != EWA_MESH_ALPHA_KEEP, &entry->image);
+    ewa_memory_unpacked_before(build->context, 0, 0);
     ewa_failures_soften(build->context, false);
     if (status == EWA_ERROR_MEMORY) return status;
     const uint32_t channels = entry->image.channel_count;
-    build->picture_bytes += (uint64_t)entry->image.width_px * entry->image.height_px * channels * sizeof(float);
+    build->packed_picture_bytes += size_bytes;
+    // A grey one counts as if it were coloured, for its smaller copies are (image/texture.h).
+    build->picture_bytes +=
+        (uint64_t)entry->image.width_px * entry->image.height_px * (channels > COLORS ? channels : COLORS) * sizeof(float);
     if (status != EWA_OK || (channels != 1 && channels != 3 && channels != 4)) {
         ewa_image_free(&entry->image);
         ewa_mesh_miss_picture(build, name,
