@@ -2,19 +2,13 @@
 // SPDX-License-Identifier: MIT
 //
 // A context from its options to its end.
-#define _DEFAULT_SOURCE // madvise
 #include "base/context.h"
 #include "base/options.h"
+#include "base/platform.h"
 
 #include <math.h>
-#include <stdlib.h>
-#include <sys/mman.h>
-#include <unistd.h>
 
-enum {
-    MAX_WORKERS = 256,
-    HUGE_PAGE_BYTES = 1 << 21,
-};
+enum { MAX_WORKERS = 256 };
 
 const char *ewa_status_name(ewa_status status) {
     switch (status) {
@@ -49,26 +43,13 @@ const char *ewa_version(void) {
 
 void *ewa_allocate_default(void *user, size_t size_bytes) {
     (void)user;
-    // Large blocks start on huge pages: filling fresh memory by pages of 4 KiB costs more than any copy into
-    // it. Rounding up wastes at most half.
-    const size_t alignment = size_bytes >= HUGE_PAGE_BYTES ? HUGE_PAGE_BYTES : 64;
-    const size_t rounded = (size_bytes + alignment - 1) & ~(alignment - 1);
-    void *memory = rounded < size_bytes ? NULL : aligned_alloc(alignment, rounded);
-#if defined(MADV_HUGEPAGE)
-    if (memory && alignment == HUGE_PAGE_BYTES) madvise(memory, rounded, MADV_HUGEPAGE);
-#endif
-    return memory;
+    return ewa_platform_allocate(size_bytes);
 }
 
 static void release_default(void *user, void *memory, size_t size_bytes) {
     (void)user;
     (void)size_bytes;
-    free(memory);
-}
-
-static uint64_t physical_memory_bytes(void) {
-    const long pages = sysconf(_SC_PHYS_PAGES), page_bytes = sysconf(_SC_PAGESIZE);
-    return pages > 0 && page_bytes > 0 ? (uint64_t)pages * (uint64_t)page_bytes : (uint64_t)1 << 34;
+    ewa_platform_release(memory);
 }
 
 #define AT(member) offsetof(ewa_context_options, member)
@@ -108,7 +89,7 @@ static void settle_limits(ewa_context_options *options) {
     static const uint64_t UNTRUSTED_BYTES = (uint64_t)1 << 30;
     ewa_limits *limits = &options->limits;
     const bool small = options->untrusted;
-    const uint64_t share = physical_memory_bytes() / 4 * 3;
+    const uint64_t share = ewa_platform_memory_bytes() / 4 * 3;
     if (!limits->max_points) limits->max_points = small ? (uint64_t)1 << 26 : ((uint64_t)1 << 32) - 17;
     if (!limits->max_memory_bytes)
         limits->max_memory_bytes = small && share > UNTRUSTED_BYTES ? UNTRUSTED_BYTES : share;
@@ -146,8 +127,8 @@ ewa_status ewa_context_create(const ewa_context_options *options, ewa_context **
     if (!chosen.executor.run) {
         uint32_t workers = chosen.thread_count;
         if (workers == 0) {
-            const long processors = sysconf(_SC_NPROCESSORS_ONLN);
-            workers = processors < 1 ? 1 : processors > MAX_WORKERS ? MAX_WORKERS : (uint32_t)processors;
+            const uint32_t processors = ewa_platform_processor_count();
+            workers = processors > MAX_WORKERS ? MAX_WORKERS : processors;
         }
         const ewa_status status = ewa_pool_create(&chosen.allocator, workers, &made->pool);
         if (status != EWA_OK) {

@@ -3,12 +3,12 @@
 //
 // What a context does for the library: messages, progress, work for its threads.
 #include "base/context.h"
+#include "base/platform.h"
 
 #include <stdarg.h>
 #include <stdatomic.h>
 #include <stdio.h>
 #include <string.h>
-#include <time.h>
 
 enum { MESSAGE_BYTES = 1024 };
 
@@ -156,8 +156,4 @@ uint64_t ewa_serial_next(ewa_context *context) {
     return (uint64_t)atomic_fetch_add_explicit(&context->serial, 1, memory_order_relaxed) + 1;
 }
 
-double ewa_now_s(void) {
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
+double ewa_now_s(void) { return ewa_platform_seconds(); }

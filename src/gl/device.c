@@ -3,9 +3,9 @@
 //
 // A graphics device without a window, by EGL: of all devices, else without any surface.
 #include "gl/device.h"
+#include "base/platform.h"
 #include "gl/tuning.h"
 
-#include <dlfcn.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -20,13 +20,8 @@ typedef struct candidates {
 
 /// epoxy ends the process where it finds no library.
 static bool has_library(void) {
-    void *egl = dlopen("libEGL.so.1", RTLD_LAZY | RTLD_LOCAL);
-    void *gl = dlopen("libOpenGL.so.0", RTLD_LAZY | RTLD_LOCAL);
-    if (!gl) gl = dlopen("libGL.so.1", RTLD_LAZY | RTLD_LOCAL);
-    const bool both = egl && gl;
-    if (egl) dlclose(egl);
-    if (gl) dlclose(gl);
-    return both;
+    return ewa_platform_has_library("libEGL.so.1") &&
+           (ewa_platform_has_library("libOpenGL.so.0") || ewa_platform_has_library("libGL.so.1"));
 }
 
 static void find_displays(candidates *found) {

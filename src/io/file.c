@@ -1,28 +1,20 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Whole files in, whole files out, by POSIX calls.
-#define _DEFAULT_SOURCE // realpath, madvise
+// Whole files in, whole files out.
 #include "io/file.h"
 #include "base/base.h"
-#include "io/nameless.h"
+#include "base/context.h"
+#include "base/platform.h"
 
 #include <errno.h>
-#include <fcntl.h>
-#include <limits.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
-#include <sys/mman.h>
-#include <sys/stat.h>
-#include <time.h>
-#include <unistd.h>
 
 enum {
     READ_STEP_BYTES = 1 << 16,    // first buffer for an input of unknown length; doubles when full
     WRITE_BUFFER_BYTES = 1 << 16, // pieces below this size are collected
     NAME_ATTEMPTS = 100,          // temporary names tried when others exist already
-    TEMPORARY_NAME_BYTES = 64,
 };
 
 struct ewa_writer {
@@ -33,9 +25,9 @@ struct ewa_writer {
     bool nameless;  // the file has no name yet: it is gone when the process ends, however it ends
     size_t buffered_bytes;
     uint64_t flushed_bytes;
-    char shown[PATH_MAX];   // the path as the caller wrote it, for messages
-    char target[PATH_MAX];  // where the file belongs, links resolved
-    char written[PATH_MAX]; // the file that receives the bytes
+    char shown[EWA_PATH_BYTES];   // the path as the caller wrote it, for messages
+    char target[EWA_PATH_BYTES];  // where the file belongs, links resolved
+    char written[EWA_PATH_BYTES]; // the file that receives the bytes
     uint8_t buffer[WRITE_BUFFER_BYTES];
 };
 
@@ -43,7 +35,7 @@ static ewa_status fail_errno(ewa_context *context, const char *path, int error) 
     char reason[128];
     if (error == ENOLINK)
         return ewa_fail(context, EWA_ERROR_IO, "%s: is a link to a file that is not there", path);
-    if (strerror_r(error, reason, sizeof reason) != 0) snprintf(reason, sizeof reason, "error %d", error);
+    ewa_platform_describe(error, reason, sizeof reason);
     return ewa_fail(context, EWA_ERROR_IO, "%s: %s", path, reason);
 }
 
@@ -66,7 +58,7 @@ static ewa_status read_stream(ewa_context *context, const char *path, int descri
             bytes = moved;
             capacity = larger;
         }
-        const ssize_t got = read(descriptor, bytes + size, capacity - size);
+        const int64_t got = ewa_platform_read(descriptor, bytes + size, capacity - size);
         if (got == 0) break;
         if (got < 0) {
             // A signal may want what waits for a pipe to be given up.
@@ -84,47 +76,52 @@ static ewa_status read_stream(ewa_context *context, const char *path, int descri
 }
 
 /// Maps a regular file that is not empty.
-static bool map_file(int descriptor, const struct stat *facts, ewa_file *file) {
-    if (!S_ISREG(facts->st_mode) || facts->st_size <= 0 || (uint64_t)facts->st_size > SIZE_MAX ||
-        lseek(descriptor, 0, SEEK_CUR) != 0)
+static bool map_file(int descriptor, const ewa_platform_facts *facts, ewa_file *file) {
+    if (!facts->regular || facts->size_bytes == 0 || facts->size_bytes > SIZE_MAX || !ewa_platform_is_at_start(descriptor))
         return false;
-    const size_t size = (size_t)facts->st_size;
-    void *mapped = mmap(NULL, size, PROT_READ, MAP_PRIVATE, descriptor, 0);
-    if (mapped == MAP_FAILED) return false;
+    const size_t size = (size_t)facts->size_bytes;
+    void *mapped = ewa_platform_map(descriptor, 0, size);
+    if (!mapped) return false;
     *file = (ewa_file){.bytes = mapped, .size_bytes = size, .capacity_bytes = size, .mapped = true};
     return true;
 }
 
-bool ewa_file_map_descriptor(int descriptor, ewa_file *file) {
-    struct stat facts;
+bool ewa_file_map_descriptor(ewa_context *context, int descriptor, ewa_file *file) {
+    ewa_platform_facts facts;
     *file = (ewa_file){0};
-    return fstat(descriptor, &facts) == 0 && (facts.st_size == 0 || map_file(descriptor, &facts, file));
+    if (!ewa_platform_stat_open(descriptor, &facts)) return false;
+    if (facts.size_bytes == 0 || map_file(descriptor, &facts, file)) return true;
+    ewa_failures_hush(context, true);
+    const ewa_status status = read_stream(context, "file", descriptor, file);
+    ewa_failures_hush(context, false);
+    return status == EWA_OK;
 }
 
 size_t ewa_file_head(const char *path, uint8_t *bytes, size_t room) {
-    struct stat facts;
-    const int descriptor = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
+    ewa_platform_facts facts;
+    const int descriptor = ewa_platform_open(path, false);
     if (descriptor < 0) return 0;
-    const ssize_t got = fstat(descriptor, &facts) == 0 && S_ISREG(facts.st_mode) ? read(descriptor, bytes, room) : 0;
-    close(descriptor);
+    const int64_t got =
+        ewa_platform_stat_open(descriptor, &facts) && facts.regular ? ewa_platform_read(descriptor, bytes, room) : 0;
+    ewa_platform_close(descriptor);
     return got > 0 ? (size_t)got : 0;
 }
 
 static ewa_status read_descriptor(ewa_context *context, const char *path, int descriptor, ewa_file *file) {
-    struct stat facts;
-    if (fstat(descriptor, &facts) != 0) return fail_errno(context, path, errno);
-    if (S_ISDIR(facts.st_mode)) return fail_errno(context, path, EISDIR);
+    ewa_platform_facts facts;
+    if (!ewa_platform_stat_open(descriptor, &facts)) return fail_errno(context, path, errno);
+    if (facts.folder) return fail_errno(context, path, EISDIR);
     // Files of /proc call themselves regular and empty, and some file systems cannot map: both can be read.
     return map_file(descriptor, &facts, file) ? EWA_OK : read_stream(context, path, descriptor, file);
 }
 
 ewa_status ewa_file_map(ewa_context *context, const char *path, ewa_file *file) {
     *file = (ewa_file){0};
-    if (strcmp(path, "-") == 0) return read_descriptor(context, "standard input", STDIN_FILENO, file);
-    const int descriptor = open(path, O_RDONLY | O_CLOEXEC | O_NOCTTY);
+    if (strcmp(path, "-") == 0) return read_descriptor(context, "standard input", ewa_platform_standard_input(), file);
+    const int descriptor = ewa_platform_open(path, true);
     if (descriptor < 0) return fail_errno(context, path, errno);
     const ewa_status status = read_descriptor(context, path, descriptor, file);
-    close(descriptor);
+    ewa_platform_close(descriptor);
     return status;
 }
 
@@ -133,48 +130,43 @@ void ewa_file_unmap(ewa_context *context, ewa_file *file) {
     if (!file->mapped) {
         ewa_release(context, bytes, file->capacity_bytes, 1);
     } else if (file->hole_end) {
-        munmap(bytes, file->hole_first);
+        ewa_platform_unmap(bytes, file->hole_first);
         if (file->capacity_bytes > file->hole_end)
-            munmap(bytes + file->hole_end, file->capacity_bytes - file->hole_end);
+            ewa_platform_unmap(bytes + file->hole_end, file->capacity_bytes - file->hole_end);
     } else {
-        munmap(bytes, file->capacity_bytes);
+        ewa_platform_unmap(bytes, file->capacity_bytes);
     }
     *file = (ewa_file){0};
 }
 
-static uint64_t page_bytes(void) { return (uint64_t)sysconf(_SC_PAGESIZE); }
-
 void ewa_file_passed(const uint8_t *bytes, uint64_t at_bytes) {
-    const uint64_t whole_bytes = at_bytes / page_bytes() * page_bytes();
-    // Pages of a file come back from it when they are asked for again.
-    if (whole_bytes) madvise((void *)(uintptr_t)bytes, whole_bytes, MADV_DONTNEED);
+    const uint64_t step = ewa_platform_map_step(), whole_bytes = at_bytes / step * step;
+    if (whole_bytes) ewa_platform_forget((void *)(uintptr_t)bytes, (size_t)whole_bytes);
 }
 
 void ewa_file_give_up(ewa_file *file, uint64_t from, uint64_t to) {
-    const uint64_t page = page_bytes(), first = (from + page - 1) / page * page, end = to / page * page;
-    if (!file->mapped || end <= first) return;
-    munmap((void *)(uintptr_t)(file->bytes + first), end - first);
-    file->hole_first = first, file->hole_end = end;
+    const uint64_t step = ewa_platform_map_step(), first = (from + step - 1) / step * step, end = to / step * step;
+    if (!file->mapped || end <= first ||
+        !ewa_platform_unmap_part((void *)(uintptr_t)(file->bytes + first), (size_t)(end - first)))
+        return;
+    file->hole_first = (size_t)first, file->hole_end = (size_t)end;
 }
 
 int ewa_file_open_pieces(const char *path, uint64_t size_bytes) {
-    struct stat facts;
-    const int descriptor = open(path, O_RDONLY | O_CLOEXEC | O_NOCTTY);
+    ewa_platform_facts facts;
+    const int descriptor = ewa_platform_open(path, true);
     if (descriptor < 0) return -1;
-    if (fstat(descriptor, &facts) == 0 && S_ISREG(facts.st_mode) && (uint64_t)facts.st_size == size_bytes)
-        return descriptor;
-    close(descriptor);
+    if (ewa_platform_stat_open(descriptor, &facts) && facts.regular && facts.size_bytes == size_bytes) return descriptor;
+    ewa_platform_close(descriptor);
     return -1;
 }
 
 bool ewa_file_piece_map(int descriptor, uint64_t at_bytes, size_t size_bytes, ewa_file *piece,
                         const uint8_t **bytes) {
-    const uint64_t before = at_bytes % page_bytes();
+    const size_t before = (size_t)(at_bytes % ewa_platform_map_step()), mapped_bytes = size_bytes + before;
     *piece = (ewa_file){0};
-    void *mapped =
-        mmap(NULL, size_bytes + before, PROT_READ, MAP_PRIVATE, descriptor, (off_t)(at_bytes - before));
-    if (mapped == MAP_FAILED) return false;
-    const size_t mapped_bytes = size_bytes + before;
+    void *mapped = ewa_platform_map(descriptor, at_bytes - before, mapped_bytes);
+    if (!mapped) return false;
     *piece = (ewa_file){
         .bytes = mapped, .size_bytes = mapped_bytes, .capacity_bytes = mapped_bytes, .mapped = true};
     *bytes = piece->bytes + before;
@@ -191,12 +183,11 @@ static int folder_bytes_of(const char *path) {
 /// it returned, or -1 with errno. The name is short and does not grow with the target's, so that every target that can be
 /// named can be written.
 static int take_name(ewa_writer *writer, int (*make)(ewa_writer *writer)) {
-    struct timespec now;
-    clock_gettime(CLOCK_REALTIME, &now);
     for (int attempt = 0; attempt < NAME_ATTEMPTS; attempt++) {
-        const int length =
-            snprintf(writer->written, sizeof writer->written, "%.*s.ewa-%ld-%09ld-%d.tmp",
-                     folder_bytes_of(writer->target), writer->target, (long)getpid(), now.tv_nsec, attempt);
+        char words[64];
+        ewa_platform_unique(attempt, words);
+        const int length = snprintf(writer->written, sizeof writer->written, "%.*s.ewa-%s.tmp",
+                                    folder_bytes_of(writer->target), writer->target, words);
         if (length < 0 || (size_t)length >= sizeof writer->written) {
             errno = ENAMETOOLONG;
             return -1;
@@ -208,20 +199,20 @@ static int take_name(ewa_writer *writer, int (*make)(ewa_writer *writer)) {
 }
 
 static int create_named(ewa_writer *writer) {
-    return open(writer->written, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    return ewa_platform_create(writer->written);
 }
 
 static int link_nameless(ewa_writer *writer) {
-    return ewa_nameless_link(writer->descriptor, writer->written);
+    return ewa_platform_name(writer->descriptor, writer->written);
 }
 
 /// Opens a new file in the folder of the target, without a name where the system can.
 static int open_temporary(ewa_writer *writer) {
-    char folder[PATH_MAX];
+    char folder[EWA_PATH_BYTES];
     const int folder_bytes = folder_bytes_of(writer->target);
     snprintf(folder, sizeof folder, "%.*s", folder_bytes ? folder_bytes : 1,
              folder_bytes ? writer->target : ".");
-    const int descriptor = ewa_nameless_open(folder);
+    const int descriptor = ewa_platform_create_nameless(folder);
     writer->nameless = descriptor >= 0;
     return descriptor >= 0 ? descriptor : take_name(writer, create_named);
 }
@@ -239,11 +230,11 @@ static void name_file(ewa_writer *writer) {
 /// errno.
 static int open_output(ewa_writer *writer) {
     if (strcmp(writer->shown, "-") == 0 || strcmp(writer->shown, "/dev/stdout") == 0)
-        return fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, 0);
-    struct stat facts;
-    if (stat(writer->shown, &facts) != 0) {
+        return ewa_platform_standard_output();
+    ewa_platform_facts facts;
+    if (!ewa_platform_stat(writer->shown, &facts)) {
         if (errno != ENOENT) return -1;
-        if (lstat(writer->shown, &facts) == 0) {
+        if (ewa_platform_is_link(writer->shown)) {
             errno = ENOLINK;
             return -1;
         }
@@ -251,17 +242,15 @@ static int open_output(ewa_writer *writer) {
         writer->temporary = true;
         return open_temporary(writer);
     }
-    if (!S_ISREG(facts.st_mode)) {
+    if (!facts.regular) {
         memcpy(writer->written, writer->shown, sizeof writer->written);
-        return open(writer->shown, O_WRONLY | O_CLOEXEC | O_NOCTTY);
+        return ewa_platform_open_device(writer->shown);
     }
     // Renaming asks the folder for permission only; a file that is write-protected is meant to stay.
-    if (!realpath(writer->shown, writer->target) ||
-        faccessat(AT_FDCWD, writer->target, W_OK, AT_EACCESS) != 0)
-        return -1;
+    if (!ewa_platform_resolve(writer->shown, writer->target) || !ewa_platform_may_write(writer->target)) return -1;
     writer->temporary = true;
     const int descriptor = open_temporary(writer);
-    if (descriptor >= 0) fchmod(descriptor, facts.st_mode & 0777);
+    if (descriptor >= 0) ewa_platform_permit(descriptor, facts.permissions);
     return descriptor;
 }
 
@@ -269,7 +258,7 @@ ewa_status ewa_writer_open(ewa_context *context, const char *path, ewa_writer **
     *writer = NULL;
     const size_t length = strlen(path);
     if (length == 0) return fail_errno(context, "output file", ENOENT);
-    if (length >= PATH_MAX) return fail_errno(context, path, ENAMETOOLONG);
+    if (length >= EWA_PATH_BYTES) return fail_errno(context, path, ENAMETOOLONG);
     ewa_writer *made = ewa_allocate(context, 1, sizeof *made);
     if (!made) return EWA_ERROR_MEMORY;
     made->context = context;
@@ -290,7 +279,7 @@ ewa_status ewa_writer_open(ewa_context *context, const char *path, ewa_writer **
 
 static ewa_status write_all(ewa_writer *writer, const uint8_t *bytes, size_t size_bytes) {
     while (size_bytes && writer->status == EWA_OK) {
-        const ssize_t put = write(writer->descriptor, bytes, size_bytes);
+        const int64_t put = ewa_platform_write(writer->descriptor, bytes, size_bytes);
         if (put < 0) {
             if (errno != EINTR) writer->status = fail_errno(writer->context, writer->shown, errno);
             continue;
@@ -329,7 +318,7 @@ ewa_status ewa_writer_patch(ewa_writer *writer, uint64_t at_bytes, const void *d
                                          "%s: no place to go back to: write to a file", writer->shown);
     const uint8_t *bytes = data;
     while (size_bytes) {
-        const ssize_t put = pwrite(writer->descriptor, bytes, size_bytes, (off_t)at_bytes);
+        const int64_t put = ewa_platform_write_at(writer->descriptor, bytes, size_bytes, at_bytes);
         if (put < 0) {
             if (errno == EINTR) continue;
             return writer->status = fail_errno(writer->context, writer->shown, errno);
@@ -345,17 +334,17 @@ ewa_status ewa_writer_commit(ewa_writer **writer) {
     ewa_writer *done = *writer;
     if (done->status == EWA_OK) flush(done);
     // The name is to lead to whole bytes after a power cut, too.
-    if (done->status == EWA_OK && done->temporary && fsync(done->descriptor) != 0 && errno != EINVAL)
+    if (done->status == EWA_OK && done->temporary && !ewa_platform_flush(done->descriptor))
         done->status = fail_errno(done->context, done->shown, errno);
     // Flushing takes long; who has said stop meanwhile keeps what was there before.
     if (done->status == EWA_OK) done->status = ewa_progress(done->context, "write", 1);
     name_file(done);
     // Some file systems report a full disk only now.
-    const bool closed = close(done->descriptor) == 0;
+    const bool closed = ewa_platform_close(done->descriptor);
     done->descriptor = -1;
     if (!closed && done->status == EWA_OK) done->status = fail_errno(done->context, done->shown, errno);
     if (done->status == EWA_OK && done->temporary) {
-        if (rename(done->written, done->target) == 0)
+        if (ewa_platform_rename(done->written, done->target))
             done->temporary = false;
         else
             done->status = fail_errno(done->context, done->shown, errno);
@@ -368,8 +357,8 @@ ewa_status ewa_writer_commit(ewa_writer **writer) {
 void ewa_writer_abort(ewa_writer **writer) {
     if (!*writer) return;
     ewa_writer *old = *writer;
-    if (old->descriptor >= 0) close(old->descriptor);
-    if (old->temporary && !old->nameless) unlink(old->written);
+    if (old->descriptor >= 0) ewa_platform_close(old->descriptor);
+    if (old->temporary && !old->nameless) ewa_platform_remove(old->written);
     ewa_release(old->context, old, 1, sizeof *old);
     *writer = NULL;
 }

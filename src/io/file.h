@@ -24,9 +24,9 @@ typedef struct ewa_file {
 /// SIGBUS. Errors, with the message "PATH: reason": EWA_ERROR_IO, EWA_ERROR_LIMIT, EWA_ERROR_MEMORY.
 ewa_status ewa_file_map(ewa_context *context, const char *path, ewa_file *file);
 
-/// The same for a regular file that is open, at its begin; false, without a report, when it cannot be mapped.
+/// The same for a regular file that is open, at its begin; false, without a report, when it cannot be read.
 /// An empty file has no bytes and is held by nothing.
-bool ewa_file_map_descriptor(int descriptor, ewa_file *file);
+bool ewa_file_map_descriptor(ewa_context *context, int descriptor, ewa_file *file);
 
 /// Reads the first bytes of a regular file, as many as there is room for, and returns how many; 0 where it is none or cannot
 /// be read, which is not reported.
@@ -36,7 +36,7 @@ size_t ewa_file_head(const char *path, uint8_t *bytes, size_t room);
 void ewa_file_passed(const uint8_t *bytes, uint64_t at_bytes);
 
 /// Gives up bytes [from, to) of a mapped file, which are not to be read any more, so that they take no room among
-/// addresses; ewa_file_piece_map() reads from them again. Once for a file.
+/// addresses, where the system can give up a part; ewa_file_piece_map() reads from them again. Once for a file.
 void ewa_file_give_up(ewa_file *file, uint64_t from, uint64_t to);
 
 /// Opens a file again whose pieces are to be mapped; -1 where that cannot be, or it is not of that size.

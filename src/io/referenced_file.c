@@ -3,17 +3,13 @@
 //
 // Files that another file or a folder names: resolved, kept below the folder, opened step by step without following
 // links, so that nothing can be exchanged between the check and the opening.
-#define _XOPEN_SOURCE 700 // realpath
 #include "io/referenced_file.h"
 #include "base/base.h"
+#include "base/platform.h"
 
 #include <errno.h>
-#include <fcntl.h>
-#include <limits.h>
 #include <stdio.h>
-#include <stdlib.h>
-#include <sys/stat.h>
-#include <unistd.h>
+#include <string.h>
 
 static int fail(char reason[EWA_REASON_BYTES], const char *why) {
     snprintf(reason, EWA_REASON_BYTES, "%s", why);
@@ -23,46 +19,17 @@ static int fail(char reason[EWA_REASON_BYTES], const char *why) {
 static int fail_errno(char reason[EWA_REASON_BYTES], int error) {
     if (error == ENOENT || error == ENOTDIR) return fail(reason, "it is not there");
     if (error == ELOOP) return fail(reason, "it is a link that changes");
-    if (strerror_r(error, reason, EWA_REASON_BYTES) != 0)
-        snprintf(reason, EWA_REASON_BYTES, "error %d", error);
+    ewa_platform_describe(error, reason, EWA_REASON_BYTES);
     return -1;
 }
 
-// A pipe would make open() wait, and a terminal would become ours.
-enum { OPEN_FLAGS = O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY };
-
-/// Opens `inner`, which has no links in it, from a folder on, one name after the other.
-static int open_steps(const char *folder, const char *inner, char reason[EWA_REASON_BYTES]) {
-    int at = open(folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    for (const char *step = inner; at >= 0;) {
-        const char *slash = strchr(step, '/');
-        const size_t length = slash ? (size_t)(slash - step) : strlen(step);
-        char name[NAME_MAX + 1];
-        if (length > NAME_MAX) {
-            close(at);
-            errno = ENAMETOOLONG;
-            at = -1;
-            break;
-        }
-        memcpy(name, step, length);
-        name[length] = 0;
-        const int next = openat(at, name, OPEN_FLAGS | O_NOFOLLOW | (slash ? O_DIRECTORY : 0)), error = errno;
-        close(at);
-        errno = error;
-        at = next;
-        if (!slash) break;
-        step = slash + 1;
-    }
-    return at < 0 ? fail_errno(reason, errno) : at;
-}
-
 /// Joins a name to a folder, below which it must lie when links are resolved unless `anywhere`: `full`, within `base`.
-static bool resolve(const char *folder, const char *name, bool anywhere, char joined[PATH_MAX], char base[PATH_MAX],
-                    char full[PATH_MAX], char reason[EWA_REASON_BYTES]) {
+static bool resolve(const char *folder, const char *name, bool anywhere, char joined[EWA_PATH_BYTES], char base[EWA_PATH_BYTES],
+                    char full[EWA_PATH_BYTES], char reason[EWA_REASON_BYTES]) {
     const int length =
-        *name == '/' ? snprintf(joined, PATH_MAX, "%s", name) : snprintf(joined, PATH_MAX, "%s/%s", folder, name);
-    if (length < 0 || length >= PATH_MAX) return fail(reason, "its name is too long") == 0;
-    if (!realpath(folder, base) || !realpath(joined, full)) return fail_errno(reason, errno) == 0;
+        *name == '/' ? snprintf(joined, EWA_PATH_BYTES, "%s", name) : snprintf(joined, EWA_PATH_BYTES, "%s/%s", folder, name);
+    if (length < 0 || length >= EWA_PATH_BYTES) return fail(reason, "its name is too long") == 0;
+    if (!ewa_platform_resolve(folder, base) || !ewa_platform_resolve(joined, full)) return fail_errno(reason, errno) == 0;
     const size_t base_length = strcmp(base, "/") == 0 ? 0 : strlen(base);
     const bool below = strncmp(full, base, base_length) == 0 && full[base_length] == '/' && full[base_length + 1];
     if (!below && !anywhere)
@@ -73,13 +40,13 @@ static bool resolve(const char *folder, const char *name, bool anywhere, char jo
 
 /// Opens a name in a folder.
 static int open_in(const char *folder, const char *name, bool anywhere, char reason[EWA_REASON_BYTES]) {
-    char joined[PATH_MAX], base[PATH_MAX], full[PATH_MAX];
+    char joined[EWA_PATH_BYTES], base[EWA_PATH_BYTES], full[EWA_PATH_BYTES];
     if (!resolve(folder, name, anywhere, joined, base, full, reason)) return -1;
-    const int opened = open_steps(base, full + (strcmp(base, "/") == 0 ? 0 : strlen(base)) + 1, reason);
-    struct stat facts;
-    if (opened < 0) return -1;
-    if (fstat(opened, &facts) == 0 && S_ISREG(facts.st_mode)) return opened;
-    close(opened);
+    const int opened = ewa_platform_open_below(base, full + (strcmp(base, "/") == 0 ? 0 : strlen(base)) + 1);
+    ewa_platform_facts facts;
+    if (opened < 0) return fail_errno(reason, errno);
+    if (ewa_platform_stat_open(opened, &facts) && facts.regular) return opened;
+    ewa_platform_close(opened);
     return fail(reason, "it is no regular file");
 }
 
@@ -90,17 +57,17 @@ static bool is_allowed(ewa_named_files allowed, char reason[EWA_REASON_BYTES]) {
 }
 
 /// Writes the folder that a file lies in, "." where its path has none.
-static bool folder_of(const char *path, char folder[PATH_MAX], char reason[EWA_REASON_BYTES]) {
+static bool folder_of(const char *path, char folder[EWA_PATH_BYTES], char reason[EWA_REASON_BYTES]) {
     const char *slash = strrchr(path, '/');
     const size_t length = slash ? (size_t)(slash - path) : 0;
-    if (length >= PATH_MAX) return fail(reason, "its name is too long") == 0;
-    snprintf(folder, PATH_MAX, "%.*s", (int)length, path);
-    if (!length) snprintf(folder, PATH_MAX, "%s", slash ? "/" : ".");
+    if (length >= EWA_PATH_BYTES) return fail(reason, "its name is too long") == 0;
+    snprintf(folder, EWA_PATH_BYTES, "%.*s", (int)length, path);
+    if (!length) snprintf(folder, EWA_PATH_BYTES, "%s", slash ? "/" : ".");
     return true;
 }
 
 int ewa_referenced_file_open(ewa_named_files allowed, const char *path, ewa_text name, char reason[EWA_REASON_BYTES]) {
-    char relative[PATH_MAX], folder[PATH_MAX];
+    char relative[EWA_PATH_BYTES], folder[EWA_PATH_BYTES];
     const bool anywhere = allowed == EWA_NAMED_ANYWHERE;
     if (!is_allowed(allowed, reason)) return -1;
     if (name.length == 0 || memchr(name.chars, 0, name.length)) return fail(reason, "it has no name");
@@ -123,7 +90,7 @@ int ewa_referenced_file_open(ewa_named_files allowed, const char *path, ewa_text
 
 bool ewa_referenced_file_find(const ewa_context *context, const char *path, const char *name, bool folders,
                               char found[EWA_PATH_BYTES], char reason[EWA_REASON_BYTES]) {
-    char folder[PATH_MAX], joined[PATH_MAX], base[PATH_MAX], full[PATH_MAX];
+    char folder[EWA_PATH_BYTES], joined[EWA_PATH_BYTES], base[EWA_PATH_BYTES], full[EWA_PATH_BYTES];
     const ewa_named_files allowed = ewa_context_named_files(context);
     const bool anywhere = allowed == EWA_NAMED_ANYWHERE;
     if (!is_allowed(allowed, reason)) return false;
@@ -131,9 +98,8 @@ bool ewa_referenced_file_find(const ewa_context *context, const char *path, cons
     if (*name == '/' && !anywhere) return fail(reason, "its name is absolute") == 0;
     if (!folder_of(path, folder, reason) || !resolve(folder, name, anywhere, joined, base, full, reason))
         return false;
-    struct stat facts;
-    const bool good =
-        stat(full, &facts) == 0 && (S_ISREG(facts.st_mode) || (folders && S_ISDIR(facts.st_mode)));
+    ewa_platform_facts facts;
+    const bool good = ewa_platform_stat(full, &facts) && (facts.regular || (folders && facts.folder));
     if (!good)
         return fail(reason,
                     folders ? "it is neither a regular file nor a folder" : "it is no regular file") == 0;
@@ -144,9 +110,9 @@ bool ewa_referenced_file_find(const ewa_context *context, const char *path, cons
 
 bool ewa_referenced_file_relate(const char *path, const char *target, char name[EWA_PATH_BYTES],
                                 char reason[EWA_REASON_BYTES]) {
-    char folder[PATH_MAX], base[PATH_MAX], full[PATH_MAX];
+    char folder[EWA_PATH_BYTES], base[EWA_PATH_BYTES], full[EWA_PATH_BYTES];
     if (!folder_of(path, folder, reason)) return false;
-    if (!realpath(folder, base) || !realpath(target, full)) return fail_errno(reason, errno) == 0;
+    if (!ewa_platform_resolve(folder, base) || !ewa_platform_resolve(target, full)) return fail_errno(reason, errno) == 0;
     const size_t length = strcmp(base, "/") == 0 ? 0 : strlen(base);
     if (strncmp(full, base, length) != 0 || full[length] != '/')
         return fail(reason, "it is not below the folder of the file that is to name it") == 0;
@@ -155,18 +121,19 @@ bool ewa_referenced_file_relate(const char *path, const char *target, char name[
 }
 
 /// Maps what was opened, and closes it.
-static bool map_opened(int descriptor, ewa_file *file, char reason[EWA_REASON_BYTES]) {
+static bool map_opened(ewa_context *context, int descriptor, ewa_file *file, char reason[EWA_REASON_BYTES]) {
     *file = (ewa_file){0};
     if (descriptor < 0) return false;
-    const bool mapped = ewa_file_map_descriptor(descriptor, file);
-    if (!mapped) fail(reason, "it cannot be mapped");
-    close(descriptor);
+    const bool mapped = ewa_file_map_descriptor(context, descriptor, file);
+    if (!mapped) fail(reason, "it cannot be read");
+    ewa_platform_close(descriptor);
     return mapped;
 }
 
-bool ewa_referenced_file_map(const ewa_context *context, const char *path, ewa_text name, ewa_file *file,
+bool ewa_referenced_file_map(ewa_context *context, const char *path, ewa_text name, ewa_file *file,
                              char reason[EWA_REASON_BYTES]) {
-    return map_opened(ewa_referenced_file_open(ewa_context_named_files(context), path, name, reason), file, reason);
+    const int descriptor = ewa_referenced_file_open(ewa_context_named_files(context), path, name, reason);
+    return map_opened(context, descriptor, file, reason);
 }
 
 ewa_status ewa_referenced_file_part(ewa_context *context, const char *folder, const char *name, ewa_file *file) {
@@ -174,7 +141,7 @@ ewa_status ewa_referenced_file_part(ewa_context *context, const char *folder, co
     const ewa_named_files allowed = ewa_context_named_files(context);
     *file = (ewa_file){0};
     if (is_allowed(allowed, reason) &&
-        map_opened(open_in(folder, name, allowed == EWA_NAMED_ANYWHERE, reason), file, reason))
+        map_opened(context, open_in(folder, name, allowed == EWA_NAMED_ANYWHERE, reason), file, reason))
         return EWA_OK;
     return ewa_fail(context, EWA_ERROR_IO, "%s/%s: %s", folder, name, reason);
 }

@@ -6,16 +6,17 @@
 #ifndef EWA_SRC_IO_REFERENCED_FILE_H
 #define EWA_SRC_IO_REFERENCED_FILE_H
 
+#include "base/platform.h"
 #include "io/file.h"
 #include "io/text.h"
 
-enum { EWA_REASON_BYTES = 160, EWA_PATH_BYTES = 4096 };
+enum { EWA_REASON_BYTES = 160 };
 
 /// Maps the file that `name` means in the file at `path`. Backslashes are separators; a name that is
 /// absolute, has a drive or a scheme, or leads to nothing is tried once more as its last part, beside `path`.
 /// By EWA_NAMED_BELOW the file must lie below the folder of `path` when links and ".." are resolved.
 /// False, with `reason` in words, when there is none; nothing is reported.
-bool ewa_referenced_file_map(const ewa_context *context, const char *path, ewa_text name, ewa_file *file,
+bool ewa_referenced_file_map(ewa_context *context, const char *path, ewa_text name, ewa_file *file,
                              char reason[EWA_REASON_BYTES]);
 
 /// Opens such a file where `allowed` lets it be; -1 with `reason`.

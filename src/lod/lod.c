@@ -3,12 +3,12 @@
 //
 // Open octrees, what they are, and points out of them.
 #include "base/base.h"
+#include "base/platform.h"
 #include "cloud/cloud.h"
 #include "lod/tree.h"
 
 #include <math.h>
 #include <string.h>
-#include <sys/stat.h>
 
 bool ewa_lod_probe(ewa_context *context, const char *path) {
     return context && path && ewa_octree_is(context, path);
@@ -16,9 +16,9 @@ bool ewa_lod_probe(ewa_context *context, const char *path) {
 
 bool ewa_lod_is_folder(ewa_context *context, const char *path) {
     if (!context || !path) return false;
-    struct stat facts;
+    ewa_platform_facts facts;
     const char *slash = strrchr(path, '/');
-    const bool folder = stat(path, &facts) == 0 && S_ISDIR(facts.st_mode);
+    const bool folder = ewa_platform_stat(path, &facts) && facts.folder;
     return (folder || strcmp(slash ? slash + 1 : path, "ept.json") == 0) && ewa_octree_is(context, path);
 }
 

@@ -7,13 +7,13 @@
 #include "base/base.h"
 #include "base/context.h"
 #include "base/options.h"
+#include "base/platform.h"
 #include "ewa/gaussian_io.h"
 #include "framing/conventions.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-#include <sys/stat.h>
 
 static const double IDENTITY[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
 
@@ -125,8 +125,8 @@ void ewa_asset_describe(const ewa_asset *asset, ewa_asset_info *info) {
 }
 
 static bool is_regular(const char *path) {
-    struct stat facts;
-    return strcmp(path, "-") != 0 && stat(path, &facts) == 0 && S_ISREG(facts.st_mode);
+    ewa_platform_facts facts;
+    return strcmp(path, "-") != 0 && ewa_platform_stat(path, &facts) && facts.regular;
 }
 
 /// Opens an octree that is drawn from its levels; `*lod` is NULL where the file is none of these.
@@ -211,8 +211,8 @@ static ewa_status load_model(const ewa_asset_job *job, const char *path) {
 
 /// Refuses a folder that is no octree, and says what to name instead.
 static ewa_status check_folder(ewa_context *context, const char *path) {
-    struct stat facts;
-    if (stat(path, &facts) != 0 || !S_ISDIR(facts.st_mode) || ewa_lod_probe(context, path)) return EWA_OK;
+    ewa_platform_facts facts;
+    if (!ewa_platform_stat(path, &facts) || !facts.folder || ewa_lod_probe(context, path)) return EWA_OK;
     char file[PATH_BYTES];
     const int length = snprintf(file, sizeof file, "%s%smeta.json", path, path[0] && path[strlen(path) - 1] == '/' ? "" : "/");
     if (length > 0 && (size_t)length < sizeof file && is_regular(file))

@@ -5,6 +5,7 @@
 #include "io/file.h"
 #include "base/base.h"
 #include "base/context.h"
+#include "base/platform.h"
 #include "ewa/scene_file.h"
 #include "io/referenced_file.h"
 #include "io/number.h"
@@ -14,7 +15,6 @@
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-#include <sys/stat.h>
 
 /// A file that a scene file names.
 typedef struct scene_file_item {
@@ -354,9 +354,9 @@ static ewa_status read_items(ewa_scene_file *file, const reading *in) {
 
 /// Whether two paths are of one file.
 static bool is_same(const char *a, const char *b) {
-    struct stat first, second;
-    return stat(a, &first) == 0 && stat(b, &second) == 0 && first.st_dev == second.st_dev &&
-           first.st_ino == second.st_ino;
+    ewa_platform_facts first, second;
+    return ewa_platform_stat(a, &first) && ewa_platform_stat(b, &second) && first.device == second.device &&
+           first.number == second.number;
 }
 
 static ewa_status read_file(ewa_scene_file *file, const reading *by, const char *path,

@@ -4,17 +4,16 @@
 // Cameras of a COLMAP model, text and binary: lenses in one file, poses that refer to them in another.
 // Based on: J. L. Schoenberger, COLMAP documentation, "Output Format" (cameras, images).
 #include "base/base.h"
+#include "base/platform.h"
 #include "io/camera/file.h"
 #include "io/number.h"
 #include "io/reader.h"
 #include "io/referenced_file.h"
 
-#include <limits.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 enum {
     MAX_PARAMETERS = 12,
@@ -315,9 +314,10 @@ ewa_status ewa_camera_list_read_colmap_memory(ewa_camera_list *list, bool is_tex
 
 /// Whether a folder has a file; what kind of file it is shows when it is opened.
 static bool has_part(const char *folder, const char *name) {
-    char path[PATH_MAX];
+    char path[EWA_PATH_BYTES];
+    ewa_platform_facts facts;
     const int length = snprintf(path, sizeof path, "%s/%s", folder, name);
-    return length > 0 && length < (int)sizeof path && access(path, F_OK) == 0;
+    return length > 0 && length < (int)sizeof path && ewa_platform_stat(path, &facts);
 }
 
 ewa_status ewa_camera_list_read_colmap(ewa_camera_list *list, const char *folder) {

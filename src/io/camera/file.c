@@ -4,17 +4,17 @@
 // Camera files: which format it is, one camera of many, and our own format out.
 #include "io/camera/file.h"
 #include "base/base.h"
+#include "base/platform.h"
 #include "ewa/io.h"
 #include "homogeneous/camera.h"
 #include "io/file.h"
 #include "io/number.h"
 
 #include <string.h>
-#include <sys/stat.h>
 
 static bool is_folder(const char *path) {
-    struct stat facts;
-    return stat(path, &facts) == 0 && S_ISDIR(facts.st_mode);
+    ewa_platform_facts facts;
+    return ewa_platform_stat(path, &facts) && facts.folder;
 }
 
 static ewa_status read_list(ewa_camera_list *list, const char *path) {

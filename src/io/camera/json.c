@@ -5,13 +5,13 @@
 // PinholeCameraTrajectory, transforms.json of nerfstudio and instant-ngp, cameras.json of INRIA's Gaussian
 // splatting, and stacks of matrices as gsplat takes them (viewmats, Ks).
 #include "base/base.h"
+#include "base/platform.h"
 #include "io/camera/file.h"
 #include "io/image/png.h"
 #include "io/json_text.h"
 #include "io/referenced_file.h"
 #include "math/angle.h"
 
-#include <limits.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -204,7 +204,7 @@ static ewa_status read_stacks(source *in, const cJSON *object, const cJSON *matr
 /// the JSON file, with or without ".png".
 static ewa_status read_picture_size(const source *in, const cJSON *frame, ewa_camera *camera) {
     const char *picture = cJSON_GetStringValue(find(frame, "file_path"));
-    char name[PATH_MAX], reason[EWA_REASON_BYTES];
+    char name[EWA_PATH_BYTES], reason[EWA_REASON_BYTES];
     ewa_file file;
     bool found = false;
     for (int attempt = 0; picture && in->path && attempt < 2 && !found; attempt++) {

@@ -3,11 +3,11 @@
 //
 // EPT folders by nodes: the files of a wave are opened one by one, then their records are unpacked by all workers.
 #include "base/base.h"
+#include "base/platform.h"
 #include "io/ept/ept.h"
 
 #include <stdio.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <zstd.h>
 
 enum {
@@ -23,8 +23,8 @@ static const char *const suffixes[] = {
 // ---- Finding the folder
 
 static bool is_file(const char *path) {
-    struct stat facts;
-    return stat(path, &facts) == 0 && S_ISREG(facts.st_mode);
+    ewa_platform_facts facts;
+    return ewa_platform_stat(path, &facts) && facts.regular;
 }
 
 /// Writes the folder of a tree; false when the path is none and leads to none.

@@ -3,6 +3,7 @@
 //
 // COPC files by nodes: each is a chunk of LAZ that a worker decodes into the streams of a cloud.
 #include "base/base.h"
+#include "base/platform.h"
 #include "io/file.h"
 #include "io/las/copc.h"
 #include "io/las/las_open.h"
@@ -10,7 +11,6 @@
 
 #include <math.h>
 #include <string.h>
-#include <unistd.h>
 
 enum {
     /// Bytes by which a file shows that it is COPC: the header, and the head of the record behind it.
@@ -51,7 +51,7 @@ static void close_copc(ewa_octree *octree) {
     ewa_release(context, state->memories, state->worker_count, sizeof *state->memories);
     ewa_release(context, state->records, state->worker_count, sizeof *state->records);
     ewa_las_file_close(&state->file);
-    if (state->descriptor >= 0) close(state->descriptor);
+    if (state->descriptor >= 0) ewa_platform_close(state->descriptor);
     ewa_file_unmap(context, &state->bytes);
     ewa_release(context, state, 1, sizeof *state);
 }

@@ -6,11 +6,11 @@
 //
 // Based on: D. Ramey, L. Rose, L. Tyerman, "MTL material format (Lightwave, OBJ)", 1995.
 #include "base/base.h"
+#include "base/platform.h"
 #include "image/srgb.h"
 #include "io/mesh/formats.h"
 #include "io/referenced_file.h"
 
-#include <limits.h>
 #include <math.h>
 #include <stdio.h>
 
@@ -37,7 +37,7 @@ struct ewa_mtl {
     ewa_mesh_list libraries, materials;
     uint32_t *table; ///< hash table of materials by name
     size_t slots;
-    char own_name[NAME_MAX + 1]; ///< of the library that is called like the mesh
+    char own_name[EWA_FILE_NAME_BYTES]; ///< of the library that is called like the mesh
 };
 
 static size_t slot_of(const ewa_mtl *mtl, ewa_text name) {

@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: MIT
 //
 // Volume files: the format by content, and the files that a header names.
-#define _XOPEN_SOURCE 700 // stat
 #include "io/volume/file.h"
 #include "base/base.h"
 #include "base/options.h"
+#include "base/platform.h"
 #include "ewa/io.h"
 #include "ewa/model.h"
 #include "io/number.h"
@@ -16,8 +16,6 @@
 #include <stdio.h>
 #include <string.h>
 #include <strings.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #define AT(member) offsetof(ewa_volume_load_options, member)
 
@@ -55,7 +53,7 @@ bool ewa_volume_is_file(ewa_context *context, const char *path) {
     ewa_model_format format = EWA_MODEL_UNKNOWN;
     const size_t length = strlen(path);
     // What cannot be opened is said by who reads it.
-    return strcasecmp(path + length - 4, ".vtk") != 0 || access(path, R_OK) != 0 ||
+    return strcasecmp(path + length - 4, ".vtk") != 0 || !ewa_platform_may_read(path) ||
            ewa_model_probe(context, path, &format) != EWA_OK || format != EWA_MODEL_VTK;
 }
 

@@ -4,6 +4,7 @@
 // NIfTI-1 and NIfTI-2 headers, and Analyze 7.5, which NIfTI-1 grew from. Based on: R. Cox et al., nifti1.h,
 // 2004 (methods 1 to 3 of the orientation), nifti2.h, 2015.
 #include "base/base.h"
+#include "base/platform.h"
 #include "io/volume/file.h"
 
 #include <limits.h>
@@ -213,7 +214,7 @@ static ewa_status add_image_file(const ewa_volume_input *in, ewa_volume_header *
         return ewa_volume_fail(in, EWA_ERROR_UNSUPPORTED,
                                "NIfTI: the voxels are in another file, which needs the name of this one");
     const char *slash = strrchr(in->path, '/'), *base = slash ? slash + 1 : in->path;
-    char name[PATH_MAX];
+    char name[EWA_PATH_BYTES];
     size_t length = strlen(base);
     if (length > 3 && strcmp(base + length - 3, ".gz") == 0) length -= 3;
     if (length < 5 || length >= sizeof name - 8 || strncmp(base + length - 4, ".hdr", 4) != 0)

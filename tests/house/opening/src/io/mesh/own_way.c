@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 //
 // Opens what a mesh names by itself; open(path) in a comment, "fopen(" in a text and writer->open() are none.
+#include <sys/stat.h>
+
 static int look(const char *path, format *writer) {
     writer->open(path, "fopen(");
     FILE *file = fopen(path, "rb");
