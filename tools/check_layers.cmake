@@ -4,7 +4,7 @@
 # Fails when a room includes a room of a higher floor or a neighbour on its own, when a room of src/ or a public header has
 # no floor, and when a program includes anything but public headers. A public header is of the room that the table in
 # docs/architecture.md gives it to, and counts as that room, whoever includes it and whatever it includes. Messages of src/
-# do not name options and commands of the program: it does so itself (cli/base/ways_out.c).
+# do not name options and commands of the program: it does so itself (cli/base/wording.c).
 #
 # cmake -DROOT=folder -P check_layers.cmake
 set(wrong "")

@@ -4,7 +4,7 @@
 // One run of the program: the library's context, messages, progress, interruption, timing, exit status.
 #include "cli/base/session.h"
 #include "cli/base/interruption.h"
-#include "cli/base/ways_out.h"
+#include "cli/base/wording.h"
 
 #include <errno.h>
 #include <stdarg.h>
@@ -94,7 +94,7 @@ static void on_message(void *user, ewa_severity severity, const char *text) {
     cli_session *session = user;
     if (severity == EWA_SEVERITY_ERROR) session->reported = true;
     char line[LINE_BYTES / 2];
-    ways_out_put(text, line, sizeof line);
+    wording_of_program(text, line, sizeof line);
     print_line(session, severity, line);
 }
 

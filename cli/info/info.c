@@ -5,6 +5,7 @@
 #include "cli/base/backend.h"
 #include "cli/base/commands.h"
 #include "cli/base/json.h"
+#include "cli/base/wording.h"
 #include "cli/info/info_facts.h"
 #include "cli/info/info_gaussians.h"
 #include "cli/info/info_lod.h"
@@ -18,7 +19,6 @@
 #include "cli/input/model_input.h"
 #include "cli/input/point_choice.h"
 #include "cli/render/view.h"
-#include "cli/base/ways_out.h"
 
 #include <float.h>
 #include <inttypes.h>
@@ -214,7 +214,7 @@ static size_t list_problems(const ewa_cloud *cloud, const cloud_facts *facts,
                  facts->spacing.duplicate_count, facts->sampled_count);
     char degrees[EWA_DIAGNOSIS_TEXT_BYTES];
     if (!facts->is_mesh && ewa_cloud_find_degrees(cloud, degrees))
-        ways_out_put(degrees, problems[count++], PROBLEM_BYTES);
+        wording_of_program(degrees, problems[count++], PROBLEM_BYTES);
     if (facts->shape == SHAPE_POINT)
         snprintf(problems[count++], PROBLEM_BYTES, "%s",
                  facts->bounds.finite_count == 1 ? "there is one point only"

@@ -262,7 +262,7 @@ static void test_poses(void **state) {
 }
 
 /// What cannot be drawn says what can.
-static void ways_out(void **state) {
+static void test_wording(void **state) {
     (void)state;
     run_done("ewa render torus.ply -o shot.png --size 16x16 && cp shot.png shot.hdr");
     run_fails(1, "shot.png: a picture (PNG), which has no points: 'ewa texture'", "ewa render shot.png -o a.png");
@@ -303,7 +303,7 @@ int main(void) {
         cmocka_unit_test(test_gaussians),  cmocka_unit_test(test_zero_normals),
         cmocka_unit_test(test_steps),      cmocka_unit_test(test_nothing_seen),
         cmocka_unit_test(test_path_fails), cmocka_unit_test(test_poses),
-        cmocka_unit_test(ways_out),        cmocka_unit_test(dots),
+        cmocka_unit_test(test_wording),    cmocka_unit_test(dots),
     };
     return cmocka_run_group_tests(tests, enter, NULL);
 }

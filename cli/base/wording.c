@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// The ways out that messages of the library name, and what the program calls them.
-#include "cli/base/ways_out.h"
+// What messages of the library advise, in the words of the program.
+#include "cli/base/wording.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -31,7 +31,7 @@ static const struct {
     {", which has no voxels", ", which has no voxels: 'ewa texture' draws pictures, 'ewa warp' those with depths"},
 };
 
-void ways_out_put(const char *message, char *to, size_t size_bytes) {
+void wording_of_program(const char *message, char *to, size_t size_bytes) {
     for (size_t i = 0; i < sizeof words / sizeof words[0]; i++) {
         const char *at = strstr(message, words[i].library);
         if (!at) continue;
