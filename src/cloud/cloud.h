@@ -22,6 +22,10 @@ bool ewa_cloud_is_alike(const ewa_cloud *a, const ewa_cloud *b);
 /// Whether ewa_cloud_find_scalar() finds what a word means. Reports nothing.
 bool ewa_cloud_has_scalar(const ewa_cloud *cloud, const char *word);
 
+/// Whether two names of attributes are the same but for case, underscores, and the "scalar_" that some programs put before:
+/// ewa_cloud_find_scalar() takes one for the other.
+bool ewa_attribute_names_agree(const char *a, const char *b);
+
 /// Leaves only the first points; their memory stays until the cloud is destroyed.
 void ewa_cloud_truncate(ewa_cloud *cloud, uint64_t point_count);
 

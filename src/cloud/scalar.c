@@ -25,8 +25,7 @@ enum { SYNONYM_COUNT = sizeof synonyms / sizeof synonyms[0] };
 
 static char lower(char c) { return c >= 'A' && c <= 'Z' ? (char)(c - 'A' + 'a') : c; }
 
-/// Whether two names are the same but for case, underscores, and the "scalar_" that some programs put before.
-static bool alike(const char *a, const char *b) {
+bool ewa_attribute_names_agree(const char *a, const char *b) {
     static const char before[] = "scalar_";
     if (strncmp(a, before, sizeof before - 1) == 0) a += sizeof before - 1;
     if (strncmp(b, before, sizeof before - 1) == 0) b += sizeof before - 1;
@@ -41,7 +40,7 @@ static bool alike(const char *a, const char *b) {
 static const ewa_attribute *find_attribute(const ewa_cloud *cloud, const char *name, bool loosely) {
     const ewa_attribute *attribute = ewa_cloud_find(cloud, name);
     for (uint32_t k = 0; !attribute && loosely && (attribute = ewa_cloud_attribute_at(cloud, k)); k++) {
-        if (alike(attribute->name, name)) break;
+        if (ewa_attribute_names_agree(attribute->name, name)) break;
         attribute = NULL;
     }
     return attribute;
@@ -67,7 +66,8 @@ static const ewa_attribute *find_component(const ewa_cloud *cloud, const char *w
         const ewa_attribute *found = find_attribute(cloud, word, loosely);
         if (found) return found;
         for (size_t i = 0; i < SYNONYM_COUNT; i++) {
-            if (!(loosely ? alike(word, synonyms[i].word) : strcmp(word, synonyms[i].word) == 0)) continue;
+            const char *synonym = synonyms[i].word;
+            if (!(loosely ? ewa_attribute_names_agree(word, synonym) : strcmp(word, synonym) == 0)) continue;
             found = ewa_cloud_find(cloud, synonyms[i].attribute);
             *component = synonyms[i].component;
             if (found && *component < found->component_count) return found;

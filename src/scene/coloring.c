@@ -12,7 +12,6 @@
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-#include <strings.h>
 
 /// sRGB of numbers that have no colour.
 static const uint8_t GREY_SRGB = 128;
@@ -116,16 +115,9 @@ static const char *const signals[] = {"intensity", "reflectance", "amplitude", "
 
 enum { SIGNAL_COUNT = sizeof signals / sizeof signals[0] };
 
-/// Whether an attribute has this name, with or without what some programs put before it.
-static bool is_called(const char *name, const char *word) {
-    static const char before[] = "scalar_";
-    if (strncmp(name, before, sizeof before - 1) == 0) name += sizeof before - 1;
-    return strcasecmp(name, word) == 0;
-}
-
 static bool is_signal(const char *name) {
     for (size_t i = 0; i < SIGNAL_COUNT; i++)
-        if (is_called(name, signals[i])) return true;
+        if (ewa_attribute_names_agree(name, signals[i])) return true;
     return false;
 }
 
@@ -209,11 +201,7 @@ static bool are_classes(void *user, uint32_t count, const double *block) {
 }
 
 bool ewa_coloring_names_classes(const char *name) {
-    static const char *const names[] = {"classification", "Classification", "scalar_classification",
-                                        "scalar_Classification"};
-    bool named = false;
-    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) named = named || strcmp(name, names[i]) == 0;
-    return named;
+    return ewa_attribute_names_agree(name, "classification");
 }
 
 /// Whether an attribute holds classes by its name and its numbers.
@@ -328,11 +316,11 @@ void ewa_cloud_drop_signals(ewa_cloud *cloud) {
 static bool has_called(const ewa_cloud *cloud, const char *word) {
     const ewa_attribute *a;
     for (uint32_t k = 0; (a = ewa_cloud_attribute_at(cloud, k)); k++)
-        if (a->component_count == 1 && is_called(a->name, word)) return true;
+        if (a->component_count == 1 && ewa_attribute_names_agree(a->name, word)) return true;
     return false;
 }
 
-/// Whether a cloud has colours that show something: writers of LAS leave them black where they know none.
+/// Whether a cloud has colours that show something: converters write black where they know none.
 static bool has_colors(const ewa_cloud *cloud) {
     const ewa_attribute *color = ewa_cloud_find(cloud, EWA_COLOR);
     if (!color) return false;
