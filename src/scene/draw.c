@@ -58,8 +58,8 @@ void ewa_scene_renderer_destroy(ewa_scene_renderer **given) {
 ewa_renderer *ewa_scene_renderer_surfaces(ewa_scene_renderer *renderer) { return renderer->surfaces; }
 
 /// Says how the visible octrees are drawn, which are listed.
-static ewa_status look_at_octrees(const ewa_scene *scene, const ewa_lod_options *options,
-                                  ewa_scene_renderer *renderer, ewa_scene_shown *shown) {
+static ewa_status list_looks(const ewa_scene *scene, const ewa_lod_options *options,
+                             ewa_scene_renderer *renderer, ewa_scene_shown *shown) {
     EWA_TRY(ewa_buffer_reserve(renderer->context, &renderer->looks, shown->lod_count + (size_t)1,
                                sizeof(ewa_octree_look)));
     EWA_TRY(ewa_buffer_reserve(renderer->context, &renderer->look_list, shown->lod_count + (size_t)1,
@@ -68,7 +68,7 @@ static ewa_status look_at_octrees(const ewa_scene *scene, const ewa_lod_options 
     shown->looks = renderer->look_list.data;
     for (uint32_t i = 0, k = 0; i < scene->count; i++) {
         if (!scene->items[i].instance.visible || !scene->items[i].asset->lod) continue;
-        EWA_TRY(ewa_scene_look_at_octree(scene, i, options, &looks[k]));
+        EWA_TRY(ewa_scene_octree_look(scene, i, options, &looks[k]));
         shown->looks[k] = &looks[k].look;
         k++;
     }
@@ -115,7 +115,7 @@ static ewa_status list_shown(const ewa_scene *scene, const ewa_lod_options *opti
                             EWA_MAX_MIXED_VOLUMES);
         shown->volumes[shown->volume_count++] = asset;
     }
-    return look_at_octrees(scene, options, renderer, shown);
+    return list_looks(scene, options, renderer, shown);
 }
 
 /// Towards the light of surfaces without colours, in camera space: from above left, not so far from the eye that half

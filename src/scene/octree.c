@@ -127,7 +127,7 @@ static ewa_status paint(const void *user, ewa_cloud **cloud) {
     } else if (change->tinted || change->attribute[0]) {
         EWA_TRY(ewa_cloud_tint(*cloud, change->tint));
     }
-    return ewa_cloud_show(*cloud, change->opacity, change->material);
+    return ewa_cloud_set_appearance(*cloud, change->opacity, change->material);
 }
 
 ewa_status ewa_asset_read_octree(const ewa_asset *asset, const double place_world[3], double reach_world,
@@ -150,8 +150,8 @@ ewa_status ewa_asset_read_octree(const ewa_asset *asset, const double place_worl
     return status;
 }
 
-ewa_status ewa_scene_look_at_octree(const ewa_scene *scene, uint32_t index, const ewa_lod_options *options,
-                                    ewa_octree_look *shown) {
+ewa_status ewa_scene_octree_look(const ewa_scene *scene, uint32_t index, const ewa_lod_options *options,
+                                 ewa_octree_look *shown) {
     const ewa_asset *asset = scene->items[index].asset;
     const ewa_instance *instance = &scene->items[index].instance;
     const ewa_coloring *coloring = &instance->coloring;

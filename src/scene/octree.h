@@ -28,8 +28,8 @@ typedef struct ewa_octree_look {
 /// Says how the octree of an instance is drawn: as its asset and the instance are. Errors: EWA_ERROR_ARGUMENT (no such
 /// attribute), EWA_ERROR_UNSUPPORTED (what represents points lacks the number by which they are coloured or chosen, and
 /// `options` may have it drawn).
-ewa_status ewa_scene_look_at_octree(const ewa_scene *scene, uint32_t index, const ewa_lod_options *options,
-                                    ewa_octree_look *shown);
+ewa_status ewa_scene_octree_look(const ewa_scene *scene, uint32_t index, const ewa_lod_options *options,
+                                 ewa_octree_look *shown);
 
 /// Reads the points of an octree about a place: those of a box that has all within `reach_world` of it, filtered and
 /// moved as the asset's. The caller owns `*cloud`. Errors: those of ewa_lod_read().

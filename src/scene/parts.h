@@ -208,6 +208,6 @@ ewa_status ewa_cloud_color_by(ewa_cloud *cloud, const ewa_scalar *scalar, const 
 ewa_status ewa_cloud_tint(ewa_cloud *cloud, const double srgb[3]);
 
 /// Multiplies the alpha of a cloud's colours, and sets the material of its points unless it is EWA_MATERIAL_OWN.
-ewa_status ewa_cloud_show(ewa_cloud *cloud, double opacity, uint32_t material);
+ewa_status ewa_cloud_set_appearance(ewa_cloud *cloud, double opacity, uint32_t material);
 
 #endif

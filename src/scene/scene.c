@@ -297,7 +297,7 @@ ewa_status ewa_scene_commit(ewa_scene *scene) {
     for (uint32_t i = 0; i < scene->count; i++) {
         ewa_octree_look look;
         if (scene->items[i].instance.visible && scene->items[i].asset->lod)
-            EWA_TRY(ewa_scene_look_at_octree(scene, i, &scene->options.lod, &look));
+            EWA_TRY(ewa_scene_octree_look(scene, i, &scene->options.lod, &look));
     }
     return EWA_OK;
 }

@@ -36,12 +36,13 @@ void ewa_surface_release(ewa_surface **given) {
 
 /// Whether an item's points are part of the surface, or of its colours.
 static bool is_shown(const ewa_scene_item *item) {
+    const ewa_asset *asset = item->asset;
     const ewa_coloring *coloring = &item->instance.coloring;
-    const bool bare = item->asset->lod && ewa_coloring_is_auto(coloring->attribute) && !coloring->tinted &&
-                      !ewa_asset_has_colors(item->asset);
-    const bool colored =
-        item->asset->kind == EWA_ASSET_OCTREE && (bare || !ewa_coloring_is_own(coloring->attribute));
-    return item->instance.visible && (ewa_asset_is_points(item->asset) || colored) && item->asset->count;
+    if (!item->instance.visible || !asset->count) return false;
+    if (asset->kind != EWA_ASSET_OCTREE) return ewa_asset_is_points(asset);
+    // An octree without colours may show a number that nobody asked for.
+    return ewa_coloring_is_auto(coloring->attribute) ? !coloring->tinted && !ewa_asset_has_colors(asset)
+                                                     : !ewa_coloring_is_own(coloring->attribute);
 }
 
 /// An order of the clouds that does not depend on that of the instances: by their places, octrees last.
@@ -127,7 +128,7 @@ static ewa_status scale_stream(ewa_cloud *cloud, const char *name, uint32_t comp
     return status;
 }
 
-ewa_status ewa_cloud_show(ewa_cloud *cloud, double opacity, uint32_t material) {
+ewa_status ewa_cloud_set_appearance(ewa_cloud *cloud, double opacity, uint32_t material) {
     const uint64_t count = ewa_cloud_point_count(cloud);
     ewa_status status = EWA_OK;
     if (opacity < 1) {
@@ -150,7 +151,7 @@ static ewa_status apply_instance(const ewa_instance *instance, ewa_cloud *cloud)
         EWA_TRY(scale_stream(cloud, EWA_TANGENT_U, 3, instance->radius_scale));
         EWA_TRY(scale_stream(cloud, EWA_TANGENT_V, 3, instance->radius_scale));
     }
-    return ewa_cloud_show(cloud, instance->opacity, instance->material);
+    return ewa_cloud_set_appearance(cloud, instance->opacity, instance->material);
 }
 
 /// Decides by what the points are coloured.
