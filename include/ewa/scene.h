@@ -368,8 +368,8 @@ EWA_API ewa_status ewa_scene_pick(ewa_scene *scene, ewa_scene_renderer *renderer
 
 /// Draws over a picture of the scene, of the camera's size, the outlines of `count` of the surfels that are seen, evenly
 /// spread over the order of the points: rims of the discs at the cutoff, where clip lines leave them, as the camera sees
-/// them. Of clouds and meshes; radii are those before gaps are closed. `options` as for ewa_scene_draw(). Errors: those of
-/// ewa_scene_cloud() and ewa_scene_draw(); EWA_ERROR_ARGUMENT (another size). Source: PAS (docs/math.md) figure 1.
+/// them. Of clouds and meshes. `options` as for ewa_scene_draw(). Errors: those of ewa_scene_cloud() and ewa_scene_draw();
+/// EWA_ERROR_ARGUMENT (another size). Source: PAS (docs/math.md) figure 1.
 EWA_API ewa_status ewa_scene_draw_outlines(ewa_scene *scene, ewa_scene_renderer *renderer, const ewa_camera *camera,
                                            const ewa_scene_options *options, uint32_t count, const ewa_canvas *canvas);
 

@@ -65,6 +65,10 @@ const char *ewa_context_about(ewa_context *context, const char *subject);
 void ewa_report(ewa_context *context, ewa_severity severity, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
+/// While `hushed`, ewa_report() reports at EWA_SEVERITY_DEBUG: what is done a second time has been told. In pairs, which
+/// nest.
+void ewa_reports_hush(ewa_context *context, bool hushed);
+
 /// Calls `task(data, i, worker)` for every i in [0, count) and waits. Not from inside a task.
 void ewa_parallel(ewa_context *context, ewa_task *task, void *data, uint32_t count);
 

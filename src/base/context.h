@@ -14,10 +14,11 @@ struct ewa_context {
     ewa_context_options options;
     ewa_pool *pool;
     uint32_t cpu_features;
-    int soft_failures, hushed_failures; ///< how many ask for it
-    atomic_uint_fast64_t serial;        ///< the last that ewa_serial_next() has given
-    atomic_uint_fast64_t held_bytes;    ///< of memory, against max_memory_bytes
-    bool memory_is_set;                 ///< max_memory_bytes is the caller's: nothing unpacks to more than is explained otherwise
+    int soft_failures, hushed_failures, hushed_reports; ///< how many ask for each
+    atomic_uint_fast64_t serial;                        ///< the last that ewa_serial_next() has given
+    atomic_uint_fast64_t held_bytes;                    ///< of memory, against max_memory_bytes
+    /// max_memory_bytes is the caller's: nothing unpacks to more than is explained otherwise.
+    bool memory_is_set;
     uint64_t packed_before_bytes, unpacked_before_bytes; ///< of ewa_memory_unpacked_before()
     double started_s;
     bool time_is_over; ///< and that was reported

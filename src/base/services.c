@@ -59,10 +59,12 @@ void ewa_failures_soften(ewa_context *context, bool soft) { context->soft_failur
 
 void ewa_failures_hush(ewa_context *context, bool hushed) { context->hushed_failures += hushed ? 1 : -1; }
 
+void ewa_reports_hush(ewa_context *context, bool hushed) { context->hushed_reports += hushed ? 1 : -1; }
+
 void ewa_report(ewa_context *context, ewa_severity severity, const char *format, ...) {
     va_list arguments;
     va_start(arguments, format);
-    report(context, severity, format, arguments);
+    report(context, context->hushed_reports ? EWA_SEVERITY_DEBUG : severity, format, arguments);
     va_end(arguments);
 }
 

@@ -26,7 +26,8 @@ typedef struct footprints {
     double cutoff;
 } footprints;
 
-/// Projects a point that is `from_origin` from the reader's origin; false: behind the eye. `z` is its camera-space depth.
+/// Projects a point that is `from_origin` from the reader's origin; false: behind the eye. `z` is its depth in camera
+/// space.
 static bool project(const footprints *of, const double from_origin[3], double pixel[2], double *z) {
     const ewa_camera *camera = of->camera;
     double seen[3];
@@ -81,8 +82,10 @@ static void draw_outline(const footprints *of, const ewa_surfel *surfel, const e
     }
 }
 
-/// Goes over all surfels that are seen; draws those whose turn it is, `count` of `seen_count` (0: none). Returns how many are seen.
-static uint64_t go_over(const footprints *of, uint64_t point_count, uint64_t seen_count, uint32_t count, const ewa_canvas *canvas) {
+/// Goes over all surfels that are seen; draws those whose turn it is, `count` of `seen_count` (0: none). Returns how many
+/// are seen.
+static uint64_t go_over(const footprints *of, uint64_t point_count, uint64_t seen_count, uint32_t count,
+                        const ewa_canvas *canvas) {
     ewa_surfel surfels[BLOCK];
     bool drawable[BLOCK];
     uint64_t seen = 0, drawn = 0;
@@ -107,15 +110,24 @@ ewa_status ewa_scene_draw_outlines(ewa_scene *scene, ewa_scene_renderer *rendere
                                    const ewa_scene_options *options, uint32_t count, const ewa_canvas *canvas) {
     if (!scene || !renderer || !camera || !canvas || !canvas->rgba8) return EWA_ERROR_ARGUMENT;
     if (canvas->width_px != camera->width_px || canvas->height_px != camera->height_px)
-        return ewa_fail(scene->context, EWA_ERROR_ARGUMENT, "outlines: a picture of %u x %u pixels for a camera of %u x %u",
-                        canvas->width_px, canvas->height_px, camera->width_px, camera->height_px);
+        return ewa_fail(scene->context, EWA_ERROR_ARGUMENT,
+                        "outlines: a picture of %u x %u pixels for a camera of %u x %u", canvas->width_px,
+                        canvas->height_px, camera->width_px, camera->height_px);
     if (count == 0) return EWA_OK;
     ewa_cloud *cloud = NULL;
-    EWA_TRY(ewa_scene_cloud(scene, &cloud));
+    // Of a scene that is committed, the messages have been told.
+    const bool told = scene->committed;
+    if (told) ewa_reports_hush(scene->context, true);
+    ewa_status status = ewa_scene_gather(scene, true, &cloud);
+    if (told) ewa_reports_hush(scene->context, false);
+    EWA_TRY(status);
+    if (!cloud)
+        return ewa_fail(scene->context, EWA_ERROR_ARGUMENT,
+                        "outlines are of the surfels of clouds and meshes, of which the scene shows none");
     footprints of = {.camera = camera, .cutoff = scene->options.surfels.cutoff};
     const size_t pixel_count = (size_t)camera->width_px * camera->height_px;
     float *depth = ewa_allocate(scene->context, pixel_count, sizeof *depth);
-    ewa_status status = depth ? ewa_surfel_reader_open(cloud, &scene->options.surfels, &of.reader) : EWA_ERROR_MEMORY;
+    status = depth ? ewa_surfel_reader_open(cloud, &scene->options.surfels, &of.reader) : EWA_ERROR_MEMORY;
     if (status == EWA_OK)
         status = ewa_scene_draw(scene, renderer, camera, options, &(ewa_frame){.depth = depth}, NULL);
     if (status == EWA_OK) {

@@ -161,10 +161,14 @@ void ewa_completed_release(ewa_completed **completed);
 /// Does what ewa_scene_commit() does, but for looking whether octrees can be drawn with the scene's own options.
 ewa_status ewa_scene_make_resident(ewa_scene *scene);
 
+/// Makes one cloud of the visible points, as ewa_surface_gather(), of a scene that may not be complete yet.
+ewa_status ewa_scene_gather(ewa_scene *scene, bool closed, ewa_cloud **cloud);
+
 /// Makes the surfels of all visible items of points (surface.c).
 ewa_status ewa_surface_make(ewa_scene *scene, ewa_surface **surface);
-/// Makes one cloud of them, the caller's; NULL: there are none.
-ewa_status ewa_surface_gather(ewa_scene *scene, ewa_cloud **cloud);
+/// Makes one cloud of them, the caller's, whose gaps are `closed` as those of the surface are, or not yet; NULL: there are
+/// none. The scene is complete.
+ewa_status ewa_surface_gather(ewa_scene *scene, bool closed, ewa_cloud **cloud);
 bool ewa_surface_is_of(const ewa_surface *surface, const ewa_scene *scene);
 void ewa_surface_release(ewa_surface **surface);
 

@@ -302,13 +302,17 @@ ewa_status ewa_scene_commit(ewa_scene *scene) {
     return EWA_OK;
 }
 
-ewa_status ewa_scene_cloud(ewa_scene *scene, ewa_cloud **cloud) {
-    if (!scene || !cloud) return EWA_ERROR_ARGUMENT;
+ewa_status ewa_scene_gather(ewa_scene *scene, bool closed, ewa_cloud **cloud) {
     *cloud = NULL;
     EWA_TRY(ewa_scene_complete(scene));
     if (scene->points_gone)
         return ewa_fail(scene->context, EWA_ERROR_ARGUMENT, "the points of this scene are gone (keep_points)");
-    EWA_TRY(ewa_surface_gather(scene, cloud));
+    return ewa_surface_gather(scene, closed, cloud);
+}
+
+ewa_status ewa_scene_cloud(ewa_scene *scene, ewa_cloud **cloud) {
+    if (!scene || !cloud) return EWA_ERROR_ARGUMENT;
+    EWA_TRY(ewa_scene_gather(scene, false, cloud));
     return *cloud ? EWA_OK : ewa_fail(scene->context, EWA_ERROR_ARGUMENT, "the scene shows no points");
 }
 

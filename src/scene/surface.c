@@ -266,27 +266,31 @@ static ewa_status gather(ewa_scene *scene, ewa_surface *surface, const shown_clo
     }
     if (count < 2) return EWA_OK;
     EWA_TRY(ewa_clouds_make_alike(shown->clouds, count, scene->options.surfels.cutoff));
-    return ewa_cloud_merge((const ewa_cloud *const *)shown->clouds, count, whole);
+    // Systems of coordinates that differ have been told with the names of the files (complete.c).
+    ewa_reports_hush(context, true);
+    const ewa_status status = ewa_cloud_merge((const ewa_cloud *const *)shown->clouds, count, whole);
+    ewa_reports_hush(context, false);
+    return status;
 }
 
-/// Makes surfels of all that is shown, or, with `cloud`, one cloud.
-static ewa_status fill(ewa_scene *scene, ewa_surface *surface, const shown_clouds *shown, ewa_cloud **cloud) {
+/// Makes surfels of all that is shown; with `cloud`, that they are made of too, or, unless `closed`, only that.
+static ewa_status fill(ewa_scene *scene, ewa_surface *surface, const shown_clouds *shown, bool closed,
+                       ewa_cloud **cloud) {
     ewa_cloud *whole;
     ewa_status status = gather(scene, surface, shown, &whole);
     const char *before =
         ewa_context_about(surface->context, surface->cloud_count == 1 ? surface->keys[0].asset->name : NULL);
+    if (status == EWA_OK && whole && closed) status = make_resident(surface, &whole);
     // The streams of one cloud are not the caller's.
     if (status == EWA_OK && whole && cloud)
         status = ewa_cloud_merge((const ewa_cloud *const *)&whole, 1, cloud);
-    else if (status == EWA_OK && whole)
-        status = make_resident(surface, &whole);
     ewa_context_about(surface->context, before);
     ewa_cloud_destroy(&whole);
     return status;
 }
 
-/// Makes the surface of a scene, or, with `cloud`, what it would be made of.
-static ewa_status make(ewa_scene *scene, ewa_surface **made, ewa_cloud **cloud) {
+/// Makes the surface of a scene, as fill() does.
+static ewa_status make(ewa_scene *scene, ewa_surface **made, bool closed, ewa_cloud **cloud) {
     ewa_context *context = scene->context;
     *made = NULL;
     ewa_surface *surface = ewa_allocate_zeroed(context, 1, sizeof *surface);
@@ -315,7 +319,7 @@ static ewa_status make(ewa_scene *scene, ewa_surface **made, ewa_cloud **cloud) 
         shown.chosen = ewa_allocate_zeroed(context, count, sizeof *shown.chosen);
         const bool room = surface->legends && surface->legend_of && shown.clouds && shown.colored &&
                           shown.colorings && shown.chosen;
-        status = room ? fill(scene, surface, &shown, cloud) : EWA_ERROR_MEMORY;
+        status = room ? fill(scene, surface, &shown, closed, cloud) : EWA_ERROR_MEMORY;
     }
     for (uint32_t i = 0; shown.clouds && i < count; i++) ewa_cloud_destroy(&shown.clouds[i]);
     ewa_release(context, shown.clouds, count, sizeof *shown.clouds);
@@ -333,12 +337,12 @@ static ewa_status make(ewa_scene *scene, ewa_surface **made, ewa_cloud **cloud) 
     return status;
 }
 
-ewa_status ewa_surface_make(ewa_scene *scene, ewa_surface **surface) { return make(scene, surface, NULL); }
+ewa_status ewa_surface_make(ewa_scene *scene, ewa_surface **surface) { return make(scene, surface, true, NULL); }
 
-ewa_status ewa_surface_gather(ewa_scene *scene, ewa_cloud **cloud) {
+ewa_status ewa_surface_gather(ewa_scene *scene, bool closed, ewa_cloud **cloud) {
     ewa_surface *surface;
     *cloud = NULL;
-    const ewa_status status = make(scene, &surface, cloud);
+    const ewa_status status = make(scene, &surface, closed, cloud);
     ewa_surface_release(&surface);
     return status;
 }

@@ -200,6 +200,11 @@ static void test_colors(void **state) {
     assert_non_null(strstr(last_run.err, "no colours: coloured by intensity; --color-by says otherwise"));
     assert_int_equal(run("ewa render i.ply -o b.png --size 64x64 --color-by intensity --color-bar"), 0);
     assert_true(scratch_same("i.png", "b.png"));
+    // What was said of the surfels is not said again for their outlines.
+    assert_int_equal(run("ewa render i.ply -o o.png --size 64x64 --outlines 5"), 0);
+    const char *note = strstr(last_run.err, "no colours");
+    assert_non_null(note);
+    assert_null(strstr(note + 1, "no colours"));
     assert_int_equal(run("ewa render i.ply -o n.png --size 64x64 --color-by none --save-scene n.json"), 0);
     assert_null(strstr(last_run.err, "no colours"));
     run_done("ewa render n.json -o m.png --size 64x64");

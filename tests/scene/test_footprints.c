@@ -36,15 +36,15 @@ static ewa_camera make_camera(bool orthographic) {
     return camera;
 }
 
-/// Draws `count` outlines on white; returns how many pixels are no longer white.
-static int draw(ewa_context *context, bool clip, bool orthographic, uint32_t count, uint8_t *pixels) {
+/// Draws `count` outlines of a cloud's surfels on white, and destroys it; returns how many pixels are no longer white.
+static int outline(ewa_context *context, ewa_cloud *cloud, bool close_gaps, bool orthographic, uint32_t count,
+                   uint8_t *pixels) {
     ewa_scene_options options;
     ewa_scene_options_init(&options, sizeof options);
-    options.close_gaps = false;
+    options.close_gaps = close_gaps;
     ewa_scene *scene = NULL;
     ewa_scene_renderer *renderer = NULL;
     ewa_asset *asset = NULL;
-    ewa_cloud *cloud = make_discs(context, clip);
     assert_int_equal(ewa_scene_create(context, &options, &scene), EWA_OK);
     assert_int_equal(ewa_scene_renderer_create(context, EWA_BACKEND_CPU, NULL, &renderer), EWA_OK);
     assert_int_equal(ewa_asset_create(context, &(ewa_asset_source){.cloud = cloud}, NULL, &asset), EWA_OK);
@@ -61,6 +61,10 @@ static int draw(ewa_context *context, bool clip, bool orthographic, uint32_t cou
     int dark = 0;
     for (int i = 0; i < SIDE * SIDE; i++) dark += pixels[4 * i] < 255;
     return dark;
+}
+
+static int draw(ewa_context *context, bool clip, bool orthographic, uint32_t count, uint8_t *pixels) {
+    return outline(context, make_discs(context, clip), false, orthographic, count, pixels);
 }
 
 /// The axes are 0.5 and 0.25 long, the cutoff 3: half axes of 24 and 12 pixels. Hidden discs have no outline.
@@ -94,10 +98,37 @@ static void test_clip_lines(void **state) {
     ewa_context_destroy(&context);
 }
 
+/// Where gaps between the discs are closed, outlines are those of the larger discs that are drawn.
+static void test_closed_gaps(void **state) {
+    enum { COLUMNS = 40 };
+    static uint8_t pixels[4 * SIDE * SIDE];
+    ewa_context *context = check_context(1, NULL);
+    int dark[2];
+    for (int closed = 0; closed < 2; closed++) {
+        void *position = NULL, *normal = NULL, *radius = NULL;
+        ewa_cloud *cloud = NULL;
+        assert_int_equal(ewa_cloud_create(context, COLUMNS * COLUMNS, &cloud), EWA_OK);
+        assert_int_equal(ewa_cloud_add(cloud, EWA_POSITION, EWA_F32, 3, &position), EWA_OK);
+        assert_int_equal(ewa_cloud_add(cloud, EWA_NORMAL, EWA_F32, 3, &normal), EWA_OK);
+        assert_int_equal(ewa_cloud_add(cloud, EWA_RADIUS, EWA_F32, 1, &radius), EWA_OK);
+        for (int i = 0; i < COLUMNS * COLUMNS; i++) {
+            const float at[3] = {0.1f * (float)(i % COLUMNS - COLUMNS / 2), 0.1f * (float)(i / COLUMNS - COLUMNS / 2), 0};
+            const float up[3] = {0, 0, -1};
+            memcpy((float *)position + 3 * i, at, sizeof at);
+            memcpy((float *)normal + 3 * i, up, sizeof up);
+            ((float *)radius)[i] = 0.02f;
+        }
+        dark[closed] = outline(context, cloud, closed, true, 1, pixels);
+    }
+    assert_true(dark[0] > 0 && dark[1] > 2 * dark[0]);
+    ewa_context_destroy(&context);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_ellipses),
         cmocka_unit_test(test_clip_lines),
+        cmocka_unit_test(test_closed_gaps),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
