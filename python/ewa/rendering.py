@@ -200,7 +200,7 @@ def render(scene: Scene, camera: Camera | None = None, *, size: Sequence[int] | 
         raise ArgumentError("scene: there is nothing")
     for part in parts:
         if not isinstance(part, (Surfels, Cloud)):
-            raise TypeError(f"scene: surfels or clouds, not {type(part).__name__}")
+            raise TypeError(f"scene: surfels or clouds, not {type(part).__name__}; ewa.Scene() draws files and all else")
         if making and isinstance(part, Surfels):
             raise TypeError(f"{', '.join(making)}: said where surfels are made, Cloud.surfels()")
     close_gaps = making.pop("close_gaps", not options.get("point_size_px"))
