@@ -98,7 +98,7 @@ static void test_sheets(void **state) {
     hold_near((double)merged.items[2].radius_world, sqrt(2)); // corner 6 is as near to 2 as to 4
     hold_near((double)merged.items[3].radius_world, sqrt(2)); // corner 7 to 3, before 5
     free(merged.items);
-    // Two that look against each other have no mean: the first one's.
+    // Two that look against each other are two sheets, too.
     const float down[3] = {0, 0, -1};
     of[0] = surfel_of(0, 0, up, 1), of[1] = surfel_of(0, 1, down, 1);
     merged = merge(of, 2);

@@ -73,6 +73,14 @@ static ewa_scene *make_scene(ewa_context *context) {
     return scene;
 }
 
+/// A scene of one object, and the object's cloud.
+static ewa_scene *make_scene_of(ewa_context *context, ewa_object object, ewa_cloud **cloud) {
+    ewa_scene *scene = make_scene(context);
+    *cloud = make_object(context, object, 0);
+    add_cloud(context, scene, *cloud, NULL);
+    return scene;
+}
+
 static ewa_camera place(ewa_scene *scene) {
     ewa_view_options options;
     ewa_view_options_init(&options, sizeof options);
@@ -394,9 +402,8 @@ static void test_cloud_of_scene(void **state) {
 /// Picks find the point that is nearest to what is seen, and sections hide points.
 static void test_pick(void **state) {
     ewa_context *context = check_context(1, NULL);
-    ewa_cloud *cloud = make_object(context, EWA_OBJECT_SPHERE, 0);
-    ewa_scene *scene = make_scene(context);
-    add_cloud(context, scene, cloud, NULL);
+    ewa_cloud *cloud = NULL;
+    ewa_scene *scene = make_scene_of(context, EWA_OBJECT_SPHERE, &cloud);
     ewa_camera camera = place(scene);
     camera.world_to_camera[3] += 0.2; // off the middle
     ewa_scene_renderer *renderer = NULL;
@@ -431,9 +438,8 @@ static void test_pick(void **state) {
 /// From wherever a sphere is seen, what is picked lies on it, behind the pixel that was asked for.
 static void test_pick_aslant(void **state) {
     ewa_context *context = check_context(1, NULL);
-    ewa_cloud *cloud = make_object(context, EWA_OBJECT_SPHERE, 0);
-    ewa_scene *scene = make_scene(context);
-    add_cloud(context, scene, cloud, NULL);
+    ewa_cloud *cloud = NULL;
+    ewa_scene *scene = make_scene_of(context, EWA_OBJECT_SPHERE, &cloud);
     ewa_camera camera = place(scene);
     const double eye[3] = {3, 2, 4}, target[3] = {0.1, 0, 0}, up[3] = {0.2, 1, 0};
     assert_int_equal(ewa_camera_look_at(&camera, eye, target, up), EWA_OK);
@@ -484,9 +490,8 @@ static void test_dots(void **state) {
 /// What is asked to be up is up, along any axis.
 static void test_asked_up(void **state) {
     ewa_context *context = check_context(1, NULL);
-    ewa_cloud *cloud = make_object(context, EWA_OBJECT_TORUS, 0);
-    ewa_scene *scene = make_scene(context);
-    add_cloud(context, scene, cloud, NULL);
+    ewa_cloud *cloud = NULL;
+    ewa_scene *scene = make_scene_of(context, EWA_OBJECT_TORUS, &cloud);
     for (int axis = 0; axis < 3; axis++) {
         ewa_view_options options;
         ewa_view_options_init(&options, sizeof options);
@@ -528,9 +533,8 @@ static void test_degrees(void **state) {
 /// A description has the options that are no defaults, and all that is there.
 static void test_described(void **state) {
     ewa_context *context = check_context(1, NULL);
-    ewa_cloud *cloud = make_object(context, EWA_OBJECT_PLANE, 0);
-    ewa_scene *scene = make_scene(context);
-    add_cloud(context, scene, cloud, NULL);
+    ewa_cloud *cloud = NULL;
+    ewa_scene *scene = make_scene_of(context, EWA_OBJECT_PLANE, &cloud);
     ewa_scene_options options;
     ewa_scene_get_options(scene, &options);
     options.up = EWA_UP_Z;
