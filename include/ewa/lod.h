@@ -110,7 +110,7 @@ EWA_API ewa_status ewa_lod_render(ewa_lod *lod, ewa_renderer *renderer, const ew
 
 /// What is drawn together; borrowed during the call.
 typedef struct ewa_lod_scene {
-    ewa_lod *const *lods; ///< [lod_count], each once
+    ewa_lod *const *lods; ///< [lod_count]; one that is there several times has nodes in memory for each
     uint32_t lod_count;
     uint32_t surfels_count;
     const ewa_surfels *const *surfels; ///< [surfels_count], drawn whole beside the octrees
@@ -122,7 +122,7 @@ typedef struct ewa_lod_scene {
 /// is ewa_render_begin(), ewa_render_add() and ewa_render_finish(); beside octrees `budget_s` does not count,
 /// and `level` only for the surfels. The same bytes in any order of both. Octrees may be of other contexts
 /// than the renderer, whose threads must not use them meanwhile. Errors: as ewa_lod_render() and
-/// ewa_render_add(); EWA_ERROR_ARGUMENT (an octree twice).
+/// ewa_render_add().
 EWA_API ewa_status ewa_lod_scene_render(const ewa_lod_scene *scene, ewa_renderer *renderer,
                                         const ewa_camera *camera, const ewa_render_options *options,
                                         const ewa_lod_options *lod_options, const ewa_frame *frame,

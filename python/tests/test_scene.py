@@ -137,6 +137,24 @@ class SameScene(Case):
         self.run_program("render", "window.json", "-o", "window2.png")
         np.testing.assert_array_equal(ours, ewa.read_image(self.path("window2.png")))
 
+    def test_octree_in_two_places(self) -> None:
+        self.save_camera()
+        away = [0, -0.8, 0, 0.5, 0.8, 0, 0, 0.3, 0, 0, 0.8, 0.6, 0, 0, 0, 1]
+        with open(self.path("twice.json"), "w", encoding="ascii") as file:
+            json.dump({"ewa_scene": 1, "items": [
+                {"file": "tree.copc.laz", "levels": "always"},
+                {"file": "tree.copc.laz", "levels": "always", "to_world": away, "tint": [0.2, 0.5, 0.9]}]}, file)
+        self.run_program("render", "twice.json", "--camera", "camera.json", "-o", "theirs.png", "--aov", "depth=z.pfm")
+        with ewa.Context() as context:
+            octree = ewa.Octree(self.path("tree.copc.laz"), context=context)
+            scene = ewa.Scene(octree, context=context)
+            scene.add(octree, to_world=away, tint=(0.2, 0.5, 0.9))
+            image = scene.render(ewa.cameras(self.path("camera.json"))[0], planes="all")
+            image.save(self.path("ours.png"))
+            self.assertEqual(self.bytes("ours.png"), self.bytes("theirs.png"))
+            np.testing.assert_array_equal(self.plane("z.pfm"), image.depth)
+            scene.close()
+
     def test_every_pair_on_ranks(self) -> None:
         """Two ranks that share every frame give the planes of one process."""
         ranks = os.path.join(os.path.dirname(program() or ""), os.pardir, "mpi", "ewa-mpi")

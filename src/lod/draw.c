@@ -471,14 +471,18 @@ static ewa_status render_surfels(const ewa_lod_scene *scene, ewa_renderer *rende
     return ewa_render_finish(renderer, stats);
 }
 
-/// Finds the context that messages go to, and what is wrong with the octrees.
-static ewa_status check_octrees(const ewa_lod_scene *scene, ewa_context **context) {
-    *context = scene->lod_count ? scene->lods[0]->context : NULL;
-    for (uint32_t i = 0; i < scene->lod_count; i++)
-        for (uint32_t k = 0; k < i; k++)
-            if (scene->lods[i] == scene->lods[k])
-                return ewa_fail(*context, EWA_ERROR_ARGUMENT, "octree %u of a picture is also its octree %u",
-                                k, i);
+/// Puts instances in the place of octrees that are there several times.
+static ewa_status list_instances(ewa_lod_scene *scene) {
+    if (!scene->lod_count) return EWA_OK;
+    ewa_lod *home = scene->lods[0];
+    EWA_TRY(ewa_buffer_reserve(home->context, &home->instances, scene->lod_count, sizeof(ewa_lod *)));
+    ewa_lod **instances = home->instances.data;
+    for (uint32_t i = 0; i < scene->lod_count; i++) {
+        uint32_t number = 0;
+        for (uint32_t k = 0; k < i; k++) number += scene->lods[k] == scene->lods[i];
+        EWA_TRY(ewa_tree_instance(scene->lods[i], number, &instances[i]));
+    }
+    scene->lods = instances;
     return EWA_OK;
 }
 
@@ -487,10 +491,9 @@ ewa_status ewa_lod_scene_draw(const ewa_lod_scene *scene, const ewa_lod_look *co
                               const ewa_render_options *options, const ewa_lod_options *lod_options,
                               const ewa_frame *frame, ewa_lod_stats *stats) {
     if (!scene || !renderer || !camera || !frame) return EWA_ERROR_ARGUMENT;
-    ewa_context *context;
+    ewa_context *context = scene->lod_count ? scene->lods[0]->context : NULL; // that messages go to
     ewa_lod_options chosen;
     ewa_lod_options_init(&chosen, sizeof chosen);
-    EWA_TRY(check_octrees(scene, &context));
     EWA_TRY(ewa_options_take(context, &ewa_lod_options_table, lod_options, &chosen));
     if (context) EWA_TRY(ewa_camera_check(context, camera));
     if (chosen.share_count && (chosen.share >= chosen.share_count || chosen.load_s > 0))
@@ -510,6 +513,7 @@ ewa_status ewa_lod_scene_draw(const ewa_lod_scene *scene, const ewa_lod_look *co
             kept[own.surfels_count++] = scene->surfels[i];
         }
     }
+    EWA_TRY(list_instances(&own));
     for (uint32_t i = 0; i < own.lod_count; i++)
         EWA_TRY(ewa_tree_set_look(own.lods[i], looks ? looks[i] : NULL));
     ewa_status status = EWA_OK;

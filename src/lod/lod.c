@@ -50,10 +50,41 @@ ewa_status ewa_lod_open(ewa_context *context, const char *path, ewa_lod **lod) {
     return status;
 }
 
+static ewa_status add_instance(ewa_lod *lod, ewa_lod **added) {
+    *added = ewa_allocate_zeroed(lod->context, 1, sizeof **added);
+    if (!*added) return EWA_ERROR_MEMORY;
+    **added = (ewa_lod){.context = lod->context,
+                        .octree = lod->octree,
+                        .facts = lod->facts,
+                        .levels = lod->levels,
+                        .has_levels = lod->has_levels,
+                        .has_surfels = lod->has_surfels,
+                        .is_instance = true};
+    ewa_status status = ewa_tree_make(*added);
+    if (status == EWA_OK) status = ewa_tree_set_look(*added, NULL);
+    if (status != EWA_OK) ewa_lod_close(added);
+    return status;
+}
+
+ewa_status ewa_tree_instance(ewa_lod *lod, uint32_t number, ewa_lod **instance) {
+    for (*instance = lod; number > 0; number--) {
+        ewa_lod *last = *instance;
+        if (!last->next) EWA_TRY(add_instance(lod, &last->next));
+        *instance = last->next;
+    }
+    return EWA_OK;
+}
+
 void ewa_lod_close(ewa_lod **lod) {
     if (!lod || !*lod) return;
     ewa_lod *old = *lod;
     ewa_context *context = old->context;
+    while (old->next) {
+        ewa_lod *instance = old->next;
+        old->next = instance->next;
+        instance->next = NULL;
+        ewa_lod_close(&instance);
+    }
     for (uint32_t i = 0; i < old->node_count; i++) ewa_surfels_destroy(&old->nodes[i].surfels);
     const size_t node_count = old->facts ? old->facts->node_count : 0;
     for (size_t i = 0; old->clouds && i < node_count; i++) ewa_cloud_destroy(&old->clouds[i]);
@@ -63,9 +94,10 @@ void ewa_lod_close(ewa_lod **lod) {
     ewa_buffer_free(context, &nodes);
     ewa_buffer_free(context, &old->look_user);
     ewa_buffer_free(context, &old->items);
+    ewa_buffer_free(context, &old->instances);
     ewa_buffer_free(context, &old->wanted);
-    ewa_levels_free(context, &old->levels);
-    ewa_octree_close(&old->octree);
+    if (!old->is_instance) ewa_levels_free(context, &old->levels);
+    if (!old->is_instance) ewa_octree_close(&old->octree);
     ewa_release(context, old, 1, sizeof *old);
     *lod = NULL;
 }

@@ -48,9 +48,17 @@ struct ewa_lod {
     double stretch;       ///< that no length grows by more in `look`
     bool is_similar;      ///< `look` keeps angles
     ewa_buffer look_user; ///< the copy that it has
-    ewa_buffer items;  ///< of the frame (draw.c)
-    ewa_buffer wanted; ///< nodes to load
+    ewa_lod *next;        ///< another instance of the same octree, closed with this one; NULL: none
+    bool is_instance;     ///< file and levels are those of the octree that was opened
+    ewa_buffer items;     ///< of the frame (draw.c)
+    ewa_buffer instances; ///< of the frame: what is drawn
+    ewa_buffer wanted;    ///< nodes to load
 };
+
+/// Finds an instance of an open octree, which looks as it does in one of several places of a picture: 0 the octree
+/// itself, others with the same file and levels, and with nodes in memory of their own. It stays until the octree is
+/// closed. Errors: EWA_ERROR_MEMORY.
+ewa_status ewa_tree_instance(ewa_lod *lod, uint32_t number, ewa_lod **instance);
 
 /// Sets how an octree looks, NULL: as it is, and drops what is in memory if it looked otherwise. Errors:
 /// EWA_ERROR_MEMORY; then nothing is in memory.

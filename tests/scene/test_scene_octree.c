@@ -351,6 +351,58 @@ static void test_lent(void **state) {
     ewa_context_destroy(&context);
 }
 
+/// Adds one octree in two places, and in one of them once more in another colour: of one that is lent, or of files that
+/// are opened for themselves.
+static void add_three(ewa_context *context, ewa_scene *scene, ewa_lod *lent) {
+    char path[512];
+    ewa_asset *asset = NULL;
+    ewa_instance instance;
+    ewa_instance_init(&instance, sizeof instance);
+    for (int i = 0; i < 3; i++) {
+        const ewa_asset_options options = asset_options(i ? turned : NULL);
+        if (i < 2 || !lent) ewa_asset_release(&asset);
+        if (lent && i < 2)
+            assert_int_equal(ewa_asset_create(context, &(ewa_asset_source){.lod = lent}, &options, &asset), EWA_OK);
+        else if (!lent)
+            assert_int_equal(ewa_asset_load(context, scratch_path(file, path), &options, &asset), EWA_OK);
+        instance.coloring.tinted = i == 2, instance.coloring.tint[0] = 0.25;
+        assert_int_equal(ewa_scene_add(scene, asset, &instance), EWA_OK);
+    }
+    ewa_asset_release(&asset);
+}
+
+/// One octree several times in a scene is drawn as octrees of their own are, whichever of them can be seen.
+static void test_several_times(void **state) {
+    char path[512];
+    ewa_context *context = check_context(1, NULL);
+    ewa_lod *lod = NULL;
+    ewa_scene *shared = NULL, *apart = NULL;
+    assert_int_equal(ewa_lod_open(context, scratch_path(file, path), &lod), EWA_OK);
+    assert_int_equal(ewa_scene_create(context, NULL, &shared), EWA_OK);
+    assert_int_equal(ewa_scene_create(context, NULL, &apart), EWA_OK);
+    add_three(context, shared, lod), add_three(context, apart, NULL);
+    const ewa_camera camera = place(apart);
+    for (int hidden = 3; hidden >= 0; hidden--) { // all three at first
+        for (uint32_t i = 0; i < 3; i++) {
+            ewa_instance instance;
+            assert_int_equal(ewa_scene_get(shared, i, &instance), EWA_OK);
+            instance.visible = (int)i != hidden;
+            assert_int_equal(ewa_scene_set(shared, i, &instance), EWA_OK);
+            assert_int_equal(ewa_scene_set(apart, i, &instance), EWA_OK);
+        }
+        draw(context, shared, &camera, 16, &first);
+        draw(context, apart, &camera, 16, &second);
+        assert_memory_equal(first.rgba8, second.rgba8, sizeof first.rgba8);
+        assert_memory_equal(first.depth, second.depth, sizeof first.depth);
+        assert_int_equal(first.stats.lod.surfel_count, second.stats.lod.surfel_count);
+        if (hidden == 3) third = first;
+        if (hidden < 3) assert_true(psnr_db(&first, &third) < 60);
+    }
+    ewa_scene_destroy(&shared), ewa_scene_destroy(&apart);
+    ewa_lod_close(&lod);
+    ewa_context_destroy(&context);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_moves_like_a_camera),
@@ -361,6 +413,7 @@ int main(void) {
         cmocka_unit_test(test_refused),
         cmocka_unit_test(test_pick),
         cmocka_unit_test(test_lent),
+        cmocka_unit_test(test_several_times),
     };
     return cmocka_run_group_tests(tests, enter, leave);
 }
