@@ -9,6 +9,8 @@
 #                               sanitizer; the last line counts them
 #   make                        builds everything into build/release
 #   make asan tsan clang fuzz   other builds and their tests
+#   make minimal                a program without any library, held to the bytes of the full one
+#   make arm64                  the same for 64-bit Arm, under an emulator
 #   make mutate                 breaks the library on purpose and says what the tests notice (hours)
 #   make bench sweep            figures of docs/performance.md: build/bench.json and tables; docs/sweep.png and slopes;
 #                               BENCH_PREFIX="chrt -f 50" keeps other work out of them; Embree is measured
@@ -34,7 +36,7 @@ EWA = build/release/cli/ewa
 # $(call quietly,COMMAND): prints what a command said only when it fails.
 quietly = @mkdir -p build && { $(1) >build/log-$@.txt 2>&1 || { cat build/log-$@.txt; exit 1; }; }
 
-.PHONY: interop build program measure setup demo check asan asan-build tsan tsan-build clang clang-build mutate fuzz arm64 bench sweep gallery papers docs wheel format install clean
+.PHONY: minimal interop build program measure setup demo check asan asan-build tsan tsan-build clang clang-build mutate fuzz arm64 bench sweep gallery papers docs wheel format install clean
 
 build: setup
 	@echo "Building build/release"
@@ -96,6 +98,15 @@ clang:
 	$(call quietly,cmake --preset clang)
 	$(call quietly,cmake --build build/clang -j $(JOBS))
 	@sh tools/check.sh build/clang
+
+# Without any library, on one thread: what it writes is what the full program does.
+minimal: program
+	@echo "Building build/minimal"
+	$(call quietly,cmake --preset minimal)
+	$(call quietly,cmake --build build/minimal -j $(JOBS) --target ewa)
+	@sh tools/hash_jobs.sh --minimal $(CURDIR)/$(EWA) >build/hashes-full.tsv
+	@sh tools/hash_jobs.sh --minimal $(CURDIR)/build/minimal/cli/ewa >build/hashes-minimal.tsv
+	diff build/hashes-full.tsv build/hashes-minimal.tsv && echo "15 jobs: the same bytes"
 
 # Another machine: cross-compiled, what holds all instruction sets to each other run under an emulator, and the bytes of
 # twenty jobs compared with this machine's.

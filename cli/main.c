@@ -4,6 +4,7 @@
 // The program: finds the command, parses its options, runs it.
 #include "cli/base/commands.h"
 #include "cli/base/json.h"
+#include "ewa/io.h"
 
 #include <signal.h>
 #include <stdio.h>
@@ -51,7 +52,7 @@ static int run(size_t count, const char *const *words) {
     } else if (help) {
         help_print_program(stdout, all_commands_count, all_commands);
     } else if (strcmp(word, "--version") == 0) {
-        printf("ewa %s\n", ewa_version());
+        printf("ewa %s\nwith %s\n", ewa_version(), ewa_parts());
     } else if (strcmp(word, "--help-json") == 0) {
         help_print_json(stdout);
     } else if (strcmp(word, "--help-markdown") == 0) {

@@ -283,7 +283,7 @@ void help_print_program(FILE *file, size_t count, const cli_command *const *comm
     }
     fputs("\nOptions:\n"
           "  -h, --help        print this help; 'ewa COMMAND --help' prints a command's\n"
-          "  --version         print the version\n"
+          "  --version         print the version, and what the library was built with\n"
           "  --help-markdown   print the help of all commands as Markdown\n"
           "  --help-json       print the library's tables of options as JSON\n\n"
           "Exit status: 0 done, 1 the work failed, 2 wrong usage.\n",

@@ -19,6 +19,10 @@
 extern "C" {
 #endif
 
+/// Returns which of the parts that can be left out of a library are in the one that runs, with blanks between: "spng deflate
+/// jpeg threads" (EWA_WITH_SPNG and so on, docs/install.md); never NULL. Any thread.
+EWA_API const char *ewa_parts(void);
+
 /// Reads a point cloud, the format by content: PLY, LAS and LAZ, E57, PCD, PTX, ASCII grids, GeoTIFF, and text in
 /// columns (XYZ, PTS, CSV); docs/files.md says what is read of each. Of PLY (ascii, binary of both byte orders), the element
 /// "vertex" holds the points; other elements and lists are skipped. Its properties become the attributes of

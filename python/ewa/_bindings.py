@@ -2621,6 +2621,7 @@ class Functions:
     ewa_image_save_options_init: Callable[..., None]
     ewa_jpeg_save: Callable[..., int]
     ewa_materials_load: Callable[..., int]
+    ewa_parts: Callable[..., bytes | None]
     ewa_pixels_save: Callable[..., int]
     ewa_ply_describe: Callable[..., int]
     ewa_png_save: Callable[..., int]
@@ -2987,6 +2988,7 @@ class Functions:
         self.ewa_image_save_options_init = bind("ewa_image_save_options_init", None, c.POINTER(ewa_image_save_options), c.c_size_t)
         self.ewa_jpeg_save = bind("ewa_jpeg_save", c.c_int, c.c_void_p, c.c_char_p, c.c_uint32, c.c_uint32, c.c_uint32, c.c_void_p, c.c_size_t)
         self.ewa_materials_load = bind("ewa_materials_load", c.c_int, c.c_void_p, c.c_char_p, c.POINTER(ewa_material), c.c_void_p)
+        self.ewa_parts = bind("ewa_parts", c.c_char_p)
         self.ewa_pixels_save = bind("ewa_pixels_save", c.c_int, c.c_void_p, c.c_char_p, c.c_uint32, c.c_uint32, c.c_uint32, c.c_void_p, c.c_size_t)
         self.ewa_ply_describe = bind("ewa_ply_describe", c.c_int, c.c_void_p, c.c_char_p, ewa_line_callback, c.c_void_p)
         self.ewa_png_save = bind("ewa_png_save", c.c_int, c.c_void_p, c.c_char_p, c.c_uint32, c.c_uint32, c.c_uint32, c.c_void_p, c.c_size_t)

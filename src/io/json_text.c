@@ -30,6 +30,11 @@ static ewa_status fail_syntax(ewa_context *context, const char *name, const char
     return ewa_fail(context, EWA_ERROR_FORMAT, "%s:%zu:%zu: not JSON from here on", name, line, column);
 }
 
+ewa_status ewa_json_check(ewa_context *context, const char *name) {
+    (void)context, (void)name;
+    return EWA_OK;
+}
+
 ewa_status ewa_json_parse(ewa_context *context, const char *name, const char *what, const uint8_t *bytes,
                           size_t size_bytes, ewa_json *json) {
     *json = (ewa_json){0};

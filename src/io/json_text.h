@@ -17,9 +17,12 @@ typedef struct ewa_json {
     uint64_t held_bytes;
 } ewa_json;
 
+/// Fails in a library without JSON, which who makes a text to be written asks. Errors: EWA_ERROR_UNSUPPORTED.
+ewa_status ewa_json_check(ewa_context *context, const char *name);
+
 /// Parses one JSON text of at most EWA_JSON_BYTES; `what` ("a camera file") is for messages. Before anything is made, the nodes of
 /// the tree are counted against max_memory_bytes. Free with ewa_json_free(); `*json` is zeroed after a failure. Errors:
-/// EWA_ERROR_LIMIT, EWA_ERROR_FORMAT with line and column.
+/// EWA_ERROR_LIMIT, EWA_ERROR_FORMAT with line and column, EWA_ERROR_UNSUPPORTED as ewa_json_check().
 ewa_status ewa_json_parse(ewa_context *context, const char *name, const char *what, const uint8_t *bytes,
                           size_t size_bytes, ewa_json *json);
 void ewa_json_free(ewa_context *context, ewa_json *json);

@@ -3,9 +3,9 @@
 //
 // Table and blocks of the surfels that represent nodes' points.
 #include "io/levels.h"
+#include "io/deflate.h"
 #include "io/las/las.h"
 
-#include <libdeflate.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -173,8 +173,7 @@ ewa_status ewa_level_encode(ewa_context *context, const ewa_level_surfels *surfe
                             ewa_buffer *to, size_t *at_bytes) {
     const size_t raw_bytes = ewa_level_raw_bytes(count);
     uint8_t *raw = ewa_allocate(context, raw_bytes, 1);
-    struct libdeflate_compressor *compressor = libdeflate_alloc_compressor(COMPRESSION);
-    ewa_status status = raw && compressor ? EWA_OK : EWA_ERROR_MEMORY;
+    ewa_status status = raw ? EWA_OK : EWA_ERROR_MEMORY;
     for (uint32_t i = 0; i < count && status == EWA_OK; i++) {
         uint32_t codes[6];
         for (int c = 0; c < 3; c++) codes[c] = code_at(surfels->at[3 * (size_t)i + (size_t)c]);
@@ -188,14 +187,14 @@ ewa_status ewa_level_encode(ewa_context *context, const ewa_level_surfels *surfe
         }
         for (size_t c = 0; c < 4; c++) raw[(12 + c) * count + i] = surfels->rgba[4 * (size_t)i + c];
     }
+    ewa_deflated packed = {0};
+    if (status == EWA_OK) status = ewa_deflate(context, EWA_DEFLATE_BARE, COMPRESSION, raw, raw_bytes, &packed);
+    if (status == EWA_OK) status = ewa_buffer_grow(context, to, *at_bytes, *at_bytes + packed.size_bytes, 1);
     if (status == EWA_OK) {
-        const size_t bound = libdeflate_deflate_compress_bound(compressor, raw_bytes);
-        status = ewa_buffer_grow(context, to, *at_bytes, *at_bytes + bound, 1);
-        if (status == EWA_OK)
-            *at_bytes += libdeflate_deflate_compress(compressor, raw, raw_bytes,
-                                                     (uint8_t *)to->data + *at_bytes, bound);
+        memcpy((uint8_t *)to->data + *at_bytes, packed.bytes, packed.size_bytes);
+        *at_bytes += packed.size_bytes;
     }
-    libdeflate_free_compressor(compressor);
+    ewa_deflated_free(context, &packed);
     ewa_release(context, raw, raw_bytes, 1);
     return status;
 }
@@ -203,14 +202,11 @@ ewa_status ewa_level_encode(ewa_context *context, const ewa_level_surfels *surfe
 const char *ewa_level_decode(const ewa_levels_page *page, const uint8_t *bytes, uint8_t *scratch,
                              const ewa_level_surfels *surfels) {
     const uint32_t count = page->surfel_count;
-    struct libdeflate_decompressor *decompressor = libdeflate_alloc_decompressor();
-    if (!decompressor) return "there is no memory";
-    size_t got = 0;
-    const enum libdeflate_result result = libdeflate_deflate_decompress(
-        decompressor, bytes + page->at_bytes, page->size_bytes, scratch, ewa_level_raw_bytes(count), &got);
-    libdeflate_free_decompressor(decompressor);
-    if (result != LIBDEFLATE_SUCCESS || got != ewa_level_raw_bytes(count))
-        return "its surfels cannot be unpacked";
+    const ewa_status status = ewa_inflate(bytes + page->at_bytes, page->size_bytes, scratch, ewa_level_raw_bytes(count));
+    if (status != EWA_OK)
+        return status == EWA_ERROR_MEMORY        ? "there is no memory"
+               : status == EWA_ERROR_UNSUPPORTED ? "its surfels are packed as this build cannot unpack (EWA_WITH_DEFLATE)"
+                                                 : "its surfels cannot be unpacked";
     for (uint32_t i = 0; i < count; i++) {
         uint32_t codes[6];
         for (size_t k = 0; k < 6; k++)

@@ -3,9 +3,9 @@
 //
 // Sections with checksums.
 #include "io/sections.h"
+#include "io/deflate.h"
 #include "io/las/las.h"
 
-#include <libdeflate.h>
 #include <string.h>
 
 enum { HEAD_BYTES = 16 };
@@ -22,7 +22,7 @@ ewa_status ewa_section_put(ewa_context *context, ewa_section *section, const voi
 ewa_status ewa_section_write(ewa_writer *writer, uint32_t tag, ewa_section *section) {
     uint8_t head[HEAD_BYTES];
     ewa_las_put_u32(head, tag);
-    ewa_las_put_u32(head + 4, libdeflate_crc32(0, section->buffer.data, section->size_bytes));
+    ewa_las_put_u32(head + 4, ewa_crc32(0, section->buffer.data, section->size_bytes));
     ewa_las_put_u64(head + 8, section->size_bytes);
     ewa_status status = ewa_writer_put(writer, head, sizeof head);
     if (status == EWA_OK) status = ewa_writer_put(writer, section->buffer.data, section->size_bytes);
@@ -45,7 +45,7 @@ bool ewa_section_next(ewa_section_view *file, uint32_t *tag, ewa_section_view *s
     if (!section->bytes) return false;
     *fault = "the checksum of a section is wrong";
     *tag = ewa_las_u32(head);
-    if (libdeflate_crc32(0, section->bytes, (size_t)section->size_bytes) != ewa_las_u32(head + 4))
+    if (ewa_crc32(0, section->bytes, (size_t)section->size_bytes) != ewa_las_u32(head + 4))
         return false;
     *fault = NULL;
     return true;

@@ -1,14 +1,19 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Unpacking by zlib and libbz2, step by step, with memory of the context.
+// Unpacking by zlib and libbz2, step by step, with memory of the context. What the library is built without (EWA_WITH_ZLIB,
+// EWA_WITH_BZIP2) is known, and refused.
 #include "io/source.h"
 #include "base/base.h"
 
-#include <bzlib.h>
 #include <limits.h>
 #include <string.h>
+#if EWA_WITH_BZIP2
+#include <bzlib.h>
+#endif
+#if EWA_WITH_ZLIB
 #include <zlib.h>
+#endif
 
 enum {
     HEAD_BYTES = 64,         // in front of a library's memory: its size, and its alignment stays
@@ -27,10 +32,15 @@ struct ewa_source {
     bool finished; // the last stream ended
     bool settling; // no further stream is begun
     bool memory;   // an allocation failed
+#if EWA_WITH_ZLIB
     z_stream deflate;
+#endif
+#if EWA_WITH_BZIP2
     bz_stream bzip2;
+#endif
 };
 
+#if EWA_WITH_ZLIB || EWA_WITH_BZIP2
 static void *allocate_for_library(ewa_source *source, size_t count, size_t size_bytes) {
     if (size_bytes && count > (SIZE_MAX - HEAD_BYTES) / size_bytes) return NULL;
     const size_t all_bytes = count * size_bytes + HEAD_BYTES;
@@ -51,40 +61,22 @@ static void release_for_library(ewa_source *source, void *memory) {
     ewa_release(source->context, whole, all_bytes, 1);
 }
 
+static void library_release(void *user, void *memory) { release_for_library(user, memory); }
+#endif
+
+// ---- Each library: a stream begun, false when memory ran out; at most `size_bytes` > 0 bytes of it unpacked, `*got_bytes`, which may
+// be none, NULL or what is wrong; its end
+
+#if EWA_WITH_ZLIB
 static void *deflate_allocate(void *user, unsigned count, unsigned size_bytes) {
     return allocate_for_library(user, count, size_bytes);
 }
 
-static void *bzip2_allocate(void *user, int count, int size_bytes) {
-    return allocate_for_library(user, (size_t)count, (size_t)size_bytes);
+static bool start_deflate(ewa_source *source) {
+    source->deflate = (z_stream){.zalloc = deflate_allocate, .zfree = library_release, .opaque = source};
+    return inflateInit2(&source->deflate, AUTOMATIC_WINDOW) == Z_OK;
 }
 
-static void library_release(void *user, void *memory) { release_for_library(user, memory); }
-
-/// Begins a stream of the library; false when memory ran out.
-static bool start_stream(ewa_source *source) {
-    source->finished = false;
-    if (source->packing == EWA_PACKING_DEFLATE) {
-        source->deflate = (z_stream){.zalloc = deflate_allocate, .zfree = library_release, .opaque = source};
-        source->started = inflateInit2(&source->deflate, AUTOMATIC_WINDOW) == Z_OK;
-    } else {
-        source->bzip2 = (bz_stream){.bzalloc = bzip2_allocate, .bzfree = library_release, .opaque = source};
-        source->started = BZ2_bzDecompressInit(&source->bzip2, 0, 0) == BZ_OK;
-    }
-    return source->started;
-}
-
-static void end_stream(ewa_source *source) {
-    if (!source->started) return;
-    if (source->packing == EWA_PACKING_DEFLATE)
-        inflateEnd(&source->deflate);
-    else
-        BZ2_bzDecompressEnd(&source->bzip2);
-    source->started = false;
-}
-
-/// Unpacks at most `size_bytes` > 0 bytes of the current stream; `*got_bytes` may be none. NULL, or what is
-/// wrong.
 static const char *step_deflate(ewa_source *source, uint8_t *to, size_t size_bytes, size_t *got_bytes) {
     const uInt in = source->left_bytes < UINT_MAX ? (uInt)source->left_bytes : UINT_MAX;
     const uInt room = size_bytes < UINT_MAX ? (uInt)size_bytes : UINT_MAX;
@@ -100,6 +92,19 @@ static const char *step_deflate(ewa_source *source, uint8_t *to, size_t size_byt
     source->finished = result == Z_STREAM_END;
     if (result == Z_OK || result == Z_STREAM_END) return NULL;
     return result == Z_BUF_ERROR ? "the compressed data end early" : "the compressed data are broken";
+}
+
+static void end_deflate(ewa_source *source) { inflateEnd(&source->deflate); }
+#endif
+
+#if EWA_WITH_BZIP2
+static void *bzip2_allocate(void *user, int count, int size_bytes) {
+    return allocate_for_library(user, (size_t)count, (size_t)size_bytes);
+}
+
+static bool start_bzip2(ewa_source *source) {
+    source->bzip2 = (bz_stream){.bzalloc = bzip2_allocate, .bzfree = library_release, .opaque = source};
+    return BZ2_bzDecompressInit(&source->bzip2, 0, 0) == BZ_OK;
 }
 
 static const char *step_bzip2(ewa_source *source, uint8_t *to, size_t size_bytes, size_t *got_bytes) {
@@ -118,6 +123,40 @@ static const char *step_bzip2(ewa_source *source, uint8_t *to, size_t size_bytes
     source->finished = result == BZ_STREAM_END;
     if (result == BZ_STREAM_END || (result == BZ_OK && !stuck)) return NULL;
     return result == BZ_OK ? "the compressed data end early" : "the compressed data are broken";
+}
+
+static void end_bzip2(ewa_source *source) { BZ2_bzDecompressEnd(&source->bzip2); }
+#endif
+
+typedef struct stream_library {
+    const char *absent; ///< what is said where it is not built in
+    bool (*start)(ewa_source *source);
+    const char *(*step)(ewa_source *source, uint8_t *to, size_t size_bytes, size_t *got_bytes);
+    void (*end)(ewa_source *source);
+} stream_library;
+
+static const stream_library libraries[] = {
+#if EWA_WITH_ZLIB
+    [EWA_PACKING_DEFLATE] = {.start = start_deflate, .step = step_deflate, .end = end_deflate},
+#else
+    [EWA_PACKING_DEFLATE] = {.absent = "gzip, which this build has not (EWA_WITH_ZLIB)"},
+#endif
+#if EWA_WITH_BZIP2
+    [EWA_PACKING_BZIP2] = {.start = start_bzip2, .step = step_bzip2, .end = end_bzip2},
+#else
+    [EWA_PACKING_BZIP2] = {.absent = "bzip2, which this build has not (EWA_WITH_BZIP2)"},
+#endif
+};
+
+static bool start_stream(ewa_source *source) {
+    source->finished = false;
+    source->started = libraries[source->packing].start(source);
+    return source->started;
+}
+
+static void end_stream(ewa_source *source) {
+    if (source->started) libraries[source->packing].end(source);
+    source->started = false;
 }
 
 /// Whether another stream begins here; anything else after the first one is left alone.
@@ -141,9 +180,7 @@ static ewa_status read_streams(ewa_source *source, uint8_t *to, size_t size_byte
         }
         if (!source->started && !start_stream(source)) return fail(source, "the decompressor does not start");
         size_t got = 0;
-        const char *wrong = source->packing == EWA_PACKING_DEFLATE
-                                ? step_deflate(source, to + *got_bytes, size_bytes - *got_bytes, &got)
-                                : step_bzip2(source, to + *got_bytes, size_bytes - *got_bytes, &got);
+        const char *wrong = libraries[source->packing].step(source, to + *got_bytes, size_bytes - *got_bytes, &got);
         *got_bytes += got;
         if (wrong) return fail(source, wrong);
     }
@@ -174,6 +211,10 @@ static ewa_status read_hex(ewa_source *source, uint8_t *to, size_t size_bytes, s
 
 ewa_status ewa_source_open(ewa_context *context, const char *name, ewa_packing packing, const uint8_t *bytes,
                            size_t size_bytes, ewa_source **source) {
+    *source = NULL;
+    const bool streams = packing == EWA_PACKING_DEFLATE || packing == EWA_PACKING_BZIP2;
+    if (streams && libraries[packing].absent)
+        return ewa_fail(context, EWA_ERROR_UNSUPPORTED, "%s: %s", name, libraries[packing].absent);
     *source = ewa_allocate_zeroed(context, 1, sizeof **source);
     if (!*source) return EWA_ERROR_MEMORY;
     (*source)->context = context;

@@ -19,7 +19,7 @@ typedef enum ewa_packing {
 typedef struct ewa_source ewa_source;
 
 /// Begins to read `size_bytes` packed bytes, which must stay until ewa_source_close(); `name` is for
-/// messages. Errors: EWA_ERROR_MEMORY.
+/// messages. Errors: EWA_ERROR_MEMORY, EWA_ERROR_UNSUPPORTED where the library is built without what unpacks them.
 ewa_status ewa_source_open(ewa_context *context, const char *name, ewa_packing packing, const uint8_t *bytes,
                            size_t size_bytes, ewa_source **source);
 

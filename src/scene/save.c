@@ -6,11 +6,11 @@
 #include "base/context.h"
 #include "io/camera/file.h"
 #include "io/file.h"
+#include "io/json_text.h"
 #include "io/referenced_file.h"
 #include "io/number.h"
 #include "scene/file.h"
 
-#include <cjson/cJSON.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -213,6 +213,7 @@ ewa_status ewa_scene_save(const ewa_scene *scene, const ewa_camera *camera, cons
     if (render->materials || render->environment)
         return ewa_fail(context, EWA_ERROR_UNSUPPORTED,
                         "%s: scene files have neither materials nor environments", path);
+    EWA_TRY(ewa_json_check(context, path));
     char *text = NULL;
     ewa_writer *writer = NULL;
     if (!camera && scene->has_camera) camera = &scene->camera;
@@ -244,6 +245,7 @@ static bool add_box(cJSON *object, const ewa_bounds *bounds) {
 ewa_status ewa_scene_describe_json(const ewa_scene *scene, char **text) {
     if (!scene || !text) return EWA_ERROR_ARGUMENT;
     *text = NULL;
+    EWA_TRY(ewa_json_check(scene->context, "description of the scene"));
     cJSON *root = cJSON_CreateObject();
     cJSON *items = root ? cJSON_AddArrayToObject(root, "items") : NULL;
     bool done = items && add_all_options(root, scene);

@@ -15,9 +15,10 @@ static void test_program_help(void **state) {
     run_done("ewa --help");
     for (size_t i = 0; i < COMMAND_COUNT; i++) assert_non_null(strstr(last_run.out, commands[i]));
     run_done("ewa --version");
-    char version[64];
-    snprintf(version, sizeof version, "ewa %s\n", ewa_version());
+    char version[512];
+    snprintf(version, sizeof version, "ewa %s\nwith %s\n", ewa_version(), ewa_parts());
     assert_string_equal(last_run.out, version);
+    assert_non_null(strstr(ewa_parts(), "spng deflate cjson jpeg webp "));
     assert_int_equal(run("ewa"), 2);
     assert_non_null(strstr(last_run.err, "usage: ewa COMMAND"));
 }

@@ -7,8 +7,7 @@
 
 #include "ewa/camera.h"
 #include "io/file.h"
-
-#include <cjson/cJSON.h>
+#include "io/json_text.h"
 
 /// Cameras read from one file, in its order. Zero-initialise with the context and the file's name.
 typedef struct ewa_camera_list {

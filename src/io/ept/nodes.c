@@ -5,10 +5,10 @@
 #include "base/base.h"
 #include "base/platform.h"
 #include "io/ept/ept.h"
+#include "io/zstandard.h"
 
 #include <stdio.h>
 #include <string.h>
-#include <zstd.h>
 
 enum {
     SAMPLE_NODES = 8, // whose colours are looked at
@@ -176,9 +176,10 @@ static void visit_zstandard(const ewa_ept *ept, const ewa_ept_file *file, uint64
     const size_t wanted = (size_t)(point_count * ept->table.record_bytes);
     result->status = ewa_buffer_reserve(ept->context, records, wanted, 1);
     if (result->status != EWA_OK) return;
-    const size_t got = ZSTD_decompress(records->data, wanted, file->bytes.bytes, file->bytes.size_bytes);
-    if (ZSTD_isError(got))
-        fail(result, ZSTD_getErrorName(got));
+    size_t got = 0;
+    const char *wrong = ewa_zstandard_unpack(file->bytes.bytes, file->bytes.size_bytes, records->data, wanted, &got);
+    if (wrong)
+        fail(result, wrong);
     else if (got != wanted)
         fail(result, "its file unpacks to fewer points");
     else

@@ -6,8 +6,8 @@
 #include "base/unpacking.h"
 #include "io/gaussian/spz.h"
 #include "io/source.h"
+#include "io/zstandard.h"
 
-#include <zstd.h>
 
 /// How much smaller than its content a stream of centres is taken to be at most; what the format's own library
 /// believes.
@@ -157,11 +157,12 @@ static ewa_status unpack_stream(const ewa_gaussian_source *source, uint32_t numb
             "%s: SPZ: stream %u of %llu bytes, %llu unpacked, at byte %llu; %zu unpacked are wanted",
             source->name, number, (unsigned long long)packed, (unsigned long long)whole,
             (unsigned long long)*from, size_bytes);
-    const size_t got = ZSTD_decompress(to, size_bytes, source->bytes + *from, (size_t)packed);
+    size_t got = 0;
+    const char *wrong = ewa_zstandard_unpack(source->bytes + *from, (size_t)packed, to, size_bytes, &got);
     *from += packed;
-    if (!ZSTD_isError(got) && got == size_bytes) return EWA_OK;
+    if (!wrong && got == size_bytes) return EWA_OK;
     return ewa_fail(source->context, EWA_ERROR_FORMAT, "%s: SPZ: stream %u: %s", source->name, number,
-                    ZSTD_isError(got) ? ZSTD_getErrorName(got) : "the compressed data end early");
+                    wrong ? wrong : "the compressed data end early");
 }
 
 static ewa_status unpack_zstd(const ewa_gaussian_source *source, ewa_spz_header *header, uint32_t *axes,

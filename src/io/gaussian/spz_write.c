@@ -4,10 +4,10 @@
 // Gaussians as SPZ: see spz.c for its numbers. They are turned to right, up, back: what all versions mean when they
 // name no axes, and all that many readers know.
 #include "io/gaussian/save.h"
+#include "io/deflate.h"
 #include "io/gaussian/spz.h"
+#include "io/zstandard.h"
 
-#include <libdeflate.h>
-#include <zstd.h>
 
 enum {
     GZIP_LEVEL = 6,
@@ -119,16 +119,10 @@ static void put_head(const ewa_spz_header *header, uint8_t *to) {
 /// Packs head and streams, which follow each other, as one gzip stream.
 static ewa_status put_gzip(const ewa_gaussian_target *target, const uint8_t *bytes, size_t size_bytes) {
     ewa_context *context = target->set->context;
-    struct libdeflate_compressor *compressor = libdeflate_alloc_compressor(GZIP_LEVEL);
-    if (!compressor) return ewa_fail(context, EWA_ERROR_MEMORY, "no memory for the compressor");
-    const size_t bound_bytes = libdeflate_gzip_compress_bound(compressor, size_bytes);
-    uint8_t *packed = ewa_allocate(context, bound_bytes, 1);
-    ewa_status status = EWA_ERROR_MEMORY;
-    if (packed)
-        status = ewa_writer_put(target->writer, packed,
-                                libdeflate_gzip_compress(compressor, bytes, size_bytes, packed, bound_bytes));
-    ewa_release(context, packed, bound_bytes, 1);
-    libdeflate_free_compressor(compressor);
+    ewa_deflated packed;
+    EWA_TRY(ewa_deflate(context, EWA_DEFLATE_GZIP, GZIP_LEVEL, bytes, size_bytes, &packed));
+    const ewa_status status = ewa_writer_put(target->writer, packed.bytes, packed.size_bytes);
+    ewa_deflated_free(context, &packed);
     return status;
 }
 
@@ -143,14 +137,15 @@ static ewa_status put_zstd(const ewa_gaussian_target *target, packing *p) {
     uint8_t *to = head + EWA_SPZ_OPEN_BYTES;
     size_t room = 0, used = 0;
     for (uint32_t k = 0; k < streams; k++)
-        room += ZSTD_compressBound((size_t)ewa_spz_stream_bytes(&p->header, k) * p->header.count);
+        room += ewa_zstandard_bound((size_t)ewa_spz_stream_bytes(&p->header, k) * p->header.count);
     uint8_t *packed = ewa_allocate(context, room, 1);
     ewa_status status = packed ? EWA_OK : EWA_ERROR_MEMORY;
     for (uint32_t k = 0; k < streams && status == EWA_OK; k++) {
         const size_t whole = (size_t)ewa_spz_stream_bytes(&p->header, k) * p->header.count;
-        const size_t got = ZSTD_compress(packed + used, room - used, p->streams[k], whole, ZSTD_LEVEL);
-        if (ZSTD_isError(got)) {
-            status = ewa_fail(context, EWA_ERROR_MEMORY, "%s: %s", target->name, ZSTD_getErrorName(got));
+        size_t got = 0;
+        const char *wrong = ewa_zstandard_pack(p->streams[k], whole, ZSTD_LEVEL, packed + used, room - used, &got);
+        if (wrong) {
+            status = ewa_fail(context, EWA_ERROR_MEMORY, "%s: %s", target->name, wrong);
             break;
         }
         to = ewa_put_u64(ewa_put_u64(to, got), whole);

@@ -5,8 +5,8 @@
 //
 // Based on: PKWARE, "APPNOTE.TXT - .ZIP File Format Specification", 6.3, sections 4.3 and 4.4.
 #include "io/gaussian/zip.h"
+#include "io/deflate.h"
 
-#include <libdeflate.h>
 
 enum {
     END_BYTES = 22,
@@ -84,18 +84,17 @@ static ewa_status inflate_file(const ewa_gaussian_source *archive, const char *n
         return ewa_fail(archive->context, EWA_ERROR_LIMIT, "%s: %s: %u bytes, more than it may have (%u)", archive->name, name,
                         entry->whole_bytes, max_bytes);
     EWA_TRY(ewa_memory_check(archive->context, entry->whole_bytes, "%s: %s unpacked", archive->name, name));
-    struct libdeflate_decompressor *decompressor = libdeflate_alloc_decompressor();
-    if (!decompressor) return ewa_fail(archive->context, EWA_ERROR_MEMORY, "no memory for the decompressor");
     file->size_bytes = entry->whole_bytes;
     file->bytes = file->unpacked = ewa_allocate(archive->context, file->size_bytes, 1);
     ewa_status status = file->unpacked ? EWA_OK : EWA_ERROR_MEMORY;
-    // Without a place for how many came, all have to come.
-    if (status == EWA_OK &&
-        libdeflate_deflate_decompress(decompressor, packed, entry->packed_bytes, file->unpacked,
-                                      file->size_bytes, NULL) != LIBDEFLATE_SUCCESS)
-        status = ewa_fail(archive->context, EWA_ERROR_FORMAT, "%s: %s: the compressed data are broken",
-                          archive->name, name);
-    libdeflate_free_decompressor(decompressor);
+    if (status == EWA_OK) {
+        status = ewa_inflate(packed, entry->packed_bytes, file->unpacked, file->size_bytes);
+        if (status != EWA_OK)
+            status = ewa_fail(archive->context, status, "%s: %s: %s", archive->name, name,
+                              status == EWA_ERROR_MEMORY        ? "no memory for the decompressor"
+                              : status == EWA_ERROR_UNSUPPORTED ? "it is packed, which this build cannot unpack (EWA_WITH_DEFLATE)"
+                                                                : "the compressed data are broken");
+    }
     if (status != EWA_OK) ewa_zip_close(archive->context, file);
     return status;
 }

@@ -7,8 +7,12 @@
 
 #include "ewa/io.h"
 
+#include <string.h>
+
 /// Tells whether the bytes begin like an OpenEXR file.
-bool ewa_exr_recognise(const uint8_t *bytes, size_t size_bytes);
+static inline bool ewa_exr_recognise(const uint8_t *bytes, size_t size_bytes) {
+    return size_bytes >= 4 && memcmp(bytes, "\x76\x2f\x31\x01", 4) == 0;
+}
 
 /// Decodes the first part of an OpenEXR file (scan lines, or the largest level of tiles): R G B and A where
 /// there is one, else its channels in the file's (alphabetical) order, at most 16. The image is the data

@@ -215,10 +215,6 @@ static ewa_status decode_pixels(reader *in, ewa_image *image) {
     return error ? fail_exr(in, error) : EWA_OK;
 }
 
-bool ewa_exr_recognise(const uint8_t *bytes, size_t size_bytes) {
-    return size_bytes >= 4 && memcmp(bytes, "\x76\x2f\x31\x01", 4) == 0;
-}
-
 ewa_status ewa_exr_decode(ewa_context *context, const char *name, const uint8_t *bytes, size_t size_bytes,
                           ewa_image *image) {
     *image = (ewa_image){0};

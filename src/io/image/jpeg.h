@@ -8,7 +8,9 @@
 #include "ewa/image.h"
 
 /// Tells whether the bytes begin like a JPEG file.
-bool ewa_jpeg_recognise(const uint8_t *bytes, size_t size_bytes);
+static inline bool ewa_jpeg_recognise(const uint8_t *bytes, size_t size_bytes) {
+    return size_bytes >= 3 && bytes[0] == 0xff && bytes[1] == 0xd8 && bytes[2] == 0xff;
+}
 
 /// Decodes a JPEG file, sRGB, to linear light: grey gives 1 channel, colour 3. What the decoder warns of
 /// (missing data, which becomes grey) is passed on as a warning. `name` stands for the file in messages.

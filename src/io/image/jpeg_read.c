@@ -87,10 +87,6 @@ static ewa_status decode(ewa_context *context, const char *name, const uint8_t *
     return EWA_OK;
 }
 
-bool ewa_jpeg_recognise(const uint8_t *bytes, size_t size_bytes) {
-    return size_bytes >= 3 && bytes[0] == 0xff && bytes[1] == 0xd8 && bytes[2] == 0xff;
-}
-
 ewa_status ewa_jpeg_decode(ewa_context *context, const char *name, const uint8_t *bytes, size_t size_bytes,
                            ewa_image *image) {
     jpeg_reader *reader = ewa_allocate_zeroed(context, 1, sizeof *reader);

@@ -7,8 +7,12 @@
 
 #include "ewa/image.h"
 
+#include <string.h>
+
 /// Tells whether the bytes begin like a PNG file.
-bool ewa_png_recognise(const uint8_t *bytes, size_t size_bytes);
+static inline bool ewa_png_recognise(const uint8_t *bytes, size_t size_bytes) {
+    return size_bytes >= 8 && memcmp(bytes, "\x89PNG\r\n\x1a\n", 8) == 0;
+}
 
 /// Decodes a PNG file of 8 or 16 bits, sRGB, to linear light: grey gives 1 channel, RGB 3, anything with
 /// alpha (grey or palette too) 4, premultiplied unless `straight`. `name` stands for the file in messages.

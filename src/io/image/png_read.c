@@ -120,10 +120,6 @@ static ewa_status read_pixels(const reader *in, ewa_image *image) {
     return status;
 }
 
-bool ewa_png_recognise(const uint8_t *bytes, size_t size_bytes) {
-    return size_bytes >= 8 && memcmp(bytes, "\x89PNG\r\n\x1a\n", 8) == 0;
-}
-
 ewa_status ewa_png_decode(ewa_context *context, const char *name, const uint8_t *bytes, size_t size_bytes,
                           bool straight, ewa_image *image) {
     *image = (ewa_image){0};

@@ -1,14 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// PNG out. Rows are filtered side by side and compressed by libdeflate, which takes a whole stream at once: a
+// PNG out. Rows are filtered side by side and packed in one go (io/deflate.h): a
 // second copy of the picture is the price for about half of zlib's time. Based on: W3C, Portable Network
 // Graphics (PNG) Specification (Second Edition), 2003, sections 5, 7, 9, 11.
 #include "base/base.h"
 #include "ewa/io.h"
+#include "io/deflate.h"
 #include "io/file.h"
 
-#include <libdeflate.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -39,9 +39,7 @@ static ewa_status put_chunk(ewa_writer *writer, const char *type, const uint8_t 
     uint8_t head[8], tail[4];
     put_u32(head, (uint32_t)data_bytes);
     memcpy(head + 4, type, 4);
-    uint32_t checksum = libdeflate_crc32(0, head + 4, 4);
-    if (data_bytes) checksum = libdeflate_crc32(checksum, data, data_bytes); // it starts anew for NULL
-    put_u32(tail, checksum);
+    put_u32(tail, ewa_crc32(ewa_crc32(0, head + 4, 4), data, data_bytes));
     ewa_writer_put(writer, head, sizeof head);
     ewa_writer_put(writer, data, data_bytes);
     return ewa_writer_put(writer, tail, sizeof tail);
@@ -121,21 +119,14 @@ static ewa_status put_head(ewa_writer *writer, uint32_t width_px, uint32_t heigh
 
 /// Compresses the filtered lines and puts them into IDAT chunks.
 static ewa_status put_lines(const encoder *job, ewa_writer *writer) {
-    struct libdeflate_compressor *compressor = libdeflate_alloc_compressor(COMPRESSION_LEVEL);
-    if (!compressor) return ewa_fail(job->context, EWA_ERROR_MEMORY, "%s: out of memory", job->path);
-    const size_t size_bytes = job->height_px * (job->row_bytes + 1);
-    const size_t bound_bytes = libdeflate_zlib_compress_bound(compressor, size_bytes);
-    uint8_t *packed = ewa_allocate(job->context, bound_bytes, 1);
-    ewa_status status = packed ? EWA_OK : EWA_ERROR_MEMORY;
-    size_t packed_bytes = 0;
-    if (packed) // never fails where there is room for the bound
-        packed_bytes = libdeflate_zlib_compress(compressor, job->filtered, size_bytes, packed, bound_bytes);
-    for (size_t at = 0; at < packed_bytes && status == EWA_OK; at += IDAT_BYTES) {
-        const size_t left = packed_bytes - at;
-        status = put_chunk(writer, "IDAT", packed + at, left < IDAT_BYTES ? left : IDAT_BYTES);
+    ewa_deflated packed;
+    ewa_status status = ewa_deflate(job->context, EWA_DEFLATE_ZLIB, COMPRESSION_LEVEL, job->filtered,
+                                    job->height_px * (job->row_bytes + 1), &packed);
+    for (size_t at = 0; at < packed.size_bytes && status == EWA_OK; at += IDAT_BYTES) {
+        const size_t left = packed.size_bytes - at;
+        status = put_chunk(writer, "IDAT", packed.bytes + at, left < IDAT_BYTES ? left : IDAT_BYTES);
     }
-    ewa_release(job->context, packed, bound_bytes, 1);
-    libdeflate_free_compressor(compressor);
+    ewa_deflated_free(job->context, &packed);
     return status;
 }
 

@@ -7,8 +7,12 @@
 
 #include "ewa/image.h"
 
+#include <string.h>
+
 /// Tells whether the bytes begin like a WebP file.
-bool ewa_webp_recognise(const uint8_t *bytes, size_t size_bytes);
+static inline bool ewa_webp_recognise(const uint8_t *bytes, size_t size_bytes) {
+    return size_bytes >= 12 && memcmp(bytes, "RIFF", 4) == 0 && memcmp(bytes + 8, "WEBP", 4) == 0;
+}
 
 /// Decodes a still WebP picture, sRGB, to linear light: 3 channels, with alpha 4, premultiplied unless
 /// `straight`. `name` stands for the file in messages. Errors: EWA_ERROR_FORMAT, EWA_ERROR_UNSUPPORTED

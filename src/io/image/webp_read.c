@@ -10,10 +10,6 @@
 #include <string.h>
 #include <webp/decode.h>
 
-bool ewa_webp_recognise(const uint8_t *bytes, size_t size_bytes) {
-    return size_bytes >= 12 && memcmp(bytes, "RIFF", 4) == 0 && memcmp(bytes + 8, "WEBP", 4) == 0;
-}
-
 /// What libwebp takes by itself for a pixel: the picture before it is turned to RGB, and the same of alpha.
 enum { OWN_BYTES_PER_PIXEL = 5, OWN_BYTES = 1 << 20 };
 

@@ -5,10 +5,10 @@
 #include "base/base.h"
 #include "base/options.h"
 #include "ewa/io.h"
+#include "io/deflate.h"
 #include "io/file.h"
 #include "io/number.h"
 
-#include <libdeflate.h>
 #include <stdio.h>
 #include <string.h>
 #include <strings.h>
@@ -71,18 +71,10 @@ static ewa_status put_header(const ewa_volume *volume, bool plain, ewa_writer *w
 
 /// Packs the voxels as one gzip stream.
 static ewa_status put_packed(const ewa_volume *volume, size_t size_bytes, ewa_writer *writer) {
-    struct libdeflate_compressor *compressor = libdeflate_alloc_compressor(GZIP_LEVEL);
-    if (!compressor) return ewa_fail(volume->context, EWA_ERROR_MEMORY, "no memory for the compressor");
-    const size_t bound_bytes = libdeflate_gzip_compress_bound(compressor, size_bytes);
-    uint8_t *packed = ewa_allocate(volume->context, bound_bytes, 1);
-    ewa_status status = packed ? EWA_OK : EWA_ERROR_MEMORY;
-    if (packed) {
-        const size_t packed_bytes =
-            libdeflate_gzip_compress(compressor, volume->voxels, size_bytes, packed, bound_bytes);
-        status = ewa_writer_put(writer, packed, packed_bytes);
-    }
-    ewa_release(volume->context, packed, bound_bytes, 1);
-    libdeflate_free_compressor(compressor);
+    ewa_deflated packed;
+    EWA_TRY(ewa_deflate(volume->context, EWA_DEFLATE_GZIP, GZIP_LEVEL, volume->voxels, size_bytes, &packed));
+    const ewa_status status = ewa_writer_put(writer, packed.bytes, packed.size_bytes);
+    ewa_deflated_free(volume->context, &packed);
     return status;
 }
 
