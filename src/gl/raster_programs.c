@@ -22,6 +22,7 @@ static size_t write_head(char *head) {
         {"NEVER", EWA_RASTER_NEVER},
         {"NEAR_RATIO", EWA_NEAR_RATIO},
         {"FLAT", EWA_FLAT},
+        {"SINGULAR", EWA_SINGULAR},
         {"MIN_AREA", EWA_MIN_AREA},
         {"MIN_SPLAT", EWA_MIN_SPLAT},
         {"INVERSE_TWO_PI", EWA_INVERSE_TWO_PI},

@@ -29,6 +29,7 @@ size_t ewa_gl_head_write(const ewa_gl_arithmetic *arithmetic, char *head) {
         {"NEAR_RATIO", (float)EWA_NEAR_RATIO},
         {"RAY_LIMIT2", limit * limit},
         {"FLAT", (float)EWA_FLAT},
+        {"SINGULAR", (float)EWA_SINGULAR},
         {"MIN_AREA", (float)EWA_MIN_AREA},
         {"MIN_SPLAT", (float)EWA_MIN_SPLAT},
         {"INVERSE_TWO_PI", (float)EWA_INVERSE_TWO_PI},

@@ -104,7 +104,7 @@ static bool make_backward_map(const ewa_reference_view *view, double jacobian[2]
             mat3_scale(&adjugate, p.z / vec3_dot(vec3_cross(splat->axis_u, splat->axis_v), p));
         return true;
     }
-    const double minimum = EWA_FLAT * splat->variance_px2[0] * splat->variance_px2[2];
+    const double minimum = EWA_SINGULAR * splat->variance_px2[0] * splat->variance_px2[2];
     if (!(root >= EWA_MIN_AREA && root * root >= minimum)) return false;
     const ewa_mat3 forward = {
         {{jacobian[0][0], jacobian[0][1], 0}, {jacobian[1][0], jacobian[1][1], 0}, {0, 0, 1}}};

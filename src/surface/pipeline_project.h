@@ -255,7 +255,7 @@ static ALWAYS_INLINE void stage_covariance(const ewa_view *view, bool ellipses, 
 /// here that in which J is symmetric, the root of V = J'J.
 static ALWAYS_INLINE void source_shape(const ewa_view *view, wf v11, wf v12, wf v22, wf root_det, stage *t) {
     const wf one = wf_set(1), h2 = wf_set(view->prefilter2_px2);
-    const wf minimum = wf_mul(wf_set((float)EWA_FLAT), wf_mul(v11, v22));
+    const wf minimum = wf_mul(wf_set((float)EWA_SINGULAR), wf_mul(v11, v22));
     const wm invertible =
         wm_and(wf_le(minimum, wf_mul(root_det, root_det)), wf_le(wf_set((float)EWA_MIN_AREA), root_det));
     t->alive = wm_and(t->alive, invertible);

@@ -38,8 +38,9 @@
 // An ellipse with variance V' = V + h^2 I around its centre, pixel counts where r^2 < F^2, weight = sqrt(|V|
 // / |V'|) exp(-r^2 / 2) / (2 pi).
 //
-// Without a prefilter a splat with |V'| < EWA_FLAT V'11 V'22 is a line: it covers no pixel. Nor does one with
-// sqrt|V| < EWA_MIN_SPLAT, whatever its pixels' alpha is made of.
+// Without a prefilter a splat with |V'| < EWA_FLAT V'11 V'22 is a line: it covers no pixel. (r^2 is a sum of
+// terms that are up to V'11 V'22 / |V'| times as large, of which single precision would leave nothing.) Nor does
+// one with sqrt|V| < EWA_MIN_SPLAT, whatever its pixels' alpha is made of.
 //
 // ---- Section 5: depth and clip lines
 //
@@ -154,7 +155,7 @@
 // ---- Section 9: other kernels of the affine map (orthographic: of the same ellipse); points
 //
 // Source: u = (x - c) J^-1, W = I + h^2 J^-T J^-1, r^2 = u W^-1 u', weight = exp(-r^2 / 2) / (2 pi sqrt|W|).
-// It needs the inverse: a surfel with |V| < EWA_FLAT V11 V22 or sqrt|V| < EWA_MIN_AREA is dropped.
+// It needs the inverse: a surfel with |V| < EWA_SINGULAR V11 V22 or sqrt|V| < EWA_MIN_AREA is dropped.
 //
 // Circular: V' is replaced by its larger eigenvalue l times I, |V| stays. The circle reaches far beyond a
 // disc that is seen at a grazing angle: m of section 5 is larger by min(F sqrt(l) g, EWA_GRAZING_TOLERANCE F
@@ -185,8 +186,8 @@
 
 // ---- Section 4
 
-/// Smallest |V'| / (V'11 V'22) that counts as an area.
-#define EWA_FLAT 1e-14
+/// Smallest |V'| / (V'11 V'22) that counts as an area: that of a splat 500 times as long as it is wide.
+#define EWA_FLAT 4e-6
 
 /// Smallest sqrt|V| of a splat that is drawn, in square pixels: squares of less are lost in single precision.
 #define EWA_MIN_SPLAT      1e-16
@@ -253,6 +254,9 @@
 
 /// Smallest key of circular splats times pz: their z goes up to 16 pz.
 #define EWA_MIN_KEY 0.0625
+
+/// Smallest |V| / (V11 V22) that the source kernel inverts.
+#define EWA_SINGULAR 1e-14
 
 /// Smallest sqrt|V| that the source kernel inverts, in square pixels.
 #define EWA_MIN_AREA 1e-15

@@ -355,6 +355,56 @@ static void test_scales_beyond_floats(void **state) {
     ewa_context_destroy(&context);
 }
 
+/// Without a prefilter, splats that are nearly lines are of a few pixels, not beyond all numbers.
+static void test_seen_from_the_edge(void **state) {
+    enum { WIDTH_PX = 96, DISCS = 400 };
+    static const ewa_kernel kernels[] = {EWA_KERNEL_PERSPECTIVE, EWA_KERNEL_AFFINE, EWA_KERNEL_SOURCE};
+    ewa_context *context = check_context(1, NULL);
+    for (size_t k = 0; k < sizeof kernels / sizeof kernels[0]; k++) {
+        int covered = 0;
+        float most = 0, whole = 0; // of coverage: of the first disc, which is seen from the front, and of the others
+        for (int i = 0; i < DISCS; i++) {
+            // From half a degree down to where single precision sees no area, along slanted lines.
+            const double tilt = i ? 0.01 * pow(10, -6.0 * i / DISCS) : 1.2, roll = 0.3 + 1.0 * i / DISCS;
+            ewa_cloud *cloud = NULL;
+            void *position = NULL, *normal = NULL, *radius = NULL, *color = NULL;
+            assert_int_equal(ewa_cloud_create(context, 1, &cloud), EWA_OK);
+            assert_int_equal(ewa_cloud_add(cloud, EWA_COLOR, EWA_U8, 3, &color), EWA_OK);
+            assert_int_equal(ewa_cloud_add(cloud, EWA_POSITION, EWA_F32, 3, &position), EWA_OK);
+            assert_int_equal(ewa_cloud_add(cloud, EWA_NORMAL, EWA_F32, 3, &normal), EWA_OK);
+            assert_int_equal(ewa_cloud_add(cloud, EWA_RADIUS, EWA_F32, 1, &radius), EWA_OK);
+            memcpy(normal, (float[3]){0, 0, 1}, 3 * sizeof(float));
+            *(float *)radius = 1;
+            memset(position, 0, 3 * sizeof(float)), memset(color, 255, 3);
+            ewa_camera camera;
+            ewa_camera_init(&camera);
+            camera.width_px = camera.height_px = WIDTH_PX;
+            camera.fx_px = camera.fy_px = 2 * WIDTH_PX, camera.cx_px = camera.cy_px = WIDTH_PX / 2;
+            const double eye[3] = {3 * cos(tilt), 0, 3 * sin(tilt)}, target[3] = {0, 0, 0};
+            const double up[3] = {0, sin(roll), cos(roll)};
+            assert_int_equal(ewa_camera_look_at(&camera, eye, target, up), EWA_OK);
+            ewa_render_options options;
+            ewa_render_options_init(&options, sizeof options);
+            options.kernel = kernels[k], options.prefilter_px = 0, options.shading = EWA_SHADING_NONE;
+            picture drawn = picture_draw(context, cloud, &camera, NULL, &options);
+            for (size_t at = 0; at < WIDTH_PX * WIDTH_PX; at++) {
+                const float *rgba = &drawn.frame.rgba[4 * at];
+                assert_true(rgba[3] >= 0 && rgba[3] <= 1);
+                most = fmaxf(most, drawn.frame.coverage[at]);
+                if (rgba[3] > 0) assert_float_equal(rgba[0], rgba[3], 2e-6);
+                covered += rgba[3] > 0;
+            }
+            if (i == 0) whole = most;
+            picture_free(&drawn);
+            ewa_cloud_destroy(&cloud);
+        }
+        print_message("kernel %d: %d pixels, coverage %g and %g\n", (int)kernels[k], covered, (double)whole,
+                      (double)most);
+        assert_true(covered > 10000 && most < 1.02F * whole);
+    }
+    ewa_context_destroy(&context);
+}
+
 static void test_one_pass_shows_one_surfel(void **state) {
     ewa_context *context = check_context(0, NULL);
     scene of;
@@ -446,6 +496,7 @@ int main(void) {
         cmocka_unit_test(test_source_is_affine),
         cmocka_unit_test(test_same_bytes_on_all_threads_and_instruction_sets),
         cmocka_unit_test(test_order_of_points_does_not_matter),
+        cmocka_unit_test(test_seen_from_the_edge),
         cmocka_unit_test(test_one_pass_shows_one_surfel),
         cmocka_unit_test(test_dense_tile_holds),
         cmocka_unit_test(test_scales_beyond_floats),

@@ -119,7 +119,7 @@ void make_point() {
 }
 
 void source_shape(vec3 v) {
-    alive = alive && FLAT * v.x * v.z <= root_det * root_det && MIN_AREA <= root_det;
+    alive = alive && SINGULAR * v.x * v.z <= root_det * root_det && MIN_AREA <= root_det;
     float inverse_det = 1.0 / root_det, scale = inversesqrt(v.x + v.z + 2.0 * root_det) * inverse_det;
     vec3 a = vec3(v.z + root_det, -v.y, v.x + root_det) * scale;
     float along_x = a.x * a.x + a.y * a.y, along_y = a.z * a.z + a.y * a.y, crossed = a.y * (a.x + a.z);

@@ -196,7 +196,7 @@ void stage_covariance() {
 
 void source_shape(float v11, float v12, float v22, float root_det) {
     float h2 = view.prefilter2_px2;
-    float minimum = wf_mul(FLAT, wf_mul(v11, v22));
+    float minimum = wf_mul(SINGULAR, wf_mul(v11, v22));
     bool invertible = minimum <= wf_mul(root_det, root_det) && MIN_AREA <= root_det;
     t.alive = t.alive && invertible;
     root_det = invertible ? root_det : 1.0;
