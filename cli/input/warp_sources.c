@@ -3,16 +3,12 @@
 //
 // Pairs of pictures and depths with their cameras.
 #include "cli/input/warp_sources.h"
-#include "cli/base/pattern.h"
 #include "cli/input/camera_input.h"
 
 #include <stdio.h>
 #include <string.h>
 
 enum { MAX_PATH = 1024 };
-
-/// Numbers per unit in PNG files, where most sensors and programs write millimetres.
-static const double PNG_DEPTH_SCALE = 1000;
 
 #define AT(member) offsetof(source_arguments, member)
 
@@ -164,8 +160,7 @@ static bool load_pair(cli_session *session, const source_arguments *arguments, u
                      color->channel_count);
         return false;
     }
-    const bool png = path_has_suffix(depth_path, ".png");
-    const double standard = png && arguments->depth_kind != EWA_DEPTH_DISPARITY ? PNG_DEPTH_SCALE : 1;
+    const double standard = ewa_depth_file_scale(depth_path, (ewa_depth_kind)arguments->depth_kind);
     if (standard != 1 && arguments->depth_scale == 0 && pair == 0)
         session_note(session, "%s: depths are taken as 1/%g units; --depth-scale says otherwise", depth_path,
                      standard);

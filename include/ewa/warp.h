@@ -42,6 +42,10 @@ typedef struct ewa_depth_image {
 
 EWA_API void ewa_depth_image_init(ewa_depth_image *image);
 
+/// Returns the numbers per unit that a file of depths has where nobody says, by the end of its name: 1000 of PNG, where
+/// most sensors and programs write millimetres, else and of disparities 1. Any thread.
+EWA_API double ewa_depth_file_scale(const char *path, ewa_depth_kind kind);
+
 /// How samples become surfels. Fill with ewa_warp_options_init().
 ///
 /// Pixels are masked that have no depth: 0, negative, NaN or infinite numbers, the largest of 16 bits, and

@@ -14,7 +14,7 @@ from ._arrays import Array, as_numbers
 from ._context import Context, core_of
 from ._errors import ArgumentError
 from ._library import functions as lib
-from ._struct import fill, initialised, numbers
+from ._struct import fill, initialised, numbers, path_bytes
 from .camera import Camera
 from .image import Color, Image, as_picture, read_depth
 from .rendering import new_frame
@@ -73,8 +73,9 @@ def _take(image: DepthImage, struct: b.ewa_depth_image, index: int) -> tuple[Arr
     if image.kind not in _KINDS:
         raise ArgumentError(f"{label}kind: '{image.kind}' is none of {', '.join(_KINDS)}")
     is_file = isinstance(image.depth, (str, bytes, os.PathLike))
-    png = is_file and os.fsdecode(image.depth).lower().endswith(".png") and image.kind != "disparity"
-    scale = image.scale if image.scale is not None else 1000.0 if png else 1.0
+    scale = image.scale
+    if scale is None:
+        scale = lib.ewa_depth_file_scale(path_bytes(image.depth) if is_file else None, _KINDS.index(image.kind))
     depth = _plane(read_depth(image.depth) if is_file else image.depth, label + "depth",
                    (np.dtype(np.uint16), np.dtype(np.float32)), 2)
     width, height = image.camera.size

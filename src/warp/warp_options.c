@@ -8,6 +8,7 @@
 
 #include <math.h>
 #include <string.h>
+#include <strings.h>
 
 /// Limits of z: squares and cubes of what is within are floats.
 #define MIN_DEPTH 1e-9
@@ -23,6 +24,12 @@ void ewa_depth_image_init(ewa_depth_image *image) {
     image->depth_scale = 1;
     image->color_channel_count = 3;
     image->color_type = EWA_U8;
+}
+
+double ewa_depth_file_scale(const char *path, ewa_depth_kind kind) {
+    const size_t length = path ? strlen(path) : 0;
+    const bool png = length > 4 && strcasecmp(path + length - 4, ".png") == 0;
+    return png && kind != EWA_DEPTH_DISPARITY ? 1000 : 1;
 }
 
 #define AT(member) offsetof(ewa_warp_options, member)

@@ -206,6 +206,15 @@ static void test_coverage_of_planes(void **state) {
 }
 
 /// Rows with gaps between them, floats instead of bytes, grey and alpha.
+/// Files whose numbers nobody says the unit of: PNG has millimetres, but for disparities.
+static void test_file_scales(void **state) {
+    assert_true(ewa_depth_file_scale("a.depth.PNG", EWA_DEPTH_Z) == 1000);
+    assert_true(ewa_depth_file_scale("a.png", EWA_DEPTH_RAY) == 1000);
+    assert_true(ewa_depth_file_scale("a.png", EWA_DEPTH_DISPARITY) == 1);
+    assert_true(ewa_depth_file_scale("a.png.exr", EWA_DEPTH_Z) == 1);
+    assert_true(ewa_depth_file_scale("-", EWA_DEPTH_Z) == 1 && ewa_depth_file_scale(NULL, EWA_DEPTH_RAY) == 1);
+}
+
 static void test_layouts(void **state) {
     enum { STRIDE = PLANE_WIDTH + 13 };
     static float depth[PLANE_HEIGHT * STRIDE], color[4 * PLANE_HEIGHT * STRIDE];
@@ -426,7 +435,8 @@ int main(void) {
         cmocka_unit_test(test_masked_depths), cmocka_unit_test(test_sixteen_bits),
         cmocka_unit_test(test_kinds),         cmocka_unit_test(test_packed_ellipses),
         cmocka_unit_test(test_creases),       cmocka_unit_test(test_coverage_of_planes),
-        cmocka_unit_test(test_layouts),       cmocka_unit_test(test_bad_images),
+        cmocka_unit_test(test_file_scales),   cmocka_unit_test(test_layouts),
+        cmocka_unit_test(test_bad_images),
         cmocka_unit_test(test_bad_options),   cmocka_unit_test(test_failing_allocations),
         cmocka_unit_test(test_every_stop_is_clean),
         cmocka_unit_test(test_warm),
