@@ -6,11 +6,13 @@
 
   tools/mutate.py list [--count N] [--seed S]   writes tests/mutations.txt: what is broken, and how
   tools/mutate.py check                         names entries whose line the sources no longer have
-  tools/mutate.py run [--jobs N] [--only TEXT] [--again]
-                                                breaks and tests; results in build/mutate/results.txt, which a
-                                                further run goes on from; of what is committed
+  tools/mutate.py run [--jobs N] [--only TEXT,...] [--sample N] [--again]
+                                                breaks and tests, of each room no more than so many; results in
+                                                build/mutate/results.txt, which a further run goes on from; of what is
+                                                committed
   tools/mutate.py report                        the score, by room, and what survived
 
+Rooms are the folders of src and of src/io, the program (cli), the viewer and the Python package.
 A mutant is relevant when the probe (tests/probe) differs by more than 1/255 in a pixel or 1e-3 relative in a number.
 Of these, so many must fail a test: see docs/testing.md. Entries are file, occurrence of the line in the file, the line,
 and what stands there instead, parted by tabs; those before the line "# seeded" are chosen by hand and kept.
@@ -42,6 +44,9 @@ QUIET_LINES = re.compile(
     r"ewa_fail|ewa_report|ewa_volume_fail|fail_|broken\(|ewa_progress|ewa_allocate|ewa_release|sizeof|snprintf|printf|"
     r"struct_size|static_assert|capacity|reserve|prefetch|stats|_s [+-]?=|^\s*#\s*(if|else|end|include)|"
     r"^\s*(typedef|enum|struct)\b|EWA_OK|EWA_ERROR|!context|extern|^[a-z].*[;,{]$|^\s+(const )?\w+ \*?\w+\[\d+\][,)]")
+GENERATED = ("python/ewa/_bindings.py", "python/ewa/_options.py")
+# Of Python: what only imports, declares or fails.
+QUIET_PYTHON = re.compile(r"^\s*(import|from|raise|class|def|@|assert)\b|Error\(|^[A-Z_]+ =|ctypes|__all__|version|-> ")
 ARRAY_LENGTH = re.compile(r"^\s*(static |const |extern )*(unsigned |struct )?\w+ \**\w+[\w\s,*\[\]]*\[$")
 
 # Near tests by the beginning of a path, cheapest first; the first that fails kills the mutant.
@@ -110,11 +115,32 @@ NEAR = [
     ("src/furniture", ["furniture", "shapes", "text_drawing", "decimal", "cli_furniture"]),
     ("src/gl", ["gpu_bytes", "gpu_raster", "gpu_device", "gpu_fallback"]),
     ("src/tiling", ["bin", "render", "small"]),
-    ("src/base", ["base", "option_tables", "bin"]),
+    ("src/base/platform", ["referenced_file", "file"]), ("src/base", ["base", "option_tables", "bin"]),
     ("src/volume/gaussian", ["gaussian_render", "gaussian_files", "mixture", "planes"]),
     ("src/volume", ["voxels", "volume_points", "volume_plain", "planes", "volume_near", "volume_integrals", "volume_render",
                     "cli_volume"]),
     ("src/surface", PICTURES),
+    ("cli/base/options", ["options", "cli_usage"]), ("cli/base/pattern", ["pattern"]),
+    ("cli/base", ["cli_usage", "cli_outputs", "cli_said", "cli_files", "cli_frames"]),
+    ("cli/bench", ["cli_bench"]), ("cli/cloud/csg", ["cli_mesh", "cli_said"]),
+    ("cli/cloud", ["cli_said", "cli_mesh", "cli_files", "cli_acquire", "cli_usage"]),
+    ("cli/convert", ["cli_files", "cli_gaussians", "cli_filter", "cli_splats", "cli_mesh"]),
+    ("cli/image/texture", ["cli_texture"]), ("cli/image", ["cli_texture", "cli_warp"]),
+    ("cli/info", ["cli_said", "cli_files", "cli_filter", "cli_gaussians", "cli_lod", "cli_mesh", "cli_volume", "cli_render"]),
+    ("cli/input/warp", ["cli_warp"]), ("cli/input/camera", ["cli_warp", "cli_said", "cli_places", "cli_render"]),
+    ("cli/input/import", ["import"]), ("cli/input/volume", ["cli_volume"]), ("cli/input/lod", ["cli_lod"]),
+    ("cli/input", ["cli_said", "cli_files", "cli_filter", "cli_gaussians", "cli_lod", "cli_render"]),
+    ("cli/lod", ["cli_lod"]), ("cli/volume", ["cli_volume", "cli_said"]), ("cli/view", ["cli_usage", "view_scripts"]),
+    ("cli/render/light", ["cli_light"]), ("cli/render/f", ["cli_frames", "cli_furniture", "cli_parts"]),
+    ("cli/render", ["cli_render", "cli_places", "cli_frames", "cli_light", "cli_outputs", "cli_said"]),
+    ("cli", ["cli_usage", "cli_said"]),
+    ("viewer/navigate", ["navigate", "view_scripts"]), ("viewer/sdl", ["window_events", "window_scripts"]),
+    ("viewer", ["viewer", "view_scripts", "navigate"]),
+    # Files of python/tests, with the unbroken library.
+    ("python/ewa/cloud", ["test_cloud.py", "test_same_bytes.py"]), ("python/ewa/gaussians", ["test_gaussians.py"]),
+    ("python/ewa/scene", ["test_scene.py", "test_lifetime.py"]), ("python/ewa/_scene", ["test_same_bytes.py", "test_scene.py"]),
+    ("python/ewa/_errors", ["test_lifetime.py"]), ("python/ewa/_held", ["test_lifetime.py"]),
+    ("python", ["test_pictures.py", "test_lifetime.py", "test_same_bytes.py", "test_cloud.py", "test_bindings.py"]),
 ]
 
 # Sections of the probe that a path's code may change, cheapest first.
@@ -149,7 +175,7 @@ SWAPS = {"fmin": "fmax", "fmax": "fmin", "vec3_add": "vec3_sub", "vec3_sub": "ve
 TOKEN = re.compile(
     r"(?P<number>(?<![\w.])(?:\d+\.\d*(?:e[+-]?\d+)?|\d+e[+-]?\d+|\d+)(?=[fuU;,)\s*/+\-\]}:<>=&|]|$))"
     r"|(?P<compare><=|>=|==|!=|(?<=[\s])<(?=\s)|(?<=\s)>(?=\s))"
-    r"|(?P<logic>&&|\|\|)"
+    r"|(?P<logic>&&|\|\||(?<=\s)(?:and|or)(?=\s)|\bnot (?!in\b))"
     r"|(?P<binary>(?<=[\w)\]]\s)[-+*/](?=\s[\w(-]))"
     r"|(?P<unary>(?<=[(,=]\s)-(?=[\w(])|(?<=\()-(?=[\w(])|(?<=return\s)-(?=[\w(]))"
     r"|(?P<name>\b(?:%s)\b(?=\())"
@@ -160,6 +186,12 @@ def blank_comments(text):
     """The text with comments and strings as spaces, so that columns stay."""
     spaces = lambda match: re.sub(r"[^\n]", " ", match.group(0))
     return re.sub(r"/\*.*?\*/|//[^\n]*|\"(?:\\.|[^\"\\\n])*\"|'(?:\\.|[^'\\\n])*'", spaces, text, flags=re.S)
+
+
+def blank_python(text):
+    """The same of Python."""
+    spaces = lambda match: re.sub(r"[^\n]", " ", match.group(0))
+    return re.sub(r"\"\"\".*?\"\"\"|#[^\n]*|[frb]*\"(?:\\.|[^\"\\\n])*\"", spaces, text, flags=re.S)
 
 
 def other_number(token, chance):
@@ -178,7 +210,7 @@ def replacement(match, chance):
         return {"<": chance.choice([">", ">", "<="]), ">": chance.choice(["<", "<", ">="]), "<=": "<", ">=": ">", "==": "!=",
                 "!=": "=="}[token]
     if kind == "logic":
-        return {"&&": "||", "||": "&&"}[token]
+        return {"&&": "||", "||": "&&", "and": "or", "or": "and", "not ": ""}[token]
     if kind == "binary":
         return {"+": "-", "-": "+", "*": "/", "/": "*"}[token]
     if kind == "unary":
@@ -191,10 +223,12 @@ def replacement(match, chance):
 def candidates(path, chance):
     """(old line, new line, occurrence) of every place that can be broken, one way each."""
     text = path.read_text()
+    python = path.suffix == ".py"
+    quiet, bared = (QUIET_PYTHON, blank_python(text)) if python else (QUIET_LINES, blank_comments(text))
     seen, found = {}, []
-    for line, bare in zip(text.split("\n"), blank_comments(text).split("\n")):
+    for line, bare in zip(text.split("\n"), bared.split("\n")):
         seen[line.strip()] = seen.get(line.strip(), 0) + 1
-        if QUIET_LINES.search(bare) or not bare.strip():
+        if quiet.search(bare) or not bare.strip():
             continue
         define = re.match(r"\s*#\s*define\s+\w+\s", bare)
         if bare.lstrip().startswith("#") and not define:
@@ -220,7 +254,10 @@ class Entry:
         return "\t".join([self.path, str(self.occurrence), self.old, self.new])
 
     def room(self):
-        return self.path.split("/")[1]
+        parts = self.path.split("/")
+        if parts[0] != "src":
+            return parts[0]
+        return "/".join(parts[1:3]) if parts[1] == "io" and len(parts) > 3 else parts[1]
 
     def apply(self, text):
         """The text with the line replaced, or None where it is not found."""
@@ -246,8 +283,9 @@ def read_list():
 
 
 def sources():
-    files = subprocess.check_output(["git", "ls-files", "src"], cwd=ROOT, text=True).split()
-    return [f for f in files if f.endswith((".c", ".h")) and not LEFT_OUT.search(f)]
+    files = subprocess.check_output(["git", "ls-files", "src", "cli", "viewer", "python/ewa"], cwd=ROOT, text=True).split()
+    broken = [f for f in files if f.endswith((".c", ".h", ".py")) and f not in GENERATED]
+    return [f for f in broken if not f.startswith("src/") or not LEFT_OUT.search(f)]
 
 
 def write_list(count, seed):
@@ -257,7 +295,8 @@ def write_list(count, seed):
     # Every file has its share, by the root of its size, so that small files are asked too.
     found = {path: candidates(ROOT / path, chance) for path in sources()}
     found = {path: places for path, places in found.items() if places}
-    weight = {path: len(places) ** 0.5 * (0.5 if "/io/" in path else 1) for path, places in found.items()}
+    weight = {path: len(places) ** 0.5 * (1 if path.startswith("src/") and "/io/" not in path else 0.5)
+              for path, places in found.items()}
     total, made, taken = sum(weight.values()), [], {entry.key() for entry in kept}
     share = {path: weight[path] * count / total for path in found}
     owed = 0.0
@@ -312,7 +351,8 @@ class Tree:
             return text.replace("defined(__x86_64__)", "0")
         return text.replace("x86_64|AMD64", "none") if path.endswith(".cmake") else text
 
-    def prepare(self):
+    def prepare(self, entries):
+        """Builds what breaking `entries` needs."""
         for path in (str(file.relative_to(SNAPSHOT)) for file in SNAPSHOT.rglob("*") if file.is_file()):
             target = self.root / path
             target.parent.mkdir(parents=True, exist_ok=True)
@@ -331,10 +371,14 @@ class Tree:
         configured = self.call(["cmake", "-G", "Ninja", "-S", str(self.root), "-B", str(self.build),
                                 "-DCMAKE_BUILD_TYPE=Release", "-DCMAKE_C_FLAGS_RELEASE=-O2 -march=native -w",
                                 "-DEWA_INNER_LIBRARY=ON", "-DEWA_DATA=" + self.environment["EWA_DATA"]] + launcher)
-        if configured or self.call(["cmake", "--build", str(self.build), "-j", "2"]):
-            sys.exit("mutate: the unbroken tree does not build: see %s" % self.log)
+        if configured:
+            sys.exit("mutate: the unbroken tree cannot be configured: see %s" % self.log)
         names = subprocess.check_output(["ctest", "--test-dir", str(self.build), "-N"], text=True)
         self.tests = set(re.findall(r"Test\s+#\d+: (\S+)", names))
+        near = {name for entry in entries for name in self.near_tests(entry.path) if not name.endswith(".py")}
+        targets = ["ewa", "ewa_shared", "probe"] + ["test_" + name for name in sorted(near)]
+        if self.call(["cmake", "--build", str(self.build), "-j", "2", "--target"] + targets):
+            sys.exit("mutate: the unbroken tree does not build: see %s" % self.log)
         return self
 
     def probe(self, sections, name):
@@ -344,6 +388,11 @@ class Tree:
                           str(self.scratch)] + sections) == 0
 
     def test(self, name, timeout):
+        if name.endswith(".py"):
+            environment = {"EWA_LIBRARY": self.build / "libewa.so", "EWA_PROGRAM": self.build / "cli" / "ewa",
+                           "PYTHONPATH": self.root / "python", "PYTHONDONTWRITEBYTECODE": 1}
+            return self.call(["env", *("%s=%s" % pair for pair in environment.items()), "timeout", str(timeout),
+                              sys.executable, str(self.root / "python" / "tests" / "run.py"), name])
         return self.call(["ctest", "--test-dir", str(self.build), "-R", "^%s$" % name, "--timeout", str(timeout)])
 
     def rebuild(self, name):
@@ -352,7 +401,7 @@ class Tree:
 
     def near_tests(self, path):
         names = next(tests for start, tests in NEAR if path.startswith(start))
-        return [name for name in names if name in self.tests]
+        return [name for name in names if name in self.tests or name.endswith(".py")]
 
     def differs(self, sections):
         """Whether the library does anything else than the unbroken one."""
@@ -371,14 +420,19 @@ class Tree:
         if text is None:
             return "stale", ""
         (self.root / entry.path).write_text(text)
-        target = ["ewa_objects"] + (["ewa"] if any(t.startswith("cli_") for t in self.near_tests(entry.path)) else [])
-        if self.call(["cmake", "--build", str(self.build), "--target"] + target):
+        near = self.near_tests(entry.path)
+        targets = ["ewa_objects"] if entry.path.startswith("src/") else []
+        if any(name.startswith("cli_") for name in near):
+            targets.append("ewa")
+        if targets and self.call(["cmake", "--build", str(self.build), "--target"] + targets):
             return "uncompilable", ""
         sections = sections_of(entry.path)
         if sections and not self.differs(sections):
             return "irrelevant", ""
-        for name in self.near_tests(entry.path):
-            if entry.path.endswith(".h") and not self.rebuild(name):
+        for name in near:
+            # Program and viewer are in their tests, but for those that run the program.
+            held = entry.path.endswith(".h") or entry.path.startswith(("cli/", "viewer/"))
+            if held and not self.rebuild(name):
                 return "uncompilable", name
             if self.test(name, timeouts[name]):
                 return "killed", name
@@ -424,7 +478,23 @@ def on_each(trees, work):
         thread.join()
 
 
-def run(jobs, only, again):
+def sample_of(entries, results, count):
+    """No more than `count` of each room, what has a result included: one of each file before a second one."""
+    chance, rooms = random.Random(count), {}
+    for entry in chance.sample(entries, len(entries)):
+        rooms.setdefault(entry.room(), []).append(entry)
+    taken = []
+    for room in rooms.values():
+        asked = {}
+        for entry in room:
+            asked.setdefault(entry.path, []).append(entry)
+        turns = [(turn, i, entry) for i, of in enumerate(asked.values()) for turn, entry in enumerate(of)]
+        left = count - sum(entry.key() in results for entry in room)
+        taken += [e for _, _, e in sorted(turns, key=lambda t: t[:2]) if e.key() not in results][:max(left, 0)]
+    return taken
+
+
+def run(jobs, only, sample, again):
     entries, _ = read_list()
     WORK.mkdir(parents=True, exist_ok=True)
     lock_file = open(WORK / "lock", "w")
@@ -433,11 +503,12 @@ def run(jobs, only, again):
     except OSError:
         sys.exit("mutate: another run is at work in %s" % WORK)
     results = {} if again else read_results()
-    wanted = [e for e in entries if only in e.path and e.key() not in results]
+    wanted = [e for e in entries if any(text in e.path for text in only.split(","))]
+    wanted = sample_of(wanted, results, sample) if sample else [e for e in wanted if e.key() not in results]
     if not wanted:
         return report()
     take_snapshot()
-    trees = [Tree(i).prepare() for i in range(jobs)]
+    trees = [Tree(i).prepare(wanted) for i in range(jobs)]
     for tree in trees:
         for section in sorted({s for e in wanted for s in sections_of(e.path)}):
             if not tree.probe([section], "unbroken-" + section):
@@ -500,6 +571,7 @@ def main():
     parser.add_argument("--seed", type=int, default=14)
     parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("--only", default="")
+    parser.add_argument("--sample", type=int, default=0)
     parser.add_argument("--again", action="store_true")
     options = parser.parse_args()
     if options.what == "list":
@@ -513,7 +585,7 @@ def main():
         for path in alone:
             print("no near tests: %s" % path)
         return 1 if stale or alone else 0
-    return run(options.jobs, options.only, options.again) if options.what == "run" else report()
+    return run(options.jobs, options.only, options.sample, options.again) if options.what == "run" else report()
 
 
 if __name__ == "__main__":
