@@ -18,7 +18,7 @@
 #include "cli/input/lod_input.h"
 #include "cli/input/model_input.h"
 #include "cli/input/point_choice.h"
-#include "cli/render/view.h"
+#include "cli/input/scene_input.h"
 
 #include <float.h>
 #include <inttypes.h>
@@ -66,7 +66,7 @@ typedef struct cloud_facts {
     ewa_spacing spacing;
     point_shape shape;
     ewa_cloud_invalid_points invalid;
-    ewa_upright view; ///< by default; for a cloud with a finite point
+    ewa_upright upright; ///< for a cloud with a finite point
     ewa_model_format format;
     bool is_mesh; ///< the points are vertices of:
     mesh_facts mesh;
@@ -155,6 +155,21 @@ static point_shape measure_shape(const ewa_cloud *cloud, const ewa_bounds *bound
     return values[1] <= minimum ? SHAPE_LINE : values[0] <= minimum ? SHAPE_PLANE : SHAPE_SPACE;
 }
 
+/// Has the library say how what was loaded is looked at. Meshes of very many triangles are told of by their corners, which
+/// are as dense as points on them.
+static bool find_upright(cli_session *session, const char *path, const ewa_model *model, cloud_facts *facts) {
+    enum { MANY_TRIANGLES = 500000 };
+    const bool of_faces = facts->is_mesh && model->mesh.triangle_count < MANY_TRIANGLES;
+    const ewa_asset_source source = {.name = ewa_lod_is_folder(session->context, path) ? "ept.json" : path,
+                                     .cloud = of_faces ? NULL : model->points,
+                                     .mesh = of_faces ? &model->mesh : NULL};
+    ewa_asset *asset = NULL;
+    ewa_status status = ewa_asset_create(session->context, &source, NULL, &asset);
+    if (status == EWA_OK) status = ewa_asset_find_upright(asset, &facts->upright);
+    ewa_asset_release(&asset);
+    return session_passed(session, status);
+}
+
 /// Measures everything; false after reporting.
 static bool gather(cli_session *session, const char *path, const ewa_model *model, const ewa_lod *lod,
                    bool sampled, cloud_facts *facts) {
@@ -176,10 +191,8 @@ static bool gather(cli_session *session, const char *path, const ewa_model *mode
     if (!session_passed(session, status)) return false;
     facts->shape = measure_shape(cloud, &facts->bounds);
     ewa_cloud_count_invalid_points(cloud, &facts->invalid);
-    const ewa_scene_up up = facts->gaussians.count ? gaussian_files_up(&facts->gaussians.file) : EWA_UP_AUTO;
-    if (facts->bounds.finite_count && !view_default(session, path, cloud, up, &facts->view))
-        return false;
-    return true;
+    if (facts->gaussians.count) facts->upright = facts->gaussians.upright;
+    return facts->gaussians.count || !facts->bounds.finite_count || find_upright(session, path, model, facts);
 }
 
 enum { MAX_PROBLEMS = 16, PROBLEM_BYTES = 400 };
@@ -275,11 +288,7 @@ static void print_text(cli_session *session, const char *path, const ewa_cloud *
     if (facts->spacing.median_world > 0)
         printf("  spacing     %.4g (5 %%: %.4g, 95 %%: %.4g)\n", facts->spacing.median_world,
                facts->spacing.low_world, facts->spacing.high_world);
-    if (facts->bounds.finite_count) {
-        char text[EWA_UPRIGHT_TEXT_BYTES];
-        ewa_upright_describe(&facts->view, text);
-        printf("  up          %s\n", text);
-    }
+    if (facts->bounds.finite_count) info_upright_print(&facts->upright);
     if (facts->gaussians.count) info_gaussians_print(&facts->gaussians);
     printf("  attributes\n");
     const ewa_attribute *attribute;
@@ -329,13 +338,7 @@ static void print_json(cli_session *session, json_writer *json, const char *path
     }
     info_facts_write(json, cloud);
     json_text(json, "fills", shape_names[facts->shape]);
-    if (facts->bounds.finite_count) {
-        double up_world[3] = {0};
-        up_world[facts->view.axis] = facts->view.reversed ? -1 : 1;
-        json_vector(json, "up", 3, up_world);
-        json_text(json, "up_because", facts->view.why);
-        json_text(json, "view", ewa_upright_place(&facts->view));
-    }
+    if (facts->bounds.finite_count) info_upright_write(json, &facts->upright);
     if (facts->gaussians.count) info_gaussians_write(json, &facts->gaussians);
     json_object(json, "spacing");
     json_number(json, "median", facts->spacing.median_world);
@@ -382,16 +385,13 @@ static void print_json(cli_session *session, json_writer *json, const char *path
     json_close(json, '}');
 }
 
-/// Loads a file; a filter looks at points, of which a mesh has its vertices. `*sampled`: of a large octree, `*lod`
-/// or NULL, some of its points. False after reporting.
-static bool load(cli_session *session, const char *path, ewa_model *model, ewa_lod **lod, bool *sampled) {
-    *model = (ewa_model){.points = NULL};
-    ewa_cloud *sample;
+/// Loads a file; a filter looks at points, of which a mesh has its vertices. `sampled`: of an octree, `*lod` or NULL,
+/// some of its points. False after reporting.
+static bool load(cli_session *session, const char *path, bool sampled, ewa_model *model, ewa_lod **lod) {
     session->subject = path;
-    if (!info_lod_open(session, path, lod, &sample)) return false;
-    *sampled = sample != NULL;
-    if (sample) {
-        model->points = sample;
+    if (!info_lod_open(session, path, lod)) return false;
+    if (sampled) {
+        if (!session_passed(session, ewa_lod_sample(*lod, EWA_OCTREE_SAMPLE_POINTS, &model->points))) return false;
         return ewa_lod_is_folder(session->context, path) ||
                ewa_model_probe(session->context, path, &model->format) == EWA_OK;
     }
@@ -401,6 +401,37 @@ static bool load(cli_session *session, const char *path, ewa_model *model, ewa_l
         session_note(session, "a mesh of %" PRIu64 " faces; --filter looks at its vertices",
                      model->face_count);
     return choose_points(session, &(point_choice){.filter = session->filter}, &model->points);
+}
+
+/// Tells of points and what is drawn of points; `json` is NULL for text.
+static bool tell_points(cli_session *session, const char *path, bool sampled, json_writer *json) {
+    ewa_model model = {.points = NULL};
+    cloud_facts facts;
+    ewa_lod *lod = NULL;
+    const bool done = load(session, path, sampled, &model, &lod) &&
+                      gather(session, path, &model, lod, sampled, &facts);
+    if (done && json)
+        print_json(session, json, path, model.points, &facts);
+    else if (done)
+        print_text(session, path, model.points, &facts);
+    ewa_model_free(&model);
+    ewa_lod_close(&lod);
+    return done;
+}
+
+/// Tells of a file as what a scene would make of it.
+static bool tell(cli_session *session, const info_arguments *arguments, const char *path, json_writer *json) {
+    session->reported = false;
+    session->subject = NULL; // messages name the file
+    if (arguments->volume.dims.count) return info_volume(session, &arguments->volume, path, json);
+    if (ewa_scene_file_probe(path)) return info_scene(session, path, json);
+    const ewa_asset_options options = scene_input_asset_options(session);
+    ewa_asset_kind kind;
+    if (!session_passed(session, ewa_asset_probe(session->context, path, &options, &kind))) return false;
+    if (kind == EWA_ASSET_VOLUME) return info_volume(session, &arguments->volume, path, json);
+    if (kind == EWA_ASSET_GAUSSIANS && gaussian_files_format(session, path) != EWA_GAUSSIANS_PLY)
+        return info_gaussians(session, path, json);
+    return tell_points(session, path, kind == EWA_ASSET_OCTREE, json);
 }
 
 static int run(const void *data) {
@@ -413,39 +444,9 @@ static int run(const void *data) {
     if (arguments->gpu && !backend_print_gpu(&session, arguments->json ? &json : NULL))
         exit_status = EXIT_FAILED;
     if (arguments->json) json_array(&json, "files");
-    for (size_t i = 0; i < arguments->common.operand_count; i++) {
-        const char *path = arguments->common.operands[i];
-        session.reported = false;
-        if (arguments->volume.dims.count || ewa_volume_is_file(session.context, path)) {
-            if (!info_volume(&session, &arguments->volume, path, arguments->json ? &json : NULL))
-                exit_status = EXIT_FAILED;
-            continue;
-        }
-        if (ewa_scene_file_probe(path)) {
-            if (!info_scene(&session, path, arguments->json ? &json : NULL)) exit_status = EXIT_FAILED;
-            continue;
-        }
-        const ewa_gaussian_format gaussians = gaussian_files_format(&session, path);
-        if (gaussians > EWA_GAUSSIANS_PLY) {
-            if (!info_gaussians(&session, path, arguments->json ? &json : NULL)) exit_status = EXIT_FAILED;
-            continue;
-        }
-        ewa_model model;
-        cloud_facts facts;
-        ewa_lod *lod = NULL;
-        bool sampled = false;
-        if (load(&session, path, &model, &lod, &sampled) &&
-            gather(&session, path, &model, lod, sampled, &facts)) {
-            if (arguments->json)
-                print_json(&session, &json, path, model.points, &facts);
-            else
-                print_text(&session, path, model.points, &facts);
-        } else {
+    for (size_t i = 0; i < arguments->common.operand_count; i++)
+        if (!tell(&session, arguments, arguments->common.operands[i], arguments->json ? &json : NULL))
             exit_status = EXIT_FAILED;
-        }
-        ewa_model_free(&model);
-        ewa_lod_close(&lod);
-    }
     if (arguments->json) {
         json_close(&json, ']');
         json_end(&json);

@@ -85,6 +85,20 @@ void info_facts_write(json_writer *json, const ewa_cloud *cloud) {
     json_close(json, '}');
 }
 
+void info_upright_print(const ewa_upright *upright) {
+    char text[EWA_UPRIGHT_TEXT_BYTES];
+    ewa_upright_describe(upright, text);
+    printf("  up          %s\n", text);
+}
+
+void info_upright_write(json_writer *json, const ewa_upright *upright) {
+    double up_world[3] = {0};
+    up_world[upright->axis] = upright->reversed ? -1 : 1;
+    json_vector(json, "up", 3, up_world);
+    json_text(json, "up_because", upright->why);
+    json_text(json, "view", ewa_upright_place(upright));
+}
+
 void info_classes_count(const ewa_cloud *cloud, class_counts *classes) {
     *classes = (class_counts){.attribute = NULL};
     const ewa_attribute *attribute = NULL;

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// What a file of points says beside its numbers, for ewa info: where on the earth, on what grid, by whom; and
-// how many points each class has.
+// What a file of points says beside its numbers, for ewa info: where on the earth, on what grid, by whom, what is up;
+// and how many points each class has.
 #ifndef EWA_CLI_INFO_INFO_FACTS_H
 #define EWA_CLI_INFO_INFO_FACTS_H
 
@@ -12,6 +12,10 @@
 /// not.
 void info_facts_print(const ewa_cloud *cloud);
 void info_facts_write(json_writer *json, const ewa_cloud *cloud);
+
+/// Tells what is up, and from where it is seen.
+void info_upright_print(const ewa_upright *upright);
+void info_upright_write(json_writer *json, const ewa_upright *upright);
 
 enum { INFO_CLASSES = 256 };
 

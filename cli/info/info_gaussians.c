@@ -3,6 +3,7 @@
 //
 // What the Gaussians of a file are, for ewa info.
 #include "cli/info/info_gaussians.h"
+#include "cli/info/info_facts.h"
 #include "cli/input/gaussian_files.h"
 
 #include <math.h>
@@ -21,7 +22,7 @@ static void find_percentiles(float *numbers, uint32_t count, double found[3]) {
     for (int i = 0; i < 3; i++) found[i] = (double)numbers[(uint32_t)(shares[i] * (count - 1))];
 }
 
-static bool measure(cli_session *session, const ewa_gaussians *set, gaussians_told *told) {
+static bool measure(cli_session *session, const char *path, const ewa_gaussians *set, gaussians_told *told) {
     float *numbers = malloc(set->count * sizeof *numbers);
     if (!numbers) {
         session_fail(session, "out of memory: %u numbers", set->count);
@@ -40,14 +41,21 @@ static bool measure(cli_session *session, const ewa_gaussians *set, gaussians_to
     told->sh_degree = set->sh_degree;
     told->flat = set->flat;
     told->antialiased = set->antialiased;
-    return ewa_gaussians_measure(set, &told->bounds) == EWA_OK;
+    if (ewa_gaussians_measure(set, &told->bounds) != EWA_OK) return false;
+    ewa_asset_source source = {.name = path, .gaussians = set};
+    for (int c = 0; c < 3; c++) source.up_world[c] = told->file.up_world[c];
+    ewa_asset *asset = NULL;
+    ewa_status status = ewa_asset_create(session->context, &source, NULL, &asset);
+    if (status == EWA_OK) status = ewa_asset_find_upright(asset, &told->upright);
+    ewa_asset_release(&asset);
+    return session_passed(session, status);
 }
 
 bool info_gaussians_gather(cli_session *session, const char *path, gaussians_told *told) {
     ewa_gaussians set;
     *told = (gaussians_told){.count = 0};
     if (!gaussian_files_load(session, path, &set, &told->file)) return false;
-    const bool done = measure(session, &set, told);
+    const bool done = measure(session, path, &set, told);
     ewa_gaussians_free(&set);
     return done;
 }
@@ -86,12 +94,8 @@ void info_gaussians_write(json_writer *json, const gaussians_told *told) {
     json_close(json, '}');
 }
 
-static bool says_up(const gaussians_told *told) {
-    return told->file.up_world[0] != 0 || told->file.up_world[1] != 0 || told->file.up_world[2] != 0;
-}
-
 static void print_text(const char *path, const gaussians_told *told) {
-    const double *low = told->bounds.low_world, *high = told->bounds.high_world, *up = told->file.up_world;
+    const double *low = told->bounds.low_world, *high = told->bounds.high_world;
     printf("%s\n", path);
     printf("  format      %s", ewa_gaussian_format_name(told->file.format));
     if (told->file.version) printf(", version %u", told->file.version);
@@ -99,7 +103,7 @@ static void print_text(const char *path, const gaussians_told *told) {
     printf("  low         %.8g %.8g %.8g\n", low[0], low[1], low[2]);
     printf("  high        %.8g %.8g %.8g\n", high[0], high[1], high[2]);
     printf("  extent      %.6g %.6g %.6g\n", high[0] - low[0], high[1] - low[1], high[2] - low[2]);
-    if (says_up(told)) printf("  up          %g %g %g, as the file says\n", up[0], up[1], up[2]);
+    info_upright_print(&told->upright);
     info_gaussians_print(told);
 }
 
@@ -110,7 +114,7 @@ static void print_json(json_writer *json, const char *path, const gaussians_told
     json_count(json, "points", told->count);
     json_vector(json, "low", 3, told->bounds.low_world);
     json_vector(json, "high", 3, told->bounds.high_world);
-    if (says_up(told)) json_vector(json, "up", 3, told->file.up_world);
+    info_upright_write(json, &told->upright);
     info_gaussians_write(json, told);
     json_close(json, '}');
 }

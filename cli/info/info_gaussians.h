@@ -14,6 +14,7 @@ typedef struct gaussians_told {
     uint32_t count, sh_degree;
     bool flat, antialiased;
     ewa_bounds bounds;
+    ewa_upright upright;
     double scales_world[3], opacities[3]; ///< 5 %, median, 95 %; scales: the geometric mean of the axes
 } gaussians_told;
 

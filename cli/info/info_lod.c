@@ -7,16 +7,11 @@
 
 #include <inttypes.h>
 
-bool info_lod_open(cli_session *session, const char *path, ewa_lod **lod, ewa_cloud **sample) {
+bool info_lod_open(cli_session *session, const char *path, ewa_lod **lod) {
     *lod = NULL;
-    *sample = NULL;
     if (!ewa_lod_probe(session->context, path)) return true;
     *lod = lod_input_open(session, path);
-    if (!*lod) return !ewa_lod_is_folder(session->context, path); // of a file there may be more to tell
-    ewa_lod_info info;
-    ewa_lod_describe(*lod, &info);
-    if (info.point_count <= EWA_OCTREE_WHOLE_POINTS || session->filter || session->load.columns) return true;
-    return session_passed(session, ewa_lod_sample(*lod, EWA_OCTREE_SAMPLE_POINTS, sample));
+    return *lod || !ewa_lod_is_folder(session->context, path); // of a file there may be more to tell
 }
 
 void info_lod_print(const ewa_lod *lod, uint64_t sampled_count) {

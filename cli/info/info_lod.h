@@ -7,10 +7,8 @@
 
 #include "cli/base/json.h"
 
-/// Opens the octree at a path, if there is one that is to be told about; `*sample` (NULL for octrees that are read
-/// whole) gets what represents its points, the caller's. `*lod` is NULL where there is none. False after
-/// reporting.
-bool info_lod_open(cli_session *session, const char *path, ewa_lod **lod, ewa_cloud **sample);
+/// Opens the octree at a path, if there is one that is to be told about, else `*lod` is NULL. False after reporting.
+bool info_lod_open(cli_session *session, const char *path, ewa_lod **lod);
 
 /// Prints the lines of the tree; `sampled_count`: of how many points the rest is told, 0: of all.
 void info_lod_print(const ewa_lod *lod, uint64_t sampled_count);

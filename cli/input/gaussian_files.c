@@ -5,7 +5,6 @@
 #define _POSIX_C_SOURCE 200809L
 #include "cli/input/gaussian_files.h"
 
-#include <math.h>
 #include <string.h>
 #include <sys/stat.h>
 
@@ -28,12 +27,6 @@ bool gaussian_files_load(cli_session *session, const char *path, ewa_gaussians *
                 ewa_gaussian_format_name(found.format));
     if (facts) *facts = found;
     return true;
-}
-
-ewa_scene_up gaussian_files_up(const ewa_gaussian_facts *facts) {
-    const double *up = facts->up_world;
-    if (fabs(up[2]) > fabs(up[1])) return up[2] > 0 ? EWA_UP_Z : EWA_UP_MINUS_Z;
-    return up[1] > 0 ? EWA_UP_Y : EWA_UP_MINUS_Y;
 }
 
 ewa_cloud *gaussian_files_load_surfels(cli_session *session, const char *path) {

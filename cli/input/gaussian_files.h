@@ -15,9 +15,6 @@ ewa_gaussian_format gaussian_files_format(cli_session *session, const char *path
 bool gaussian_files_load(cli_session *session, const char *path, ewa_gaussians *set,
                          ewa_gaussian_facts *facts);
 
-/// What is up: as a file says; else y down and z ahead, as the cameras that took the pictures have it.
-ewa_scene_up gaussian_files_up(const ewa_gaussian_facts *facts);
-
 /// Loads a set as surfels in their constant colours; NULL after reporting.
 ewa_cloud *gaussian_files_load_surfels(cli_session *session, const char *path);
 

@@ -108,18 +108,7 @@ static bool place(cli_session *session, const view_arguments *arguments, const v
                      ? ewa_scene_place_camera(subject->scene, &options, camera, info)
                      : ewa_cloud_place_camera(subject->cloud, subject->radius_scale,
                                               ewa_up_convention_of(common->operand_count, common->operands),
-                                              subject->up, &options, camera, info));
-}
-
-bool view_default(cli_session *session, const char *path, const ewa_cloud *cloud, ewa_scene_up up,
-                  ewa_upright *chosen) {
-    view_arguments arguments = {.common = {.operands = &path, .operand_count = 1}};
-    const view_subject subject = {.cloud = cloud, .radius_scale = 1, .up = up};
-    ewa_view_info info;
-    view_set_defaults(&arguments);
-    if (!place(session, &arguments, &subject, false, NULL, &info)) return false;
-    *chosen = info.upright;
-    return true;
+                                              EWA_UP_AUTO, &options, camera, info));
 }
 
 bool view_middle(cli_session *session, const view_arguments *arguments, const view_subject *subject,

@@ -34,17 +34,11 @@ bool view_check(const view_arguments *arguments, bool poses, char message[OPTION
 /// Whether an option says where the camera is or where it looks.
 bool view_is_placed(const view_arguments *arguments);
 
-/// Chooses how a cloud of a file, which has a finite point, is looked at without any option. Returns false
-/// after reporting.
-bool view_default(cli_session *session, const char *path, const ewa_cloud *cloud, ewa_scene_up up,
-                  ewa_upright *chosen);
-
 /// What a camera looks at: a scene, or one cloud.
 typedef struct view_subject {
     ewa_scene *scene;       ///< NULL: the cloud
     const ewa_cloud *cloud; ///< with at least one finite point
     double radius_scale;    ///< that the cloud's radii are drawn times
-    ewa_scene_up up;        ///< what the cloud's file says
 } view_subject;
 
 /// Finds the middle of what is looked at, or the target. Returns false after reporting.

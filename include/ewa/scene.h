@@ -130,6 +130,11 @@ typedef struct ewa_asset_info {
 EWA_API ewa_status ewa_asset_load(ewa_context *context, const char *path, const ewa_asset_options *options,
                                   ewa_asset **asset);
 
+/// Says what ewa_asset_load() would make of a file, of which only what tells it is read: EWA_ASSET_POINTS of a mesh, too.
+/// `options` may be NULL. Errors: those of ewa_lod_open(), EWA_ERROR_ARGUMENT, EWA_ERROR_UNSUPPORTED (another folder).
+EWA_API ewa_status ewa_asset_probe(ewa_context *context, const char *path, const ewa_asset_options *options,
+                                   ewa_asset_kind *kind);
+
 /// Makes an asset of objects in memory. As ewa_asset_load().
 EWA_API ewa_status ewa_asset_create(ewa_context *context, const ewa_asset_source *source,
                                     const ewa_asset_options *options, ewa_asset **asset);
@@ -141,6 +146,11 @@ EWA_API ewa_asset *ewa_asset_retain(ewa_asset *asset);
 EWA_API void ewa_asset_release(ewa_asset **asset);
 
 EWA_API void ewa_asset_describe(const ewa_asset *asset, ewa_asset_info *info);
+
+/// Says what is up in a scene of one asset, and from where it is seen, as ewa_scene_place_camera() finds it where nobody
+/// says otherwise. Errors: EWA_ERROR_ARGUMENT (nothing is there, or its points are gone), EWA_ERROR_NUMERIC,
+/// EWA_ERROR_MEMORY.
+EWA_API ewa_status ewa_asset_find_upright(const ewa_asset *asset, ewa_upright *upright);
 
 /// What is up in a scene.
 typedef enum ewa_scene_up {

@@ -2701,9 +2701,11 @@ class Functions:
     ewa_texture_options_init: Callable[..., None]
     ewa_asset_create: Callable[..., int]
     ewa_asset_describe: Callable[..., None]
+    ewa_asset_find_upright: Callable[..., int]
     ewa_asset_kind_name: Callable[..., bytes | None]
     ewa_asset_load: Callable[..., int]
     ewa_asset_options_init: Callable[..., None]
+    ewa_asset_probe: Callable[..., int]
     ewa_asset_release: Callable[..., None]
     ewa_asset_retain: Callable[..., int | None]
     ewa_cloud_place_camera: Callable[..., int]
@@ -2782,6 +2784,7 @@ class Functions:
     ewa_voxels_describe: Callable[..., None]
     ewa_voxels_destroy: Callable[..., None]
     ewa_voxels_options_init: Callable[..., None]
+    ewa_depth_file_scale: Callable[..., float]
     ewa_depth_image_init: Callable[..., None]
     ewa_warp_create: Callable[..., int]
     ewa_warp_destroy: Callable[..., None]
@@ -3068,9 +3071,11 @@ class Functions:
         self.ewa_texture_options_init = bind("ewa_texture_options_init", None, c.POINTER(ewa_texture_options), c.c_size_t)
         self.ewa_asset_create = bind("ewa_asset_create", c.c_int, c.c_void_p, c.POINTER(ewa_asset_source), c.POINTER(ewa_asset_options), c.c_void_p)
         self.ewa_asset_describe = bind("ewa_asset_describe", None, c.c_void_p, c.POINTER(ewa_asset_info))
+        self.ewa_asset_find_upright = bind("ewa_asset_find_upright", c.c_int, c.c_void_p, c.POINTER(ewa_upright))
         self.ewa_asset_kind_name = bind("ewa_asset_kind_name", c.c_char_p, c.c_int)
         self.ewa_asset_load = bind("ewa_asset_load", c.c_int, c.c_void_p, c.c_char_p, c.POINTER(ewa_asset_options), c.c_void_p)
         self.ewa_asset_options_init = bind("ewa_asset_options_init", None, c.POINTER(ewa_asset_options), c.c_size_t)
+        self.ewa_asset_probe = bind("ewa_asset_probe", c.c_int, c.c_void_p, c.c_char_p, c.POINTER(ewa_asset_options), c.c_void_p)
         self.ewa_asset_release = bind("ewa_asset_release", None, c.c_void_p)
         self.ewa_asset_retain = bind("ewa_asset_retain", c.c_void_p, c.c_void_p)
         self.ewa_cloud_place_camera = bind("ewa_cloud_place_camera", c.c_int, c.c_void_p, c.c_double, c.c_int, c.c_int, c.POINTER(ewa_view_options), c.POINTER(ewa_camera), c.POINTER(ewa_view_info))
@@ -3149,6 +3154,7 @@ class Functions:
         self.ewa_voxels_describe = bind("ewa_voxels_describe", None, c.c_void_p, c.POINTER(ewa_voxels_info))
         self.ewa_voxels_destroy = bind("ewa_voxels_destroy", None, c.c_void_p)
         self.ewa_voxels_options_init = bind("ewa_voxels_options_init", None, c.POINTER(ewa_voxels_options), c.c_size_t)
+        self.ewa_depth_file_scale = bind("ewa_depth_file_scale", c.c_double, c.c_char_p, c.c_int)
         self.ewa_depth_image_init = bind("ewa_depth_image_init", None, c.POINTER(ewa_depth_image))
         self.ewa_warp_create = bind("ewa_warp_create", c.c_int, c.c_void_p, c.c_void_p)
         self.ewa_warp_destroy = bind("ewa_warp_destroy", None, c.c_void_p)

@@ -9,7 +9,6 @@
 #include "base/options.h"
 #include "base/platform.h"
 #include "ewa/gaussian_io.h"
-#include "framing/conventions.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -160,8 +159,7 @@ static ewa_status load_gaussians(const ewa_asset_job *job, const char *path) {
     EWA_TRY(ewa_gaussians_load(asset->context, path, &set, &facts));
     ewa_report(asset->context, EWA_SEVERITY_INFO, "%u Gaussians read in %.3f s (%s)", set.count,
                ewa_now_s() - started_s, ewa_gaussian_format_name(facts.format));
-    const double *up = facts.up_world;
-    ewa_status status = ewa_asset_take_gaussians(job, &set, up[0] || up[1] || up[2] ? up : ewa_up_of_gaussians);
+    ewa_status status = ewa_asset_take_gaussians(job, &set, facts.up_world);
     ewa_gaussians_free(&set);
     return status;
 }
@@ -221,18 +219,32 @@ static ewa_status check_folder(ewa_context *context, const char *path) {
                     "%s: a folder, and no octree (EPT): name the files in it", path);
 }
 
-static ewa_status load(const ewa_asset_job *job, const char *path) {
+/// Finds what a file becomes; of an octree that is drawn from its levels, `*lod` is the caller's, else NULL.
+static ewa_status find_kind(const ewa_asset_job *job, const char *path, ewa_asset_kind *kind, ewa_lod **lod) {
     ewa_context *context = job->asset->context;
+    *lod = NULL;
     EWA_TRY(check_folder(context, path));
-    if (ewa_volume_is_file(context, path)) return load_volume(job, path);
+    *kind = EWA_ASSET_VOLUME;
+    if (ewa_volume_is_file(context, path)) return EWA_OK;
+    *kind = EWA_ASSET_GAUSSIANS;
     ewa_gaussian_format gaussians = EWA_GAUSSIANS_NONE;
     // What is missing or cannot be opened is said by who reads it.
     if (is_regular(path) && ewa_gaussians_probe(context, path, &gaussians) == EWA_OK &&
         gaussians != EWA_GAUSSIANS_NONE)
-        return load_gaussians(job, path);
+        return EWA_OK;
+    EWA_TRY(open_octree(job, path, lod));
+    *kind = *lod ? EWA_ASSET_OCTREE : EWA_ASSET_POINTS;
+    return EWA_OK;
+}
+
+static ewa_status load(const ewa_asset_job *job, const char *path) {
+    ewa_asset_kind kind;
     ewa_lod *lod;
-    EWA_TRY(open_octree(job, path, &lod));
-    return lod ? ewa_asset_take_octree(job, lod) : load_model(job, path);
+    EWA_TRY(find_kind(job, path, &kind, &lod));
+    return kind == EWA_ASSET_VOLUME      ? load_volume(job, path)
+           : kind == EWA_ASSET_GAUSSIANS ? load_gaussians(job, path)
+           : kind == EWA_ASSET_OCTREE    ? ewa_asset_take_octree(job, lod)
+                                         : load_model(job, path);
 }
 
 bool ewa_asset_map_is_good(const double m[16]) {
@@ -274,6 +286,23 @@ ewa_status ewa_asset_load(ewa_context *context, const char *path, const ewa_asse
     ewa_context_about(context, before);
     if (status != EWA_OK) ewa_asset_release(&asset);
     *made = asset;
+    return status;
+}
+
+ewa_status ewa_asset_probe(ewa_context *context, const char *path, const ewa_asset_options *given,
+                           ewa_asset_kind *kind) {
+    if (!context || !path || !kind) return EWA_ERROR_ARGUMENT;
+    ewa_asset_options options;
+    const char *before = ewa_context_about(context, path);
+    ewa_asset *asset = NULL;
+    ewa_lod *lod = NULL;
+    ewa_status status = ewa_asset_take_options(context, given, &options);
+    options.own_context = false;
+    if (status == EWA_OK) status = make(context, path, &options, &asset);
+    if (status == EWA_OK) status = find_kind(&(ewa_asset_job){asset, &options}, path, kind, &lod);
+    ewa_lod_close(&lod);
+    ewa_asset_release(&asset);
+    ewa_context_about(context, before);
     return status;
 }
 

@@ -13,7 +13,8 @@ typedef struct ewa_asset_job {
     const ewa_asset_options *options;
 } ewa_asset_job;
 
-/// Takes over a set of Gaussians, which is needed no more afterwards, as splats or as a cloud.
+/// Takes over a set of Gaussians, which is needed no more afterwards, as splats or as a cloud. `up_world` zeros: as such
+/// files have it.
 ewa_status ewa_asset_take_gaussians(const ewa_asset_job *job, ewa_gaussians *set, const double up_world[3]);
 
 /// Takes over what a file of points or triangles holds.

@@ -5,6 +5,7 @@
 #include "base/base.h"
 #include "ewa/diagnosis.h"
 #include "ewa/prepare.h"
+#include "framing/conventions.h"
 #include "scene/asset.h"
 
 #include <math.h>
@@ -74,7 +75,8 @@ ewa_status ewa_asset_take_model(const ewa_asset_job *job, ewa_model *model) {
 
 ewa_status ewa_asset_take_gaussians(const ewa_asset_job *job, ewa_gaussians *set, const double up_world[3]) {
     ewa_asset *asset = job->asset;
-    memcpy(asset->up_world, up_world, sizeof asset->up_world);
+    const bool says_up = up_world[0] != 0 || up_world[1] != 0 || up_world[2] != 0;
+    memcpy(asset->up_world, says_up ? up_world : ewa_up_of_gaussians, sizeof asset->up_world);
     if (job->options->gaussians_as_surfels) {
         ewa_cloud *cloud = NULL;
         const ewa_status status = ewa_gaussians_to_cloud(set, &cloud);

@@ -65,19 +65,28 @@ static int axis_of(ewa_scene_up up) {
     return axes[up];
 }
 
-/// What is up by the first visible file that says so: 1 y, 2 z, negative: down; 0: none does.
+/// What is up as an asset says: 1 y, 2 z, negative: down; 0: it does not.
+static int up_axis_of_asset(const ewa_asset *asset) {
+    const double *up = asset->up_world;
+    if (up[0] == 0 && up[1] == 0 && up[2] == 0) return 0;
+    const int axis = fabs(up[2]) > fabs(up[1]) ? 2 : 1;
+    return up[axis] < 0 ? -axis : axis;
+}
+
+/// By the end of which name an asset's convention goes: octrees are surveyed, whatever they are called.
+static const char *file_of(const ewa_asset *asset) {
+    return asset->of_octree || asset->lod ? "ept.json" : asset->name;
+}
+
+/// What is up by the first visible file that says so.
 static int up_axis_of(const ewa_scene *scene) {
     // Volumes come last: what else there is was put to them.
     for (int pass = 0; pass < 2; pass++)
         for (uint32_t i = 0; i < scene->count; i++) {
             const ewa_asset *asset = scene->items[i].asset;
-            const double *up = asset->up_world;
-            const bool said = up[0] != 0 || up[1] != 0 || up[2] != 0;
-            if (!scene->items[i].instance.visible || !said ||
-                (pass == 0) != (asset->kind != EWA_ASSET_VOLUME))
-                continue;
-            const int axis = fabs(up[2]) > fabs(up[1]) ? 2 : 1;
-            return up[axis] < 0 ? -axis : axis;
+            const int axis = up_axis_of_asset(asset);
+            if (scene->items[i].instance.visible && axis && (pass == 0) == (asset->kind != EWA_ASSET_VOLUME))
+                return axis;
         }
     return 0;
 }
@@ -89,7 +98,7 @@ static ewa_status find_convention(const ewa_scene *scene, ewa_up_convention *con
     if (!names) return EWA_ERROR_MEMORY;
     for (uint32_t i = 0; i < scene->count; i++)
         if (scene->items[i].instance.visible)
-            names[count++] = scene->items[i].asset->of_octree ? "ept.json" : scene->items[i].asset->name;
+            names[count++] = file_of(scene->items[i].asset);
     *convention = ewa_up_convention_of(count, names);
     ewa_release(scene->context, names, scene->count, sizeof *names);
     return EWA_OK;
@@ -248,6 +257,21 @@ ewa_status ewa_cloud_place_camera(const ewa_cloud *cloud, double radius_scale, e
                    .convention = convention,
                    .suited_view = -1};
     return place_at(&p, cloud, radius_scale, options, camera, info);
+}
+
+ewa_status ewa_asset_find_upright(const ewa_asset *asset, ewa_upright *upright) {
+    if (!asset || !upright) return EWA_ERROR_ARGUMENT;
+    const ewa_cloud *places = ewa_asset_is_points(asset) ? asset->cloud : asset->outline;
+    if (!places) return ewa_fail(asset->context, EWA_ERROR_ARGUMENT, "%s: its points are gone", asset->name);
+    const char *name = file_of(asset);
+    placement p = {.context = ewa_cloud_context(places),
+                   .up_axis = up_axis_of_asset(asset),
+                   .convention = ewa_up_convention_of(1, &name),
+                   .suited_view = asset->view};
+    ewa_view_info info;
+    EWA_TRY(place_at(&p, places, 1, NULL, NULL, &info));
+    *upright = info.upright;
+    return EWA_OK;
 }
 
 ewa_status ewa_scene_set_camera(ewa_scene *scene, const ewa_camera *camera) {

@@ -62,7 +62,7 @@ static void told(void **state) {
 static void converted(void **state) {
     run_done("ewa convert three.ply -o b.spz --spz-version 4 && ewa info b.spz");
     said("version 4");
-    said("up          0 -1 0"); // right, up, back there
+    said("up          -y ("); // right, up, back there
     run_done("ewa convert three.ply -o b.spz --spz-version 2 --sh-degree 0 && ewa info b.spz");
     said("version 2");
     said("degree 0");

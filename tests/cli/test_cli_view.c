@@ -193,6 +193,44 @@ static void test_bases(void **state) {
     expect("animal.ply", "y", "iso");
 }
 
+/// Info says of a file what is drawn of it.
+static void expect_same(const char *path) {
+    char wanted[200] = "up: ";
+    assert_int_equal(run("ewa info %s", path), 0);
+    const char *up = strstr(last_run.out, "  up          ");
+    assert_non_null(up);
+    strncat(wanted, up + 14, strcspn(up + 14, "\n") + 1);
+    assert_int_equal(run("ewa render %s -o view.png --size 32x24 --verbose", path), 0);
+    if (!strstr(last_run.err, wanted)) fail_msg("%s: info says %swhat is drawn: %s", path, wanted, last_run.err);
+}
+
+/// Of meshes the faces stand, of Gaussians the kind of file says it, of folders the octree in them.
+static void test_info(void **state) {
+    // Eight corners of a plate and eight of a pillar on it, of which the corners alone say nothing.
+    scratch_text("pillar.off", "OFF\n16 10 0\n"
+                               "-2 -2 0\n2 -2 0\n2 2 0\n-2 2 0\n-2 -2 0.4\n2 -2 0.4\n2 2 0.4\n-2 2 0.4\n"
+                               "-0.3 -0.3 0.4\n0.3 -0.3 0.4\n0.3 0.3 0.4\n-0.3 0.3 0.4\n"
+                               "-0.3 -0.3 3\n0.3 -0.3 3\n0.3 0.3 3\n-0.3 0.3 3\n"
+                               "4 0 3 2 1\n4 4 5 6 7\n4 0 1 5 4\n4 1 2 6 5\n4 2 3 7 6\n4 3 0 4 7\n"
+                               "4 8 9 13 12\n4 9 10 14 13\n4 10 11 15 14\n4 11 8 12 15\n");
+    expect_same("pillar.off");
+    assert_non_null(strstr(last_run.err, "up: z (it stands on a base)"));
+    float numbers[8] = {0, 0, 0, 0.1f, 0.2f, 0.3f};
+    memcpy(&numbers[6], "\377\200\100\377\377\200\200\200", 8);
+    FILE *file = fopen(scratch_path("one.splat"), "wb");
+    assert_non_null(file);
+    for (int i = 0; i < 3; i++) {
+        numbers[i] = 1;
+        assert_int_equal(fwrite(numbers, sizeof numbers, 1, file), 1);
+    }
+    assert_int_equal(fclose(file), 0);
+    expect_same("one.splat");
+    assert_non_null(strstr(last_run.err, "up: -y"));
+    assert_int_equal(run("ewa generate terrain -o flat.ply -n 3000 && ewa lod flat.ply -o flat.copc.laz"), 0);
+    expect_same("flat.ply");
+    expect_same("flat.copc.laz");
+}
+
 /// A man with his arms out is flat in z, and has two sides: no ground.
 static void test_flat_body(void **state) {
     shape to = {.random = {5}};
@@ -390,6 +428,7 @@ static void test_order(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_info),
         cmocka_unit_test(test_bases),         cmocka_unit_test(test_flat_body),
         cmocka_unit_test(test_ground),        cmocka_unit_test(test_what_lies),
         cmocka_unit_test(test_planes),        cmocka_unit_test(test_range_images),
