@@ -50,7 +50,7 @@ QUIET_PYTHON = re.compile(r"^\s*(import|from|raise|class|def|@|assert)\b|Error\(
 ARRAY_LENGTH = re.compile(r"^\s*(static |const |extern )*(unsigned |struct )?\w+ \**\w+[\w\s,*\[\]]*\[$")
 
 # Near tests by the beginning of a path, cheapest first; the first that fails kills the mutant.
-PICTURES = ["surfel", "packets", "reference_splat", "points", "tolerance", "resolve", "kernels", "abuffer", "reference",
+PICTURES = ["surfel", "packets", "billboards", "reference_splat", "points", "tolerance", "resolve", "kernels", "abuffer", "reference",
             "reference_invariance", "shade", "random_scenes", "ranges", "silhouette", "holes", "facing", "layers",
             "shade_pipeline", "clip_lines", "environment", "sharp"]
 MESHES = ["mesh_ply", "mesh_obj", "mesh_stl", "mesh_polygon", "mesh_gltf", "mesh_gltf_look", "mesh_broken", "referenced_file"]

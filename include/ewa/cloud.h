@@ -23,6 +23,7 @@ extern "C" {
 /// | tangent_u    |          3 | first axis of the kernel, length = one standard deviation, world units    |
 /// | tangent_v    |          3 | second axis; they win over radius; the normal is u x v unless given       |
 /// | material     |          1 | index into a material table                                               |
+/// | surfaceness  |          1 | 1: part of a surface, to 0: not at all; below 0.5 it faces the viewer     |
 /// | clip0, clip1 |          3 | clip line (a, b, c): keep a u + b v + c >= 0 at                           |
 /// |              |            | position + u tangent_u + v tangent_v                                      |
 /// | clip_mode    |          1 | 0: both lines hold, 1: either holds                                       |
@@ -35,17 +36,18 @@ extern "C" {
 /// gps_time (F64), nir. 8-bit colours become U8, 16-bit colours U16. Invalid or missing numbers are NaN in
 /// floats. Scans of one file are told apart by "scan" (U16), the scanner of each by the note "scanners": 3
 /// numbers x y z per scan as text, a line each, world units.
-#define EWA_POSITION  "position"
-#define EWA_NORMAL    "normal"
-#define EWA_COLOR     "color"
-#define EWA_RADIUS    "radius"
-#define EWA_TANGENT_U "tangent_u"
-#define EWA_TANGENT_V "tangent_v"
-#define EWA_MATERIAL  "material"
-#define EWA_CLIP0     "clip0"
-#define EWA_CLIP1     "clip1"
-#define EWA_CLIP_MODE "clip_mode"
-#define EWA_BORDER    "border"
+#define EWA_POSITION    "position"
+#define EWA_NORMAL      "normal"
+#define EWA_COLOR       "color"
+#define EWA_RADIUS      "radius"
+#define EWA_TANGENT_U   "tangent_u"
+#define EWA_TANGENT_V   "tangent_v"
+#define EWA_MATERIAL    "material"
+#define EWA_SURFACENESS "surfaceness"
+#define EWA_CLIP0       "clip0"
+#define EWA_CLIP1       "clip1"
+#define EWA_CLIP_MODE   "clip_mode"
+#define EWA_BORDER      "border"
 
 enum { EWA_NAME_BYTES = 64 };
 

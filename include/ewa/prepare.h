@@ -57,7 +57,7 @@ EWA_API extern const ewa_option_table ewa_estimate_options_table;
 EWA_API void ewa_estimate_options_init(ewa_estimate_options *options, size_t struct_size);
 
 /// Adds what a surfel needs and the cloud lacks: "normal", and "radius" or tangent axes; with these "border" or
-/// "clip0" where the surface ends.
+/// "clip0" where the surface ends, "surfaceness" where there is none.
 ///
 /// - Neighbours are the k nearest other places, duplicates being one place, with all that are as far as the
 ///   k-th. Where they lie almost on a line (a scanner's lines far apart) 64 are asked instead.
@@ -71,6 +71,8 @@ EWA_API void ewa_estimate_options_init(ewa_estimate_options *options, size_t str
 /// - Borders are where the 64 nearest places end at a line within the disc's reach, beyond which 12 of them would
 ///   be by chance: discs end 0.2 spacings behind the outermost places. Gaps that discs may close are none, nor are
 ///   those between lines of samples; a cloud without borders gets no such stream.
+/// - "surfaceness" tells where the 64 nearest places are no surface, as in trees, or on a curve, as wires are; a
+///   cloud without such places gets no such stream, and keeps none of before beside new radii or axes.
 /// - Points with coordinates that are not finite get zeros. Coplanar, collinear and identical points get
 ///   finite results; an info message says how many have no plane.
 /// - Outlier removal replaces the cloud by a smaller one, which also lacks the points that are not finite.

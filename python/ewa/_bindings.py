@@ -33,6 +33,7 @@ EWA_MATERIAL = 'material'
 EWA_NORMAL = 'normal'
 EWA_POSITION = 'position'
 EWA_RADIUS = 'radius'
+EWA_SURFACENESS = 'surfaceness'
 EWA_TANGENT_U = 'tangent_u'
 EWA_TANGENT_V = 'tangent_v'
 EWA_MAX_RANKS = 1048576

@@ -5,6 +5,9 @@
 #ifndef EWA_SRC_CLOUD_BORDER_H
 #define EWA_SRC_CLOUD_BORDER_H
 
+/// Surfaceness (ewa/cloud.h) below which a point faces the viewer, and has no border.
+#define EWA_SURFACE_LIMIT 0.5
+
 /// Sets the clip line (a, b, c), which keeps a u + b v + c >= 0, of a disc with these axes that ends at the plane
 /// to.x = to.to through `to`, which is relative to its centre; no line where that is zero.
 static inline void ewa_border_line(const double to[3], const double axis_u[3], const double axis_v[3],

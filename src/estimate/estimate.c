@@ -4,6 +4,7 @@
 // From positions to surfels: normals, radii or tangent axes from the neighbourhood of each place.
 #include "base/base.h"
 #include "base/options.h"
+#include "cloud/border.h"
 #include "cloud/cloud.h"
 #include "estimate/borders.h"
 #include "estimate/local.h"
@@ -44,10 +45,11 @@ typedef struct estimate_job {
     float *normals;
     float *spacing;
     uint32_t (*links)[LOCAL_GRAPH_DEGREE];
-    uint8_t *notes; // RADIUS_*
+    uint8_t *notes;  // RADIUS_*
+    uint8_t *strewn; // how little a place is part of a surface, of UINT8_MAX; NULL when no sizes are wanted
     border_set *borders; // NULL when no sizes are wanted
     // by point; NULL when not wanted
-    float *radius_out, *tangent_u_out, *tangent_v_out, *normal_out;
+    float *radius_out, *tangent_u_out, *tangent_v_out, *normal_out, *surfaceness_out;
     ewa_attribute position;
     sight sight;          // where points were seen from, if normals are to point there
     counter *counters;    // per worker
@@ -184,6 +186,8 @@ static double settle_lane(const estimate_job *job, const local_batch *batch, uin
                              .scatter = scatter > lone ? scatter : lone};
     const double radius = ewa_radius(&at, job->options->radius_scale, job->options->cutoff);
     set_size(job, place, s, lane, radius * batch->unit_world[lane]);
+    const bool curve = s->thin >> lane & 1;
+    job->strewn[place] = (uint8_t)(curve ? UINT8_MAX : UINT8_MAX * ewa_radius_strewn((double)s->variation[lane]));
     return radius;
 }
 
@@ -192,6 +196,11 @@ static double smaller(float a, double b) { return (double)a < b ? (double)a : b;
 /// 1 / sqrt(neighbours per area), wherever they are: less than along one surface where there are several or leaves.
 static double spread_of(uint32_t count, float farthest2) {
     return count > 1 ? sqrt(PI * (double)farthest2 / (count - 1)) : 0;
+}
+
+/// How much a place is part of a surface.
+static float surfaceness(const estimate_job *job, uint32_t place) {
+    return 1 - (float)job->strewn[place] / UINT8_MAX;
 }
 
 /// Notes where the surface ends near places, and whose discs around reach over that.
@@ -203,7 +212,7 @@ static void note_borders(const estimate_job *job, const local_batch *batch, uint
         float to_world[3];
         for (int c = 0; c < 3; c++) to_world[c] = (float)((double)border->direction[c][lane] * distance * unit);
         // What looks like one may be a gap between lines of samples.
-        if (job->notes[place] & RADIUS_THIN) continue;
+        if (job->notes[place] & RADIUS_THIN || surfaceness(job, place) < (float)EWA_SURFACE_LIMIT) continue;
         ewa_borders_note(job->borders, place, to_world);
         for (uint32_t i = 0; i < batch->count[lane]; i++) {
             const local_row *row = &batch->row[i];
@@ -310,6 +319,28 @@ static ewa_status add_output(ewa_cloud *cloud, const char *name, uint32_t compon
     return EWA_OK;
 }
 
+/// Hands on how much places are part of a surface.
+static void surfaceness_task(void *data, uint32_t task, uint32_t worker) {
+    (void)worker;
+    const estimate_job *job = data;
+    const uint32_t begin = task * TASK_PLACES;
+    const uint32_t end = job->place_count - begin < TASK_PLACES ? job->place_count : begin + TASK_PLACES;
+    for (uint32_t place = begin; place < end; place++) {
+        const float value = surfaceness(job, place);
+        set_points(job, place, job->surfaceness_out, &value, 1);
+    }
+}
+
+/// Adds the stream of surfaceness where some place is on no surface.
+static ewa_status finish_surfaceness(ewa_cloud *cloud, estimate_job *job, bool has_gaps) {
+    uint8_t any = 0;
+    for (uint32_t place = 0; place < job->place_count; place++) any |= job->strewn[place];
+    if (!any) return EWA_OK;
+    EWA_TRY(add_output(cloud, EWA_SURFACENESS, 1, has_gaps, &job->surfaceness_out));
+    return ewa_parallel_stoppable(ewa_cloud_context(cloud), "estimate", surfaceness_task, job,
+                                  (job->place_count + TASK_PLACES - 1) / TASK_PLACES);
+}
+
 /// Measures all places.
 static ewa_status measure(ewa_context *context, estimate_job *job) {
     ewa_visit_choice choice = {job->options->neighbour_count, 1, NULL, "estimate", 0, NULL};
@@ -387,11 +418,16 @@ static ewa_status estimate_with(ewa_cloud *cloud, estimate_job *job, bool normal
             complete = (job->links = ewa_allocate(context, places, sizeof *job->links)) && complete;
         if (propagate || sizes)
             complete = (job->spacing = ewa_allocate(context, places, sizeof *job->spacing)) && complete;
+        if (sizes)
+            complete = (job->strewn = ewa_allocate_zeroed(context, places, sizeof *job->strewn)) && complete;
         if (sizes) complete = ewa_borders_make(context, job->place_count, &borders) == EWA_OK && complete;
         status = complete ? measure(context, job) : EWA_ERROR_MEMORY;
     }
     if (status == EWA_OK) {
         report_degenerate(context, job);
+        if (sizes) status = finish_surfaceness(cloud, job, has_gaps);
+    }
+    if (status == EWA_OK) {
         if (normals) status = finish_normals(cloud, job, has_gaps);
     }
     if (status == EWA_OK && sizes)
@@ -402,6 +438,7 @@ static ewa_status estimate_with(ewa_cloud *cloud, estimate_job *job, bool normal
     ewa_release(context, job->normals, places, 3 * sizeof *job->normals);
     ewa_release(context, job->batches, workers, sizeof *job->batches);
     ewa_release(context, job->notes, places, sizeof *job->notes);
+    ewa_release(context, job->strewn, places, sizeof *job->strewn);
     ewa_release(context, job->counters, workers, sizeof *job->counters);
     return status;
 }
@@ -438,12 +475,14 @@ static ewa_status estimate(ewa_cloud *cloud, const ewa_estimate_options *options
         // Streams that are not filled must not stay.
         if (job.normal_out) ewa_cloud_remove(cloud, EWA_NORMAL);
         if (job.radius_out) ewa_cloud_remove(cloud, EWA_RADIUS);
+        if (job.surfaceness_out) ewa_cloud_remove(cloud, EWA_SURFACENESS);
         if (job.tangent_u_out) ewa_cloud_remove(cloud, EWA_TANGENT_U);
         if (job.tangent_v_out) ewa_cloud_remove(cloud, EWA_TANGENT_V);
         return status;
     }
     // What described the old sizes would contradict the new ones.
     if (job.tangent_u_out) ewa_cloud_remove(cloud, EWA_RADIUS);
+    if (sizes && !job.surfaceness_out) ewa_cloud_remove(cloud, EWA_SURFACENESS);
     if (job.radius_out) {
         ewa_cloud_remove(cloud, EWA_TANGENT_U);
         ewa_cloud_remove(cloud, EWA_TANGENT_V);

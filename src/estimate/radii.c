@@ -18,6 +18,7 @@ static const double SOLID_SIGMAS = 2;
 // Share of the variance along the normal from which a neighbourhood is no surface at all. Edges of solids
 // have 0.085, noise of half a spacing 0.09 of few neighbours and 0.03 of many, leaves of trees 0.1 to 0.2.
 static const double SCATTERED_VARIATION = 0.16;
+static const double STREWN_LOW = 0.085, STREWN_HIGH = 0.125;
 // Spacings, in units of those around, between which a place ceases to be part of what is around it.
 static const double NEAR_RATIO = 2, LONE_RATIO = 2.5;
 
@@ -49,6 +50,8 @@ local_sizing ewa_radius_sizing(double limit, double scale, double cutoff) {
 double ewa_radius_scatter(double variation) {
     return ramp(variation, LOCAL_SURFACE_VARIATION, SCATTERED_VARIATION);
 }
+
+double ewa_radius_strewn(double variation) { return ramp(variation, STREWN_LOW, STREWN_HIGH); }
 
 double ewa_radius_lone(double spacing, double around) {
     return around > 0 ? ramp(spacing / around, NEAR_RATIO, LONE_RATIO) : 0;

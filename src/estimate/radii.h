@@ -36,6 +36,9 @@ local_sizing ewa_radius_sizing(double limit, double scale, double cutoff);
 /// Returns how little a neighbourhood is a surface, 0 to 1, by the share of its variance along the normal.
 double ewa_radius_scatter(double variation);
 
+/// Returns how much a neighbourhood of many points is strewn in space, 0 to 1, likewise.
+double ewa_radius_strewn(double variation);
+
 /// Returns how little a place is part of what is around it, 0 to 1, by its spacing and the median around.
 double ewa_radius_lone(double spacing, double around);
 

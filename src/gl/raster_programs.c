@@ -7,6 +7,7 @@
 #include "gl/raster_targets.h"
 #include "gl/shaders.h"
 #include "image/environment.h"
+#include "surface/packet.h"
 #include "surface/semantics.h"
 
 #include <stdio.h>
@@ -20,6 +21,7 @@ static size_t write_head(char *head) {
         double value;
     } constants[] = {
         {"NEVER", EWA_RASTER_NEVER},
+        {"BILLBOARD", EWA_BILLBOARD},
         {"NEAR_RATIO", EWA_NEAR_RATIO},
         {"FLAT", EWA_FLAT},
         {"SINGULAR", EWA_SINGULAR},

@@ -24,6 +24,7 @@ size_t ewa_gl_head_write(const ewa_gl_arithmetic *arithmetic, char *head) {
         {"LARGEST", 0x1.fffffep127f},
         {"MIN_KEY_OF_ALL", -3e38f},
         {"UNIT_OCT", 1.0f / 32767.0f},
+        {"BILLBOARD", EWA_BILLBOARD},
         {"UNIT_ANGLE", 1.0f / 32768.0f},
         {"UNIT_U16", 1.0f / 65535.0f},
         {"NEAR_RATIO", (float)EWA_NEAR_RATIO},

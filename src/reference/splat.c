@@ -372,8 +372,22 @@ static void clip_sample(const ewa_reference_splat *splat, double x_px, double y_
     sample->inward[1] = sum > 0 ? inward.y / sum : 0;
 }
 
-void ewa_reference_project(const ewa_reference_view *view, const ewa_surfel *surfel,
-                           ewa_reference_splat *splat) {
+/// A surfel of no surface, parallel to the picture.
+static ewa_surfel face_picture(const ewa_reference_view *view, const ewa_surfel *surfel) {
+    ewa_surfel facing = *surfel;
+    const double sigma = vec3_length(vec3_load(surfel->axis_u_world));
+    double *const axes[3] = {facing.axis_u_world, facing.axis_v_world, facing.normal_world};
+    const double lengths[3] = {sigma, sigma, -1};
+    for (int i = 0; i < 3; i++) {
+        const ewa_vec3 row = mat3_row(&view->placement.linear, i);
+        vec3_store(vec3_scale(row, lengths[i] / vec3_length(row)), axes[i]);
+    }
+    return facing;
+}
+
+void ewa_reference_project(const ewa_reference_view *view, const ewa_surfel *given, ewa_reference_splat *splat) {
+    const ewa_surfel facing_picture = given->billboard ? face_picture(view, given) : *given;
+    const ewa_surfel *surfel = &facing_picture;
     splat->drawn = false;
     if (is_cut_off(view, surfel)) return;
     const ewa_vec3 p = ewa_placement_apply(&view->placement, vec3_load(surfel->center));

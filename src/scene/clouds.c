@@ -121,16 +121,17 @@ ewa_status ewa_cloud_colors_to_linear(ewa_cloud *cloud) {
     return status;
 }
 
-/// Replaces the materials, or their absence, by doubles, which all can become; without one it is 0.
-static ewa_status materials_to_doubles(ewa_cloud *cloud) {
+/// Replaces a number of each point, or its absence, by doubles, which all can become.
+static ewa_status numbers_to_doubles(ewa_cloud *cloud, const char *name, double absent) {
     const uint64_t count = ewa_cloud_point_count(cloud);
     ewa_context *context = ewa_cloud_context(cloud);
-    double *numbers = ewa_allocate_zeroed(context, count, sizeof *numbers);
+    double *numbers = ewa_allocate(context, count, sizeof *numbers);
     if (!numbers) return EWA_ERROR_MEMORY;
-    const ewa_attribute *found = ewa_cloud_find(cloud, EWA_MATERIAL);
+    for (uint64_t i = 0; i < count; i++) numbers[i] = absent;
+    const ewa_attribute *found = ewa_cloud_find(cloud, name);
     if (found && found->component_count == 1) ewa_attribute_read_f64(found, 0, count, numbers);
     void *data = NULL;
-    const ewa_status status = ewa_cloud_add(cloud, EWA_MATERIAL, EWA_F64, 1, &data);
+    const ewa_status status = ewa_cloud_add(cloud, name, EWA_F64, 1, &data);
     if (status == EWA_OK) memcpy(data, numbers, count * sizeof *numbers);
     ewa_release(context, numbers, count, sizeof *numbers);
     return status;
@@ -140,7 +141,7 @@ static ewa_status materials_to_doubles(ewa_cloud *cloud) {
 static void drop_undrawn(ewa_cloud *cloud) {
     static const char *const drawn[] = {EWA_POSITION,  EWA_NORMAL,   EWA_COLOR, EWA_RADIUS, EWA_TANGENT_U,
                                         EWA_TANGENT_V, EWA_MATERIAL, EWA_CLIP0, EWA_CLIP1,  EWA_CLIP_MODE,
-                                        EWA_BORDER};
+                                        EWA_BORDER,    EWA_SURFACENESS};
     for (uint32_t k = ewa_cloud_attribute_count(cloud); k-- > 0;) {
         bool kept = false;
         char name[EWA_NAME_BYTES];
@@ -166,20 +167,23 @@ static ewa_status add_clip_lines(ewa_cloud *cloud, const bool wanted[CLIP_STREAM
 }
 
 ewa_status ewa_clouds_make_alike(ewa_cloud *const *clouds, uint32_t count, double cutoff) {
-    bool any_axes = false, colors_differ = false, normals_differ = false, materials_differ = false;
+    bool any_axes = false, colors_differ = false, normals_differ = false, materials_differ = false,
+         surfaceness_differs = false;
     bool clip[CLIP_STREAMS] = {false};
     for (uint32_t i = 0; i < count; i++) {
         any_axes |= has_axes(clouds[i]);
         colors_differ |= streams_differ(clouds[0], clouds[i], EWA_COLOR);
         normals_differ |= !ewa_cloud_find(clouds[i], EWA_NORMAL);
         materials_differ |= streams_differ(clouds[0], clouds[i], EWA_MATERIAL);
+        surfaceness_differs |= streams_differ(clouds[0], clouds[i], EWA_SURFACENESS);
         for (int k = 0; k < CLIP_STREAMS; k++) clip[k] |= ewa_cloud_find(clouds[i], clip_streams[k]) != NULL;
     }
     if (any_axes) clip[0] |= clip[3], clip[3] = false;
     for (uint32_t i = 0; i < count; i++) {
         if (any_axes && !has_axes(clouds[i])) EWA_TRY(discs_to_axes(clouds[i], cutoff));
         if (colors_differ) EWA_TRY(ewa_cloud_colors_to_linear(clouds[i]));
-        if (materials_differ) EWA_TRY(materials_to_doubles(clouds[i]));
+        if (materials_differ) EWA_TRY(numbers_to_doubles(clouds[i], EWA_MATERIAL, 0));
+        if (surfaceness_differs) EWA_TRY(numbers_to_doubles(clouds[i], EWA_SURFACENESS, 1));
         EWA_TRY(add_clip_lines(clouds[i], clip));
         if (any_axes) ewa_cloud_remove(clouds[i], EWA_RADIUS), ewa_cloud_remove(clouds[i], EWA_BORDER);
         if (normals_differ) ewa_cloud_remove(clouds[i], EWA_NORMAL);

@@ -79,7 +79,8 @@ static void set_packets(const ewa_tile_job *job, const ewa_render_options *optio
                             .opacities = job->with_opacity ? surfels->opacities : NULL,
                             .clip_masks = options->point_size_px > 0 ? NULL : surfels->clip_masks,
                             .materials = job->with_materials ? surfels->materials : NULL,
-                            .material = surfels->material};
+                            .material = surfels->material,
+                            .billboards = surfels->billboards};
 }
 
 /// A source that has something to draw, and how far away that begins.

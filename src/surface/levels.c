@@ -33,7 +33,7 @@ typedef struct representative {
     double sigma, color[3], opacity;
     uint16_t ratio;
     uint8_t material;
-    bool clipped;
+    bool clipped, billboard;
     ewa_surfel_clip clip;
 } representative;
 
@@ -315,6 +315,9 @@ static void make_representative(const level_job *job, const ewa_window *window, 
         vec3_make((double)packet->x[lane], (double)packet->y[lane], (double)packet->z[lane]);
     made->center = vec3_add(ewa_packet_center(fine, index), vec3_add(offset, moved));
     made->ratio = packet->ratio[lane];
+    made->billboard = true;
+    for (uint32_t i = 0; i < count; i++)
+        made->billboard &= fine->packets[members.packet[i]].oct_x[members.lane[i]] == EWA_BILLBOARD;
     made->clipped = members.any_clipped;
     if (made->clipped) move_clip(fine, index, lane, moved, &made->clip);
     made->material = fine->materials ? fine->materials[(size_t)index * LANES + lane] : fine->material;
@@ -355,6 +358,7 @@ static void encode_packet(const level_job *job, uint32_t index, const representa
     for (uint32_t i = 0; i < LANES; i++) {
         const bool circle = packet->ratio[i] == UINT16_MAX;
         packet->angle[i] = circle ? 0 : ewa_packet_code_angle(packet, i, made[i < count ? i : 0].axis_u);
+        if (made[i < count ? i : 0].billboard) packet->oct_x[i] = EWA_BILLBOARD;
     }
     const uint16_t form =
         even ? EWA_COLOR_FORM_UNIT : ewa_color_form_choose((const double(*)[3])colors, LANES);
@@ -421,9 +425,12 @@ static void bound_group(void *data, uint32_t group, uint32_t worker) {
     }
     job->kernels->bound_packets(&coarse->packets[first], count, (const double(*)[3])starts,
                                 (float)coarse->cutoff, (float)EWA_PACKET_REACH, &coarse->bounds, first);
-    for (uint32_t k = 0; k < count; k++)
+    for (uint32_t k = 0; k < count; k++) {
+        if (coarse->billboards)
+            ewa_packet_free_billboards(&coarse->packets[first + k], &coarse->bounds.cone[first + k]);
         if (job->lane_counts[first + k] < LANES)
             ewa_packet_empty_lanes(&coarse->packets[first + k], job->lane_counts[first + k]);
+    }
 }
 
 /// Makes room for what the packets were counted to take.
@@ -486,6 +493,7 @@ static ewa_status make_level(ewa_surfels *fine, double growth) {
         ewa_surfels *coarse = job.coarse;
         coarse->material = fine->material, coarse->max_material = fine->max_material;
         coarse->unit = fine->unit, coarse->cutoff = fine->cutoff, coarse->ellipses = fine->ellipses;
+        coarse->billboards = fine->billboards;
         coarse->extent = fine->extent;
         memcpy(coarse->origin_world, fine->origin_world, sizeof coarse->origin_world);
         ewa_parallel(context, count_part, &job, parts);

@@ -14,6 +14,7 @@ enum {
     EWA_CONE_BITS = 11,      ///< of each octahedral coordinate of a cone's axis
     EWA_CONE_AXIS = 1023,    ///< code of 1, to which 1023 is added
     EWA_CONE_SINE = 1022,    ///< code of 1; the next one stands for cones of 90 degrees and more
+    EWA_BILLBOARD = -32768,  ///< code of oct_x: a circle parallel to the picture, without a normal
     EWA_RADIUS_SHIFT = 15,   ///< a radius is the float of its code shifted by so many bits
     EWA_COLOR_SIGN = 1 << 15 ///< see ewa_packet_bounds.colors
 };

@@ -40,9 +40,16 @@ static double decode_ratio(uint16_t code) {
     return square * square;
 }
 
+void ewa_packet_free_billboards(const ewa_packet *packet, uint32_t *cone) {
+    bool any = false;
+    for (int i = 0; i < EWA_PACKET_LANES; i++) any = any || packet->oct_x[i] == EWA_BILLBOARD;
+    if (any) *cone |= (uint32_t)(EWA_CONE_SINE + 1) << 2 * EWA_CONE_BITS;
+}
+
 void ewa_packet_decode(const ewa_surfels *surfels, uint32_t index, uint32_t lane, ewa_packet_surfel *surfel) {
     const ewa_packet *packet = &surfels->packets[index];
     surfel->offset = vec3_make((double)packet->x[lane], (double)packet->y[lane], (double)packet->z[lane]);
+    surfel->billboard = packet->oct_x[lane] == EWA_BILLBOARD;
     surfel->normal = oct_decode(packet->oct_x[lane], packet->oct_y[lane]);
     ewa_vec3 first, second;
     packet_frame(surfel->normal, &first, &second);

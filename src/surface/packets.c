@@ -114,11 +114,21 @@ static void settle(build *b) {
     s->count = (uint32_t)all.drawable_count;
     s->left_out_count = b->point_count - all.drawable_count;
     s->ellipses = all.ellipses;
+    s->billboards = b->reader.surfaceness;
     s->colored = b->reader.color;
     s->extent.finite_count = all.drawable_count;
     memcpy(s->extent.low_world, all.low, sizeof all.low);
     memcpy(s->extent.high_world, all.high, sizeof all.high);
     memcpy(s->origin_world, b->reader.origin_world, sizeof s->origin_world);
+}
+
+/// Marks the lanes of points that are no part of a surface; `scale` is of sigmas.
+static void mark_billboards(const build *b, const uint32_t *points, uint32_t count, double scale, ewa_packet *packet) {
+    for (uint32_t i = 0; b->reader.surfaceness && i < LANES; i++) {
+        if (!ewa_surfel_is_billboard(&b->reader, points[i < count ? i : 0])) continue;
+        packet->oct_x[i] = EWA_BILLBOARD;
+        packet->sigma[i] = (float)(scale * (double)packet->sigma[i]);
+    }
 }
 
 /// Packs discs of a cloud whose streams need no general reading.
@@ -127,6 +137,7 @@ static void encode_discs(const build *b, const uint32_t *points, uint32_t count,
     float normal[3][LANES];
     ewa_discs_load(&b->discs, b->surfels->unit, points, count, start, packet, normal);
     b->kernels->code_normals(normal, packet);
+    mark_billboards(b, points, count, EWA_BILLBOARD_SCALE, packet);
     const ewa_attribute *color = b->reader.color;
     for (uint32_t lane = 0; lane < LANES; lane++) {
         if (!color) {
@@ -176,6 +187,7 @@ static uint16_t encode_surfels(const build *b, const uint32_t *points, uint32_t 
         const bool circle = packet->ratio[i] == 65535;
         packet->angle[i] = circle ? 0 : ewa_packet_code_angle(packet, i, vec3_load(surfels[i].axis_u_world));
     }
+    mark_billboards(b, points, count, 1, packet); // whose axes are scaled
     uint16_t *const channels[3] = {packet->red, packet->green, packet->blue};
     ewa_color_encode(form, (const double(*)[3])colors, LANES, channels);
     return form;
@@ -214,6 +226,8 @@ static void encode_group(const build *b, uint64_t group) {
                                   (float)surfels->cutoff, (float)EWA_PACKET_REACH, &surfels->bounds, first);
     for (uint32_t k = 0; k < packet_count; k++) {
         b->wide[first + k] = wide >> k & 1;
+        if (surfels->billboards)
+            ewa_packet_free_billboards(&surfels->packets[first + k], &surfels->bounds.cone[first + k]);
         if (counts[k] < LANES) ewa_packet_empty_lanes(&surfels->packets[first + k], counts[k]);
     }
 }

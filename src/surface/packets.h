@@ -40,8 +40,9 @@ struct ewa_surfels {
     double largest_color;           ///< a power of two that no number of a colour is beyond
     bool fine_colors;               ///< some are large, and others far smaller
     double cutoff;
-    bool ellipses; ///< some kernel is not a circle
-    bool colored;  ///< the cloud had colours
+    bool ellipses;   ///< some kernel is not a circle
+    bool billboards; ///< some may be without a normal
+    bool colored;    ///< the cloud had colours
     double unit_coverage;
     ewa_surfels *coarser;                            ///< the next level of detail; NULL: none
     bool with_opacities, with_materials, with_clips; ///< of a proxy: what its original has (proxy.h)
@@ -69,7 +70,8 @@ void ewa_packets_sum_up(ewa_surfels *surfels);
 /// One surfel of a packet; lengths in the surfels' unit, axes of length sigma.
 typedef struct ewa_packet_surfel {
     ewa_vec3 offset; ///< from the packet's centre
-    ewa_vec3 axis_u, axis_v, normal;
+    ewa_vec3 axis_u, axis_v, normal; ///< of billboards any
+    bool billboard;
     double color[3], opacity;
 } ewa_packet_surfel;
 
@@ -79,6 +81,9 @@ void ewa_packet_decode(const ewa_surfels *surfels, uint32_t packet, uint32_t lan
 /// Codes the direction of an axis, without its sign, as the diamond angle in [0, 2) in the frame of the lane's
 /// normal, which is coded by then: 1 - c / (|c| + t).
 uint16_t ewa_packet_code_angle(const ewa_packet *packet, uint32_t lane, ewa_vec3 axis);
+
+/// Tells the cone of a packet that billboards have no normals.
+void ewa_packet_free_billboards(const ewa_packet *packet, uint32_t *cone);
 
 /// Returns a packet's centre, from the origin in the surfels' unit.
 ewa_vec3 ewa_packet_center(const ewa_surfels *surfels, uint32_t packet);

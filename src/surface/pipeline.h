@@ -201,6 +201,7 @@ typedef struct ewa_packet_source {
     const uint16_t *clip_masks; ///< [packet]: lanes with clip lines; NULL: none
     const uint8_t *materials;   ///< [packet][lane]: codes; NULL: all have `material`
     uint8_t material;
+    bool billboards; ///< there may be some
 } ewa_packet_source;
 
 /// A run of packets as splats of a tile. `records` and `loads` have room for EWA_PACKET_LANES more than are

@@ -20,6 +20,11 @@ static ALWAYS_INLINE void decode_normals(const ewa_packet *packet, wf n[3]) {
                 wf_mul(wf_from_i(wi_load_i16(packet->oct_y)), unit), n);
 }
 
+/// Lanes that are billboards.
+static ALWAYS_INLINE wm find_billboards(const ewa_packet *packet) {
+    return wf_lt(wf_from_i(wi_load_i16(packet->oct_x)), wf_set(EWA_BILLBOARD + 0.5f));
+}
+
 /// Unit major axes: the frame of packet_frame() (packets.c) turned by the diamond angle.
 static inline void decode_axes(const ewa_packet *packet, const wf n[3], wf axis[3]) {
     const wf t = wf_mul(wf_from_i(wi_load_u16(packet->angle)), wf_set(1.0f / 32768.0f));
@@ -187,6 +192,10 @@ static ALWAYS_INLINE void stage_turn(const ewa_view *view, const ewa_packet_sour
     wf n_world[3] = {t->n[0], t->n[1], t->n[2]};
     make_unit(n_world);
     rotate(view->rotation, n_world[0], n_world[1], n_world[2], t->n);
+    if (source->billboards) {
+        const wm billboards = find_billboards(&source->packets[id]);
+        for (int c = 0; c < 3; c++) t->n[c] = wf_select(billboards, wf_set(c == 2 ? -1 : 0), t->n[c]);
+    }
     if (!ellipses) return;
     wf axis_world[3];
     decode_axes(&source->packets[id], n_world, axis_world);

@@ -29,6 +29,8 @@ static inline void section_lanes(const ewa_view *view, const ewa_packet *packet,
     wf normal[3];
     decode_normals(packet, normal);
     make_unit(normal);
+    const wm billboards = find_billboards(packet); // parallel to the picture
+    for (int i = 0; i < 3; i++) normal[i] = wf_select(billboards, wf_set(view->rotation[6 + i]), normal[i]);
     wm inside = wf_lt(zero, wf_load(packet->sigma)), cut = wm_of_bits(0);
     for (uint32_t k = 0; k < view->section_count; k++) {
         wf n[3];

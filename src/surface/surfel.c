@@ -131,6 +131,7 @@ ewa_status ewa_surfel_reader_open(const ewa_cloud *cloud, const ewa_surfels_opti
         .tangent_v = ewa_cloud_find(cloud, EWA_TANGENT_V),
         .color = ewa_cloud_find(cloud, EWA_COLOR),
         .material = ewa_cloud_find(cloud, EWA_MATERIAL),
+        .surfaceness = ewa_cloud_find(cloud, EWA_SURFACENESS),
         .sigma_per_radius = options->radius_scale / options->cutoff,
         .axis_scale = options->radius_scale,
     };
@@ -146,6 +147,7 @@ ewa_status ewa_surfel_reader_open(const ewa_cloud *cloud, const ewa_surfels_opti
     EWA_TRY(check_components(cloud, reader->normal, 3, 3));
     EWA_TRY(check_components(cloud, reader->color, 3, 4));
     EWA_TRY(check_components(cloud, reader->material, 1, 1));
+    EWA_TRY(check_components(cloud, reader->surfaceness, 1, 1));
     if (reader->tangent_u && reader->tangent_v) {
         reader->radius = NULL;
         EWA_TRY(check_components(cloud, reader->tangent_u, 3, 3));
@@ -159,6 +161,14 @@ ewa_status ewa_surfel_reader_open(const ewa_cloud *cloud, const ewa_surfels_opti
     ewa_cloud_origin(cloud, reader->origin_world);
     ewa_color_table_make(&reader->colors);
     return EWA_OK;
+}
+
+/// Makes an ellipse the circle of a billboard.
+static void make_circle(ewa_surfel *surfel) {
+    const ewa_vec3 u = vec3_load(surfel->axis_u_world), v = vec3_load(surfel->axis_v_world);
+    const double shorter = sqrt(vec3_length(v) / vec3_length(u));
+    vec3_store(vec3_scale(u, EWA_BILLBOARD_SCALE * shorter), surfel->axis_u_world);
+    vec3_store(vec3_scale(v, EWA_BILLBOARD_SCALE / shorter), surfel->axis_v_world);
 }
 
 /// At most BLOCK points.
@@ -191,8 +201,10 @@ static uint64_t read_block(const ewa_surfel_reader *reader, uint64_t first, uint
         drawable[i] = drawable[i] && within_limit(center);
         kept += drawable[i];
         for (int k = 0; k < 2; k++) set_clip(&clip[k][3 * i], reader->axis_scale, turn, surfel->clip[k]);
-        if (reader->border) set_border(&border[3 * i], surfel);
+        surfel->billboard = ewa_surfel_is_billboard(reader, first + i);
+        if (reader->border && !surfel->billboard) set_border(&border[3 * i], surfel);
         surfel->clip_either = mode[i] == 1;
+        if (surfel->billboard && drawable[i]) make_circle(surfel);
         surfel->alpha = 1;
         surfel->material = ewa_surfel_material(reader, first + i);
         if (reader->color) {
@@ -223,16 +235,28 @@ double ewa_surfel_alpha(const ewa_surfel_reader *reader, uint64_t point) {
     return ewa_color_alpha(reader->color, color);
 }
 
-/// Whether numbers of a stream are a line: finite, the first two, or all three, not all zero.
+/// Whether the numbers of a clip line, or three of a border, are one.
+static bool is_line(const double v[3], int numbers) {
+    return (v[0] != 0 || v[1] != 0 || (numbers == 3 && v[2] != 0)) && all_finite(v, 3);
+}
+
+bool ewa_surfel_is_billboard(const ewa_surfel_reader *reader, uint64_t point) {
+    double surfaceness = 1;
+    if (reader->surfaceness) ewa_attribute_read_f64(reader->surfaceness, point, 1, &surfaceness);
+    if (!(surfaceness < EWA_SURFACE_LIMIT)) return false;
+    for (int k = 0; k < 2; k++) {
+        double line[3] = {0};
+        if (reader->clip[k]) ewa_attribute_read_f64(reader->clip[k], point, 1, line);
+        if (is_line(line, 2)) return false;
+    }
+    return true;
+}
+
 static void mark_lines(const ewa_attribute *attribute, uint64_t first, uint64_t count, int numbers, uint8_t *clipped) {
     double values[3 * BLOCK];
     if (!attribute) return;
     ewa_attribute_read_f64(attribute, first, count, values);
-    for (uint64_t i = 0; i < count; i++) {
-        const double *v = &values[3 * i];
-        const bool some = v[0] != 0 || v[1] != 0 || (numbers == 3 && v[2] != 0);
-        clipped[i] |= some && all_finite(v, 3);
-    }
+    for (uint64_t i = 0; i < count; i++) clipped[i] |= is_line(&values[3 * i], numbers);
 }
 
 void ewa_surfel_mark_clipped(const ewa_surfel_reader *reader, uint64_t first, uint64_t count, uint8_t *clipped) {
@@ -242,4 +266,6 @@ void ewa_surfel_mark_clipped(const ewa_surfel_reader *reader, uint64_t first, ui
         for (int k = 0; k < 2; k++) mark_lines(reader->clip[k], first + done, part, 2, clipped + done);
         mark_lines(reader->border, first + done, part, 3, clipped + done);
     }
+    for (uint64_t i = 0; i < count && reader->surfaceness; i++)
+        if (clipped[i] && ewa_surfel_is_billboard(reader, first + i)) clipped[i] = 0;
 }

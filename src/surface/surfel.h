@@ -19,8 +19,13 @@ typedef struct ewa_surfel {
     double material;        ///< whole, [0, 255]
     /// Clip lines: keep a u + b v + c >= 0 at center + u axis_u + v axis_v; a = b = 0: no line.
     double clip[2][3];
+    bool billboard;     ///< a circle parallel to the picture, of no surface: its axes tell its size alone
     double clip_either; ///< 1: what one of two lines keeps is kept; 0: what both keep
 } ewa_surfel;
+
+/// A billboard's sigma over that of its disc: it covers as much as discs of all directions do on average, half of what
+/// one does that faces the viewer.
+#define EWA_BILLBOARD_SCALE 0.7071067811865476
 
 /// Largest magnitude of a coordinate and of an axis, and the inverse of the smallest axis: surfels outside
 /// are not drawn, so that no square of what is left overflows.
@@ -32,7 +37,7 @@ typedef struct ewa_surfel {
 /// The streams of a cloud that make surfels. Valid until the cloud's streams change.
 typedef struct ewa_surfel_reader {
     const ewa_attribute *position, *normal, *radius, *tangent_u, *tangent_v, *color; ///< NULL: not used
-    const ewa_attribute *clip[2], *clip_mode, *border, *material;
+    const ewa_attribute *clip[2], *clip_mode, *border, *material, *surfaceness;
     double origin_world[3];  ///< of the positions
     double sigma_per_radius; ///< radius_scale / F
     double axis_scale;       ///< radius_scale
@@ -59,6 +64,10 @@ ewa_status ewa_surfel_reader_open(const ewa_cloud *cloud, const ewa_surfels_opti
 /// thread.
 uint64_t ewa_surfel_read(const ewa_surfel_reader *reader, uint64_t first, uint64_t count, ewa_surfel *surfels,
                          bool *drawable);
+
+/// Whether a point is no part of a surface: its surfaceness is below EWA_SURFACE_LIMIT, and it has no clip line but a
+/// border, which does not count then. Any thread.
+bool ewa_surfel_is_billboard(const ewa_surfel_reader *reader, uint64_t point);
 
 /// Sets for each of the points [first, first + count) whether it has a clip line. Any thread.
 void ewa_surfel_mark_clipped(const ewa_surfel_reader *reader, uint64_t first, uint64_t count, uint8_t *clipped);

@@ -388,6 +388,14 @@ typedef struct placed_surfel {
     ewa_vec3 p, u, v, n;
 } placed_surfel;
 
+/// Lays a circle parallel to the picture.
+static void face_picture(placed_surfel *placed, const ewa_view *view) {
+    const double sigma = vec3_length(placed->u);
+    placed->u = vec3_make(sigma, 0, 0), placed->v = vec3_make(0, sigma, 0), placed->n = vec3_make(0, 0, -1);
+    const float *row = &view->rotation[6];
+    placed->coded.normal = vec3_make(-(double)row[0], -(double)row[1], -(double)row[2]);
+}
+
 static placed_surfel place_surfel(const ewa_surfels *surfels, uint32_t surfel, const ewa_view *view) {
     const uint32_t packet = surfel / EWA_PACKET_LANES;
     const double scale = (double)view->scale;
@@ -400,6 +408,7 @@ static placed_surfel place_surfel(const ewa_surfels *surfels, uint32_t surfel, c
     placed.u = turn(view, placed.coded.axis_u, scale);
     placed.v = turn(view, placed.coded.axis_v, scale);
     placed.n = turn(view, placed.coded.normal, 1);
+    if (placed.coded.billboard) face_picture(&placed, view);
     return placed;
 }
 

@@ -82,6 +82,11 @@ static void test_order_has_no_say(void **state) {
     ewa_surfels *parts[3];
     for (int i = 0; i < 3; i++) {
         assert_int_equal(scene_make(context, kinds[i], POINTS / 2, WIDTH_PX, HEIGHT_PX, &scenes[i]), EWA_OK);
+        float *surfaceness = NULL; // of one: a fourth of its points are on no surface
+        if (i == 2)
+            assert_int_equal(ewa_cloud_add(scenes[i].cloud, EWA_SURFACENESS, EWA_F32, 1, (void **)&surfaceness),
+                             EWA_OK);
+        for (uint64_t k = 0; surfaceness && k < ewa_cloud_point_count(scenes[i].cloud); k++) surfaceness[k] = k % 4 > 0;
         assert_int_equal(ewa_surfels_create(scenes[i].cloud, NULL, &parts[i]), EWA_OK);
     }
     ewa_renderer *cpu = NULL, *gl = open_tuned(context, "");

@@ -633,6 +633,46 @@ static void test_cancel_and_options(void **state) {
     }
 }
 
+/// Points strewn in space are no surface; a plane has no such attribute, and keeps none of before.
+static void test_surfaceness(void **state) {
+    ewa_context *context = check_context(2, NULL);
+    enum { COUNT = 4000 };
+    for (int kind = 0; kind < 4; kind++) { // a plane; in space; a plane and a wire above it; a box's edge
+        float *xyz = NULL, *before = NULL;
+        ewa_cloud *cloud = NULL;
+        assert_int_equal(ewa_cloud_create(context, COUNT, &cloud), EWA_OK);
+        assert_int_equal(ewa_cloud_add(cloud, EWA_POSITION, EWA_F32, 3, (void **)&xyz), EWA_OK);
+        assert_int_equal(ewa_cloud_add(cloud, EWA_SURFACENESS, EWA_F32, 1, (void **)&before), EWA_OK);
+        check_random random = {7};
+        for (int i = 0; i < COUNT; i++) {
+            const bool wire = kind == 2 && i % 40 == 0;
+            before[i] = 0;
+            for (int c = 0; c < 3; c++) xyz[3 * i + c] = (float)check_uniform(&random, -1, 1);
+            if (wire) xyz[3 * i] = xyz[3 * i + 1] / 2, xyz[3 * i + 2] = 3;
+            if (kind != 1 && !wire) xyz[3 * i + 2] = 0;
+            if (kind == 3) xyz[3 * i] = fabsf(xyz[3 * i]);
+            if (kind == 3 && i % 2) xyz[3 * i + 2] = xyz[3 * i], xyz[3 * i] = 0;
+        }
+        const ewa_estimate_options options = check_estimate_options();
+        assert_int_equal(ewa_cloud_estimate(&cloud, &options), EWA_OK);
+        const ewa_attribute *made = ewa_cloud_find(cloud, EWA_SURFACENESS);
+        if (kind == 0) assert_null(made);
+        double strewn = 0, wires = 0;
+        for (int i = 0; made && i < COUNT; i++) {
+            const double none = 1 - (double)((const float *)made->data)[i];
+            assert_true(none >= 0 && none <= 1);
+            strewn += none >= 0.5;
+            wires += none >= 0.5 && kind == 2 && i % 40 == 0;
+        }
+        print_message("kind %d: %.3f are no surface, of the wire %.2f\n", kind, strewn / COUNT, 40 * wires / COUNT);
+        if (kind == 1) assert_true(strewn > 0.7 * COUNT);
+        if (kind == 2) assert_true(wires > 0.9 * COUNT / 40 && strewn - wires < 0.001 * COUNT);
+        if (kind == 3) assert_true(strewn < 0.01 * COUNT);
+        ewa_cloud_destroy(&cloud);
+    }
+    ewa_context_destroy(&context);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_spacing),
@@ -640,6 +680,7 @@ int main(void) {
         cmocka_unit_test(test_axes),
         cmocka_unit_test(test_scan_lines),
         cmocka_unit_test(test_normals),
+        cmocka_unit_test(test_surfaceness),
         cmocka_unit_test(test_keep),
         cmocka_unit_test(test_degenerate),
         cmocka_unit_test(test_overflow),

@@ -59,6 +59,7 @@ void turn_surfel() {
     n_world.y -= uv.y < 0.0 ? -fold : fold;
     n_world = normalize(n_world);
     n = turn(n_world);
+    if (float(oct.x) == BILLBOARD) n = vec3(0.0, 0.0, -1.0);
     float root = float(axis_code.y) / 65535.0;
     ratio = root * root * root * root;
     float c = 1.0 - float(axis_code.x) / 32768.0, s = 1.0 - abs(c);

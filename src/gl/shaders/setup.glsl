@@ -419,6 +419,7 @@ void main() {
         t.n = unfold_flat(wf_mul(float(signed_half(base + 64u, lane)), UNIT_OCT),
                           wf_mul(float(signed_half(base + 72u, lane)), UNIT_OCT));
         stage_turn(base, lane);
+        if (float(signed_half(base + 64u, lane)) == BILLBOARD) t.n = vec3(0.0, 0.0, -1.0);
         if (stage_range()) atomicOr(masks[pair], 1u << lane);
         stage_covariance();
     }
