@@ -47,6 +47,10 @@ static const double UNUSUAL_SHARE = 0.3, SURVEYED_SHARE = 0.5, SURVEYED_RATIO = 
 /// Feet: so much of a base tells that something stands, and that its flat back is none.
 static const double FEET_SHARE = 0.1;
 
+/// So much of a body has its mirror image across an axis along which it is level, and so many times as much across the
+/// one that is up.
+static const double MIRRORED_SHARE = 0.85, UNMIRRORED_RATIO = 0.85;
+
 /// What has so much of a base along y and along z is a box.
 static const double BOX_SHARE = 0.6;
 
@@ -119,6 +123,13 @@ static double base_share(const point_cloud_sample *points, int axis, double *low
     return facts.stable && ewa_measure_layers(points, axis) >= SHEET_SHARE ? facts.share : 0;
 }
 
+/// Whether a body is its mirror image across the first axis, and not across the second: what stands is so across what is
+/// level.
+static bool is_mirrored(const point_cloud_sample *points, int across, int not_across) {
+    const double mirrored = ewa_measure_mirror(points, across);
+    return mirrored >= MIRRORED_SHARE && ewa_measure_mirror(points, not_across) < UNMIRRORED_RATIO * mirrored;
+}
+
 /// Which axis is up in a body.
 static ewa_upright choose_body(const point_cloud_sample *points, ewa_up_convention convention) {
     const bool any = convention == EWA_UP_ANY, surveyed = convention == EWA_UP_Z_SURVEYED;
@@ -133,7 +144,8 @@ static ewa_upright choose_body(const point_cloud_sample *points, ewa_up_conventi
     const bool flank = e[other] < FLAT_RATIO * e[usual] && (!any || feet);
     const double minimum = any ? BASE_SHARE : surveyed ? SURVEYED_SHARE : UNUSUAL_SHARE;
     const double ratio = surveyed ? SURVEYED_RATIO : BASE_RATIO;
-    if (its >= fmax(minimum, ratio * lowest) && !flank && !(surveyed && surrounds_origin(points)))
+    if (its >= fmax(minimum, ratio * lowest) && !flank && !(surveyed && surrounds_origin(points)) &&
+        !is_mirrored(points, other, usual))
         return (ewa_upright){.axis = other, .why = "it stands on a base"};
     const bool box = fmin(own, its) >= BOX_SHARE;
     if (box && (any || convention == EWA_UP_Z_USUAL) &&
@@ -141,6 +153,8 @@ static ewa_upright choose_body(const point_cloud_sample *points, ewa_up_conventi
         return (ewa_upright){.axis = e[1] < e[2] ? 1 : 2, .why = "what is flat lies"};
     if (any && e[usual] > TALL_RATIO * fmax(e[0], e[other]) && own < FEET_SHARE)
         return (ewa_upright){.axis = other, .why = "what is long and has no base lies"};
+    if (any && is_mirrored(points, usual, other))
+        return (ewa_upright){.axis = other, .why = "its halves are alike across y"};
     return (ewa_upright){
         .axis = usual,
         .why = any ? "nothing speaks for another axis" : "files of this kind mostly have it so"};

@@ -18,6 +18,8 @@ enum {
     STRIPS = 256,        // of a convex hull
     CORNERS = 2 * STRIPS + 2,
     MARKS = 1 << 17, // classes of slopes
+    MIRROR_GRID = 60,    // cells along the longer side of what is mirrored, at most
+    MIRROR_POINTS = 16, // points per square of a cell, at least
 };
 
 /// A cell holds two surfaces when its points are so many cells apart: steeper ones are rare.
@@ -305,4 +307,37 @@ void ewa_measure_base(const point_cloud_sample *points, int axis, base_facts *fa
     facts->share = polygon_area(count, corners) / footprint;
     facts->stable =
         polygon_depth(count, corners, (point2){middle[x], middle[y]}) > STABLE_MARGIN * sqrt(footprint);
+}
+
+/// Bits of a row and of the places beside them.
+static uint64_t grow(uint64_t row) { return row | row << 1 | row >> 1; }
+
+double ewa_measure_mirror(const point_cloud_sample *points, int axis) {
+    const double size = fmax(points->extent[0], fmax(points->extent[1], points->extent[2]));
+    uint64_t cubes[MIRROR_GRID + 2][MIRROR_GRID + 2] = {{0}}; // bit x + 1, with a rim
+    uint64_t images[MIRROR_GRID + 2][MIRROR_GRID + 2] = {{0}};
+    if (!(size > 0)) return 0;
+    const double fitting = sqrt((double)points->count / MIRROR_POINTS);
+    const size_t side = fitting < MIRROR_GRID ? (size_t)fitting : MIRROR_GRID;
+    if (side < 2) return 0;
+    for (size_t i = 0; i < points->count; i++) {
+        size_t place[3], image[3];
+        for (int c = 0; c < 3; c++) {
+            const double low = points->offsets[i][c] - points->low[c], high = points->high[c] - points->offsets[i][c];
+            place[c] = class_of(low / size * (double)side, side) + 1;
+            image[c] = c != axis ? place[c] : class_of(high / size * (double)side, side) + 1;
+        }
+        cubes[place[2]][place[1]] |= (uint64_t)1 << place[0];
+        images[image[2]][image[1]] |= (uint64_t)1 << image[0];
+    }
+    uint64_t count = 0, found = 0;
+    for (size_t z = 1; z <= side; z++) {
+        for (size_t y = 1; y <= side; y++) {
+            uint64_t near = 0;
+            for (size_t k = 0; k < 9; k++) near |= grow(cubes[z + k / 3 - 1][y + k % 3 - 1]);
+            count += (uint64_t)__builtin_popcountll(images[z][y]);
+            found += (uint64_t)__builtin_popcountll(images[z][y] & near);
+        }
+    }
+    return count ? (double)found / (double)count : 0;
 }

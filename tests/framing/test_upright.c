@@ -232,14 +232,41 @@ static void test_base_shares(void **state) {
     }
 }
 
-/// A prism along z whose outline narrows from 3 to 3 `bottom` towards y = 0.
-static void make_prism(double bottom, double depth) {
+/// A prism along z whose outline narrows from 3 to 3 `bottom` towards y = 0, and by `taper` towards z = depth.
+static void make_prism(double bottom, double depth, double taper) {
     start();
     for (int i = 0; i < 40000; i++) {
-        const double y = between(0, 2), half = 1.5 * (bottom + (1 - bottom) * 0.5 * y);
-        add(between(-half, half), y, i % 2 ? 0 : depth);
-        add(i % 2 ? -half : half, y, between(0, depth));
-        add(between(-1.5, 1.5) * (i % 2 ? bottom : 1), i % 2 ? 0 : 2, between(0, depth));
+        const double y = between(0, 2), half = 1.5 * (bottom + (1 - bottom) * 0.5 * y), z = between(0, depth);
+        const double far = 1 - taper, there = 1 - taper * z / depth;
+        add(between(-half, half) * (i % 2 ? 1 : far), y, i % 2 ? 0 : depth);
+        add((i % 2 ? -half : half) * there, y, z);
+        add(between(-1.5, 1.5) * (i % 2 ? bottom : 1) * there, i % 2 ? 0 : 2, z);
+    }
+}
+
+/// What is its mirror image across one axis, by 0.85, and across the other less than 0.85 times as much is level along
+/// the first.
+static void test_halves(void **state) {
+    make_prism(0.25, 1.5, 0.18);
+    EXPECT(EWA_UP_ANY, 1, EWA_VIEW_FRONT, "nothing speaks");
+    EXPECT(EWA_UP_Z_USUAL, 2, EWA_VIEW_FRONT, "base");
+    make_prism(0.25, 1.5, 0.22);
+    EXPECT(EWA_UP_ANY, 2, EWA_VIEW_FRONT, "base");
+    static const struct {
+        double bottom, taper;
+        bool mirrored;
+    } turned[] = {{0.55, 0.12, true}, {0.55, 0.22, false}, {0.84, 0, true}, {0.92, 0, false}};
+    for (int k = 0; k < 4; k++) {
+        make_prism(turned[k].bottom, 1.5, turned[k].taper);
+        for (size_t i = 0; i < made.count; i++) {
+            const double y = made.points[i][1];
+            made.points[i][1] = made.points[i][2], made.points[i][2] = y;
+        }
+        if (turned[k].mirrored)
+            EXPECT(EWA_UP_ANY, 2, EWA_VIEW_FRONT, "halves");
+        else
+            EXPECT(EWA_UP_ANY, 1, EWA_VIEW_FRONT, "nothing speaks");
+        EXPECT(EWA_UP_Y_USUAL, 1, EWA_VIEW_FRONT, "files");
     }
 }
 
@@ -247,19 +274,19 @@ static void make_prism(double bottom, double depth) {
 /// than 0.4 of its width.
 static void test_boxes(void **state) {
     for (int large = 0; large < 2; large++) {
-        make_prism(large ? 0.55 : 0.45, 1.5);
+        make_prism(large ? 0.55 : 0.45, 1.5, 0.3);
         assert_float_equal(share_of(1, NULL), large ? 0.55 : 0.45, 0.03);
         assert_true(share_of(2, NULL) > 0.98);
         if (large)
             EXPECT(EWA_UP_ANY, 1, EWA_VIEW_FRONT, "nothing speaks");
         else
             EXPECT(EWA_UP_ANY, 2, EWA_VIEW_FRONT, "base");
-        make_prism(large ? 0.66 : 0.54, 0.3);
+        make_prism(large ? 0.66 : 0.54, 0.3, 0);
         if (large)
             EXPECT(EWA_UP_ANY, 2, EWA_VIEW_ISO, "flat lies");
         else
             EXPECT(EWA_UP_ANY, 1, EWA_VIEW_FRONT, "nothing speaks");
-        make_prism(1, large ? 0.86 : 0.74);
+        make_prism(1, large ? 0.86 : 0.74, 0);
         if (large)
             EXPECT(EWA_UP_ANY, 1, EWA_VIEW_FRONT, "nothing speaks");
         else
@@ -487,7 +514,7 @@ int main(void) {
         cmocka_unit_test(test_planes),       cmocka_unit_test(test_maps),
         cmocka_unit_test(test_ground),       cmocka_unit_test(test_pixels),
         cmocka_unit_test(test_camera_views), cmocka_unit_test(test_base_shares),
-        cmocka_unit_test(test_boxes),        cmocka_unit_test(test_tall),
+        cmocka_unit_test(test_halves),       cmocka_unit_test(test_boxes),        cmocka_unit_test(test_tall),
         cmocka_unit_test(test_views),        cmocka_unit_test(test_open_sheets),
         cmocka_unit_test(test_stable),       cmocka_unit_test(test_base_height),
         cmocka_unit_test(test_layers),       cmocka_unit_test(test_conventions),
