@@ -9,6 +9,7 @@
 #include <math.h>
 #include <stdbool.h>
 
+#include "math/gaussian.h"
 #include "prepare/mesh_shapes.h"
 #include "quality/outline_scene.h"
 
@@ -63,14 +64,14 @@ static ewa_cloud *estimated(ewa_context *context, outline_shape shape, uint64_t 
 }
 
 static outline_errors draw(ewa_context *context, const ewa_cloud *cloud, const ewa_camera *camera,
-                           const outline_truth *truth) {
+                           const ewa_render_options *options, const outline_truth *truth) {
     static float rgba[OUTLINE_SIDE_PX * OUTLINE_SIDE_PX][4];
     ewa_surfels *surfels = NULL;
     ewa_renderer *renderer = NULL;
     assert_int_equal(ewa_surfels_create(cloud, NULL, &surfels), EWA_OK);
     assert_int_equal(ewa_renderer_create(context, &renderer), EWA_OK);
     const ewa_frame frame = {.rgba = &rgba[0][0]};
-    assert_int_equal(ewa_render(renderer, surfels, camera, NULL, &frame, NULL), EWA_OK);
+    assert_int_equal(ewa_render(renderer, surfels, camera, options, &frame, NULL), EWA_OK);
     ewa_renderer_destroy(&renderer);
     ewa_surfels_destroy(&surfels);
     return outline_compare(truth, &rgba[0][3], 4);
@@ -83,7 +84,7 @@ static outline_errors measure(ewa_context *context, const char *name, outline_sh
     ewa_camera camera;
     outline_camera(eye, 42, &camera);
     outline_trace(context, shape, &camera, &truth);
-    const outline_errors found = draw(context, cloud, &camera, &truth);
+    const outline_errors found = draw(context, cloud, &camera, NULL, &truth);
     print_message("%-36s fat %+.3f px, rms %.3f, open inside %.4f %% (deepest %.3f), outside %.4f %%\n", name,
                   found.fat_px, found.rms, 100 * found.open, found.deepest, 100 * found.strewn);
     ewa_cloud_destroy(&cloud);
@@ -117,6 +118,45 @@ static void test_silhouettes(void **state) {
             assert_true(found.open < 5e-4 && found.deepest < 0.1 && found.strewn < 1e-3);
         }
     }
+    ewa_context_destroy(&context);
+}
+
+/// x that the normal distribution has the share `below` below -x, 0 < below < 1/2.
+static double tail(double below) {
+    double low = 0, high = 6;
+    for (int i = 0; i < 50; i++) {
+        const double middle = (low + high) / 2;
+        if (ewa_normal_below(-middle) > below)
+            low = middle;
+        else
+            high = middle;
+    }
+    return low;
+}
+
+/// Where samples are finer than pixels, the coverage of a smooth silhouette is the prefilter's integral, alpha is that over
+/// tau, and what the near side leaves the far side covers by as much again: together a half where the integral is
+/// tau (1 - sqrt(1/2)), which lies outside.
+static void test_silhouettes_follow_the_filter(void **state) {
+    ewa_context *context = check_context(0, NULL);
+    static outline_truth truth;
+    ewa_camera camera;
+    outline_camera(oblique, 42, &camera);
+    outline_trace(context, OUTLINE_SPHERE, &camera, &truth);
+    ewa_cloud *cloud = generated(context, EWA_OBJECT_SPHERE, 400000);
+    static const double prefilters_px[] = {0.25, 0.35, 0.5, 0.7}, thresholds[] = {0.3, 0.45, 0.6};
+    for (int i = 0; i < 12; i++) {
+        ewa_render_options options;
+        ewa_render_options_init(&options, sizeof options);
+        options.prefilter_px = prefilters_px[i / 3];
+        options.edge_threshold = thresholds[i % 3];
+        const double expected = options.prefilter_px * tail(options.edge_threshold * (1 - sqrt(0.5)));
+        const outline_errors found = draw(context, cloud, &camera, &options, &truth);
+        print_message("h %.2f, tau %.2f: fat %+.3f px, by the filter %+.3f, rms %.3f\n", options.prefilter_px,
+                      options.edge_threshold, found.fat_px, expected, found.rms);
+        assert_true(fabs(found.fat_px - expected) < 0.03);
+    }
+    ewa_cloud_destroy(&cloud);
     ewa_context_destroy(&context);
 }
 
@@ -195,6 +235,7 @@ static void test_doubtful_normals(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_silhouettes),
+        cmocka_unit_test(test_silhouettes_follow_the_filter),
         cmocka_unit_test(test_borders),
         cmocka_unit_test(test_flat_angles),
         cmocka_unit_test(test_doubtful_normals),
