@@ -36,6 +36,7 @@ RESULTS = WORK / "results.txt"
 SNAPSHOT = WORK / "snapshot"
 SEEDED = "# seeded"
 GOAL = 0.95
+UNTIMED_S = 300  # that a test may take which has never failed
 
 # Tables, files of one instruction set, and what only reports or allocates say nothing about the pictures.
 LEFT_OUT = re.compile(
@@ -399,6 +400,17 @@ class Tree:
         """Tests that have a header's functions in themselves; the library is one that is loaded. False: not to be had."""
         return self.call(["cmake", "--build", str(self.build), "--target", "test_" + name]) == 0
 
+    def make(self, path):
+        """Builds what a file is part of, but for tests; False where it does not compile."""
+        targets = ["ewa_objects"] if path.startswith("src/") else []
+        if any(name.startswith("cli_") for name in self.near_tests(path)):
+            targets.append("ewa")
+        return not targets or self.call(["cmake", "--build", str(self.build), "--target"] + targets) == 0
+
+    def is_held(self, path):
+        """Whether tests have a file in themselves: program and viewer, but for tests that run the program."""
+        return path.endswith(".h") or path.startswith(("cli/", "viewer/"))
+
     def near_tests(self, path):
         names = next(tests for start, tests in NEAR if path.startswith(start))
         return [name for name in names if name in self.tests or name.endswith(".py")]
@@ -420,23 +432,27 @@ class Tree:
         if text is None:
             return "stale", ""
         (self.root / entry.path).write_text(text)
-        near = self.near_tests(entry.path)
-        targets = ["ewa_objects"] if entry.path.startswith("src/") else []
-        if any(name.startswith("cli_") for name in near):
-            targets.append("ewa")
-        if targets and self.call(["cmake", "--build", str(self.build), "--target"] + targets):
+        if not self.make(entry.path):
             return "uncompilable", ""
         sections = sections_of(entry.path)
         if sections and not self.differs(sections):
             return "irrelevant", ""
-        for name in near:
-            # Program and viewer are in their tests, but for those that run the program.
-            held = entry.path.endswith(".h") or entry.path.startswith(("cli/", "viewer/"))
-            if held and not self.rebuild(name):
+        for name in self.near_tests(entry.path):
+            if self.is_held(entry.path) and not self.rebuild(name):
                 return "uncompilable", name
-            if self.test(name, timeouts[name]):
+            if self.test(name, timeouts.get(name, UNTIMED_S)):
                 return "killed", name
         return "survived", ""
+
+    def time_test(self, path, name):
+        """How long a test may take that failed for the first time: several times what the unbroken library needs."""
+        self.restore(path)
+        if not self.make(path) or (self.is_held(path) and not self.rebuild(name)):
+            sys.exit("mutate: the unbroken tree does not build: see %s" % self.log)
+        begin = time.time()
+        if self.test(name, 3 * UNTIMED_S):
+            sys.exit("mutate: test %s fails without any change: see %s" % (name, self.log))
+        return 20 + 6 * (time.time() - begin)
 
     def restore(self, path):
         (self.root / path).write_text(self.text_of(path))
@@ -449,25 +465,6 @@ def read_results():
             verdict, test, key = line.split("\t", 2)
             results[key] = (verdict, test)
     return results
-
-
-def time_tests(trees, entries):
-    """How long each near test may take: several times what the unbroken library needs. Ends where one fails."""
-    pending = sorted({name for entry in entries for name in trees[0].near_tests(entry.path)})
-    timeouts, failed = {}, []
-
-    def work(tree):
-        while pending and not failed:
-            name = pending.pop()
-            begin = time.time()
-            if tree.test(name, 900):
-                failed.append("mutate: test %s fails without any change: see %s" % (name, tree.log))
-            timeouts[name] = 20 + 6 * (time.time() - begin)
-
-    on_each(trees, work)
-    if failed:
-        sys.exit(failed[0])
-    return timeouts
 
 
 def on_each(trees, work):
@@ -513,8 +510,7 @@ def run(jobs, only, sample, again):
         for section in sorted({s for e in wanted for s in sections_of(e.path)}):
             if not tree.probe([section], "unbroken-" + section):
                 sys.exit("mutate: the probe fails: see %s" % tree.log)
-    timeouts = time_tests(trees, wanted)
-    queues = {}
+    timeouts, queues = {}, {}
     for entry in wanted:  # one file after another, so that little is built again
         queues.setdefault(entry.path, []).append(entry)
     pending, lock = sorted(queues), threading.Lock()
@@ -529,6 +525,8 @@ def run(jobs, only, sample, again):
             for entry in queues[path]:
                 begin = time.time()
                 verdict, test = tree.try_tests(entry, timeouts)
+                if test and verdict == "killed" and test not in timeouts:
+                    timeouts[test] = tree.time_test(path, test)
                 with lock:
                     results[entry.key()] = (verdict, test)
                     RESULTS.write_text("".join("%s\t%s\t%s\n" % (v, t, k) for k, (v, t) in results.items()))

@@ -171,6 +171,44 @@ static void test_saved_opens_alike(void **state) {
     ewa_context_destroy(&context);
 }
 
+/// Saves a scene of one file with these options of its asset; the text is the caller's.
+static char *save_asset(ewa_context *context, const char *path, const ewa_asset_options *options) {
+    ewa_scene *scene = NULL, *opened = NULL;
+    assert_int_equal(ewa_scene_create(context, NULL, &scene), EWA_OK);
+    add(context, scene, path, options, NULL);
+    const ewa_camera camera = place(scene);
+    assert_int_equal(ewa_scene_save(scene, NULL, "asset.json"), EWA_OK);
+    assert_int_equal(ewa_scene_create(context, NULL, &opened), EWA_OK);
+    assert_int_equal(ewa_scene_open(opened, "asset.json", NULL), EWA_OK);
+    draw(context, scene, &camera, &first);
+    draw(context, opened, &camera, &second);
+    assert_memory_equal(&first, &second, sizeof first);
+    ewa_scene_destroy(&scene), ewa_scene_destroy(&opened);
+    return read_text("asset.json");
+}
+
+/// What a kind of asset is made by is saved with it, and nothing else.
+static void test_saved_assets(void **state) {
+    static const char off[] = "OFF\n4 2 0\n-1 -1 0\n1 -1 0\n1 1 0.5\n-1 1 0\n3 0 1 2\n3 0 2 3\n";
+    static const char *const files[] = {"square.off", "torus.ply", "deep/ball.nrrd"};
+    FILE *file = fopen(files[0], "w");
+    assert_true(file && fputs(off, file) >= 0 && fclose(file) == 0);
+    ewa_context *context = check_context(0, NULL);
+    ewa_asset_options options;
+    ewa_asset_options_init(&options, sizeof options);
+    options.cutoff = 2;
+    options.voxel_level_count = 2;
+    options.reach_steps = 3;
+    for (int i = 0; i < 3; i++) {
+        char *text = save_asset(context, files[i], &options);
+        assert_true((strstr(text, "\"cutoff\":\t2") != NULL) == (i == 0));
+        assert_true((strstr(text, "\"voxel_level_count\":\t2") != NULL) == (i == 2));
+        assert_true((strstr(text, "\"reach_steps\":\t3") != NULL) == (i == 2));
+        free(text);
+    }
+    ewa_context_destroy(&context);
+}
+
 static void test_files_in_files(void **state) {
     write_text("deep/inner.json",
                "{\"ewa_scene\": 1, \"options\": {\"render\": {\"ambient\": 0.9}}, \"items\": ["
@@ -453,7 +491,8 @@ static void test_filters_as_text(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_saved_opens_alike),   cmocka_unit_test(test_files_in_files),
+        cmocka_unit_test(test_saved_opens_alike),
+        cmocka_unit_test(test_saved_assets),   cmocka_unit_test(test_files_in_files),
         cmocka_unit_test(test_callers_options_win), cmocka_unit_test(test_cameras_keep_their_heights),
         cmocka_unit_test(test_bad_is_refused),      cmocka_unit_test(test_depth_and_number),
         cmocka_unit_test(test_truncations),         cmocka_unit_test(test_unsaveable),
