@@ -93,6 +93,7 @@ static void print_line(cli_session *session, ewa_severity severity, const char *
 static void on_message(void *user, ewa_severity severity, const char *text) {
     cli_session *session = user;
     if (severity == EWA_SEVERITY_ERROR) session->reported = true;
+    if (session->repeats && severity != EWA_SEVERITY_ERROR) return;
     char line[LINE_BYTES / 2];
     wording_of_program(text, line, sizeof line);
     print_line(session, severity, line);

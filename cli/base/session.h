@@ -29,6 +29,7 @@ typedef struct cli_session {
     bool untrusted;
     bool quiet, verbose;
     bool reported;     ///< an error was printed
+    bool repeats;      ///< what is read has been read before: what the library said of it then goes without saying
     bool progress;     ///< a bar may be drawn
     bool bar_drawn;    ///< there is one on the line
     bool stepping;     ///< the bar counts steps of the command, not of the library

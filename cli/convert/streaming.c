@@ -33,6 +33,7 @@ typedef struct stream_job {
     ewa_cloud_reader *reader;
     ewa_cloud_writer *writer;
     bool checked;      // the first piece was looked at
+    bool opened, read; // the file was, to its end
     uint64_t count;    // of the points that are kept
     ewa_bounds bounds; // of those
 } stream_job;
@@ -49,8 +50,11 @@ static void widen(ewa_bounds *box, const ewa_bounds *other) {
 /// Opens the file anew, at its begin; false after reporting.
 static bool reopen(stream_job *p) {
     ewa_cloud_reader_close(&p->reader);
-    return session_passed(p->session,
-                          ewa_cloud_reader_open(p->session->context, p->path, &p->session->load, &p->reader));
+    p->session->repeats = p->opened;
+    const ewa_status status = ewa_cloud_reader_open(p->session->context, p->path, &p->session->load, &p->reader);
+    p->session->repeats = false;
+    p->opened = true;
+    return session_passed(p->session, status);
 }
 
 /// Reads all pieces and changes them; each goes to `take`. False after reporting.
@@ -59,7 +63,9 @@ static bool each_piece(stream_job *p, ewa_status (*take)(stream_job *p, const ew
     bool changed = true;
     while (status == EWA_OK && changed) {
         ewa_cloud *piece = NULL;
+        p->session->repeats = p->read;
         status = ewa_cloud_reader_next(p->reader, PIECE_POINTS, &piece);
+        p->session->repeats = false;
         if (status != EWA_OK || !piece) break;
         // What the file says, not what becomes of it.
         if (!p->checked) ewa_cloud_check_steps(piece);
@@ -68,6 +74,7 @@ static bool each_piece(stream_job *p, ewa_status (*take)(stream_job *p, const ew
         if (changed && ewa_cloud_point_count(piece)) status = take(p, piece);
         ewa_cloud_destroy(&piece);
     }
+    p->read = true;
     if (status != EWA_OK) session_failed(p->session, status);
     return status == EWA_OK && changed;
 }

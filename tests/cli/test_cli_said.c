@@ -261,6 +261,16 @@ static void test_poses(void **state) {
               "ewa render torus.ply -o a.png --camera one.txt --intrinsics away.json");
 }
 
+/// Files that are read twice, for their bounds first, are complained of once.
+static void test_once(void **state) {
+    (void)state;
+    run_done("ewa generate sphere -n 500 -o s.las && head -c 9000 s.las >cut.las");
+    assert_int_equal(run("ewa convert cut.las -o whole.las --keep-going"), 0);
+    const char *said = strstr(last_run.err, "the file ends in point");
+    assert_non_null(said);
+    assert_null(strstr(said + 1, "the file ends in point"));
+}
+
 /// What cannot be drawn says what can.
 static void test_wording(void **state) {
     (void)state;
@@ -303,7 +313,7 @@ int main(void) {
         cmocka_unit_test(test_gaussians),  cmocka_unit_test(test_zero_normals),
         cmocka_unit_test(test_steps),      cmocka_unit_test(test_nothing_seen),
         cmocka_unit_test(test_path_fails), cmocka_unit_test(test_poses),
-        cmocka_unit_test(test_wording),    cmocka_unit_test(dots),
+        cmocka_unit_test(test_once),       cmocka_unit_test(test_wording),    cmocka_unit_test(dots),
     };
     return cmocka_run_group_tests(tests, enter, NULL);
 }
