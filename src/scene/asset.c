@@ -8,6 +8,7 @@
 #include "base/context.h"
 #include "base/options.h"
 #include "base/platform.h"
+#include "ewa/diagnosis.h"
 #include "ewa/gaussian_io.h"
 
 #include <math.h>
@@ -309,8 +310,9 @@ ewa_status ewa_asset_probe(ewa_context *context, const char *path, const ewa_ass
 /// Borrows a cloud's streams.
 static ewa_status borrow_cloud(const ewa_asset_job *job, const ewa_cloud *cloud) {
     ewa_cloud *view = NULL;
-    // A map changes the streams.
-    EWA_TRY(ewa_asset_is_moved(job->asset)
+    char text[EWA_DIAGNOSIS_TEXT_BYTES];
+    // A map changes the streams, as metres do.
+    EWA_TRY(ewa_asset_is_moved(job->asset) || ewa_cloud_find_degrees(cloud, text)
                 ? ewa_cloud_merge(&cloud, 1, &view)
                 : ewa_cloud_view(job->asset->context, cloud, 0, ewa_cloud_point_count(cloud), &view));
     return ewa_asset_take_cloud(job, view);

@@ -23,8 +23,8 @@ ewa_status ewa_asset_take_model(const ewa_asset_job *job, ewa_model *model);
 /// Makes points on the faces of a mesh.
 ewa_status ewa_asset_sample_mesh(const ewa_asset_job *job, const ewa_mesh *mesh);
 
-/// Takes over a cloud, which is the asset's own, by the filter and the map of the options. After a failure the asset
-/// still owns it.
+/// Takes over a cloud, which is the asset's own, by the filter and the map of the options; degrees that no map moves
+/// become metres. After a failure the asset still owns it.
 ewa_status ewa_asset_take_cloud(const ewa_asset_job *job, ewa_cloud *cloud);
 
 /// Makes voxels of a volume, whose axes may be changed, by a transfer function, or, where that is NULL, by the options.

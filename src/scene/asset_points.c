@@ -6,6 +6,7 @@
 #include "ewa/diagnosis.h"
 #include "ewa/prepare.h"
 #include "framing/conventions.h"
+#include "math/degree.h"
 #include "scene/asset.h"
 
 #include <math.h>
@@ -17,7 +18,8 @@ static const uint64_t MESH_POINTS = 200000, MESH_POINTS_PER_TRIANGLE = 4;
 /// Smallest cutoff that axes of a mesh's points are made for.
 static const double MESH_CUTOFF = 1e-3;
 
-ewa_status ewa_asset_take_cloud(const ewa_asset_job *job, ewa_cloud *cloud) {
+/// Takes points as they are.
+static ewa_status take_points(const ewa_asset_job *job, ewa_cloud *cloud) {
     ewa_asset *asset = job->asset;
     asset->kind = EWA_ASSET_POINTS;
     asset->cloud = cloud;
@@ -39,6 +41,26 @@ ewa_status ewa_asset_take_cloud(const ewa_asset_job *job, ewa_cloud *cloud) {
     return status == EWA_OK && asset->count ? ewa_cloud_measure(asset->cloud, &asset->bounds) : status;
 }
 
+/// Makes metres of points in degrees, of lengths that all places of about one latitude share, so that tiles meet.
+static ewa_status make_metres(ewa_asset *asset) {
+    const double *low = asset->bounds.low_world, *high = asset->bounds.high_world;
+    double length_m[2], to_metres[16] = {[10] = 1, [15] = 1};
+    ewa_degree_lengths(fmax(-89, fmin(89, round(0.5 * (low[1] + high[1])))), length_m);
+    to_metres[0] = length_m[0], to_metres[5] = length_m[1];
+    ewa_report(asset->context, EWA_SEVERITY_NOTE,
+               "degrees with heights in metres: x and y are drawn times %.0f and %.0f, about metres", length_m[0],
+               length_m[1]);
+    EWA_TRY(ewa_cloud_transform(asset->cloud, to_metres));
+    return ewa_cloud_measure(asset->cloud, &asset->bounds);
+}
+
+ewa_status ewa_asset_take_cloud(const ewa_asset_job *job, ewa_cloud *cloud) {
+    char text[EWA_DIAGNOSIS_TEXT_BYTES];
+    const bool degrees = !ewa_asset_is_moved(job->asset) && ewa_cloud_find_degrees(cloud, text);
+    EWA_TRY(take_points(job, cloud));
+    return degrees && job->asset->count ? make_metres(job->asset) : EWA_OK;
+}
+
 ewa_status ewa_asset_sample_mesh(const ewa_asset_job *job, const ewa_mesh *mesh) {
     ewa_context *context = job->asset->context;
     ewa_mesh_sample_options options;
@@ -54,7 +76,7 @@ ewa_status ewa_asset_sample_mesh(const ewa_asset_job *job, const ewa_mesh *mesh)
                "%llu points on %u triangles in %.3f s; ewa_mesh_sample() has options for this",
                (unsigned long long)ewa_cloud_point_count(cloud), mesh->triangle_count,
                ewa_now_s() - started_s);
-    ewa_status status = ewa_asset_take_cloud(job, cloud);
+    ewa_status status = take_points(job, cloud);
     job->asset->kind = EWA_ASSET_MESH;
     return status;
 }
@@ -64,13 +86,10 @@ ewa_status ewa_asset_take_model(const ewa_asset_job *job, ewa_model *model) {
     if (!model->points && model->mesh.triangle_count) return ewa_asset_sample_mesh(job, &model->mesh);
     if (!model->points || ewa_cloud_point_count(model->points) == 0)
         return ewa_fail(context, EWA_ERROR_FORMAT, "the file has no points");
-    if (!model->face_count) { // the readers of meshes say so themselves
-        ewa_cloud_check_steps(model->points);
-        ewa_cloud_check_degrees(model->points);
-    }
+    if (!model->face_count) ewa_cloud_check_steps(model->points); // the readers of meshes say so themselves
     ewa_cloud *cloud = model->points;
     model->points = NULL;
-    return ewa_asset_take_cloud(job, cloud);
+    return model->face_count ? take_points(job, cloud) : ewa_asset_take_cloud(job, cloud);
 }
 
 ewa_status ewa_asset_take_gaussians(const ewa_asset_job *job, ewa_gaussians *set, const double up_world[3]) {
@@ -80,7 +99,7 @@ ewa_status ewa_asset_take_gaussians(const ewa_asset_job *job, ewa_gaussians *set
     if (job->options->gaussians_as_surfels) {
         ewa_cloud *cloud = NULL;
         const ewa_status status = ewa_gaussians_to_cloud(set, &cloud);
-        return status == EWA_OK ? ewa_asset_take_cloud(job, cloud) : status;
+        return status == EWA_OK ? take_points(job, cloud) : status;
     }
     if (asset->filter.term_count)
         return ewa_fail(

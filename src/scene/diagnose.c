@@ -6,6 +6,7 @@
 #include "base/base.h"
 #include "cloud/cloud.h"
 #include "ewa/diagnosis.h"
+#include "math/degree.h"
 
 #include <float.h>
 #include <inttypes.h>
@@ -17,9 +18,6 @@ enum { BLOCK_POINTS = 256, MAX_COMPONENTS = 4 };
 
 /// Distances of points in steps of their coordinates from which surfaces look as they are.
 static const double STEPS_PER_SPACING = 4;
-
-/// Metres of a degree of latitude, and of longitude at the equator.
-static const double DEGREE_M = 111320;
 
 /// Extent in height beside that on the map from which coordinates of a small extent are degrees: 1 km of land
 /// is 0.01 degrees wide and 10 m high.
@@ -109,13 +107,13 @@ bool ewa_cloud_find_degrees(const ewa_cloud *cloud, char text[EWA_DIAGNOSIS_TEXT
     const bool small =
         extent > 0 && extent < 1 && away > 10 * extent && high[2] - low[2] > DEGREES_HEIGHT_RATIO * extent;
     if (!is_geographic(crs) && (crs || !small)) return false;
-    const double latitude_deg = 0.5 * (low[1] + high[1]),
-                 radians = latitude_deg * (3.14159265358979323846 / 180);
+    double length_m[2];
+    ewa_degree_lengths(0.5 * (low[1] + high[1]), length_m);
     snprintf(
         text, EWA_DIAGNOSIS_TEXT_BYTES,
         "coordinates %s degrees of longitude and latitude, so that shapes are flat and heights stand out; "
         "times %.0f,%.0f,1 they are about metres, exact ones a projection such as UTM zone %d makes",
-        is_geographic(crs) ? "are" : "look like", DEGREE_M * cos(radians), DEGREE_M,
+        is_geographic(crs) ? "are" : "look like", length_m[0], length_m[1],
         (int)fmin(60, floor((0.5 * (low[0] + high[0]) + 180) / 6) + 1));
     return true;
 }

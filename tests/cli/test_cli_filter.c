@@ -168,9 +168,17 @@ static void test_degrees(void **state) {
                "7.001 50.001 100 2 1\n7.002 50.001 120 2 1\n7.001 50.002 110 2 1\n7.002 50.002 150 2 1\n", 4);
     assert_int_equal(run("ewa info d.ply"), 0);
     assert_non_null(strstr(last_run.out, "coordinates look like degrees of longitude and latitude"));
-    assert_non_null(strstr(last_run.out, "--scale 71553,111320,1"));
+    assert_non_null(strstr(last_run.out, "--scale 71694,111229,1"));
     assert_non_null(strstr(last_run.out, "UTM zone 32"));
     assert_non_null(strstr(last_run.err, "d.ply: coordinates look like degrees"));
+    // Pictures are of metres, by the length of degrees at latitude 50, unless they are moved by hand.
+    assert_int_equal(run("ewa render d.ply -o d.png --size 64x64"), 0);
+    assert_non_null(strstr(last_run.err, "d.ply: degrees with heights in metres: x and y are drawn times 71696 and 111229"));
+    const char *moved = "ewa convert d.ply -o m.ply --scale 71695.75361600298,111229.06398856244,1 && "
+                        "ewa render m.ply -o m.png --size 64x64";
+    assert_int_equal(run("%s", moved), 0);
+    assert_true(scratch_same("d.png", "m.png"));
+    assert_null(strstr(last_run.err, "drawn times"));
     write_scan("d.ply", "7.001 50.001 0.1 2 1\n7.002 50.001 0.12 2 1\n7.001 50.002 0.11 2 1\n", 3);
     run_done("ewa info d.ply");
     assert_null(strstr(last_run.out, "degrees of longitude"));

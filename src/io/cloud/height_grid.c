@@ -2,14 +2,11 @@
 // SPDX-License-Identifier: MIT
 //
 // Cells of grids of heights in the world.
-//
-// Based on: J. P. Snyder, "Map projections: a working manual", USGS Professional Paper 1395 (1987), equations 4-19 and
-// 4-20 (lengths of a degree on the ellipsoid).
 #include "io/cloud/height_grid.h"
 
 #include "base/base.h"
 #include "io/cloud/text_table.h"
-#include "math/angle.h"
+#include "math/degree.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -49,22 +46,12 @@ bool ewa_height_grid_is_too_steep(const ewa_height_grid *grid, double mean_step)
     return mean_step > ABSURD_SLOPE * sqrt(m[0] * m[0] + m[3] * m[3]);
 }
 
-/// Lengths of a degree to the east and to the north at a latitude, metres.
-static void degree_lengths(double latitude_deg, double length_m[2]) {
-    static const double A_M = 6378137, E2 = 0.00669437999014, RAD_PER_DEG = EWA_PI / 180;
-    double sine, cosine;
-    ewa_sin_cos(fabs(latitude_deg) * RAD_PER_DEG, &sine, &cosine);
-    const double w2 = 1 - E2 * sine * sine;
-    length_m[0] = A_M / sqrt(w2) * cosine * RAD_PER_DEG;
-    length_m[1] = A_M * (1 - E2) / (w2 * sqrt(w2)) * RAD_PER_DEG;
-}
-
 /// Makes metres of degrees, counted from the middle of the grid.
 static ewa_status make_metres(const ewa_cloud_source *source, ewa_height_grid *grid, ewa_cloud *prototype) {
     double place[2], length_m[2];
     middle(grid, ((double)grid->columns - 1) / 2, ((double)grid->rows - 1) / 2, place);
     if (!(fabs(place[1]) < 90)) return EWA_OK;
-    degree_lengths(place[1], length_m);
+    ewa_degree_lengths(place[1], length_m);
     double *m = grid->to_world;
     m[2] -= place[0];
     m[5] -= place[1];
