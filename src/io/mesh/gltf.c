@@ -130,7 +130,6 @@ static ewa_status add_colors(gltf *g, const primitive *p) {
     gltf_array array;
     ewa_mesh_build *build = g->build;
     EWA_TRY(read_attribute(g, p, "COLOR_0", 3, 4, &array));
-    if (!array.count) return EWA_OK;
     // Colours go by place: what has none before this primitive is white.
     const uint64_t end = build->positions.count;
     build->positions.count = p->position;
