@@ -66,6 +66,7 @@ const ewa_attribute *ewa_cloud_find(const ewa_cloud *cloud, const char *name) {
 }
 
 bool ewa_cloud_is_drawable(const ewa_cloud *cloud) {
+    if (!cloud) return false;
     return (ewa_cloud_find(cloud, EWA_TANGENT_U) && ewa_cloud_find(cloud, EWA_TANGENT_V)) ||
            (ewa_cloud_find(cloud, EWA_NORMAL) && ewa_cloud_find(cloud, EWA_RADIUS));
 }

@@ -72,6 +72,7 @@ static bool clip_to_cone(ewa_vec4 p1, ewa_vec4 p2, double sign, ewa_segment_part
 }
 
 ewa_status ewa_clip_alphas(ewa_vec4 p1, ewa_vec4 p2, double alpha[6], uint32_t *crossed) {
+    if (!alpha || !crossed) return EWA_ERROR_ARGUMENT;
     if (!vec4_is_finite(p1) || !vec4_is_finite(p2)) return EWA_ERROR_NUMERIC;
     double scale = safe_scale(fmax(largest(p1), largest(p2)));
     p1 = vec4_scale(p1, scale);
@@ -88,6 +89,7 @@ ewa_status ewa_clip_alphas(ewa_vec4 p1, ewa_vec4 p2, double alpha[6], uint32_t *
 }
 
 ewa_status ewa_clip_segment(ewa_vec4 p1, ewa_vec4 p2, ewa_segment_part parts[2], uint32_t *visible) {
+    if (!parts || !visible) return EWA_ERROR_ARGUMENT;
     if (!vec4_is_finite(p1) || !vec4_is_finite(p2) || largest(p1) == 0 || largest(p2) == 0)
         return EWA_ERROR_NUMERIC;
     double scale = safe_scale(fmax(largest(p1), largest(p2)));
@@ -182,6 +184,7 @@ static void clip_polygon_to_cone(const ewa_vec4 *points, const double *attribute
 ewa_status ewa_clip_polygon(const ewa_vec4 *points, const double *attributes, uint32_t point_count,
                             uint32_t attribute_count, ewa_vec4 *clipped_points, double *clipped_attributes,
                             uint32_t clipped_count[2]) {
+    if (!points || !clipped_points || !clipped_count) return EWA_ERROR_ARGUMENT;
     if (point_count < 3 || point_count > MAX_CORNERS) return EWA_ERROR_ARGUMENT;
     double largest_number = 0;
     for (uint32_t i = 0; i < point_count; i++) {

@@ -43,6 +43,7 @@ static bool arrays_are_there(const ewa_segment_batch *segments, const ewa_segmen
 
 ewa_status ewa_clip_segments(ewa_context *context, const ewa_segment_batch *segments,
                              const ewa_segment_clips *clips) {
+    if (!context || !segments || !clips) return EWA_ERROR_ARGUMENT;
     if (segments->count == 0) return EWA_OK;
     if (!arrays_are_there(segments, clips))
         return ewa_fail(context, EWA_ERROR_ARGUMENT, "ewa_clip_segments: an array is NULL that must not be");

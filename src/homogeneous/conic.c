@@ -39,6 +39,7 @@ ewa_conic ewa_dual_conic_transform(const ewa_conic *dual, const ewa_mat3 *map) {
 }
 
 ewa_status ewa_conic_transform(const ewa_conic *conic, const ewa_mat3 *map, ewa_conic *image_conic) {
+    if (!conic || !map || !image_conic) return EWA_ERROR_ARGUMENT;
     ewa_mat3 inverse;
     ewa_status status = ewa_mat3_invert(map, &inverse);
     if (status) return status;
@@ -51,6 +52,7 @@ ewa_status ewa_conic_transform(const ewa_conic *conic, const ewa_mat3 *map, ewa_
 }
 
 ewa_status ewa_dual_conic_ellipse(const ewa_conic *dual, double center[2], double shape[3]) {
+    if (!dual || !center || !shape) return EWA_ERROR_ARGUMENT;
     if (!(fabs(dual->ww) > 0)) return EWA_ERROR_NUMERIC;
     double cx = dual->xw / dual->ww, cy = dual->yw / dual->ww;
     double dxx = dual->xx / dual->ww, dxy = dual->xy / dual->ww, dyy = dual->yy / dual->ww;

@@ -19,6 +19,7 @@ static ewa_status cross(ewa_vec3 a, ewa_vec3 b, ewa_vec3 *result) {
 }
 
 ewa_status ewa_point2_divide(ewa_vec3 point, double xy[2]) {
+    if (!xy) return EWA_ERROR_ARGUMENT;
     if (!vec3_is_finite(point) || point.z == 0) return EWA_ERROR_NUMERIC;
     double x = point.x / point.z, y = point.y / point.z;
     if (!isfinite(x) || !isfinite(y)) return EWA_ERROR_NUMERIC;
@@ -27,13 +28,20 @@ ewa_status ewa_point2_divide(ewa_vec3 point, double xy[2]) {
     return EWA_OK;
 }
 
-ewa_status ewa_line2_join(ewa_vec3 p, ewa_vec3 q, ewa_vec3 *line) { return cross(p, q, line); }
+ewa_status ewa_line2_join(ewa_vec3 p, ewa_vec3 q, ewa_vec3 *line) {
+    if (!line) return EWA_ERROR_ARGUMENT;
+    return cross(p, q, line);
+}
 
-ewa_status ewa_line2_meet(ewa_vec3 k, ewa_vec3 l, ewa_vec3 *point) { return cross(k, l, point); }
+ewa_status ewa_line2_meet(ewa_vec3 k, ewa_vec3 l, ewa_vec3 *point) {
+    if (!point) return EWA_ERROR_ARGUMENT;
+    return cross(k, l, point);
+}
 
 double ewa_incidence2(ewa_vec3 point, ewa_vec3 line) { return vec3_dot(point, line); }
 
 ewa_status ewa_line2_distance(ewa_vec3 line, ewa_vec3 point, double *distance) {
+    if (!distance) return EWA_ERROR_ARGUMENT;
     if (!vec3_is_finite(line) || !vec3_is_finite(point)) return EWA_ERROR_NUMERIC;
     line = vec3_balance(line);
     point = vec3_balance(point);
@@ -96,18 +104,21 @@ static ewa_status balance_weights(const frame *f, const double weights[3], ewa_v
 static double inverse_height(const frame *f, int i) { return hypot(f->edge[i].x, f->edge[i].y); }
 
 ewa_status ewa_triangle_barycentric(const ewa_vec3 triangle[3], ewa_vec3 point, double weights[3]) {
+    if (!triangle || !weights) return EWA_ERROR_ARGUMENT;
     frame f;
     ewa_status status = make_frame(triangle, &f);
     return status ? status : weigh(&f, point, weights);
 }
 
 ewa_status ewa_triangle_point(const ewa_vec3 triangle[3], const double weights[3], ewa_vec3 *point) {
+    if (!triangle || !weights || !point) return EWA_ERROR_ARGUMENT;
     frame f;
     ewa_status status = make_frame(triangle, &f);
     return status ? status : balance_weights(&f, weights, point);
 }
 
 ewa_status ewa_triangle_distances(const ewa_vec3 triangle[3], ewa_vec3 point, double distances[3]) {
+    if (!triangle || !distances) return EWA_ERROR_ARGUMENT;
     frame f;
     double weights[3];
     ewa_status status = make_frame(triangle, &f);
@@ -119,6 +130,7 @@ ewa_status ewa_triangle_distances(const ewa_vec3 triangle[3], ewa_vec3 point, do
 
 ewa_status ewa_triangle_point_from_distances(const ewa_vec3 triangle[3], const double distances[3],
                                              ewa_vec3 *point) {
+    if (!triangle || !distances || !point) return EWA_ERROR_ARGUMENT;
     frame f;
     ewa_status status = make_frame(triangle, &f);
     if (status) return status;

@@ -78,6 +78,7 @@ static ewa_status three(ewa_vec4 a, ewa_vec4 b, ewa_vec4 c, ewa_vec4 *result) {
 }
 
 ewa_status ewa_point3_divide(ewa_vec4 point, double xyz[3]) {
+    if (!xyz) return EWA_ERROR_ARGUMENT;
     if (!vec4_is_finite(point) || point.w == 0) return EWA_ERROR_NUMERIC;
     ewa_vec3 result = vec3_make(point.x / point.w, point.y / point.w, point.z / point.w);
     if (!vec3_is_finite(result)) return EWA_ERROR_NUMERIC;
@@ -90,6 +91,7 @@ ewa_status ewa_point3_divide(ewa_vec4 point, double xyz[3]) {
 double ewa_incidence3(ewa_vec4 point, ewa_vec4 plane) { return vec4_dot(point, plane); }
 
 ewa_status ewa_plane_join(ewa_vec4 p, ewa_vec4 q, ewa_vec4 r, ewa_vec4 *plane) {
+    if (!plane) return EWA_ERROR_ARGUMENT;
     ewa_vec4 result;
     ewa_status status = three(p, q, r, &result);
     if (!status) *plane = vec4_scale(result, -1);
@@ -97,10 +99,12 @@ ewa_status ewa_plane_join(ewa_vec4 p, ewa_vec4 q, ewa_vec4 r, ewa_vec4 *plane) {
 }
 
 ewa_status ewa_plane_meet(ewa_vec4 a, ewa_vec4 b, ewa_vec4 c, ewa_vec4 *point) {
+    if (!point) return EWA_ERROR_ARGUMENT;
     return three(a, b, c, point);
 }
 
 ewa_status ewa_plane_distance(ewa_vec4 plane, ewa_vec4 point, double *distance) {
+    if (!distance) return EWA_ERROR_ARGUMENT;
     if (!vec4_is_finite(plane) || !vec4_is_finite(point)) return EWA_ERROR_NUMERIC;
     plane = vec4_balance(plane);
     point = vec4_balance(point);
@@ -112,9 +116,13 @@ ewa_status ewa_plane_distance(ewa_vec4 plane, ewa_vec4 point, double *distance) 
     return EWA_OK;
 }
 
-ewa_status ewa_line3_join(ewa_vec4 p, ewa_vec4 q, ewa_line3 *line) { return two(p, q, line); }
+ewa_status ewa_line3_join(ewa_vec4 p, ewa_vec4 q, ewa_line3 *line) {
+    if (!line) return EWA_ERROR_ARGUMENT;
+    return two(p, q, line);
+}
 
 ewa_status ewa_line3_meet(ewa_vec4 a, ewa_vec4 b, ewa_line3 *line) {
+    if (!line) return EWA_ERROR_ARGUMENT;
     ewa_line3 result;
     ewa_status status = two(a, b, &result);
     if (!status) *line = exchange(result);
@@ -122,10 +130,12 @@ ewa_status ewa_line3_meet(ewa_vec4 a, ewa_vec4 b, ewa_line3 *line) {
 }
 
 ewa_status ewa_line3_meet_plane(ewa_line3 line, ewa_vec4 plane, ewa_vec4 *point) {
+    if (!point) return EWA_ERROR_ARGUMENT;
     return line_and(line, plane, point);
 }
 
 ewa_status ewa_line3_join_point(ewa_line3 line, ewa_vec4 point, ewa_vec4 *plane) {
+    if (!plane) return EWA_ERROR_ARGUMENT;
     ewa_vec4 result;
     ewa_status status = line_and(exchange(line), point, &result);
     if (!status) *plane = vec4_scale(result, -1);

@@ -15,6 +15,7 @@
 
 ewa_status ewa_hyperbolic_fit(const ewa_vec4 corners[3], const double *values, uint32_t count,
                               ewa_vec3 *numerators, ewa_vec3 *denominator) {
+    if (!corners || !values || !numerators || !denominator) return EWA_ERROR_ARGUMENT;
     ewa_vec3 v[3];
     double largest = 0;
     for (int i = 0; i < 3; i++) {
@@ -40,6 +41,7 @@ ewa_status ewa_hyperbolic_fit(const ewa_vec4 corners[3], const double *values, u
 
 ewa_status ewa_hyperbolic_at(ewa_vec3 numerator, ewa_vec3 denominator, double screen_x, double screen_y,
                              double *value) {
+    if (!value) return EWA_ERROR_ARGUMENT;
     ewa_vec3 place = vec3_make(screen_x, screen_y, 1);
     double divisor = vec3_dot(denominator, place);
     if (is_noise(divisor, vec3_dot(vec3_abs(denominator), vec3_abs(place)))) return EWA_ERROR_NUMERIC;
@@ -50,6 +52,7 @@ ewa_status ewa_hyperbolic_at(ewa_vec3 numerator, ewa_vec3 denominator, double sc
 }
 
 ewa_status ewa_hyperbolic_alpha(double w1, double w2, double t, double *alpha) {
+    if (!alpha) return EWA_ERROR_ARGUMENT;
     double a = (1 - t) * w2, b = t * w1;
     if (is_noise(a + b, fabs(a) + fabs(b))) return EWA_ERROR_NUMERIC;
     double result = b / (a + b);

@@ -45,6 +45,7 @@ static bool equilibrate(double m[4][4], bool rows, int exponent[4]) {
 }
 
 ewa_status ewa_mat4_invert(const ewa_mat4 *map, ewa_mat4 *inverse) {
+    if (!map || !inverse) return EWA_ERROR_ARGUMENT;
     for (int i = 0; i < 4; i++)
         if (!vec4_is_finite(mat4_row(map, i))) return EWA_ERROR_NUMERIC;
     ewa_mat4 scaled = *map, magnitude;
@@ -84,6 +85,7 @@ ewa_status ewa_mat4_invert(const ewa_mat4 *map, ewa_mat4 *inverse) {
 }
 
 ewa_status ewa_mat3_invert(const ewa_mat3 *map, ewa_mat3 *inverse) {
+    if (!map || !inverse) return EWA_ERROR_ARGUMENT;
     ewa_mat4 wide = mat4_from_rows(vec4_from_vec3(mat3_row(map, 0), 0), vec4_from_vec3(mat3_row(map, 1), 0),
                                    vec4_from_vec3(mat3_row(map, 2), 0), vec4_make(0, 0, 0, 1));
     ewa_status status = ewa_mat4_invert(&wide, &wide);
@@ -102,6 +104,7 @@ ewa_vec3 ewa_line2_pull(ewa_vec3 image_line, const ewa_mat3 *map) { return mat3_
 ewa_vec4 ewa_plane_pull(ewa_vec4 image_plane, const ewa_mat4 *map) { return mat4_mul_vec4(map, image_plane); }
 
 ewa_status ewa_line2_transform(ewa_vec3 line, const ewa_mat3 *map, ewa_vec3 *image_line) {
+    if (!map || !image_line) return EWA_ERROR_ARGUMENT;
     ewa_mat3 inverse;
     ewa_status status = vec3_is_finite(line) ? ewa_mat3_invert(map, &inverse) : EWA_ERROR_NUMERIC;
     if (!status) *image_line = ewa_line2_pull(line, &inverse);
@@ -109,6 +112,7 @@ ewa_status ewa_line2_transform(ewa_vec3 line, const ewa_mat3 *map, ewa_vec3 *ima
 }
 
 ewa_status ewa_plane_transform(ewa_vec4 plane, const ewa_mat4 *map, ewa_vec4 *image_plane) {
+    if (!map || !image_plane) return EWA_ERROR_ARGUMENT;
     ewa_mat4 inverse;
     ewa_status status = vec4_is_finite(plane) ? ewa_mat4_invert(map, &inverse) : EWA_ERROR_NUMERIC;
     if (!status) *image_plane = ewa_plane_pull(plane, &inverse);

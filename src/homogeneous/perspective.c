@@ -52,6 +52,7 @@ static bool box_map(const frustum *f, ewa_mat4 *map) {
 
 ewa_status ewa_camera_clip_map(const ewa_camera *camera, double near_z, double far_z,
                                ewa_mat4 *world_to_clip) {
+    if (!camera || !world_to_clip) return EWA_ERROR_ARGUMENT;
     bool perspective = camera->projection == EWA_PERSPECTIVE;
     double reach =
         perspective ? near_z : 1; // what a slope (perspective) or a world unit spans on the window's plane

@@ -68,6 +68,7 @@ static char plain(char c) {
 }
 
 bool ewa_class_find(const char *name, uint32_t *code) {
+    if (!name || !code) return false;
     for (uint32_t i = 0; i < KNOWN; i++) {
         const char *a = name, *b = known[i].name;
         while (*a && plain(*a) == *b) a++, b++;

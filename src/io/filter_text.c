@@ -173,6 +173,7 @@ static void write_range(const ewa_filter_range *range, char text[2 * EWA_NUMBER_
 }
 
 bool ewa_filter_write(const ewa_filter *filter, char *text, size_t size_bytes) {
+    if (!filter || (!text && size_bytes)) return false;
     size_t used = 0;
     if (size_bytes) *text = 0;
     for (uint32_t t = 0; t < filter->term_count; t++) {

@@ -54,6 +54,7 @@ static bool is_rgb(const char *attribute) {
 }
 
 bool ewa_coloring_is_own(const char *attribute) {
+    if (!attribute) return false;
     return ewa_coloring_is_auto(attribute) || strcmp(attribute, "none") == 0 || is_rgb(attribute);
 }
 
@@ -201,7 +202,7 @@ static bool are_classes(void *user, uint32_t count, const double *block) {
 }
 
 bool ewa_coloring_names_classes(const char *name) {
-    return ewa_attribute_names_agree(name, "classification");
+    return name && ewa_attribute_names_agree(name, "classification");
 }
 
 /// Whether an attribute holds classes by its name and its numbers.

@@ -46,6 +46,7 @@ void ewa_gaussian_columns_describe(const ewa_gaussian_columns *facts, char text[
 }
 
 ewa_status ewa_cloud_refuse_gaussians(const ewa_cloud *cloud) {
+    if (!cloud) return EWA_ERROR_ARGUMENT;
     const ewa_gaussian_columns columns = ewa_cloud_find_gaussians(cloud);
     if (!columns.dimensions) return EWA_OK;
     char text[EWA_DIAGNOSIS_TEXT_BYTES];
@@ -94,6 +95,7 @@ static bool is_geographic(const char *crs) {
 }
 
 bool ewa_cloud_find_degrees(const ewa_cloud *cloud, char text[EWA_DIAGNOSIS_TEXT_BYTES]) {
+    if (!cloud) return false;
     ewa_bounds box;
     const ewa_attribute *position = ewa_cloud_find(cloud, EWA_POSITION);
     if (!position || position->component_count != 3 || ewa_cloud_measure(cloud, &box) != EWA_OK ||
@@ -200,6 +202,7 @@ static bool at_one_place(const ewa_cloud *cloud, double place_world[3]) {
 }
 
 ewa_status ewa_cloud_report_invalid_points(const ewa_cloud *cloud, const ewa_surfels_info *surfels) {
+    if (!cloud || !surfels) return EWA_ERROR_ARGUMENT;
     ewa_context *context = ewa_cloud_context(cloud);
     const unsigned long long all = ewa_cloud_point_count(cloud), left_out = surfels->left_out_count;
     const ewa_attribute *color = ewa_cloud_find(cloud, EWA_COLOR);

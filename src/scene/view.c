@@ -251,7 +251,7 @@ static ewa_status place_at(placement *p, const ewa_cloud *outline, double radius
 ewa_status ewa_cloud_place_camera(const ewa_cloud *cloud, double radius_scale, ewa_up_convention convention,
                                   ewa_scene_up up, const ewa_view_options *options, ewa_camera *camera,
                                   ewa_view_info *info) {
-    if (!cloud) return EWA_ERROR_ARGUMENT;
+    if (!cloud || (unsigned)up > EWA_UP_MINUS_Z) return EWA_ERROR_ARGUMENT;
     placement p = {.context = ewa_cloud_context(cloud),
                    .up_axis = axis_of(up),
                    .convention = convention,

@@ -242,6 +242,7 @@ static ewa_status open_writer(ewa_cloud_writer *writer, const char *path,
 }
 
 bool ewa_cloud_writer_needs_bounds(const char *path, const ewa_cloud *prototype) {
+    if (!path || !prototype) return false;
     const ewa_cloud_write_format *format = ewa_cloud_write_format_of(path);
     ewa_coordinate_grid grid;
     ewa_cloud_grid(prototype, &grid);

@@ -40,7 +40,7 @@ bool ewa_volume_is_named(const char *path) {
     static const char *const suffixes[] = {".nrrd", ".nhdr",   ".nii", ".nii.gz", ".mha",
                                            ".mhd",  ".raw",    ".vti", ".vtk",    ".raw.gz",
                                            ".img",  ".img.gz", ".hdr", ".hdr.gz"};
-    const size_t length = strlen(path);
+    const size_t length = path ? strlen(path) : 0;
     for (size_t i = 0; i < sizeof suffixes / sizeof suffixes[0]; i++) {
         const size_t suffix = strlen(suffixes[i]);
         if (length > suffix && strcasecmp(path + length - suffix, suffixes[i]) == 0) return true;
