@@ -77,6 +77,10 @@ void ewa_parallel(ewa_context *context, ewa_task *task, void *data, uint32_t cou
 ewa_status ewa_parallel_stoppable(ewa_context *context, const char *stage, ewa_task *task, void *data,
                                   uint32_t count);
 
+/// The same for a part of a stage, whose progress goes from `begin` to `end`, in [0, 1].
+ewa_status ewa_parallel_within(ewa_context *context, const char *stage, double begin, double end, ewa_task *task, void *data,
+                               uint32_t count);
+
 /// For tasks of ewa_parallel_stoppable() that take long: whether to go on. `worker` is the task's; on the thread that called
 /// the library the progress callback is asked now and then, on others whether it has stopped the run. A task that is told
 /// not to go on returns soon and may leave its work undone, for the run is EWA_CANCELLED.

@@ -96,6 +96,7 @@ static const double ASKING_STEP_S = 0.02;
 typedef struct ewa_stoppable_run {
     ewa_context *context;
     const char *stage;
+    double begin, end; ///< of the stage
     ewa_task *task;
     void *data;
     uint32_t first, count;
@@ -104,12 +105,16 @@ typedef struct ewa_stoppable_run {
     double asked_s; // of the thread that called the library
 } stoppable_run;
 
-/// Asks the progress callback, on the thread that called the library; not again once it has said stop.
+/// Asks the progress callback, on the thread that called the library.
+static ewa_status tell(const stoppable_run *run) {
+    const double done = (double)atomic_load_explicit(&run->done, memory_order_relaxed);
+    return ewa_progress(run->context, run->stage, run->begin + (run->end - run->begin) * (done / run->count));
+}
+
+/// The same within a run; not again once it has said stop.
 static void ask(stoppable_run *run) {
     if (atomic_load_explicit(&run->stopped, memory_order_relaxed)) return;
-    const double done = (double)atomic_load_explicit(&run->done, memory_order_relaxed);
-    if (ewa_progress(run->context, run->stage, done / run->count) != EWA_OK)
-        atomic_store_explicit(&run->stopped, true, memory_order_relaxed);
+    if (tell(run) != EWA_OK) atomic_store_explicit(&run->stopped, true, memory_order_relaxed);
 }
 
 static void run_one(void *data, uint32_t index, uint32_t worker) {
@@ -136,19 +141,22 @@ bool ewa_goes_on(ewa_context *context, uint32_t worker) {
 
 ewa_status ewa_parallel_stoppable(ewa_context *context, const char *stage, ewa_task *task, void *data,
                                   uint32_t count) {
+    return ewa_parallel_within(context, stage, 0, 1, task, data, count);
+}
+
+ewa_status ewa_parallel_within(ewa_context *context, const char *stage, double begin, double end, ewa_task *task, void *data,
+                               uint32_t count) {
     enum { PARTS = 16 };
-    stoppable_run run = {context, stage, task, data, .count = count, .asked_s = ewa_now_s()};
+    stoppable_run run = {context, stage, begin, end, task, data, .count = count, .asked_s = ewa_now_s()};
     // Threads of others' executors may all be other ones: their runs are stopped between parts.
     const bool watched = context->options.progress || context->options.limits.max_seconds > 0;
     const uint32_t step = context->pool || !watched ? count : count / PARTS + 1;
-    ewa_status status = ewa_progress(context, stage, 0);
+    ewa_status status = ewa_progress(context, stage, begin);
     context->run = &run;
     for (; run.first < count && status == EWA_OK; run.first += step) {
         const uint32_t left = count - run.first;
         ewa_parallel(context, run_one, &run, left < step ? left : step);
-        status = atomic_load(&run.stopped)
-                     ? EWA_CANCELLED
-                     : ewa_progress(context, stage, (double)atomic_load(&run.done) / count);
+        status = atomic_load(&run.stopped) ? EWA_CANCELLED : tell(&run);
     }
     context->run = NULL;
     return status;

@@ -19,7 +19,6 @@
 #define MIN_ALPHA (1.0 / 512)
 
 typedef struct acquire_job {
-    ewa_acquire_stretch stretch; // first
     ewa_acquire_set set;
     const ewa_acquire_options *options;
     const ewa_image *images;
@@ -207,7 +206,7 @@ static void read_chart(const acquire_job *job, uint64_t index, ewa_acquire_point
 static void read_points(void *data, uint32_t part, uint32_t worker) {
     (void)worker;
     const acquire_job *job = data;
-    const ewa_acquire_stretch range = ewa_acquire_range(&job->stretch, part);
+    const ewa_acquire_stretch range = ewa_acquire_range(&job->set, part);
     for (uint32_t i = range.first; i < range.end; i++) {
         ewa_acquire_point *point = &job->set.points[i];
         const uint64_t index = job->set.order[i];
@@ -228,7 +227,7 @@ static void filter_points(void *data, uint32_t part, uint32_t worker) {
     (void)worker;
     const acquire_job *job = data;
     const ewa_acquire_set *set = &job->set;
-    const ewa_acquire_stretch range = ewa_acquire_range(&job->stretch, part);
+    const ewa_acquire_stretch range = ewa_acquire_range(&job->set, part);
     for (uint32_t i = range.first; i < range.end; i++) {
         const ewa_acquire_point *point = &set->points[i];
         double *color = job->colors[i];
@@ -249,7 +248,7 @@ static void filter_points(void *data, uint32_t part, uint32_t worker) {
 static void write_points(void *data, uint32_t part, uint32_t worker) {
     (void)worker;
     const acquire_job *job = data;
-    const ewa_acquire_stretch range = ewa_acquire_range(&job->stretch, part);
+    const ewa_acquire_stretch range = ewa_acquire_range(&job->set, part);
     for (uint32_t i = range.first; i < range.end; i++) {
         float *to = job->output + (size_t)job->set.order[i] * job->channel_count;
         const double *color = job->colors[i];
@@ -349,20 +348,17 @@ static ewa_status run(ewa_cloud *cloud, acquire_job *job, ewa_acquire_report *re
     job->colors = ewa_allocate(context, set->count, sizeof *job->colors);
     if (!set->order || !set->points || !job->colors) return EWA_ERROR_MEMORY;
     EWA_TRY(ewa_morton_order(context, job->position, set->count, set->order, NULL, NULL));
-    EWA_TRY(ewa_acquire_run(set, read_points, &job->stretch, 0, 0.1));
+    EWA_TRY(ewa_acquire_run(set, read_points, job, 0, 0.1));
     fill_report(job, report);
-    ewa_status status = ewa_acquire_run(set, filter_points, &job->stretch, 0.1, is_optimal ? 0.2 : 1);
+    ewa_status status = ewa_acquire_run(set, filter_points, job, 0.1, is_optimal ? 0.2 : 1);
     if (status == EWA_OK && is_optimal)
         status = ewa_acquire_optimize(set, job->options, job->channel_count, job->colors, report);
     void *output = NULL;
     if (status == EWA_OK) status = ewa_progress(context, "texture", 1);
     if (status == EWA_OK) status = ewa_cloud_add(cloud, EWA_COLOR, EWA_F32, job->channel_count, &output);
     job->output = output;
-    if (status == EWA_OK) {
-        job->stretch = (ewa_acquire_stretch){0, set->count};
-        ewa_parallel(context, write_points, &job->stretch,
-                     (set->count + EWA_ACQUIRE_TASK_POINTS - 1) / EWA_ACQUIRE_TASK_POINTS);
-    }
+    if (status == EWA_OK)
+        ewa_parallel(context, write_points, job, (set->count + EWA_ACQUIRE_TASK_POINTS - 1) / EWA_ACQUIRE_TASK_POINTS);
     return status;
 }
 

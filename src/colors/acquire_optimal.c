@@ -33,7 +33,6 @@ enum { RIDGE_TRIES = 4 };
 #define SOLUTION_TOLERANCE 1e-6
 
 typedef struct optimal_job {
-    ewa_acquire_stretch stretch; // first
     const ewa_acquire_set *set;
     ewa_acquire_grid grid;
     ewa_texture_fit fit;
@@ -49,7 +48,7 @@ typedef struct optimal_job {
 
 static void count_rows(void *data, uint32_t part, uint32_t worker) {
     const optimal_job *job = data;
-    const ewa_acquire_stretch range = ewa_acquire_range(&job->stretch, part);
+    const ewa_acquire_stretch range = ewa_acquire_range(job->set, part);
     for (uint32_t i = range.first; i < range.end; i++) {
         const uint32_t count = ewa_acquire_find(&job->grid, i, NULL);
         if (count > EWA_ACQUIRE_MAX_PAIRS) job->overflowed[worker] = 1 + (uint64_t)job->set->order[i];
@@ -101,7 +100,7 @@ static void fill_alone(const optimal_job *job, uint32_t row) {
 static void fill_rows(void *data, uint32_t part, uint32_t worker) {
     (void)worker;
     const optimal_job *job = data;
-    const ewa_acquire_stretch range = ewa_acquire_range(&job->stretch, part);
+    const ewa_acquire_stretch range = ewa_acquire_range(job->set, part);
     uint32_t others[EWA_ACQUIRE_MAX_PAIRS];
     for (uint32_t i = range.first; i < range.end; i++) {
         const float *axis = job->set->points[i].axis[0];
@@ -118,7 +117,7 @@ static ewa_status count_pairs(optimal_job *job) {
     const uint32_t workers = ewa_context_worker_count(context), count = job->set->count;
     job->overflowed = ewa_allocate_zeroed(context, workers, sizeof *job->overflowed);
     if (!job->overflowed) return EWA_ERROR_MEMORY;
-    ewa_status status = ewa_acquire_run(job->set, count_rows, &job->stretch, 0.2, 0.3);
+    ewa_status status = ewa_acquire_run(job->set, count_rows, job, 0.2, 0.3);
     uint64_t overflowed = 0;
     for (uint32_t w = 0; w < workers; w++)
         overflowed = overflowed > job->overflowed[w] ? overflowed : job->overflowed[w];
@@ -147,7 +146,7 @@ static void add_ridge(const optimal_job *job, double more, double held) {
 static void subtract_filtered(void *data, uint32_t part, uint32_t worker) {
     (void)worker;
     const optimal_job *job = data;
-    const ewa_acquire_stretch range = ewa_acquire_range(&job->stretch, part);
+    const ewa_acquire_stretch range = ewa_acquire_range(job->set, part);
     for (uint32_t row = range.first; row < range.end; row++) {
         double *side = job->sides + (size_t)row * job->channel_count;
         for (uint64_t k = job->row_starts[row]; k < job->row_starts[row + 1]; k++)
@@ -216,8 +215,8 @@ ewa_status ewa_acquire_optimize(const ewa_acquire_set *set, const ewa_acquire_op
         job.values = ewa_allocate(context, pairs, sizeof *job.values);
         if (!job.columns || !job.values) status = EWA_ERROR_MEMORY;
     }
-    if (status == EWA_OK) status = ewa_acquire_run(set, fill_rows, &job.stretch, 0.3, 0.95);
-    if (status == EWA_OK) status = ewa_acquire_run(set, subtract_filtered, &job.stretch, 0.95, 1);
+    if (status == EWA_OK) status = ewa_acquire_run(set, fill_rows, &job, 0.3, 0.95);
+    if (status == EWA_OK) status = ewa_acquire_run(set, subtract_filtered, &job, 0.95, 1);
     ewa_acquire_grid_free(&job.grid);
     if (status == EWA_OK) status = solve(&job, options, report);
     ewa_release(context, job.row_starts, count + 1, sizeof *job.row_starts);

@@ -25,6 +25,7 @@ enum {
     ROW_CANDIDATES = 8,    // per spacing of an edge
     TASK_CANDIDATES = 1 << 14,
     TASK_BLOCKS = 16,
+    ASKED_CANDIDATES = 1 << 17, // between two questions where one thread works
 };
 
 /// Steps of the sequence R2, 1/g and 1/g^2 with g^3 = g + 1, in units of 2^-64 (M. Roberts, "The unreasonable
@@ -234,12 +235,26 @@ static ewa_status grow_blocks(poisson_job *job) {
     return EWA_OK;
 }
 
+/// How far the present throw is, `share` of it, among all.
+static double progress_at(const poisson_job *job, double share) { return 0.1 * (job->which + share); }
+
+static ewa_status tell(const poisson_job *job, double share) {
+    return ewa_progress(job->surface->context, "sample", progress_at(job, share));
+}
+
+/// Runs tasks of the present throw from one share of it to another.
+static ewa_status run_tasks(poisson_job *job, double begin, double end, ewa_task *task, uint32_t count) {
+    return ewa_parallel_within(job->surface->context, "sample", progress_at(job, begin), progress_at(job, end), task, job,
+                               count);
+}
+
 /// Finds the block of every candidate of the present throw, making new ones, and sorts them into the pool.
 static ewa_status sort_candidates(poisson_job *job) {
     const uint64_t count = job->throw_count[job->which];
     int32_t last_at[3] = {-1, -1, -1};
     uint32_t last = NONE;
     for (uint64_t i = 0; i < count; i++) {
+        if (i % ASKED_CANDIDATES == 0) EWA_TRY(tell(job, 0.1 + 0.1 * (double)i / (double)count));
         int64_t cell[3];
         cell_of(job, &job->thrown[i], cell);
         const int32_t at[3] = {(int32_t)(cell[0] / BLOCK_CELLS), (int32_t)(cell[1] / BLOCK_CELLS),
@@ -266,8 +281,10 @@ static ewa_status sort_candidates(poisson_job *job) {
         job->blocks[b].first[job->which] = first;
         first += job->blocks[b].candidates[job->which];
     }
-    for (uint64_t i = 0; i < count; i++)
+    for (uint64_t i = 0; i < count; i++) {
+        if (i % ASKED_CANDIDATES == 0) EWA_TRY(tell(job, 0.2));
         job->pool[job->blocks[job->block_of[i]].first[job->which]++] = job->thrown[i];
+    }
     for (uint32_t b = 0; b < job->block_count; b++)
         job->blocks[b].first[job->which] -= job->blocks[b].candidates[job->which];
     return EWA_OK;
@@ -438,7 +455,7 @@ static void throw_blocks(void *data, uint32_t part, uint32_t worker) {
 
 static ewa_status throw_all(poisson_job *job) {
     ewa_context *context = job->surface->context;
-    ewa_parallel(context, find_neighbours, job, job->block_count / 256 + 1);
+    EWA_TRY(run_tasks(job, 0.2, 0.2, find_neighbours, job->block_count / 256 + 1));
     EWA_TRY(make_scratch(job));
     job->turn = ewa_allocate(context, job->block_count, sizeof *job->turn);
     if (!job->turn) return EWA_ERROR_MEMORY;
@@ -450,8 +467,8 @@ static ewa_status throw_all(poisson_job *job) {
             if (((at[0] & 1) | (at[1] & 1) << 1 | (at[2] & 1) << 2) == parity)
                 job->turn[job->turn_count++] = b;
         }
-        ewa_parallel(context, throw_blocks, job, (job->turn_count + TASK_BLOCKS - 1) / TASK_BLOCKS);
-        status = ewa_progress(context, "sample", 0.1 * job->which + 0.01 * parity);
+        status = run_tasks(job, 0.2 + 0.1 * parity, 0.3 + 0.1 * parity, throw_blocks,
+                           (job->turn_count + TASK_BLOCKS - 1) / TASK_BLOCKS);
     }
     ewa_release(context, job->turn, job->block_count, sizeof *job->turn);
     job->turn = NULL;
@@ -505,18 +522,17 @@ static ewa_status prepare(poisson_job *job) {
 }
 
 static ewa_status run(poisson_job *job) {
-    ewa_context *context = job->surface->context;
     ewa_status status = prepare(job);
     for (job->which = 0; job->which < THROWS && status == EWA_OK; job->which++) {
-        status = ewa_progress(context, "sample", 0.1 * job->which);
+        status = tell(job, 0);
         if (status != EWA_OK || !job->throw_count[job->which]) continue;
         if (job->which == CORNERS)
             fill_corners(job, job->thrown);
         else if (job->which == ROWS)
-            ewa_parallel(context, fill_rows, job, job->surface->edge_count / 64 + 1);
+            status = run_tasks(job, 0, 0.1, fill_rows, job->surface->edge_count / 64 + 1);
         else
-            ewa_parallel(context, fill_inside, job, inner_parts(job));
-        status = sort_candidates(job);
+            status = run_tasks(job, 0, 0.1, fill_inside, inner_parts(job));
+        if (status == EWA_OK) status = sort_candidates(job);
         if (status == EWA_OK) status = throw_all(job);
     }
     return status;

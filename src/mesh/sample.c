@@ -15,7 +15,7 @@
 #include <string.h>
 
 /// Between looks at whether to go on, as many tasks as keep many workers busy.
-enum { TASK_POINTS = 1 << 12, TURN_TASKS = 128 };
+enum { TASK_POINTS = 1 << 12 };
 
 /// A mesh that is more than so many spacings long gets places in doubles: floats, from one corner of it,
 /// would miss by more than a thousandth of a spacing at the other.
@@ -26,7 +26,6 @@ typedef struct sample_job {
     const ewa_mesh_sample_options *options;
     const poisson_sample *samples;
     uint64_t count;
-    uint32_t first_task;  // of the present turn
     double spacing, unit; // of the samples
     mesh_edge_grid grid;
     mesh_colors colors;
@@ -213,7 +212,7 @@ static void finish_color(const sample_job *job, uint64_t i, const double weight[
 static void finish_points(void *data, uint32_t part, uint32_t worker) {
     (void)worker;
     const sample_job *job = data;
-    const uint64_t first = ((uint64_t)job->first_task + part) * TASK_POINTS;
+    const uint64_t first = (uint64_t)part * TASK_POINTS;
     const uint64_t end = first + TASK_POINTS < job->count ? first + TASK_POINTS : job->count;
     for (uint64_t i = first; i < end; i++) {
         const poisson_sample *sample = &job->samples[i];
@@ -231,19 +230,6 @@ static void finish_points(void *data, uint32_t part, uint32_t worker) {
         else
             finish_clip(job, i, place, normal);
     }
-}
-
-/// Gives every point what it gets, turn by turn.
-static ewa_status finish(ewa_context *context, sample_job *job) {
-    const uint32_t tasks = (uint32_t)((job->count + TASK_POINTS - 1) / TASK_POINTS);
-    ewa_status status = ewa_progress(context, "sample", 0.7);
-    for (job->first_task = 0; status == EWA_OK && job->first_task < tasks; job->first_task += TURN_TASKS) {
-        const uint32_t left = tasks - job->first_task;
-        ewa_parallel(context, finish_points, job, left < TURN_TASKS ? left : TURN_TASKS);
-        if (left > TURN_TASKS)
-            status = ewa_progress(context, "sample", 1 - 0.3 * (left - TURN_TASKS) / tasks);
-    }
-    return status;
 }
 
 static ewa_status add_attributes(sample_job *job, ewa_cloud *cloud) {
@@ -327,7 +313,9 @@ static ewa_status sample(ewa_context *context, sample_job *job, ewa_cloud **clou
     if (status == EWA_OK) status = ewa_cloud_create(context, job->count, &made);
     if (status == EWA_OK) status = add_attributes(job, made);
     if (status == EWA_OK) ewa_cloud_set_origin(made, job->surface->origin_world);
-    if (status == EWA_OK) status = finish(context, job);
+    if (status == EWA_OK)
+        status = ewa_parallel_within(context, "sample", 0.7, 1, finish_points, job,
+                                     (uint32_t)((job->count + TASK_POINTS - 1) / TASK_POINTS));
     if (status == EWA_OK) {
         ewa_report(context, EWA_SEVERITY_INFO, "sample: spacing %g, %u triangles, %u sides of sharp edges",
                    job->spacing, job->surface->triangle_count, job->surface->edge_count);
