@@ -3,6 +3,7 @@
 //
 // Reads LAS and LAZ: tasks of a fixed number of records, or of a chunk, fill the sinks.
 #include "base/base.h"
+#include "io/las/las_check.h"
 #include "io/las/las_open.h"
 
 #include <string.h>
@@ -13,7 +14,7 @@ typedef struct las_state {
     const ewa_cloud_source *source;
     ewa_las_file file;
     uint64_t next_point;  ///< of files without compression
-    uint64_t above_count; ///< colours that are more than their type holds
+    ewa_las_seen seen;
 } las_state;
 
 static bool probe(const char *name, const uint8_t *bytes, uint64_t size_bytes) {
@@ -25,11 +26,12 @@ static void close_las(void *data) {
     las_state *state = data;
     if (!state) return;
     ewa_context *context = state->source->context;
-    if (state->above_count)
+    if (state->seen.above_count)
         ewa_report(context, EWA_SEVERITY_WARNING,
                    "%s: %llu numbers of colours are above 255, which none was of those that were looked at; "
                    "they are read as 255",
-                   state->source->name, (unsigned long long)state->above_count);
+                   state->source->name, (unsigned long long)state->seen.above_count);
+    ewa_las_check(state->source, &state->file.header, &state->seen);
     ewa_las_file_close(&state->file);
     ewa_release(context, state, 1, sizeof *state);
 }
@@ -55,7 +57,7 @@ typedef struct unpack_job {
     const ewa_cloud_sink *sinks;
     const uint8_t *records;
     uint64_t count;
-    uint64_t *above_counts; ///< one per task
+    ewa_las_seen *seen; ///< one per task
 } unpack_job;
 
 static void unpack_task(void *data, uint32_t index, uint32_t worker) {
@@ -68,8 +70,8 @@ static void unpack_task(void *data, uint32_t index, uint32_t worker) {
         sinks[i] = job->sinks[i];
         if (sinks[i].to) sinks[i].to += first * sinks[i].stride_bytes;
     }
-    job->above_counts[index] = ewa_las_unpack(table, job->records + first * table->record_bytes,
-                                              left < TASK_POINTS ? left : TASK_POINTS, sinks);
+    ewa_las_unpack_seen(table, job->records + first * table->record_bytes, left < TASK_POINTS ? left : TASK_POINTS, sinks,
+                        &job->seen[index]);
 }
 
 static ewa_status read_plain(las_state *state, uint64_t maximum, const ewa_cloud_sink *sinks,
@@ -84,11 +86,11 @@ static ewa_status read_plain(las_state *state, uint64_t maximum, const ewa_cloud
     const uint64_t at = state->file.header.points_at + state->next_point * state->file.table.record_bytes;
     const uint32_t tasks = (uint32_t)((count + TASK_POINTS - 1) / TASK_POINTS);
     unpack_job job = {.state = state, .sinks = sinks, .records = state->source->bytes + at, .count = count};
-    job.above_counts = ewa_allocate_zeroed(context, tasks, sizeof *job.above_counts);
-    if (!job.above_counts) return EWA_ERROR_MEMORY;
+    job.seen = ewa_allocate_zeroed(context, tasks, sizeof *job.seen);
+    if (!job.seen) return EWA_ERROR_MEMORY;
     const ewa_status status = ewa_parallel_stoppable(context, "read", unpack_task, &job, tasks);
-    for (uint32_t i = 0; i < tasks; i++) state->above_count += job.above_counts[i];
-    ewa_release(context, job.above_counts, tasks, sizeof *job.above_counts);
+    for (uint32_t i = 0; i < tasks; i++) ewa_las_seen_add(&state->seen, &job.seen[i]);
+    ewa_release(context, job.seen, tasks, sizeof *job.seen);
     state->next_point += count;
     ewa_cloud_passed(state->source, at + count * state->file.table.record_bytes);
     return status;
@@ -98,7 +100,7 @@ static ewa_status read_las(void *data, uint64_t maximum, const ewa_cloud_sink *s
     las_state *state = data;
     if (!state->file.stream) return read_plain(state, maximum, sinks, got_count);
     return ewa_laz_stream_read(state->file.stream, &state->file.table, maximum, sinks, got_count,
-                               &state->above_count);
+                               &state->seen);
 }
 
 const ewa_cloud_format ewa_format_las = {

@@ -5,7 +5,7 @@
 #ifndef EWA_SRC_LAZ_CHUNKS_H
 #define EWA_SRC_LAZ_CHUNKS_H
 
-#include "io/las/las.h"
+#include "io/las/las_check.h"
 #include "io/las/laz.h"
 
 enum { EWA_LAZ_VLR_ID = 22204 };
@@ -60,10 +60,10 @@ ewa_status ewa_laz_stream_sample(ewa_laz_stream *stream,
                                  void (*look)(void *user, const uint8_t *records, uint64_t count), void *user,
                                  bool *is_all);
 
-/// Reads the next points, at most `maximum`, into sinks as ewa_cloud_format.read(); adds to `*above_count`
-/// what ewa_las_unpack() returned.
+/// Reads the next points, at most `maximum`, into sinks as ewa_cloud_format.read(); adds them to what
+/// was seen.
 ewa_status ewa_laz_stream_read(ewa_laz_stream *stream, const ewa_las_table *table, uint64_t maximum,
-                               const ewa_cloud_sink *sinks, uint64_t *got_count, uint64_t *above_count);
+                               const ewa_cloud_sink *sinks, uint64_t *got_count, ewa_las_seen *seen);
 
 /// Frees the stream; accepts NULL.
 void ewa_laz_stream_close(ewa_laz_stream *stream);

@@ -170,7 +170,7 @@ static ewa_status keep_next(ewa_laz_stream *stream) {
 
 /// Hands out a part of the next chunk, which is decoded and kept for it.
 static ewa_status read_part(ewa_laz_stream *stream, const ewa_las_table *table, uint64_t maximum,
-                            const ewa_cloud_sink *sinks, uint64_t *got_count, uint64_t *above_count) {
+                            const ewa_cloud_sink *sinks, uint64_t *got_count, ewa_las_seen *seen) {
     const uint64_t chunk = stream->next_chunk;
     kept_chunk *kept = find_kept(stream, chunk);
     if (!kept) {
@@ -185,8 +185,8 @@ static ewa_status read_part(ewa_laz_stream *stream, const ewa_las_table *table, 
     } else if (status == EWA_OK) {
         const uint64_t left = point_count - stream->next_point;
         *got_count = left < maximum ? left : maximum;
-        *above_count += ewa_las_unpack(
-            table, kept->records + stream->next_point * stream->layout->plan.record_bytes, *got_count, sinks);
+        ewa_las_unpack_seen(table, kept->records + stream->next_point * stream->layout->plan.record_bytes, *got_count, sinks,
+                            seen);
         stream->next_point += *got_count;
     }
     if (status != EWA_OK || stream->next_point < point_count) return status;
@@ -200,7 +200,7 @@ static ewa_status read_part(ewa_laz_stream *stream, const ewa_las_table *table, 
 /// What became of one chunk of a wave.
 typedef struct wave_result {
     uint64_t first_point; ///< in the sinks
-    uint64_t above_count;
+    ewa_las_seen seen;
     ewa_laz_result result;
     ewa_status status;
 } wave_result;
@@ -232,7 +232,7 @@ static void read_chunk(void *data, uint32_t index, uint32_t worker) {
         sinks[i] = w->sinks[i];
         if (sinks[i].to) sinks[i].to += r->first_point * sinks[i].stride_bytes;
     }
-    r->above_count = ewa_las_unpack(w->table, records, r->result.point_count, sinks);
+    ewa_las_unpack_seen(w->table, records, r->result.point_count, sinks, &r->seen);
 }
 
 /// Closes a gap in the sinks that lost points left.
@@ -249,7 +249,7 @@ static void move_down(const wave *w, uint64_t to, uint64_t from, uint64_t count)
 
 /// Looks at the results in the order of the file: lost chunks are said and closed up, the stream goes on
 /// behind the last.
-static ewa_status settle(const wave *w, uint64_t *got_count, uint64_t *above_count) {
+static ewa_status settle(const wave *w, uint64_t *got_count, ewa_las_seen *seen) {
     ewa_laz_stream *stream = w->stream;
     for (uint64_t i = 0; i < w->chunk_count; i++) {
         const wave_result *r = &w->results[i];
@@ -260,7 +260,7 @@ static ewa_status settle(const wave *w, uint64_t *got_count, uint64_t *above_cou
         } else {
             if (*got_count != r->first_point) move_down(w, *got_count, r->first_point, point_count);
             *got_count += point_count;
-            *above_count += r->above_count;
+            ewa_las_seen_add(seen, &r->seen);
         }
         kept_chunk *kept = find_kept(stream, chunk);
         if (kept) drop_kept(stream, kept);
@@ -272,7 +272,7 @@ static ewa_status settle(const wave *w, uint64_t *got_count, uint64_t *above_cou
 
 /// Reads as many whole chunks as there is room for.
 static ewa_status read_wave(ewa_laz_stream *stream, const ewa_las_table *table, uint64_t chunk_count,
-                            const ewa_cloud_sink *sinks, uint64_t *got_count, uint64_t *above_count) {
+                            const ewa_cloud_sink *sinks, uint64_t *got_count, ewa_las_seen *seen) {
     ewa_context *context = stream->source->context;
     wave w = {.stream = stream, .table = table, .sinks = sinks, .chunk_count = chunk_count};
     w.results = ewa_allocate_zeroed(context, chunk_count, sizeof *w.results);
@@ -292,13 +292,13 @@ static ewa_status read_wave(ewa_laz_stream *stream, const ewa_las_table *table, 
         read_chunk(&w, 0, 0);
     else if (status == EWA_OK)
         status = ewa_parallel_allocating_stoppable(context, "read", read_chunk, &w, (uint32_t)chunk_count);
-    if (status == EWA_OK) status = settle(&w, got_count, above_count);
+    if (status == EWA_OK) status = settle(&w, got_count, seen);
     ewa_release(context, w.results, chunk_count, sizeof *w.results);
     return status;
 }
 
 ewa_status ewa_laz_stream_read(ewa_laz_stream *stream, const ewa_las_table *table, uint64_t maximum,
-                               const ewa_cloud_sink *sinks, uint64_t *got_count, uint64_t *above_count) {
+                               const ewa_cloud_sink *sinks, uint64_t *got_count, ewa_las_seen *seen) {
     const ewa_laz_layout *layout = stream->layout;
     ewa_status status = EWA_OK;
     *got_count = 0;
@@ -310,8 +310,8 @@ ewa_status ewa_laz_stream_read(ewa_laz_stream *stream, const ewa_las_table *tabl
              layout->chunks[i].point_count <= room;
              i++, chunk_count++)
             room -= layout->chunks[i].point_count;
-        status = chunk_count ? read_wave(stream, table, chunk_count, sinks, got_count, above_count)
-                             : read_part(stream, table, maximum, sinks, got_count, above_count);
+        status = chunk_count ? read_wave(stream, table, chunk_count, sinks, got_count, seen)
+                             : read_part(stream, table, maximum, sinks, got_count, seen);
     }
     if (stream->next_chunk < layout->chunk_count)
         ewa_cloud_passed(stream->source, layout->at_bytes[stream->next_chunk]);
