@@ -11,6 +11,7 @@
 #   make asan tsan clang fuzz   other builds and their tests
 #   make minimal                a program without any library, held to the bytes of the full one
 #   make arm64                  the same for 64-bit Arm, under an emulator
+#   make wasm                   WebAssembly: the bytes of the program under node, and the module that a page loads
 #   make mutate                 breaks the library on purpose and says what the tests notice (hours)
 #   make bench sweep            figures of docs/performance.md: build/bench.json and tables; docs/sweep.png and slopes;
 #                               BENCH_PREFIX="chrt -f 50" keeps other work out of them; Embree is measured
@@ -36,7 +37,7 @@ EWA = build/release/cli/ewa
 # $(call quietly,COMMAND): prints what a command said only when it fails.
 quietly = @mkdir -p build && { $(1) >build/log-$@.txt 2>&1 || { cat build/log-$@.txt; exit 1; }; }
 
-.PHONY: minimal interop build program measure setup demo check asan asan-build tsan tsan-build clang clang-build mutate fuzz arm64 bench sweep gallery papers docs wheel format install clean
+.PHONY: minimal wasm interop build program measure setup demo check asan asan-build tsan tsan-build clang clang-build mutate fuzz arm64 bench sweep gallery papers docs wheel format install clean
 
 build: setup
 	@echo "Building build/release"
@@ -120,6 +121,23 @@ arm64: program
 	@sh tools/hash_jobs.sh $(CURDIR)/$(EWA) >build/hashes-here.tsv
 	@sh tools/hash_jobs.sh qemu-aarch64-static -L $(CURDIR)/build/sysroot/arm64 $(CURDIR)/build/arm64/cli/ewa >build/hashes-arm64.tsv
 	diff build/hashes-here.tsv build/hashes-arm64.tsv && echo "20 jobs: the same bytes"
+
+# WebAssembly, exact on every host and for hosts that round a relaxed multiply-add once: the program's bytes under node, and what a
+# page loads.
+wasm: program
+	@command -v node >/dev/null || { echo "make wasm runs what it builds by node, which is missing (apt-get install nodejs)" >&2; exit 1; }
+	@sh tools/zig.sh wasm32-wasi
+	@sh tools/dependencies.sh wasm32-wasi -mcpu=generic+simd128+bulk_memory+nontrapping_fptoint+sign_ext+mutable_globals+multivalue
+	@sh tools/hash_jobs.sh --without x $(CURDIR)/$(EWA) >build/hashes-here.tsv
+	@for build in wasm wasm-relaxed; do \
+	  echo "Building build/$$build"; \
+	  { cmake --preset $$build && cmake --build build/$$build -j $(JOBS) --target ewa page; } >build/log-$$build.txt 2>&1 || { cat build/log-$$build.txt; exit 1; }; \
+	  sh tools/hash_jobs.sh --without x node --no-warnings $(CURDIR)/tools/wasi.mjs $(CURDIR)/build/$$build/cli/ewa.wasm >build/hashes-$$build.tsv || exit 1; \
+	  diff build/hashes-here.tsv build/hashes-$$build.tsv && echo "19 jobs: the same bytes" || exit 1; \
+	done
+	@$(EWA) generate torus -n 1000000 -o build/torus.ply
+	@node --no-warnings page/measure.mjs build/torus.ply 1920 1080 5 build/wasm-relaxed/page/page.wasm build/wasm/page/page.wasm
+	@node --no-warnings page/measure.mjs build/torus.ply 1920 1080 5 build/wasm/page/page.wasm
 
 mutate:
 	@sh tools/setup.sh python3

@@ -4,12 +4,15 @@
 #
 # Runs twenty small jobs of the program over generated data, and prints a line for each: its name and the hash of what it
 # wrote. The same lines on every machine (docs/machines.md); `make arm64` compares them with this machine's.
-#   tools/hash_jobs.sh [--minimal] PROGRAM [ARGUMENT...]      such as qemu-aarch64-static -L build/sysroot/arm64 build/arm64/cli/ewa
+#   tools/hash_jobs.sh [--minimal | --without x] PROGRAM [ARGUMENT...]      such as qemu-aarch64-static -L build/sysroot/arm64 build/arm64/cli/ewa
 # With --minimal, only what a program without any library can do, pictures as PFM: not what libdeflate compresses (z), gzip
-# unpacks (g) or OpenEXR writes (x).
+# unpacks (g) or OpenEXR writes (x); --without leaves out the kinds of job that it names.
 set -eu
-minimal=
-[ "${1:-}" != --minimal ] || { minimal=yes; shift; }
+minimal= without=-
+case ${1:-} in
+--minimal) minimal=yes without=gx; shift ;;
+--without) without=$2; shift 2 ;;
+esac
 [ $# -gt 0 ] || { echo "usage: tools/hash_jobs.sh [--minimal] PROGRAM [ARGUMENT...]" >&2; exit 2; }
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
@@ -36,7 +39,8 @@ g volume.png      volume vessels.nrrd --size 320x240
 - texture.png     texture torus.png --size 300x200 --corners 20,30,280,10,290,190,5,170
 - affine.png      render torus.ply --size 320x240 --kernel affine --edge-layers 1
 JOBS
-[ -z "$minimal" ] || sed -i 's/\.png/.pfm/g; /^[gx]/d' "$folder/jobs"
+[ -z "$minimal" ] || sed -i 's/\.png/.pfm/g' "$folder/jobs"
+[ "$without" = - ] || sed -i "/^[$without]/d" "$folder/jobs"
 while read -r kind file command arguments; do
     # shellcheck disable=SC2086
     (cd "$folder" && "$@" "$command" $arguments -o "$file" >said 2>&1) </dev/null ||

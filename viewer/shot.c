@@ -5,12 +5,15 @@
 #include "inner.h"
 #include "navigate.h"
 
+#include <errno.h>
+#include <fcntl.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 #include <unistd.h>
 
-enum { TEMPORARY_PATH_BYTES = 256 };
+enum { TEMPORARY_PATH_BYTES = 256, NAME_ATTEMPTS = 100 };
 
 static bool save_picture(viewer *v, const char *path, uint32_t width_px, uint32_t height_px,
                          bool transparent) {
@@ -113,8 +116,14 @@ static bool load_camera(viewer *v, const char *path, const char *name) {
 /// A file of our own for a moment: the text of a camera is the library's business.
 static bool make_temporary_file(viewer *v, char path[TEMPORARY_PATH_BYTES]) {
     const char *folder = getenv("TMPDIR");
-    snprintf(path, TEMPORARY_PATH_BYTES, "%.200s/ewa-camera-XXXXXX", folder && *folder ? folder : "/tmp");
-    const int file = mkstemp(path);
+    snprintf(path, TEMPORARY_PATH_BYTES, "%.200s/ewa-camera", folder && *folder ? folder : "/tmp");
+    const size_t length = strlen(path);
+    int file = -1;
+    errno = EEXIST;
+    for (int attempt = 0; attempt < NAME_ATTEMPTS && file < 0 && errno == EEXIST; attempt++) {
+        snprintf(path + length, TEMPORARY_PATH_BYTES - length, "-%lld-%d", (long long)time(NULL), attempt);
+        file = open(path, O_WRONLY | O_CREAT | O_EXCL, 0600);
+    }
     if (file >= 0)
         close(file);
     else

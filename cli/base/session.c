@@ -11,7 +11,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/resource.h>
 #include <time.h>
 #include <unistd.h>
 
@@ -24,11 +23,6 @@ double clock_now_s(void) {
     struct timespec now;
     clock_gettime(CLOCK_MONOTONIC, &now);
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
-
-uint64_t memory_peak_bytes(void) {
-    struct rusage usage;
-    return getrusage(RUSAGE_SELF, &usage) == 0 ? (uint64_t)usage.ru_maxrss * 1024 : 0;
 }
 
 static void wipe_bar(cli_session *session) {
@@ -199,12 +193,4 @@ void session_say(cli_session *session, const char *format, ...) {
     va_start(arguments, format);
     print_formatted(session, EWA_SEVERITY_INFO, format, arguments);
     va_end(arguments);
-}
-
-bool session_make_folder(cli_session *session, char folder[SESSION_FOLDER_BYTES]) {
-    const char *parent = getenv("TMPDIR");
-    snprintf(folder, SESSION_FOLDER_BYTES, "%.200s/ewa-XXXXXX", parent && *parent ? parent : "/tmp");
-    if (mkdtemp(folder)) return true;
-    session_fail(session, "%s: cannot create a folder for a while", folder);
-    return false;
 }

@@ -5,6 +5,7 @@
 #include "base/context.h"
 #include "base/options.h"
 #include "base/platform.h"
+#include "base/relaxed.h"
 
 #include <math.h>
 
@@ -112,6 +113,7 @@ ewa_status ewa_context_create(const ewa_context_options *options, ewa_context **
     EWA_TRY(ewa_options_take(NULL, &ewa_context_options_table, options, &chosen));
     // Counts beyond the ranges of the table are no limits.
     if (!(chosen.limits.max_seconds >= 0 && isfinite(chosen.limits.max_seconds))) return EWA_ERROR_ARGUMENT;
+    if (!ewa_relaxed_rounds_once()) return EWA_ERROR_UNSUPPORTED;
     const bool memory_is_set = chosen.limits.max_memory_bytes > 0;
     settle_limits(&chosen);
     if (!chosen.allocator.allocate || !chosen.allocator.release ||

@@ -1,0 +1,22 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// What a session asks of its own process.
+#define _XOPEN_SOURCE 700 // mkdtemp
+#include "cli/base/session.h"
+
+#include <stdlib.h>
+#include <sys/resource.h>
+
+uint64_t memory_peak_bytes(void) {
+    struct rusage usage;
+    return getrusage(RUSAGE_SELF, &usage) == 0 ? (uint64_t)usage.ru_maxrss * 1024 : 0;
+}
+
+bool session_make_folder(cli_session *session, char folder[SESSION_FOLDER_BYTES]) {
+    const char *parent = getenv("TMPDIR");
+    snprintf(folder, SESSION_FOLDER_BYTES, "%.200s/ewa-XXXXXX", parent && *parent ? parent : "/tmp");
+    if (mkdtemp(folder)) return true;
+    session_fail(session, "%s: cannot create a folder for a while", folder);
+    return false;
+}

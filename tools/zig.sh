@@ -1,0 +1,27 @@
+#!/bin/sh
+# SPDX-FileCopyrightText: 2026 The ewa authors
+# SPDX-License-Identifier: MIT
+#
+# Fetches clang with the C libraries of other systems (the wheel ziglang) into build/zig, and makes a compiler's name for each
+# target that is asked for: build/zig/bin/TARGET-cc, with zig-ar and zig-ranlib.
+#   tools/zig.sh wasm32-wasi x86_64-linux-musl
+set -eu
+root=$(cd "$(dirname "$0")/.." && pwd)/build/zig
+version=0.17.1
+if [ "$(cat "$root/.complete" 2>/dev/null)" != "$version" ]; then
+    echo "Fetching ziglang $version"
+    mkdir -p "$root"
+    { python3 -m venv "$root" && "$root/bin/pip" install -q "ziglang==$version"; } >"$root/log" 2>&1 || { tail -n 5 "$root/log" >&2; exit 1; }
+    echo "$version" >"$root/.complete"
+fi
+zig=$("$root/bin/python" -c 'import os, ziglang; print(os.path.join(os.path.dirname(ziglang.__file__), "zig"))')
+script() {
+    printf '#!/bin/sh\nexec "%s" %s "$@"\n' "$zig" "$2" >"$root/bin/$1"
+    chmod +x "$root/bin/$1"
+}
+script zig-ar ar
+script zig-ranlib ranlib
+for target in "$@"; do
+    script "$target-cc" "cc -target $target"
+    script "$target-c++" "c++ -target $target"
+done
