@@ -363,6 +363,36 @@ static void test_renamed(void **state) {
     ewa_mesh_free(&mesh);
 }
 
+/// A mesh that names no library has the one material of that beside it, where it has texture coordinates.
+static void test_unnamed(void **state) {
+    (void)state;
+    static const struct {
+        const char *library, *text;
+        bool taken;
+    } cases[] = {
+        {"newmtl m\nKd 0 1 0\n", SQUARE "vt 0 0\nf 1/1 2/1 3/1 4/1\n", true},
+        {"newmtl m\nKd 0 1 0\nnewmtl n\nKd 0 0 1\n", SQUARE "vt 0 0\nf 1/1 2/1 3/1 4/1\n", false},
+        {"", SQUARE "vt 0 0\nf 1/1 2/1 3/1 4/1\n", false},
+        {NULL, SQUARE "vt 0 0\nf 1/1 2/1 3/1 4/1\n", false},
+        {"newmtl m\nKd 0 1 0\n", SQUARE "f 1 2 3 4\n", false},
+        {"newmtl m\nKd 0 1 0\n", SQUARE "vt 0 0\nusemtl m\nf 1/1 2/1 3/1 4/1\n", false},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        char path[512];
+        ewa_mesh mesh;
+        unlink(scratch_path("unnamed.mtl", path));
+        if (cases[i].library) scratch_write(path, cases[i].library, strlen(cases[i].library));
+        scratch_write(scratch_path("unnamed.obj", path), cases[i].text, strlen(cases[i].text));
+        messages = (mesh_messages){.errors = 0};
+        assert_int_equal(ewa_mesh_load(context, path, &mesh), EWA_OK);
+        assert_int_equal(mesh.material_count, cases[i].taken);
+        if (cases[i].taken) assert_true(mesh_material(&mesh, 0)->base_color[0] == 0);
+        assert_int_equal(messages.errors, 0);
+        assert_null(strstr(messages.text, "left out"));
+        ewa_mesh_free(&mesh);
+    }
+}
+
 /// A library that is a folder, a pipe, a device or elsewhere is not opened.
 static void test_hostile_names(void **state) {
     char path[512];
@@ -432,7 +462,7 @@ int main(void) {
         CASE(test_spellings),     CASE(test_utf16),          CASE(test_texcoords_and_normals),
         CASE(test_vertex_colors), CASE(test_bad_statements), CASE(test_points),
         CASE(test_materials),     CASE(test_shared_picture), CASE(test_written_as_ply),
-        CASE(test_libraries),     CASE(test_renamed),        CASE(test_hostile_names),
-        CASE(test_many_missing)};
+        CASE(test_libraries),     CASE(test_renamed),        CASE(test_unnamed),
+        CASE(test_hostile_names), CASE(test_many_missing)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

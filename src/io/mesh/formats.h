@@ -32,6 +32,10 @@ typedef struct ewa_mtl ewa_mtl;
 /// is NULL at first. A library that cannot be had is a warning. Free with ewa_mtl_free().
 ewa_status ewa_mtl_read(ewa_mesh_build *build, ewa_text names, ewa_mtl **materials);
 
+/// The look of the one material in the library that is called like the mesh, for meshes that name none; EWA_MESH_NONE
+/// when there is no such file, or more than one material in it.
+ewa_status ewa_mtl_look_of_own(ewa_mesh_build *build, ewa_mtl **materials, uint32_t *look);
+
 /// The look of a material, made when it is asked for first; `*look` is EWA_MESH_NONE when no library has it.
 ewa_status ewa_mtl_look(ewa_mesh_build *build, ewa_mtl *materials, ewa_text name, uint32_t *look);
 void ewa_mtl_free(ewa_mesh_build *build, ewa_mtl **materials);

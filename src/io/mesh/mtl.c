@@ -260,6 +260,20 @@ ewa_status ewa_mtl_look(ewa_mesh_build *build, ewa_mtl *materials, ewa_text name
     return status;
 }
 
+ewa_status ewa_mtl_look_of_own(ewa_mesh_build *build, ewa_mtl **materials, uint32_t *look) {
+    bool found;
+    *look = EWA_MESH_NONE;
+    EWA_TRY(make_mtl(build, materials));
+    EWA_TRY(open_own(build, *materials, &found));
+    if ((*materials)->materials.count != 1) return EWA_OK;
+    ewa_report(build->context, EWA_SEVERITY_INFO, "%s: no material library is named; the one beside it is taken: %s",
+               build->source->name, (*materials)->own_name);
+    mtl_material *material = (*materials)->materials.items;
+    const ewa_status status = make_look(build, material);
+    *look = material->look;
+    return status;
+}
+
 void ewa_mtl_free(ewa_mesh_build *build, ewa_mtl **materials) {
     ewa_mtl *old = *materials;
     if (!old) return;

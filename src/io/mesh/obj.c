@@ -20,6 +20,7 @@ typedef struct obj_reader {
     uint64_t seen[3];      ///< places, texture coordinates, normals so far in the second reading
     ewa_mesh_list corners; ///< of the present face
     ewa_mtl *materials;
+    bool names_materials;    ///< some `mtllib` or `usemtl`
     uint64_t lost_materials; ///< `usemtl` names that no library has
 } obj_reader;
 
@@ -100,6 +101,10 @@ static ewa_status read_numbered(obj_reader *reader) {
             count = ewa_cursor_numbers(&reader->cursor, 3, values);
             for (uint32_t c = count; c < 3; c++) values[c] = 0; // none
             status = ewa_mesh_add_normal(build, values);
+            break;
+        case OBJ_LIBRARY:
+        case OBJ_MATERIAL:
+            reader->names_materials = true;
             break;
         default:
             break;
@@ -223,6 +228,9 @@ ewa_status ewa_mesh_read_obj(ewa_mesh_build *build) {
         reader.cursor = start;
         status = ewa_progress(build->context, "read", 0.4);
     }
+    // Exporters and people leave the line out that names the library.
+    if (status == EWA_OK && !reader.names_materials && build->texcoords.count)
+        status = ewa_mtl_look_of_own(build, &reader.materials, &build->look);
     if (status == EWA_OK) status = read_faces(&reader);
     if (status == EWA_OK && reader.lost_materials)
         ewa_report(build->context, EWA_SEVERITY_WARNING, "%s: %llu uses of materials that no library has",
