@@ -274,7 +274,7 @@ static void test_revolve(void **state) {
     static const double axis[3] = {0, 0, 2}, directions[][3] = {{0, 1, 0}, {0, 0, -1}, {1, 2, -1}};
     const disc discs[] = {
         {{1, 0, 0}, 0.1, {0, 0, 1}}, {{3, 4, 1}, 0.2, {0, 0, 1}}, {{0, 2, 3}, 0.15, {1, 0, 0}}};
-    const double pivot[3] = {1, 1, 0}, reaches[] = {1, sqrt(13), sqrt(2)};
+    const double pivot[3] = {1, 1, 0.4}, reaches[] = {1, sqrt(13), sqrt(2)};
     ewa_cloud *cloud = make_cloud(discs, 3);
     ewa_framing *framing = NULL, *solid = NULL;
     assert_int_equal(ewa_framing_create(cloud, 1, &framing), EWA_OK);

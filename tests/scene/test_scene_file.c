@@ -394,6 +394,21 @@ static void test_bad_is_refused(void **state) {
         refuse(rows[i].text, rows[i].status, rows[i].part);
 }
 
+/// Percentiles are those from the lowest number to the highest.
+static void test_percentiles(void **state) {
+    write_text("all.json", ITEM("\"file\": \"torus.ply\", \"range\": [\"0%\", \"100%\"]"));
+    ewa_context *context = check_context(0, NULL);
+    ewa_scene_file *file = NULL;
+    ewa_scene_entry entry;
+    assert_int_equal(ewa_scene_file_load(context, "all.json", NULL, &file), EWA_OK);
+    assert_int_equal(ewa_scene_file_entry(file, 1, &entry), EWA_OK);
+    const ewa_coloring *coloring = &entry.instance.coloring;
+    assert_true(coloring->ranged && coloring->percent[0] && coloring->percent[1]);
+    assert_true(coloring->range[0] == 0 && coloring->range[1] == 100);
+    ewa_scene_file_destroy(&file);
+    ewa_context_destroy(&context);
+}
+
 static void test_depth_and_number(void **state) {
     char name[64], text[1 << 12];
     for (int i = 1; i <= 9; i++) {
@@ -492,7 +507,8 @@ static void test_filters_as_text(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_saved_opens_alike),
-        cmocka_unit_test(test_saved_assets),   cmocka_unit_test(test_files_in_files),
+        cmocka_unit_test(test_saved_assets),
+        cmocka_unit_test(test_percentiles),   cmocka_unit_test(test_files_in_files),
         cmocka_unit_test(test_callers_options_win), cmocka_unit_test(test_cameras_keep_their_heights),
         cmocka_unit_test(test_bad_is_refused),      cmocka_unit_test(test_depth_and_number),
         cmocka_unit_test(test_truncations),         cmocka_unit_test(test_unsaveable),
