@@ -26,6 +26,9 @@
 #elif defined(WIDE_NEON)
 #include "wide/wide_neon.h"
 #include "wide/wide_pack.h"
+#elif defined(WIDE_PORTABLE) && defined(__wasm_simd128__)
+#include "wide/wide_wasm.h"
+#include "wide/wide_pack.h"
 #elif defined(WIDE_PORTABLE)
 #include "wide/wide_portable.h"
 #include "wide/wide_pack.h"

@@ -74,6 +74,31 @@ static inline wf wf_from_parts(const wd_part part[WD_PARTS]) {
     return result;
 }
 
+#elif defined(__wasm_relaxed_simd__)
+
+typedef v128_t wd_part;
+enum { WD_PARTS = 8 };
+#define OPERATION           static inline
+#define PART_SET            wasm_f64x2_splat
+#define PART_LOAD           wasm_v128_load
+#define PART_STORE          wasm_v128_store
+#define PART_ADD            wasm_f64x2_add
+#define PART_SUB            wasm_f64x2_sub
+#define PART_FMA(a, b, c)   wasm_f64x2_relaxed_madd(a, b, c)
+#define PART_FNMA(a, b, c)  wasm_f64x2_relaxed_nmadd(a, b, c)
+
+static inline wd_part wd_part_from_f(wf a, int i) {
+    const v128_t four = (v128_t)a.q[i / 2];
+    return wasm_f64x2_promote_low_f32x4(i & 1 ? wasm_i64x2_shuffle(four, four, 1, 1) : four);
+}
+static inline wf wf_from_parts(const wd_part part[WD_PARTS]) {
+    wf result;
+    for (int i = 0; i < 4; i++)
+        result.q[i] = (w4f)wasm_i64x2_shuffle(wasm_f32x4_demote_f64x2_zero(part[2 * i]),
+                                              wasm_f32x4_demote_f64x2_zero(part[2 * i + 1]), 0, 2);
+    return result;
+}
+
 #else
 
 typedef double wd_part;
