@@ -130,13 +130,14 @@ wasm: program
 	@sh tools/dependencies.sh wasm32-wasi -mcpu=generic+simd128+bulk_memory+nontrapping_fptoint+sign_ext+mutable_globals+multivalue
 	@sh tools/hash_jobs.sh --without x $(CURDIR)/$(EWA) >build/hashes-here.tsv
 	@for build in wasm wasm-relaxed; do \
+	  relaxed=$$(node --v8-options | grep -o -e --experimental-wasm-relaxed-simd | head -n 1); \
 	  echo "Building build/$$build"; \
 	  { cmake --preset $$build && cmake --build build/$$build -j $(JOBS) --target ewa page; } >build/log-$$build.txt 2>&1 || { cat build/log-$$build.txt; exit 1; }; \
-	  sh tools/hash_jobs.sh --without x node --no-warnings $(CURDIR)/tools/wasi.mjs $(CURDIR)/build/$$build/cli/ewa.wasm >build/hashes-$$build.tsv || exit 1; \
+	  sh tools/hash_jobs.sh --without x node --no-warnings $$relaxed $(CURDIR)/tools/wasi.mjs $(CURDIR)/build/$$build/cli/ewa.wasm >build/hashes-$$build.tsv || exit 1; \
 	  diff build/hashes-here.tsv build/hashes-$$build.tsv && echo "19 jobs: the same bytes" || exit 1; \
 	done
 	@$(EWA) generate torus -n 1000000 -o build/torus.ply
-	@node --no-warnings page/measure.mjs build/torus.ply 1920 1080 5 build/wasm-relaxed/page/page.wasm build/wasm/page/page.wasm
+	@node --no-warnings $$(node --v8-options | grep -o -e --experimental-wasm-relaxed-simd | head -n 1) page/measure.mjs build/torus.ply 1920 1080 5 build/wasm-relaxed/page/page.wasm build/wasm/page/page.wasm
 	@node --no-warnings page/measure.mjs build/torus.ply 1920 1080 5 build/wasm/page/page.wasm
 
 mutate:

@@ -44,7 +44,7 @@ static uint32_t by_tables(const checksum_tables *t, const uint8_t *bytes, size_t
 }
 
 #if defined(__x86_64__)
-__attribute__((target("sse4.2"))) static uint32_t by_instruction(const uint8_t *bytes, size_t size) {
+__attribute__((target("sse4.2,crc32"))) static uint32_t by_instruction(const uint8_t *bytes, size_t size) {
     uint64_t rest = UINT32_MAX;
     for (; size >= sizeof rest; size -= sizeof rest, bytes += sizeof rest) {
         uint64_t word;
