@@ -146,12 +146,35 @@ static void test_lost_ranks(void **state) {
         }
 }
 
+/// Starts two ranks on an octree, kills those that `killed` names once the second one's part is there, and waits for the end.
+static int kill_ranks(const char *killed) {
+    return run("echo old > made.copc.laz; rm -f pid_*; %s 2 sh -c 'echo $$ > pid_${OMPI_COMM_WORLD_RANK-$PMI_RANK}; "
+               "exec $EWA_MPI_PROGRAM lod large.ply --threads 1 -o made.copc.laz' & all=$!; echo $all > pid_all; "
+               "while [ ! -e made.copc.laz.part-2-of-2.copc.laz ] && kill -0 $all; do sleep 0.01; done; "
+               "kill -KILL $(cat %s); wait $all; status=$?; sleep 0.5; exit $status",
+               mpi, killed);
+}
+
+/// A rank that is killed leaves its part, which the other one removes; what nobody could remove is replaced, and gone, after the
+/// next run.
+static void test_lost_parts(void **state) {
+    run_done("ewa generate terrain -n 600000 -o large.ply && ewa lod large.ply -o alone.copc.laz");
+    assert_int_not_equal(kill_ranks("pid_1"), 0);
+    assert_int_equal(run("ls made*part-* made*.tmp"), 2);
+    run_done("grep -q old made.copc.laz");
+    assert_int_not_equal(kill_ranks("pid_0 pid_1 pid_all"), 0);
+    run_done("grep -q old made.copc.laz && ls made*part-2-of-2*");
+    run_done("%s 2 $EWA_MPI_PROGRAM lod large.ply -o made.copc.laz", mpi);
+    assert_int_equal(run("ls made*part-* made*.tmp"), 2);
+    assert_true(scratch_same("made.copc.laz", "alone.copc.laz"));
+}
+
 int main(void) {
     mpi = getenv("EWA_MPI");
     if (!mpi) return 77;
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_one_picture), cmocka_unit_test(test_films),      cmocka_unit_test(test_octree),
-        cmocka_unit_test(test_refusals),    cmocka_unit_test(test_lost_ranks),
+        cmocka_unit_test(test_refusals),    cmocka_unit_test(test_lost_ranks), cmocka_unit_test(test_lost_parts),
     };
     return cmocka_run_group_tests(tests, enter, NULL);
 }
