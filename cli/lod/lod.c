@@ -147,7 +147,7 @@ static ewa_status build_together(cli_session *session, const lod_command_argumen
         session_fail(session, "%.200s: the path is too long", arguments->output);
         return EWA_ERROR_ARGUMENT;
     }
-    // A rank that is killed cannot remove its part: the next one does, which ends by a signal for its sake.
+    // A rank that is killed cannot remove its part: the next one does, which fails or ends by a signal for its sake.
     const uint32_t killed = (all->rank + all->rank_count - 1) % all->rank_count;
     char other[PART_NAME_BYTES];
     name_part(arguments->output, killed, all->rank_count, other);
@@ -155,11 +155,11 @@ static ewa_status build_together(cli_session *session, const lod_command_argumen
     interruption_watch_file(other);
     ewa_status status =
         ewa_lod_build(session->context, common->operands, (uint32_t)common->operand_count, part, &own, stats);
-    if (status != EWA_OK) return status; // and there is no part
-    status = meet(session);
+    if (status == EWA_OK) status = meet(session);
     if (status == EWA_OK && all->rank == 0) status = join_parts(session, arguments->output, stats);
     if (status == EWA_OK) status = meet(session);
     remove(part);
+    if (status != EWA_OK) remove(other);
     interruption_release_file(part);
     interruption_release_file(other);
     return status;

@@ -25,7 +25,7 @@ enum {
     ROW_CANDIDATES = 8,    // per spacing of an edge
     TASK_CANDIDATES = 1 << 14,
     TASK_BLOCKS = 16,
-    ASKED_CANDIDATES = 1 << 17, // between two questions where one thread works
+    ASKED_CANDIDATES = 1 << 14, // between two questions where one thread works
 };
 
 /// Steps of the sequence R2, 1/g and 1/g^2 with g^3 = g + 1, in units of 2^-64 (M. Roberts, "The unreasonable

@@ -160,12 +160,12 @@ static int kill_ranks(const char *killed) {
 static void test_lost_parts(void **state) {
     run_done("ewa generate terrain -n 600000 -o large.ply && ewa lod large.ply -o alone.copc.laz");
     assert_int_not_equal(kill_ranks("pid_1"), 0);
-    assert_int_equal(run("ls made*part-* made*.tmp"), 2);
+    assert_int_equal(run("ls | grep -e part- -e '[.]tmp$'"), 1);
     run_done("grep -q old made.copc.laz");
     assert_int_not_equal(kill_ranks("pid_0 pid_1 pid_all"), 0);
     run_done("grep -q old made.copc.laz && ls made*part-2-of-2*");
     run_done("%s 2 $EWA_MPI_PROGRAM lod large.ply -o made.copc.laz", mpi);
-    assert_int_equal(run("ls made*part-* made*.tmp"), 2);
+    assert_int_equal(run("ls | grep -e part- -e '[.]tmp$'"), 1);
     assert_true(scratch_same("made.copc.laz", "alone.copc.laz"));
 }
 
