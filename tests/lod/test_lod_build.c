@@ -113,6 +113,42 @@ static void test_own_surfels(void **state) {
     ewa_context_destroy(&context);
 }
 
+/// One scan of a square, from 3 above or below it, as PTX: its points are told from the scanner.
+static void put_scan(FILE *file, double x_world, double scanner_z_world) {
+    enum { SIDE = 60 };
+    fprintf(file, "%d\n%d\n%g 0 %g\n1 0 0\n0 1 0\n0 0 1\n", SIDE, SIDE, x_world, scanner_z_world);
+    fprintf(file, "1 0 0 0\n0 1 0 0\n0 0 1 0\n%g 0 %g 1\n", x_world, scanner_z_world);
+    for (int i = 0; i < SIDE * SIDE; i++)
+        fprintf(file, "%.6f %.6f %g 0.5\n", (i % SIDE) / 30.0 - 1, (i / SIDE) / 30.0 - 1, -scanner_z_world);
+}
+
+/// Normals that are made face the scanner that saw the point.
+static void test_scanners(void **state) {
+    static const char *const names[] = {"two.ptx"};
+    char path[512];
+    FILE *file = fopen(scratch_path(names[0], path), "w");
+    assert_non_null(file);
+    put_scan(file, 0, 3), put_scan(file, 4, -3);
+    assert_int_equal(fclose(file), 0);
+    ewa_context *context = check_context(2, NULL);
+    assert_int_equal(lod_build(context, names, 1, "o.copc.laz", NULL, NULL), EWA_OK);
+    ewa_cloud *output = lod_load(context, "o.copc.laz");
+    const ewa_attribute *position = ewa_cloud_find(output, EWA_POSITION), *normal = ewa_cloud_find(output, EWA_NORMAL);
+    const uint64_t count = ewa_cloud_point_count(output);
+    double origin[3];
+    ewa_cloud_origin(output, origin);
+    assert_true(normal && count == 2 * 60 * 60);
+    for (uint64_t i = 0; i < count; i++) {
+        double p[3], n[3];
+        ewa_attribute_read_f64(position, i, 1, p);
+        ewa_attribute_read_f64(normal, i, 1, n);
+        assert_true(p[0] + origin[0] < 2 ? n[2] > 0 : n[2] < 0);
+    }
+    ewa_cloud_destroy(&output);
+    ewa_context_destroy(&context);
+    assert_int_equal(lod_clear(), 2);
+}
+
 static void test_without_colors(void **state) {
     static const char *const names[] = {"a.ply"};
     ewa_context *context = check_context(2, NULL);
@@ -221,6 +257,7 @@ static void test_refusals(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup(test_points, enter),      cmocka_unit_test_setup(test_threads, enter),
+        cmocka_unit_test_setup(test_scanners, enter),
         cmocka_unit_test_setup(test_own_surfels, enter), cmocka_unit_test_setup(test_without_colors, enter),
         cmocka_unit_test_setup(test_few, enter),         cmocka_unit_test_setup(test_one_place, enter),
         cmocka_unit_test_setup(test_left_out, enter),    cmocka_unit_test_setup(test_refusals, enter),
