@@ -152,7 +152,9 @@ SECTIONS = [
     ("src/image/environment", ["pictures"]), ("src/image/volume", ["files", "volumes"]),
     ("src/image/transfer", ["files", "volumes"]), ("src/image/texture", ["textured", "sampled"]),
     ("src/image", ["pictures", "files", "resample", "textured"]),
-    ("src/cloud", CLOUDS + ["files", "splats"]), ("src/io", ["files"]),
+    ("src/cloud", CLOUDS + ["files", "splats"]),
+    # It has files of these only: of other formats every mutant counts.
+    ("src/io/image", ["files"]), ("src/io/volume", ["files"]), ("src/io/camera", ["files"]), ("src/io/cloud/ply", ["files"]),
     ("src/colors/acquire", ["textured", "sampled"]), ("src/edges/csg", ["solids"]),
     ("src/edges/solid", ["solids", "generated"]), ("src/edges/feature", ["features"]),
     ("src/generate/volume", ["files", "volumes"]), ("src/generate", ["generated", "textured"]),
