@@ -116,6 +116,23 @@ static void has_the_points_of_the_whole_file(void **state) {
     assert_int_equal(messages.count, 0);
 }
 
+/// Chunks that count for themselves are read though the header counts nothing.
+static void reads_what_no_header_counts(void **state) {
+    write_made(20000, 5, false, 0);
+    FILE *file = fopen(path, "r+b");
+    const uint8_t none[8] = {0};
+    assert_non_null(file);
+    assert_true(fseek(file, 247, SEEK_SET) == 0 && fwrite(none, sizeof none, 1, file) == 1);
+    // A hierarchy would count them: no longer a COPC.
+    assert_true(fseek(file, 377, SEEK_SET) == 0 && fwrite("none", 4, 1, file) == 1 && fclose(file) == 0);
+    ewa_cloud *whole = NULL;
+    assert_int_equal(ewa_cloud_load(context, path, &whole), EWA_OK);
+    assert_int_equal(ewa_cloud_point_count(whole), 20000);
+    if (!strstr(messages.text, "the header counts no points, the chunks hold 20000")) fail_msg("%s", messages.text);
+    ewa_cloud_destroy(&whole);
+    messages = (check_log){0};
+}
+
 static void counts_colors_that_others_do_not_lead_to_expect(void **state) {
     enum { NODES = 40, ODD = 7 }; // not among the eight chunks that are looked at
     ewa_cloud *cloud = copc_cloud(context, 2 * NODES, true);
@@ -468,6 +485,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(gives_back_what_was_written, begin, end),
         cmocka_unit_test_setup_teardown(has_the_points_of_the_whole_file, begin, end),
+        cmocka_unit_test_setup_teardown(reads_what_no_header_counts, begin, end),
         cmocka_unit_test_setup_teardown(counts_colors_that_others_do_not_lead_to_expect, begin, end),
         cmocka_unit_test_setup_teardown(notes_the_times_of_the_points, begin, end),
         cmocka_unit_test_setup_teardown(reads_files_of_others, begin, end),

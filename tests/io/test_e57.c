@@ -282,6 +282,40 @@ static void test_floats_colors_and_states(void **state) {
     assert_string_equal(messages.text, "");
 }
 
+/// Half a turn about each axis alone, and a shift along each, are poses.
+static void test_poses_of_one_axis(void **state) {
+    enum { POINTS = 6 };
+    made_scan scan = {float_fields, 3, POINTS, ""};
+    double places[POINTS][3], origin[3];
+    for (int pose = -1; pose < 6; pose++) {
+        char text[160] = "";
+        const char axis = (char)("xyz"[pose < 0 ? 0 : pose % 3]);
+        if (pose >= 0 && pose < 3)
+            snprintf(text, sizeof text,
+                     "<pose><rotation><w type=\"Float\">0</w><%c type=\"Float\">1</%c></rotation></pose>", axis, axis);
+        else if (pose >= 3)
+            snprintf(text, sizeof text, "<pose><translation><%c type=\"Float\">2</%c></translation></pose>", axis, axis);
+        scan.more = text;
+        cloud_bytes file = make(&scan, 1, "");
+        ewa_cloud *cloud = load(&file);
+        assert_int_equal(ewa_cloud_point_count(cloud), POINTS);
+        ewa_cloud_origin(cloud, origin);
+        for (uint32_t r = 0; r < POINTS; r++) {
+            double at[3];
+            ewa_attribute_read_f64(ewa_cloud_find(cloud, "position"), r, 1, at);
+            for (int c = 0; c < 3; c++) {
+                if (pose < 0) places[r][c] = at[c] + origin[c];
+                const double moved = pose >= 3   ? places[r][c] + (c == pose - 3 ? 2 : 0)
+                                     : pose >= 0 ? places[r][c] * (c == pose ? 1 : -1)
+                                                 : places[r][c];
+                assert_true(fabs(at[c] + origin[c] - moved) < 1e-9);
+            }
+        }
+        ewa_cloud_destroy(&cloud);
+        free(file.bytes);
+    }
+}
+
 static void test_spherical(void **state) {
     cloud_bytes file = make(&spherical_scan, 1, "");
     ewa_cloud *cloud = load(&file);
@@ -543,6 +577,7 @@ static void test_memory_that_fails(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {CASE(test_floats_colors_and_states),
+                                       CASE(test_poses_of_one_axis),
                                        CASE(test_spherical),
                                        CASE(test_scaled_integers_of_any_width),
                                        CASE(test_several_scans_are_one_cloud),
