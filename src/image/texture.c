@@ -17,6 +17,8 @@
 /// A Gaussian's variances differ by this factor at most.
 #define MAX_ASPECT2 256.0
 
+enum { ASKED_ROWS = 64 }; // between two questions of the progress callback
+
 static uint32_t halved(uint32_t size) { return size / 2 + size % 2; }
 
 static void add_level(ewa_texture *texture, const float *pixels, uint32_t channel_count, uint32_t width_px,
@@ -84,9 +86,10 @@ static void cover(uint32_t from, uint32_t to, uint32_t index, uint32_t *first, f
     }
 }
 
-/// Fills the next level with means of one, 4 numbers a pixel.
-static void shrink(const ewa_texture_level *from, uint32_t width_px, uint32_t height_px, float *to) {
+/// Fills the next level with means of one, 4 numbers a pixel. Errors: EWA_CANCELLED.
+static ewa_status shrink(ewa_context *context, const ewa_texture_level *from, uint32_t width_px, uint32_t height_px, float *to) {
     for (uint32_t y = 0; y < height_px; y++) {
+        if (y % ASKED_ROWS == 0) EWA_TRY(ewa_progress(context, "texture", 0));
         uint32_t first_y, first_x;
         float share_y[3], share_x[3];
         cover(from->height_px, height_px, y, &first_y, share_y);
@@ -105,6 +108,7 @@ static void shrink(const ewa_texture_level *from, uint32_t width_px, uint32_t he
             memcpy(to + 4 * ((size_t)y * width_px + x), sum, sizeof sum);
         }
     }
+    return EWA_OK;
 }
 
 ewa_status ewa_texture_make(const ewa_image *image, ewa_texture_wrap wrap_s, ewa_texture_wrap wrap_t,
@@ -125,8 +129,8 @@ ewa_status ewa_texture_make(const ewa_image *image, ewa_texture_wrap wrap_s, ewa
             status = EWA_ERROR_MEMORY;
             break;
         }
-        shrink(last, width, height, pixels);
-        add_level(texture, pixels, 4, width, height);
+        status = shrink(texture->context, last, width, height, pixels);
+        add_level(texture, pixels, 4, width, height); // in any case, so that it is freed
     }
     if (status != EWA_OK) ewa_texture_free(texture);
     return status;

@@ -27,7 +27,8 @@ typedef struct ewa_texture {
 } ewa_texture;
 
 /// Makes the smaller copies of a picture of 1, 3 or 4 channels, whose pixels it borrows; where some are no numbers, it takes a
-/// copy with zeros there. Errors: EWA_ERROR_ARGUMENT, EWA_ERROR_MEMORY; the texture is then zeroed.
+/// copy with zeros there. Progress stage: "texture", 0. Errors: EWA_ERROR_ARGUMENT, EWA_ERROR_MEMORY, EWA_CANCELLED; the texture
+/// is then zeroed.
 ewa_status ewa_texture_make(const ewa_image *image, ewa_texture_wrap wrap_s, ewa_texture_wrap wrap_t,
                             ewa_texture *texture);
 void ewa_texture_free(ewa_texture *texture);
