@@ -259,7 +259,7 @@ def defaults():
         result = run(*words)
         # Pictures of a mesh are so much together. While points get colours, smaller copies are held too: 16/3 bytes for each
         # pixel, which has 12.
-        allowed = 1024 * 13 / 9 if words[0] == "sample" else 1024
+        allowed = 1024 * 13 / 9 if words[1].startswith("twenty") else 1024
         if result.peak_bytes > (allowed + SLACK_MIB) * MIB + size_of(words[1]):
             wrong.append(f"{' '.join(words)}: {result.peak_bytes / MIB:.0f} MiB")
         if words[1].startswith("twenty"):
