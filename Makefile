@@ -12,6 +12,7 @@
 #   make minimal                a program without any library, held to the bytes of the full one
 #   make arm64                  the same for 64-bit Arm, under an emulator
 #   make wasm                   WebAssembly: the bytes of the program under node, and the module that a page loads
+#   make riscv64 musl           programs without any library for RISC-V (under an emulator) and for every x86-64 Linux
 #   make mutate                 breaks the library on purpose and says what the tests notice (hours)
 #   make bench sweep            figures of docs/performance.md: build/bench.json and tables; docs/sweep.png and slopes;
 #                               BENCH_PREFIX="chrt -f 50" keeps other work out of them; Embree is measured
@@ -37,7 +38,7 @@ EWA = build/release/cli/ewa
 # $(call quietly,COMMAND): prints what a command said only when it fails.
 quietly = @mkdir -p build && { $(1) >build/log-$@.txt 2>&1 || { cat build/log-$@.txt; exit 1; }; }
 
-.PHONY: minimal wasm interop build program measure setup demo check asan asan-build tsan tsan-build clang clang-build mutate fuzz arm64 bench sweep gallery papers docs wheel format install clean
+.PHONY: minimal wasm riscv64 musl interop build program measure setup demo check asan asan-build tsan tsan-build clang clang-build mutate fuzz arm64 bench sweep gallery papers docs wheel format install clean
 
 build: setup
 	@echo "Building build/release"
@@ -139,6 +140,16 @@ wasm: program
 	@$(EWA) generate torus -n 1000000 -o build/torus.ply
 	@node --no-warnings $$(node --v8-options | grep -o -e --experimental-wasm-relaxed-simd | head -n 1) page/measure.mjs build/torus.ply 1920 1080 5 build/wasm-relaxed/page/page.wasm build/wasm/page/page.wasm
 	@node --no-warnings page/measure.mjs build/torus.ply 1920 1080 5 build/wasm/page/page.wasm
+
+# Other Linux, without any library: RISC-V under an emulator, and one static file for x86-64.
+riscv64 musl: program
+	$(if $(filter riscv64,$@),@sh tools/setup.sh qemu-user-static)
+	@sh tools/zig.sh $(if $(filter riscv64,$@),riscv64,x86_64)-linux-musl
+	@echo "Building build/$@"
+	@{ cmake --preset $@ && cmake --build build/$@ -j $(JOBS) --target ewa; } >build/log-$@.txt 2>&1 || { cat build/log-$@.txt; exit 1; }
+	@sh tools/hash_jobs.sh --minimal $(CURDIR)/$(EWA) >build/hashes-full.tsv
+	@sh tools/hash_jobs.sh --minimal $(if $(filter riscv64,$@),qemu-riscv64-static) $(CURDIR)/build/$@/cli/ewa >build/hashes-$@.tsv
+	diff build/hashes-full.tsv build/hashes-$@.tsv && echo "15 jobs: the same bytes"
 
 mutate:
 	@sh tools/setup.sh python3

@@ -52,7 +52,8 @@ static int run(size_t count, const char *const *words) {
     } else if (help) {
         help_print_program(stdout, all_commands_count, all_commands);
     } else if (strcmp(word, "--version") == 0) {
-        printf("ewa %s\nwith %s\n", ewa_version(), ewa_parts());
+        const char *parts = ewa_parts();
+        printf("ewa %s\nwith %s\n", ewa_version(), *parts ? parts : "none of the parts that can be left out");
     } else if (strcmp(word, "--help-json") == 0) {
         help_print_json(stdout);
     } else if (strcmp(word, "--help-markdown") == 0) {
