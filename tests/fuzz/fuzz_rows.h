@@ -63,6 +63,11 @@ static inline ewa_status read_rows(const ewa_cloud_source *source, const ewa_clo
     return status;
 }
 
+/// Whether a second cloud failed for the room that the first one holds.
+static inline bool lacks_memory(ewa_status status) {
+    return status == EWA_ERROR_LIMIT || status == EWA_ERROR_MEMORY;
+}
+
 /// Tries one input.
 static inline int try_rows(const ewa_cloud_format *format, const uint8_t *bytes, size_t size_bytes) {
     int errors = 0;
@@ -83,11 +88,15 @@ static inline int try_rows(const ewa_cloud_format *format, const uint8_t *bytes,
     fuzz_require((status == EWA_OK) == (errors == 0), "a message on failure only");
     options.keep_going = true;
     const ewa_status kept = read_rows(&source, format, 0, &going);
-    fuzz_require(status != EWA_OK || kept == EWA_OK, "what is right is read with keep_going too");
-    fuzz_require(kept != EWA_OK || read_rows(&source, format, 3, &pieces) == EWA_OK, "in pieces as at once");
-    if (strict) require_same(strict, going);
+    fuzz_require(status != EWA_OK || kept == EWA_OK || lacks_memory(kept),
+                 "what is right is read with keep_going too");
+    if (kept == EWA_OK) {
+        const ewa_status again = read_rows(&source, format, 3, &pieces);
+        fuzz_require(again == EWA_OK || lacks_memory(again), "in pieces as at once");
+    }
+    if (strict && going) require_same(strict, going);
     if (going) {
-        require_same(going, pieces);
+        if (pieces) require_same(going, pieces);
         char path[64];
         snprintf(path, sizeof path, "/tmp/ewa-fuzz-%ld.csv", (long)getpid());
         errors = 0;
