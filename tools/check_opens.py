@@ -19,7 +19,8 @@ import sys
 from pathlib import Path
 
 #: Files that may call the system.
-SYSTEM = {"src/base/platform_posix.c", "src/base/platform_wasm.c", "src/base/platform_windows.c", "src/base/pool.c"}
+SYSTEM = {"src/base/platform_posix.c", "src/base/platform_unix.c", "src/base/platform_wasm.c", "src/base/platform_windows.c",
+          "src/base/pool.c"}
 #: Files whose paths are those that a caller gave, or of temporary files that the library has made.
 CALLER = {"src/io/camera/file.c", "src/io/cloud/cloud_file.c", "src/io/cloud/stream.c", "src/io/file.c",
           "src/io/gaussian/gaussian_file.c", "src/io/image/image_file.c", "src/io/las/copc_nodes.c", "src/io/mesh/materials.c",

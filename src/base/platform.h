@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// All that the library asks of the operating system, once for each kind of system (platform_posix.c, platform_windows.c,
-// platform_wasm.c); threads are in pool.c. Test `opens` finds calls elsewhere.
+// All that the library asks of the operating system, once for each kind of system (platform_posix.c, platform_wasm.c,
+// what these share in platform_unix.c, platform_windows.c; what a system lacks in platform_without_*.c); threads are in pool.c. Test `opens` finds calls elsewhere.
 //
 // Paths are UTF-8 with '/' between names. What fails returns false, NULL or -1 and leaves the reason in errno. Every
 // function may be called from any thread.

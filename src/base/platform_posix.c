@@ -34,8 +34,6 @@ void *ewa_platform_allocate(size_t size_bytes) {
     return memory;
 }
 
-void ewa_platform_release(void *memory) { free(memory); }
-
 uint64_t ewa_platform_memory_bytes(void) {
     const long pages = sysconf(_SC_PHYS_PAGES), page_bytes = sysconf(_SC_PAGESIZE);
     return pages > 0 && page_bytes > 0 ? (uint64_t)pages * (uint64_t)page_bytes : (uint64_t)1 << 34;
@@ -44,12 +42,6 @@ uint64_t ewa_platform_memory_bytes(void) {
 uint32_t ewa_platform_processor_count(void) {
     const long processors = sysconf(_SC_NPROCESSORS_ONLN);
     return processors < 1 ? 1 : (uint32_t)processors;
-}
-
-double ewa_platform_seconds(void) {
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
 bool ewa_platform_has_library(const char *name) {
@@ -77,33 +69,6 @@ void ewa_platform_describe(int error, char *text, size_t room) {
 
 // ---- Names of files
 
-static bool take_facts(const struct stat *from, ewa_platform_facts *facts) {
-    *facts = (ewa_platform_facts){.regular = S_ISREG(from->st_mode),
-                                  .folder = S_ISDIR(from->st_mode),
-                                  .size_bytes = from->st_size > 0 ? (uint64_t)from->st_size : 0,
-                                  .permissions = from->st_mode & 0777,
-                                  .device = (uint64_t)from->st_dev,
-                                  .number = (uint64_t)from->st_ino};
-    return true;
-}
-
-bool ewa_platform_stat(const char *path, ewa_platform_facts *facts) {
-    struct stat found;
-    return stat(path, &found) == 0 && take_facts(&found, facts);
-}
-
-bool ewa_platform_stat_open(int descriptor, ewa_platform_facts *facts) {
-    struct stat found;
-    return fstat(descriptor, &found) == 0 && take_facts(&found, facts);
-}
-
-bool ewa_platform_is_link(const char *path) {
-    struct stat found;
-    return lstat(path, &found) == 0 && S_ISLNK(found.st_mode);
-}
-
-bool ewa_platform_may_read(const char *path) { return access(path, R_OK) == 0; }
-
 bool ewa_platform_may_write(const char *path) { return faccessat(AT_FDCWD, path, W_OK, AT_EACCESS) == 0; }
 
 bool ewa_platform_resolve(const char *path, char resolved[EWA_PATH_BYTES]) {
@@ -118,10 +83,6 @@ bool ewa_platform_resolve(const char *path, char resolved[EWA_PATH_BYTES]) {
     return fits;
 }
 
-bool ewa_platform_rename(const char *from, const char *to) { return rename(from, to) == 0; }
-
-bool ewa_platform_remove(const char *path) { return unlink(path) == 0; }
-
 void ewa_platform_unique(int attempt, char words[64]) {
     struct timespec now;
     clock_gettime(CLOCK_REALTIME, &now);
@@ -129,35 +90,6 @@ void ewa_platform_unique(int attempt, char words[64]) {
 }
 
 // ---- Open files
-
-int ewa_platform_open(const char *path, bool waits) {
-    return open(path, O_RDONLY | O_CLOEXEC | O_NOCTTY | (waits ? 0 : O_NONBLOCK));
-}
-
-int ewa_platform_open_below(const char *folder, const char *inner) {
-    int at = open(folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    for (const char *step = inner; at >= 0;) {
-        const char *slash = strchr(step, '/');
-        const size_t length = slash ? (size_t)(slash - step) : strlen(step);
-        char name[EWA_FILE_NAME_BYTES];
-        int next = -1, error = ENAMETOOLONG;
-        if (length < sizeof name) {
-            memcpy(name, step, length);
-            name[length] = 0;
-            // A pipe would make openat() wait, and a terminal would become ours.
-            next = openat(at, name, O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY | O_NOFOLLOW | (slash ? O_DIRECTORY : 0));
-            error = errno;
-        }
-        close(at);
-        errno = error;
-        at = next;
-        if (!slash) break;
-        step = slash + 1;
-    }
-    return at;
-}
-
-int ewa_platform_create(const char *path) { return open(path, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666); }
 
 int ewa_platform_create_nameless(const char *folder) {
 #ifdef O_TMPFILE
@@ -188,27 +120,7 @@ int ewa_platform_create_temporary(const char *folder) {
     return descriptor;
 }
 
-int ewa_platform_open_device(const char *path) { return open(path, O_WRONLY | O_CLOEXEC | O_NOCTTY); }
-
-int ewa_platform_standard_input(void) { return STDIN_FILENO; }
-
 int ewa_platform_standard_output(void) { return fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, 0); }
-
-int64_t ewa_platform_read(int descriptor, void *bytes, size_t size_bytes) { return read(descriptor, bytes, size_bytes); }
-
-int64_t ewa_platform_read_at(int descriptor, void *bytes, size_t size_bytes, uint64_t at_bytes) {
-    return pread(descriptor, bytes, size_bytes, (off_t)at_bytes);
-}
-
-int64_t ewa_platform_write(int descriptor, const void *bytes, size_t size_bytes) {
-    return write(descriptor, bytes, size_bytes);
-}
-
-int64_t ewa_platform_write_at(int descriptor, const void *bytes, size_t size_bytes, uint64_t at_bytes) {
-    return pwrite(descriptor, bytes, size_bytes, (off_t)at_bytes);
-}
-
-bool ewa_platform_is_at_start(int descriptor) { return lseek(descriptor, 0, SEEK_CUR) == 0; }
 
 // What is no file, such as a device, answers EINVAL and has nothing to wait for.
 bool ewa_platform_flush(int descriptor) { return fsync(descriptor) == 0 || errno == EINVAL; }
@@ -217,19 +129,14 @@ void ewa_platform_permit(int descriptor, uint32_t permissions) { (void)!fchmod(d
 
 bool ewa_platform_close(int descriptor) { return close(descriptor) == 0; }
 
-// ---- Mapping
+// ---- Mapping (else platform_without_mapping.c)
 
+#ifndef EWA_NO_MMAP
 size_t ewa_platform_map_step(void) { return (size_t)sysconf(_SC_PAGESIZE); }
 
 void *ewa_platform_map(int descriptor, uint64_t at_bytes, size_t size_bytes) {
-#ifdef EWA_NO_MMAP
-    (void)descriptor, (void)at_bytes, (void)size_bytes;
-    errno = ENOSYS;
-    return NULL;
-#else
     void *mapped = mmap(NULL, size_bytes, PROT_READ, MAP_PRIVATE, descriptor, (off_t)at_bytes);
     return mapped == MAP_FAILED ? NULL : mapped;
-#endif
 }
 
 void ewa_platform_unmap(void *mapped, size_t size_bytes) { munmap(mapped, size_bytes); }
@@ -238,3 +145,4 @@ bool ewa_platform_unmap_part(void *first, size_t size_bytes) { return munmap(fir
 
 // Pages of a file come back from it when they are asked for again.
 void ewa_platform_forget(void *mapped, size_t size_bytes) { madvise(mapped, size_bytes, MADV_DONTNEED); }
+#endif

@@ -260,18 +260,6 @@ int ewa_platform_create(const char *path) {
                          _O_WRONLY);
 }
 
-int ewa_platform_create_nameless(const char *folder) {
-    (void)folder;
-    errno = ENOSYS;
-    return -1;
-}
-
-int ewa_platform_name(int descriptor, const char *path) {
-    (void)descriptor, (void)path;
-    errno = ENOSYS;
-    return -1;
-}
-
 int ewa_platform_create_temporary(const char *folder) {
     char words[64], name[EWA_PATH_BYTES];
     ewa_platform_unique(0, words);
@@ -325,13 +313,11 @@ bool ewa_platform_is_at_start(int descriptor) { return _lseeki64(descriptor, 0, 
 
 bool ewa_platform_flush(int descriptor) { return FlushFileBuffers(handle_of(descriptor)) || take_error() == 0; }
 
-// What a folder's rules give a new file stays.
-void ewa_platform_permit(int descriptor, uint32_t permissions) { (void)descriptor, (void)permissions; }
-
 bool ewa_platform_close(int descriptor) { return _close(descriptor) == 0; }
 
-// ---- Mapping
+// ---- Mapping (else platform_without_mapping.c)
 
+#ifndef EWA_NO_MMAP
 size_t ewa_platform_map_step(void) {
     SYSTEM_INFO system;
     GetSystemInfo(&system);
@@ -339,18 +325,12 @@ size_t ewa_platform_map_step(void) {
 }
 
 void *ewa_platform_map(int descriptor, uint64_t at_bytes, size_t size_bytes) {
-#ifdef EWA_NO_MMAP
-    (void)descriptor, (void)at_bytes, (void)size_bytes;
-    errno = ENOSYS;
-    return NULL;
-#else
     HANDLE mapping = CreateFileMappingW(handle_of(descriptor), NULL, PAGE_READONLY, 0, 0, NULL);
     void *mapped =
         mapping ? MapViewOfFile(mapping, FILE_MAP_READ, (DWORD)(at_bytes >> 32), (DWORD)at_bytes, size_bytes) : NULL;
     if (!mapped) take_error();
     if (mapping) CloseHandle(mapping);
     return mapped;
-#endif
 }
 
 void ewa_platform_unmap(void *mapped, size_t size_bytes) {
@@ -365,3 +345,4 @@ bool ewa_platform_unmap_part(void *first, size_t size_bytes) {
 
 // The system takes back pages of files by itself.
 void ewa_platform_forget(void *mapped, size_t size_bytes) { (void)mapped, (void)size_bytes; }
+#endif

@@ -13,23 +13,6 @@
 #define ALWAYS_INLINE inline
 #define UNROLL_COLUMNS
 
-typedef float w4f __attribute__((vector_size(16)));
-typedef int32_t w4i __attribute__((vector_size(16)));
-typedef uint32_t w4u __attribute__((vector_size(16))); // for what wraps
-
-typedef struct wf {
-    w4f q[4];
-} wf;
-typedef struct wi {
-    w4i q[4];
-} wi;
-typedef struct wm {
-    w4i q[4]; // -1 or 0
-} wm;
-
-/// Sixteens that go through a long chain of steps at once: the registers hold one.
-enum { WIDE_TOGETHER = 1 };
-
 #if defined(__FP_FAST_FMAF)
 #define FUSED static inline __attribute__((unused))
 #else
@@ -60,27 +43,9 @@ enum { WIDE_TOGETHER = 1 };
 /// Lane i.
 #define LANE(a, i) (a).q[(i) >> 2][(i)&3]
 
-static inline w4f w4f_load(const float *p) {
-    w4f result;
-    memcpy(&result, p, sizeof result);
-    return result;
-}
-static inline w4f w4f_select(w4i m, w4f a, w4f b) { return (w4f)((m & (w4i)a) | (~m & (w4i)b)); }
-static inline w4i w4i_select(w4i m, w4i a, w4i b) { return (m & a) | (~m & b); }
+#include "wide/wide_vectors.h"
 
 static inline wf wf_set(float a) { QUARTERS(wf, ((w4f){a, a, a, a})); }
-static inline wf wf_load(const float *p) { QUARTERS(wf, w4f_load(p + 4 * n)); }
-static inline void wf_store(float *p, wf a) { memcpy(p, &a, sizeof a); }
-static inline wf wf_of_bits(wi a) { QUARTERS(wf, (w4f)a.q[n]); }
-static inline wi wi_of_bits(wf a) { QUARTERS(wi, (w4i)a.q[n]); }
-static inline wf wf_add(wf a, wf b) { QUARTERS(wf, a.q[n] + b.q[n]); }
-static inline wf wf_sub(wf a, wf b) { QUARTERS(wf, a.q[n] - b.q[n]); }
-static inline wf wf_mul(wf a, wf b) { QUARTERS(wf, a.q[n] * b.q[n]); }
-static inline wf wf_div(wf a, wf b) { QUARTERS(wf, a.q[n] / b.q[n]); }
-static inline wm wf_lt(wf a, wf b) { QUARTERS(wm, a.q[n] < b.q[n]); }
-static inline wm wf_le(wf a, wf b) { QUARTERS(wm, a.q[n] <= b.q[n]); }
-static inline wf wf_select(wm m, wf a, wf b) { QUARTERS(wf, w4f_select(m.q[n], a.q[n], b.q[n])); }
-static inline wf wf_keep(wm m, wf a) { QUARTERS(wf, (w4f)(m.q[n] & (w4i)a.q[n])); }
 static inline wf wf_min(wf a, wf b) { QUARTERS(wf, w4f_select(a.q[n] < b.q[n], a.q[n], b.q[n])); }
 static inline wf wf_max(wf a, wf b) { QUARTERS(wf, w4f_select(a.q[n] > b.q[n], a.q[n], b.q[n])); }
 static inline wf wf_abs(wf a) { QUARTERS(wf, (w4f)((w4i)a.q[n] & 0x7fffffff)); }
@@ -111,29 +76,16 @@ static inline wf wf_fnma(wf a, wf b, wf c) {
 }
 
 static inline wi wi_set(int32_t a) { QUARTERS(wi, ((w4i){a, a, a, a})); }
-static inline wi wi_load(const int32_t *p) {
-    wi result;
-    memcpy(&result, p, sizeof result);
-    return result;
-}
-static inline void wi_store(int32_t *p, wi a) { memcpy(p, &a, sizeof a); }
 static inline void wi_store_u8(uint8_t *p, wi a) {
     for (int i = 0; i < 16; i++) p[i] = (uint8_t)LANE(a, i);
 }
 FUSED wi wi_load_u16(const uint16_t *p) { LANES(wi, int32_t, p[i]); }
 FUSED wi wi_load_i16(const int16_t *p) { LANES(wi, int32_t, p[i]); }
-static inline wi wi_add(wi a, wi b) { QUARTERS(wi, (w4i)((w4u)a.q[n] + (w4u)b.q[n])); }
-static inline wi wi_sub(wi a, wi b) { QUARTERS(wi, (w4i)((w4u)a.q[n] - (w4u)b.q[n])); }
 static inline wi wi_min(wi a, wi b) { QUARTERS(wi, w4i_select(a.q[n] < b.q[n], a.q[n], b.q[n])); }
 static inline wi wi_max(wi a, wi b) { QUARTERS(wi, w4i_select(a.q[n] > b.q[n], a.q[n], b.q[n])); }
-static inline wi wi_or(wi a, wi b) { QUARTERS(wi, a.q[n] | b.q[n]); }
-static inline wi wi_and(wi a, wi b) { QUARTERS(wi, a.q[n] & b.q[n]); }
 static inline wi wi_shl(wi a, int count) { QUARTERS(wi, (w4i)((w4u)a.q[n] << count)); }
 static inline wi wi_sar(wi a, int count) { QUARTERS(wi, a.q[n] >> count); }
 
-static inline wm wm_and(wm a, wm b) { QUARTERS(wm, a.q[n] & b.q[n]); }
-static inline wm wm_or(wm a, wm b) { QUARTERS(wm, a.q[n] | b.q[n]); }
-static inline wm wm_not(wm a) { QUARTERS(wm, ~a.q[n]); }
 static inline uint32_t wm_bits(wm a) {
     const w4i all = (a.q[0] & (w4i){1, 2, 4, 8}) | (a.q[1] & (w4i){16, 32, 64, 128}) |
                    (a.q[2] & (w4i){256, 512, 1024, 2048}) | (a.q[3] & (w4i){4096, 8192, 16384, 32768});
@@ -183,9 +135,6 @@ FUSED void w_store4(float *out, wf a, wf b, wf c, wf d) {
     }
 }
 
-/// p[0..3] over and over.
-static inline wf wf_repeat4(const float *p) { QUARTERS(wf, w4f_load(p)); }
-
 /// p[0] four times, p[1] four times, p[2], p[3].
 static inline wf wf_spread4(const float *p) { QUARTERS(wf, ((w4f){p[n], p[n], p[n], p[n]})); }
 
@@ -195,14 +144,7 @@ FUSED void w_load4(const float *p, size_t stride, wf out[4]) {
         for (int i = 0; i < 16; i++) LANE(out[c], i) = p[(size_t)(i >> 2) * stride + (size_t)(4 * (i & 3) + c)];
 }
 
-/// Eight lanes, for the numbers of one pixel.
-typedef struct w8 {
-    w4f l, h;
-} w8;
-
 static inline w8 w8_set(float a) { return (w8){(w4f){a, a, a, a}, (w4f){a, a, a, a}}; }
-static inline w8 w8_load(const float *p) { return (w8){w4f_load(p), w4f_load(p + 4)}; }
-static inline void w8_store(float *p, w8 a) { memcpy(p, &a, sizeof a); }
 static inline w8 w8_fma(w8 a, w8 b, w8 c) {
     const wf sum = wf_fma((wf){{a.l, a.h}}, (wf){{b.l, b.h}}, (wf){{c.l, c.h}});
     return (w8){sum.q[0], sum.q[1]};

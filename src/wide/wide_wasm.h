@@ -14,48 +14,18 @@
 // The four vectors of a sixteen do not wait for each other: unrolled copies would only spill them.
 #define UNROLL_COLUMNS
 
-typedef float w4f __attribute__((vector_size(16)));
-typedef int32_t w4i __attribute__((vector_size(16)));
-typedef uint32_t w4u __attribute__((vector_size(16))); // for what wraps
-
-typedef struct wf {
-    w4f q[4];
-} wf;
-typedef struct wi {
-    w4i q[4];
-} wi;
-typedef struct wm {
-    w4i q[4]; // -1 or 0
-} wm;
-
-/// Sixteens that go through a long chain of steps at once: the registers hold one.
-enum { WIDE_TOGETHER = 1 };
-
 /// A value of the type whose quarters are `expression` of n = 0 .. 3.
 #define QUARTERS(type, expression)                                                                           \
     type result;                                                                                             \
     _Pragma("clang loop unroll(full)") for (int n = 0; n < 4; n++) result.q[n] = (expression);               \
     return result
 
-static inline w4f w4f_load(const float *p) { return (w4f)wasm_v128_load(p); }
-static inline w4f w4f_select(w4i m, w4f a, w4f b) { return (w4f)wasm_v128_bitselect((v128_t)a, (v128_t)b, (v128_t)m); }
+#include "wide/wide_vectors.h"
 
 static inline wf wf_set(float a) { QUARTERS(wf, (w4f)wasm_f32x4_splat(a)); }
-static inline wf wf_load(const float *p) { QUARTERS(wf, w4f_load(p + 4 * n)); }
-static inline void wf_store(float *p, wf a) { memcpy(p, &a, sizeof a); }
-static inline wf wf_of_bits(wi a) { QUARTERS(wf, (w4f)a.q[n]); }
-static inline wi wi_of_bits(wf a) { QUARTERS(wi, (w4i)a.q[n]); }
-static inline wf wf_add(wf a, wf b) { QUARTERS(wf, a.q[n] + b.q[n]); }
-static inline wf wf_sub(wf a, wf b) { QUARTERS(wf, a.q[n] - b.q[n]); }
-static inline wf wf_mul(wf a, wf b) { QUARTERS(wf, a.q[n] * b.q[n]); }
-static inline wf wf_div(wf a, wf b) { QUARTERS(wf, a.q[n] / b.q[n]); }
 static inline wf wf_sqrt(wf a) { QUARTERS(wf, (w4f)wasm_f32x4_sqrt((v128_t)a.q[n])); }
 static inline wf wf_floor(wf a) { QUARTERS(wf, (w4f)wasm_f32x4_floor((v128_t)a.q[n])); }
 static inline wf wf_abs(wf a) { QUARTERS(wf, (w4f)wasm_f32x4_abs((v128_t)a.q[n])); }
-static inline wm wf_lt(wf a, wf b) { QUARTERS(wm, a.q[n] < b.q[n]); }
-static inline wm wf_le(wf a, wf b) { QUARTERS(wm, a.q[n] <= b.q[n]); }
-static inline wf wf_select(wm m, wf a, wf b) { QUARTERS(wf, w4f_select(m.q[n], a.q[n], b.q[n])); }
-static inline wf wf_keep(wm m, wf a) { QUARTERS(wf, (w4f)(m.q[n] & (w4i)a.q[n])); }
 // pmin(x, y) is y < x ? y : x, and pmax(x, y) is x < y ? y : x.
 static inline wf wf_min(wf a, wf b) { QUARTERS(wf, (w4f)wasm_f32x4_pmin((v128_t)b.q[n], (v128_t)a.q[n])); }
 static inline wf wf_max(wf a, wf b) { QUARTERS(wf, (w4f)wasm_f32x4_pmax((v128_t)b.q[n], (v128_t)a.q[n])); }
@@ -81,12 +51,6 @@ static inline wf wf_fnma(wf a, wf b, wf c) {
 #endif
 
 static inline wi wi_set(int32_t a) { QUARTERS(wi, (w4i)wasm_i32x4_splat(a)); }
-static inline wi wi_load(const int32_t *p) {
-    wi result;
-    memcpy(&result, p, sizeof result);
-    return result;
-}
-static inline void wi_store(int32_t *p, wi a) { memcpy(p, &a, sizeof a); }
 /// Of values in [0, 255].
 static inline void wi_store_u8(uint8_t *p, wi a) {
     const v128_t l = wasm_i16x8_narrow_i32x4((v128_t)a.q[0], (v128_t)a.q[1]);
@@ -95,18 +59,11 @@ static inline void wi_store_u8(uint8_t *p, wi a) {
 }
 static inline wi wi_load_u16(const uint16_t *p) { QUARTERS(wi, (w4i)wasm_u32x4_load16x4(p + 4 * n)); }
 static inline wi wi_load_i16(const int16_t *p) { QUARTERS(wi, (w4i)wasm_i32x4_load16x4(p + 4 * n)); }
-static inline wi wi_add(wi a, wi b) { QUARTERS(wi, (w4i)((w4u)a.q[n] + (w4u)b.q[n])); }
-static inline wi wi_sub(wi a, wi b) { QUARTERS(wi, (w4i)((w4u)a.q[n] - (w4u)b.q[n])); }
 static inline wi wi_min(wi a, wi b) { QUARTERS(wi, (w4i)wasm_i32x4_min((v128_t)a.q[n], (v128_t)b.q[n])); }
 static inline wi wi_max(wi a, wi b) { QUARTERS(wi, (w4i)wasm_i32x4_max((v128_t)a.q[n], (v128_t)b.q[n])); }
-static inline wi wi_or(wi a, wi b) { QUARTERS(wi, a.q[n] | b.q[n]); }
-static inline wi wi_and(wi a, wi b) { QUARTERS(wi, a.q[n] & b.q[n]); }
 static inline wi wi_shl(wi a, int count) { QUARTERS(wi, (w4i)wasm_i32x4_shl((v128_t)a.q[n], (uint32_t)count)); }
 static inline wi wi_sar(wi a, int count) { QUARTERS(wi, (w4i)wasm_i32x4_shr((v128_t)a.q[n], (uint32_t)count)); }
 
-static inline wm wm_and(wm a, wm b) { QUARTERS(wm, a.q[n] & b.q[n]); }
-static inline wm wm_or(wm a, wm b) { QUARTERS(wm, a.q[n] | b.q[n]); }
-static inline wm wm_not(wm a) { QUARTERS(wm, ~a.q[n]); }
 static inline uint32_t wm_bits(wm a) {
     const v128_t l = wasm_i16x8_narrow_i32x4((v128_t)a.q[0], (v128_t)a.q[1]);
     const v128_t h = wasm_i16x8_narrow_i32x4((v128_t)a.q[2], (v128_t)a.q[3]);
@@ -170,9 +127,6 @@ static inline void w_store4(float *out, wf a, wf b, wf c, wf d) {
     }
 }
 
-/// p[0..3] over and over.
-static inline wf wf_repeat4(const float *p) { QUARTERS(wf, w4f_load(p)); }
-
 /// p[0] four times, p[1] four times, p[2], p[3].
 static inline wf wf_spread4(const float *p) { QUARTERS(wf, (w4f)wasm_f32x4_splat(p[n])); }
 
@@ -187,14 +141,7 @@ static inline void w_load4(const float *p, size_t stride, wf out[4]) {
     }
 }
 
-/// Eight lanes, for the numbers of one pixel.
-typedef struct w8 {
-    w4f l, h;
-} w8;
-
 static inline w8 w8_set(float a) { return (w8){(w4f)wasm_f32x4_splat(a), (w4f)wasm_f32x4_splat(a)}; }
-static inline w8 w8_load(const float *p) { return (w8){w4f_load(p), w4f_load(p + 4)}; }
-static inline void w8_store(float *p, w8 a) { memcpy(p, &a, sizeof a); }
 #if defined(__wasm_relaxed_simd__)
 static inline w8 w8_fma(w8 a, w8 b, w8 c) { return (w8){w4f_fma(a.l, b.l, c.l), w4f_fma(a.h, b.h, c.h)}; }
 #else
