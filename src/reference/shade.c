@@ -15,6 +15,26 @@
 
 static const double PI = 3.14159265358979323846;
 
+ewa_reference_surface ewa_reference_surface_of(const ewa_reference_view *view, const ewa_reference_sums *sums,
+                                               double x_px, double y_px) {
+    if (!(sums->weight > 0)) return (ewa_reference_surface){.there = false};
+    const double inverse = 1 / sums->weight;
+    const double length = fmax(vec3_length(sums->normal_world), EWA_SHADED_NORMAL * sums->weight);
+    ewa_reference_surface surface = {.there = true,
+                                     .color = vec3_scale(sums->color, sums->opacity > 0 ? 1 / sums->opacity : 0),
+                                     .normal_world = vec3_scale(sums->normal_world, 1 / length),
+                                     .ambient = sums->material[0] * inverse,
+                                     .diffuse = sums->material[1] * inverse,
+                                     .specular = sums->material[2] * inverse,
+                                     .shininess = sums->material[3] * inverse,
+                                     .reflection = sums->material[4] * inverse};
+    // From the surface to the eye, back to world space: -d A, A being a rotation but for its scale.
+    const ewa_vec3 d = ewa_reference_ray(view, x_px, y_px);
+    const ewa_vec3 toward_eye = vec3_scale(vec3_mul_mat3(d, &view->placement.linear), -1);
+    surface.view_world = vec3_scale(toward_eye, 1 / vec3_length(toward_eye));
+    return surface;
+}
+
 /// Adds `light` times the surface's answer to it.
 static void add_light(const ewa_shading_setup *setup, const ewa_shading_light *light,
                       const ewa_reference_surface *at, ewa_vec3 *color) {

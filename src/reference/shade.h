@@ -6,6 +6,7 @@
 #ifndef EWA_SRC_REFERENCE_SHADE_H
 #define EWA_SRC_REFERENCE_SHADE_H
 
+#include "reference/sums.h"
 #include "surface/shading.h"
 
 /// What a pixel shows of one surface.
@@ -16,6 +17,10 @@ typedef struct ewa_reference_surface {
     ewa_vec3 view_world;   ///< unit, towards the eye
     double ambient, diffuse, specular, shininess, reflection;
 } ewa_reference_surface;
+
+/// Returns what a pixel with its centre at x_px, y_px shows of the sums of a surface.
+ewa_reference_surface ewa_reference_surface_of(const ewa_reference_view *view, const ewa_reference_sums *sums,
+                                               double x_px, double y_px);
 
 /// Returns the straight colour that is seen. `beside` and `below` are the surfaces in the other column and
 /// the other row of the pixel's aligned 2x2 pixels.

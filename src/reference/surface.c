@@ -137,23 +137,8 @@ static void walk(const reference *work, int32_t y_begin, int32_t y_end, splat_pa
 /// The surface that has gathered at a pixel.
 static ewa_reference_surface surface_at(const reference *work, int32_t x, int32_t y) {
     if (x >= work->view.width_px || y >= work->view.height_px) return (ewa_reference_surface){.there = false};
-    const ewa_reference_sums *at = &work->pixels[(size_t)y * (size_t)work->view.width_px + (size_t)x].sums;
-    if (!(at->weight > 0)) return (ewa_reference_surface){.there = false};
-    const double inverse = 1 / at->weight;
-    const double length = fmax(vec3_length(at->normal_world), EWA_SHADED_NORMAL * at->weight);
-    ewa_reference_surface surface = {.there = true,
-                                     .color = vec3_scale(at->color, at->opacity > 0 ? 1 / at->opacity : 0),
-                                     .normal_world = vec3_scale(at->normal_world, 1 / length),
-                                     .ambient = at->material[0] * inverse,
-                                     .diffuse = at->material[1] * inverse,
-                                     .specular = at->material[2] * inverse,
-                                     .shininess = at->material[3] * inverse,
-                                     .reflection = at->material[4] * inverse};
-    // From the surface to the eye, back to world space: -d A, A being a rotation but for its scale.
-    const ewa_vec3 d = ewa_reference_ray(&work->view, x + 0.5, y + 0.5);
-    const ewa_vec3 view = vec3_scale(vec3_mul_mat3(d, &work->view.placement.linear), -1);
-    surface.view_world = vec3_scale(view, 1 / vec3_length(view));
-    return surface;
+    const pixel *at = &work->pixels[(size_t)y * (size_t)work->view.width_px + (size_t)x];
+    return ewa_reference_surface_of(&work->view, &at->sums, x + 0.5, y + 0.5);
 }
 
 /// Shades the surface of a pixel, whose neighbours must still have theirs.
