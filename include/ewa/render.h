@@ -100,8 +100,8 @@ typedef struct ewa_render_options {
     bool edge_antialiasing; ///< alpha from coverage; default true
     double edge_threshold;  ///< tau of docs/math.md section 7; (0, 4]; default 0.45
     /// Surfaces that may share an antialiased edge: what lies behind a silhouette shows through its partly
-    /// covered pixels, front to back, up to this many surfaces; 1: the background shows through instead
-    /// (docs/math.md section 7); [1, EWA_MAX_EDGE_LAYERS]; default EWA_MAX_EDGE_LAYERS
+    /// covered pixels, front to back, up to this many surfaces, of which the last is all that is left (docs/math.md
+    /// section 8); 1: the background shows through instead; [1, EWA_MAX_EDGE_LAYERS]; default EWA_MAX_EDGE_LAYERS
     uint32_t edge_layers;
     double
         opacity; ///< of every surface, times the surfels' own (the alpha of their colour); [0, 1]; default 1

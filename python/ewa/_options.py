@@ -282,7 +282,7 @@ class RenderOptions(TypedDict, total=False):
     edge_antialiasing: bool | None
     #: coverage, as a share of a covered pixel's, from which a pixel is opaque; (0, 4], default 0.45
     edge_threshold: float | None
-    #: surfaces that show through each other at smoothed silhouettes; 1: the background shows through instead; [1, 8], default 8
+    #: surfaces that show through each other at smoothed silhouettes, the last of them all that is left; 1: the background shows through instead; [1, 8], default 8
     edge_layers: int | None
     #: of every surface, times the alpha of the colours; [0, 1], default 1
     opacity: float | None

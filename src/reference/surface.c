@@ -348,6 +348,7 @@ static void set_layers(reference *work) {
                         (options->opacity < 1 || any_transparent(&work->reader, work->surfel_count));
     if (!work->transparent) {
         work->layers = options->edge_layers;
+        work->merge_last = work->layers > 1;
         return;
     }
     work->layers = options->layers == 0 ? EWA_LAYERS_EXACT : options->layers;

@@ -31,6 +31,7 @@ static void set_layers(ewa_tile_job *job, const ewa_render_job *frame, const ewa
         (options->opacity < 1 || opacities) && options->layers != 1 && options->passes == 3;
     if (!job->resolve.transparent) {
         job->layers = options->edge_antialiasing && options->passes == 3 ? options->edge_layers : 1;
+        job->merge_last = job->layers > 1;
         return;
     }
     job->layers = options->layers == 0 || options->layers > EWA_MAX_LAYERS ? EWA_MAX_LAYERS : options->layers;

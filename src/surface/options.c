@@ -43,8 +43,8 @@ static const ewa_option render_rows[] = {
      .help = "coverage, as a share of a covered pixel's, from which a pixel is opaque"},
     {"edge_layers", EWA_OPTION_U32, OF_RENDER(edge_layers), 1, EWA_MAX_EDGE_LAYERS,
      .initial = EWA_MAX_EDGE_LAYERS,
-     .help = "surfaces that show through each other at smoothed silhouettes; 1: the background shows through "
-             "instead"},
+     .help = "surfaces that show through each other at smoothed silhouettes, the last of them all that is left; 1: "
+             "the background shows through instead"},
     {"opacity", EWA_OPTION_F64, OF_RENDER(opacity), 0, 1, .initial = 1,
      .help = "of every surface, times the alpha of the colours"},
     {"layers", EWA_OPTION_U32, OF_RENDER(layers), 0, EWA_LAYERS_EXACT,

@@ -139,12 +139,12 @@
 // rules, and so on, composited front to back before the background; depth, normal and coverage are the first
 // one's. Opaque surfaces go on at their antialiased edges, up to edge_layers surfaces (one layer is the
 // paper's rule, where the background shines through silhouettes inside the object); transparent ones
-// everywhere, until nothing is left, or up to L surfaces of which the last takes all that is left: B(x) is
-// infinite then. How many those are is what their coverage k = q / q0 says: alpha becomes 1 - (1 - alpha)
-// prod (1 - alpha share_i), share_i = clamp(4 (k - i) - 2, 0, 1), i = 1, 2, ... below EWA_MERGED_SURFACES. A
-// surface more counts from half of one on, not earlier, so that the ripple of a single surface's coverage
-// does not show. Such a layer is many surfaces: its sums are not parted by facing, and alpha is min(1, q /
-// (tau q0)).
+// everywhere, until nothing is left, or up to L surfaces. The last of L or of edge_layers, if it is not the
+// first, takes all that is left: B(x) is infinite then. How many surfaces that is its coverage k = q / q0 says:
+// alpha becomes 1 - (1 - alpha) prod (1 - alpha share_i), share_i = clamp(4 (k - i) - 2, 0, 1), i = 1, 2, ...
+// below EWA_MERGED_SURFACES. A surface more counts from half of one on, not earlier, so that the ripple of a
+// single surface's coverage does not show. Such a layer is many surfaces: its sums are not parted by facing, and
+// alpha is min(1, q / (tau q0)).
 //
 // An opaque surface behind the first, both cut by clip lines, is often the other side of its edge. With
 // alpha, u, w and D of the first, alpha', q', u', w' and D' of the one behind, d = D / (u + w) and d' = D' /

@@ -70,7 +70,7 @@ static void choose_layers(drawing *d) {
     d->transparent = some && options->layers != 1 && !d->one_pass;
     d->surfaces = d->transparent ? options->layers : options->edge_layers;
     if (d->transparent && options->layers == 0) d->surfaces = EWA_LAYERS_EXACT;
-    d->merge_last = d->transparent && d->surfaces != EWA_LAYERS_EXACT;
+    d->merge_last = d->transparent ? d->surfaces != EWA_LAYERS_EXACT : d->surfaces > 1;
 }
 
 /// Of the splats that may count in a row of pixels, `candidates`, those that count at one of them.

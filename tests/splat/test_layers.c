@@ -69,7 +69,8 @@ static void test_pipeline_holds(void **state) {
     hold(SCENE_ELLIPSES, &o, 255, true, "orthographic");
 }
 
-/// Sheets of discs at depths 2, 3, 4 ... in front of a camera, with a colour each.
+/// Sheets of discs in front of a camera, each a quarter farther than the one before, with a colour each; all end at
+/// 45 degrees to the sides.
 static ewa_cloud *make_sheets(ewa_context *context, uint32_t sheet_count, const uint8_t rgba[][4]) {
     enum { ROW = 60 };
     ewa_cloud *cloud = NULL;
@@ -82,7 +83,7 @@ static ewa_cloud *make_sheets(ewa_context *context, uint32_t sheet_count, const 
     assert_int_equal(ewa_cloud_add(cloud, EWA_COLOR, EWA_U8, 4, (void **)&color), EWA_OK);
     size_t i = 0;
     for (uint32_t k = 0; k < sheet_count; k++) {
-        const float z = 2 + (float)k, spacing = 2 * z / ROW;
+        const float z = 2 * powf(1.25f, (float)k), spacing = 2 * z / ROW;
         for (int y = 0; y < ROW; y++)
             for (int x = 0; x < ROW; x++, i++) {
                 position[3 * i] = ((float)x + 0.5f - ROW / 2) * spacing;
@@ -145,6 +146,49 @@ static void test_sheets_over_each_other(void **state) {
         picture_free(&made);
     }
     ewa_cloud_destroy(&cloud);
+    ewa_context_destroy(&context);
+}
+
+/// Many sheets end at one place, where each covers the same part of a pixel: the background shows no more than through
+/// all of them, however few are told apart, and the last layer has the mean colour of what is left.
+static void test_last_edge_layer_takes_all(void **state) {
+    enum { SHEETS = 30, RED = 3 };
+    uint8_t rgba[SHEETS][4] = {{255, 0, 0, 255}, {255, 0, 0, 255}, {255, 0, 0, 255}};
+    for (int k = RED; k < SHEETS; k++) rgba[k][2] = rgba[k][3] = 255;
+    ewa_context *context = check_context(0, NULL);
+    ewa_cloud *one = make_sheets(context, 1, rgba), *all = make_sheets(context, SHEETS, rgba);
+    ewa_camera camera;
+    ewa_camera_init(&camera);
+    camera.width_px = camera.height_px = SIDE;
+    assert_int_equal(ewa_camera_set_fov(&camera, 100), EWA_OK);
+    int partly_count = 0;
+    for (uint32_t layers = 1; layers <= EWA_MAX_EDGE_LAYERS; layers++) {
+        ewa_render_options o;
+        ewa_render_options_init(&o, sizeof o);
+        o.shading = EWA_SHADING_NONE, o.edge_layers = layers;
+        picture alone = picture_draw(context, one, &camera, NULL, &o);
+        picture made = picture_draw(context, all, &camera, NULL, &o);
+        for (size_t i = 0; i < (size_t)SIDE * SIDE; i++) {
+            const double a = (double)alone.frame.rgba[4 * i + 3], k = (double)alone.frame.coverage[i];
+            const float *pixel = made.frame.rgba + 4 * i;
+            if (!(a > 1e-3 && a < 0.9)) continue;
+            const double left = pow(1 - a, layers - 1), rest = SHEETS + 1 - layers;
+            const double last = layers > 1 ? fmin(1, a * rest) : a;
+            double through = 1 - last;
+            for (int n = 1; n < SHEETS && layers > 1; n++) through *= 1 - last * fmin(fmax(4 * (k * rest - n) - 2, 0), 1);
+            const double red = layers > RED ? 1 - pow(1 - a, RED)
+                                            : 1 - left + left * (1 - through) * (RED + 1 - layers) / rest;
+            assert_true(fabs((double)pixel[3] - (1 - left * through)) < 0.01);
+            if (layers > 1) assert_true((double)pixel[3] > 1 - pow(1 - a, SHEETS) - 1e-3);
+            if (layers > 1) assert_true(fabs((double)pixel[0] - red) < 0.02);
+            partly_count += layers == EWA_MAX_EDGE_LAYERS;
+        }
+        picture_free(&alone);
+        picture_free(&made);
+    }
+    assert_true(partly_count > 100);
+    ewa_cloud_destroy(&one);
+    ewa_cloud_destroy(&all);
     ewa_context_destroy(&context);
 }
 
@@ -220,6 +264,7 @@ static void test_same_bytes(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_sheets_over_each_other),
+        cmocka_unit_test(test_last_edge_layer_takes_all),
         cmocka_unit_test(test_sphere_is_even),
         cmocka_unit_test(test_same_bytes),
         cmocka_unit_test(test_pipeline_holds),
