@@ -110,6 +110,26 @@ typedef void ewa_message_callback(void *user, ewa_severity severity, const char 
 /// returns EWA_CANCELLED. Comes on the thread that called the library.
 typedef bool ewa_progress_callback(void *user, const char *stage, double fraction);
 
+/// A file whose bytes the caller has: behind the ranges of a server, dropped onto a page, in an archive, in memory.
+typedef struct ewa_file_source {
+    uint64_t size_bytes; ///< of the whole file
+    /// Writes up to `size_bytes` (> 0) bytes of the file, from byte `at_bytes` on, to `bytes`, and returns how many; 0: there
+    /// are none more; negative: they cannot be had, which ends the call of the library by EWA_ERROR_IO. Fewer than asked for
+    /// are asked for again from there on. Comes on the thread that called the library.
+    int64_t (*read_at)(void *user, uint64_t at_bytes, void *bytes, size_t size_bytes);
+    void (*close)(void *user); ///< called once, when the file is not needed any more; NULL: nobody asks
+    void *user;
+} ewa_file_source;
+
+/// Opens a file that is about to be read by its name: fills `file`, which is zeroed, and returns true for one that is the caller's
+/// own; false: the operating system is asked. Comes on the thread that called the library, for one file several times, and
+/// also for files that may not be there. Files that such a file names are looked for beside it, by names with '/' between
+/// folders, as named_files says. Octrees (COPC, EPT) are read where they are seen, neighbouring parts at once; all other files as
+/// a whole, in pieces of EWA_FILE_PIECE_BYTES at most, between which the progress callback is asked ("read").
+typedef bool ewa_file_opener(void *user, const char *path, ewa_file_source *file);
+
+enum { EWA_FILE_PIECE_BYTES = 1 << 22 };
+
 /// What a context may use, whatever its inputs ask for. Sizes are looked at before anything is allocated for them, and all
 /// memory that the context holds counts against max_memory_bytes, with what libraries take that decode for it; files that
 /// are mapped do not. Where it is 0, an input unpacks to more than 2^30 bytes as far as its own explain: 1032 to 1, JSON 16.
@@ -144,6 +164,8 @@ typedef struct ewa_context_options {
     ewa_limits limits;
     ewa_named_files named_files; ///< default EWA_NAMED_BELOW
     bool untrusted; ///< for services: small limits where `limits` has defaults, and EWA_NAMED_NONE; default false
+    ewa_file_opener *open_file; ///< for files to be read that are no files of the operating system; default NULL: none
+    void *open_file_user;
 } ewa_context_options;
 
 /// Sets every member to its default; `struct_size` is sizeof of the caller's struct. Any thread.

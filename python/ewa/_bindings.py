@@ -15,6 +15,7 @@ EWA_CPU_AVX2 = 1
 EWA_CPU_AVX512 = 2
 EWA_CPU_NEON = 4
 EWA_CPU_ALL = 2147483647
+EWA_FILE_PIECE_BYTES = 4194304
 EWA_VERSION_MAJOR = 0
 EWA_VERSION_MINOR = 1
 EWA_VERSION_PATCH = 0
@@ -406,6 +407,22 @@ class ewa_warp_method(IntEnum):
     EWA_WARP_MCMILLAN = 1
 
 
+class ewa_file_source(c.Structure):
+    size_bytes: int
+    read_at: Any
+    close: Any
+    user: int | None
+    _fields_ = [
+        ("size_bytes", c.c_uint64),
+        ("read_at", c.CFUNCTYPE(c.c_int64, c.c_void_p, c.c_uint64, c.c_void_p, c.c_size_t)),
+        ("close", c.CFUNCTYPE(None, c.c_void_p)),
+        ("user", c.c_void_p),
+    ]
+
+
+ewa_file_opener = c.CFUNCTYPE(c.c_bool, c.c_void_p, c.c_char_p, c.POINTER(ewa_file_source))
+
+
 ewa_message_callback = c.CFUNCTYPE(None, c.c_void_p, c.c_int, c.c_char_p)
 
 
@@ -575,6 +592,8 @@ class ewa_context_options(c.Structure):
     limits: ewa_limits
     named_files: int
     untrusted: bool
+    open_file: Any
+    open_file_user: int | None
     _fields_ = [
         ("struct_size", c.c_size_t),
         ("allocator", ewa_allocator),
@@ -589,6 +608,8 @@ class ewa_context_options(c.Structure):
         ("limits", ewa_limits),
         ("named_files", c.c_int),
         ("untrusted", c.c_bool),
+        ("open_file", ewa_file_opener),
+        ("open_file_user", c.c_void_p),
     ]
 
 

@@ -22,6 +22,7 @@ struct ewa_context {
     uint64_t packed_before_bytes, unpacked_before_bytes; ///< of ewa_memory_unpacked_before()
     double started_s;
     bool time_is_over; ///< and that was reported
+    struct ewa_kept_file *kept_file;    ///< of ewa_file_keep_begin() (src/io/file.h); NULL: nothing is kept
     struct ewa_stoppable_run *run;      ///< the one that ewa_goes_on() is about; NULL: none
     const char *subject;                ///< what messages are about; NULL: they say so themselves
 };

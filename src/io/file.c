@@ -6,6 +6,7 @@
 #include "base/base.h"
 #include "base/context.h"
 #include "base/platform.h"
+#include "io/ranges.h"
 
 #include <errno.h>
 #include <stdio.h>
@@ -97,8 +98,96 @@ bool ewa_file_map_descriptor(ewa_context *context, int descriptor, ewa_file *fil
     return status == EWA_OK;
 }
 
-size_t ewa_file_head(const char *path, uint8_t *bytes, size_t room) {
+/// Reads a file of the caller's as a whole.
+static ewa_status read_whole(ewa_context *context, ewa_ranges *ranges, const char *path, ewa_file *file) {
+    const uint64_t size_bytes = ewa_ranges_size_bytes(ranges);
+    EWA_TRY(ewa_memory_check(context, size_bytes, "%s", path));
+    if (size_bytes > SIZE_MAX) return EWA_ERROR_MEMORY;
+    uint8_t *bytes = size_bytes ? ewa_allocate(context, (size_t)size_bytes, 1) : NULL;
+    if (size_bytes && !bytes) return EWA_ERROR_MEMORY;
+    const ewa_status status = ewa_ranges_read(ranges, 0, size_bytes, bytes);
+    if (status == EWA_OK)
+        *file = (ewa_file){.bytes = bytes, .size_bytes = (size_t)size_bytes, .capacity_bytes = (size_t)size_bytes};
+    else
+        ewa_release(context, bytes, (size_t)size_bytes, 1);
+    return status;
+}
+
+/// What is kept, if it is of that path.
+static ewa_kept_file *kept_at(const ewa_context *context, const char *path) {
+    ewa_kept_file *kept = context->kept_file;
+    return kept && strcmp(kept->path, path) == 0 ? kept : NULL;
+}
+
+void ewa_file_keep_begin(ewa_context *context, ewa_kept_file *kept, const char *path) {
+    *kept = (ewa_kept_file){.path = path};
+    context->kept_file = kept;
+}
+
+void ewa_file_keep_end(ewa_context *context) {
+    ewa_kept_file *kept = context->kept_file;
+    context->kept_file = NULL;
+    ewa_file_unmap(context, &kept->file);
+}
+
+bool ewa_file_map_source(ewa_context *context, const char *path, ewa_file *file, ewa_status *status) {
+    ewa_kept_file *kept = kept_at(context, path);
+    *file = (ewa_file){0};
+    *status = EWA_OK;
+    if (kept && kept->file.bytes && !kept->mapped) {
+        *file = kept->file;
+        kept->mapped = true;
+        return true;
+    }
+    ewa_ranges *ranges;
+    *status = ewa_ranges_open(context, path, &ranges);
+    if (!ranges) return *status != EWA_OK;
+    *status = read_whole(context, ranges, path, file);
+    ewa_ranges_close(&ranges);
+    if (*status == EWA_OK && kept && !kept->file.bytes) kept->file = *file, kept->mapped = true;
+    return true;
+}
+
+bool ewa_file_is_source(ewa_context *context, const char *path) {
+    ewa_ranges *ranges;
+    const bool opened = ewa_ranges_open(context, path, &ranges) == EWA_OK && ranges;
+    ewa_ranges_close(&ranges);
+    return opened;
+}
+
+bool ewa_file_may_read(ewa_context *context, const char *path) {
     ewa_platform_facts facts;
+    if (strcmp(path, "-") == 0) return false;
+    return ewa_file_is_source(context, path) || (ewa_platform_stat(path, &facts) && facts.regular && ewa_platform_may_read(path));
+}
+
+/// Reads the head of a file of the caller's; returns how many bytes it has.
+static size_t read_head(ewa_context *context, ewa_ranges *ranges, uint8_t head[EWA_FILE_HEAD_BYTES]) {
+    const uint64_t size_bytes = ewa_ranges_size_bytes(ranges);
+    const size_t there = size_bytes < EWA_FILE_HEAD_BYTES ? (size_t)size_bytes : EWA_FILE_HEAD_BYTES;
+    ewa_failures_hush(context, true);
+    const ewa_status status = ewa_ranges_read(ranges, 0, there, head);
+    ewa_failures_hush(context, false);
+    return status == EWA_OK ? there : 0;
+}
+
+size_t ewa_file_head(ewa_context *context, const char *path, uint8_t *bytes, size_t room) {
+    ewa_platform_facts facts;
+    ewa_kept_file read = {.path = path}, *kept = context ? kept_at(context, path) : NULL;
+    ewa_ranges *ranges = NULL;
+    if (!kept) kept = &read;
+    if (context && !kept->head_bytes) {
+        if (ewa_ranges_open(context, path, &ranges) != EWA_OK) return 0;
+        if (ranges) kept->head_bytes = read_head(context, ranges, kept->head);
+        const bool opened = ranges;
+        ewa_ranges_close(&ranges);
+        if (opened && !kept->head_bytes) return 0;
+    }
+    if (kept->head_bytes) {
+        const size_t there = kept->head_bytes < room ? kept->head_bytes : room;
+        memcpy(bytes, kept->head, there);
+        return there;
+    }
     const int descriptor = ewa_platform_open(path, false);
     if (descriptor < 0) return 0;
     const int64_t got =
@@ -118,16 +207,21 @@ static ewa_status read_descriptor(ewa_context *context, const char *path, int de
 ewa_status ewa_file_map(ewa_context *context, const char *path, ewa_file *file) {
     *file = (ewa_file){0};
     if (strcmp(path, "-") == 0) return read_descriptor(context, "standard input", ewa_platform_standard_input(), file);
+    ewa_status status;
+    if (ewa_file_map_source(context, path, file, &status)) return status;
     const int descriptor = ewa_platform_open(path, true);
     if (descriptor < 0) return fail_errno(context, path, errno);
-    const ewa_status status = read_descriptor(context, path, descriptor, file);
+    status = read_descriptor(context, path, descriptor, file);
     ewa_platform_close(descriptor);
     return status;
 }
 
 void ewa_file_unmap(ewa_context *context, ewa_file *file) {
     uint8_t *bytes = (uint8_t *)(uintptr_t)file->bytes;
-    if (!file->mapped) {
+    ewa_kept_file *kept = context->kept_file;
+    if (kept && bytes && kept->file.bytes == bytes) {
+        kept->mapped = false;
+    } else if (!file->mapped) {
         ewa_release(context, bytes, file->capacity_bytes, 1);
     } else if (file->hole_end) {
         ewa_platform_unmap(bytes, file->hole_first);

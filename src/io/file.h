@@ -18,6 +18,17 @@ typedef struct ewa_file {
     size_t hole_first, hole_end; ///< bytes that were given up, whose addresses may be others' now
 } ewa_file;
 
+enum { EWA_FILE_HEAD_BYTES = 512 }; ///< by which kinds of files are told
+
+/// A file of the caller's whose bytes stay while it is not mapped.
+typedef struct ewa_kept_file {
+    const char *path;
+    ewa_file file;
+    bool mapped;
+    size_t head_bytes; ///< 0: its head was not read yet
+    uint8_t head[EWA_FILE_HEAD_BYTES];
+} ewa_kept_file;
+
 /// Makes all bytes of a file readable: a regular file is mapped, anything else ("-": standard input, pipes)
 /// is read to its end, at most max_memory_bytes of the context's limits. Release with ewa_file_unmap(). A
 /// mapped file must not be cut short by others meanwhile: the system answers reads past the new end with
@@ -28,9 +39,24 @@ ewa_status ewa_file_map(ewa_context *context, const char *path, ewa_file *file);
 /// An empty file has no bytes and is held by nothing.
 bool ewa_file_map_descriptor(ewa_context *context, int descriptor, ewa_file *file);
 
-/// Reads the first bytes of a regular file, as many as there is room for, and returns how many; 0 where it is none or cannot
-/// be read, which is not reported.
-size_t ewa_file_head(const char *path, uint8_t *bytes, size_t room);
+/// Makes all bytes of a file of the caller's readable (ewa_context_options.open_file); false, with EWA_OK, where it is none of these.
+/// Errors: those of ewa_ranges_read(), EWA_ERROR_LIMIT, EWA_ERROR_MEMORY.
+bool ewa_file_map_source(ewa_context *context, const char *path, ewa_file *file, ewa_status *status);
+
+/// Returns whether a path is a file of the caller's.
+bool ewa_file_is_source(ewa_context *context, const char *path);
+
+/// Returns whether a path is a regular file that may be read, or one of the caller's.
+bool ewa_file_may_read(ewa_context *context, const char *path);
+
+/// Between these two, the file at `path`, if it is one of the caller's, stays when it is unmapped, so that what finds out what it is
+/// and what reads it then get it by one reading. It is not mapped when they end.
+void ewa_file_keep_begin(ewa_context *context, ewa_kept_file *kept, const char *path);
+void ewa_file_keep_end(ewa_context *context);
+
+/// Reads the first bytes of a regular file, as many as there is room for, at most EWA_FILE_HEAD_BYTES, and returns how many; 0
+/// where it is none or cannot be read, which is not reported. Without a context, of files of the operating system.
+size_t ewa_file_head(ewa_context *context, const char *path, uint8_t *bytes, size_t room);
 
 /// Lets the first pages of a mapped file, up to byte `at_bytes`, leave memory; they come back when read.
 void ewa_file_passed(const uint8_t *bytes, uint64_t at_bytes);

@@ -67,6 +67,12 @@ static const char *check_tree(const ewa_levels *levels) {
     return NULL;
 }
 
+uint64_t ewa_levels_table_bytes(const uint8_t *head, uint64_t size_bytes) {
+    if (size_bytes < EWA_LEVELS_HEAD_BYTES) return size_bytes;
+    const uint64_t table_bytes = EWA_LEVELS_HEAD_BYTES + (uint64_t)ewa_las_u32(head + 8) * EWA_LEVELS_PAGE_BYTES;
+    return table_bytes < size_bytes ? table_bytes : size_bytes;
+}
+
 ewa_status ewa_levels_read(ewa_context *context, const char *name, const uint8_t *bytes, uint64_t size_bytes,
                            ewa_levels *levels) {
     *levels = (ewa_levels){0};
@@ -202,7 +208,7 @@ ewa_status ewa_level_encode(ewa_context *context, const ewa_level_surfels *surfe
 const char *ewa_level_decode(const ewa_levels_page *page, const uint8_t *bytes, uint8_t *scratch,
                              const ewa_level_surfels *surfels) {
     const uint32_t count = page->surfel_count;
-    const ewa_status status = ewa_inflate(bytes + page->at_bytes, page->size_bytes, scratch, ewa_level_raw_bytes(count));
+    const ewa_status status = ewa_inflate(bytes, page->size_bytes, scratch, ewa_level_raw_bytes(count));
     if (status != EWA_OK)
         return status == EWA_ERROR_MEMORY        ? "there is no memory"
                : status == EWA_ERROR_UNSUPPORTED ? "its surfels are packed as this build cannot unpack (EWA_WITH_DEFLATE)"

@@ -36,7 +36,10 @@ typedef struct ewa_levels {
     uint64_t surfel_count;
 } ewa_levels;
 
-/// Reads the table of pages. Every number is checked: keys are nodes, each comes once, every page but the
+/// Returns how many of the `size_bytes` bytes of a record are its head and table, the head being there.
+uint64_t ewa_levels_table_bytes(const uint8_t *head, uint64_t size_bytes);
+
+/// Reads the table of pages, of which as many bytes are there as ewa_levels_table_bytes() says. Every number is checked: keys are nodes, each comes once, every page but the
 /// root has its parent, blocks lie in the record. `name` stands for the file in messages. Free with
 /// ewa_levels_free(), also after a failure. Errors: EWA_ERROR_FORMAT, EWA_ERROR_UNSUPPORTED (another
 /// version), EWA_ERROR_MEMORY.
@@ -61,7 +64,7 @@ typedef struct ewa_level_surfels {
 ewa_status ewa_level_encode(ewa_context *context, const ewa_level_surfels *surfels, uint32_t count,
                             ewa_buffer *to, size_t *at_bytes);
 
-/// Decodes the block of a page into arrays with room for its surfels. Any thread, with memory of its own; NULL, or what
+/// Decodes the block of a page, which is all of `bytes`, into arrays with room for its surfels. Any thread, with memory of its own; NULL, or what
 /// is wrong. `scratch` has room for ewa_level_raw_bytes().
 const char *ewa_level_decode(const ewa_levels_page *page, const uint8_t *bytes, uint8_t *scratch,
                              const ewa_level_surfels *surfels);

@@ -24,16 +24,13 @@ static int compare_nodes(const void *a, const void *b) {
     return ewa_octree_key_compare(&left->key, &right->key);
 }
 
-static const ewa_octree_format *format_of(const char *path) {
+static const ewa_octree_format *format_of(ewa_context *context, const char *path) {
     for (uint32_t i = 0; i < FORMAT_COUNT; i++)
-        if (formats[i]->is(path)) return formats[i];
+        if (formats[i]->is(context, path)) return formats[i];
     return NULL;
 }
 
-bool ewa_octree_is(ewa_context *context, const char *path) {
-    (void)context;
-    return path && format_of(path);
-}
+bool ewa_octree_is(ewa_context *context, const char *path) { return path && format_of(context, path); }
 
 ewa_status ewa_octree_add(ewa_octree *octree, const ewa_octree_node *node) {
     EWA_TRY(ewa_buffer_grow(octree->context, &octree->nodes, octree->node_count, octree->node_count + 1,
@@ -70,7 +67,7 @@ static ewa_status settle_nodes(ewa_octree *octree) {
 
 ewa_status ewa_octree_open(ewa_context *context, const char *path, ewa_octree **octree) {
     *octree = NULL;
-    const ewa_octree_format *format = format_of(path);
+    const ewa_octree_format *format = format_of(context, path);
     if (!format)
         return ewa_fail(context, EWA_ERROR_UNSUPPORTED,
                         "%s: no octree of points: neither a COPC file nor a folder with an ept.json", path);
@@ -182,6 +179,17 @@ ewa_status ewa_octree_read(ewa_octree *octree, const uint32_t *indices, uint32_t
     for (uint32_t i = 0; i < count && status != EWA_OK; i++) ewa_cloud_destroy(&clouds[i]);
     return status;
 }
+
+ewa_status ewa_octree_need_levels(ewa_octree *octree, ewa_range *parts, uint32_t count) {
+    for (uint32_t i = 0; i < count; i++) parts[i].at_bytes += octree->facts.levels_at_bytes;
+    return octree->format->need(octree, parts, count);
+}
+
+const uint8_t *ewa_octree_find_level(const ewa_octree *octree, uint64_t at_bytes, uint64_t size_bytes) {
+    return octree->format->find(octree, &(ewa_range){octree->facts.levels_at_bytes + at_bytes, size_bytes});
+}
+
+void ewa_octree_let_levels_go(ewa_octree *octree) { octree->format->end(octree); }
 
 void ewa_octree_close(ewa_octree **octree) {
     if (!octree || !*octree) return;

@@ -11,6 +11,7 @@
 
 #include "base/base.h"
 #include "ewa/cloud.h"
+#include "io/ranges.h"
 
 enum { EWA_OCTREE_LEVELS = 31 }; ///< maximum depth of a tree
 
@@ -42,8 +43,9 @@ typedef struct ewa_octree_facts {
     const ewa_cloud *prototype;      ///< no points; attributes, origin, grid and notes of those of every node
     const ewa_octree_node *nodes;    ///< each key once, in the order of ewa_octree_key_compare()
     uint32_t node_count;
-    const uint8_t *levels; ///< COPC: bytes of the first extended record of user "ewa", id 1; NULL: none
-    uint64_t levels_bytes;
+    /// COPC: the first extended record of user "ewa", id 1, as far as its table goes (ewa_levels_table_bytes()); NULL: none
+    const uint8_t *levels;
+    uint64_t levels_at_bytes, levels_bytes; ///< where the whole record is in the file
 } ewa_octree_facts;
 
 /// Whether a path is such a tree: a COPC file, by content, a folder that holds "ept.json", or an "ept.json". Reports
@@ -68,6 +70,12 @@ uint32_t ewa_octree_find(const ewa_octree *octree, const ewa_octree_key *key);
 /// points, is an error that names its key (level-x-y-z). Errors as ewa_octree_open().
 ewa_status ewa_octree_read(ewa_octree *octree, const uint32_t *indices, uint32_t count,
                            const char *attributes, ewa_cloud **clouds);
+
+/// Reads `count` parts of the record of levels, `at_bytes` from its begin, which it sorts; ewa_octree_find_level(), on any thread,
+/// returns where one of them is, until ewa_octree_let_levels_go(). Errors as ewa_octree_open().
+ewa_status ewa_octree_need_levels(ewa_octree *octree, ewa_range *parts, uint32_t count);
+const uint8_t *ewa_octree_find_level(const ewa_octree *octree, uint64_t at_bytes, uint64_t size_bytes);
+void ewa_octree_let_levels_go(ewa_octree *octree);
 
 /// Closes the tree and sets `*octree` to NULL; accepts NULL and a pointer to NULL.
 void ewa_octree_close(ewa_octree **octree);

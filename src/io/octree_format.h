@@ -20,7 +20,7 @@ typedef struct ewa_octree_result {
 /// One kind of file. Each lives in a file of its own.
 typedef struct ewa_octree_format {
     /// Whether a path is of this kind; reports nothing.
-    bool (*is)(const char *path);
+    bool (*is)(ewa_context *context, const char *path);
 
     /// Opens `octree->path`: sets the facts but for the nodes and what is counted from them, fills prototype and nodes
     /// in any order.
@@ -35,6 +35,11 @@ typedef struct ewa_octree_format {
 
     /// Ends a wave, also one that did not begin. May be NULL.
     void (*end)(ewa_octree *octree);
+
+    /// Of files with levels: reads parts of the file, sorting them, which find() then gives until end(). NULL: there are no
+    /// levels.
+    ewa_status (*need)(ewa_octree *octree, ewa_range *parts, uint32_t count);
+    const uint8_t *(*find)(const ewa_octree *octree, const ewa_range *part);
 
     /// Frees what open() made; also after its failure.
     void (*close)(ewa_octree *octree);

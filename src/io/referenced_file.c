@@ -66,6 +66,27 @@ static bool folder_of(const char *path, char folder[EWA_PATH_BYTES], char reason
     return true;
 }
 
+/// Writes a name with '/' between folders.
+static void write_relative(ewa_text name, char *relative) {
+    for (size_t i = 0; i < name.length; i++) relative[i] = name.chars[i] == '\\' ? '/' : name.chars[i];
+    relative[name.length] = 0;
+}
+
+/// Writes what a name below a folder is to the caller of the library, who has files of its own; false: it leads out of it.
+static bool join(const char *folder, const char *name, char joined[EWA_PATH_BYTES]) {
+    for (const char *part = name; part; part = strchr(part, '/') ? strchr(part, '/') + 1 : NULL)
+        if (strncmp(part, "..", 2) == 0 && (!part[2] || part[2] == '/')) return false;
+    const int length = snprintf(joined, EWA_PATH_BYTES, "%s/%s", folder, name);
+    return *name && *name != '/' && length > 0 && length < EWA_PATH_BYTES;
+}
+
+/// Reads a name below a folder where it is a file of the caller's of the library; false: it is none, or `*status` says why not.
+static bool map_source(ewa_context *context, const char *folder, const char *name, ewa_file *file, ewa_status *status) {
+    char joined[EWA_PATH_BYTES];
+    *status = EWA_OK;
+    return join(folder, name, joined) && ewa_file_map_source(context, joined, file, status);
+}
+
 int ewa_referenced_file_open(ewa_named_files allowed, const char *path, ewa_text name, char reason[EWA_REASON_BYTES]) {
     char relative[EWA_PATH_BYTES], folder[EWA_PATH_BYTES];
     const bool anywhere = allowed == EWA_NAMED_ANYWHERE;
@@ -73,8 +94,7 @@ int ewa_referenced_file_open(ewa_named_files allowed, const char *path, ewa_text
     if (name.length == 0 || memchr(name.chars, 0, name.length)) return fail(reason, "it has no name");
     if (name.length >= sizeof relative) return fail(reason, "its name is too long");
     if (!folder_of(path, folder, reason)) return -1;
-    for (size_t i = 0; i < name.length; i++) relative[i] = name.chars[i] == '\\' ? '/' : name.chars[i];
-    relative[name.length] = 0;
+    write_relative(name, relative);
     const char *last = strrchr(relative, '/');
     const bool absolute = relative[0] == '/',
                foreign = (absolute && !anywhere) || (relative[0] && relative[1] == ':') || strstr(relative, "://");
@@ -88,7 +108,7 @@ int ewa_referenced_file_open(ewa_named_files allowed, const char *path, ewa_text
                                    : fail(reason, "its name is absolute, and it is not beside the file");
 }
 
-bool ewa_referenced_file_find(const ewa_context *context, const char *path, const char *name, bool folders,
+bool ewa_referenced_file_find(ewa_context *context, const char *path, const char *name, bool folders,
                               char found[EWA_PATH_BYTES], char reason[EWA_REASON_BYTES]) {
     char folder[EWA_PATH_BYTES], joined[EWA_PATH_BYTES], base[EWA_PATH_BYTES], full[EWA_PATH_BYTES];
     const ewa_named_files allowed = ewa_context_named_files(context);
@@ -96,7 +116,9 @@ bool ewa_referenced_file_find(const ewa_context *context, const char *path, cons
     if (!is_allowed(allowed, reason)) return false;
     if (!*name) return fail(reason, "it has no name") == 0;
     if (*name == '/' && !anywhere) return fail(reason, "its name is absolute") == 0;
-    if (!folder_of(path, folder, reason) || !resolve(folder, name, anywhere, joined, base, full, reason))
+    if (!folder_of(path, folder, reason)) return false;
+    if (join(folder, name, found) && ewa_file_is_source(context, found)) return true;
+    if (!resolve(folder, name, anywhere, joined, base, full, reason))
         return false;
     ewa_platform_facts facts;
     const bool good = ewa_platform_stat(full, &facts) && (facts.regular || (folders && facts.folder));
@@ -132,14 +154,24 @@ static bool map_opened(ewa_context *context, int descriptor, ewa_file *file, cha
 
 bool ewa_referenced_file_map(ewa_context *context, const char *path, ewa_text name, ewa_file *file,
                              char reason[EWA_REASON_BYTES]) {
-    const int descriptor = ewa_referenced_file_open(ewa_context_named_files(context), path, name, reason);
+    const ewa_named_files allowed = ewa_context_named_files(context);
+    char folder[EWA_PATH_BYTES], relative[EWA_PATH_BYTES];
+    ewa_status status;
+    if (allowed != EWA_NAMED_NONE && name.length < sizeof relative && folder_of(path, folder, reason)) {
+        write_relative(name, relative);
+        if (map_source(context, folder, relative, file, &status))
+            return status == EWA_OK || fail(reason, "it cannot be read") == 0;
+    }
+    const int descriptor = ewa_referenced_file_open(allowed, path, name, reason);
     return map_opened(context, descriptor, file, reason);
 }
 
 ewa_status ewa_referenced_file_part(ewa_context *context, const char *folder, const char *name, ewa_file *file) {
     char reason[EWA_REASON_BYTES];
     const ewa_named_files allowed = ewa_context_named_files(context);
+    ewa_status status;
     *file = (ewa_file){0};
+    if (allowed != EWA_NAMED_NONE && map_source(context, folder, name, file, &status)) return status;
     if (is_allowed(allowed, reason) &&
         map_opened(context, open_in(folder, name, allowed == EWA_NAMED_ANYWHERE, reason), file, reason))
         return EWA_OK;

@@ -28,7 +28,7 @@ ewa_status ewa_referenced_file_part(ewa_context *context, const char *folder, co
 
 /// Writes the path of what `name` means in the file at `path`: a regular file, or with `folders` a folder, where
 /// named_files lets it be; nothing else is tried. False with `reason`; nothing is reported.
-bool ewa_referenced_file_find(const ewa_context *context, const char *path, const char *name, bool folders,
+bool ewa_referenced_file_find(ewa_context *context, const char *path, const char *name, bool folders,
                               char found[EWA_PATH_BYTES], char reason[EWA_REASON_BYTES]);
 
 /// Writes the name that the file at `path`, which need not be there yet, has for a target below its folder. False with

@@ -438,7 +438,8 @@ static void unpack_task(void *data, uint32_t index, uint32_t worker) {
     const ewa_lod_node *node = &job->lod->nodes[job->nodes[index]];
     unpacked *page = &job->pages[index];
     const ewa_levels_page *entry = &job->lod->levels.pages[node->page];
-    page->fault = ewa_level_decode(entry, job->lod->facts->levels, page->scratch, &page->surfels);
+    const uint8_t *block = ewa_octree_find_level(job->lod->octree, entry->at_bytes, entry->size_bytes);
+    page->fault = ewa_level_decode(entry, block, page->scratch, &page->surfels);
     if (page->fault) return;
     for (size_t i = 0; i < (size_t)3 * entry->surfel_count; i++)
         page->surfels.at[i] = (page->surfels.at[i] - 0.5f) * (float)node->side_world;
@@ -462,14 +463,21 @@ static ewa_status prepare_page(ewa_lod *lod, const ewa_lod_node *node, unpacked 
     return EWA_OK;
 }
 
+/// Loads pages, at most BATCH.
 static ewa_status load_pages(ewa_lod *lod, const uint32_t *nodes, uint32_t count) {
     unpacked *pages = ewa_allocate_zeroed(lod->context, count, sizeof *pages);
     if (!pages) return EWA_ERROR_MEMORY;
-    ewa_status status = EWA_OK;
+    ewa_range blocks[BATCH];
+    for (uint32_t i = 0; i < count; i++) {
+        const ewa_levels_page *entry = &lod->levels.pages[lod->nodes[nodes[i]].page];
+        blocks[i] = (ewa_range){entry->at_bytes, entry->size_bytes};
+    }
+    ewa_status status = ewa_octree_need_levels(lod->octree, blocks, count);
     for (uint32_t i = 0; i < count && status == EWA_OK; i++)
         status = prepare_page(lod, &lod->nodes[nodes[i]], &pages[i]);
     unpack_job job = {lod, nodes, pages};
     if (status == EWA_OK) ewa_parallel(lod->context, unpack_task, &job, count);
+    ewa_octree_let_levels_go(lod->octree);
     for (uint32_t i = 0; i < count; i++) {
         ewa_lod_node *node = &lod->nodes[nodes[i]];
         const ewa_levels_page *entry = &lod->levels.pages[node->page];

@@ -10,6 +10,7 @@
 #include "base/platform.h"
 #include "ewa/diagnosis.h"
 #include "ewa/gaussian_io.h"
+#include "io/file.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -124,11 +125,6 @@ void ewa_asset_describe(const ewa_asset *asset, ewa_asset_info *info) {
     memcpy(info->up_world, asset->up_world, sizeof info->up_world);
 }
 
-static bool is_regular(const char *path) {
-    ewa_platform_facts facts;
-    return strcmp(path, "-") != 0 && ewa_platform_stat(path, &facts) && facts.regular;
-}
-
 /// Opens an octree that is drawn from its levels; `*lod` is NULL where the file is none of these.
 static ewa_status open_octree(const ewa_asset_job *job, const char *path, ewa_lod **lod) {
     const ewa_asset_options *options = job->options;
@@ -214,7 +210,7 @@ static ewa_status check_folder(ewa_context *context, const char *path) {
     if (!ewa_platform_stat(path, &facts) || !facts.folder || ewa_lod_probe(context, path)) return EWA_OK;
     char file[PATH_BYTES];
     const int length = snprintf(file, sizeof file, "%s%smeta.json", path, path[0] && path[strlen(path) - 1] == '/' ? "" : "/");
-    if (length > 0 && (size_t)length < sizeof file && is_regular(file))
+    if (length > 0 && (size_t)length < sizeof file && ewa_file_may_read(context, file))
         return ewa_fail(context, EWA_ERROR_UNSUPPORTED, "%s: a folder; of Gaussians (SOG) name the file in it: %s", path, file);
     return ewa_fail(context, EWA_ERROR_UNSUPPORTED,
                     "%s: a folder, and no octree (EPT): name the files in it", path);
@@ -227,14 +223,15 @@ static ewa_status find_kind(const ewa_asset_job *job, const char *path, ewa_asse
     EWA_TRY(check_folder(context, path));
     *kind = EWA_ASSET_VOLUME;
     if (ewa_volume_is_file(context, path)) return EWA_OK;
-    *kind = EWA_ASSET_GAUSSIANS;
-    ewa_gaussian_format gaussians = EWA_GAUSSIANS_NONE;
-    // What is missing or cannot be opened is said by who reads it.
-    if (is_regular(path) && ewa_gaussians_probe(context, path, &gaussians) == EWA_OK &&
-        gaussians != EWA_GAUSSIANS_NONE)
-        return EWA_OK;
+    // Octrees first: of them, not all is read to see what they are.
     EWA_TRY(open_octree(job, path, lod));
     *kind = *lod ? EWA_ASSET_OCTREE : EWA_ASSET_POINTS;
+    if (*lod) return EWA_OK;
+    ewa_gaussian_format gaussians = EWA_GAUSSIANS_NONE;
+    // What is missing or cannot be opened is said by who reads it.
+    if (ewa_file_may_read(context, path) && ewa_gaussians_probe(context, path, &gaussians) == EWA_OK &&
+        gaussians != EWA_GAUSSIANS_NONE)
+        *kind = EWA_ASSET_GAUSSIANS;
     return EWA_OK;
 }
 
@@ -281,7 +278,10 @@ ewa_status ewa_asset_load(ewa_context *context, const char *path, const ewa_asse
         asset->of_file = true;
         asset->of_octree = ewa_lod_is_folder(context, path);
         asset->owns_parts = true;
+        ewa_kept_file kept;
+        ewa_file_keep_begin(context, &kept, path);
         status = load(&(ewa_asset_job){asset, &options}, path);
+        ewa_file_keep_end(context);
         asset->load_s = ewa_now_s() - started_s;
     }
     ewa_context_about(context, before);

@@ -393,7 +393,7 @@ static ewa_status read_file(ewa_scene_file *file, const reading *by, const char 
 
 bool ewa_scene_file_probe(const char *path) {
     uint8_t bytes[256];
-    return path && ewa_scene_text_probe(bytes, ewa_file_head(path, bytes, sizeof bytes));
+    return path && ewa_scene_text_probe(bytes, ewa_file_head(NULL, path, bytes, sizeof bytes));
 }
 
 ewa_status ewa_scene_file_load(ewa_context *context, const char *path, const ewa_asset_options *options,

@@ -27,7 +27,7 @@ static inline void fuzz_message(void *user, ewa_severity severity, const char *t
 }
 
 /// A context of `thread_count` workers with 64 MiB that counts errors (NULL: it does not); `max_points` 0: the default.
-static inline ewa_context *fuzz_context(uint32_t thread_count, uint64_t max_points, int *errors) {
+static inline ewa_context_options fuzz_context_options(uint32_t thread_count, uint64_t max_points, int *errors) {
     ewa_context_options options;
     ewa_context_options_init(&options, sizeof options);
     options.thread_count = thread_count;
@@ -35,9 +35,18 @@ static inline ewa_context *fuzz_context(uint32_t thread_count, uint64_t max_poin
     options.message_user = errors;
     options.limits.max_memory_bytes = 1 << 26;
     if (max_points) options.limits.max_points = max_points;
+    return options;
+}
+
+static inline ewa_context *fuzz_context_of(const ewa_context_options *options) {
     ewa_context *context = NULL;
-    fuzz_require(ewa_context_create(&options, &context) == EWA_OK, "a context");
+    fuzz_require(ewa_context_create(options, &context) == EWA_OK, "a context");
     return context;
+}
+
+static inline ewa_context *fuzz_context(uint32_t thread_count, uint64_t max_points, int *errors) {
+    const ewa_context_options options = fuzz_context_options(thread_count, max_points, errors);
+    return fuzz_context_of(&options);
 }
 
 #endif

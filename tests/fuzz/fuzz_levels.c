@@ -35,7 +35,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size_bytes) {
         fuzz_require(i == 0 || ewa_octree_key_compare(&page[-1].key, &page->key) < 0, "pages in order");
         fuzz_require(page->at_bytes <= size_bytes && page->size_bytes <= size_bytes - page->at_bytes,
                      "blocks in the record");
-        if (i < 64) try_page(page, bytes);
+        if (i < 64) try_page(page, bytes + page->at_bytes);
     }
     ewa_levels_free(context, &levels);
     ewa_context_destroy(&context);

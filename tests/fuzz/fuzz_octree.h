@@ -40,13 +40,12 @@ static inline ewa_status fuzz_octree_nodes(ewa_octree *octree, const ewa_octree_
     return status;
 }
 
-/// Opens and reads the tree at a path; `size_bytes` is what its levels lie within.
-static inline void fuzz_octree(const char *path, size_t size_bytes) {
-    int errors = 0;
-    ewa_context *context = fuzz_context(1, 1 << 22, &errors);
+/// Opens and reads the tree at a path by a context whose messages are counted, and destroys that; `size_bytes` is what its levels lie
+/// within.
+static inline ewa_status fuzz_octree_by(ewa_context *context, const int *counted, const char *path, size_t size_bytes) {
     ewa_octree *octree = NULL;
     ewa_octree_is(context, path);
-    fuzz_require(errors == 0, "no word about what a file is not");
+    fuzz_require(*counted == 0, "no word about what a file is not");
     ewa_status status = ewa_octree_open(context, path, &octree);
     fuzz_require((status == EWA_OK) == (octree != NULL), "a tree on success only");
     if (status == EWA_OK) {
@@ -55,9 +54,15 @@ static inline void fuzz_octree(const char *path, size_t size_bytes) {
         fuzz_require(facts->levels_bytes <= size_bytes, "levels within the file");
         status = fuzz_octree_nodes(octree, facts);
     }
-    fuzz_require((status == EWA_OK) == (errors == 0), "a message on failure only");
+    fuzz_require((status == EWA_OK) == (*counted == 0), "a message on failure only");
     ewa_octree_close(&octree);
     ewa_context_destroy(&context);
+    return status;
+}
+
+static inline ewa_status fuzz_octree(const char *path, size_t size_bytes) {
+    int errors = 0;
+    return fuzz_octree_by(fuzz_context(1, 1 << 22, &errors), &errors, path, size_bytes);
 }
 
 #endif

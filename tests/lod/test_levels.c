@@ -124,7 +124,7 @@ static ewa_status read_record(ewa_context *context, const uint8_t *bytes, size_t
         static sample got;
         static uint8_t scratch[16 * SURFELS];
         const ewa_level_surfels to = arrays_of(&got);
-        (void)ewa_level_decode(page, copy, scratch, &to);
+        (void)ewa_level_decode(page, copy + page->at_bytes, scratch, &to);
     }
     ewa_levels_free(context, &levels);
     free(copy);
@@ -149,7 +149,7 @@ static void test_record(void **state) {
     static uint8_t scratch[16 * SURFELS];
     const ewa_level_surfels to = arrays_of(&got);
     make_sample(&given, 1);
-    assert_null(ewa_level_decode(&levels.pages[1], bytes, scratch, &to));
+    assert_null(ewa_level_decode(&levels.pages[1], bytes + levels.pages[1].at_bytes, scratch, &to));
     assert_memory_equal(given.rgba, got.rgba, (size_t)4 * levels.pages[1].surfel_count);
     ewa_levels_free(context, &levels);
     free(bytes);

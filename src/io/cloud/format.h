@@ -9,18 +9,34 @@
 
 #include "ewa/io.h"
 #include "ewa/model.h"
+#include "io/ranges.h"
 
 /// A file that is read and where messages about it go.
 typedef struct ewa_cloud_source {
     ewa_context *context;
     const char *name;     ///< stands for the file in messages
     const char *path;     ///< of the file, for formats that name others beside it; NULL: there is none
-    const uint8_t *bytes; ///< of the whole file
+    const uint8_t *bytes; ///< of the whole file; NULL: by ewa_cloud_need(), of octrees only
     uint64_t size_bytes;
+    ewa_ranges *ranges; ///< that parts are read from; NULL: all bytes are there
     const ewa_cloud_load_options *options; ///< complete, of this version
     uint64_t *lost_count;                  ///< points that ewa_cloud_damage() gave up
     bool mapped;                           ///< the bytes are pages of a file (ewa_cloud_passed())
 } ewa_cloud_source;
+
+/// Makes `*bytes` point to bytes [at, at + size), which lie within the file. On the thread that calls the library. Errors: those
+/// of ewa_ranges_need().
+static inline ewa_status ewa_cloud_need(const ewa_cloud_source *source, uint64_t at_bytes, uint64_t size_bytes,
+                                        const uint8_t **bytes) {
+    if (source->ranges) return ewa_ranges_need(source->ranges, at_bytes, size_bytes, bytes);
+    *bytes = source->bytes + at_bytes;
+    return EWA_OK;
+}
+
+/// Returns them where they are there already; NULL: they are to be read first. Any thread.
+static inline const uint8_t *ewa_cloud_find_bytes(const ewa_cloud_source *source, uint64_t at_bytes, uint64_t size_bytes) {
+    return source->ranges ? ewa_ranges_find(source->ranges, at_bytes, size_bytes) : source->bytes + at_bytes;
+}
 
 /// Where the numbers of one attribute go: point i of a call to `to + i * stride_bytes`. NULL: not wanted.
 typedef struct ewa_cloud_sink {

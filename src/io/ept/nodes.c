@@ -3,7 +3,6 @@
 //
 // EPT folders by nodes: the files of a wave are opened one by one, then their records are unpacked by all workers.
 #include "base/base.h"
-#include "base/platform.h"
 #include "io/ept/ept.h"
 #include "io/zstandard.h"
 
@@ -22,30 +21,25 @@ static const char *const suffixes[] = {
 
 // ---- Finding the folder
 
-static bool is_file(const char *path) {
-    ewa_platform_facts facts;
-    return ewa_platform_stat(path, &facts) && facts.regular;
-}
-
 /// Writes the folder of a tree; false when the path is none and leads to none.
-static bool find_folder(const char *path, char folder[EWA_EPT_FOLDER_BYTES]) {
+static bool find_folder(ewa_context *context, const char *path, char folder[EWA_EPT_FOLDER_BYTES]) {
     char file[EWA_EPT_PATH_BYTES];
     const char *slash = strrchr(path, '/');
     const size_t length = strlen(path);
     if (length == 0 || length >= EWA_EPT_FOLDER_BYTES) return false;
-    if (strcmp(slash ? slash + 1 : path, "ept.json") == 0 && is_file(path)) {
+    if (strcmp(slash ? slash + 1 : path, "ept.json") == 0 && ewa_file_may_read(context, path)) {
         const size_t folder_length = slash ? (size_t)(slash - path) : 0;
         snprintf(folder, EWA_EPT_FOLDER_BYTES, "%.*s", slash ? (int)folder_length : 1, slash ? path : ".");
         return true;
     }
     snprintf(file, sizeof file, "%s/ept.json", path);
     memcpy(folder, path, length + 1);
-    return is_file(file);
+    return ewa_file_may_read(context, file);
 }
 
-static bool is_ept(const char *path) {
+static bool is_ept(ewa_context *context, const char *path) {
     char folder[EWA_EPT_FOLDER_BYTES];
-    return find_folder(path, folder);
+    return find_folder(context, path, folder);
 }
 
 // ---- One file
@@ -249,6 +243,8 @@ static ewa_status look_at_first(ewa_octree *octree) {
     return status;
 }
 
+static void look_at(void *user, const uint8_t *records, uint64_t count) { ewa_las_look(user, records, count); }
+
 /// Looks at the colours of some nodes and chooses their type for all.
 static ewa_status choose_colors(ewa_octree *octree) {
     ewa_ept *ept = octree->state;
@@ -273,7 +269,7 @@ static ewa_status choose_colors(ewa_octree *octree) {
         }
         result.status = open_file(octree, node, false, &ept->files[0]);
         if (result.status == EWA_OK)
-            visit_file(ept, &ept->files[0], node->point_count, 0, ewa_las_look, &look, &result);
+            visit_file(ept, &ept->files[0], node->point_count, 0, look_at, &look, &result);
         is_all = is_all && result.status == EWA_OK;
         if (result.status == EWA_ERROR_MEMORY) status = result.status;
         close_file(ept, &ept->files[0]);
@@ -290,7 +286,7 @@ static ewa_status open_ept(ewa_octree *octree) {
     octree->state = ept;
     if (!ept) return EWA_ERROR_MEMORY;
     ept->context = context;
-    if (!find_folder(octree->path, ept->folder))
+    if (!find_folder(context, octree->path, ept->folder))
         return ewa_fail(context, EWA_ERROR_IO, "%s: no folder with an ept.json", octree->path);
     ept->worker_count = ewa_context_worker_count(context);
     ept->memories = ewa_allocate_zeroed(context, ept->worker_count, sizeof *ept->memories);

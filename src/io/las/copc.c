@@ -53,8 +53,10 @@ static bool is_cube(const ewa_octree_key *key) {
 /// Takes the entries of a page, whose own pages join the list.
 static ewa_status read_page(const ewa_cloud_source *source, page p, page_list *pages, ewa_copc_tree *tree) {
     ewa_octree_node *nodes = tree->nodes.data;
+    const uint8_t *bytes;
+    EWA_TRY(ewa_cloud_need(source, p.at_bytes, p.size_bytes, &bytes));
     for (uint64_t i = 0; i < p.size_bytes / EWA_COPC_ENTRY_BYTES; i++) {
-        const uint8_t *entry = source->bytes + p.at_bytes + i * EWA_COPC_ENTRY_BYTES;
+        const uint8_t *entry = bytes + i * EWA_COPC_ENTRY_BYTES;
         const int32_t point_count = (int32_t)ewa_las_u32(entry + 28), size = (int32_t)ewa_las_u32(entry + 24);
         ewa_octree_node node = {.key = {.level = (int32_t)ewa_las_u32(entry)},
                                 .at_bytes = ewa_las_u64(entry + 16)};

@@ -7,6 +7,7 @@
 #include "io/file.h"
 #include "io/las/copc.h"
 #include "io/las/las_open.h"
+#include "io/levels.h"
 #include "io/octree_format.h"
 
 #include <math.h>
@@ -22,6 +23,7 @@ enum {
 typedef struct copc_state {
     ewa_file bytes; ///< without the nodes, where these are read piece by piece
     int descriptor; ///< which they are read from; -1: from `bytes`
+    uint32_t held_count; ///< parts of a file that comes in parts, beside those of a wave
     ewa_cloud_source source;
     ewa_cloud_load_options options;
     uint64_t lost_count;
@@ -31,9 +33,9 @@ typedef struct copc_state {
     ewa_buffer *records;       ///< one per worker
 } copc_state;
 
-static bool is_copc(const char *path) {
+static bool is_copc(ewa_context *context, const char *path) {
     uint8_t bytes[MAGIC_BYTES];
-    const bool there = ewa_file_head(path, bytes, sizeof bytes) == sizeof bytes;
+    const bool there = ewa_file_head(context, path, bytes, sizeof bytes) == sizeof bytes;
     const uint8_t *record = bytes + EWA_LAS_HEAD_14_BYTES;
     return there && memcmp(bytes, "LASF", 4) == 0 && ewa_las_u16(bytes + 94) == EWA_LAS_HEAD_14_BYTES &&
            ewa_las_u32(bytes + 100) > 0 && strncmp((const char *)record + 2, "copc", 16) == 0 &&
@@ -53,6 +55,7 @@ static void close_copc(ewa_octree *octree) {
     ewa_las_file_close(&state->file);
     if (state->descriptor >= 0) ewa_platform_close(state->descriptor);
     ewa_file_unmap(context, &state->bytes);
+    ewa_ranges_close(&state->source.ranges);
     ewa_release(context, state, 1, sizeof *state);
 }
 
@@ -98,16 +101,21 @@ static ewa_status take_tree(ewa_octree *octree, const copc_state *state, const e
     return EWA_OK;
 }
 
-/// Finds the levels among the extended records.
-static void find_levels(ewa_octree *octree, const copc_state *state) {
+/// Finds the levels among the extended records, and reads their table.
+static ewa_status find_levels(ewa_octree *octree, const copc_state *state) {
+    const ewa_cloud_source *source = &state->source;
     ewa_las_walk walk = {0};
     ewa_las_vlr vlr;
-    while (ewa_las_walk_next(&state->source, &state->file.header, &walk, &vlr)) {
+    while (ewa_las_walk_next(source, &state->file.header, &walk, &vlr)) {
         if (!vlr.extended || !ewa_las_vlr_is(&vlr, EWA_COPC_LEVELS_USER, EWA_COPC_LEVELS_ID)) continue;
-        octree->facts.levels = vlr.bytes;
+        octree->facts.levels_at_bytes = vlr.at_bytes;
         octree->facts.levels_bytes = vlr.size_bytes;
-        return;
+        const uint8_t *head;
+        const uint64_t head_bytes = vlr.size_bytes < EWA_LEVELS_HEAD_BYTES ? vlr.size_bytes : EWA_LEVELS_HEAD_BYTES;
+        EWA_TRY(ewa_cloud_need(source, vlr.at_bytes, head_bytes, &head));
+        return ewa_cloud_need(source, vlr.at_bytes, ewa_levels_table_bytes(head, vlr.size_bytes), &octree->facts.levels);
     }
+    return EWA_OK;
 }
 
 /// Lets go of the nodes' bytes, most of the file, so that files larger than the room for addresses can be drawn.
@@ -132,13 +140,17 @@ static ewa_status open_copc(ewa_octree *octree) {
     octree->state = state;
     if (!state) return EWA_ERROR_MEMORY;
     state->descriptor = -1;
-    EWA_TRY(ewa_file_map(context, octree->path, &state->bytes));
+    ewa_ranges *ranges;
+    EWA_TRY(ewa_ranges_open(context, octree->path, &ranges));
+    state->source.ranges = ranges;
+    if (!ranges) EWA_TRY(ewa_file_map(context, octree->path, &state->bytes));
     ewa_cloud_load_options_init(&state->options, sizeof state->options);
     state->source = (ewa_cloud_source){.context = context,
                                        .name = octree->path,
                                        .path = octree->path,
                                        .bytes = state->bytes.bytes,
-                                       .size_bytes = state->bytes.size_bytes,
+                                       .size_bytes = ranges ? ewa_ranges_size_bytes(ranges) : state->bytes.size_bytes,
+                                       .ranges = ranges,
                                        .options = &state->options,
                                        .lost_count = &state->lost_count};
     EWA_TRY(ewa_las_file_open(&state->source, octree->prototype, &state->file));
@@ -156,16 +168,42 @@ static ewa_status open_copc(ewa_octree *octree) {
     EWA_TRY(ewa_copc_tree_read(&state->source, &state->file.header, &tree));
     ewa_status status = take_tree(octree, state, &tree);
     ewa_copc_tree_free(context, &tree);
-    find_levels(octree, state);
+    if (status == EWA_OK) status = find_levels(octree, state);
     if (status == EWA_OK) give_up_nodes(octree, state);
+    if (ranges) state->held_count = ewa_ranges_count(ranges);
     return status;
+}
+
+/// Reads the bytes of a wave's nodes, or of levels, of a file that comes in parts.
+static ewa_status need_parts(ewa_octree *octree, ewa_range *parts, uint32_t count) {
+    copc_state *state = octree->state;
+    return state->source.ranges ? ewa_ranges_need_all(state->source.ranges, parts, count) : EWA_OK;
+}
+
+static ewa_status begin_wave(ewa_octree *octree, const uint32_t *indices, uint32_t count) {
+    ewa_range parts[EWA_OCTREE_WAVE];
+    for (uint32_t i = 0; i < count; i++) {
+        const ewa_octree_node *node = &octree->facts.nodes[indices[i]];
+        parts[i] = (ewa_range){node->at_bytes, node->size_bytes};
+    }
+    return need_parts(octree, parts, count);
+}
+
+static void end_wave(ewa_octree *octree) {
+    copc_state *state = octree->state;
+    if (state->source.ranges) ewa_ranges_let_go(state->source.ranges, state->held_count);
+}
+
+static const uint8_t *find_part(const ewa_octree *octree, const ewa_range *part) {
+    const copc_state *state = octree->state;
+    return ewa_cloud_find_bytes(&state->source, part->at_bytes, part->size_bytes);
 }
 
 /// Decodes a node's bytes to records.
 static ewa_status decode_node(const ewa_octree *octree, const copc_state *state, const ewa_octree_node *node,
                               uint32_t worker, ewa_laz_result *decoded) {
     ewa_file piece = {0};
-    const uint8_t *bytes = state->source.bytes + node->at_bytes;
+    const uint8_t *bytes = ewa_cloud_find_bytes(&state->source, node->at_bytes, node->size_bytes);
     if (state->descriptor >= 0 && node->size_bytes &&
         !ewa_file_piece_map(state->descriptor, node->at_bytes, node->size_bytes, &piece, &bytes)) {
         decoded->fault = "its bytes cannot be mapped";
@@ -196,5 +234,11 @@ static void read_node(ewa_octree *octree, const ewa_octree_node *node, uint32_t 
         result->above_count = ewa_las_unpack(&state->file.table, records->data, node->point_count, sinks);
 }
 
-const ewa_octree_format ewa_octree_copc = {
-    .is = is_copc, .open = open_copc, .read = read_node, .close = close_copc};
+const ewa_octree_format ewa_octree_copc = {.is = is_copc,
+                                           .open = open_copc,
+                                           .begin = begin_wave,
+                                           .read = read_node,
+                                           .end = end_wave,
+                                           .need = need_parts,
+                                           .find = find_part,
+                                           .close = close_copc};

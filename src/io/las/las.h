@@ -87,9 +87,9 @@ ewa_status ewa_las_header_read(const ewa_cloud_source *source, ewa_las_header *h
 
 /// A variable length record or an extended one.
 typedef struct ewa_las_vlr {
-    const uint8_t *head; ///< as it stands in the file
-    const uint8_t *bytes;
-    uint64_t size_bytes;
+    const uint8_t *head;  ///< as it stands in the file
+    const uint8_t *bytes; ///< NULL: longer than what is read of a file that comes in parts
+    uint64_t at_bytes, size_bytes;
     uint16_t id;
     bool extended;
 } ewa_las_vlr;

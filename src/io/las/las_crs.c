@@ -24,6 +24,7 @@ enum {
 };
 
 bool ewa_las_crs_take(ewa_las_crs *crs, const ewa_las_vlr *vlr) {
+    if (!vlr->bytes) return false;
     if (ewa_las_vlr_is(vlr, "LASF_Projection", 2112)) {
         crs->wkt = vlr->bytes;
         crs->wkt_bytes = vlr->size_bytes;

@@ -8,7 +8,10 @@
 #include <math.h>
 #include <string.h>
 
-enum { NEWEST_MINOR = 5 };
+enum {
+    NEWEST_MINOR = 5,
+    MAX_RECORD_BYTES = 1 << 20, // of a file that comes in parts, longer ones are left to who needs a part of them
+};
 
 uint16_t ewa_las_format_bytes(uint8_t point_format) {
     static const uint8_t bytes[EWA_LAS_MAX_FORMAT + 1] = {20, 28, 26, 34, 57, 63, 30, 36, 38, 59, 67};
@@ -43,13 +46,33 @@ static ewa_status check_places(const ewa_cloud_source *source, const ewa_las_hea
     return EWA_OK;
 }
 
+/// Has all records read of a file that comes in parts, but for the bytes of long ones, so that walks find them.
+static ewa_status need_records(const ewa_cloud_source *source, const ewa_las_header *header) {
+    if (!source->ranges) return EWA_OK;
+    const uint64_t size_bytes = source->size_bytes;
+    const uint8_t *bytes;
+    EWA_TRY(ewa_cloud_need(source, 0, header->points_at, &bytes));
+    uint64_t at = header->evlrs_at;
+    for (uint32_t i = 0; i < header->evlr_count && at <= size_bytes && size_bytes - at >= EWA_LAS_EXTENDED_BYTES; i++) {
+        EWA_TRY(ewa_cloud_need(source, at, EWA_LAS_EXTENDED_BYTES, &bytes));
+        const uint64_t record_bytes = ewa_las_u64(bytes + 20);
+        at += EWA_LAS_EXTENDED_BYTES;
+        if (record_bytes > size_bytes - at) break;
+        if (record_bytes <= MAX_RECORD_BYTES) EWA_TRY(ewa_cloud_need(source, at, record_bytes, &bytes));
+        at += record_bytes;
+    }
+    return EWA_OK;
+}
+
 ewa_status ewa_las_header_read(const ewa_cloud_source *source, ewa_las_header *header) {
-    const uint8_t *bytes = source->bytes;
+    const uint8_t *bytes;
     *header = (ewa_las_header){0};
     if (source->size_bytes < EWA_LAS_HEAD_BYTES)
         return ewa_fail(source->context, EWA_ERROR_FORMAT,
                         "%s: the file ends in the header of LAS: %llu bytes of at least %d", source->name,
                         (unsigned long long)source->size_bytes, EWA_LAS_HEAD_BYTES);
+    const uint64_t there = source->size_bytes < EWA_LAS_HEAD_14_BYTES ? source->size_bytes : EWA_LAS_HEAD_14_BYTES;
+    EWA_TRY(ewa_cloud_need(source, 0, there, &bytes));
     const uint8_t format = bytes[104];
     *header = (ewa_las_header){.version_minor = bytes[25],
                                .point_format = format & 0x3f,
@@ -88,20 +111,24 @@ ewa_status ewa_las_header_read(const ewa_cloud_source *source, ewa_las_header *h
         if (count) header->point_count = count;
     }
     EWA_TRY(check_numbers(source, header));
-    return check_places(source, header);
+    EWA_TRY(check_places(source, header));
+    return need_records(source, header);
 }
 
 /// Takes the record at `at` that must end at `end` or before; false when it does not.
 static bool take(const ewa_cloud_source *source, uint64_t at, uint64_t end, bool extended, ewa_las_vlr *vlr) {
     const uint64_t head_bytes = extended ? EWA_LAS_EXTENDED_BYTES : EWA_LAS_RECORD_BYTES;
     if (at > end || end - at < head_bytes) return false;
-    const uint8_t *head = source->bytes + at;
+    const uint8_t *head = ewa_cloud_find_bytes(source, at, head_bytes);
+    if (!head) return false;
     *vlr = (ewa_las_vlr){.head = head,
-                         .bytes = head + head_bytes,
+                         .at_bytes = at + head_bytes,
                          .size_bytes = extended ? ewa_las_u64(head + 20) : ewa_las_u16(head + 20),
                          .id = ewa_las_u16(head + 18),
                          .extended = extended};
-    return vlr->size_bytes <= end - at - head_bytes;
+    if (vlr->size_bytes > end - at - head_bytes) return false;
+    vlr->bytes = ewa_cloud_find_bytes(source, vlr->at_bytes, vlr->size_bytes);
+    return true;
 }
 
 bool ewa_las_walk_next(const ewa_cloud_source *source, const ewa_las_header *header, ewa_las_walk *walk,
@@ -136,7 +163,7 @@ bool ewa_las_find(const ewa_cloud_source *source, const ewa_las_header *header, 
                   ewa_las_vlr *vlr) {
     ewa_las_walk walk = {0};
     while (ewa_las_walk_next(source, header, &walk, vlr))
-        if (ewa_las_vlr_is(vlr, user, id)) return true;
+        if (ewa_las_vlr_is(vlr, user, id) && vlr->bytes) return true;
     return false;
 }
 

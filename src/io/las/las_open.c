@@ -17,7 +17,7 @@ enum {
     LOOK_RUN_POINTS = 1 << 8,
 };
 
-void ewa_las_look(void *user, const uint8_t *records, uint64_t count) {
+bool ewa_las_look(void *user, const uint8_t *records, uint64_t count) {
     ewa_las_color_look *look = user;
     for (uint64_t i = 0; i < count && !look->is_wide; i++, records += look->record_bytes) {
         for (uint32_t c = 0; c < look->color->component_count; c++) {
@@ -27,6 +27,7 @@ void ewa_las_look(void *user, const uint8_t *records, uint64_t count) {
         }
         look->is_wide = look->any > 255 && look->is_single;
     }
+    return look->is_wide;
 }
 
 void ewa_las_colors_choose(const ewa_cloud_source *source, const ewa_las_color_look *look, bool is_all,
@@ -46,7 +47,9 @@ void ewa_las_colors_choose(const ewa_cloud_source *source, const ewa_las_color_l
 /// Looks at the colours and chooses their type, for all points alike.
 static ewa_status look_at_colors(ewa_las_file *file) {
     const ewa_las_table *table = &file->table;
-    if (table->color_at == table->column_count) return EWA_OK;
+    // Parts are read of octrees only, whose points are compressed; who opens them says so of others.
+    const bool unread = file->source->ranges && !file->stream;
+    if (table->color_at == table->column_count || unread) return EWA_OK;
     ewa_las_color_look look = {.color = &table->columns[table->color_at],
                                .record_bytes = table->record_bytes};
     bool is_all = file->point_count <= LOOK_POINTS;

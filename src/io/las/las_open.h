@@ -32,8 +32,8 @@ typedef struct ewa_las_color_look {
     bool is_single, is_wide; ///< one has two bytes that differ; one is neither equal twice nor below 256
 } ewa_las_color_look;
 
-/// Looks at the colours of records; `look` is an ewa_las_color_look.
-void ewa_las_look(void *look, const uint8_t *records, uint64_t count);
+/// Looks at the colours of records; `look` is an ewa_las_color_look. Returns whether no others change what they are.
+bool ewa_las_look(void *look, const uint8_t *records, uint64_t count);
 
 /// Chooses the type of the colours of a table that has some. Colours of which all were looked at, and which are all 0,
 /// are none.

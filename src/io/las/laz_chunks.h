@@ -54,10 +54,11 @@ ewa_status ewa_laz_stream_open(const ewa_cloud_source *source, const ewa_laz_lay
                                ewa_laz_stream **stream);
 
 /// Decodes some chunks that are spread over the file and calls `look` for their records, one chunk after the
-/// other; they are not decoded again later. Returns whether these are all points. Chunks that are damaged are
-/// stepped over. Errors: EWA_ERROR_MEMORY.
+/// other; they are not decoded again later. Of a file that comes in parts, none after `look` returned true; no points are read of
+/// such a stream. Returns whether these are all points. Chunks that are damaged are stepped over. Errors: EWA_ERROR_MEMORY, those of
+/// ewa_ranges_need().
 ewa_status ewa_laz_stream_sample(ewa_laz_stream *stream,
-                                 void (*look)(void *user, const uint8_t *records, uint64_t count), void *user,
+                                 bool (*look)(void *user, const uint8_t *records, uint64_t count), void *user,
                                  bool *is_all);
 
 /// Reads the next points, at most `maximum`, into sinks as ewa_cloud_format.read(); adds them to what

@@ -84,20 +84,28 @@ static ewa_status read_single(const ewa_cloud_source *source, const ewa_las_head
     return EWA_OK;
 }
 
-/// Finds the table; returns its byte, or 0 when there is none within the file.
-static uint64_t find_table(const ewa_cloud_source *source, const ewa_las_header *header) {
+/// Finds the table's byte; 0 when there is none within the file.
+static ewa_status find_table(const ewa_cloud_source *source, const ewa_las_header *header, uint64_t *table_at) {
     const uint64_t first = header->points_at + 8, size_bytes = source->size_bytes;
-    if (size_bytes < first) return 0;
-    uint64_t at = ewa_las_u64(source->bytes + header->points_at);
+    const uint8_t *bytes;
+    *table_at = 0;
+    if (size_bytes < first) return EWA_OK;
+    EWA_TRY(ewa_cloud_need(source, header->points_at, 8, &bytes));
+    uint64_t at = ewa_las_u64(bytes);
     // Who could not go back has written it into the last 8 bytes.
-    if (at == UINT64_MAX || at < first) at = ewa_las_u64(source->bytes + size_bytes - 8);
-    return at >= first && at <= size_bytes && size_bytes - at >= TABLE_HEAD_BYTES ? at : 0;
+    if (at == UINT64_MAX || at < first) {
+        EWA_TRY(ewa_cloud_need(source, size_bytes - 8, 8, &bytes));
+        at = ewa_las_u64(bytes);
+    }
+    if (at >= first && at <= size_bytes && size_bytes - at >= TABLE_HEAD_BYTES) *table_at = at;
+    return EWA_OK;
 }
 
 /// Reads the table at byte `table_at`.
 static ewa_status read_table(const ewa_cloud_source *source, const ewa_las_header *header, uint64_t table_at,
                              ewa_laz_layout *layout) {
-    const uint8_t *head = source->bytes + table_at;
+    const uint8_t *head, *entries;
+    EWA_TRY(ewa_cloud_need(source, table_at, TABLE_HEAD_BYTES, &head));
     const uint32_t version = ewa_las_u32(head), count = ewa_las_u32(head + 4);
     // Each chunk begins with a whole record.
     const uint64_t maximum = (table_at - header->points_at - 8) / header->record_bytes;
@@ -109,9 +117,11 @@ static ewa_status read_table(const ewa_cloud_source *source, const ewa_las_heade
                         (unsigned long long)maximum);
     EWA_TRY(make_chunks(source->context, layout, count));
     if (count == 0) return EWA_OK;
-    const char *fault =
-        ewa_laz_table_decode(head + TABLE_HEAD_BYTES, source->size_bytes - table_at - TABLE_HEAD_BYTES, count,
-                             layout->variable, layout->chunks);
+    // Two numbers of 32 bits a chunk, and what begins and ends their code, take no more.
+    const uint64_t left_bytes = source->size_bytes - table_at - TABLE_HEAD_BYTES, most_bytes = 16 * (uint64_t)count + 64;
+    const uint64_t entry_bytes = left_bytes < most_bytes ? left_bytes : most_bytes;
+    EWA_TRY(ewa_cloud_need(source, table_at + TABLE_HEAD_BYTES, entry_bytes, &entries));
+    const char *fault = ewa_laz_table_decode(entries, entry_bytes, count, layout->variable, layout->chunks);
     if (fault)
         return ewa_fail(source->context, EWA_ERROR_FORMAT, "%s: the table of %u chunks at byte %llu: %s",
                         source->name, count, (unsigned long long)table_at, fault);
@@ -193,7 +203,8 @@ ewa_status ewa_laz_layout_read(const ewa_cloud_source *source, const ewa_las_hea
     const bool pointwise = layout->packing == EWA_LAZ_POINTWISE;
     layout->variable = !pointwise && chunk_points == EWA_LAZ_VARIABLE;
     if (header->point_count == 0 && !layout->variable) return EWA_OK;
-    const uint64_t table_at = pointwise ? 0 : find_table(source, header);
+    uint64_t table_at = 0;
+    if (!pointwise) EWA_TRY(find_table(source, header, &table_at));
     const uint64_t first = pointwise ? header->points_at : header->points_at + 8;
     const bool walkable = layout->variable ? layout->plan.layered : chunk_points > 0;
     if (!pointwise && table_at == 0 && walkable && source->options->keep_going) {

@@ -80,10 +80,10 @@ static ewa_status decode(ewa_laz_stream *stream, uint64_t chunk, uint8_t *record
     const ewa_laz_layout *layout = stream->layout;
     const ewa_cloud_source *source = stream->source;
     const bool cut = layout->cut && chunk == layout->chunk_count - 1;
+    const uint64_t size_bytes = layout->chunks[chunk].size_bytes;
     return (cut ? ewa_laz_decode_cut : ewa_laz_decode)(
-        source->context, &layout->plan, source->bytes + layout->at_bytes[chunk],
-        layout->chunks[chunk].size_bytes, layout->chunks[chunk].point_count, records,
-        &stream->memories[worker], result);
+        source->context, &layout->plan, ewa_cloud_find_bytes(source, layout->at_bytes[chunk], size_bytes), size_bytes,
+        layout->chunks[chunk].point_count, records, &stream->memories[worker], result);
 }
 
 /// Kept chunks from `first` on that are to be decoded.
@@ -109,8 +109,23 @@ static ewa_status add_kept(ewa_laz_stream *stream, uint64_t chunk) {
     return EWA_OK;
 }
 
+/// Decodes chunks that are kept, from `first` on; of a file that comes in parts, their bytes are read before.
+static ewa_status decode_samples(ewa_laz_stream *stream, uint32_t first, uint32_t count) {
+    ewa_ranges *ranges = stream->source->ranges;
+    const uint32_t held_count = ranges ? ewa_ranges_count(ranges) : 0;
+    const keep_job job = {stream, first};
+    for (uint32_t i = first; i < first + count && ranges; i++) {
+        const uint64_t chunk = stream->kept[i].chunk;
+        const uint8_t *bytes;
+        EWA_TRY(ewa_ranges_need(ranges, stream->layout->at_bytes[chunk], stream->layout->chunks[chunk].size_bytes, &bytes));
+    }
+    ewa_parallel_allocating(stream->source->context, decode_kept, (void *)&job, count);
+    if (ranges) ewa_ranges_let_go(ranges, held_count);
+    return EWA_OK;
+}
+
 ewa_status ewa_laz_stream_sample(ewa_laz_stream *stream,
-                                 void (*look)(void *user, const uint8_t *records, uint64_t count), void *user,
+                                 bool (*look)(void *user, const uint8_t *records, uint64_t count), void *user,
                                  bool *is_all) {
     const uint64_t chunk_count = stream->layout->chunk_count;
     const uint32_t maximum = chunk_count < MAX_SAMPLES ? (uint32_t)chunk_count : MAX_SAMPLES;
@@ -121,16 +136,20 @@ ewa_status ewa_laz_stream_sample(ewa_laz_stream *stream,
         if (i && bytes > SAMPLE_BYTES) break;
         EWA_TRY(add_kept(stream, chunk));
     }
-    const keep_job job = {stream, 0};
-    ewa_parallel_allocating(stream->source->context, decode_kept, (void *)&job, stream->kept_count);
+    // Of a file that comes in parts, one after the other, until enough was seen.
+    const uint32_t step = stream->source->ranges ? 1 : stream->kept_count;
+    bool enough = false;
     *is_all = stream->kept_count == chunk_count;
-    for (uint32_t i = 0; i < stream->kept_count; i++) {
-        const kept_chunk *kept = &stream->kept[i];
-        if (kept->status != EWA_OK) return kept->status;
-        if (kept->result.fault)
-            *is_all = false;
-        else
-            look(user, kept->records, kept->result.point_count);
+    for (uint32_t first = 0; first < stream->kept_count && !enough; first += step) {
+        EWA_TRY(decode_samples(stream, first, step));
+        for (uint32_t i = first; i < first + step; i++) {
+            const kept_chunk *kept = &stream->kept[i];
+            if (kept->status != EWA_OK) return kept->status;
+            if (kept->result.fault)
+                *is_all = false;
+            else
+                enough = look(user, kept->records, kept->result.point_count);
+        }
     }
     return EWA_OK;
 }

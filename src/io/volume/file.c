@@ -5,7 +5,6 @@
 #include "io/volume/file.h"
 #include "base/base.h"
 #include "base/options.h"
-#include "base/platform.h"
 #include "ewa/io.h"
 #include "ewa/model.h"
 #include "io/number.h"
@@ -53,7 +52,7 @@ bool ewa_volume_is_file(ewa_context *context, const char *path) {
     ewa_model_format format = EWA_MODEL_UNKNOWN;
     const size_t length = strlen(path);
     // What cannot be opened is said by who reads it.
-    return strcasecmp(path + length - 4, ".vtk") != 0 || !ewa_platform_may_read(path) ||
+    return strcasecmp(path + length - 4, ".vtk") != 0 || !ewa_file_may_read(context, path) ||
            ewa_model_probe(context, path, &format) != EWA_OK || format != EWA_MODEL_VTK;
 }
 
