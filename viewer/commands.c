@@ -223,14 +223,19 @@ static bool do_points(viewer *v, const char *rest) {
            set_number(v, "point_size_px", on ? FIRST_POINT_PX * v->scale : 0);
 }
 
+int viewer_view_find(const char *word) {
+    static const char *const names[] = {"front", "back", "left", "right", "top", "bottom", "iso"};
+    for (int i = 0; i < (int)(sizeof names / sizeof names[0]); i++)
+        if (strcmp(word, names[i]) == 0) return i;
+    return -1;
+}
+
 static bool do_view(viewer *v, const char *rest) {
-    static const char *const names[] = {"front", "back", "left", "right", "top", "bottom", "iso", "reset"};
-    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++)
-        if (strcmp(rest, names[i]) == 0) {
-            items_place(v, strcmp(rest, "reset") == 0 ? NULL : rest, true);
-            return true;
-        }
-    return refuse(v, "view", rest, "front, back, left, right, top, bottom, iso or reset");
+    const bool reset = strcmp(rest, "reset") == 0;
+    if (!reset && viewer_view_find(rest) < 0)
+        return refuse(v, "view", rest, "front, back, left, right, top, bottom, iso or reset");
+    items_place(v, reset ? NULL : rest, true);
+    return true;
 }
 
 static bool do_mode(viewer *v, const char *rest) { return settings_set(v, "navigation", rest); }
@@ -265,6 +270,19 @@ static bool do_zoom(viewer *v, const char *rest) {
     v->placed = true;
     v->animated = false;
     navigate_zoom(&v->camera, v->pivot_world, pow(NOTCH, notches));
+    viewer_change(v);
+    return true;
+}
+
+static bool do_turn(viewer *v, const char *rest) {
+    double right_deg, down_deg;
+    char end;
+    if (sscanf(rest, "%lf %lf%c", &right_deg, &down_deg, &end) != 2 || !(fabs(right_deg) <= 360 && fabs(down_deg) <= 360))
+        return refuse(v, "turn", rest, "two numbers of degrees, to the right and down");
+    v->placed = true;
+    v->animated = false;
+    const bool trackball = v->settings.navigation == NAVIGATION_TRACKBALL;
+    navigate_orbit(&v->camera, v->pivot_world, trackball ? NULL : v->up_world, right_deg, down_deg);
     viewer_change(v);
     return true;
 }
@@ -316,6 +334,7 @@ static const struct {
     {"focus", do_focus},     {"zoom", do_zoom},      {"box", do_box},       {"slab", do_slab},
     {"camera", shot_camera}, {"shot", shot_command}, {"scene", shot_scene}, {"cancel", do_cancel},
     {"clear", do_clear},     {"help", do_help},      {"panels", do_panels}, {"quit", do_quit},
+    {"turn", do_turn},
 };
 
 bool viewer_do(viewer *v, const char *command) {

@@ -29,7 +29,7 @@ typedef struct viewer_settings {
     size_t struct_size;
     navigation navigation;
     double budget_ms;
-    bool reduce;
+    bool reduce, animate;
     double volume_density;
 } viewer_settings;
 
@@ -56,7 +56,7 @@ typedef struct viewer_cutaway {
 
 struct viewer {
     viewer_services services;
-    bool waits;
+    bool waits, stepped;
     loader *loader;
     painter *painter;
     paint_tools probe; ///< the calling thread's own

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// The thread that loads files and makes surfels anew, one order after another.
+// The thread that loads files and makes surfels anew, one order after another; without one, the same in the caller's.
 #include "loader.h"
 
 #include <pthread.h>
@@ -13,7 +13,7 @@
 struct loader {
     viewer_services services;
     pthread_t thread;
-    bool started;
+    bool stepped, started;
     pthread_mutex_t lock;
     pthread_cond_t changed;
     atomic_bool give_up;
@@ -64,7 +64,8 @@ static void report(loader *l, loader_note *note) {
 
 static bool on_progress(void *user, const char *stage, double fraction) {
     loader *l = user;
-    if (!pthread_equal(pthread_self(), l->thread)) return true; // an octree that is drawn
+    const bool own = l->stepped ? l->current != NULL : pthread_equal(pthread_self(), l->thread);
+    if (!own) return true; // an octree that is drawn
     pthread_mutex_lock(&l->lock);
     snprintf(l->stage, sizeof l->stage, "%s", stage);
     l->fraction = fraction;
@@ -134,42 +135,47 @@ static void carry_out(loader *l, loader_note *order) {
     if (!done) order->kind = LOADER_FAILED;
 }
 
+/// Carries out the oldest order. With the lock, but for the work.
+static void do_next(loader *l) {
+    loader_note *order = l->orders;
+    l->orders = order->next;
+    order->next = NULL;
+    l->current = order;
+    l->fraction = 0;
+    l->stage[0] = 0;
+    atomic_store(&l->give_up, false);
+    pthread_mutex_unlock(&l->lock);
+    carry_out(l, order);
+    pthread_mutex_lock(&l->lock);
+    l->current = NULL;
+    append(&l->reports, order);
+    pthread_cond_broadcast(&l->changed);
+}
+
 static void *run(void *data) {
     loader *l = data;
     pthread_mutex_lock(&l->lock);
     while (!l->quits) {
-        if (!l->orders) {
+        if (l->orders)
+            do_next(l);
+        else
             pthread_cond_wait(&l->changed, &l->lock);
-            continue;
-        }
-        loader_note *order = l->orders;
-        l->orders = order->next;
-        order->next = NULL;
-        l->current = order;
-        l->fraction = 0;
-        l->stage[0] = 0;
-        atomic_store(&l->give_up, false);
-        pthread_mutex_unlock(&l->lock);
-        carry_out(l, order);
-        pthread_mutex_lock(&l->lock);
-        l->current = NULL;
-        append(&l->reports, order);
-        pthread_cond_broadcast(&l->changed);
     }
     pthread_mutex_unlock(&l->lock);
     return NULL;
 }
 
-ewa_status loader_create(const viewer_services *services, loader **made) {
+ewa_status loader_create(const viewer_services *services, bool stepped, loader **made) {
     *made = NULL;
     loader *l = calloc(1, sizeof *l);
     if (!l) return EWA_ERROR_MEMORY;
     l->services = *services;
     pthread_mutex_init(&l->lock, NULL);
     pthread_cond_init(&l->changed, NULL);
-    l->started = pthread_create(&l->thread, NULL, run, l) == 0;
+    l->stepped = stepped;
+    l->started = !stepped && pthread_create(&l->thread, NULL, run, l) == 0;
     *made = l;
-    if (!l->started) loader_destroy(made);
+    if (!stepped && !l->started) loader_destroy(made);
     return *made ? EWA_OK : EWA_ERROR_MEMORY;
 }
 
@@ -262,8 +268,15 @@ void loader_forget(loader *l, uint64_t item) {
     pthread_mutex_unlock(&l->lock);
 }
 
+void loader_step(loader *l) {
+    pthread_mutex_lock(&l->lock);
+    if (l->stepped && l->orders) do_next(l);
+    pthread_mutex_unlock(&l->lock);
+}
+
 void loader_wait(loader *l) {
     pthread_mutex_lock(&l->lock);
+    while (l->stepped && l->orders) do_next(l);
     while (l->orders || l->current) pthread_cond_wait(&l->changed, &l->lock);
     pthread_mutex_unlock(&l->lock);
 }

@@ -43,7 +43,8 @@ typedef struct loader_note {
 
 typedef struct loader loader;
 
-ewa_status loader_create(const viewer_services *services, loader **made);
+/// `stepped`: it has no thread, and works in loader_step() and loader_wait() only.
+ewa_status loader_create(const viewer_services *services, bool stepped, loader **made);
 /// Gives up what is under way and frees what nobody took.
 void loader_destroy(loader **loader);
 
@@ -56,6 +57,8 @@ bool loader_make(loader *loader, loader_scene *of);
 void loader_cancel(loader *loader);
 /// Forgets the orders of an item and waits until none is under way.
 void loader_forget(loader *loader, uint64_t item);
+/// Carries out the oldest order, where there is no thread.
+void loader_step(loader *loader);
 /// Waits until all orders are done.
 void loader_wait(loader *loader);
 bool loader_is_busy(loader *loader);

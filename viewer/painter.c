@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// The thread that draws.
+// The thread that draws; without one, the same in the caller's.
 #include "painter.h"
 
 #include <stdatomic.h>
@@ -10,9 +10,10 @@
 #include <string.h>
 
 struct painter {
+    viewer_services services;
     paint_tools tools;
     pthread_t thread;
-    bool started;
+    bool stepped, started;
     pthread_mutex_t lock;
     pthread_cond_t changed; ///< something was posted, or became idle
     atomic_bool give_up;
@@ -32,6 +33,7 @@ struct painter {
 static bool on_progress(void *user, const char *stage, double fraction) {
     (void)stage, (void)fraction;
     painter *p = user;
+    if (p->stepped && p->whole && p->services.waiting && p->services.waiting(p->services.user)) return false;
     return !atomic_load_explicit(&p->give_up, memory_order_relaxed);
 }
 
@@ -97,54 +99,62 @@ static ewa_status draw_now(painter *p, paint_result *result) {
     return status;
 }
 
+/// Draws the scene that waits. With the lock, but for the drawing.
+static void draw_next(painter *p) {
+    p->now = p->next;
+    p->whole = p->next_whole;
+    const uint64_t ticket = p->next_ticket;
+    p->waits = false;
+    p->draws = true;
+    atomic_store(&p->give_up, false);
+    p->drawing = 0;
+    while (p->drawing == p->newest || p->drawing == p->shown) p->drawing++;
+    paint_result *result = &p->results[p->drawing];
+    pthread_mutex_unlock(&p->lock);
+    const ewa_status status = draw_now(p, result);
+    pthread_mutex_lock(&p->lock);
+    p->draws = false;
+    if (status == EWA_OK) {
+        result->ticket = ticket;
+        result->drawn_count = ++p->drawn_count;
+        const bool full = !p->now.reduced && !result->level && !p->now.options.volumes.level && !p->now.coarse;
+        result->whole = (p->whole || full) && !result->to_refine;
+        result->camera = p->now.camera;
+        p->newest = p->drawing;
+    }
+    if (status != EWA_CANCELLED) p->failure = status;
+    if (p->failure != EWA_OK) memcpy(p->failure_text, p->tools.message, sizeof p->failure_text);
+    pthread_cond_broadcast(&p->changed);
+}
+
 static void *run(void *data) {
     painter *p = data;
     pthread_mutex_lock(&p->lock);
     while (!p->quits) {
-        if (!p->waits) {
+        if (p->waits)
+            draw_next(p);
+        else
             pthread_cond_wait(&p->changed, &p->lock);
-            continue;
-        }
-        p->now = p->next;
-        p->whole = p->next_whole;
-        const uint64_t ticket = p->next_ticket;
-        p->waits = false;
-        p->draws = true;
-        atomic_store(&p->give_up, false);
-        p->drawing = 0;
-        while (p->drawing == p->newest || p->drawing == p->shown) p->drawing++;
-        paint_result *result = &p->results[p->drawing];
-        pthread_mutex_unlock(&p->lock);
-        const ewa_status status = draw_now(p, result);
-        pthread_mutex_lock(&p->lock);
-        p->draws = false;
-        if (status == EWA_OK) {
-            result->ticket = ticket;
-            result->drawn_count = ++p->drawn_count;
-            const bool full = !p->now.reduced && !result->level && !p->now.options.volumes.level && !p->now.coarse;
-            result->whole = (p->whole || full) && !result->to_refine;
-            result->camera = p->now.camera;
-            p->newest = p->drawing;
-        }
-        if (status != EWA_CANCELLED) p->failure = status;
-        if (p->failure != EWA_OK) memcpy(p->failure_text, p->tools.message, sizeof p->failure_text);
-        pthread_cond_broadcast(&p->changed);
     }
     pthread_mutex_unlock(&p->lock);
     return NULL;
 }
 
-ewa_status painter_create(uint32_t thread_count, uint32_t cpu_mask, ewa_backend_kind backend,
-                          painter **made) {
+ewa_status painter_create(const viewer_services *services, bool stepped, uint32_t thread_count, uint32_t cpu_mask,
+                          ewa_backend_kind backend, painter **made) {
     *made = NULL;
     painter *p = calloc(1, sizeof *p);
     if (!p) return EWA_ERROR_MEMORY;
+    p->services = *services;
+    p->stepped = stepped;
     p->newest = p->shown = -1;
     pthread_mutex_init(&p->lock, NULL);
     pthread_cond_init(&p->changed, NULL);
     ewa_status status = paint_tools_make(thread_count, cpu_mask, backend, on_progress, p, &p->tools);
-    if (status == EWA_OK && pthread_create(&p->thread, NULL, run, p) != 0) status = EWA_ERROR_MEMORY;
-    p->started = status == EWA_OK;
+    if (status == EWA_OK && !stepped) {
+        p->started = pthread_create(&p->thread, NULL, run, p) == 0;
+        if (!p->started) status = EWA_ERROR_MEMORY;
+    }
     if (status != EWA_OK) painter_destroy(&p);
     *made = p;
     return status;
@@ -203,6 +213,7 @@ void painter_rest(painter *p) {
 
 void painter_wait(painter *p) {
     pthread_mutex_lock(&p->lock);
+    if (p->stepped && p->waits) draw_next(p);
     while (p->draws || p->waits) pthread_cond_wait(&p->changed, &p->lock);
     pthread_mutex_unlock(&p->lock);
 }

@@ -60,7 +60,10 @@ ewa_status paint_scene_draw(paint_tools *tools, const paint_scene *scene, const 
 
 typedef struct painter painter;
 
-ewa_status painter_create(uint32_t thread_count, uint32_t cpu_mask, ewa_backend_kind backend, painter **made);
+/// `stepped`: it has no thread, and draws in painter_wait() only; a whole picture is given up when the services say that an
+/// event waits. `services` are copied.
+ewa_status painter_create(const viewer_services *services, bool stepped, uint32_t thread_count, uint32_t cpu_mask,
+                          ewa_backend_kind backend, painter **made);
 void painter_destroy(painter **painter);
 
 /// Hands over a scene, which replaces one that waits. `whole`: it is given up for the next one.
@@ -71,7 +74,7 @@ bool painter_is_busy(painter *painter);
 void painter_hurry(painter *painter);
 /// Gives up everything and waits until nothing that was handed over is used any more.
 void painter_rest(painter *painter);
-/// Waits until nothing is drawn.
+/// Waits until nothing is drawn; draws what was handed over, where there is no thread.
 void painter_wait(painter *painter);
 /// Gives the newest picture: valid until the next call; NULL: none yet. `*failure` says why the last one was not
 /// drawn, once; NULL: it was.

@@ -165,6 +165,12 @@ bool pick_point(viewer *v, double x, double y, bool second) {
     return true;
 }
 
+bool viewer_get_pick(const viewer *v, int index, double place_world[3]) {
+    if (index < 0 || index > 1 || !v->picks[index].given) return false;
+    memcpy(place_world, v->picks[index].place_world, sizeof v->picks[index].place_world);
+    return true;
+}
+
 void pick_clear(viewer *v) {
     if (v->picks[0].given) viewer_mark(v);
     v->picks[0].given = v->picks[1].given = false;

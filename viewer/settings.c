@@ -17,6 +17,7 @@ static const ewa_option own_table[] = {
      .help = "what a picture may take while something moves"},
     {"reduce", EWA_OPTION_BOOL, ROW(reduce), .initial = 1,
      .help = "draw smaller pictures while something moves in large windows, or where drawing is slow"},
+    {"animate", EWA_OPTION_BOOL, ROW(animate), .initial = 1, .help = "let the camera travel to where it is sent"},
     {"volume_density", EWA_OPTION_F64, ROW(volume_density), 0, 100, .initial = 1,
      .help = "multiplies the extinctions of volumes"},
 };
@@ -67,7 +68,7 @@ static void *place_of(viewer *v, setting_owner owner) {
 
 void settings_init(viewer *v) {
     v->settings = (viewer_settings){
-        .struct_size = sizeof v->settings, .budget_ms = 25, .reduce = true, .volume_density = 1};
+        .struct_size = sizeof v->settings, .budget_ms = 25, .reduce = true, .animate = true, .volume_density = 1};
     ewa_render_options_init(&v->render, sizeof v->render);
     for (int c = 0; c < 4; c++) v->render.background[c] = 1; // as `ewa render`
     ewa_furniture_options_init(&v->furniture, sizeof v->furniture);

@@ -73,6 +73,7 @@ ewa_status viewer_create(const viewer_options *options, viewer **made) {
     if (!v) return EWA_ERROR_MEMORY;
     v->services = options->services;
     v->waits = options->waits;
+    v->stepped = options->stepped;
     v->width = options->width, v->height = options->height, v->scale = options->scale;
     settings_init(v);
     ewa_scene_options_init(&v->base, sizeof v->base);
@@ -90,9 +91,10 @@ ewa_status viewer_create(const viewer_options *options, viewer **made) {
     v->state.panels = true;
     v->lods_lock = malloc(sizeof *v->lods_lock);
     if (v->lods_lock) pthread_mutex_init(v->lods_lock, NULL);
-    ewa_status status = v->lods_lock ? loader_create(&v->services, &v->loader) : EWA_ERROR_MEMORY;
+    ewa_status status = v->lods_lock ? loader_create(&v->services, v->stepped, &v->loader) : EWA_ERROR_MEMORY;
     if (status == EWA_OK)
-        status = painter_create(options->thread_count, options->cpu_mask, options->backend, &v->painter);
+        status = painter_create(&v->services, v->stepped, options->thread_count, options->cpu_mask, options->backend,
+                                &v->painter);
     if (status == EWA_OK)
         status = paint_tools_make(options->thread_count, options->cpu_mask, EWA_BACKEND_CPU, NULL, NULL,
                                   &v->probe);
@@ -123,7 +125,7 @@ void viewer_destroy(viewer **made) {
 }
 
 void viewer_go(viewer *v, const ewa_camera *to) {
-    v->animated = v->now_s > 0 && to->projection == v->camera.projection;
+    v->animated = v->settings.animate && v->now_s > 0 && to->projection == v->camera.projection;
     v->animation_s = v->now_s;
     v->animation_from = v->camera;
     v->animation_to = *to;
@@ -303,12 +305,16 @@ void viewer_frame(viewer *v, double time_s, viewer_picture *picture) {
     *picture = (viewer_picture){.rgba8 = NULL};
     advance(v, time_s);
     if (v->services.interrupted && v->services.interrupted(v->services.user)) v->state.quit = true;
+    if (v->stepped) loader_step(v->loader);
     items_update(v);
     const char *failure;
     const paint_result *newest = painter_newest(v->painter, &failure);
     adapt(v, newest);
     schedule(v, newest);
-    if (v->waits) newest = painter_newest(v->painter, &failure);
+    if (v->stepped) painter_wait(v->painter);
+    if (v->waits || v->stepped) newest = painter_newest(v->painter, &failure);
+    if (v->stepped && !failure && !(newest && newest->whole && newest->ticket == v->posted))
+        v->posted_whole = false; // it was given up, or nodes of octrees have come: once more
     if (failure) viewer_tell(v, "the picture cannot be drawn: %s", failure);
     v->state.moving = is_moving(v);
     const bool still =

@@ -4,7 +4,7 @@
 // The viewer without a window: events with their times come in, pictures go out. Front ends (SDL, scripts)
 // translate; what is loaded from files comes through services of the program.
 //
-// One thread calls in. Loading and drawing happen on threads of the viewer's own. Places are in points from
+// One thread calls in. Loading and drawing happen on threads of the viewer's own, or, where there are none, in viewer_frame(). Places are in points from
 // the window's upper left corner, y down; a point is `scale` pixels.
 #ifndef EWA_VIEWER_VIEWER_H
 #define EWA_VIEWER_VIEWER_H
@@ -20,6 +20,7 @@ enum {
     VIEWER_NAME_BYTES = 256,
     VIEWER_TEXT_BYTES = 1024,
     VIEWER_PATH_BYTES = 4096,
+    VIEWER_VOXEL_LEVELS = 2, ///< of volumes that are loaded: the second is drawn while something moves
 };
 
 typedef struct viewer viewer;
@@ -78,6 +79,8 @@ typedef struct viewer_services {
     void (*say)(void *user, bool message, const char *text);
     /// Whether the program was asked to end, by a signal. May be NULL.
     bool (*interrupted)(void *user);
+    /// Whether an event waits for which a whole picture is to be given up; of stepped viewers, while they draw. May be NULL.
+    bool (*waiting)(void *user);
     /// The clipboard; both may be NULL: the viewer keeps a text of its own then.
     void (*clipboard_set)(void *user, const char *text);
     bool (*clipboard_get)(void *user, char *text, size_t text_bytes);
@@ -92,6 +95,7 @@ typedef struct viewer_options {
     uint32_t width, height;     ///< of the window, points
     double scale;               ///< pixels per point, > 0
     const ewa_lod_options *lod; ///< of octrees, copied; NULL: defaults
+    bool stepped;               ///< no threads: viewer_frame() does what there is to do, one thing at a time
     bool waits;                 ///< drawing and loading are waited for: no picture depends on time (scripts)
     const ewa_camera *camera;   ///< the first look; NULL: as the program frames it
 } viewer_options;
@@ -162,6 +166,9 @@ void viewer_frame(viewer *viewer, double time_s, viewer_picture *picture);
 /// Returns false after saying what is wrong.
 bool viewer_do(viewer *viewer, const char *command);
 
+/// Returns the ewa_named_view of a word, or -1.
+int viewer_view_find(const char *word);
+
 /// Opens a file, as "open" does; it may still be loading afterwards.
 bool viewer_open(viewer *viewer, const char *path);
 
@@ -195,6 +202,9 @@ bool viewer_item_get(const viewer *viewer, size_t index, viewer_item *item);
 /// the last.
 const char *viewer_attribute_at(const viewer *viewer, size_t index, uint32_t attribute,
                                 char name[EWA_NAME_BYTES + 4]);
+
+/// Fills the place of a pick (0), or of the second one of a measure (1); false: there is none.
+bool viewer_get_pick(const viewer *viewer, int index, double place_world[3]);
 
 /// What goes on.
 typedef struct viewer_state {

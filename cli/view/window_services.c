@@ -12,7 +12,6 @@
 #include <string.h>
 
 enum {
-    VOXEL_LEVELS = 2,
     PREVIEW_POINTS = 200000,
     MANY_POINTS = 400000, ///< take a while to become surfels with levels
 };
@@ -128,7 +127,7 @@ static bool load(void *user, const char *path, const ewa_scene_entry *entry, con
     options.reader_user = program.reader_user;
     if (!options.filter) options.filter = program.filter;
     if (options.levels == EWA_OCTREE_AUTO) options.levels = own->levels;
-    options.voxel_level_count = VOXEL_LEVELS;
+    options.voxel_level_count = VIEWER_VOXEL_LEVELS;
     options.own_context = true;
     if (!session_passed(&own->loading, ewa_asset_load(own->loading.context, path, &options, asset)))
         return false;
@@ -147,15 +146,14 @@ static bool load(void *user, const char *path, const ewa_scene_entry *entry, con
 /// The camera's options, for a named view without those that say otherwise.
 static view_arguments place_arguments(const window_services *own, const char *view,
                                       const ewa_camera *camera) {
-    static const char *const names[] = {"front", "back", "left", "right", "top", "bottom", "iso"};
     view_arguments arguments = *own->view;
     arguments.size = (option_size){camera->width_px, camera->height_px, true};
     if (!view) return arguments;
     arguments.camera_path = NULL;
     arguments.eye.count = arguments.target.count = 0;
     arguments.azimuth_deg = arguments.elevation_deg = 0;
-    for (int i = 0; i < (int)(sizeof names / sizeof names[0]); i++)
-        if (strcmp(view, names[i]) == 0) arguments.view = i;
+    const int named = viewer_view_find(view);
+    if (named >= 0) arguments.view = named;
     return arguments;
 }
 

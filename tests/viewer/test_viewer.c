@@ -14,15 +14,19 @@ enum { WIDTH = 160, HEIGHT = 120, PIXELS = WIDTH * HEIGHT };
 
 static view_contents contents;
 
-static viewer *make_viewer(bool waits) {
+static viewer_options make_options(bool waits) {
     memset(&contents, 0, sizeof contents);
-    const viewer_options options = {.services = view_contents_services(&contents),
-                                    .thread_count = 2,
-                                    .cpu_mask = EWA_CPU_ALL,
-                                    .width = WIDTH,
-                                    .height = HEIGHT,
-                                    .scale = 1,
-                                    .waits = waits};
+    return (viewer_options){.services = view_contents_services(&contents),
+                            .thread_count = 2,
+                            .cpu_mask = EWA_CPU_ALL,
+                            .width = WIDTH,
+                            .height = HEIGHT,
+                            .scale = 1,
+                            .waits = waits};
+}
+
+static viewer *make_viewer(bool waits) {
+    const viewer_options options = make_options(waits);
     viewer *v = NULL;
     assert_int_equal(viewer_create(&options, &v), EWA_OK);
     return v;
@@ -121,6 +125,53 @@ static void moving_ends_in_the_same_picture(void **state) {
     free(first);
     viewer_destroy(&v);
     ewa_context_destroy(&contents.context);
+}
+
+/// Of a stepped viewer: events that wait while it draws, and how often it asked.
+static int waiting_count, asked_count;
+
+static bool is_waiting(void *user) {
+    (void)user;
+    asked_count++;
+    return waiting_count > 0 && waiting_count-- > 0;
+}
+
+/// Without threads, a frame does one thing: loads, makes the scene, draws roughly, draws the whole picture.
+static void stepped_viewers_show_the_same(void **state) {
+    static const char *const names[] = {"torus", "volume", "octree"};
+    for (int k = 0; k < 3; k++) {
+        uint8_t *pictures[2];
+        for (int stepped = 0; stepped < 2; stepped++) {
+            viewer_options options = make_options(false);
+            options.services.waiting = is_waiting;
+            options.stepped = stepped;
+            viewer *v = NULL;
+            assert_int_equal(viewer_create(&options, &v), EWA_OK);
+            waiting_count = asked_count = 0;
+            assert_true(viewer_open(v, names[k]));
+            assert_int_equal(contents.loads, stepped ? 0 : contents.loads); // in a frame, not in the call
+            settle(v);
+            viewer_do(v, "turn 30 10");
+            viewer_do(v, "turn -10 -5");
+            viewer_picture picture = settle(v);
+            if (stepped) { // a whole picture that is given up for events comes all the same
+                assert_true(asked_count > 0);
+                waiting_count = 3;
+                viewer_do(v, "turn 5 0");
+                viewer_do(v, "turn -5 0");
+                picture = settle(v);
+                assert_int_equal(waiting_count, 0);
+            }
+            pictures[stepped] = copy_picture(&picture);
+            viewer_do(v, "close 0");
+            settle(v);
+            viewer_destroy(&v);
+            ewa_context_destroy(&contents.context);
+            assert_int_equal(contents.loads, contents.frees);
+        }
+        assert_memory_equal(pictures[0], pictures[1], 4 * PIXELS);
+        for (int i = 0; i < 2; i++) free(pictures[i]);
+    }
 }
 
 static void failing_loads_leave_the_scene(void **state) {
@@ -459,6 +510,7 @@ int main(void) {
         cmocka_unit_test(still_pictures_are_the_renderers),
         cmocka_unit_test(octrees_get_finer),
         cmocka_unit_test(moving_ends_in_the_same_picture),
+        cmocka_unit_test(stepped_viewers_show_the_same),
         cmocka_unit_test(failing_loads_leave_the_scene),
         cmocka_unit_test(dropped_files_queue),
         cmocka_unit_test(cancelled_loads_come_to_nothing),
