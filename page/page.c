@@ -1,161 +1,227 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// What a page calls of the library in WebAssembly: bytes become a scene, a camera goes about it, pictures come out. One view at a
-// time for each module, since a page instantiates as many as it wants.
-#include "ewa/ewa.h"
-#include "viewer/navigate.h"
+// The viewer (viewer/viewer.h) as a module of WebAssembly: a page hands over events and commands with their times, and pictures
+// come out, on one thread. Files are those that the page grants by WASI (page/files.js). A page makes an instance of the module
+// for each view.
+#include "viewer/viewer.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #define EXPORT(name) __attribute__((export_name(#name))) name
+#define IMPORT(name) __attribute__((import_module("ewa"), import_name(#name))) page_##name
 
-enum { MESSAGE_BYTES = 1024 };
+/// The page is told a message (`message`) or a line of results, such as a pick.
+void IMPORT(say)(bool message, const char *text);
+/// The page is told the share of a stage of loading that is done; false: give up.
+bool IMPORT(progress)(const char *stage, double fraction);
+/// The page is asked whether an event waits.
+bool IMPORT(waiting)(void);
+
+enum { TEXT_BYTES = 4 * VIEWER_TEXT_BYTES };
+
+/// What a page is told of a picture, in the order of page/module.js; the address is 0 where there is no picture yet.
+typedef struct page_report {
+    double rgba8, width_px, height_px; ///< 4 bytes a pixel, rows from the top, sRGB, straight alpha
+    double number;                     ///< another one for another picture
+    double still;                      ///< 1: nothing is loading, and nothing will change by itself
+    double spare_s, drawn_s;           ///< when to ask again; what drawing took
+    double level, splat_count;
+} page_report;
 
 typedef struct page {
-    ewa_context *context;
-    ewa_scene *scene;
-    ewa_scene_renderer *renderer;
-    ewa_camera camera;
-    ewa_view_info view;
-    uint8_t *rgba8;
-    size_t rgba8_bytes;
-    char message[MESSAGE_BYTES]; ///< the last error
+    viewer *viewer;
+    ewa_context *context; ///< of what is loaded
+    viewer_news news;
+    page_report report;
+    double place_world[3];
+    viewer_item item;
+    char text[TEXT_BYTES]; ///< what goes in and out
 } page;
 
-/// Makes an empty view; NULL where there is no memory, or where the host's multiply-add rounds twice and the exact module is to be
-/// loaded.
-page *EXPORT(page_create)(void);
+/// Makes a viewer of a picture of so many CSS pixels, each of which is `scale` pixels; NULL where there is no memory, or where
+/// the host's multiply-add rounds twice and the exact module is to be loaded.
+page *EXPORT(page_create)(uint32_t width, uint32_t height, double scale);
 
-/// Ends it.
-void EXPORT(page_destroy)(page *p);
+/// Returns the room, page_text_bytes() large, for the text of a call, ended by 0, and for what some calls answer.
+char *EXPORT(page_text)(page *p);
+uint32_t EXPORT(page_text_bytes)(void);
 
-/// Returns memory for bytes of a file, which page_open() takes, or NULL.
-uint8_t *EXPORT(page_allocate)(size_t size_bytes);
+/// Opens the file that the text names; it is loaded by the next frames.
+bool EXPORT(page_open)(page *p);
 
-/// Shows a file, the format by content (points, meshes, Gaussians), in place of what was there; the bytes are freed. `name`, of
-/// the same memory, ends by 0 and is freed too. False: page_message() says why.
-bool EXPORT(page_open)(page *p, char *name, uint8_t *bytes, size_t size_bytes);
+/// Does what the text says in the language of docs/viewer.md.
+bool EXPORT(page_do)(page *p);
 
-/// Carries the camera about the middle, degrees, as a hand turns what is in front of it.
-void EXPORT(page_orbit)(page *p, double right_deg, double down_deg);
+/// Takes an event, as viewer_event has it; `text` of a drop is the text.
+void EXPORT(page_event)(page *p, int kind, double time_s, double x, double y, int button, int clicks, uint32_t modifiers, int key,
+                        double amount);
 
-/// Multiplies the distance to the middle.
-void EXPORT(page_zoom)(page *p, double factor);
+/// Advances to a time; the report is valid until the next call.
+const page_report *EXPORT(page_frame)(page *p, double time_s);
 
-/// Draws; returns 4 bytes a pixel, rows from the top, sRGB, valid until the next call, or NULL: page_message() says why.
-const uint8_t *EXPORT(page_draw)(page *p, uint32_t width_px, uint32_t height_px);
+/// Returns the place of a pick (0) or of the second one of a measure (1), three numbers; NULL: there is none.
+const double *EXPORT(page_pick)(page *p, int index);
 
-/// Returns the last error, ended by 0.
-const char *EXPORT(page_message)(const page *p);
+/// The text becomes what the viewer says of the last pick, line by line.
+void EXPORT(page_picked)(page *p);
 
-static void keep_message(void *user, ewa_severity severity, const char *text) {
+/// The text becomes lines about what is open, or empty: name, kind, count, attribute of its colours, first and last number of
+/// these, and, for each class, number, colour and name; then the names of all attributes. False: there is no such thing.
+bool EXPORT(page_item)(page *p, uint32_t index);
+
+/// The text becomes the keys and what they do, of a row of the help; false: there is no such row.
+bool EXPORT(page_help)(page *p, uint32_t row);
+
+static void hear_message(void *user, ewa_severity severity, const char *text) {
     page *p = user;
-    if (severity == EWA_SEVERITY_ERROR) snprintf(p->message, sizeof p->message, "%s", text);
+    if (p->news.message) p->news.message(p->news.user, severity, text);
 }
 
-page *page_create(void) {
-    page *made = calloc(1, sizeof *made);
-    if (!made) return NULL;
+static bool hear_progress(void *user, const char *stage, double fraction) {
+    page *p = user;
+    return (!p->news.progress || p->news.progress(p->news.user, stage, fraction)) && page_progress(stage, fraction);
+}
+
+static ewa_context *context(void *user, const viewer_news *news) {
+    page *p = user;
+    p->news = *news;
+    if (p->context) return p->context;
     ewa_context_options options;
     ewa_context_options_init(&options, sizeof options);
-    options.message = keep_message;
-    options.message_user = made;
+    options.message = hear_message;
+    options.progress = hear_progress;
+    options.message_user = options.progress_user = p;
+    options.message_level = EWA_SEVERITY_WARNING;
     options.untrusted = true;
-    if (ewa_context_create(&options, &made->context) == EWA_OK) return made;
+    return ewa_context_create(&options, &p->context) == EWA_OK ? p->context : NULL;
+}
+
+static bool load(void *user, const char *path, const ewa_scene_entry *entry, const viewer_news *news, ewa_asset **asset) {
+    page *p = user;
+    (void)news; // the context tells it
+    ewa_asset_options options;
+    ewa_asset_options_init(&options, sizeof options);
+    if (entry) options = entry->asset;
+    options.voxel_level_count = VIEWER_VOXEL_LEVELS;
+    return ewa_asset_load(p->context, path, &options, asset) == EWA_OK;
+}
+
+static bool place(void *user, ewa_scene *scene, const char *view, ewa_camera *camera, double up_world[3]) {
+    (void)user;
+    ewa_view_options options;
+    ewa_view_info info;
+    ewa_view_options_init(&options, sizeof options);
+    options.width_px = camera->width_px;
+    options.height_px = camera->height_px;
+    if (view) options.view = viewer_view_find(view);
+    if (ewa_scene_place_camera(scene, &options, camera, &info) != EWA_OK) return false;
+    memcpy(up_world, info.up_world, sizeof info.up_world);
+    return true;
+}
+
+static void say(void *user, bool message, const char *text) {
+    (void)user;
+    page_say(message, text);
+}
+
+static bool waiting(void *user) {
+    (void)user;
+    return page_waiting();
+}
+
+page *page_create(uint32_t width, uint32_t height, double scale) {
+    page *made = calloc(1, sizeof *made);
+    if (!made) return NULL;
+    const viewer_options options = {
+        .services = {.user = made, .context = context, .load = load, .place = place, .say = say, .waiting = waiting},
+        .thread_count = 1,
+        .cpu_mask = EWA_CPU_ALL,
+        .width = width,
+        .height = height,
+        .scale = scale,
+        .stepped = true};
+    if (viewer_create(&options, &made->viewer) == EWA_OK) return made;
     free(made);
     return NULL;
 }
 
-static void close_scene(page *p) {
-    ewa_scene_renderer_destroy(&p->renderer);
-    ewa_scene_destroy(&p->scene);
+char *page_text(page *p) { return p->text; }
+
+uint32_t page_text_bytes(void) { return TEXT_BYTES; }
+
+bool page_open(page *p) { return viewer_open(p->viewer, p->text); }
+
+bool page_do(page *p) { return viewer_do(p->viewer, p->text); }
+
+void page_event(page *p, int kind, double time_s, double x, double y, int button, int clicks, uint32_t modifiers, int key,
+                double amount) {
+    const viewer_event event = {.kind = (viewer_event_kind)kind,
+                                .time_s = time_s,
+                                .x = x,
+                                .y = y,
+                                .button = button,
+                                .clicks = clicks,
+                                .modifiers = modifiers,
+                                .key = key,
+                                .amount = amount,
+                                .text = p->text};
+    viewer_handle(p->viewer, &event);
 }
 
-void page_destroy(page *p) {
-    if (!p) return;
-    close_scene(p);
-    ewa_context_destroy(&p->context);
-    free(p->rgba8);
-    free(p);
+const page_report *page_frame(page *p, double time_s) {
+    viewer_picture picture;
+    viewer_frame(p->viewer, time_s, &picture);
+    p->report = (page_report){.rgba8 = (double)(uintptr_t)picture.rgba8,
+                              .width_px = picture.width_px,
+                              .height_px = picture.height_px,
+                              .number = (double)picture.number,
+                              .still = viewer_is_still(p->viewer),
+                              .spare_s = picture.spare_s,
+                              .drawn_s = picture.drawn_s,
+                              .level = picture.level,
+                              .splat_count = (double)picture.splat_count};
+    return &p->report;
 }
 
-uint8_t *page_allocate(size_t size_bytes) { return malloc(size_bytes ? size_bytes : 1); }
-
-static void destroy_cloud(void *cloud) {
-    ewa_cloud *old = cloud;
-    ewa_cloud_destroy(&old);
+const double *page_pick(page *p, int index) {
+    return viewer_get_pick(p->viewer, index, p->place_world) ? p->place_world : NULL;
 }
 
-/// Makes an asset of a file's bytes.
-static ewa_status make_asset(page *p, const char *name, const uint8_t *bytes, size_t size_bytes, ewa_asset **asset) {
-    ewa_gaussians gaussians;
-    ewa_asset_source source = {.name = name};
-    if (ewa_gaussians_load_memory(p->context, bytes, size_bytes, name, NULL, &gaussians, NULL) == EWA_OK) {
-        source.gaussians = &gaussians;
-        const ewa_status status = ewa_asset_create(p->context, &source, NULL, asset);
-        ewa_gaussians_free(&gaussians);
-        return status;
+void page_picked(page *p) {
+    viewer_state state;
+    viewer_get_state(p->viewer, &state);
+    snprintf(p->text, sizeof p->text, "%s", state.picked);
+}
+
+static const char *kind_of(const viewer_item *item) {
+    return item->volume ? "voxels" : item->gaussians ? "Gaussians" : item->mesh ? "points on a mesh" : "points";
+}
+
+bool page_item(page *p, uint32_t index) {
+    viewer_item *item = &p->item;
+    if (!viewer_item_get(p->viewer, index, item)) return false;
+    const viewer_coloring *coloring = &item->coloring;
+    int used = snprintf(p->text, sizeof p->text, "name\t%s\nkind\t%s\ncount\t%llu\n", item->name, kind_of(item),
+                        (unsigned long long)item->count);
+    if (coloring->attribute[0] && used < TEXT_BYTES)
+        used += snprintf(p->text + used, TEXT_BYTES - (size_t)used, "color\t%s\nrange\t%.9g\t%.9g\n", coloring->attribute,
+                         coloring->range[0], coloring->range[1]);
+    for (uint32_t k = 0; k < coloring->class_count && used < TEXT_BYTES; k++) {
+        const viewer_class *c = &coloring->classes[k];
+        used += snprintf(p->text + used, TEXT_BYTES - (size_t)used, "class\t%.9g\t%d\t%d\t%d\t%s\n", c->value, c->srgb[0],
+                         c->srgb[1], c->srgb[2], c->name);
     }
-    ewa_model model;
-    const ewa_status status =
-        ewa_model_load_memory(p->context, bytes, size_bytes, name, NULL, EWA_MODEL_MESH, NULL, &model);
-    if (status != EWA_OK) return status;
-    if (model.points) {
-        source.cloud = model.points;
-        source.release = destroy_cloud;
-        source.user = model.points;
-        model.points = NULL;
-    } else {
-        source.mesh = &model.mesh;
-    }
-    const ewa_status made = ewa_asset_create(p->context, &source, NULL, asset);
-    ewa_model_free(&model);
-    return made;
+    char name[EWA_NAME_BYTES + 4];
+    for (uint32_t k = 0; viewer_attribute_at(p->viewer, index, k, name) && used < TEXT_BYTES; k++)
+        used += snprintf(p->text + used, TEXT_BYTES - (size_t)used, "attribute\t%s\n", name);
+    return true;
 }
 
-bool page_open(page *p, char *name, uint8_t *bytes, size_t size_bytes) {
-    ewa_asset *asset = NULL;
-    close_scene(p);
-    ewa_status status = make_asset(p, name, bytes, size_bytes, &asset);
-    free(bytes);
-    if (status == EWA_OK) status = ewa_scene_create(p->context, NULL, &p->scene);
-    if (status == EWA_OK) status = ewa_scene_add(p->scene, asset, NULL);
-    ewa_asset_release(&asset);
-    if (status == EWA_OK) status = ewa_scene_renderer_create(p->context, EWA_BACKEND_CPU, NULL, &p->renderer);
-    if (status == EWA_OK) status = ewa_scene_place_camera(p->scene, NULL, &p->camera, &p->view);
-    free(name);
-    if (status == EWA_OK) return true;
-    close_scene(p);
-    return false;
+bool page_help(page *p, uint32_t row) {
+    const char *what, *keys = viewer_help_at(row, &what);
+    if (keys) snprintf(p->text, sizeof p->text, "%s\t%s", keys, what);
+    return keys != NULL;
 }
-
-void page_orbit(page *p, double right_deg, double down_deg) {
-    navigate_orbit(&p->camera, p->view.pivot_world, p->view.up_world, right_deg, down_deg);
-}
-
-void page_zoom(page *p, double factor) { navigate_zoom(&p->camera, p->view.pivot_world, factor); }
-
-const uint8_t *page_draw(page *p, uint32_t width_px, uint32_t height_px) {
-    const size_t wanted_bytes = 4 * (size_t)width_px * height_px;
-    if (!p->scene || width_px == 0 || height_px == 0) {
-        snprintf(p->message, sizeof p->message, "there is nothing to draw");
-        return NULL;
-    }
-    if (wanted_bytes > p->rgba8_bytes) {
-        free(p->rgba8);
-        p->rgba8 = malloc(wanted_bytes);
-        p->rgba8_bytes = p->rgba8 ? wanted_bytes : 0;
-        if (!p->rgba8) {
-            snprintf(p->message, sizeof p->message, "no memory for %u x %u pixels", width_px, height_px);
-            return NULL;
-        }
-    }
-    if (p->camera.width_px != width_px || p->camera.height_px != height_px) navigate_resize(&p->camera, width_px, height_px);
-    const ewa_frame frame = {.rgba8 = p->rgba8};
-    return ewa_scene_draw(p->scene, p->renderer, &p->camera, NULL, &frame, NULL) == EWA_OK ? p->rgba8 : NULL;
-}
-
-const char *page_message(const page *p) { return p->message; }

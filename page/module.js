@@ -1,0 +1,154 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// The module (page/page.c) as an object: a viewer that takes events and commands and gives pictures, where it is called.
+import { Bytes, Files } from "./files.js";
+
+/// Kinds of events, as viewer/viewer.h has them.
+export const EVENT = { move: 0, press: 1, release: 2, wheel: 3, pinch: 4, key: 5, keyup: 6, drop: 7, resize: 8, leave: 9 };
+
+const REPORT = ["at", "width", "height", "number", "still", "spare_s", "drawn_s", "level", "splats"];
+
+/// Makes a viewer of the first module that the host takes: one with instructions that the host has not is no module, and one
+/// whose multiply-add would round twice makes no view. `modules` are functions that give the bytes of one; `hooks` are say(message,
+/// text), progress(stage, fraction) and waiting(). `find` is for Files.
+export async function open_module(modules, hooks, width, height, scale, find) {
+  for (const fetch_module of modules) {
+    const bytes = await fetch_module();
+    let module;
+    try {
+      module = await WebAssembly.compile(bytes);
+    } catch (error) {
+      if (error instanceof WebAssembly.CompileError) continue;
+      throw error;
+    }
+    const viewer = new Viewer(new Files(find), hooks);
+    await viewer.start(module);
+    if (viewer.create(width, height, scale)) return viewer;
+  }
+  throw new Error("this browser has no WebAssembly with SIMD, which is needed to draw");
+}
+
+class Viewer {
+  constructor(files, hooks) {
+    this.files = files;
+    this.hooks = hooks;
+  }
+
+  async start(module) {
+    const hooks = this.hooks;
+    const ewa = {
+      say: (message, text) => hooks.say(message !== 0, this.read(text)),
+      progress: (stage, fraction) => (hooks.progress(this.read(stage), fraction) ? 1 : 0),
+      waiting: () => (hooks.waiting() ? 1 : 0),
+    };
+    const instance = await WebAssembly.instantiate(module, { ewa, wasi_snapshot_preview1: this.files.imports(module) });
+    this.calls = instance.exports;
+    this.memory = this.files.memory = instance.exports.memory;
+    this.calls._initialize();
+  }
+
+  create(width, height, scale) {
+    this.page = this.calls.page_create(width, height, scale);
+    if (!this.page) return false;
+    this.text = this.calls.page_text(this.page);
+    this.text_bytes = this.calls.page_text_bytes();
+    return true;
+  }
+
+  /// Text that ends by 0.
+  read(at) {
+    const bytes = new Uint8Array(this.memory.buffer, at);
+    return new TextDecoder().decode(bytes.slice(0, bytes.indexOf(0)));
+  }
+
+  write(text) {
+    const bytes = new TextEncoder().encode(text);
+    if (bytes.length >= this.text_bytes) throw new Error(`${text.slice(0, 60)}...: the text is too long`);
+    const room = new Uint8Array(this.memory.buffer, this.text, bytes.length + 1);
+    room.set(bytes);
+    room[bytes.length] = 0;
+  }
+
+  open(path) {
+    this.write(path);
+    return this.calls.page_open(this.page) !== 0;
+  }
+
+  do(command) {
+    this.write(command);
+    return this.calls.page_do(this.page) !== 0;
+  }
+
+  event(e, time_s) {
+    if (e.text) this.write(e.text);
+    this.calls.page_event(this.page, EVENT[e.kind], time_s, e.x ?? 0, e.y ?? 0, e.button ?? 0, e.clicks ?? 0, e.modifiers ?? 0,
+                          e.key ?? 0, e.amount ?? 0);
+  }
+
+  /// Advances; what is reported has the picture's place in memory as `at`, 0 for none.
+  frame(time_s) {
+    const at = this.calls.page_frame(this.page, time_s); // which may make memory anew
+    const numbers = new Float64Array(this.memory.buffer, at, REPORT.length);
+    return Object.fromEntries(REPORT.map((name, i) => [name, numbers[i]]));
+  }
+
+  /// A copy of a picture's pixels.
+  pixels(report) {
+    return new Uint8ClampedArray(this.memory.buffer, report.at, 4 * report.width * report.height).slice();
+  }
+
+  /// Places of the last pick, or of both of a measure.
+  picks() {
+    const places = [];
+    for (let i = 0; i < 2; i++) {
+      const at = this.calls.page_pick(this.page, i);
+      if (at) places.push([...new Float64Array(this.memory.buffer, at, 3)]);
+    }
+    return places;
+  }
+
+  picked() {
+    this.calls.page_picked(this.page);
+    return this.read(this.text);
+  }
+
+  /// What is open, one object each.
+  items() {
+    const items = [];
+    while (this.calls.page_item(this.page, items.length)) {
+      const item = { attributes: [], classes: [] };
+      for (const line of this.read(this.text).split("\n")) {
+        const [name, ...rest] = line.split("\t");
+        if (name === "attribute") item.attributes.push(rest[0]);
+        else if (name === "class") item.classes.push({ value: +rest[0], color: rest.slice(1, 4).map(Number), name: rest[4] });
+        else if (name === "range") item.range = rest.map(Number);
+        else if (name) item[name] = name === "count" ? +rest[0] : rest[0];
+      }
+      items.push(item);
+    }
+    return items;
+  }
+
+  /// Rows of the help: keys, and what they do.
+  help() {
+    const rows = [];
+    while (this.calls.page_help(this.page, rows.length)) rows.push(this.read(this.text).split("\t"));
+    return rows;
+  }
+
+  /// The camera as the JSON that `ewa render --camera` reads.
+  camera() {
+    if (!this.do("camera save /camera.json")) return null;
+    const text = this.files.get("/camera.json").text();
+    this.files.remove("/camera.json");
+    return text;
+  }
+
+  set_camera(text) {
+    this.files.put("/camera.json", new Bytes(new TextEncoder().encode(text)));
+    const done = this.do("camera load /camera.json");
+    this.files.remove("/camera.json");
+    return done;
+  }
+}

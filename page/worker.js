@@ -1,0 +1,226 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// The worker behind an <ewa-view>: it has the module and the files, takes what happens and posts pictures back, one at a time.
+import { Bytes, Dropped } from "./files.js";
+import { open_module } from "./module.js";
+
+/// A function with one relaxed multiply-add: no module where the host has none, so that nothing is fetched in vain.
+const RELAXED = new Uint8Array([0, 97, 115, 109, 1, 0, 0, 0, 1, 5, 1, 96, 0, 1, 123, 3, 2, 1, 0, 10, 19, 1, 17, 0, 65, 0, 253, 15, 65,
+                                0, 253, 15, 65, 0, 253, 15, 253, 133, 2, 11]);
+/// Formats that name other files, which are fetched from beside them when they are asked for.
+const NAMES_OTHERS = /\.(json|gltf|obj|nhdr|mhd)$/i;
+/// Progress is told so often.
+const TELL_MS = 50;
+
+let viewer = null, base = null, sent = null, handled = 0;
+let number = -1, shown = true, scheduled = false, timer = 0, told_ms = 0, is_ready = false;
+let picked = "", opening = [], message = "";
+const soon = new MessageChannel();
+
+const now_s = () => performance.now() / 1000;
+
+/// Bytes of a module or a file: base64 in a page of its own, else what a server has at an address. `told` hears how many came.
+async function take(source, told) {
+  let bytes;
+  if (source.text !== undefined) {
+    bytes = Uint8Array.from(atob(source.text.trim()), (letter) => letter.charCodeAt(0));
+  } else {
+    let answer;
+    try {
+      answer = await fetch(source.url);
+    } catch (error) {
+      const local = source.url.startsWith("file:");
+      throw new Error(local ? "a page that was opened as a file may read no other file: drop it here, or serve the folder"
+                            : "the server does not answer, or lets no other site read it (CORS)");
+    }
+    if (!answer.ok) throw new Error(`the server says ${answer.status} ${answer.statusText}`);
+    bytes = await collect(answer, told);
+  }
+  if (bytes[0] !== 0x1f || bytes[1] !== 0x8b || !source.packed) return bytes;
+  const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"));
+  return new Uint8Array(await new Response(stream).arrayBuffer());
+}
+
+async function collect(answer, told) {
+  const length = Number(answer.headers.get("content-length")) || 0, into = new Bytes(new Uint8Array(length));
+  into.size = 0;
+  const reader = answer.body.getReader();
+  for (;;) {
+    const { done, value } = await reader.read();
+    if (done) return into.bytes.subarray(0, into.size);
+    into.write(into.size, value);
+    told?.(into.size, length);
+  }
+}
+
+function tell(stage, fraction) {
+  const now_ms = performance.now();
+  if (now_ms - told_ms < TELL_MS && fraction < 1) return;
+  told_ms = now_ms;
+  postMessage({ progress: { stage, fraction } });
+}
+
+const hooks = {
+  say(is_message, text) {
+    if (is_message) postMessage({ message: (message = text) });
+  },
+  progress(stage, fraction) {
+    tell(stage, fraction);
+    return true;
+  },
+  /// Without memory that is shared, what waits cannot be seen while something is drawn.
+  waiting: () => sent !== null && Atomics.load(sent, 0) !== handled,
+};
+
+/// A file beside the one that was opened, by a request that waits: the module asks for it and goes on with it.
+function find(path) {
+  if (!base) return null;
+  const request = new XMLHttpRequest();
+  request.open("GET", new URL(path.split("/").map(encodeURIComponent).join("/"), base), false);
+  request.responseType = "arraybuffer";
+  try {
+    request.send();
+  } catch {
+    return null;
+  }
+  return request.status === 200 ? new Bytes(new Uint8Array(request.response)) : null;
+}
+
+async function start(orders) {
+  const relaxed = WebAssembly.validate(RELAXED);
+  if (orders.sent) sent = new Int32Array(orders.sent);
+  const modules = orders.modules.filter((source) => relaxed || !source.relaxed);
+  const fetches = modules.map((source) => () => take(source, (got, length) => tell("fetch the program", length ? got / length : 0)));
+  viewer = await open_module(fetches, hooks, orders.width, orders.height, orders.scale, find);
+  for (const command of orders.commands) viewer.do(command);
+  postMessage({ started: { help: viewer.help() } });
+}
+
+/// Puts files where the module finds them and opens those that are to be.
+async function open(files) {
+  for (const file of files) {
+    try {
+      await put(file);
+    } catch (error) {
+      postMessage({ failed: { name: file.name, reason: error.message } });
+      continue;
+    }
+    if (file.beside) continue;
+    message = "";
+    if (viewer.open("/" + file.name)) opening.push(file.name);
+    else postMessage({ failed: { name: file.name, reason: message } });
+  }
+}
+
+async function put(file) {
+  if (file.file) {
+    viewer.files.put(file.name, new Dropped(file.file));
+    return;
+  }
+  base = file.url && NAMES_OTHERS.test(file.name) ? new URL(".", file.url) : null;
+  const told = (got, length) => tell(`fetch ${file.name}`, length ? got / length : 0);
+  const bytes = await take(file, told);
+  viewer.files.put(file.name, new Bytes(bytes));
+  if (!base || !/\.json$/i.test(file.name)) return;
+  // A scene says what it needs: fetched here, it is seen coming.
+  for (const item of JSON.parse(new TextDecoder().decode(bytes)).items ?? [])
+    if (typeof item.file === "string" && !item.file.startsWith("/"))
+      viewer.files.put(item.file, new Bytes(await take({ url: new URL(item.file, base).href }, told)));
+}
+
+/// Says what became of the files that were opened, once all is loaded.
+function tell_opened() {
+  const items = viewer.items(), names = new Set(items.map((item) => item.name));
+  for (const name of opening)
+    if (!names.has(name.split("/").pop()) && !/\.json$/i.test(name)) postMessage({ failed: { name, reason: message } });
+  opening = [];
+  postMessage({ items });
+  if (items.length && !is_ready) postMessage({ ready: (is_ready = true) });
+}
+
+function tell_picked() {
+  const text = viewer.picked();
+  if (text === picked) return;
+  picked = text;
+  postMessage({ picked: { text, places: viewer.picks() } });
+}
+
+function step() {
+  scheduled = false;
+  if (!viewer || !shown) return;
+  clearTimeout(timer);
+  const loading = opening.length > 0;
+  const report = viewer.frame(now_s());
+  if (report.at && report.number !== number) {
+    number = report.number;
+    shown = false;
+    const pixels = viewer.pixels(report);
+    postMessage({ picture: { ...report, pixels } }, [pixels.buffer]);
+  }
+  if (loading && report.still) tell_opened();
+  if (!report.still) timer = setTimeout(guarded_step, report.at && !loading ? 1000 * report.spare_s : 0);
+}
+
+/// A step of which a failure ends the module.
+function guarded_step() {
+  try {
+    step();
+  } catch (error) {
+    stop(error);
+  }
+}
+
+function wake() {
+  if (scheduled) return;
+  scheduled = true;
+  soon.port2.postMessage(0);
+}
+
+const answers = {
+  camera: () => viewer.camera(),
+  items: () => viewer.items(),
+  do: (command) => viewer.do(command),
+  set_camera: (text) => viewer.set_camera(text),
+  /// A picture of any size as the bytes of a PNG, with the look of the view; `what` as behind "shot PATH".
+  shot(what) {
+    if (!viewer.do(`shot /shot.png ${what}`)) throw new Error(message);
+    const { bytes, size } = viewer.files.get("/shot.png");
+    viewer.files.remove("/shot.png");
+    return bytes.slice(0, size);
+  },
+};
+
+/// What goes wrong here ends the module: its memory may be anything.
+function stop(error) {
+  const text = /memory|allocation/i.test(error.message) ? "there is not enough memory in this browser's tab" : error.message;
+  viewer = null;
+  postMessage({ stopped: text });
+}
+
+async function handle(orders) {
+  if (orders.shown) shown = true;
+  if (orders.start) await start(orders.start);
+  if (!viewer) return;
+  if (orders.event) {
+    viewer.event(orders.event, now_s());
+    if (orders.event.kind === "release" || orders.event.kind === "key") tell_picked();
+  }
+  if (orders.open) await open(orders.open);
+  if (orders.ask) {
+    const { id, what, word } = orders.ask;
+    try {
+      postMessage({ answer: { id, value: answers[what](word) } });
+    } catch (error) {
+      postMessage({ answer: { id, error: error.message } });
+    }
+  }
+  wake();
+}
+
+let queue = Promise.resolve(); // orders are carried out one after another, also where one waits for a server
+soon.port1.onmessage = guarded_step;
+onmessage = ({ data }) => {
+  if (data.counted) handled++;
+  queue = queue.then(() => handle(data)).catch(stop);
+};
