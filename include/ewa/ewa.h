@@ -6,6 +6,7 @@
 #define EWA_EWA_H
 
 #include "ewa/acquire.h"
+#include "ewa/adjoint.h"
 #include "ewa/base.h"
 #include "ewa/camera.h"
 #include "ewa/cloud.h"

@@ -651,6 +651,55 @@ class ewa_acquire_report(c.Structure):
     ]
 
 
+class ewa_camera_cotangent(c.Structure):
+    rotation: c.Array[c.c_double]
+    translation: c.Array[c.c_double]
+    focal_px: c.Array[c.c_double]
+    principal_px: c.Array[c.c_double]
+    _fields_ = [
+        ("rotation", c.c_double * 3),
+        ("translation", c.c_double * 3),
+        ("focal_px", c.c_double * 2),
+        ("principal_px", c.c_double * 2),
+    ]
+
+
+class ewa_frame_cotangent(c.Structure):
+    rgba: int | None
+    depth: int | None
+    normal: int | None
+    coverage: int | None
+    _fields_ = [
+        ("rgba", c.c_void_p),
+        ("depth", c.c_void_p),
+        ("normal", c.c_void_p),
+        ("coverage", c.c_void_p),
+    ]
+
+
+class ewa_gradient(c.Structure):
+    color: int | None
+    opacity: int | None
+    position: int | None
+    normal: int | None
+    radius: int | None
+    tangent_u: int | None
+    tangent_v: int | None
+    camera: Any
+    rgba: int | None
+    _fields_ = [
+        ("color", c.c_void_p),
+        ("opacity", c.c_void_p),
+        ("position", c.c_void_p),
+        ("normal", c.c_void_p),
+        ("radius", c.c_void_p),
+        ("tangent_u", c.c_void_p),
+        ("tangent_v", c.c_void_p),
+        ("camera", c.POINTER(ewa_camera_cotangent)),
+        ("rgba", c.c_void_p),
+    ]
+
+
 class ewa_attribute(c.Structure):
     name: bytes
     type: int
@@ -2463,6 +2512,7 @@ class Functions:
     ewa_version: Callable[..., bytes | None]
     ewa_acquire_options_init: Callable[..., None]
     ewa_cloud_acquire: Callable[..., int]
+    ewa_render_backward: Callable[..., int]
     ewa_camera_check: Callable[..., int]
     ewa_camera_eye: Callable[..., None]
     ewa_camera_frame: Callable[..., int]
@@ -2833,6 +2883,7 @@ class Functions:
         self.ewa_version = bind("ewa_version", c.c_char_p)
         self.ewa_acquire_options_init = bind("ewa_acquire_options_init", None, c.POINTER(ewa_acquire_options), c.c_size_t)
         self.ewa_cloud_acquire = bind("ewa_cloud_acquire", c.c_int, c.c_void_p, c.POINTER(ewa_image), c.c_uint32, c.POINTER(ewa_acquire_options), c.POINTER(ewa_acquire_report))
+        self.ewa_render_backward = bind("ewa_render_backward", c.c_int, c.c_void_p, c.POINTER(ewa_surfels_options), c.c_double, c.POINTER(ewa_camera), c.POINTER(ewa_render_options), c.POINTER(ewa_frame_cotangent), c.POINTER(ewa_gradient))
         self.ewa_camera_check = bind("ewa_camera_check", c.c_int, c.c_void_p, c.POINTER(ewa_camera))
         self.ewa_camera_eye = bind("ewa_camera_eye", None, c.POINTER(ewa_camera), c.c_void_p)
         self.ewa_camera_frame = bind("ewa_camera_frame", c.c_int, c.POINTER(ewa_camera), c.POINTER(ewa_bounds), c.c_void_p, c.c_void_p, c.c_double)

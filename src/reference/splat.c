@@ -7,6 +7,7 @@
 // Gross, "Surface Splatting", 2001, sections 3 and 4 (affine kernel, visibility).
 #include "reference/splat.h"
 #include "math/ellipse.h"
+#include "math/gaussian.h"
 #include "surface/points.h"
 #include "surface/semantics.h"
 
@@ -444,7 +445,7 @@ static void sample_plane(const ewa_reference_view *view, const double at[2], con
     // u adj(W) u', a sum of squares: where the surfel is seen from its edge its terms are huge.
     const double across_x = u * by_x[1] - v * by_x[0], across_y = u * by_y[1] - v * by_y[0];
     sample->distance2 = (u * u + v * v + h2 * (across_x * across_x + across_y * across_y)) / determinant;
-    sample->weight = exp(-0.5 * sample->distance2) / sqrt(determinant) / TWO_PI;
+    sample->weight = ewa_exp(-0.5 * sample->distance2) / sqrt(determinant) / TWO_PI;
 }
 
 /// A surfel along a ray: q = z d - p in the tangent frame, u = (q.tu / tu.tu, q.tv / tv.tv), with the
@@ -507,7 +508,7 @@ static bool sample_unclipped(const ewa_reference_view *view, const ewa_reference
         const double dx = x_px - splat->center_px[0], dy = y_px - splat->center_px[1];
         const double *q = splat->inverse;
         sample->distance2 = q[0] * dx * dx + 2 * q[1] * dx * dy + q[2] * dy * dy;
-        sample->weight = splat->peak * exp(-0.5 * sample->distance2);
+        sample->weight = splat->peak * ewa_exp(-0.5 * sample->distance2);
     }
     const double plane = splat->plane[0] * x_px + splat->plane[1] * y_px + splat->plane[2];
     // Clamped before the division: a ray that misses the plane gets the far end of the disc.
