@@ -66,7 +66,7 @@ NEAR = [
     ("src/reference/gaussian", ["gaussian_render", "gaussian_exact"]), ("src/reference/section", ["planes", "section"]),
     ("src/reference/volume", ["volume_plain", "volume_integrals"]), ("src/reference/classify", ["voxels", "volume_plain"]),
     ("src/reference/texture", ["texture", "texture_kernels"]),
-    ("src/reference/adjoint", ["adjoint_reference"]), ("src/adjoint", ["adjoint"]),
+    ("src/reference/adjoint", ["adjoint_reference"]), ("src/reference/layering", ["adjoint_reference", "layers"]), ("src/adjoint", ["adjoint"]),
     ("src/reference", ["reference_splat", "reference", "reference_invariance", "shade", "abuffer", "random_scenes"]),
     ("src/math/gaussian", ["acquire", "refit", "procedure", "texture"]),
     ("src/wide", ["wide_functions", "resolve", "packets", "kernel_tables", "random_scenes"]),

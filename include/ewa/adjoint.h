@@ -50,7 +50,7 @@ typedef struct ewa_gradient {
 /// taken as they are, not as surfels round them. A warning says when the camera sees no surfel. Kernels: perspective,
 /// affine. Errors: EWA_ERROR_ARGUMENT (camera, options, cotangents that are not finite: plane and pixel; NULL),
 /// EWA_ERROR_UNSUPPORTED (options without a derivative here, named: other kernels, one pass, points of a size,
-/// highlights, eye-dome lighting, merged layers, levels of detail), EWA_ERROR_LIMIT, EWA_ERROR_MEMORY, EWA_CANCELLED.
+/// highlights, eye-dome lighting, levels of detail), EWA_ERROR_LIMIT, EWA_ERROR_MEMORY, EWA_CANCELLED.
 EWA_API ewa_status ewa_render_backward(const ewa_cloud *cloud, const ewa_surfels_options *surfels_options,
                                        double unit_coverage, const ewa_camera *camera,
                                        const ewa_render_options *options, const ewa_frame_cotangent *cotangent,

@@ -86,7 +86,7 @@ static void draw_pixel(const ewa_adjoint_job *job, ewa_adjoint_scratch *s, uint3
         const ewa_reference_fragment *from = &fragments[i];
         if (from->layer == EWA_NO_LAYER) continue;
         double terms[EWA_MOMENT_COUNT];
-        ewa_reference_moments_at(to->view, from->splat, &from->sample, x_px, y_px, to->transparent,
+        ewa_reference_moments_at(to->view, from->splat, &from->sample, x_px, y_px, to->layering.transparent,
                                  &s->layers[from->layer].cotangent, terms);
         int64_t *sums = s->moments[from->index];
         const double *scales = s->scales[from->index];

@@ -14,7 +14,7 @@ struct ewa_reference_sets {
     ewa_surfels_options surfels_options;
     ewa_render_options options;
     double unit_coverage;
-    bool transparent;
+    ewa_reference_layering layering;
     uint64_t point_count;
     uint32_t width_px, height_px;
     ewa_reference_fragment *fragments; ///< of all pixels; their splats are those of the call at hand
@@ -109,7 +109,7 @@ ewa_status ewa_reference_sets_create(const ewa_cloud *cloud, const ewa_surfels_o
     ewa_surfels_options_init(&made->surfels_options, sizeof made->surfels_options);
     if (surfels_options) made->surfels_options = *surfels_options;
     made->unit_coverage = unit_coverage;
-    made->transparent = w.frame.resolve.transparent;
+    made->layering = w.frame.resolve.layering;
     made->point_count = w.frame.point_count;
     made->width_px = camera->width_px, made->height_px = camera->height_px;
     made->pixel_count = (uint64_t)camera->width_px * camera->height_px;
@@ -137,7 +137,7 @@ void ewa_reference_sets_destroy(ewa_reference_sets **sets) {
 static ewa_status start(const ewa_reference_sets *sets, const ewa_cloud *cloud, const ewa_camera *camera, work *w) {
     EWA_TRY(ewa_reference_frame_make(cloud, &sets->surfels_options, sets->unit_coverage, camera, &sets->options,
                                      &w->frame));
-    w->frame.resolve.transparent = sets->transparent;
+    w->frame.resolve.layering = sets->layering;
     if (w->frame.point_count != sets->point_count || camera->width_px != sets->width_px ||
         camera->height_px != sets->height_px)
         return ewa_fail(w->frame.context, EWA_ERROR_ARGUMENT,
@@ -211,7 +211,7 @@ ewa_status ewa_reference_sets_pull_back(const ewa_reference_sets *sets, const ew
             const ewa_reference_fragment *fragment = &w.fragments[i];
             double terms[EWA_MOMENT_COUNT];
             ewa_reference_moments_at(&frame->view, fragment->splat, &fragment->sample, at[0], at[1],
-                                     frame->resolve.transparent, &w.layers[fragment->layer].cotangent, terms);
+                                     frame->resolve.layering.transparent, &w.layers[fragment->layer].cotangent, terms);
             for (int m = 0; m < EWA_MOMENT_COUNT; m++) moments[fragment->index][m] += terms[m];
         }
     }

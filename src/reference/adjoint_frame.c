@@ -31,20 +31,6 @@ static ewa_status check_options(ewa_context *context, const ewa_render_options *
     return EWA_OK;
 }
 
-/// Whether some surfel that can be drawn is not opaque.
-static bool any_transparent(const ewa_surfel_reader *reader, uint64_t count) {
-    ewa_surfel surfels[READ_POINTS];
-    bool drawable[READ_POINTS];
-    for (uint64_t first = 0; reader->color && reader->color->component_count == 4 && first < count;
-         first += READ_POINTS) {
-        const uint64_t here = count - first < READ_POINTS ? count - first : READ_POINTS;
-        ewa_surfel_read(reader, first, here, surfels, drawable);
-        for (uint64_t i = 0; i < here; i++)
-            if (drawable[i] && surfels[i].alpha < 1) return true;
-    }
-    return false;
-}
-
 ewa_status ewa_reference_frame_make(const ewa_cloud *cloud, const ewa_surfels_options *surfels_options,
                                     double unit_coverage, const ewa_camera *camera, const ewa_render_options *options,
                                     ewa_reference_frame *frame) {
@@ -58,19 +44,14 @@ ewa_status ewa_reference_frame_make(const ewa_cloud *cloud, const ewa_surfels_op
     EWA_TRY(check_options(context, &frame->options));
     EWA_TRY(ewa_camera_check(context, camera));
     EWA_TRY(ewa_surfel_reader_open(cloud, &chosen, &frame->reader));
-    const bool transparent = frame->options.layers != 1 &&
-                             (frame->options.opacity < 1 || any_transparent(&frame->reader, frame->point_count));
-    if (transparent && frame->options.layers != 0 && frame->options.layers != EWA_LAYERS_EXACT)
-        return ewa_fail(context, EWA_ERROR_UNSUPPORTED,
-                        "gradients: layers is %u, must be 0, 1 or %u: merged layers have no derivative here",
-                        frame->options.layers, EWA_LAYERS_EXACT);
     ewa_reference_view_make(camera, chosen.cutoff, &frame->options, &frame->view);
     ewa_bounds box;
     ewa_position_measure(context, frame->reader.position, frame->point_count, &box);
     ewa_reference_view_place(camera, frame->reader.origin_world, &box, &frame->view);
     ewa_shading_setup_make(&frame->options, &frame->shading);
-    frame->resolve =
-        (ewa_reference_resolve){&frame->view, &frame->options, &frame->shading, unit_coverage, transparent};
+    frame->resolve = (ewa_reference_resolve){
+        &frame->view, &frame->options, &frame->shading, unit_coverage,
+        ewa_reference_layering_of(&frame->options, &frame->reader, frame->point_count)};
     return EWA_OK;
 }
 

@@ -20,7 +20,7 @@ typedef struct ewa_reference_frame {
 
 /// Makes a frame of ewa_render()'s arguments and q0. Errors: EWA_ERROR_ARGUMENT; EWA_ERROR_UNSUPPORTED, with a message
 /// that names the option, where there is no derivative: one pass, kernels but for the perspective and the affine one,
-/// points of a size in pixels, highlights, eye-dome lighting, layers that are merged, levels of detail.
+/// points of a size in pixels, highlights, eye-dome lighting, levels of detail.
 ewa_status ewa_reference_frame_make(const ewa_cloud *cloud, const ewa_surfels_options *surfels_options,
                                     double unit_coverage, const ewa_camera *camera, const ewa_render_options *options,
                                     ewa_reference_frame *frame);

@@ -13,37 +13,43 @@ static void gather(const ewa_reference_resolve *to, double x_px, double y_px, co
     const ewa_material *m = &to->shading->materials[0];
     const float numbers[5] = {m->ambient, m->diffuse, m->specular, m->shininess, m->reflection};
     *layer = (ewa_reference_layer){.covered = 1, .through = 1};
+    layer->merged = to->layering.merge_last && index + 1 == to->layering.most;
     if (index > 0) layer->through = layers[index - 1].through * (1 - layers[index - 1].alpha);
     for (uint32_t i = 0; i < count; i++) {
         const ewa_reference_fragment *from = &fragments[i];
         if (from->layer != index) continue;
         ewa_reference_gather(&layer->gathered, from->splat, &from->sample, from->sample.weight,
-                             to->transparent ? from->splat->opacity : 1, numbers);
+                             to->layering.transparent ? from->splat->opacity : 1, numbers);
     }
-    layer->sums = ewa_reference_settle(&layer->gathered, to->unit_coverage, false);
+    layer->sums = ewa_reference_settle(&layer->gathered, to->unit_coverage, layer->merged);
     layer->surface = ewa_reference_surface_of(to->view, &layer->sums, x_px, y_px);
     layer->shaded = ewa_reference_shade(to->shading, NULL, &layer->surface, &layer->surface, &layer->surface);
     if (to->options->edge_antialiasing) {
-        layer->cover = ewa_reference_cover_of(&layer->gathered, to->unit_coverage, to->options->edge_threshold, false);
-        layer->covered = index == 0 || to->transparent ? layer->cover.share
+        layer->cover = ewa_reference_cover_of(&layer->gathered, to->unit_coverage, to->options->edge_threshold,
+                                              layer->merged);
+        layer->covered = index == 0 || to->layering.transparent ? layer->cover.share
                                                        : ewa_reference_cover_behind(&layers[0].cover, &layer->cover);
     }
-    layer->alpha = layer->covered;
-    if (to->transparent) layer->alpha *= to->options->opacity * layer->sums.opacity / layer->sums.weight;
+    layer->single = layer->covered;
+    if (to->layering.transparent) layer->single *= to->options->opacity * layer->sums.opacity / layer->sums.weight;
+    layer->alpha = layer->single;
+    if (layer->merged)
+        layer->alpha = ewa_reference_merged_alpha(layer->single, layer->sums.weight / to->unit_coverage);
 }
 
 uint32_t ewa_reference_layers_find(const ewa_reference_resolve *to, double x_px, double y_px,
                                    ewa_reference_fragment *fragments, uint32_t count, ewa_reference_layer *layers) {
     for (uint32_t i = 0; i < count; i++) fragments[i].layer = EWA_NO_LAYER;
-    const uint32_t most = to->transparent ? count : to->options->edge_layers;
+    const uint32_t most = to->layering.most;
     double passed = -INFINITY, through = 1;
     uint32_t index = 0;
     for (; index < most && through > 0; index++) {
         double bound = INFINITY; // B(x)
-        for (uint32_t i = 0; i < count; i++)
+        const bool merged = to->layering.merge_last && index + 1 == most;
+        for (uint32_t i = 0; i < count && !merged; i++)
             if (fragments[i].sample.z > passed)
                 bound = fmin(bound, fragments[i].sample.z + fragments[i].splat->epsilon);
-        if (!(bound < INFINITY)) break;
+        if (!merged && !(bound < INFINITY)) break;
         double weight = 0;
         for (uint32_t i = 0; i < count; i++)
             if (fragments[i].sample.z > passed && fragments[i].sample.z <= bound)
@@ -151,13 +157,13 @@ static void shade_pull_back(const ewa_reference_resolve *to, double x_px, double
     }
 }
 
-/// ewa_reference_cover_of() of a surface that is not merged.
-static void cover_pull_back(const ewa_reference_gathered *surface, double minimum, const ewa_reference_cover *cotangent,
-                            double *weight, ewa_reference_cut *cut) {
+/// ewa_reference_cover_of().
+static void cover_pull_back(const ewa_reference_gathered *surface, double minimum, bool merged,
+                            const ewa_reference_cover *cotangent, double *weight, ewa_reference_cut *cut) {
     const double q = surface->facing.weight + surface->is_back.weight;
     const ewa_reference_cut *of = &surface->cut;
     if (q < minimum) *weight += cotangent->whole / minimum;
-    if (!(of->whole > 0)) {
+    if (merged || !(of->whole > 0)) {
         if (q < minimum) *weight += cotangent->share / minimum;
         return;
     }
@@ -227,9 +233,13 @@ static ewa_reference_sums scaled(const ewa_reference_sums *sums, double scale, d
                                 .opacity = sums->opacity * scale};
 }
 
-/// ewa_reference_settle() of a surface that is not merged.
-static void settle_pull_back(const ewa_reference_gathered *surface, double unit_coverage,
+/// ewa_reference_settle().
+static void settle_pull_back(const ewa_reference_gathered *surface, double unit_coverage, bool merged,
                              const ewa_reference_sums *sums, ewa_reference_gathered *to) {
+    if (merged) {
+        to->facing = to->is_back = *sums;
+        return;
+    }
     const double front = surface->facing.weight, back = surface->is_back.weight, q = front + back;
     if (!(front > 0 && back > 0)) {
         *(front > 0 ? &to->facing : &to->is_back) = *sums;
@@ -273,8 +283,14 @@ void ewa_reference_layers_pull_back(const ewa_reference_resolve *to, double x_px
         ewa_reference_sums sums = {.weight = 0};
         shade_pull_back(to, x_px, y_px, layer,
                         vec3_scale(vec3_load(cotangent->rgba), through * layer->alpha), &sums, camera);
+        if (layer->merged) {
+            double by_coverage;
+            ewa_reference_merged_alpha_pull_back(layer->single, layer->sums.weight / to->unit_coverage, by_alpha, &by_alpha,
+                                                 &by_coverage);
+            sums.weight += by_coverage / to->unit_coverage;
+        }
         double covered = by_alpha;
-        if (to->transparent) {
+        if (to->layering.transparent) {
             const double opacity = to->options->opacity / layer->sums.weight;
             covered *= opacity * layer->sums.opacity;
             sums.opacity += by_alpha * layer->covered * opacity;
@@ -283,12 +299,12 @@ void ewa_reference_layers_pull_back(const ewa_reference_resolve *to, double x_px
         if (i == 0) planes_pull_back(to, cotangent, &layer->sums, &sums);
         ewa_reference_cover of_cover = {.share = 0};
         if (i == 0) of_cover = of_first;
-        if (i == 0 || to->transparent)
+        if (i == 0 || to->layering.transparent)
             of_cover.share += covered;
         else
             cover_behind_pull_back(&layers[0].cover, &layer->cover, covered, &of_first, &of_cover);
         if (to->options->edge_antialiasing)
-            cover_pull_back(&layer->gathered, minimum, &of_cover, &sums.weight, &layer->cotangent.cut);
-        settle_pull_back(&layer->gathered, to->unit_coverage, &sums, &layer->cotangent);
+            cover_pull_back(&layer->gathered, minimum, layer->merged, &of_cover, &sums.weight, &layer->cotangent.cut);
+        settle_pull_back(&layer->gathered, to->unit_coverage, layer->merged, &sums, &layer->cotangent);
     }
 }

@@ -7,6 +7,7 @@
 #ifndef EWA_SRC_REFERENCE_ADJOINT_PIXEL_H
 #define EWA_SRC_REFERENCE_ADJOINT_PIXEL_H
 
+#include "reference/layering.h"
 #include "reference/shade.h"
 
 /// A small motion of a camera, and changes of its lens: what its ten cotangents are of.
@@ -24,7 +25,7 @@ typedef struct ewa_reference_resolve {
     const ewa_render_options *options; ///< checked; three passes, no highlights
     const ewa_shading_setup *shading;
     double unit_coverage; ///< q0
-    bool transparent;     ///< all surfaces are looked for, and let light through
+    ewa_reference_layering layering;
 } ewa_reference_resolve;
 
 /// A splat at a pixel.
@@ -44,8 +45,10 @@ typedef struct ewa_reference_layer {
     ewa_reference_cover cover;
     ewa_reference_surface surface;
     ewa_vec3 shaded;                  ///< straight
+    bool merged;                      ///< all that is left, not one surface
     double covered;                   ///< share of what the surfaces in front of it leave open, before its opacity
-    double alpha;                     ///< the same with its opacity
+    double single;                    ///< the same with its opacity
+    double alpha;                     ///< that, or, of a merged layer, of as many surfaces as it is
     double through;                   ///< what the surfaces in front of it leave open
     ewa_reference_gathered cotangent; ///< of `gathered`, but for its materials
 } ewa_reference_layer;

@@ -10,6 +10,7 @@
 #include "base/base.h"
 #include "cloud/cloud.h"
 #include "image/srgb.h"
+#include "reference/layering.h"
 #include "reference/shade.h"
 #include "reference/sums.h"
 #include "surface/options.h"
@@ -48,8 +49,7 @@ typedef struct reference {
     uint64_t surfel_count;
     ewa_reference_splat *splats;
     uint8_t *materials; ///< [surfel]
-    uint32_t layers;    ///< surfaces that are composited at most
-    bool transparent, merge_last;
+    ewa_reference_layering layering;
     uint32_t band_count;
     pixel *pixels;
     ewa_shading_setup shading;
@@ -109,7 +109,7 @@ static void accumulate(const reference *work, pixel *at, uint64_t index, const e
     const ewa_material *m = &work->shading.materials[work->shading.has_table ? work->materials[index] : 0];
     const float numbers[5] = {m->ambient, m->diffuse, m->specular, m->shininess, m->reflection};
     ewa_reference_gather(&at->gathered, splat, sample, work->options.passes == 3 ? sample->weight : 1,
-                         work->transparent ? splat->opacity : 1, numbers);
+                         work->layering.transparent ? splat->opacity : 1, numbers);
 }
 
 typedef void splat_pass(const reference *work, pixel *at, uint64_t index, const ewa_reference_sample *sample);
@@ -162,17 +162,9 @@ static void write_surface(const ewa_frame *frame, size_t index, double depth, ew
     if (frame->coverage) frame->coverage[index] = (float)coverage;
 }
 
-/// Alpha of a merged layer (semantics.h, layers).
-static double merged_alpha(double alpha, double coverage) {
-    double through = 1 - alpha;
-    for (int i = 1; i < EWA_MERGED_SURFACES; i++)
-        through *= 1 - alpha * fmin(fmax(4 * (coverage - i) - 2, 0), 1);
-    return 1 - through;
-}
-
 /// Whether a layer is all that is left (semantics.h, layers).
 static bool is_merged(const reference *work, uint32_t layer) {
-    return work->merge_last && layer + 1 == work->layers;
+    return work->layering.merge_last && layer + 1 == work->layering.most;
 }
 
 /// Third pass (SS 7): divide by the weights, shade, cover; then make the pixel ready for the surface behind.
@@ -193,12 +185,12 @@ static bool resolve_surface(const reference *work, uint32_t layer, int32_t x, in
         if (work->options.edge_antialiasing && work->options.passes == 3) {
             const ewa_reference_cover cover = ewa_reference_cover_of(
                 &at->gathered, work->unit_coverage, work->options.edge_threshold, is_merged(work, layer));
-            alpha = layer == 0 || work->transparent ? cover.share
+            alpha = layer == 0 || work->layering.transparent ? cover.share
                                                     : ewa_reference_cover_behind(&at->first_cover, &cover);
             if (layer == 0) at->first_cover = cover;
         }
-        if (work->transparent) alpha *= work->options.opacity * sums->opacity / q;
-        if (is_merged(work, layer)) alpha = merged_alpha(alpha, coverage);
+        if (work->layering.transparent) alpha *= work->options.opacity * sums->opacity / q;
+        if (is_merged(work, layer)) alpha = ewa_reference_merged_alpha(alpha, coverage);
         at->in_front = vec3_add(at->in_front, vec3_scale(at->shaded, alpha * at->through));
         at->through *= 1 - alpha;
     }
@@ -273,7 +265,7 @@ static void render_band(void *data, uint32_t index, uint32_t worker) {
     for (size_t i = first_pixel; i < end_pixel; i++)
         work->pixels[i] = (pixel){.bound = INFINITY, .nearest = NOBODY, .passed = -INFINITY, .through = 1};
     bool open = true;
-    for (uint32_t layer = 0; layer < work->layers && open; layer++) {
+    for (uint32_t layer = 0; layer < work->layering.most && open; layer++) {
         // The last of so many layers is all that is left: there is no bound then.
         const bool merged = is_merged(work, layer);
         if (!merged) walk(work, begin, end, lower_bound);
@@ -328,33 +320,6 @@ static ewa_status render(ewa_context *context, reference *work) {
     return status;
 }
 
-/// Whether some surfel that can be drawn is not opaque.
-static bool any_transparent(const ewa_surfel_reader *reader, uint64_t count) {
-    ewa_surfel surfels[READ_POINTS];
-    bool drawable[READ_POINTS];
-    for (uint64_t first = 0; reader->color && first < count; first += READ_POINTS) {
-        const uint64_t here = count - first < READ_POINTS ? count - first : READ_POINTS;
-        ewa_surfel_read(reader, first, here, surfels, drawable);
-        for (uint64_t i = 0; i < here; i++)
-            if (drawable[i] && surfels[i].alpha < 1) return true;
-    }
-    return false;
-}
-
-/// docs/math.md section 8, one surface after another: see ewa_render_options.layers.
-static void set_layers(reference *work) {
-    const ewa_render_options *options = &work->options;
-    work->transparent = options->layers != 1 && options->passes == 3 &&
-                        (options->opacity < 1 || any_transparent(&work->reader, work->surfel_count));
-    if (!work->transparent) {
-        work->layers = options->edge_layers;
-        work->merge_last = work->layers > 1;
-        return;
-    }
-    work->layers = options->layers == 0 ? EWA_LAYERS_EXACT : options->layers;
-    work->merge_last = work->layers != EWA_LAYERS_EXACT;
-}
-
 ewa_status ewa_render_reference(const ewa_cloud *cloud, const ewa_surfels_options *surfels_options,
                                 double unit_coverage, const ewa_camera *camera,
                                 const ewa_render_options *options, const ewa_frame *frame) {
@@ -372,7 +337,7 @@ ewa_status ewa_render_reference(const ewa_cloud *cloud, const ewa_surfels_option
     EWA_TRY(ewa_render_options_choose(context, options, &work.options));
     EWA_TRY(ewa_camera_check(context, camera));
     EWA_TRY(ewa_surfel_reader_open(cloud, &chosen, &work.reader));
-    set_layers(&work);
+    work.layering = ewa_reference_layering_of(&work.options, &work.reader, work.surfel_count);
     if (work.options.point_size_px > 0)
         work.unit_coverage = ewa_point_profile_make(&work.options).unit_coverage;
     ewa_reference_view_make(camera, chosen.cutoff, &work.options, &work.view);

@@ -68,6 +68,10 @@ adjoint_scene *adjoint_scene_make(ewa_context *context, uint32_t kind, uint32_t 
     if (kind & ADJOINT_UNLIT) s->options.shading = EWA_SHADING_NONE;
     if (kind & ADJOINT_HARD) s->options.edge_antialiasing = false;
     if (kind & ADJOINT_TRANSPARENT) s->options.opacity = 0.8;
+    if (kind & ADJOINT_MERGED) {
+        s->options.edge_layers = 2;
+        s->options.layers = kind & ADJOINT_TRANSPARENT ? 2 : 0;
+    }
     if (kind & ADJOINT_LIGHTS) {
         s->options.light_count = 2;
         for (int i = 0; i < 2; i++) ewa_light_init(&s->options.lights[i]);

@@ -24,7 +24,8 @@ typedef enum adjoint_kind {
     ADJOINT_SECTION = 256,   ///< cut by a plane
     ADJOINT_UNLIT = 512,
     ADJOINT_NEAR = 1024, ///< the eye is amid them
-    ADJOINT_EDGES = 2048 ///< small surfels: most of the picture is edges
+    ADJOINT_EDGES = 2048, ///< small surfels: most of the picture is edges
+    ADJOINT_MERGED = 4096 ///< all behind the first surface is one layer
 } adjoint_kind;
 
 /// The numbers of a scene, in attributes of a cloud that borrows them.

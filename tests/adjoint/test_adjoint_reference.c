@@ -150,6 +150,9 @@ static const uint32_t KINDS[] = {
     ADJOINT_CLIPPED | ADJOINT_ELLIPSES | ADJOINT_EDGES,
     ADJOINT_CLIPPED | ADJOINT_ELLIPSES | ADJOINT_EDGES | ADJOINT_UNLIT,
     ADJOINT_CLIPPED | ADJOINT_ELLIPSES | ADJOINT_EDGES | ADJOINT_UNLIT | ADJOINT_ORTHOGRAPHIC,
+    ADJOINT_MERGED | ADJOINT_EDGES,
+    ADJOINT_MERGED | ADJOINT_TRANSPARENT,
+    ADJOINT_MERGED | ADJOINT_TRANSPARENT | ADJOINT_CLIPPED | ADJOINT_ELLIPSES,
     ADJOINT_NEAR | ADJOINT_LIGHTS,
 };
 
@@ -269,7 +272,8 @@ static void test_pixels(void **state) {
         ewa_reference_fragment fragments[FRAGMENTS];
         ewa_reference_layer layers[2];
         random_pixel(&random, splats, fragments);
-        frame.resolve.transparent = n % 4 == 3;
+        frame.resolve.layering = (ewa_reference_layering){2, n % 4 == 3, n % 3 == 0};
+        frame.resolve.unit_coverage = check_uniform(&random, 0.05, 0.5);
         ewa_reference_values cotangent = {.coverage = check_uniform(&random, -1, 1)};
         cotangent.depth = check_uniform(&random, -1, 1);
         for (int c = 0; c < 4; c++) cotangent.rgba[c] = check_uniform(&random, -1, 1);
@@ -280,7 +284,7 @@ static void test_pixels(void **state) {
         for (uint32_t i = 0; i < FRAGMENTS; i++) {
             ewa_reference_sample *sample = &fragments[i].sample;
             double terms[EWA_MOMENT_COUNT], sides[2], weight = sample->weight, step = 1e-7;
-            ewa_reference_moments_at(&frame.view, &splats[i], sample, 5.5, 6.5, frame.resolve.transparent,
+            ewa_reference_moments_at(&frame.view, &splats[i], sample, 5.5, 6.5, frame.resolve.layering.transparent,
                                      &layers[fragments[i].layer].cotangent, terms);
             for (int side = 0; side < 2; side++) {
                 ewa_reference_layer moved[2];
