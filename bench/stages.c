@@ -26,6 +26,8 @@ typedef enum stage_kind {
     STAGE_PNG_RGB,
     STAGE_PNG_RGBA,
     STAGE_CLIP,
+    STAGE_COLOR_GRADIENTS,
+    STAGE_GRADIENTS,
     STAGE_COUNT
 } stage_kind;
 
@@ -39,6 +41,8 @@ static const char *const stage_names[STAGE_COUNT] = {
     [STAGE_PNG_RGB] = "PNG, RGB",
     [STAGE_PNG_RGBA] = "PNG, RGBA",
     [STAGE_CLIP] = "clip segments",
+    [STAGE_COLOR_GRADIENTS] = "gradients of colours",
+    [STAGE_GRADIENTS] = "gradients",
 };
 
 /// The stages with one number of threads.
@@ -118,6 +122,33 @@ static ewa_status make_dense(ewa_cloud *cloud) {
     return status;
 }
 
+/// Derivatives of the picture's brightness by colours, and by all that there are.
+static ewa_status time_gradients(stage_lane *lane, const ewa_cloud *cloud, const ewa_camera *from, size_t run) {
+    const size_t points = (size_t)ewa_cloud_point_count(cloud),
+                 pixels = (size_t)from->width_px * from->height_px;
+    enum { NUMBERS = 11 }; // of a point
+    double *numbers = malloc((NUMBERS * points + 1) * sizeof *numbers), started_s = clock_now_s();
+    float *rgba = malloc(4 * pixels * sizeof *rgba);
+    ewa_status status = numbers && rgba ? EWA_OK : EWA_ERROR_MEMORY;
+    for (size_t i = 0; status == EWA_OK && i < 4 * pixels; i++) rgba[i] = 1;
+    for (int all = 0; status == EWA_OK && all < 2; all++) {
+        ewa_camera_cotangent camera;
+        const ewa_frame_cotangent cotangent = {.rgba = rgba};
+        ewa_gradient gradient = {.color = numbers};
+        if (all) {
+            gradient.position = numbers + 3 * points, gradient.normal = numbers + 6 * points;
+            gradient.radius = numbers + 9 * points, gradient.opacity = numbers + 10 * points;
+            gradient.camera = &camera;
+        }
+        started_s = clock_now_s();
+        status = ewa_render_backward(cloud, NULL, 0, from, NULL, &cotangent, &gradient);
+        lap(&lane->time_s[all ? STAGE_GRADIENTS : STAGE_COLOR_GRADIENTS][run], &started_s);
+    }
+    free(rgba);
+    free(numbers);
+    return status;
+}
+
 /// Reading and writing the cloud, surfels, normals and radii from bare positions.
 static ewa_status time_cloud(stage_lane *lane, const stage_input *input, size_t run) {
     ewa_cloud *loaded = NULL;
@@ -134,6 +165,7 @@ static ewa_status time_cloud(stage_lane *lane, const stage_input *input, size_t 
     if (status == EWA_OK) status = ewa_surfels_create(loaded, NULL, &surfels);
     lap(&lane->time_s[STAGE_PACK][run], &started_s);
     ewa_surfels_destroy(&surfels);
+    if (status == EWA_OK) status = time_gradients(lane, loaded, input->camera, run);
     if (status == EWA_OK) status = time_estimate(&loaded, &lane->time_s[STAGE_ESTIMATE][run]);
     if (status == EWA_OK) status = make_dense(loaded);
     if (status == EWA_OK) status = time_estimate(&loaded, &lane->time_s[STAGE_ESTIMATE_UNEVEN][run]);

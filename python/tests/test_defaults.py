@@ -142,6 +142,8 @@ class Defaults(Case):
             "build_octree": saved("again.copc.laz", ewa.build_octree, self.path("bare.ply")),
             "Octree.render": lambda **o: octree.render(**{**size, **o}),
             "render": lambda **o: ewa.render(bare, **{**size, **o}),
+            "render_backward": lambda **o: tuple(map(str, ewa.render_backward(
+                cloud, camera, **{**o, "rgba": np.ones((32, 48, 4), np.float32)}))),
             "render_gaussians": lambda **o: ewa.render_gaussians(gaussians, **{**size, **o}),
             "render_volume": lambda **o: ewa.render_volume(volume, **{**size, **o}),
             "warp": lambda **o: ewa.warp(depths, camera.orbit((0, 0, 0), (0, 0, 1), 5), **o),

@@ -53,6 +53,11 @@ class Examples(Case):
         self.assertLessEqual({"scan.png", "ellipses.ply", "map.png", "ground.csv", "solids.png", "ring.png",
                               "vessels.png", "floor.exr", "gaussians.png"}, made)
 
+    def test_gradients_page(self) -> None:
+        blocks = re.findall(r"```python\n(.*?)```", (ROOT / "docs" / "gradients.md").read_text(encoding="utf-8"), re.S)
+        self.assertEqual(len(blocks), 1)
+        exec(compile(blocks[0], "docs/gradients.md", "exec"), {})
+
     def test_notebook_page(self) -> None:
         done = subprocess.run([sys.executable, str(ROOT / "tools" / "notebook.py"), "--check"], capture_output=True,
                               text=True, check=False)

@@ -38,7 +38,8 @@ static void test_stages(void **state) {
     assert_true(member("plane 0.002 M of 40 px", 1, "clock_ghz") > 0.1);
     static const char *const stages[] = {"write PLY",         "read PLY",      "read PLY, ASCII",
                                          "normals and radii", "surfels",       "PNG, RGB",
-                                         "PNG, RGBA",         "clip segments", "normals and radii, uneven"};
+                                         "PNG, RGBA",         "clip segments", "normals and radii, uneven",
+                                         "gradients",         "gradients of colours"};
     for (size_t i = 0; i < sizeof stages / sizeof stages[0]; i++) {
         char key[64];
         snprintf(key, sizeof key, "\"stage\": \"%s\"", stages[i]);
