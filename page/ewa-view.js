@@ -20,7 +20,7 @@ const encode = (text) => btoa(text).replace(/\+/g, "-").replace(/\//g, "_").repl
 const decode = (text) => atob(text.replace(/-/g, "+").replace(/_/g, "/"));
 
 export class EwaView extends HTMLElement {
-  static observedAttributes = ["src", "color-by", "point-size", "clip", "background", "camera", "label"];
+  static observedAttributes = ["src", "color-by", "point-size", "clip", "background", "color-bar", "camera", "label"];
 
   /// Where the worker and the modules are; a page of its own brings them along.
   static sources = {
@@ -34,7 +34,8 @@ export class EwaView extends HTMLElement {
   #worker = null;
   #questions = new Map();
   #asked = 0;
-  #sent = null; // events that were handed over, where memory can be shared
+  #ordered = 0; // orders that were sent
+  #sent = null; // the same where the worker sees it, if memory can be shared
   #parts;
   #observer = null;
   #fingers = new Map();
@@ -138,6 +139,7 @@ export class EwaView extends HTMLElement {
     const value = this.getAttribute(name);
     if (name === "point-size") return [`set point_size_px ${value ?? 0}`];
     if (name === "background") return [`set background ${value ?? "white"}`];
+    if (name === "color-bar") return [`set color_bar ${value === null ? "off" : "on"}`];
     if (name === "clip" && this.#is_ready) return [`box ${value ?? "off"}`];
     if (name === "color-by" && this.#is_ready) return this.#color_commands(value ?? "auto");
     return [];
@@ -152,7 +154,7 @@ export class EwaView extends HTMLElement {
     if (this.#worker) return;
     const { width, height, scale } = this.#size(), { worker, modules } = EwaView.sources;
     if (self.crossOriginIsolated) this.#sent = new Int32Array(new SharedArrayBuffer(4));
-    const commands = ["background", "point-size"].filter((name) => this.hasAttribute(name)).flatMap((name) => this.#commands(name));
+    const commands = ["background", "point-size", "color-bar"].filter((name) => this.hasAttribute(name)).flatMap((name) => this.#commands(name));
     if (matchMedia("(prefers-reduced-motion: reduce)").matches) commands.push("set animate off");
     try {
       this.#worker = worker();
@@ -162,6 +164,7 @@ export class EwaView extends HTMLElement {
     }
     this.#worker.onmessage = ({ data }) => this.#hear(data);
     this.#worker.onerror = (event) => this.#stop(event.message || "the worker's script cannot be loaded");
+    this.#ordered = 0;
     this.#post({ start: { modules, width, height, scale, commands, sent: this.#sent?.buffer } });
   }
 
@@ -192,19 +195,19 @@ export class EwaView extends HTMLElement {
   // ---- To the worker and back
 
   #post(orders) {
-    this.#worker?.postMessage(orders);
+    if (!this.#worker) return;
+    this.#ordered++;
+    if (this.#sent) Atomics.store(this.#sent, 0, this.#ordered);
+    this.#still = false;
+    this.#worker.postMessage(orders);
   }
 
   #event(event) {
-    if (!this.#worker) return;
-    if (this.#sent) Atomics.add(this.#sent, 0, 1);
-    this.#still = false;
-    this.#post({ event, counted: this.#sent !== null });
+    this.#post({ event });
   }
 
   #ask(what, word) {
     if (!this.#worker) return Promise.reject(new Error("nothing is open"));
-    this.#still = false;
     return new Promise((resolve, reject) => {
       const id = ++this.#asked;
       this.#questions.set(id, { resolve, reject });
@@ -214,6 +217,7 @@ export class EwaView extends HTMLElement {
 
   #hear(told) {
     if (told.picture) this.#show(told.picture);
+    if (told.still === this.#ordered) this.#rest();
     if (told.progress) this.#say(told.progress.stage, told.progress.fraction);
     if (told.started) this.#fill_help(told.started.help);
     if (told.message) this.#fire("message", { text: told.message });
@@ -230,13 +234,19 @@ export class EwaView extends HTMLElement {
     }
   }
 
-  #show({ pixels, width, height, still, ...facts }) {
+  #show({ pixels, width, height, still, handled, ...facts }) {
     const { canvas, context } = this.#parts;
     if (canvas.width !== width || canvas.height !== height) Object.assign(canvas, { width, height });
     context.putImageData(new ImageData(pixels, width, height), 0, 0);
-    this.#still = still !== 0;
-    this.#post({ shown: true });
+    if (still && handled === this.#ordered) this.#rest();
+    this.#worker.postMessage({ shown: true });
     this.#fire("picture", { width, height, still: this.#still, ...facts });
+  }
+
+  /// All is done that was ordered.
+  #rest() {
+    this.#still = true;
+    this.#say(null);
   }
 
   #ready() {
@@ -255,6 +265,7 @@ export class EwaView extends HTMLElement {
     this.#label();
     const names = [...new Set(items.flatMap((item) => item.attributes))];
     this.#parts.color.replaceChildren(new Option("colours", "auto"), ...names.map((name) => new Option(name)));
+    this.#parts.color.value = names.find((name) => items.some((item) => item.color === name)) ?? "auto";
     this.#parts.color.hidden = !names.length;
   }
 

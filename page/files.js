@@ -57,6 +57,7 @@ export class Files {
     this.find = find;
     this.named = new Map();
     this.open = new Map();
+    this.shown = new Map();
     this.memory = null; // of the module, once it is made
     this.said = ""; // what the module wrote to its streams
     this.failure = ""; // why the last file could not be read
@@ -82,6 +83,32 @@ export class Files {
         calls[name] = this[name] ? (...words) => this[name](...words) : () => NOT_SUPPORTED;
     return calls;
   }
+
+  // ---- What is shown, read where it lies (ewa_file_source)
+
+  open_file(path) {
+    const source = this.lookup(clean(path));
+    if (!source) return { number: -1, size: 0 };
+    let number = 0;
+    while (this.shown.has(number)) number++;
+    this.shown.set(number, source);
+    return { number, size: source.size };
+  }
+
+  read_file(number, at, start, size) {
+    try {
+      return this.shown.get(number).read(at, new Uint8Array(this.memory.buffer, start, size));
+    } catch (error) {
+      this.failure = error.message;
+      return -1;
+    }
+  }
+
+  close_file(number) {
+    this.shown.delete(number);
+  }
+
+  // ---- Texts and pictures
 
   view() {
     return new DataView(this.memory.buffer);

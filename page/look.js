@@ -81,8 +81,8 @@ dialog form { text-align: right; }
   .bar { left: 0; right: 0; top: auto; bottom: 0; border-radius: 12px 12px 0 0; border-width: 1px 0 0;
     flex-wrap: nowrap; justify-content: space-around;
     padding: 4px 4px max(4px, env(safe-area-inset-bottom)); }
-  .bar button { min-width: 40px; height: 44px; padding: 0 2px; }
-  .bar select { height: 44px; max-width: 82px; min-width: 0; padding: 0; }
+  .bar button { min-width: 38px; height: 44px; padding: 0 2px; }
+  .bar select { height: 44px; flex: 1 1 62px; max-width: 96px; min-width: 0; padding: 0; }
   .bar [data-do="full"] { display: none; }
   .card, .error { bottom: 64px; }
   dialog td:first-child { white-space: normal; }

@@ -41,6 +41,13 @@ class Viewer {
       say: (message, text) => hooks.say(message !== 0, this.read(text)),
       progress: (stage, fraction) => (hooks.progress(this.read(stage), fraction) ? 1 : 0),
       waiting: () => (hooks.waiting() ? 1 : 0),
+      open_file: (path, size_at) => {
+        const { number, size } = this.files.open_file(this.read(path));
+        new DataView(this.memory.buffer).setFloat64(size_at, size, true);
+        return number;
+      },
+      read_file: (number, at, start, size) => this.files.read_file(number, at, start, size),
+      close_file: (number) => this.files.close_file(number),
     };
     const instance = await WebAssembly.instantiate(module, { ewa, wasi_snapshot_preview1: this.files.imports(module) });
     this.calls = instance.exports;

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 //
 // The viewer (viewer/viewer.h) as a module of WebAssembly: a page hands over events and commands with their times, and pictures
-// come out, on one thread. Files are those that the page grants by WASI (page/files.js). A page makes an instance of the module
-// for each view.
+// come out, on one thread. Files are those that the page has (page/files.js): what is shown is read where it lies, part by part,
+// texts and pictures go by WASI. A page makes an instance of the module for each view.
 #include "viewer/viewer.h"
 
 #include <stdio.h>
@@ -19,6 +19,15 @@ void IMPORT(say)(bool message, const char *text);
 bool IMPORT(progress)(const char *stage, double fraction);
 /// The page is asked whether an event waits.
 bool IMPORT(waiting)(void);
+
+/// The page opens a file that it has; returns its number and sets its size, or -1 where there is none of that name.
+int IMPORT(open_file)(const char *path, double *size_bytes);
+/// The page copies bytes of it to memory; returns how many, 0 for none more, or -1.
+int IMPORT(read_file)(int file, double at_bytes, void *bytes, uint32_t size_bytes);
+void IMPORT(close_file)(int file);
+
+/// What a page may hold: phones give a tab no more.
+static const uint64_t MEMORY_BYTES = (uint64_t)2 << 30;
 
 enum { TEXT_BYTES = 4 * VIEWER_TEXT_BYTES };
 
@@ -85,6 +94,21 @@ static bool hear_progress(void *user, const char *stage, double fraction) {
     return (!p->news.progress || p->news.progress(p->news.user, stage, fraction)) && page_progress(stage, fraction);
 }
 
+static int64_t read_file(void *user, uint64_t at_bytes, void *bytes, size_t size_bytes) {
+    return page_read_file((int)(intptr_t)user, (double)at_bytes, bytes, (uint32_t)size_bytes);
+}
+
+static void close_file(void *user) { page_close_file((int)(intptr_t)user); }
+
+static bool open_file(void *user, const char *path, ewa_file_source *file) {
+    (void)user;
+    double size_bytes = 0;
+    const int number = page_open_file(path, &size_bytes);
+    if (number < 0) return false;
+    *file = (ewa_file_source){.size_bytes = (uint64_t)size_bytes, .read_at = read_file, .close = close_file, .user = (void *)(intptr_t)number};
+    return true;
+}
+
 static ewa_context *context(void *user, const viewer_news *news) {
     page *p = user;
     p->news = *news;
@@ -95,7 +119,8 @@ static ewa_context *context(void *user, const viewer_news *news) {
     options.progress = hear_progress;
     options.message_user = options.progress_user = p;
     options.message_level = EWA_SEVERITY_WARNING;
-    options.untrusted = true;
+    options.open_file = open_file;
+    options.limits.max_memory_bytes = MEMORY_BYTES;
     return ewa_context_create(&options, &p->context) == EWA_OK ? p->context : NULL;
 }
 

@@ -10,11 +10,11 @@ const RELAXED = new Uint8Array([0, 97, 115, 109, 1, 0, 0, 0, 1, 5, 1, 96, 0, 1, 
                                 0, 253, 15, 65, 0, 253, 15, 253, 133, 2, 11]);
 /// Formats that name other files, which are fetched from beside them when they are asked for.
 const NAMES_OTHERS = /\.(json|gltf|obj|nhdr|mhd)$/i;
-/// Progress is told so often.
-const TELL_MS = 50;
+/// Progress is told so often, of what takes so long.
+const TELL_MS = 50, LONG_MS = 150;
 
-let viewer = null, base = null, sent = null, handled = 0;
-let number = -1, shown = true, scheduled = false, timer = 0, told_ms = 0, is_ready = false;
+let viewer = null, base = null, sent = null, handled = 0; // orders that were sent, where memory is shared, and carried out
+let number = -1, shown = true, scheduled = false, timer = 0, told_ms = 0, began_ms = 0, is_ready = false;
 let picked = "", opening = [], message = "";
 const soon = new MessageChannel();
 
@@ -56,7 +56,7 @@ async function collect(answer, told) {
 
 function tell(stage, fraction) {
   const now_ms = performance.now();
-  if (now_ms - told_ms < TELL_MS && fraction < 1) return;
+  if (now_ms - began_ms < LONG_MS || (now_ms - told_ms < TELL_MS && fraction < 1)) return;
   told_ms = now_ms;
   postMessage({ progress: { stage, fraction } });
 }
@@ -151,12 +151,15 @@ function step() {
   if (!viewer || !shown) return;
   clearTimeout(timer);
   const loading = opening.length > 0;
+  began_ms = performance.now();
   const report = viewer.frame(now_s());
   if (report.at && report.number !== number) {
     number = report.number;
     shown = false;
     const pixels = viewer.pixels(report);
-    postMessage({ picture: { ...report, pixels } }, [pixels.buffer]);
+    postMessage({ picture: { ...report, pixels, handled } }, [pixels.buffer]);
+  } else if (report.still) {
+    postMessage({ still: handled });
   }
   if (loading && report.still) tell_opened();
   if (!report.still) timer = setTimeout(guarded_step, report.at && !loading ? 1000 * report.spare_s : 0);
@@ -199,7 +202,9 @@ function stop(error) {
 }
 
 async function handle(orders) {
+  began_ms = performance.now();
   if (orders.shown) shown = true;
+  else handled++;
   if (orders.start) await start(orders.start);
   if (!viewer) return;
   if (orders.event) {
@@ -221,6 +226,5 @@ async function handle(orders) {
 let queue = Promise.resolve(); // orders are carried out one after another, also where one waits for a server
 soon.port1.onmessage = guarded_step;
 onmessage = ({ data }) => {
-  if (data.counted) handled++;
   queue = queue.then(() => handle(data)).catch(stop);
 };

@@ -57,11 +57,17 @@ JOBS = {
              "{d}/sphere.ply --camera {d}/camera.json --script {d}/shot.txt",
              "{d}/sphere.ply --camera {d}/poses.txt --script {d}/shot.txt", "{d}/tree.copc.laz --script {d}/shot.txt",
              "{d}/scene.json --script {d}/shot.txt"],
+    "page": ["{d}/sphere.ply -o {o}/a.html --assets {d}/assets", "{d}/sphere.ply --folder {o}/site --assets {d}/assets",
+             "{d}/points.txt --color-by x -o {o}/a.html --assets {d}/assets",
+             "{d}/sphere.ply --camera {d}/camera.json -o {o}/a.html --assets {d}/assets",
+             "{d}/sphere.ply --camera {d}/poses.txt -o {o}/a.html --assets {d}/assets",
+             "{d}/scene.json {d}/gaussians.ply {d}/volume.nrrd -o {o}/a.html --assets {d}/assets"],
     "bench": ["--scene plane --splats 1000 --pixels 4 --size 64x48 --workers 1 --frames 1 --stages off",
               "{d}/sphere.ply --workers 1 --frames 1 --stages off"],
 }
-#: Options of `bench` that would take seconds at their defaults: parsed only.
-SLOW = {"bench": {"scene", "splats", "pixels", "size", "frames", "stages", "workers"}}
+#: Options of `bench` that would take seconds at their defaults: parsed only. What pages draw with may not be built.
+SLOW = {"page": {"assets"},
+        "bench": {"scene", "splats", "pixels", "size", "frames", "stages", "workers"}}
 
 CUBE = ("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n"
         "f 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n")
@@ -131,6 +137,9 @@ def make_inputs(ewa, folder):
     (folder / "gaussians.ply").write_text(
         f"ply\nformat ascii 1.0\nelement vertex {len(splats)}\n" + "".join(f"property float {name}\n" for name in names) +
         "end_header\n" + "\n".join(splats) + "\n")
+    (folder / "assets").mkdir(exist_ok=True)
+    for name in ("files.js", "module.js", "worker.js", "look.js", "ewa-view.js", "single.js", "page.css", "page.wasm.gz", "page-relaxed.wasm.gz"):
+        (folder / "assets" / name).write_text(name + "\n")
     do("generate", "sphere", "-n", "300", "-o", "sphere.ply")
     do("generate", "cube", "-n", "300", "-o", "box.ply")
     do("generate", "torus", "-n", "300", "--positions-only", "-o", "bare.ply")

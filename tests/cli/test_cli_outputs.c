@@ -41,6 +41,7 @@ static const writing writings[] = {
     {"volume", "save-transfer", "in.nrrd -o a.png %s", ".json"},
     {"lod", "output", "in.ply %s", ".copc.laz"},
     {"lod", "stats", "in.ply -o a.copc.laz %s", ".json"},
+    {"page", "output", "in.ply %s", ".html"},
     {"generate", "output", "sphere -n 100 %s", ".ply"},
     {"generate", "output", "ball --dims 8 %s", ".nrrd"},
     {"bench", "json", "--scene plane --splats 100 --frames 1 --stages off --workers 1 %s", ".json"},
@@ -90,7 +91,7 @@ static void test_no_folder(void **state) {
 
 static void test_folder_in_the_way(void **state) {
     run_done(
-        "mkdir taken.png taken.copc.laz taken.pfm taken.json taken.ply taken.exr taken.nrrd taken_0.exr");
+        "mkdir taken.png taken.copc.laz taken.pfm taken.json taken.ply taken.exr taken.nrrd taken.html taken_0.exr");
     for (size_t i = 0; i < WRITINGS; i++) {
         char file[64];
         snprintf(file, sizeof file, "taken%s", writings[i].suffix);

@@ -1,0 +1,283 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// Pages of `ewa page` in a browser: they show the bytes of `ewa render`, alone as a file and from a server, by both modules; the hand does
+// what it does in the window; what is wrong is said; nothing complains and nobody else is asked.
+//   node tests/page/browser.mjs build/release/cli/ewa SCRATCH [PICTURES]       exit status 77: skipped
+import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
+import { copyFileSync, existsSync, mkdirSync, readFileSync, readdirSync, rmSync, writeFileSync } from "node:fs";
+import { join, resolve } from "node:path";
+import { pathToFileURL } from "node:url";
+import { inflateSync } from "node:zlib";
+import { launch, serve } from "./chromium.mjs";
+
+const [program, scratch, pictures] = process.argv.slice(2).map((path) => resolve(path));
+const WIDTH = 400, HEIGHT = 300;
+
+function skip(why) {
+  console.log(`skipped: ${why}`);
+  process.exit(77);
+}
+
+const chromium = ["chromium", "chromium-browser", "google-chrome"].find((name) => {
+  try {
+    return execFileSync("sh", ["-c", `command -v ${name}`]).length > 0;
+  } catch {
+    return false;
+  }
+});
+if (!chromium) skip("there is no Chromium (Debian: apt install chromium)");
+
+const ewa = (...words) => execFileSync(program, words, { cwd: scratch, encoding: "utf8", stdio: ["ignore", "pipe", "pipe"] });
+
+rmSync(scratch, { recursive: true, force: true });
+mkdirSync(scratch, { recursive: true });
+try {
+  ewa("generate", "torus", "-n", "20000", "-o", "torus.ply");
+  ewa("page", "torus.ply", "-o", "torus.html", "--title", "A torus");
+} catch (error) {
+  if (/make wasm/.test(error.stderr)) skip("there is no module for pages (make wasm)");
+  throw error;
+}
+
+/// Pixels of a PNG of 8-bit RGB or RGBA as RGBA.
+function decode(path) {
+  const png = readFileSync(path), parts = [];
+  let width, height, channels;
+  for (let at = 8; at < png.length; ) {
+    const size = png.readUInt32BE(at), kind = png.toString("latin1", at + 4, at + 8), data = png.subarray(at + 8, at + 8 + size);
+    if (kind === "IHDR") [width, height, channels] = [data.readUInt32BE(0), data.readUInt32BE(4), data[9] === 6 ? 4 : 3];
+    if (kind === "IDAT") parts.push(data);
+    at += size + 12;
+  }
+  const rows = inflateSync(Buffer.concat(parts)), row_bytes = width * channels, out = Buffer.alloc(4 * width * height, 255);
+  let above = Buffer.alloc(row_bytes);
+  for (let y = 0; y < height; y++) {
+    const filter = rows[y * (row_bytes + 1)], row = Buffer.from(rows.subarray(y * (row_bytes + 1) + 1, (y + 1) * (row_bytes + 1)));
+    for (let i = 0; i < row_bytes; i++) {
+      const a = i >= channels ? row[i - channels] : 0, b = above[i], c = i >= channels ? above[i - channels] : 0;
+      const p = a + b - c, near = [a, b, c].sort((m, n) => Math.abs(p - m) - Math.abs(p - n) || [a, b, c].indexOf(m) - [a, b, c].indexOf(n))[0];
+      row[i] += [0, a, b, (a + b) >> 1, near][filter];
+    }
+    for (let x = 0; x < width; x++) row.copy(out, 4 * (y * width + x), channels * x, channels * (x + 1));
+    above = row;
+  }
+  return out;
+}
+
+const view = `document.querySelector("ewa-view")`, part = (selector) => `${view}.shadowRoot.querySelector(${JSON.stringify(selector)})`;
+const PIXELS = `(() => { const c = ${part("canvas")}; const p = c.getContext("2d").getImageData(0, 0, c.width, c.height).data;
+  let text = ""; for (let i = 0; i < p.length; i += 8192) text += String.fromCharCode(...p.subarray(i, i + 8192)); return btoa(text); })()`;
+const HEAR = `addEventListener("DOMContentLoaded", () => { self.heard = []; for (const type of ["ready", "pick", "measure", "error", "share"])
+  document.addEventListener(type, (e) => heard.push({ type, ...e.detail }), true); });`;
+const shown = (page, limit_s) => page.until(`self.heard?.some((e) => e.type === "ready" || e.type === "error") && ${view}.still`, limit_s);
+
+function same(pixels, path, what) {
+  const wanted = decode(join(scratch, path)), got = Buffer.from(pixels, "base64");
+  assert.equal(got.length, wanted.length, `${what}: another size`);
+  let differ = 0;
+  for (let i = 0; i < wanted.length; i++) differ += wanted[i] !== got[i];
+  assert.equal(differ, 0, `${what}: ${differ} of ${wanted.length} bytes differ from those of ewa render`);
+}
+
+/// Nothing complains, and nobody but the page itself is asked.
+function check_quiet(page, origin) {
+  assert.deepEqual(page.complaints, []);
+  for (const url of page.requests) assert.ok(url.startsWith(origin) || url.startsWith("blob:") || url.startsWith("data:"), url);
+}
+
+async function keep(page, name) {
+  if (pictures) writeFileSync(join(pictures, name), await page.picture());
+}
+
+/// Gaussians as 3DGS writes them.
+function write_gaussians(name, count) {
+  const columns = ["x", "y", "z", "f_dc_0", "f_dc_1", "f_dc_2", "opacity", "scale_0", "scale_1", "scale_2", "rot_0", "rot_1", "rot_2", "rot_3"];
+  const head = `ply\nformat binary_little_endian 1.0\nelement vertex ${count}\n${columns.map((c) => `property float ${c}\n`).join("")}end_header\n`;
+  const body = new Float32Array(count * columns.length);
+  for (let i = 0; i < count; i++) {
+    const t = i / count, a = 40 * t;
+    body.set([Math.cos(a) * (1 + t), 2 * t - 1, Math.sin(a) * (1 + t), 2 * t - 1, Math.sin(a), 1 - 2 * t, 1.5, -3, -2.4 - t, -3.3, 1, t, 0.3, 0],
+             i * columns.length);
+  }
+  writeFileSync(join(scratch, name), Buffer.concat([Buffer.from(head), Buffer.from(body.buffer)]));
+}
+
+// ---- What is shown
+
+ewa("generate", "torus", "-n", "6000", "--positions-only", "-o", "bare.ply");
+ewa("generate", "terrain", "-n", "20000", "-o", "terrain.laz");
+ewa("generate", "vessels", "--dims", "32", "-o", "vessels.nrrd");
+ewa("convert", "terrain.laz", "-o", "terrain.copc.laz");
+write_gaussians("spiral.ply", 800);
+writeFileSync(join(scratch, "scene.json"), JSON.stringify({
+  ewa_scene: 1, options: { render: { opacity: 0.6 } },
+  items: [{ file: "torus.ply" }, { file: "terrain.laz", to_world: [0.1, 0, 0, 0, 0, 0.1, 0, 0, 0, 0, 0.1, -1, 0, 0, 0, 1], color_by: "z" }],
+}));
+const kinds = ["torus.ply", "bare.ply", "terrain.laz", "terrain.copc.laz", "vessels.nrrd", "spiral.ply", "scene.json"];
+
+const browser = await launch(chromium);
+const failures = [];
+async function check(what, run) {
+  const began = performance.now();
+  try {
+    await run();
+    console.log(`${what}: ${(performance.now() - began).toFixed(0)} ms`);
+  } catch (error) {
+    failures.push(what);
+    console.log(`${what}: ${error.stack}`);
+  }
+}
+
+async function show(url, options) {
+  const page = await browser.page(url, { width: WIDTH, height: HEIGHT, before: HEAR, ...options });
+  await shown(page);
+  return page;
+}
+
+// Two at a time: one is parsed while the other is drawn.
+const check_kind = (kind) => check(`${kind} is what ewa render draws`, async () => {
+  const name = kind.replace(/\W/g, "_");
+  ewa("render", kind, "-o", `${name}.png`, "--size", `${WIDTH}x${HEIGHT}`, "-q");
+  ewa("page", kind, "-o", `${name}.html`, "-q");
+  const url = pathToFileURL(join(scratch, `${name}.html`)).href, page = await show(url);
+  same(await page.evaluate(PIXELS), `${name}.png`, kind);
+  check_quiet(page, url);
+  await page.close();
+});
+const half = Math.ceil(kinds.length / 2), in_turn = async (list) => {
+  for (const kind of list) await check_kind(kind);
+};
+await Promise.all([in_turn(kinds.slice(0, half)), in_turn(kinds.slice(half))]);
+
+await check("the exact module, a server, isolated or not", async () => {
+  for (const [headers, exact] of [[{}, false], [{ "cross-origin-opener-policy": "same-origin", "cross-origin-embedder-policy": "require-corp" }, true]]) {
+    rmSync(join(scratch, "site"), { recursive: true, force: true });
+    ewa("page", "torus.ply", "terrain.laz", "--folder", "site");
+    ewa("render", "torus.ply", "terrain.laz", "-o", "both.png", "--size", `${WIDTH}x${HEIGHT}`, "-q");
+    if (exact) copyFileSync(join(scratch, "site/page.wasm.gz"), join(scratch, "site/page-relaxed.wasm.gz"));
+    const server = await serve({ "/": join(scratch, "site") }, headers), page = await show(`${server.origin}/index.html`);
+    same(await page.evaluate(PIXELS), "both.png", "site");
+    assert.equal(await page.evaluate("crossOriginIsolated"), exact);
+    check_quiet(page, server.origin);
+    await page.close();
+    server.close();
+  }
+});
+
+await check("hand and keys", async () => {
+  const url = pathToFileURL(join(scratch, "torus.html")).href, page = await show(url);
+  const mouse = (type, x, y, more = {}) => page.call("Input.dispatchMouseEvent", { type, x, y, button: "left", clickCount: 1, ...more });
+  await mouse("mousePressed", 120, 150);
+  await mouse("mouseReleased", 120, 150);
+  const pick = await page.until(`heard.find((e) => e.type === "pick")`);
+  // The window says the same of a click there.
+  writeFileSync(join(scratch, "click.txt"), "do open torus.ply\npress 120 150 left\nrelease 120 150 left\n");
+  const said = ewa("view", "--size", `${WIDTH}x${HEIGHT}`, "--script", "click.txt");
+  assert.match(said, /^pick torus.ply point \d+ at /m);
+  const [, number, at] = /point (\d+) at (\S+ \S+ \S+)/.exec(said);
+  assert.match(pick.text, new RegExp(`^point ${number} of torus.ply\nat ${at.replace(/[.+]/g, "\\$&")}\n`));
+  assert.deepEqual(pick.place, at.split(" ").map(Number).map((x, i) => pick.place[i] && Math.abs(pick.place[i] - x) < 1e-6 ? pick.place[i] : x));
+  assert.equal(await page.evaluate(`${part(".card")}.hidden`), false);
+  await mouse("mousePressed", 200, 240, { modifiers: 8 });
+  await mouse("mouseReleased", 200, 240, { modifiers: 8 });
+  const measure = await page.until(`heard.find((e) => e.type === "measure")`);
+  assert.ok(Math.abs(measure.distance - Math.hypot(...measure.to.map((x, i) => x - pick.place[i]))) < 1e-9);
+  await keep(page, "measured.png");
+  // A drag, the wheel and keys end in the picture that the camera has.
+  await page.evaluate(`${view}.do("clear")`);
+  await mouse("mousePressed", 200, 150);
+  for (let x = 200; x <= 260; x += 20) await mouse("mouseMoved", x, 140, { buttons: 1 });
+  await mouse("mouseReleased", 260, 140);
+  await page.call("Input.dispatchMouseEvent", { type: "mouseWheel", x: 150, y: 150, deltaX: 0, deltaY: -200 });
+  for (const key of ["ArrowLeft", "+"]) {
+    await page.call("Input.dispatchKeyEvent", { type: "keyDown", key, text: key.length === 1 ? key : undefined });
+    await page.call("Input.dispatchKeyEvent", { type: "keyUp", key });
+  }
+  writeFileSync(join(scratch, "camera.json"), await page.evaluate(`${view}.camera()`));
+  await page.until(`${view}.still`);
+  ewa("render", "torus.ply", "--camera", "camera.json", "-o", "turned.png");
+  same(await page.evaluate(PIXELS), "turned.png", "the turned camera");
+  // The link leads back to it.
+  await page.evaluate(`${part('[data-do="share"]')}.click()`);
+  const shared = await page.until(`heard.find((e) => e.type === "share")`);
+  const again = await show(shared.url);
+  await again.until(`${view}.still`);
+  await new Promise((done) => setTimeout(done, 200));
+  await again.until(`${view}.still`);
+  same(await again.evaluate(PIXELS), "turned.png", "the link");
+  check_quiet(page, url);
+  check_quiet(again, url);
+  await again.close();
+  await page.close();
+});
+
+await check("fingers on a phone", async () => {
+  const url = pathToFileURL(join(scratch, "terrain_laz.html")).href, page = await show(url, { width: 390, height: 844, touch: true });
+  const touch = (type, ...points) => page.call("Input.dispatchTouchEvent", { type, touchPoints: points.map(([x, y], id) => ({ x, y, id })) });
+  const before = await page.evaluate(`${view}.camera()`);
+  await touch("touchStart", [150, 400], [250, 400]);
+  for (let i = 1; i <= 5; i++) await touch("touchMove", [150 - 10 * i, 400], [250 + 10 * i, 400 + i]);
+  await touch("touchEnd");
+  await touch("touchStart", [200, 420]);
+  for (let i = 1; i <= 5; i++) await touch("touchMove", [200 + 10 * i, 420]);
+  await touch("touchEnd");
+  const after = await page.evaluate(`${view}.camera()`);
+  assert.notEqual(after, before);
+  writeFileSync(join(scratch, "touched.json"), after);
+  await page.until(`${view}.still`);
+  ewa("render", "terrain.laz", "--camera", "touched.json", "-o", "touched.png");
+  same(await page.evaluate(PIXELS), "touched.png", "the touched camera");
+  assert.ok(await page.evaluate(`document.documentElement.scrollWidth <= innerWidth`), "wider than the phone");
+  const buttons = await page.evaluate(`[...${view}.shadowRoot.querySelectorAll(".bar button, .bar select")].map((e) => {
+    const box = e.getBoundingClientRect(); return [e.getAttribute("aria-label"), box.width, box.height, box.right, box.bottom]; })`);
+  for (const [label, wide, high, right, bottom] of buttons.filter((b) => b[1])) {
+    assert.ok(label && wide >= 24 && high >= 44, `${label}: ${wide} x ${high}`);
+    assert.ok(right <= 390 && bottom <= 844, `${label} is outside`);
+  }
+  await keep(page, "phone.png");
+  check_quiet(page, url);
+  await page.close();
+});
+
+await check("what is wrong is said, and what was there stays", async () => {
+  const url = pathToFileURL(join(scratch, "torus.html")).href, page = await show(url);
+  const wrong = { "broken.ply": "ply\nformat ascii 1.0\nelement vertex 3\n", "words.txt": "these are words", "scan.las": "LASF", "gone.json": "{\"ewa_scene\": 1, \"items\": [{\"file\": \"nowhere.ply\"}]}" };
+  for (const [name, text] of Object.entries(wrong)) {
+    await page.evaluate(`(heard.length = 0, ${view}.open({ name: ${JSON.stringify(name)}, text: ${JSON.stringify(Buffer.from(text).toString("base64"))} }))`);
+    const error = await page.until(`heard.find((e) => e.type === "error")`, 10);
+    assert.ok(error.reason.length > 8, name);
+    assert.match(await page.evaluate(`${part(".error")}.textContent`), new RegExp(name.replace(".", "\\.") + "|nowhere"));
+    assert.equal(await page.evaluate(`${part(".error")}.hidden`), false);
+  }
+  await keep(page, "wrong.png");
+  await page.until(`${view}.still`);
+  ewa("render", "torus.ply", "-o", "torus.png", "--size", `${WIDTH}x${HEIGHT}`);
+  same(await page.evaluate(PIXELS), "torus.png", "what was there");
+  check_quiet(page, url);
+  await page.close();
+});
+
+await check("colours, box, pictures", async () => {
+  const url = pathToFileURL(join(scratch, "terrain_laz.html")).href, page = await show(url);
+  await page.evaluate(`(() => { const s = ${part('[data-do="color"]')}; s.value = "intensity"; s.dispatchEvent(new Event("change")); })()`);
+  await page.evaluate(`${part('[data-do="box"]')}.click()`);
+  await page.until(`${view}.still`);
+  assert.equal((await page.evaluate(`${view}.items()`))[0].color, "intensity");
+  await keep(page, "coloured.png");
+  await page.evaluate(`${view}.do("box off")`);
+  await page.evaluate(`${view}.do("set color_bar off")`);
+  const png = await page.evaluate(`${view}.shot({ width: 320, height: 240 }).then((blob) => blob.arrayBuffer()).then((b) => btoa(String.fromCharCode(...new Uint8Array(b))))`);
+  writeFileSync(join(scratch, "shot.png"), Buffer.from(png, "base64"));
+  ewa("render", "terrain.laz", "--color-by", "intensity", "-o", "intensity.png", "--size", "320x240");
+  same(decode(join(scratch, "shot.png")).toString("base64"), "intensity.png", "a saved picture");
+  check_quiet(page, url);
+  await page.close();
+});
+
+await browser.close();
+if (failures.length) {
+  console.log(`${failures.length} failed`);
+  process.exit(1);
+}
