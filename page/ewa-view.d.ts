@@ -20,6 +20,7 @@ export interface Item {
 export interface Source {
   name: string;
   file?: File;
+  bytes?: ArrayBuffer | Uint8Array;
   text?: string;
   url?: string;
   beside?: boolean;
@@ -34,6 +35,8 @@ export interface Picture {
   drawn_s: number;
   splats: number;
   level: number;
+  /** What the module holds, in bytes. */
+  memory: number;
 }
 
 export interface EwaViewEvents {

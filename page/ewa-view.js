@@ -303,7 +303,9 @@ export class EwaView extends HTMLElement {
   }
 
   #fill_help(rows) {
-    const cells = rows.filter(([keys]) => !NOT_IN_PAGES.has(keys)).map(([keys, what]) => {
+    const gestures = [["one finger", "turn; tap to pick"], ["two fingers", "move along, nearer and farther"]];
+    const here = rows.filter(([keys]) => !NOT_IN_PAGES.has(keys)).map(([keys, what]) => [keys, what.replace(/; with Ctrl.*/, "")]); // the browser's
+    const cells = [...gestures, ...here].map(([keys, what]) => {
       const row = document.createElement("tr");
       for (const text of [keys, what]) row.insertCell().textContent = text;
       return row;

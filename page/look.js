@@ -40,7 +40,7 @@ export const PARTS = `
 <div class="card" hidden><output></output><button type="button" data-do="close" aria-label="Close">×</button></div>
 <div class="status" role="status" hidden><span></span><progress max="1"></progress></div>
 <div class="error" role="alert" hidden><span></span><button type="button" data-do="dismiss" aria-label="Close">×</button></div>
-<dialog aria-label="Keys and gestures"><table></table><form method="dialog"><button>Close</button></form></dialog>`;
+<dialog aria-label="Keys and gestures"><form method="dialog"><button>Close</button></form><table></table></dialog>`;
 
 export const STYLE = `
 :host { display: block; position: relative; overflow: hidden; min-height: 160px; contain: content;
@@ -76,7 +76,8 @@ svg { width: 22px; height: 22px; display: block; margin: auto; fill: none; strok
 dialog { color: inherit; background: var(--ground); border: 1px solid var(--edge); border-radius: 12px; max-height: 85%; max-width: min(560px, 92%); }
 dialog td { padding: 3px 12px 3px 0; vertical-align: top; }
 dialog td:first-child { font-weight: 600; white-space: nowrap; }
-dialog form { text-align: right; }
+dialog form { text-align: right; position: sticky; top: 0; }
+dialog form button { background: var(--ground); border-color: var(--edge); }
 @media (max-width: 600px) {
   .bar { left: 0; right: 0; top: auto; bottom: 0; border-radius: 12px 12px 0 0; border-width: 1px 0 0;
     flex-wrap: nowrap; justify-content: space-around;
@@ -87,4 +88,5 @@ dialog form { text-align: right; }
   .card, .error { bottom: 64px; }
   dialog td:first-child { white-space: normal; }
 }
+@media (max-width: 350px) { .bar [data-do="help"] { display: none; } }
 @media (forced-colors: active) { .bar, .card, .status, .error, .hint { border-color: CanvasText; } }`;

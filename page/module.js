@@ -7,7 +7,7 @@ import { Bytes, Files } from "./files.js";
 /// Kinds of events, as viewer/viewer.h has them.
 export const EVENT = { move: 0, press: 1, release: 2, wheel: 3, pinch: 4, key: 5, keyup: 6, drop: 7, resize: 8, leave: 9 };
 
-const REPORT = ["at", "width", "height", "number", "still", "spare_s", "drawn_s", "level", "splats"];
+const REPORT = ["at", "width", "height", "number", "still", "loading", "spare_s", "drawn_s", "level", "splats"];
 
 /// Makes a viewer of the first module that the host takes: one with instructions that the host has not is no module, and one
 /// whose multiply-add would round twice makes no view. `modules` are functions that give the bytes of one; `hooks` are say(message,

@@ -35,7 +35,7 @@ enum { TEXT_BYTES = 4 * VIEWER_TEXT_BYTES };
 typedef struct page_report {
     double rgba8, width_px, height_px; ///< 4 bytes a pixel, rows from the top, sRGB, straight alpha
     double number;                     ///< another one for another picture
-    double still;                      ///< 1: nothing is loading, and nothing will change by itself
+    double still, loading;             ///< 1: nothing will change by itself; something is not there yet
     double spare_s, drawn_s;           ///< when to ask again; what drawing took
     double level, splat_count;
 } page_report;
@@ -204,6 +204,7 @@ const page_report *page_frame(page *p, double time_s) {
                               .height_px = picture.height_px,
                               .number = (double)picture.number,
                               .still = viewer_is_still(p->viewer),
+                              .loading = viewer_is_loading(p->viewer),
                               .spare_s = picture.spare_s,
                               .drawn_s = picture.drawn_s,
                               .level = picture.level,

@@ -26,7 +26,7 @@ const view = document.createElement("ewa-view");
 view.setAttribute("label", document.title);
 view.setAttribute("link", "");
 if ("colorBar" in document.body.dataset) view.setAttribute("color-bar", "");
-document.body.append(view);
+document.querySelector("main").append(view);
 view.open([...document.querySelectorAll("script[data-name]")].map((element) => {
   const name = element.dataset.name;
   return { name, text: take_part(element), beside: name !== "scene.json" };

@@ -4,6 +4,7 @@
 // The worker behind an <ewa-view>: it has the module and the files, takes what happens and posts pictures back, one at a time.
 import { Bytes, Dropped } from "./files.js";
 import { open_module } from "./module.js";
+import { open_ranges } from "./ranges.js";
 
 /// A function with one relaxed multiply-add: no module where the host has none, so that nothing is fetched in vain.
 const RELAXED = new Uint8Array([0, 97, 115, 109, 1, 0, 0, 0, 1, 5, 1, 96, 0, 1, 123, 3, 2, 1, 0, 10, 19, 1, 17, 0, 65, 0, 253, 15, 65,
@@ -20,38 +21,61 @@ const soon = new MessageChannel();
 
 const now_s = () => performance.now() / 1000;
 
-/// Bytes of a module or a file: base64 in a page of its own, else what a server has at an address. `told` hears how many came.
-async function take(source, told) {
-  let bytes;
-  if (source.text !== undefined) {
-    bytes = Uint8Array.from(atob(source.text.trim()), (letter) => letter.charCodeAt(0));
-  } else {
-    let answer;
-    try {
-      answer = await fetch(source.url);
-    } catch (error) {
-      const local = source.url.startsWith("file:");
-      throw new Error(local ? "a page that was opened as a file may read no other file: drop it here, or serve the folder"
-                            : "the server does not answer, or lets no other site read it (CORS)");
-    }
-    if (!answer.ok) throw new Error(`the server says ${answer.status} ${answer.statusText}`);
-    bytes = await collect(answer, told);
-  }
-  if (bytes[0] !== 0x1f || bytes[1] !== 0x8b || !source.packed) return bytes;
-  const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"));
-  return new Uint8Array(await new Response(stream).arrayBuffer());
+/// What a text in base64 stands for.
+function decode(text) {
+  if (Uint8Array.fromBase64) return Uint8Array.fromBase64(text);
+  const letters = atob(text), bytes = new Uint8Array(letters.length);
+  for (let i = 0; i < letters.length; i++) bytes[i] = letters.charCodeAt(i);
+  return bytes;
 }
 
+/// Asks a server, and says why where it comes to nothing.
+async function ask(url, how) {
+  try {
+    return await how(url);
+  } catch (error) {
+    throw new Error(url.startsWith("file:") ? "a page that was opened as a file may read no other file: drop it here, or serve the folder"
+                                            : "the server does not answer, or lets no other site read it (CORS)");
+  }
+}
+
+/// The whole of what a server answers; `told` hears how many bytes came.
 async function collect(answer, told) {
+  if (!answer.ok) throw new Error(`the server says ${answer.status} ${answer.statusText}`);
   const length = Number(answer.headers.get("content-length")) || 0, into = new Bytes(new Uint8Array(length));
   into.size = 0;
   const reader = answer.body.getReader();
   for (;;) {
-    const { done, value } = await reader.read();
-    if (done) return into.bytes.subarray(0, into.size);
-    into.write(into.size, value);
+    let part;
+    try {
+      part = await reader.read();
+    } catch (error) {
+      throw new Error(`the connection was cut after ${into.size} of ${length || "unknown"} bytes`);
+    }
+    if (part.done) return into.bytes.subarray(0, into.size);
+    into.write(into.size, part.value);
     told?.(into.size, length);
   }
+}
+
+/// Bytes of a module: base64 in a page of its own, else at an address; packed by gzip or not.
+async function take_module(source, told) {
+  const bytes = source.text !== undefined ? decode(source.text.trim()) : await collect(await ask(source.url, fetch), told);
+  if (bytes[0] !== 0x1f || bytes[1] !== 0x8b) return bytes;
+  const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"));
+  return new Uint8Array(await new Response(stream).arrayBuffer());
+}
+
+/// Octrees (COPC, by the first of its own records) are read where they are seen, all else as a whole.
+const is_octree = (first) => String.fromCharCode(...first.subarray(0, 4), ...first.subarray(377, 381)) === "LASFcopc";
+
+/// A file that can be read, of bytes, base64, an address, or dropped.
+async function take_file(file) {
+  if (file.file) return new Dropped(file.file);
+  if (file.bytes) return new Bytes(new Uint8Array(file.bytes));
+  if (file.text !== undefined) return new Bytes(decode(file.text));
+  const { source, bytes, answer } = await ask(file.url, (url) => open_ranges(url, is_octree));
+  return source ?? new Bytes(bytes ?? (await collect(answer, (got, length) => tell(`fetch ${file.name}`, length ? got / length : 0))));
 }
 
 function tell(stage, fraction) {
@@ -91,7 +115,7 @@ async function start(orders) {
   const relaxed = WebAssembly.validate(RELAXED);
   if (orders.sent) sent = new Int32Array(orders.sent);
   const modules = orders.modules.filter((source) => relaxed || !source.relaxed);
-  const fetches = modules.map((source) => () => take(source, (got, length) => tell("fetch the program", length ? got / length : 0)));
+  const fetches = modules.map((source) => () => take_module(source, (got, length) => tell("fetch the program", length ? got / length : 0)));
   viewer = await open_module(fetches, hooks, orders.width, orders.height, orders.scale, find);
   for (const command of orders.commands) viewer.do(command);
   postMessage({ started: { help: viewer.help() } });
@@ -109,31 +133,40 @@ async function open(files) {
     if (file.beside) continue;
     message = "";
     if (viewer.open("/" + file.name)) opening.push(file.name);
-    else postMessage({ failed: { name: file.name, reason: message } });
+    else tell_failed(file.name);
   }
 }
 
+/// Says why a file came to nothing, as the library says it, with what was wrong with reading it.
+function tell_failed(name) {
+  const { failure } = viewer.files;
+  viewer.files.failure = "";
+  postMessage({ failed: { name, reason: failure ? `${message}: ${failure}` : message } });
+}
+
 async function put(file) {
-  if (file.file) {
-    viewer.files.put(file.name, new Dropped(file.file));
+  const source = await take_file(file);
+  viewer.files.put(file.name, source);
+  if (file.beside) return;
+  base = file.url && NAMES_OTHERS.test(file.name) ? new URL(".", file.url) : null;
+  if (!base || !/\.json$/i.test(file.name)) return;
+  // A scene says what it needs: fetched here, it is seen coming. What is no scene fails where it is opened.
+  let items = [];
+  try {
+    items = JSON.parse(source.text()).items ?? [];
+  } catch {
     return;
   }
-  base = file.url && NAMES_OTHERS.test(file.name) ? new URL(".", file.url) : null;
-  const told = (got, length) => tell(`fetch ${file.name}`, length ? got / length : 0);
-  const bytes = await take(file, told);
-  viewer.files.put(file.name, new Bytes(bytes));
-  if (!base || !/\.json$/i.test(file.name)) return;
-  // A scene says what it needs: fetched here, it is seen coming.
-  for (const item of JSON.parse(new TextDecoder().decode(bytes)).items ?? [])
+  for (const item of items)
     if (typeof item.file === "string" && !item.file.startsWith("/"))
-      viewer.files.put(item.file, new Bytes(await take({ url: new URL(item.file, base).href }, told)));
+      await put({ name: item.file, url: new URL(item.file, base).href, beside: true });
 }
 
 /// Says what became of the files that were opened, once all is loaded.
 function tell_opened() {
   const items = viewer.items(), names = new Set(items.map((item) => item.name));
   for (const name of opening)
-    if (!names.has(name.split("/").pop()) && !/\.json$/i.test(name)) postMessage({ failed: { name, reason: message } });
+    if (!names.has(name.split("/").pop()) && !/\.json$/i.test(name)) tell_failed(name);
   opening = [];
   postMessage({ items });
   if (items.length && !is_ready) postMessage({ ready: (is_ready = true) });
@@ -156,12 +189,12 @@ function step() {
   if (report.at && report.number !== number) {
     number = report.number;
     shown = false;
-    const pixels = viewer.pixels(report);
-    postMessage({ picture: { ...report, pixels, handled } }, [pixels.buffer]);
+    const pixels = viewer.pixels(report), { at, ...facts } = report;
+    postMessage({ picture: { ...facts, pixels, handled, memory: viewer.memory.buffer.byteLength } }, [pixels.buffer]);
   } else if (report.still) {
     postMessage({ still: handled });
   }
-  if (loading && report.still) tell_opened();
+  if (loading && !report.loading) tell_opened();
   if (!report.still) timer = setTimeout(guarded_step, report.at && !loading ? 1000 * report.spare_s : 0);
 }
 

@@ -6,7 +6,7 @@
 #
 # Blocks that name $EWA_DATA, a folder with scans that are not ours to distribute, are left out when it is not set;
 # those that call ffmpeg, to put pictures side by side, when it is not installed; those that open a window, without
-# Xvfb, xdotool and ImageMagick.
+# Xvfb, xdotool and ImageMagick; those of a page, without node, Chromium and the modules of `make wasm`.
 set -eu
 program=$(cd "$(dirname "$1")" && pwd)/$(basename "$1")
 tools=$(cd "$(dirname "$0")" && pwd)
@@ -16,14 +16,16 @@ trap 'rm -rf "$work"' EXIT
 
 have_ffmpeg=$(command -v ffmpeg || true)
 have_screen=$(command -v Xvfb && command -v xdotool && command -v import || true)
+have_browser=$(command -v node && command -v chromium && command -v convert && ls "$(dirname "$program")/../../wasm/page/page.wasm.gz" || true)
 
-awk -v have_data="${EWA_DATA:+1}" -v have_ffmpeg="$have_ffmpeg" -v have_screen="${have_screen:+1}" '
+awk -v have_browser="${have_browser:+1}" -v have_data="${EWA_DATA:+1}" -v have_ffmpeg="$have_ffmpeg" -v have_screen="${have_screen:+1}" '
     /^```sh$/ { inside = 1; block = ""; next }
     /^```$/ && inside {
         inside = 0
         if (block ~ /\$EWA_DATA/ && !have_data) print "skipped, for EWA_DATA is not set:\n" block >"/dev/stderr"
         else if (block ~ /ffmpeg/ && !have_ffmpeg) print "skipped, for want of ffmpeg:\n" block >"/dev/stderr"
         else if (block ~ /Xvfb/ && !have_screen) print "skipped, for want of a screen:\n" block >"/dev/stderr"
+        else if (block ~ /page_shot/ && !have_browser) print "skipped, for want of a browser, or of make wasm:\n" block >"/dev/stderr"
         else printf "%s", block
         next
     }
@@ -32,6 +34,7 @@ awk -v have_data="${EWA_DATA:+1}" -v have_ffmpeg="$have_ffmpeg" -v have_screen="
 ewa() { "$program" "$@"; }
 frustum() { "$(dirname "$program")/../examples/frustum" "$@"; }
 make_environment() { python3 "$tools/make_environment.py" "$@"; }
+page_shot() { node --no-warnings "$tools/page_shot.mjs" "$@"; }
 measure_acquire() { "$(dirname "$program")/../measure/measure_acquire" "$@"; }
 measure_layers() { "$(dirname "$program")/../measure/measure_layers" "$@"; }
 measure_warp() { "$(dirname "$program")/../measure/measure_warp" "$@"; }

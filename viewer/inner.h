@@ -109,6 +109,7 @@ struct viewer {
 
     uint64_t revision, posted; ///< of what is to be drawn; the last one handed to the painter
     bool posted_whole;
+    double whole_s;   ///< what the last whole picture took, without threads
     uint64_t refined; ///< the last picture that was drawn again for the nodes that had come
     uint32_t reduction, slow_count, fast_count;      ///< of moving pictures: see adapt()
     uint64_t adapted;                                ///< the last picture that was looked at for it

@@ -24,7 +24,9 @@ static const double LARGE_PX = 2e6;
 static const double TOO_SLOW = 1.4, MUCH_FASTER = 0.7;
 enum { SLOW_PICTURES = 2, FAST_PICTURES = 8, MAX_REDUCTION = 4 };
 /// Time for reading the nodes of octrees, of each picture while they get finer.
-static const double REFINE_S = 0.15;
+static const double REFINE_S = 0.15, LONGEST_REFINE_S = 1;
+/// Without threads, a whole picture holds up the hand: it waits for such a share of what the last one took, and no longer than this.
+static const double SETTLE_SHARE = 0.5, LONGEST_SETTLE_S = 0.5;
 /// How much coarser octrees are while something moves, and at most.
 static const double COARSER = 2, MAX_SPACING_PX = 64;
 /// When to ask again, while something is under way and when nothing is.
@@ -200,7 +202,9 @@ void viewer_scene(const viewer *v, paint_scene *scene) {
     *scene = (paint_scene){.camera = v->camera, .lods_lock = v->lods_lock, .options = v->base};
     scene->options.render = v->render;
     scene->options.lod = v->lod;
-    scene->options.lod.load_s = v->waits ? 0 : REFINE_S;
+    // Without threads, reading for as long as drawing takes gets everything drawn half as often.
+    const double refine_s = v->stepped ? fmin(fmax(REFINE_S, 0.5 * v->whole_s), LONGEST_REFINE_S) : REFINE_S;
+    scene->options.lod.load_s = v->waits ? 0 : refine_s;
     scene->options.volumes.density_scale *= v->settings.volume_density;
     cutaway_apply(v, &scene->options.render);
     items_gather(v, scene);
@@ -256,7 +260,8 @@ static void post(viewer *v, bool whole) {
 
 /// Whether something moves by itself or is held.
 static bool is_moving(const viewer *v) {
-    return v->animated || v->fly_keys || v->now_s - v->changed_s < SETTLE_S;
+    const double settle_s = v->stepped ? fmin(fmax(SETTLE_S, SETTLE_SHARE * v->whole_s), LONGEST_SETTLE_S) : SETTLE_S;
+    return v->animated || v->fly_keys || v->now_s - v->changed_s < settle_s;
 }
 
 /// Has drawn what there is to draw: at once and roughly while something moves, else whole.
@@ -313,6 +318,7 @@ void viewer_frame(viewer *v, double time_s, viewer_picture *picture) {
     schedule(v, newest);
     if (v->stepped) painter_wait(v->painter);
     if (v->waits || v->stepped) newest = painter_newest(v->painter, &failure);
+    if (v->stepped && v->posted_whole && newest && newest->ticket == v->posted) v->whole_s = newest->drawn_s;
     if (v->stepped && !failure && !(newest && newest->whole && newest->ticket == v->posted))
         v->posted_whole = false; // it was given up, or nodes of octrees have come: once more
     if (failure) viewer_tell(v, "the picture cannot be drawn: %s", failure);
@@ -336,6 +342,8 @@ bool viewer_is_still(const viewer *v) {
     return v->number && v->composed_ticket == (v->revision | WHOLE) && v->composed_marks == v->marks &&
            !v->animated && !v->fly_keys && !loader_is_busy(v->loader);
 }
+
+bool viewer_is_loading(const viewer *v) { return loader_is_busy(v->loader); }
 
 void viewer_get_camera(const viewer *v, ewa_camera *camera) { *camera = v->camera; }
 

@@ -175,6 +175,9 @@ bool viewer_open(viewer *viewer, const char *path);
 /// The last line of results, such as a pick; empty: none.
 const char *viewer_said(const viewer *viewer);
 
+/// Whether something is being loaded or made a scene of.
+bool viewer_is_loading(const viewer *viewer);
+
 /// Whether nothing is loading, moving or waiting to be drawn.
 bool viewer_is_still(const viewer *viewer);
 

@@ -12,6 +12,7 @@ enum { PAGE_PATH_BYTES = 4096 }; ///< of a path, with the 0 behind it
 /// Files of a page, in the order of page_asset_names.
 typedef enum page_asset {
     PAGE_FILES_JS,
+    PAGE_RANGES_JS,
     PAGE_MODULE_JS,
     PAGE_WORKER_JS,
     PAGE_LOOK_JS,

@@ -62,7 +62,7 @@ static void write_head(const char *title, FILE *file) {
 }
 
 static void write_title(const char *title, FILE *file) {
-    fputs("<h1>", file);
+    fputs("<main>\n<h1>", file);
     page_html_escape(title, file);
     fputs("</h1>\n<noscript>This page draws with a script, which is switched off.</noscript>\n", file);
 }
@@ -120,6 +120,7 @@ static bool write_single(cli_session *session, const page_assets *assets, const 
     write_head(words->title, file);
     fprintf(file, "<style>%s</style>\n</head>\n<body%s>\n", style->bytes, words->color_bar ? " data-color-bar" : "");
     write_title(words->title, file);
+    fputs("</main>\n", file);
     if (!write_data(session, data, file)) return false;
     fprintf(file, "<script type=\"text/plain\" id=\"ewa-worker\">%s</script>\n", worker->bytes);
     write_part("id", "ewa-exact", &assets->each[PAGE_EXACT_WASM], file);
@@ -130,7 +131,7 @@ static bool write_single(cli_session *session, const page_assets *assets, const 
 
 bool page_html_single(cli_session *session, const page_assets *assets, const page_data *data, const page_words *words, FILE *file) {
     static const page_asset scripts[] = {PAGE_LOOK_JS, PAGE_VIEW_JS, PAGE_SINGLE_JS};
-    static const page_asset workers[] = {PAGE_FILES_JS, PAGE_MODULE_JS, PAGE_WORKER_JS};
+    static const page_asset workers[] = {PAGE_FILES_JS, PAGE_RANGES_JS, PAGE_MODULE_JS, PAGE_WORKER_JS};
     page_bytes script, worker = {.bytes = NULL};
     bool done = page_assets_join(assets, scripts, sizeof scripts / sizeof scripts[0], &script) &&
                 page_assets_join(assets, workers, sizeof workers / sizeof workers[0], &worker);
@@ -150,6 +151,6 @@ bool page_html_folder(cli_session *session, const page_words *words, FILE *file)
     write_title(words->title, file);
     fprintf(file, "<ewa-view src=\"" PAGE_SCENE_NAME "\" link%s label=\"", words->color_bar ? " color-bar" : "");
     page_html_escape(words->title, file);
-    fputs("\"></ewa-view>\n</body>\n</html>\n", file);
+    fputs("\"></ewa-view>\n</main>\n</body>\n</html>\n", file);
     return finish(session, file, words->shown);
 }

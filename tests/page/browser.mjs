@@ -6,7 +6,7 @@
 //   node tests/page/browser.mjs build/release/cli/ewa SCRATCH [PICTURES]       exit status 77: skipped
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
-import { copyFileSync, existsSync, mkdirSync, readFileSync, readdirSync, rmSync, writeFileSync } from "node:fs";
+import { copyFileSync, mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { join, resolve } from "node:path";
 import { pathToFileURL } from "node:url";
 import { inflateSync } from "node:zlib";
@@ -166,6 +166,35 @@ await check("the exact module, a server, isolated or not", async () => {
   }
 });
 
+await check("parts of an octree, servers that give none, and those of other sites", async () => {
+  const levels = join(scratch, "levels");
+  mkdirSync(levels);
+  ewa("lod", "torus.ply", "-o", "levels/torus.copc.laz");
+  writeFileSync(join(levels, "scene.json"), JSON.stringify({ ewa_scene: 1, items: [{ file: "torus.copc.laz", levels: "always" }] }));
+  ewa("render", "levels/scene.json", "-o", "levels.png", "--size", `${WIDTH}x${HEIGHT}`, "-q");
+  const site = { "/": join(scratch, "site"), "/levels/": levels };
+  for (const [from, to] of [["index.js", "index.js"], ["index.html", "drop.html"]])
+    copyFileSync(new URL(`../../page/${from}`, import.meta.url), join(scratch, "site", to));
+  for (const ranges of [true, false]) {
+    const server = await serve(site, {}, ranges), page = await show(`${server.origin}/drop.html?src=levels/scene.json`);
+    same(await page.evaluate(PIXELS), "levels.png", ranges ? "parts" : "the whole");
+    check_quiet(page, server.origin);
+    await page.close();
+    server.close();
+  }
+  const page_server = await serve(site), open = await serve({ "/": levels }, { "access-control-allow-origin": "*" }), closed = await serve({ "/": levels });
+  const page = await show(`${page_server.origin}/drop.html?src=${open.origin}/scene.json`);
+  same(await page.evaluate(PIXELS), "levels.png", "another site");
+  check_quiet({ ...page, requests: [] });
+  // A site that lets no other one read it, and a name that leads nowhere, are said; the browser says it, too.
+  for (const [address, said] of [[`${closed.origin}/scene.json`, "CORS"], [`${page_server.origin}/levels/none.ply`, "404"]]) {
+    await page.evaluate(`(heard.length = 0, ${view}.open(${JSON.stringify(address)}))`);
+    assert.match((await page.until(`heard.find((e) => e.type === "error")`, 10)).reason, new RegExp(said));
+  }
+  await page.close();
+  for (const server of [page_server, open, closed]) server.close();
+});
+
 await check("hand and keys", async () => {
   const url = pathToFileURL(join(scratch, "torus.html")).href, page = await show(url);
   const mouse = (type, x, y, more = {}) => page.call("Input.dispatchMouseEvent", { type, x, y, button: "left", clickCount: 1, ...more });
@@ -257,6 +286,29 @@ await check("what is wrong is said, and what was there stays", async () => {
   same(await page.evaluate(PIXELS), "torus.png", "what was there");
   check_quiet(page, url);
   await page.close();
+});
+
+await check("a file that is dropped, and a module that is none", async () => {
+  const server = await serve({ "/": join(scratch, "site"), "/data/": scratch });
+  const page = await browser.page(`${server.origin}/drop.html`, { width: WIDTH, height: HEIGHT, before: HEAR });
+  await page.until(`self.heard && ${part(".hint")}.textContent.includes("Drop")`);
+  await page.evaluate(`(async () => {
+    const bytes = await (await fetch("data/terrain.copc.laz")).arrayBuffer(), drop = new DataTransfer();
+    drop.items.add(new File([bytes], "terrain.copc.laz"));
+    ${view}.dispatchEvent(new DragEvent("drop", { dataTransfer: drop, bubbles: true, cancelable: true }));
+  })()`);
+  await shown(page);
+  same(await page.evaluate(PIXELS), "terrain_copc_laz.png", "what was dropped");
+  check_quiet(page, server.origin);
+  await page.close();
+  // As where there is no SIMD: an instruction that is none.
+  const broken = Buffer.from([0, 97, 115, 109, 1, 0, 0, 0, 1, 4, 1, 96, 0, 0, 3, 2, 1, 0, 10, 5, 1, 3, 0, 255, 11]);
+  for (const name of ["page.wasm.gz", "page-relaxed.wasm.gz"]) writeFileSync(join(scratch, "site", name), broken);
+  const old = await browser.page(`${server.origin}/index.html`, { width: WIDTH, height: HEIGHT, before: HEAR });
+  assert.match((await old.until(`self.heard?.find((e) => e.type === "error")`, 10)).reason, /no WebAssembly with SIMD/);
+  await keep(old, "old.png");
+  await old.close();
+  server.close();
 });
 
 await check("colours, box, pictures", async () => {

@@ -10,8 +10,9 @@ import { extname, join, normalize } from "node:path";
 
 const TYPES = { ".html": "text/html", ".js": "text/javascript", ".mjs": "text/javascript", ".css": "text/css", ".json": "application/json" };
 
-/// Serves files of folders by prefix: { "/": folder, ... }. `headers` are sent with each. Returns { origin, bytes(), close() }.
-export async function serve(folders, headers = {}) {
+/// Serves files of folders by prefix: { "/": folder, ... }. `headers` are sent with each; `ranges`: parts of files are given. Returns
+/// { origin, bytes(), close() }.
+export async function serve(folders, headers = {}, ranges = true) {
   let sent = 0;
   const server = createServer((request, response) => {
     const path = normalize(decodeURIComponent(new URL(request.url, "http://x").pathname));
@@ -28,9 +29,18 @@ export async function serve(folders, headers = {}) {
       response.writeHead(404).end();
       return;
     }
-    sent += facts.size;
-    response.writeHead(200, { "content-type": TYPES[extname(file)] ?? "application/octet-stream", "content-length": facts.size, ...headers });
-    createReadStream(file).pipe(response);
+    const range = ranges && /^bytes=(\d+)-(\d+)$/.exec(request.headers.range ?? "");
+    const start = range ? Number(range[1]) : 0, end = range ? Math.min(Number(range[2]), facts.size - 1) : facts.size - 1;
+    if (range && start >= facts.size) {
+      response.writeHead(416).end();
+      return;
+    }
+    sent += end + 1 - start;
+    if (range) response.setHeader("content-range", `bytes ${start}-${end}/${facts.size}`);
+    response.writeHead(range ? 206 : 200, { "content-type": TYPES[extname(file)] ?? "application/octet-stream",
+                                            "content-length": end + 1 - start, etag: `"${facts.mtimeMs}"`, ...headers });
+    if (request.method === "HEAD" || end < start) response.end();
+    else createReadStream(file, { start, end }).pipe(response);
   });
   await new Promise((resolve) => server.listen(0, "127.0.0.1", resolve));
   return { origin: `http://127.0.0.1:${server.address().port}`, bytes: () => sent, close: () => server.close() };
