@@ -10,10 +10,8 @@
 
 /// exp(-s) for s in [0, EWA_EXPONENT_END] within 3.0e-05 relative, squared `doublings` >= 2 times.
 static ALWAYS_INLINE wf exponential(wf s, uint32_t doublings) {
-    wf e = wf_fma(s, wf_set(0.023368568317f), wf_set(-0.149394522715f));
-    e = wf_fma(s, e, wf_set(0.492818156100f));
-    e = wf_fma(s, e, wf_set(-0.998891978164f));
-    e = wf_fma(s, e, wf_set(0.999970343067f));
+    static const float coefficients[] = {0.023368568317f, -0.149394522715f, 0.492818156100f, -0.998891978164f, 0.999970343067f};
+    wf e = wf_horner(s, coefficients, sizeof coefficients / sizeof coefficients[0]);
     e = wf_mul(e, e);
     e = wf_mul(e, e);
     for (uint32_t i = 2; i < doublings; i++) e = wf_mul(e, e);
@@ -40,7 +38,7 @@ static ALWAYS_INLINE column_terms column_start(const ewa_record *r, float key, f
 
 /// s of a block.
 static ALWAYS_INLINE wf block_exponent(const ewa_record *r, const column_terms *c, wf dy) {
-    return wf_fma(dy, wf_fma(wf_set(r->yy), dy, c->cross), c->quadratic);
+    return wf_fma_twice(dy, wf_set(r->yy), c->cross, c->quadratic);
 }
 
 /// How the splats of a class test their depth (ewa_record).

@@ -42,7 +42,7 @@ static ALWAYS_INLINE size_t first_number(const ewa_tile *tile, uint32_t row, uin
 
 /// Adds weight x factor, of units; weight is at most 1, factor odd or 0.
 static ALWAYS_INLINE void add_product(float *plane, wf weight, wf factor) {
-    wf_store(plane, wf_fma(weight, factor, wf_load(plane)));
+    wf_store(plane, wf_fma_whole(weight, factor, wf_load(plane)));
 }
 
 /// The same with what the rounding leaves, `fine` numbers further on.

@@ -36,4 +36,22 @@
 #error "define WIDE_AVX512, WIDE_AVX2, WIDE_NEON or WIDE_PORTABLE"
 #endif
 
+#if !defined(WIDE_FUSED_BY_DOUBLES)
+// Chains of fma that sets without it (wide_fused.h) have another way to.
+
+/// x (x a + b) + c, each sum rounded once.
+static ALWAYS_INLINE wf wf_fma_twice(wf x, wf a, wf b, wf c) { return wf_fma(x, wf_fma(x, a, b), c); }
+
+/// ((coefficients[0] x + coefficients[1]) x + ...) of `count` >= 1 coefficients of at least 2^-100, each sum rounded once.
+static ALWAYS_INLINE wf wf_horner(wf x, const float *coefficients, int count) {
+    wf sum = wf_set(coefficients[0]);
+    for (int i = 1; i < count; i++) sum = wf_fma(x, sum, wf_set(coefficients[i]));
+    return sum;
+}
+
+/// a b + c rounded once, for whole numbers c and sums in [2^23, 2^24) and products, |a b| < 2^22, that are not halfway between two
+/// whole numbers. Other sums are near it, and grow with c.
+static ALWAYS_INLINE wf wf_fma_whole(wf a, wf b, wf c) { return wf_fma(a, b, c); }
+#endif
+
 #endif

@@ -1,15 +1,22 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Part of wide_portable.h: a b + c rounded once, for sixteen floats at a time, where the instruction set has
-// no fused multiply-add and fmaf() would be called for every lane.
+// Part of wide_portable.h and wide_wasm.h: a b + c rounded once, for four floats at a time, where the instruction set has no
+// fused multiply-add and fmaf() would be called for every lane; and some chains of these, by fewer calls and conversions.
 //
 // In double precision the product of two floats is exact, and only the sum is rounded; rounding that to float
 // can be wrong in two cases alone: where the rounded sum stands halfway between two floats though the exact
 // one does not, and where the float is below the normal numbers, which have fewer digits. Both are seen from
-// the bits of the sum. There the sum is rounded to odd first: S. Boldo and G. Melquiond, "Emulation of FMA
+// the bits. There the sum is rounded to odd first: S. Boldo and G. Melquiond, "Emulation of FMA
 // and Correctly Rounded Sums: Proved Algorithms Using Rounding to Odd", IEEE Transactions on Computers 57(4),
 // 2008.
+//
+// The second case needs a small c: a product has 48 bits, so that a sum that is not exact in 53 is at most 33/32 of |c|, or
+// above 2^-96.
+#define WIDE_FUSED_BY_DOUBLES
+
+#include <stdbool.h>
+
 typedef float w2f __attribute__((vector_size(8)));
 typedef double w2d __attribute__((vector_size(16)));
 typedef int64_t w2l __attribute__((vector_size(16)));
@@ -19,17 +26,35 @@ static inline w2d w2d_of_high(w4f a) {
     // By the low half of a full vector: GCC 12 takes the numbers of a high half one by one.
     return w2d_of_low(__builtin_shufflevector(a, a, 2, 3, 2, 3));
 }
+
+/// The low words of four doubles.
+static inline w4i low_words(w2d low, w2d high) { return __builtin_shufflevector((w4i)low, (w4i)high, 0, 2, 4, 6); }
+
+#if defined(__wasm_simd128__)
+// Clang takes the numbers of a narrowed vector one by one.
+static inline w4f w4f_of(w2d low, w2d high) {
+    return (w4f)wasm_i64x2_shuffle(wasm_f32x4_demote_f64x2_zero((v128_t)low), wasm_f32x4_demote_f64x2_zero((v128_t)high), 0, 2);
+}
+
+// What is doubtful is told by the signs, which needs the fewest constants: hosts make these anew in every call.
+static inline w4i is_halfway(w2d low, w2d high) { return (w4i)wasm_i32x4_abs((v128_t)(low_words(low, high) << 3)); }
+static inline w4i is_below_normal(w4f sum) { return (w4i)(((((w4u)sum << 1) - 1) >> 24) - 1); }
+static inline bool is_any(w4i doubtful) { return __builtin_expect(wasm_i32x4_bitmask((v128_t)doubtful) != 0, 0); }
+#else
 static inline w4f w4f_of(w2d low, w2d high) {
     const w2f l = __builtin_convertvector(low, w2f), h = __builtin_convertvector(high, w2f);
     return __builtin_shufflevector(l, h, 0, 1, 2, 3);
 }
 
-/// Other than 0 in the lanes where the sums cannot simply be rounded to float.
-static inline w4i fused_doubtful(w2d low, w2d high) {
-    const w4i last = __builtin_shufflevector((w4i)low, (w4i)high, 0, 2, 4, 6) & 0x1fffffff;
-    const w4i first = __builtin_shufflevector((w4i)low, (w4i)high, 1, 3, 5, 7) & 0x7fffffff;
-    return (last == 0x10000000) | ((first > 0) & (first < 0x38100000)); // below 2^-126, but not 0
+/// Other than 0 in the lanes of sums that are halfway between two floats.
+static inline w4i is_halfway(w2d low, w2d high) { return low_words(low, high) << 3 == INT32_MIN; }
+/// Likewise of floats below the normal numbers, or the first of these, but not 0.
+static inline w4i is_below_normal(w4f sum) { return ((w4u)sum << 1) - 1 < 0x01000000; }
+static inline bool is_any(w4i doubtful) {
+    const w2l any = (w2l)doubtful;
+    return any[0] | any[1];
 }
+#endif
 
 /// product + c rounded to odd: the exact sum where that is a double, else of the two beside it the one with
 /// an odd last bit.
@@ -41,24 +66,54 @@ static inline w2d fused_odd(w2d product, w2d c) {
     return (w2d)((w2l)sum + (inexact & even & step));
 }
 
-static __attribute__((noinline, unused, cold)) wf fused_slowly(wf a, wf b, wf c) {
-    wf result;
-    for (int i = 0; i < 4; i++) {
-        result.q[i] = w4f_of(fused_odd(w2d_of_low(a.q[i]) * w2d_of_low(b.q[i]), w2d_of_low(c.q[i])),
-                            fused_odd(w2d_of_high(a.q[i]) * w2d_of_high(b.q[i]), w2d_of_high(c.q[i])));
-    }
-    return result;
+FUSED w4f w4f_fma(w4f a, w4f b, w4f c) {
+    const w2d low_product = w2d_of_low(a) * w2d_of_low(b), high_product = w2d_of_high(a) * w2d_of_high(b);
+    const w2d low = low_product + w2d_of_low(c), high = high_product + w2d_of_high(c);
+    const w4f sum = w4f_of(low, high);
+    if (!is_any(is_halfway(low, high) | is_below_normal(sum))) return sum;
+    return w4f_of(fused_odd(low_product, w2d_of_low(c)), fused_odd(high_product, w2d_of_high(c)));
 }
 
-FUSED wf wf_fma(wf a, wf b, wf c) {
-    wf result;
-    w4i doubtful = {0};
-    for (int i = 0; i < 4; i++) {
-        const w2d low = w2d_of_low(a.q[i]) * w2d_of_low(b.q[i]) + w2d_of_low(c.q[i]);
-        const w2d high = w2d_of_high(a.q[i]) * w2d_of_high(b.q[i]) + w2d_of_high(c.q[i]);
-        doubtful |= fused_doubtful(low, high);
-        result.q[i] = w4f_of(low, high);
-    }
-    const w2l any = (w2l)doubtful;
-    return any[0] | any[1] ? fused_slowly(a, b, c) : result;
+FUSED w4f w4f_fma_twice(w4f x, w4f a, w4f b, w4f c) {
+    const w2d x_low = w2d_of_low(x), x_high = w2d_of_high(x);
+    w2d low = x_low * w2d_of_low(a) + w2d_of_low(b), high = x_high * w2d_of_high(a) + w2d_of_high(b);
+    const w4f inner = w4f_of(low, high);
+    w4i doubtful = is_halfway(low, high) | is_below_normal(inner);
+    low = x_low * w2d_of_low(inner) + w2d_of_low(c), high = x_high * w2d_of_high(inner) + w2d_of_high(c);
+    const w4f sum = w4f_of(low, high);
+    doubtful |= is_halfway(low, high) | is_below_normal(sum);
+    return is_any(doubtful) ? w4f_fma(x, w4f_fma(x, a, b), c) : sum;
 }
+
+FUSED w4f w4f_horner(w4f x, const float *coefficients, int count) {
+    const w2d x_low = w2d_of_low(x), x_high = w2d_of_high(x);
+    w4f sum = {coefficients[0], coefficients[0], coefficients[0], coefficients[0]};
+    w4i doubtful = {0};
+    for (int i = 1; i < count; i++) {
+        const double of = (double)coefficients[i];
+        const w2d low = x_low * w2d_of_low(sum) + of, high = x_high * w2d_of_high(sum) + of;
+        sum = w4f_of(low, high);
+        doubtful |= is_halfway(low, high); // no coefficient is small
+    }
+    if (!is_any(doubtful)) return sum;
+    sum = (w4f){coefficients[0], coefficients[0], coefficients[0], coefficients[0]};
+    for (int i = 1; i < count; i++) {
+        const float of = coefficients[i];
+        sum = w4f_fma(x, sum, (w4f){of, of, of, of});
+    }
+    return sum;
+}
+
+/// Adding 3 2^51 rounds to a whole number, which are its last bits then.
+static inline w4f w4f_fma_whole(w4f a, w4f b, w4f c) {
+    const w2d low = w2d_of_low(a) * w2d_of_low(b) + 0x1.8p52, high = w2d_of_high(a) * w2d_of_high(b) + 0x1.8p52;
+    return c + __builtin_convertvector(low_words(low, high), w4f);
+}
+
+static inline wf wf_fma(wf a, wf b, wf c) { QUARTERS(wf, w4f_fma(a.q[n], b.q[n], c.q[n])); }
+static inline wf wf_fma_twice(wf x, wf a, wf b, wf c) { QUARTERS(wf, w4f_fma_twice(x.q[n], a.q[n], b.q[n], c.q[n])); }
+static inline wf wf_horner(wf x, const float *coefficients, int count) {
+    QUARTERS(wf, w4f_horner(x.q[n], coefficients, count));
+}
+static inline wf wf_fma_whole(wf a, wf b, wf c) { QUARTERS(wf, w4f_fma_whole(a.q[n], b.q[n], c.q[n])); }
+static inline w8 w8_fma(w8 a, w8 b, w8 c) { return (w8){w4f_fma(a.l, b.l, c.l), w4f_fma(a.h, b.h, c.h)}; }

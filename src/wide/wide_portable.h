@@ -58,6 +58,10 @@ FUSED wf wf_fma(wf a, wf b, wf c) {
     LANES(wf, float, fmaf(x[i], y[i], z[i]));
 }
 FUSED wf wf_floor(wf a) { LANES(wf, float, floorf(LANE(a, i))); }
+static inline w8 w8_fma(w8 a, w8 b, w8 c) {
+    const wf sum = wf_fma((wf){{a.l, a.h}}, (wf){{b.l, b.h}}, (wf){{c.l, c.h}});
+    return (w8){sum.q[0], sum.q[1]};
+}
 #else
 #include "wide/wide_fused.h"
 
@@ -145,10 +149,6 @@ FUSED void w_load4(const float *p, size_t stride, wf out[4]) {
 }
 
 static inline w8 w8_set(float a) { return (w8){(w4f){a, a, a, a}, (w4f){a, a, a, a}}; }
-static inline w8 w8_fma(w8 a, w8 b, w8 c) {
-    const wf sum = wf_fma((wf){{a.l, a.h}}, (wf){{b.l, b.h}}, (wf){{c.l, c.h}});
-    return (w8){sum.q[0], sum.q[1]};
-}
 
 /// p[0..3], q[0..2], 0; reads q[3].
 static inline w8 w8_join(const float *p, const float *q) {

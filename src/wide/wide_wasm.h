@@ -40,10 +40,13 @@ static inline wf wf_fma(wf a, wf b, wf c) { QUARTERS(wf, w4f_fma(a.q[n], b.q[n],
 static inline wf wf_fnma(wf a, wf b, wf c) {
     QUARTERS(wf, (w4f)wasm_f32x4_relaxed_nmadd((v128_t)a.q[n], (v128_t)b.q[n], (v128_t)c.q[n]));
 }
+static inline w8 w8_fma(w8 a, w8 b, w8 c) { return (w8){w4f_fma(a.l, b.l, c.l), w4f_fma(a.h, b.h, c.h)}; }
 #else
+// By the vectors of one quarter: those of sixteen lanes would go through memory.
 #define FUSED static __attribute__((noinline, unused))
 #include "wide/wide_fused.h"
 #undef FUSED
+
 static inline wf wf_fnma(wf a, wf b, wf c) {
     for (int i = 0; i < 4; i++) a.q[i] = -a.q[i];
     return wf_fma(a, b, c);
@@ -142,15 +145,6 @@ static inline void w_load4(const float *p, size_t stride, wf out[4]) {
 }
 
 static inline w8 w8_set(float a) { return (w8){(w4f)wasm_f32x4_splat(a), (w4f)wasm_f32x4_splat(a)}; }
-#if defined(__wasm_relaxed_simd__)
-static inline w8 w8_fma(w8 a, w8 b, w8 c) { return (w8){w4f_fma(a.l, b.l, c.l), w4f_fma(a.h, b.h, c.h)}; }
-#else
-static inline w8 w8_fma(w8 a, w8 b, w8 c) {
-    const w4f none = {0};
-    const wf sum = wf_fma((wf){{a.l, a.h, none, none}}, (wf){{b.l, b.h, none, none}}, (wf){{c.l, c.h, none, none}});
-    return (w8){sum.q[0], sum.q[1]};
-}
-#endif
 
 /// p[0..3], q[0..2], 0; reads q[3].
 static inline w8 w8_join(const float *p, const float *q) {

@@ -40,10 +40,29 @@ static float against(float a, float b) {
     return of_bits((bits ^ 0x80000000 ^ (next() & 3)) + ((next() % 26) << 23) * (next() & 1));
 }
 
+/// At most 1, of few digits, so that products end in halves of halves.
+static float any_share(void) { return ldexpf((float)(next() % 9), -3); }
+
+/// Factors whose product is less than half of the least denormal number by what a double loses beside a larger one, and denormal
+/// numbers to add it to: now of the first sum of two, now of the second.
+static void fill_small(wide_input *in, int n) {
+    const bool first = next() % 2;
+    const float off = 0x1p-23f * (float)(1 + next() % 7), under = ldexpf(1 - off, -75);
+    in->a[n] = ldexpf(1 + off, -75);
+    in->b[n] = first ? under : 0;
+    in->c[n] = first ? of_bits(next() % 0x800000) : under;
+    in->k[n] = of_bits(next() % 0x800000);
+}
+
 static void fill(wide_input *in) {
     for (int n = 0; n < 16; n++) {
         in->a[n] = any_float(), in->b[n] = any_float();
         in->c[n] = next() % 2 ? any_float() : against(in->a[n], in->b[n]);
+        in->k[n] = next() % 2 ? any_float() : against(in->a[n], fmaf(in->a[n], in->b[n], in->c[n]));
+        if (next() % 8 == 0) fill_small(in, n);
+        in->share[n] = next() % 4 ? of_bits(0x3f800000 - next() % 0x08000000) : any_share();
+        in->odd[n] = of_bits((next() & 0x807ffffe) | 1 | (110 + next() % 36) << 23);
+        in->sum[n] = 0x1.8p23f + (float)(int32_t)(next() % 0x600000) - 0x1.8p21f;
         in->whole[n] = ldexpf((float)(int32_t)next(), -(int)(next() % 31));
         if (fabsf(in->whole[n]) > 0x1.fffffep30f) in->whole[n] = 1.5f;
         in->i[n] = (int32_t)next(), in->j[n] = (int32_t)next(), in->at[n] = (int32_t)(next() & 255);
@@ -51,6 +70,7 @@ static void fill(wide_input *in) {
         in->d[n] = (double)any_float() * (1 + 0x1p-30 * next()), in->e[n] = (double)any_float() * 1.1;
         in->f[n] = next() % 2 ? any_float() : -in->d[n] * in->e[n];
     }
+    for (int n = 0; n < 5; n++) in->coefficients[n] = of_bits((next() & 0x80ffffff) | (uint32_t)(100 + next() % 50) << 23);
     for (int n = 0; n < 256; n++) in->table[n] = any_float();
     in->bits = next() & 0xffff, in->shift = (int)(next() % 31);
 }
@@ -75,6 +95,10 @@ static void hold_floats(const wide_input *in, const wide_output *out, int n) {
     HOLD(sqrt, sqrtf(a)), HOLD(abs, fabsf(a)), HOLD(floor, floorf(a));
     HOLD(min, a < b ? a : b), HOLD(max, a > b ? a : b);
     HOLD(fma, fmaf(a, b, c)), HOLD(fnma, fmaf(-a, b, c));
+    HOLD(fma_twice, fmaf(a, fmaf(a, b, c), in->k[n])), HOLD(fma_whole, fmaf(in->share[n], in->odd[n], in->sum[n]));
+    float horner = in->coefficients[0];
+    for (int m = 1; m < 5; m++) horner = fmaf(a, horner, in->coefficients[m]);
+    HOLD(horner, horner);
     HOLD(select, given ? a : b), HOLD(keep, given ? a : 0), HOLD(from_i, (float)in->i[n]);
     HOLD(gather, in->table[at]), HOLD(lookup, in->table[at & 15]), HOLD(lookup32, in->table[at & 31]);
     HOLD(rows, in->table[20 * (n / 4) + n % 4]);

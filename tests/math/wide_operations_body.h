@@ -22,6 +22,9 @@ void EWA_VERSION(wide_operate)(const wide_input *in, wide_output *out) {
     wf_store(out->max, wf_max(a, b));
     wf_store(out->fma, wf_fma(a, b, c));
     wf_store(out->fnma, wf_fnma(a, b, c));
+    wf_store(out->fma_twice, wf_fma_twice(a, b, c, wf_load(in->k)));
+    wf_store(out->horner, wf_horner(a, in->coefficients, 5));
+    wf_store(out->fma_whole, wf_fma_whole(wf_load(in->share), wf_load(in->odd), wf_load(in->sum)));
     wf_store(out->select, wf_select(given, a, b));
     wf_store(out->keep, wf_keep(given, a));
     wf_store(out->from_i, wf_from_i(i));
