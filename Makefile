@@ -12,6 +12,7 @@
 #   make minimal                a program without any library, held to the bytes of the full one
 #   make arm64                  the same for 64-bit Arm, under an emulator
 #   make wasm                   WebAssembly: the bytes of the program under node, and the module that a page loads
+#   make windows                Windows on x86-64: the bytes of the program under wine, and the tests of the library
 #   make riscv64 musl           programs without any library for RISC-V (under an emulator) and for every x86-64 Linux
 #   make mutate                 breaks the library on purpose and says what the tests notice (hours)
 #   make bench sweep            figures of docs/performance.md: build/bench.json and tables; docs/sweep.png and slopes;
@@ -38,7 +39,7 @@ EWA = build/release/cli/ewa
 # $(call quietly,COMMAND): prints what a command said only when it fails.
 quietly = @mkdir -p build && { $(1) >build/log-$@.txt 2>&1 || { cat build/log-$@.txt; exit 1; }; }
 
-.PHONY: minimal wasm riscv64 musl interop build program measure setup demo check asan asan-build tsan tsan-build clang clang-build mutate fuzz arm64 bench sweep gallery papers docs wheel format install clean
+.PHONY: minimal wasm windows riscv64 musl interop build program measure setup demo check asan asan-build tsan tsan-build clang clang-build mutate fuzz arm64 bench sweep gallery papers docs wheel format install clean
 
 build: setup
 	@echo "Building build/release"
@@ -140,6 +141,19 @@ wasm: program
 	@$(EWA) generate torus -n 1000000 -o build/torus.ply
 	@node --no-warnings $$(node --v8-options | grep -o -e --experimental-wasm-relaxed-simd | head -n 1) page/measure.mjs build/torus.ply 1920 1080 5 build/wasm-relaxed/page/page.wasm build/wasm/page/page.wasm
 	@node --no-warnings page/measure.mjs build/torus.ply 1920 1080 5 build/wasm/page/page.wasm
+
+# Windows: the program's bytes and what it makes of names and files there, under wine.
+windows: program
+	@sh tools/setup.sh wine wine64
+	@sh tools/zig.sh x86_64-windows-gnu
+	@sh tools/dependencies.sh x86_64-windows-gnu
+	@echo "Building build/windows"
+	$(call quietly,cmake --preset windows)
+	$(call quietly,cmake --build build/windows -j $(JOBS) --target ewa)
+	@sh tools/hash_jobs.sh $(CURDIR)/$(EWA) >build/hashes-here.tsv
+	@sh tools/hash_jobs.sh sh $(CURDIR)/tools/wine.sh $(CURDIR)/build/windows/cli/ewa.exe >build/hashes-windows.tsv
+	diff build/hashes-here.tsv build/hashes-windows.tsv && echo "20 jobs: the same bytes"
+	@sh tools/windows_files.sh $(CURDIR)/$(EWA) $(CURDIR)/build/windows/cli/ewa.exe
 
 # Other Linux, without any library: RISC-V under an emulator, and one static file for x86-64.
 riscv64 musl: program

@@ -10,7 +10,7 @@
 #include <string.h>
 #include <unistd.h>
 
-enum { SCAN_POINTS = 1000000, SCAN_LINE = 1000, PATH_BYTES = 320 };
+enum { SCAN_POINTS = 1000000, SCAN_LINE = 1000, SCRATCH_PATH_BYTES = 320 };
 
 /// One format; the names are those of the rows.
 typedef struct file_kind {
@@ -128,7 +128,7 @@ static ewa_status measure(ewa_context *context, const bench_plan *plan, const ch
     const uint32_t threads = ewa_context_worker_count(context);
     ewa_status status = EWA_OK;
     for (size_t k = 0; status == EWA_OK && k < sizeof kinds / sizeof kinds[0]; k++) {
-        char path[PATH_BYTES];
+        char path[SCRATCH_PATH_BYTES];
         snprintf(path, sizeof path, "%s/scan%s", folder, kinds[k].suffix);
         ewa_cloud *scan = NULL;
         uint64_t points = SCAN_POINTS;

@@ -10,7 +10,6 @@
 #include "cli/bench/bench.h"
 #include "cli/input/scene_input.h"
 
-#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -159,8 +158,7 @@ static int measure_all(const void *data) {
 }
 
 int main(int argc, char **argv) {
-    signal(SIGPIPE, SIG_IGN);
-    signal(SIGXFSZ, SIG_IGN);
+    process_start();
     cli_command command = bench_command;
     command.run = measure_all;
     const int exit_status =

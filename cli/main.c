@@ -6,7 +6,6 @@
 #include "cli/base/json.h"
 #include "ewa/io.h"
 
-#include <signal.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -66,10 +65,7 @@ static int run(size_t count, const char *const *words) {
 }
 
 int main(int argc, char **argv) {
-    // A closed pipe or a file size limit is an error of the write that meets it, so that temporary files are
-    // removed.
-    signal(SIGPIPE, SIG_IGN);
-    signal(SIGXFSZ, SIG_IGN);
+    process_start();
     const int exit_status = run(argc > 0 ? (size_t)argc - 1 : 0, (const char *const *)argv + 1);
     cli_session session = {.quiet = false};
     return output_flush(&session, exit_status);

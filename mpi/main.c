@@ -8,7 +8,6 @@
 
 #include <errno.h>
 #include <math.h>
-#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -167,8 +166,7 @@ int main(int argc, char **argv) {
         fputs("ewa-mpi: MPI does not start\n", stderr);
         return EXIT_FAILED;
     }
-    signal(SIGPIPE, SIG_IGN);
-    signal(SIGXFSZ, SIG_IGN);
+    process_start();
     mpi_exchange exchange;
     mpi_arguments arguments = {.wrong = "out of memory"};
     const char **room = calloc((size_t)argc + 1, sizeof *room);

@@ -3,7 +3,7 @@
 # SPDX-License-Identifier: MIT
 #
 # Fetches clang with the C libraries of other systems (the wheel ziglang) into build/zig, and makes a compiler's name for each
-# target that is asked for: build/zig/bin/TARGET-cc, with zig-ar and zig-ranlib.
+# target that is asked for: build/zig/bin/TARGET-cc, with zig-ar, zig-ranlib and zig-rc.
 #   tools/zig.sh wasm32-wasi x86_64-linux-musl
 set -eu
 root=$(cd "$(dirname "$0")/.." && pwd)/build/zig
@@ -21,6 +21,7 @@ script() {
 }
 script zig-ar ar
 script zig-ranlib ranlib
+script zig-rc rc
 for target in "$@"; do
     script "$target-cc" "cc -target $target"
     script "$target-c++" "c++ -target $target"

@@ -5,14 +5,14 @@
 #ifndef EWA_CLI_BASE_CHILD_H
 #define EWA_CLI_BASE_CHILD_H
 
+#include "cli/base/path.h"
 #include "cli/base/session.h"
 
-#include <limits.h>
 #include <sys/types.h>
 
 /// Zero-initialised and ended there is none.
 typedef struct child_process {
-    pid_t process;    ///< 0: none runs
+    pid_t process;    ///< 0: none runs; on Windows a handle
     int input;        ///< its standard input; -1: closed
     int output;       ///< its standard output; -1: nobody listens
     FILE *complaints; ///< its standard error
@@ -20,7 +20,7 @@ typedef struct child_process {
 
 /// Finds a helper of this program beside it, in the folder of the build's tree where it is built, or where it is
 /// installed.
-bool child_find_helper(const char *folder, const char *name, char helper[PATH_MAX]);
+bool child_find_helper(const char *folder, const char *name, char helper[PATH_BYTES]);
 
 /// Becomes a helper of this program, with the words of the command line that `common` has. Returns only when that
 /// fails, after reporting, which of a helper that is not there `absent` does: an exit status.

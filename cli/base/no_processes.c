@@ -3,9 +3,10 @@
 //
 // The program on a host without processes (WASI): nothing is started.
 #include "cli/base/child.h"
-#include "cli/input/import.h"
 
 #include <errno.h>
+
+void process_start(void) {}
 
 uint64_t memory_peak_bytes(void) { return 0; }
 
@@ -15,7 +16,7 @@ bool session_make_folder(cli_session *session, char folder[SESSION_FOLDER_BYTES]
     return false;
 }
 
-bool child_find_helper(const char *folder, const char *name, char helper[PATH_MAX]) {
+bool child_find_helper(const char *folder, const char *name, char helper[PATH_BYTES]) {
     (void)folder, (void)name;
     helper[0] = 0;
     return false;
@@ -54,23 +55,3 @@ bool child_wait(cli_session *session, child_process *child, const char *subject,
 }
 
 void child_drop(child_process *child) { (void)child; }
-
-bool import_is_named(const char *path) {
-    (void)path;
-    return false;
-}
-
-bool import_load(cli_session *session, const char *path, uint32_t wanted, ewa_model *model) {
-    (void)wanted, (void)model;
-    session_fail(session, "%s: no helper that reads it can be started on this system", path);
-    return false;
-}
-
-bool import_run(cli_session *session, const char *helper, const char *path, const import_limits *limits,
-                uint8_t **bytes, size_t *size_bytes) {
-    (void)helper, (void)limits;
-    *bytes = NULL;
-    *size_bytes = 0;
-    session_fail(session, "%s: no helper that reads it can be started on this system", path);
-    return false;
-}

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 //
 // Whether the files that a command is asked to write can be written, before any work.
-#define _DEFAULT_SOURCE // lstat
 #include "cli/base/outputs.h"
+#include "cli/base/path.h"
 #include "cli/base/pattern.h"
 #include "cli/render/video.h"
 
@@ -12,7 +12,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-enum { MAX_OUTPUTS = 16, PATH_BYTES = 4096 };
+enum { MAX_OUTPUTS = 16 };
 
 /// A file that is to be written, and the option that says so.
 typedef struct named_output {
@@ -94,19 +94,19 @@ static bool check_place(const named_output *output, char message[OPTION_ERROR_BY
         snprintf(message, OPTION_ERROR_BYTES, "--%s: %.300s: is a folder", output->key, path);
         return false;
     }
-    if (lstat(path, &found) == 0 && S_ISLNK(found.st_mode) && access(path, F_OK) != 0) {
+    if (path_is_link(path) && stat(path, &found) != 0) {
         snprintf(message, OPTION_ERROR_BYTES, "--%s: %.300s: is a link to a file that is not there",
                  output->key, path);
         return false;
     }
     char folder[PATH_BYTES] = ".";
-    const char *slash = strrchr(path, '/');
-    if (slash) {
-        const size_t length = slash == path ? 1 : (size_t)(slash - path);
+    const char *name = path_file_name(path);
+    if (name > path) {
+        const size_t length = name == path + 1 ? 1 : (size_t)(name - path) - 1;
         memcpy(folder, path, length);
         folder[length] = 0;
     }
-    if (access(folder, W_OK | X_OK) == 0) return true;
+    if (path_takes_files(folder)) return true;
     snprintf(message, OPTION_ERROR_BYTES, "--%s: %.180s: cannot create: folder %.180s: %s", output->key, path,
              folder, strerror(errno));
     return false;

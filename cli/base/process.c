@@ -5,8 +5,15 @@
 #define _XOPEN_SOURCE 700 // mkdtemp
 #include "cli/base/session.h"
 
+#include <signal.h>
 #include <stdlib.h>
 #include <sys/resource.h>
+
+void process_start(void) {
+    // A closed pipe or a file size limit is an error of the write that meets it, so that temporary files are removed.
+    signal(SIGPIPE, SIG_IGN);
+    signal(SIGXFSZ, SIG_IGN);
+}
 
 uint64_t memory_peak_bytes(void) {
     struct rusage usage;

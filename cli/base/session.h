@@ -76,6 +76,9 @@ enum { SESSION_FOLDER_BYTES = 256 };
 /// Makes a folder of its own in TMPDIR for files that are soon removed again, with it. False after reporting.
 bool session_make_folder(cli_session *session, char folder[SESSION_FOLDER_BYTES]);
 
+/// Makes the process one that writes the same bytes and cleans up whoever started it, and however. First of all.
+void process_start(void);
+
 /// Monotonic time in seconds.
 double clock_now_s(void);
 

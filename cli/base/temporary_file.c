@@ -2,14 +2,11 @@
 // SPDX-License-Identifier: MIT
 //
 // A file that appears whole or not at all.
-#define _DEFAULT_SOURCE // realpath
 #include "cli/base/temporary_file.h"
 #include "cli/base/interruption.h"
 
 #include <errno.h>
-#include <fcntl.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <time.h>
@@ -17,11 +14,11 @@
 
 int temporary_file_choose(const char *path, temporary_file *pending) {
     *pending = (temporary_file){.temporary = true};
-    if (strlen(path) >= PATH_MAX) return ENAMETOOLONG;
+    if (strlen(path) >= PATH_BYTES) return ENAMETOOLONG;
     struct stat facts;
     if (stat(path, &facts) != 0) {
         if (errno != ENOENT) return errno;
-        if (lstat(path, &facts) == 0) return ENOENT; // a link that leads nowhere
+        if (path_is_link(path)) return ENOENT; // a link that leads nowhere
         strcpy(pending->target, path);
     } else if (!S_ISREG(facts.st_mode)) {
         pending->temporary = false;
@@ -29,18 +26,16 @@ int temporary_file_choose(const char *path, temporary_file *pending) {
         return S_ISDIR(facts.st_mode) ? EISDIR : 0;
     } else {
         // Renaming asks the folder for permission only; a file that is write-protected is meant to stay.
-        if (!realpath(path, pending->target) || faccessat(AT_FDCWD, pending->target, W_OK, AT_EACCESS) != 0)
-            return errno;
+        if (!path_resolve_writable(path, pending->target)) return errno;
         pending->replaces = true;
         pending->mode = facts.st_mode & 0777;
     }
     // Short, so that every target that can be named can be written.
-    const char *slash = strrchr(pending->target, '/');
-    const int folder_bytes = slash ? (int)(slash - pending->target) + 1 : 0;
+    const int folder_bytes = (int)(path_file_name(pending->target) - pending->target);
     struct timespec now;
     clock_gettime(CLOCK_REALTIME, &now);
     const int length = snprintf(pending->written, sizeof pending->written, "%.*s.ewa-%ld-%09ld.tmp",
-                                folder_bytes, pending->target, (long)getpid(), now.tv_nsec);
+                                folder_bytes, pending->target, path_process_number(), now.tv_nsec);
     if (length < 0 || (size_t)length >= sizeof pending->written) return ENAMETOOLONG;
     interruption_watch_file(pending->written);
     return 0;
@@ -49,13 +44,8 @@ int temporary_file_choose(const char *path, temporary_file *pending) {
 int temporary_file_commit(temporary_file *pending) {
     if (!pending->temporary) return 0;
     if (pending->replaces && chmod(pending->written, pending->mode) != 0) return errno;
-    const int descriptor = open(pending->written, O_RDONLY | O_CLOEXEC);
-    if (descriptor < 0) return errno;
-    // The name is to lead to whole bytes after a power cut, too.
-    const int unsafe = fsync(descriptor) != 0 && errno != EINVAL ? errno : 0;
-    close(descriptor);
-    if (unsafe) return unsafe;
-    if (rename(pending->written, pending->target) != 0) return errno;
+    const int error = path_replace(pending->written, pending->target);
+    if (error) return error;
     interruption_release_file(pending->written);
     pending->temporary = false;
     return 0;

@@ -6,14 +6,14 @@
 #ifndef EWA_CLI_BASE_TEMPORARY_FILE_H
 #define EWA_CLI_BASE_TEMPORARY_FILE_H
 
-#include <limits.h>
-#include <stdbool.h>
+#include "cli/base/path.h"
+
 #include <sys/types.h>
 
 /// Where the bytes of a file go until it is whole.
 typedef struct temporary_file {
-    char target[PATH_MAX]; ///< what `written` is renamed to; behind links, which stay
-    char written[PATH_MAX];
+    char target[PATH_BYTES]; ///< what `written` is renamed to; behind links, which stay
+    char written[PATH_BYTES];
     bool temporary; ///< false: a device or a pipe, which takes the bytes as they come and is never replaced
     bool replaces;  ///< the target is there, and its mode stays
     mode_t mode;

@@ -170,7 +170,7 @@ bool import_run(cli_session *session, const char *helper, const char *path, cons
 }
 
 bool import_load(cli_session *session, const char *path, uint32_t wanted, ewa_model *model) {
-    char helper[PATH_MAX];
+    char helper[PATH_BYTES];
     *model = (ewa_model){.points = NULL};
     if (session->untrusted) {
         session_fail(session, "%s: this format is read by a helper program, which --untrusted does not start", path);

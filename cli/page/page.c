@@ -3,6 +3,7 @@
 //
 // ewa page: a page for a browser that shows what `ewa render` would, and can be turned.
 #include "cli/base/commands.h"
+#include "cli/base/path.h"
 #include "cli/base/temporary_file.h"
 #include "cli/input/inputs.h"
 #include "cli/input/scene_input.h"
@@ -12,7 +13,6 @@
 #include <errno.h>
 #include <stdio.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 typedef struct page_arguments {
@@ -133,7 +133,7 @@ static bool make_folder(cli_session *session, const page_arguments *arguments, p
     while (length > 1 && arguments->folder[length - 1] == '/') length--;
     const bool fits = snprintf(data->folder, sizeof data->folder, "%.*s.ewa-%ld.tmp", (int)length, arguments->folder, (long)getpid()) <
                       (int)sizeof data->folder;
-    if (fits && mkdir(data->folder, 0777) == 0) return true;
+    if (fits && path_make_folder(data->folder)) return true;
     session_fail(session, "--folder: %s: %s", arguments->folder, strerror(fits ? errno : ENAMETOOLONG));
     data->folder[0] = 0;
     return false;
@@ -151,8 +151,8 @@ static bool show_folder(cli_session *session, const char *folder, page_data *dat
 
 static bool make(cli_session *session, const page_arguments *arguments, const page_assets *assets, const page_choice *choice,
                  page_data *data) {
-    const char *path = choice->paths[0], *slash = strrchr(path, '/');
-    const page_words words = {.title = arguments->title ? arguments->title : slash && slash[1] ? slash + 1 : path,
+    const char *path = choice->paths[0], *name = path_file_name(path);
+    const page_words words = {.title = arguments->title ? arguments->title : *name ? name : path,
                               .color_bar = arguments->color_by && !ewa_coloring_is_own(arguments->color_by),
                               .shown = arguments->output};
     if (!make_folder(session, arguments, data) || !page_data_make(session, choice, data)) return false;

@@ -3,12 +3,12 @@
 //
 // What every page brings along: the modules, scripts and style of page/, where they are installed or built.
 #include "cli/page/page_assets.h"
+#include "cli/base/path.h"
 
 #include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 const char *const page_asset_names[PAGE_ASSET_COUNT] = {"files.js",  "ranges.js", "module.js",    "worker.js",           "look.js", "ewa-view.js",
                                                         "single.js", "page.css",  "page.wasm.gz", "page-relaxed.wasm.gz"};
@@ -19,16 +19,6 @@ static const char *place_of(int asset, int place) {
     static const char *const exact[] = {"../share/ewa/page/", "../../wasm/page/", NULL};
     static const char *const relaxed[] = {"../share/ewa/page/", "../../wasm-relaxed/page/", NULL};
     return (asset == PAGE_EXACT_WASM ? exact : asset == PAGE_RELAXED_WASM ? relaxed : scripts)[place];
-}
-
-/// The folder that the program lies in, with the slash.
-static bool find_own_folder(char own[PAGE_PATH_BYTES]) {
-    const ssize_t length = readlink("/proc/self/exe", own, PAGE_PATH_BYTES - 1);
-    if (length <= 0) return false;
-    own[length] = 0;
-    char *slash = strrchr(own, '/');
-    if (slash) slash[1] = 0;
-    return slash != NULL;
 }
 
 bool page_bytes_read(const char *path, page_bytes *read, int *error) {
@@ -65,7 +55,7 @@ static bool load_one(const char *folder, int asset, page_bytes *read) {
     char path[PAGE_PATH_BYTES], own[PAGE_PATH_BYTES] = "";
     int error;
     const char *place = folder;
-    if (!folder && !find_own_folder(own)) return false;
+    if (!folder && !path_of_own_folder(own)) return false;
     for (int i = 0; (place = folder ? (i ? NULL : folder) : place_of(asset, i)); i++) {
         const char *name = page_asset_names[asset];
         const bool built = asset == PAGE_RELAXED_WASM && strstr(place, "wasm-relaxed"); // where both have one name

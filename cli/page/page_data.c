@@ -3,6 +3,7 @@
 //
 // What a page shows, as files in a folder of its own beside a scene file that names them.
 #include "cli/page/page_data.h"
+#include "cli/base/path.h"
 #include "cli/base/pattern.h"
 #include "cli/input/gaussian_files.h"
 #include "cli/input/inputs.h"
@@ -50,7 +51,7 @@ static bool has_name(const page_data *data, const char *name) {
 /// Takes a name for a file, that of `path` with the suffix `suffix` (NULL: its own) where no other has it, of letters that every
 /// system, address and text takes; writes where it is. False after reporting.
 static bool take_name(cli_session *session, page_data *data, const char *path, const char *suffix, char target[PAGE_PATH_BYTES]) {
-    const char *slash = strrchr(path, '/'), *from = slash ? slash + 1 : path;
+    const char *from = path_file_name(path);
     char plain[PAGE_NAME_BYTES / 2], name[PAGE_NAME_BYTES];
     size_t length = 0;
     for (; *from && length + 1 < sizeof plain; from++) {

@@ -2,17 +2,16 @@
 // SPDX-License-Identifier: MIT
 //
 // Films through the program ffmpeg: raw frames go to its standard input, no shell in between.
-#define _POSIX_C_SOURCE 200809L
 #include "cli/render/video.h"
+#include "cli/base/path.h"
 
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
-enum { MAX_WORDS = 64, PATH_BYTES = 4096 };
+enum { MAX_WORDS = 64 };
 
 struct video_format {
     const char *suffix, *muxer, *codec;
@@ -61,25 +60,9 @@ bool video_has_alpha(const video_format *format) { return format->alpha; }
 
 bool video_has_quality(const video_format *format) { return format->codec != NULL; }
 
-/// Looks for ffmpeg in the folders of PATH.
-static bool find_program(char program[PATH_BYTES]) {
-    const char *folder = getenv("PATH");
-    while (folder && *folder) {
-        const size_t length = strcspn(folder, ":");
-        const int written =
-            snprintf(program, PATH_BYTES, "%.*s%sffmpeg", (int)length, folder, length ? "/" : "");
-        struct stat found;
-        if (written > 0 && written < PATH_BYTES && stat(program, &found) == 0 && S_ISREG(found.st_mode) &&
-            access(program, X_OK) == 0)
-            return true;
-        folder += length + (folder[length] == ':');
-    }
-    return false;
-}
-
 bool video_is_possible(void) {
     char program[PATH_BYTES];
-    return find_program(program);
+    return path_find_program("ffmpeg", program);
 }
 
 /// Texts of the words that are made up, and the words of ffmpeg's command line.
@@ -124,7 +107,7 @@ static void make_command_line(const cli_video *video, const video_format *format
 bool video_start(cli_session *session, const char *path, const video_settings *settings, cli_video *video) {
     *video = (cli_video){.path = path};
     char program[PATH_BYTES];
-    if (!find_program(program)) {
+    if (!path_find_program("ffmpeg", program)) {
         session_fail(session, "%s: ffmpeg is gone", path);
         return false;
     }

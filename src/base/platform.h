@@ -4,7 +4,7 @@
 // All that the library asks of the operating system, once for each kind of system (platform_posix.c, platform_wasm.c,
 // what these share in platform_unix.c, platform_windows.c; what a system lacks in platform_without_*.c); threads are in pool.c. Test `opens` finds calls elsewhere.
 //
-// Paths are UTF-8 with '/' between names. What fails returns false, NULL or -1 and leaves the reason in errno. Every
+// Paths are UTF-8 with '/' between names, on Windows also '\'. What fails returns false, NULL or -1 and leaves the reason in errno. Every
 // function may be called from any thread.
 #ifndef EWA_SRC_BASE_PLATFORM_H
 #define EWA_SRC_BASE_PLATFORM_H
@@ -49,6 +49,15 @@ typedef struct ewa_platform_facts {
     uint64_t device, number; ///< equal for two paths of one file
 } ewa_platform_facts;
 
+/// Returns whether a character stands between the names of a path.
+bool ewa_platform_is_separator(char character);
+
+/// Returns what follows the folder in a path; all of it where it names none.
+const char *ewa_platform_file_name(const char *path);
+
+/// Returns whether a path means the same from every folder.
+bool ewa_platform_is_absolute(const char *path);
+
 bool ewa_platform_stat(const char *path, ewa_platform_facts *facts);
 bool ewa_platform_stat_open(int descriptor, ewa_platform_facts *facts);
 
@@ -57,7 +66,7 @@ bool ewa_platform_is_link(const char *path);
 bool ewa_platform_may_read(const char *path);
 bool ewa_platform_may_write(const char *path);
 
-/// Writes the absolute path of a file or folder that is there, links and ".." resolved.
+/// Writes the absolute path of a file or folder that is there, links and ".." resolved, '/' between its names.
 bool ewa_platform_resolve(const char *path, char resolved[EWA_PATH_BYTES]);
 
 /// Gives a file another name, in place of a file that has it; for the same folder.

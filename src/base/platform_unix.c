@@ -27,6 +27,15 @@ double ewa_platform_seconds(void) {
 
 // ---- Names of files
 
+bool ewa_platform_is_separator(char character) { return character == '/'; }
+
+const char *ewa_platform_file_name(const char *path) {
+    const char *slash = strrchr(path, '/');
+    return slash ? slash + 1 : path;
+}
+
+bool ewa_platform_is_absolute(const char *path) { return *path == '/'; }
+
 static bool take_facts(const struct stat *from, ewa_platform_facts *facts) {
     *facts = (ewa_platform_facts){.regular = S_ISREG(from->st_mode),
                                   .folder = S_ISDIR(from->st_mode),

@@ -17,6 +17,8 @@
 enum {
     SHARE_ALL = FILE_SHARE_READ | FILE_SHARE_WRITE | FILE_SHARE_DELETE,
     MAX_TRANSFER_BYTES = 1 << 30, // counts of _read() and WriteFile() are of 32 bits
+    WIDE_LENGTH = EWA_PATH_BYTES + 8, // of a path and what stands before a long one
+    SHORT_LENGTH = 240,               // what every call takes as it is; the limit is 260 with a name made beside
 };
 
 /// Takes over the reason of a failure; returns -1.
@@ -93,11 +95,40 @@ void ewa_platform_describe(int error, char *text, size_t room) {
 
 // ---- Names of files
 
-/// A path in UTF-16; false with errno where it is none.
-static bool widen(const char *path, wchar_t wide[EWA_PATH_BYTES]) {
-    if (MultiByteToWideChar(CP_UTF8, MB_ERR_INVALID_CHARS, path, -1, wide, EWA_PATH_BYTES) > 0) return true;
-    errno = GetLastError() == ERROR_INSUFFICIENT_BUFFER ? ENAMETOOLONG : EILSEQ;
-    return false;
+bool ewa_platform_is_separator(char character) { return character == '/' || character == '\\'; }
+
+const char *ewa_platform_file_name(const char *path) {
+    const char *name = path;
+    for (; *path; path++)
+        if (ewa_platform_is_separator(*path)) name = path + 1;
+    return name;
+}
+
+bool ewa_platform_is_absolute(const char *path) {
+    return ewa_platform_is_separator(*path) || (*path && path[1] == ':');
+}
+
+/// A path in UTF-16; false with errno where it is none. Calls take more than 260 characters only of an absolute path behind
+/// \\?\, which a path that is `long` always becomes.
+static bool widen(const char *path, bool is_long, wchar_t wide[WIDE_LENGTH]) {
+    wchar_t full[EWA_PATH_BYTES];
+    const int length = MultiByteToWideChar(CP_UTF8, MB_ERR_INVALID_CHARS, path, -1, wide, EWA_PATH_BYTES - 1);
+    if (length <= 0) {
+        errno = GetLastError() == ERROR_INSUFFICIENT_BUFFER ? ENAMETOOLONG : EILSEQ;
+        return false;
+    }
+    // C: is the folder of C:/name here; to the system it is where the process stands on C.
+    if (length == 3 && wide[1] == L':') wide[2] = L'\\', wide[3] = 0;
+    const DWORD full_length = GetFullPathNameW(wide, EWA_PATH_BYTES, full, NULL);
+    if (full_length >= EWA_PATH_BYTES) {
+        errno = ENAMETOOLONG;
+        return false;
+    }
+    if (full_length == 0 || (full_length < SHORT_LENGTH && !is_long)) return true;
+    const bool has_share = wcsncmp(full, L"\\\\", 2) == 0, is_device = has_share && (full[2] == L'?' || full[2] == L'.');
+    wcscpy(wide, is_device ? L"" : has_share ? L"\\\\?\\UNC\\" : L"\\\\?\\");
+    wcscat(wide, full + (has_share && !is_device ? 2 : 0));
+    return true;
 }
 
 static HANDLE open_wide(const wchar_t *path, DWORD access, DWORD share, DWORD how, DWORD flags) {
@@ -106,8 +137,8 @@ static HANDLE open_wide(const wchar_t *path, DWORD access, DWORD share, DWORD ho
 
 /// A handle that programs that are started do not get; INVALID_HANDLE_VALUE with errno.
 static HANDLE open_handle(const char *path, DWORD access, DWORD share, DWORD how, DWORD flags) {
-    wchar_t wide[EWA_PATH_BYTES];
-    if (!widen(path, wide)) return INVALID_HANDLE_VALUE;
+    wchar_t wide[WIDE_LENGTH];
+    if (!widen(path, false, wide)) return INVALID_HANDLE_VALUE;
     HANDLE handle = open_wide(wide, access, share, how, flags);
     if (handle == INVALID_HANDLE_VALUE) take_error();
     return handle;
@@ -127,8 +158,11 @@ static bool take_facts(HANDLE handle, ewa_platform_facts *facts) {
     *facts = (ewa_platform_facts){0};
     if (GetFileType(handle) != FILE_TYPE_DISK) return true;
     if (!GetFileInformationByHandle(handle, &found)) {
-        take_error();
-        return false;
+        // Wine knows no more of a file that it was given open.
+        LARGE_INTEGER size_bytes;
+        facts->regular = GetFileSizeEx(handle, &size_bytes);
+        if (facts->regular) facts->size_bytes = (uint64_t)size_bytes.QuadPart;
+        return facts->regular || take_error() == 0;
     }
     facts->folder = (found.dwFileAttributes & FILE_ATTRIBUTE_DIRECTORY) != 0;
     facts->regular = !facts->folder;
@@ -149,8 +183,8 @@ bool ewa_platform_stat(const char *path, ewa_platform_facts *facts) {
 bool ewa_platform_stat_open(int descriptor, ewa_platform_facts *facts) { return take_facts(handle_of(descriptor), facts); }
 
 bool ewa_platform_is_link(const char *path) {
-    wchar_t wide[EWA_PATH_BYTES];
-    const DWORD attributes = widen(path, wide) ? GetFileAttributesW(wide) : INVALID_FILE_ATTRIBUTES;
+    wchar_t wide[WIDE_LENGTH];
+    const DWORD attributes = widen(path, false, wide) ? GetFileAttributesW(wide) : INVALID_FILE_ATTRIBUTES;
     return attributes != INVALID_FILE_ATTRIBUTES && (attributes & FILE_ATTRIBUTE_REPARSE_POINT);
 }
 
@@ -193,14 +227,14 @@ bool ewa_platform_resolve(const char *path, char resolved[EWA_PATH_BYTES]) {
 }
 
 bool ewa_platform_rename(const char *from, const char *to) {
-    wchar_t wide_from[EWA_PATH_BYTES], wide_to[EWA_PATH_BYTES];
-    if (!widen(from, wide_from) || !widen(to, wide_to)) return false;
+    wchar_t wide_from[WIDE_LENGTH], wide_to[WIDE_LENGTH];
+    if (!widen(from, false, wide_from) || !widen(to, false, wide_to)) return false;
     return MoveFileExW(wide_from, wide_to, MOVEFILE_REPLACE_EXISTING | MOVEFILE_WRITE_THROUGH) || take_error() == 0;
 }
 
 bool ewa_platform_remove(const char *path) {
-    wchar_t wide[EWA_PATH_BYTES];
-    return widen(path, wide) && (DeleteFileW(wide) || take_error() == 0);
+    wchar_t wide[WIDE_LENGTH];
+    return widen(path, false, wide) && (DeleteFileW(wide) || take_error() == 0);
 }
 
 void ewa_platform_unique(int attempt, char words[64]) {
@@ -219,7 +253,7 @@ int ewa_platform_open(const char *path, bool waits) {
 
 /// Opens the file of a path; every folder on the way stays open meanwhile, not to be renamed, and is none that leads elsewhere.
 static HANDLE open_steps(wchar_t *path, wchar_t *from) {
-    wchar_t *slash = wcschr(from, L'/');
+    wchar_t *slash = wcschr(from, L'\\');
     if (slash) *slash = 0;
     HANDLE handle = open_wide(path, slash ? FILE_READ_ATTRIBUTES : GENERIC_READ,
                               slash ? FILE_SHARE_READ | FILE_SHARE_WRITE : SHARE_ALL, OPEN_EXISTING,
@@ -235,7 +269,7 @@ static HANDLE open_steps(wchar_t *path, wchar_t *from) {
         return INVALID_HANDLE_VALUE;
     }
     if (!slash) return handle;
-    *slash = L'/';
+    *slash = L'\\';
     HANDLE inner = open_steps(path, slash + 1);
     const int error = errno;
     CloseHandle(handle);
@@ -245,14 +279,23 @@ static HANDLE open_steps(wchar_t *path, wchar_t *from) {
 
 int ewa_platform_open_below(const char *folder, const char *inner) {
     char path[EWA_PATH_BYTES];
-    wchar_t wide[EWA_PATH_BYTES], wide_folder[EWA_PATH_BYTES];
-    const int length = snprintf(path, sizeof path, "%s/%s", folder, inner);
+    wchar_t wide[WIDE_LENGTH];
+    // The root of all shares is a '/' of its own, and the first steps from there are no folders.
+    const bool is_root = strcmp(folder, "/") == 0;
+    const int length = snprintf(path, sizeof path, "%s%s%s", folder, is_root ? "" : "/", inner);
     if (length < 0 || length >= (int)sizeof path) {
         errno = ENAMETOOLONG;
         return -1;
     }
-    if (!widen(path, wide) || !widen(folder, wide_folder)) return -1;
-    return descriptor_of(open_steps(wide, wide + wcslen(wide_folder) + 1), _O_RDONLY);
+    if (!widen(path, true, wide)) return -1;
+    int steps = 1; // of `inner`, from its end on
+    for (const char *at = inner + (is_root && *inner == '/'); *at; at++) steps += *at == '/';
+    if (is_root) steps -= 2;
+    wchar_t *from = wide + wcslen(wide);
+    for (; steps > 0 && from > wide; steps--)
+        do from--;
+        while (from > wide && *from != L'\\');
+    return descriptor_of(open_steps(wide, from + 1), _O_RDONLY);
 }
 
 int ewa_platform_create(const char *path) {
@@ -290,12 +333,15 @@ int64_t ewa_platform_read(int descriptor, void *bytes, size_t size_bytes) {
     return _read(descriptor, bytes, size_bytes < MAX_TRANSFER_BYTES ? (unsigned)size_bytes : MAX_TRANSFER_BYTES);
 }
 
+// ReadFile() and WriteFile() at a place also move to behind it where the next bytes come from or go.
 int64_t ewa_platform_read_at(int descriptor, void *bytes, size_t size_bytes, uint64_t at_bytes) {
     OVERLAPPED at = {.Offset = (DWORD)at_bytes, .OffsetHigh = (DWORD)(at_bytes >> 32)};
     DWORD got = 0;
     const DWORD wanted = size_bytes < MAX_TRANSFER_BYTES ? (DWORD)size_bytes : MAX_TRANSFER_BYTES;
-    if (ReadFile(handle_of(descriptor), bytes, wanted, &got, &at)) return got;
-    return GetLastError() == ERROR_HANDLE_EOF ? 0 : take_error();
+    const int64_t stood = _lseeki64(descriptor, 0, SEEK_CUR);
+    const bool done = ReadFile(handle_of(descriptor), bytes, wanted, &got, &at) || GetLastError() == ERROR_HANDLE_EOF;
+    if (!done) take_error();
+    return _lseeki64(descriptor, stood, SEEK_SET) >= 0 && done ? (int64_t)got : -1;
 }
 
 int64_t ewa_platform_write(int descriptor, const void *bytes, size_t size_bytes) {
@@ -306,7 +352,10 @@ int64_t ewa_platform_write_at(int descriptor, const void *bytes, size_t size_byt
     OVERLAPPED at = {.Offset = (DWORD)at_bytes, .OffsetHigh = (DWORD)(at_bytes >> 32)};
     DWORD put = 0;
     const DWORD wanted = size_bytes < MAX_TRANSFER_BYTES ? (DWORD)size_bytes : MAX_TRANSFER_BYTES;
-    return WriteFile(handle_of(descriptor), bytes, wanted, &put, &at) ? (int64_t)put : take_error();
+    const int64_t stood = _lseeki64(descriptor, 0, SEEK_CUR);
+    const bool done = WriteFile(handle_of(descriptor), bytes, wanted, &put, &at);
+    if (!done) take_error();
+    return _lseeki64(descriptor, stood, SEEK_SET) >= 0 && done ? (int64_t)put : -1;
 }
 
 bool ewa_platform_is_at_start(int descriptor) { return _lseeki64(descriptor, 0, SEEK_CUR) == 0; }

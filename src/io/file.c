@@ -268,10 +268,7 @@ bool ewa_file_piece_map(int descriptor, uint64_t at_bytes, size_t size_bytes, ew
 }
 
 /// Bytes of a path that are its folder's, with the slash.
-static int folder_bytes_of(const char *path) {
-    const char *slash = strrchr(path, '/');
-    return slash ? (int)(slash - path) + 1 : 0;
-}
+static int folder_bytes_of(const char *path) { return (int)(ewa_platform_file_name(path) - path); }
 
 /// Gives a file a name beside the target that nothing has, by `make`, which fails with EEXIST for one that is taken; returns what
 /// it returned, or -1 with errno. The name is short and does not grow with the target's, so that every target that can be

@@ -23,18 +23,20 @@ static int fail_errno(char reason[EWA_REASON_BYTES], int error) {
     return -1;
 }
 
-/// Joins a name to a folder, below which it must lie when links are resolved unless `anywhere`: `full`, within `base`.
+/// Joins a name to a folder, below which it must lie when links are resolved unless `anywhere`: `full`, which is `base`, '/' and
+/// the rest.
 static bool resolve(const char *folder, const char *name, bool anywhere, char joined[EWA_PATH_BYTES], char base[EWA_PATH_BYTES],
                     char full[EWA_PATH_BYTES], char reason[EWA_REASON_BYTES]) {
     const int length =
-        *name == '/' ? snprintf(joined, EWA_PATH_BYTES, "%s", name) : snprintf(joined, EWA_PATH_BYTES, "%s/%s", folder, name);
+        ewa_platform_is_absolute(name) ? snprintf(joined, EWA_PATH_BYTES, "%s", name) : snprintf(joined, EWA_PATH_BYTES, "%s/%s", folder, name);
     if (length < 0 || length >= EWA_PATH_BYTES) return fail(reason, "its name is too long") == 0;
     if (!ewa_platform_resolve(folder, base) || !ewa_platform_resolve(joined, full)) return fail_errno(reason, errno) == 0;
-    const size_t base_length = strcmp(base, "/") == 0 ? 0 : strlen(base);
+    if (strcmp(base, "/") == 0) *base = 0;
+    const size_t base_length = strlen(base);
     const bool below = strncmp(full, base, base_length) == 0 && full[base_length] == '/' && full[base_length + 1];
     if (!below && !anywhere)
         return fail(reason, "it is not below the folder of the file that names it; named_files anywhere opens it") == 0;
-    if (!below) strcpy(base, "/");
+    if (!below) snprintf(base, EWA_PATH_BYTES, "%.*s", (int)strcspn(full, "/"), full); // the root, or a drive
     return true;
 }
 
@@ -42,7 +44,7 @@ static bool resolve(const char *folder, const char *name, bool anywhere, char jo
 static int open_in(const char *folder, const char *name, bool anywhere, char reason[EWA_REASON_BYTES]) {
     char joined[EWA_PATH_BYTES], base[EWA_PATH_BYTES], full[EWA_PATH_BYTES];
     if (!resolve(folder, name, anywhere, joined, base, full, reason)) return -1;
-    const int opened = ewa_platform_open_below(base, full + (strcmp(base, "/") == 0 ? 0 : strlen(base)) + 1);
+    const int opened = ewa_platform_open_below(*base ? base : "/", full + strlen(base) + 1);
     ewa_platform_facts facts;
     if (opened < 0) return fail_errno(reason, errno);
     if (ewa_platform_stat_open(opened, &facts) && facts.regular) return opened;
@@ -58,11 +60,11 @@ static bool is_allowed(ewa_named_files allowed, char reason[EWA_REASON_BYTES]) {
 
 /// Writes the folder that a file lies in, "." where its path has none.
 static bool folder_of(const char *path, char folder[EWA_PATH_BYTES], char reason[EWA_REASON_BYTES]) {
-    const char *slash = strrchr(path, '/');
-    const size_t length = slash ? (size_t)(slash - path) : 0;
+    const char *name = ewa_platform_file_name(path);
+    const size_t length = name > path ? (size_t)(name - path) - 1 : 0;
     if (length >= EWA_PATH_BYTES) return fail(reason, "its name is too long") == 0;
     snprintf(folder, EWA_PATH_BYTES, "%.*s", (int)length, path);
-    if (!length) snprintf(folder, EWA_PATH_BYTES, "%s", slash ? "/" : ".");
+    if (!length) snprintf(folder, EWA_PATH_BYTES, "%s", name > path ? "/" : ".");
     return true;
 }
 
@@ -96,8 +98,8 @@ int ewa_referenced_file_open(ewa_named_files allowed, const char *path, ewa_text
     if (!folder_of(path, folder, reason)) return -1;
     write_relative(name, relative);
     const char *last = strrchr(relative, '/');
-    const bool absolute = relative[0] == '/',
-               foreign = (absolute && !anywhere) || (relative[0] && relative[1] == ':') || strstr(relative, "://");
+    const bool absolute = ewa_platform_is_absolute(relative),
+               foreign = (absolute ? !anywhere : relative[0] && relative[1] == ':') || strstr(relative, "://");
     const int opened =
         foreign ? fail(reason, "its name is absolute") : open_in(folder, relative, anywhere, reason);
     if (opened >= 0 || !(last || foreign)) return opened;
@@ -115,7 +117,7 @@ bool ewa_referenced_file_find(ewa_context *context, const char *path, const char
     const bool anywhere = allowed == EWA_NAMED_ANYWHERE;
     if (!is_allowed(allowed, reason)) return false;
     if (!*name) return fail(reason, "it has no name") == 0;
-    if (*name == '/' && !anywhere) return fail(reason, "its name is absolute") == 0;
+    if (ewa_platform_is_absolute(name) && !anywhere) return fail(reason, "its name is absolute") == 0;
     if (!folder_of(path, folder, reason)) return false;
     if (join(folder, name, found) && ewa_file_is_source(context, found)) return true;
     if (!resolve(folder, name, anywhere, joined, base, full, reason))
@@ -126,7 +128,7 @@ bool ewa_referenced_file_find(ewa_context *context, const char *path, const char
         return fail(reason,
                     folders ? "it is neither a regular file nor a folder" : "it is no regular file") == 0;
     // As it was named, for messages; a file of this folder by its own name.
-    const int length = snprintf(found, EWA_PATH_BYTES, "%s", *name == '/' || strchr(path, '/') ? joined : name);
+    const int length = snprintf(found, EWA_PATH_BYTES, "%s", ewa_platform_is_absolute(name) || ewa_platform_file_name(path) > path ? joined : name);
     return (length > 0 && length < EWA_PATH_BYTES) || fail(reason, "its name is too long") == 0;
 }
 

@@ -26,9 +26,9 @@ ewa_status ewa_spool_open(ewa_context *context, const char *beside, ewa_spool **
     ewa_spool *made = ewa_allocate_zeroed(context, 1, sizeof *made);
     if (!made) return EWA_ERROR_MEMORY;
     made->context = context;
-    const char *slash = strrchr(beside, '/');
-    const size_t length = slash ? (size_t)(slash - beside) : 1;
-    memcpy(made->folder, slash ? beside : ".", length < EWA_PATH_BYTES ? length : EWA_PATH_BYTES - 1);
+    const char *name = ewa_platform_file_name(beside);
+    const size_t length = name > beside ? (size_t)(name - beside) - 1 : 1;
+    memcpy(made->folder, name > beside ? beside : ".", length < EWA_PATH_BYTES ? length : EWA_PATH_BYTES - 1);
     made->descriptor = ewa_platform_create_temporary(made->folder);
     if (made->descriptor < 0) {
         const ewa_status status = fail_errno(made, errno);

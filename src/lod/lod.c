@@ -17,9 +17,8 @@ bool ewa_lod_probe(ewa_context *context, const char *path) {
 bool ewa_lod_is_folder(ewa_context *context, const char *path) {
     if (!context || !path) return false;
     ewa_platform_facts facts;
-    const char *slash = strrchr(path, '/');
     const bool folder = ewa_platform_stat(path, &facts) && facts.folder;
-    return (folder || strcmp(slash ? slash + 1 : path, "ept.json") == 0) && ewa_octree_is(context, path);
+    return (folder || strcmp(ewa_platform_file_name(path), "ept.json") == 0) && ewa_octree_is(context, path);
 }
 
 static ewa_status open_tree(ewa_lod *lod, const char *path) {

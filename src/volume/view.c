@@ -159,9 +159,9 @@ void ewa_volume_target_set(ewa_volume_target *target, const ewa_camera *camera, 
 }
 
 void ewa_point_filters_make(ewa_point_filter filters[EWA_FILTER_COUNT]) {
-    for (int f = 0; f < EWA_FILTER_COUNT; f++) {
+    for (uint32_t f = 0; f < EWA_FILTER_COUNT; f++) {
         const double sigma = fmax((double)EWA_FILTER_MAX_PX * f / (EWA_FILTER_COUNT - 1), 1e-3);
-        for (int phase = 0; phase < EWA_FILTER_PHASES; phase++) {
+        for (uint32_t phase = 0; phase < EWA_FILTER_PHASES; phase++) {
             // Against the nearest tap, so that they do not all vanish.
             double taps[4], sum = 0, nearest = INFINITY;
             for (int i = 0; i < 4; i++) {

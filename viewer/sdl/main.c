@@ -7,12 +7,11 @@
 #include "cli/base/json.h"
 #include "cli/view/window.h"
 
-#include <signal.h>
 
 static int show(const void *arguments) { return window_run(arguments, front_window_run); }
 
 int main(int argc, char **argv) {
-    signal(SIGPIPE, SIG_IGN);
+    process_start();
     cli_command command = view_command;
     command.run = show;
     const int exit_status =

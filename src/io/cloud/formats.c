@@ -4,6 +4,7 @@
 // The formats of point clouds, and what all their readers share.
 #include "base/base.h"
 #include "base/options.h"
+#include "base/platform.h"
 #include "cloud/cloud.h"
 #include "io/cloud/format.h"
 #include "io/file.h"
@@ -128,7 +129,7 @@ ewa_status ewa_cloud_make_room(const char *name, const ewa_cloud *prototype, con
 const ewa_cloud_write_format *ewa_cloud_write_format_of(const char *path) {
     static const ewa_cloud_write_format *const known[] = {&ewa_write_ply, &ewa_write_las, &ewa_write_pcd,
                                                           &ewa_write_text};
-    const char *slash = strrchr(path, '/'), *dot = strrchr(slash ? slash : path, '.');
+    const char *dot = strrchr(ewa_platform_file_name(path), '.');
     for (size_t i = 0; dot && i < sizeof known / sizeof known[0]; i++)
         for (const char *at = known[i]->suffixes; *at;) {
             const size_t length = strcspn(at, "|");

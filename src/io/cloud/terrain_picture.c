@@ -7,6 +7,7 @@
 // Based on: Mapbox, "Mapbox Terrain-RGB v1"; Mapzen, "Terrain tiles: Terrarium"; OSGeo, "Tile Map Service" (zoom,
 // column and row of tiles of the Web Mercator projection).
 #include "base/base.h"
+#include "base/platform.h"
 #include "io/cloud/height_grid.h"
 #include "io/image/png.h"
 #include "io/image/webp.h"
@@ -36,7 +37,7 @@ static bool probe(const char *name, const uint8_t *bytes, uint64_t size_bytes) {
 static bool take_number(const char *path, const char **end, uint64_t *number) {
     const char *at = *end;
     while (at > path && at[-1] >= '0' && at[-1] <= '9') at--;
-    if (at == *end || *end - at > MAX_DIGITS || (at > path && at[-1] != '/')) return false;
+    if (at == *end || *end - at > MAX_DIGITS || (at > path && !ewa_platform_is_separator(at[-1]))) return false;
     *number = strtoull(at, NULL, 10);
     *end = at;
     return true;
@@ -44,9 +45,9 @@ static bool take_number(const char *path, const char **end, uint64_t *number) {
 
 /// Finds the tile that a path names: .../zoom/column/row.png, or row@2x.png.
 static bool find_tile(const char *path, uint64_t tile[3]) {
-    const char *name = path ? strrchr(path, '/') : NULL;
-    if (!name) return false;
-    const char *end = name + 1 + strspn(name + 1, "0123456789");
+    const char *name = path ? ewa_platform_file_name(path) : NULL;
+    if (!name || name == path) return false;
+    const char *end = name + strspn(name, "0123456789");
     if (*end != '.' && *end != '@') return false;
     for (int i = 2; i >= 0; i--) {
         if (!take_number(path, &end, &tile[i])) return false;

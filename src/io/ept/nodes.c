@@ -3,6 +3,7 @@
 //
 // EPT folders by nodes: the files of a wave are opened one by one, then their records are unpacked by all workers.
 #include "base/base.h"
+#include "base/platform.h"
 #include "io/ept/ept.h"
 #include "io/zstandard.h"
 
@@ -24,12 +25,12 @@ static const char *const suffixes[] = {
 /// Writes the folder of a tree; false when the path is none and leads to none.
 static bool find_folder(ewa_context *context, const char *path, char folder[EWA_EPT_FOLDER_BYTES]) {
     char file[EWA_EPT_PATH_BYTES];
-    const char *slash = strrchr(path, '/');
+    const char *name = ewa_platform_file_name(path);
     const size_t length = strlen(path);
     if (length == 0 || length >= EWA_EPT_FOLDER_BYTES) return false;
-    if (strcmp(slash ? slash + 1 : path, "ept.json") == 0 && ewa_file_may_read(context, path)) {
-        const size_t folder_length = slash ? (size_t)(slash - path) : 0;
-        snprintf(folder, EWA_EPT_FOLDER_BYTES, "%.*s", slash ? (int)folder_length : 1, slash ? path : ".");
+    if (strcmp(name, "ept.json") == 0 && ewa_file_may_read(context, path)) {
+        const int folder_length = (int)(name - path) - 1; // without the slash
+        snprintf(folder, EWA_EPT_FOLDER_BYTES, "%.*s", name > path ? folder_length : 1, name > path ? path : ".");
         return true;
     }
     snprintf(file, sizeof file, "%s/ept.json", path);

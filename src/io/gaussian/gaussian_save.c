@@ -3,6 +3,7 @@
 //
 // Files of Gaussians out: the format by suffix, the set checked.
 #include "base/options.h"
+#include "base/platform.h"
 #include "io/gaussian/save.h"
 
 #include <strings.h>
@@ -38,7 +39,7 @@ enum { FORMAT_COUNT = sizeof formats / sizeof formats[0] };
 
 /// The row of `formats` for a path; FORMAT_COUNT: none.
 static size_t find_format(const char *path) {
-    const char *slash = strrchr(path, '/'), *dot = strrchr(slash ? slash : path, '.');
+    const char *dot = strrchr(ewa_platform_file_name(path), '.');
     if (strcmp(path, "-") == 0) return 0;
     size_t i = 0;
     while (i < FORMAT_COUNT && !(dot && strcasecmp(dot, formats[i].suffix) == 0)) i++;

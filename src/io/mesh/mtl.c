@@ -191,8 +191,8 @@ static ewa_status make_mtl(ewa_mesh_build *build, ewa_mtl **materials) {
 
 /// Opens the library that is called like the mesh, for meshes that were renamed together with theirs.
 static ewa_status open_own(ewa_mesh_build *build, ewa_mtl *mtl, bool *found) {
-    const char *path = build->source->path, *slash = path ? strrchr(path, '/') : NULL;
-    const char *file = slash ? slash + 1 : path, *dot = file ? strrchr(file, '.') : NULL;
+    const char *path = build->source->path, *file = path ? ewa_platform_file_name(path) : NULL;
+    const char *dot = file ? strrchr(file, '.') : NULL;
     char reason[EWA_REASON_BYTES];
     *found = false;
     if (!dot || dot == file) return EWA_OK;

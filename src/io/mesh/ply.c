@@ -8,6 +8,7 @@
 // texnumber, "comment TextureFile"), Blender (s, t) and Artec Studio (multi_texture_vertex) write.
 #include "io/cloud/ply.h"
 #include "base/base.h"
+#include "base/platform.h"
 #include "image/srgb.h"
 #include "io/mesh/formats.h"
 
@@ -141,7 +142,7 @@ static ewa_status add_texture(ply_mesh *mesh, ewa_text name) {
     ewa_mesh_build *build = mesh->build;
     const char *path = build->source->path;
     if (path && name.length > sizeof own - 1 && memcmp(name.chars, own, sizeof own - 1) == 0) {
-        const char *slash = strrchr(path, '/'), *base = slash ? slash + 1 : path, *dot = strrchr(base, '.');
+        const char *base = ewa_platform_file_name(path), *dot = strrchr(base, '.');
         const int length =
             snprintf(whole, sizeof whole, "%.*s%.*s", dot ? (int)(dot - base) : (int)strlen(base), base,
                      (int)(name.length - (sizeof own - 1)), name.chars + sizeof own - 1);

@@ -213,7 +213,7 @@ static ewa_status add_image_file(const ewa_volume_input *in, ewa_volume_header *
     if (!in->path)
         return ewa_volume_fail(in, EWA_ERROR_UNSUPPORTED,
                                "NIfTI: the voxels are in another file, which needs the name of this one");
-    const char *slash = strrchr(in->path, '/'), *base = slash ? slash + 1 : in->path;
+    const char *base = ewa_platform_file_name(in->path);
     char name[EWA_PATH_BYTES];
     size_t length = strlen(base);
     if (length > 3 && strcmp(base + length - 3, ".gz") == 0) length -= 3;

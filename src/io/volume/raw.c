@@ -4,6 +4,7 @@
 // Raw numbers: what they are is said by options or by the name, as in the collections of the field
 // (aneurism_256x256x256_uint8.raw.gz).
 #include "base/base.h"
+#include "base/platform.h"
 #include "io/image/image_file.h"
 #include "io/volume/file.h"
 #include "io/volume/text.h"
@@ -42,8 +43,7 @@ static const char *read_dims(const char *text, uint64_t dims[3]) {
 /// Takes dims and type from a name; returns whether it has dims.
 static bool guess(const char *name, ewa_volume_header *header) {
     bool found = false;
-    const char *slash = strrchr(name, '/');
-    for (const char *at = slash ? slash + 1 : name; *at;) {
+    for (const char *at = ewa_platform_file_name(name); *at;) {
         char word[WORD_BYTES];
         const size_t length = strcspn(at, "_-. ");
         if (length < sizeof word) {

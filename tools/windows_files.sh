@@ -1,0 +1,122 @@
+#!/bin/sh
+# SPDX-FileCopyrightText: 2026 The ewa authors
+# SPDX-License-Identifier: MIT
+#
+# Names and files as Windows has them: what its program (under wine) reads and writes is what this machine's does.
+#   tools/windows_files.sh PROGRAM PROGRAM.exe
+set -eu
+here=$1
+there="sh $(cd "$(dirname "$0")" && pwd)/wine.sh $2"
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+cd "$folder"
+long=$(printf '%0120d' 0)
+mkdir -p folder.png "with spaces/Übergröße/点群" "$long/$long/$long"
+cases=0
+
+# same FILE FILE...: each is the first one, byte by byte.
+same() {
+    first=$1
+    shift
+    for file in "$@"; do
+        cmp "$first" "$file" || { echo "windows_files.sh: $file is not $first" >&2; exit 1; }
+    done
+    cases=$((cases + 1))
+}
+# fails TEXT WORD...: the program fails, and says so.
+fails() {
+    text=$1
+    shift
+    if $there "$@" >said 2>&1; then
+        echo "windows_files.sh: $*: does not fail" >&2
+        exit 1
+    fi
+    grep -qF "$text" said || { echo "windows_files.sh: $*: says $(cat said), not $text" >&2; exit 1; }
+    cases=$((cases + 1))
+}
+
+# Spaces, backslashes, a drive, letters beyond ASCII, more than 260 characters.
+"$here" generate torus -n 500 -o torus.ply
+$there generate torus -n 500 -o 'with spaces\Übergröße\点群\torus.ply'
+$there convert "Z:$(echo "$folder" | tr / '\\')\\torus.ply" -o "$long\\$long/$long/torus.ply"
+same torus.ply "with spaces/Übergröße/点群/torus.ply" "$long/$long/$long/torus.ply"
+"$here" render torus.ply --size 64x48 -o torus.png
+$there render "$long/$long\\$long\\torus.ply" --size 64x48 -o 'with spaces\Übergröße\点群.png'
+$there render 'with spaces/Übergröße/点群/torus.ply' --size 64x48 -o "$long/$long/$long/torus.png"
+same torus.png "with spaces/Übergröße/点群.png" "$long/$long/$long/torus.png"
+# A file that is there is replaced; nothing else is left in its folder.
+$there render torus.ply --size 32x24 -o 'with spaces\Übergröße\点群.png'
+"$here" render torus.ply --size 32x24 -o torus.png
+same torus.png "with spaces/Übergröße/点群.png"
+[ "$(find "with spaces" "$long" -name '.*' | wc -l)" = 0 ] || { find "with spaces" "$long" -name '.*' >&2; exit 1; }
+
+# Files that others name: materials beside a mesh, by backslashes; none outside.
+printf 'mtllib with spaces\\look.mtl\nusemtl red\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n' >mesh.obj
+printf 'newmtl red\nKd 1 0 0\n' >"with spaces/look.mtl"
+"$here" convert mesh.obj -o here.ply
+$there convert 'Z:'"$(echo "$folder" | tr / '\\')"'\mesh.obj' -o there.ply
+same here.ply there.ply
+printf 'mtllib C:\\windows\\look.mtl\nusemtl red\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n' >foreign.obj
+$there convert foreign.obj -o foreign.ply 2>said || true
+grep -q "its name is absolute" said || { echo "windows_files.sh: foreign.obj: $(cat said)" >&2; exit 1; }
+
+# Ends of lines, and bytes through pipes and redirections.
+printf '0 0 0 255 0 0\r\n1 0 0 0 255 0\r\n0 1 0.5 0 0 255\r\n' >crlf.xyz
+printf '0 0 0 255 0 0\n1 0 0 0 255 0\n0 1 0.5 0 0 255\n' >lf.xyz
+$there convert crlf.xyz -o crlf.ply
+"$here" convert lf.xyz -o lf.ply
+$there convert - -o - <lf.xyz >redirected.ply
+# shellcheck disable=SC2002
+cat crlf.xyz | $there convert - -o - | cat >piped.ply
+"$here" convert - -o - <lf.xyz >streamed.ply # with no room for a count that is known late
+same lf.ply crlf.ply
+same streamed.ply redirected.ply piped.ply
+"$here" info --json torus.ply >here.json
+$there info --json torus.ply >there.json
+same here.json there.json
+
+# A file of 4.6 GB, with a hole: the table of nodes stands behind what 32 bits count.
+"$here" generate terrain -n 20000 -o terrain.laz
+"$here" lod terrain.laz -o far.copc.laz
+python3 - <<'PYTHON'
+import struct
+data = bytearray(open("far.copc.laz", "rb").read())
+info = struct.unpack_from("<H", data, 94)[0] + 54 + 40
+offset, size = struct.unpack_from("<QQ", data, info)
+far = (9 << 29) + 64
+struct.pack_into("<Q", data, info, far)
+with open("far.copc.laz", "wb") as file:
+    file.write(data)
+    file.seek(far)
+    file.write(data[offset:offset + size])
+PYTHON
+"$here" render far.copc.laz --size 64x48 -o here.png
+$there render far.copc.laz --size 64x48 -o there.png
+same here.png there.png
+
+# What cannot be.
+fails "No such file or directory" info missing.ply
+fails "a folder" info "with spaces"
+fails "cannot create: folder nowhere" render torus.ply -o 'nowhere\torus.png'
+fails "is a folder" render torus.ply -o folder.png
+fails "'with spaces\\Übergröße\\点群.png': a file, no command" 'with spaces\Übergröße\点群.png'
+if [ "$(id -u)" = 0 ]; then
+    echo "windows_files.sh: read-only files are not tried: this is root, who may write them"
+else
+    chmod a-w torus.png
+    fails "ermission denied" render torus.ply --size 64x48 -o torus.png
+fi
+
+# The first Ctrl-C is heard: nothing is left behind.
+$there generate torus -n 4000000 -o large.ply
+mkdir stopped
+sh -c "exec $there convert large.ply -o stopped/large.xyz" &
+number=$!
+while [ -z "$(ls -A stopped)" ]; do sleep 0.1; done
+kill -INT $number
+if wait $number; then
+    echo "windows_files.sh: Ctrl-C is not heard" >&2
+    exit 1
+fi
+[ -z "$(ls -A stopped)" ] || { echo "windows_files.sh: Ctrl-C leaves $(ls -A stopped)" >&2; exit 1; }
+echo "windows_files.sh: $((cases + 2)) cases"
