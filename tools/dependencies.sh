@@ -17,7 +17,7 @@ case $target in
 *-windows-*) further="bzip2=1.0.8-5 expat=2.5.0-1+deb12u2 libwebp=1.2.4-0.2+deb12u1 libjpeg-turbo=1:2.1.5-2 openexr=3.1.5-5 imath=3.1.6-1 cmocka=1.1.5-2.1 musl=1.2.3-1" ;;
 esac
 packages="zlib=1:1.2.13.dfsg-1 libdeflate=1.14-1 cjson=1.7.15-1+deb12u4 libzstd=1.5.4+dfsg2-5 libspng=0.7.3-3"
-wanted="$packages $further $*"
+wanted="$packages $further $* $(cksum <"$0")" # what this script does, too
 [ "$(cat "$prefix/.complete" 2>/dev/null)" != "$wanted" ] || exit 0
 
 # fetch FOLDER PACKAGE...: sources by Debian's names and versions.
@@ -89,6 +89,12 @@ library spng spng 0.7.3 zlib "$seen" spng/spng.c
 if [ -n "$further" ]; then
     sources=$root/sources_further
     seen=
+    # Functions that Windows would take from its own library, which each version rounds as it likes; the toolchain names the library, so that it comes first.
+    cd "$sources"/musl-*/
+    printf '#define __LITTLE_ENDIAN 1\n#define __BYTE_ORDER 1\n' >"$prefix/objects/endian.h"
+    : >"$prefix/objects/features.h"
+    library musl_math musl_math 1.2.3 "" "-Isrc/internal -Iarch/generic -I$prefix/objects -Dhidden=" src/math/acos.c src/math/asin.c src/math/atan.c src/math/atan2.c \
+        src/math/cbrt.c src/math/hypot.c src/math/pow.c src/math/pow_data.c src/math/exp_data.c src/math/__math_*.c
     cd "$sources"/bzip2-*/
     sed 's/^#ifdef _WIN32/#if 0 \/* a static library *\//' bzlib.h >"$prefix/include/bzlib.h" # else it declares pointers into a DLL
     library bz2 bzip2 1.0.8 "" "-include $prefix/include/bzlib.h" blocksort.c huffman.c crctable.c randtable.c compress.c decompress.c bzlib.c
@@ -104,7 +110,7 @@ if [ -n "$further" ]; then
     library webp libwebp 1.2.4 "" -I. src/dec/*.c src/dsp/*.c src/enc/*.c src/utils/*.c
     cd "$sources"/libjpeg-turbo-*/
     cmake -S . -B "$prefix/objects/jpeg" -G Ninja -DCMAKE_TOOLCHAIN_FILE="$root/../cmake/toolchains/$target.cmake" -DCMAKE_BUILD_TYPE=Release \
-        -DENABLE_SHARED=OFF -DWITH_SIMD=OFF -DWITH_TURBOJPEG=OFF -DCMAKE_INSTALL_PREFIX="$prefix" >>"$prefix/log" 2>&1
+        -DENABLE_SHARED=OFF -DWITH_SIMD=OFF -DWITH_TURBOJPEG=OFF -DCMAKE_INSTALL_PREFIX="$prefix" >>"$prefix/log" 2>&1 || { tail -n 10 "$prefix/log" >&2; exit 1; }
     cmake --build "$prefix/objects/jpeg" --target jpeg-static >>"$prefix/log" 2>&1 || { tail -n 10 "$prefix/log" >&2; exit 1; }
     cp jpeglib.h jmorecfg.h jerror.h "$prefix/objects/jpeg/jconfig.h" "$prefix/include"
     cp "$prefix/objects/jpeg/libjpeg.a" "$prefix/lib"
@@ -126,12 +132,6 @@ CONFIG
     cd "$sources"/cmocka-*/
     cp include/cmocka*.h "$prefix/include"
     library cmocka cmocka 1.1.5 "" "-Iinclude -DHAVE_SIGNAL_H -DHAVE_STRUCT_TIMESPEC -DHAVE_INTTYPES_H -DHAVE_STDINT_H -DHAVE_IO_H -DHAVE_MALLOC_H -DHAVE_STRINGS_H -DHAVE_TIME_H" src/cmocka.c
-    # Functions that Windows would take from its own library, which each version rounds as it likes.
-    cd "$sources"/musl-*/
-    printf '#define __LITTLE_ENDIAN 1\n#define __BYTE_ORDER 1\n' >"$prefix/objects/endian.h"
-    : >"$prefix/objects/features.h"
-    library musl_math musl_math 1.2.3 "" "-Isrc/internal -Iarch/generic -I$prefix/objects -Dhidden=" src/math/acos.c src/math/asin.c src/math/atan.c src/math/atan2.c \
-        src/math/cbrt.c src/math/hypot.c src/math/pow.c src/math/pow_data.c src/math/exp_data.c src/math/__math_*.c
 fi
 rm -rf "$prefix/objects"
 echo "$wanted" >"$prefix/.complete"

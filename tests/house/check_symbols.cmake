@@ -4,6 +4,7 @@
 # Both libraries define nothing outside of the name space ewa_, and the shared one exactly what the headers declare.
 #
 # cmake -DNM=nm -DSHARED=libewa.so -DSTATIC=libewa.a -DROOT=source -P check_symbols.cmake
+include(${CMAKE_CURRENT_LIST_DIR}/../../cmake/declared.cmake)
 function(list_symbols result)
   execute_process(COMMAND ${NM} --defined-only --extern-only --format=posix ${ARGN} OUTPUT_VARIABLE text
     RESULT_VARIABLE status)
@@ -26,16 +27,7 @@ if(foreign)
   message(FATAL_ERROR "symbols outside of ewa_: ${foreign}")
 endif()
 
-set(declared "")
-file(GLOB headers "${ROOT}/include/ewa/*.h")
-foreach(header IN LISTS headers)
-  file(READ ${header} text)
-  string(REGEX REPLACE "//[^\n]*" "" text "${text}")
-  string(REPLACE ";" "(" text "${text}") # tables end so
-  string(REGEX MATCHALL "EWA_API[^({]*[ *]ewa_[a-z0-9_]+\\(" found "${text}")
-  list(TRANSFORM found REPLACE ".*[ *](ewa_[a-z0-9_]+)\\(" "\\1")
-  list(APPEND declared ${found})
-endforeach()
+ewa_declared(declared ${ROOT})
 set(undeclared ${exported})
 list(REMOVE_ITEM undeclared ${declared})
 set(undefined ${declared})
