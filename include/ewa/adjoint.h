@@ -45,7 +45,8 @@ typedef struct ewa_gradient {
 /// Takes the cotangents of a picture as ewa_render() draws it to those of what made it, in double precision: the same
 /// bytes for every number of threads, every instruction set and every order of the points. What jumps has no
 /// derivative and counts as fixed: which surfels are seen at which pixels and on which surface, what clip lines leave
-/// of pixels, q0, and where surfels lie that touch the plane of the eye (docs/math.md section 15). `cotangent` may be
+/// of pixels, q0, and where surfels lie that touch the plane of the eye (docs/math.md section 15). Splats at contours are taken for
+/// where they are seen, not for where they move to. `cotangent` may be
 /// NULL. `unit_coverage`: q0, as ewa_surfels_describe() gives it; 0: measured. The cloud's float or double streams are
 /// taken as they are, not as surfels round them. A warning says when the camera sees no surfel. Kernels: perspective,
 /// affine. Errors: EWA_ERROR_ARGUMENT (camera, options, cotangents that are not finite: plane and pixel; NULL),

@@ -24,6 +24,9 @@ extern "C" {
 /// | tangent_v    |          3 | second axis; they win over radius; the normal is u x v unless given       |
 /// | material     |          1 | index into a material table                                               |
 /// | surfaceness  |          1 | 1: part of a surface, to 0: not at all; below 0.5 it faces the viewer     |
+/// | signed_curvature |      1 | sqrt((k^2 + m^2) / 2), at most abs(k + m), with the sign of k + m: of the |
+/// |              |            | principal curvatures, in 1 / world unit, positive where the surface turns |
+/// |              |            | away from the side of its normal; 0: flat, or not known                   |
 /// | clip0, clip1 |          3 | clip line (a, b, c): keep a u + b v + c >= 0 at                           |
 /// |              |            | position + u tangent_u + v tangent_v                                      |
 /// | clip_mode    |          1 | 0: both lines hold, 1: either holds                                       |
@@ -44,6 +47,7 @@ extern "C" {
 #define EWA_TANGENT_V   "tangent_v"
 #define EWA_MATERIAL    "material"
 #define EWA_SURFACENESS "surfaceness"
+#define EWA_CURVATURE   "signed_curvature"
 #define EWA_CLIP0       "clip0"
 #define EWA_CLIP1       "clip1"
 #define EWA_CLIP_MODE   "clip_mode"

@@ -182,6 +182,7 @@ ewa_status ewa_cloud_transform(ewa_cloud *cloud, const double world_to_world[16]
     EWA_TRY(scale_component(cloud, EWA_CLIP1, 1, sign));
     EWA_TRY(map_borders(cloud, sided));
     EWA_TRY(scale_component(cloud, EWA_RADIUS, 0, cbrt(fabs(determinant))));
+    EWA_TRY(scale_component(cloud, EWA_CURVATURE, 0, 1 / cbrt(fabs(determinant))));
     double origin_world[3], moved_world[3];
     ewa_cloud_origin(cloud, origin_world);
     for (int r = 0; r < 3; r++)

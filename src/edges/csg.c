@@ -348,7 +348,8 @@ static uint64_t gather(const csg_job *job, uint64_t first, uint32_t point_shift,
 /// Both operands without what the result gets anew, one after the other.
 static ewa_status merge_rest(const ewa_cloud *const operands[2], ewa_cloud **merged) {
     static const char *const anew[] = {EWA_NORMAL, EWA_RADIUS, EWA_TANGENT_U, EWA_TANGENT_V,
-                                       EWA_CLIP0,  EWA_CLIP1,  EWA_CLIP_MODE, EWA_BORDER};
+                                       EWA_CLIP0,  EWA_CLIP1,  EWA_CLIP_MODE, EWA_BORDER,
+                                       EWA_CURVATURE};
     ewa_cloud *rest[2] = {NULL, NULL};
     ewa_status status = EWA_OK;
     for (int k = 0; k < 2 && status == EWA_OK; k++) {

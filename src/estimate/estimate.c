@@ -480,7 +480,8 @@ static ewa_status estimate(ewa_cloud *cloud, const ewa_estimate_options *options
         if (job.tangent_v_out) ewa_cloud_remove(cloud, EWA_TANGENT_V);
         return status;
     }
-    // What described the old sizes would contradict the new ones.
+    // What described the old normals and sizes would contradict the new ones.
+    if (normals) ewa_cloud_remove(cloud, EWA_CURVATURE);
     if (job.tangent_u_out) ewa_cloud_remove(cloud, EWA_RADIUS);
     if (sizes && !job.surfaceness_out) ewa_cloud_remove(cloud, EWA_SURFACENESS);
     if (job.radius_out) {

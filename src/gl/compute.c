@@ -176,6 +176,7 @@ static ewa_status set_up(ewa_gl_compute *gl, const ewa_tile_job *job) {
         set_uint(program, "end_pair", batch->first_pair + batch->pair_count);
         set_uint(program, "source", batch->source);
         set_int(program, "opacities_at", job->with_opacity ? page->opacities_at : -1);
+        set_int(program, "curvatures_at", job->sources[batch->source].packets.curvatures ? page->curvatures_at : -1);
         set_int(program, "materials_at", job->with_materials ? page->materials_at : -1);
         enum { PAIRS = THREADS / EWA_PACKET_LANES };
         dispatch(gl, program, "first_pair", PAIRS, batch->first_pair,

@@ -11,7 +11,7 @@
 
 enum { PAGE_PACKETS = 1 << 16, MAX_GAP = 8 };
 
-static_assert(sizeof(ewa_raster_view) == 304 && sizeof(ewa_raster_view) <= EWA_RASTER_VIEW_STRIDE &&
+static_assert(sizeof(ewa_raster_view) == 320 && sizeof(ewa_raster_view) <= EWA_RASTER_VIEW_STRIDE &&
                   sizeof(ewa_raster_resolve) == 480 + 16 * EWA_MAX_ENVIRONMENT_LEVELS &&
                   sizeof(ewa_raster_packet) == 48,
               "as std140 and the attributes of vertices have them");
@@ -153,6 +153,8 @@ void ewa_raster_view_set(ewa_raster_view *to, const ewa_view *from, const ewa_ti
     set_sections(to, from);
     to->flags[0] = view.flags | (job->with_opacity ? EWA_RASTER_TRANSLUCENT : 0);
     to->flags[1] = from->section_reach > 0 ? from->section_count : 0;
+    to->contour[0] = from->contour_shift, to->contour[1] = from->contour_sine2;
+    to->contour[2] = from->curvature_scale;
 }
 
 /// The environment, and what materials differ in.

@@ -38,7 +38,7 @@ typedef struct ewa_raster_band {
 
 /// Uniform blocks; src/gl/shaders/raster_scene.glsl and raster_surface.glsl tell the forms.
 typedef struct ewa_raster_view {
-    float rotation[3][4], focal[4], zoomed[4], kernel[4], depth[4], point[4], sums[4], place[4];
+    float rotation[3][4], focal[4], zoomed[4], kernel[4], depth[4], point[4], sums[4], place[4], contour[4];
     float sections[EWA_MAX_SECTION_PLANES][4];
     uint32_t flags[4];
 } ewa_raster_view;

@@ -8,7 +8,7 @@
 
 enum {
     CORNERS = 4,
-    SURFEL_ATTRIBUTES = 4,
+    SURFEL_ATTRIBUTES = 5,
     PACKET_ATTRIBUTES = 3,
     MATERIAL = SURFEL_ATTRIBUTES + PACKET_ATTRIBUTES,
     PACKETS_PER_WAIT = 1 << 16 // so that a slow device does not count as hung
@@ -26,6 +26,7 @@ static void set_attributes(const ewa_raster *raster, const ewa_tile_job *job, co
         {2, GL_SHORT, true, offsetof(ewa_raster_surfel, oct_x)},
         {2, GL_UNSIGNED_SHORT, true, offsetof(ewa_raster_surfel, angle)},
         {4, GL_UNSIGNED_SHORT, true, offsetof(ewa_raster_surfel, red)},
+        {1, GL_FLOAT, false, offsetof(ewa_raster_surfel, curvature)},
         {4, GL_FLOAT, false, offsetof(ewa_raster_packet, base_px)},
         {3, GL_FLOAT, false, offsetof(ewa_raster_packet, rest)},
         {4, GL_UNSIGNED_INT, true, offsetof(ewa_raster_packet, form)},

@@ -8,7 +8,7 @@
 
 enum { LANES = EWA_PACKET_LANES, MAX_PAGE_PACKETS = 1 << 16, LINE_TEXELS = 3, LINE_PICTURE_PX = 1536 };
 
-static_assert(sizeof(ewa_raster_surfel) == 32, "as the attributes of vertices have it");
+static_assert(sizeof(ewa_raster_surfel) == 36, "as the attributes of vertices have it");
 
 /// Copies that the last frame did not use are kept up to so many bytes.
 static const uint64_t KEPT_BYTES = 512ull << 20;
@@ -55,7 +55,8 @@ static void unfold(void *data, uint32_t index, uint32_t worker) {
         job->count - index * UNFOLD_PACKETS < UNFOLD_PACKETS ? job->count : (index + 1) * UNFOLD_PACKETS;
     for (uint32_t p = index * UNFOLD_PACKETS; p < end; p++) {
         const ewa_packet *packet = &job->surfels->packets[job->first + p];
-        const uint16_t *opacities = job->surfels->opacities;
+        const uint16_t *opacities = job->surfels->opacities, *curvatures = job->surfels->curvatures;
+        const size_t first = (size_t)(job->first + p) * LANES;
         for (uint32_t i = 0; i < LANES; i++)
             job->to[(size_t)p * LANES + i] = (ewa_raster_surfel){
                 .x = packet->x[i],
@@ -69,7 +70,8 @@ static void unfold(void *data, uint32_t index, uint32_t worker) {
                 .red = packet->red[i],
                 .green = packet->green[i],
                 .blue = packet->blue[i],
-                .opacity = opacities ? opacities[(size_t)(job->first + p) * LANES + i] : UINT16_MAX};
+                .opacity = opacities ? opacities[first + i] : UINT16_MAX,
+                .curvature = curvatures ? (float)ewa_packet_decode_curvature(curvatures[first + i]) : 0};
     }
 }
 

@@ -14,6 +14,7 @@ typedef struct ewa_raster_surfel {
     int16_t oct_x, oct_y;
     uint16_t angle, ratio;
     uint16_t red, green, blue, opacity;
+    float curvature; ///< per length in packets
 } ewa_raster_surfel;
 
 /// Packets [first, first + count) of some surfels.

@@ -40,17 +40,22 @@ static ewa_status put_page(ewa_gl *device, const ewa_surfels *surfels, ewa_gl_pa
     ewa_status status = ewa_gl_buffer_put(device, &page->packets, "surfels", surfels->packets + page->first,
                                           page->count * sizeof *surfels->packets);
     const size_t opacity_bytes = surfels->opacities ? lanes * sizeof *surfels->opacities : 0,
-                 material_bytes = surfels->materials ? lanes : 0;
+                 curvature_bytes = surfels->curvatures ? lanes * sizeof *surfels->curvatures : 0,
+                 material_bytes = surfels->materials ? lanes : 0, halves_bytes = opacity_bytes + curvature_bytes;
     page->opacities_at = opacity_bytes ? 0 : -1;
-    page->materials_at = material_bytes ? (int32_t)(opacity_bytes / 4) : -1;
+    page->curvatures_at = curvature_bytes ? (int32_t)(opacity_bytes / 4) : -1;
+    page->materials_at = material_bytes ? (int32_t)(halves_bytes / 4) : -1;
     if (status == EWA_OK)
-        status = ewa_gl_buffer_reserve(device, &page->attributes, "surfels", opacity_bytes + material_bytes);
+        status = ewa_gl_buffer_reserve(device, &page->attributes, "surfels", halves_bytes + material_bytes);
     EWA_TRY(status);
     glBindBuffer(GL_COPY_WRITE_BUFFER, page->attributes.name);
     if (opacity_bytes)
         glBufferSubData(GL_COPY_WRITE_BUFFER, 0, (GLsizeiptr)opacity_bytes, surfels->opacities + first);
+    if (curvature_bytes)
+        glBufferSubData(GL_COPY_WRITE_BUFFER, (GLintptr)opacity_bytes, (GLsizeiptr)curvature_bytes,
+                        surfels->curvatures + first);
     if (material_bytes)
-        glBufferSubData(GL_COPY_WRITE_BUFFER, (GLintptr)opacity_bytes, (GLsizeiptr)material_bytes,
+        glBufferSubData(GL_COPY_WRITE_BUFFER, (GLintptr)halves_bytes, (GLsizeiptr)material_bytes,
                         surfels->materials + first);
     return ewa_gl_check(device, "surfels");
 }

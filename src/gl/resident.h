@@ -12,7 +12,7 @@
 typedef struct ewa_gl_page {
     ewa_gl_buffer packets, attributes;
     uint32_t first, count;
-    int32_t opacities_at, materials_at; ///< words of `attributes`; -1: there are none
+    int32_t opacities_at, curvatures_at, materials_at; ///< words of `attributes`; -1: there are none
 } ewa_gl_page;
 
 /// Surfels that are there.

@@ -7,7 +7,7 @@
 #include <assert.h>
 #include <string.h>
 
-static_assert(sizeof(ewa_gl_view) == 192 && sizeof(ewa_gl_clip) == 144 && sizeof(ewa_gl_near) == 268,
+static_assert(sizeof(ewa_gl_view) == 200 && sizeof(ewa_gl_clip) == 144 && sizeof(ewa_gl_near) == 268,
               "as std430 has them");
 
 void ewa_gl_view_set(ewa_gl_view *to, const ewa_view *from, bool hides) {
@@ -33,6 +33,8 @@ void ewa_gl_view_set(ewa_gl_view *to, const ewa_view *from, bool hides) {
     to->exponent_scale = from->exponent_scale, to->exponent_end = from->exponent_end;
     to->sum_scale = from->sum_scale, to->color_scale = from->color_scale, to->depth_scale = from->depth_scale;
     to->doublings = from->doublings;
+    to->contour_shift = from->contour_shift, to->contour_sine2 = from->contour_sine2;
+    to->curvature_scale = from->curvature_scale;
     const struct {
         bool set;
         uint32_t flag;
@@ -44,7 +46,8 @@ void ewa_gl_view_set(ewa_gl_view *to, const ewa_view *from, bool hides) {
                  {from->circular, EWA_GL_CIRCULAR},
                  {from->raycast, EWA_GL_RAYCAST},
                  {from->point_sigma_px > 0, EWA_GL_POINTS},
-                 {hides, EWA_GL_HIDES}};
+                 {hides, EWA_GL_HIDES},
+                 {from->transparent, EWA_GL_SEE_THROUGH}};
     for (size_t i = 0; i < sizeof flags / sizeof flags[0]; i++) to->flags |= flags[i].set ? flags[i].flag : 0;
 }
 

@@ -17,6 +17,7 @@ enum {
     EWA_GL_RAYCAST = 64,
     EWA_GL_POINTS = 128,
     EWA_GL_HIDES = 256,
+    EWA_GL_SEE_THROUGH = 1024, ///< what is behind surfaces shows through them
     EWA_GL_RECORD_BYTES = 96
 };
 
@@ -35,7 +36,7 @@ typedef struct ewa_gl_view {
     float exponent_scale, exponent_end;
     float sum_scale, color_scale, depth_scale;
     uint32_t doublings, flags;
-    float pad;
+    float contour_shift, contour_sine2, curvature_scale;
 } ewa_gl_view;
 
 /// ewa_clip.

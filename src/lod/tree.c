@@ -207,7 +207,7 @@ void ewa_tree_trim(ewa_lod *lod, uint64_t memory_bytes) {
 /// What surfels are made of; everything else of the points is left out.
 #define SURFEL_ATTRIBUTES                                                                                    \
     EWA_NORMAL "," EWA_RADIUS "," EWA_TANGENT_U "," EWA_TANGENT_V "," EWA_COLOR "," EWA_MATERIAL             \
-               "," EWA_SURFACENESS "," EWA_CLIP0 "," EWA_CLIP1 "," EWA_CLIP_MODE "," EWA_BORDER
+               "," EWA_SURFACENESS "," EWA_CURVATURE "," EWA_CLIP0 "," EWA_CLIP1 "," EWA_CLIP_MODE "," EWA_BORDER
 
 /// Whether what was made with one look is what another one makes.
 static bool looks_agree(const ewa_lod_look *a, const ewa_lod_look *b) {

@@ -8,6 +8,7 @@
 #include "reference/splat.h"
 #include "math/ellipse.h"
 #include "math/gaussian.h"
+#include "reference/contour.h"
 #include "surface/points.h"
 #include "surface/semantics.h"
 
@@ -430,6 +431,7 @@ void ewa_reference_project(const ewa_reference_view *view, const ewa_surfel *giv
         bound_near(view, splat);
     else if (!make_ellipse(view, splat))
         return;
+    ewa_reference_move(view, surfel, splat);
     splat->drawn = true;
 }
 
@@ -502,10 +504,11 @@ static void sample_backward(const ewa_reference_view *view, const ewa_reference_
 static bool sample_unclipped(const ewa_reference_view *view, const ewa_reference_splat *splat, double x_px,
                              double y_px, ewa_reference_sample *sample) {
     if (splat->by_rays) return sample_ray(view, splat, x_px, y_px, sample);
+    const double x_moved_px = x_px - splat->moved_px[0], y_moved_px = y_px - splat->moved_px[1];
     if (by_backward_mapping(view)) {
-        sample_backward(view, splat, x_px, y_px, sample);
+        sample_backward(view, splat, x_moved_px, y_moved_px, sample);
     } else {
-        const double dx = x_px - splat->center_px[0], dy = y_px - splat->center_px[1];
+        const double dx = x_moved_px - splat->center_px[0], dy = y_moved_px - splat->center_px[1];
         const double *q = splat->inverse;
         sample->distance2 = q[0] * dx * dx + 2 * q[1] * dx * dy + q[2] * dy * dy;
         sample->weight = splat->peak * ewa_exp(-0.5 * sample->distance2);

@@ -23,6 +23,8 @@ typedef struct ewa_reference_view {
     double cutoff;                                    ///< F
     double prefilter_px;                              ///< h
     double tolerance;                                 ///< kappa
+    double contour_shift, contour_sine2;              ///< c and S of semantics.h, contours; c = 0: nothing moves
+    bool transparent;                                 ///< what is behind surfaces shows through them
     double point_sigma_px;                            ///< of points (semantics.h); 0: surfels as they are
     double sections_world[EWA_MAX_SECTION_PLANES][4]; ///< as the options have them
     double sections[EWA_MAX_SECTION_PLANES][4]; ///< for points from the surfels' origin, with unit normals
@@ -35,6 +37,8 @@ typedef struct ewa_reference_splat {
     bool by_rays;                           ///< near: no ellipse, evaluated ray by ray
     int32_t x_begin, x_end, y_begin, y_end; ///< pixels that may count; empty when outside of the picture
     double center_px[2];                    ///< of the ellipse
+    double moved_px[2];                     ///< from there to where it is drawn (contour.h)
+    bool hollow;                            ///< moved, and of no layer behind the first
     double variance_px2[3];                 ///< V: xx, xy, yy, without the prefilter
     double inverse[3];                      ///< V'^-1: xx, xy, yy
     double peak;                            ///< sqrt(|V| / |V'|) / 2 pi

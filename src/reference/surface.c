@@ -10,6 +10,7 @@
 #include "base/base.h"
 #include "cloud/cloud.h"
 #include "image/srgb.h"
+#include "reference/contour.h"
 #include "reference/layering.h"
 #include "reference/shade.h"
 #include "reference/sums.h"
@@ -87,11 +88,16 @@ static bool precedes(const ewa_reference_splat *a, const ewa_reference_splat *b)
     return false;
 }
 
+/// Whether what a splat is at a pixel belongs to surfaces that have been made.
+static bool has_passed(const pixel *at, const ewa_reference_splat *splat, const ewa_reference_sample *sample) {
+    return sample->z <= at->passed || (splat->hollow && at->passed > -INFINITY);
+}
+
 /// First pass (PAS 6, SS 4): B(x) = min over the splats that count at x of z + eps.
 static void lower_bound(const reference *work, pixel *at, uint64_t index,
                         const ewa_reference_sample *sample) {
     const ewa_reference_splat *splat = &work->splats[index];
-    if (sample->z <= at->passed) return;
+    if (has_passed(at, splat, sample)) return;
     if (work->options.passes == 3) {
         at->bound = fmin(at->bound, sample->z + splat->epsilon);
     } else if (sample->z < at->bound || (sample->z == at->bound && at->nearest != NOBODY &&
@@ -104,7 +110,7 @@ static void lower_bound(const reference *work, pixel *at, uint64_t index,
 /// Second pass: sums over the splats with z <= B(x), or the nearest splat alone.
 static void accumulate(const reference *work, pixel *at, uint64_t index, const ewa_reference_sample *sample) {
     const ewa_reference_splat *splat = &work->splats[index];
-    if (sample->z <= at->passed) return;
+    if (has_passed(at, splat, sample)) return;
     if (work->options.passes == 3 ? sample->z > at->bound : index != at->nearest) return;
     const ewa_material *m = &work->shading.materials[work->shading.has_table ? work->materials[index] : 0];
     const float numbers[5] = {m->ambient, m->diffuse, m->specular, m->shininess, m->reflection};
@@ -344,6 +350,7 @@ ewa_status ewa_render_reference(const ewa_cloud *cloud, const ewa_surfels_option
     ewa_bounds box;
     ewa_position_measure(context, work.reader.position, work.surfel_count, &box);
     ewa_reference_view_place(camera, work.reader.origin_world, &box, &work.view);
+    ewa_reference_view_contours(&work.options, work.layering.transparent, &work.view);
     ewa_shading_setup_make(&work.options, &work.shading);
     const uint64_t bands = (uint64_t)ewa_context_worker_count(context) * BANDS_PER_WORKER;
     work.band_count = bands < camera->height_px ? (uint32_t)bands : camera->height_px;

@@ -141,7 +141,7 @@ static ewa_status numbers_to_doubles(ewa_cloud *cloud, const char *name, double 
 static void drop_undrawn(ewa_cloud *cloud) {
     static const char *const drawn[] = {EWA_POSITION,  EWA_NORMAL,   EWA_COLOR, EWA_RADIUS, EWA_TANGENT_U,
                                         EWA_TANGENT_V, EWA_MATERIAL, EWA_CLIP0, EWA_CLIP1,  EWA_CLIP_MODE,
-                                        EWA_BORDER,    EWA_SURFACENESS};
+                                        EWA_BORDER,    EWA_SURFACENESS, EWA_CURVATURE};
     for (uint32_t k = ewa_cloud_attribute_count(cloud); k-- > 0;) {
         bool kept = false;
         char name[EWA_NAME_BYTES];
@@ -168,7 +168,7 @@ static ewa_status add_clip_lines(ewa_cloud *cloud, const bool wanted[CLIP_STREAM
 
 ewa_status ewa_clouds_make_alike(ewa_cloud *const *clouds, uint32_t count, double cutoff) {
     bool any_axes = false, colors_differ = false, normals_differ = false, materials_differ = false,
-         surfaceness_differs = false;
+         surfaceness_differs = false, curvatures_differ = false;
     bool clip[CLIP_STREAMS] = {false};
     for (uint32_t i = 0; i < count; i++) {
         any_axes |= has_axes(clouds[i]);
@@ -176,6 +176,7 @@ ewa_status ewa_clouds_make_alike(ewa_cloud *const *clouds, uint32_t count, doubl
         normals_differ |= !ewa_cloud_find(clouds[i], EWA_NORMAL);
         materials_differ |= streams_differ(clouds[0], clouds[i], EWA_MATERIAL);
         surfaceness_differs |= streams_differ(clouds[0], clouds[i], EWA_SURFACENESS);
+        curvatures_differ |= streams_differ(clouds[0], clouds[i], EWA_CURVATURE);
         for (int k = 0; k < CLIP_STREAMS; k++) clip[k] |= ewa_cloud_find(clouds[i], clip_streams[k]) != NULL;
     }
     if (any_axes) clip[0] |= clip[3], clip[3] = false;
@@ -184,6 +185,7 @@ ewa_status ewa_clouds_make_alike(ewa_cloud *const *clouds, uint32_t count, doubl
         if (colors_differ) EWA_TRY(ewa_cloud_colors_to_linear(clouds[i]));
         if (materials_differ) EWA_TRY(numbers_to_doubles(clouds[i], EWA_MATERIAL, 0));
         if (surfaceness_differs) EWA_TRY(numbers_to_doubles(clouds[i], EWA_SURFACENESS, 1));
+        if (curvatures_differ) EWA_TRY(numbers_to_doubles(clouds[i], EWA_CURVATURE, 0));
         EWA_TRY(add_clip_lines(clouds[i], clip));
         if (any_axes) ewa_cloud_remove(clouds[i], EWA_RADIUS), ewa_cloud_remove(clouds[i], EWA_BORDER);
         if (normals_differ) ewa_cloud_remove(clouds[i], EWA_NORMAL);

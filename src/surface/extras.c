@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: MIT
 //
 // Opacities, two bytes for each surfel of clouds that have some; materials, one byte for each surfel of
-// clouds that have several; clip lines, for the surfels that have them.
+// clouds that have several; curvatures, two bytes for each surfel of clouds that know them; clip lines, for the
+// surfels that have them.
 #include "surface/extras.h"
 #include "base/base.h"
 #include "surface/packet_order.h"
@@ -78,6 +79,27 @@ static ewa_status set_materials(ewa_context *context, work *w) {
     if (several) return EWA_OK;
     ewa_release(context, surfels->materials, lanes, sizeof *surfels->materials);
     surfels->materials = NULL;
+    return EWA_OK;
+}
+
+static void encode_curvatures(void *data, uint32_t part, uint32_t worker) {
+    (void)worker;
+    const work *w = data;
+    const ewa_surfels *surfels = w->surfels;
+    for (uint64_t i = (uint64_t)part * PART_PACKETS * LANES; i < part_end(w, part) * LANES; i++) {
+        const double curvature_world =
+            w->order[i] != EWA_NO_POINT ? ewa_surfel_curvature(w->reader, w->order[i]) : 0;
+        surfels->curvatures[i] = ewa_packet_code_curvature(curvature_world * surfels->unit);
+    }
+}
+
+static ewa_status set_curvatures(ewa_context *context, work *w) {
+    ewa_surfels *surfels = w->surfels;
+    const size_t lanes = (size_t)surfels->packet_count * LANES;
+    if (!w->reader->curvature) return EWA_OK;
+    surfels->curvatures = ewa_allocate(context, lanes, sizeof *surfels->curvatures);
+    if (!surfels->curvatures) return EWA_ERROR_MEMORY;
+    ewa_parallel(context, encode_curvatures, w, part_count(surfels));
     return EWA_OK;
 }
 
@@ -163,6 +185,7 @@ ewa_status ewa_extras_make(ewa_context *context, ewa_surfels *surfels, const ewa
     work w = {.surfels = surfels, .reader = reader, .order = order, .point_count = point_count};
     EWA_TRY(set_opacities(context, &w));
     EWA_TRY(set_materials(context, &w));
+    EWA_TRY(set_curvatures(context, &w));
     return set_clips(context, &w);
 }
 
@@ -171,6 +194,8 @@ void ewa_extras_free(ewa_context *context, ewa_surfels *surfels) {
                 sizeof *surfels->opacities);
     ewa_release(context, surfels->materials, (size_t)surfels->packet_count * LANES,
                 sizeof *surfels->materials);
+    ewa_release(context, surfels->curvatures, (size_t)surfels->packet_count * LANES,
+                sizeof *surfels->curvatures);
     ewa_release(context, surfels->clip_masks, surfels->packet_count, sizeof *surfels->clip_masks);
     ewa_release(context, surfels->clip_first, surfels->packet_count, sizeof *surfels->clip_first);
     ewa_release(context, surfels->clips, surfels->clip_count, sizeof *surfels->clips);
@@ -180,6 +205,7 @@ size_t ewa_extras_bytes(const ewa_surfels *surfels) {
     size_t bytes = surfels->clip_count * sizeof *surfels->clips;
     if (surfels->opacities) bytes += (size_t)surfels->packet_count * LANES * sizeof *surfels->opacities;
     if (surfels->materials) bytes += (size_t)surfels->packet_count * LANES * sizeof *surfels->materials;
+    if (surfels->curvatures) bytes += (size_t)surfels->packet_count * LANES * sizeof *surfels->curvatures;
     if (surfels->clip_masks)
         bytes += surfels->packet_count * (sizeof *surfels->clip_masks + sizeof *surfels->clip_first);
     return bytes;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// What only some clouds have beside packets: opacities, materials and clip lines.
+// What only some clouds have beside packets: opacities, materials, curvatures and clip lines.
 #ifndef EWA_SRC_SURFACE_EXTRAS_H
 #define EWA_SRC_SURFACE_EXTRAS_H
 

@@ -21,14 +21,8 @@ static ewa_status reserve_sources(ewa_context *context, ewa_job_room *room, uint
 }
 
 /// How many surfaces are composited, and whether they are transparent.
-static void set_layers(ewa_tile_job *job, const ewa_render_job *frame, const ewa_render_options *options) {
-    bool opacities = false;
-    for (uint32_t i = 0; i < frame->source_count; i++) {
-        const ewa_surfels *surfels = frame->sources[i].surfels;
-        opacities |= surfels->opacities || surfels->with_opacities;
-    }
-    job->resolve.transparent =
-        (options->opacity < 1 || opacities) && options->layers != 1 && options->passes == 3;
+static void set_layers(ewa_tile_job *job, const ewa_scales *scales, const ewa_render_options *options) {
+    job->resolve.transparent = scales->transparent;
     if (!job->resolve.transparent) {
         job->layers = options->edge_antialiasing && options->passes == 3 ? options->edge_layers : 1;
         job->merge_last = job->layers > 1;
@@ -36,8 +30,8 @@ static void set_layers(ewa_tile_job *job, const ewa_render_job *frame, const ewa
     }
     job->layers = options->layers == 0 || options->layers > EWA_MAX_LAYERS ? EWA_MAX_LAYERS : options->layers;
     job->merge_last = job->layers == options->layers;
-    job->with_opacity = opacities;
-    job->with_normals |= opacities;
+    job->with_opacity = scales->opacities;
+    job->with_normals |= scales->opacities;
 }
 
 /// Whether the surfels' materials differ.
@@ -79,6 +73,7 @@ static void set_packets(const ewa_tile_job *job, const ewa_render_options *optio
                             .places = source->bins.places,
                             .opacities = job->with_opacity ? surfels->opacities : NULL,
                             .clip_masks = options->point_size_px > 0 ? NULL : surfels->clip_masks,
+                            .curvatures = source->view.contour_shift > 0 ? surfels->curvatures : NULL,
                             .materials = job->with_materials ? surfels->materials : NULL,
                             .material = surfels->material,
                             .billboards = surfels->billboards};
@@ -163,7 +158,7 @@ static void set_channels(ewa_tile_job *job, const ewa_render_job *frame, const e
                          const ewa_scales *scales, const ewa_frame *drawn) {
     ewa_resolve_set(&job->resolve, frame->source_count ? frame->sources[0].surfels->material : 0,
                     &frame->camera, options, scales, &frame->shading, drawn);
-    set_layers(job, frame, options);
+    set_layers(job, scales, options);
     set_materials(job, frame);
     job->channel_count = 4 + (job->with_normals ? 3 : 0) + (job->with_depth || job->with_materials ? 1 : 0) +
                          (job->with_materials ? EWA_MATERIAL_CHANNELS : 0) + (job->with_opacity ? 1 : 0);

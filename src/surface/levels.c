@@ -30,7 +30,7 @@ static const double SOUND_NORMAL = 0.5;
 typedef struct representative {
     ewa_vec3 center; ///< from the origin, in the surfels' unit
     ewa_vec3 normal, axis_u;
-    double sigma, color[3], opacity;
+    double sigma, color[3], opacity, curvature;
     uint16_t ratio;
     uint8_t material;
     bool clipped, billboard;
@@ -321,6 +321,10 @@ static void make_representative(const level_job *job, const ewa_window *window, 
     made->clipped = members.any_clipped;
     if (made->clipped) move_clip(fine, index, lane, moved, &made->clip);
     made->material = fine->materials ? fine->materials[(size_t)index * LANES + lane] : fine->material;
+    made->curvature = 0;
+    for (uint32_t i = 0; i < count && fine->curvatures; i++)
+        made->curvature += members.share[i] * ewa_packet_decode_curvature(
+                                                  fine->curvatures[(size_t)members.packet[i] * LANES + members.lane[i]]);
     if (made->ratio != UINT16_MAX) {
         ewa_packet_surfel decoded;
         ewa_packet_decode(fine, index, lane, &decoded);
@@ -351,6 +355,7 @@ static void encode_packet(const level_job *job, uint32_t index, const representa
         if (coarse->opacities)
             coarse->opacities[at] = i < count ? (uint16_t)(s->opacity * 65535 + 0.5) : UINT16_MAX;
         if (coarse->materials) coarse->materials[at] = s->material;
+        if (coarse->curvatures) coarse->curvatures[at] = ewa_packet_code_curvature(i < count ? s->curvature : 0);
         if (i < count && s->clipped) clip_mask |= 1u << i, *(*clips)++ = s->clip;
     }
     if (coarse->clip_masks) coarse->clip_masks[index] = (uint16_t)clip_mask;
@@ -443,13 +448,14 @@ static ewa_status allocate_level(level_job *job) {
     job->lane_counts = ewa_allocate(context, packets, sizeof *job->lane_counts);
     if (fine->opacities) coarse->opacities = ewa_allocate(context, lanes, sizeof *coarse->opacities);
     if (fine->materials) coarse->materials = ewa_allocate(context, lanes, sizeof *coarse->materials);
+    if (fine->curvatures) coarse->curvatures = ewa_allocate(context, lanes, sizeof *coarse->curvatures);
     if (fine->clip_masks) {
         coarse->clip_masks = ewa_allocate(context, packets, sizeof *coarse->clip_masks);
         coarse->clip_first = ewa_allocate(context, packets, sizeof *coarse->clip_first);
         coarse->clips = ewa_allocate(context, coarse->clip_count, sizeof *coarse->clips);
     }
     const bool made = job->lane_counts && (!fine->opacities || coarse->opacities) &&
-                      (!fine->materials || coarse->materials) &&
+                      (!fine->materials || coarse->materials) && (!fine->curvatures || coarse->curvatures) &&
                       (!fine->clip_masks || (coarse->clip_masks && coarse->clip_first && coarse->clips));
     return made ? EWA_OK : EWA_ERROR_MEMORY;
 }

@@ -6,6 +6,7 @@
 #include "surface/packets.h"
 
 #include <math.h>
+#include <string.h>
 
 static ewa_vec3 oct_decode(int16_t code_x, int16_t code_y) {
     const double u = code_x / 32767.0, v = code_y / 32767.0, z = 1 - fabs(u) - fabs(v), fold = fmax(-z, 0);
@@ -27,6 +28,21 @@ uint16_t ewa_packet_code_angle(const ewa_packet *packet, uint32_t lane, ewa_vec3
     if (t < 0) c = -c, t = -t; // the axis has no sign
     const double sum = fabs(c) + t;
     return (uint16_t)((uint32_t)((sum > 0 ? 1 - c / sum : 0) * 32768 + 0.5) & 0xffff);
+}
+
+uint16_t ewa_packet_code_curvature(double curvature) {
+    static const double LIMIT = 1e30;
+    const float number = (float)fmin(fmax(curvature, -LIMIT), LIMIT);
+    uint32_t bits;
+    memcpy(&bits, &number, sizeof bits);
+    return (uint16_t)((bits + 0x8000) >> 16);
+}
+
+double ewa_packet_decode_curvature(uint16_t code) {
+    const uint32_t bits = (uint32_t)code << 16;
+    float number;
+    memcpy(&number, &bits, sizeof number);
+    return (double)number;
 }
 
 ewa_vec3 ewa_packet_center(const ewa_surfels *surfels, uint32_t packet) {

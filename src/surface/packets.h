@@ -25,6 +25,7 @@ struct ewa_surfels {
     uint8_t *materials; ///< [packet][lane]; NULL: all are `material`
     uint8_t material, max_material;
     uint16_t *opacities;    ///< [packet][lane], times 65535; NULL: all are opaque
+    uint16_t *curvatures;   ///< [packet][lane]: upper halves of floats, per length in packets; NULL: all are 0
     uint16_t *clip_masks;   ///< [packet]: bit per lane that has a clip line; NULL: none has
     uint32_t *clip_first;   ///< [packet]: of its lanes' in `clips`
     ewa_surfel_clip *clips; ///< `clip_count` of them, in the order of packets and lanes
@@ -81,6 +82,12 @@ void ewa_packet_decode(const ewa_surfels *surfels, uint32_t packet, uint32_t lan
 /// Codes the direction of an axis, without its sign, as the diamond angle in [0, 2) in the frame of the lane's
 /// normal, which is coded by then: 1 - c / (|c| + t).
 uint16_t ewa_packet_code_angle(const ewa_packet *packet, uint32_t lane, ewa_vec3 axis);
+
+/// Codes a curvature per length in packets as the upper half of a float.
+uint16_t ewa_packet_code_curvature(double curvature);
+
+/// Returns the curvature of such a code.
+double ewa_packet_decode_curvature(uint16_t code);
 
 /// Tells the cone of a packet that billboards have no normals.
 void ewa_packet_free_billboards(const ewa_packet *packet, uint32_t *cone);

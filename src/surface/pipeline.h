@@ -40,6 +40,7 @@ enum {
     EWA_PIXEL_FLOATS = 8,         ///< of ewa_tile.pixels
     EWA_BACK_FACING_BIT = 1 << 6, ///< in ewa_record.box: faces away from the viewer
     EWA_STEEP_BIT = 1 << 7,       ///< in ewa_record.box: steep or wide
+    EWA_HOLLOW_BIT = 1 << 14,     ///< in ewa_record.box: of no layer behind the first: at a contour, seen from inside
     EWA_CLIP_BIT = 1 << 15,       ///< in ewa_record.box: clipped
     EWA_MATERIAL_CHANNELS = 5,    ///< ambient, diffuse, specular, shininess, reflection
     EWA_MAX_CHANNELS = 9 + EWA_MATERIAL_CHANNELS,
@@ -77,6 +78,11 @@ typedef struct ewa_view {
     float cutoff, cutoff2;
     float prefilter2_px2; ///< h^2
     float reach_px;       ///< F h; points: F point_sigma_px
+    float margin_px;      ///< beyond which no splat reaches past the outline of its packet's sphere
+    float curvature_scale; ///< 2 over the focal length and the lengths in packets
+    float contour_shift;  ///< c of semantics.h, contours; 0: splats stay where they are
+    float contour_sine2;  ///< S
+    bool transparent;     ///< what is behind surfaces shows through them
     float point_sigma_px; ///< of points (semantics.h); 0: surfels as they are
     float tolerance;      ///< kappa F
     float grazing; ///< 1, or 0 with one pass: whether the tolerance grows where surfels are seen edge-on
@@ -94,7 +100,7 @@ typedef struct ewa_view {
     const float (
         *materials)[EWA_MATERIAL_CHANNELS]; ///< [code], over the largest; NULL: surfels have no codes
     float side_planes[4][3]; ///< inward unit normals of the frustum's sides through the eye, widened by
-                             ///< reach_px and a pixel
+                             ///< margin_px
     double sections[EWA_MAX_SECTION_PLANES][4]; ///< unit normal inward, distance from where packets' centres
     uint32_t section_count;                     ///< are measured from, in their unit
     float section_reach;                        ///< F; 0 for points
@@ -137,7 +143,7 @@ typedef struct ewa_record {
     float key_low;          ///< the key is nowhere below, plain or not
     float red, green, blue; ///< times the resampling kernel's peak and the surfel's opacity, in units of sums
     uint32_t
-        box; ///< first column | EWA_BACK_FACING_BIT | EWA_STEEP_BIT | first row << 8 | EWA_CLIP_BIT | columns
+        box; ///< first column | EWA_BACK_FACING_BIT | EWA_STEEP_BIT | first row << 8 | EWA_HOLLOW_BIT | EWA_CLIP_BIT | columns
              ///< << 16 | rows << 24, in blocks; first pixel in its block << EWA_SMALL_X_SHIFT, _Y_SHIFT
 } ewa_record;
 
@@ -147,7 +153,7 @@ static inline uint32_t ewa_box_rows(uint32_t box) { return box >> 24 & 0x3f; }
 /// Marks the blocks of a record's box.
 static inline void ewa_mark_box(uint32_t *rows, uint32_t box) {
     const uint32_t columns = (uint32_t)(((1ull << ewa_box_columns(box)) - 1) << (box & 0x3f));
-    const uint32_t first = box >> 8 & 0x7f, end = first + ewa_box_rows(box);
+    const uint32_t first = box >> 8 & 0x3f, end = first + ewa_box_rows(box);
     for (uint32_t row = first; row < end; row++) rows[row] |= columns;
 }
 
@@ -199,6 +205,7 @@ typedef struct ewa_packet_source {
     ewa_packet_places places;
     const uint16_t *opacities;  ///< [packet][lane], times 65535; NULL: all are opaque
     const uint16_t *clip_masks; ///< [packet]: lanes with clip lines; NULL: none
+    const uint16_t *curvatures; ///< [packet][lane]: upper halves of floats; NULL: no splat moves
     const uint8_t *materials;   ///< [packet][lane]: codes; NULL: all have `material`
     uint8_t material;
     bool billboards; ///< there may be some

@@ -73,7 +73,7 @@ static ALWAYS_INLINE void outline_packets(const ewa_view *view, packet_outline *
             o->half_y = wf_add(o->half_y, view->circular ? wf_add(reach_x, reach_y) : reach_y);
         }
     }
-    const wf margin_px = wf_set(view->reach_px + 1);
+    const wf margin_px = wf_set(view->margin_px);
     o->half_x = widened(wf_add(o->half_x, margin_px), o->x, view->cx_px);
     o->half_y = widened(wf_add(o->half_y, margin_px), o->y, view->cy_px);
 }

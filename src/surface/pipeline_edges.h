@@ -76,11 +76,14 @@ static ALWAYS_INLINE void set_boxes(uint32_t at, uint32_t count, ewa_edge_boxes 
     const wm there = wm_of_bits(count < EWA_BLOCK_LANES ? (1u << count) - 1 : 0xffff);
     const wi some = wi_set(boxes->first[at]);
     const wi box = wi_of_bits(wf_select(there, wf_of_bits(wi_load(boxes->first + at)), wf_of_bits(some)));
-    const wi first = wi_and(box, wi_set(0xffff & ~(EWA_BACK_FACING_BIT | EWA_STEEP_BIT | EWA_CLIP_BIT)));
+    enum { FLAGS = EWA_BACK_FACING_BIT | EWA_STEEP_BIT | EWA_HOLLOW_BIT | EWA_CLIP_BIT };
+    const wi first = wi_and(box, wi_set(0xffff & ~FLAGS));
+    const wm hollow = wf_lt(wf_set(0), wf_from_i(wi_and(box, wi_set(EWA_HOLLOW_BIT))));
     const wi size = wi_and(wi_sar(box, 16), wi_set(0x3f3f));
     wi_store(boxes->first + at, first);
     wi_store(boxes->last + at, wi_add(wi_add(first, size), wi_set(EWA_BOX_GUARD - 0x0101)));
-    wf_store(boxes->key_low + at, wf_select(there, wf_load(boxes->key_low + at), wf_set(__builtin_inff())));
+    wf_store(boxes->key_low + at, wf_select(wm_and(there, wm_not(hollow)), wf_load(boxes->key_low + at),
+                                            wf_set(__builtin_inff())));
 }
 
 /// What boxes span, by extremes that only grow: columns and rows, those of the first counted from 127 down,
@@ -237,7 +240,7 @@ static ALWAYS_INLINE splat_lanes load_splats(const ewa_record *records, const ew
     s.clipped = wf_lt(wf_set(0), wf_from_i(wi_and(box, wi_set(EWA_CLIP_BIT))));
     if (wm_bits(s.clipped)) load_lines(clips, indices, count, wm_bits(s.clipped), &s);
     const wi columns = wi_sub(wi_set((int32_t)column), wi_and(box, wi_set(0x3f)));
-    const wf rows = wf_from_i(wi_sub(wi_set((int32_t)row), wi_and(wi_sar(box, 8), wi_set(0x7f))));
+    const wf rows = wf_from_i(wi_sub(wi_set((int32_t)row), wi_and(wi_sar(box, 8), wi_set(0x3f))));
     const wf side = wf_set(EWA_BLOCK_PX), first_px = wf_add(f[0], wf_mul(side, wf_from_i(columns)));
     for (int i = 0; i < EWA_BLOCK_PX; i++) {
         const wf dx = wf_add(first_px, wf_set((float)i + 0.5f));

@@ -413,6 +413,39 @@ static ALWAYS_INLINE wf whole_place(wf center_px) {
 /// near by at most eps / TANGENT_PARTS^2.
 enum { TANGENT_PARTS = 16 };
 
+/// How far splats move away from their contours (semantics.h, section 5): pixels, and what of the key that is.
+typedef struct contour_way {
+    wf x, y, key;
+    wm hollow; ///< seen from the side to which the surface turns
+} contour_way;
+
+/// Returns whether some move. `slope` is the length of the key's gradient.
+static ALWAYS_INLINE bool find_contour_way(const ewa_view *view, const uint16_t *curvatures, const stage *t, wf slope,
+                                           wm clipped, contour_way *way) {
+    const wf one = wf_set(1), zero = wf_set(0);
+    const wf curvature = wf_of_bits(wi_shl(wi_load_u16(curvatures), 16));
+    wf bend = wf_mul(wf_abs(curvature), wf_set(view->curvature_scale));
+    if (!view->orthographic) bend = wf_mul(bend, t->z);
+    bend = wf_min(bend, wf_set(1e30f));
+    const wf sine2 = wf_mul(t->facing, t->facing);
+    const wf size = wf_mul(t->major, wf_set((float)EWA_CONTOUR_WIDTH * view->fx_zoomed));
+    const wf across = wf_sqrt(wf_fma(wf_mul(size, size), sine2, wf_set(view->prefilter2_px2)));
+    const wf reach =
+        wf_min(wf_mul(wf_mul(across, bend), wf_set((float)EWA_CONTOUR_REACH)), wf_set(view->contour_sine2));
+    const wm near = wm_and(wm_and(t->alive, wm_not(clipped)), wm_and(wf_lt(sine2, reach), wf_lt(zero, slope)));
+    if (!wm_bits(near)) return false;
+    const wf share = wf_sub(one, wf_div(sine2, wf_select(near, reach, one)));
+    const wf length = wf_mul(wf_mul(across, wf_set(view->contour_shift)), share);
+    // Up the gradient where the side that is seen turns away, as on the near half of a sphere.
+    const wf seen = wf_select(wf_lt(t->facing, zero), curvature, wf_negate(curvature));
+    const wm turns_away = wf_lt(zero, seen);
+    const wf along = wf_div(wf_select(turns_away, length, wf_negate(length)), wf_select(near, slope, one));
+    way->hollow = wm_and(wm_and(near, wm_not(turns_away)), wf_lt(wf_set((float)EWA_CONTOUR_HOLLOW), share));
+    way->x = wf_keep(near, wf_mul(t->key_x, along)), way->y = wf_keep(near, wf_mul(t->key_y, along));
+    way->key = wf_keep(near, wf_mul(wf_mul(slope, slope), along));
+    return true;
+}
+
 /// Third step: tolerance, box in the tile, and the records of the lanes that are in it.
 static ALWAYS_INLINE void stage_emit(const ewa_view *view, const ewa_packet_source *source, uint32_t id,
                                      const ewa_tile *tile, stage *t, ewa_run *run, wf *minimum) {
@@ -444,6 +477,16 @@ static ALWAYS_INLINE void stage_emit(const ewa_view *view, const ewa_packet_sour
         reach_depth = wf_mul(wf_mul(reach, z), z);
         limit = wf_mul(wf_mul(limit, t->inverse_z), t->inverse_z);
     }
+    wf place_x = wf_add(wf_fma(t->dx, fx, wf_set(t->base_x)), c1_px);
+    wf place_y = wf_add(wf_fma(t->dy, fy, wf_set(t->base_y)), c2_px), beyond = reach;
+    contour_way way;
+    wm hollow = wm_of_bits(0);
+    // What moves keeps its plane of keys, whose range beside the disc is that of what the splat may reach.
+    if (source->curvatures && find_contour_way(view, source->curvatures + first_lane, t, slope, clipped, &way)) {
+        key = wf_add(key, way.key), beyond = wf_add(beyond, wf_abs(way.key));
+        place_x = wf_add(place_x, way.x), place_y = wf_add(place_y, way.y);
+        if (!view->transparent) hollow = way.hollow;
+    }
     wf margin = wf_max(wf_sub(limit, reach), zero);
     if (view->circular) {
         const wf maximum = wf_mul(wf_set((float)EWA_GRAZING_TOLERANCE), support);
@@ -453,8 +496,7 @@ static ALWAYS_INLINE void stage_emit(const ewa_view *view, const ewa_packet_sour
     const wf grazing = wf_min(wf_mul(wf_set(view->grazing), reach_depth),
                               wf_mul(wf_set((float)EWA_GRAZING_TOLERANCE), support));
     const wf tolerance = wf_fma(wf_set(view->tolerance), t->sigma, grazing);
-    const wf cx = whole_place(wf_add(wf_fma(t->dx, fx, wf_set(t->base_x)), c1_px));
-    const wf cy = whole_place(wf_add(wf_fma(t->dy, fy, wf_set(t->base_y)), c2_px));
+    const wf cx = whole_place(place_x), cy = whole_place(place_y);
     const float left = tile->field_x_px, top = tile->field_y_px;
     const wf whole_first_x = wf_add(wf_floor(wf_sub(wf_sub(cx, t->half_x), half)), one);
     const wf whole_last_x = wf_floor(wf_sub(wf_add(cx, t->half_x), half));
@@ -494,7 +536,7 @@ static ALWAYS_INLINE void stage_emit(const ewa_view *view, const ewa_packet_sour
     }
     if (view->circular) wide = wm_of_bits(0xffff);
     // Affine ellipses reach beyond what discs cover, so that their planes may end anywhere.
-    const wm steep = wm_or(wide, view->affine ? wm_of_bits(0xffff) : wf_lt(margin, reach));
+    const wm steep = wm_or(wide, view->affine ? wm_of_bits(0xffff) : wf_lt(margin, beyond));
     const wi steep_bit = wi_of_bits(wf_keep(steep, wf_of_bits(wi_set(EWA_STEEP_BIT))));
     const wi in_block = wi_or(wi_shl(wi_and(pixel_x, wi_set(EWA_BLOCK_PX - 1)), EWA_SMALL_X_SHIFT),
                               wi_shl(wi_and(pixel_y, wi_set(EWA_BLOCK_PX - 1)), EWA_SMALL_Y_SHIFT));
@@ -539,7 +581,8 @@ static ALWAYS_INLINE void stage_emit(const ewa_view *view, const ewa_packet_sour
         wf_odd_product(color_units, decode_color(&form, packet->green)),
         wf_odd_product(color_units, decode_color(&form, packet->blue)),
         wf_of_bits(wi_or(box, wi_or(select_int(clipped, EWA_CLIP_BIT, wi_set(0)),
-                                    select_int(is_back, EWA_BACK_FACING_BIT, wi_set(0))))),
+                                    wi_or(select_int(hollow, EWA_HOLLOW_BIT, wi_set(0)),
+                                          select_int(is_back, EWA_BACK_FACING_BIT, wi_set(0)))))),
     };
     const wi boxes = wi_of_bits(lanes[15]);
     w_transpose(lanes);

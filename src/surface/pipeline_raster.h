@@ -21,7 +21,8 @@ static ALWAYS_INLINE wf exponential(wf s, uint32_t doublings) {
 static ALWAYS_INLINE uint32_t box_column(uint32_t box) { return box & 0x3f; }
 static ALWAYS_INLINE bool box_back_facing(uint32_t box) { return box & EWA_BACK_FACING_BIT; }
 static ALWAYS_INLINE bool box_steep(uint32_t box) { return box & EWA_STEEP_BIT; }
-static ALWAYS_INLINE uint32_t box_row(uint32_t box) { return box >> 8 & 0x7f; }
+static ALWAYS_INLINE uint32_t box_row(uint32_t box) { return box >> 8 & 0x3f; }
+static ALWAYS_INLINE bool box_hollow(uint32_t box) { return box & EWA_HOLLOW_BIT; }
 static ALWAYS_INLINE bool box_clipped(uint32_t box) { return box & EWA_CLIP_BIT; }
 
 /// What the blocks of one column of a record's box share: the terms without dy of s and of a key's plane.
@@ -161,6 +162,7 @@ static ALWAYS_INLINE void raise_rows(const pass *p, uint32_t splat, uint32_t fir
 
 static ALWAYS_INLINE void raise_rows_beyond(const pass *p, uint32_t splat, uint32_t first_column,
                                             uint32_t columns, uint32_t rows, depth_test test) {
+    if (box_hollow(p->run->records[splat].box)) return;
     visibility_rows(p->view, p->tile, &p->run->records[splat], first_column, columns, rows, test, true);
 }
 
@@ -363,6 +365,7 @@ static ALWAYS_INLINE void accumulate_few(const pass *p, uint32_t splat, uint32_t
     }                                                                                                        \
     static ALWAYS_INLINE void name##_rows(const pass *p, uint32_t splat, uint32_t first_column,              \
                                           uint32_t columns, uint32_t rows, depth_test test) {                \
+        if ((what) & BEYOND && box_hollow(p->run->records[splat].box)) return;                               \
         if (box_back_facing(p->run->records[splat].box))                                                     \
             name##_back_facing(p, splat, first_column, columns, rows, test);                                 \
         else                                                                                                 \
@@ -445,6 +448,7 @@ static void clipped_add(const pass *p, uint32_t splat, uint32_t row, uint32_t co
 static __attribute__((noinline)) void add_careful_rows(const pass *p, uint32_t splat, uint32_t first_column,
                                                        uint32_t columns, uint32_t rows, depth_test test) {
     const ewa_tile *tile = p->tile;
+    if (tile->passed && box_hollow(p->run->records[splat].box)) return;
     accumulate_few(p, splat, first_column, columns, rows, test,
                    channels_of(tile) |
                        (tile->passed       ? BEYOND

@@ -43,7 +43,7 @@ static ALWAYS_INLINE void load_small(const pass *p, const uint16_t *order, uint3
     s->bound_scale = f[8], s->bound_offset = f[9], s->key_high = f[10], s->key_low = f[11];
     // From a block to the next, and from a row of blocks.
     const wi x = wi_add(wi_shl(wi_and(box, wi_set(0x3f)), 2), column_px);
-    const wi y = wi_add(wi_shl(wi_and(wi_sar(box, 8), wi_set(0x7f)), 2), row_px);
+    const wi y = wi_add(wi_shl(wi_and(wi_sar(box, 8), wi_set(0x3f)), 2), row_px);
     const wf row_floats = wf_set((float)(p->tile->blocks_per_row * EWA_BLOCK_LANES));
     const wf row_pixels = wf_set((float)(p->tile->blocks_per_row * EWA_BLOCK_PX)),
              at = wf_fma(wf_from_i(y), row_pixels, wf_from_i(x));

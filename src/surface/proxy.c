@@ -21,6 +21,7 @@ static ewa_surfels *copy_level(const ewa_surfels *surfels) {
     made->clip_count = 0;
     made->packets = NULL;
     made->materials = NULL;
+    made->curvatures = NULL;
     made->opacities = made->clip_masks = NULL;
     made->clip_first = NULL;
     made->clips = NULL;

@@ -11,6 +11,7 @@
 #include "cloud/cloud.h"
 #include "cloud/color.h"
 #include "homogeneous/frame.h"
+#include "surface/packets.h"
 #include "surface/semantics.h"
 
 #include <string.h>
@@ -132,6 +133,7 @@ ewa_status ewa_surfel_reader_open(const ewa_cloud *cloud, const ewa_surfels_opti
         .color = ewa_cloud_find(cloud, EWA_COLOR),
         .material = ewa_cloud_find(cloud, EWA_MATERIAL),
         .surfaceness = ewa_cloud_find(cloud, EWA_SURFACENESS),
+        .curvature = ewa_cloud_find(cloud, EWA_CURVATURE),
         .sigma_per_radius = options->radius_scale / options->cutoff,
         .axis_scale = options->radius_scale,
     };
@@ -148,6 +150,7 @@ ewa_status ewa_surfel_reader_open(const ewa_cloud *cloud, const ewa_surfels_opti
     EWA_TRY(check_components(cloud, reader->color, 3, 4));
     EWA_TRY(check_components(cloud, reader->material, 1, 1));
     EWA_TRY(check_components(cloud, reader->surfaceness, 1, 1));
+    EWA_TRY(check_components(cloud, reader->curvature, 1, 1));
     if (reader->tangent_u && reader->tangent_v) {
         reader->radius = NULL;
         EWA_TRY(check_components(cloud, reader->tangent_u, 3, 3));
@@ -207,6 +210,7 @@ static uint64_t read_block(const ewa_surfel_reader *reader, uint64_t first, uint
         if (surfel->billboard && drawable[i]) make_circle(surfel);
         surfel->alpha = 1;
         surfel->material = ewa_surfel_material(reader, first + i);
+        surfel->curvature_world = ewa_surfel_curvature(reader, first + i);
         if (reader->color) {
             const double *value = &color[reader->color->component_count * i];
             ewa_color_decode(&reader->colors, reader->color, value, surfel->color_linear);
@@ -226,6 +230,13 @@ uint64_t ewa_surfel_read(const ewa_surfel_reader *reader, uint64_t first, uint64
         kept += read_block(reader, first + done, part, surfels + done, drawable + done);
     }
     return kept;
+}
+
+double ewa_surfel_curvature(const ewa_surfel_reader *reader, uint64_t point) {
+    double curvature = 0;
+    if (reader->curvature && !ewa_surfel_is_billboard(reader, point))
+        ewa_attribute_read_f64(reader->curvature, point, 1, &curvature);
+    return fabs(curvature) <= EWA_SURFEL_LIMIT ? ewa_packet_decode_curvature(ewa_packet_code_curvature(curvature)) : 0;
 }
 
 double ewa_surfel_alpha(const ewa_surfel_reader *reader, uint64_t point) {

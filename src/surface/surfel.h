@@ -19,6 +19,7 @@ typedef struct ewa_surfel {
     double material;        ///< whole, [0, 255]
     /// Clip lines: keep a u + b v + c >= 0 at center + u axis_u + v axis_v; a = b = 0: no line.
     double clip[2][3];
+    double curvature_world; ///< "signed_curvature", of the eight digits that packets keep of it
     bool billboard;     ///< a circle parallel to the picture, of no surface: its axes tell its size alone
     double clip_either; ///< 1: what one of two lines keeps is kept; 0: what both keep
 } ewa_surfel;
@@ -37,7 +38,7 @@ typedef struct ewa_surfel {
 /// The streams of a cloud that make surfels. Valid until the cloud's streams change.
 typedef struct ewa_surfel_reader {
     const ewa_attribute *position, *normal, *radius, *tangent_u, *tangent_v, *color; ///< NULL: not used
-    const ewa_attribute *clip[2], *clip_mode, *border, *material, *surfaceness;
+    const ewa_attribute *clip[2], *clip_mode, *border, *material, *surfaceness, *curvature;
     double origin_world[3];  ///< of the positions
     double sigma_per_radius; ///< radius_scale / F
     double axis_scale;       ///< radius_scale
@@ -74,6 +75,9 @@ void ewa_surfel_mark_clipped(const ewa_surfel_reader *reader, uint64_t first, ui
 
 /// Reads the material of one point as ewa_surfel_read() does. Any thread.
 uint8_t ewa_surfel_material(const ewa_surfel_reader *reader, uint64_t point);
+
+/// Reads the signed curvature of one point as ewa_surfel_read() does. Any thread.
+double ewa_surfel_curvature(const ewa_surfel_reader *reader, uint64_t point);
 
 /// Reads the alpha of one point as ewa_surfel_read() does. Any thread.
 double ewa_surfel_alpha(const ewa_surfel_reader *reader, uint64_t point);

@@ -5,6 +5,7 @@
 #include "surface/view.h"
 #include "base/base.h"
 #include "homogeneous/perspective.h"
+#include "surface/contour.h"
 #include "surface/points.h"
 #include "surface/semantics.h"
 
@@ -158,7 +159,9 @@ ewa_scales ewa_scales_make(const ewa_frame_source *sources, uint32_t source_coun
         made.largest_color = fmax(made.largest_color, surfels->largest_color);
         alike &= surfels->largest_color == first->largest_color;
         made.fine_colors |= surfels->fine_colors;
+        made.opacities |= surfels->opacities || surfels->with_opacities;
     }
+    made.transparent = (options->opacity < 1 || made.opacities) && options->layers != 1 && options->passes == 3;
     made.fine_colors |= !alike && made.largest_color > EWA_PLAIN_COLORS;
     double largest = 0;
     for (uint32_t i = 0; i < source_count; i++) {
@@ -246,7 +249,14 @@ ewa_status ewa_view_set(ewa_context *context, ewa_view *view, const ewa_frame_so
     view->raycast = options->kernel == EWA_KERNEL_RAYCAST && !view->orthographic;
     view->cull_back = options->cull == EWA_CULL_BACK;
     view->depth_scale = (float)(1 / scales->depth);
-    return view->orthographic ? EWA_OK : set_sides(context, view, camera, reach_px + 1);
+    const double shift = ewa_contour_shift(options, view->orthographic);
+    view->contour_shift = source && source->surfels->curvatures ? (float)shift : 0;
+    view->transparent = scales->transparent;
+    view->contour_sine2 = (float)ewa_contour_sine2(cutoff, shift);
+    view->margin_px = (float)(reach_px + (double)view->contour_shift * options->prefilter_px + 1);
+    view->curvature_scale =
+        view->scale > 0 ? (float)fmin(2 / ((double)view->fx_px * (double)view->scale), 1e30) : 0;
+    return view->orthographic ? EWA_OK : set_sides(context, view, camera, (double)view->margin_px);
 }
 
 void ewa_material_numbers(const ewa_material *material, float numbers[EWA_MATERIAL_CHANNELS]) {

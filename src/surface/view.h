@@ -22,6 +22,8 @@ typedef struct ewa_scales {
     double depth;             ///< camera space: a power of two that no depth is beyond
     double largest_color;     ///< a power of two that no number of a colour is beyond
     bool fine_colors;         ///< some are large, and others far smaller
+    bool opacities;           ///< some surfels have one of their own
+    bool transparent;         ///< what is behind surfaces shows through them
 } ewa_scales;
 
 /// `sources` are of one cutoff, `options` checked. Total.

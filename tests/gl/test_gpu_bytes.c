@@ -83,6 +83,11 @@ static void test_order_has_no_say(void **state) {
     for (int i = 0; i < 3; i++) {
         assert_int_equal(scene_make(context, kinds[i], POINTS / 2, WIDTH_PX, HEIGHT_PX, &scenes[i]), EWA_OK);
         float *surfaceness = NULL; // of one: a fourth of its points are on no surface
+        float *curvature = NULL;   // of the others: to either side, or none
+        if (i != 2)
+            assert_int_equal(ewa_cloud_add(scenes[i].cloud, EWA_CURVATURE, EWA_F32, 1, (void **)&curvature), EWA_OK);
+        for (uint64_t k = 0; curvature && k < ewa_cloud_point_count(scenes[i].cloud); k++)
+            curvature[k] = (float)(k % 5) - 1;
         if (i == 2)
             assert_int_equal(ewa_cloud_add(scenes[i].cloud, EWA_SURFACENESS, EWA_F32, 1, (void **)&surfaceness),
                              EWA_OK);

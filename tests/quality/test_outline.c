@@ -121,6 +121,21 @@ static void test_silhouettes(void **state) {
     ewa_context_destroy(&context);
 }
 
+/// Where surfels know how much the surface bends, silhouettes lie where they should.
+static void test_known_curvature(void **state) {
+    ewa_context *context = check_context(0, NULL);
+    static const uint64_t counts[] = {3000, 20000, 100000};
+    for (int i = 0; i < 3; i++) {
+        ewa_cloud *cloud = generated(context, EWA_OBJECT_SPHERE, counts[i]);
+        float *curvature = NULL;
+        assert_int_equal(ewa_cloud_add(cloud, EWA_CURVATURE, EWA_F32, 1, (void **)&curvature), EWA_OK);
+        for (uint64_t k = 0; k < counts[i]; k++) curvature[k] = 1;
+        const outline_errors found = measure(context, "sphere, known curvature", OUTLINE_SPHERE, oblique, cloud);
+        assert_true(fabs(found.fat_px) < 0.05 && found.rms < 0.13 && found.open < 5e-4 && found.deepest < 0.1);
+    }
+    ewa_context_destroy(&context);
+}
+
 /// x that the normal distribution has the share `below` below -x, 0 < below < 1/2.
 static double tail(double below) {
     double low = 0, high = 6;
@@ -235,6 +250,7 @@ static void test_doubtful_normals(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_silhouettes),
+        cmocka_unit_test(test_known_curvature),
         cmocka_unit_test(test_silhouettes_follow_the_filter),
         cmocka_unit_test(test_borders),
         cmocka_unit_test(test_flat_angles),

@@ -35,6 +35,8 @@ static ewa_cloud *copy_surfels(const ewa_cloud *cloud, const ewa_mat3 *rotation,
         assert_int_equal(ewa_cloud_add(made, names[i], EWA_F64, 3, &data), EWA_OK);
         to[i] = data;
     }
+    void *curvatures = NULL;
+    assert_int_equal(ewa_cloud_add(made, EWA_CURVATURE, EWA_F64, 1, &curvatures), EWA_OK);
     for (uint64_t i = 0; i < count; i++) {
         ewa_surfel surfel;
         bool drawable;
@@ -47,6 +49,7 @@ static ewa_cloud *copy_surfels(const ewa_cloud *cloud, const ewa_mat3 *rotation,
             const double moved[3] = {v.x, v.y, v.z};
             for (int c = 0; c < 3; c++) to[a][i][c] = moved[c] + (a == 0 ? shift[c] : 0);
         }
+        ((double *)curvatures)[i] = surfel.curvature_world / scale;
         for (int c = 0; c < 3; c++) to[4][i][c] = color ? (double)color[c] : surfel.color_linear[c];
     }
     return made;

@@ -25,7 +25,7 @@ void main() {
     }
     uint where = records[index].field;
     uvec2 first_px =
-        uvec2(where & 0xffffu, where >> 16) * 128u + uvec2(box & 0x3fu, box >> 8 & 0x7fu) * 4u - first_tile_px;
+        uvec2(where & 0xffffu, where >> 16) * 128u + uvec2(box & 0x3fu, box >> 8 & 0x3fu) * 4u - first_tile_px;
     uvec2 last_px = first_px + uvec2(box >> 16 & 0x3fu, box >> 24 & 0x3fu) * 4u - 1u;
     uvec2 first = first_px / tile_side_px, last = last_px / tile_side_px;
     for (uint y = first.y; y <= last.y; y++)

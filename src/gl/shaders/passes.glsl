@@ -190,7 +190,7 @@ void main() {
 #else
             Sample s = sample_splat(r, at, view);
 #endif
-            s.counts = s.counts && (behind == 0u || s.key < beyond);
+            s.counts = s.counts && (behind == 0u || (s.key < beyond && !has(r.box, HOLLOW)));
 #if WITH_CLIPS
             if (s.counts && has(r.box, CLIPPED)) clip_at(clips[r.clip], at, s);
 #endif

@@ -8,10 +8,11 @@ layout(location = 0) in vec4 local;       // position in its packet, sigma
 layout(location = 1) in ivec2 oct;        // normal
 layout(location = 2) in uvec2 axis_code;  // angle, ratio
 layout(location = 3) in uvec4 color_code; // red, green, blue, opacity
-layout(location = 4) in vec4 packet_at;   // of the packet: pixels of its slope, slope
-layout(location = 5) in vec4 packet_rest; // rest x, y, depth
-layout(location = 6) in uvec4 packet_bits; // form of colours; lanes | cut << 16; own lines; the first of them
-layout(location = 7) in uint material_code;
+layout(location = 4) in float curvature;
+layout(location = 5) in vec4 packet_at;   // of the packet: pixels of its slope, slope
+layout(location = 6) in vec4 packet_rest; // rest x, y, depth
+layout(location = 7) in uvec4 packet_bits; // form of colours; lanes | cut << 16; own lines; the first of them
+layout(location = 8) in uint material_code;
 
 flat out vec4 shape;   // centre, xx, xy
 flat out vec4 key_at;  // yy; key at the centre, its gradient
@@ -187,13 +188,27 @@ void find_shape() {
     key_slope = n.xy * (facing < 0.0 ? -tilt : tilt) * focal.zw;
 }
 
+// How far the splat moves away from its contour, in pixels (semantics.h, section 5).
+vec2 contour_way(bool clipped, out bool hollow) {
+    hollow = false;
+    float steepness = length(key_slope), sine2 = facing * facing, size = CONTOUR_WIDTH * major * zoomed.x;
+    float across = sqrt(size * size * sine2 + kernel.z);
+    float bend = min(abs(curvature) * contour.z * (has(ORTHOGRAPHIC) ? 1.0 : z), 1e30);
+    float reach = min(across * CONTOUR_REACH * bend, contour.y);
+    if (clipped || !(sine2 < reach) || !(0.0 < steepness)) return vec2(0.0);
+    float share = 1.0 - sine2 / reach, way = across * contour.x * share / steepness;
+    bool turns_away = (facing < 0.0) == (0.0 < curvature);
+    hollow = !turns_away && CONTOUR_HOLLOW < share;
+    return key_slope * (turns_away ? way : -way);
+}
+
 // The key at the centre, its range, and the tolerance; `moved` is the centre from the projected one, in pixels.
 void find_depths(vec2 moved) {
     float steepness = length(key_slope), support = kernel.x * sigma, reach = kernel.w * steepness, reach_depth = reach;
     float limit = min(FREE_RADII * support, FREE_DEPTH * z), key, low, high;
     float per_depth = has(ORTHOGRAPHIC) ? 1.0 : inverse_z * inverse_z;
     if (has(ORTHOGRAPHIC)) {
-        key = -z;
+        key = -z + dot(key_slope, moved);
         low = -(z + half_range);
         high = half_range - z;
     } else {

@@ -15,7 +15,6 @@ flat in uint line_bits;
 #endif
 
 uniform sampler2D passed_map;
-uniform int behind; // only what lies beyond passed_map
 #if PASS == 1
 layout(location = 0) out float bound;
 #else

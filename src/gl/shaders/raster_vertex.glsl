@@ -36,8 +36,12 @@ void main() {
     find_shape();
     if (!alive) return;
     vec2 projected = base + offset * focal.xy, moved = shift * zoomed.xy;
-    shape.xy = projected + moved;
-    find_depths(moved);
+    bool clipped = ((packet_bits.y >> 16u | packet_bits.z) >> lane & 1u) != 0u;
+    bool hollow;
+    vec2 away = contour_way(clipped, hollow);
+    if (hollow && behind != 0 && !has(SEE_THROUGH)) return;
+    shape.xy = projected + moved + away;
+    find_depths(moved + away);
     find_payload();
     if (has(RAYCAST)) find_ray();
 #if WITH_CLIPS

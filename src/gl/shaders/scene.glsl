@@ -19,11 +19,11 @@ struct View {
     float sum_scale, color_scale, depth_scale;
     uint doublings;
     uint flags; // ORTHOGRAPHIC, ...
-    float pad;
+    float contour_shift, contour_sine2, curvature_scale;
 };
 
 const uint ORTHOGRAPHIC = 1u, CULL_BACK = 2u, ELLIPSES = 4u, AFFINE = 8u, SOURCE = 16u, CIRCULAR = 32u, RAYCAST = 64u,
-           POINTS = 128u, HIDES = 256u;
+           POINTS = 128u, HIDES = 256u, SEE_THROUGH = 1024u;
 
 // A splat in one field (ewa_record, ewa_load).
 struct Record {
@@ -41,7 +41,7 @@ struct Record {
     uint clip;                  // of clipped ones: where their lines are
 };
 
-const uint BACK_FACING = 64u, STEEP = 128u, CLIPPED = 32768u;
+const uint BACK_FACING = 64u, STEEP = 128u, HOLLOW = 16384u, CLIPPED = 32768u;
 
 // A clip line on the screen (ewa_clip_line), and those of a splat (ewa_clip).
 struct ClipLine { float x_inward, y_inward, offset, reach, narrow, per_narrow, per_widths, pad; };

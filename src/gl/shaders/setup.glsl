@@ -20,7 +20,7 @@ uniform uvec2 picture_px;
 uniform uvec2 first_tile_px;   // of the band
 uniform uint tiles_per_row;
 uniform uint tile_side_px;
-uniform int opacities_at, materials_at; // words in `attributes`, or -1
+uniform int opacities_at, curvatures_at, materials_at; // words in `attributes`, or -1
 
 const int PACKET_WORDS = 120;
 const float FIELD_PX = 128.0;
@@ -288,8 +288,27 @@ float whole_place(float center_px) {
     return wf_sub(wf_add(center_px, bias), bias);
 }
 
+// How far the splat moves away from its contour (semantics.h, section 5): pixels, and what of the key that is.
+vec3 contour_way(uint surfel, float slope, bool clipped, out bool hollow) {
+    hollow = false;
+    uint word = attributes[uint(curvatures_at) + surfel / 2u];
+    float curvature = uintBitsToFloat((surfel & 1u) != 0u ? word & 0xffff0000u : word << 16);
+    float bend = wf_mul(wf_abs(curvature), view.curvature_scale);
+    if (!has(view_flags, ORTHOGRAPHIC)) bend = wf_mul(bend, t.z);
+    bend = wf_min(bend, 1e30);
+    float sine2 = wf_mul(t.facing, t.facing), size = wf_mul(t.major, wf_mul(CONTOUR_WIDTH, view.fx_zoomed));
+    float across = wf_sqrt(wf_fma(wf_mul(size, size), sine2, view.prefilter2_px2));
+    float reach = wf_min(wf_mul(wf_mul(across, bend), CONTOUR_REACH), view.contour_sine2);
+    if (clipped || !(sine2 < reach) || !(0.0 < slope)) return vec3(0.0);
+    float share = wf_sub(1.0, wf_div(sine2, reach)), way = wf_mul(wf_mul(across, view.contour_shift), share);
+    bool turns_away = 0.0 < (t.facing < 0.0 ? curvature : wf_negate(curvature));
+    hollow = !turns_away && CONTOUR_HOLLOW < share && !has(view_flags, SEE_THROUGH);
+    float along = wf_div(turns_away ? way : wf_negate(way), slope);
+    return vec3(wf_mul(t.key_x, along), wf_mul(t.key_y, along), wf_mul(wf_mul(slope, slope), along));
+}
+
 void count_tiles(uvec2 field, uint box) {
-    uvec2 first_px = field * 128u + uvec2(box & 0x3fu, box >> 8 & 0x7fu) * 4u - first_tile_px;
+    uvec2 first_px = field * 128u + uvec2(box & 0x3fu, box >> 8 & 0x3fu) * 4u - first_tile_px;
     uvec2 last_px = first_px + uvec2(box >> 16 & 0x3fu, box >> 24 & 0x3fu) * 4u - 1u;
     uvec2 first = first_px / tile_side_px, last = last_px / tile_side_px;
     for (uint y = first.y; y <= last.y; y++)
@@ -316,6 +335,16 @@ void emit(uint base, uint lane, uint pair, uvec2 field, uint at) {
         reach_depth = wf_mul(wf_mul(reach, t.z), t.z);
         limit = wf_mul(wf_mul(limit, t.inverse_z), t.inverse_z);
     }
+    float place_x = wf_add(wf_fma(t.dx, view.fx_px, t.base_x), c1_px), beyond = reach;
+    float place_y = wf_add(wf_fma(t.dy, view.fy_px, t.base_y), c2_px);
+    bool hollow = false;
+    if (curvatures_at >= 0) {
+        vec3 way = contour_way(pairs[pair].x * 16u + lane, slope, clipped, hollow);
+        key = wf_add(key, way.z);
+        beyond = wf_add(beyond, wf_abs(way.z));
+        place_x = wf_add(place_x, way.x);
+        place_y = wf_add(place_y, way.y);
+    }
     float margin = wf_max(wf_sub(limit, reach), 0.0);
     if (circular) {
         float maximum = wf_mul(GRAZING_TOLERANCE, support);
@@ -324,8 +353,7 @@ void emit(uint base, uint lane, uint pair, uvec2 field, uint at) {
     }
     float grazing = wf_min(wf_mul(view.grazing, reach_depth), wf_mul(GRAZING_TOLERANCE, support));
     float tolerance = wf_fma(view.tolerance, t.sigma, grazing);
-    float cx = whole_place(wf_add(wf_fma(t.dx, view.fx_px, t.base_x), c1_px));
-    float cy = whole_place(wf_add(wf_fma(t.dy, view.fy_px, t.base_y), c2_px));
+    float cx = whole_place(place_x), cy = whole_place(place_y);
     const float left = -FIELD_PX / 2.0;
     uvec2 size_px = min(picture_px - field * 128u, uvec2(128u));
     float whole_first_x = wf_add(floor(wf_sub(wf_sub(cx, t.half_x), 0.5)), 1.0);
@@ -347,7 +375,7 @@ void emit(uint base, uint lane, uint pair, uvec2 field, uint at) {
     if (circular && !orthographic) lowest = wf_max(lowest, wf_mul(MIN_KEY, t.inverse_z));
     if (!orthographic) wide = wide || wf_max(min_key, lowest) < wf_mul(TANGENT_KEY, key);
     if (circular) wide = true;
-    bool steep = wide || has(view_flags, AFFINE) || margin < reach;
+    bool steep = wide || has(view_flags, AFFINE) || margin < beyond;
     float bound_scale = 1.0, bound_offset = wf_negate(tolerance);
     if (!orthographic) {
         float share = wf_div(t.z, wf_add(t.z, tolerance)), share2 = wf_mul(share, share);
@@ -387,7 +415,7 @@ void emit(uint base, uint lane, uint pair, uvec2 field, uint at) {
     r.green = wf_odd_product(color_units, decode_color(form, half_word(base + 104u, lane)));
     r.blue = wf_odd_product(color_units, decode_color(form, half_word(base + 112u, lane)));
     r.box = column | row << 8 | columns << 16 | rows << 24 | (steep ? STEEP : 0u) | (clipped ? CLIPPED : 0u) |
-            (is_back ? BACK_FACING : 0u);
+            (hollow ? HOLLOW : 0u) | (is_back ? BACK_FACING : 0u);
     r.nx = wf_odd_product(facing_peak, t.n.x);
     r.ny = wf_odd_product(facing_peak, t.n.y);
     r.nz = wf_odd_product(facing_peak, t.n.z);

@@ -41,7 +41,7 @@ float bound_of(Record r, float key, bool exact) {
 }
 
 bool in_box(uint box, uvec2 block) {
-    uvec2 first = uvec2(box & 0x3fu, box >> 8 & 0x7fu), size = uvec2(box >> 16 & 0x3fu, box >> 24 & 0x3fu);
+    uvec2 first = uvec2(box & 0x3fu, box >> 8 & 0x3fu), size = uvec2(box >> 16 & 0x3fu, box >> 24 & 0x3fu);
     return all(lessThan(block - first, size)); // unsigned: what is before the first is large
 }
 
