@@ -18,7 +18,7 @@ if(EWA_BUILD_FUZZERS)
   list(APPEND flags_portable -fno-sanitize=all)
 endif()
 if(CMAKE_SYSTEM_PROCESSOR STREQUAL "wasm32") # which has no other set
-  list(APPEND flags_portable ${kernel_level})
+  list(APPEND flags_portable -Os)
   if(EWA_RELAXED_SIMD)
     list(APPEND flags_portable -mrelaxed-simd)
     set_property(SOURCE src/base/context.c TARGET_DIRECTORY ewa_objects APPEND PROPERTY COMPILE_OPTIONS -mrelaxed-simd)

@@ -17,6 +17,9 @@ case $target in
 *-windows-*) further="bzip2=1.0.8-5 expat=2.5.0-1+deb12u2 libwebp=1.2.4-0.2+deb12u1 libjpeg-turbo=1:2.1.5-2 openexr=3.1.5-5 imath=3.1.6-1 cmocka=1.1.5-2.1 musl=1.2.3-1" ;;
 esac
 packages="zlib=1:1.2.13.dfsg-1 libdeflate=1.14-1 cjson=1.7.15-1+deb12u4 libzstd=1.5.4+dfsg2-5 libspng=0.7.3-3"
+# For a page, what is small in place of what is fast; of zstd as its README says.
+level=-O2 small=
+case $target in wasm*) level=-Os small="-DHUF_FORCE_DECOMPRESS_X1 -DZSTD_FORCE_DECOMPRESS_SEQUENCES_SHORT -DZSTD_NO_INLINE -DZSTD_STRIP_ERROR_STRINGS" ;; esac
 wanted="$packages $further $* $(cksum <"$0")" # what this script does, too
 [ "$(cat "$prefix/.complete" 2>/dev/null)" != "$wanted" ] || exit 0
 
@@ -57,7 +60,7 @@ library() {
     for file in "$@"; do
         object=$prefix/objects/$name-$(echo "$file" | tr / _).o
         # shellcheck disable=SC2086
-        "$bin/$target-cc" -O2 -fPIC $more $flags -I"$prefix/include" -c "$file" -o "$object" 2>>"$prefix/log" ||
+        "$bin/$target-cc" $level -fPIC $more $flags -I"$prefix/include" -c "$file" -o "$object" 2>>"$prefix/log" ||
             { tail -n 10 "$prefix/log" >&2; exit 1; }
         objects="$objects $object"
     done
@@ -81,7 +84,7 @@ library cjson libcjson 1.7.15 "" "$seen" cJSON.c
 seen=
 cd "$sources"/libzstd-*/
 cp lib/zstd.h lib/zstd_errors.h "$prefix/include"
-library zstd libzstd 1.5.4 "" "-Ilib -DZSTD_DISABLE_ASM" lib/common/*.c lib/compress/*.c lib/decompress/*.c
+library zstd libzstd 1.5.4 "" "-Ilib -DZSTD_DISABLE_ASM $small" lib/common/*.c lib/compress/*.c lib/decompress/*.c
 cd "$sources"/libspng-*/
 cp spng/spng.h "$prefix/include"
 seen=-DSPNG_STATIC

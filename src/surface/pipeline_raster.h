@@ -125,6 +125,25 @@ typedef struct pass {
 typedef void splat_rows(const pass *p, uint32_t splat, uint32_t first_column, uint32_t columns, uint32_t rows,
                         depth_test test);
 
+#if defined(WIDE_PORTABLE)
+/// Calls `body`, of which a copy for each class would only be code: vectors of four leave no registers for what is the same.
+static ALWAYS_INLINE void for_each_splat(const pass *p, splat_rows *body) {
+    const uint16_t *first = p->run->class_first, *order = p->run->order;
+    uint32_t i = first[0];
+    for (; i < first[EWA_STEEP_CLASS]; i++) {
+        const uint32_t box = p->run->records[order[i]].box;
+        body(p, order[i], 0, ewa_box_columns(box), ewa_box_rows(box), PLAIN);
+    }
+    for (; i < first[EWA_CLIP_CLASS]; i++) {
+        const depth_test test = i < first[EWA_WIDE_CLASS] ? STEEP : WIDE;
+        const uint32_t box = p->run->records[order[i]].box, columns = ewa_box_columns(box);
+        for (uint32_t column = 0, count; column < columns; column += count) {
+            count = columns - column < EWA_COLUMN_CLASSES ? columns - column : EWA_COLUMN_CLASSES;
+            body(p, order[i], column, count, ewa_box_rows(box), test);
+        }
+    }
+}
+#else
 /// Calls `body` with the column count and the test constants in each class and the row count the same along
 /// a class, so that its loops are unrolled or predicted.
 static ALWAYS_INLINE void for_each_splat(const pass *p, splat_rows *body) {
@@ -154,6 +173,7 @@ static ALWAYS_INLINE void for_each_splat(const pass *p, splat_rows *body) {
         for (; column < columns; column++) body(p, order[i], column, 1, rows, WIDE);
     }
 }
+#endif
 
 static ALWAYS_INLINE void raise_rows(const pass *p, uint32_t splat, uint32_t first_column, uint32_t columns,
                                      uint32_t rows, depth_test test) {

@@ -27,6 +27,8 @@
 #endif
 #if defined(EWA_LAZ_SANITIZED)
 #define EWA_LAZ_INLINE static __attribute__((noinline, unused))
+#elif defined(__wasm__)
+#define EWA_LAZ_INLINE static inline
 #else
 #define EWA_LAZ_INLINE static inline __attribute__((always_inline))
 #endif

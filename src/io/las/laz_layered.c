@@ -243,6 +243,9 @@ EWA_LAZ_INLINE void code_record(bool encoding, ewa_laz_memory *memory, uint8_t *
     }
 }
 
+/// Decodes a record, once for whole chunks and those that are cut: all of it is much code.
+static __attribute__((noinline)) void decode_record(ewa_laz_memory *memory, uint8_t *record) { code_record(false, memory, record); }
+
 /// Finds the layers in what is behind the first record; returns what is wrong, or NULL.
 static const char *open_layers(ewa_laz_memory *memory, const uint8_t *bytes, uint64_t size_bytes) {
     const uint64_t head_bytes = 4 + 4 * (uint64_t)memory->layer_count;
@@ -286,7 +289,7 @@ void ewa_laz_layered_decode(ewa_laz_memory *memory, const uint8_t *bytes, uint64
         return;
     }
     while (result->point_count < point_count && result->point_count < count && !any_damaged(memory)) {
-        code_record(false, memory, records += stride);
+        decode_record(memory, records += stride);
         result->point_count++;
     }
     if (any_damaged(memory)) {
@@ -380,7 +383,7 @@ void ewa_laz_layered_decode_cut(ewa_laz_memory *memory, const uint8_t *bytes, ui
     const bool there = layers[EWA_LAZ_LAYER_XY].present && layers[EWA_LAZ_LAYER_Z].known_count > 1;
     uint64_t count = 1;
     for (; there && count < point_count; count++) {
-        code_record(false, memory, records + count * stride);
+        decode_record(memory, records + count * stride);
         if (layers[EWA_LAZ_LAYER_XY].coder.damaged || layers[EWA_LAZ_LAYER_Z].coder.damaged) break;
         for (uint32_t i = EWA_LAZ_LAYER_CLASSIFICATION; i < memory->layer_count; i++) {
             if (!layers[i].present || !layers[i].coder.damaged) continue;
