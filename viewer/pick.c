@@ -74,9 +74,9 @@ static void write_number(char text[40], double number, bool is_float) {
     }
 }
 
-/// Says what a point is: its number, its exact place and everything that the file says of it. Points of an octree,
+/// Makes the place of a point exact and says what it is: its number, its place and everything that the file says of it. Points of an octree,
 /// of which `read` holds some, have no numbers.
-static void describe(viewer *v, const viewer_pick *pick, const ewa_cloud *read) {
+static void describe(viewer *v, viewer_pick *pick, const ewa_cloud *read) {
     const scene_item *item = &v->items[pick->item];
     ewa_asset_info info;
     ewa_asset_describe(item->asset, &info);
@@ -93,7 +93,11 @@ static void describe(viewer *v, const viewer_pick *pick, const ewa_cloud *read) 
     double origin[3];
     ewa_cloud_origin(cloud, origin);
     const bool whole = position->type == EWA_F32 && origin[0] == 0 && origin[1] == 0 && origin[2] == 0;
+    ewa_coordinate_grid grid;
+    ewa_cloud_grid(cloud, &grid);
     for (int c = 0; c < 3; c++) {
+        // Sums of an origin and an offset lose the last digit of the file's decimals.
+        pick->place_world[c] = ewa_grid_world(&grid, (uint32_t)c, pick->place_world[c]);
         write_number(number, pick->place_world[c], whole);
         add(line, sizeof line, " "), add(line, sizeof line, number);
         add(shown, VIEWER_TEXT_BYTES, " "), add(shown, VIEWER_TEXT_BYTES, number);
