@@ -371,6 +371,49 @@ EWA_API ewa_status ewa_camera_save(ewa_context *context, const ewa_camera *camer
 EWA_API ewa_status ewa_camera_save_list(ewa_context *context, const ewa_camera *cameras, size_t count,
                                         const char *path);
 
+typedef enum ewa_lens_model {
+    EWA_LENS_PINHOLE = 0, ///< no distortion
+    /// OpenCV's: of a slope (x, y), r2 = x2 + y2, are shown x f + 2 p1 x y + p2 (r2 + 2 x2) and y f + 2 p2 x y +
+    /// p1 (r2 + 2 y2), f = (1 + k1 r2 + k2 r2^2 + k3 r2^3) / (1 + k4 r2 + k5 r2^2 + k6 r2^3)
+    EWA_LENS_BROWN = 1,
+    /// OpenCV's fisheye: at the angle a from the axis, a (1 + k1 a^2 + k2 a^4 + k3 a^6 + k4 a^8) from the middle
+    EWA_LENS_FISHEYE = 2,
+} ewa_lens_model;
+
+/// What a lens does to the picture of a pinhole, whose focal lengths and principal point stay.
+typedef struct ewa_lens {
+    ewa_lens_model model;
+    double radial[6];     ///< k1 to k6; fisheye: to k4
+    double tangential[2]; ///< p1, p2
+} ewa_lens;
+
+/// A photograph and the camera that took it.
+typedef struct ewa_photo {
+    ewa_camera camera;
+    ewa_lens lens;          ///< zeros: none
+    const char *path;       ///< of its file; NULL: none
+    const ewa_image *image; ///< what it shows, RGB or RGBA of the camera's size; NULL: as the file has it
+} ewa_photo;
+
+/// The photographs that a file of cameras names.
+typedef struct ewa_photo_list ewa_photo_list;
+
+/// Reads cameras and finds the photographs that they took, none of which is read: a COLMAP model, transforms.json,
+/// cameras.json, our own cameras with a "file_path"; with their lenses: COLMAP's SIMPLE_RADIAL, RADIAL, OPENCV, FULL_OPENCV,
+/// SIMPLE_RADIAL_FISHEYE, RADIAL_FISHEYE and OPENCV_FISHEYE, nerfstudio's OPENCV and OPENCV_FISHEYE. `images`: the folder that names are relative to; NULL: the folder
+/// "images" in or above that of a COLMAP model, else that of the file. Names without a suffix get .png, .jpg, .JPG,
+/// .jpeg. What files name lies where ewa_context_options.named_files lets it be. The caller destroys `*list`, which is
+/// NULL after a failure. Errors: those of ewa_camera_load(); EWA_ERROR_FORMAT (a camera without a name),
+/// EWA_ERROR_UNSUPPORTED (another model of a lens), EWA_ERROR_IO (a photograph that is not there; the message has its name).
+EWA_API ewa_status ewa_photo_list_load(ewa_context *context, const char *path, const char *images,
+                                       ewa_photo_list **list);
+
+/// Returns the photographs in the order of the file, borrowed; `*count` gets how many there are.
+EWA_API const ewa_photo *ewa_photo_list_photos(const ewa_photo_list *list, uint32_t *count);
+
+/// Frees the list and sets `*list` to NULL; accepts NULL and a pointer to NULL.
+EWA_API void ewa_photo_list_destroy(ewa_photo_list **list);
+
 #ifdef __cplusplus
 }
 #endif

@@ -60,6 +60,8 @@ EWA_OPTION_ABOVE = 1
 EWA_OPTION_BELOW = 2
 EWA_OPTION_OR_ZERO = 4
 EWA_OPTION_TEXT_BYTES = 256
+EWA_PHOTO_COUNT = 'photo_count'
+EWA_PHOTO_RESIDUAL = 'photo_residual'
 EWA_DEFAULT_RADIUS_LIMIT = 2.75
 EWA_DEFAULT_RADIUS_SCALE = 1.14
 EWA_MAX_LEVELS = 8
@@ -246,6 +248,12 @@ class ewa_texture_wrap(IntEnum):
     EWA_TEXTURE_CLAMP = 1
 
 
+class ewa_lens_model(IntEnum):
+    EWA_LENS_PINHOLE = 0
+    EWA_LENS_BROWN = 1
+    EWA_LENS_FISHEYE = 2
+
+
 class ewa_picture_heights(IntEnum):
     EWA_HEIGHTS_NONE = 0
     EWA_HEIGHTS_TERRAIN_RGB = 1
@@ -283,6 +291,19 @@ class ewa_option_type(IntEnum):
     EWA_OPTION_U64 = 3
     EWA_OPTION_F32 = 4
     EWA_OPTION_F64 = 5
+
+
+class ewa_photos_exposure(IntEnum):
+    EWA_EXPOSURE_GAIN = 0
+    EWA_EXPOSURE_GAIN_OFFSET = 1
+    EWA_EXPOSURE_OFF = 2
+
+
+class ewa_photos_method(IntEnum):
+    EWA_PHOTOS_FIT = 0
+    EWA_PHOTOS_MEDIAN = 1
+    EWA_PHOTOS_MEAN = 2
+    EWA_PHOTOS_BEST = 3
 
 
 class ewa_csg_operation(IntEnum):
@@ -1243,6 +1264,30 @@ class ewa_image_save_options(c.Structure):
     ]
 
 
+class ewa_lens(c.Structure):
+    model: int
+    radial: c.Array[c.c_double]
+    tangential: c.Array[c.c_double]
+    _fields_ = [
+        ("model", c.c_int),
+        ("radial", c.c_double * 6),
+        ("tangential", c.c_double * 2),
+    ]
+
+
+class ewa_photo(c.Structure):
+    camera: ewa_camera
+    lens: ewa_lens
+    path: bytes | None
+    image: Any
+    _fields_ = [
+        ("camera", ewa_camera),
+        ("lens", ewa_lens),
+        ("path", c.c_char_p),
+        ("image", c.POINTER(ewa_image)),
+    ]
+
+
 class ewa_volume_load_options(c.Structure):
     struct_size: int
     dims: c.Array[c.c_uint32]
@@ -1628,6 +1673,77 @@ class ewa_option_table(c.Structure):
         ("options", c.POINTER(ewa_option)),
         ("option_count", c.c_size_t),
         ("struct_size", c.c_size_t),
+    ]
+
+
+class ewa_photo_report(c.Structure):
+    held_out: bool
+    width_px: int
+    height_px: int
+    pixel_count: int
+    point_count: int
+    gain: c.Array[c.c_double]
+    offset: c.Array[c.c_double]
+    rms: float
+    rejected: float
+    psnr_db: float
+    _fields_ = [
+        ("held_out", c.c_bool),
+        ("width_px", c.c_uint32),
+        ("height_px", c.c_uint32),
+        ("pixel_count", c.c_uint64),
+        ("point_count", c.c_uint64),
+        ("gain", c.c_double * 3),
+        ("offset", c.c_double * 3),
+        ("rms", c.c_double),
+        ("rejected", c.c_double),
+        ("psnr_db", c.c_double),
+    ]
+
+
+class ewa_photos_options(c.Structure):
+    struct_size: int
+    method: int
+    exposure: int
+    hold_out: int
+    rounds: int
+    robust: float
+    ridge: float
+    spacing_px: float
+    cutoff: float
+    _fields_ = [
+        ("struct_size", c.c_size_t),
+        ("method", c.c_int),
+        ("exposure", c.c_int),
+        ("hold_out", c.c_uint32),
+        ("rounds", c.c_uint32),
+        ("robust", c.c_double),
+        ("ridge", c.c_double),
+        ("spacing_px", c.c_double),
+        ("cutoff", c.c_double),
+    ]
+
+
+class ewa_photos_report(c.Structure):
+    used_count: int
+    held_out_count: int
+    seen_count: int
+    rms: float
+    held_out_rms: float
+    psnr_db: float
+    held_out_psnr_db: float
+    low: float
+    high: float
+    _fields_ = [
+        ("used_count", c.c_uint32),
+        ("held_out_count", c.c_uint32),
+        ("seen_count", c.c_uint64),
+        ("rms", c.c_double),
+        ("held_out_rms", c.c_double),
+        ("psnr_db", c.c_double),
+        ("held_out_psnr_db", c.c_double),
+        ("low", c.c_float),
+        ("high", c.c_float),
     ]
 
 
@@ -2478,6 +2594,7 @@ TABLES = (
     "ewa_mesh_sample_options_table",
     "ewa_context_options_table",
     "ewa_limits_table",
+    "ewa_photos_options_table",
     "ewa_estimate_options_table",
     "ewa_csg_options_table",
     "ewa_feature_options_table",
@@ -2695,6 +2812,9 @@ class Functions:
     ewa_jpeg_save: Callable[..., int]
     ewa_materials_load: Callable[..., int]
     ewa_parts: Callable[..., bytes | None]
+    ewa_photo_list_destroy: Callable[..., None]
+    ewa_photo_list_load: Callable[..., int]
+    ewa_photo_list_photos: Callable[..., Any]
     ewa_pixels_save: Callable[..., int]
     ewa_ply_describe: Callable[..., int]
     ewa_png_save: Callable[..., int]
@@ -2739,6 +2859,9 @@ class Functions:
     ewa_option_get: Callable[..., None]
     ewa_option_range: Callable[..., None]
     ewa_option_set: Callable[..., int]
+    ewa_cloud_color_from_photos: Callable[..., int]
+    ewa_image_undistort: Callable[..., int]
+    ewa_photos_options_init: Callable[..., None]
     ewa_cloud_csg: Callable[..., int]
     ewa_cloud_detect_features: Callable[..., int]
     ewa_cloud_estimate: Callable[..., int]
@@ -3066,6 +3189,9 @@ class Functions:
         self.ewa_jpeg_save = bind("ewa_jpeg_save", c.c_int, c.c_void_p, c.c_char_p, c.c_uint32, c.c_uint32, c.c_uint32, c.c_void_p, c.c_size_t)
         self.ewa_materials_load = bind("ewa_materials_load", c.c_int, c.c_void_p, c.c_char_p, c.POINTER(ewa_material), c.c_void_p)
         self.ewa_parts = bind("ewa_parts", c.c_char_p)
+        self.ewa_photo_list_destroy = bind("ewa_photo_list_destroy", None, c.c_void_p)
+        self.ewa_photo_list_load = bind("ewa_photo_list_load", c.c_int, c.c_void_p, c.c_char_p, c.c_char_p, c.c_void_p)
+        self.ewa_photo_list_photos = bind("ewa_photo_list_photos", c.POINTER(ewa_photo), c.c_void_p, c.c_void_p)
         self.ewa_pixels_save = bind("ewa_pixels_save", c.c_int, c.c_void_p, c.c_char_p, c.c_uint32, c.c_uint32, c.c_uint32, c.c_void_p, c.c_size_t)
         self.ewa_ply_describe = bind("ewa_ply_describe", c.c_int, c.c_void_p, c.c_char_p, ewa_line_callback, c.c_void_p)
         self.ewa_png_save = bind("ewa_png_save", c.c_int, c.c_void_p, c.c_char_p, c.c_uint32, c.c_uint32, c.c_uint32, c.c_void_p, c.c_size_t)
@@ -3110,6 +3236,9 @@ class Functions:
         self.ewa_option_get = bind("ewa_option_get", None, c.POINTER(ewa_option), c.c_void_p, c.c_void_p)
         self.ewa_option_range = bind("ewa_option_range", None, c.POINTER(ewa_option), c.c_void_p)
         self.ewa_option_set = bind("ewa_option_set", c.c_int, c.POINTER(ewa_option), c.c_void_p, c.c_char_p, c.c_void_p)
+        self.ewa_cloud_color_from_photos = bind("ewa_cloud_color_from_photos", c.c_int, c.c_void_p, c.POINTER(ewa_photo), c.c_uint32, c.POINTER(ewa_photos_options), c.POINTER(ewa_photos_report), c.POINTER(ewa_photo_report))
+        self.ewa_image_undistort = bind("ewa_image_undistort", c.c_int, c.POINTER(ewa_image), c.POINTER(ewa_camera), c.POINTER(ewa_lens), c.POINTER(ewa_image))
+        self.ewa_photos_options_init = bind("ewa_photos_options_init", None, c.POINTER(ewa_photos_options), c.c_size_t)
         self.ewa_cloud_csg = bind("ewa_cloud_csg", c.c_int, c.c_void_p, c.c_void_p, c.POINTER(ewa_csg_options), c.c_void_p)
         self.ewa_cloud_detect_features = bind("ewa_cloud_detect_features", c.c_int, c.c_void_p, c.POINTER(ewa_feature_options), c.POINTER(ewa_feature_counts))
         self.ewa_cloud_estimate = bind("ewa_cloud_estimate", c.c_int, c.c_void_p, c.POINTER(ewa_estimate_options))

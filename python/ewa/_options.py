@@ -256,6 +256,27 @@ class ProcedureOptions(TypedDict, total=False):
     colors: Sequence[float] | None
 
 
+class PhotosOptions(TypedDict, total=False):
+    """Members of ewa_photos_options."""
+
+    #: colours whose pictures differ least from the photographs; or, of what these show at a point, the weighted median, the weighted mean, or that of the one that sees it largest; fit|median|mean|best, default fit
+    method: Literal["fit", "median", "mean", "best"] | int | None
+    #: what photographs are corrected by, channel by channel: gain, gain and offset, or nothing; gain|gain-offset|off, default gain
+    exposure: Literal["gain", "gain-offset", "off"] | int | None
+    #: photographs 0, N, 2N, ... are not used and compared with the result; 0: all are used; [0, 65535], default 0
+    hold_out: int | None
+    #: rounds of the fit, each with new weights of pixels and exposures; [1, 20], default 3
+    rounds: int | None
+    #: difference of sRGB numbers in [0, 1] at which a pixel counts a quarter; 0: all count; [0, 1], default 0.05
+    robust: float | None
+    #: pull of the fit towards the median, of the median point's own weight; (0, 10], default 0.1
+    ridge: float | None
+    #: photographs are halved while points stay so many pixels apart; 0: never; [0, 100], default 2
+    spacing_px: float | None
+    #: standard deviations at which kernels end; (0, 4], default 3
+    cutoff: float | None
+
+
 class RefitOptions(TypedDict, total=False):
     """Members of ewa_refit_options."""
 
@@ -479,6 +500,7 @@ __all__ = [
     "LodOptions",
     "MaterialOptions",
     "MeshSampleOptions",
+    "PhotosOptions",
     "ProcedureOptions",
     "RefitOptions",
     "RenderOptions",

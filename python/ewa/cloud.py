@@ -15,14 +15,16 @@ from ._errors import ArgumentError, ClosedError
 from ._library import functions as lib
 from ._library import library
 from ._struct import fill, initialised, numbers, path_bytes, text_bytes
-from .camera import PathLike
+from .camera import Camera, PathLike
+from .photographs import PhotosReport
+from .photographs import color as color_from_photos
 from .surfels import Surfels
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
 
-    from ._options import (CloudSaveOptions, EstimateOptions, FeatureOptions, GenerateOptions, ProcedureOptions,
-                           RefitOptions, SurfelsOptions)
+    from ._options import (CloudSaveOptions, EstimateOptions, FeatureOptions, GenerateOptions, PhotosOptions,
+                           ProcedureOptions, RefitOptions, SurfelsOptions)
 
 # Notes may hold zeros, which end a text of ctypes.
 _note = library["ewa_cloud_note"]
@@ -501,6 +503,29 @@ class Cloud:
         cloud = self._derive()
         self._core.call(lib.ewa_cloud_refit_colors, cloud._h, ctypes.byref(made), None)
         return cloud
+
+    def color_from_photos(self, cameras: PathLike | Sequence[tuple[Camera, Any]], images: PathLike | None = None,
+                          **options: Unpack[PhotosOptions]) -> tuple[Cloud, PhotosReport]:
+        """Return the cloud in the colours that photographs show, and what they came to; lacking normals and radii are
+        estimated first.
+
+        Parameters
+        ----------
+        cameras : path or sequence of (Camera, array_like of shape (height, width, 3 or 4))
+            The folder of a COLMAP model, transforms.json, cameras.json; or cameras with what they took: uint8: sRGB,
+            float32: linear light; alpha 0: not looked at.
+        images : path, optional
+            The folder of the photographs. Default: where the file says.
+        **options
+            Members of ``ewa_photos_options``: ``method``, ``exposure``, ``hold_out``, ``rounds``, ``robust``, ``ridge``,
+            ``spacing_px``, ``cutoff``.
+
+        Raises
+        ------
+        ArgumentError, FileError, FormatError, OutOfMemory
+        """
+        cloud = self.estimate()._derive()
+        return cloud, color_from_photos(cloud._h, cameras, images, options)
 
     def save(self, path: PathLike, **options: Unpack[CloudSaveOptions]) -> None:
         """Write the cloud; the suffix chooses the format: .ply .las .laz .pcd .xyz .txt .asc .pts .csv.

@@ -13,15 +13,6 @@ enum {
     UNIT_BITS = 36,      ///< units per bound of a term
 };
 
-/// The tiles of a splat, none where it shows nothing.
-static ewa_adjoint_range range_of(const ewa_reference_splat *splat, uint32_t side_px) {
-    if (!splat->drawn || splat->x_begin >= splat->x_end || splat->y_begin >= splat->y_end)
-        return (ewa_adjoint_range){0, 0};
-    const uint32_t x0 = (uint32_t)splat->x_begin / side_px, x1 = ((uint32_t)splat->x_end + side_px - 1) / side_px;
-    const uint32_t y0 = (uint32_t)splat->y_begin / side_px, y1 = ((uint32_t)splat->y_end + side_px - 1) / side_px;
-    return (ewa_adjoint_range){x0 | y0 << 16, x1 | y1 << 16};
-}
-
 static uint32_t find_splats(const void *data, uint32_t worker, uint32_t first, uint32_t count,
                             const ewa_bin_items *items) {
     const ewa_adjoint_job *job = data;
@@ -31,7 +22,7 @@ static uint32_t find_splats(const void *data, uint32_t worker, uint32_t first, u
         ewa_surfel surfel;
         ewa_reference_splat splat;
         ewa_reference_frame_project(&job->frame, i, 1, &surfel, &splat);
-        const ewa_adjoint_range range = job->ranges[i] = range_of(&splat, job->tiles.side_px);
+        const ewa_reference_tiles range = job->ranges[i] = ewa_reference_tiles_of(&splat, job->tiles.side_px);
         if (range.end == 0) continue;
         items->ids[next] = (int32_t)i, items->first[next] = (int32_t)range.first, items->end[next] = (int32_t)range.end;
         next++;
@@ -128,18 +119,10 @@ static ewa_status reserve(ewa_adjoint_job *job) {
     const uint64_t splats = job->lists.largest;
     for (uint32_t i = 0; i < job->worker_count; i++) {
         ewa_adjoint_scratch *s = &job->scratch[i];
-        s->capacity = (uint32_t)splats;
-        s->splats = ewa_allocate(context, splats, sizeof *s->splats);
-        s->order = ewa_allocate(context, splats, sizeof *s->order);
+        EWA_TRY(ewa_reference_rows_reserve(context, &s->rows, (uint32_t)splats, job->tiles.side_px));
         s->moments = ewa_allocate(context, splats, sizeof *s->moments);
         s->scales = ewa_allocate(context, splats, sizeof *s->scales);
-        s->fragments = ewa_allocate(context, splats * job->tiles.side_px, sizeof *s->fragments);
-        s->sorted = ewa_allocate(context, splats * job->tiles.side_px, sizeof *s->sorted);
-        s->columns = ewa_allocate(context, splats * job->tiles.side_px, sizeof *s->columns);
-        s->layers = ewa_allocate(context, splats, sizeof *s->layers);
-        if (!s->splats || !s->order || !s->moments || !s->scales || !s->fragments || !s->sorted || !s->columns ||
-            !s->layers)
-            return EWA_ERROR_MEMORY;
+        if (!s->moments || !s->scales) return EWA_ERROR_MEMORY;
     }
     return EWA_OK;
 }
@@ -148,15 +131,10 @@ static void release(ewa_adjoint_job *job) {
     ewa_context *context = job->frame.context;
     for (uint32_t i = 0; job->scratch && i < job->worker_count; i++) {
         ewa_adjoint_scratch *s = &job->scratch[i];
-        const size_t splats = s->capacity;
-        ewa_release(context, s->splats, splats, sizeof *s->splats);
-        ewa_release(context, s->order, splats, sizeof *s->order);
+        const size_t splats = s->rows.capacity;
+        ewa_reference_rows_free(context, &s->rows);
         ewa_release(context, s->moments, splats, sizeof *s->moments);
         ewa_release(context, s->scales, splats, sizeof *s->scales);
-        ewa_release(context, s->fragments, splats * job->tiles.side_px, sizeof *s->fragments);
-        ewa_release(context, s->sorted, splats * job->tiles.side_px, sizeof *s->sorted);
-        ewa_release(context, s->columns, splats * job->tiles.side_px, sizeof *s->columns);
-        ewa_release(context, s->layers, splats, sizeof *s->layers);
         ewa_release(context, s->camera, EWA_CAMERA_NUMBERS, sizeof *s->camera);
     }
     const uint64_t points = job->frame.point_count;
@@ -186,7 +164,7 @@ static ewa_status start(ewa_adjoint_job *job) {
 static ewa_status place_slots(ewa_adjoint_job *job) {
     uint64_t sum = 0;
     for (uint64_t i = 0; i < job->frame.point_count; i++) {
-        const ewa_adjoint_range *range = &job->ranges[i];
+        const ewa_reference_tiles *range = &job->ranges[i];
         job->first_slots[i] = sum;
         const uint32_t columns = (range->end & 0xffff) - (range->first & 0xffff);
         sum += (uint64_t)columns * ((range->end >> 16) - (range->first >> 16));

@@ -7,7 +7,6 @@
 #include "adjoint/tiles.h"
 #include "base/base.h"
 
-#include <stdlib.h>
 #include <string.h>
 
 /// The power of two that is at most `size`, which is positive; 1 for what is not finite.
@@ -46,40 +45,29 @@ static ewa_reference_values cotangent_of(const ewa_adjoint_job *job, size_t inde
     return values;
 }
 
-/// The numbers that tell two splats apart.
-static void read_key(const ewa_reference_splat *splat, double key[15]) {
-    const ewa_vec3 vectors[5] = {splat->center, splat->color, splat->normal_world, splat->axis_u, splat->axis_v};
-    for (int i = 0; i < 5; i++) vec3_store(vectors[i], key + 3 * i);
-}
+/// A worker of a job.
+typedef struct pixel_work {
+    const ewa_adjoint_job *job;
+    ewa_adjoint_scratch *scratch;
+} pixel_work;
 
-/// Orders splats by depth, and those of one depth by all that they look like: a pixel's sums are added up in that
-/// order.
-static int compare_splats(const void *a, const void *b) {
-    const ewa_reference_splat *left = *(const ewa_reference_splat *const *)a;
-    const ewa_reference_splat *right = *(const ewa_reference_splat *const *)b;
-    if (left->center.z != right->center.z) return left->center.z < right->center.z ? -1 : 1;
-    double keys[2][15];
-    read_key(left, keys[0]), read_key(right, keys[1]);
-    for (int i = 0; i < 15; i++)
-        if (keys[0][i] != keys[1][i]) return keys[0][i] < keys[1][i] ? -1 : 1;
-    return (left->opacity > right->opacity) - (left->opacity < right->opacity);
-}
-
-/// Goes through one pixel, whose fragments are given.
-static void draw_pixel(const ewa_adjoint_job *job, ewa_adjoint_scratch *s, uint32_t x, uint32_t y,
-                       ewa_reference_fragment *fragments, uint32_t count) {
+/// Goes through one pixel; an ewa_reference_pixel.
+static void draw_pixel(void *user, uint32_t x, uint32_t y, ewa_reference_fragment *fragments, uint32_t count) {
+    const pixel_work *work = user;
+    const ewa_adjoint_job *job = work->job;
+    ewa_adjoint_scratch *s = work->scratch;
     const ewa_reference_resolve *to = &job->frame.resolve;
     const size_t index = (size_t)y * job->tiles.width_px + x;
     const double x_px = x + 0.5, y_px = y + 0.5;
-    const uint32_t layer_count = ewa_reference_layers_find(to, x_px, y_px, fragments, count, s->layers);
+    const uint32_t layer_count = ewa_reference_layers_find(to, x_px, y_px, fragments, count, s->rows.layers);
     if (job->gradient.rgba) {
-        const ewa_reference_values shown = ewa_reference_layers_show(to, s->layers, layer_count);
+        const ewa_reference_values shown = ewa_reference_layers_show(to, s->rows.layers, layer_count);
         memcpy(job->gradient.rgba + 4 * index, shown.rgba, sizeof shown.rgba);
     }
     if (layer_count == 0 || job->width == 0) return;
     const ewa_reference_values cotangent = cotangent_of(job, index);
     double camera[EWA_CAMERA_NUMBERS] = {0};
-    ewa_reference_layers_pull_back(to, x_px, y_px, &cotangent, s->layers, layer_count, camera);
+    ewa_reference_layers_pull_back(to, x_px, y_px, &cotangent, s->rows.layers, layer_count, camera);
     for (int i = 0; i < EWA_CAMERA_NUMBERS && s->camera; i++)
         if (camera[i] != 0) ewa_exact_add(&s->camera[i], camera[i]);
     for (uint32_t i = 0; i < count; i++) {
@@ -87,42 +75,16 @@ static void draw_pixel(const ewa_adjoint_job *job, ewa_adjoint_scratch *s, uint3
         if (from->layer == EWA_NO_LAYER) continue;
         double terms[EWA_MOMENT_COUNT];
         ewa_reference_moments_at(to->view, from->splat, &from->sample, x_px, y_px, to->layering.transparent,
-                                 &s->layers[from->layer].cotangent, terms);
+                                 &s->rows.layers[from->layer].cotangent, terms);
         int64_t *sums = s->moments[from->index];
         const double *scales = s->scales[from->index];
         for (uint32_t m = 0; m < job->width; m++) sums[m] += whole_units(terms[m], scales[m]);
     }
 }
 
-/// Goes through the pixels of a tile in one row.
-static void draw_row(const ewa_adjoint_job *job, ewa_adjoint_scratch *s, const ewa_tile_rect *place, uint32_t y,
-                     uint32_t splat_count) {
-    uint32_t counts[EWA_ADJOINT_MAX_TILE_PX + 1] = {0}, count = 0;
-    const int32_t left = (int32_t)place->x_px, right = left + (int32_t)place->width_px;
-    for (uint32_t k = 0; k < splat_count; k++) {
-        const ewa_reference_splat *splat = s->order[k];
-        if ((int32_t)y < splat->y_begin || (int32_t)y >= splat->y_end) continue;
-        const int32_t begin = splat->x_begin > left ? splat->x_begin : left;
-        const int32_t end = splat->x_end < right ? splat->x_end : right;
-        for (int32_t x = begin; x < end; x++) {
-            if (!ewa_reference_fragment_make(&job->frame, splat, (uint64_t)(splat - s->splats), x + 0.5, y + 0.5,
-                                             &s->fragments[count]))
-                continue;
-            s->columns[count++] = (uint8_t)(x - left);
-            counts[x - left + 1]++;
-        }
-    }
-    for (uint32_t x = 0; x < place->width_px; x++) counts[x + 1] += counts[x];
-    uint32_t next[EWA_ADJOINT_MAX_TILE_PX];
-    memcpy(next, counts, place->width_px * sizeof *next);
-    for (uint32_t i = 0; i < count; i++) s->sorted[next[s->columns[i]]++] = s->fragments[i];
-    for (uint32_t x = 0; x < place->width_px; x++)
-        draw_pixel(job, s, place->x_px + x, y, s->sorted + counts[x], counts[x + 1] - counts[x]);
-}
-
 /// Where the sums of a splat in a tile go.
 static int64_t *slot_of(const ewa_adjoint_job *job, uint32_t point, uint32_t tile) {
-    const ewa_adjoint_range *range = &job->ranges[point];
+    const ewa_reference_tiles *range = &job->ranges[point];
     const uint32_t column = tile % job->tiles.columns - (range->first & 0xffff);
     const uint32_t row = tile / job->tiles.columns - (range->first >> 16);
     const uint32_t columns = (range->end & 0xffff) - (range->first & 0xffff);
@@ -136,16 +98,12 @@ void ewa_adjoint_tile(void *data, uint32_t index, uint32_t worker) {
     const uint64_t first = job->lists.starts[index];
     const uint32_t count = (uint32_t)(job->lists.starts[index + 1] - first);
     const uint32_t *points = count ? job->lists.ids + first : NULL;
-    for (uint32_t k = 0; k < count; k++) {
-        ewa_surfel surfel;
-        ewa_reference_frame_project(&job->frame, points[k], 1, &surfel, &s->splats[k]);
-        ewa_adjoint_scales(job, &s->splats[k], s->scales[k]);
-        s->order[k] = &s->splats[k];
-    }
-    if (count) qsort(s->order, count, sizeof *s->order, compare_splats);
+    ewa_reference_rows_fill(&job->frame, &s->rows, points, count);
+    for (uint32_t k = 0; k < count; k++) ewa_adjoint_scales(job, &s->rows.splats[k], s->scales[k]);
     if (count) memset(s->moments, 0, count * sizeof *s->moments);
+    pixel_work work = {job, s};
     for (uint32_t y = place.y_px; y < place.y_px + place.height_px && ewa_goes_on(job->frame.context, worker); y++)
-        draw_row(job, s, &place, y, count);
+        ewa_reference_rows_walk(&job->frame, &s->rows, count, place.x_px, place.width_px, y, draw_pixel, &work);
     for (uint32_t k = 0; k < count && job->width; k++)
         memcpy(slot_of(job, points[k], index), s->moments[k], job->width * sizeof(int64_t));
 }

@@ -7,19 +7,13 @@
 
 #include "adjoint/exact.h"
 #include "ewa/adjoint.h"
-#include "reference/adjoint_frame.h"
+#include "reference/adjoint_rows.h"
 #include "tiling/bin.h"
 #include "tiling/tiles.h"
 
 enum {
     EWA_ADJOINT_TILE_PX = 16, ///< side of a tile: few of its splats lie in no row at hand
-    EWA_ADJOINT_MAX_TILE_PX = 64,
 };
-
-/// Tiles [first, end) that a splat may reach, as ewa_bin_items has them; none: both are 0.
-typedef struct ewa_adjoint_range {
-    uint32_t first, end; ///< column | row << 16
-} ewa_adjoint_range;
 
 /// What is added up in whole numbers: powers of two that terms are multiplied by before they are rounded.
 typedef struct ewa_adjoint_units {
@@ -28,14 +22,9 @@ typedef struct ewa_adjoint_units {
 
 /// What one worker needs.
 typedef struct ewa_adjoint_scratch {
-    ewa_reference_splat *splats;       ///< [of a tile]
-    const ewa_reference_splat **order;    ///< [of a tile]: those that are drawn, the same whatever the points' order
+    ewa_reference_rows rows;
     int64_t (*moments)[EWA_MOMENT_COUNT]; ///< [of a tile], in units
     double (*scales)[EWA_MOMENT_COUNT];   ///< [of a tile]: units of each
-    ewa_reference_fragment *fragments, *sorted; ///< of a row of a tile
-    uint8_t *columns;                           ///< the pixel in the row of each
-    ewa_reference_layer *layers;
-    uint32_t capacity;       ///< splats of a tile
     double largest_color;    ///< of the splats that it has projected
     double largest_depth;
     ewa_exact_sum *camera;   ///< [EWA_CAMERA_NUMBERS]; NULL: not wanted
@@ -48,7 +37,7 @@ typedef struct ewa_adjoint_job {
     ewa_gradient gradient;
     ewa_tiles tiles;
     ewa_bin_lists lists;
-    ewa_adjoint_range *ranges; ///< [point]
+    ewa_reference_tiles *ranges; ///< [point]
     uint64_t *first_slots;     ///< [point + 1]
     int64_t *slots;            ///< [slot][width]: sums of a splat in one tile
     uint32_t width;            ///< of the sums that are wanted: the first so many
@@ -61,7 +50,7 @@ typedef struct ewa_adjoint_job {
 /// `cotangent` and `gradient` have been set. Errors: EWA_ERROR_LIMIT, EWA_ERROR_MEMORY, EWA_CANCELLED.
 ewa_status ewa_adjoint_run(ewa_adjoint_job *job);
 
-/// ewa_render_backward() by tiles of a side of at most EWA_ADJOINT_MAX_TILE_PX; none changes a byte.
+/// ewa_render_backward() by tiles of a side of at most EWA_REFERENCE_MAX_TILE_PX; none changes a byte.
 ewa_status ewa_adjoint_backward(const ewa_cloud *cloud, const ewa_surfels_options *surfels_options,
                                 double unit_coverage, const ewa_camera *camera, const ewa_render_options *options,
                                 const ewa_frame_cotangent *cotangent, const ewa_gradient *gradient, uint32_t tile_px);

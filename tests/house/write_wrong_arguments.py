@@ -23,7 +23,8 @@ MADE = {"ewa_context": "made.context", "ewa_cloud": "made.cloud", "ewa_image": "
         "ewa_camera_path": "made.path", "ewa_scalar": "&made.scalar", "ewa_canvas": "&made.canvas", "ewa_lod": "made.lod",
         "ewa_cloud_reader": "made.reader", "ewa_cloud_writer": "made.writer", "ewa_option_table": "&ewa_render_options_table",
         "ewa_option": "ewa_render_options_table.options", "ewa_environment": "made.environment", "ewa_exchange": "&made.exchange",
-        "ewa_scene_file": "made.scene_file", "ewa_elements": "made.elements", "ewa_mat3": "&made.mat3", "ewa_mat4": "&made.mat4",
+        "ewa_scene_file": "made.scene_file", "ewa_elements": "made.elements", "ewa_photo_list": "made.photo_list",
+        "ewa_mat3": "&made.mat3", "ewa_mat4": "&made.mat4",
         "ewa_conic": "&made.conic"}
 ARRAYS = {"double": "numbers", "ewa_vec3": "vectors", "ewa_vec4": "vectors"}
 MEMBERS = {"ewa_vec3": 3, "ewa_vec4": 4, "ewa_line3": 2}

@@ -41,6 +41,7 @@ typedef struct right_things {
     ewa_lod *lod;
     ewa_scene_file *scene_file;
     ewa_elements *elements;
+    ewa_photo_list *photo_list;
     const ewa_attribute *attribute;
     ewa_scalar scalar;
     ewa_frame frame;

@@ -19,7 +19,7 @@ static const ewa_option_table *const tables[] = {
     &ewa_furniture_options_table,       &ewa_generate_options_table,
     &ewa_image_save_options_table,      &ewa_material_table,
     &ewa_mesh_sample_options_table,     &ewa_procedure_options_table,
-    &ewa_refit_options_table,           &ewa_render_options_table,
+    &ewa_photos_options_table,          &ewa_refit_options_table,           &ewa_render_options_table,
     &ewa_surfels_options_table,         &ewa_texture_options_table,
     &ewa_volume_generate_options_table, &ewa_volume_load_options_table,
     &ewa_gaussian_options_table,        &ewa_volume_options_table,

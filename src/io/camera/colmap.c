@@ -23,26 +23,31 @@ enum {
     WHERE_BYTES = 64,
 };
 
-/// A camera model: how many parameters, how many focal lengths lead them (the principal point follows, then
-/// the distortion), and whether it becomes a pinhole when the distortion is left out.
+/// A camera model: how many parameters, how many focal lengths lead them (the principal point follows, then the
+/// distortion, whose numbers go to `places` of k1 to k6, p1, p2), and what they mean. Fisheyes are no pinholes when the
+/// distortion is left out.
 typedef struct model {
     const char *name;
     uint8_t parameter_count, focal_count;
-    bool is_pinhole;
+    ewa_lens_model lens;
+    bool unknown; ///< not undistorted
+    uint8_t places[8];
 } model;
 
+enum { P1 = 6, P2 = 7 };
+
 static const model MODELS[] = {
-    {"SIMPLE_PINHOLE", 3, 1, true},
-    {"PINHOLE", 4, 2, true},
-    {"SIMPLE_RADIAL", 4, 1, true},
-    {"RADIAL", 5, 1, true},
-    {"OPENCV", 8, 2, true},
-    {"OPENCV_FISHEYE", 8, 2, false},
-    {"FULL_OPENCV", 12, 2, true},
-    {"FOV", 5, 2, false},
-    {"SIMPLE_RADIAL_FISHEYE", 4, 1, false},
-    {"RADIAL_FISHEYE", 5, 1, false},
-    {"THIN_PRISM_FISHEYE", 12, 2, false},
+    {"SIMPLE_PINHOLE", 3, 1, EWA_LENS_PINHOLE, false, {0}},
+    {"PINHOLE", 4, 2, EWA_LENS_PINHOLE, false, {0}},
+    {"SIMPLE_RADIAL", 4, 1, EWA_LENS_BROWN, false, {0}},
+    {"RADIAL", 5, 1, EWA_LENS_BROWN, false, {0, 1}},
+    {"OPENCV", 8, 2, EWA_LENS_BROWN, false, {0, 1, P1, P2}},
+    {"OPENCV_FISHEYE", 8, 2, EWA_LENS_FISHEYE, false, {0, 1, 2, 3}},
+    {"FULL_OPENCV", 12, 2, EWA_LENS_BROWN, false, {0, 1, P1, P2, 2, 3, 4, 5}},
+    {"FOV", 5, 2, EWA_LENS_FISHEYE, true, {0}},
+    {"SIMPLE_RADIAL_FISHEYE", 4, 1, EWA_LENS_FISHEYE, false, {0}},
+    {"RADIAL_FISHEYE", 5, 1, EWA_LENS_FISHEYE, false, {0, 1}},
+    {"THIN_PRISM_FISHEYE", 12, 2, EWA_LENS_FISHEYE, true, {0}},
 };
 
 enum { MODEL_COUNT = sizeof MODELS / sizeof MODELS[0] };
@@ -51,6 +56,7 @@ typedef struct lens {
     uint32_t id;
     uint32_t width_px, height_px;
     double fx_px, fy_px, cx_px, cy_px;
+    ewa_lens distortion;
 } lens;
 
 typedef struct loader {
@@ -78,13 +84,21 @@ static ewa_status reserve_lenses(loader *in, size_t capacity) {
 
 static ewa_status add_lens(loader *in, uint32_t id, const model *kind, uint64_t width, uint64_t height,
                            const double *parameters) {
-    if (!kind->is_pinhole)
-        return ewa_fail(in->list->context, EWA_ERROR_UNSUPPORTED,
-                        "%s: camera %u is of the model %s, not a pinhole", in->list->name, id, kind->name);
-    for (int i = kind->focal_count + 2; i < kind->parameter_count && !in->warned; i++) {
-        if (parameters[i] == 0) continue;
-        ewa_report(in->list->context, EWA_SEVERITY_WARNING,
-                   "%s: lens distortion of camera %u (%s) is left out", in->list->name, id, kind->name);
+    const bool takes = in->list->takes_lenses;
+    if (takes ? kind->unknown : kind->lens == EWA_LENS_FISHEYE)
+        return ewa_fail(in->list->context, EWA_ERROR_UNSUPPORTED, "%s: camera %u is of the model %s, %s", in->list->name, id,
+                        kind->name, takes ? "which is not undistorted here" : "not a pinhole");
+    const int first = kind->focal_count + 2;
+    ewa_lens distortion = {.model = kind->lens};
+    for (int i = first; i < kind->parameter_count; i++) {
+        const uint8_t place = kind->places[i - first];
+        *(place < P1 ? &distortion.radial[place] : &distortion.tangential[place - P1]) = parameters[i];
+        if (takes && !isfinite(parameters[i]))
+            return ewa_fail(in->list->context, EWA_ERROR_FORMAT, "%s: camera %u: parameter %d is %g", in->list->name, id, i,
+                            parameters[i]);
+        if (takes || in->warned || parameters[i] == 0) continue;
+        ewa_report(in->list->context, EWA_SEVERITY_WARNING, "%s: lens distortion of camera %u (%s) is left out",
+                   in->list->name, id, kind->name);
         in->warned = true;
     }
     if (in->lens_count == in->lens_capacity) {
@@ -99,6 +113,7 @@ static ewa_status add_lens(loader *in, uint32_t id, const model *kind, uint64_t 
         .fy_px = parameters[kind->focal_count - 1],
         .cx_px = parameters[kind->focal_count],
         .cy_px = parameters[kind->focal_count + 1],
+        .distortion = distortion,
     };
     return EWA_OK;
 }
@@ -109,7 +124,7 @@ static int compare_lenses(const void *a, const void *b) {
 }
 
 /// `pose` is the quaternion w x y z of world to camera, then its translation.
-static ewa_status add_image(loader *in, uint32_t image_id, const double pose[7], uint32_t lens_id) {
+static ewa_status add_image(loader *in, uint32_t image_id, const double pose[7], uint32_t lens_id, ewa_text picture) {
     char where[WHERE_BYTES];
     snprintf(where, sizeof where, "image %u", image_id);
     const lens key = {.id = lens_id};
@@ -134,7 +149,9 @@ static ewa_status add_image(loader *in, uint32_t image_id, const double pose[7],
         2 * (x * z - w * y),     2 * (y * z + w * x),     1 - 2 * (x * x + y * y), pose[6],
     };
     memcpy(camera.world_to_camera, rows, sizeof rows);
-    return ewa_camera_list_add(in->list, where, &camera);
+    EWA_TRY(ewa_camera_list_add(in->list, where, &camera));
+    ewa_camera_list_set_lens(in->list, &found->distortion);
+    return picture.length ? ewa_camera_list_name(in->list, picture) : EWA_OK;
 }
 
 /// The words of one line.
@@ -217,6 +234,14 @@ static ewa_status read_text_lenses(loader *in, ewa_reader text) {
     return EWA_OK;
 }
 
+/// What is left of a line, which a name with blanks may be.
+static ewa_text rest_of(line *at) {
+    skip_blank(at);
+    const char *end = at->end;
+    while (end > at->next && (end[-1] == ' ' || end[-1] == '\t' || end[-1] == '\r')) end--;
+    return (ewa_text){at->next, (size_t)(end - at->next)};
+}
+
 static ewa_status read_text_images(loader *in, ewa_reader text) {
     line at = {.number = 0};
     while (next_line(&text, &at)) {
@@ -228,7 +253,7 @@ static ewa_status read_text_images(loader *in, ewa_reader text) {
         if (!good || !take_u32(&at, &lens_id))
             return fail_at(in, "images.txt", "line", at.number,
                            "image id, quaternion, translation and camera id wanted");
-        EWA_TRY(add_image(in, id, pose, lens_id));
+        EWA_TRY(add_image(in, id, pose, lens_id, rest_of(&at)));
         next_line(&text, &at); // the image's points, possibly none: never looked at
     }
     return EWA_OK;
@@ -286,13 +311,13 @@ static ewa_status read_binary_images(loader *in, ewa_reader bytes) {
         double pose[7];
         for (int p = 0; p < 7; p++) pose[p] = take_double(&bytes);
         const uint32_t lens_id = (uint32_t)take_unsigned(&bytes, 4);
-        uint64_t name_bytes;
-        ewa_reader_take_line(&bytes, '\0', &name_bytes);
+        uint64_t name_bytes = 0;
+        const uint8_t *name = ewa_reader_take_line(&bytes, '\0', &name_bytes);
         const uint64_t point_count = take_unsigned(&bytes, 8);
         if (!bytes.failed && point_count > ewa_reader_left(&bytes) / POINT_BYTES) bytes.failed = true;
         if (!bytes.failed) ewa_reader_take(&bytes, point_count * POINT_BYTES);
         if (bytes.failed) return fail_at(in, "images.bin", "byte", start, "the file ends within an image");
-        EWA_TRY(add_image(in, id, pose, lens_id));
+        EWA_TRY(add_image(in, id, pose, lens_id, (ewa_text){(const char *)name, (size_t)name_bytes}));
     }
     return EWA_OK;
 }

@@ -17,7 +17,7 @@ static bool is_folder(const char *path) {
     return ewa_platform_stat(path, &facts) && facts.folder;
 }
 
-static ewa_status read_list(ewa_camera_list *list, const char *path) {
+ewa_status ewa_camera_list_read(ewa_camera_list *list, const char *path) {
     if (is_folder(path)) return ewa_camera_list_read_colmap(list, path);
     ewa_file file;
     EWA_TRY(ewa_file_map(list->context, path, &file));
@@ -29,7 +29,7 @@ static ewa_status read_list(ewa_camera_list *list, const char *path) {
 ewa_status ewa_camera_load(ewa_context *context, const char *path, uint32_t index, ewa_camera *camera) {
     if (!context || !path || !camera) return EWA_ERROR_ARGUMENT;
     ewa_camera_list list = {.context = context, .name = path};
-    ewa_status status = read_list(&list, path);
+    ewa_status status = ewa_camera_list_read(&list, path);
     if (status == EWA_OK && index >= list.count)
         status = ewa_fail(context, EWA_ERROR_ARGUMENT, "%s: camera %u wanted, %zu there (counted from 0)",
                           path, index, list.count);
@@ -64,7 +64,7 @@ ewa_status ewa_camera_load_lens(ewa_context *context, const char *path, ewa_came
     const ewa_status read = load_matrix(context, path, lens, &matrix);
     if (read != EWA_OK || matrix) return read;
     ewa_camera_list list = {.context = context, .name = path, .lens_suffices = true};
-    const ewa_status status = read_list(&list, path);
+    const ewa_status status = ewa_camera_list_read(&list, path);
     if (status == EWA_OK) {
         ewa_camera_init(lens);
         lens->projection = list.cameras->projection;
@@ -83,7 +83,7 @@ ewa_status ewa_camera_load_each(ewa_context *context, const char *path, ewa_came
                                 void *user) {
     if (!context || !path || !receive) return EWA_ERROR_ARGUMENT;
     ewa_camera_list list = {.context = context, .name = path};
-    const ewa_status status = read_list(&list, path);
+    const ewa_status status = ewa_camera_list_read(&list, path);
     for (size_t i = 0; status == EWA_OK && i < list.count; i++) receive(user, (uint32_t)i, &list.cameras[i]);
     ewa_camera_list_free(&list);
     return status;

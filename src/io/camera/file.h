@@ -6,21 +6,35 @@
 #define EWA_SRC_CAMERA_FILE_H
 
 #include "ewa/camera.h"
+#include "ewa/io.h"
 #include "io/file.h"
 #include "io/json_text.h"
+#include "io/text.h"
 
 /// Cameras read from one file, in its order. Zero-initialise with the context and the file's name.
 typedef struct ewa_camera_list {
     ewa_context *context;
     const char *name; ///< of the file, for messages
     ewa_camera *cameras;
+    char **pictures; ///< names of the pictures that they took, as the file has them; NULL: it does not say
+    ewa_lens *lenses; ///< of each camera
     size_t count, capacity;
+    bool takes_lenses; ///< false: a lens is left out, with a warning, or refused
     bool lens_suffices; ///< a file that holds a lens and no pose is a camera at the origin
 } ewa_camera_list;
 
 /// Appends a camera after checking it; `where`, such as "frames[3]", names its place in the file.
 /// Errors: EWA_ERROR_FORMAT, EWA_ERROR_MEMORY.
 ewa_status ewa_camera_list_add(ewa_camera_list *list, const char *where, const ewa_camera *camera);
+
+/// Says which lens the camera has that was added last.
+void ewa_camera_list_set_lens(ewa_camera_list *list, const ewa_lens *lens);
+
+/// Says which picture the camera that was added last took; copied. Errors: EWA_ERROR_MEMORY.
+ewa_status ewa_camera_list_name(ewa_camera_list *list, ewa_text picture);
+
+/// Reads the cameras of a file or of a folder, whichever format it has.
+ewa_status ewa_camera_list_read(ewa_camera_list *list, const char *path);
 
 void ewa_camera_list_free(ewa_camera_list *list);
 

@@ -21,6 +21,7 @@ typedef struct source {
     ewa_camera_list *list;
     const char *path;        // of the file, or NULL
     char where[WHERE_BYTES]; // of the object that is read: "", or such as "frames[3]"
+    bool warned;             // of distortion
 } source;
 
 static ewa_status fail_member(const source *in, const char *member, const char *what) {
@@ -86,6 +87,14 @@ static ewa_status read_array(const source *in, const cJSON *item, const char *me
     return fail_member(in, member, what);
 }
 
+/// Adds a camera with the name of the picture that it took, where its object has one.
+static ewa_status add(const source *in, const cJSON *object, const ewa_camera *camera) {
+    EWA_TRY(ewa_camera_list_add(in->list, in->where, camera));
+    const char *picture = cJSON_GetStringValue(find(object, "file_path"));
+    if (!picture) picture = cJSON_GetStringValue(find(object, "img_name"));
+    return picture && picture[0] ? ewa_camera_list_name(in->list, (ewa_text){picture, strlen(picture)}) : EWA_OK;
+}
+
 static ewa_status read_native(const source *in, const cJSON *object) {
     ewa_camera camera;
     ewa_camera_init(&camera);
@@ -103,7 +112,7 @@ static ewa_status read_native(const source *in, const cJSON *object) {
     EWA_TRY(read_number(in, object, "cx", &camera.cx_px));
     EWA_TRY(read_number(in, object, "cy", &camera.cy_px));
     EWA_TRY(read_array(in, find(object, "world_to_camera"), "world_to_camera", 16, camera.world_to_camera));
-    return ewa_camera_list_add(in->list, in->where, &camera);
+    return add(in, object, &camera);
 }
 
 /// INRIA: `rotation` and `position` are camera to world, the principal point is in the middle.
@@ -119,7 +128,7 @@ static ewa_status read_inria(const source *in, const cJSON *object) {
     camera.cx_px = 0.5 * camera.width_px;
     camera.cy_px = 0.5 * camera.height_px;
     ewa_camera_set_inverse(&camera, rotation, position);
-    return ewa_camera_list_add(in->list, in->where, &camera);
+    return add(in, object, &camera);
 }
 
 /// Where Open3D has pixel centres at whole numbers, ours are at halves: the middle of 640 pixels is its
@@ -266,21 +275,35 @@ static ewa_status read_frame_lens(const source *in, const cJSON *root, const cJS
     return EWA_OK;
 }
 
-/// Pinhole models only; a lens distortion that the file tells is left out, with a warning.
-static ewa_status check_lens_model(const source *in, const cJSON *root) {
-    const char *model = cJSON_GetStringValue(find(root, "camera_model"));
-    if (model && strcmp(model, "OPENCV") != 0 && strcmp(model, "PINHOLE") != 0 &&
-        strcmp(model, "SIMPLE_PINHOLE") != 0)
-        return ewa_fail(in->list->context, EWA_ERROR_UNSUPPORTED,
-                        "%s: member 'camera_model' is %s, not a pinhole", in->list->name, model);
-    static const char *const distortions[] = {"k1", "k2", "k3", "k4", "p1", "p2"};
-    for (size_t i = 0; i < sizeof distortions / sizeof distortions[0]; i++) {
-        double value = 0;
-        EWA_TRY(read_optional(in, root, distortions[i], &value));
-        if (value == 0) continue;
-        ewa_report(in->list->context, EWA_SEVERITY_WARNING, "%s: lens distortion (%s = %g) is left out",
-                   in->list->name, distortions[i], value);
-        break;
+/// The lens of one frame: members of the frame win over those of the file. Where lenses are not taken, one that the file
+/// tells is left out, with a warning; a fisheye is refused.
+static ewa_status read_distortion(source *in, const cJSON *root, const cJSON *frame, ewa_lens *lens) {
+    static const char *const names[] = {"k1", "k2", "k3", "k4", "p1", "p2"};
+    const cJSON *levels[2] = {root, frame};
+    const char *model = "OPENCV";
+    double values[6] = {0};
+    for (int level = 0; level < 2; level++) {
+        const char *named = cJSON_GetStringValue(find(levels[level], "camera_model"));
+        if (named) model = named;
+        for (size_t i = 0; i < 6; i++) EWA_TRY(read_optional(in, levels[level], names[i], &values[i]));
+    }
+    const bool fisheye = strcmp(model, "OPENCV_FISHEYE") == 0, pinhole = strstr(model, "PINHOLE") != NULL;
+    const bool takes = in->list->takes_lenses;
+    *lens = (ewa_lens){.model = fisheye ? EWA_LENS_FISHEYE : EWA_LENS_PINHOLE};
+    if (!(pinhole || (fisheye && takes) || strcmp(model, "OPENCV") == 0))
+        return ewa_fail(in->list->context, EWA_ERROR_UNSUPPORTED, "%s: member 'camera_model' is %s, not a pinhole",
+                        in->list->name, model);
+    if (takes && !fisheye && values[3] != 0)
+        return ewa_fail(in->list->context, EWA_ERROR_UNSUPPORTED, "%s: lens distortion k4 = %g of a lens that is no fisheye",
+                        in->list->name, values[3]);
+    for (int i = 0; i < 6; i++) {
+        if (values[i] == 0) continue;
+        *(i < 4 ? &lens->radial[i] : &lens->tangential[i - 4]) = values[i];
+        if (!fisheye) lens->model = EWA_LENS_BROWN;
+        if (takes || in->warned) continue;
+        ewa_report(in->list->context, EWA_SEVERITY_WARNING, "%s: lens distortion (%s = %g) is left out", in->list->name,
+                   names[i], values[i]);
+        in->warned = true;
     }
     return EWA_OK;
 }
@@ -289,7 +312,6 @@ static ewa_status check_lens_model(const source *in, const cJSON *root) {
 static ewa_status read_transforms(source *in, const cJSON *root, const cJSON *frames) {
     if (!cJSON_IsArray(frames) || !frames->child)
         return fail_member(in, "frames", "is not an array of frames");
-    EWA_TRY(check_lens_model(in, root));
     size_t index = 0;
     const cJSON *frame;
     cJSON_ArrayForEach(frame, frames) {
@@ -298,14 +320,17 @@ static ewa_status read_transforms(source *in, const cJSON *root, const cJSON *fr
         ewa_camera_init(&camera);
         double matrix[16];
         EWA_TRY(read_array(in, find(frame, "transform_matrix"), "transform_matrix", 16, matrix));
+        ewa_lens lens;
         EWA_TRY(read_frame_lens(in, root, frame, &camera));
+        EWA_TRY(read_distortion(in, root, frame, &lens));
         double rotation[9], centre[3];
         for (int r = 0; r < 3; r++) {
             for (int c = 0; c < 3; c++) rotation[3 * r + c] = c == 0 ? matrix[4 * r] : -matrix[4 * r + c];
             centre[r] = matrix[4 * r + 3];
         }
         ewa_camera_set_inverse(&camera, rotation, centre);
-        EWA_TRY(ewa_camera_list_add(in->list, in->where, &camera));
+        EWA_TRY(add(in, frame, &camera));
+        ewa_camera_list_set_lens(in->list, &lens);
     }
     return EWA_OK;
 }

@@ -1,0 +1,121 @@
+# SPDX-FileCopyrightText: 2026 The ewa authors
+# SPDX-License-Identifier: MIT
+"""Colours of points from photographs whose cameras are known."""
+from __future__ import annotations
+
+import ctypes
+from typing import TYPE_CHECKING, Any, NamedTuple, Sequence
+
+import numpy as np
+
+from . import _bindings as b
+from ._arrays import Array
+from ._context import Handle
+from ._errors import ArgumentError
+from ._library import functions as lib
+from ._struct import fill, initialised, path_bytes
+from .camera import Camera, PathLike
+
+if TYPE_CHECKING:
+    from ._options import PhotosOptions
+
+
+class PhotoReport(NamedTuple):
+    """What one photograph came to.
+
+    Attributes
+    ----------
+    held_out : bool
+        Not used, but compared.
+    size : (int, int)
+        Width and height as it was looked at, after halving, pixels.
+    pixel_count, point_count : int
+        Pixels that a surface fills; points that it sees.
+    gain, offset : ndarray of float64, shape (3,)
+        It shows gain * colour + offset, linear light.
+    rms, psnr_db, rejected : float
+        Difference from the points' picture, sRGB numbers in [0, 1]; share of its pixels that count less than a quarter.
+    """
+
+    held_out: bool
+    size: tuple[int, int]
+    pixel_count: int
+    point_count: int
+    gain: Array
+    offset: Array
+    rms: float
+    psnr_db: float
+    rejected: float
+
+
+class PhotosReport(NamedTuple):
+    """What photographs came to.
+
+    Attributes
+    ----------
+    seen_count : int
+        Points that some photograph sees.
+    psnr_db, held_out_psnr_db : float
+        Over all pixels of photographs that were used, that were not; NaN: there are none.
+    photographs : list of PhotoReport
+        In the caller's order.
+    """
+
+    seen_count: int
+    psnr_db: float
+    held_out_psnr_db: float
+    photographs: list[PhotoReport]
+
+
+def _linear(value: Any, label: str) -> Array:
+    """A picture as linear floats of 3 or 4 channels."""
+    array = np.asarray(value)
+    if array.ndim != 3 or array.shape[2] not in (3, 4) or array.dtype not in (np.uint8, np.float32):
+        raise ArgumentError(f"{label}: shape {array.shape}, {array.dtype}; (height, width, 3 or 4) of uint8 or float32 "
+                            "is needed")
+    if array.dtype == np.uint8:
+        table = np.array([lib.ewa_linear_from_srgb(code / 255) for code in range(256)], np.float32)
+        alpha = array[..., 3:].astype(np.float32) / 255
+        array = np.concatenate([table[array[..., :3]] * (alpha if alpha.shape[2] else 1), alpha], axis=2)
+    return np.require(array, np.float32, ["C", "A"])
+
+
+def _of_arrays(photos: Sequence[tuple[Camera, Any]]) -> tuple[Any, list[Any]]:
+    """Photographs of cameras and arrays, and what has to stay meanwhile."""
+    made = (b.ewa_photo * max(1, len(photos)))()
+    keep: list[Any] = []
+    for i, (camera, value) in enumerate(photos):
+        pixels = _linear(value, f"photograph {i}")
+        image = b.ewa_image(None, pixels.shape[1], pixels.shape[0], pixels.shape[2], pixels.ctypes.data)
+        made[i].camera = camera._copy()
+        made[i].image = ctypes.pointer(image)
+        keep += [pixels, image]
+    return made, keep
+
+
+def color(handle: Handle, cameras: PathLike | Sequence[tuple[Camera, Any]], images: PathLike | None,
+          options: PhotosOptions) -> PhotosReport:
+    """Colour a cloud; see :meth:`Cloud.color_from_photos`."""
+    core = handle.core
+    made = initialised(b.ewa_photos_options, lib.ewa_photos_options_init)
+    fill(made, "ewa_photos_options", options)
+    listed: Handle | None = None
+    keep: list[Any] = []
+    if isinstance(cameras, (list, tuple)):
+        photos, keep = _of_arrays(cameras)
+        count = len(cameras)
+    else:
+        listed = core.make(lib.ewa_photo_list_load, core.address, path_bytes(cameras),
+                           path_bytes(images) if images is not None else None, destroy=lib.ewa_photo_list_destroy,
+                           what="the list of photographs")
+        number = ctypes.c_uint32()
+        photos = core.value(lib.ewa_photo_list_photos, listed, ctypes.byref(number))
+        count = number.value
+    report = b.ewa_photos_report()
+    each = (b.ewa_photo_report * max(1, count))()
+    core.call(lib.ewa_cloud_color_from_photos, handle, photos, count, ctypes.byref(made), ctypes.byref(report), each)
+    del keep, listed  # what the photographs lie in
+    return PhotosReport(report.seen_count, report.psnr_db, report.held_out_psnr_db,
+                        [PhotoReport(bool(r.held_out), (r.width_px, r.height_px), r.pixel_count, r.point_count,
+                                     np.array(r.gain), np.array(r.offset), r.rms, r.psnr_db, r.rejected)
+                         for r in each[:count]])

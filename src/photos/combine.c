@@ -1,0 +1,162 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// Colours of points from what each photograph says of them, and exposures from what they say of the same points.
+#include "photos/parts.h"
+
+#include <math.h>
+#include <string.h>
+
+enum {
+    MAX_STEPS = 200, ///< of exposures and colours by turns
+    WIDE_STEPS = 6,  ///< that begin with robust weights of a larger scale, half of it in each
+};
+
+/// The largest change of a gain or an offset with which the turns end.
+static const double SETTLED = 2e-6;
+
+/// Photographs that see fewer points have the exposure that they come with.
+static const uint32_t LEAST_PAIRS = 8;
+
+/// One photograph's number and weight.
+typedef struct said {
+    double number, weight;
+} said;
+
+/// The number at half of the weight, the mean of two where it is between them. Sorts what there is. Lengths count, not
+/// areas: with these, one near photograph often has half of all weight, and its mistakes would be the median.
+static double median_of(said *numbers, uint32_t count) {
+    double total = 0, below = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        const said at = {numbers[i].number, sqrt(numbers[i].weight)};
+        uint32_t k = i;
+        for (; k > 0 && numbers[k - 1].number > at.number; k--) numbers[k] = numbers[k - 1];
+        numbers[k] = at;
+        total += at.weight;
+    }
+    for (uint32_t i = 0; i + 1 < count; i++) {
+        below += numbers[i].weight;
+        if (2 * below == total) return 0.5 * (numbers[i].number + numbers[i + 1].number);
+        if (2 * below > total) return numbers[i].number;
+    }
+    return numbers[count - 1].number;
+}
+
+static double mean_of(const said *numbers, uint32_t count) {
+    double sum = 0, total = 0;
+    for (uint32_t i = 0; i < count; i++) sum += numbers[i].weight * numbers[i].number, total += numbers[i].weight;
+    return sum / total;
+}
+
+static double best_of(const said *numbers, uint32_t count) {
+    const said *best = numbers;
+    for (uint32_t i = 1; i < count; i++)
+        if (numbers[i].weight > best->weight) best = &numbers[i];
+    return best->number;
+}
+
+typedef struct combine_job {
+    ewa_photos_job *job;
+    ewa_photos_method method;
+    said *room; ///< [worker][photographs]
+} combine_job;
+
+static void combine_piece(void *data, uint32_t index, uint32_t worker) {
+    const combine_job *combine = data;
+    ewa_photos_job *job = combine->job;
+    said *numbers = combine->room + (size_t)worker * job->photo_count;
+    const uint32_t begin = index * EWA_PHOTO_PIECE;
+    for (uint32_t point = begin; point < begin + EWA_PHOTO_PIECE && point < job->point_count; point++) {
+        const uint64_t first = job->sample_starts[point];
+        const uint32_t count = job->counts[point];
+        for (size_t c = 0; c < EWA_PHOTO_CHANNELS && count; c++) {
+            for (uint32_t i = 0; i < count; i++) {
+                const ewa_photo_state *photo = &job->photos[job->sample_photos[first + i]];
+                const ewa_photo_sample *sample = job->samples[first + i];
+                numbers[i] = (said){((double)sample->color[c] - photo->offset[c]) / photo->gain[c],
+                                    (double)sample->weight};
+            }
+            job->color[(size_t)point * EWA_PHOTO_CHANNELS + c] =
+                combine->method == EWA_PHOTOS_MEAN   ? mean_of(numbers, count)
+                : combine->method == EWA_PHOTOS_BEST ? best_of(numbers, count)
+                                                     : median_of(numbers, count);
+        }
+    }
+}
+
+ewa_status ewa_photos_combine(ewa_photos_job *job, ewa_photos_method method) {
+    const size_t room = (size_t)ewa_context_worker_count(job->context) * job->photo_count;
+    combine_job combine = {job, method, ewa_allocate(job->context, room, sizeof *combine.room)};
+    if (!combine.room) return EWA_ERROR_MEMORY;
+    ewa_parallel(job->context, combine_piece, &combine, (job->point_count + EWA_PHOTO_PIECE - 1) / EWA_PHOTO_PIECE);
+    ewa_release(job->context, combine.room, room, sizeof *combine.room);
+    return EWA_OK;
+}
+
+/// The samples of a photograph beside the colours of their points.
+typedef struct sample_pairs {
+    const ewa_photos_job *job;
+    const ewa_photo_state *photo;
+} sample_pairs;
+
+static void get_pair(const void *user, uint32_t i, double shown[EWA_PHOTO_CHANNELS], double color[EWA_PHOTO_CHANNELS],
+                     double *weight) {
+    const sample_pairs *pairs = user;
+    const ewa_photo_sample *sample = &pairs->photo->samples[i];
+    for (int c = 0; c < EWA_PHOTO_CHANNELS; c++) shown[c] = (double)sample->color[c];
+    memcpy(color, pairs->job->color + (size_t)sample->point * EWA_PHOTO_CHANNELS, EWA_PHOTO_CHANNELS * sizeof *color);
+    // What one photograph alone says of a point says nothing about its exposure.
+    *weight = pairs->job->counts[sample->point] > 1 ? (double)sample->weight : 0;
+}
+
+typedef struct exposure_job {
+    ewa_photos_job *job;
+    double scale;
+} exposure_job;
+
+static void expose_photo(void *data, uint32_t index, uint32_t worker) {
+    (void)worker;
+    const exposure_job *exposure = data;
+    ewa_photo_state *photo = &exposure->job->photos[index];
+    const sample_pairs user = {exposure->job, photo};
+    const ewa_exposure_pairs pairs = {photo->sample_count, &user, get_pair};
+    if (!photo->held_out && photo->sample_count >= LEAST_PAIRS)
+        ewa_exposure_step(&pairs, exposure->job->options.exposure, exposure->scale, photo->gain, photo->offset);
+}
+
+/// Gains and offsets of all photographs.
+static void copy_exposures(const ewa_photos_job *job, double *to) {
+    for (uint32_t i = 0; i < job->photo_count; i++)
+        for (size_t c = 0; c < EWA_PHOTO_CHANNELS; c++) {
+            to[(i * EWA_PHOTO_CHANNELS + c) * 2] = job->photos[i].gain[c];
+            to[(i * EWA_PHOTO_CHANNELS + c) * 2 + 1] = job->photos[i].offset[c];
+        }
+}
+
+static ewa_status find_exposures(ewa_photos_job *job, double *before, double *after, size_t count) {
+    for (int step = 0; step < MAX_STEPS; step++) {
+        const double wide = step < WIDE_STEPS ? ldexp(1, WIDE_STEPS - step) : 1;
+        exposure_job exposure = {job, job->options.robust * wide};
+        EWA_TRY(ewa_photos_combine(job, EWA_PHOTOS_MEDIAN));
+        copy_exposures(job, before);
+        ewa_parallel(job->context, expose_photo, &exposure, job->photo_count);
+        ewa_exposures_centre(job, NULL, 0);
+        copy_exposures(job, after);
+        double change = 0;
+        for (size_t i = 0; i < count; i++) change = fmax(change, fabs(after[i] - before[i]));
+        if (step >= WIDE_STEPS && change < SETTLED) break;
+    }
+    return EWA_OK;
+}
+
+ewa_status ewa_photos_settle(ewa_photos_job *job) {
+    const size_t count = (size_t)job->photo_count * EWA_PHOTO_CHANNELS * 2;
+    ewa_status status = EWA_OK;
+    if (job->options.exposure != EWA_EXPOSURE_OFF) {
+        double *room = ewa_allocate(job->context, 2 * count, sizeof *room);
+        status = room ? find_exposures(job, room, room + count, count) : EWA_ERROR_MEMORY;
+        ewa_release(job->context, room, 2 * count, sizeof *room);
+    }
+    const ewa_photos_method method = job->options.method;
+    return status == EWA_OK ? ewa_photos_combine(job, method == EWA_PHOTOS_FIT ? EWA_PHOTOS_MEDIAN : method) : status;
+}

@@ -1,0 +1,84 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// Exposures of photographs: gains and offsets by weighted least squares, which robust weights make anew in each step.
+//
+// Based on: S. Geman, D. McClure, "Statistical Methods for Tomographic Image Reconstruction", 1987 (weights).
+#include "photos/parts.h"
+
+#include <math.h>
+
+/// Errors count relative to this and the colour, as they do where numbers are sRGB.
+static const double LEAST_COLOR = 0.02;
+/// What pulls offsets to 0 where all colours are alike, in squares of colours.
+static const double OFFSET_PULL = 1e-5;
+/// Gains of a photograph that shows next to nothing stay within.
+static const double MIN_GAIN = 1e-3, MAX_GAIN = 1e3;
+
+double ewa_robust_weight(const double shown[EWA_PHOTO_CHANNELS], const double wanted[EWA_PHOTO_CHANNELS], double scale) {
+    if (scale <= 0) return 1;
+    double square = 0;
+    for (int c = 0; c < EWA_PHOTO_CHANNELS; c++) {
+        const double difference = sqrt(fmax(shown[c], 0)) - sqrt(fmax(wanted[c], 0));
+        square += difference * difference / EWA_PHOTO_CHANNELS;
+    }
+    const double root = 1 / (1 + square / (scale * scale));
+    return root * root;
+}
+
+void ewa_exposure_step(const ewa_exposure_pairs *pairs, ewa_photos_exposure kind, double scale,
+                       double gain[EWA_PHOTO_CHANNELS], double offset[EWA_PHOTO_CHANNELS]) {
+    double sums[EWA_PHOTO_CHANNELS][5] = {{0}}; // w, wc, wcc, wf, wcf
+    if (kind == EWA_EXPOSURE_OFF) return;
+    for (uint32_t i = 0; i < pairs->count; i++) {
+        double shown[EWA_PHOTO_CHANNELS], color[EWA_PHOTO_CHANNELS], wanted[EWA_PHOTO_CHANNELS], weight = 0;
+        pairs->get(pairs->user, i, shown, color, &weight);
+        for (int c = 0; c < EWA_PHOTO_CHANNELS; c++) wanted[c] = gain[c] * color[c] + offset[c];
+        weight *= ewa_robust_weight(shown, wanted, scale);
+        for (int c = 0; c < EWA_PHOTO_CHANNELS; c++) {
+            const double w = weight / (fmax(color[c], 0) + LEAST_COLOR), x = color[c], f = shown[c];
+            const double terms[5] = {w, w * x, w * x * x, w * f, w * x * f};
+            for (int k = 0; k < 5; k++) sums[c][k] += terms[k];
+        }
+    }
+    for (int c = 0; c < EWA_PHOTO_CHANNELS; c++) {
+        const double *s = sums[c];
+        if (!(s[2] > 0)) continue;
+        double g = s[4] / s[2], o = 0;
+        if (kind == EWA_EXPOSURE_GAIN_OFFSET) {
+            const double w = s[0] + OFFSET_PULL * s[0] * s[0] / s[2];
+            const double determinant = s[2] * w - s[1] * s[1];
+            if (determinant > 1e-9 * s[2] * w) {
+                g = (s[4] * w - s[1] * s[3]) / determinant;
+                o = (s[2] * s[3] - s[1] * s[4]) / determinant;
+            }
+        }
+        gain[c] = fmin(fmax(g, MIN_GAIN), MAX_GAIN), offset[c] = o;
+    }
+}
+
+void ewa_exposures_centre(ewa_photos_job *job, double *const *colors, uint32_t array_count) {
+    for (int c = 0; c < EWA_PHOTO_CHANNELS && job->options.exposure != EWA_EXPOSURE_OFF; c++) {
+        double logs = 0, gains = 0, offsets = 0;
+        uint32_t count = 0;
+        for (uint32_t i = 0; i < job->photo_count; i++) {
+            const ewa_photo_state *photo = &job->photos[i];
+            if (photo->held_out || photo->sample_count == 0) continue;
+            logs += log(photo->gain[c]), gains += photo->gain[c], offsets += photo->offset[c];
+            count++;
+        }
+        if (count == 0) return;
+        // A colour x becomes scale x + shift, and all photographs show the same of it.
+        const double scale = exp(logs / count), shift = offsets / (gains / scale);
+        for (uint32_t i = 0; i < job->photo_count; i++) {
+            ewa_photo_state *photo = &job->photos[i];
+            photo->gain[c] /= scale;
+            photo->offset[c] -= shift * photo->gain[c];
+        }
+        for (uint32_t k = 0; k < array_count; k++)
+            for (uint32_t i = 0; i < job->point_count; i++) {
+                double *at = &colors[k][(size_t)i * EWA_PHOTO_CHANNELS + (size_t)c];
+                if (job->counts[i]) *at = scale * *at + shift;
+            }
+    }
+}

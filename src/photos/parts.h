@@ -1,0 +1,116 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// Photographs onto points, in parts: which points show at which pixels of a photograph, what photographs say of each
+// point, their exposures, and the colours that fit best.
+#ifndef EWA_SRC_PHOTOS_PARTS_H
+#define EWA_SRC_PHOTOS_PARTS_H
+
+#include "base/base.h"
+#include "ewa/photos.h"
+#include "ewa/render.h"
+
+enum {
+    EWA_PHOTO_CHANNELS = 3,
+    EWA_PHOTO_PIECE = 4096, ///< pixels or points per piece of parallel work
+    EWA_PHOTO_MAX = 65535,  ///< photographs
+};
+
+/// A part of a pixel's colour: of a row of the matrix A, which takes colours of points to a picture.
+typedef struct ewa_photo_entry {
+    uint32_t index; ///< of the point; in rows by point, of the pixel
+    float weight;
+} ewa_photo_entry;
+
+/// A pixel of a photograph that shows a surface.
+typedef struct ewa_photo_pixel {
+    float color[EWA_PHOTO_CHANNELS]; ///< linear light
+    float weight;                    ///< that it has for what it is: of a clipped one less
+} ewa_photo_pixel;
+
+/// A photograph as points: the rows of A whose pixels a surface fills, and the same by point.
+typedef struct ewa_photo_view {
+    ewa_context *context;
+    uint32_t width_px, height_px;
+    uint32_t pixel_count, point_count;
+    ewa_photo_pixel *pixels;      ///< [pixel_count]
+    uint64_t *row_starts;         ///< [pixel_count + 1]
+    ewa_photo_entry *entries;     ///< [row_starts[pixel_count]]
+    uint64_t entry_capacity;
+    uint64_t *point_starts;       ///< [point_count + 1]
+    ewa_photo_entry *by_point;    ///< [the same]
+} ewa_photo_view;
+
+/// Reads a photograph, halves it `*halvings` times and finds what shows where. UINT32_MAX halvings: as often as points
+/// stay `spacing_px` apart, which is then set. `unit_coverage`: q0. Errors: those of ewa_cloud_color_from_photos().
+ewa_status ewa_photo_view_make(const ewa_cloud *cloud, const ewa_photo *photo, uint32_t number, double unit_coverage,
+                               const ewa_photos_options *options, uint32_t *halvings, ewa_photo_view *view);
+void ewa_photo_view_free(ewa_photo_view *view);
+
+/// What one photograph says of a point.
+typedef struct ewa_photo_sample {
+    uint32_t point;
+    float weight; ///< pixels
+    float color[EWA_PHOTO_CHANNELS];
+} ewa_photo_sample;
+
+/// A photograph in the works.
+typedef struct ewa_photo_state {
+    const ewa_photo *photo;
+    uint32_t number, halvings;
+    bool held_out;
+    ewa_photo_sample *samples; ///< of points in ascending order
+    uint32_t sample_count;
+    double gain[EWA_PHOTO_CHANNELS], offset[EWA_PHOTO_CHANNELS];
+    ewa_photo_report report;
+} ewa_photo_state;
+
+/// All of a call.
+typedef struct ewa_photos_job {
+    ewa_context *context;
+    ewa_cloud *cloud;
+    ewa_photos_options options;
+    uint32_t point_count, photo_count;
+    ewa_photo_state *photos; ///< in an order of their cameras
+    double unit_coverage;
+    double *color;            ///< [point][EWA_PHOTO_CHANNELS]
+    uint16_t *counts;         ///< [point]
+    uint64_t *sample_starts;  ///< [point + 1]
+    const ewa_photo_sample **samples; ///< by point, in the order of the photographs
+    uint16_t *sample_photos;          ///< the photograph of each
+} ewa_photos_job;
+
+/// Pairs of numbers that an exposure is fitted to: photograph = gain * colour + offset.
+typedef struct ewa_exposure_pairs {
+    uint32_t count;
+    const void *user;
+    /// Gives pair `i`: what the photograph shows, what the points show, the weight.
+    void (*get)(const void *user, uint32_t i, double shown[EWA_PHOTO_CHANNELS], double color[EWA_PHOTO_CHANNELS],
+                double *weight);
+} ewa_exposure_pairs;
+
+/// Improves the gains and offsets of a photograph by one step of weighted least squares; `scale`: the difference at which
+/// a pair counts a quarter, 0: all count.
+void ewa_exposure_step(const ewa_exposure_pairs *pairs, ewa_photos_exposure kind, double scale,
+                       double gain[EWA_PHOTO_CHANNELS], double offset[EWA_PHOTO_CHANNELS]);
+
+/// What a pair of linear colours counts, of Geman and McClure. sRGB's curve is taken for a square root here.
+double ewa_robust_weight(const double shown[EWA_PHOTO_CHANNELS], const double wanted[EWA_PHOTO_CHANNELS], double scale);
+
+/// Makes the mean of the used photographs' log gains 0 and that of their offsets, and changes colours with them; each
+/// array of `count` colours.
+void ewa_exposures_centre(ewa_photos_job *job, double *const *colors, uint32_t array_count);
+
+/// Finds exposures and the colours of a method but the fit, by what photographs say of points.
+ewa_status ewa_photos_settle(ewa_photos_job *job);
+
+/// Sets the colours of points by their samples, corrected by exposures. `method` is not the fit. Errors: EWA_ERROR_MEMORY.
+ewa_status ewa_photos_combine(ewa_photos_job *job, ewa_photos_method method);
+
+/// Improves the colours: rounds of weights, exposures and conjugate gradients. Progress goes from `begin` to `end`.
+ewa_status ewa_photos_fit(ewa_photos_job *job, double begin, double end);
+
+/// Sets what the points show at the pixels of a view: [pixel_count][EWA_PHOTO_CHANNELS].
+void ewa_photo_view_show(const ewa_photo_view *view, const double *color, double *shown);
+
+#endif

@@ -1,0 +1,297 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// Tests of ewa_cloud_color_from_photos() by a sphere whose colours are known.
+#include "tests/photos/photo_scene.h"
+
+#include <math.h>
+
+enum {
+    POINTS = 5000,
+    PHOTOS = 15,
+    HELD_OUT = 5, // every fifth: 12 are used
+    SIDE_PX = 190,
+};
+
+static ewa_photos_options options_of(ewa_photos_method method) {
+    ewa_photos_options options;
+    ewa_photos_options_init(&options, sizeof options);
+    options.method = method;
+    options.hold_out = HELD_OUT;
+    return options;
+}
+
+static void color(photo_scene *scene, const ewa_photos_options *options, ewa_photos_report *report,
+                  ewa_photo_report *per_photo) {
+    assert_int_equal(
+        ewa_cloud_color_from_photos(scene->cloud, scene->photos, scene->count, options, report, per_photo), EWA_OK);
+}
+
+/// How far gains are from those that the photographs were made with, relative to the mean of the logarithms of those that
+/// are used: the largest.
+static double gains_off(const photo_scene *scene, const ewa_photo_report *per_photo, bool of_held_out) {
+    double mean[3] = {0}, worst = 0;
+    int used = 0;
+    for (uint32_t i = 0; i < scene->count; i++) {
+        used += !per_photo[i].held_out;
+        for (int c = 0; c < 3 && !per_photo[i].held_out; c++) mean[c] += log(scene->gain[i][c]);
+    }
+    for (uint32_t i = 0; i < scene->count; i++)
+        for (int c = 0; c < 3 && per_photo[i].held_out == of_held_out; c++)
+            worst = fmax(worst, fabs(per_photo[i].gain[c] / (scene->gain[i][c] / exp(mean[c] / used)) - 1));
+    return worst;
+}
+
+static void test_fit_is_sharper_than_means(void **state) {
+    (void)state;
+    ewa_context *context = check_context(0, NULL);
+    photo_scene *scene = photo_scene_make(context, POINTS, PHOTOS, SIDE_PX, 0.2, 0);
+    double held_out_db[4];
+    for (int m = 0; m < 4; m++) {
+        const ewa_photos_options options = options_of((ewa_photos_method)m);
+        ewa_photos_report report;
+        ewa_photo_report per_photo[PHOTOS];
+        color(scene, &options, &report, per_photo);
+        held_out_db[m] = report.held_out_psnr_db;
+        print_message("method %d: %.2f dB, held out %.2f dB, gains off %.3f %%, held out %.3f %%\n", m, report.psnr_db,
+                      report.held_out_psnr_db, 100 * gains_off(scene, per_photo, false),
+                      100 * gains_off(scene, per_photo, true));
+        assert_int_equal(report.used_count, 12);
+        assert_int_equal(report.held_out_count, 3);
+        assert_int_equal(report.seen_count, POINTS);
+        assert_true(gains_off(scene, per_photo, false) < 0.002);
+        assert_true(gains_off(scene, per_photo, true) < 0.005); // by pixels, which means show less sharp
+        assert_true(fabs(report.psnr_db - report.held_out_psnr_db) < 0.5);
+    }
+    assert_true(held_out_db[EWA_PHOTOS_FIT] > held_out_db[EWA_PHOTOS_MEAN] + 4);
+    photo_scene_free(&scene);
+    ewa_context_destroy(&context);
+}
+
+/// What 20 % of gains cost where nobody looks for them.
+static void test_exposure_is_needed(void **state) {
+    (void)state;
+    ewa_context *context = check_context(0, NULL);
+    photo_scene *scene = photo_scene_make(context, POINTS, PHOTOS, SIDE_PX, 0.2, 0.03);
+    ewa_photos_options options = options_of(EWA_PHOTOS_FIT);
+    ewa_photos_report none, gain, offset;
+    ewa_photo_report per_photo[PHOTOS];
+    options.exposure = EWA_EXPOSURE_OFF;
+    color(scene, &options, &none, per_photo);
+    for (uint32_t i = 0; i < PHOTOS; i++) assert_true(per_photo[i].gain[0] == 1 && per_photo[i].offset[0] == 0);
+    options.exposure = EWA_EXPOSURE_GAIN;
+    color(scene, &options, &gain, per_photo);
+    options.exposure = EWA_EXPOSURE_GAIN_OFFSET;
+    color(scene, &options, &offset, per_photo);
+    print_message("off %.2f dB, gain %.2f dB, gain and offset %.2f dB\n", none.psnr_db, gain.psnr_db, offset.psnr_db);
+    assert_true(gain.psnr_db > none.psnr_db + 3);
+    assert_true(offset.psnr_db > gain.psnr_db + 0.2);
+    photo_scene_free(&scene);
+    ewa_context_destroy(&context);
+}
+
+/// Paints a disc into a photograph, as of somebody who walks by.
+static void cover(photo_scene *scene, uint32_t index, double x_px, double y_px, double radius_px) {
+    ewa_image *image = &scene->images[index];
+    for (uint32_t y = 0; y < image->height_px; y++)
+        for (uint32_t x = 0; x < image->width_px; x++) {
+            float *at = image->pixels + 4 * ((size_t)y * image->width_px + x);
+            if (hypot(x - x_px, y - y_px) < radius_px) at[0] = 0.9f, at[1] = 0.05f, at[2] = 0.05f, at[3] = 1;
+        }
+}
+
+static void test_what_walks_by_is_rejected(void **state) {
+    (void)state;
+    ewa_context *context = check_context(0, NULL);
+    photo_scene *scene = photo_scene_make(context, POINTS, PHOTOS, SIDE_PX, 0.1, 0);
+    static const uint32_t covered[] = {1, 4, 8, 12};
+    for (int i = 0; i < 4; i++) cover(scene, covered[i], 85 + 7 * i, 90, 18);
+    ewa_photos_options options = options_of(EWA_PHOTOS_FIT);
+    ewa_photos_report robust, plain, mean;
+    color(scene, &options, &robust, NULL);
+    const ewa_attribute *residual = ewa_cloud_find(scene->cloud, EWA_PHOTO_RESIDUAL);
+    float largest = 0;
+    for (uint64_t i = 0; i < POINTS; i++) {
+        float number;
+        ewa_attribute_read_f32(residual, i, 1, &number);
+        largest = fmaxf(largest, number);
+    }
+    assert_true(largest > 0.1f); // the points behind say so
+    options.robust = 0;
+    color(scene, &options, &plain, NULL);
+    options = options_of(EWA_PHOTOS_MEAN);
+    color(scene, &options, &mean, NULL);
+    print_message("robust %.2f dB, not %.2f dB, mean %.2f dB\n", robust.held_out_psnr_db, plain.held_out_psnr_db,
+                  mean.held_out_psnr_db);
+    assert_true(robust.held_out_psnr_db > plain.held_out_psnr_db + 5);
+    assert_true(robust.held_out_psnr_db > mean.held_out_psnr_db + 6);
+    photo_scene_free(&scene);
+    ewa_context_destroy(&context);
+}
+
+/// The bytes of what a run gives.
+static void keep(const ewa_cloud *cloud, uint8_t *to) {
+    const char *const names[] = {EWA_COLOR, EWA_PHOTO_COUNT, EWA_PHOTO_RESIDUAL};
+    float *numbers = (float *)(void *)to;
+    for (int k = 0; k < 3; k++) {
+        const ewa_attribute *attribute = ewa_cloud_find(cloud, names[k]);
+        assert_non_null(attribute);
+        for (uint64_t i = 0; i < ewa_cloud_point_count(cloud); i++, numbers += attribute->component_count)
+            ewa_attribute_read_f32(attribute, i, 1, numbers);
+    }
+}
+
+static void test_threads_and_order_change_no_byte(void **state) {
+    (void)state;
+    enum { BYTES = 5 * 2000 * sizeof(float) };
+    static uint8_t first[BYTES], other[BYTES];
+    for (uint32_t threads = 1; threads <= 5; threads += 2) {
+        ewa_context *context = check_context(threads, NULL);
+        photo_scene *scene = photo_scene_make(context, 2000, 8, 100, 0.2, 0);
+        ewa_photos_options options = options_of(EWA_PHOTOS_FIT);
+        options.hold_out = 0;
+        color(scene, &options, NULL, NULL);
+        keep(scene->cloud, threads == 1 ? first : other);
+        if (threads > 1) assert_memory_equal(first, other, BYTES);
+        for (uint32_t i = 0; i < 4; i++) {
+            const ewa_photo photo = scene->photos[i];
+            scene->photos[i] = scene->photos[7 - i], scene->photos[7 - i] = photo;
+        }
+        ewa_photo_report per_photo[8];
+        color(scene, &options, NULL, per_photo);
+        keep(scene->cloud, other);
+        assert_memory_equal(first, other, BYTES);
+        // Reports keep the caller's order.
+        assert_true(fabs(log(per_photo[0].gain[0] / per_photo[7].gain[0]) -
+                         log(scene->gain[7][0] / scene->gain[0][0])) < 0.01);
+        photo_scene_free(&scene);
+        ewa_context_destroy(&context);
+    }
+}
+
+/// Colours of what is hidden, and of clouds without photographs on one side, stay.
+static void test_unseen_points_keep_their_colors(void **state) {
+    (void)state;
+    ewa_context *context = check_context(0, NULL);
+    photo_scene *scene = photo_scene_make(context, 2000, 12, 100, 0, 0);
+    uint8_t *old;
+    assert_int_equal(ewa_cloud_add(scene->cloud, EWA_COLOR, EWA_U8, 4, (void **)&old), EWA_OK);
+    for (uint32_t i = 0; i < 2000; i++) old[4 * i] = 255, old[4 * i + 1] = 0, old[4 * i + 2] = 255, old[4 * i + 3] = 255;
+    ewa_photos_options chosen = options_of(EWA_PHOTOS_FIT);
+    chosen.hold_out = 0;
+    ewa_photos_report report;
+    assert_int_equal(ewa_cloud_color_from_photos(scene->cloud, scene->photos, 1, &chosen, &report, NULL), EWA_OK);
+    assert_true(report.seen_count > 500 && report.seen_count < 1000); // less than half of a sphere
+    const ewa_attribute *color_of = ewa_cloud_find(scene->cloud, EWA_COLOR);
+    const ewa_attribute *count_of = ewa_cloud_find(scene->cloud, EWA_PHOTO_COUNT);
+    assert_int_equal(color_of->component_count, 4);
+    assert_int_equal(count_of->type, EWA_U16);
+    double eye[3];
+    ewa_camera_eye(&scene->photos[0].camera, eye);
+    for (uint64_t i = 0; i < 2000; i++) {
+        float rgba[4], count, facing = -1;
+        ewa_attribute_read_f32(color_of, i, 1, rgba);
+        ewa_attribute_read_f32(count_of, i, 1, &count);
+        for (int c = 0; c < 3; c++) facing += (float)eye[c] * scene->position[3 * i + (uint64_t)c];
+        if (facing < -0.2f) assert_true(count == 0);
+        if (count == 0) assert_true(rgba[0] == 1 && rgba[1] == 0 && rgba[2] == 1 && rgba[3] == 1);
+        if (count > 0) assert_true(rgba[1] > 0.05f);
+    }
+    photo_scene_free(&scene);
+    ewa_context_destroy(&context);
+}
+
+static void test_photographs_are_halved(void **state) {
+    (void)state;
+    ewa_context *context = check_context(0, NULL);
+    photo_scene *scene = photo_scene_make(context, 1000, 4, 301, 0, 0);
+    ewa_photos_options options = options_of(EWA_PHOTOS_MEAN);
+    options.hold_out = 0;
+    ewa_photo_report per_photo[4];
+    ewa_photos_report halved, whole;
+    color(scene, &options, &halved, per_photo); // points are some 14 pixels apart
+    assert_int_equal(per_photo[0].width_px, 75);
+    assert_int_equal(per_photo[0].height_px, 77);
+    options.spacing_px = 0;
+    color(scene, &options, &whole, per_photo);
+    assert_int_equal(per_photo[0].width_px, 301);
+    assert_true(fabs(halved.psnr_db - whole.psnr_db) < 3);
+    photo_scene_free(&scene);
+    ewa_context_destroy(&context);
+}
+
+static void fails(photo_scene *scene, uint32_t count, const ewa_photos_options *options, const check_log *log,
+                  const char *words) {
+    const ewa_status status = ewa_cloud_color_from_photos(scene->cloud, scene->photos, count, options, NULL, NULL);
+    assert_int_not_equal(status, EWA_OK);
+    if (!strstr(log->text, words)) fail_msg("'%s' is not in '%s'", words, log->text);
+    assert_null(ewa_cloud_find(scene->cloud, EWA_COLOR));
+    assert_null(ewa_cloud_find(scene->cloud, EWA_PHOTO_COUNT));
+}
+
+static void test_bad_input_is_named(void **state) {
+    (void)state;
+    check_log log = {.count = 0};
+    ewa_context *context = check_context(0, &log);
+    photo_scene *scene = photo_scene_make(context, 1000, 4, 60, 0, 0);
+    ewa_photos_options options = options_of(EWA_PHOTOS_MEAN);
+    fails(scene, 0, NULL, &log, "no photographs");
+    options.hold_out = 1;
+    fails(scene, 4, &options, &log, "hold_out is 1");
+    options.hold_out = 0, options.rounds = 0;
+    fails(scene, 4, &options, &log, "rounds is 0");
+    const ewa_photo good = scene->photos[2];
+    scene->photos[2].camera.width_px = 61;
+    fails(scene, 4, NULL, &log, "photograph 2: is 60 x 68 pixels, and its camera is of 61 x 68");
+    scene->photos[2] = good, scene->photos[2].image = NULL;
+    fails(scene, 4, NULL, &log, "photograph 2: has neither a path nor an image");
+    scene->photos[2].path = "/nowhere/there.png";
+    fails(scene, 4, NULL, &log, "/nowhere/there.png");
+    scene->photos[2] = good, scene->photos[2].camera.fx_px = NAN;
+    fails(scene, 4, NULL, &log, "fx");
+    scene->photos[2] = good;
+    for (int i = 0; i < 4; i++) scene->photos[i].camera.world_to_camera[11] = -100; // all is behind
+    fails(scene, 4, NULL, &log, "none of 4 photographs");
+    photo_scene_free(&scene);
+    ewa_context_destroy(&context);
+}
+
+static void test_nothing_is_left_where_memory_ends(void **state) {
+    (void)state;
+    check_memory memory = {.calls_left = -1};
+    ewa_context *context = check_context_on(2, &memory);
+    photo_scene *scene = photo_scene_make(context, 300, 3, 40, 0, 0);
+    ewa_photos_options options = options_of(EWA_PHOTOS_FIT);
+    options.hold_out = 0, options.rounds = 1;
+    const int64_t before = memory.held_bytes;
+    bool done = false;
+    for (long calls = 0; !done; calls += calls < 40 ? 1 : 17) {
+        memory.calls_left = calls;
+        const ewa_status status =
+            ewa_cloud_color_from_photos(scene->cloud, scene->photos, scene->count, &options, NULL, NULL);
+        done = status == EWA_OK;
+        if (done) break;
+        assert_int_equal(status, EWA_ERROR_MEMORY);
+        assert_int_equal(memory.held_bytes, before);
+        assert_null(ewa_cloud_find(scene->cloud, EWA_COLOR));
+        assert_null(ewa_cloud_find(scene->cloud, EWA_PHOTO_COUNT));
+    }
+    memory.calls_left = -1;
+    photo_scene_free(&scene);
+    ewa_context_destroy(&context);
+    assert_int_equal(memory.held_bytes, 0);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_fit_is_sharper_than_means),
+        cmocka_unit_test(test_exposure_is_needed),
+        cmocka_unit_test(test_what_walks_by_is_rejected),
+        cmocka_unit_test(test_threads_and_order_change_no_byte),
+        cmocka_unit_test(test_unseen_points_keep_their_colors),
+        cmocka_unit_test(test_photographs_are_halved),
+        cmocka_unit_test(test_bad_input_is_named),
+        cmocka_unit_test(test_nothing_is_left_where_memory_ends),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
