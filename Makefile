@@ -12,7 +12,7 @@
 #   make minimal                a program without any library, held to the bytes of the full one
 #   make arm64                  the same for 64-bit Arm, under an emulator
 #   make wasm                   WebAssembly: the bytes of the program under node, and the module that a page loads
-#   make windows                Windows on x86-64: the bytes of the program under wine, and the tests of the library
+#   make windows                Windows on x86-64: the bytes of the program under wine
 #   make riscv64 musl           programs without any library for RISC-V (under an emulator) and for every x86-64 Linux
 #   make mutate                 breaks the library on purpose and says what the tests notice (hours)
 #   make bench sweep            figures of docs/performance.md: build/bench.json and tables; docs/sweep.png and slopes;
