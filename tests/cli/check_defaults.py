@@ -9,6 +9,7 @@ Reads the options of every command and their defaults from `ewa --help-markdown`
 of JOBS as it stands, then with all defaults written out that may stand beside its options, and the first line of a
 command with each of them alone. Options that are written out nowhere are told of, too.
 """
+import json
 import re
 import subprocess
 import sys
@@ -62,6 +63,8 @@ JOBS = {
              "{d}/sphere.ply --camera {d}/camera.json -o {o}/a.html --assets {d}/assets",
              "{d}/sphere.ply --camera {d}/poses.txt -o {o}/a.html --assets {d}/assets",
              "{d}/scene.json {d}/gaussians.ply {d}/volume.nrrd -o {o}/a.html --assets {d}/assets"],
+    "photos": ["{d}/sphere.ply --cameras {d}/photo.json -o {o}/a.ply --report {o}/a.json",
+               "{d}/points.txt --cameras {d}/photo.json --method mean -o {o}/a.ply"],
     "bench": ["--scene plane --splats 1000 --pixels 4 --size 64x48 --workers 1 --frames 1 --stages off",
               "{d}/sphere.ply --workers 1 --frames 1 --stages off"],
 }
@@ -148,6 +151,8 @@ def make_inputs(ewa, folder):
     do("lod", "bare.ply", "-o", "tree.copc.laz")
     do("render", "sphere.ply", "--size", "80x60", "-o", "color.png", "--aov", "depth=depth.pfm",
        "--save-camera", "camera.json", "--save-scene", "scene.json")
+    photo = json.loads((folder / "camera.json").read_text())
+    (folder / "photo.json").write_text(json.dumps({**photo, "file_path": "color.png"}))
 
 
 def main():
