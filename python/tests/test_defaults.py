@@ -134,6 +134,7 @@ class Defaults(Case):
             "Cloud.surfels": lambda **o: bare.surfels(**o),
             "Cloud.features": lambda **o: ewa.generate("cube", 600).features(**o),
             "Cloud.procedure": lambda **o: cloud.procedure("wood", **o), "Cloud.refit_colors": lambda **o: cloud.refit_colors(**o),
+            "Cloud.color_from_photos": lambda **o: tuple(map(str, map(told, cloud.color_from_photos([(camera, image.rgba)], **o)))),
             "Cloud.save": saved("out.ply", cloud.save), "generate": lambda **o: ewa.generate(**{"point_count": 200, **o}),
             "generate_volume": lambda **o: ewa.generate_volume(**{"dims": (8, 8, 8), **o}),
             "Gaussians.save": saved("out.spz", gaussians.save), "Mesh.sample": lambda **o: mesh.sample(**{"point_count": 300, **o}),

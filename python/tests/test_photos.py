@@ -1,0 +1,47 @@
+# SPDX-FileCopyrightText: 2026 The ewa authors
+# SPDX-License-Identifier: MIT
+"""Colours of points from photographs."""
+from __future__ import annotations
+
+import unittest
+
+import numpy as np
+
+import ewa
+from common import Case
+from ewa import Array
+
+
+def linear(srgb8: Array) -> Array:
+    """sRGB of 8 bits as linear light."""
+    codes = srgb8 / 255
+    return np.where(codes <= 0.04045, codes / 12.92, ((codes + 0.055) / 1.055) ** 2.4)
+
+
+class Photos(Case):
+    def test_colors_come_back(self) -> None:
+        truth = ewa.generate("sphere", 3000).procedure("marble")
+        photos = []
+        for right in range(0, 360, 60):
+            camera = ewa.Camera.frame(truth, size=(96, 96)).orbit((0, 0, 0), (0, 1, 0), right)
+            photos.append((camera, ewa.render(truth, camera, planes=("rgba",), shading="none").rgba))
+        grey = ewa.generate("sphere", 3000)
+        made, report = grey.color_from_photos(photos, exposure="off")
+        seen = made["photo_count"].ravel() > 0
+        self.assertEqual(report.seen_count, int(seen.sum()))
+        self.assertGreater(seen.mean(), 0.8)
+        wanted = linear(truth["color"][seen, :3])
+        self.assertLess(np.abs(made["color"][seen, :3] - wanted).mean(), np.abs(linear(grey["color"][seen, :3]) - wanted).mean() / 10)
+        self.assertEqual(len(report.photographs), len(photos))
+
+    def test_wrong_pictures(self) -> None:
+        cloud = ewa.generate("sphere", 100)
+        camera = ewa.Camera.frame(cloud, size=(32, 32))
+        with self.assertRaisesRegex(ewa.ArgumentError, "photograph 0: shape"):
+            cloud.color_from_photos([(camera, np.zeros((32, 32), np.uint8))])
+        with self.assertRaises(ewa.FileError):
+            cloud.color_from_photos(self.path("nothing.json"))
+
+
+if __name__ == "__main__":
+    unittest.main()
