@@ -4,36 +4,28 @@
 // Ends by signals. Handlers call nothing but what POSIX lets them, and setitimer(), a plain system call.
 #define _DEFAULT_SOURCE // setitimer, SA_SIGINFO
 #include "cli/base/interruption.h"
+#include "cli/base/interruption_watch.h"
 
 #include <fcntl.h>
 #include <limits.h>
 #include <signal.h>
 #include <stdatomic.h>
-#include <stdbool.h>
 #include <stdint.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/time.h>
 #include <unistd.h>
 
-enum { MAX_FILES = 8, MAX_PROCESSES = 8, LINE_BYTES = PATH_MAX + 128 };
+enum { LINE_BYTES = PATH_MAX + 128 };
 
-/// What handlers see; `used` is set last and cleared first.
-static struct {
-    volatile sig_atomic_t used;
-    char path[PATH_MAX];
-} files[MAX_FILES];
-static volatile pid_t processes[MAX_PROCESSES];
 static volatile sig_atomic_t caught_signal;
 
+static void end_process(pid_t process) { kill(process, SIGKILL); }
+
+static void remove_file(const char *path) { unlink(path); }
+
 /// Leaves nothing behind. What the library writes has no name yet, or is removed by it.
-static void clean_up(void) {
-    for (int i = 0; i < MAX_PROCESSES; i++)
-        if (processes[i]) kill(processes[i], SIGKILL);
-    for (int i = 0; i < MAX_FILES; i++)
-        if (files[i].used) unlink(files[i].path);
-}
+static void clean_up(void) { interruption_clean_up(end_process, remove_file); }
 
 static void end_by(int number) {
     signal(number, SIG_DFL);
@@ -146,31 +138,4 @@ int interruption_signal(void) { return caught_signal; }
 
 void interruption_obey(void) {
     if (caught_signal) end_by(caught_signal);
-}
-
-void interruption_watch_file(const char *path) {
-    for (int i = 0; i < MAX_FILES; i++) {
-        if (files[i].used) continue;
-        snprintf(files[i].path, sizeof files[i].path, "%s", path);
-        files[i].used = true;
-        return;
-    }
-}
-
-void interruption_release_file(const char *path) {
-    for (int i = 0; i < MAX_FILES; i++)
-        if (files[i].used && strcmp(files[i].path, path) == 0) files[i].used = false;
-}
-
-void interruption_watch_process(pid_t process) {
-    for (int i = 0; i < MAX_PROCESSES; i++) {
-        if (processes[i]) continue;
-        processes[i] = process;
-        return;
-    }
-}
-
-void interruption_release_process(pid_t process) {
-    for (int i = 0; i < MAX_PROCESSES; i++)
-        if (processes[i] == process) processes[i] = 0;
 }

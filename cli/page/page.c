@@ -85,7 +85,7 @@ static bool look(cli_session *session, const page_arguments *arguments, const pa
 
 /// Puts the program beside the data of a folder. False after reporting.
 static bool put_program(cli_session *session, const page_assets *assets, page_data *data, page_words words) {
-    char path[PAGE_PATH_BYTES];
+    char path[PATH_BYTES];
     for (int i = 0; i <= PAGE_ASSET_COUNT; i++) {
         const bool is_page = i == PAGE_ASSET_COUNT; // which comes last: what it names is there
         if (i == PAGE_SINGLE_JS || (!is_page && !assets->each[i].bytes)) continue;

@@ -52,7 +52,7 @@ void page_bytes_free(page_bytes *bytes) {
 
 /// Loads one; where it is nowhere, nothing is said.
 static bool load_one(const char *folder, int asset, page_bytes *read) {
-    char path[PAGE_PATH_BYTES], own[PAGE_PATH_BYTES] = "";
+    char path[PATH_BYTES], own[PATH_BYTES] = "";
     int error;
     const char *place = folder;
     if (!folder && !path_of_own_folder(own)) return false;

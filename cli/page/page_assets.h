@@ -7,8 +7,6 @@
 
 #include "cli/base/session.h"
 
-enum { PAGE_PATH_BYTES = 4096 }; ///< of a path, with the 0 behind it
-
 /// Files of a page, in the order of page_asset_names.
 typedef enum page_asset {
     PAGE_FILES_JS,

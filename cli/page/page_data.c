@@ -3,7 +3,6 @@
 //
 // What a page shows, as files in a folder of its own beside a scene file that names them.
 #include "cli/page/page_data.h"
-#include "cli/base/path.h"
 #include "cli/base/pattern.h"
 #include "cli/input/gaussian_files.h"
 #include "cli/input/inputs.h"
@@ -31,7 +30,7 @@ bool page_data_add(page_data *data, const char *name) {
 }
 
 void page_data_remove(const page_data *data) {
-    char path[PAGE_PATH_BYTES];
+    char path[PATH_BYTES];
     for (size_t i = 0; i < data->count; i++)
         if (snprintf(path, sizeof path, "%s/%s", data->folder, data->names[i]) < (int)sizeof path) unlink(path);
 }
@@ -50,7 +49,7 @@ static bool has_name(const page_data *data, const char *name) {
 
 /// Takes a name for a file, that of `path` with the suffix `suffix` (NULL: its own) where no other has it, of letters that every
 /// system, address and text takes; writes where it is. False after reporting.
-static bool take_name(cli_session *session, page_data *data, const char *path, const char *suffix, char target[PAGE_PATH_BYTES]) {
+static bool take_name(cli_session *session, page_data *data, const char *path, const char *suffix, char target[PATH_BYTES]) {
     const char *from = path_file_name(path);
     char plain[PAGE_NAME_BYTES / 2], name[PAGE_NAME_BYTES];
     size_t length = 0;
@@ -66,7 +65,7 @@ static bool take_name(cli_session *session, page_data *data, const char *path, c
     snprintf(name, sizeof name, "%s%s", plain, suffix ? suffix : "");
     for (int i = 2; has_name(data, name); i++) snprintf(name, sizeof name, "%d-%s%s", i, plain, suffix ? suffix : "");
     if (!page_data_add(data, name)) return session_fail(session, "out of memory") == EXIT_DONE;
-    if (snprintf(target, PAGE_PATH_BYTES, "%s/%s", data->folder, name) < PAGE_PATH_BYTES) return true;
+    if (snprintf(target, PATH_BYTES, "%s/%s", data->folder, name) < PATH_BYTES) return true;
     return session_fail(session, "%s: the path is too long", data->folder) == EXIT_DONE;
 }
 
@@ -108,7 +107,7 @@ static bool is_bare(const ewa_cloud *cloud) {
     return true;
 }
 
-static bool put_points(cli_session *session, const char *path, bool small, page_data *data, char target[PAGE_PATH_BYTES]) {
+static bool put_points(cli_session *session, const char *path, bool small, page_data *data, char target[PATH_BYTES]) {
     ewa_model_format format;
     if (!session_passed(session, ewa_model_probe(session->context, path, &format))) return false;
     const bool mesh = format == EWA_MODEL_OBJ || format == EWA_MODEL_GLTF || format == EWA_MODEL_UNKNOWN;
@@ -128,7 +127,7 @@ static bool put_points(cli_session *session, const char *path, bool small, page_
     return take_name(session, data, path, NULL, target) && copy_file(session, path, target);
 }
 
-static bool put_gaussians(cli_session *session, const char *path, bool small, page_data *data, char target[PAGE_PATH_BYTES]) {
+static bool put_gaussians(cli_session *session, const char *path, bool small, page_data *data, char target[PATH_BYTES]) {
     const ewa_gaussian_format format = gaussian_files_format(session, path);
     const bool read = format == EWA_GAUSSIANS_PLY || format == EWA_GAUSSIANS_PACKED_PLY || format == EWA_GAUSSIANS_SPLAT ||
                       format == EWA_GAUSSIANS_SPZ || format == EWA_GAUSSIANS_KSPLAT;
@@ -145,7 +144,7 @@ static bool put_gaussians(cli_session *session, const char *path, bool small, pa
     return done;
 }
 
-static bool put_volume(cli_session *session, const char *path, page_data *data, char target[PAGE_PATH_BYTES]) {
+static bool put_volume(cli_session *session, const char *path, page_data *data, char target[PATH_BYTES]) {
     if (path_has_suffix(path, ".nrrd")) return take_name(session, data, path, NULL, target) && copy_file(session, path, target);
     ewa_volume volume;
     if (!take_name(session, data, path, ".nrrd", target) ||
@@ -158,7 +157,7 @@ static bool put_volume(cli_session *session, const char *path, page_data *data, 
 
 /// Puts one file into the folder; where it is then. False after reporting.
 static bool put(cli_session *session, const char *path, const ewa_asset_options *options, bool small, page_data *data,
-                char target[PAGE_PATH_BYTES]) {
+                char target[PATH_BYTES]) {
     ewa_asset_kind kind;
     if (!session_passed(session, ewa_asset_probe(session->context, path, options, &kind))) return false;
     if (kind == EWA_ASSET_GAUSSIANS) return put_gaussians(session, path, small, data, target);
@@ -191,7 +190,7 @@ static bool put_scene(cli_session *session, const char *path, const page_choice 
     bool done = true;
     for (uint32_t i = 0; i < ewa_scene_file_count(file) && done; i++) {
         ewa_scene_entry entry;
-        char target[PAGE_PATH_BYTES], transfer[PAGE_PATH_BYTES];
+        char target[PATH_BYTES], transfer[PATH_BYTES];
         done = session_passed(session, ewa_scene_file_entry(file, i, &entry)) &&
                put(session, entry.path, &entry.asset, choice->small, data, target);
         if (done && entry.asset.transfer && access(entry.asset.transfer, F_OK) == 0) {
@@ -206,7 +205,7 @@ static bool put_scene(cli_session *session, const char *path, const page_choice 
 }
 
 static bool put_file(cli_session *session, const char *path, const page_choice *choice, ewa_scene *scene, page_data *data) {
-    char target[PAGE_PATH_BYTES];
+    char target[PATH_BYTES];
     ewa_instance instance;
     ewa_instance_init(&instance, sizeof instance);
     ewa_asset_kind kind;
@@ -220,7 +219,7 @@ static bool put_file(cli_session *session, const char *path, const page_choice *
 bool page_data_make(cli_session *session, const page_choice *choice, page_data *data) {
     ewa_scene_options options = *choice->options;
     ewa_scene *scene = NULL;
-    char path[PAGE_PATH_BYTES];
+    char path[PATH_BYTES];
     bool done = session_passed(session, ewa_scene_create(session->context, &options, &scene));
     for (size_t i = 0; i < choice->count && done; i++)
         done = ewa_scene_file_probe(choice->paths[i]) ? put_scene(session, choice->paths[i], choice, &options, scene, data)

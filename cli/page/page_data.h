@@ -5,6 +5,7 @@
 #ifndef EWA_CLI_PAGE_DATA_H
 #define EWA_CLI_PAGE_DATA_H
 
+#include "cli/base/path.h"
 #include "cli/page/page_assets.h"
 
 enum { PAGE_NAME_BYTES = 256 };
@@ -13,7 +14,7 @@ enum { PAGE_NAME_BYTES = 256 };
 
 /// Names of the files in the folder, the scene file last.
 typedef struct page_data {
-    char folder[PAGE_PATH_BYTES];
+    char folder[PATH_BYTES];
     char (*names)[PAGE_NAME_BYTES];
     size_t count, room;
 } page_data;

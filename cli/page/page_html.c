@@ -85,7 +85,7 @@ static void write_part(const char *attribute, const char *value, const page_byte
 static bool write_data(cli_session *session, const page_data *data, FILE *file) {
     uint64_t total_bytes = 0;
     for (size_t i = 0; i < data->count; i++) {
-        char path[PAGE_PATH_BYTES];
+        char path[PATH_BYTES];
         page_bytes part;
         int error = ENAMETOOLONG;
         const int length = snprintf(path, sizeof path, "%s/%s", data->folder, data->names[i]);

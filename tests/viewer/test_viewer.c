@@ -127,6 +127,21 @@ static void moving_ends_in_the_same_picture(void **state) {
     ewa_context_destroy(&contents.context);
 }
 
+/// Closes a viewer; what it loaded is given back.
+static void close_viewer(viewer *v) {
+    viewer_do(v, "close 0");
+    settle(v);
+    viewer_destroy(&v);
+    ewa_context_destroy(&contents.context);
+    assert_int_equal(contents.loads, contents.frees);
+}
+
+/// Two pictures are the same; frees them.
+static void compare_pictures(uint8_t *pictures[2]) {
+    assert_memory_equal(pictures[0], pictures[1], 4 * PIXELS);
+    for (int i = 0; i < 2; i++) free(pictures[i]);
+}
+
 /// Of a stepped viewer: events that wait while it draws, and how often it asked.
 static int waiting_count, asked_count;
 
@@ -163,14 +178,9 @@ static void stepped_viewers_show_the_same(void **state) {
                 assert_int_equal(waiting_count, 0);
             }
             pictures[stepped] = copy_picture(&picture);
-            viewer_do(v, "close 0");
-            settle(v);
-            viewer_destroy(&v);
-            ewa_context_destroy(&contents.context);
-            assert_int_equal(contents.loads, contents.frees);
+            close_viewer(v);
         }
-        assert_memory_equal(pictures[0], pictures[1], 4 * PIXELS);
-        for (int i = 0; i < 2; i++) free(pictures[i]);
+        compare_pictures(pictures);
     }
 }
 
@@ -495,14 +505,9 @@ static void octrees_get_finer(void **state) {
         settle(v);
         assert_true(viewer_item_get(v, 0, &item));
         assert_string_equal(item.coloring.attribute, "z");
-        viewer_do(v, "close 0");
-        settle(v);
-        viewer_destroy(&v);
-        ewa_context_destroy(&contents.context);
-        assert_int_equal(contents.loads, contents.frees);
+        close_viewer(v);
     }
-    assert_memory_equal(pictures[0], pictures[1], 4 * PIXELS);
-    for (int k = 0; k < 2; k++) free(pictures[k]);
+    compare_pictures(pictures);
 }
 
 int main(void) {
