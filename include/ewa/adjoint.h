@@ -39,7 +39,7 @@ typedef struct ewa_gradient {
     double *radius;   ///< 1 per point, per world unit
     double *tangent_u, *tangent_v; ///< 3 per point, per world unit
     ewa_camera_cotangent *camera;
-    double *rgba; ///< 4 per pixel: no derivative, but the picture that they are of, as ewa_frame.rgba
+    double *rgba; ///< 4 per pixel: no derivative, but the picture that they are of, as ewa_frame.rgba but for splats at contours
 } ewa_gradient;
 
 /// Takes the cotangents of a picture as ewa_render() draws it to those of what made it, in double precision: the same

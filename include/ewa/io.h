@@ -392,7 +392,7 @@ typedef struct ewa_photo {
     ewa_camera camera;
     ewa_lens lens;          ///< zeros: none
     const char *path;       ///< of its file; NULL: none
-    const ewa_image *image; ///< what it shows, RGB or RGBA of the camera's size; NULL: as the file has it
+    const ewa_image *image; ///< of the camera's size, 1, 3 or 4 channels, linear light, premultiplied; NULL: as the file has it
 } ewa_photo;
 
 /// The photographs that a file of cameras names.

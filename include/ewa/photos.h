@@ -65,7 +65,7 @@ typedef struct ewa_photo_report {
     double gain[3], offset[3]; ///< it shows gain * colour + offset, linear light
     double rms;      ///< difference from the points' picture, sRGB numbers in [0, 1]
     double rejected; ///< share of its pixels that count less than a quarter
-    double psnr_db;  ///< the same as rms; infinite where nothing differs
+    double psnr_db;  ///< the same as rms; infinite where nothing differs, NaN where it sees none of the points
 } ewa_photo_report;
 
 /// What was done.
@@ -80,17 +80,18 @@ typedef struct ewa_photos_report {
 /// Gives surfels the colours that photographs show: "color" F32, linear light, 3 components, or 4 where there were 4. A
 /// pixel is the weighted mean of the surfels of its nearest surface, with the weights that ewa_render() has
 /// (docs/math.md section 15: what it changes by their colours); pixels that a surface does not fill do not count, nor
-/// transparent ones of photographs, and those at either end of the range count a tenth. Exposures are found from what
+/// those of photographs that are not opaque, and those at either end of the range count a tenth. Exposures are found from what
 /// the photographs say of the same points, the mean of the logarithms of their gains being 0. The fit minimises
 ///
 ///     sum over photographs and pixels  w |A c - (photo - offset)/gain|^2 + ridge |c - median|^2
 ///
 /// by conjugate gradients, with w the robust weights of Geman and McClure. Colours may leave [0, 1]; nothing but output
-/// clamps them. Photographs of lenses are undistorted. One photograph is in memory at a time. Of photographs with the same camera the order counts, else none;
-/// nor does the number of threads.
+/// clamps them. Photographs of lenses are undistorted. One photograph is in memory at a time. The order of the photographs
+/// counts where some are held out, and of those with the same camera; else it does not, nor does the number of threads.
 ///
 /// `cloud`: "position" and what surfels need (see ewa_surfels_create()). `per_photo`: `count` reports; it, `options` and
-/// `report` may be NULL. Progress stage: "photos". After a failure the cloud is as it was. Errors: EWA_ERROR_ARGUMENT (options;
+/// `report` may be NULL. Progress stage: "photos". After a failure the colours are as they were; "photo_count" and
+/// "photo_residual" of an earlier call may be gone. Errors: EWA_ERROR_ARGUMENT (options;
 /// no photographs; a photograph of another size than its camera, with neither path nor image, of other than 1, 3 or 4
 /// channels; none that sees a point), those of ewa_image_load(), EWA_ERROR_LIMIT, EWA_ERROR_MEMORY, EWA_CANCELLED. A
 /// warning names a photograph that sees no point.

@@ -5,6 +5,7 @@
 #include "adjoint/tiles.h"
 #include "base/base.h"
 #include "cloud/cloud.h"
+#include "surface/proxy.h"
 
 /// Fails at the first number of a plane that is not finite.
 static ewa_status check_plane(ewa_context *context, const char *name, const float *plane, uint32_t components,
@@ -28,17 +29,6 @@ static ewa_status check_cotangent(ewa_context *context, const ewa_frame_cotangen
     return check_plane(context, "coverage", cotangent->coverage, 1, camera);
 }
 
-/// q0 as surfels measure it.
-static ewa_status measure_coverage(const ewa_cloud *cloud, const ewa_surfels_options *options, double *unit_coverage) {
-    ewa_surfels *surfels = NULL;
-    EWA_TRY(ewa_surfels_create(cloud, options, &surfels));
-    ewa_surfels_info info;
-    ewa_surfels_describe(surfels, &info);
-    ewa_surfels_destroy(&surfels);
-    *unit_coverage = info.unit_coverage;
-    return EWA_OK;
-}
-
 ewa_status ewa_adjoint_backward(const ewa_cloud *cloud, const ewa_surfels_options *surfels_options,
                                 double unit_coverage, const ewa_camera *camera, const ewa_render_options *options,
                                 const ewa_frame_cotangent *cotangent, const ewa_gradient *gradient, uint32_t tile_px) {
@@ -46,7 +36,7 @@ ewa_status ewa_adjoint_backward(const ewa_cloud *cloud, const ewa_surfels_option
     ewa_context *context = ewa_cloud_context(cloud);
     if (!camera || !gradient)
         return ewa_fail(context, EWA_ERROR_ARGUMENT, "gradients: no %s", camera ? "gradient" : "camera");
-    if (unit_coverage == 0) EWA_TRY(measure_coverage(cloud, surfels_options, &unit_coverage));
+    if (unit_coverage == 0) EWA_TRY(ewa_surfels_measure_unit_coverage(cloud, surfels_options, &unit_coverage));
     ewa_adjoint_job job = {.gradient = *gradient};
     EWA_TRY(ewa_reference_frame_make(cloud, surfels_options, unit_coverage, camera, options, &job.frame));
     if (job.frame.point_count > UINT32_MAX - EWA_BIN_ALIGNMENT)

@@ -8,6 +8,7 @@
 #define EWA_SRC_ADJOINT_EXACT_H
 
 #include <math.h>
+#include <stdbool.h>
 #include <stdint.h>
 
 enum {
@@ -19,6 +20,7 @@ enum {
 /// A sum; starts with zeros.
 typedef struct ewa_exact_sum {
     int64_t parts[EWA_EXACT_PARTS]; ///< times 2^(EWA_EXACT_STEP i - EWA_EXACT_BIAS)
+    bool not_finite; ///< some term was infinite or no number: the sum is no number
 } ewa_exact_sum;
 
 /// Adds whole x 2^exponent.
@@ -27,9 +29,13 @@ static inline void ewa_exact_add_whole(ewa_exact_sum *sum, int64_t whole, int ex
     sum->parts[place / EWA_EXACT_STEP] += whole * (1 << place % EWA_EXACT_STEP);
 }
 
-/// Adds a finite number, exactly.
+/// Adds a number, exactly if it is finite.
 static inline void ewa_exact_add(ewa_exact_sum *sum, double value) {
     enum { HALF = 26 };
+    if (!isfinite(value)) {
+        sum->not_finite = true;
+        return;
+    }
     int exponent;
     const double part = ldexp(frexp(value, &exponent), HALF), high = trunc(part); // |part| < 2^26
     ewa_exact_add_whole(sum, (int64_t)high, exponent - HALF);
@@ -38,6 +44,7 @@ static inline void ewa_exact_add(ewa_exact_sum *sum, double value) {
 
 static inline void ewa_exact_join(ewa_exact_sum *sum, const ewa_exact_sum *more) {
     for (int i = 0; i < EWA_EXACT_PARTS; i++) sum->parts[i] += more->parts[i];
+    sum->not_finite |= more->not_finite;
 }
 
 /// The sum times `sign`, or a negative number if that is negative. All parts but the last become [0, 2^EWA_EXACT_STEP).
@@ -58,6 +65,7 @@ static inline double ewa_exact_value_of(const ewa_exact_sum *sum, int64_t sign) 
 
 /// Returns the sum, rounded a few times at its last digit.
 static inline double ewa_exact_value(const ewa_exact_sum *sum) {
+    if (sum->not_finite) return NAN;
     const double value = ewa_exact_value_of(sum, 1);
     return value < 0 ? -ewa_exact_value_of(sum, -1) : value;
 }

@@ -119,7 +119,8 @@ static ewa_status reserve(ewa_adjoint_job *job) {
     const uint64_t splats = job->lists.largest;
     for (uint32_t i = 0; i < job->worker_count; i++) {
         ewa_adjoint_scratch *s = &job->scratch[i];
-        EWA_TRY(ewa_reference_rows_reserve(context, &s->rows, (uint32_t)splats, job->tiles.side_px));
+        EWA_TRY(ewa_reference_rows_reserve(context, &s->rows, (uint32_t)splats, job->frame.resolve.layering.most,
+                                          job->tiles.side_px));
         s->moments = ewa_allocate(context, splats, sizeof *s->moments);
         s->scales = ewa_allocate(context, splats, sizeof *s->scales);
         if (!s->moments || !s->scales) return EWA_ERROR_MEMORY;
@@ -182,7 +183,7 @@ static void store_camera(const ewa_adjoint_job *job) {
         &to->rotation[0],    &to->rotation[1],    &to->rotation[2], &to->translation[0], &to->translation[1],
         &to->translation[2], &to->focal_px[0],    &to->focal_px[1], &to->principal_px[0], &to->principal_px[1]};
     for (int i = 0; i < EWA_CAMERA_NUMBERS; i++) {
-        ewa_exact_sum sum = {{0}};
+        ewa_exact_sum sum = {.not_finite = false};
         for (uint32_t worker = 0; worker < job->worker_count; worker++)
             ewa_exact_join(&sum, &job->scratch[worker].camera[i]);
         *members[i] = ewa_exact_value(&sum);

@@ -28,9 +28,9 @@ void ewa_adjoint_scales(const ewa_adjoint_job *job, const ewa_reference_splat *s
     scales[EWA_MOMENT_DEPTH + 2] = depth;
 }
 
-/// A term in units.
+/// A term in units; 0 of what is no number, which comes of colours that are not finite.
 static inline int64_t whole_units(double term, double scale) {
-    const double units = fmin(fmax(term * scale, -0x1p52), 0x1p52);
+    const double exact = term * scale, units = isnan(exact) ? 0 : fmin(fmax(exact, -0x1p52), 0x1p52);
     return (int64_t)(units < 0 ? units - 0.5 : units + 0.5);
 }
 

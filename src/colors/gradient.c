@@ -12,7 +12,7 @@
 enum { SIDES = EWA_GRADIENT_SIDES };
 
 typedef struct gradient_state {
-    const ewa_gradient *job;
+    const ewa_conjugate_gradient *job;
     double *direction, *product, *preconditioned; // [size][count]
     double *partial;                              // [block][2][SIDES]
     double alpha[SIDES], beta[SIDES];
@@ -48,7 +48,7 @@ static inline __attribute__((always_inline)) void advance(const gradient_state *
 static void advance_block(void *data, uint32_t block, uint32_t worker) {
     (void)worker;
     const gradient_state *state = data;
-    const ewa_gradient *job = state->job;
+    const ewa_conjugate_gradient *job = state->job;
     const uint32_t count = job->count;
     const size_t first = (size_t)block * EWA_GRADIENT_BLOCK_ROWS,
                  end = ewa_gradient_block_end(job->size, block);
@@ -92,7 +92,7 @@ static void run_blocks(gradient_state *state, ewa_task *task, double sum[2][SIDE
 }
 
 static ewa_status iterate(gradient_state *state, uint32_t *iterations) {
-    const ewa_gradient *job = state->job;
+    const ewa_conjugate_gradient *job = state->job;
     const uint32_t count = job->count;
     const size_t bytes = (size_t)job->size * count * sizeof(double);
     double old[SIDES] = {0}, goal[SIDES] = {0}, sum[2][SIDES], max_start = 0, share = 0;
@@ -132,7 +132,7 @@ static ewa_status iterate(gradient_state *state, uint32_t *iterations) {
     }
 }
 
-ewa_status ewa_gradient_run(const ewa_gradient *job, uint32_t *iterations) {
+ewa_status ewa_conjugate_gradient_run(const ewa_conjugate_gradient *job, uint32_t *iterations) {
     const size_t size = (size_t)job->size * job->count,
                  partial_count = (size_t)ewa_gradient_blocks(job->size) * 2 * SIDES;
     double *own = job->precondition ? ewa_allocate(job->context, size, sizeof *own) : NULL;

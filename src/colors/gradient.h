@@ -22,7 +22,7 @@ static inline uint32_t ewa_gradient_block_end(uint32_t size, uint32_t block) {
 }
 
 /// A system A x = b with `count` right sides; vectors hold size * count numbers, those of one row together.
-typedef struct ewa_gradient {
+typedef struct ewa_conjugate_gradient {
     ewa_context *context;
     uint32_t size, count;
     double *solution, *residual; ///< b comes in `residual`; x and b - A x go out
@@ -38,10 +38,10 @@ typedef struct ewa_gradient {
     ewa_severity unsolved_severity; ///< of the message with EWA_ERROR_NUMERIC
     const char *stage;              ///< of the progress, which goes from `begin` to `end`
     double begin, end;
-} ewa_gradient;
+} ewa_conjugate_gradient;
 
 /// Solves; `*iterations` gets the steps. Does not depend on the number of threads. Errors: EWA_ERROR_NUMERIC
 /// (a map that is not positive definite), EWA_ERROR_MEMORY, EWA_CANCELLED.
-ewa_status ewa_gradient_run(const ewa_gradient *job, uint32_t *iterations);
+ewa_status ewa_conjugate_gradient_run(const ewa_conjugate_gradient *job, uint32_t *iterations);
 
 #endif

@@ -122,7 +122,7 @@ static double find_rest(refit_job *job, const double *coefficients) {
 static ewa_status solve(refit_job *job, ewa_refit_report *report) {
     report->before_rms = find_rest(job, job->color);
     ewa_parallel(job->context, start_block, job, job->block_count);
-    const ewa_gradient system = {.context = job->context,
+    const ewa_conjugate_gradient system = {.context = job->context,
                                  .size = job->matrix.count,
                                  .count = CHANNELS,
                                  .solution = job->change,
@@ -135,7 +135,7 @@ static ewa_status solve(refit_job *job, ewa_refit_report *report) {
                                  .stage = "refit",
                                  .begin = 0.3,
                                  .end = 1};
-    EWA_TRY(ewa_gradient_run(&system, &report->iteration_count));
+    EWA_TRY(ewa_conjugate_gradient_run(&system, &report->iteration_count));
     for (size_t i = 0; i < (size_t)job->matrix.count * CHANNELS; i++) job->change[i] += job->color[i];
     report->after_rms = find_rest(job, job->change);
     return ewa_progress(job->context, "refit", 1);

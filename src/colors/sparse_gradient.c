@@ -91,7 +91,7 @@ static void precondition_block(const void *system, uint32_t block, const double 
 
 ewa_status ewa_sparse_gradient_run(const sparse_gradient *job, uint32_t *iterations) {
     memcpy(job->residual, job->sides, (size_t)job->matrix->size * job->count * sizeof *job->residual);
-    const ewa_gradient gradient = {.context = job->context,
+    const ewa_conjugate_gradient gradient = {.context = job->context,
                                    .size = job->matrix->size,
                                    .count = job->count,
                                    .solution = job->solution,
@@ -104,5 +104,5 @@ ewa_status ewa_sparse_gradient_run(const sparse_gradient *job, uint32_t *iterati
                                    .unsolved_severity = job->unsolved_severity,
                                    .stage = "solve",
                                    .end = 0.99};
-    return ewa_gradient_run(&gradient, iterations);
+    return ewa_conjugate_gradient_run(&gradient, iterations);
 }

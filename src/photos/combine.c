@@ -15,9 +15,6 @@ enum {
 /// The largest change of a gain or an offset with which the turns end.
 static const double SETTLED = 2e-6;
 
-/// Photographs that see fewer points have the exposure that they come with.
-static const uint32_t LEAST_PAIRS = 8;
-
 /// One photograph's number and weight.
 typedef struct said {
     double number, weight;
@@ -120,7 +117,7 @@ static void expose_photo(void *data, uint32_t index, uint32_t worker) {
     ewa_photo_state *photo = &exposure->job->photos[index];
     const sample_pairs user = {exposure->job, photo};
     const ewa_exposure_pairs pairs = {photo->sample_count, &user, get_pair};
-    if (!photo->held_out && photo->sample_count >= LEAST_PAIRS)
+    if (ewa_photo_is_exposed(photo))
         ewa_exposure_step(&pairs, exposure->job->options.exposure, exposure->scale, photo->gain, photo->offset);
 }
 
@@ -133,8 +130,10 @@ static void copy_exposures(const ewa_photos_job *job, double *to) {
         }
 }
 
-static ewa_status find_exposures(ewa_photos_job *job, double *before, double *after, size_t count) {
+static ewa_status find_exposures(ewa_photos_job *job, double begin, double end, double *before, double *after,
+                                 size_t count) {
     for (int step = 0; step < MAX_STEPS; step++) {
+        EWA_TRY(ewa_progress(job->context, "photos", begin + (end - begin) * step / MAX_STEPS));
         const double wide = step < WIDE_STEPS ? ldexp(1, WIDE_STEPS - step) : 1;
         exposure_job exposure = {job, job->options.robust * wide};
         EWA_TRY(ewa_photos_combine(job, EWA_PHOTOS_MEDIAN));
@@ -149,12 +148,12 @@ static ewa_status find_exposures(ewa_photos_job *job, double *before, double *af
     return EWA_OK;
 }
 
-ewa_status ewa_photos_settle(ewa_photos_job *job) {
+ewa_status ewa_photos_settle(ewa_photos_job *job, double begin, double end) {
     const size_t count = (size_t)job->photo_count * EWA_PHOTO_CHANNELS * 2;
     ewa_status status = EWA_OK;
     if (job->options.exposure != EWA_EXPOSURE_OFF) {
         double *room = ewa_allocate(job->context, 2 * count, sizeof *room);
-        status = room ? find_exposures(job, room, room + count, count) : EWA_ERROR_MEMORY;
+        status = room ? find_exposures(job, begin, end, room, room + count, count) : EWA_ERROR_MEMORY;
         ewa_release(job->context, room, 2 * count, sizeof *room);
     }
     const ewa_photos_method method = job->options.method;

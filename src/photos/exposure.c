@@ -8,8 +8,6 @@
 
 #include <math.h>
 
-/// Errors count relative to this and the colour, as they do where numbers are sRGB.
-static const double LEAST_COLOR = 0.02;
 /// What pulls offsets to 0 where all colours are alike, in squares of colours.
 static const double OFFSET_PULL = 1e-5;
 /// Gains of a photograph that shows next to nothing stay within.
@@ -36,7 +34,7 @@ void ewa_exposure_step(const ewa_exposure_pairs *pairs, ewa_photos_exposure kind
         for (int c = 0; c < EWA_PHOTO_CHANNELS; c++) wanted[c] = gain[c] * color[c] + offset[c];
         weight *= ewa_robust_weight(shown, wanted, scale);
         for (int c = 0; c < EWA_PHOTO_CHANNELS; c++) {
-            const double w = weight / (fmax(color[c], 0) + LEAST_COLOR), x = color[c], f = shown[c];
+            const double w = weight / (fmax(color[c], 0) + EWA_PHOTO_LEAST_COLOR), x = color[c], f = shown[c];
             const double terms[5] = {w, w * x, w * x * x, w * f, w * x * f};
             for (int k = 0; k < 5; k++) sums[c][k] += terms[k];
         }
@@ -63,7 +61,7 @@ void ewa_exposures_centre(ewa_photos_job *job, double *const *colors, uint32_t a
         uint32_t count = 0;
         for (uint32_t i = 0; i < job->photo_count; i++) {
             const ewa_photo_state *photo = &job->photos[i];
-            if (photo->held_out || photo->sample_count == 0) continue;
+            if (!ewa_photo_is_exposed(photo)) continue;
             logs += log(photo->gain[c]), gains += photo->gain[c], offsets += photo->offset[c];
             count++;
         }

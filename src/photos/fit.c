@@ -17,8 +17,6 @@ enum {
 
 /// Of the gradient, relative to the first, at which the steps end: pictures do not change any more.
 static const double TOLERANCE = 1e-4;
-/// Errors count relative to this and the colour, as they do where numbers are sRGB.
-static const double LEAST_COLOR = 0.02;
 
 /// One photograph of a round.
 typedef struct fit_photo {
@@ -51,7 +49,7 @@ static void weigh_piece(void *data, uint32_t index, uint32_t worker) {
             wanted[c] = gain[c] * color[c] + offset[c];
             mean += fmax(color[c], 0) / EWA_PHOTO_CHANNELS;
         }
-        weight *= ewa_robust_weight(shown, wanted, at->job->options.robust) / (mean + LEAST_COLOR);
+        weight *= ewa_robust_weight(shown, wanted, at->job->options.robust) / (mean + EWA_PHOTO_LEAST_COLOR);
         at->weight[i] = weight;
         double *rest = at->rest + (size_t)i * EWA_PHOTO_CHANNELS;
         for (int c = 0; c < EWA_PHOTO_CHANNELS; c++) rest[c] = weight * ((shown[c] - offset[c]) / gain[c] - color[c]);
@@ -62,7 +60,7 @@ static ewa_status add_photo(fit_photo *at, ewa_normal *normal) {
     const ewa_photos_job *job = at->job;
     const ewa_exposure_pairs pairs = {at->view->pixel_count, at, get_pair};
     ewa_photo_view_show(at->view, job->color, at->shown);
-    for (int step = 0; step < EXPOSURE_STEPS; step++)
+    for (int step = 0; step < EXPOSURE_STEPS && ewa_photo_is_exposed(at->photo); step++)
         ewa_exposure_step(&pairs, job->options.exposure, job->options.robust, at->photo->gain, at->photo->offset);
     ewa_parallel(job->context, weigh_piece, at, (at->view->pixel_count + EWA_PHOTO_PIECE - 1) / EWA_PHOTO_PIECE);
     return ewa_normal_add(normal, at->view, at->weight, at->rest);
@@ -112,7 +110,7 @@ static ewa_status improve(ewa_photos_job *job, ewa_normal *normal, const double 
     const fit_system system = {normal, job->options.ridge * ewa_normal_median(normal)};
     if (!(system.ridge > 0)) return EWA_OK;
     for (size_t i = 0; i < size; i++) normal->sides[i] -= system.ridge * (job->color[i] - start[i]);
-    const ewa_gradient gradient = {.context = job->context,
+    const ewa_conjugate_gradient gradient = {.context = job->context,
                                    .size = job->point_count,
                                    .count = EWA_PHOTO_CHANNELS,
                                    .solution = change,
@@ -125,7 +123,7 @@ static ewa_status improve(ewa_photos_job *job, ewa_normal *normal, const double 
                                    .begin = begin,
                                    .end = end};
     uint32_t steps;
-    EWA_TRY(ewa_gradient_run(&gradient, &steps));
+    EWA_TRY(ewa_conjugate_gradient_run(&gradient, &steps));
     for (size_t i = 0; i < size; i++)
         if (job->counts[i / EWA_PHOTO_CHANNELS]) job->color[i] += change[i];
     return EWA_OK;
@@ -137,11 +135,12 @@ static ewa_status run_round(ewa_photos_job *job, double *start, double *change, 
     ewa_status status = ewa_normal_make(job->context, job->point_count, &normal);
     for (uint32_t i = 0; i < job->photo_count && status == EWA_OK; i++) {
         ewa_photo_state *photo = &job->photos[i];
-        status = ewa_progress(job->context, "photos", begin + (end - begin) * 0.9 * i / job->photo_count);
+        const double fraction = begin + (end - begin) * 0.9 * i / job->photo_count;
+        status = ewa_progress(job->context, "photos", fraction);
         if (photo->held_out || photo->sample_count == 0 || status != EWA_OK) continue;
         ewa_photo_view view;
         status = ewa_photo_view_make(job->cloud, photo->photo, photo->number, job->unit_coverage, &job->options,
-                                     &photo->halvings, &view);
+                                     fraction, &photo->halvings, &view);
         if (status != EWA_OK) break;
         status = add_view(job, photo, &view, &normal);
         ewa_photo_view_free(&view);

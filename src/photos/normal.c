@@ -16,26 +16,34 @@ enum {
 };
 
 /// What one worker needs for a row.
-typedef struct row_room {
+typedef struct ewa_normal_room {
     uint32_t *places; ///< [point]: where it is among those of the row, from 1 on; 0: not there
     uint32_t *found;  ///< [point]: those of the row
     double *sums;     ///< [point]: of each of them
-} row_room;
+} ewa_normal_room;
 
 typedef struct add_job {
     ewa_normal *normal;
     const ewa_photo_view *view;
     const double *weight, *rest;
-    row_room *rooms;               ///< [worker]
     uint32_t first;                ///< block of the wave
     ewa_normal_block made[WAVE_BLOCKS]; ///< of the wave; starts are counts at first
 } add_job;
 
 ewa_status ewa_normal_make(ewa_context *context, uint32_t count, ewa_normal *normal) {
-    *normal = (ewa_normal){.context = context, .count = count};
+    *normal = (ewa_normal){.context = context, .count = count, .worker_count = ewa_context_worker_count(context)};
     normal->blocks = ewa_allocate_zeroed(context, ewa_gradient_blocks(count), sizeof *normal->blocks);
     normal->sides = ewa_allocate_zeroed(context, (size_t)count * EWA_PHOTO_CHANNELS, sizeof *normal->sides);
-    return normal->blocks && normal->sides ? EWA_OK : EWA_ERROR_MEMORY;
+    normal->rooms = ewa_allocate_zeroed(context, normal->worker_count, sizeof *normal->rooms);
+    if (!normal->blocks || !normal->sides || !normal->rooms) return EWA_ERROR_MEMORY;
+    for (uint32_t i = 0; i < normal->worker_count; i++) {
+        ewa_normal_room *room = &normal->rooms[i];
+        room->places = ewa_allocate_zeroed(context, count, sizeof *room->places);
+        room->found = ewa_allocate(context, count, sizeof *room->found);
+        room->sums = ewa_allocate(context, count, sizeof *room->sums);
+        if (!room->places || !room->found || !room->sums) return EWA_ERROR_MEMORY;
+    }
+    return EWA_OK;
 }
 
 static void free_block(ewa_context *context, ewa_normal_block *block) {
@@ -47,12 +55,19 @@ static void free_block(ewa_context *context, ewa_normal_block *block) {
 void ewa_normal_free(ewa_normal *normal) {
     const uint32_t blocks = ewa_gradient_blocks(normal->count);
     for (uint32_t i = 0; normal->blocks && i < blocks; i++) free_block(normal->context, &normal->blocks[i]);
+    for (uint32_t i = 0; normal->rooms && i < normal->worker_count; i++) {
+        ewa_normal_room *room = &normal->rooms[i];
+        ewa_release(normal->context, room->places, normal->count, sizeof *room->places);
+        ewa_release(normal->context, room->found, normal->count, sizeof *room->found);
+        ewa_release(normal->context, room->sums, normal->count, sizeof *room->sums);
+    }
+    ewa_release(normal->context, normal->rooms, normal->worker_count, sizeof *normal->rooms);
     ewa_release(normal->context, normal->blocks, blocks, sizeof *normal->blocks);
     ewa_release(normal->context, normal->sides, (size_t)normal->count * EWA_PHOTO_CHANNELS, sizeof *normal->sides);
 }
 
 /// Adds to a point's number in a row of `count` points.
-static inline void add_number(row_room *room, uint32_t *count, uint32_t point, double number) {
+static inline void add_number(ewa_normal_room *room, uint32_t *count, uint32_t point, double number) {
     if (!room->places[point]) {
         room->found[*count] = point, room->sums[*count] = 0;
         room->places[point] = ++*count;
@@ -61,7 +76,7 @@ static inline void add_number(row_room *room, uint32_t *count, uint32_t point, d
 }
 
 /// Makes the row of a point; returns how many points are in it.
-static uint32_t make_row(const add_job *job, row_room *room, uint32_t point, const ewa_normal_block *old, uint32_t row) {
+static uint32_t make_row(const add_job *job, ewa_normal_room *room, uint32_t point, const ewa_normal_block *old, uint32_t row) {
     const ewa_photo_view *view = job->view;
     uint32_t count = 0;
     for (uint32_t i = old->starts ? old->starts[row] : 0; old->starts && i < old->starts[row + 1]; i++)
@@ -90,13 +105,13 @@ static void count_block(void *data, uint32_t index, uint32_t worker) {
     if (!starts) return;
     for (uint32_t point = first; point < ewa_gradient_block_end(job->normal->count, block); point++)
         starts[point - first + 1] =
-            make_row(job, &job->rooms[worker], point, &job->normal->blocks[block], point - first);
+            make_row(job, &job->normal->rooms[worker], point, &job->normal->blocks[block], point - first);
 }
 
 /// Fills the rows of a block, and adds to their right sides.
 static void fill_block(void *data, uint32_t index, uint32_t worker) {
     add_job *job = data;
-    row_room *room = &job->rooms[worker];
+    ewa_normal_room *room = &job->normal->rooms[worker];
     const uint32_t block = job->first + index, first = block * EWA_GRADIENT_BLOCK_ROWS;
     const ewa_normal_block *made = &job->made[index];
     if (!made->starts) return;
@@ -149,34 +164,12 @@ static ewa_status run_wave(add_job *job, uint32_t count) {
     return status;
 }
 
-static ewa_status reserve(add_job *job, uint32_t worker_count) {
-    ewa_context *context = job->normal->context;
-    const uint32_t count = job->normal->count;
-    job->rooms = ewa_allocate_zeroed(context, worker_count, sizeof *job->rooms);
-    for (uint32_t i = 0; job->rooms && i < worker_count; i++) {
-        row_room *room = &job->rooms[i];
-        room->places = ewa_allocate_zeroed(context, count, sizeof *room->places);
-        room->found = ewa_allocate(context, count, sizeof *room->found);
-        room->sums = ewa_allocate(context, count, sizeof *room->sums);
-        if (!room->places || !room->found || !room->sums) return EWA_ERROR_MEMORY;
-    }
-    return job->rooms ? EWA_OK : EWA_ERROR_MEMORY;
-}
-
 ewa_status ewa_normal_add(ewa_normal *normal, const ewa_photo_view *view, const double *weight, const double *rest) {
-    ewa_context *context = normal->context;
-    const uint32_t worker_count = ewa_context_worker_count(context), blocks = ewa_gradient_blocks(normal->count);
+    const uint32_t blocks = ewa_gradient_blocks(normal->count);
     add_job job = {.normal = normal, .view = view, .weight = weight, .rest = rest};
-    ewa_status status = reserve(&job, worker_count);
-    for (; job.first < blocks && status == EWA_OK; job.first += WAVE_BLOCKS)
-        status = run_wave(&job, blocks - job.first < WAVE_BLOCKS ? blocks - job.first : WAVE_BLOCKS);
-    for (uint32_t i = 0; job.rooms && i < worker_count; i++) {
-        ewa_release(context, job.rooms[i].places, normal->count, sizeof *job.rooms[i].places);
-        ewa_release(context, job.rooms[i].found, normal->count, sizeof *job.rooms[i].found);
-        ewa_release(context, job.rooms[i].sums, normal->count, sizeof *job.rooms[i].sums);
-    }
-    ewa_release(context, job.rooms, worker_count, sizeof *job.rooms);
-    return status;
+    for (; job.first < blocks; job.first += WAVE_BLOCKS)
+        EWA_TRY(run_wave(&job, blocks - job.first < WAVE_BLOCKS ? blocks - job.first : WAVE_BLOCKS));
+    return EWA_OK;
 }
 
 double ewa_normal_median(const ewa_normal *normal) {

@@ -19,6 +19,8 @@ typedef struct ewa_normal {
     uint32_t count; ///< points
     ewa_normal_block *blocks;
     double *sides; ///< [count][EWA_PHOTO_CHANNELS]
+    struct ewa_normal_room *rooms; ///< [worker]
+    uint32_t worker_count;
 } ewa_normal;
 
 /// Makes equations of zeros. What there is after a failure is freed like the rest. Errors: EWA_ERROR_MEMORY.

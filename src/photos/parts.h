@@ -42,9 +42,10 @@ typedef struct ewa_photo_view {
 } ewa_photo_view;
 
 /// Reads a photograph, halves it `*halvings` times and finds what shows where. UINT32_MAX halvings: as often as points
-/// stay `spacing_px` apart, which is then set. `unit_coverage`: q0. Errors: those of ewa_cloud_color_from_photos().
+/// stay `spacing_px` apart, which is then set. `unit_coverage`: q0. `fraction`: what progress is told. Errors: those of ewa_cloud_color_from_photos().
 ewa_status ewa_photo_view_make(const ewa_cloud *cloud, const ewa_photo *photo, uint32_t number, double unit_coverage,
-                               const ewa_photos_options *options, uint32_t *halvings, ewa_photo_view *view);
+                               const ewa_photos_options *options, double fraction, uint32_t *halvings,
+                               ewa_photo_view *view);
 void ewa_photo_view_free(ewa_photo_view *view);
 
 /// What one photograph says of a point.
@@ -64,6 +65,13 @@ typedef struct ewa_photo_state {
     double gain[EWA_PHOTO_CHANNELS], offset[EWA_PHOTO_CHANNELS];
     ewa_photo_report report;
 } ewa_photo_state;
+
+/// Whether the exposure of a photograph is found here: it is used, and sees enough points; others have the one that they
+/// come with.
+static inline bool ewa_photo_is_exposed(const ewa_photo_state *photo) {
+    enum { LEAST_POINTS = 8 };
+    return !photo->held_out && photo->sample_count >= LEAST_POINTS;
+}
 
 /// All of a call.
 typedef struct ewa_photos_job {
@@ -94,15 +102,19 @@ typedef struct ewa_exposure_pairs {
 void ewa_exposure_step(const ewa_exposure_pairs *pairs, ewa_photos_exposure kind, double scale,
                        double gain[EWA_PHOTO_CHANNELS], double offset[EWA_PHOTO_CHANNELS]);
 
+/// Errors count relative to this and the colour, as they do where numbers are sRGB.
+#define EWA_PHOTO_LEAST_COLOR 0.02
+
 /// What a pair of linear colours counts, of Geman and McClure. sRGB's curve is taken for a square root here.
 double ewa_robust_weight(const double shown[EWA_PHOTO_CHANNELS], const double wanted[EWA_PHOTO_CHANNELS], double scale);
 
-/// Makes the mean of the used photographs' log gains 0 and that of their offsets, and changes colours with them; each
+/// Makes the mean of the exposed photographs' log gains 0 and that of their offsets, and changes colours with them; each
 /// array of `count` colours.
 void ewa_exposures_centre(ewa_photos_job *job, double *const *colors, uint32_t array_count);
 
-/// Finds exposures and the colours of a method but the fit, by what photographs say of points.
-ewa_status ewa_photos_settle(ewa_photos_job *job);
+/// Finds exposures and the colours of a method but the fit, by what photographs say of points. Progress goes from `begin`
+/// to `end`.
+ewa_status ewa_photos_settle(ewa_photos_job *job, double begin, double end);
 
 /// Sets the colours of points by their samples, corrected by exposures. `method` is not the fit. Errors: EWA_ERROR_MEMORY.
 ewa_status ewa_photos_combine(ewa_photos_job *job, ewa_photos_method method);

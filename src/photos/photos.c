@@ -3,10 +3,11 @@
 //
 // ewa_cloud_color_from_photos(): its arguments, the photographs one after the other, what is said of them, and the
 // colours.
+#include "base/options.h"
 #include "cloud/cloud.h"
 #include "cloud/color.h"
-#include "base/options.h"
 #include "photos/parts.h"
+#include "surface/proxy.h"
 #include "surface/surfel.h"
 
 #include <math.h>
@@ -114,7 +115,7 @@ static ewa_status sample(ewa_photos_job *job, ewa_photo_state *photo, const ewa_
 static ewa_status look(ewa_photos_job *job, ewa_photo_state *photo, double fraction, ewa_photo_view *view) {
     EWA_TRY(ewa_progress(job->context, "photos", fraction));
     return ewa_photo_view_make(job->cloud, photo->photo, photo->number, job->unit_coverage, &job->options,
-                               &photo->halvings, view);
+                               fraction, &photo->halvings, view);
 }
 
 static ewa_status sample_all(ewa_photos_job *job) {
@@ -246,7 +247,7 @@ static ewa_status compare_all(ewa_photos_job *job, double begin, double *residua
         memcpy(photo->report.gain, photo->gain, sizeof photo->gain);
         memcpy(photo->report.offset, photo->offset, sizeof photo->offset);
         photo->report.held_out = photo->held_out;
-        photo->report.psnr_db = decibels(photo->report.rms);
+        photo->report.psnr_db = photo->report.pixel_count ? decibels(photo->report.rms) : NAN;
         ++*(photo->held_out ? &report->held_out_count : &report->used_count);
     }
     report->rms = sums.count[0] ? sqrt(sums.square[0] / (double)sums.count[0]) : 0;
@@ -311,8 +312,7 @@ static ewa_status run(ewa_photos_job *job, double *alpha, double *residuals, ewa
     read_colors(job, alpha);
     EWA_TRY(sample_all(job));
     EWA_TRY(list_samples(job));
-    EWA_TRY(ewa_progress(job->context, "photos", SAMPLED));
-    EWA_TRY(ewa_photos_settle(job));
+    EWA_TRY(ewa_photos_settle(job, SAMPLED, SETTLED));
     const bool fit = job->options.method == EWA_PHOTOS_FIT;
     if (fit) EWA_TRY(ewa_photos_fit(job, SETTLED, FITTED));
     EWA_TRY(compare_all(job, fit ? FITTED : SETTLED, residuals, report));
@@ -359,20 +359,6 @@ static ewa_status start(ewa_photos_job *job, const ewa_photo *photos, ewa_photos
     return status;
 }
 
-/// q0 as surfels measure it.
-static ewa_status measure_coverage(ewa_photos_job *job) {
-    ewa_surfels_options options;
-    ewa_surfels_options_init(&options, sizeof options);
-    options.cutoff = job->options.cutoff;
-    ewa_surfels *surfels = NULL;
-    EWA_TRY(ewa_surfels_create(job->cloud, &options, &surfels));
-    ewa_surfels_info info;
-    ewa_surfels_describe(surfels, &info);
-    ewa_surfels_destroy(&surfels);
-    job->unit_coverage = info.unit_coverage;
-    return EWA_OK;
-}
-
 ewa_status ewa_cloud_color_from_photos(ewa_cloud *cloud, const ewa_photo *photos, uint32_t count,
                                        const ewa_photos_options *options, ewa_photos_report *report,
                                        ewa_photo_report *per_photo) {
@@ -389,7 +375,10 @@ ewa_status ewa_cloud_color_from_photos(ewa_cloud *cloud, const ewa_photo *photos
     if (job.options.hold_out == 1)
         return ewa_fail(job.context, EWA_ERROR_ARGUMENT, "photos: hold_out is 1, which leaves no photograph to use");
     job.point_count = (uint32_t)points;
-    EWA_TRY(measure_coverage(&job));
+    ewa_surfels_options surfels;
+    ewa_surfels_options_init(&surfels, sizeof surfels);
+    surfels.cutoff = job.options.cutoff;
+    EWA_TRY(ewa_surfels_measure_unit_coverage(cloud, &surfels, &job.unit_coverage));
     ewa_photos_report made = {.used_count = 0};
     const ewa_status status = start(&job, photos, &made, per_photo);
     if (status == EWA_OK && report) *report = made;

@@ -8,6 +8,7 @@
 #include "image/srgb.h"
 #include "photos/parts.h"
 #include "reference/adjoint_rows.h"
+#include "reference/contour.h"
 #include "tiling/bin.h"
 #include "tiling/tiles.h"
 
@@ -51,6 +52,7 @@ typedef struct view_job {
     uint64_t *bounds;   ///< [worker][tile]: pixels in the boxes of splats
     ewa_photo_view *view;
     const ewa_image *image;
+    double fraction; ///< of the call that is done: its progress meanwhile
     uint64_t *histograms; ///< [worker][BIN_COUNT]
 } view_job;
 
@@ -63,7 +65,9 @@ static ewa_status open_frame(const ewa_cloud *cloud, const ewa_camera *camera, d
     render.shading = EWA_SHADING_NONE;
     render.edge_layers = 1; // what is behind the nearest surface is not asked for
     surfels.cutoff = options->cutoff;
-    return ewa_reference_frame_make(cloud, &surfels, unit_coverage, camera, &render, frame);
+    EWA_TRY(ewa_reference_frame_make(cloud, &surfels, unit_coverage, camera, &render, frame));
+    ewa_reference_view_contours(&frame->options, frame->resolve.layering.transparent, &frame->view);
+    return EWA_OK;
 }
 
 /// How far the neighbours of a surfel are, in pixels.
@@ -303,7 +307,8 @@ static ewa_status reserve(view_job *job) {
     job->view->entries = ewa_allocate(context, entries, sizeof *job->view->entries);
     if (!job->view->entries) return EWA_ERROR_MEMORY;
     for (uint32_t i = 0; i < job->worker_count; i++)
-        EWA_TRY(ewa_reference_rows_reserve(context, &job->rows[i], (uint32_t)job->lists.largest, TILE_PX));
+        EWA_TRY(ewa_reference_rows_reserve(context, &job->rows[i], (uint32_t)job->lists.largest,
+                                          job->frame.resolve.layering.most, TILE_PX));
     return EWA_OK;
 }
 
@@ -316,7 +321,8 @@ static ewa_status find_rows(view_job *job) {
     EWA_TRY(ewa_bin_lists_fill(context, &job->lists, job->tiles.columns, job->tiles.rows, job->view->point_count,
                                find_splats, job));
     EWA_TRY(reserve(job));
-    ewa_parallel(context, find_tile, job, ewa_tiles_count(&job->tiles));
+    EWA_TRY(ewa_parallel_within(context, "photos", job->fraction, job->fraction, find_tile, job,
+                                ewa_tiles_count(&job->tiles)));
     return gather(job);
 }
 
@@ -340,6 +346,7 @@ static ewa_status take_image(ewa_context *context, const ewa_photo *photo, uint3
         return ewa_fail(context, EWA_ERROR_ARGUMENT, "%s: has neither a path nor an image", subject);
     if (photo->image) {
         *image = *photo->image;
+        image->context = context; // a caller's may have none
     } else {
         EWA_TRY(ewa_image_load(context, photo->path, image));
         *owned = true;
@@ -378,13 +385,14 @@ static ewa_status make(view_job *job, const ewa_cloud *cloud, ewa_camera camera,
 }
 
 ewa_status ewa_photo_view_make(const ewa_cloud *cloud, const ewa_photo *photo, uint32_t number, double unit_coverage,
-                               const ewa_photos_options *options, uint32_t *halvings, ewa_photo_view *view) {
+                               const ewa_photos_options *options, double fraction, uint32_t *halvings,
+                               ewa_photo_view *view) {
     ewa_context *context = ewa_cloud_context(cloud);
     *view = (ewa_photo_view){.context = context, .point_count = (uint32_t)ewa_cloud_point_count(cloud)};
     ewa_image image;
     bool owned;
     EWA_TRY(take_image(context, photo, number, &image, &owned));
-    view_job job = {.context = context, .view = view};
+    view_job job = {.context = context, .view = view, .fraction = fraction};
     const ewa_status status = make(&job, cloud, photo->camera, unit_coverage, options, halvings, &image, &owned);
     release(&job);
     if (owned) ewa_image_free(&image);

@@ -16,16 +16,16 @@ ewa_reference_tiles ewa_reference_tiles_of(const ewa_reference_splat *splat, uin
     return (ewa_reference_tiles){x0 | y0 << 16, x1 | y1 << 16};
 }
 
-ewa_status ewa_reference_rows_reserve(ewa_context *context, ewa_reference_rows *rows, uint32_t splats,
+ewa_status ewa_reference_rows_reserve(ewa_context *context, ewa_reference_rows *rows, uint32_t splats, uint32_t layers,
                                       uint32_t side_px) {
     const size_t count = splats, fragments = count * side_px;
-    rows->capacity = splats, rows->side_px = side_px;
+    rows->capacity = splats, rows->layer_capacity = layers < splats ? layers : splats, rows->side_px = side_px;
     rows->splats = ewa_allocate(context, count, sizeof *rows->splats);
     rows->order = ewa_allocate(context, count, sizeof *rows->order);
     rows->fragments = ewa_allocate(context, fragments, sizeof *rows->fragments);
     rows->sorted = ewa_allocate(context, fragments, sizeof *rows->sorted);
     rows->columns = ewa_allocate(context, fragments, sizeof *rows->columns);
-    rows->layers = ewa_allocate(context, count, sizeof *rows->layers);
+    rows->layers = ewa_allocate(context, rows->layer_capacity, sizeof *rows->layers);
     const bool all = rows->splats && rows->order && rows->fragments && rows->sorted && rows->columns && rows->layers;
     return all ? EWA_OK : EWA_ERROR_MEMORY;
 }
@@ -37,7 +37,7 @@ void ewa_reference_rows_free(ewa_context *context, ewa_reference_rows *rows) {
     ewa_release(context, rows->fragments, fragments, sizeof *rows->fragments);
     ewa_release(context, rows->sorted, fragments, sizeof *rows->sorted);
     ewa_release(context, rows->columns, fragments, sizeof *rows->columns);
-    ewa_release(context, rows->layers, count, sizeof *rows->layers);
+    ewa_release(context, rows->layers, rows->layer_capacity, sizeof *rows->layers);
 }
 
 /// The numbers that tell two splats apart.

@@ -22,13 +22,15 @@ typedef struct ewa_reference_rows {
     const ewa_reference_splat **order;     ///< [of a tile]: those that are drawn, the same whatever the points' order
     ewa_reference_fragment *fragments, *sorted;
     uint8_t *columns;              ///< the pixel in the row of each
-    ewa_reference_layer *layers;   ///< [of a tile]
-    uint32_t capacity, side_px;
+    ewa_reference_layer *layers;   ///< [layer_capacity]
+    uint32_t capacity, layer_capacity, side_px;
 } ewa_reference_rows;
 
-/// Makes room for so many splats in tiles of a side of at most EWA_REFERENCE_MAX_TILE_PX. What there is after a failure
+/// Makes room for so many splats in tiles of a side of at most EWA_REFERENCE_MAX_TILE_PX, and at most `layers` surfaces of a
+/// pixel. What there is after a failure
 /// is freed like the rest. Errors: EWA_ERROR_MEMORY.
-ewa_status ewa_reference_rows_reserve(ewa_context *context, ewa_reference_rows *rows, uint32_t splats, uint32_t side_px);
+ewa_status ewa_reference_rows_reserve(ewa_context *context, ewa_reference_rows *rows, uint32_t splats, uint32_t layers,
+                                      uint32_t side_px);
 void ewa_reference_rows_free(ewa_context *context, ewa_reference_rows *rows);
 
 /// Projects the splats of a tile, whose points are given, and puts them in order. Any thread.

@@ -52,3 +52,12 @@ ewa_status ewa_surfels_set_unit_coverage(ewa_surfels *surfels, double unit_cover
     for (; surfels; surfels = surfels->coarser) surfels->unit_coverage = unit_coverage;
     return EWA_OK;
 }
+
+ewa_status ewa_surfels_measure_unit_coverage(const ewa_cloud *cloud, const ewa_surfels_options *options,
+                                             double *unit_coverage) {
+    ewa_surfels *surfels = NULL;
+    EWA_TRY(ewa_surfels_create(cloud, options, &surfels));
+    *unit_coverage = surfels->unit_coverage;
+    ewa_surfels_destroy(&surfels);
+    return EWA_OK;
+}

@@ -17,4 +17,8 @@ ewa_status ewa_surfels_proxy(const ewa_surfels *surfels, ewa_surfels **proxy);
 /// one surface are to have the same. Errors: EWA_ERROR_ARGUMENT.
 ewa_status ewa_surfels_set_unit_coverage(ewa_surfels *surfels, double unit_coverage);
 
+/// Measures q0 (docs/math.md section 7) of a cloud as ewa_surfels_create() does, whose errors it has. `options` may be NULL.
+ewa_status ewa_surfels_measure_unit_coverage(const ewa_cloud *cloud, const ewa_surfels_options *options,
+                                             double *unit_coverage);
+
 #endif

@@ -301,7 +301,8 @@ static void test_exact(void **state) {
         values[i] = ldexp(part, (int)check_uniform(&random, -60, 60));
     }
     values[0] = 1e300, values[1] = -1e300, values[2] = 5e-324, values[3] = -5e-324, values[4] = 0, values[5] = -0x1p52;
-    ewa_exact_sum up = {{0}}, down = {{0}}, part = {{0}};
+    static const ewa_exact_sum zero;
+    ewa_exact_sum up = zero, down = zero, part = zero;
     for (int i = 0; i < COUNT; i++) ewa_exact_add(&up, values[i]);
     for (int i = COUNT; i-- > 0;) ewa_exact_add(i % 3 ? &down : &part, values[i]);
     ewa_exact_join(&down, &part);
@@ -311,12 +312,15 @@ static void test_exact(void **state) {
     for (int i = 2; i < COUNT; i++) wanted += (long double)values[i];
     assert_true(fabsl((long double)sum - wanted) < 1e-15L * fabsl(wanted));
     for (int i = 0; i < COUNT; i++) {
-        ewa_exact_sum one = {{0}};
+        ewa_exact_sum one = zero;
         ewa_exact_add(&one, values[i]);
         assert_true(ewa_exact_value(&one) == values[i]);
         ewa_exact_add(&one, -values[i]);
         assert_true(ewa_exact_value(&one) == 0);
     }
+    ewa_exact_add(&part, -INFINITY);
+    ewa_exact_join(&up, &part);
+    assert_true(isnan(ewa_exact_value(&up)) && ewa_exact_value(&down) == sum);
 }
 
 int main(void) {

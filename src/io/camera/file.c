@@ -12,13 +12,13 @@
 
 #include <string.h>
 
-static bool is_folder(const char *path) {
+bool ewa_camera_is_folder(const char *path) {
     ewa_platform_facts facts;
     return ewa_platform_stat(path, &facts) && facts.folder;
 }
 
 ewa_status ewa_camera_list_read(ewa_camera_list *list, const char *path) {
-    if (is_folder(path)) return ewa_camera_list_read_colmap(list, path);
+    if (ewa_camera_is_folder(path)) return ewa_camera_list_read_colmap(list, path);
     ewa_file file;
     EWA_TRY(ewa_file_map(list->context, path, &file));
     ewa_status status = ewa_camera_list_read_json(list, path, file.bytes, file.size_bytes);
@@ -48,7 +48,7 @@ static bool begins_with_number(const ewa_file *file) {
 /// Reads a lens from the text of a matrix. `*found`: the file may be one.
 static ewa_status load_matrix(ewa_context *context, const char *path, ewa_camera *lens, bool *found) {
     *found = false;
-    if (is_folder(path)) return EWA_OK;
+    if (ewa_camera_is_folder(path)) return EWA_OK;
     ewa_file file;
     EWA_TRY(ewa_file_map(context, path, &file));
     ewa_status status = EWA_OK;

@@ -33,6 +33,9 @@ void ewa_camera_list_set_lens(ewa_camera_list *list, const ewa_lens *lens);
 /// Says which picture the camera that was added last took; copied. Errors: EWA_ERROR_MEMORY.
 ewa_status ewa_camera_list_name(ewa_camera_list *list, ewa_text picture);
 
+/// Whether a path is a folder, as a COLMAP model is.
+bool ewa_camera_is_folder(const char *path);
+
 /// Reads the cameras of a file or of a folder, whichever format it has.
 ewa_status ewa_camera_list_read(ewa_camera_list *list, const char *path);
 

@@ -287,7 +287,8 @@ static ewa_status read_distortion(source *in, const cJSON *root, const cJSON *fr
         if (named) model = named;
         for (size_t i = 0; i < 6; i++) EWA_TRY(read_optional(in, levels[level], names[i], &values[i]));
     }
-    const bool fisheye = strcmp(model, "OPENCV_FISHEYE") == 0, pinhole = strstr(model, "PINHOLE") != NULL;
+    const bool fisheye = strcmp(model, "OPENCV_FISHEYE") == 0;
+    const bool pinhole = strcmp(model, "PINHOLE") == 0 || strcmp(model, "SIMPLE_PINHOLE") == 0;
     const bool takes = in->list->takes_lenses;
     *lens = (ewa_lens){.model = fisheye ? EWA_LENS_FISHEYE : EWA_LENS_PINHOLE};
     if (!(pinhole || (fisheye && takes) || strcmp(model, "OPENCV") == 0))

@@ -17,21 +17,16 @@ struct ewa_photo_list {
     uint32_t count;
 };
 
-static bool is_folder(const char *path) {
-    ewa_platform_facts facts;
-    return ewa_platform_stat(path, &facts) && facts.folder;
-}
-
 /// Writes a place in the folder that names are relative to; false where the path is too long.
 static bool find_base(const char *path, const char *images, char base[EWA_PATH_BYTES]) {
     static const char *const places[] = {"images", "../images", "../../images"};
     int length = snprintf(base, EWA_PATH_BYTES, "%s%s", images ? images : path, images ? "/." : "");
-    if (!images && is_folder(path)) {
+    if (!images && ewa_camera_is_folder(path)) {
         length = snprintf(base, EWA_PATH_BYTES, "%s/.", path);
         for (size_t i = 0; i < sizeof places / sizeof places[0]; i++) {
             char folder[EWA_PATH_BYTES];
             const int there = snprintf(folder, sizeof folder, "%s/%s", path, places[i]);
-            if (there < 0 || there >= EWA_PATH_BYTES - 2 || !is_folder(folder)) continue;
+            if (there < 0 || there >= EWA_PATH_BYTES - 2 || !ewa_camera_is_folder(folder)) continue;
             length = snprintf(base, EWA_PATH_BYTES, "%s/.", folder);
             break;
         }
