@@ -88,7 +88,7 @@ class Camera:
             m = numbers(world_to_camera, 12 if flat == 12 else 16, "world_to_camera")
             for i in range(len(m)):
                 made.world_to_camera[i] = m[i]
-        self._struct = _checked(made)
+        self._struct = checked(made)
 
     @staticmethod
     def _of(struct: b.ewa_camera) -> Camera:
@@ -122,7 +122,7 @@ class Camera:
         made = camera._copy()
         _check(lib.ewa_camera_look_at(ctypes.byref(made), numbers(eye, 3, "eye"), numbers(target, 3, "target"),
                                       numbers(up, 3, "up")), "look_at: the eye is also where the camera looks")
-        return cls._of(_checked(made))
+        return cls._of(checked(made))
 
     @classmethod
     def frame(cls, what: Any, view: str | Sequence[float] | None = None,
@@ -163,11 +163,11 @@ class Camera:
         own = str(up) if hangs else "auto"
         things = list(what) if isinstance(what, (list, tuple)) else [what]
         if not things or not all(hasattr(thing, "_asset_members") for thing in things):
-            return cls._of(_checked(place_at_box(core_of(None), what, asked, own)))
+            return cls._of(checked(place_at_box(core_of(None), what, asked, own)))
         world = World(core_of_object(things[0]), up=own, surfels={"radius_scale": radius_scale})
         for thing in things:
             world.add(thing)
-        return cls._of(_checked(world.place(asked)))
+        return cls._of(checked(world.place(asked)))
 
     @property
     def size(self) -> tuple[int, int]:
@@ -207,7 +207,7 @@ class Camera:
         made = self._copy()
         _check(lib.ewa_camera_orbit(ctypes.byref(made), numbers(pivot, 3, "pivot"), numbers(axis, 3, "axis"),
                                     _real(angle_deg, "angle_deg")), "orbit: no axis")
-        return Camera._of(_checked(made))
+        return Camera._of(checked(made))
 
     def resized(self, width: int, height: int) -> Camera:
         """Return the camera with a picture of another size that shows the same.
@@ -224,7 +224,7 @@ class Camera:
         made.fy_px *= y
         made.cy_px *= y
         made.width_px, made.height_px = width, height
-        return Camera._of(_checked(made))
+        return Camera._of(checked(made))
 
     def save(self, path: PathLike) -> None:
         """Write a camera file (JSON) with every digit, for ``--camera`` of the program and :func:`cameras`.
@@ -254,7 +254,7 @@ class Camera:
 def _restore(data: bytes) -> Camera:
     if len(data) != ctypes.sizeof(b.ewa_camera):
         raise ArgumentError("no camera")
-    return Camera._of(_checked(b.ewa_camera.from_buffer_copy(data)))
+    return Camera._of(checked(b.ewa_camera.from_buffer_copy(data)))
 
 
 def _real(value: Any, label: str) -> float:
@@ -272,7 +272,7 @@ def _set_lens(camera: b.ewa_camera, fov: float | None, ortho: float | None) -> N
     _check(lib.ewa_camera_set_fov(ctypes.byref(camera), angle), f"fov: {angle} is outside (0, 180)")
 
 
-def _checked(camera: b.ewa_camera) -> b.ewa_camera:
+def checked(camera: b.ewa_camera) -> b.ewa_camera:
     core = core_of(None)
     core.call(lib.ewa_camera_check, core.address, ctypes.byref(camera))
     return camera

@@ -513,7 +513,7 @@ class Cloud:
         ----------
         cameras : path or sequence of (Camera, array_like of shape (height, width, 3 or 4))
             The folder of a COLMAP model, transforms.json, cameras.json; or cameras with what they took: uint8: sRGB,
-            float32: linear light; alpha 0: not looked at.
+            float32: linear light, premultiplied; pixels that are not opaque are not looked at.
         images : path, optional
             The folder of the photographs. Default: where the file says.
         **options

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 
 #: What there are derivatives by: numbers per point.
 STREAMS = {"color": 3, "opacity": 1, "position": 3, "normal": 3, "radius": 1, "tangent_u": 3, "tangent_v": 3}
-_SURFELS = ("cutoff", "radius_scale")
+SURFELS_OPTIONS = ("cutoff", "radius_scale")
 
 
 class CameraGradient(NamedTuple):
@@ -121,7 +121,7 @@ def render_backward(cloud: Cloud, camera: Camera, *, rgba: Any = None, depth: An
     core = cloud._core
     surfels = initialised(b.ewa_surfels_options, lib.ewa_surfels_options_init)
     given: dict[str, Any] = dict(options)
-    fill(surfels, "ewa_surfels_options", {name: given.pop(name) for name in _SURFELS if name in given})
+    fill(surfels, "ewa_surfels_options", {name: given.pop(name) for name in SURFELS_OPTIONS if name in given})
     made, _, keep = options_of(given, lights, None, None, background, layers, section_box, section_planes, core,
                                initialised(b.ewa_render_options, lib.ewa_render_options_init))
     cotangent, planes = b.ewa_frame_cotangent(), {"rgba": rgba, "depth": depth, "normal": normal, "coverage": coverage}

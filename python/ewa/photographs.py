@@ -15,6 +15,7 @@ from ._errors import ArgumentError
 from ._library import functions as lib
 from ._struct import fill, initialised, path_bytes
 from .camera import Camera, PathLike
+from .image import as_picture
 
 if TYPE_CHECKING:
     from ._options import PhotosOptions
@@ -67,25 +68,14 @@ class PhotosReport(NamedTuple):
     photographs: list[PhotoReport]
 
 
-def _linear(value: Any, label: str) -> Array:
-    """A picture as linear floats of 3 or 4 channels."""
-    array = np.asarray(value)
-    if array.ndim != 3 or array.shape[2] not in (3, 4) or array.dtype not in (np.uint8, np.float32):
-        raise ArgumentError(f"{label}: shape {array.shape}, {array.dtype}; (height, width, 3 or 4) of uint8 or float32 "
-                            "is needed")
-    if array.dtype == np.uint8:
-        table = np.array([lib.ewa_linear_from_srgb(code / 255) for code in range(256)], np.float32)
-        alpha = array[..., 3:].astype(np.float32) / 255
-        array = np.concatenate([table[array[..., :3]] * (alpha if alpha.shape[2] else 1), alpha], axis=2)
-    return np.require(array, np.float32, ["C", "A"])
-
-
 def _of_arrays(photos: Sequence[tuple[Camera, Any]]) -> tuple[Any, list[Any]]:
     """Photographs of cameras and arrays, and what has to stay meanwhile."""
     made = (b.ewa_photo * max(1, len(photos)))()
     keep: list[Any] = []
     for i, (camera, value) in enumerate(photos):
-        pixels = _linear(value, f"photograph {i}")
+        pixels = as_picture(value, f"photograph {i}")
+        if pixels.shape[2] not in (1, 3, 4):
+            raise ArgumentError(f"photograph {i}: shape {pixels.shape}; 1, 3 or 4 channels are needed")
         image = b.ewa_image(None, pixels.shape[1], pixels.shape[0], pixels.shape[2], pixels.ctypes.data)
         made[i].camera = camera._copy()
         made[i].image = ctypes.pointer(image)

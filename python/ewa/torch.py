@@ -10,13 +10,12 @@ import torch  # type: ignore[import-not-found,unused-ignore]
 
 from ._arrays import Array
 from ._errors import ArgumentError
-from .camera import Camera
+from .camera import Camera, checked
 from .cloud import Cloud
-from .gradients import CameraGradient, Gradients, render_backward
+from .gradients import STREAMS, SURFELS_OPTIONS, CameraGradient, Gradients, render_backward
 from .rendering import render as render_image
 
-#: Tensors by name, and their numbers per point.
-_STREAMS = {"position": 3, "color": 3, "opacity": 1, "normal": 3, "radius": 1, "tangent_u": 3, "tangent_v": 3}
+#: Tensors of the camera by name, and their shapes.
 _CAMERA = {"world_to_camera": (4, 4), "focal_px": (2,), "principal_px": (2,)}
 _PLANES = ("rgba", "depth", "normal", "coverage")
 
@@ -71,7 +70,7 @@ def render(camera: Camera, *, position: torch.Tensor, color: torch.Tensor, norma
              "principal_px": principal_px}
     tensors = {name: tensor for name, tensor in given.items() if tensor is not None}
     for name, tensor in tensors.items():
-        wanted = _CAMERA.get(name) or ((len(position), 3) if _STREAMS[name] == 3 else (len(position),))
+        wanted = _CAMERA.get(name) or ((len(position), 3) if STREAMS[name] == 3 else (len(position),))
         if tuple(tensor.shape) != wanted or tensor.device.type != "cpu" or not tensor.dtype.is_floating_point:
             raise ArgumentError(f"{name}: {tuple(tensor.shape)} {tensor.dtype} on {tensor.device}; {wanted} floats on the "
                                 "CPU are needed")
@@ -98,13 +97,14 @@ class _Frame:
 
     def camera_of(self, arrays: Mapping[str, Array]) -> Camera:
         """The camera, with what of it are tensors."""
-        K, pose = np.array(self.camera.K), arrays.get("world_to_camera", self.camera.world_to_camera)
+        made = self.camera._copy()
         if "focal_px" in arrays:
-            K[0, 0], K[1, 1] = arrays["focal_px"]
+            made.fx_px, made.fy_px = map(float, arrays["focal_px"])
         if "principal_px" in arrays:
-            K[0, 2], K[1, 2] = arrays["principal_px"]
-        changed = any(name in arrays for name in _CAMERA)
-        return Camera(K, np.asarray(pose, np.float64), self.camera.size) if changed else self.camera
+            made.cx_px, made.cy_px = map(float, arrays["principal_px"])
+        if "world_to_camera" in arrays:
+            made.world_to_camera[:] = arrays["world_to_camera"].ravel().tolist()
+        return Camera._of(checked(made))
 
 
 def _arrays_of(frame: _Frame, tensors: Iterable[torch.Tensor]) -> dict[str, Array]:
@@ -124,8 +124,8 @@ class _Render(torch.autograd.Function):  # type: ignore[misc,unused-ignore]
             exact = render_backward(cloud, camera, by="rgba", unit_coverage=frame.unit_coverage, **frame.options).rgba
             return (torch.from_numpy(exact),)
         surfels = cloud.surfels(close_gaps=False, **{name: value for name, value in frame.options.items()
-                                                     if name in ("cutoff", "radius_scale")})
-        drawn = {name: value for name, value in frame.options.items() if name not in ("cutoff", "radius_scale")}
+                                                     if name in SURFELS_OPTIONS})
+        drawn = {name: value for name, value in frame.options.items() if name not in SURFELS_OPTIONS}
         image = render_image(surfels, camera, planes=frame.planes, **drawn)
         ctx.unit_coverage = surfels._info.unit_coverage
         made = tuple(torch.from_numpy(getattr(image, name)) for name in frame.planes)
@@ -139,7 +139,7 @@ class _Render(torch.autograd.Function):  # type: ignore[misc,unused-ignore]
         frame, tensors = ctx.frame, ctx.saved_tensors
         arrays = _arrays_of(frame, tensors)
         wanted = [name for name, needed in zip(frame.inputs, ctx.needs_input_grad[1:]) if needed]
-        by = [name for name in wanted if name in _STREAMS]
+        by = [name for name in wanted if name in STREAMS]
         by += ["camera"] if any(name in _CAMERA for name in wanted) else []
         planes: dict[str, Any] = {}
         for name, cotangent in zip(frame.planes, cotangents):
@@ -156,7 +156,7 @@ class _Render(torch.autograd.Function):  # type: ignore[misc,unused-ignore]
 
 def _gradient(found: Gradients, name: str, camera: Camera, tensor: torch.Tensor) -> torch.Tensor:
     """One tensor's gradient."""
-    array = getattr(found, name) if name in _STREAMS else _camera_gradient(found.camera, name, camera)
+    array = getattr(found, name) if name in STREAMS else _camera_gradient(found.camera, name, camera)
     return torch.from_numpy(np.ascontiguousarray(array)).to(tensor.dtype)
 
 

@@ -92,6 +92,14 @@ class Torch(Case):
         made["focal_px"], made["principal_px"] = np.diag(camera.K)[:2].copy(), np.array(camera.K)[:2, 2]
         return {name: torch.tensor(array, requires_grad=True) for name, array in made.items()}, camera
 
+    def test_orthographic_cameras_stay(self) -> None:
+        tensors, camera = self.tensors()
+        camera = ewa.Camera(None, camera.world_to_camera, camera.size, ortho=3.0)
+        given = {name: tensors[name] for name in ("position", "color", "normal", "radius")}
+        pose = torch.tensor(np.array(camera.world_to_camera), requires_grad=True)
+        same = ewa_torch.render(camera, **given, world_to_camera=pose)
+        self.assertTrue(torch.equal(same, ewa_torch.render(camera, **given)))
+
     def test_gradcheck(self) -> None:
         tensors, camera = self.tensors()
         camera = camera.resized(16, 12)

@@ -38,7 +38,7 @@ class Photos(Case):
         cloud = ewa.generate("sphere", 100)
         camera = ewa.Camera.frame(cloud, size=(32, 32))
         with self.assertRaisesRegex(ewa.ArgumentError, "photograph 0: shape"):
-            cloud.color_from_photos([(camera, np.zeros((32, 32), np.uint8))])
+            cloud.color_from_photos([(camera, np.zeros((32, 32, 2), np.uint8))])
         with self.assertRaises(ewa.FileError):
             cloud.color_from_photos(self.path("nothing.json"))
 
