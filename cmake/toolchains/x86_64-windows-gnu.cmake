@@ -11,5 +11,5 @@ set(CMAKE_RC_COMPILER "${build}/zig/bin/zig-rc" CACHE FILEPATH "")
 # Before the C runtime of Windows, whose functions differ by its version.
 set(CMAKE_EXE_LINKER_FLAGS_INIT "${build}/sysroot/${triple}/lib/libmusl_math.a -s")
 set(CMAKE_SHARED_LINKER_FLAGS_INIT "${CMAKE_EXE_LINKER_FLAGS_INIT}")
-set(CMAKE_CROSSCOMPILING_EMULATOR wine)
+set(CMAKE_CROSSCOMPILING_EMULATOR "sh;${CMAKE_CURRENT_LIST_DIR}/../../tools/wine.sh")
 set(ENV{PKG_CONFIG_LIBDIR} "${build}/sysroot/${triple}/lib/pkgconfig")

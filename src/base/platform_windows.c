@@ -109,7 +109,7 @@ bool ewa_platform_is_absolute(const char *path) {
 }
 
 /// A path in UTF-16; false with errno where it is none. Calls take more than 260 characters only of an absolute path behind
-/// \\?\, which a path that is `long` always becomes.
+/// \\?\, which a path becomes always if `is_long`.
 static bool widen(const char *path, bool is_long, wchar_t wide[WIDE_LENGTH]) {
     wchar_t full[EWA_PATH_BYTES];
     const int length = MultiByteToWideChar(CP_UTF8, MB_ERR_INVALID_CHARS, path, -1, wide, EWA_PATH_BYTES - 1);

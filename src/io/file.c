@@ -101,16 +101,11 @@ bool ewa_file_map_descriptor(ewa_context *context, int descriptor, ewa_file *fil
 /// Reads a file of the caller's as a whole.
 static ewa_status read_whole(ewa_context *context, ewa_ranges *ranges, const char *path, ewa_file *file) {
     const uint64_t size_bytes = ewa_ranges_size_bytes(ranges);
+    uint8_t *bytes = NULL;
     EWA_TRY(ewa_memory_check(context, size_bytes, "%s", path));
-    if (size_bytes > SIZE_MAX) return EWA_ERROR_MEMORY;
-    uint8_t *bytes = size_bytes ? ewa_allocate(context, (size_t)size_bytes, 1) : NULL;
-    if (size_bytes && !bytes) return EWA_ERROR_MEMORY;
-    const ewa_status status = ewa_ranges_read(ranges, 0, size_bytes, bytes);
-    if (status == EWA_OK)
-        *file = (ewa_file){.bytes = bytes, .size_bytes = (size_t)size_bytes, .capacity_bytes = (size_t)size_bytes};
-    else
-        ewa_release(context, bytes, (size_t)size_bytes, 1);
-    return status;
+    if (size_bytes) EWA_TRY(ewa_ranges_take(ranges, 0, size_bytes, &bytes));
+    *file = (ewa_file){.bytes = bytes, .size_bytes = (size_t)size_bytes, .capacity_bytes = (size_t)size_bytes};
+    return EWA_OK;
 }
 
 /// What is kept, if it is of that path.
@@ -120,13 +115,12 @@ static ewa_kept_file *kept_at(const ewa_context *context, const char *path) {
 }
 
 void ewa_file_keep_begin(ewa_context *context, ewa_kept_file *kept, const char *path) {
-    *kept = (ewa_kept_file){.path = path};
+    *kept = (ewa_kept_file){.outer = context->kept_file, .path = path};
     context->kept_file = kept;
 }
 
-void ewa_file_keep_end(ewa_context *context) {
-    ewa_kept_file *kept = context->kept_file;
-    context->kept_file = NULL;
+void ewa_file_keep_end(ewa_context *context, ewa_kept_file *kept) {
+    context->kept_file = kept->outer;
     ewa_file_unmap(context, &kept->file);
 }
 
@@ -150,7 +144,9 @@ bool ewa_file_map_source(ewa_context *context, const char *path, ewa_file *file,
 
 bool ewa_file_is_source(ewa_context *context, const char *path) {
     ewa_ranges *ranges;
+    ewa_failures_hush(context, true);
     const bool opened = ewa_ranges_open(context, path, &ranges) == EWA_OK && ranges;
+    ewa_failures_hush(context, false);
     ewa_ranges_close(&ranges);
     return opened;
 }
@@ -177,7 +173,10 @@ size_t ewa_file_head(ewa_context *context, const char *path, uint8_t *bytes, siz
     ewa_ranges *ranges = NULL;
     if (!kept) kept = &read;
     if (context && !kept->head_bytes) {
-        if (ewa_ranges_open(context, path, &ranges) != EWA_OK) return 0;
+        ewa_failures_hush(context, true);
+        const ewa_status status = ewa_ranges_open(context, path, &ranges);
+        ewa_failures_hush(context, false);
+        if (status != EWA_OK) return 0;
         if (ranges) kept->head_bytes = read_head(context, ranges, kept->head);
         const bool opened = ranges;
         ewa_ranges_close(&ranges);

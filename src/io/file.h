@@ -22,6 +22,7 @@ enum { EWA_FILE_HEAD_BYTES = 512 }; ///< by which kinds of files are told
 
 /// A file of the caller's whose bytes stay while it is not mapped.
 typedef struct ewa_kept_file {
+    struct ewa_kept_file *outer; ///< that was kept before, by the loading that this one is within; NULL: none
     const char *path;
     ewa_file file;
     bool mapped;
@@ -51,8 +52,9 @@ bool ewa_file_may_read(ewa_context *context, const char *path);
 
 /// Between these two, the file at `path`, if it is one of the caller's, stays when it is unmapped, so that what finds out what it is
 /// and what reads it then get it by one reading. It is not mapped when they end.
+/// Pairs nest.
 void ewa_file_keep_begin(ewa_context *context, ewa_kept_file *kept, const char *path);
-void ewa_file_keep_end(ewa_context *context);
+void ewa_file_keep_end(ewa_context *context, ewa_kept_file *kept);
 
 /// Reads the first bytes of a regular file, as many as there is room for, at most EWA_FILE_HEAD_BYTES, and returns how many; 0
 /// where it is none or cannot be read, which is not reported. Without a context, of files of the operating system.

@@ -108,19 +108,30 @@ const uint8_t *ewa_ranges_find(const ewa_ranges *ranges, uint64_t at_bytes, uint
 }
 
 /// Reads a part and holds it.
+ewa_status ewa_ranges_take(ewa_ranges *ranges, uint64_t at_bytes, uint64_t size_bytes, uint8_t **bytes) {
+    *bytes = NULL;
+    if (size_bytes > SIZE_MAX)
+        return ewa_fail(ranges->context, EWA_ERROR_MEMORY, "%s: %llu bytes are more than an address can tell", ranges->path,
+                        (unsigned long long)size_bytes);
+    uint8_t *taken = ewa_allocate(ranges->context, (size_t)size_bytes, 1);
+    if (!taken) return EWA_ERROR_MEMORY;
+    const ewa_status status = ewa_ranges_read(ranges, at_bytes, size_bytes, taken);
+    if (status == EWA_OK)
+        *bytes = taken;
+    else
+        ewa_release(ranges->context, taken, (size_t)size_bytes, 1);
+    return status;
+}
+
 static ewa_status hold(ewa_ranges *ranges, uint64_t at_bytes, uint64_t size_bytes) {
     if (!is_within(ranges, at_bytes, size_bytes)) return fail(ranges, at_bytes, at_bytes + size_bytes, "they lie beyond the end");
     EWA_TRY(ewa_memory_check(ranges->context, size_bytes, "%s: bytes %llu to %llu", ranges->path, (unsigned long long)at_bytes,
                              (unsigned long long)(at_bytes + size_bytes)));
     EWA_TRY(ewa_buffer_grow(ranges->context, &ranges->held, ranges->held_count, (size_t)ranges->held_count + 1, sizeof(held_range)));
-    held_range held = {at_bytes, (size_t)size_bytes, ewa_allocate(ranges->context, (size_t)size_bytes, 1)};
-    if (!held.bytes) return EWA_ERROR_MEMORY;
-    const ewa_status status = ewa_ranges_read(ranges, at_bytes, size_bytes, held.bytes);
-    if (status == EWA_OK)
-        ((held_range *)ranges->held.data)[ranges->held_count++] = held;
-    else
-        ewa_release(ranges->context, held.bytes, held.size_bytes, 1);
-    return status;
+    held_range held = {at_bytes, (size_t)size_bytes, NULL};
+    EWA_TRY(ewa_ranges_take(ranges, at_bytes, size_bytes, &held.bytes));
+    ((held_range *)ranges->held.data)[ranges->held_count++] = held;
+    return EWA_OK;
 }
 
 ewa_status ewa_ranges_need(ewa_ranges *ranges, uint64_t at_bytes, uint64_t size_bytes, const uint8_t **bytes) {

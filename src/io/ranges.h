@@ -24,6 +24,9 @@ uint64_t ewa_ranges_size_bytes(const ewa_ranges *ranges);
 /// the file, EWA_CANCELLED.
 ewa_status ewa_ranges_read(ewa_ranges *ranges, uint64_t at_bytes, uint64_t size_bytes, uint8_t *to);
 
+/// Reads bytes [at, at + size) to memory of its own, which ewa_release() gives back. Errors: as ewa_ranges_read(), EWA_ERROR_MEMORY.
+ewa_status ewa_ranges_take(ewa_ranges *ranges, uint64_t at_bytes, uint64_t size_bytes, uint8_t **bytes);
+
 /// Makes `*bytes` point to bytes [at, at + size), read with some that follow unless they are held already; they stay until
 /// ewa_ranges_let_go(). Errors: as ewa_ranges_read(), EWA_ERROR_LIMIT, EWA_ERROR_MEMORY.
 ewa_status ewa_ranges_need(ewa_ranges *ranges, uint64_t at_bytes, uint64_t size_bytes, const uint8_t **bytes);

@@ -76,6 +76,7 @@ static void write_relative(ewa_text name, char *relative) {
 
 /// Writes what a name below a folder is to the caller of the library, who has files of its own; false: it leads out of it.
 static bool join(const char *folder, const char *name, char joined[EWA_PATH_BYTES]) {
+    if (strchr(name, '\\')) return false; // which some callers take for a '/'
     for (const char *part = name; part; part = strchr(part, '/') ? strchr(part, '/') + 1 : NULL)
         if (strncmp(part, "..", 2) == 0 && (!part[2] || part[2] == '/')) return false;
     const int length = snprintf(joined, EWA_PATH_BYTES, "%s/%s", folder, name);
@@ -159,9 +160,12 @@ bool ewa_referenced_file_map(ewa_context *context, const char *path, ewa_text na
     const ewa_named_files allowed = ewa_context_named_files(context);
     char folder[EWA_PATH_BYTES], relative[EWA_PATH_BYTES];
     ewa_status status;
-    if (allowed != EWA_NAMED_NONE && name.length < sizeof relative && folder_of(path, folder, reason)) {
+    if (allowed != EWA_NAMED_NONE && name.length < sizeof relative && !memchr(name.chars, 0, name.length) &&
+        folder_of(path, folder, reason)) {
         write_relative(name, relative);
-        if (map_source(context, folder, relative, file, &status))
+        const char *last = strrchr(relative, '/');
+        if (map_source(context, folder, relative, file, &status) ||
+            (last && status == EWA_OK && map_source(context, folder, last + 1, file, &status)))
             return status == EWA_OK || fail(reason, "it cannot be read") == 0;
     }
     const int descriptor = ewa_referenced_file_open(allowed, path, name, reason);

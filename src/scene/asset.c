@@ -281,7 +281,7 @@ ewa_status ewa_asset_load(ewa_context *context, const char *path, const ewa_asse
         ewa_kept_file kept;
         ewa_file_keep_begin(context, &kept, path);
         status = load(&(ewa_asset_job){asset, &options}, path);
-        ewa_file_keep_end(context);
+        ewa_file_keep_end(context, &kept);
         asset->load_s = ewa_now_s() - started_s;
     }
     ewa_context_about(context, before);

@@ -11,8 +11,8 @@
 // and Correctly Rounded Sums: Proved Algorithms Using Rounding to Odd", IEEE Transactions on Computers 57(4),
 // 2008.
 //
-// The second case needs a small c: a product has 48 bits, so that a sum that is not exact in 53 is at most 33/32 of |c|, or
-// above 2^-96.
+// The second case needs a small c: a product has 48 bits, so that where a sum below 2^-96 is not exact in 53, |c| is at most
+// 33/32 of it.
 #define WIDE_FUSED_BY_DOUBLES
 
 #include <stdbool.h>

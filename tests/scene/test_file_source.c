@@ -7,6 +7,9 @@
 
 #include "base/base.h"
 
+/// Of a volume, before the name of the file that its voxels are in.
+#define HEADER "NRRD0004\ntype: uint8\ndimension: 3\nsizes: 4 4 4\nencoding: raw\ndata file: "
+
 enum { WIDTH = 160, HEIGHT = 120, PIXELS = WIDTH * HEIGHT, POINTS = 900000 };
 
 static const char octree[] = "ground.copc.laz", points[] = "ground.ply", far[] = "far://place";
@@ -176,7 +179,7 @@ static void test_octree(void **state) {
 static void test_whole_files(void **state) {
     static const char obj[] = "mtllib red.mtl\nusemtl red\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n",
                       mtl[] = "newmtl red\nKd 1 0 0\n",
-                      header[] = "NRRD0004\ntype: uint8\ndimension: 3\nsizes: 4 4 4\nencoding: raw\ndata file: voxels.raw\n\n";
+                      header[] = HEADER "voxels.raw\n\n";
     uint8_t voxels[64];
     char path[512];
     for (int i = 0; i < 64; i++) voxels[i] = (uint8_t)(4 * i);
@@ -191,11 +194,19 @@ static void test_whole_files(void **state) {
     hold_same("red.obj", EWA_OCTREE_AUTO, 1, (far_place){.reads_left = -1});
     assert_true(far_picture[4 * (PIXELS / 2 + WIDTH / 2)] > far_picture[4 * (PIXELS / 2 + WIDTH / 2) + 1]);
     hold_same("grid.nhdr", EWA_OCTREE_AUTO, 1, (far_place){.reads_left = -1});
+    // What leads out of the folder, or has a drive, is looked for beside the file.
+    static const char *const elsewhere[] = {"../a/voxels.raw", "C:\\data\\voxels.raw"};
+    for (int i = 0; i < 2; i++) {
+        char text[256];
+        const int length = snprintf(text, sizeof text, HEADER "%s\n\n", elsewhere[i]);
+        scratch_write(scratch_path("beside.nhdr", path), text, (size_t)length);
+        hold_same("beside.nhdr", EWA_OCTREE_AUTO, 1, (far_place){.reads_left = -1});
+    }
 }
 
 /// A name that leads out of the folder is not asked for, and none is where named files are not opened.
 static void test_named_files(void **state) {
-    static const char out[] = "NRRD0004\ntype: uint8\ndimension: 3\nsizes: 4 4 4\nencoding: raw\ndata file: ../a/voxels.raw\n\n";
+    static const char out[] = HEADER "../a/absent.raw\n\n";
     char path[512];
     scratch_write(scratch_path("out.nhdr", path), out, sizeof out - 1);
     for (int none = 0; none < 2; none++) {
