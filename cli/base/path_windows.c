@@ -8,6 +8,7 @@
 
 #include <errno.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <windows.h>
@@ -138,8 +139,17 @@ bool path_is_program(char path[PATH_BYTES]) {
 }
 
 bool path_find_program(const char *name, char program[PATH_BYTES]) {
-    const DWORD length = SearchPathA(NULL, name, ".exe", PATH_BYTES, program, NULL);
-    return length > 0 && length < PATH_BYTES;
+    if (path_file_name(name) > name) // it says where it is
+        return snprintf(program, PATH_BYTES, "%s", name) < PATH_BYTES && path_is_program(program);
+    // SearchPath() would also look in the current folder, where a program may lie beside somebody's data.
+    const char *folder = getenv("PATH");
+    while (folder && *folder) {
+        const size_t length = strcspn(folder, ";");
+        const int written = length ? snprintf(program, PATH_BYTES, "%.*s/%s", (int)length, folder, name) : 0;
+        if (written > 0 && written < PATH_BYTES && path_is_program(program)) return true;
+        folder += length + (folder[length] == ';');
+    }
+    return false;
 }
 
 bool path_of_own_folder(char folder[PATH_BYTES]) {

@@ -35,7 +35,7 @@ bool session_make_folder(cli_session *session, char folder[SESSION_FOLDER_BYTES]
     const DWORD length = GetTempPathA(sizeof parent, parent);
     if (length == 0 || length >= sizeof parent) *parent = 0;
     snprintf(folder, SESSION_FOLDER_BYTES, "%sewa-%ld-%llu", parent, path_process_number(), (unsigned long long)GetTickCount64());
-    if (CreateDirectoryA(folder, NULL)) return true;
+    if (path_make_folder(folder)) return true;
     session_fail(session, "%s: cannot create a folder for a while", folder);
     return false;
 }
