@@ -224,9 +224,8 @@ static bool do_points(viewer *v, const char *rest) {
 }
 
 int viewer_view_find(const char *word) {
-    static const char *const names[] = {"front", "back", "left", "right", "top", "bottom", "iso"};
-    for (int i = 0; i < (int)(sizeof names / sizeof names[0]); i++)
-        if (strcmp(word, names[i]) == 0) return i;
+    for (int i = EWA_VIEW_FRONT; i <= EWA_VIEW_ISO; i++)
+        if (strcmp(word, ewa_upright_place(&(ewa_upright){.view = (ewa_named_view)i})) == 0) return i;
     return -1;
 }
 
