@@ -107,14 +107,15 @@ static bool is_bare(const ewa_cloud *cloud) {
     return true;
 }
 
-static bool put_points(cli_session *session, const char *path, bool small, page_data *data, char target[PATH_BYTES]) {
+static bool put_points(cli_session *session, const char *path, const ewa_asset_options *options, bool small, page_data *data,
+                       char target[PATH_BYTES]) {
     ewa_model_format format;
     if (!session_passed(session, ewa_model_probe(session->context, path, &format))) return false;
     const bool mesh = format == EWA_MODEL_OBJ || format == EWA_MODEL_GLTF || format == EWA_MODEL_UNKNOWN;
     const bool rare = format == EWA_MODEL_E57 || format == EWA_MODEL_TIFF || format == EWA_MODEL_TERRAIN;
     if (mesh) // with pictures and libraries beside them, which a page has not
         return take_name(session, data, path, ".ply", target) &&
-               save_cloud(session, scene_input_cloud(session, 1, &path, 3), target);
+               save_cloud(session, scene_input_cloud(session, 1, &path, options->cutoff), target);
     const bool packed = path_has_suffix(path, ".laz");
     ewa_cloud *cloud = NULL;
     if (rare || (small && !packed && format != EWA_MODEL_STL && format != EWA_MODEL_OFF && format != EWA_MODEL_VTK)) {
@@ -166,7 +167,7 @@ static bool put(cli_session *session, const char *path, const ewa_asset_options 
     const bool is_folder = stat(path, &facts) == 0 && S_ISDIR(facts.st_mode);
     if (is_folder || path_has_suffix(path, ".json")) // an octree of many files (EPT) becomes one
         return take_name(session, data, path, ".laz", target) && save_cloud(session, input_load(session, path), target);
-    return put_points(session, path, small, data, target);
+    return put_points(session, path, options, small, data, target);
 }
 
 /// Adds what was put there to the scene that the page opens.

@@ -133,6 +133,8 @@ static void pages_show_what_is_rendered(void **state) {
     scratch_text("plate.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0.2\nf 1 2 3\nf 1 3 4\n");
     check_same_picture("plate.obj", "", true);
     run_done("test -f site/plate.ply");
+    scratch_text("narrow.json", "{\"ewa_scene\": 1, \"items\": [{\"file\": \"plate.obj\", \"cutoff\": 3.5}]}");
+    check_same_picture("narrow.json", "", true);
 }
 
 static void cameras_come_along(void **state) {
