@@ -50,27 +50,32 @@ void page_bytes_free(page_bytes *bytes) {
     *bytes = (page_bytes){.bytes = NULL};
 }
 
-/// Loads one; where it is nowhere, nothing is said.
-static bool load_one(const char *folder, int asset, page_bytes *read) {
-    char path[PATH_BYTES], own[PATH_BYTES] = "";
-    int error;
-    const char *place = folder;
-    if (!folder && !path_of_own_folder(own)) return false;
+/// Loads one and writes where it is. Returns 0, ENOENT where it is nowhere, or the error of a file that cannot be read.
+static int load_one(const char *folder, int asset, page_bytes *read, char path[PATH_BYTES]) {
+    char own[PATH_BYTES] = "";
+    if (!folder && !path_of_own_folder(own)) return ENOENT;
+    const char *place;
     for (int i = 0; (place = folder ? (i ? NULL : folder) : place_of(asset, i)); i++) {
         const char *name = page_asset_names[asset];
         const bool built = asset == PAGE_RELAXED_WASM && strstr(place, "wasm-relaxed"); // where both have one name
-        const int length = snprintf(path, sizeof path, "%s%s%s%s", own, place, folder ? "/" : "", built ? page_asset_names[PAGE_EXACT_WASM] : name);
-        if (length > 0 && length < (int)sizeof path && page_bytes_read(path, read, &error)) return true;
+        const int length = snprintf(path, PATH_BYTES, "%s%s%s%s", own, place, folder ? "/" : "", built ? page_asset_names[PAGE_EXACT_WASM] : name);
+        int error = ENAMETOOLONG;
+        if (length > 0 && length < PATH_BYTES && page_bytes_read(path, read, &error)) return 0;
+        if (error != ENOENT) return error;
     }
-    return false;
+    return ENOENT;
 }
 
 bool page_assets_load(cli_session *session, const char *folder, page_assets *assets) {
     memset(assets, 0, sizeof *assets);
     for (int i = 0; i < PAGE_ASSET_COUNT; i++) {
-        if (load_one(folder, i, &assets->each[i]) || i == PAGE_RELAXED_WASM) continue;
+        char path[PATH_BYTES] = "";
+        const int error = load_one(folder, i, &assets->each[i], path);
+        if (!error || (error == ENOENT && i == PAGE_RELAXED_WASM)) continue;
         session->subject = NULL;
-        if (folder)
+        if (error != ENOENT)
+            session_fail(session, "%s%s: %s", folder ? "--assets: " : "", path, strerror(error));
+        else if (folder)
             session_fail(session, "--assets: %s: there is no %s", folder, page_asset_names[i]);
         else
             session_fail(session,
@@ -80,7 +85,7 @@ bool page_assets_load(cli_session *session, const char *folder, page_assets *ass
         return false;
     }
     if (!assets->each[PAGE_RELAXED_WASM].bytes)
-        session_warn(session, "page: without %s pages draw six times as slowly", page_asset_names[PAGE_RELAXED_WASM]);
+        session_warn(session, "page: without %s pages draw some four times as slowly", page_asset_names[PAGE_RELAXED_WASM]);
     return true;
 }
 

@@ -150,6 +150,8 @@ static void failures_leave_nothing(void **state) {
     run_fails(1, "--assets|files.js", "ewa page torus.ply -o empty/a.html --assets empty/none");
     run_done("cp -r assets scripts && rm scripts/*.gz");
     run_fails(1, "--assets|page.wasm.gz", "ewa page torus.ply -o empty/a.html --assets scripts");
+    run_done("rm scripts/files.js && ln -s files.js scripts/files.js"); // which is there, but cannot be read
+    run_fails(1, "--assets|scripts/files.js: Too many", "ewa page torus.ply -o empty/a.html --assets scripts");
     run_done("rm assets/page-relaxed.wasm.gz");
     run_fails(0, "page-relaxed.wasm.gz", "ewa page torus.ply -o exact.html --assets assets");
     run_done("printf relaxed >assets/page-relaxed.wasm.gz");
