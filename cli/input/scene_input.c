@@ -28,12 +28,12 @@ ewa_asset_options scene_input_asset_options(cli_session *session) {
     return options;
 }
 
-void scene_input_coloring(const char *word, int colormap, const option_bounds *range,
-                          ewa_coloring *coloring) {
+void scene_input_coloring(const coloring_arguments *arguments, ewa_coloring *coloring) {
     ewa_coloring_init(coloring, sizeof *coloring);
-    if (!word) return;
-    strncat(coloring->attribute, word, sizeof coloring->attribute - 1);
-    coloring->map = (ewa_coloring_map)(colormap + 1);
+    if (!arguments->color_by) return;
+    const option_bounds *range = &arguments->range;
+    strncat(coloring->attribute, arguments->color_by, sizeof coloring->attribute - 1);
+    coloring->map = (ewa_coloring_map)(arguments->colormap + 1);
     coloring->ranged = range->given;
     memcpy(coloring->range, range->values, sizeof coloring->range);
     memcpy(coloring->percent, range->percent, sizeof coloring->percent);

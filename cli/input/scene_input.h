@@ -20,7 +20,34 @@ bool scene_input_add(cli_session *session, size_t count, const char *const *path
 /// destroys it; NULL after reporting.
 ewa_cloud *scene_input_cloud(cli_session *session, size_t count, const char *const *paths, double cutoff);
 
-/// Fills in a colouring from the options --color-by, --colormap and --range; `word` may be NULL.
-void scene_input_coloring(const char *word, int colormap, const option_bounds *range, ewa_coloring *coloring);
+/// Options of a colouring.
+typedef struct coloring_arguments {
+    const char *color_by; ///< NULL: none given
+    int colormap;         ///< index of a word; EWA_COLORING_AUTO - 1: none given
+    option_bounds range;
+} coloring_arguments;
+
+/// Rows of an option table; `at` is the offset of the coloring_arguments in the command's arguments.
+#define COLORING_OPTIONS(at)                                                                                 \
+    {"color-by", OPTION_TEXT, (at) + offsetof(coloring_arguments, color_by), "ATTR",                         \
+     .help = "colour by an attribute ('ewa info' lists them), one component of it (normal.x), x, y, z, "     \
+             "red, green or blue; rgb: the file's colours; none: these or grey",                             \
+     .absent = "auto: the file's colours, else, of scans, intensity or height, else grey"},                  \
+        {"colormap", OPTION_CHOICE, (at) + offsetof(coloring_arguments, colormap), NULL,                     \
+         "viridis|turbo|gray|plasma|inferno|magma|cividis|coolwarm|classes",                                 \
+         .help = "colours for --color-by; classes: whole numbers by the colours of LAS classes (ground, "    \
+                 "vegetation, building, ...)",                                                               \
+         .absent = "auto: classes for whole numbers named classification, else viridis",                     \
+         .needs = "color-by"},                                                                               \
+    {                                                                                                        \
+        "range", OPTION_BOUNDS, (at) + offsetof(coloring_arguments, range), "a,b",                           \
+            .help = "numbers that get the first and the last colour; with a percent sign, percentiles: "     \
+                    "2%,98%",                                                                                \
+            .aliases = "coloring-range", .absent = "auto: smallest to largest; 2%,98% for intensities",      \
+            .needs = "color-by"                                                                              \
+    }
+
+/// Fills in a colouring from the options.
+void scene_input_coloring(const coloring_arguments *arguments, ewa_coloring *coloring);
 
 #endif

@@ -19,9 +19,7 @@ typedef struct page_arguments {
     view_arguments view; // first: it begins with the common arguments
     const char *output, *folder, *title, *assets;
     bool small;
-    const char *color_by;
-    int colormap;
-    option_bounds range;
+    coloring_arguments coloring;
     option_color background;
 } page_arguments;
 
@@ -43,19 +41,13 @@ static const cli_option output_table[] = {
 
 static const cli_option look_table[] = {
     {"background", OPTION_COLOR, AT(background), "r,g,b[,a]", .help = OPTION_COLOR_HELP, .aliases = "background-color"},
-    {"color-by", OPTION_TEXT, AT(color_by), "ATTR", .help = "colour by an attribute, as `ewa render` does",
-     .absent = "auto: the file's colours, else, of scans, intensity or height, else grey"},
-    {"colormap", OPTION_CHOICE, AT(colormap), NULL, "viridis|turbo|gray|plasma|inferno|magma|cividis|coolwarm|classes",
-     .help = "colours for --color-by", .absent = "auto: classes for whole numbers named classification, else viridis",
-     .needs = "color-by"},
-    {"range", OPTION_BOUNDS, AT(range), "a,b", .help = "numbers that get the first and the last colour; with a percent sign, percentiles",
-     .aliases = "coloring-range", .absent = "auto: smallest to largest; 2%,98% for intensities", .needs = "color-by"},
+    COLORING_OPTIONS(AT(coloring)),
 };
 
 static void set_defaults(void *data) {
     page_arguments *arguments = data;
     view_set_defaults(&arguments->view);
-    arguments->colormap = EWA_COLORING_AUTO - 1;
+    arguments->coloring.colormap = EWA_COLORING_AUTO - 1;
     arguments->background = (option_color){{1, 1, 1, 1}};
 }
 
@@ -153,10 +145,9 @@ static bool make(cli_session *session, const page_arguments *arguments, const pa
                  page_data *data) {
     const char *path = choice->paths[0], *name = path_file_name(path);
     const page_words words = {.title = arguments->title ? arguments->title : *name ? name : path,
-                              .color_bar = arguments->color_by && !ewa_coloring_is_own(arguments->color_by),
-                              .shown = arguments->output};
+                              .color_bar = arguments->coloring.color_by && !ewa_coloring_is_own(arguments->coloring.color_by)};
     if (!make_folder(session, arguments, data) || !page_data_make(session, choice, data)) return false;
-    return arguments->folder ? put_program(session, assets, data, words) && show_folder(session, arguments->folder, data)
+    return arguments->folder ? put_program(session, assets, data, &words) && show_folder(session, arguments->folder, data)
                              : write_single(session, arguments, assets, data, &words);
 }
 
@@ -170,7 +161,7 @@ static int run(const void *data) {
     option_color_linear(&arguments->background, options.render.background);
     const ewa_asset_options of_assets = scene_input_asset_options(&session);
     ewa_coloring coloring;
-    scene_input_coloring(arguments->color_by, arguments->colormap, &arguments->range, &coloring);
+    scene_input_coloring(&arguments->coloring, &coloring);
     page_choice choice = {.paths = common->operands,
                           .count = common->operand_count,
                           .assets = &of_assets,

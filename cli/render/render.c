@@ -34,9 +34,9 @@ typedef struct render_arguments {
     ewa_volume_options volumes;
     bool gaussians_as_surfels;
     const char *transfer;
-    const char *layers, *color_by;
-    int colormap, backend;
-    option_bounds range;
+    const char *layers;
+    coloring_arguments coloring;
+    int backend;
     option_color background;
     furnish_arguments furniture;
     uint64_t outlines; ///< how many surfels' outlines are drawn over the picture
@@ -114,19 +114,7 @@ static const cli_option section_table[] = {SECTION_OPTIONS(AT(section))};
 static const cli_option look_table[] = {
     {"background", OPTION_COLOR, AT(background), "r,g,b[,a]", .help = OPTION_COLOR_HELP,
      .aliases = "background-color"},
-    {"color-by", OPTION_TEXT, AT(color_by), "ATTR",
-     .help = "colour by an attribute ('ewa info' lists them), one component of it (normal.x), x, y, z, red, "
-             "green or blue; rgb: the file's colours; none: these or grey",
-     .absent = "auto: the file's colours, else, of scans, intensity or height, else grey"},
-    {"colormap", OPTION_CHOICE, AT(colormap), NULL,
-     "viridis|turbo|gray|plasma|inferno|magma|cividis|coolwarm|classes",
-     .help = "colours for --color-by; classes: whole numbers by the colours of LAS classes (ground, "
-             "vegetation, building, ...)",
-     .absent = "auto: classes for whole numbers named classification, else viridis", .needs = "color-by"},
-    {"range", OPTION_BOUNDS, AT(range), "a,b",
-     .help = "numbers that get the first and the last colour; with a percent sign, percentiles: 2%,98%",
-     .aliases = "coloring-range", .absent = "auto: smallest to largest; 2%,98% for intensities",
-     .needs = "color-by"},
+    COLORING_OPTIONS(AT(coloring)),
 };
 
 static const cli_option furniture_table[] = {
@@ -146,7 +134,7 @@ static void set_defaults(void *data) {
     lod_input_set_defaults(&arguments->lod);
     ewa_gaussian_options_init(&arguments->gaussians, sizeof arguments->gaussians);
     ewa_volume_options_init(&arguments->volumes, sizeof arguments->volumes);
-    arguments->colormap = EWA_COLORING_AUTO - 1;
+    arguments->coloring.colormap = EWA_COLORING_AUTO - 1;
     arguments->background = (option_color){{1, 1, 1, 1}};
 }
 
@@ -182,9 +170,9 @@ static bool check(const void *data, char message[OPTION_ERROR_BYTES]) {
         missing = "--layers needs --passes 3";
     else if (arguments->light.render.opacity < 1 && arguments->light.render.passes == 1)
         missing = "--opacity below 1 needs --passes 3";
-    else if (arguments->colormap == EWA_COLORING_CLASSES - 1 && arguments->range.given)
+    else if (arguments->coloring.colormap == EWA_COLORING_CLASSES - 1 && arguments->coloring.range.given)
         missing = "--colormap classes takes no --range: each class has its own colour";
-    else if (arguments->furniture.color_bar && arguments->color_by && ewa_coloring_is_own(arguments->color_by))
+    else if (arguments->furniture.color_bar && arguments->coloring.color_by && ewa_coloring_is_own(arguments->coloring.color_by))
         missing = "--color-bar has nothing to show for the file's own colours";
     else if (arguments->outlines && path_has_suffix(arguments->output, ".exr|.pfm"))
         missing = "--outlines are not drawn on .exr and .pfm, which hold data";
@@ -257,7 +245,7 @@ static bool check_scene(cli_session *session, const render_arguments *arguments,
     ewa_surfels_options surfels;
     ewa_surfels_options_init(&surfels, sizeof surfels);
     ewa_scene_describe(scene, &info);
-    const bool colored = arguments->color_by && !ewa_coloring_is_own(arguments->color_by);
+    const bool colored = arguments->coloring.color_by && !ewa_coloring_is_own(arguments->coloring.color_by);
     if (info.octrees && arguments->surfels.cutoff != surfels.cutoff) {
         session_fail(
             session,
@@ -288,7 +276,7 @@ static bool prepare(cli_session *session, const render_arguments *arguments, con
     assets.transfer = arguments->transfer;
     assets.reach_steps = arguments->volumes.sigma * arguments->volumes.cutoff;
     ewa_coloring coloring;
-    scene_input_coloring(arguments->color_by, arguments->colormap, &arguments->range, &coloring);
+    scene_input_coloring(&arguments->coloring, &coloring);
     ewa_status status = ewa_scene_create(session->context, &options, &scene->scene);
     if (status != EWA_OK) return session_failed(session, status) == EXIT_DONE;
     if (!scene_input_add(session, common->operand_count, common->operands, &assets, &coloring, scene->scene)) return false;
