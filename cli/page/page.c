@@ -3,8 +3,8 @@
 //
 // ewa page: a page for a browser that shows what `ewa render` would, and can be turned.
 #include "cli/base/commands.h"
+#include "cli/base/json.h"
 #include "cli/base/path.h"
-#include "cli/base/temporary_file.h"
 #include "cli/input/inputs.h"
 #include "cli/input/scene_input.h"
 #include "cli/page/page_html.h"
@@ -76,7 +76,7 @@ static bool look(cli_session *session, const page_arguments *arguments, const pa
 }
 
 /// Puts the program beside the data of a folder. False after reporting.
-static bool put_program(cli_session *session, const page_assets *assets, page_data *data, page_words words) {
+static bool put_program(cli_session *session, const page_assets *assets, page_data *data, const page_words *words) {
     char path[PATH_BYTES];
     for (int i = 0; i <= PAGE_ASSET_COUNT; i++) {
         const bool is_page = i == PAGE_ASSET_COUNT; // which comes last: what it names is there
@@ -86,8 +86,7 @@ static bool put_program(cli_session *session, const page_assets *assets, page_da
                          ? fopen(path, "wb")
                          : NULL;
         bool done = file != NULL;
-        words.shown = path;
-        if (done && is_page) done = page_html_folder(session, &words, file);
+        if (done && is_page) done = page_html_folder(words, file);
         if (done && !is_page) done = fwrite(assets->each[i].bytes, 1, assets->each[i].size_bytes, file) == assets->each[i].size_bytes;
         if (file && fclose(file) != 0) done = false;
         if (done) continue;
@@ -100,17 +99,11 @@ static bool put_program(cli_session *session, const page_assets *assets, page_da
 /// Makes the page of one file. False after reporting.
 static bool write_single(cli_session *session, const page_arguments *arguments, const page_assets *assets, const page_data *data,
                          const page_words *words) {
-    const bool standard = strcmp(arguments->output, "-") == 0;
-    temporary_file pending;
-    int error = standard ? 0 : temporary_file_choose(arguments->output, &pending);
-    FILE *file = standard ? stdout : error ? NULL : fopen(pending.written, "wb");
-    if (!error && !file) error = errno;
-    bool done = file && page_html_single(session, assets, data, words, file);
-    if (file && !standard && fclose(file) != 0 && done) error = errno;
-    if (done && !standard && !error) error = temporary_file_commit(&pending);
-    if (!standard) temporary_file_drop(&pending);
-    if (error) session_fail(session, "%s: %s", arguments->output, strerror(error));
-    return done && !error;
+    text_file text;
+    if (!text_file_open(session, &text, arguments->output)) return false;
+    if (page_html_single(session, assets, data, words, text.file)) return text_file_close(session, &text);
+    text_file_drop(&text);
+    return false;
 }
 
 /// Makes the folder that files are put in: beside the one that is asked for, or for a while. False after reporting.
@@ -123,7 +116,7 @@ static bool make_folder(cli_session *session, const page_arguments *arguments, p
     }
     size_t length = strlen(arguments->folder);
     while (length > 1 && arguments->folder[length - 1] == '/') length--;
-    const bool fits = snprintf(data->folder, sizeof data->folder, "%.*s.ewa-%ld.tmp", (int)length, arguments->folder, (long)getpid()) <
+    const bool fits = snprintf(data->folder, sizeof data->folder, "%.*s.ewa-%ld.tmp", (int)length, arguments->folder, path_process_number()) <
                       (int)sizeof data->folder;
     if (fits && path_make_folder(data->folder)) return true;
     session_fail(session, "--folder: %s: %s", arguments->folder, strerror(fits ? errno : ENAMETOOLONG));
@@ -131,9 +124,9 @@ static bool make_folder(cli_session *session, const page_arguments *arguments, p
     return false;
 }
 
-/// Makes a folder that is whole appear. An empty one that is there gives way.
+/// Makes a folder that is whole appear. An empty one that is there gives way, which Windows has to be told.
 static bool show_folder(cli_session *session, const char *folder, page_data *data) {
-    if (rename(data->folder, folder) == 0) {
+    if (rename(data->folder, folder) == 0 || (rmdir(folder) == 0 && rename(data->folder, folder) == 0)) {
         data->folder[0] = 0;
         return true;
     }

@@ -34,7 +34,8 @@ static void write_encoded(const uint8_t *bytes, size_t size_bytes, FILE *file) {
     }
 }
 
-void page_html_escape(const char *text, FILE *file) {
+/// Writes a text so that it is text in HTML, also in an attribute between quotes.
+static void write_escaped(const char *text, FILE *file) {
     for (; *text; text++) {
         const unsigned char c = (unsigned char)*text;
         const char *name = c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '>' ? "&gt;" : c == '"' ? "&quot;" : c == '\'' ? "&#39;" : NULL;
@@ -57,26 +58,20 @@ static void write_hash(const page_bytes *text, FILE *file) {
 static void write_head(const char *title, FILE *file) {
     fprintf(file, "\">\n<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
                   "<meta name=\"generator\" content=\"ewa %s\">\n<title>", ewa_version());
-    page_html_escape(title, file);
+    write_escaped(title, file);
     fputs("</title>\n<link rel=\"icon\" href=\"data:,\">\n", file);
 }
 
 static void write_title(const char *title, FILE *file) {
     fputs("<main>\n<h1>", file);
-    page_html_escape(title, file);
+    write_escaped(title, file);
     fputs("</h1>\n<noscript>This page draws with a script, which is switched off.</noscript>\n", file);
-}
-
-static bool finish(cli_session *session, FILE *file, const char *shown) {
-    if (fflush(file) == 0 && !ferror(file)) return true;
-    session_fail(session, "%s: %s", shown, strerror(errno));
-    return false;
 }
 
 /// Writes bytes as text that no browser takes for a script, by an attribute that says which they are.
 static void write_part(const char *attribute, const char *value, const page_bytes *part, FILE *file) {
     fprintf(file, "<script type=\"application/octet-stream\" %s=\"", attribute);
-    page_html_escape(value, file);
+    write_escaped(value, file);
     fputs("\">", file);
     write_encoded((const uint8_t *)part->bytes, part->size_bytes, file);
     fputs("</script>\n", file);
@@ -136,13 +131,13 @@ bool page_html_single(cli_session *session, const page_assets *assets, const pag
     bool done = page_assets_join(assets, scripts, sizeof scripts / sizeof scripts[0], &script) &&
                 page_assets_join(assets, workers, sizeof workers / sizeof workers[0], &worker);
     if (!done) session_fail(session, "out of memory");
-    done = done && write_single(session, assets, data, words, &script, &worker, file) && finish(session, file, words->shown);
+    done = done && write_single(session, assets, data, words, &script, &worker, file);
     page_bytes_free(&script);
     page_bytes_free(&worker);
     return done;
 }
 
-bool page_html_folder(cli_session *session, const page_words *words, FILE *file) {
+bool page_html_folder(const page_words *words, FILE *file) {
     fputs("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
           "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'self'; script-src 'self' 'wasm-unsafe-eval'; "
           "img-src data: blob:; base-uri 'none'; form-action 'none'", file);
@@ -150,7 +145,7 @@ bool page_html_folder(cli_session *session, const page_words *words, FILE *file)
     fputs("<link rel=\"stylesheet\" href=\"page.css\">\n<script type=\"module\" src=\"ewa-view.js\"></script>\n</head>\n<body>\n", file);
     write_title(words->title, file);
     fprintf(file, "<ewa-view src=\"" PAGE_SCENE_NAME "\" link%s label=\"", words->color_bar ? " color-bar" : "");
-    page_html_escape(words->title, file);
+    write_escaped(words->title, file);
     fputs("\"></ewa-view>\n</main>\n</body>\n</html>\n", file);
-    return finish(session, file, words->shown);
+    return fflush(file) == 0 && !ferror(file);
 }

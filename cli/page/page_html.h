@@ -14,17 +14,13 @@
 typedef struct page_words {
     const char *title;
     bool color_bar; ///< what colours mean is shown
-    const char *shown; ///< the file that is written, for messages
 } page_words;
 
 /// Writes a page that needs no other file: program, style and data are in it, and a policy that lets nothing else run or be asked for.
-/// False after reporting.
+/// What was written is for the caller to check. False after reporting.
 bool page_html_single(cli_session *session, const page_assets *assets, const page_data *data, const page_words *words, FILE *file);
 
-/// Writes the page of a folder that a server has, beside what it needs. False after reporting.
-bool page_html_folder(cli_session *session, const page_words *words, FILE *file);
-
-/// Writes a text so that it is text in HTML, also in an attribute between quotes.
-void page_html_escape(const char *text, FILE *file);
+/// Writes the page of a folder that a server has, beside what it needs. False with errno.
+bool page_html_folder(const page_words *words, FILE *file);
 
 #endif
