@@ -14,7 +14,7 @@ const [file, width, height, frames, ...paths] = process.argv.slice(2);
 let taken, message = "";
 const hooks = {
   say: (isMessage, text) => (message = isMessage ? text : message),
-  progress: () => true,
+  progress: () => {},
   waiting: () => false,
 };
 const modules = paths.map((path) => () => readFileSync((taken = path)));

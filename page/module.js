@@ -5,7 +5,10 @@
 import { Bytes, Files } from "./files.js";
 
 /// Kinds of events, as viewer/viewer.h has them.
-export const EVENT = { move: 0, press: 1, release: 2, wheel: 3, pinch: 4, key: 5, keyup: 6, drop: 7, resize: 8, leave: 9 };
+export const EVENT = { move: 0, press: 1, release: 2, wheel: 3, pinch: 4, key: 5, keyup: 6, resize: 8, leave: 9 };
+
+/// Files that pass between the page and the module are apart from those that are opened.
+const CAMERA = "/tmp/camera.json", SHOT = "/tmp/shot.png";
 
 const REPORT = ["at", "width", "height", "number", "still", "loading", "spare_s", "drawn_s", "level", "splats"];
 
@@ -88,7 +91,6 @@ class Viewer {
   }
 
   event(e, time_s) {
-    if (e.text) this.write(e.text);
     this.calls.page_event(this.page, EVENT[e.kind], time_s, e.x ?? 0, e.y ?? 0, e.button ?? 0, e.clicks ?? 0, e.modifiers ?? 0,
                           e.key ?? 0, e.amount ?? 0);
   }
@@ -146,16 +148,24 @@ class Viewer {
 
   /// The camera as the JSON that `ewa render --camera` reads.
   camera() {
-    if (!this.do("camera save /camera.json")) return null;
-    const text = this.files.get("/camera.json").text();
-    this.files.remove("/camera.json");
+    if (!this.do(`camera save ${CAMERA}`)) return null;
+    const text = this.files.get(CAMERA).text();
+    this.files.remove(CAMERA);
     return text;
   }
 
+  /// A picture of any size as the bytes of a PNG, with the look of the view; `what` as behind "shot PATH". Null: none could be made.
+  shot(what) {
+    if (!this.do(`shot ${SHOT} ${what}`)) return null;
+    const { bytes, size } = this.files.get(SHOT);
+    this.files.remove(SHOT);
+    return bytes.slice(0, size);
+  }
+
   set_camera(text) {
-    this.files.put("/camera.json", new Bytes(new TextEncoder().encode(text)));
-    const done = this.do("camera load /camera.json");
-    this.files.remove("/camera.json");
+    this.files.put(CAMERA, new Bytes(new TextEncoder().encode(text)));
+    const done = this.do(`camera load ${CAMERA}`);
+    this.files.remove(CAMERA);
     return done;
   }
 }

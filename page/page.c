@@ -15,8 +15,8 @@
 
 /// The page is told a message (`message`) or a line of results, such as a pick.
 void IMPORT(say)(bool message, const char *text);
-/// The page is told the share of a stage of loading that is done; false: give up.
-bool IMPORT(progress)(const char *stage, double fraction);
+/// The page is told the share of a stage of loading that is done.
+void IMPORT(progress)(const char *stage, double fraction);
 /// The page is asked whether an event waits.
 bool IMPORT(waiting)(void);
 
@@ -64,7 +64,7 @@ bool EXPORT(page_open)(page *p);
 /// Does what the text says in the language of docs/viewer.md.
 bool EXPORT(page_do)(page *p);
 
-/// Takes an event, as viewer_event has it; `text` of a drop is the text.
+/// Takes an event, as viewer_event has it, but drops: files are opened by page_open().
 void EXPORT(page_event)(page *p, int kind, double time_s, double x, double y, int button, int clicks, uint32_t modifiers, int key,
                         double amount);
 
@@ -91,7 +91,8 @@ static void hear_message(void *user, ewa_severity severity, const char *text) {
 
 static bool hear_progress(void *user, const char *stage, double fraction) {
     page *p = user;
-    return (!p->news.progress || p->news.progress(p->news.user, stage, fraction)) && page_progress(stage, fraction);
+    page_progress(stage, fraction);
+    return !p->news.progress || p->news.progress(p->news.user, stage, fraction);
 }
 
 static int64_t read_file(void *user, uint64_t at_bytes, void *bytes, size_t size_bytes) {
@@ -191,8 +192,7 @@ void page_event(page *p, int kind, double time_s, double x, double y, int button
                                 .clicks = clicks,
                                 .modifiers = modifiers,
                                 .key = key,
-                                .amount = amount,
-                                .text = p->text};
+                                .amount = amount};
     viewer_handle(p->viewer, &event);
 }
 
