@@ -120,7 +120,7 @@ export class Files {
   }
 
   lookup(path) {
-    if (!this.named.has(path) && this.find && path) {
+    if (this.find && !this.named.has(path) && !this.isFolder(path) && !this.isInFile(path)) {
       const found = this.find(path);
       if (found) this.named.set(path, found);
     }
@@ -131,6 +131,11 @@ export class Files {
     if (!path || path === "tmp") return true;
     for (const name of this.named.keys()) if (name.startsWith(path + "/")) return true;
     return false;
+  }
+
+  /// Whether what is a file would have to be a folder: the library looks for octrees (PATH/ept.json).
+  isInFile(path) {
+    return [...path.matchAll(/\//g)].some(({ index }) => this.named.has(path.slice(0, index)));
   }
 
   fill_stat(at, type, size, number) {
@@ -329,7 +334,7 @@ export class Files {
   }
 
   proc_exit(status) {
-    throw new Error(`the module ended with status ${status}`);
+    throw new WebAssembly.RuntimeError(`the module ended with status ${status}`);
   }
 }
 

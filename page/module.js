@@ -42,7 +42,7 @@ class Viewer {
     const hooks = this.hooks;
     const ewa = {
       say: (message, text) => hooks.say(message !== 0, this.read(text)),
-      progress: (stage, fraction) => (hooks.progress(this.read(stage), fraction) ? 1 : 0),
+      progress: (stage, fraction) => hooks.progress(this.read(stage), fraction),
       waiting: () => (hooks.waiting() ? 1 : 0),
       open_file: (path, size_at) => {
         const { number, size } = this.files.open_file(this.read(path));

@@ -14,10 +14,11 @@ const NAMES_OTHERS = /\.(json|gltf|obj|nhdr|mhd)$/i;
 /// Progress is told so often, of what takes so long.
 const TELL_MS = 50, LONG_MS = 150;
 
-let viewer = null, base = null, sent = null, handled = 0; // orders that were sent, where memory is shared, and carried out
+let viewer = null, sent = null, handled = 0; // orders that were sent, where memory is shared, and carried out
+let fetching = 0; // opens that wait for their files
 let number = -1, shown = true, scheduled = false, timer = 0, told_ms = 0, began_ms = 0, is_ready = false;
 let picked = "", opening = [], message = "";
-const soon = new MessageChannel();
+const soon = new MessageChannel(), servers = new Set(); // folders of servers of which a file was opened that names others
 
 const now_s = () => performance.now() / 1000;
 
@@ -74,34 +75,48 @@ async function take_file(file) {
   if (file.file) return new Dropped(file.file);
   if (file.bytes) return new Bytes(new Uint8Array(file.bytes));
   if (file.text !== undefined) return new Bytes(decode(file.text));
-  const { source, bytes, answer } = await ask(file.url, (url) => open_ranges(url, is_octree));
-  return source ?? new Bytes(bytes ?? (await collect(answer, (got, length) => tell(`fetch ${file.name}`, length ? got / length : 0))));
+  const since_ms = performance.now(), { source, bytes, answer } = await ask(file.url, (url) => open_ranges(url, is_octree));
+  return source ?? new Bytes(bytes ?? (await collect(answer, (got, length) => tell(`fetch ${file.name}`, length ? got / length : 0, since_ms))));
 }
 
-function tell(stage, fraction) {
+function tell(stage, fraction, since_ms = began_ms) {
   const now_ms = performance.now();
-  if (now_ms - began_ms < LONG_MS || (now_ms - told_ms < TELL_MS && fraction < 1)) return;
+  if (now_ms - since_ms < LONG_MS || (now_ms - told_ms < TELL_MS && fraction < 1)) return;
   told_ms = now_ms;
   postMessage({ progress: { stage, fraction } });
 }
 
 const hooks = {
   say(is_message, text) {
-    if (is_message) postMessage({ message: (message = text) });
+    if (is_message) postMessage({ message: (message = with_addresses(text)) });
   },
-  progress(stage, fraction) {
-    tell(stage, fraction);
-    return true;
-  },
+  progress: (stage, fraction) => tell(stage, fraction),
   /// Without memory that is shared, what waits cannot be seen while something is drawn.
   waiting: () => sent !== null && Atomics.load(sent, 0) !== handled,
 };
 
-/// A file beside the one that was opened, by a request that waits: the module asks for it and goes on with it.
+// Files of an address are below a folder of their server: /https/example.org/dir/scan.laz.
+
+const server_of = ({ protocol, host }) => `${protocol.slice(0, -1)}/${host}`;
+
+/// The path of a file of an address, which has a name of its own where the address ends in none.
+function path_of(address, name) {
+  const url = new URL(address);
+  return /^https?:$/.test(url.protocol) ? server_of(url) + decodeURIComponent(url.pathname.replace(/[^/]*$/, "")) + name : name;
+}
+
+/// A text with such paths as the addresses that they are.
+const with_addresses = (text) => text.replace(/(^|[\s"'(])\/(https?)\//g, "$1$2://");
+
+/// The address of a path from another one on.
+const address_of = (path, from) => new URL(path.split("/").map(encodeURIComponent).join("/"), from).href;
+
+/// A file beside one that was opened, by a request that waits: the module asks for it and goes on with it.
 function find(path) {
-  if (!base) return null;
+  const server = [...servers].find((folder) => path.startsWith(folder + "/"));
+  if (!server) return null;
   const request = new XMLHttpRequest();
-  request.open("GET", new URL(path.split("/").map(encodeURIComponent).join("/"), base), false);
+  request.open("GET", address_of(path.slice(server.length), server.replace("/", "://")), false);
   request.responseType = "arraybuffer";
   try {
     request.send();
@@ -121,45 +136,49 @@ async function start(orders) {
   postMessage({ started: { help: viewer.help() } });
 }
 
-/// Puts files where the module finds them and opens those that are to be.
+/// Puts files where the module finds them and opens those that are to be, once all are there.
 async function open(files) {
+  const found = [];
   for (const file of files) {
     try {
-      await put(file);
+      const path = await put(file);
+      if (!file.beside) found.push({ name: file.name, path });
     } catch (error) {
       postMessage({ failed: { name: file.name, reason: error.message } });
-      continue;
     }
-    if (file.beside) continue;
-    message = "";
-    if (viewer.open("/" + file.name)) opening.push(file.name);
-    else tell_failed(file.name);
+  }
+  if (!viewer) return; // it has ended meanwhile
+  for (const { name, path } of found) {
+    message = viewer.files.failure = "";
+    if (viewer.open("/" + path)) opening.push(name);
+    else tell_failed(name);
   }
 }
 
 /// Says why a file came to nothing, as the library says it, with what was wrong with reading it.
 function tell_failed(name) {
   const { failure } = viewer.files;
-  viewer.files.failure = "";
   postMessage({ failed: { name, reason: failure ? `${message}: ${failure}` : message } });
 }
 
+/// Puts a file, and those that a scene of an address names; returns its path.
 async function put(file) {
-  const source = await take_file(file);
-  viewer.files.put(file.name, source);
-  if (file.beside) return;
-  base = file.url && NAMES_OTHERS.test(file.name) ? new URL(".", file.url) : null;
-  if (!base || !/\.json$/i.test(file.name)) return;
+  const source = await take_file(file), path = file.url ? path_of(file.url, file.name) : file.name;
+  viewer?.files.put(path, source);
+  if (file.beside || !file.url || !NAMES_OTHERS.test(file.name)) return path;
+  servers.add(server_of(new URL(file.url)));
+  if (!/\.json$/i.test(file.name)) return path;
   // A scene says what it needs: fetched here, it is seen coming. What is no scene fails where it is opened.
-  let items = [];
+  let names;
   try {
-    items = JSON.parse(source.text()).items ?? [];
+    names = new Set((JSON.parse(source.text()).items ?? []).map((item) => item.file)); // several may share one
   } catch {
-    return;
+    return path;
   }
-  for (const item of items)
-    if (typeof item.file === "string" && !item.file.startsWith("/"))
-      await put({ name: item.file, url: new URL(item.file, base).href, beside: true });
+  for (const name of names)
+    if (typeof name === "string" && !name.startsWith("/"))
+      await put({ name: name.split("/").pop(), url: address_of(name, file.url), beside: true });
+  return path;
 }
 
 /// Says what became of the files that were opened, once all is loaded.
@@ -185,13 +204,13 @@ function step() {
   clearTimeout(timer);
   const loading = opening.length > 0;
   began_ms = performance.now();
-  const report = viewer.frame(now_s());
+  const report = viewer.frame(now_s()), still = report.still && !fetching;
   if (report.at && report.number !== number) {
     number = report.number;
     shown = false;
     const pixels = viewer.pixels(report), { at, ...facts } = report;
-    postMessage({ picture: { ...facts, pixels, handled, memory: viewer.memory.buffer.byteLength } }, [pixels.buffer]);
-  } else if (report.still) {
+    postMessage({ picture: { ...facts, still, pixels, handled, memory: viewer.memory.buffer.byteLength } }, [pixels.buffer]);
+  } else if (still) {
     postMessage({ still: handled });
   }
   if (loading && !report.loading) tell_opened();
@@ -218,12 +237,10 @@ const answers = {
   items: () => viewer.items(),
   do: (command) => viewer.do(command),
   set_camera: (text) => viewer.set_camera(text),
-  /// A picture of any size as the bytes of a PNG, with the look of the view; `what` as behind "shot PATH".
   shot(what) {
-    if (!viewer.do(`shot /shot.png ${what}`)) throw new Error(message);
-    const { bytes, size } = viewer.files.get("/shot.png");
-    viewer.files.remove("/shot.png");
-    return bytes.slice(0, size);
+    const png = viewer.shot(what);
+    if (!png) throw new Error(message);
+    return png;
   },
 };
 
@@ -244,19 +261,27 @@ async function handle(orders) {
     viewer.event(orders.event, now_s());
     if (orders.event.kind === "release" || orders.event.kind === "key") tell_picked();
   }
-  if (orders.open) await open(orders.open);
+  if (orders.open) {
+    // What the hand does is not kept waiting by a server.
+    fetching++;
+    opens = opens.then(() => open(orders.open)).catch(stop).finally(() => {
+      fetching--;
+      wake();
+    });
+  }
   if (orders.ask) {
     const { id, what, word } = orders.ask;
     try {
       postMessage({ answer: { id, value: answers[what](word) } });
     } catch (error) {
+      if (error.constructor !== Error) throw error; // a trap, a full stack: not what was said here
       postMessage({ answer: { id, error: error.message } });
     }
   }
   wake();
 }
 
-let queue = Promise.resolve(); // orders are carried out one after another, also where one waits for a server
+let queue = Promise.resolve(), opens = Promise.resolve(); // orders are carried out one after another, what is fetched beside them
 soon.port1.onmessage = guarded_step;
 onmessage = ({ data }) => {
   queue = queue.then(() => handle(data)).catch(stop);
