@@ -54,7 +54,7 @@ export class EwaView extends HTMLElement {
   /** Where the worker and the modules are, for pages that bring them along in their own way. */
   static sources: {
     worker: () => Worker;
-    modules: { url?: string; text?: string; relaxed?: boolean; packed?: boolean }[];
+    modules: { url?: string; text?: string; relaxed?: boolean }[];
   };
   /** The picture is the whole one, and nothing is under way. */
   readonly still: boolean;

@@ -26,8 +26,8 @@ export class EwaView extends HTMLElement {
   static sources = {
     worker: () => new Worker(new URL("worker.js", import.meta.url), { type: "module" }),
     modules: [
-      { url: new URL("page-relaxed.wasm.gz", import.meta.url).href, relaxed: true, packed: true },
-      { url: new URL("page.wasm.gz", import.meta.url).href, packed: true },
+      { url: new URL("page-relaxed.wasm.gz", import.meta.url).href, relaxed: true },
+      { url: new URL("page.wasm.gz", import.meta.url).href },
     ],
   };
 
@@ -112,26 +112,27 @@ export class EwaView extends HTMLElement {
   connectedCallback() {
     this.#observer = new ResizeObserver(() => this.#resize());
     this.#observer.observe(this);
-    if (this.hasAttribute("drop")) this.#parts.hint.textContent = this.getAttribute("drop") || "Drop a file here";
-    this.#label();
+    if (!this.#worker) this.#list([]);
     if (this.hasAttribute("src")) this.open(this.getAttribute("src"));
   }
 
   disconnectedCallback() {
     this.#observer.disconnect();
     this.#observer = null;
-    this.#worker?.terminate();
-    this.#worker = null;
-    this.#is_ready = this.#still = false;
+    this.#end("the view was taken off its page");
   }
 
   attributeChangedCallback(name, before, now) {
     if (name === "label") this.#label();
     if (before === now) return;
-    if (name === "src" && now && this.#observer) this.open(now); // before, connectedCallback() does
+    if (name === "src" && this.#observer) { // before, connectedCallback() opens it
+      this.#end("another file is opened");
+      Object.assign(this.#parts.canvas, { width: 1, height: 1 });
+      if (now) this.open(now);
+    }
     if (!this.#worker) return;
-    this.#commands(name).forEach((command) => this.do(command));
-    if (name === "camera" && now) this.set_camera(now);
+    this.#commands(name).forEach((command) => this.#order("do", command));
+    if (name === "camera" && now) this.#order("set_camera", now);
   }
 
   /// What an attribute says in the viewer's language.
@@ -156,25 +157,35 @@ export class EwaView extends HTMLElement {
     if (self.crossOriginIsolated) this.#sent = new Int32Array(new SharedArrayBuffer(4));
     const commands = ["background", "point-size", "color-bar"].filter((name) => this.hasAttribute(name)).flatMap((name) => this.#commands(name));
     if (matchMedia("(prefers-reduced-motion: reduce)").matches) commands.push("set animate off");
+    let made;
     try {
-      this.#worker = worker();
+      this.#worker = made = worker();
     } catch (error) {
       this.#fail({ name: "", reason: `no worker can be started: ${error.message}` });
       return;
     }
-    this.#worker.onmessage = ({ data }) => this.#hear(data);
-    this.#worker.onerror = (event) => this.#stop(event.message || "the worker's script cannot be loaded");
+    made.onmessage = ({ data }) => made === this.#worker && this.#hear(data); // one that has ended may have posted before
+    made.onerror = (event) => made === this.#worker && this.#stop(event.message || "the worker's script cannot be loaded");
     this.#ordered = 0;
     this.#post({ start: { modules, width, height, scale, commands, sent: this.#sent?.buffer } });
   }
 
   #stop(reason) {
+    this.#end(reason);
+    this.#fail({ name: "", reason });
+  }
+
+  /// Ends the worker, with all that it has open. What was asked is answered by the reason.
+  #end(reason) {
     this.#worker?.terminate();
     this.#worker = null;
-    this.#is_ready = false;
-    for (const { reject } of this.#questions.values()) reject(new Error(reason));
+    this.#is_ready = this.#still = false;
+    this.#toggle("box", (this.#boxed = false));
+    this.#parts.card.hidden = this.#parts.error.hidden = true;
+    this.#list([]);
+    const questions = [...this.#questions.values()];
     this.#questions.clear();
-    this.#fail({ name: "", reason });
+    for (const { reject } of questions) reject(new Error(reason));
   }
 
   #size() {
@@ -215,6 +226,12 @@ export class EwaView extends HTMLElement {
     });
   }
 
+  /// Asks for what nobody waits for: what is wrong is shown, unless its worker has ended meanwhile.
+  #order(what, word) {
+    const worker = this.#worker;
+    this.#ask(what, word).catch((problem) => worker === this.#worker && this.#fail({ name: "", reason: problem.message }));
+  }
+
   #hear(told) {
     if (told.picture) this.#show(told.picture);
     if (told.still === this.#ordered) this.#rest();
@@ -252,16 +269,16 @@ export class EwaView extends HTMLElement {
   #ready() {
     this.#is_ready = true;
     for (const name of ["color-by", "clip"])
-      if (this.hasAttribute(name)) this.#commands(name).forEach((command) => this.do(command));
+      if (this.hasAttribute(name)) this.#commands(name).forEach((command) => this.#order("do", command));
     const camera = this.#linked() ?? this.getAttribute("camera");
-    if (camera) this.set_camera(camera);
+    if (camera) this.#order("set_camera", camera);
     this.#fire("ready", { items: this.#items });
   }
 
   #list(items) {
     this.#items = items;
     this.#say(null);
-    this.#parts.hint.textContent = items.length ? "" : this.#parts.hint.textContent;
+    this.#parts.hint.textContent = items.length || !this.hasAttribute("drop") ? "" : this.getAttribute("drop") || "Drop a file here";
     this.#label();
     const names = [...new Set(items.flatMap((item) => item.attributes))];
     this.#parts.color.replaceChildren(new Option("colours", "auto"), ...names.map((name) => new Option(name)));
@@ -328,10 +345,10 @@ export class EwaView extends HTMLElement {
     stage.addEventListener("blur", () => this.#event({ kind: "leave" }));
     root.addEventListener("click", (e) => this.#press(e.target.closest("button")?.dataset.do));
     root.querySelector('[data-do="view"]').addEventListener("change", ({ target }) => {
-      if (target.value) this.do(`view ${target.value}`);
+      if (target.value) this.#order("do", `view ${target.value}`);
       target.value = "";
     });
-    color.addEventListener("change", () => this.#color_commands(color.value).forEach((command) => this.do(command)));
+    color.addEventListener("change", () => this.#color_commands(color.value).forEach((command) => this.#order("do", command)));
     this.addEventListener("dragover", (e) => e.preventDefault());
     this.addEventListener("drop", (e) => this.#drop(e));
   }
@@ -430,14 +447,14 @@ export class EwaView extends HTMLElement {
   async #press(what) {
     const { card, error, help } = this.#parts;
     const own = {
-      home: () => this.do("view reset"),
+      home: () => this.#order("do", "view reset"),
       measure: () => this.#toggle("measure", (this.#measuring = !this.#measuring)),
-      box: () => (this.#toggle("box", (this.#boxed = !this.#boxed)), this.do(`box ${this.#boxed ? "on" : "off"}`)),
+      box: () => (this.#toggle("box", (this.#boxed = !this.#boxed)), this.#order("do", `box ${this.#boxed ? "on" : "off"}`)),
       share: () => this.#share(),
       shot: async () => save(await this.shot(), "ewa.png"),
       full: () => (document.fullscreenElement ? document.exitFullscreen() : this.requestFullscreen()),
       help: () => help.showModal(),
-      close: () => ((card.hidden = true), this.do("clear")),
+      close: () => ((card.hidden = true), this.#order("do", "clear")),
       dismiss: () => (error.hidden = true),
     };
     try {

@@ -17,8 +17,8 @@ const worker = URL.createObjectURL(new Blob(["{", part("ewa-worker"), "}"], { ty
 EwaView.sources = {
   worker: () => new Worker(worker),
   modules: [
-    { text: part("ewa-relaxed"), relaxed: true, packed: true },
-    { text: part("ewa-exact"), packed: true },
+    { text: part("ewa-relaxed"), relaxed: true },
+    { text: part("ewa-exact") },
   ].filter((module) => module.text),
 };
 

@@ -7,6 +7,7 @@
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
 import { copyFileSync, mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { createServer } from "node:http";
 import { join, resolve } from "node:path";
 import { pathToFileURL } from "node:url";
 import { inflateSync } from "node:zlib";
@@ -193,6 +194,79 @@ await check("parts of an octree, servers that give none, and those of other site
   }
   await page.close();
   for (const server of [page_server, open, closed]) server.close();
+});
+
+await check("a server is asked for what is shown, and for nothing else", async () => {
+  const server = await serve({ "/": join(scratch, "site"), "/levels/": join(scratch, "levels") });
+  const page = await show(`${server.origin}/drop.html?src=levels/scene.json`);
+  const asked = server.asked.length;
+  const camera = await page.evaluate(`${view}.camera()`);
+  assert.ok(await page.evaluate(`${view}.set_camera(${JSON.stringify(camera)})`));
+  assert.ok(await page.evaluate(`${view}.shot({ width: 40, height: 30 }).then((blob) => blob.size)`));
+  await page.evaluate(`${part('[data-do="share"]')}.click()`);
+  await page.until(`heard.find((e) => e.type === "share")`);
+  assert.deepEqual(server.asked.slice(asked), []);
+  // Two files of one name are two.
+  for (const [folder, count] of [["a", "300"], ["b", "500"]]) {
+    mkdirSync(join(scratch, "levels", folder));
+    ewa("generate", "torus", "-n", count, "-o", `levels/${folder}/one.ply`);
+  }
+  await page.evaluate(`${view}.open("levels/a/one.ply", "levels/b/one.ply")`);
+  await page.until(`${view}.items().then((items) => items.length === 3)`);
+  const counts = await page.evaluate(`${view}.items().then((items) => items.slice(1).map((item) => item.count))`);
+  assert.ok(counts[0] && counts[1] && counts[0] !== counts[1], counts.join());
+  // Files that several items share are fetched once, also with what they name themselves.
+  writeFileSync(join(scratch, "levels/twice.json"), JSON.stringify({
+    ewa_scene: 1, items: [{ file: "b/one.ply" }, { file: "a/one.ply" }, { file: "b/one.ply", to_world: [1, 0, 0, 3, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1] }],
+  }));
+  const before = server.asked.length;
+  await page.evaluate(`(heard.length = 0, ${view}.setAttribute("src", "levels/twice.json"))`);
+  await shown(page);
+  assert.equal(await page.evaluate(`heard.find((e) => e.type === "error")?.reason`), undefined);
+  const of_scene = server.asked.slice(before).filter((path) => path.startsWith("/levels"));
+  assert.deepEqual([...of_scene].sort(), ["/levels/a/one.ply", "/levels/b/one.ply", "/levels/twice.json"]);
+  // Another file takes the place of what was open; with none, nothing is.
+  assert.deepEqual(await page.evaluate(`${view}.items().then((items) => items.map((item) => item.count))`), [counts[1], counts[0], counts[1]]);
+  const left = await page.evaluate(`(() => { const asked = ${view}.shot().catch((e) => e.message); ${view}.removeAttribute("src"); return asked; })()`);
+  assert.match(left, /another file is opened/);
+  assert.match(await page.evaluate(`${view}.items().catch((e) => e.message)`), /nothing is open/);
+  assert.match(await page.evaluate(`${part(".hint")}.textContent`), /Drop/);
+  // A side to be seen from where nothing is: said, and no complaint.
+  await page.evaluate(`(() => { const s = ${part('[data-do="view"]')}; s.value = "front"; s.dispatchEvent(new Event("change")); })()`);
+  await page.until(`heard.find((e) => e.type === "error" && e.reason === "nothing is open")`);
+  check_quiet(page, server.origin);
+  await page.close();
+  server.close();
+});
+
+await check("the hand while a server is slow, and a module that ends", async () => {
+  const waiting = [], slow = createServer((request, response) => waiting.push(response));
+  await new Promise((done) => slow.listen(0, "127.0.0.1", done));
+  const server = await serve({ "/": join(scratch, "site") }), page = await show(`${server.origin}/drop.html?src=scene.json`);
+  const before = await page.evaluate(`${view}.camera()`);
+  await page.evaluate(`(heard.length = 0, ${view}.open("http://127.0.0.1:${slow.address().port}/slow.ply"))`);
+  for (let i = 0; !waiting.length && i < 200; i++) await new Promise((done) => setTimeout(done, 20));
+  await page.evaluate(`${view}.do("view top")`);
+  await page.until(`${view}.camera().then((camera) => camera !== ${JSON.stringify(before)})`, 10);
+  await new Promise((done) => setTimeout(done, 300));
+  assert.equal(await page.evaluate(`${view}.still`), false);
+  waiting.forEach((response) => response.writeHead(404, { "access-control-allow-origin": "*" }).end());
+  await page.until(`heard.find((e) => e.type === "error" && e.reason.includes("404"))`, 10);
+  await page.until(`${view}.still`, 10);
+  await page.close();
+  slow.closeAllConnections();
+  slow.close();
+  // A trap while something is asked ends the module, and is no answer.
+  const worker = readFileSync(join(scratch, "site/worker.js"), "utf8");
+  writeFileSync(join(scratch, "site/worker.js"), worker + "answers.items = () => { throw new WebAssembly.RuntimeError('unreachable'); };\n");
+  const trapped = await show(`${server.origin}/drop.html?src=scene.json`);
+  assert.match(await trapped.evaluate(`${view}.items().catch((e) => e.message)`), /unreachable/);
+  assert.ok(await trapped.until(`heard.find((e) => e.type === "error" && e.reason === "unreachable")`, 10));
+  assert.match(await trapped.evaluate(`${view}.camera().catch((e) => e.message)`), /nothing is open/);
+  check_quiet(trapped, server.origin);
+  writeFileSync(join(scratch, "site/worker.js"), worker);
+  await trapped.close();
+  server.close();
 });
 
 await check("hand and keys", async () => {

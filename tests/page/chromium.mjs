@@ -11,11 +11,13 @@ import { extname, join, normalize } from "node:path";
 const TYPES = { ".html": "text/html", ".js": "text/javascript", ".mjs": "text/javascript", ".css": "text/css", ".json": "application/json" };
 
 /// Serves files of folders by prefix: { "/": folder, ... }. `headers` are sent with each; `ranges`: parts of files are given. Returns
-/// { origin, bytes(), close() }.
+/// { origin, asked, bytes(), close() }; `asked` are the paths of all requests.
 export async function serve(folders, headers = {}, ranges = true) {
   let sent = 0;
+  const asked = [];
   const server = createServer((request, response) => {
     const path = normalize(decodeURIComponent(new URL(request.url, "http://x").pathname));
+    asked.push(path);
     const prefix = Object.keys(folders).filter((p) => path.startsWith(p)).sort((a, b) => b.length - a.length)[0];
     const target = folders[prefix];
     const file = typeof target === "object" ? target[path.slice(prefix.length)] : join(target ?? "/nowhere", path.slice(prefix.length));
@@ -43,7 +45,7 @@ export async function serve(folders, headers = {}, ranges = true) {
     else createReadStream(file, { start, end }).pipe(response);
   });
   await new Promise((resolve) => server.listen(0, "127.0.0.1", resolve));
-  return { origin: `http://127.0.0.1:${server.address().port}`, bytes: () => sent, close: () => server.close() };
+  return { origin: `http://127.0.0.1:${server.address().port}`, asked, bytes: () => sent, close: () => server.close() };
 }
 
 /// Starts a browser. `flags` are its own.
