@@ -168,7 +168,7 @@ static ewa_status assign(const ewa_cloud_target *target, ewa_las_plan *plan) {
     for (uint32_t i = 0; i < ewa_cloud_attribute_count(target->prototype); i++) {
         const ewa_attribute *attribute = ewa_cloud_attribute_at(target->prototype, i);
         ewa_las_column *column = ewa_las_table_find(table, attribute->name);
-        if (column && column - table->columns >= own_count) column = NULL;
+        if (column && column >= table->columns + own_count) column = NULL;
         const bool takes = column && (column->kind == EWA_LAS_COLOR ? attribute->component_count >= 3
                                                                     : attribute->component_count == 1);
         if (takes) plan->sources[column - table->columns] = (int32_t)i;
