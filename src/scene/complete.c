@@ -319,6 +319,44 @@ static void check_systems(const ewa_scene *scene) {
     }
 }
 
+static double diagonal_of(const ewa_bounds *bounds) {
+    double square = 0;
+    for (int c = 0; c < 3; c++) square += pow(bounds->high_world[c] - bounds->low_world[c], 2);
+    return sqrt(square);
+}
+
+static double distance_between(const ewa_bounds *a, const ewa_bounds *b) {
+    double square = 0;
+    for (int c = 0; c < 3; c++)
+        square += pow(fmax(fmax(a->low_world[c] - b->high_world[c], b->low_world[c] - a->high_world[c]), 0), 2);
+    return sqrt(square);
+}
+
+/// Warns where the largest of several things and the one that is farthest from it are so far apart that hardly any of them is
+/// to be seen in a picture of both.
+static void check_distances(const ewa_scene *scene) {
+    enum { FAR_APART = 1000 }; // times the largest: of a picture of all it takes a pixel or two
+    const ewa_asset *largest = NULL, *farthest = NULL;
+    double size_world = 0, distance_world = 0;
+    for (int find_farthest = 0; find_farthest < 2 && (largest || !find_farthest); find_farthest++)
+        for (uint32_t i = 0; i < scene->count; i++) {
+            const ewa_asset *asset = scene->items[i].asset;
+            if (!scene->items[i].instance.visible || !asset->bounds.finite_count ||
+                !(asset->bounds.low_world[0] <= asset->bounds.high_world[0]))
+                continue;
+            const double number = find_farthest ? distance_between(&asset->bounds, &largest->bounds) : diagonal_of(&asset->bounds);
+            double *most = find_farthest ? &distance_world : &size_world;
+            if (!(number > *most)) continue;
+            *most = number;
+            *(find_farthest ? &farthest : &largest) = asset;
+        }
+    if (size_world > 0 && distance_world > FAR_APART * size_world)
+        ewa_report(scene->context, EWA_SEVERITY_WARNING,
+                   "%s lies %.3g from %s, which measures %.3g: in one picture hardly any of it is to be seen; are their "
+                   "coordinates of one system?",
+                   farthest->name, distance_world, largest->name, size_world);
+}
+
 ewa_status ewa_scene_complete_items(ewa_scene *scene) {
     uint32_t *group_of = ewa_allocate(scene->context, scene->count, sizeof *group_of);
     uint32_t *members = ewa_allocate(scene->context, scene->count, sizeof *members);
@@ -341,6 +379,6 @@ ewa_status ewa_scene_complete_items(ewa_scene *scene) {
     }
     ewa_release(scene->context, group_of, scene->count, sizeof *group_of);
     ewa_release(scene->context, members, scene->count, sizeof *members);
-    if (status == EWA_OK) check_systems(scene);
+    if (status == EWA_OK) check_systems(scene), check_distances(scene);
     return status;
 }

@@ -399,6 +399,24 @@ static void test_cloud_of_scene(void **state) {
     ewa_context_destroy(&context);
 }
 
+/// Who puts things of different coordinates together is told.
+static void test_far_apart(void **state) {
+    const double shifts_world[2] = {900, 4e6};
+    for (int i = 0; i < 2; i++) {
+        check_log log = {.count = 0};
+        ewa_context *context = check_context(1, &log);
+        ewa_cloud *clouds[2] = {make_object(context, EWA_OBJECT_TORUS, 0),
+                                make_object(context, EWA_OBJECT_SPHERE, shifts_world[i])};
+        ewa_scene *scene = make_scene(context);
+        for (int k = 0; k < 2; k++) add_cloud(context, scene, clouds[k], NULL);
+        assert_int_equal(ewa_scene_commit(scene), EWA_OK);
+        assert_int_equal(strstr(log.text, "of one system?") != NULL, i);
+        ewa_scene_destroy(&scene);
+        for (int k = 0; k < 2; k++) ewa_cloud_destroy(&clouds[k]);
+        ewa_context_destroy(&context);
+    }
+}
+
 /// Picks find the point that is nearest to what is seen, and sections hide points.
 static void test_pick(void **state) {
     ewa_context *context = check_context(1, NULL);
@@ -619,7 +637,7 @@ int main(void) {
                                        cmocka_unit_test(test_instances),
                                        cmocka_unit_test(test_one_range),
                                        cmocka_unit_test(test_refused),
-                                       cmocka_unit_test(test_another_asset), cmocka_unit_test(test_chain_of_tiles),
+                                       cmocka_unit_test(test_another_asset), cmocka_unit_test(test_chain_of_tiles), cmocka_unit_test(test_far_apart),
         cmocka_unit_test(test_cloud_of_scene), cmocka_unit_test(test_pick),
                                        cmocka_unit_test(test_pick_aslant), cmocka_unit_test(test_described),
                                        cmocka_unit_test(test_asked_up), cmocka_unit_test(test_degrees),
