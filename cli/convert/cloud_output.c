@@ -4,6 +4,7 @@
 // Where clouds go.
 #include "cli/convert/cloud_output.h"
 #include "cli/base/outputs.h"
+#include "cli/base/pattern.h"
 
 #include <string.h>
 #include <strings.h>
@@ -32,6 +33,10 @@ bool cloud_output_check(const output_arguments *output, char message[OPTION_ERRO
     if ((output->ascii && !ply && !pcd) || (output->big_endian && !ply)) {
         snprintf(message, OPTION_ERROR_BYTES, "--%s: %s files have one encoding",
                  output->ascii ? "ascii" : "big-endian", dot);
+        return false;
+    }
+    if (output->path && path_has_suffix(output->path, ".copc.laz")) {
+        snprintf(message, OPTION_ERROR_BYTES, "--output: octrees are made by 'ewa lod IN... -o %.200s'", output->path);
         return false;
     }
     if (output->path)

@@ -137,6 +137,7 @@ static void test_refusals(void **state) {
     run_fails(1, "there is no attribute 'warmth'",
               "ewa render t.copc.laz -o x.png --levels always --filter 'warmth>0'");
     run_fails(1, "--cutoff needs all points", "ewa render t.copc.laz -o x.png --levels always --cutoff 2");
+    run_fails(2, "octrees are made by 'ewa lod IN... -o x.copc.laz'", "ewa convert t.copc.laz -o x.copc.laz");
     run_fails(2, "--lod-spacing: 0 is outside (0, 64]", "ewa render t.copc.laz -o x.png --lod-spacing 0");
     assert_int_equal(scratch_size("x.png"), -1);
 }

@@ -324,12 +324,91 @@ static void writes_trees_without_nodes(void **state) {
     ewa_cloud_destroy(&cloud);
 }
 
+/// Writes a tree of a cloud with that note about its system, and holds header and records to what LAS 1.4 says of point
+/// format 6 to 8 and COPC of its first record: the bit of well-known text, that text or NULL, and GeoTIFF keys.
+static void expect_system(const char *crs, const char *wkt_begin, const char *wkt_end, bool has_keys) {
+    ewa_cloud *cloud = copc_cloud(context, 200, false);
+    if (crs) ewa_cloud_set_note(cloud, "crs", crs, strlen(crs));
+    copc_nodes nodes = copc_share(cloud, 2);
+    const ewa_octree_plan plan = copc_plan(cloud);
+    if (copc_write(context, path, &plan, &nodes, 0) != EWA_OK) fail_msg("%s", messages.text);
+    copc_nodes_free(&nodes);
+    ewa_cloud_destroy(&cloud);
+    size_t size;
+    uint8_t *bytes = scratch_read(path, &size);
+    assert_true(bytes[24] == 1 && bytes[25] == 4);
+    assert_int_equal(las_get(bytes + 94, 2), 375);
+    assert_true(las_get(bytes + 6, 2) & 16);
+    assert_true((bytes[104] & 0x3f) >= 6 && (bytes[104] & 0x3f) <= 8);
+    // Counts of 32 bits must be 0 in these point formats.
+    for (int i = 107; i < 131; i++) assert_int_equal(bytes[i], 0);
+    const char *wkt = NULL;
+    size_t wkt_bytes = 0, at = 375;
+    bool keys = false;
+    for (uint64_t i = 0; i < las_get(bytes + 100, 4); i++) {
+        const uint8_t *head = bytes + at;
+        const uint64_t id = las_get(head + 18, 2), record_bytes = las_get(head + 20, 2);
+        if (i == 0) assert_true(memcmp(head + 2, "copc\0", 5) == 0 && id == 1 && record_bytes == 160);
+        if (memcmp(head + 2, "LASF_Projection", 16) == 0 && id == 2112) wkt = (const char *)head + 54, wkt_bytes = record_bytes;
+        if (memcmp(head + 2, "LASF_Projection", 16) == 0 && id == 34735) keys = true;
+        at += 54 + record_bytes;
+    }
+    assert_int_equal(at, las_get(bytes + 96, 4));
+    assert_int_equal(keys, has_keys);
+    assert_int_equal(wkt != NULL, wkt_begin != NULL);
+    if (wkt_begin) {
+        const size_t end_bytes = strlen(wkt_end);
+        assert_memory_equal(wkt, wkt_begin, strlen(wkt_begin));
+        assert_true(wkt_bytes > end_bytes && wkt[wkt_bytes - 1] == 0);
+        assert_string_equal(wkt + wkt_bytes - 1 - end_bytes, wkt_end);
+    }
+    free(bytes);
+}
+
+static void has_its_system_as_text(void **state) {
+    expect_system(NULL, NULL, NULL, false);
+    expect_system("EPSG:25832+7837", "COMPD_CS[\"ETRS89 / UTM zone 32N + DHHN2016 height\",PROJCS[\"ETRS89 / UTM zone 32N\",",
+                  "AXIS[\"Gravity-related height\",UP],AUTHORITY[\"EPSG\",\"7837\"]]]", false);
+    expect_system("EPSG:32723", "PROJCS[\"WGS 84 / UTM zone 23S\",GEOGCS[\"WGS 84\",", "AUTHORITY[\"EPSG\",\"32723\"]]", false);
+    expect_system("EPSG:2154", "PROJCS[\"RGF93 v1 / Lambert-93\",", "AUTHORITY[\"EPSG\",\"2154\"]]", false);
+    expect_system("EPSG:4326", "GEOGCS[\"WGS 84\",DATUM[\"WGS_1984\",", "AUTHORITY[\"EPSG\",\"4326\"]]", false);
+    expect_system("LOCAL_CS[\"ours\"]", "LOCAL_CS[\"ours\"]", "LOCAL_CS[\"ours\"]", false);
+    assert_string_equal(messages.text, "");
+    expect_system("EPSG:2285", NULL, NULL, true);
+    assert_non_null(strstr(messages.text, "EPSG:2285 is written as GeoTIFF keys"));
+    messages.text[0] = 0;
+    // A known system with heights of an unknown one would be another system.
+    expect_system("EPSG:25832+8228", NULL, NULL, true);
+    assert_non_null(strstr(messages.text, "EPSG:25832+8228 is written as GeoTIFF keys"));
+}
+
+/// The keys of a file in an older point format become text, and are gone.
+static void makes_text_of_keys(void **state) {
+    const uint8_t keys[] = {1, 0, 1, 0, 0, 0, 2, 0, 0, 4, 0, 0, 1, 0, 1, 0, 0, 12, 0, 0, 1, 0, 0x17, 0x69};
+    uint8_t vlr[200];
+    const size_t vlr_bytes = las_vlr(vlr, "LASF_Projection", 34735, keys, sizeof keys);
+    las_sample sample = las_make(0, 2, 0, 50, vlr, vlr_bytes, 1);
+    ewa_cloud *cloud = las_load(context, &sample), *back = NULL;
+    assert_string_equal(ewa_cloud_note(cloud, "crs", NULL), "EPSG:26903");
+    const ewa_octree_plan plan = {cloud, .bounds = {{0, 0, 0}, {1, 1, 1}}, {0, 0, 0}, 1, 1};
+    const copc_nodes none = {0};
+    assert_int_equal(copc_write(context, path, &plan, &none, 0), EWA_OK);
+    assert_int_equal(ewa_cloud_load(context, path, &back), EWA_OK);
+    assert_string_equal(ewa_cloud_note(back, "crs_name", NULL), "NAD83 / UTM zone 3N");
+    assert_memory_equal(ewa_cloud_note(back, "crs", NULL), "PROJCS[", 7);
+    ewa_cloud_destroy(&back);
+    ewa_cloud_destroy(&cloud);
+    free(sample.bytes);
+}
+
 static void refuses_what_it_cannot_write(void **state) {
     ewa_cloud *cloud = copc_cloud(context, 10, false), *other = copc_cloud(context, 10, true);
     ewa_octree_plan plan = copc_plan(cloud);
     ewa_octree_key keys[2] = {{1, {0, 1, 0}}, {1, {0, 1, 0}}};
     ewa_cloud *pieces[2] = {cloud, cloud};
     copc_nodes nodes = {keys, pieces, 2};
+    assert_int_equal(ewa_cloud_save(cloud, path, NULL), EWA_ERROR_UNSUPPORTED);
+    assert_non_null(strstr(messages.text, "made.copc.laz: a file of that name is an octree (COPC), which ewa_lod_build() makes"));
     assert_int_equal(copc_write(context, path, &plan, &nodes, 0), EWA_ERROR_ARGUMENT);
     assert_non_null(strstr(messages.text, "1-0-1-0 comes twice"));
     assert_int_not_equal(access(path, F_OK), 0);
@@ -494,6 +573,8 @@ int main(void) {
         cmocka_unit_test_setup_teardown(keeps_levels_of_any_size, begin, end),
         cmocka_unit_test_setup_teardown(writes_many_nodes_in_pages, begin, end),
         cmocka_unit_test_setup_teardown(writes_trees_without_nodes, begin, end),
+        cmocka_unit_test_setup_teardown(has_its_system_as_text, begin, end),
+        cmocka_unit_test_setup_teardown(makes_text_of_keys, begin, end),
         cmocka_unit_test_setup_teardown(refuses_what_it_cannot_write, begin, end),
         cmocka_unit_test_setup_teardown(refuses_every_beginning, begin, end),
         cmocka_unit_test_setup_teardown(refuses_hierarchies_that_lie, begin, end),

@@ -11,6 +11,7 @@
 
 #include <math.h>
 #include <string.h>
+#include <strings.h>
 
 struct ewa_cloud_reader {
     ewa_cloud_source source;
@@ -210,6 +211,11 @@ struct ewa_cloud_writer {
 static ewa_status choose_format(ewa_cloud_writer *writer, const char *path) {
     const ewa_cloud_target *target = &writer->target;
     writer->format = ewa_cloud_write_format_of(path);
+    static const char octree[] = ".copc.laz";
+    const size_t length = strlen(path);
+    if (length >= sizeof octree - 1 && strcasecmp(path + length - (sizeof octree - 1), octree) == 0)
+        return ewa_fail(target->context, EWA_ERROR_UNSUPPORTED,
+                        "%s: a file of that name is an octree (COPC), which ewa_lod_build() makes", path);
     if (!writer->format)
         return ewa_fail(target->context, EWA_ERROR_UNSUPPORTED,
                         "%s: point clouds are written as " EWA_CLOUD_SUFFIXES, path);

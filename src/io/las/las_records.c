@@ -6,6 +6,7 @@
 //
 // Based on: OGC 19-008r4, "OGC GeoTIFF Standard 1.1", section 7.1.
 #include "base/base.h"
+#include "io/las/las_wkt.h"
 #include "io/las/las_write.h"
 
 #include <stdio.h>
@@ -56,6 +57,14 @@ static ewa_status compare_crs(const ewa_cloud_target *target, const ewa_las_crs 
     return EWA_OK;
 }
 
+/// Says that the points' coordinate system is only where older formats have it.
+static void warn_of_keys(const ewa_cloud_target *target, const char *crs) {
+    ewa_report(target->context, EWA_SEVERITY_WARNING,
+               "%s: the coordinate reference system %s is written as GeoTIFF keys, since there is no well-known text of it here; "
+               "readers that hold to LAS 1.4 do not look at them",
+               target->name, crs);
+}
+
 /// Writes the number behind "EPSG:" as the key of a projected or a geographic system.
 static ewa_status append_keys(const ewa_cloud_target *target, const char *crs, ewa_buffer *records,
                               size_t *at_bytes, uint32_t *count) {
@@ -93,22 +102,42 @@ static ewa_status append_keys(const ewa_cloud_target *target, const char *crs, e
                                  vertical ? sizeof bytes : sizeof bytes - 8, records, at_bytes);
 }
 
+/// Writes well-known text.
+static ewa_status append_wkt(const ewa_cloud_target *target, ewa_las_plan *plan, const char *text, ewa_buffer *records,
+                             size_t *at_bytes, uint32_t *count) {
+    plan->global_encoding |= EWA_LAS_WKT;
+    plan->version_minor = 4;
+    (*count)++;
+    return ewa_las_record_append(target->context, "LASF_Projection", WKT_ID, "OGC WKT", text, strlen(text) + 1, records, at_bytes);
+}
+
+/// Whether point formats of the plan have their coordinate system as well-known text only (LAS 1.4, section 2.5).
+static bool needs_wkt(const ewa_las_plan *plan) { return plan->point_format >= 6; }
+
 /// Writes the coordinate system that the cloud names.
 static ewa_status append_crs(const ewa_cloud_target *target, ewa_las_plan *plan, const char *crs,
                              ewa_buffer *records, size_t *at_bytes, uint32_t *count) {
-    if (strncmp(crs, "EPSG:", 5) == 0) return append_keys(target, crs + 5, records, at_bytes, count);
-    const size_t size_bytes = strlen(crs) + 1;
-    if (!strchr(crs, '[') || size_bytes > MAX_RECORD_BYTES) {
+    char made[EWA_LAS_WKT_BYTES];
+    if (strncmp(crs, "EPSG:", 5) == 0) {
+        if (needs_wkt(plan) && ewa_las_wkt_make(crs + 5, made)) return append_wkt(target, plan, made, records, at_bytes, count);
+        if (needs_wkt(plan)) warn_of_keys(target, crs);
+        return append_keys(target, crs + 5, records, at_bytes, count);
+    }
+    if (!strchr(crs, '[') || strlen(crs) + 1 > MAX_RECORD_BYTES) {
         ewa_report(target->context, EWA_SEVERITY_WARNING,
                    "%s: the coordinate reference system is no well-known text or EPSG code and is left out",
                    target->name);
         return EWA_OK;
     }
-    plan->global_encoding |= EWA_LAS_WKT;
-    plan->version_minor = 4;
-    (*count)++;
-    return ewa_las_record_append(target->context, "LASF_Projection", WKT_ID, "OGC WKT", crs, size_bytes,
-                                 records, at_bytes);
+    return append_wkt(target, plan, crs, records, at_bytes, count);
+}
+
+/// Whether the system that a cloud names by its codes can be written as text; warns where it cannot.
+static bool becomes_wkt(const ewa_cloud_target *target, const char *crs) {
+    char made[EWA_LAS_WKT_BYTES];
+    if (crs && strncmp(crs, "EPSG:", 5) == 0 && ewa_las_wkt_make(crs + 5, made)) return true;
+    if (crs) warn_of_keys(target, crs);
+    return false;
 }
 
 ewa_status ewa_las_records_make(const ewa_cloud_target *target, ewa_las_plan *plan, ewa_buffer *records,
@@ -128,6 +157,8 @@ ewa_status ewa_las_records_make(const ewa_cloud_target *target, ewa_las_plan *pl
     while (note && next_kept(note, note_bytes, &at, &vlr)) ewa_las_crs_take(&crs, &vlr);
     bool keeps_crs;
     ewa_status status = compare_crs(target, &crs, crs_note, &keeps_crs);
+    // Keys of an older point format become text where there is one, which is written like any other.
+    if (keeps_crs && crs.keys && !crs.wkt && needs_wkt(plan)) keeps_crs = !becomes_wkt(target, crs_note);
     at = 0;
     while (status == EWA_OK && note && next_kept(note, note_bytes, &at, &vlr)) {
         if (!keeps_crs && ewa_las_crs_take(&crs, &vlr)) continue;
@@ -139,8 +170,8 @@ ewa_status ewa_las_records_make(const ewa_cloud_target *target, ewa_las_plan *pl
         (*count)++;
     }
     const bool was_wkt = said & EWA_LAS_WKT || !crs.keys;
-    if (keeps_crs && crs.wkt && plan->version_minor >= 4 && (was_wkt || plan->point_format >= 6))
-        plan->global_encoding |= EWA_LAS_WKT;
+    // From point format 6 on the bit is set with or without a system.
+    if (needs_wkt(plan) || (keeps_crs && crs.wkt && plan->version_minor >= 4 && was_wkt)) plan->global_encoding |= EWA_LAS_WKT;
     if (status == EWA_OK && !keeps_crs && crs_note)
         status = append_crs(target, plan, crs_note, records, size_bytes, count);
     const size_t extra_bytes = (size_t)plan->extra_count * EWA_LAS_EXTRA_BYTES;
