@@ -29,7 +29,7 @@ typedef enum ewa_model_format {
     EWA_MODEL_GRID, ///< ASCII grid: heights of cells
     EWA_MODEL_TIFF, ///< TIFF with heights of cells (GeoTIFF)
     EWA_MODEL_TERRAIN, ///< picture with heights in its colours (ewa_cloud_load_options.heights)
-    EWA_MODEL_VTK,     ///< polygons, and flat cells of unstructured grids; grids of voxels are volumes
+    EWA_MODEL_VTK,     ///< polygons, and the surface of cells and grids; grids of voxels are volumes
 } ewa_model_format;
 
 /// Returns "PLY", "OBJ", "STL", "OFF", "glTF", "LAS", "E57", "PCD", "PTX", "text", "ASCII grid", "GeoTIFF",

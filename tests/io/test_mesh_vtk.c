@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Legacy files of VTK: polygons, strips and flat cells in text and in bytes, old and new ways of writing cells, normals
-// and colours of points, what is stepped over, what is refused, every truncation.
+// and colours of points, what is stepped over, what is refused, every truncation. Solids are test_mesh_vtk_cells.c's.
 #include "io/mesh_fixture.h"
 
 #define HEAD    "# vtk DataFile Version 3.0\na title\n"
@@ -162,15 +162,15 @@ static void test_refused(void **state) {
                     broken[i].said);
 }
 
-/// Cells with a volume are left out, words that are not known end the file; points alone are points. Grids of voxels
+/// Cells that are not known are left out, words that are not known end the file; points alone are points. Grids of voxels
 /// are none.
 static void test_left_out(void **state) {
     ewa_mesh mesh;
     static const char mixed[] = HEAD "ASCII\nDATASET UNSTRUCTURED_GRID\n" POINTS
-                                     "CELLS 2 10\n4 0 1 2 3\n4 0 1 2 3\nCELL_TYPES 2\n10 9\n",
+                                     "CELLS 2 10\n4 0 1 2 3\n4 0 1 2 3\nCELL_TYPES 2\n99 9\n",
                       odd[] = SQUARE "POINT_DATA 4\nSCALARS b bit\nLOOKUP_TABLE default\n0 1 1 0\n";
     mesh_load_bytes(context, &messages, "a.vtk", mixed, sizeof mixed - 1, true, &mesh);
-    mesh_says(&messages, "1 cells with a volume are left out");
+    mesh_says(&messages, "1 cells of a kind that is not known are left out");
     ewa_mesh_free(&mesh);
     mesh_load_bytes(context, &messages, "a.vtk", odd, sizeof odd - 1, true, &mesh);
     mesh_says(&messages, "what 'SCALARS' begins is left out");

@@ -1,32 +1,19 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Meshes in VTK's legacy files: polygonal data, and the flat cells of unstructured grids, in text or in binary. Of the
-// data of points, normals and colours of bytes are taken; all else is stepped over.
+// Meshes in VTK's legacy files: polygonal data, the surface of unstructured grids, the sides of structured and rectilinear
+// ones, in text or in binary. Of the data of points, normals and colours of bytes are taken; all else is stepped over.
 //
 // Based on: Kitware, "VTK File Formats", The VTK User's Guide, 2010, pages 3 to 17; VTK's reader of legacy files
 // (cells of version 5).
 #include "base/base.h"
 #include "image/srgb.h"
 #include "io/mesh/formats.h"
+#include "io/mesh/vtk_cells.h"
 
 #include <math.h>
 
 enum { MAX_FIELDS = 1000, MAX_COMPONENTS = 1000, HEAD_BYTES = 1024 };
-
-/// Cells of VTK, by its numbers.
-enum {
-    CELL_VERTEX = 1,
-    CELL_LINE = 3,
-    CELL_LINES = 4,
-    CELL_TRIANGLE = 5,
-    CELL_STRIP = 6,
-    CELL_POLYGON = 7,
-    CELL_PIXEL = 8,
-    CELL_QUAD = 9,
-    FIRST_SOLID = 10,
-    LAST_SOLID = 14,
-};
 
 typedef struct vtk_reader {
     ewa_mesh_build *build;
@@ -36,8 +23,10 @@ typedef struct vtk_reader {
     ewa_mesh_list cells;   ///< numbers: how many corners, which
     ewa_mesh_list kinds;   ///< of VTK's numbers, by cell
     ewa_mesh_list offsets; ///< of OFFSETS
-    ewa_mesh_list corners; ///< of one polygon
     bool has_colors, has_normals;
+    bool has_counts;
+    uint64_t counts[3];           ///< of a grid's places along its axes
+    ewa_mesh_list coordinates[3]; ///< of a rectilinear grid
 } vtk_reader;
 
 /// A type of numbers; bytes are in big-endian order.
@@ -140,6 +129,45 @@ static ewa_status read_points(vtk_reader *r) {
         for (int c = 0; c < 3; c++) EWA_TRY(take_number(r, &type, &place[c]));
         EWA_TRY(ewa_mesh_add_position(r->build, place));
     }
+    return EWA_OK;
+}
+
+static ewa_status read_counts(vtk_reader *r) {
+    for (int c = 0; c < 3; c++)
+        if (!take_count(r, &r->counts[c]) || r->counts[c] == 0) return fail(r, "DIMENSIONS are no three numbers from 1 on");
+    r->has_counts = true;
+    return EWA_OK;
+}
+
+/// Reads the places of a rectilinear grid along an axis.
+static ewa_status read_coordinates(vtk_reader *r, ewa_mesh_list *list) {
+    uint64_t count;
+    number_type type;
+    ewa_status status = EWA_OK;
+    if (!take_count(r, &count) || !take_type(r, &type)) return fail(r, "coordinates have no number and type");
+    EWA_TRY(begin_numbers(r, &type, count));
+    for (list->count = 0; list->count < count;) {
+        double value;
+        EWA_TRY(take_number(r, &type, &value));
+        double *to = ewa_mesh_list_add(r->build, list, &status);
+        if (!to) return status;
+        *to = value;
+    }
+    return EWA_OK;
+}
+
+/// Reads the last axis of a rectilinear grid, and makes its places, x fastest.
+static ewa_status make_places(vtk_reader *r) {
+    EWA_TRY(read_coordinates(r, &r->coordinates[2]));
+    const double *at[3];
+    for (int c = 0; c < 3; c++) {
+        if (r->coordinates[c].count != r->counts[c]) return fail(r, "there are not as many coordinates as DIMENSIONS say");
+        at[c] = r->coordinates[c].items;
+    }
+    for (uint64_t z = 0; z < r->counts[2]; z++)
+        for (uint64_t y = 0; y < r->counts[1]; y++)
+            for (uint64_t x = 0; x < r->counts[0]; x++)
+                EWA_TRY(ewa_mesh_add_position(r->build, (const double[3]){at[0][x], at[1][y], at[2][z]}));
     return EWA_OK;
 }
 
@@ -319,10 +347,14 @@ static ewa_status read_section(vtk_reader *r, ewa_text word, bool *known) {
     uint64_t count;
     *known = true;
     if (ewa_text_is_any_case(word, "POINTS")) return read_points(r);
-    if (ewa_text_is_any_case(word, "POLYGONS")) return read_cells(r, CELL_POLYGON);
-    if (ewa_text_is_any_case(word, "TRIANGLE_STRIPS")) return read_cells(r, CELL_STRIP);
-    if (ewa_text_is_any_case(word, "VERTICES")) return read_cells(r, CELL_VERTEX);
-    if (ewa_text_is_any_case(word, "LINES")) return read_cells(r, CELL_LINES);
+    if (ewa_text_is_any_case(word, "DIMENSIONS")) return read_counts(r);
+    if (ewa_text_is_any_case(word, "X_COORDINATES")) return read_coordinates(r, &r->coordinates[0]);
+    if (ewa_text_is_any_case(word, "Y_COORDINATES")) return read_coordinates(r, &r->coordinates[1]);
+    if (ewa_text_is_any_case(word, "Z_COORDINATES")) return make_places(r);
+    if (ewa_text_is_any_case(word, "POLYGONS")) return read_cells(r, EWA_VTK_POLYGON);
+    if (ewa_text_is_any_case(word, "TRIANGLE_STRIPS")) return read_cells(r, EWA_VTK_STRIP);
+    if (ewa_text_is_any_case(word, "VERTICES")) return read_cells(r, EWA_VTK_VERTEX);
+    if (ewa_text_is_any_case(word, "LINES")) return read_cells(r, EWA_VTK_LINES);
     if (ewa_text_is_any_case(word, "CELLS")) return read_cells(r, 0);
     if (ewa_text_is_any_case(word, "CELL_TYPES")) return read_cell_types(r);
     if (ewa_text_is_any_case(word, "FIELD")) return read_fields(r, known);
@@ -364,47 +396,13 @@ static ewa_status read_section(vtk_reader *r, ewa_text word, bool *known) {
                                            : skip_numbers(r, &type, numbers * r->data_count);
 }
 
-static ewa_status add_polygon(vtk_reader *r, const uint32_t *places, uint64_t count) {
-    ewa_status status = EWA_OK;
-    r->corners.count = 0;
-    for (uint64_t i = 0; i < count; i++) {
-        ewa_mesh_corner *corner = ewa_mesh_list_add(r->build, &r->corners, &status);
-        if (!corner) return status;
-        *corner = (ewa_mesh_corner){places[i], EWA_MESH_NONE, r->has_normals ? places[i] : EWA_MESH_NONE};
-    }
-    return ewa_mesh_add_polygon(r->build, r->corners.items, count);
-}
-
-/// Adds the flat cells; returns through `*solid_count` how many are none.
-static ewa_status add_cells(vtk_reader *r, uint64_t *solid_count) {
-    const uint32_t *cells = r->cells.items, *kinds = r->kinds.items;
-    for (uint64_t i = 0, at = 0; at < r->cells.count && i < r->kinds.count; i++) {
-        const uint32_t count = cells[at], *places = cells + at + 1;
-        at += 1 + (uint64_t)count;
-        switch (kinds[i]) {
-        case CELL_TRIANGLE:
-        case CELL_POLYGON:
-        case CELL_QUAD:
-            EWA_TRY(add_polygon(r, places, count));
-            break;
-        case CELL_PIXEL:
-            if (count == 4)
-                EWA_TRY(add_polygon(r, (const uint32_t[4]){places[0], places[1], places[3], places[2]}, 4));
-            break;
-        case CELL_STRIP:
-            for (uint32_t k = 0; k + 2 < count; k++)
-                EWA_TRY(add_polygon(
-                    r, (const uint32_t[3]){places[k], places[k + 1 + k % 2], places[k + 2 - k % 2]}, 3));
-            break;
-        case CELL_LINE:
-        case CELL_LINES:
-            r->build->line_count++;
-            break;
-        default:
-            *solid_count += kinds[i] >= FIRST_SOLID && kinds[i] <= LAST_SOLID;
-        }
-    }
-    return EWA_OK;
+/// Adds the sides of a grid, if its places are those that its sizes say.
+static ewa_status add_grid(vtk_reader *r) {
+    uint64_t layer, all;
+    if (__builtin_mul_overflow(r->counts[0], r->counts[1], &layer) || __builtin_mul_overflow(layer, r->counts[2], &all) ||
+        all != r->build->positions.count)
+        return fail(r, "there are not as many POINTS as DIMENSIONS say");
+    return ewa_vtk_add_sides(r->build, r->counts, r->has_normals);
 }
 
 static ewa_status read_body(vtk_reader *r) {
@@ -428,13 +426,9 @@ static ewa_status read_body(vtk_reader *r) {
                    (unsigned long long)r->cursor.line, ewa_quote(word, quote));
         break;
     }
-    uint64_t solid_count = 0;
-    EWA_TRY(add_cells(r, &solid_count));
-    if (solid_count)
-        ewa_report(r->build->context, EWA_SEVERITY_WARNING,
-                   "%s: VTK: %llu cells with a volume are left out; their surface, extracted, is read", name,
-                   (unsigned long long)solid_count);
-    return EWA_OK;
+    if (r->has_counts) return add_grid(r);
+    const ewa_vtk_cells cells = {r->cells.items, r->cells.count, r->kinds.items, r->kinds.count, r->has_normals};
+    return ewa_vtk_add_cells(r->build, &cells);
 }
 
 bool ewa_mesh_is_vtk(const uint8_t *bytes, size_t size_bytes) {
@@ -446,7 +440,10 @@ bool ewa_mesh_is_vtk(const uint8_t *bytes, size_t size_bytes) {
     ewa_cursor_any_word(&cursor); // encoding
     if (!ewa_text_is_any_case(ewa_cursor_any_word(&cursor), "DATASET")) return false;
     const ewa_text kind = ewa_cursor_any_word(&cursor);
-    return ewa_text_is_any_case(kind, "POLYDATA") || ewa_text_is_any_case(kind, "UNSTRUCTURED_GRID");
+    static const char *const kinds[] = {"POLYDATA", "UNSTRUCTURED_GRID", "STRUCTURED_GRID", "RECTILINEAR_GRID"};
+    for (size_t i = 0; i < sizeof kinds / sizeof kinds[0]; i++)
+        if (ewa_text_is_any_case(kind, kinds[i])) return true;
+    return false;
 }
 
 ewa_status ewa_mesh_read_vtk(ewa_mesh_build *build) {
@@ -456,11 +453,12 @@ ewa_status ewa_mesh_read_vtk(ewa_mesh_build *build) {
                     .cursor = {bytes, bytes + source->size_bytes, 1},
                     .cells = {.item_bytes = sizeof(uint32_t)},
                     .kinds = {.item_bytes = sizeof(uint32_t)},
-                    .offsets = {.item_bytes = sizeof(uint32_t)},
-                    .corners = {.item_bytes = sizeof(ewa_mesh_corner)}};
+                    .offsets = {.item_bytes = sizeof(uint32_t)}};
+    for (int c = 0; c < 3; c++) r.coordinates[c].item_bytes = sizeof(double);
     const ewa_status status = read_body(&r);
-    ewa_mesh_list *const lists[] = {&r.cells, &r.kinds, &r.offsets, &r.corners};
-    for (int i = 0; i < 4; i++)
+    ewa_mesh_list *const lists[] = {&r.cells,          &r.kinds,          &r.offsets,
+                                    &r.coordinates[0], &r.coordinates[1], &r.coordinates[2]};
+    for (size_t i = 0; i < sizeof lists / sizeof lists[0]; i++)
         ewa_release(build->context, lists[i]->items, lists[i]->capacity, lists[i]->item_bytes);
     return status;
 }

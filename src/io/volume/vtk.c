@@ -4,6 +4,7 @@
 // VTK's legacy structured points.
 // Based on: Kitware, "VTK File Formats", The VTK User's Guide, 2010, pages 3 to 17.
 #include "base/base.h"
+#include "io/mesh/formats.h"
 #include "io/volume/file.h"
 #include "io/volume/text.h"
 
@@ -50,7 +51,7 @@ static ewa_status take_line(const ewa_volume_input *in, const char *line, bool *
     if (!count) return EWA_OK;
     const char *rest = ewa_text_skip_blanks(line) + strlen(words[0]);
     if (strcasecmp(words[0], "DATASET") == 0) {
-        if (count > 1 && (strcasecmp(words[1], "POLYDATA") == 0 || strcasecmp(words[1], "UNSTRUCTURED_GRID") == 0))
+        if (count > 1 && ewa_mesh_is_vtk(in->bytes, in->size_bytes))
             return ewa_volume_fail(in, EWA_ERROR_UNSUPPORTED, "VTK: a mesh (%.40s), no grid of voxels", words[1]);
         if (count < 2 || strcasecmp(words[1], "STRUCTURED_POINTS") != 0)
             return ewa_volume_fail(in, EWA_ERROR_UNSUPPORTED,
