@@ -66,10 +66,11 @@ int main(int argc, char **argv) {
     printf("%u Gaussians of degree %u, %.1f bytes each, %u x %u, %u threads\n", info.splat_count,
            info.sh_degree, (double)info.resident_bytes / info.splat_count, camera.width_px, camera.height_px,
            ewa_context_worker_count(context));
-    for (int exact = 0; exact < 2; exact++) {
+    for (int n = 0; n < 4; n++) {
         ewa_gaussian_options options;
         ewa_gaussian_options_init(&options, sizeof options);
-        options.projection = (ewa_gaussian_projection)exact;
+        options.projection = (ewa_gaussian_projection)(n / 2);
+        options.order = n % 2 ? EWA_ORDER_RAY : EWA_ORDER_CENTER;
         ewa_gaussian_stats stats;
         double times[ROUNDS];
         for (int i = -2; i < ROUNDS; i++) {
@@ -77,10 +78,10 @@ int main(int argc, char **argv) {
             if (i >= 0) times[i] = stats.total_s;
         }
         qsort(times, ROUNDS, sizeof *times, compare_doubles);
-        printf("%s: median %.1f ms, least %.1f ms; %llu in tiles, %llu in blocks, %llu sorted; thread ms: "
+        printf("%s by %s: median %.1f ms, least %.1f ms; %llu in tiles, %llu in blocks, %llu sorted; thread ms: "
                "project %.1f, "
                "bin %.1f, draw %.1f\n",
-               exact ? "exact  " : "trained", 1e3 * times[ROUNDS / 2], 1e3 * times[0],
+               n / 2 ? "exact  " : "trained", n % 2 ? "rays   " : "centres", 1e3 * times[ROUNDS / 2], 1e3 * times[0],
                (unsigned long long)stats.tile_count, (unsigned long long)stats.block_count,
                (unsigned long long)stats.sorted_count, 1e3 * stats.project_s, 1e3 * stats.bin_s,
                1e3 * stats.draw_s);

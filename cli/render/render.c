@@ -96,6 +96,9 @@ static const cli_option lod_table[] = {LOD_OPTIONS(AT(lod))};
 
 static const cli_option gaussian_table[] = {
     {"projection", GAUSSIAN(projection)},
+    {"order", GAUSSIAN(order)},
+    {"gaussian-near", GAUSSIAN(near_world),
+     .absent = "auto: 0.2 as in training, or 2 % of the diagonal of the box shown where that is less"},
     {"gaussian-filter", GAUSSIAN(filter)},
     {"sh-degree", GAUSSIAN(sh_degree)},
     {"surface", OPTION_FLAG, AT(gaussians_as_surfels),
@@ -133,6 +136,7 @@ static void set_defaults(void *data) {
     arguments->close_gaps = true;
     lod_input_set_defaults(&arguments->lod);
     ewa_gaussian_options_init(&arguments->gaussians, sizeof arguments->gaussians);
+    arguments->gaussians.near_world = 0; // as suits them
     ewa_volume_options_init(&arguments->volumes, sizeof arguments->volumes);
     arguments->coloring.colormap = EWA_COLORING_AUTO - 1;
     arguments->background = (option_color){{1, 1, 1, 1}};
@@ -212,7 +216,6 @@ static ewa_scene_options scene_options(const render_arguments *arguments, const 
     options.lod = arguments->lod.options;
     options.render = *render;
     options.gaussians = arguments->gaussians;
-    options.gaussians.near_world = 0; // as suits them
     options.volumes = arguments->volumes;
     options.shade_volumes = arguments->light.shading < 0;
     if (arguments->light.shading >= 0) options.volumes.shading = (ewa_shading)arguments->light.shading;

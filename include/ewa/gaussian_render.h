@@ -50,6 +50,13 @@ typedef enum ewa_gaussian_projection {
     EWA_PROJECTION_EXACT = 1,   ///< what each pixel's ray meets of it, right at every angle
 } ewa_gaussian_projection;
 
+/// What is in front of what.
+typedef enum ewa_gaussian_order {
+    EWA_ORDER_OF_PROJECTION = 0, ///< EWA_ORDER_CENTER of EWA_PROJECTION_TRAINED, EWA_ORDER_RAY of EWA_PROJECTION_EXACT
+    EWA_ORDER_CENTER = 1, ///< in all pixels by the depth of the centre, as in training (3DGS)
+    EWA_ORDER_RAY = 2,    ///< in each pixel by the depth at which its ray passes the greatest density (StopThePop)
+} ewa_gaussian_order;
+
 /// What the pixel filter does to a Gaussian's height.
 typedef enum ewa_gaussian_filter {
     EWA_FILTER_OF_SET = 0,  ///< as the set was trained
@@ -86,6 +93,7 @@ typedef struct ewa_gaussian_options {
     /// ewa_render() gives them: planes of the camera's size, borrowed during the call. NULL (default): normals are 0,
     /// coverage is the alpha of surface_rgba. Without surface_depth: NULL
     const float *surface_normal, *surface_coverage;
+    ewa_gaussian_order order; ///< default EWA_ORDER_OF_PROJECTION
 } ewa_gaussian_options;
 
 EWA_API extern const ewa_option_table ewa_gaussian_options_table;
@@ -112,9 +120,8 @@ EWA_API ewa_status ewa_gaussian_renderer_create(ewa_context *context, ewa_gaussi
 /// Frees a renderer; sets `*renderer` to NULL; accepts NULL and a pointer to NULL.
 EWA_API void ewa_gaussian_renderer_destroy(ewa_gaussian_renderer **renderer);
 
-/// Draws Gaussians, front to back in every pixel: by the depth at which its ray passes the greatest density,
-/// so that nothing changes places at once as the camera moves. Colours are composited as display values, as
-/// in training; frame.rgba is linear as everywhere. The other planes are of Gaussians and surfaces together:
+/// Draws Gaussians, front to back in every pixel, in the order of `options`; of those at one depth in that of
+/// their places. Colours are composited as display values, as in training; frame.rgba is linear as everywhere. The other planes are of Gaussians and surfaces together:
 /// depth is where half of the light is gone, else that of the surface, else +infinity; normal is that of the
 /// surface where it gave the depth, else 0; coverage is c + a max(0, 1 - c), with the surface's c and the alpha a
 /// of the Gaussians. Where no Gaussian is, they are the surface's planes, to the byte. The same bytes for every

@@ -34,8 +34,8 @@ typedef struct ewa_mixture {
     const ewa_mixed_volume *volumes; ///< [volume_count]
 } ewa_mixture;
 
-/// Draws Gaussians and volumes, front to back in every pixel: a Gaussian by the depth at which its ray passes
-/// the greatest density, of a volume each depth unit (ewa_volume_options.depth_unit) by its middle. What is
+/// Draws Gaussians and volumes, front to back in every pixel: a Gaussian by its depth in the order of `options`
+/// (ewa_gaussian_order), of a volume each depth unit (ewa_volume_options.depth_unit) by its middle. What is
 /// linear is mixed linearly: voxels with each other and with what is behind all; the Gaussians' colours, which
 /// are display values, with the display values of that mean. So a mixture of one set is that set's picture
 /// (ewa_gaussian_render(), the same bytes), and one of one volume that of the volume, but for rounding and the

@@ -198,6 +198,12 @@ class ewa_gaussian_filter(IntEnum):
     EWA_FILTER_KEEP = 2
 
 
+class ewa_gaussian_order(IntEnum):
+    EWA_ORDER_OF_PROJECTION = 0
+    EWA_ORDER_CENTER = 1
+    EWA_ORDER_RAY = 2
+
+
 class ewa_gaussian_projection(IntEnum):
     EWA_PROJECTION_TRAINED = 0
     EWA_PROJECTION_EXACT = 1
@@ -1014,6 +1020,7 @@ class ewa_gaussian_options(c.Structure):
     section_count: int
     surface_normal: int | None
     surface_coverage: int | None
+    order: int
     _fields_ = [
         ("struct_size", c.c_size_t),
         ("projection", c.c_int),
@@ -1031,6 +1038,7 @@ class ewa_gaussian_options(c.Structure):
         ("section_count", c.c_uint32),
         ("surface_normal", c.c_void_p),
         ("surface_coverage", c.c_void_p),
+        ("order", c.c_int),
     ]
 
 

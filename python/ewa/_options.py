@@ -382,6 +382,8 @@ class GaussianOptions(TypedDict, total=False):
 
     #: how a Gaussian gets onto the screen: by the affine map at its centre, as in training, or by what each pixel's ray meets of it; trained|exact, default trained
     projection: Literal["trained", "exact"] | int | None
+    #: what is in front of what: by the depth of the centres, as in training, or in each pixel by the depth at which its ray passes the greatest density; auto: centre of trained, ray of exact; auto|centre|ray, default auto
+    order: Literal["auto", "centre", "ray"] | int | None
     #: what the pixel filter does to small Gaussians: what the file was trained with, nothing but thicken them, or lower them so that they add as much as before; file|thicken|keep, default file
     filter: Literal["file", "thicken", "keep"] | int | None
     #: variance of the pixel filter; [0, 16], px^2, default 0.3
@@ -392,7 +394,7 @@ class GaussianOptions(TypedDict, total=False):
     minimum_alpha: float | None
     #: a pixel where less of what is behind would show gets nothing more; [0, 0.999999], default 0.001953125
     minimum_transmittance: float | None
-    #: trained: Gaussians whose centres are nearer to the eye along its axis are not drawn; [0, 1e15], default 0.2
+    #: trained: Gaussians whose centres are nearer to the eye along its axis are not drawn; [0, 1e15], world, default 0.2
     near_world: float | None
     #: spherical harmonics beyond that degree are not used; [0, 4], default 4
     sh_degree: int | None

@@ -254,7 +254,7 @@ def render_gaussians(gaussians: Gaussians | Splats | Sequence[Gaussians | Splats
                      lights: Sequence[Light] | None = None, surfaces: Image | None = None, section_box: Any = None,
                      section_planes: Sequence[Sequence[float]] | None = None, out: Image | None = None,
                      **options: Unpack[GaussianOptions]) -> Image:
-    """Draw Gaussians, and volumes among them, in one order of depth for every pixel.
+    """Draw Gaussians, and volumes among them, in one order of depth.
 
     Parameters
     ----------
@@ -272,8 +272,9 @@ def render_gaussians(gaussians: Gaussians | Splats | Sequence[Gaussians | Splats
     section_box, section_planes
         As of :func:`render`.
     **options
-        Members of ``ewa_gaussian_options``: ``projection`` ("trained", "exact"), ``filter``, ``prefilter_px2``,
-        ``cutoff``, ``minimum_alpha``, ``minimum_transmittance``, ``near_world`` (default 0: as suits them), ``sh_degree``.
+        Members of ``ewa_gaussian_options``: ``projection`` ("trained", "exact"), ``order`` ("auto", "centre", "ray"),
+        ``filter``, ``prefilter_px2``, ``cutoff``, ``minimum_alpha``, ``minimum_transmittance``, ``near_world`` (default
+        0: as suits them), ``sh_degree``.
 
     Raises
     ------

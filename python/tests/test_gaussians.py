@@ -4,11 +4,15 @@
 from __future__ import annotations
 
 import gc
+import sys
 
 import numpy as np
 
 import ewa
-from common import Case
+from common import ROOT, Case
+
+sys.path.append(str(ROOT / "measure"))
+import gaussian_formula
 
 
 def streams(count: int = 50, degree: int = 1) -> dict[str, np.ndarray]:
@@ -100,6 +104,21 @@ class Pictures(Case):
         for what in ([], [1], "set.ply"):
             with self.subTest(what), self.assertRaises((ewa.ArgumentError, TypeError)):
                 ewa.render_gaussians(what)
+
+    def test_trained_formula(self) -> None:
+        given = streams(400, 3)
+        given["scales"] *= 0.5
+        gaussians = ewa.Gaussians(**given, origin=(3, 2, 1))
+        for eye, fov in (((3, 2, -3), 40), ((3.2, 2.1, 0.4), 100)):  # from outside, from within
+            camera = ewa.Camera.look_at(eye, (3, 2, 1), up=(0, -1, 0), size=(120, 90), fov=fov)
+            truth = gaussian_formula.draw(gaussians, camera)
+            self.assertGreater(float(truth[..., 3].mean()), 0.1)
+            far = {order: gaussian_formula.decibels(truth, gaussian_formula.display(ewa.render_gaussians(
+                gaussians, camera, order=order, near_world=0.2, planes=("rgba",), background="transparent")))
+                for order in ("auto", "centre", "ray")}
+            self.assertEqual(far["auto"], far["centre"])
+            self.assertGreater(far["centre"], 60)
+            self.assertLess(far["ray"], 45)
 
     def test_volumes_among_gaussians(self) -> None:
         volume = ewa.Voxels(ewa.generate_volume("ball", dims=[16, 16, 16]), "fog")

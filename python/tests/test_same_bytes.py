@@ -243,11 +243,13 @@ class SameBytes(Case):
 
     def test_render_gaussians(self) -> None:
         self.gaussians().save(self.path("set.ply"))
+        gaussians = ewa.read_gaussians(self.path("set.ply"))
         for projection in ("trained", "exact"):
-            self.run_program("render", "set.ply", "-o", "theirs.png", "--projection", projection)
-            gaussians = ewa.read_gaussians(self.path("set.ply"))
-            ewa.render_gaussians(gaussians, projection=projection).save(self.path("ours.png"))
-            self.same("ours.png", "theirs.png")
+            for order in ("auto", "centre", "ray"):
+                self.run_program("render", "set.ply", "-o", "theirs.png", "--projection", projection, "--order", order,
+                                 "--size", "320x180")
+                ewa.render_gaussians(gaussians, projection=projection, order=order, size=(320, 180)).save(self.path("ours.png"))
+                self.same("ours.png", "theirs.png")
 
     def test_render_mixture(self) -> None:
         self.gaussians().save(self.path("set.spz"))

@@ -35,7 +35,7 @@ static const double MIN_ASPECT = 1e-4;
 
 /// Camera space in world units: turned and moved as the camera says, but not scaled.
 typedef struct view {
-    bool orthographic, trained, keep;
+    bool orthographic, trained, by_center, keep;
     double fx_px, fy_px, cx_px, cy_px; ///< orthographic: pixels per world unit
     double scale;                      ///< of camera space over world units
     ewa_mat3 turn;                     ///< column vectors of the world to camera space
@@ -71,7 +71,6 @@ typedef struct reference {
     ewa_camera given;
     view camera;
     uint32_t width_px, height_px;
-    ewa_gaussian_order order;
     ewa_frame frame;
     splat *splats;
     uint32_t splat_count;
@@ -92,6 +91,8 @@ static view make_view(const ewa_camera *camera, const ewa_gaussian_options *opti
                  .cx_px = camera->cx_px,
                  .cy_px = camera->cy_px};
     made.trained = made.orthographic || options->projection == EWA_PROJECTION_TRAINED;
+    made.by_center = options->order == EWA_ORDER_CENTER;
+    if (options->order == EWA_ORDER_OF_PROJECTION) made.by_center = options->projection == EWA_PROJECTION_TRAINED;
     double origin[3];
     for (int row = 0; row < 3; row++) {
         const double *at = m + 4 * row, *o = set->origin;
@@ -321,7 +322,7 @@ static bool meet(const reference *work, const splat *at, uint32_t x, uint32_t y,
     const double ahead = share_between(work, z, by.deviation, enter, fmin(leave, surface));
     *made = (hit){
         .x = x, .splat = (uint32_t)(at - work->splats), .z = z, .alpha = alpha * all, .ahead = alpha * ahead};
-    made->key = work->order == EWA_ORDER_RAYS ? z : at->place.z;
+    made->key = work->camera.by_center ? at->place.z : z;
     return true;
 }
 
@@ -460,11 +461,10 @@ static ewa_status render(reference *work) {
 }
 
 ewa_status ewa_gaussian_render_reference(const ewa_gaussians *gaussians, const ewa_camera *camera,
-                                         const ewa_gaussian_options *options, ewa_gaussian_order order,
-                                         const ewa_frame *frame) {
+                                         const ewa_gaussian_options *options, const ewa_frame *frame) {
     if (!gaussians || !gaussians->context || !camera || !frame) return EWA_ERROR_ARGUMENT;
     ewa_context *context = gaussians->context;
-    reference work = {.set = gaussians, .order = order, .frame = *frame, .given = *camera};
+    reference work = {.set = gaussians, .frame = *frame, .given = *camera};
     ewa_gaussian_options_init(&work.options, sizeof work.options);
     EWA_TRY(ewa_options_take(context, &ewa_gaussian_options_table, options, &work.options));
     EWA_TRY(ewa_option_check_background(context, work.options.background));

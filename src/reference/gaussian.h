@@ -7,17 +7,10 @@
 
 #include "ewa/gaussian_render.h"
 
-/// What comes before what.
-typedef enum ewa_gaussian_order {
-    EWA_ORDER_RAYS,    ///< in each pixel by the depth at which its ray passes the greatest density
-    EWA_ORDER_CENTERS, ///< everywhere by the depth of the centres, as 3DGS sorts: pops, only to compare with
-} ewa_gaussian_order;
-
 /// All Gaussians in double precision, pixel by pixel, straight from the set: slow, plain, and the definition
 /// of what ewa_gaussian_render() draws. minimum_transmittance of the options is not looked at. Errors: as
 /// ewa_gaussian_render().
 ewa_status ewa_gaussian_render_reference(const ewa_gaussians *gaussians, const ewa_camera *camera,
-                                         const ewa_gaussian_options *options, ewa_gaussian_order order,
-                                         const ewa_frame *frame);
+                                         const ewa_gaussian_options *options, const ewa_frame *frame);
 
 #endif

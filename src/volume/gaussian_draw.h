@@ -1,14 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Part of gaussian_body.h: a tile's splats onto its pixels, in every pixel by the depth at which its ray
-// passes the greatest density (docs/math.md section 12).
+// Part of gaussian_body.h: a tile's splats onto its pixels (docs/math.md section 12).
 //
-// A block of 4x4 pixels takes its splats by the smallest depth that any pixel of the picture sees them at.
-// They become layers, which wait, by the smallest depth in the block's pixels, until no splat to come can be
-// in front of them. Then they are put in order, in one of its own for every pixel: a layer moves forward past
-// those behind it, as a whole where all pixels agree, which most do, else pixel by pixel. What waits is as
-// much as overlaps in depth; nothing is ever dropped.
+// By centres a block of 4x4 pixels takes its splats as they come, and composites each at once. By rays they come by
+// the smallest depth that any pixel of the picture sees them at, and wait until no splat to come can be in front of
+// them (gaussian_order.h).
 #ifndef EWA_SRC_VOLUME_GAUSSIAN_DRAW_H
 #define EWA_SRC_VOLUME_GAUSSIAN_DRAW_H
 
@@ -65,58 +62,72 @@ static void mark(ewa_gaussian_tile *tile) {
     }
 }
 
-/// A splat in the pixels of a block whose centres are (x, y): false where none shows it. Of what stands along
-/// a ray the share in front of the surface counts.
-static ALWAYS_INLINE bool hit_splat(const ewa_gaussian_view *view, const float *s, wf x, wf y, bool trained,
-                                    bool orthographic, const block_state *block, ewa_gaussian_hit *hit) {
-    const wf u = wf_sub(x, wf_set(s[RECORD_X])), v = wf_sub(y, wf_set(s[RECORD_Y]));
-    const wf limit = wf_set(s[RECORD_LIMIT]);
-    wf m2 = wf_set(0), inverse;
-    wm inside = wf_lt(m2, limit);
-    if (trained) {
-        const wf across = wf_fma(u, wf_set(s[RECORD_AX]), wf_mul(v, wf_set(s[RECORD_AY])));
-        const wf down = wf_mul(v, wf_set(s[RECORD_BY]));
-        m2 = wf_fma(across, across, wf_mul(down, down));
-        inside = wf_lt(m2, limit);
-        if (!wm_bits(inside)) return false;
-    }
+/// How the splats of a frame are met; constants of each of the loops over them.
+typedef struct hit_mode {
+    bool trained, orthographic;
+    bool with_depth; ///< of hits; else theirs is 0
+} hit_mode;
+
+/// How rays at (u, v) from a splat's middle pass it: their depths there, and one over what a unit of depth is in
+/// standard deviations, squared. Where its ellipse says nothing, also how far from its centre, and which do within its
+/// limit.
+static ALWAYS_INLINE wf pass_splat(const float *s, wf u, wf v, hit_mode mode, wf limit, wm *inside, wf *m2, wf *depth) {
     wf g[3];
     for (int k = 0; k < 3; k++)
         g[k] = wf_fma(u, wf_set(s[RECORD_G + 3 * k]),
                       wf_fma(v, wf_set(s[RECORD_G + 3 * k + 1]), wf_set(s[RECORD_G + 3 * k + 2])));
-    const wf length = wf_set(s[RECORD_LENGTH]);
-    wf z = g[2];
-    if (orthographic) {
-        inverse = wf_div(wf_set(1), wf_mul(length, length));
+    const wf length = wf_set(s[RECORD_LENGTH]), one = wf_set(1);
+    wf z = g[2], inverse;
+    if (mode.orthographic) {
+        inverse = wf_div(one, wf_mul(length, length));
     } else {
         const wf aside = wf_fma(g[0], g[0], wf_mul(g[1], g[1]));
-        const wf square = wf_fma(g[2], g[2], aside);
-        if (!trained) {
-            const wf far2 = wf_mul(wf_mul(length, length), aside);
-            inside = wm_and(wf_lt(far2, wf_mul(limit, square)), wf_lt(wf_set(0), g[2]));
-            if (!wm_bits(inside)) return false;
-            inverse = wf_div(wf_set(1), square);
-            m2 = wf_mul(far2, inverse);
-        } else {
-            inverse = wf_div(wf_set(1), square);
+        const wf square = wf_fma(g[2], g[2], aside), far2 = wf_mul(wf_mul(length, length), aside);
+        if (!mode.trained) {
+            *inside = wm_and(wf_lt(far2, wf_mul(limit, square)), wf_lt(wf_set(0), g[2]));
+            if (!wm_bits(*inside)) return one;
         }
+        inverse = wf_div(one, square);
+        if (!mode.trained) *m2 = wf_mul(far2, inverse);
         z = wf_mul(wf_mul(length, g[2]), inverse);
     }
-    z = wf_min(wf_max(z, wf_set(s[RECORD_LOW])), wf_set(s[RECORD_HIGH]));
+    *depth = wf_min(wf_max(z, wf_set(s[RECORD_LOW])), wf_set(s[RECORD_HIGH]));
+    return inverse;
+}
+
+/// A splat in the pixels of a block whose centres are (x, y): which of them show it. Of what stands along a ray the
+/// share in front of the surface counts.
+static ALWAYS_INLINE uint32_t hit_splat(const ewa_gaussian_view *view, const float *s, wf x, wf y, hit_mode mode,
+                                        const block_state *block, wf *depth, wf *opacity) {
+    const wf u = wf_sub(x, wf_set(s[RECORD_X])), v = wf_sub(y, wf_set(s[RECORD_Y]));
+    const wf limit = wf_set(s[RECORD_LIMIT]);
+    wf m2 = wf_set(0), inverse = m2;
+    wm inside = wf_lt(m2, limit);
+    if (mode.trained) {
+        const wf across = wf_fma(u, wf_set(s[RECORD_AX]), wf_mul(v, wf_set(s[RECORD_AY])));
+        const wf down = wf_mul(v, wf_set(s[RECORD_BY]));
+        m2 = wf_fma(across, across, wf_mul(down, down));
+        inside = wf_lt(m2, limit);
+        if (!wm_bits(inside)) return 0;
+    }
+    wf z = wf_set(0);
+    if (mode.with_depth || !mode.trained) {
+        inverse = pass_splat(s, u, v, mode, limit, &inside, &m2, &z);
+        if (!wm_bits(inside)) return 0;
+    }
     wf alpha = wf_exp2(wf_fma(m2, wf_set(-0.721347520f), wf_set(s[RECORD_LOG2_ALPHA])));
     if (view->keep) inside = wm_and(inside, wf_le(wf_set(view->minimum_alpha), alpha));
-    hit->active = wm_bits(inside);
     alpha = wf_min(alpha, wf_set((float)EWA_GAUSSIAN_MAX_ALPHA));
-    if (view->with_surface || view->with_sections) { // 3/4 sqrt(8 pi)
-        const wf width = wf_max(wf_mul(wf_set(3.75994241f), wf_sqrt(inverse)), wf_set(1e-30f));
-        wf share = share_ahead(wf_load(block->surface), z, width);
+    if (mode.with_depth && (view->with_surface || view->with_sections)) {
+        const wf deviation = wf_max(wf_sqrt(inverse), wf_set(1e-30f));
+        wf share = share_ahead(wf_load(block->surface), z, deviation);
         if (view->with_sections)
-            share = wf_max(wf_sub(share, share_ahead(wf_load(block->enter), z, width)), wf_set(0));
+            share = wf_max(wf_sub(share, share_ahead(wf_load(block->enter), z, deviation)), wf_set(0));
         alpha = wf_mul(alpha, share);
     }
-    wf_store(hit->alpha, alpha);
-    wf_store(hit->z, wf_add(z, wf_set(0))); // of both zeros the one above
-    return true;
+    *opacity = alpha;
+    *depth = wf_add(z, wf_set(0)); // of both zeros the one above
+    return wm_bits(inside);
 }
 
 /// The layers of volumes in a block: what of each comes next, and the nearest of these.
@@ -175,33 +186,106 @@ static bool add_layers(const ewa_gaussian_view *view, ewa_gaussian_tile *tile, b
     return true;
 }
 
-static ALWAYS_INLINE void draw_splats(const ewa_gaussian_view *view, ewa_gaussian_tile *tile, uint32_t count,
-                                      float x_px, float y_px, bool trained, bool orthographic,
-                                      bool everything, layer_feed *feed, block_state *block) {
-    const wf steps_x = wf_repeat4((const float[4]){0.5f, 1.5f, 2.5f, 3.5f});
-    const wf steps_y = wf_spread4((const float[4]){0.5f, 1.5f, 2.5f, 3.5f});
-    const wf x = wf_add(wf_set(x_px), steps_x), y = wf_add(wf_set(y_px), steps_y);
+/// By rays.
+static ALWAYS_INLINE void draw_by_rays(const ewa_gaussian_view *view, ewa_gaussian_tile *tile, uint32_t count, wf x,
+                                       wf y, hit_mode mode, bool everything, layer_feed *feed, block_state *block) {
     for (uint32_t i = 0; i < count; i++) {
         const uint32_t id = tile->block_ids[i];
         const float *record = tile->records[id];
-        if (feed->z <= record[RECORD_LOW] &&
-            !add_layers(view, tile, everything, record[RECORD_LOW], feed, block))
-            return;
+        const float bound = record[RECORD_ORDER];
+        if (feed->z <= bound && !add_layers(view, tile, everything, bound, feed, block)) return;
         if (block->come >= block->at_once) {
-            advance(view, tile, record[RECORD_LOW], block);
+            advance(view, tile, bound, block);
             if (!block->alive) return;
         }
         ewa_gaussian_hit *hit = next_hit(tile, block);
         tile->block_count++;
-        if (!hit_splat(view, record, x, y, trained, orthographic, block, hit)) continue;
-        hit->active &= block->alive;
+        wf z, alpha;
+        hit->active = block->alive & hit_splat(view, record, x, y, mode, block, &z, &alpha);
         if (!hit->active) continue;
+        wf_store(hit->z, z);
+        wf_store(hit->alpha, alpha);
         hit->id = id;
         hit->layer = NULL;
         keep_hit(tile, block);
     }
     if (add_layers(view, tile, everything, __FLT_MAX__, feed, block))
         advance(view, tile, __builtin_inff(), block);
+}
+
+/// The pixels of a block while splats are composited as they come.
+typedef struct block_light {
+    wf light[3], linear[4], through, depth;
+    wm alive;
+} block_light;
+
+/// Takes from the light what a splat or a layer does; returns how much of it shows.
+static ALWAYS_INLINE wf take_light(const ewa_gaussian_view *view, wm shows, wf alpha, wf z, wf half, block_light *of) {
+    const wf weight = wf_keep(wm_and(of->alive, shows), wf_mul(of->through, alpha)), rest = wf_sub(of->through, weight);
+    if (view->with_depth) of->depth = note_depth(of->depth, half, of->through, rest, z);
+    of->through = rest;
+    of->alive = wm_and(of->alive, wf_le(wf_set(view->minimum_transmittance), rest));
+    return weight;
+}
+
+/// Composites the layers up to a depth.
+static void composite_layers(const ewa_gaussian_view *view, const ewa_gaussian_tile *tile, bool everything,
+                             float bound, wf half, layer_feed *feed, block_light *of) {
+    while (feed->z <= bound && wm_bits(of->alive)) {
+        const ewa_volume_layer *layer =
+            &layers_of(tile, feed->nearest, everything)->layers[feed->next[feed->nearest]];
+        const wf alpha = wf_load(layer->alpha);
+        const wf weight = take_light(view, wf_lt(wf_set(0), alpha), alpha, wf_set(feed->z), half, of);
+        for (int c = 0; c < 3; c++) of->linear[c] = wf_fma(weight, wf_load(layer->color[c]), of->linear[c]);
+        of->linear[3] = wf_add(of->linear[3], weight);
+        feed->next[feed->nearest] = layer->next;
+        find_nearest_layer(tile, everything, feed);
+    }
+}
+
+/// By centres.
+static ALWAYS_INLINE void draw_by_centers(const ewa_gaussian_view *view, ewa_gaussian_tile *tile, uint32_t count, wf x,
+                                          wf y, hit_mode mode, bool everything, layer_feed *feed,
+                                          block_state *block) {
+    const wf zero = wf_set(0), half = wf_load(block->half);
+    block_light of = {.light = {zero, zero, zero},
+                      .linear = {zero, zero, zero, zero},
+                      .through = wf_load(block->pixels + 48),
+                      .depth = wf_load(block->pixels + 64),
+                      .alive = wm_of_bits(block->alive)};
+    uint32_t i = 0;
+    for (; i < count && wm_bits(of.alive); i++) {
+        const float *record = tile->records[tile->block_ids[i]];
+        if (feed->z <= record[RECORD_ORDER])
+            composite_layers(view, tile, everything, record[RECORD_ORDER], half, feed, &of);
+        wf z, alpha;
+        const uint32_t shows = hit_splat(view, record, x, y, mode, block, &z, &alpha);
+        if (!shows) continue;
+        const wf weight = take_light(view, wm_of_bits(shows), alpha, z, half, &of);
+        for (int c = 0; c < 3; c++) of.light[c] = wf_fma(weight, wf_set(record[RECORD_COLOR + c]), of.light[c]);
+    }
+    tile->block_count += i;
+    composite_layers(view, tile, everything, __FLT_MAX__, half, feed, &of);
+    for (int c = 0; c < 3; c++) wf_store(block->pixels + 16 * c, of.light[c]);
+    for (int c = 0; c < 4; c++) wf_store(block->linear + 16 * c, of.linear[c]);
+    wf_store(block->pixels + 48, of.through);
+    wf_store(block->pixels + 64, of.depth);
+}
+
+/// In the frame's order; `trained` and `orthographic` are constants.
+static ALWAYS_INLINE void draw_splats(const ewa_gaussian_view *view, ewa_gaussian_tile *tile, uint32_t count,
+                                      const block_place *at, bool trained, bool orthographic, bool everything,
+                                      layer_feed *feed, block_state *block) {
+    const wf steps_x = wf_repeat4((const float[4]){0.5f, 1.5f, 2.5f, 3.5f});
+    const wf steps_y = wf_spread4((const float[4]){0.5f, 1.5f, 2.5f, 3.5f});
+    const wf x = wf_add(wf_set((float)at->x), steps_x), y = wf_add(wf_set((float)at->y), steps_y);
+    const hit_mode whole = {trained, orthographic, true}, flat = {trained, orthographic, false};
+    if (!view->by_center)
+        draw_by_rays(view, tile, count, x, y, whole, everything, feed, block);
+    else if (view->with_depth || view->with_surface || view->with_sections)
+        draw_by_centers(view, tile, count, x, y, whole, everything, feed, block);
+    else
+        draw_by_centers(view, tile, count, x, y, flat, everything, feed, block);
 }
 
 /// Ids of a row of blocks to those of its column.
@@ -253,7 +337,6 @@ static ALWAYS_INLINE void set_bounds(const ewa_gaussian_view *view, const ewa_ga
 static void composite_block(const ewa_gaussian_view *view, ewa_gaussian_tile *tile, uint32_t count,
                             uint32_t row, uint32_t column, const block_place *at, const ewa_volume_target *to,
                             bool everything, wf half, block_state *block) {
-    const float x_px = (float)at->x, y_px = (float)at->y;
     layer_feed feed;
     start_feed(tile, row, column, everything, &feed);
     clear_block(block->pixels);
@@ -265,11 +348,11 @@ static void composite_block(const ewa_gaussian_view *view, ewa_gaussian_tile *ti
     for (uint32_t y = 0; y < at->height; y++) block->alive |= ((1u << at->width) - 1) << 4 * y;
     set_bounds(view, tile, to, at, everything, block);
     if (view->orthographic)
-        draw_splats(view, tile, count, x_px, y_px, true, true, everything, &feed, block);
+        draw_splats(view, tile, count, at, true, true, everything, &feed, block);
     else if (view->trained)
-        draw_splats(view, tile, count, x_px, y_px, true, false, everything, &feed, block);
+        draw_splats(view, tile, count, at, true, false, everything, &feed, block);
     else
-        draw_splats(view, tile, count, x_px, y_px, false, false, everything, &feed, block);
+        draw_splats(view, tile, count, at, false, false, everything, &feed, block);
 }
 
 /// A block over what is behind it, linear and premultiplied: voxels are mixed with that, then the Gaussians with the

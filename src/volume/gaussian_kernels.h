@@ -46,6 +46,7 @@ enum {
     RECORD_LOG2_ALPHA, ///< in the middle
     RECORD_LOW,        ///< depths that pixels see it at
     RECORD_HIGH,
+    RECORD_ORDER,                    ///< by centres: the centre's depth; by rays: RECORD_LOW
     RECORD_COLOR,                    ///< display values
     RECORD_REACH = RECORD_COLOR + 3, ///< half of the ellipse's height
     RECORD_TOUCH,                    ///< v where the ellipse is farthest to the right
@@ -56,7 +57,7 @@ typedef float ewa_gaussian_record[RECORD_FLOATS];
 
 /// Camera and options of a frame in single precision.
 typedef struct ewa_gaussian_view {
-    bool orthographic, trained, keep, with_depth;
+    bool orthographic, trained, by_center, keep, with_depth;
     bool with_surface;  ///< planes of opaque surfaces
     bool with_sections; ///< section planes
     float fx_px, fy_px, cx_px, cy_px;
@@ -75,7 +76,7 @@ typedef struct ewa_gaussian_view {
 /// Where the visible splats of some packets go; `count` of them are there.
 typedef struct ewa_gaussian_found {
     ewa_gaussian_record *records;
-    uint32_t *keys;       ///< sort as RECORD_LOW does
+    uint32_t *keys;       ///< sort as RECORD_ORDER does
     int32_t *first, *end; ///< tiles, as in ewa_bin_items
     uint32_t count, near_count;
 } ewa_gaussian_found;
@@ -108,7 +109,7 @@ typedef struct ewa_gaussian_volume {
 typedef struct ewa_gaussian_tile {
     uint32_t x_px, y_px, width_px, height_px;
     const ewa_gaussian_record *records;
-    const uint32_t *ids; ///< [count] records, by RECORD_LOW
+    const uint32_t *ids; ///< [count] records, by RECORD_ORDER
     uint32_t count;
     uint8_t *marks;           ///< [row of blocks][room]: bit c: column c
     size_t room;              ///< of a row of marks

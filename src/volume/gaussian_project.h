@@ -330,8 +330,8 @@ static void add_records(wm shows, const wf record[RECORD_FLOATS], wf tiles[4], e
         float *to = found->records[found->count];
         __builtin_memcpy(to, row, sizeof(ewa_gaussian_record));
         int32_t key;
-        __builtin_memcpy(&key, &to[RECORD_LOW], sizeof key);
-        // Numbers below zero, of orthographic cameras, sort the other way round.
+        __builtin_memcpy(&key, &to[RECORD_ORDER], sizeof key);
+        // Numbers below zero, of orthographic cameras and of centres behind the eye, sort the other way round.
         found->keys[found->count] = (uint32_t)key ^ (key < 0 ? 0xffffffffu : 0x80000000u);
         found->first[found->count] = corner[0][lane];
         found->end[found->count] = corner[1][lane];
@@ -378,6 +378,7 @@ static void project(const ewa_gaussian_view *view, const ewa_splat_packet *packe
     record[RECORD_LOG2_ALPHA] = wf_log2(alpha);
     set_colors(view, packet, harmonics, &s, &record[RECORD_COLOR]);
     if (wm_bits(near)) set_near(view, &s, near, rows, record);
+    record[RECORD_ORDER] = wf_add(view->by_center ? s.place[2] : record[RECORD_LOW], zero); // of both zeros the one above
     found->near_count += (uint32_t)__builtin_popcount(wm_bits(wm_and(near, shows)));
     add_records(shows, record, tiles, found);
 }

@@ -119,6 +119,7 @@ static void set_view(ewa_gaussian_view *view, const ewa_splats *splats, double u
     const uint32_t degree = splats ? splats->info.sh_degree : 0;
     *view = (ewa_gaussian_view){.orthographic = c.orthographic,
                                 .trained = c.trained,
+                                .by_center = c.by_center,
                                 .keep = c.keep,
                                 .with_surface = options->surface_depth != NULL,
                                 .with_sections = options->section_count > 0,
@@ -226,7 +227,7 @@ static ewa_status project_all(gaussian_job *job) {
     return ewa_parallel_stoppable(context, "gaussians", project_part, job, job->part_count);
 }
 
-/// Orders what is visible by the smallest depth of each, ties as the splats are.
+/// Orders what is visible by RECORD_ORDER of each, ties as the splats are.
 static ewa_status sort_all(gaussian_job *job) {
     ewa_gaussian_renderer *renderer = job->renderer;
     job->visible_count = 0;

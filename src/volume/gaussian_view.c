@@ -18,6 +18,9 @@ static const ewa_option rows[] = {
      .help =
          "how a Gaussian gets onto the screen: by the affine map at its centre, as in training, or by what "
          "each pixel's ray meets of it"},
+    {"order", EWA_OPTION_CHOICE, OF(order), .words = "auto|centre|ray",
+     .help = "what is in front of what: by the depth of the centres, as in training, or in each pixel by the depth at "
+             "which its ray passes the greatest density; auto: centre of trained, ray of exact"},
     {"filter", EWA_OPTION_CHOICE, OF(filter), .words = "file|thicken|keep",
      .help =
          "what the pixel filter does to small Gaussians: what the file was trained with, nothing but thicken "
@@ -31,7 +34,7 @@ static const ewa_option rows[] = {
     {"minimum_transmittance", EWA_OPTION_F64, OF(minimum_transmittance), 0, 0.999999, .initial = 1.0 / 512,
      .help = "a pixel where less of what is behind would show gets nothing more"},
     {"near_world", EWA_OPTION_F64, OF(near_world), 0, 1e15, .initial = EWA_GAUSSIAN_NEAR_WORLD,
-     .help = "trained: Gaussians whose centres are nearer to the eye along its axis are not drawn"},
+     .unit = "world", .help = "trained: Gaussians whose centres are nearer to the eye along its axis are not drawn"},
     {"sh_degree", EWA_OPTION_U32, OF(sh_degree), 0, EWA_MAX_SH_DEGREE, .initial = EWA_MAX_SH_DEGREE,
      .help = "spherical harmonics beyond that degree are not used"},
     {"background", EWA_OPTION_F32, OF(background), 0, 1e15, .count = 4,
@@ -87,6 +90,8 @@ void ewa_gaussian_camera_make(ewa_gaussian_camera *made, const ewa_camera *camer
     *made = (ewa_gaussian_camera){
         .orthographic = orthographic,
         .trained = options->projection == EWA_PROJECTION_TRAINED || orthographic, // the same there
+        .by_center = options->order == EWA_ORDER_CENTER ||
+                     (options->order == EWA_ORDER_OF_PROJECTION && options->projection == EWA_PROJECTION_TRAINED),
         .keep = options->filter == EWA_FILTER_OF_SET ? antialiased : options->filter == EWA_FILTER_KEEP,
         .cx_px = camera->cx_px,
         .cy_px = camera->cy_px};

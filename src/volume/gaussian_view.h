@@ -21,7 +21,7 @@
 
 /// Camera space in units of the splats, and what else a frame's Gaussians share.
 typedef struct ewa_gaussian_camera {
-    bool orthographic, trained, keep;
+    bool orthographic, trained, by_center, keep;
     double fx_px, fy_px, cx_px, cy_px; ///< orthographic: pixels per unit
     double unit_camera;                ///< a unit in camera space, as depth planes have it
     ewa_mat3 turn;                     ///< column vectors of the world to camera space, a rotation

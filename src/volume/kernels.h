@@ -124,7 +124,7 @@ typedef struct ewa_volume_view {
     float bend;                      ///< of ewa_grid_view
     float cutoff, cutoff2, prefilter2_px2, reach;
     float minimum_transmittance;
-    float surface_reach;    ///< half of the depth over which a voxel passes a surface
+    float depth_deviation;  ///< of voxels
     float to_world[9];      ///< world from camera, a rotation
     float toward_viewer[3]; ///< orthographic, world space
     float ambient, diffuse, specular, shininess;

@@ -7,8 +7,6 @@
 // In standard deviations along i, j, k every kernel is the same ball. A ray of direction g, |g| = 1, passes a
 // voxel at d after t = d g at the distance m, m^2 = d^2 - t^2; of its Gaussian the share Phi(t) lies ahead of
 // the eye.
-//
-// Phi based on: M. Abramowitz, I. Stegun, Handbook of Mathematical Functions, 1964, 7.1.26.
 #ifndef EWA_SRC_VOLUME_KERNELS_NEAR_H
 #define EWA_SRC_VOLUME_KERNELS_NEAR_H
 
@@ -61,18 +59,6 @@ static uint32_t append_near(const ewa_volume_view *view, const ewa_volume_source
     return added;
 }
 
-/// Phi(t), the share of a normal distribution below t, given exp(-t^2 / 2): within 1e-7.
-static ALWAYS_INLINE wf share_below(wf t, wf bell) {
-    const wf one = wf_set(1), x = wf_mul(wf_abs(t), wf_set(0.707106781f));
-    const wf u = wf_div(one, wf_fma(x, wf_set(0.3275911f), one));
-    wf series = wf_fma(u, wf_set(1.061405429f), wf_set(-1.453152027f));
-    series = wf_fma(u, series, wf_set(1.421413741f));
-    series = wf_fma(u, series, wf_set(-0.284496736f));
-    series = wf_fma(u, series, wf_set(0.254829592f));
-    const wf beyond = wf_mul(wf_set(0.5f), wf_mul(wf_mul(u, series), bell));
-    return wf_select(wf_lt(t, wf_set(0)), beyond, wf_sub(one, beyond));
-}
-
 /// Rays of a block of 4x4 pixels: directions in standard deviations, and the optical depth per extinction
 /// through a voxel's middle.
 static ALWAYS_INLINE void set_rays(const ewa_volume_view *view, const ewa_volume_tile *tile, uint32_t row,
@@ -107,7 +93,7 @@ static void draw_near(const ewa_volume_view *view, ewa_volume_tile *tile, const 
                 const wf m2 = wf_max(wf_fnma(t, t, wf_set(at->square)), zero);
                 const wm inside = wm_and(wf_lt(m2, wf_set(view->cutoff2)), wf_lt(wf_set(-view->cutoff), t));
                 if (!wm_bits(inside)) continue;
-                const wf ahead = share_below(t, wf_exp2(wf_mul(exponent, wf_mul(t, t))));
+                const wf ahead = share_below(t);
                 const wf whole = wf_mul(wf_set(at->extinction), wf_mul(peak, wf_exp2(wf_mul(exponent, m2))));
                 const wf z = wf_set(at->z > 0 ? at->z : 0);
                 wf depth = wf_keep(inside, wf_min(wf_mul(whole, ahead), wf_set(1e12f)));

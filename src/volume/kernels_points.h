@@ -28,10 +28,10 @@ static ALWAYS_INLINE wf absorbed(wf t) {
 /// The share of a voxel of depth z that lies in front of a block's opaque surfaces, and within the section planes.
 static ALWAYS_INLINE wf share_in_front(const ewa_volume_view *view, const ewa_volume_tile *tile, size_t block,
                                        wf z) {
-    const wf width = wf_set(2 * view->surface_reach);
-    const wf share = share_ahead(wf_load(tile->surface + 16 * block), z, width);
+    const wf deviation = wf_set(view->depth_deviation);
+    const wf share = share_ahead(wf_load(tile->surface + 16 * block), z, deviation);
     if (!view->with_sections) return share;
-    return wf_max(wf_sub(share, share_ahead(wf_load(tile->enter + 16 * block), z, width)), wf_set(0));
+    return wf_max(wf_sub(share, share_ahead(wf_load(tile->enter + 16 * block), z, deviation)), wf_set(0));
 }
 
 /// Composites `weight`, the light that is absorbed, of a colour behind a block's pixels.

@@ -149,9 +149,9 @@ static void look_behind(const ewa_volume_tile *tile, const ewa_block_view *view,
     }
 }
 
-/// Hides cells whose surfaces lie wholly in front of a depth.
+/// Hides cells whose surfaces lie wholly in front of voxels at a depth: there 3e-7 of one would show.
 static void hide_behind_surface(const ewa_volume_job *job, ewa_volume_tile *tile, float z) {
-    const float passed = z - job->view.surface_reach;
+    const float passed = z - 5 * job->view.depth_deviation;
     for (uint32_t block = 0; block < EWA_VOLUME_TILE_BLOCKS; block++) {
         bool hidden = true;
         for (int i = 0; i < 16; i++) hidden &= tile->surface[16 * block + i] < passed;

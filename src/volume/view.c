@@ -140,7 +140,7 @@ void ewa_volume_view_set(ewa_volume_view *view, const ewa_grid_view *grid, const
     view->mark_splats = options->mark_splats;
     for (int c = 0; c < 3; c++) view->marked_color[c] = (float)(c == 0 ? EWA_MARKED_SPLAT_RED : EWA_MARKED_SPLAT_OTHER);
     view->minimum_transmittance = (float)options->minimum_transmittance;
-    view->surface_reach = (float)(0.75 * sqrt(2 * 3.14159265358979323846) * grid->depth_sigma);
+    view->depth_deviation = (float)grid->depth_sigma;
     set_shading(view, grid, camera, shading);
     view->table = table;
 }

@@ -145,6 +145,37 @@ static void together(void **state) {
     run_fails(1, "none.json", "ewa render ball.nrrd sphere.ply -o x.png --transfer none.json");
 }
 
+/// The defaults are the order of centres of the trained projection and that of rays of the exact one; a scene file keeps
+/// what was said.
+static void ordered(void **state) {
+    char text[4096];
+    snprintf(text, sizeof text, head, 2,
+             "0 0 -0.01 1.7 -1.7 -1.7 1 0 0 -5 0.94 0 0.34 0\n0 0 0 -1.7 -1.7 1.7 1 0 0 -5 0.94 0 -0.34 0\n");
+    scratch_text("crossing.ply", text);
+    run_done("ewa render crossing.ply -o trained.png --size 80x60 && "
+             "ewa render crossing.ply -o centre.png --size 80x60 --order centre && "
+             "ewa render crossing.ply -o ray.png --size 80x60 --order ray --save-scene ray.json && "
+             "ewa render ray.json -o again.png && "
+             "ewa render crossing.ply -o exact.png --size 80x60 --projection exact && "
+             "ewa render crossing.ply -o exact_ray.png --size 80x60 --projection exact --order ray && "
+             "ewa render crossing.ply -o exact_centre.png --size 80x60 --projection exact --order centre");
+    assert_true(scratch_same("trained.png", "centre.png") && scratch_same("ray.png", "again.png"));
+    assert_true(scratch_same("exact.png", "exact_ray.png"));
+    assert_false(scratch_same("centre.png", "ray.png") || scratch_same("exact.png", "exact_centre.png"));
+    // Two units from the eye nothing is left that is nearer than three.
+    assert_int_equal(run("ewa render crossing.ply -o near.png --size 80x60 --eye 0,0,-2 --target 0,0,0 --gaussian-near 3"), 0);
+    assert_non_null(strstr(last_run.err, "sees none of the 2 splats"));
+    run_done("ewa render crossing.ply -o seen.png --size 80x60 --eye 0,0,-2 --target 0,0,0 --gaussian-near 1 && "
+             "ewa render crossing.ply -o usual.png --size 80x60 --eye 0,0,-2 --target 0,0,0 --gaussian-near auto");
+    ewa_image image = load("near.png");
+    for (size_t i = 0; i < 80 * 60; i++)
+        for (size_t c = 0; c < 3; c++) assert_true(image.pixels[image.channel_count * i + c] == 1);
+    ewa_image_free(&image);
+    assert_true(scratch_same("seen.png", "usual.png") && !scratch_same("seen.png", "near.png"));
+    run_fails(2, "--order", "ewa render crossing.ply -o x.png --order depth");
+    run_fails(2, "--gaussian-near", "ewa render crossing.ply -o x.png --gaussian-near -1");
+}
+
 static void surfaces(void **state) {
     run_done(
         "ewa render pair.ply -o surface.png --surface --shading none --size 100x200 --up 0,-1,0 --view back "
@@ -184,7 +215,7 @@ static void refused(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(upright),  cmocka_unit_test(hidden), cmocka_unit_test(together),
-        cmocka_unit_test(surfaces), cmocka_unit_test(films),  cmocka_unit_test(refused),
+        cmocka_unit_test(ordered),  cmocka_unit_test(surfaces), cmocka_unit_test(films),    cmocka_unit_test(refused),
     };
     return cmocka_run_group_tests(tests, enter, leave);
 }

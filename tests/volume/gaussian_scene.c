@@ -71,11 +71,11 @@ ewa_image gaussians_draw(const ewa_gaussians *set, const ewa_camera *camera,
 }
 
 ewa_image gaussians_draw_reference(const ewa_gaussians *set, const ewa_camera *camera,
-                                   const ewa_gaussian_options *options, ewa_gaussian_order order) {
+                                   const ewa_gaussian_options *options) {
     ewa_image image;
     assert_int_equal(ewa_image_create(set->context, camera->width_px, camera->height_px, 4, &image), EWA_OK);
     const ewa_frame frame = {.rgba = image.pixels};
-    assert_int_equal(ewa_gaussian_render_reference(set, camera, options, order, &frame), EWA_OK);
+    assert_int_equal(ewa_gaussian_render_reference(set, camera, options, &frame), EWA_OK);
     return image;
 }
 

@@ -25,7 +25,7 @@ ewa_camera gaussians_camera(uint32_t width_px, uint32_t height_px, double fov_de
 ewa_image gaussians_draw(const ewa_gaussians *set, const ewa_camera *camera,
                          const ewa_gaussian_options *options, ewa_gaussian_stats *stats);
 ewa_image gaussians_draw_reference(const ewa_gaussians *set, const ewa_camera *camera,
-                                   const ewa_gaussian_options *options, ewa_gaussian_order order);
+                                   const ewa_gaussian_options *options);
 
 /// Decibels between two pictures: of display values, over what they have behind them.
 double gaussians_decibels(const ewa_image *a, const ewa_image *b);

@@ -118,8 +118,10 @@ static ewa_image draw_turned(const ewa_gaussians *set, double degrees, bool by_c
     static const double origin[3] = {0, 0, 0}, axis[3] = {0, 1, 0}, from[3] = {0, 0.2, -1};
     ewa_camera camera = gaussians_camera(48, 48, 40, from, 4);
     assert_int_equal(ewa_camera_orbit(&camera, origin, axis, degrees), EWA_OK);
-    return by_centers ? gaussians_draw_reference(set, &camera, NULL, EWA_ORDER_CENTERS)
-                      : gaussians_draw(set, &camera, NULL, NULL);
+    ewa_gaussian_options options;
+    ewa_gaussian_options_init(&options, sizeof options);
+    options.order = by_centers ? EWA_ORDER_CENTER : EWA_ORDER_RAY;
+    return gaussians_draw(set, &camera, &options, NULL);
 }
 
 /// The largest change from one picture to the next of `steps`, and before which.

@@ -29,15 +29,17 @@ static void test_scenes(void **state) {
         assert_int_equal(ewa_camera_frame(&camera, &info.core, (const double[3]){1, 0.2, 0.3},
                                           (const double[3]){0, -1, 0}, 0.05),
                          EWA_OK);
-        for (int exact = 0; exact < 2; exact++) {
+        for (int n = 0; n < 4; n++) {
             ewa_gaussian_options options;
             ewa_gaussian_options_init(&options, sizeof options);
-            options.projection = (ewa_gaussian_projection)exact;
+            options.projection = (ewa_gaussian_projection)(n / 2);
+            options.order = n % 2 ? EWA_ORDER_RAY : EWA_ORDER_CENTER;
             options.near_world = 0; // the three points' scene is small
             ewa_image fast = gaussians_draw(&set, &camera, &options, NULL);
-            ewa_image slow = gaussians_draw_reference(&set, &camera, &options, EWA_ORDER_RAYS);
+            ewa_image slow = gaussians_draw_reference(&set, &camera, &options);
             const double decibels = gaussians_decibels(&fast, &slow);
-            print_message("%s, %s: %.1f dB\n", files[f], exact ? "exact" : "trained", decibels);
+            print_message("%s, %s by %s: %.1f dB\n", files[f], n / 2 ? "exact" : "trained",
+                          n % 2 ? "rays" : "centres", decibels);
             assert_true(decibels > 60);
             ewa_image_free(&fast);
             ewa_image_free(&slow);

@@ -234,7 +234,7 @@ static void test_sheets(void **state) {
         options.projection = (ewa_gaussian_projection)(n / 6);
         const ewa_frame frame = frame_of(&out), reference = frame_of(&slow);
         draw_set(&set, &camera, &options, &frame);
-        assert_int_equal(ewa_gaussian_render_reference(&set, &camera, &options, EWA_ORDER_RAYS, &reference),
+        assert_int_equal(ewa_gaussian_render_reference(&set, &camera, &options, &reference),
                          EWA_OK);
         const double front = opacities[n % 6][0], back = opacities[n % 6][1];
         for (size_t i = 0; i < PIXELS; i++) {
@@ -329,7 +329,7 @@ static void test_reference(void **state) {
         options.minimum_transmittance = 0;
         const ewa_frame frame = frame_of(&out), reference = frame_of(&slow);
         draw_set(&set, &camera, &options, &frame);
-        assert_int_equal(ewa_gaussian_render_reference(&set, &camera, &options, EWA_ORDER_RAYS, &reference),
+        assert_int_equal(ewa_gaussian_render_reference(&set, &camera, &options, &reference),
                          EWA_OK);
         size_t apart = 0;
         double largest = 0, sum = 0;
