@@ -464,8 +464,8 @@ const cli_command render_command = {
         "that the rest would be tiny, those are left outside, which a message says. Without --up, the "
         "axis that points up is y or z by what the points show: what they stand on, ground, map "
         "coordinates (z), what a camera at the origin saw; else y, for STL z. Without --view, all is "
-        "seen from the front (from +z with y up, from -y with z up), but ground and what is long from "
-        "above at an angle (iso), drawings face on, and pictures of a camera at the origin from there. "
+        "seen from the front (from +z with y up, from -y with z up), but ground, what is long and what has "
+        "a plane for a front, as cubes, from above at an angle (iso), drawings face on, and pictures of a camera at the origin from there. "
         "--verbose says what was chosen and why.",
     .examples =
         "ewa render scan.ply -o scan.png\n"

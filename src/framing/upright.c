@@ -54,6 +54,9 @@ static const double MIRRORED_SHARE = 0.85, UNMIRRORED_RATIO = 0.85;
 /// What has so much of a base along y and along z is a box.
 static const double BOX_SHARE = 0.6;
 
+/// So much of a body's front in one plane shows nothing of its form.
+static const double FACE_SHARE = 0.6;
+
 /// What is so many times higher than wide, without a base, lies on its side.
 static const double TALL_RATIO = 2;
 
@@ -160,6 +163,15 @@ static ewa_upright choose_body(const point_cloud_sample *points, ewa_up_conventi
         .why = any ? "nothing speaks for another axis" : "files of this kind mostly have it so"};
 }
 
+/// From where a body is seen: at an angle, too, if a plane is most of what its front shows, which is of one shade. Walls
+/// that were surveyed, and open sheets, are seen face on.
+static ewa_named_view body_view(const point_cloud_sample *points, int axis, ewa_up_convention convention) {
+    const int depth = 3 - axis; // the front is +z with y up, -y with z up
+    const bool plane = convention != EWA_UP_Z_SURVEYED && ewa_measure_face(points, depth, axis == 1) >= FACE_SHARE &&
+                       ewa_measure_layers(points, depth) >= SHEET_SHARE;
+    return plane ? EWA_VIEW_ISO : ewa_upright_view(points->extent, axis);
+}
+
 static ewa_upright choose_axis(const point_cloud_sample *points, ewa_up_convention convention) {
     const double *e = points->extent, *middle = points->middle_world;
     const double size = fmax(e[0], fmax(e[1], e[2]));
@@ -167,7 +179,7 @@ static ewa_upright choose_axis(const point_cloud_sample *points, ewa_up_conventi
     ewa_upright chosen = {.axis = ewa_up_axis_of(convention) == 2 ? 2 : 1, .why = "there is one place only"};
     if (!(size > 0)) return chosen;
     if (convention == EWA_UP_Y_REQUIRED)
-        return (ewa_upright){.axis = 1, .view = ewa_upright_view(e, 1), .why = "glTF has y up"};
+        return (ewa_upright){.axis = 1, .view = body_view(points, 1, convention), .why = "glTF has y up"};
     for (int axis = 0; axis < 3; axis++)
         if (e[axis] < PLANE_RATIO * size && fmin(e[(axis + 1) % 3], e[(axis + 2) % 3]) > PLANE_RATIO * size)
             return (ewa_upright){.axis = axis > 0 || ewa_up_axis_of(convention) == 2 ? 2 : 1,
@@ -183,7 +195,7 @@ static ewa_upright choose_axis(const point_cloud_sample *points, ewa_up_conventi
             return (ewa_upright){.axis = axis, .view = EWA_VIEW_ISO, .why = "a sheet that lies flat: ground"};
     if (convention != EWA_UP_Z_SURVEYED && choose_camera(points, false, &chosen)) return chosen;
     chosen = choose_body(points, convention);
-    chosen.view = ewa_upright_view(e, chosen.axis);
+    chosen.view = body_view(points, chosen.axis, convention);
     return chosen;
 }
 

@@ -111,6 +111,27 @@ double ewa_measure_layers(const point_cloud_sample *points, int axis) {
     return layered_share(&grid, false);
 }
 
+double ewa_measure_face(const point_cloud_sample *points, int axis, bool high) {
+    const int x = axis == 0 ? 1 : 0, y = axis == 2 ? 1 : 2;
+    const double low[2] = {points->low[x], points->low[y]}, ends[2] = {points->high[x], points->high[y]};
+    const double size = fmax(points->extent[axis], fmax(ends[0] - low[0], ends[1] - low[1]));
+    if (!(fmax(ends[0] - low[0], ends[1] - low[1]) > 0)) return 0;
+    depth_grid grid;
+    start_grid(&grid, low, ends, points->count);
+    for (size_t i = 0; i < points->count; i++) {
+        const double *p = points->offsets[i];
+        put_in_grid(&grid, p[x], p[y], high ? points->high[axis] - p[axis] : p[axis] - points->low[axis]);
+    }
+    int occupied = 0, flat = 0;
+    for (int row = 0; row < grid.sides; row++) {
+        for (int column = 0; column < grid.sides; column++) {
+            occupied += grid.counts[row][column] > 0;
+            flat += grid.counts[row][column] > 0 && grid.nearest[row][column] <= BASE_THICKNESS * size;
+        }
+    }
+    return occupied ? (double)flat / occupied : 0;
+}
+
 /// How many of MARKS classes of numbers in [low, high] are met.
 typedef struct mark_set {
     uint64_t bits[MARKS / 64];

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// What is measured of some points to tell how they stand: sheets, range images, bases, halves.
+// What is measured of some points to tell how they stand: sheets, range images, bases, faces, halves.
 #ifndef EWA_SRC_FRAMING_UPRIGHT_MEASURE_H
 #define EWA_SRC_FRAMING_UPRIGHT_MEASURE_H
 
@@ -29,6 +29,9 @@ typedef struct base_facts {
 } base_facts;
 
 void ewa_measure_base(const point_cloud_sample *points, int axis, base_facts *facts);
+
+/// Share of the places across an axis whose point that is nearest to its high or low end lies at that end.
+double ewa_measure_face(const point_cloud_sample *points, int axis, bool high);
 
 /// Share of the places with points that have some in their mirror image across the middle of an axis, too.
 double ewa_measure_mirror(const point_cloud_sample *points, int axis);

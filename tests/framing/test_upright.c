@@ -248,7 +248,7 @@ static void make_prism(double bottom, double depth, double taper) {
 /// the first.
 static void test_halves(void **state) {
     make_prism(0.25, 1.5, 0.18);
-    EXPECT(EWA_UP_ANY, 1, EWA_VIEW_FRONT, "nothing speaks");
+    EXPECT(EWA_UP_ANY, 1, EWA_VIEW_ISO, "nothing speaks");
     EXPECT(EWA_UP_Z_USUAL, 2, EWA_VIEW_FRONT, "base");
     make_prism(0.25, 1.5, 0.22);
     EXPECT(EWA_UP_ANY, 2, EWA_VIEW_FRONT, "base");
@@ -263,10 +263,10 @@ static void test_halves(void **state) {
             made.points[i][1] = made.points[i][2], made.points[i][2] = y;
         }
         if (turned[k].mirrored)
-            EXPECT(EWA_UP_ANY, 2, EWA_VIEW_FRONT, "halves");
+            EXPECT(EWA_UP_ANY, 2, EWA_VIEW_ISO, "halves");
         else
-            EXPECT(EWA_UP_ANY, 1, EWA_VIEW_FRONT, "nothing speaks");
-        EXPECT(EWA_UP_Y_USUAL, 1, EWA_VIEW_FRONT, "files");
+            EXPECT(EWA_UP_ANY, 1, EWA_VIEW_ISO, "nothing speaks");
+        EXPECT(EWA_UP_Y_USUAL, 1, EWA_VIEW_ISO, "files");
     }
 }
 
@@ -278,20 +278,56 @@ static void test_boxes(void **state) {
         assert_float_equal(share_of(1, NULL), large ? 0.55 : 0.45, 0.03);
         assert_true(share_of(2, NULL) > 0.98);
         if (large)
-            EXPECT(EWA_UP_ANY, 1, EWA_VIEW_FRONT, "nothing speaks");
+            EXPECT(EWA_UP_ANY, 1, EWA_VIEW_ISO, "nothing speaks");
         else
             EXPECT(EWA_UP_ANY, 2, EWA_VIEW_FRONT, "base");
         make_prism(large ? 0.66 : 0.54, 0.3, 0);
         if (large)
             EXPECT(EWA_UP_ANY, 2, EWA_VIEW_ISO, "flat lies");
         else
-            EXPECT(EWA_UP_ANY, 1, EWA_VIEW_FRONT, "nothing speaks");
+            EXPECT(EWA_UP_ANY, 1, EWA_VIEW_ISO, "nothing speaks");
         make_prism(1, large ? 0.86 : 0.74, 0);
         if (large)
-            EXPECT(EWA_UP_ANY, 1, EWA_VIEW_FRONT, "nothing speaks");
+            EXPECT(EWA_UP_ANY, 1, EWA_VIEW_ISO, "nothing speaks");
         else
             EXPECT(EWA_UP_ANY, 2, EWA_VIEW_ISO, "flat lies");
     }
+}
+
+/// A body with a front at z = 1, a share of it in one plane and the rest `step` behind, and a rounded back.
+static void make_faced(double share, double step) {
+    start();
+    for (int i = 0; i < 60000; i++) {
+        const double x = between(0, 1), y = between(0, 1), back = 0.8 * (x - 0.5) * (x - 0.5) + 0.4 * (y - 0.5) * (y - 0.5);
+        add(x, y, i % 2 ? (x < share ? 1 : 1 - step) : back);
+    }
+}
+
+/// What shows a plane in 0.6 of its front, 0.02 of its size thick, is seen at an angle; not what is surveyed.
+static void test_faces(void **state) {
+    for (int large = 0; large < 2; large++) {
+        const ewa_named_view view = large ? EWA_VIEW_ISO : EWA_VIEW_FRONT;
+        make_faced(large ? 0.63 : 0.57, 0.1);
+        EXPECT(EWA_UP_Y_USUAL, 1, view, "");
+        EXPECT(EWA_UP_Y_REQUIRED, 1, view, "");
+        // With z up the front is -y.
+        for (size_t i = 0; i < made.count; i++) {
+            const double y = made.points[i][1];
+            made.points[i][1] = 1 - made.points[i][2], made.points[i][2] = y;
+        }
+        EXPECT(EWA_UP_Z_USUAL, 2, view, "");
+        EXPECT(EWA_UP_Z_SURVEYED, 2, EWA_VIEW_FRONT, "");
+        make_faced(0.5, large ? 0.018 : 0.022);
+        EXPECT(EWA_UP_Y_USUAL, 1, view, "");
+    }
+    // From the other side it is round.
+    make_faced(1, 0);
+    for (size_t i = 0; i < made.count; i++) made.points[i][2] = 1 - made.points[i][2];
+    EXPECT(EWA_UP_Y_USUAL, 1, EWA_VIEW_FRONT, "");
+    // An open sheet is seen face on.
+    start();
+    for (int i = 0; i < 60000; i++) add(between(0, 1), between(0, 1), made.count % 16 ? 1 : 0.97);
+    EXPECT(EWA_UP_Y_REQUIRED, 1, EWA_VIEW_FRONT, "");
 }
 
 /// What is twice as long as wide, and has no base, lies.
@@ -514,7 +550,8 @@ int main(void) {
         cmocka_unit_test(test_planes),       cmocka_unit_test(test_maps),
         cmocka_unit_test(test_ground),       cmocka_unit_test(test_pixels),
         cmocka_unit_test(test_camera_views), cmocka_unit_test(test_base_shares),
-        cmocka_unit_test(test_halves),       cmocka_unit_test(test_boxes),        cmocka_unit_test(test_tall),
+        cmocka_unit_test(test_halves),       cmocka_unit_test(test_boxes),
+        cmocka_unit_test(test_faces),        cmocka_unit_test(test_tall),
         cmocka_unit_test(test_views),        cmocka_unit_test(test_open_sheets),
         cmocka_unit_test(test_stable),       cmocka_unit_test(test_base_height),
         cmocka_unit_test(test_layers),       cmocka_unit_test(test_conventions),
