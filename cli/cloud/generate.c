@@ -19,7 +19,7 @@ typedef struct generate_arguments {
 #define GENERATE(member) OPTION_OF(ewa_generate_options, AT(options), member)
 
 /// In the order of ewa_object.
-static const char *const objects[] = {"plane", "checker", "cube", "sphere", "torus", "terrain", "csg"};
+static const char *const objects[] = {"plane", "checker", "cube", "sphere", "torus", "terrain", "csg", "town"};
 
 /// In the order of ewa_volume_object.
 static const char *const volumes[] = {"checkerbox", "blob", "ball", "vessels"};
@@ -29,7 +29,7 @@ static const cli_option object_table[] = {
      .help = "about how many points; grids round", .letter = 'n'},
     {"seed", GENERATE(seed)},
     {"extent", GENERATE(size_world), .value = "SIZE",
-     .help = "edge of plane, cube and terrain, outer diameter of sphere and torus, length of csg, longest "
+     .help = "edge of plane, cube, terrain and town, outer diameter of sphere and torus, length of csg, longest "
              "edge of a volume, in world units"},
     {"jitter", GENERATE(jitter)},
     {"checks", GENERATE(checks),
@@ -93,7 +93,7 @@ static bool check(const void *data, char message[OPTION_ERROR_BYTES]) {
         if (!nearest) nearest = options_nearest(word, VOLUME_COUNT, volumes);
         snprintf(
             message, OPTION_ERROR_BYTES,
-            "generate: '%.80s' is none of plane, checker, cube, sphere, torus, terrain, csg, checkerbox, "
+            "generate: '%.80s' is none of plane, checker, cube, sphere, torus, terrain, csg, town, checkerbox, "
             "blob, ball, vessels%s%s",
             word, nearest ? "; did you mean " : "", nearest ? nearest : "");
         return false;
@@ -188,13 +188,13 @@ static const option_group object_options = OPTION_GROUP("Object", object_table);
 const cli_command generate_command = {
     .name = "generate",
     .operands = "KIND -o OUT",
-    .summary = "make test objects: plane, checker, cube, sphere, torus, terrain, csg; and volumes",
+    .summary = "make test objects: plane, checker, cube, sphere, torus, terrain, csg, town; and volumes",
     .details =
-        "The object is centred at the origin. Plane, checker and terrain lie in x-y with z up; the "
-        "axis of the "
-        "torus is z. csg is a block with a slot, a notch and two round holes. --texture lays a picture upon "
-        "plane, checker and terrain, onto every face of the cube and of csg, by longitude and latitude "
-        "around the sphere, and around ring and tube of the torus.\n"
+        "The object is centred at the origin. Plane, checker, terrain and town lie in x-y with z up; the axis of "
+        "the torus is z. csg is a block with a slot, a notch and two round holes; town has 160 boxes with windows, "
+        "1,400 trees of loose leaves, streets and lawns. --texture lays a picture upon plane, checker, terrain and "
+        "town, onto every face of the cube and of csg, by longitude and latitude around the sphere, and around ring "
+        "and tube of the torus.\n"
         "\n"
         "Volumes go to .nrrd files: checkerbox, solid cubes of two values; blob, a Gaussian; ball, a ball "
         "with a soft edge; vessels, a tree of thin tubes.",

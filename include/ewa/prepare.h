@@ -232,7 +232,7 @@ typedef struct ewa_refit_report {
 EWA_API ewa_status ewa_cloud_refit_colors(ewa_cloud *cloud, const ewa_refit_options *options,
                                           ewa_refit_report *report);
 
-/// Test objects, centred at the origin. Plane, checker and terrain lie in x-y, z up.
+/// Test objects, centred at the origin. Plane, checker, terrain and town lie in x-y, z up.
 typedef enum ewa_object {
     EWA_OBJECT_PLANE = 0,   ///< light grey square
     EWA_OBJECT_CHECKER = 1, ///< black and white square
@@ -241,6 +241,7 @@ typedef enum ewa_object {
     EWA_OBJECT_TORUS,       ///< about the z axis, tube radius 1/7 of the outer diameter, winding ribbons
     EWA_OBJECT_TERRAIN,     ///< fractal heights: water (z = 0), sand, grass, rock, snow
     EWA_OBJECT_CSG,         ///< block of 1 x 0.7 x 0.4 edges with a slot, a notch and two round holes
+    EWA_OBJECT_TOWN,        ///< 160 boxes with windows, 1,400 trees of loose leaves, streets and lawns
 } ewa_object;
 
 /// What to generate. Fill with ewa_generate_options_init().
@@ -249,7 +250,7 @@ typedef struct ewa_generate_options {
     ewa_object object;
     uint64_t point_count; ///< exactly so many points (with rows on edges: at most); default 100000
     uint64_t seed;        ///< same seed, same bytes, on every machine; default 1
-    double size_world;    ///< edge of plane, cube, terrain; diameter of sphere; outer diameter of torus;
+    double size_world;    ///< edge of plane, cube, terrain, town; diameter of sphere; outer diameter of torus;
                           ///< [1e-25, 1e25]; default 2
     double jitter; ///< 0: points in the middle of their cells, 1: anywhere in them; [0, 1]; default 0.5
     double checks; ///< squares along one edge of the checker plane and of the cube's faces; [1e-6, 1e6];
@@ -269,7 +270,8 @@ EWA_API void ewa_generate_options_init(ewa_generate_options *options, size_t str
 /// Makes a test object: "position" F32 3, "normal" F32 3 (unit, outward), "color" U8 3 (sRGB), "radius"
 /// F32 1. One point lies in each of `point_count` cells of equal area (terrain: of equal ground), about as
 /// wide as high, that fill the surface to its edge; the spacing is the square root of a cell's area (terrain:
-/// longer on slopes).
+/// longer on slopes). A town's trees have about one point per cell of their crowns' surface, somewhere in the outer half
+/// of the crown, with a normal of its own; one point in 50 of its ground stands a little above it.
 ///
 /// The part, and the cube when `sharp`, have rows of points on every edge instead, and the most points that
 /// fit in `point_count`. When `sharp`, "tangent_u", "tangent_v" (radius_scale / 3 of a cell long), "clip0",
@@ -277,7 +279,7 @@ EWA_API void ewa_generate_options_init(ewa_generate_options *options, size_t str
 /// round holes centres lie up to 3/8 of a cell beyond the edge. The rows are regular: seed and jitter change
 /// nothing.
 ///
-/// Texture coordinates: plane, checker and terrain lie upon the picture, cube and part have it on every face
+/// Texture coordinates: plane, checker, terrain and town lie upon the picture, cube and part have it on every face
 /// (by the largest component of the normal), the sphere has longitude and latitude, the torus the turns
 /// around the ring and around the tube.
 ///

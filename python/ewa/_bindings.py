@@ -326,6 +326,7 @@ class ewa_object(IntEnum):
     EWA_OBJECT_TORUS = 4
     EWA_OBJECT_TERRAIN = 5
     EWA_OBJECT_CSG = 6
+    EWA_OBJECT_TOWN = 7
 
 
 class ewa_orientation(IntEnum):

@@ -131,7 +131,7 @@ class GenerateOptions(TypedDict, total=False):
 
     #: same seed, same bytes, on every machine; [0, inf), default 1
     seed: int | None
-    #: edge of plane, cube and terrain, outer diameter of sphere and torus, length of csg, in world units; [1e-25, 1e25], default 2
+    #: edge of plane, cube, terrain and town, outer diameter of sphere and torus, length of csg, in world units; [1e-25, 1e25], default 2
     size_world: float | None
     #: 0: a regular grid, 1: anywhere in the cell; [0, 1], default 0.5
     jitter: float | None

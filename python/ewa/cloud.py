@@ -612,7 +612,7 @@ def csg(a: Cloud, other: Cloud, operation: str = "union", *, cutoff: float = 3) 
 
 def generate(object: str = "plane", point_count: int = 100000, *, context: Context | None = None,
              **options: Unpack[GenerateOptions]) -> Cloud:
-    """Make a test object: "plane", "checker", "cube", "sphere", "torus", "terrain" or "csg".
+    """Make a test object: "plane", "checker", "cube", "sphere", "torus", "terrain", "csg" or "town".
 
     Parameters
     ----------

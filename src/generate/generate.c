@@ -24,12 +24,19 @@ enum { STRETCH_POINTS = 1 << 22, TASK_POINTS = 1 << 14 };
 /// antialiasing takes for an edge: 1.6 spacings for jitter 0.5, 2.1 for 1 (docs/quality.md).
 static const double JITTER_SPREAD = 0.8;
 
+/// Where a patch's points and rows begin; one more says where the last one's end.
+typedef struct patch_start {
+    uint64_t point, row;
+} patch_start;
+
 typedef struct generate_job {
     const ewa_generate_options *options;
-    uint32_t patch_count, row_count; // row_count: of each patch
+    uint32_t patch_count;
+    patch_start *starts; // patch_count + 1
     uint64_t key;
     double spacing; // in units of size_world
     ewa_terrain terrain;
+    ewa_town_patch *town; // EWA_TOWN_PATCHES, of a town
     uint64_t first_row, end_row; // of the current stretch, over all patches
     uint32_t parts;
     float *position, *normal, *radius; // normal and radius may be NULL
@@ -40,15 +47,15 @@ typedef struct generate_job {
 
 /// The bounds of lengths keep every output a normal float.
 static const ewa_option option_rows[] = {
-    {"object", EWA_OPTION_CHOICE, AT(object), .words = "plane|checker|cube|sphere|torus|terrain|csg",
+    {"object", EWA_OPTION_CHOICE, AT(object), .words = "plane|checker|cube|sphere|torus|terrain|csg|town",
      .help = "which object is made"},
     {"point_count", EWA_OPTION_U64, AT(point_count), 0, INFINITY, EWA_OPTION_BELOW, .initial = 100000,
      .help = "how many points; with rows on edges at most so many"},
     {"seed", EWA_OPTION_U64, AT(seed), 0, INFINITY, EWA_OPTION_BELOW, .initial = 1,
      .help = "same seed, same bytes, on every machine"},
     {"size_world", EWA_OPTION_F64, AT(size_world), 1e-25, 1e25, .initial = 2,
-     .help = "edge of plane, cube and terrain, outer diameter of sphere and torus, length of csg, in world "
-             "units"},
+     .help = "edge of plane, cube, terrain and town, outer diameter of sphere and torus, length of csg, in "
+             "world units"},
     {"jitter", EWA_OPTION_F64, AT(jitter), 0, 1, .initial = 0.5,
      .help = "0: a regular grid, 1: anywhere in the cell"},
     {"checks", EWA_OPTION_F64, AT(checks), 1e-6, 1e6, .initial = 16,
@@ -112,9 +119,8 @@ static double object_height(ewa_object object) {
     }
 }
 
-/// Share of a patch's area below row `row`, rows being equally high on the surface.
-static double area_below(const generate_job *job, uint64_t row) {
-    const double height = (double)row / job->row_count;
+/// Share of a patch's area below this share of its height, on the surface.
+static double area_below(const generate_job *job, double height) {
     double sine, cosine;
     switch (job->options->object) {
     case EWA_OBJECT_SPHERE:
@@ -128,9 +134,10 @@ static double area_below(const generate_job *job, uint64_t row) {
     }
 }
 
-static uint64_t row_start(const generate_job *job, uint64_t point_count, uint64_t row) {
-    if (row >= job->row_count) return point_count;
-    const uint64_t start = (uint64_t)((double)point_count * area_below(job, row) + 0.5);
+static uint64_t row_start(const generate_job *job, uint64_t point_count, uint64_t row, uint64_t row_count) {
+    if (row >= row_count) return point_count;
+    const double height = (double)row / (double)row_count;
+    const uint64_t start = (uint64_t)((double)point_count * area_below(job, height) + 0.5);
     return start < point_count ? start : point_count;
 }
 
@@ -153,6 +160,9 @@ static void fill_block(const generate_job *job, ewa_generate_block *block) {
         break;
     case EWA_OBJECT_TERRAIN:
         ewa_generate_terrain(&job->terrain, block);
+        break;
+    case EWA_OBJECT_TOWN:
+        ewa_generate_town(job->town, block);
         break;
     case EWA_OBJECT_CSG: // has no cells of equal area: solid.c
         break;
@@ -178,10 +188,11 @@ static void store_block(const generate_job *job, const ewa_generate_block *block
 }
 
 static void generate_row(const generate_job *job, uint32_t patch, uint64_t row, ewa_generate_block *block) {
-    const uint64_t total = job->options->point_count;
-    const uint64_t patch_first = ewa_split(total, job->patch_count, patch);
-    const uint64_t patch_points = ewa_split(total, job->patch_count, patch + 1) - patch_first;
-    const uint64_t start = row_start(job, patch_points, row), end = row_start(job, patch_points, row + 1);
+    const patch_start *at = &job->starts[patch];
+    const uint64_t patch_first = at[0].point, patch_points = at[1].point - at[0].point;
+    const uint64_t row_count = at[1].row - at[0].row;
+    const uint64_t start = row_start(job, patch_points, row, row_count),
+                   end = row_start(job, patch_points, row + 1, row_count);
     if (start == end) return;
     const double width = 1 / (double)(end - start);
     const double low = (double)start / (double)patch_points,
@@ -203,6 +214,19 @@ static void generate_row(const generate_job *job, uint32_t patch, uint64_t row, 
     }
 }
 
+/// The patch of a row, rows being counted over all patches.
+static uint32_t find_patch(const generate_job *job, uint64_t row) {
+    uint32_t low = 0, high = job->patch_count - 1;
+    while (low < high) {
+        const uint32_t middle = (low + high + 1) / 2;
+        if (job->starts[middle].row <= row)
+            low = middle;
+        else
+            high = middle - 1;
+    }
+    return low;
+}
+
 static void generate_part(void *data, uint32_t part, uint32_t worker) {
     (void)worker;
     const generate_job *job = data;
@@ -210,13 +234,16 @@ static void generate_part(void *data, uint32_t part, uint32_t worker) {
     block.spacing = job->spacing;
     const uint64_t row_count = job->end_row - job->first_row;
     const uint64_t end = job->first_row + ewa_split(row_count, job->parts, part + 1);
-    for (uint64_t row = job->first_row + ewa_split(row_count, job->parts, part); row < end; row++)
-        generate_row(job, (uint32_t)(row / job->row_count), row % job->row_count, &block);
+    uint64_t row = job->first_row + ewa_split(row_count, job->parts, part);
+    for (uint32_t patch = find_patch(job, row); row < end; row++) {
+        while (job->starts[patch + 1].row <= row) patch++;
+        generate_row(job, patch, row - job->starts[patch].row, &block);
+    }
 }
 
 static ewa_status run(ewa_context *context, generate_job *job) {
     const uint64_t point_count = job->options->point_count;
-    const uint64_t row_count = (uint64_t)job->patch_count * job->row_count;
+    const uint64_t row_count = job->starts[job->patch_count].row;
     const uint32_t stretches = (uint32_t)(point_count / STRETCH_POINTS + 1);
     for (uint32_t stretch = 0; stretch < stretches; stretch++) {
         EWA_TRY(ewa_progress(context, "generate", (double)stretch / stretches));
@@ -243,6 +270,41 @@ static ewa_status add_attributes(ewa_cloud *cloud, generate_job *job) {
     return status;
 }
 
+/// Divides the points among patches and these into rows.
+static void divide(generate_job *job, double area) {
+    const uint64_t total = job->options->point_count;
+    patch_start at = {0, 0};
+    double below = 0;
+    for (uint32_t p = 0; p < job->patch_count; p++) {
+        job->starts[p] = at;
+        const double height = job->town ? job->town[p].height : object_height(job->options->object);
+        const double rows = height / job->spacing + 0.5;
+        below += job->town ? job->town[p].area : 0;
+        at.point = job->town ? (uint64_t)((double)total * (below / area) + 0.5) : ewa_split(total, job->patch_count, p + 1);
+        at.row += rows < 1 ? 1 : (uint32_t)rows;
+    }
+    at.point = total;
+    job->starts[job->patch_count] = at;
+}
+
+/// Sets what the object consists of.
+static ewa_status lay_out(ewa_context *context, generate_job *job) {
+    const ewa_generate_options *options = job->options;
+    const ewa_object object = options->object;
+    const bool is_town = object == EWA_OBJECT_TOWN;
+    job->patch_count = object == EWA_OBJECT_CUBE ? 6 : is_town ? EWA_TOWN_PATCHES : 1;
+    job->starts = ewa_allocate_zeroed(context, job->patch_count + 1, sizeof *job->starts);
+    if (is_town) job->town = ewa_allocate_zeroed(context, EWA_TOWN_PATCHES, sizeof *job->town);
+    if (!job->starts || (is_town && !job->town)) return EWA_ERROR_MEMORY;
+    const uint64_t count = options->point_count ? options->point_count : 1;
+    const double area = is_town ? ewa_town_make(options->seed, job->town) : object_area(object);
+    job->key = ewa_generate_random(options->seed, 0);
+    job->spacing = sqrt(area / (double)count);
+    if (object == EWA_OBJECT_TERRAIN) ewa_terrain_init(&job->terrain, options->seed, count);
+    divide(job, area);
+    return EWA_OK;
+}
+
 ewa_status ewa_cloud_generate(ewa_context *context, const ewa_generate_options *given, ewa_cloud **cloud) {
     if (!context || !cloud) return EWA_ERROR_ARGUMENT;
     *cloud = NULL;
@@ -260,18 +322,13 @@ ewa_status ewa_cloud_generate(ewa_context *context, const ewa_generate_options *
         *cloud = made;
         return status;
     }
-    EWA_TRY(ewa_cloud_create(context, options->point_count, &made));
-
-    const uint64_t count = options->point_count ? options->point_count : 1;
-    generate_job job = {.options = options, .patch_count = options->object == EWA_OBJECT_CUBE ? 6 : 1};
-    job.key = ewa_generate_random(options->seed, 0);
-    job.spacing = sqrt(object_area(options->object) / (double)count);
-    const double rows = object_height(options->object) / job.spacing + 0.5;
-    job.row_count = rows < 1 ? 1 : (uint32_t)rows;
-    if (options->object == EWA_OBJECT_TERRAIN) ewa_terrain_init(&job.terrain, options->seed, count);
-
-    status = add_attributes(made, &job);
+    generate_job job = {.options = options};
+    status = ewa_cloud_create(context, options->point_count, &made);
+    if (status == EWA_OK) status = lay_out(context, &job);
+    if (status == EWA_OK) status = add_attributes(made, &job);
     if (status == EWA_OK && options->point_count) status = run(context, &job);
+    ewa_release(context, job.starts, job.patch_count + 1, sizeof *job.starts);
+    ewa_release(context, job.town, EWA_TOWN_PATCHES, sizeof *job.town);
     if (status == EWA_OK && options->texcoords) status = ewa_generate_charts(options, made);
     if (status != EWA_OK) ewa_cloud_destroy(&made);
     *cloud = made;

@@ -10,7 +10,7 @@
 
 #include <math.h>
 
-enum { EWA_GENERATE_BLOCK = 64, EWA_TERRAIN_MAX_OCTAVES = 11 };
+enum { EWA_GENERATE_BLOCK = 64, EWA_TERRAIN_MAX_OCTAVES = 11, EWA_TOWN_PATCHES = 3602 };
 
 /// Major and minor radius of the torus whose outer radius is 1.
 #define EWA_TORUS_MAJOR (5.0 / 7.0)
@@ -20,7 +20,7 @@ enum { EWA_GENERATE_BLOCK = 64, EWA_TERRAIN_MAX_OCTAVES = 11 };
 /// size_world.
 typedef struct ewa_generate_block {
     uint32_t count;
-    uint32_t patch;                  ///< cube: face 0 to 5 (-x +x -y +y -z +z); else 0
+    uint32_t patch;                  ///< cube: face 0 to 5 (-x +x -y +y -z +z); town: of its patches; else 0
     double u[EWA_GENERATE_BLOCK];    ///< in: place along the row, [0, 1]
     double v[EWA_GENERATE_BLOCK];    ///< in: place across the rows, [0, 1]; areas on the surface are equal in
                                      ///< (u, v)
@@ -56,12 +56,37 @@ void ewa_terrain_init(ewa_terrain *terrain, uint64_t seed, uint64_t point_count)
 void ewa_terrain_evaluate(const ewa_terrain *terrain, uint32_t count, const double *x, const double *y,
                           ewa_terrain_heights *heights);
 
+typedef enum ewa_town_kind {
+    EWA_TOWN_GROUND,
+    EWA_TOWN_WALL,
+    EWA_TOWN_ROOF,
+    EWA_TOWN_CROWN,   ///< leaves in the outer half of an ellipsoid
+    EWA_TOWN_TRUNK,   ///< a cylinder
+    EWA_TOWN_SCATTER, ///< points a little above the ground
+} ewa_town_kind;
+
+/// A part of the town that is sampled evenly. Lengths are in units of size_world.
+typedef struct ewa_town_patch {
+    ewa_town_kind kind;
+    uint32_t thing;   ///< which box or tree it belongs to
+    double corner[3]; ///< of a rectangle at u = v = 0; middle of a crown; foot of a trunk
+    double along[3];  ///< of a rectangle from u = 0 to 1; of a crown its half axes; of a trunk its radii and its height
+    double across[3]; ///< of a rectangle from v = 0 to 1
+    double normal[3]; ///< of a rectangle
+    double area;
+    double height; ///< across its rows
+} ewa_town_patch;
+
+/// Lays out the EWA_TOWN_PATCHES patches of a town; returns their area.
+double ewa_town_make(uint64_t seed, ewa_town_patch *patches);
+
 void ewa_generate_plane(ewa_generate_block *block);
 void ewa_generate_checker(ewa_generate_block *block, double checks);
 void ewa_generate_cube(ewa_generate_block *block, double checks);
 void ewa_generate_sphere(ewa_generate_block *block);
 void ewa_generate_torus(ewa_generate_block *block);
 void ewa_generate_terrain(const ewa_terrain *terrain, ewa_generate_block *block);
+void ewa_generate_town(const ewa_town_patch *patches, ewa_generate_block *block);
 
 /// Adds "texcoord", "texcoord_s" and "texcoord_t" to a finished object that has normals.
 ewa_status ewa_generate_charts(const ewa_generate_options *options, ewa_cloud *cloud);
