@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: MIT
 //
 // Prints the table of docs/quality.md: what is far, drawn whole, from a level in memory and from an octree, against its own
-// picture at eight times the resolution. measure_far [POINTS [FILE...]]; PICTURES=FOLDER keeps the pictures.
+// picture at eight times the resolution. measure_far [POINTS [FILE...]], without generated
+// scenes where POINTS is 0; PICTURES=FOLDER keeps the pictures.
 #include "measure/measure.h"
 #include "quality/far_scene.h"
 
@@ -140,7 +141,7 @@ int main(int count, char **words) {
     run.other = malloc(pixels * 4 * sizeof *run.other);
     printf("| scene | distance | drawn | sRGB, dB | linear, dB | open inner pixels | outlines fat, px | lighter, %% |\n"
            "|---|---:|---|---:|---:|---:|---:|---:|\n");
-    for (int kind = 0; kind < FAR_KINDS; kind++) {
+    for (int kind = 0; points > 0 && kind < FAR_KINDS; kind++) {
         ewa_cloud *cloud = NULL;
         check(far_make(run.context, (far_kind)kind, points, &cloud));
         run.name = far_names[kind];
@@ -149,8 +150,10 @@ int main(int count, char **words) {
     }
     for (int i = 2; i < count; i++) {
         ewa_cloud *cloud = NULL;
+        ewa_estimate_options estimate;
+        ewa_estimate_options_init(&estimate, sizeof estimate);
         check(ewa_cloud_load(run.context, words[i], &cloud));
-        check(ewa_cloud_estimate(&cloud, NULL));
+        check(ewa_cloud_estimate(&cloud, &estimate));
         run.name = strrchr(words[i], '/') ? strrchr(words[i], '/') + 1 : words[i];
         print_scene(&run, cloud);
         ewa_cloud_destroy(&cloud);

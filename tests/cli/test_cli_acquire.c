@@ -38,7 +38,7 @@ static void test_mesh(void **state) {
 
 static void test_objects(void **state) {
     make_picture();
-    static const char *const objects[] = {"plane", "cube", "sphere", "torus", "terrain", "csg"};
+    static const char *const objects[] = {"plane", "cube", "sphere", "torus", "terrain", "csg", "town"};
     for (size_t i = 0; i < sizeof objects / sizeof objects[0]; i++) {
         run_done("ewa generate %s --texture board.png -n 9000 -o %s.ply", objects[i], objects[i]);
         run_done("ewa render %s.ply -o %s.png --size 64x64", objects[i], objects[i]);
