@@ -6,7 +6,8 @@ in both orders are from it.
     gaussian_formula.py FILE=AZIMUTH,... ...
 
 Based on: B. Kerbl, G. Kopanas, T. Leimkuehler, G. Drettakis, "3D Gaussian Splatting for Real-Time Radiance Field Rendering",
-2023, and its program: the order, the limits and the end of a pixel are that program's, but for its tiles.
+2023, and its program: the order, the limits and the end of a pixel are that program's, but for its tiles; B. Huang, Z. Yu,
+A. Chen, A. Geiger, S. Gao, "2D Gaussian Splatting for Geometrically Accurate Radiance Fields", 2024, equations 8 to 11.
 """
 from __future__ import annotations
 
@@ -53,28 +54,22 @@ def draw(gaussians: Any, camera: Any, near: float = NEAR) -> Any:
     order = order[(t[order, 2] > near) & (opacity[order] >= MIN_ALPHA)]
     t, centers, opacity = t[order], centers[order], opacity[order]
     axes = turn @ rotations(np.asarray(gaussians.rotations, float)[order]) * np.asarray(gaussians.scales, float)[order][:, None, :]
-    limit_x, limit_y = WIDER * width / 2 / fx, WIDER * height / 2 / fy
-    slope_x, slope_y = np.clip(t[:, 0] / t[:, 2], -limit_x, limit_x), np.clip(t[:, 1] / t[:, 2], -limit_y, limit_y)
-    down = fx / t[:, 2, None] * (axes[:, 0] - slope_x[:, None] * axes[:, 2])
-    right = fy / t[:, 2, None] * (axes[:, 1] - slope_y[:, None] * axes[:, 2])
-    a, b, c = ((down * down).sum(1) + FILTER_PX2, (down * right).sum(1), (right * right).sum(1) + FILTER_PX2)
-    area = a * c - b * b
-    u, v = fx * t[:, 0] / t[:, 2] + cx - 0.5, fy * t[:, 1] / t[:, 2] + cy - 0.5
+    if gaussians.flat:
+        boxes, alpha_of = flat_alphas(axes, t, camera, opacity, near)
+    else:
+        boxes, alpha_of = alphas(axes, t, camera, opacity)
     eye = -turn.T @ move
     away = centers - eye
     coefficients = np.asarray(gaussians.harmonics, float)[order]
     basis = harmonics(away / np.linalg.norm(away, axis=1, keepdims=True))[:, :coefficients.shape[1]]
     colors = np.maximum(0.5 + np.einsum("nk,nkc->nc", basis, coefficients), 0)
-    reach = 2 * np.log(opacity / MIN_ALPHA)  # of the squared distance where alpha falls to the least one
-    side, rise = np.sqrt(reach * a), np.sqrt(reach * c)
-    low_x, high_x = np.clip(np.ceil(u - side), 0, width).astype(int), np.clip(np.floor(u + side) + 1, 0, width).astype(int)
-    low_y, high_y = np.clip(np.ceil(v - rise), 0, height).astype(int), np.clip(np.floor(v + rise) + 1, 0, height).astype(int)
+    low_x, low_y = (np.clip(np.ceil(boxes[:, k]), 0, (width, height)[k]).astype(int) for k in range(2))
+    high_x, high_y = (np.clip(np.floor(boxes[:, 2 + k]) + 1, 0, (width, height)[k]).astype(int) for k in range(2))
     light, through, columns, rows = np.zeros((height, width, 3)), np.ones((height, width)), np.arange(width), np.arange(height)
     done = np.zeros((height, width), bool)
     for i in np.flatnonzero((low_x < high_x) & (low_y < high_y)):
         at = np.s_[low_y[i]:high_y[i], low_x[i]:high_x[i]]
-        dx, dy = columns[at[1]] - u[i], (rows[at[0]] - v[i])[:, None]
-        alpha = np.minimum(opacity[i] * np.exp(-(c[i] * dx * dx - 2 * b[i] * dx * dy + a[i] * dy * dy) / (2 * area[i])), MAX_ALPHA)
+        alpha = np.minimum(alpha_of(i, columns[at[1]], rows[at[0]][:, None]), MAX_ALPHA)
         alpha[(alpha < MIN_ALPHA) | done[at]] = 0
         rest = through[at] * (1 - alpha)
         alpha[rest < LEAST_LIGHT] = 0  # a pixel ends before what would leave less
@@ -82,6 +77,62 @@ def draw(gaussians: Any, camera: Any, near: float = NEAR) -> Any:
         light[at] += (through[at] * alpha)[..., None] * colors[i]
         through[at] *= 1 - alpha
     return np.dstack([light, 1 - through])
+
+
+def alphas(axes: Any, t: Any, camera: Any, opacity: Any) -> Any:
+    """Boxes in pixels, left top right bottom, and what gives the alphas of number i at pixels (x, y): 3DGS."""
+    width, height = camera.size
+    fx, fy, cx, cy = camera.K[0, 0], camera.K[1, 1], camera.K[0, 2], camera.K[1, 2]
+    limit_x, limit_y = WIDER * width / 2 / fx, WIDER * height / 2 / fy
+    slope_x, slope_y = np.clip(t[:, 0] / t[:, 2], -limit_x, limit_x), np.clip(t[:, 1] / t[:, 2], -limit_y, limit_y)
+    down = fx / t[:, 2, None] * (axes[:, 0] - slope_x[:, None] * axes[:, 2])
+    right = fy / t[:, 2, None] * (axes[:, 1] - slope_y[:, None] * axes[:, 2])
+    a, b, c = ((down * down).sum(1) + FILTER_PX2, (down * right).sum(1), (right * right).sum(1) + FILTER_PX2)
+    area = a * c - b * b
+    u, v = fx * t[:, 0] / t[:, 2] + cx - 0.5, fy * t[:, 1] / t[:, 2] + cy - 0.5
+    reach = 2 * np.log(opacity / MIN_ALPHA)  # of the squared distance where alpha falls to the least one
+    side, rise = np.sqrt(reach * a), np.sqrt(reach * c)
+
+    def alpha_of(i: int, x: Any, y: Any) -> Any:
+        dx, dy = x - u[i], y - v[i]
+        return opacity[i] * np.exp(-(c[i] * dx * dx - 2 * b[i] * dx * dy + a[i] * dy * dy) / (2 * area[i]))
+    return np.stack([u - side, v - rise, u + side, v + rise], axis=1), alpha_of
+
+
+def flat_alphas(axes: Any, t: Any, camera: Any, opacity: Any, near: float) -> Any:
+    """The same of 2DGS: where rays cross them, and at least a dot about the middle of 3 standard deviations."""
+    pixels = camera.K.copy()
+    pixels[:2, 2] -= 0.5  # of whole numbers
+    corners = np.stack([axes[:, :, 0], axes[:, :, 1], t], axis=2)  # columns: what (u, v, 1) is of
+    matrix = pixels @ corners
+    rows = matrix[:, 0], matrix[:, 1], matrix[:, 2]
+    boxes, middle = np.empty((len(t), 4)), np.empty((len(t), 2))
+    for reach in (np.full(len(t), 9.0), 2 * np.log(opacity / MIN_ALPHA)):
+        weights = np.stack([reach, reach, np.full(len(t), -1.0)], axis=1)
+        scale = (weights * rows[2] ** 2).sum(1)
+        for k in range(2):
+            at = (weights * rows[k] * rows[2]).sum(1) / scale
+            side = np.sqrt(np.maximum(at ** 2 - (weights * rows[k] ** 2).sum(1) / scale, 0)) + np.sqrt(reach)
+            crossing = scale >= 0  # the plane of the eye
+            if reach[0] == 9 and (reach == 9).all():
+                middle[:, k] = np.where(crossing, np.nan, at)
+            else:
+                off = np.abs(np.nan_to_num(middle[:, k] - at))
+                boxes[:, k] = np.where(crossing, -np.inf, at - side - off)
+                boxes[:, 2 + k] = np.where(crossing, np.inf, at + side + off)
+
+    def alpha_of(i: int, x: Any, y: Any) -> Any:
+        k = x[..., None] * rows[2][i] - rows[0][i]
+        m = y[..., None] * rows[2][i] - rows[1][i]
+        p = np.cross(*np.broadcast_arrays(k, m))
+        with np.errstate(divide="ignore", invalid="ignore"):
+            u, v = p[..., 0] / p[..., 2], p[..., 1] / p[..., 2]
+            crossed = np.nan_to_num(u * u + v * v, nan=np.inf)
+            depth = u * rows[2][i][0] + v * rows[2][i][1] + rows[2][i][2]
+        crossed = np.where(depth < near, np.inf, crossed)
+        dot = np.nan_to_num(2 * ((x - middle[i, 0]) ** 2 + (y - middle[i, 1]) ** 2), nan=np.inf)
+        return opacity[i] * np.exp(-np.minimum(crossed, dot) / 2)
+    return np.clip(boxes, -1e6, 1e6), alpha_of
 
 
 def display(image: Any) -> Any:

@@ -59,7 +59,9 @@ typedef enum ewa_gaussian_order {
 
 /// What the pixel filter does to a Gaussian's height.
 typedef enum ewa_gaussian_filter {
-    EWA_FILTER_OF_SET = 0,  ///< as the set was trained
+    /// As the set was trained; 2D Gaussians in the trained projection then show where rays cross them, no smaller than a dot of
+    /// 5/3 of the filter's variance, as 2DGS trains them
+    EWA_FILTER_OF_SET = 0,
     EWA_FILTER_THICKEN = 1, ///< nothing: small Gaussians get more visible (3DGS)
     EWA_FILTER_KEEP = 2,    ///< lowers it, so that the integral stays (Mip-Splatting, "antialiased")
 } ewa_gaussian_filter;

@@ -384,7 +384,7 @@ class GaussianOptions(TypedDict, total=False):
     projection: Literal["trained", "exact"] | int | None
     #: what is in front of what: by the depth of the centres, as in training, or in each pixel by the depth at which its ray passes the greatest density; auto: centre of trained, ray of exact; auto|centre|ray, default auto
     order: Literal["auto", "centre", "ray"] | int | None
-    #: what the pixel filter does to small Gaussians: what the file was trained with, nothing but thicken them, or lower them so that they add as much as before; file|thicken|keep, default file
+    #: what the pixel filter does to small Gaussians: what the file was trained with, of 2DGS a dot at least, nothing but thicken them, or lower them so that they add as much as before; file|thicken|keep, default file
     filter: Literal["file", "thicken", "keep"] | int | None
     #: variance of the pixel filter; [0, 16], px^2, default 0.3
     prefilter_px2: float | None

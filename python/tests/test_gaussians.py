@@ -108,8 +108,10 @@ class Pictures(Case):
     def test_trained_formula(self) -> None:
         given = streams(400, 3)
         given["scales"] *= 0.5
-        gaussians = ewa.Gaussians(**given, origin=(3, 2, 1))
-        for eye, fov in (((3, 2, -3), 40), ((3.2, 2.1, 0.4), 100)):  # from outside, from within
+        solid, flat = given["scales"], given["scales"] * np.float32((1, 1, 0))
+        for eye, fov, scales in (((3, 2, -3), 40, solid), ((3.2, 2.1, 0.4), 100, solid),  # from outside, from within
+                                 ((3, 2, -3), 40, flat), ((3, 2, -0.5), 60, flat)):
+            gaussians = ewa.Gaussians(**{**given, "scales": scales}, origin=(3, 2, 1))
             camera = ewa.Camera.look_at(eye, (3, 2, 1), up=(0, -1, 0), size=(120, 90), fov=fov)
             truth = gaussian_formula.draw(gaussians, camera)
             self.assertGreater(float(truth[..., 3].mean()), 0.1)

@@ -36,6 +36,7 @@ static const double MIN_ASPECT = 1e-4;
 /// Camera space in world units: turned and moved as the camera says, but not scaled.
 typedef struct view {
     bool orthographic, trained, by_center, keep;
+    bool flat;                         ///< as 2DGS trains
     double fx_px, fy_px, cx_px, cy_px; ///< orthographic: pixels per world unit
     double scale;                      ///< of camera space over world units
     ewa_mat3 turn;                     ///< column vectors of the world to camera space
@@ -56,6 +57,8 @@ typedef struct splat {
     bool near;       ///< ray by ray
     double center_px[2], conic[3], reach_px[2];
     double unfilter[2][2]; ///< from offsets in the filtered ellipse to those in the true one
+    ewa_vec3 tangents[2], normal; ///< of a trained 2D Gaussian: in standard deviations; unit
+    double dot_px[2];             ///< the middle of its dot, NaN: it has none
 } splat;
 
 /// A Gaussian in a pixel.
@@ -91,6 +94,7 @@ static view make_view(const ewa_camera *camera, const ewa_gaussian_options *opti
                  .cx_px = camera->cx_px,
                  .cy_px = camera->cy_px};
     made.trained = made.orthographic || options->projection == EWA_PROJECTION_TRAINED;
+    made.flat = set->flat && options->projection == EWA_PROJECTION_TRAINED && options->filter == EWA_FILTER_OF_SET;
     made.by_center = options->order == EWA_ORDER_CENTER;
     if (options->order == EWA_ORDER_OF_PROJECTION) made.by_center = options->projection == EWA_PROJECTION_TRAINED;
     double origin[3];
@@ -244,6 +248,45 @@ static void set_ellipse(const reference *work, const ewa_mat3 *covariance, splat
     made->unfilter[1][0] = (l[1] - made->unfilter[1][1] * m[1]) / m[0];
 }
 
+/// Trained 2D Gaussians: in homogeneous pixels the point (s, t) of one is s a + t b + c. Sets what a dot of one has, and the
+/// box of its outline and its dot (2DGS, equations 8 to 11, and the boxes of its program).
+static void set_flat(const reference *work, const ewa_vec3 axes[3], const double scales[3], splat *made) {
+    const view *camera = &work->camera;
+    const double deviation = sqrt(work->options.prefilter_px2 * 0.5 / 0.3), reach = deviation * sqrt(made->cutoff2);
+    double columns[3][3]; // of a, b, c
+    for (int k = 0; k < 3; k++) {
+        const ewa_vec3 at = k < 2 ? vec3_scale(axes[k], scales[k]) : made->place;
+        const double depth = camera->orthographic ? k == 2 : at.z;
+        columns[k][0] = camera->fx_px * at.x + camera->cx_px * depth;
+        columns[k][1] = camera->fy_px * at.y + camera->cy_px * depth;
+        columns[k][2] = depth;
+        if (k < 2) made->tangents[k] = vec3_scale(axes[k], 1 / scales[k]);
+    }
+    made->normal = axes[2];
+    double low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY};
+    for (int round = 0; round < 2; round++) { // where the dot is: 3 standard deviations; how far it shows
+        const double weights[3] = {round ? made->cutoff2 : 9, round ? made->cutoff2 : 9, -1};
+        double sums[2] = {0, 0}, squares[2] = {0, 0}, scale = 0;
+        for (int k = 0; k < 3; k++) scale += weights[k] * columns[k][2] * columns[k][2];
+        for (int k = 0; k < 3; k++)
+            for (int axis = 0; axis < 2; axis++) {
+                sums[axis] += weights[k] * columns[k][axis] * columns[k][2] / scale;
+                squares[axis] += weights[k] * columns[k][axis] * columns[k][axis] / scale;
+            }
+        for (int axis = 0; axis < 2; axis++) {
+            const double side = round ? sqrt(fmax(sums[axis] * sums[axis] - squares[axis], 0)) : reach;
+            if (!round) made->dot_px[axis] = scale < 0 && deviation > 0 ? sums[axis] : NAN;
+            if (scale < 0) low[axis] = fmin(low[axis], sums[axis] - side), high[axis] = fmax(high[axis], sums[axis] + side);
+            if (round && !(scale < 0)) low[axis] = -INFINITY, high[axis] = INFINITY;
+        }
+    }
+    for (int axis = 0; axis < 2; axis++) {
+        const bool ends = isfinite(low[axis]);
+        made->center_px[axis] = ends ? (low[axis] + high[axis]) / 2 : 0;
+        made->reach_px[axis] = ends ? (high[axis] - low[axis]) / 2 : INFINITY;
+    }
+}
+
 static bool make_splat(const reference *work, uint32_t number, splat *made) {
     const view *camera = &work->camera;
     const float *center = work->set->centers + 3 * (size_t)number;
@@ -263,7 +306,9 @@ static bool make_splat(const reference *work, uint32_t number, splat *made) {
     made->depth_reach = sqrt(made->cutoff2 * covariance.m[2][2]);
     if (!(made->place.z + (camera->trained ? 0 : made->depth_reach) > camera->near)) return false;
     made->near = !camera->trained && made->place.z <= NEAR_REACHES * made->depth_reach;
-    if (made->near)
+    if (camera->flat)
+        set_flat(work, axes, scales, made);
+    else if (made->near)
         made->reach_px[0] = made->reach_px[1] = INFINITY;
     else
         set_ellipse(work, &covariance, made);
@@ -299,18 +344,36 @@ static double share_between(const reference *work, double z, double deviation, d
     return fmax(0.5 * erfc((z - leave / scale) / root) - 0.5 * erfc((z - enter / scale) / root), 0);
 }
 
+/// How the ray through a place on the screen crosses a trained 2D Gaussian, or meets its dot.
+static passage cross(const reference *work, const splat *at, double x_px, double y_px) {
+    const view *c = &work->camera;
+    const double x = (x_px - c->cx_px) / c->fx_px, y = (y_px - c->cy_px) / c->fy_px;
+    const ewa_vec3 ray = c->orthographic ? vec3_make(0, 0, 1) : vec3_make(x, y, 1);
+    const ewa_vec3 from = c->orthographic ? vec3_make(x, y, 0) : vec3_make(0, 0, 0);
+    passage by = pass(work, at, x_px, y_px); // for its deviation
+    const double t = vec3_dot(vec3_sub(at->place, from), at->normal) / vec3_dot(ray, at->normal);
+    const ewa_vec3 off = vec3_sub(vec3_add(from, vec3_scale(ray, t)), at->place);
+    const double u = vec3_dot(off, at->tangents[0]), v = vec3_dot(off, at->tangents[1]);
+    const double dx = x_px - at->dot_px[0], dy = y_px - at->dot_px[1];
+    const double dot2 = (dx * dx + dy * dy) / (work->options.prefilter_px2 * 0.5 / 0.3);
+    by.z = t, by.distance2 = t >= c->near ? u * u + v * v : INFINITY;
+    if (!(by.distance2 <= dot2) && isfinite(dot2)) by.z = at->place.z, by.distance2 = dot2;
+    return by;
+}
+
 /// Alpha and depth of a Gaussian at a pixel's centre; false outside of it.
 static bool meet(const reference *work, const splat *at, uint32_t x, uint32_t y, hit *made) {
     const double x_px = x + 0.5, y_px = y + 0.5, dx = x_px - at->center_px[0], dy = y_px - at->center_px[1];
     const double true_x = at->center_px[0] + at->unfilter[0][0] * dx + at->unfilter[0][1] * dy;
     const double true_y = at->center_px[1] + at->unfilter[1][0] * dx + at->unfilter[1][1] * dy;
-    const passage by = at->near ? pass(work, at, x_px, y_px) : pass(work, at, true_x, true_y);
+    const passage by = work->camera.flat ? cross(work, at, x_px, y_px)
+                       : at->near        ? pass(work, at, x_px, y_px) : pass(work, at, true_x, true_y);
     double m2 = by.distance2;
-    if (work->camera.trained)
+    if (work->camera.trained && !work->camera.flat)
         m2 = at->conic[0] * dx * dx + 2 * at->conic[1] * dx * dy + at->conic[2] * dy * dy;
     if (m2 >= at->cutoff2 || (!work->camera.trained && by.z <= 0)) return false;
     double alpha = at->alpha * exp(-m2 / 2);
-    if (work->camera.keep && alpha < work->options.minimum_alpha) return false;
+    if (work->camera.keep && !work->camera.flat && alpha < work->options.minimum_alpha) return false;
     alpha = fmin(alpha, MAX_ALPHA);
     const double z = fmin(fmax(by.z, at->place.z - at->depth_reach), at->place.z + at->depth_reach);
     double enter, leave, surface = INFINITY;

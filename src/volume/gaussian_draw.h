@@ -62,72 +62,99 @@ static void mark(ewa_gaussian_tile *tile) {
     }
 }
 
-/// How the splats of a frame are met; constants of each of the loops over them.
+/// How splats are met; constants of each of the loops over them.
 typedef struct hit_mode {
     bool trained, orthographic;
     bool with_depth; ///< of hits; else theirs is 0
+    bool with_flat;  ///< some may be trained 2D Gaussians
 } hit_mode;
 
-/// How rays at (u, v) from a splat's middle pass it: their depths there, and one over what a unit of depth is in
-/// standard deviations, squared. Where its ellipse says nothing, also how far from its centre, and which do within its
-/// limit.
-static ALWAYS_INLINE wf pass_splat(const float *s, wf u, wf v, hit_mode mode, wf limit, wm *inside, wf *m2, wf *depth) {
+/// How rays pass a splat.
+typedef struct passage {
+    wf distance2; ///< from its centre, in standard deviations
+    wf z;         ///< there
+    wf variance;  ///< in depth, along the ray
+    wm ahead;     ///< of the eye, within the limit
+} passage;
+
+/// Rays at (u, v) from a splat's middle. Where none is ahead the others say nothing, unless `all`.
+static ALWAYS_INLINE passage pass_splat(const float *s, wf u, wf v, wf limit, bool orthographic, bool all) {
     wf g[3];
     for (int k = 0; k < 3; k++)
         g[k] = wf_fma(u, wf_set(s[RECORD_G + 3 * k]),
                       wf_fma(v, wf_set(s[RECORD_G + 3 * k + 1]), wf_set(s[RECORD_G + 3 * k + 2])));
-    const wf length = wf_set(s[RECORD_LENGTH]), one = wf_set(1);
-    wf z = g[2], inverse;
-    if (mode.orthographic) {
-        inverse = wf_div(one, wf_mul(length, length));
+    const wf length = wf_set(s[RECORD_LENGTH]), one = wf_set(1), aside = wf_fma(g[0], g[0], wf_mul(g[1], g[1]));
+    passage by = {.distance2 = aside, .z = g[2]};
+    if (orthographic) {
+        by.ahead = wf_lt(aside, limit);
+        by.variance = wf_div(one, wf_mul(length, length));
     } else {
-        const wf aside = wf_fma(g[0], g[0], wf_mul(g[1], g[1]));
         const wf square = wf_fma(g[2], g[2], aside), far2 = wf_mul(wf_mul(length, length), aside);
-        if (!mode.trained) {
-            *inside = wm_and(wf_lt(far2, wf_mul(limit, square)), wf_lt(wf_set(0), g[2]));
-            if (!wm_bits(*inside)) return one;
-        }
-        inverse = wf_div(one, square);
-        if (!mode.trained) *m2 = wf_mul(far2, inverse);
-        z = wf_mul(wf_mul(length, g[2]), inverse);
+        by.ahead = wm_and(wf_lt(far2, wf_mul(limit, square)), wf_lt(wf_set(0), g[2]));
+        if (!all && !wm_bits(by.ahead)) return by;
+        by.variance = wf_div(one, square);
+        by.distance2 = wf_mul(far2, by.variance);
+        by.z = wf_mul(wf_mul(length, g[2]), by.variance);
     }
-    *depth = wf_min(wf_max(z, wf_set(s[RECORD_LOW])), wf_set(s[RECORD_HIGH]));
-    return inverse;
+    by.z = wf_min(wf_max(by.z, wf_set(s[RECORD_LOW])), wf_set(s[RECORD_HIGH]));
+    return by;
 }
 
-/// A splat in the pixels of a block whose centres are (x, y): which of them show it. Of what stands along a ray the
-/// share in front of the surface counts.
-static ALWAYS_INLINE uint32_t hit_splat(const ewa_gaussian_view *view, const float *s, wf x, wf y, hit_mode mode,
-                                        const block_state *block, wf *depth, wf *opacity) {
-    const wf u = wf_sub(x, wf_set(s[RECORD_X])), v = wf_sub(y, wf_set(s[RECORD_Y]));
-    const wf limit = wf_set(s[RECORD_LIMIT]);
-    wf m2 = wf_set(0), inverse = m2;
-    wm inside = wf_lt(m2, limit);
-    if (mode.trained) {
-        const wf across = wf_fma(u, wf_set(s[RECORD_AX]), wf_mul(v, wf_set(s[RECORD_AY])));
-        const wf down = wf_mul(v, wf_set(s[RECORD_BY]));
-        m2 = wf_fma(across, across, wf_mul(down, down));
-        inside = wf_lt(m2, limit);
-        if (!wm_bits(inside)) return 0;
-    }
-    wf z = wf_set(0);
-    if (mode.with_depth || !mode.trained) {
-        inverse = pass_splat(s, u, v, mode, limit, &inside, &m2, &z);
-        if (!wm_bits(inside)) return 0;
-    }
+/// Alpha of a splat that pixels see at the distance `m2`: of what stands along a ray the share in front of the surface
+/// counts. Returns which of those within show it.
+static ALWAYS_INLINE uint32_t shade_hit(const ewa_gaussian_view *view, const float *s, wm inside, wf m2,
+                                        const passage *by, hit_mode mode, const block_state *block, wf *depth,
+                                        wf *opacity) {
     wf alpha = wf_exp2(wf_fma(m2, wf_set(-0.721347520f), wf_set(s[RECORD_LOG2_ALPHA])));
     if (view->keep) inside = wm_and(inside, wf_le(wf_set(view->minimum_alpha), alpha));
     alpha = wf_min(alpha, wf_set((float)EWA_GAUSSIAN_MAX_ALPHA));
     if (mode.with_depth && (view->with_surface || view->with_sections)) {
-        const wf deviation = wf_max(wf_sqrt(inverse), wf_set(1e-30f));
-        wf share = share_ahead(wf_load(block->surface), z, deviation);
+        const wf deviation = wf_max(wf_sqrt(by->variance), wf_set(1e-30f));
+        wf share = share_ahead(wf_load(block->surface), by->z, deviation);
         if (view->with_sections)
-            share = wf_max(wf_sub(share, share_ahead(wf_load(block->enter), z, deviation)), wf_set(0));
+            share = wf_max(wf_sub(share, share_ahead(wf_load(block->enter), by->z, deviation)), wf_set(0));
         alpha = wf_mul(alpha, share);
     }
     *opacity = alpha;
-    *depth = wf_add(z, wf_set(0)); // of both zeros the one above
+    *depth = wf_add(by->z, wf_set(0)); // of both zeros the one above
     return wm_bits(inside);
+}
+
+/// A trained 2D Gaussian: where rays cross it no nearer than the near plane, or its dot, whichever is more.
+static ALWAYS_INLINE uint32_t hit_flat(const ewa_gaussian_view *view, const float *s, wf u, wf v, hit_mode mode,
+                                       const block_state *block, wf *depth, wf *opacity) {
+    const wf limit = wf_set(s[RECORD_LIMIT]), infinite = wf_set(__builtin_inff());
+    passage by = pass_splat(s, u, v, limit, mode.orthographic, true);
+    const wf x = wf_sub(u, wf_set(s[RECORD_DOT_X])), y = wf_sub(v, wf_set(s[RECORD_DOT_Y]));
+    const wf dot2 = wf_mul(wf_set(s[RECORD_DOT]), wf_fma(x, x, wf_mul(y, y)));
+    const wf crossed2 = wf_select(wm_and(by.ahead, wf_le(wf_set(view->near), by.z)), by.distance2, infinite);
+    const wm crossed = wf_le(crossed2, dot2);
+    const wf m2 = wf_min(crossed2, dot2);
+    const wm inside = wf_lt(m2, limit);
+    if (!wm_bits(inside)) return 0;
+    by.z = wf_select(crossed, by.z, wf_set(s[RECORD_DOT_Z]));
+    by.z = wf_min(wf_max(by.z, wf_set(s[RECORD_LOW])), wf_set(s[RECORD_HIGH]));
+    return shade_hit(view, s, inside, m2, &by, mode, block, depth, opacity);
+}
+
+/// A splat in the pixels of a block whose centres are (x, y): which of them show it.
+static ALWAYS_INLINE uint32_t hit_splat(const ewa_gaussian_view *view, const float *s, wf x, wf y, hit_mode mode,
+                                        const block_state *block, wf *depth, wf *opacity) {
+    const wf u = wf_sub(x, wf_set(s[RECORD_X])), v = wf_sub(y, wf_set(s[RECORD_Y]));
+    const wf limit = wf_set(s[RECORD_LIMIT]), zero = wf_set(0);
+    if (mode.with_flat && s[RECORD_DOT] > 0) return hit_flat(view, s, u, v, mode, block, depth, opacity);
+    passage by = {.distance2 = zero, .z = zero, .variance = zero};
+    if (!mode.trained) {
+        by = pass_splat(s, u, v, limit, mode.orthographic, false);
+        if (!wm_bits(by.ahead)) return 0;
+        return shade_hit(view, s, by.ahead, by.distance2, &by, mode, block, depth, opacity);
+    }
+    const wf across = wf_fma(u, wf_set(s[RECORD_AX]), wf_mul(v, wf_set(s[RECORD_AY])));
+    const wf down = wf_mul(v, wf_set(s[RECORD_BY])), m2 = wf_fma(across, across, wf_mul(down, down));
+    const wm inside = wf_lt(m2, limit);
+    if (!wm_bits(inside)) return 0;
+    if (mode.with_depth) by = pass_splat(s, u, v, limit, mode.orthographic, true);
+    return shade_hit(view, s, inside, m2, &by, mode, block, depth, opacity);
 }
 
 /// The layers of volumes in a block: what of each comes next, and the nearest of these.
@@ -279,13 +306,18 @@ static ALWAYS_INLINE void draw_splats(const ewa_gaussian_view *view, ewa_gaussia
     const wf steps_x = wf_repeat4((const float[4]){0.5f, 1.5f, 2.5f, 3.5f});
     const wf steps_y = wf_spread4((const float[4]){0.5f, 1.5f, 2.5f, 3.5f});
     const wf x = wf_add(wf_set((float)at->x), steps_x), y = wf_add(wf_set((float)at->y), steps_y);
-    const hit_mode whole = {trained, orthographic, true}, flat = {trained, orthographic, false};
-    if (!view->by_center)
-        draw_by_rays(view, tile, count, x, y, whole, everything, feed, block);
+    const hit_mode bare = {trained, orthographic, false, false}, deep = {trained, orthographic, true, false},
+                   any = {trained, orthographic, true, true};
+    if (!view->by_center && view->with_flat)
+        draw_by_rays(view, tile, count, x, y, any, everything, feed, block);
+    else if (!view->by_center)
+        draw_by_rays(view, tile, count, x, y, deep, everything, feed, block);
+    else if (view->with_flat)
+        draw_by_centers(view, tile, count, x, y, any, everything, feed, block);
     else if (view->with_depth || view->with_surface || view->with_sections)
-        draw_by_centers(view, tile, count, x, y, whole, everything, feed, block);
+        draw_by_centers(view, tile, count, x, y, deep, everything, feed, block);
     else
-        draw_by_centers(view, tile, count, x, y, flat, everything, feed, block);
+        draw_by_centers(view, tile, count, x, y, bare, everything, feed, block);
 }
 
 /// Ids of a row of blocks to those of its column.

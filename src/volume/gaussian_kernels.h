@@ -30,6 +30,7 @@ enum {
 ///     ray's direction     g_k = Gk_X u + Gk_Y v + Gk, for k = 1, 2, 3
 ///     passes it at        m^2 = LENGTH^2 (g1^2 + g2^2) / (g1^2 + g2^2 + g3^2)
 ///     in the depth        z = LENGTH g3 / (g1^2 + g2^2 + g3^2)
+///     dot                 q^2 = RECORD_DOT ((u - RECORD_DOT_X)^2 + (v - RECORD_DOT_Y)^2), where that is less than m^2
 ///
 /// The direction is in the splat's standard deviations, turned so that the third axis points from the eye to the
 /// centre, which is LENGTH away. Orthographic: m^2 is g1^2 + g2^2, z is g3, LENGTH how many standard deviations a
@@ -50,6 +51,10 @@ enum {
     RECORD_COLOR,                    ///< display values
     RECORD_REACH = RECORD_COLOR + 3, ///< half of the ellipse's height
     RECORD_TOUCH,                    ///< v where the ellipse is farthest to the right
+    RECORD_DOT, ///< of a trained 2D Gaussian: one over the variance of its dot; of others -1
+    RECORD_DOT_X,
+    RECORD_DOT_Y, ///< its middle, from (X, Y)
+    RECORD_DOT_Z,
     RECORD_FLOATS,
 };
 
@@ -60,13 +65,15 @@ typedef struct ewa_gaussian_view {
     bool orthographic, trained, by_center, keep, with_depth;
     bool with_surface;  ///< planes of opaque surfaces
     bool with_sections; ///< section planes
+    bool flat;          ///< as 2DGS trains: where rays cross it, and at least a dot; not `trained` then
+    bool with_flat;     ///< some set is
     float fx_px, fy_px, cx_px, cy_px;
     float width_px, height_px;
     float last_column, last_row; ///< of the tiles
     float turn[3][3];            ///< rows, acts on columns
     float origin[3], eye[3], forward[3];
     float slopes[4], near;
-    float cutoff2, prefilter_px2, log2_min, minimum_alpha, minimum_transmittance;
+    float cutoff2, prefilter_px2, dot_px2, log2_min, minimum_alpha, minimum_transmittance;
     uint32_t harmonic_count; ///< that are stored beyond degree 0, three colours
     uint32_t sh_degree;      ///< that are used
     float set_unit;          ///< of the packets, in units of the view: a power of two

@@ -29,6 +29,9 @@ typedef struct splat_lanes {
     wf x, y, inverse; ///< perspective: slopes and 1 / z; orthographic: x and y
 } splat_lanes;
 
+/// Where dots are that there are not.
+static const float NO_DOT_PX = 1e15f;
+
 static ALWAYS_INLINE wf dot(const wf a[3], const wf b[3]) {
     return wf_fma(a[0], b[0], wf_fma(a[1], b[1], wf_mul(a[2], b[2])));
 }
@@ -85,17 +88,18 @@ static ALWAYS_INLINE wm place_splats(const ewa_gaussian_view *view, const ewa_sp
     for (int i = 0; i < 3; i++) s->direction[i] = wf_mul(offset[i], shrink);
     s->inverse = wf_div(wf_set(1), s->place[2]);
     s->x = wf_mul(s->place[0], s->inverse), s->y = wf_mul(s->place[1], s->inverse);
-    const wf depth = view->trained ? s->place[2] : wf_add(s->place[2], s->depth_reach);
+    const wf depth = view->trained || view->flat ? s->place[2] : wf_add(s->place[2], s->depth_reach);
     return wm_and(shows, wf_lt(wf_set(view->near), depth));
 }
 
 /// The true ellipse in pixels: V, and how far its centre lies from the projected one. Returns |V|, a sum of
-/// squares over pairs of axes, so that it holds for flat splats that are seen from the edge.
-static ALWAYS_INLINE wf true_ellipse(const ewa_gaussian_view *view, const splat_lanes *s, wf v[3],
-                                     wf shift[2]) {
+/// squares over pairs of axes, so that it holds for flat splats that are seen from the edge. `dot`: of `view->flat` from
+/// there to the middle of the dot, and 1 where there is one.
+static ALWAYS_INLINE wf true_ellipse(const ewa_gaussian_view *view, const splat_lanes *s, wf v[3], wf shift[2],
+                                     wf dot[3]) {
     const wf zero = wf_set(0);
     wf x = s->x, y = s->y, cutoff2 = s->cutoff2;
-    if (view->trained) {
+    if (view->trained || view->orthographic) {
         x = wf_min(wf_max(x, wf_set(view->slopes[0])), wf_set(view->slopes[1]));
         y = wf_min(wf_max(y, wf_set(view->slopes[2])), wf_set(view->slopes[3]));
         cutoff2 = zero;
@@ -117,6 +121,15 @@ static ALWAYS_INLINE wf true_ellipse(const ewa_gaussian_view *view, const splat_
     wf k = wf_set(1);
     if (!view->orthographic) k = wf_div(k, wf_fnma(cutoff2, depth2, wf_mul(s->place[2], s->place[2])));
     wide_project(sums, k, cutoff2, v, shift);
+    if (view->flat) {
+        const wf wide = wf_set(view->orthographic ? 0 : EWA_GAUSSIAN_DOT_CUTOFF * EWA_GAUSSIAN_DOT_CUTOFF);
+        const wf left = wf_fnma(wide, depth2, wf_mul(s->place[2], s->place[2]));
+        wf unused[3];
+        dot[2] = wf_keep(view->orthographic ? wf_le(zero, zero) : wf_lt(zero, left), wf_set(1));
+        wide_project(sums, view->orthographic ? k : wf_div(wf_set(1), wf_max(left, wf_set(1e-36f))), wide, unused, dot);
+        dot[0] = wf_mul(wf_sub(dot[0], shift[0]), wf_set(view->fx_px));
+        dot[1] = wf_mul(wf_sub(dot[1], shift[1]), wf_set(view->fy_px));
+    }
     // V / k is the Gram matrix of four: the sheared axes, and F sqrt(k) (Sigma13, Sigma23).
     const wf far = wf_sqrt(wf_max(wf_mul(cutoff2, k), zero));
     tx[3] = wf_mul(far, sums[3]), ty[3] = wf_mul(far, sums[4]);
@@ -159,12 +172,21 @@ static ALWAYS_INLINE wf ray_rows(const ewa_gaussian_view *view, const splat_lane
     return length;
 }
 
+/// The variance of what the ellipse is thickened by: that of the filter, or what takes in the dot.
+static ALWAYS_INLINE wf thickness(const ewa_gaussian_view *view, const splat_lanes *s, const wf dot[3]) {
+    if (!view->flat) return wf_set(view->prefilter_px2);
+    const wf away = wf_sqrt(wf_fma(dot[0], dot[0], wf_mul(dot[1], dot[1])));
+    const wf cutoff = wf_max(wf_sqrt(s->cutoff2), wf_set(1e-3f));
+    const wf reach = wf_fma(dot[2], wf_div(away, cutoff), wf_sqrt(wf_set(view->dot_px2)));
+    return wf_mul(reach, reach);
+}
+
 /// Sets the ellipse's part of records: lower triangles L of V and M of V', of which `map` becomes L M^-1
-/// where pixels look up at the same place of the true ellipse, else 1. Returns what the filter leaves of the
-/// height.
+/// where pixels look up at the same place of the true ellipse, else 1; V' is V thickened by `h2`. Returns what the filter
+/// leaves of the height.
 static ALWAYS_INLINE wf set_ellipse(const ewa_gaussian_view *view, const splat_lanes *s, const wf v[3],
-                                    wf area, wf record[], wf lower[3], wf map[3]) {
-    const wf h2 = wf_set(view->prefilter_px2), tiny = wf_set(1e-12f), one = wf_set(1);
+                                    wf area, wf h2, wf record[], wf lower[3], wf map[3]) {
+    const wf tiny = wf_set(1e-12f), one = wf_set(1);
     const wf w11 = wf_max(wf_add(v[0], h2), tiny), w22 = wf_max(wf_add(v[2], h2), tiny);
     const wf filtered = wf_max(wf_fma(h2, wf_add(wf_add(v[0], v[2]), h2), area), wf_set(1e-24f));
     const wf root = wf_sqrt(wf_div(w22, filtered)), cutoff = wf_sqrt(s->cutoff2);
@@ -177,7 +199,9 @@ static ALWAYS_INLINE wf set_ellipse(const ewa_gaussian_view *view, const splat_l
     record[RECORD_TOUCH] = wf_mul(cutoff, lower[1]);
     const wf fall = wf_div(h2, filtered);
     map[0] = wf_fnma(fall, w22, one), map[2] = wf_fnma(fall, w11, one), map[1] = wf_mul(fall, v[1]);
-    if (!view->trained) {
+    if (view->flat) {
+        map[0] = map[2] = one, map[1] = wf_set(0);
+    } else if (!view->trained) {
         const wf v11 = wf_max(v[0], tiny), l0 = wf_sqrt(v11), l1 = wf_div(v[1], l0),
                  l2 = wf_sqrt(wf_div(area, v11));
         map[2] = wf_div(l2, lower[2]);
@@ -249,6 +273,7 @@ static ALWAYS_INLINE void set_near(const ewa_gaussian_view *view, const splat_la
     own[RECORD_X] = wf_set(view->cx_px), own[RECORD_Y] = wf_set(view->cy_px);
     own[RECORD_AX] = wf_set(1e-30f), own[RECORD_AY] = own[RECORD_BY] = own[RECORD_TOUCH] = zero;
     own[RECORD_REACH] = wf_set(1e9f);
+    own[RECORD_DOT_X] = wf_set(NO_DOT_PX);
     for (int k = 0; k < 3; k++) {
         own[RECORD_G + 3 * k] = wf_div(rows[k][0], wf_set(view->fx_px));
         own[RECORD_G + 3 * k + 1] = wf_div(rows[k][1], wf_set(view->fy_px));
@@ -346,10 +371,10 @@ static void project(const ewa_gaussian_view *view, const ewa_splat_packet *packe
     if (!wm_bits(shows)) return;
     const wf zero = wf_set(0);
     wm near = wf_lt(zero, zero);
-    if (!view->trained) near = wf_le(s.place[2], wf_mul(wf_set((float)EWA_GAUSSIAN_NEAR), s.depth_reach));
-    wf record[RECORD_FLOATS], v[3], shift[2], lower[3], map[3], rows[3][3], tiles[4];
-    const wf area = true_ellipse(view, &s, v, shift);
-    const wf kept = set_ellipse(view, &s, v, area, record, lower, map);
+    if (!view->trained && !view->orthographic) near = wf_le(s.place[2], wf_mul(wf_set((float)EWA_GAUSSIAN_NEAR), s.depth_reach));
+    wf record[RECORD_FLOATS], v[3], shift[2], lower[3], map[3], rows[3][3], tiles[4], dot[3] = {zero, zero, zero};
+    const wf area = true_ellipse(view, &s, v, shift, dot);
+    const wf kept = set_ellipse(view, &s, v, area, thickness(view, &s, dot), record, lower, map);
     record[RECORD_X] = wf_fma(s.x, wf_set(view->fx_px), wf_add(shift[0], wf_set(view->cx_px)));
     record[RECORD_Y] = wf_fma(s.y, wf_set(view->fy_px), wf_add(shift[1], wf_set(view->cy_px)));
     // The box, in pixels from the picture's edge.
@@ -377,6 +402,14 @@ static void project(const ewa_gaussian_view *view, const ewa_splat_packet *packe
     shows = wm_and(shows, wf_le(wf_set(view->minimum_alpha), alpha));
     record[RECORD_LOG2_ALPHA] = wf_log2(alpha);
     set_colors(view, packet, harmonics, &s, &record[RECORD_COLOR]);
+    record[RECORD_DOT_X] = dot[0], record[RECORD_DOT_Y] = dot[1], record[RECORD_DOT_Z] = s.place[2];
+    record[RECORD_DOT] = wf_set(-1);
+    if (view->flat) {
+        const bool some = view->dot_px2 > 0;
+        record[RECORD_DOT] = wf_set(some ? 1 / view->dot_px2 : 1);
+        record[RECORD_DOT_X] =
+            wf_select(wf_lt(zero, wf_keep(wf_lt(zero, wf_set(view->dot_px2)), dot[2])), dot[0], wf_set(NO_DOT_PX));
+    }
     if (wm_bits(near)) set_near(view, &s, near, rows, record);
     record[RECORD_ORDER] = wf_add(view->by_center ? s.place[2] : record[RECORD_LOW], zero); // of both zeros the one above
     found->near_count += (uint32_t)__builtin_popcount(wm_bits(wm_and(near, shows)));

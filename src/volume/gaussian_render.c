@@ -117,10 +117,13 @@ static void set_view(ewa_gaussian_view *view, const ewa_splats *splats, double u
     ewa_gaussian_camera_make(&c, camera, options, splats && splats->info.antialiased, unit_world,
                              splats ? splats->origin_world : nowhere);
     const uint32_t degree = splats ? splats->info.sh_degree : 0;
+    const bool flat = splats && splats->flat && options->projection == EWA_PROJECTION_TRAINED &&
+                      options->filter == EWA_FILTER_OF_SET;
     *view = (ewa_gaussian_view){.orthographic = c.orthographic,
-                                .trained = c.trained,
+                                .trained = c.trained && !flat,
                                 .by_center = c.by_center,
-                                .keep = c.keep,
+                                .keep = c.keep && !flat,
+                                .flat = flat,
                                 .with_surface = options->surface_depth != NULL,
                                 .with_sections = options->section_count > 0,
                                 .fx_px = (float)c.fx_px,
@@ -134,6 +137,7 @@ static void set_view(ewa_gaussian_view *view, const ewa_splats *splats, double u
                                 .near = (float)c.near,
                                 .cutoff2 = (float)(options->cutoff * options->cutoff),
                                 .prefilter_px2 = (float)options->prefilter_px2,
+                                .dot_px2 = (float)(EWA_GAUSSIAN_DOT * options->prefilter_px2),
                                 .log2_min = (float)log2(options->minimum_alpha),
                                 .minimum_alpha = (float)options->minimum_alpha,
                                 .minimum_transmittance = (float)options->minimum_transmittance,
@@ -161,6 +165,7 @@ static ewa_status set_views(gaussian_job *job, const ewa_camera *camera, const e
     for (uint32_t i = 0; i < mixture->splats_count; i++) {
         set_view(&views[i], mixture->splats[i], unit, camera, options, &job->tiles);
         job->view.keep |= views[i].keep; // of what none keeps nothing is that faint
+        job->view.with_flat |= views[i].flat;
     }
     job->view.with_depth = with_depth;
     return EWA_OK;

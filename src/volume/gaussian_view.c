@@ -23,8 +23,8 @@ static const ewa_option rows[] = {
              "which its ray passes the greatest density; auto: centre of trained, ray of exact"},
     {"filter", EWA_OPTION_CHOICE, OF(filter), .words = "file|thicken|keep",
      .help =
-         "what the pixel filter does to small Gaussians: what the file was trained with, nothing but thicken "
-         "them, or lower them so that they add as much as before"},
+         "what the pixel filter does to small Gaussians: what the file was trained with, of 2DGS a dot at least, nothing "
+         "but thicken them, or lower them so that they add as much as before"},
     {"prefilter_px2", EWA_OPTION_F64, OF(prefilter_px2), 0, 16, .initial = 0.3, .unit = "px^2",
      .help = "variance of the pixel filter"},
     {"cutoff", EWA_OPTION_F64, OF(cutoff), 1, 6, .initial = 4,

@@ -16,6 +16,12 @@
 /// No Gaussian takes more of the light (3DGS).
 #define EWA_GAUSSIAN_MAX_ALPHA 0.99
 
+/// The variance of the dot that a trained 2D Gaussian covers at least, over that of the filter: 0.5 px^2 by 0.3 (2DGS).
+#define EWA_GAUSSIAN_DOT (5.0 / 3)
+
+/// How many standard deviations of it the middle of a trained 2D Gaussian's dot is the middle of (2DGS).
+#define EWA_GAUSSIAN_DOT_CUTOFF 3
+
 /// What the filter leaves of a Gaussian's height is at least the root of that (Mip-Splatting).
 #define EWA_GAUSSIAN_MIN_KEPT 2.5e-5
 

@@ -233,6 +233,7 @@ ewa_status ewa_splats_create(const ewa_gaussians *gaussians, ewa_splats **splats
     if (made) made->context = context;
     if (status == EWA_OK) {
         made->harmonic_count = 3 * ((gaussians->sh_degree + 1) * (gaussians->sh_degree + 1) - 1);
+        made->flat = gaussians->flat;
         made->info.sh_degree = gaussians->sh_degree;
         made->info.antialiased = gaussians->antialiased;
         status = order_all(gaussians, order, &made->info.splat_count);

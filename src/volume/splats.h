@@ -35,6 +35,7 @@ typedef float ewa_splat_packet[EWA_SPLAT_NUMBERS][EWA_SPLAT_LANES];
 struct ewa_splats {
     ewa_context *context;
     uint32_t packet_count, harmonic_count; ///< harmonics beyond degree 0 of three colours
+    bool flat;                             ///< 2D Gaussians
     double unit_world;                     ///< a power of two
     double origin_world[3];
     ewa_splat_packet *packets;

@@ -73,6 +73,18 @@ static void test_reference(void **state) {
         options.prefilter_px2 = 0;
         check_held(&flat, &camera, &options, "without a filter");
     }
+    // 2D ones as 2DGS trains, from outside, from within, without perspective.
+    flat.flat = true;
+    for (int n = 0; n < 4; n++) {
+        ewa_camera place = gaussians_camera(150, 110, n == 1 ? 110 : 60, FRONT, n == 1 ? 0.5 : 2);
+        if (n == 2) {
+            place.projection = EWA_ORTHOGRAPHIC;
+            place.fx_px = place.fy_px = 50;
+        }
+        ewa_gaussian_options options = options_of(EWA_PROJECTION_TRAINED);
+        if (n == 3) options.prefilter_px2 = 0;
+        check_held(&flat, &place, &options, "2D");
+    }
     ewa_gaussians_free(&flat);
     ewa_context_destroy(&context);
 }
@@ -194,6 +206,37 @@ static void test_crossing(void **state) {
                 fabs((double)(pixel[red ? 2 : 0] / pixel[3]) - linear[1]) > 2e-3)
                 fail_msg("%d, column %zu: %g %g", n, x, (double)pixel[0], (double)pixel[2]);
         }
+        ewa_image_free(&image);
+        ewa_gaussians_free(&set);
+    }
+    ewa_context_destroy(&context);
+}
+
+/// Trained 2D Gaussians of which the numbers are known: one that leans by 60 degrees, where its ray crosses it, and one far
+/// smaller than a pixel, a dot of variance 1/2 px^2.
+static void test_flat(void **state) {
+    static const double white[3] = {1, 1, 1}, sizes[2] = {1, 1e-4}, turn = 30 * 3.141592653589793 / 180;
+    const double lean[4] = {cos(turn), 0, sin(turn), 0}; // about y, by twice that
+    ewa_context *context = check_context(1, NULL);
+    const ewa_camera camera = gaussians_camera(65, 65, 40, (const double[3]){0, 0, -1}, 4);
+    for (int n = 0; n < 2; n++) {
+        ewa_gaussians set = gaussians_one(context, (const double[3]){0, 0, 0}, (const double[3]){sizes[n], sizes[n], 0},
+                                          lean, 0.8, white);
+        set.flat = true;
+        ewa_image image = gaussians_draw(&set, &camera, NULL, NULL);
+        for (int i = 0; i < 65; i++)
+            for (int k = -1; k < 2; k++) {
+                const double x = (i - 32) / camera.fx_px, y = k / camera.fy_px; // of the ray, at a depth of 1
+                const double side = camera.world_to_camera[0] > 0 ? 1 : -1;
+                // The plane turned about y by 60 degrees: depth 4 + tan 60 times what is to the side, with a sign.
+                const double t = 4 / (1 + side * x * tan(2 * turn)), across = t * x / cos(2 * turn), down = t * y;
+                const double crossed2 = t > 0.2 ? (across * across + down * down) / (sizes[n] * sizes[n]) : 1e30;
+                const double dot2 = 2 * ((i - 32) * (i - 32) + k * k);
+                double alpha = 0.8 * exp(-fmin(crossed2, dot2) / 2);
+                if (alpha < 1.0 / 255) alpha = 0;
+                const double drawn = (double)image.pixels[4 * ((size_t)(32 + k) * 65 + (size_t)i) + 3];
+                if (fabs(drawn - alpha) > 2e-4) fail_msg("%d, column %d, row %d: %g instead of %g", n, i, k, drawn, alpha);
+            }
         ewa_image_free(&image);
         ewa_gaussians_free(&set);
     }
@@ -466,7 +509,7 @@ static void test_memory(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_reference), cmocka_unit_test(test_dense),    cmocka_unit_test(test_bytes),
-        cmocka_unit_test(test_crossing), cmocka_unit_test(test_constant),  cmocka_unit_test(test_nothing),  cmocka_unit_test(test_one),
+        cmocka_unit_test(test_crossing), cmocka_unit_test(test_flat), cmocka_unit_test(test_constant),  cmocka_unit_test(test_nothing),  cmocka_unit_test(test_one),
         cmocka_unit_test(test_surface),   cmocka_unit_test(test_sections), cmocka_unit_test(test_harmonics),
         cmocka_unit_test(test_memory),
     };
