@@ -146,6 +146,7 @@ void ewa_context_destroy(ewa_context **context) {
     if (!context || !*context) return;
     ewa_context *old = *context;
     const ewa_allocator allocator = old->options.allocator;
+    if (old->remote) old->end_remote(&old->remote);
     ewa_pool_destroy(&allocator, old->pool);
     allocator.release(allocator.user, old, sizeof *old);
     *context = NULL;

@@ -24,6 +24,8 @@ struct ewa_context {
     bool time_is_over; ///< and that was reported
     struct ewa_kept_file *kept_file;    ///< of ewa_file_keep_begin() (src/io/file.h); NULL: nothing is kept
     struct ewa_stoppable_run *run;      ///< the one that ewa_goes_on() is about; NULL: none
+    struct ewa_remote *remote;          ///< of ewa_remote_open() (src/io/remote.h); NULL: no server was asked
+    void (*end_remote)(struct ewa_remote **remote);
     const char *subject;                ///< what messages are about; NULL: they say so themselves
 };
 

@@ -36,6 +36,12 @@ double ewa_platform_seconds(void);
 /// Returns whether the system finds a shared library by its name.
 bool ewa_platform_has_library(const char *name);
 
+/// Loads a shared library by its name, for as long as the process runs; NULL where there is none.
+void *ewa_platform_open_library(const char *name);
+
+/// Returns a function of a library, NULL where it has none of that name.
+void *ewa_platform_find_function(void *library, const char *name);
+
 /// Writes what an errno means.
 void ewa_platform_describe(int error, char *text, size_t room);
 

@@ -50,6 +50,10 @@ bool ewa_platform_has_library(const char *name) {
     return library != NULL;
 }
 
+void *ewa_platform_open_library(const char *name) { return dlopen(name, RTLD_NOW | RTLD_LOCAL); }
+
+void *ewa_platform_find_function(void *library, const char *name) { return dlsym(library, name); }
+
 static const char *posix_text(int result, const char *text) { return result == 0 ? text : NULL; }
 static const char *gnu_text(const char *result, const char *text) {
     (void)text;

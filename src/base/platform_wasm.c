@@ -33,6 +33,17 @@ bool ewa_platform_has_library(const char *name) {
     return false;
 }
 
+void *ewa_platform_open_library(const char *name) {
+    (void)name;
+    return NULL;
+}
+
+void *ewa_platform_find_function(void *library, const char *name) {
+    (void)library;
+    (void)name;
+    return NULL;
+}
+
 void ewa_platform_describe(int error, char *text, size_t room) {
     if (strerror_r(error, text, room) != 0) snprintf(text, room, "error %d", error);
 }

@@ -89,6 +89,15 @@ bool ewa_platform_has_library(const char *name) {
     return library != NULL;
 }
 
+void *ewa_platform_open_library(const char *name) { return (void *)LoadLibraryA(name); }
+
+void *ewa_platform_find_function(void *library, const char *name) {
+    const FARPROC found = GetProcAddress((HMODULE)library, name);
+    void *function;
+    memcpy(&function, &found, sizeof function);
+    return function;
+}
+
 void ewa_platform_describe(int error, char *text, size_t room) {
     if (strerror_s(text, room, error) != 0) snprintf(text, room, "error %d", error);
 }

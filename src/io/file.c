@@ -7,6 +7,7 @@
 #include "base/context.h"
 #include "base/platform.h"
 #include "io/ranges.h"
+#include "io/http.h"
 
 #include <errno.h>
 #include <stdio.h>
@@ -102,6 +103,10 @@ bool ewa_file_map_descriptor(ewa_context *context, int descriptor, ewa_file *fil
 static ewa_status read_whole(ewa_context *context, ewa_ranges *ranges, const char *path, ewa_file *file) {
     const uint64_t size_bytes = ewa_ranges_size_bytes(ranges);
     uint8_t *bytes = NULL;
+    if (ewa_ranges_are_remote(ranges) && size_bytes > EWA_HTTP_WHOLE_BYTES)
+        return ewa_fail(context, EWA_ERROR_LIMIT,
+                        "%s: %llu bytes on a server; what is read as a whole may have 1 GiB: download it, or have an octree made of it",
+                        path, (unsigned long long)size_bytes);
     EWA_TRY(ewa_memory_check(context, size_bytes, "%s", path));
     if (size_bytes) EWA_TRY(ewa_ranges_take(ranges, 0, size_bytes, &bytes));
     *file = (ewa_file){.bytes = bytes, .size_bytes = (size_t)size_bytes, .capacity_bytes = (size_t)size_bytes};

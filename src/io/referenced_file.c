@@ -6,6 +6,7 @@
 #include "io/referenced_file.h"
 #include "base/base.h"
 #include "base/platform.h"
+#include "io/remote.h"
 
 #include <errno.h>
 #include <stdio.h>
@@ -118,7 +119,9 @@ bool ewa_referenced_file_find(ewa_context *context, const char *path, const char
     const bool anywhere = allowed == EWA_NAMED_ANYWHERE;
     if (!is_allowed(allowed, reason)) return false;
     if (!*name) return fail(reason, "it has no name") == 0;
+    if (ewa_remote_is(name) && !anywhere) return fail(reason, "it is on a server; named_files anywhere asks it") == 0;
     if (ewa_platform_is_absolute(name) && !anywhere) return fail(reason, "its name is absolute") == 0;
+    if (ewa_remote_is(name)) return snprintf(found, EWA_PATH_BYTES, "%s", name) < EWA_PATH_BYTES || fail(reason, "its name is too long") == 0;
     if (!folder_of(path, folder, reason)) return false;
     if (join(folder, name, found) && ewa_file_is_source(context, found)) return true;
     if (!resolve(folder, name, anywhere, joined, base, full, reason))
@@ -137,6 +140,7 @@ bool ewa_referenced_file_relate(const char *path, const char *target, char name[
                                 char reason[EWA_REASON_BYTES]) {
     char folder[EWA_PATH_BYTES], base[EWA_PATH_BYTES], full[EWA_PATH_BYTES];
     if (!folder_of(path, folder, reason)) return false;
+    if (ewa_remote_is(target)) return snprintf(name, EWA_PATH_BYTES, "%s", target) < EWA_PATH_BYTES || fail(reason, "its name is too long") == 0;
     if (!ewa_platform_resolve(folder, base) || !ewa_platform_resolve(target, full)) return fail_errno(reason, errno) == 0;
     const size_t length = strcmp(base, "/") == 0 ? 0 : strlen(base);
     if (strncmp(full, base, length) != 0 || full[length] != '/')

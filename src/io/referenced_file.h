@@ -27,11 +27,11 @@ int ewa_referenced_file_open(ewa_named_files allowed, const char *path, ewa_text
 ewa_status ewa_referenced_file_part(ewa_context *context, const char *folder, const char *name, ewa_file *file);
 
 /// Writes the path of what `name` means in the file at `path`: a regular file, or with `folders` a folder, where
-/// named_files lets it be; nothing else is tried. False with `reason`; nothing is reported.
+/// named_files lets it be, or an address on a server where that is EWA_NAMED_ANYWHERE; nothing else is tried. False with `reason`; nothing is reported.
 bool ewa_referenced_file_find(ewa_context *context, const char *path, const char *name, bool folders,
                               char found[EWA_PATH_BYTES], char reason[EWA_REASON_BYTES]);
 
-/// Writes the name that the file at `path`, which need not be there yet, has for a target below its folder. False with
+/// Writes the name that the file at `path`, which need not be there yet, has for a target below its folder, or on a server. False with
 /// `reason`.
 bool ewa_referenced_file_relate(const char *path, const char *target, char name[EWA_PATH_BYTES],
                                 char reason[EWA_REASON_BYTES]);

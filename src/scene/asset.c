@@ -229,9 +229,11 @@ static ewa_status find_kind(const ewa_asset_job *job, const char *path, ewa_asse
     if (*lod) return EWA_OK;
     ewa_gaussian_format gaussians = EWA_GAUSSIANS_NONE;
     // What is missing or cannot be opened is said by who reads it.
+    ewa_failures_hush(context, true);
     if (ewa_file_may_read(context, path) && ewa_gaussians_probe(context, path, &gaussians) == EWA_OK &&
         gaussians != EWA_GAUSSIANS_NONE)
         *kind = EWA_ASSET_GAUSSIANS;
+    ewa_failures_hush(context, false);
     return EWA_OK;
 }
 

@@ -5,6 +5,7 @@
 #include "base/base.h"
 #include "base/platform.h"
 #include "io/ept/ept.h"
+#include "io/remote.h"
 #include "io/zstandard.h"
 
 #include <stdio.h>
@@ -33,6 +34,8 @@ static bool find_folder(ewa_context *context, const char *path, char folder[EWA_
         snprintf(folder, EWA_EPT_FOLDER_BYTES, "%.*s", name > path ? folder_length : 1, name > path ? path : ".");
         return true;
     }
+    // A server has no folders that could be told from files.
+    if (ewa_remote_is(path)) return false;
     snprintf(file, sizeof file, "%s/ept.json", path);
     memcpy(folder, path, length + 1);
     return ewa_file_may_read(context, file);
