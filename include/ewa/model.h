@@ -57,7 +57,7 @@ typedef struct ewa_model {
     ewa_elements *elements; ///< NULL: none; the caller may take it
 } ewa_model;
 
-/// Reads a file of points or triangles, the format by content: PLY, OBJ (with MTL), STL, OFF, glTF and GLB, VTK.
+/// Reads a file of points or triangles, the format by content: PLY, OBJ (with MTL), STL, OFF, glTF and GLB, VTK (legacy and XML).
 /// Clouds of every format that ewa_cloud_load() knows are read as there, by `options` (may be NULL).
 /// `wanted` are EWA_MODEL_* bits; without EWA_MODEL_POINTS, `points` are made only where there are no faces.
 /// "-" reads standard input.

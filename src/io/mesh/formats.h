@@ -21,9 +21,13 @@ ewa_status ewa_mesh_read_stl(ewa_mesh_build *build);
 ewa_status ewa_mesh_read_off(ewa_mesh_build *build);
 ewa_status ewa_mesh_read_gltf(ewa_mesh_build *build);
 ewa_status ewa_mesh_read_vtk(ewa_mesh_build *build);
+ewa_status ewa_mesh_read_vtk_xml(ewa_mesh_build *build);
 
-/// Whether bytes begin like a VTK file of polygons or of cells, not of voxels.
+/// Whether bytes begin like a legacy VTK file of polygons, cells or places, not of voxels.
 bool ewa_mesh_is_vtk(const uint8_t *bytes, size_t size_bytes);
+
+/// The same of VTK's XML files.
+bool ewa_mesh_is_vtk_xml(const uint8_t *bytes, size_t size_bytes);
 
 /// Materials by name, of OBJ files.
 typedef struct ewa_mtl ewa_mtl;

@@ -141,7 +141,9 @@ static ewa_status load(const ewa_mesh_source *source, uint32_t wanted, const ewa
     case EWA_MODEL_OFF:
         return read_other(source, ewa_mesh_read_off, wanted, model);
     case EWA_MODEL_VTK:
-        return read_other(source, ewa_mesh_read_vtk, wanted, model);
+        return read_other(source,
+                          ewa_mesh_is_vtk_xml(source->bytes, source->size_bytes) ? ewa_mesh_read_vtk_xml : ewa_mesh_read_vtk,
+                          wanted, model);
     case EWA_MODEL_GLTF:
         return read_other(source, ewa_mesh_read_gltf, wanted, model);
     default:

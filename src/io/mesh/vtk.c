@@ -402,7 +402,7 @@ static ewa_status add_grid(vtk_reader *r) {
     if (__builtin_mul_overflow(r->counts[0], r->counts[1], &layer) || __builtin_mul_overflow(layer, r->counts[2], &all) ||
         all != r->build->positions.count)
         return fail(r, "there are not as many POINTS as DIMENSIONS say");
-    return ewa_vtk_add_sides(r->build, r->counts, r->has_normals);
+    return ewa_vtk_add_sides(r->build, 0, r->counts, r->has_normals);
 }
 
 static ewa_status read_body(vtk_reader *r) {

@@ -281,8 +281,9 @@ static ewa_status add_cell(vtk_surface *surface, cell *taken, uint64_t *face_num
     const bool solid = is_solid(taken);
     while (next_face(taken, &face))
         if (!solid || !shared[(*face_number)++]) EWA_TRY(add_face(surface, &face));
-    surface->unknown_count +=
-        !taken->shape && taken->kind != STRIP && taken->kind != POLYHEDRON && !is_line(taken->kind) && !is_point(taken->kind);
+    const bool known = taken->shape || taken->kind == STRIP || is_line(taken->kind) || is_point(taken->kind) ||
+                       (taken->kind == POLYHEDRON && taken->count > 0);
+    surface->unknown_count += !known;
     return EWA_OK;
 }
 
@@ -318,10 +319,11 @@ ewa_status ewa_vtk_add_cells(ewa_mesh_build *build, const ewa_vtk_cells *cells) 
 }
 
 /// Adds a side of a grid: the places at one end of an axis, in squares that turn left from outside.
-static ewa_status add_side(ewa_mesh_build *build, const uint64_t counts[3], int axis, bool far, bool has_normals) {
+static ewa_status add_side(ewa_mesh_build *build, uint64_t first, const uint64_t counts[3], int axis, bool far,
+                           bool has_normals) {
     const uint64_t steps[3] = {1, counts[0], counts[0] * counts[1]};
     const int u = (axis + 1) % 3, v = (axis + 2) % 3;
-    const uint64_t first = far ? (counts[axis] - 1) * steps[axis] : 0;
+    first += far ? (counts[axis] - 1) * steps[axis] : 0;
     const uint64_t across = steps[far ? u : v], along = steps[far ? v : u];
     for (uint64_t y = 0; y + 1 < counts[v]; y++) {
         for (uint64_t x = 0; x + 1 < counts[u]; x++) {
@@ -337,12 +339,12 @@ static ewa_status add_side(ewa_mesh_build *build, const uint64_t counts[3], int 
     return EWA_OK;
 }
 
-ewa_status ewa_vtk_add_sides(ewa_mesh_build *build, const uint64_t counts[3], bool has_normals) {
+ewa_status ewa_vtk_add_sides(ewa_mesh_build *build, uint64_t first, const uint64_t counts[3], bool has_normals) {
     // Of a sheet, the sides along it have no squares.
     const bool flat = counts[0] == 1 || counts[1] == 1 || counts[2] == 1;
     for (int axis = 0; axis < 3; axis++) {
-        EWA_TRY(add_side(build, counts, axis, true, has_normals));
-        if (!flat) EWA_TRY(add_side(build, counts, axis, false, has_normals));
+        EWA_TRY(add_side(build, first, counts, axis, true, has_normals));
+        if (!flat) EWA_TRY(add_side(build, first, counts, axis, false, has_normals));
     }
     return EWA_OK;
 }

@@ -24,8 +24,8 @@ typedef struct ewa_vtk_cells {
 /// unknown are counted in a warning. Errors: those of ewa_mesh_add_polygon(), EWA_CANCELLED.
 ewa_status ewa_vtk_add_cells(ewa_mesh_build *build, const ewa_vtk_cells *cells);
 
-/// Adds the sides of a grid of places, x fastest: six, or the one of a grid that has one place along an axis. There are
-/// as many places as the product of `counts`. Errors: as above.
-ewa_status ewa_vtk_add_sides(ewa_mesh_build *build, const uint64_t counts[3], bool has_normals);
+/// Adds the sides of a grid of places, x fastest: six, or the one of a grid that has one place along an axis. From place
+/// `first` on there are as many as the product of `counts`. Errors: as above.
+ewa_status ewa_vtk_add_sides(ewa_mesh_build *build, uint64_t first, const uint64_t counts[3], bool has_normals);
 
 #endif
