@@ -39,11 +39,15 @@ typedef struct ewa_gradient {
     double *radius;   ///< 1 per point, per world unit
     double *tangent_u, *tangent_v; ///< 3 per point, per world unit
     ewa_camera_cotangent *camera;
-    double *rgba; ///< 4 per pixel: no derivative, but the picture that they are of, as ewa_frame.rgba but for splats at contours
+    double *rgba; ///< 4 per pixel: no derivative, but the picture that they are of, in double precision, as ewa_frame.rgba but
+                  ///< for splats at contours
 } ewa_gradient;
 
-/// Takes the cotangents of a picture as ewa_render() draws it to those of what made it, in double precision: the same
-/// bytes for every number of threads, every instruction set and every order of the points. What jumps has no
+/// Takes the cotangents of a picture as ewa_render() draws it to those of what made it: the same
+/// bytes for every number of threads, every instruction set and every order of the points. Colours alone go back through
+/// the pipeline itself, in single precision: they are the derivative of the picture that it draws of the surfels that it
+/// makes, within 1e-5 of the largest. With anything else, `rgba` too, and where
+/// lights are several or coloured, all is in double precision. What jumps has no
 /// derivative and counts as fixed: which surfels are seen at which pixels and on which surface, what clip lines leave
 /// of pixels, q0, and where surfels lie that touch the plane of the eye (docs/math.md section 15). Splats at contours are taken for
 /// where they are seen, not for where they move to. `cotangent` may be

@@ -141,6 +141,7 @@ class _Render(torch.autograd.Function):  # type: ignore[misc,unused-ignore]
         wanted = [name for name, needed in zip(frame.inputs, ctx.needs_input_grad[1:]) if needed]
         by = [name for name in wanted if name in STREAMS]
         by += ["camera"] if any(name in _CAMERA for name in wanted) else []
+        by += ["rgba"] if frame.exact else []  # of the picture in double precision, colours too
         planes: dict[str, Any] = {}
         for name, cotangent in zip(frame.planes, cotangents):
             if cotangent is None:

@@ -190,14 +190,18 @@ static void store_camera(const ewa_adjoint_job *job) {
     }
 }
 
+void ewa_adjoint_warn_unseen(ewa_context *context, uint64_t point_count, uint32_t width_px, uint32_t height_px) {
+    ewa_report(context, EWA_SEVERITY_WARNING, "gradients: none of %llu surfels is in the picture of %u x %u pixels",
+               (unsigned long long)point_count, width_px, height_px);
+}
+
 static ewa_status run(ewa_adjoint_job *job) {
     ewa_context *context = job->frame.context;
     EWA_TRY(start(job));
     EWA_TRY(ewa_bin_lists_fill(context, &job->lists, job->tiles.columns, job->tiles.rows,
                                (uint32_t)job->frame.point_count, find_splats, job));
     if (job->lists.item_count == 0)
-        ewa_report(context, EWA_SEVERITY_WARNING, "gradients: none of %llu surfels is in the picture of %u x %u pixels",
-                   (unsigned long long)job->frame.point_count, job->tiles.width_px, job->tiles.height_px);
+        ewa_adjoint_warn_unseen(context, job->frame.point_count, job->tiles.width_px, job->tiles.height_px);
     set_units(job);
     EWA_TRY(place_slots(job));
     EWA_TRY(reserve(job));

@@ -50,7 +50,10 @@ typedef struct ewa_adjoint_job {
 /// `cotangent` and `gradient` have been set. Errors: EWA_ERROR_LIMIT, EWA_ERROR_MEMORY, EWA_CANCELLED.
 ewa_status ewa_adjoint_run(ewa_adjoint_job *job);
 
-/// ewa_render_backward() by tiles of a side of at most EWA_REFERENCE_MAX_TILE_PX; none changes a byte.
+/// Warns that a picture shows no surfel.
+void ewa_adjoint_warn_unseen(ewa_context *context, uint64_t point_count, uint32_t width_px, uint32_t height_px);
+
+/// ewa_render_backward() in double precision, whatever is wanted, by tiles of a side of at most EWA_REFERENCE_MAX_TILE_PX; none changes a byte.
 ewa_status ewa_adjoint_backward(const ewa_cloud *cloud, const ewa_surfels_options *surfels_options,
                                 double unit_coverage, const ewa_camera *camera, const ewa_render_options *options,
                                 const ewa_frame_cotangent *cotangent, const ewa_gradient *gradient, uint32_t tile_px);

@@ -9,6 +9,7 @@
 #include "surface/shading.h"
 
 typedef struct ewa_renderer_info ewa_renderer_info; ///< ewa/gpu.h
+typedef struct ewa_gather ewa_gather;               ///< pipeline.h
 
 /// One source of a frame.
 typedef struct ewa_frame_source {
@@ -27,6 +28,7 @@ typedef struct ewa_render_job {
     uint32_t source_count;
     bool count_fragments; ///< for the stats
     uint32_t tile_px;     ///< side of a tile, a power of two of at most EWA_FIELD_PX; 0: the back end chooses
+    const ewa_gather *gather; ///< back from pixels to colours (gather.c); NULL: a picture
     uint32_t first_row_px,
         end_row_px; ///< the band that is drawn: multiples of EWA_FIELD_PX, or the picture's end
 } ewa_render_job;

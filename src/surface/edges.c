@@ -266,6 +266,9 @@ bool ewa_tile_draw_edges(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile
         }
         close_pixels(job, tile, s, INFINITY, -INFINITY);
         marked = job->kernels->edge_compose(tile, &job->resolve, &s->edges, last);
+        if (!tile->gather) continue;
+        s->gather.beyond = true;
+        ewa_tile_walk_shown(job, tile, s, kept, EWA_PASS_GATHER);
     }
     return true;
 }

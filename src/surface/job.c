@@ -153,6 +153,15 @@ static ewa_status fill_bins(ewa_context *context, ewa_job_room *room, ewa_tile_j
     return EWA_OK;
 }
 
+/// Marks the packets that several tiles have.
+static void mark_shared(const ewa_tile_job *job, uint8_t *shared) {
+    const ewa_bin_lists *lists = &job->sources[0].bins.lists;
+    memset(shared, 0, job->sources[0].surfels->packet_count);
+    for (uint64_t i = 0; i < lists->starts[ewa_tiles_count(&job->tiles)]; i++)
+        shared[lists->ids[i]] = (uint8_t)(shared[lists->ids[i]] < 2 ? shared[lists->ids[i]] + 1 : 2);
+    for (uint32_t i = 0; i < job->sources[0].surfels->packet_count; i++) shared[i] = shared[i] > 1;
+}
+
 /// What of the frame's shape and options the tiles read.
 static void set_channels(ewa_tile_job *job, const ewa_render_job *frame, const ewa_render_options *options,
                          const ewa_scales *scales, const ewa_frame *drawn) {
@@ -186,11 +195,13 @@ ewa_status ewa_tile_job_make(ewa_context *context, ewa_job_room *room, const ewa
                           .tiles = ewa_tiles_make(frame->camera.width_px, frame->camera.height_px, side_px),
                           .with_normals = frame->shading.lit || drawn.normal,
                           .with_depth = drawn.depth != NULL,
-                          .count_fragments = frame->count_fragments};
+                          .count_fragments = frame->count_fragments,
+                          .gather = frame->gather};
     ewa_scales scales;
     EWA_TRY(set_views(context, room, job, frame, &scales));
     set_channels(job, frame, &options, &scales, &drawn);
     EWA_TRY(fill_bins(context, room, job));
+    if (job->gather && job->gather->shared && job->source_count) mark_shared(job, job->gather->shared);
     for (uint32_t i = 0; i < frame->source_count; i++)
         job->with_clips |= frame->sources[i].surfels->with_clips && options.point_size_px == 0;
     for (uint32_t i = 0; i < job->source_count; i++) {

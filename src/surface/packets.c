@@ -39,6 +39,7 @@ typedef struct build {
     ewa_surfel_reader reader;
     ewa_discs discs;
     bool are_discs; // `discs` can be used
+    bool keep_points;
     const ewa_pack_kernels *kernels;
     uint16_t color_codes[256], grey_code; // of discs
     uint64_t point_count;
@@ -298,11 +299,17 @@ static ewa_status build_surfels(build *b, ewa_context *context) {
     EWA_TRY(encode(b, context));
     s->unit_coverage = ewa_packets_unit_coverage(s);
     ewa_packets_sum_up(s);
+    if (b->keep_points) {
+        const size_t lanes = (size_t)s->packet_count * LANES;
+        s->points = ewa_allocate(context, lanes, sizeof *s->points);
+        if (!s->points) return EWA_ERROR_MEMORY;
+        memcpy(s->points, b->order.points, lanes * sizeof *s->points);
+    }
     return ewa_extras_make(context, s, &b->reader, b->point_count, b->order.points);
 }
 
-ewa_status ewa_surfels_create(const ewa_cloud *cloud, const ewa_surfels_options *options,
-                              ewa_surfels **surfels) {
+static ewa_status create(const ewa_cloud *cloud, const ewa_surfels_options *options, bool keep_points,
+                         ewa_surfels **surfels) {
     if (!surfels) return EWA_ERROR_ARGUMENT;
     *surfels = NULL;
     if (!cloud) return EWA_ERROR_ARGUMENT;
@@ -318,6 +325,7 @@ ewa_status ewa_surfels_create(const ewa_cloud *cloud, const ewa_surfels_options 
     }
     made->context = context;
     made->cutoff = chosen.cutoff;
+    b->keep_points = keep_points;
     b->surfels = made;
     b->point_count = ewa_cloud_point_count(cloud);
     b->parts =
@@ -336,4 +344,12 @@ ewa_status ewa_surfels_create(const ewa_cloud *cloud, const ewa_surfels_options 
     else
         ewa_surfels_destroy(&made);
     return status;
+}
+
+ewa_status ewa_surfels_create(const ewa_cloud *cloud, const ewa_surfels_options *options, ewa_surfels **surfels) {
+    return create(cloud, options, false, surfels);
+}
+
+ewa_status ewa_surfels_create_kept(const ewa_cloud *cloud, const ewa_surfels_options *options, ewa_surfels **surfels) {
+    return create(cloud, options, true, surfels);
 }

@@ -21,6 +21,7 @@ struct ewa_surfels {
     uint64_t serial; ///< of its packets: another for each set of surfels
     uint32_t count, packet_count;
     uint64_t left_out_count;
+    uint32_t *points; ///< [packet][lane]: of the cloud, or EWA_NO_POINT; NULL: not kept
     ewa_packet *packets;
     uint8_t *materials; ///< [packet][lane]; NULL: all are `material`
     uint8_t material, max_material;
@@ -54,6 +55,9 @@ struct ewa_surfels {
 #define EWA_PLAIN_COLORS 16.0
 
 enum { EWA_BOUNDS_BYTES = 3 * sizeof(double) + 2 * sizeof(uint16_t) + sizeof(uint32_t) }; ///< of a packet
+
+/// ewa_surfels_create() of surfels that remember their points: `points` of the first level.
+ewa_status ewa_surfels_create_kept(const ewa_cloud *cloud, const ewa_surfels_options *options, ewa_surfels **surfels);
 
 /// Makes room for `packet_count` packets, zero bounds included, instead of those that were there.
 ewa_status ewa_packets_allocate(ewa_surfels *surfels, uint32_t packet_count);

@@ -190,6 +190,7 @@ typedef struct ewa_near_record {
     float material[EWA_MATERIAL_CHANNELS];
     bool is_back, clipped;
     ewa_clip clip;
+    uint32_t surfel; ///< packet * 16 + lane
 } ewa_near_record;
 
 /// The part of a splat that only the second pass reads.
@@ -218,6 +219,7 @@ typedef struct ewa_run {
     ewa_load *loads;
     float *opacities;   ///< times the kernel's peak; NULL: all are opaque
     uint8_t *materials; ///< NULL: all have the same
+    uint32_t *surfels;  ///< packet * 16 + lane; NULL: nobody asks
     int32_t *boxes;     ///< ewa_record.box, beside each other for ewa_edge_boxes, likewise
     float *key_lows;    ///< ewa_record.key_low
     uint8_t classes[EWA_RUN_RECORDS + EWA_PACKET_LANES];
@@ -234,6 +236,7 @@ typedef struct ewa_sorted_run {
     const ewa_load *loads;
     const float *opacities;   ///< NULL: all are opaque
     const uint8_t *materials; ///< NULL: all have the same
+    const uint32_t *surfels;  ///< NULL: nobody asks
     const ewa_clip *clips;    ///< of the records that have EWA_CLIP_BIT
     const uint16_t *order;
     uint16_t class_first[EWA_CLASS_COUNT + 1];
@@ -259,6 +262,26 @@ typedef struct ewa_side_sums {
     uint32_t *cut_rows;
 } ewa_side_sums;
 
+/// What passes back from pixels to colours read and write (pipeline_gather.h). They go from first surfaces and those behind
+/// to their splats; with `filled`, from first surfaces that fill their pixels, as if these showed nothing else.
+typedef struct ewa_gather {
+    const float *rgba;    ///< what a loss changes per number of the picture's colours, as ewa_frame.rgba; NULL: `weights`
+    const float *weights; ///< the same of all colours of a pixel, one number each; NULL: 1
+    float units;          ///< of sums per such a number; a power of two
+    float *planes;        ///< [block][EWA_GATHER_PLANES][16]
+    uint32_t *rows;       ///< [block row]: bit per block column that has planes
+    bool beyond;          ///< of a surface behind the first
+    bool filled;
+    float least_alpha;    ///< with `filled`: of pixels that count
+    bool squares;         ///< squares of what splats are of pixels, not these
+    const float *colors;  ///< with `filled`: [surfel][4], whose picture takes the place of `rgba`, times `weights`; NULL: none
+    float *shown;         ///< that picture, as ewa_frame.rgba, alpha 1 where pixels count, else 0; NULL: not wanted
+    int64_t *sums;        ///< [surfel][3], in units; added to by all tiles; NULL: not wanted
+    uint8_t *shared;      ///< [packet]: whether several tiles have it
+} ewa_gather;
+
+enum { EWA_GATHER_PLANES = 11, EWA_GATHER_BITS = 20 }; ///< no term is more than 2^EWA_GATHER_BITS units
+
 /// A tile and its pixels, block by block (row-major), 16 lanes per block (4 rows of 4 pixels).
 typedef struct ewa_tile {
     int32_t x_px, y_px;           ///< origin in the picture
@@ -273,6 +296,7 @@ typedef struct ewa_tile {
     bool with_opacity;   ///< with_normals then too
     bool with_materials; ///< with_normals then too, and a channel for the depth with or without one
     bool with_fine;      ///< what the units of terms leave is summed of all channels, not only for depths
+    const ewa_gather *gather; ///< for the pass that gathers
     const float *passed; ///< [block][16]: only keys below count, for surfaces behind the first; NULL: all do
     float *pixels;       ///< [row][column][EWA_PIXEL_FLOATS]: sums of small splats: normal, weight, r, g, b,
                          ///< nothing; NULL: no splat is small
@@ -404,6 +428,20 @@ typedef struct ewa_pipeline_kernels {
     void (*accumulate)(const ewa_view *view, const ewa_tile *tile, const ewa_sorted_run *run);
     void (*near_accumulate)(const ewa_view *view, const ewa_tile *tile, const ewa_near_record *records,
                             uint32_t count);
+
+    /// Sets tile->gather->planes, of settled sums of the first surface (edge_compose() does of those behind).
+    void (*set_gather)(const ewa_tile *tile, const ewa_resolve *resolve);
+
+    /// Adds tile->gather->colors of a run's splats to the planes; then makes these what is gathered, and stores what is shown.
+    void (*spread)(const ewa_view *view, const ewa_tile *tile, const ewa_sorted_run *run);
+    void (*near_spread)(const ewa_view *view, const ewa_tile *tile, const ewa_near_record *records,
+                        uint32_t count);
+    void (*turn_gather)(const ewa_tile *tile, const ewa_resolve *resolve);
+
+    /// Adds a run's splats, where they were accumulated, times the planes to tile->gather->sums.
+    void (*gather)(const ewa_view *view, const ewa_tile *tile, const ewa_sorted_run *run);
+    void (*near_gather)(const ewa_view *view, const ewa_tile *tile, const ewa_near_record *records,
+                        uint32_t count);
 
     /// Adds tile->pixels to the sums and makes of these what shows (semantics.h: facing, clip lines). False: some sum
     /// was too large; start the sums over and accumulate with care.

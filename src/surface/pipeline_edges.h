@@ -7,8 +7,7 @@
 #ifndef EWA_SRC_SURFACE_PIPELINE_EDGES_H
 #define EWA_SRC_SURFACE_PIPELINE_EDGES_H
 
-#include "surface/pipeline_near.h"
-#include "surface/pipeline_resolve.h"
+#include "surface/pipeline_gather.h"
 
 static size_t block_at(const ewa_tile *tile, uint32_t row, uint32_t column) {
     return (size_t)row * tile->blocks_per_row + column;
@@ -488,7 +487,8 @@ static wf cover_behind_cut(wf first, const float *first_cut, wf whole, const flo
     return wf_fma(related, wf_sub(wf_select(wf_lt(zero, along), behind, whole), over), over);
 }
 
-/// Composites one block's gathered surface under what is in front of it; returns the pixels that stay open.
+/// Composites one block's gathered surface under what is in front of it, and sets the planes of the way back; returns the
+/// pixels that stay open.
 static wm compose_block(const ewa_tile *tile, const ewa_resolve *to, const ewa_edges *edges, bool merged,
                         uint32_t row, uint32_t column) {
     enum { LANES = EWA_BLOCK_LANES };
@@ -519,6 +519,12 @@ static wm compose_block(const ewa_tile *tile, const ewa_resolve *to, const ewa_e
         wf_store(behind + c * LANES, wf_fma(found.color[c], share, wf_load(behind + c * LANES)));
     const wf total = wf_add(covered, share);
     wf_store(behind + 3 * LANES, total);
+    if (tile->gather) {
+        const block_sums in_front = tile_block(tile, row, column);
+        const wf through = wf_sub(wf_set(1), surface_alpha(tile, to, &in_front, first_cut));
+        set_gather_block(&gathered, to, &edges->side, &sums, wf_mul(share, through), merged, row, column,
+                         wf_load(edges->nearest + block * LANES), wf_load(edges->passed + block * LANES));
+    }
     const wm found_some = wf_lt(wf_set(-__builtin_inff()), wf_load(edges->nearest + block * LANES));
     return wm_and(found_some, wf_lt(total, wf_set(1)));
 }
@@ -527,6 +533,7 @@ static uint32_t edge_compose(const ewa_tile *tile, const ewa_resolve *to, const 
                              bool merged) {
     uint32_t count = 0;
     for (uint32_t row = 0; row < tile->block_rows; row++) {
+        if (tile->gather) tile->gather->rows[row] = 0;
         for (uint32_t marked = edges->rows[row]; marked; marked &= marked - 1) {
             const uint32_t column = (uint32_t)__builtin_ctz(marked);
             const size_t block = block_at(tile, row, column);

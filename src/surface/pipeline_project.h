@@ -363,10 +363,14 @@ static ALWAYS_INLINE void stage_shape(const ewa_view *view, stage *t) {
 }
 
 /// Appends the records of the lanes in `alive_bits`. May write EWA_PACKET_LANES entries whatever they are.
-static ALWAYS_INLINE void emit(ewa_run *run, uint32_t alive_bits, const wf records[16], const float loads[64],
-                               const float opacities[16], const uint8_t *materials, const uint8_t classes[16],
-                               wi boxes, wf key_lows) {
+static ALWAYS_INLINE void emit(ewa_run *run, uint32_t alive_bits, uint32_t id, const wf records[16],
+                               const float loads[64], const float opacities[16], const uint8_t *materials,
+                               const uint8_t classes[16], wi boxes, wf key_lows) {
     uint32_t at = run->count;
+    for (uint32_t lane = 0, to = at; run->surfels && lane < 16; lane++) {
+        run->surfels[to] = id * EWA_PACKET_LANES + lane;
+        to += alive_bits >> lane & 1;
+    }
     wi_pack(run->boxes + at, wm_of_bits(alive_bits), boxes);
     wf_pack(run->key_lows + at, wm_of_bits(alive_bits), key_lows);
     for (uint32_t lane = 0, to = at; run->materials && lane < 16; lane++) {
@@ -599,7 +603,7 @@ static ALWAYS_INLINE void stage_emit(const ewa_view *view, const ewa_packet_sour
     if (wm_bits(wm_and(alive, clipped))) list_clipped(run, wm_bits(wm_and(alive, clipped)), alive_bits, id);
     float opacities[16];
     if (run->opacities) wf_store(opacities, wf_odd_product(opacity, wf_set(view->sum_scale)));
-    emit(run, alive_bits, lanes, loads, opacities, materials, classes, boxes, low);
+    emit(run, alive_bits, id, lanes, loads, opacities, materials, classes, boxes, low);
 }
 
 static ALWAYS_INLINE void setup_run(const ewa_view *view, const ewa_packet_source *source,

@@ -68,19 +68,22 @@ static ALWAYS_INLINE void add_cut(const ewa_tile *tile, uint32_t row, uint32_t c
         add_product(sums + (size_t)c * EWA_BLOCK_LANES, one, wf_odd_product(cut, parts[c]));
 }
 
+/// What sums of splats that face the viewer, of weight `front`, and of those that face away count in the surface's.
+static ALWAYS_INLINE void facing_parts(const ewa_resolve *to, wf front, wf back, wf *of_front, wf *of_back) {
+    const wf zero = wf_set(0), one = wf_set(1);
+    const wm some_front = wf_lt(zero, front), some_back = wf_lt(zero, back);
+    const wf share = wf_min(wf_mul(front, wf_set(to->front_scale)), one), all = wf_add(front, back);
+    const wf behind = wf_keep(some_back, wf_sub(one, share));
+    *of_front = wf_keep(some_front, wf_div(wf_mul(all, wf_sub(one, behind)), wf_select(some_front, front, one)));
+    *of_back = wf_div(wf_mul(all, behind), wf_select(some_back, back, one));
+}
+
 /// Joins a block's sums, those of the splats that face the viewer, with those of the splats that face away.
 /// `merged`: of all surfaces that are left, not of one.
 static ALWAYS_INLINE void join_back_facing(const ewa_tile *tile, const ewa_resolve *to, const float *is_back,
                                            float *sums, bool merged) {
-    const wf zero = wf_set(0), one = wf_set(1), front = wf_load(sums), back = wf_load(is_back);
-    wf of_front = one, of_back = one;
-    if (!merged) {
-        const wm some_front = wf_lt(zero, front), some_back = wf_lt(zero, back);
-        const wf share = wf_min(wf_mul(front, wf_set(to->front_scale)), one), all = wf_add(front, back);
-        const wf behind = wf_keep(some_back, wf_sub(one, share));
-        of_front = wf_keep(some_front, wf_div(wf_mul(all, wf_sub(one, behind)), wf_select(some_front, front, one)));
-        of_back = wf_div(wf_mul(all, behind), wf_select(some_back, back, one));
-    }
+    wf of_front = wf_set(1), of_back = wf_set(1);
+    if (!merged) facing_parts(to, wf_load(sums), wf_load(is_back), &of_front, &of_back);
     for (uint32_t c = 0; c < tile->channel_count; c++) {
         float *plane = sums + (size_t)c * EWA_BLOCK_LANES;
         const wf other = wf_load(is_back + (size_t)c * EWA_BLOCK_LANES);

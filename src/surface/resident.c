@@ -63,6 +63,7 @@ void ewa_surfels_destroy(ewa_surfels **surfels) {
         ewa_surfels *coarser = old->coarser;
         ewa_context *context = old->context;
         ewa_extras_free(context, old);
+        if (old->points) ewa_release(context, old->points, (size_t)old->packet_count * LANES, sizeof *old->points);
         free_packets(old);
         ewa_release(context, old, 1, sizeof *old);
         old = coarser;
@@ -144,6 +145,7 @@ void ewa_surfels_describe(const ewa_surfels *surfels, ewa_surfels_info *info) {
     for (const ewa_surfels *level = surfels; level; level = level->coarser) {
         info->level_count++;
         info->resident_bytes += sizeof *level + level->packet_count * sizeof *level->packets +
-                                EWA_BOUNDS_BYTES * level->bounds_stride + ewa_extras_bytes(level);
+                                EWA_BOUNDS_BYTES * level->bounds_stride + ewa_extras_bytes(level) +
+                                (level->points ? (size_t)level->packet_count * LANES * sizeof *level->points : 0);
     }
 }

@@ -89,6 +89,8 @@ ewa_status ewa_tile_scratch_reserve(ewa_context *context, ewa_tile_scratch *s, c
         {&s->near_buffer, records, sizeof *s->near_surfels},
         {&s->clip_buffer, job->with_clips ? records : 0, sizeof *s->clips},
         {&s->opacity_buffer, job->with_opacity ? records + EWA_PACKET_LANES : 0, sizeof *s->opacities},
+        {&s->surfel_buffer, job->gather ? records + EWA_PACKET_LANES : 0, sizeof *s->surfels},
+        {&s->gather_buffer, job->gather ? EWA_GATHER_PLANES * tile_floats : 0, sizeof(float)},
         {&s->material_buffer, job->with_materials ? records + EWA_PACKET_LANES : 0, sizeof *s->materials},
         {&s->kept_buffer, run_count, sizeof *s->kept},
         {&s->plane_buffer, ewa_tile_plane_floats(job), sizeof(float)},
@@ -115,6 +117,9 @@ ewa_status ewa_tile_scratch_reserve(ewa_context *context, ewa_tile_scratch *s, c
     s->clips = job->with_clips ? s->clip_buffer.data : NULL;
     s->opacities = job->with_opacity ? s->opacity_buffer.data : NULL;
     s->materials = job->with_materials ? s->material_buffer.data : NULL;
+    s->surfels = job->gather ? s->surfel_buffer.data : NULL;
+    if (job->gather) s->gather = *job->gather;
+    s->gather.planes = s->gather_buffer.data;
     s->kept = s->kept_buffer.data;
     s->pixels = job->with_small ? s->pixel_buffer.data : NULL;
     ewa_tile_planes_bind(job, s, s->plane_buffer.data);
@@ -133,7 +138,8 @@ void ewa_tile_scratch_free(ewa_context *context, ewa_tile_scratch *s) {
     ewa_buffer *const buffers[] = {
         &s->record_buffer,  &s->load_buffer, &s->order_buffer,    &s->list_buffer,  &s->box_buffer,
         &s->near_buffer,    &s->kept_buffer, &s->plane_buffer,    &s->pixel_buffer, &s->packet_buffer,
-        &s->opacity_buffer, &s->clip_buffer, &s->material_buffer, &s->split_buffer};
+        &s->opacity_buffer, &s->clip_buffer, &s->material_buffer, &s->split_buffer,
+        &s->surfel_buffer,  &s->gather_buffer};
     for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; i++) ewa_buffer_free(context, buffers[i]);
 }
 
@@ -254,7 +260,7 @@ void ewa_tile_sum_nearest(const ewa_tile_job *job, const ewa_tile *tile, ewa_til
     const uint32_t block_count = tile->blocks_per_row * tile->block_rows;
     job->kernels->set_cells(tile, s->cells);
     ewa_tile_close_pixels(tile->nearest, block_count, -INFINITY, INFINITY);
-    if (kept) ewa_tile_walk_kept(job, tile, s);
+    if (kept) ewa_tile_walk_kept(job, tile, s, EWA_PASS_ACCUMULATE);
     for (uint32_t i = 0; i < job->source_count && !kept; i++) {
         const ewa_tile_source *source = &job->sources[i];
         const uint64_t first = source->bins.lists.starts[index],
@@ -269,13 +275,12 @@ void ewa_tile_sum_nearest(const ewa_tile_job *job, const ewa_tile *tile, ewa_til
     ewa_tile_close_pixels(tile->nearest, block_count, INFINITY, -INFINITY);
 }
 
-/// Second pass.
-static void accumulate(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_scratch *s, bool kept) {
-    job->kernels->clear_sums(tile);
-    if (kept) ewa_tile_walk_kept(job, tile, s);
+void ewa_tile_walk_shown(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_scratch *s, bool kept,
+                         ewa_tile_pass what) {
+    if (kept) ewa_tile_walk_kept(job, tile, s, what);
     for (uint32_t i = 0; i < job->source_count && !kept; i++) {
         const ewa_tile_packets shown = {&job->sources[i], s->split[i].shown, s->split[i].shown_count};
-        ewa_tile_walk_again(job, tile, s, &shown, 0, ewa_run_count(&shown), EWA_PASS_ACCUMULATE);
+        ewa_tile_walk_again(job, tile, s, &shown, 0, ewa_run_count(&shown), what);
     }
 }
 
@@ -304,13 +309,27 @@ void ewa_tile_place(const ewa_tile_job *job, ewa_tile_scratch *s, uint32_t index
     tile->block_rows = ((uint32_t)tile->height_px + EWA_BLOCK_PX - 1) / EWA_BLOCK_PX;
 }
 
+/// The way back from a tile's first surfaces to their splats, and from those behind.
+static void gather_back(const ewa_tile_job *job, ewa_tile *tile, ewa_tile_scratch *s, bool kept) {
+    tile->gather = &s->gather;
+    s->gather.rows = s->gather_rows;
+    s->gather.beyond = false;
+    job->kernels->set_gather(tile, &job->resolve);
+    if (job->gather->colors) {
+        ewa_tile_walk_shown(job, tile, s, kept, EWA_PASS_SPREAD);
+        job->kernels->turn_gather(tile, &job->resolve);
+    }
+    if (job->gather->sums) ewa_tile_walk_shown(job, tile, s, kept, EWA_PASS_GATHER);
+    if (!job->gather->filled) ewa_tile_draw_edges(job, tile, s, kept);
+}
+
 void ewa_tile_draw(void *data, uint32_t number, uint32_t worker) {
     const ewa_tile_job *job = data;
     const uint32_t index = job->first_tile + number;
     ewa_tile_scratch *s = &job->scratch[worker];
     ewa_tile tile;
     ewa_tile_place(job, s, index, &tile);
-    if (!s->mostly_small) tile.pixels = NULL;
+    if (!s->mostly_small || job->gather) tile.pixels = NULL; // what is spread has one order of its terms
     job->kernels->clear_nearest(&tile);
     const bool kept = draw_sources(job, &tile, s, index);
     tile.only_small = tile.pixels && s->small_count == s->record_count && !s->has_near;
@@ -319,10 +338,15 @@ void ewa_tile_draw(void *data, uint32_t number, uint32_t worker) {
     const uint32_t block_count = tile.blocks_per_row * tile.block_rows;
     if (!job->all_hide) ewa_tile_close_pixels(tile.nearest, block_count, -INFINITY, INFINITY);
     for (bool settled = false; !settled; tile.sums.careful = true) {
-        accumulate(job, &tile, s, kept);
+        job->kernels->clear_sums(&tile);
+        ewa_tile_walk_shown(job, &tile, s, kept, EWA_PASS_ACCUMULATE);
         settled = job->kernels->settle(&tile, &job->resolve);
     }
     if (!job->all_hide) ewa_tile_close_pixels(tile.nearest, block_count, INFINITY, -INFINITY);
+    if (job->gather) {
+        gather_back(job, &tile, s, kept);
+        return;
+    }
     const double accumulated = ewa_now_s();
     if (kept) s->accumulate_s += accumulated - accumulating;
     const bool edges = ewa_tile_draw_edges(job, &tile, s, kept);

@@ -18,6 +18,8 @@ enum {
 typedef enum ewa_tile_pass {
     EWA_PASS_VISIBILITY,
     EWA_PASS_ACCUMULATE,
+    EWA_PASS_SPREAD,
+    EWA_PASS_GATHER,
     EWA_PASS_EDGE_VISIBILITY,
     EWA_PASS_EDGE_ACCUMULATE
 } ewa_tile_pass;
@@ -51,6 +53,7 @@ typedef struct ewa_tile_scratch {
     ewa_load *loads;
     float *opacities;   ///< NULL: all are opaque
     uint8_t *materials; ///< NULL: all have the same
+    uint32_t *surfels;  ///< of the records; NULL: nobody asks
     ewa_clip *clips;    ///< of the records that have some; NULL: none has
     uint16_t *order;
     uint32_t *listed;   ///< splats behind marked blocks, block by block
@@ -72,8 +75,10 @@ typedef struct ewa_tile_scratch {
     bool mostly_small; ///< most splats of the worker's last tile were of few pixels: how the next is drawn
     ewa_sums sums;
     ewa_edges edges;
+    ewa_gather gather;
+    uint32_t gather_rows[EWA_MAX_TILE_BLOCKS];
     ewa_buffer record_buffer, load_buffer, order_buffer, list_buffer, box_buffer, near_buffer, opacity_buffer,
-        material_buffer, clip_buffer, kept_buffer, plane_buffer, pixel_buffer, packet_buffer, split_buffer;
+        material_buffer, surfel_buffer, gather_buffer, clip_buffer, kept_buffer, plane_buffer, pixel_buffer, packet_buffer, split_buffer;
     uint32_t edge_rows[EWA_MAX_TILE_BLOCKS], edge_rows_left[EWA_MAX_TILE_BLOCKS],
         beyond_rows[EWA_MAX_TILE_BLOCKS];
     ewa_side_sums
@@ -116,6 +121,7 @@ typedef struct ewa_tile_job {
     bool merge_last;          ///< the last of them is all that is left
     bool with_normals, with_depth, with_opacity, with_materials, with_clips, fine_sums, count_fragments;
     bool with_small;           ///< splats of few pixels have sums of their own
+    const ewa_gather *gather;  ///< back from pixels to colours, but for the planes; NULL: a picture is drawn
     ewa_tile_scratch *scratch; ///< [worker]
 } ewa_tile_job;
 
@@ -158,7 +164,7 @@ void ewa_tile_draw_behind(const ewa_tile_job *job, const ewa_tile *tile, ewa_til
                           uint32_t index, ewa_edge_lists *lists, ewa_tile_pass what);
 
 /// Gathers the surfaces behind the first one where it covers pixels partly, hidden packets included; `kept`
-/// when all runs of those that are shown are kept. Returns whether there are such pixels; scratch->edge_rows
+/// when all runs of those that are shown are kept. With tile->gather, goes back from each to its splats. Returns whether there are such pixels; scratch->edge_rows
 /// marks them.
 bool ewa_tile_draw_edges(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_scratch *scratch, bool kept);
 

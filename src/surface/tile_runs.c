@@ -37,6 +37,7 @@ static void sort_run(const ewa_run *run, uint16_t *order, ewa_sorted_run *sorted
     sorted->loads = run->loads;
     sorted->opacities = run->opacities;
     sorted->materials = run->materials;
+    sorted->surfels = run->surfels;
     sorted->order = order;
 }
 
@@ -54,6 +55,10 @@ void ewa_tile_draw_near(const ewa_tile_job *job, const ewa_tile_source *source, 
             kernels->near_visibility(view, tile, records, filled);
         else if (what == EWA_PASS_ACCUMULATE)
             kernels->near_accumulate(view, tile, records, filled);
+        else if (what == EWA_PASS_SPREAD)
+            kernels->near_spread(view, tile, records, filled);
+        else if (what == EWA_PASS_GATHER)
+            kernels->near_gather(view, tile, records, filled);
         else
             kernels->edge_near_pass(view, tile, edges, records, filled, what == EWA_PASS_EDGE_ACCUMULATE);
     }
@@ -100,6 +105,7 @@ static void prepare_run(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_
     s->run.key_lows = s->boxes[0].key_low + at;
     s->run.opacities = s->opacities ? s->opacities + at : NULL;
     s->run.materials = s->materials ? s->materials + at : NULL;
+    s->run.surfels = s->surfels ? s->surfels + at : NULL;
     const uint32_t announced = left < 2 * EWA_RUN_PACKETS ? (uint32_t)left : 2 * EWA_RUN_PACKETS;
     const ewa_tile_source *source = packets->source;
     job->kernels->setup(&source->view, &source->packets, packets->ids + first,
@@ -120,16 +126,20 @@ static void visit_run(const ewa_tile_job *job, const ewa_tile_source *source, co
     if (!ewa_takes_part(source, what)) return;
     if (what == EWA_PASS_VISIBILITY)
         job->kernels->visibility(&source->view, tile, run);
+    else if (what == EWA_PASS_SPREAD)
+        job->kernels->spread(&source->view, tile, run);
+    else if (what == EWA_PASS_GATHER)
+        job->kernels->gather(&source->view, tile, run);
     else
         job->kernels->accumulate(&source->view, tile, run);
 }
 
-void ewa_tile_walk_kept(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_scratch *s) {
+void ewa_tile_walk_kept(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_scratch *s, ewa_tile_pass what) {
     for (uint32_t i = 0; i < s->kept_count && ewa_tile_goes_on(job, s); i++) {
         const ewa_kept_run *kept = &s->kept[i];
-        visit_run(job, kept->source, tile, &kept->sorted, EWA_PASS_ACCUMULATE);
+        visit_run(job, kept->source, tile, &kept->sorted, what);
         ewa_tile_draw_near(job, kept->source, tile, NULL, s->near_surfels + kept->near_first,
-                           kept->near_count, EWA_PASS_ACCUMULATE);
+                           kept->near_count, what);
     }
 }
 

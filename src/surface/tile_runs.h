@@ -19,7 +19,7 @@ static inline bool ewa_tile_goes_on(const ewa_tile_job *job, const ewa_tile_scra
 
 /// Whether a source takes part in a pass.
 static inline bool ewa_takes_part(const ewa_tile_source *source, ewa_tile_pass what) {
-    return source->hides || what == EWA_PASS_ACCUMULATE || what == EWA_PASS_EDGE_ACCUMULATE;
+    return source->hides || (what != EWA_PASS_VISIBILITY && what != EWA_PASS_EDGE_VISIBILITY);
 }
 
 /// Forgets the runs that are kept.
@@ -34,12 +34,16 @@ void ewa_tile_close_pixels(float *nearest, uint32_t block_count, float from, flo
 uint64_t ewa_tile_keep_runs(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_scratch *scratch,
                             const ewa_tile_packets *packets, uint64_t first, uint64_t end, bool draw);
 
-/// Second pass over the runs that the first pass has kept.
-void ewa_tile_walk_kept(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_scratch *scratch);
+/// Second pass, or the one back from it, over the runs that the first pass has kept.
+void ewa_tile_walk_kept(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_scratch *scratch, ewa_tile_pass what);
 
 /// One pass over runs [first, end), set up for it and forgotten.
 void ewa_tile_walk_again(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_scratch *scratch,
                          const ewa_tile_packets *packets, uint64_t first, uint64_t end, ewa_tile_pass what);
+
+/// Second pass, or the one back from a surface, over the splats that may be seen; `kept`: over the runs that are kept.
+void ewa_tile_walk_shown(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_scratch *scratch, bool kept,
+                         ewa_tile_pass what);
 
 /// One pass for near surfels.
 void ewa_tile_draw_near(const ewa_tile_job *job, const ewa_tile_source *source, const ewa_tile *tile,

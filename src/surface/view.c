@@ -547,6 +547,7 @@ bool ewa_near_record_set(ewa_near_record *record, const ewa_surfels *surfels, ui
                sizeof record->material);
     else
         memset(record->material, 0, sizeof record->material);
+    record->surfel = surfel;
     record->clipped = set_clip(&record->clip, surfels, surfel, &s, view, tile);
     return true;
 }

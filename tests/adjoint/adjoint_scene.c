@@ -28,6 +28,7 @@ adjoint_scene *adjoint_scene_make(ewa_context *context, uint32_t kind, uint32_t 
                                   double radius_px, uint64_t seed) {
     adjoint_scene *s = calloc(1, sizeof *s);
     assert_non_null(s);
+    assert_true(count <= ADJOINT_MAX_POINTS);
     s->count = count, s->kind = kind;
     s->camera = odd_camera(kind, side_px);
     ewa_render_options_init(&s->options, sizeof s->options);

@@ -163,7 +163,7 @@ static void test_same_bytes(void **state) {
     }
 }
 
-/// Colours alone are those that come with all others, and the picture is that of the pipeline: within what floats and
+/// Colours with the picture are those that come with all others, and the picture is that of the pipeline: within what floats and
 /// packets round. <A c, r> = <c, A' r>, A c being that picture without its background.
 static void test_picture(void **state) {
     (void)state;
@@ -178,7 +178,7 @@ static void test_picture(void **state) {
         assert_int_equal(run(&b, s->cloud), EWA_OK);
         double *color = zeroed(3 * s->count, sizeof *color);
         const ewa_frame_cotangent cotangent = {.rgba = b.rgba};
-        const ewa_gradient colors = {.color = color};
+        const ewa_gradient colors = {.color = color, .rgba = b.picture}; // else the pipeline gives them: test gather
         assert_int_equal(ewa_render_backward(s->cloud, NULL, s->unit_coverage, &s->camera, &s->options,
                                              &cotangent, &colors),
                          EWA_OK);
