@@ -31,6 +31,7 @@ void ewa_exposure_step(const ewa_exposure_pairs *pairs, ewa_photos_exposure kind
     for (uint32_t i = 0; i < pairs->count; i++) {
         double shown[EWA_PHOTO_CHANNELS], color[EWA_PHOTO_CHANNELS], wanted[EWA_PHOTO_CHANNELS], weight = 0;
         pairs->get(pairs->user, i, shown, color, &weight);
+        if (weight == 0) continue;
         for (int c = 0; c < EWA_PHOTO_CHANNELS; c++) wanted[c] = gain[c] * color[c] + offset[c];
         weight *= ewa_robust_weight(shown, wanted, scale);
         for (int c = 0; c < EWA_PHOTO_CHANNELS; c++) {

@@ -1,40 +1,54 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// The fit: colours c whose pictures A c differ least from the photographs. A' W A is added up photograph by photograph,
-// and solved for the change of the colours by conjugate gradients; weights and exposures are then found anew.
+// The fit: colours c whose pictures A c differ least from the photographs. A' W A is solved for the change of the colours
+// by conjugate gradients, each of whose steps goes to the pixels of all photographs and back; weights and exposures are
+// then found anew.
 #include "colors/gradient.h"
-#include "photos/normal.h"
 #include "photos/parts.h"
 
 #include <math.h>
 #include <string.h>
 
 enum {
-    CG_STEPS = 20,
+    CG_STEPS = 8,
     EXPOSURE_STEPS = 3, ///< per photograph and round
+    OCTAVE_BINS = 16,
+    OCTAVES = 256,
+    BIN_COUNT = OCTAVES * OCTAVE_BINS,
 };
 
 /// Of the gradient, relative to the first, at which the steps end: pictures do not change any more.
 static const double TOLERANCE = 1e-4;
+
+/// A round: the photographs' weights are in their states.
+typedef struct fit_round {
+    ewa_photos_job *job;
+    double *start;    ///< what the ridge pulls to
+    double *sides;    ///< A' W rest
+    double *diagonal; ///< of A' W A
+    double *part;     ///< what one photograph adds; all [point][EWA_PHOTO_CHANNELS]
+    double *product;  ///< A' W A direction, by steps
+    double *change;
+    double ridge;
+    ewa_status status; ///< of the products
+} fit_round;
 
 /// One photograph of a round.
 typedef struct fit_photo {
     ewa_photos_job *job;
     const ewa_photo_view *view;
     ewa_photo_state *photo;
-    double *shown;  ///< [pixel][EWA_PHOTO_CHANNELS]: A c
-    double *rest;   ///< [pixel][EWA_PHOTO_CHANNELS]: weight times what is missing
-    double *weight; ///< [pixel]
+    float *shown; ///< [pixel][4]: A c, then weight times what is missing
 } fit_photo;
 
 static void get_pair(const void *user, uint32_t i, double shown[EWA_PHOTO_CHANNELS], double color[EWA_PHOTO_CHANNELS],
                      double *weight) {
     const fit_photo *at = user;
     const ewa_photo_pixel *pixel = &at->view->pixels[i];
-    for (int c = 0; c < EWA_PHOTO_CHANNELS; c++) shown[c] = (double)pixel->color[c];
-    memcpy(color, at->shown + (size_t)i * EWA_PHOTO_CHANNELS, EWA_PHOTO_CHANNELS * sizeof *color);
-    *weight = (double)pixel->weight;
+    const float *from = at->shown + 4 * (size_t)i;
+    for (int c = 0; c < EWA_PHOTO_CHANNELS; c++) shown[c] = (double)pixel->color[c], color[c] = (double)from[c];
+    *weight = (double)(pixel->weight * from[3]);
 }
 
 static void weigh_piece(void *data, uint32_t index, uint32_t worker) {
@@ -50,118 +64,162 @@ static void weigh_piece(void *data, uint32_t index, uint32_t worker) {
             mean += fmax(color[c], 0) / EWA_PHOTO_CHANNELS;
         }
         weight *= ewa_robust_weight(shown, wanted, at->job->options.robust) / (mean + EWA_PHOTO_LEAST_COLOR);
-        at->weight[i] = weight;
-        double *rest = at->rest + (size_t)i * EWA_PHOTO_CHANNELS;
-        for (int c = 0; c < EWA_PHOTO_CHANNELS; c++) rest[c] = weight * ((shown[c] - offset[c]) / gain[c] - color[c]);
+        at->photo->fit_weights[i] = (float)weight;
+        float *rest = at->shown + 4 * (size_t)i;
+        for (int c = 0; c < EWA_PHOTO_CHANNELS; c++)
+            rest[c] = (float)(weight * ((shown[c] - offset[c]) / gain[c] - color[c]));
     }
 }
 
-static ewa_status add_photo(fit_photo *at, ewa_normal *normal) {
+/// Numbers of the points that `part` adds to.
+static void add_part(const fit_round *round, double *to) {
+    const size_t size = (size_t)round->job->point_count * EWA_PHOTO_CHANNELS;
+    for (size_t i = 0; i < size; i++) to[i] += round->part[i];
+}
+
+static ewa_status add_photo(fit_photo *at, fit_round *round) {
     const ewa_photos_job *job = at->job;
     const ewa_exposure_pairs pairs = {at->view->pixel_count, at, get_pair};
-    ewa_photo_view_show(at->view, job->color, at->shown);
+    EWA_TRY(ewa_photo_view_show(at->view, job->color, at->shown));
     for (int step = 0; step < EXPOSURE_STEPS && ewa_photo_is_exposed(at->photo); step++)
         ewa_exposure_step(&pairs, job->options.exposure, job->options.robust, at->photo->gain, at->photo->offset);
     ewa_parallel(job->context, weigh_piece, at, (at->view->pixel_count + EWA_PHOTO_PIECE - 1) / EWA_PHOTO_PIECE);
-    return ewa_normal_add(normal, at->view, at->weight, at->rest);
+    EWA_TRY(ewa_photo_view_gather(at->view, at->shown, round->part));
+    add_part(round, round->sides);
+    EWA_TRY(ewa_photo_view_normal(at->view, at->photo->fit_weights, NULL, round->part));
+    add_part(round, round->diagonal);
+    return EWA_OK;
 }
 
-static ewa_status add_view(ewa_photos_job *job, ewa_photo_state *photo, const ewa_photo_view *view, ewa_normal *normal) {
-    const size_t size = (size_t)view->pixel_count * EWA_PHOTO_CHANNELS;
-    fit_photo at = {.job = job, .view = view, .photo = photo};
-    at.shown = ewa_allocate(job->context, size, sizeof *at.shown);
-    at.rest = ewa_allocate(job->context, size, sizeof *at.rest);
-    at.weight = ewa_allocate(job->context, view->pixel_count, sizeof *at.weight);
-    const ewa_status status = at.shown && at.rest && at.weight ? add_photo(&at, normal) : EWA_ERROR_MEMORY;
-    ewa_release(job->context, at.shown, size, sizeof *at.shown);
-    ewa_release(job->context, at.rest, size, sizeof *at.rest);
-    ewa_release(job->context, at.weight, view->pixel_count, sizeof *at.weight);
+/// Adds a photograph's weights and right sides. Its view stays without the pixels.
+static ewa_status add_view(fit_round *round, ewa_photo_state *photo, ewa_photo_view *view) {
+    ewa_context *context = round->job->context;
+    const size_t size = (size_t)view->pixel_count * 4;
+    photo->fitted = *view, photo->fitted.pixels = NULL;
+    photo->fit_weights = ewa_allocate(context, view->pixel_count, sizeof *photo->fit_weights);
+    fit_photo at = {round->job, view, photo, ewa_allocate(context, size, sizeof *at.shown)};
+    const ewa_status status = at.shown && photo->fit_weights ? add_photo(&at, round) : EWA_ERROR_MEMORY;
+    ewa_release(context, at.shown, size, sizeof *at.shown);
     return status;
 }
 
-/// What the equations are solved for.
-typedef struct fit_system {
-    const ewa_normal *normal;
-    double ridge;
-} fit_system;
-
-static void multiply(const void *system, uint32_t block, const double *direction, double *product) {
-    const fit_system *fit = system;
-    const ewa_normal *normal = fit->normal;
-    const ewa_normal_block *rows = &normal->blocks[block];
-    const uint32_t end = ewa_gradient_block_end(normal->count, block);
-    for (uint32_t row = block * EWA_GRADIENT_BLOCK_ROWS, k = 0; row < end; row++, k++) {
-        const double *own = direction + (size_t)row * EWA_PHOTO_CHANNELS;
-        double sum[EWA_PHOTO_CHANNELS];
-        for (int c = 0; c < EWA_PHOTO_CHANNELS; c++) sum[c] = fit->ridge * own[c];
-        for (uint32_t i = rows->starts ? rows->starts[k] : 0; rows->starts && i < rows->starts[k + 1]; i++) {
-            const ewa_photo_entry *entry = &rows->entries[i];
-            const double *at = direction + (size_t)entry->index * EWA_PHOTO_CHANNELS;
-            for (int c = 0; c < EWA_PHOTO_CHANNELS; c++) sum[c] += (double)entry->weight * at[c];
-        }
-        memcpy(product + (size_t)row * EWA_PHOTO_CHANNELS, sum, sizeof sum);
+/// Sets the product of A' W A and a direction; a unit matrix's after a failure, which `status` tells at the end.
+static void multiply_all(void *system, const double *direction) {
+    fit_round *round = system;
+    const ewa_photos_job *job = round->job;
+    const size_t size = (size_t)job->point_count * EWA_PHOTO_CHANNELS;
+    memset(round->product, 0, size * sizeof *round->product);
+    for (uint32_t i = 0; i < job->photo_count && round->status == EWA_OK; i++) {
+        const ewa_photo_state *photo = &job->photos[i];
+        if (!photo->fit_weights) continue;
+        round->status = ewa_photo_view_normal(&photo->fitted, photo->fit_weights, direction, round->part);
+        if (round->status == EWA_OK) add_part(round, round->product);
     }
+    if (round->status != EWA_OK) memcpy(round->product, direction, size * sizeof *direction);
 }
 
-/// Solves for the change of the colours and adds it. `start`: what the ridge pulls to.
-static ewa_status improve(ewa_photos_job *job, ewa_normal *normal, const double *start, double *change, double begin,
-                          double end) {
+static void multiply(const void *system, uint32_t block, const double *direction, double *product) {
+    const fit_round *round = system;
+    const size_t end = (size_t)ewa_gradient_block_end(round->job->point_count, block) * EWA_PHOTO_CHANNELS;
+    for (size_t i = (size_t)block * EWA_GRADIENT_BLOCK_ROWS * EWA_PHOTO_CHANNELS; i < end; i++)
+        product[i] = round->product[i] + round->ridge * direction[i];
+}
+
+static void precondition(const void *system, uint32_t block, const double *residual, double *result) {
+    const fit_round *round = system;
+    const size_t end = (size_t)ewa_gradient_block_end(round->job->point_count, block) * EWA_PHOTO_CHANNELS;
+    for (size_t i = (size_t)block * EWA_GRADIENT_BLOCK_ROWS * EWA_PHOTO_CHANNELS; i < end; i++)
+        result[i] = residual[i] / (round->diagonal[i] + round->ridge);
+}
+
+/// The median of the diagonal's numbers but for zeros, within a sixteenth of an octave; 0: all are.
+static double median_of(const fit_round *round) {
+    uint64_t bins[BIN_COUNT] = {0}, total = 0, below = 0;
+    for (size_t i = 0; i < round->job->point_count; i++) {
+        int exponent;
+        const double part = frexp(round->diagonal[i * EWA_PHOTO_CHANNELS], &exponent);
+        const int bin = (exponent + OCTAVES / 2) * OCTAVE_BINS + (int)((part - 0.5) * 2 * OCTAVE_BINS);
+        if (bin >= 0 && bin < BIN_COUNT && part > 0) bins[bin]++, total++;
+    }
+    int bin = 0;
+    while (bin < BIN_COUNT - 1 && 2 * (below += bins[bin]) < total) bin++;
+    return total ? ldexp(0.5 + 0.5 * (bin % OCTAVE_BINS) / OCTAVE_BINS, bin / OCTAVE_BINS - OCTAVES / 2) : 0;
+}
+
+/// Solves for the change of the colours and adds it.
+static ewa_status improve(fit_round *round, double begin, double end) {
+    ewa_photos_job *job = round->job;
     const size_t size = (size_t)job->point_count * EWA_PHOTO_CHANNELS;
-    const fit_system system = {normal, job->options.ridge * ewa_normal_median(normal)};
-    if (!(system.ridge > 0)) return EWA_OK;
-    for (size_t i = 0; i < size; i++) normal->sides[i] -= system.ridge * (job->color[i] - start[i]);
+    round->ridge = job->options.ridge * median_of(round);
+    if (!(round->ridge > 0)) return EWA_OK;
+    for (size_t i = 0; i < size; i++) round->sides[i] -= round->ridge * (job->color[i] - round->start[i]);
     const ewa_conjugate_gradient gradient = {.context = job->context,
                                    .size = job->point_count,
                                    .count = EWA_PHOTO_CHANNELS,
-                                   .solution = change,
-                                   .residual = normal->sides,
-                                   .system = (void *)&system,
+                                   .solution = round->change,
+                                   .residual = round->sides,
+                                   .system = round,
+                                   .prepare = multiply_all,
                                    .multiply = multiply,
+                                   .precondition = precondition,
                                    .tolerance = TOLERANCE,
                                    .max_iterations = CG_STEPS,
                                    .stage = "photos",
                                    .begin = begin,
                                    .end = end};
     uint32_t steps;
-    EWA_TRY(ewa_conjugate_gradient_run(&gradient, &steps));
+    const ewa_status status = ewa_conjugate_gradient_run(&gradient, &steps);
+    EWA_TRY(round->status);
+    EWA_TRY(status);
     for (size_t i = 0; i < size; i++)
-        if (job->counts[i / EWA_PHOTO_CHANNELS]) job->color[i] += change[i];
+        if (job->counts[i / EWA_PHOTO_CHANNELS]) job->color[i] += round->change[i];
     return EWA_OK;
 }
 
-/// One round over all photographs.
-static ewa_status run_round(ewa_photos_job *job, double *start, double *change, double begin, double end) {
-    ewa_normal normal;
-    ewa_status status = ewa_normal_make(job->context, job->point_count, &normal);
-    for (uint32_t i = 0; i < job->photo_count && status == EWA_OK; i++) {
+static void drop_weights(ewa_photos_job *job) {
+    for (uint32_t i = 0; i < job->photo_count; i++) {
         ewa_photo_state *photo = &job->photos[i];
-        const double fraction = begin + (end - begin) * 0.9 * i / job->photo_count;
-        status = ewa_progress(job->context, "photos", fraction);
-        if (photo->held_out || photo->sample_count == 0 || status != EWA_OK) continue;
-        ewa_photo_view view;
-        status = ewa_photo_view_make(job->cloud, photo->photo, photo->number, job->unit_coverage, &job->options,
-                                     fraction, &photo->halvings, &view);
-        if (status != EWA_OK) break;
-        status = add_view(job, photo, &view, &normal);
-        ewa_photo_view_free(&view);
+        ewa_release(job->context, photo->fit_weights, photo->fitted.pixel_count, sizeof *photo->fit_weights);
+        photo->fit_weights = NULL;
     }
-    if (status == EWA_OK) status = improve(job, &normal, start, change, begin + 0.9 * (end - begin), end);
-    ewa_normal_free(&normal);
-    double *const both[] = {job->color, start};
-    if (status == EWA_OK) ewa_exposures_centre(job, both, 2);
-    return status;
+}
+
+/// One round over all photographs.
+static ewa_status run_round(fit_round *round, double begin, double end) {
+    ewa_photos_job *job = round->job;
+    const size_t size = (size_t)job->point_count * EWA_PHOTO_CHANNELS;
+    const double middle = begin + 0.4 * (end - begin);
+    memset(round->sides, 0, size * sizeof *round->sides);
+    memset(round->diagonal, 0, size * sizeof *round->diagonal);
+    for (uint32_t i = 0; i < job->photo_count; i++) {
+        ewa_photo_state *photo = &job->photos[i];
+        EWA_TRY(ewa_progress(job->context, "photos", begin + (middle - begin) * i / job->photo_count));
+        if (photo->held_out || photo->sample_count == 0) continue;
+        ewa_photo_view view;
+        EWA_TRY(ewa_photo_view_make(job, photo->photo, photo->number, &photo->halvings, &view));
+        const ewa_status status = add_view(round, photo, &view);
+        ewa_photo_view_free(&view);
+        EWA_TRY(status);
+    }
+    return improve(round, middle, end);
 }
 
 ewa_status ewa_photos_fit(ewa_photos_job *job, double begin, double end) {
     const size_t size = (size_t)job->point_count * EWA_PHOTO_CHANNELS;
-    double *start = ewa_allocate(job->context, size, sizeof *start);
-    double *change = ewa_allocate(job->context, size, sizeof *change);
-    ewa_status status = start && change ? EWA_OK : EWA_ERROR_MEMORY;
-    if (status == EWA_OK) memcpy(start, job->color, size * sizeof *start);
-    for (uint32_t round = 0; round < job->options.rounds && status == EWA_OK; round++)
-        status = run_round(job, start, change, begin + (end - begin) * round / job->options.rounds,
-                           begin + (end - begin) * (round + 1) / job->options.rounds);
-    ewa_release(job->context, start, size, sizeof *start);
-    ewa_release(job->context, change, size, sizeof *change);
+    enum { VECTORS = 6 };
+    double *room = ewa_allocate(job->context, VECTORS * size, sizeof *room);
+    if (!room) return EWA_ERROR_MEMORY;
+    fit_round round = {.job = job, .start = room, .sides = room + size, .diagonal = room + 2 * size,
+                       .part = room + 3 * size, .product = room + 4 * size, .change = room + 5 * size};
+    memcpy(round.start, job->color, size * sizeof *room);
+    ewa_status status = EWA_OK;
+    for (uint32_t i = 0; i < job->options.rounds && status == EWA_OK; i++) {
+        status = run_round(&round, begin + (end - begin) * i / job->options.rounds,
+                           begin + (end - begin) * (i + 1) / job->options.rounds);
+        drop_weights(job);
+        double *const both[] = {job->color, round.start};
+        if (status == EWA_OK) ewa_exposures_centre(job, both, 2);
+    }
+    ewa_release(job->context, room, VECTORS * size, sizeof *room);
     return status;
 }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Photographs onto points, in parts: which points show at which pixels of a photograph, what photographs say of each
+// Photographs onto points, in parts: what points show at the pixels of a photograph, what photographs say of each
 // point, their exposures, and the colours that fit best.
 #ifndef EWA_SRC_PHOTOS_PARTS_H
 #define EWA_SRC_PHOTOS_PARTS_H
@@ -9,6 +9,7 @@
 #include "base/base.h"
 #include "ewa/photos.h"
 #include "ewa/render.h"
+#include "surface/gather.h"
 
 enum {
     EWA_PHOTO_CHANNELS = 3,
@@ -16,37 +17,42 @@ enum {
     EWA_PHOTO_MAX = 65535,  ///< photographs
 };
 
-/// A part of a pixel's colour: of a row of the matrix A, which takes colours of points to a picture.
-typedef struct ewa_photo_entry {
-    uint32_t index; ///< of the point; in rows by point, of the pixel
-    float weight;
-} ewa_photo_entry;
+typedef struct ewa_photos_job ewa_photos_job;
 
-/// A pixel of a photograph that shows a surface.
+/// A pixel of a photograph.
 typedef struct ewa_photo_pixel {
     float color[EWA_PHOTO_CHANNELS]; ///< linear light
-    float weight;                    ///< that it has for what it is: of a clipped one less
+    float weight; ///< that it has for what it is: of a clipped one less; 0: the photograph says nothing there
 } ewa_photo_pixel;
 
-/// A photograph as points: the rows of A whose pixels a surface fills, and the same by point.
+/// A photograph before the points: what it shows, and the matrix A, which takes colours of points to its pixels. A row of A
+/// has the parts of the pixel's colour that the renderer gives the surfels of its nearest surface, with the sum 1; pixels
+/// that no surface fills have none.
 typedef struct ewa_photo_view {
     ewa_context *context;
-    uint32_t width_px, height_px;
-    uint32_t pixel_count, point_count;
-    ewa_photo_pixel *pixels;      ///< [pixel_count]
-    uint64_t *row_starts;         ///< [pixel_count + 1]
-    ewa_photo_entry *entries;     ///< [row_starts[pixel_count]]
-    uint64_t entry_capacity;
-    uint64_t *point_starts;       ///< [point_count + 1]
-    ewa_photo_entry *by_point;    ///< [the same]
+    const ewa_surfels *surfels;
+    ewa_camera camera; ///< of the photograph as it is looked at
+    double cutoff;
+    uint32_t point_count, pixel_count; ///< of the points; of all the picture
+    ewa_photo_pixel *pixels;
 } ewa_photo_view;
 
-/// Reads a photograph, halves it `*halvings` times and finds what shows where. UINT32_MAX halvings: as often as points
-/// stay `spacing_px` apart, which is then set. `unit_coverage`: q0. `fraction`: what progress is told. Errors: those of ewa_cloud_color_from_photos().
-ewa_status ewa_photo_view_make(const ewa_cloud *cloud, const ewa_photo *photo, uint32_t number, double unit_coverage,
-                               const ewa_photos_options *options, double fraction, uint32_t *halvings,
-                               ewa_photo_view *view);
+/// Reads a photograph and halves it `*halvings` times. UINT32_MAX halvings: as often as points
+/// stay `spacing_px` apart, which is then set. Errors: those of ewa_cloud_color_from_photos().
+ewa_status ewa_photo_view_make(const ewa_photos_job *job, const ewa_photo *photo, uint32_t number,
+                               uint32_t *halvings, ewa_photo_view *view);
 void ewa_photo_view_free(ewa_photo_view *view);
+
+/// Sets what points show at the pixels of a view, [pixel_count][4]: A colors and 1, or zeros where A has no row. Errors:
+/// EWA_ERROR_MEMORY, EWA_CANCELLED.
+ewa_status ewa_photo_view_show(const ewa_photo_view *view, const double *colors, float *shown);
+
+/// Sets sums, [point_count][3], to A' rgba, of [pixel_count][4] numbers of which the last have no say. Errors: the same.
+ewa_status ewa_photo_view_gather(const ewa_photo_view *view, const float *rgba, double *sums);
+
+/// Sets sums, [point_count][3], to A' diag(weights) A colors, or, where `colors` is NULL, to the diagonal of
+/// A' diag(weights) A, thrice. `view` need have no pixels. Errors: the same.
+ewa_status ewa_photo_view_normal(const ewa_photo_view *view, const float *weights, const double *colors, double *sums);
 
 /// What one photograph says of a point.
 typedef struct ewa_photo_sample {
@@ -64,6 +70,8 @@ typedef struct ewa_photo_state {
     uint32_t sample_count;
     double gain[EWA_PHOTO_CHANNELS], offset[EWA_PHOTO_CHANNELS];
     ewa_photo_report report;
+    ewa_photo_view fitted; ///< in a round of the fit, without pixels
+    float *fit_weights;    ///< of its pixels; NULL: nothing of it is fitted
 } ewa_photo_state;
 
 /// Whether the exposure of a photograph is found here: it is used, and sees enough points; others have the one that they
@@ -74,19 +82,19 @@ static inline bool ewa_photo_is_exposed(const ewa_photo_state *photo) {
 }
 
 /// All of a call.
-typedef struct ewa_photos_job {
+struct ewa_photos_job {
     ewa_context *context;
     ewa_cloud *cloud;
+    ewa_surfels *surfels;
     ewa_photos_options options;
     uint32_t point_count, photo_count;
     ewa_photo_state *photos; ///< in an order of their cameras
-    double unit_coverage;
     double *color;            ///< [point][EWA_PHOTO_CHANNELS]
     uint16_t *counts;         ///< [point]
     uint64_t *sample_starts;  ///< [point + 1]
     const ewa_photo_sample **samples; ///< by point, in the order of the photographs
     uint16_t *sample_photos;          ///< the photograph of each
-} ewa_photos_job;
+};
 
 /// Pairs of numbers that an exposure is fitted to: photograph = gain * colour + offset.
 typedef struct ewa_exposure_pairs {
@@ -121,8 +129,5 @@ ewa_status ewa_photos_combine(ewa_photos_job *job, ewa_photos_method method);
 
 /// Improves the colours: rounds of weights, exposures and conjugate gradients. Progress goes from `begin` to `end`.
 ewa_status ewa_photos_fit(ewa_photos_job *job, double begin, double end);
-
-/// Sets what the points show at the pixels of a view: [pixel_count][EWA_PHOTO_CHANNELS].
-void ewa_photo_view_show(const ewa_photo_view *view, const double *color, double *shown);
 
 #endif

@@ -7,7 +7,7 @@
 #include "cloud/cloud.h"
 #include "cloud/color.h"
 #include "photos/parts.h"
-#include "surface/proxy.h"
+#include "surface/packets.h"
 #include "surface/surfel.h"
 
 #include <math.h>
@@ -63,37 +63,44 @@ static int compare_photos(const void *a, const void *b) {
     return (left->number > right->number) - (left->number < right->number);
 }
 
+/// Numbers of pixels that go back to points.
 typedef struct sample_job {
     const ewa_photo_view *view;
-    double *sums; ///< [point][4]: weight, weighted colour
+    int pass;
+    float *rgba; ///< [pixel][4]
 } sample_job;
 
-static void sample_piece(void *data, uint32_t index, uint32_t worker) {
+/// Weight and weighted red and green, or weighted blue: what goes back together.
+static void weigh_piece(void *data, uint32_t index, uint32_t worker) {
     (void)worker;
     const sample_job *job = data;
-    const ewa_photo_view *view = job->view;
     const uint32_t begin = index * EWA_PHOTO_PIECE;
-    for (uint32_t point = begin; point < begin + EWA_PHOTO_PIECE && point < view->point_count; point++) {
-        double *sum = job->sums + 4 * (size_t)point;
-        memset(sum, 0, 4 * sizeof *sum);
-        for (uint64_t i = view->point_starts[point]; i < view->point_starts[point + 1]; i++) {
-            const ewa_photo_pixel *pixel = &view->pixels[view->by_point[i].index];
-            const double weight = (double)view->by_point[i].weight * (double)pixel->weight;
-            sum[0] += weight;
-            for (int c = 0; c < EWA_PHOTO_CHANNELS; c++) sum[c + 1] += weight * (double)pixel->color[c];
-        }
+    for (uint32_t i = begin; i < begin + EWA_PHOTO_PIECE && i < job->view->pixel_count; i++) {
+        const ewa_photo_pixel *pixel = &job->view->pixels[i];
+        float *to = job->rgba + 4 * (size_t)i;
+        to[0] = pixel->weight * (job->pass ? pixel->color[2] : 1);
+        to[1] = job->pass ? 0 : pixel->weight * pixel->color[0];
+        to[2] = job->pass ? 0 : pixel->weight * pixel->color[1];
     }
 }
 
-/// Keeps what a photograph says of the points that it sees.
-static ewa_status sample(ewa_photos_job *job, ewa_photo_state *photo, const ewa_photo_view *view, double *sums) {
-    sample_job sampling = {view, sums};
-    ewa_parallel(job->context, sample_piece, &sampling, (job->point_count + EWA_PHOTO_PIECE - 1) / EWA_PHOTO_PIECE);
+/// Sums of what a photograph shows of each point, [point][4]: weight, weighted colour.
+static ewa_status add_up(ewa_photos_job *job, const ewa_photo_view *view, float *rgba, double *found, double *sums) {
+    for (int pass = 0; pass < 2; pass++) {
+        sample_job sampling = {view, pass, rgba};
+        ewa_parallel(job->context, weigh_piece, &sampling, (view->pixel_count + EWA_PHOTO_PIECE - 1) / EWA_PHOTO_PIECE);
+        EWA_TRY(ewa_photo_view_gather(view, rgba, found));
+        for (size_t i = 0; i < job->point_count; i++)
+            for (size_t c = 0; c < (pass ? 1 : 3); c++) sums[4 * i + 3 * (size_t)pass + c] = found[3 * i + c];
+    }
+    return EWA_OK;
+}
+
+/// Keeps what a photograph says of the points that it sees, of which `sums` tells.
+static ewa_status keep_samples(ewa_photos_job *job, ewa_photo_state *photo, const double *sums) {
     uint32_t count = 0;
     for (uint32_t i = 0; i < job->point_count; i++) count += sums[4 * (size_t)i] > LEAST_SEEN_PX;
     photo->report.point_count = count;
-    photo->report.pixel_count = view->pixel_count;
-    photo->report.width_px = view->width_px, photo->report.height_px = view->height_px;
     if (count == 0)
         ewa_report(job->context, EWA_SEVERITY_WARNING, "%s: photograph %u sees none of the points",
                    photo->photo->path ? photo->photo->path : "photos", photo->number);
@@ -114,21 +121,26 @@ static ewa_status sample(ewa_photos_job *job, ewa_photo_state *photo, const ewa_
 /// Opens the view of a photograph.
 static ewa_status look(ewa_photos_job *job, ewa_photo_state *photo, double fraction, ewa_photo_view *view) {
     EWA_TRY(ewa_progress(job->context, "photos", fraction));
-    return ewa_photo_view_make(job->cloud, photo->photo, photo->number, job->unit_coverage, &job->options,
-                               fraction, &photo->halvings, view);
+    return ewa_photo_view_make(job, photo->photo, photo->number, &photo->halvings, view);
+}
+
+static ewa_status sample(ewa_photos_job *job, ewa_photo_state *photo, double fraction, double *found, double *sums) {
+    ewa_photo_view view;
+    EWA_TRY(look(job, photo, fraction, &view));
+    float *rgba = ewa_allocate_zeroed(job->context, (size_t)view.pixel_count * 4, sizeof *rgba);
+    ewa_status status = rgba ? add_up(job, &view, rgba, found, sums) : EWA_ERROR_MEMORY;
+    ewa_release(job->context, rgba, (size_t)view.pixel_count * 4, sizeof *rgba);
+    ewa_photo_view_free(&view);
+    return status == EWA_OK ? keep_samples(job, photo, sums) : status;
 }
 
 static ewa_status sample_all(ewa_photos_job *job) {
-    double *sums = ewa_allocate(job->context, (size_t)job->point_count * 4, sizeof *sums);
-    ewa_status status = sums ? EWA_OK : EWA_ERROR_MEMORY;
-    for (uint32_t i = 0; i < job->photo_count && status == EWA_OK; i++) {
-        ewa_photo_view view;
-        status = look(job, &job->photos[i], SAMPLED * i / job->photo_count, &view);
-        if (status != EWA_OK) break;
-        status = sample(job, &job->photos[i], &view, sums);
-        ewa_photo_view_free(&view);
-    }
-    ewa_release(job->context, sums, (size_t)job->point_count * 4, sizeof *sums);
+    const size_t points = job->point_count;
+    double *room = ewa_allocate(job->context, points * 7, sizeof *room);
+    ewa_status status = room ? EWA_OK : EWA_ERROR_MEMORY;
+    for (uint32_t i = 0; i < job->photo_count && status == EWA_OK; i++)
+        status = sample(job, &job->photos[i], SAMPLED * i / job->photo_count, room, room + 3 * points);
+    ewa_release(job->context, room, points * 7, sizeof *room);
     return status;
 }
 
@@ -166,18 +178,19 @@ typedef struct compare_job {
     const ewa_photos_job *job;
     const ewa_photo_view *view;
     ewa_photo_state *photo;
-    double *shown;   ///< [pixel][EWA_PHOTO_CHANNELS]: A c, then
-    double *squares; ///< [pixel]: mean over the channels, sRGB
+    float *shown; ///< [pixel][4]: A c, then weight, weighted square of what is missing (mean over the channels, sRGB), and
+                  ///< the square where the pixel counts, else -1
 } compare_job;
 
 static void get_pair(const void *user, uint32_t i, double shown[EWA_PHOTO_CHANNELS], double color[EWA_PHOTO_CHANNELS],
                      double *weight) {
     const compare_job *at = user;
+    const float *from = at->shown + 4 * (size_t)i;
     for (size_t c = 0; c < EWA_PHOTO_CHANNELS; c++) {
         shown[c] = (double)at->view->pixels[i].color[c];
-        color[c] = at->shown[i * (size_t)EWA_PHOTO_CHANNELS + c];
+        color[c] = (double)from[c];
     }
-    *weight = (double)at->view->pixels[i].weight;
+    *weight = (double)(at->view->pixels[i].weight * from[3]);
 }
 
 static void compare_piece(void *data, uint32_t index, uint32_t worker) {
@@ -193,17 +206,19 @@ static void compare_piece(void *data, uint32_t index, uint32_t worker) {
                 ewa_srgb_encode(ewa_color_clamp01(shown[c])) - ewa_srgb_encode(ewa_color_clamp01(wanted));
             square += difference * difference / EWA_PHOTO_CHANNELS;
         }
-        at->squares[i] = square;
+        float *to = at->shown + 4 * (size_t)i;
+        to[0] = (float)weight, to[1] = (float)(weight * square), to[2] = 0;
+        to[3] = weight > 0 ? (float)square : -1;
     }
 }
 
-/// Compares a view, and adds to the residuals of its points.
-static void compare(compare_job *at, double *residuals, error_sums *sums) {
+/// Compares a view, and adds to the residuals of its points; `sums`: room for [point][3].
+static ewa_status compare(compare_job *at, double *sums, double *residuals, error_sums *errors) {
     enum { STEPS = 12, WIDE_STEPS = 4 };
     const ewa_photos_job *job = at->job;
     ewa_photo_state *photo = at->photo;
     const ewa_photo_view *view = at->view;
-    ewa_photo_view_show(view, job->color, at->shown);
+    EWA_TRY(ewa_photo_view_show(view, job->color, at->shown));
     const ewa_exposure_pairs pairs = {view->pixel_count, at, get_pair};
     for (int step = 0; step < STEPS && photo->held_out; step++)
         ewa_exposure_step(&pairs, job->options.exposure,
@@ -211,39 +226,46 @@ static void compare(compare_job *at, double *residuals, error_sums *sums) {
                           photo->offset);
     ewa_parallel(job->context, compare_piece, at, (view->pixel_count + EWA_PHOTO_PIECE - 1) / EWA_PHOTO_PIECE);
     double square = 0;
-    uint64_t rejected = 0;
-    for (uint32_t i = 0; i < view->pixel_count; i++) {
-        square += at->squares[i];
-        rejected += at->squares[i] > job->options.robust * job->options.robust;
+    uint64_t rejected = 0, count = 0;
+    for (size_t i = 0; i < view->pixel_count; i++) {
+        const double here = (double)at->shown[4 * i + 3];
+        if (here < 0) continue;
+        square += here, count++;
+        rejected += here > job->options.robust * job->options.robust;
     }
-    for (uint32_t point = 0; point < view->point_count && !photo->held_out; point++)
-        for (uint64_t i = view->point_starts[point]; i < view->point_starts[point + 1]; i++) {
-            const ewa_photo_entry *entry = &view->by_point[i];
-            const double weight = (double)entry->weight * (double)view->pixels[entry->index].weight;
-            residuals[2 * (size_t)point] += weight;
-            residuals[2 * (size_t)point + 1] += weight * at->squares[entry->index];
-        }
-    photo->report.rms = view->pixel_count ? sqrt(square / view->pixel_count) : 0;
-    photo->report.rejected =
-        job->options.robust > 0 && view->pixel_count ? (double)rejected / view->pixel_count : 0;
-    sums->square[photo->held_out] += square, sums->count[photo->held_out] += view->pixel_count;
+    if (!photo->held_out) {
+        EWA_TRY(ewa_photo_view_gather(view, at->shown, sums));
+        for (size_t i = 0; i < job->point_count; i++)
+            residuals[2 * i] += sums[3 * i], residuals[2 * i + 1] += sums[3 * i + 1];
+    }
+    photo->report.width_px = view->camera.width_px, photo->report.height_px = view->camera.height_px;
+    photo->report.pixel_count = count;
+    photo->report.rms = count ? sqrt(square / (double)count) : 0;
+    photo->report.rejected = job->options.robust > 0 && count ? (double)rejected / (double)count : 0;
+    errors->square[photo->held_out] += square, errors->count[photo->held_out] += count;
+    return EWA_OK;
 }
 
 static double decibels(double rms) { return -20 * log10(rms); }
 
-static ewa_status compare_all(ewa_photos_job *job, double begin, double *residuals, ewa_photos_report *report) {
+static ewa_status compare_one(ewa_photos_job *job, ewa_photo_state *photo, double fraction, double *room,
+                              double *residuals, error_sums *errors) {
+    ewa_photo_view view;
+    EWA_TRY(look(job, photo, fraction, &view));
+    const size_t size = (size_t)view.pixel_count * 4;
+    compare_job at = {job, &view, photo, ewa_allocate(job->context, size, sizeof *at.shown)};
+    const ewa_status status = at.shown ? compare(&at, room, residuals, errors) : EWA_ERROR_MEMORY;
+    ewa_release(job->context, at.shown, size, sizeof *at.shown);
+    ewa_photo_view_free(&view);
+    return status;
+}
+
+static ewa_status compare_all(ewa_photos_job *job, double begin, double *room, double *residuals,
+                              ewa_photos_report *report) {
     error_sums sums = {.square = {0}};
     for (uint32_t i = 0; i < job->photo_count; i++) {
         ewa_photo_state *photo = &job->photos[i];
-        ewa_photo_view view;
-        EWA_TRY(look(job, photo, begin + (1 - begin) * i / job->photo_count, &view));
-        const size_t size = (size_t)view.pixel_count * (EWA_PHOTO_CHANNELS + 1);
-        double *room = ewa_allocate(job->context, size, sizeof *room);
-        compare_job at = {job, &view, photo, room, room + (size_t)view.pixel_count * EWA_PHOTO_CHANNELS};
-        if (room) compare(&at, residuals, &sums);
-        ewa_release(job->context, room, size, sizeof *room);
-        ewa_photo_view_free(&view);
-        if (!room) return EWA_ERROR_MEMORY;
+        EWA_TRY(compare_one(job, photo, begin + (1 - begin) * i / job->photo_count, room, residuals, &sums));
         memcpy(photo->report.gain, photo->gain, sizeof photo->gain);
         memcpy(photo->report.offset, photo->offset, sizeof photo->offset);
         photo->report.held_out = photo->held_out;
@@ -308,14 +330,32 @@ static ewa_status write(ewa_photos_job *job, const double *alpha, const double *
     return status;
 }
 
+/// Frees what photographs say of points, which only settling asks for.
+static void drop_samples(ewa_photos_job *job) {
+    const uint64_t count = job->samples ? job->sample_starts[job->point_count] : 0;
+    ewa_release(job->context, job->samples, count, sizeof *job->samples);
+    ewa_release(job->context, job->sample_photos, count, sizeof *job->sample_photos);
+    job->samples = NULL, job->sample_photos = NULL;
+    for (uint32_t i = 0; job->photos && i < job->photo_count; i++) {
+        ewa_photo_state *photo = &job->photos[i];
+        ewa_release(job->context, photo->samples, photo->report.point_count, sizeof *photo->samples);
+        photo->samples = NULL;
+    }
+}
+
 static ewa_status run(ewa_photos_job *job, double *alpha, double *residuals, ewa_photos_report *report) {
     read_colors(job, alpha);
     EWA_TRY(sample_all(job));
     EWA_TRY(list_samples(job));
     EWA_TRY(ewa_photos_settle(job, SAMPLED, SETTLED));
     const bool fit = job->options.method == EWA_PHOTOS_FIT;
+    drop_samples(job);
     if (fit) EWA_TRY(ewa_photos_fit(job, SETTLED, FITTED));
-    EWA_TRY(compare_all(job, fit ? FITTED : SETTLED, residuals, report));
+    double *room = ewa_allocate(job->context, (size_t)job->point_count * 3, sizeof *room);
+    const ewa_status status =
+        room ? compare_all(job, fit ? FITTED : SETTLED, room, residuals, report) : EWA_ERROR_MEMORY;
+    ewa_release(job->context, room, (size_t)job->point_count * 3, sizeof *room);
+    EWA_TRY(status);
     EWA_TRY(ewa_progress(job->context, "photos", 1));
     return write(job, alpha, residuals, report);
 }
@@ -342,14 +382,9 @@ static ewa_status start(ewa_photos_job *job, const ewa_photo *photos, ewa_photos
         qsort(job->photos, job->photo_count, sizeof *job->photos, compare_photos);
         status = run(job, alpha, residuals, report);
     }
-    for (uint32_t i = 0; job->photos && i < job->photo_count; i++) {
-        ewa_photo_state *photo = &job->photos[i];
-        if (status == EWA_OK && per_photo) per_photo[photo->number] = photo->report;
-        ewa_release(context, photo->samples, photo->report.point_count, sizeof *photo->samples);
-    }
-    const uint64_t samples = job->samples ? job->sample_starts[points] : 0;
-    ewa_release(context, job->samples, samples, sizeof *job->samples);
-    ewa_release(context, job->sample_photos, samples, sizeof *job->sample_photos);
+    drop_samples(job);
+    for (uint32_t i = 0; status == EWA_OK && per_photo && i < job->photo_count; i++)
+        per_photo[job->photos[i].number] = job->photos[i].report;
     ewa_release(context, job->photos, job->photo_count, sizeof *job->photos);
     ewa_release(context, job->color, points * EWA_PHOTO_CHANNELS, sizeof *job->color);
     ewa_release(context, job->counts, points, sizeof *job->counts);
@@ -378,9 +413,10 @@ ewa_status ewa_cloud_color_from_photos(ewa_cloud *cloud, const ewa_photo *photos
     ewa_surfels_options surfels;
     ewa_surfels_options_init(&surfels, sizeof surfels);
     surfels.cutoff = job.options.cutoff;
-    EWA_TRY(ewa_surfels_measure_unit_coverage(cloud, &surfels, &job.unit_coverage));
+    EWA_TRY(ewa_surfels_create_kept(cloud, &surfels, &job.surfels));
     ewa_photos_report made = {.used_count = 0};
     const ewa_status status = start(&job, photos, &made, per_photo);
+    ewa_surfels_destroy(&job.surfels);
     if (status == EWA_OK && report) *report = made;
     return status;
 }
