@@ -14,7 +14,7 @@
 
 typedef struct photos_arguments {
     output_arguments output; // first
-    const char *cameras_path, *images_path, *report_path;
+    const char *cameras_path, *images_path, *masks_path, *report_path;
     ewa_photos_options options;
 } photos_arguments;
 
@@ -26,6 +26,8 @@ static const cli_option photos_table[] = {
      .help = "cameras that name their photographs: the folder of a COLMAP model, transforms.json, cameras.json"},
     {"images", OPTION_TEXT, AT(images_path), "FOLDER", .help = "where the photographs are",
      .absent = "auto: images, ../images or ../../images of a COLMAP model, else beside the file"},
+    {"masks", OPTION_TEXT, AT(masks_path), "FOLDER",
+     .help = "masks of the photographs, white where these count: of NAME.jpg NAME.jpg.png or NAME.png"},
     {"report", OPTION_OUTPUT, AT(report_path), "FILE.json",
      .help = "write exposure, error and what else was found for each photograph"},
     {"method", PHOTOS(method)},
@@ -135,6 +137,11 @@ static ewa_cloud *make(cli_session *session, const void *data) {
     if (!session_passed(session,
                         ewa_photo_list_load(session->context, arguments->cameras_path, arguments->images_path, &list)))
         return NULL;
+    session->subject = arguments->masks_path;
+    if (arguments->masks_path && !session_passed(session, ewa_photo_list_find_masks(list, arguments->masks_path))) {
+        ewa_photo_list_destroy(&list);
+        return NULL;
+    }
     session->subject = common->operands[0];
     ewa_cloud *cloud = scene_input_cloud(session, common->operand_count, common->operands, arguments->options.cutoff);
     if (cloud && !color(session, arguments, list, cloud)) ewa_cloud_destroy(&cloud);

@@ -393,6 +393,7 @@ typedef struct ewa_photo {
     ewa_lens lens;          ///< zeros: none
     const char *path;       ///< of its file; NULL: none
     const ewa_image *image; ///< of the camera's size, 1, 3 or 4 channels, linear light, premultiplied; NULL: as the file has it
+    const char *mask_path; ///< picture of the photograph's size, white where it counts, black where not; NULL: it all counts
 } ewa_photo;
 
 /// The photographs that a file of cameras names.
@@ -407,6 +408,11 @@ typedef struct ewa_photo_list ewa_photo_list;
 /// EWA_ERROR_UNSUPPORTED (another model of a lens), EWA_ERROR_IO (a photograph that is not there; the message has its name).
 EWA_API ewa_status ewa_photo_list_load(ewa_context *context, const char *path, const char *images,
                                        ewa_photo_list **list);
+
+/// Finds the masks of photographs in a folder: of a photograph NAME.jpg the picture NAME.jpg.png (COLMAP), NAME.png, .jpg,
+/// .JPG or .jpeg, in the folder of that name or by the last part of the name alone. A photograph without a mask counts as a
+/// whole, which a warning says. Errors: EWA_ERROR_IO (a folder that has a mask of none), EWA_ERROR_MEMORY.
+EWA_API ewa_status ewa_photo_list_find_masks(ewa_photo_list *list, const char *folder);
 
 /// Returns the photographs in the order of the file, borrowed; `*count` gets how many there are.
 EWA_API const ewa_photo *ewa_photo_list_photos(const ewa_photo_list *list, uint32_t *count);

@@ -1289,11 +1289,13 @@ class ewa_photo(c.Structure):
     lens: ewa_lens
     path: bytes | None
     image: Any
+    mask_path: bytes | None
     _fields_ = [
         ("camera", ewa_camera),
         ("lens", ewa_lens),
         ("path", c.c_char_p),
         ("image", c.POINTER(ewa_image)),
+        ("mask_path", c.c_char_p),
     ]
 
 
@@ -2822,6 +2824,7 @@ class Functions:
     ewa_materials_load: Callable[..., int]
     ewa_parts: Callable[..., bytes | None]
     ewa_photo_list_destroy: Callable[..., None]
+    ewa_photo_list_find_masks: Callable[..., int]
     ewa_photo_list_load: Callable[..., int]
     ewa_photo_list_photos: Callable[..., Any]
     ewa_pixels_save: Callable[..., int]
@@ -3199,6 +3202,7 @@ class Functions:
         self.ewa_materials_load = bind("ewa_materials_load", c.c_int, c.c_void_p, c.c_char_p, c.POINTER(ewa_material), c.c_void_p)
         self.ewa_parts = bind("ewa_parts", c.c_char_p)
         self.ewa_photo_list_destroy = bind("ewa_photo_list_destroy", None, c.c_void_p)
+        self.ewa_photo_list_find_masks = bind("ewa_photo_list_find_masks", c.c_int, c.c_void_p, c.c_char_p)
         self.ewa_photo_list_load = bind("ewa_photo_list_load", c.c_int, c.c_void_p, c.c_char_p, c.c_char_p, c.c_void_p)
         self.ewa_photo_list_photos = bind("ewa_photo_list_photos", c.POINTER(ewa_photo), c.c_void_p, c.c_void_p)
         self.ewa_pixels_save = bind("ewa_pixels_save", c.c_int, c.c_void_p, c.c_char_p, c.c_uint32, c.c_uint32, c.c_uint32, c.c_void_p, c.c_size_t)

@@ -505,7 +505,7 @@ class Cloud:
         return cloud
 
     def color_from_photos(self, cameras: PathLike | Sequence[tuple[Camera, Any]], images: PathLike | None = None,
-                          **options: Unpack[PhotosOptions]) -> tuple[Cloud, PhotosReport]:
+                          masks: PathLike | None = None, **options: Unpack[PhotosOptions]) -> tuple[Cloud, PhotosReport]:
         """Return the cloud in the colours that photographs show, and what they came to; lacking normals and radii are
         estimated first.
 
@@ -516,6 +516,8 @@ class Cloud:
             float32: linear light, premultiplied; pixels that are not opaque are not looked at.
         images : path, optional
             The folder of the photographs. Default: where the file says.
+        masks : path, optional
+            A folder of masks, white where photographs count: of NAME.jpg NAME.jpg.png or NAME.png.
         **options
             Members of ``ewa_photos_options``: ``method``, ``exposure``, ``hold_out``, ``rounds``, ``robust``, ``ridge``,
             ``spacing_px``, ``cutoff``.
@@ -525,7 +527,7 @@ class Cloud:
         ArgumentError, FileError, FormatError, OutOfMemory
         """
         cloud = self.estimate()._derive()
-        return cloud, color_from_photos(cloud._h, cameras, images, options)
+        return cloud, color_from_photos(cloud._h, cameras, images, masks, options)
 
     def save(self, path: PathLike, **options: Unpack[CloudSaveOptions]) -> None:
         """Write the cloud; the suffix chooses the format: .ply .las .laz .pcd .xyz .txt .asc .pts .csv.

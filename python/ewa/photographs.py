@@ -84,7 +84,7 @@ def _of_arrays(photos: Sequence[tuple[Camera, Any]]) -> tuple[Any, list[Any]]:
 
 
 def color(handle: Handle, cameras: PathLike | Sequence[tuple[Camera, Any]], images: PathLike | None,
-          options: PhotosOptions) -> PhotosReport:
+          masks: PathLike | None, options: PhotosOptions) -> PhotosReport:
     """Colour a cloud; see :meth:`Cloud.color_from_photos`."""
     core = handle.core
     made = initialised(b.ewa_photos_options, lib.ewa_photos_options_init)
@@ -92,12 +92,16 @@ def color(handle: Handle, cameras: PathLike | Sequence[tuple[Camera, Any]], imag
     listed: Handle | None = None
     keep: list[Any] = []
     if isinstance(cameras, (list, tuple)):
+        if masks is not None:
+            raise ArgumentError("masks: of photographs in files; arrays have four channels where they are masked")
         photos, keep = _of_arrays(cameras)
         count = len(cameras)
     else:
         listed = core.make(lib.ewa_photo_list_load, core.address, path_bytes(cameras),
                            path_bytes(images) if images is not None else None, destroy=lib.ewa_photo_list_destroy,
                            what="the list of photographs")
+        if masks is not None:
+            core.call(lib.ewa_photo_list_find_masks, listed, path_bytes(masks, "masks"))
         number = ctypes.c_uint32()
         photos = core.value(lib.ewa_photo_list_photos, listed, ctypes.byref(number))
         count = number.value
