@@ -4,13 +4,14 @@
 from __future__ import annotations
 
 import ctypes
-from typing import Any, Mapping, Sequence
+import os
+from typing import Any, Iterable, Mapping, Sequence
 
 from . import _bindings as b
-from ._context import Core, Handle
+from ._context import Core, Handle, core_of
 from ._errors import ArgumentError
 from ._library import functions as lib
-from ._struct import fill, initialised, numbers
+from ._struct import fill, initialised, numbers, path_bytes
 
 VIEWS = ("front", "back", "left", "right", "top", "bottom", "iso")
 _UPS = {"y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
@@ -46,10 +47,21 @@ def view_options(view: Any = None, up: Any = None, *, size: Sequence[int] | None
     return made
 
 
+def is_path(thing: Any) -> bool:
+    """Whether something names a file."""
+    return isinstance(thing, (str, bytes, os.PathLike))
+
+
 def core_of_object(thing: Any) -> Core:
     """The context of an object that a scene takes."""
     core: Core = thing._core if hasattr(thing, "_core") else thing._h.core
     return core
+
+
+def core_of_things(things: Iterable[Any]) -> Core:
+    """The context of the first object among objects and paths; the default one of paths alone."""
+    own = next((thing for thing in things if hasattr(thing, "_asset_members")), None)
+    return core_of(None) if own is None else core_of_object(own)
 
 
 def make_asset(core: Core, members: Mapping[str, Any], options: b.ewa_asset_options | None = None) -> Handle:
@@ -91,13 +103,27 @@ class World:
                                 destroy=lib.ewa_scene_destroy, what="the scene")
 
     def add(self, thing: Any, options: b.ewa_asset_options | None = None, instance: b.ewa_instance | None = None) -> None:
-        """Add an object; what never changes is made an asset once."""
+        """Add an object, or what a file has; of objects that never change an asset is made once."""
+        if is_path(thing):
+            self._add_file(thing, options, instance)
+            return
         asset: Handle | None = getattr(thing, "_asset", None) if options is None else None
         if asset is None or asset.core is not self.core:
             asset = make_asset(self.core, thing._asset_members(), options)
             if options is None and hasattr(thing, "_asset"):
                 thing._asset = asset
         self.add_asset(asset, instance)
+
+    def _add_file(self, path: Any, options: b.ewa_asset_options | None, instance: b.ewa_instance | None) -> None:
+        """Of a scene file, everything that it names, as it says."""
+        name = path_bytes(path)
+        if options is None:
+            options = initialised(b.ewa_asset_options, lib.ewa_asset_options_init)
+        if self.core.value(lib.ewa_scene_file_probe, name):
+            self.core.call(lib.ewa_scene_open, self.handle, name, ctypes.byref(options))
+            return
+        self.add_asset(self.core.make(lib.ewa_asset_load, self.core.address, name, ctypes.byref(options),
+                                      destroy=lib.ewa_asset_release, what="the asset"), instance)
 
     def add_asset(self, asset: Handle, instance: b.ewa_instance | None = None) -> None:
         self.core.call(lib.ewa_scene_add, self.handle, asset, ctypes.byref(instance) if instance is not None else None)

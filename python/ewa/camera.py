@@ -16,7 +16,7 @@ from ._arrays import Array
 from ._context import Context, core_of
 from ._errors import ArgumentError, make
 from ._library import functions as lib
-from ._scene import World, core_of_object, place_at_box, view_options
+from ._scene import World, core_of_things, is_path, place_at_box, view_options
 from ._struct import numbers, path_bytes
 
 #: Vertical field of view where nobody says, degrees; that of the program.
@@ -136,7 +136,7 @@ class Camera:
 
         Parameters
         ----------
-        what : Cloud, Surfels, or anything else that a scene takes but files; a list of these; array_like of shape (2, 3)
+        what : path, Cloud, Surfels, or anything else that a scene takes; a list of these; array_like of shape (2, 3)
             What is to be seen; an array: the lower and the upper corner of a box.
         view : {"front", "back", "left", "right", "top", "bottom", "iso"} or array_like of shape (3,), optional
             Side from which it is seen, or the direction of the view. Default: by the shape.
@@ -162,9 +162,9 @@ class Camera:
                              elevation=elevation)
         own = str(up) if hangs else "auto"
         things = list(what) if isinstance(what, (list, tuple)) else [what]
-        if not things or not all(hasattr(thing, "_asset_members") for thing in things):
+        if not things or not all(is_path(thing) or hasattr(thing, "_asset_members") for thing in things):
             return cls._of(checked(place_at_box(core_of(None), what, asked, own)))
-        world = World(core_of_object(things[0]), up=own, surfels={"radius_scale": radius_scale})
+        world = World(core_of_things(things), up=own, surfels={"radius_scale": radius_scale})
         for thing in things:
             world.add(thing)
         return cls._of(checked(world.place(asked)))

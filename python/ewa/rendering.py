@@ -13,9 +13,9 @@ from ._arrays import Array
 from ._context import Context, Core, Handle, core_of
 from ._errors import ArgumentError
 from ._library import functions as lib
-from ._scene import World, view_options
+from ._scene import World, core_of_things, is_path, view_options
 from ._struct import fill, initialised
-from .camera import Camera
+from .camera import Camera, PathLike
 from .cloud import Cloud
 from .image import Color, Image
 from .shade import (Environment, Light, Materials, set_background, set_lights, set_materials, set_section)
@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from ._options import RenderOptions
 
 #: What can be drawn.
-Scene = Union[Surfels, Cloud, Sequence[Union[Surfels, Cloud]]]
+Scene = Union[Surfels, Cloud, PathLike, Sequence[Union[Surfels, Cloud, PathLike]]]
 
 #: Names of planes: their types and numbers per pixel.
 PLANES: dict[str, tuple[Any, int]] = {"rgba8": (np.uint8, 4), "rgba": (np.float32, 4), "depth": (np.float32, 1),
@@ -145,12 +145,12 @@ def render(scene: Scene, camera: Camera | None = None, *, size: Sequence[int] | 
            section_planes: Sequence[Sequence[float]] | None = None, backend: str = "cpu",
            renderer: Renderer | None = None, out: Image | None = None,
            **options: Unpack[RenderOptions]) -> Image:
-    """Draw surfels, or clouds, which become surfels first.
+    """Draw surfels, or clouds and files, which become surfels first.
 
     Parameters
     ----------
-    scene : Surfels, Cloud, or a sequence of them
-        Several make one picture, whose surfaces meet and blend.
+    scene : Surfels, Cloud, path, or a sequence of them
+        Several make one picture, whose surfaces meet and blend. Files are what they are for :class:`Scene`.
     camera : Camera, optional
         Default: one that has all in its picture, ``Camera.frame(scene)``.
     size : (int, int), optional
@@ -195,18 +195,18 @@ def render(scene: Scene, camera: Camera | None = None, *, size: Sequence[int] | 
     making: dict[str, Any] = {}
     if not _SURFELS.isdisjoint(options):
         making = {name: options.pop(name) for name in tuple(options) if name in _SURFELS}  # type: ignore[misc]
-    parts = [scene] if isinstance(scene, (Surfels, Cloud)) else list(scene)
+    parts = [scene] if is_path(scene) or isinstance(scene, (Surfels, Cloud)) else list(scene)  # type: ignore[arg-type]
     if not parts:
         raise ArgumentError("scene: there is nothing")
     for part in parts:
-        if not isinstance(part, (Surfels, Cloud)):
-            raise TypeError(f"scene: surfels or clouds, not {type(part).__name__}; ewa.Scene() draws files and all else")
+        if not is_path(part) and not isinstance(part, (Surfels, Cloud)):
+            raise TypeError(f"scene: surfels, clouds or paths, not {type(part).__name__}; ewa.Scene() draws all else")
         if making and isinstance(part, Surfels):
             raise TypeError(f"{', '.join(making)}: said where surfels are made, Cloud.surfels()")
     close_gaps = making.pop("close_gaps", not options.get("point_size_px"))
     world = parts[0]._world if len(parts) == 1 and isinstance(parts[0], Surfels) and parts[0]._h else None
     if world is None:
-        world = World(parts[0]._core, close_gaps=close_gaps, surfels=making)
+        world = World(core_of_things(parts), close_gaps=close_gaps, surfels=making)
         for part in parts:
             world.add(part)
     return draw(world, camera, size=size, planes=planes, background=background, lights=lights, materials=materials,

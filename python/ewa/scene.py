@@ -12,7 +12,7 @@ from ._arrays import Array
 from ._context import Context, Core, Handle, core_of
 from ._errors import ArgumentError, ClosedError
 from ._library import functions as lib
-from ._scene import World, core_of_object, view_options
+from ._scene import World, core_of_things, is_path, view_options
 from ._struct import fill, initialised, path_bytes, text_bytes
 from .camera import Camera, PathLike
 from .cloud import Cloud
@@ -53,8 +53,7 @@ class Scene:
 
     def __init__(self, *things: PathLike | Drawable, close_gaps: bool = True, up: str = "auto",
                  context: Context | None = None, **surfels: Any) -> None:
-        own = next((thing for thing in things if _is_object(thing)), None)
-        self._core: Core = core_of_object(own) if own is not None and context is None else core_of(context)
+        self._core: Core = core_of_things(things) if context is None else core_of(context)
         self._world = World(self._core, close_gaps=close_gaps, up=up, surfels=surfels)
         for thing in things:
             self.add(thing)
@@ -97,20 +96,17 @@ class Scene:
         fill(instance.coloring, "ewa_coloring", coloring)
         instance.coloring.attribute = text_bytes(color_by, b.EWA_SCALAR_NAME_BYTES, "color_by")
         number = len(self)
-        if _is_object(thing):
+        if not is_path(thing):
             if not hasattr(thing, "_asset_members"):
                 raise TypeError(f"thing: a path, a cloud, a mesh, surfels, an octree, Gaussians, splats, a volume or "
                                 f"voxels, not {type(thing).__name__}")
             plain = transfer is None and not options
             self._world.add(thing, None if plain else made, instance)
-        elif self._core.value(lib.ewa_scene_file_probe, path_bytes(thing)):
-            if not visible or opacity != 1 or radius_scale != 1 or color_by or range is not None or tint is not None:
-                raise ArgumentError(f"{thing}: how its items are shown is said in the scene file")
-            self._core.call(lib.ewa_scene_open, self._handle, path_bytes(thing), ctypes.byref(made))
         else:
-            self._world.add_asset(self._core.make(lib.ewa_asset_load, self._core.address, path_bytes(thing),
-                                                  ctypes.byref(made), destroy=lib.ewa_asset_release, what="the asset"),
-                                  instance)
+            changed = not visible or opacity != 1 or radius_scale != 1 or color_by or range is not None or tint is not None
+            if changed and self._core.value(lib.ewa_scene_file_probe, path_bytes(thing)):
+                raise ArgumentError(f"{thing}: how its items are shown is said in the scene file")
+            self._world.add(thing, made, instance)
         return number
 
     @property
@@ -208,7 +204,3 @@ class Scene:
     def close(self) -> None:
         """Free what was made for the scene; what was added to it stays."""
         self._world = None  # type: ignore[assignment]
-
-
-def _is_object(thing: Any) -> bool:
-    return hasattr(thing, "_core") or hasattr(thing, "_h")

@@ -3,6 +3,7 @@
 """Cameras, options, planes, volumes, depth images, textures."""
 from __future__ import annotations
 
+import pathlib
 import pickle
 import unittest
 from typing import Any
@@ -97,6 +98,31 @@ class Pictures(Case):
         one, two = (np.asarray(ewa.render(halves[::step], self.camera, shading="none")) for step in (1, -1))
         np.testing.assert_array_equal(one, two)
 
+    def test_paths_are_taken_where_scenes_are(self) -> None:
+        cloud = ewa.generate("torus", 2000)
+        cloud.save(self.path("torus.ply"))
+        ewa.generate("sphere", 1000).save(self.path("ball.ply"))
+        files = [self.path("torus.ply"), pathlib.Path(self.path("ball.ply"))]
+        read = [ewa.read(file) for file in files]
+        for things, same in ((files[0], read[0]), (files[1], read[1]), (files, read), ([files[0], read[1]], read)):
+            camera = ewa.Camera.frame(things, size=(60, 40))
+            self.assertEqual(np.asarray(camera.world_to_camera).tolist(),
+                             np.asarray(ewa.Camera.frame(same, size=(60, 40)).world_to_camera).tolist())
+            picture = ewa.render(things, size=(60, 40))
+            self.assertTrue(np.array_equal(picture.rgba8, ewa.render(same, size=(60, 40)).rgba8))
+        self.assertGreater(np.ptp(ewa.render(files[0], size=(60, 40), radius_scale=0.5).rgba8), 0)
+        self.assertEqual(len(ewa.Scene(*files)), 2)
+        camera = ewa.Camera.frame(read[0], size=(30, 20))
+        ones = np.ones((20, 30, 4), np.float32)
+        self.assertTrue(np.array_equal(ewa.render_backward(files[0], camera, rgba=ones, by="color").color,
+                                       ewa.render_backward(read[0], camera, rgba=ones, by="color").color))
+        with self.assertRaisesRegex(ewa.FileError, "nowhere"):
+            ewa.render(self.path("nowhere.ply"))
+        with self.assertRaisesRegex(TypeError, "surfels, clouds or paths, not int"):
+            ewa.render([files[0], 3])  # type: ignore[list-item]
+        with self.assertRaisesRegex(TypeError, "a path, a cloud"):
+            ewa.Scene(3)  # type: ignore[arg-type]
+
     def test_materials_and_environment(self) -> None:
         plain = ewa.render(self.cloud, self.camera, shading="phong")
         shiny = ewa.render(self.cloud, self.camera, materials=[{"specular": 2.0, "reflection": 1.0}],
@@ -130,7 +156,7 @@ class Pictures(Case):
         for options in more:
             with self.subTest(str(options)), self.assertRaises(TypeError):
                 ewa.render(self.cloud, self.camera, **options)
-        for scene in (3, None, [None], "scan.ply"):
+        for scene in (3, None, [None]):
             with self.assertRaises(TypeError):
                 ewa.render(scene, self.camera)  # type: ignore[arg-type]
         with self.assertRaises(ewa.ArgumentError):
