@@ -6,7 +6,7 @@
 #include "cloud/cloud.h"
 #include "ewa/prepare.h"
 #include "image/srgb.h"
-#include "io/image/exif.h"
+#include "io/image/image_file.h"
 #include "photos/parts.h"
 #include "reference/adjoint_frame.h"
 
@@ -152,7 +152,7 @@ static ewa_status put_mask(const char *path, ewa_image *image, bool *owned) {
         }
     }
     ewa_image_free(&mask);
-    if (status != EWA_OK) return status;
+    EWA_TRY(status);
     if (*owned) ewa_image_free(image);
     *image = masked, *owned = true;
     return EWA_OK;

@@ -275,15 +275,6 @@ void ewa_tile_sum_nearest(const ewa_tile_job *job, const ewa_tile *tile, ewa_til
     ewa_tile_close_pixels(tile->nearest, block_count, INFINITY, -INFINITY);
 }
 
-void ewa_tile_walk_shown(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_scratch *s, bool kept,
-                         ewa_tile_pass what) {
-    if (kept) ewa_tile_walk_kept(job, tile, s, what);
-    for (uint32_t i = 0; i < job->source_count && !kept; i++) {
-        const ewa_tile_packets shown = {&job->sources[i], s->split[i].shown, s->split[i].shown_count};
-        ewa_tile_walk_again(job, tile, s, &shown, 0, ewa_run_count(&shown), what);
-    }
-}
-
 void ewa_tile_place(const ewa_tile_job *job, ewa_tile_scratch *s, uint32_t index, ewa_tile *tile) {
     const ewa_tile_rect place = ewa_tiles_rect(&job->tiles, index);
     *tile = (ewa_tile){.x_px = (int32_t)place.x_px,

@@ -158,6 +158,15 @@ void ewa_tile_walk_again(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile
     }
 }
 
+void ewa_tile_walk_shown(const ewa_tile_job *job, const ewa_tile *tile, ewa_tile_scratch *s, bool kept,
+                         ewa_tile_pass what) {
+    if (kept) ewa_tile_walk_kept(job, tile, s, what);
+    for (uint32_t i = 0; i < job->source_count && !kept; i++) {
+        const ewa_tile_packets shown = {&job->sources[i], s->split[i].shown, s->split[i].shown_count};
+        ewa_tile_walk_again(job, tile, s, &shown, 0, ewa_run_count(&shown), what);
+    }
+}
+
 void ewa_tile_close_pixels(float *nearest, uint32_t block_count, float from, float to) {
     for (size_t i = 0; i < (size_t)block_count * EWA_BLOCK_LANES; i++)
         if (nearest[i] == from) nearest[i] = to;

@@ -4,7 +4,7 @@
 // Tests of src/io/image/exif.c: every orientation in both orders of bytes, every truncation, broken directories, and
 // pictures that are turned where their size is wanted so.
 #include "io/image/exif.h"
-#include "image/srgb.h"
+#include "io/image/image_file.h"
 #include "scratch.h"
 
 enum { TIFF_BYTES = 26, HEAD_BYTES = 10 };

@@ -7,8 +7,6 @@
 // 4.5 and 4.6.4; ISO/IEC 10918-1, "Digital compression and coding of continuous-tone still images", 1994, annex B.
 #include "io/image/exif.h"
 #include "base/base.h"
-#include "ewa/io.h"
-#include "io/file.h"
 #include "io/image/jpeg.h"
 #include "io/reader.h"
 
@@ -66,8 +64,7 @@ uint32_t ewa_exif_orientation(const uint8_t *bytes, size_t size_bytes) {
     }
 }
 
-/// Makes a picture whose rows were columns.
-static ewa_status turn(ewa_image *image, uint32_t orientation) {
+ewa_status ewa_exif_turn(ewa_image *image, uint32_t orientation) {
     ewa_image turned;
     EWA_TRY(ewa_image_create(image->context, image->height_px, image->width_px, image->channel_count, &turned));
     const size_t channels = image->channel_count;
@@ -82,19 +79,4 @@ static ewa_status turn(ewa_image *image, uint32_t orientation) {
     ewa_image_free(image);
     *image = turned;
     return EWA_OK;
-}
-
-ewa_status ewa_image_load_sized(ewa_context *context, const char *path, uint32_t width_px, uint32_t height_px,
-                                ewa_image *image) {
-    *image = (ewa_image){0};
-    ewa_file file;
-    EWA_TRY(ewa_file_map(context, path, &file));
-    const uint32_t orientation = ewa_exif_orientation(file.bytes, file.size_bytes);
-    ewa_status status = ewa_image_load_memory(context, file.bytes, file.size_bytes, path, image);
-    ewa_file_unmap(context, &file);
-    if (status == EWA_OK && orientation >= EWA_EXIF_SIDEWAYS && image->width_px == height_px &&
-        image->height_px == width_px && width_px != height_px)
-        status = turn(image, orientation);
-    if (status != EWA_OK) ewa_image_free(image);
-    return status;
 }

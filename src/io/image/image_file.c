@@ -8,6 +8,7 @@
 #include "ewa/io.h"
 #include "image/srgb.h"
 #include "io/file.h"
+#include "io/image/exif.h"
 #include "io/image/exr.h"
 #include "io/image/hdr.h"
 #include "io/image/jpeg.h"
@@ -193,4 +194,19 @@ ewa_status ewa_depth_load(ewa_context *context, const char *path, ewa_image *dep
 
 ewa_status ewa_image_load(ewa_context *context, const char *path, ewa_image *image) {
     return load_file(context, path, ewa_image_load_memory, image);
+}
+
+ewa_status ewa_image_load_sized(ewa_context *context, const char *path, uint32_t width_px, uint32_t height_px,
+                                ewa_image *image) {
+    *image = (ewa_image){0};
+    ewa_file file;
+    EWA_TRY(ewa_file_map(context, path, &file));
+    const uint32_t orientation = ewa_exif_orientation(file.bytes, file.size_bytes);
+    ewa_status status = ewa_image_load_memory(context, file.bytes, file.size_bytes, path, image);
+    ewa_file_unmap(context, &file);
+    if (status == EWA_OK && orientation >= EWA_EXIF_SIDEWAYS && image->width_px == height_px &&
+        image->height_px == width_px && width_px != height_px)
+        status = ewa_exif_turn(image, orientation);
+    if (status != EWA_OK) ewa_image_free(image);
+    return status;
 }
