@@ -7,8 +7,8 @@
 
 #include "ewa/cloud.h"
 
-/// Says whether a cloud has few points that lie on no surface: up to 128 in any case, up to 4,096 on curves or strewn
-/// in space. Errors: EWA_ERROR_MEMORY.
+/// Says whether an estimated cloud has points that lie on no surface: up to 128 in any case, up to 4,096 on curves or
+/// strewn in space, up to 4 million on curves if their surfaceness is 0. Errors: EWA_ERROR_MEMORY.
 ewa_status ewa_cloud_is_sparse(const ewa_cloud *cloud, bool *sparse);
 
 #endif

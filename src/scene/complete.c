@@ -207,7 +207,7 @@ static ewa_status make_dots(const ewa_scene *scene, ewa_completed *group) {
     for (uint32_t i = 0; i < group->count && sparse && status == EWA_OK; i++) {
         const ewa_cloud *own = group->assets[i]->cloud;
         const bool sized = ewa_cloud_find(own, EWA_RADIUS) || ewa_cloud_find(own, EWA_TANGENT_U);
-        status = sized ? EWA_OK : ewa_cloud_is_sparse(own, &sparse);
+        status = sized ? EWA_OK : ewa_cloud_is_sparse(group->clouds[i], &sparse);
         sparse = sparse && !sized;
     }
     for (uint32_t i = 0; i < group->count && sparse && status == EWA_OK; i++) {

@@ -110,6 +110,15 @@ static void test_colors_of_stl(void **state) {
     check_color(&mesh, 0, 1, 15 / 31.0, 0);
     check_color(&mesh, 1, 1, 128 / 255.0, 64 / 255.0);
     ewa_mesh_free(&mesh);
+    // Codes that are all zero say nothing: many programs write so.
+    size = make_binary("COLOR=\xff\x80\x40\xff, MATERIAL=", 2, 0, 0, bytes);
+    mesh_load_bytes(context, &messages, "a.stl", bytes, size, false, &mesh);
+    check_color(&mesh, 0, 1, 128 / 255.0, 64 / 255.0);
+    ewa_mesh_free(&mesh);
+    size = make_binary("COLOR=\xff\x80\x40\xff, MATERIAL=", 2, 0, 0x100u, bytes);
+    mesh_load_bytes(context, &messages, "a.stl", bytes, size, false, &mesh);
+    check_color(&mesh, 0, 0, 0, 0);
+    ewa_mesh_free(&mesh);
     // VisCAM: from the high end, the high bit means a colour of its own.
     size = make_binary("x", 2, 0x8000u | 31u | 15u << 5, 31u << 10, bytes);
     mesh_load_bytes(context, &messages, "a.stl", bytes, size, false, &mesh);

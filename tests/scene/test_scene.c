@@ -505,6 +505,43 @@ static void test_dots(void **state) {
     ewa_context_destroy(&context);
 }
 
+/// Radius of the first point of 5,000 on a helix, forwards or backwards, or strewn in a cube, over the size of all.
+static double first_radius(bool curve, bool backwards) {
+    enum { COUNT = 5000 };
+    static double places[COUNT][3];
+    double size2 = 0, radius;
+    check_random random = {11};
+    for (int i = 0; i < COUNT; i++) {
+        const double t = 0.004 * (backwards ? COUNT - 1 - i : i);
+        const double helix[3] = {cos(t), sin(t), 0.1 * t};
+        for (int c = 0; c < 3; c++) places[i][c] = curve ? helix[c] : check_uniform(&random, 0, 1);
+    }
+    ewa_context *context = check_context(2, NULL);
+    ewa_cloud *cloud = NULL, *whole = NULL;
+    assert_int_equal(ewa_cloud_create(context, COUNT, &cloud), EWA_OK);
+    assert_int_equal(ewa_cloud_borrow(cloud, EWA_POSITION, EWA_F64, 3, places, sizeof places[0]), EWA_OK);
+    ewa_bounds box;
+    assert_int_equal(ewa_cloud_measure(cloud, &box), EWA_OK);
+    for (int c = 0; c < 3; c++) size2 += (box.high_world[c] - box.low_world[c]) * (box.high_world[c] - box.low_world[c]);
+    ewa_scene *scene = make_scene(context);
+    add_cloud(context, scene, cloud, NULL);
+    assert_int_equal(ewa_scene_cloud(scene, &whole), EWA_OK);
+    ewa_attribute_read_f64(ewa_cloud_find(whole, EWA_RADIUS), 0, 1, &radius);
+    ewa_cloud_destroy(&whole);
+    ewa_scene_destroy(&scene);
+    ewa_cloud_destroy(&cloud);
+    ewa_context_destroy(&context);
+    return radius / sqrt(size2);
+}
+
+/// A curve is dots of any number of points: lines as thin as its spacing were next to nothing. Many points that are strewn
+/// are none.
+static void test_curve(void **state) {
+    assert_true(fabs(first_radius(true, false) - 0.004) < 1e-9);
+    assert_true(fabs(first_radius(true, true) - 0.004) < 1e-9);
+    assert_true(first_radius(false, false) > 0.01);
+}
+
 /// What is asked to be up is up, along any axis.
 static void test_asked_up(void **state) {
     ewa_context *context = check_context(1, NULL);
@@ -641,7 +678,7 @@ int main(void) {
         cmocka_unit_test(test_cloud_of_scene), cmocka_unit_test(test_pick),
                                        cmocka_unit_test(test_pick_aslant), cmocka_unit_test(test_described),
                                        cmocka_unit_test(test_asked_up), cmocka_unit_test(test_degrees),
-                                       cmocka_unit_test(test_dots),
+                                       cmocka_unit_test(test_dots),      cmocka_unit_test(test_curve),
                                        cmocka_unit_test(test_bare_light)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -35,6 +35,7 @@ static ewa_status add_last(ewa_mesh_build *build) {
 /// How colours are stored, which the header or the first coloured triangle tells.
 typedef struct stl_colors {
     bool magics, viscam;
+    bool own;        ///< of Magics: some triangle's code is not zero, which programs that know none leave
     float common[4]; ///< of triangles without one of their own
 } stl_colors;
 
@@ -48,6 +49,8 @@ static stl_colors find_colors(const uint8_t *bytes, uint64_t count) {
         for (uint32_t c = 0; c < 3; c++) colors.common[c] = ewa_srgb_decoded[bytes[i + 6 + c]];
     }
     const uint8_t *record = bytes + HEADER_BYTES + 4;
+    for (uint64_t t = 0; t < count && colors.magics && !colors.own; t++)
+        colors.own = record[t * RECORD_BYTES + 48] || record[t * RECORD_BYTES + 49];
     for (uint64_t t = 0; t < count && !colors.magics && !colors.viscam; t++)
         colors.viscam = record[t * RECORD_BYTES + 49] & 0x80;
     return colors;
@@ -55,7 +58,7 @@ static stl_colors find_colors(const uint8_t *bytes, uint64_t count) {
 
 static void set_color(ewa_mesh_build *build, const stl_colors *colors, uint32_t code) {
     build->has_face_color = colors->magics || colors->viscam;
-    const bool own = colors->magics ? !(code & 0x8000) : (code & 0x8000) != 0;
+    const bool own = colors->magics ? colors->own && !(code & 0x8000) : (code & 0x8000) != 0;
     memcpy(build->face_color, colors->common, sizeof build->face_color);
     // The two count the components from opposite ends.
     for (uint32_t c = 0; c < 3 && own; c++)
