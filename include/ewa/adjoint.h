@@ -39,8 +39,7 @@ typedef struct ewa_gradient {
     double *radius;   ///< 1 per point, per world unit
     double *tangent_u, *tangent_v; ///< 3 per point, per world unit
     ewa_camera_cotangent *camera;
-    double *rgba; ///< 4 per pixel: no derivative, but the picture that they are of, in double precision, as ewa_frame.rgba but
-                  ///< for splats at contours
+    double *rgba; ///< 4 per pixel: no derivative, but the picture that they are of, as ewa_frame.rgba in double precision
 } ewa_gradient;
 
 /// Takes the cotangents of a picture as ewa_render() draws it to those of what made it: the same
@@ -49,8 +48,8 @@ typedef struct ewa_gradient {
 /// makes, within 1e-5 of the largest. With anything else, `rgba` too, and where
 /// lights are several or coloured, all is in double precision. What jumps has no
 /// derivative and counts as fixed: which surfels are seen at which pixels and on which surface, what clip lines leave
-/// of pixels, q0, and where surfels lie that touch the plane of the eye (docs/math.md section 15). Splats at contours are taken for
-/// where they are seen, not for where they move to. `cotangent` may be
+/// of pixels, q0, and where surfels lie that touch the plane of the eye (docs/math.md section 15). Curvatures that move splats
+/// at contours are constants. `cotangent` may be
 /// NULL. `unit_coverage`: q0, as ewa_surfels_describe() gives it; 0: measured. The cloud's float or double streams are
 /// taken as they are, not as surfels round them. A warning says when the camera sees no surfel. Kernels: perspective,
 /// affine. Errors: EWA_ERROR_ARGUMENT (camera, options, cotangents that are not finite: plane and pixel; NULL),

@@ -5,6 +5,7 @@
 #include "reference/adjoint_frame.h"
 #include "base/base.h"
 #include "cloud/cloud.h"
+#include "reference/contour.h"
 #include "surface/options.h"
 
 enum { READ_POINTS = 64 };
@@ -52,6 +53,7 @@ ewa_status ewa_reference_frame_make(const ewa_cloud *cloud, const ewa_surfels_op
     frame->resolve = (ewa_reference_resolve){
         &frame->view, &frame->options, &frame->shading, unit_coverage,
         ewa_reference_layering_of(&frame->options, &frame->reader, frame->point_count)};
+    ewa_reference_view_contours(&frame->options, frame->resolve.layering.transparent, &frame->view);
     return EWA_OK;
 }
 

@@ -37,6 +37,11 @@ static void gather(const ewa_reference_resolve *to, double x_px, double y_px, co
         layer->alpha = ewa_reference_merged_alpha(layer->single, layer->sums.weight / to->unit_coverage);
 }
 
+/// Whether what a splat is at a pixel is behind the surfaces that there are.
+static bool is_behind(const ewa_reference_fragment *fragment, double passed) {
+    return fragment->sample.z > passed && !(fragment->splat->hollow && passed > -INFINITY);
+}
+
 uint32_t ewa_reference_layers_find(const ewa_reference_resolve *to, double x_px, double y_px,
                                    ewa_reference_fragment *fragments, uint32_t count, ewa_reference_layer *layers) {
     for (uint32_t i = 0; i < count; i++) fragments[i].layer = EWA_NO_LAYER;
@@ -47,12 +52,12 @@ uint32_t ewa_reference_layers_find(const ewa_reference_resolve *to, double x_px,
         double bound = INFINITY; // B(x)
         const bool merged = to->layering.merge_last && index + 1 == most;
         for (uint32_t i = 0; i < count && !merged; i++)
-            if (fragments[i].sample.z > passed)
+            if (is_behind(&fragments[i], passed))
                 bound = fmin(bound, fragments[i].sample.z + fragments[i].splat->epsilon);
         if (!merged && !(bound < INFINITY)) break;
         double weight = 0;
         for (uint32_t i = 0; i < count; i++)
-            if (fragments[i].sample.z > passed && fragments[i].sample.z <= bound)
+            if (is_behind(&fragments[i], passed) && fragments[i].sample.z <= bound)
                 fragments[i].layer = index, weight += fragments[i].sample.weight;
         if (!(weight > 0)) break;
         gather(to, x_px, y_px, fragments, count, index, layers);

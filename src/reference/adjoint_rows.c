@@ -8,6 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+enum { KEY_NUMBERS = 17 };
+
 ewa_reference_tiles ewa_reference_tiles_of(const ewa_reference_splat *splat, uint32_t side_px) {
     if (!splat->drawn || splat->x_begin >= splat->x_end || splat->y_begin >= splat->y_end)
         return (ewa_reference_tiles){0, 0};
@@ -41,9 +43,10 @@ void ewa_reference_rows_free(ewa_context *context, ewa_reference_rows *rows) {
 }
 
 /// The numbers that tell two splats apart.
-static void read_key(const ewa_reference_splat *splat, double key[15]) {
+static void read_key(const ewa_reference_splat *splat, double key[KEY_NUMBERS]) {
     const ewa_vec3 vectors[5] = {splat->center, splat->color, splat->normal_world, splat->axis_u, splat->axis_v};
     for (int i = 0; i < 5; i++) vec3_store(vectors[i], key + 3 * i);
+    key[15] = splat->moved_px[0], key[16] = splat->moved_px[1];
 }
 
 /// Orders splats by depth, and those of one depth by all that they look like: a pixel's sums are added up in that
@@ -52,9 +55,9 @@ static int compare_splats(const void *a, const void *b) {
     const ewa_reference_splat *left = *(const ewa_reference_splat *const *)a;
     const ewa_reference_splat *right = *(const ewa_reference_splat *const *)b;
     if (left->center.z != right->center.z) return left->center.z < right->center.z ? -1 : 1;
-    double keys[2][15];
+    double keys[2][KEY_NUMBERS];
     read_key(left, keys[0]), read_key(right, keys[1]);
-    for (int i = 0; i < 15; i++)
+    for (int i = 0; i < KEY_NUMBERS; i++)
         if (keys[0][i] != keys[1][i]) return keys[0][i] < keys[1][i] ? -1 : 1;
     return (left->opacity > right->opacity) - (left->opacity < right->opacity);
 }

@@ -5,6 +5,7 @@
 // section 15). What is held fixed: which splats count where, on which surface, which way they face, what clip lines
 // leave of pixels, and q0.
 #include "reference/adjoint_splat.h"
+#include "surface/semantics.h"
 
 #include <string.h>
 
@@ -31,7 +32,8 @@ void ewa_reference_moments_at(const ewa_reference_view *view, const ewa_referenc
     const double whole = by_cut->whole + by_cut->inward[0] * sample->inward[0] + by_cut->inward[1] * sample->inward[1];
     const double by_weight = of->weight + opacity * shown + vec3_dot(splat->normal_world, of->normal_world) +
                              sample->z * of->z + cut * (by_cut->kept + whole / sample->share);
-    const double g = weight * by_weight, dx = x_px - splat->center_px[0], dy = y_px - splat->center_px[1];
+    const double g = weight * by_weight, plane_dx = x_px - splat->center_px[0], plane_dy = y_px - splat->center_px[1];
+    const double dx = plane_dx - splat->moved_px[0], dy = plane_dy - splat->moved_px[1];
     terms[EWA_MOMENT_WEIGHT] = g;
     terms[EWA_MOMENT_FIRST] = g * dx;
     terms[EWA_MOMENT_FIRST + 1] = g * dy;
@@ -40,8 +42,8 @@ void ewa_reference_moments_at(const ewa_reference_view *view, const ewa_referenc
     terms[EWA_MOMENT_SECOND + 2] = g * dy * dy;
     if (of->z == 0 || !ewa_reference_is_on_plane(view, splat, x_px, y_px)) return;
     const double by_plane = weight * of->z * (view->orthographic ? 1 : -sample->z * sample->z);
-    terms[EWA_MOMENT_DEPTH] = by_plane * dx;
-    terms[EWA_MOMENT_DEPTH + 1] = by_plane * dy;
+    terms[EWA_MOMENT_DEPTH] = by_plane * plane_dx; // the plane stays where it is
+    terms[EWA_MOMENT_DEPTH + 1] = by_plane * plane_dy;
     terms[EWA_MOMENT_DEPTH + 2] = by_plane;
 }
 
@@ -119,6 +121,54 @@ static void ellipse_pull_back(const ewa_reference_view *view, const ewa_referenc
     to->center.z -= (by_x0 * x0 + by_y0 * y0) / p.z + 2 * k * k * p.z * by_k;
 }
 
+/// The way of a splat at its contour (section 5, contours), which by the centre of its ellipse is `by_way`. The surfel's
+/// curvature is a number like its colour that stays.
+static void way_pull_back(const ewa_reference_view *view, const ewa_reference_splat *splat, const ewa_surfel *surfel,
+                          const double by_way[2], camera_cotangent *to) {
+    if (splat->moved_px[0] == 0 && splat->moved_px[1] == 0) return;
+    const bool flat = view->orthographic;
+    const ewa_vec3 p = splat->center, n = splat->normal;
+    const double fx = view->fx_px, fy = view->fy_px, depth = flat ? 1 : p.z;
+    const double scale = vec3_length(mat3_row(&view->placement.linear, 2));
+    const double sine = flat ? n.z : vec3_dot(n, p) / p.z;
+    const double bend = 2 * fabs(surfel->curvature_world) / scale * depth / fx;
+    const double lengths[2] = {vec3_length(splat->axis_u), vec3_length(splat->axis_v)};
+    const int longer = lengths[1] > lengths[0];
+    const double sigma_px = fx * lengths[longer] / depth;
+    const double across = hypot(view->prefilter_px, EWA_CONTOUR_WIDTH * sigma_px * sine);
+    const double reach = fmin(EWA_CONTOUR_REACH * across * bend, view->contour_sine2);
+    const double x = -n.x / fx, y = -n.y / fy, length = hypot(x, y), inward = 1 - sine * sine / reach;
+    // m = way (x, y) / length, way = +- c across inward.
+    const double along = (splat->moved_px[0] * x + splat->moved_px[1] * y) / length;
+    const double signed_shift = (along < 0 ? -1 : 1) * view->contour_shift;
+    const double by_along = (by_way[0] * x + by_way[1] * y) / length;
+    const double by_x = along * (by_way[0] - by_along * x / length) / length,
+                 by_y = along * (by_way[1] - by_along * y / length) / length;
+    const double by_inward = signed_shift * across * by_along;
+    double by_across = signed_shift * inward * by_along, by_bend = 0, by_sine = -2 * sine / reach * by_inward;
+    if (reach < view->contour_sine2) {
+        const double by_reach = sine * sine / (reach * reach) * by_inward;
+        by_across += EWA_CONTOUR_REACH * bend * by_reach;
+        by_bend = EWA_CONTOUR_REACH * across * by_reach;
+    }
+    const double width2 = EWA_CONTOUR_WIDTH * EWA_CONTOUR_WIDTH / across * by_across;
+    const double by_sigma = width2 * sigma_px * sine * sine;
+    by_sine += width2 * sigma_px * sigma_px * sine;
+    const ewa_vec3 axis = longer ? splat->axis_v : splat->axis_u;
+    to->axes[longer] = vec3_add(to->axes[longer], vec3_scale(axis, by_sigma * fx / depth / lengths[longer]));
+    to->normal.x -= by_x / fx;
+    to->normal.y -= by_y / fy;
+    to->focal[0] += (by_sigma * sigma_px - by_bend * bend - by_x * x) / fx;
+    to->focal[1] -= by_y * y / fy;
+    if (flat) {
+        to->normal.z += by_sine;
+        return;
+    }
+    to->normal = vec3_add(to->normal, vec3_scale(p, by_sine / p.z));
+    to->center = vec3_add(to->center, vec3_scale(n, by_sine / p.z));
+    to->center.z += (by_bend * bend - by_sigma * sigma_px - by_sine * sine) / p.z;
+}
+
 /// The plane of depths (docs/math.md section 5), its slope as it is where the surfel is seen from its very edge.
 static void depth_pull_back(const ewa_reference_view *view, const ewa_reference_splat *splat,
                             const double moments[EWA_MOMENT_COUNT], camera_cotangent *to) {
@@ -170,7 +220,10 @@ void ewa_reference_moments_pull_back(const ewa_reference_view *view, const ewa_r
     const ewa_vec3 shown = vec3_load(moments + EWA_MOMENT_NORMAL);
     camera_cotangent in_camera = {.focal = {0, 0}};
     if (!splat->by_rays) {
+        const double *q = splat->inverse, *s1 = moments + EWA_MOMENT_FIRST;
+        const double by_way[2] = {q[0] * s1[0] + q[1] * s1[1], q[1] * s1[0] + q[2] * s1[1]};
         ellipse_pull_back(view, splat, moments, &in_camera);
+        way_pull_back(view, splat, surfel, by_way, &in_camera);
         depth_pull_back(view, splat, moments, &in_camera);
     }
     const ewa_vec3 p = in_camera.center;

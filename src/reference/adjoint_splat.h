@@ -8,7 +8,7 @@
 
 #include "reference/adjoint_pixel.h"
 
-/// The sums of a splat. d = (dx, dy) is a pixel's place from the ellipse's centre, in pixels; g is what the loss
+/// The sums of a splat. d = (dx, dy) is a pixel's place from the ellipse's centre, in pixels, where it is drawn; g is what the loss
 /// changes per relative change of the kernel there.
 enum {
     EWA_MOMENT_COLOR = 0,   ///< three: cotangents of the linear colour
@@ -17,7 +17,7 @@ enum {
     EWA_MOMENT_WEIGHT = 7,  ///< sum of g
     EWA_MOMENT_FIRST = 8,   ///< two: g dx, g dy
     EWA_MOMENT_SECOND = 10, ///< three: g dx dx, g dx dy, g dy dy
-    EWA_MOMENT_DEPTH = 13,  ///< three: cotangents of the plane of depths, times dx, dy, 1
+    EWA_MOMENT_DEPTH = 13,  ///< three: cotangents of the plane of depths, times dx, dy from where the centre was, 1
     EWA_MOMENT_COUNT = 16,
 };
 

@@ -55,6 +55,8 @@ adjoint_scene *adjoint_scene_make(ewa_context *context, uint32_t kind, uint32_t 
         s->clip[3 * i + 1] = i % 2 ? x * v[0] + y * v[1] : 0;
         s->clip[3 * i + 2] = radius * check_uniform(&random, -0.1, 0.3);
         s->surfaceness[i] = i % 3 ? 1 : 0.2;
+        if (kind & ADJOINT_CURVED) n[2] *= 0.15;
+        s->curvature[i] = kind & ADJOINT_CURVED && i % 4 ? (i % 3 ? 1 : -1) * check_uniform(&random, 0.02, 0.4) / radius : 0;
     }
     assert_int_equal(ewa_cloud_create(context, count, &s->cloud), EWA_OK);
     borrow(s->cloud, EWA_POSITION, 3, s->position);
@@ -64,6 +66,7 @@ adjoint_scene *adjoint_scene_make(ewa_context *context, uint32_t kind, uint32_t 
     else
         borrow(s->cloud, EWA_NORMAL, 3, s->normal), borrow(s->cloud, EWA_RADIUS, 1, s->radius);
     if (kind & ADJOINT_CLIPPED) borrow(s->cloud, EWA_CLIP0, 3, s->clip);
+    if (kind & ADJOINT_CURVED) borrow(s->cloud, EWA_CURVATURE, 1, s->curvature);
     if (kind & ADJOINT_BILLBOARDS) borrow(s->cloud, EWA_SURFACENESS, 1, s->surfaceness);
     if (kind & ADJOINT_AFFINE) s->options.kernel = EWA_KERNEL_AFFINE;
     if (kind & ADJOINT_UNLIT) s->options.shading = EWA_SHADING_NONE;

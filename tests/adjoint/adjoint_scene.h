@@ -25,7 +25,8 @@ typedef enum adjoint_kind {
     ADJOINT_UNLIT = 512,
     ADJOINT_NEAR = 1024, ///< the eye is amid them
     ADJOINT_EDGES = 2048, ///< small surfels: most of the picture is edges
-    ADJOINT_MERGED = 4096 ///< all behind the first surface is one layer
+    ADJOINT_MERGED = 4096, ///< all behind the first surface is one layer
+    ADJOINT_CURVED = 8192, ///< of known curvature, many of them at contours
 } adjoint_kind;
 
 /// The numbers of a scene, in attributes of a cloud that borrows them.
@@ -33,7 +34,7 @@ typedef struct adjoint_scene {
     uint32_t count, kind;
     double position[3 * ADJOINT_MAX_POINTS], normal[3 * ADJOINT_MAX_POINTS], radius[ADJOINT_MAX_POINTS];
     double tangent_u[3 * ADJOINT_MAX_POINTS], tangent_v[3 * ADJOINT_MAX_POINTS], color[4 * ADJOINT_MAX_POINTS];
-    double clip[3 * ADJOINT_MAX_POINTS], surfaceness[ADJOINT_MAX_POINTS];
+    double clip[3 * ADJOINT_MAX_POINTS], surfaceness[ADJOINT_MAX_POINTS], curvature[ADJOINT_MAX_POINTS];
     ewa_cloud *cloud;
     ewa_camera camera;
     ewa_render_options options;

@@ -70,6 +70,8 @@ static const uint32_t KINDS[] = {
     ADJOINT_NEAR | ADJOINT_UNLIT,
     ADJOINT_MERGED | ADJOINT_EDGES,
     ADJOINT_MERGED | ADJOINT_TRANSPARENT | ADJOINT_ELLIPSES,
+    ADJOINT_CURVED | ADJOINT_EDGES,
+    ADJOINT_CURVED | ADJOINT_ELLIPSES | ADJOINT_ORTHOGRAPHIC,
 };
 
 /// The largest number of a stream, and how far another is from it.
