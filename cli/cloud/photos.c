@@ -6,6 +6,7 @@
 #include "cli/base/json.h"
 #include "cli/convert/cloud_output.h"
 #include "cli/input/inputs.h"
+#include "cli/input/photo_input.h"
 #include "cli/input/scene_input.h"
 
 #include <math.h>
@@ -14,7 +15,8 @@
 
 typedef struct photos_arguments {
     output_arguments output; // first
-    const char *cameras_path, *images_path, *masks_path, *report_path;
+    photo_arguments photos;
+    const char *report_path;
     ewa_photos_options options;
 } photos_arguments;
 
@@ -22,12 +24,7 @@ typedef struct photos_arguments {
 #define PHOTOS(member) OPTION_OF(ewa_photos_options, AT(options), member)
 
 static const cli_option photos_table[] = {
-    {"cameras", OPTION_TEXT, AT(cameras_path), "PATH",
-     .help = "cameras that name their photographs: the folder of a COLMAP model, transforms.json, cameras.json"},
-    {"images", OPTION_TEXT, AT(images_path), "FOLDER", .help = "where the photographs are",
-     .absent = "auto: images, ../images or ../../images of a COLMAP model, else beside the file"},
-    {"masks", OPTION_TEXT, AT(masks_path), "FOLDER",
-     .help = "masks of the photographs, white where these count: of NAME.jpg NAME.jpg.png or NAME.png"},
+    PHOTO_OPTIONS(AT(photos)),
     {"report", OPTION_OUTPUT, AT(report_path), "FILE.json",
      .help = "write exposure, error and what else was found for each photograph"},
     {"method", PHOTOS(method)},
@@ -48,7 +45,7 @@ static void set_defaults(void *data) {
 static bool check(const void *data, char message[OPTION_ERROR_BYTES]) {
     const photos_arguments *arguments = data;
     return cloud_output_check(&arguments->output, message) &&
-           options_fine(arguments->cameras_path ? NULL : "photos: no cameras; say --cameras PATH", message);
+           photo_input_check(&arguments->photos, "photos", message);
 }
 
 static void write_photo(json_writer *json, const ewa_photo *photo, const ewa_photo_report *report) {
@@ -117,7 +114,7 @@ static bool color(cli_session *session, const photos_arguments *arguments, const
         session_fail(session, "out of memory for %u photographs", count);
         return false;
     }
-    session->subject = arguments->cameras_path;
+    session->subject = arguments->photos.cameras_path;
     bool done = session_passed(
         session, ewa_cloud_color_from_photos(cloud, photos, count, &arguments->options, &report, per_photo));
     if (done) {
@@ -132,16 +129,8 @@ static bool color(cli_session *session, const photos_arguments *arguments, const
 static ewa_cloud *make(cli_session *session, const void *data) {
     const photos_arguments *arguments = data;
     const common_arguments *common = &arguments->output.common;
-    ewa_photo_list *list = NULL;
-    session->subject = arguments->cameras_path;
-    if (!session_passed(session,
-                        ewa_photo_list_load(session->context, arguments->cameras_path, arguments->images_path, &list)))
-        return NULL;
-    session->subject = arguments->masks_path;
-    if (arguments->masks_path && !session_passed(session, ewa_photo_list_find_masks(list, arguments->masks_path))) {
-        ewa_photo_list_destroy(&list);
-        return NULL;
-    }
+    ewa_photo_list *list = photo_input_load(session, &arguments->photos);
+    if (!list) return NULL;
     session->subject = common->operands[0];
     ewa_cloud *cloud = scene_input_cloud(session, common->operand_count, common->operands, arguments->options.cutoff);
     if (cloud && !color(session, arguments, list, cloud)) ewa_cloud_destroy(&cloud);

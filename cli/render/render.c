@@ -12,6 +12,7 @@
 #include "cli/render/frame_partition.h"
 #include "cli/render/frames.h"
 #include "cli/render/furnish.h"
+#include "cli/render/gaussians.h"
 #include "cli/render/light.h"
 #include "cli/render/picture.h"
 #include "cli/render/render_report.h"
@@ -42,10 +43,9 @@ typedef struct render_arguments {
     uint64_t outlines; ///< how many surfels' outlines are drawn over the picture
 } render_arguments;
 
-#define AT(member)       offsetof(render_arguments, member)
-#define SURFELS(member)  OPTION_OF(ewa_surfels_options, AT(surfels), member)
-#define RENDER(member)   OPTION_OF(ewa_render_options, AT(light.render), member)
-#define GAUSSIAN(member) OPTION_OF(ewa_gaussian_options, AT(gaussians), member)
+#define AT(member)      offsetof(render_arguments, member)
+#define SURFELS(member) OPTION_OF(ewa_surfels_options, AT(surfels), member)
+#define RENDER(member)  OPTION_OF(ewa_render_options, AT(light.render), member)
 
 _Static_assert(offsetof(render_arguments, light) == LIGHT_OFFSET, "light_options says so");
 
@@ -95,12 +95,7 @@ static const cli_option splat_table[] = {
 static const cli_option lod_table[] = {LOD_OPTIONS(AT(lod))};
 
 static const cli_option gaussian_table[] = {
-    {"projection", GAUSSIAN(projection)},
-    {"order", GAUSSIAN(order)},
-    {"gaussian-near", GAUSSIAN(near_world),
-     .absent = "auto: 0.2 as in training, or 2 % of the diagonal of the box shown where that is less"},
-    {"gaussian-filter", GAUSSIAN(filter)},
-    {"sh-degree", GAUSSIAN(sh_degree)},
+    GAUSSIAN_OPTIONS(AT(gaussians)),
     {"surface", OPTION_FLAG, AT(gaussians_as_surfels),
      .help = "draw Gaussians as opaque surfels, with depth, normals and light, in their constant colours"},
 };
@@ -135,8 +130,7 @@ static void set_defaults(void *data) {
     ewa_surfels_options_init(&arguments->surfels, sizeof arguments->surfels);
     arguments->close_gaps = true;
     lod_input_set_defaults(&arguments->lod);
-    ewa_gaussian_options_init(&arguments->gaussians, sizeof arguments->gaussians);
-    arguments->gaussians.near_world = 0; // as suits them
+    gaussians_set_defaults(&arguments->gaussians);
     ewa_volume_options_init(&arguments->volumes, sizeof arguments->volumes);
     arguments->coloring.colormap = EWA_COLORING_AUTO - 1;
     arguments->background = (option_color){{1, 1, 1, 1}};

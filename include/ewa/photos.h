@@ -26,6 +26,29 @@ extern "C" {
 EWA_API ewa_status ewa_image_undistort(const ewa_image *image, const ewa_camera *camera, const ewa_lens *lens,
                                        ewa_image *pinhole);
 
+/// Makes the picture that the pinhole of a photograph's camera took: read where the photograph has none at hand; what is
+/// transparent in it lies over `background`, sRGB numbers, as where Gaussians are trained (NULL: stays as it is); what its mask
+/// has black is transparent; then undistorted. `image` gets 1, 3 or 4 channels, linear light, premultiplied, transparent where a lens shows nothing; the
+/// caller frees it. Errors (image empty): EWA_ERROR_ARGUMENT (another size than its camera's, neither path nor image, other
+/// channels), those of ewa_image_load() and ewa_image_undistort().
+EWA_API ewa_status ewa_photo_load(ewa_context *context, const ewa_photo *photo, const float background[3],
+                                  ewa_image *image);
+
+/// How like a picture is to the true one.
+typedef struct ewa_image_likeness {
+    uint64_t pixel_count; ///< that are compared
+    double squares;       ///< mean of the squares of the differences of sRGB numbers in [0, 1]
+    double psnr_db;       ///< the same: -10 log10 of it; infinite where nothing differs, NaN where nothing is compared
+    double ssim;          ///< structural similarity, at most 1: mean over pixels and channels; NaN where nothing is compared
+} ewa_image_likeness;
+
+/// Compares two pictures of one size in sRGB numbers, clamped to [0, 1]. `image`, `truth`: 1, 3 or 4 channels, linear light,
+/// premultiplied; pixels where `truth` is not opaque or not finite are not compared. SSIM has a window of 11 x 11 pixels, a
+/// Gaussian of 1.5, beyond whose picture there are zeros, and the constants 0.01 and 0.03, as 3DGS reports it. The same numbers
+/// for every number of threads. Errors: EWA_ERROR_ARGUMENT (sizes or channels), EWA_ERROR_MEMORY.
+/// Source: Wang, Bovik, Sheikh, Simoncelli, "Image Quality Assessment", 2004, equation 13.
+EWA_API ewa_status ewa_image_compare(const ewa_image *image, const ewa_image *truth, ewa_image_likeness *likeness);
+
 typedef enum ewa_photos_method {
     EWA_PHOTOS_FIT = 0,    ///< colours whose pictures differ least from the photographs
     EWA_PHOTOS_MEDIAN = 1, ///< weighted median over the photographs that see a point

@@ -24,7 +24,7 @@ from .gradients import CameraGradient, Gradients, render_backward
 from .image import Image, read_depth, read_image, save_image
 from .mesh import Mesh, convert, read, read_mesh, sample
 from .octree import Octree, build_octree
-from .photographs import PhotoReport, PhotosReport
+from .photographs import Likeness, PhotoReport, PhotosReport, likeness
 from .rendering import Renderer, render
 from .scene import Scene
 from .shade import Environment
@@ -37,9 +37,9 @@ __version__ = version()
 __all__ = [
     "ArgumentError", "Array", "Camera", "CameraGradient", "CameraPath", "Cancelled", "ClosedError", "Cloud",
     "Context", "DepthImage", "Environment", "Error", "EwaWarning", "FileError", "FormatError", "Gaussians",
-    "Gradients", "Image", "Mesh", "NumericError", "Octree", "OutOfMemory", "PhotoReport", "PhotosReport", "Renderer",
+    "Gradients", "Image", "Likeness", "Mesh", "NumericError", "Octree", "OutOfMemory", "PhotoReport", "PhotosReport", "Renderer",
     "Scene", "Splats", "Surfels", "Transfer", "Volume", "Voxels", "as_cloud", "build_octree", "cameras", "convert", "csg", "default_context",
-    "from_laspy", "from_open3d", "from_pyvista", "from_trimesh", "generate", "generate_volume", "merge", "progress",
+    "from_laspy", "from_open3d", "from_pyvista", "from_trimesh", "generate", "generate_volume", "likeness", "merge", "progress",
     "read", "read_depth", "read_gaussians", "read_image", "read_mesh", "read_volume", "render", "render_backward",
     "render_gaussians", "render_volume", "sample", "save_cameras", "save_image", "texture", "version", "warp",
 ]

@@ -1687,6 +1687,19 @@ class ewa_option_table(c.Structure):
     ]
 
 
+class ewa_image_likeness(c.Structure):
+    pixel_count: int
+    squares: float
+    psnr_db: float
+    ssim: float
+    _fields_ = [
+        ("pixel_count", c.c_uint64),
+        ("squares", c.c_double),
+        ("psnr_db", c.c_double),
+        ("ssim", c.c_double),
+    ]
+
+
 class ewa_photo_report(c.Structure):
     held_out: bool
     width_px: int
@@ -2310,6 +2323,17 @@ class ewa_instance(c.Structure):
     ]
 
 
+class ewa_photo_likeness(c.Structure):
+    photo: ewa_image
+    picture: ewa_image
+    likeness: ewa_image_likeness
+    _fields_ = [
+        ("photo", ewa_image),
+        ("picture", ewa_image),
+        ("likeness", ewa_image_likeness),
+    ]
+
+
 class ewa_scene_hit(c.Structure):
     hit: bool
     depth: float
@@ -2872,7 +2896,9 @@ class Functions:
     ewa_option_range: Callable[..., None]
     ewa_option_set: Callable[..., int]
     ewa_cloud_color_from_photos: Callable[..., int]
+    ewa_image_compare: Callable[..., int]
     ewa_image_undistort: Callable[..., int]
+    ewa_photo_load: Callable[..., int]
     ewa_photos_options_init: Callable[..., None]
     ewa_cloud_csg: Callable[..., int]
     ewa_cloud_detect_features: Callable[..., int]
@@ -2923,6 +2949,7 @@ class Functions:
     ewa_scene_bounds: Callable[..., None]
     ewa_scene_cloud: Callable[..., int]
     ewa_scene_commit: Callable[..., int]
+    ewa_scene_compare_photo: Callable[..., int]
     ewa_scene_complete: Callable[..., int]
     ewa_scene_copy: Callable[..., int]
     ewa_scene_count: Callable[..., int]
@@ -3250,7 +3277,9 @@ class Functions:
         self.ewa_option_range = bind("ewa_option_range", None, c.POINTER(ewa_option), c.c_void_p)
         self.ewa_option_set = bind("ewa_option_set", c.c_int, c.POINTER(ewa_option), c.c_void_p, c.c_char_p, c.c_void_p)
         self.ewa_cloud_color_from_photos = bind("ewa_cloud_color_from_photos", c.c_int, c.c_void_p, c.POINTER(ewa_photo), c.c_uint32, c.POINTER(ewa_photos_options), c.POINTER(ewa_photos_report), c.POINTER(ewa_photo_report))
+        self.ewa_image_compare = bind("ewa_image_compare", c.c_int, c.POINTER(ewa_image), c.POINTER(ewa_image), c.POINTER(ewa_image_likeness))
         self.ewa_image_undistort = bind("ewa_image_undistort", c.c_int, c.POINTER(ewa_image), c.POINTER(ewa_camera), c.POINTER(ewa_lens), c.POINTER(ewa_image))
+        self.ewa_photo_load = bind("ewa_photo_load", c.c_int, c.c_void_p, c.POINTER(ewa_photo), c.c_void_p, c.POINTER(ewa_image))
         self.ewa_photos_options_init = bind("ewa_photos_options_init", None, c.POINTER(ewa_photos_options), c.c_size_t)
         self.ewa_cloud_csg = bind("ewa_cloud_csg", c.c_int, c.c_void_p, c.c_void_p, c.POINTER(ewa_csg_options), c.c_void_p)
         self.ewa_cloud_detect_features = bind("ewa_cloud_detect_features", c.c_int, c.c_void_p, c.POINTER(ewa_feature_options), c.POINTER(ewa_feature_counts))
@@ -3301,6 +3330,7 @@ class Functions:
         self.ewa_scene_bounds = bind("ewa_scene_bounds", None, c.c_void_p, c.POINTER(ewa_bounds))
         self.ewa_scene_cloud = bind("ewa_scene_cloud", c.c_int, c.c_void_p, c.c_void_p)
         self.ewa_scene_commit = bind("ewa_scene_commit", c.c_int, c.c_void_p)
+        self.ewa_scene_compare_photo = bind("ewa_scene_compare_photo", c.c_int, c.c_void_p, c.c_void_p, c.POINTER(ewa_photo), c.POINTER(ewa_scene_options), c.POINTER(ewa_photo_likeness))
         self.ewa_scene_complete = bind("ewa_scene_complete", c.c_int, c.c_void_p)
         self.ewa_scene_copy = bind("ewa_scene_copy", c.c_int, c.c_void_p, c.c_void_p, c.c_void_p)
         self.ewa_scene_count = bind("ewa_scene_count", c.c_uint32, c.c_void_p)

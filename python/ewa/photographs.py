@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The ewa authors
 # SPDX-License-Identifier: MIT
-"""Colours of points from photographs whose cameras are known."""
+"""Colours of points from photographs whose cameras are known; how like pictures are to them."""
 from __future__ import annotations
 
 import ctypes
@@ -10,7 +10,7 @@ import numpy as np
 
 from . import _bindings as b
 from ._arrays import Array
-from ._context import Handle
+from ._context import Context, Handle, core_of
 from ._errors import ArgumentError
 from ._library import functions as lib
 from ._struct import fill, initialised, path_bytes
@@ -66,6 +66,44 @@ class PhotosReport(NamedTuple):
     psnr_db: float
     held_out_psnr_db: float
     photographs: list[PhotoReport]
+
+
+class Likeness(NamedTuple):
+    """How like a picture is to the true one.
+
+    Attributes
+    ----------
+    psnr_db : float
+        Of sRGB numbers in [0, 1]; infinite where nothing differs.
+    ssim : float
+        Structural similarity, at most 1, as 3DGS reports it.
+    pixel_count : int
+        Pixels that were compared.
+    """
+
+    psnr_db: float
+    ssim: float
+    pixel_count: int
+
+
+def likeness(image: Any, truth: Any, *, context: Context | None = None) -> Likeness:
+    """Compare two pictures of one size by PSNR and SSIM, in sRGB numbers.
+
+    Parameters
+    ----------
+    image, truth : path, Image, or array_like of shape (height, width) or (height, width, 1, 3 or 4)
+        Floats are linear light, premultiplied; uint8 is sRGB. Pixels where `truth` is not opaque are not compared.
+
+    Raises
+    ------
+    ArgumentError, OutOfMemory
+    """
+    core = core_of(context)
+    keep = [as_picture(image, "image"), as_picture(truth, "truth")]
+    both = [b.ewa_image(core.address, array.shape[1], array.shape[0], array.shape[2], array.ctypes.data) for array in keep]
+    found = b.ewa_image_likeness()
+    core.call(lib.ewa_image_compare, ctypes.byref(both[0]), ctypes.byref(both[1]), ctypes.byref(found))
+    return Likeness(found.psnr_db, found.ssim, found.pixel_count)
 
 
 def _of_arrays(photos: Sequence[tuple[Camera, Any]]) -> tuple[Any, list[Any]]:

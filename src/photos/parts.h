@@ -96,6 +96,11 @@ struct ewa_photos_job {
     uint16_t *sample_photos;          ///< the photograph of each
 };
 
+/// Takes the picture of a photograph, or reads it; what is transparent in it lies over `background` (ewa_photo_load()).
+/// `*owned`: it is to be freed.
+ewa_status ewa_photo_take(ewa_context *context, const ewa_photo *photo, uint32_t number, const float background[3],
+                          ewa_image *image, bool *owned);
+
 /// Pairs of numbers that an exposure is fitted to: photograph = gain * colour + offset.
 typedef struct ewa_exposure_pairs {
     uint32_t count;

@@ -6,12 +6,10 @@
 #include "cloud/cloud.h"
 #include "ewa/prepare.h"
 #include "image/srgb.h"
-#include "io/image/image_file.h"
 #include "photos/parts.h"
 #include "reference/adjoint_frame.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 enum {
@@ -134,64 +132,6 @@ static void read_piece(void *data, uint32_t index, uint32_t worker) {
         job->view->pixels[i] = read_pixel(job->image, i);
 }
 
-/// Makes what a mask has black transparent: `*image`, which is owned then, becomes one of four channels.
-static ewa_status put_mask(const char *path, ewa_image *image, bool *owned) {
-    ewa_image mask, masked;
-    EWA_TRY(ewa_image_load_sized(image->context, path, image->width_px, image->height_px, &mask));
-    ewa_status status = EWA_OK;
-    if (mask.width_px != image->width_px || mask.height_px != image->height_px)
-        status = ewa_fail(image->context, EWA_ERROR_ARGUMENT, "%s: the mask is %u x %u pixels, its photograph %u x %u", path,
-                          mask.width_px, mask.height_px, image->width_px, image->height_px);
-    if (status == EWA_OK) status = ewa_image_create(image->context, image->width_px, image->height_px, 4, &masked);
-    const size_t pixels = (size_t)image->width_px * image->height_px, from = image->channel_count;
-    for (size_t i = 0; i < pixels && status == EWA_OK; i++) {
-        const bool counts = ewa_srgb_from_linear(mask.pixels[i * mask.channel_count]) >= 0.5f;
-        for (size_t c = 0; c < 4; c++) {
-            const float number = c < 3 ? image->pixels[i * from + (from < 3 ? 0 : c)] : from == 4 ? image->pixels[i * from + 3] : 1;
-            masked.pixels[4 * i + c] = counts ? number : 0;
-        }
-    }
-    ewa_image_free(&mask);
-    EWA_TRY(status);
-    if (*owned) ewa_image_free(image);
-    *image = masked, *owned = true;
-    return EWA_OK;
-}
-
-/// Takes the picture of a photograph, or reads it; `*owned`: it is to be freed.
-static ewa_status take_image(ewa_context *context, const ewa_photo *photo, uint32_t number, ewa_image *image, bool *owned) {
-    char name[32];
-    snprintf(name, sizeof name, "photograph %u", number);
-    const char *subject = photo->path ? photo->path : name;
-    *owned = false;
-    if (!photo->image && !photo->path)
-        return ewa_fail(context, EWA_ERROR_ARGUMENT, "%s: has neither a path nor an image", subject);
-    if (photo->image) {
-        *image = *photo->image;
-        image->context = context; // a caller's may have none
-    } else {
-        EWA_TRY(ewa_image_load_sized(context, photo->path, photo->camera.width_px, photo->camera.height_px, image));
-        *owned = true;
-    }
-    const ewa_camera *camera = &photo->camera;
-    ewa_status status = EWA_OK;
-    if (!image->pixels || image->width_px != camera->width_px || image->height_px != camera->height_px)
-        status = ewa_fail(context, EWA_ERROR_ARGUMENT, "%s: is %u x %u pixels, and its camera is of %u x %u", subject,
-                          image->width_px, image->height_px, camera->width_px, camera->height_px);
-    else if (image->channel_count != 1 && image->channel_count != 3 && image->channel_count != 4)
-        status = ewa_fail(context, EWA_ERROR_ARGUMENT, "%s: has %u channels; 1, 3 or 4 are needed", subject,
-                          image->channel_count);
-    if (status == EWA_OK && photo->mask_path) status = put_mask(photo->mask_path, image, owned);
-    if (status == EWA_OK && photo->lens.model != EWA_LENS_PINHOLE) {
-        ewa_image pinhole;
-        status = ewa_image_undistort(image, camera, &photo->lens, &pinhole);
-        if (*owned) ewa_image_free(image);
-        *image = pinhole, *owned = status == EWA_OK;
-    }
-    if (status != EWA_OK && *owned) ewa_image_free(image);
-    return status;
-}
-
 /// With the picture at hand.
 static ewa_status make(const ewa_photos_job *job, uint32_t *halvings, ewa_photo_view *view, ewa_image *image, bool *owned) {
     if (*halvings == UINT32_MAX) EWA_TRY(find_halvings(job, &view->camera, halvings));
@@ -210,7 +150,7 @@ ewa_status ewa_photo_view_make(const ewa_photos_job *job, const ewa_photo *photo
                              .cutoff = job->options.cutoff, .point_count = job->point_count};
     ewa_image image;
     bool owned;
-    EWA_TRY(take_image(job->context, photo, number, &image, &owned));
+    EWA_TRY(ewa_photo_take(job->context, photo, number, NULL, &image, &owned));
     const ewa_status status = make(job, halvings, view, &image, &owned);
     if (owned) ewa_image_free(&image);
     if (status != EWA_OK) ewa_photo_view_free(view);

@@ -65,6 +65,8 @@ JOBS = {
              "{d}/scene.json {d}/gaussians.ply {d}/volume.nrrd -o {o}/a.html --assets {d}/assets"],
     "photos": ["{d}/sphere.ply --cameras {d}/photo.json -o {o}/a.ply --report {o}/a.json",
                "{d}/points.txt --cameras {d}/photo.json --method mean -o {o}/a.ply"],
+    "compare": ["{d}/sphere.ply --cameras {d}/photo.json -o {o}/a.png --json {o}/a.json",
+                "{d}/gaussians.ply --cameras {d}/photo.json"],
     "bench": ["--scene plane --splats 1000 --pixels 4 --size 64x48 --workers 1 --frames 1 --stages off",
               "{d}/sphere.ply --workers 1 --frames 1 --stages off"],
 }

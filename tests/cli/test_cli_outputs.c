@@ -44,6 +44,8 @@ static const writing writings[] = {
     {"page", "output", "in.ply %s", ".html"},
     {"photos", "output", "in.ply --cameras c.json %s", ".ply"},
     {"photos", "report", "in.ply --cameras c.json -o a.ply %s", ".json"},
+    {"compare", "output", "in.ply --cameras c.json %s", ".png"},
+    {"compare", "json", "in.ply --cameras c.json %s", ".json"},
     {"generate", "output", "sphere -n 100 %s", ".ply"},
     {"generate", "output", "ball --dims 8 %s", ".nrrd"},
     {"bench", "json", "--scene plane --splats 100 --frames 1 --stages off --workers 1 %s", ".json"},
