@@ -262,6 +262,83 @@ static void test_vti_places(void **state) {
     ewa_context_destroy(&context);
 }
 
+static void put_other(sample_file *file, bool text, int bytes) {
+    for (int i = 0; i < bytes; i++) sample_text(file, text ? "7 " : "\n");
+}
+
+static void put_sample(sample_file *file) {
+    char word[16];
+    for (int i = 0; i < SAMPLE_VOXELS; i++) {
+        snprintf(word, sizeof word, "%d ", i);
+        sample_text(file, word);
+    }
+}
+
+/// Legacy files with several arrays, in text and in bytes: scalars of points are taken before a field, both before those of
+/// cells, whose grid is smaller by one along each axis. Other arrays are stepped over, bytes that look like lines too.
+static void test_vtk_arrays(void **state) {
+    ewa_context *context = check_context(1, NULL);
+    static const double of_points[12] = {2, 0, 0, 10, 0, 3, 0, 20, 0, 0, 4, 30},
+                        of_cells[12] = {2, 0, 0, 11, 0, 3, 0, 21.5, 0, 0, 4, 32};
+    for (int kind = 0; kind < 8; kind++) {
+        const bool text = kind % 2, cells = kind / 2 == 2 || kind / 2 == 3;
+        sample_file file = {.size_bytes = 0};
+        sample_text(&file, text ? "# vtk DataFile Version 4.2\nt\nASCII\n" : "# vtk DataFile Version 4.2\nt\nBINARY\n");
+        sample_text(&file, "DATASET STRUCTURED_POINTS\n");
+        sample_text(&file, cells ? "DIMENSIONS 3 4 5\n" : "DIMENSIONS 2 3 4\n");
+        sample_text(&file, "SPACING 2 3 4\nORIGIN 10 20 30\n");
+        if (kind / 2 == 0) { // scalars of points, behind a field of them and arrays of cells
+            sample_text(&file, "CELL_DATA 6\nSCALARS c unsigned_char\nLOOKUP_TABLE default\n");
+            put_other(&file, text, 6);
+            sample_text(&file, "\nFIELD f 2\na%20b 1 6 unsigned_char\n");
+            put_other(&file, text, 6);
+            sample_text(&file, "\nc 2 6 unsigned_char\n");
+            put_other(&file, text, 12);
+            sample_text(&file, "\nPOINT_DATA 24\nFIELD f 1\na 1 24 unsigned_char\n");
+            put_other(&file, text, 24);
+            sample_text(&file, "\nSCALARS s unsigned_char 1\nLOOKUP_TABLE default\n");
+        } else if (kind / 2 == 1) { // a field of points, behind scalars of cells and vectors
+            sample_text(&file, "CELL_DATA 6\nSCALARS c unsigned_char\nLOOKUP_TABLE default\n");
+            put_other(&file, text, 6);
+            sample_text(&file, "\nPOINT_DATA 24\nNORMALS v char\n");
+            put_other(&file, text, 72);
+            sample_text(&file, "\nMETADATA\nINFORMATION 0\n\nFIELD f 3\nm 2 24 unsigned_char\n");
+            put_other(&file, text, 48);
+            sample_text(&file, "\ntime 1 1 unsigned_char\n");
+            put_other(&file, text, 1);
+            sample_text(&file, "\ns 1 24 unsigned_char\n");
+        } else if (kind / 2 == 2) { // scalars of cells, behind a field of them
+            sample_text(&file, "CELL_DATA 24\nFIELD f 1\na 1 24 unsigned_char\n");
+            put_other(&file, text, 24);
+            sample_text(&file, "\nSCALARS s unsigned_char\nLOOKUP_TABLE default\n");
+        } else { // a field of cells
+            sample_text(&file, "CELL_DATA 24\nTENSORS t unsigned_char\n");
+            put_other(&file, text, 216);
+            sample_text(&file, "\nFIELD f 1\ns 1 24 unsigned_char\n");
+        }
+        if (text)
+            put_sample(&file);
+        else
+            sample_put_numbers(&file, EWA_U8, false);
+        sample_text(&file, "\nPOINT_DATA 60\nVECTORS v bit\n");
+        check_place(context, &file, "a.vtk", cells ? of_cells : of_points);
+    }
+    ewa_context_destroy(&context);
+}
+
+/// A slice has one layer of cells along its normal.
+static void test_vtk_slice(void **state) {
+    ewa_context *context = check_context(1, NULL);
+    sample_file file = {.size_bytes = 0};
+    ewa_volume volume;
+    sample_text(&file, "# vtk DataFile Version 4.2\nt\nASCII\nDATASET STRUCTURED_POINTS\nDIMENSIONS 3 1 2\nCELL_DATA 2\n"
+                       "SCALARS s float\nLOOKUP_TABLE default\n1 2\n");
+    assert_int_equal(sample_load(context, &file, file.size_bytes, "a.vtk", NULL, &volume), EWA_OK);
+    assert_true(volume.dims[0] == 2 && volume.dims[1] == 1 && volume.dims[2] == 1);
+    ewa_volume_free(&volume);
+    ewa_context_destroy(&context);
+}
+
 /// Three bytes for each place: colours, by the kinds, by what early writers did, and in XML images.
 static void test_colors(void **state) {
     ewa_context *context = check_context(1, NULL);
@@ -513,6 +590,7 @@ int main(void) {
         cmocka_unit_test(test_nifti_packed_and_pairs),
         cmocka_unit_test(test_meta_places),
         cmocka_unit_test(test_vti_places),
+        cmocka_unit_test(test_vtk_arrays), cmocka_unit_test(test_vtk_slice),
         cmocka_unit_test(test_colors),
         cmocka_unit_test(test_anatomical),
         cmocka_unit_test(test_raw_numbers),
