@@ -372,7 +372,6 @@ static void test_probe(void **state) {
             ewa_model_free(&model);
         }
     static const char *const none[] = {"hello world\n",
-                                       "{\"width\": 3}",
                                        "v ertex\n",
                                        "f\n",
                                        "\x7f"
@@ -390,6 +389,25 @@ static void test_probe(void **state) {
         mesh_says(&messages,
                   "a.txt: no file of points or triangles of a known format (PLY, LAS, LAZ, E57, PCD, "
                   "PTX, PTS, XYZ, CSV, ASCII grids, GeoTIFF, OBJ, STL, OFF, glTF, VTK)");
+    }
+    static const struct {
+        const char *text, *said;
+    } foreign[] = {
+        {"# Blender\n\nnewmtl a\nKd 1 1 1\n", "the materials of a mesh (MTL): name the OBJ that uses them"},
+        {"# Bundle file v0.3\n2 3\n1000 0 0\n", "a reconstruction of Bundler"},
+        {"{\"width\": 3}", "JSON that is no glTF, no octree (EPT), no set of Gaussians (SOG) and no scene file"},
+        {"version https://git-lfs.github.com/spec/v1\noid sha256:4d\n", "a pointer of Git LFS"},
+        {"<!DOCTYPE html>\n<title>404</title>", "a page of HTML"},
+        {"PK\003\004xxxx", "a ZIP archive: unpack it"},
+        {"\037\213xxxx", "packed by gzip: unpack it"},
+        {"<?xml version=\"1.0\"?>\n<VTKFile type=\"vtkMultiBlockDataSet\">", "a VTK file that names others: name these"},
+        {"<VTKFile type=\"ImageData\">", "its name has to end in .vti"},
+        {"ISO-10303-21;", "CAD (STEP)"},
+    };
+    for (size_t i = 0; i < sizeof foreign / sizeof foreign[0]; i++) {
+        for (size_t k = 0; k < sizeof names / sizeof names[0]; k++)
+            mesh_refuse(context, &messages, names[k], foreign[i].text, strlen(foreign[i].text), EWA_ERROR_UNSUPPORTED,
+                        foreign[i].said);
     }
     ewa_model model;
     assert_int_equal(ewa_model_load_memory(context, "", 0, "a.obj", NULL, EWA_MODEL_MESH, NULL, &model),

@@ -326,6 +326,20 @@ static void test_vtk_arrays(void **state) {
     ewa_context_destroy(&context);
 }
 
+/// A MetaImage of two axes may have spacings and offsets of three.
+static void test_meta_slice(void **state) {
+    ewa_context *context = check_context(1, NULL);
+    sample_file file = {.size_bytes = 0};
+    ewa_volume volume;
+    sample_text(&file, "NDims = 2\nDimSize = 2 3\nElementType = MET_UCHAR\nElementSpacing = 2 4 5\nOffset = 1 2 3\n"
+                       "ElementDataFile = LOCAL\nabcdef");
+    assert_int_equal(sample_load(context, &file, file.size_bytes, "a.mha", NULL, &volume), EWA_OK);
+    assert_true(volume.dims[0] == 2 && volume.dims[1] == 3 && volume.dims[2] == 1);
+    assert_true(volume.index_to_world[0] == 2 && volume.index_to_world[5] == 4 && volume.index_to_world[3] == 1);
+    ewa_volume_free(&volume);
+    ewa_context_destroy(&context);
+}
+
 /// A slice has one layer of cells along its normal.
 static void test_vtk_slice(void **state) {
     ewa_context *context = check_context(1, NULL);
@@ -590,7 +604,7 @@ int main(void) {
         cmocka_unit_test(test_nifti_packed_and_pairs),
         cmocka_unit_test(test_meta_places),
         cmocka_unit_test(test_vti_places),
-        cmocka_unit_test(test_vtk_arrays), cmocka_unit_test(test_vtk_slice),
+        cmocka_unit_test(test_vtk_arrays), cmocka_unit_test(test_vtk_slice), cmocka_unit_test(test_meta_slice),
         cmocka_unit_test(test_colors),
         cmocka_unit_test(test_anatomical),
         cmocka_unit_test(test_raw_numbers),

@@ -8,6 +8,7 @@
 #include "io/cloud/ply.h"
 #include "io/cloud/text_table.h"
 #include "io/file.h"
+#include "io/foreign.h"
 #include "io/image/image_file.h"
 #include "io/mesh/formats.h"
 
@@ -116,6 +117,8 @@ static ewa_status refuse(const ewa_mesh_source *source) {
         return ewa_fail(source->context, EWA_ERROR_UNSUPPORTED,
                         "%s: a picture (%s), which has no points: heights says that its colours are such",
                         source->name, picture);
+    const char *kind = ewa_foreign_kind(source->bytes, source->size_bytes);
+    if (kind) return ewa_fail(source->context, EWA_ERROR_UNSUPPORTED, "%s: %s", source->name, kind);
     EWA_TRY(ewa_text_refuse_odd(source->context, source->name, source->bytes, source->size_bytes));
     return ewa_fail(source->context, EWA_ERROR_UNSUPPORTED,
                     "%s: no file of points or triangles of a known format (" EWA_CLOUD_FORMATS ", OBJ, STL, OFF, glTF, VTK)",

@@ -3,6 +3,7 @@
 //
 // Which format a file of points or triangles has: by what it begins with, and by the suffix only where bytes
 // of two formats look alike.
+#include "io/foreign.h"
 #include "io/mesh/formats.h"
 #include "io/number.h"
 
@@ -108,6 +109,7 @@ ewa_model_format ewa_mesh_probe(const char *name, const uint8_t *bytes, size_t s
     if (ewa_text_is_any_case(word, "solid")) return EWA_MODEL_STL;
     if (is_off(word)) return EWA_MODEL_OFF;
     if (is_obj(cursor)) return EWA_MODEL_OBJ;
+    if (ewa_foreign_kind(bytes, size_bytes)) return EWA_MODEL_UNKNOWN;
     // Remarks only, numbers without a head, sizes that do not fit: the name knows.
     static const struct {
         const char *suffix;

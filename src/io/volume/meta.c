@@ -42,13 +42,14 @@ static ewa_status broken(const meta *file, const char *key, const char *value) {
 /// "True" or anything that begins like it.
 static bool is_true(const char *value) { return value[0] == 'T' || value[0] == 't' || value[0] == '1'; }
 
-static ewa_status take_numbers(meta *file, const char *key, const char *value, uint64_t wanted,
+/// Takes numbers, those that are wanted and, of slices that say where they are in space, some more.
+static ewa_status take_numbers(meta *file, const char *key, const char *value, uint64_t wanted, uint64_t most,
                                double *numbers, bool *has) {
     if (!file->axis_count)
         return ewa_volume_fail(file->in, EWA_ERROR_FORMAT, "MetaImage: %s before NDims", key);
     *has = true;
     const int count = ewa_text_numbers(value, MAX_AXES * MAX_AXES, numbers);
-    return count >= 0 && (uint64_t)count == wanted ? EWA_OK : broken(file, key, value);
+    return count >= 0 && (uint64_t)count >= wanted && (uint64_t)count <= most ? EWA_OK : broken(file, key, value);
 }
 
 static bool is_one_of(const char *key, const char *const *keys) {
@@ -75,13 +76,13 @@ static ewa_status take_tag(meta *file, const char *key, const char *value) {
         if (!n || read < 0 || (uint64_t)read != n) return broken(file, key, value);
     } else if (strcmp(key, "ElementSpacing") == 0 ||
                (strcmp(key, "ElementSize") == 0 && !file->has_spacings)) {
-        EWA_TRY(take_numbers(file, key, value, n, numbers, &file->has_spacings));
+        EWA_TRY(take_numbers(file, key, value, n, MAX_AXES, numbers, &file->has_spacings));
         memcpy(file->spacings, numbers, n * sizeof *numbers);
     } else if (is_one_of(key, offsets)) {
-        EWA_TRY(take_numbers(file, key, value, n, numbers, &file->has_offset));
+        EWA_TRY(take_numbers(file, key, value, n, MAX_AXES, numbers, &file->has_offset));
         memcpy(file->offset, numbers, n * sizeof *numbers);
     } else if (is_one_of(key, matrices)) {
-        return take_numbers(file, key, value, n * n, file->matrix, &file->has_matrix);
+        return take_numbers(file, key, value, n * n, n * n, file->matrix, &file->has_matrix);
     } else if (strcmp(key, "AnatomicalOrientation") == 0) {
         header->anatomical = strchr(value, '?') == NULL;
     } else if (is_one_of(key, orders)) {
