@@ -45,6 +45,7 @@ static const struct {
     {"Splats", RENDER, "edge_antialiasing"},
     {"Splats", RENDER, "edge_layers"},
     {"Splats", RENDER, "layers"},
+    {"Splats", RENDER, "supersampling"},
     {"Splats", RENDER, "tolerance"},
     {"Splats", RENDER, "passes"},
     {"Octrees", LOD, "spacing_px"},

@@ -88,6 +88,7 @@ static const cli_option splat_table[] = {
              "or the file's alpha is below 1",
      .absent = "auto"},
     {"opacity", RENDER(opacity)},
+    {"supersampling", RENDER(supersampling)},
     {"tau", RENDER(edge_threshold)},
     {"cull", RENDER(cull)},
 };

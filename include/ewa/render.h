@@ -77,7 +77,7 @@ typedef enum ewa_cull {
     EWA_CULL_BACK = 1,
 } ewa_cull;
 
-enum { EWA_MAX_EDGE_LAYERS = 8, EWA_MAX_SECTION_PLANES = 8 };
+enum { EWA_MAX_EDGE_LAYERS = 8, EWA_MAX_SECTION_PLANES = 8, EWA_MAX_SUPERSAMPLING = 8 };
 
 /// More layers than a pixel has: see ewa_render_options.layers.
 #define EWA_LAYERS_EXACT UINT32_MAX
@@ -142,6 +142,11 @@ typedef struct ewa_render_options {
     /// renderer expects to draw in that time, by what its frames before took; [0, 1e15]; default 0: `level`.
     /// Only which level is drawn depends on time.
     double budget_s;
+    /// Every pixel is drawn as so many by so many, and their average (docs/math.md section 7): for what is far, where
+    /// a pixel holds many surfels of many small surfaces. `prefilter_px` is in pixels of those. [0, EWA_MAX_SUPERSAMPLING];
+    /// 1 (default): as it is; 0: 1, 2, 4 or 8, as the frame's surfels need it to be about as large as a pixel. Depths
+    /// are the nearest of a pixel's, normals and coverages means. With eye-dome lighting: 1.
+    uint32_t supersampling;
 } ewa_render_options;
 
 EWA_API extern const ewa_option_table ewa_render_options_table;

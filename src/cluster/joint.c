@@ -199,7 +199,7 @@ static ewa_status draw(void *state, const ewa_render_job *own, ewa_render_stats 
 }
 
 static const ewa_backend joint_backend = {
-    .name = "joint", .create = create, .destroy = destroy, .draw = draw};
+    .name = "joint", .create = create, .destroy = destroy, .draw = draw, .joint = true};
 
 ewa_status ewa_renderer_create_joint(ewa_context *context, const ewa_exchange *exchange,
                                      ewa_renderer **renderer) {

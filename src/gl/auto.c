@@ -172,4 +172,4 @@ static void describe(const void *state, ewa_renderer_info *info) {
     memcpy(info->remark, both->remark, sizeof info->remark);
 }
 
-const ewa_backend ewa_backend_auto = {"auto", create, destroy, draw, describe};
+const ewa_backend ewa_backend_auto = {"auto", create, destroy, draw, describe, false};

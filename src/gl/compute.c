@@ -464,4 +464,4 @@ static void describe(const void *state, ewa_renderer_info *info) {
 }
 
 const ewa_backend ewa_backend_gl = {"gl", ewa_gl_compute_create, ewa_gl_compute_destroy, ewa_gl_compute_draw,
-                                    describe};
+                                    describe, false};

@@ -34,7 +34,7 @@ static void describe_cpu(const void *state, ewa_renderer_info *info) {
     snprintf(info->remark, sizeof info->remark, "the library was built without OpenGL");
 }
 
-const ewa_backend ewa_backend_auto = {"auto", create_cpu, destroy_cpu, draw_cpu, describe_cpu};
+const ewa_backend ewa_backend_auto = {"auto", create_cpu, destroy_cpu, draw_cpu, describe_cpu, false};
 
 ewa_status ewa_gpu_find(ewa_context *context, ewa_gpu_info *info) {
     (void)info;

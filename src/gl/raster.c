@@ -437,4 +437,4 @@ static void describe(const void *state, ewa_renderer_info *info) {
 }
 
 const ewa_backend ewa_backend_gl_raster = {"gl-raster", ewa_raster_create, ewa_raster_destroy,
-                                           ewa_raster_draw, describe};
+                                           ewa_raster_draw, describe, false};

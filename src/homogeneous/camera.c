@@ -14,8 +14,6 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { MAX_SIDE_PX = 65536 };
-
 /// Relative deviation from a scaled rotation that ewa_camera_check() accepts: files carry rounded matrices.
 static const double ROTATION_TOLERANCE = 1e-4;
 /// An up direction within this sine of the view is taken as parallel to it.
@@ -164,10 +162,10 @@ static bool find_matrix_problem(const double m[16], char text[EWA_CAMERA_PROBLEM
 bool ewa_camera_find_problem(const ewa_camera *camera, char text[EWA_CAMERA_PROBLEM_BYTES]) {
     if (camera->projection != EWA_PERSPECTIVE && camera->projection != EWA_ORTHOGRAPHIC)
         return complain(text, "projection is %d", (int)camera->projection);
-    if (camera->width_px < 1 || camera->height_px < 1 || camera->width_px > MAX_SIDE_PX ||
-        camera->height_px > MAX_SIDE_PX)
+    if (camera->width_px < 1 || camera->height_px < 1 || camera->width_px > EWA_CAMERA_MAX_SIDE_PX ||
+        camera->height_px > EWA_CAMERA_MAX_SIDE_PX)
         return complain(text, "width_px x height_px is %u x %u (1 to %d allowed)", camera->width_px,
-                        camera->height_px, MAX_SIDE_PX);
+                        camera->height_px, EWA_CAMERA_MAX_SIDE_PX);
     if (!(camera->fx_px > 0) || !(camera->fy_px > 0) || !isfinite(camera->fx_px) || !isfinite(camera->fy_px))
         return complain(text, "fx_px, fy_px is %g, %g (positive and finite wanted)", camera->fx_px,
                         camera->fy_px);

@@ -7,7 +7,7 @@
 
 #include "ewa/camera.h"
 
-enum { EWA_CAMERA_PROBLEM_BYTES = 160 };
+enum { EWA_CAMERA_PROBLEM_BYTES = 160, EWA_CAMERA_MAX_SIDE_PX = 65536 };
 
 /// Looks for what ewa_camera_check() refuses; returns true and says what it is, naming the member.
 bool ewa_camera_find_problem(const ewa_camera *camera, char text[EWA_CAMERA_PROBLEM_BYTES]);

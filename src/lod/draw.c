@@ -11,6 +11,7 @@
 #include "base/options.h"
 #include "homogeneous/vec.h"
 #include "lod/tree.h"
+#include "surface/options.h"
 #include "surface/packets.h"
 #include "surface/proxy.h"
 #include "surface/render.h"
@@ -519,9 +520,11 @@ ewa_status ewa_lod_scene_draw(const ewa_lod_scene *scene, const ewa_lod_look *co
     ewa_status status = EWA_OK;
     if (own.lod_count) {
         ewa_render_options plain;
-        ewa_render_options_init(&plain, sizeof plain);
-        if (options) plain = *options;
+        EWA_TRY(ewa_render_options_choose(context, options, &plain));
         plain.budget_s = 0;
+        // Nodes are chosen so that their surfels are about as large as a pixel, or a part of one.
+        if (plain.supersampling == 0) plain.supersampling = 1;
+        chosen.spacing_px /= plain.supersampling;
         status = render(&own, renderer, camera, &plain, &chosen, frame, &took);
     } else {
         status = render_surfels(&own, renderer, camera, options, frame, &took.render);

@@ -326,6 +326,53 @@ static ewa_status render(ewa_context *context, reference *work) {
     return status;
 }
 
+/// Averages finer x finer parts of every pixel: colours, coverages and normals; the nearest of their depths.
+static void average_parts(const ewa_frame *fine, uint32_t finer, const ewa_camera *camera, const ewa_frame *frame) {
+    const size_t width = camera->width_px, parts = (size_t)finer * finer;
+    for (size_t i = 0; i < width * camera->height_px; i++) {
+        double rgba[4] = {0}, normal[3] = {0}, coverage = 0, nearest = INFINITY;
+        for (size_t part = 0; part < parts; part++) {
+            const size_t y = i / width * finer + part / finer, x = i % width * finer + part % finer;
+            const size_t at = y * width * finer + x;
+            for (int c = 0; c < 4; c++) rgba[c] += (double)fine->rgba[4 * at + (size_t)c] / (double)parts;
+            for (int c = 0; c < 3; c++) normal[c] += (double)fine->normal[3 * at + (size_t)c];
+            coverage += (double)fine->coverage[at] / (double)parts;
+            nearest = fmin(nearest, (double)fine->depth[at]);
+        }
+        const double length = sqrt(normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2]), a = fmin(rgba[3], 1);
+        for (size_t c = 0; c < 4; c++) {
+            if (frame->rgba) frame->rgba[4 * i + c] = (float)rgba[c];
+            const double straight = c < 3 && a > 0 ? rgba[c] / a : 0;
+            if (frame->rgba8) frame->rgba8[4 * i + c] = c < 3 ? ewa_srgb8_from_linear((float)straight) : (uint8_t)(255 * a + 0.5);
+        }
+        for (size_t c = 0; c < 3 && frame->normal; c++)
+            frame->normal[3 * i + c] = (float)(length > 0 ? normal[c] / length : 0);
+        if (frame->coverage) frame->coverage[i] = (float)coverage;
+        if (frame->depth) frame->depth[i] = (float)nearest;
+    }
+}
+
+/// Draws every pixel as so many squared as the options say.
+static ewa_status render_parts(const ewa_cloud *cloud, const ewa_surfels_options *surfels_options, double unit_coverage,
+                               const ewa_camera *camera, const ewa_render_options *options, const ewa_frame *frame) {
+    enum { FLOATS = 4 + 3 + 1 + 1 };
+    ewa_context *context = ewa_cloud_context(cloud);
+    const uint32_t finer = options->supersampling;
+    ewa_render_options plain = *options;
+    plain.supersampling = 1, plain.point_size_px *= finer;
+    ewa_camera fine = *camera;
+    fine.width_px *= finer, fine.height_px *= finer;
+    fine.fx_px *= finer, fine.fy_px *= finer, fine.cx_px *= finer, fine.cy_px *= finer;
+    const size_t count = (size_t)fine.width_px * fine.height_px;
+    float *planes = ewa_allocate(context, count * FLOATS, sizeof *planes);
+    if (!planes) return EWA_ERROR_MEMORY;
+    const ewa_frame parts = {.rgba = planes, .normal = planes + 4 * count, .depth = planes + 7 * count, .coverage = planes + 8 * count};
+    const ewa_status status = ewa_render_reference(cloud, surfels_options, unit_coverage, &fine, &plain, &parts);
+    if (status == EWA_OK) average_parts(&parts, finer, camera, frame);
+    ewa_release(context, planes, count * FLOATS, sizeof *planes);
+    return status;
+}
+
 ewa_status ewa_render_reference(const ewa_cloud *cloud, const ewa_surfels_options *surfels_options,
                                 double unit_coverage, const ewa_camera *camera,
                                 const ewa_render_options *options, const ewa_frame *frame) {
@@ -342,6 +389,10 @@ ewa_status ewa_render_reference(const ewa_cloud *cloud, const ewa_surfels_option
     EWA_TRY(ewa_surfels_options_choose(context, surfels_options, &chosen));
     EWA_TRY(ewa_render_options_choose(context, options, &work.options));
     EWA_TRY(ewa_camera_check(context, camera));
+    if (work.options.supersampling == 0)
+        return ewa_fail(context, EWA_ERROR_UNSUPPORTED, "reference: supersampling is 0, must be at least 1");
+    if (work.options.supersampling > 1)
+        return render_parts(cloud, &chosen, unit_coverage, camera, &work.options, frame);
     EWA_TRY(ewa_surfel_reader_open(cloud, &chosen, &work.reader));
     work.layering = ewa_reference_layering_of(&work.options, &work.reader, work.surfel_count);
     if (work.options.point_size_px > 0)

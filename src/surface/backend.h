@@ -44,6 +44,7 @@ struct ewa_backend {
     ewa_status (*draw)(void *state, const ewa_render_job *job, ewa_render_stats *stats);
     /// Sets what of `info`, with zeros and the back end's name in it, is otherwise. NULL: nothing is.
     void (*describe)(const void *state, ewa_renderer_info *info);
+    bool joint; ///< draws frames together with other processes, each of which has a part of the sources
 };
 
 /// Threads and vectors of the processor; what others are compared with.

@@ -83,4 +83,4 @@ static ewa_status draw(void *state, const ewa_render_job *frame, ewa_render_stat
     return EWA_OK;
 }
 
-const ewa_backend ewa_backend_cpu = {"cpu", create, destroy, draw, NULL};
+const ewa_backend ewa_backend_cpu = {"cpu", create, destroy, draw, NULL, false};

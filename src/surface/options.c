@@ -76,6 +76,9 @@ static const ewa_option render_rows[] = {
     {"budget_s", EWA_OPTION_F64, OF_RENDER(budget_s), 0, 1e15, .unit = "s",
      .help = "time for a frame: of the levels of detail from `level` on, the finest that is expected to be "
              "drawn in that time; 0: `level`"},
+    {"supersampling", EWA_OPTION_U32, OF_RENDER(supersampling), 0, EWA_MAX_SUPERSAMPLING, .initial = 1,
+     .help = "draws every pixel as so many by so many, and their average: for what is far, where a pixel holds many small "
+             "things; 0: as many as the surfels need to be about as large as a pixel"},
 };
 
 const ewa_option_table ewa_render_options_table = EWA_OPTION_TABLE(ewa_render_options, render_rows);
@@ -162,5 +165,10 @@ ewa_status ewa_render_options_choose(ewa_context *context, const ewa_render_opti
         chosen->kernel = EWA_KERNEL_PERSPECTIVE;
         chosen->cull = EWA_CULL_NONE;
     }
+    if (status == EWA_OK && chosen->eye_dome > 0 && chosen->supersampling > 1)
+        return ewa_fail(context, EWA_ERROR_UNSUPPORTED,
+                        "options: supersampling is %u; eye-dome lighting looks at neighbouring pixels, and goes with 1 only",
+                        chosen->supersampling);
+    if (chosen->eye_dome > 0) chosen->supersampling = 1;
     return status;
 }

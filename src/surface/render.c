@@ -10,6 +10,7 @@
 #include "surface/options.h"
 #include "surface/packets.h"
 #include "surface/pipeline.h"
+#include "surface/supersampling.h"
 
 struct ewa_renderer {
     ewa_context *context;
@@ -18,6 +19,7 @@ struct ewa_renderer {
     bool begun;
     ewa_render_job job;
     ewa_buffer sources;
+    ewa_buffer parts; ///< of pixels (supersampling.h)
     uint32_t tile_px; ///< 0: chosen
     ewa_budget budget;
 };
@@ -49,6 +51,7 @@ void ewa_renderer_destroy(ewa_renderer **renderer) {
     ewa_context *context = old->context;
     old->backend->destroy(context, old->state);
     ewa_buffer_free(context, &old->sources);
+    ewa_buffer_free(context, &old->parts);
     ewa_release(context, old, 1, sizeof *old);
     *renderer = NULL;
 }
@@ -129,14 +132,22 @@ ewa_status ewa_render_set_rows(ewa_renderer *renderer, uint32_t first_px, uint32
     if (job->options.budget_s > 0)
         return ewa_fail(renderer->context, EWA_ERROR_UNSUPPORTED,
                         "render: a frame with a budget of %g s is not drawn in bands", job->options.budget_s);
+    if (job->options.supersampling == 0)
+        return ewa_fail(renderer->context, EWA_ERROR_UNSUPPORTED,
+                        "render: supersampling is 0; what a frame needs is not known in its bands");
     job->first_row_px = first_px, job->end_row_px = end_px;
     return EWA_OK;
+}
+
+/// Pixels that are drawn, of parts where there is supersampling.
+static uint64_t pixels_of(const ewa_render_job *job) {
+    return (uint64_t)job->camera.width_px * job->camera.height_px * job->options.supersampling * job->options.supersampling;
 }
 
 /// How much there is to draw at each level of detail.
 static ewa_budget_work work_of(const ewa_render_job *job) {
     ewa_budget_work work = {.level_count = 1,
-                            .pixel_count = (uint64_t)job->camera.width_px * job->camera.height_px};
+                            .pixel_count = pixels_of(job)};
     for (uint32_t i = 0; i < job->source_count; i++)
         for (uint32_t level = 0; level < EWA_MAX_LEVELS; level++) {
             uint32_t found = level;
@@ -162,14 +173,24 @@ static uint32_t take_level(ewa_renderer *renderer, uint32_t level) {
 static void learn(ewa_renderer *renderer, const ewa_render_stats *stats) {
     const double pixels_s = stats->edge_s + stats->resolve_s;
     const double sum_s = stats->bin_s + stats->setup_s + stats->visibility_s + stats->accumulate_s + pixels_s;
-    const ewa_camera *camera = &renderer->job.camera;
     const ewa_budget_frame frame = {.level = stats->level,
                                     .splat_count = stats->splat_count,
                                     .culled_count = stats->culled_count,
-                                    .pixel_count = (uint64_t)camera->width_px * camera->height_px,
+                                    .pixel_count = pixels_of(&renderer->job),
                                     .total_s = stats->total_s,
                                     .pixel_share = sum_s > 0 ? pixels_s / sum_s : 0};
     ewa_budget_learn(&renderer->budget, &frame);
+}
+
+/// Sets how many parts the frame's pixels have where its surfels are to say.
+static ewa_status choose_supersampling(ewa_renderer *renderer) {
+    ewa_render_job *job = &renderer->job;
+    if (job->options.supersampling) return EWA_OK;
+    if (renderer->backend->joint)
+        return ewa_fail(renderer->context, EWA_ERROR_UNSUPPORTED,
+                        "render: supersampling is 0; of several processes none knows all surfels, so say 1, 2, 4 or 8");
+    job->options.supersampling = ewa_supersampling_choose(job);
+    return EWA_OK;
 }
 
 ewa_status ewa_render_finish(ewa_renderer *renderer, ewa_render_stats *stats) {
@@ -178,6 +199,7 @@ ewa_status ewa_render_finish(ewa_renderer *renderer, ewa_render_stats *stats) {
         return ewa_fail(renderer->context, EWA_ERROR_ARGUMENT, "render: no frame has been begun");
     renderer->begun = false;
     ewa_render_job *job = &renderer->job;
+    EWA_TRY(choose_supersampling(renderer));
     uint32_t level = job->options.level;
     if (job->options.budget_s > 0) {
         const ewa_budget_work work = work_of(job);
@@ -186,7 +208,10 @@ ewa_status ewa_render_finish(ewa_renderer *renderer, ewa_render_stats *stats) {
     level = take_level(renderer, level);
     ewa_render_stats took;
     job->count_fragments = stats != NULL;
-    EWA_TRY(renderer->backend->draw(renderer->state, job, &took));
+    if (job->options.supersampling > 1)
+        EWA_TRY(ewa_supersampling_draw(renderer->context, renderer->backend, renderer->state, job, &renderer->parts, &took));
+    else
+        EWA_TRY(renderer->backend->draw(renderer->state, job, &took));
     took.level = level;
     if (job->end_row_px - job->first_row_px == job->camera.height_px) learn(renderer, &took);
     if (stats) *stats = took;

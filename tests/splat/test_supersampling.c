@@ -1,0 +1,260 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// Pixels drawn as several and averaged: the averages of the finer picture, plane by plane; the same bytes for threads,
+// bands and instruction sets; the reference; how many parts a frame's surfels ask for; what is refused.
+#include "check.h"
+#include "quality/far_scene.h"
+#include "reference/surface.h"
+#include "surface/render.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { SIDE_PX = 48, PIXELS = SIDE_PX * SIDE_PX, TALL_PX = 300 };
+
+typedef struct planes {
+    ewa_frame frame;
+    float *memory;
+    size_t pixel_count;
+} planes;
+
+static planes make_planes(size_t pixel_count) {
+    planes made = {.memory = malloc(pixel_count * 10 * sizeof(float)), .pixel_count = pixel_count};
+    assert_non_null(made.memory);
+    made.frame = (ewa_frame){.rgba = made.memory,
+                             .normal = made.memory + 4 * pixel_count,
+                             .depth = made.memory + 7 * pixel_count,
+                             .coverage = made.memory + 8 * pixel_count,
+                             .rgba8 = (uint8_t *)(made.memory + 9 * pixel_count)};
+    return made;
+}
+
+static bool same_planes(const planes *a, const planes *b) {
+    return memcmp(a->memory, b->memory, a->pixel_count * 10 * sizeof(float)) == 0;
+}
+
+static ewa_surfels *make_surfels(ewa_context *context, far_kind kind, uint64_t count, ewa_bounds *bounds) {
+    ewa_cloud *cloud = NULL;
+    ewa_surfels *surfels = NULL;
+    assert_int_equal(far_make(context, kind, count, &cloud), EWA_OK);
+    assert_int_equal(ewa_cloud_measure(cloud, bounds), EWA_OK);
+    assert_int_equal(ewa_surfels_create(cloud, NULL, &surfels), EWA_OK);
+    ewa_cloud_destroy(&cloud);
+    return surfels;
+}
+
+static ewa_render_options options_of(uint32_t supersampling) {
+    ewa_render_options options;
+    ewa_render_options_init(&options, sizeof options);
+    assert_int_equal(options.supersampling, 1);
+    options.supersampling = supersampling;
+    return options;
+}
+
+static void draw(ewa_context *context, const ewa_surfels *surfels, const ewa_camera *camera,
+                 const ewa_render_options *options, const planes *to) {
+    ewa_renderer *renderer = NULL;
+    assert_int_equal(ewa_renderer_create(context, &renderer), EWA_OK);
+    assert_int_equal(ewa_render(renderer, surfels, camera, options, &to->frame, NULL), EWA_OK);
+    ewa_renderer_destroy(&renderer);
+}
+
+/// What a pixel of `finer` x `finer` parts is, from the picture of parts.
+static void check_pixel(const planes *parts, const planes *whole, uint32_t width_px, uint32_t finer, uint32_t x, uint32_t y) {
+    const size_t pixel = (size_t)y * width_px + x;
+    double rgba[4] = {0}, normal[3] = {0}, coverage = 0, depth = INFINITY;
+    for (uint32_t j = 0; j < finer; j++)
+        for (uint32_t i = 0; i < finer; i++) {
+            const size_t at = ((size_t)y * finer + j) * width_px * finer + (size_t)x * finer + i;
+            for (int c = 0; c < 4; c++) rgba[c] += (double)parts->frame.rgba[4 * at + (size_t)c] / (finer * finer);
+            for (int c = 0; c < 3; c++) normal[c] += (double)parts->frame.normal[3 * at + (size_t)c];
+            coverage += (double)parts->frame.coverage[at] / (finer * finer);
+            depth = fmin(depth, (double)parts->frame.depth[at]);
+        }
+    const double length = sqrt(normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2]);
+    for (size_t c = 0; c < 4; c++) {
+        assert_true(fabs((double)whole->frame.rgba[4 * pixel + c] - rgba[c]) < 1e-5);
+        const double straight = c < 3 ? rgba[3] > 0 ? rgba[c] / rgba[3] : 0 : 1;
+        const double code = c < 3 ? 255 * (double)ewa_srgb_from_linear((float)straight) : 255 * rgba[3];
+        assert_true(fabs(whole->frame.rgba8[4 * pixel + c] - code) < 0.51);
+    }
+    for (size_t c = 0; c < 3 && length > 1e-3; c++)
+        assert_true(fabs((double)whole->frame.normal[3 * pixel + c] - normal[c] / length) < 1e-4);
+    assert_true(fabs((double)whole->frame.coverage[pixel] - coverage) < 1e-4 * fmax(1, coverage));
+    assert_true(isinf(depth) ? isinf(whole->frame.depth[pixel]) : (double)whole->frame.depth[pixel] == depth);
+}
+
+static void test_planes_are_averages_of_the_finer_picture(void **state) {
+    ewa_context *context = check_context(2, NULL);
+    ewa_bounds bounds;
+    ewa_surfels *surfels = make_surfels(context, FAR_TOWN, 50000, &bounds);
+    static const uint32_t finer[] = {2, 3, 8};
+    for (size_t k = 0; k < sizeof finer / sizeof *finer; k++) {
+        const planes parts = make_planes((size_t)PIXELS * finer[k] * finer[k]), whole = make_planes(PIXELS);
+        const ewa_camera camera = far_camera(&bounds, 3, SIDE_PX, 1), fine = far_camera(&bounds, 3, SIDE_PX, finer[k]);
+        const ewa_render_options plain = options_of(1), options = options_of(finer[k]);
+        draw(context, surfels, &fine, &plain, &parts);
+        draw(context, surfels, &camera, &options, &whole);
+        for (uint32_t y = 0; y < SIDE_PX; y++)
+            for (uint32_t x = 0; x < SIDE_PX; x++) check_pixel(&parts, &whole, SIDE_PX, finer[k], x, y);
+        free(parts.memory);
+        free(whole.memory);
+    }
+    ewa_surfels_destroy(&surfels);
+    ewa_context_destroy(&context);
+}
+
+/// A picture of several bands, drawn whole and in the caller's bands, for one thread and four, for every instruction set.
+static void test_same_bytes_for_threads_bands_and_instruction_sets(void **state) {
+    static const uint32_t threads[] = {1, 4}, masks[] = {0, EWA_CPU_ALL};
+    planes first = {.memory = NULL};
+    for (int variant = 0; variant < 4; variant++) {
+        ewa_context *context = check_context_of(threads[variant & 1], masks[variant >> 1]);
+        ewa_bounds bounds;
+        ewa_surfels *surfels = make_surfels(context, FAR_TOWN, 20000, &bounds);
+        ewa_camera camera = far_camera(&bounds, 1, TALL_PX, 1);
+        const ewa_render_options options = options_of(2);
+        const planes whole = make_planes((size_t)TALL_PX * TALL_PX), bands = make_planes((size_t)TALL_PX * TALL_PX);
+        camera.cy_px += 0.3;
+        draw(context, surfels, &camera, &options, &whole);
+        ewa_renderer *renderer = NULL;
+        assert_int_equal(ewa_renderer_create(context, &renderer), EWA_OK);
+        for (uint32_t row = 0; row < TALL_PX; row += 128) {
+            assert_int_equal(ewa_render_begin(renderer, &camera, &options, &bands.frame), EWA_OK);
+            assert_int_equal(ewa_render_set_rows(renderer, row, row + 128 < TALL_PX ? row + 128 : TALL_PX), EWA_OK);
+            assert_int_equal(ewa_render_add(renderer, surfels), EWA_OK);
+            assert_int_equal(ewa_render_finish(renderer, NULL), EWA_OK);
+        }
+        assert_true(same_planes(&whole, &bands));
+        if (!first.memory) first = whole;
+        assert_true(same_planes(&first, &whole));
+        if (first.memory != whole.memory) free(whole.memory);
+        free(bands.memory);
+        ewa_renderer_destroy(&renderer);
+        ewa_surfels_destroy(&surfels);
+        ewa_context_destroy(&context);
+    }
+    free(first.memory);
+}
+
+static void test_reference_draws_the_same(void **state) {
+    ewa_context *context = check_context(2, NULL);
+    ewa_cloud *cloud = NULL;
+    ewa_surfels *surfels = NULL;
+    ewa_bounds bounds;
+    ewa_surfels_info info;
+    assert_int_equal(far_make(context, FAR_TOWN, 20000, &cloud), EWA_OK);
+    assert_int_equal(ewa_cloud_measure(cloud, &bounds), EWA_OK);
+    assert_int_equal(ewa_surfels_create(cloud, NULL, &surfels), EWA_OK);
+    ewa_surfels_describe(surfels, &info);
+    const ewa_camera camera = far_camera(&bounds, 2, SIDE_PX, 1);
+    ewa_render_options options = options_of(4);
+    const planes fast = make_planes(PIXELS), plain = make_planes(PIXELS);
+    draw(context, surfels, &camera, &options, &fast);
+    assert_int_equal(ewa_render_reference(cloud, NULL, info.unit_coverage, &camera, &options, &plain.frame), EWA_OK);
+    double square = 0;
+    for (size_t i = 0; i < 4 * PIXELS; i++) square += pow((double)fast.frame.rgba[i] - (double)plain.frame.rgba[i], 2);
+    const double db = 10 * log10(4 * PIXELS / square);
+    print_message("%.1f dB from the reference\n", db);
+    assert_true(db > 50);
+    options.supersampling = 0;
+    assert_int_equal(ewa_render_reference(cloud, NULL, info.unit_coverage, &camera, &options, &plain.frame),
+                     EWA_ERROR_UNSUPPORTED);
+    free(fast.memory);
+    free(plain.memory);
+    ewa_surfels_destroy(&surfels);
+    ewa_cloud_destroy(&cloud);
+    ewa_context_destroy(&context);
+}
+
+/// 0 takes so many parts that discs are about as large as one, none where they are, and never too many.
+static void test_surfels_say_how_many_parts(void **state) {
+    static const struct {
+        double times;
+        uint32_t parts;
+    } cases[] = {{0.05, 1}, {1, 1}, {2, 2}, {4, 4}, {8, 8}, {200, 8}};
+    ewa_context *context = check_context(2, NULL);
+    ewa_bounds bounds;
+    // Discs are 1.6 spacings of sqrt(4 pi / 40,000) in radius, 0.7 px from the distance that is called 1 here.
+    ewa_surfels *surfels = make_surfels(context, FAR_SPHERE, 40000, &bounds);
+    const planes chosen = make_planes(PIXELS), said = make_planes(PIXELS);
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        ewa_camera camera = far_camera(&bounds, 1, SIDE_PX, 1);
+        camera.fx_px *= 1.7 / cases[i].times, camera.fy_px *= 1.7 / cases[i].times;
+        const ewa_render_options open = options_of(0), fixed = options_of(cases[i].parts);
+        draw(context, surfels, &camera, &open, &chosen);
+        draw(context, surfels, &camera, &fixed, &said);
+        assert_true(same_planes(&chosen, &said));
+    }
+    free(chosen.memory);
+    free(said.memory);
+    ewa_surfels_destroy(&surfels);
+    ewa_context_destroy(&context);
+}
+
+static void test_refused(void **state) {
+    check_log log = {.count = 0};
+    ewa_context *context = check_context(1, &log);
+    ewa_bounds bounds;
+    ewa_surfels *surfels = make_surfels(context, FAR_SPHERE, 100, &bounds);
+    ewa_renderer *renderer = NULL;
+    assert_int_equal(ewa_renderer_create(context, &renderer), EWA_OK);
+    const planes to = make_planes(PIXELS);
+    ewa_camera camera = far_camera(&bounds, 1, SIDE_PX, 1);
+    ewa_render_options options = options_of(9);
+    assert_int_equal(ewa_render(renderer, surfels, &camera, &options, &to.frame, NULL), EWA_ERROR_ARGUMENT);
+    options = options_of(2), options.eye_dome = 1;
+    assert_int_equal(ewa_render(renderer, surfels, &camera, &options, &to.frame, NULL), EWA_ERROR_UNSUPPORTED);
+    options.supersampling = 0;
+    assert_int_equal(ewa_render(renderer, surfels, &camera, &options, &to.frame, NULL), EWA_OK);
+    options = options_of(0);
+    assert_int_equal(ewa_render_begin(renderer, &camera, &options, &to.frame), EWA_OK);
+    assert_int_equal(ewa_render_set_rows(renderer, 0, SIDE_PX), EWA_ERROR_UNSUPPORTED);
+    options = options_of(8), camera.width_px = 8193;
+    assert_int_equal(ewa_render(renderer, surfels, &camera, &options, &to.frame, NULL), EWA_ERROR_LIMIT);
+    assert_non_null(strstr(log.text, "8193"));
+    free(to.memory);
+    ewa_renderer_destroy(&renderer);
+    ewa_surfels_destroy(&surfels);
+    ewa_context_destroy(&context);
+}
+
+static void test_every_failing_allocation(void **state) {
+    for (int fail_at = 0;; fail_at++) {
+        check_memory memory = {.calls_left = -1};
+        ewa_context *context = check_context_on(0, &memory);
+        const int64_t before = memory.held_bytes;
+        ewa_bounds bounds;
+        ewa_surfels *surfels = make_surfels(context, FAR_SPHERE, 100, &bounds);
+        ewa_renderer *renderer = NULL;
+        const planes to = make_planes(PIXELS);
+        const ewa_camera camera = far_camera(&bounds, 1, SIDE_PX, 1);
+        const ewa_render_options options = options_of(2);
+        assert_int_equal(ewa_renderer_create(context, &renderer), EWA_OK);
+        memory.calls_left = fail_at;
+        const ewa_status status = ewa_render(renderer, surfels, &camera, &options, &to.frame, NULL);
+        const bool failed = memory.calls_left < 0;
+        assert_int_equal(status, failed ? EWA_ERROR_MEMORY : EWA_OK);
+        memory.calls_left = -1;
+        free(to.memory);
+        ewa_renderer_destroy(&renderer);
+        ewa_surfels_destroy(&surfels);
+        assert_int_equal(memory.held_bytes, before);
+        ewa_context_destroy(&context);
+        if (!failed) break;
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_planes_are_averages_of_the_finer_picture),
+        cmocka_unit_test(test_same_bytes_for_threads_bands_and_instruction_sets),
+        cmocka_unit_test(test_reference_draws_the_same),
+        cmocka_unit_test(test_surfels_say_how_many_parts),
+        cmocka_unit_test(test_refused),
+        cmocka_unit_test(test_every_failing_allocation),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
