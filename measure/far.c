@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 //
 // Prints the table of docs/quality.md: what is far, drawn whole, from a level in memory and from an octree, against its own
-// picture at eight times the resolution. measure_far [POINTS [FILE...]], without generated
-// scenes where POINTS is 0; PICTURES=FOLDER keeps the pictures.
+// picture at eight times the resolution. measure_far [POINTS [FILE...]], without generated scenes where POINTS is 0;
+// PICTURES=FOLDER keeps the pictures.
 #include "measure/measure.h"
 #include "quality/far_scene.h"
 
@@ -42,21 +42,25 @@ static void save(const far_run *run, const char *what, double times, const float
     ewa_image_free(&image);
 }
 
-static void draw(const far_run *run, double times, uint32_t finer, uint32_t level, float *rgba) {
+static void draw(const far_run *run, double times, uint32_t finer, uint32_t level, uint32_t supersampling,
+                 float *rgba) {
     const ewa_camera camera = far_camera(&run->bounds, times, run->side_px, finer);
     ewa_render_options options;
     ewa_render_options_init(&options, sizeof options);
-    options.level = level;
+    options.level = level, options.supersampling = supersampling;
     check(ewa_render(run->renderer, run->surfels, &camera, &options, &(ewa_frame){.rgba = rgba}, NULL));
 }
 
-static void draw_octree(const far_run *run, double times, float *rgba) {
+static void draw_octree(const far_run *run, double times, uint32_t supersampling, float *rgba) {
     const ewa_camera camera = far_camera(&run->bounds, times, run->side_px, 1);
-    check(ewa_lod_render(run->lod, run->renderer, &camera, NULL, NULL, &(ewa_frame){.rgba = rgba}, NULL));
+    ewa_render_options options;
+    ewa_render_options_init(&options, sizeof options);
+    options.supersampling = supersampling;
+    check(ewa_lod_render(run->lod, run->renderer, &camera, &options, NULL, &(ewa_frame){.rgba = rgba}, NULL));
 }
 
-/// The coarsest level whose surfels are no farther apart than LEVEL_SPACING_PX in the middle: each has up to four of the level
-/// before, so that they are twice as far apart.
+/// The coarsest level whose surfels are no farther apart than LEVEL_SPACING_PX in the middle: each has up to four of the
+/// level before, so that they are twice as far apart.
 static uint32_t level_at(const far_run *run, double times) {
     const ewa_camera camera = far_camera(&run->bounds, times, run->side_px, 1);
     double eye[3], distance2 = 0;
@@ -89,7 +93,8 @@ static void print(const far_run *run, double times, const char *what, const floa
     far_errors e;
     far_compare(run->truth, rgba, run->side_px, &e);
     printf("| %s | %g | %s | %.1f | %.1f | %llu of %llu | %+.2f | %+.1f |\n", run->name, times, what, e.screen_db,
-           e.linear_db, (unsigned long long)e.open_count, (unsigned long long)e.inner_count, e.fat_px, e.lighter_percent);
+           e.linear_db, (unsigned long long)e.open_count, (unsigned long long)e.inner_count, e.fat_px,
+           e.lighter_percent);
     fflush(stdout);
     save(run, what, times, rgba);
 }
@@ -113,18 +118,22 @@ static void print_scene(far_run *run, ewa_cloud *cloud) {
     run->spacing_world = median_spacing(cloud);
     const double distances[] = {1, 2, 4, 8, 16};
     for (int i = 0; i < 5; i++) {
-        draw(run, distances[i], FAR_FINER, 0, run->fine);
+        draw(run, distances[i], FAR_FINER, 0, 1, run->fine);
         far_average(run->fine, run->side_px, FAR_FINER, run->truth);
         save(run, "truth", distances[i], run->truth);
-        draw(run, distances[i], 1, 0, run->other);
+        draw(run, distances[i], 1, 0, 1, run->other);
         print(run, distances[i], "all points", run->other);
+        draw(run, distances[i], 1, 0, 0, run->other);
+        print(run, distances[i], "all points, supersampling 0", run->other);
         const uint32_t level = level_at(run, distances[i]);
         char what[32];
         snprintf(what, sizeof what, "level %u", level);
-        draw(run, distances[i], 1, level, run->other);
+        draw(run, distances[i], 1, level, 1, run->other);
         if (level) print(run, distances[i], what, run->other);
-        draw_octree(run, distances[i], run->other);
+        draw_octree(run, distances[i], 1, run->other);
         print(run, distances[i], "octree", run->other);
+        draw_octree(run, distances[i], 4, run->other);
+        print(run, distances[i], "octree, supersampling 4", run->other);
     }
     ewa_surfels_destroy(&run->surfels);
     ewa_lod_close(&run->lod);

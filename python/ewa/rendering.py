@@ -180,7 +180,7 @@ def render(scene: Scene, camera: Camera | None = None, *, size: Sequence[int] | 
     **options
         Members of ``ewa_render_options``: ``kernel``, ``prefilter_px``, ``point_size_px``, ``tolerance``, ``passes``,
         ``edge_antialiasing``, ``edge_threshold``, ``edge_layers``, ``opacity``, ``cull``, ``shading``, ``ambient``,
-        ``environment_up``, ``eye_dome``, ``level``, ``budget_s``; and, of clouds, those of :meth:`Cloud.surfels`.
+        ``environment_up``, ``eye_dome``, ``level``, ``budget_s``, ``supersampling``; and, of clouds, those of :meth:`Cloud.surfels`.
 
     Returns
     -------

@@ -280,7 +280,8 @@ static void divide(generate_job *job, double area) {
         const double height = job->town ? job->town[p].height : object_height(job->options->object);
         const double rows = height / job->spacing + 0.5;
         below += job->town ? job->town[p].area : 0;
-        at.point = job->town ? (uint64_t)((double)total * (below / area) + 0.5) : ewa_split(total, job->patch_count, p + 1);
+        at.point = job->town ? (uint64_t)((double)total * (below / area) + 0.5)
+                             : ewa_split(total, job->patch_count, p + 1);
         at.row += rows < 1 ? 1 : (uint32_t)rows;
     }
     at.point = total;

@@ -5,8 +5,8 @@
 // surfaces, one behind another, which are far below a pixel where the town is far away.
 //
 // The ground is cut into lots, with one box in each and streets around them. A tree is a trunk and a crown, whose leaves
-// lie anywhere in the outer half of an ellipsoid and look roughly away from its middle. All patches have as many points
-// as their area says.
+// lie anywhere in the outer half of an ellipsoid and look roughly away from its middle. All patches have as many points as
+// their area says.
 #include "generate/generate.h"
 #include "math/generate_number.h"
 
@@ -58,7 +58,8 @@ static ewa_town_patch flat_patch(ewa_town_kind kind, uint32_t thing, const doubl
     ewa_town_patch patch = {.kind = kind, .thing = thing};
     double length = 0, height = 0;
     for (int c = 0; c < 3; c++) {
-        patch.corner[c] = corner[c], patch.along[c] = along[c], patch.across[c] = across[c], patch.normal[c] = normal[c];
+        patch.corner[c] = corner[c], patch.along[c] = along[c], patch.across[c] = across[c],
+        patch.normal[c] = normal[c];
         length += fabs(along[c]), height += fabs(across[c]);
     }
     patch.area = length * height, patch.height = height;
@@ -102,7 +103,8 @@ static uint32_t add_tree(uint64_t seed, uint32_t tree, ewa_town_patch *patches) 
     const uint64_t index = LOTS_X * LOTS_Y + TREES + (uint64_t)tree;
     const double radius = number(seed, index, 0, 0.0045, 0.010), height = radius * number(seed, index, 1, 1, 1.6);
     const double stem = radius * number(seed, index, 2, 0.6, 1.2), thickness = 0.12 * radius;
-    ewa_town_patch crown = {.kind = EWA_TOWN_CROWN, .thing = tree, .area = 4 * pi * radius * height, .height = 2 * height};
+    ewa_town_patch crown = {
+        .kind = EWA_TOWN_CROWN, .thing = tree, .area = 4 * pi * radius * height, .height = 2 * height};
     set_vector(crown.corner, at[0], at[1], stem + height), set_vector(crown.along, radius, radius, height);
     ewa_town_patch trunk = {.kind = EWA_TOWN_TRUNK, .thing = tree, .area = 2 * pi * thickness * (stem + height)};
     trunk.height = stem + height;
@@ -207,7 +209,8 @@ static void place_on_tree(const ewa_town_patch *patch, ewa_generate_block *block
         length2 += normal[c] * normal[c];
     }
     for (int c = 0; c < 3; c++) block->normal[i][c] = normal[c] / sqrt(length2);
-    color_point(block->color[i], greens[patch->thing % 4], (float)(0.35 + 0.65 * share) * (1 + 0.15f * block->grain[i]));
+    color_point(block->color[i], greens[patch->thing % 4],
+                (float)(0.35 + 0.65 * share) * (1 + 0.15f * block->grain[i]));
 }
 
 static void place_loose(ewa_generate_block *block, uint32_t i) {

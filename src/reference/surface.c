@@ -339,11 +339,13 @@ static void average_parts(const ewa_frame *fine, uint32_t finer, const ewa_camer
             coverage += (double)fine->coverage[at] / (double)parts;
             nearest = fmin(nearest, (double)fine->depth[at]);
         }
-        const double length = sqrt(normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2]), a = fmin(rgba[3], 1);
+        const double length = sqrt(normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2]);
+        const double a = fmin(rgba[3], 1);
         for (size_t c = 0; c < 4; c++) {
             if (frame->rgba) frame->rgba[4 * i + c] = (float)rgba[c];
             const double straight = c < 3 && a > 0 ? rgba[c] / a : 0;
-            if (frame->rgba8) frame->rgba8[4 * i + c] = c < 3 ? ewa_srgb8_from_linear((float)straight) : (uint8_t)(255 * a + 0.5);
+            const uint8_t code = c < 3 ? ewa_srgb8_from_linear((float)straight) : (uint8_t)(255 * a + 0.5);
+            if (frame->rgba8) frame->rgba8[4 * i + c] = code;
         }
         for (size_t c = 0; c < 3 && frame->normal; c++)
             frame->normal[3 * i + c] = (float)(length > 0 ? normal[c] / length : 0);
@@ -366,7 +368,10 @@ static ewa_status render_parts(const ewa_cloud *cloud, const ewa_surfels_options
     const size_t count = (size_t)fine.width_px * fine.height_px;
     float *planes = ewa_allocate(context, count * FLOATS, sizeof *planes);
     if (!planes) return EWA_ERROR_MEMORY;
-    const ewa_frame parts = {.rgba = planes, .normal = planes + 4 * count, .depth = planes + 7 * count, .coverage = planes + 8 * count};
+    const ewa_frame parts = {.rgba = planes,
+                             .normal = planes + 4 * count,
+                             .depth = planes + 7 * count,
+                             .coverage = planes + 8 * count};
     const ewa_status status = ewa_render_reference(cloud, surfels_options, unit_coverage, &fine, &plain, &parts);
     if (status == EWA_OK) average_parts(&parts, finer, camera, frame);
     ewa_release(context, planes, count * FLOATS, sizeof *planes);

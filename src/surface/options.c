@@ -77,8 +77,8 @@ static const ewa_option render_rows[] = {
      .help = "time for a frame: of the levels of detail from `level` on, the finest that is expected to be "
              "drawn in that time; 0: `level`"},
     {"supersampling", EWA_OPTION_U32, OF_RENDER(supersampling), 0, EWA_MAX_SUPERSAMPLING, .initial = 1,
-     .help = "draws every pixel as so many by so many, and their average: for what is far, where a pixel holds many small "
-             "things; 0: as many as the surfels need to be about as large as a pixel"},
+     .help = "draws every pixel as so many by so many parts, and their average: for what is far, where a pixel "
+             "holds many small things; 0: 1, 2, 4 or 8, as the surfels need to be about as large as a part"},
 };
 
 const ewa_option_table ewa_render_options_table = EWA_OPTION_TABLE(ewa_render_options, render_rows);
@@ -167,7 +167,7 @@ ewa_status ewa_render_options_choose(ewa_context *context, const ewa_render_opti
     }
     if (status == EWA_OK && chosen->eye_dome > 0 && chosen->supersampling > 1)
         return ewa_fail(context, EWA_ERROR_UNSUPPORTED,
-                        "options: supersampling is %u; eye-dome lighting looks at neighbouring pixels, and goes with 1 only",
+                        "options: supersampling is %u, must be 0 or 1 with eye-dome lighting",
                         chosen->supersampling);
     if (chosen->eye_dome > 0) chosen->supersampling = 1;
     return status;

@@ -141,7 +141,8 @@ ewa_status ewa_render_set_rows(ewa_renderer *renderer, uint32_t first_px, uint32
 
 /// Pixels that are drawn, of parts where there is supersampling.
 static uint64_t pixels_of(const ewa_render_job *job) {
-    return (uint64_t)job->camera.width_px * job->camera.height_px * job->options.supersampling * job->options.supersampling;
+    const uint64_t parts = (uint64_t)job->options.supersampling * job->options.supersampling;
+    return parts * job->camera.width_px * job->camera.height_px;
 }
 
 /// How much there is to draw at each level of detail.
@@ -209,7 +210,8 @@ ewa_status ewa_render_finish(ewa_renderer *renderer, ewa_render_stats *stats) {
     ewa_render_stats took;
     job->count_fragments = stats != NULL;
     if (job->options.supersampling > 1)
-        EWA_TRY(ewa_supersampling_draw(renderer->context, renderer->backend, renderer->state, job, &renderer->parts, &took));
+        EWA_TRY(ewa_supersampling_draw(renderer->context, renderer->backend, renderer->state, job,
+                                       &renderer->parts, &took));
     else
         EWA_TRY(renderer->backend->draw(renderer->state, job, &took));
     took.level = level;

@@ -137,6 +137,12 @@
 // (image/environment.h) with the footprint |R - R'|, R' the reflection at the pixel's neighbour in x or in y
 // within its aligned 2x2 pixels, the larger one of those that have the surface too.
 //
+// Supersampling: a pixel of N x N parts is the mean of the pixels of a picture N times as large, whose filter is h of
+// those: premultiplied colours over the background, coverages; its normal is their sum, of length 1, its depth the
+// smallest. Where the surfels are to say (0), N is the smallest of 1, 2, 4 and 8 for which at most half of sum r^2 is of
+// surfels with r N < EWA_PART_RADIUS_PX, over the surfels in the picture, r their radius F sigma max(fx, fy) / pz
+// (orthographic: without pz): a disc is then a part across. Points of a size in pixels and eye-dome lighting: 1.
+//
 // Eye-dome lighting: the premultiplied colour, before the background, times exp(-EWA_EYE_DOME_GAIN strength
 // mean), mean over EWA_EYE_DOME_PAIRS pairs of opposite pixels at x +- d of
 // max(0, (key(x + d) + key(x - d)) / 2 - key(x)) / key(x), 0 where one of the three shows nothing. d: (r, 0),
@@ -264,6 +270,9 @@
 /// 1 % of the depth behind a straight edge takes about half of the light.
 #define EWA_EYE_DOME_PAIRS 12
 #define EWA_EYE_DOME_GAIN  300.0
+
+/// Support radius that surfels have in the parts of a pixel, where they say how many parts it has.
+#define EWA_PART_RADIUS_PX 0.5
 
 // ---- Section 8
 

@@ -3,21 +3,21 @@
 //
 // Pictures at a multiple of their resolution, averaged.
 //
-// Where a pixel holds many surfels of many small surfaces, the nearest of these takes all of it, however small its share is:
-// trees grow fat and dark, and walls of points let others through. No depth tolerance mends that (docs/quality.md, what is far).
-// Parts of a pixel that are about as large as its surfels have one surface each again.
+// Where a pixel holds many surfels of many small surfaces, the nearest of these takes all of it, however small its share
+// is: trees grow fat and dark. No depth tolerance mends that (docs/quality.md, what is far). Parts of a pixel that are about
+// as large as its surfels have one surface each again.
+//
+// Implements docs/math.md section 7 (semantics.h, supersampling).
 #include "surface/supersampling.h"
 #include "homogeneous/camera.h"
 #include "image/srgb.h"
 #include "surface/levels.h"
 #include "surface/packets.h"
 #include "surface/pipeline.h"
+#include "surface/semantics.h"
 
 #include <math.h>
 #include <string.h>
-
-/// Support radius that surfels should have in the parts of a pixel: a disc is then a part across.
-#define EWA_FINE_RADIUS_PX 0.5
 
 /// Packets of which the sizes are looked at, at most.
 enum { SAMPLED_PACKETS = 1 << 14 };
@@ -33,7 +33,8 @@ static ewa_camera finer_camera(const ewa_camera *camera, uint32_t finer) {
     return fine;
 }
 
-/// Areas on the screen of what is in the picture, by the radius of its surfels: bin k has those below EWA_FINE_RADIUS_PX / 2^k.
+/// Areas on the screen of what is in the picture, by the radius of its surfels: bin k has those below
+/// EWA_PART_RADIUS_PX / 2^k.
 typedef struct size_bins {
     double area[4], all;
 } size_bins;
@@ -41,7 +42,7 @@ typedef struct size_bins {
 static void add_sizes(const ewa_render_job *job, const ewa_surfels *surfels, uint32_t step, size_bins *bins) {
     const ewa_camera *camera = &job->camera;
     const double *m = camera->world_to_camera;
-    const double zoom = fmin(camera->fx_px, camera->fy_px);
+    const double zoom = fmax(camera->fx_px, camera->fy_px);
     for (uint32_t p = 0; p < surfels->packet_count; p += step) {
         const ewa_vec3 center = ewa_packet_center(surfels, p);
         const double at[3] = {center.x * surfels->unit + surfels->origin_world[0],
@@ -60,7 +61,7 @@ static void add_sizes(const ewa_render_job *job, const ewa_surfels *surfels, uin
         const double radius_px = surfels->cutoff * sigma * scale * zoom / depth, area = radius_px * radius_px;
         bins->all += area;
         for (int k = 0; k < 4; k++)
-            if (radius_px * (1 << k) < EWA_FINE_RADIUS_PX) bins->area[k] += area;
+            if (radius_px * (1 << k) < EWA_PART_RADIUS_PX) bins->area[k] += area;
     }
 }
 
@@ -190,17 +191,23 @@ static ewa_status reserve_parts(ewa_context *context, ewa_buffer *room, const ew
 /// Rows of pixels that are drawn at a time. Frames of several processes are drawn whole.
 static uint32_t band_rows_px(const ewa_backend *backend, const ewa_render_job *job) {
     if (backend->joint) return job->camera.height_px;
-    const uint64_t finer = job->options.supersampling, row_bytes = finer * finer * job->camera.width_px * 4 * sizeof(float);
+    const uint64_t finer = job->options.supersampling,
+                   row_bytes = finer * finer * job->camera.width_px * 4 * sizeof(float);
     const uint64_t fields = BAND_BYTES / (row_bytes * EWA_FIELD_PX);
-    return EWA_FIELD_PX * (uint32_t)(fields < 1 ? 1 : fields > EWA_CAMERA_MAX_SIDE_PX / EWA_FIELD_PX ? EWA_CAMERA_MAX_SIDE_PX / EWA_FIELD_PX : fields);
+    return EWA_FIELD_PX * (uint32_t)(fields < 1 ? 1
+                                     : fields > EWA_CAMERA_MAX_SIDE_PX / EWA_FIELD_PX
+                                         ? EWA_CAMERA_MAX_SIDE_PX / EWA_FIELD_PX
+                                         : fields);
 }
 
-ewa_status ewa_supersampling_draw(ewa_context *context, const ewa_backend *backend, void *state, const ewa_render_job *job,
-                                  ewa_buffer *room, ewa_render_stats *stats) {
+ewa_status ewa_supersampling_draw(ewa_context *context, const ewa_backend *backend, void *state,
+                                  const ewa_render_job *job, ewa_buffer *room, ewa_render_stats *stats) {
     const uint32_t finer = job->options.supersampling, width_px = job->camera.width_px;
-    if ((uint64_t)finer * width_px > EWA_CAMERA_MAX_SIDE_PX || (uint64_t)finer * job->camera.height_px > EWA_CAMERA_MAX_SIDE_PX)
-        return ewa_fail(context, EWA_ERROR_LIMIT, "render: supersampling is %u; %u times %u x %u pixels are more than %d along a side",
-                        finer, finer, width_px, job->camera.height_px, EWA_CAMERA_MAX_SIDE_PX);
+    if ((uint64_t)finer * width_px > EWA_CAMERA_MAX_SIDE_PX ||
+        (uint64_t)finer * job->camera.height_px > EWA_CAMERA_MAX_SIDE_PX)
+        return ewa_fail(context, EWA_ERROR_LIMIT,
+                        "render: supersampling is %u; %u times %u x %u pixels are more than %d along a side", finer,
+                        finer, width_px, job->camera.height_px, EWA_CAMERA_MAX_SIDE_PX);
     const uint32_t band_px = band_rows_px(backend, job);
     *stats = (ewa_render_stats){.splat_count = 0};
     for (uint32_t first_px = job->first_row_px; first_px < job->end_row_px; first_px += band_px) {

@@ -31,8 +31,8 @@ ewa_camera far_camera(const ewa_bounds *bounds, double times, uint32_t side_px, 
     ewa_camera_init(&camera);
     camera.width_px = camera.height_px = side_px * finer;
     double eye[3], middle[3];
-    bool placed = ewa_camera_set_fov(&camera, 30) == EWA_OK &&
-                  ewa_camera_frame(&camera, bounds, direction, up, 0) == EWA_OK;
+    bool placed =
+        ewa_camera_set_fov(&camera, 30) == EWA_OK && ewa_camera_frame(&camera, bounds, direction, up, 0) == EWA_OK;
     ewa_camera_eye(&camera, eye);
     for (int c = 0; c < 3; c++) {
         middle[c] = (bounds->low_world[c] + bounds->high_world[c]) / 2;
@@ -52,8 +52,7 @@ void far_average(const float *fine, uint32_t side_px, uint32_t finer, float *rgb
                 for (size_t i = 0; i < finer; i++)
                     for (size_t c = 0; c < 4; c++)
                         sum[c] += (double)fine[(y * finer + j) * row + 4 * (x * finer + i) + c];
-            for (size_t c = 0; c < 4; c++)
-                rgba[4 * (y * side_px + x) + c] = (float)(sum[c] / ((double)finer * finer));
+            for (size_t c = 0; c < 4; c++) rgba[4 * (y * side_px + x) + c] = (float)(sum[c] / ((double)finer * finer));
         }
 }
 

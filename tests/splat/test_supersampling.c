@@ -62,7 +62,8 @@ static void draw(ewa_context *context, const ewa_surfels *surfels, const ewa_cam
 }
 
 /// What a pixel of `finer` x `finer` parts is, from the picture of parts.
-static void check_pixel(const planes *parts, const planes *whole, uint32_t width_px, uint32_t finer, uint32_t x, uint32_t y) {
+static void check_pixel(const planes *parts, const planes *whole, uint32_t width_px, uint32_t finer, uint32_t x,
+                        uint32_t y) {
     const size_t pixel = (size_t)y * width_px + x;
     double rgba[4] = {0}, normal[3] = {0}, coverage = 0, depth = INFINITY;
     for (uint32_t j = 0; j < finer; j++)
