@@ -67,6 +67,7 @@ EWA_DEFAULT_RADIUS_SCALE = 1.14
 EWA_MAX_LEVELS = 8
 EWA_MAX_EDGE_LAYERS = 8
 EWA_MAX_SECTION_PLANES = 8
+EWA_MAX_SUPERSAMPLING = 8
 EWA_LAYERS_EXACT = 4294967295
 EWA_OCTREE_WHOLE_POINTS = 4000000
 EWA_OCTREE_SAMPLE_POINTS = 400000
@@ -1993,6 +1994,7 @@ class ewa_render_options(c.Structure):
     section_count: int
     level: int
     budget_s: float
+    supersampling: int
     _fields_ = [
         ("struct_size", c.c_size_t),
         ("kernel", c.c_int),
@@ -2020,6 +2022,7 @@ class ewa_render_options(c.Structure):
         ("section_count", c.c_uint32),
         ("level", c.c_uint32),
         ("budget_s", c.c_double),
+        ("supersampling", c.c_uint32),
     ]
 
 

@@ -90,6 +90,9 @@ static void mix(int index, joint_frame *made) {
         made->camera.fx_px = made->camera.fy_px = 40;
         o->kernel = EWA_KERNEL_RAYCAST, o->eye_dome = 2;
         break;
+    case 19:
+        o->supersampling = 3;
+        break;
     default:
         o->edge_layers = 1;
         o->cull = EWA_CULL_BACK;

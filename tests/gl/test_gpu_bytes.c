@@ -55,7 +55,7 @@ static void test_division_has_no_say(void **state) {
         assert_int_equal(ewa_surfels_create(of.cloud, NULL, &parts[0]), EWA_OK);
         ewa_render_options options;
         ewa_render_options_init(&options, sizeof options);
-        options.opacity = k == 2 ? 0.5 : 1;
+        options.opacity = k == 2 ? 0.5 : 1, options.supersampling = k == 1 ? 2 : 1;
         ewa_renderer *cpu = NULL;
         assert_int_equal(ewa_renderer_create(context, &cpu), EWA_OK);
         draw(cpu, parts, "0", &of, &options, &expected);
