@@ -65,7 +65,8 @@ typedef struct splat {
 typedef struct hit {
     uint32_t x, splat;
     double z, key, alpha;
-    double ahead; ///< of alpha: in front of the surface
+    double ahead;     ///< of alpha: in front of the surface
+    double deviation; ///< in depth, along the ray
 } hit;
 
 typedef struct reference {
@@ -384,7 +385,7 @@ static bool meet(const reference *work, const splat *at, uint32_t x, uint32_t y,
     const double all = share_between(work, z, by.deviation, enter, leave);
     const double ahead = share_between(work, z, by.deviation, enter, fmin(leave, surface));
     *made = (hit){
-        .x = x, .splat = (uint32_t)(at - work->splats), .z = z, .alpha = alpha * all, .ahead = alpha * ahead};
+        .x = x, .splat = (uint32_t)(at - work->splats), .z = z, .alpha = alpha * all, .ahead = alpha * ahead, .deviation = by.deviation};
     made->key = work->camera.by_center ? at->place.z : z;
     return true;
 }
@@ -425,14 +426,30 @@ typedef struct shown {
     double color[4], opacity;
 } shown;
 
+/// The share of number i + 1 of a list that is in front of number i: up to half where they are nearer to each other than
+/// either is to the next one, and one standard deviation of one meets one of the other.
+static double share_in_front(const reference *work, const hit *hits, size_t count, size_t i) {
+    if (work->camera.by_center || i + 1 >= count) return 0;
+    double meet = hits[i].deviation + hits[i + 1].deviation;
+    if (i > 0) meet = fmin(meet, hits[i].z - hits[i - 1].z);
+    if (i + 2 < count) meet = fmin(meet, hits[i + 2].z - hits[i + 1].z);
+    const double apart = hits[i + 1].z - hits[i].z;
+    return 0.5 * fmax(1 - apart / fmax(meet, 1e-30), 0);
+}
+
 /// Composites a pixel's list over a straight linear colour; `ahead`: what lies in front of the surface.
 static shown composite(const reference *work, const hit *hits, size_t count, bool ahead,
                        const double back[4]) {
-    double color[3] = {0}, through = 1;
+    double color[3] = {0}, through = 1, before = 0; // the share of the last one that this one was in front of
     for (size_t i = 0; i < count; i++) {
-        const double weight = through * (ahead ? hits[i].ahead : hits[i].alpha);
+        const double alpha = ahead ? hits[i].ahead : hits[i].alpha;
+        const double last = i > 0 ? (ahead ? hits[i - 1].ahead : hits[i - 1].alpha) : 0;
+        const double next = i + 1 < count ? (ahead ? hits[i + 1].ahead : hits[i + 1].alpha) : 0;
+        const double behind = share_in_front(work, hits, count, i);
+        const double weight = alpha * (1 - behind * next) * (through + before * last * through / (1 - last));
         for (int c = 0; c < 3; c++) color[c] += weight * work->splats[hits[i].splat].color[c];
-        through -= weight;
+        through *= 1 - alpha;
+        before = behind;
     }
     shown made = {.opacity = 1 - through};
     made.color[3] = 1 - through + through * back[3];

@@ -100,29 +100,35 @@ static ALWAYS_INLINE passage pass_splat(const float *s, wf u, wf v, wf limit, bo
     return by;
 }
 
+/// A splat in the pixels of a block.
+typedef struct splat_hit {
+    wf z, alpha;
+    wf deviation; ///< in depth, along the rays
+} splat_hit;
+
 /// Alpha of a splat that pixels see at the distance `m2`: of what stands along a ray the share in front of the surface
 /// counts. Returns which of those within show it.
 static ALWAYS_INLINE uint32_t shade_hit(const ewa_gaussian_view *view, const float *s, wm inside, wf m2,
-                                        const passage *by, hit_mode mode, const block_state *block, wf *depth,
-                                        wf *opacity) {
+                                        const passage *by, hit_mode mode, const block_state *block,
+                                        splat_hit *hit) {
     wf alpha = wf_exp2(wf_fma(m2, wf_set(-0.721347520f), wf_set(s[RECORD_LOG2_ALPHA])));
     if (view->keep) inside = wm_and(inside, wf_le(wf_set(view->minimum_alpha), alpha));
     alpha = wf_min(alpha, wf_set((float)EWA_GAUSSIAN_MAX_ALPHA));
+    hit->deviation = wf_max(wf_sqrt(by->variance), wf_set(1e-30f));
     if (mode.with_depth && (view->with_surface || view->with_sections)) {
-        const wf deviation = wf_max(wf_sqrt(by->variance), wf_set(1e-30f));
-        wf share = share_ahead(wf_load(block->surface), by->z, deviation);
+        wf share = share_ahead(wf_load(block->surface), by->z, hit->deviation);
         if (view->with_sections)
-            share = wf_max(wf_sub(share, share_ahead(wf_load(block->enter), by->z, deviation)), wf_set(0));
+            share = wf_max(wf_sub(share, share_ahead(wf_load(block->enter), by->z, hit->deviation)), wf_set(0));
         alpha = wf_mul(alpha, share);
     }
-    *opacity = alpha;
-    *depth = wf_add(by->z, wf_set(0)); // of both zeros the one above
+    hit->alpha = alpha;
+    hit->z = wf_add(by->z, wf_set(0)); // of both zeros the one above
     return wm_bits(inside);
 }
 
 /// A trained 2D Gaussian: where rays cross it no nearer than the near plane, or its dot, whichever is more.
 static ALWAYS_INLINE uint32_t hit_flat(const ewa_gaussian_view *view, const float *s, wf u, wf v, hit_mode mode,
-                                       const block_state *block, wf *depth, wf *opacity) {
+                                       const block_state *block, splat_hit *hit) {
     const wf limit = wf_set(s[RECORD_LIMIT]), infinite = wf_set(__builtin_inff());
     passage by = pass_splat(s, u, v, limit, mode.orthographic, true);
     const wf x = wf_sub(u, wf_set(s[RECORD_DOT_X])), y = wf_sub(v, wf_set(s[RECORD_DOT_Y]));
@@ -134,27 +140,27 @@ static ALWAYS_INLINE uint32_t hit_flat(const ewa_gaussian_view *view, const floa
     if (!wm_bits(inside)) return 0;
     by.z = wf_select(crossed, by.z, wf_set(s[RECORD_DOT_Z]));
     by.z = wf_min(wf_max(by.z, wf_set(s[RECORD_LOW])), wf_set(s[RECORD_HIGH]));
-    return shade_hit(view, s, inside, m2, &by, mode, block, depth, opacity);
+    return shade_hit(view, s, inside, m2, &by, mode, block, hit);
 }
 
 /// A splat in the pixels of a block whose centres are (x, y): which of them show it.
 static ALWAYS_INLINE uint32_t hit_splat(const ewa_gaussian_view *view, const float *s, wf x, wf y, hit_mode mode,
-                                        const block_state *block, wf *depth, wf *opacity) {
+                                        const block_state *block, splat_hit *hit) {
     const wf u = wf_sub(x, wf_set(s[RECORD_X])), v = wf_sub(y, wf_set(s[RECORD_Y]));
     const wf limit = wf_set(s[RECORD_LIMIT]), zero = wf_set(0);
-    if (mode.with_flat && s[RECORD_DOT] > 0) return hit_flat(view, s, u, v, mode, block, depth, opacity);
+    if (mode.with_flat && s[RECORD_DOT] > 0) return hit_flat(view, s, u, v, mode, block, hit);
     passage by = {.distance2 = zero, .z = zero, .variance = zero};
     if (!mode.trained) {
         by = pass_splat(s, u, v, limit, mode.orthographic, false);
         if (!wm_bits(by.ahead)) return 0;
-        return shade_hit(view, s, by.ahead, by.distance2, &by, mode, block, depth, opacity);
+        return shade_hit(view, s, by.ahead, by.distance2, &by, mode, block, hit);
     }
     const wf across = wf_fma(u, wf_set(s[RECORD_AX]), wf_mul(v, wf_set(s[RECORD_AY])));
     const wf down = wf_mul(v, wf_set(s[RECORD_BY])), m2 = wf_fma(across, across, wf_mul(down, down));
     const wm inside = wf_lt(m2, limit);
     if (!wm_bits(inside)) return 0;
     if (mode.with_depth) by = pass_splat(s, u, v, limit, mode.orthographic, true);
-    return shade_hit(view, s, inside, m2, &by, mode, block, depth, opacity);
+    return shade_hit(view, s, inside, m2, &by, mode, block, hit);
 }
 
 /// The layers of volumes in a block: what of each comes next, and the nearest of these.
@@ -204,6 +210,7 @@ static bool add_layers(const ewa_gaussian_view *view, ewa_gaussian_tile *tile, b
         if (hit->active) {
             wf_store(hit->z, wf_set(feed->z));
             wf_store(hit->alpha, alpha);
+            wf_store(hit->deviation, wf_set(0));
             hit->layer = layer;
             keep_hit(tile, block);
         }
@@ -227,17 +234,22 @@ static ALWAYS_INLINE void draw_by_rays(const ewa_gaussian_view *view, ewa_gaussi
         }
         ewa_gaussian_hit *hit = next_hit(tile, block);
         tile->block_count++;
-        wf z, alpha;
-        hit->active = block->alive & hit_splat(view, record, x, y, mode, block, &z, &alpha);
+        splat_hit met;
+        hit->active = block->alive & hit_splat(view, record, x, y, mode, block, &met);
         if (!hit->active) continue;
-        wf_store(hit->z, z);
-        wf_store(hit->alpha, alpha);
+        wf_store(hit->z, met.z);
+        wf_store(hit->alpha, met.alpha);
+        wf_store(hit->deviation, met.deviation);
         hit->id = id;
         hit->layer = NULL;
         keep_hit(tile, block);
     }
-    if (add_layers(view, tile, everything, __FLT_MAX__, feed, block))
-        advance(view, tile, __builtin_inff(), block);
+    if (!add_layers(view, tile, everything, __FLT_MAX__, feed, block)) return;
+    advance(view, tile, __builtin_inff(), block);
+    if (block->alive && tile->volume_count)
+        end_rows(view, true, block);
+    else if (block->alive)
+        end_rows(view, false, block);
 }
 
 /// The pixels of a block while splats are composited as they come.
@@ -285,10 +297,10 @@ static ALWAYS_INLINE void draw_by_centers(const ewa_gaussian_view *view, ewa_gau
         const float *record = tile->records[tile->block_ids[i]];
         if (feed->z <= record[RECORD_ORDER])
             composite_layers(view, tile, everything, record[RECORD_ORDER], half, feed, &of);
-        wf z, alpha;
-        const uint32_t shows = hit_splat(view, record, x, y, mode, block, &z, &alpha);
+        splat_hit hit;
+        const uint32_t shows = hit_splat(view, record, x, y, mode, block, &hit);
         if (!shows) continue;
-        const wf weight = take_light(view, wm_of_bits(shows), alpha, z, half, &of);
+        const wf weight = take_light(view, wm_of_bits(shows), hit.alpha, hit.z, half, &of);
         for (int c = 0; c < 3; c++) of.light[c] = wf_fma(weight, wf_set(record[RECORD_COLOR + c]), of.light[c]);
     }
     tile->block_count += i;
@@ -377,6 +389,7 @@ static void composite_block(const ewa_gaussian_view *view, ewa_gaussian_tile *ti
     block->alive = 0;
     block->waiting_count = block->free_count = block->made_count = block->come = 0;
     block->at_once = EWA_GAUSSIAN_AT_ONCE;
+    if (!view->by_center) start_rows(block);
     for (uint32_t y = 0; y < at->height; y++) block->alive |= ((1u << at->width) - 1) << 4 * y;
     set_bounds(view, tile, to, at, everything, block);
     if (view->orthographic)

@@ -91,6 +91,7 @@ typedef struct ewa_gaussian_found {
 /// A splat or volume layer as the pixels of a block hit it.
 typedef struct ewa_gaussian_hit {
     _Alignas(64) float z[16], alpha[16];
+    float deviation[16];           ///< in depth, along the rays
     uint32_t active;               ///< pixels that show it and have not composited it
     uint32_t id;                   ///< record, of a splat
     const ewa_volume_layer *layer; ///< of a volume; NULL: a splat
@@ -99,7 +100,7 @@ typedef struct ewa_gaussian_hit {
 /// Sort buffer: a row for each splat.
 typedef struct ewa_gaussian_sort_buffer {
     _Alignas(64) int32_t keys[EWA_GAUSSIAN_SORTED][16]; ///< depth and row
-    float alphas[EWA_GAUSSIAN_SORTED][16], colors[3][EWA_GAUSSIAN_SORTED];
+    float alphas[EWA_GAUSSIAN_SORTED][16], deviations[EWA_GAUSSIAN_SORTED][16], colors[3][EWA_GAUSSIAN_SORTED];
     uint32_t chosen[EWA_GAUSSIAN_SORTED];
     float linear[EWA_GAUSSIAN_SORTED];              ///< 1: a layer of a volume; where there are some
     float layer_colors[3][EWA_GAUSSIAN_SORTED][16]; ///< theirs

@@ -9,12 +9,22 @@
 // greater of two keys, Batcher's; a key is a depth and the splat's place, so that ties are as the splats came.
 // Nothing is ever dropped.
 //
+// Two that come next to each other in depth change places by and by: while they are nearer to each other than either is to
+// the next one, and their intervals of one standard deviation meet, each is partly in front of the other. So nothing
+// changes at once where depths are equal, and light is neither lost nor won (docs/math.md section 12).
+//
 // Based on: K. E. Batcher, "Sorting Networks and Their Applications", 1968 (the merge exchange, for any count).
 #ifndef EWA_SRC_VOLUME_GAUSSIAN_ORDER_H
 #define EWA_SRC_VOLUME_GAUSSIAN_ORDER_H
 
 #include "volume/gaussian_kernels.h"
 #include "volume/kernels_over.h"
+
+/// What is kept of a splat or layer until the next one is known.
+enum { PENDING_Z, PENDING_ALPHA, PENDING_DEVIATION, PENDING_COLOR, PENDING_LAYER = PENDING_COLOR + 3, PENDING_NUMBERS };
+
+/// Farther than all there is, and yet finite.
+static const float BEYOND = 1e30f;
 
 /// A block while it is drawn.
 typedef struct block_state {
@@ -23,6 +33,8 @@ typedef struct block_state {
     float enter[16];        ///< where section planes begin them
     float half[16];         ///< what is left of the light where depth is noted
     float linear[4 * 16];   ///< of volumes: premultiplied light and alpha, beside those of `pixels`
+    float pending[2][PENDING_NUMBERS][16]; ///< the last two of each pixel, nearer one first
+    float gap[16], lead[16];               ///< from the one before these in depth; what shows of the first
     uint32_t alive;         ///< pixels in which more would show
     uint32_t waiting_count; ///< splats that wait, in the order in which they came
     uint32_t free_count, made_count;
@@ -118,6 +130,7 @@ static ALWAYS_INLINE void lay_out(ewa_gaussian_tile *tile, const block_state *bl
         wi_store(sort_buffer->keys[i],
                  wi_of_bits(wf_select(shows, wf_of_bits(key), wf_of_bits(wi_set(NO_KEY)))));
         wf_store(sort_buffer->alphas[i], wf_load(hit->alpha));
+        wf_store(sort_buffer->deviations[i], wf_load(hit->deviation));
         if (tile->volume_count) sort_buffer->linear[i] = hit->layer != NULL;
         for (int c = 0; c < 3; c++)
             sort_buffer->colors[c][i] = hit->layer ? 0 : tile->records[hit->id][RECORD_COLOR + c];
@@ -178,49 +191,110 @@ static ALWAYS_INLINE void sort_rows(int32_t keys[][16], uint32_t count) {
     }
 }
 
+/// The pixels of a block between two rows.
+typedef struct row_state {
+    wf pending[2][PENDING_NUMBERS], gap, lead, through, depth, light[3], linear[4];
+    wm alive;
+} row_state;
+
+static ALWAYS_INLINE void load_rows(const block_state *block, row_state *at) {
+    for (int k = 0; k < 2; k++)
+        for (int i = 0; i < PENDING_NUMBERS; i++) at->pending[k][i] = wf_load(block->pending[k][i]);
+    at->gap = wf_load(block->gap), at->lead = wf_load(block->lead);
+    at->through = wf_load(block->pixels + 48), at->depth = wf_load(block->pixels + 64);
+    for (int c = 0; c < 3; c++) at->light[c] = wf_load(block->pixels + 16 * c);
+    for (int c = 0; c < 4; c++) at->linear[c] = wf_load(block->linear + 16 * c);
+    at->alive = wm_of_bits(block->alive);
+}
+
+static ALWAYS_INLINE void store_rows(const row_state *at, block_state *block) {
+    for (int k = 0; k < 2; k++)
+        for (int i = 0; i < PENDING_NUMBERS; i++) wf_store(block->pending[k][i], at->pending[k][i]);
+    wf_store(block->gap, at->gap), wf_store(block->lead, at->lead);
+    wf_store(block->pixels + 48, at->through), wf_store(block->pixels + 64, at->depth);
+    for (int c = 0; c < 3; c++) wf_store(block->pixels + 16 * c, at->light[c]);
+    for (int c = 0; c < 4; c++) wf_store(block->linear + 16 * c, at->linear[c]);
+    block->alive = wm_bits(at->alive);
+}
+
+/// Nothing is pending yet.
+static ALWAYS_INLINE void start_rows(block_state *block) {
+    for (int k = 0; k < 2; k++)
+        for (int i = 0; i < PENDING_NUMBERS; i++)
+            wf_store(block->pending[k][i], wf_set(i == PENDING_Z ? (k - 2) * BEYOND : 0));
+    wf_store(block->gap, wf_set(BEYOND)), wf_store(block->lead, wf_set(1));
+}
+
+/// Composites the first of those that are pending, in the pixels that show the one that comes, `next`, which is pending
+/// then.
+static ALWAYS_INLINE void push_row(const ewa_gaussian_view *view, wm shows, const wf next[PENDING_NUMBERS], bool mixed,
+                                   wf half, row_state *at) {
+    const wf zero = wf_set(0), one = wf_set(1), *a = at->pending[0], *b = at->pending[1];
+    // The share of the second that is in front of the first.
+    const wf apart = wf_sub(b[PENDING_Z], a[PENDING_Z]), after = wf_sub(next[PENDING_Z], b[PENDING_Z]);
+    const wf meet = wf_min(wf_min(at->gap, after), wf_add(a[PENDING_DEVIATION], b[PENDING_DEVIATION]));
+    const wf share =
+        wf_mul(wf_set(0.5f), wf_max(wf_sub(one, wf_div(apart, wf_max(meet, wf_set(1e-30f)))), zero));
+    const wf hidden = wf_mul(share, b[PENDING_ALPHA]), taken = wf_keep(shows, wf_mul(at->through, a[PENDING_ALPHA]));
+    const wf full = wf_keep(shows, wf_mul(at->lead, a[PENDING_ALPHA])), weight = wf_fnma(full, hidden, full);
+    const wf rest = wf_sub(at->through, taken);
+    wf own = weight;
+    if (mixed) {
+        const wf layer = wf_mul(weight, a[PENDING_LAYER]);
+        for (int c = 0; c < 3; c++) at->linear[c] = wf_fma(layer, a[PENDING_COLOR + c], at->linear[c]);
+        at->linear[3] = wf_add(at->linear[3], layer);
+        own = wf_sub(weight, layer);
+    }
+    for (int c = 0; c < 3; c++) at->light[c] = wf_fma(own, a[PENDING_COLOR + c], at->light[c]);
+    if (view->with_depth) at->depth = note_depth(at->depth, half, at->through, rest, a[PENDING_Z]);
+    at->lead = wf_select(shows, wf_fma(taken, share, rest), at->lead);
+    at->through = rest;
+    at->gap = wf_select(shows, apart, at->gap);
+    at->alive = wm_and(at->alive, wf_le(wf_set(view->minimum_transmittance), at->lead));
+    for (int i = 0; i < PENDING_NUMBERS - !mixed; i++) {
+        at->pending[0][i] = wf_select(shows, b[i], a[i]);
+        at->pending[1][i] = wf_select(shows, next[i], b[i]);
+    }
+}
+
 static ALWAYS_INLINE void composite_rows(const ewa_gaussian_view *view,
                                          const ewa_gaussian_sort_buffer *sort_buffer, uint32_t count,
                                          int64_t low_code, bool mixed, block_state *block) {
     static const int32_t lanes[16] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
     const wi lane = wi_load(lanes), low = wi_set((int32_t)low_code), all = wi_set(EWA_GAUSSIAN_SORTED - 1);
-    const wf none = wf_of_bits(wi_set(NO_KEY)), minimum = wf_set(view->minimum_transmittance);
-    wm alive = wm_of_bits(block->alive);
-    wf light[3], through = wf_load(block->pixels + 48), depth = wf_load(block->pixels + 64);
-    const wf half = wf_load(block->half);
-    wf linear[4];
-    for (int c = 0; c < 3; c++) light[c] = wf_load(block->pixels + 16 * c);
-    for (int c = 0; c < 4 && mixed; c++) linear[c] = wf_load(block->linear + 16 * c);
+    const wf none = wf_of_bits(wi_set(NO_KEY)), half = wf_load(block->half);
+    row_state rows;
+    load_rows(block, &rows);
     for (uint32_t i = 0; i < count; i++) {
         const wi key = wi_load(sort_buffer->keys[i]), at = wi_and(key, all);
-        const wm shows = wm_and(alive, wf_lt(wf_of_bits(key), none));
+        const wm shows = wm_and(rows.alive, wf_lt(wf_of_bits(key), none));
         if (!wm_bits(shows)) break;
         const wi pixel = wi_or(wi_shl(at, 4), lane);
-        const wf alpha = wf_gather(sort_buffer->alphas[0], pixel);
-        const wf weight = wf_keep(shows, wf_mul(through, alpha)), rest = wf_sub(through, weight);
-        wf own = weight;
-        if (mixed) {
-            const wm layer = wm_and(shows, wf_lt(wf_set(0), wf_gather(sort_buffer->linear, at)));
-            const wf taken = wf_keep(layer, weight);
-            for (int c = 0; c < 3; c++) {
-                const wf color = wf_keep(layer, wf_gather(sort_buffer->layer_colors[c][0], pixel));
-                linear[c] = wf_fma(taken, color, linear[c]);
-            }
-            linear[3] = wf_add(linear[3], taken);
-            own = wf_sub(weight, taken);
+        wf next[PENDING_NUMBERS];
+        next[PENDING_Z] = wf_of_bits(flip_code(wi_add(low, wi_sar(key, EWA_GAUSSIAN_SORT_BITS))));
+        next[PENDING_ALPHA] = wf_gather(sort_buffer->alphas[0], pixel);
+        next[PENDING_DEVIATION] = wf_gather(sort_buffer->deviations[0], pixel);
+        next[PENDING_LAYER] = mixed ? wf_gather(sort_buffer->linear, at) : wf_set(0);
+        for (int c = 0; c < 3; c++) {
+            next[PENDING_COLOR + c] = wf_gather(sort_buffer->colors[c], at);
+            if (mixed)
+                next[PENDING_COLOR + c] =
+                    wf_select(wf_lt(wf_set(0), next[PENDING_LAYER]),
+                              wf_gather(sort_buffer->layer_colors[c][0], pixel), next[PENDING_COLOR + c]);
         }
-        for (int c = 0; c < 3; c++) light[c] = wf_fma(own, wf_gather(sort_buffer->colors[c], at), light[c]);
-        if (view->with_depth) {
-            const wf z = wf_of_bits(flip_code(wi_add(low, wi_sar(key, EWA_GAUSSIAN_SORT_BITS))));
-            depth = note_depth(depth, half, through, rest, z);
-        }
-        through = rest;
-        alive = wm_and(alive, wf_le(minimum, rest));
+        push_row(view, shows, next, mixed, half, &rows);
     }
-    for (int c = 0; c < 3; c++) wf_store(block->pixels + 16 * c, light[c]);
-    for (int c = 0; c < 4 && mixed; c++) wf_store(block->linear + 16 * c, linear[c]);
-    wf_store(block->pixels + 48, through);
-    wf_store(block->pixels + 64, depth);
-    block->alive = wm_bits(alive);
+    store_rows(&rows, block);
+}
+
+/// Composites what is still pending.
+static ALWAYS_INLINE void end_rows(const ewa_gaussian_view *view, bool mixed, block_state *block) {
+    row_state rows;
+    wf next[PENDING_NUMBERS];
+    for (int i = 0; i < PENDING_NUMBERS; i++) next[i] = wf_set(i == PENDING_Z ? BEYOND : 0);
+    load_rows(block, &rows);
+    for (int k = 0; k < 2; k++) push_row(view, rows.alive, next, mixed, wf_load(block->half), &rows);
+    store_rows(&rows, block);
 }
 
 /// Composites what waits up to a depth, at which nothing to come can be in front of it.

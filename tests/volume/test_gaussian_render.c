@@ -212,6 +212,48 @@ static void test_crossing(void **state) {
     ewa_context_destroy(&context);
 }
 
+/// A sheet that goes through another one, whose deviations in depth are 0.1: by rays the share of the farther one that is in
+/// front is 1/2 (1 - distance / 0.2), but no longer when a third one is nearer to it, and nothing changes at once.
+static void test_passing(void **state) {
+    static const double scales[3] = {80, 80, 0.1};
+    ewa_context *context = check_context(1, NULL);
+    const ewa_camera camera = gaussians_camera(16, 16, 5, (const double[3]){0, 0, -1}, 5);
+    double before = 0;
+    for (int n = 0; n < 200; n++) {
+        const bool third = n >= 100;
+        const double at = (n % 100 - 50) * 0.008; // of blue, behind red, which is at 0; the third one at 0.1 is black
+        ewa_gaussians set;
+        assert_int_equal(ewa_gaussians_create(context, third ? 3 : 2, 0, &set), EWA_OK);
+        for (size_t i = 0; i < set.count; i++) {
+            set.centers[3 * i + 2] = i == 0 ? 0 : i == 1 ? (float)at : 0.1f;
+            set.rotations[4 * i] = 1;
+            for (size_t k = 0; k < 3; k++) {
+                set.scales[3 * i + k] = (float)scales[k];
+                set.harmonics[3 * i + k] = (float)((k == 2 * i ? 0.5 : -0.5) / 0.28209479177387814);
+            }
+            set.opacities[i] = 0.6f;
+        }
+        ewa_gaussian_options options = options_of((ewa_gaussian_projection)(n % 2));
+        options.order = EWA_ORDER_RAY;
+        ewa_image image = gaussians_draw(&set, &camera, &options, NULL);
+        ewa_image slow = gaussians_draw_reference(&set, &camera, &options);
+        assert_true(gaussians_decibels(&image, &slow) > 90);
+        const float *pixel = image.pixels + 4 * (8 * 16 + 8);
+        const double alpha = (double)pixel[3];
+        double red = (double)pixel[0] / alpha;
+        red = (red <= 0.0031308 ? 12.92 * red : 1.055 * pow(red, 1 / 2.4) - 0.055) * alpha;
+        const double share = 0.5 * fmax(1 - fabs(at) / 0.2, 0), in_front = at >= 0 ? share : 1 - share;
+        if (!third && fabs(red - 0.6 * (1 - 0.6 * in_front)) > 1e-3)
+            fail_msg("%g apart: %g, not %g", at, red, 0.6 * (1 - 0.6 * in_front));
+        if (n % 100 && fabs(red - before) > 0.05) fail_msg("%g apart, %d: from %g to %g", at, n, before, red);
+        before = red;
+        ewa_image_free(&image);
+        ewa_image_free(&slow);
+        ewa_gaussians_free(&set);
+    }
+    ewa_context_destroy(&context);
+}
+
 /// Trained 2D Gaussians of which the numbers are known: one that leans by 60 degrees, where its ray crosses it, and one far
 /// smaller than a pixel, a dot of variance 1/2 px^2.
 static void test_flat(void **state) {
@@ -509,7 +551,7 @@ static void test_memory(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_reference), cmocka_unit_test(test_dense),    cmocka_unit_test(test_bytes),
-        cmocka_unit_test(test_crossing), cmocka_unit_test(test_flat), cmocka_unit_test(test_constant),  cmocka_unit_test(test_nothing),  cmocka_unit_test(test_one),
+        cmocka_unit_test(test_crossing), cmocka_unit_test(test_flat), cmocka_unit_test(test_passing), cmocka_unit_test(test_constant),  cmocka_unit_test(test_nothing),  cmocka_unit_test(test_one),
         cmocka_unit_test(test_surface),   cmocka_unit_test(test_sections), cmocka_unit_test(test_harmonics),
         cmocka_unit_test(test_memory),
     };
