@@ -156,7 +156,7 @@ class Gaussians(Held):
         return self._stream("harmonics", ((self.sh_degree + 1) ** 2, 3))
 
     def save(self, path: PathLike, **options: Unpack[GaussiansSaveOptions]) -> None:
-        """Write .ply (as 3DGS), .splat or .spz.
+        """Write .ply (as 3DGS), .compressed.ply (of PlayCanvas), .splat or .spz.
 
         Parameters
         ----------

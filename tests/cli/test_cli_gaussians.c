@@ -69,6 +69,10 @@ static void converted(void **state) {
     assert_int_equal(run("ewa convert three.ply -o b.splat"), 0);
     assert_non_null(strstr(last_run.err, "degree 1 to 1"));
     assert_int_equal(scratch_size("b.splat"), 64);
+    run_done("ewa convert three.ply -o b.compressed.ply && ewa info b.compressed.ply");
+    said("compressed PLY");
+    said("degree 1");
+    said("high        4 5 6");
     run_done("ewa convert b.splat -o c.ply && ewa info c.ply");
     said("3D Gaussians, spherical harmonics of degree 0");
     run_done("ewa convert a.spz -o c.ply && ewa info c.ply");

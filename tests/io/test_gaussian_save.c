@@ -44,6 +44,8 @@ static void round_trips(void **state) {
         sample_limits limits;
     } cases[] = {{"a.ply", 0, 4, EWA_GAUSSIANS_PLY, {0, 1e-6, 1e-6, 1e-6, 0, 0}},
                  {"a.ply", 0, 1, EWA_GAUSSIANS_PLY, {0, 1e-6, 1e-6, 1e-6, 0, 0}},
+                 {"a.compressed.ply", 0, 4, EWA_GAUSSIANS_PACKED_PLY, {2e-2, 2e-3, 1e-5, 2e-3, 3e-2, 2e-2}},
+                 {"a.compressed.ply", 0, 1, EWA_GAUSSIANS_PACKED_PLY, {2e-2, 2e-3, 1e-5, 2e-3, 3e-2, 2e-2}},
                  {"a.splat", 0, 0, EWA_GAUSSIANS_SPLAT, {0, 0, 2e-4, 2e-3, 1e-2, 0}},
                  {"a.spz", 2, 3, EWA_GAUSSIANS_SPZ, {4e-6, 4e-2, 2e-4, 2e-3, 2e-2, 1e-2}},
                  {"a.spz", 0, 4, EWA_GAUSSIANS_SPZ, {4e-6, 4e-2, 2e-6, 2e-3, 2e-2, 1e-2}},
@@ -60,7 +62,7 @@ static void round_trips(void **state) {
             assert_int_equal(facts.format, cases[i].format);
             if (facts.format == EWA_GAUSSIANS_SPZ)
                 assert_int_equal(facts.version, cases[i].version ? cases[i].version : 3);
-            assert_true(read.antialiased == (antialiased && cases[i].format != EWA_GAUSSIANS_SPLAT));
+            assert_true(read.antialiased == (antialiased && cases[i].format != EWA_GAUSSIANS_SPLAT && cases[i].format != EWA_GAUSSIANS_PACKED_PLY));
             assert_false(read.flat);
             sample_check(&read, cases[i].degree, &cases[i].limits);
             ewa_gaussians_free(&set);
@@ -198,7 +200,7 @@ static void refused(void **state) {
     char path[512];
     make_set(context, 0, &set);
     assert_int_equal(ewa_gaussians_save(&set, scratch_path("a.las", path), NULL), EWA_ERROR_UNSUPPORTED);
-    assert_non_null(strstr(log.text, ".ply, .splat and .spz"));
+    assert_non_null(strstr(log.text, ".ply, .compressed.ply, .splat and .spz"));
     assert_int_equal(ewa_gaussians_save(&none, scratch_path("a.ply", path), NULL), EWA_ERROR_ARGUMENT);
     assert_int_equal(ewa_gaussians_save(NULL, path, NULL), EWA_ERROR_ARGUMENT);
     assert_int_equal(ewa_gaussians_save(&set, "/nowhere/at/all.spz", NULL), EWA_ERROR_IO);
@@ -218,16 +220,67 @@ static void refused(void **state) {
     set.scales[4] = -1;
     assert_int_equal(ewa_gaussians_save(&set, path, NULL), EWA_ERROR_ARGUMENT);
     assert_int_equal(ewa_gaussians_format_of("x.SPZ"), EWA_GAUSSIANS_SPZ);
+    assert_int_equal(ewa_gaussians_format_of("x.Compressed.ply"), EWA_GAUSSIANS_PACKED_PLY);
+    assert_int_equal(ewa_gaussians_format_of("compressed.ply"), EWA_GAUSSIANS_PLY);
     assert_int_equal(ewa_gaussians_format_of("x.spz/y"), EWA_GAUSSIANS_NONE);
     assert_int_equal(ewa_gaussians_format_of("-"), EWA_GAUSSIANS_PLY);
     ewa_gaussians_free(&set);
     ewa_context_destroy(&context);
 }
 
+/// Compressed PLY of several chunks, the last one not full: in another order, each within a step of the chunks that
+/// neighbours share; one far away costs its own chunk alone.
+static void chunks(void **state) {
+    enum { COUNT = 5000 };
+    check_random random = {5};
+    ewa_context *context = check_context(2, NULL);
+    ewa_gaussians set, read;
+    assert_int_equal(ewa_gaussians_create(context, COUNT, 1, &set), EWA_OK);
+    for (size_t i = 0; i < COUNT; i++) {
+        for (size_t k = 0; k < 3; k++) {
+            set.centers[3 * i + k] = (float)(check_uniform(&random, -1, 1) + (i == 7 ? 1000 : 0));
+            set.scales[3 * i + k] = (float)exp(check_uniform(&random, -8, -2));
+            for (size_t n = 0; n < 4; n++) set.harmonics[12 * i + 3 * n + k] = (float)check_uniform(&random, -1, 1);
+        }
+        set.rotations[4 * i] = 1;
+        set.opacities[i] = (float)((double)i / COUNT); // by which it is known again, within 1/510
+    }
+    pass(context, &set, "chunks.compressed.ply", 4, 0, &read, NULL);
+    assert_int_equal(read.count, COUNT);
+    double worst[3] = {0, 0, 0};
+    uint32_t coarse = 0;
+    for (size_t i = 0; i < COUNT; i++) {
+        double nearest = INFINITY;
+        size_t found = 0;
+        const size_t middle = (size_t)(read.opacities[i] * COUNT);
+        for (size_t k = middle > 20 ? middle - 20 : 0; k < middle + 20 && k < COUNT; k++) {
+            double away = 0;
+            for (size_t a = 0; a < 3; a++) away = fmax(away, fabs((double)(set.centers[3 * k + a] - read.centers[3 * i + a])));
+            if (away < nearest) nearest = away, found = k;
+        }
+        if (nearest > 3e-3) {
+            coarse++;
+            continue;
+        }
+        worst[0] = fmax(worst[0], nearest);
+        for (size_t a = 0; a < 3; a++) {
+            const double ratio = (double)(read.scales[3 * i + a] / set.scales[3 * found + a]);
+            worst[1] = fmax(worst[1], fabs(log(ratio)));
+            for (size_t n = 1; n < 4; n++)
+                worst[2] = fmax(worst[2], fabs((double)(read.harmonics[12 * i + 3 * n + a] - set.harmonics[12 * found + 3 * n + a])));
+        }
+    }
+    print_message("chunks: centres within %g, scales %g, harmonics %g, but for %u\n", worst[0], worst[1], worst[2], coarse);
+    assert_true(coarse <= 256 && worst[0] < 2e-3 && worst[1] < 4e-3 && worst[2] < 1.6e-2 + 1e-6);
+    ewa_gaussians_free(&set);
+    ewa_gaussians_free(&read);
+    ewa_context_destroy(&context);
+}
+
 /// The same bytes for any number of threads.
 static void same_bytes(void **state) {
-    static const char *const names[] = {"s.ply", "s.splat", "s.spz"};
-    for (int n = 0; n < 3; n++) {
+    static const char *const names[] = {"s.ply", "s.splat", "s.spz", "s.compressed.ply"};
+    for (int n = 0; n < 4; n++) {
         uint8_t *first = NULL;
         size_t first_size = 0;
         for (uint32_t threads = 1; threads < 4; threads++) {
@@ -256,7 +309,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(round_trips), cmocka_unit_test(upright), cmocka_unit_test(turns),
         cmocka_unit_test(corners),     cmocka_unit_test(losses),  cmocka_unit_test(refused),
-        cmocka_unit_test(same_bytes),
+        cmocka_unit_test(chunks),      cmocka_unit_test(same_bytes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -31,6 +31,8 @@ static const struct {
     ewa_gaussian_format format;
     ewa_gaussian_write *write;
 } formats[] = {
+    // The first that a name ends in.
+    {".compressed.ply", EWA_GAUSSIANS_PACKED_PLY, ewa_gaussians_write_packed_ply},
     {".ply", EWA_GAUSSIANS_PLY, ewa_gaussians_write_ply},
     {".splat", EWA_GAUSSIANS_SPLAT, ewa_gaussians_write_splat},
     {".spz", EWA_GAUSSIANS_SPZ, ewa_gaussians_write_spz},
@@ -39,11 +41,13 @@ enum { FORMAT_COUNT = sizeof formats / sizeof formats[0] };
 
 /// The row of `formats` for a path; FORMAT_COUNT: none.
 static size_t find_format(const char *path) {
-    const char *dot = strrchr(ewa_platform_file_name(path), '.');
-    if (strcmp(path, "-") == 0) return 0;
-    size_t i = 0;
-    while (i < FORMAT_COUNT && !(dot && strcasecmp(dot, formats[i].suffix) == 0)) i++;
-    return i;
+    const char *name = strcmp(path, "-") == 0 ? ".ply" : ewa_platform_file_name(path);
+    const size_t length = strlen(name);
+    for (size_t i = 0; i < FORMAT_COUNT; i++) {
+        const size_t own = strlen(formats[i].suffix);
+        if (length >= own && strcasecmp(name + length - own, formats[i].suffix) == 0) return i;
+    }
+    return FORMAT_COUNT;
 }
 
 ewa_gaussian_format ewa_gaussians_format_of(const char *path) {
@@ -120,7 +124,7 @@ ewa_status ewa_gaussians_save(const ewa_gaussians *gaussians, const char *path,
     EWA_TRY(ewa_options_take(context, &ewa_gaussians_save_options_table, options, &chosen));
     const size_t format = find_format(path);
     if (format == FORMAT_COUNT)
-        return ewa_fail(context, EWA_ERROR_UNSUPPORTED, "%s: Gaussians are written to .ply, .splat and .spz",
+        return ewa_fail(context, EWA_ERROR_UNSUPPORTED, "%s: Gaussians are written to .ply, .compressed.ply, .splat and .spz",
                         path);
     if (gaussians->count == 0 || gaussians->sh_degree > EWA_MAX_SH_DEGREE)
         return ewa_fail(context, EWA_ERROR_ARGUMENT, "%s: there are no Gaussians, or harmonics of degree %u",

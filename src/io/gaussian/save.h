@@ -17,7 +17,8 @@ typedef struct ewa_gaussian_target {
 } ewa_gaussian_target;
 
 typedef ewa_status ewa_gaussian_write(const ewa_gaussian_target *target);
-ewa_gaussian_write ewa_gaussians_write_ply, ewa_gaussians_write_splat, ewa_gaussians_write_spz;
+ewa_gaussian_write ewa_gaussians_write_ply, ewa_gaussians_write_packed_ply, ewa_gaussians_write_splat,
+    ewa_gaussians_write_spz;
 
 /// Writes a number with its lowest byte first and returns what follows.
 static inline uint8_t *ewa_put_u32(uint8_t *to, uint32_t value) {
