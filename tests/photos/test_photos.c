@@ -7,10 +7,10 @@
 #include <math.h>
 
 enum {
-    POINTS = 5000,
+    POINTS = 2500,
     PHOTOS = 15,
     HELD_OUT = 5, // every fifth: 12 are used
-    SIDE_PX = 190,
+    SIDE_PX = 135,
 };
 
 static ewa_photos_options options_of(ewa_photos_method method) {
@@ -105,7 +105,7 @@ static void test_what_walks_by_is_rejected(void **state) {
     ewa_context *context = check_context(0, NULL);
     photo_scene *scene = photo_scene_make(context, POINTS, PHOTOS, SIDE_PX, 0.1, 0);
     static const uint32_t covered[] = {1, 4, 8, 12};
-    for (int i = 0; i < 4; i++) cover(scene, covered[i], 85 + 7 * i, 90, 18);
+    for (int i = 0; i < 4; i++) cover(scene, covered[i], 60 + 5 * i, 64, 13);
     ewa_photos_options options = options_of(EWA_PHOTOS_FIT);
     ewa_photos_report robust, plain, mean;
     color(scene, &options, &robust, NULL);

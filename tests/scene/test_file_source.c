@@ -10,9 +10,10 @@
 /// Of a volume, before the name of the file that its voxels are in.
 #define HEADER "NRRD0004\ntype: uint8\ndimension: 3\nsizes: 4 4 4\nencoding: raw\ndata file: "
 
-enum { WIDTH = 160, HEIGHT = 120, PIXELS = WIDTH * HEIGHT, POINTS = 900000 };
+enum { WIDTH = 160, HEIGHT = 120, PIXELS = WIDTH * HEIGHT, POINTS = 60000, MANY_POINTS = 900000 };
 
 static const char octree[] = "ground.copc.laz", points[] = "ground.ply", far[] = "far://place";
+static const char large[] = "large.copc.laz"; // of which a picture needs a part
 
 /// Files under far://place are those of the test's folder, read as the test wants.
 typedef struct far_place {
@@ -99,14 +100,19 @@ static const char *far_path(const char *name, char path[512]) {
     return path;
 }
 
-/// An octree with levels and its points, for all tests.
-static int enter(void **state) {
+/// Saves points, and the octree with levels that they make.
+static void make_octree(uint64_t count, const char *name) {
     static const char *const names[] = {points};
-    lod_clear();
     ewa_context *context = check_context(2, NULL);
-    lod_save(lod_ground(context, 0, POINTS, (lod_look){true, true}), points);
-    assert_int_equal(lod_build(context, names, 1, octree, NULL, NULL), EWA_OK);
+    lod_save(lod_ground(context, 0, count, (lod_look){true, true}), points);
+    assert_int_equal(lod_build(context, names, 1, name, NULL, NULL), EWA_OK);
     ewa_context_destroy(&context);
+}
+
+static int enter(void **state) {
+    lod_clear();
+    make_octree(MANY_POINTS, large);
+    make_octree(POINTS, octree);
     return 0;
 }
 
@@ -168,7 +174,7 @@ static far_place hold_same(const char *name, ewa_octree_levels levels, double zo
 static void test_octree(void **state) {
     static const double zooms[] = {1, 20, 1};
     for (int i = 0; i < 3; i++) {
-        const far_place place = hold_same(octree, EWA_OCTREE_ALWAYS, zooms[i], (far_place){.reads_left = -1, .by_little = i == 2});
+        const far_place place = hold_same(large, EWA_OCTREE_ALWAYS, zooms[i], (far_place){.reads_left = -1, .by_little = i == 2});
         print_message("zoom %g: %llu of %llu bytes in %d reads\n", zooms[i], (unsigned long long)place.read_bytes,
                       (unsigned long long)place.file_bytes, place.read_count);
         assert_true(place.read_bytes < place.file_bytes / 4 * 3);

@@ -24,7 +24,7 @@ void picture_free(picture *made);
 picture picture_of_scene(const scene *of, const ewa_surfels_options *surfels_options,
                          const ewa_render_options *options);
 
-enum { PICTURE_SIDE_PX = 256, PICTURE_SMALL_PX = 96 };
+enum { PICTURE_SIDE_PX = 160, PICTURE_SMALL_PX = 96 };
 
 /// A small scene for the plain pipeline, of few points.
 scene picture_small_scene(ewa_context *context, scene_kind kind);

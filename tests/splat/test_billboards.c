@@ -30,7 +30,7 @@ static void test_reference(void **state) {
     ewa_context *context = check_context(0, NULL);
     static const scene_kind kinds[] = {SCENE_SPHERE, SCENE_ELLIPSES, SCENE_NEAR};
     for (int kind = 0; kind < 3; kind++) {
-        scene made = picture_measured_scene(context, kinds[kind], 4000, NULL);
+        scene made = picture_measured_scene(context, kinds[kind], 1600, NULL);
         strew(made.cloud, 3);
         made.unit_coverage = measure_coverage(made.cloud);
         ewa_render_options options;

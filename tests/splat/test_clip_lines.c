@@ -8,7 +8,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { POINTS = 3000, SIDE = 128 };
+enum { POINTS = 1200, SIDE = 128 };
 
 static void hold(scene_kind kind, const ewa_render_options *options, bool orthographic, const char *what) {
     ewa_context *context = check_context(0, NULL);

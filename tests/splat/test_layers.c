@@ -8,7 +8,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { POINTS = 4000, SIDE = 96 };
+enum { POINTS = 1600, SIDE = 96 };
 
 /// Gives a cloud 8-bit colours with random alpha from `minimum` on; `step` > 1 also leaves every step-th
 /// point clear.
@@ -195,7 +195,7 @@ static void test_last_edge_layer_takes_all(void **state) {
 /// A transparent sphere's middle has even opacity: 1 - (1 - a)^2.
 static void test_sphere_is_even(void **state) {
     ewa_context *context = check_context(0, NULL);
-    scene of = picture_measured_scene(context, SCENE_SPHERE, 20000, NULL);
+    scene of = picture_measured_scene(context, SCENE_SPHERE, 8000, NULL);
     ewa_render_options o;
     ewa_render_options_init(&o, sizeof o);
     o.opacity = 0.3;

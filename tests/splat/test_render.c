@@ -11,7 +11,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { SIDE_PX = PICTURE_SIDE_PX, POINTS = 6000 };
+enum { SIDE_PX = PICTURE_SIDE_PX, POINTS = 3600 };
 
 static const double THRESHOLD = 1e-3;
 

@@ -8,7 +8,7 @@
 #include <math.h>
 #include <time.h>
 
-enum { POINTS = 3000, SIDE = 160, GRID = 20, CELL_PX = 8 };
+enum { POINTS = 1200, SIDE = 160, GRID = 20, CELL_PX = 8 };
 
 static ewa_render_options plain_options(void) {
     ewa_render_options options;

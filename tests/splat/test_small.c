@@ -7,7 +7,7 @@
 
 #include <math.h>
 
-enum { SIDE = 320, SHEETS = 3 };
+enum { SIDE = 160, SHEETS = 3 };
 
 /// Discs with radii of `min_px` to `max_px` pixels on wavy sheets one behind another, tilted every way; one
 /// in `every` (0: none) is `times` as large.
@@ -117,12 +117,12 @@ static void test_planes_do_not_depend_on_depths(void **state) {
         double min_px, max_px;
         uint32_t every;
         double times;
-    } clouds[] = {{"sparse points", 40000, 0.1, 0.3, 0, 1},
-                  {"dense points", 300000, 0.05, 0.4, 0, 1},
-                  {"thin sheets that hide packets", 700000, 0.05, 0.2, 0, 1},
-                  {"closed sheets", 150000, 0.5, 0.9, 0, 1},
-                  {"some large discs", 60000, 0.2, 0.5, 60, 12},
-                  {"all sizes", 60000, 0.1, 4, 0, 1}};
+    } clouds[] = {{"sparse points", 10000, 0.1, 0.3, 0, 1},
+                  {"dense points", 75000, 0.05, 0.4, 0, 1},
+                  {"thin sheets that hide packets", 175000, 0.05, 0.2, 0, 1},
+                  {"closed sheets", 37500, 0.5, 0.9, 0, 1},
+                  {"some large discs", 15000, 0.2, 0.5, 60, 12},
+                  {"all sizes", 15000, 0.1, 4, 0, 1}};
     static const ewa_kernel kernels[] = {EWA_KERNEL_PERSPECTIVE, EWA_KERNEL_AFFINE, EWA_KERNEL_SOURCE,
                                          EWA_KERNEL_CIRCULAR};
     ewa_context *context = check_context(2, NULL);

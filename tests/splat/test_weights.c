@@ -7,7 +7,7 @@
 
 #include <math.h>
 
-enum { SIDE = 200, POINTS = 5000 };
+enum { SIDE = 120, POINTS = 1800 };
 
 typedef struct part {
     const ewa_surfels *surfels;

@@ -8,7 +8,7 @@
 #include <math.h>
 
 /// Of at most 6.5 units: four steps in the thinnest standard deviation, where the midpoint rule is exact but for rounding.
-enum { STEPS = 1000 };
+enum { STEPS = 1000, SIDE_PX = 75 };
 
 /// Integral of a Gaussian of peak 1 along a ray from the eye, by the midpoint rule, in double precision.
 static double integrate(const double eye[3], const double direction[3], const double center[3],
@@ -64,7 +64,7 @@ static void test_integrals(void **state) {
     double worst_exact = INFINITY, worst_trained = INFINITY;
     for (int n = 0; n < 9; n++) {
         const double *scales = shapes[n % 3], angle = angles[n / 3] * 3.141592653589793 / 180;
-        const ewa_camera camera = gaussians_camera(150, 150, 120, ahead, 3); // at 0 0 -3
+        const ewa_camera camera = gaussians_camera(SIDE_PX, SIDE_PX, 120, ahead, 3); // at 0 0 -3
         const double center[3] = {2.5 * sin(angle), 0.1, 2.5 * cos(angle) - 3};
         const double turn = 0.3 + n,
                      rotation[4] = {cos(turn / 2), 0.6 * sin(turn / 2), 0, 0.8 * sin(turn / 2)};
@@ -86,11 +86,11 @@ static void test_integrals(void **state) {
             ewa_image image = gaussians_draw(&set, &camera, &options, NULL);
             // Alpha alone: white on nothing.
             double sum = 0;
-            for (size_t i = 0; i < 150 * 150; i++) {
+            for (size_t i = 0; i < SIDE_PX * SIDE_PX; i++) {
                 const double d = (double)image.pixels[4 * i + 3] - (double)truth.pixels[4 * i + 3];
                 sum += d * d;
             }
-            decibels[exact] = -10 * log10(sum / (150 * 150) + 1e-30);
+            decibels[exact] = -10 * log10(sum / (SIDE_PX * SIDE_PX) + 1e-30);
             ewa_image_free(&image);
         }
         print_message("%g degrees off the axis, shape %d: exact %.1f dB, affine %.1f dB\n", angles[n / 3],
