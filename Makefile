@@ -7,6 +7,7 @@
 #   make check                  the same set-up, then every test, the quick ones also under the address and undefined
 #                               behaviour sanitizers, those of threads also as clang builds them and under the thread
 #                               sanitizer; the last line counts them
+#   make check-all              every test of all four builds (hours)
 #   make                        builds everything into build/release
 #   make asan tsan clang fuzz   other builds and their tests
 #   make minimal                a program without any library, held to the bytes of the full one
@@ -39,7 +40,15 @@ EWA = build/release/cli/ewa
 # $(call quietly,COMMAND): prints what a command said only when it fails.
 quietly = @mkdir -p build && { $(1) >build/log-$@.txt 2>&1 || { cat build/log-$@.txt; exit 1; }; }
 
-.PHONY: minimal wasm windows riscv64 musl interop build program measure setup demo check asan asan-build tsan tsan-build clang clang-build mutate fuzz arm64 bench sweep gallery papers docs wheel format install clean
+# Compiled once, found again in every folder and checkout, where there is ccache.
+ifneq ($(shell command -v ccache),)
+export CMAKE_C_COMPILER_LAUNCHER ?= ccache
+export CMAKE_CXX_COMPILER_LAUNCHER ?= ccache
+export CCACHE_BASEDIR ?= $(CURDIR)
+export CCACHE_NOHASHDIR ?= 1
+endif
+
+.PHONY: minimal wasm windows riscv64 musl interop build program measure setup demo check check-all asan asan-build tsan tsan-build clang clang-build mutate fuzz arm64 bench sweep gallery papers docs wheel format install clean
 
 build: setup
 	@echo "Building build/release"
@@ -65,12 +74,15 @@ check: build asan-build clang-build tsan-build
 	@sh tools/setup.sh xvfb xdotool || echo "Without these it is skipped."
 	@sh tools/check.sh build/release build/asan:quick build/clang:parallel build/tsan:parallel
 
+check-all: asan tsan clang check
+
 asan-build: setup
 	@echo "Building build/asan"
 	$(call quietly,cmake --preset asan)
 	$(call quietly,cmake --build build/asan -j $(JOBS))
 
 asan: asan-build
+	$(call quietly,cmake --build build/asan -j $(JOBS) --target slow_tests)
 	@sh tools/check.sh build/asan
 
 # What runs in threads; `make tsan` runs everything.
@@ -82,7 +94,7 @@ tsan-build: setup
 tsan: setup
 	@echo "Building build/tsan"
 	$(call quietly,cmake --preset tsan)
-	$(call quietly,cmake --build build/tsan -j $(JOBS))
+	$(call quietly,cmake --build build/tsan -j $(JOBS) --target all slow_tests)
 	@sh tools/check.sh build/tsan
 
 interop: program
