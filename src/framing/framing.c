@@ -102,6 +102,20 @@ static void read_points(const ewa_cloud *cloud, const point_sample *sample, doub
     }
 }
 
+/// Reads the normals of the sampled points, in their order, where the cloud has some.
+static ewa_status read_normals(const ewa_cloud *cloud, const point_sample *sample, ewa_framing *framing) {
+    const ewa_attribute *normal = ewa_cloud_find(cloud, EWA_NORMAL);
+    if (!normal || normal->component_count != 3) return EWA_OK;
+    framing->normals = ewa_allocate(framing->context, framing->room, sizeof *framing->normals);
+    if (!framing->normals) return EWA_ERROR_MEMORY;
+    for (size_t i = 0; i < sample->count; i++) {
+        double own[3];
+        ewa_attribute_read_f64(normal, sample->indices[i], 1, own);
+        for (int c = 0; c < 3; c++) framing->normals[i][c] = (float)own[c];
+    }
+    return EWA_OK;
+}
+
 /// Fills a framing from a sample; `numbers` has room for as many.
 static void frame_sample(const ewa_cloud *cloud, const point_sample *sample, double radius_scale,
                          double *numbers, ewa_framing *framing) {
@@ -126,6 +140,7 @@ static void frame_sample(const ewa_cloud *cloud, const point_sample *sample, dou
         for (int c = 0; c < 3; c++) inside &= points[i][c] >= low[c] && points[i][c] <= high[c];
         for (int c = 0; c < 3; c++) points[framing->count][c] = points[i][c] - framing->middle_world[c];
         framing->rims_world[framing->count] = framing->rims_world[i];
+        if (framing->normals) memmove(framing->normals[framing->count], framing->normals[i], sizeof *framing->normals);
         framing->count += inside;
     }
 }
@@ -149,6 +164,7 @@ void ewa_framing_destroy(ewa_framing **framing) {
     ewa_framing *own = *framing;
     ewa_release(own->context, own->offsets, own->room, sizeof *own->offsets);
     ewa_release(own->context, own->rims_world, own->room, sizeof *own->rims_world);
+    ewa_release(own->context, own->normals, own->room, sizeof *own->normals);
     ewa_release(own->context, own, 1, sizeof *own);
     *framing = NULL;
 }
@@ -167,6 +183,7 @@ ewa_status ewa_framing_create(const ewa_cloud *cloud, double radius_scale, ewa_f
     ewa_status status = ewa_sample_choose(cloud, SAMPLES, &sample);
     double *numbers = NULL;
     if (status == EWA_OK) status = ewa_framing_make(context, sample.count, framing);
+    if (status == EWA_OK) status = read_normals(cloud, &sample, *framing);
     if (status == EWA_OK) numbers = ewa_allocate(context, sample.count, sizeof *numbers);
     if (numbers) {
         (*framing)->box = box;
@@ -187,8 +204,10 @@ void ewa_framing_describe(const ewa_framing *framing, ewa_framing_info *info) {
 }
 
 void ewa_framing_choose(const ewa_framing *framing, ewa_up_convention convention, ewa_upright *upright) {
-    *upright = ewa_upright_choose(framing->count, (const double(*)[3])framing->offsets, framing->middle_world,
-                                  convention);
+    const double(*offsets)[3] = (const double(*)[3])framing->offsets;
+    *upright = ewa_upright_choose(framing->count, offsets, framing->middle_world, convention);
+    if (framing->normals)
+        ewa_upright_turn_to_outside(framing->count, offsets, (const float(*)[3])framing->normals, upright);
 }
 
 /// Says that nothing can be placed along `direction_world`.

@@ -13,7 +13,8 @@ struct ewa_framing {
     double middle_world[3];
     double (*offsets)[3]; ///< of sampled points inside the box, from its middle
     double *rims_world;   ///< how far their discs reach beyond them, as far as that is usual
-    size_t count, room;   ///< of both
+    float (*normals)[3];  ///< of the same points; NULL: they have none
+    size_t count, room;   ///< of all
     bool trimmed;         ///< a few far points are outside the box
 };
 

@@ -54,6 +54,9 @@ static const double MIRRORED_SHARE = 0.85, UNMIRRORED_RATIO = 0.85;
 /// What has so much of a base along y and along z is a box.
 static const double BOX_SHARE = 0.6;
 
+/// So much of what the front shows are insides of surfaces, and of what the back does at most, where the back is the outside.
+static const double INSIDE_SHARE = 0.3, OUTSIDE_SHARE = 0.1;
+
 /// So much of a body's front in one plane shows nothing of its form.
 static const double FACE_SHARE = 0.6;
 
@@ -253,6 +256,20 @@ ewa_status ewa_upright_turn(const double axis_world[3], double azimuth_deg, doub
         direction_world[c] = m[8 + c];
     }
     return EWA_OK;
+}
+
+void ewa_upright_turn_to_outside(size_t count, const double (*offsets)[3], const float (*normals)[3],
+                                 ewa_upright *chosen) {
+    if (chosen->view != EWA_VIEW_FRONT || chosen->from_origin || chosen->reversed) return;
+    point_cloud_sample points = {.count = count, .offsets = offsets};
+    ewa_measure_extent(&points);
+    const int depth = 3 - chosen->axis;
+    const bool high = chosen->axis == 1; // the front is +z with y up, -y with z up
+    // Of a sheet nothing tells whether it is seen from behind or has its normals inside out.
+    if (ewa_measure_layers(&points, depth) >= SHEET_SHARE &&
+        ewa_measure_inside(&points, normals, depth, high) >= INSIDE_SHARE &&
+        ewa_measure_inside(&points, normals, depth, !high) <= OUTSIDE_SHARE)
+        chosen->view = EWA_VIEW_BACK;
 }
 
 ewa_upright ewa_upright_choose(size_t count, const double (*offsets)[3], const double middle_world[3],

@@ -12,4 +12,9 @@
 ewa_upright ewa_upright_choose(size_t count, const double (*offsets)[3], const double middle_world[3],
                                ewa_up_convention convention);
 
+/// Has a body that shows its inside to the front, and its outside to the back, seen from the back: an open shell, as a
+/// mask is. `normals` are those of the points and point outward, if any of them do.
+void ewa_upright_turn_to_outside(size_t count, const double (*offsets)[3], const float (*normals)[3],
+                                 ewa_upright *chosen);
+
 #endif

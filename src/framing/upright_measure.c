@@ -132,6 +132,33 @@ double ewa_measure_face(const point_cloud_sample *points, int axis, bool high) {
     return occupied ? (double)flat / occupied : 0;
 }
 
+double ewa_measure_inside(const point_cloud_sample *points, const float (*normals)[3], int axis, bool high) {
+    const int x = axis == 0 ? 1 : 0, y = axis == 2 ? 1 : 2;
+    const double low[2] = {points->low[x], points->low[y]}, ends[2] = {points->high[x], points->high[y]};
+    if (!(fmax(ends[0] - low[0], ends[1] - low[1]) > 0)) return 0;
+    depth_grid grid;
+    float facing[GRID][GRID];
+    start_grid(&grid, low, ends, points->count);
+    for (size_t i = 0; i < points->count; i++) {
+        const double *p = points->offsets[i], depth = high ? points->high[axis] - p[axis] : p[axis] - points->low[axis];
+        const float along = high ? normals[i][axis] : -normals[i][axis];
+        const size_t column = cell_of(&grid, 0, p[x]), row = cell_of(&grid, 1, p[y]);
+        const double before = grid.nearest[row][column];
+        // Of points at the same depth the one that is turned away, whatever the order.
+        if (depth < before || (depth == before && along < facing[row][column])) facing[row][column] = along;
+        put_in_grid(&grid, p[x], p[y], depth);
+    }
+    int occupied = 0, inside = 0;
+    for (int row = 0; row < grid.sides; row++) {
+        for (int column = 0; column < grid.sides; column++) {
+            if (!grid.counts[row][column]) continue;
+            occupied++;
+            inside += facing[row][column] < 0;
+        }
+    }
+    return occupied ? (double)inside / occupied : 0;
+}
+
 /// How many of MARKS classes of numbers in [low, high] are met.
 typedef struct mark_set {
     uint64_t bits[MARKS / 64];

@@ -33,6 +33,10 @@ void ewa_measure_base(const point_cloud_sample *points, int axis, base_facts *fa
 /// Share of the places across an axis whose point that is nearest to its high or low end lies at that end.
 double ewa_measure_face(const point_cloud_sample *points, int axis, bool high);
 
+/// Share of the places across an axis that show the inside of a surface, whose normal points away, to who looks at the high
+/// or the low end.
+double ewa_measure_inside(const point_cloud_sample *points, const float (*normals)[3], int axis, bool high);
+
 /// Share of the places with points that have some in their mirror image across the middle of an axis, too.
 double ewa_measure_mirror(const point_cloud_sample *points, int axis);
 

@@ -269,6 +269,52 @@ static void test_far_points(void **state) {
     }
 }
 
+/// A sphere without its cap about an axis, `sign` times +z or +y, and what is chosen of it.
+static ewa_named_view view_of_shell(int axis, double sign, double cap, double outward, ewa_up_convention convention) {
+    enum { COUNT = 40000 };
+    disc *discs = calloc(COUNT, sizeof *discs);
+    assert_non_null(discs);
+    check_random random = {3};
+    for (uint32_t i = 0; i < COUNT;) {
+        disc *own = &discs[i];
+        double length2 = 0;
+        for (int c = 0; c < 3; c++) {
+            own->place[c] = check_uniform(&random, -1, 1);
+            length2 += own->place[c] * own->place[c];
+        }
+        if (length2 > 1 || length2 < 0.01 || sign * own->place[axis] > cap * sqrt(length2)) continue;
+        for (int c = 0; c < 3; c++) {
+            own->place[c] /= sqrt(length2);
+            own->normal[c] = outward * own->place[c];
+        }
+        own->radius = 0.01;
+        i++;
+    }
+    ewa_cloud *cloud = make_cloud(discs, COUNT);
+    ewa_framing *framing = NULL;
+    ewa_upright upright;
+    assert_int_equal(ewa_framing_create(cloud, 1, &framing), EWA_OK);
+    ewa_framing_choose(framing, convention, &upright);
+    ewa_framing_destroy(&framing);
+    ewa_cloud_destroy(&cloud);
+    free(discs);
+    return upright.view;
+}
+
+/// A shell that is open to the front, so that 0.3 of what shows is its inside, is seen from the back, which is outside; one
+/// whose normals point inward, and a sheet, are not.
+static void test_shells(void **state) {
+    const double wide = sqrt(1 - 0.36), narrow = sqrt(1 - 0.24);
+    assert_int_equal(view_of_shell(2, 1, wide, 1, EWA_UP_Y_REQUIRED), EWA_VIEW_BACK);
+    assert_int_equal(view_of_shell(2, 1, narrow, 1, EWA_UP_Y_REQUIRED), EWA_VIEW_FRONT);
+    assert_int_equal(view_of_shell(2, -1, wide, 1, EWA_UP_Y_REQUIRED), EWA_VIEW_FRONT);
+    assert_int_equal(view_of_shell(2, 1, wide, -1, EWA_UP_Y_REQUIRED), EWA_VIEW_FRONT);
+    assert_int_equal(view_of_shell(2, 1, -0.1, 1, EWA_UP_Y_REQUIRED), EWA_VIEW_FRONT);
+    // With z up the front is -y.
+    assert_int_equal(view_of_shell(1, -1, wide, 1, EWA_UP_Z_SURVEYED), EWA_VIEW_BACK);
+    assert_int_equal(view_of_shell(1, 1, wide, 1, EWA_UP_Z_SURVEYED), EWA_VIEW_FRONT);
+}
+
 /// The camera of a survey, whose coordinates are relative to an origin.
 static ewa_camera fit_from(double x, double y) {
     enum { COUNT = 300000 };
@@ -471,6 +517,7 @@ int main(void) {
         cmocka_unit_test(test_far_points), cmocka_unit_test(test_revolve),
         cmocka_unit_test(test_info),       cmocka_unit_test(test_failures),
         cmocka_unit_test(test_memory),     cmocka_unit_test(test_origins),
+        cmocka_unit_test(test_shells),
     };
     return cmocka_run_group_tests(tests, begin, finish);
 }
