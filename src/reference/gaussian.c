@@ -434,7 +434,7 @@ static double share_in_front(const reference *work, const hit *hits, size_t coun
     if (i > 0) meet = fmin(meet, hits[i].z - hits[i - 1].z);
     if (i + 2 < count) meet = fmin(meet, hits[i + 2].z - hits[i + 1].z);
     const double apart = hits[i + 1].z - hits[i].z;
-    return 0.5 * fmax(1 - apart / fmax(meet, 1e-30), 0);
+    return meet > 0 ? 0.5 * fmax(1 - apart / meet, 0) : 0;
 }
 
 /// Composites a pixel's list over a straight linear colour; `ahead`: what lies in front of the surface.

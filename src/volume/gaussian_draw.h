@@ -210,7 +210,7 @@ static bool add_layers(const ewa_gaussian_view *view, ewa_gaussian_tile *tile, b
         if (hit->active) {
             wf_store(hit->z, wf_set(feed->z));
             wf_store(hit->alpha, alpha);
-            wf_store(hit->deviation, wf_set(0));
+            wf_store(hit->deviation, wf_set(-BEYOND)); // which meets no other
             hit->layer = layer;
             keep_hit(tile, block);
         }

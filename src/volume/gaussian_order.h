@@ -233,8 +233,8 @@ static ALWAYS_INLINE void push_row(const ewa_gaussian_view *view, wm shows, cons
     // The share of the second that is in front of the first.
     const wf apart = wf_sub(b[PENDING_Z], a[PENDING_Z]), after = wf_sub(next[PENDING_Z], b[PENDING_Z]);
     const wf meet = wf_min(wf_min(at->gap, after), wf_add(a[PENDING_DEVIATION], b[PENDING_DEVIATION]));
-    const wf share =
-        wf_mul(wf_set(0.5f), wf_max(wf_sub(one, wf_div(apart, wf_max(meet, wf_set(1e-30f)))), zero));
+    const wf nearness = wf_max(wf_sub(one, wf_div(apart, wf_max(meet, wf_set(1e-30f)))), zero);
+    const wf share = wf_keep(wf_lt(zero, meet), wf_mul(wf_set(0.5f), nearness)); // of three at one depth none is
     const wf hidden = wf_mul(share, b[PENDING_ALPHA]), taken = wf_keep(shows, wf_mul(at->through, a[PENDING_ALPHA]));
     const wf full = wf_keep(shows, wf_mul(at->lead, a[PENDING_ALPHA])), weight = wf_fnma(full, hidden, full);
     const wf rest = wf_sub(at->through, taken);

@@ -38,11 +38,18 @@ typedef struct cast {
     uint32_t splats_count, volume_count;
 } cast;
 
+/// Of the Gaussians of all pictures: every test runs with both.
+static ewa_gaussian_order order;
+
+static int by_centers(void **state) { return order = EWA_ORDER_CENTER, 0; }
+static int by_rays(void **state) { return order = EWA_ORDER_RAY, 0; }
+
 static cast start_on(ewa_context *context) {
     cast c = {.context = context};
     assert_int_equal(ewa_gaussian_renderer_create(context, &c.renderer), EWA_OK);
     ewa_volume_options_init(&c.volume_options, sizeof c.volume_options);
     ewa_gaussian_options_init(&c.options, sizeof c.options);
+    c.options.order = order;
     c.options.background[0] = 0.2f, c.options.background[1] = 0.5f, c.options.background[3] = 0.75f;
     memcpy(c.volume_options.background, c.options.background, sizeof c.options.background);
     return c;
@@ -321,7 +328,7 @@ static void test_depth(void **state) {
         add_sheet(&c, n ? -0.5 : 1.5);
         const ewa_mixture mixture = mixture_of(&c);
         const ewa_frame frame = {.depth = depth, .coverage = coverage};
-        assert_int_equal(ewa_mixture_render(c.renderer, &mixture, &camera, NULL, &frame, NULL), EWA_OK);
+        assert_int_equal(ewa_mixture_render(c.renderer, &mixture, &camera, &c.options, &frame, NULL), EWA_OK);
         const size_t middle = (size_t)HEIGHT / 2 * WIDTH + WIDTH / 2;
         assert_true(fabs((double)depth[middle] - (n ? 3.5 : 3)) < 0.2);
         assert_true(fabs((double)depth[0] - (n ? 3.5 : 5.5)) < 0.02);
@@ -494,5 +501,6 @@ int main(void) {
         cmocka_unit_test(test_bad),    cmocka_unit_test(test_memory),  cmocka_unit_test(test_allocator),
         cmocka_unit_test(test_scales),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return cmocka_run_group_tests_name("by centres", tests, by_centers, NULL) +
+           cmocka_run_group_tests_name("by rays", tests, by_rays, NULL);
 }
