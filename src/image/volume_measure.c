@@ -8,7 +8,7 @@
 
 #include <math.h>
 
-enum { BINS = 256, ROW = 1024 };
+enum { BINS = 256, ROW = 1024, COLUMNS = 48 }; ///< columns along an axis across lines of sight
 
 #define READ_EACH(type)                                                                                      \
     {                                                                                                        \
@@ -38,9 +38,25 @@ void ewa_volume_read(const ewa_volume *volume, uint64_t first, size_t count, flo
     read_each(volume, first, 1, count, numbers);
 }
 
-void ewa_volume_read_column(const ewa_volume *volume, uint64_t first, size_t stride, size_t count,
-                            float *numbers) {
-    read_each(volume, first, stride, count, numbers);
+ewa_status ewa_volume_look_through(const ewa_volume *volume, ewa_line_of_sight *look, void *user) {
+    const uint32_t *dims = volume->dims;
+    const uint64_t strides[3] = {1, dims[0], (uint64_t)dims[0] * dims[1]};
+    uint32_t longest = dims[0];
+    for (int axis = 1; axis < 3; axis++) longest = dims[axis] > longest ? dims[axis] : longest;
+    float *numbers = ewa_allocate(volume->context, longest, sizeof *numbers);
+    if (!numbers) return EWA_ERROR_MEMORY;
+    for (int axis = 0; axis < 3; axis++) {
+        const int u = (axis + 1) % 3, v = (axis + 2) % 3;
+        const uint32_t u_step = 1 + dims[u] / COLUMNS, v_step = 1 + dims[v] / COLUMNS;
+        for (uint32_t b = v_step / 2; b < dims[v]; b += v_step)
+            for (uint32_t a = u_step / 2; a < dims[u]; a += u_step) {
+                read_each(volume, a * strides[u] + b * strides[v], strides[axis], dims[axis], numbers);
+                look(user, numbers, 1, dims[axis]);
+                look(user, numbers + dims[axis] - 1, -1, dims[axis]);
+            }
+    }
+    ewa_release(volume->context, numbers, longest, sizeof *numbers);
+    return EWA_OK;
 }
 
 static uint64_t count_voxels(const ewa_volume *volume) {

@@ -9,18 +9,8 @@
 #include "io/text.h"
 
 #include <math.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
-
-__attribute__((format(printf, 2, 3))) static ewa_status wrong(char problem[EWA_OPTION_TEXT_BYTES],
-                                                              const char *format, ...) {
-    va_list arguments;
-    va_start(arguments, format);
-    if (problem) vsnprintf(problem, EWA_OPTION_TEXT_BYTES, format, arguments);
-    va_end(arguments);
-    return EWA_ERROR_ARGUMENT;
-}
 
 static ewa_text trimmed(const char *from, const char *to) {
     while (from < to && ewa_is_blank(*from)) from++;
@@ -37,7 +27,7 @@ static bool read_number(ewa_text text, double *number) {
 static ewa_status add_range(ewa_filter_term *term, double low, double high,
                             char problem[EWA_OPTION_TEXT_BYTES]) {
     if (term->range_count == EWA_FILTER_RANGES)
-        return wrong(problem, "'%s' has more than %d numbers", term->name, EWA_FILTER_RANGES);
+        return ewa_text_wrong(problem, "'%s' has more than %d numbers", term->name, EWA_FILTER_RANGES);
     term->ranges[term->range_count++] = (ewa_filter_range){.low = low, .high = high};
     return EWA_OK;
 }
@@ -63,9 +53,8 @@ static ewa_status add_class(ewa_filter_term *term, ewa_text word, char problem[E
         name[word.length] = 0;
         if (ewa_class_find(name, &code)) return add_range(term, code, code, problem);
     }
-    return wrong(problem,
-                 "%s is neither a number nor a class (ground, building, low vegetation, water, noise, ...)",
-                 ewa_quote(word, quote));
+    return ewa_text_wrong(problem, "%s is neither a number nor a class (ground, building, low vegetation, water, noise, ...)",
+                          ewa_quote(word, quote));
 }
 
 /// Adds "7", "1..2", "..5", "3.." or "ground".
@@ -73,13 +62,13 @@ static ewa_status add_value(ewa_filter_term *term, ewa_text value, char problem[
     const char *end = value.chars + value.length;
     char quote[EWA_QUOTE_BYTES];
     double low = -INFINITY, high = INFINITY;
-    if (!value.length) return wrong(problem, "a number behind '%s' is missing", term->name);
+    if (!value.length) return ewa_text_wrong(problem, "a number behind '%s' is missing", term->name);
     for (const char *at = value.chars; at + 1 < end; at++) {
         if (at[0] != '.' || at[1] != '.') continue;
         const ewa_text first = trimmed(value.chars, at), last = trimmed(at + 2, end);
         const bool good = (first.length || last.length) && (!first.length || read_number(first, &low)) &&
                           (!last.length || read_number(last, &high)) && low <= high;
-        if (!good) return wrong(problem, "%s is not a range LOW..HIGH", ewa_quote(value, quote));
+        if (!good) return ewa_text_wrong(problem, "%s is not a range LOW..HIGH", ewa_quote(value, quote));
         return add_range(term, low, high, problem);
     }
     if (read_number(value, &low)) return add_range(term, low, low, problem);
@@ -102,7 +91,7 @@ static ewa_status set_bound(ewa_filter_term *term, bool below, bool open, ewa_te
     char quote[EWA_QUOTE_BYTES];
     double number;
     if (!read_number(value, &number))
-        return wrong(problem, "'%s': %s is not a number", term->name, ewa_quote(value, quote));
+        return ewa_text_wrong(problem, "'%s': %s is not a number", term->name, ewa_quote(value, quote));
     term->range_count = 1;
     term->ranges[0] = (ewa_filter_range){.low = below ? -INFINITY : number,
                                          .high = below ? number : INFINITY,
@@ -117,14 +106,14 @@ static ewa_status read_term(ewa_text text, ewa_filter_term *term, char problem[E
     while (at < end && *at != '=' && *at != '!' && *at != '<' && *at != '>') at++;
     const ewa_text name = trimmed(text.chars, at);
     if (!name.length || name.length >= EWA_NAME_BYTES)
-        return wrong(problem, "%s: the name of an attribute is missing or too long", ewa_quote(text, quote));
+        return ewa_text_wrong(problem, "%s: the name of an attribute is missing or too long", ewa_quote(text, quote));
     *term = (ewa_filter_term){.range_count = 0};
     memcpy(term->name, name.chars, name.length);
     const char sign = at < end ? *at++ : 0;
     const bool equal = at < end && *at == '=';
     at += equal;
     if (!sign || (sign == '!' && !equal))
-        return wrong(problem, "%s: a comparison (= != < <= > >=) is missing", ewa_quote(text, quote));
+        return ewa_text_wrong(problem, "%s: a comparison (= != < <= > >=) is missing", ewa_quote(text, quote));
     const ewa_text value = trimmed(at, end);
     term->outside = sign == '!';
     return sign == '<' || sign == '>' ? set_bound(term, sign == '<', !equal, value, problem)
@@ -147,7 +136,7 @@ ewa_status ewa_filter_add(ewa_filter *filter, const char *text, char problem[EWA
     for (const char *at = text, *stop; status == EWA_OK; at = stop + 3) {
         stop = at < end ? find_and(at, end) : end;
         if (filter->term_count == EWA_FILTER_TERMS) {
-            status = wrong(problem, "there are more than %d conditions", EWA_FILTER_TERMS);
+            status = ewa_text_wrong(problem, "there are more than %d conditions", EWA_FILTER_TERMS);
             break;
         }
         status = read_term(trimmed(at, stop), &filter->terms[filter->term_count], problem);

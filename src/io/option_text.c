@@ -5,23 +5,14 @@
 #include "base/base.h"
 #include "base/options.h"
 #include "io/number.h"
+#include "io/text.h"
 
 #include <inttypes.h>
 #include <math.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 
 enum { MAX_NUMBERS = 16 };
-
-__attribute__((format(printf, 2, 3))) static ewa_status wrong(char problem[EWA_OPTION_TEXT_BYTES],
-                                                              const char *format, ...) {
-    va_list arguments;
-    va_start(arguments, format);
-    if (problem) vsnprintf(problem, EWA_OPTION_TEXT_BYTES, format, arguments);
-    va_end(arguments);
-    return EWA_ERROR_ARGUMENT;
-}
 
 /// A value in both forms: doubles do not have every integer.
 typedef struct option_value {
@@ -44,7 +35,7 @@ static ewa_status read_value(const ewa_option *option, const char **text, option
     }
     ewa_option_range(option, range);
     if (option->words || option->type == EWA_OPTION_BOOL)
-        return wrong(problem, "'%.80s' is not one of %s", *text, option->words ? option->words : "off|on");
+        return ewa_text_wrong(problem, "'%.80s' is not one of %s", *text, option->words ? option->words : "off|on");
     const bool whole = option->type == EWA_OPTION_U32 || option->type == EWA_OPTION_U64;
     if (whole) {
         after = ewa_number_read_i64(*text, end, &value->integer);
@@ -53,10 +44,10 @@ static ewa_status read_value(const ewa_option *option, const char **text, option
         after = ewa_number_read_f64(*text, end, &value->number);
     }
     if (!after || !isfinite(value->number) || (*after && !(option->count && *after == ',')))
-        return wrong(problem, "'%.80s' is not a%s number", *text, whole ? " whole" : "");
+        return ewa_text_wrong(problem, "'%.80s' is not a%s number", *text, whole ? " whole" : "");
     if (!ewa_option_allows(option, value->number))
-        return whole ? wrong(problem, "%" PRId64 " is outside %s", value->integer, range)
-                     : wrong(problem, "%g is outside %s", value->number, range);
+        return whole ? ewa_text_wrong(problem, "%" PRId64 " is outside %s", value->integer, range)
+                     : ewa_text_wrong(problem, "%g is outside %s", value->number, range);
     *text = after;
     return EWA_OK;
 }
@@ -70,7 +61,7 @@ ewa_status ewa_option_set(const ewa_option *option, void *options, const char *t
     for (uint32_t i = 0; i < count; i++) {
         EWA_TRY(read_value(option, &next, &values[i], problem));
         if (*next != (i + 1 < count ? ',' : 0))
-            return wrong(problem, "'%.80s' is not %u numbers separated by commas", text, count);
+            return ewa_text_wrong(problem, "'%.80s' is not %u numbers separated by commas", text, count);
         next += i + 1 < count;
     }
     for (uint32_t i = 0; i < count; i++) {

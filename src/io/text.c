@@ -9,6 +9,16 @@
 #include "io/number.h"
 
 #include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+
+ewa_status ewa_text_wrong(char problem[EWA_OPTION_TEXT_BYTES], const char *format, ...) {
+    va_list arguments;
+    va_start(arguments, format);
+    if (problem) vsnprintf(problem, EWA_OPTION_TEXT_BYTES, format, arguments);
+    va_end(arguments);
+    return EWA_ERROR_ARGUMENT;
+}
 
 const char *ewa_quote(ewa_text text, char quote[EWA_QUOTE_BYTES]) {
     const size_t room = EWA_QUOTE_BYTES - 6; // two quotes, three dots, the zero

@@ -6,6 +6,7 @@
 #define EWA_SRC_TEXT_H
 
 #include "ewa/base.h"
+#include "ewa/options.h"
 
 #include <string.h>
 
@@ -19,6 +20,9 @@ typedef struct ewa_text {
 
 /// Makes a piece of a file fit for a message: printable, quoted, cut when long. Returns `quote`.
 const char *ewa_quote(ewa_text text, char quote[EWA_QUOTE_BYTES]);
+
+/// Says in `problem`, which may be NULL, what is wrong with a text. Returns EWA_ERROR_ARGUMENT.
+__attribute__((format(printf, 2, 3))) ewa_status ewa_text_wrong(char problem[EWA_OPTION_TEXT_BYTES], const char *format, ...);
 
 /// Whether a piece is this word.
 static inline bool ewa_text_is(ewa_text text, const char *word) {
