@@ -252,6 +252,8 @@ static void test_errors(void **state) {
     assert_int_equal(run(&b, s->cloud), EWA_ERROR_UNSUPPORTED);
     s->options = good, s->options.level = 1;
     assert_int_equal(run(&b, s->cloud), EWA_ERROR_UNSUPPORTED);
+    s->options = good, s->options.supersampling = 2;
+    assert_int_equal(run(&b, s->cloud), EWA_ERROR_UNSUPPORTED);
     s->options = good;
     const ewa_camera camera = s->camera;
     const double away[3] = {0, 0, -9}, eye[3] = {0, 0, -3}, up[3] = {0, 1, 0};

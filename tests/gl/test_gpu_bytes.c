@@ -55,7 +55,7 @@ static void test_division_has_no_say(void **state) {
         assert_int_equal(ewa_surfels_create(of.cloud, NULL, &parts[0]), EWA_OK);
         ewa_render_options options;
         ewa_render_options_init(&options, sizeof options);
-        options.opacity = k == 2 ? 0.5 : 1, options.supersampling = k == 1 ? 2 : 1;
+        options.opacity = k == 2 ? 0.5 : 1;
         ewa_renderer *cpu = NULL;
         assert_int_equal(ewa_renderer_create(context, &cpu), EWA_OK);
         draw(cpu, parts, "0", &of, &options, &expected);
@@ -69,6 +69,32 @@ static void test_division_has_no_say(void **state) {
         ewa_surfels_destroy(&parts[0]);
         scene_free(&of);
     }
+    picture_free(&expected);
+    picture_free(&found);
+    ewa_context_destroy(&context);
+}
+
+static void test_pixels_of_parts(void **state) {
+    enum { SMALL_PX = 40 };
+    ewa_context *context = check_context(0, NULL);
+    picture expected = picture_make(SMALL_PX, SMALL_PX), found = picture_make(SMALL_PX, SMALL_PX);
+    scene of;
+    assert_int_equal(scene_make(context, SCENE_CUBE, POINTS, SMALL_PX, SMALL_PX, &of), EWA_OK);
+    ewa_surfels *parts[1];
+    assert_int_equal(ewa_surfels_create(of.cloud, NULL, &parts[0]), EWA_OK);
+    ewa_renderer *cpu = NULL, *gl = open_tuned(context, "");
+    assert_int_equal(ewa_renderer_create(context, &cpu), EWA_OK);
+    ewa_render_options options;
+    ewa_render_options_init(&options, sizeof options);
+    for (options.supersampling = 0; options.supersampling <= 2; options.supersampling += 2) {
+        draw(cpu, parts, "0", &of, &options, &expected);
+        draw(gl, parts, "0", &of, &options, &found);
+        assert_same(&expected, &found, "supersampled");
+    }
+    ewa_renderer_destroy(&gl);
+    ewa_renderer_destroy(&cpu);
+    ewa_surfels_destroy(&parts[0]);
+    scene_free(&of);
     picture_free(&expected);
     picture_free(&found);
     ewa_context_destroy(&context);
@@ -150,6 +176,7 @@ int main(void) {
     }
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_division_has_no_say),
+        cmocka_unit_test(test_pixels_of_parts),
         cmocka_unit_test(test_order_has_no_say),
         cmocka_unit_test(test_surfels_come_and_go),
     };

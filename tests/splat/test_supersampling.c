@@ -140,6 +140,44 @@ static void test_same_bytes_for_threads_bands_and_instruction_sets(void **state)
     free(first.memory);
 }
 
+/// More parts than are drawn at a time: those of the last rows are where they belong.
+static void test_bands_of_parts_end_where_they_should(void **state) {
+    enum { FINER = 8, WIDE_PX = 1030, HIGH_PX = 130, FIRST_PX = 128, ROW = WIDE_PX * FINER };
+    ewa_context *context = check_context(0, NULL);
+    ewa_bounds bounds;
+    ewa_surfels *surfels = make_surfels(context, FAR_SPHERE, 5000, &bounds);
+    ewa_renderer *renderer = NULL;
+    assert_int_equal(ewa_renderer_create(context, &renderer), EWA_OK);
+    ewa_camera camera = far_camera(&bounds, 1, HIGH_PX, 1), fine = far_camera(&bounds, 1, HIGH_PX, FINER);
+    camera.width_px = WIDE_PX, fine.width_px = ROW;
+    camera.cy_px = HIGH_PX, fine.cy_px = HIGH_PX * FINER; // its middle is at the lower edge
+    float *whole = malloc((size_t)WIDE_PX * HIGH_PX * 4 * sizeof *whole);
+    float *parts = malloc((size_t)ROW * HIGH_PX * FINER * 4 * sizeof *parts);
+    assert_true(whole && parts);
+    const ewa_render_options options = options_of(FINER);
+    assert_int_equal(ewa_render(renderer, surfels, &camera, &options, &(ewa_frame){.rgba = whole}, NULL), EWA_OK);
+    assert_int_equal(ewa_render_begin(renderer, &fine, NULL, &(ewa_frame){.rgba = parts}), EWA_OK);
+    assert_int_equal(ewa_render_set_rows(renderer, FIRST_PX * FINER, HIGH_PX * FINER), EWA_OK);
+    assert_int_equal(ewa_render_add(renderer, surfels), EWA_OK);
+    assert_int_equal(ewa_render_finish(renderer, NULL), EWA_OK);
+    uint32_t shown = 0;
+    for (size_t y = FIRST_PX; y < HIGH_PX; y++)
+        for (size_t x = 0; x < 4 * WIDE_PX; x++) {
+            double sum = 0;
+            for (size_t j = 0; j < FINER; j++)
+                for (size_t i = 0; i < FINER; i++)
+                    sum += (double)parts[4 * ((y * FINER + j) * ROW + x / 4 * FINER + i) + x % 4];
+            assert_true(fabs((double)whole[4 * WIDE_PX * y + x] - sum / (FINER * FINER)) < 1e-5);
+            shown += sum > 0;
+        }
+    assert_true(shown > 100);
+    free(whole);
+    free(parts);
+    ewa_renderer_destroy(&renderer);
+    ewa_surfels_destroy(&surfels);
+    ewa_context_destroy(&context);
+}
+
 static void test_reference_draws_the_same(void **state) {
     ewa_context *context = check_context(2, NULL);
     ewa_cloud *cloud = NULL;
@@ -252,6 +290,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_planes_are_averages_of_the_finer_picture),
         cmocka_unit_test(test_same_bytes_for_threads_bands_and_instruction_sets),
+        cmocka_unit_test(test_bands_of_parts_end_where_they_should),
         cmocka_unit_test(test_reference_draws_the_same),
         cmocka_unit_test(test_surfels_say_how_many_parts),
         cmocka_unit_test(test_refused),
