@@ -35,6 +35,11 @@ typedef struct lod_arguments {
         "lod-error", LOD_MEMBER(offset, error),                                                              \
             .help = "and where these are expected to be off by no more than so much, rms, in 1/255 of the "  \
                     "screen's white; 0: all points, as of any file"                                          \
+    },                                                                                                       \
+    {                                                                                                        \
+        "max-splats", LOD_MEMBER(offset, max_splats),                                                        \
+            .help = "draw about so many surfels and points of octrees: where it would be more, spacing and " \
+                    "error grow by one factor; 0: 8 for each pixel that they cover"                          \
     }
 
 void lod_input_set_defaults(lod_arguments *arguments);

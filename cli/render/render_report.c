@@ -60,6 +60,7 @@ static void write_lod(json_writer *json, const ewa_lod_stats *stats) {
     json_count(json, "surfels", stats->surfel_count);
     json_count(json, "resident_bytes", stats->resident_bytes);
     json_count(json, "bands", stats->band_count);
+    json_number(json, "coarser", stats->coarser);
     json_number(json, "choose_s", stats->choose_s);
     json_number(json, "load_s", stats->load_s);
     json_close(json, '}');

@@ -64,10 +64,10 @@ EWA_API ewa_status ewa_lod_read(ewa_lod *lod, const double low_world[3], const d
 typedef struct ewa_lod_options {
     size_t struct_size;
     /// A node is drawn by the surfels that represent its points where these are no farther apart than so many
-    /// pixels, else by its parts; (0, 64]; default 0.5.
+    /// pixels, else by its parts; (0, 64]; default 1.
     double spacing_px;
     /// The same only where they are expected to be off by no more than so much, rms, in 1/255 of the light of a
-    /// screen's white, as measured when the file was made; [0, 255]; default 16; 0: always all points.
+    /// screen's white, as measured when the file was made; [0, 255]; default 3; 0: always all points.
     double error;
     /// Nodes that are kept in memory, and what is drawn at a time: where a picture needs more, it is drawn in
     /// bands, the same bytes; [16777216, 1.125899907e15]; default 1073741824
@@ -81,6 +81,9 @@ typedef struct ewa_lod_options {
     /// default 0
     uint32_t share;
     uint32_t share_count; ///< [0, 1048576]; default 0: no parts
+    /// About so many surfels or points are drawn of octrees: where it would be more, spacing and error grow by one
+    /// factor; [0, 9007199254740992]; default 0: 8 for each pixel that they cover
+    uint64_t max_splats;
 } ewa_lod_options;
 
 EWA_API extern const ewa_option_table ewa_lod_options_table;
@@ -96,6 +99,7 @@ typedef struct ewa_lod_stats {
     uint32_t band_count;
     uint64_t resident_bytes; ///< of the nodes that are kept
     double choose_s, load_s; ///< wall clock
+    double coarser;          ///< times the spacing and the error that were asked for, so that no more surfels were drawn
 } ewa_lod_stats;
 
 /// Draws an octree: every part as coarse as the options allow, from surfels that represent many points to the

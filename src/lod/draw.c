@@ -1,15 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// A picture of an octree: which nodes, with which weights, what has to be read for it, and in which bands.
-//
-// A node represents its children while what is drawn of it lies no farther apart on the screen than it may.
-// From three quarters of that on its children are drawn as well, with weights that grow to one as those of
-// the node fall to zero: the picture, a quotient of sums, changes with the camera without a step. The finest
-// that is drawn finds the nearest surfaces.
+// A picture of an octree: what has to be read for it, and in which bands it is drawn.
 #include "base/base.h"
 #include "base/options.h"
-#include "homogeneous/vec.h"
+#include "lod/cut.h"
 #include "lod/tree.h"
 #include "surface/options.h"
 #include "surface/packets.h"
@@ -26,17 +21,11 @@ enum {
     MAX_SURFELS_SETS = 1024, // of a picture's sets, of one part of it
 };
 
-/// Share of the spacing, or of the error, at which parts begin to show.
-static const double FADE_FROM = 0.75;
-
-/// Pixels between surfels where errors are measured.
-static const double ERROR_SPACING_PX = 0.5;
-
 static const ewa_option lod_rows[] = {
     {"spacing_px", EWA_OPTION_F64, offsetof(ewa_lod_options, spacing_px), 0, 64, EWA_OPTION_ABOVE,
-     .initial = 0.5, .unit = "px",
+     .initial = 1, .unit = "px",
      .help = "nodes are drawn by surfels that represent their points where these are no farther apart"},
-    {"error", EWA_OPTION_F64, offsetof(ewa_lod_options, error), 0, 255, .initial = 16,
+    {"error", EWA_OPTION_F64, offsetof(ewa_lod_options, error), 0, 255, .initial = 3,
      .help = "and expected to be off by no more than so much, rms, in 1/255; 0: all points"},
     {"memory_bytes", EWA_OPTION_U64, offsetof(ewa_lod_options, memory_bytes), 0x1p24, 0x1p50,
      .initial = 0x1p30, .unit = "bytes",
@@ -47,6 +36,9 @@ static const ewa_option lod_rows[] = {
      .help = "part that a rank draws of what a renderer of several ranks shows"},
     {"share_count", EWA_OPTION_U32, offsetof(ewa_lod_options, share_count), 0, 0x1p20,
      .help = "of so many; 0: no parts"},
+    {"max_splats", EWA_OPTION_U64, offsetof(ewa_lod_options, max_splats), 0, 0x1p53,
+     .help = "about so many surfels and points are drawn of octrees, coarser ones where it would be more; 0: 8 for each pixel "
+             "that they cover"},
 };
 
 const ewa_option_table ewa_lod_options_table = EWA_OPTION_TABLE(ewa_lod_options, lod_rows);
@@ -55,163 +47,9 @@ void ewa_lod_options_init(ewa_lod_options *options, size_t struct_size) {
     ewa_options_init(&ewa_lod_options_table, options, struct_size);
 }
 
-/// A node of the picture.
-typedef struct item {
-    ewa_lod *lod;
-    uint32_t node;
-    double weight;
-    bool hides;
-    double spacing_px, offset_px; ///< of the node; from the picture's middle
-    uint32_t first_row, end_row;  ///< of the picture that it may touch
-} item;
-
-/// What is known while nodes are chosen.
-typedef struct chooser {
-    const ewa_lod_scene *scene;
-    ewa_lod *home; ///< the first octree, which keeps the list
-    ewa_lod *lod;  ///< in which nodes are chosen
-    const ewa_camera *camera;
-    double to_camera[12]; ///< of the octree's space: rows of an affine map
-    const ewa_lod_options *options;
-    double scale; ///< camera units that a unit of the octree's space has at most
-    double margin_px;
-    bool loaded_only; ///< nodes that are not in memory are drawn by what represents them
-    item *items;
-    uint32_t item_count;
-    uint32_t missing_count;
-    ewa_status status;
-} chooser;
-
-/// A node before the camera.
-typedef struct sight_of {
-    bool seen;
-    double spacing_px; ///< infinite: the camera is in it
-    double offset_px;
-    uint32_t first_row, end_row;
-} sight_of;
-
-/// Rows and columns of the picture that a box in camera space may touch.
-static sight_of look_at(const chooser *c, const ewa_lod_node *node) {
-    const ewa_camera *camera = c->camera;
-    const double *m = c->to_camera;
-    const double reach = node->largest_radius_world * c->lod->look.radius_scale * c->scale;
-    double at[3], half[3];
-    for (int r = 0; r < 3; r++) {
-        at[r] = m[4 * r + 3], half[r] = reach;
-        for (int k = 0; k < 3; k++) {
-            at[r] += m[4 * r + k] * (node->low_world[k] + node->side_world / 2);
-            half[r] += fabs(m[4 * r + k]) * node->side_world / 2;
-        }
-    }
-    sight_of s = {.seen = false, .spacing_px = INFINITY, .end_row = camera->height_px};
-    const double near_z = at[2] - half[2], far_z = at[2] + half[2];
-    if (far_z <= 0) return s;
-    const double focal_px[2] = {camera->fx_px, camera->fy_px}, center_px[2] = {camera->cx_px, camera->cy_px};
-    const double size_px[2] = {camera->width_px, camera->height_px};
-    const double spacing = node->spacing_world * c->scale;
-    double low_px[2] = {0, 0}, high_px[2] = {size_px[0], size_px[1]};
-    const bool perspective = camera->projection == EWA_PERSPECTIVE;
-    if (!perspective || near_z > 0) {
-        for (int k = 0; k < 2; k++) {
-            const double low = at[k] - half[k], high = at[k] + half[k];
-            const double low_z = low < 0 ? near_z : far_z, high_z = high < 0 ? far_z : near_z;
-            low_px[k] = focal_px[k] * (perspective ? low / low_z : low) + center_px[k] - c->margin_px;
-            high_px[k] = focal_px[k] * (perspective ? high / high_z : high) + center_px[k] + c->margin_px;
-            if (!(low_px[k] < size_px[k] && high_px[k] > 0)) return s;
-        }
-        s.spacing_px = fmax(focal_px[0], focal_px[1]) * (perspective ? spacing / near_z : spacing);
-    }
-    s.seen = true;
-    s.offset_px = hypot((low_px[0] + high_px[0] - size_px[0]) / 2, (low_px[1] + high_px[1] - size_px[1]) / 2);
-    s.first_row = low_px[1] > 0 ? (uint32_t)low_px[1] : 0;
-    s.end_row = high_px[1] < size_px[1] ? (uint32_t)ceil(high_px[1]) : camera->height_px;
-    return s;
-}
-
-/// Share of a node's children in what is drawn of it.
-static double share_of_children(const chooser *c, const ewa_lod_node *node, double spacing_px) {
-    if (!node->divided) return 0;
-    if (c->options->error == 0) return 1;
-    const double measure = fmax(spacing_px / c->options->spacing_px,
-                                node->error * (spacing_px / ERROR_SPACING_PX) / c->options->error);
-    const double share = (measure - FADE_FROM) / (1 - FADE_FROM);
-    return share > 0 ? (share < 1 ? share : 1) : 0;
-}
-
-static void add_item(chooser *c, uint32_t node, double weight, bool hides, const sight_of *s) {
-    ewa_buffer *buffer = &c->home->items;
-    c->status =
-        ewa_buffer_grow(c->home->context, buffer, c->item_count, (size_t)c->item_count + 1, sizeof(item));
-    if (c->status != EWA_OK) return;
-    c->items = buffer->data;
-    c->items[c->item_count++] =
-        (item){c->lod, node, weight, hides, s->spacing_px, s->offset_px, s->first_row, s->end_row};
-}
-
-/// Whether a node can be drawn of what is in memory, by itself or by all of its children that are seen.
-static bool is_loaded(const chooser *c, uint32_t index) { return c->lod->nodes[index].surfels != NULL; }
-
-/// Whether all children of a node that are seen are in memory.
-static bool children_are_loaded(const chooser *c, const ewa_lod_node *node) {
-    for (int i = 0; i < 8; i++) {
-        if (node->children[i] == EWA_NO_NODE || is_loaded(c, node->children[i])) continue;
-        if (look_at(c, &c->lod->nodes[node->children[i]]).seen) return false;
-    }
-    return true;
-}
-
-static void choose(chooser *c, uint32_t index, double weight) {
-    const ewa_lod_node *node = &c->lod->nodes[index];
-    const sight_of s = look_at(c, node);
-    if (!s.seen || c->status != EWA_OK) return;
-    double share = share_of_children(c, node, s.spacing_px);
-    if (c->loaded_only && share > 0 && !children_are_loaded(c, node)) {
-        c->missing_count++;
-        share = 0;
-    }
-    // What represents parts is larger than they are: where these are drawn they say what is in front of what.
-    if (share < 1) add_item(c, index, weight * (1 - share), share == 0, &s);
-    for (int i = 0; i < 8 && share > 0; i++)
-        if (node->children[i] != EWA_NO_NODE) choose(c, node->children[i], weight * share);
-}
-
-/// Lists each node that the picture wants with all of its ancestors, so that they can be read from the
-/// coarsest on and every picture on the way shows all that is there.
-static void choose_ways(chooser *c, uint32_t index) {
-    const ewa_lod_node *node = &c->lod->nodes[index];
-    const sight_of s = look_at(c, node);
-    if (!s.seen || c->status != EWA_OK) return;
-    add_item(c, index, 1, true, &s);
-    if (share_of_children(c, node, s.spacing_px) > 0)
-        for (int i = 0; i < 8; i++)
-            if (node->children[i] != EWA_NO_NODE) choose_ways(c, node->children[i]);
-}
-
-/// Looks at an octree: cuts are made in its own space.
-static void look_into(chooser *c, ewa_lod *lod) {
-    const double *view = c->camera->world_to_camera, *place = lod->look.to_world;
-    c->lod = lod;
-    c->scale = vec3_length(vec3_load(&view[8])) * lod->stretch;
-    for (int r = 0; r < 3; r++)
-        for (int k = 0; k < 4; k++)
-            c->to_camera[4 * r + k] = view[4 * r] * place[k] + view[4 * r + 1] * place[4 + k] +
-                                      view[4 * r + 2] * place[8 + k] + (k == 3 ? view[4 * r + 3] : 0);
-}
-
-static ewa_status choose_nodes(chooser *c, bool loaded_only) {
-    c->loaded_only = loaded_only;
-    c->item_count = c->missing_count = 0;
-    c->status = EWA_OK;
-    for (uint32_t i = 0; i < c->scene->lod_count; i++) {
-        look_into(c, c->scene->lods[i]);
-        choose(c, 0, 1);
-    }
-    return c->status;
-}
-
 /// What is coarse comes first, then what is large and in the middle.
 static int compare_urgency(const void *a, const void *b) {
-    const item *p = a, *q = b;
+    const ewa_cut_item *p = a, *q = b;
     const double of_p = fmin(p->spacing_px, 1e9) / (1 + 1e-3 * p->offset_px),
                  of_q = fmin(q->spacing_px, 1e9) / (1 + 1e-3 * q->offset_px);
     if (of_p != of_q) return of_p > of_q ? -1 : 1;
@@ -234,16 +72,9 @@ static uint64_t bytes_beside(const ewa_lod_scene *scene, const ewa_lod *lod) {
 static uint64_t less(uint64_t a, uint64_t b) { return a > b ? a - b : 0; }
 
 /// Reads nodes for some time, the most urgent first.
-static ewa_status load_some(chooser *c, double until_s, ewa_lod_stats *stats) {
+static ewa_status load_some(ewa_cut *c, double until_s, ewa_lod_stats *stats) {
     enum { STEP = 8 };
-    c->loaded_only = false;
-    c->item_count = 0;
-    c->status = EWA_OK;
-    for (uint32_t i = 0; i < c->scene->lod_count; i++) {
-        look_into(c, c->scene->lods[i]);
-        choose_ways(c, 0);
-    }
-    if (c->status != EWA_OK) return c->status;
+    EWA_TRY(ewa_cut_list_ways(c));
     for (uint32_t i = 0; i < c->item_count; i++)
         c->items[i].lod->nodes[c->items[i].node].last_frame = c->items[i].lod->frame;
     qsort(c->items, c->item_count, sizeof *c->items, compare_urgency);
@@ -279,7 +110,7 @@ static ewa_status load_some(chooser *c, double until_s, ewa_lod_stats *stats) {
 
 /// Reads the nodes of one octree that some items need, within the memory that there is; `all_bytes` is what
 /// all octrees need.
-static ewa_status load_items_of(ewa_lod *lod, const ewa_lod_scene *scene, const item *items, uint32_t count,
+static ewa_status load_items_of(ewa_lod *lod, const ewa_lod_scene *scene, const ewa_cut_item *items, uint32_t count,
                                 uint64_t all_bytes, uint64_t memory_bytes, ewa_lod_stats *stats) {
     ewa_status status = ewa_buffer_reserve(lod->context, &lod->wanted, count, sizeof(uint32_t));
     uint32_t *wanted = lod->wanted.data, wanted_count = 0;
@@ -292,7 +123,7 @@ static ewa_status load_items_of(ewa_lod *lod, const ewa_lod_scene *scene, const 
 }
 
 /// Reads nodes that some items need, within the memory that there is.
-static ewa_status load_items(const ewa_lod_scene *scene, const item *items, uint32_t count,
+static ewa_status load_items(const ewa_lod_scene *scene, const ewa_cut_item *items, uint32_t count,
                              uint64_t memory_bytes, ewa_lod_stats *stats) {
     uint64_t all_bytes = 0;
     for (uint32_t i = 0; i < count; i++) {
@@ -313,7 +144,7 @@ static void next_frame(const ewa_lod_scene *scene) {
 /// Draws the rows [first, end) of the picture; other nodes than those that touch them take part by what is
 /// known of them all together. `proxies` are those of all items, where there are several bands; else NULL.
 static ewa_status draw_rows(const ewa_lod_scene *scene, ewa_renderer *renderer, const ewa_camera *camera,
-                            const ewa_render_options *options, const ewa_frame *frame, const item *items,
+                            const ewa_render_options *options, const ewa_frame *frame, const ewa_cut_item *items,
                             uint32_t count, ewa_surfels *const *proxies, uint32_t first_row, uint32_t end_row,
                             ewa_render_stats *stats) {
     uint64_t surfel_count = 0;
@@ -334,7 +165,7 @@ static ewa_status draw_rows(const ewa_lod_scene *scene, ewa_renderer *renderer, 
 }
 
 /// Bytes of the nodes that touch some rows.
-static uint64_t bytes_of_rows(const item *items, uint32_t count, uint32_t first_row, uint32_t end_row) {
+static uint64_t bytes_of_rows(const ewa_cut_item *items, uint32_t count, uint32_t first_row, uint32_t end_row) {
     uint64_t bytes = 0;
     for (uint32_t i = 0; i < count; i++)
         if (items[i].first_row < end_row && items[i].end_row > first_row)
@@ -343,7 +174,7 @@ static uint64_t bytes_of_rows(const item *items, uint32_t count, uint32_t first_
 }
 
 /// Learns what all nodes are like that a picture needs, however few of them fit in memory at a time.
-static ewa_status make_proxies(const ewa_lod_scene *scene, const item *items, uint32_t count,
+static ewa_status make_proxies(const ewa_lod_scene *scene, const ewa_cut_item *items, uint32_t count,
                                uint64_t memory_bytes, ewa_surfels **proxies, ewa_lod_stats *stats) {
     for (uint32_t i = 0; i < count; i++) {
         next_frame(scene);
@@ -355,11 +186,11 @@ static ewa_status make_proxies(const ewa_lod_scene *scene, const item *items, ui
 
 /// Draws a picture whose nodes do not fit in memory together.
 static ewa_status draw_bands(const ewa_lod_scene *scene, ewa_renderer *renderer, const ewa_camera *camera,
-                             const ewa_render_options *options, const ewa_frame *frame, const item *items,
+                             const ewa_render_options *options, const ewa_frame *frame, const ewa_cut_item *items,
                              uint32_t count, uint64_t memory_bytes, ewa_lod_stats *stats) {
     ewa_context *context = scene->lods[0]->context;
     ewa_surfels **proxies = ewa_allocate_zeroed(context, count, sizeof *proxies);
-    item *touching = ewa_allocate(context, count, sizeof *touching);
+    ewa_cut_item *touching = ewa_allocate(context, count, sizeof *touching);
     ewa_status status = proxies && touching ? EWA_OK : EWA_ERROR_MEMORY;
     if (status == EWA_OK) status = make_proxies(scene, items, count, memory_bytes, proxies, stats);
     for (uint32_t first = 0, end; first < camera->height_px && status == EWA_OK; first = end) {
@@ -395,7 +226,7 @@ static ewa_status draw_bands(const ewa_lod_scene *scene, ewa_renderer *renderer,
 
 /// Keeps one part of the nodes, which are in an order in which neighbours are near each other: those whose
 /// surfels begin in that part of all.
-static ewa_status keep_share(chooser *c) {
+static ewa_status keep_share(ewa_cut *c) {
     const ewa_lod_options *options = c->options;
     uint64_t all = 0, before = 0, bytes = 0;
     for (uint32_t i = 0; i < c->item_count; i++) all += c->items[i].lod->nodes[c->items[i].node].count;
@@ -424,19 +255,20 @@ static ewa_status render(const ewa_lod_scene *scene, ewa_renderer *renderer, con
                          const ewa_frame *frame, ewa_lod_stats *stats) {
     const double start_s = ewa_now_s();
     // Filters reach some pixels beyond a surfel.
-    chooser c = {.scene = scene,
+    ewa_cut c = {.scene = scene,
                  .home = scene->lods[0],
                  .camera = camera,
                  .options = chosen,
                  .margin_px = 16};
     next_frame(scene);
-    ewa_status status = EWA_OK;
-    if (chosen->load_s > 0) {
+    ewa_status status = ewa_cut_settle(&c);
+    stats->coarser = c.coarser;
+    if (status == EWA_OK && chosen->load_s > 0) {
         status = load_some(&c, start_s + chosen->load_s, stats);
         stats->load_s = ewa_now_s() - start_s;
     }
     const double before_s = ewa_now_s();
-    if (status == EWA_OK) status = choose_nodes(&c, chosen->load_s > 0);
+    if (status == EWA_OK) status = ewa_cut_choose(&c, chosen->load_s > 0);
     if (status == EWA_OK && chosen->share_count) status = keep_share(&c);
     EWA_TRY(status);
     stats->choose_s = ewa_now_s() - before_s;

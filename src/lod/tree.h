@@ -50,7 +50,8 @@ struct ewa_lod {
     ewa_buffer look_user; ///< the copy that it has
     ewa_lod *next;        ///< another instance of the same octree, closed with this one; NULL: none
     bool is_instance;     ///< file and levels are those of the octree that was opened
-    ewa_buffer items;     ///< of the frame (draw.c)
+    ewa_buffer items;     ///< of the frame (cut.c)
+    ewa_buffer cover;     ///< of the frame (cut.c)
     ewa_buffer instances; ///< of the frame: what is drawn
     ewa_buffer wanted;    ///< nodes to load
 };

@@ -1,0 +1,292 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// Which nodes a picture of octrees is drawn of, with which weights.
+//
+// A node represents its children while what is drawn of it lies no farther apart on the screen than it may, and is expected to be
+// off by no more. From fifteen sixteenths of that on its children are drawn as well, with weights that grow to one as those of
+// the node fall to zero: the picture, a quotient of sums, changes with the camera without a step. The finest
+// that is drawn finds the nearest surfaces.
+//
+// Where that would be more surfels than the picture is to take, both bounds grow by one factor, the smallest by which it is no more.
+// It is found on numbers of surfels that are continuous in the camera too, so that nothing pops by it: each node counts by its
+// weight and by the part of its box that is in the picture.
+#include "lod/cut.h"
+#include "base/base.h"
+#include "homogeneous/vec.h"
+
+#include <math.h>
+#include <string.h>
+
+/// Share of the spacing, or of the error, at which parts begin to show.
+static const double FADE_FROM = 0.9375;
+
+/// Pixels between surfels where errors are measured.
+static const double ERROR_SPACING_PX = 0.5;
+
+/// Surfels for each pixel that octrees cover, where nobody says how many: half of those that are promised, since boxes cover up to
+/// twice what is in them, and what fades is drawn twice.
+static const double SURFELS_PER_PIXEL = 4;
+
+/// The most that the bounds grow by, and steps by which the factor is found, each of which halves its range.
+static const double MOST_COARSER = 4096;
+enum { FACTOR_STEPS = 24, COVER_CELLS = 256, COVER_CELL_PX = 16 };
+
+/// A node before the camera.
+typedef struct sight_of {
+    bool seen;
+    double spacing_px; ///< infinite: the camera is in it
+    double offset_px;
+    double low_px[2], high_px[2]; ///< of its box, which the picture may cut
+    uint32_t first_row, end_row;
+} sight_of;
+
+/// Rows and columns of the picture that a box in camera space may touch.
+static sight_of look_at(const ewa_cut *c, const ewa_lod_node *node) {
+    const ewa_camera *camera = c->camera;
+    const double *m = c->to_camera;
+    const double reach = node->largest_radius_world * c->lod->look.radius_scale * c->scale;
+    double at[3], half[3];
+    for (int r = 0; r < 3; r++) {
+        at[r] = m[4 * r + 3], half[r] = reach;
+        for (int k = 0; k < 3; k++) {
+            at[r] += m[4 * r + k] * (node->low_world[k] + node->side_world / 2);
+            half[r] += fabs(m[4 * r + k]) * node->side_world / 2;
+        }
+    }
+    sight_of s = {.seen = false, .spacing_px = INFINITY, .end_row = camera->height_px,
+                  .high_px = {camera->width_px, camera->height_px}};
+    const double near_z = at[2] - half[2], far_z = at[2] + half[2];
+    if (far_z <= 0) return s;
+    const double focal_px[2] = {camera->fx_px, camera->fy_px}, center_px[2] = {camera->cx_px, camera->cy_px};
+    const double size_px[2] = {camera->width_px, camera->height_px};
+    const double spacing = node->spacing_world * c->scale;
+    double low_px[2] = {0, 0}, high_px[2] = {size_px[0], size_px[1]};
+    const bool perspective = camera->projection == EWA_PERSPECTIVE;
+    if (!perspective || near_z > 0) {
+        for (int k = 0; k < 2; k++) {
+            const double low = at[k] - half[k], high = at[k] + half[k];
+            const double low_z = low < 0 ? near_z : far_z, high_z = high < 0 ? far_z : near_z;
+            s.low_px[k] = focal_px[k] * (perspective ? low / low_z : low) + center_px[k];
+            s.high_px[k] = focal_px[k] * (perspective ? high / high_z : high) + center_px[k];
+            low_px[k] = s.low_px[k] - c->margin_px, high_px[k] = s.high_px[k] + c->margin_px;
+            if (!(low_px[k] < size_px[k] && high_px[k] > 0)) return s;
+        }
+        s.spacing_px = fmax(focal_px[0], focal_px[1]) * (perspective ? spacing / near_z : spacing);
+    }
+    s.seen = true;
+    s.offset_px = hypot((low_px[0] + high_px[0] - size_px[0]) / 2, (low_px[1] + high_px[1] - size_px[1]) / 2);
+    s.first_row = low_px[1] > 0 ? (uint32_t)low_px[1] : 0;
+    s.end_row = high_px[1] < size_px[1] ? (uint32_t)ceil(high_px[1]) : camera->height_px;
+    return s;
+}
+
+/// Share of a node's children in what is drawn of it.
+static double share_of_children(const ewa_cut *c, const ewa_lod_node *node, double spacing_px) {
+    if (!node->divided) return 0;
+    if (c->options->error == 0) return 1;
+    const double wanted = fmax(spacing_px / c->options->spacing_px,
+                               node->error * (spacing_px / ERROR_SPACING_PX) / c->options->error);
+    const double measure = wanted / c->coarser;
+    const double share = (measure - FADE_FROM) / (1 - FADE_FROM);
+    return share > 0 ? (share < 1 ? share : 1) : 0;
+}
+
+static void add_item(ewa_cut *c, uint32_t node, double weight, bool hides, const sight_of *s) {
+    ewa_buffer *buffer = &c->home->items;
+    c->status =
+        ewa_buffer_grow(c->home->context, buffer, c->item_count, (size_t)c->item_count + 1, sizeof(ewa_cut_item));
+    if (c->status != EWA_OK) return;
+    c->items = buffer->data;
+    c->items[c->item_count++] =
+        (ewa_cut_item){c->lod, node, weight, hides, s->spacing_px, s->offset_px, s->first_row, s->end_row};
+}
+
+/// Whether a node can be drawn of what is in memory, by itself or by all of its children that are seen.
+static bool is_loaded(const ewa_cut *c, uint32_t index) { return c->lod->nodes[index].surfels != NULL; }
+
+/// Whether all children of a node that are seen are in memory.
+static bool children_are_loaded(const ewa_cut *c, const ewa_lod_node *node) {
+    for (int i = 0; i < 8; i++) {
+        if (node->children[i] == EWA_NO_NODE || is_loaded(c, node->children[i])) continue;
+        if (look_at(c, &c->lod->nodes[node->children[i]]).seen) return false;
+    }
+    return true;
+}
+
+static void choose(ewa_cut *c, uint32_t index, double weight) {
+    const ewa_lod_node *node = &c->lod->nodes[index];
+    const sight_of s = look_at(c, node);
+    if (!s.seen || c->status != EWA_OK) return;
+    double share = share_of_children(c, node, s.spacing_px);
+    if (c->loaded_only && share > 0 && !children_are_loaded(c, node)) {
+        c->missing_count++;
+        share = 0;
+    }
+    // What represents parts is larger than they are: where these are drawn they say what is in front of what.
+    if (share < 1) add_item(c, index, weight * (1 - share), share == 0, &s);
+    for (int i = 0; i < 8 && share > 0; i++)
+        if (node->children[i] != EWA_NO_NODE) choose(c, node->children[i], weight * share);
+}
+
+static void choose_ways(ewa_cut *c, uint32_t index) {
+    const ewa_lod_node *node = &c->lod->nodes[index];
+    const sight_of s = look_at(c, node);
+    if (!s.seen || c->status != EWA_OK) return;
+    add_item(c, index, 1, true, &s);
+    if (share_of_children(c, node, s.spacing_px) > 0)
+        for (int i = 0; i < 8; i++)
+            if (node->children[i] != EWA_NO_NODE) choose_ways(c, node->children[i]);
+}
+
+/// Looks at an octree: cuts are made in its own space.
+static void look_into(ewa_cut *c, ewa_lod *lod) {
+    const double *view = c->camera->world_to_camera, *place = lod->look.to_world;
+    c->lod = lod;
+    c->scale = vec3_length(vec3_load(&view[8])) * lod->stretch;
+    for (int r = 0; r < 3; r++)
+        for (int k = 0; k < 4; k++)
+            c->to_camera[4 * r + k] = view[4 * r] * place[k] + view[4 * r + 1] * place[4 + k] +
+                                      view[4 * r + 2] * place[8 + k] + (k == 3 ? view[4 * r + 3] : 0);
+}
+
+ewa_status ewa_cut_list_ways(ewa_cut *c) {
+    c->loaded_only = false;
+    c->item_count = 0;
+    c->status = EWA_OK;
+    for (uint32_t i = 0; i < c->scene->lod_count; i++) {
+        look_into(c, c->scene->lods[i]);
+        choose_ways(c, 0);
+    }
+    return c->status;
+}
+
+ewa_status ewa_cut_choose(ewa_cut *c, bool loaded_only) {
+    c->loaded_only = loaded_only;
+    c->item_count = c->missing_count = 0;
+    c->status = EWA_OK;
+    for (uint32_t i = 0; i < c->scene->lod_count; i++) {
+        look_into(c, c->scene->lods[i]);
+        choose(c, 0, 1);
+    }
+    return c->status;
+}
+
+// ---- The budget
+
+/// Surfels of the cut below a node, each node by its weight and its part of the picture.
+static double count_below(const ewa_cut *c, uint32_t index) {
+    const ewa_lod_node *node = &c->lod->nodes[index];
+    const sight_of s = look_at(c, node);
+    if (!s.seen) return 0;
+    const double share = share_of_children(c, node, s.spacing_px);
+    double count = 0;
+    if (share < 1) {
+        const double size_px[2] = {c->camera->width_px, c->camera->height_px};
+        double part = 1;
+        for (int k = 0; k < 2; k++) {
+            const double whole = s.high_px[k] - s.low_px[k];
+            const double seen = fmin(s.high_px[k], size_px[k]) - fmax(s.low_px[k], 0);
+            if (whole > 0) part *= fmin(fmax(seen / whole, 0), 1);
+        }
+        count = (1 - share) * part * (double)node->count;
+    }
+    double parts = 0;
+    for (int i = 0; i < 8 && share > 0; i++)
+        if (node->children[i] != EWA_NO_NODE) parts += count_below(c, node->children[i]);
+    return count + share * parts;
+}
+
+static double count_all(ewa_cut *c, double coarser) {
+    double count = 0;
+    c->coarser = coarser;
+    for (uint32_t i = 0; i < c->scene->lod_count; i++) {
+        look_into(c, c->scene->lods[i]);
+        count += count_below(c, 0);
+    }
+    return count;
+}
+
+/// The picture in cells, each with the share of it that nodes cover.
+typedef struct cover {
+    uint32_t side_px, columns, rows;
+    float *shares;
+} cover;
+
+/// Adds a box of the picture: a cell has the largest share of all.
+static void add_box(const cover *to, const double low_px[2], const double high_px[2]) {
+    const uint32_t cells[2] = {to->columns, to->rows};
+    uint32_t first[2], end[2];
+    for (int k = 0; k < 2; k++) {
+        const double low = fmax(low_px[k] / to->side_px, 0), high = fmin(high_px[k] / to->side_px, cells[k]);
+        if (!(low < high)) return;
+        first[k] = (uint32_t)low;
+        end[k] = (uint32_t)ceil(high);
+    }
+    for (uint32_t y = first[1]; y < end[1]; y++) {
+        const double high = fmin(high_px[1] / to->side_px - y, 1) - fmax(low_px[1] / to->side_px - y, 0);
+        for (uint32_t x = first[0]; x < end[0]; x++) {
+            const double wide = fmin(high_px[0] / to->side_px - x, 1) - fmax(low_px[0] / to->side_px - x, 0);
+            float *share = &to->shares[(size_t)y * to->columns + x];
+            if ((float)(wide * high) > *share) *share = (float)(wide * high);
+        }
+    }
+}
+
+/// Adds the boxes of a node's parts, down to those that are as small as cells.
+static void add_node(const ewa_cut *c, const cover *to, uint32_t index) {
+    const ewa_lod_node *node = &c->lod->nodes[index];
+    const sight_of s = look_at(c, node);
+    if (!s.seen) return;
+    const double side_px = fmax(s.high_px[0] - s.low_px[0], s.high_px[1] - s.low_px[1]);
+    bool parts = false;
+    for (int i = 0; i < 8 && (side_px > to->side_px || isinf(s.spacing_px)); i++)
+        if (node->children[i] != EWA_NO_NODE) {
+            parts = true;
+            add_node(c, to, node->children[i]);
+        }
+    if (!parts) add_box(to, s.low_px, s.high_px);
+}
+
+/// Finds how many pixels octrees cover, or somewhat more: their nodes do.
+static ewa_status measure_cover(ewa_cut *c, double *pixels) {
+    const uint32_t width_px = c->camera->width_px, height_px = c->camera->height_px;
+    const uint32_t longest_px = width_px > height_px ? width_px : height_px;
+    cover to = {.side_px = COVER_CELL_PX};
+    while (to.side_px * COVER_CELLS < longest_px) to.side_px *= 2;
+    to.columns = (width_px + to.side_px - 1) / to.side_px;
+    to.rows = (height_px + to.side_px - 1) / to.side_px;
+    const size_t count = (size_t)to.columns * to.rows;
+    EWA_TRY(ewa_buffer_reserve(c->home->context, &c->home->cover, count, sizeof(float)));
+    to.shares = c->home->cover.data;
+    memset(to.shares, 0, count * sizeof(float));
+    for (uint32_t i = 0; i < c->scene->lod_count; i++) {
+        look_into(c, c->scene->lods[i]);
+        add_node(c, &to, 0);
+    }
+    double cells = 0;
+    for (size_t i = 0; i < count; i++) cells += (double)to.shares[i];
+    *pixels = cells * to.side_px * to.side_px;
+    return EWA_OK;
+}
+
+ewa_status ewa_cut_settle(ewa_cut *c) {
+    c->coarser = 1;
+    if (c->options->error == 0) return EWA_OK;
+    double most = (double)c->options->max_splats, pixels;
+    if (!c->options->max_splats) {
+        EWA_TRY(measure_cover(c, &pixels));
+        most = SURFELS_PER_PIXEL * pixels;
+    }
+    double low = 1, high = MOST_COARSER;
+    if (count_all(c, 1) <= most) return EWA_OK;
+    for (int i = 0; i < FACTOR_STEPS; i++) {
+        const double middle = sqrt(low * high);
+        if (count_all(c, middle) <= most)
+            high = middle;
+        else
+            low = middle;
+    }
+    c->coarser = high;
+    return EWA_OK;
+}
