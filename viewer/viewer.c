@@ -28,7 +28,7 @@ static const double REFINE_S = 0.15, LONGEST_REFINE_S = 1;
 /// Without threads, a whole picture holds up the hand: it waits for such a share of what the last one took, and no longer than this.
 static const double SETTLE_SHARE = 0.5, LONGEST_SETTLE_S = 0.5;
 /// How much coarser octrees are while something moves, and at most.
-static const double COARSER = 2, MAX_SPACING_PX = 64;
+static const double COARSER = 2, MAX_SPACING_PX = 64, MAX_ERROR = 255;
 /// When to ask again, while something is under way and when nothing is.
 static const double SOON_S = 0.002, LATER_S = 0.1;
 /// Beside the ticket of a composed picture: it was whole.
@@ -239,6 +239,7 @@ static void make_quick(const viewer *v, paint_scene *scene) {
         scene->coarse = true;
         options->lod.load_s = 0.5 * options->render.budget_s;
         options->lod.spacing_px = fmin(COARSER * options->lod.spacing_px, MAX_SPACING_PX);
+        options->lod.error = fmin(COARSER * options->lod.error, MAX_ERROR);
     }
     const uint32_t minimum = min_reduction(v), divisor = v->reduction > minimum ? v->reduction : minimum;
     if (!v->settings.reduce || divisor == 1) return;

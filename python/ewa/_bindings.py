@@ -1407,6 +1407,7 @@ class ewa_lod_options(c.Structure):
     load_s: float
     share: int
     share_count: int
+    max_splats: int
     _fields_ = [
         ("struct_size", c.c_size_t),
         ("spacing_px", c.c_double),
@@ -1415,6 +1416,7 @@ class ewa_lod_options(c.Structure):
         ("load_s", c.c_double),
         ("share", c.c_uint32),
         ("share_count", c.c_uint32),
+        ("max_splats", c.c_uint64),
     ]
 
 
@@ -1472,6 +1474,7 @@ class ewa_lod_stats(c.Structure):
     resident_bytes: int
     choose_s: float
     load_s: float
+    coarser: float
     _fields_ = [
         ("render", ewa_render_stats),
         ("surfel_count", c.c_uint64),
@@ -1482,6 +1485,7 @@ class ewa_lod_stats(c.Structure):
         ("resident_bytes", c.c_uint64),
         ("choose_s", c.c_double),
         ("load_s", c.c_double),
+        ("coarser", c.c_double),
     ]
 
 

@@ -185,9 +185,9 @@ class LodBuildOptions(TypedDict, total=False):
 class LodOptions(TypedDict, total=False):
     """Members of ewa_lod_options."""
 
-    #: nodes are drawn by surfels that represent their points where these are no farther apart; (0, 64], px, default 0.5
+    #: nodes are drawn by surfels that represent their points where these are no farther apart; (0, 64], px, default 1
     spacing_px: float | None
-    #: and expected to be off by no more than so much, rms, in 1/255; 0: all points; [0, 255], default 16
+    #: and expected to be off by no more than so much, rms, in 1/255; 0: all points; [0, 255], default 3
     error: float | None
     #: memory for nodes; a picture that needs more is drawn in bands; [16777216, 1.125899907e15], bytes, default 1073741824
     memory_bytes: int | None
@@ -197,6 +197,8 @@ class LodOptions(TypedDict, total=False):
     share: int | None
     #: of so many; 0: no parts; [0, 1048576], default 0
     share_count: int | None
+    #: about so many surfels and points are drawn of octrees, coarser ones where it would be more; 0: 8 for each pixel that they cover; [0, 9.007199255e15], default 0
+    max_splats: int | None
 
 
 class MeshSampleOptions(TypedDict, total=False):

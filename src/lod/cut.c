@@ -50,8 +50,8 @@ static sight_of look_at(const ewa_cut *c, const ewa_lod_node *node) {
     for (int r = 0; r < 3; r++) {
         at[r] = m[4 * r + 3], half[r] = reach;
         for (int k = 0; k < 3; k++) {
-            at[r] += m[4 * r + k] * (node->low_world[k] + node->side_world / 2);
-            half[r] += fabs(m[4 * r + k]) * node->side_world / 2;
+            at[r] += m[4 * r + k] * (node->box_low_world[k] + node->box_high_world[k]) / 2;
+            half[r] += fabs(m[4 * r + k]) * (node->box_high_world[k] - node->box_low_world[k]) / 2;
         }
     }
     sight_of s = {.seen = false, .spacing_px = INFINITY, .end_row = camera->height_px,

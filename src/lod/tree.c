@@ -32,8 +32,11 @@ static ewa_status add_node(ewa_lod *lod, const ewa_octree_key *key, uint32_t *in
     node->side_world = ldexp(lod->facts->side_world, -key->level);
     node->spacing_world = ldexp(lod->facts->spacing_world, -key->level);
     node->largest_radius_world = 4 * node->spacing_world; // unless it is known
-    for (int c = 0; c < 3; c++)
+    for (int c = 0; c < 3; c++) {
         node->low_world[c] = lod->facts->low_world[c] + key->cell[c] * node->side_world;
+        node->box_low_world[c] = node->low_world[c];
+        node->box_high_world[c] = node->low_world[c] + node->side_world;
+    }
     *index = lod->node_count++;
     return EWA_OK;
 }
@@ -135,12 +138,31 @@ static void share_counts(ewa_lod *lod) {
     }
 }
 
+/// Makes the boxes of divided nodes those of their children together, where all points are in children: a ground fills a small part of
+/// the cubes above it, which reach near cameras that are far from it. Parents come first.
+static void fit_boxes(ewa_lod *lod) {
+    for (uint32_t i = lod->node_count; i-- > 0;) {
+        ewa_lod_node *node = &lod->nodes[i];
+        bool any = false;
+        for (int child = 0; child < 8 && node->divided; child++) {
+            if (node->children[child] == EWA_NO_NODE) continue;
+            const ewa_lod_node *part = &lod->nodes[node->children[child]];
+            for (int c = 0; c < 3; c++) {
+                node->box_low_world[c] = any ? fmin(node->box_low_world[c], part->box_low_world[c]) : part->box_low_world[c];
+                node->box_high_world[c] = any ? fmax(node->box_high_world[c], part->box_high_world[c]) : part->box_high_world[c];
+            }
+            any = true;
+        }
+    }
+}
+
 ewa_status ewa_tree_make(ewa_lod *lod) {
     const ewa_octree_key root = {.level = 0};
     uint32_t index;
     ewa_status status = add_node(lod, &root, &index);
     if (status == EWA_OK && lod->has_levels) status = add_pages(lod);
     if (status == EWA_OK) status = add_nodes(lod);
+    if (status == EWA_OK && lod->has_levels) fit_boxes(lod);
     if (status == EWA_OK && !lod->has_levels) {
         status = add_parts(lod);
         share_counts(lod);

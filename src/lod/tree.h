@@ -21,6 +21,7 @@ typedef struct ewa_lod_node {
     uint32_t page;        ///< of the levels; UINT32_MAX: there are none
     bool divided;
     double low_world[3], side_world;
+    double box_low_world[3], box_high_world[3]; ///< in that, of what is drawn of it
     double spacing_world;        ///< of what is drawn of it
     double error;                ///< of that, rms, 1/255, where it is half a pixel apart
     double largest_radius_world; ///< of that

@@ -213,6 +213,93 @@ static void test_memory(void **state) {
     ewa_context_destroy(&context);
 }
 
+/// No more than 8 surfels for a covered pixel, from wherever it is seen; a few nodes are few surfels.
+static void test_bound(void **state) {
+    enum { FEW_NODES = 8 };
+    static const double distances[] = {0.6, 1, 1.4, 2.2, 3.1, 4, 6, 8, 16};
+    ewa_context *context = check_context(2, NULL);
+    ewa_lod *lod = open_file(context, file);
+    for (size_t i = 0; i < sizeof distances / sizeof distances[0]; i++) {
+        const ewa_camera camera = camera_at(distances[i]);
+        shot *made = draw(lod, context, &camera, NULL);
+        const double each = (double)made->stats.surfel_count / (filled(made) * WIDTH_PX * HEIGHT_PX);
+        print_message("distance %g: %u nodes, %.2f surfels a pixel, coarser %.2f\n", distances[i], made->stats.node_count, each,
+                      made->stats.coarser);
+        assert_true(each <= 8 || made->stats.node_count <= FEW_NODES);
+        free(made);
+    }
+    ewa_lod_close(&lod);
+    ewa_context_destroy(&context);
+}
+
+/// As many surfels as were asked for, about: what fades counts twice, and the root is never left out.
+static void test_max_splats(void **state) {
+    static const uint64_t counts[] = {UINT64_C(1) << 50, 400000, 200000, 100000, 1};
+    ewa_context *context = check_context(2, NULL);
+    ewa_lod *lod = open_file(context, file);
+    const ewa_camera camera = camera_at(5);
+    ewa_lod_options options = lod_options_of(3, 0.25, 1 << 30);
+    options.max_splats = 1;
+    shot *root = draw(lod, context, &camera, &options), *before = NULL;
+    assert_int_equal(root->stats.node_count, 1);
+    const uint64_t next_count = 120000; // of the root and its children
+    for (size_t i = 0; i < sizeof counts / sizeof counts[0]; i++) {
+        options.max_splats = counts[i];
+        shot *made = draw(lod, context, &camera, &options);
+        print_message("%llu: %llu surfels, coarser %.3f\n", (unsigned long long)counts[i],
+                      (unsigned long long)made->stats.surfel_count, made->stats.coarser);
+        if (i == 0) assert_true(made->stats.coarser == 1);
+        // Few nodes fade all at once: the smallest cut and the next finer one are drawn together.
+        assert_true(made->stats.surfel_count <= counts[i] + counts[i] / 2 + next_count);
+        if (before) {
+            assert_true(made->stats.coarser > before->stats.coarser);
+        }
+        free(before);
+        before = made;
+    }
+    hold_same(root, before);
+    // All points are all points.
+    const ewa_lod_options all = lod_options_of(0, 0.5, 1 << 30);
+    options.error = 0;
+    shot *points = draw(lod, context, &camera, &all), *few = draw(lod, context, &camera, &options);
+    hold_same(points, few);
+    free(root), free(before), free(points), free(few);
+    ewa_lod_close(&lod);
+    ewa_context_destroy(&context);
+}
+
+/// Going near, with few surfels: no value changes much more from picture to picture than in those of all points.
+static void test_no_jumps(void **state) {
+    enum { FRAMES = 12, JUMP = 8 };
+    ewa_context *context = check_context(2, NULL);
+    ewa_lod *lod = open_file(context, file);
+    ewa_lod_options options = lod_options_of(3, 1, 1 << 30);
+    options.max_splats = 180000;
+    const ewa_lod_options all = lod_options_of(0, 1, 1 << 30);
+    shot *before = NULL, *before_plain = NULL;
+    size_t jumps = 0, values = 0;
+    uint64_t most = 0, fewest = UINT64_MAX;
+    for (int f = 0; f < FRAMES; f++) {
+        const ewa_camera camera = camera_at(7 * pow(0.99, f));
+        shot *made = draw(lod, context, &camera, &options), *plain = draw(lod, context, &camera, &all);
+        most = made->stats.surfel_count > most ? made->stats.surfel_count : most;
+        fewest = made->stats.surfel_count < fewest ? made->stats.surfel_count : fewest;
+        for (size_t i = 0; before && i < NUMBERS; i++) {
+            const int own = abs(made->rgba8[i] - before->rgba8[i]), of_plain = abs(plain->rgba8[i] - before_plain->rgba8[i]);
+            values += made->rgba8[i] > 0;
+            jumps += own - of_plain > JUMP;
+        }
+        free(before), free(before_plain);
+        before = made, before_plain = plain;
+    }
+    print_message("%zu of %zu values jump; %llu to %llu surfels\n", jumps, values, (unsigned long long)fewest, (unsigned long long)most);
+    assert_true(most > fewest);
+    assert_true((double)jumps < 8e-4 * (double)values);
+    free(before), free(before_plain);
+    ewa_lod_close(&lod);
+    ewa_context_destroy(&context);
+}
+
 /// With next to no time each picture shows more, until nothing is missing.
 static void test_load(void **state) {
     enum { MAX_CALLS = 400 };
@@ -412,8 +499,10 @@ static void test_parts_without_nodes(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_like_plain),     cmocka_unit_test(test_threads),
-        cmocka_unit_test(test_memory),         cmocka_unit_test(test_load),
-        cmocka_unit_test(test_read),           cmocka_unit_test(test_sample),
+        cmocka_unit_test(test_memory),         cmocka_unit_test(test_bound),
+        cmocka_unit_test(test_max_splats),     cmocka_unit_test(test_no_jumps),
+        cmocka_unit_test(test_load),           cmocka_unit_test(test_read),
+        cmocka_unit_test(test_sample),
         cmocka_unit_test(test_without_levels), cmocka_unit_test(test_parts_without_nodes),
     };
     return cmocka_run_group_tests(tests, enter, leave);
