@@ -82,7 +82,7 @@ typedef struct ewa_lod_options {
     uint32_t share;
     uint32_t share_count; ///< [0, 1048576]; default 0: no parts
     /// About so many surfels or points are drawn of octrees: where it would be more, spacing and error grow by one
-    /// factor; [0, 9007199254740992]; default 0: 8 for each pixel that they cover
+    /// factor; [0, 9.007199255e15]; default 0: 8 for each pixel that they cover
     uint64_t max_splats;
 } ewa_lod_options;
 
