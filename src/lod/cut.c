@@ -24,7 +24,7 @@ static const double FADE_FROM = 0.9375;
 /// Pixels between surfels where errors are measured.
 static const double ERROR_SPACING_PX = 0.5;
 
-/// Surfels for each pixel that octrees cover, where nobody says how many: half of those that are promised, since boxes cover up to
+/// Surfels for each pixel, or part of one, that octrees cover, where nobody says how many: half of those that are promised, since boxes cover up to
 /// twice what is in them, and what fades is drawn twice.
 static const double SURFELS_PER_PIXEL = 4;
 
@@ -276,7 +276,7 @@ ewa_status ewa_cut_settle(ewa_cut *c) {
     double most = (double)c->options->max_splats, pixels;
     if (!c->options->max_splats) {
         EWA_TRY(measure_cover(c, &pixels));
-        most = SURFELS_PER_PIXEL * pixels;
+        most = SURFELS_PER_PIXEL * pixels * c->parts_per_pixel;
     }
     double low = 1, high = MOST_COARSER;
     if (count_all(c, 1) <= most) return EWA_OK;

@@ -17,7 +17,7 @@ typedef struct ewa_cut_item {
     uint32_t first_row, end_row;  ///< of the picture that it may touch
 } ewa_cut_item;
 
-/// What is known while nodes are chosen. The caller sets scene, home, camera, options and margin.
+/// What is known while nodes are chosen. The caller sets scene, home, camera, options, margin and parts.
 typedef struct ewa_cut {
     const ewa_lod_scene *scene;
     ewa_lod *home; ///< the first octree, which keeps the lists
@@ -27,6 +27,7 @@ typedef struct ewa_cut {
     const ewa_lod_options *options;
     double scale; ///< camera units that a unit of the octree's space has at most
     double margin_px;
+    double parts_per_pixel; ///< that are drawn, and averaged
     double coarser;   ///< by which spacing and error may be larger than the options say; ewa_cut_settle() finds it
     bool loaded_only; ///< nodes that are not in memory are drawn by what represents them
     ewa_cut_item *items;

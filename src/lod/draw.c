@@ -259,6 +259,7 @@ static ewa_status render(const ewa_lod_scene *scene, ewa_renderer *renderer, con
                  .home = scene->lods[0],
                  .camera = camera,
                  .options = chosen,
+                 .parts_per_pixel = (double)options->supersampling * options->supersampling,
                  .margin_px = 16};
     next_frame(scene);
     ewa_status status = ewa_cut_settle(&c);
@@ -357,6 +358,7 @@ ewa_status ewa_lod_scene_draw(const ewa_lod_scene *scene, const ewa_lod_look *co
         // Nodes are chosen so that their surfels are about as large as a pixel, or a part of one.
         if (plain.supersampling == 0) plain.supersampling = 1;
         chosen.spacing_px /= plain.supersampling;
+        chosen.error /= plain.supersampling;
         status = render(&own, renderer, camera, &plain, &chosen, frame, &took);
     } else {
         status = render_surfels(&own, renderer, camera, options, frame, &took.render);
