@@ -274,7 +274,8 @@ static void test_elements_and_lists_around_the_vertices(void **state) {
         sample s = sample_start((ewa_ply_encoding)encoding, "\n");
         sample_text(
             &s,
-            "comment by hand\nobj_info num_cols 512\nelement camera 2\nproperty double view\nproperty int n\n"
+            "comment by hand\nobj_info num_cols 512\nCreated by Blender3D 247 - www.blender.org, source file: \n"
+            "element camera 2\nproperty double view\nproperty int n\n"
             "element face 3\nproperty list uchar int vertex_indices\nproperty short flags\n"
             "element nothing 5\nelement vertex 300\nproperty list uchar float weights\n" XYZ
             "property list int ushort more\nproperty uchar last\n"

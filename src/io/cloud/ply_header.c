@@ -197,7 +197,9 @@ ewa_status ewa_ply_header_read(const ewa_ply_source *source, ewa_ply_header *hea
             reader.at_bytes = reader.size_bytes;
         line.length = (size_t)length;
         const uint32_t word_count = split(line, words);
-        if (word_count == 0 || ewa_text_is(words[0], "comment") || ewa_text_is(words[0], "obj_info"))
+        // Blender 2.4 begins its remark with "Created" alone.
+        if (word_count == 0 || ewa_text_is(words[0], "comment") || ewa_text_is(words[0], "obj_info") ||
+            ewa_text_is(words[0], "Created"))
             continue;
         if (ewa_text_is(words[0], "end_header")) break;
         if (ewa_text_is(words[0], "format")) {
