@@ -3,6 +3,7 @@
 """Colours of points from photographs."""
 from __future__ import annotations
 
+import os
 import unittest
 
 import numpy as np
@@ -52,6 +53,27 @@ class Photos(Case):
             cloud.color_from_photos([(camera, np.zeros((32, 32, 2), np.uint8))])
         with self.assertRaises(ewa.FileError):
             cloud.color_from_photos(self.path("nothing.json"))
+        with self.assertRaisesRegex(ewa.FormatError, "is Bundler's bundle.out; cameras are"):
+            with open(self.path("bundle.out"), "w") as file:
+                file.write("# Bundle file v0.3\n")
+            cloud.color_from_photos(self.path("bundle.out"))
+        with self.assertRaisesRegex(ewa.ArgumentError, "masks: of photographs in files"):
+            cloud.color_from_photos([(camera, np.zeros((32, 32, 3), np.uint8))], masks=self.path("."))
+
+    def test_masks(self) -> None:
+        truth = ewa.generate("sphere", 2000).procedure("marble")
+        camera = ewa.Camera.frame(truth, size=(64, 64))
+        ewa.render(truth, camera, shading="none", background="transparent").save(self.path("view.png"))
+        camera.save(self.path("camera.json"))
+        with open(self.path("camera.json")) as file, open(self.path("cameras.json"), "w") as out:
+            out.write("[" + file.read().replace("{", '{"file_path": "view.png",', 1) + "]")
+        half = np.zeros((64, 64, 1), np.uint8)
+        half[:32] = 255
+        os.mkdir(self.path("masks"))
+        ewa.save_image(self.path("masks/view.png"), half)
+        seen = [ewa.generate("sphere", 2000).color_from_photos(self.path("cameras.json"), masks=masks, method="mean")[1].seen_count
+                for masks in (None, self.path("masks"))]
+        self.assertLess(abs(seen[1] - seen[0] / 2), seen[0] / 10)
 
 
 if __name__ == "__main__":

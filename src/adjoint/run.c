@@ -10,6 +10,7 @@
 
 enum {
     CHAIN_POINTS = 1024, ///< points per piece of parallel work
+    BLOCK_POINTS = 32,   ///< that are read together
     UNIT_BITS = 36,      ///< units per bound of a term
 };
 
@@ -18,17 +19,20 @@ static uint32_t find_splats(const void *data, uint32_t worker, uint32_t first, u
     const ewa_adjoint_job *job = data;
     ewa_adjoint_scratch *s = &job->scratch[worker];
     uint32_t next = first;
+    ewa_surfel surfels[BLOCK_POINTS];
+    ewa_reference_splat splats[BLOCK_POINTS];
     for (uint32_t i = first; i < first + count; i++) {
-        ewa_surfel surfel;
-        ewa_reference_splat splat;
-        ewa_reference_frame_project(&job->frame, i, 1, &surfel, &splat);
-        const ewa_reference_tiles range = job->ranges[i] = ewa_reference_tiles_of(&splat, job->tiles.side_px);
+        const uint32_t in_block = (i - first) % BLOCK_POINTS, left = first + count - i;
+        if (in_block == 0)
+            ewa_reference_frame_project(&job->frame, i, left < BLOCK_POINTS ? left : BLOCK_POINTS, surfels, splats);
+        const ewa_reference_splat *splat = &splats[in_block];
+        const ewa_reference_tiles range = job->ranges[i] = ewa_reference_tiles_of(splat, job->tiles.side_px);
         if (range.end == 0) continue;
         items->ids[next] = (int32_t)i, items->first[next] = (int32_t)range.first, items->end[next] = (int32_t)range.end;
         next++;
-        const double color = fmax(fabs(splat.color.x), fmax(fabs(splat.color.y), fabs(splat.color.z)));
+        const double color = fmax(fabs(splat->color.x), fmax(fabs(splat->color.y), fabs(splat->color.z)));
         s->largest_color = fmax(s->largest_color, color);
-        s->largest_depth = fmax(s->largest_depth, fabs(splat.center.z) + splat.half_range);
+        s->largest_depth = fmax(s->largest_depth, fabs(splat->center.z) + splat->half_range);
     }
     return next - first;
 }

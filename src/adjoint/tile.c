@@ -30,8 +30,9 @@ void ewa_adjoint_scales(const ewa_adjoint_job *job, const ewa_reference_splat *s
 
 /// A term in units; 0 of what is no number, which comes of colours that are not finite.
 static inline int64_t whole_units(double term, double scale) {
-    const double exact = term * scale, units = isnan(exact) ? 0 : fmin(fmax(exact, -0x1p52), 0x1p52);
-    return (int64_t)(units < 0 ? units - 0.5 : units + 0.5);
+    const double exact = term * scale, most = 0x1p52;
+    if (!(exact > -most && exact < most)) return isnan(exact) ? 0 : exact < 0 ? -(INT64_C(1) << 52) : INT64_C(1) << 52;
+    return (int64_t)(exact < 0 ? exact - 0.5 : exact + 0.5);
 }
 
 /// The cotangents of a pixel; depths per unit of the view.

@@ -55,7 +55,8 @@ static double best_of(const said *numbers, uint32_t count) {
 typedef struct combine_job {
     ewa_photos_job *job;
     ewa_photos_method method;
-    said *room; ///< [worker][photographs]
+    uint32_t step; ///< every so many-th point gets a colour
+    said *room;    ///< [worker][photographs]
 } combine_job;
 
 static void combine_piece(void *data, uint32_t index, uint32_t worker) {
@@ -63,7 +64,8 @@ static void combine_piece(void *data, uint32_t index, uint32_t worker) {
     ewa_photos_job *job = combine->job;
     said *numbers = combine->room + (size_t)worker * job->photo_count;
     const uint32_t begin = index * EWA_PHOTO_PIECE;
-    for (uint32_t point = begin; point < begin + EWA_PHOTO_PIECE && point < job->point_count; point++) {
+    const uint32_t start = (begin + combine->step - 1) / combine->step * combine->step;
+    for (uint32_t point = start; point < begin + EWA_PHOTO_PIECE && point < job->point_count; point += combine->step) {
         const uint64_t first = job->sample_starts[point];
         const uint32_t count = job->counts[point];
         for (size_t c = 0; c < EWA_PHOTO_CHANNELS && count; c++) {
@@ -81,14 +83,17 @@ static void combine_piece(void *data, uint32_t index, uint32_t worker) {
     }
 }
 
-ewa_status ewa_photos_combine(ewa_photos_job *job, ewa_photos_method method) {
+/// Sets the colours of every `step`th point.
+static ewa_status combine_some(ewa_photos_job *job, ewa_photos_method method, uint32_t step) {
     const size_t room = (size_t)ewa_context_worker_count(job->context) * job->photo_count;
-    combine_job combine = {job, method, ewa_allocate(job->context, room, sizeof *combine.room)};
+    combine_job combine = {job, method, step, ewa_allocate(job->context, room, sizeof *combine.room)};
     if (!combine.room) return EWA_ERROR_MEMORY;
     ewa_parallel(job->context, combine_piece, &combine, (job->point_count + EWA_PHOTO_PIECE - 1) / EWA_PHOTO_PIECE);
     ewa_release(job->context, combine.room, room, sizeof *combine.room);
     return EWA_OK;
 }
+
+ewa_status ewa_photos_combine(ewa_photos_job *job, ewa_photos_method method) { return combine_some(job, method, 1); }
 
 /// The samples of a photograph beside the colours of their points.
 typedef struct sample_pairs {
@@ -116,7 +121,7 @@ static void expose_photo(void *data, uint32_t index, uint32_t worker) {
     const exposure_job *exposure = data;
     ewa_photo_state *photo = &exposure->job->photos[index];
     const sample_pairs user = {exposure->job, photo};
-    const ewa_exposure_pairs pairs = {photo->sample_count, &user, get_pair};
+    const ewa_exposure_pairs pairs = {photo->telling_count, 1, &user, get_pair};
     if (ewa_photo_is_exposed(photo))
         ewa_exposure_step(&pairs, exposure->job->options.exposure, exposure->scale, photo->gain, photo->offset);
 }
@@ -136,7 +141,7 @@ static ewa_status find_exposures(ewa_photos_job *job, double begin, double end, 
         EWA_TRY(ewa_progress(job->context, "photos", begin + (end - begin) * step / MAX_STEPS));
         const double wide = step < WIDE_STEPS ? ldexp(1, WIDE_STEPS - step) : 1;
         exposure_job exposure = {job, job->options.robust * wide};
-        EWA_TRY(ewa_photos_combine(job, EWA_PHOTOS_MEDIAN));
+        EWA_TRY(combine_some(job, EWA_PHOTOS_MEDIAN, ewa_exposure_stride(job->point_count)));
         copy_exposures(job, before);
         ewa_parallel(job->context, expose_photo, &exposure, job->photo_count);
         ewa_exposures_centre(job, NULL, 0);

@@ -28,7 +28,7 @@ void ewa_exposure_step(const ewa_exposure_pairs *pairs, ewa_photos_exposure kind
                        double gain[EWA_PHOTO_CHANNELS], double offset[EWA_PHOTO_CHANNELS]) {
     double sums[EWA_PHOTO_CHANNELS][5] = {{0}}; // w, wc, wcc, wf, wcf
     if (kind == EWA_EXPOSURE_OFF) return;
-    for (uint32_t i = 0; i < pairs->count; i++) {
+    for (uint32_t i = 0; i < pairs->count; i += pairs->step) {
         double shown[EWA_PHOTO_CHANNELS], color[EWA_PHOTO_CHANNELS], wanted[EWA_PHOTO_CHANNELS], weight = 0;
         pairs->get(pairs->user, i, shown, color, &weight);
         if (weight == 0) continue;

@@ -79,7 +79,7 @@ static void add_part(const fit_round *round, double *to) {
 
 static ewa_status add_photo(fit_photo *at, fit_round *round) {
     const ewa_photos_job *job = at->job;
-    const ewa_exposure_pairs pairs = {at->view->pixel_count, at, get_pair};
+    const ewa_exposure_pairs pairs = {at->view->pixel_count, ewa_exposure_stride(at->view->pixel_count), at, get_pair};
     EWA_TRY(ewa_photo_view_show(at->view, job->color, at->shown));
     for (int step = 0; step < EXPOSURE_STEPS && ewa_photo_is_exposed(at->photo); step++)
         ewa_exposure_step(&pairs, job->options.exposure, job->options.robust, at->photo->gain, at->photo->offset);

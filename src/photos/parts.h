@@ -66,8 +66,8 @@ typedef struct ewa_photo_state {
     const ewa_photo *photo;
     uint32_t number, halvings;
     bool held_out;
-    ewa_photo_sample *samples; ///< of points in ascending order
-    uint32_t sample_count;
+    ewa_photo_sample *samples;
+    uint32_t sample_count, telling_count; ///< the first so many tell the exposure
     double gain[EWA_PHOTO_CHANNELS], offset[EWA_PHOTO_CHANNELS];
     ewa_photo_report report;
     ewa_photo_view fitted; ///< in a round of the fit, without pixels
@@ -104,11 +104,19 @@ ewa_status ewa_photo_take(ewa_context *context, const ewa_photo *photo, uint32_t
 /// Pairs of numbers that an exposure is fitted to: photograph = gain * colour + offset.
 typedef struct ewa_exposure_pairs {
     uint32_t count;
+    uint32_t step; ///< every so many-th is looked at
     const void *user;
     /// Gives pair `i`: what the photograph shows, what the points show, the weight.
     void (*get)(const void *user, uint32_t i, double shown[EWA_PHOTO_CHANNELS], double color[EWA_PHOTO_CHANNELS],
                 double *weight);
 } ewa_exposure_pairs;
+
+/// The step with which so many pairs, or points, tell an exposure as well as all: odd, so that no column of a picture is left
+/// out.
+static inline uint32_t ewa_exposure_stride(uint32_t count) {
+    enum { ENOUGH = 1 << 16 };
+    return count / ENOUGH | 1;
+}
 
 /// Improves the gains and offsets of a photograph by one step of weighted least squares; `scale`: the difference at which
 /// a pair counts a quarter, 0: all count.

@@ -96,6 +96,14 @@ static ewa_status add_up(ewa_photos_job *job, const ewa_photo_view *view, float 
     return EWA_OK;
 }
 
+static void keep_sample(ewa_photos_job *job, ewa_photo_state *photo, uint32_t point, const double sum[4]) {
+    if (!(sum[0] > LEAST_SEEN_PX)) return;
+    ewa_photo_sample *to = &photo->samples[photo->sample_count++];
+    *to = (ewa_photo_sample){.point = point, .weight = (float)sum[0]};
+    for (int c = 0; c < EWA_PHOTO_CHANNELS; c++) to->color[c] = (float)(sum[c + 1] / sum[0]);
+    job->counts[point]++;
+}
+
 /// Keeps what a photograph says of the points that it sees, of which `sums` tells.
 static ewa_status keep_samples(ewa_photos_job *job, ewa_photo_state *photo, const double *sums) {
     uint32_t count = 0;
@@ -107,13 +115,12 @@ static ewa_status keep_samples(ewa_photos_job *job, ewa_photo_state *photo, cons
     if (count == 0 || photo->held_out) return EWA_OK;
     photo->samples = ewa_allocate(job->context, count, sizeof *photo->samples);
     if (!photo->samples) return EWA_ERROR_MEMORY;
-    for (uint32_t i = 0; i < job->point_count; i++) {
-        const double *sum = sums + 4 * (size_t)i;
-        if (!(sum[0] > LEAST_SEEN_PX)) continue;
-        ewa_photo_sample *to = &photo->samples[photo->sample_count++];
-        *to = (ewa_photo_sample){.point = i, .weight = (float)sum[0]};
-        for (int c = 0; c < EWA_PHOTO_CHANNELS; c++) to->color[c] = (float)(sum[c + 1] / sum[0]);
-        job->counts[i]++;
+    // Points that tell exposures first.
+    const uint32_t step = ewa_exposure_stride(job->point_count);
+    for (int others = 0; others < (step > 1 ? 2 : 1); others++) {
+        for (uint32_t i = 0; i < job->point_count; i++)
+            if ((i % step > 0) == others) keep_sample(job, photo, i, sums + 4 * (size_t)i);
+        if (!others) photo->telling_count = photo->sample_count;
     }
     return EWA_OK;
 }
@@ -219,7 +226,7 @@ static ewa_status compare(compare_job *at, double *sums, double *residuals, erro
     ewa_photo_state *photo = at->photo;
     const ewa_photo_view *view = at->view;
     EWA_TRY(ewa_photo_view_show(view, job->color, at->shown));
-    const ewa_exposure_pairs pairs = {view->pixel_count, at, get_pair};
+    const ewa_exposure_pairs pairs = {view->pixel_count, ewa_exposure_stride(view->pixel_count), at, get_pair};
     for (int step = 0; step < STEPS && photo->held_out; step++)
         ewa_exposure_step(&pairs, job->options.exposure,
                           job->options.robust * ldexp(1, step < WIDE_STEPS ? WIDE_STEPS - step : 0), photo->gain,

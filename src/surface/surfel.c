@@ -178,15 +178,21 @@ static void make_circle(ewa_surfel *surfel) {
 static uint64_t read_block(const ewa_surfel_reader *reader, uint64_t first, uint64_t count,
                            ewa_surfel *surfels, bool *drawable) {
     double position[3 * BLOCK], normal[3 * BLOCK], first_axis[3 * BLOCK], second_axis[3 * BLOCK],
-        color[4 * BLOCK], clip[2][3 * BLOCK] = {{0}}, mode[BLOCK] = {0}, border[3 * BLOCK];
+        color[4 * BLOCK], clip[2][3 * BLOCK], mode[BLOCK], border[3 * BLOCK];
     ewa_attribute_read_f64(reader->position, first, count, position);
     if (reader->normal) ewa_attribute_read_f64(reader->normal, first, count, normal);
     if (reader->color) ewa_attribute_read_f64(reader->color, first, count, color);
     ewa_attribute_read_f64(reader->tangent_u ? reader->tangent_u : reader->radius, first, count, first_axis);
     if (reader->tangent_v) ewa_attribute_read_f64(reader->tangent_v, first, count, second_axis);
     for (int k = 0; k < 2; k++)
-        if (reader->clip[k]) ewa_attribute_read_f64(reader->clip[k], first, count, clip[k]);
-    if (reader->clip_mode) ewa_attribute_read_f64(reader->clip_mode, first, count, mode);
+        if (reader->clip[k])
+            ewa_attribute_read_f64(reader->clip[k], first, count, clip[k]);
+        else
+            memset(clip[k], 0, 3 * count * sizeof *clip[k]);
+    if (reader->clip_mode)
+        ewa_attribute_read_f64(reader->clip_mode, first, count, mode);
+    else
+        memset(mode, 0, count * sizeof *mode);
     if (reader->border) ewa_attribute_read_f64(reader->border, first, count, border);
     uint64_t kept = 0;
     for (uint64_t i = 0; i < count; i++) {
