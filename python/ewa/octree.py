@@ -129,7 +129,7 @@ class Octree:
         render : dict, optional
             Members of ``ewa_render_options``.
         **options
-            Members of ``ewa_lod_options``: ``spacing_px``, ``error``, ``memory_bytes``, ``load_s``.
+            Members of ``ewa_lod_options``: ``spacing_px``, ``error``, ``max_splats``, ``memory_bytes``, ``load_s``.
 
         Raises
         ------

@@ -264,6 +264,7 @@ static ewa_status render(const ewa_lod_scene *scene, ewa_renderer *renderer, con
     next_frame(scene);
     ewa_status status = ewa_cut_settle(&c);
     stats->coarser = c.coarser;
+    const double settled_s = ewa_now_s() - start_s;
     if (status == EWA_OK && chosen->load_s > 0) {
         status = load_some(&c, start_s + chosen->load_s, stats);
         stats->load_s = ewa_now_s() - start_s;
@@ -272,7 +273,7 @@ static ewa_status render(const ewa_lod_scene *scene, ewa_renderer *renderer, con
     if (status == EWA_OK) status = ewa_cut_choose(&c, chosen->load_s > 0);
     if (status == EWA_OK && chosen->share_count) status = keep_share(&c);
     EWA_TRY(status);
-    stats->choose_s = ewa_now_s() - before_s;
+    stats->choose_s = ewa_now_s() - before_s + settled_s;
     stats->missing_count = c.missing_count;
     stats->node_count = c.item_count;
     uint64_t bytes = 0;

@@ -137,7 +137,7 @@ def draws(path, output, *options):
 
 
 def make_files():
-    run("generate", "terrain", "-n", "250000", "-o", "ground.ply")
+    run("generate", "terrain", "-n", "120000", "-o", "ground.ply")
     run("lod", "ground.ply", "-o", "ground.copc.laz")
     run("generate", "torus", "-n", "3000", "-o", "torus.ply")
     (ROOT / "empty.ply").write_bytes(b"")
