@@ -241,7 +241,8 @@ static bool has_points(cli_session *session, const ewa_cloud *cloud) {
 }
 
 /// Leaves the points that all options together choose. False after reporting.
-static bool choose(cli_session *session, const convert_job *job, ewa_cloud **cloud) {
+static bool choose(cli_session *session, const void *data, ewa_cloud **cloud) {
+    const convert_job *job = data;
     point_choice choice = choose_parts(session, job);
     choice.voxel_world = job->arguments->voxel;
     choice.distance_world = job->arguments->distance;
@@ -310,26 +311,22 @@ static bool is_of_gaussians(cli_session *session, const convert_arguments *argum
            (format == EWA_GAUSSIANS_PLY && (arguments->scale.count || arguments->transform.count));
 }
 
-/// Converts Gaussians, for which most changes are not made. False after reporting.
-static bool convert_set(cli_session *session, const convert_arguments *arguments) {
+/// Converts Gaussians, which are chosen and moved like points, but keep their numbers. False after reporting.
+static bool convert_set(cli_session *session, const convert_job *job) {
+    const convert_arguments *arguments = job->arguments;
     const output_arguments *output = &arguments->procedure.output;
     const struct {
         const char *name;
         bool given;
-    } others[] = {{"crop-polygon", arguments->outline},
-                  {"voxel", arguments->voxel > 0},
-                  {"min-distance", arguments->distance > 0},
-                  {"subsample", arguments->subsample > 0},
-                  {"refit-colors", arguments->refit != REFIT_OFF},
+    } others[] = {{"refit-colors", arguments->refit != REFIT_OFF},
                   {"procedure", arguments->procedure.procedure},
-                  {"filter", session->filter},
                   {"ascii", output->ascii},
                   {"big-endian", output->big_endian}};
     for (size_t i = 0; i < sizeof others / sizeof others[0]; i++)
         if (others[i].given) {
             session_fail(session,
-                         "--%s: Gaussians are not changed that way; --crop leaves those in a box, --scale, "
-                         "--transform and --translate move them",
+                         "--%s: Gaussians are not changed that way; --filter, --crop, --crop-polygon, --voxel, "
+                         "--min-distance and --subsample choose some, --scale, --transform and --translate move them",
                          others[i].name);
             return false;
         }
@@ -339,9 +336,10 @@ static bool convert_set(cli_session *session, const convert_arguments *arguments
     }
     double maps[MAX_MAPS][16];
     const uint32_t count = list_maps(arguments, maps);
+    const bool some = arguments->crop.count || job->polygon || session->filter || arguments->voxel > 0 ||
+                      arguments->distance > 0 || arguments->subsample > 0;
     return convert_gaussians(session, output->common.operands[0], output->path, &arguments->gaussians,
-                             arguments->crop.count ? arguments->crop.values : NULL, (const double(*)[16])maps,
-                             count);
+                             some ? choose : NULL, job, (const double(*)[16])maps, count);
 }
 
 /// Reads, changes and writes, a file alone piece by piece where that can be. False after reporting.
@@ -367,11 +365,10 @@ static int run(const void *data) {
     cli_session session;
     if (!session_start(&session, &arguments->procedure.output.common))
         return session_end(&session, EXIT_FAILED);
-    if (is_of_gaussians(&session, arguments))
-        return session_end(&session, convert_set(&session, arguments) ? EXIT_DONE : EXIT_FAILED);
     convert_job job = {.arguments = arguments};
     if (arguments->outline) job.polygon = choose_outline(&session, arguments->outline);
-    const bool done = (!arguments->outline || job.polygon) && convert(&session, &job);
+    bool done = !arguments->outline || job.polygon;
+    if (done) done = is_of_gaussians(&session, arguments) ? convert_set(&session, &job) : convert(&session, &job);
     ewa_polygon_destroy(&job.polygon);
     return session_end(&session, done ? EXIT_DONE : EXIT_FAILED);
 }

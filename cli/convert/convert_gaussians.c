@@ -13,53 +13,75 @@ bool convert_gaussians_is_named(const char *path) {
     return format != EWA_GAUSSIANS_NONE && format != EWA_GAUSSIANS_PLY;
 }
 
-static bool is_inside(const ewa_gaussians *set, size_t number, const double *corners_world) {
-    for (size_t k = 0; k < 3; k++) {
-        const double at = set->origin[k] + (double)set->centers[3 * number + k];
-        const double a = corners_world[k], b = corners_world[3 + k];
-        if (!(at >= fmin(a, b) && at <= fmax(a, b))) return false;
+/// The name of the attribute by which a centre is known again.
+static const char NUMBER[] = "gaussian";
+
+/// Centres as points, with what Gaussians are chosen by; borrows the centres. The caller destroys it.
+static ewa_status make_points(const ewa_gaussians *set, ewa_cloud **points) {
+    void *opacities = NULL, *sizes = NULL, *numbers = NULL;
+    ewa_status status = ewa_cloud_create(set->context, set->count, points);
+    if (status == EWA_OK) status = ewa_cloud_borrow(*points, "position", EWA_F32, 3, set->centers, 0);
+    if (status == EWA_OK) status = ewa_cloud_add(*points, "opacity", EWA_F32, 1, &opacities);
+    if (status == EWA_OK) status = ewa_cloud_add(*points, "size", EWA_F32, 1, &sizes);
+    if (status == EWA_OK) status = ewa_cloud_add(*points, NUMBER, EWA_U32, 1, &numbers);
+    if (status != EWA_OK) return status;
+    ewa_cloud_set_origin(*points, set->origin);
+    for (uint32_t i = 0; i < set->count; i++) {
+        const float *scales = set->scales + 3 * (size_t)i;
+        ((float *)opacities)[i] = set->opacities[i];
+        ((float *)sizes)[i] = fmaxf(fmaxf(scales[0], scales[1]), scales[2]);
+        ((uint32_t *)numbers)[i] = i;
     }
-    return true;
+    return EWA_OK;
 }
 
-/// Leaves those of a set whose centres lie in a box.
-static ewa_status crop(ewa_gaussians *set, const double *corners_world) {
-    uint32_t kept = 0;
-    for (size_t i = 0; i < set->count; i++) kept += is_inside(set, i, corners_world);
+/// Leaves those of a set that points are the centres of.
+static ewa_status keep(ewa_gaussians *set, const ewa_cloud *points) {
+    const uint32_t kept = (uint32_t)ewa_cloud_point_count(points);
+    const ewa_attribute *number = ewa_cloud_find(points, NUMBER);
     ewa_gaussians part;
     const ewa_status status = ewa_gaussians_create(set->context, kept, set->sh_degree, &part);
     if (status != EWA_OK) return status;
     part.flat = set->flat, part.antialiased = set->antialiased;
     memcpy(part.origin, set->origin, sizeof part.origin);
     const size_t harmonics = 3 * (size_t)(set->sh_degree + 1) * (set->sh_degree + 1);
-    size_t to = 0;
-    for (size_t i = 0; i < set->count; i++) {
-        if (!is_inside(set, i, corners_world)) continue;
-        memcpy(part.centers + 3 * to, set->centers + 3 * i, 3 * sizeof(float));
-        memcpy(part.scales + 3 * to, set->scales + 3 * i, 3 * sizeof(float));
-        memcpy(part.rotations + 4 * to, set->rotations + 4 * i, 4 * sizeof(float));
-        part.opacities[to] = set->opacities[i];
-        memcpy(part.harmonics + harmonics * to++, set->harmonics + harmonics * i, harmonics * sizeof(float));
+    for (size_t to = 0; to < kept; to++) {
+        uint32_t from;
+        memcpy(&from, (const uint8_t *)number->data + to * number->stride_bytes, sizeof from);
+        memcpy(part.centers + 3 * to, set->centers + 3 * (size_t)from, 3 * sizeof(float));
+        memcpy(part.scales + 3 * to, set->scales + 3 * (size_t)from, 3 * sizeof(float));
+        memcpy(part.rotations + 4 * to, set->rotations + 4 * (size_t)from, 4 * sizeof(float));
+        part.opacities[to] = set->opacities[from];
+        memcpy(part.harmonics + harmonics * to, set->harmonics + harmonics * from, harmonics * sizeof(float));
     }
     ewa_gaussians_free(set);
     *set = part;
     return EWA_OK;
 }
 
+/// Leaves what is chosen of a set; false after reporting.
+static bool choose_gaussians(cli_session *session, convert_chooser *choose, const void *data, ewa_gaussians *set) {
+    ewa_cloud *points = NULL;
+    const bool done = session_passed(session, make_points(set, &points)) && choose(session, data, &points) &&
+                      session_passed(session, keep(set, points));
+    ewa_cloud_destroy(&points);
+    return done;
+}
+
 bool convert_gaussians(cli_session *session, const char *from, const char *to,
-                       const ewa_gaussians_save_options *options, const double *corners_world,
+                       const ewa_gaussians_save_options *options, convert_chooser *choose, const void *data,
                        const double (*matrices)[16], uint32_t count) {
     ewa_gaussians set;
     ewa_gaussian_facts facts;
     ewa_gaussians_save_options chosen = *options;
     if (!gaussian_files_load(session, from, &set, &facts)) return false;
     memcpy(chosen.up_world, facts.up_world, sizeof chosen.up_world);
-    ewa_status status = corners_world ? crop(&set, corners_world) : EWA_OK;
-    if (status == EWA_OK && !set.count) {
-        session_fail(session, "%s: no Gaussian has its centre in the box of --crop", from);
+    session->subject = from;
+    if (choose && !choose_gaussians(session, choose, data, &set)) {
         ewa_gaussians_free(&set);
         return false;
     }
+    ewa_status status = EWA_OK;
     for (uint32_t i = 0; i < count && status == EWA_OK; i++)
         status = ewa_gaussians_transform(&set, matrices[i]);
     session->subject = to;

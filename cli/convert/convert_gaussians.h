@@ -10,10 +10,13 @@
 /// Whether a path is written in a form that only Gaussians have.
 bool convert_gaussians_is_named(const char *path);
 
-/// Reads, keeps those whose centres lie in a box between two corners (NULL: all), maps by `count` matrices, one after the
-/// other, and writes. False after reporting.
+/// Replaces a cloud by those of its points that are to be kept, at least one; false after reporting.
+typedef bool convert_chooser(cli_session *session, const void *data, ewa_cloud **cloud);
+
+/// Reads, keeps what `choose` (NULL: all) keeps of the centres, which have "opacity" and "size", the longest standard
+/// deviation, maps by `count` matrices, one after the other, and writes. False after reporting.
 bool convert_gaussians(cli_session *session, const char *from, const char *to,
-                       const ewa_gaussians_save_options *options, const double *corners_world,
+                       const ewa_gaussians_save_options *options, convert_chooser *choose, const void *data,
                        const double (*matrices)[16], uint32_t count);
 
 #endif

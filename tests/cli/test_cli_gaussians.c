@@ -107,11 +107,39 @@ static void moved(void **state) {
     said("degree 1");
 }
 
+/// Options that choose points choose Gaussians, which keep all their numbers.
+static void chosen(void **state) {
+    FILE *file = fopen(scratch_path("line.ply"), "w");
+    assert_non_null(file);
+    fprintf(file, head, "", "property float scale_2\n", "");
+    fclose(file);
+    run_done("sed -i 's/element vertex 2/element vertex 100/' line.ply && for i in $(seq 0 99); do echo "
+             "$i 0 $((i %% 2)) 1 1 1 $((i - 50)) $((i %% 10 - 9)) -3 -3 1 0 0 0; done >> line.ply && "
+             "ewa convert line.ply -o line.spz");
+    run_done("ewa convert line.spz -o a.spz --subsample 10 && ewa info a.spz");
+    said("gaussians   10\n");
+    run_done("ewa convert line.spz -o a.spz --subsample 0.25 && ewa info a.spz");
+    said("gaussians   25\n");
+    run_done("ewa convert line.spz -o a.splat --filter 'opacity>=0.5' && ewa info a.splat");
+    said("gaussians   50\n");
+    said("low         50 0 0");
+    run_done("ewa convert line.spz -o a.splat --filter 'size<0.5 and x<50' && ewa info a.splat"); // e^0 and e^-1 = 0.37
+    said("gaussians   45\n");
+    run_done("ewa convert line.spz -o a.ply --crop-polygon '9.5,-1;19.5,-1;19.5,1;9.5,1' && ewa info a.ply");
+    said("points      10\n");
+    said("low         10 0 0");
+    run_done("ewa convert line.spz -o a.spz --min-distance 1.9 --crop 0,0,0,19,0,1 && ewa info a.spz");
+    run_done("ewa convert line.spz -o a.spz --voxel 10 && ewa info a.spz");
+    said("gaussians   10\n");
+    run_fails(1, "none of the points is left", "ewa convert line.spz -o x.spz --filter 'size>3'");
+    run_fails(1, "opacity", "ewa convert line.spz -o x.spz --filter 'weight>3'");
+}
+
 static void refused(void **state) {
     const int before = scratch_count();
     run_fails(1, "broken.ply: Gaussian 1 of 2: a scale is not finite", "ewa info broken.ply");
     run_fails(1, "broken.ply: Gaussian 1 of 2: a scale is not finite", "ewa convert broken.ply -o x.spz");
-    run_fails(1, "three.ply: no Gaussian has its centre in the box",
+    run_fails(1, "three.ply: none of the points is left",
               "ewa convert three.ply -o x.spz --crop 0,0,0,1,1,1");
     run_fails(1, "--ascii: Gaussians are not changed that way", "ewa convert a.spz -o x.ply --ascii");
     run_fails(1, "several files are not merged", "ewa convert three.ply two.ply -o x.spz");
@@ -132,6 +160,7 @@ int main(void) {
         cmocka_unit_test(told),
         cmocka_unit_test(converted),
         cmocka_unit_test(moved),
+        cmocka_unit_test(chosen),
         cmocka_unit_test(refused),
     };
     return cmocka_run_group_tests(tests, enter, NULL);
