@@ -4,12 +4,14 @@
 // A picture of an octree: what has to be read for it, and in which bands it is drawn.
 #include "base/base.h"
 #include "base/options.h"
+#include "ewa/prepare.h"
 #include "lod/cut.h"
 #include "lod/tree.h"
 #include "surface/options.h"
 #include "surface/packets.h"
 #include "surface/proxy.h"
 #include "surface/render.h"
+#include "surface/supersampling.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -250,16 +252,32 @@ static ewa_status keep_share(ewa_cut *c) {
                     (unsigned long long)options->memory_bytes);
 }
 
+/// Into how many parts the sides of pixels are divided where the nodes' surfels are to say: by the spacing that nodes
+/// promise, which all ranks and bands know.
+static uint32_t parts_for(const ewa_cut *c) {
+    enum { LARGEST_PX = 64 }; // the camera is in some
+    ewa_part_areas areas = {.all = 0};
+    for (uint32_t i = 0; i < c->item_count; i++) {
+        const ewa_cut_item *it = &c->items[i];
+        const double spacing_px = fmin(it->spacing_px, LARGEST_PX);
+        const double area = it->weight * it->lod->nodes[it->node].count * spacing_px * spacing_px;
+        ewa_part_areas_add(&areas, EWA_DEFAULT_RADIUS_SCALE * spacing_px, area);
+    }
+    return ewa_part_areas_choose(&areas, c->camera);
+}
+
 static ewa_status render(const ewa_lod_scene *scene, ewa_renderer *renderer, const ewa_camera *camera,
-                         const ewa_render_options *options, const ewa_lod_options *chosen,
+                         const ewa_render_options *asked, const ewa_lod_options *chosen,
                          const ewa_frame *frame, ewa_lod_stats *stats) {
-    const double start_s = ewa_now_s();
+    ewa_render_options own = *asked;
+    const ewa_render_options *options = &own;
+    const double side_parts = fmax(own.supersampling, 1), start_s = ewa_now_s();
     // Filters reach some pixels beyond a surfel.
     ewa_cut c = {.scene = scene,
                  .home = scene->lods[0],
                  .camera = camera,
                  .options = chosen,
-                 .parts_per_pixel = (double)options->supersampling * options->supersampling,
+                 .parts_per_pixel = side_parts * side_parts,
                  .margin_px = 16};
     next_frame(scene);
     ewa_status status = ewa_cut_settle(&c);
@@ -271,6 +289,7 @@ static ewa_status render(const ewa_lod_scene *scene, ewa_renderer *renderer, con
     }
     const double before_s = ewa_now_s();
     if (status == EWA_OK) status = ewa_cut_choose(&c, chosen->load_s > 0);
+    if (status == EWA_OK && own.supersampling == 0) own.supersampling = parts_for(&c);
     if (status == EWA_OK && chosen->share_count) status = keep_share(&c);
     EWA_TRY(status);
     stats->choose_s = ewa_now_s() - before_s + settled_s;
@@ -356,10 +375,9 @@ ewa_status ewa_lod_scene_draw(const ewa_lod_scene *scene, const ewa_lod_look *co
         ewa_render_options plain;
         EWA_TRY(ewa_render_options_choose(context, options, &plain));
         plain.budget_s = 0;
-        // Nodes are chosen so that their surfels are about as large as a pixel, or a part of one.
-        if (plain.supersampling == 0) plain.supersampling = 1;
-        chosen.spacing_px /= plain.supersampling;
-        chosen.error /= plain.supersampling;
+        // Nodes are as fine as the parts that are asked for; where they are to say how many, as fine as pixels.
+        const double side_parts = fmax(plain.supersampling, 1);
+        chosen.spacing_px /= side_parts, chosen.error /= side_parts;
         status = render(&own, renderer, camera, &plain, &chosen, frame, &took);
     } else {
         status = render_surfels(&own, renderer, camera, options, frame, &took.render);

@@ -164,6 +164,7 @@ ewa_status ewa_render_options_choose(ewa_context *context, const ewa_render_opti
         chosen->prefilter_px = 0;
         chosen->kernel = EWA_KERNEL_PERSPECTIVE;
         chosen->cull = EWA_CULL_NONE;
+        if (chosen->supersampling == 0) chosen->supersampling = 1;
     }
     if (status == EWA_OK && chosen->eye_dome > 0 && chosen->supersampling > 1)
         return ewa_fail(context, EWA_ERROR_UNSUPPORTED,

@@ -33,13 +33,21 @@ static ewa_camera finer_camera(const ewa_camera *camera, uint32_t finer) {
     return fine;
 }
 
-/// Areas on the screen of what is in the picture, by the radius of its surfels: bin k has those below
-/// EWA_PART_RADIUS_PX / 2^k.
-typedef struct size_bins {
-    double area[4], all;
-} size_bins;
+void ewa_part_areas_add(ewa_part_areas *areas, double radius_px, double area) {
+    areas->all += area;
+    for (int k = 0; k < 3; k++)
+        if (radius_px * (1 << k) < EWA_PART_RADIUS_PX) areas->smaller[k] += area;
+}
 
-static void add_sizes(const ewa_render_job *job, const ewa_surfels *surfels, uint32_t step, size_bins *bins) {
+uint32_t ewa_part_areas_choose(const ewa_part_areas *areas, const ewa_camera *camera) {
+    const uint32_t side_px = camera->width_px > camera->height_px ? camera->width_px : camera->height_px;
+    uint32_t parts = 1;
+    for (int k = 0; k < 3 && areas->smaller[k] > areas->all / 2 && 2 * parts * side_px <= EWA_CAMERA_MAX_SIDE_PX; k++)
+        parts *= 2;
+    return parts;
+}
+
+static void add_sizes(const ewa_render_job *job, const ewa_surfels *surfels, uint32_t step, ewa_part_areas *areas) {
     const ewa_camera *camera = &job->camera;
     const double *m = camera->world_to_camera;
     const double zoom = fmax(camera->fx_px, camera->fy_px);
@@ -58,10 +66,8 @@ static void add_sizes(const ewa_render_job *job, const ewa_surfels *surfels, uin
         const double y = camera->fy_px * camera_at[1] / depth + camera->cy_px;
         if (x < 0 || y < 0 || x > camera->width_px || y > camera->height_px) continue;
         const double scale = sqrt(m[0] * m[0] + m[1] * m[1] + m[2] * m[2]);
-        const double radius_px = surfels->cutoff * sigma * scale * zoom / depth, area = radius_px * radius_px;
-        bins->all += area;
-        for (int k = 0; k < 4; k++)
-            if (radius_px * (1 << k) < EWA_PART_RADIUS_PX) bins->area[k] += area;
+        const double radius_px = surfels->cutoff * sigma * scale * zoom / depth;
+        ewa_part_areas_add(areas, radius_px, radius_px * radius_px);
     }
 }
 
@@ -72,16 +78,12 @@ static const ewa_surfels *drawn_surfels(const ewa_render_job *job, uint32_t sour
 }
 
 uint32_t ewa_supersampling_choose(const ewa_render_job *job) {
-    if (job->options.point_size_px > 0 || job->options.eye_dome > 0) return 1;
     uint64_t packet_count = 0;
     for (uint32_t i = 0; i < job->source_count; i++) packet_count += drawn_surfels(job, i)->packet_count;
-    size_bins bins = {{0}, 0};
+    ewa_part_areas areas = {.all = 0};
     for (uint32_t i = 0; i < job->source_count; i++)
-        add_sizes(job, drawn_surfels(job, i), (uint32_t)(packet_count / SAMPLED_PACKETS) + 1, &bins);
-    uint32_t finer = 1;
-    const uint32_t side = job->camera.width_px > job->camera.height_px ? job->camera.width_px : job->camera.height_px;
-    for (int k = 0; k < 3 && bins.area[k] > bins.all / 2 && side * 2 * finer <= EWA_CAMERA_MAX_SIDE_PX; k++) finer *= 2;
-    return finer;
+        add_sizes(job, drawn_surfels(job, i), (uint32_t)(packet_count / SAMPLED_PACKETS) + 1, &areas);
+    return ewa_part_areas_choose(&areas, &job->camera);
 }
 
 typedef struct average_job {

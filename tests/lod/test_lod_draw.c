@@ -300,6 +300,70 @@ static void test_no_jumps(void **state) {
     ewa_context_destroy(&context);
 }
 
+/// Draws an octree, or without one all points of the file, in parts of pixels.
+static shot *draw_parts(ewa_lod *lod, ewa_context *context, const ewa_camera *camera,
+                        const ewa_lod_options *lod_options, uint32_t supersampling) {
+    shot *made = calloc(1, sizeof *made);
+    assert_non_null(made);
+    ewa_renderer *renderer = NULL;
+    assert_int_equal(ewa_renderer_create(context, &renderer), EWA_OK);
+    ewa_render_options options = over_black();
+    options.supersampling = supersampling;
+    const ewa_frame frame = {.rgba8 = made->rgba8};
+    if (lod) {
+        assert_int_equal(ewa_lod_render(lod, renderer, camera, &options, lod_options, &frame, &made->stats), EWA_OK);
+    } else {
+        ewa_cloud *cloud = lod_load(context, file);
+        ewa_surfels *surfels = NULL;
+        assert_int_equal(ewa_surfels_create(cloud, NULL, &surfels), EWA_OK);
+        assert_int_equal(ewa_render(renderer, surfels, camera, &options, &frame, NULL), EWA_OK);
+        ewa_surfels_destroy(&surfels);
+        ewa_cloud_destroy(&cloud);
+    }
+    ewa_renderer_destroy(&renderer);
+    return made;
+}
+
+/// From far away parts of pixels are nearer to the truth, as many as the nodes' surfels ask for.
+static void test_supersampling(void **state) {
+    ewa_context *context = check_context(2, NULL);
+    const ewa_camera camera = camera_at(40);
+    shot *truth = draw_parts(NULL, context, &camera, NULL, EWA_MAX_SUPERSAMPLING);
+    const ewa_lod_options options = lod_options_of(255, 0.5, 1 << 30);
+    double found[4];
+    for (uint32_t n = 0; n < 4; n++) {
+        ewa_lod *lod = open_file(context, file);
+        shot *made = draw_parts(lod, context, &camera, &options, n);
+        found[n] = psnr_db(truth, made);
+        print_message("%u: %.1f dB, %llu surfels\n", n, found[n], (unsigned long long)made->stats.surfel_count);
+        free(made);
+        ewa_lod_close(&lod);
+    }
+    assert_true(found[0] > found[1] + 3 && found[2] > found[1] + 3 && found[3] > found[1] + 2);
+    free(truth);
+    ewa_context_destroy(&context);
+}
+
+/// Bands know as little of each other's nodes as ranks do, and come to as many parts.
+static void test_supersampling_in_bands(void **state) {
+    ewa_context *context = check_context(2, NULL);
+    const ewa_camera camera = camera_at(2.2);
+    for (uint32_t n = 0; n < 4; n += 2) {
+        shot *made[2];
+        for (int i = 0; i < 2; i++) {
+            ewa_lod *lod = open_file(context, file);
+            const ewa_lod_options options = lod_options_of(0, 0.5, i ? 1 << 24 : 1 << 30);
+            made[i] = draw_parts(lod, context, &camera, &options, n);
+            ewa_lod_close(&lod);
+        }
+        assert_true(made[0]->stats.band_count == 1 && made[1]->stats.band_count > 1);
+        hold_same(made[0], made[1]);
+        free(made[0]);
+        free(made[1]);
+    }
+    ewa_context_destroy(&context);
+}
+
 /// With next to no time each picture shows more, until nothing is missing.
 static void test_load(void **state) {
     enum { MAX_CALLS = 400 };
@@ -501,6 +565,8 @@ int main(void) {
         cmocka_unit_test(test_like_plain),     cmocka_unit_test(test_threads),
         cmocka_unit_test(test_memory),         cmocka_unit_test(test_bound),
         cmocka_unit_test(test_max_splats),     cmocka_unit_test(test_no_jumps),
+        cmocka_unit_test(test_supersampling),
+        cmocka_unit_test(test_supersampling_in_bands),
         cmocka_unit_test(test_load),           cmocka_unit_test(test_read),
         cmocka_unit_test(test_sample),
         cmocka_unit_test(test_without_levels), cmocka_unit_test(test_parts_without_nodes),
