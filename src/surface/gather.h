@@ -10,7 +10,7 @@
 #include "surface/shading.h"
 
 /// Whether pictures of such options, complete, are linear in colours in a way that the pipeline goes back: three passes,
-/// splats, one white light or none, nothing after the resolve.
+/// splats, one white light or none, one sample a pixel, nothing after the resolve.
 bool ewa_gather_takes(const ewa_render_options *options, const ewa_shading_setup *shading);
 
 /// A way back. With A, the matrix that takes linear colours of points to those of a picture as ewa_render() makes it but for
