@@ -9,7 +9,8 @@ import numpy as np
 
 from ._context import Context
 from ._errors import ArgumentError
-from .cloud import Cloud
+from ._scene import is_path
+from .cloud import Cloud, cloud_of
 
 
 def _package(value: Any) -> str:
@@ -81,15 +82,15 @@ _KINDS = {"laspy": from_laspy, "open3d": from_open3d, "trimesh": from_trimesh, "
 
 
 def as_cloud(value: Any, *, context: Context | None = None) -> Cloud:
-    """Make a cloud of an array of positions, or of an object of laspy, Open3D, trimesh or PyVista.
+    """Make a cloud of an array of positions, a path, or an object of laspy, Open3D, trimesh or PyVista.
 
     Raises
     ------
     ArgumentError
         The object is of none of these packages, and no array.
     """
-    if isinstance(value, Cloud):
-        return value
+    if isinstance(value, Cloud) or is_path(value):
+        return cloud_of(value)
     make = _KINDS.get(_package(value))
     if make is not None:
         return make(value, context=context)

@@ -14,6 +14,7 @@ from ._context import Context, Core, Handle, Pin, core_of
 from ._errors import ArgumentError, ClosedError
 from ._library import functions as lib
 from ._library import library
+from ._scene import is_path
 from ._struct import fill, initialised, numbers, path_bytes, text_bytes
 from .camera import Camera, PathLike
 from .photographs import PhotosReport
@@ -568,33 +569,45 @@ def _borrowed(core: Core, streams: Mapping[str, Array], count: int) -> Handle:
     return handle
 
 
-def merge(clouds: Sequence[Cloud]) -> Cloud:
-    """Return one cloud of several of one context; streams that only some have are filled.
+def cloud_of(thing: Any, label: str = "cloud") -> Cloud:
+    """A cloud, or what :func:`read` makes of a path."""
+    if is_path(thing):
+        from .mesh import read
+
+        return read(thing)
+    if not isinstance(thing, Cloud):
+        raise TypeError(f"{label}: an ewa.Cloud or a path, not {type(thing).__name__}")
+    return thing
+
+
+def merge(clouds: Sequence[Cloud | PathLike]) -> Cloud:
+    """Return one cloud of several of one context, or of files; streams that only some have are filled.
 
     Raises
     ------
-    ArgumentError, OutOfMemory
+    ArgumentError, FileError, FormatError, OutOfMemory
     """
     if not clouds:
         raise ArgumentError("clouds: there is none")
-    core = clouds[0]._core
-    count = len(clouds)
+    parts = [cloud_of(cloud, "clouds") for cloud in clouds]
+    core = parts[0]._core
+    count = len(parts)
 
     def run(*given: Any) -> int:
         status: int = lib.ewa_cloud_merge((ctypes.c_void_p * count)(*given[:-1]), count, given[-1])
         return status
 
-    return Cloud._made(core, run, *[cloud._h for cloud in clouds])
+    return Cloud._made(core, run, *[cloud._h for cloud in parts])
 
 
-def csg(a: Cloud, other: Cloud, operation: str = "union", *, cutoff: float = 3) -> Cloud:
+def csg(a: Cloud | PathLike, other: Cloud | PathLike, operation: str = "union", *, cutoff: float = 3) -> Cloud:
     """Combine two closed solids of surfels, with clip lines where their surfaces meet.
 
     Normals and radii that they lack are estimated.
 
     Parameters
     ----------
-    a, other : Cloud
+    a, other : Cloud or path
         Of one context, normals outward.
     operation : {"union", "intersection", "difference"}, optional
         "difference": `a` without `other`.
@@ -608,7 +621,7 @@ def csg(a: Cloud, other: Cloud, operation: str = "union", *, cutoff: float = 3) 
     """
     made = initialised(b.ewa_csg_options, lib.ewa_csg_options_init)
     fill(made, "ewa_csg_options", {"operation": operation, "cutoff": cutoff})
-    first, second = (cloud._completed() for cloud in (a, other))
+    first, second = (cloud_of(cloud)._completed() for cloud in (a, other))
     return Cloud._made(first._core, lib.ewa_cloud_csg, first._h, second._h, ctypes.byref(made))
 
 

@@ -12,12 +12,10 @@ from . import _bindings as b
 from ._arrays import Array, as_contiguous
 from ._errors import ArgumentError
 from ._library import functions as lib
-from ._scene import is_path
 from ._struct import fill, initialised
 from .camera import Camera, PathLike
-from .cloud import Cloud
+from .cloud import Cloud, cloud_of
 from .image import Color
-from .mesh import read
 from .rendering import PLANES, options_of
 from .shade import Light
 
@@ -113,10 +111,9 @@ def render_backward(cloud: Cloud | PathLike, camera: Camera, *, rgba: Any = None
         eye-dome lighting, levels of detail.
     OutOfMemory, ClosedError
     """
-    if is_path(cloud):
-        cloud = read(cloud)  # type: ignore[arg-type]
-    if not isinstance(cloud, Cloud) or not isinstance(camera, Camera):
-        raise TypeError("render_backward: an ewa.Cloud and an ewa.Camera")
+    cloud = cloud_of(cloud)
+    if not isinstance(camera, Camera):
+        raise TypeError(f"camera: an ewa.Camera, not {type(camera).__name__}")
     names = (by,) if isinstance(by, str) else tuple(by)
     if names == ("all",):
         names = (*STREAMS, "camera", "rgba")

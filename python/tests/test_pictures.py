@@ -112,6 +112,11 @@ class Pictures(Case):
             self.assertTrue(np.array_equal(picture.rgba8, ewa.render(same, size=(60, 40)).rgba8))
         self.assertGreater(np.ptp(ewa.render(files[0], size=(60, 40), radius_scale=0.5).rgba8), 0)
         self.assertEqual(len(ewa.Scene(*files)), 2)
+        self.assertEqual(len(ewa.merge(files)), 3000)
+        self.assertEqual(len(ewa.as_cloud(files[1])), 1000)
+        self.assertTrue(np.array_equal(ewa.csg(*files)["position"], ewa.csg(*read)["position"]))
+        with self.assertRaisesRegex(TypeError, "an ewa.Cloud or a path, not int"):
+            ewa.merge([files[0], 3])  # type: ignore[list-item]
         camera = ewa.Camera.frame(read[0], size=(30, 20))
         ones = np.ones((20, 30, 4), np.float32)
         self.assertTrue(np.array_equal(ewa.render_backward(files[0], camera, rgba=ones, by="color").color,
