@@ -20,6 +20,7 @@ fi
     "$venv/bin/pip" install --quiet $packages || { echo "skipped: no $packages"; exit 0; }
 # Large, and not for every Python: what needs it says so when it is not there.
 "$venv/bin/python" -c "import open3d" 2>/dev/null || "$venv/bin/pip" install --quiet open3d || true
+"$venv/bin/python" -c "import copclib" 2>/dev/null || "$venv/bin/pip" install --quiet copclib || true
 failed=0
 for script in "$here"/*.py; do
     name=$(basename "$script" .py)

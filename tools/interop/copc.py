@@ -7,7 +7,7 @@ all nodes, which must be those that laspy and ewa read from the file as LAZ.
 Usage: copc.py EWA [FOLDER OR FILES...]
 Folders are searched for *.copc.laz. EWA may be "-": then laspy is held to itself alone, which is how files of the writer are
 tried that no command makes (build/release/measure/measure_copc FILE POINTS writes one).
-Needs laspy, lazrs, numpy.
+Needs laspy, lazrs, numpy; copclib where there is one.
 """
 import pathlib
 import sys
@@ -17,6 +17,11 @@ import laspy
 import numpy as np
 
 from las import ewa, read_ply, require
+
+try:
+    import copclib
+except ImportError:  # it has no wheels for every Python
+    copclib = None
 
 
 def rows(points):
@@ -67,7 +72,33 @@ def check(path, program):
             require(len(table) == len(points), f"{path.name}: points that ewa reads")
             require(np.array_equal(np.sort(table["intensity"]), np.sort(np.asarray(whole.intensity))),
                     f"{path.name}: intensities that ewa reads")
+        check_made(path, program)
+    if copclib:
+        check_copclib(path, len(points))
     print(f"{path.name}: {len(points)} points, levels {levels}, {list(whole.point_format.extra_dimension_names)}")
+
+
+def check_copclib(path, point_count):
+    """copclib refuses files without the bit of well-known text. (Its own boxes of nodes are those of the header's bounds, not of
+    the info record's cube, so it finds no points by place in cubes that are larger than the bounds.)"""
+    reader = copclib.FileReader(str(path))
+    found = sum(len(reader.GetPoints(node)) for node in reader.GetAllNodes())
+    require(found == reader.copc_config.las_header.point_count == point_count, f"{path.name}: points of copclib's nodes, {found}")
+
+
+def check_made(path, program):
+    """What ewa makes of the points, and of them without a coordinate system, is what others read."""
+    with tempfile.TemporaryDirectory() as folder:
+        ply, made = pathlib.Path(folder) / "points.ply", pathlib.Path(folder) / "made.copc.laz"
+        ewa(program, "convert", path, "-o", ply)
+        for source in (path, ply):
+            ewa(program, "lod", source, "-o", made)
+            with laspy.CopcReader.open(str(made)) as reader:
+                count = len(reader.query())
+                require(count == reader.header.point_count, f"{path.name}: points of what is made of {source.suffix}")
+                require(reader.header.global_encoding.wkt, f"{path.name}: the bit of well-known text, from {source.suffix}")
+            if copclib:
+                check_copclib(made, count)
 
 
 def main():
