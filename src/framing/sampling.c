@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { BLOCK_POINTS = 256, PLACE_BITS = 40, RADIUS_BITS = 12 };
+enum { BLOCK_POINTS = 256 };
 
 /// A point and the hash of its numbers, by which points are told apart.
 typedef struct hashed_point {
@@ -25,17 +25,6 @@ typedef struct collection {
     uint64_t limit;
     bool overflowed; ///< there was no more room
 } collection;
-
-/// A number to so many bits behind its first: what the last ones are depends on the origin that it was relative to, as
-/// of files that are drawn together, and must not choose other points.
-static double rounded(double number, int bits) {
-    const uint64_t step = (uint64_t)1 << (52 - bits);
-    uint64_t all;
-    memcpy(&all, &number, sizeof all);
-    all = (all + step / 2) & ~(step - 1);
-    memcpy(&number, &all, sizeof number);
-    return number;
-}
 
 /// Mixes a number into a hash (the finish of splitmix64, Vigna 2015).
 static uint64_t mix(uint64_t hash, double number) {
@@ -72,16 +61,14 @@ static void collect(const ewa_cloud *cloud, collection *all) {
                         *radius = ewa_cloud_find(cloud, EWA_RADIUS);
     const bool has_radius = radius && radius->component_count == 1;
     const uint64_t point_count = ewa_cloud_point_count(cloud);
-    double block[3 * BLOCK_POINTS], radii[BLOCK_POINTS] = {0}, origin_world[3];
-    ewa_cloud_origin(cloud, origin_world);
+    double block[3 * BLOCK_POINTS], radii[BLOCK_POINTS] = {0};
     for (uint64_t first = 0; first < point_count; first += BLOCK_POINTS) {
         const uint64_t count = point_count - first < BLOCK_POINTS ? point_count - first : BLOCK_POINTS;
         ewa_attribute_read_f64(position, first, count, block);
         if (has_radius) ewa_attribute_read_f64(radius, first, count, radii);
         for (uint64_t i = 0; i < count; i++) {
             const double *p = &block[3 * i];
-            uint64_t hash = mix(0, rounded(radii[i], RADIUS_BITS));
-            for (int c = 0; c < 3; c++) hash = mix(hash, rounded(p[c] + origin_world[c], PLACE_BITS));
+            const uint64_t hash = mix(mix(mix(mix(0, p[0]), p[1]), p[2]), radii[i]);
             if (hash > all->limit || !isfinite(p[0]) || !isfinite(p[1]) || !isfinite(p[2])) continue;
             if (all->count == all->capacity) compact(all);
             if (hash <= all->limit) all->points[all->count++] = (hashed_point){hash, first + i};

@@ -315,42 +315,6 @@ static void test_shells(void **state) {
     assert_int_equal(view_of_shell(1, 1, wide, 1, EWA_UP_Z_SURVEYED), EWA_VIEW_FRONT);
 }
 
-/// The camera of a survey, whose coordinates are relative to an origin.
-static ewa_camera fit_from(double x, double y) {
-    enum { COUNT = 300000 };
-    const double origin[3] = {x, y, 100}, direction[3] = {-1, 1, -1};
-    check_random random = {5};
-    ewa_cloud *cloud = NULL;
-    double *position = NULL;
-    float *radius = NULL;
-    assert_int_equal(ewa_cloud_create(context, COUNT, &cloud), EWA_OK);
-    assert_int_equal(ewa_cloud_add(cloud, EWA_POSITION, EWA_F64, 3, (void **)&position), EWA_OK);
-    assert_int_equal(ewa_cloud_add(cloud, EWA_RADIUS, EWA_F32, 1, (void **)&radius), EWA_OK);
-    ewa_cloud_set_origin(cloud, origin);
-    for (size_t i = 0; i < COUNT; i++) {
-        const double radial = floor(check_uniform(&random, 0, 500));
-        for (int c = 0; c < 3; c++) {
-            const double centimetres = floor(check_uniform(&random, -1e5, 1e5)) * (c == 2 ? 0.1 : 1);
-            const double low[3] = {637000, 851000, 400};
-            position[3 * i + (size_t)c] = low[c] + 0.01 * centimetres - origin[c];
-        }
-        radius[i] = (float)(0.01 * radial);
-    }
-    const ewa_camera camera = fit(cloud, 1, direction);
-    ewa_cloud_destroy(&cloud);
-    return camera;
-}
-
-/// The same points are seen from the same place, whatever origin their coordinates are relative to, as those of a file and
-/// of its tiles.
-static void test_origins(void **state) {
-    const ewa_camera one = fit_from(636000, 850000.5), other = fit_from(637291.37, 851210.21);
-    for (int i = 0; i < 16; i++) {
-        const double difference = one.world_to_camera[i] - other.world_to_camera[i];
-        if (!(fabs(difference) < 1e-6)) fail_msg("number %d of the camera is off by %g", i, difference);
-    }
-}
-
 /// The body of all turns holds every point in every turn, closely, with its disc.
 static void test_revolve(void **state) {
     static const double axis[3] = {0, 0, 2}, directions[][3] = {{0, 1, 0}, {0, 0, -1}, {1, 2, -1}};
@@ -516,8 +480,7 @@ int main(void) {
         cmocka_unit_test(test_no_radius),  cmocka_unit_test(test_zoom),
         cmocka_unit_test(test_far_points), cmocka_unit_test(test_revolve),
         cmocka_unit_test(test_info),       cmocka_unit_test(test_failures),
-        cmocka_unit_test(test_memory),     cmocka_unit_test(test_origins),
-        cmocka_unit_test(test_shells),
+        cmocka_unit_test(test_memory),     cmocka_unit_test(test_shells),
     };
     return cmocka_run_group_tests(tests, begin, finish);
 }
