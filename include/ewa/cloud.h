@@ -156,8 +156,8 @@ EWA_API ewa_status ewa_cloud_select(const ewa_cloud *cloud, const uint64_t *indi
 
 /// Makes one cloud of `count` > 0 clouds of one context: the points one after another, the origin of the
 /// first, and the attributes that any has. Points of a cloud that lacks one get NaN in floats, 0 in whole
-/// numbers, linear 0.6 in colours; positions, normals, radii, axes and clip lines are kept only where all have
-/// them. Types that differ become the float type that holds both, of colours U16 or linear F32; positions
+/// numbers, linear 0.6 in colours, and without a word 1 in "surfaceness" and 0 in "signed_curvature"; positions,
+/// normals, radii, axes and clip lines are kept only where all have them. Types that differ become the float type that holds both, of colours U16 or linear F32; positions
 /// become doubles where the origins differ. Attributes of different components are dropped, but for colours.
 /// What is filled in or dropped, and coordinate reference systems (note "crs") that differ, are reported as
 /// warnings. The caller owns `*merged`. Errors: EWA_ERROR_ARGUMENT, EWA_ERROR_LIMIT,

@@ -26,6 +26,10 @@ bool ewa_cloud_has_scalar(const ewa_cloud *cloud, const char *word);
 /// ewa_cloud_find_scalar() takes one for the other.
 bool ewa_attribute_names_agree(const char *a, const char *b);
 
+/// Whether points without an attribute are drawn as if they had a number of it, which is then all that merged clouds
+/// need to tell of them. Sets the number, 0 where there is none.
+bool ewa_cloud_absent_number(const char *name, double *number);
+
 /// Leaves only the first points; their memory stays until the cloud is destroyed.
 void ewa_cloud_truncate(ewa_cloud *cloud, uint64_t point_count);
 

@@ -141,10 +141,18 @@ static void merge_colors(const merge_job *job, const ewa_attribute *from, const 
     }
 }
 
-/// Fills in what a cloud lacks: grey for colours, NaN for other floats, 0 for other whole numbers.
+bool ewa_cloud_absent_number(const char *name, double *number) {
+    *number = strcmp(name, EWA_SURFACENESS) == 0 ? 1 : 0;
+    return *number != 0 || strcmp(name, EWA_CURVATURE) == 0;
+}
+
+/// Fills in what a cloud lacks: what its absence means, grey for colours, NaN for other floats, 0 for other whole
+/// numbers.
 static void fill_missing(const merged_stream *stream, uint64_t count, char *bytes) {
     const bool color = strcmp(stream->name, EWA_COLOR) == 0,
                is_float = stream->type == EWA_F32 || stream->type == EWA_F64;
+    double absent;
+    if (!ewa_cloud_absent_number(stream->name, &absent)) absent = (double)NAN;
     const size_t point_bytes = stream->component_count * ewa_type_bytes(stream->type);
     if (!color && !is_float) {
         memset(bytes, 0, count * point_bytes);
@@ -157,7 +165,7 @@ static void fill_missing(const merged_stream *stream, uint64_t count, char *byte
     for (uint64_t i = 0; i < count; i++)
         for (uint32_t c = 0; c < stream->component_count; c++)
             put_number(stream, bytes, i * stream->component_count + c,
-                       !color  ? (double)NAN
+                       !color  ? absent
                        : c < 3 ? grey
                                : full);
 }
@@ -184,7 +192,8 @@ static ewa_status merge_stream(const merge_job *job, const merged_stream *stream
             merge_numbers(from, stream, point_count, shift_world, bytes);
         bytes += point_count * stream->component_count * ewa_type_bytes(stream->type);
     }
-    if (stream->lacking_count) {
+    double absent;
+    if (stream->lacking_count && !ewa_cloud_absent_number(stream->name, &absent)) {
         const bool is_float = stream->type == EWA_F32 || stream->type == EWA_F64;
         ewa_report(job->context, EWA_SEVERITY_WARNING,
                    "attribute '%s': %u of %u clouds lack it, their points get %s", stream->name,

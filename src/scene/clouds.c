@@ -122,11 +122,13 @@ ewa_status ewa_cloud_colors_to_linear(ewa_cloud *cloud) {
 }
 
 /// Replaces a number of each point, or its absence, by doubles, which all can become.
-static ewa_status numbers_to_doubles(ewa_cloud *cloud, const char *name, double absent) {
+static ewa_status numbers_to_doubles(ewa_cloud *cloud, const char *name) {
     const uint64_t count = ewa_cloud_point_count(cloud);
     ewa_context *context = ewa_cloud_context(cloud);
     double *numbers = ewa_allocate(context, count, sizeof *numbers);
     if (!numbers) return EWA_ERROR_MEMORY;
+    double absent;
+    ewa_cloud_absent_number(name, &absent);
     for (uint64_t i = 0; i < count; i++) numbers[i] = absent;
     const ewa_attribute *found = ewa_cloud_find(cloud, name);
     if (found && found->component_count == 1) ewa_attribute_read_f64(found, 0, count, numbers);
@@ -183,9 +185,9 @@ ewa_status ewa_clouds_make_alike(ewa_cloud *const *clouds, uint32_t count, doubl
     for (uint32_t i = 0; i < count; i++) {
         if (any_axes && !has_axes(clouds[i])) EWA_TRY(discs_to_axes(clouds[i], cutoff));
         if (colors_differ) EWA_TRY(ewa_cloud_colors_to_linear(clouds[i]));
-        if (materials_differ) EWA_TRY(numbers_to_doubles(clouds[i], EWA_MATERIAL, 0));
-        if (surfaceness_differs) EWA_TRY(numbers_to_doubles(clouds[i], EWA_SURFACENESS, 1));
-        if (curvatures_differ) EWA_TRY(numbers_to_doubles(clouds[i], EWA_CURVATURE, 0));
+        if (materials_differ) EWA_TRY(numbers_to_doubles(clouds[i], EWA_MATERIAL));
+        if (surfaceness_differs) EWA_TRY(numbers_to_doubles(clouds[i], EWA_SURFACENESS));
+        if (curvatures_differ) EWA_TRY(numbers_to_doubles(clouds[i], EWA_CURVATURE));
         EWA_TRY(add_clip_lines(clouds[i], clip));
         if (any_axes) ewa_cloud_remove(clouds[i], EWA_RADIUS), ewa_cloud_remove(clouds[i], EWA_BORDER);
         if (normals_differ) ewa_cloud_remove(clouds[i], EWA_NORMAL);
