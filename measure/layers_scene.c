@@ -6,6 +6,7 @@
 #include "cloud/cloud.h"
 
 #include "base/base.h"
+#include "reference/contour.h"
 #include "reference/splat.h"
 #include "surface/options.h"
 
@@ -153,6 +154,7 @@ ewa_status layers_blend_splats(const ewa_cloud *cloud, const ewa_camera *camera,
     if (!splats) return EWA_ERROR_MEMORY;
     ewa_reference_view view;
     ewa_reference_view_make(camera, surfels.cutoff, &options, &view);
+    ewa_reference_view_contours(&options, true, &view);
     memset(rgba, 0, (size_t)camera->width_px * camera->height_px * 4 * sizeof *rgba);
     const uint64_t drawn = sort_splats(&reader, &view, count, splats);
     for (uint64_t k = 0; k < drawn; k++) blend_splat(&view, &splats[k], opacity, rgba);

@@ -19,6 +19,7 @@
 
 #include "base/base.h"
 #include "cloud/cloud.h"
+#include "reference/contour.h"
 #include "reference/splat.h"
 #include "surface/options.h"
 
@@ -207,6 +208,7 @@ ewa_status abuffer_render(const ewa_cloud *cloud, double unit_coverage, const ew
     if (status == EWA_OK) status = ewa_surfel_reader_open(cloud, &surfels, &reader);
     if (status != EWA_OK) return status;
     ewa_reference_view_make(camera, surfels.cutoff, &buffer.options, &buffer.view);
+    ewa_reference_view_contours(&buffer.options, true, &buffer.view);
     const size_t pixel_count = (size_t)camera->width_px * camera->height_px;
     const size_t bytes = (fragment_limit + 1) * sizeof *buffer.fragments;
     buffer.fragments = ewa_allocate(context, pixel_count, bytes);

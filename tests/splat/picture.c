@@ -4,6 +4,7 @@
 // Pictures in tests.
 #include "tests/splat/picture.h"
 #include "cloud/cloud.h"
+#include "reference/contour.h"
 #include "reference/splat.h"
 #include "reference/surface.h"
 #include "surface/options.h"
@@ -123,6 +124,7 @@ void picture_mark_edges(const scene *of, const ewa_surfels_options *surfels_opti
     assert_int_equal(ewa_render_options_choose(context, options, &chosen), EWA_OK);
     assert_int_equal(ewa_surfel_reader_open(of->cloud, &surfels, &work.reader), EWA_OK);
     ewa_reference_view_make(&of->camera, surfels.cutoff, &chosen, &work.view);
+    ewa_reference_view_contours(&chosen, false, &work.view);
     work.one_pass = chosen.passes == 1;
     for (size_t i = 0; i < pixel_count; i++) work.bound[i] = INFINITY;
     memset(mask, 0, pixel_count);
