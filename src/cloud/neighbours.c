@@ -363,6 +363,10 @@ static uint32_t leaf_of(const ewa_neighbours *tree, uint32_t place) {
     return low;
 }
 
+const float *const *ewa_neighbours_offsets(const ewa_neighbours *neighbours) {
+    return neighbours->anchored ? NULL : (const float *const *)neighbours->offset;
+}
+
 void ewa_neighbours_positions(const ewa_neighbours *neighbours, uint32_t first, uint32_t count,
                               double (*position)[3]) {
     for (uint32_t i = 0; i < count; i++)

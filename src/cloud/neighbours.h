@@ -35,6 +35,10 @@ const uint32_t *ewa_neighbours_points(const ewa_neighbours *neighbours, uint32_t
 void ewa_neighbours_positions(const ewa_neighbours *neighbours, uint32_t first, uint32_t count,
                               double (*position)[3]);
 
+/// Returns the coordinates of all places, x, y and z, where single precision holds them; else NULL: they are anchored at
+/// boxes. Not after ewa_neighbours_end_visits().
+const float *const *ewa_neighbours_offsets(const ewa_neighbours *neighbours);
+
 /// Up to 16 places and all their neighbours. Lanes from lane_count up repeat lane 0. Candidates are in the
 /// order of places, each in the neighbourhood of some lane; each lane's own place is among them.
 ///

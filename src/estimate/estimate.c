@@ -7,6 +7,7 @@
 #include "cloud/border.h"
 #include "cloud/cloud.h"
 #include "estimate/borders.h"
+#include "estimate/curvature.h"
 #include "estimate/local.h"
 #include "estimate/orient.h"
 #include "estimate/outliers.h"
@@ -45,11 +46,13 @@ typedef struct estimate_job {
     float *normals;
     float *spacing;
     uint32_t (*links)[LOCAL_GRAPH_DEGREE];
+    bool propagate; // normals are to agree along the links
+    bool bends;     // curvatures are to be measured
     uint8_t *notes;  // RADIUS_*
     uint8_t *strewn; // how little a place is part of a surface, of UINT8_MAX; NULL when no sizes are wanted
     border_set *borders; // NULL when no sizes are wanted
     // by point; NULL when not wanted
-    float *radius_out, *tangent_u_out, *tangent_v_out, *normal_out, *surfaceness_out;
+    float *radius_out, *tangent_u_out, *tangent_v_out, *normal_out, *surfaceness_out, *curvature_out;
     ewa_attribute position;
     sight sight;          // where points were seen from, if normals are to point there
     counter *counters;    // per worker
@@ -371,16 +374,32 @@ static void report_degenerate(ewa_context *context, const estimate_job *job) {
                    (unsigned long long)degenerate, job->place_count);
 }
 
+/// Adds the stream of curvatures, by the normals of places, estimated ones or those that the cloud has.
+static ewa_status finish_curvature(ewa_cloud *cloud, estimate_job *job, bool has_gaps) {
+    ewa_context *context = ewa_cloud_context(cloud);
+    float *given = NULL;
+    if (!job->normals) {
+        given = ewa_allocate(context, job->place_count, 3 * sizeof *given);
+        if (!given) return EWA_ERROR_MEMORY;
+        ewa_curvature_read_normals(cloud, job->neighbours, given);
+    }
+    ewa_status status = add_output(cloud, EWA_CURVATURE, 1, has_gaps, &job->curvature_out);
+    const curvature_input input = {job->neighbours, (const uint32_t(*)[LOCAL_GRAPH_DEGREE])job->links,
+                                   given ? given : job->normals, job->curvature_out};
+    if (status == EWA_OK) status = ewa_curvature_measure(context, &input);
+    ewa_release(context, given, job->place_count, 3 * sizeof *given);
+    return status;
+}
+
 /// Adds and fills the stream of normals.
 static ewa_status finish_normals(ewa_cloud *cloud, estimate_job *job, bool has_gaps) {
     ewa_context *context = ewa_cloud_context(cloud);
     ewa_status status = EWA_OK;
-    if (job->links) {
+    if (job->propagate) {
         const orient_input input = {job->neighbours, (const uint32_t(*)[LOCAL_GRAPH_DEGREE])job->links,
                                     job->spacing};
         status = ewa_orient_propagate(context, &input, job->normals);
     }
-    ewa_neighbours_end_visits(job->neighbours);
     if (status == EWA_OK) status = add_output(cloud, EWA_NORMAL, 3, has_gaps, &job->normal_out);
     if (status == EWA_OK)
         status = ewa_parallel_stoppable(context, "estimate", finish_task, job,
@@ -393,7 +412,7 @@ static ewa_status estimate_with(ewa_cloud *cloud, estimate_job *job, bool normal
     ewa_context *context = ewa_cloud_context(cloud);
     const bool alike = job->options->orientation == EWA_ORIENT_PROPAGATE ||
                        (job->options->orientation == EWA_ORIENT_AUTO && job->sight.kind == SIGHT_NONE);
-    const bool propagate = normals && alike;
+    job->propagate = normals && alike;
     const bool has_gaps = ewa_neighbours_finite_count(job->neighbours) < ewa_cloud_point_count(cloud);
     const bool ellipse = job->options->shape == EWA_SHAPE_ELLIPSE;
     const size_t places = job->place_count, workers = ewa_context_worker_count(context);
@@ -414,9 +433,9 @@ static ewa_status estimate_with(ewa_cloud *cloud, estimate_job *job, bool normal
         bool complete = job->counters && job->notes && job->batches;
         if (normals)
             complete = (job->normals = ewa_allocate(context, places, 3 * sizeof *job->normals)) && complete;
-        if (propagate)
+        if (job->propagate || job->bends)
             complete = (job->links = ewa_allocate(context, places, sizeof *job->links)) && complete;
-        if (propagate || sizes)
+        if (job->propagate || sizes)
             complete = (job->spacing = ewa_allocate(context, places, sizeof *job->spacing)) && complete;
         if (sizes)
             complete = (job->strewn = ewa_allocate_zeroed(context, places, sizeof *job->strewn)) && complete;
@@ -427,9 +446,9 @@ static ewa_status estimate_with(ewa_cloud *cloud, estimate_job *job, bool normal
         report_degenerate(context, job);
         if (sizes) status = finish_surfaceness(cloud, job, has_gaps);
     }
-    if (status == EWA_OK) {
-        if (normals) status = finish_normals(cloud, job, has_gaps);
-    }
+    if (status == EWA_OK && normals) status = finish_normals(cloud, job, has_gaps);
+    if (status == EWA_OK && job->bends) status = finish_curvature(cloud, job, has_gaps);
+    ewa_neighbours_end_visits(job->neighbours);
     if (status == EWA_OK && sizes)
         status = ewa_borders_add(job->borders, job->neighbours, job->tangent_u_out, job->tangent_v_out, cloud);
     ewa_borders_free(context, &borders);
@@ -456,6 +475,7 @@ static ewa_status estimate(ewa_cloud *cloud, const ewa_estimate_options *options
     estimate_job job = {.options = options,
                         .kernels =
                             EWA_CHOOSE(ewa_context_cpu_features(ewa_cloud_context(cloud)), ewa_local_kernels),
+                        .bends = normals || !has_components(cloud, EWA_CURVATURE, 1),
                         .position = *ewa_cloud_find(cloud, EWA_POSITION)};
     ewa_neighbours *neighbours = NULL;
     ewa_status status = ewa_sight_make(cloud, options, &job.sight);
@@ -476,12 +496,12 @@ static ewa_status estimate(ewa_cloud *cloud, const ewa_estimate_options *options
         if (job.normal_out) ewa_cloud_remove(cloud, EWA_NORMAL);
         if (job.radius_out) ewa_cloud_remove(cloud, EWA_RADIUS);
         if (job.surfaceness_out) ewa_cloud_remove(cloud, EWA_SURFACENESS);
+        if (job.curvature_out) ewa_cloud_remove(cloud, EWA_CURVATURE);
         if (job.tangent_u_out) ewa_cloud_remove(cloud, EWA_TANGENT_U);
         if (job.tangent_v_out) ewa_cloud_remove(cloud, EWA_TANGENT_V);
         return status;
     }
-    // What described the old normals and sizes would contradict the new ones.
-    if (normals) ewa_cloud_remove(cloud, EWA_CURVATURE);
+    // What described the old sizes would contradict the new ones.
     if (job.tangent_u_out) ewa_cloud_remove(cloud, EWA_RADIUS);
     if (sizes && !job.surfaceness_out) ewa_cloud_remove(cloud, EWA_SURFACENESS);
     if (job.radius_out) {

@@ -87,6 +87,13 @@ typedef struct local_batch {
     uint32_t row_count; ///< that measure() has left
 } local_batch;
 
+/// Sixteen places with up to LOCAL_GRAPH_DEGREE neighbours each; places and normals of those that are not there are 0.
+typedef struct local_fans {
+    _Alignas(64) float own[3][EWA_BLOCK_LANES];           ///< unit normal
+    float way[LOCAL_GRAPH_DEGREE][3][EWA_BLOCK_LANES];    ///< to each neighbour, about 1 long at most
+    float normal[LOCAL_GRAPH_DEGREE][3][EWA_BLOCK_LANES]; ///< of each, unit
+} local_fans;
+
 /// The hot loops, compiled once per instruction set, all with the same results.
 typedef struct local_kernels {
     /// All but mean_distance; `reach` up to 2 spacings. Leaves the neighbours of all lanes in the rows of
@@ -114,6 +121,9 @@ typedef struct local_kernels {
     void (*measure_distance)(const ewa_block *block, local_surface *surface); ///< mean_distance only
     /// After measure() of the same block.
     void (*link)(const ewa_block *block, const local_batch *batch, local_graph graph);
+    /// The signed curvature of each lane (ewa/cloud.h), per length of its ways, and how far that is to be trusted, 0 to
+    /// 1: by the squares of normals that it explains over those that are left.
+    void (*curve)(const local_fans *fans, float curvature[EWA_BLOCK_LANES], float trust[EWA_BLOCK_LANES]);
 } local_kernels;
 
 EWA_DECLARE_VERSIONS(const local_kernels, ewa_local_kernels);

@@ -521,6 +521,8 @@ static void link_nearest(const ewa_block *block, const local_batch *batch, local
 
 #include "estimate/local_batch_body.h"
 #include "estimate/local_border_body.h"
+#include "estimate/local_curvature_body.h"
 
 const local_kernels EWA_VERSION(ewa_local_kernels) = {
-    measure, size, collect, find_around, enclose, find_border, measure_distance, link_nearest};
+    measure, size, collect, find_around, enclose, find_border, measure_distance, link_nearest,
+    fit_curvature};

@@ -39,7 +39,7 @@ typedef struct generate_job {
     ewa_town_patch *town; // EWA_TOWN_PATCHES, of a town
     uint64_t first_row, end_row; // of the current stretch, over all patches
     uint32_t parts;
-    float *position, *normal, *radius; // normal and radius may be NULL
+    float *position, *normal, *radius, *curvature; // all but the first may be NULL
     uint8_t *color;
 } generate_job;
 
@@ -184,6 +184,7 @@ static void store_block(const generate_job *job, const ewa_generate_block *block
     for (uint32_t i = 0; i < block->count; i++) {
         for (uint32_t c = 0; c < 3; c++) job->normal[3 * (first + i) + c] = (float)block->normal[i][c];
         job->radius[first + i] = (float)(scale * block->radius[i]);
+        if (job->curvature) job->curvature[first + i] = (float)(block->curvature[i] / size);
     }
 }
 
@@ -256,17 +257,21 @@ static ewa_status run(ewa_context *context, generate_job *job) {
 }
 
 static ewa_status add_attributes(ewa_cloud *cloud, generate_job *job) {
-    void *position = NULL, *normal = NULL, *color = NULL, *radius = NULL;
+    void *position = NULL, *normal = NULL, *color = NULL, *radius = NULL, *curvature = NULL;
+    const bool bends = job->options->object == EWA_OBJECT_SPHERE || job->options->object == EWA_OBJECT_TORUS;
     ewa_status status = ewa_cloud_add(cloud, EWA_POSITION, EWA_F32, 3, &position);
     if (status == EWA_OK && !job->options->positions_only)
         status = ewa_cloud_add(cloud, EWA_NORMAL, EWA_F32, 3, &normal);
     if (status == EWA_OK) status = ewa_cloud_add(cloud, EWA_COLOR, EWA_U8, 3, &color);
     if (status == EWA_OK && !job->options->positions_only)
         status = ewa_cloud_add(cloud, EWA_RADIUS, EWA_F32, 1, &radius);
+    if (status == EWA_OK && !job->options->positions_only && bends)
+        status = ewa_cloud_add(cloud, EWA_CURVATURE, EWA_F32, 1, &curvature);
     job->position = position;
     job->normal = normal;
     job->color = color;
     job->radius = radius;
+    job->curvature = curvature;
     return status;
 }
 

@@ -30,6 +30,7 @@ typedef struct ewa_generate_block {
     double normal[EWA_GENERATE_BLOCK][3]; ///< out: unit
     float color[EWA_GENERATE_BLOCK][3];   ///< out: sRGB, 0 to 255
     double radius[EWA_GENERATE_BLOCK];    ///< out: local spacing
+    double curvature[EWA_GENERATE_BLOCK]; ///< out, of what bends: "signed_curvature"
 } ewa_generate_block;
 
 /// One octave of the terrain's noise: lattice coordinates (xx x + xy y + x0, yx x + yy y + y0) of (x, y) in

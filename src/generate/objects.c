@@ -6,6 +6,7 @@
 // The sphere's rows are those of Archimedes: area is height, z = 1 - 2 v. The torus's rows need the angle t
 // (turns) whose share of the area is v = t + (r/R) sin(2 pi t) / (2 pi), which Newton's method finds.
 #include "generate/generate.h"
+#include "math/curvature.h"
 #include "math/generate_number.h"
 
 #include <math.h>
@@ -115,6 +116,7 @@ void ewa_generate_sphere(ewa_generate_block *block) {
             block->position[i][c] = 0.5 * normal[c];
         }
         block->radius[i] = block->spacing;
+        block->curvature[i] = 2;
     }
     color_planet(block);
 }
@@ -171,6 +173,8 @@ void ewa_generate_torus(ewa_generate_block *block) {
             block->position[i][c] = 0.5 * (EWA_TORUS_MAJOR * ring[c] + EWA_TORUS_MINOR * normal[c]);
         }
         block->radius[i] = block->spacing;
+        const double around = cosine[i] / (EWA_TORUS_MAJOR + EWA_TORUS_MINOR * cosine[i]);
+        block->curvature[i] = ewa_signed_curvature(2 / EWA_TORUS_MINOR, 2 * around);
     }
     color_ribbons(block, turns);
 }

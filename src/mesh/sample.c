@@ -5,6 +5,7 @@
 #include "base/base.h"
 #include "base/options.h"
 #include "cloud/decimals.h"
+#include "estimate/curvature.h"
 #include "ewa/acquire.h"
 #include "homogeneous/vec.h"
 #include "mesh/clip.h"
@@ -321,6 +322,7 @@ static ewa_status sample(ewa_context *context, sample_job *job, ewa_cloud **clou
                    job->spacing, job->surface->triangle_count, job->surface->edge_count);
         status = ewa_progress(context, "sample", 1);
     }
+    if (status == EWA_OK) status = ewa_curvature_add(made);
     if (status == EWA_OK && job->colors.has_pictures) status = add_pictures(job, made);
     if (status != EWA_OK) ewa_cloud_destroy(&made);
     *cloud = made;

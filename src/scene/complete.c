@@ -160,7 +160,8 @@ static ewa_status merge_positions(ewa_completed *group) {
 
 /// Adds what was estimated of all to the view of one.
 static ewa_status borrow_estimated(const ewa_completed *group, uint64_t first, ewa_cloud *view) {
-    static const char *const estimated[] = {EWA_NORMAL, EWA_RADIUS, EWA_BORDER, EWA_SURFACENESS};
+    static const char *const estimated[] = {EWA_NORMAL, EWA_RADIUS, EWA_BORDER, EWA_SURFACENESS,
+                                            EWA_CURVATURE};
     for (size_t i = 0; i < sizeof estimated / sizeof estimated[0]; i++) {
         const ewa_attribute *a = ewa_cloud_find(group->merged, estimated[i]);
         if (!a || ewa_cloud_find(view, estimated[i])) continue;
@@ -215,6 +216,7 @@ static ewa_status make_dots(const ewa_scene *scene, ewa_completed *group) {
         const uint64_t count = ewa_cloud_point_count(group->clouds[i]);
         ewa_cloud_remove(group->clouds[i], EWA_BORDER);
         ewa_cloud_remove(group->clouds[i], EWA_SURFACENESS);
+        ewa_cloud_remove(group->clouds[i], EWA_CURVATURE);
         status = ewa_cloud_add(group->clouds[i], EWA_RADIUS, EWA_F32, 1, &data);
         for (uint64_t k = 0; k < count && status == EWA_OK; k++) ((float *)data)[k] = (float)radius;
     }

@@ -366,6 +366,7 @@ static void test_failures(void **state) {
 static void test_comparison(void **state) {
     ewa_context *context = check_context(0, NULL);
     scene made = picture_small_scene(context, SCENE_TORUS);
+    ewa_cloud_remove(made.cloud, EWA_CURVATURE); // splats at contours move by their size, not at its edges alone
     for (uint32_t passes = 1; passes <= 3; passes += 2) {
         ewa_render_options options = default_options();
         options.passes = passes;

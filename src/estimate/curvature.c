@@ -1,0 +1,220 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// Curvatures: what kernels make of a place and its neighbours (local_curvature_body.h), averaged by how far it is to be
+// trusted.
+#include "estimate/curvature.h"
+#include "base/base.h"
+#include "cloud/cloud.h"
+#include "homogeneous/vec.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { TASK_PLACES = 1 << 13, LANES = EWA_BLOCK_LANES };
+
+// Share of a place and its neighbours that must know how they bend.
+static const double AGREEING_SHARE = 0.4;
+
+typedef struct curvature_job {
+    const curvature_input *input;
+    const local_kernels *kernels;
+    uint32_t place_count;
+    const float *const *offsets; // of places, if these say all; else
+    double (*position)[3];
+    float (*fit)[2]; // signed curvature and how far it is to be trusted
+} curvature_job;
+
+static double larger(double a, double b) { return b > a ? b : a; }
+
+/// The way from one place to another.
+static inline void find_way(const curvature_job *job, uint32_t from, uint32_t to, double way[3]) {
+    if (job->offsets)
+        for (int c = 0; c < 3; c++) way[c] = (double)(job->offsets[c][to] - job->offsets[c][from]);
+    else
+        for (int c = 0; c < 3; c++) way[c] = job->position[to][c] - job->position[from][c];
+}
+
+/// Puts a place and its neighbours into a lane; returns the length that ways are in units of, 0 if there is none.
+static double set_fan(const curvature_job *job, uint32_t place, uint32_t lane, local_fans *fans) {
+    const uint32_t *links = job->input->links[place];
+    const float *own = &job->input->normals[3 * (size_t)place];
+    uint32_t count = LOCAL_GRAPH_DEGREE;
+    while (count && links[count - 1] == UINT32_MAX) count--;
+    double way[3] = {0}, scale = 0, unit = 0;
+    if (count) find_way(job, place, links[count - 1], way); // the farthest
+    for (int c = 0; c < 3; c++) unit = larger(unit, fabs(way[c]));
+    if (unit > 0) scale = 1 / unit;
+    for (int c = 0; c < 3; c++) fans->own[c][lane] = own[c];
+    for (uint32_t i = 0; i < LOCAL_GRAPH_DEGREE; i++) {
+        const float *normal = &job->input->normals[3 * (size_t)(i < count ? links[i] : place)];
+        const bool there = i < count && (normal[0] != 0 || normal[1] != 0 || normal[2] != 0);
+        if (there) find_way(job, place, links[i], way);
+        for (int c = 0; c < 3; c++) {
+            fans->way[i][c][lane] = there ? (float)(way[c] * scale) : 0;
+            fans->normal[i][c][lane] = there ? normal[c] : 0;
+        }
+    }
+    return isfinite(scale) ? unit : 0;
+}
+
+static void fit_places(void *data, uint32_t task, uint32_t worker) {
+    (void)worker;
+    const curvature_job *job = data;
+    const uint32_t begin = task * TASK_PLACES;
+    const uint32_t end = job->place_count - begin < TASK_PLACES ? job->place_count : begin + TASK_PLACES;
+    local_fans fans;
+    float curvature[LANES], trust[LANES];
+    double unit[LANES];
+    for (uint32_t first = begin; first < end; first += LANES) {
+        for (uint32_t lane = 0; lane < LANES; lane++)
+            unit[lane] = set_fan(job, first + lane < end ? first + lane : first, lane, &fans);
+        job->kernels->curve(&fans, curvature, trust);
+        for (uint32_t lane = 0; lane < LANES && first + lane < end; lane++) {
+            float *fit = job->fit[first + lane];
+            const float value = unit[lane] > 0 ? (float)((double)curvature[lane] / unit[lane]) : 0;
+            fit[0] = isfinite(value) ? value : 0;
+            fit[1] = isfinite(value) && unit[lane] > 0 ? trust[lane] : 0;
+        }
+    }
+}
+
+/// The mean of a place and its neighbours by trust, less how far these are apart: what noise makes of single ones does
+/// not agree, nor do places beside an edge, and a contour that stays fat is better than one that is torn.
+static float average(const curvature_job *job, uint32_t place) {
+    const uint32_t *links = job->input->links[place];
+    double value = (double)job->fit[place][0], weight = (double)job->fit[place][1], sum = value * weight,
+           squares = value * sum, count = 1;
+    for (int i = 0; i < LOCAL_GRAPH_DEGREE && links[i] != UINT32_MAX; i++, count++) {
+        const float *fit = job->fit[links[i]];
+        const double trust = (double)fit[1], part = (double)fit[0] * trust;
+        sum += part, squares += (double)fit[0] * part, weight += trust;
+    }
+    if (!(weight > 0)) return 0;
+    const double mean = sum / weight, variance = squares / weight - mean * mean;
+    const double size = fabs(mean) - (variance > 0 ? sqrt(variance) : 0), enough = AGREEING_SHARE * count;
+    if (!(size > 0)) return 0;
+    return (float)copysign(weight < enough ? size * weight / enough : size, mean);
+}
+
+static void average_places(void *data, uint32_t task, uint32_t worker) {
+    (void)worker;
+    const curvature_job *job = data;
+    const uint32_t begin = task * TASK_PLACES;
+    const uint32_t end = job->place_count - begin < TASK_PLACES ? job->place_count : begin + TASK_PLACES;
+    for (uint32_t place = begin; place < end; place++) {
+        uint32_t count;
+        const uint32_t *points = ewa_neighbours_points(job->input->neighbours, place, &count);
+        const float value = average(job, place);
+        for (uint32_t i = 0; i < count; i++) job->input->curvature[points[i]] = value;
+    }
+}
+
+static void copy_positions(void *data, uint32_t task, uint32_t worker) {
+    (void)worker;
+    const curvature_job *job = data;
+    const uint32_t begin = task * TASK_PLACES;
+    const uint32_t count = job->place_count - begin < TASK_PLACES ? job->place_count - begin : TASK_PLACES;
+    ewa_neighbours_positions(job->input->neighbours, begin, count, job->position + begin);
+}
+
+ewa_status ewa_curvature_measure(ewa_context *context, const curvature_input *input) {
+    curvature_job job = {.input = input,
+                         .kernels = EWA_CHOOSE(ewa_context_cpu_features(context), ewa_local_kernels),
+                         .place_count = ewa_neighbours_place_count(input->neighbours),
+                         .offsets = ewa_neighbours_offsets(input->neighbours)};
+    const uint32_t tasks = (job.place_count + TASK_PLACES - 1) / TASK_PLACES;
+    if (!job.offsets) job.position = ewa_allocate(context, job.place_count, sizeof *job.position);
+    job.fit = ewa_allocate(context, job.place_count, sizeof *job.fit);
+    ewa_status status = (job.offsets || job.position) && job.fit ? EWA_OK : EWA_ERROR_MEMORY;
+    if (status == EWA_OK && job.position) ewa_parallel(context, copy_positions, &job, tasks);
+    if (status == EWA_OK) status = ewa_parallel_stoppable(context, "estimate", fit_places, &job, tasks);
+    if (status == EWA_OK) status = ewa_parallel_stoppable(context, "estimate", average_places, &job, tasks);
+    ewa_release(context, job.fit, job.place_count, sizeof *job.fit);
+    if (job.position) ewa_release(context, job.position, job.place_count, sizeof *job.position);
+    return status;
+}
+
+/// What links the places of a cloud whose normals are known.
+typedef struct link_job {
+    const local_kernels *kernels;
+    local_batch *batches; // per worker
+    uint32_t (*links)[LOCAL_GRAPH_DEGREE];
+} link_job;
+
+static void link_places(void *user, const ewa_block *block, uint32_t worker) {
+    const link_job *job = user;
+    local_surface ignored;
+    job->kernels->measure(block, 0, &job->batches[worker], &ignored);
+    job->kernels->link(block, &job->batches[worker], &job->links[block->first_place]);
+}
+
+/// What the normals of a cloud are read by.
+typedef struct normal_job {
+    const ewa_neighbours *neighbours;
+    const ewa_attribute *normal;
+    float *normals;
+} normal_job;
+
+static void read_normals(void *data, uint32_t task, uint32_t worker) {
+    (void)worker;
+    const normal_job *job = data;
+    const uint32_t places = ewa_neighbours_place_count(job->neighbours), begin = task * TASK_PLACES;
+    const uint32_t end = places - begin < TASK_PLACES ? places : begin + TASK_PLACES;
+    const bool floats = job->normal->type == EWA_F32;
+    for (uint32_t place = begin; place < end; place++) {
+        uint32_t count;
+        double n[3];
+        const uint32_t point = ewa_neighbours_points(job->neighbours, place, &count)[0];
+        const char *at = (const char *)job->normal->data + (size_t)point * job->normal->stride_bytes;
+        if (floats)
+            for (int c = 0; c < 3; c++) n[c] = (double)((const float *)(const void *)at)[c];
+        else
+            ewa_attribute_read_f64(job->normal, point, 1, n);
+        ewa_vec3 unit = vec3_load(n);
+        if (!vec3_normalize(&unit)) unit = vec3_make(0, 0, 0);
+        float *to = &job->normals[3 * (size_t)place];
+        to[0] = (float)unit.x, to[1] = (float)unit.y, to[2] = (float)unit.z;
+    }
+}
+
+void ewa_curvature_read_normals(const ewa_cloud *cloud, const ewa_neighbours *neighbours, float *normals) {
+    normal_job job = {neighbours, ewa_cloud_find(cloud, EWA_NORMAL), normals};
+    ewa_parallel(ewa_cloud_context(cloud), read_normals, &job,
+                 (ewa_neighbours_place_count(neighbours) + TASK_PLACES - 1) / TASK_PLACES);
+}
+
+static ewa_status measure_cloud(ewa_cloud *cloud, const ewa_neighbours *neighbours, float *curvature) {
+    ewa_context *context = ewa_cloud_context(cloud);
+    const size_t places = ewa_neighbours_place_count(neighbours), workers = ewa_context_worker_count(context);
+    link_job job = {.kernels = EWA_CHOOSE(ewa_context_cpu_features(context), ewa_local_kernels),
+                    .batches = ewa_allocate(context, workers, sizeof *job.batches),
+                    .links = ewa_allocate(context, places, sizeof *job.links)};
+    float *normals = ewa_allocate(context, places, 3 * sizeof *normals);
+    ewa_status status = job.batches && job.links && normals ? EWA_OK : EWA_ERROR_MEMORY;
+    const ewa_visit_choice choice = {LOCAL_GRAPH_DEGREE, 1, NULL, "estimate", 0, NULL};
+    if (status == EWA_OK) status = ewa_neighbours_visit(neighbours, &choice, link_places, &job);
+    if (status == EWA_OK) {
+        ewa_curvature_read_normals(cloud, neighbours, normals);
+        const curvature_input input = {neighbours, (const uint32_t(*)[LOCAL_GRAPH_DEGREE])job.links, normals,
+                                       curvature};
+        status = ewa_curvature_measure(context, &input);
+    }
+    ewa_release(context, normals, places, 3 * sizeof *normals);
+    ewa_release(context, job.links, places, sizeof *job.links);
+    ewa_release(context, job.batches, workers, sizeof *job.batches);
+    return status;
+}
+
+ewa_status ewa_curvature_add(ewa_cloud *cloud) {
+    ewa_neighbours *neighbours = NULL;
+    void *points = NULL;
+    EWA_TRY(ewa_cloud_add(cloud, EWA_CURVATURE, EWA_F32, 1, &points));
+    memset(points, 0, sizeof(float) * ewa_cloud_point_count(cloud));
+    ewa_status status = ewa_neighbours_create(ewa_cloud_context(cloud), ewa_cloud_find(cloud, EWA_POSITION),
+                                              (uint32_t)ewa_cloud_point_count(cloud), &neighbours);
+    if (status == EWA_OK) status = measure_cloud(cloud, neighbours, points);
+    ewa_neighbours_destroy(&neighbours);
+    if (status != EWA_OK) ewa_cloud_remove(cloud, EWA_CURVATURE);
+    return status;
+}

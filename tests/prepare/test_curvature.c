@@ -1,0 +1,163 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// Signed curvatures against surfaces that are known: estimated from points, of meshes, of generated objects; what noise
+// and moving make of them.
+#include "prepare/check_prepare.h"
+#include "prepare/mesh_shapes.h"
+
+enum { COUNT = 12000 };
+
+#define PI 3.141592653589793
+
+typedef enum shape { SPHERE, CYLINDER, SADDLE, PLANE, ROUGH_PLANE, SHAPES } shape;
+
+/// A random place of a surface of size 1: a sphere and a cylinder of radius 1 / 2, a saddle that bends by 2 and -2.
+static void place_on(shape of, check_random *random, double p[3]) {
+    const double a = check_uniform(random, 0, 2 * PI);
+    for (int c = 0; c < 3; c++) p[c] = check_uniform(random, -0.5, 0.5);
+    if (of == SPHERE) {
+        check_direction(random, p);
+        for (int c = 0; c < 3; c++) p[c] *= 0.5;
+    } else if (of == CYLINDER) {
+        p[0] = 0.5 * cos(a), p[1] = 0.5 * sin(a);
+    } else if (of == SADDLE) {
+        p[0] *= 0.4, p[1] *= 0.4;
+        p[2] = p[0] * p[0] - p[1] * p[1];
+    } else {
+        p[2] *= of == ROUGH_PLANE ? 0.5 / sqrt(COUNT) : 0;
+    }
+}
+
+static ewa_cloud *make_points(ewa_context *context, shape of, double size) {
+    float *xyz = NULL;
+    ewa_cloud *cloud = check_cloud(context, COUNT, &xyz);
+    check_random random = {5};
+    for (int i = 0; i < COUNT; i++) {
+        double p[3];
+        place_on(of, &random, p);
+        for (int c = 0; c < 3; c++) xyz[3 * i + c] = (float)(size * p[c]);
+    }
+    return cloud;
+}
+
+static int compare(const void *a, const void *b) {
+    const float *x = a, *y = b;
+    return (*x > *y) - (*x < *y);
+}
+
+/// The value below which a share of all lies.
+static double percentile(const float *values, uint64_t count, double share) {
+    float *sorted = malloc(count * sizeof *sorted);
+    memcpy(sorted, values, count * sizeof *sorted);
+    qsort(sorted, count, sizeof *sorted, compare);
+    const double found = (double)sorted[(uint64_t)(share * (double)(count - 1))];
+    free(sorted);
+    return found;
+}
+
+/// Points of known surfaces, of any size; curvature is the other way where normals point to the other side.
+static void test_known_surfaces(void **state) {
+    static const double sizes[] = {1, 1e-18, 1e18};
+    ewa_context *context = check_context(2, NULL);
+    for (int k = 0; k < 3 * SHAPES; k++) {
+        const shape of = (shape)(k % SHAPES);
+        const double size = sizes[k / SHAPES];
+        ewa_cloud *cloud = make_points(context, of, size);
+        ewa_estimate_options options = check_estimate_options();
+        assert_int_equal(ewa_cloud_estimate(&cloud, &options), EWA_OK);
+        const float *found = check_stream(cloud, EWA_CURVATURE);
+        const double low = size * percentile(found, COUNT, 0.1), middle = size * percentile(found, COUNT, 0.5),
+                     high = size * percentile(found, COUNT, 0.9);
+        print_message("shape %d of %g: %.3f, %.3f, %.3f\n", (int)of, size, low, middle, high);
+        const double expected = of == SPHERE ? 2 : of == CYLINDER ? sqrt(2) : 0;
+        // Less by how far neighbours are apart; at the ends of a cylinder they are nearly on lines.
+        assert_true(fabs(middle - expected) <= (of == SADDLE ? 0.05 : 0.12 * expected));
+        if (of == SPHERE || of == CYLINDER) assert_true(low > 0.3 * expected && high < 1.1 * expected);
+        if (of == SADDLE) assert_true(low > -0.5 && high < 0.5);
+        if (of == PLANE || of == ROUGH_PLANE) assert_true(low == 0 && high == 0);
+        float *before = malloc(COUNT * sizeof *before), *normal = ewa_cloud_find(cloud, EWA_NORMAL)->data;
+        memcpy(before, found, COUNT * sizeof *before);
+        for (int i = 0; i < 3 * COUNT; i++) normal[i] *= -2; // of any length
+        options.keep_radii = false;
+        assert_int_equal(ewa_cloud_estimate(&cloud, &options), EWA_OK);
+        found = check_stream(cloud, EWA_CURVATURE);
+        assert_memory_equal(found, before, COUNT * sizeof *before); // kept, as the normals are
+        ewa_cloud_remove(cloud, EWA_CURVATURE);
+        assert_int_equal(ewa_cloud_estimate(&cloud, &options), EWA_OK);
+        found = check_stream(cloud, EWA_CURVATURE);
+        for (int i = 0; i < COUNT; i++)
+            assert_true(fabs((double)found[i] + (double)before[i]) * size <
+                        0.01 * fmax(1, fabs((double)before[i]) * size));
+        free(before);
+        ewa_cloud_destroy(&cloud);
+    }
+    ewa_context_destroy(&context);
+}
+
+/// Meshes and generated objects know as much, and a torus bends least where it is hollow.
+static void test_made_surfaces(void **state) {
+    ewa_context *context = check_context(0, NULL);
+    ewa_mesh mesh;
+    shape_sphere(context, 60, &mesh);
+    ewa_mesh_sample_options sampling;
+    ewa_mesh_sample_options_init(&sampling, sizeof sampling);
+    sampling.point_count = COUNT;
+    ewa_cloud *cloud = shape_sample(&mesh, &sampling);
+    ewa_mesh_free(&mesh);
+    const float *found = check_stream(cloud, EWA_CURVATURE);
+    const uint64_t count = ewa_cloud_point_count(cloud);
+    assert_true(percentile(found, count, 0.02) > 0.9 && percentile(found, count, 0.98) < 1.1);
+    ewa_cloud_destroy(&cloud);
+    for (int k = 0; k < 3; k++) {
+        ewa_generate_options options;
+        ewa_generate_options_init(&options, sizeof options);
+        options.point_count = COUNT;
+        options.size_world = 7;
+        options.object = k == 0 ? EWA_OBJECT_SPHERE : k == 1 ? EWA_OBJECT_TORUS : EWA_OBJECT_PLANE;
+        assert_int_equal(ewa_cloud_generate(context, &options, &cloud), EWA_OK);
+        if (k == 2) {
+            assert_null(ewa_cloud_find(cloud, EWA_CURVATURE));
+        } else {
+            found = check_stream(cloud, EWA_CURVATURE);
+            // A tube of radius 1 around a ring of 2.5.
+            const double least = k == 0 ? 2 / 7.0 : 1 - 1 / 1.5;
+            const double most = k == 0 ? 2 / 7.0 : sqrt((1 + 1 / 3.5 / 3.5) / 2);
+            assert_true(fabs(percentile(found, COUNT, 0) - least) < 0.01);
+            assert_true(fabs(percentile(found, COUNT, 1) - most) < 0.01);
+        }
+        ewa_cloud_destroy(&cloud);
+    }
+    ewa_context_destroy(&context);
+}
+
+/// Moved points bend as they are moved: by 1 / scale, and a mirror changes no sign, since normals stay outside.
+static void test_moved(void **state) {
+    ewa_context *context = check_context(0, NULL);
+    static const double mirror[16] = {0, -4, 0, 1, 4, 0, 0, 2, 0, 0, -4, 3, 0, 0, 0, 1};
+    ewa_generate_options options;
+    ewa_generate_options_init(&options, sizeof options);
+    options.object = EWA_OBJECT_SPHERE;
+    options.point_count = 100;
+    ewa_cloud *cloud = NULL;
+    assert_int_equal(ewa_cloud_generate(context, &options, &cloud), EWA_OK);
+    assert_int_equal(ewa_cloud_transform(cloud, mirror), EWA_OK);
+    const float *found = check_stream(cloud, EWA_CURVATURE), *place = check_stream(cloud, EWA_POSITION),
+                *normal = check_stream(cloud, EWA_NORMAL);
+    for (int i = 0; i < 100; i++) {
+        double outward = 0;
+        for (int c = 0; c < 3; c++) outward += (double)place[3 * i + c] * (double)normal[3 * i + c];
+        assert_true(fabs((double)found[i] - 0.25) < 1e-5 && outward > 0);
+    }
+    ewa_cloud_destroy(&cloud);
+    ewa_context_destroy(&context);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_known_surfaces),
+        cmocka_unit_test(test_made_surfaces),
+        cmocka_unit_test(test_moved),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
