@@ -206,6 +206,14 @@ static ewa_status measure_cloud(ewa_cloud *cloud, const ewa_neighbours *neighbou
     return status;
 }
 
+void ewa_curvature_drop_flat(ewa_cloud *cloud) {
+    const ewa_attribute *made = ewa_cloud_find(cloud, EWA_CURVATURE);
+    const float *values = made->data;
+    bool bends = false;
+    for (uint64_t i = 0; i < ewa_cloud_point_count(cloud) && !bends; i++) bends = values[i] != 0;
+    if (!bends) ewa_cloud_remove(cloud, EWA_CURVATURE);
+}
+
 ewa_status ewa_curvature_add(ewa_cloud *cloud) {
     ewa_neighbours *neighbours = NULL;
     void *points = NULL;
@@ -215,6 +223,9 @@ ewa_status ewa_curvature_add(ewa_cloud *cloud) {
                                               (uint32_t)ewa_cloud_point_count(cloud), &neighbours);
     if (status == EWA_OK) status = measure_cloud(cloud, neighbours, points);
     ewa_neighbours_destroy(&neighbours);
-    if (status != EWA_OK) ewa_cloud_remove(cloud, EWA_CURVATURE);
+    if (status == EWA_OK)
+        ewa_curvature_drop_flat(cloud);
+    else
+        ewa_cloud_remove(cloud, EWA_CURVATURE);
     return status;
 }

@@ -19,11 +19,14 @@ typedef struct curvature_input {
 /// or normals do not agree on a side. Errors: EWA_ERROR_MEMORY, EWA_CANCELLED.
 ewa_status ewa_curvature_measure(ewa_context *context, const curvature_input *input);
 
+/// Takes the stream "signed_curvature" away where it is 0 throughout.
+void ewa_curvature_drop_flat(ewa_cloud *cloud);
+
 /// Sets the unit normal of the first point of each place, 3 floats each; 0 where it has none.
 void ewa_curvature_read_normals(const ewa_cloud *cloud, const ewa_neighbours *neighbours, float *normals);
 
-/// Adds the stream "signed_curvature" to a cloud that has positions and normals. Errors: EWA_ERROR_MEMORY,
-/// EWA_CANCELLED.
+/// Adds the stream "signed_curvature" to a cloud that has positions and normals, if it bends somewhere. Errors:
+/// EWA_ERROR_MEMORY, EWA_CANCELLED.
 ewa_status ewa_curvature_add(ewa_cloud *cloud);
 
 #endif

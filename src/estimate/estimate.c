@@ -374,7 +374,7 @@ static void report_degenerate(ewa_context *context, const estimate_job *job) {
                    (unsigned long long)degenerate, job->place_count);
 }
 
-/// Adds the stream of curvatures, by the normals of places, estimated ones or those that the cloud has.
+/// Adds the stream of curvatures if there are any, by the normals of places, estimated ones or those that the cloud has.
 static ewa_status finish_curvature(ewa_cloud *cloud, estimate_job *job, bool has_gaps) {
     ewa_context *context = ewa_cloud_context(cloud);
     float *given = NULL;
@@ -387,6 +387,7 @@ static ewa_status finish_curvature(ewa_cloud *cloud, estimate_job *job, bool has
     const curvature_input input = {job->neighbours, (const uint32_t(*)[LOCAL_GRAPH_DEGREE])job->links,
                                    given ? given : job->normals, job->curvature_out};
     if (status == EWA_OK) status = ewa_curvature_measure(context, &input);
+    if (status == EWA_OK) ewa_curvature_drop_flat(cloud);
     ewa_release(context, given, job->place_count, 3 * sizeof *given);
     return status;
 }

@@ -16,12 +16,14 @@ static const float SIGNIFICANT_RATIO = 30, SADDLE_RATIO = 1.5f;
 // The square of what rounding changes of a normal, and the same of what is left where places are on a line.
 static const float NORMAL_ROUNDING2 = 1e-10f, LINE_SHARE = 1e-3f;
 static const float MIN_SAMPLES = 6; // the place itself among them
+static const float SMOOTH_COSINE = 0.5f; // of the angle of normals beyond which there is an edge
 
 /// Sums over a place and its neighbours, places less normals in the tangent plane, less their means.
 typedef struct bend_sums {
     wf count, xx, xy, yy; ///< of places
     wf nx, ny, mixed;     ///< n1 x1, n2 x2, and the mean of n1 x2 and n2 x1
     wf normal;            ///< of n n'
+    wm smooth;            ///< no neighbour is across an edge
 } bend_sums;
 
 static inline bend_sums sum_fans(const local_fans *fans) {
@@ -33,16 +35,18 @@ static inline bend_sums sum_fans(const local_fans *fans) {
     const vec u = {wf_add(wf_mul(wf_mul(sign, own.x), wf_mul(own.x, a)), one), wf_mul(sign, b),
                    wf_sub(zero, wf_mul(sign, own.x))};
     const vec v = {b, wf_add(wf_mul(wf_mul(own.y, own.y), a), sign), wf_sub(zero, own.y)};
-    bend_sums s = {one, zero, zero, zero, zero, zero, zero, zero};
+    bend_sums s = {one, zero, zero, zero, zero, zero, zero, zero, wf_le(zero, one)};
     wf sum_x = zero, sum_y = zero, sum_n1 = zero, sum_n2 = zero;
     for (int i = 0; i < LOCAL_GRAPH_DEGREE; i++) {
         const vec way = {wf_load(fans->way[i][0]), wf_load(fans->way[i][1]), wf_load(fans->way[i][2])};
         const vec other = {wf_load(fans->normal[i][0]), wf_load(fans->normal[i][1]), wf_load(fans->normal[i][2])};
         const wf along = v_dot(other, own);
+        const wm there = wf_lt(zero, v_dot(other, other));
+        s.smooth = wm_and(s.smooth, wm_or(wm_not(there), wf_le(wf_set(SMOOTH_COSINE), wf_abs(along))));
         const wf turn = wf_select(wf_lt(along, zero), wf_set(-1), one);
         const wf x = v_dot(way, u), y = v_dot(way, v);
         const wf n1 = wf_mul(turn, v_dot(other, u)), n2 = wf_mul(turn, v_dot(other, v));
-        s.count = wf_add(s.count, wf_keep(wf_lt(zero, v_dot(other, other)), one));
+        s.count = wf_add(s.count, wf_keep(there, one));
         sum_x = wf_add(sum_x, x), sum_y = wf_add(sum_y, y);
         sum_n1 = wf_add(sum_n1, n1), sum_n2 = wf_add(sum_n2, n2);
         s.xx = wf_add(s.xx, wf_mul(x, x)), s.xy = wf_add(s.xy, wf_mul(x, y)), s.yy = wf_add(s.yy, wf_mul(y, y));
@@ -67,7 +71,7 @@ static void fit_curvature(const local_fans *fans, float curvature[EWA_BLOCK_LANE
     // S is where A S + S A = 2 C with the sums A of places and C of both: (|A| C + adj(A) C adj(A)) / (|A| trace A).
     const wf trace = wf_add(s.xx, s.yy), det = wf_sub(wf_mul(s.xx, s.yy), wf_mul(s.xy, s.xy));
     const wm plane = wf_lt(wf_mul(wf_set(LINE_SHARE), wf_mul(trace, trace)), det);
-    wm known = wm_and(wf_le(wf_set(MIN_SAMPLES), s.count), plane);
+    wm known = wm_and(wm_and(wf_le(wf_set(MIN_SAMPLES), s.count), plane), s.smooth);
     const wf scale = wf_div(one, wf_select(known, wf_mul(det, trace), one));
     const wf p11 = wf_sub(wf_mul(s.yy, s.nx), wf_mul(s.xy, s.mixed));
     const wf p12 = wf_sub(wf_mul(s.yy, s.mixed), wf_mul(s.xy, s.ny));

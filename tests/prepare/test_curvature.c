@@ -66,6 +66,11 @@ static void test_known_surfaces(void **state) {
         ewa_cloud *cloud = make_points(context, of, size);
         ewa_estimate_options options = check_estimate_options();
         assert_int_equal(ewa_cloud_estimate(&cloud, &options), EWA_OK);
+        if (of == PLANE) { // flat throughout
+            assert_null(ewa_cloud_find(cloud, EWA_CURVATURE));
+            ewa_cloud_destroy(&cloud);
+            continue;
+        }
         const float *found = check_stream(cloud, EWA_CURVATURE);
         const double low = size * percentile(found, COUNT, 0.1), middle = size * percentile(found, COUNT, 0.5),
                      high = size * percentile(found, COUNT, 0.9);
@@ -75,7 +80,7 @@ static void test_known_surfaces(void **state) {
         assert_true(fabs(middle - expected) <= (of == SADDLE ? 0.05 : 0.12 * expected));
         if (of == SPHERE || of == CYLINDER) assert_true(low > 0.3 * expected && high < 1.1 * expected);
         if (of == SADDLE) assert_true(low > -0.5 && high < 0.5);
-        if (of == PLANE || of == ROUGH_PLANE) assert_true(low == 0 && high == 0);
+        if (of == ROUGH_PLANE) assert_true(low == 0 && high == 0);
         float *before = malloc(COUNT * sizeof *before), *normal = ewa_cloud_find(cloud, EWA_NORMAL)->data;
         memcpy(before, found, COUNT * sizeof *before);
         for (int i = 0; i < 3 * COUNT; i++) normal[i] *= -2; // of any length

@@ -102,6 +102,7 @@ static bool follow(void *user, const char *stage, double fraction) {
 static ewa_status sample_square(progress_log *log, uint64_t point_count, ewa_cloud **cloud) {
     ewa_context_options made;
     ewa_context_options_init(&made, sizeof made);
+    made.thread_count = 1; // which of several workers is done first decides how often is told
     made.progress = follow;
     made.progress_user = log;
     ewa_context *context = NULL;
