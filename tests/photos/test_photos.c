@@ -169,6 +169,40 @@ static void test_threads_and_order_change_no_byte(void **state) {
     }
 }
 
+/// What is held out is compared with and nothing else: other pictures there change no byte of the cloud.
+static void test_held_out_changes_no_byte(void **state) {
+    (void)state;
+    enum { BYTES = 5 * 1000 * sizeof(float) };
+    static uint8_t first[BYTES], other[BYTES];
+    ewa_context *context = check_context(2, NULL);
+    photo_scene *scene = photo_scene_make(context, 1000, 8, 80, 0.2, 0);
+    for (int method = 0; method < 4; method++) {
+        ewa_photos_options options = options_of((ewa_photos_method)method);
+        options.hold_out = 4;
+        ewa_photos_report as_it_is, spoilt;
+        ewa_photo_report per_photo[8];
+        color(scene, &options, &as_it_is, per_photo);
+        keep(scene->cloud, first);
+        ewa_image kept[8];
+        for (uint32_t i = 0; i < 8; i++) {
+            kept[i] = scene->images[i];
+            if (!per_photo[i].held_out) continue;
+            assert_int_equal(ewa_image_create(context, kept[i].width_px, kept[i].height_px, 4, &scene->images[i]), EWA_OK);
+            cover(scene, i, 40, 44, 30);
+        }
+        color(scene, &options, &spoilt, NULL);
+        keep(scene->cloud, other);
+        assert_memory_equal(first, other, BYTES);
+        assert_true(spoilt.psnr_db == as_it_is.psnr_db && spoilt.held_out_psnr_db < as_it_is.held_out_psnr_db - 5);
+        for (uint32_t i = 0; i < 8; i++) {
+            if (per_photo[i].held_out) ewa_image_free(&scene->images[i]);
+            scene->images[i] = kept[i];
+        }
+    }
+    photo_scene_free(&scene);
+    ewa_context_destroy(&context);
+}
+
 /// Colours of what is hidden, and of clouds without photographs on one side, stay.
 static void test_unseen_points_keep_their_colors(void **state) {
     (void)state;
@@ -288,6 +322,7 @@ int main(void) {
         cmocka_unit_test(test_exposure_is_needed),
         cmocka_unit_test(test_what_walks_by_is_rejected),
         cmocka_unit_test(test_threads_and_order_change_no_byte),
+        cmocka_unit_test(test_held_out_changes_no_byte),
         cmocka_unit_test(test_unseen_points_keep_their_colors),
         cmocka_unit_test(test_photographs_are_halved),
         cmocka_unit_test(test_bad_input_is_named),

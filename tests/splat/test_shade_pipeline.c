@@ -10,7 +10,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { SIDE_PX = 160, POINTS = 3000, MATERIALS = 3 };
+enum { SIDE_PX = 112, POINTS = 1500, MATERIALS = 3 };
 
 static const ewa_material TABLE[MATERIALS] = {
     {.ambient = 0.2f, .diffuse = 0.7f, .specular = 0.4f, .shininess = 12, .reflection = 0},
