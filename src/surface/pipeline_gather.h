@@ -180,7 +180,8 @@ static ALWAYS_INLINE void gather_block(const float *planes, wf weight, wi sums[3
 /// Adds to a sum of a surfel. Several tiles may do so at a time: whole numbers, in any order.
 static ALWAYS_INLINE void add_to_surfel(const ewa_tile *tile, uint32_t surfel, int c, int64_t sum) {
     int64_t *to = &tile->gather->sums[3 * (size_t)surfel + (size_t)c];
-    if (sum && tile->gather->shared[surfel / EWA_PACKET_LANES])
+    if (!sum) return; // adding 0 in two steps would undo what another tile adds in between
+    if (tile->gather->shared[surfel / EWA_PACKET_LANES])
         __atomic_fetch_add(to, sum, __ATOMIC_RELAXED);
     else
         *to += sum;
