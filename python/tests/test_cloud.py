@@ -63,6 +63,7 @@ class Arrays(Case):
         for name, first, width in (("position", 0, 3), ("normal", 3, 3), ("radius", 6, 1)):
             wide[:, first:first + width] = made[name].reshape(3000, width)
         strided = ewa.Cloud(wide[:, :3], normals=wide[:, 3:6], radius=wide[:, 6], colors=made["color"], copy=False)
+        strided["signed_curvature"] = made["signed_curvature"]
         camera = ewa.Camera.frame(made, size=(160, 90))
         a, b = (ewa.render(cloud, camera, planes="rgba").rgba for cloud in (made, strided))
         assert a is not None and b is not None

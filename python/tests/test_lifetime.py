@@ -144,7 +144,7 @@ class Interrupted(Case):
 
         with ewa.progress(inside), self.assertRaisesRegex(ewa.Error, "during its own call"):
             bare.estimate()
-        self.assertEqual(bare.estimate().keys(), ["position", "radius", "normal"])
+        self.assertEqual(bare.estimate().keys(), ["position", "radius", "normal", "signed_curvature"])
 
     def test_control_c(self) -> None:
         cloud = ewa.generate("terrain", 400000, positions_only=True)
