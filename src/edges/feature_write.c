@@ -6,6 +6,7 @@
 #include "cloud/border.h"
 #include "cloud/cloud.h"
 #include "edges/features.h"
+#include "estimate/curvature.h"
 #include "homogeneous/frame.h"
 
 #include <math.h>
@@ -282,6 +283,8 @@ ewa_status ewa_feature_write(ewa_cloud *cloud, const ewa_feature_options *option
                 drop_clips(cloud);
             if (status == EWA_OK && job.radius) ewa_cloud_remove(cloud, EWA_RADIUS);
             if (status == EWA_OK) ewa_cloud_remove(cloud, EWA_BORDER);
+            // It was measured across edges, by normals that turned round them.
+            if (status == EWA_OK && ewa_cloud_find(cloud, EWA_CURVATURE)) status = ewa_curvature_add(cloud);
         }
     }
     for (uint32_t task = 0; task < tasks && status == EWA_OK; task++) {

@@ -110,7 +110,7 @@ function write_gaussians(name, count) {
 ewa("generate", "torus", "-n", "6000", "--positions-only", "-o", "bare.ply");
 ewa("generate", "terrain", "-n", "20000", "-o", "terrain.laz");
 ewa("generate", "vessels", "--dims", "32", "-o", "vessels.nrrd");
-ewa("convert", "terrain.laz", "-o", "terrain.copc.laz");
+ewa("lod", "terrain.laz", "-o", "terrain.copc.laz");
 write_gaussians("spiral.ply", 800);
 writeFileSync(join(scratch, "scene.json"), JSON.stringify({
   ewa_scene: 1, options: { render: { opacity: 0.6 } },
