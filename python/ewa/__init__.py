@@ -18,7 +18,8 @@ from ._errors import (ArgumentError, Cancelled, ClosedError, Error, EwaWarning, 
 from ._library import version
 from .adapters import as_cloud, from_laspy, from_open3d, from_pyvista, from_trimesh
 from .camera import Camera, CameraPath, cameras, save_cameras
-from .cloud import Cloud, csg, generate, merge
+from .cloud import Cloud, generate
+from .combining import csg, merge
 from .gaussians import Gaussians, Splats, read_gaussians, render_gaussians
 from .gradients import CameraGradient, Gradients, render_backward
 from .image import Image, read_depth, read_image, save_image

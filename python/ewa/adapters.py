@@ -10,7 +10,8 @@ import numpy as np
 from ._context import Context
 from ._errors import ArgumentError
 from ._scene import is_path
-from .cloud import Cloud, cloud_of
+from .cloud import Cloud
+from .combining import cloud_of
 
 
 def _package(value: Any) -> str:

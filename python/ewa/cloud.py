@@ -14,7 +14,6 @@ from ._context import Context, Core, Handle, Pin, core_of
 from ._errors import ArgumentError, ClosedError
 from ._library import functions as lib
 from ._library import library
-from ._scene import is_path
 from ._struct import fill, initialised, numbers, path_bytes, text_bytes
 from .camera import Camera, PathLike
 from .photographs import PhotosReport
@@ -569,27 +568,8 @@ def _borrowed(core: Core, streams: Mapping[str, Array], count: int) -> Handle:
     return handle
 
 
-def cloud_of(thing: Any, label: str = "cloud") -> Cloud:
-    """A cloud, or what :func:`read` makes of a path."""
-    if is_path(thing):
-        from .mesh import read
-
-        return read(thing)
-    if not isinstance(thing, Cloud):
-        raise TypeError(f"{label}: an ewa.Cloud or a path, not {type(thing).__name__}")
-    return thing
-
-
-def merge(clouds: Sequence[Cloud | PathLike]) -> Cloud:
-    """Return one cloud of several of one context, or of files; streams that only some have are filled.
-
-    Raises
-    ------
-    ArgumentError, FileError, FormatError, OutOfMemory
-    """
-    if not clouds:
-        raise ArgumentError("clouds: there is none")
-    parts = [cloud_of(cloud, "clouds") for cloud in clouds]
+def merge_clouds(parts: Sequence[Cloud]) -> Cloud:
+    """One cloud of several of one context, of which there is one."""
     core = parts[0]._core
     count = len(parts)
 
@@ -598,31 +578,6 @@ def merge(clouds: Sequence[Cloud | PathLike]) -> Cloud:
         return status
 
     return Cloud._made(core, run, *[cloud._h for cloud in parts])
-
-
-def csg(a: Cloud | PathLike, other: Cloud | PathLike, operation: str = "union", *, cutoff: float = 3) -> Cloud:
-    """Combine two closed solids of surfels, with clip lines where their surfaces meet.
-
-    Normals and radii that they lack are estimated.
-
-    Parameters
-    ----------
-    a, other : Cloud or path
-        Of one context, normals outward.
-    operation : {"union", "intersection", "difference"}, optional
-        "difference": `a` without `other`.
-    cutoff : float, optional
-        Standard deviations at which kernels end, in (0, 4].
-
-    Raises
-    ------
-    ArgumentError
-        An operand is not closed.
-    """
-    made = initialised(b.ewa_csg_options, lib.ewa_csg_options_init)
-    fill(made, "ewa_csg_options", {"operation": operation, "cutoff": cutoff})
-    first, second = (cloud_of(cloud)._completed() for cloud in (a, other))
-    return Cloud._made(first._core, lib.ewa_cloud_csg, first._h, second._h, ctypes.byref(made))
 
 
 def generate(object: str = "plane", point_count: int = 100000, *, context: Context | None = None,

@@ -14,7 +14,8 @@ from ._errors import ArgumentError
 from ._library import functions as lib
 from ._struct import fill, initialised
 from .camera import Camera, PathLike
-from .cloud import Cloud, cloud_of
+from .cloud import Cloud
+from .combining import cloud_of
 from .image import Color
 from .rendering import PLANES, options_of
 from .shade import Light

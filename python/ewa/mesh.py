@@ -16,7 +16,7 @@ from ._errors import ArgumentError, ClosedError, FormatError
 from ._library import functions as lib
 from ._struct import fill, initialised, path_bytes
 from .camera import PathLike
-from .cloud import Cloud, merge
+from .cloud import Cloud, merge_clouds
 from .octree import Octree, is_folder
 
 if TYPE_CHECKING:
@@ -237,8 +237,8 @@ def read(path: PathLike, *more: PathLike, filter: str | Sequence[str] | None = N
     FileError, FormatError, OutOfMemory
     """
     if more:
-        merged = merge([read(one, filter=filter, vertices=vertices, keep_going=keep_going, attributes=attributes,
-                             columns=columns, heights=heights, context=context) for one in (path, *more)])
+        merged = merge_clouds([read(one, filter=filter, vertices=vertices, keep_going=keep_going, attributes=attributes,
+                                    columns=columns, heights=heights, context=context) for one in (path, *more)])
         merged._name = _name_of([path, *more])
         return merged
     core = core_of(context)
