@@ -252,12 +252,23 @@ static void hold_stop(uint32_t threads, bool foreign_executor) {
     ewa_renderer *renderer = NULL;
     assert_int_equal(ewa_renderer_create(context, &renderer), EWA_OK);
     picture first = picture_make(512, 512), other = picture_make(512, 512);
-    assert_int_equal(ewa_render(renderer, surfels, &of.camera, NULL, &first.frame, NULL), EWA_OK);
-    assert_true(self.reports >= 3 && self.last == 1);
+    // Of several threads the one that calls, which reports, may have got fewer tiles: then once more.
+    enum { TRIES = 50 };
+    for (int i = 0; i < TRIES && self.reports < 3; i++) {
+        self.reports = 0;
+        assert_int_equal(ewa_render(renderer, surfels, &of.camera, NULL, &first.frame, NULL), EWA_OK);
+        assert_true(self.last == 1);
+    }
+    assert_true(self.reports >= 3);
     for (int at = 1; at <= 3; at++) {
-        self.reports = 0, self.stop_at = at;
-        assert_int_equal(ewa_render(renderer, surfels, &of.camera, NULL, &other.frame, NULL), EWA_CANCELLED);
-        assert_int_equal(self.reports, at);
+        ewa_status status = EWA_OK;
+        self.stop_at = at;
+        for (int i = 0; i < TRIES && status == EWA_OK; i++) {
+            self.reports = 0;
+            status = ewa_render(renderer, surfels, &of.camera, NULL, &other.frame, NULL);
+            assert_true(self.reports == at || status == EWA_OK);
+        }
+        assert_int_equal(status, EWA_CANCELLED);
     }
     // The renderer is as good as new.
     self.stop_at = 0;
