@@ -14,6 +14,7 @@
 #   make arm64                  the same for 64-bit Arm, under an emulator
 #   make wasm                   WebAssembly: the bytes of the program under node, and the module that a page loads
 #   make windows                Windows on x86-64: the bytes of the program under wine
+#   make macos                  macOS on both of its processors: compiled and linked; nothing of it can be run elsewhere
 #   make riscv64 musl           programs without any library for RISC-V (under an emulator) and for every x86-64 Linux
 #   make mutate                 breaks the library on purpose and says what the tests notice (hours)
 #   make bench sweep            figures of docs/performance.md: build/bench.json and tables; docs/sweep.png and slopes;
@@ -48,7 +49,7 @@ export CCACHE_BASEDIR ?= $(CURDIR)
 export CCACHE_NOHASHDIR ?= 1
 endif
 
-.PHONY: minimal wasm windows riscv64 musl interop build program measure setup demo check check-all asan asan-build tsan tsan-build clang clang-build mutate fuzz arm64 bench sweep gallery papers docs wheel format install clean
+.PHONY: minimal wasm windows macos riscv64 musl interop build program measure setup demo check check-all asan asan-build tsan tsan-build clang clang-build mutate fuzz arm64 bench sweep gallery papers docs wheel format install clean
 
 build: setup
 	@echo "Building build/release"
@@ -166,6 +167,16 @@ windows: program
 	@sh tools/hash_jobs.sh sh $(CURDIR)/tools/wine.sh $(CURDIR)/build/windows/cli/ewa.exe >build/hashes-windows.tsv
 	diff build/hashes-here.tsv build/hashes-windows.tsv && echo "20 jobs: the same bytes"
 	@sh tools/windows_files.sh $(CURDIR)/$(EWA) $(CURDIR)/build/windows/cli/ewa.exe
+
+# macOS: what can be had of it without one, programs and libraries that link.
+macos: setup
+	@sh tools/zig.sh aarch64-macos x86_64-macos
+	@for target in aarch64-macos x86_64-macos; do \
+	  sh tools/dependencies.sh $$target || exit 1; \
+	  echo "Building build/$$target"; \
+	  { cmake --preset $$target && cmake --build build/$$target -j $(JOBS) --target ewa ewa_shared; } >build/log-$$target.txt 2>&1 || { cat build/log-$$target.txt; exit 1; }; \
+	done
+	@echo "build/aarch64-macos/cli/ewa and build/x86_64-macos/cli/ewa: not run here"
 
 # Other Linux, without any library: RISC-V under an emulator, and one static file for x86-64.
 riscv64 musl: program

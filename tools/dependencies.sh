@@ -2,8 +2,9 @@
 # SPDX-FileCopyrightText: 2026 The ewa authors
 # SPDX-License-Identifier: MIT
 #
-# Builds zlib, libdeflate, cJSON, zstd and libspng from Debian's source packages as static libraries for a target that has no
-# packages, into build/sysroot/TARGET; nothing is installed, and nothing of them is copied into the tree.
+# Builds zlib, libdeflate, cJSON, zstd and libspng (but for WebAssembly bzip2, expat, libwebp, libjpeg-turbo, OpenEXR and cmocka too)
+# from Debian's source packages as static libraries for a target that has no packages, into build/sysroot/TARGET; nothing is
+# installed, and nothing of them is copied into the tree.
 #   tools/dependencies.sh wasm32-wasi [FLAG...]     by the compiler of tools/zig.sh
 set -eu
 target=$1
@@ -12,10 +13,8 @@ root=$(cd "$(dirname "$0")/.." && pwd)/build
 bin=$root/zig/bin
 sources=$root/sources
 prefix=$root/sysroot/$target
-further=
-case $target in
-*-windows-*) further="bzip2=1.0.8-5 expat=2.5.0-1+deb12u2 libwebp=1.2.4-0.2+deb12u1 libjpeg-turbo=1:2.1.5-2 openexr=3.1.5-5 imath=3.1.6-1 cmocka=1.1.5-2.1 musl=1.2.3-1" ;;
-esac
+further="bzip2=1.0.8-5 expat=2.5.0-1+deb12u2 libwebp=1.2.4-0.2+deb12u1 libjpeg-turbo=1:2.1.5-2 openexr=3.1.5-5 imath=3.1.6-1 cmocka=1.1.5-2.1 musl=1.2.3-1"
+case $target in wasm*) further= ;; esac
 packages="zlib=1:1.2.13.dfsg-1 libdeflate=1.14-1 cjson=1.7.15-1+deb12u4 libzstd=1.5.4+dfsg2-5 libspng=0.7.3-3"
 # For a page, what is small in place of what is fast; of zstd as its README says.
 level=-O2 small=
@@ -72,7 +71,8 @@ library() {
 more="$*"
 cd "$sources"/zlib-*/
 cp zlib.h zconf.h "$prefix/include"
-library z zlib 1.2.13 "" "" adler32.c compress.c crc32.c deflate.c inffast.c inflate.c inftrees.c trees.c uncompr.c zutil.c
+# A macro of macOS makes this zlib believe in a system before it, where streams had no descriptors.
+library z zlib 1.2.13 "" -Dfdopen=fdopen adler32.c compress.c crc32.c deflate.c inffast.c inflate.c inftrees.c trees.c uncompr.c zutil.c
 cd "$sources"/libdeflate-*/
 cp libdeflate.h "$prefix/include"
 library deflate libdeflate 1.14 "" "-I." lib/adler32.c lib/crc32.c lib/deflate_compress.c lib/deflate_decompress.c lib/gzip_compress.c \
@@ -92,18 +92,29 @@ library spng spng 0.7.3 zlib "$seen" spng/spng.c
 if [ -n "$further" ]; then
     sources=$root/sources_further
     seen=
-    # Functions that Windows would take from its own library, which each version rounds as it likes; the toolchain names the library, so that it comes first.
-    cd "$sources"/musl-*/
-    printf '#define __LITTLE_ENDIAN 1\n#define __BYTE_ORDER 1\n' >"$prefix/objects/endian.h"
-    : >"$prefix/objects/features.h"
-    library musl_math musl_math 1.2.3 "" "-Isrc/internal -Iarch/generic -I$prefix/objects -Dhidden=" src/math/acos.c src/math/asin.c src/math/atan.c src/math/atan2.c \
-        src/math/cbrt.c src/math/hypot.c src/math/pow.c src/math/pow_data.c src/math/exp_data.c src/math/__math_*.c
+    # Functions that Windows and macOS would take from their own library, which each version rounds as it likes; the toolchain names
+    # the library, so that it comes first.
+    math="acos asin atan atan2 cbrt hypot pow pow_data exp_data __math_divzero __math_divzerof __math_invalid __math_invalidf __math_invalidl
+        __math_oflow __math_oflowf __math_uflow __math_uflowf __math_xflow __math_xflowf"
+    case $target in
+    *-macos) math="$math cos exp log log10 log2 log2_data log_data sin tan __cos __rem_pio2 __rem_pio2_large __sin __tan scalbn" ;;
+    *-windows-*) ;;
+    *) math= ;;
+    esac
+    if [ -n "$math" ]; then
+        cd "$sources"/musl-*/
+        printf '#define __LITTLE_ENDIAN 1\n#define __BYTE_ORDER 1\n' >"$prefix/objects/endian.h"
+        : >"$prefix/objects/features.h"
+        # shellcheck disable=SC2046
+        library musl_math musl_math 1.2.3 "" "-fvisibility=hidden -Isrc/internal -Iarch/generic -I$prefix/objects -Dhidden=" \
+            $(printf 'src/math/%s.c ' $math)
+    fi
     cd "$sources"/bzip2-*/
     sed 's/^#ifdef _WIN32/#if 0 \/* a static library *\//' bzlib.h >"$prefix/include/bzlib.h" # else it declares pointers into a DLL
     library bz2 bzip2 1.0.8 "" "-include $prefix/include/bzlib.h" blocksort.c huffman.c crctable.c randtable.c compress.c decompress.c bzlib.c
     cd "$sources"/expat-*/expat
     cp lib/expat.h lib/expat_external.h "$prefix/include"
-    printf '#define BYTEORDER 1234\n#define HAVE_MEMMOVE 1\n#define XML_NS 1\n#define XML_DTD 1\n#define XML_CONTEXT_BYTES 1024\n' >lib/expat_config.h
+    printf '#define BYTEORDER 1234\n#define HAVE_MEMMOVE 1\n#define XML_NS 1\n#define XML_DTD 1\n#define XML_CONTEXT_BYTES 1024\n#ifdef __APPLE__\n#define HAVE_ARC4RANDOM_BUF 1\n#elif !defined(_WIN32)\n#define XML_DEV_URANDOM 1\n#endif\n' >lib/expat_config.h
     seen=-DXML_STATIC
     library expat expat 2.5.0 "" "$seen -Ilib" lib/xmlparse.c lib/xmlrole.c lib/xmltok.c
     seen=
@@ -134,7 +145,8 @@ set_target_properties(OpenEXR::OpenEXRCore PROPERTIES IMPORTED_LOCATION "${prefi
 CONFIG
     cd "$sources"/cmocka-*/
     cp include/cmocka*.h "$prefix/include"
-    library cmocka cmocka 1.1.5 "" "-Iinclude -DHAVE_SIGNAL_H -DHAVE_STRUCT_TIMESPEC -DHAVE_INTTYPES_H -DHAVE_STDINT_H -DHAVE_IO_H -DHAVE_MALLOC_H -DHAVE_STRINGS_H -DHAVE_TIME_H" src/cmocka.c
+    case $target in *-windows-*) has="-DHAVE_IO_H -DHAVE_MALLOC_H" ;; *) has=-DHAVE_UNISTD_H ;; esac
+    library cmocka cmocka 1.1.5 "" "-Iinclude -DHAVE_SIGNAL_H -DHAVE_STRUCT_TIMESPEC -DHAVE_INTTYPES_H -DHAVE_STDINT_H $has -DHAVE_STRINGS_H -DHAVE_TIME_H" src/cmocka.c
 fi
 rm -rf "$prefix/objects"
 echo "$wanted" >"$prefix/.complete"
