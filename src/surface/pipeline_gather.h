@@ -132,6 +132,7 @@ static ALWAYS_INLINE gathered_splat gather_start(const ewa_sorted_run *run, uint
 /// The kernel of a splat in a block, 0 where it does not count; false: nowhere.
 static ALWAYS_INLINE bool gather_weight(const ewa_view *view, const ewa_tile *tile, const gathered_splat *splat,
                                         const column_terms *c, wf dy, uint32_t row, uint32_t column, wf *weight) {
+    if (!(tile->gather->rows[row] >> column & 1)) return false;
     const ewa_record *r = splat->record;
     const wf s = block_exponent(r, c, dy), plane = wf_fma(wf_set(r->key_y), dy, c->key);
     const wf key = box_steep(r->box) ? clamped_key(r, plane) : plane;
@@ -234,7 +235,6 @@ static void gather(const ewa_view *view, const ewa_tile *tile, const ewa_sorted_
             wf dy = wf_add(lanes_y(), wf_set(r->offset_y)), weight;
             for (uint32_t n = 0; n < ewa_box_rows(r->box); n++, dy = wf_add(dy, wf_set(EWA_BLOCK_PX))) {
                 const uint32_t row = box_row(r->box) + n;
-                if (!(tile->gather->rows[row] >> column & 1)) continue;
                 if (!gather_weight(view, tile, &splat, &c, dy, row, column, &weight)) continue;
                 gather_block(gather_planes(tile, row, column) + splat.side, weight, sums);
                 any = true;
@@ -286,7 +286,6 @@ static void spread(const ewa_view *view, const ewa_tile *tile, const ewa_sorted_
             wf dy = wf_add(lanes_y(), wf_set(r->offset_y)), weight;
             for (uint32_t n = 0; n < ewa_box_rows(r->box); n++, dy = wf_add(dy, wf_set(EWA_BLOCK_PX))) {
                 const uint32_t row = box_row(r->box) + n;
-                if (!(tile->gather->rows[row] >> column & 1)) continue;
                 if (gather_weight(view, tile, &splat, &c, dy, row, column, &weight))
                     spread_block(tile, run->surfels[run->order[i]], row, column, splat.side, weight);
             }

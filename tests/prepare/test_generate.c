@@ -3,9 +3,9 @@
 //
 // Tests of ewa_cloud_generate(): the objects' geometry against closed forms, evenness and cover of the
 // sampling, the same bytes for every thread count and machine, refused options, failing allocations.
-#include "check.h"
 #include "generate/generate.h"
 #include "math/generate_number.h"
+#include "prepare/check_generated.h"
 
 #include <float.h>
 #include <math.h>
@@ -17,36 +17,10 @@
 
 enum { OBJECT_COUNT = EWA_OBJECT_TERRAIN + 1 };
 
-static ewa_generate_options options_of(ewa_object object, uint64_t point_count) {
-    ewa_generate_options options;
-    ewa_generate_options_init(&options, sizeof options);
-    options.object = object;
-    options.point_count = point_count;
-    return options;
-}
-
-static ewa_cloud *generate(ewa_context *context, const ewa_generate_options *options) {
-    ewa_cloud *cloud = NULL;
-    assert_int_equal(ewa_cloud_generate(context, options, &cloud), EWA_OK);
-    return cloud;
-}
-
 static const void *data_of(const ewa_cloud *cloud, const char *name) {
     const ewa_attribute *attribute = ewa_cloud_find(cloud, name);
     assert_non_null(attribute);
     return attribute->data;
-}
-
-/// FNV-1a over all attributes.
-static uint64_t hash_cloud(const ewa_cloud *cloud) {
-    uint64_t hash = 0xcbf29ce484222325u;
-    for (uint32_t a = 0; a < ewa_cloud_attribute_count(cloud); a++) {
-        const ewa_attribute *attribute = ewa_cloud_attribute_at(cloud, a);
-        const uint8_t *bytes = attribute->data;
-        const size_t size = attribute->stride_bytes * (size_t)ewa_cloud_point_count(cloud);
-        for (size_t i = 0; i < size; i++) hash = (hash ^ bytes[i]) * 0x100000001b3u;
-    }
-    return hash;
 }
 
 static double length_of(const double v[3]) { return sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
@@ -75,8 +49,8 @@ static void test_counts_and_attributes(void **state) {
     ewa_context *context = check_context(2, NULL);
     for (int object = 0; object < OBJECT_COUNT; object++) {
         for (size_t c = 0; c < sizeof counts / sizeof counts[0]; c++) {
-            ewa_generate_options options = options_of((ewa_object)object, counts[c]);
-            ewa_cloud *cloud = generate(context, &options);
+            ewa_generate_options options = check_generate_options((ewa_object)object, counts[c]);
+            ewa_cloud *cloud = check_generated(context, &options);
             assert_int_equal(ewa_cloud_point_count(cloud), counts[c]);
             const bool bends = object == EWA_OBJECT_SPHERE || object == EWA_OBJECT_TORUS;
             assert_int_equal(ewa_cloud_attribute_count(cloud), 4 + bends);
@@ -90,9 +64,9 @@ static void test_counts_and_attributes(void **state) {
             }
             ewa_cloud_destroy(&cloud);
         }
-        ewa_generate_options options = options_of((ewa_object)object, 100);
+        ewa_generate_options options = check_generate_options((ewa_object)object, 100);
         options.positions_only = true;
-        ewa_cloud *cloud = generate(context, &options);
+        ewa_cloud *cloud = check_generated(context, &options);
         assert_int_equal(ewa_cloud_attribute_count(cloud), 2);
         assert_null(ewa_cloud_find(cloud, EWA_NORMAL));
         assert_null(ewa_cloud_find(cloud, EWA_RADIUS));
@@ -128,9 +102,9 @@ static void check_on_surface(ewa_object object, double size, const float *positi
 static void test_positions_and_normals(void **state) {
     ewa_context *context = check_context(2, NULL);
     for (int object = 0; object < EWA_OBJECT_TERRAIN; object++) {
-        ewa_generate_options options = options_of((ewa_object)object, 10000);
+        ewa_generate_options options = check_generate_options((ewa_object)object, 10000);
         options.size_world = 5;
-        ewa_cloud *cloud = generate(context, &options);
+        ewa_cloud *cloud = check_generated(context, &options);
         const float *position = data_of(cloud, EWA_POSITION), *normal = data_of(cloud, EWA_NORMAL);
         for (uint64_t i = 0; i < 10000; i++)
             check_on_surface((ewa_object)object, 5, &position[3 * i], &normal[3 * i]);
@@ -159,9 +133,9 @@ static void test_terrain_normals_are_its_derivatives(void **state) {
 static void test_terrain_has_land_water_and_upward_unit_normals(void **state) {
     ewa_context *context = check_context(2, NULL);
     for (uint64_t seed = 0; seed < 5; seed++) {
-        ewa_generate_options options = options_of(EWA_OBJECT_TERRAIN, 50000);
+        ewa_generate_options options = check_generate_options(EWA_OBJECT_TERRAIN, 50000);
         options.seed = seed;
-        ewa_cloud *cloud = generate(context, &options);
+        ewa_cloud *cloud = check_generated(context, &options);
         const float *position = data_of(cloud, EWA_POSITION), *normal = data_of(cloud, EWA_NORMAL);
         uint64_t water = 0;
         double highest = 0;
@@ -220,10 +194,10 @@ static void test_discs_cover_every_place(void **state) {
     for (int object = 0; object < OBJECT_COUNT; object++) {
         for (int jittered = 0; jittered < 2; jittered++) {
             const uint64_t count = 8000;
-            ewa_generate_options options = options_of((ewa_object)object, count);
+            ewa_generate_options options = check_generate_options((ewa_object)object, count);
             options.jitter = 0.5 * jittered;
             options.radius_scale = jittered ? 1.2 : 0.8;
-            ewa_cloud *cloud = generate(context, &options);
+            ewa_cloud *cloud = check_generated(context, &options);
             ewa_terrain terrain;
             ewa_terrain_init(&terrain, options.seed, count);
             const float *position = data_of(cloud, EWA_POSITION), *radius = data_of(cloud, EWA_RADIUS);
@@ -261,10 +235,10 @@ static void test_density_is_even(void **state) {
     ewa_context *context = check_context(2, NULL);
     for (size_t o = 0; o < sizeof objects / sizeof objects[0]; o++) {
         for (uint64_t seed = 0; seed < 4; seed++) {
-            ewa_generate_options options = options_of(objects[o], 64 * 997);
+            ewa_generate_options options = check_generate_options(objects[o], 64 * 997);
             options.seed = seed;
             options.jitter = 1;
-            ewa_cloud *cloud = generate(context, &options);
+            ewa_cloud *cloud = check_generated(context, &options);
             const float *position = data_of(cloud, EWA_POSITION);
             double counts[64] = {0}, chi_square = 0;
             for (uint64_t i = 0; i < options.point_count; i++)
@@ -280,10 +254,10 @@ static void test_density_is_even(void **state) {
 
 static void test_regular_grid(void **state) {
     ewa_context *context = check_context(1, NULL);
-    ewa_generate_options options = options_of(EWA_OBJECT_PLANE, 16);
+    ewa_generate_options options = check_generate_options(EWA_OBJECT_PLANE, 16);
     options.jitter = 0;
     options.radius_scale = 1;
-    ewa_cloud *cloud = generate(context, &options);
+    ewa_cloud *cloud = check_generated(context, &options);
     const float *position = data_of(cloud, EWA_POSITION), *radius = data_of(cloud, EWA_RADIUS);
     for (int i = 0; i < 16; i++) {
         assert_true(position[3 * i] == -0.75f + 0.5f * (float)(i % 4));
@@ -296,9 +270,9 @@ static void test_regular_grid(void **state) {
 
 static void test_checks(void **state) {
     ewa_context *context = check_context(1, NULL);
-    ewa_generate_options options = options_of(EWA_OBJECT_CHECKER, 10000);
+    ewa_generate_options options = check_generate_options(EWA_OBJECT_CHECKER, 10000);
     options.checks = 5;
-    ewa_cloud *cloud = generate(context, &options);
+    ewa_cloud *cloud = check_generated(context, &options);
     const float *position = data_of(cloud, EWA_POSITION);
     const uint8_t *color = data_of(cloud, EWA_COLOR);
     for (int i = 0; i < 10000; i++) {
@@ -317,16 +291,16 @@ static void test_same_bytes_for_every_thread_count(void **state) {
         uint64_t first = 0;
         for (size_t t = 0; t < sizeof threads / sizeof threads[0]; t++) {
             ewa_context *context = check_context(threads[t], NULL);
-            ewa_generate_options options = options_of((ewa_object)object, 54321);
-            ewa_cloud *cloud = generate(context, &options);
-            const uint64_t hash = hash_cloud(cloud);
+            ewa_generate_options options = check_generate_options((ewa_object)object, 54321);
+            ewa_cloud *cloud = check_generated(context, &options);
+            const uint64_t hash = check_cloud_hash(cloud);
             if (t == 0) first = hash;
             assert_true(hash == first);
             ewa_cloud_destroy(&cloud);
             if (t == 0) {
                 options.seed = 2;
-                cloud = generate(context, &options);
-                assert_true(hash_cloud(cloud) != first);
+                cloud = check_generated(context, &options);
+                assert_true(check_cloud_hash(cloud) != first);
                 ewa_cloud_destroy(&cloud);
             }
             ewa_context_destroy(&context);
@@ -342,11 +316,11 @@ static void test_bytes_are_known(void **state) {
     int wrong = 0;
     ewa_context *context = check_context(0, NULL);
     for (int object = 0; object < OBJECT_COUNT; object++) {
-        ewa_generate_options options = options_of((ewa_object)object, 10007);
+        ewa_generate_options options = check_generate_options((ewa_object)object, 10007);
         options.seed = 42;
         options.radius_scale = EWA_DEFAULT_RADIUS_SCALE;
-        ewa_cloud *cloud = generate(context, &options);
-        const uint64_t hash = hash_cloud(cloud);
+        ewa_cloud *cloud = check_generated(context, &options);
+        const uint64_t hash = check_cloud_hash(cloud);
         ewa_cloud_destroy(&cloud);
         if (hash == known[object]) continue;
         print_error("object %d: 0x%016llx\n", object, (unsigned long long)hash);
@@ -367,7 +341,7 @@ static void check_refused(ewa_context *context, const check_log *log, const ewa_
 static void test_bad_options(void **state) {
     check_log log = {0};
     ewa_context *context = check_context(1, &log);
-    const ewa_generate_options good = options_of(EWA_OBJECT_CHECKER, 10);
+    const ewa_generate_options good = check_generate_options(EWA_OBJECT_CHECKER, 10);
     static const double bad[] = {NAN, INFINITY, -INFINITY, -1, 0, 1e300, 1e-300};
     for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
         ewa_generate_options options = good;
@@ -404,10 +378,10 @@ static void test_extreme_sizes_stay_finite(void **state) {
     static const double sizes[] = {1e-25, 1e25}, scales[] = {1e-6, 1e6};
     for (int object = 0; object < OBJECT_COUNT; object++) {
         for (int i = 0; i < 4; i++) {
-            ewa_generate_options options = options_of((ewa_object)object, 1000);
+            ewa_generate_options options = check_generate_options((ewa_object)object, 1000);
             options.size_world = sizes[i & 1];
             options.radius_scale = scales[i >> 1];
-            ewa_cloud *cloud = generate(context, &options);
+            ewa_cloud *cloud = check_generated(context, &options);
             const float *radius = data_of(cloud, EWA_RADIUS);
             for (int k = 0; k < 1000; k++) assert_true(radius[k] >= FLT_MIN && radius[k] <= FLT_MAX);
             ewa_cloud_destroy(&cloud);
@@ -417,25 +391,8 @@ static void test_extreme_sizes_stay_finite(void **state) {
 }
 
 static void test_every_failing_allocation(void **state) {
-    for (int fail_at = 0;; fail_at++) {
-        check_memory memory = {.calls_left = -1};
-        ewa_context *context = check_context_on(0, &memory);
-        const int64_t before = memory.held_bytes;
-        memory.calls_left = fail_at;
-        const ewa_generate_options options = options_of(EWA_OBJECT_TORUS, 1000);
-        ewa_cloud *cloud = NULL;
-        const ewa_status status = ewa_cloud_generate(context, &options, &cloud);
-        const bool failed = memory.calls_left < 0;
-        assert_int_equal(status, failed ? EWA_ERROR_MEMORY : EWA_OK);
-        ewa_cloud_destroy(&cloud);
-        assert_int_equal(memory.held_bytes, before);
-        ewa_context_destroy(&context);
-        assert_int_equal(memory.held_bytes, 0);
-        if (!failed) {
-            assert_in_range(fail_at, 5, 20); // the cloud, four streams, their table
-            break;
-        }
-    }
+    const ewa_generate_options options = check_generate_options(EWA_OBJECT_TORUS, 1000);
+    check_generate_without_memory(&options);
 }
 
 static bool cancel(void *user, const char *stage, double fraction) {
@@ -450,7 +407,7 @@ static void test_progress_cancels(void **state) {
     context_options.progress = cancel;
     ewa_context *context = NULL;
     assert_int_equal(ewa_context_create(&context_options, &context), EWA_OK);
-    const ewa_generate_options options = options_of(EWA_OBJECT_PLANE, 1000);
+    const ewa_generate_options options = check_generate_options(EWA_OBJECT_PLANE, 1000);
     ewa_cloud *cloud = NULL;
     assert_int_equal(ewa_cloud_generate(context, &options, &cloud), EWA_CANCELLED);
     assert_null(cloud);
@@ -461,7 +418,7 @@ static void test_sharp_objects(void **state) {
     check_log log = {.count = 0};
     ewa_context *context = check_context(0, &log);
     for (int object = 0; object <= EWA_OBJECT_CSG; object++) {
-        ewa_generate_options options = options_of((ewa_object)object, 7000);
+        ewa_generate_options options = check_generate_options((ewa_object)object, 7000);
         options.sharp = true;
         ewa_cloud *cloud = NULL;
         const bool has_edges = object == EWA_OBJECT_CUBE || object == EWA_OBJECT_CSG;
@@ -486,12 +443,12 @@ static void test_sharp_objects(void **state) {
         assert_true((either > 0) == (object == EWA_OBJECT_CSG));
         ewa_cloud_destroy(&cloud);
         options.sharp = false;
-        cloud = generate(context, &options);
+        cloud = check_generated(context, &options);
         assert_null(ewa_cloud_find(cloud, EWA_CLIP0));
         assert_non_null(ewa_cloud_find(cloud, EWA_RADIUS));
         ewa_cloud_destroy(&cloud);
     }
-    ewa_generate_options few = options_of(EWA_OBJECT_CSG, 100);
+    ewa_generate_options few = check_generate_options(EWA_OBJECT_CSG, 100);
     ewa_cloud *cloud = NULL;
     assert_int_equal(ewa_cloud_generate(context, &few, &cloud), EWA_ERROR_ARGUMENT);
     assert_non_null(strstr(log.text, "point_count is 100"));
@@ -510,9 +467,9 @@ static void test_part_measures(void **state) {
     } holes[WALLS] = {{2, {-0.225, 0}, 0.32 / 2}, {1, {0.395, -0.1}, 0.1 / 2}};
     static const double box[3] = {1, 0.7, 0.4};
     ewa_context *context = check_context(0, NULL);
-    ewa_generate_options options = options_of(EWA_OBJECT_CSG, 7000);
+    ewa_generate_options options = check_generate_options(EWA_OBJECT_CSG, 7000);
     options.size_world = 3;
-    ewa_cloud *cloud = generate(context, &options);
+    ewa_cloud *cloud = check_generated(context, &options);
     const float *p = data_of(cloud, EWA_POSITION), *n = data_of(cloud, EWA_NORMAL);
     uint64_t on_wall[WALLS] = {0}, bottom_of_slot = 0, bottom_of_notch = 0;
     double high[3] = {0};

@@ -3,8 +3,9 @@
 //
 // Tests of the generated town: what it consists of, where its points lie, that walls are closed, the same bytes for
 // every number of threads and on every machine, failing allocations.
-#include "check.h"
 #include "generate/generate.h"
+#include "prepare/check_generated.h"
+#include "prepare/check_prepare.h"
 
 #include <math.h>
 #include <stdbool.h>
@@ -13,36 +14,7 @@
 enum { POINTS = 200000, SIZE_WORLD = 2 };
 
 static ewa_generate_options town_options(uint64_t point_count) {
-    ewa_generate_options options;
-    ewa_generate_options_init(&options, sizeof options);
-    options.object = EWA_OBJECT_TOWN;
-    options.point_count = point_count;
-    return options;
-}
-
-static ewa_cloud *make_town(ewa_context *context, const ewa_generate_options *options) {
-    ewa_cloud *cloud = NULL;
-    assert_int_equal(ewa_cloud_generate(context, options, &cloud), EWA_OK);
-    return cloud;
-}
-
-static const float *floats_of(const ewa_cloud *cloud, const char *name) {
-    const ewa_attribute *attribute = ewa_cloud_find(cloud, name);
-    assert_non_null(attribute);
-    assert_int_equal(attribute->type, EWA_F32);
-    return attribute->data;
-}
-
-/// FNV-1a over all attributes.
-static uint64_t hash_cloud(const ewa_cloud *cloud) {
-    uint64_t hash = 0xcbf29ce484222325u;
-    for (uint32_t a = 0; a < ewa_cloud_attribute_count(cloud); a++) {
-        const ewa_attribute *attribute = ewa_cloud_attribute_at(cloud, a);
-        const uint8_t *bytes = attribute->data;
-        const size_t size = attribute->stride_bytes * (size_t)ewa_cloud_point_count(cloud);
-        for (size_t i = 0; i < size; i++) hash = (hash ^ bytes[i]) * 0x100000001b3u;
-    }
-    return hash;
+    return check_generate_options(EWA_OBJECT_TOWN, point_count);
 }
 
 static void test_counts_and_unit_normals(void **state) {
@@ -50,11 +22,11 @@ static void test_counts_and_unit_normals(void **state) {
     ewa_context *context = check_context(2, NULL);
     for (size_t c = 0; c < sizeof counts / sizeof counts[0]; c++) {
         const ewa_generate_options options = town_options(counts[c]);
-        ewa_cloud *cloud = make_town(context, &options);
+        ewa_cloud *cloud = check_generated(context, &options);
         assert_int_equal(ewa_cloud_point_count(cloud), counts[c]);
         assert_int_equal(ewa_cloud_attribute_count(cloud), 4);
-        const float *position = floats_of(cloud, EWA_POSITION), *normal = floats_of(cloud, EWA_NORMAL);
-        const float *radius = floats_of(cloud, EWA_RADIUS);
+        const float *position = check_stream(cloud, EWA_POSITION), *normal = check_stream(cloud, EWA_NORMAL);
+        const float *radius = check_stream(cloud, EWA_RADIUS);
         for (uint64_t i = 0; i < counts[c]; i++) {
             double length2 = 0;
             for (int k = 0; k < 3; k++) {
@@ -104,8 +76,8 @@ static void test_points_lie_on_their_patches(void **state) {
     ewa_town_patch *patches = calloc(EWA_TOWN_PATCHES, sizeof *patches);
     const ewa_generate_options options = town_options(POINTS);
     const double area = ewa_town_make(options.seed, patches);
-    ewa_cloud *cloud = make_town(context, &options);
-    const float *position = floats_of(cloud, EWA_POSITION), *normal = floats_of(cloud, EWA_NORMAL);
+    ewa_cloud *cloud = check_generated(context, &options);
+    const float *position = check_stream(cloud, EWA_POSITION), *normal = check_stream(cloud, EWA_NORMAL);
     double below = 0;
     for (uint32_t p = 0; p < EWA_TOWN_PATCHES; p++) {
         const uint64_t first = (uint64_t)(POINTS * (below / area) + 0.5);
@@ -156,9 +128,9 @@ static void test_discs_close_the_walls(void **state) {
     ewa_town_patch *patches = calloc(EWA_TOWN_PATCHES, sizeof *patches);
     const ewa_generate_options options = town_options(POINTS);
     ewa_town_make(options.seed, patches);
-    ewa_cloud *cloud = make_town(context, &options);
-    const float *position = floats_of(cloud, EWA_POSITION), *normal = floats_of(cloud, EWA_NORMAL);
-    const float *radius = floats_of(cloud, EWA_RADIUS);
+    ewa_cloud *cloud = check_generated(context, &options);
+    const float *position = check_stream(cloud, EWA_POSITION), *normal = check_stream(cloud, EWA_NORMAL);
+    const float *radius = check_stream(cloud, EWA_RADIUS);
     check_random random = {5};
     for (uint32_t probe = 0; probe < PROBES; probe++) {
         const ewa_town_patch *patch = &patches[(uint32_t)check_uniform(&random, 0, 1 + 160 * 5)];
@@ -189,14 +161,14 @@ static void test_bytes_are_known_for_every_thread_count(void **state) {
         ewa_generate_options options = town_options(54321);
         options.seed = 42;
         options.radius_scale = 1.14;
-        ewa_cloud *cloud = make_town(context, &options);
-        const uint64_t hash = hash_cloud(cloud);
+        ewa_cloud *cloud = check_generated(context, &options);
+        const uint64_t hash = check_cloud_hash(cloud);
         ewa_cloud_destroy(&cloud);
         if (hash != known) print_error("%u threads: 0x%016llx\n", threads[t], (unsigned long long)hash);
         assert_true(hash == known);
         options.seed = 43;
-        cloud = make_town(context, &options);
-        assert_true(hash_cloud(cloud) != known);
+        cloud = check_generated(context, &options);
+        assert_true(check_cloud_hash(cloud) != known);
         ewa_cloud_destroy(&cloud);
         ewa_context_destroy(&context);
     }
@@ -207,13 +179,13 @@ static void test_positions_alone_and_a_picture_upon_it(void **state) {
     ewa_context *context = check_context(0, &log);
     ewa_generate_options options = town_options(1000);
     options.positions_only = true;
-    ewa_cloud *cloud = make_town(context, &options);
+    ewa_cloud *cloud = check_generated(context, &options);
     assert_int_equal(ewa_cloud_attribute_count(cloud), 2);
     assert_null(ewa_cloud_find(cloud, EWA_NORMAL));
     ewa_cloud_destroy(&cloud);
     options.positions_only = false, options.texcoords = true;
-    cloud = make_town(context, &options);
-    const float *position = floats_of(cloud, EWA_POSITION), *texcoord = floats_of(cloud, EWA_TEXCOORD);
+    cloud = check_generated(context, &options);
+    const float *position = check_stream(cloud, EWA_POSITION), *texcoord = check_stream(cloud, EWA_TEXCOORD);
     for (int i = 0; i < 1000; i++)
         for (int c = 0; c < 2; c++) assert_true(fabsf(2 * texcoord[2 * i + c] - 1 - position[3 * i + c]) < 1e-6f);
     ewa_cloud_destroy(&cloud);
@@ -224,21 +196,8 @@ static void test_positions_alone_and_a_picture_upon_it(void **state) {
 }
 
 static void test_every_failing_allocation(void **state) {
-    for (int fail_at = 0;; fail_at++) {
-        check_memory memory = {.calls_left = -1};
-        ewa_context *context = check_context_on(0, &memory);
-        const int64_t before = memory.held_bytes;
-        memory.calls_left = fail_at;
-        const ewa_generate_options options = town_options(1000);
-        ewa_cloud *cloud = NULL;
-        const ewa_status status = ewa_cloud_generate(context, &options, &cloud);
-        const bool failed = memory.calls_left < 0;
-        assert_int_equal(status, failed ? EWA_ERROR_MEMORY : EWA_OK);
-        ewa_cloud_destroy(&cloud);
-        assert_int_equal(memory.held_bytes, before);
-        ewa_context_destroy(&context);
-        if (!failed) break;
-    }
+    const ewa_generate_options options = town_options(1000);
+    check_generate_without_memory(&options);
 }
 
 int main(void) {

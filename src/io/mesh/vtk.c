@@ -10,6 +10,7 @@
 #include "image/srgb.h"
 #include "io/mesh/formats.h"
 #include "io/mesh/vtk_cells.h"
+#include "io/mesh/vtk_number.h"
 
 #include <math.h>
 
@@ -29,21 +30,14 @@ typedef struct vtk_reader {
     ewa_mesh_list coordinates[3]; ///< of a rectilinear grid
 } vtk_reader;
 
-/// A type of numbers; bytes are in big-endian order.
-typedef struct number_type {
-    const char *name;
-    uint32_t bytes;
-    char kind; ///< f, i, u
-} number_type;
-
-static const number_type types[] = {
+static const ewa_vtk_type types[] = {
     {"float", 4, 'f'},         {"double", 8, 'f'},         {"int", 4, 'i'},          {"unsigned_int", 4, 'u'},
     {"long", 8, 'i'},          {"unsigned_long", 8, 'u'},  {"short", 2, 'i'},        {"unsigned_short", 2, 'u'},
     {"char", 1, 'i'},          {"signed_char", 1, 'i'},    {"unsigned_char", 1, 'u'}, {"vtkIdType", 4, 'i'},
     {"vtktypeint64", 8, 'i'},  {"vtktypeint32", 4, 'i'},   {"vtktypeuint8", 1, 'u'}, {"vtktypeint8", 1, 'i'},
     {"vtktypeint16", 2, 'i'},  {"vtktypeuint16", 2, 'u'},  {"vtktypeuint32", 4, 'u'}, {"vtktypeuint64", 8, 'u'},
 };
-static const number_type BYTES = {"unsigned_char", 1, 'u'}, INTS = {"int", 4, 'i'}, FLOATS = {"float", 4, 'f'};
+static const ewa_vtk_type BYTES = {"unsigned_char", 1, 'u'}, INTS = {"int", 4, 'i'}, FLOATS = {"float", 4, 'f'};
 
 static ewa_status fail(const vtk_reader *r, const char *what) {
     return ewa_fail(r->build->context, EWA_ERROR_FORMAT, "%s: line %llu: VTK: %s", r->build->source->name,
@@ -63,7 +57,7 @@ static bool take_count(vtk_reader *r, uint64_t *count) {
     return true;
 }
 
-static bool take_type(vtk_reader *r, number_type *type) {
+static bool take_type(vtk_reader *r, ewa_vtk_type *type) {
     const ewa_text word = ewa_cursor_any_word(&r->cursor);
     for (size_t i = 0; i < sizeof types / sizeof types[0]; i++)
         if (ewa_text_is_any_case(word, types[i].name)) {
@@ -74,39 +68,25 @@ static bool take_type(vtk_reader *r, number_type *type) {
 }
 
 /// Begins the numbers behind a line; in binary they have to be there, so that no room is made for what is not.
-static ewa_status begin_numbers(vtk_reader *r, const number_type *type, uint64_t count) {
+static ewa_status begin_numbers(vtk_reader *r, const ewa_vtk_type *type, uint64_t count) {
     if (r->text) return EWA_OK;
     end_line(&r->cursor);
     return count > (uint64_t)(r->cursor.end - r->cursor.at) / type->bytes ? fail(r, "the file ends early") : EWA_OK;
 }
 
 /// Takes the next number; begin_numbers() has seen that it is there.
-static ewa_status take_number(vtk_reader *r, const number_type *type, double *value) {
+static ewa_status take_number(vtk_reader *r, const ewa_vtk_type *type, double *value) {
     if (r->text) {
         const ewa_text word = ewa_cursor_any_word(&r->cursor);
         if (ewa_text_number(word, value)) return EWA_OK;
         return fail(r, word.length ? "a number is wanted" : "the file ends early");
     }
-    uint64_t bits = 0;
-    for (uint32_t i = 0; i < type->bytes; i++) bits = bits << 8 | (uint8_t)r->cursor.at[i];
+    *value = ewa_vtk_number(type, (const uint8_t *)r->cursor.at, true);
     r->cursor.at += type->bytes;
-    const uint32_t unused = 64 - 8 * type->bytes;
-    if (type->kind == 'u') {
-        *value = (double)bits;
-    } else if (type->kind == 'i') {
-        *value = (double)((int64_t)(bits << unused) >> unused);
-    } else if (type->bytes == 4) {
-        const uint32_t half = (uint32_t)bits;
-        float number;
-        memcpy(&number, &half, sizeof number);
-        *value = (double)number;
-    } else {
-        memcpy(value, &bits, sizeof *value);
-    }
     return EWA_OK;
 }
 
-static ewa_status skip_numbers(vtk_reader *r, const number_type *type, uint64_t count) {
+static ewa_status skip_numbers(vtk_reader *r, const ewa_vtk_type *type, uint64_t count) {
     EWA_TRY(begin_numbers(r, type, count));
     if (!r->text) {
         r->cursor.at += count * type->bytes;
@@ -119,7 +99,7 @@ static ewa_status skip_numbers(vtk_reader *r, const number_type *type, uint64_t 
 
 static ewa_status read_points(vtk_reader *r) {
     uint64_t count, all;
-    number_type type;
+    ewa_vtk_type type;
     if (!take_count(r, &count) || !take_type(r, &type) || __builtin_mul_overflow(count, 3, &all))
         return fail(r, "POINTS has no number and type");
     r->build->float_positions = type.kind == 'f' && type.bytes == 4 && !r->text;
@@ -142,7 +122,7 @@ static ewa_status read_counts(vtk_reader *r) {
 /// Reads the places of a rectilinear grid along an axis.
 static ewa_status read_coordinates(vtk_reader *r, ewa_mesh_list *list) {
     uint64_t count;
-    number_type type;
+    ewa_vtk_type type;
     ewa_status status = EWA_OK;
     if (!take_count(r, &count) || !take_type(r, &type)) return fail(r, "coordinates have no number and type");
     EWA_TRY(begin_numbers(r, &type, count));
@@ -185,7 +165,7 @@ static ewa_status read_cells(vtk_reader *r, uint32_t kind) {
     const ewa_cursor before = r->cursor;
     double value = 0;
     if (ewa_text_is_any_case(ewa_cursor_any_word(&r->cursor), "OFFSETS")) {
-        number_type type;
+        ewa_vtk_type type;
         r->offsets.count = 0;
         if (!take_type(r, &type)) return fail(r, "OFFSETS has no type");
         EWA_TRY(begin_numbers(r, &type, count));
@@ -241,7 +221,7 @@ static ewa_status read_cell_types(vtk_reader *r) {
 }
 
 /// Reads colours of points, codes of bytes or, in text of COLOR_SCALARS, shares.
-static ewa_status read_colors(vtk_reader *r, const number_type *type, uint32_t components) {
+static ewa_status read_colors(vtk_reader *r, const ewa_vtk_type *type, uint32_t components) {
     static const float white[4] = {1, 1, 1, 1};
     ewa_mesh_build *build = r->build;
     const double scale = type->kind == 'f' ? 1 : 1.0 / 255;
@@ -266,7 +246,7 @@ static ewa_status read_colors(vtk_reader *r, const number_type *type, uint32_t c
     return status;
 }
 
-static ewa_status read_normals(vtk_reader *r, const number_type *type) {
+static ewa_status read_normals(vtk_reader *r, const ewa_vtk_type *type) {
     if (r->data_count != r->build->positions.count) return fail(r, "there are not as many normals as points");
     EWA_TRY(begin_numbers(r, type, 3 * r->data_count));
     r->has_normals = true;
@@ -279,7 +259,7 @@ static ewa_status read_normals(vtk_reader *r, const number_type *type) {
 }
 
 /// Takes an array of the data of points or cells, as colours where it is such.
-static ewa_status take_data(vtk_reader *r, const number_type *type, uint64_t components, uint64_t count) {
+static ewa_status take_data(vtk_reader *r, const ewa_vtk_type *type, uint64_t components, uint64_t count) {
     const bool bytes = type->bytes == 1 && type->kind == 'u';
     uint64_t all;
     if (r->of_points && !r->has_colors && bytes && (components == 3 || components == 4) && count == r->data_count)
@@ -292,7 +272,7 @@ static ewa_status take_data(vtk_reader *r, const number_type *type, uint64_t com
 /// Reads arrays; `*known` becomes false at one of no numbers.
 static ewa_status read_fields(vtk_reader *r, bool *known) {
     uint64_t fields, components, count;
-    number_type type;
+    ewa_vtk_type type;
     ewa_cursor_any_word(&r->cursor);
     if (!take_count(r, &fields) || fields > MAX_FIELDS) return fail(r, "FIELD has no number of arrays");
     for (uint64_t i = 0; i < fields; i++) {
@@ -307,7 +287,7 @@ static ewa_status read_fields(vtk_reader *r, bool *known) {
 
 /// Reads an array; `*known` becomes false when it is one of bits.
 static ewa_status read_scalars(vtk_reader *r, bool *known) {
-    number_type type;
+    ewa_vtk_type type;
     uint64_t components = 1;
     ewa_cursor_any_word(&r->cursor);
     *known = take_type(r, &type);
@@ -343,7 +323,7 @@ static void skip_metadata(vtk_reader *r) {
 
 /// Reads what a word begins; `*known` is whether it is known.
 static ewa_status read_section(vtk_reader *r, ewa_text word, bool *known) {
-    number_type type;
+    ewa_vtk_type type;
     uint64_t count;
     *known = true;
     if (ewa_text_is_any_case(word, "POINTS")) return read_points(r);

@@ -9,6 +9,7 @@
 #include "image/srgb.h"
 #include "io/mesh/formats.h"
 #include "io/mesh/vtk_cells.h"
+#include "io/mesh/vtk_number.h"
 #include "io/volume/text.h"
 #include "io/vtk_xml.h"
 
@@ -49,21 +50,15 @@ typedef struct xml_mesh {
     ewa_mesh_list cells, kinds, offsets, faces, face_offsets; ///< 32-bit numbers of a piece
 } xml_mesh;
 
-/// A type of numbers.
-typedef struct number_type {
-    const char *name;
-    uint32_t bytes;
-    char kind; ///< f, i, u
-} number_type;
-
-static const number_type types[] = {{"Int8", 1, 'i'},  {"UInt8", 1, 'u'},  {"Int16", 2, 'i'},   {"UInt16", 2, 'u'},
-                                    {"Int32", 4, 'i'}, {"UInt32", 4, 'u'}, {"Int64", 8, 'i'},   {"UInt64", 8, 'u'},
-                                    {"Float32", 4, 'f'}, {"Float64", 8, 'f'}};
+static const ewa_vtk_type types[] = {
+    {"Int8", 1, 'i'},   {"UInt8", 1, 'u'}, {"Int16", 2, 'i'},  {"UInt16", 2, 'u'},  {"Int32", 4, 'i'},
+    {"UInt32", 4, 'u'}, {"Int64", 8, 'i'}, {"UInt64", 8, 'u'}, {"Float32", 4, 'f'}, {"Float64", 8, 'f'},
+};
 
 /// The numbers of an array, one after the other.
 typedef struct numbers {
     const ewa_vtk_xml *xml;
-    number_type type;
+    ewa_vtk_type type;
     ewa_vtk_stored stored;
     ewa_source *source; ///< NULL: text
     ewa_cursor text;
@@ -104,21 +99,6 @@ static ewa_status ends_early(const numbers *n) {
     return ewa_fail(n->xml->context, EWA_ERROR_FORMAT, "%s: VTK: the data of the array end early", n->xml->name);
 }
 
-/// The next bytes of an array as a number.
-static double decode(const numbers *n, const uint8_t *bytes) {
-    const uint32_t count = n->type.bytes, unused = 64 - 8 * count;
-    uint64_t bits = 0;
-    for (uint32_t i = 0; i < count; i++) bits = bits << 8 | bytes[n->xml->big_endian ? i : count - 1 - i];
-    if (n->type.kind == 'u') return (double)bits;
-    if (n->type.kind == 'i') return (double)((int64_t)(bits << unused) >> unused);
-    const uint32_t half = (uint32_t)bits;
-    float single;
-    double number;
-    memcpy(&single, &half, sizeof single);
-    memcpy(&number, &bits, sizeof number);
-    return count == 4 ? (double)single : number;
-}
-
 static ewa_status take_number(numbers *n, double *value) {
     if (!n->source) {
         const ewa_text word = ewa_cursor_any_word(&n->text);
@@ -131,7 +111,7 @@ static ewa_status take_number(numbers *n, double *value) {
         n->at = 0;
     }
     if (n->filled - n->at < n->type.bytes) return ends_early(n);
-    *value = decode(n, n->block + n->at);
+    *value = ewa_vtk_number(&n->type, n->block + n->at, n->xml->big_endian);
     n->at += n->type.bytes;
     return EWA_OK;
 }
