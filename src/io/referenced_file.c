@@ -144,7 +144,7 @@ bool ewa_referenced_file_relate(const char *path, const char *target, char name[
     if (!ewa_platform_resolve(folder, base) || !ewa_platform_resolve(target, full)) return fail_errno(reason, errno) == 0;
     const size_t length = strcmp(base, "/") == 0 ? 0 : strlen(base);
     if (strncmp(full, base, length) != 0 || full[length] != '/')
-        return fail(reason, "it is not below the folder of the file that is to name it") == 0;
+        return fail(reason, "it is not below the folder of the file that is to name it: write that one beside it or above") == 0;
     return snprintf(name, EWA_PATH_BYTES, "%s", full + length + 1) < EWA_PATH_BYTES ||
            fail(reason, "its name is too long") == 0;
 }
