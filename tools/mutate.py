@@ -113,7 +113,7 @@ NEAR = [
     ("src/scene", ["scene", "scene_file", "scene_octree", "planes", "cli_render", "cli_gaussians", "cli_volume", "view_scripts"]),
     ("src/lod", ["lod_merge", "lod_build", "scene_octree", "lod_draw", "lod_levels", "lod_parts", "cli_lod"]),
     ("src/cluster", ["joint", "parts"]),
-    ("src/photos/undistort", ["undistort", "photos"]), ("src/photos/l", ["likeness", "photos"]),
+    ("src/photos/undistort", ["undistort", "photos"]), ("src/photos/image_quality", ["image_quality"]),
     ("src/photos", ["photos"]),
     ("src/framing", ["framing", "upright", "upright_bodies", "cli_places", "cli_render"]),
     ("src/furniture", ["furniture", "shapes", "text_drawing", "decimal", "cli_furniture"]),

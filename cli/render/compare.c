@@ -62,7 +62,7 @@ static bool check(const void *data, char message[OPTION_ERROR_BYTES]) {
 /// What one photograph came to.
 typedef struct compared {
     const ewa_photo *photo;
-    ewa_image_likeness likeness;
+    ewa_image_quality quality;
 } compared;
 
 static const char *name_of(const ewa_photo *photo) {
@@ -75,8 +75,8 @@ static void find_means(const compared *all, size_t count, double *psnr_db, doubl
     size_t used = 0;
     *psnr_db = *ssim = 0;
     for (size_t i = 0; i < count; i++) {
-        if (!all[i].likeness.pixel_count) continue;
-        *psnr_db += all[i].likeness.psnr_db, *ssim += all[i].likeness.ssim;
+        if (!all[i].quality.pixel_count) continue;
+        *psnr_db += all[i].quality.psnr_db, *ssim += all[i].quality.ssim;
         used++;
     }
     *psnr_db = used ? *psnr_db / (double)used : NAN, *ssim = used ? *ssim / (double)used : NAN;
@@ -90,7 +90,7 @@ static void print_table(const compared *all, size_t count) {
     printf("%-*s %11s %9s %8s\n", width, "photograph", "pixels", "PSNR, dB", "SSIM");
     for (size_t i = 0; i < count; i++)
         printf("%-*s %5u x %-4u%8.2f %9.4f\n", width, name_of(all[i].photo), all[i].photo->camera.width_px,
-               all[i].photo->camera.height_px, all[i].likeness.psnr_db, all[i].likeness.ssim);
+               all[i].photo->camera.height_px, all[i].quality.psnr_db, all[i].quality.ssim);
     find_means(all, count, &psnr_db, &ssim);
     printf("%-*s %11s %9.2f %9.4f\n", width, "mean", "", psnr_db, ssim);
 }
@@ -111,9 +111,9 @@ static bool write_json(cli_session *session, const char *path, const compared *a
         json_text(&json, "path", all[i].photo->path);
         json_count(&json, "width_px", all[i].photo->camera.width_px);
         json_count(&json, "height_px", all[i].photo->camera.height_px);
-        json_count(&json, "pixel_count", all[i].likeness.pixel_count);
-        json_number(&json, "psnr_db", all[i].likeness.psnr_db);
-        json_number(&json, "ssim", all[i].likeness.ssim);
+        json_count(&json, "pixel_count", all[i].quality.pixel_count);
+        json_number(&json, "psnr_db", all[i].quality.psnr_db);
+        json_number(&json, "ssim", all[i].quality.ssim);
         json_close(&json, '}');
     }
     json_close(&json, ']');
@@ -127,11 +127,11 @@ static bool compare_all(cli_session *session, ewa_scene *scene, compared *all, s
     bool done =
         session_passed(session, ewa_scene_renderer_create(session->context, EWA_BACKEND_CPU, NULL, &renderer));
     for (size_t i = 0; i < count && done; i++) {
-        ewa_photo_likeness found;
+        ewa_photo_comparison found;
         done = session_passed(session, ewa_scene_compare_photo(scene, renderer, all[i].photo, NULL, &found));
         if (!done) break;
-        all[i].likeness = found.likeness;
-        if (!found.likeness.pixel_count)
+        all[i].quality = found.quality;
+        if (!found.quality.pixel_count)
             session_warn(session, "%s: has no pixel that could be compared", all[i].photo->path);
         done = compare_sheet_add(session, sheet, name_of(all[i].photo), &found);
         ewa_image_free(&found.photo);

@@ -20,7 +20,7 @@ static void free_row(sheet_row *row) {
 }
 
 /// What is seen of a pixel: photograph, picture, difference; display values. False: it was not compared.
-static bool look_at(const ewa_photo_likeness *found, size_t pixel, double seen[SHEET_COLUMNS][3]) {
+static bool look_at(const ewa_photo_comparison *found, size_t pixel, double seen[SHEET_COLUMNS][3]) {
     const ewa_image *photo = &found->photo;
     const float *a = photo->pixels + pixel * photo->channel_count, *b = found->picture.pixels + 4 * pixel;
     double off = 0;
@@ -36,7 +36,7 @@ static bool look_at(const ewa_photo_likeness *found, size_t pixel, double seen[S
 }
 
 /// Fills the three pictures of a row with means of squares of `step` pixels; grey where nothing was compared.
-static void shrink(const ewa_photo_likeness *found, uint32_t step, sheet_row *row) {
+static void shrink(const ewa_photo_comparison *found, uint32_t step, sheet_row *row) {
     const uint32_t width = found->picture.width_px, height = found->picture.height_px;
     for (size_t i = 0; i < (size_t)row->width_px * row->height_px; i++) {
         const uint32_t left = step * (uint32_t)(i % row->width_px), top = step * (uint32_t)(i / row->width_px);
@@ -62,14 +62,14 @@ static bool out_of_memory(cli_session *session) {
     return false;
 }
 
-bool compare_sheet_add(cli_session *session, compare_sheet *sheet, const char *name, const ewa_photo_likeness *found) {
+bool compare_sheet_add(cli_session *session, compare_sheet *sheet, const char *name, const ewa_photo_comparison *found) {
     uint32_t at = 0;
-    while (at < sheet->count && sheet->rows[at].psnr_db <= found->likeness.psnr_db) at++;
-    if (at >= sheet->limit || isnan(found->likeness.psnr_db)) return true;
+    while (at < sheet->count && sheet->rows[at].psnr_db <= found->quality.psnr_db) at++;
+    if (at >= sheet->limit || isnan(found->quality.psnr_db)) return true;
     const uint32_t width = found->picture.width_px, height = found->picture.height_px;
     const uint32_t larger = width > height ? width : height, step = (larger + SIDE_PX - 1) / SIDE_PX;
-    sheet_row row = {.psnr_db = found->likeness.psnr_db,
-                     .ssim = found->likeness.ssim,
+    sheet_row row = {.psnr_db = found->quality.psnr_db,
+                     .ssim = found->quality.ssim,
                      .width_px = (width + step - 1) / step,
                      .height_px = (height + step - 1) / step};
     strncat(row.name, name, sizeof row.name - 1);

@@ -24,7 +24,7 @@ typedef struct compare_sheet {
 } compare_sheet;
 
 /// Takes a photograph onto the sheet if it is among the worst. Returns false after reporting.
-bool compare_sheet_add(cli_session *session, compare_sheet *sheet, const char *name, const ewa_photo_likeness *found);
+bool compare_sheet_add(cli_session *session, compare_sheet *sheet, const char *name, const ewa_photo_comparison *found);
 
 /// Writes the sheet; false after reporting.
 bool compare_sheet_save(cli_session *session, const compare_sheet *sheet, const char *path);

@@ -34,20 +34,20 @@ EWA_API ewa_status ewa_image_undistort(const ewa_image *image, const ewa_camera 
 EWA_API ewa_status ewa_photo_load(ewa_context *context, const ewa_photo *photo, const float background[3],
                                   ewa_image *image);
 
-/// How like a picture is to the true one.
-typedef struct ewa_image_likeness {
-    uint64_t pixel_count; ///< that are compared
-    double squares;       ///< mean of the squares of the differences of sRGB numbers in [0, 1]
-    double psnr_db;       ///< the same: -10 log10 of it; infinite where nothing differs, NaN where nothing is compared
-    double ssim;          ///< structural similarity, at most 1: mean over pixels and channels; NaN where nothing is compared
-} ewa_image_likeness;
+/// How near a picture is to the true one.
+typedef struct ewa_image_quality {
+    uint64_t pixel_count;      ///< that are compared
+    double mean_squared_error; ///< of sRGB numbers in [0, 1]
+    double psnr_db;            ///< -10 log10 of that; infinite where nothing differs, NaN where nothing is compared
+    double ssim;               ///< structural similarity, at most 1: mean over pixels and channels; NaN where nothing is compared
+} ewa_image_quality;
 
 /// Compares two pictures of one size in sRGB numbers, clamped to [0, 1]. `image`, `truth`: 1, 3 or 4 channels, linear light,
 /// premultiplied; pixels where `truth` is not opaque or not finite are not compared. SSIM has a window of 11 x 11 pixels, a
 /// Gaussian of 1.5, beyond whose picture there are zeros, and the constants 0.01 and 0.03, as 3DGS reports it. The same numbers
 /// for every number of threads. Errors: EWA_ERROR_ARGUMENT (sizes or channels), EWA_ERROR_MEMORY.
 /// Source: Wang, Bovik, Sheikh, Simoncelli, "Image Quality Assessment", 2004, equation 13.
-EWA_API ewa_status ewa_image_compare(const ewa_image *image, const ewa_image *truth, ewa_image_likeness *likeness);
+EWA_API ewa_status ewa_image_compare(const ewa_image *image, const ewa_image *truth, ewa_image_quality *quality);
 
 typedef enum ewa_photos_method {
     EWA_PHOTOS_FIT = 0,    ///< colours whose pictures differ least from the photographs

@@ -359,17 +359,17 @@ EWA_API ewa_status ewa_scene_draw(ewa_scene *scene, ewa_scene_renderer *renderer
                                   const ewa_scene_options *options, const ewa_frame *frame, ewa_scene_stats *stats);
 
 /// A photograph and what a scene shows in its place.
-typedef struct ewa_photo_likeness {
+typedef struct ewa_photo_comparison {
     ewa_image photo;   ///< as ewa_photo_load() gives it, over the background
     ewa_image picture; ///< 4 channels, opaque
-    ewa_image_likeness likeness;
-} ewa_photo_likeness;
+    ewa_image_quality quality;
+} ewa_photo_comparison;
 
 /// Draws a scene by the camera of a photograph, as ewa_scene_draw() does but over an opaque background, and compares the two. The
 /// caller frees both images, which are empty after a failure. Errors: those of ewa_photo_load(), ewa_scene_draw() and
 /// ewa_image_compare().
 EWA_API ewa_status ewa_scene_compare_photo(ewa_scene *scene, ewa_scene_renderer *renderer, const ewa_photo *photo,
-                                           const ewa_scene_options *options, ewa_photo_likeness *found);
+                                           const ewa_scene_options *options, ewa_photo_comparison *found);
 
 /// What is seen at a place of the picture.
 typedef struct ewa_scene_hit {

@@ -25,7 +25,7 @@ from .gradients import CameraGradient, Gradients, render_backward
 from .image import Image, read_depth, read_image, save_image
 from .mesh import Mesh, convert, read, read_mesh, sample
 from .octree import Octree, build_octree
-from .photographs import Likeness, PhotoReport, PhotosReport, likeness
+from .photographs import ImageQuality, PhotoReport, PhotosReport, compare_images
 from .rendering import Renderer, render
 from .scene import Scene
 from .shade import Environment
@@ -38,9 +38,10 @@ __version__ = version()
 __all__ = [
     "ArgumentError", "Array", "Camera", "CameraGradient", "CameraPath", "Cancelled", "ClosedError", "Cloud",
     "Context", "DepthImage", "Environment", "Error", "EwaWarning", "FileError", "FormatError", "Gaussians",
-    "Gradients", "Image", "Likeness", "Mesh", "NumericError", "Octree", "OutOfMemory", "PhotoReport", "PhotosReport", "Renderer",
-    "Scene", "Splats", "Surfels", "Transfer", "Volume", "Voxels", "as_cloud", "build_octree", "cameras", "convert", "csg", "default_context",
-    "from_laspy", "from_open3d", "from_pyvista", "from_trimesh", "generate", "generate_volume", "likeness", "merge", "progress",
-    "read", "read_depth", "read_gaussians", "read_image", "read_mesh", "read_volume", "render", "render_backward",
-    "render_gaussians", "render_volume", "sample", "save_cameras", "save_image", "texture", "version", "warp",
+    "Gradients", "Image", "ImageQuality", "Mesh", "NumericError", "Octree", "OutOfMemory", "PhotoReport",
+    "PhotosReport", "Renderer", "Scene", "Splats", "Surfels", "Transfer", "Volume", "Voxels", "as_cloud",
+    "build_octree", "cameras", "compare_images", "convert", "csg", "default_context", "from_laspy", "from_open3d",
+    "from_pyvista", "from_trimesh", "generate", "generate_volume", "merge", "progress", "read", "read_depth",
+    "read_gaussians", "read_image", "read_mesh", "read_volume", "render", "render_backward", "render_gaussians",
+    "render_volume", "sample", "save_cameras", "save_image", "texture", "version", "warp",
 ]

@@ -1692,14 +1692,14 @@ class ewa_option_table(c.Structure):
     ]
 
 
-class ewa_image_likeness(c.Structure):
+class ewa_image_quality(c.Structure):
     pixel_count: int
-    squares: float
+    mean_squared_error: float
     psnr_db: float
     ssim: float
     _fields_ = [
         ("pixel_count", c.c_uint64),
-        ("squares", c.c_double),
+        ("mean_squared_error", c.c_double),
         ("psnr_db", c.c_double),
         ("ssim", c.c_double),
     ]
@@ -2330,14 +2330,14 @@ class ewa_instance(c.Structure):
     ]
 
 
-class ewa_photo_likeness(c.Structure):
+class ewa_photo_comparison(c.Structure):
     photo: ewa_image
     picture: ewa_image
-    likeness: ewa_image_likeness
+    quality: ewa_image_quality
     _fields_ = [
         ("photo", ewa_image),
         ("picture", ewa_image),
-        ("likeness", ewa_image_likeness),
+        ("quality", ewa_image_quality),
     ]
 
 
@@ -3284,7 +3284,7 @@ class Functions:
         self.ewa_option_range = bind("ewa_option_range", None, c.POINTER(ewa_option), c.c_void_p)
         self.ewa_option_set = bind("ewa_option_set", c.c_int, c.POINTER(ewa_option), c.c_void_p, c.c_char_p, c.c_void_p)
         self.ewa_cloud_color_from_photos = bind("ewa_cloud_color_from_photos", c.c_int, c.c_void_p, c.POINTER(ewa_photo), c.c_uint32, c.POINTER(ewa_photos_options), c.POINTER(ewa_photos_report), c.POINTER(ewa_photo_report))
-        self.ewa_image_compare = bind("ewa_image_compare", c.c_int, c.POINTER(ewa_image), c.POINTER(ewa_image), c.POINTER(ewa_image_likeness))
+        self.ewa_image_compare = bind("ewa_image_compare", c.c_int, c.POINTER(ewa_image), c.POINTER(ewa_image), c.POINTER(ewa_image_quality))
         self.ewa_image_undistort = bind("ewa_image_undistort", c.c_int, c.POINTER(ewa_image), c.POINTER(ewa_camera), c.POINTER(ewa_lens), c.POINTER(ewa_image))
         self.ewa_photo_load = bind("ewa_photo_load", c.c_int, c.c_void_p, c.POINTER(ewa_photo), c.c_void_p, c.POINTER(ewa_image))
         self.ewa_photos_options_init = bind("ewa_photos_options_init", None, c.POINTER(ewa_photos_options), c.c_size_t)
@@ -3337,7 +3337,7 @@ class Functions:
         self.ewa_scene_bounds = bind("ewa_scene_bounds", None, c.c_void_p, c.POINTER(ewa_bounds))
         self.ewa_scene_cloud = bind("ewa_scene_cloud", c.c_int, c.c_void_p, c.c_void_p)
         self.ewa_scene_commit = bind("ewa_scene_commit", c.c_int, c.c_void_p)
-        self.ewa_scene_compare_photo = bind("ewa_scene_compare_photo", c.c_int, c.c_void_p, c.c_void_p, c.POINTER(ewa_photo), c.POINTER(ewa_scene_options), c.POINTER(ewa_photo_likeness))
+        self.ewa_scene_compare_photo = bind("ewa_scene_compare_photo", c.c_int, c.c_void_p, c.c_void_p, c.POINTER(ewa_photo), c.POINTER(ewa_scene_options), c.POINTER(ewa_photo_comparison))
         self.ewa_scene_complete = bind("ewa_scene_complete", c.c_int, c.c_void_p)
         self.ewa_scene_copy = bind("ewa_scene_copy", c.c_int, c.c_void_p, c.c_void_p, c.c_void_p)
         self.ewa_scene_count = bind("ewa_scene_count", c.c_uint32, c.c_void_p)

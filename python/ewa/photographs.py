@@ -68,8 +68,8 @@ class PhotosReport(NamedTuple):
     photographs: list[PhotoReport]
 
 
-class Likeness(NamedTuple):
-    """How like a picture is to the true one.
+class ImageQuality(NamedTuple):
+    """How near a picture is to the true one.
 
     Attributes
     ----------
@@ -86,7 +86,7 @@ class Likeness(NamedTuple):
     pixel_count: int
 
 
-def likeness(image: Any, truth: Any, *, context: Context | None = None) -> Likeness:
+def compare_images(image: Any, truth: Any, *, context: Context | None = None) -> ImageQuality:
     """Compare two pictures of one size by PSNR and SSIM, in sRGB numbers.
 
     Parameters
@@ -101,9 +101,9 @@ def likeness(image: Any, truth: Any, *, context: Context | None = None) -> Liken
     core = core_of(context)
     keep = [as_picture(image, "image"), as_picture(truth, "truth")]
     both = [b.ewa_image(core.address, array.shape[1], array.shape[0], array.shape[2], array.ctypes.data) for array in keep]
-    found = b.ewa_image_likeness()
+    found = b.ewa_image_quality()
     core.call(lib.ewa_image_compare, ctypes.byref(both[0]), ctypes.byref(both[1]), ctypes.byref(found))
-    return Likeness(found.psnr_db, found.ssim, found.pixel_count)
+    return ImageQuality(found.psnr_db, found.ssim, found.pixel_count)
 
 
 def _of_arrays(photos: Sequence[tuple[Camera, Any]]) -> tuple[Any, list[Any]]:

@@ -35,16 +35,16 @@ class Photos(Case):
         self.assertLess(np.abs(made["color"][seen, :3] - wanted).mean(), np.abs(linear(grey["color"][seen, :3]) - wanted).mean() / 10)
         self.assertEqual(len(report.photographs), len(photos))
 
-    def test_likeness(self) -> None:
+    def test_image_quality(self) -> None:
         grey = np.full((20, 30, 3), linear(np.float64(127.5)), np.float32)
         light = np.full((20, 30, 3), linear(np.float64(153)), np.float32)
-        found = ewa.likeness(grey, light)
+        found = ewa.compare_images(grey, light)
         self.assertAlmostEqual(found.psnr_db, 20, places=3)
         self.assertEqual(found.pixel_count, 600)
         self.assertLess(found.ssim, 1)
-        self.assertAlmostEqual(ewa.likeness(grey, grey).ssim, 1, places=12)
+        self.assertAlmostEqual(ewa.compare_images(grey, grey).ssim, 1, places=12)
         with self.assertRaises(ewa.ArgumentError):
-            ewa.likeness(grey, light[:10])
+            ewa.compare_images(grey, light[:10])
 
     def test_wrong_pictures(self) -> None:
         cloud = ewa.generate("sphere", 100)

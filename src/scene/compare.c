@@ -6,7 +6,7 @@
 #include "scene/parts.h"
 
 static ewa_status compare(ewa_scene *scene, ewa_scene_renderer *renderer, const ewa_photo *photo,
-                          const ewa_scene_options *options, ewa_photo_likeness *found) {
+                          const ewa_scene_options *options, ewa_photo_comparison *found) {
     const ewa_camera *camera = &photo->camera;
     float background[3];
     for (int c = 0; c < 3; c++) background[c] = ewa_srgb_from_linear(options->render.background[c]);
@@ -14,13 +14,13 @@ static ewa_status compare(ewa_scene *scene, ewa_scene_renderer *renderer, const 
     EWA_TRY(ewa_image_create(scene->context, camera->width_px, camera->height_px, 4, &found->picture));
     const ewa_frame frame = {.rgba = found->picture.pixels};
     EWA_TRY(ewa_scene_draw(scene, renderer, camera, options, &frame, NULL));
-    return ewa_image_compare(&found->picture, &found->photo, &found->likeness);
+    return ewa_image_compare(&found->picture, &found->photo, &found->quality);
 }
 
 ewa_status ewa_scene_compare_photo(ewa_scene *scene, ewa_scene_renderer *renderer, const ewa_photo *photo,
-                                   const ewa_scene_options *options, ewa_photo_likeness *found) {
+                                   const ewa_scene_options *options, ewa_photo_comparison *found) {
     if (!scene || !renderer || !photo || !found) return EWA_ERROR_ARGUMENT;
-    *found = (ewa_photo_likeness){0};
+    *found = (ewa_photo_comparison){0};
     ewa_scene_options opaque = options ? *options : scene->options;
     opaque.render.background[3] = 1;
     const ewa_status status = compare(scene, renderer, photo, &opaque, found);

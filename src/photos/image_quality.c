@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// How like a picture is to the true one: PSNR and the structural similarity, in what a screen shows.
+// How near a picture is to the true one: PSNR and the structural similarity, in what a screen shows.
 //
 // Based on: Z. Wang, A. Bovik, H. Sheikh, E. Simoncelli, "Image Quality Assessment: From Error Visibility to Structural
 // Similarity", 2004, equation 13; window and edges as 3DGS reports it, where nothing lies beyond a picture.
@@ -16,7 +16,7 @@ enum { RADIUS = 5, TAPS = 2 * RADIUS + 1, MOMENTS = 5 };
 
 static const double SIGMA_PX = 1.5, MEANS = 0.01 * 0.01, VARIANCES = 0.03 * 0.03;
 
-typedef struct likeness_job {
+typedef struct quality_job {
     const ewa_image *image, *truth;
     uint32_t width_px, height_px;
     float *shown[2]; ///< [3][height][width] display values; 0 where nothing is compared
@@ -24,7 +24,7 @@ typedef struct likeness_job {
     double taps[TAPS];
     double *columns; ///< [worker][MOMENTS][width]
     double *rows;    ///< [height][2]: sums of squares of differences and of similarities
-} likeness_job;
+} quality_job;
 
 static float display_of(const ewa_image *image, size_t pixel, uint32_t channel) {
     const float *at = image->pixels + pixel * image->channel_count;
@@ -34,7 +34,7 @@ static float display_of(const ewa_image *image, size_t pixel, uint32_t channel) 
 /// Display values of a row, and which of its pixels count.
 static void show_row(void *data, uint32_t y, uint32_t worker) {
     (void)worker;
-    const likeness_job *job = data;
+    const quality_job *job = data;
     const size_t size = (size_t)job->width_px * job->height_px;
     for (uint32_t x = 0; x < job->width_px; x++) {
         const size_t pixel = (size_t)y * job->width_px + x;
@@ -51,7 +51,7 @@ static void show_row(void *data, uint32_t y, uint32_t worker) {
 }
 
 /// Of a row and a channel the moments under the window's columns.
-static void sum_columns(const likeness_job *job, uint32_t channel, uint32_t y, double *columns) {
+static void sum_columns(const quality_job *job, uint32_t channel, uint32_t y, double *columns) {
     const size_t size = (size_t)job->width_px * job->height_px;
     for (size_t i = 0; i < (size_t)MOMENTS * job->width_px; i++) columns[i] = 0;
     for (int k = 0; k < TAPS; k++) {
@@ -68,7 +68,7 @@ static void sum_columns(const likeness_job *job, uint32_t channel, uint32_t y, d
     }
 }
 
-static double similarity_at(const likeness_job *job, const double *columns, uint32_t x) {
+static double similarity_at(const quality_job *job, const double *columns, uint32_t x) {
     double m[MOMENTS] = {0};
     for (int k = 0; k < TAPS; k++) {
         const int64_t column = (int64_t)x + k - RADIUS;
@@ -81,7 +81,7 @@ static double similarity_at(const likeness_job *job, const double *columns, uint
 }
 
 static void compare_row(void *data, uint32_t y, uint32_t worker) {
-    const likeness_job *job = data;
+    const quality_job *job = data;
     const size_t size = (size_t)job->width_px * job->height_px;
     double *columns = job->columns + (size_t)worker * MOMENTS * job->width_px, sums[2] = {0, 0};
     for (uint32_t c = 0; c < 3; c++) {
@@ -98,7 +98,7 @@ static void compare_row(void *data, uint32_t y, uint32_t worker) {
 }
 
 /// With the memory.
-static void compare(ewa_context *context, likeness_job *job, ewa_image_likeness *likeness) {
+static void compare(ewa_context *context, quality_job *job, ewa_image_quality *quality) {
     double whole = 0, sums[2] = {0, 0};
     for (int k = 0; k < TAPS; k++) {
         job->taps[k] = ewa_exp(-0.5 * (k - RADIUS) * (k - RADIUS) / (SIGMA_PX * SIGMA_PX));
@@ -108,20 +108,20 @@ static void compare(ewa_context *context, likeness_job *job, ewa_image_likeness 
     ewa_parallel(context, show_row, job, job->height_px);
     ewa_parallel(context, compare_row, job, job->height_px);
     const size_t size = (size_t)job->width_px * job->height_px;
-    *likeness = (ewa_image_likeness){.psnr_db = NAN, .ssim = NAN};
-    for (size_t i = 0; i < size; i++) likeness->pixel_count += job->counts[i];
+    *quality = (ewa_image_quality){.psnr_db = NAN, .ssim = NAN};
+    for (size_t i = 0; i < size; i++) quality->pixel_count += job->counts[i];
     for (size_t y = 0; y < job->height_px; y++) sums[0] += job->rows[2 * y], sums[1] += job->rows[2 * y + 1];
-    if (!likeness->pixel_count) return;
-    const double numbers = 3 * (double)likeness->pixel_count;
-    likeness->squares = sums[0] / numbers;
-    likeness->psnr_db = -10 * log10(likeness->squares);
-    likeness->ssim = sums[1] / numbers;
+    if (!quality->pixel_count) return;
+    const double numbers = 3 * (double)quality->pixel_count;
+    quality->mean_squared_error = sums[0] / numbers;
+    quality->psnr_db = -10 * log10(quality->mean_squared_error);
+    quality->ssim = sums[1] / numbers;
 }
 
-ewa_status ewa_image_compare(const ewa_image *image, const ewa_image *truth, ewa_image_likeness *likeness) {
-    if (!image || !truth || !likeness || !image->context || !image->pixels || !truth->pixels) return EWA_ERROR_ARGUMENT;
+ewa_status ewa_image_compare(const ewa_image *image, const ewa_image *truth, ewa_image_quality *quality) {
+    if (!image || !truth || !quality || !image->context || !image->pixels || !truth->pixels) return EWA_ERROR_ARGUMENT;
     ewa_context *context = image->context;
-    *likeness = (ewa_image_likeness){.psnr_db = NAN, .ssim = NAN};
+    *quality = (ewa_image_quality){.psnr_db = NAN, .ssim = NAN};
     const ewa_image *const both[2] = {image, truth};
     for (int i = 0; i < 2; i++)
         if (both[i]->channel_count != 1 && both[i]->channel_count != 3 && both[i]->channel_count != 4)
@@ -130,7 +130,7 @@ ewa_status ewa_image_compare(const ewa_image *image, const ewa_image *truth, ewa
     if (image->width_px != truth->width_px || image->height_px != truth->height_px)
         return ewa_fail(context, EWA_ERROR_ARGUMENT, "a picture of %u x %u pixels is not compared with one of %u x %u",
                         image->width_px, image->height_px, truth->width_px, truth->height_px);
-    likeness_job job = {.image = image, .truth = truth, .width_px = image->width_px, .height_px = image->height_px};
+    quality_job job = {.image = image, .truth = truth, .width_px = image->width_px, .height_px = image->height_px};
     const size_t size = (size_t)job.width_px * job.height_px;
     const size_t columns = (size_t)ewa_context_worker_count(context) * MOMENTS * job.width_px;
     for (int i = 0; i < 2; i++) job.shown[i] = ewa_allocate(context, 3 * size, sizeof *job.shown[i]);
@@ -138,7 +138,7 @@ ewa_status ewa_image_compare(const ewa_image *image, const ewa_image *truth, ewa
     job.columns = ewa_allocate(context, columns, sizeof *job.columns);
     job.rows = ewa_allocate(context, 2 * (size_t)job.height_px, sizeof *job.rows);
     const bool room = job.shown[0] && job.shown[1] && job.counts && job.columns && job.rows;
-    if (room) compare(context, &job, likeness);
+    if (room) compare(context, &job, quality);
     for (int i = 0; i < 2; i++) ewa_release(context, job.shown[i], 3 * size, sizeof *job.shown[i]);
     ewa_release(context, job.counts, size, sizeof *job.counts);
     ewa_release(context, job.columns, columns, sizeof *job.columns);

@@ -67,14 +67,14 @@ static void test_formulas(void **state) {
             ewa_image image = noise(context, channels[n][0], 2, 0.2), truth = noise(context, channels[n][1], 3, 0);
             uint64_t masked = 0;
             for (size_t i = 0; n == 2 && i < WIDTH * HEIGHT; i += 7, masked++) truth.pixels[4 * i + 3] = 0.5f;
-            ewa_image_likeness found;
+            ewa_image_quality found;
             assert_int_equal(ewa_image_compare(&image, &truth, &found), EWA_OK);
             double squares, ssim;
             compare_plainly(&image, &truth, &squares, &ssim);
             assert_int_equal(found.pixel_count, WIDTH * HEIGHT - masked);
-            if (fabs(found.squares - squares) > 1e-9 || fabs(found.ssim - ssim) > 1e-9 ||
+            if (fabs(found.mean_squared_error - squares) > 1e-9 || fabs(found.ssim - ssim) > 1e-9 ||
                 fabs(found.psnr_db + 10 * log10(squares)) > 1e-6)
-                fail_msg("%d: %g, SSIM %g instead of %g, %g", n, found.squares, found.ssim, squares, ssim);
+                fail_msg("%d: %g, SSIM %g instead of %g, %g", n, found.mean_squared_error, found.ssim, squares, ssim);
             if (workers > 1) assert_true(found.ssim == before);
             before = found.ssim;
             ewa_image_free(&image);
@@ -88,7 +88,7 @@ static void test_formulas(void **state) {
 static void test_known(void **state) {
     ewa_context *context = check_context(1, NULL);
     ewa_image image = noise(context, 3, 2, 0.1), other;
-    ewa_image_likeness found;
+    ewa_image_quality found;
     assert_int_equal(ewa_image_compare(&image, &image, &found), EWA_OK);
     assert_true(isinf(found.psnr_db) && fabs(found.ssim - 1) < 1e-12);
     ewa_image_free(&image);
@@ -149,7 +149,7 @@ static void test_memory(void **state) {
         check_memory memory = {.calls_left = -1};
         ewa_context *context = check_context_on(1, &memory);
         ewa_image image = noise(context, 3, 2, 0.1);
-        ewa_image_likeness found;
+        ewa_image_quality found;
         memory.calls_left = n;
         const ewa_status status = ewa_image_compare(&image, &image, &found);
         const bool failed = memory.calls_left < 0;
