@@ -13,6 +13,9 @@
 
 enum { TASK_PLACES = 1 << 13, LANES = EWA_BLOCK_LANES };
 
+// Curvatures times the reach of the neighbours, which are at most its sines: from here on they count less, and from there
+// on not at all. Estimated normals turn round an edge so fast, and splats that followed them would leave gaps there.
+static const double SOFT_BEND = 0.3, SHARP_BEND = 0.4;
 // Share of a place and its neighbours that must know how they bend.
 static const double AGREEING_SHARE = 0.4;
 
@@ -74,7 +77,8 @@ static void fit_places(void *data, uint32_t task, uint32_t worker) {
             float *fit = job->fit[first + lane];
             const float value = unit[lane] > 0 ? (float)((double)curvature[lane] / unit[lane]) : 0;
             fit[0] = isfinite(value) ? value : 0;
-            fit[1] = isfinite(value) && unit[lane] > 0 ? trust[lane] : 0;
+            const double blunt = (SHARP_BEND - fabs((double)curvature[lane])) / (SHARP_BEND - SOFT_BEND);
+            fit[1] = isfinite(value) && unit[lane] > 0 && blunt > 0 ? trust[lane] * (float)(blunt < 1 ? blunt : 1) : 0;
         }
     }
 }

@@ -136,6 +136,31 @@ static void test_made_surfaces(void **state) {
     ewa_context_destroy(&context);
 }
 
+/// Normals turn round the edges of a cube, which does not bend there: splats that moved by half of their radius would
+/// leave gaps beside the edges.
+static void test_edges(void **state) {
+    ewa_context *context = check_context(0, NULL);
+    for (uint64_t wanted = 6000; wanted <= 60000; wanted *= 10) {
+        ewa_generate_options generate;
+        ewa_generate_options_init(&generate, sizeof generate);
+        generate.object = EWA_OBJECT_CUBE;
+        generate.point_count = wanted;
+        generate.positions_only = true;
+        ewa_cloud *cloud = NULL;
+        assert_int_equal(ewa_cloud_generate(context, &generate, &cloud), EWA_OK);
+        ewa_estimate_options options = check_estimate_options();
+        assert_int_equal(ewa_cloud_estimate(&cloud, &options), EWA_OK);
+        const uint64_t count = ewa_cloud_point_count(cloud);
+        const float *found = check_stream(cloud, EWA_CURVATURE);
+        const double most = fmax(percentile(found, count, 1), -percentile(found, count, 0));
+        const double spacing = generate.size_world * sqrt(6.0 / (double)count);
+        print_message("%llu points: at most %.3f of a spacing\n", (unsigned long long)count, most * spacing);
+        assert_true(most * spacing < 0.35);
+        ewa_cloud_destroy(&cloud);
+    }
+    ewa_context_destroy(&context);
+}
+
 /// Moved points bend as they are moved: by 1 / scale, and a mirror changes no sign, since normals stay outside.
 static void test_moved(void **state) {
     ewa_context *context = check_context(0, NULL);
@@ -162,6 +187,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_known_surfaces),
         cmocka_unit_test(test_made_surfaces),
+        cmocka_unit_test(test_edges),
         cmocka_unit_test(test_moved),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
