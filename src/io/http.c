@@ -3,7 +3,7 @@
 //
 // Requests by libcurl, which is loaded when the first is made: linked, it and its thirty libraries would make every start of a
 // program twice as long.
-#include "io/http.h"
+#include "io/http_answer.h"
 #include "base/platform.h"
 
 #include <curl/curl.h>
@@ -13,13 +13,12 @@
 #include <strings.h>
 
 enum {
-    AT_ONCE = 6,           // connections, as browsers have them
-    ATTEMPTS = 4,          // at one byte
+    AT_ONCE = 6,  // connections, as browsers have them
+    ATTEMPTS = 4, // at one byte
     CONNECT_MS = 10000,
-    SILENCE_S = 20,        // without a byte
-    POLL_MS = 50,          // between two looks at the progress callback
+    SILENCE_S = 20, // without a byte
+    POLL_MS = 50,   // between two looks at the progress callback
     REDIRECTS = 5,
-    FIRST_WHOLE_BYTES = 1 << 20,
 };
 
 static const double FIRST_PAUSE_S = 0.2, PAUSE_GROWTH = 3;
@@ -65,19 +64,12 @@ static const function_row function_rows[] = {
 /// A part that is being asked for.
 typedef struct request {
     ewa_http *transfer;
-    ewa_http_part *part;
+    ewa_http_part *part; // NULL: none
     CURL *handle;
     uint32_t attempt_count; ///< since a byte came
     double not_before_s;    ///< of the next attempt
     bool running, done;
-    // Of the present answer:
-    long code;
-    uint64_t range_first, range_size, length; ///< Content-Range and Content-Length; EWA_HTTP_SIZE_UNKNOWN: not said
-    bool packed;                              ///< Content-Encoding
-    size_t before_bytes;                      ///< of the part that earlier answers have brought
-    size_t whole_room_bytes, whole_bytes;
-    const char *refused;                      ///< why the rest is not taken; NULL: it is
-    ewa_status refused_status;
+    ewa_http_answer answer;
     char error[CURL_ERROR_SIZE];
 } request;
 
@@ -138,110 +130,16 @@ void ewa_http_destroy(ewa_http **transfer) {
 
 // ---- What servers say
 
-static bool begins(const char *line, size_t length, const char *name, const char **value, const char **end) {
-    const size_t name_bytes = strlen(name);
-    if (length <= name_bytes || strncasecmp(line, name, name_bytes) != 0) return false;
-    *value = line + name_bytes;
-    *end = line + length;
-    while (*value < *end && (**value == ' ' || **value == '\t')) ++*value;
-    while (*value < *end && ((*end)[-1] == '\r' || (*end)[-1] == '\n' || (*end)[-1] == ' ')) --*end;
-    return true;
-}
-
-/// Reads a whole number and steps behind it; EWA_HTTP_SIZE_UNKNOWN where there is none, or too large a one.
-static uint64_t read_number(const char **at, const char *end) {
-    uint64_t number = 0;
-    bool any = false;
-    for (; *at < end && **at >= '0' && **at <= '9'; ++*at, any = true) {
-        if (number > (UINT64_MAX >> 4)) return EWA_HTTP_SIZE_UNKNOWN;
-        number = 10 * number + (uint64_t)(**at - '0');
-    }
-    return any ? number : EWA_HTTP_SIZE_UNKNOWN;
-}
-
-/// Reads "bytes FIRST-LAST/SIZE", of which the size may be "*", and all before it where there is no such part.
-static void read_range(request *r, const char *value, const char *end) {
-    static const char unit[] = "bytes ";
-    if ((size_t)(end - value) < sizeof unit || strncasecmp(value, unit, sizeof unit - 1) != 0) return;
-    const char *at = value + sizeof unit - 1;
-    const uint64_t first = read_number(&at, end);
-    const uint64_t last = at < end && *at == '-' ? (at++, read_number(&at, end)) : EWA_HTTP_SIZE_UNKNOWN;
-    if (first != EWA_HTTP_SIZE_UNKNOWN && last != EWA_HTTP_SIZE_UNKNOWN && last >= first)
-        r->range_first = first, r->range_size = last - first + 1;
-    while (at < end && *at != '/') at++;
-    if (at < end) at++, r->part->file_bytes = read_number(&at, end);
-}
-
 static size_t take_header(char *line, size_t one, size_t length, void *user) {
-    request *r = user;
-    const char *value, *end;
     (void)one;
-    if (length > 5 && strncmp(line, "HTTP/", 5) == 0) {
-        // A new answer: of what leads here, or of this address.
-        r->range_first = r->range_size = r->length = r->part->file_bytes = EWA_HTTP_SIZE_UNKNOWN;
-        r->packed = false;
-        r->part->tag[0] = 0;
-        const char *at = memchr(line, ' ', length);
-        end = line + length;
-        r->code = at ? (at++, (long)read_number(&at, end)) : 0;
-    } else if (begins(line, length, "content-range:", &value, &end)) {
-        read_range(r, value, end);
-    } else if (begins(line, length, "content-length:", &value, &end)) {
-        r->length = read_number(&value, end);
-    } else if (begins(line, length, "content-encoding:", &value, &end)) {
-        r->packed = !(end - value == 8 && strncasecmp(value, "identity", 8) == 0);
-    } else if (begins(line, length, "etag:", &value, &end) ||
-               (!r->part->tag[0] && begins(line, length, "last-modified:", &value, &end))) {
-        snprintf(r->part->tag, sizeof r->part->tag, "%.*s", (int)(end - value), value);
-    }
+    ewa_http_answer_take_header(user, line, length);
     return length;
 }
 
-static size_t refuse(request *r, ewa_status status, const char *why) {
-    r->refused = why;
-    r->refused_status = status;
-    return 0; // which ends the answer
-}
-
-/// Keeps a file that comes as a whole, though a part was asked for.
-static size_t take_whole(request *r, const char *bytes, size_t size_bytes) {
-    ewa_http_part *part = r->part;
-    ewa_context *context = r->transfer->context;
-    const uint64_t said = r->length == EWA_HTTP_SIZE_UNKNOWN ? 0 : r->length;
-    if (said > EWA_HTTP_WHOLE_BYTES || r->whole_bytes + size_bytes > EWA_HTTP_WHOLE_BYTES)
-        return refuse(r, EWA_ERROR_LIMIT, "the server gives no parts of files (ranges), and the whole is more than 1 GiB: download it");
-    if (r->whole_bytes + size_bytes > r->whole_room_bytes) {
-        size_t room = r->whole_room_bytes ? 2 * r->whole_room_bytes : FIRST_WHOLE_BYTES;
-        if (said > room) room = (size_t)said;
-        while (room < r->whole_bytes + size_bytes) room *= 2;
-        uint8_t *larger = ewa_memory_left(context) > room ? ewa_allocate(context, room, 1) : NULL;
-        if (!larger) return refuse(r, EWA_ERROR_LIMIT, "the server gives no parts of files (ranges), and the whole needs more memory than may be held");
-        if (r->whole_bytes) memcpy(larger, part->whole, r->whole_bytes);
-        ewa_release(context, part->whole, r->whole_room_bytes, 1);
-        part->whole = larger;
-        r->whole_room_bytes = room;
-    }
-    memcpy(part->whole + r->whole_bytes, bytes, size_bytes);
-    r->whole_bytes += size_bytes;
-    return size_bytes;
-}
-
 static size_t take_body(char *bytes, size_t one, size_t size_bytes, void *user) {
-    request *r = user;
-    ewa_http_part *part = r->part;
     (void)one;
-    if (r->code != 200 && r->code != 206) return size_bytes; // the words of an error
-    if (r->packed) return refuse(r, EWA_ERROR_IO, "the server sends it compressed, of which there are no parts");
-    if (r->code == 200) return take_whole(r, bytes, size_bytes);
-    const uint64_t at = part->at_bytes + r->before_bytes;
-    if (r->range_first != at || r->range_size > part->size_bytes - r->before_bytes)
-        return refuse(r, EWA_ERROR_IO, "the server sends another part than it was asked for");
-    if (size_bytes > r->before_bytes + r->range_size - part->got_bytes)
-        return refuse(r, EWA_ERROR_IO, "the server sends more than it says");
-    memcpy(part->to + part->got_bytes, bytes, size_bytes);
-    part->got_bytes += size_bytes;
-    r->attempt_count = 0;
-    return size_bytes;
+    // Less than all ends the answer.
+    return ewa_http_answer_take_body(user, bytes, size_bytes) ? size_bytes : 0;
 }
 
 // ---- Requests
@@ -254,10 +152,7 @@ static bool start(request *r, const char *address) {
     const uint64_t from = r->part->at_bytes + r->part->got_bytes;
     snprintf(range, sizeof range, "%" PRIu64 "-%" PRIu64, from, r->part->at_bytes + r->part->size_bytes - 1);
     snprintf(agent, sizeof agent, "ewa/%s", ewa_version());
-    r->before_bytes = r->part->got_bytes;
-    r->code = 0;
-    r->refused = NULL;
-    r->whole_bytes = 0;
+    ewa_http_answer_begin(&r->answer);
     r->error[0] = 0;
     r->attempt_count++;
     const bool safe = strncasecmp(address, "https:", 6) == 0;
@@ -275,9 +170,9 @@ static bool start(request *r, const char *address) {
                      curl->easy_setopt(h, CURLOPT_USERAGENT, agent) == CURLE_OK &&
                      curl->easy_setopt(h, CURLOPT_ERRORBUFFER, r->error) == CURLE_OK &&
                      curl->easy_setopt(h, CURLOPT_HEADERFUNCTION, take_header) == CURLE_OK &&
-                     curl->easy_setopt(h, CURLOPT_HEADERDATA, r) == CURLE_OK &&
+                     curl->easy_setopt(h, CURLOPT_HEADERDATA, &r->answer) == CURLE_OK &&
                      curl->easy_setopt(h, CURLOPT_WRITEFUNCTION, take_body) == CURLE_OK &&
-                     curl->easy_setopt(h, CURLOPT_WRITEDATA, r) == CURLE_OK &&
+                     curl->easy_setopt(h, CURLOPT_WRITEDATA, &r->answer) == CURLE_OK &&
                      curl->easy_setopt(h, CURLOPT_PRIVATE, r) == CURLE_OK &&
                      curl->multi_add_handle(r->transfer->multi, h) == CURLM_OK;
     r->running = set;
@@ -285,22 +180,9 @@ static bool start(request *r, const char *address) {
 }
 
 static void end_request(request *r, ewa_status status, const char *reason) {
-    ewa_http_part *part = r->part;
-    part->status = status;
-    snprintf(part->reason, sizeof part->reason, "%s", reason);
-    if (status == EWA_OK && part->whole) {
-        part->file_bytes = r->whole_bytes;
-        // The memory is given back by its size.
-        uint8_t *fit = r->whole_bytes ? ewa_allocate(r->transfer->context, r->whole_bytes, 1) : NULL;
-        if (fit) memcpy(fit, part->whole, r->whole_bytes);
-        if (r->whole_bytes && !fit) part->status = EWA_ERROR_MEMORY;
-        ewa_release(r->transfer->context, part->whole, r->whole_room_bytes, 1);
-        part->whole = fit;
-    } else if (part->whole) {
-        ewa_release(r->transfer->context, part->whole, r->whole_room_bytes, 1);
-        part->whole = NULL;
-    }
-    r->whole_room_bytes = 0;
+    r->part->status = status;
+    snprintf(r->part->reason, sizeof r->part->reason, "%s", reason);
+    ewa_http_answer_end(&r->answer);
     r->done = true;
 }
 
@@ -338,40 +220,32 @@ static const char *explain(const request *r, CURLcode code, bool *again) {
 
 /// What became of an answer.
 static void settle(request *r, CURLcode code) {
-    ewa_http_part *part = r->part;
+    const ewa_http_answer *answer = &r->answer;
     bool again;
     char said[64];
     r->running = false;
-    if (r->refused) {
-        end_request(r, r->refused_status, r->refused);
+    // Bytes came: what is wrong is not as it was.
+    if (answer->part->got_bytes > answer->before_bytes) r->attempt_count = 0;
+    if (answer->refused) {
+        end_request(r, answer->refused_status, answer->refused);
+        return;
+    }
+    if (code == CURLE_OK && ewa_http_answer_is_whole(answer)) {
+        end_request(r, EWA_OK, "");
         return;
     }
     const char *reason = code == CURLE_OK ? NULL : explain(r, code, &again);
-    if (code == CURLE_OK && r->code == 206 && part->got_bytes == r->before_bytes + r->range_size) {
-        end_request(r, EWA_OK, "");
-        return;
-    }
-    if (code == CURLE_OK && r->code == 200) {
-        if (!part->whole) part->file_bytes = 0;
-        end_request(r, EWA_OK, "");
-        return;
-    }
-    if (code == CURLE_OK && r->code == 416) {
-        // There is nothing there, or what is asked for lies beyond the end.
-        end_request(r, EWA_OK, "");
-        return;
-    }
-    if (code == CURLE_OK && r->code == 206) {
+    if (code == CURLE_OK && answer->code == 206) {
         again = true;
         reason = "the connection was cut";
     } else if (code == CURLE_OK) {
-        again = r->code == 429 || r->code >= 500;
+        again = answer->code == 429 || answer->code >= 500;
         snprintf(said, sizeof said,
-                 r->code == 404 || r->code == 410   ? "the server has no such file (%ld)"
-                 : r->code == 401 || r->code == 403 ? "the server refuses it (%ld)"
-                 : again                            ? "the server fails (%ld)"
-                                                    : "the server answers %ld",
-                 r->code);
+                 answer->code == 404 || answer->code == 410   ? "the server has no such file (%ld)"
+                 : answer->code == 401 || answer->code == 403 ? "the server refuses it (%ld)"
+                 : again                                      ? "the server fails (%ld)"
+                                                              : "the server answers %ld",
+                 answer->code);
         reason = said;
     }
     if (!again || r->attempt_count >= ATTEMPTS) {
@@ -390,9 +264,7 @@ static bool give_work(ewa_http *t, request *r, ewa_http_part *parts, uint32_t co
     if (*next == count) return false;
     CURL *handle = r->handle;
     *r = (request){.transfer = t, .part = &parts[(*next)++], .handle = handle};
-    r->part->got_bytes = 0;
-    r->part->whole = NULL;
-    r->part->file_bytes = EWA_HTTP_SIZE_UNKNOWN;
+    ewa_http_answer_open(t->context, r->part, &r->answer);
     return true;
 }
 
