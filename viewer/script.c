@@ -82,6 +82,9 @@ static bool reach(script *s, double time_s) {
 
 /// Draws until nothing moves any more; time goes on in steps of a hundredth of a second.
 static bool settle(script *s) {
+    viewer_state state;
+    viewer_get_state(s->viewer, &state);
+    if (state.flying) return fail(s, "nothing comes to rest while a key is held by which the camera flies: keyup", NULL);
     for (int i = 0; i < 100000; i++) {
         if (s->job->timings) s->time_s = fmax(s->time_s, now_s() - s->began_s);
         if (!step(s)) return false;

@@ -151,10 +151,14 @@ static void animate(viewer *v) {
     viewer_change(v);
 }
 
+bool viewer_size_fits(double width, double height, double scale) {
+    const double wide_px = width * scale, high_px = height * scale;
+    return width >= 1 && height >= 1 && scale > 0 && wide_px * high_px <= MAX_PX && wide_px <= MAX_SIDE_PX &&
+           high_px <= MAX_SIDE_PX;
+}
+
 static void resize(viewer *v, const viewer_event *event) {
-    const double wide_px = event->x * event->amount, high_px = event->y * event->amount;
-    if (!(event->x >= 1 && event->y >= 1 && event->amount > 0 && wide_px * high_px <= MAX_PX)) return;
-    if (!(wide_px <= MAX_SIDE_PX && high_px <= MAX_SIDE_PX)) return;
+    if (!viewer_size_fits(event->x, event->y, event->amount)) return;
     v->width = event->x, v->height = event->y, v->scale = event->amount;
     const uint32_t width_px = pixels(v->width, v->scale), height_px = pixels(v->height, v->scale);
     if (width_px == v->camera.width_px && height_px == v->camera.height_px) return;
@@ -350,6 +354,7 @@ void viewer_get_camera(const viewer *v, ewa_camera *camera) { *camera = v->camer
 
 void viewer_get_state(const viewer *v, viewer_state *state) {
     *state = v->state;
+    state->flying = v->fly_keys != 0;
     char path[VIEWER_PATH_BYTES];
     loader_tell(v->loader, path, state->stage, &state->fraction, &state->queued);
     const char *slash = strrchr(path, '/');

@@ -144,6 +144,9 @@ typedef struct viewer_event {
     const char *text;
 } viewer_event;
 
+/// Whether a window may have so many points and pixels per point; VIEWER_RESIZE of another one changes nothing.
+bool viewer_size_fits(double width, double height, double scale);
+
 /// Takes an event. What goes wrong is said as a message, never returned.
 void viewer_handle(viewer *viewer, const viewer_event *event);
 
@@ -219,6 +222,7 @@ typedef struct viewer_state {
     double message_s;                ///< when
     char picked[VIEWER_TEXT_BYTES];  ///< the last pick or measure, several lines
     bool moving, help, panels, quit; ///< help and panels are to be shown; quit: the user asked to end
+    bool flying;                     ///< a key is held by which the camera flies: nothing comes to rest
 } viewer_state;
 
 void viewer_get_state(const viewer *viewer, viewer_state *state);

@@ -195,7 +195,7 @@ bool events_translate(events_window *window, const SDL_Event *event, double time
 }
 
 static void push_resize(events_window *window, const viewer_event *event) {
-    if (!(event->x >= 1 && event->y >= 1 && event->amount > 0)) return; // no window has this size
+    if (!viewer_size_fits(event->x, event->y, event->amount)) return;
     window->zoom = event->amount;
     SDL_SetWindowSize(window->window, (int)lround(event->x * event->amount),
                       (int)lround(event->y * event->amount));

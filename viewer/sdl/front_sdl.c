@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: MIT
 //
 // The window: made, kept up to date, closed. It sleeps while nothing changes, and needs no GPU.
+#include "display_sdl.h"
 #include "events_sdl.h"
 #include "panel.h"
 #include "picture_sdl.h"
 #include "viewer/front.h"
 
-#include <SDL_syswm.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -53,65 +53,6 @@ static bool get_clipboard(void *user, char *text, size_t text_bytes) {
     if (fits) memcpy(text, found, strlen(found) + 1);
     SDL_free(found);
     return fits;
-}
-
-/// Says why there is no window, and what helps.
-static int no_window(const char *what) {
-    fprintf(
-        stderr,
-        "ewa: view: no %s (%s): set DISPLAY or WAYLAND_DISPLAY (SDL_VIDEODRIVER chooses among several), or "
-        "draw without a window: ewa render\n",
-        what, *SDL_GetError() ? SDL_GetError() : "SDL does not say why");
-    return 1;
-}
-
-/// Starts SDL; false: there is no screen. Drivers that nobody sees are taken only when they are asked for.
-static bool start_video(void) {
-    SDL_SetHint(SDL_HINT_VIDEO_ALLOW_SCREENSAVER, "1");
-    SDL_SetHint(SDL_HINT_MOUSE_FOCUS_CLICKTHROUGH, "1");
-    // Else SDL looks for OpenGL behind the renderer that is to do without it.
-    SDL_SetHint(SDL_HINT_FRAMEBUFFER_ACCELERATION, "0");
-    const bool asked = SDL_GetHint(SDL_HINT_VIDEODRIVER) != NULL;
-#ifdef __linux__
-    // Wayland's library prints a line of its own when it is tried without.
-    if (!asked && !SDL_getenv("XDG_RUNTIME_DIR")) SDL_SetHint(SDL_HINT_VIDEODRIVER, "x11");
-#endif
-    if (SDL_Init(SDL_INIT_VIDEO) != 0) return false;
-    const char *driver = SDL_GetCurrentVideoDriver();
-    if (asked || !driver || strcmp(driver, "offscreen") != 0) return true;
-    SDL_Quit();
-    SDL_SetError("no display can be opened");
-    return false;
-}
-
-/// SDL's units per point: what the desktop scales everything by, where SDL's units are pixels (X11). SDL knows
-/// the size of the glass alone, not what was chosen.
-static double find_zoom(void) {
-    double zoom = 1;
-#ifdef SDL_VIDEO_DRIVER_X11
-    const char *driver = SDL_GetCurrentVideoDriver();
-    void *library = driver && strcmp(driver, "x11") == 0 ? SDL_LoadObject("libX11.so.6") : NULL;
-    Display *(*open_display)(const char *) = NULL;
-    char *(*get_default)(Display *, const char *, const char *) = NULL;
-    int (*close_display)(Display *) = NULL;
-    if (library) {
-        void *found[] = {SDL_LoadFunction(library, "XOpenDisplay"), SDL_LoadFunction(library, "XGetDefault"),
-                         SDL_LoadFunction(library, "XCloseDisplay")};
-        memcpy(&open_display, &found[0], sizeof found[0]);
-        memcpy(&get_default, &found[1], sizeof found[1]);
-        memcpy(&close_display, &found[2], sizeof found[2]);
-    }
-    Display *display = open_display && get_default && close_display ? open_display(NULL) : NULL;
-    if (display) {
-        // In quarters, as desktops have it.
-        const char *text = get_default(display, "Xft", "dpi");
-        const double wished = text ? nearbyint(SDL_strtod(text, NULL) / 96 * 4) / 4 : 1;
-        if (wished >= 1 && wished <= 8) zoom = wished;
-        close_display(display);
-    }
-    SDL_UnloadObject(library);
-#endif
-    return zoom;
 }
 
 static double find_refresh_s(SDL_Window *window) {
@@ -242,7 +183,7 @@ static int run(front_window *front, const front_job *job) {
         fputs("ewa: out of memory\n", stderr);
         return 1;
     }
-    if (!picture_window_open(front->events.window, &front->picture)) return no_window("renderer");
+    if (!picture_window_open(front->events.window, &front->picture)) return display_refuse("renderer", front->events.window);
     front->refresh_s = find_refresh_s(front->events.window);
     if (front->scripted) {
         const script_host host = {.user = front, .event = script_event, .step = script_step};
@@ -254,7 +195,7 @@ static int run(front_window *front, const front_job *job) {
 }
 
 int front_window_run(const front_job *job) {
-    if (!start_video()) return no_window("display");
+    if (!display_start(job->script_path != NULL)) return display_refuse("display", NULL);
     const char *name = job->path_count ? strrchr(job->paths[0], '/') : NULL;
     char title[VIEWER_NAME_BYTES];
     snprintf(title, sizeof title, "%s%sewa",
@@ -263,12 +204,12 @@ int front_window_run(const front_job *job) {
                               : job->paths[0],
              job->path_count ? " - " : "");
     front_window front = {.scripted = job->script_path != NULL};
-    front.events.zoom = front.scripted ? job->options.scale : find_zoom();
+    front.events.zoom = front.scripted ? job->options.scale : display_find_zoom();
     const int width = (int)lround(job->options.width * front.events.zoom);
     const int height = (int)lround(job->options.height * front.events.zoom);
     front.events.window = SDL_CreateWindow(title, SDL_WINDOWPOS_UNDEFINED, SDL_WINDOWPOS_UNDEFINED, width,
                                            height, SDL_WINDOW_RESIZABLE | SDL_WINDOW_ALLOW_HIGHDPI);
-    int exit_status = front.events.window ? run(&front, job) : no_window("window");
+    int exit_status = front.events.window ? run(&front, job) : display_refuse("window", NULL);
     viewer_destroy(&front.viewer);
     panel_destroy(&front.panel);
     picture_window_close(&front.picture);

@@ -4,6 +4,7 @@
 // Dear ImGui in an SDL window: its events, its look, its triangles. What the panels say is laid out elsewhere.
 #include "panel_parts.h"
 
+#include <imgui_internal.h>
 #include <math.h>
 #include <new>
 #include <stdarg.h>
@@ -15,6 +16,9 @@ namespace {
 
 /// Points.
 constexpr float font_points = 14;
+
+/// Pixels per point, of glyphs that still fit a texture.
+constexpr double largest_scale = 8;
 
 /// Where the font is on Debian, Fedora and Arch; else Dear ImGui's own is taken.
 const char *const font_paths[] = {
@@ -142,10 +146,12 @@ bool make_glyphs(panel *p, float unit) {
         config.SizePixels = 13 * fmaxf(1, floorf(unit + 0.25f));
         io.Fonts->AddFontDefault(&config);
     }
-    unsigned char *rgba8;
-    int width, height;
+    unsigned char *rgba8 = nullptr;
+    int width = 0, height = 0;
     io.Fonts->GetTexDataAsRGBA32(&rgba8, &width, &height);
     if (p->glyphs) SDL_DestroyTexture(p->glyphs);
+    p->glyphs = nullptr;
+    if (!rgba8) return false;
     p->glyphs =
         SDL_CreateTexture(p->renderer, SDL_PIXELFORMAT_RGBA32, SDL_TEXTUREACCESS_STATIC, width, height);
     if (!p->glyphs) return false;
@@ -240,6 +246,14 @@ void press_key(const SDL_KeyboardEvent &event) {
     io.KeyAlt = (event.keysym.mod & KMOD_ALT) != 0;
 }
 
+/// Closes a list that is open; false: none is.
+bool close_list() {
+    constexpr ImGuiPopupFlags any = ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel;
+    if (!ImGui::IsPopupOpen("", any)) return false;
+    ImGui::ClosePopupToLevel(0, true);
+    return true;
+}
+
 /// Nothing is held, and the pointer is nowhere.
 void let_go(ImGuiIO &io) {
     io.MousePos = ImVec2(-FLT_MAX, -FLT_MAX);
@@ -306,6 +320,8 @@ bool panel_event(panel *p, viewer *shown, const SDL_Event *event) {
     case SDL_KEYDOWN:
     case SDL_KEYUP:
         press_key(event->key);
+        // Else it would be the viewer's, which forgets picks by it.
+        if (event->type == SDL_KEYDOWN && event->key.keysym.sym == SDLK_ESCAPE && close_list()) return true;
         if (!io.WantCaptureKeyboard) return false;
         lay_out(p, shown);
         return event->type == SDL_KEYDOWN;
@@ -323,11 +339,13 @@ bool panel_event(panel *p, viewer *shown, const SDL_Event *event) {
 }
 
 void panel_draw(panel *p, viewer *shown, const panel_facts *facts) {
-    if (!p->glyphs || p->facts.scale != facts->scale) {
-        choose_style((float)facts->scale);
-        if (!make_glyphs(p, (float)facts->scale)) return;
+    const double scale = fmin(facts->scale, largest_scale);
+    if (!p->glyphs || p->facts.scale != scale) {
+        choose_style((float)scale);
+        if (!make_glyphs(p, (float)scale)) return;
     }
     p->facts = *facts;
+    p->facts.scale = scale;
     lay_out(p, shown);
     const ImDrawData *data = ImGui::GetDrawData();
     for (int i = 0; i < data->CmdListsCount; i++) draw_list(p, data->CmdLists[i]);
