@@ -70,9 +70,9 @@ setup:
 demo: program
 	@sh tools/demo.sh $(EWA) "$(OUT)" "$(FILE)"
 
-# A person's session in a window needs a screen and a hand.
+# A person's session in a window needs a screen and a hand; completion needs its shells, manual pages and desktop files what checks them.
 check: build asan-build clang-build tsan-build
-	@sh tools/setup.sh xvfb xdotool || echo "Without these it is skipped."
+	@sh tools/setup.sh xvfb xdotool mandoc zsh fish desktop-file-utils shared-mime-info || echo "Without these it is skipped."
 	@sh tools/check.sh build/release build/asan:quick build/clang:parallel build/tsan:parallel
 
 check-all: asan tsan clang check

@@ -3,6 +3,7 @@
 //
 // The program: finds the command, parses its options, runs it.
 #include "cli/base/commands.h"
+#include "cli/base/help.h"
 #include "cli/base/json.h"
 #include "ewa/io.h"
 
@@ -57,6 +58,18 @@ static int run(size_t count, const char *const *words) {
         help_print_json(stdout);
     } else if (strcmp(word, "--help-markdown") == 0) {
         help_print_markdown(stdout, all_commands_count, all_commands);
+    } else if (strcmp(word, "--help-man") == 0 && count > 1) {
+        const cli_command *command = command_find(words[1]);
+        if (!command) return unknown_command(words[1]);
+        manual_print_command(stdout, command);
+    } else if (strcmp(word, "--help-man") == 0) {
+        manual_print_program(stdout, all_commands_count, all_commands);
+    } else if (strcmp(word, "--completion") == 0) {
+        const char *shell = count > 1 ? words[1] : "";
+        if (!completion_print(stdout, shell, all_commands_count, all_commands)) {
+            fprintf(stderr, "ewa: --completion: '%s' is not one of bash, zsh and fish\n", shell);
+            return EXIT_USAGE;
+        }
     } else {
         const cli_command *command = command_find(word);
         return command ? command_run(command, NULL, count - 1, words + 1) : unknown_command(word);

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The ewa authors
 # SPDX-License-Identifier: MIT
 #
-# What `cmake --install` puts down: both libraries, the headers, ewa.pc and the CMake package.
+# What `cmake --install` puts down: both libraries, the headers, ewa.pc, the CMake package, the licence.
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/ewa)
 foreach(kind shared static)
   install(TARGETS ewa_${kind} EXPORT ewa_${kind}_targets
@@ -16,6 +16,10 @@ configure_package_config_file(cmake/ewa-config.cmake.in ${PROJECT_BINARY_DIR}/ew
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/ewa-config-version.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/ewa-config.cmake ${PROJECT_BINARY_DIR}/ewa-config-version.cmake
   DESTINATION ${package_dir})
+
+if(NOT SKBUILD) # whose package names its licence
+  install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
+endif()
 
 # A wheel has the shared library in its package (pyproject.toml).
 if(SKBUILD)

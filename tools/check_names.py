@@ -27,7 +27,7 @@ CODE = ("src", "include", "cli", "bench", "viewer", "examples", "import", "mpi",
 # Options of other programs, by a word of the same paragraph.
 FOREIGN_OPTIONS = {
     "mpirun": {"bind-to"}, "Open MPI": {"allow-run-as-root", "oversubscribe"},
-    "cmake": {"preset", "build", "target", "help"},
+    "cmake": {"preset", "build", "target", "help", "install", "prefix"},
     "F3D": {"camera-azimuth-angle", "camera-elevation-angle"},
     "parallel": {"wd", "retries"},
     "sbatch": {"array", "dependency"},
@@ -253,7 +253,7 @@ def check_links(tree, found):
 
 def read_options(tree):
     """The options of each command by docs/cli.md, under "" those of all."""
-    options = {"": {"version", "help-markdown", "help-json", "key", "no-key", "no"}}  # of the program; what rows are told by
+    options = {"": {"version", "help-markdown", "help-json", "help-man", "completion", "key", "no-key", "no"}}  # of the program; what rows are told by
     for part in re.split(r"(?m)^## ewa ", tree.pages.get("docs/cli.md", ""))[1:]:
         command = options.setdefault(part.split()[0], set())
         for first, rest in re.findall(r"(?m)^\| `([^`]*--[^`]*)` \|(.*)$", part):

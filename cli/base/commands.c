@@ -3,6 +3,7 @@
 //
 // The commands of the program.
 #include "cli/base/commands.h"
+#include "cli/base/help.h"
 #include "cli/base/outputs.h"
 #include "cli/base/session.h"
 

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: MIT
 //
 // Help and the page docs/cli.md, from the option tables.
+#include "cli/base/help.h"
 #include "cli/base/bytes.h"
 #include "cli/base/json.h"
-#include "cli/base/options.h"
 
 #include <ctype.h>
 #include <inttypes.h>
@@ -15,6 +15,16 @@
 #include "ewa/ewa.h"
 
 enum { LEFT_COLUMNS = 30, ALL_COLUMNS = 100, TEXT_BYTES = 512 };
+
+const help_option help_program_options[] = {
+    {"-h, --help", "print this help; 'ewa COMMAND --help' prints a command's"},
+    {"--version", "print the version, and what the library was built with"},
+    {"--help-markdown", "print the help of all commands as Markdown"},
+    {"--help-json", "print the library's tables of options as JSON"},
+    {"--help-man [COMMAND]", "print the manual page of the program or of a command, for man -l"},
+    {"--completion SHELL", "print what completes commands and options in bash, zsh or fish"},
+    {0},
+};
 
 /// Prints words, broken at ALL_COLUMNS; `column` is where the cursor is, later lines start at `indent`.
 static void print_wrapped(FILE *file, const char *text, int column, int indent) {
@@ -120,28 +130,26 @@ static void format_default(const cli_option *option, const void *defaults, char 
     }
 }
 
-/// Writes "-o, --output FILE".
-static void format_names(const cli_option *option, char text[TEXT_BYTES]) {
+void help_write_names(const cli_option *option, char text[HELP_NAMES_BYTES]) {
     char letter[8] = "", value[EWA_OPTION_TEXT_BYTES];
     options_name_value(option, value);
     if (option->letter) snprintf(letter, sizeof letter, "-%c, ", option->letter);
-    snprintf(text, TEXT_BYTES, "%s--%s%s%s%s", letter, option->key, value[0] ? " " : "", value,
+    snprintf(text, HELP_NAMES_BYTES, "%s--%s%s%s%s", letter, option->key, value[0] ? " " : "", value,
              option->kind == OPTION_TOGGLE ? ", --no-" : "");
-    if (option->kind == OPTION_TOGGLE) strncat(text, option->key, TEXT_BYTES - strlen(text) - 1);
+    if (option->kind == OPTION_TOGGLE) strncat(text, option->key, HELP_NAMES_BYTES - strlen(text) - 1);
 }
 
 /// Appends the keys of a list in the table, with commas.
-static void append_keys(const char *lead, const char *keys, char text[2 * TEXT_BYTES]) {
+static void append_keys(const char *lead, const char *keys, char text[HELP_MEANING_BYTES]) {
     for (const char *key = keys; key && *key;) {
         const size_t length = strcspn(key, " "), used = strlen(text);
-        snprintf(text + used, 2 * TEXT_BYTES - used, "%s--%.*s", key == keys ? lead : ", ", (int)length, key);
+        snprintf(text + used, HELP_MEANING_BYTES - used, "%s--%.*s", key == keys ? lead : ", ", (int)length, key);
         key += length;
         key += strspn(key, " ");
     }
 }
 
-/// Writes what an option means with what it needs and excludes, its range, default and other names.
-static void format_meaning(const cli_option *option, const void *defaults, char text[2 * TEXT_BYTES]) {
+void help_write_meaning(const cli_option *option, const void *defaults, char text[HELP_MEANING_BYTES]) {
     char initial[TEXT_BYTES], range[EWA_OPTION_TEXT_BYTES] = "";
     format_default(option, defaults, initial);
     const ewa_option *of = options_library(option);
@@ -149,7 +157,7 @@ static void format_meaning(const cli_option *option, const void *defaults, char 
         options_write_range(of, range);
     else if (option->range && option->kind != OPTION_CHOICE)
         snprintf(range, sizeof range, "%s", option->range);
-    snprintf(text, 2 * TEXT_BYTES, "%s%s%s%s%s%s", option->help ? option->help : of->help,
+    snprintf(text, HELP_MEANING_BYTES, "%s%s%s%s%s%s", option->help ? option->help : of->help,
              range[0] == 0                ? ""
              : option->kind == OPTION_SET ? "; of "
                                           : "; in ",
@@ -162,9 +170,9 @@ static void format_meaning(const cli_option *option, const void *defaults, char 
 static void print_group(FILE *file, const option_group *group, const void *defaults) {
     fprintf(file, "\n%s:\n", group->title);
     for (size_t i = 0; i < group->count; i++) {
-        char names[TEXT_BYTES], meaning[2 * TEXT_BYTES];
-        format_names(&group->options[i], names);
-        format_meaning(&group->options[i], defaults, meaning);
+        char names[HELP_NAMES_BYTES], meaning[HELP_MEANING_BYTES];
+        help_write_names(&group->options[i], names);
+        help_write_meaning(&group->options[i], defaults, meaning);
         int column = fprintf(file, "  %s", names);
         if (column >= LEFT_COLUMNS) {
             fputc('\n', file);
@@ -178,9 +186,9 @@ static void print_group(FILE *file, const option_group *group, const void *defau
 static void print_group_markdown(FILE *file, const option_group *group, const void *defaults) {
     fprintf(file, "\n**%s**\n\n| option | meaning |\n|---|---|\n", group->title);
     for (size_t i = 0; i < group->count; i++) {
-        char names[TEXT_BYTES], meaning[2 * TEXT_BYTES];
-        format_names(&group->options[i], names);
-        format_meaning(&group->options[i], defaults, meaning);
+        char names[HELP_NAMES_BYTES], meaning[HELP_MEANING_BYTES];
+        help_write_names(&group->options[i], names);
+        help_write_meaning(&group->options[i], defaults, meaning);
         fputs("| `", file);
         for (const char *c = names; *c; c++) fprintf(file, *c == '|' ? "\\%c" : "%c", *c);
         fputs("` | ", file);
@@ -246,15 +254,14 @@ void help_print_json(FILE *file) {
     json_end(&json);
 }
 
-/// The defaults of a command, to be freed; NULL when memory is short.
-static void *make_defaults(const cli_command *command) {
+void *help_make_defaults(const cli_command *command) {
     void *defaults = malloc(command->arguments_bytes);
     if (defaults) options_default(command, defaults);
     return defaults;
 }
 
 void help_print_command(FILE *file, const cli_command *command) {
-    void *defaults = make_defaults(command);
+    void *defaults = help_make_defaults(command);
     if (!defaults) return;
     fprintf(file, "usage: ewa %s %s [options]\n\n", command->name, command->operands);
     fprintf(file, "%c%s.\n", toupper((unsigned char)command->summary[0]), command->summary + 1);
@@ -282,13 +289,10 @@ void help_print_program(FILE *file, size_t count, const cli_command *const *comm
         const int column = fprintf(file, "  %-10s", commands[i]->name);
         print_wrapped(file, commands[i]->summary, column, column);
     }
-    fputs("\nOptions:\n"
-          "  -h, --help        print this help; 'ewa COMMAND --help' prints a command's\n"
-          "  --version         print the version, and what the library was built with\n"
-          "  --help-markdown   print the help of all commands as Markdown\n"
-          "  --help-json       print the library's tables of options as JSON\n\n"
-          "Exit status: 0 done, 1 the work failed, 2 wrong usage.\n",
-          file);
+    fputs("\nOptions:\n", file);
+    for (const help_option *option = help_program_options; option->names; option++)
+        fprintf(file, "  %-22s%s\n", option->names, option->meaning);
+    fputs("\nExit status: 0 done, 1 the work failed, 2 wrong usage.\n", file);
 }
 
 void help_print_markdown(FILE *file, size_t count, const cli_command *const *commands) {
@@ -305,7 +309,7 @@ void help_print_markdown(FILE *file, size_t count, const cli_command *const *com
           file);
     for (size_t i = 0; i < count; i++) {
         const cli_command *command = commands[i];
-        void *defaults = make_defaults(command);
+        void *defaults = help_make_defaults(command);
         if (!defaults) return;
         fprintf(file, "\n## ewa %s\n\n`ewa %s %s [options]`\n\n%c%s.\n", command->name, command->name,
                 command->operands, toupper((unsigned char)command->summary[0]), command->summary + 1);

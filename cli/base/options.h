@@ -178,13 +178,5 @@ const char *options_nearest(const char *word, size_t count, const char *const *n
 
 /// Writes what help calls the value of an option, such as "FILE" or "on|off".
 void options_name_value(const cli_option *option, char text[EWA_OPTION_TEXT_BYTES]);
-/// Prints the help of a command.
-void help_print_command(FILE *file, const cli_command *command);
-/// Prints what the program is and its commands.
-void help_print_program(FILE *file, size_t count, const cli_command *const *commands);
-/// Prints docs/options.json.
-void help_print_json(FILE *file);
-/// Prints docs/cli.md.
-void help_print_markdown(FILE *file, size_t count, const cli_command *const *commands);
 
 #endif

@@ -2,9 +2,10 @@
 # SPDX-License-Identifier: MIT
 #
 # Installs into a scratch folder and builds the consumer against it, by find_package() and by pkg-config, C and C++,
-# shared and static; runs each.
+# shared and static; runs each. Looks for the other installed files.
 #
-# cmake -DBUILD=build -DWORK=scratch -DCONSUMER=folder -DLIBDIR=lib -DCOMPILER=cc -DVERSION=x.y.z -P check_package.cmake
+# cmake -DBUILD=build -DWORK=scratch -DCONSUMER=folder -DLIBDIR=lib -DCOMPILER=cc -DVERSION=x.y.z
+#   [-DALSO="path of an installed file;..."] -P check_package.cmake
 file(REMOVE_RECURSE "${WORK}")
 file(MAKE_DIRECTORY "${WORK}/pc")
 
@@ -31,6 +32,15 @@ run(${CMAKE_COMMAND} --build ${WORK}/cmake)
 foreach(kind ewa shared static)
   run_consumer(${WORK}/cmake/c_${kind})
   run_consumer(${WORK}/cmake/cpp_${kind})
+endforeach()
+
+# What is no part of the library: pages of the manual and completion by the program's tables, the desktop's files, the licence.
+foreach(path share/man/man1/ewa.1 share/man/man1/ewa-render.1 share/man/man1/ewa-bench.1 share/bash-completion/completions/ewa
+    share/zsh/site-functions/_ewa share/fish/vendor_completions.d/ewa.fish share/doc/ewa/LICENSE ${ALSO})
+  file(SIZE ${WORK}/prefix/${path} bytes)
+  if(bytes LESS 500)
+    message(FATAL_ERROR "${path}: ${bytes} bytes")
+  endif()
 endforeach()
 
 # The tree may be moved: ewa.pc knows its place relative to itself.
