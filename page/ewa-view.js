@@ -10,7 +10,7 @@ const LEFT = 1, MIDDLE = 2, RIGHT = 3;
 /// Keys that have names; letters are themselves, in lower case.
 const KEYS = { Enter: 13, Escape: 27, Delete: 127, ArrowLeft: 268, ArrowRight: 269, ArrowUp: 270, ArrowDown: 271 };
 /// Rows of the viewer's help that are of windows.
-const NOT_IN_PAGES = new Set(["Tab", "F12", "Ctrl C, Ctrl V", "Ctrl Q"]);
+const NOT_IN_PAGES = /^(Ctrl \S+|Tab|F\d+)$/;
 const DOUBLE_MS = 350, DOUBLE_PX = 8;
 /// Pixels of a wheel that are a notch, and what a pinch on a trackpad does.
 const NOTCH_PX = 100, PINCH_PX = 100;
@@ -321,7 +321,7 @@ export class EwaView extends HTMLElement {
 
   #fill_help(rows) {
     const gestures = [["one finger", "turn; tap to pick"], ["two fingers", "move along, nearer and farther"]];
-    const here = rows.filter(([keys]) => !NOT_IN_PAGES.has(keys)).map(([keys, what]) => [keys, what.replace(/; with Ctrl.*/, "")]); // the browser's
+    const here = rows.filter(([keys]) => !NOT_IN_PAGES.test(keys)).map(([keys, what]) => [keys, what.replace(/; with Ctrl.*/, "")]); // the browser's
     const cells = [...gestures, ...here].map(([keys, what]) => {
       const row = document.createElement("tr");
       for (const text of [keys, what]) row.insertCell().textContent = text;

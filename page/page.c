@@ -247,7 +247,8 @@ bool page_item(page *p, uint32_t index) {
 }
 
 bool page_help(page *p, uint32_t row) {
-    const char *what, *keys = viewer_help_at(row, &what);
-    if (keys) snprintf(p->text, sizeof p->text, "%s\t%s", keys, what);
-    return keys != NULL;
+    viewer_help help;
+    const bool found = viewer_help_at(row, &help);
+    if (found) snprintf(p->text, sizeof p->text, "%s\t%s", help.keys, help.what);
+    return found;
 }

@@ -59,7 +59,32 @@ static bool read_item(viewer *v, const char *command, const char *word, size_t *
     return true;
 }
 
-static bool do_open(viewer *v, const char *rest) { return items_open(v, rest); }
+static bool is_ortho(const viewer *v) { return v->camera.projection == EWA_ORTHOGRAPHIC; }
+static bool is_eye_dome(const viewer *v) { return v->render.eye_dome > 0; }
+static bool is_points(const viewer *v) { return v->render.point_size_px > 0; }
+static bool is_box(const viewer *v) { return v->cutaway.box; }
+static bool is_slab(const viewer *v) { return v->cutaway.slab; }
+static bool is_help(const viewer *v) { return v->state.help; }
+static bool is_panels(const viewer *v) { return v->state.panels; }
+static bool is_fullscreen(const viewer *v) { return v->state.fullscreen; }
+
+/// Has the window ask for what a command goes without.
+static bool ask(viewer *v, viewer_question question) {
+    v->state.question = question;
+    return true;
+}
+
+static bool do_open(viewer *v, const char *rest) {
+    if (!rest[0]) return ask(v, VIEWER_ASKS_OPEN);
+    v->state.question = VIEWER_ASKS_NOTHING;
+    return items_open(v, rest);
+}
+
+static bool do_scene(viewer *v, const char *rest) {
+    if (strcmp(rest, "save") == 0) return ask(v, VIEWER_ASKS_SAVE_SCENE);
+    v->state.question = VIEWER_ASKS_NOTHING;
+    return shot_scene(v, rest);
+}
 
 static bool do_close(viewer *v, const char *rest) {
     size_t index;
@@ -213,12 +238,12 @@ static bool set_number(viewer *v, const char *name, double number) {
 }
 
 static bool do_eye_dome(viewer *v, const char *rest) {
-    bool on = v->render.eye_dome > 0;
+    bool on = is_eye_dome(v);
     return read_switch(v, "dome", rest, on, &on) && set_number(v, "eye_dome", on ? FIRST_EYE_DOME : 0);
 }
 
 static bool do_points(viewer *v, const char *rest) {
-    bool on = v->render.point_size_px > 0;
+    bool on = is_points(v);
     return read_switch(v, "points", rest, on, &on) &&
            set_number(v, "point_size_px", on ? FIRST_POINT_PX * v->scale : 0);
 }
@@ -240,7 +265,7 @@ static bool do_view(viewer *v, const char *rest) {
 static bool do_mode(viewer *v, const char *rest) { return settings_set(v, "navigation", rest); }
 
 static bool do_ortho(viewer *v, const char *rest) {
-    bool ortho = v->camera.projection == EWA_ORTHOGRAPHIC;
+    bool ortho = is_ortho(v);
     if (!read_switch(v, "ortho", rest, ortho, &ortho)) return false;
     v->animated = false;
     v->placed = true;
@@ -294,11 +319,17 @@ static bool do_section(viewer *v, const char *what, const char *rest) {
 static bool do_box(viewer *v, const char *rest) { return do_section(v, "box", rest); }
 static bool do_slab(viewer *v, const char *rest) { return do_section(v, "slab", rest); }
 
+/// One thing at a time: what lies on top first.
 static bool do_cancel(viewer *v, const char *rest) {
     (void)rest;
+    const bool asks = v->state.question != VIEWER_ASKS_NOTHING, help = v->state.help;
+    v->state.question = VIEWER_ASKS_NOTHING;
+    if (asks) return true;
+    v->state.help = false;
+    if (help) return true;
     loader_cancel(v->loader);
     pick_clear(v);
-    v->state.message[0] = 0;
+    v->state.message[0] = v->state.note[0] = 0;
     return true;
 }
 
@@ -316,6 +347,10 @@ static bool do_panels(viewer *v, const char *rest) {
     return read_switch(v, "panels", rest, v->state.panels, &v->state.panels);
 }
 
+static bool do_fullscreen(viewer *v, const char *rest) {
+    return read_switch(v, "fullscreen", rest, v->state.fullscreen, &v->state.fullscreen);
+}
+
 static bool do_quit(viewer *v, const char *rest) {
     (void)rest;
     v->state.quit = true;
@@ -325,22 +360,92 @@ static bool do_quit(viewer *v, const char *rest) {
 static const struct {
     const char *name;
     bool (*run)(viewer *v, const char *rest);
+    bool (*is_on)(const viewer *v); ///< of switches
 } commands[] = {
-    {"open", do_open},       {"close", do_close},    {"show", do_show},     {"name", do_name},
-    {"tint", do_tint},       {"alpha", do_alpha},    {"color", do_color},   {"colormap", do_colormap},
-    {"radius", do_radius},   {"set", do_set},        {"next", do_next},     {"dome", do_eye_dome},
-    {"points", do_points},   {"view", do_view},      {"mode", do_mode},     {"ortho", do_ortho},
-    {"focus", do_focus},     {"zoom", do_zoom},      {"box", do_box},       {"slab", do_slab},
-    {"camera", shot_camera}, {"shot", shot_command}, {"scene", shot_scene}, {"cancel", do_cancel},
-    {"clear", do_clear},     {"help", do_help},      {"panels", do_panels}, {"quit", do_quit},
-    {"turn", do_turn},
+    {"open", do_open, NULL},
+    {"close", do_close, NULL},
+    {"show", do_show, NULL},
+    {"name", do_name, NULL},
+    {"tint", do_tint, NULL},
+    {"alpha", do_alpha, NULL},
+    {"color", do_color, NULL},
+    {"colormap", do_colormap, NULL},
+    {"radius", do_radius, NULL},
+    {"set", do_set, NULL},
+    {"next", do_next, NULL},
+    {"dome", do_eye_dome, is_eye_dome},
+    {"points", do_points, is_points},
+    {"view", do_view, NULL},
+    {"mode", do_mode, NULL},
+    {"ortho", do_ortho, is_ortho},
+    {"focus", do_focus, NULL},
+    {"zoom", do_zoom, NULL},
+    {"turn", do_turn, NULL},
+    {"box", do_box, is_box},
+    {"slab", do_slab, is_slab},
+    {"camera", shot_camera, NULL},
+    {"shot", shot_command, NULL},
+    {"scene", do_scene, NULL},
+    {"cancel", do_cancel, NULL},
+    {"clear", do_clear, NULL},
+    {"help", do_help, is_help},
+    {"panels", do_panels, is_panels},
+    {"fullscreen", do_fullscreen, is_fullscreen},
+    {"quit", do_quit, NULL},
 };
+
+enum { COMMAND_COUNT = sizeof commands / sizeof commands[0] };
+
+/// Finds the command of a line; COMMAND_COUNT: there is none. `rest`: what follows its name.
+static size_t find_command(const char *line, char word[WORD_BYTES], const char **rest) {
+    *rest = take_word(line, word);
+    size_t i = 0;
+    while (i < COMMAND_COUNT && strcmp(word, commands[i].name) != 0) i++;
+    return i;
+}
 
 bool viewer_do(viewer *v, const char *command) {
     char word[WORD_BYTES];
-    const char *rest = take_word(command, word);
-    for (size_t i = 0; i < sizeof commands / sizeof commands[0]; i++)
-        if (strcmp(word, commands[i].name) == 0) return commands[i].run(v, rest);
+    const char *rest;
+    const size_t i = find_command(command, word, &rest);
+    if (i < COMMAND_COUNT) return commands[i].run(v, rest);
     viewer_tell(v, "there is no command '%s'", word);
     return false;
+}
+
+bool viewer_action_is_switch(const viewer *v, const viewer_action *action, bool *on) {
+    char word[WORD_BYTES], value[EWA_OPTION_TEXT_BYTES];
+    const char *rest;
+    const size_t i = find_command(action->command, word, &rest);
+    if (i < COMMAND_COUNT && commands[i].is_on && strcmp(rest, "next") == 0) {
+        *on = commands[i].is_on(v);
+        return true;
+    }
+    if (strcmp(word, "next") != 0 || !viewer_setting_get(v, rest, value)) return false;
+    *on = strcmp(value, "on") == 0;
+    return *on || strcmp(value, "off") == 0;
+}
+
+bool commands_value(const viewer *v, const viewer_action *action, char text[EWA_OPTION_TEXT_BYTES]) {
+    char word[WORD_BYTES];
+    const char *rest;
+    bool on;
+    (void)find_command(action->command, word, &rest);
+    const viewer_coloring *first = v->item_count ? &v->items[0].wish : NULL;
+    const char *said = NULL;
+    if (viewer_action_is_switch(v, action, &on))
+        said = on ? "on" : "off";
+    else if (strcmp(word, "color") == 0 && first)
+        said = first->attribute[0] ? first->attribute : "automatic";
+    else if (strcmp(word, "colormap") == 0 && first)
+        said = colormap_name(first->colormap);
+    if (said) {
+        snprintf(text, EWA_OPTION_TEXT_BYTES, "%s", said);
+        return true;
+    }
+    if (strcmp(word, "radius") == 0 && first) {
+        snprintf(text, EWA_OPTION_TEXT_BYTES, "%.3g times", first->radius_scale);
+        return true;
+    }
+    return strcmp(word, "next") == 0 && viewer_setting_get(v, rest, text);
 }

@@ -17,6 +17,7 @@ typedef struct scene_item {
     ewa_asset *preview; ///< shown until it is; NULL: none
     bool as_points;     ///< of the preview: drawn as discs of pixels
     bool loaded;        ///< it is in the scene
+    bool named;         ///< a scene file names it
     bool visible;
     uint32_t material;              ///< of all its points; EWA_MATERIAL_OWN: as each says
     viewer_coloring wish, coloring; ///< what is asked for, and what is shown
@@ -68,6 +69,8 @@ struct viewer {
     uint32_t scene_count;
     uint64_t scene_items[VIEWER_MAX_ITEMS]; ///< of its first instances: the items' ids
     uint64_t next_id;
+    char opened[VIEWER_PATH_BYTES]; ///< what was opened last
+    uint64_t opened_count;
     ewa_scene_options base; ///< what scene files say beside the settings
     ewa_scene_file **files; ///< scene files that were opened
     size_t file_count;
@@ -129,6 +132,8 @@ void viewer_change(viewer *v);
 void viewer_mark(viewer *v);
 /// Says a message, or a line of results.
 void viewer_tell(viewer *v, const char *format, ...) __attribute__((format(printf, 2, 3)));
+/// Notes what was done, for people alone.
+void viewer_note(viewer *v, const char *format, ...) __attribute__((format(printf, 2, 3)));
 void viewer_say(viewer *v, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
 // items.c
@@ -175,6 +180,11 @@ void cutaway_drag(viewer *v, double x_px, double y_px);
 // settings.c
 void settings_init(viewer *v);
 bool settings_set(viewer *v, const char *name, const char *text);
+
+// commands.c
+/// Writes what an action has set, such as "affine" of "next kernel" or "on" of "box next"; false: nothing that has a
+/// name.
+bool commands_value(const viewer *v, const viewer_action *action, char text[EWA_OPTION_TEXT_BYTES]);
 
 // pointer.c, keys.c
 void pointer_handle(viewer *v, const viewer_event *event);

@@ -63,6 +63,7 @@ static bool order(viewer *v, const char *path, const ewa_scene_file *file, uint3
     *item = (scene_item){.id = ++v->next_id, .visible = true, .material = EWA_MATERIAL_OWN};
     snprintf(item->path, sizeof item->path, "%s", path);
     snprintf(item->name, sizeof item->name, "%.255s", file_name(path));
+    item->named = file != NULL;
     viewer_coloring_init(&item->wish);
     ewa_scene_entry said;
     if (file && ewa_scene_file_entry(file, entry, &said) == EWA_OK) take_instance(&said.instance, item);
@@ -94,6 +95,11 @@ static void take_settings(viewer *v, const ewa_scene_file *file) {
     if (!v->has_scene_camera) v->has_scene_camera = ewa_scene_file_camera(file, &v->scene_camera);
 }
 
+static void note_opened(viewer *v, const char *path) {
+    snprintf(v->opened, sizeof v->opened, "%s", path);
+    v->opened_count++;
+}
+
 static bool open_scene(viewer *v, const char *path) {
     ewa_scene_file *file = NULL;
     const ewa_status status = ewa_scene_file_load(v->probe.context, path, NULL, &file);
@@ -115,6 +121,7 @@ static bool open_scene(viewer *v, const char *path) {
         (void)ewa_scene_file_entry(file, i, &entry);
         done = order(v, entry.path, file, i);
     }
+    if (done) note_opened(v, path);
     return done;
 }
 
@@ -302,6 +309,7 @@ static void take_asset(viewer *v, loader_note *note) {
     if (!item) return;
     item->asset = note->asset;
     note->asset = NULL;
+    if (!item->named) note_opened(v, item->path);
     items_reorder(v);
 }
 

@@ -15,6 +15,15 @@
 
 enum { TEMPORARY_PATH_BYTES = 256, NAME_ATTEMPTS = 100 };
 
+/// Notes where a file is that was saved.
+static void note_file(viewer *v, const char *what, const char *path) {
+    char folder[VIEWER_TEXT_BYTES];
+    if (path[0] != '/' && getcwd(folder, sizeof folder))
+        viewer_note(v, "%s saved: %s/%s", what, folder, path);
+    else
+        viewer_note(v, "%s saved: %s", what, path);
+}
+
 static bool save_picture(viewer *v, const char *path, uint32_t width_px, uint32_t height_px,
                          bool transparent) {
     paint_scene scene;
@@ -39,6 +48,7 @@ static bool save_picture(viewer *v, const char *path, uint32_t width_px, uint32_
                     v->probe.message[0] ? v->probe.message : ewa_status_name(status));
     else
         viewer_say(v, "shot %s %ux%u", path, width_px, height_px);
+    if (status == EWA_OK) note_file(v, "picture", path);
     return status == EWA_OK;
 }
 
@@ -137,6 +147,7 @@ static bool copy_camera(viewer *v) {
     const bool done = save_camera(v, path) && read_text(path, v->clipboard, sizeof v->clipboard);
     unlink(path);
     if (done && v->services.clipboard_set) v->services.clipboard_set(v->services.user, v->clipboard);
+    if (done) viewer_note(v, "camera copied, as the JSON that --camera reads");
     return done;
 }
 
@@ -155,6 +166,7 @@ static bool paste_camera(viewer *v) {
     if (file) done = fclose(file) == 0 && done;
     done = done && load_camera(v, path, "the text that was copied");
     unlink(path);
+    if (done) viewer_note(v, "camera pasted");
     return done;
 }
 
@@ -182,13 +194,18 @@ bool shot_scene(viewer *v, const char *rest) {
                     v->probe.message[0] ? v->probe.message : ewa_status_name(status));
     else
         viewer_say(v, "scene %s", path);
+    if (status == EWA_OK) note_file(v, "scene", path);
     return status == EWA_OK;
 }
 
 bool shot_camera(viewer *v, const char *rest) {
     if (strcmp(rest, "copy") == 0) return copy_camera(v);
     if (strcmp(rest, "paste") == 0) return paste_camera(v);
-    if (strncmp(rest, "save ", 5) == 0) return save_camera(v, rest + 5);
+    if (strncmp(rest, "save ", 5) == 0) {
+        const bool done = save_camera(v, rest + 5);
+        if (done) note_file(v, "camera", rest + 5);
+        return done;
+    }
     if (strncmp(rest, "load ", 5) == 0) return load_camera(v, rest + 5, rest + 5);
     viewer_tell(v, "camera: '%s' is not copy, paste, save FILE or load FILE", rest);
     return false;

@@ -50,6 +50,14 @@ void viewer_tell(viewer *v, const char *format, ...) {
     if (v->services.say) v->services.say(v->services.user, true, v->state.message);
 }
 
+void viewer_note(viewer *v, const char *format, ...) {
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(v->state.note, sizeof v->state.note, format, arguments);
+    va_end(arguments);
+    v->state.note_s = v->now_s;
+}
+
 void viewer_say(viewer *v, const char *format, ...) {
     va_list arguments;
     va_start(arguments, format);
@@ -362,5 +370,10 @@ void viewer_get_state(const viewer *v, viewer_state *state) {
 }
 
 bool viewer_open(viewer *v, const char *path) { return items_open(v, path); }
+
+const char *viewer_opened(const viewer *v, uint64_t *number) {
+    *number = v->opened_count;
+    return v->opened;
+}
 
 const char *viewer_said(const viewer *v) { return v->said; }

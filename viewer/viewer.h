@@ -175,6 +175,9 @@ int viewer_view_find(const char *word);
 /// Opens a file, as "open" does; it may still be loading afterwards.
 bool viewer_open(viewer *viewer, const char *path);
 
+/// Path of what was opened last and is loaded; empty: nothing. `number`: how many there were.
+const char *viewer_opened(const viewer *viewer, uint64_t *number);
+
 /// The last line of results, such as a pick; empty: none.
 const char *viewer_said(const viewer *viewer);
 
@@ -184,8 +187,53 @@ bool viewer_is_loading(const viewer *viewer);
 /// Whether nothing is loading, moving or waiting to be drawn.
 bool viewer_is_still(const viewer *viewer);
 
-/// A row of the help: keys or gestures and what they do; NULL beyond the last.
-const char *viewer_help_at(uint32_t index, const char **what);
+/// What buttons of a toolbar show.
+typedef enum viewer_icon {
+    VIEWER_ICON_NONE,
+    VIEWER_ICON_OPEN,
+    VIEWER_ICON_PICTURE,
+    VIEWER_ICON_HOME,
+    VIEWER_ICON_FRONT,
+    VIEWER_ICON_RIGHT,
+    VIEWER_ICON_TOP,
+    VIEWER_ICON_CORNER,
+    VIEWER_ICON_ORTHO,
+    VIEWER_ICON_BOX,
+    VIEWER_ICON_SLAB,
+    VIEWER_ICON_CLEAR,
+    VIEWER_ICON_HELP,
+} viewer_icon;
+
+/// Something that a person has done by a key, a row of a menu or a button.
+typedef struct viewer_action {
+    const char *menu;    ///< that it is a row of; NULL: another key of a command
+    const char *label;   ///< of the row
+    const char *command; ///< of the language
+    const char *help;    ///< what it does
+    int key;             ///< 0: none
+    uint32_t modifiers;  ///< VIEWER_CTRL
+    viewer_icon icon;    ///< of its button
+} viewer_action;
+
+/// NULL beyond the last.
+const viewer_action *viewer_action_at(uint32_t index);
+enum { VIEWER_KEYS_BYTES = 16 };
+/// Writes the name of an action's key, such as "Ctrl C"; empty: none.
+void viewer_action_keys(const viewer_action *action, char text[VIEWER_KEYS_BYTES]);
+/// Whether an action is a switch; `on`: how it is.
+bool viewer_action_is_switch(const viewer *viewer, const viewer_action *action, bool *on);
+/// Does an action and notes what has become of it. Returns false after saying what is wrong.
+bool viewer_act(viewer *viewer, const viewer_action *action);
+
+/// A row of the help.
+typedef struct viewer_help {
+    const char *menu; ///< of its action; NULL: a gesture of the pointer
+    const char *what; ///< it does
+    char keys[40];
+} viewer_help;
+
+/// Fills in a row of the help: gestures, then what has a key, menu by menu. False beyond the last.
+bool viewer_help_at(uint32_t index, viewer_help *row);
 
 /// A setting for a panel, in groups that follow each other; NULL beyond the last.
 const ewa_option *viewer_setting_at(const viewer *viewer, uint32_t index, const char **group);
@@ -212,6 +260,9 @@ const char *viewer_attribute_at(const viewer *viewer, size_t index, uint32_t att
 /// Fills the place of a pick (0), or of the second one of a measure (1); false: there is none.
 bool viewer_get_pick(const viewer *viewer, int index, double place_world[3]);
 
+/// A file's name that a command goes without: the answer is the command with it, or "cancel".
+typedef enum viewer_question { VIEWER_ASKS_NOTHING, VIEWER_ASKS_OPEN, VIEWER_ASKS_SAVE_SCENE } viewer_question;
+
 /// What goes on.
 typedef struct viewer_state {
     char loading[VIEWER_NAME_BYTES]; ///< name of what loads; empty: nothing
@@ -220,9 +271,13 @@ typedef struct viewer_state {
     uint32_t queued;                 ///< loads that wait
     char message[VIEWER_TEXT_BYTES]; ///< the last thing that went wrong or is worth knowing; empty: none
     double message_s;                ///< when
+    char note[VIEWER_TEXT_BYTES];    ///< what was done last, such as where a picture was saved; empty: nothing
+    double note_s;                   ///< when
+    viewer_question question;        ///< what the window is to ask for
     char picked[VIEWER_TEXT_BYTES];  ///< the last pick or measure, several lines
-    bool moving, help, panels, quit; ///< help and panels are to be shown; quit: the user asked to end
-    bool flying;                     ///< a key is held by which the camera flies: nothing comes to rest
+    bool moving, help, panels, fullscreen; ///< which are to be shown
+    bool quit;                             ///< the user asked to end
+    bool flying;                           ///< a key is held by which the camera flies: nothing comes to rest
 } viewer_state;
 
 void viewer_get_state(const viewer *viewer, viewer_state *state);

@@ -3,7 +3,7 @@
 # SPDX-License-Identifier: MIT
 #
 # A person's session in a window, on a screen of its own: orbit by dragging, pick by a click, measure by a Shift-click,
-# clip box, pictures, end. Checks what is printed, the pictures and the exit status: session_x11.sh EWA EWA-VIEW FOLDER
+# clip box, pictures, a file by its name, Escape, end. Checks what is printed, the pictures and the exit status: session_x11.sh EWA EWA-VIEW FOLDER
 set -eu
 ewa=$1
 view=$2
@@ -44,6 +44,8 @@ wait_for "a screen" test -s display
 DISPLAY=:$(cat display)
 export DISPLAY
 unset WAYLAND_DISPLAY SDL_VIDEODRIVER
+XDG_STATE_HOME=$PWD/state
+export XDG_STATE_HOME
 
 "$ewa" generate torus --points 20000 -o torus.ply
 "$view" torus.ply --size 1000x700 >printed 2>complained &
@@ -88,6 +90,37 @@ wait_for "the last picture" sh -c "test \$(ls ewa-*.png | wc -l) -gt $count"
 sleep 0.5
 last=$(ls ewa-*.png | tail -n 1)
 cmp -s ewa-0001.png "$last" && fail "nothing has turned"
+
+# A name is typed into the dialog for files: a second file, which the next session will find among the recent ones.
+"$ewa" generate sphere --points 2000 -o "$folder/ball.ply"
+xdotool key ctrl+o
+sleep 0.5
+xdotool type ball.ply
+xdotool key Return
+wait_for "a second file" grep -q /ball.ply state/ewa/recent
+[ "$(wc -l <state/ewa/recent)" = 2 ] || fail "not two recent files"
+# Escape closes help and dialogs, and nothing else: the picks are there still, which the scene's picture shows.
+shot() {
+    before=$(ls ewa-*.png | wc -l)
+    xdotool key F12
+    wait_for "a picture" sh -c "test \$(ls ewa-*.png | wc -l) -gt $before"
+    sleep 0.3
+    last=$(ls ewa-*.png | tail -n 1)
+}
+shot
+marked=$last
+for key in h ctrl+o; do
+    xdotool key $key
+    sleep 0.3
+    xdotool key Escape
+    sleep 0.3
+done
+shot
+cmp -s "$marked" "$last" || fail "Escape has done something to the picture"
+xdotool key Escape
+sleep 0.3
+shot
+cmp -s "$marked" "$last" && fail "Escape has not taken the picks"
 
 xdotool key ctrl+q
 status=0

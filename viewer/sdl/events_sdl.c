@@ -19,9 +19,15 @@ void events_measure(events_window *window, viewer_event *event) {
     SDL_GetWindowSizeInPixels(window->window, &width_px, &height_px);
     if (width > 0) window->scale = window->zoom * width_px / width;
     *event = (viewer_event){.kind = VIEWER_RESIZE,
-                            .x = width_px / window->scale,
-                            .y = height_px / window->scale,
+                            .x = (width_px - window->left_px) / window->scale,
+                            .y = (height_px - window->top_px) / window->scale,
                             .amount = window->scale};
+}
+
+/// Puts a place of the window, in SDL's units, into the picture.
+static void place(const events_window *window, double x, double y, viewer_event *to) {
+    to->x = x / window->zoom - window->left_px / window->scale;
+    to->y = y / window->zoom - window->top_px / window->scale;
 }
 
 static uint32_t modifiers_of(int state) {
@@ -122,8 +128,7 @@ static bool translate_button(events_window *window, const SDL_MouseButtonEvent *
     to->kind = press ? VIEWER_PRESS : VIEWER_RELEASE;
     to->button = event->button;
     to->clicks = event->clicks;
-    to->x = event->x / window->zoom;
-    to->y = event->y / window->zoom;
+    place(window, event->x, event->y, to);
     return true;
 }
 
@@ -146,8 +151,7 @@ static bool translate_pinch(events_window *window, const SDL_MultiGestureEvent *
     SDL_GetWindowSize(window->window, &width, &height);
     window->pinching = true;
     to->kind = VIEWER_PINCH;
-    to->x = nearbyint((double)event->x * width) / window->zoom;
-    to->y = nearbyint((double)event->y * height) / window->zoom;
+    place(window, nearbyint((double)event->x * width), nearbyint((double)event->y * height), to);
     to->amount = pinch_factor(event);
     return to->amount != 1;
 }
@@ -159,8 +163,7 @@ bool events_translate(events_window *window, const SDL_Event *event, double time
         // SDL moves a mouse by the first finger; two fingers are a pinch alone.
         if (window->pinching && event->motion.which == SDL_TOUCH_MOUSEID) return false;
         to->kind = VIEWER_MOVE;
-        to->x = event->motion.x / window->zoom;
-        to->y = event->motion.y / window->zoom;
+        place(window, event->motion.x, event->motion.y, to);
         return true;
     case SDL_MOUSEBUTTONDOWN:
     case SDL_MOUSEBUTTONUP:
@@ -169,8 +172,7 @@ bool events_translate(events_window *window, const SDL_Event *event, double time
         // Turned back where the desktop has turned it round: what counts is the finger.
         const double sign = event->wheel.direction == SDL_MOUSEWHEEL_FLIPPED ? -1 : 1;
         to->kind = VIEWER_WHEEL;
-        to->x = event->wheel.mouseX / window->zoom;
-        to->y = event->wheel.mouseY / window->zoom;
+        place(window, event->wheel.mouseX, event->wheel.mouseY, to);
         to->amount = sign * decimal((double)event->wheel.preciseY);
         to->across = sign * decimal((double)event->wheel.preciseX);
         return true;

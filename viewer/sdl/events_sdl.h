@@ -14,13 +14,14 @@ typedef struct events_window {
     SDL_Window *window;
     double zoom;      ///< SDL's units per point: above 1 where the desktop scales and SDL does not
     double scale;     ///< pixels per point
+    int left_px, top_px; ///< the picture's corner
     uint32_t buttons; ///< bits of the buttons whose press was given on
     uint32_t key_count;
     bool keys[SDL_NUM_SCANCODES]; ///< whose press was given on; `key_count` in all
     bool pinching;                ///< two fingers are down
 } events_window;
 
-/// Measures the window's size in points and its scale, as VIEWER_RESIZE has them.
+/// Measures the picture's size in points and its scale, as VIEWER_RESIZE has them.
 void events_measure(events_window *window, viewer_event *event);
 
 /// Translates an event that happened at `time_s`. Returns false when it says nothing to a viewer. The text of

@@ -26,6 +26,8 @@ typedef struct front_window {
     picture_window picture;
     panel *panel;
     viewer_state state;
+    recent_files recent;
+    uint64_t opened_count; ///< of what `recent` has seen
     bool closed;
     bool scripted; ///< time is what the script says
     double scripted_s;
@@ -63,6 +65,32 @@ static double find_refresh_s(SDL_Window *window) {
     return 1.0 / mode.refresh_rate;
 }
 
+/// Tells the viewer how large the picture is.
+static void measure(front_window *front) {
+    viewer_event size;
+    events_measure(&front->events, &size);
+    size.time_s = clock_s(front);
+    viewer_handle(front->viewer, &size);
+}
+
+/// Puts the picture beside what the panels take, and fills the screen or not.
+static void arrange(front_window *front) {
+    events_window *events = &front->events;
+    viewer_get_state(front->viewer, &front->state);
+    const bool fills = (SDL_GetWindowFlags(events->window) & SDL_WINDOW_FULLSCREEN_DESKTOP) != 0;
+    if (fills != front->state.fullscreen)
+        SDL_SetWindowFullscreen(events->window, front->state.fullscreen ? SDL_WINDOW_FULLSCREEN_DESKTOP : 0);
+    int width_px, height_px;
+    SDL_GetWindowSizeInPixels(events->window, &width_px, &height_px);
+    panel_insets insets;
+    panel_measure(&front->state, width_px, height_px, events->scale, &insets);
+    if (insets.left_px == events->left_px && insets.top_px == events->top_px) return;
+    events->left_px = insets.left_px;
+    events->top_px = insets.top_px;
+    front->unsettled = SETTLING_FRAMES;
+    measure(front);
+}
+
 /// Gives on an event, to the panels first.
 static void handle(front_window *front, const SDL_Event *event) {
     viewer_event translated;
@@ -74,10 +102,8 @@ static void handle(front_window *front, const SDL_Event *event) {
         event->type == SDL_WINDOWEVENT && (event->window.event == SDL_WINDOWEVENT_SIZE_CHANGED ||
                                            event->window.event == SDL_WINDOWEVENT_DISPLAY_CHANGED);
     if (resized) {
-        events_measure(&front->events, &translated);
-        translated.time_s = clock_s(front);
         front->refresh_s = find_refresh_s(front->events.window);
-        viewer_handle(front->viewer, &translated);
+        measure(front);
     } else if (!(front->panel && panel_event(front->panel, front->viewer, event)) &&
                events_translate(&front->events, event, clock_s(front), &translated)) {
         viewer_handle(front->viewer, &translated);
@@ -112,9 +138,10 @@ static void draw(front_window *front, const viewer_picture *picture) {
     const panel_facts facts = {.picture = *picture,
                                .frames_per_s = count_frames(front, picture->number != front->picture.number),
                                .scale = front->events.scale,
-                               .now_s = clock_s(front)};
-    picture_window_draw(&front->picture, picture, front->events.scale);
-    const bool wanted = !front->scripted || front->state.panels || front->state.help;
+                               .now_s = clock_s(front),
+                               .recent = front->scripted ? NULL : &front->recent};
+    picture_window_draw(&front->picture, picture, front->events.scale, front->events.left_px, front->events.top_px);
+    const bool wanted = !front->scripted || front->state.panels || front->state.help || front->state.question;
     if (wanted && !front->panel) front->panel = panel_create(front->events.window, front->picture.renderer);
     if (wanted && front->panel) panel_draw(front->panel, front->viewer, &facts);
     SDL_RenderPresent(front->picture.renderer);
@@ -122,12 +149,24 @@ static void draw(front_window *front, const viewer_picture *picture) {
     if (front->unsettled) front->unsettled--;
 }
 
+/// Keeps what was opened for the next session.
+static void note_opened(front_window *front) {
+    uint64_t number;
+    const char *path = viewer_opened(front->viewer, &number);
+    if (number == front->opened_count) return;
+    front->opened_count = number;
+    recent_add(&front->recent, path);
+}
+
 /// Shows the window until it is closed.
 static void live(front_window *front) {
+    recent_read(&front->recent);
     while (!front->closed) {
         viewer_picture picture;
         pump(front);
+        arrange(front);
         viewer_frame(front->viewer, clock_s(front), &picture);
+        note_opened(front);
         viewer_get_state(front->viewer, &front->state);
         front->closed = front->closed || front->state.quit;
         const double since_s = clock_s(front) - front->drawn_at_s;
@@ -156,6 +195,7 @@ static bool script_step(void *user, double time_s, viewer_picture *picture) {
     front_window *front = user;
     front->scripted_s = time_s;
     pump(front);
+    arrange(front);
     viewer_frame(front->viewer, time_s, picture);
     viewer_get_state(front->viewer, &front->state);
     draw(front, picture);
@@ -174,6 +214,7 @@ static bool open_viewer(front_window *front, const front_job *job) {
     options.services.clipboard_get = get_clipboard;
     if (viewer_create(&options, &front->viewer) != EWA_OK) return false;
     if (front->scripted) viewer_do(front->viewer, "panels off");
+    arrange(front);
     for (size_t i = 0; i < job->path_count; i++) viewer_open(front->viewer, job->paths[i]);
     return true;
 }

@@ -65,6 +65,8 @@ struct panel {
     int cursor;                                  ///< that is shown
     char *pasted;                                ///< SDL's text of the clipboard
     panel_edit edit;
+    panel_files files;
+    bool escape; ///< the key is pressed
     panel_facts facts;
     double laid_out_s; ///< when the panels were laid out last
     double spare_s;
@@ -175,6 +177,9 @@ void show_cursor(panel *p) {
     p->cursor = wanted;
 }
 
+/// Whether a list or a menu is open.
+bool is_list_open() { return ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel); }
+
 /// Lays the panels out; what hands do there is said to the viewer.
 void lay_out(panel *p, viewer *shown) {
     ImGuiIO &io = ImGui::GetIO();
@@ -187,16 +192,31 @@ void lay_out(panel *p, viewer *shown) {
     io.DeltaTime = passed_s > 1e-4 && passed_s < 1 ? (float)passed_s : 1.0f / 60;
     p->laid_out_s = p->facts.now_s;
     p->pointed = false;
+    // Arrows walk through what is open, and are the viewer's else.
+    io.ConfigFlags = is_list_open() ? ImGuiConfigFlags_NavEnableKeyboard : ImGuiConfigFlags_None;
     ImGui::NewFrame();
-    panel_page page = {
-        shown,           &p->facts, {}, &p->edit, (float)p->facts.scale, io.DisplaySize.x, io.DisplaySize.y,
-        (double)INFINITY};
+    panel_page page = {};
+    page.viewer = shown;
+    page.facts = &p->facts;
+    page.edit = &p->edit;
+    page.files = &p->files;
+    page.escape = p->escape;
+    page.unit = (float)p->facts.scale;
+    page.width = io.DisplaySize.x;
+    page.height = io.DisplaySize.y;
+    page.spare_s = (double)INFINITY;
     viewer_get_state(shown, &page.state);
+    panel_insets insets;
+    panel_measure(&page.state, page.width, page.height, page.unit, &insets);
+    page.left = (float)insets.left_px;
+    page.top = (float)insets.top_px;
     if (page.state.panels) {
+        panel_bars(&page);
         panel_scene(&page);
     }
     panel_notes(&page);
     if (page.state.help) panel_help(&page);
+    panel_question(&page);
     ImGui::Render();
     p->spare_s = io.WantTextInput ? fmin(page.spare_s, 0.25) : page.spare_s;
     show_cursor(p);
@@ -246,10 +266,9 @@ void press_key(const SDL_KeyboardEvent &event) {
     io.KeyAlt = (event.keysym.mod & KMOD_ALT) != 0;
 }
 
-/// Closes a list that is open; false: none is.
+/// Closes them; false: none is.
 bool close_list() {
-    constexpr ImGuiPopupFlags any = ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel;
-    if (!ImGui::IsPopupOpen("", any)) return false;
+    if (!is_list_open()) return false;
     ImGui::ClosePopupToLevel(0, true);
     return true;
 }
@@ -294,6 +313,7 @@ void panel_destroy(panel **destroyed) {
     for (SDL_Cursor *cursor : p->cursors)
         if (cursor) SDL_FreeCursor(cursor);
     SDL_free(p->pasted);
+    panel_files_free(&p->files);
     delete p;
     *destroyed = nullptr;
 }
@@ -318,13 +338,17 @@ bool panel_event(panel *p, viewer *shown, const SDL_Event *event) {
         io.MouseWheelH += event->wheel.preciseX;
         return true;
     case SDL_KEYDOWN:
-    case SDL_KEYUP:
+    case SDL_KEYUP: {
+        const bool list_open = is_list_open();
         press_key(event->key);
         // Else it would be the viewer's, which forgets picks by it.
         if (event->type == SDL_KEYDOWN && event->key.keysym.sym == SDLK_ESCAPE && close_list()) return true;
-        if (!io.WantCaptureKeyboard) return false;
+        if (!io.WantCaptureKeyboard && !list_open && !p->files.shown) return false;
+        p->escape = event->type == SDL_KEYDOWN && event->key.keysym.sym == SDLK_ESCAPE;
         lay_out(p, shown);
+        p->escape = false;
         return event->type == SDL_KEYDOWN;
+    }
     case SDL_TEXTINPUT:
         io.AddInputCharactersUTF8(event->text.text);
         return io.WantTextInput;
@@ -350,6 +374,14 @@ void panel_draw(panel *p, viewer *shown, const panel_facts *facts) {
     const ImDrawData *data = ImGui::GetDrawData();
     for (int i = 0; i < data->CmdListsCount; i++) draw_list(p, data->CmdLists[i]);
     SDL_RenderSetClipRect(p->renderer, nullptr);
+}
+
+void panel_measure(const viewer_state *state, double width_px, double height_px, double scale, panel_insets *insets) {
+    insets->left_px = insets->top_px = 0;
+    if (!state->panels) return;
+    scale = fmin(scale, largest_scale);
+    insets->left_px = (int)fmin((double)panel_side_points * scale, 0.5 * width_px);
+    insets->top_px = (int)fmin((double)(panel_menus_points + panel_buttons_points) * scale, 0.5 * height_px);
 }
 
 double panel_spare_s(const panel *p) { return p->spare_s; }

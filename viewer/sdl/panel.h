@@ -8,6 +8,7 @@
 
 #include <SDL.h>
 
+#include "recent.h"
 #include "viewer/viewer.h"
 
 #ifdef __cplusplus
@@ -22,7 +23,16 @@ typedef struct panel_facts {
     double frames_per_s; ///< while something moves; else 0
     double scale;        ///< pixels per point
     double now_s;        ///< the clock of viewer_state.message_s
+    const recent_files *recent; ///< NULL: none
 } panel_facts;
+
+/// What bars and panels take of the window: the picture is right of them and below.
+typedef struct panel_insets {
+    int left_px, top_px;
+} panel_insets;
+
+/// Measures what they take of a window of so many pixels, at `scale` pixels per point, as `state` has them.
+void panel_measure(const viewer_state *state, double width_px, double height_px, double scale, panel_insets *insets);
 
 /// Makes panels that are drawn by `renderer` in `window`, which outlive them. One at a time: Dear ImGui has a
 /// current context. NULL: no memory. The caller destroys it.

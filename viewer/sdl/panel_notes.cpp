@@ -10,8 +10,8 @@
 
 namespace {
 
-/// So long a message stays.
-constexpr double message_stays_s = 10;
+/// So long a message stays, and a note of what was done.
+constexpr double message_stays_s = 10, note_stays_s = 4;
 /// What the picture's scale bar takes at the lower right.
 constexpr float scale_bar_points = 40;
 /// Progress and figures are shown anew so often.
@@ -23,6 +23,9 @@ constexpr ImGuiWindowFlags note_flags = ImGuiWindowFlags_NoDecoration | ImGuiWin
 
 /// Height of the line of figures with its margins: other notes stand above it.
 float line_height(const panel_page *page) { return ImGui::GetFrameHeight() + 2 * panel_margin(page); }
+
+/// Middle of the picture.
+float middle_of(const panel_page *page) { return floorf(0.5f * (page->left + page->width)); }
 
 /// "1.0 M" of 1,000,000.
 void write_short(uint64_t count, char text[32]) {
@@ -49,7 +52,7 @@ void figures(panel_page *page) {
     }
     const panel_facts *facts = page->facts;
     const float margin = panel_margin(page);
-    ImGui::SetNextWindowPos(ImVec2(margin, page->height - margin), 0, ImVec2(0, 1));
+    ImGui::SetNextWindowPos(ImVec2(page->left + margin, page->height - margin), 0, ImVec2(0, 1));
     ImGui::SetNextWindowBgAlpha(0.7f);
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(10 * page->unit, 4 * page->unit));
     ImGui::Begin("figures", nullptr, note_flags | ImGuiWindowFlags_NoInputs);
@@ -74,8 +77,6 @@ void figures(panel_page *page) {
         ImGui::Text("%.0f frames/s", facts->frames_per_s);
         page->spare_s = fmin(page->spare_s, figures_step_s);
     }
-    ImGui::SameLine(0, 14 * page->unit);
-    ImGui::TextDisabled("H: help   Tab: panels");
     ImGui::End();
     ImGui::PopStyleVar();
 }
@@ -84,8 +85,8 @@ void progress(panel_page *page, float *bottom) {
     const viewer_state &state = page->state;
     if (!state.loading[0]) return;
     page->spare_s = fmin(page->spare_s, progress_step_s);
-    const float width = fminf(360 * page->unit, 0.8f * page->width);
-    ImGui::SetNextWindowPos(ImVec2(0.5f * page->width, *bottom), 0, ImVec2(0.5f, 1));
+    const float width = fminf(360 * page->unit, 0.8f * (page->width - page->left));
+    ImGui::SetNextWindowPos(ImVec2(middle_of(page), *bottom), 0, ImVec2(0.5f, 1));
     ImGui::SetNextWindowSize(ImVec2(width, 0));
     ImGui::Begin("progress", nullptr, note_flags & ~ImGuiWindowFlags_AlwaysAutoResize);
     ImGui::Text("%s", state.loading);
@@ -103,16 +104,15 @@ void progress(panel_page *page, float *bottom) {
     ImGui::End();
 }
 
-void message(panel_page *page, float *bottom) {
-    const viewer_state &state = page->state;
-    const double left_s = message_stays_s - (page->facts->now_s - state.message_s);
-    if (!state.message[0] || left_s <= 0) return;
+/// A text that stays for a while, above what stands there.
+void say(panel_page *page, const char *name, const char *text, double left_s, float *bottom) {
+    if (!text[0] || left_s <= 0) return;
     page->spare_s = fmin(page->spare_s, left_s);
-    const float width = fminf(520 * page->unit, 0.8f * page->width);
-    ImGui::SetNextWindowPos(ImVec2(0.5f * page->width, *bottom), 0, ImVec2(0.5f, 1));
-    ImGui::Begin("message", nullptr, note_flags | ImGuiWindowFlags_NoInputs);
+    const float width = fminf(520 * page->unit, 0.8f * (page->width - page->left));
+    ImGui::SetNextWindowPos(ImVec2(middle_of(page), *bottom), 0, ImVec2(0.5f, 1));
+    ImGui::Begin(name, nullptr, note_flags | ImGuiWindowFlags_NoInputs);
     ImGui::PushTextWrapPos(width);
-    ImGui::TextUnformatted(state.message);
+    ImGui::TextUnformatted(text);
     ImGui::PopTextWrapPos();
     *bottom = ImGui::GetWindowPos().y - panel_margin(page);
     ImGui::End();
@@ -123,7 +123,7 @@ void picked(const panel_page *page) {
     const float margin = panel_margin(page);
     const float bottom = page->height - margin - scale_bar_points * page->unit;
     ImGui::SetNextWindowPos(ImVec2(page->width - margin, bottom), 0, ImVec2(1, 1));
-    ImGui::SetNextWindowSizeConstraints(ImVec2(0, 0), ImVec2(0.45f * page->width, 0.6f * page->height));
+    ImGui::SetNextWindowSizeConstraints(ImVec2(0, 0), ImVec2(0.45f * (page->width - page->left), 0.6f * (page->height - page->top)));
     ImGui::Begin("picked", nullptr, note_flags & ~ImGuiWindowFlags_NoScrollbar);
     ImGui::TextUnformatted(page->state.picked);
     if (ImGui::Button("Copy")) SDL_SetClipboardText(page->state.picked);
@@ -135,9 +135,9 @@ void picked(const panel_page *page) {
 /// An empty window says what to do with it.
 void invitation(const panel_page *page) {
     if (viewer_item_count(page->viewer) || page->state.loading[0]) return;
-    static const char text[] = "Drop a point cloud, a mesh or a volume here";
+    static const char text[] = "Drop a point cloud, a mesh or a volume here, or open one: Ctrl O";
     const ImVec2 size = ImGui::CalcTextSize(text);
-    const ImVec2 place(floorf(0.5f * (page->width - size.x)), floorf(0.5f * (page->height - size.y)));
+    const ImVec2 place(floorf(middle_of(page) - 0.5f * size.x), floorf(0.5f * (page->top + page->height - size.y)));
     const ImVec2 pad(12 * page->unit, 8 * page->unit);
     ImDrawList *list = ImGui::GetBackgroundDrawList();
     list->AddRectFilled(ImVec2(place.x - pad.x, place.y - pad.y),
@@ -157,7 +157,9 @@ void panel_notes(panel_page *page) {
     // Help takes the middle down to here.
     if (page->state.help) return;
     progress(page, &bottom);
-    message(page, &bottom);
+    const double now_s = page->facts->now_s;
+    say(page, "message", page->state.message, message_stays_s - (now_s - page->state.message_s), &bottom);
+    say(page, "note", page->state.note, note_stays_s - (now_s - page->state.note_s), &bottom);
     invitation(page);
 }
 
@@ -166,20 +168,31 @@ void panel_help(panel_page *page) {
     const float margin = panel_margin(page);
     ImGui::SetNextWindowSizeConstraints(ImVec2(0, 0),
                                         ImVec2(page->width - 2 * margin, page->height - 2 * margin));
+    ImGui::SetNextWindowBgAlpha(0.98f);
     ImGui::Begin("help", nullptr,
                  ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoCollapse |
-                     ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoMove);
-    const char *what, *keys;
-    if (ImGui::BeginTable("rows", 2, ImGuiTableFlags_SizingFixedFit)) {
-        for (uint32_t i = 0; (keys = viewer_help_at(i, &what)); i++) {
-            ImGui::TableNextRow();
+                     ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_HorizontalScrollbar);
+    uint32_t count = 0;
+    for (viewer_help row; viewer_help_at(count, &row);) count++;
+    // As many columns as are needed for the rows not to be higher than the window.
+    const float row_px = ImGui::GetTextLineHeight() + 2 * ImGui::GetStyle().CellPadding.y;
+    const float room = page->height - 2 * margin - 4 * ImGui::GetFrameHeight();
+    const int fitting = room > row_px ? (int)(room / row_px) : 1;
+    const int columns = (int)fminf(3, ceilf((float)count / (float)fitting)), high = ((int)count + columns - 1) / columns;
+    if (ImGui::BeginTable("rows", 2 * columns, ImGuiTableFlags_SizingFixedFit)) {
+        for (int i = 0; i < high * columns; i++) {
+            viewer_help row;
+            const int wanted = i % columns * high + i / columns;
             ImGui::TableNextColumn();
-            ImGui::TextUnformatted(keys);
+            const bool given = wanted < (int)count && viewer_help_at((uint32_t)wanted, &row);
+            if (given) ImGui::Text("%s  ", row.keys);
             ImGui::TableNextColumn();
-            ImGui::TextDisabled("%s   ", what);
+            if (given) ImGui::TextDisabled("%s     ", row.what);
         }
         ImGui::EndTable();
     }
     if (ImGui::Button("Close")) panel_say(page, "help off");
+    ImGui::SameLine();
+    ImGui::TextDisabled("or Escape");
     ImGui::End();
 }

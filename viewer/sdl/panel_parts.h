@@ -6,6 +6,7 @@
 #define EWA_VIEWER_SDL_PANEL_PARTS_H
 
 #include <imgui.h>
+#include <time.h>
 
 #include "panel.h"
 
@@ -15,14 +16,37 @@ struct panel_edit {
     double numbers[4];
 };
 
+/// A file or a folder in a list.
+struct panel_entry {
+    char *name;
+    bool folder;
+    uint64_t size_bytes;
+    time_t changed_s;
+};
+
+/// The dialog for files: what it shows, and what was typed.
+struct panel_files {
+    bool shown, focus;     ///< focus: the name is to be typed into
+    viewer_question asked; ///< it was opened for
+    int kind;              ///< of the files that are listed
+    char folder[VIEWER_PATH_BYTES], name[VIEWER_PATH_BYTES];
+    char confirmed[VIEWER_PATH_BYTES]; ///< a file that is there and may be replaced
+    char problem[VIEWER_NAME_BYTES];   ///< what is wrong with the folder or the name
+    panel_entry *entries;              ///< folders first, in the order of their names
+    size_t count, room;
+};
+
 /// What the parts need to lay themselves out.
 struct panel_page {
     ::viewer *viewer;
     const panel_facts *facts;
     viewer_state state;
     panel_edit *edit;
+    panel_files *files;
+    bool escape; ///< was pressed for what is asked
     float unit;          ///< pixels per point
     float width, height; ///< of the window
+    float left, top;     ///< corner of the picture, right of the panel and below the bars
     double spare_s;      ///< least time until a part changes by itself
 };
 
@@ -39,11 +63,32 @@ void panel_edit_begin(panel_page *page, const char *label, int count, double *nu
 bool panel_edit_end(panel_page *page, const char *label, int count, const double *numbers, bool changed,
                     bool live);
 
-/// What is loaded, and views.
+/// Points: heights of the bar of menus and of the bar of buttons, width of the panel at the side.
+constexpr float panel_menus_points = 24, panel_buttons_points = 36, panel_side_points = 300;
+
+/// Of windows that stay where they are.
+constexpr ImGuiWindowFlags panel_fixed_flags =
+    ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoFocusOnAppearing |
+    ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoNav;
+
+/// Rows of the words that `words` separates by bars; choosing one sets the setting `name`.
+void panel_words(const panel_page *page, const char *name, const char *words, const char *now);
+/// Draws an icon in the square whose corner is given.
+void panel_icon(const panel_page *page, viewer_icon icon, ImVec2 corner, float side, ImU32 color);
+
+/// A row with a recent file. Returns whether it was chosen and is opened.
+bool panel_recent(const panel_page *page, uint32_t index, bool in_menu);
+/// The dialog for what the viewer asks.
+void panel_question(panel_page *page);
+void panel_files_free(panel_files *files);
+
+/// Menus and buttons.
+void panel_bars(panel_page *page);
+/// What is loaded.
 void panel_scene(panel_page *page);
 /// The settings that the viewer names.
 void panel_settings(panel_page *page);
-/// Progress, messages, results, the line below.
+/// Progress, messages, notes, results, the line below.
 void panel_notes(panel_page *page);
 void panel_help(panel_page *page);
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// The panel of what is loaded: shown or not, name, colours, opacity; views above, settings below.
+// The panel of what is loaded: shown or not, name, colours, opacity; settings below.
 #include "panel_parts.h"
 
 #include <math.h>
@@ -10,33 +10,12 @@
 
 namespace {
 
-/// Points.
-constexpr float panel_width = 300;
 /// Larger clouds take too long to be coloured again while a hand moves.
 constexpr uint64_t live_count = 2000000;
 
 /// In the order of ewa_colormap.
 const char *const colormaps[] = {"viridis", "turbo", "gray",    "plasma",
                                  "inferno", "magma", "cividis", "coolwarm"};
-
-void views(const panel_page *page) {
-    static const struct {
-        const char *label, *view, *tip;
-    } buttons[] = {{"All", "reset", "All of it, as at first (Enter)"},
-                   {"Front", "front", "From the front (1)"},
-                   {"Right", "right", "From the right (3)"},
-                   {"Top", "top", "From above (7)"},
-                   {"Corner", "iso", "From a corner (9)"}};
-    constexpr int count = IM_ARRAYSIZE(buttons);
-    const float gap = ImGui::GetStyle().ItemInnerSpacing.x;
-    const float width = (ImGui::GetContentRegionAvail().x - gap * (count - 1)) / count;
-    for (int i = 0; i < count; i++) {
-        if (i) ImGui::SameLine(0, gap);
-        if (ImGui::Button(buttons[i].label, ImVec2(floorf(width), 0)))
-            panel_say(page, "view %s", buttons[i].view);
-        if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", buttons[i].tip);
-    }
-}
 
 /// Chooses the file's colours, one colour, or an attribute's.
 void choose_colors(const panel_page *page, int index, const viewer_item *item) {
@@ -195,16 +174,9 @@ void items(panel_page *page) {
 } // namespace
 
 void panel_scene(panel_page *page) {
-    const float margin = panel_margin(page), width = fminf(panel_width * page->unit, 0.5f * page->width);
-    const float below = ImGui::GetFrameHeight() + 2 * margin;
-    ImGui::SetNextWindowPos(ImVec2(margin, margin));
-    ImGui::SetNextWindowSizeConstraints(ImVec2(width, 0),
-                                        ImVec2(width, fmaxf(page->height - margin - below, 1)));
-    ImGui::Begin("scene", nullptr,
-                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoMove |
-                     ImGuiWindowFlags_NoFocusOnAppearing);
-    views(page);
-    ImGui::Separator();
+    ImGui::SetNextWindowPos(ImVec2(0, page->top));
+    ImGui::SetNextWindowSize(ImVec2(page->left, page->height - page->top));
+    ImGui::Begin("scene", nullptr, panel_fixed_flags & ~ImGuiWindowFlags_NoScrollbar);
     items(page);
     ImGui::Separator();
     panel_settings(page);

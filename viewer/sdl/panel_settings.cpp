@@ -59,19 +59,6 @@ double allowed(const ewa_option *option, double number) {
     return fmin(fmax(number, low), high);
 }
 
-/// One of the words that `words` separates by bars.
-void choose_word(const panel_page *page, const ewa_option *option, const char *words, const char *now) {
-    if (!ImGui::BeginCombo("##word", now)) return;
-    for (const char *at = words; *at;) {
-        char word[EWA_OPTION_TEXT_BYTES];
-        const size_t length = strcspn(at, "|");
-        snprintf(word, sizeof word, "%.*s", (int)length, at);
-        if (ImGui::Selectable(word, strcmp(word, now) == 0)) panel_say(page, "set %s %s", option->name, word);
-        at += length + (at[length] == '|');
-    }
-    ImGui::EndCombo();
-}
-
 /// Numbers: along their range where it is short, else by dragging.
 void choose_numbers(panel_page *page, const ewa_option *option, const char *now) {
     static const char label[] = "##number";
@@ -145,7 +132,10 @@ void setting_row(panel_page *page, const ewa_option *option) {
         bool on = strcmp(now, "on") == 0;
         if (ImGui::Checkbox("##switch", &on)) panel_say(page, "set %s %s", option->name, on ? "on" : "off");
     } else if (option->words) {
-        choose_word(page, option, option->words, now);
+        if (ImGui::BeginCombo("##word", now)) {
+            panel_words(page, option->name, option->words, now);
+            ImGui::EndCombo();
+        }
     } else {
         choose_numbers(page, option, now);
     }
@@ -154,6 +144,16 @@ void setting_row(panel_page *page, const ewa_option *option) {
 }
 
 } // namespace
+
+void panel_words(const panel_page *page, const char *name, const char *words, const char *now) {
+    for (const char *at = words; *at;) {
+        char word[EWA_OPTION_TEXT_BYTES];
+        const size_t length = strcspn(at, "|");
+        snprintf(word, sizeof word, "%.*s", (int)length, at);
+        if (ImGui::MenuItem(word, nullptr, strcmp(word, now) == 0)) panel_say(page, "set %s %s", name, word);
+        at += length + (at[length] == '|');
+    }
+}
 
 void panel_settings(panel_page *page) {
     const char *group = nullptr, *before = nullptr;

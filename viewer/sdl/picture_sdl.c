@@ -110,17 +110,19 @@ static void upload(picture_window *window, const viewer_picture *picture, uint32
     window->number = picture->number;
 }
 
-void picture_window_draw(picture_window *window, const viewer_picture *picture, double scale) {
+void picture_window_draw(picture_window *window, const viewer_picture *picture, double scale, int left_px, int top_px) {
     int width_px = 0, height_px = 0;
     SDL_GetRendererOutputSize(window->renderer, &width_px, &height_px);
-    if (!picture->number || !picture->rgba8 || !fit(window, picture)) {
+    const SDL_Rect place = {left_px, top_px, width_px - left_px, height_px - top_px};
+    const bool shown = picture->number && picture->rgba8 && fit(window, picture);
+    if (!shown || left_px || top_px) {
         SDL_SetRenderDrawColor(window->renderer, 0x20, 0x22, 0x25, 255);
         SDL_RenderClear(window->renderer);
-        return;
     }
+    if (!shown) return;
     if (window->number != picture->number) {
-        const double share = width_px > 0 ? (double)picture->width_px / width_px : 1;
+        const double share = place.w > 0 ? (double)picture->width_px / place.w : 1;
         upload(window, picture, (uint32_t)fmax(1, nearbyint(cell_points * scale * share)));
     }
-    SDL_RenderCopy(window->renderer, window->texture, NULL, NULL);
+    SDL_RenderCopy(window->renderer, window->texture, NULL, &place);
 }

@@ -23,9 +23,9 @@ typedef struct picture_window {
 bool picture_window_open(SDL_Window *window, picture_window *opened);
 void picture_window_close(picture_window *window);
 
-/// Draws a picture over the whole window, over a checkerboard where it is transparent; nothing is presented.
-/// `scale`: pixels per point.
-void picture_window_draw(picture_window *window, const viewer_picture *picture, double scale);
+/// Draws a picture over the window right of `left_px` and below `top_px`, over a checkerboard where it is transparent;
+/// nothing is presented. `scale`: pixels per point.
+void picture_window_draw(picture_window *window, const viewer_picture *picture, double scale, int left_px, int top_px);
 
 /// Writes a row of pixels as XRGB; what is transparent lies over a checkerboard of `cell_px`.
 void picture_row(const uint8_t *rgba8, uint32_t width_px, uint32_t y_px, uint32_t cell_px, uint32_t *xrgb);

@@ -1,0 +1,86 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// The files that were opened last: kept, the newest first, each once, and no harm where they cannot be.
+#include "check.h"
+#include "viewer/sdl/recent.h"
+
+#include <stdlib.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+static recent_files files, again;
+
+static int make_folder(void **state) {
+    char whole[1024];
+    (void)mkdir("recent_files", 0700); // of a run before
+    if (chdir("recent_files") != 0 || !getcwd(whole, sizeof whole)) return -1;
+    (void)unlink("ewa/recent");
+    return setenv("XDG_STATE_HOME", whole, 1);
+}
+
+static void write_file(const char *path, const char *text) {
+    FILE *file = fopen(path, "w");
+    assert_true(file && fputs(text, file) >= 0 && fclose(file) == 0);
+}
+
+static const char *name_of(const char *path) {
+    const char *slash = strrchr(path, '/');
+    return slash ? slash + 1 : path;
+}
+
+static void the_newest_is_first(void **state) {
+    recent_read(&files);
+    assert_int_equal(files.count, 0);
+    char name[32];
+    for (int i = 0; i < RECENT_FILES + 3; i++) {
+        snprintf(name, sizeof name, "scan %d.ply", i);
+        write_file(name, "");
+        recent_add(&files, name);
+    }
+    recent_add(&files, "scan 8.ply");
+    recent_add(&files, "https://host/x.copc.laz");
+    recent_add(&files, "nothing.ply"); // not there
+    recent_read(&again);
+    assert_int_equal(again.count, RECENT_FILES);
+    for (uint32_t i = 0; i < again.count; i++) assert_string_equal(again.paths[i], files.paths[i]);
+    assert_string_equal(again.paths[0], "https://host/x.copc.laz");
+    assert_string_equal(name_of(again.paths[1]), "scan 8.ply");
+    assert_int_equal(again.paths[1][0], '/');
+    assert_string_equal(name_of(again.paths[2]), "scan 12.ply");
+    assert_string_equal(name_of(again.paths[RECENT_FILES - 1]), "scan 4.ply");
+}
+
+static void broken_texts_do_no_harm(void **state) {
+    static char line[3 * VIEWER_PATH_BYTES];
+    memset(line, 'x', sizeof line - 1);
+    write_file("ewa/recent", line);
+    recent_read(&again);
+    assert_int_equal(again.count, 0);
+    write_file("ewa/recent", "/a\n/b\n\n/c\n");
+    recent_read(&again);
+    assert_int_equal(again.count, 2);
+    write_file("ewa/recent", "/a\n/cut short");
+    recent_read(&again);
+    assert_int_equal(again.count, 1);
+}
+
+static void without_a_place_they_are_of_this_session(void **state) {
+    assert_int_equal(setenv("XDG_STATE_HOME", "/dev/null/nowhere", 1), 0);
+    recent_read(&again);
+    assert_int_equal(again.count, 0);
+    recent_add(&again, "scan 1.ply");
+    assert_int_equal(again.count, 1);
+    // A relative one does not count.
+    assert_int_equal(setenv("XDG_STATE_HOME", "state", 1), 0);
+    assert_int_equal(unsetenv("HOME"), 0);
+    recent_add(&again, "scan 2.ply");
+    assert_int_equal(again.count, 2);
+    assert_int_not_equal(access("state", F_OK), 0);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {cmocka_unit_test(the_newest_is_first), cmocka_unit_test(broken_texts_do_no_harm),
+                                       cmocka_unit_test(without_a_place_they_are_of_this_session)};
+    return cmocka_run_group_tests(tests, make_folder, NULL);
+}

@@ -1,0 +1,141 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// What a person can have done: each key does one thing, and docs/viewer.md says what the table of actions says.
+#include "check.h"
+#include "view_contents.h"
+#include "viewer/viewer.h"
+
+enum { TEXT_BYTES = 1 << 16 };
+
+static void keys_do_one_thing(void **state) {
+    const viewer_action *one, *other;
+    for (uint32_t i = 0; (one = viewer_action_at(i)); i++)
+        for (uint32_t k = 0; k < i && (other = viewer_action_at(k)); k++)
+            if (one->key && one->key == other->key && one->modifiers == other->modifiers)
+                fail_msg("%s and %s have one key", one->command, other->command);
+}
+
+static void rows_of_menus_are_whole(void **state) {
+    const viewer_action *action;
+    for (uint32_t i = 0; (action = viewer_action_at(i)); i++) {
+        if (!action->menu) {
+            assert_int_equal(action->icon, VIEWER_ICON_NONE);
+            continue;
+        }
+        assert_true(action->label[0] && action->help[0] && action->command[0]);
+    }
+    char keys[VIEWER_KEYS_BYTES];
+    viewer_action_keys(&(viewer_action){.key = VIEWER_KEY_F12, .modifiers = VIEWER_CTRL}, keys);
+    assert_string_equal(keys, "Ctrl F12");
+    viewer_action_keys(&(viewer_action){.key = '['}, keys);
+    assert_string_equal(keys, "[");
+    viewer_action_keys(&(viewer_action){.key = 0}, keys);
+    assert_string_equal(keys, "");
+}
+
+/// The table of docs/viewer.md.
+static void write_table(char text[TEXT_BYTES]) {
+    size_t used = (size_t)snprintf(text, TEXT_BYTES,
+                                    "| menu | row or gesture | key | does | command |\n|---|---|---|---|---|\n");
+    viewer_help row;
+    for (uint32_t i = 0; viewer_help_at(i, &row) && !row.menu; i++)
+        used += (size_t)snprintf(text + used, TEXT_BYTES - used, "| | %s | | %s | |\n", row.keys, row.what);
+    const char *before = "";
+    const viewer_action *action;
+    for (uint32_t i = 0; (action = viewer_action_at(i)); i++) {
+        if (!action->menu) continue;
+        char keys[VIEWER_KEYS_BYTES];
+        viewer_action_keys(action, keys);
+        used += (size_t)snprintf(text + used, TEXT_BYTES - used, "| %s | %s | %s | %s | `%s` |\n",
+                                 strcmp(before, action->menu) != 0 ? action->menu : "", action->label, keys, action->help,
+                                 action->command);
+        before = action->menu;
+    }
+}
+
+static void docs_say_the_same(void **state) {
+    static char wanted[TEXT_BYTES], docs[TEXT_BYTES];
+    write_table(wanted);
+    FILE *file = fopen(DOCS_PATH, "r");
+    assert_non_null(file);
+    docs[fread(docs, 1, sizeof docs - 1, file)] = 0;
+    assert_int_equal(fclose(file), 0);
+    if (strstr(docs, wanted)) return;
+    file = fopen("viewer_actions.md", "w");
+    assert_true(file && fputs(wanted, file) >= 0 && fclose(file) == 0);
+    fail_msg("the table of docs/viewer.md is not that of viewer_actions.md, in this folder");
+}
+
+/// A viewer of nothing.
+static viewer *make_viewer(void) {
+    static view_contents contents;
+    const viewer_options options = {.services = view_contents_services(&contents),
+                                    .thread_count = 1,
+                                    .cpu_mask = EWA_CPU_ALL,
+                                    .width = 64,
+                                    .height = 48,
+                                    .scale = 1,
+                                    .waits = true};
+    viewer *made = NULL;
+    assert_int_equal(viewer_create(&options, &made), EWA_OK);
+    return made;
+}
+
+static const viewer_action *find(const char *command) {
+    const viewer_action *action;
+    for (uint32_t i = 0; (action = viewer_action_at(i)); i++)
+        if (strcmp(action->command, command) == 0) return action;
+    fail_msg("there is no action %s", command);
+    return NULL;
+}
+
+/// Switches say how they are, and what was done is noted.
+static void actions_are_noted(void **state) {
+    viewer *v = make_viewer();
+    viewer_state now;
+    bool on = true;
+    assert_true(viewer_action_is_switch(v, find("dome next"), &on));
+    assert_false(on);
+    assert_true(viewer_act(v, find("dome next")));
+    assert_true(viewer_action_is_switch(v, find("dome next"), &on));
+    assert_true(on);
+    viewer_get_state(v, &now);
+    assert_string_equal(now.note, "Eye-dome lighting: on");
+    assert_true(viewer_action_is_switch(v, find("next axes"), &on));
+    assert_false(viewer_action_is_switch(v, find("next shading"), &on));
+    assert_true(viewer_act(v, find("next shading")));
+    viewer_get_state(v, &now);
+    assert_string_equal(now.note, "Shading: phong");
+    assert_false(viewer_action_is_switch(v, find("shot"), &on));
+    viewer_destroy(&v);
+}
+
+/// Escape takes away what lies on top, one thing at a time.
+static void escape_goes_down(void **state) {
+    viewer *v = make_viewer();
+    viewer_state now;
+    assert_true(viewer_do(v, "help on"));
+    assert_true(viewer_do(v, "open"));
+    viewer_get_state(v, &now);
+    assert_true(now.help && now.question == VIEWER_ASKS_OPEN);
+    assert_true(viewer_do(v, "cancel"));
+    viewer_get_state(v, &now);
+    assert_true(now.help && now.question == VIEWER_ASKS_NOTHING);
+    assert_true(viewer_do(v, "cancel"));
+    viewer_get_state(v, &now);
+    assert_false(now.help);
+    assert_true(viewer_do(v, "scene save"));
+    viewer_get_state(v, &now);
+    assert_int_equal(now.question, VIEWER_ASKS_SAVE_SCENE);
+    viewer_destroy(&v);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(keys_do_one_thing),  cmocka_unit_test(rows_of_menus_are_whole),
+        cmocka_unit_test(docs_say_the_same),  cmocka_unit_test(actions_are_noted),
+        cmocka_unit_test(escape_goes_down),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

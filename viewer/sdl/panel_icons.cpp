@@ -1,0 +1,77 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// Icons of lines, on a square of 24 by 24: "M x y" begins a line, "L x y" goes on, "Z" closes it, "F" fills what the
+// line went around, "O x y r" is a circle, "D x y r" a disc.
+#include "panel_parts.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+namespace {
+
+constexpr float grid = 24, stroke_points = 1.4f;
+
+#define CUBE "M 12 3 L 20 7.5 L 20 16.5 L 12 21 L 4 16.5 L 4 7.5 Z M 4 7.5 L 12 12 L 20 7.5 M 12 12 L 12 21"
+
+const char *const icons[] = {
+    "",
+    /* open */ "M 3 19 L 3 5 L 9 5 L 11 8 L 19 8 L 19 11 M 3 19 L 7 11 L 22 11 L 18 19 Z",
+    /* picture */ "M 3 7 L 8 7 L 9.5 4.5 L 14.5 4.5 L 16 7 L 21 7 L 21 19 L 3 19 Z O 12 13 3.5",
+    /* home */ "M 3 12 L 12 4 L 21 12 M 6 9.5 L 6 20 L 18 20 L 18 9.5 M 10 20 L 10 14 L 14 14 L 14 20",
+    /* front */ "M 4 7.5 L 12 12 L 12 21 L 4 16.5 F " CUBE,
+    /* right */ "M 20 7.5 L 20 16.5 L 12 21 L 12 12 F " CUBE,
+    /* top */ "M 12 3 L 20 7.5 L 12 12 L 4 7.5 F " CUBE,
+    /* corner */ CUBE " D 12 12 3",
+    /* ortho */ "M 3 3 L 21 3 L 21 21 L 3 21 Z M 9 9 L 15 9 L 15 15 L 9 15 Z M 3 3 L 9 9 M 21 3 L 15 9 M 21 21 L 15 15 "
+                "M 3 21 L 9 15",
+    /* box */ "M 5 5 L 19 5 L 19 19 L 5 19 Z D 12 5 2.4 D 19 12 2.4 D 12 19 2.4 D 5 12 2.4",
+    /* slab */ "M 4 8 L 10 4 L 10 16 L 4 20 Z M 14 8 L 20 4 L 20 16 L 14 20 Z",
+    /* clear */ "M 6 6 L 18 18 M 18 6 L 6 18",
+    /* help */ "O 12 12 9 M 9.3 9.7 L 9.8 8.2 L 11 7.2 L 12.8 7.2 L 14.2 8.1 L 14.6 9.7 L 14 11.1 L 12.5 12.2 L 12 13.2 "
+               "L 12 14.4 D 12 17 1",
+};
+
+} // namespace
+
+void panel_icon(const panel_page *page, viewer_icon icon, ImVec2 corner, float side, ImU32 color) {
+    ImDrawList *list = ImGui::GetWindowDrawList();
+    const ImDrawListFlags flags = list->Flags;
+    list->Flags = flags | ImDrawListFlags_AntiAliasedLines | ImDrawListFlags_AntiAliasedFill;
+    const float unit = side / grid, stroke = fmaxf(1, stroke_points * page->unit);
+    const ImU32 faint = (color & ~IM_COL32_A_MASK) | (ImU32)0x90 << IM_COL32_A_SHIFT;
+    const char *at = icons[icon];
+    const auto number = [&at] {
+        char *end;
+        const float read = strtof(at, &end);
+        at = end;
+        return read;
+    };
+    const auto point = [&number, corner, unit] {
+        const float x = number(), y = number();
+        return ImVec2(corner.x + x * unit, corner.y + y * unit);
+    };
+    while (*at) {
+        const char what = *at++;
+        if (what == 'M') {
+            list->PathStroke(color, 0, stroke);
+            list->PathLineTo(point());
+        } else if (what == 'L') {
+            list->PathLineTo(point());
+        } else if (what == 'Z') {
+            list->PathStroke(color, ImDrawFlags_Closed, stroke);
+        } else if (what == 'F') {
+            list->PathFillConvex(faint);
+        } else if (what == 'O' || what == 'D') {
+            list->PathStroke(color, 0, stroke);
+            const ImVec2 middle = point();
+            const float radius = number() * unit;
+            if (what == 'O')
+                list->AddCircle(middle, radius, color, 0, stroke);
+            else
+                list->AddCircleFilled(middle, radius, color);
+        }
+    }
+    list->PathStroke(color, 0, stroke);
+    list->Flags = flags;
+}
