@@ -85,10 +85,20 @@ static bool parse_number(const cli_option *option, const char *text, double *num
 
 static bool parse_integer(const cli_option *option, const char *text, int64_t *number,
                           char message[OPTION_ERROR_BYTES]) {
+    enum { EXACT_BITS = 53 }; // of whole numbers in double precision
     char *end;
     errno = 0;
-    const long long read = strtoll(text, &end, 10);
-    if (end == text || *end || isspace((unsigned char)text[0]) || errno == ERANGE)
+    long long read = strtoll(text, &end, 10);
+    bool whole = end != text && !*end && !isspace((unsigned char)text[0]) && errno != ERANGE;
+    double power;
+    const char *stop;
+    // 1e7 is one, too.
+    if (!whole && !text[strspn(text, "+-.0123456789eE")] && read_number(text, &power, &stop) && !*stop &&
+        fabs(power) <= (double)(1LL << EXACT_BITS) && power == floor(power)) {
+        read = (long long)power;
+        whole = strpbrk(text, "eE");
+    }
+    if (!whole)
         return wrong(message, "--%s: '%.80s' is not a whole number", option->key, text);
     if (option->range && !in_range((double)read, option->range))
         return wrong(message, "--%s: %lld is outside %s", option->key, read, option->range);

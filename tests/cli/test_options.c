@@ -99,6 +99,8 @@ static void test_values(void **state) {
     assert_true(parse("--vectors 1,2 --number 1 --vectors=-3,4"));
     assert_int_equal(arguments.vectors.count, 2);
     assert_true(arguments.vectors.each[0].values[1] == 2 && arguments.vectors.each[1].values[0] == -3);
+    assert_true(parse("--integer -0.3e1"));
+    assert_int_equal(arguments.integer, -3);
     assert_true(parse("--set three,one,three"));
     assert_int_equal(arguments.set, 5);
     assert_true(parse("--text --flag"));
@@ -145,6 +147,11 @@ static void test_refusals(void **state) {
         {"--number _", "--number: '' is not a number"},
         {"--integer 2.5", "--integer: '2.5' is not a whole number"},
         {"--integer 99999999999999999999", "--integer: '99999999999999999999' is not a whole number"},
+        {"--integer 25e-1", "--integer: '25e-1' is not a whole number"},
+        {"--integer 1e30", "--integer: '1e30' is not a whole number"},
+        {"--integer 0x1e0", "--integer: '0x1e0' is not a whole number"},
+        {"--integer 1e", "--integer: '1e' is not a whole number"},
+        {"--integer 1e1", "--integer: 10 is outside [-5, 5]"},
         {"--integer 6", "--integer: 6 is outside [-5, 5]"},
         {"--text _", "--text: the value is empty"},
         {"--choice four", "--choice: 'four' is not one of one|two|three"},
