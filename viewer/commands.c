@@ -327,9 +327,11 @@ static bool do_cancel(viewer *v, const char *rest) {
     if (asks) return true;
     v->state.help = false;
     if (help) return true;
-    loader_cancel(v->loader);
-    pick_clear(v);
     v->state.message[0] = v->state.note[0] = 0;
+    if (items_cancel(v))
+        viewer_note(v, "loading was given up");
+    else
+        pick_clear(v);
     return true;
 }
 

@@ -139,6 +139,8 @@ void viewer_say(viewer *v, const char *format, ...) __attribute__((format(printf
 // items.c
 bool items_open(viewer *v, const char *path);
 bool items_close(viewer *v, size_t index);
+/// Gives up all loads; what was to be loaded is gone at once. Returns whether there were any.
+bool items_cancel(viewer *v);
 /// Takes in what the loader has to report.
 void items_update(viewer *v);
 /// Orders a scene in which the item is as its wish says.

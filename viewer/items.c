@@ -235,6 +235,18 @@ bool items_close(viewer *v, size_t index) {
     return true;
 }
 
+bool items_cancel(viewer *v) {
+    bool any = false;
+    loader_cancel(v->loader);
+    for (size_t i = v->item_count; i-- > 0;) {
+        if (v->items[i].loaded) continue;
+        any = true; // what is loaded already goes with the scene that is given up
+        if (!v->items[i].asset) remove_item(v, i);
+    }
+    if (any) show(v, v->scene);
+    return any;
+}
+
 void items_recolor(viewer *v, size_t index) {
     scene_item *item = &v->items[index];
     if (!item->asset) return;

@@ -179,15 +179,21 @@ ewa_status loader_create(const viewer_services *services, bool stepped, loader *
     return *made ? EWA_OK : EWA_ERROR_MEMORY;
 }
 
+bool loader_stop(loader *l) {
+    pthread_mutex_lock(&l->lock);
+    l->quits = true;
+    atomic_store(&l->give_up, true);
+    pthread_cond_broadcast(&l->changed);
+    const bool rests = !l->current;
+    pthread_mutex_unlock(&l->lock);
+    return rests;
+}
+
 void loader_destroy(loader **made) {
     loader *l = *made;
     if (!l) return;
     if (l->started) {
-        pthread_mutex_lock(&l->lock);
-        l->quits = true;
-        atomic_store(&l->give_up, true);
-        pthread_cond_broadcast(&l->changed);
-        pthread_mutex_unlock(&l->lock);
+        (void)loader_stop(l);
         pthread_join(l->thread, NULL);
     }
     free_list(&l->orders);
@@ -261,10 +267,7 @@ void loader_cancel(loader *l) {
 void loader_forget(loader *l, uint64_t item) {
     pthread_mutex_lock(&l->lock);
     drop_orders(l, item);
-    while (l->current && l->current->item == item) {
-        atomic_store(&l->give_up, true);
-        pthread_cond_wait(&l->changed, &l->lock);
-    }
+    if (l->current && l->current->item == item) atomic_store(&l->give_up, true);
     pthread_mutex_unlock(&l->lock);
 }
 
@@ -300,7 +303,7 @@ void loader_tell(loader *l, char path[VIEWER_PATH_BYTES], char stage[64], double
                  uint32_t *waiting) {
     pthread_mutex_lock(&l->lock);
     snprintf(path, VIEWER_PATH_BYTES, "%s", l->current ? l->current->path : "");
-    memcpy(stage, l->stage, sizeof l->stage);
+    memcpy(stage, l->current ? l->stage : "", l->current ? sizeof l->stage : 1);
     *fraction = l->fraction;
     *waiting = 0;
     for (const loader_note *order = l->orders; order; order = order->next)

@@ -55,8 +55,10 @@ bool loader_load(loader *loader, uint64_t item, const char *path, const ewa_scen
 bool loader_make(loader *loader, loader_scene *of);
 /// Gives up the load that is under way and all that wait.
 void loader_cancel(loader *loader);
-/// Forgets the orders of an item and waits until none is under way.
+/// Forgets the orders of an item, and gives up the one that is under way: what it reports, if it does, is of no item.
 void loader_forget(loader *loader, uint64_t item);
+/// Gives up everything for good. Returns whether nothing is under way any more.
+bool loader_stop(loader *loader);
 /// Carries out the oldest order, where there is no thread.
 void loader_step(loader *loader);
 /// Waits until all orders are done.

@@ -160,15 +160,21 @@ ewa_status painter_create(const viewer_services *services, bool stepped, uint32_
     return status;
 }
 
+bool painter_stop(painter *p) {
+    pthread_mutex_lock(&p->lock);
+    p->quits = true;
+    atomic_store(&p->give_up, true);
+    pthread_cond_broadcast(&p->changed);
+    const bool rests = !p->draws;
+    pthread_mutex_unlock(&p->lock);
+    return rests;
+}
+
 void painter_destroy(painter **made) {
     painter *p = *made;
     if (!p) return;
     if (p->started) {
-        pthread_mutex_lock(&p->lock);
-        p->quits = true;
-        atomic_store(&p->give_up, true);
-        pthread_cond_broadcast(&p->changed);
-        pthread_mutex_unlock(&p->lock);
+        (void)painter_stop(p);
         pthread_join(p->thread, NULL);
     }
     for (int k = 0; k < 3; k++) free(p->results[k].rgba8);

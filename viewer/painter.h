@@ -72,6 +72,8 @@ void painter_post(painter *painter, const paint_scene *scene, uint64_t ticket, b
 bool painter_is_busy(painter *painter);
 /// Gives up a whole picture that is being drawn, and one that waits; a quick one is finished.
 void painter_hurry(painter *painter);
+/// Gives up everything for good. Returns whether nothing is drawn any more.
+bool painter_stop(painter *painter);
 /// Gives up everything and waits until nothing that was handed over is used any more.
 void painter_rest(painter *painter);
 /// Waits until nothing is drawn; draws what was handed over, where there is no thread.

@@ -114,6 +114,11 @@ ewa_status viewer_create(const viewer_options *options, viewer **made) {
     return status;
 }
 
+bool viewer_stop(viewer *v) {
+    const bool loads = !loader_stop(v->loader), draws = !painter_stop(v->painter);
+    return !loads && !draws;
+}
+
 void viewer_destroy(viewer **made) {
     viewer *v = *made;
     if (!v) return;
@@ -366,7 +371,9 @@ void viewer_get_state(const viewer *v, viewer_state *state) {
     char path[VIEWER_PATH_BYTES];
     loader_tell(v->loader, path, state->stage, &state->fraction, &state->queued);
     const char *slash = strrchr(path, '/');
-    snprintf(state->loading, sizeof state->loading, "%.255s", slash ? slash + 1 : path);
+    const char *const name = slash ? slash + 1 : path;
+    // Orders without a path make the scene.
+    snprintf(state->loading, sizeof state->loading, "%.255s", name[0] || !state->stage[0] ? name : "making surfels");
 }
 
 bool viewer_open(viewer *v, const char *path) { return items_open(v, path); }

@@ -102,6 +102,8 @@ typedef struct viewer_options {
 
 /// Makes a viewer of nothing. The caller destroys it. Errors: EWA_ERROR_MEMORY, EWA_ERROR_ARGUMENT.
 ewa_status viewer_create(const viewer_options *options, viewer **made);
+/// Gives up everything for good, before the viewer is destroyed, which waits for its threads. Returns whether they rest.
+bool viewer_stop(viewer *viewer);
 void viewer_destroy(viewer **viewer);
 
 typedef enum viewer_event_kind {

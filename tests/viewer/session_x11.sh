@@ -132,4 +132,17 @@ wait $session || status=$?
 session=""
 [ $status = 0 ] || fail "the exit status is $status"
 [ ! -s complained ] || fail "something was wrong"
+
+# What is loaded without an end, here from a pipe, holds nobody up: it is given up at once, and so is the program.
+mkfifo endless.ply
+sleep 60 >endless.ply &
+writer=$!
+"$view" endless.ply >printed 2>complained &
+session=$!
+wait_for "a window" xdotool search --onlyvisible --name endless.ply
+xdotool key ctrl+q
+wait_for "the end" sh -c "! kill -0 $session"
+kill $writer 2>/dev/null || fail "the end has waited for the pipe"
+wait $session || fail "the exit status is $?"
+session=""
 echo "a session of $(wc -l <printed) results and $(ls ewa-*.png | wc -l) pictures"

@@ -11,6 +11,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
+#include <unistd.h>
 
 /// A second's worth of pictures, at the rate of the fastest screens.
 enum { MAX_TIMES = 256 };
@@ -19,6 +20,8 @@ enum { MAX_TIMES = 256 };
 static const double longest_sleep_s = 10, shortest_sleep_s = 0.002;
 /// Frames that the panels take until every size has settled after something has happened.
 enum { SETTLING_FRAMES = 3 };
+/// What threads may take to give up when a person ends the program.
+enum { LONGEST_END_MS = 100, END_STEP_MS = 5 };
 
 typedef struct front_window {
     viewer *viewer;
@@ -202,6 +205,19 @@ static bool script_step(void *user, double time_s, viewer_picture *picture) {
     return !front->closed && !front->state.quit;
 }
 
+/// Takes the window away and has everything given up. Where a thread is in the middle of something for longer, as of a
+/// read from a network that does not come, the program ends without it: a person is not kept waiting.
+static void end_soon(front_window *front, int exit_status) {
+    SDL_HideWindow(front->events.window);
+    for (int waited_ms = 0; !viewer_stop(front->viewer); waited_ms += END_STEP_MS) {
+        if (waited_ms >= LONGEST_END_MS) {
+            fflush(NULL);
+            _exit(exit_status);
+        }
+        SDL_Delay(END_STEP_MS);
+    }
+}
+
 /// Makes the viewer while the window comes up, so that files load meanwhile.
 static bool open_viewer(front_window *front, const front_job *job) {
     viewer_event size;
@@ -232,6 +248,7 @@ static int run(front_window *front, const front_job *job) {
         return script_run(front->viewer, job, &host);
     }
     live(front);
+    end_soon(front, 0);
     return 0;
 }
 
@@ -246,8 +263,13 @@ int front_window_run(const front_job *job) {
              job->path_count ? " - " : "");
     front_window front = {.scripted = job->script_path != NULL};
     front.events.zoom = front.scripted ? job->options.scale : display_find_zoom();
-    const int width = (int)lround(job->options.width * front.events.zoom);
-    const int height = (int)lround(job->options.height * front.events.zoom);
+    int width = (int)lround(job->options.width * front.events.zoom);
+    int height = (int)lround(job->options.height * front.events.zoom);
+    SDL_Rect screen;
+    if (!front.scripted && SDL_GetDisplayUsableBounds(0, &screen) == 0) {
+        width = SDL_min(width, screen.w);
+        height = SDL_min(height, screen.h);
+    }
     front.events.window = SDL_CreateWindow(title, SDL_WINDOWPOS_UNDEFINED, SDL_WINDOWPOS_UNDEFINED, width,
                                            height, SDL_WINDOW_RESIZABLE | SDL_WINDOW_ALLOW_HIGHDPI);
     int exit_status = front.events.window ? run(&front, job) : display_refuse("window", NULL);

@@ -96,8 +96,9 @@ void progress(panel_page *page, float *bottom) {
     }
     const float button = ImGui::CalcTextSize("Cancel").x + 2 * ImGui::GetStyle().FramePadding.x;
     const float fraction = (float)fmin(fmax(state.fraction, 0), 1);
-    ImGui::ProgressBar(fraction, ImVec2(-button - ImGui::GetStyle().ItemSpacing.x, 0),
-                       state.stage[0] ? state.stage : "...");
+    char stage[sizeof state.stage + 16];
+    snprintf(stage, sizeof stage, "%s %.0f %%", state.stage, 100 * (double)fraction);
+    ImGui::ProgressBar(fraction, ImVec2(-button - ImGui::GetStyle().ItemSpacing.x, 0), state.stage[0] ? stage : "...");
     ImGui::SameLine();
     if (ImGui::Button("Cancel")) panel_say(page, "cancel");
     *bottom = ImGui::GetWindowPos().y - panel_margin(page);

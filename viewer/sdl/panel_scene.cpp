@@ -141,6 +141,10 @@ bool item_row(panel_page *page, int index, const viewer_item *item, bool open_fi
         return false;
     }
     if (!*open) return true;
+    if (!item->count) {
+        ImGui::TextDisabled("is being loaded");
+        return true;
+    }
     char count[32];
     write_count(item->count, count);
     ImGui::TextDisabled("%s %s", count,
