@@ -16,7 +16,7 @@ from ._context import Context, default_context, progress
 from ._errors import (ArgumentError, Cancelled, ClosedError, Error, EwaWarning, FileError, FormatError, NumericError,
                       OutOfMemory)
 from ._library import version
-from .adapters import as_cloud, from_laspy, from_open3d, from_pyvista, from_trimesh
+from .adapters import as_cloud, as_drawables, as_volume
 from .camera import Camera, CameraPath, cameras, save_cameras
 from .cloud import Cloud, generate
 from .combining import csg, merge
@@ -40,8 +40,8 @@ __all__ = [
     "Context", "DepthImage", "Environment", "Error", "EwaWarning", "FileError", "FormatError", "Gaussians",
     "Gradients", "Image", "ImageQuality", "Mesh", "NumericError", "Octree", "OutOfMemory", "PhotoReport",
     "PhotosReport", "Renderer", "Scene", "Splats", "Surfels", "Transfer", "Volume", "Voxels", "as_cloud",
-    "build_octree", "cameras", "compare_images", "convert", "csg", "default_context", "from_laspy", "from_open3d",
-    "from_pyvista", "from_trimesh", "generate", "generate_volume", "merge", "progress", "read", "read_depth",
-    "read_gaussians", "read_image", "read_mesh", "read_volume", "render", "render_backward", "render_gaussians",
-    "render_volume", "sample", "save_cameras", "save_image", "texture", "version", "warp",
+    "as_drawables", "as_volume", "build_octree", "cameras", "compare_images", "convert", "csg", "default_context",
+    "generate", "generate_volume", "merge", "progress", "read", "read_depth", "read_gaussians", "read_image",
+    "read_mesh", "read_volume", "render", "render_backward", "render_gaussians", "render_volume", "sample",
+    "save_cameras", "save_image", "texture", "version", "warp",
 ]

@@ -278,14 +278,14 @@ def _report(status: int, messages: list[tuple[int, str]]) -> None:
     errors = [text for severity, text in messages if severity == b.ewa_severity.EWA_SEVERITY_ERROR]
     for severity, text in messages:
         if severity == b.ewa_severity.EWA_SEVERITY_WARNING:
-            warnings.warn(text, EwaWarning, stacklevel=_depth())
+            warnings.warn(text, EwaWarning, stacklevel=call_depth())
         elif severity > b.ewa_severity.EWA_SEVERITY_WARNING:
             _log.log(logging.INFO if severity <= b.ewa_severity.EWA_SEVERITY_INFO else logging.DEBUG, "%s", text)
     if status:
         raise make(status, "; ".join(errors))
 
 
-def _depth() -> int:
+def call_depth() -> int:
     """How far up the user's code is."""
     depth, frame = 1, sys._getframe(1)
     folder = os.path.dirname(__file__)
@@ -372,7 +372,9 @@ def default_context() -> Context:
     return context
 
 
-def core_of(context: Context | None) -> Core:
+def core_of(context: Context | Core | None) -> Core:
+    if isinstance(context, Core):
+        return context
     if context is None:
         context = default_context()
     elif not isinstance(context, Context):

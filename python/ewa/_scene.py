@@ -49,13 +49,18 @@ def view_options(view: Any = None, up: Any = None, *, size: Sequence[int] | None
 
 def is_path(thing: Any) -> bool:
     """Whether something names a file."""
-    return isinstance(thing, (str, bytes, os.PathLike))
+    return isinstance(thing, (str, os.PathLike))
 
 
 def core_of_object(thing: Any) -> Core:
     """The context of an object that a scene takes."""
     core: Core = thing._core if hasattr(thing, "_core") else thing._h.core
     return core
+
+
+def things_of(things: Any) -> list[Any]:
+    """The things that one argument stands for: those of a list or tuple, else itself."""
+    return list(things) if isinstance(things, (list, tuple)) else [things]
 
 
 def core_of_things(things: Iterable[Any]) -> Core:
@@ -103,9 +108,16 @@ class World:
                                 destroy=lib.ewa_scene_destroy, what="the scene")
 
     def add(self, thing: Any, options: b.ewa_asset_options | None = None, instance: b.ewa_instance | None = None) -> None:
-        """Add an object, or what a file has; of objects that never change an asset is made once."""
+        """Add an object, or what a file has; of objects that never change an asset is made once. What is of other packages is
+        converted."""
         if is_path(thing):
             self._add_file(thing, options, instance)
+            return
+        if not hasattr(thing, "_asset_members"):
+            from .adapters import as_drawables  # which is above: it makes objects
+
+            for part in as_drawables(thing, context=self.core):
+                self.add(part, options, instance)
             return
         asset: Handle | None = getattr(thing, "_asset", None) if options is None else None
         if asset is None or asset.core is not self.core:

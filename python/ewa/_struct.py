@@ -6,13 +6,17 @@ from __future__ import annotations
 import ctypes
 import math
 import operator
-from typing import Any, Callable, Mapping, NamedTuple, TypeVar
+import os
+from typing import IO, Any, Callable, Mapping, NamedTuple, TypeVar, Union
 
 from . import _bindings as b
 from ._errors import ArgumentError
 from ._library import functions as lib
 from ._library import library
 from ._options import OWN
+
+#: A file: its path, what it holds, or itself, open for bytes.
+Source = Union[str, "os.PathLike[str]", bytes, bytearray, memoryview, IO[bytes]]
 
 _Struct = TypeVar("_Struct", bound=ctypes.Structure)
 _TYPE = b.ewa_option_type
@@ -174,8 +178,6 @@ def numbers(value: Any, count: int, label: str) -> Any:
 
 def path_bytes(path: Any, label: str = "path") -> bytes:
     """A path as the library takes it."""
-    import os
-
     try:
         made = os.fsencode(path)
     except TypeError:
@@ -185,3 +187,25 @@ def path_bytes(path: Any, label: str = "path") -> bytes:
     if made == b"-":
         raise ArgumentError(f"{label}: '-' stands for the program's standard input and output; './-' is a file")
     return made
+
+
+def bytes_of(value: Any) -> bytes | None:
+    """What a file holds, of its bytes or of an open file; None of all else."""
+    if isinstance(value, (bytes, bytearray, memoryview)):
+        return bytes(value)
+    read = getattr(value, "read", None)
+    if read is None or not hasattr(value, "seek"):
+        return None
+    found = read()
+    if not isinstance(found, bytes):
+        raise TypeError("a file that is open for bytes, not for text")
+    return found
+
+
+def loader(load: Any, load_memory: Any, source: Any, named: bool = False) -> tuple[Any, tuple[Any, ...]]:
+    """The function of the library that reads a path, or the bytes of a file, and what it takes for it; `named`: files may
+    name others, which those in memory do not."""
+    data = bytes_of(source)
+    if data is None:
+        return load, (path_bytes(source),)
+    return load_memory, (data, len(data), b"bytes", *((None,) if named else ()))

@@ -16,7 +16,7 @@ from ._arrays import Array
 from ._context import Context, core_of
 from ._errors import ArgumentError, make
 from ._library import functions as lib
-from ._scene import World, core_of_things, is_path, place_at_box, view_options
+from ._scene import World, core_of_things, place_at_box, things_of, view_options
 from ._struct import numbers, path_bytes
 
 #: Vertical field of view where nobody says, degrees; that of the program.
@@ -136,8 +136,8 @@ class Camera:
 
         Parameters
         ----------
-        what : path, Cloud, Surfels, or anything else that a scene takes; a list of these; array_like of shape (2, 3)
-            What is to be seen; an array: the lower and the upper corner of a box.
+        what : Scene, or anything that one takes; a list of these; array_like of shape (2, 3)
+            What is to be seen; six numbers: the lower and the upper corner of a box.
         view : {"front", "back", "left", "right", "top", "bottom", "iso"} or array_like of shape (3,), optional
             Side from which it is seen, or the direction of the view. Default: by the shape.
         up : {"y", "z", "-y", "-z"} or array_like of shape (3,), optional
@@ -161,9 +161,11 @@ class Camera:
         asked = view_options(view, None if hangs else up, size=size, fov=fov, ortho=ortho, azimuth=azimuth,
                              elevation=elevation)
         own = str(up) if hangs else "auto"
-        things = list(what) if isinstance(what, (list, tuple)) else [what]
-        if not things or not all(is_path(thing) or hasattr(thing, "_asset_members") for thing in things):
+        if _is_box(what):
             return cls._of(checked(place_at_box(core_of(None), what, asked, own)))
+        things = things_of(what)
+        if len(things) == 1 and hasattr(things[0], "_whole") and not hangs and radius_scale == 1:
+            return cls._of(checked(things[0]._whole().place(asked)))
         world = World(core_of_things(things), up=own, surfels={"radius_scale": radius_scale})
         for thing in things:
             world.add(thing)
@@ -249,6 +251,14 @@ class Camera:
 
     def __reduce__(self) -> tuple[Any, ...]:
         return _restore, (bytes(self._struct),)
+
+
+def _is_box(what: Any) -> bool:
+    """Whether something is two rows of three numbers, and no two things."""
+    if isinstance(what, np.ndarray):
+        return what.shape == (2, 3)
+    return isinstance(what, (list, tuple)) and len(what) == 2 and all(
+        isinstance(row, (list, tuple, np.ndarray)) and len(row) == 3 and not isinstance(row[0], np.ndarray) for row in what)
 
 
 def _restore(data: bytes) -> Camera:

@@ -9,24 +9,14 @@ from typing import Any, Sequence
 from . import _bindings as b
 from ._errors import ArgumentError
 from ._library import functions as lib
-from ._scene import is_path
 from ._struct import fill, initialised
-from .camera import PathLike
+from .adapters import as_cloud
 from .cloud import Cloud, merge_clouds
-from .mesh import read
 
 
-def cloud_of(thing: Any, label: str = "cloud") -> Cloud:
-    """A cloud, or what :func:`read` makes of a path."""
-    if is_path(thing):
-        return read(thing)
-    if not isinstance(thing, Cloud):
-        raise TypeError(f"{label}: an ewa.Cloud or a path, not {type(thing).__name__}")
-    return thing
-
-
-def merge(clouds: Sequence[Cloud | PathLike]) -> Cloud:
-    """Return one cloud of several of one context, or of files; streams that only some have are filled.
+def merge(clouds: Sequence[Any]) -> Cloud:
+    """Return one cloud of several of one context, or of files or whatever :func:`as_cloud` takes; streams that only some
+    have are filled.
 
     Raises
     ------
@@ -34,17 +24,17 @@ def merge(clouds: Sequence[Cloud | PathLike]) -> Cloud:
     """
     if not clouds:
         raise ArgumentError("clouds: there is none")
-    return merge_clouds([cloud_of(cloud, "clouds") for cloud in clouds])
+    return merge_clouds([as_cloud(cloud) for cloud in clouds])
 
 
-def csg(a: Cloud | PathLike, other: Cloud | PathLike, operation: str = "union", *, cutoff: float = 3) -> Cloud:
+def csg(a: Any, other: Any, operation: str = "union", *, cutoff: float = 3) -> Cloud:
     """Combine two closed solids of surfels, with clip lines where their surfaces meet.
 
     Normals and radii that they lack are estimated.
 
     Parameters
     ----------
-    a, other : Cloud or path
+    a, other : Cloud, path, or whatever :func:`as_cloud` takes
         Of one context, normals outward.
     operation : {"union", "intersection", "difference"}, optional
         "difference": `a` without `other`.
@@ -58,5 +48,5 @@ def csg(a: Cloud | PathLike, other: Cloud | PathLike, operation: str = "union", 
     """
     made = initialised(b.ewa_csg_options, lib.ewa_csg_options_init)
     fill(made, "ewa_csg_options", {"operation": operation, "cutoff": cutoff})
-    first, second = (cloud_of(cloud)._completed() for cloud in (a, other))
+    first, second = (as_cloud(cloud)._completed() for cloud in (a, other))
     return Cloud._made(first._core, lib.ewa_cloud_csg, first._h, second._h, ctypes.byref(made))

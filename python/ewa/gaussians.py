@@ -15,7 +15,7 @@ from ._errors import ArgumentError
 from ._held import Held
 from ._library import functions as lib
 from ._scene import World
-from ._struct import fill, initialised, numbers, path_bytes
+from ._struct import Source, fill, initialised, loader, numbers, path_bytes
 from .camera import Camera, PathLike
 from .cloud import Cloud
 from .image import Color, Image
@@ -92,11 +92,12 @@ class Gaussians(Held):
                               tuple(Pin(array, name) for name, array in given.items()))
 
     @staticmethod
-    def _read(core: Core, path: PathLike) -> Gaussians:
+    def _read(core: Core, path: Source) -> Gaussians:
         gaussians = Gaussians.__new__(Gaussians)
         struct, facts = b.ewa_gaussians(), b.ewa_gaussian_facts()
-        gaussians._fill(core, struct, "centers", lib.ewa_gaussians_load, lib.ewa_gaussians_free, core.address,
-                        path_bytes(path), ctypes.byref(struct), ctypes.byref(facts))
+        load, source = loader(lib.ewa_gaussians_load, lib.ewa_gaussians_load_memory, path, named=True)
+        gaussians._fill(core, struct, "centers", load, lib.ewa_gaussians_free, core.address, *source,
+                        ctypes.byref(struct), ctypes.byref(facts))
         up = facts.up_world
         if abs(up[2]) > abs(up[1]):
             gaussians._up = "z" if up[2] > 0 else "-z"
@@ -182,8 +183,9 @@ class Gaussians(Held):
         return f"<ewa.Gaussians, {len(self)} of degree {self.sh_degree}{', flat' if self.flat else ''}>"
 
 
-def read_gaussians(path: PathLike, *, context: Context | None = None) -> Gaussians:
-    """Read Gaussians of 3DGS, 2DGS, Mip-Splatting (PLY), compressed PLY, .splat, SPZ, glTF, .ksplat or SOG.
+def read_gaussians(path: Source, *, context: Context | None = None) -> Gaussians:
+    """Read Gaussians of 3DGS, 2DGS, Mip-Splatting (PLY), compressed PLY, .splat, SPZ, glTF, .ksplat or SOG; of a path,
+    or of the bytes of a file, which is read alone.
 
     Raises
     ------

@@ -13,9 +13,8 @@ from ._arrays import Array, as_contiguous
 from ._errors import ArgumentError
 from ._library import functions as lib
 from ._struct import fill, initialised
-from .camera import Camera, PathLike
-from .cloud import Cloud
-from .combining import cloud_of
+from .adapters import as_cloud
+from .camera import Camera
 from .image import Color
 from .rendering import PLANES, options_of
 from .shade import Light
@@ -73,7 +72,7 @@ class Gradients(NamedTuple):
     rgba: Array | None = None
 
 
-def render_backward(cloud: Cloud | PathLike, camera: Camera, *, rgba: Any = None, depth: Any = None, normal: Any = None,
+def render_backward(cloud: Any, camera: Camera, *, rgba: Any = None, depth: Any = None, normal: Any = None,
                     coverage: Any = None, by: str | Iterable[str] = ("color", "position", "camera"),
                     unit_coverage: float | None = None, background: Color = "white",
                     lights: Sequence[Light] | None = None, layers: int | str | None = None,
@@ -86,7 +85,7 @@ def render_backward(cloud: Cloud | PathLike, camera: Camera, *, rgba: Any = None
 
     Parameters
     ----------
-    cloud : Cloud or path
+    cloud : Cloud, path, or whatever :func:`as_cloud` takes
         With positions, normals and radii, or positions and both tangents.
     camera : Camera
     rgba, depth, normal, coverage : array_like, optional
@@ -112,7 +111,7 @@ def render_backward(cloud: Cloud | PathLike, camera: Camera, *, rgba: Any = None
         eye-dome lighting, levels of detail.
     OutOfMemory, ClosedError
     """
-    cloud = cloud_of(cloud)
+    cloud = as_cloud(cloud)
     if not isinstance(camera, Camera):
         raise TypeError(f"camera: an ewa.Camera, not {type(camera).__name__}")
     names = (by,) if isinstance(by, str) else tuple(by)

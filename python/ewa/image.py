@@ -15,7 +15,7 @@ from ._arrays import Array, as_contiguous
 from ._context import Context, core_of
 from ._errors import ArgumentError
 from ._library import functions as lib
-from ._struct import initialised, path_bytes
+from ._struct import Source, initialised, loader, path_bytes
 from .camera import Camera, PathLike
 
 #: Linear light (r, g, b[, a]), straight alpha, as in C; or text as the program takes it: "white", "transparent",
@@ -177,7 +177,7 @@ def save_image(path: PathLike, pixels: Any, *, channel_names: str | None = None,
     array = np.asarray(pixels)
     array = as_contiguous(array[:, :, None] if array.ndim == 2 else array, np.float32, (None, None, None), "pixels")
     core = core_of(None)
-    image = _struct(array, core.address)
+    image = pixels_struct(array, core.address)
     options = initialised(b.ewa_image_save_options, lib.ewa_image_save_options_init)
     if channel_names is not None:
         options.channel_names = channel_names.encode()
@@ -187,7 +187,7 @@ def save_image(path: PathLike, pixels: Any, *, channel_names: str | None = None,
     core.call(lib.ewa_image_save, ctypes.byref(image), path_bytes(path), ctypes.byref(options))
 
 
-def _struct(array: Array, context: int | None) -> b.ewa_image:
+def pixels_struct(array: Array, context: int | None) -> b.ewa_image:
     """An image of the library over an array of (h, w, c) floats."""
     height, width, channels = array.shape
     if not (1 <= height <= 65536 and 1 <= width <= 65536 and 1 <= channels <= 16):
@@ -199,27 +199,37 @@ def _struct(array: Array, context: int | None) -> b.ewa_image:
 def as_picture(value: Any, label: str) -> Array:
     """A picture as (height, width, channels) floats, linear: of a path, of floats, or of uint8, which are sRGB."""
     if isinstance(value, (str, bytes, os.PathLike)):
-        return read_image(os.fsdecode(value))
+        return read_image(value)
     if isinstance(value, Image):
         value = value.rgba if value.rgba is not None else value.rgba8
     array = np.asarray(value)
     array = array[:, :, None] if array.ndim == 2 else array
     if array.dtype != np.uint8:
         return as_contiguous(array, np.float32, (None, None, None), label)
-    table = np.array([lib.ewa_linear_from_srgb(code / 255) for code in range(256)], np.float32)
-    made: Array = table[array]
+    made = linear_of_codes(array)
     if array.shape[2] == 4:
-        made[:, :, 3] = array[:, :, 3].astype(np.float32) / np.float32(255)
         made[:, :, :3] *= made[:, :, 3:]
     return np.ascontiguousarray(made)
 
 
-def _read(function: Any, path: PathLike, context: Context | None) -> Array:
+def linear_of_codes(codes: Array) -> Array:
+    """Linear light of sRGB codes of all bits of an unsigned type, as float32; a fourth component is alpha."""
+    high = int(np.iinfo(codes.dtype).max)
+    used, places = (np.arange(256), codes) if high == 255 else np.unique(codes, return_inverse=True)
+    table = np.array([lib.ewa_linear_from_srgb(code / high) for code in used.tolist()], np.float32)
+    made: Array = table[places].reshape(codes.shape)
+    if codes.shape[-1] == 4:
+        made[..., 3] = codes[..., 3].astype(np.float32) / np.float32(high)
+    return made
+
+
+def _read(load: Any, load_memory: Any, path: Source, context: Context | None) -> Array:
     core = core_of(context)
     image = b.ewa_image()
+    function, source = loader(load, load_memory, path)
 
-    def read(address: int, file: bytes) -> Any:
-        status = function(address, file, ctypes.byref(image))
+    def read(address: int) -> Any:
+        status = function(address, *source, ctypes.byref(image))
         if status:
             return status
         shape = (image.height_px, image.width_px, image.channel_count)
@@ -229,12 +239,12 @@ def _read(function: Any, path: PathLike, context: Context | None) -> Array:
         return status
 
     pixels: list[Array] = []
-    core.call(read, core.address, path_bytes(path))
+    core.call(read, core.address)
     return pixels[0]
 
 
-def read_image(path: PathLike, *, context: Context | None = None) -> Array:
-    """Read PNG, JPEG, WebP, OpenEXR, PFM or Radiance.
+def read_image(path: Source, *, context: Context | None = None) -> Array:
+    """Read PNG, JPEG, WebP, OpenEXR, PFM or Radiance, of a path, or of the bytes of a file.
 
     Returns
     -------
@@ -245,11 +255,12 @@ def read_image(path: PathLike, *, context: Context | None = None) -> Array:
     ------
     FileError, FormatError, OutOfMemory
     """
-    return _read(lib.ewa_image_load, path, context)
+    return _read(lib.ewa_image_load, lib.ewa_image_load_memory, path, context)
 
 
-def read_depth(path: PathLike, *, context: Context | None = None) -> Array:
-    """Read the numbers of a depth image: PNG of 8 or 16 bits, OpenEXR, PFM; 65535 of PNG becomes infinite.
+def read_depth(path: Source, *, context: Context | None = None) -> Array:
+    """Read the numbers of a depth image, of a path or the bytes of a file: PNG of 8 or 16 bits, OpenEXR, PFM; 65535 of PNG
+    becomes infinite.
 
     Returns
     -------
@@ -259,4 +270,4 @@ def read_depth(path: PathLike, *, context: Context | None = None) -> Array:
     ------
     FileError, FormatError, OutOfMemory
     """
-    return _read(lib.ewa_depth_load, path, context)[:, :, 0]
+    return _read(lib.ewa_depth_load, lib.ewa_depth_load_memory, path, context)[:, :, 0]

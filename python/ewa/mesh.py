@@ -4,19 +4,20 @@
 from __future__ import annotations
 
 import ctypes
-import os
 from typing import TYPE_CHECKING, Any, Sequence
 
 import numpy as np
 
 from . import _bindings as b
-from ._arrays import Array, as_contiguous, export
+from ._arrays import Array, as_colors, as_contiguous, as_numbers, export
 from ._context import Context, Core, Handle, Pin, core_of
 from ._errors import ArgumentError, ClosedError, FormatError
 from ._library import functions as lib
-from ._struct import fill, initialised, path_bytes
+from ._scene import is_path
+from ._struct import Source, fill, initialised, loader, numbers, path_bytes
 from .camera import PathLike
 from .cloud import Cloud, merge_clouds
+from .image import as_picture, linear_of_codes, pixels_struct
 from .octree import Octree, is_folder
 
 if TYPE_CHECKING:
@@ -38,8 +39,16 @@ class Mesh:
     triangles : array_like of int, shape (m, 3)
         Counter-clockwise seen from outside.
     normals : array_like, shape (n, 3), optional
-    colors : array_like, shape (n, 4), optional
-        Linear red, green, blue, straight alpha.
+        Outward, any length; zero: none there.
+    colors : array_like, shape (n, 3) or (n, 4), optional
+        Red, green, blue, straight alpha: whole numbers are sRGB over their whole range, floats linear light.
+    texcoords : array_like, shape (n, 2), optional
+        Places in the pictures, (0, 0) at the bottom left, (1, 1) at the top right; pictures repeat.
+    materials : sequence of (color, picture), optional
+        Of a material the linear colour (r, g, b, a) and the path or array of its picture, or None; these and the colours of
+        the vertices are multiplied.
+    triangle_materials : array_like of int, shape (m,), optional
+        Which material each triangle has. Default: 0.
 
     Raises
     ------
@@ -49,13 +58,14 @@ class Mesh:
 
     _handle: Handle | None
 
-    def __init__(self, vertices: Any, triangles: Any, *, normals: Any = None, colors: Any = None,
+    def __init__(self, vertices: Any, triangles: Any, *, normals: Any = None, colors: Any = None, texcoords: Any = None,
+                 materials: Sequence[tuple[Sequence[float], Any]] | None = None, triangle_materials: Any = None,
                  context: Context | None = None) -> None:
         core = core_of(context)
         positions = as_contiguous(vertices, np.float64, (None, 3), "vertices")
-        corners = np.asarray(triangles)
-        if corners.dtype.kind not in "iu" or corners.ndim != 2 or corners.shape[1] != 3:
-            raise ArgumentError(f"triangles: {corners.dtype} of shape {corners.shape}; integers of (m, 3) are needed")
+        corners = _whole(triangles, 2, "triangles")
+        if corners.shape[1] != 3:
+            raise ArgumentError(f"triangles: shape {corners.shape}; (m, 3) is needed")
         if corners.size and (int(corners.min()) < 0 or int(corners.max()) >= len(positions)):
             raise ArgumentError(f"triangles: a vertex outside of the {len(positions)} that there are")
         if max(len(positions), len(corners)) >= 2**32:
@@ -64,12 +74,39 @@ class Mesh:
         arrays = [positions, corners]
         self._mesh = b.ewa_mesh(context=core.address, vertex_count=len(positions), triangle_count=len(corners),
                                 positions=positions.ctypes.data, triangles=corners.ctypes.data)
-        for name, value, width in (("normals", normals, 3), ("colors", colors, 4)):
+        colors = None if colors is None else _linear_colors(colors)
+        for name, value, width in (("normals", normals, 3), ("colors", colors, 4), ("texcoords", texcoords, 2)):
             if value is not None:
                 arrays.append(as_contiguous(value, np.float32, (len(positions), width), name))
                 setattr(self._mesh, name, arrays[-1].ctypes.data)
+        self._materials: tuple[Any, ...] = ()
+        if materials:
+            arrays += self._set_materials(materials, triangle_materials)
         self._handle = Handle(core, None, lib.ewa_mesh_free, "the mesh",
                               tuple(Pin(array, "mesh") for array in arrays))
+
+    def _set_materials(self, materials: Sequence[tuple[Sequence[float], Any]], of_triangles: Any) -> list[Array]:
+        """Fill in the materials; returns the arrays that the struct borrows."""
+        mesh, count = self._mesh, len(materials)
+        which = np.zeros(mesh.triangle_count, np.uint32)
+        if of_triangles is not None:
+            given = _whole(of_triangles, 1, "triangle_materials")
+            if len(given) != len(which) or (given.size and not 0 <= int(given.min()) <= int(given.max()) < count):
+                raise ArgumentError(f"triangle_materials: {len(which)} numbers from 0 to {count - 1} are needed")
+            which = np.ascontiguousarray(given, np.uint32)
+        made, textures, arrays = (b.ewa_mesh_material * count)(), (b.ewa_image * count)(), [which]
+        for i, (color, picture) in enumerate(materials):
+            made[i].base_color[:] = list(numbers(color, 4, f"materials[{i}]"))
+            made[i].texture = i
+            if picture is not None:
+                arrays.append(as_picture(picture, f"materials[{i}]"))
+                textures[i] = pixels_struct(arrays[-1], mesh.context)
+        if len(arrays) > 1 and not mesh.texcoords:
+            raise ArgumentError("texcoords: pictures of materials need them")
+        mesh.material_count, mesh.triangle_materials = count, which.ctypes.data
+        mesh.materials, mesh.textures = made, textures
+        self._materials = (made, textures)
+        return arrays
 
     @staticmethod
     def _loaded(model: _Model) -> Mesh:
@@ -154,23 +191,44 @@ class Mesh:
         return f"<ewa.Mesh of {self._mesh.triangle_count} triangles, {self._mesh.vertex_count} vertices>"
 
 
+def _whole(value: Any, dimensions: int, label: str) -> Array:
+    array = as_numbers(value, label)
+    if array.dtype.kind not in "iu" or array.ndim != dimensions:
+        raise ArgumentError(f"{label}: {array.dtype} of shape {array.shape}; whole numbers of {dimensions} dimensions are "
+                            "needed")
+    return array
+
+
+def _linear_colors(value: Any) -> Array:
+    """Colours of vertices: linear light, four components."""
+    colors = as_colors(value, "colors")
+    if colors.ndim != 2 or colors.shape[1] not in (3, 4):
+        raise ArgumentError(f"colors: shape {colors.shape}; (n, 3) or (n, 4) is needed")
+    if colors.dtype.kind == "u":
+        colors = linear_of_codes(colors)
+    if colors.shape[1] == 3:
+        colors = np.concatenate([colors, np.ones((len(colors), 1), colors.dtype)], axis=1)
+    return colors
+
+
 class _Model:
     """What a file holds, until it is taken."""
 
-    def __init__(self, core: Core, path: PathLike, wanted: int, options: b.ewa_cloud_load_options) -> None:
+    def __init__(self, core: Core, path: Source, wanted: int, options: b.ewa_cloud_load_options) -> None:
         self.core = core
         self.path = path
         struct = self.struct = b.ewa_model()
+        function, source = loader(lib.ewa_model_load, lib.ewa_model_load_memory, path, named=True)
 
         def create(*given: Any) -> int:
-            status: int = lib.ewa_model_load(*given[:-1], ctypes.byref(struct))
+            status: int = function(*given[:-1], ctypes.byref(struct))
             given[-1]._obj.value = ctypes.addressof(struct)
             return status
 
         def free(_: Any) -> None:
             lib.ewa_model_free(ctypes.byref(struct))
 
-        self.handle = core.make(create, core.address, path_bytes(path), wanted, ctypes.byref(options), destroy=free,
+        self.handle = core.make(create, core.address, *source, wanted, ctypes.byref(options), destroy=free,
                                 what="the mesh")
 
     def take(self, member: str, destroy: Any, what: str) -> Handle:
@@ -192,13 +250,15 @@ class _Model:
         return _name_of([self.path])
 
 
-def _name_of(paths: Sequence[PathLike]) -> bytes | None:
+def _name_of(paths: Sequence[Any]) -> bytes | None:
     """The name of files whose kind says what is up; None: it does not."""
+    if not all(is_path(path) for path in paths):
+        return None
     names = (ctypes.c_char_p * len(paths))(*[path_bytes(path) for path in paths])
     return names[0] if lib.ewa_up_convention_of(len(paths), names) else None
 
 
-def _load(core: Core, path: PathLike, wanted: int, keep_going: bool, attributes: Sequence[str] | None,
+def _load(core: Core, path: Source, wanted: int, keep_going: bool, attributes: Sequence[str] | None,
           columns: Sequence[str] | None, heights: str = "none") -> _Model:
     options = initialised(b.ewa_cloud_load_options, lib.ewa_cloud_load_options_init)
     fill(options, "ewa_cloud_load_options", {"keep_going": keep_going, "heights": heights})
@@ -209,14 +269,14 @@ def _load(core: Core, path: PathLike, wanted: int, keep_going: bool, attributes:
     return _Model(core, path, wanted, options)
 
 
-def read(path: PathLike, *more: PathLike, filter: str | Sequence[str] | None = None, vertices: bool = False,
+def read(path: Source, *more: Source, filter: str | Sequence[str] | None = None, vertices: bool = False,
          keep_going: bool = False, attributes: Sequence[str] | None = None, columns: Sequence[str] | None = None,
          heights: str = "none", context: Context | None = None) -> Cloud:
     """Read points: PLY, LAS, LAZ, COPC, EPT, E57, PCD, PTX, PTS, XYZ, CSV, grids of heights; or a mesh, onto whose faces points are put.
 
     Parameters
     ----------
-    path, *more : path
+    path, *more : path, or the bytes of a file, or a file that is open for bytes
         Several files become one cloud.
     filter : str or sequence of str, optional
         Conditions on attributes that points fulfil, such as ``"classification=2,6"``.
@@ -242,7 +302,7 @@ def read(path: PathLike, *more: PathLike, filter: str | Sequence[str] | None = N
         merged._name = _name_of([path, *more])
         return merged
     core = core_of(context)
-    if is_folder(core, path):
+    if is_path(path) and is_folder(core, path):
         cloud = Octree(path, context=context).read()
         return cloud if filter is None else cloud.filter(*([filter] if isinstance(filter, str) else filter))
     wanted = b.EWA_MODEL_POINTS if vertices else b.EWA_MODEL_MESH
@@ -250,17 +310,27 @@ def read(path: PathLike, *more: PathLike, filter: str | Sequence[str] | None = N
     if model.struct.points:
         cloud = model.take_points()
     else:
-        mesh = Mesh._loaded(model)
-        count = max(_MESH_POINTS, _MESH_POINTS_PER_TRIANGLE * mesh._mesh.triangle_count)
-        cloud = mesh.sample(point_count=count, texture_filter="ewa")
+        cloud = points_on(Mesh._loaded(model))
         cloud._name = model.name
     if filter is not None:
         cloud = cloud.filter(*([filter] if isinstance(filter, str) else filter))
     return cloud
 
 
-def read_mesh(path: PathLike, *, context: Context | None = None) -> Mesh:
-    """Read triangles: PLY, OBJ, STL, OFF, glTF, VTK.
+def read_model(core: Core, source: Source) -> Cloud | Mesh:
+    """The mesh of a file, of one without faces the points."""
+    model = _load(core, source, b.EWA_MODEL_MESH, False, None, None)
+    return model.take_points() if model.struct.points else Mesh._loaded(model)
+
+
+def points_on(mesh: Mesh) -> Cloud:
+    """Points on the faces of a mesh, as many as are drawn of it."""
+    count = max(_MESH_POINTS, _MESH_POINTS_PER_TRIANGLE * mesh._mesh.triangle_count)
+    return mesh.sample(point_count=count, texture_filter="ewa")
+
+
+def read_mesh(path: Source, *, context: Context | None = None) -> Mesh:
+    """Read triangles: PLY, OBJ, STL, OFF, glTF, VTK; of a path, or of the bytes of a file, which is read alone.
 
     Raises
     ------
@@ -271,11 +341,11 @@ def read_mesh(path: PathLike, *, context: Context | None = None) -> Mesh:
     core = core_of(context)
     model = _load(core, path, b.EWA_MODEL_MESH, False, None, None)
     if not model.struct.mesh.triangle_count:
-        raise FormatError(f"{os.fspath(path)!r}: there are no faces", "EWA_ERROR_FORMAT")
+        raise FormatError(f"{path!r}: there are no faces" if is_path(path) else "there are no faces", "EWA_ERROR_FORMAT")
     return Mesh._loaded(model)
 
 
-def sample(path: PathLike, *, context: Context | None = None, **options: Unpack[MeshSampleOptions]) -> Cloud:
+def sample(path: Source, *, context: Context | None = None, **options: Unpack[MeshSampleOptions]) -> Cloud:
     """Read a mesh and return surfels on its faces: :func:`read_mesh`, then :meth:`Mesh.sample`."""
     return read_mesh(path, context=context).sample(**options)
 

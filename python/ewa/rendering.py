@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import ctypes
-from typing import TYPE_CHECKING, Any, Iterable, Mapping, Sequence, Union
+from typing import TYPE_CHECKING, Any, Iterable, Mapping, Sequence
 
 import numpy as np
 
@@ -13,21 +13,16 @@ from ._arrays import Array
 from ._context import Context, Core, Handle, core_of
 from ._errors import ArgumentError
 from ._library import functions as lib
-from ._scene import World, core_of_things, is_path, view_options
+from ._scene import World, core_of_things, things_of, view_options
 from ._struct import fill, initialised
-from .camera import Camera, PathLike
-from .cloud import Cloud
+from .camera import Camera
 from .image import Color, Image
 from .shade import (Environment, Light, Materials, set_background, set_lights, set_materials, set_section)
-from .surfels import Surfels
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
 
     from ._options import RenderOptions
-
-#: What can be drawn.
-Scene = Union[Surfels, Cloud, PathLike, Sequence[Union[Surfels, Cloud, PathLike]]]
 
 #: Names of planes: their types and numbers per pixel.
 PLANES: dict[str, tuple[Any, int]] = {"rgba8": (np.uint8, 4), "rgba": (np.float32, 4), "depth": (np.float32, 1),
@@ -119,7 +114,7 @@ class Renderer:
     def __init__(self, *, context: Context | None = None, backend: str = "cpu") -> None:
         self._handle = _renderer(core_of(context), backend)
 
-    def render(self, scene: Scene, camera: Camera | None = None, **options: Any) -> Image:
+    def render(self, scene: Any, camera: Camera | None = None, **options: Any) -> Image:
         """As :func:`render`, by this renderer."""
         return render(scene, camera, renderer=self, **options)
 
@@ -138,19 +133,20 @@ def _shared(core: Core, backend: str) -> Handle:
     return handle
 
 
-def render(scene: Scene, camera: Camera | None = None, *, size: Sequence[int] | None = None,
-           planes: str | Iterable[str] = ("rgba8",), background: Color = "white",
+def render(scene: Any, camera: Camera | None = None, *, size: Sequence[int] | None = None,
+           planes: str | Iterable[str] = ("rgba8",), background: Color | None = None,
            lights: Sequence[Light] | None = None, materials: Materials | None = None,
            environment: Environment | Any = None, layers: int | str | None = None, section_box: Any = None,
            section_planes: Sequence[Sequence[float]] | None = None, backend: str = "cpu",
            renderer: Renderer | None = None, out: Image | None = None,
            **options: Unpack[RenderOptions]) -> Image:
-    """Draw surfels, or clouds and files, which become surfels first.
+    """Draw anything: what :class:`Scene` takes, objects of other packages too, as ``ewa render`` draws the same in files.
 
     Parameters
     ----------
-    scene : Surfels, Cloud, path, or a sequence of them
-        Several make one picture, whose surfaces meet and blend. Files are what they are for :class:`Scene`.
+    scene : Scene, or whatever one takes (:meth:`Scene.add`), or a list of such
+        Several make one picture, whose surfaces meet and blend. What is drawn often is made surfels (:meth:`Cloud.surfels`)
+        or a scene once.
     camera : Camera, optional
         Default: one that has all in its picture, ``Camera.frame(scene)``.
     size : (int, int), optional
@@ -159,7 +155,7 @@ def render(scene: Scene, camera: Camera | None = None, *, size: Sequence[int] | 
         What is drawn, as the attributes of :class:`Image`.
     background : colour, optional
         Linear (r, g, b[, a]), or text: "white", "transparent", "#ff8800", "r,g,b" of sRGB.
-        Default: opaque white, as `ewa render` has it.
+        Default: opaque white, as `ewa render` has it, or that of a scene file.
     lights : sequence, optional
         At most 8 directions (x, y, z), or with linear colours (x, y, z, r, g, b). Default: from the eye.
     materials : path or sequence of mappings, optional
@@ -195,16 +191,13 @@ def render(scene: Scene, camera: Camera | None = None, *, size: Sequence[int] | 
     making: dict[str, Any] = {}
     if not _SURFELS.isdisjoint(options):
         making = {name: options.pop(name) for name in tuple(options) if name in _SURFELS}  # type: ignore[misc]
-    parts = [scene] if is_path(scene) or isinstance(scene, (Surfels, Cloud)) else list(scene)  # type: ignore[arg-type]
+    parts = things_of(scene)
     if not parts:
         raise ArgumentError("scene: there is nothing")
-    for part in parts:
-        if not is_path(part) and not isinstance(part, (Surfels, Cloud)):
-            raise TypeError(f"scene: surfels, clouds or paths, not {type(part).__name__}; ewa.Scene() draws all else")
-        if making and isinstance(part, Surfels):
-            raise TypeError(f"{', '.join(making)}: said where surfels are made, Cloud.surfels()")
+    if making and any(hasattr(part, "_whole") for part in parts):
+        raise TypeError(f"{', '.join(making)}: said where surfels or a scene are made, Cloud.surfels() or Scene()")
     close_gaps = making.pop("close_gaps", not options.get("point_size_px"))
-    world = parts[0]._world if len(parts) == 1 and isinstance(parts[0], Surfels) and parts[0]._h else None
+    world = parts[0]._whole() if len(parts) == 1 and hasattr(parts[0], "_whole") else None
     if world is None:
         world = World(core_of_things(parts), close_gaps=close_gaps, surfels=making)
         for part in parts:

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import ctypes
 import json
-from typing import Any, Iterable, Sequence, Union
+from typing import Any, Iterable, Sequence
 
 from . import _bindings as b
 from ._arrays import Array
@@ -15,19 +15,9 @@ from ._library import functions as lib
 from ._scene import World, core_of_things, is_path, view_options
 from ._struct import fill, initialised, path_bytes, text_bytes
 from .camera import Camera, PathLike
-from .cloud import Cloud
-from .gaussians import Gaussians, Splats
 from .image import Color, Image
-from .mesh import Mesh
-from .octree import Octree
 from .rendering import draw, draw_outlines
 from .shade import Environment, Light, Materials
-from .surfels import Surfels
-from .volume import Volume, Voxels
-
-#: What a scene takes beside the names of files.
-Drawable = Union[Cloud, Mesh, Surfels, Octree, Gaussians, Splats, Volume, Voxels]
-
 
 class Scene:
     """Instances of clouds, meshes, octrees, Gaussians and volumes, drawn together.
@@ -37,7 +27,7 @@ class Scene:
 
     Parameters
     ----------
-    *things : path, Cloud, Mesh, Surfels, Octree, Gaussians, Splats, Volume or Voxels
+    *things : objects
         Each is added as by :meth:`add`.
     close_gaps : bool, optional
         Measure radii anew where those of files leave gaps. Default True.
@@ -51,7 +41,7 @@ class Scene:
     FileError, FormatError, ArgumentError, OutOfMemory
     """
 
-    def __init__(self, *things: PathLike | Drawable, close_gaps: bool = True, up: str = "auto",
+    def __init__(self, *things: Any, close_gaps: bool = True, up: str = "auto",
                  context: Context | None = None, **surfels: Any) -> None:
         self._core: Core = core_of_things(things) if context is None else core_of(context)
         self._world = World(self._core, close_gaps=close_gaps, up=up, surfels=surfels)
@@ -61,14 +51,14 @@ class Scene:
     def __len__(self) -> int:
         return int(self._core.value(lib.ewa_scene_count, self._handle))
 
-    def add(self, thing: PathLike | Drawable, *, visible: bool = True, opacity: float = 1.0, radius_scale: float = 1.0,
+    def add(self, thing: Any, *, visible: bool = True, opacity: float = 1.0, radius_scale: float = 1.0,
             color_by: str = "", colormap: str = "auto", range: Sequence[float] | None = None,
             tint: Sequence[float] | None = None, transfer: str | None = None, **options: Any) -> int:
         """Add something; returns its number.
 
         Parameters
         ----------
-        thing : path, Cloud, Mesh, Surfels, Octree, Gaussians, Splats, Volume or Voxels
+        thing : path, Cloud, Mesh, Surfels, Octree, Gaussians, Splats, Volume, Voxels, or what :func:`as_drawables` takes
             Of a scene file (``.json``), everything that it names is added, as it says; its options and its camera become
             the scene's. The number is that of the first one.
         visible, opacity, radius_scale, color_by, colormap, range, tint : optional
@@ -97,9 +87,6 @@ class Scene:
         instance.coloring.attribute = text_bytes(color_by, b.EWA_SCALAR_NAME_BYTES, "color_by")
         number = len(self)
         if not is_path(thing):
-            if not hasattr(thing, "_asset_members"):
-                raise TypeError(f"thing: a path, a cloud, a mesh, surfels, an octree, Gaussians, splats, a volume or "
-                                f"voxels, not {type(thing).__name__}")
             plain = transfer is None and not options
             self._world.add(thing, None if plain else made, instance)
         else:
@@ -108,6 +95,11 @@ class Scene:
                 raise ArgumentError(f"{thing}: how its items are shown is said in the scene file")
             self._world.add(thing, made, instance)
         return number
+
+    def _whole(self) -> World:
+        """What is drawn; raises ClosedError where there is nothing more."""
+        self._handle
+        return self._world
 
     @property
     def _handle(self) -> Handle:

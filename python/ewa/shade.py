@@ -11,7 +11,7 @@ from ._context import Context, core_of
 from ._errors import ArgumentError
 from ._library import functions as lib
 from ._struct import fill, numbers, path_bytes
-from .image import Color, _struct, as_picture, linear
+from .image import Color, as_picture, linear, pixels_struct
 
 #: Direction towards a light x, y, z, or with its linear colour x, y, z, r, g, b; 0, 0, 0 is the eye's.
 Light = Sequence[float]
@@ -34,7 +34,7 @@ class Environment:
 
     def __init__(self, picture: Any, *, context: Context | None = None) -> None:
         core = core_of(context)
-        image = _struct(as_picture(picture, "environment"), core.address)
+        image = pixels_struct(as_picture(picture, "environment"), core.address)
         self._handle = core.make(lib.ewa_environment_create, ctypes.byref(image),
                                  destroy=lib.ewa_environment_destroy, what="the environment")
 

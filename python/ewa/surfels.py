@@ -52,6 +52,10 @@ class Surfels:
         surfels._world = world
         return surfels
 
+    def _whole(self) -> World | None:
+        """The scene of them alone."""
+        return self._world if self._h else None
+
     def _asset_members(self) -> dict[str, Any]:
         return {"surfels": self._h}
 

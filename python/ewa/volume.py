@@ -15,7 +15,7 @@ from ._errors import ArgumentError, ClosedError
 from ._held import Held
 from ._library import functions as lib
 from ._scene import World
-from ._struct import fill, initialised, numbers, path_bytes
+from ._struct import Source, fill, initialised, loader, numbers, path_bytes
 from .camera import Camera, PathLike
 from .cloud import Cloud
 from .image import Color, Image
@@ -126,14 +126,14 @@ class Volume(Held):
         return f"<ewa.Volume {nx}x{ny}x{nz}, {DTYPE_OF[self._struct.type]}>"
 
 
-def read_volume(path: PathLike, *, dims: Sequence[int] | None = None, dtype: Any = None, big_endian: bool = False,
+def read_volume(path: Source, *, dims: Sequence[int] | None = None, dtype: Any = None, big_endian: bool = False,
                 header_bytes: int = 0, spacing: Sequence[float] | None = None,
                 context: Context | None = None) -> Volume:
     """Read NRRD, NIfTI, Analyze, MetaImage, VTK, or raw numbers.
 
     Parameters
     ----------
-    path : path
+    path : path, or the bytes of a file, or a file that is open for bytes
     dims : (nx, ny, nz), optional
         The file is raw numbers, x fastest.
     dtype : optional
@@ -160,7 +160,8 @@ def read_volume(path: PathLike, *, dims: Sequence[int] | None = None, dtype: Any
             raise ArgumentError(f"dtype: {np.dtype(dtype)} is no type of voxels")
         made.type = kind
     core = core_of(context)
-    return Volume._made(core, lib.ewa_volume_load, core.address, path_bytes(path), ctypes.byref(made))
+    load, source = loader(lib.ewa_volume_load, lib.ewa_volume_load_memory, path)
+    return Volume._made(core, load, core.address, *source, ctypes.byref(made))
 
 
 def generate_volume(object: str = "checkerbox", *, context: Context | None = None,
@@ -267,7 +268,7 @@ class Voxels:
 
     Parameters
     ----------
-    volume : Volume
+    volume : Volume, or whatever :func:`as_volume` takes
     transfer : Transfer or str, optional
         Or a preset, "auto" (default), a JSON file.
     level_count : int, optional
@@ -280,9 +281,11 @@ class Voxels:
 
     _asset: Handle | None = None
 
-    def __init__(self, volume: Volume, transfer: Transfer | str = "auto", *, level_count: int = 2) -> None:
+    def __init__(self, volume: Any, transfer: Transfer | str = "auto", *, level_count: int = 2) -> None:
         if not isinstance(volume, Volume):
-            raise TypeError(f"volume: an ewa.Volume, not {type(volume).__name__}")
+            from .adapters import as_volume  # which is above: it makes volumes
+
+            volume = as_volume(volume)
         self._flat = transfer in ("fog", "gray") if isinstance(transfer, str) else False
         self._transfer = transfer if isinstance(transfer, Transfer) else Transfer.of(volume, transfer)
         made = initialised(b.ewa_voxels_options, lib.ewa_voxels_options_init)
@@ -312,7 +315,7 @@ class Voxels:
                            ctypes.byref(self._transfer._struct), float(reach_steps))
 
 
-def render_volume(volume: Volume | Voxels, camera: Camera | None = None, *, transfer: Transfer | str = "auto",
+def render_volume(volume: Any, camera: Camera | None = None, *, transfer: Transfer | str = "auto",
                   size: Sequence[int] | None = None, planes: str | Iterable[str] = ("rgba8",),
                   background: Color = "black", lights: Sequence[Light] | None = None,
                   surfaces: Image | None = None, section_box: Any = None,
@@ -322,7 +325,7 @@ def render_volume(volume: Volume | Voxels, camera: Camera | None = None, *, tran
 
     Parameters
     ----------
-    volume : Volume or Voxels
+    volume : Voxels, Volume, or whatever :func:`as_volume` takes
     camera : Camera, optional
         Default: that of ``ewa volume``, which has the whole in its picture.
     transfer : Transfer or str, optional
