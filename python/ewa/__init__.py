@@ -16,7 +16,7 @@ from ._context import Context, default_context, progress
 from ._errors import (ArgumentError, Cancelled, ClosedError, Error, EwaWarning, FileError, FormatError, NumericError,
                       OutOfMemory)
 from ._library import version
-from .adapters import as_cloud, as_drawables, as_volume
+from .adapters import as_cloud, as_drawables
 from .camera import Camera, CameraPath, cameras, save_cameras
 from .cloud import Cloud, generate
 from .combining import csg, merge
@@ -25,12 +25,12 @@ from .gradients import CameraGradient, Gradients, render_backward
 from .image import Image, read_depth, read_image, save_image
 from .mesh import Mesh, convert, read, read_mesh, sample
 from .octree import Octree, build_octree
-from .photographs import ImageQuality, PhotoReport, PhotosReport, compare_images
+from .photographs import ImageQuality, PhotoReport, PhotosReport, compare_images, undistort
 from .rendering import Renderer, render
 from .scene import Scene
 from .shade import Environment
 from .surfels import Surfels
-from .volume import Transfer, Volume, Voxels, generate_volume, read_volume, render_volume
+from .volume import Transfer, Volume, Voxels, as_volume, generate_volume, read_volume, render_volume
 from .warping import DepthImage, texture, warp
 
 __version__ = version()
@@ -43,5 +43,5 @@ __all__ = [
     "as_drawables", "as_volume", "build_octree", "cameras", "compare_images", "convert", "csg", "default_context",
     "generate", "generate_volume", "merge", "progress", "read", "read_depth", "read_gaussians", "read_image",
     "read_mesh", "read_volume", "render", "render_backward", "render_gaussians", "render_volume", "sample",
-    "save_cameras", "save_image", "texture", "version", "warp",
+    "save_cameras", "save_image", "texture", "undistort", "version", "warp",
 ]

@@ -22,7 +22,7 @@ _WIDE = {"positions": "position", "points": "position", "xyz": "position", "norm
 def cloud_of_columns(columns: Mapping[str, Any], context: Context | None) -> Cloud:
     """A cloud of columns of one number for each point, whose names say what they are as those of a text's columns do, or of
     up to four, which are streams of their names."""
-    streams: dict[str, Array] = {}
+    streams: dict[str, Any] = {}
     single: dict[str, Array] = {}
     left_out = []
     for name, value in columns.items():

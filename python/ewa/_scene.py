@@ -5,13 +5,16 @@ from __future__ import annotations
 
 import ctypes
 import os
-from typing import Any, Iterable, Mapping, Sequence
+from typing import TYPE_CHECKING, Any, Callable, Iterable, Mapping, Sequence
 
 from . import _bindings as b
 from ._context import Core, Handle, core_of
 from ._errors import ArgumentError
 from ._library import functions as lib
 from ._struct import fill, initialised, numbers, path_bytes
+
+if TYPE_CHECKING:
+    from typing_extensions import TypeGuard
 
 VIEWS = ("front", "back", "left", "right", "top", "bottom", "iso")
 _UPS = {"y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
@@ -47,7 +50,7 @@ def view_options(view: Any = None, up: Any = None, *, size: Sequence[int] | None
     return made
 
 
-def is_path(thing: Any) -> bool:
+def is_path(thing: Any) -> TypeGuard[str | os.PathLike[str]]:
     """Whether something names a file."""
     return isinstance(thing, (str, os.PathLike))
 
@@ -56,6 +59,16 @@ def core_of_object(thing: Any) -> Core:
     """The context of an object that a scene takes."""
     core: Core = thing._core if hasattr(thing, "_core") else thing._h.core
     return core
+
+
+#: What makes things that a scene takes of objects of other packages: it makes clouds and such, and so is above all of
+#: these, which is why it adds itself.
+adapters: list[Callable[..., list[Any]]] = []
+
+
+def drawables_of(thing: Any, core: Core | None = None) -> list[Any]:
+    """What a scene takes of something, whose objects are made from a context."""
+    return [thing] if hasattr(thing, "_asset_members") else adapters[0](thing, context=core)
 
 
 def things_of(things: Any) -> list[Any]:
@@ -114,9 +127,7 @@ class World:
             self._add_file(thing, options, instance)
             return
         if not hasattr(thing, "_asset_members"):
-            from .adapters import as_drawables  # which is above: it makes objects
-
-            for part in as_drawables(thing, context=self.core):
+            for part in drawables_of(thing, self.core):
                 self.add(part, options, instance)
             return
         asset: Handle | None = getattr(thing, "_asset", None) if options is None else None

@@ -196,7 +196,10 @@ def bytes_of(value: Any) -> bytes | None:
     read = getattr(value, "read", None)
     if read is None or not hasattr(value, "seek"):
         return None
+    place = value.tell()
+    value.seek(0)  # the whole, however often it is asked for
     found = read()
+    value.seek(place)
     if not isinstance(found, bytes):
         raise TypeError("a file that is open for bytes, not for text")
     return found

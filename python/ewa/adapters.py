@@ -12,7 +12,7 @@ from ._arrays import Array, as_numbers
 from ._columns import cloud_of_columns
 from ._context import Context, core_of
 from ._errors import ArgumentError, FormatError
-from ._scene import is_path
+from ._scene import adapters, is_path
 from ._struct import bytes_of
 from ._surface import WHITE, Surface, linear_colors, mesh_of, srgb8
 from .cloud import Cloud, merge_clouds
@@ -34,8 +34,9 @@ def as_cloud(value: Any, *, context: Context | None = None) -> Cloud:
 
     Raises
     ------
-    ArgumentError
+    TypeError
         It is no cloud and no mesh.
+    ArgumentError, FormatError
     """
     if is_path(value):
         return read(value, context=context)
@@ -44,24 +45,9 @@ def as_cloud(value: Any, *, context: Context | None = None) -> Cloud:
         if isinstance(drawable, Mesh):
             drawable = points_on(drawable)
         if not isinstance(drawable, Cloud):
-            raise ArgumentError(f"no cloud is made of {type(drawable).__name__.lower()}")
+            raise TypeError(f"no cloud is made of {_kind(drawable)}")
         found.append(drawable)
     return found[0] if len(found) == 1 else merge_clouds(found)
-
-
-def as_volume(value: Any, *, context: Context | None = None) -> Volume:
-    """Return the volume that something is: a path, an array of (nz, ny, nx) numbers, an image of PyVista.
-
-    Raises
-    ------
-    ArgumentError
-    """
-    if is_path(value) or bytes_of_file(value) is not None:
-        return read_volume(value, context=context)
-    found = as_drawables(value, context=context)
-    if len(found) != 1 or not isinstance(found[0], Volume):
-        raise ArgumentError(f"no volume is made of {_kind(value)}")
-    return found[0]
 
 
 def as_drawables(value: Any, *, context: Context | None = None) -> list[Any]:
@@ -83,8 +69,10 @@ def as_drawables(value: Any, *, context: Context | None = None) -> list[Any]:
 
     Raises
     ------
-    ArgumentError
+    TypeError
         Nothing is known of such objects.
+    ArgumentError, FormatError
+        Their numbers are none of a scene; no file is of such bytes.
     """
     if hasattr(value, "_asset_members"):
         return [value]
@@ -111,8 +99,8 @@ def _parts_of(value: Any, context: Context | None) -> list[_Part]:
         return [cloud_of_columns({name: value[name] for name in value.dtype.names}, context)]
     if hasattr(value, "__array__") or hasattr(value, "__dlpack__"):
         return [_of_array(as_numbers(value, "array"), value, context)]
-    raise ArgumentError(f"nothing is drawn of {_kind(value)}; there are arrays, dicts of them, bytes of files, and objects of "
-                        f"{', '.join(_PACKAGES)}")
+    raise TypeError(f"nothing is drawn of {_kind(value)}; there are paths, arrays, dicts of them, bytes of files, and objects "
+                    f"of {', '.join(_PACKAGES)}")
 
 
 def _of_array(array: Array, value: Any, context: Context | None) -> _Part:
@@ -135,16 +123,16 @@ def bytes_of_file(value: Any) -> Any:
 
 def _of_bytes(value: Any, context: Context | None) -> Any:
     """Gaussians, a mesh or a cloud, as their bytes say; a volume where these are none of such."""
-    data = bytes_of(value)
+    data = bytes_of(value) or b""
     try:
-        return read_gaussians(data, context=context)  # type: ignore[arg-type]
+        return read_gaussians(data, context=context)
     except FormatError:
         pass
     try:
         return read_model(core_of(context), data)
     except FormatError as error:
         try:
-            return read_volume(data, context=context)  # type: ignore[arg-type]
+            return read_volume(data, context=context)
         except FormatError:
             raise error from None
 
@@ -155,10 +143,12 @@ def _of_bytes(value: Any, context: Context | None) -> Any:
 def _of_laspy(las: Any, context: Context | None) -> list[_Part]:
     """What a file of the object has, to the last bit: laspy writes it into memory."""
     if not hasattr(las, "points") or not hasattr(las, "write"):
-        raise ArgumentError(f"laspy: LasData is drawn, not {type(las).__name__}")
+        raise TypeError(f"laspy: LasData is drawn, not {type(las).__name__}")
     file = io.BytesIO()
     las.write(file)
-    return [read(file.getvalue(), context=context)]
+    cloud = read(file.getvalue(), context=context)
+    cloud._name = b"laspy.las"  # what is up in such files
+    return [cloud]
 
 
 def _of_table(table: Any, context: Context | None) -> list[_Part]:
@@ -181,7 +171,7 @@ def _of_trimesh(value: Any, context: Context | None) -> list[_Part]:
     if hasattr(value, "faces"):
         return [_of_trimesh_mesh(value)]
     if not hasattr(value, "vertices") or hasattr(value, "entities"):
-        raise ArgumentError(f"trimesh: meshes, clouds and scenes are drawn, not {type(value).__name__}")
+        raise TypeError(f"trimesh: meshes, clouds and scenes are drawn, not {type(value).__name__}")
     colors = getattr(value, "colors", None)
     some = colors is not None and len(colors) == len(value.vertices)
     return [Cloud(np.asarray(value.vertices), colors=np.asarray(colors, np.uint8) if some else None, context=context)]
@@ -239,11 +229,10 @@ def _of_open3d(value: Any, context: Context | None) -> list[_Part]:
     if hasattr(value, "point"):  # of open3d.t
         fields = {name: _tensor(value.point[name]) for name in value.point}
         colors = fields.pop("colors", None)
-        streams = {name: array for name, array in fields.items()
-                   if name != "positions" and (array.ndim == 1 or array.shape[1] <= 4)}
-        return [Cloud(fields["positions"], colors=_srgb_codes(colors), context=context,
-                      **{name: array[:, 0] if array.ndim == 2 and array.shape[1] == 1 else array
-                         for name, array in streams.items()})]
+        streams: dict[str, Any] = {name: array[:, 0] if array.ndim == 2 and array.shape[1] == 1 else array
+                                   for name, array in fields.items()
+                                   if name != "positions" and (array.ndim == 1 or array.shape[1] <= 4)}
+        return [Cloud(fields["positions"], colors=_srgb_codes(colors), context=context, **streams)]
     if hasattr(value, "vertex") and hasattr(value, "triangle"):
         made = Surface(_tensor(value.vertex["positions"]), _tensor(value.triangle["indices"]))
         return [_open3d_surface(made, {name: _tensor(value.vertex[name]) for name in value.vertex},
@@ -253,10 +242,10 @@ def _of_open3d(value: Any, context: Context | None) -> list[_Part]:
         made = Surface(np.asarray(value.vertices), np.asarray(value.triangles))
         vertex = {"normals": np.asarray(value.vertex_normals), "colors": np.asarray(value.vertex_colors)}
         triangle = {"texture_uvs": np.asarray(value.triangle_uvs), "material_ids": np.asarray(value.triangle_material_ids)}
-        pictures = [None if picture.is_empty() else np.asarray(picture) for picture in value.textures]
+        pictures = [None if picture.is_empty() else np.asarray(picture)[::-1] for picture in value.textures]  # v goes down
         return [_open3d_surface(made, vertex, triangle, [(WHITE[0], picture) for picture in pictures])]
     if not hasattr(value, "points") or not hasattr(value, "has_normals"):
-        raise ArgumentError(f"open3d: clouds and triangle meshes are drawn, not {type(value).__name__}")
+        raise TypeError(f"open3d: clouds and triangle meshes are drawn, not {type(value).__name__}")
     return [Cloud(np.asarray(value.points), normals=np.asarray(value.normals) if value.has_normals() else None,
                   colors=_srgb_codes(np.asarray(value.colors)) if value.has_colors() else None, context=context)]
 
@@ -275,7 +264,7 @@ def _open3d_material(mesh: Any) -> tuple[Any, Any]:
     if material is None or not material.is_valid() or "albedo" not in material.texture_maps:
         return WHITE
     picture = material.texture_maps["albedo"]
-    return WHITE[0], None if picture.is_empty() else _tensor(picture.as_tensor())
+    return WHITE[0], None if picture.is_empty() else _tensor(picture.as_tensor())[::-1]
 
 
 def _open3d_surface(made: Surface, vertex: Mapping[str, Array], triangle: Mapping[str, Array],
@@ -308,11 +297,10 @@ def _of_pyvista(value: Any, context: Context | None) -> list[_Part]:
     if hasattr(value, "dimensions") and hasattr(value, "spacing"):
         return [_of_pyvista_image(value, context)]
     if not hasattr(value, "point_data"):
-        raise ArgumentError(f"pyvista: data sets are drawn, not {type(value).__name__}")
-    if not hasattr(value, "is_all_triangles") or hasattr(value, "cells_dict"):
-        value = value.extract_surface()  # of a grid
-    n_faces = getattr(value, "n_faces_strict", 0)
-    if not n_faces or n_faces == getattr(value, "n_verts", 0) and not len(value.faces):
+        raise TypeError(f"pyvista: data sets are drawn, not {type(value).__name__}")
+    if not hasattr(value, "faces"):
+        value = _pyvista_surface(value)
+    if not len(value.faces) and not len(value.strips):
         return [_of_pyvista_points(value, context)]
     mesh = value if value.is_all_triangles else value.triangulate()
     made = Surface(np.asarray(mesh.points, np.float64), np.asarray(mesh.faces).reshape(-1, 4)[:, 1:])
@@ -326,6 +314,14 @@ def _of_pyvista(value: Any, context: Context | None) -> list[_Part]:
             made = made.apart()
             made.colors = linear_colors(np.repeat(np.asarray(mesh.cell_data[name]), 3, axis=0))
     return [made]
+
+
+def _pyvista_surface(grid: Any) -> Any:
+    """The outside of a grid; versions that have several ways warn where none is chosen."""
+    try:
+        return grid.extract_surface(algorithm="dataset_surface")
+    except TypeError:
+        return grid.extract_surface()
 
 
 def _of_pyvista_points(data: Any, context: Context | None) -> Cloud:
@@ -363,3 +359,5 @@ def _of_pyvista_image(image: Any, context: Context | None) -> Volume:
 _PACKAGES: dict[str, Callable[[Any, Any], list[_Part]]] = {
     "laspy": _of_laspy, "open3d": _of_open3d, "trimesh": _of_trimesh, "pyvista": _of_pyvista, "pandas": _of_table,
     "polars": _of_table}
+
+adapters.append(as_drawables)

@@ -66,8 +66,9 @@ class Camera:
         A number is not finite or out of range, the matrix is no rotation times a scale.
     """
 
-    __slots__ = ("_struct", "__weakref__")
+    __slots__ = ("_struct", "_lens", "__weakref__")
     _struct: b.ewa_camera
+    _lens: b.ewa_lens
 
     def __init__(self, K: Any = None, world_to_camera: Any = None, size: Sequence[int] = DEFAULT_SIZE, *,
                  fov: float | None = None, ortho: float | None = None) -> None:
@@ -89,15 +90,67 @@ class Camera:
             for i in range(len(m)):
                 made.world_to_camera[i] = m[i]
         self._struct = checked(made)
+        self._lens = b.ewa_lens()
 
     @staticmethod
-    def _of(struct: b.ewa_camera) -> Camera:
+    def _of(struct: b.ewa_camera, lens: b.ewa_lens | None = None) -> Camera:
         camera = Camera.__new__(Camera)
         camera._struct = struct
+        camera._lens = b.ewa_lens() if lens is None else lens
         return camera
 
     def _copy(self) -> b.ewa_camera:
         return b.ewa_camera.from_buffer_copy(self._struct)
+
+    @classmethod
+    def from_opencv(cls, K: Any, R: Any = None, t: Any = None, distortion: Any = None, *,
+                    size: Sequence[int] | None = None, fisheye: bool = False) -> Camera:
+        """Make the camera of OpenCV's numbers, as ``cv2.calibrateCamera`` and ``cv2.solvePnP`` return them.
+
+        Pictures are drawn as by a pinhole without distortion; :func:`undistort` makes such a picture of a photograph, and
+        :meth:`Cloud.color_from_photos` does so itself.
+
+        Parameters
+        ----------
+        K : array_like, shape (3, 3)
+            Pixels, pixel centres at whole numbers, which is half a pixel less than here.
+        R : array_like, shape (3, 3) or (3,), optional
+            Rotation from the world to the camera, a matrix, or axis times angle in radians. Default: none.
+        t : array_like, shape (3,), optional
+            Translation from the world to the camera, world units. Default: 0.
+        distortion : array_like, up to 8 numbers, optional
+            k1, k2, p1, p2, k3, k4, k5, k6; of a fisheye k1, k2, k3, k4. Default: 0.
+        size : (int, int), optional
+            Width and height in pixels. Default: that whose middle is the principal point.
+        fisheye : bool, optional
+            The lens is that of ``cv2.fisheye``.
+
+        Raises
+        ------
+        ArgumentError
+        """
+        k = np.array(numbers(K, 9, "K")).reshape(3, 3)
+        if size is None:
+            size = [round(2 * float(k[i, 2]) + 1) for i in range(2)]
+        k[:2, 2] += 0.5
+        matrix = np.eye(4)
+        if R is not None:
+            matrix[:3, :3] = _rotation(R)
+        if t is not None:
+            matrix[:3, 3] = numbers(t, 3, "t")
+        camera = cls(k, matrix, size)
+        if distortion is not None:
+            camera._lens = _lens_of(distortion, fisheye)
+        return camera
+
+    @property
+    def distortion(self) -> Array:
+        """What the lens does beside the pinhole, as OpenCV counts it: k1, k2, p1, p2, k3, k4, k5, k6; float64, shape (8,); of
+        a fisheye k1, k2, k3, k4."""
+        radial, tangential = list(self._lens.radial), list(self._lens.tangential)
+        if self._lens.model == b.ewa_lens_model.EWA_LENS_FISHEYE:
+            return np.array(radial[:4])
+        return np.array(radial[:2] + tangential + radial[2:])
 
     @classmethod
     def look_at(cls, eye: Sequence[float], target: Sequence[float], up: Sequence[float] = (0, 0, 1), *,
@@ -209,7 +262,7 @@ class Camera:
         made = self._copy()
         _check(lib.ewa_camera_orbit(ctypes.byref(made), numbers(pivot, 3, "pivot"), numbers(axis, 3, "axis"),
                                     _real(angle_deg, "angle_deg")), "orbit: no axis")
-        return Camera._of(checked(made))
+        return Camera._of(checked(made), self._lens)
 
     def resized(self, width: int, height: int) -> Camera:
         """Return the camera with a picture of another size that shows the same.
@@ -226,7 +279,7 @@ class Camera:
         made.fy_px *= y
         made.cy_px *= y
         made.width_px, made.height_px = width, height
-        return Camera._of(checked(made))
+        return Camera._of(checked(made), self._lens)
 
     def save(self, path: PathLike) -> None:
         """Write a camera file (JSON) with every digit, for ``--camera`` of the program and :func:`cameras`.
@@ -239,10 +292,13 @@ class Camera:
         core.call(lib.ewa_camera_save, core.address, ctypes.byref(self._struct), path_bytes(path))
 
     def __eq__(self, other: object) -> bool:
-        return isinstance(other, Camera) and bytes(self._struct) == bytes(other._struct)
+        return isinstance(other, Camera) and self._bytes() == other._bytes()
 
     def __hash__(self) -> int:
-        return hash(bytes(self._struct))
+        return hash(self._bytes())
+
+    def _bytes(self) -> bytes:
+        return bytes(self._struct) + bytes(self._lens)
 
     def __repr__(self) -> str:
         kind = "orthographic" if self.orthographic else "perspective"
@@ -250,21 +306,53 @@ class Camera:
         return f"<ewa.Camera {self.size[0]}x{self.size[1]}, {kind}, eye ({eye})>"
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return _restore, (bytes(self._struct),)
+        return _restore, (bytes(self._struct), bytes(self._lens))
 
 
 def _is_box(what: Any) -> bool:
     """Whether something is two rows of three numbers, and no two things."""
     if isinstance(what, np.ndarray):
-        return what.shape == (2, 3)
+        return bool(what.shape == (2, 3))
     return isinstance(what, (list, tuple)) and len(what) == 2 and all(
         isinstance(row, (list, tuple, np.ndarray)) and len(row) == 3 and not isinstance(row[0], np.ndarray) for row in what)
 
 
-def _restore(data: bytes) -> Camera:
-    if len(data) != ctypes.sizeof(b.ewa_camera):
+def _restore(data: bytes, lens: bytes) -> Camera:
+    if len(data) != ctypes.sizeof(b.ewa_camera) or len(lens) != ctypes.sizeof(b.ewa_lens):
         raise ArgumentError("no camera")
-    return Camera._of(checked(b.ewa_camera.from_buffer_copy(data)))
+    return Camera._of(checked(b.ewa_camera.from_buffer_copy(data)), b.ewa_lens.from_buffer_copy(lens))
+
+
+def _rotation(value: Any) -> Array:
+    """A rotation of three numbers, by Rodrigues's formula, or of nine."""
+    if np.size(np.asarray(value, dtype=object)) != 3:
+        return np.array(numbers(value, 9, "R")).reshape(3, 3)
+    vector = np.array(numbers(value, 3, "R"))
+    angle = float(np.linalg.norm(vector))
+    x, y, z = vector / angle if angle else vector
+    cross = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
+    made: Array = np.eye(3) + math.sin(angle) * cross + (1 - math.cos(angle)) * (cross @ cross)
+    return made
+
+
+def _lens_of(distortion: Any, fisheye: bool) -> b.ewa_lens:
+    """The lens of OpenCV's numbers, of which trailing ones may be left out, or be zeros."""
+    count = int(np.size(np.asarray(distortion, dtype=object)))
+    given = list(numbers(distortion, count, "distortion")) if count else []
+    most = 4 if fisheye else 8
+    if any(given[most:]):
+        raise ArgumentError(f"distortion: {count} numbers; thin prisms and tilted sensors are not known" if not fisheye else
+                            f"distortion: {count} numbers; a fisheye has 4")
+    given = (given + [0.0] * most)[:most]
+    lens = b.ewa_lens()
+    if not any(given):
+        return lens
+    lens.model = b.ewa_lens_model.EWA_LENS_FISHEYE if fisheye else b.ewa_lens_model.EWA_LENS_BROWN
+    for i, number in enumerate(given if fisheye else given[:2] + given[4:]):
+        lens.radial[i] = number
+    if not fisheye:
+        lens.tangential[:] = given[2:4]
+    return lens
 
 
 def _real(value: Any, label: str) -> float:

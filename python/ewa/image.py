@@ -223,6 +223,14 @@ def linear_of_codes(codes: Array) -> Array:
     return made
 
 
+def taken(image: b.ewa_image) -> Array:
+    """The pixels of an image of the library, which is freed."""
+    shape = (image.height_px, image.width_px, image.channel_count)
+    data = ctypes.string_at(image.pixels or 0, 4 * shape[0] * shape[1] * shape[2])
+    lib.ewa_image_free(ctypes.byref(image))
+    return np.frombuffer(bytearray(data), np.float32).reshape(shape)
+
+
 def _read(load: Any, load_memory: Any, path: Source, context: Context | None) -> Array:
     core = core_of(context)
     image = b.ewa_image()
@@ -232,10 +240,7 @@ def _read(load: Any, load_memory: Any, path: Source, context: Context | None) ->
         status = function(address, *source, ctypes.byref(image))
         if status:
             return status
-        shape = (image.height_px, image.width_px, image.channel_count)
-        data = ctypes.string_at(image.pixels or 0, 4 * shape[0] * shape[1] * shape[2])
-        pixels.append(np.frombuffer(bytearray(data), np.float32).reshape(shape))
-        lib.ewa_image_free(ctypes.byref(image))
+        pixels.append(taken(image))
         return status
 
     pixels: list[Array] = []

@@ -15,7 +15,7 @@ from ._errors import ArgumentError
 from ._library import functions as lib
 from ._struct import fill, initialised, path_bytes
 from .camera import Camera, PathLike
-from .image import as_picture
+from .image import as_picture, pixels_struct, taken
 
 if TYPE_CHECKING:
     from ._options import PhotosOptions
@@ -86,6 +86,32 @@ class ImageQuality(NamedTuple):
     pixel_count: int
 
 
+def undistort(picture: Any, camera: Camera) -> Array:
+    """Return the picture of a pinhole of one that the lens of a camera took (:meth:`Camera.from_opencv`).
+
+    Parameters
+    ----------
+    picture : path, Image, or array_like of shape (height, width) or (height, width, 1, 3 or 4)
+        Of the camera's size. Floats are linear light, premultiplied; uint8 is sRGB.
+    camera : Camera
+
+    Returns
+    -------
+    ndarray of float32, shape (height, width, 4)
+        Linear light, premultiplied; transparent where the lens shows nothing.
+
+    Raises
+    ------
+    ArgumentError, OutOfMemory
+    """
+    core = core_of(None)
+    pixels = as_picture(picture, "picture")
+    image, made = pixels_struct(pixels, core.address), b.ewa_image()
+    core.call(lib.ewa_image_undistort, ctypes.byref(image), ctypes.byref(camera._struct), ctypes.byref(camera._lens),
+              ctypes.byref(made))
+    return taken(made)
+
+
 def compare_images(image: Any, truth: Any, *, context: Context | None = None) -> ImageQuality:
     """Compare two pictures of one size by PSNR and SSIM, in sRGB numbers.
 
@@ -115,7 +141,7 @@ def _of_arrays(photos: Sequence[tuple[Camera, Any]]) -> tuple[Any, list[Any]]:
         if pixels.shape[2] not in (1, 3, 4):
             raise ArgumentError(f"photograph {i}: shape {pixels.shape}; 1, 3 or 4 channels are needed")
         image = b.ewa_image(None, pixels.shape[1], pixels.shape[0], pixels.shape[2], pixels.ctypes.data)
-        made[i].camera = camera._copy()
+        made[i].camera, made[i].lens = camera._copy(), camera._lens
         made[i].image = ctypes.pointer(image)
         keep += [pixels, image]
     return made, keep

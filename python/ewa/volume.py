@@ -14,7 +14,7 @@ from ._context import Context, Core, Handle, Pin, core_of
 from ._errors import ArgumentError, ClosedError
 from ._held import Held
 from ._library import functions as lib
-from ._scene import World
+from ._scene import World, drawables_of, is_path
 from ._struct import Source, fill, initialised, loader, numbers, path_bytes
 from .camera import Camera, PathLike
 from .cloud import Cloud
@@ -164,6 +164,21 @@ def read_volume(path: Source, *, dims: Sequence[int] | None = None, dtype: Any =
     return Volume._made(core, load, core.address, *source, ctypes.byref(made))
 
 
+def as_volume(value: Any, *, context: Context | None = None) -> Volume:
+    """Return the volume that something is: a path, an array of (nz, ny, nx) numbers, an image of PyVista.
+
+    Raises
+    ------
+    TypeError, ArgumentError, FormatError
+    """
+    if is_path(value):
+        return read_volume(value, context=context)
+    found = drawables_of(value, core_of(context))
+    if len(found) != 1 or not isinstance(found[0], Volume):
+        raise TypeError(f"no volume is made of {type(value).__module__}.{type(value).__name__}")
+    return found[0]
+
+
 def generate_volume(object: str = "checkerbox", *, context: Context | None = None,
                     **options: Unpack[VolumeGenerateOptions]) -> Volume:
     """Make a test volume: "checkerbox", "blob", "ball" or "vessels".
@@ -283,16 +298,15 @@ class Voxels:
 
     def __init__(self, volume: Any, transfer: Transfer | str = "auto", *, level_count: int = 2) -> None:
         if not isinstance(volume, Volume):
-            from .adapters import as_volume  # which is above: it makes volumes
-
             volume = as_volume(volume)
+        core: Core = volume._h.core
         self._flat = transfer in ("fog", "gray") if isinstance(transfer, str) else False
         self._transfer = transfer if isinstance(transfer, Transfer) else Transfer.of(volume, transfer)
         made = initialised(b.ewa_voxels_options, lib.ewa_voxels_options_init)
         fill(made, "ewa_voxels_options", {"level_count": level_count})
-        self._handle = volume._h.core.make(volume._bound(lib.ewa_voxels_create), ctypes.byref(self._transfer._struct),
+        self._handle = core.make(volume._bound(lib.ewa_voxels_create), ctypes.byref(self._transfer._struct),
                                            ctypes.byref(made), destroy=lib.ewa_voxels_destroy, what="the voxels")
-        self._volume = volume
+        self._volume: Volume = volume
 
     @property
     def _core(self) -> Core:

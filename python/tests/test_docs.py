@@ -41,7 +41,7 @@ class Examples(Case):
     def test_page(self) -> None:
         self.make_files()
         blocks = re.findall(r"```python\n(.*?)```", PAGE.read_text(encoding="utf-8"), re.S)
-        self.assertEqual(len(blocks), 11)
+        self.assertEqual(len(blocks), 12)
         before = os.getcwd()
         self.addCleanup(os.chdir, before)
         os.chdir(os.path.dirname(self.path("x")))

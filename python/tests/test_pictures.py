@@ -22,6 +22,56 @@ class Cameras(Case):
             np.testing.assert_allclose(camera.world_to_camera, ewa.Camera.frame(cloud, view, "z").world_to_camera, atol=1e-12)
             self.assertEqual(camera, ewa.Scene(cloud).camera(direction, "z"))
 
+    def test_opencv(self) -> None:
+        """Numbers of OpenCV: a place is seen where its projection formula says, half a pixel further here."""
+        k = np.array([[90.0, 0, 39.5], [0, 95, 29.5], [0, 0, 1]])
+        vector, t = np.array([0.3, -0.7, 0.2]), np.array([0.1, -0.2, 3])
+        camera = ewa.Camera.from_opencv(k, vector, t[:, None])
+        self.assertEqual(camera.size, (80, 60))
+        rotation, place = camera.world_to_camera[:3, :3], np.array([0.2, 0.1, -0.3])
+        np.testing.assert_allclose(rotation @ rotation.T, np.eye(3), atol=1e-14)
+        np.testing.assert_allclose(rotation @ vector, vector, atol=1e-14)  # the axis stays
+        self.assertAlmostEqual(np.trace(rotation), 1 + 2 * np.cos(np.linalg.norm(vector)))
+        half_turn = ewa.Camera.from_opencv(k, [0, 0, np.pi / 2]).world_to_camera[:3, :3]
+        np.testing.assert_allclose(half_turn @ [1, 0, 0], [0, 1, 0], atol=1e-14)  # x to y, as cv2.Rodrigues
+        self.assertEqual(ewa.Camera.from_opencv(k, rotation, t), camera)
+        np.testing.assert_array_equal(ewa.Camera.from_opencv(k).world_to_camera, np.eye(4))
+        seen = ewa.render(ewa.Cloud(place[None, :], normals=(-place - rotation.T @ t)[None, :], radius=np.array([0.05], np.float32)), camera,
+                          planes=("rgba",), background="transparent", close_gaps=False).rgba[..., 3]
+        y, x = np.mgrid[:60, :80]
+        at = k @ (rotation @ place + t)
+        self.assertAlmostEqual((seen * x).sum() / seen.sum(), at[0] / at[2], delta=0.05)
+        self.assertAlmostEqual((seen * y).sum() / seen.sum(), at[1] / at[2], delta=0.05)
+        wrong: list[dict[str, Any]] = [{"R": np.zeros((3, 3))}, {"R": [1, 2]}, {"t": [1, 2]}, {"distortion": [0] * 8 + [1]},
+                                       {"distortion": [0, 0, 0, 0, 1], "fisheye": True}, {"distortion": ["a"]}]
+        for options in wrong:
+            with self.subTest(str(options)), self.assertRaises(ewa.ArgumentError):
+                ewa.Camera.from_opencv(k, **options)
+
+    def test_distortion(self) -> None:
+        k = np.array([[90.0, 0, 39.5], [0, 95, 29.5], [0, 0, 1]])
+        k1, k2, p1, p2, k3 = 0.1, -0.03, 0.01, -0.02, 0.004
+        camera = ewa.Camera.from_opencv(k, distortion=[k1, k2, p1, p2, k3])
+        np.testing.assert_array_equal(camera.distortion, [k1, k2, p1, p2, k3, 0, 0, 0])
+        self.assertEqual(pickle.loads(pickle.dumps(camera)), camera)
+        self.assertNotEqual(camera, ewa.Camera.from_opencv(k))
+        np.testing.assert_array_equal(camera.resized(40, 30).distortion, camera.distortion)
+        v, u = np.mgrid[:60, :80].astype(float)
+        x, y = (u - k[0, 2]) / k[0, 0], (v - k[1, 2]) / k[1, 1]
+        ramp = np.stack([u / 80, v / 60, 0 * u], 2).astype(np.float32)
+        plain = ewa.undistort(ramp, camera)
+        r2 = x * x + y * y
+        scale = 1 + k1 * r2 + k2 * r2**2 + k3 * r2**3
+        shown = [(x * scale + 2 * p1 * x * y + p2 * (r2 + 2 * x * x)) * k[0, 0] + k[0, 2],
+                 (y * scale + p1 * (r2 + 2 * y * y) + 2 * p2 * x * y) * k[1, 1] + k[1, 2]]
+        inner = (plain[..., 3] > 0.999) & (shown[0] > 3) & (shown[0] < 76) & (shown[1] > 3) & (shown[1] < 56)
+        self.assertGreater(inner.mean(), 0.7)
+        for channel, (place, size) in enumerate(zip(shown, (80, 60))):
+            np.testing.assert_allclose(plain[..., channel][inner] * size, place[inner], atol=0.05)
+        fish = ewa.Camera.from_opencv(k, distortion=[0.1, 0.01], fisheye=True)
+        np.testing.assert_array_equal(fish.distortion, [0.1, 0.01, 0, 0])
+        self.assertFalse(np.array_equal(ewa.undistort(ramp, fish), plain))
+
     def test_pinhole(self) -> None:
         matrix = np.array([[0, -1, 0, 0.5], [0, 0, -1, 1], [1, 0, 0, 2], [0, 0, 0, 1.0]])
         camera = ewa.Camera([[500, 0, 320], [0, 510, 240], [0, 0, 1]], matrix, (640, 480))
@@ -115,7 +165,7 @@ class Pictures(Case):
         self.assertEqual(len(ewa.merge(files)), 3000)
         self.assertEqual(len(ewa.as_cloud(files[1])), 1000)
         self.assertTrue(np.array_equal(ewa.csg(*files)["position"], ewa.csg(*read)["position"]))
-        with self.assertRaisesRegex(TypeError, "an ewa.Cloud or a path, not int"):
+        with self.assertRaisesRegex(TypeError, "nothing is drawn of builtins.int"):
             ewa.merge([files[0], 3])  # type: ignore[list-item]
         camera = ewa.Camera.frame(read[0], size=(30, 20))
         ones = np.ones((20, 30, 4), np.float32)
@@ -123,9 +173,9 @@ class Pictures(Case):
                                        ewa.render_backward(read[0], camera, rgba=ones, by="color").color))
         with self.assertRaisesRegex(ewa.FileError, "nowhere"):
             ewa.render(self.path("nowhere.ply"))
-        with self.assertRaisesRegex(TypeError, "surfels, clouds or paths, not int"):
+        with self.assertRaisesRegex(TypeError, "nothing is drawn of builtins.int"):
             ewa.render([files[0], 3])  # type: ignore[list-item]
-        with self.assertRaisesRegex(TypeError, "a path, a cloud"):
+        with self.assertRaisesRegex(TypeError, "nothing is drawn of"):
             ewa.Scene(3)  # type: ignore[arg-type]
 
     def test_materials_and_environment(self) -> None:
