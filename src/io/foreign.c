@@ -39,6 +39,7 @@ const char *ewa_foreign_kind(const uint8_t *bytes, size_t size_bytes) {
         {"Rar!", "a RAR archive: unpack it, and name the files in it"},
         {"%PDF", "a PDF, which has no points"},
         {"ISO-10303-21", "CAD (STEP), which has no triangles: exported as STL, OBJ or glTF it is read"},
+        {"\223NUMPY", "an array of NumPy: in Python, ewa.render(numpy.load(...)) draws it"},
         {"\211HDF", "HDF5, which is not read"},
         {"CDF", "netCDF, which is not read"},
         {"SIMPLE  =", "FITS, which is not read"},

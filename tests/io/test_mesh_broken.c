@@ -403,6 +403,7 @@ static void test_probe(void **state) {
         {"<?xml version=\"1.0\"?>\n<VTKFile type=\"vtkMultiBlockDataSet\">", "a VTK file that names others: name these"},
         {"<VTKFile type=\"ImageData\">", "its name has to end in .vti"},
         {"ISO-10303-21;", "CAD (STEP)"},
+        {"\223NUMPY\1", "an array of NumPy: in Python"},
     };
     for (size_t i = 0; i < sizeof foreign / sizeof foreign[0]; i++) {
         for (size_t k = 0; k < sizeof names / sizeof names[0]; k++)

@@ -21,9 +21,9 @@ static int close_context(void **state) {
     return 0;
 }
 
-static const char *const type_names[][2] = {{"float", "float32"}, {"double", "float64"}, {"char", "int8"},
-                                            {"uchar", "uint8"},   {"short", "int16"},    {"ushort", "uint16"},
-                                            {"int", "int32"},     {"uint", "uint32"}};
+static const char *const type_names[][3] = {{"float", "float32"},       {"double", "float64"}, {"char", "int8"},
+                                            {"uchar", "uint8", "bool"}, {"short", "int16"},    {"ushort", "uint16"},
+                                            {"int", "int32"},           {"uint", "uint32"}};
 enum { TYPES = 8, ENCODINGS = 3 };
 
 /// Extremes and odd values of each type.
@@ -40,7 +40,7 @@ static const double type_values[TYPES][4] = {
 static void test_every_type_in_every_encoding(void **state) {
     for (int encoding = 0; encoding < ENCODINGS; encoding++)
         for (int type = 0; type < TYPES; type++)
-            for (int spelling = 0; spelling < 2; spelling++) {
+            for (int spelling = 0; spelling < 3 && type_names[type][spelling]; spelling++) {
                 sample s = sample_start((ewa_ply_encoding)encoding, "\n");
                 char line[64];
                 snprintf(line, sizeof line, "property %s value", type_names[type][spelling]);

@@ -61,6 +61,7 @@ static bool find_type(ewa_text word, ewa_type *type) {
         {"char", EWA_I8},   {"int8", EWA_I8},     {"uchar", EWA_U8},   {"uint8", EWA_U8},
         {"short", EWA_I16}, {"int16", EWA_I16},   {"ushort", EWA_U16}, {"uint16", EWA_U16},
         {"int", EWA_I32},   {"int32", EWA_I32},   {"uint", EWA_U32},   {"uint32", EWA_U32},
+        {"bool", EWA_U8}, // no type of the format, but pyntcloud writes it
     };
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
         if (!ewa_text_is(word, names[i].name)) continue;
