@@ -5,7 +5,7 @@
 
     check_names.py [ROOT]
 
-Read are README.md, docs/*.md and the comments of C. Fails, and lists what it found, for
+Read are README.md, CONTRIBUTING.md, docs/*.md and the comments of C. Fails, and lists what it found, for
 
 - citations "docs/math.md section 6", "sections 3, 4 and 11", "sections 2 to 9": sections and departures that the page
   does not have, departures that no section speaks of, and other ways of citing it;
@@ -28,6 +28,7 @@ CODE = ("src", "include", "cli", "bench", "viewer", "examples", "import", "mpi",
 FOREIGN_OPTIONS = {
     "mpirun": {"bind-to"}, "Open MPI": {"allow-run-as-root", "oversubscribe"},
     "cmake": {"preset", "build", "target", "help", "install", "prefix"},
+    "ctest": {"test-dir", "output-on-failure"},
     "F3D": {"camera-azimuth-angle", "camera-elevation-angle"},
     "parallel": {"wd", "retries"},
     "sbatch": {"array", "dependency"},
@@ -77,7 +78,7 @@ class Tree:
     def __init__(self, root):
         self.root = root
         self.texts, self.code = [], []
-        pages = [root / "README.md"] + sorted((root / "docs").rglob("*.md"))
+        pages = [root / "README.md", root / "CONTRIBUTING.md"] + sorted((root / "docs").rglob("*.md"))
         self.pages = {str(p.relative_to(root)): p.read_text() for p in pages if p.exists()}
         for name, text in self.pages.items():
             self.texts.append(Text(name, 1, text))
