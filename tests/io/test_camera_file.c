@@ -47,6 +47,10 @@ static const char STACKS[] =
     "{\"width\":640,\"height\":480,\"viewmats\":[[[0,1,0,0],[0,0,-1,2],[-1,0,0,10],[0,0,0,1]]],"
     "\"Ks\":[[[500,0,320.125],[0,510,-7.5],[0,0,1]]]}";
 
+static const char CAMERA_PATH[] =
+    "{\"camera_type\":\"perspective\",\"render_width\":640,\"render_height\":480,\"fps\":24,\"seconds\":1,"
+    "\"keyframes\":[],\"camera_path\":[{\"camera_to_world\":[0,0,1,10,1,0,0,0,0,1,0,2,0,0,0,1],\"fov\":90,\"aspect\":1.333}]}";
+
 static ewa_status load_text(ewa_context *context, const char *text, uint32_t index, ewa_camera *camera) {
     char path[512];
     scratch_write(scratch_path("camera.json", path), text, strlen(text));
@@ -63,6 +67,10 @@ static void test_every_format_gives_the_same_camera(void **state) {
         assert_expected(&camera, 320.125, -7.5);
     }
     assert_int_equal(load_text(context, INRIA, 0, &camera), EWA_OK); // knows no principal point
+    assert_expected(&camera, 320, 240);
+    assert_int_equal(load_text(context, CAMERA_PATH, 0, &camera), EWA_OK); // knows an angle
+    assert_true(fabs(camera.fx_px - 240) < 1e-12 && camera.fy_px == camera.fx_px);
+    camera.fx_px = 500, camera.fy_px = 510;
     assert_expected(&camera, 320, 240);
     ewa_context_destroy(&context);
 }
@@ -186,6 +194,15 @@ static void test_transforms_lens(void **state) {
     assert_true(camera.width_px == 100 && camera.fx_px == 70 && camera.fy_px == 70);
     assert_true(camera.cx_px == 12.5 && camera.cy_px == 25);
     assert_int_equal(log.count, 0);
+    // Poses of the synthetic NeRF scenes without their pictures.
+    assert_int_equal(load_text(context,
+                               "{\"camera_angle_x\":1.5707963267948966,\"frames\":[{\"file_path\":\"./train/r_0\",\"transform_matrix\":"
+                               "[[1,0,0,1],[0,1,0,2],[0,0,1,3],[0,0,0,1]]}]}",
+                               0, &camera),
+                     EWA_OK);
+    assert_true(camera.width_px == 800 && camera.height_px == 800 && fabs(camera.fx_px - 400) < 1e-12);
+    assert_non_null(strstr(log.text, "frames[0]: says no size"));
+    assert_int_equal(log.count, 1);
     // Distortion is left out with a warning, a fisheye refused.
     assert_int_equal(load_text(context,
                                "{\"fl_x\":7,\"w\":640,\"h\":480,\"k1\":0.1,\"frames\":["
@@ -200,6 +217,8 @@ static void test_transforms_lens(void **state) {
                   0, &camera),
         EWA_ERROR_UNSUPPORTED);
     assert_non_null(strstr(log.text, "camera_model"));
+    assert_int_equal(load_text(context, "{\"camera_type\":\"equirectangular\",\"camera_path\":[{}]}", 0, &camera), EWA_ERROR_UNSUPPORTED);
+    assert_non_null(strstr(log.text, "'camera_type' is equirectangular, not perspective"));
     ewa_context_destroy(&context);
 }
 
@@ -256,6 +275,13 @@ static void test_messages_name_the_member(void **state) {
          "frames[0]: member 'w' is missing"},
         {"{\"w\":3,\"h\":3,\"frames\":[{\"transform_matrix\":[[1,0,0,1],[0,1,0,2],[0,0,1,3],[0,0,0,1]]}]}",
          "frames[0]: member 'fl_x or camera_angle_x' is missing"},
+        {"{\"camera_path\":[]}", "'camera_path' is not an array of cameras"},
+        {"{\"render_width\":3,\"render_height\":0,\"camera_path\":[{}]}", "'render_height' is not a positive whole number"},
+        {"{\"render_width\":3,\"render_height\":3,\"camera_path\":[{}]}", "camera_path[0]: member 'camera_to_world' is missing"},
+        {"{\"render_width\":3,\"render_height\":3,\"camera_path\":[{\"camera_to_world\":[1,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1]}]}",
+         "camera_path[0]: member 'fov' is missing"},
+        {"{\"render_width\":3,\"render_height\":3,\"camera_path\":[{\"fov\":180,\"camera_to_world\":[1,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1]}]}",
+         "camera_path[0]: member 'fov' is not between 0 and 180 degrees"},
         {"{\"width\":1,\"height\":1,\"viewmats\":[[1]]}", "'Ks' is missing"},
         {"{\"width\":1,\"height\":1,\"viewmats\":[[1,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1]],\"Ks\":[]}",
          "camera 0: member 'Ks' is missing"},
@@ -288,7 +314,7 @@ static void test_messages_name_the_member(void **state) {
 static void test_every_truncation_is_refused(void **state) {
     check_log log = {0};
     ewa_context *context = check_context(1, &log);
-    const char *const texts[] = {NATIVE, OPEN3D, TRANSFORMS, INRIA, STACKS};
+    const char *const texts[] = {NATIVE, OPEN3D, TRANSFORMS, INRIA, STACKS, CAMERA_PATH};
     for (size_t t = 0; t < sizeof texts / sizeof texts[0]; t++) {
         const size_t size_bytes = strlen(texts[t]);
         for (size_t length = 0; length <= size_bytes; length++) {

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 //
 // Camera files in JSON, told apart by their members: ours, Open3D's PinholeCameraParameters and
-// PinholeCameraTrajectory, transforms.json of nerfstudio and instant-ngp, cameras.json of INRIA's Gaussian
-// splatting, and stacks of matrices as gsplat takes them (viewmats, Ks).
+// PinholeCameraTrajectory, transforms.json of nerfstudio and instant-ngp, nerfstudio's camera paths, cameras.json of
+// INRIA's Gaussian splatting, and stacks of matrices as gsplat takes them (viewmats, Ks).
 #include "base/base.h"
 #include "base/platform.h"
 #include "io/camera/file.h"
@@ -22,6 +22,7 @@ typedef struct source {
     const char *path;        // of the file, or NULL
     char where[WHERE_BYTES]; // of the object that is read: "", or such as "frames[3]"
     bool warned;             // of distortion
+    bool size_warned;        // of a size that is guessed
 } source;
 
 static ewa_status fail_member(const source *in, const char *member, const char *what) {
@@ -210,8 +211,10 @@ static ewa_status read_stacks(source *in, const cJSON *object, const cJSON *matr
 }
 
 /// Takes the size from the PNG picture of a frame, as the synthetic NeRF scenes want it: "file_path" beside
-/// the JSON file, with or without ".png".
-static ewa_status read_picture_size(const source *in, const cJSON *frame, ewa_camera *camera) {
+/// the JSON file, with or without ".png". Theirs are all square and of one size, which is taken where there is no picture and
+/// the lens is told by an angle.
+static ewa_status read_picture_size(source *in, const cJSON *frame, bool by_angle, ewa_camera *camera) {
+    enum { NERF_SIDE_PX = 800 };
     const char *picture = cJSON_GetStringValue(find(frame, "file_path"));
     char name[EWA_PATH_BYTES], reason[EWA_REASON_BYTES];
     ewa_file file;
@@ -220,6 +223,15 @@ static ewa_status read_picture_size(const source *in, const cJSON *frame, ewa_ca
         const int length = snprintf(name, sizeof name, "%s%s", picture, attempt ? ".png" : "");
         found = length > 0 && (size_t)length < sizeof name &&
                 ewa_referenced_file_map(in->list->context, in->path, (ewa_text){name, (size_t)length}, &file, reason);
+    }
+    if (!found && by_angle) {
+        camera->width_px = camera->height_px = NERF_SIDE_PX;
+        if (!in->size_warned)
+            ewa_report(in->list->context, EWA_SEVERITY_WARNING,
+                       "%s: %s: says no size, and its picture is not there: taken as %d x %d pixels, as those of synthetic NeRF scenes are",
+                       in->list->name, in->where, NERF_SIDE_PX, NERF_SIDE_PX);
+        in->size_warned = true;
+        return EWA_OK;
     }
     if (!found) return fail_member(in, "w", "is missing, and so is the frame's picture");
     const ewa_status status = ewa_png_recognise(file.bytes, file.size_bytes)
@@ -231,7 +243,7 @@ static ewa_status read_picture_size(const source *in, const cJSON *frame, ewa_ca
 }
 
 /// The lens of one frame: members of the frame win over those of the file.
-static ewa_status read_frame_lens(const source *in, const cJSON *root, const cJSON *frame,
+static ewa_status read_frame_lens(source *in, const cJSON *root, const cJSON *frame,
                                   ewa_camera *camera) {
     const cJSON *levels[2] = {root, frame};
     double width = 0, height = 0, fx = 0, fy = 0, cx = -1, cy = -1, angle_x = 0, angle_y = 0;
@@ -256,7 +268,7 @@ static ewa_status read_frame_lens(const source *in, const cJSON *root, const cJS
         has_centre_y |= find(object, "cy") != NULL;
     }
     if (width == 0 && height == 0) {
-        EWA_TRY(read_picture_size(in, frame, camera));
+        EWA_TRY(read_picture_size(in, frame, fx == 0 && fy == 0 && angle_x > 0, camera));
     } else {
         if (!(width >= 1 && width <= UINT32_MAX && height >= 1 && height <= UINT32_MAX) ||
             width != (double)(uint32_t)width || height != (double)(uint32_t)height)
@@ -309,7 +321,17 @@ static ewa_status read_distortion(source *in, const cJSON *root, const cJSON *fr
     return EWA_OK;
 }
 
-/// nerfstudio, instant-ngp: camera to world, camera axes as in OpenGL (x right, y up, z backward).
+/// Places a camera by a matrix from camera to world whose camera axes are as in OpenGL (x right, y up, z backward).
+static void place_by_opengl(const double matrix[16], ewa_camera *camera) {
+    double rotation[9], centre[3];
+    for (int r = 0; r < 3; r++) {
+        for (int c = 0; c < 3; c++) rotation[3 * r + c] = c == 0 ? matrix[4 * r] : -matrix[4 * r + c];
+        centre[r] = matrix[4 * r + 3];
+    }
+    ewa_camera_set_inverse(camera, rotation, centre);
+}
+
+/// nerfstudio, instant-ngp.
 static ewa_status read_transforms(source *in, const cJSON *root, const cJSON *frames) {
     if (!cJSON_IsArray(frames) || !frames->child)
         return fail_member(in, "frames", "is not an array of frames");
@@ -324,14 +346,39 @@ static ewa_status read_transforms(source *in, const cJSON *root, const cJSON *fr
         ewa_lens lens;
         EWA_TRY(read_frame_lens(in, root, frame, &camera));
         EWA_TRY(read_distortion(in, root, frame, &lens));
-        double rotation[9], centre[3];
-        for (int r = 0; r < 3; r++) {
-            for (int c = 0; c < 3; c++) rotation[3 * r + c] = c == 0 ? matrix[4 * r] : -matrix[4 * r + c];
-            centre[r] = matrix[4 * r + 3];
-        }
-        ewa_camera_set_inverse(&camera, rotation, centre);
+        place_by_opengl(matrix, &camera);
         EWA_TRY(add(in, frame, &camera));
         ewa_camera_list_set_lens(in->list, &lens);
+    }
+    return EWA_OK;
+}
+
+/// nerfstudio's viewer: one size for all cameras, each with its angle from top to bottom.
+static ewa_status read_camera_path(source *in, const cJSON *root, const cJSON *path) {
+    static const double DEGREES = EWA_PI / 180;
+    const char *type = cJSON_GetStringValue(find(root, "camera_type"));
+    if (type && strcmp(type, "perspective") != 0)
+        return ewa_fail(in->list->context, EWA_ERROR_UNSUPPORTED, "%s: member 'camera_type' is %.40s, not perspective",
+                        in->list->name, type);
+    if (!cJSON_IsArray(path) || !path->child) return fail_member(in, "camera_path", "is not an array of cameras");
+    uint32_t width_px, height_px;
+    EWA_TRY(read_side(in, root, "render_width", &width_px));
+    EWA_TRY(read_side(in, root, "render_height", &height_px));
+    size_t index = 0;
+    const cJSON *item;
+    cJSON_ArrayForEach(item, path) {
+        snprintf(in->where, sizeof in->where, "camera_path[%zu]", index++);
+        ewa_camera camera;
+        ewa_camera_init(&camera);
+        double matrix[16], fov_deg = 0;
+        EWA_TRY(read_array(in, find(item, "camera_to_world"), "camera_to_world", 16, matrix));
+        EWA_TRY(read_number(in, item, "fov", &fov_deg));
+        if (!(fov_deg > 0 && fov_deg < 180)) return fail_member(in, "fov", "is not between 0 and 180 degrees");
+        camera.width_px = width_px, camera.height_px = height_px;
+        camera.fx_px = camera.fy_px = 0.5 * height_px / ewa_tan(0.5 * fov_deg * DEGREES);
+        camera.cx_px = 0.5 * width_px, camera.cy_px = 0.5 * height_px;
+        place_by_opengl(matrix, &camera);
+        EWA_TRY(add(in, item, &camera));
     }
     return EWA_OK;
 }
@@ -346,6 +393,7 @@ static ewa_status read_root(source *in, const cJSON *root) {
     if (cJSON_IsArray(root)) return read_each(in, root, "cameras", read_element);
     const cJSON *item;
     if ((item = find(root, "frames"))) return read_transforms(in, root, item);
+    if ((item = find(root, "camera_path"))) return read_camera_path(in, root, item);
     if ((item = find(root, "parameters"))) return read_each(in, item, "parameters", read_open3d);
     if (find(root, "extrinsic") || find(root, "intrinsic")) return read_open3d(in, root);
     if (find(root, "intrinsic_matrix")) return read_lens_alone(in, root);
