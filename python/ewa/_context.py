@@ -22,6 +22,7 @@ from typing import TYPE_CHECKING, Any, Callable, Union
 
 from . import _bindings as b
 from ._errors import ClosedError, Error, EwaWarning, make
+from ._keywords import keywords
 from ._library import functions as lib
 from ._struct import fill, initialised, table
 
@@ -294,6 +295,7 @@ def call_depth() -> int:
     return depth
 
 
+@keywords("ewa_context_options", "ewa_limits")
 class Context:
     """What all other objects are made from: worker threads, limits, messages.
 
@@ -311,9 +313,6 @@ class Context:
     untrusted : bool, optional
         For inputs from anyone: small limits where none are given, and no file that another one names.
     **options
-        Further members of ``ewa_context_options``: ``cpu_mask``, ``message_level``; and of ``ewa_limits``:
-        ``max_memory_bytes``, all that the context may hold at a time; ``max_seconds``, after which calls raise
-        :class:`Cancelled`, counted from here; ``max_points``, ``max_image_side``.
 
     Raises
     ------

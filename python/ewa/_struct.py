@@ -35,6 +35,9 @@ class Option(NamedTuple):
     or_zero: bool
     words: tuple[str, ...]
     allowed: str
+    default: str
+    unit: str
+    help: str
 
 
 _tables: dict[str, dict[str, Option]] = {}
@@ -50,13 +53,24 @@ def table(struct: str) -> dict[str, Option]:
             row = rows.options[i]
             text = ctypes.create_string_buffer(b.EWA_OPTION_TEXT_BYTES)
             lib.ewa_option_range(ctypes.byref(row), text)
-            name = row.name.decode()
+            name, words = row.name.decode(), tuple((row.words or b"").decode().split("|")) if row.words else ()
             found[name] = Option(
                 name, row.type, row.count, row.minimum, row.maximum, bool(row.limits & b.EWA_OPTION_ABOVE),
                 bool(row.limits & b.EWA_OPTION_BELOW), bool(row.limits & b.EWA_OPTION_OR_ZERO),
-                tuple((row.words or b"").decode().split("|")) if row.words else (), text.value.decode())
+                words, text.value.decode(), _default(row, words), (row.unit or b"").decode(), (row.help or b"").decode())
         _tables[struct] = found
     return found
+
+
+def _default(row: b.ewa_option, words: tuple[str, ...]) -> str:
+    """The default of an option as Python has it."""
+    if row.type == _TYPE.EWA_OPTION_BOOL:
+        return str(bool(row.initial))
+    if row.type == _TYPE.EWA_OPTION_CHOICE:
+        return f'"{words[int(row.initial)]}"'
+    if row.initials:
+        return ", ".join(f"{number:.17g}" for number in (ctypes.c_double * row.count).from_address(row.initials))
+    return f"{row.initial:.17g}" if float(f"{row.initial:.15g}") != row.initial else f"{row.initial:.15g}"
 
 
 def _number(option: Option, value: Any, label: str) -> float | int:

@@ -12,6 +12,7 @@ from . import _bindings as b
 from ._arrays import DTYPE_OF, TYPE_OF, Array, as_points, export
 from ._context import Context, Core, Handle, Pin, core_of
 from ._errors import ArgumentError, ClosedError
+from ._keywords import keywords
 from ._library import functions as lib
 from ._library import library
 from ._struct import fill, initialised, numbers, path_bytes, text_bytes
@@ -261,15 +262,15 @@ class Cloud:
         derived._name = self._name
         return derived
 
+    @keywords("ewa_estimate_options")
     def estimate(self, **options: Unpack[EstimateOptions]) -> Cloud:
         """Return the cloud with the normals and radii that it lacks, estimated from its neighbours.
 
         Parameters
         ----------
         **options
-            Members of ``ewa_estimate_options``: ``neighbour_count``, ``orientation``, ``viewpoint_world`` (default None; one
-            that is given is what normals point to, unless ``orientation`` says otherwise), ``shape``,
-            ``radius_scale``, ``radius_limit``, ``cutoff``, ``keep_normals``, ``keep_radii``, ``outlier_factor``.
+            ``viewpoint_world``: One that is given is what normals point to, unless ``orientation`` says otherwise.
+            Default: None.
 
         Raises
         ------
@@ -294,6 +295,7 @@ class Cloud:
     def _is_drawable(self) -> bool:
         return ("tangent_u" in self and "tangent_v" in self) or ("normal" in self and "radius" in self)
 
+    @keywords("ewa_surfels_options")
     def surfels(self, *, close_gaps: bool = True, **options: Unpack[SurfelsOptions]) -> Surfels:
         """Return the resident form of the cloud, which is what is drawn.
 
@@ -305,7 +307,6 @@ class Cloud:
         close_gaps : bool, optional
             False: draw the radii as they are, with gaps.
         **options
-            Members of ``ewa_surfels_options``: ``cutoff``, ``radius_scale``, ``level_count``.
 
         Raises
         ------
@@ -445,6 +446,7 @@ class Cloud:
         self._core.call(run, cloud._h)
         return cloud
 
+    @keywords("ewa_feature_options")
     def features(self, **options: Unpack[FeatureOptions]) -> Cloud:
         """Return the surfels cut by clip lines at the sharp edges and corners that are found; lacking normals and
         radii are estimated first.
@@ -452,7 +454,6 @@ class Cloud:
         Parameters
         ----------
         **options
-            Members of ``ewa_feature_options``: ``neighbour_count``, ``angle_deg``, ``noise``, ``cutoff``, ``project``.
 
         Raises
         ------
@@ -464,14 +465,14 @@ class Cloud:
         self._core.call(lib.ewa_cloud_detect_features, cloud._h, ctypes.byref(made), None)
         return cloud
 
+    @keywords("ewa_procedure_options")
     def procedure(self, procedure: str, **options: Unpack[ProcedureOptions]) -> Cloud:
         """Return the cloud coloured by a solid texture: "checker", "marble", "wood" or "noise".
 
         Parameters
         ----------
         **options
-            Members of ``ewa_procedure_options``: ``frequency``, ``prefilter``, ``cutoff``, ``seed``, ``colors``
-            (default None: as suits the procedure).
+            ``colors``: Default: as suits the procedure.
 
         Raises
         ------
@@ -486,13 +487,13 @@ class Cloud:
         self._core.call(lib.ewa_cloud_color_by_procedure, cloud._h, ctypes.byref(made))
         return cloud
 
+    @keywords("ewa_refit_options")
     def refit_colors(self, **options: Unpack[RefitOptions]) -> Cloud:
         """Return the cloud with coefficients in place of colours, for sharper pictures of the same surfels.
 
         Parameters
         ----------
         **options
-            Members of ``ewa_refit_options``: ``goal``, ``cutoff``.
 
         Raises
         ------
@@ -504,6 +505,7 @@ class Cloud:
         self._core.call(lib.ewa_cloud_refit_colors, cloud._h, ctypes.byref(made), None)
         return cloud
 
+    @keywords("ewa_photos_options")
     def color_from_photos(self, cameras: PathLike | Sequence[tuple[Camera, Any]], images: PathLike | None = None,
                           masks: PathLike | None = None, **options: Unpack[PhotosOptions]) -> tuple[Cloud, PhotosReport]:
         """Return the cloud in the colours that photographs show, and what they came to; lacking normals and radii are
@@ -519,8 +521,6 @@ class Cloud:
         masks : path, optional
             A folder of masks, white where photographs count: of NAME.jpg NAME.jpg.png or NAME.png.
         **options
-            Members of ``ewa_photos_options``: ``method``, ``exposure``, ``hold_out``, ``rounds``, ``robust``, ``ridge``,
-            ``spacing_px``, ``cutoff``.
 
         Raises
         ------
@@ -529,13 +529,13 @@ class Cloud:
         cloud = self.estimate()._derive()
         return cloud, color_from_photos(cloud._h, cameras, images, masks, options)
 
+    @keywords("ewa_cloud_save_options")
     def save(self, path: PathLike, **options: Unpack[CloudSaveOptions]) -> None:
         """Write the cloud; the suffix chooses the format: .ply .las .laz .pcd .xyz .txt .asc .pts .csv.
 
         Parameters
         ----------
         **options
-            Members of ``ewa_cloud_save_options``: ``ply_encoding``, ``step_world``, ``chunk_points``.
 
         Raises
         ------
@@ -580,6 +580,7 @@ def merge_clouds(parts: Sequence[Cloud]) -> Cloud:
     return Cloud._made(core, run, *[cloud._h for cloud in parts])
 
 
+@keywords("ewa_generate_options")
 def generate(object: str = "plane", point_count: int = 100000, *, context: Context | None = None,
              **options: Unpack[GenerateOptions]) -> Cloud:
     """Make a test object: "plane", "checker", "cube", "sphere", "torus", "terrain", "csg" or "town".
@@ -589,8 +590,6 @@ def generate(object: str = "plane", point_count: int = 100000, *, context: Conte
     object : str
     point_count : int
     **options
-        Members of ``ewa_generate_options``: ``seed``, ``size_world``, ``jitter``, ``checks``, ``radius_scale``,
-        ``positions_only``, ``sharp``, ``texcoords``.
 
     Raises
     ------

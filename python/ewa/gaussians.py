@@ -13,6 +13,7 @@ from ._arrays import Array, as_contiguous, export
 from ._context import Context, Core, Handle, Pin, core_of
 from ._errors import ArgumentError
 from ._held import Held
+from ._keywords import keywords
 from ._library import functions as lib
 from ._scene import World
 from ._struct import Source, fill, initialised, loader, numbers, path_bytes
@@ -156,14 +157,14 @@ class Gaussians(Held):
         """float32, shape (n, (sh_degree + 1)**2, 3), read-only."""
         return self._stream("harmonics", ((self.sh_degree + 1) ** 2, 3))
 
+    @keywords("ewa_gaussians_save_options")
     def save(self, path: PathLike, **options: Unpack[GaussiansSaveOptions]) -> None:
         """Write .ply (as 3DGS), .compressed.ply (of PlayCanvas), .splat or .spz.
 
         Parameters
         ----------
         **options
-            Members of ``ewa_gaussians_save_options``: ``sh_degree``, ``spz_version``, ``up_world`` (default: as the file
-            that was read says).
+            ``up_world``: Default: as the file that was read says.
 
         Raises
         ------
@@ -250,6 +251,7 @@ def _listed(what: Any, kinds: tuple[type, ...], label: str) -> list[Any]:
     return found
 
 
+@keywords("ewa_gaussian_options")
 def render_gaussians(gaussians: Gaussians | Splats | Sequence[Gaussians | Splats], camera: Camera | None = None, *,
                      volumes: Voxels | Sequence[Voxels] = (), size: Sequence[int] | None = None,
                      planes: str | Iterable[str] = ("rgba8",), background: Color = "white",
@@ -274,9 +276,6 @@ def render_gaussians(gaussians: Gaussians | Splats | Sequence[Gaussians | Splats
     section_box, section_planes
         As of :func:`render`.
     **options
-        Members of ``ewa_gaussian_options``: ``projection`` ("trained", "exact"), ``order`` ("auto", "centre", "ray"),
-        ``filter``, ``prefilter_px2``, ``cutoff``, ``minimum_alpha``, ``minimum_transmittance``, ``near_world`` (default
-        0: as suits them), ``sh_degree``.
 
     Raises
     ------

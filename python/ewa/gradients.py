@@ -11,6 +11,7 @@ import numpy as np
 from . import _bindings as b
 from ._arrays import Array, as_contiguous
 from ._errors import ArgumentError
+from ._keywords import keywords
 from ._library import functions as lib
 from ._struct import fill, initialised
 from .adapters import as_cloud
@@ -72,6 +73,7 @@ class Gradients(NamedTuple):
     rgba: Array | None = None
 
 
+@keywords("ewa_render_options", "ewa_surfels_options", without=("level_count",))
 def render_backward(cloud: Any, camera: Camera, *, rgba: Any = None, depth: Any = None, normal: Any = None,
                     coverage: Any = None, by: str | Iterable[str] = ("color", "position", "camera"),
                     unit_coverage: float | None = None, background: Color = "white",
@@ -95,8 +97,9 @@ def render_backward(cloud: Any, camera: Camera, *, rgba: Any = None, depth: Any 
         time of a picture; with all else in double precision. "rgba" is that picture.
     unit_coverage : float, optional
         What kernels add up to where a pixel is covered. Default: as the cloud's surfels measure it.
-    background, lights, layers, section_box, section_planes, **options
-        As of :func:`render`, and ``cutoff`` and ``radius_scale``.
+    background, lights, layers, section_box, section_planes
+        As of :func:`render`.
+    **options
 
     Returns
     -------

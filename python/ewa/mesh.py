@@ -12,6 +12,7 @@ from . import _bindings as b
 from ._arrays import Array, as_colors, as_contiguous, as_numbers, export
 from ._context import Context, Core, Handle, Pin, core_of
 from ._errors import ArgumentError, ClosedError, FormatError
+from ._keywords import keywords
 from ._library import functions as lib
 from ._scene import is_path
 from ._struct import Source, fill, initialised, loader, numbers, path_bytes
@@ -163,15 +164,13 @@ class Mesh:
     def _asset_members(self) -> dict[str, Any]:
         return {"mesh": self}
 
+    @keywords("ewa_mesh_sample_options")
     def sample(self, **options: Unpack[MeshSampleOptions]) -> Cloud:
         """Return surfels on the triangles, sharp edges as clip lines.
 
         Parameters
         ----------
         **options
-            Members of ``ewa_mesh_sample_options``: ``point_count``, ``spacing_world``, ``seed``, ``crease_degrees``,
-            ``radius_scale``, ``cutoff``, ``clip_lines``, ``smooth_normals``, ``texture_filter``, ``pixel_sigma_px``,
-            ``texcoords``.
 
         Raises
         ------
@@ -345,11 +344,24 @@ def read_mesh(path: Source, *, context: Context | None = None) -> Mesh:
     return Mesh._loaded(model)
 
 
+@keywords("ewa_mesh_sample_options")
 def sample(path: Source, *, context: Context | None = None, **options: Unpack[MeshSampleOptions]) -> Cloud:
-    """Read a mesh and return surfels on its faces: :func:`read_mesh`, then :meth:`Mesh.sample`."""
+    """Read a mesh and return surfels on its faces: :func:`read_mesh`, then :meth:`Mesh.sample`.
+
+    Parameters
+    ----------
+    path : path, or the bytes of a file, which is read alone
+    context : Context, optional
+    **options
+
+    Raises
+    ------
+    FileError, FormatError, ArgumentError, NumericError, OutOfMemory
+    """
     return read_mesh(path, context=context).sample(**options)
 
 
+@keywords("ewa_cloud_save_options")
 def convert(source: PathLike, target: PathLike, *, filter: str | Sequence[str] | None = None, crop: Any = None,
             voxel: float | None = None, distance: float | None = None, transform: Any = None,
             columns: Sequence[str] | None = None, context: Context | None = None,
@@ -369,7 +381,6 @@ def convert(source: PathLike, target: PathLike, *, filter: str | Sequence[str] |
     transform : array_like, shape (4, 4) or (3, 4), optional
         Map points and directions.
     **options
-        Members of ``ewa_cloud_save_options``: ``ply_encoding``, ``step_world``, ``chunk_points``.
 
     Returns
     -------

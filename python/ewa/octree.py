@@ -14,6 +14,7 @@ from . import _bindings as b
 from ._arrays import Array
 from ._context import Context, Core, Handle, core_of
 from ._errors import ArgumentError, ClosedError
+from ._keywords import keywords
 from ._library import functions as lib
 from ._scene import World
 from ._struct import fill, initialised, numbers, path_bytes
@@ -115,6 +116,7 @@ class Octree:
                    for name, end, none in (("low", low, -math.inf), ("high", high, math.inf))]
         return Cloud._made(self._core, lib.ewa_lod_read, self._h, *corners, numbers([spacing], 1, "spacing")[0])
 
+    @keywords("ewa_lod_options")
     def render(self, camera: Camera | None = None, *, size: Sequence[int] | None = None,
                planes: str | Iterable[str] = ("rgba8",), background: Color = "white",
                lights: Sequence[Light] | None = None, section_box: Any = None,
@@ -129,7 +131,6 @@ class Octree:
         render : dict, optional
             Members of ``ewa_render_options``.
         **options
-            Members of ``ewa_lod_options``: ``spacing_px``, ``error``, ``max_splats``, ``memory_bytes``, ``load_s``.
 
         Raises
         ------
@@ -152,6 +153,7 @@ class Octree:
         return "<ewa.Octree, closed>" if self._handle is None else f"<ewa.Octree of {len(self)} points>"
 
 
+@keywords("ewa_lod_build_options")
 def build_octree(sources: PathLike | Sequence[PathLike], target: PathLike, *, context: Context | None = None,
                  **options: Unpack[LodBuildOptions]) -> None:
     """Make one COPC file of the points of any files, with surfels that represent the points of each node.
@@ -162,7 +164,6 @@ def build_octree(sources: PathLike | Sequence[PathLike], target: PathLike, *, co
     target : path
         .copc.laz
     **options
-        Members of ``ewa_lod_build_options``: ``memory_bytes``, ``subset``, ``subset_count``, ``keep_going``.
 
     Raises
     ------

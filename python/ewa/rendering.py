@@ -12,9 +12,10 @@ from . import _bindings as b
 from ._arrays import Array
 from ._context import Context, Core, Handle, core_of
 from ._errors import ArgumentError
+from ._keywords import keywords
 from ._library import functions as lib
 from ._scene import World, core_of_things, things_of, view_options
-from ._struct import fill, initialised
+from ._struct import fill, initialised, table
 from .camera import Camera
 from .image import Color, Image
 from .shade import (Environment, Light, Materials, set_background, set_lights, set_materials, set_section)
@@ -22,13 +23,15 @@ from .shade import (Environment, Light, Materials, set_background, set_lights, s
 if TYPE_CHECKING:
     from typing_extensions import Unpack
 
-    from ._options import RenderOptions
+    from ._options import RenderOptions, SurfelsOptions
+
+    class DrawOptions(RenderOptions, SurfelsOptions, total=False):
+        """What clouds are drawn with."""
 
 #: Names of planes: their types and numbers per pixel.
 PLANES: dict[str, tuple[Any, int]] = {"rgba8": (np.uint8, 4), "rgba": (np.float32, 4), "depth": (np.float32, 1),
                                       "normal": (np.float32, 3), "coverage": (np.float32, 1)}
 _BACKENDS = ("cpu", "gl", "gl-raster", "auto")
-_SURFELS = frozenset(("cutoff", "radius_scale", "level_count", "close_gaps"))
 
 
 def new_frame(image: Image, size: tuple[int, int], planes: str | Iterable[str], out: Image | None,
@@ -85,7 +88,7 @@ def options_of(options: dict[str, Any], lights: Sequence[Light] | None, material
         if environment is not None:
             made.environment = core.resolve(environment._handle)
             keep += (environment,)
-        if "shading" not in options:
+        if options.get("shading") is None:
             made.shading = b.ewa_shading.EWA_SHADING_PHONG
     if section_box is not None or section_planes is not None:
         set_section(made, section_box, section_planes)
@@ -114,8 +117,9 @@ class Renderer:
     def __init__(self, *, context: Context | None = None, backend: str = "cpu") -> None:
         self._handle = _renderer(core_of(context), backend)
 
+    @keywords("ewa_render_options", "ewa_surfels_options")
     def render(self, scene: Any, camera: Camera | None = None, **options: Any) -> Image:
-        """As :func:`render`, by this renderer."""
+        """Draw as :func:`render` does, by this renderer, which see."""
         return render(scene, camera, renderer=self, **options)
 
 
@@ -133,13 +137,14 @@ def _shared(core: Core, backend: str) -> Handle:
     return handle
 
 
+@keywords("ewa_render_options", "ewa_surfels_options")
 def render(scene: Any, camera: Camera | None = None, *, size: Sequence[int] | None = None,
            planes: str | Iterable[str] = ("rgba8",), background: Color | None = None,
            lights: Sequence[Light] | None = None, materials: Materials | None = None,
            environment: Environment | Any = None, layers: int | str | None = None, section_box: Any = None,
            section_planes: Sequence[Sequence[float]] | None = None, backend: str = "cpu",
-           renderer: Renderer | None = None, out: Image | None = None,
-           **options: Unpack[RenderOptions]) -> Image:
+           renderer: Renderer | None = None, out: Image | None = None, close_gaps: bool | None = None,
+           **options: Unpack[DrawOptions]) -> Image:
     """Draw anything: what :class:`Scene` takes, objects of other packages too, as ``ewa render`` draws the same in files.
 
     Parameters
@@ -173,10 +178,11 @@ def render(scene: Any, camera: Camera | None = None, *, size: Sequence[int] | No
         In place of the context's.
     out : Image, optional
         Whose planes are drawn into; they have to be of the picture's size.
+    close_gaps : bool, optional
+        Of clouds, as of :meth:`Cloud.surfels`. Default: True, but with `point_size_px`.
     **options
-        Members of ``ewa_render_options``: ``kernel``, ``prefilter_px``, ``point_size_px``, ``tolerance``, ``passes``,
-        ``edge_antialiasing``, ``edge_threshold``, ``edge_layers``, ``opacity``, ``cull``, ``shading``, ``ambient``,
-        ``environment_up``, ``eye_dome``, ``level``, ``budget_s``, ``supersampling``; and, of clouds, those of :meth:`Cloud.surfels`.
+        ``cutoff``: Of clouds, as of :meth:`Cloud.surfels`. Default: 3. ``radius_scale``: Of clouds, likewise. Default: 1.
+        ``shading``: Default: "phong" where there are materials or an environment, else "none".
 
     Returns
     -------
@@ -188,15 +194,15 @@ def render(scene: Any, camera: Camera | None = None, *, size: Sequence[int] | No
         An option out of its range, a camera that is none, a scene of several contexts.
     OutOfMemory, ClosedError
     """
-    making: dict[str, Any] = {}
-    if not _SURFELS.isdisjoint(options):
-        making = {name: options.pop(name) for name in tuple(options) if name in _SURFELS}  # type: ignore[misc]
+    given: dict[str, Any] = dict(options)
+    making = {name: given.pop(name) for name in table("ewa_surfels_options") if name in given}
     parts = things_of(scene)
     if not parts:
         raise ArgumentError("scene: there is nothing")
-    if making and any(hasattr(part, "_whole") for part in parts):
-        raise TypeError(f"{', '.join(making)}: said where surfels or a scene are made, Cloud.surfels() or Scene()")
-    close_gaps = making.pop("close_gaps", not options.get("point_size_px"))
+    if (making or close_gaps is not None) and any(hasattr(part, "_whole") for part in parts):
+        raise TypeError(f"{', '.join(making) or 'close_gaps'}: said where surfels or a scene are made, Cloud.surfels() or Scene()")
+    if close_gaps is None:
+        close_gaps = not given.get("point_size_px")
     world = parts[0]._whole() if len(parts) == 1 and hasattr(parts[0], "_whole") else None
     if world is None:
         world = World(core_of_things(parts), close_gaps=close_gaps, surfels=making)
@@ -204,7 +210,7 @@ def render(scene: Any, camera: Camera | None = None, *, size: Sequence[int] | No
             world.add(part)
     return draw(world, camera, size=size, planes=planes, background=background, lights=lights, materials=materials,
                 environment=environment, layers=layers, section_box=section_box, section_planes=section_planes,
-                renderer=renderer if renderer is not None else backend, out=out, render=options)
+                renderer=renderer if renderer is not None else backend, out=out, render=given)
 
 
 def draw(world: World, camera: Camera | None, *, size: Sequence[int] | None, planes: str | Iterable[str],

@@ -11,6 +11,7 @@ from . import _bindings as b
 from ._arrays import Array
 from ._context import Context, Core, Handle, core_of
 from ._errors import ArgumentError, ClosedError
+from ._keywords import keywords
 from ._library import functions as lib
 from ._scene import World, core_of_things, is_path, view_options
 from ._struct import fill, initialised, path_bytes, text_bytes
@@ -19,6 +20,7 @@ from .image import Color, Image
 from .rendering import draw, draw_outlines
 from .shade import Environment, Light, Materials
 
+@keywords("ewa_surfels_options")
 class Scene:
     """Instances of clouds, meshes, octrees, Gaussians and volumes, drawn together.
 
@@ -34,7 +36,6 @@ class Scene:
     up : {"auto", "y", "z", "-y", "-z"}, optional
         What is up. Default: as files and points say.
     **surfels
-        Members of ``ewa_surfels_options``, of all surfaces: ``cutoff``, ``radius_scale``, ``level_count``.
 
     Raises
     ------
@@ -53,7 +54,9 @@ class Scene:
 
     def add(self, thing: Any, *, visible: bool = True, opacity: float = 1.0, radius_scale: float = 1.0,
             color_by: str = "", colormap: str = "auto", range: Sequence[float] | None = None,
-            tint: Sequence[float] | None = None, transfer: str | None = None, **options: Any) -> int:
+            tint: Sequence[float] | None = None, transfer: str | None = None, to_world: Any = None,
+            gaussians_as_surfels: bool | None = None, levels: str | None = None, cutoff: float | None = None,
+            voxel_level_count: int | None = None, reach_steps: float | None = None) -> int:
         """Add something; returns its number.
 
         Parameters
@@ -65,13 +68,26 @@ class Scene:
             How it is shown; all but `visible` are of points.
         transfer : str, optional
             Of volumes: a file of a transfer function, or the name of a preset.
-        **options
-            Members of ``ewa_asset_options``: ``to_world``, ``gaussians_as_surfels``, ``levels``, ``cutoff``, ...
+        to_world : array_like, shape (4, 4), optional
+            Where its coordinates lie in the scene; acts on columns.
+        gaussians_as_surfels : bool, optional
+            Trained Gaussians become a surface, in their constant colours. Default False.
+        levels : {"auto", "always", "never"}, optional
+            Whether octrees are drawn from their levels. Default: those that are large.
+        cutoff : float, optional
+            Standard deviations that axes of a mesh's points are made for, in (0, 4]. Default 3.
+        voxel_level_count : int, optional
+            Levels of detail of volumes. Default 1.
+        reach_steps : float, optional
+            How far a voxel counts where a camera is placed, steps of the grid. Default 1.8.
 
         Raises
         ------
         FileError, FormatError, ArgumentError, OutOfMemory
         """
+        options = {"to_world": to_world, "gaussians_as_surfels": gaussians_as_surfels, "levels": levels, "cutoff": cutoff,
+                   "voxel_level_count": voxel_level_count, "reach_steps": reach_steps}
+        options = {name: value for name, value in options.items() if value is not None}
         made = initialised(b.ewa_asset_options, lib.ewa_asset_options_init)
         fill(made, "ewa_asset_options", options)
         if transfer is not None:
@@ -138,13 +154,15 @@ class Scene:
                              elevation=elevation)
         return Camera._of(self._world.place(asked))
 
+    @keywords("ewa_render_options")
     def render(self, camera: Camera | None = None, *, size: Sequence[int] | None = None,
                planes: str | Iterable[str] = ("rgba8",), background: Color | None = None,
                lights: Sequence[Light] | None = None, materials: Materials | None = None,
                environment: Environment | Any = None, layers: int | str | None = None, section_box: Any = None,
                section_planes: Sequence[Sequence[float]] | None = None, out: Image | None = None,
                **options: Any) -> Image:
-        """Draw a frame: the bytes of ``ewa render`` with the same files, camera and options.
+        """Draw a frame: the bytes of ``ewa render`` with the same files, camera and options. Those that are not given are of the
+        scene file, if there is one.
 
         Parameters
         ----------
@@ -155,7 +173,6 @@ class Scene:
         size, planes, lights, materials, environment, layers, section_box, section_planes, out
             As of :func:`render`.
         **options
-            Members of ``ewa_render_options``; those that are not given are of the scene file, if there is one.
 
         Raises
         ------

@@ -13,6 +13,7 @@ from ._arrays import DTYPE_OF, TYPE_OF, Array, as_numbers, export
 from ._context import Context, Core, Handle, Pin, core_of
 from ._errors import ArgumentError, ClosedError
 from ._held import Held
+from ._keywords import keywords
 from ._library import functions as lib
 from ._scene import World, drawables_of, is_path
 from ._struct import Source, fill, initialised, loader, numbers, path_bytes
@@ -179,6 +180,7 @@ def as_volume(value: Any, *, context: Context | None = None) -> Volume:
     return found[0]
 
 
+@keywords("ewa_volume_generate_options")
 def generate_volume(object: str = "checkerbox", *, context: Context | None = None,
                     **options: Unpack[VolumeGenerateOptions]) -> Volume:
     """Make a test volume: "checkerbox", "blob", "ball" or "vessels".
@@ -186,7 +188,6 @@ def generate_volume(object: str = "checkerbox", *, context: Context | None = Non
     Parameters
     ----------
     **options
-        Members of ``ewa_volume_generate_options``: ``dims``, ``size_world``, ``checks``, ``seed``.
 
     Raises
     ------
@@ -329,6 +330,7 @@ class Voxels:
                            ctypes.byref(self._transfer._struct), float(reach_steps))
 
 
+@keywords("ewa_volume_options")
 def render_volume(volume: Any, camera: Camera | None = None, *, transfer: Transfer | str = "auto",
                   size: Sequence[int] | None = None, planes: str | Iterable[str] = ("rgba8",),
                   background: Color = "black", lights: Sequence[Light] | None = None,
@@ -352,10 +354,7 @@ def render_volume(volume: Any, camera: Camera | None = None, *, transfer: Transf
     section_box, section_planes
         As of :func:`render`.
     **options
-        Members of ``ewa_volume_options``: ``method``, ``index``, ``sigma``, ``cutoff``, ``prefilter_px``,
-        ``point_threshold_px``, ``depth_unit``, ``level``, ``density_scale``, ``minimum_transmittance``, ``shading``,
-        ``mark_splats``.
-        Default shading: "auto", which is "phong", and "none" of the presets gray and fog.
+        ``shading``: Default: "auto", which is "phong", and "none" of the presets gray and fog.
 
     Raises
     ------

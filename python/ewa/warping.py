@@ -13,6 +13,7 @@ from . import _bindings as b
 from ._arrays import Array, as_numbers
 from ._context import Context, core_of
 from ._errors import ArgumentError
+from ._keywords import keywords
 from ._library import functions as lib
 from ._struct import fill, initialised, numbers, path_bytes
 from .camera import Camera
@@ -102,6 +103,7 @@ def _take(image: DepthImage, struct: b.ewa_depth_image, index: int) -> tuple[Arr
     return depth, color
 
 
+@keywords("ewa_warp_options")
 def warp(images: DepthImage | Sequence[DepthImage], camera: Camera | None = None, *,
          shift: Sequence[float] | None = None, size: Sequence[int] | None = None,
          planes: str | Iterable[str] = ("rgba8",), method: str = "hybrid", background: Color = "transparent",
@@ -122,8 +124,6 @@ def warp(images: DepthImage | Sequence[DepthImage], camera: Camera | None = None
     render : dict, optional
         Options of drawing, members of ``ewa_render_options``.
     **options
-        Members of ``ewa_warp_options``: ``cutoff``, ``radius_spacings``, ``depth_jump``, ``depth_noise``,
-        ``drop_flying``, ``nearest_world``, ``farthest_world``.
 
     Returns
     -------
@@ -170,6 +170,7 @@ def warp(images: DepthImage | Sequence[DepthImage], camera: Camera | None = None
     return image
 
 
+@keywords("ewa_texture_options")
 def texture(picture: Any, *, homography: Any = None, corners: Any = None, camera: Camera | None = None,
             plane: Any = None, size: Sequence[int] | None = None, background: Color = (0, 0, 0, 0),
             context: Context | None = None, **options: Unpack[TextureOptions]) -> Image:
@@ -191,8 +192,6 @@ def texture(picture: Any, *, homography: Any = None, corners: Any = None, camera
     size : (int, int), optional
         Of the picture, pixels. Default: of the image; the camera's.
     **options
-        Members of ``ewa_texture_options``: ``method``, ``prefilter_px``, ``cutoff``, ``sigma_texels``,
-        ``point_spacing_px``, ``repeat``.
 
     Returns
     -------

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import ctypes
+import inspect
 import shutil
 import subprocess
 import sys
@@ -11,8 +12,10 @@ import unittest
 
 from common import ROOT, Case
 
+import ewa
 from ewa import _bindings as b
 from ewa import _struct
+from ewa._options import OWN
 from ewa._library import functions, library
 
 
@@ -63,6 +66,22 @@ class Bindings(Case):
                         and not option.words:
                     value = int(value)  # type: ignore[call-overload]
                 _struct.fill(made, struct, {name: [value] * option.length if option.length else value}, own=True)
+
+    def test_keyword_arguments_are_known_and_told(self) -> None:
+        """Completion and help() show every option of the library's tables with what these say."""
+        calls = {ewa.render: ("ewa_render_options", "ewa_surfels_options"), ewa.Cloud.estimate: ("ewa_estimate_options",),
+                 ewa.Context: ("ewa_context_options", "ewa_limits"), ewa.Scene: ("ewa_surfels_options",),
+                 ewa.warp: ("ewa_warp_options",), ewa.Mesh.sample: ("ewa_mesh_sample_options",)}
+        for call, structs in calls.items():
+            shown, told = inspect.signature(call).parameters, inspect.getdoc(call) or ""
+            self.assertNotIn("**", told)
+            self.assertFalse([p for p in shown.values() if p.kind is p.VAR_KEYWORD])
+            for struct in structs:
+                for name, option in _struct.table(struct).items():
+                    if name not in OWN.get(struct, ()):
+                        self.assertIs(shown[name].kind, inspect.Parameter.KEYWORD_ONLY)
+                        self.assertIn(f"\n{name} : ", told)
+                        self.assertIn(option.help[1:30], " ".join(told.split()))
 
     def test_library_has_the_version_of_the_package(self) -> None:
         version = (functions.ewa_version() or b"").decode()

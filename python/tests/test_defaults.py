@@ -7,13 +7,11 @@ import hashlib
 import inspect
 import json
 import os
-import re
 from typing import Any, Callable
 
 import numpy as np
 
 import ewa
-from ewa import _options
 from ewa._options import OWN
 
 from common import ROOT, Case
@@ -28,8 +26,6 @@ OTHERWISE: dict[str, dict[str, Any]] = {
 }
 
 
-#: Options of several structs together.
-_TOGETHER = {"ContextArguments": ("ContextOptions", "LimitsOptions")}
 #: Arguments that the calls have already, so that they are quick.
 _OF_CALLS = ("size", "planes", "dims", "point_count", "camera")
 
@@ -46,18 +42,10 @@ def default_of(row: dict[str, Any]) -> Any:
 
 
 def options_of(function: Callable[..., Any]) -> dict[str, Any]:
-    """The options that a call takes by `**options`, with the library's defaults."""
-    for parameter in inspect.signature(function).parameters.values():
-        found = re.match(r"Unpack\[(\w+)\]", str(parameter.annotation))
-        if parameter.kind is parameter.VAR_KEYWORD and found:
-            made: dict[str, Any] = {}
-            for kind in _TOGETHER.get(found.group(1), (found.group(1),)):
-                names = getattr(_options, kind).__annotations__
-                struct = next(name for name in TABLES if set(names) <= set(TABLES[name]) and
-                              set(TABLES[name]) - set(names) == set(OWN.get(name, ())))
-                made.update({name: default_of(TABLES[struct][name]) for name in names})
-            return made
-    return {}
+    """The options of the library's structs that a call takes as keyword arguments, with the library's defaults."""
+    called: Any = function.__init__ if inspect.isclass(function) else function  # type: ignore[misc]
+    return {name: default_of(row) for struct in getattr(called, "option_structs", ()) for name, row in TABLES[struct].items()
+            if name not in OWN.get(struct, ()) and name in inspect.signature(function).parameters}
 
 
 def keywords_of(function: Callable[..., Any]) -> dict[str, Any]:
@@ -143,6 +131,8 @@ class Defaults(Case):
             "build_octree": saved("again.copc.laz", ewa.build_octree, self.path("bare.ply")),
             "Octree.render": lambda **o: octree.render(**{**size, **o}),
             "render": lambda **o: ewa.render(bare, **{**size, **o}),
+            "Renderer.render": lambda **o: ewa.Renderer().render(bare, **{**size, **o}),
+            "Scene": lambda **o: ewa.Scene(bare, **o).render(**size), "Scene.render": lambda **o: ewa.Scene(bare).render(**{**size, **o}),
             "render_backward": lambda **o: tuple(map(str, ewa.render_backward(
                 cloud, camera, **{**o, "rgba": np.ones((32, 48, 4), np.float32)}))),
             "render_gaussians": lambda **o: ewa.render_gaussians(gaussians, **{**size, **o}),
