@@ -70,6 +70,7 @@ static const viewer_action actions[] = {
 
     {"Tools", "Clip box", "box next", "clip box around everything, whose sides can be dragged", 'c', 0, VIEWER_ICON_BOX},
     {"Tools", "Slab", "slab next", "slab across the view; Alt wheel moves it", 'v', 0, VIEWER_ICON_SLAB},
+    {"Tools", "Profile", "profile next", "profile along what was measured", 'r', 0, VIEWER_ICON_PROFILE},
     {"Tools", "Forget picks", "clear", "forget picks and measures", VIEWER_KEY_DELETE, 0, VIEWER_ICON_CLEAR},
     {"Tools", "Give up", "cancel", "close help or dialog; else give up loading; else forget picks", VIEWER_KEY_ESCAPE, 0,
      VIEWER_ICON_NONE},

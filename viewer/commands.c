@@ -64,6 +64,7 @@ static bool is_eye_dome(const viewer *v) { return v->render.eye_dome > 0; }
 static bool is_points(const viewer *v) { return v->render.point_size_px > 0; }
 static bool is_box(const viewer *v) { return v->cutaway.box; }
 static bool is_slab(const viewer *v) { return v->cutaway.slab; }
+static bool is_profile(const viewer *v) { return v->profile.shown; }
 static bool is_help(const viewer *v) { return v->state.help; }
 static bool is_panels(const viewer *v) { return v->state.panels; }
 static bool is_fullscreen(const viewer *v) { return v->state.fullscreen; }
@@ -392,6 +393,7 @@ static const struct {
     {"clear", do_clear, NULL},
     {"help", do_help, is_help},
     {"panels", do_panels, is_panels},
+    {"profile", profile_do, is_profile},
     {"fullscreen", do_fullscreen, is_fullscreen},
     {"quit", do_quit, NULL},
 };

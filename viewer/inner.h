@@ -55,6 +55,18 @@ typedef struct viewer_cutaway {
     double slab_near, slab_far; ///< along it, world units from the world's origin
 } viewer_cutaway;
 
+/// The profile along a line.
+typedef struct viewer_profile {
+    bool shown;
+    double width_world;
+    uint32_t corner_count;
+    double corners_world[3 * EWA_PROFILE_CORNERS];
+    ewa_profile of;                      ///< zeros: none
+    double low_height, high_height;      ///< of its points
+    uint8_t *graph;                      ///< as it was drawn last; NULL: not yet
+    uint32_t graph_width_px, graph_height_px;
+} viewer_profile;
+
 struct viewer {
     viewer_services services;
     bool waits, stepped;
@@ -109,6 +121,7 @@ struct viewer {
 
     viewer_pick picks[2];
     viewer_cutaway cutaway;
+    viewer_profile profile;
 
     uint64_t revision, posted; ///< of what is to be drawn; the last one handed to the painter
     bool posted_whole;
@@ -178,6 +191,12 @@ void cutaway_handle(const viewer *v, int handle, double place_world[3]);
 /// The side under a place of the window; -1: none.
 int cutaway_find_handle(const viewer *v, double x, double y);
 void cutaway_drag(viewer *v, double x_px, double y_px);
+
+// profile.c
+bool profile_do(viewer *v, const char *rest);
+/// Draws the graph over the lower part of a picture whose points are `scale` pixels.
+void profile_draw(viewer *v, const ewa_canvas *canvas, double scale);
+void profile_free(viewer *v);
 
 // settings.c
 void settings_init(viewer *v);

@@ -71,6 +71,25 @@ static void draw_box(const overlay *o, const viewer *v) {
     }
 }
 
+/// The wall in which the profile's line stands, from its lowest to its highest point.
+static void draw_profile_wall(const overlay *o, const viewer *v) {
+    const viewer_profile *profile = &v->profile;
+    const double *up = profile->of.up_world;
+    double before[2][3];
+    for (uint32_t i = 0; i < profile->corner_count; i++) {
+        const double *corner = profile->corners_world + 3 * i;
+        const double at = corner[0] * up[0] + corner[1] * up[1] + corner[2] * up[2];
+        double wall[2][3];
+        for (int c = 0; c < 3; c++) {
+            wall[0][c] = corner[c] + (profile->low_height - at) * up[c];
+            wall[1][c] = corner[c] + (profile->high_height - at) * up[c];
+        }
+        draw_edge(o, wall[0], wall[1], 1.5, MARK);
+        for (int k = 0; k < 2 && i; k++) draw_edge(o, before[k], wall[k], 2, MARK);
+        memcpy(before, wall, sizeof before);
+    }
+}
+
 static void draw_picks(const overlay *o, const viewer *v) {
     const viewer_pick *a = &v->picks[0], *b = &v->picks[1];
     char text[64];
@@ -122,6 +141,7 @@ void overlay_draw(viewer *v, const ewa_camera *camera, uint8_t *rgba8) {
                        camera,
                        v->scale * camera->height_px / v->camera.height_px};
     if (v->cutaway.box) draw_box(&o, v);
+    if (v->profile.shown) draw_profile_wall(&o, v);
     draw_picks(&o, v);
     ewa_furniture_options furniture = v->furniture;
     ewa_category categories[VIEWER_MAX_CLASSES];
@@ -130,4 +150,5 @@ void overlay_draw(viewer *v, const ewa_camera *camera, uint8_t *rgba8) {
     furniture.scale_depth_world = depth > 0 && depth < 1e30 ? depth : 0;
     furniture.pixel_scale = fmin(o.scale, 100);
     ewa_furniture_draw(v->probe.context, camera, &furniture, &o.canvas);
+    if (v->profile.shown) profile_draw(v, &o.canvas, o.scale);
 }

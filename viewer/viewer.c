@@ -129,6 +129,7 @@ void viewer_destroy(viewer **made) {
         ewa_asset_release(&v->items[i].asset);
     }
     ewa_scene_destroy(&v->scene);
+    profile_free(v);
     for (size_t i = 0; i < v->file_count; i++) ewa_scene_file_destroy(&v->files[i]);
     free(v->files);
     paint_tools_free(&v->probe);

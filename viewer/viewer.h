@@ -202,6 +202,7 @@ typedef enum viewer_icon {
     VIEWER_ICON_ORTHO,
     VIEWER_ICON_BOX,
     VIEWER_ICON_SLAB,
+    VIEWER_ICON_PROFILE,
     VIEWER_ICON_CLEAR,
     VIEWER_ICON_HELP,
 } viewer_icon;

@@ -8,7 +8,7 @@
 #include "cli/base/options.h"
 
 extern const cli_command render_command, view_command, info_command, convert_command, surfels_command,
-    features_command, sample_command, csg_command, photos_command, compare_command, texture_command, warp_command, volume_command,
+    features_command, sample_command, csg_command, photos_command, profile_command, compare_command, texture_command, warp_command, volume_command,
     lod_command, page_command, generate_command, bench_command;
 
 /// All commands, in the order of the help.

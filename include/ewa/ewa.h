@@ -30,6 +30,7 @@
 #include "ewa/photos.h"
 #include "ewa/prepare.h"
 #include "ewa/procedure.h"
+#include "ewa/profile.h"
 #include "ewa/render.h"
 #include "ewa/resample.h"
 #include "ewa/scene.h"

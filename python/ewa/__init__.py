@@ -26,6 +26,7 @@ from .image import Image, read_depth, read_image, save_image
 from .mesh import Mesh, convert, read, read_mesh, sample
 from .octree import Octree, build_octree
 from .photographs import ImageQuality, PhotoReport, PhotosReport, compare_images, undistort
+from .profiles import Profile
 from .rendering import Renderer, render
 from .scene import Scene
 from .shade import Environment
@@ -39,7 +40,7 @@ __all__ = [
     "ArgumentError", "Array", "Camera", "CameraGradient", "CameraPath", "Cancelled", "ClosedError", "Cloud",
     "Context", "DepthImage", "Environment", "Error", "EwaWarning", "FileError", "FormatError", "Gaussians",
     "Gradients", "Image", "ImageQuality", "Mesh", "NumericError", "Octree", "OutOfMemory", "PhotoReport",
-    "PhotosReport", "Renderer", "Scene", "Splats", "Surfels", "Transfer", "Volume", "Voxels", "as_cloud",
+    "PhotosReport", "Profile", "Renderer", "Scene", "Splats", "Surfels", "Transfer", "Volume", "Voxels", "as_cloud",
     "as_drawables", "as_volume", "build_octree", "cameras", "compare_images", "convert", "csg", "default_context",
     "generate", "generate_volume", "merge", "progress", "read", "read_depth", "read_gaussians", "read_image",
     "read_mesh", "read_volume", "render", "render_backward", "render_gaussians", "render_volume", "sample",

@@ -64,6 +64,10 @@ EWA_PHOTO_COUNT = 'photo_count'
 EWA_PHOTO_RESIDUAL = 'photo_residual'
 EWA_DEFAULT_RADIUS_LIMIT = 2.75
 EWA_DEFAULT_RADIUS_SCALE = 1.14
+EWA_PROFILE_CORNERS = 1024
+EWA_PROFILE_HEIGHT = 'profile_height'
+EWA_PROFILE_OFFSET = 'offset'
+EWA_PROFILE_STATION = 'station'
 EWA_MAX_LEVELS = 8
 EWA_MAX_EDGE_LAYERS = 8
 EWA_MAX_SECTION_PLANES = 8
@@ -1956,6 +1960,49 @@ class ewa_procedure_options(c.Structure):
     ]
 
 
+class ewa_profile(c.Structure):
+    context: int | None
+    points: int | None
+    srgb: int | None
+    length_world: float
+    up_world: c.Array[c.c_double]
+    _fields_ = [
+        ("context", c.c_void_p),
+        ("points", c.c_void_p),
+        ("srgb", c.c_void_p),
+        ("length_world", c.c_double),
+        ("up_world", c.c_double * 3),
+    ]
+
+
+class ewa_profile_graph_options(c.Structure):
+    struct_size: int
+    exaggeration: float
+    point_size_px: float
+    pixel_scale: float
+    title: bytes | None
+    unit: bytes | None
+    _fields_ = [
+        ("struct_size", c.c_size_t),
+        ("exaggeration", c.c_double),
+        ("point_size_px", c.c_double),
+        ("pixel_scale", c.c_double),
+        ("title", c.c_char_p),
+        ("unit", c.c_char_p),
+    ]
+
+
+class ewa_profile_options(c.Structure):
+    struct_size: int
+    width_world: float
+    up_world: c.Array[c.c_double]
+    _fields_ = [
+        ("struct_size", c.c_size_t),
+        ("width_world", c.c_double),
+        ("up_world", c.c_double * 3),
+    ]
+
+
 class ewa_frame(c.Structure):
     rgba8: int | None
     rgba: int | None
@@ -2644,6 +2691,8 @@ TABLES = (
     "ewa_generate_options_table",
     "ewa_volume_generate_options_table",
     "ewa_procedure_options_table",
+    "ewa_profile_options_table",
+    "ewa_profile_graph_options_table",
     "ewa_surfels_options_table",
     "ewa_render_options_table",
     "ewa_texture_options_table",
@@ -2923,6 +2972,12 @@ class Functions:
     ewa_volume_outline: Callable[..., int]
     ewa_cloud_color_by_procedure: Callable[..., int]
     ewa_procedure_options_init: Callable[..., None]
+    ewa_profile_draw: Callable[..., int]
+    ewa_profile_free: Callable[..., None]
+    ewa_profile_graph_options_init: Callable[..., None]
+    ewa_profile_line_read: Callable[..., int]
+    ewa_profile_options_init: Callable[..., None]
+    ewa_scene_profile: Callable[..., int]
     ewa_render: Callable[..., int]
     ewa_render_add: Callable[..., int]
     ewa_render_add_weighted: Callable[..., int]
@@ -3304,6 +3359,12 @@ class Functions:
         self.ewa_volume_outline = bind("ewa_volume_outline", c.c_int, c.POINTER(ewa_volume), c.POINTER(ewa_transfer), c.c_double, c.c_void_p)
         self.ewa_cloud_color_by_procedure = bind("ewa_cloud_color_by_procedure", c.c_int, c.c_void_p, c.POINTER(ewa_procedure_options))
         self.ewa_procedure_options_init = bind("ewa_procedure_options_init", None, c.POINTER(ewa_procedure_options), c.c_int, c.c_size_t)
+        self.ewa_profile_draw = bind("ewa_profile_draw", c.c_int, c.POINTER(ewa_profile), c.POINTER(ewa_profile_graph_options), c.POINTER(ewa_canvas))
+        self.ewa_profile_free = bind("ewa_profile_free", None, c.POINTER(ewa_profile))
+        self.ewa_profile_graph_options_init = bind("ewa_profile_graph_options_init", None, c.POINTER(ewa_profile_graph_options), c.c_size_t)
+        self.ewa_profile_line_read = bind("ewa_profile_line_read", c.c_int, c.c_char_p, c.c_void_p, c.c_void_p, c.c_void_p)
+        self.ewa_profile_options_init = bind("ewa_profile_options_init", None, c.POINTER(ewa_profile_options), c.c_size_t)
+        self.ewa_scene_profile = bind("ewa_scene_profile", c.c_int, c.c_void_p, c.c_void_p, c.c_uint32, c.POINTER(ewa_profile_options), c.POINTER(ewa_profile))
         self.ewa_render = bind("ewa_render", c.c_int, c.c_void_p, c.c_void_p, c.POINTER(ewa_camera), c.POINTER(ewa_render_options), c.POINTER(ewa_frame), c.POINTER(ewa_render_stats))
         self.ewa_render_add = bind("ewa_render_add", c.c_int, c.c_void_p, c.c_void_p)
         self.ewa_render_add_weighted = bind("ewa_render_add_weighted", c.c_int, c.c_void_p, c.c_void_p, c.c_double)

@@ -279,6 +279,26 @@ class PhotosOptions(TypedDict, total=False):
     cutoff: float | None
 
 
+class ProfileOptions(TypedDict, total=False):
+    """Members of ewa_profile_options."""
+
+    #: of the strip beside the line, half of it on each side; (0, 1e30], world, default 1
+    width_world: float | None
+    #: what is up; zeros: as the scene has it; (-inf, inf), default 0
+    up_world: Sequence[float] | None
+
+
+class ProfileGraphOptions(TypedDict, total=False):
+    """Members of ewa_profile_graph_options."""
+
+    #: how many times larger heights are drawn than lengths; 0: so that the graph fills the picture; [0, 1000000], default 0
+    exaggeration: float | None
+    #: diameter of dots; 0: two points of text; [0, 256], px, default 0
+    point_size_px: float | None
+    #: pixels per point, of which text has 12; 0: a 720th of the picture's smaller side, at least 0.84; [0, 100], px, default 0
+    pixel_scale: float | None
+
+
 class RefitOptions(TypedDict, total=False):
     """Members of ewa_refit_options."""
 
@@ -508,6 +528,8 @@ __all__ = [
     "MeshSampleOptions",
     "PhotosOptions",
     "ProcedureOptions",
+    "ProfileGraphOptions",
+    "ProfileOptions",
     "RefitOptions",
     "RenderOptions",
     "SurfelsOptions",

@@ -17,6 +17,7 @@ from ._scene import World, core_of_things, is_path, view_options
 from ._struct import fill, initialised, path_bytes, text_bytes
 from .camera import Camera, PathLike
 from .image import Color, Image
+from .profiles import Profile
 from .rendering import draw, draw_outlines
 from .shade import Environment, Light, Materials
 
@@ -190,6 +191,24 @@ class Scene:
         ArgumentError, OutOfMemory
         """
         draw_outlines(self._world, image, count)
+
+    def profile(self, line: Any, width: float = 1.0, up: Sequence[float] | None = None) -> Profile:
+        """Take the points beside a line on the map, of all that is visible.
+
+        Parameters
+        ----------
+        line : array_like of shape (n, 2) or (n, 3)
+            Its corners, world units; only where it goes on the map counts.
+        width : float
+            Of the strip, half of it on each side; world units.
+        up : sequence of 3 floats, optional
+            In which heights count. Default: as the files say.
+
+        Raises
+        ------
+        ArgumentError, NumericError, OutOfMemory, ClosedError
+        """
+        return Profile(self._core, self._handle, line, width, up)
 
     def save(self, path: PathLike, camera: Camera | None = None) -> None:
         """Write a scene file: everything, which must have been added from files below the file's folder, and `camera`.

@@ -67,6 +67,39 @@ class SameScene(Case):
         image.save(self.path("ours.png"))
         self.assertEqual(open(self.path("ours.png"), "rb").read(), open(self.path("outlines.png"), "rb").read())
 
+    def test_profiles(self) -> None:
+        """One profile by program, package and window; of an octree it is that of its points."""
+        self.run_program("profile", "torus.ply", "--line", "-2,0.1;2,0.3", "--width", "0.5", "--up", "0,0,1", "-o",
+                         "theirs.ply", "--graph", "theirs.png", "--size", "300x200", "--color-by", "z")
+        scene = ewa.Scene()
+        scene.add(self.path("torus.ply"), color_by="z")
+        profile = scene.profile([(-2, 0.1), (2, 0.3)], 0.5, up=(0, 0, 1))
+        profile.cloud.save(self.path("ours.ply"))
+        profile.draw((300, 200)).save(self.path("ours.png"))
+        self.assertEqual(self.bytes("ours.ply"), self.bytes("theirs.ply"))
+        self.assertEqual(self.bytes("ours.png"), self.bytes("theirs.png"))
+        self.assertEqual(profile.colors.shape, (len(profile.cloud), 3))
+        self.assertAlmostEqual(profile.length, np.hypot(4, 0.2))
+        stations, offsets = profile.cloud["station"], profile.cloud["offset"]
+        self.assertTrue((np.diff(stations) >= 0).all() and (abs(offsets) <= 0.25).all())
+        place = profile.cloud["position"] + profile.cloud.origin
+        np.testing.assert_allclose(stations, (4 * (place[:, 0] + 2) + 0.2 * (place[:, 1] - 0.1)) / profile.length, atol=1e-6)
+        with open(self.path("profile.txt"), "w", encoding="ascii") as file:
+            file.write("do color 0 z\ndo profile -2,0.1;2,0.3 0.5\ndo profile save window.ply\n"
+                       "do profile save window.png 300x200\n")
+        self.run_program("view", "torus.ply", "--script", "profile.txt", "--up", "0,0,1")
+        self.assertEqual(self.bytes("window.png"), self.bytes("theirs.png"))
+        self.assertEqual(self.bytes("window.ply"), self.bytes("theirs.ply"))
+        tree = ewa.Scene()
+        tree.add(self.path("tree.copc.laz"), levels="always")
+        of_tree = tree.profile([(-2, 0.1), (2, 0.3)], 0.5, up=(0, 0, 1))
+        self.assertTrue(abs(len(of_tree.cloud) - len(profile.cloud)) <= 3)  # coordinates of LAZ are rounded
+        np.testing.assert_allclose(of_tree.cloud["profile_height"].mean(), profile.cloud["profile_height"].mean(), atol=1e-3)
+        with self.assertRaises(ewa.ArgumentError):
+            scene.profile([(0, 0)])
+        with self.assertRaises(ewa.ArgumentError):
+            profile.draw((0, 3))
+
     def sets(self) -> list[tuple[str, ...]]:
         """Every kind, every pair and some triples."""
         return [*((kind,) for kind in self.kinds), *itertools.combinations(self.kinds, 2), *self.triples]

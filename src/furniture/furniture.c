@@ -13,8 +13,6 @@
 
 enum { MAX_SIDE_PX = 65536, MAX_CATEGORIES = 65536 };
 
-/// Points of the picture's smaller side, and pixels per point, where no one says how large a point is.
-static const double SIDE_PT = 720, MIN_POINT_PX = 0.84;
 /// Sizes in points.
 static const double ARM_PT = 30, LETTER_PT = 12, LETTER_OFF_PT = 9, AXIS_PT = 2;
 static const double SCALE_MAX_PT = 180, SCALE_MIN_PT = 20, SCALE_THICK_PT = 2, SCALE_END_PT = 7,
@@ -235,8 +233,7 @@ ewa_status ewa_furniture_draw(ewa_context *context, const ewa_camera *camera,
     ewa_furniture_options chosen;
     EWA_TRY(take_options(context, options, &chosen));
     EWA_TRY(ewa_camera_check(context, camera));
-    const double smaller = width < height ? width : height;
-    const double point = chosen.pixel_scale > 0 ? chosen.pixel_scale : fmax(smaller / SIDE_PT, MIN_POINT_PX);
+    const double point = ewa_layout_point_px(canvas, chosen.pixel_scale);
     const double margin = floor(EWA_MARGIN_PT * point);
     ewa_layout layout = {.canvas = canvas,
                          .options = &chosen,

@@ -11,11 +11,18 @@
 
 /// Luminance between the grounds of light ink and of dark ink: a middle grey to the eye.
 static const double MIDDLE_LUMINANCE = 0.18;
+/// Points of a picture's smaller side, and pixels per point at least, where no one says how large a point is.
+static const double SIDE_PT = 720, MIN_POINT_PX = 0.84;
 /// Width of the rim of letters, as part of their height.
 static const double RIM_PART = 0.13;
 
 /// Pixels of a row or column of a box that are looked at, at most about.
 enum { LOOKS = 64 };
+
+double ewa_layout_point_px(const ewa_canvas *canvas, double pixel_scale) {
+    const double smaller = canvas->width_px < canvas->height_px ? canvas->width_px : canvas->height_px;
+    return pixel_scale > 0 ? pixel_scale : fmax(smaller / SIDE_PT, MIN_POINT_PX);
+}
 
 static int clip_side(double px, uint32_t size_px) { return ewa_canvas_clip(px, size_px); }
 

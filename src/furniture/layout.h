@@ -30,6 +30,9 @@ typedef struct ewa_inks {
     uint8_t ink[4], rim[4];
 } ewa_inks;
 
+/// Pixels of a point on a canvas: `pixel_scale`, or, where it is 0, as suits its size.
+double ewa_layout_point_px(const ewa_canvas *canvas, double pixel_scale);
+
 /// Colours that can be read on what the picture has in a box.
 ewa_inks ewa_layout_inks(const ewa_layout *layout, const ewa_box *box);
 

@@ -130,11 +130,11 @@ static ewa_status paint(const void *user, ewa_cloud **cloud) {
     return ewa_cloud_set_appearance(*cloud, change->opacity, change->material);
 }
 
-ewa_status ewa_asset_read_octree(const ewa_asset *asset, const double place_world[3], double reach_world,
+ewa_status ewa_asset_read_octree(const ewa_asset *asset, const double low_world[3], const double high_world[3],
                                  ewa_cloud **cloud) {
     ewa_bounds box;
-    for (int c = 0; c < 3; c++)
-        box.low_world[c] = place_world[c] - reach_world, box.high_world[c] = place_world[c] + reach_world;
+    memcpy(box.low_world, low_world, sizeof box.low_world);
+    memcpy(box.high_world, high_world, sizeof box.high_world);
     if (ewa_asset_is_moved(asset)) {
         ewa_mat4 map;
         double back[16];

@@ -31,9 +31,9 @@ typedef struct ewa_octree_look {
 ewa_status ewa_scene_octree_look(const ewa_scene *scene, uint32_t index, const ewa_lod_options *options,
                                  ewa_octree_look *shown);
 
-/// Reads the points of an octree about a place: those of a box that has all within `reach_world` of it, filtered and
-/// moved as the asset's. The caller owns `*cloud`. Errors: those of ewa_lod_read().
-ewa_status ewa_asset_read_octree(const ewa_asset *asset, const double place_world[3], double reach_world,
+/// Reads the points of an octree in a box of the scene, and maybe some beside it, filtered and moved as the asset's. The
+/// caller owns `*cloud`. Errors: those of ewa_lod_read().
+ewa_status ewa_asset_read_octree(const ewa_asset *asset, const double low_world[3], const double high_world[3],
                                  ewa_cloud **cloud);
 
 #endif

@@ -176,6 +176,18 @@ void ewa_surface_release(ewa_surface **surface);
 /// where there is nothing; `*made`: it is the caller's to destroy.
 ewa_status ewa_scene_outline(ewa_scene *scene, ewa_cloud **outline, bool *made);
 
+/// Finds what is up without anything being estimated, where options, files or their kind say so (view.c). Errors: those of
+/// ewa_scene_place_camera().
+ewa_status ewa_scene_find_up(ewa_scene *scene, double up_world[3]);
+
+/// Says what the colours of the visible points mean without any surfels: `*surface` has legends only (surface.c).
+ewa_status ewa_surface_make_legends(ewa_scene *scene, ewa_surface **surface);
+/// What the colours of an asset's points mean; NULL: they are their own.
+const ewa_legend *ewa_surface_legend(const ewa_surface *surface, const ewa_asset *asset);
+
+/// Whether a place is not cut away by the sections of a renderer (pick.c).
+bool ewa_sections_keep(const ewa_render_options *render, const double place_world[3]);
+
 /// Whether the points of an octree have colours.
 bool ewa_asset_has_colors(const ewa_asset *asset);
 

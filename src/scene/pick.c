@@ -47,8 +47,8 @@ typedef struct search {
     double best; ///< square of the distance of what was found, or within which to look
 } search;
 
-/// Whether a point is not cut away.
-static bool is_kept(const ewa_render_options *render, const double p[3]) {
+bool ewa_sections_keep(const ewa_render_options *render, const double place_world[3]) {
+    const double *p = place_world;
     for (uint32_t i = 0; i < render->section_count; i++) {
         const double *plane = render->section_planes[i];
         if (!(plane[0] * p[0] + plane[1] * p[1] + plane[2] * p[2] + plane[3] >= 0)) return false;
@@ -72,7 +72,7 @@ static bool find_in_cloud(search *s, const ewa_cloud *cloud, ewa_scene_hit *hit)
                 p[c] = block[k][c] + origin[c];
                 away += (p[c] - s->place_world[c]) * (p[c] - s->place_world[c]);
             }
-            if (!(away < s->best) || !is_kept(s->render, p)) continue;
+            if (!(away < s->best) || !ewa_sections_keep(s->render, p)) continue;
             s->best = away;
             found = true;
             hit->point = first + k;
@@ -86,7 +86,10 @@ static bool find_in_cloud(search *s, const ewa_cloud *cloud, ewa_scene_hit *hit)
 static ewa_status find_in_octree(search *s, const ewa_asset *asset, double reach_world, ewa_scene_hit *hit,
                                  bool *found) {
     ewa_cloud *cloud = NULL;
-    ewa_status status = ewa_asset_read_octree(asset, s->place_world, reach_world, &cloud);
+    double low_world[3], high_world[3];
+    for (int c = 0; c < 3; c++)
+        low_world[c] = s->place_world[c] - reach_world, high_world[c] = s->place_world[c] + reach_world;
+    ewa_status status = ewa_asset_read_octree(asset, low_world, high_world, &cloud);
     *found = status == EWA_OK && find_in_cloud(s, cloud, hit);
     if (*found) {
         ewa_cloud *nearest = NULL;

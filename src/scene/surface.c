@@ -242,19 +242,24 @@ static ewa_status make_resident(ewa_surface *surface, ewa_cloud **cloud) {
     return ewa_cloud_report_invalid_points(*cloud, &surface->info);
 }
 
-/// Makes one cloud of all that is shown, coloured and measured as the instances say; NULL: there is none. One that is
-/// alone is shown's, and borrows its streams.
-static ewa_status gather(ewa_scene *scene, ewa_surface *surface, const shown_clouds *shown, ewa_cloud **whole) {
-    ewa_context *context = surface->context;
-    *whole = NULL;
+/// Makes views of all that is shown, in the colours of their instances.
+static ewa_status color(ewa_surface *surface, const shown_clouds *shown) {
     for (uint32_t i = 0; i < surface->count; i++) {
         const ewa_surface_key *key = &surface->keys[i];
         const ewa_cloud *cloud = key->completed                    ? key->completed->clouds[key->member]
                                  : ewa_asset_is_points(key->asset) ? key->asset->cloud
                                                                    : key->asset->outline;
-        EWA_TRY(ewa_cloud_view(context, cloud, 0, ewa_cloud_point_count(cloud), &shown->clouds[i]));
+        EWA_TRY(ewa_cloud_view(surface->context, cloud, 0, ewa_cloud_point_count(cloud), &shown->clouds[i]));
     }
-    EWA_TRY(apply_colorings(surface, shown));
+    return apply_colorings(surface, shown);
+}
+
+/// Makes one cloud of all that is shown, coloured and measured as the instances say; NULL: there is none. One that is
+/// alone is shown's, and borrows its streams.
+static ewa_status gather(ewa_scene *scene, ewa_surface *surface, const shown_clouds *shown, ewa_cloud **whole) {
+    ewa_context *context = surface->context;
+    *whole = NULL;
+    EWA_TRY(color(surface, shown));
     const uint32_t count = surface->cloud_count;
     for (uint32_t i = 0; i < count; i++)
         surface->colored = surface->colored || ewa_cloud_find(shown->clouds[i], EWA_COLOR);
@@ -273,14 +278,18 @@ static ewa_status gather(ewa_scene *scene, ewa_surface *surface, const shown_clo
     return status;
 }
 
-/// Makes surfels of all that is shown; with `cloud`, that they are made of too, or, unless `closed`, only that.
-static ewa_status fill(ewa_scene *scene, ewa_surface *surface, const shown_clouds *shown, bool closed,
+/// What of a surface is wanted: its colours' meaning alone, its cloud as it is, or surfels, whose gaps are closed.
+typedef enum surface_extent { ONLY_LEGENDS, ONLY_CLOUD, WITH_SURFELS } surface_extent;
+
+/// Makes what is wanted of all that is shown; with `cloud`, that surfels are made of.
+static ewa_status fill(ewa_scene *scene, ewa_surface *surface, const shown_clouds *shown, surface_extent extent,
                        ewa_cloud **cloud) {
+    if (extent == ONLY_LEGENDS) return color(surface, shown);
     ewa_cloud *whole;
     ewa_status status = gather(scene, surface, shown, &whole);
     const char *before =
         ewa_context_about(surface->context, surface->cloud_count == 1 ? surface->keys[0].asset->name : NULL);
-    if (status == EWA_OK && whole && closed) status = make_resident(surface, &whole);
+    if (status == EWA_OK && whole && extent == WITH_SURFELS) status = make_resident(surface, &whole);
     // The streams of one cloud are not the caller's.
     if (status == EWA_OK && whole && cloud)
         status = ewa_cloud_merge((const ewa_cloud *const *)&whole, 1, cloud);
@@ -290,7 +299,7 @@ static ewa_status fill(ewa_scene *scene, ewa_surface *surface, const shown_cloud
 }
 
 /// Makes the surface of a scene, as fill() does.
-static ewa_status make(ewa_scene *scene, ewa_surface **made, bool closed, ewa_cloud **cloud) {
+static ewa_status make(ewa_scene *scene, ewa_surface **made, surface_extent extent, ewa_cloud **cloud) {
     ewa_context *context = scene->context;
     *made = NULL;
     ewa_surface *surface = ewa_allocate_zeroed(context, 1, sizeof *surface);
@@ -319,14 +328,14 @@ static ewa_status make(ewa_scene *scene, ewa_surface **made, bool closed, ewa_cl
         shown.chosen = ewa_allocate_zeroed(context, count, sizeof *shown.chosen);
         const bool room = surface->legends && surface->legend_of && shown.clouds && shown.colored &&
                           shown.colorings && shown.chosen;
-        status = room ? fill(scene, surface, &shown, closed, cloud) : EWA_ERROR_MEMORY;
+        status = room ? fill(scene, surface, &shown, extent, cloud) : EWA_ERROR_MEMORY;
     }
     for (uint32_t i = 0; shown.clouds && i < count; i++) ewa_cloud_destroy(&shown.clouds[i]);
     ewa_release(context, shown.clouds, count, sizeof *shown.clouds);
     ewa_release(context, shown.colored, count, sizeof *shown.colored);
     ewa_release(context, shown.colorings, count, sizeof *shown.colorings);
     ewa_release(context, shown.chosen, count, sizeof *shown.chosen);
-    if (status == EWA_OK && surface->sparse && !surface->as_points && !cloud)
+    if (status == EWA_OK && surface->sparse && !surface->as_points && !cloud && extent == WITH_SURFELS)
         ewa_report(context, EWA_SEVERITY_NOTE, "%llu point%s: drawn as dots of %d pixels, point_size_px decides otherwise",
                    (unsigned long long)surface->info.point_count,
                    surface->info.point_count == 1 ? "" : "s on no surface", EWA_DOT_PX);
@@ -337,24 +346,32 @@ static ewa_status make(ewa_scene *scene, ewa_surface **made, bool closed, ewa_cl
     return status;
 }
 
-ewa_status ewa_surface_make(ewa_scene *scene, ewa_surface **surface) { return make(scene, surface, true, NULL); }
+ewa_status ewa_surface_make(ewa_scene *scene, ewa_surface **surface) {
+    return make(scene, surface, WITH_SURFELS, NULL);
+}
+
+ewa_status ewa_surface_make_legends(ewa_scene *scene, ewa_surface **surface) {
+    return make(scene, surface, ONLY_LEGENDS, NULL);
+}
 
 ewa_status ewa_surface_gather(ewa_scene *scene, bool closed, ewa_cloud **cloud) {
     ewa_surface *surface;
     *cloud = NULL;
-    const ewa_status status = make(scene, &surface, closed, cloud);
+    const ewa_status status = make(scene, &surface, closed ? WITH_SURFELS : ONLY_CLOUD, cloud);
     ewa_surface_release(&surface);
     return status;
 }
 
-const ewa_legend *ewa_scene_legend(const ewa_scene *scene, uint32_t index) {
-    const ewa_surface *surface = scene->surface;
-    if (index >= scene->count || !scene->committed || !surface) return NULL;
+const ewa_legend *ewa_surface_legend(const ewa_surface *surface, const ewa_asset *asset) {
     for (uint32_t i = 0; i < surface->count; i++) {
-        if (surface->keys[i].asset != scene->items[index].asset || surface->legend_of[i] == UINT32_MAX)
-            continue;
+        if (surface->keys[i].asset != asset || surface->legend_of[i] == UINT32_MAX) continue;
         const ewa_legend *legend = &surface->legends[surface->legend_of[i]];
         return legend->context ? legend : NULL;
     }
     return NULL;
+}
+
+const ewa_legend *ewa_scene_legend(const ewa_scene *scene, uint32_t index) {
+    if (index >= scene->count || !scene->committed || !scene->surface) return NULL;
+    return ewa_surface_legend(scene->surface, scene->items[index].asset);
 }

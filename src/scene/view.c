@@ -104,6 +104,23 @@ static ewa_status find_convention(const ewa_scene *scene, ewa_up_convention *con
     return EWA_OK;
 }
 
+ewa_status ewa_scene_find_up(ewa_scene *scene, double up_world[3]) {
+    int axis = axis_of(scene->options.up);
+    ewa_up_convention convention;
+    EWA_TRY(find_convention(scene, &convention));
+    if (!axis) axis = up_axis_of(scene);
+    // Heights of surveys are along z, whatever their points look like.
+    if (!axis && convention == EWA_UP_Z_SURVEYED) axis = 2;
+    if (axis) {
+        for (int c = 0; c < 3; c++) up_world[c] = c == axis ? 1 : c == -axis ? -1 : 0;
+        return EWA_OK;
+    }
+    ewa_view_info info;
+    EWA_TRY(ewa_scene_place_camera(scene, NULL, NULL, &info));
+    memcpy(up_world, info.up_world, sizeof info.up_world);
+    return EWA_OK;
+}
+
 /// The view that suits the only visible asset, if that is a volume; -1: none does.
 static int view_of_volume(const ewa_scene *scene) {
     const ewa_asset *only = NULL;

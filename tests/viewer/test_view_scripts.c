@@ -72,6 +72,19 @@ static void save_gaussians(ewa_context *context) {
     ewa_gaussians_free(&set);
 }
 
+/// A ramp on the map, of height x / 2 + 3 above 100, in decimals of centimetres; its northern half is a building.
+static void write_ramp(const char *path) {
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    fputs("x,y,z,intensity,classification\n", file);
+    for (int i = 0; i < 41 * 41; i++) {
+        const int x = i % 41, y = i / 41; // quarters
+        fprintf(file, "%d.%02d,%d.%02d,%d.%02d,%d,%d\n", 849201 + x / 4, 25 * (x % 4), 1233495 + y / 4, 25 * (y % 4),
+                103 + (25 * x / 2) / 100, 25 * x / 2 % 100, i, y > 20 ? 6 : 2);
+    }
+    assert_int_equal(fclose(file), 0);
+}
+
 static int make_files(void **state) {
     char folder[1024];
     snprintf(folder, sizeof folder, "%s/%s", getenv("EWA_BINARY_DIR"), getenv("EWA_TEST"));
@@ -100,6 +113,7 @@ static int make_files(void **state) {
     ewa_cloud_destroy(&cloud);
     static const char *const survey = "survey.ply";
     assert_int_equal(ewa_lod_build(context, &survey, 1, "survey.copc.laz", NULL, NULL), EWA_OK);
+    write_ramp("ramp.csv");
     write_text("cube.obj",
                "v -1 -1 -1\nv 1 -1 -1\nv 1 1 -1\nv -1 1 -1\nv -1 -1 1\nv 1 -1 1\nv 1 1 1\nv -1 1 1\n"
                "f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n");
