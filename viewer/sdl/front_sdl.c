@@ -20,6 +20,8 @@ enum { MAX_TIMES = 256 };
 static const double longest_sleep_s = 10, shortest_sleep_s = 0.002;
 /// Frames that the panels take until every size has settled after something has happened.
 enum { SETTLING_FRAMES = 3 };
+/// What borders of windows take at most, their titles among them.
+enum { BORDER_POINTS = 64 };
 /// What threads may take to give up when a person ends the program.
 enum { LONGEST_END_MS = 100, END_STEP_MS = 5 };
 
@@ -265,13 +267,17 @@ int front_window_run(const front_job *job) {
     front.events.zoom = front.scripted ? job->options.scale : display_find_zoom();
     int width = (int)lround(job->options.width * front.events.zoom);
     int height = (int)lround(job->options.height * front.events.zoom);
+    uint32_t flags = SDL_WINDOW_RESIZABLE | SDL_WINDOW_ALLOW_HIGHDPI;
     SDL_Rect screen;
     if (!front.scripted && SDL_GetDisplayUsableBounds(0, &screen) == 0) {
+        // The desktop alone knows what its borders take of a screen that is filled.
+        const int border = (int)lround(BORDER_POINTS * front.events.zoom);
+        if (width + border > screen.w || height + border > screen.h) flags |= SDL_WINDOW_MAXIMIZED;
         width = SDL_min(width, screen.w);
         height = SDL_min(height, screen.h);
     }
-    front.events.window = SDL_CreateWindow(title, SDL_WINDOWPOS_UNDEFINED, SDL_WINDOWPOS_UNDEFINED, width,
-                                           height, SDL_WINDOW_RESIZABLE | SDL_WINDOW_ALLOW_HIGHDPI);
+    front.events.window =
+        SDL_CreateWindow(title, SDL_WINDOWPOS_UNDEFINED, SDL_WINDOWPOS_UNDEFINED, width, height, flags);
     int exit_status = front.events.window ? run(&front, job) : display_refuse("window", NULL);
     viewer_destroy(&front.viewer);
     panel_destroy(&front.panel);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// What comes and goes: progress, messages, results, help; and the line below with figures of the picture.
+// What comes and goes: progress, messages, notes, help; and the line below with figures of the picture.
 #include "panel_parts.h"
 
 #include <math.h>
@@ -12,8 +12,6 @@ namespace {
 
 /// So long a message stays, and a note of what was done.
 constexpr double message_stays_s = 10, note_stays_s = 4;
-/// What the picture's scale bar takes at the lower right.
-constexpr float scale_bar_points = 40;
 /// Progress and figures are shown anew so often.
 constexpr double progress_step_s = 0.1, figures_step_s = 0.25;
 
@@ -119,20 +117,6 @@ void say(panel_page *page, const char *name, const char *text, double left_s, fl
     ImGui::End();
 }
 
-void picked(const panel_page *page) {
-    if (!page->state.picked[0]) return;
-    const float margin = panel_margin(page);
-    const float bottom = page->height - margin - scale_bar_points * page->unit;
-    ImGui::SetNextWindowPos(ImVec2(page->width - margin, bottom), 0, ImVec2(1, 1));
-    ImGui::SetNextWindowSizeConstraints(ImVec2(0, 0), ImVec2(0.45f * (page->width - page->left), 0.6f * (page->height - page->top)));
-    ImGui::Begin("picked", nullptr, note_flags & ~ImGuiWindowFlags_NoScrollbar);
-    ImGui::TextUnformatted(page->state.picked);
-    if (ImGui::Button("Copy")) SDL_SetClipboardText(page->state.picked);
-    ImGui::SameLine();
-    if (ImGui::Button("Clear")) panel_say(page, "clear");
-    ImGui::End();
-}
-
 /// An empty window says what to do with it.
 void invitation(const panel_page *page) {
     if (viewer_item_count(page->viewer) || page->state.loading[0]) return;
@@ -151,10 +135,7 @@ void invitation(const panel_page *page) {
 
 void panel_notes(panel_page *page) {
     float bottom = page->height - line_height(page);
-    if (page->state.panels) {
-        figures(page);
-        picked(page);
-    }
+    if (page->state.panels) figures(page);
     // Help takes the middle down to here.
     if (page->state.help) return;
     progress(page, &bottom);

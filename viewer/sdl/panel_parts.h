@@ -84,11 +84,11 @@ void panel_files_free(panel_files *files);
 
 /// Menus and buttons.
 void panel_bars(panel_page *page);
-/// What is loaded.
+/// What is loaded, what was picked, settings.
 void panel_scene(panel_page *page);
 /// The settings that the viewer names.
 void panel_settings(panel_page *page);
-/// Progress, messages, notes, results, the line below.
+/// Progress, messages, notes, the line below.
 void panel_notes(panel_page *page);
 void panel_help(panel_page *page);
 

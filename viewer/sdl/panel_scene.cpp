@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// The panel of what is loaded: shown or not, name, colours, opacity; settings below.
+// The panel of what is loaded: shown or not, name, colours, opacity; results and settings below.
 #include "panel_parts.h"
 
 #include <math.h>
@@ -175,6 +175,16 @@ void items(panel_page *page) {
     }
 }
 
+/// What was picked or measured last.
+void picked(const panel_page *page) {
+    if (!page->state.picked[0]) return;
+    ImGui::Separator();
+    ImGui::TextWrapped("%s", page->state.picked);
+    if (ImGui::Button("Copy")) SDL_SetClipboardText(page->state.picked);
+    ImGui::SameLine();
+    if (ImGui::Button("Clear")) panel_say(page, "clear");
+}
+
 } // namespace
 
 void panel_scene(panel_page *page) {
@@ -182,6 +192,7 @@ void panel_scene(panel_page *page) {
     ImGui::SetNextWindowSize(ImVec2(page->left, page->height - page->top));
     ImGui::Begin("scene", nullptr, panel_fixed_flags & ~ImGuiWindowFlags_NoScrollbar);
     items(page);
+    picked(page);
     ImGui::Separator();
     panel_settings(page);
     ImGui::End();
