@@ -45,7 +45,8 @@ DISPLAY=:$(cat display)
 export DISPLAY
 unset WAYLAND_DISPLAY SDL_VIDEODRIVER
 XDG_STATE_HOME=$PWD/state
-export XDG_STATE_HOME
+XDG_CONFIG_HOME=$PWD/config
+export XDG_STATE_HOME XDG_CONFIG_HOME
 
 "$ewa" generate torus --points 20000 -o torus.ply
 "$view" torus.ply --size 1000x700 >printed 2>complained &
@@ -126,12 +127,14 @@ same_as_before || fail "Escape has done more than close the dialog"
 xdotool key Escape
 same_as_before && fail "Escape has not taken the picks"
 
+xdotool key k
 xdotool key ctrl+q
 status=0
 wait $session || status=$?
 session=""
 [ $status = 0 ] || fail "the exit status is $status"
 [ ! -s complained ] || fail "something was wrong"
+grep -q "^set navigation trackball$" config/ewa/view || fail "the navigation is not kept"
 
 # What is loaded without an end, here from a pipe, holds nobody up: it is given up at once, and so is the program.
 mkfifo endless.ply
@@ -140,9 +143,10 @@ writer=$!
 "$view" endless.ply >printed 2>complained &
 session=$!
 wait_for "a window" xdotool search --onlyvisible --name endless.ply
-xdotool key ctrl+q
+xdotool key k ctrl+q
 wait_for "the end" sh -c "! kill -0 $session"
 kill $writer 2>/dev/null || fail "the end has waited for the pipe"
 wait $session || fail "the exit status is $?"
 session=""
+grep -q "^set navigation fly$" config/ewa/view || fail "the navigation was not kept"
 echo "a session of $(wc -l <printed) results and $(ls ewa-*.png | wc -l) pictures"

@@ -6,6 +6,7 @@
 #include "events_sdl.h"
 #include "panel.h"
 #include "picture_sdl.h"
+#include "preferences.h"
 #include "viewer/front.h"
 
 #include <math.h>
@@ -33,6 +34,8 @@ typedef struct front_window {
     viewer_state state;
     recent_files recent;
     uint64_t opened_count; ///< of what `recent` has seen
+    char preferences[PREFERENCES_BYTES]; ///< at the start
+    char title[2 * VIEWER_NAME_BYTES];
     bool closed;
     bool scripted; ///< time is what the script says
     double scripted_s;
@@ -94,6 +97,18 @@ static void arrange(front_window *front) {
     events->top_px = insets.top_px;
     front->unsettled = SETTLING_FRAMES;
     measure(front);
+}
+
+/// Has the window's title say what is open.
+static void entitle(front_window *front) {
+    const size_t count = viewer_item_count(front->viewer);
+    viewer_item first;
+    char title[sizeof front->title] = "ewa";
+    if (viewer_item_get(front->viewer, 0, &first))
+        snprintf(title, sizeof title, count > 1 ? "%s and %zu more - ewa" : "%s - ewa", first.name, count - 1);
+    if (strcmp(title, front->title) == 0) return;
+    memcpy(front->title, title, sizeof title);
+    SDL_SetWindowTitle(front->events.window, title);
 }
 
 /// Gives on an event, to the panels first.
@@ -172,6 +187,7 @@ static void live(front_window *front) {
         arrange(front);
         viewer_frame(front->viewer, clock_s(front), &picture);
         note_opened(front);
+        entitle(front);
         viewer_get_state(front->viewer, &front->state);
         front->closed = front->closed || front->state.quit;
         const double since_s = clock_s(front) - front->drawn_at_s;
@@ -231,7 +247,10 @@ static bool open_viewer(front_window *front, const front_job *job) {
     options.services.clipboard_set = set_clipboard;
     options.services.clipboard_get = get_clipboard;
     if (viewer_create(&options, &front->viewer) != EWA_OK) return false;
-    if (front->scripted) viewer_do(front->viewer, "panels off");
+    if (front->scripted)
+        viewer_do(front->viewer, "panels off");
+    else
+        preferences_read(front->viewer, front->preferences);
     arrange(front);
     for (size_t i = 0; i < job->path_count; i++) viewer_open(front->viewer, job->paths[i]);
     return true;
@@ -250,19 +269,13 @@ static int run(front_window *front, const front_job *job) {
         return script_run(front->viewer, job, &host);
     }
     live(front);
+    preferences_write(front->viewer, front->preferences);
     end_soon(front, 0);
     return 0;
 }
 
 int front_window_run(const front_job *job) {
     if (!display_start(job->script_path != NULL)) return display_refuse("display", NULL);
-    const char *name = job->path_count ? strrchr(job->paths[0], '/') : NULL;
-    char title[VIEWER_NAME_BYTES];
-    snprintf(title, sizeof title, "%s%sewa",
-             !job->path_count ? ""
-             : name           ? name + 1
-                              : job->paths[0],
-             job->path_count ? " - " : "");
     front_window front = {.scripted = job->script_path != NULL};
     front.events.zoom = front.scripted ? job->options.scale : display_find_zoom();
     int width = (int)lround(job->options.width * front.events.zoom);
@@ -277,7 +290,7 @@ int front_window_run(const front_job *job) {
         height = SDL_min(height, screen.h);
     }
     front.events.window =
-        SDL_CreateWindow(title, SDL_WINDOWPOS_UNDEFINED, SDL_WINDOWPOS_UNDEFINED, width, height, flags);
+        SDL_CreateWindow("ewa", SDL_WINDOWPOS_UNDEFINED, SDL_WINDOWPOS_UNDEFINED, width, height, flags);
     int exit_status = front.events.window ? run(&front, job) : display_refuse("window", NULL);
     viewer_destroy(&front.viewer);
     panel_destroy(&front.panel);

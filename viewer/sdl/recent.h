@@ -22,8 +22,7 @@ typedef struct recent_files {
 /// Reads them; none, where there is no such text.
 void recent_read(recent_files *files);
 
-/// Puts a file first, and writes them: by another file that takes the name of the text, so that it is never half a text.
-/// Where that cannot be written, they are kept for this session alone.
+/// Puts a file first, and keeps them; where that cannot be, for this session alone.
 void recent_add(recent_files *files, const char *path);
 
 #ifdef __cplusplus

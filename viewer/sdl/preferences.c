@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// How a person likes to work: lines of the viewer's commands.
+#include "preferences.h"
+#include "kept_text.h"
+
+#include <stdio.h>
+#include <string.h>
+
+static const kept_text kept = {"XDG_CONFIG_HOME", ".config", "view"};
+
+static const char *const names[] = {"navigation", "budget_ms", "reduce", "animate"};
+enum { NAME_COUNT = sizeof names / sizeof names[0] };
+
+static bool take_line(void *user, const char *line) {
+    char name[EWA_OPTION_TEXT_BYTES];
+    if (sscanf(line, "set %127s", name) != 1) return true;
+    for (int i = 0; i < NAME_COUNT; i++)
+        if (strcmp(name, names[i]) == 0) viewer_do(user, line);
+    return true;
+}
+
+static void write_lines(const viewer *shown, char lines[PREFERENCES_BYTES]) {
+    size_t used = 0;
+    for (int i = 0; i < NAME_COUNT && used < PREFERENCES_BYTES; i++) {
+        char value[EWA_OPTION_TEXT_BYTES];
+        if (viewer_setting_get(shown, names[i], value))
+            used += (size_t)snprintf(lines + used, PREFERENCES_BYTES - used, "set %s %s\n", names[i], value);
+    }
+}
+
+void preferences_read(viewer *shown, char lines[PREFERENCES_BYTES]) {
+    kept_text_read(&kept, take_line, shown);
+    write_lines(shown, lines);
+}
+
+void preferences_write(const viewer *shown, const char *lines) {
+    char now[PREFERENCES_BYTES];
+    write_lines(shown, now);
+    if (strcmp(now, lines) != 0) kept_text_write(&kept, now);
+}
