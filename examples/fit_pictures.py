@@ -37,7 +37,6 @@ def with_colors(points: ewa.Cloud, color: np.ndarray) -> ewa.Cloud:
 
 def draw(cloud: ewa.Cloud, camera: ewa.Camera) -> np.ndarray:
     image = ewa.render(cloud.surfels(close_gaps=False), camera, planes="rgba", **OPTIONS)
-    assert image.rgba is not None
     return image.rgba
 
 

@@ -109,9 +109,12 @@ def as_colors(value: Any, label: str) -> Array:
     return array
 
 
-def as_points(value: Any, label: str, copy: bool | None) -> Array:
-    """An array of (n, k) or (n,) numbers that the library can borrow: itself where that may be, else a copy."""
-    array = as_colors(value, label) if label in ("colors", "color") else as_numbers(value, label)
+def as_points(value: Any, label: str, copy: bool | None, codes: bool | None = None) -> Array:
+    """An array of (n, k) or (n,) numbers that the library can borrow: itself where that may be, else a copy; `codes`: wide whole
+    numbers of colours may have fewer bits, by default those of a stream that is called so."""
+    if codes is None:
+        codes = label in ("colors", "color")
+    array = as_colors(value, label) if codes else as_numbers(value, label)
     if array.ndim not in (1, 2) or (array.ndim == 2 and not 1 <= array.shape[1] <= 4):
         raise ArgumentError(f"{label}: shape {array.shape}; (n,) or (n, 1) to (n, 4) is needed")
     size = array.itemsize

@@ -62,6 +62,10 @@ class Handle:
         self.what = what
         core.handles.add(self)
 
+    def __reduce__(self) -> Any:
+        raise TypeError(f"{self.what}: no pickle is made of what the library holds; clouds, meshes, volumes, Gaussians, transfer "
+                        "functions, cameras and images have one")
+
     def __del__(self) -> None:
         address, self.address = self.address, None
         if address and not sys.is_finalizing():
@@ -129,6 +133,9 @@ def _callbacks(state: _State) -> tuple[Any, Any]:
 
 class Core:
     """The library's context with its lock; Context is what users hold."""
+
+    def __reduce__(self) -> Any:
+        raise TypeError("no pickle is made of a context: each process has its own")
 
     def __init__(self, options: b.ewa_context_options, progress: ProgressFunction | None) -> None:
         self.address: int | None = None

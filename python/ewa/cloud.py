@@ -10,6 +10,7 @@ import numpy as np
 
 from . import _bindings as b
 from ._arrays import DTYPE_OF, TYPE_OF, Array, as_points, export
+from ._colormaps import color_codes, colors_of_map
 from ._context import Context, Core, Handle, Pin, core_of
 from ._errors import ArgumentError, ClosedError
 from ._keywords import keywords
@@ -232,6 +233,11 @@ class Cloud:
         self._core.call(read, self._h)
         return found
 
+    def __reduce__(self) -> Any:
+        grid = b.ewa_coordinate_grid()
+        self._core.value(lib.ewa_cloud_grid, self._h, ctypes.byref(grid))
+        return _restore, ({name: self[name] for name in self}, len(self), self.origin, bytes(grid), self.notes, self._name)
+
     def close(self) -> None:
         """Give up the cloud; its memory is freed when no array shows it. Later use raises ClosedError."""
         self._handle = None
@@ -409,16 +415,17 @@ class Cloud:
                             marks.ctypes.data)
         return self._kept(marks)
 
-    def color_by(self, word: str, colormap: str | None = None, range: Sequence[float] | None = None) -> Cloud:
+    def color_by(self, word: str, colormap: Any = None, range: Sequence[float] | None = None) -> Cloud:
         """Return the cloud in colours that stand for one number of each point.
 
         Parameters
         ----------
         word : str
             As of :meth:`scalar`.
-        colormap : str, optional
+        colormap : str, matplotlib.colors.Colormap, or array_like of shape (n, 3), optional
             "viridis", "turbo", "gray", "plasma", "inferno", "magma", "cividis", "coolwarm", or "classes" for the
-            colours of LAS. Default: "classes" for whole numbers named classification, else "viridis".
+            colours of LAS; another one of matplotlib, by its name or itself; or sRGB colours from the first to the last, in
+            [0, 1]. Default: "classes" for whole numbers named classification, else "viridis".
         range : (float, float), optional
             Numbers of the first and the last colour. Default: smallest to largest; of intensities without the outermost
             two per cent.
@@ -427,6 +434,9 @@ class Cloud:
         ------
         ArgumentError
         """
+        own = None if colormap is None else colors_of_map(colormap)
+        if own is not None:
+            colormap = "gray"
         if colormap == "classes" and range is not None:
             raise ArgumentError("range: colours of classes have none")
         coloring = initialised(b.ewa_coloring, lib.ewa_coloring_init)
@@ -435,15 +445,21 @@ class Cloud:
             fill(coloring, "ewa_coloring", {"ranged": True, "range": range})
         coloring.attribute = text_bytes(word, b.EWA_SCALAR_NAME_BYTES, "word")
         cloud = self._derive()
+        ends = [0.0, 0.0]
 
         def run(address: int) -> int:
             legend = b.ewa_legend()
             status: int = lib.ewa_clouds_color((ctypes.c_void_p * 1)(address), 1, ctypes.byref(coloring),
                                                ctypes.byref(legend))
+            ends[:] = legend.range
             lib.ewa_legend_free(ctypes.byref(legend))
             return status
 
         self._core.call(run, cloud._h)
+        if own is not None:  # points without a number keep the library's colour
+            scalar = self.scalar(word)
+            codes = color_codes(scalar, own, *ends)
+            cloud["color"] = np.where(np.isfinite(scalar)[:, None], codes, cloud["color"][:, :3])
         return cloud
 
     @keywords("ewa_feature_options")
@@ -544,6 +560,19 @@ class Cloud:
         made = initialised(b.ewa_cloud_save_options, lib.ewa_cloud_save_options_init)
         fill(made, "ewa_cloud_save_options", options)
         self._core.call(lib.ewa_cloud_save, self._h, path_bytes(path), ctypes.byref(made))
+
+
+def _restore(streams: Mapping[str, Array], count: int, origin: Array, grid: bytes, notes: Mapping[str, bytes],
+             name: bytes | None) -> Cloud:
+    """The cloud of a pickle, in the default context."""
+    core = core_of(None)
+    cloud = Cloud._of(_borrowed(core, {key: as_points(array, key, None, False) for key, array in streams.items()}, count))
+    core.value(lib.ewa_cloud_set_origin, cloud._h, numbers(origin, 3, "origin"))
+    core.value(lib.ewa_cloud_set_grid, cloud._h, ctypes.byref(b.ewa_coordinate_grid.from_buffer_copy(grid)))
+    for key, text in notes.items():
+        core.call(lib.ewa_cloud_set_note, cloud._h, key.encode(), text, len(text))
+    cloud._name = name
+    return cloud
 
 
 def _copied(pointer: Any) -> b.ewa_attribute | None:

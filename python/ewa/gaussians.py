@@ -178,10 +178,22 @@ class Gaussians(Held):
         """Return surfels: the two longest axes, the normal across them, the constant colour."""
         return Cloud._made(self._h.core, self._bound(lib.ewa_gaussians_to_cloud))
 
+    def __reduce__(self) -> Any:
+        return _restore, (self.centers, self.scales, self.rotations, self.opacities, self.harmonics, self.origin,
+                          self.antialiased, self.flat, self._up)
+
     def __repr__(self) -> str:
         if self._handle is None:
             return "<ewa.Gaussians, closed>"
         return f"<ewa.Gaussians, {len(self)} of degree {self.sh_degree}{', flat' if self.flat else ''}>"
+
+
+def _restore(centers: Array, scales: Array, rotations: Array, opacities: Array, harmonics: Array, origin: Array,
+             antialiased: bool, flat: bool, up: str) -> Gaussians:
+    """The Gaussians of a pickle, in the default context."""
+    made = Gaussians(centers, scales, rotations, opacities, harmonics, origin=origin, antialiased=antialiased)
+    made._struct.flat, made._up = flat, up
+    return made
 
 
 def read_gaussians(path: Source, *, context: Context | None = None) -> Gaussians:

@@ -6,9 +6,10 @@ from __future__ import annotations
 import ctypes
 import os
 import tempfile
-from typing import Any, Sequence, Union
+from typing import Any, Generic, Sequence, TypeVar, Union, overload
 
 import numpy as np
+import numpy.typing as npt
 
 from . import _bindings as b
 from ._arrays import Array, as_contiguous
@@ -36,8 +37,41 @@ def linear(color: Color, label: str = "background") -> tuple[float, ...]:
     return tuple(lib.ewa_linear_from_srgb(number) for number in srgba[:3]) + (srgba[3],)
 
 
+#: Channels of OpenEXR that planes are written as.
+_CHANNELS = {"depth": "Z", "normal": "N.X,N.Y,N.Z", "coverage": "coverage"}
+
+_Number = TypeVar("_Number", bound="np.generic[Any]")
+
+
+class _Plane(Generic[_Number]):
+    """A plane of an image, which raises where it was not drawn, so that what there is, is an array."""
+
+    def __init__(self, kind: type[_Number], meaning: str) -> None:
+        self.__doc__ = meaning
+
+    def __set_name__(self, owner: type, name: str) -> None:
+        self.name = name
+
+    @overload
+    def __get__(self, image: None, owner: type) -> _Plane[_Number]: ...
+
+    @overload
+    def __get__(self, image: Image, owner: type) -> npt.NDArray[_Number]: ...
+
+    def __get__(self, image: Image | None, owner: type) -> Any:
+        if image is None:
+            return self
+        plane = image._planes.get(self.name)
+        if plane is None:
+            raise ArgumentError(f"the plane {self.name} was not drawn; planes=(..., \"{self.name}\") asks for it")
+        return plane
+
+    def __set__(self, image: Image, plane: npt.NDArray[_Number]) -> None:
+        image._planes[self.name] = plane
+
+
 class Image:
-    """A picture and its further planes; what was not asked for is None.
+    """A picture and its further planes; one that was not asked for raises ArgumentError.
 
     Attributes
     ----------
@@ -53,6 +87,8 @@ class Image:
         Sum of kernels over its expectation, 1: covered.
     holes : ndarray of uint8, shape (height, width)
         Of warping: 255 where less than half of a pixel is covered.
+    planes : tuple of str
+        Names of those that were drawn.
     camera : Camera
         That drew it.
     opaque : bool
@@ -61,19 +97,23 @@ class Image:
         What it took: counts, and seconds per stage.
     """
 
-    __slots__ = ("rgba8", "rgba", "depth", "normal", "coverage", "holes", "camera", "opaque", "_stats")
-    rgba8: Array | None
-    rgba: Array | None
-    depth: Array | None
-    normal: Array | None
-    coverage: Array | None
-    holes: Array | None
+    __slots__ = ("_planes", "camera", "opaque", "_stats")
+    rgba8 = _Plane(np.uint8, "sRGB, straight alpha")
+    rgba = _Plane(np.float32, "Linear light, premultiplied")
+    depth = _Plane(np.float32, "Camera-space z, world units")
+    normal = _Plane(np.float32, "Unit, world space")
+    coverage = _Plane(np.float32, "1: covered")
+    holes = _Plane(np.uint8, "255 where less than half of a pixel is covered")
 
     def __init__(self, camera: Camera | None, opaque: bool = False) -> None:
-        self.rgba8 = self.rgba = self.depth = self.normal = self.coverage = self.holes = None
+        self._planes: dict[str, Array] = {}
         self.camera = camera
         self.opaque = opaque
         self._stats: Any = None
+
+    @property
+    def planes(self) -> tuple[str, ...]:
+        return tuple(self._planes)
 
     @property
     def stats(self) -> dict[str, Any]:
@@ -84,19 +124,16 @@ class Image:
     @property
     def size(self) -> tuple[int, int]:
         """Width and height, pixels."""
-        for plane in (self.rgba8, self.rgba, self.depth, self.coverage, self.normal):
-            if plane is not None:
-                return plane.shape[1], plane.shape[0]
+        for plane in self._planes.values():
+            return plane.shape[1], plane.shape[0]
         return 0, 0
 
     def __array__(self, dtype: Any = None, copy: bool | None = None) -> Array:
-        plane = self.rgba8 if self.rgba8 is not None else self.rgba
-        if plane is None:
-            raise ArgumentError("the image has no colours; ask for the plane rgba8 or rgba")
+        plane: Array = self.rgba if "rgba" in self._planes and "rgba8" not in self._planes else self.rgba8
         return plane if dtype is None or plane.dtype == dtype else plane.astype(dtype)
 
     def _repr_png_(self) -> bytes | None:
-        if self.rgba8 is None:
+        if "rgba8" not in self._planes:
             return None
         with tempfile.TemporaryDirectory() as folder:
             path = os.path.join(folder, "image.png")
@@ -105,8 +142,7 @@ class Image:
                 return file.read()
 
     def __repr__(self) -> str:
-        planes = [name for name in ("rgba8", "rgba", "depth", "normal", "coverage") if getattr(self, name) is not None]
-        return f"<ewa.Image {self.size[0]}x{self.size[1]}: {', '.join(planes)}>"
+        return f"<ewa.Image {self.size[0]}x{self.size[1]}: {', '.join(self._planes)}>"
 
     def save(self, path: PathLike) -> None:
         """Write the picture: .png, .jpg (8-bit sRGB), .exr (linear floats, all planes), .pfm (linear RGB).
@@ -121,24 +157,20 @@ class Image:
         """
         file = path_bytes(path)
         if file.lower().endswith((b".png", b".jpg", b".jpeg")):
-            if self.rgba8 is None:
-                raise ArgumentError("save: .png and .jpg are made of the plane rgba8, which was not drawn")
             pixels = np.ascontiguousarray(self.rgba8[:, :, :3] if self.opaque else self.rgba8)
             height, width, channels = pixels.shape
             core = core_of(None)
             core.call(lib.ewa_pixels_save, core.address, file, width, height, channels, pixels.ctypes.data,
                       width * channels)
             return
-        if self.rgba is None:
-            raise ArgumentError("save: .exr and .pfm are made of the plane rgba, which was not drawn")
         if not file.lower().endswith(b".exr"):
             save_image(path, self.rgba[:, :, :3], camera=self.camera)
             return
         names, planes = ["R,G,B,A"], [self.rgba]
-        for name, plane in (("Z", self.depth), ("N.X,N.Y,N.Z", self.normal), ("coverage", self.coverage)):
-            if plane is not None:
-                names.append(name)
-                planes.append(plane if plane.ndim == 3 else plane[:, :, None])
+        for plane, channels in _CHANNELS.items():
+            if plane in self._planes:
+                names.append(channels)
+                planes.append(self._planes[plane].reshape(*self.rgba.shape[:2], -1))
         save_image(path, np.concatenate(planes, axis=2), channel_names=",".join(names), camera=self.camera)
 
     def save_plane(self, name: str, path: PathLike) -> None:
@@ -148,13 +180,9 @@ class Image:
         ------
         ArgumentError, FileError, FormatError
         """
-        channels = {"depth": "Z", "normal": "N.X,N.Y,N.Z", "coverage": "coverage"}
-        if name not in channels:
-            raise ArgumentError(f"'{name}' is none of {', '.join(channels)}")
-        plane = getattr(self, name)
-        if plane is None:
-            raise ArgumentError(f"the plane {name} was not drawn")
-        save_image(path, plane, channel_names=channels[name], camera=self.camera)
+        if name not in _CHANNELS:
+            raise ArgumentError(f"'{name}' is none of {', '.join(_CHANNELS)}")
+        save_image(path, getattr(self, name), channel_names=_CHANNELS[name], camera=self.camera)
 
 
 def save_image(path: PathLike, pixels: Any, *, channel_names: str | None = None, camera: Camera | None = None) -> None:
@@ -201,7 +229,7 @@ def as_picture(value: Any, label: str) -> Array:
     if isinstance(value, (str, bytes, os.PathLike)):
         return read_image(value)
     if isinstance(value, Image):
-        value = value.rgba if value.rgba is not None else value.rgba8
+        value = value.rgba if "rgba" in value.planes else value.rgba8
     array = np.asarray(value)
     array = array[:, :, None] if array.ndim == 2 else array
     if array.dtype != np.uint8:

@@ -180,6 +180,21 @@ class Mesh:
         fill(made, "ewa_mesh_sample_options", options)
         return Cloud._made(self._h.core, self._bound(lib.ewa_mesh_sample), ctypes.byref(made))
 
+    def __reduce__(self) -> Any:
+        mesh, streams = self._mesh, {}
+        for name, width in (("normals", 3), ("colors", 4), ("texcoords", 2)):
+            if getattr(mesh, name):
+                streams[name] = self._plane(getattr(mesh, name), mesh.vertex_count, width, np.float32)
+        materials = []
+        for i in range(mesh.material_count):
+            picture = mesh.textures[mesh.materials[i].texture]
+            shape = (picture.height_px, picture.width_px, picture.channel_count)
+            materials.append((list(mesh.materials[i].base_color), export(self._h, picture.pixels, shape, np.dtype(np.float32))
+                              if picture.pixels else None))
+        if materials:
+            streams["triangle_materials"] = self._plane(mesh.triangle_materials, mesh.triangle_count, 1, np.uint32)[:, 0]
+        return _restore, (self.vertices, self.triangles, materials, streams)
+
     def close(self) -> None:
         """Free the mesh; later use raises ClosedError."""
         self._handle = None
@@ -188,6 +203,11 @@ class Mesh:
         if self._handle is None:
             return "<ewa.Mesh, closed>"
         return f"<ewa.Mesh of {self._mesh.triangle_count} triangles, {self._mesh.vertex_count} vertices>"
+
+
+def _restore(vertices: Array, triangles: Array, materials: Any, streams: Any) -> Mesh:
+    """The mesh of a pickle, in the default context."""
+    return Mesh(vertices, triangles, materials=materials, **streams)
 
 
 def _whole(value: Any, dimensions: int, label: str) -> Array:

@@ -52,8 +52,12 @@ class Octree:
 
     def __init__(self, path: PathLike, *, context: Context | None = None) -> None:
         core = core_of(context)
+        self._path = path
         self._handle = core.make(lib.ewa_lod_open, core.address, path_bytes(path), destroy=lib.ewa_lod_close,
                                  what="the octree")
+
+    def __reduce__(self) -> Any:
+        return Octree, (self._path,)
 
     @property
     def _h(self) -> Handle:

@@ -49,7 +49,7 @@ def new_frame(image: Image, size: tuple[int, int], planes: str | Iterable[str], 
             raise ArgumentError(f"planes: '{name}' is none of {', '.join(n for n in PLANES if n not in without)}")
         dtype, count = PLANES[name]
         shape = (height, width) if count == 1 else (height, width, count)
-        plane: Array | None = getattr(out, name) if out is not None else None
+        plane: Array | None = out._planes.get(name) if out is not None else None
         if plane is None:
             plane = np.empty(shape, dtype)
         elif plane.shape != shape or plane.dtype != dtype or not plane.flags.carray:
@@ -65,7 +65,7 @@ def set_surfaces(made: Any, surfaces: Image | None, size: tuple[int, int]) -> An
         return None
     width, height = size
     depth, rgba = surfaces.depth, surfaces.rgba
-    if depth is None or rgba is None or depth.shape != (height, width) or rgba.shape != (height, width, 4):
+    if depth.shape != (height, width) or rgba.shape != (height, width, 4):
         raise ArgumentError(f"surfaces: planes depth and rgba of {width} x {height} pixels are needed")
     keep = np.ascontiguousarray(depth, np.float32), np.ascontiguousarray(rgba, np.float32)
     made.surface_depth, made.surface_rgba = keep[0].ctypes.data, keep[1].ctypes.data
@@ -253,7 +253,7 @@ def draw(world: World, camera: Camera | None, *, size: Sequence[int] | None, pla
 
 def draw_outlines(world: World, image: Image, count: int) -> None:
     """Draw outlines over a picture that `draw()` made with the plane rgba8."""
-    if image.rgba8 is None or image.camera is None or not image.rgba8.flags.carray:
+    if image.camera is None or not image.rgba8.flags.carray:
         raise ArgumentError("outlines: an image with the plane rgba8, as render() makes it")
     canvas = b.ewa_canvas()
     canvas.rgba8 = image.rgba8.ctypes.data

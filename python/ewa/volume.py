@@ -120,11 +120,21 @@ class Volume(Held):
         fill(made, "ewa_volume_save_options", {"plain": plain})
         self._call(lib.ewa_volume_save, path_bytes(path), ctypes.byref(made))
 
+    def __reduce__(self) -> Any:
+        return _restore, (self.voxels, self.index_to_world, bool(self._struct.anatomical))
+
     def __repr__(self) -> str:
         if self._handle is None:
             return "<ewa.Volume, closed>"
         nx, ny, nz = self._struct.dims
         return f"<ewa.Volume {nx}x{ny}x{nz}, {DTYPE_OF[self._struct.type]}>"
+
+
+def _restore(voxels: Array, index_to_world: Array, anatomical: bool) -> Volume:
+    """The volume of a pickle, in the default context."""
+    volume = Volume(voxels, index_to_world=index_to_world)
+    volume._struct.anatomical = anatomical
+    return volume
 
 
 def read_volume(path: Source, *, dims: Sequence[int] | None = None, dtype: Any = None, big_endian: bool = False,
@@ -262,6 +272,9 @@ class Transfer:
         volume._call(choose, ctypes.byref(struct))
         return Transfer._of(struct)
 
+    def __reduce__(self) -> Any:
+        return _restore_transfer, (bytes(self._struct),)
+
     @property
     def points(self) -> list[tuple[float, tuple[float, float, float], float]]:
         """(value, (r, g, b), extinction) of each point."""
@@ -277,6 +290,12 @@ class Transfer:
         """
         core = core_of(None)
         core.call(lib.ewa_transfer_save, core.address, ctypes.byref(self._struct), path_bytes(path))
+
+
+def _restore_transfer(data: bytes) -> Transfer:
+    if len(data) != ctypes.sizeof(b.ewa_transfer):
+        raise ArgumentError("no transfer function")
+    return Transfer._of(b.ewa_transfer.from_buffer_copy(data))
 
 
 class Voxels:

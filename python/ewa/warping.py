@@ -233,7 +233,6 @@ def texture(picture: Any, *, homography: Any = None, corners: Any = None, camera
     fill(made, "ewa_texture_options", dict(options))
     image = Image(camera, set_background(made, background))
     new_frame(image, Camera(size=drawn_size).size, "rgba", None)
-    assert image.rgba is not None
     given = b.ewa_texture_source(source.ctypes.data, b.ewa_pixel_format.EWA_PIXEL_LINEAR, channels, width, height,
                                  width * channels * 4)
     target = b.ewa_texture_target(image.rgba.ctypes.data, b.ewa_pixel_format.EWA_PIXEL_LINEAR, 4, drawn_size[0],

@@ -76,8 +76,7 @@ def functions() -> dict[str, Callable[..., Any]]:
 def told(result: Any) -> Any:
     """Everything that a result holds, as bytes and numbers."""
     if isinstance(result, ewa.Image):
-        planes = [getattr(result, name) for name in ("rgba8", "rgba", "depth", "normal", "coverage", "holes")]
-        return [None if plane is None else plane.tobytes() for plane in planes], result.camera
+        return {name: getattr(result, name).tobytes() for name in result.planes}, result.camera
     if isinstance(result, ewa.Cloud):
         return {name: result[name].tobytes() for name in result}, result.origin.tobytes()
     if isinstance(result, ewa.Volume):
@@ -107,7 +106,6 @@ class Defaults(Case):
         size = {"size": (48, 32), "planes": "all"}
         camera = ewa.Camera.frame(cloud, size=(48, 32))
         image = ewa.render(cloud, camera, planes=("rgba", "depth"))
-        assert image.rgba is not None and image.depth is not None
         depths = ewa.DepthImage(image.depth, image.rgba, camera)
 
         def saved(name: str, save: Callable[..., Any], *before: Any) -> Callable[..., Any]:

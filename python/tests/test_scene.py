@@ -56,7 +56,6 @@ class SameScene(Case):
     def test_outlines(self) -> None:
         scene = ewa.Scene(self.path("surfels.ply"))
         image = scene.render(size=SIZE)
-        assert image.rgba8 is not None
         before = image.rgba8.copy()
         scene.draw_outlines(image, 0)
         self.assertTrue((image.rgba8 == before).all())
