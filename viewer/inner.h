@@ -6,6 +6,7 @@
 #define EWA_VIEWER_INNER_H
 
 #include "loader.h"
+#include "node_reader.h"
 #include "painter.h"
 #include "viewer.h"
 
@@ -93,7 +94,9 @@ struct viewer {
     ewa_render_options render;
     ewa_furniture_options furniture;
     ewa_lod_options lod;
-    pthread_mutex_t *lods_lock; ///< held while an octree is used
+    octree_turns *turns;      ///< of who uses octrees
+    node_reader *node_reader; ///< reads their nodes beside what is drawn; NULL: drawing does
+    bool octrees;             ///< some are visible
     char title[VIEWER_NAME_BYTES];
 
     double width, height, scale; ///< of the window: points, pixels per point
@@ -126,11 +129,13 @@ struct viewer {
     uint64_t revision, posted; ///< of what is to be drawn; the last one handed to the painter
     bool posted_whole;
     double whole_s;   ///< what the last whole picture took, without threads
-    uint64_t refined; ///< the last picture that was drawn again for the nodes that had come
+    uint64_t refined; ///< the last picture that was drawn again for the nodes that had come, without a thread that reads
+    double refined_s; ///< when that was last, with one
     uint32_t reduction, slow_count, fast_count;      ///< of moving pictures: see adapt()
     uint64_t adapted;                                ///< the last picture that was looked at for it
     uint64_t marks, composed_marks, composed_ticket; ///< of what is drawn over the picture
     uint64_t composed_drawn;                         ///< which picture it was drawn over
+    bool composed_complete; ///< no node is missing in it that will come
     uint8_t *composed;
     size_t composed_bytes;
     uint64_t number; ///< of composed pictures

@@ -198,8 +198,12 @@ static void show(viewer *v, const ewa_scene *scene) {
         return;
     }
     painter_rest(v->painter);
+    if (v->node_reader) node_reader_rest(v->node_reader);
     ewa_scene_destroy(&v->scene);
     v->scene = next;
+    ewa_scene_info info;
+    ewa_scene_describe(next, &info);
+    v->octrees = info.octrees;
     viewer_change(v);
 }
 

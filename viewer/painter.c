@@ -70,10 +70,13 @@ void paint_tools_free(paint_tools *tools) {
 
 ewa_status paint_scene_draw(paint_tools *tools, const paint_scene *scene, const ewa_frame *frame, paint_stats *stats) {
     ewa_scene_stats took = {.total_s = 0};
-    if (scene->octrees) pthread_mutex_lock(scene->lods_lock);
+    const bool reads = scene->octrees && !scene->options.lod.resident_only;
+    if (reads) turns_take(&scene->turns->files);
+    if (scene->octrees) turns_take(&scene->turns->nodes);
     const ewa_status status =
         ewa_scene_draw(scene->scene, tools->renderer, &scene->camera, &scene->options, frame, &took);
-    if (scene->octrees) pthread_mutex_unlock(scene->lods_lock);
+    if (scene->octrees) turns_give(&scene->turns->nodes);
+    if (reads) turns_give(&scene->turns->files);
     if (stats) *stats = (paint_stats){took.render, took.lod.missing_count, took.lod.loaded_count};
     return status;
 }
@@ -95,6 +98,7 @@ static ewa_status draw_now(painter *p, paint_result *result) {
     result->level = stats.render.level;
     result->splat_count = stats.render.splat_count;
     result->drawn_s = stats.render.total_s;
+    result->arrived_count = p->now.arrived_count;
     result->to_refine = stats.missing_count && stats.loaded_count;
     return status;
 }

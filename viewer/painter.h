@@ -5,6 +5,7 @@
 #ifndef EWA_VIEWER_PAINTER_H
 #define EWA_VIEWER_PAINTER_H
 
+#include "turns.h"
 #include "viewer.h"
 
 #include <pthread.h>
@@ -16,10 +17,11 @@ typedef struct paint_scene {
     ewa_camera camera;
     ewa_scene *scene;
     ewa_scene_options options;
-    bool octrees;               ///< some are visible:
-    pthread_mutex_t *lods_lock; ///< held while one of them is used
-    bool coarse;                ///< they are drawn coarser than they are to be in the end
-    bool reduced;               ///< the picture is smaller than the window's
+    bool octrees;        ///< some are visible:
+    octree_turns *turns; ///< of who uses them
+    bool coarse;         ///< they are drawn coarser than they are to be in the end
+    bool reduced;        ///< the picture is smaller than the window's
+    uint64_t arrived_count; ///< nodes that had come before
 } paint_scene;
 
 /// What drawing took.
@@ -40,6 +42,7 @@ typedef struct paint_result {
     uint32_t level;
     double drawn_s;
     uint64_t splat_count;
+    uint64_t arrived_count; ///< of the scene: later nodes may be missing
     bool
         to_refine; ///< nodes of octrees are missing, and some were read: the same scene gets better when drawn again
 } paint_result;

@@ -39,10 +39,13 @@ static bool find(viewer *v, double x, double y, double reach, bool coarse, doubl
         painter_hurry(v->painter);
         v->posted_whole = false;
     }
-    if (scene.octrees) pthread_mutex_lock(v->lods_lock);
+    const bool reads = scene.octrees && (reach_world > 0 || !scene.options.lod.resident_only);
+    if (reads) turns_take(&v->turns->files);
+    if (scene.octrees) turns_take(&v->turns->nodes);
     const ewa_status status = ewa_scene_pick(v->scene, v->probe.renderer, &scene.camera, &scene.options, x * v->scale,
                                              y * v->scale, fmin(reach * v->scale, MAX_REACH_PX), reach_world, hit);
-    if (scene.octrees) pthread_mutex_unlock(v->lods_lock);
+    if (scene.octrees) turns_give(&v->turns->nodes);
+    if (reads) turns_give(&v->turns->files);
     return status == EWA_OK && hit->hit;
 }
 

@@ -85,7 +85,7 @@ const ewa_option *viewer_setting_at(const viewer *v, uint32_t index, const char 
 
 /// Finds a setting of any of the structs; a setting of the renderer that the viewer chooses itself is none.
 static const ewa_option *find(const char *name, setting_owner *owner) {
-    static const char *const own_choice[] = {"level", "budget_s", "load_s"};
+    static const char *const own_choice[] = {"level", "budget_s", "load_s", "resident_only"};
     for (size_t i = 0; i < sizeof own_choice / sizeof own_choice[0]; i++)
         if (strcmp(name, own_choice[i]) == 0) return NULL;
     for (int k = OWN; k <= LOD; k++) {

@@ -27,6 +27,10 @@ enum { SLOW_PICTURES = 2, FAST_PICTURES = 8, MAX_REDUCTION = 4 };
 static const double REFINE_S = 0.15, LONGEST_REFINE_S = 1;
 /// Without threads, a whole picture holds up the hand: it waits for such a share of what the last one took, and no longer than this.
 static const double SETTLE_SHARE = 0.5, LONGEST_SETTLE_S = 0.5;
+/// So many of their nodes are read at once while something moves, and while nothing does.
+enum { NODES_MOVING = 2, NODES_STILL = 8 };
+/// Nodes that have come are shown after so long, and after so many times what drawing them takes.
+static const double SHOW_NODES_S = 0.25, SHOW_NODES_SHARE = 4;
 /// How much coarser octrees are while something moves, and at most.
 static const double COARSER = 2, MAX_SPACING_PX = 64, MAX_ERROR = 255;
 /// When to ask again, while something is under way and when nothing is.
@@ -99,12 +103,14 @@ ewa_status viewer_create(const viewer_options *options, viewer **made) {
     navigate_resize(&v->camera, pixels(v->width, v->scale), pixels(v->height, v->scale));
     v->revision = v->reduction = 1;
     v->state.panels = true;
-    v->lods_lock = malloc(sizeof *v->lods_lock);
-    if (v->lods_lock) pthread_mutex_init(v->lods_lock, NULL);
-    ewa_status status = v->lods_lock ? loader_create(&v->services, v->stepped, &v->loader) : EWA_ERROR_MEMORY;
+    v->turns = malloc(sizeof *v->turns);
+    if (v->turns) turns_init(&v->turns->files);
+    if (v->turns) turns_init(&v->turns->nodes);
+    ewa_status status = v->turns ? loader_create(&v->services, v->stepped, &v->loader) : EWA_ERROR_MEMORY;
     if (status == EWA_OK)
         status = painter_create(&v->services, v->stepped, options->thread_count, options->cpu_mask, options->backend,
                                 &v->painter);
+    if (status == EWA_OK && !v->stepped && !v->waits) status = node_reader_create(v->turns, &v->node_reader);
     if (status == EWA_OK)
         status = paint_tools_make(options->thread_count, options->cpu_mask, EWA_BACKEND_CPU, NULL, NULL,
                                   &v->probe);
@@ -123,6 +129,7 @@ void viewer_destroy(viewer **made) {
     viewer *v = *made;
     if (!v) return;
     loader_destroy(&v->loader);
+    node_reader_destroy(&v->node_reader);
     painter_destroy(&v->painter);
     for (size_t i = 0; i < v->item_count; i++) {
         ewa_asset_release(&v->items[i].preview);
@@ -133,8 +140,9 @@ void viewer_destroy(viewer **made) {
     for (size_t i = 0; i < v->file_count; i++) ewa_scene_file_destroy(&v->files[i]);
     free(v->files);
     paint_tools_free(&v->probe);
-    if (v->lods_lock) pthread_mutex_destroy(v->lods_lock);
-    free(v->lods_lock);
+    if (v->turns) turns_free(&v->turns->files);
+    if (v->turns) turns_free(&v->turns->nodes);
+    free(v->turns);
     free(v->composed);
     free(v);
     *made = NULL;
@@ -217,12 +225,13 @@ void viewer_handle(viewer *v, const viewer_event *event) {
 }
 
 void viewer_scene(const viewer *v, paint_scene *scene) {
-    *scene = (paint_scene){.camera = v->camera, .lods_lock = v->lods_lock, .options = v->base};
+    *scene = (paint_scene){.camera = v->camera, .turns = v->turns, .options = v->base};
     scene->options.render = v->render;
     scene->options.lod = v->lod;
     // Without threads, reading for as long as drawing takes gets everything drawn half as often.
     const double refine_s = v->stepped ? fmin(fmax(REFINE_S, 0.5 * v->whole_s), LONGEST_REFINE_S) : REFINE_S;
     scene->options.lod.load_s = v->waits ? 0 : refine_s;
+    scene->options.lod.resident_only = v->node_reader != NULL;
     scene->options.volumes.density_scale *= v->settings.volume_density;
     cutaway_apply(v, &scene->options.render);
     items_gather(v, scene);
@@ -274,6 +283,12 @@ static void post(viewer *v, bool whole) {
     if (!whole) make_quick(v, &scene);
     v->posted = v->revision;
     v->posted_whole = whole;
+    if (v->node_reader && scene.octrees) {
+        node_reader_state state;
+        node_reader_tell(v->node_reader, &state);
+        scene.arrived_count = state.arrived_count;
+        node_reader_post(v->node_reader, &scene, whole ? NODES_STILL : NODES_MOVING);
+    }
     painter_post(v->painter, &scene, v->revision, whole);
 }
 
@@ -281,6 +296,41 @@ static void post(viewer *v, bool whole) {
 static bool is_moving(const viewer *v) {
     const double settle_s = v->stepped ? fmin(fmax(SETTLE_S, SETTLE_SHARE * v->whole_s), LONGEST_SETTLE_S) : SETTLE_S;
     return v->animated || v->fly_keys || v->now_s - v->changed_s < settle_s;
+}
+
+/// Whether a picture shows all nodes of octrees that will come.
+static bool is_complete(const viewer *v, const paint_result *newest) {
+    if (!v->node_reader || !v->octrees) return true;
+    node_reader_state state;
+    node_reader_tell(v->node_reader, &state);
+    return !state.busy && newest->arrived_count == state.arrived_count;
+}
+
+/// Has nodes read of a scene that is new, before there is something to draw; true: they have not come yet.
+static bool awaits_nodes(viewer *v) {
+    if (!v->node_reader || !v->octrees) return false;
+    node_reader_state state;
+    node_reader_tell(v->node_reader, &state);
+    if (state.ready) return false;
+    paint_scene scene;
+    viewer_scene(v, &scene);
+    if (!state.busy) node_reader_post(v->node_reader, &scene, NODES_MOVING);
+    return true;
+}
+
+/// Whether nodes have come that are to be shown now: at the end, and now and then before.
+static bool is_to_be_refined(viewer *v, const paint_result *newest) {
+    if (!v->node_reader || !v->octrees) {
+        if (!newest->to_refine || newest->drawn_count == v->refined) return false;
+        v->refined = newest->drawn_count;
+        return true;
+    }
+    node_reader_state state;
+    node_reader_tell(v->node_reader, &state);
+    if (newest->arrived_count == state.arrived_count) return false;
+    if (state.busy && v->now_s - v->refined_s < fmax(SHOW_NODES_S, SHOW_NODES_SHARE * newest->drawn_s)) return false;
+    v->refined_s = v->now_s;
+    return true;
 }
 
 /// Has drawn what there is to draw: at once and roughly while something moves, else whole.
@@ -291,17 +341,16 @@ static void schedule(viewer *v, const paint_result *newest) {
         painter_wait(v->painter);
         return;
     }
+    if (awaits_nodes(v)) return;
     if (v->posted != v->revision) {
         painter_hurry(v->painter);
         if (!painter_is_busy(v->painter)) post(v, false);
         return;
     }
     if (newest && newest->ticket == v->posted && newest->whole) v->posted_whole = true;
-    if (v->posted_whole && newest && newest->ticket == v->posted && newest->to_refine &&
-        newest->drawn_count != v->refined && !painter_is_busy(v->painter)) {
-        v->refined = newest->drawn_count;
+    if (v->posted_whole && newest && newest->ticket == v->posted && !painter_is_busy(v->painter) &&
+        is_to_be_refined(v, newest))
         v->posted_whole = false; // once more, with the nodes that have come
-    }
     if (!v->posted_whole && !is_moving(v) && !painter_is_busy(v->painter)) post(v, true);
 }
 
@@ -342,11 +391,13 @@ void viewer_frame(viewer *v, double time_s, viewer_picture *picture) {
         v->posted_whole = false; // it was given up, or nodes of octrees have come: once more
     if (failure) viewer_tell(v, "the picture cannot be drawn: %s", failure);
     v->state.moving = is_moving(v);
+    const bool complete = newest && is_complete(v, newest);
     const bool still =
-        newest && newest->whole && newest->ticket == v->revision && !v->animated && !v->fly_keys;
+        complete && newest->whole && newest->ticket == v->revision && !v->animated && !v->fly_keys;
     picture->spare_s = still && !loader_is_busy(v->loader) ? LATER_S : SOON_S;
     if (!newest) return;
     compose(v, newest);
+    v->composed_complete = complete;
     picture->rgba8 = v->composed;
     picture->width_px = newest->width_px;
     picture->height_px = newest->height_px;
@@ -359,7 +410,7 @@ void viewer_frame(viewer *v, double time_s, viewer_picture *picture) {
 
 bool viewer_is_still(const viewer *v) {
     return v->number && v->composed_ticket == (v->revision | WHOLE) && v->composed_marks == v->marks &&
-           !v->animated && !v->fly_keys && !loader_is_busy(v->loader);
+           v->composed_complete && !v->animated && !v->fly_keys && !loader_is_busy(v->loader);
 }
 
 bool viewer_is_loading(const viewer *v) { return loader_is_busy(v->loader); }

@@ -84,6 +84,9 @@ typedef struct ewa_lod_options {
     /// About so many surfels or points are drawn of octrees: where it would be more, spacing and error grow by one
     /// factor; [0, 9.007199255e15]; default 0: 8 for each pixel that they cover
     uint64_t max_splats;
+    /// Nothing is read: the picture is drawn of the nodes in memory (ewa_scene_reader), what it lacks is drawn coarser and
+    /// counted as missing, and an octree of which nothing is in memory is not drawn; default false
+    bool resident_only;
 } ewa_lod_options;
 
 EWA_API extern const ewa_option_table ewa_lod_options_table;

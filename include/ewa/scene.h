@@ -358,6 +358,28 @@ typedef struct ewa_scene_stats {
 EWA_API ewa_status ewa_scene_draw(ewa_scene *scene, ewa_scene_renderer *renderer, const ewa_camera *camera,
                                   const ewa_scene_options *options, const ewa_frame *frame, ewa_scene_stats *stats);
 
+/// Reads nodes of a scene's octrees on a thread of its own, while another one draws those that are there
+/// (ewa_lod_options.resident_only): again and again it chooses some, reads them and puts them into the octrees. Choosing and
+/// putting wait for their turn with whatever draws the scene or picks from it; reading goes on beside drawing, but not
+/// beside picking, ewa_lod_read() and drawing that reads.
+typedef struct ewa_scene_reader ewa_scene_reader;
+
+/// Makes a reader in the context of its thread. The caller destroys it, before the context and not while it has chosen nodes of
+/// octrees that are gone. Errors: EWA_ERROR_MEMORY.
+EWA_API ewa_status ewa_scene_reader_create(ewa_context *context, ewa_scene_reader **reader);
+EWA_API void ewa_scene_reader_destroy(ewa_scene_reader **reader);
+
+/// Chooses at most `most` nodes that a picture needs and that are not in memory, the coarsest and what is large in the middle of
+/// the picture first; `*count` says how many: 0 where nothing is missing, what is missing is damaged, or
+/// ewa_lod_options.memory_bytes are full. `options` as for ewa_scene_draw(). Errors: those of ewa_scene_draw().
+EWA_API ewa_status ewa_scene_reader_choose(ewa_scene_reader *reader, ewa_scene *scene, const ewa_camera *camera,
+                                           const ewa_scene_options *options, uint32_t most, uint32_t *count);
+/// Reads what was chosen. After a failure, too, ewa_scene_reader_put() is called, and what cannot be read is not chosen again: the
+/// surfels that represent it stay in pictures. Errors: those of ewa_lod_open().
+EWA_API ewa_status ewa_scene_reader_read(ewa_scene_reader *reader);
+/// Has pictures be drawn of what was read.
+EWA_API void ewa_scene_reader_put(ewa_scene_reader *reader);
+
 /// A photograph and what a scene shows in its place.
 typedef struct ewa_photo_comparison {
     ewa_image photo;   ///< as ewa_photo_load() gives it, over the background

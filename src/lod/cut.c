@@ -16,6 +16,7 @@
 #include "homogeneous/vec.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 /// Share of the spacing, or of the error, at which parts begin to show.
@@ -167,9 +168,40 @@ ewa_status ewa_cut_choose(ewa_cut *c, bool loaded_only) {
     c->status = EWA_OK;
     for (uint32_t i = 0; i < c->scene->lod_count; i++) {
         look_into(c, c->scene->lods[i]);
-        choose(c, 0, 1);
+        if (c->options->resident_only && !is_loaded(c, 0))
+            c->missing_count++;
+        else
+            choose(c, 0, 1);
     }
     return c->status;
+}
+
+/// What is coarse comes first, then what is large and in the middle.
+static int compare_urgency(const void *a, const void *b) {
+    const ewa_cut_item *p = a, *q = b;
+    const double of_p = fmin(p->spacing_px, 1e9) / (1 + 1e-3 * p->offset_px),
+                 of_q = fmin(q->spacing_px, 1e9) / (1 + 1e-3 * q->offset_px);
+    if (of_p != of_q) return of_p > of_q ? -1 : 1;
+    return p->node < q->node ? -1 : p->node > q->node;
+}
+
+ewa_status ewa_cut_list_urgent(ewa_cut *c) {
+    EWA_TRY(ewa_cut_list_ways(c));
+    for (uint32_t i = 0; i < c->item_count; i++)
+        c->items[i].lod->nodes[c->items[i].node].last_frame = c->items[i].lod->frame;
+    if (c->item_count) qsort(c->items, c->item_count, sizeof *c->items, compare_urgency);
+    return EWA_OK;
+}
+
+void ewa_cut_next_frame(const ewa_lod_scene *scene) {
+    for (uint32_t i = 0; i < scene->lod_count; i++) scene->lods[i]->frame++;
+}
+
+uint64_t ewa_cut_bytes_beside(const ewa_lod_scene *scene, const ewa_lod *lod) {
+    uint64_t bytes = 0;
+    for (uint32_t i = 0; i < scene->lod_count; i++)
+        if (scene->lods[i] != lod) bytes += scene->lods[i]->resident_bytes + scene->lods[i]->cloud_bytes;
+    return bytes;
 }
 
 // ---- The budget
@@ -270,7 +302,8 @@ static ewa_status measure_cover(ewa_cut *c, double *pixels) {
     return EWA_OK;
 }
 
-ewa_status ewa_cut_settle(ewa_cut *c) {
+/// Finds how much coarser the picture has to be, so that it takes no more surfels than it may.
+static ewa_status settle(ewa_cut *c) {
     c->coarser = 1;
     if (c->options->error == 0) return EWA_OK;
     double most = (double)c->options->max_splats, pixels;
@@ -289,4 +322,18 @@ ewa_status ewa_cut_settle(ewa_cut *c) {
     }
     c->coarser = high;
     return EWA_OK;
+}
+
+ewa_status ewa_cut_begin(ewa_cut *c, const ewa_lod_scene *scene, const ewa_camera *camera, const ewa_render_options *options,
+                         const ewa_lod_options *chosen) {
+    const double side_parts = fmax(options->supersampling, 1);
+    // Filters reach some pixels beyond a surfel.
+    *c = (ewa_cut){.scene = scene,
+                   .home = scene->lods[0],
+                   .camera = camera,
+                   .options = chosen,
+                   .parts_per_pixel = side_parts * side_parts,
+                   .margin_px = 16};
+    ewa_cut_next_frame(scene);
+    return settle(c);
 }

@@ -17,7 +17,7 @@ typedef struct ewa_cut_item {
     uint32_t first_row, end_row;  ///< of the picture that it may touch
 } ewa_cut_item;
 
-/// What is known while nodes are chosen. The caller sets scene, home, camera, options, margin and parts.
+/// What is known while nodes are chosen.
 typedef struct ewa_cut {
     const ewa_lod_scene *scene;
     ewa_lod *home; ///< the first octree, which keeps the lists
@@ -28,7 +28,7 @@ typedef struct ewa_cut {
     double scale; ///< camera units that a unit of the octree's space has at most
     double margin_px;
     double parts_per_pixel; ///< that are drawn, and averaged
-    double coarser;   ///< by which spacing and error may be larger than the options say; ewa_cut_settle() finds it
+    double coarser;   ///< by which spacing and error may be larger than the options say
     bool loaded_only; ///< nodes that are not in memory are drawn by what represents them
     ewa_cut_item *items;
     uint32_t item_count;
@@ -36,8 +36,16 @@ typedef struct ewa_cut {
     ewa_status status;
 } ewa_cut;
 
-/// Finds how much coarser the picture has to be, so that it takes no more surfels than it may. Errors: EWA_ERROR_MEMORY.
-ewa_status ewa_cut_settle(ewa_cut *cut);
+/// Begins a picture of octrees: what was wanted before may go, and what is known of the cut is filled in, also how much coarser the
+/// picture has to be, so that it takes no more surfels than it may. `chosen` for parts of pixels. Errors: EWA_ERROR_MEMORY.
+ewa_status ewa_cut_begin(ewa_cut *cut, const ewa_lod_scene *scene, const ewa_camera *camera,
+                         const ewa_render_options *options, const ewa_lod_options *chosen);
+
+/// What was wanted before may go.
+void ewa_cut_next_frame(const ewa_lod_scene *scene);
+
+/// Bytes that all octrees of a picture but one keep.
+uint64_t ewa_cut_bytes_beside(const ewa_lod_scene *scene, const ewa_lod *lod);
 
 /// Lists the nodes that are drawn; `loaded_only`: of those in memory. Errors: EWA_ERROR_MEMORY.
 ewa_status ewa_cut_choose(ewa_cut *cut, bool loaded_only);
@@ -45,5 +53,8 @@ ewa_status ewa_cut_choose(ewa_cut *cut, bool loaded_only);
 /// Lists each node that the picture wants with all of its ancestors, so that they can be read from the
 /// coarsest on and every picture on the way shows all that is there. Errors: EWA_ERROR_MEMORY.
 ewa_status ewa_cut_list_ways(ewa_cut *cut);
+
+/// The same in the order in which they are to be read, marked as wanted: what is coarse first, then what is large and in the middle.
+ewa_status ewa_cut_list_urgent(ewa_cut *cut);
 
 #endif

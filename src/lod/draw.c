@@ -6,6 +6,7 @@
 #include "base/options.h"
 #include "ewa/prepare.h"
 #include "lod/cut.h"
+#include "lod/reading.h"
 #include "lod/tree.h"
 #include "surface/options.h"
 #include "surface/packets.h"
@@ -14,12 +15,10 @@
 #include "surface/supersampling.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 enum {
     BAND_PX = 128,
-    BYTES_PER_SURFEL = 40,
     MAX_SURFELS_SETS = 1024, // of a picture's sets, of one part of it
 };
 
@@ -41,6 +40,8 @@ static const ewa_option lod_rows[] = {
     {"max_splats", EWA_OPTION_U64, offsetof(ewa_lod_options, max_splats), 0, 0x1p53,
      .help = "about so many surfels and points are drawn of octrees, coarser ones where it would be more; 0: 8 for each pixel "
              "that they cover"},
+    {"resident_only", EWA_OPTION_BOOL, offsetof(ewa_lod_options, resident_only),
+     .help = "nothing is read: nodes that are not in memory are drawn coarser and counted as missing"},
 };
 
 const ewa_option_table ewa_lod_options_table = EWA_OPTION_TABLE(ewa_lod_options, lod_rows);
@@ -49,54 +50,26 @@ void ewa_lod_options_init(ewa_lod_options *options, size_t struct_size) {
     ewa_options_init(&ewa_lod_options_table, options, struct_size);
 }
 
-/// What is coarse comes first, then what is large and in the middle.
-static int compare_urgency(const void *a, const void *b) {
-    const ewa_cut_item *p = a, *q = b;
-    const double of_p = fmin(p->spacing_px, 1e9) / (1 + 1e-3 * p->offset_px),
-                 of_q = fmin(q->spacing_px, 1e9) / (1 + 1e-3 * q->offset_px);
-    if (of_p != of_q) return of_p > of_q ? -1 : 1;
-    return p->node < q->node ? -1 : p->node > q->node;
-}
-
-/// Bytes of what is drawn of a node, about where it is not in memory.
-static uint64_t bytes_of(const ewa_lod_node *node) {
-    return node->surfels ? node->resident_bytes : node->count * BYTES_PER_SURFEL + 4096;
-}
-
-/// Bytes that all octrees of a picture but one keep.
-static uint64_t bytes_beside(const ewa_lod_scene *scene, const ewa_lod *lod) {
-    uint64_t bytes = 0;
-    for (uint32_t i = 0; i < scene->lod_count; i++)
-        if (scene->lods[i] != lod) bytes += scene->lods[i]->resident_bytes + scene->lods[i]->cloud_bytes;
-    return bytes;
-}
-
 static uint64_t less(uint64_t a, uint64_t b) { return a > b ? a - b : 0; }
 
 /// Reads nodes for some time, the most urgent first.
 static ewa_status load_some(ewa_cut *c, double until_s, ewa_lod_stats *stats) {
     enum { STEP = 8 };
-    EWA_TRY(ewa_cut_list_ways(c));
-    for (uint32_t i = 0; i < c->item_count; i++)
-        c->items[i].lod->nodes[c->items[i].node].last_frame = c->items[i].lod->frame;
-    qsort(c->items, c->item_count, sizeof *c->items, compare_urgency);
+    EWA_TRY(ewa_cut_list_urgent(c));
     uint32_t step[STEP], count = 0;
     ewa_lod *of_step = NULL;
     ewa_status status = EWA_OK;
     for (uint32_t i = 0; i < c->item_count && status == EWA_OK; i++) {
         ewa_lod *lod = c->items[i].lod;
         const uint32_t node = c->items[i].node;
-        const uint64_t memory_bytes = less(c->options->memory_bytes, bytes_beside(c->scene, lod));
+        const uint64_t memory_bytes = less(c->options->memory_bytes, ewa_cut_bytes_beside(c->scene, lod));
         if (count && of_step != lod) {
             EWA_TRY(ewa_tree_load(of_step, step, count, c->options->memory_bytes));
             count = 0;
             if (ewa_now_s() > until_s) return EWA_OK;
         }
         if (lod->nodes[node].surfels) continue;
-        if (lod->resident_bytes + lod->cloud_bytes + bytes_of(&lod->nodes[node]) > memory_bytes) {
-            ewa_tree_trim(lod, less(memory_bytes, bytes_of(&lod->nodes[node])));
-            if (lod->resident_bytes + lod->cloud_bytes + bytes_of(&lod->nodes[node]) > memory_bytes) break;
-        }
+        if (!ewa_tree_make_room(lod, node, memory_bytes)) break;
         of_step = lod;
         step[count++] = node;
         stats->loaded_count++;
@@ -120,7 +93,7 @@ static ewa_status load_items_of(ewa_lod *lod, const ewa_lod_scene *scene, const 
         if (items[i].lod == lod && !lod->nodes[items[i].node].surfels) wanted[wanted_count++] = items[i].node;
     stats->loaded_count += wanted_count;
     if (status != EWA_OK || !all_bytes) return status;
-    ewa_tree_trim(lod, less(memory_bytes, all_bytes + bytes_beside(scene, lod)));
+    ewa_tree_trim(lod, less(memory_bytes, all_bytes + ewa_cut_bytes_beside(scene, lod)));
     return wanted_count ? ewa_tree_load(lod, wanted, wanted_count, memory_bytes) : EWA_OK;
 }
 
@@ -131,16 +104,11 @@ static ewa_status load_items(const ewa_lod_scene *scene, const ewa_cut_item *ite
     for (uint32_t i = 0; i < count; i++) {
         ewa_lod_node *node = &items[i].lod->nodes[items[i].node];
         node->last_frame = items[i].lod->frame;
-        if (!node->surfels) all_bytes += bytes_of(node);
+        if (!node->surfels) all_bytes += ewa_tree_bytes_of(node);
     }
     for (uint32_t i = 0; i < scene->lod_count; i++)
         EWA_TRY(load_items_of(scene->lods[i], scene, items, count, all_bytes, memory_bytes, stats));
     return EWA_OK;
-}
-
-/// What was wanted before may go.
-static void next_frame(const ewa_lod_scene *scene) {
-    for (uint32_t i = 0; i < scene->lod_count; i++) scene->lods[i]->frame++;
 }
 
 /// Draws the rows [first, end) of the picture; other nodes than those that touch them take part by what is
@@ -171,7 +139,7 @@ static uint64_t bytes_of_rows(const ewa_cut_item *items, uint32_t count, uint32_
     uint64_t bytes = 0;
     for (uint32_t i = 0; i < count; i++)
         if (items[i].first_row < end_row && items[i].end_row > first_row)
-            bytes += bytes_of(&items[i].lod->nodes[items[i].node]);
+            bytes += ewa_tree_bytes_of(&items[i].lod->nodes[items[i].node]);
     return bytes;
 }
 
@@ -179,7 +147,7 @@ static uint64_t bytes_of_rows(const ewa_cut_item *items, uint32_t count, uint32_
 static ewa_status make_proxies(const ewa_lod_scene *scene, const ewa_cut_item *items, uint32_t count,
                                uint64_t memory_bytes, ewa_surfels **proxies, ewa_lod_stats *stats) {
     for (uint32_t i = 0; i < count; i++) {
-        next_frame(scene);
+        ewa_cut_next_frame(scene);
         EWA_TRY(load_items(scene, &items[i], 1, memory_bytes, stats));
         EWA_TRY(ewa_surfels_proxy(items[i].lod->nodes[items[i].node].surfels, &proxies[i]));
     }
@@ -211,7 +179,7 @@ static ewa_status draw_bands(const ewa_lod_scene *scene, ewa_renderer *renderer,
         uint32_t touching_count = 0;
         for (uint32_t i = 0; i < count; i++)
             if (items[i].first_row < end && items[i].end_row > first) touching[touching_count++] = items[i];
-        next_frame(scene);
+        ewa_cut_next_frame(scene);
         status = load_items(scene, touching, touching_count, memory_bytes, stats);
         ewa_render_stats took = {0};
         if (status == EWA_OK)
@@ -239,7 +207,7 @@ static ewa_status keep_share(ewa_cut *c) {
         const ewa_lod_node *node = &c->items[i].lod->nodes[c->items[i].node];
         if (before >= first && before < end) {
             c->items[kept++] = c->items[i];
-            bytes += bytes_of(node);
+            bytes += ewa_tree_bytes_of(node);
         }
         before += node->count;
     }
@@ -271,24 +239,17 @@ static ewa_status render(const ewa_lod_scene *scene, ewa_renderer *renderer, con
                          const ewa_frame *frame, ewa_lod_stats *stats) {
     ewa_render_options own = *asked;
     const ewa_render_options *options = &own;
-    const double side_parts = fmax(own.supersampling, 1), start_s = ewa_now_s();
-    // Filters reach some pixels beyond a surfel.
-    ewa_cut c = {.scene = scene,
-                 .home = scene->lods[0],
-                 .camera = camera,
-                 .options = chosen,
-                 .parts_per_pixel = side_parts * side_parts,
-                 .margin_px = 16};
-    next_frame(scene);
-    ewa_status status = ewa_cut_settle(&c);
+    const double start_s = ewa_now_s();
+    ewa_cut c;
+    ewa_status status = ewa_cut_begin(&c, scene, camera, options, chosen);
     stats->coarser = c.coarser;
     const double settled_s = ewa_now_s() - start_s;
-    if (status == EWA_OK && chosen->load_s > 0) {
+    if (status == EWA_OK && chosen->load_s > 0 && !chosen->resident_only) {
         status = load_some(&c, start_s + chosen->load_s, stats);
         stats->load_s = ewa_now_s() - start_s;
     }
     const double before_s = ewa_now_s();
-    if (status == EWA_OK) status = ewa_cut_choose(&c, chosen->load_s > 0);
+    if (status == EWA_OK) status = ewa_cut_choose(&c, chosen->load_s > 0 || chosen->resident_only);
     if (status == EWA_OK && own.supersampling == 0) own.supersampling = parts_for(&c);
     if (status == EWA_OK && chosen->share_count) status = keep_share(&c);
     EWA_TRY(status);
@@ -296,8 +257,13 @@ static ewa_status render(const ewa_lod_scene *scene, ewa_renderer *renderer, con
     stats->missing_count = c.missing_count;
     stats->node_count = c.item_count;
     uint64_t bytes = 0;
-    for (uint32_t i = 0; i < c.item_count; i++) bytes += bytes_of(&c.items[i].lod->nodes[c.items[i].node]);
-    if (bytes <= chosen->memory_bytes || chosen->load_s > 0) {
+    for (uint32_t i = 0; i < c.item_count; i++) bytes += ewa_tree_bytes_of(&c.items[i].lod->nodes[c.items[i].node]);
+    if (chosen->resident_only) {
+        for (uint32_t i = 0; i < c.item_count; i++) c.items[i].lod->nodes[c.items[i].node].last_frame = c.items[i].lod->frame;
+        stats->band_count = 1;
+        status = draw_rows(scene, renderer, camera, options, frame, c.items, c.item_count, NULL, 0, camera->height_px,
+                           &stats->render);
+    } else if (bytes <= chosen->memory_bytes || chosen->load_s > 0) {
         const double load_from_s = ewa_now_s();
         status = load_items(scene, c.items, c.item_count, chosen->memory_bytes, stats);
         stats->load_s += ewa_now_s() - load_from_s;
@@ -312,7 +278,8 @@ static ewa_status render(const ewa_lod_scene *scene, ewa_renderer *renderer, con
     for (uint32_t i = 0; i < c.item_count; i++)
         stats->surfel_count += c.items[i].lod->nodes[c.items[i].node].count;
     for (uint32_t i = 0; i < scene->lod_count; i++)
-        stats->resident_bytes += scene->lods[i]->resident_bytes + scene->lods[i]->cloud_bytes;
+        // Points are the business of who reads.
+        stats->resident_bytes += scene->lods[i]->resident_bytes + (chosen->resident_only ? 0 : scene->lods[i]->cloud_bytes);
     return status;
 }
 
@@ -340,6 +307,18 @@ static ewa_status list_instances(ewa_lod_scene *scene) {
     return EWA_OK;
 }
 
+ewa_status ewa_lod_begin_picture(ewa_lod_scene *scene, const ewa_lod_look *const *looks, const ewa_render_options *options,
+                           ewa_render_options *plain, ewa_lod_options *chosen) {
+    EWA_TRY(list_instances(scene));
+    for (uint32_t i = 0; i < scene->lod_count; i++) EWA_TRY(ewa_tree_set_look(scene->lods[i], looks ? looks[i] : NULL));
+    EWA_TRY(ewa_render_options_choose(scene->lods[0]->context, options, plain));
+    plain->budget_s = 0;
+    // Nodes are as fine as the parts that are asked for; where they are to say how many, as fine as pixels.
+    const double side_parts = fmax(plain->supersampling, 1);
+    chosen->spacing_px /= side_parts, chosen->error /= side_parts;
+    return EWA_OK;
+}
+
 ewa_status ewa_lod_scene_draw(const ewa_lod_scene *scene, const ewa_lod_look *const *looks,
                               ewa_renderer *renderer, const ewa_camera *camera,
                               const ewa_render_options *options, const ewa_lod_options *lod_options,
@@ -350,7 +329,7 @@ ewa_status ewa_lod_scene_draw(const ewa_lod_scene *scene, const ewa_lod_look *co
     ewa_lod_options_init(&chosen, sizeof chosen);
     EWA_TRY(ewa_options_take(context, &ewa_lod_options_table, lod_options, &chosen));
     if (context) EWA_TRY(ewa_camera_check(context, camera));
-    if (chosen.share_count && (chosen.share >= chosen.share_count || chosen.load_s > 0))
+    if (chosen.share_count && (chosen.share >= chosen.share_count || chosen.load_s > 0 || chosen.resident_only))
         return ewa_fail(context, EWA_ERROR_ARGUMENT, "lod: part %u of %u, or parts that a time limit makes",
                         chosen.share, chosen.share_count);
     ewa_lod_stats took = {.node_count = 0};
@@ -367,17 +346,10 @@ ewa_status ewa_lod_scene_draw(const ewa_lod_scene *scene, const ewa_lod_look *co
             kept[own.surfels_count++] = scene->surfels[i];
         }
     }
-    EWA_TRY(list_instances(&own));
-    for (uint32_t i = 0; i < own.lod_count; i++)
-        EWA_TRY(ewa_tree_set_look(own.lods[i], looks ? looks[i] : NULL));
     ewa_status status = EWA_OK;
     if (own.lod_count) {
         ewa_render_options plain;
-        EWA_TRY(ewa_render_options_choose(context, options, &plain));
-        plain.budget_s = 0;
-        // Nodes are as fine as the parts that are asked for; where they are to say how many, as fine as pixels.
-        const double side_parts = fmax(plain.supersampling, 1);
-        chosen.spacing_px /= side_parts, chosen.error /= side_parts;
+        EWA_TRY(ewa_lod_begin_picture(&own, looks, options, &plain, &chosen));
         status = render(&own, renderer, camera, &plain, &chosen, frame, &took);
     } else {
         status = render_surfels(&own, renderer, camera, options, frame, &took.render);

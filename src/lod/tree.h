@@ -29,6 +29,7 @@ typedef struct ewa_lod_node {
     ewa_surfels *surfels;        ///< NULL: not in memory
     size_t resident_bytes;
     uint64_t last_frame; ///< that drew it
+    bool damaged;        ///< it cannot be read: what represents it stays
 } ewa_lod_node;
 
 struct ewa_lod {
@@ -44,10 +45,10 @@ struct ewa_lod {
     size_t resident_bytes;  ///< of all surfels
     ewa_cloud **clouds;     ///< [node]: its points, of those that are kept; else NULL
     uint64_t *cloud_frames; ///< [node]: when its points were wanted last
+    char cloud_attributes[EWA_LOD_LOOK_NAMES_BYTES]; ///< that they were read with, beside those of surfels
     size_t cloud_bytes;
     ewa_lod_look look;    ///< of what is in memory
     double stretch;       ///< that no length grows by more in `look`
-    bool is_similar;      ///< `look` keeps angles
     ewa_buffer look_user; ///< the copy that it has
     ewa_lod *next;        ///< another instance of the same octree, closed with this one; NULL: none
     bool is_instance;     ///< file and levels are those of the octree that was opened
@@ -66,6 +67,9 @@ ewa_status ewa_tree_instance(ewa_lod *lod, uint32_t number, ewa_lod **instance);
 /// EWA_ERROR_MEMORY; then nothing is in memory.
 ewa_status ewa_tree_set_look(ewa_lod *lod, const ewa_lod_look *look);
 
+/// Whether what was made with one look is what another one makes.
+bool ewa_tree_looks_agree(const ewa_lod_look *a, const ewa_lod_look *b);
+
 /// Makes the nodes of an open octree. Errors: EWA_ERROR_MEMORY, EWA_ERROR_FORMAT.
 ewa_status ewa_tree_make(ewa_lod *lod);
 
@@ -74,12 +78,40 @@ ewa_status ewa_tree_make(ewa_lod *lod);
 void ewa_tree_cell(const ewa_lod *lod, const double world[3], const ewa_octree_key *file_node, int32_t level,
                    int32_t cell[3]);
 
+/// Which of its parent's children a node is.
+uint32_t ewa_tree_child_of(const ewa_octree_key *key);
+
+/// How nodes are read.
+typedef struct ewa_tree_reading {
+    const ewa_lod_look *look;
+    uint64_t frame, memory_bytes; ///< an eighth of the memory is for points that nodes share
+} ewa_tree_reading;
+
+enum { EWA_TREE_BATCH = 16 }; ///< nodes that are read at once
+
+/// Reads what is drawn of at most EWA_TREE_BATCH nodes, which are not in memory and stay so: the caller owns `surfels` [count],
+/// all NULL after a failure. One thread at a time reads, while another one may draw what is in memory. Errors: as ewa_lod_open().
+ewa_status ewa_tree_read(ewa_lod *lod, const ewa_tree_reading *how, const uint32_t *nodes, uint32_t count,
+                         ewa_surfels **surfels);
+
+/// Puts a node that was read into memory; its surfels become the tree's.
+void ewa_tree_put(ewa_lod *lod, uint32_t node, ewa_surfels *surfels);
+
+/// Drops points of nodes, those that were wanted longest ago first, until `memory_bytes` are enough for the others.
+void ewa_tree_trim_points(ewa_lod *lod, uint64_t memory_bytes);
+
 /// Reads what is drawn of some nodes, all at once, into memory. Errors: as ewa_lod_open().
 ewa_status ewa_tree_load(ewa_lod *lod, const uint32_t *nodes, uint32_t count, uint64_t memory_bytes);
 
 /// Drops nodes and points that were not wanted by this frame, those that were wanted longest ago first, until
 /// `memory_bytes` are enough.
 void ewa_tree_trim(ewa_lod *lod, uint64_t memory_bytes);
+
+/// Bytes of what is drawn of a node, about where it is not in memory.
+uint64_t ewa_tree_bytes_of(const ewa_lod_node *node);
+
+/// Makes room for a node that is not in memory; false: what this frame wants takes it.
+bool ewa_tree_make_room(ewa_lod *lod, uint32_t node, uint64_t memory_bytes);
 
 /// Drops what is in memory of a node.
 void ewa_tree_drop(ewa_lod *lod, uint32_t node);

@@ -38,6 +38,15 @@ static void free_planes(ewa_scene_renderer *renderer) {
     ewa_image_free(&renderer->lit_depth);
 }
 
+void ewa_scene_renderer_free_lists(ewa_scene_renderer *renderer) {
+    ewa_context *context = renderer->context;
+    ewa_buffer_free(context, &renderer->surfels);
+    ewa_buffer_free(context, &renderer->lods);
+    ewa_buffer_free(context, &renderer->splats);
+    ewa_buffer_free(context, &renderer->looks);
+    ewa_buffer_free(context, &renderer->look_list);
+}
+
 void ewa_scene_renderer_destroy(ewa_scene_renderer **given) {
     ewa_scene_renderer *renderer = given ? *given : NULL;
     if (!renderer) return;
@@ -47,11 +56,7 @@ void ewa_scene_renderer_destroy(ewa_scene_renderer **given) {
     ewa_gaussian_renderer_destroy(&renderer->gaussians);
     for (uint32_t i = 0; i < EWA_MAX_MIXED_VOLUMES; i++) ewa_volume_renderer_destroy(&renderer->volumes[i]);
     free_planes(renderer);
-    ewa_buffer_free(context, &renderer->surfels);
-    ewa_buffer_free(context, &renderer->lods);
-    ewa_buffer_free(context, &renderer->splats);
-    ewa_buffer_free(context, &renderer->looks);
-    ewa_buffer_free(context, &renderer->look_list);
+    ewa_scene_renderer_free_lists(renderer);
     ewa_release(context, renderer, 1, sizeof *renderer);
 }
 
@@ -83,9 +88,8 @@ static bool has_colors(const ewa_scene *scene, uint32_t index) {
                                 ewa_asset_has_colors(item->asset));
 }
 
-/// Lists what is visible.
-static ewa_status list_shown(const ewa_scene *scene, const ewa_lod_options *options,
-                             ewa_scene_renderer *renderer, ewa_scene_shown *shown) {
+ewa_status ewa_scene_list_shown(const ewa_scene *scene, const ewa_lod_options *options, ewa_scene_renderer *renderer,
+                                ewa_scene_shown *shown) {
     ewa_context *context = renderer->context;
     *shown = (ewa_scene_shown){.near_world = INFINITY};
     const size_t room = scene->count + (size_t)1;
@@ -294,7 +298,7 @@ static ewa_status draw(ewa_scene *scene, ewa_scene_renderer *renderer, const ewa
     ewa_scene_shown shown;
     ewa_scene_options dotted;
     const ewa_scene_options *options = given;
-    EWA_TRY(list_shown(scene, &given->lod, renderer, &shown));
+    EWA_TRY(ewa_scene_list_shown(scene, &given->lod, renderer, &shown));
     if (given->render.point_size_px == 0 && scene->surface && scene->surface->sparse && shown.surfels_count == 1 &&
         !shown.lod_count) {
         dotted = *given;

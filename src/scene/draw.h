@@ -33,4 +33,10 @@ typedef struct ewa_scene_shown {
     double near_world; ///< that suits the Gaussians
 } ewa_scene_shown;
 
+/// Lists what is visible, in buffers of the renderer. Errors: those of ewa_scene_octree_look(), EWA_ERROR_LIMIT,
+/// EWA_ERROR_MEMORY.
+ewa_status ewa_scene_list_shown(const ewa_scene *scene, const ewa_lod_options *options, ewa_scene_renderer *renderer,
+                                ewa_scene_shown *shown);
+void ewa_scene_renderer_free_lists(ewa_scene_renderer *renderer);
+
 #endif

@@ -1,0 +1,347 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// What is read of an octree's nodes, and the surfels that are made of it. Nothing here changes what pictures are drawn of, so that some may
+// be drawn on another thread meanwhile; ewa_tree_load() alone puts nodes into the tree.
+#include "base/base.h"
+#include "cloud/cloud.h"
+#include "ewa/prepare.h"
+#include "lod/tree.h"
+#include "surface/proxy.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+/// What surfels are made of; everything else of the points is left out.
+#define SURFEL_ATTRIBUTES                                                                                    \
+    EWA_NORMAL "," EWA_RADIUS "," EWA_TANGENT_U "," EWA_TANGENT_V "," EWA_COLOR "," EWA_MATERIAL             \
+               "," EWA_SURFACENESS "," EWA_CURVATURE "," EWA_CLIP0 "," EWA_CLIP1 "," EWA_CLIP_MODE "," EWA_BORDER
+
+static size_t cloud_bytes(const ewa_cloud *cloud) {
+    size_t bytes = 0;
+    for (uint32_t a = 0; a < ewa_cloud_attribute_count(cloud); a++)
+        bytes += ewa_cloud_attribute_at(cloud, a)->stride_bytes;
+    return bytes * (size_t)ewa_cloud_point_count(cloud);
+}
+
+void ewa_tree_trim_points(ewa_lod *lod, uint64_t memory_bytes) {
+    while (lod->cloud_bytes > memory_bytes) {
+        uint32_t oldest = UINT32_MAX;
+        for (uint32_t i = 0; i < lod->facts->node_count; i++)
+            if (lod->clouds[i] && (oldest == UINT32_MAX || lod->cloud_frames[i] < lod->cloud_frames[oldest]))
+                oldest = i;
+        if (oldest == UINT32_MAX) return;
+        lod->cloud_bytes -= cloud_bytes(lod->clouds[oldest]);
+        ewa_cloud_destroy(&lod->clouds[oldest]);
+    }
+}
+
+/// Whether a map keeps angles, so that densities and squares of radii change alike.
+static bool is_similar(const double m[16]) {
+    double scale2[3], across = 0;
+    for (int r = 0; r < 3; r++) {
+        const double *a = m + 4 * r, *b = m + 4 * ((r + 1) % 3);
+        scale2[r] = a[0] * a[0] + a[1] * a[1] + a[2] * a[2];
+        across = fmax(across, fabs(a[0] * b[0] + a[1] * b[1] + a[2] * b[2]));
+    }
+    const double off = fmax(fabs(scale2[0] - scale2[1]), fabs(scale2[0] - scale2[2]));
+    return fmax(off, across) <= 1e-6 * scale2[0];
+}
+
+/// File nodes on the way from the root to a node, itself included.
+static uint32_t find_path(const ewa_lod *lod, const ewa_lod_node *node,
+                          uint32_t file_nodes[EWA_OCTREE_LEVELS]) {
+    uint32_t count = 0, index = 0;
+    for (int32_t level = 0;; level++) {
+        if (lod->nodes[index].file_node != UINT32_MAX) file_nodes[count++] = lod->nodes[index].file_node;
+        if (level == node->key.level) return count;
+        ewa_octree_key at = {.level = level + 1};
+        for (int c = 0; c < 3; c++) at.cell[c] = node->key.cell[c] >> (node->key.level - level - 1);
+        index = lod->nodes[index].children[ewa_tree_child_of(&at)];
+    }
+}
+
+enum { BATCH = EWA_TREE_BATCH, BATCH_NODES = BATCH * EWA_OCTREE_LEVELS };
+
+/// Reads the points of nodes that are not in memory, all at once.
+static ewa_status fetch_nodes(ewa_lod *lod, const ewa_tree_reading *how, const uint32_t *file_nodes, uint32_t count) {
+    uint32_t missing[BATCH_NODES], missing_count = 0;
+    ewa_cloud *clouds[BATCH_NODES];
+    if (strcmp(how->look->attributes, lod->cloud_attributes) != 0) {
+        ewa_tree_trim_points(lod, 0);
+        snprintf(lod->cloud_attributes, sizeof lod->cloud_attributes, "%s", how->look->attributes);
+    }
+    for (uint32_t i = 0; i < count; i++) {
+        lod->cloud_frames[file_nodes[i]] = how->frame;
+        bool known = lod->clouds[file_nodes[i]] != NULL;
+        for (uint32_t k = 0; k < missing_count && !known; k++) known = missing[k] == file_nodes[i];
+        if (!known) missing[missing_count++] = file_nodes[i];
+    }
+    if (!missing_count) return EWA_OK;
+    char attributes[sizeof SURFEL_ATTRIBUTES + EWA_LOD_LOOK_NAMES_BYTES] = SURFEL_ATTRIBUTES;
+    strcat(attributes, how->look->attributes);
+    EWA_TRY(ewa_octree_read(lod->octree, missing, missing_count, attributes, clouds));
+    for (uint32_t i = 0; i < missing_count; i++) {
+        lod->clouds[missing[i]] = clouds[i];
+        lod->cloud_bytes += cloud_bytes(clouds[i]);
+    }
+    return EWA_OK;
+}
+
+/// Which points of a file node lie in the cube of another node.
+typedef struct inside_job {
+    const ewa_lod *lod;
+    const ewa_lod_node *node;
+    const ewa_octree_key *file_node;
+    const ewa_attribute *position;
+    double origin[3];
+    uint64_t count;
+    uint8_t *inside;
+} inside_job;
+
+enum { INSIDE_POINTS = 1 << 12 };
+
+static void inside_task(void *data, uint32_t task, uint32_t worker) {
+    (void)worker;
+    enum { BLOCK = 256 };
+    const inside_job *job = data;
+    double block[3 * BLOCK];
+    const uint64_t first = (uint64_t)task * INSIDE_POINTS, left = job->count - first;
+    const uint64_t end = first + (left < INSIDE_POINTS ? left : INSIDE_POINTS);
+    for (uint64_t i = first; i < end; i += BLOCK) {
+        const uint64_t count = end - i < BLOCK ? end - i : BLOCK;
+        ewa_attribute_read_f64(job->position, i, count, block);
+        for (uint64_t k = 0; k < count; k++) {
+            int32_t cell[3];
+            double at[3];
+            for (uint64_t c = 0; c < 3; c++) at[c] = block[3 * k + c] + job->origin[c];
+            ewa_tree_cell(job->lod, at, job->file_node, job->node->key.level, cell);
+            job->inside[i + k] = memcmp(cell, job->node->key.cell, sizeof cell) == 0;
+        }
+    }
+}
+
+/// Makes one cloud of the points that file nodes have in a node's cube. The caller owns it.
+static ewa_status gather_points(ewa_lod *lod, const ewa_lod_node *node, const uint32_t *file_nodes,
+                                uint32_t node_count, ewa_cloud **gathered) {
+    ewa_cloud *selected[EWA_OCTREE_LEVELS] = {NULL};
+    ewa_status status = EWA_OK;
+    uint32_t count = 0;
+    for (uint32_t n = 0; n < node_count && status == EWA_OK; n++) {
+        const ewa_cloud *cloud = lod->clouds[file_nodes[n]];
+        const ewa_octree_key *key = &lod->facts->nodes[file_nodes[n]].key;
+        const uint64_t point_count = ewa_cloud_point_count(cloud);
+        uint64_t *indices = ewa_allocate(lod->context, point_count, sizeof *indices), kept = 0;
+        inside_job job = {.lod = lod,
+                          .node = node,
+                          .file_node = key,
+                          .position = ewa_cloud_find(cloud, EWA_POSITION),
+                          .count = point_count,
+                          .inside = ewa_allocate(lod->context, point_count, 1)};
+        if (indices && job.inside) {
+            ewa_cloud_origin(cloud, job.origin);
+            ewa_parallel(lod->context, inside_task, &job,
+                         (uint32_t)((point_count + INSIDE_POINTS - 1) / INSIDE_POINTS));
+            for (uint64_t i = 0; i < point_count; i++)
+                if (job.inside[i]) indices[kept++] = i;
+        } else {
+            status = EWA_ERROR_MEMORY;
+        }
+        ewa_release(lod->context, job.inside, point_count, 1);
+        if (kept) status = ewa_cloud_select(cloud, indices, kept, &selected[count]);
+        count += kept > 0;
+        ewa_release(lod->context, indices, point_count, sizeof *indices);
+    }
+    if (status == EWA_OK)
+        status = count ? ewa_cloud_merge((const ewa_cloud *const *)selected, count, gathered)
+                       : ewa_cloud_like(lod->facts->prototype, gathered);
+    for (uint32_t i = 0; i < count; i++) ewa_cloud_destroy(&selected[i]);
+    return status;
+}
+
+/// Changes a node's points as the look says, before what they lack is estimated, or afterwards.
+static ewa_status place(const ewa_lod_look *look, ewa_cloud **cloud) {
+    return look->place ? look->place(look->user, cloud) : EWA_OK;
+}
+
+static ewa_status paint(const ewa_lod_look *look, ewa_cloud **cloud) {
+    return look->paint ? look->paint(look->user, cloud) : EWA_OK;
+}
+
+/// Makes surfels of a node, of its cloud.
+static ewa_status make_surfels(const ewa_lod *lod, const ewa_lod_look *look, const ewa_cloud *cloud, double radius_scale,
+                               ewa_surfels **surfels) {
+    ewa_surfels_options options;
+    ewa_surfels_options_init(&options, sizeof options);
+    options.radius_scale = radius_scale * look->radius_scale;
+    EWA_TRY(ewa_surfels_create(cloud, &options, surfels));
+    // What the file says of its surface no longer holds where it is pressed together.
+    if (lod->levels.unit_coverage > 0 && is_similar(look->to_world))
+        ewa_surfels_set_unit_coverage(*surfels, lod->levels.unit_coverage * options.radius_scale * options.radius_scale);
+    return EWA_OK;
+}
+
+static ewa_status load_points(ewa_lod *lod, const ewa_tree_reading *how, const ewa_lod_node *node, ewa_surfels **surfels) {
+    uint32_t file_nodes[EWA_OCTREE_LEVELS];
+    const uint32_t count = find_path(lod, node, file_nodes);
+    ewa_cloud *cloud = NULL;
+    ewa_estimate_options options;
+    ewa_estimate_options_init(&options, sizeof options);
+    ewa_status status = fetch_nodes(lod, how, file_nodes, count);
+    if (status == EWA_OK) status = gather_points(lod, node, file_nodes, count, &cloud);
+    if (status == EWA_OK) status = place(how->look, &cloud);
+    if (status == EWA_OK && !lod->has_surfels && ewa_cloud_point_count(cloud))
+        status = ewa_cloud_estimate(&cloud, &options);
+    // Points of a node end where its cell does, not where their surface does.
+    if (!lod->has_surfels) ewa_cloud_remove(cloud, EWA_BORDER);
+    if (status == EWA_OK && ewa_cloud_point_count(cloud) == 0 && !lod->has_surfels) {
+        // An empty cloud has no shape either.
+        status = ewa_cloud_add(cloud, EWA_NORMAL, EWA_F32, 3, NULL);
+        if (status == EWA_OK) status = ewa_cloud_add(cloud, EWA_RADIUS, EWA_F32, 1, NULL);
+    }
+    if (status == EWA_OK) status = paint(how->look, &cloud);
+    if (status == EWA_OK) status = make_surfels(lod, how->look, cloud, 1, surfels);
+    ewa_cloud_destroy(&cloud);
+    return status;
+}
+
+/// A page that is unpacked.
+typedef struct unpacked {
+    ewa_cloud *cloud;
+    ewa_level_surfels surfels;
+    uint8_t *scratch;
+    const char *fault;
+} unpacked;
+
+typedef struct unpack_job {
+    ewa_lod *lod;
+    const uint32_t *nodes;
+    unpacked *pages;
+} unpack_job;
+
+static void unpack_task(void *data, uint32_t index, uint32_t worker) {
+    (void)worker;
+    const unpack_job *job = data;
+    const ewa_lod_node *node = &job->lod->nodes[job->nodes[index]];
+    unpacked *page = &job->pages[index];
+    const ewa_levels_page *entry = &job->lod->levels.pages[node->page];
+    const uint8_t *block = ewa_octree_find_level(job->lod->octree, entry->at_bytes, entry->size_bytes);
+    page->fault = ewa_level_decode(entry, block, page->scratch, &page->surfels);
+    if (page->fault) return;
+    for (size_t i = 0; i < (size_t)3 * entry->surfel_count; i++)
+        page->surfels.at[i] = (page->surfels.at[i] - 0.5f) * (float)node->side_world;
+}
+
+/// Makes room for a page; positions are relative to its node's middle.
+static ewa_status prepare_page(ewa_lod *lod, const ewa_lod_node *node, unpacked *page) {
+    const uint32_t count = lod->levels.pages[node->page].surfel_count;
+    void *at = NULL, *normal = NULL, *radius = NULL, *rgba = NULL;
+    ewa_status status = ewa_cloud_create(lod->context, count, &page->cloud);
+    if (status == EWA_OK) status = ewa_cloud_add(page->cloud, EWA_POSITION, EWA_F32, 3, &at);
+    if (status == EWA_OK) status = ewa_cloud_add(page->cloud, EWA_NORMAL, EWA_F32, 3, &normal);
+    if (status == EWA_OK) status = ewa_cloud_add(page->cloud, EWA_RADIUS, EWA_F32, 1, &radius);
+    if (status == EWA_OK) status = ewa_cloud_add(page->cloud, EWA_COLOR, EWA_U8, 4, &rgba);
+    page->scratch = ewa_allocate(lod->context, ewa_level_raw_bytes(count), 1);
+    if (status != EWA_OK || !page->scratch) return EWA_ERROR_MEMORY;
+    page->surfels = (ewa_level_surfels){at, normal, radius, rgba};
+    double middle[3];
+    for (int c = 0; c < 3; c++) middle[c] = node->low_world[c] + node->side_world / 2;
+    ewa_cloud_set_origin(page->cloud, middle);
+    return EWA_OK;
+}
+
+/// Loads pages, at most BATCH.
+static ewa_status load_pages(ewa_lod *lod, const ewa_tree_reading *how, const uint32_t *nodes, uint32_t count,
+                             ewa_surfels **surfels) {
+    unpacked *pages = ewa_allocate_zeroed(lod->context, count, sizeof *pages);
+    if (!pages) return EWA_ERROR_MEMORY;
+    ewa_range blocks[BATCH];
+    for (uint32_t i = 0; i < count; i++) {
+        const ewa_levels_page *entry = &lod->levels.pages[lod->nodes[nodes[i]].page];
+        blocks[i] = (ewa_range){entry->at_bytes, entry->size_bytes};
+    }
+    ewa_status status = ewa_octree_need_levels(lod->octree, blocks, count);
+    for (uint32_t i = 0; i < count && status == EWA_OK; i++)
+        status = prepare_page(lod, &lod->nodes[nodes[i]], &pages[i]);
+    unpack_job job = {lod, nodes, pages};
+    if (status == EWA_OK) ewa_parallel(lod->context, unpack_task, &job, count);
+    ewa_octree_let_levels_go(lod->octree);
+    for (uint32_t i = 0; i < count; i++) {
+        const ewa_lod_node *node = &lod->nodes[nodes[i]];
+        const ewa_levels_page *entry = &lod->levels.pages[node->page];
+        if (status == EWA_OK && pages[i].fault)
+            status = ewa_fail(lod->context, EWA_ERROR_FORMAT,
+                              "the surfels of node %d-%d-%d-%d are damaged: %s", node->key.level,
+                              node->key.cell[0], node->key.cell[1], node->key.cell[2], pages[i].fault);
+        if (status == EWA_OK) status = place(how->look, &pages[i].cloud);
+        if (status == EWA_OK) status = paint(how->look, &pages[i].cloud);
+        if (status == EWA_OK) 
+            status = make_surfels(lod, how->look, pages[i].cloud, (double)entry->radius_scale, &surfels[i]);
+        ewa_release(lod->context, pages[i].scratch, ewa_level_raw_bytes(entry->surfel_count), 1);
+        ewa_cloud_destroy(&pages[i].cloud);
+    }
+    ewa_release(lod->context, pages, count, sizeof *pages);
+    return status;
+}
+
+/// Makes surfels of the points of some nodes, at most BATCH.
+static ewa_status load_leaves(ewa_lod *lod, const ewa_tree_reading *how, const uint32_t *nodes, uint32_t count,
+                              ewa_surfels **surfels) {
+    uint32_t file_nodes[BATCH_NODES] = {0}, node_count = 0;
+    for (uint32_t i = 0; i < count; i++)
+        node_count += find_path(lod, &lod->nodes[nodes[i]], file_nodes + node_count);
+    ewa_status status = fetch_nodes(lod, how, file_nodes, node_count);
+    for (uint32_t i = 0; i < count && status == EWA_OK; i++)
+        status = load_points(lod, how, &lod->nodes[nodes[i]], &surfels[i]);
+    ewa_tree_trim_points(lod, how->memory_bytes / 8);
+    return status;
+}
+
+/// Whether a node is drawn by surfels that represent its points.
+static bool has_page(const ewa_lod_node *node) { return node->page != UINT32_MAX && node->divided; }
+
+ewa_status ewa_tree_read(ewa_lod *lod, const ewa_tree_reading *how, const uint32_t *nodes, uint32_t count,
+                         ewa_surfels **surfels) {
+    uint32_t some[2][BATCH], at[2][BATCH], counts[2] = {0, 0};
+    ewa_surfels *made[2][BATCH] = {{NULL}};
+    for (uint32_t i = 0; i < count; i++) {
+        const int page = has_page(&lod->nodes[nodes[i]]);
+        surfels[i] = NULL;
+        at[page][counts[page]] = i;
+        some[page][counts[page]++] = nodes[i];
+    }
+    ewa_status status = counts[0] ? load_leaves(lod, how, some[0], counts[0], made[0]) : EWA_OK;
+    if (status == EWA_OK && counts[1]) status = load_pages(lod, how, some[1], counts[1], made[1]);
+    for (int page = 0; page < 2; page++)
+        for (uint32_t i = 0; i < counts[page]; i++)
+            if (status == EWA_OK)
+                surfels[at[page][i]] = made[page][i];
+            else
+                ewa_surfels_destroy(&made[page][i]);
+    return status;
+}
+
+/// Reads a batch and puts it into the tree.
+static ewa_status load_batch(ewa_lod *lod, const uint32_t *nodes, uint32_t *count, uint64_t memory_bytes) {
+    const ewa_tree_reading how = {&lod->look, lod->frame, memory_bytes};
+    ewa_surfels *surfels[BATCH];
+    EWA_TRY(ewa_tree_read(lod, &how, nodes, *count, surfels));
+    for (uint32_t i = 0; i < *count; i++) ewa_tree_put(lod, nodes[i], surfels[i]);
+    *count = 0;
+    return EWA_OK;
+}
+
+ewa_status ewa_tree_load(ewa_lod *lod, const uint32_t *nodes, uint32_t count, uint64_t memory_bytes) {
+    // Those of a kind together, so that all workers have some of it.
+    uint32_t batches[2][BATCH], counts[2] = {0, 0};
+    for (uint32_t i = 0; i < count; i++) {
+        if (lod->nodes[nodes[i]].surfels) continue;
+        const int page = has_page(&lod->nodes[nodes[i]]);
+        batches[page][counts[page]++] = nodes[i];
+        if (counts[page] == BATCH) EWA_TRY(load_batch(lod, batches[page], &counts[page], memory_bytes));
+    }
+    for (int page = 0; page < 2; page++)
+        if (counts[page]) EWA_TRY(load_batch(lod, batches[page], &counts[page], memory_bytes));
+    return EWA_OK;
+}

@@ -1,0 +1,133 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// The thread that reads nodes of octrees while pictures are drawn of those that are there.
+#include "node_reader.h"
+
+#include <stdlib.h>
+
+struct node_reader {
+    octree_turns *turns;
+    ewa_context *context;
+    ewa_scene_reader *reader;
+    pthread_t thread;
+    bool started;
+    pthread_mutex_t lock;
+    pthread_cond_t changed;
+    // Under the lock:
+    bool quits, waits, reads;
+    uint32_t resting; ///< who waits for it to be at rest
+    paint_scene next, now; ///< `now` is the thread's own while it reads
+    uint32_t next_most, most;
+    node_reader_state state;
+};
+
+/// Reads the most urgent nodes; returns how many have come, and in `*more` whether some may be left. Without the lock.
+static uint32_t read_some(node_reader *r, bool *more) {
+    uint32_t count = 0;
+    turns_take(&r->turns->files);
+    turns_take(&r->turns->nodes);
+    ewa_status status =
+        ewa_scene_reader_choose(r->reader, r->now.scene, &r->now.camera, &r->now.options, r->most, &count);
+    turns_give(&r->turns->nodes);
+    *more = status == EWA_OK && count > 0;
+    if (*more) {
+        status = ewa_scene_reader_read(r->reader);
+        turns_take(&r->turns->nodes);
+        ewa_scene_reader_put(r->reader);
+        turns_give(&r->turns->nodes);
+    }
+    turns_give(&r->turns->files);
+    return status == EWA_OK ? count : 0;
+}
+
+static void *run(void *data) {
+    node_reader *r = data;
+    bool more = false;
+    pthread_mutex_lock(&r->lock);
+    while (!r->quits) {
+        if (r->waits) {
+            r->now = r->next;
+            r->most = r->next_most;
+            r->waits = false;
+        } else if (!more || r->resting) {
+            more = r->reads = r->state.busy = false;
+            pthread_cond_broadcast(&r->changed);
+            pthread_cond_wait(&r->changed, &r->lock);
+            continue;
+        }
+        r->reads = true;
+        pthread_mutex_unlock(&r->lock);
+        const uint32_t count = read_some(r, &more);
+        pthread_mutex_lock(&r->lock);
+        r->state.arrived_count += count;
+        r->state.ready = r->state.ready || !r->resting;
+    }
+    r->reads = r->state.busy = false;
+    pthread_mutex_unlock(&r->lock);
+    return NULL;
+}
+
+ewa_status node_reader_create(octree_turns *of_octrees, node_reader **made) {
+    *made = NULL;
+    node_reader *r = calloc(1, sizeof *r);
+    if (!r) return EWA_ERROR_MEMORY;
+    r->turns = of_octrees;
+    pthread_mutex_init(&r->lock, NULL);
+    pthread_cond_init(&r->changed, NULL);
+    ewa_context_options options;
+    ewa_context_options_init(&options, sizeof options);
+    options.thread_count = 1; // octrees have threads of their own
+    ewa_status status = ewa_context_create(&options, &r->context);
+    if (status == EWA_OK) status = ewa_scene_reader_create(r->context, &r->reader);
+    if (status == EWA_OK) {
+        r->started = pthread_create(&r->thread, NULL, run, r) == 0;
+        if (!r->started) status = EWA_ERROR_MEMORY;
+    }
+    if (status != EWA_OK) node_reader_destroy(&r);
+    *made = r;
+    return status;
+}
+
+void node_reader_destroy(node_reader **made) {
+    node_reader *r = *made;
+    if (!r) return;
+    if (r->started) {
+        pthread_mutex_lock(&r->lock);
+        r->quits = true;
+        pthread_cond_broadcast(&r->changed);
+        pthread_mutex_unlock(&r->lock);
+        pthread_join(r->thread, NULL);
+    }
+    ewa_scene_reader_destroy(&r->reader);
+    ewa_context_destroy(&r->context);
+    pthread_cond_destroy(&r->changed);
+    pthread_mutex_destroy(&r->lock);
+    free(r);
+    *made = NULL;
+}
+
+void node_reader_post(node_reader *r, const paint_scene *scene, uint32_t most) {
+    pthread_mutex_lock(&r->lock);
+    r->next = *scene;
+    r->next_most = most;
+    r->waits = r->state.busy = true;
+    pthread_cond_broadcast(&r->changed);
+    pthread_mutex_unlock(&r->lock);
+}
+
+void node_reader_rest(node_reader *r) {
+    pthread_mutex_lock(&r->lock);
+    r->waits = false;
+    r->resting++;
+    while (r->reads) pthread_cond_wait(&r->changed, &r->lock);
+    r->resting--;
+    r->state.busy = r->state.ready = false;
+    pthread_mutex_unlock(&r->lock);
+}
+
+void node_reader_tell(node_reader *r, node_reader_state *state) {
+    pthread_mutex_lock(&r->lock);
+    *state = r->state;
+    pthread_mutex_unlock(&r->lock);
+}
