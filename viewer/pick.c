@@ -39,6 +39,7 @@ static bool find(viewer *v, double x, double y, double reach, bool coarse, doubl
         painter_hurry(v->painter);
         v->posted_whole = false;
     }
+    scene.options.lod.resident_only = v->node_reader != NULL;
     const bool reads = scene.octrees && (reach_world > 0 || !scene.options.lod.resident_only);
     if (reads) turns_take(&v->turns->files);
     if (scene.octrees) turns_take(&v->turns->nodes);

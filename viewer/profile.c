@@ -55,13 +55,13 @@ static bool take(viewer *v) {
     v->probe.message[0] = 0;
     if (shown.octrees) painter_hurry(v->painter);
     if (shown.octrees) v->posted_whole = false;
-    if (shown.octrees) pthread_mutex_lock(v->lods_lock);
+    if (shown.octrees) turns_take_all(v->turns);
     ewa_status status = ewa_scene_copy(v->scene, v->probe.context, &scene);
     if (status == EWA_OK) status = ewa_scene_set_options(scene, &shown.options);
     if (status == EWA_OK)
         status = ewa_scene_profile(scene, profile->corners_world, profile->corner_count, &options, &made);
     ewa_scene_destroy(&scene);
-    if (shown.octrees) pthread_mutex_unlock(v->lods_lock);
+    if (shown.octrees) turns_give_all(v->turns);
     profile_free(v);
     viewer_mark(v);
     if (status != EWA_OK) {

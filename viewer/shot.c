@@ -29,7 +29,6 @@ static bool save_picture(viewer *v, const char *path, uint32_t width_px, uint32_
     paint_scene scene;
     viewer_scene(v, &scene);
     scene.options.lod.load_s = v->lod.load_s; // time is the window's matter: all is read that the picture needs
-    scene.options.lod.resident_only = false;
     const double larger = (double)height_px / scene.camera.height_px;
     navigate_resize(&scene.camera, width_px, height_px);
     ewa_render_options *render = &scene.options.render;
@@ -185,7 +184,6 @@ bool shot_scene(viewer *v, const char *rest) {
     paint_scene shown;
     viewer_scene(v, &shown);
     shown.options.lod.load_s = v->lod.load_s; // time is the window's matter
-    shown.options.lod.resident_only = false;
     ewa_scene *scene = NULL;
     v->probe.message[0] = 0;
     ewa_status status = ewa_scene_copy(v->scene, v->probe.context, &scene);

@@ -28,3 +28,13 @@ void turns_give(turn_lock *t) {
     pthread_cond_broadcast(&t->changed);
     pthread_mutex_unlock(&t->lock);
 }
+
+void turns_take_all(octree_turns *t) {
+    turns_take(&t->files);
+    turns_take(&t->nodes);
+}
+
+void turns_give_all(octree_turns *t) {
+    turns_give(&t->nodes);
+    turns_give(&t->files);
+}

@@ -26,4 +26,8 @@ typedef struct octree_turns {
     turn_lock nodes; ///< draws their nodes in memory, or changes which these are
 } octree_turns;
 
+/// Takes both.
+void turns_take_all(octree_turns *turns);
+void turns_give_all(octree_turns *turns);
+
 #endif

@@ -231,7 +231,6 @@ void viewer_scene(const viewer *v, paint_scene *scene) {
     // Without threads, reading for as long as drawing takes gets everything drawn half as often.
     const double refine_s = v->stepped ? fmin(fmax(REFINE_S, 0.5 * v->whole_s), LONGEST_REFINE_S) : REFINE_S;
     scene->options.lod.load_s = v->waits ? 0 : refine_s;
-    scene->options.lod.resident_only = v->node_reader != NULL;
     scene->options.volumes.density_scale *= v->settings.volume_density;
     cutaway_apply(v, &scene->options.render);
     items_gather(v, scene);
@@ -280,6 +279,7 @@ static void make_quick(const viewer *v, paint_scene *scene) {
 static void post(viewer *v, bool whole) {
     paint_scene scene;
     viewer_scene(v, &scene);
+    scene.options.lod.resident_only = v->node_reader != NULL;
     if (!whole) make_quick(v, &scene);
     v->posted = v->revision;
     v->posted_whole = whole;

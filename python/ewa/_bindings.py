@@ -1412,6 +1412,7 @@ class ewa_lod_options(c.Structure):
     share: int
     share_count: int
     max_splats: int
+    resident_only: bool
     _fields_ = [
         ("struct_size", c.c_size_t),
         ("spacing_px", c.c_double),
@@ -1421,6 +1422,7 @@ class ewa_lod_options(c.Structure):
         ("share", c.c_uint32),
         ("share_count", c.c_uint32),
         ("max_splats", c.c_uint64),
+        ("resident_only", c.c_bool),
     ]
 
 
@@ -3027,6 +3029,11 @@ class Functions:
     ewa_scene_options_init: Callable[..., None]
     ewa_scene_pick: Callable[..., int]
     ewa_scene_place_camera: Callable[..., int]
+    ewa_scene_reader_choose: Callable[..., int]
+    ewa_scene_reader_create: Callable[..., int]
+    ewa_scene_reader_destroy: Callable[..., None]
+    ewa_scene_reader_put: Callable[..., None]
+    ewa_scene_reader_read: Callable[..., int]
     ewa_scene_remove: Callable[..., int]
     ewa_scene_renderer_create: Callable[..., int]
     ewa_scene_renderer_destroy: Callable[..., None]
@@ -3414,6 +3421,11 @@ class Functions:
         self.ewa_scene_options_init = bind("ewa_scene_options_init", None, c.POINTER(ewa_scene_options), c.c_size_t)
         self.ewa_scene_pick = bind("ewa_scene_pick", c.c_int, c.c_void_p, c.c_void_p, c.POINTER(ewa_camera), c.POINTER(ewa_scene_options), c.c_double, c.c_double, c.c_double, c.c_double, c.POINTER(ewa_scene_hit))
         self.ewa_scene_place_camera = bind("ewa_scene_place_camera", c.c_int, c.c_void_p, c.POINTER(ewa_view_options), c.POINTER(ewa_camera), c.POINTER(ewa_view_info))
+        self.ewa_scene_reader_choose = bind("ewa_scene_reader_choose", c.c_int, c.c_void_p, c.c_void_p, c.POINTER(ewa_camera), c.POINTER(ewa_scene_options), c.c_uint32, c.c_void_p)
+        self.ewa_scene_reader_create = bind("ewa_scene_reader_create", c.c_int, c.c_void_p, c.c_void_p)
+        self.ewa_scene_reader_destroy = bind("ewa_scene_reader_destroy", None, c.c_void_p)
+        self.ewa_scene_reader_put = bind("ewa_scene_reader_put", None, c.c_void_p)
+        self.ewa_scene_reader_read = bind("ewa_scene_reader_read", c.c_int, c.c_void_p)
         self.ewa_scene_remove = bind("ewa_scene_remove", c.c_int, c.c_void_p, c.c_uint32)
         self.ewa_scene_renderer_create = bind("ewa_scene_renderer_create", c.c_int, c.c_void_p, c.c_int, c.POINTER(ewa_exchange), c.c_void_p)
         self.ewa_scene_renderer_destroy = bind("ewa_scene_renderer_destroy", None, c.c_void_p)

@@ -199,6 +199,8 @@ class LodOptions(TypedDict, total=False):
     share_count: int | None
     #: about so many surfels and points are drawn of octrees, coarser ones where it would be more; 0: 8 for each pixel that they cover; [0, 9.007199255e15], default 0
     max_splats: int | None
+    #: nothing is read: nodes that are not in memory are drawn coarser and counted as missing; on|off, default off
+    resident_only: bool | None
 
 
 class MeshSampleOptions(TypedDict, total=False):
