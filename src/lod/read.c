@@ -18,25 +18,6 @@
     EWA_NORMAL "," EWA_RADIUS "," EWA_TANGENT_U "," EWA_TANGENT_V "," EWA_COLOR "," EWA_MATERIAL             \
                "," EWA_SURFACENESS "," EWA_CURVATURE "," EWA_CLIP0 "," EWA_CLIP1 "," EWA_CLIP_MODE "," EWA_BORDER
 
-static size_t cloud_bytes(const ewa_cloud *cloud) {
-    size_t bytes = 0;
-    for (uint32_t a = 0; a < ewa_cloud_attribute_count(cloud); a++)
-        bytes += ewa_cloud_attribute_at(cloud, a)->stride_bytes;
-    return bytes * (size_t)ewa_cloud_point_count(cloud);
-}
-
-void ewa_tree_trim_points(ewa_lod *lod, uint64_t memory_bytes) {
-    while (lod->cloud_bytes > memory_bytes) {
-        uint32_t oldest = UINT32_MAX;
-        for (uint32_t i = 0; i < lod->facts->node_count; i++)
-            if (lod->clouds[i] && (oldest == UINT32_MAX || lod->cloud_frames[i] < lod->cloud_frames[oldest]))
-                oldest = i;
-        if (oldest == UINT32_MAX) return;
-        lod->cloud_bytes -= cloud_bytes(lod->clouds[oldest]);
-        ewa_cloud_destroy(&lod->clouds[oldest]);
-    }
-}
-
 /// Whether a map keeps angles, so that densities and squares of radii change alike.
 static bool is_similar(const double m[16]) {
     double scale2[3], across = 0;
@@ -82,10 +63,7 @@ static ewa_status fetch_nodes(ewa_lod *lod, const ewa_tree_reading *how, const u
     char attributes[sizeof SURFEL_ATTRIBUTES + EWA_LOD_LOOK_NAMES_BYTES] = SURFEL_ATTRIBUTES;
     strcat(attributes, how->look->attributes);
     EWA_TRY(ewa_octree_read(lod->octree, missing, missing_count, attributes, clouds));
-    for (uint32_t i = 0; i < missing_count; i++) {
-        lod->clouds[missing[i]] = clouds[i];
-        lod->cloud_bytes += cloud_bytes(clouds[i]);
-    }
+    for (uint32_t i = 0; i < missing_count; i++) ewa_tree_keep_points(lod, missing[i], clouds[i]);
     return EWA_OK;
 }
 

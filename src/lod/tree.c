@@ -188,6 +188,30 @@ void ewa_tree_drop(ewa_lod *lod, uint32_t index) {
     node->resident_bytes = 0;
 }
 
+static size_t cloud_bytes(const ewa_cloud *cloud) {
+    size_t bytes = 0;
+    for (uint32_t a = 0; a < ewa_cloud_attribute_count(cloud); a++)
+        bytes += ewa_cloud_attribute_at(cloud, a)->stride_bytes;
+    return bytes * (size_t)ewa_cloud_point_count(cloud);
+}
+
+void ewa_tree_trim_points(ewa_lod *lod, uint64_t memory_bytes) {
+    while (lod->cloud_bytes > memory_bytes) {
+        uint32_t oldest = UINT32_MAX;
+        for (uint32_t i = 0; i < lod->facts->node_count; i++)
+            if (lod->clouds[i] && (oldest == UINT32_MAX || lod->cloud_frames[i] < lod->cloud_frames[oldest]))
+                oldest = i;
+        if (oldest == UINT32_MAX) return;
+        lod->cloud_bytes -= cloud_bytes(lod->clouds[oldest]);
+        ewa_cloud_destroy(&lod->clouds[oldest]);
+    }
+}
+
+void ewa_tree_keep_points(ewa_lod *lod, uint32_t file_node, ewa_cloud *points) {
+    lod->clouds[file_node] = points;
+    lod->cloud_bytes += cloud_bytes(points);
+}
+
 void ewa_tree_trim(ewa_lod *lod, uint64_t memory_bytes) {
     ewa_tree_trim_points(lod, memory_bytes / 8);
     while (lod->resident_bytes + lod->cloud_bytes > memory_bytes) {

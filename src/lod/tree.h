@@ -97,6 +97,9 @@ ewa_status ewa_tree_read(ewa_lod *lod, const ewa_tree_reading *how, const uint32
 /// Puts a node that was read into memory; its surfels become the tree's.
 void ewa_tree_put(ewa_lod *lod, uint32_t node, ewa_surfels *surfels);
 
+/// Keeps the points of a node of the file, of which there are none yet, for the nodes below that share them.
+void ewa_tree_keep_points(ewa_lod *lod, uint32_t file_node, ewa_cloud *points);
+
 /// Drops points of nodes, those that were wanted longest ago first, until `memory_bytes` are enough for the others.
 void ewa_tree_trim_points(ewa_lod *lod, uint64_t memory_bytes);
 
