@@ -20,6 +20,7 @@ from .adapters import as_cloud, as_drawables
 from .camera import Camera, CameraPath, cameras, save_cameras
 from .cloud import Cloud, generate
 from .combining import csg, merge
+from .films import film, turntable
 from .gaussians import Gaussians, Splats, read_gaussians, render_gaussians
 from .gradients import CameraGradient, Gradients, render_backward
 from .image import Image, read_depth, read_image, save_image
@@ -42,7 +43,7 @@ __all__ = [
     "Gradients", "Image", "ImageQuality", "Mesh", "NumericError", "Octree", "OutOfMemory", "PhotoReport",
     "PhotosReport", "Profile", "Renderer", "Scene", "Splats", "Surfels", "Transfer", "Volume", "Voxels", "as_cloud",
     "as_drawables", "as_volume", "build_octree", "cameras", "compare_images", "convert", "csg", "default_context",
-    "generate", "generate_volume", "merge", "progress", "read", "read_depth", "read_gaussians", "read_image",
+    "film", "generate", "generate_volume", "merge", "progress", "read", "read_depth", "read_gaussians", "read_image",
     "read_mesh", "read_volume", "render", "render_backward", "render_gaussians", "render_volume", "sample",
-    "save_cameras", "save_image", "texture", "undistort", "version", "warp",
+    "save_cameras", "save_image", "texture", "turntable", "undistort", "version", "warp",
 ]

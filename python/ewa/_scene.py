@@ -22,10 +22,10 @@ _UPS = {"y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
 
 def view_options(view: Any = None, up: Any = None, *, size: Sequence[int] | None = None, fov: float | None = None,
                  ortho: float | None = None, eye: Any = None, target: Any = None, azimuth: float = 0,
-                 elevation: float = 0) -> b.ewa_view_options:
+                 elevation: float = 0, turntable: bool = False) -> b.ewa_view_options:
     """How a camera is placed, as :meth:`Camera.frame` and :meth:`Scene.camera` are asked."""
     made = initialised(b.ewa_view_options, lib.ewa_view_options_init)
-    members: dict[str, Any] = {"azimuth_deg": float(azimuth), "elevation_deg": float(elevation)}
+    members: dict[str, Any] = {"azimuth_deg": float(azimuth), "elevation_deg": float(elevation), "turntable": turntable}
     if size is not None:
         members.update(width_px=size[0], height_px=size[1])
     if fov is not None:
@@ -154,9 +154,13 @@ class World:
 
     def place(self, options: b.ewa_view_options) -> b.ewa_camera:
         """The camera of ``ewa render`` with the same options."""
-        camera = b.ewa_camera()
-        self.core.call(lib.ewa_scene_place_camera, self.handle, ctypes.byref(options), ctypes.byref(camera), None)
-        return camera
+        return self.view(options)[0]
+
+    def view(self, options: b.ewa_view_options) -> tuple[b.ewa_camera, b.ewa_view_info]:
+        """That camera, and what was chosen for it."""
+        camera, info = b.ewa_camera(), b.ewa_view_info()
+        self.core.call(lib.ewa_scene_place_camera, self.handle, ctypes.byref(options), ctypes.byref(camera), ctypes.byref(info))
+        return camera, info
 
 
 def place_at_box(core: Core, corners: Any, options: b.ewa_view_options, up: str) -> b.ewa_camera:

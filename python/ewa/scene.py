@@ -5,7 +5,9 @@ from __future__ import annotations
 
 import ctypes
 import json
-from typing import Any, Iterable, Sequence
+from typing import TYPE_CHECKING, Any, Iterable, Sequence
+
+import numpy as np
 
 from . import _bindings as b
 from ._arrays import Array
@@ -20,6 +22,11 @@ from .image import Color, Image
 from .profiles import Profile
 from .rendering import draw, draw_outlines
 from .shade import Environment, Light, Materials
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
+
+    from ._options import FurnitureOptions
 
 @keywords("ewa_surfels_options")
 class Scene:
@@ -127,8 +134,6 @@ class Scene:
     @property
     def bounds(self) -> Array:
         """Lower and upper corner of all visible centres; float64, shape (2, 3)."""
-        import numpy as np
-
         box = b.ewa_bounds()
         self._core.value(lib.ewa_scene_bounds, self._handle, ctypes.byref(box))
         return np.array([box.low_world, box.high_world])
@@ -209,6 +214,63 @@ class Scene:
         ArgumentError, NumericError, OutOfMemory, ClosedError
         """
         return Profile(self._core, self._handle, line, width, up)
+
+    @keywords("ewa_furniture_options")
+    def draw_furniture(self, image: Image, *, title: str | None = None, unit: str | None = None,
+                       color_label: str | None = None, color_unit: str | None = None,
+                       **options: Unpack[FurnitureOptions]) -> Image:
+        """Draw a title, axes, a scale bar and a colour bar over a picture that was drawn, as ``ewa render`` does.
+
+        Parameters
+        ----------
+        image : Image
+            With the plane rgba8, which is drawn into; returned.
+        title : str, optional
+        unit : str, optional
+            Of the world's lengths, such as "m".
+        color_label, color_unit : str, optional
+            Above the colour bar. Default: what the scene is coloured by.
+        **options
+            ``scale_depth_world``: Default: that of the scene's middle. ``colormap``: Default: that of the scene. ``range``:
+            Default: that of the scene.
+
+        Raises
+        ------
+        ArgumentError
+        """
+        made = initialised(b.ewa_furniture_options, lib.ewa_furniture_options_init)
+        camera = image.camera
+        if camera is None or not image.rgba8.flags.carray:
+            raise ArgumentError("image: the plane rgba8 of a picture, as render() makes it")
+        if options.get("scale_bar") and options.get("scale_depth_world") is None:
+            middle = np.array([*self._world.view(view_options())[1].pivot_world, 1.0])
+            depth = float(camera.world_to_camera[2] @ middle / np.linalg.norm(camera.world_to_camera[2, :3]))
+            made.scale_depth_world = depth if 0 < depth < 1e30 else 0
+        legend = self._legend() if options.get("color_bar") else None
+        if legend is not None:
+            made.colormap, made.range[:] = legend.colormap, list(legend.range)
+            made.categories, made.category_count = legend.categories, legend.category_count
+            made.color_label = legend.attribute
+            made.color_unit = unit.encode() if unit is not None and legend.length else None
+        fill(made, "ewa_furniture_options", options)
+        for name, text in (("title", title), ("unit", unit), ("color_label", color_label), ("color_unit", color_unit)):
+            if text is not None:
+                setattr(made, name, text.encode())
+        canvas = b.ewa_canvas()
+        canvas.rgba8 = image.rgba8.ctypes.data
+        canvas.width_px, canvas.height_px = image.size
+        self._core.call(lib.ewa_furniture_draw, self._core.address, ctypes.byref(camera._struct), ctypes.byref(made),
+                        ctypes.byref(canvas))
+        return image
+
+    def _legend(self) -> b.ewa_legend | None:
+        """What the colours of the first item mean whose colours stand for something."""
+        for i in range(len(self)):
+            found = self._core.value(lib.ewa_scene_legend, self._handle, i)
+            if found:
+                legend: b.ewa_legend = found.contents
+                return legend
+        return None
 
     def save(self, path: PathLike, camera: Camera | None = None) -> None:
         """Write a scene file: everything, which must have been added from files below the file's folder, and `camera`.
