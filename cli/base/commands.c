@@ -14,8 +14,8 @@
 const cli_command *const all_commands[] = {
     &render_command,   &view_command,   &info_command,     &convert_command, &surfels_command,
     &features_command, &sample_command, &csg_command,      &photos_command,  &profile_command, &compare_command,
-    &texture_command,  &warp_command,     &volume_command, &lod_command,      &page_command,    &generate_command,
-    &bench_command};
+    &texture_command,  &warp_command,   &volume_command,   &lod_command,     &page_command,    &serve_command,
+    &generate_command, &bench_command};
 const size_t all_commands_count = sizeof all_commands / sizeof all_commands[0];
 
 const cli_command *command_find(const char *name) {

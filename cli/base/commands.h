@@ -9,7 +9,7 @@
 
 extern const cli_command render_command, view_command, info_command, convert_command, surfels_command,
     features_command, sample_command, csg_command, photos_command, profile_command, compare_command, texture_command, warp_command, volume_command,
-    lod_command, page_command, generate_command, bench_command;
+    lod_command, page_command, serve_command, generate_command, bench_command;
 
 /// All commands, in the order of the help.
 extern const cli_command *const all_commands[];

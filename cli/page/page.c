@@ -189,7 +189,7 @@ const cli_command page_command = {
                "become PLY, meshes points on their faces, Gaussians SPZ, volumes NRRD where a page cannot read them. A look beyond these "
                "options is that of a scene file ('ewa render --save-scene', 'ewa view').\n"
                "\n"
-               "With --folder, a web server has to send the files as they are; with the headers Cross-Origin-Opener-Policy: same-origin and "
+               "With --folder, a web server has to send the files as they are ('ewa serve' does, to this machine); with the headers Cross-Origin-Opener-Policy: same-origin and "
                "Cross-Origin-Embedder-Policy: require-corp moving is smoother.",
     .examples = "ewa page scan.laz -o scan.html\n"
                 "ewa page scene.json -o exhibit.html --title \"The hall, 2026\"\n"

@@ -67,11 +67,13 @@ JOBS = {
                "{d}/points.txt --cameras {d}/photo.json --method mean -o {o}/a.ply"],
     "compare": ["{d}/sphere.ply --cameras {d}/photo.json -o {o}/a.png --json {o}/a.json",
                 "{d}/gaussians.ply --cameras {d}/photo.json"],
+    "profile": ["{d}/points.txt --line 0,0.5;1.8,0.5 -o {o}/a.ply --graph {o}/a.png",
+                "{d}/points.txt --line 0,0.5;1.8,0.5 --color-by classification --graph {o}/a.png"],
     "bench": ["--scene plane --splats 1000 --pixels 4 --size 64x48 --workers 1 --frames 1 --stages off",
               "{d}/sphere.ply --workers 1 --frames 1 --stages off"],
 }
-#: Options of `bench` that would take seconds at their defaults: parsed only. What pages draw with may not be built.
-SLOW = {"page": {"assets"},
+#: Options of `bench` that would take seconds at their defaults: parsed only. What pages draw with may not be built. A server does not end.
+SLOW = {"page": {"assets"}, "serve": {"port", "threads", "max-memory", "max-seconds", "named-files"},
         "bench": {"scene", "splats", "pixels", "size", "frames", "stages", "workers"}}
 
 CUBE = ("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n"
