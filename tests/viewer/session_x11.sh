@@ -104,7 +104,22 @@ open_ball() {
     grep -q /ball.ply state/ewa/recent
 }
 wait_for "a second file" open_ball
-[ "$(wc -l <state/ewa/recent)" = 2 ] || fail "not two recent files"
+# A folder, and its one file by a double click.
+mkdir one
+"$ewa" generate sphere --points 2000 -o "$folder/one/dot.ply"
+open_dot() {
+    xdotool key ctrl+o
+    sleep 0.5
+    xdotool key ctrl+a
+    xdotool type one
+    xdotool key Return
+    sleep 0.5
+    xdotool mousemove 500 172 click --repeat 2 --delay 100 1
+    sleep 0.5
+    grep -q /one/dot.ply state/ewa/recent
+}
+wait_for "a third file" open_dot
+[ "$(wc -l <state/ewa/recent)" = 3 ] || fail "not three recent files"
 # Saves a picture and waits for it: "last".
 shot() {
     count=$(ls ewa-*.png | wc -l)
@@ -140,7 +155,7 @@ grep -q "^set navigation trackball$" config/ewa/view || fail "the navigation is 
 mkfifo endless.ply
 sleep 60 >endless.ply &
 writer=$!
-"$view" endless.ply >printed 2>complained &
+"$view" endless.ply >ended 2>&1 &
 session=$!
 wait_for "a window" xdotool search --onlyvisible --name endless.ply
 xdotool key k ctrl+q

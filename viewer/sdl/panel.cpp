@@ -189,7 +189,9 @@ void lay_out(panel *p, viewer *shown) {
     p->density = width > 0 ? (float)width_px / (float)width : 1;
     io.DisplaySize = ImVec2((float)width_px, (float)height_px);
     const double passed_s = p->facts.now_s - p->laid_out_s;
-    io.DeltaTime = passed_s > 1e-4 && passed_s < 1 ? (float)passed_s : 1.0f / 60;
+    // Layouts for events happen at the time of the one before, which Dear ImGui must not take for time that passes: it would
+    // take two clicks apart.
+    io.DeltaTime = (float)fmin(fmax(passed_s, 1e-4), 1);
     p->laid_out_s = p->facts.now_s;
     p->pointed = false;
     // Arrows walk through what is open, and are the viewer's else.
@@ -297,6 +299,7 @@ panel *panel_create(SDL_Window *window, SDL_Renderer *renderer) {
     io.LogFilename = nullptr;
     io.BackendFlags |= ImGuiBackendFlags_RendererHasVtxOffset | ImGuiBackendFlags_HasMouseCursors;
     io.ConfigWindowsMoveFromTitleBarOnly = true;
+    io.MouseDoubleClickTime = 0.5f; // as desktops have it
     io.ClipboardUserData = p;
     io.GetClipboardTextFn = get_clipboard;
     io.SetClipboardTextFn = set_clipboard;

@@ -140,6 +140,10 @@ void answer(const panel_page *page, const char *name) {
         return;
     }
     const bool saves = page->state.question == VIEWER_ASKS_SAVE_SCENE;
+    if (!saves && !there && !strstr(path, "://")) {
+        snprintf(files->problem, sizeof files->problem, "%s", strerror(errno));
+        return;
+    }
     if (saves && !ends_with(path, ".json") && strlen(path) + 6 < sizeof path) strcat(path, ".json");
     if (saves && stat(path, &facts) == 0 && !(files->confirmed[0] && strcmp(files->confirmed, path) == 0)) {
         memcpy(files->confirmed, path, sizeof path);
