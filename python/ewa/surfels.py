@@ -36,7 +36,9 @@ class Surfels:
     def _made(cloud: Cloud, close_gaps: bool, options: Mapping[str, Any]) -> Surfels:
         """What a scene of the cloud alone makes resident."""
         world = World(cloud._core, close_gaps=close_gaps, keep_points=False, surfels=options)
+        given = cloud._h  # stays until the points are no longer needed
         world.add(cloud)
+        world.handle.keep = ()  # the scene alone has the asset, and so lets go of its points when the surfels are made
 
         def commit(scene: int, made: Any) -> int:
             info = b.ewa_scene_info()
@@ -48,8 +50,8 @@ class Surfels:
         surfels = Surfels.__new__(Surfels)
         surfels._handle = world.core.make(commit, world.handle, destroy=_nothing, what="the surfels",
                                           keep=(world.handle,))
-        world.handle.keep = ()  # the points are gone
         surfels._world = world
+        del given
         return surfels
 
     def _whole(self) -> World | None:

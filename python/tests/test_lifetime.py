@@ -17,6 +17,15 @@ from common import Case
 
 
 class Limits(Case):
+    def test_surfels_need_their_cloud_no_longer(self) -> None:
+        """Also where a camera is placed at them: the memory of the cloud's points is another's by then."""
+        surfels = ewa.generate("torus", 400000).surfels()
+        others = [np.full((400000, 3), np.nan, np.float32) for _ in range(4)]
+        picture = ewa.render(surfels, size=(64, 48))
+        cloud = ewa.generate("torus", 400000)
+        np.testing.assert_allclose(ewa.Camera.frame(cloud, size=(64, 48)).world_to_camera, picture.camera.world_to_camera, atol=1e-3)
+        del others
+
     def test_memory_time_and_names(self) -> None:
         ewa.generate("torus", 20000).save(self.path("many.ply"))
         with ewa.Context(thread_count=1, max_memory_bytes=100_000) as small:
