@@ -23,6 +23,7 @@ typedef struct convert_arguments {
     option_vector crop, transform, scale, translate;
     const char *outline;    ///< of --crop-polygon; NULL: none
     double voxel, distance; ///< world units; 0: no thinning
+    ewa_estimate_options estimate; ///< of which outliers count
     option_color default_color;
     double subsample;          ///< 0: all points; under 1: a share; else a count
     int refit;                 ///< REFIT_*
@@ -46,6 +47,7 @@ static const cli_option change_table[] = {
          "keep the points inside an outline on the map, or on it: corners, or a file of WKT (POLYGON, "
          "MULTIPOLYGON), GeoJSON, or lines of x y; rings in rings, which ;; or an empty line part, are holes",
      .absent = "none"},
+    {"outliers", OPTION_OF(ewa_estimate_options, AT(estimate), outlier_factor)},
     {"voxel", OPTION_NUMBER, AT(voxel), "SIZE", "(0, inf)",
      .help =
          "keep one point per voxel of that size: the one nearest to the mean of those in it, with all its "
@@ -81,6 +83,7 @@ static const cli_option gaussian_table[] = {
 static void set_defaults(void *data) {
     convert_arguments *arguments = data;
     procedure_set_defaults(&arguments->procedure);
+    ewa_estimate_options_init(&arguments->estimate, sizeof arguments->estimate);
     ewa_refit_options_init(&arguments->options, sizeof arguments->options);
     ewa_gaussians_save_options_init(&arguments->gaussians, sizeof arguments->gaussians);
     arguments->procedure.output.gaussians = true;
@@ -230,7 +233,7 @@ static bool change_piece(cli_session *session, const void *data, ewa_cloud **clo
 /// Whether only such things are to be done.
 static bool is_piecewise(const convert_arguments *arguments) {
     return arguments->procedure.output.common.operand_count == 1 && arguments->subsample == 0 &&
-           arguments->voxel == 0 && arguments->distance == 0 && arguments->refit == REFIT_OFF &&
+           arguments->estimate.outlier_factor == 0 && arguments->voxel == 0 && arguments->distance == 0 && arguments->refit == REFIT_OFF &&
            !arguments->procedure.procedure;
 }
 
@@ -244,6 +247,7 @@ static bool has_points(cli_session *session, const ewa_cloud *cloud) {
 static bool choose(cli_session *session, const void *data, ewa_cloud **cloud) {
     const convert_job *job = data;
     point_choice choice = choose_parts(session, job);
+    if (job->arguments->estimate.outlier_factor > 0) choice.outliers = &job->arguments->estimate;
     choice.voxel_world = job->arguments->voxel;
     choice.distance_world = job->arguments->distance;
     return choose_points(session, &choice, cloud) && has_points(session, *cloud) &&
@@ -325,7 +329,7 @@ static bool convert_set(cli_session *session, const convert_job *job) {
     for (size_t i = 0; i < sizeof others / sizeof others[0]; i++)
         if (others[i].given) {
             session_fail(session,
-                         "--%s: Gaussians are not changed that way; --filter, --crop, --crop-polygon, --voxel, "
+                         "--%s: Gaussians are not changed that way; --filter, --crop, --crop-polygon, --outliers, --voxel, "
                          "--min-distance and --subsample choose some, --scale, --transform and --translate move them",
                          others[i].name);
             return false;
@@ -336,8 +340,8 @@ static bool convert_set(cli_session *session, const convert_job *job) {
     }
     double maps[MAX_MAPS][16];
     const uint32_t count = list_maps(arguments, maps);
-    const bool some = arguments->crop.count || job->polygon || session->filter || arguments->voxel > 0 ||
-                      arguments->distance > 0 || arguments->subsample > 0;
+    const bool some = arguments->crop.count || job->polygon || session->filter || arguments->estimate.outlier_factor > 0 ||
+                      arguments->voxel > 0 || arguments->distance > 0 || arguments->subsample > 0;
     return convert_gaussians(session, output->common.operands[0], output->path, &arguments->gaussians,
                              some ? choose : NULL, job, (const double(*)[16])maps, count);
 }

@@ -7,7 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-static ewa_status mark(const point_choice *choice, const ewa_cloud *cloud, uint8_t *marks) {
+/// By what each point is alone.
+static ewa_status mark_chosen(const point_choice *choice, const ewa_cloud *cloud, uint8_t *marks) {
     ewa_status status = choice->filter ? ewa_filter_mark(choice->filter, cloud, marks) : EWA_OK;
     if (status == EWA_OK && choice->corners_world) {
         double corners_world[2][3];
@@ -15,17 +16,23 @@ static ewa_status mark(const point_choice *choice, const ewa_cloud *cloud, uint8
         status = ewa_box_mark((const double(*)[3])corners_world, cloud, marks);
     }
     if (status == EWA_OK && choice->polygon) status = ewa_polygon_mark(choice->polygon, cloud, marks);
-    if (status == EWA_OK && choice->voxel_world > 0)
-        status = ewa_cloud_thin_voxels(cloud, choice->voxel_world, marks);
-    if (status == EWA_OK && choice->distance_world > 0)
-        status = ewa_cloud_thin_distance(cloud, choice->distance_world, marks);
     return status;
 }
 
-bool choose_points(cli_session *session, const point_choice *choice, ewa_cloud **cloud) {
-    if (!choice->filter && !choice->corners_world && !choice->polygon && !(choice->voxel_world > 0) &&
-        !(choice->distance_world > 0))
-        return true;
+static ewa_status mark_thinned(const point_choice *choice, const ewa_cloud *cloud, uint8_t *marks) {
+    ewa_status status = EWA_OK;
+    if (choice->voxel_world > 0) status = ewa_cloud_thin_voxels(cloud, choice->voxel_world, marks);
+    if (status == EWA_OK && choice->distance_world > 0) status = ewa_cloud_thin_distance(cloud, choice->distance_world, marks);
+    return status;
+}
+
+static ewa_status mark_outliers(const point_choice *choice, const ewa_cloud *cloud, uint8_t *marks) {
+    return ewa_cloud_mark_outliers(cloud, choice->outliers, marks);
+}
+
+/// Leaves what one step marks; the neighbours of the next are what is left.
+static bool take(cli_session *session, const point_choice *choice,
+                 ewa_status (*mark)(const point_choice *choice, const ewa_cloud *cloud, uint8_t *marks), ewa_cloud **cloud) {
     const uint64_t count = ewa_cloud_point_count(*cloud);
     uint8_t *marks = malloc(count + 1);
     if (!marks) {
@@ -40,12 +47,24 @@ bool choose_points(cli_session *session, const point_choice *choice, ewa_cloud *
     free(marks);
     if (status != EWA_OK) session_failed(session, status);
     if (chosen) {
-        session_say(session, "%llu of %llu points are taken",
-                    (unsigned long long)ewa_cloud_point_count(chosen), (unsigned long long)count);
         ewa_cloud_destroy(cloud);
         *cloud = chosen;
     }
     return status == EWA_OK;
+}
+
+bool choose_points(cli_session *session, const point_choice *choice, ewa_cloud **cloud) {
+    const uint64_t count = ewa_cloud_point_count(*cloud);
+    if (choice->filter || choice->corners_world || choice->polygon)
+        if (!take(session, choice, mark_chosen, cloud)) return false;
+    if (choice->outliers && ewa_cloud_point_count(*cloud))
+        if (!take(session, choice, mark_outliers, cloud)) return false;
+    if (choice->voxel_world > 0 || choice->distance_world > 0)
+        if (!take(session, choice, mark_thinned, cloud)) return false;
+    if (ewa_cloud_point_count(*cloud) < count)
+        session_say(session, "%llu of %llu points are taken", (unsigned long long)ewa_cloud_point_count(*cloud),
+                    (unsigned long long)count);
+    return true;
 }
 
 ewa_polygon *choose_outline(cli_session *session, const char *text) {

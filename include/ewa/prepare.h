@@ -87,6 +87,14 @@ EWA_API void ewa_estimate_options_init(ewa_estimate_options *options, size_t str
 /// on H. Hoppe et al., "Surface reconstruction from unorganized points", 1992, sections 3.2 and 3.3.
 EWA_API ewa_status ewa_cloud_estimate(ewa_cloud **cloud, const ewa_estimate_options *options);
 
+/// Clears the marks (one per point) of points that are far from all others: whose mean distance to their `neighbour_count` nearest
+/// places is over the mean of all by more than `outlier_factor` standard deviations, which is above 0; and of points that are not
+/// finite. Neighbours are all points, marked or not. What ewa_cloud_estimate() removes; other members of `options` do not count.
+/// The same for every number of threads. Progress stage: "outliers". Errors: EWA_ERROR_ARGUMENT (no positions, options), EWA_ERROR_LIMIT
+/// (2^32 - 1 points or more), EWA_ERROR_MEMORY, EWA_CANCELLED; marks are as they were then. Source: R. B. Rusu et al., "Towards 3D point
+/// cloud based object maps for household environments", 2008, section 5.1 (statistical outlier removal).
+EWA_API ewa_status ewa_cloud_mark_outliers(const ewa_cloud *cloud, const ewa_estimate_options *options, uint8_t *marks);
+
 /// What the neighbourhoods of a cloud say about its sampling; world units.
 typedef struct ewa_spacing {
     double median_world, mean_world; ///< of 1/sqrt(local density)

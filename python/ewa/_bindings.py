@@ -2962,6 +2962,7 @@ class Functions:
     ewa_cloud_detect_features: Callable[..., int]
     ewa_cloud_estimate: Callable[..., int]
     ewa_cloud_generate: Callable[..., int]
+    ewa_cloud_mark_outliers: Callable[..., int]
     ewa_cloud_measure_spacing: Callable[..., int]
     ewa_cloud_refit_colors: Callable[..., int]
     ewa_csg_options_init: Callable[..., None]
@@ -3354,6 +3355,7 @@ class Functions:
         self.ewa_cloud_detect_features = bind("ewa_cloud_detect_features", c.c_int, c.c_void_p, c.POINTER(ewa_feature_options), c.POINTER(ewa_feature_counts))
         self.ewa_cloud_estimate = bind("ewa_cloud_estimate", c.c_int, c.c_void_p, c.POINTER(ewa_estimate_options))
         self.ewa_cloud_generate = bind("ewa_cloud_generate", c.c_int, c.c_void_p, c.POINTER(ewa_generate_options), c.c_void_p)
+        self.ewa_cloud_mark_outliers = bind("ewa_cloud_mark_outliers", c.c_int, c.c_void_p, c.POINTER(ewa_estimate_options), c.c_void_p)
         self.ewa_cloud_measure_spacing = bind("ewa_cloud_measure_spacing", c.c_int, c.c_void_p, c.c_uint64, c.POINTER(ewa_spacing))
         self.ewa_cloud_refit_colors = bind("ewa_cloud_refit_colors", c.c_int, c.c_void_p, c.POINTER(ewa_refit_options), c.POINTER(ewa_refit_report))
         self.ewa_csg_options_init = bind("ewa_csg_options_init", None, c.POINTER(ewa_csg_options), c.c_size_t)

@@ -415,6 +415,26 @@ class Cloud:
                             marks.ctypes.data)
         return self._kept(marks)
 
+    def without_outliers(self, outlier_factor: float = 3, neighbour_count: int | None = None) -> Cloud:
+        """Return a cloud without points that are far from all others, as :meth:`estimate` leaves them out.
+
+        Parameters
+        ----------
+        outlier_factor : float, above 0
+            Standard deviations over the mean of all that the mean distance to its neighbours may be.
+        neighbour_count : int, 6 to 64, optional
+            Of these neighbours. Default: 16.
+
+        Raises
+        ------
+        ArgumentError, OutOfMemory
+        """
+        made = initialised(b.ewa_estimate_options, lib.ewa_estimate_options_init)
+        fill(made, "ewa_estimate_options", {"outlier_factor": outlier_factor, "neighbour_count": neighbour_count})
+        marks = np.ones(len(self), np.uint8)
+        self._core.call(lib.ewa_cloud_mark_outliers, self._h, ctypes.byref(made), marks.ctypes.data)
+        return self._kept(marks)
+
     def color_by(self, word: str, colormap: Any = None, range: Sequence[float] | None = None) -> Cloud:
         """Return the cloud in colours that stand for one number of each point.
 

@@ -139,6 +139,10 @@ class Arrays(Case):
                 cloud.filter(text)
         with self.assertRaises(ewa.ArgumentError):
             cloud.thin(voxel=-1)
+        strewn = ewa.Cloud(np.concatenate([self.points, [[99, 0, 0]]]))
+        self.assertEqual(len(strewn.without_outliers(6)), 1000)
+        with self.assertRaises(ewa.ArgumentError):
+            strewn.without_outliers(0)
 
     def test_files_keep_arrays(self) -> None:
         cloud = ewa.Cloud(self.points, intensity=np.arange(1000, dtype=np.uint16),

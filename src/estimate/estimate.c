@@ -562,6 +562,6 @@ ewa_status ewa_cloud_estimate(ewa_cloud **cloud, const ewa_estimate_options *giv
         return ewa_fail(context, EWA_ERROR_LIMIT, "estimate: %llu points are over the limit of 2^32 - 2",
                         (unsigned long long)ewa_cloud_point_count(*cloud));
     if (options->outlier_factor > 0)
-        EWA_TRY(ewa_remove_outliers(cloud, options->neighbour_count, options->outlier_factor));
+        EWA_TRY(ewa_remove_outliers(cloud, options));
     return estimate(*cloud, options);
 }

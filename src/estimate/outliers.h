@@ -5,12 +5,10 @@
 #ifndef EWA_SRC_ESTIMATE_OUTLIERS_H
 #define EWA_SRC_ESTIMATE_OUTLIERS_H
 
-#include "ewa/cloud.h"
+#include "ewa/prepare.h"
 
-/// Replaces the cloud by one without the points whose mean distance to their neighbours exceeds the mean of
-/// all by more than `factor` standard deviations, nor those with coordinates that are not finite. All streams
-/// are kept. The cloud stays as it is when nothing is to be removed, and on failure. Errors:
-/// EWA_ERROR_MEMORY, EWA_CANCELLED.
-ewa_status ewa_remove_outliers(ewa_cloud **cloud, uint32_t neighbour_count, double factor);
+/// Replaces the cloud by one without what ewa_cloud_mark_outliers() finds by options that have been looked at. All streams are kept.
+/// The cloud stays as it is when nothing is to be removed, and on failure. Errors: EWA_ERROR_MEMORY, EWA_CANCELLED.
+ewa_status ewa_remove_outliers(ewa_cloud **cloud, const ewa_estimate_options *options);
 
 #endif

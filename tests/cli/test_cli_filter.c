@@ -123,6 +123,14 @@ static void test_thinning(void **state) {
     // What is thinned already stays.
     run_done("ewa convert a1.ply -o a3.ply --min-distance 0.1");
     assert_true(scratch_same("a1.ply", "a3.ply"));
+    // Neighbours of points are those that other options leave.
+    run_done("ewa generate plane -n 400 -o p.ply --ascii --positions-only && ewa generate plane -n 1 -o q.ply --positions-only --extent 1e-3 && "
+             "ewa convert q.ply -o far.ply --translate 0,0,9 && ewa convert p.ply far.ply -o both.ply && "
+             "ewa convert both.ply -o o1.ply --outliers 3 && ewa info o1.ply");
+    assert_non_null(strstr(last_run.out, "points      400\n"));
+    run_done("ewa convert both.ply -o o2.ply --outliers 3 --crop -9,-9,5,9,9,99 && ewa info o2.ply");
+    assert_non_null(strstr(last_run.out, "points      1\n"));
+    run_fails(2, "--outliers: -1 is outside [0, inf)", "ewa convert a.ply -o b.ply --outliers -1");
     run_fails(2, "--voxel: 0 is outside (0, inf)", "ewa convert a.ply -o b.ply --voxel 0");
     run_fails(2, "--min-distance: -1 is outside (0, inf)", "ewa convert a.ply -o b.ply --min-distance -1");
 }

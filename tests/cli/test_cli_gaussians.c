@@ -131,6 +131,9 @@ static void chosen(void **state) {
     run_done("ewa convert line.spz -o a.spz --min-distance 1.9 --crop 0,0,0,19,0,1 && ewa info a.spz");
     run_done("ewa convert line.spz -o a.spz --voxel 10 && ewa info a.spz");
     said("gaussians   10\n");
+    // On a line those at its ends are farther from their neighbours.
+    run_done("ewa convert line.spz -o a.spz --outliers 2 && ewa info a.spz");
+    said("gaussians   9");
     run_fails(1, "none of the points is left", "ewa convert line.spz -o x.spz --filter 'size>3'");
     run_fails(1, "opacity", "ewa convert line.spz -o x.spz --filter 'weight>3'");
 }

@@ -594,6 +594,44 @@ static void test_out_of_memory(void **state) {
     free(xyz);
 }
 
+/// What is marked is what the estimate leaves, whatever is marked before; points that are not finite are none.
+static void test_marked_outliers(void **state) {
+    enum { COUNT = 3000, FAR = 40 };
+    ewa_context *context = check_context(2, NULL);
+    float *xyz = NULL;
+    ewa_cloud *cloud = check_cloud(context, COUNT, &xyz), *left = NULL;
+    check_random random = {11};
+    for (int i = 0; i < COUNT; i++)
+        for (int c = 0; c < 3; c++) xyz[3 * i + c] = (float)(c == 2 ? 0 : check_uniform(&random, -1, 1));
+    for (int i = 0; i < FAR; i++) xyz[3 * i + 2] = (float)(3 + i);
+    xyz[3 * FAR] = NAN;
+    ewa_estimate_options options = check_estimate_options();
+    options.outlier_factor = 1;
+    static uint8_t marks[COUNT];
+    memset(marks, 1, sizeof marks);
+    marks[COUNT - 1] = 0;
+    assert_int_equal(ewa_cloud_mark_outliers(cloud, &options, marks), EWA_OK);
+    for (int i = 0; i <= FAR; i++) assert_int_equal(marks[i], 0);
+    for (int i = FAR + 1; i < COUNT - 1; i++) assert_int_equal(marks[i], 1);
+    assert_int_equal(marks[COUNT - 1], 0);
+    marks[COUNT - 1] = 1;
+    assert_int_equal(ewa_cloud_keep(cloud, marks, &left), EWA_OK);
+    assert_int_equal(ewa_cloud_estimate(&cloud, &options), EWA_OK);
+    assert_int_equal(ewa_cloud_point_count(cloud), COUNT - 1 - FAR);
+    assert_memory_equal(check_stream(cloud, EWA_POSITION), check_stream(left, EWA_POSITION), (COUNT - 1 - FAR) * 3 * sizeof *xyz);
+    ewa_cloud_destroy(&left);
+    options.outlier_factor = 0;
+    assert_int_equal(ewa_cloud_mark_outliers(cloud, &options, marks), EWA_ERROR_ARGUMENT);
+    options.outlier_factor = NAN;
+    assert_int_equal(ewa_cloud_mark_outliers(cloud, &options, marks), EWA_ERROR_ARGUMENT);
+    options.outlier_factor = 1;
+    assert_int_equal(ewa_cloud_mark_outliers(cloud, &options, NULL), EWA_ERROR_ARGUMENT);
+    ewa_cloud_remove(cloud, EWA_POSITION);
+    assert_int_equal(ewa_cloud_mark_outliers(cloud, &options, marks), EWA_ERROR_ARGUMENT);
+    ewa_cloud_destroy(&cloud);
+    ewa_context_destroy(&context);
+}
+
 static bool cancel_at(void *user, const char *stage, double fraction) {
     (void)fraction;
     return strcmp(stage, user) != 0;
@@ -689,6 +727,7 @@ int main(void) {
         cmocka_unit_test(test_threads_and_machines),
         cmocka_unit_test(test_order_of_points),
         cmocka_unit_test(test_out_of_memory),
+        cmocka_unit_test(test_marked_outliers),
         cmocka_unit_test(test_cancel_and_options),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
