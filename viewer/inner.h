@@ -131,7 +131,7 @@ struct viewer {
     double whole_s;   ///< what the last whole picture took, without threads
     uint64_t refined; ///< the last picture that was drawn again for the nodes that had come, without a thread that reads
     double refined_s; ///< when that was last, with one
-    uint32_t reduction, slow_count, fast_count;      ///< of moving pictures: see adapt()
+    uint32_t plain, slow_count, fast_count;          ///< of moving pictures: see adapt()
     uint64_t adapted;                                ///< the last picture that was looked at for it
     uint64_t marks, composed_marks, composed_ticket; ///< of what is drawn over the picture
     uint64_t composed_drawn;                         ///< which picture it was drawn over

@@ -98,11 +98,25 @@ static void on_preview(void *user, ewa_asset *asset, bool as_points) {
     report(l, note);
 }
 
+/// Returns how many levels surfels are to have: none of so few that one cannot tell what is seen.
+static uint32_t level_count_of(const loader_scene *of) {
+    enum { MOST = 8, FEWEST_SURFELS = 12000 };
+    uint64_t count = 0;
+    for (uint32_t i = 0; i < of->count; i++) {
+        ewa_asset_info info;
+        ewa_asset_describe(of->assets[i], &info);
+        if (info.kind == EWA_ASSET_MESH) return MOST; // as many as its area says
+        if (info.kind == EWA_ASSET_POINTS && of->instances[i].visible) count += info.count;
+    }
+    uint32_t levels = 1; // all of them
+    while (levels < MOST && (count /= 4) >= FEWEST_SURFELS) levels++;
+    return levels;
+}
+
 /// Makes the scene of an order, with what it has in common with the last one.
 static bool make_scene(loader *l, ewa_context *context, loader_note *order) {
-    enum { LEVELS = 8 };
     ewa_scene_options options = order->of.options;
-    options.surfels.level_count = LEVELS;
+    options.surfels.level_count = level_count_of(&order->of);
     ewa_scene *scene = NULL;
     ewa_status status = ewa_scene_create(context, &options, &scene);
     for (uint32_t i = 0; i < order->of.count && status == EWA_OK; i++)

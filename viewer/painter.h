@@ -19,7 +19,7 @@ typedef struct paint_scene {
     ewa_scene_options options;
     bool octrees;        ///< some are visible:
     octree_turns *turns; ///< of who uses them
-    bool coarse;         ///< they are drawn coarser than they are to be in the end
+    bool coarse;         ///< it is drawn coarser than it is to be in the end
     bool reduced;        ///< the picture is smaller than the window's
     uint64_t arrived_count; ///< nodes that had come before
 } paint_scene;

@@ -19,10 +19,19 @@ static const double ANIMATION_S = 0.25;
 static const double MAX_PX = 1 << 27, MAX_SIDE_PX = 32768;
 /// Windows of more pixels are drawn at half their size while something moves.
 static const double LARGE_PX = 2e6;
-/// Moving pictures become smaller after so many that take so many times their budget, and larger after so many
+/// Moving pictures become plainer after so many that take so many times their budget, and finer after so many
 /// that would take so much of it.
 static const double TOO_SLOW = 1.4, MUCH_FASTER = 0.7;
-enum { SLOW_PICTURES = 2, FAST_PICTURES = 8, MAX_REDUCTION = 4 };
+enum { SLOW_PICTURES = 2, FAST_PICTURES = 8 };
+/// How plain they become: how many times as coarse octrees are as when nothing moves, and by how much the sides of the picture are divided.
+/// Where the last is too slow, there are fewer pictures: those of less could not be told from others.
+static const struct {
+    double coarser;
+    uint32_t divisor;
+} plainness[] = {{2, 1}, {4, 1}, {2, 2}, {4, 2}};
+enum { PLAINEST = sizeof plainness / sizeof plainness[0] - 1 };
+/// Surfaces that show through each other at silhouettes of them, at most: the third and all behind it are seen in few pixels.
+enum { MOVING_EDGE_LAYERS = 2 };
 /// Time for reading the nodes of octrees, of each picture while they get finer.
 static const double REFINE_S = 0.15, LONGEST_REFINE_S = 1;
 /// Without threads, a whole picture holds up the hand: it waits for such a share of what the last one took, and no longer than this.
@@ -31,8 +40,8 @@ static const double SETTLE_SHARE = 0.5, LONGEST_SETTLE_S = 0.5;
 enum { NODES_MOVING = 2, NODES_STILL = 8 };
 /// Nodes that have come are shown after so long, and after so many times what drawing them takes.
 static const double SHOW_NODES_S = 0.25, SHOW_NODES_SHARE = 4;
-/// How much coarser octrees are while something moves, and at most.
-static const double COARSER = 2, MAX_SPACING_PX = 64, MAX_ERROR = 255;
+/// Octrees are no coarser than this while something moves, whatever was asked for.
+static const double MAX_SPACING_PX = 64, MAX_ERROR = 255;
 /// When to ask again, while something is under way and when nothing is.
 static const double SOON_S = 0.002, LATER_S = 0.1;
 /// Beside the ticket of a composed picture: it was whole.
@@ -101,7 +110,7 @@ ewa_status viewer_create(const viewer_options *options, viewer **made) {
     v->reach_world = v->fly_speed = 1;
     if (!options->camera) navigate_move(&v->camera, (double[3]){0, 0, -3});
     navigate_resize(&v->camera, pixels(v->width, v->scale), pixels(v->height, v->scale));
-    v->revision = v->reduction = 1;
+    v->revision = 1;
     v->state.panels = true;
     v->turns = malloc(sizeof *v->turns);
     if (v->turns) turns_init(&v->turns->files);
@@ -237,23 +246,33 @@ void viewer_scene(const viewer *v, paint_scene *scene) {
 }
 
 /// By how much the sides of a picture are divided at least while something moves.
-static uint32_t min_reduction(const viewer *v) {
+static uint32_t min_divisor(const viewer *v) {
     return (double)v->camera.width_px * v->camera.height_px > LARGE_PX ? 2 : 1;
 }
 
-/// Makes moving pictures smaller where even the coarsest surfels take too long, and larger again.
+/// What pictures of one plainness take beside those of another one, about.
+static double work_of(const viewer *v, uint32_t plain) {
+    const double divisor = v->settings.reduce ? fmax(plainness[plain].divisor, min_divisor(v)) : 1;
+    const double coarser = v->octrees ? plainness[plain].coarser : 1;
+    return 1 / (divisor * divisor * coarser * coarser);
+}
+
+/// Makes moving pictures plainer where they take too long, and finer again, by steps that change something.
 static void adapt(viewer *v, const paint_result *newest) {
     if (!newest || newest->whole || newest->ticket == v->adapted) return;
     v->adapted = newest->ticket;
-    const double budget_s = 1e-3 * v->settings.budget_ms, r = v->reduction > 1 ? v->reduction : 2;
+    const double budget_s = 1e-3 * v->settings.budget_ms, work = work_of(v, v->plain);
+    uint32_t plainer = v->plain, finer = v->plain;
+    while (plainer < PLAINEST && work_of(v, plainer) >= work) plainer++;
+    while (finer > 0 && work_of(v, finer) <= work) finer--;
     const bool slow = newest->drawn_s > TOO_SLOW * budget_s;
-    const bool fast = newest->drawn_s * r * r / ((r - 1) * (r - 1)) < MUCH_FASTER * budget_s;
+    const bool fast = newest->drawn_s * work_of(v, finer) / work < MUCH_FASTER * budget_s;
     v->slow_count = slow ? v->slow_count + 1 : 0;
     v->fast_count = fast ? v->fast_count + 1 : 0;
-    const uint32_t before = v->reduction;
-    if (v->slow_count >= SLOW_PICTURES && v->reduction < MAX_REDUCTION) v->reduction++;
-    if (v->fast_count >= FAST_PICTURES && v->reduction > 1) v->reduction--;
-    if (v->reduction != before) v->slow_count = v->fast_count = 0;
+    const uint32_t before = v->plain;
+    if (v->slow_count >= SLOW_PICTURES && work_of(v, plainer) < work) v->plain = plainer;
+    if (v->fast_count >= FAST_PICTURES && work_of(v, finer) > work) v->plain = finer;
+    if (v->plain != before) v->slow_count = v->fast_count = 0;
 }
 
 /// A scene that is drawn within the time of a frame.
@@ -261,13 +280,19 @@ static void make_quick(const viewer *v, paint_scene *scene) {
     ewa_scene_options *options = &scene->options;
     options->render.budget_s = 1e-3 * v->settings.budget_ms;
     options->volumes.level = 1;
+    if ((v->plain || scene->octrees) && options->render.edge_layers > MOVING_EDGE_LAYERS) {
+        options->render.edge_layers = MOVING_EDGE_LAYERS;
+        scene->coarse = true;
+    }
     if (scene->octrees) {
+        const double coarser = plainness[v->plain].coarser;
         scene->coarse = true;
         options->lod.load_s = 0.5 * options->render.budget_s;
-        options->lod.spacing_px = fmin(COARSER * options->lod.spacing_px, MAX_SPACING_PX);
-        options->lod.error = fmin(COARSER * options->lod.error, MAX_ERROR);
+        options->lod.spacing_px = fmin(coarser * options->lod.spacing_px, MAX_SPACING_PX);
+        options->lod.error = fmin(coarser * options->lod.error, MAX_ERROR);
     }
-    const uint32_t minimum = min_reduction(v), divisor = v->reduction > minimum ? v->reduction : minimum;
+    const uint32_t minimum = min_divisor(v), wanted = plainness[v->plain].divisor;
+    const uint32_t divisor = wanted > minimum ? wanted : minimum;
     if (!v->settings.reduce || divisor == 1) return;
     scene->reduced = true;
     ewa_camera *camera = &scene->camera;

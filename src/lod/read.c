@@ -69,9 +69,8 @@ static ewa_status fetch_nodes(ewa_lod *lod, const ewa_tree_reading *how, const u
 
 /// Which points of a file node lie in the cube of another node.
 typedef struct inside_job {
-    const ewa_lod *lod;
     const ewa_lod_node *node;
-    const ewa_octree_key *file_node;
+    ewa_tree_cells cells; ///< of the node's level
     const ewa_attribute *position;
     double origin[3];
     uint64_t count;
@@ -94,7 +93,7 @@ static void inside_task(void *data, uint32_t task, uint32_t worker) {
             int32_t cell[3];
             double at[3];
             for (uint64_t c = 0; c < 3; c++) at[c] = block[3 * k + c] + job->origin[c];
-            ewa_tree_cell(job->lod, at, job->file_node, job->node->key.level, cell);
+            ewa_tree_cell(&job->cells, at, cell);
             job->inside[i + k] = memcmp(cell, job->node->key.cell, sizeof cell) == 0;
         }
     }
@@ -111,12 +110,11 @@ static ewa_status gather_points(ewa_lod *lod, const ewa_lod_node *node, const ui
         const ewa_octree_key *key = &lod->facts->nodes[file_nodes[n]].key;
         const uint64_t point_count = ewa_cloud_point_count(cloud);
         uint64_t *indices = ewa_allocate(lod->context, point_count, sizeof *indices), kept = 0;
-        inside_job job = {.lod = lod,
-                          .node = node,
-                          .file_node = key,
+        inside_job job = {.node = node,
                           .position = ewa_cloud_find(cloud, EWA_POSITION),
                           .count = point_count,
                           .inside = ewa_allocate(lod->context, point_count, 1)};
+        ewa_tree_cells_begin(lod, key, node->key.level, &job.cells);
         if (indices && job.inside) {
             ewa_cloud_origin(cloud, job.origin);
             ewa_parallel(lod->context, inside_task, &job,

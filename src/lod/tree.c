@@ -170,14 +170,12 @@ ewa_status ewa_tree_make(ewa_lod *lod) {
     return lod->clouds && lod->cloud_frames ? status : EWA_ERROR_MEMORY;
 }
 
-void ewa_tree_cell(const ewa_lod *lod, const double world[3], const ewa_octree_key *file_node, int32_t level,
-                   int32_t cell[3]) {
-    const double per_side = ldexp(1 / lod->facts->side_world, level);
+void ewa_tree_cells_begin(const ewa_lod *lod, const ewa_octree_key *file_node, int32_t level, ewa_tree_cells *cells) {
+    cells->per_side = ldexp(1 / lod->facts->side_world, level);
     for (int c = 0; c < 3; c++) {
-        const double at = floor((world[c] - lod->facts->low_world[c]) * per_side);
-        const double first = ldexp(file_node->cell[c], level - file_node->level),
-                     last = ldexp(file_node->cell[c] + 1.0, level - file_node->level) - 1;
-        cell[c] = (int32_t)(at >= first ? (at <= last ? at : last) : first);
+        cells->low_world[c] = lod->facts->low_world[c];
+        cells->first[c] = ldexp(file_node->cell[c], level - file_node->level);
+        cells->last[c] = ldexp(file_node->cell[c] + 1.0, level - file_node->level) - 1;
     }
 }
 

@@ -10,6 +10,8 @@
 #include "io/octree.h"
 #include "lod/look.h"
 
+#include <math.h>
+
 #define EWA_NO_NODE UINT32_MAX
 
 /// A node: either surfels represent all of its points (it is divided, and its children hold more), or its
@@ -73,10 +75,20 @@ bool ewa_tree_looks_agree(const ewa_lod_look *a, const ewa_lod_look *b);
 /// Makes the nodes of an open octree. Errors: EWA_ERROR_MEMORY, EWA_ERROR_FORMAT.
 ewa_status ewa_tree_make(ewa_lod *lod);
 
-/// The cell of `level` that contains a place, within the node of the file node that holds the point; that
-/// node's level is not finer.
-void ewa_tree_cell(const ewa_lod *lod, const double world[3], const ewa_octree_key *file_node, int32_t level,
-                   int32_t cell[3]);
+/// The cells of one level within the node of a file node, whose own level is not finer.
+typedef struct ewa_tree_cells {
+    double per_side, low_world[3], first[3], last[3];
+} ewa_tree_cells;
+
+void ewa_tree_cells_begin(const ewa_lod *lod, const ewa_octree_key *file_node, int32_t level, ewa_tree_cells *cells);
+
+/// The cell that contains a place, within the node of the file node that holds the point.
+static inline void ewa_tree_cell(const ewa_tree_cells *cells, const double world[3], int32_t cell[3]) {
+    for (int c = 0; c < 3; c++) {
+        const double at = floor((world[c] - cells->low_world[c]) * cells->per_side);
+        cell[c] = (int32_t)(at >= cells->first[c] ? (at <= cells->last[c] ? at : cells->last[c]) : cells->first[c]);
+    }
+}
 
 /// Which of its parent's children a node is.
 uint32_t ewa_tree_child_of(const ewa_octree_key *key);

@@ -136,6 +136,37 @@ static void close_viewer(viewer *v) {
     assert_int_equal(contents.loads, contents.frees);
 }
 
+/// However little time there is, what moves is at least half as large as the window, of enough surfels to be told.
+static void moving_pictures_can_be_told(void **state) {
+    static const char *const names[] = {"torus", "octree"};
+    for (int i = 0; i < 2; i++) {
+        viewer *v = make_viewer(false);
+        assert_true(viewer_open(v, names[i]));
+        viewer_picture picture = settle(v);
+        viewer_do(v, "set budget_ms 1");
+        // The picture is too large for any machine.
+        handle(v, (viewer_event){.kind = VIEWER_RESIZE, .x = 1200, .y = 1000, .amount = 1});
+        settle(v);
+        uint64_t number = 0;
+        uint32_t least_px = UINT32_MAX;
+        for (int drawn = 0; drawn < 40;) {
+            viewer_do(v, "turn 1 0");
+            for (int k = 0; k < 1000; k++) {
+                viewer_frame(v, now_s(), &picture);
+                if (picture.number != number) break;
+                nanosleep(&(struct timespec){.tv_nsec = 200000}, NULL);
+            }
+            number = picture.number;
+            drawn++;
+            if (picture.width_px < least_px) least_px = picture.width_px;
+            assert_true(picture.width_px >= 600 && picture.height_px >= 500);
+            assert_true(picture.splat_count >= 12000);
+        }
+        assert_int_equal(least_px, 600); // it was too slow
+        close_viewer(v);
+    }
+}
+
 /// Two pictures are the same; frees them.
 static void compare_pictures(uint8_t *pictures[2]) {
     assert_memory_equal(pictures[0], pictures[1], 4 * PIXELS);
@@ -513,6 +544,7 @@ static void octrees_get_finer(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(still_pictures_are_the_renderers),
+        cmocka_unit_test(moving_pictures_can_be_told),
         cmocka_unit_test(octrees_get_finer),
         cmocka_unit_test(moving_ends_in_the_same_picture),
         cmocka_unit_test(stepped_viewers_show_the_same),
