@@ -135,8 +135,22 @@ class Image:
     def _repr_png_(self) -> bytes | None:
         if "rgba8" not in self._planes:
             return None
+        return self.encode()
+
+    def encode(self, suffix: str = ".png") -> bytes:
+        """Return the bytes of the file that :meth:`save` writes.
+
+        Parameters
+        ----------
+        suffix : str, optional
+            What it is: ".png", ".jpg", ".exr", ".pfm".
+
+        Raises
+        ------
+        ArgumentError, FormatError
+        """
         with tempfile.TemporaryDirectory() as folder:
-            path = os.path.join(folder, "image.png")
+            path = os.path.join(folder, "image" + suffix)
             self.save(path)
             with open(path, "rb") as file:
                 return file.read()
