@@ -25,6 +25,8 @@ DEFAULT_FOV_DEG = 30.0
 DEFAULT_SIZE = (1280, 720)
 
 PathLike = Union[str, "os.PathLike[str]"]
+#: Three numbers.
+Vector = Union[Sequence[float], Array]
 
 
 def _check(status: int, what: str) -> None:
@@ -153,7 +155,7 @@ class Camera:
         return np.array(radial[:2] + tangential + radial[2:])
 
     @classmethod
-    def look_at(cls, eye: Sequence[float], target: Sequence[float], up: Sequence[float] = (0, 0, 1), *,
+    def look_at(cls, eye: Vector, target: Vector, up: Vector = (0, 0, 1), *,
                 size: Sequence[int] = DEFAULT_SIZE, fov: float | None = None, ortho: float | None = None) -> Camera:
         """Make a camera at `eye` that looks at `target`, world units.
 
@@ -252,7 +254,7 @@ class Camera:
         lib.ewa_camera_eye(ctypes.byref(self._struct), eye)
         return np.array(eye)
 
-    def orbit(self, pivot: Sequence[float], axis: Sequence[float], angle_deg: float) -> Camera:
+    def orbit(self, pivot: Vector, axis: Vector, angle_deg: float) -> Camera:
         """Return the camera carried about an axis, right-handed, by degrees: a turntable.
 
         Raises
