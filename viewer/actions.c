@@ -68,6 +68,8 @@ static const viewer_action actions[] = {
     {"Look", "Axes", "next axes", "axes in the corner", 'x', 0, VIEWER_ICON_NONE},
     {"Look", "Scale bar", "next scale_bar", "a length of the scene in the corner", 'g', 0, VIEWER_ICON_NONE},
 
+    {"Tools", "Measure", "measure next", "every second click measures from the one before, as Shift click does at any time", 't',
+     0, VIEWER_ICON_MEASURE},
     {"Tools", "Clip box", "box next", "clip box around everything, whose sides can be dragged", 'c', 0, VIEWER_ICON_BOX},
     {"Tools", "Slab", "slab next", "slab across the view; Alt wheel moves it", 'v', 0, VIEWER_ICON_SLAB},
     {"Tools", "Profile", "profile next", "profile along what was measured", 'r', 0, VIEWER_ICON_PROFILE},

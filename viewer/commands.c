@@ -65,6 +65,7 @@ static bool is_points(const viewer *v) { return v->render.point_size_px > 0; }
 static bool is_box(const viewer *v) { return v->cutaway.box; }
 static bool is_slab(const viewer *v) { return v->cutaway.slab; }
 static bool is_profile(const viewer *v) { return v->profile.shown; }
+static bool is_measuring(const viewer *v) { return v->measures; }
 static bool is_help(const viewer *v) { return v->state.help; }
 static bool is_panels(const viewer *v) { return v->state.panels; }
 static bool is_fullscreen(const viewer *v) { return v->state.fullscreen; }
@@ -329,11 +330,18 @@ static bool do_cancel(viewer *v, const char *rest) {
     v->state.help = false;
     if (help) return true;
     v->state.message[0] = v->state.note[0] = 0;
+    const bool picked = v->picks[0].given;
     if (items_cancel(v))
         viewer_note(v, "loading was given up");
-    else
+    else if (picked)
         pick_clear(v);
+    else
+        v->measures = false;
     return true;
+}
+
+static bool do_measure(viewer *v, const char *rest) {
+    return read_switch(v, "measure", rest, v->measures, &v->measures);
 }
 
 static bool do_clear(viewer *v, const char *rest) {
@@ -386,6 +394,7 @@ static const struct {
     {"turn", do_turn, NULL},
     {"box", do_box, is_box},
     {"slab", do_slab, is_slab},
+    {"measure", do_measure, is_measuring},
     {"camera", shot_camera, NULL},
     {"shot", shot_command, NULL},
     {"scene", do_scene, NULL},

@@ -123,6 +123,7 @@ struct viewer {
     double fly_speed;  ///< sizes of the scene a second
 
     viewer_pick picks[2];
+    bool measures; ///< a click measures from the one before, without Shift
     viewer_cutaway cutaway;
     viewer_profile profile;
 

@@ -169,6 +169,7 @@ bool pick_point(viewer *v, double x, double y, bool second) {
     else
         v->picks[1].given = false;
     copy_picked(v);
+    viewer_note(v, "%s, and copied as text", second ? "measured" : "picked");
     viewer_mark(v);
     return true;
 }

@@ -106,10 +106,11 @@ static void release(viewer *v, const viewer_event *event) {
     v->button = 0;
     v->drag = DRAG_NONE;
     if (!clicked || v->handle >= 0) return;
-    if (event->clicks >= 2)
+    const bool follows = v->measures && v->picks[0].given && !v->picks[1].given;
+    const bool second = follows || event->modifiers & VIEWER_SHIFT;
+    if (event->clicks >= 2 && !v->measures)
         recenter(v, event->x, event->y);
-    else if (!pick_point(v, event->x, event->y, event->modifiers & VIEWER_SHIFT) &&
-             !(event->modifiers & VIEWER_SHIFT))
+    else if (!pick_point(v, event->x, event->y, second) && !second)
         pick_clear(v);
 }
 

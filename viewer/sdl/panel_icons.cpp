@@ -25,6 +25,7 @@ const char *const icons[] = {
     /* corner */ CUBE " D 12 12 3",
     /* ortho */ "M 3 3 L 21 3 L 21 21 L 3 21 Z M 9 9 L 15 9 L 15 15 L 9 15 Z M 3 3 L 9 9 M 21 3 L 15 9 M 21 21 L 15 15 "
                 "M 3 21 L 9 15",
+    /* measure */ "M 3 16 L 16 3 L 21 8 L 8 21 Z M 6 13 L 8 15 M 9 10 L 12 13 M 12 7 L 14 9 M 15 4 L 18 7",
     /* box */ "M 5 5 L 19 5 L 19 19 L 5 19 Z D 12 5 2.4 D 19 12 2.4 D 12 19 2.4 D 5 12 2.4",
     /* slab */ "M 4 8 L 10 4 L 10 16 L 4 20 Z M 14 8 L 20 4 L 20 16 L 14 20 Z",
     /* profile */ "M 3 4 L 3 20 L 21 20 M 5 16 L 9 13 L 12 14 L 16 7 L 20 9",
