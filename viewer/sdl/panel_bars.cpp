@@ -1,19 +1,22 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// The bar of menus and the bar of buttons, both of the viewer's actions.
+// The bar of menus and the bar of buttons, both of the viewer's actions, and figures of the picture at its end.
 #include "panel_parts.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 namespace {
 
 /// Points: of a button's side and its icon's.
 constexpr float button_points = 28, icon_points = 20;
+/// Figures are shown anew so often.
+constexpr double figures_step_s = 0.25;
 
 /// What an action does, and its key.
-void tell(const panel_page *page, const viewer_action *action) {
+void tell(const viewer_action *action) {
     if (!ImGui::IsItemHovered()) return;
     char keys[VIEWER_KEYS_BYTES];
     viewer_action_keys(action, keys);
@@ -23,7 +26,6 @@ void tell(const panel_page *page, const viewer_action *action) {
     ImGui::TextDisabled("%s", action->help);
     ImGui::PopTextWrapPos();
     ImGui::EndTooltip();
-    (void)page;
 }
 
 /// The words of the setting that an action steps through; NULL: it is none of several words.
@@ -51,7 +53,7 @@ void row(const panel_page *page, const viewer_action *action) {
     bool on = false;
     (void)viewer_action_is_switch(page->viewer, action, &on);
     if (ImGui::MenuItem(action->label, keys, on)) viewer_act(page->viewer, action);
-    tell(page, action);
+    tell(action);
     const recent_files *recent = page->facts->recent;
     if (strcmp(action->command, "open") != 0 || !recent || !recent->count || !ImGui::BeginMenu("Open again")) return;
     for (uint32_t i = 0; i < recent->count; i++) panel_recent(page, i, true);
@@ -77,6 +79,53 @@ void menus(const panel_page *page) {
     ImGui::PopStyleVar();
 }
 
+/// "1.0 M" of 1,000,000.
+void write_short(uint64_t count, char text[32]) {
+    const double number = (double)count;
+    if (number >= 1e9)
+        snprintf(text, 32, "%.2f G", number * 1e-9);
+    else if (number >= 1e6)
+        snprintf(text, 32, "%.2f M", number * 1e-6);
+    else if (number >= 1e4)
+        snprintf(text, 32, "%.0f k", number * 1e-3);
+    else
+        snprintf(text, 32, "%.0f", number);
+}
+
+/// What is drawn, and what it takes, at the right end of the bar where there is room from `left` on.
+void figures(panel_page *page, float left) {
+    uint64_t splats = 0, voxels = 0;
+    for (size_t i = 0; i < viewer_item_count(page->viewer); i++) {
+        viewer_item item;
+        if (!viewer_item_get(page->viewer, i, &item) || !item.visible) continue;
+        if (item.volume)
+            voxels += item.count;
+        else
+            splats += item.count;
+    }
+    const panel_facts *facts = page->facts;
+    char count[32], text[256] = "";
+    size_t used = 0;
+    if (splats || !voxels) {
+        write_short(splats, count);
+        used += (size_t)snprintf(text + used, sizeof text - used, "%s splats", count);
+    }
+    if (voxels) {
+        write_short(voxels, count);
+        used += (size_t)snprintf(text + used, sizeof text - used, "%s%s voxels", used ? "   " : "", count);
+    }
+    if (facts->picture.level) used += (size_t)snprintf(text + used, sizeof text - used, "   level %u", facts->picture.level);
+    used += (size_t)snprintf(text + used, sizeof text - used, "   %.1f ms", 1e3 * facts->picture.drawn_s);
+    if (facts->frames_per_s > 0) {
+        snprintf(text + used, sizeof text - used, "   %.0f frames/s", facts->frames_per_s);
+        page->spare_s = fmin(page->spare_s, figures_step_s);
+    }
+    const float x = page->width - ImGui::CalcTextSize(text).x - 2 * panel_margin(page);
+    if (x < left) return;
+    ImGui::SetCursorPos(ImVec2(floorf(x), floorf(0.5f * (panel_buttons_points * page->unit - ImGui::GetFontSize()))));
+    ImGui::TextDisabled("%s", text);
+}
+
 /// Returns whether the button was pressed.
 bool button(const panel_page *page, const viewer_action *action) {
     const float side = button_points * page->unit, icon = icon_points * page->unit, pad = 0.5f * (side - icon);
@@ -91,13 +140,15 @@ bool button(const panel_page *page, const viewer_action *action) {
         ImGui::GetWindowDrawList()->AddRectFilled(
             corner, ImVec2(corner.x + side, corner.y + side),
             ImGui::GetColorU32(on || ImGui::IsItemActive() ? ImGuiCol_ButtonActive : ImGuiCol_ButtonHovered));
+    // Below the bar, whose other buttons it would hide.
+    if (ImGui::IsItemHovered()) ImGui::SetNextWindowPos(ImVec2(corner.x, page->top));
     panel_icon(page, action->icon, ImVec2(corner.x + pad, corner.y + pad), icon, ImGui::GetColorU32(ImGuiCol_Text));
-    tell(page, action);
+    tell(action);
     return pressed;
 }
 
 /// Buttons that have no room are rows of the menus all the same.
-void buttons(const panel_page *page) {
+void buttons(panel_page *page) {
     const float side = button_points * page->unit, gap = 2 * page->unit, between = 6 * page->unit;
     const float pad = 0.5f * (panel_buttons_points * page->unit - side);
     ImGui::SetNextWindowPos(ImVec2(0, panel_menus_points * page->unit));
@@ -123,6 +174,7 @@ void buttons(const panel_page *page) {
         if (button(page, action)) viewer_act(page->viewer, action);
         x += side + gap;
     }
+    figures(page, x + between);
     ImGui::End();
     ImGui::PopStyleVar(2);
 }

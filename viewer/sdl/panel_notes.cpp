@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// What comes and goes: progress, messages, notes, help; and the line below with figures of the picture.
+// What comes and goes: progress, messages, notes, help.
 #include "panel_parts.h"
 
 #include <math.h>
@@ -12,72 +12,15 @@ namespace {
 
 /// So long a message stays, and a note of what was done.
 constexpr double message_stays_s = 10, note_stays_s = 4;
-/// Progress and figures are shown anew so often.
-constexpr double progress_step_s = 0.1, figures_step_s = 0.25;
+/// Progress is shown anew so often.
+constexpr double progress_step_s = 0.1;
 
 constexpr ImGuiWindowFlags note_flags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize |
                                         ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoFocusOnAppearing |
                                         ImGuiWindowFlags_NoNav;
 
-/// Height of the line of figures with its margins: other notes stand above it.
-float line_height(const panel_page *page) { return ImGui::GetFrameHeight() + 2 * panel_margin(page); }
-
 /// Middle of the picture.
 float middle_of(const panel_page *page) { return floorf(0.5f * (page->left + page->width)); }
-
-/// "1.0 M" of 1,000,000.
-void write_short(uint64_t count, char text[32]) {
-    const double number = (double)count;
-    if (number >= 1e9)
-        snprintf(text, 32, "%.2f G", number * 1e-9);
-    else if (number >= 1e6)
-        snprintf(text, 32, "%.2f M", number * 1e-6);
-    else if (number >= 1e4)
-        snprintf(text, 32, "%.0f k", number * 1e-3);
-    else
-        snprintf(text, 32, "%.0f", number);
-}
-
-void figures(panel_page *page) {
-    uint64_t splats = 0, voxels = 0;
-    for (size_t i = 0; i < viewer_item_count(page->viewer); i++) {
-        viewer_item item;
-        if (!viewer_item_get(page->viewer, i, &item) || !item.visible) continue;
-        if (item.volume)
-            voxels += item.count;
-        else
-            splats += item.count;
-    }
-    const panel_facts *facts = page->facts;
-    const float margin = panel_margin(page);
-    ImGui::SetNextWindowPos(ImVec2(page->left + margin, page->height - margin), 0, ImVec2(0, 1));
-    ImGui::SetNextWindowBgAlpha(0.7f);
-    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(10 * page->unit, 4 * page->unit));
-    ImGui::Begin("figures", nullptr, note_flags | ImGuiWindowFlags_NoInputs);
-    char count[32];
-    if (splats || !voxels) {
-        write_short(splats, count);
-        ImGui::Text("%s splats", count);
-    }
-    if (voxels) {
-        if (splats) ImGui::SameLine(0, 14 * page->unit);
-        write_short(voxels, count);
-        ImGui::Text("%s voxels", count);
-    }
-    if (facts->picture.level) {
-        ImGui::SameLine(0, 14 * page->unit);
-        ImGui::Text("level %u", facts->picture.level);
-    }
-    ImGui::SameLine(0, 14 * page->unit);
-    ImGui::Text("%.1f ms", 1e3 * facts->picture.drawn_s);
-    if (facts->frames_per_s > 0) {
-        ImGui::SameLine(0, 14 * page->unit);
-        ImGui::Text("%.0f frames/s", facts->frames_per_s);
-        page->spare_s = fmin(page->spare_s, figures_step_s);
-    }
-    ImGui::End();
-    ImGui::PopStyleVar();
-}
 
 void progress(panel_page *page, float *bottom) {
     const viewer_state &state = page->state;
@@ -134,8 +77,7 @@ void invitation(const panel_page *page) {
 } // namespace
 
 void panel_notes(panel_page *page) {
-    float bottom = page->height - line_height(page);
-    if (page->state.panels) figures(page);
+    float bottom = page->height - panel_margin(page);
     // Help takes the middle down to here.
     if (page->state.help) return;
     progress(page, &bottom);

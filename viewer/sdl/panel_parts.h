@@ -82,13 +82,13 @@ bool panel_recent(const panel_page *page, uint32_t index, bool in_menu);
 void panel_question(panel_page *page);
 void panel_files_free(panel_files *files);
 
-/// Menus and buttons.
+/// Menus, buttons, figures of the picture.
 void panel_bars(panel_page *page);
 /// What is loaded, what was picked, settings.
 void panel_scene(panel_page *page);
 /// The settings that the viewer names.
 void panel_settings(panel_page *page);
-/// Progress, messages, notes, the line below.
+/// Progress, messages, notes.
 void panel_notes(panel_page *page);
 void panel_help(panel_page *page);
 
