@@ -331,12 +331,16 @@ static bool do_cancel(viewer *v, const char *rest) {
     if (help) return true;
     v->state.message[0] = v->state.note[0] = 0;
     const bool picked = v->picks[0].given;
-    if (items_cancel(v))
+    if (items_cancel(v)) {
         viewer_note(v, "loading was given up");
-    else if (picked)
+    } else if (v->selection.tool || v->selection.given) {
+        v->selection.tool = SELECT_OFF;
+        select_clear(v);
+    } else if (picked) {
         pick_clear(v);
-    else
+    } else {
         v->measures = false;
+    }
     return true;
 }
 
@@ -403,6 +407,11 @@ static const struct {
     {"help", do_help, is_help},
     {"panels", do_panels, is_panels},
     {"profile", profile_do, is_profile},
+    {"select", select_command, NULL},
+    {"hide", select_hide, NULL},
+    {"keep", select_keep, NULL},
+    {"unhide", select_unhide, NULL},
+    {"cut", select_cut, NULL},
     {"fullscreen", do_fullscreen, is_fullscreen},
     {"quit", do_quit, NULL},
 };

@@ -68,6 +68,23 @@ typedef struct viewer_profile {
     uint32_t graph_width_px, graph_height_px;
 } viewer_profile;
 
+enum { SELECT_CORNERS = 1024 }; ///< of an outline that is drawn, at most
+
+/// What a hand draws around points.
+typedef enum select_tool { SELECT_OFF, SELECT_RECTANGLE, SELECT_LASSO, SELECT_POLYGON } select_tool;
+
+/// Points that are selected, and an outline that is being drawn.
+typedef struct viewer_selection {
+    select_tool tool;
+    bool drawing; ///< the button is held
+    uint32_t corner_count;
+    double corners[2 * SELECT_CORNERS]; ///< points of the window
+    bool given, counted;
+    ewa_region region;
+    uint64_t count, place_count;
+    double *places_world; ///< of some of them, to be marked
+} viewer_selection;
+
 struct viewer {
     viewer_services services;
     bool waits, stepped;
@@ -126,6 +143,7 @@ struct viewer {
     bool measures; ///< a click measures from the one before, without Shift
     viewer_cutaway cutaway;
     viewer_profile profile;
+    viewer_selection selection;
 
     uint64_t revision, posted; ///< of what is to be drawn; the last one handed to the painter
     bool posted_whole;
@@ -203,6 +221,20 @@ bool profile_do(viewer *v, const char *rest);
 /// Draws the graph over the lower part of a picture whose points are `scale` pixels.
 void profile_draw(viewer *v, const ewa_canvas *canvas, double scale);
 void profile_free(viewer *v);
+
+// select.c
+bool select_command(viewer *v, const char *rest);
+bool select_hide(viewer *v, const char *rest);
+bool select_keep(viewer *v, const char *rest);
+bool select_unhide(viewer *v, const char *rest);
+bool select_cut(viewer *v, const char *rest);
+void select_clear(viewer *v);
+/// What a hand does while something is drawn around points; false: the event is not of it.
+bool select_press(viewer *v, const viewer_event *event);
+bool select_move(viewer *v, const viewer_event *event);
+bool select_release(viewer *v, const viewer_event *event);
+/// Selects what is in the outline that was drawn; false: there is none.
+bool select_close(viewer *v);
 
 // settings.c
 void settings_init(viewer *v);

@@ -90,6 +90,30 @@ static void draw_profile_wall(const overlay *o, const viewer *v) {
     }
 }
 
+/// What is selected, and the outline that is being drawn.
+static void draw_selection(const overlay *o, const viewer *v) {
+    const viewer_selection *s = &v->selection;
+    for (uint64_t i = 0; i < s->place_count; i++) {
+        double p[2];
+        if (!place(o, s->places_world + 3 * i, p)) continue;
+        ewa_draw_line(&o->canvas, p[0], p[1], p[0], p[1], 2 * o->scale, MARK);
+    }
+    double outline[2 * SELECT_CORNERS];
+    uint32_t count = s->corner_count;
+    memcpy(outline, s->corners, 2 * count * sizeof *outline);
+    if (s->tool == SELECT_RECTANGLE && count == 2) {
+        const double rectangle[8] = {outline[0], outline[1], outline[2], outline[1],
+                                     outline[2], outline[3], outline[0], outline[3]};
+        memcpy(outline, rectangle, sizeof rectangle);
+        count = 4;
+    }
+    for (uint32_t i = 0; i < count; i++) {
+        const double *a = outline + 2 * i, *b = outline + 2 * ((i + 1) % count);
+        ewa_draw_line(&o->canvas, a[0] * o->scale, a[1] * o->scale, b[0] * o->scale, b[1] * o->scale, 3 * o->scale, DARK);
+        ewa_draw_line(&o->canvas, a[0] * o->scale, a[1] * o->scale, b[0] * o->scale, b[1] * o->scale, 1.5 * o->scale, MARK);
+    }
+}
+
 static void draw_picks(const overlay *o, const viewer *v) {
     const viewer_pick *a = &v->picks[0], *b = &v->picks[1];
     char text[64];
@@ -142,6 +166,7 @@ void overlay_draw(viewer *v, const ewa_camera *camera, uint8_t *rgba8) {
                        v->scale * camera->height_px / v->camera.height_px};
     if (v->cutaway.box) draw_box(&o, v);
     if (v->profile.shown) draw_profile_wall(&o, v);
+    draw_selection(&o, v);
     draw_picks(&o, v);
     ewa_furniture_options furniture = v->furniture;
     ewa_category categories[VIEWER_MAX_CLASSES];

@@ -146,6 +146,7 @@ void viewer_destroy(viewer **made) {
     }
     ewa_scene_destroy(&v->scene);
     profile_free(v);
+    free(v->selection.places_world);
     for (size_t i = 0; i < v->file_count; i++) ewa_scene_file_destroy(&v->files[i]);
     free(v->files);
     paint_tools_free(&v->probe);

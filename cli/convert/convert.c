@@ -11,6 +11,7 @@
 #include "cli/input/inputs.h"
 #include "cli/input/lod_input.h"
 #include "cli/input/point_choice.h"
+#include "cli/input/scene_input.h"
 
 #include <float.h>
 #include <math.h>
@@ -282,6 +283,8 @@ static ewa_cloud *load(cli_session *session, const convert_job *job, ewa_element
     double corners_world[6];
     if (is_part_of_octree(session, job, corners_world))
         return lod_input_read(session, common->operands[0], corners_world);
+    if (common->operand_count == 1 && ewa_scene_file_probe(common->operands[0]))
+        return scene_input_points(session, common->operands[0]);
     return common->operand_count == 1 ? input_load_elements(session, common->operands[0], elements)
                                       : inputs_merge(session, common, arguments->default_color.rgba);
 }
@@ -384,7 +387,7 @@ const cli_command convert_command = {
     .operands = "IN... -o OUT",
     .summary = "write clouds to another file: another encoding, a part, moved, several as one",
     .details =
-        "All attributes are kept with their types. Of several inputs, attributes that only some have are "
+        "All attributes are kept with their types. A scene file gives the points that it shows. Of several inputs, attributes that only some have are "
         "NaN, "
         "in whole numbers 0, for the points of the others, which a warning says; normals, radii and axes are "
         "kept only where all have them. Of one mesh the faces are kept, of PLY all else too; they are "

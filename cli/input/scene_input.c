@@ -107,3 +107,14 @@ ewa_cloud *scene_input_cloud(cli_session *session, size_t count, const char *con
     ewa_scene_destroy(&scene);
     return cloud;
 }
+
+ewa_cloud *scene_input_points(cli_session *session, const char *path) {
+    const ewa_asset_options options = scene_input_asset_options(session);
+    ewa_scene *scene = NULL;
+    ewa_cloud *cloud = NULL;
+    if (session_passed(session, ewa_scene_create(session->context, NULL, &scene)) &&
+        session_passed(session, ewa_scene_open(scene, path, &options)))
+        (void)session_passed(session, ewa_scene_points(scene, &cloud));
+    ewa_scene_destroy(&scene);
+    return cloud;
+}

@@ -20,6 +20,10 @@ bool scene_input_add(cli_session *session, size_t count, const char *const *path
 /// destroys it; NULL after reporting.
 ewa_cloud *scene_input_cloud(cli_session *session, size_t count, const char *const *paths, double cutoff);
 
+/// Makes one cloud of the points of a scene file, as it shows them: with every attribute of their files, without what its
+/// regions hide and its sections cut away. The caller destroys it; NULL after reporting.
+ewa_cloud *scene_input_points(cli_session *session, const char *path);
+
 /// Options of a colouring.
 typedef struct coloring_arguments {
     const char *color_by; ///< NULL: none given

@@ -31,6 +31,7 @@
 #include "ewa/prepare.h"
 #include "ewa/procedure.h"
 #include "ewa/profile.h"
+#include "ewa/region.h"
 #include "ewa/render.h"
 #include "ewa/resample.h"
 #include "ewa/scene.h"

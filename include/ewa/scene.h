@@ -19,6 +19,7 @@
 #include "ewa/mixture.h"
 #include "ewa/model.h"
 #include "ewa/photos.h"
+#include "ewa/region.h"
 #include "ewa/select.h"
 
 #ifdef __cplusplus
@@ -178,6 +179,10 @@ typedef struct ewa_scene_options {
                                  ///< of Gaussians and volumes, too; `opacity` and `layers` are of surfaces
     ewa_gaussian_options gaussians; ///< of Gaussians; `near_world` 0 (default): as suits them
     ewa_volume_options volumes;     ///< of volumes; `level`: of those that have as many
+    /// Hide points of clouds, meshes and octrees, in pictures, picks, profiles and ewa_scene_points(); those of the scene's own
+    /// options count, whatever ewa_scene_draw() is given. Colours, estimates and cameras stay those of the whole.
+    ewa_region regions[EWA_MAX_REGIONS];
+    uint32_t region_count; ///< of `regions`; [0, EWA_MAX_REGIONS]; default 0
 } ewa_scene_options;
 
 EWA_API extern const ewa_option_table ewa_scene_options_table;
@@ -244,6 +249,11 @@ EWA_API ewa_status ewa_scene_complete(ewa_scene *scene);
 /// gaps are closed. The caller destroys `*cloud`. Errors: those of ewa_scene_commit(); EWA_ERROR_ARGUMENT (no points are
 /// visible, or they are gone).
 EWA_API ewa_status ewa_scene_cloud(ewa_scene *scene, ewa_cloud **cloud);
+
+/// Makes one cloud of the points of all that is visible, with every attribute and number of their files, without those that
+/// regions hide and sections cut away; of octrees all points. The caller destroys `*cloud`, which may have no points. Errors:
+/// EWA_ERROR_ARGUMENT (points that are gone), those of ewa_lod_read() and ewa_cloud_merge().
+EWA_API ewa_status ewa_scene_points(ewa_scene *scene, ewa_cloud **cloud);
 
 /// Makes everything resident that is visible: all clouds and meshes become one set of surfels, as if they were one
 /// file, coloured and measured as the instances say. Called by ewa_scene_draw() and ewa_scene_pick(). Without

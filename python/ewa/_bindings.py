@@ -68,6 +68,10 @@ EWA_PROFILE_CORNERS = 1024
 EWA_PROFILE_HEIGHT = 'profile_height'
 EWA_PROFILE_OFFSET = 'offset'
 EWA_PROFILE_STATION = 'station'
+EWA_MAX_REGIONS = 16
+EWA_REGION_CORNERS = 64
+EWA_REGION_CLASSES = 256
+EWA_REGION_WORDS = 8
 EWA_MAX_LEVELS = 8
 EWA_MAX_EDGE_LAYERS = 8
 EWA_MAX_SECTION_PLANES = 8
@@ -2005,6 +2009,27 @@ class ewa_profile_options(c.Structure):
     ]
 
 
+class ewa_region(c.Structure):
+    kept: bool
+    has_box: bool
+    has_classes: bool
+    box_world: c.Array[c.c_double]
+    corner_count: int
+    outline_px: c.Array[c.c_double]
+    world_to_picture: c.Array[c.c_double]
+    classes: c.Array[c.c_uint32]
+    _fields_ = [
+        ("kept", c.c_bool),
+        ("has_box", c.c_bool),
+        ("has_classes", c.c_bool),
+        ("box_world", c.c_double * 6),
+        ("corner_count", c.c_uint32),
+        ("outline_px", c.c_double * 128),
+        ("world_to_picture", c.c_double * 12),
+        ("classes", c.c_uint32 * 8),
+    ]
+
+
 class ewa_frame(c.Structure):
     rgba8: int | None
     rgba: int | None
@@ -2453,6 +2478,8 @@ class ewa_scene_options(c.Structure):
     render: ewa_render_options
     gaussians: ewa_gaussian_options
     volumes: ewa_volume_options
+    regions: c.Array[ewa_region]
+    region_count: int
     _fields_ = [
         ("struct_size", c.c_size_t),
         ("up", c.c_int),
@@ -2464,6 +2491,8 @@ class ewa_scene_options(c.Structure):
         ("render", ewa_render_options),
         ("gaussians", ewa_gaussian_options),
         ("volumes", ewa_volume_options),
+        ("regions", ewa_region * 16),
+        ("region_count", c.c_uint32),
     ]
 
 
@@ -2981,6 +3010,8 @@ class Functions:
     ewa_profile_line_read: Callable[..., int]
     ewa_profile_options_init: Callable[..., None]
     ewa_scene_profile: Callable[..., int]
+    ewa_region_set_outline: Callable[..., int]
+    ewa_regions_mark: Callable[..., int]
     ewa_render: Callable[..., int]
     ewa_render_add: Callable[..., int]
     ewa_render_add_weighted: Callable[..., int]
@@ -3030,6 +3061,7 @@ class Functions:
     ewa_scene_options_init: Callable[..., None]
     ewa_scene_pick: Callable[..., int]
     ewa_scene_place_camera: Callable[..., int]
+    ewa_scene_points: Callable[..., int]
     ewa_scene_reader_choose: Callable[..., int]
     ewa_scene_reader_create: Callable[..., int]
     ewa_scene_reader_destroy: Callable[..., None]
@@ -3374,6 +3406,8 @@ class Functions:
         self.ewa_profile_line_read = bind("ewa_profile_line_read", c.c_int, c.c_char_p, c.c_void_p, c.c_void_p, c.c_void_p)
         self.ewa_profile_options_init = bind("ewa_profile_options_init", None, c.POINTER(ewa_profile_options), c.c_size_t)
         self.ewa_scene_profile = bind("ewa_scene_profile", c.c_int, c.c_void_p, c.c_void_p, c.c_uint32, c.POINTER(ewa_profile_options), c.POINTER(ewa_profile))
+        self.ewa_region_set_outline = bind("ewa_region_set_outline", c.c_int, c.POINTER(ewa_region), c.POINTER(ewa_camera), c.c_void_p, c.c_uint32)
+        self.ewa_regions_mark = bind("ewa_regions_mark", c.c_int, c.POINTER(ewa_region), c.c_uint32, c.c_void_p, c.c_void_p)
         self.ewa_render = bind("ewa_render", c.c_int, c.c_void_p, c.c_void_p, c.POINTER(ewa_camera), c.POINTER(ewa_render_options), c.POINTER(ewa_frame), c.POINTER(ewa_render_stats))
         self.ewa_render_add = bind("ewa_render_add", c.c_int, c.c_void_p, c.c_void_p)
         self.ewa_render_add_weighted = bind("ewa_render_add_weighted", c.c_int, c.c_void_p, c.c_void_p, c.c_double)
@@ -3423,6 +3457,7 @@ class Functions:
         self.ewa_scene_options_init = bind("ewa_scene_options_init", None, c.POINTER(ewa_scene_options), c.c_size_t)
         self.ewa_scene_pick = bind("ewa_scene_pick", c.c_int, c.c_void_p, c.c_void_p, c.POINTER(ewa_camera), c.POINTER(ewa_scene_options), c.c_double, c.c_double, c.c_double, c.c_double, c.POINTER(ewa_scene_hit))
         self.ewa_scene_place_camera = bind("ewa_scene_place_camera", c.c_int, c.c_void_p, c.POINTER(ewa_view_options), c.POINTER(ewa_camera), c.POINTER(ewa_view_info))
+        self.ewa_scene_points = bind("ewa_scene_points", c.c_int, c.c_void_p, c.c_void_p)
         self.ewa_scene_reader_choose = bind("ewa_scene_reader_choose", c.c_int, c.c_void_p, c.c_void_p, c.POINTER(ewa_camera), c.POINTER(ewa_scene_options), c.c_uint32, c.c_void_p)
         self.ewa_scene_reader_create = bind("ewa_scene_reader_create", c.c_int, c.c_void_p, c.c_void_p)
         self.ewa_scene_reader_destroy = bind("ewa_scene_reader_destroy", None, c.c_void_p)

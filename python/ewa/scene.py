@@ -16,8 +16,9 @@ from ._errors import ArgumentError, ClosedError
 from ._keywords import keywords
 from ._library import functions as lib
 from ._scene import World, core_of_things, is_path, view_options
-from ._struct import fill, initialised, path_bytes, text_bytes
+from ._struct import fill, initialised, numbers, path_bytes, text_bytes
 from .camera import Camera, PathLike
+from .cloud import Cloud
 from .image import Color, Image
 from .profiles import Profile
 from .rendering import draw, draw_outlines
@@ -196,6 +197,82 @@ class Scene:
         ArgumentError, OutOfMemory
         """
         draw_outlines(self._world, image, count)
+
+    def points(self) -> Cloud:
+        """Return the points of all that is visible as one cloud, with every attribute of their files, without those that are
+        hidden or cut away by the sections of a scene file.
+
+        Raises
+        ------
+        ArgumentError, OutOfMemory, ClosedError
+        """
+        return Cloud._made(self._core, lib.ewa_scene_points, self._handle)
+
+    def hide(self, *, box: Any = None, outline: Any = None, camera: Camera | None = None,
+             classes: Iterable[int] | None = None) -> None:
+        """Hide points of clouds, meshes and octrees: those for which all that is given holds.
+
+        Parameters
+        ----------
+        box : array_like of shape (2, 3), optional
+            Its lower and its upper corner, world units.
+        outline : array_like of shape (n, 2), optional
+            Corners on the picture of `camera`, pixels.
+        camera : Camera, optional
+            Default: :meth:`camera`.
+        classes : iterable of int, optional
+            Codes of the attribute ``classification``.
+
+        Raises
+        ------
+        ArgumentError, ClosedError
+        """
+        self._add_region(False, box, outline, camera, classes)
+
+    def keep(self, *, box: Any = None, outline: Any = None, camera: Camera | None = None,
+             classes: Iterable[int] | None = None) -> None:
+        """Hide all other points than those that :meth:`hide` would.
+
+        Raises
+        ------
+        ArgumentError, ClosedError
+        """
+        self._add_region(True, box, outline, camera, classes)
+
+    def show_all(self) -> None:
+        """Show again all that :meth:`hide` and :meth:`keep` have hidden."""
+        options = self._options()
+        options.region_count = 0
+        self._core.call(lib.ewa_scene_set_options, self._handle, ctypes.byref(options))
+
+    def _options(self) -> b.ewa_scene_options:
+        options = b.ewa_scene_options()
+        self._core.value(lib.ewa_scene_get_options, self._handle, ctypes.byref(options))
+        return options
+
+    def _add_region(self, kept: bool, box: Any, outline: Any, camera: Camera | None, classes: Iterable[int] | None) -> None:
+        options = self._options()
+        if options.region_count == b.EWA_MAX_REGIONS:
+            raise ArgumentError(f"there are {b.EWA_MAX_REGIONS} regions already")
+        region = options.regions[options.region_count]
+        options.region_count += 1
+        region.kept = kept
+        if box is not None:
+            region.has_box = True
+            region.box_world[:] = numbers(box, 6, "box")
+        if classes is not None:
+            region.has_classes = True
+            for code in classes:
+                if not 0 <= code < b.EWA_REGION_CLASSES:
+                    raise ArgumentError(f"classes: {code} is no code from 0 to {b.EWA_REGION_CLASSES - 1}")
+                region.classes[code // 32] |= 1 << code % 32
+        if outline is not None:
+            corners = [float(number) for corner in outline for number in corner]
+            seen = camera if camera is not None else self.camera()
+            made = (ctypes.c_double * len(corners))(*corners)
+            self._core.call(lib.ewa_region_set_outline, ctypes.byref(region), ctypes.byref(seen._struct), made,
+                            len(corners) // 2)
+        self._core.call(lib.ewa_scene_set_options, self._handle, ctypes.byref(options))
 
     def profile(self, line: Any, width: float = 1.0, up: Sequence[float] | None = None) -> Profile:
         """Take the points beside a line on the map, of all that is visible.

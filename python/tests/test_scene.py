@@ -99,6 +99,35 @@ class SameScene(Case):
         with self.assertRaises(ewa.ArgumentError):
             profile.draw((0, 3))
 
+    def test_regions(self) -> None:
+        """What is hidden in Python, in a scene file and in the window is the same, and is left out of what is written."""
+        scene = ewa.Scene(self.path("torus.ply"))
+        seen = scene.camera(size=SIZE)
+        scene.hide(box=[(-9, -9, -9), (0, 9, 9)])
+        scene.keep(outline=[(20, 10), (80, 10), (80, 60), (20, 60)], camera=seen)
+        left = scene.points()
+        self.assertTrue(100 < len(left) < 4000 and left["position"][:, 0].min() > 0)
+        left.save(self.path("ours.ply"))
+        scene.save(self.path("hidden.json"), seen)
+        self.run_program("convert", "hidden.json", "-o", "theirs.ply")
+        self.assertEqual(self.bytes("ours.ply"), self.bytes("theirs.ply"))
+        scene.render(seen).save(self.path("ours.png"))
+        self.run_program("render", "hidden.json", "-o", "theirs.png")
+        self.assertEqual(self.bytes("ours.png"), self.bytes("theirs.png"))
+        with open(self.path("hide.txt"), "w", encoding="ascii") as file:
+            file.write("do select box -9,-9,-9,0,9,9\ndo hide\ndo select rectangle 20 10 80 60\ndo cut window.ply\ndo keep\n"
+                       "do scene save window.json\n")
+        self.run_program("view", "torus.ply", "--size", f"{SIZE[0]}x{SIZE[1]}", "--script", "hide.txt")
+        self.assertEqual(self.bytes("ours.ply"), self.bytes("window.ply"))
+        self.run_program("render", "window.json", "-o", "window.png")
+        self.assertEqual(self.bytes("ours.png"), self.bytes("window.png"))
+        scene.show_all()
+        self.assertEqual(len(scene.points()), len(ewa.read(self.path("torus.ply"))))
+        with self.assertRaises(ewa.ArgumentError):
+            scene.hide(classes=[256])
+        with self.assertRaises(ewa.ArgumentError):
+            scene.hide(outline=[(0, 0), (1, 1)], camera=seen)
+
     def sets(self) -> list[tuple[str, ...]]:
         """Every kind, every pair and some triples."""
         return [*((kind,) for kind in self.kinds), *itertools.combinations(self.kinds, 2), *self.triples]

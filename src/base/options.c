@@ -10,7 +10,7 @@
 #include <string.h>
 
 /// What is larger is no struct of options, but memory that nobody has set.
-enum { MAX_BYTES = 1 << 14, NUMBER_BYTES = 32 };
+enum { MAX_BYTES = 1 << 16, NUMBER_BYTES = 32 };
 
 static uint32_t count_of(const ewa_option *option) { return option->count ? option->count : 1; }
 

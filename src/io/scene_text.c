@@ -38,6 +38,9 @@ void ewa_scene_text_place(const ewa_scene_member *member, char place[EWA_SCENE_P
     case EWA_SCENE_SECTION_PLANE:
         snprintf(place, EWA_SCENE_PLACE_BYTES, "options.section_planes[%u]", member->index);
         return;
+    case EWA_SCENE_REGION:
+        snprintf(place, EWA_SCENE_PLACE_BYTES, "options.regions[%u]%s%.50s", member->index, dot, name);
+        return;
     case EWA_SCENE_ITEM:
         snprintf(place, EWA_SCENE_PLACE_BYTES, "items[%u]%s%.60s", member->index, dot, name);
         return;
@@ -159,6 +162,8 @@ static ewa_status read_options(ewa_scene_text *text, const cJSON *options) {
             status = read_list(text, EWA_SCENE_LIGHT, item, &text->light_count);
         else if (strcmp(item->string, "section_planes") == 0)
             status = read_list(text, EWA_SCENE_SECTION_PLANE, item, &text->section_count);
+        else if (strcmp(item->string, "regions") == 0)
+            status = read_list(text, EWA_SCENE_REGION, item, &text->region_count);
         else if (section != EWA_SCENE_OPTIONS)
             status = add_object(text, section, 0, item);
         else

@@ -83,7 +83,7 @@ const ewa_option_table *ewa_scene_section_table(ewa_scene_section section, ewa_s
 bool ewa_scene_option_is_kept(const ewa_option *option) {
     // How many there are is as many as there stand in the file; what stays in memory is nothing of a picture.
     return strcmp(option->name, "light_count") != 0 && strcmp(option->name, "section_count") != 0 &&
-           strcmp(option->name, "keep_points") != 0;
+           strcmp(option->name, "region_count") != 0 && strcmp(option->name, "keep_points") != 0;
 }
 
 bool ewa_scene_option_is_same(const ewa_option *option, const void *options, const void *others) {
@@ -139,6 +139,63 @@ static ewa_status apply_plane(const reading *in, const ewa_scene_member *member,
     return EWA_OK;
 }
 
+/// Reads numbers separated by commas; false: they are none, or more than `maximum`.
+static bool read_numbers(const char *text, uint32_t maximum, double *numbers, uint32_t *count) {
+    const char *last = text + strlen(text);
+    for (*count = 0;; text++) {
+        const char *end = *count < maximum ? ewa_number_read_f64(text, last, &numbers[*count]) : NULL;
+        if (!end || end == text || !isfinite(numbers[*count])) return false;
+        ++*count;
+        if (!*end) return true;
+        if (*end != ',') return false;
+        text = end;
+    }
+}
+
+/// Sets the classes of a region.
+static bool set_classes(const double *codes, uint32_t count, ewa_region *region) {
+    region->has_classes = true;
+    for (uint32_t i = 0; i < count; i++) {
+        if (!(codes[i] >= 0 && codes[i] < EWA_REGION_CLASSES && codes[i] == floor(codes[i]))) return false;
+        const uint32_t code = (uint32_t)codes[i];
+        region->classes[code / 32] |= (uint32_t)1 << code % 32;
+    }
+    return true;
+}
+
+static ewa_status apply_region(const reading *in, const ewa_scene_member *member, ewa_scene_options *options) {
+    const char *value = ewa_scene_text_value(in->text, member), *name = member->name;
+    ewa_region *region = &options->regions[member->index];
+    double numbers[EWA_REGION_CLASSES];
+    uint32_t count = 0;
+    if (strcmp(name, "keep") == 0) {
+        region->kept = strcmp(value, "on") == 0;
+        return region->kept || strcmp(value, "off") == 0 ? EWA_OK : fail_at(in, member, "is neither true nor false");
+    }
+    const bool fine = read_numbers(value, EWA_REGION_CLASSES, numbers, &count);
+    if (strcmp(name, "box") == 0) {
+        region->has_box = true;
+        if (!fine || count != 6) return fail_at(in, member, "is not 6 numbers: the lower and the upper corner");
+        memcpy(region->box_world, numbers, sizeof region->box_world);
+        return EWA_OK;
+    }
+    if (strcmp(name, "classes") == 0)
+        return fine && set_classes(numbers, count, region) ? EWA_OK : fail_at(in, member, "is no list of codes from 0 to 255");
+    if (strcmp(name, "outline") == 0) {
+        if (!fine || count % 2 || count < 6 || count > 2 * EWA_REGION_CORNERS)
+            return fail_at(in, member, "is not 3 to 64 corners x, y");
+        region->corner_count = count / 2;
+        memcpy(region->outline_px, numbers, count * sizeof numbers[0]);
+        return EWA_OK;
+    }
+    if (strcmp(name, "world_to_picture") == 0) {
+        if (!fine || count != 12) return fail_at(in, member, "is not 12 numbers");
+        memcpy(region->world_to_picture, numbers, sizeof region->world_to_picture);
+        return EWA_OK;
+    }
+    return fail_at(in, member, "no region has such a member");
+}
+
 /// Sets all that a text says of options.
 static ewa_status apply(const reading *in, bool only_defaults, ewa_scene_options *options) {
     const ewa_scene_text *text = in->text;
@@ -148,6 +205,10 @@ static ewa_status apply(const reading *in, bool only_defaults, ewa_scene_options
                         text->light_count, text->section_count, EWA_MAX_LIGHTS, EWA_MAX_SECTION_PLANES);
     const bool lit = only_defaults && options->render.light_count,
                cut = only_defaults && options->render.section_count;
+    if (text->region_count > EWA_MAX_REGIONS)
+        return ewa_fail(text->context, EWA_ERROR_LIMIT, "%s: %u regions; there may be %d", in->path, text->region_count,
+                        EWA_MAX_REGIONS);
+    const bool hidden = only_defaults && options->region_count;
     for (uint32_t i = 0; i < text->light_count && !lit; i++) ewa_light_init(&options->render.lights[i]);
     ewa_status status = EWA_OK;
     for (size_t i = 0; i < text->member_count && status == EWA_OK; i++) {
@@ -155,6 +216,8 @@ static ewa_status apply(const reading *in, bool only_defaults, ewa_scene_options
         if (member->section == EWA_SCENE_ITEM) continue;
         if (member->section == EWA_SCENE_LIGHT)
             status = lit ? EWA_OK : apply_light(in, member, options);
+        else if (member->section == EWA_SCENE_REGION)
+            status = hidden ? EWA_OK : apply_region(in, member, options);
         else if (member->section == EWA_SCENE_SECTION_PLANE)
             status = cut ? EWA_OK : apply_plane(in, member, options);
         else
@@ -162,6 +225,7 @@ static ewa_status apply(const reading *in, bool only_defaults, ewa_scene_options
     }
     if (!lit && text->light_count) options->render.light_count = text->light_count;
     if (!cut && text->section_count) options->render.section_count = text->section_count;
+    if (!hidden && text->region_count) options->region_count = text->region_count;
     return status;
 }
 

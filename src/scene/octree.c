@@ -114,7 +114,8 @@ static ewa_status place(const void *user, ewa_cloud **cloud) {
         whole = whole && ewa_cloud_has_scalar(*cloud, change->filter.terms[t].name);
     // What represents points that have not been read yet may lack it.
     if (whole) EWA_TRY(ewa_cloud_filter(ewa_cloud_context(*cloud), &change->filter, cloud));
-    return change->moved ? ewa_cloud_transform(*cloud, change->to_world) : EWA_OK;
+    if (change->moved) EWA_TRY(ewa_cloud_transform(*cloud, change->to_world));
+    return ewa_cloud_hide(ewa_cloud_context(*cloud), change->regions, change->region_count, cloud);
 }
 
 static ewa_status paint(const void *user, ewa_cloud **cloud) {
@@ -171,6 +172,11 @@ ewa_status ewa_scene_octree_look(const ewa_scene *scene, uint32_t index, const e
     for (int c = 0; c < 3; c++) change->tint[c] = 0.5;
     for (uint32_t t = 0; t < asset->filter.term_count; t++)
         EWA_TRY(need(scene, asset, asset->filter.terms[t].name, levels, look));
+    const ewa_scene_options *own = &scene->options;
+    if (ewa_regions_have_classes(own->regions, own->region_count) && ewa_cloud_find(asset->outline, "classification"))
+        EWA_TRY(need(scene, asset, "classification", levels, look));
+    change->region_count = own->region_count;
+    memcpy(change->regions, own->regions, own->region_count * sizeof own->regions[0]);
     if (legend) {
         EWA_TRY(need(scene, asset, legend->attribute, levels, look));
         memcpy(change->attribute, legend->attribute, sizeof change->attribute);

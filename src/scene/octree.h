@@ -11,6 +11,8 @@
 /// What is done to the points of an octree's nodes, and to what represents them.
 typedef struct ewa_octree_change {
     ewa_filter filter; ///< in the octree's space
+    uint32_t region_count;
+    ewa_region regions[EWA_MAX_REGIONS]; ///< that hide points
     double to_world[16];
     ewa_color_scale scale; ///< of `attribute`
     double opacity, tint[3];

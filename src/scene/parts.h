@@ -9,6 +9,7 @@
 #define EWA_SRC_SCENE_PARTS_H
 
 #include "ewa/scene.h"
+#include "scene/region.h"
 
 #include <stdatomic.h>
 
@@ -95,6 +96,8 @@ typedef struct ewa_surface {
     ewa_surfels_options options;
     bool close_gaps;
     bool colored;   ///< some of it has colours
+    uint32_t region_count;
+    ewa_region regions[EWA_MAX_REGIONS]; ///< that hide points
     bool as_points; ///< drawn as discs of pixels: gaps do not matter
     bool sparse;    ///< all of it is: drawn so unless somebody says how
     ewa_surfels *surfels;

@@ -43,6 +43,7 @@ static void unproject(const ewa_camera *camera, double x_px, double y_px, double
 /// What a place is compared with.
 typedef struct search {
     const ewa_render_options *render; ///< whose sections cut
+    const ewa_scene_options *scene;   ///< whose regions hide
     const double *place_world;
     double best; ///< square of the distance of what was found, or within which to look
 } search;
@@ -72,7 +73,9 @@ static bool find_in_cloud(search *s, const ewa_cloud *cloud, ewa_scene_hit *hit)
                 p[c] = block[k][c] + origin[c];
                 away += (p[c] - s->place_world[c]) * (p[c] - s->place_world[c]);
             }
-            if (!(away < s->best) || !ewa_sections_keep(s->render, p)) continue;
+            if (!(away < s->best) || !ewa_sections_keep(s->render, p) ||
+                !ewa_regions_keep(s->scene->regions, s->scene->region_count, cloud, first + k, p))
+                continue;
             s->best = away;
             found = true;
             hit->point = first + k;
@@ -105,7 +108,7 @@ static ewa_status find_in_octree(search *s, const ewa_asset *asset, double reach
 /// Finds the point that is nearest to the place.
 static ewa_status find_point(const ewa_scene *scene, const ewa_render_options *render, double reach_world,
                              ewa_scene_hit *hit) {
-    search s = {render, hit->place_world, reach_world * reach_world};
+    search s = {render, &scene->options, hit->place_world, reach_world * reach_world};
     ewa_status status = EWA_OK;
     for (uint32_t i = 0; i < scene->count && status == EWA_OK; i++) {
         const ewa_asset *asset = scene->items[i].asset;

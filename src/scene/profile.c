@@ -7,8 +7,7 @@
 #include "base/options.h"
 #include "cloud/cloud.h"
 #include "cloud/color.h"
-#include "cloud/marks.h"
-#include "scene/octree.h"
+#include "scene/points.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -55,43 +54,9 @@ typedef struct profile_job {
     ewa_cloud **pieces; ///< what each instance has in the strip; [capacity]
 } profile_job;
 
-/// What the points of a cloud are held against.
-typedef struct strip_view {
-    const profile_job *job;
-    const ewa_attribute *position;
-    double origin_world[3];
-} strip_view;
-
-static void mark_block(const void *data, uint64_t first, uint32_t count, uint8_t *marks) {
-    const strip_view *view = data;
-    double block[EWA_MARK_BLOCK][3], station, offset;
-    ewa_attribute_read_f64(view->position, first, count, &block[0][0]);
-    for (uint32_t i = 0; i < count; i++) {
-        for (int c = 0; c < 3; c++) block[i][c] += view->origin_world[c];
-        if (!ewa_strip_locate(&view->job->strip, block[i], &station, &offset) ||
-            !ewa_sections_keep(&view->job->scene->options.render, block[i]))
-            marks[i] = 0;
-    }
-}
-
-/// Makes a cloud of the points that are in the strip.
-static ewa_status cut(const profile_job *job, const ewa_cloud *cloud, ewa_cloud **piece) {
-    ewa_context *context = job->scene->context;
-    const uint64_t count = ewa_cloud_point_count(cloud);
-    strip_view view = {job, ewa_marks_position(cloud), {0}};
-    if (!view.position) return EWA_ERROR_ARGUMENT;
-    ewa_cloud_origin(cloud, view.origin_world);
-    uint8_t *marks = ewa_allocate(context, count, 1);
-    if (!marks) return EWA_ERROR_MEMORY;
-    memset(marks, 1, count);
-    ewa_mark_blocks(cloud, mark_block, &view, marks);
-    // A view, for what is read of an octree may be of a context of its own.
-    ewa_cloud *own = NULL;
-    ewa_status status = ewa_cloud_view(context, cloud, 0, count, &own);
-    if (status == EWA_OK) status = ewa_cloud_keep(own, marks, piece);
-    ewa_cloud_destroy(&own);
-    ewa_release(context, marks, count, 1);
-    return status;
+static bool is_in_strip(const void *user, const double place_world[3]) {
+    double station, offset;
+    return ewa_strip_locate(user, place_world, &station, &offset);
 }
 
 /// Rounds to the parts of a step that mean anything; 0: to none.
@@ -190,24 +155,9 @@ static ewa_status color(const profile_job *job, const ewa_scene_item *item, ewa_
 
 /// Cuts the piece of one instance; NULL: it has no points.
 static ewa_status take_item(const profile_job *job, const ewa_scene_item *item, ewa_cloud **piece) {
-    const ewa_asset *asset = item->asset;
-    ewa_cloud *read = NULL;
-    ewa_status status = EWA_OK;
-    *piece = NULL;
-    if (asset->lod) {
-        double low_world[3], high_world[3];
-        for (int c = 0; c < 3; c++) {
-            low_world[c] = fmax(job->strip.low_world[c], asset->bounds.low_world[c]);
-            high_world[c] = fmin(job->strip.high_world[c], asset->bounds.high_world[c]);
-            if (!(low_world[c] <= high_world[c])) return EWA_OK;
-        }
-        status = ewa_asset_read_octree(asset, low_world, high_world, &read);
-    }
-    const ewa_cloud *cloud = asset->lod ? read : asset->cloud;
-    if (status == EWA_OK && cloud) status = cut(job, cloud, piece);
-    ewa_cloud_destroy(&read);
-    if (status == EWA_OK && *piece && !ewa_cloud_point_count(*piece)) ewa_cloud_destroy(piece);
-    if (status == EWA_OK && *piece) status = measure(&job->strip, *piece);
+    const ewa_strip *strip = &job->strip;
+    EWA_TRY(ewa_scene_cut_item(job->scene, item, strip->low_world, strip->high_world, is_in_strip, strip, piece));
+    ewa_status status = *piece ? measure(strip, *piece) : EWA_OK;
     if (status == EWA_OK && *piece) status = color(job, item, *piece);
     if (status != EWA_OK) ewa_cloud_destroy(piece);
     return status;

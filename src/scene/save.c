@@ -87,6 +87,30 @@ static bool add_planes(cJSON *object, const ewa_render_options *render) {
     return done;
 }
 
+static bool add_region(cJSON *list, const ewa_region *region) {
+    cJSON *object = cJSON_CreateObject();
+    bool done = cJSON_AddItemToArray(list, object) && cJSON_AddBoolToObject(object, "keep", region->kept);
+    if (done && region->has_box) done = add_numbers(object, "box", region->box_world, 6);
+    if (done && region->has_classes) {
+        double codes[EWA_REGION_CLASSES];
+        uint32_t count = 0;
+        for (uint32_t c = 0; c < EWA_REGION_CLASSES; c++)
+            if (region->classes[c / 32] >> c % 32 & 1) codes[count++] = c;
+        done = add_numbers(object, "classes", codes, count);
+    }
+    if (done && region->corner_count)
+        done = add_numbers(object, "outline", region->outline_px, 2 * region->corner_count) &&
+               add_numbers(object, "world_to_picture", region->world_to_picture, 12);
+    return done;
+}
+
+static bool add_regions(cJSON *object, const ewa_scene_options *options) {
+    cJSON *list = options->region_count ? cJSON_AddArrayToObject(object, "regions") : NULL;
+    bool done = list || !options->region_count;
+    for (uint32_t i = 0; i < options->region_count && done; i++) done = add_region(list, &options->regions[i]);
+    return done;
+}
+
 /// Adds what of a scene's options is no default.
 static bool add_all_options(cJSON *root, const ewa_scene *scene) {
     static const char *const names[] = {NULL, "surfels", "lod", "render", "gaussians", "volumes"};
@@ -105,7 +129,8 @@ static bool add_all_options(cJSON *root, const ewa_scene *scene) {
         else if (s)
             cJSON_Delete(group);
     }
-    done = done && add_lights(object, &options.render) && add_planes(object, &options.render);
+    done = done && add_lights(object, &options.render) && add_planes(object, &options.render) &&
+           add_regions(object, &options);
     if (done && object->child) return cJSON_AddItemToObject(root, "options", object);
     cJSON_Delete(object);
     return done;

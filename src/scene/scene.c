@@ -21,6 +21,7 @@ static const ewa_option scene_rows[] = {
      .help = "clouds stay in memory beside their surfels, for picks and changes"},
     {"shade_volumes", EWA_OPTION_BOOL, AT(shade_volumes), .initial = true,
      .help = "volumes get the light that suits their transfer function"},
+    {"region_count", EWA_OPTION_U32, AT(region_count), 0, EWA_MAX_REGIONS, .help = "of the regions that hide points"},
 };
 
 const ewa_option_table ewa_scene_options_table = EWA_OPTION_TABLE(ewa_scene_options, scene_rows);
@@ -74,7 +75,10 @@ static ewa_status take_options(ewa_context *context, const ewa_scene_options *gi
                  {&ewa_volume_options_table, &given->volumes, &options->volumes}};
     for (size_t i = 0; i < sizeof parts / sizeof parts[0]; i++)
         EWA_TRY(ewa_options_take(context, parts[i].table, parts[i].given, parts[i].taken));
-    return EWA_OK;
+    // What is compared later has no bytes that are left to chance.
+    memset(&options->regions[options->region_count], 0,
+           (EWA_MAX_REGIONS - options->region_count) * sizeof options->regions[0]);
+    return ewa_regions_check(context, options->regions, options->region_count);
 }
 
 ewa_status ewa_scene_create(ewa_context *context, const ewa_scene_options *options, ewa_scene **made) {

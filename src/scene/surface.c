@@ -92,7 +92,9 @@ bool ewa_surface_is_of(const ewa_surface *surface, const ewa_scene *scene) {
     const ewa_surfels_options *b = surface ? &surface->options : NULL;
     if (!surface || surface->close_gaps != options->close_gaps ||
         surface->as_points != (options->render.point_size_px > 0) || a->cutoff != b->cutoff ||
-        a->radius_scale != b->radius_scale || a->level_count != b->level_count)
+        a->radius_scale != b->radius_scale || a->level_count != b->level_count ||
+        surface->region_count != options->region_count ||
+        memcmp(surface->regions, options->regions, options->region_count * sizeof options->regions[0]) != 0)
         return false;
     ewa_surface_key *keys = NULL;
     uint32_t count;
@@ -254,17 +256,34 @@ static ewa_status color(ewa_surface *surface, const shown_clouds *shown) {
     return apply_colorings(surface, shown);
 }
 
+/// Leaves out the points that regions hide; `count` clouds, the first, have some left.
+static ewa_status hide(const ewa_surface *surface, const shown_clouds *shown, uint32_t *count) {
+    *count = 0;
+    for (uint32_t i = 0; i < surface->cloud_count; i++) {
+        ewa_cloud *cloud = shown->clouds[i];
+        shown->clouds[i] = NULL;
+        const ewa_status status = ewa_cloud_hide(surface->context, surface->regions, surface->region_count, &cloud);
+        if (status == EWA_OK && (ewa_cloud_point_count(cloud) || !surface->region_count))
+            shown->clouds[(*count)++] = cloud;
+        else
+            ewa_cloud_destroy(&cloud);
+        EWA_TRY(status);
+    }
+    return EWA_OK;
+}
+
 /// Makes one cloud of all that is shown, coloured and measured as the instances say; NULL: there is none. One that is
 /// alone is shown's, and borrows its streams.
 static ewa_status gather(ewa_scene *scene, ewa_surface *surface, const shown_clouds *shown, ewa_cloud **whole) {
     ewa_context *context = surface->context;
     *whole = NULL;
     EWA_TRY(color(surface, shown));
-    const uint32_t count = surface->cloud_count;
-    for (uint32_t i = 0; i < count; i++)
+    for (uint32_t i = 0; i < surface->cloud_count; i++)
         surface->colored = surface->colored || ewa_cloud_find(shown->clouds[i], EWA_COLOR);
-    for (uint32_t i = 0; i < count; i++)
+    for (uint32_t i = 0; i < surface->cloud_count; i++)
         EWA_TRY(apply_instance(&surface->keys[i].instance, shown->clouds[i]));
+    uint32_t count;
+    EWA_TRY(hide(surface, shown, &count));
     if (count == 1) {
         *whole = shown->clouds[0];
         shown->clouds[0] = NULL;
@@ -308,6 +327,8 @@ static ewa_status make(ewa_scene *scene, ewa_surface **made, surface_extent exte
     atomic_init(&surface->references, 1);
     surface->options = scene->options.surfels;
     surface->close_gaps = scene->options.close_gaps;
+    surface->region_count = scene->options.region_count;
+    memcpy(surface->regions, scene->options.regions, surface->region_count * sizeof surface->regions[0]);
     surface->as_points = scene->options.render.point_size_px > 0;
     ewa_status status = list_keys(scene, &surface->keys, &surface->count);
     const uint32_t count = surface->count;

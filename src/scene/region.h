@@ -1,0 +1,23 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// Regions of a scene, for its files.
+#ifndef EWA_SRC_SCENE_REGION_H
+#define EWA_SRC_SCENE_REGION_H
+
+#include "ewa/region.h"
+
+/// Checks that the numbers of regions are finite and as many as there may be.
+ewa_status ewa_regions_check(ewa_context *context, const ewa_region *regions, uint32_t count);
+
+/// Whether no region hides point `index` of a cloud, which is at a place of the world.
+bool ewa_regions_keep(const ewa_region *regions, uint32_t count, const ewa_cloud *cloud, uint64_t index,
+                      const double place_world[3]);
+
+/// Whether some region asks for the points' classes.
+bool ewa_regions_have_classes(const ewa_region *regions, uint32_t count);
+
+/// Replaces a cloud by one of the points that regions do not hide.
+ewa_status ewa_cloud_hide(ewa_context *context, const ewa_region *regions, uint32_t count, ewa_cloud **cloud);
+
+#endif

@@ -1,0 +1,261 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// Regions: which points they hide is a closed form on a grid; a picture of what is left is that of a cloud of it.
+#include "check.h"
+#include "ewa/scene_file.h"
+#include "ewa/select.h"
+
+#include <math.h>
+#include <stdio.h>
+
+enum { SIDE = 21, POINTS = SIDE * SIDE, WIDTH = 80, HEIGHT = 60 };
+
+static ewa_context *context;
+
+static int enter(void **state) {
+    (void)state;
+    context = check_context(0, NULL);
+    return 0;
+}
+
+static int leave(void **state) {
+    (void)state;
+    ewa_context_destroy(&context);
+    return 0;
+}
+
+/// Surfels on a grid over [0, 20] x [0, 20], of classes 0 to 4 by x mod 5, in colours.
+static ewa_cloud *make_grid(void) {
+    ewa_cloud *cloud = NULL;
+    void *places, *normals, *radii, *classes, *colors;
+    assert_int_equal(ewa_cloud_create(context, POINTS, &cloud), EWA_OK);
+    assert_int_equal(ewa_cloud_add(cloud, EWA_POSITION, EWA_F32, 3, &places), EWA_OK);
+    assert_int_equal(ewa_cloud_add(cloud, EWA_NORMAL, EWA_F32, 3, &normals), EWA_OK);
+    assert_int_equal(ewa_cloud_add(cloud, EWA_RADIUS, EWA_F32, 1, &radii), EWA_OK);
+    assert_int_equal(ewa_cloud_add(cloud, EWA_COLOR, EWA_U8, 3, &colors), EWA_OK);
+    assert_int_equal(ewa_cloud_add(cloud, "classification", EWA_U8, 1, &classes), EWA_OK);
+    for (int i = 0; i < POINTS; i++) {
+        const float place[3] = {(float)(i % SIDE), (float)(i / SIDE), 0};
+        memcpy((float *)places + 3 * i, place, sizeof place);
+        memcpy((float *)normals + 3 * i, (const float[3]){0, 0, 1}, sizeof place);
+        ((float *)radii)[i] = 1.2f;
+        ((uint8_t *)classes)[i] = (uint8_t)(i % SIDE % 5);
+        for (int c = 0; c < 3; c++) ((uint8_t *)colors)[3 * i + c] = (uint8_t)(10 * (i % SIDE) + 20 * c);
+    }
+    return cloud;
+}
+
+static ewa_scene *make_scene(const ewa_cloud *cloud) {
+    ewa_scene *scene = NULL;
+    ewa_asset *asset = NULL;
+    assert_int_equal(ewa_scene_create(context, NULL, &scene), EWA_OK);
+    assert_int_equal(ewa_asset_create(context, &(ewa_asset_source){.cloud = cloud}, NULL, &asset), EWA_OK);
+    assert_int_equal(ewa_scene_add(scene, asset, NULL), EWA_OK);
+    ewa_asset_release(&asset);
+    return scene;
+}
+
+static void set_regions(ewa_scene *scene, const ewa_region *regions, uint32_t count) {
+    static ewa_scene_options options;
+    ewa_scene_get_options(scene, &options);
+    memcpy(options.regions, regions, count * sizeof *regions);
+    options.region_count = count;
+    assert_int_equal(ewa_scene_set_options(scene, &options), EWA_OK);
+}
+
+static ewa_camera make_camera(bool flat) {
+    ewa_camera camera;
+    ewa_camera_init(&camera);
+    camera.width_px = WIDTH, camera.height_px = HEIGHT;
+    camera.cx_px = WIDTH / 2, camera.cy_px = HEIGHT / 2;
+    if (flat) {
+        camera.projection = EWA_ORTHOGRAPHIC;
+        camera.fx_px = camera.fy_px = 2;
+    } else {
+        camera.fx_px = camera.fy_px = 80;
+    }
+    // From 40 above the middle, down, x to the right and y upward.
+    const double m[16] = {1, 0, 0, -10, 0, -1, 0, 10, 0, 0, -1, 40, 0, 0, 0, 1};
+    memcpy(camera.world_to_camera, m, sizeof m);
+    return camera;
+}
+
+static uint64_t count_left(const ewa_region *regions, uint32_t count) {
+    ewa_cloud *cloud = make_grid(), *left = NULL;
+    ewa_scene *scene = make_scene(cloud);
+    set_regions(scene, regions, count);
+    assert_int_equal(ewa_scene_points(scene, &left), EWA_OK);
+    const uint64_t found = ewa_cloud_point_count(left);
+    ewa_cloud_destroy(&left);
+    ewa_scene_destroy(&scene);
+    ewa_cloud_destroy(&cloud);
+    return found;
+}
+
+/// Boxes hold their faces; classes are those of the codes; several regions hide together.
+static void test_known_counts(void **state) {
+    (void)state;
+    ewa_region box = {.has_box = true, .box_world = {2, 3, -1, 5, 9, 1}}, kept = box, classes = {.has_classes = true};
+    kept.kept = true;
+    assert_int_equal(count_left(NULL, 0), POINTS);
+    assert_int_equal(count_left(&box, 1), POINTS - 4 * 7);
+    assert_int_equal(count_left(&kept, 1), 4 * 7);
+    classes.classes[0] = 1u << 0 | 1u << 3; // x = 0, 5, 10, 15, 20 and 3, 8, 13, 18
+    assert_int_equal(count_left(&classes, 1), POINTS - 9 * SIDE);
+    const ewa_region both[2] = {kept, classes};
+    assert_int_equal(count_left(both, 2), 2 * 7); // x = 2 and 4
+    ewa_region one = kept; // of one region, all has to hold: x = 3 and 5 of the box
+    one.has_classes = true;
+    one.classes[0] = classes.classes[0];
+    assert_int_equal(count_left(&one, 1), 2 * 7);
+    const ewa_region nothing = {.kept = true}, none = {.kept = false};
+    assert_int_equal(count_left(&nothing, 1), 0);
+    assert_int_equal(count_left(&none, 1), POINTS);
+}
+
+/// The outline of [7.5, 12.5] x [5.5, 14.5] on the picture, at 2 pixels a unit, as a rectangle and with a notch.
+static void test_outlines(void **state) {
+    (void)state;
+    static const double rectangle[8] = {35, 39, 45, 39, 45, 21, 35, 21}, triangle[6] = {0, 0, 80, 0, 40, 30};
+    for (int flat = 0; flat < 2; flat++) {
+        const ewa_camera camera = make_camera(flat);
+        ewa_region region = {.kept = true};
+        assert_int_equal(ewa_region_set_outline(&region, &camera, rectangle, 4), EWA_OK);
+        assert_int_equal(count_left(&region, 1), 5 * 9);
+        region.kept = false;
+        assert_int_equal(count_left(&region, 1), POINTS - 5 * 9);
+        region.kept = true;
+        assert_int_equal(ewa_region_set_outline(&region, &camera, triangle, 3), EWA_OK);
+        uint64_t wanted = 0; // above both sides, which end in the middle of the picture
+        for (int i = 0; i < POINTS; i++) wanted += 2.0 * (i / SIDE - 10) > 0.75 * fabs(2.0 * (i % SIDE - 10));
+        const uint64_t found = count_left(&region, 1);
+        assert_true(found >= wanted && found <= wanted + SIDE); // on a side, either way
+    }
+    // What is behind the eye is in no outline.
+    ewa_camera away = make_camera(false);
+    for (int c = 8; c < 12; c++) away.world_to_camera[c] *= -1;
+    ewa_region region = {.kept = true};
+    assert_int_equal(ewa_region_set_outline(&region, &away, rectangle, 4), EWA_OK);
+    assert_int_equal(count_left(&region, 1), 0);
+    // A circle of 1,000 corners keeps its area.
+    double circle[2000];
+    for (int i = 0; i < 1000; i++) circle[2 * i] = 40 + 17.1 * cos(i * 0.0062831853), circle[2 * i + 1] = 30 + 17.1 * sin(i * 0.0062831853);
+    const ewa_camera camera = make_camera(true);
+    assert_int_equal(ewa_region_set_outline(&region, &camera, circle, 1000), EWA_OK);
+    assert_int_equal(region.corner_count, EWA_REGION_CORNERS);
+    uint64_t wanted = 0;
+    for (int i = 0; i < POINTS; i++) wanted += hypot(i % SIDE - 10, i / SIDE - 10) < 8.55;
+    const uint64_t found = count_left(&region, 1);
+    assert_true(found + 8 >= wanted && found <= wanted + 4);
+    assert_int_equal(ewa_region_set_outline(&region, &camera, circle, 2), EWA_ERROR_ARGUMENT);
+}
+
+static void draw(ewa_scene *scene, uint8_t *rgba8) {
+    const ewa_camera camera = make_camera(false);
+    ewa_scene_renderer *renderer = NULL;
+    assert_int_equal(ewa_scene_renderer_create(context, EWA_BACKEND_CPU, NULL, &renderer), EWA_OK);
+    assert_int_equal(ewa_scene_draw(scene, renderer, &camera, NULL, &(ewa_frame){.rgba8 = rgba8}, NULL), EWA_OK);
+    ewa_scene_renderer_destroy(&renderer);
+}
+
+/// A picture of a scene of which points are hidden is that of the points that are left; shown again, that of all.
+static void test_pictures(void **state) {
+    (void)state;
+    static uint8_t all[4 * WIDTH * HEIGHT], hidden[4 * WIDTH * HEIGHT], other[4 * WIDTH * HEIGHT];
+    ewa_cloud *cloud = make_grid(), *left = NULL;
+    ewa_scene *scene = make_scene(cloud);
+    draw(scene, all);
+    const ewa_region box = {.has_box = true, .box_world = {4, 4, -1, 12, 9, 1}};
+    set_regions(scene, &box, 1);
+    draw(scene, hidden);
+    assert_memory_not_equal(all, hidden, sizeof all);
+    assert_int_equal(ewa_scene_points(scene, &left), EWA_OK);
+    assert_int_equal(ewa_cloud_attribute_count(left), ewa_cloud_attribute_count(cloud));
+    ewa_scene *of_left = make_scene(left);
+    draw(of_left, other);
+    assert_memory_equal(hidden, other, sizeof hidden);
+    // What is hidden is not picked.
+    ewa_scene_renderer *renderer = NULL;
+    const ewa_camera camera = make_camera(false);
+    ewa_scene_hit hit;
+    assert_int_equal(ewa_scene_renderer_create(context, EWA_BACKEND_CPU, NULL, &renderer), EWA_OK);
+    assert_int_equal(ewa_scene_pick(scene, renderer, &camera, NULL, 36.5, 37.5, 0, 5, &hit), EWA_OK);
+    assert_false(hit.hit);
+    set_regions(scene, NULL, 0);
+    assert_int_equal(ewa_scene_pick(scene, renderer, &camera, NULL, 36.5, 37.5, 0, 5, &hit), EWA_OK);
+    assert_true(hit.hit && hit.has_point);
+    ewa_scene_renderer_destroy(&renderer);
+    draw(scene, other);
+    assert_memory_equal(all, other, sizeof all);
+    // All hidden: the background.
+    const ewa_region nothing = {.kept = true};
+    set_regions(scene, &nothing, 1);
+    draw(scene, other);
+    for (size_t i = 0; i < sizeof other; i++) assert_int_equal(other[i], 255);
+    ewa_scene_destroy(&of_left);
+    ewa_scene_destroy(&scene);
+    ewa_cloud_destroy(&left);
+    ewa_cloud_destroy(&cloud);
+}
+
+/// Octrees hide the same points, and scene files keep regions to the bit.
+static void test_files(void **state) {
+    (void)state;
+    ewa_cloud *cloud = make_grid(), *left = NULL;
+    const double line[8] = {10, 10, 70, 12, 60, 50, 12, 44};
+    const ewa_camera camera = make_camera(false);
+    ewa_region regions[2] = {{.kept = true}, {.has_box = true, .box_world = {4, 4, -1, 12, 9, 1}, .has_classes = true}};
+    regions[1].classes[0] = 1u << 1 | 1u << 4;
+    assert_int_equal(ewa_region_set_outline(&regions[0], &camera, line, 4), EWA_OK);
+    const uint64_t wanted = count_left(regions, 2);
+    assert_true(wanted > 50 && wanted < POINTS - 50);
+    assert_int_equal(ewa_cloud_save(cloud, "region.ply", NULL), EWA_OK);
+    static const char *const path = "region.ply";
+    assert_int_equal(ewa_lod_build(context, &path, 1, "region.copc.laz", NULL, NULL), EWA_OK);
+    for (int k = 0; k < 2; k++) {
+        ewa_asset *asset = NULL;
+        ewa_asset_options options;
+        ewa_asset_options_init(&options, sizeof options);
+        options.levels = EWA_OCTREE_ALWAYS;
+        ewa_scene *scene = NULL, *again = NULL;
+        assert_int_equal(ewa_scene_create(context, NULL, &scene), EWA_OK);
+        assert_int_equal(ewa_asset_load(context, k ? "region.copc.laz" : path, &options, &asset), EWA_OK);
+        assert_int_equal(ewa_scene_add(scene, asset, NULL), EWA_OK);
+        ewa_asset_release(&asset);
+        set_regions(scene, regions, 2);
+        assert_int_equal(ewa_scene_points(scene, &left), EWA_OK);
+        assert_int_equal(ewa_cloud_point_count(left), wanted);
+        ewa_cloud_destroy(&left);
+        assert_int_equal(ewa_scene_save(scene, NULL, "region.json"), EWA_OK);
+        assert_int_equal(ewa_scene_create(context, NULL, &again), EWA_OK);
+        assert_int_equal(ewa_scene_open(again, "region.json", NULL), EWA_OK);
+        static ewa_scene_options read;
+        ewa_scene_get_options(again, &read);
+        assert_int_equal(read.region_count, 2);
+        assert_memory_equal(read.regions, regions, sizeof regions);
+        ewa_scene_destroy(&again);
+        ewa_scene_destroy(&scene);
+    }
+    static const char *const wrong[] = {"{\"keep\": 1}",           "{\"box\": [1, 2, 3]}",  "{\"classes\": [256]}",
+                                        "{\"outline\": [1, 2, 3, 4]}", "{\"classes\": [0.5]}", "{\"volume\": 3}",
+                                        "3",                       "{\"box\": \"here\"}"};
+    for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
+        FILE *file = fopen("wrong.json", "w");
+        fprintf(file, "{\"ewa_scene\": 1, \"options\": {\"regions\": [%s]}, \"items\": []}", wrong[i]);
+        fclose(file);
+        ewa_scene_file *made = NULL;
+        assert_int_equal(ewa_scene_file_load(context, "wrong.json", NULL, &made), EWA_ERROR_FORMAT);
+    }
+    ewa_cloud_destroy(&cloud);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_known_counts),
+        cmocka_unit_test(test_outlines),
+        cmocka_unit_test(test_pictures),
+        cmocka_unit_test(test_files),
+    };
+    return cmocka_run_group_tests(tests, enter, leave);
+}
