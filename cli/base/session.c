@@ -115,6 +115,7 @@ ewa_context *session_context(cli_session *session, uint32_t thread_count, uint32
     options.untrusted = session->untrusted;
     options.progress = on_progress;
     options.progress_user = session;
+    options.open_file = session->open_file;
     ewa_context *context = NULL;
     const ewa_status status = ewa_context_create(&options, &context);
     if (status != EWA_OK)

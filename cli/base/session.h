@@ -24,6 +24,7 @@ typedef struct cli_session {
     const session_listener *listener; ///< NULL: the terminal
     const cli_process_group *group;   ///< NULL: this process alone
     const char *subject;              ///< the file that messages are about, or NULL
+    ewa_file_opener *open_file;       ///< of every further context; NULL: the system opens all files
     ewa_limits limits;                ///< of every context
     ewa_named_files named_files;
     bool untrusted;

@@ -5,6 +5,7 @@
 #include "cli/view/window_services.h"
 #include "cli/input/lod_input.h"
 #include "cli/input/scene_input.h"
+#include "cli/view/window_files.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -197,6 +198,7 @@ bool window_services_make(window_services *own, const view_arguments *view, view
     own->loading = (cli_session){.load = own->session.load,
                                  .filter = own->session.filter,
                                  .listener = &own->listener,
+                                 .open_file = window_file_open,
                                  .limits = own->session.limits,
                                  .named_files = own->session.named_files,
                                  .untrusted = own->session.untrusted,

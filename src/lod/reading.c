@@ -4,6 +4,7 @@
 // Nodes that are read on one thread while another one draws those that are there.
 #include "lod/reading.h"
 #include "base/base.h"
+#include "base/context.h"
 #include "base/options.h"
 #include "lod/cut.h"
 
@@ -67,7 +68,13 @@ ewa_status ewa_lod_reading_choose(ewa_lod_reading *reading, const ewa_lod_scene 
 
 ewa_status ewa_lod_reading_read(ewa_lod_reading *reading) {
     const ewa_tree_reading how = {&reading->look, reading->frame, reading->memory_bytes};
-    return ewa_tree_read(reading->lod, &how, reading->nodes, reading->count, reading->surfels);
+    ewa_lod *lod = reading->lod;
+    const bool told = lod->damage_told; // of a file that was cut short each node would be
+    if (told) ewa_failures_hush(lod->context, true);
+    const ewa_status status = ewa_tree_read(lod, &how, reading->nodes, reading->count, reading->surfels);
+    if (told) ewa_failures_hush(lod->context, false);
+    lod->damage_told = lod->damage_told || status != EWA_OK;
+    return status;
 }
 
 void ewa_lod_reading_put(ewa_lod_reading *reading) {

@@ -30,7 +30,8 @@ ewa_status ewa_lod_reading_choose(ewa_lod_reading *reading, const ewa_lod_scene 
                                   const ewa_camera *camera, const ewa_render_options *options,
                                   const ewa_lod_options *lod_options, uint32_t most);
 
-/// Reads them, also while the octrees are drawn with ewa_lod_options.resident_only. Errors: as ewa_lod_open().
+/// Reads them, also while the octrees are drawn with ewa_lod_options.resident_only. What is damaged of an octree is reported once. Errors: as
+/// ewa_lod_open().
 ewa_status ewa_lod_reading_read(ewa_lod_reading *reading);
 
 /// Has pictures be drawn of what was read, and no node be read again that could not be. Not while the octrees are drawn. What

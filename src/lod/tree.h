@@ -52,6 +52,7 @@ struct ewa_lod {
     ewa_lod_look look;    ///< of what is in memory
     double stretch;       ///< that no length grows by more in `look`
     ewa_buffer look_user; ///< the copy that it has
+    bool damage_told;     ///< that some nodes cannot be read
     ewa_lod *next;        ///< another instance of the same octree, closed with this one; NULL: none
     bool is_instance;     ///< file and levels are those of the octree that was opened
     ewa_buffer items;     ///< of the frame (cut.c)

@@ -24,6 +24,7 @@ typedef struct shown {
 } shown;
 
 static shown one, other;
+static check_log heard;
 
 static int enter(void **state) {
     static const char *const names[] = {points};
@@ -48,7 +49,8 @@ static void open_scene(shown *s, const char *name) {
     ewa_asset_options_init(&how, sizeof how);
     how.levels = EWA_OCTREE_ALWAYS;
     how.own_context = true;
-    *s = (shown){.context = check_context(2, NULL)};
+    *s = (shown){.context = check_context(2, &heard)};
+    heard.count = 0;
     ewa_scene_options_init(&s->options, sizeof s->options);
     s->options.lod.error = 1;
     assert_int_equal(ewa_asset_load(s->context, scratch_path(name, path), &how, &asset), EWA_OK);
@@ -241,6 +243,8 @@ static void damaged_nodes_are_left_out(void **state) {
     const uint32_t failed = read_all(&one, reader, &count);
     assert_true(failed >= 1);
     assert_true(count > failed + 3);
+    assert_int_equal(heard.count, 1);
+    assert_non_null(strstr(heard.text, damaged));
     assert_int_equal(draw(&one, true), EWA_OK);
     assert_true(one.stats.lod.missing_count > 0 && one.stats.lod.surfel_count > 0);
     assert_int_equal(read_all(&one, reader, &count), 0);
