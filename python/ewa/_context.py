@@ -16,7 +16,7 @@ import threading
 import warnings
 import weakref
 from collections import deque
-from contextvars import ContextVar
+from contextvars import ContextVar, copy_context
 from types import TracebackType
 from typing import TYPE_CHECKING, Any, Callable, Union
 
@@ -160,6 +160,26 @@ class Core:
     def call(self, function: Callable[..., int], *arguments: Any) -> None:
         """Call a function that returns a status; handles among its arguments become their addresses."""
         self.run(function, arguments, True)
+
+    def call_apart(self, function: Callable[..., int], *arguments: Any, keep: Any = ()) -> None:
+        """Call what the library cannot stop, on another thread, so that Ctrl-C ends the wait at once; the call ends by itself, and
+        until then `keep` stays."""
+        if threading.get_ident() != _main:
+            self.call(function, *arguments)
+            return
+        failed: list[BaseException] = []
+
+        def work(kept: Any = keep) -> None:
+            try:
+                self.call(function, *arguments)
+            except BaseException as error:  # noqa: B902 - raised by the thread that waits
+                failed.append(error)
+
+        thread = threading.Thread(target=copy_context().run, args=(work,))
+        thread.start()
+        thread.join()
+        if failed:
+            raise failed[0]
 
     def make(self, function: Callable[..., int], *arguments: Any, destroy: Callable[..., None], what: str,
              keep: tuple[Any, ...] = ()) -> Handle:

@@ -171,11 +171,11 @@ class Image:
         """
         file = path_bytes(path)
         if file.lower().endswith((b".png", b".jpg", b".jpeg")):
-            pixels = np.ascontiguousarray(self.rgba8[:, :, :3] if self.opaque else self.rgba8)
+            pixels = _without_alpha(self.rgba8) if self.opaque else np.ascontiguousarray(self.rgba8)
             height, width, channels = pixels.shape
             core = core_of(None)
-            core.call(lib.ewa_pixels_save, core.address, file, width, height, channels, pixels.ctypes.data,
-                      width * channels)
+            core.call_apart(lib.ewa_pixels_save, core.address, file, width, height, channels, pixels.ctypes.data,
+                            width * channels, keep=pixels)
             return
         if not file.lower().endswith(b".exr"):
             save_image(path, self.rgba[:, :, :3], camera=self.camera)
@@ -197,6 +197,14 @@ class Image:
         if name not in _CHANNELS:
             raise ArgumentError(f"'{name}' is none of {', '.join(_CHANNELS)}")
         save_image(path, getattr(self, name), channel_names=_CHANNELS[name], camera=self.camera)
+
+
+def _without_alpha(rgba8: Array) -> Array:
+    """The colours alone, some rows at a time, between which Ctrl-C is heard."""
+    made = np.empty(rgba8.shape[:2] + (3,), np.uint8)
+    for y in range(0, len(made), 256):
+        made[y:y + 256] = rgba8[y:y + 256, :, :3]
+    return made
 
 
 def save_image(path: PathLike, pixels: Any, *, channel_names: str | None = None, camera: Camera | None = None) -> None:
@@ -226,7 +234,7 @@ def save_image(path: PathLike, pixels: Any, *, channel_names: str | None = None,
     if camera is not None:
         offset: int = getattr(b.ewa_camera, "world_to_camera").offset
         options.world_to_camera = ctypes.addressof(camera._struct) + offset
-    core.call(lib.ewa_image_save, ctypes.byref(image), path_bytes(path), ctypes.byref(options))
+    core.call_apart(lib.ewa_image_save, ctypes.byref(image), path_bytes(path), ctypes.byref(options), keep=(array, camera))
 
 
 def pixels_struct(array: Array, context: int | None) -> b.ewa_image:
@@ -286,7 +294,7 @@ def _read(load: Any, load_memory: Any, path: Source, context: Context | None) ->
         return status
 
     pixels: list[Array] = []
-    core.call(read, core.address)
+    core.call_apart(read, core.address)
     return pixels[0]
 
 

@@ -6,6 +6,9 @@ from __future__ import annotations
 import gc
 import os
 import signal
+import subprocess
+import sys
+import textwrap
 import threading
 import time
 import unittest
@@ -17,6 +20,42 @@ from common import Case
 
 
 class Limits(Case):
+    def test_ctrl_c(self) -> None:
+        """Ends within 0.3 s of the processor what is long, also where the library cannot stop: pictures are written on."""
+        path, code = self.path("big.png"), textwrap.dedent("""
+            import os, signal, sys, threading, time
+            import numpy as np, ewa
+            pixels = np.random.default_rng(1).random((3000, 4000, 3)).astype(np.float32)
+            mesh = ewa.Mesh(np.eye(4, 3), [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+            sphere, cube = ewa.generate("sphere", 200000, size_world=2.5), ewa.generate("cube", 200000)
+            calls = {
+                "compare": lambda: ewa.compare_images(pixels, pixels), "save": lambda: ewa.save_image(sys.argv[1], pixels),
+                "sample": lambda: mesh.sample(point_count=5000000), "estimate": lambda: ewa.Cloud(sphere["position"]).estimate(),
+                "csg": lambda: ewa.csg(cube, sphere, "difference"),
+            }
+            for name, call in calls.items():
+                sent = []
+                def interrupt():
+                    sent.append((time.monotonic(), time.process_time()))
+                    os.kill(os.getpid(), signal.SIGINT)
+                timer = threading.Timer(0.05, interrupt)
+                timer.start()
+                try:
+                    call()
+                    time.sleep(5)
+                except KeyboardInterrupt:
+                    print(name, time.monotonic() - sent[0][0], time.process_time() - sent[0][1])
+                timer.join()
+            print(ewa.default_context().worker_count > 0)
+            """)
+        done = subprocess.run([sys.executable, "-c", code, path], capture_output=True, text=True, check=False, timeout=120)
+        lines = done.stdout.split("\n")
+        self.assertEqual((len(lines), lines[5:]), (7, ["True", ""]), done.stdout + done.stderr)
+        for line in lines[:5]:
+            name, _, took_s = line.split()
+            self.assertLess(float(took_s), 0.6, f"{name}, by two processors")
+        self.assertEqual(ewa.read_image(path).shape, (3000, 4000, 3))
+
     def test_surfels_need_their_cloud_no_longer(self) -> None:
         """Also where a camera is placed at them: the memory of the cloud's points is another's by then."""
         surfels = ewa.generate("torus", 400000).surfels()

@@ -44,6 +44,7 @@ typedef struct keep_rule {
 typedef struct csg_job {
     const ewa_solid *solid, *other;
     keep_rule rule;
+    bool second; ///< of the two operands
     double cutoff;
     uint8_t *fate;    // [solid->count]
     uint32_t *doubts; // [parts] places whose side contradicts that of a place that no surface parts from them
@@ -252,6 +253,9 @@ static bool add_up(csg_job *job) {
     return true;
 }
 
+/// The progress of operand k goes from 0.4 k to 0.4 (k + 1).
+static double progress_of(const csg_job *job, double share) { return 0.4 * ((job->second ? 1 : 0) + share); }
+
 static ewa_status classify_all(csg_job *job, uint32_t *doubts) {
     ewa_context *context = job->solid->context;
     const uint32_t parts = job->solid->level_nodes[task_level(job->solid)];
@@ -259,8 +263,9 @@ static ewa_status classify_all(csg_job *job, uint32_t *doubts) {
     job->fate = ewa_allocate(context, job->solid->count, sizeof *job->fate);
     job->near = ewa_allocate(context, job->solid->count, sizeof *job->near);
     ewa_status status = job->doubts && job->fate && job->near ? EWA_OK : EWA_ERROR_MEMORY;
+    if (status == EWA_OK)
+        status = ewa_parallel_within(context, "csg", progress_of(job, 0), progress_of(job, 0.5), classify_part, job, parts);
     if (status == EWA_OK) {
-        ewa_parallel(context, classify_part, job, parts);
         for (uint32_t i = 0; i < parts; i++) *doubts += job->doubts[i];
         list_near(job);
     }
@@ -274,12 +279,12 @@ static ewa_status cut_all(csg_job *job) {
     const uint32_t parts = (job->near_count + TASK_SURFELS - 1) / TASK_SURFELS;
     job->piece_first = ewa_allocate(context, (size_t)job->near_count + 1, sizeof *job->piece_first);
     if (!job->piece_first) return EWA_ERROR_MEMORY;
-    ewa_parallel(context, count_near, job, parts);
+    job->piece_first[job->near_count] = 0;
+    EWA_TRY(ewa_parallel_within(context, "csg", progress_of(job, 0.5), progress_of(job, 0.75), count_near, job, parts));
     if (!add_up(job)) return ewa_fail(context, EWA_ERROR_LIMIT, "csg: over 2^32 pieces");
     job->pieces = ewa_allocate(context, job->piece_first[job->near_count], sizeof *job->pieces);
     if (!job->pieces) return EWA_ERROR_MEMORY;
-    ewa_parallel(context, cut_near, job, parts);
-    return EWA_OK;
+    return ewa_parallel_within(context, "csg", progress_of(job, 0.75), progress_of(job, 1), cut_near, job, parts);
 }
 
 static void free_job(csg_job *job) {
@@ -442,6 +447,7 @@ static ewa_status combine(const ewa_cloud *const operands[2], const ewa_solid so
         jobs[k] = (csg_job){.solid = &solids[k],
                             .other = &solids[1 - k],
                             .rule = rules[options->operation][k],
+                            .second = k == 1,
                             .cutoff = options->cutoff};
         uint32_t doubts = 0;
         if (status == EWA_OK) status = classify_all(&jobs[k], &doubts);
@@ -452,7 +458,6 @@ static ewa_status combine(const ewa_cloud *const operands[2], const ewa_solid so
                          "%s is not closed: at %u places, what is inside and what is outside of it meet with "
                          "none of its surfels between",
                          operand_name(options, 1 - k), doubts);
-        if (status == EWA_OK) status = ewa_progress(context, "csg", 0.4 * (k + 1));
     }
     if (status == EWA_OK) status = assemble(operands, jobs, result);
     for (int k = 0; k < 2; k++) free_job(&jobs[k]);

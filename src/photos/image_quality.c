@@ -98,24 +98,25 @@ static void compare_row(void *data, uint32_t y, uint32_t worker) {
 }
 
 /// With the memory.
-static void compare(ewa_context *context, quality_job *job, ewa_image_quality *quality) {
+static ewa_status compare(ewa_context *context, quality_job *job, ewa_image_quality *quality) {
     double whole = 0, sums[2] = {0, 0};
     for (int k = 0; k < TAPS; k++) {
         job->taps[k] = ewa_exp(-0.5 * (k - RADIUS) * (k - RADIUS) / (SIGMA_PX * SIGMA_PX));
         whole += job->taps[k];
     }
     for (int k = 0; k < TAPS; k++) job->taps[k] /= whole;
-    ewa_parallel(context, show_row, job, job->height_px);
-    ewa_parallel(context, compare_row, job, job->height_px);
+    EWA_TRY(ewa_parallel_within(context, "compare", 0, 0.2, show_row, job, job->height_px));
+    EWA_TRY(ewa_parallel_within(context, "compare", 0.2, 1, compare_row, job, job->height_px));
     const size_t size = (size_t)job->width_px * job->height_px;
     *quality = (ewa_image_quality){.psnr_db = NAN, .ssim = NAN};
     for (size_t i = 0; i < size; i++) quality->pixel_count += job->counts[i];
     for (size_t y = 0; y < job->height_px; y++) sums[0] += job->rows[2 * y], sums[1] += job->rows[2 * y + 1];
-    if (!quality->pixel_count) return;
+    if (!quality->pixel_count) return EWA_OK;
     const double numbers = 3 * (double)quality->pixel_count;
     quality->mean_squared_error = sums[0] / numbers;
     quality->psnr_db = -10 * log10(quality->mean_squared_error);
     quality->ssim = sums[1] / numbers;
+    return EWA_OK;
 }
 
 ewa_status ewa_image_compare(const ewa_image *image, const ewa_image *truth, ewa_image_quality *quality) {
@@ -138,10 +139,10 @@ ewa_status ewa_image_compare(const ewa_image *image, const ewa_image *truth, ewa
     job.columns = ewa_allocate(context, columns, sizeof *job.columns);
     job.rows = ewa_allocate(context, 2 * (size_t)job.height_px, sizeof *job.rows);
     const bool room = job.shown[0] && job.shown[1] && job.counts && job.columns && job.rows;
-    if (room) compare(context, &job, quality);
+    const ewa_status status = room ? compare(context, &job, quality) : EWA_ERROR_MEMORY;
     for (int i = 0; i < 2; i++) ewa_release(context, job.shown[i], 3 * size, sizeof *job.shown[i]);
     ewa_release(context, job.counts, size, sizeof *job.counts);
     ewa_release(context, job.columns, columns, sizeof *job.columns);
     ewa_release(context, job.rows, 2 * (size_t)job.height_px, sizeof *job.rows);
-    return room ? EWA_OK : EWA_ERROR_MEMORY;
+    return status;
 }
