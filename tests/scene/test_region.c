@@ -8,6 +8,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <unistd.h>
 
 enum { SIDE = 21, POINTS = SIDE * SIDE, WIDTH = 80, HEIGHT = 60 };
 
@@ -15,6 +16,8 @@ static ewa_context *context;
 
 static int enter(void **state) {
     (void)state;
+    char folder[512];
+    assert_int_equal(chdir(scratch_path("", folder)), 0);
     context = check_context(0, NULL);
     return 0;
 }
