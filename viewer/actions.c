@@ -70,6 +70,10 @@ static const viewer_action actions[] = {
 
     {"Tools", "Measure", "measure next", "every second click measures from the one before, as Shift click does at any time", 't',
      0, VIEWER_ICON_MEASURE},
+    {"Tools", "Measure a height", "measure height", "click two places", 't', CTRL, VIEWER_ICON_NONE},
+    {"Tools", "Measure an angle", "measure angle", "click three places", 0, 0, VIEWER_ICON_NONE},
+    {"Tools", "Measure an area", "measure area", "click places around it; a double click ends", 0, 0, VIEWER_ICON_NONE},
+    {"Tools", "Measure a way", "measure distance", "click places along it; a double click ends", 0, 0, VIEWER_ICON_NONE},
     {"Tools", "Clip box", "box next", "clip box around everything, whose sides can be dragged", 'c', 0, VIEWER_ICON_BOX},
     {"Tools", "Slab", "slab next", "slab across the view; Alt wheel moves it", 'v', 0, VIEWER_ICON_SLAB},
     {"Tools", "Profile", "profile next", "profile along what was measured", 'r', 0, VIEWER_ICON_PROFILE},

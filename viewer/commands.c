@@ -339,18 +339,21 @@ static bool do_cancel(viewer *v, const char *rest) {
     } else if (picked) {
         pick_clear(v);
     } else {
-        v->measures = false;
+        v->measures = v->measures_kind = false;
     }
     return true;
 }
 
 static bool do_measure(viewer *v, const char *rest) {
-    return read_switch(v, "measure", rest, v->measures, &v->measures);
+    const bool is_switch = strcmp(rest, "on") == 0 || strcmp(rest, "off") == 0 || strcmp(rest, "next") == 0;
+    v->measures_kind = v->measures_kind && !is_switch;
+    return is_switch ? read_switch(v, "measure", rest, v->measures, &v->measures) : measures_command(v, rest);
 }
 
 static bool do_clear(viewer *v, const char *rest) {
     (void)rest;
     pick_clear(v);
+    select_clear(v);
     return true;
 }
 

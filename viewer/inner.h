@@ -68,6 +68,16 @@ typedef struct viewer_profile {
     uint32_t graph_width_px, graph_height_px;
 } viewer_profile;
 
+enum { VIEWER_MEASURES = 64, VIEWER_MEASURE_PLACES = 64 };
+
+/// A measurement with a name.
+typedef struct viewer_measure {
+    ewa_measure_kind kind;
+    char name[64];
+    uint32_t count;
+    double places_world[3 * VIEWER_MEASURE_PLACES];
+} viewer_measure;
+
 enum { SELECT_CORNERS = 1024 }; ///< of an outline that is drawn, at most
 
 /// What a hand draws around points.
@@ -144,6 +154,10 @@ struct viewer {
     viewer_cutaway cutaway;
     viewer_profile profile;
     viewer_selection selection;
+    viewer_measure measure_list[VIEWER_MEASURES];
+    size_t measure_count;
+    bool measures_kind;       ///< clicks add places to
+    viewer_measure measuring; ///< what is under way
 
     uint64_t revision, posted; ///< of what is to be drawn; the last one handed to the painter
     bool posted_whole;
@@ -204,6 +218,8 @@ bool pick_surface(viewer *v, double x, double y, double reach, double place_worl
 /// Picks the point there and says what it is; `second`: measures from the first.
 bool pick_point(viewer *v, double x, double y, bool second);
 void pick_clear(viewer *v);
+/// Writes a coordinate with the digits that it was stored with.
+void pick_write_number(char text[40], double number, bool is_float);
 
 // cutaway.c
 /// Sets the planes of the renderer.
@@ -235,6 +251,13 @@ bool select_move(viewer *v, const viewer_event *event);
 bool select_release(viewer *v, const viewer_event *event);
 /// Selects what is in the outline that was drawn; false: there is none.
 bool select_close(viewer *v);
+
+// measures.c
+bool measures_command(viewer *v, const char *rest);
+/// Adds what was clicked to the measurement that is under way; false: there is none.
+bool measures_click(viewer *v, const viewer_event *event);
+/// Writes name and value, for labels.
+void measures_value(const viewer *v, const viewer_measure *measure, char text[VIEWER_NAME_BYTES]);
 
 // settings.c
 void settings_init(viewer *v);

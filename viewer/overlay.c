@@ -114,6 +114,20 @@ static void draw_selection(const overlay *o, const viewer *v) {
     }
 }
 
+static void draw_measure(const overlay *o, const viewer *v, const viewer_measure *measure) {
+    const bool closed = measure->kind == EWA_MEASURE_AREA && measure->count > 2;
+    double middle[3] = {0};
+    char text[VIEWER_NAME_BYTES];
+    for (uint32_t i = 0; i < measure->count; i++) {
+        const double *from = measure->places_world + 3 * i, *to = measure->places_world + 3 * ((i + 1) % measure->count);
+        if (i + 1 < measure->count || closed) draw_edge(o, from, to, 2, MARK);
+        draw_dot(o, from, 6, MARK);
+        for (int c = 0; c < 3; c++) middle[c] += from[c] / measure->count;
+    }
+    measures_value(v, measure, text);
+    if (measure->count > 1) draw_label(o, measure->kind == EWA_MEASURE_ANGLE ? measure->places_world + 3 : middle, text);
+}
+
 static void draw_picks(const overlay *o, const viewer *v) {
     const viewer_pick *a = &v->picks[0], *b = &v->picks[1];
     char text[64];
@@ -167,6 +181,8 @@ void overlay_draw(viewer *v, const ewa_camera *camera, uint8_t *rgba8) {
     if (v->cutaway.box) draw_box(&o, v);
     if (v->profile.shown) draw_profile_wall(&o, v);
     draw_selection(&o, v);
+    for (size_t i = 0; i < v->measure_count; i++) draw_measure(&o, v, &v->measure_list[i]);
+    if (v->measures_kind && v->measuring.count) draw_measure(&o, v, &v->measuring);
     draw_picks(&o, v);
     ewa_furniture_options furniture = v->furniture;
     ewa_category categories[VIEWER_MAX_CLASSES];

@@ -63,8 +63,7 @@ static void add(char *text, size_t text_bytes, const char *more) {
     if (used < text_bytes) snprintf(text + used, text_bytes - used, "%s", more);
 }
 
-/// A coordinate with the digits that it was stored with.
-static void write_number(char text[40], double number, bool is_float) {
+void pick_write_number(char text[40], double number, bool is_float) {
     snprintf(text, 40, is_float ? "%.9g" : "%.17g", number);
     for (int digits = is_float ? 6 : 15; digits <= (is_float ? 8 : 16); digits++) {
         char shorter[40];
@@ -102,7 +101,7 @@ static void describe(viewer *v, viewer_pick *pick, const ewa_cloud *read) {
     for (int c = 0; c < 3; c++) {
         // Sums of an origin and an offset lose the last digit of the file's decimals.
         pick->place_world[c] = ewa_grid_world(&grid, (uint32_t)c, pick->place_world[c]);
-        write_number(number, pick->place_world[c], whole);
+        pick_write_number(number, pick->place_world[c], whole);
         add(line, sizeof line, " "), add(line, sizeof line, number);
         add(shown, VIEWER_TEXT_BYTES, " "), add(shown, VIEWER_TEXT_BYTES, number);
     }
@@ -114,7 +113,7 @@ static void describe(viewer *v, viewer_pick *pick, const ewa_cloud *read) {
         add(line, sizeof line, " "), add(line, sizeof line, attribute->name);
         add(shown, VIEWER_TEXT_BYTES, "\n"), add(shown, VIEWER_TEXT_BYTES, attribute->name);
         for (uint32_t c = 0; c < attribute->component_count; c++) {
-            write_number(number, numbers[c], attribute->type == EWA_F32);
+            pick_write_number(number, numbers[c], attribute->type == EWA_F32);
             add(line, sizeof line, c ? "," : "="), add(line, sizeof line, number);
             add(shown, VIEWER_TEXT_BYTES, " "), add(shown, VIEWER_TEXT_BYTES, number);
         }

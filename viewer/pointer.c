@@ -107,7 +107,7 @@ static void release(viewer *v, const viewer_event *event) {
     const bool clicked = !v->moved && v->button == VIEWER_LEFT;
     v->button = 0;
     v->drag = DRAG_NONE;
-    if (!clicked || v->handle >= 0) return;
+    if (!clicked || v->handle >= 0 || measures_click(v, event)) return;
     const bool follows = v->measures && v->picks[0].given && !v->picks[1].given;
     const bool second = follows || event->modifiers & VIEWER_SHIFT;
     if (event->clicks >= 2 && !v->measures)

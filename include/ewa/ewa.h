@@ -23,6 +23,7 @@
 #include "ewa/image.h"
 #include "ewa/io.h"
 #include "ewa/lod.h"
+#include "ewa/measure.h"
 #include "ewa/mesh.h"
 #include "ewa/mixture.h"
 #include "ewa/model.h"

@@ -24,6 +24,7 @@ from .films import film, turntable
 from .gaussians import Gaussians, Splats, read_gaussians, render_gaussians
 from .gradients import CameraGradient, Gradients, render_backward
 from .image import Image, read_depth, read_image, save_image
+from .measuring import Measurement, measure
 from .mesh import Mesh, convert, read, read_mesh, sample
 from .octree import Octree, build_octree
 from .photographs import ImageQuality, PhotoReport, PhotosReport, compare_images, undistort
@@ -40,10 +41,11 @@ __version__ = version()
 __all__ = [
     "ArgumentError", "Array", "Camera", "CameraGradient", "CameraPath", "Cancelled", "ClosedError", "Cloud",
     "Context", "DepthImage", "Environment", "Error", "EwaWarning", "FileError", "FormatError", "Gaussians",
-    "Gradients", "Image", "ImageQuality", "Mesh", "NumericError", "Octree", "OutOfMemory", "PhotoReport",
-    "PhotosReport", "Profile", "Renderer", "Scene", "Splats", "Surfels", "Transfer", "Volume", "Voxels", "as_cloud",
-    "as_drawables", "as_volume", "build_octree", "cameras", "compare_images", "convert", "csg", "default_context",
-    "film", "generate", "generate_volume", "merge", "progress", "read", "read_depth", "read_gaussians", "read_image",
-    "read_mesh", "read_volume", "render", "render_backward", "render_gaussians", "render_volume", "sample",
-    "save_cameras", "save_image", "texture", "turntable", "undistort", "version", "warp",
+    "Gradients", "Image", "ImageQuality", "Measurement", "Mesh", "NumericError", "Octree", "OutOfMemory",
+    "PhotoReport", "PhotosReport", "Profile", "Renderer", "Scene", "Splats", "Surfels", "Transfer", "Volume",
+    "Voxels", "as_cloud", "as_drawables", "as_volume", "build_octree", "cameras", "compare_images", "convert",
+    "csg", "default_context", "film", "generate", "generate_volume", "measure", "merge", "progress", "read",
+    "read_depth", "read_gaussians", "read_image", "read_mesh", "read_volume", "render", "render_backward",
+    "render_gaussians", "render_volume", "sample", "save_cameras", "save_image", "texture", "turntable",
+    "undistort", "version", "warp",
 ]

@@ -281,6 +281,13 @@ class ewa_ply_encoding(IntEnum):
     EWA_PLY_ASCII = 2
 
 
+class ewa_measure_kind(IntEnum):
+    EWA_MEASURE_DISTANCE = 0
+    EWA_MEASURE_HEIGHT = 1
+    EWA_MEASURE_ANGLE = 2
+    EWA_MEASURE_AREA = 3
+
+
 class ewa_model_format(IntEnum):
     EWA_MODEL_UNKNOWN = 0
     EWA_MODEL_PLY = 1
@@ -1496,6 +1503,25 @@ class ewa_lod_stats(c.Structure):
         ("choose_s", c.c_double),
         ("load_s", c.c_double),
         ("coarser", c.c_double),
+    ]
+
+
+class ewa_measurement(c.Structure):
+    length_world: float
+    horizontal_world: float
+    rise_world: float
+    slope_deg: float
+    angle_deg: float
+    area: float
+    horizontal_area: float
+    _fields_ = [
+        ("length_world", c.c_double),
+        ("horizontal_world", c.c_double),
+        ("rise_world", c.c_double),
+        ("slope_deg", c.c_double),
+        ("angle_deg", c.c_double),
+        ("area", c.c_double),
+        ("horizontal_area", c.c_double),
     ]
 
 
@@ -2964,6 +2990,8 @@ class Functions:
     ewa_lod_render: Callable[..., int]
     ewa_lod_sample: Callable[..., int]
     ewa_lod_scene_render: Callable[..., int]
+    ewa_measure_kind_name: Callable[..., bytes | None]
+    ewa_places_measure: Callable[..., int]
     ewa_mesh_create: Callable[..., int]
     ewa_mesh_free: Callable[..., None]
     ewa_mesh_is_closed: Callable[..., int]
@@ -3360,6 +3388,8 @@ class Functions:
         self.ewa_lod_render = bind("ewa_lod_render", c.c_int, c.c_void_p, c.c_void_p, c.POINTER(ewa_camera), c.POINTER(ewa_render_options), c.POINTER(ewa_lod_options), c.POINTER(ewa_frame), c.POINTER(ewa_lod_stats))
         self.ewa_lod_sample = bind("ewa_lod_sample", c.c_int, c.c_void_p, c.c_uint64, c.c_void_p)
         self.ewa_lod_scene_render = bind("ewa_lod_scene_render", c.c_int, c.POINTER(ewa_lod_scene), c.c_void_p, c.POINTER(ewa_camera), c.POINTER(ewa_render_options), c.POINTER(ewa_lod_options), c.POINTER(ewa_frame), c.POINTER(ewa_lod_stats))
+        self.ewa_measure_kind_name = bind("ewa_measure_kind_name", c.c_char_p, c.c_uint32)
+        self.ewa_places_measure = bind("ewa_places_measure", c.c_int, c.c_int, c.c_void_p, c.c_uint32, c.c_void_p, c.POINTER(ewa_measurement))
         self.ewa_mesh_create = bind("ewa_mesh_create", c.c_int, c.c_void_p, c.c_uint32, c.c_uint32, c.c_uint32, c.c_uint32, c.POINTER(ewa_mesh))
         self.ewa_mesh_free = bind("ewa_mesh_free", None, c.POINTER(ewa_mesh))
         self.ewa_mesh_is_closed = bind("ewa_mesh_is_closed", c.c_int, c.POINTER(ewa_mesh), c.c_void_p)

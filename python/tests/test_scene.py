@@ -99,6 +99,16 @@ class SameScene(Case):
         with self.assertRaises(ewa.ArgumentError):
             profile.draw((0, 3))
 
+    def test_measures(self) -> None:
+        square = [(0, 0, 0), (3, 0, 3), (3, 3, 3), (0, 3, 0)]
+        found = ewa.measure("area", square)
+        self.assertAlmostEqual(found.area, 9 * 2 ** 0.5)
+        self.assertEqual(found.horizontal_area, 9)
+        self.assertEqual(ewa.measure("angle", [(1, 0, 0), (0, 0, 0), (0, 5, 0)]).angle, 90)
+        self.assertEqual(ewa.measure("height", [(0, 1, 0), (3, 6, 4)], up=(0, 1, 0)).rise, 5)
+        with self.assertRaises(ewa.ArgumentError):
+            ewa.measure("angle", square)
+
     def test_regions(self) -> None:
         """What is hidden in Python, in a scene file and in the window is the same, and is left out of what is written."""
         scene = ewa.Scene(self.path("torus.ply"))

@@ -5,6 +5,7 @@
 #include "check.h"
 #include "ewa/scene_file.h"
 #include "ewa/select.h"
+#include "io/scratch.h"
 
 #include <math.h>
 #include <stdio.h>

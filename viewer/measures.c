@@ -1,0 +1,199 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// Measurements that stay: distances, heights, angles and areas with names, by clicks or by numbers.
+#include "inner.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/// Places after which a measurement is whole by itself; 0: a double click ends it.
+static const uint32_t WHOLE[] = {[EWA_MEASURE_DISTANCE] = 0, [EWA_MEASURE_HEIGHT] = 2, [EWA_MEASURE_ANGLE] = 3, [EWA_MEASURE_AREA] = 0};
+
+void measures_value(const viewer *v, const viewer_measure *measure, char text[VIEWER_NAME_BYTES]) {
+    ewa_measurement m;
+    const char *name = measure->name;
+    if (ewa_places_measure(measure->kind, measure->places_world, measure->count, v->up_world, &m) != EWA_OK)
+        snprintf(text, VIEWER_NAME_BYTES, "%s", name);
+    else if (measure->kind == EWA_MEASURE_ANGLE)
+        snprintf(text, VIEWER_NAME_BYTES, "%s %.6g\xc2\xb0", name, m.angle_deg);
+    else
+        snprintf(text, VIEWER_NAME_BYTES, "%s %.6g", name,
+                 measure->kind == EWA_MEASURE_AREA     ? m.area
+                 : measure->kind == EWA_MEASURE_HEIGHT ? m.rise_world
+                                                       : m.length_world);
+}
+
+/// Says all that is known of a measurement.
+static bool tell(viewer *v, size_t index) {
+    const viewer_measure *measure = &v->measure_list[index];
+    ewa_measurement m;
+    if (ewa_places_measure(measure->kind, measure->places_world, measure->count, v->up_world, &m) != EWA_OK) {
+        viewer_tell(v, "measure: %s does not go by %u places", ewa_measure_kind_name(measure->kind), measure->count);
+        return false;
+    }
+    char what[VIEWER_NAME_BYTES];
+    if (measure->kind == EWA_MEASURE_ANGLE)
+        snprintf(what, sizeof what, "%.9g deg", m.angle_deg);
+    else if (measure->kind == EWA_MEASURE_AREA)
+        snprintf(what, sizeof what, "%.9g horizontal %.9g around %.9g", m.area, m.horizontal_area, m.length_world);
+    else if (measure->kind == EWA_MEASURE_HEIGHT)
+        snprintf(what, sizeof what, "%.9g horizontal %.9g slope %.4g deg", m.rise_world, m.horizontal_world, m.slope_deg);
+    else
+        snprintf(what, sizeof what, "%.9g horizontal %.9g rise %.9g slope %.4g deg", m.length_world, m.horizontal_world,
+                 m.rise_world, m.slope_deg);
+    viewer_say(v, "measure %zu %s %s: %s", index, ewa_measure_kind_name(measure->kind), measure->name, what);
+    snprintf(v->state.picked, sizeof v->state.picked, "%s\n%s %s", measure->name, ewa_measure_kind_name(measure->kind), what);
+    return true;
+}
+
+/// Adds a measurement, unless it cannot be taken; `name` (may be empty) is made up then.
+static bool add(viewer *v, const viewer_measure *measure, const char *name) {
+    if (v->measure_count == VIEWER_MEASURES) {
+        viewer_tell(v, "measure: there are %d already", VIEWER_MEASURES);
+        return false;
+    }
+    viewer_measure *to = &v->measure_list[v->measure_count];
+    *to = *measure;
+    if (*name)
+        snprintf(to->name, sizeof to->name, "%s", name);
+    else
+        snprintf(to->name, sizeof to->name, "%c%zu", "dhaA"[measure->kind], v->measure_count + 1);
+    if (!tell(v, v->measure_count)) return false;
+    v->measure_count++;
+    viewer_mark(v);
+    return true;
+}
+
+/// Ends the measurement that is under way.
+static bool finish(viewer *v) {
+    const viewer_measure measure = v->measuring;
+    v->measuring.count = 0;
+    viewer_mark(v);
+    return add(v, &measure, "");
+}
+
+bool measures_click(viewer *v, const viewer_event *event) {
+    viewer_measure *measure = &v->measuring;
+    if (!v->measures_kind || event->modifiers) return false;
+    if (event->clicks >= 2 && !WHOLE[measure->kind]) return finish(v); // the first of both clicks has added the place
+    if (event->clicks >= 2 || measure->count == VIEWER_MEASURE_PLACES || !pick_point(v, event->x, event->y, false)) return true;
+    memcpy(measure->places_world + 3 * measure->count, v->picks[0].place_world, sizeof v->picks[0].place_world);
+    if (++measure->count == WHOLE[measure->kind]) finish(v);
+    return true;
+}
+
+/// Writes a name as a cell of a table.
+static void put_name(FILE *file, const char *name) {
+    fputc('"', file);
+    for (; *name; name++) {
+        if (*name == '"') fputc('"', file);
+        fputc(*name, file);
+    }
+    fputc('"', file);
+}
+
+static bool save(viewer *v, const char *path) {
+    FILE *file = fopen(path, "w");
+    bool done = file != NULL;
+    if (file) {
+        fputs("name,kind,length,horizontal,rise,slope_deg,angle_deg,area,horizontal_area,places\n", file);
+        for (size_t i = 0; i < v->measure_count; i++) {
+            const viewer_measure *measure = &v->measure_list[i];
+            ewa_measurement m;
+            (void)ewa_places_measure(measure->kind, measure->places_world, measure->count, v->up_world, &m);
+            put_name(file, measure->name);
+            fprintf(file, ",%s,%.9g,%.9g,", ewa_measure_kind_name(measure->kind), m.length_world, m.horizontal_world);
+            // A kind leaves the cells of others empty.
+            if (measure->kind == EWA_MEASURE_AREA)
+                fprintf(file, ",,,%.9g,%.9g,", m.area, m.horizontal_area);
+            else if (measure->kind == EWA_MEASURE_ANGLE)
+                fprintf(file, ",,%.9g,,,", m.angle_deg);
+            else
+                fprintf(file, "%.9g,%.9g,,,,", m.rise_world, m.slope_deg);
+            for (uint32_t k = 0; k < 3 * measure->count; k++) {
+                char number[40];
+                pick_write_number(number, measure->places_world[k], false);
+                fprintf(file, "%s%s", number, k % 3 < 2 ? " " : k + 1 < 3 * measure->count ? "; " : "\n");
+            }
+        }
+        done = !ferror(file);
+        done = fclose(file) == 0 && done;
+    }
+    if (done)
+        viewer_say(v, "measures %zu %s", v->measure_count, path);
+    else
+        viewer_tell(v, "%s: the measurements cannot be saved", path);
+    return done;
+}
+
+/// Takes a measurement out, or all.
+static bool delete_measures(viewer *v, const char *word) {
+    char *end;
+    const size_t index = strtoul(word, &end, 10);
+    if (strcmp(word, "all") == 0) {
+        v->measure_count = 0;
+    } else if (*word && !*end && index < v->measure_count) {
+        v->measure_count--;
+        memmove(&v->measure_list[index], &v->measure_list[index + 1], (v->measure_count - index) * sizeof v->measure_list[0]);
+    } else {
+        viewer_tell(v, "measure: '%s' is neither all nor the number of a measurement", word);
+        return false;
+    }
+    viewer_mark(v);
+    return true;
+}
+
+static bool rename_measure(viewer *v, const char *rest) {
+    char *end;
+    const size_t index = strtoul(rest, &end, 10);
+    if (end == rest || *end != ' ' || !end[1] || index >= v->measure_count) {
+        viewer_tell(v, "measure: '%s' is not the number of a measurement and a name", rest);
+        return false;
+    }
+    snprintf(v->measure_list[index].name, sizeof v->measure_list[index].name, "%s", end + 1);
+    viewer_mark(v);
+    return true;
+}
+
+/// Measures places that are told, "x,y,z;x,y,z NAME", or begins to take those that are clicked.
+static bool begin(viewer *v, ewa_measure_kind kind, const char *rest) {
+    viewer_measure measure = {.kind = kind};
+    if (!*rest) {
+        v->measures_kind = true;
+        v->measuring = measure;
+        viewer_note(v, "measure: click %s", WHOLE[kind] == 2   ? "two places"
+                                            : WHOLE[kind] == 3 ? "three places, the angle's in the middle"
+                                                               : "places; a double click ends it");
+        return true;
+    }
+    char word[VIEWER_TEXT_BYTES], problem[EWA_OPTION_TEXT_BYTES] = "too many places";
+    double corners_world[3 * EWA_PROFILE_CORNERS];
+    const size_t length = strcspn(rest, " ");
+    const char *name = rest + length + strspn(rest + length, " ");
+    snprintf(word, sizeof word, "%.*s", (int)(length < sizeof word ? length : sizeof word - 1), rest);
+    if (length >= sizeof word || ewa_profile_line_read(word, corners_world, &measure.count, problem) != EWA_OK ||
+        measure.count > VIEWER_MEASURE_PLACES) {
+        viewer_tell(v, "measure: '%s' is not x,y,z;x,y,z;...: %s", word, problem);
+        return false;
+    }
+    memcpy(measure.places_world, corners_world, 3 * measure.count * sizeof corners_world[0]);
+    return add(v, &measure, name);
+}
+
+bool measures_command(viewer *v, const char *rest) {
+    const size_t length = strcspn(rest, " ");
+    const char *behind = rest + length + strspn(rest + length, " "), *kind;
+    for (uint32_t k = 0; (kind = ewa_measure_kind_name(k)); k++)
+        if (strlen(kind) == length && strncmp(rest, kind, length) == 0) return begin(v, (ewa_measure_kind)k, behind);
+    if (strncmp(rest, "name ", 5) == 0) return rename_measure(v, behind);
+    if (strncmp(rest, "delete ", 7) == 0) return delete_measures(v, behind);
+    if (strncmp(rest, "save ", 5) == 0) return save(v, behind);
+    if (strcmp(rest, "done") == 0) return finish(v);
+    viewer_tell(v,
+                "measure: '%s' is none of on, off, next, distance|height|angle|area [x,y,z;x,y,z;... [NAME]], done, name N TEXT, "
+                "delete N|all, save FILE.csv",
+                rest);
+    return false;
+}
