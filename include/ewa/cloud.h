@@ -26,7 +26,7 @@ extern "C" {
 /// | surfaceness  |          1 | 1: part of a surface, to 0: not at all; below 0.5 it faces the viewer     |
 /// | signed_curvature |      1 | sqrt((k^2 + m^2) / 2), at most abs(k + m), with the sign of k + m: of the |
 /// |              |            | principal curvatures, in 1 / world unit, positive where the surface turns |
-/// |              |            | away from the side of its normal; 0: flat, or not known                   |
+/// |              |            | away from its normal's side; 0: flat, or not known; NaN: not measured     |
 /// | clip0, clip1 |          3 | clip line (a, b, c): keep a u + b v + c >= 0 at                           |
 /// |              |            | position + u tangent_u + v tangent_v                                      |
 /// | clip_mode    |          1 | 0: both lines hold, 1: either holds                                       |
@@ -156,7 +156,7 @@ EWA_API ewa_status ewa_cloud_select(const ewa_cloud *cloud, const uint64_t *indi
 
 /// Makes one cloud of `count` > 0 clouds of one context: the points one after another, the origin of the
 /// first, and the attributes that any has. Points of a cloud that lacks one get NaN in floats, 0 in whole
-/// numbers, linear 0.6 in colours, and without a word 1 in "surfaceness" and 0 in "signed_curvature"; positions,
+/// numbers, linear 0.6 in colours, and without a word 1 in "surfaceness" and NaN in "signed_curvature"; positions,
 /// normals, radii, axes and clip lines are kept only where all have them. Types that differ become the float type that holds both, of colours U16 or linear F32; positions
 /// become doubles where the origins differ. Attributes of different components are dropped, but for colours.
 /// What is filled in or dropped, and coordinate reference systems (note "crs") that differ, are reported as

@@ -74,7 +74,8 @@ EWA_API void ewa_estimate_options_init(ewa_estimate_options *options, size_t str
 /// - "surfaceness" tells where the 64 nearest places are no surface, as in trees, or on a curve, as wires are; a
 ///   cloud without such places gets no such stream, and keeps none of before beside new radii or axes.
 /// - "signed_curvature" is measured by the normals of the eight nearest places, 0 where these do not tell; a cloud that
-///   is flat throughout gets no such stream. What it has of it is kept beside normals that are kept.
+///   is flat throughout gets no such stream. What it has of it is kept beside normals that are kept; of a cloud that has all
+///   else only this is measured.
 /// - Points with coordinates that are not finite get zeros. Coplanar, collinear and identical points get
 ///   finite results; an info message says how many have no plane.
 /// - Outlier removal replaces the cloud by a smaller one, which also lacks the points that are not finite.

@@ -208,8 +208,8 @@ class SameBytes(Case):
         self.run_program("lod", "scan.ply", "-o", "theirs.copc.laz")
         ewa.build_octree(self.path("scan.ply"), self.path("ours.copc.laz"))
         self.same("ours.copc.laz", "theirs.copc.laz")
-        self.run_program("render", "theirs.copc.laz", "-o", "theirs.png", "--memory", "64M", "--size", "300x200",
-                         "--save-camera", "camera.json")
+        self.run_program("render", "theirs.copc.laz", "-o", "theirs.png", "--levels", "always", "--memory", "64M", "--size",
+                         "300x200", "--save-camera", "camera.json")
         octree = ewa.Octree(self.path("ours.copc.laz"))
         [camera] = ewa.cameras(self.path("camera.json"))
         octree.render(camera, background="white", memory_bytes=64 << 20).save(self.path("ours.png"))

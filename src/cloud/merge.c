@@ -142,8 +142,9 @@ static void merge_colors(const merge_job *job, const ewa_attribute *from, const 
 }
 
 bool ewa_cloud_absent_number(const char *name, double *number) {
-    *number = strcmp(name, EWA_SURFACENESS) == 0 ? 1 : 0;
-    return *number != 0 || strcmp(name, EWA_CURVATURE) == 0;
+    const bool surfaceness = strcmp(name, EWA_SURFACENESS) == 0, curvature = strcmp(name, EWA_CURVATURE) == 0;
+    *number = surfaceness ? 1 : curvature ? (double)NAN : 0;
+    return surfaceness || curvature;
 }
 
 /// Fills in what a cloud lacks: what its absence means, grey for colours, NaN for other floats, 0 for other whole

@@ -156,7 +156,8 @@ static void link_places(void *user, const ewa_block *block, uint32_t worker) {
 /// What the normals of a cloud are read by.
 typedef struct normal_job {
     const ewa_neighbours *neighbours;
-    const ewa_attribute *normal;
+    const ewa_attribute *normal; // NULL: across the axes
+    const ewa_attribute *axes[2];
     float *normals;
 } normal_job;
 
@@ -165,17 +166,25 @@ static void read_normals(void *data, uint32_t task, uint32_t worker) {
     const normal_job *job = data;
     const uint32_t places = ewa_neighbours_place_count(job->neighbours), begin = task * TASK_PLACES;
     const uint32_t end = places - begin < TASK_PLACES ? places : begin + TASK_PLACES;
-    const bool floats = job->normal->type == EWA_F32;
+    const bool floats = job->normal && job->normal->type == EWA_F32;
     for (uint32_t place = begin; place < end; place++) {
         uint32_t count;
         double n[3];
         const uint32_t point = ewa_neighbours_points(job->neighbours, place, &count)[0];
-        const char *at = (const char *)job->normal->data + (size_t)point * job->normal->stride_bytes;
-        if (floats)
+        ewa_vec3 unit;
+        if (floats) {
+            const char *at = (const char *)job->normal->data + (size_t)point * job->normal->stride_bytes;
             for (int c = 0; c < 3; c++) n[c] = (double)((const float *)(const void *)at)[c];
-        else
+            unit = vec3_load(n);
+        } else if (job->normal) {
             ewa_attribute_read_f64(job->normal, point, 1, n);
-        ewa_vec3 unit = vec3_load(n);
+            unit = vec3_load(n);
+        } else {
+            ewa_attribute_read_f64(job->axes[0], point, 1, n);
+            unit = vec3_load(n);
+            ewa_attribute_read_f64(job->axes[1], point, 1, n);
+            unit = vec3_cross(unit, vec3_load(n));
+        }
         if (!vec3_normalize(&unit)) unit = vec3_make(0, 0, 0);
         float *to = &job->normals[3 * (size_t)place];
         to[0] = (float)unit.x, to[1] = (float)unit.y, to[2] = (float)unit.z;
@@ -183,7 +192,8 @@ static void read_normals(void *data, uint32_t task, uint32_t worker) {
 }
 
 void ewa_curvature_read_normals(const ewa_cloud *cloud, const ewa_neighbours *neighbours, float *normals) {
-    normal_job job = {neighbours, ewa_cloud_find(cloud, EWA_NORMAL), normals};
+    normal_job job = {neighbours, ewa_cloud_find(cloud, EWA_NORMAL),
+                      {ewa_cloud_find(cloud, EWA_TANGENT_U), ewa_cloud_find(cloud, EWA_TANGENT_V)}, normals};
     ewa_parallel(ewa_cloud_context(cloud), read_normals, &job,
                  (ewa_neighbours_place_count(neighbours) + TASK_PLACES - 1) / TASK_PLACES);
 }
@@ -231,5 +241,59 @@ ewa_status ewa_curvature_add(ewa_cloud *cloud) {
         ewa_curvature_drop_flat(cloud);
     else
         ewa_cloud_remove(cloud, EWA_CURVATURE);
+    return status;
+}
+
+bool ewa_curvature_is_lacking(const ewa_cloud *cloud) {
+    const ewa_attribute *curvature = ewa_cloud_find(cloud, EWA_CURVATURE);
+    bool lacking = !curvature;
+    for (uint64_t i = 0; i < ewa_cloud_point_count(cloud) && !lacking; i++) {
+        double value[4];
+        ewa_attribute_read_f64(curvature, i, 1, value);
+        lacking = isnan(value[0]);
+    }
+    return lacking;
+}
+
+/// Makes a cloud of what curvatures of some points are measured by.
+static ewa_status select_places(const ewa_cloud *cloud, const uint64_t *points, uint64_t count, ewa_cloud **part) {
+    static const char *const names[] = {EWA_POSITION, EWA_NORMAL, EWA_TANGENT_U, EWA_TANGENT_V};
+    ewa_cloud *bare = NULL;
+    ewa_status status = ewa_cloud_create(ewa_cloud_context(cloud), ewa_cloud_point_count(cloud), &bare);
+    for (size_t k = 0; k < sizeof names / sizeof names[0] && status == EWA_OK; k++) {
+        const ewa_attribute *a = ewa_cloud_find(cloud, names[k]);
+        if (a) status = ewa_cloud_borrow(bare, a->name, a->type, a->component_count, a->data, a->stride_bytes);
+    }
+    if (status == EWA_OK) status = ewa_cloud_select(bare, points, count, part);
+    ewa_cloud_destroy(&bare);
+    return status;
+}
+
+ewa_status ewa_curvature_complete(ewa_cloud *cloud) {
+    if (!ewa_curvature_is_lacking(cloud)) return EWA_OK;
+    const ewa_attribute *known = ewa_cloud_find(cloud, EWA_CURVATURE);
+    if (!known || known->component_count != 1) return ewa_curvature_add(cloud);
+    ewa_context *context = ewa_cloud_context(cloud);
+    const uint64_t count = ewa_cloud_point_count(cloud);
+    uint64_t *points = ewa_allocate(context, count, sizeof *points), lacking = 0;
+    double *values = ewa_allocate(context, count, sizeof *values);
+    ewa_cloud *part = NULL;
+    void *data = NULL;
+    ewa_status status = points && values ? EWA_OK : EWA_ERROR_MEMORY;
+    if (status == EWA_OK) {
+        ewa_attribute_read_f64(known, 0, count, values);
+        for (uint64_t i = 0; i < count; i++)
+            if (isnan(values[i])) points[lacking++] = i;
+        status = select_places(cloud, points, lacking, &part);
+    }
+    if (status == EWA_OK) status = ewa_curvature_add(part);
+    const ewa_attribute *found = status == EWA_OK ? ewa_cloud_find(part, EWA_CURVATURE) : NULL;
+    for (uint64_t k = 0; k < lacking && status == EWA_OK; k++)
+        values[points[k]] = found ? (double)((const float *)found->data)[k] : 0;
+    if (status == EWA_OK) status = ewa_cloud_add(cloud, EWA_CURVATURE, EWA_F64, 1, &data);
+    if (status == EWA_OK) memcpy(data, values, count * sizeof *values);
+    ewa_cloud_destroy(&part);
+    ewa_release(context, values, count, sizeof *values);
+    ewa_release(context, points, count, sizeof *points);
     return status;
 }

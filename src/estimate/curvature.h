@@ -7,6 +7,8 @@
 
 #include "estimate/local.h"
 
+enum { EWA_CURVATURE_NEIGHBOURS = LOCAL_GRAPH_DEGREE };
+
 /// What curvatures are measured by, by place.
 typedef struct curvature_input {
     const ewa_neighbours *neighbours; ///< before ewa_neighbours_end_visits()
@@ -22,11 +24,18 @@ ewa_status ewa_curvature_measure(ewa_context *context, const curvature_input *in
 /// Takes the stream "signed_curvature" away where it is 0 throughout.
 void ewa_curvature_drop_flat(ewa_cloud *cloud);
 
-/// Sets the unit normal of the first point of each place, 3 floats each; 0 where it has none.
+/// Sets the unit normal, that across the axes where there is none, of the first point of each place, 3 floats each; 0 where it
+/// has neither.
 void ewa_curvature_read_normals(const ewa_cloud *cloud, const ewa_neighbours *neighbours, float *normals);
 
-/// Adds the stream "signed_curvature" to a cloud that has positions and normals, if it bends somewhere. Errors:
+/// Adds the stream "signed_curvature" to a cloud that has positions, and normals or axes, if it bends somewhere. Errors:
 /// EWA_ERROR_MEMORY, EWA_CANCELLED.
 ewa_status ewa_curvature_add(ewa_cloud *cloud);
+
+/// Whether a cloud has no curvatures, or NaN for some.
+bool ewa_curvature_is_lacking(const ewa_cloud *cloud);
+
+/// As ewa_curvature_add() of a cloud without the stream; of one that has it, measures those that are NaN, by each other.
+ewa_status ewa_curvature_complete(ewa_cloud *cloud);
 
 #endif

@@ -470,9 +470,11 @@ static bool has_components(const ewa_cloud *cloud, const char *name, uint32_t co
 
 static ewa_status estimate(ewa_cloud *cloud, const ewa_estimate_options *options) {
     const bool has_axes = has_components(cloud, EWA_TANGENT_U, 3) && has_components(cloud, EWA_TANGENT_V, 3);
-    const bool normals = !(options->keep_normals && has_components(cloud, EWA_NORMAL, 3));
     const bool sizes = !(options->keep_radii && (has_axes || has_components(cloud, EWA_RADIUS, 1)));
-    if (!normals && !sizes) return EWA_OK;
+    // Axes that are kept have a normal.
+    const bool has_normals = has_components(cloud, EWA_NORMAL, 3) || (has_axes && !sizes);
+    const bool normals = !(options->keep_normals && has_normals);
+    if (!normals && !sizes) return ewa_curvature_complete(cloud);
     estimate_job job = {.options = options,
                         .kernels =
                             EWA_CHOOSE(ewa_context_cpu_features(ewa_cloud_context(cloud)), ewa_local_kernels),

@@ -11,7 +11,7 @@
 #include <string.h>
 
 enum {
-    PLANES = 16, // bytes of a surfel, one plane each
+    PLANES = 16, CURVED_PLANES = 18, // bytes of a surfel, one plane each, without and with its curvature
     COMPRESSION = 4,
     AT_STEPS = 65536,
     NORMAL_STEPS =
@@ -78,9 +78,11 @@ ewa_status ewa_levels_read(ewa_context *context, const char *name, const uint8_t
     *levels = (ewa_levels){0};
     if (size_bytes < EWA_LEVELS_HEAD_BYTES || memcmp(bytes, "EWAL", 4) != 0)
         return ewa_fail(context, EWA_ERROR_FORMAT, "%s: the record of surfels has no head", name);
-    if (ewa_las_u32(bytes + 4) != EWA_LEVELS_VERSION)
-        return ewa_fail(context, EWA_ERROR_UNSUPPORTED, "%s: the record of surfels is of version %u, not %d",
-                        name, ewa_las_u32(bytes + 4), EWA_LEVELS_VERSION);
+    const uint32_t version = ewa_las_u32(bytes + 4);
+    if (version < 1 || version > EWA_LEVELS_VERSION)
+        return ewa_fail(context, EWA_ERROR_UNSUPPORTED, "%s: the record of surfels is of version %u, not 1 to %d", name,
+                        version, EWA_LEVELS_VERSION);
+    levels->has_curvatures = version > 1;
     const uint32_t count = ewa_las_u32(bytes + 8);
     levels->unit_coverage = ewa_las_f64(bytes + 16);
     if (count > (size_bytes - EWA_LEVELS_HEAD_BYTES) / EWA_LEVELS_PAGE_BYTES ||
@@ -124,7 +126,7 @@ void ewa_levels_write(const ewa_levels *levels, uint8_t *bytes) {
     const uint64_t blocks_at = EWA_LEVELS_HEAD_BYTES + (uint64_t)levels->page_count * EWA_LEVELS_PAGE_BYTES;
     memset(bytes, 0, (size_t)blocks_at);
     memcpy(bytes, "EWAL", 4);
-    ewa_las_put_u32(bytes + 4, EWA_LEVELS_VERSION);
+    ewa_las_put_u32(bytes + 4, levels->has_curvatures ? EWA_LEVELS_VERSION : 1);
     ewa_las_put_u32(bytes + 8, levels->page_count);
     ewa_las_put_f64(bytes + 16, levels->unit_coverage);
     ewa_las_put_u64(bytes + 24, levels->surfel_count);
@@ -144,7 +146,23 @@ void ewa_levels_write(const ewa_levels *levels, uint8_t *bytes) {
     }
 }
 
-size_t ewa_level_raw_bytes(uint32_t count) { return (size_t)count * PLANES; }
+size_t ewa_level_raw_bytes(uint32_t count, bool has_curvatures) {
+    return (size_t)count * (has_curvatures ? CURVED_PLANES : PLANES);
+}
+
+/// The upper half of a float, rounded.
+static uint32_t code_half(float value) {
+    uint32_t bits;
+    memcpy(&bits, &value, sizeof bits);
+    return (bits + 0x8000u) >> 16;
+}
+
+static float decode_half(uint32_t code) {
+    const uint32_t bits = code << 16;
+    float value;
+    memcpy(&value, &bits, sizeof value);
+    return value;
+}
 
 static uint32_t code_at(float at) {
     const float steps = floorf(at * AT_STEPS);
@@ -177,21 +195,23 @@ static void decode_normal(uint32_t code_u, uint32_t code_v, float n[3]) {
 
 ewa_status ewa_level_encode(ewa_context *context, const ewa_level_surfels *surfels, uint32_t count,
                             ewa_buffer *to, size_t *at_bytes) {
-    const size_t raw_bytes = ewa_level_raw_bytes(count);
+    const size_t raw_bytes = ewa_level_raw_bytes(count, surfels->curvature);
     uint8_t *raw = ewa_allocate(context, raw_bytes, 1);
     ewa_status status = raw ? EWA_OK : EWA_ERROR_MEMORY;
     for (uint32_t i = 0; i < count && status == EWA_OK; i++) {
         uint32_t codes[6];
         for (int c = 0; c < 3; c++) codes[c] = code_at(surfels->at[3 * (size_t)i + (size_t)c]);
         code_normal(surfels->normal + 3 * (size_t)i, codes + 3);
-        uint32_t bits;
-        memcpy(&bits, &surfels->radius_world[i], sizeof bits);
-        codes[5] = (bits + 0x8000u) >> 16;
+        codes[5] = code_half(surfels->radius_world[i]);
         for (size_t k = 0; k < 6; k++) {
             raw[2 * k * count + i] = (uint8_t)(codes[k] >> 8);
             raw[(2 * k + 1) * count + i] = (uint8_t)codes[k];
         }
         for (size_t c = 0; c < 4; c++) raw[(12 + c) * count + i] = surfels->rgba[4 * (size_t)i + c];
+        if (!surfels->curvature) continue;
+        const uint32_t bend = code_half(surfels->curvature[i]);
+        raw[(size_t)PLANES * count + i] = (uint8_t)(bend >> 8);
+        raw[((size_t)PLANES + 1) * count + i] = (uint8_t)bend;
     }
     ewa_deflated packed = {0};
     if (status == EWA_OK) status = ewa_deflate(context, EWA_DEFLATE_BARE, COMPRESSION, raw, raw_bytes, &packed);
@@ -208,7 +228,8 @@ ewa_status ewa_level_encode(ewa_context *context, const ewa_level_surfels *surfe
 const char *ewa_level_decode(const ewa_levels_page *page, const uint8_t *bytes, uint8_t *scratch,
                              const ewa_level_surfels *surfels) {
     const uint32_t count = page->surfel_count;
-    const ewa_status status = ewa_inflate(bytes, page->size_bytes, scratch, ewa_level_raw_bytes(count));
+    const ewa_status status =
+        ewa_inflate(bytes, page->size_bytes, scratch, ewa_level_raw_bytes(count, surfels->curvature));
     if (status != EWA_OK)
         return status == EWA_ERROR_MEMORY        ? "there is no memory"
                : status == EWA_ERROR_UNSUPPORTED ? "its surfels are packed as this build cannot unpack (EWA_WITH_DEFLATE)"
@@ -219,9 +240,12 @@ const char *ewa_level_decode(const ewa_levels_page *page, const uint8_t *bytes, 
             codes[k] = (uint32_t)scratch[2 * k * count + i] << 8 | scratch[(2 * k + 1) * count + i];
         for (size_t c = 0; c < 3; c++) surfels->at[3 * (size_t)i + c] = ((float)codes[c] + 0.5f) / AT_STEPS;
         decode_normal(codes[3], codes[4], surfels->normal + 3 * (size_t)i);
-        const uint32_t bits = codes[5] << 16;
-        memcpy(&surfels->radius_world[i], &bits, sizeof bits);
+        surfels->radius_world[i] = decode_half(codes[5]);
         for (size_t c = 0; c < 4; c++) surfels->rgba[4 * (size_t)i + c] = scratch[(12 + c) * count + i];
+        if (!surfels->curvature) continue;
+        const float bend = decode_half((uint32_t)scratch[(size_t)PLANES * count + i] << 8 |
+                                       scratch[((size_t)PLANES + 1) * count + i]);
+        surfels->curvature[i] = isfinite(bend) ? bend : 0;
     }
     return NULL;
 }

@@ -9,7 +9,7 @@
 #include "io/octree.h"
 
 enum {
-    EWA_LEVELS_VERSION = 1,
+    EWA_LEVELS_VERSION = 2, ///< 1: without curvatures
     EWA_LEVELS_HEAD_BYTES = 64,
     EWA_LEVELS_PAGE_BYTES = 64,
     EWA_LEVELS_MAX_SURFELS = 1 << 24, ///< of a page
@@ -34,6 +34,7 @@ typedef struct ewa_levels {
     ewa_levels_page *pages; ///< in the order of ewa_octree_key_compare()
     uint32_t page_count;
     uint64_t surfel_count;
+    bool has_curvatures; ///< in all blocks
 } ewa_levels;
 
 /// Returns how many of the `size_bytes` bytes of a record are its head and table, the head being there.
@@ -56,6 +57,7 @@ typedef struct ewa_level_surfels {
     float *at;           ///< [count][3], from the node's low corner, in its sides
     float *normal;       ///< [count][3]
     float *radius_world; ///< [count]
+    float *curvature;    ///< [count], signed, 1 / world unit; NULL: in a block without
     uint8_t *rgba;       ///< [count][4], sRGB, straight alpha
 } ewa_level_surfels;
 
@@ -65,9 +67,9 @@ ewa_status ewa_level_encode(ewa_context *context, const ewa_level_surfels *surfe
                             ewa_buffer *to, size_t *at_bytes);
 
 /// Decodes the block of a page, which is all of `bytes`, into arrays with room for its surfels. Any thread, with memory of its own; NULL, or what
-/// is wrong. `scratch` has room for ewa_level_raw_bytes().
+/// is wrong. `scratch` has room for ewa_level_raw_bytes(); `surfels` has curvatures where the block does.
 const char *ewa_level_decode(const ewa_levels_page *page, const uint8_t *bytes, uint8_t *scratch,
                              const ewa_level_surfels *surfels);
-size_t ewa_level_raw_bytes(uint32_t count);
+size_t ewa_level_raw_bytes(uint32_t count, bool has_curvatures);
 
 #endif

@@ -22,7 +22,8 @@ static const float SAME_SHEET = 0.5f;
 static const float MAX_RADIUS = 3;
 
 typedef struct sheet {
-    double weight, at[3], normal[3], color[3], alpha;
+    double weight, at[3], normal[3], color[3], alpha, curvature;
+    double first[3], offset[3], moment, square; ///< w p, w n.p and w |p|^2, p from the first member, n its normal
     float first_normal[3];
 } sheet;
 
@@ -55,22 +56,43 @@ static void add(sheet *to, const ewa_representative *s, float limit) {
                  weight = radius * radius;
     to->weight += weight;
     to->alpha += weight * (double)s->alpha;
+    to->curvature += weight * (double)s->curvature;
     for (int c = 0; c < 3; c++) {
+        const double offset = s->at_world[c] - to->first[c];
+        to->offset[c] += weight * offset;
+        to->moment += weight * (double)s->normal[c] * offset;
+        to->square += weight * offset * offset;
         to->at[c] += weight * s->at_world[c];
         to->normal[c] += weight * (double)s->normal[c];
         to->color[c] += weight * (double)s->color[c];
     }
 }
 
+/// How far the surface lies above the middle of its members, towards their normals: half of what the planes of these are
+/// above it, which is exact where it bends evenly. Where nothing is known to bend, normals are noise: 0.
+static double height_of(const sheet *from) {
+    if (from->curvature == 0) return 0;
+    double moment = from->moment, square = from->square;
+    for (int c = 0; c < 3; c++) {
+        const double middle = from->offset[c] / from->weight;
+        moment -= middle * from->normal[c];
+        square -= middle * from->offset[c];
+    }
+    const double height = moment / (2 * from->weight), most = square > 0 ? sqrt(square / from->weight) / 2 : 0;
+    return height < -most ? -most : height > most ? most : height;
+}
+
 static ewa_representative finish(const sheet *from, uint64_t code) {
     ewa_representative made = {.code = code,
                                .radius_world = (float)sqrt(from->weight),
-                               .alpha = (float)(from->alpha / from->weight)};
+                               .alpha = (float)(from->alpha / from->weight),
+                               .curvature = (float)(from->curvature / from->weight)};
+    const double height = height_of(from);
     const double length = sqrt(from->normal[0] * from->normal[0] + from->normal[1] * from->normal[1] +
                                from->normal[2] * from->normal[2]);
     for (int c = 0; c < 3; c++) {
-        made.at_world[c] = from->at[c] / from->weight;
         made.normal[c] = length > 0 ? (float)(from->normal[c] / length) : from->first_normal[c];
+        made.at_world[c] = from->at[c] / from->weight + height * (double)made.normal[c];
         made.color[c] = made.shown[c] = (float)(from->color[c] / from->weight);
     }
     return made;
@@ -95,6 +117,7 @@ static uint32_t merge_cell(const ewa_representative *cell, uint32_t count, ewa_r
         if (maximum < SAME_SHEET && sheet_count < MAX_SHEETS) {
             best = sheet_count++;
             sheets[best] = (sheet){0};
+            memcpy(sheets[best].first, cell[i].at_world, sizeof sheets[best].first);
             memcpy(sheets[best].first_normal, cell[i].normal, sizeof sheets[best].first_normal);
         }
         add(&sheets[best], &cell[i], limit);

@@ -26,6 +26,7 @@ static ewa_status make_output(ewa_region_plan *plan) {
         const bool is_place = strcmp(attribute->name, EWA_POSITION) == 0;
         if (plan->makes_normals && strcmp(attribute->name, EWA_NORMAL) == 0) continue;
         if (plan->makes_radii && strcmp(attribute->name, EWA_RADIUS) == 0) continue;
+        if (plan->makes_curvatures && strcmp(attribute->name, EWA_CURVATURE) == 0) continue;
         status = ewa_cloud_add(plan->output, attribute->name, is_place ? EWA_F64 : attribute->type,
                                attribute->component_count, NULL);
     }
@@ -33,6 +34,8 @@ static ewa_status make_output(ewa_region_plan *plan) {
         status = ewa_cloud_add(plan->output, EWA_NORMAL, EWA_I16, 3, NULL);
     if (status == EWA_OK && plan->makes_radii)
         status = ewa_cloud_add(plan->output, EWA_RADIUS, EWA_F32, 1, NULL);
+    if (status == EWA_OK && plan->makes_curvatures)
+        status = ewa_cloud_add(plan->output, EWA_CURVATURE, EWA_F32, 1, NULL);
     if (status == EWA_OK) status = ewa_cloud_follow(plan->output, plan->inputs);
     ewa_coordinate_grid grid;
     for (int c = 0; c < 3; c++) {
@@ -50,9 +53,11 @@ ewa_status ewa_region_plan_make(ewa_context *context, const ewa_statistics *stat
     const bool has_axes = has(inputs, EWA_TANGENT_U, 3) && has(inputs, EWA_TANGENT_V, 3);
     plan->makes_normals = !has_axes && !has(inputs, EWA_NORMAL, 3);
     plan->makes_radii = !has_axes && !has(inputs, EWA_RADIUS, 1);
+    plan->makes_curvatures = !has(inputs, EWA_CURVATURE, 1);
     plan->normal_at_bytes = statistics->record_bytes;
     plan->radius_at_bytes = plan->normal_at_bytes + (plan->makes_normals ? 6 : 0);
-    plan->record_bytes = plan->radius_at_bytes + (plan->makes_radii ? 4 : 0);
+    plan->curvature_at_bytes = plan->radius_at_bytes + (plan->makes_radii ? 4 : 0);
+    plan->record_bytes = plan->curvature_at_bytes + (plan->makes_curvatures ? 4 : 0);
     return make_output(plan);
 }
 
@@ -118,12 +123,13 @@ static ewa_status encode_page(ewa_region_plan *plan, const ewa_octree_key *key,
                               const ewa_representatives *representatives, ewa_region_result *result,
                               ewa_levels_page *page) {
     const uint32_t count = representatives->count;
-    enum { FLOATS = 7 };
+    enum { FLOATS = 8 };
     float *floats = ewa_allocate(plan->context, (size_t)count * FLOATS, sizeof *floats);
     uint8_t *rgba = ewa_allocate(plan->context, count, 4);
     ewa_status status = floats && rgba ? EWA_OK : EWA_ERROR_MEMORY;
     const double side = ewa_lattice_side_world(&plan->statistics->lattice, (uint32_t)key->level);
-    const ewa_level_surfels surfels = {floats, floats + 3 * (size_t)count, floats + 6 * (size_t)count, rgba};
+    const ewa_level_surfels surfels = {floats, floats + 3 * (size_t)count, floats + 6 * (size_t)count,
+                                       floats + 7 * (size_t)count, rgba};
     for (uint32_t i = 0; i < count && status == EWA_OK; i++) {
         const ewa_representative *s = &representatives->items[i];
         for (int c = 0; c < 3; c++) {
@@ -132,6 +138,7 @@ static ewa_status encode_page(ewa_region_plan *plan, const ewa_octree_key *key,
             rgba[4 * (size_t)i + (size_t)c] = ewa_srgb8_from_linear(s->shown[c]);
         }
         surfels.radius_world[i] = s->radius_world;
+        surfels.curvature[i] = s->curvature;
         rgba[4 * (size_t)i + 3] = (uint8_t)lrintf(255 * s->alpha);
         if (s->radius_world > page->largest_radius_world) page->largest_radius_world = s->radius_world;
     }

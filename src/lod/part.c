@@ -17,7 +17,7 @@ enum {
     REGIONS = 4,
     RESULT = 5,
     COMMON_SECTIONS = 3,
-    PART_VERSION = 1
+    PART_VERSION = 2
 };
 
 /// The first section.

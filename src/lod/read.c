@@ -212,15 +212,17 @@ static void unpack_task(void *data, uint32_t index, uint32_t worker) {
 /// Makes room for a page; positions are relative to its node's middle.
 static ewa_status prepare_page(ewa_lod *lod, const ewa_lod_node *node, unpacked *page) {
     const uint32_t count = lod->levels.pages[node->page].surfel_count;
-    void *at = NULL, *normal = NULL, *radius = NULL, *rgba = NULL;
+    const bool curved = lod->levels.has_curvatures;
+    void *at = NULL, *normal = NULL, *radius = NULL, *curvature = NULL, *rgba = NULL;
     ewa_status status = ewa_cloud_create(lod->context, count, &page->cloud);
     if (status == EWA_OK) status = ewa_cloud_add(page->cloud, EWA_POSITION, EWA_F32, 3, &at);
     if (status == EWA_OK) status = ewa_cloud_add(page->cloud, EWA_NORMAL, EWA_F32, 3, &normal);
     if (status == EWA_OK) status = ewa_cloud_add(page->cloud, EWA_RADIUS, EWA_F32, 1, &radius);
+    if (status == EWA_OK && curved) status = ewa_cloud_add(page->cloud, EWA_CURVATURE, EWA_F32, 1, &curvature);
     if (status == EWA_OK) status = ewa_cloud_add(page->cloud, EWA_COLOR, EWA_U8, 4, &rgba);
-    page->scratch = ewa_allocate(lod->context, ewa_level_raw_bytes(count), 1);
+    page->scratch = ewa_allocate(lod->context, ewa_level_raw_bytes(count, curved), 1);
     if (status != EWA_OK || !page->scratch) return EWA_ERROR_MEMORY;
-    page->surfels = (ewa_level_surfels){at, normal, radius, rgba};
+    page->surfels = (ewa_level_surfels){at, normal, radius, curvature, rgba};
     double middle[3];
     for (int c = 0; c < 3; c++) middle[c] = node->low_world[c] + node->side_world / 2;
     ewa_cloud_set_origin(page->cloud, middle);
@@ -254,7 +256,8 @@ static ewa_status load_pages(ewa_lod *lod, const ewa_tree_reading *how, const ui
         if (status == EWA_OK) status = paint(how->look, &pages[i].cloud);
         if (status == EWA_OK) 
             status = make_surfels(lod, how->look, pages[i].cloud, (double)entry->radius_scale, &surfels[i]);
-        ewa_release(lod->context, pages[i].scratch, ewa_level_raw_bytes(entry->surfel_count), 1);
+        ewa_release(lod->context, pages[i].scratch,
+                    ewa_level_raw_bytes(entry->surfel_count, lod->levels.has_curvatures), 1);
         ewa_cloud_destroy(&pages[i].cloud);
     }
     ewa_release(lod->context, pages, count, sizeof *pages);

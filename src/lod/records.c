@@ -21,12 +21,17 @@ void ewa_record_put_normal(uint8_t *to, const float normal[3]) {
     }
 }
 
-void ewa_record_put_radius(uint8_t *to, float radius_world) {
+/// Stores a float without its last `dropped` bits, rounded.
+static void put_shortened(uint8_t *to, float value, uint32_t dropped) {
     uint32_t bits;
-    memcpy(&bits, &radius_world, sizeof bits);
-    bits = (bits + 0x800u) & ~0xfffu;
+    memcpy(&bits, &value, sizeof bits);
+    bits = (bits + (1u << (dropped - 1))) & ~((1u << dropped) - 1);
     memcpy(to, &bits, sizeof bits);
 }
+
+void ewa_record_put_radius(uint8_t *to, float radius_world) { put_shortened(to, radius_world, 12); }
+
+void ewa_record_put_curvature(uint8_t *to, float curvature) { put_shortened(to, curvature, 19); }
 
 /// Finds where the numbers of an attribute of the inputs are: in the record, or those that all points have.
 static const uint8_t *find_numbers(const ewa_region_plan *plan, const uint8_t *record, uint32_t column) {
@@ -108,6 +113,8 @@ static ewa_status add_target(const ewa_region_plan *plan, ewa_cloud *cloud, cons
         made->from = FROM_BEHIND, made->at_bytes = plan->normal_at_bytes;
     } else if (plan->makes_radii && strcmp(attribute->name, EWA_RADIUS) == 0) {
         made->from = FROM_BEHIND, made->at_bytes = plan->radius_at_bytes;
+    } else if (plan->makes_curvatures && strcmp(attribute->name, EWA_CURVATURE) == 0) {
+        made->from = FROM_BEHIND, made->at_bytes = plan->curvature_at_bytes;
     }
     return status;
 }
@@ -139,10 +146,11 @@ ewa_status ewa_records_to_cloud(const ewa_region_plan *plan, const uint8_t *reco
 typedef struct surfel_job {
     const ewa_region_plan *plan;
     const uint8_t *records;
-    ewa_representative *items;
+    ewa_representative *items; ///< out; or
+    float *normals;            ///< only these
     uint32_t count;
-    uint32_t normal, radius, tangent_u, tangent_v, color; ///< columns; UINT32_MAX: none
-    const ewa_attribute *normal_of, *radius_of, *tangent_of, *color_of;
+    uint32_t normal, radius, tangent_u, tangent_v, color, curvature; ///< columns; UINT32_MAX: none
+    const ewa_attribute *normal_of, *radius_of, *tangent_of, *color_of, *curvature_of;
     ewa_color_table colors;
 } surfel_job;
 
@@ -192,6 +200,16 @@ static void read_shape(const surfel_job *job, const uint8_t *record, ewa_represe
     made->radius_world = radius[0] > 0 && isfinite(radius[0]) ? (float)radius[0] : 0;
 }
 
+static float read_curvature(const surfel_job *job, const uint8_t *record) {
+    double value[4] = {0};
+    float stored = 0;
+    if (job->plan->makes_curvatures)
+        memcpy(&stored, record + job->plan->curvature_at_bytes, sizeof stored);
+    else if (job->curvature_of)
+        read_column(job, record, job->curvature, job->curvature_of, value), stored = (float)value[0];
+    return isfinite(stored) ? stored : 0;
+}
+
 static void representative_task(void *data, uint32_t task, uint32_t worker) {
     (void)worker;
     const surfel_job *job = data;
@@ -204,6 +222,7 @@ static void representative_task(void *data, uint32_t task, uint32_t worker) {
         *made = (ewa_representative){.code = ewa_record_code(lattice, record), .alpha = 1};
         for (int c = 0; c < 3; c++) made->at_world[c] = ewa_record_place(record, c) * lattice->step_world;
         read_shape(job, record, made);
+        made->curvature = read_curvature(job, record);
         double values[4] = {0}, linear[3] = {EWA_DEFAULT_GREY, EWA_DEFAULT_GREY, EWA_DEFAULT_GREY};
         if (job->color != UINT32_MAX) {
             read_column(job, record, job->color, job->color_of, values);
@@ -212,6 +231,44 @@ static void representative_task(void *data, uint32_t task, uint32_t worker) {
         }
         for (int c = 0; c < 3; c++) made->color[c] = made->shown[c] = (float)linear[c];
     }
+}
+
+static surfel_job make_surfel_job(const ewa_region_plan *plan, const uint8_t *records, uint32_t count) {
+    surfel_job job = {.plan = plan,
+                      .records = records,
+                      .count = count,
+                      .normal = column_of(plan, EWA_NORMAL),
+                      .radius = column_of(plan, EWA_RADIUS),
+                      .tangent_u = column_of(plan, EWA_TANGENT_U),
+                      .tangent_v = column_of(plan, EWA_TANGENT_V),
+                      .color = column_of(plan, EWA_COLOR),
+                      .curvature = column_of(plan, EWA_CURVATURE),
+                      .normal_of = ewa_cloud_find(plan->inputs, EWA_NORMAL),
+                      .radius_of = ewa_cloud_find(plan->inputs, EWA_RADIUS),
+                      .tangent_of = ewa_cloud_find(plan->inputs, EWA_TANGENT_U),
+                      .color_of = ewa_cloud_find(plan->inputs, EWA_COLOR),
+                      .curvature_of = ewa_cloud_find(plan->inputs, EWA_CURVATURE)};
+    if (job.color_of && job.color_of->component_count < 3) job.color = UINT32_MAX;
+    if (job.tangent_v == UINT32_MAX) job.tangent_u = UINT32_MAX;
+    return job;
+}
+
+static void normal_task(void *data, uint32_t task, uint32_t worker) {
+    (void)worker;
+    const surfel_job *job = data;
+    const uint32_t first = task * TASK_POINTS, left = job->count - first;
+    const uint32_t end = first + (left < TASK_POINTS ? left : TASK_POINTS);
+    for (uint32_t i = first; i < end; i++) {
+        ewa_representative made;
+        read_shape(job, job->records + (size_t)i * job->plan->record_bytes, &made);
+        memcpy(job->normals + 3 * (size_t)i, made.normal, sizeof made.normal);
+    }
+}
+
+void ewa_records_read_normals(const ewa_region_plan *plan, const uint8_t *records, uint32_t count, float *normals) {
+    surfel_job job = make_surfel_job(plan, records, count);
+    job.normals = normals;
+    ewa_parallel(plan->context, normal_task, &job, (count + TASK_POINTS - 1) / TASK_POINTS);
 }
 
 ewa_status ewa_records_to_representatives(const ewa_region_plan *plan, const uint8_t *records, uint32_t count,
@@ -223,21 +280,8 @@ ewa_status ewa_records_to_representatives(const ewa_region_plan *plan, const uin
     EWA_TRY(status);
     representatives->radius_scale = 1;
     representatives->unit_coverage = 0;
-    surfel_job job = {.plan = plan,
-                      .records = records,
-                      .items = representatives->items,
-                      .count = count,
-                      .normal = column_of(plan, EWA_NORMAL),
-                      .radius = column_of(plan, EWA_RADIUS),
-                      .tangent_u = column_of(plan, EWA_TANGENT_U),
-                      .tangent_v = column_of(plan, EWA_TANGENT_V),
-                      .color = column_of(plan, EWA_COLOR),
-                      .normal_of = ewa_cloud_find(plan->inputs, EWA_NORMAL),
-                      .radius_of = ewa_cloud_find(plan->inputs, EWA_RADIUS),
-                      .tangent_of = ewa_cloud_find(plan->inputs, EWA_TANGENT_U),
-                      .color_of = ewa_cloud_find(plan->inputs, EWA_COLOR)};
-    if (job.color_of && job.color_of->component_count < 3) job.color = UINT32_MAX;
-    if (job.tangent_v == UINT32_MAX) job.tangent_u = UINT32_MAX;
+    surfel_job job = make_surfel_job(plan, records, count);
+    job.items = representatives->items;
     ewa_color_table_make(&job.colors);
     ewa_parallel(plan->context, representative_task, &job, (count + TASK_POINTS - 1) / TASK_POINTS);
     representatives->count = 0; // what cannot be drawn is left out

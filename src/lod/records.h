@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Points as records: the place from the root's corner, 3 x 32 bits, the numbers that vary, and behind them what is
-// estimated: a normal of 3 x 16 bits, times 32767, and a radius, a float.
+// estimated: a normal of 3 x 16 bits, times 32767, a radius and a signed curvature, floats.
 #ifndef EWA_SRC_LOD_RECORDS_H
 #define EWA_SRC_LOD_RECORDS_H
 
@@ -21,10 +21,11 @@ static inline uint64_t ewa_record_code(const ewa_lattice *lattice, const uint8_t
     return ewa_lattice_code(lattice, place);
 }
 
-/// Stores a unit normal, in steps of 16 of its 32767, and a radius with 11 bits after the first, so that they pack
-/// well.
+/// Store a unit normal, in steps of 16 of its 32767, a radius with 11 bits after the first and a curvature with 4, so
+/// that they pack well.
 void ewa_record_put_normal(uint8_t *to, const float normal[3]);
 void ewa_record_put_radius(uint8_t *to, float radius_world);
+void ewa_record_put_curvature(uint8_t *to, float curvature);
 
 /// Copies the numbers of an attribute of the inputs.
 void ewa_record_get(const ewa_region_plan *plan, const uint8_t *record, const char *attribute, uint8_t *to);
@@ -32,6 +33,9 @@ void ewa_record_get(const ewa_region_plan *plan, const uint8_t *record, const ch
 /// Makes a cloud of records with the attributes of the output. The caller owns `*piece`. Errors: EWA_ERROR_MEMORY.
 ewa_status ewa_records_to_cloud(const ewa_region_plan *plan, const uint8_t *records, uint32_t count,
                                 ewa_cloud **piece);
+
+/// Reads the unit normals, 3 floats each, that points came with, where none are made.
+void ewa_records_read_normals(const ewa_region_plan *plan, const uint8_t *records, uint32_t count, float *normals);
 
 /// Makes surfels of records, which are in the order of their codes. Errors: EWA_ERROR_MEMORY.
 ewa_status ewa_records_to_representatives(const ewa_region_plan *plan, const uint8_t *records, uint32_t count,

@@ -90,7 +90,8 @@ typedef struct estimate_job {
     uint64_t all_count;
     int64_t middle[3]; ///< from the root's corner
     float *positions;
-    const float *normals, *radii;
+    const float *normals, *radii, *curvatures; ///< curvatures NULL: of a flat cloud
+    float *own_normals; ///< to the sides of which curvatures are told; NULL: those that were made
 } estimate_job;
 
 static void position_task(void *data, uint32_t task, uint32_t worker) {
@@ -121,6 +122,11 @@ static void keep_task(void *data, uint32_t task, uint32_t worker) {
         if (plan->makes_normals)
             ewa_record_put_normal(record + plan->normal_at_bytes, job->normals + 3 * (size_t)i);
         if (plan->makes_radii) ewa_record_put_radius(record + plan->radius_at_bytes, job->radii[i]);
+        if (!plan->makes_curvatures) continue;
+        const float *made = job->normals + 3 * (size_t)i, *own = job->own_normals ? job->own_normals + 3 * (size_t)i : made;
+        const float along = made[0] * own[0] + made[1] * own[1] + made[2] * own[2];
+        const float curvature = job->curvatures ? job->curvatures[i] : 0;
+        ewa_record_put_curvature(record + plan->curvature_at_bytes, along < 0 ? -curvature : curvature);
     }
 }
 
@@ -135,6 +141,11 @@ static ewa_status make_neighbourhood(const ewa_region_plan *plan, estimate_job *
     ewa_cloud_set_origin(*cloud, origin);
     job->positions = positions;
     ewa_parallel(plan->context, position_task, job, task_count(job->all_count));
+    if (!plan->makes_radii) { // what is there is not estimated
+        void *radii = NULL;
+        EWA_TRY(ewa_cloud_add(*cloud, EWA_RADIUS, EWA_F32, 1, &radii));
+        memset(radii, 0, job->all_count * sizeof(float));
+    }
     const ewa_attribute *scan = ewa_cloud_find(plan->inputs, "scan");
     size_t note_bytes = 0;
     const char *note = ewa_cloud_note(plan->inputs, "scanners", &note_bytes);
@@ -155,10 +166,10 @@ static ewa_status make_neighbourhood(const ewa_region_plan *plan, estimate_job *
     return EWA_OK;
 }
 
-/// Gives the points normals and radii.
+/// Gives the points normals, radii and curvatures.
 static ewa_status estimate(ewa_region_plan *plan, ewa_distribution *distribution, ewa_region *region,
                            ewa_region_points *points) {
-    if (!plan->makes_normals && !plan->makes_radii) return EWA_OK;
+    if (!plan->makes_normals && !plan->makes_radii && !plan->makes_curvatures) return EWA_OK;
     ewa_context *context = plan->context;
     const uint64_t around_count = region->around.count;
     uint8_t *around = ewa_allocate(context, around_count, EWA_AROUND_BYTES);
@@ -179,8 +190,17 @@ static ewa_status estimate(ewa_region_plan *plan, ewa_distribution *distribution
     if (status == EWA_OK) {
         job.normals = ewa_cloud_find(cloud, EWA_NORMAL)->data;
         job.radii = ewa_cloud_find(cloud, EWA_RADIUS)->data;
+        const ewa_attribute *curvature = ewa_cloud_find(cloud, EWA_CURVATURE);
+        job.curvatures = curvature ? curvature->data : NULL;
+    }
+    const bool told = job.curvatures && plan->makes_curvatures && !plan->makes_normals;
+    if (told) job.own_normals = ewa_allocate(context, points->count, 3 * sizeof(float));
+    if (told && !job.own_normals) status = EWA_ERROR_MEMORY;
+    if (status == EWA_OK) {
+        if (told) ewa_records_read_normals(plan, points->records, points->count, job.own_normals);
         ewa_parallel(context, keep_task, &job, task_count(points->count));
     }
+    ewa_release(context, job.own_normals, points->count, 3 * sizeof(float));
     ewa_cloud_destroy(&cloud);
     return status;
 }

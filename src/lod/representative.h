@@ -18,6 +18,7 @@ typedef struct ewa_representative {
     float radius_world; ///< that keeps the area of what it represents
     float color[3];     ///< linear, mean of what it represents
     float alpha;
+    float curvature; ///< signed, 1 / world unit; 0: none is known
     float shown[3]; ///< linear, sharper than the mean (ewa_representatives_evaluate())
 } ewa_representative;
 

@@ -100,6 +100,11 @@ static ewa_status set_curvatures(ewa_context *context, work *w) {
     surfels->curvatures = ewa_allocate(context, lanes, sizeof *surfels->curvatures);
     if (!surfels->curvatures) return EWA_ERROR_MEMORY;
     ewa_parallel(context, encode_curvatures, w, part_count(surfels));
+    bool bends = false;
+    for (size_t i = 0; i < lanes && !bends; i++) bends = surfels->curvatures[i] << 1 & UINT16_MAX; // 0 has a sign
+    if (bends) return EWA_OK;
+    ewa_release(context, surfels->curvatures, lanes, sizeof *surfels->curvatures);
+    surfels->curvatures = NULL;
     return EWA_OK;
 }
 

@@ -279,6 +279,19 @@ static void move_clip(const ewa_surfels *fine, uint32_t index, uint32_t lane, ew
     }
 }
 
+/// How far the surface lies above the middle of its members, towards their normals: half of what the planes of these are
+/// above it, which is exact where it bends evenly.
+static double height_of(const group_members *members, ewa_vec3 middle) {
+    double height = 0, square = 0;
+    for (uint32_t i = 0; i < members->count; i++) {
+        const ewa_vec3 way = vec3_sub(members->place[i], middle);
+        height += members->share[i] * vec3_dot(members->normal[i], way) / 2;
+        square += members->share[i] * vec3_dot(way, way);
+    }
+    const double most = sqrt(square) / 2;
+    return maximum(-most, minimum(height, most));
+}
+
 /// Makes what stands for a group: in its middle, where that is on its surface, else at the nearest member.
 static void make_representative(const level_job *job, const ewa_window *window, const uint8_t *lanes,
                                 uint32_t count, representative *made) {
@@ -306,9 +319,14 @@ static void make_representative(const level_job *job, const ewa_window *window, 
     }
     const double grown = maximum(sigma / sqrt(members.share[pick]), spread / EWA_LEVEL_SPREAD) * job->growth;
     made->sigma = maximum(sigma, minimum(grown, reach / fine->cutoff));
+    made->curvature = 0;
+    for (uint32_t i = 0; i < count && fine->curvatures; i++)
+        made->curvature += members.share[i] * ewa_packet_decode_curvature(
+                                                  fine->curvatures[(size_t)members.packet[i] * LANES + members.lane[i]]);
     ewa_vec3 moved = vec3_make(0, 0, 0);
     if (height <= made->sigma) {
         moved = vec3_sub(middle, members.place[pick]);
+        if (made->curvature != 0) moved = vec3_add(moved, vec3_scale(made->normal, height_of(&members, middle)));
         if (members.any_clipped) moved = vec3_sub(moved, vec3_scale(own, vec3_dot(moved, own)));
     }
     const ewa_vec3 offset =
@@ -321,10 +339,6 @@ static void make_representative(const level_job *job, const ewa_window *window, 
     made->clipped = members.any_clipped;
     if (made->clipped) move_clip(fine, index, lane, moved, &made->clip);
     made->material = fine->materials ? fine->materials[(size_t)index * LANES + lane] : fine->material;
-    made->curvature = 0;
-    for (uint32_t i = 0; i < count && fine->curvatures; i++)
-        made->curvature += members.share[i] * ewa_packet_decode_curvature(
-                                                  fine->curvatures[(size_t)members.packet[i] * LANES + members.lane[i]]);
     if (made->ratio != UINT16_MAX) {
         ewa_packet_surfel decoded;
         ewa_packet_decode(fine, index, lane, &decoded);

@@ -7,21 +7,21 @@
 #include "io/levels.h"
 
 /// Decodes a page into memory that ends with its surfels.
-static void try_page(const ewa_levels_page *page, const uint8_t *bytes) {
+static void try_page(const ewa_levels_page *page, const uint8_t *bytes, bool has_curvatures) {
     enum { MAX_SURFELS = 1 << 14 };
     if (!page->size_bytes || page->surfel_count > MAX_SURFELS) return;
     const size_t count = page->surfel_count;
     float *at = malloc(3 * count * sizeof *at + 1), *normal = malloc(3 * count * sizeof *normal + 1),
-          *radius = malloc(count * sizeof *radius + 1);
-    uint8_t *rgba = malloc(4 * count + 1), *scratch = malloc(ewa_level_raw_bytes(page->surfel_count) + 1);
-    fuzz_require(at && normal && radius && rgba && scratch, "memory");
-    const ewa_level_surfels surfels = {at, normal, radius, rgba};
+          *radius = malloc(count * sizeof *radius + 1), *curvature = malloc(count * sizeof *curvature + 1);
+    uint8_t *rgba = malloc(4 * count + 1), *scratch = malloc(ewa_level_raw_bytes(page->surfel_count, has_curvatures) + 1);
+    fuzz_require(at && normal && radius && curvature && rgba && scratch, "memory");
+    const ewa_level_surfels surfels = {at, normal, radius, has_curvatures ? curvature : NULL, rgba};
     if (!ewa_level_decode(page, bytes, scratch, &surfels))
         for (size_t i = 0; i < 3 * count; i++) {
             fuzz_require(at[i] >= 0 && at[i] <= 1, "places in the cube");
             fuzz_require(normal[i] >= -1.001f && normal[i] <= 1.001f, "normals of length 1");
         }
-    free(at), free(normal), free(radius), free(rgba), free(scratch);
+    free(at), free(normal), free(radius), free(curvature), free(rgba), free(scratch);
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size_bytes) {
@@ -35,7 +35,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size_bytes) {
         fuzz_require(i == 0 || ewa_octree_key_compare(&page[-1].key, &page->key) < 0, "pages in order");
         fuzz_require(page->at_bytes <= size_bytes && page->size_bytes <= size_bytes - page->at_bytes,
                      "blocks in the record");
-        if (i < 64) try_page(page, bytes + page->at_bytes);
+        if (i < 64) try_page(page, bytes + page->at_bytes, levels.has_curvatures);
     }
     ewa_levels_free(context, &levels);
     ewa_context_destroy(&context);

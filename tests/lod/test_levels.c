@@ -11,12 +11,12 @@ enum { SURFELS = 500, PAGES = 3, TABLE_BYTES = EWA_LEVELS_HEAD_BYTES + PAGES * E
 
 /// Surfels in memory of their own.
 typedef struct sample {
-    float at[3 * SURFELS], normal[3 * SURFELS], radius_world[SURFELS];
+    float at[3 * SURFELS], normal[3 * SURFELS], radius_world[SURFELS], curvature[SURFELS];
     uint8_t rgba[4 * SURFELS];
 } sample;
 
-static ewa_level_surfels arrays_of(sample *s) {
-    return (ewa_level_surfels){s->at, s->normal, s->radius_world, s->rgba};
+static ewa_level_surfels arrays_of(sample *s, bool curved) {
+    return (ewa_level_surfels){s->at, s->normal, s->radius_world, curved ? s->curvature : NULL, s->rgba};
 }
 
 static void make_sample(sample *s, uint64_t seed) {
@@ -29,6 +29,7 @@ static void make_sample(sample *s, uint64_t seed) {
         for (size_t c = 0; c < 3; c++) length += numbers[c] * numbers[c];
         for (size_t c = 0; c < 3; c++) s->normal[3 * i + c] = (float)(numbers[c] / sqrt(length));
         s->radius_world[i] = (float)exp(check_uniform(&random, -12, 12));
+        s->curvature[i] = i % 3 ? (float)check_uniform(&random, -2, 2) : 0;
         for (size_t c = 0; c < 4; c++) s->rgba[4 * i + c] = (uint8_t)check_random_u64(&random);
     }
     // Along the axes, at the sides.
@@ -39,17 +40,17 @@ static void make_sample(sample *s, uint64_t seed) {
         }
 }
 
-static void test_round_trip(void **state) {
+static void hold_round_trip(bool curved) {
     ewa_context *context = check_context(1, NULL);
     static sample given, got;
-    static uint8_t scratch[16 * SURFELS];
+    static uint8_t scratch[18 * SURFELS];
     make_sample(&given, 1);
     memset(&got, 0, sizeof got);
-    const ewa_level_surfels from = arrays_of(&given), to = arrays_of(&got);
+    const ewa_level_surfels from = arrays_of(&given, curved), to = arrays_of(&got, curved);
     ewa_buffer block = {0};
     size_t size_bytes = 0;
     assert_int_equal(ewa_level_encode(context, &from, SURFELS, &block, &size_bytes), EWA_OK);
-    assert_int_equal(ewa_level_raw_bytes(SURFELS), sizeof scratch);
+    assert_int_equal(ewa_level_raw_bytes(SURFELS, curved), (curved ? 18 : 16) * SURFELS);
     const ewa_levels_page page = {.surfel_count = SURFELS, .size_bytes = (uint32_t)size_bytes};
     assert_null(ewa_level_decode(&page, block.data, scratch, &to));
     for (size_t i = 0; i < SURFELS; i++) {
@@ -62,6 +63,7 @@ static void test_round_trip(void **state) {
         assert_true(fabs(length - 1) < 1e-5);
         assert_true(cosine > cos(0.001)); // steps of 1/2047
         assert_true(fabsf(got.radius_world[i] / given.radius_world[i] - 1) <= 1.0f / 256);
+        assert_true(fabsf(got.curvature[i] - (curved ? given.curvature[i] : 0)) <= fabsf(given.curvature[i]) / 256);
     }
     assert_memory_equal(given.rgba, got.rgba, sizeof given.rgba);
     // Every shorter block is damaged, as is one of another count.
@@ -79,8 +81,12 @@ static void test_round_trip(void **state) {
     ewa_context_destroy(&context);
 }
 
-/// A record of a root, a divided part of it and one that is not; the caller frees.
-static uint8_t *make_record(ewa_context *context, size_t *size_bytes) {
+static void test_round_trip(void **state) {
+    for (int curved = 0; curved < 2; curved++) hold_round_trip(curved);
+}
+
+/// A record of a root, a divided part of it and one that is not; the caller frees. Without curvatures it is of version 1.
+static uint8_t *make_record(ewa_context *context, bool curved, size_t *size_bytes) {
     static sample given;
     ewa_levels_page pages[PAGES] = {
         {.key = {0, {0, 0, 0}}, .point_count = 900, .radius_scale = 1, .error = 3, .unit_coverage = 2},
@@ -91,14 +97,14 @@ static uint8_t *make_record(ewa_context *context, size_t *size_bytes) {
     size_t at_bytes = 0;
     for (uint32_t i = 0; i < 2; i++) {
         make_sample(&given, i);
-        const ewa_level_surfels from = arrays_of(&given);
+        const ewa_level_surfels from = arrays_of(&given, curved);
         pages[i].at_bytes = at_bytes;
         pages[i].surfel_count = 10 * (i + 1);
         pages[i].largest_radius_world = 0.5f;
         assert_int_equal(ewa_level_encode(context, &from, pages[i].surfel_count, &blocks, &at_bytes), EWA_OK);
         pages[i].size_bytes = (uint32_t)(at_bytes - pages[i].at_bytes);
     }
-    const ewa_levels levels = {1.5, pages, PAGES, 30};
+    const ewa_levels levels = {1.5, pages, PAGES, 30, curved};
     *size_bytes = TABLE_BYTES + at_bytes;
     uint8_t *bytes = malloc(*size_bytes);
     assert_non_null(bytes);
@@ -122,8 +128,8 @@ static ewa_status read_record(ewa_context *context, const uint8_t *bytes, size_t
         assert_true(page->radius_scale > 0 && page->error >= 0 && page->largest_radius_world >= 0);
         if (!page->size_bytes || page->surfel_count > SURFELS) continue;
         static sample got;
-        static uint8_t scratch[16 * SURFELS];
-        const ewa_level_surfels to = arrays_of(&got);
+        static uint8_t scratch[18 * SURFELS];
+        const ewa_level_surfels to = arrays_of(&got, levels.has_curvatures);
         (void)ewa_level_decode(page, copy + page->at_bytes, scratch, &to);
     }
     ewa_levels_free(context, &levels);
@@ -131,14 +137,16 @@ static ewa_status read_record(ewa_context *context, const uint8_t *bytes, size_t
     return status;
 }
 
-static void test_record(void **state) {
+static void hold_record(bool curved) {
     ewa_context *context = check_context(1, NULL);
     size_t size_bytes;
-    uint8_t *bytes = make_record(context, &size_bytes);
+    uint8_t *bytes = make_record(context, curved, &size_bytes);
     ewa_levels levels;
     assert_int_equal(ewa_levels_read(context, "test", bytes, size_bytes, &levels), EWA_OK);
     assert_int_equal(levels.page_count, PAGES);
     assert_int_equal(levels.surfel_count, 30);
+    assert_int_equal(bytes[4], curved ? 2 : 1);
+    assert_true(levels.has_curvatures == curved);
     assert_true(levels.unit_coverage == 1.5);
     assert_int_equal(levels.pages[0].point_count, 900);
     assert_true(levels.pages[0].unit_coverage == 2 && levels.pages[0].error == 3);
@@ -146,8 +154,8 @@ static void test_record(void **state) {
     assert_true(levels.pages[1].radius_scale == 0.75f && levels.pages[1].largest_radius_world == 0.5f);
     assert_int_equal(levels.pages[2].size_bytes, 0);
     static sample given, got;
-    static uint8_t scratch[16 * SURFELS];
-    const ewa_level_surfels to = arrays_of(&got);
+    static uint8_t scratch[18 * SURFELS];
+    const ewa_level_surfels to = arrays_of(&got, curved);
     make_sample(&given, 1);
     assert_null(ewa_level_decode(&levels.pages[1], bytes + levels.pages[1].at_bytes, scratch, &to));
     assert_memory_equal(given.rgba, got.rgba, (size_t)4 * levels.pages[1].surfel_count);
@@ -156,10 +164,14 @@ static void test_record(void **state) {
     ewa_context_destroy(&context);
 }
 
+static void test_record(void **state) {
+    for (int curved = 0; curved < 2; curved++) hold_record(curved);
+}
+
 static void test_damage(void **state) {
     ewa_context *context = check_context(1, NULL);
     size_t size_bytes;
-    uint8_t *bytes = make_record(context, &size_bytes);
+    uint8_t *bytes = make_record(context, true, &size_bytes);
     // Whatever is cut off, a page's block is not whole.
     for (size_t left = 0; left < size_bytes; left++)
         assert_int_equal(read_record(context, bytes, left), EWA_ERROR_FORMAT);
@@ -196,8 +208,8 @@ static void test_refusals(void **state) {
     check_log log = {0};
     ewa_context *context = check_context(1, &log);
     size_t size_bytes;
-    uint8_t *bytes = make_record(context, &size_bytes);
-    static const uint8_t version[4] = {2}, zero[4] = {0}, many[4] = {1, 0, 0, 1},
+    uint8_t *bytes = make_record(context, true, &size_bytes);
+    static const uint8_t version[4] = {3}, zero[4] = {0}, many[4] = {1, 0, 0, 1},
                          minus[4] = {255, 255, 255, 255};
     static const uint8_t nan[4] = {0, 0, 0xc0, 0x7f}, two[4] = {2}, deep[4] = {31};
     enum {
@@ -206,7 +218,7 @@ static void test_refusals(void **state) {
         LEAF = PART + EWA_LEVELS_PAGE_BYTES
     };
     assert_int_equal(read_with(context, bytes, size_bytes, 4, version, 4), EWA_ERROR_UNSUPPORTED);
-    assert_non_null(strstr(log.text, "version 2"));
+    assert_non_null(strstr(log.text, "version 3"));
     static const struct {
         size_t at;
         const uint8_t *bytes;

@@ -149,6 +149,39 @@ static void test_scanners(void **state) {
     assert_int_equal(lod_clear(), 2);
 }
 
+/// Points and what stands for them know how much their surface bends, to the side of the normals that they came with.
+static void test_curvatures(void **state) {
+    enum { COUNT = 100000 }; // of one region
+    static const char *const names[] = {"a.ply"};
+    ewa_context *context = check_context(2, NULL);
+    for (int inward = -1; inward < 2; inward++) { // -1: without normals
+        ewa_cloud *cloud = NULL;
+        ewa_generate_options sphere;
+        ewa_generate_options_init(&sphere, sizeof sphere);
+        sphere.object = EWA_OBJECT_SPHERE, sphere.size_world = 4, sphere.point_count = COUNT;
+        assert_int_equal(ewa_cloud_generate(context, &sphere, &cloud), EWA_OK);
+        ewa_cloud_remove(cloud, EWA_CURVATURE);
+        if (inward < 0) ewa_cloud_remove(cloud, EWA_NORMAL), ewa_cloud_remove(cloud, EWA_RADIUS);
+        float *normal = inward > 0 ? ewa_cloud_find(cloud, EWA_NORMAL)->data : NULL;
+        for (int i = 0; i < 3 * COUNT && inward > 0; i++) normal[i] = -normal[i];
+        lod_save(cloud, names[0]);
+        assert_int_equal(lod_build(context, names, 1, "o.copc.laz", NULL, NULL), EWA_OK);
+        ewa_cloud *output = lod_load(context, "o.copc.laz");
+        const ewa_attribute *found = ewa_cloud_find(output, EWA_CURVATURE);
+        assert_true(found && found->type == EWA_F32 && found->component_count == 1);
+        uint64_t right = 0;
+        for (uint64_t i = 0; i < COUNT; i++) {
+            double value;
+            ewa_attribute_read_f64(found, i, 1, &value);
+            right += fabs(value - (inward > 0 ? -0.5 : 0.5)) < 0.05; // a radius of 2
+        }
+        assert_true(right > 0.98 * COUNT);
+        ewa_cloud_destroy(&output);
+        assert_int_equal(lod_clear(), 2);
+    }
+    ewa_context_destroy(&context);
+}
+
 static void test_without_colors(void **state) {
     static const char *const names[] = {"a.ply"};
     ewa_context *context = check_context(2, NULL);
@@ -258,6 +291,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup(test_points, enter),      cmocka_unit_test_setup(test_threads, enter),
         cmocka_unit_test_setup(test_scanners, enter),
+        cmocka_unit_test_setup(test_curvatures, enter),
         cmocka_unit_test_setup(test_own_surfels, enter), cmocka_unit_test_setup(test_without_colors, enter),
         cmocka_unit_test_setup(test_few, enter),         cmocka_unit_test_setup(test_one_place, enter),
         cmocka_unit_test_setup(test_left_out, enter),    cmocka_unit_test_setup(test_refusals, enter),

@@ -106,6 +106,35 @@ static void test_sheets(void **state) {
     free(merged.items);
 }
 
+/// What stands for members of a surface that bends lies on it, not in their middle below; where nothing is known to bend,
+/// in the middle.
+static void test_bent(void **state) {
+    for (int saddle = 0; saddle < 2; saddle++) {
+        // z = -(x^2 + y^2) / 8 or -(x^2 - y^2 / 2) / 8, with normals to second order.
+        static const double places[4][2] = {{-0.3, -0.3}, {0.4, -0.3}, {-0.3, 0.4}, {0.4, 0.4}};
+        ewa_representative of[4];
+        for (uint32_t k = 0; k < 4; k++) {
+            const double x = places[k][0], y = places[k][1], b = saddle ? -0.5 : 1;
+            const float normal[3] = {(float)(x / 4), (float)(b * y / 4), 1};
+            of[k] = surfel_of(0, k, normal, 1);
+            of[k].at_world[0] = 5 + x, of[k].at_world[1] = 7 + y, of[k].at_world[2] = 9 - (x * x + b * y * y) / 8;
+            of[k].curvature = 0.125f * (float)(1 + k);
+        }
+        ewa_representatives merged = merge(of, 4);
+        assert_int_equal(merged.count, 1);
+        const double *at = merged.items->at_world, x = at[0] - 5, y = at[1] - 7;
+        assert_true(fabs(at[2] - (9 - (x * x + (saddle ? -0.5 : 1) * y * y) / 8)) < 5e-4);
+        hold_near((double)merged.items->curvature, 0.125 * 2.5);
+        free(merged.items);
+        double middle = 0;
+        for (uint32_t k = 0; k < 4; k++) of[k].curvature = 0, middle += of[k].at_world[2] / 4;
+        merged = merge(of, 4);
+        hold_near(merged.items->at_world[2], middle);
+        assert_true(merged.items->curvature == 0);
+        free(merged.items);
+    }
+}
+
 /// From five surfels on, radii count up to three times their median.
 static void test_large_radii(void **state) {
     ewa_representative few[5];
@@ -140,6 +169,6 @@ static void test_cells(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_means), cmocka_unit_test(test_sheets),
-                                       cmocka_unit_test(test_large_radii), cmocka_unit_test(test_cells)};
+                                       cmocka_unit_test(test_large_radii), cmocka_unit_test(test_bent), cmocka_unit_test(test_cells)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

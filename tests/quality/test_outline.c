@@ -9,6 +9,7 @@
 #include <math.h>
 #include <stdbool.h>
 
+#include "io/scratch.h"
 #include "math/gaussian.h"
 #include "prepare/mesh_shapes.h"
 #include "quality/outline_scene.h"
@@ -68,7 +69,10 @@ static outline_errors draw(ewa_context *context, const ewa_cloud *cloud, const e
     static float rgba[OUTLINE_SIDE_PX * OUTLINE_SIDE_PX][4];
     ewa_surfels *surfels = NULL;
     ewa_renderer *renderer = NULL;
-    assert_int_equal(ewa_surfels_create(cloud, NULL, &surfels), EWA_OK);
+    ewa_surfels_options surfels_options;
+    ewa_surfels_options_init(&surfels_options, sizeof surfels_options);
+    surfels_options.level_count = options ? options->level + 1 : 1;
+    assert_int_equal(ewa_surfels_create(cloud, &surfels_options, &surfels), EWA_OK);
     assert_int_equal(ewa_renderer_create(context, &renderer), EWA_OK);
     const ewa_frame frame = {.rgba = &rgba[0][0]};
     assert_int_equal(ewa_render(renderer, surfels, camera, options, &frame, NULL), EWA_OK);
@@ -118,6 +122,74 @@ static void test_silhouettes(void **state) {
             assert_true(found.open < 5e-4 && found.deepest < 0.1 && found.strewn < 1e-3);
         }
     }
+    ewa_context_destroy(&context);
+}
+
+/// Levels in memory, down to surfels 2.5 px apart; what stands for others where they are 5 px apart lies on the surface.
+static void test_levels(void **state) {
+    ewa_context *context = check_context(0, NULL);
+    static outline_truth truth;
+    ewa_camera camera;
+    outline_camera(oblique, 42, &camera);
+    for (int torus = 0; torus < 2; torus++) {
+        const outline_shape shape = torus ? OUTLINE_TORUS : OUTLINE_SPHERE;
+        outline_trace(context, shape, &camera, &truth);
+        ewa_cloud *cloud = estimated(context, shape, 100000);
+        for (uint32_t level = 1; level < 4; level++) {
+            ewa_render_options options;
+            ewa_render_options_init(&options, sizeof options);
+            options.level = level;
+            const outline_errors found = draw(context, cloud, &camera, &options, &truth);
+            print_message("%s, level %u: fat %+.3f px, rms %.3f, open inside %.4f %%\n", torus ? "torus" : "sphere", level,
+                          found.fat_px, found.rms, 100 * found.open);
+            assert_true(fabs(found.fat_px) < (level < 3 ? 0.1 : 0.3) && found.rms < (level < 3 ? 0.18 : 0.28));
+            assert_true(found.open < 5e-3);
+        }
+        ewa_cloud_destroy(&cloud);
+    }
+    ewa_context_destroy(&context);
+}
+
+/// The coarse nodes of an octree, of bare points and of surfels that say no curvature.
+static void test_octrees(void **state) {
+    ewa_context *context = check_context(0, NULL);
+    static outline_truth truth;
+    static float rgba[OUTLINE_SIDE_PX * OUTLINE_SIDE_PX][4];
+    ewa_camera camera;
+    outline_camera(oblique, 42, &camera);
+    outline_trace(context, OUTLINE_TORUS, &camera, &truth);
+    ewa_renderer *renderer = NULL;
+    assert_int_equal(ewa_renderer_create(context, &renderer), EWA_OK);
+    for (int surfels = 0; surfels < 2; surfels++) {
+        char points[512], octree[512];
+        const char *const paths[1] = {scratch_path("torus.ply", points)};
+        ewa_cloud *cloud = surfels ? estimated(context, OUTLINE_TORUS, 300000)
+                                   : outline_points(context, OUTLINE_TORUS, 300000);
+        ewa_cloud_remove(cloud, EWA_CURVATURE);
+        assert_int_equal(ewa_cloud_save(cloud, points, NULL), EWA_OK);
+        ewa_cloud_destroy(&cloud);
+        assert_int_equal(ewa_lod_build(context, paths, 1, scratch_path("torus.copc.laz", octree), NULL, NULL), EWA_OK);
+        ewa_lod *lod = NULL;
+        assert_int_equal(ewa_lod_open(context, octree, &lod), EWA_OK);
+        static const double spacings_px[] = {0.1, 2};
+        for (int i = 0; i < 2; i++) {
+            ewa_lod_options options;
+            ewa_lod_options_init(&options, sizeof options);
+            options.spacing_px = spacings_px[i], options.error = 255;
+            ewa_lod_stats stats;
+            const ewa_frame frame = {.rgba = &rgba[0][0]};
+            assert_int_equal(ewa_lod_render(lod, renderer, &camera, NULL, &options, &frame, &stats), EWA_OK);
+            const outline_errors found = outline_compare(&truth, &rgba[0][3], 4);
+            print_message("octree of %s: %llu surfels, fat %+.3f px, rms %.3f, open inside %.4f %%\n",
+                          surfels ? "surfels" : "points", (unsigned long long)stats.surfel_count, found.fat_px, found.rms,
+                          100 * found.open);
+            assert_true(i == 0 ? stats.surfel_count >= 300000 : stats.surfel_count < 150000);
+            assert_true(fabs(found.fat_px) < 0.1 && found.rms < 0.17 && found.open < 5e-4);
+        }
+        ewa_lod_close(&lod);
+        unlink(points), unlink(octree);
+    }
+    ewa_renderer_destroy(&renderer);
     ewa_context_destroy(&context);
 }
 
@@ -236,6 +308,8 @@ static void test_doubtful_normals(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_silhouettes),
+        cmocka_unit_test(test_levels),
+        cmocka_unit_test(test_octrees),
         cmocka_unit_test(test_silhouettes_follow_the_filter),
         cmocka_unit_test(test_borders),
         cmocka_unit_test(test_flat_angles),

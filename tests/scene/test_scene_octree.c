@@ -40,6 +40,11 @@ static int enter(void **state) {
         ewa_attribute_read_f64(position, i, 1, p);
         ((uint16_t *)data)[i] = (uint16_t)(30000 + 10000 * (p[0] + p[1]));
     }
+    // With curvatures that the file says: those that an octree measures, piece by piece, are like those of a scene.
+    ewa_estimate_options estimate;
+    ewa_estimate_options_init(&estimate, sizeof estimate);
+    assert_int_equal(ewa_cloud_estimate(&cloud, &estimate), EWA_OK);
+    assert_non_null(ewa_cloud_find(cloud, EWA_CURVATURE));
     lod_save(cloud, points);
     assert_int_equal(lod_build(context, names, 1, file, NULL, NULL), EWA_OK);
     ewa_context_destroy(&context);
@@ -165,7 +170,7 @@ static void test_moves_like_a_cloud(void **state) {
         draw(context, octree, &camera, 0, &second);
         draw(context, octree, &camera, 16, &third);
         hold_like("all points", &first, &second, 65);
-        hold_like("levels", &first, &third, 40);
+        hold_like("levels", &first, &third, 38); // at contours each moves by its own size
         ewa_bounds boxes[2];
         ewa_scene_bounds(octree, &boxes[0]), ewa_scene_bounds(cloud, &boxes[1]);
         for (int c = 0; c < 3; c++) { // of the moved box, in which the moved points are
@@ -202,7 +207,7 @@ static void test_instances(void **state) {
         assert_true(psnr_db(&second, &third) < 40);
         if (k == 3) continue; // what represents points has none
         draw(context, octree, &camera, 16, &second);
-        hold_like("its levels", &first, &second, k < 4 ? 40 : 33); // whose rims are wider
+        hold_like("its levels", &first, &second, k < 4 ? 38 : 33); // whose rims are wider
         assert_true((ewa_scene_legend(octree, 0) != NULL) == (k < 4));
     }
     ewa_instance plain;
