@@ -246,7 +246,8 @@ ewa_status ewa_curvature_add(ewa_cloud *cloud) {
 
 bool ewa_curvature_is_lacking(const ewa_cloud *cloud) {
     const ewa_attribute *curvature = ewa_cloud_find(cloud, EWA_CURVATURE);
-    bool lacking = !curvature;
+    if (!curvature) return !ewa_cloud_find(cloud, EWA_CLIP0);
+    bool lacking = false;
     for (uint64_t i = 0; i < ewa_cloud_point_count(cloud) && !lacking; i++) {
         double value[4];
         ewa_attribute_read_f64(curvature, i, 1, value);

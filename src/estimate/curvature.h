@@ -32,7 +32,8 @@ void ewa_curvature_read_normals(const ewa_cloud *cloud, const ewa_neighbours *ne
 /// EWA_ERROR_MEMORY, EWA_CANCELLED.
 ewa_status ewa_curvature_add(ewa_cloud *cloud);
 
-/// Whether a cloud has no curvatures, or NaN for some.
+/// Whether a cloud has no curvatures, or NaN for some. Without any beside clip lines they are not wanted: surfels move at
+/// contours, those that lines cut do not, and the surface between both would tear (results of CSG).
 bool ewa_curvature_is_lacking(const ewa_cloud *cloud);
 
 /// As ewa_curvature_add() of a cloud without the stream; of one that has it, measures those that are NaN, by each other.

@@ -3,6 +3,7 @@
 //
 // Pages and nodes in the form of the file, and the plan that all regions are made by.
 #include "cloud/cloud.h"
+#include "estimate/curvature.h"
 #include "image/srgb.h"
 #include "lod/records.h"
 
@@ -53,7 +54,7 @@ ewa_status ewa_region_plan_make(ewa_context *context, const ewa_statistics *stat
     const bool has_axes = has(inputs, EWA_TANGENT_U, 3) && has(inputs, EWA_TANGENT_V, 3);
     plan->makes_normals = !has_axes && !has(inputs, EWA_NORMAL, 3);
     plan->makes_radii = !has_axes && !has(inputs, EWA_RADIUS, 1);
-    plan->makes_curvatures = !has(inputs, EWA_CURVATURE, 1);
+    plan->makes_curvatures = ewa_curvature_is_lacking(inputs);
     plan->normal_at_bytes = statistics->record_bytes;
     plan->radius_at_bytes = plan->normal_at_bytes + (plan->makes_normals ? 6 : 0);
     plan->curvature_at_bytes = plan->radius_at_bytes + (plan->makes_radii ? 4 : 0);
