@@ -118,9 +118,23 @@ class Renderer:
         self._handle = _renderer(core_of(context), backend)
 
     @keywords("ewa_render_options", "ewa_surfels_options")
-    def render(self, scene: Any, camera: Camera | None = None, **options: Any) -> Image:
-        """Draw as :func:`render` does, by this renderer, which see."""
-        return render(scene, camera, renderer=self, **options)
+    def render(self, scene: Any, camera: Camera | None = None, *, size: Sequence[int] | None = None,
+               planes: str | Iterable[str] = ("rgba8",), background: Color | None = None,
+               lights: Sequence[Light] | None = None, materials: Materials | None = None,
+               environment: Environment | Any = None, layers: int | str | None = None, section_box: Any = None,
+               section_planes: Sequence[Sequence[float]] | None = None, out: Image | None = None,
+               close_gaps: bool | None = None, **options: Unpack[DrawOptions]) -> Image:
+        """Draw as :func:`render` does, which see, by this renderer.
+
+        Parameters
+        ----------
+        scene, camera, size, planes, background, lights, materials, environment, layers, section_box, section_planes, out, close_gaps
+            As of :func:`render`.
+        **options
+        """
+        return render(scene, camera, size=size, planes=planes, background=background, lights=lights, materials=materials,
+                      environment=environment, layers=layers, section_box=section_box, section_planes=section_planes,
+                      renderer=self, out=out, close_gaps=close_gaps, **options)
 
 
 def _renderer(core: Core, backend: str) -> Handle:
@@ -182,7 +196,7 @@ def render(scene: Any, camera: Camera | None = None, *, size: Sequence[int] | No
         Of clouds, as of :meth:`Cloud.surfels`. Default: True, but with `point_size_px`.
     **options
         ``cutoff``: Of clouds, as of :meth:`Cloud.surfels`. Default: 3. ``radius_scale``: Of clouds, likewise. Default: 1.
-        ``shading``: Default: "phong" where there are materials or an environment, else "none".
+        ``shading``: Default: "phong" where there are materials or an environment, else "lambert".
 
     Returns
     -------
