@@ -21,4 +21,6 @@ export EWA_LIBRARY
 stubtest=$PWD/$venv/bin/stubtest
 allowlist=$PWD/$venv/allowlist
 cd $venv
-"$stubtest" --allowlist "$allowlist" --ignore-unused-allowlist ewa
+# The sources, which were checked above, use what is private and so in no stub.
+printf '[mypy]\n[mypy-ewa.*]\nignore_errors = True\n' >stubtest.ini
+"$stubtest" --mypy-config-file stubtest.ini --allowlist "$allowlist" --ignore-unused-allowlist ewa

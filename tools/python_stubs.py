@@ -103,7 +103,7 @@ class Writer:
                          + (f" = {ast.unparse(node.value)}" if node.value is not None and depth else ""))
             elif isinstance(node, ast.Assign) and len(node.targets) == 1 and isinstance(node.targets[0], ast.Name):
                 name, alias = node.targets[0].id, isinstance(node.value, (ast.Subscript, ast.Attribute))
-                if name == "__slots__" or is_private(name):
+                if name == "__slots__" or (depth and is_private(name)):  # others may be defaults
                     continue
                 self.put(depth, f"{name} = {ast.unparse(node.value)}" if alias else f"{name}: Any")
         return len(self.lines) > before

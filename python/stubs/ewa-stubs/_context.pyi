@@ -22,6 +22,8 @@ from ._struct import fill, initialised, table
 from typing_extensions import Unpack
 from ._options import ContextOptions, LimitsOptions
 ProgressFunction = Callable[[str, float], Union[bool, None]]
+_main = threading.main_thread().ident
+_log: Any
 class Handle:
     def __init__(self, core: Core, address: int | None, destroy: Callable[..., None], what: str, keep: tuple[Any, ...]=()) -> None: ...
     core: Any

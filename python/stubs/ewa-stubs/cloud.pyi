@@ -20,6 +20,8 @@ from .photographs import color as color_from_photos
 from .surfels import Surfels
 from typing_extensions import Unpack
 from ._options import CloudSaveOptions, EstimateOptions, FeatureOptions, GenerateOptions, PhotosOptions, ProcedureOptions, RefitOptions, SurfelsOptions
+_note = library['ewa_cloud_note']
+_ALIASES: Any
 class Cloud:
     def __init__(self, positions: Any, *, normals: Any=None, colors: Any=None, radius: Any=None, origin: Sequence[float] | None=None, copy: bool | None=None, context: Context | None=None, **attributes: Any) -> None: ...
     def __len__(self) -> int: ...

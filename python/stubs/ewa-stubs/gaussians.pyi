@@ -22,6 +22,7 @@ from .shade import Light
 from .volume import Voxels
 from typing_extensions import Unpack
 from ._options import GaussianOptions, GaussiansSaveOptions
+_UPS: Any
 class Gaussians(Held):
     def __init__(self, centers: Any, scales: Any, rotations: Any, opacities: Any, harmonics: Any, *, origin: Any=None, antialiased: bool=False, context: Context | None=None) -> None: ...
     def __len__(self) -> int: ...

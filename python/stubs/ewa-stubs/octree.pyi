@@ -22,6 +22,7 @@ from .rendering import Renderer, draw
 from .shade import Light
 from typing_extensions import Unpack
 from ._options import LodBuildOptions, LodOptions
+_SAMPLE_POINTS: Any
 class Octree:
     def __init__(self, path: PathLike, *, context: Context | None=None) -> None: ...
     def __reduce__(self) -> Any: ...

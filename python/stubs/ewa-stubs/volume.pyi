@@ -21,6 +21,8 @@ from .rendering import draw
 from .shade import Light
 from typing_extensions import Unpack
 from ._options import VolumeGenerateOptions, VolumeOptions
+_T = b.ewa_type
+_VOXELS: Any
 class Volume(Held):
     def __init__(self, voxels: Any, *, spacing: float | Sequence[float]=1.0, index_to_world: Any=None, context: Context | None=None) -> None: ...
     @property

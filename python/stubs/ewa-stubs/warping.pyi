@@ -19,6 +19,8 @@ from .rendering import new_frame
 from .shade import set_background
 from typing_extensions import Unpack
 from ._options import TextureOptions, WarpOptions
+_KINDS: Any
+_METHODS: Any
 class DepthImage(NamedTuple):
     depth: Any
     color: Any
