@@ -123,7 +123,8 @@ struct viewer {
     ewa_lod_options lod;
     octree_turns *turns;      ///< of who uses octrees
     node_reader *node_reader; ///< reads their nodes beside what is drawn; NULL: drawing does
-    bool octrees;             ///< some are visible
+    bool octrees, volumes;    ///< some are visible
+    uint32_t voxel_level;     ///< the coarsest at which one can tell what the volumes are
     char title[VIEWER_NAME_BYTES];
 
     double width, height, scale; ///< of the window: points, pixels per point

@@ -180,6 +180,19 @@ static void items_reorder(viewer *v) {
     if (!loader_make(v->loader, &of)) viewer_tell(v, "out of memory for the scene");
 }
 
+/// Returns the coarsest level of voxels at which all visible volumes have enough; the second at least.
+static uint32_t coarsest_voxels(const viewer *v) {
+    enum { FEWEST_VOXELS = 32 * 32 * 32 };
+    uint32_t level = VIEWER_VOXEL_LEVELS - 1;
+    for (size_t i = 0; i < v->item_count; i++) {
+        ewa_asset_info info = {.kind = EWA_ASSET_POINTS};
+        if (v->items[i].asset) ewa_asset_describe(v->items[i].asset, &info);
+        if (info.kind != EWA_ASSET_VOLUME || !v->items[i].visible) continue;
+        while (level > 1 && info.count >> 3 * level < FEWEST_VOXELS) level--;
+    }
+    return level;
+}
+
 /// Shows another scene, and the previews of what is still being loaded.
 static void show(viewer *v, const ewa_scene *scene) {
     ewa_scene *next = NULL;
@@ -204,6 +217,8 @@ static void show(viewer *v, const ewa_scene *scene) {
     ewa_scene_info info;
     ewa_scene_describe(next, &info);
     v->octrees = info.octrees;
+    v->volumes = info.volumes;
+    v->voxel_level = coarsest_voxels(v);
     viewer_change(v);
 }
 

@@ -23,12 +23,15 @@ static const double LARGE_PX = 2e6;
 /// that would take so much of it.
 static const double TOO_SLOW = 1.4, MUCH_FASTER = 0.7;
 enum { SLOW_PICTURES = 2, FAST_PICTURES = 8 };
-/// How plain they become: how many times as coarse octrees are as when nothing moves, and by how much the sides of the picture are divided.
+/// How plain they become: how many times as coarse octrees are as when nothing moves, at which level volumes are drawn, and by how much the sides
+/// of the picture are divided.
 /// Where the last is too slow, there are fewer pictures: those of less could not be told from others.
 static const struct {
     double coarser;
-    uint32_t divisor;
-} plainness[] = {{2, 1}, {4, 1}, {2, 2}, {4, 2}};
+    uint32_t voxel_level, divisor;
+} plainness[] = {{2, 1, 1}, {4, 2, 1}, {2, 1, 2}, {4, 2, 2}};
+/// What drawing a volume takes beside drawing it at the level before, which has eight times the voxels and as many pixels.
+static const double LEVEL_SHARE = 0.25;
 enum { PLAINEST = sizeof plainness / sizeof plainness[0] - 1 };
 /// Surfaces that show through each other at silhouettes of them, at most: the third and all behind it are seen in few pixels.
 enum { MOVING_EDGE_LAYERS = 2 };
@@ -251,11 +254,16 @@ static uint32_t min_divisor(const viewer *v) {
     return (double)v->camera.width_px * v->camera.height_px > LARGE_PX ? 2 : 1;
 }
 
+static uint32_t voxel_level_of(const viewer *v, uint32_t plain) {
+    return plainness[plain].voxel_level < v->voxel_level ? plainness[plain].voxel_level : v->voxel_level;
+}
+
 /// What pictures of one plainness take beside those of another one, about.
 static double work_of(const viewer *v, uint32_t plain) {
     const double divisor = v->settings.reduce ? fmax(plainness[plain].divisor, min_divisor(v)) : 1;
     const double coarser = v->octrees ? plainness[plain].coarser : 1;
-    return 1 / (divisor * divisor * coarser * coarser);
+    const double levels = v->volumes ? pow(LEVEL_SHARE, voxel_level_of(v, plain)) : 1;
+    return levels / (divisor * divisor * coarser * coarser);
 }
 
 /// Makes moving pictures plainer where they take too long, and finer again, by steps that change something.
@@ -280,7 +288,7 @@ static void adapt(viewer *v, const paint_result *newest) {
 static void make_quick(const viewer *v, paint_scene *scene) {
     ewa_scene_options *options = &scene->options;
     options->render.budget_s = 1e-3 * v->settings.budget_ms;
-    options->volumes.level = 1;
+    options->volumes.level = voxel_level_of(v, v->plain);
     if ((v->plain || scene->octrees) && options->render.edge_layers > MOVING_EDGE_LAYERS) {
         options->render.edge_layers = MOVING_EDGE_LAYERS;
         scene->coarse = true;

@@ -20,7 +20,7 @@ enum {
     VIEWER_NAME_BYTES = 256,
     VIEWER_TEXT_BYTES = 1024,
     VIEWER_PATH_BYTES = 4096,
-    VIEWER_VOXEL_LEVELS = 2, ///< of volumes that are loaded: the second is drawn while something moves
+    VIEWER_VOXEL_LEVELS = 3, ///< of volumes that are loaded: the second or the third is drawn while something moves
 };
 
 typedef struct viewer viewer;

@@ -136,11 +136,12 @@ static void close_viewer(viewer *v) {
     assert_int_equal(contents.loads, contents.frees);
 }
 
-/// However little time there is, what moves is at least half as large as the window, of enough surfels to be told.
+/// However little time there is, what moves is at least half as large as the window, of enough surfels or voxels to be told.
 static void moving_pictures_can_be_told(void **state) {
-    static const char *const names[] = {"torus", "octree"};
-    for (int i = 0; i < 2; i++) {
+    static const char *const names[] = {"torus", "octree", "volume"};
+    for (int i = 0; i < 3; i++) {
         viewer *v = make_viewer(false);
+        const uint64_t fewest = i == 2 ? 6 * 6 * 6 + 1 : 12000; // more than the third level of voxels has
         assert_true(viewer_open(v, names[i]));
         viewer_picture picture = settle(v);
         viewer_do(v, "set budget_ms 1");
@@ -160,9 +161,9 @@ static void moving_pictures_can_be_told(void **state) {
             drawn++;
             if (picture.width_px < least_px) least_px = picture.width_px;
             assert_true(picture.width_px >= 600 && picture.height_px >= 500);
-            assert_true(picture.splat_count >= 12000);
+            assert_true(picture.splat_count >= fewest);
         }
-        assert_int_equal(least_px, 600); // it was too slow
+        if (i < 2) assert_int_equal(least_px, 600); // it was too slow
         close_viewer(v);
     }
 }

@@ -49,10 +49,13 @@ static bool make_volume(ewa_context *context, held *own) {
     ewa_volume volume;
     ewa_volume_facts facts;
     ewa_transfer transfer;
+    ewa_voxels_options levels;
+    ewa_voxels_options_init(&levels, sizeof levels);
+    levels.level_count = VIEWER_VOXEL_LEVELS;
     if (ewa_volume_generate(context, &options, &volume) != EWA_OK) return false;
     const bool done = ewa_volume_measure(&volume, &facts) == EWA_OK &&
                       ewa_transfer_automatic(&volume, &facts, &transfer) == EWA_OK &&
-                      ewa_voxels_create(&volume, &transfer, NULL, &own->voxels) == EWA_OK &&
+                      ewa_voxels_create(&volume, &transfer, &levels, &own->voxels) == EWA_OK &&
                       ewa_volume_outline(&volume, &transfer, 2, &own->outline) == EWA_OK;
     ewa_volume_free(&volume);
     return done;
