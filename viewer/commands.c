@@ -379,44 +379,45 @@ static const struct {
     const char *name;
     bool (*run)(viewer *v, const char *rest);
     bool (*is_on)(const viewer *v); ///< of switches
+    bool (*holds)(const viewer *v, const char *rest); ///< whether the hand holds the tool that the rest names
 } commands[] = {
-    {"open", do_open, NULL},
-    {"close", do_close, NULL},
-    {"show", do_show, NULL},
-    {"name", do_name, NULL},
-    {"tint", do_tint, NULL},
-    {"alpha", do_alpha, NULL},
-    {"color", do_color, NULL},
-    {"colormap", do_colormap, NULL},
-    {"radius", do_radius, NULL},
-    {"set", do_set, NULL},
-    {"next", do_next, NULL},
-    {"dome", do_eye_dome, is_eye_dome},
-    {"points", do_points, is_points},
-    {"view", do_view, NULL},
-    {"mode", do_mode, NULL},
-    {"ortho", do_ortho, is_ortho},
-    {"focus", do_focus, NULL},
-    {"zoom", do_zoom, NULL},
-    {"turn", do_turn, NULL},
-    {"box", do_box, is_box},
-    {"slab", do_slab, is_slab},
-    {"measure", do_measure, is_measuring},
-    {"camera", shot_camera, NULL},
-    {"shot", shot_command, NULL},
-    {"scene", do_scene, NULL},
-    {"cancel", do_cancel, NULL},
-    {"clear", do_clear, NULL},
-    {"help", do_help, is_help},
-    {"panels", do_panels, is_panels},
-    {"profile", profile_do, is_profile},
-    {"select", select_command, NULL},
-    {"hide", select_hide, NULL},
-    {"keep", select_keep, NULL},
-    {"unhide", select_unhide, NULL},
-    {"cut", select_cut, NULL},
-    {"fullscreen", do_fullscreen, is_fullscreen},
-    {"quit", do_quit, NULL},
+    {"open", do_open, NULL, NULL},
+    {"close", do_close, NULL, NULL},
+    {"show", do_show, NULL, NULL},
+    {"name", do_name, NULL, NULL},
+    {"tint", do_tint, NULL, NULL},
+    {"alpha", do_alpha, NULL, NULL},
+    {"color", do_color, NULL, NULL},
+    {"colormap", do_colormap, NULL, NULL},
+    {"radius", do_radius, NULL, NULL},
+    {"set", do_set, NULL, NULL},
+    {"next", do_next, NULL, NULL},
+    {"dome", do_eye_dome, is_eye_dome, NULL},
+    {"points", do_points, is_points, NULL},
+    {"view", do_view, NULL, NULL},
+    {"mode", do_mode, NULL, NULL},
+    {"ortho", do_ortho, is_ortho, NULL},
+    {"focus", do_focus, NULL, NULL},
+    {"zoom", do_zoom, NULL, NULL},
+    {"turn", do_turn, NULL, NULL},
+    {"box", do_box, is_box, NULL},
+    {"slab", do_slab, is_slab, NULL},
+    {"measure", do_measure, is_measuring, measures_holds},
+    {"camera", shot_camera, NULL, NULL},
+    {"shot", shot_command, NULL, NULL},
+    {"scene", do_scene, NULL, NULL},
+    {"cancel", do_cancel, NULL, NULL},
+    {"clear", do_clear, NULL, NULL},
+    {"help", do_help, is_help, NULL},
+    {"panels", do_panels, is_panels, NULL},
+    {"profile", profile_do, is_profile, NULL},
+    {"select", select_command, NULL, select_holds},
+    {"hide", select_hide, NULL, NULL},
+    {"keep", select_keep, NULL, NULL},
+    {"unhide", select_unhide, NULL, NULL},
+    {"cut", select_cut, NULL, NULL},
+    {"fullscreen", do_fullscreen, is_fullscreen, NULL},
+    {"quit", do_quit, NULL, NULL},
 };
 
 enum { COMMAND_COUNT = sizeof commands / sizeof commands[0] };
@@ -436,6 +437,15 @@ bool viewer_do(viewer *v, const char *command) {
     if (i < COMMAND_COUNT) return commands[i].run(v, rest);
     viewer_tell(v, "there is no command '%s'", word);
     return false;
+}
+
+bool viewer_action_is_lit(const viewer *v, const viewer_action *action) {
+    char word[WORD_BYTES];
+    const char *rest;
+    bool on;
+    const size_t i = find_command(action->command, word, &rest);
+    if (i < COMMAND_COUNT && commands[i].holds && commands[i].holds(v, rest)) return true;
+    return viewer_action_is_switch(v, action, &on) && on;
 }
 
 bool viewer_action_is_switch(const viewer *v, const viewer_action *action, bool *on) {

@@ -241,6 +241,8 @@ void profile_free(viewer *v);
 
 // select.c
 bool select_command(viewer *v, const char *rest);
+/// Whether the hand holds the tool of that name.
+bool select_holds(const viewer *v, const char *word);
 bool select_hide(viewer *v, const char *rest);
 bool select_keep(viewer *v, const char *rest);
 bool select_unhide(viewer *v, const char *rest);
@@ -255,6 +257,8 @@ bool select_close(viewer *v);
 
 // measures.c
 bool measures_command(viewer *v, const char *rest);
+/// Whether clicks measure what has that name.
+bool measures_holds(const viewer *v, const char *word);
 /// Adds what was clicked to the measurement that is under way; false: there is none.
 bool measures_click(viewer *v, const viewer_event *event);
 /// Writes name and value, for labels.

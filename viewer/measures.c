@@ -182,6 +182,10 @@ static bool begin(viewer *v, ewa_measure_kind kind, const char *rest) {
     return add(v, &measure, name);
 }
 
+bool measures_holds(const viewer *v, const char *word) {
+    return v->measures_kind && strcmp(word, ewa_measure_kind_name(v->measuring.kind)) == 0;
+}
+
 bool measures_command(viewer *v, const char *rest) {
     const size_t length = strcspn(rest, " ");
     const char *behind = rest + length + strspn(rest + length, " "), *kind;

@@ -155,14 +155,20 @@ static bool take_box(viewer *v, const char *text) {
     return finish(v);
 }
 
+/// In the order of select_tool.
+static const char *const tools[] = {"off", "rectangle", "lasso", "polygon"};
+
+bool select_holds(const viewer *v, const char *word) {
+    return v->selection.tool != SELECT_OFF && strcmp(word, tools[v->selection.tool]) == 0;
+}
+
 static bool set_tool(viewer *v, const char *word) {
-    static const char *const words[] = {"off", "rectangle", "lasso", "polygon"};
     for (int k = 0; k < 4; k++)
-        if (strcmp(word, words[k]) == 0) {
+        if (strcmp(word, tools[k]) == 0) {
             // A second time, it is put away.
             v->selection.tool = (int)v->selection.tool == k ? SELECT_OFF : (select_tool)k;
             v->selection.corner_count = 0;
-            viewer_note(v, v->selection.tool ? "select: draw a %s around points" : "select: %s", words[v->selection.tool]);
+            viewer_note(v, v->selection.tool ? "select: draw a %s around points" : "select: %s", tools[v->selection.tool]);
             viewer_mark(v);
             return true;
         }

@@ -204,8 +204,19 @@ typedef enum viewer_icon {
     VIEWER_ICON_BOX,
     VIEWER_ICON_SLAB,
     VIEWER_ICON_PROFILE,
+    VIEWER_ICON_RECTANGLE,
+    VIEWER_ICON_LASSO,
+    VIEWER_ICON_POLYGON,
+    VIEWER_ICON_HIDE,
+    VIEWER_ICON_KEEP,
+    VIEWER_ICON_SHOW,
+    VIEWER_ICON_HEIGHT,
+    VIEWER_ICON_ANGLE,
+    VIEWER_ICON_AREA,
+    VIEWER_ICON_WAY,
     VIEWER_ICON_CLEAR,
     VIEWER_ICON_HELP,
+    VIEWER_ICON_COUNT,
 } viewer_icon;
 
 /// Something that a person has done by a key, a row of a menu or a button.
@@ -226,6 +237,8 @@ enum { VIEWER_KEYS_BYTES = 16 };
 void viewer_action_keys(const viewer_action *action, char text[VIEWER_KEYS_BYTES]);
 /// Whether an action is a switch; `on`: how it is.
 bool viewer_action_is_switch(const viewer *viewer, const viewer_action *action, bool *on);
+/// Whether an action is a switch that is on, or a tool that the hand holds.
+bool viewer_action_is_lit(const viewer *viewer, const viewer_action *action);
 /// Does an action and notes what has become of it. Returns false after saying what is wrong.
 bool viewer_act(viewer *viewer, const viewer_action *action);
 

@@ -111,6 +111,23 @@ static void actions_are_noted(void **state) {
     viewer_destroy(&v);
 }
 
+/// The button of the tool that the hand holds is lit, and of no other.
+static void tools_are_lit(void **state) {
+    viewer *v = make_viewer();
+    assert_false(viewer_action_is_lit(v, find("select lasso")));
+    assert_true(viewer_act(v, find("select lasso")));
+    assert_true(viewer_action_is_lit(v, find("select lasso")));
+    assert_false(viewer_action_is_lit(v, find("select polygon")));
+    assert_false(viewer_action_is_lit(v, find("box next")));
+    assert_true(viewer_act(v, find("select lasso")));
+    assert_false(viewer_action_is_lit(v, find("select lasso")));
+    assert_true(viewer_act(v, find("measure area")));
+    assert_true(viewer_action_is_lit(v, find("measure area")));
+    assert_false(viewer_action_is_lit(v, find("measure angle")));
+    assert_false(viewer_action_is_lit(v, find("measure next")));
+    viewer_destroy(&v);
+}
+
 /// Escape takes away what lies on top, one thing at a time.
 static void escape_goes_down(void **state) {
     viewer *v = make_viewer();
@@ -135,7 +152,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(keys_do_one_thing),  cmocka_unit_test(rows_of_menus_are_whole),
         cmocka_unit_test(docs_say_the_same),  cmocka_unit_test(actions_are_noted),
-        cmocka_unit_test(escape_goes_down),
+        cmocka_unit_test(tools_are_lit),      cmocka_unit_test(escape_goes_down),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

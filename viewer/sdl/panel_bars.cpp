@@ -50,8 +50,7 @@ void row(const panel_page *page, const viewer_action *action) {
         }
         return;
     }
-    bool on = false;
-    (void)viewer_action_is_switch(page->viewer, action, &on);
+    const bool on = viewer_action_is_lit(page->viewer, action);
     if (ImGui::MenuItem(action->label, keys, on)) viewer_act(page->viewer, action);
     tell(action);
     const recent_files *recent = page->facts->recent;
@@ -133,8 +132,7 @@ bool button(const panel_page *page, const viewer_action *action) {
     ImGui::PushID(action->command);
     const bool pressed = ImGui::InvisibleButton("##button", ImVec2(side, side));
     ImGui::PopID();
-    bool on = false;
-    (void)viewer_action_is_switch(page->viewer, action, &on);
+    const bool on = viewer_action_is_lit(page->viewer, action);
     const bool lit = on || ImGui::IsItemHovered();
     if (lit)
         ImGui::GetWindowDrawList()->AddRectFilled(

@@ -29,10 +29,22 @@ const char *const icons[] = {
     /* box */ "M 5 5 L 19 5 L 19 19 L 5 19 Z D 12 5 2.4 D 19 12 2.4 D 12 19 2.4 D 5 12 2.4",
     /* slab */ "M 4 8 L 10 4 L 10 16 L 4 20 Z M 14 8 L 20 4 L 20 16 L 14 20 Z",
     /* profile */ "M 3 4 L 3 20 L 21 20 M 5 16 L 9 13 L 12 14 L 16 7 L 20 9",
+    /* rectangle */ "M 4 4 L 8 4 M 11 4 L 14 4 M 17 4 L 20 4 L 20 8 M 20 11 L 20 14 M 20 17 L 20 20 L 16 20 M 13 20 L 10 20 "
+                    "M 7 20 L 4 20 L 4 16 M 4 13 L 4 10 M 4 7 L 4 4",
+    /* lasso */ "M 12 4 L 17 5 L 20 8 L 19 12 L 15 15 L 9 15 L 5 12 L 4 8 L 7 5 Z M 9 15 L 7 18 L 9 21",
+    /* polygon */ "M 5 9 L 12 3 L 20 8 L 17 20 L 7 18 Z D 5 9 1.8 D 12 3 1.8 D 20 8 1.8 D 17 20 1.8 D 7 18 1.8",
+    /* hide */ "M 2 12 L 6 8 L 12 6 L 18 8 L 22 12 L 18 16 L 12 18 L 6 16 Z O 12 12 3 M 4 21 L 20 3",
+    /* keep */ "M 4 8 L 4 4 L 8 4 M 16 4 L 20 4 L 20 8 M 20 16 L 20 20 L 16 20 M 8 20 L 4 20 L 4 16 D 12 12 4",
+    /* show */ "M 2 12 L 6 8 L 12 6 L 18 8 L 22 12 L 18 16 L 12 18 L 6 16 Z O 12 12 3",
+    /* height */ "M 4 20 L 20 20 M 4 4 L 20 4 M 12 6 L 12 18 M 9 9 L 12 6 L 15 9 M 9 15 L 12 18 L 15 15",
+    /* angle */ "M 20 19 L 4 19 L 16 5 M 12 19 L 11.2 15.5 L 9 13.2",
+    /* area */ "M 4 18 L 8 5 L 20 8 L 18 19 F M 4 18 L 8 5 L 20 8 L 18 19 Z",
+    /* way */ "M 4 18 L 9 8 L 15 14 L 20 5 D 4 18 2 D 9 8 2 D 15 14 2 D 20 5 2",
     /* clear */ "M 6 6 L 18 18 M 18 6 L 6 18",
     /* help */ "O 12 12 9 M 9.3 9.7 L 9.8 8.2 L 11 7.2 L 12.8 7.2 L 14.2 8.1 L 14.6 9.7 L 14 11.1 L 12.5 12.2 L 12 13.2 "
                "L 12 14.4 D 12 17 1",
 };
+static_assert(IM_ARRAYSIZE(icons) == VIEWER_ICON_COUNT, "each icon is drawn");
 
 } // namespace
 
