@@ -41,6 +41,7 @@ typedef struct render_arguments {
     option_color background;
     furnish_arguments furniture;
     uint64_t outlines; ///< how many surfels' outlines are drawn over the picture
+    ewa_panorama_options panorama;
 } render_arguments;
 
 #define AT(member)      offsetof(render_arguments, member)
@@ -95,6 +96,11 @@ static const cli_option splat_table[] = {
 
 static const cli_option lod_table[] = {LOD_OPTIONS(AT(lod))};
 
+static const cli_option panorama_table[] = {
+    {"panorama", OPTION_OF(ewa_panorama_options, AT(panorama), kind), .excludes = "ortho outlines axes scale-bar"},
+    {"panorama-fov", OPTION_OF(ewa_panorama_options, AT(panorama), fov_deg), .needs = "panorama"},
+};
+
 static const cli_option gaussian_table[] = {
     GAUSSIAN_OPTIONS(AT(gaussians)),
     {"surface", OPTION_FLAG, AT(gaussians_as_surfels),
@@ -127,6 +133,7 @@ static const cli_option furniture_table[] = {
 static void set_defaults(void *data) {
     render_arguments *arguments = data;
     frames_set_defaults(&arguments->frames);
+    ewa_panorama_options_init(&arguments->panorama, sizeof arguments->panorama);
     light_set_defaults(&arguments->light);
     ewa_surfels_options_init(&arguments->surfels, sizeof arguments->surfels);
     arguments->close_gaps = true;
@@ -199,6 +206,9 @@ typedef struct render_scene {
     bool octrees;
     furnishing furniture;
     uint32_t outlines;
+    ewa_panorama_options panorama;
+    bool from_middle; ///< all cameras stand in the middle of what there is
+    double middle_world[3];
 } render_scene;
 
 /// The scene's options as the program's say.
@@ -261,6 +271,22 @@ static bool check_scene(cli_session *session, const render_arguments *arguments,
     return true;
 }
 
+/// Says what is upright in a panorama, and where it is seen from. False after reporting.
+static bool place_panorama(cli_session *session, const render_arguments *arguments, const view_subject *subject,
+                           render_scene *scene) {
+    const view_arguments *view = &arguments->frames.view;
+    scene->panorama = arguments->panorama;
+    if (scene->panorama.kind == EWA_PANORAMA_NONE) return true;
+    view_turn turn;
+    if (!view_axis(session, view, subject, &turn)) return false;
+    memcpy(scene->panorama.up_world, turn.axis_world, sizeof turn.axis_world);
+    memcpy(scene->middle_world, turn.pivot_world, sizeof turn.pivot_world);
+    ewa_camera own;
+    scene->from_middle = !view->camera_path && !view->eye.count && !arguments->frames.path_file && !ewa_scene_get_camera(scene->scene, &own);
+    if (scene->from_middle) session_note(session, "a panorama from the middle of what there is; --eye stands elsewhere");
+    return true;
+}
+
 /// Loads what is to be drawn, places the cameras and makes all resident. False after reporting.
 static bool prepare(cli_session *session, const render_arguments *arguments, const ewa_render_options *render,
                     render_scene *scene, render_report *report) {
@@ -289,6 +315,7 @@ static bool prepare(cli_session *session, const render_arguments *arguments, con
         !furnish_make(session, &arguments->furniture, &arguments->frames, &arguments->background, &subject,
                       &scene->furniture))
         return false;
+    if (!place_panorama(session, arguments, &subject, scene)) return false;
     status = ewa_scene_commit(scene->scene);
     if (status != EWA_OK) return session_failed(session, status) == EXIT_DONE;
     ewa_scene_info info;
@@ -324,12 +351,23 @@ typedef struct scene_painter {
     render_report *report;
 } scene_painter;
 
+/// Moves a camera's eye.
+static void stand_at(const double eye_world[3], ewa_camera *camera) {
+    for (int r = 0; r < 3; r++) {
+        double *row = camera->world_to_camera + 4 * r;
+        row[3] = -(row[0] * eye_world[0] + row[1] * eye_world[1] + row[2] * eye_world[2]);
+    }
+}
+
 static ewa_status paint(void *user, const ewa_camera *camera, const ewa_frame *frame,
                         ewa_render_stats *stats) {
     const scene_painter *painter = user;
     render_scene *scene = painter->scene;
     ewa_scene_stats took;
-    const ewa_status status = ewa_scene_draw(scene->scene, painter->renderer, camera, NULL, frame, &took);
+    ewa_camera placed = *camera;
+    if (scene->from_middle) stand_at(scene->middle_world, &placed);
+    const ewa_status status =
+        ewa_scene_draw_panorama(scene->scene, painter->renderer, &placed, NULL, &scene->panorama, frame, &took);
     if (status != EWA_OK) return status;
     *stats = took.render;
     if (scene->octrees) render_report_add_lod(painter->report, &took.lod);
@@ -385,8 +423,20 @@ static bool draw(cli_session *session, const render_arguments *arguments, const 
     return done;
 }
 
+/// Gives panoramas the shape that they have, where no size is given.
+static render_arguments shape_panorama(const render_arguments *given) {
+    enum { HEIGHT_PX = 1024 };
+    render_arguments arguments = *given;
+    option_size *size = &arguments.frames.view.size;
+    if (size->given || arguments.panorama.kind == EWA_PANORAMA_NONE) return arguments;
+    size->width_px = arguments.panorama.kind == EWA_PANORAMA_EQUIRECTANGULAR ? 2 * HEIGHT_PX : HEIGHT_PX;
+    size->height_px = HEIGHT_PX;
+    size->given = true;
+    return arguments;
+}
+
 static int run(const void *data) {
-    const render_arguments *arguments = data;
+    const render_arguments shaped = shape_panorama(data), *arguments = &shaped;
     const common_arguments *common = &arguments->frames.view.common;
     cli_session session;
     if (!session_start(&session, common)) return session_end(&session, EXIT_FAILED);
@@ -426,6 +476,7 @@ static int run(const void *data) {
     return session_end(&session, ended);
 }
 
+static const option_group panorama_group = OPTION_GROUP("Panorama", panorama_table);
 static const option_group output_options = OPTION_GROUP("Output", output_table);
 static const option_group splat_options = OPTION_GROUP("Splats", splat_table);
 static const option_group lod_options = OPTION_GROUP("Octrees", lod_table);
@@ -474,11 +525,12 @@ const cli_command render_command = {
         "ewa render garden.spz -o garden.png --camera cameras.json --projection exact\n"
         "ewa render scan.ply -o fly_%04d.png --path keys.json --frames 300\n"
         "ewa render scan.ply -o turn_%04d.png --turntable 360 --frames 2/8 --skip-existing\n"
+        "ewa render hall.e57 -o around.jpg --panorama equirectangular --eye 0,0,1.7\n"
         "ewa render scan.ply -o floor.png --view top --clip-plane 0,0,-1,1.5\n",
     .low_operands = 1,
     .high_operands = 4096,
     .groups = (const option_group *const[]){&output_options, &cloud_input_options, &view_options,
-                                            &frames_options, &splat_options, &lod_options, &gaussian_options,
+                                            &panorama_group, &frames_options, &splat_options, &lod_options, &gaussian_options,
                                             &volume_options, &section_options, &light_options, &look_options,
                                             &furniture_options, NULL},
     .arguments_bytes = sizeof(render_arguments),

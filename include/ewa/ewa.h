@@ -28,6 +28,7 @@
 #include "ewa/mixture.h"
 #include "ewa/model.h"
 #include "ewa/options.h"
+#include "ewa/panorama.h"
 #include "ewa/photos.h"
 #include "ewa/prepare.h"
 #include "ewa/procedure.h"

@@ -149,7 +149,7 @@ static ewa_status draw_surfaces(ewa_scene_renderer *renderer, const ewa_scene_sh
         lod.share_count = renderer->exchange.rank_count;
     }
     ewa_render_options lit = *render;
-    light_bare(shown, camera, &lit);
+    light_bare(shown, renderer->lit_from ? renderer->lit_from : camera, &lit);
     const ewa_lod_scene together = {shown->lods, shown->lod_count, shown->surfels_count,
                                     (const ewa_surfels *const *)shown->surfels};
     const ewa_status status = ewa_lod_scene_draw(&together, shown->looks, renderer->surfaces, camera, &lit,

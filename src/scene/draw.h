@@ -18,6 +18,7 @@ struct ewa_scene_renderer {
     ewa_image rgba, depth, normal, coverage; ///< of surfaces among others, of the size of the last frame
     ewa_image lit_rgba, lit_depth;           ///< of everything, before eye-dome lighting
     ewa_buffer surfels, lods, splats;        ///< lists of what is visible
+    const ewa_camera *lit_from;  ///< whose left and top light of bare surfaces comes from; NULL: the frame's
     ewa_buffer looks, look_list; ///< of the octrees: one ewa_octree_look each, and a pointer to its look
 };
 
