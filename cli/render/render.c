@@ -97,7 +97,7 @@ static const cli_option splat_table[] = {
 static const cli_option lod_table[] = {LOD_OPTIONS(AT(lod))};
 
 static const cli_option panorama_table[] = {
-    {"panorama", OPTION_OF(ewa_panorama_options, AT(panorama), kind), .excludes = "ortho outlines axes scale-bar"},
+    {"panorama", OPTION_OF(ewa_panorama_options, AT(panorama), kind)},
     {"panorama-fov", OPTION_OF(ewa_panorama_options, AT(panorama), fov_deg), .needs = "panorama"},
 };
 
@@ -184,6 +184,9 @@ static bool check(const void *data, char message[OPTION_ERROR_BYTES]) {
         missing = "--outlines are not drawn on .exr and .pfm, which hold data";
     else if (arguments->outlines && arguments->light.render.point_size_px > 0)
         missing = "--outlines are of surfels, and --point-size draws none";
+    else if (arguments->panorama.kind != EWA_PANORAMA_NONE &&
+             (arguments->outlines || arguments->furniture.axes || arguments->furniture.scale_bar || arguments->frames.view.ortho_height > 0))
+        missing = "--panorama has no --outlines, --axes, --scale-bar and --ortho: these are of plane pictures";
     if (!options_fine(missing, message)) return false;
     return light_check(&arguments->light, message) && section_check(&arguments->section, message) &&
            frames_check(&arguments->frames, arguments->output, arguments->background.rgba[3] == 1, message) &&
@@ -207,8 +210,6 @@ typedef struct render_scene {
     furnishing furniture;
     uint32_t outlines;
     ewa_panorama_options panorama;
-    bool from_middle; ///< all cameras stand in the middle of what there is
-    double middle_world[3];
 } render_scene;
 
 /// The scene's options as the program's say.
@@ -271,19 +272,18 @@ static bool check_scene(cli_session *session, const render_arguments *arguments,
     return true;
 }
 
-/// Says what is upright in a panorama, and where it is seen from. False after reporting.
+/// Says what is upright in a panorama, and where it is seen from where the cameras do not. False after reporting.
 static bool place_panorama(cli_session *session, const render_arguments *arguments, const view_subject *subject,
                            render_scene *scene) {
-    const view_arguments *view = &arguments->frames.view;
     scene->panorama = arguments->panorama;
     if (scene->panorama.kind == EWA_PANORAMA_NONE) return true;
-    view_turn turn;
-    if (!view_axis(session, view, subject, &turn)) return false;
-    memcpy(scene->panorama.up_world, turn.axis_world, sizeof turn.axis_world);
-    memcpy(scene->middle_world, turn.pivot_world, sizeof turn.pivot_world);
-    ewa_camera own;
-    scene->from_middle = !view->camera_path && !view->eye.count && !arguments->frames.path_file && !ewa_scene_get_camera(scene->scene, &own);
-    if (scene->from_middle) session_note(session, "a panorama from the middle of what there is; --eye stands elsewhere");
+    const view_arguments *view = &arguments->frames.view;
+    ewa_camera placed, own;
+    if (!view_make_panorama(session, view, subject, &scene->panorama, &placed)) return false;
+    if (view->camera_path || frames_many(&arguments->frames)) return true;
+    scene->frames.cameras[0] = placed;
+    if (!view->eye.count && !ewa_scene_get_camera(scene->scene, &own))
+        session_note(session, "a panorama from the middle of what there is; --eye stands elsewhere");
     return true;
 }
 
@@ -351,23 +351,13 @@ typedef struct scene_painter {
     render_report *report;
 } scene_painter;
 
-/// Moves a camera's eye.
-static void stand_at(const double eye_world[3], ewa_camera *camera) {
-    for (int r = 0; r < 3; r++) {
-        double *row = camera->world_to_camera + 4 * r;
-        row[3] = -(row[0] * eye_world[0] + row[1] * eye_world[1] + row[2] * eye_world[2]);
-    }
-}
-
 static ewa_status paint(void *user, const ewa_camera *camera, const ewa_frame *frame,
                         ewa_render_stats *stats) {
     const scene_painter *painter = user;
     render_scene *scene = painter->scene;
     ewa_scene_stats took;
-    ewa_camera placed = *camera;
-    if (scene->from_middle) stand_at(scene->middle_world, &placed);
     const ewa_status status =
-        ewa_scene_draw_panorama(scene->scene, painter->renderer, &placed, NULL, &scene->panorama, frame, &took);
+        ewa_scene_draw_panorama(scene->scene, painter->renderer, camera, NULL, &scene->panorama, frame, &took);
     if (status != EWA_OK) return status;
     *stats = took.render;
     if (scene->octrees) render_report_add_lod(painter->report, &took.lod);

@@ -196,3 +196,10 @@ bool view_axis(cli_session *session, const view_arguments *arguments, const view
     *turn = turn_of(&info);
     return true;
 }
+
+bool view_make_panorama(cli_session *session, const view_arguments *arguments, const view_subject *subject,
+                        ewa_panorama_options *panorama, ewa_camera *camera) {
+    const ewa_view_options options = options_of(arguments, subject->scene, false);
+    ewa_camera_init(camera);
+    return session_passed(session, ewa_scene_place_panorama(subject->scene, &options, panorama, camera));
+}

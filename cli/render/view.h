@@ -55,6 +55,10 @@ typedef struct view_turn {
 bool view_make(cli_session *session, const view_arguments *arguments, const view_subject *subject,
                ewa_camera *camera, view_turn *turn);
 
+/// Makes the camera of a panorama of a scene, and fills what is upright in it. Returns false after reporting.
+bool view_make_panorama(cli_session *session, const view_arguments *arguments, const view_subject *subject,
+                        ewa_panorama_options *panorama, ewa_camera *camera);
+
 /// Finds what a turntable would turn about. Returns false after reporting.
 bool view_axis(cli_session *session, const view_arguments *arguments, const view_subject *subject,
                view_turn *turn);

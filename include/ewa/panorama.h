@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
-
-/// @file
-/// Pictures of all that is around an eye: equirectangular and fisheye ones, of everything that a scene holds.
+//
+// Pictures of all that is around an eye: equirectangular and fisheye ones, of everything that a scene holds.
 #ifndef EWA_PANORAMA_H
 #define EWA_PANORAMA_H
 
@@ -30,6 +29,11 @@ typedef struct ewa_panorama_options {
 
 EWA_API extern const ewa_option_table ewa_panorama_options_table;
 EWA_API void ewa_panorama_options_init(ewa_panorama_options *options, size_t struct_size);
+
+/// Places a camera for a panorama of a scene as ewa_scene_place_camera() does, whose errors it has; but where neither the options nor the
+/// scene say where the eye is, it stands in the middle of what there is. Fills `up_world` of the panorama where that is 0, 0, 0. `view` may
+/// be NULL.
+EWA_API ewa_status ewa_scene_place_panorama(ewa_scene *scene, const ewa_view_options *view, ewa_panorama_options *panorama, ewa_camera *camera);
 
 /// Draws all around a camera's eye: ahead is in the middle. The camera gives the eye, the axes and the size of the picture; of its
 /// lens nothing counts. Up to six plane pictures of 90 degrees, on the sides of a cube, each drawn as ewa_scene_draw() does, are sampled

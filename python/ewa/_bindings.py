@@ -315,6 +315,12 @@ class ewa_option_type(IntEnum):
     EWA_OPTION_F64 = 5
 
 
+class ewa_panorama_kind(IntEnum):
+    EWA_PANORAMA_NONE = 0
+    EWA_PANORAMA_EQUIRECTANGULAR = 1
+    EWA_PANORAMA_FISHEYE = 2
+
+
 class ewa_photos_exposure(IntEnum):
     EWA_EXPOSURE_GAIN = 0
     EWA_EXPOSURE_GAIN_OFFSET = 1
@@ -1728,6 +1734,21 @@ class ewa_option_table(c.Structure):
     ]
 
 
+class ewa_panorama_options(c.Structure):
+    struct_size: int
+    kind: int
+    fov_deg: float
+    up_world: c.Array[c.c_double]
+    finer: float
+    _fields_ = [
+        ("struct_size", c.c_size_t),
+        ("kind", c.c_int),
+        ("fov_deg", c.c_double),
+        ("up_world", c.c_double * 3),
+        ("finer", c.c_double),
+    ]
+
+
 class ewa_image_quality(c.Structure):
     pixel_count: int
     mean_squared_error: float
@@ -2740,6 +2761,7 @@ TABLES = (
     "ewa_mesh_sample_options_table",
     "ewa_context_options_table",
     "ewa_limits_table",
+    "ewa_panorama_options_table",
     "ewa_photos_options_table",
     "ewa_estimate_options_table",
     "ewa_csg_options_table",
@@ -3010,6 +3032,9 @@ class Functions:
     ewa_option_get: Callable[..., None]
     ewa_option_range: Callable[..., None]
     ewa_option_set: Callable[..., int]
+    ewa_panorama_options_init: Callable[..., None]
+    ewa_scene_draw_panorama: Callable[..., int]
+    ewa_scene_place_panorama: Callable[..., int]
     ewa_cloud_color_from_photos: Callable[..., int]
     ewa_image_compare: Callable[..., int]
     ewa_image_undistort: Callable[..., int]
@@ -3408,6 +3433,9 @@ class Functions:
         self.ewa_option_get = bind("ewa_option_get", None, c.POINTER(ewa_option), c.c_void_p, c.c_void_p)
         self.ewa_option_range = bind("ewa_option_range", None, c.POINTER(ewa_option), c.c_void_p)
         self.ewa_option_set = bind("ewa_option_set", c.c_int, c.POINTER(ewa_option), c.c_void_p, c.c_char_p, c.c_void_p)
+        self.ewa_panorama_options_init = bind("ewa_panorama_options_init", None, c.POINTER(ewa_panorama_options), c.c_size_t)
+        self.ewa_scene_draw_panorama = bind("ewa_scene_draw_panorama", c.c_int, c.c_void_p, c.c_void_p, c.POINTER(ewa_camera), c.POINTER(ewa_scene_options), c.POINTER(ewa_panorama_options), c.POINTER(ewa_frame), c.POINTER(ewa_scene_stats))
+        self.ewa_scene_place_panorama = bind("ewa_scene_place_panorama", c.c_int, c.c_void_p, c.POINTER(ewa_view_options), c.POINTER(ewa_panorama_options), c.POINTER(ewa_camera))
         self.ewa_cloud_color_from_photos = bind("ewa_cloud_color_from_photos", c.c_int, c.c_void_p, c.POINTER(ewa_photo), c.c_uint32, c.POINTER(ewa_photos_options), c.POINTER(ewa_photos_report), c.POINTER(ewa_photo_report))
         self.ewa_image_compare = bind("ewa_image_compare", c.c_int, c.POINTER(ewa_image), c.POINTER(ewa_image), c.POINTER(ewa_image_quality))
         self.ewa_image_undistort = bind("ewa_image_undistort", c.c_int, c.POINTER(ewa_image), c.POINTER(ewa_camera), c.POINTER(ewa_lens), c.POINTER(ewa_image))

@@ -158,7 +158,7 @@ def render(scene: Any, camera: Camera | None = None, *, size: Sequence[int] | No
            environment: Environment | Any = None, layers: int | str | None = None, section_box: Any = None,
            section_planes: Sequence[Sequence[float]] | None = None, backend: str = "cpu",
            renderer: Renderer | None = None, out: Image | None = None, close_gaps: bool | None = None,
-           **options: Unpack[DrawOptions]) -> Image:
+           panorama: str | Mapping[str, Any] | None = None, **options: Unpack[DrawOptions]) -> Image:
     """Draw anything: what :class:`Scene` takes, objects of other packages too, as ``ewa render`` draws the same in files.
 
     Parameters
@@ -194,6 +194,9 @@ def render(scene: Any, camera: Camera | None = None, *, size: Sequence[int] | No
         Whose planes are drawn into; they have to be of the picture's size.
     close_gaps : bool, optional
         Of clouds, as of :meth:`Cloud.surfels`. Default: True, but with `point_size_px`.
+    panorama : "equirectangular", "fisheye", or a mapping, optional
+        All that is around the camera's eye, in a picture of its size: kind, and fov_deg (of a fisheye), up_world and finer as in
+        `ewa_panorama_options`. Depths are distances. Without a camera: from the middle of what there is, 2048 x 1024 or 1024 x 1024.
     **options
         ``cutoff``: Of clouds, as of :meth:`Cloud.surfels`. Default: 3. ``radius_scale``: Of clouds, likewise. Default: 1.
         ``shading``: Default: "phong" where there are materials or an environment, else "lambert".
@@ -224,7 +227,7 @@ def render(scene: Any, camera: Camera | None = None, *, size: Sequence[int] | No
             world.add(part)
     return draw(world, camera, size=size, planes=planes, background=background, lights=lights, materials=materials,
                 environment=environment, layers=layers, section_box=section_box, section_planes=section_planes,
-                renderer=renderer if renderer is not None else backend, out=out, render=given)
+                renderer=renderer if renderer is not None else backend, out=out, render=given, panorama=panorama)
 
 
 def draw(world: World, camera: Camera | None, *, size: Sequence[int] | None, planes: str | Iterable[str],
@@ -233,13 +236,20 @@ def draw(world: World, camera: Camera | None, *, size: Sequence[int] | None, pla
          environment: Environment | Any = None, layers: int | str | None = None, surfaces: Image | None = None,
          renderer: Renderer | str | None = None, out: Image | None = None, render: Mapping[str, Any] | None = None,
          lod: Mapping[str, Any] | None = None, gaussians: Mapping[str, Any] | None = None,
-         volumes: Mapping[str, Any] | None = None) -> Image:
+         volumes: Mapping[str, Any] | None = None, panorama: str | Mapping[str, Any] | None = None) -> Image:
     """Draw a scene: what every call that makes a picture of something ends in; arguments as of :func:`render`.
 
     `render`, `lod`, `gaussians` and `volumes` are members of the structs of options of these.
     """
     core = world.core
-    if camera is None:
+    around = initialised(b.ewa_panorama_options, lib.ewa_panorama_options_init)
+    fill(around, "ewa_panorama_options", {"kind": panorama} if isinstance(panorama, str) else panorama or {})
+    if camera is None and panorama:
+        height = 1024
+        view = view_options(size=size or (height if around.kind == b.ewa_panorama_kind.EWA_PANORAMA_FISHEYE else 2 * height, height))
+        camera = Camera._of(b.ewa_camera())
+        core.call(lib.ewa_scene_place_panorama, world.handle, ctypes.byref(view), ctypes.byref(around), ctypes.byref(camera._struct))
+    elif camera is None:
         camera = Camera._of(world.place(view_options(size=size)))
     elif not isinstance(camera, Camera):
         raise TypeError(f"camera: an ewa.Camera, not {type(camera).__name__}")
@@ -258,8 +268,8 @@ def draw(world: World, camera: Camera | None, *, size: Sequence[int] | None, pla
     frame = new_frame(image, camera.size, planes, out)
     stats = b.ewa_scene_stats()
     handle = renderer._handle if isinstance(renderer, Renderer) else _shared(core, renderer or "cpu")
-    core.call(lib.ewa_scene_draw, world.handle, handle, ctypes.byref(camera._struct), ctypes.byref(made),
-              ctypes.byref(frame), ctypes.byref(stats))
+    core.call(lib.ewa_scene_draw_panorama, world.handle, handle, ctypes.byref(camera._struct), ctypes.byref(made),
+              ctypes.byref(around), ctypes.byref(frame), ctypes.byref(stats))
     del keep
     image._stats = stats.render
     return image

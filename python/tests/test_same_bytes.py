@@ -54,6 +54,21 @@ class SameBytes(Case):
         ewa.render(cloud, background="white", shading="lambert").save(self.path("ours.png"))
         self.same("ours.png", "theirs.png")
 
+    def test_panoramas(self) -> None:
+        self.generate("scan.ply", "torus", 8000)
+        scan = ewa.read(self.path("scan.ply"))
+        for kind, size in (("equirectangular", (120, 60)), ("fisheye", (60, 60))):
+            self.run_program("render", "scan.ply", "-o", "theirs.png", "--panorama", kind, "--size", f"{size[0]}x{size[1]}")
+            ewa.render(scan, panorama=kind, size=size).save(self.path("ours.png"))
+            self.same("ours.png", "theirs.png")
+        image = ewa.render(scan, ewa.Camera.look_at((0, 0, 0), (1, 0, 0), size=(60, 60)), planes=("rgba", "depth"),
+                           panorama={"kind": "fisheye", "fov_deg": 360}, background="transparent")
+        hit = image.rgba[..., 3] == 1
+        # Nothing is nearer than the ring's hole is wide.
+        self.assertGreater(image.depth[hit].min(), 0.1)
+        with self.assertRaises(ewa.ArgumentError):
+            ewa.render(scan, panorama="cylinder")
+
     def test_render_exr_with_camera(self) -> None:
         self.generate("scan.ply", "csg", 9000)
         camera = ewa.Camera.look_at((2, -1.5, 1), (0, 0, 0), size=(200, 150), fov=40)

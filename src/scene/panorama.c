@@ -283,6 +283,20 @@ void ewa_panorama_options_init(ewa_panorama_options *options, size_t struct_size
     ewa_options_init(&ewa_panorama_options_table, options, struct_size);
 }
 
+ewa_status ewa_scene_place_panorama(ewa_scene *scene, const ewa_view_options *view, ewa_panorama_options *panorama, ewa_camera *camera) {
+    if (!scene || !panorama || !camera) return EWA_ERROR_ARGUMENT;
+    ewa_view_info info;
+    EWA_TRY(ewa_scene_place_camera(scene, view, camera, &info));
+    double *up_world = panorama->up_world;
+    if (up_world[0] == 0 && up_world[1] == 0 && up_world[2] == 0) memcpy(up_world, info.up_world, sizeof info.up_world);
+    if ((view && view->has_eye) || scene->has_camera) return EWA_OK;
+    for (int r = 0; r < 3; r++) {
+        double *row = camera->world_to_camera + 4 * r;
+        row[3] = -(row[0] * info.pivot_world[0] + row[1] * info.pivot_world[1] + row[2] * info.pivot_world[2]);
+    }
+    return EWA_OK;
+}
+
 ewa_status ewa_scene_draw_panorama(ewa_scene *scene, ewa_scene_renderer *renderer, const ewa_camera *camera,
                                    const ewa_scene_options *options, const ewa_panorama_options *given, const ewa_frame *frame,
                                    ewa_scene_stats *stats) {

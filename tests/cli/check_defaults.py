@@ -47,6 +47,7 @@ JOBS = {
                "{d}/tree.copc.laz --size 64x48 -o {o}/a.png", "{d}/tree.copc.laz --levels always --size 64x48 -o {o}/a.png",
                "{d}/box.obj --size 64x48 -o {o}/a.png", "{d}/scene.json -o {o}/a.png",
                "{d}/sphere.ply --turntable 2 --size 64x48 -o {o}/%d.png",
+               "{d}/sphere.ply --panorama fisheye -o {o}/a.png --size 48x48", "{d}/sphere.ply --panorama equirectangular --eye 0,0,0 -o {o}/a.png --size 48x24",
                "{d}/sphere.ply --path {d}/poses.txt --size 64x48 -o {o}/%d.png",
                "{d}/sphere.ply {d}/gaussians.ply {d}/volume.nrrd {d}/box.obj --size 64x48 -o {o}/a.exr"],
     "volume": ["{d}/volume.nrrd --size 64x48 -o {o}/a.exr", "{d}/volume.nrrd -o {o}/a.png",

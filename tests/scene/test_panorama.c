@@ -216,6 +216,33 @@ static void test_same_bytes(void **state) {
     }
 }
 
+/// Who says nothing stands in the middle, upright.
+static void test_place(void **state) {
+    stage s;
+    open_stage(1, &s);
+    ewa_panorama_options options = make_options(EWA_PANORAMA_EQUIRECTANGULAR);
+    ewa_view_options view;
+    ewa_view_options_init(&view, sizeof view);
+    view.width_px = 200, view.height_px = 100;
+    ewa_camera camera;
+    for (int k = 0; k < 3; k++) {
+        memset(options.up_world, 0, sizeof options.up_world);
+        if (k > 0) view.has_eye = true, memcpy(view.eye_world, (const double[3]){1, 2, 3}, sizeof view.eye_world);
+        if (k == 2) options.up_world[0] = 1;
+        assert_int_equal(ewa_scene_place_panorama(s.scene, &view, &options, &camera), EWA_OK);
+        assert_int_equal(camera.width_px, 200);
+        const double *m = camera.world_to_camera;
+        for (int c = 0; c < 3; c++) {
+            const double eye = -(m[c] * m[3] + m[4 + c] * m[7] + m[8 + c] * m[11]);
+            assert_true(fabs(eye - (k > 0 ? c + 1 : EYE[c])) < 0.01);
+        }
+        const double *up = options.up_world;
+        assert_true(k == 2 ? up[0] == 1 && up[1] == 0 : up[0] * up[0] + up[1] * up[1] + up[2] * up[2] == 1);
+    }
+    assert_int_equal(ewa_scene_place_panorama(s.scene, &view, NULL, &camera), EWA_ERROR_ARGUMENT);
+    close_stage(&s);
+}
+
 static void test_refusals(void **state) {
     stage s;
     open_stage(1, &s);
@@ -240,7 +267,7 @@ static void test_refusals(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_directions), cmocka_unit_test(test_turned), cmocka_unit_test(test_same_bytes),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_directions), cmocka_unit_test(test_turned), cmocka_unit_test(test_same_bytes), cmocka_unit_test(test_place),
                                        cmocka_unit_test(test_refusals)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
