@@ -29,4 +29,5 @@ def main() -> None:
     sys.exit(1 if failed or not result.testsRun else 0)
 
 
-main()
+if __name__ == "__main__":  # processes that tests start import this file
+    main()
