@@ -35,6 +35,9 @@ static const viewer_action actions[] = {
     {"File", "Paste camera", "camera paste", "look from where a copied camera is", 'v', CTRL, VIEWER_ICON_NONE},
     {"File", "Quit", "quit", "end", 'q', CTRL, VIEWER_ICON_NONE},
 
+    {"Edit", "Undo", "undo", "as it was before the last change; cameras stay", 'z', CTRL, VIEWER_ICON_NONE},
+    {"Edit", "Redo", "redo", "the change that was undone, again", 'y', CTRL, VIEWER_ICON_NONE},
+
     {"View", "Home", "view reset", "all of it, as at first", VIEWER_KEY_ENTER, 0, VIEWER_ICON_HOME},
     {"View", "Front", "view front", "from the front", '1', 0, VIEWER_ICON_FRONT},
     {"View", "Back", "view back", "from the back", '1', CTRL, VIEWER_ICON_NONE},

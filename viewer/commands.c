@@ -416,6 +416,8 @@ static const struct {
     {"keep", select_keep, NULL, NULL},
     {"unhide", select_unhide, NULL, NULL},
     {"cut", select_cut, NULL, NULL},
+    {"undo", history_undo, NULL, NULL},
+    {"redo", history_redo, NULL, NULL},
     {"fullscreen", do_fullscreen, is_fullscreen, NULL},
     {"quit", do_quit, NULL, NULL},
 };
@@ -434,7 +436,13 @@ bool viewer_do(viewer *v, const char *command) {
     char word[WORD_BYTES];
     const char *rest;
     const size_t i = find_command(command, word, &rest);
-    if (i < COMMAND_COUNT) return commands[i].run(v, rest);
+    if (i < COMMAND_COUNT) {
+        const bool changes = commands[i].run != history_undo && commands[i].run != history_redo;
+        if (changes) history_begin(v);
+        const bool done = commands[i].run(v, rest);
+        if (changes) history_end(v);
+        return done;
+    }
     viewer_tell(v, "there is no command '%s'", word);
     return false;
 }

@@ -18,7 +18,9 @@ typedef struct scene_item {
     ewa_asset *preview; ///< shown until it is; NULL: none
     bool as_points;     ///< of the preview: drawn as discs of pixels
     bool loaded;        ///< it is in the scene
-    bool named;         ///< a scene file names it
+    bool named;         ///< a scene file names it:
+    const ewa_scene_file *file; ///< which, borrowed; NULL: none does
+    uint32_t entry;             ///< of its files
     bool visible;
     uint32_t material;              ///< of all its points; EWA_MATERIAL_OWN: as each says
     viewer_coloring wish, coloring; ///< what is asked for, and what is shown
@@ -95,6 +97,18 @@ typedef struct viewer_selection {
     double *places_world; ///< of some of them, to be marked
 } viewer_selection;
 
+enum { VIEWER_HISTORY = 64 };
+
+typedef struct viewer_snapshot viewer_snapshot;
+
+/// What was before changes, the newest last.
+typedef struct viewer_history {
+    uint32_t depth;          ///< of commands and gestures that are under way
+    viewer_snapshot *before; ///< the first of them
+    size_t undo_count, redo_count;
+    viewer_snapshot *undo[VIEWER_HISTORY], *redo[VIEWER_HISTORY];
+} viewer_history;
+
 struct viewer {
     viewer_services services;
     bool waits, stepped;
@@ -159,6 +173,7 @@ struct viewer {
     size_t measure_count;
     bool measures_kind;       ///< clicks add places to
     viewer_measure measuring; ///< what is under way
+    viewer_history history;
 
     uint64_t revision, posted; ///< of what is to be drawn; the last one handed to the painter
     bool posted_whole;
@@ -235,6 +250,8 @@ void cutaway_drag(viewer *v, double x_px, double y_px);
 
 // profile.c
 bool profile_do(viewer *v, const char *rest);
+/// Takes the profile along the line that is set.
+bool profile_take(viewer *v);
 /// Draws the graph over the lower part of a picture whose points are `scale` pixels.
 void profile_draw(viewer *v, const ewa_canvas *canvas, double scale);
 void profile_free(viewer *v);
@@ -263,6 +280,14 @@ bool measures_holds(const viewer *v, const char *word);
 bool measures_click(viewer *v, const viewer_event *event);
 /// Writes name and value, for labels.
 void measures_value(const viewer *v, const viewer_measure *measure, char text[VIEWER_NAME_BYTES]);
+
+// history.c
+bool history_undo(viewer *v, const char *rest);
+bool history_redo(viewer *v, const char *rest);
+/// Stand around what may change something; what has changed in between is one step.
+void history_begin(viewer *v);
+void history_end(viewer *v);
+void history_free(viewer *v);
 
 // settings.c
 void settings_init(viewer *v);

@@ -64,6 +64,8 @@ static bool order(viewer *v, const char *path, const ewa_scene_file *file, uint3
     snprintf(item->path, sizeof item->path, "%s", path);
     snprintf(item->name, sizeof item->name, "%.255s", file_name(path));
     item->named = file != NULL;
+    item->file = file;
+    item->entry = entry;
     viewer_coloring_init(&item->wish);
     ewa_scene_entry said;
     if (file && ewa_scene_file_entry(file, entry, &said) == EWA_OK) take_instance(&said.instance, item);

@@ -156,13 +156,17 @@ void pointer_handle(viewer *v, const viewer_event *event) {
         move(v, event);
         break;
     case VIEWER_PRESS:
+        if (!v->history.depth) history_begin(v); // from here to the release is one step
         press(v, event);
         break;
     case VIEWER_RELEASE:
         release(v, event);
+        if (!v->button) history_end(v);
         break;
     case VIEWER_WHEEL:
+        history_begin(v);
         wheel(v, event);
+        history_end(v);
         break;
     case VIEWER_PINCH:
         if (event->amount > 0.01 && event->amount < 100) zoom(v, event->x, event->y, 1 / event->amount);
@@ -170,5 +174,6 @@ void pointer_handle(viewer *v, const viewer_event *event) {
     default: // the hand is elsewhere
         v->button = 0;
         v->drag = DRAG_NONE;
+        history_end(v);
     }
 }

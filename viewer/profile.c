@@ -39,7 +39,7 @@ static void measure_heights(viewer_profile *profile) {
 }
 
 /// Takes the profile of what is shown along the line.
-static bool take(viewer *v) {
+bool profile_take(viewer *v) {
     viewer_profile *profile = &v->profile;
     if (loader_is_busy(v->loader)) {
         viewer_tell(v, "profile: not everything is loaded yet");
@@ -103,7 +103,7 @@ static bool take_picks(viewer *v, const char *width) {
     for (int k = 0; k < 2; k++)
         memcpy(v->profile.corners_world + 3 * k, v->picks[k].place_world, sizeof v->picks[k].place_world);
     v->profile.corner_count = 2;
-    return take(v);
+    return profile_take(v);
 }
 
 static bool draw_graph(viewer *v, uint32_t width_px, uint32_t height_px, double scale, uint8_t *rgba8) {
@@ -169,7 +169,7 @@ bool profile_do(viewer *v, const char *rest) {
     if (!read_width(v, behind)) return false;
     memcpy(v->profile.corners_world, corners_world, sizeof v->profile.corners_world);
     v->profile.corner_count = corner_count;
-    return take(v);
+    return profile_take(v);
 }
 
 void profile_draw(viewer *v, const ewa_canvas *canvas, double scale) {

@@ -148,6 +148,7 @@ void viewer_destroy(viewer **made) {
         ewa_asset_release(&v->items[i].asset);
     }
     ewa_scene_destroy(&v->scene);
+    history_free(v);
     profile_free(v);
     free(v->selection.places_world);
     for (size_t i = 0; i < v->file_count; i++) ewa_scene_file_destroy(&v->files[i]);
@@ -221,7 +222,9 @@ void viewer_handle(viewer *v, const viewer_event *event) {
         resize(v, event);
         break;
     case VIEWER_DROP:
+        history_begin(v);
         if (event->text) items_open(v, event->text);
+        history_end(v);
         break;
     case VIEWER_KEY:
     case VIEWER_KEY_RELEASE:
