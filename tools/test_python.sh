@@ -31,11 +31,12 @@ if ! "$venv/bin/python" -c 'import numpy' 2>/dev/null; then
     "$venv/bin/python" -m pip install -q --disable-pip-version-check --retries 0 --timeout 20 numpy >/dev/null 2>&1 ||
         skip "numpy is not installed and cannot be had"
 fi
-# Packages whose objects are drawn, and that Debian does not have: small ones, where PyPI can be reached. Tests of those that
-# are not there are skipped, and say so.
-for package in trimesh laspy anywidget; do
-    "$venv/bin/python" -c "import $package" 2>/dev/null ||
-        "$venv/bin/python" -m pip install -q --disable-pip-version-check --retries 0 --timeout 20 $package >/dev/null 2>&1 || break
+# Packages whose objects are drawn, small ones, where PyPI can be reached: Debian does not have all of them, and has none for
+# interpreters of others. Tests of those that are not there are skipped, and say so.
+for package in trimesh:trimesh laspy:laspy anywidget:anywidget pandas:pandas PIL:pillow; do
+    "$venv/bin/python" -c "import ${package%:*}" 2>/dev/null ||
+        "$venv/bin/python" -m pip install -q --disable-pip-version-check --retries 0 --timeout 20 "${package#*:}" >/dev/null 2>&1 ||
+        break
 done
 export EWA_LIBRARY="$library" EWA_PROGRAM="$program" PYTHONPATH="$root/python" PYTHONDONTWRITEBYTECODE=1
 exec "$venv/bin/python" "$root/python/tests/run.py"
