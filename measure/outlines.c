@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Prints the tables of docs/quality.md: how far outlines of spheres and tori are off against analytic coverage, from random
-// points, from levels of detail in memory, from octrees, and from surfels that say no curvature, as a scene completes them.
+// points, from levels of detail in memory, from octrees, and from surfels that say no curvature.
 // measure_outlines [POINTS...]; PICTURES=FOLDER keeps the pictures.
 #include "measure/measure.h"
 #include "quality/outline_scene.h"
@@ -96,28 +96,6 @@ static void print_octree(outline_run *run, const ewa_cloud *cloud, const char *w
     remove(path);
 }
 
-/// Draws a file's points as a scene completes them.
-static void print_scene(outline_run *run, const ewa_cloud *cloud, const char *what) {
-    char path[256];
-    save(cloud, ".ply", path);
-    ewa_asset *asset = NULL;
-    ewa_scene *scene = NULL;
-    ewa_scene_renderer *renderer = NULL;
-    check(ewa_asset_load(run->context, path, NULL, &asset));
-    remove(path);
-    ewa_scene_options options;
-    ewa_scene_options_init(&options, sizeof options);
-    for (int c = 0; c < 4; c++) options.render.background[c] = 0;
-    check(ewa_scene_create(run->context, &options, &scene));
-    check(ewa_scene_add(scene, asset, NULL));
-    check(ewa_scene_renderer_create(run->context, EWA_BACKEND_CPU, NULL, &renderer));
-    check(ewa_scene_draw(scene, renderer, &run->camera, NULL, &(ewa_frame){.rgba = run->rgba}, NULL));
-    print(run, what, ewa_cloud_point_count(cloud));
-    ewa_scene_renderer_destroy(&renderer);
-    ewa_scene_destroy(&scene);
-    ewa_asset_release(&asset);
-}
-
 static ewa_cloud *estimated(ewa_cloud *cloud) {
     ewa_estimate_options options;
     ewa_estimate_options_init(&options, sizeof options);
@@ -138,7 +116,6 @@ static void print_shape(outline_run *run, outline_shape shape, uint64_t points) 
     ewa_cloud_remove(cloud, EWA_CURVATURE);
     print_levels(run, cloud, "surfels without curvature", 1);
     print_octree(run, cloud, "octree of surfels without curvature");
-    print_scene(run, cloud, "surfels without curvature, in a scene");
     ewa_cloud_destroy(&cloud);
 }
 

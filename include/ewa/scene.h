@@ -240,10 +240,9 @@ EWA_API ewa_status ewa_scene_set(ewa_scene *scene, uint32_t index, const ewa_ins
 EWA_API void ewa_scene_get_options(const ewa_scene *scene, ewa_scene_options *options);
 EWA_API ewa_status ewa_scene_set_options(ewa_scene *scene, const ewa_scene_options *options);
 
-/// Makes what surfels need and points lack: normals and radii, and of those that have these, curvatures. Clouds that lack it
-/// and overlap or touch, whether visible or not, are estimated together, as if they were one file, which an info message
-/// says. Called by what needs it. Errors: those of ewa_cloud_estimate(); EWA_ERROR_UNSUPPORTED (columns of Gaussians without
-/// what Gaussians need).
+/// Makes what surfels need and points lack. Clouds that lack it and overlap or touch, whether visible or not, are
+/// estimated together, as if they were one file, which an info message says. Called by what needs it. Errors: those of
+/// ewa_cloud_estimate(); EWA_ERROR_UNSUPPORTED (columns of Gaussians without what Gaussians need).
 EWA_API ewa_status ewa_scene_complete(ewa_scene *scene);
 
 /// Makes one cloud of all visible clouds and meshes: of what ewa_scene_commit() makes surfels, with what they lacked, before
@@ -271,7 +270,7 @@ typedef struct ewa_scene_info {
     bool surfaces, octrees, gaussians, volumes; ///< some are visible
     ewa_surfels_info surfels;  ///< of the committed surfaces; zeros: none
     const ewa_surfels *resident; ///< those surfels, borrowed until the scene changes; NULL: none
-    uint64_t estimated_count;  ///< points that got normals, radii or curvatures
+    uint64_t estimated_count;  ///< points that got normals or radii
     double load_s, estimate_s, surfels_s; ///< wall clock, of all assets and of this scene
 } ewa_scene_info;
 

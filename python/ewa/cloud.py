@@ -270,7 +270,7 @@ class Cloud:
 
     @keywords("ewa_estimate_options")
     def estimate(self, **options: Unpack[EstimateOptions]) -> Cloud:
-        """Return the cloud with the normals, radii and curvatures that it lacks, estimated from its neighbours.
+        """Return the cloud with the normals and radii that it lacks, estimated from its neighbours.
 
         Parameters
         ----------
@@ -335,10 +335,6 @@ class Cloud:
         self._core.call(lib.ewa_cloud_refuse_gaussians, cloud._h)
         self._core.value(lib.ewa_cloud_drop_zero_normals, cloud._h)
         return cloud.estimate()
-
-    def _curved(self) -> Cloud:
-        """The cloud with curvatures, measured where it has all else that surfels need, as a scene does."""
-        return self.estimate() if self._is_drawable() and "signed_curvature" not in self else self
 
     def transform(self, matrix: Any) -> Cloud:
         """Return the cloud mapped by a matrix that acts on columns, (4, 4) or (3, 4), with all directions and sizes.

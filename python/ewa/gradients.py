@@ -114,7 +114,7 @@ def render_backward(cloud: Any, camera: Camera, *, rgba: Any = None, depth: Any 
         eye-dome lighting, levels of detail.
     OutOfMemory, ClosedError
     """
-    cloud = as_cloud(cloud)._curved()
+    cloud = as_cloud(cloud)
     if not isinstance(camera, Camera):
         raise TypeError(f"camera: an ewa.Camera, not {type(camera).__name__}")
     names = (by,) if isinstance(by, str) else tuple(by)

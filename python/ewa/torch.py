@@ -93,8 +93,6 @@ class _Frame:
         if "opacity" in arrays:
             color = np.concatenate([color, np.clip(arrays["opacity"], 0, 1)[:, None]], axis=1)
         streams: dict[str, Any] = {name: arrays[name] for name in ("radius", "tangent_u", "tangent_v") if name in arrays}
-        # Known not to bend: nothing is measured anew, which would change with the places.
-        streams["signed_curvature"] = np.zeros(len(arrays["position"]), np.float32)
         return Cloud(arrays["position"], normals=arrays.get("normal"), colors=color, **streams)
 
     def camera_of(self, arrays: Mapping[str, Array]) -> Camera:

@@ -7,8 +7,6 @@
 
 #include "estimate/local.h"
 
-enum { EWA_CURVATURE_NEIGHBOURS = LOCAL_GRAPH_DEGREE };
-
 /// What curvatures are measured by, by place.
 typedef struct curvature_input {
     const ewa_neighbours *neighbours; ///< before ewa_neighbours_end_visits()

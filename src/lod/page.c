@@ -54,7 +54,8 @@ ewa_status ewa_region_plan_make(ewa_context *context, const ewa_statistics *stat
     const bool has_axes = has(inputs, EWA_TANGENT_U, 3) && has(inputs, EWA_TANGENT_V, 3);
     plan->makes_normals = !has_axes && !has(inputs, EWA_NORMAL, 3);
     plan->makes_radii = !has_axes && !has(inputs, EWA_RADIUS, 1);
-    plan->makes_curvatures = ewa_curvature_is_lacking(inputs);
+    // Radii that points come with may not reach as far as what moves at contours needs, by curvatures of estimated normals.
+    plan->makes_curvatures = (plan->makes_normals || plan->makes_radii) && ewa_curvature_is_lacking(inputs);
     plan->normal_at_bytes = statistics->record_bytes;
     plan->radius_at_bytes = plan->normal_at_bytes + (plan->makes_normals ? 6 : 0);
     plan->curvature_at_bytes = plan->radius_at_bytes + (plan->makes_radii ? 4 : 0);

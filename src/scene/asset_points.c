@@ -3,7 +3,6 @@
 //
 // Assets of points: clouds, meshes that are sampled, Gaussians.
 #include "base/base.h"
-#include "estimate/curvature.h"
 #include "ewa/diagnosis.h"
 #include "ewa/prepare.h"
 #include "framing/conventions.h"
@@ -33,7 +32,7 @@ static ewa_status take_points(const ewa_asset_job *job, ewa_cloud *cloud) {
                    (unsigned long long)ewa_cloud_point_count(asset->cloud), (unsigned long long)all);
     if (ewa_asset_is_moved(asset)) EWA_TRY(ewa_cloud_transform(asset->cloud, asset->to_world));
     asset->count = ewa_cloud_point_count(asset->cloud);
-    asset->complete = asset->drawable = ewa_cloud_is_drawable(asset->cloud);
+    asset->drawable = ewa_cloud_is_drawable(asset->cloud);
     ewa_status status = EWA_OK;
     if (!asset->drawable) {
         status = ewa_cloud_refuse_gaussians(asset->cloud);
@@ -59,7 +58,6 @@ ewa_status ewa_asset_take_cloud(const ewa_asset_job *job, ewa_cloud *cloud) {
     char text[EWA_DIAGNOSIS_TEXT_BYTES];
     const bool degrees = !ewa_asset_is_moved(job->asset) && ewa_cloud_find_degrees(cloud, text);
     EWA_TRY(take_points(job, cloud));
-    job->asset->complete = job->asset->drawable && !ewa_curvature_is_lacking(job->asset->cloud);
     return degrees && job->asset->count ? make_metres(job->asset) : EWA_OK;
 }
 

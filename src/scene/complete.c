@@ -1,11 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// What surfels need and points lack: normals, radii and curvatures, estimated for clouds that overlap or touch as if they were one
+// What surfels need and points lack: normals and radii, estimated for clouds that overlap or touch as if they were one
 // file, so that tiles of one survey have no seams and scans of one place no two spacings.
 #include "base/base.h"
 #include "cloud/cloud.h"
-#include "estimate/curvature.h"
 #include "estimate/sparse.h"
 #include "ewa/prepare.h"
 #include "scene/parts.h"
@@ -53,9 +52,7 @@ static double spacing_of(const ewa_bounds *box) {
 /// Whether two clouds that lack the same are to be estimated together.
 static bool belong_together(const ewa_asset *a, const ewa_asset *b) {
     if ((ewa_cloud_find(a->cloud, EWA_NORMAL) != NULL) != (ewa_cloud_find(b->cloud, EWA_NORMAL) != NULL) ||
-        (ewa_cloud_find(a->cloud, EWA_RADIUS) != NULL) != (ewa_cloud_find(b->cloud, EWA_RADIUS) != NULL) ||
-        (ewa_cloud_find(a->cloud, EWA_CURVATURE) != NULL) != (ewa_cloud_find(b->cloud, EWA_CURVATURE) != NULL) ||
-        a->drawable != b->drawable)
+        (ewa_cloud_find(a->cloud, EWA_RADIUS) != NULL) != (ewa_cloud_find(b->cloud, EWA_RADIUS) != NULL))
         return false;
     if (!a->bounds.finite_count || !b->bounds.finite_count) return false;
     const double reach = TOUCH_SPACINGS * fmax(spacing_of(&a->bounds), spacing_of(&b->bounds));
@@ -76,7 +73,7 @@ static uint32_t mark_group(const ewa_scene *scene, uint32_t first, uint32_t *gro
         const ewa_asset *member = scene->items[members[next]].asset;
         for (uint32_t i = first + 1; i < scene->count; i++) {
             const ewa_asset *asset = scene->items[i].asset;
-            if (group_of[i] != UINT32_MAX || !ewa_asset_is_points(asset) || asset->complete ||
+            if (group_of[i] != UINT32_MAX || !ewa_asset_is_points(asset) || asset->drawable ||
                 !(asset == member || belong_together(member, asset)))
                 continue;
             group_of[i] = first;
@@ -140,8 +137,7 @@ static bool all_have(const ewa_completed *group, const char *name) {
 
 /// Makes one cloud of the positions of several, and of what tells the sides of their normals.
 static ewa_status merge_positions(ewa_completed *group) {
-    static const char *const wanted[] = {EWA_POSITION,  EWA_NORMAL,    EWA_RADIUS,     EWA_TANGENT_U,
-                                         EWA_TANGENT_V, EWA_CURVATURE, "return_number"};
+    static const char *const wanted[] = {EWA_POSITION, EWA_NORMAL, EWA_RADIUS, "return_number"};
     ewa_status status = EWA_OK;
     for (uint32_t i = 0; i < group->count && status == EWA_OK; i++) {
         const ewa_cloud *from = group->assets[i]->cloud;
@@ -168,9 +164,7 @@ static ewa_status borrow_estimated(const ewa_completed *group, uint64_t first, e
                                             EWA_CURVATURE};
     for (size_t i = 0; i < sizeof estimated / sizeof estimated[0]; i++) {
         const ewa_attribute *a = ewa_cloud_find(group->merged, estimated[i]);
-        // Of a cloud that has all else, those that were not measured.
-        const bool completed = group->assets[0]->drawable && strcmp(estimated[i], EWA_CURVATURE) == 0;
-        if (!a || (ewa_cloud_find(view, estimated[i]) && !completed)) continue;
+        if (!a || ewa_cloud_find(view, estimated[i])) continue;
         EWA_TRY(ewa_cloud_borrow(view, a->name, a->type, a->component_count,
                                  (const char *)a->data + first * a->stride_bytes, a->stride_bytes));
     }
@@ -178,14 +172,15 @@ static ewa_status borrow_estimated(const ewa_completed *group, uint64_t first, e
 }
 
 /// Says what was estimated of which files.
-static void report(const ewa_completed *group, const char *what, uint32_t neighbour_count) {
+static void report(const ewa_completed *group, bool normals, uint32_t neighbour_count) {
     char names[NAMES_BYTES] = "";
     for (uint32_t i = 0; i < group->count; i++) {
         const size_t length = strlen(names);
         snprintf(names + length, sizeof names - length, "%s%s", i ? ", " : "", group->assets[i]->name);
     }
     ewa_report(group->context, group->count > 1 ? EWA_SEVERITY_NOTE : EWA_SEVERITY_INFO,
-               "%s: %s estimated%s from %u neighbours in %.3f s", names, what, group->count > 1 ? " together" : "", neighbour_count, group->estimate_s);
+               "%s: %sradii estimated%s from %u neighbours in %.3f s", names, normals ? "normals and " : "",
+               group->count > 1 ? " together" : "", neighbour_count, group->estimate_s);
 }
 
 /// Radius of the dots of a scene.
@@ -229,22 +224,17 @@ static ewa_status make_dots(const ewa_scene *scene, ewa_completed *group) {
     return status;
 }
 
-/// Estimates what a cloud lacks, of one that is drawable only how much it bends.
-static ewa_status estimate_cloud(ewa_cloud **cloud, bool drawable, const ewa_estimate_options *options) {
-    return drawable ? ewa_curvature_complete(*cloud) : ewa_cloud_estimate(cloud, options);
-}
-
 /// Estimates what the clouds of a group lack.
 static ewa_status estimate(const ewa_scene *scene, ewa_completed *group) {
     ewa_estimate_options options;
     ewa_estimate_options_init(&options, sizeof options);
-    const bool normals = !ewa_cloud_find(group->assets[0]->cloud, EWA_NORMAL), drawable = group->assets[0]->drawable;
+    const bool normals = !ewa_cloud_find(group->assets[0]->cloud, EWA_NORMAL);
     const double started_s = ewa_now_s();
     ewa_status status = group->count > 1 ? merge_positions(group) : EWA_OK;
     const char *before = ewa_context_about(group->context, group->count > 1 ? NULL : group->assets[0]->name);
     if (status == EWA_OK && group->count > 1) {
-        status = estimate_cloud(&group->merged, drawable, &options);
-        static const char *const spare[] = {EWA_POSITION, EWA_TANGENT_U, EWA_TANGENT_V, "scan", "return_number"};
+        status = ewa_cloud_estimate(&group->merged, &options);
+        static const char *const spare[] = {EWA_POSITION, "scan", "return_number"};
         for (size_t i = 0; i < sizeof spare / sizeof spare[0]; i++) ewa_cloud_remove(group->merged, spare[i]);
     }
     uint64_t first = 0;
@@ -254,15 +244,14 @@ static ewa_status estimate(const ewa_scene *scene, ewa_completed *group) {
         status = ewa_cloud_view(group->context, from, 0, count, &group->clouds[i]);
         if (status == EWA_OK)
             status = group->count > 1 ? borrow_estimated(group, first, group->clouds[i])
-                                      : estimate_cloud(&group->clouds[i], drawable, &options);
+                                      : ewa_cloud_estimate(&group->clouds[i], &options);
         first += count;
     }
     if (status == EWA_OK) status = make_dots(scene, group);
     ewa_context_about(group->context, before);
     group->estimated_count = first;
     group->estimate_s = ewa_now_s() - started_s;
-    if (status == EWA_OK) report(group, drawable ? "curvatures" : normals ? "normals and radii" : "radii",
-                                   drawable ? EWA_CURVATURE_NEIGHBOURS : options.neighbour_count);
+    if (status == EWA_OK) report(group, normals, options.neighbour_count);
     return status;
 }
 
@@ -377,7 +366,7 @@ ewa_status ewa_scene_complete_items(ewa_scene *scene) {
     if (status == EWA_OK) memset(group_of, 0xff, scene->count * sizeof *group_of);
     for (uint32_t i = 0; i < scene->count && status == EWA_OK; i++) {
         const ewa_asset *asset = scene->items[i].asset;
-        if (group_of[i] != UINT32_MAX || !ewa_asset_is_points(asset) || asset->complete || !asset->count)
+        if (group_of[i] != UINT32_MAX || !ewa_asset_is_points(asset) || asset->drawable || !asset->count)
             continue;
         const uint32_t count = mark_group(scene, i, group_of, members);
         ewa_completed *group = scene->items[i].completed;

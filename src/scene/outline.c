@@ -78,7 +78,7 @@ static void add_cloud(const ewa_cloud *cloud, double cutoff, double scale, doubl
 static ewa_cloud *places_of(const ewa_scene_item *item) {
     const ewa_asset *asset = item->asset;
     if (!ewa_asset_is_points(asset)) return asset->outline;
-    return asset->complete || !item->completed ? asset->cloud : item->completed->clouds[item->member];
+    return asset->drawable || !item->completed ? asset->cloud : item->completed->clouds[item->member];
 }
 
 /// Counts the places of all that is visible; `*only` gets the item that has them all, NULL: there are several or none.

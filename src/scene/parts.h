@@ -41,7 +41,6 @@ struct ewa_asset {
 
     ewa_cloud *cloud; ///< of points and meshes; NULL: gone, or something else
     bool drawable;    ///< it has normals and radii, or axes
-    bool complete;    ///< and nothing more of it is measured: points have their curvatures, too
     ewa_lod *lod;
     ewa_context *lod_context; ///< of its own; NULL: that of the asset
     const ewa_surfels *surfels; ///< of another owner
@@ -58,7 +57,7 @@ struct ewa_asset {
 /// Diameter of dots that nobody says the size of.
 enum { EWA_DOT_PX = 6 };
 
-/// Clouds of which some lack normals, radii or curvatures, completed together.
+/// Clouds of which some lack normals or radii, completed together.
 typedef struct ewa_completed {
     ewa_context *context;
     atomic_uint_fast32_t references;

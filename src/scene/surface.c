@@ -60,7 +60,7 @@ static int compare_keys(const void *a, const void *b) {
 }
 
 static ewa_surface_key key_of(const ewa_scene_item *item) {
-    return (ewa_surface_key){item->asset, item->asset->serial, item->asset->complete ? NULL : item->completed,
+    return (ewa_surface_key){item->asset, item->asset->serial, item->asset->drawable ? NULL : item->completed,
                              item->instance, item->member};
 }
 

@@ -161,7 +161,8 @@ static void test_curvatures(void **state) {
         sphere.object = EWA_OBJECT_SPHERE, sphere.size_world = 4, sphere.point_count = COUNT;
         assert_int_equal(ewa_cloud_generate(context, &sphere, &cloud), EWA_OK);
         ewa_cloud_remove(cloud, EWA_CURVATURE);
-        if (inward < 0) ewa_cloud_remove(cloud, EWA_NORMAL), ewa_cloud_remove(cloud, EWA_RADIUS);
+        ewa_cloud_remove(cloud, EWA_RADIUS);
+        if (inward < 0) ewa_cloud_remove(cloud, EWA_NORMAL);
         float *normal = inward > 0 ? ewa_cloud_find(cloud, EWA_NORMAL)->data : NULL;
         for (int i = 0; i < 3 * COUNT && inward > 0; i++) normal[i] = -normal[i];
         lod_save(cloud, names[0]);

@@ -150,7 +150,7 @@ static void test_levels(void **state) {
     ewa_context_destroy(&context);
 }
 
-/// The coarse nodes of an octree, of bare points and of surfels that say no curvature.
+/// The coarse nodes of an octree, of bare points and of surfels with curvatures.
 static void test_octrees(void **state) {
     ewa_context *context = check_context(0, NULL);
     static outline_truth truth;
@@ -165,7 +165,6 @@ static void test_octrees(void **state) {
         const char *const paths[1] = {scratch_path("torus.ply", points)};
         ewa_cloud *cloud = surfels ? estimated(context, OUTLINE_TORUS, 300000)
                                    : outline_points(context, OUTLINE_TORUS, 300000);
-        ewa_cloud_remove(cloud, EWA_CURVATURE);
         assert_int_equal(ewa_cloud_save(cloud, points, NULL), EWA_OK);
         ewa_cloud_destroy(&cloud);
         assert_int_equal(ewa_lod_build(context, paths, 1, scratch_path("torus.copc.laz", octree), NULL, NULL), EWA_OK);

@@ -4,7 +4,6 @@
 // Scenes: what is added is what was merged before, whatever the order; tiles without normals are one file; every plane is
 // of everything; what is shared stays right; what cannot be is refused.
 #include "check.h"
-#include "io/scratch.h"
 
 #include <math.h>
 
@@ -175,53 +174,6 @@ static void test_estimated_together(void **state) {
     }
     ewa_scene_destroy(&one);
     ewa_cloud_destroy(&whole), ewa_cloud_destroy(&object);
-    ewa_context_destroy(&context);
-}
-
-/// Surfels that say no curvature get it, several clouds as one; what one says stays.
-static void test_curvatures_of_surfels(void **state) {
-    ewa_context *context = check_context(0, NULL);
-    ewa_cloud *object = make_object(context, EWA_OBJECT_SPHERE, 0), *found = NULL;
-    char paths[2][512];
-    for (int kind = 0; kind < 5; kind++) { // in memory; a file; two that meet; one that says it; one that says it of half
-        ewa_scene *scene = make_scene(context);
-        if (kind < 3) ewa_cloud_remove(object, EWA_CURVATURE);
-        if (kind == 0) add_cloud(context, scene, object, NULL);
-        for (int k = 0; k < (kind == 0 ? 0 : kind == 2 ? 2 : 1); k++) {
-            static uint64_t points[POINTS];
-            uint64_t count = 0;
-            for (uint64_t i = 0; i < POINTS; i++)
-                if (kind != 2 || (i < POINTS / 2) == (k == 0)) points[count++] = i;
-            ewa_cloud *part_of = NULL;
-            ewa_asset *asset = NULL;
-            assert_int_equal(ewa_cloud_select(object, points, count, &part_of), EWA_OK);
-            void *data = NULL;
-            if (kind > 2) assert_int_equal(ewa_cloud_add(part_of, EWA_CURVATURE, EWA_F32, 1, &data), EWA_OK);
-            for (uint64_t i = 0; i < count && data; i++) ((float *)data)[i] = kind == 4 && i % 2 ? NAN : 0.125f;
-            assert_int_equal(ewa_cloud_save(part_of, scratch_path(k ? "b.ply" : "a.ply", paths[k]), NULL), EWA_OK);
-            ewa_cloud_destroy(&part_of);
-            assert_int_equal(ewa_asset_load(context, paths[k], NULL, &asset), EWA_OK);
-            assert_int_equal(ewa_scene_add(scene, asset, NULL), EWA_OK);
-            ewa_asset_release(&asset);
-            unlink(paths[k]);
-        }
-        assert_int_equal(ewa_scene_cloud(scene, &found), EWA_OK);
-        ewa_scene_info info;
-        ewa_scene_describe(scene, &info);
-        assert_int_equal(info.estimated_count, kind != 3 ? POINTS : 0);
-        const ewa_attribute *curvature = ewa_cloud_find(found, EWA_CURVATURE);
-        assert_non_null(curvature);
-        uint64_t right = 0;
-        for (uint64_t i = 0; i < POINTS; i++) {
-            double value;
-            ewa_attribute_read_f64(curvature, i, 1, &value);
-            right += fabs(value - (kind == 3 || (kind == 4 && i % 2 == 0) ? 0.125 : 1)) < 0.01; // a radius of 1
-        }
-        assert_true(right > 0.99 * POINTS);
-        ewa_cloud_destroy(&found);
-        ewa_scene_destroy(&scene);
-    }
-    ewa_cloud_destroy(&object);
     ewa_context_destroy(&context);
 }
 
@@ -717,7 +669,7 @@ static void test_bare_light(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_added_is_merged),
-                                       cmocka_unit_test(test_estimated_together), cmocka_unit_test(test_curvatures_of_surfels),
+                                       cmocka_unit_test(test_estimated_together),
                                        cmocka_unit_test(test_planes_among_gaussians),
                                        cmocka_unit_test(test_instances),
                                        cmocka_unit_test(test_one_range),
