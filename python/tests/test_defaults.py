@@ -103,7 +103,7 @@ class Defaults(Case):
         rng = np.random.default_rng(1)
         gaussians = ewa.Gaussians(rng.normal(size=(20, 3)), np.full((20, 3), 0.2), np.tile([1.0, 0, 0, 0], (20, 1)),
                                   np.full(20, 0.7), rng.normal(size=(20, 4, 3)))
-        size = {"size": (48, 32), "planes": "all"}
+        size, scene = {"size": (48, 32), "planes": "all"}, ewa.Scene(bare)
         camera = ewa.Camera.frame(cloud, size=(48, 32))
         image = ewa.render(cloud, camera, planes=("rgba", "depth"))
         depths = ewa.DepthImage(image.depth, image.rgba, camera)
@@ -130,6 +130,7 @@ class Defaults(Case):
             "Octree.render": lambda **o: octree.render(**{**size, **o}),
             "render": lambda **o: ewa.render(bare, **{**size, **o}),
             "Renderer.render": lambda **o: ewa.Renderer().render(bare, **{**size, **o}),
+            "Scene.draw_furniture": lambda **o: scene.draw_furniture(scene.render(size=(96, 64)), **{"axes": True, **o}),
             "Scene": lambda **o: ewa.Scene(bare, **o).render(**size), "Scene.render": lambda **o: ewa.Scene(bare).render(**{**size, **o}),
             "render_backward": lambda **o: tuple(map(str, ewa.render_backward(
                 cloud, camera, **{**o, "rgba": np.ones((32, 48, 4), np.float32)}))),
