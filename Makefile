@@ -26,6 +26,8 @@
 #   make papers                 every figure, table and claim of the papers into docs/papers; PAPER=pas ITEM=fig3: one of them
 #   make wheel                  the Python package as a wheel, into build/wheels; PYTHONS names interpreters to test it with
 #   make install                to PREFIX (default /usr/local)
+#   make dist                   what is committed as an archive that builds by itself, into build
+#   make deb                    the same as packages of Debian, into build/deb; lintian looks at them
 
 FILE ?=
 OUT ?= out
@@ -37,6 +39,7 @@ BENCH_PREFIX ?=
 BENCH_AGAINST ?= $(wildcard build/release/measure/measure_embree)
 JOBS ?= $(shell nproc)
 EWA = build/release/cli/ewa
+VERSION := $(shell sed -n 's/^project.ewa VERSION \([0-9.]*\).*/\1/p' CMakeLists.txt)
 
 # $(call quietly,COMMAND): prints what a command said only when it fails.
 quietly = @mkdir -p build && { $(1) >build/log-$@.txt 2>&1 || { cat build/log-$@.txt; exit 1; }; }
@@ -49,7 +52,7 @@ export CCACHE_BASEDIR ?= $(CURDIR)
 export CCACHE_NOHASHDIR ?= 1
 endif
 
-.PHONY: minimal wasm windows macos riscv64 musl interop build program measure setup demo check check-all asan asan-build tsan tsan-build clang clang-build mutate fuzz arm64 bench sweep gallery papers docs wheel format install clean
+.PHONY: minimal wasm windows macos riscv64 musl interop build program measure setup demo check check-all asan asan-build tsan tsan-build clang clang-build mutate fuzz arm64 bench sweep gallery papers docs wheel format install dist deb clean
 
 build: setup
 	@echo "Building build/release"
@@ -227,6 +230,17 @@ format:
 
 install: build
 	cmake --install build/release --prefix "$(PREFIX)"
+
+dist:
+	@mkdir -p build
+	git archive --prefix=ewa-$(VERSION)/ -o build/ewa-$(VERSION).tar.gz HEAD
+
+deb: dist
+	@sh tools/setup.sh debhelper dh-python lintian
+	@rm -rf build/deb && mkdir -p build/deb && tar -xf build/ewa-$(VERSION).tar.gz -C build/deb
+	@echo "Building build/deb"
+	$(call quietly,cd build/deb/ewa-$(VERSION) && DEB_BUILD_OPTIONS=parallel=$(JOBS) dpkg-buildpackage -b -us -uc)
+	lintian --fail-on error,warning build/deb/*.changes
 
 clean:
 	rm -rf build out
