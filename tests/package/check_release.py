@@ -14,9 +14,8 @@ import subprocess
 import sys
 from pathlib import Path
 
-FILES = ["CMakeLists.txt", "pyproject.toml", "page/package.json", "debian/changelog", "CHANGELOG.md", "docs/api.json",
-         "docs/options.json", "python/ewa/_bindings.py", "python/ewa/_options.py", "tools/release.py", "tools/dump_api.py",
-         "tools/dump_python.py"]
+FILES = [".gitignore", "CMakeLists.txt", "pyproject.toml", "page/package.json", "debian/changelog", "CHANGELOG.md", "docs/api.json",
+         "docs/options.json"]
 
 
 def main():
@@ -25,7 +24,8 @@ def main():
         print("skipped: git is not installed")
         return 77
     shutil.rmtree(scratch, ignore_errors=True)
-    for name in FILES + [str(path.relative_to(source)) for path in (source / "include/ewa").glob("*.h")]:
+    for name in FILES + [str(path.relative_to(source)) for folder, pattern in (("include/ewa", "*.h"), ("python", "**/*.py*"), ("tools", "*.py"))
+                         for path in (source / folder).glob(pattern) if "__pycache__" not in path.parts]:
         (scratch / name).parent.mkdir(parents=True, exist_ok=True)
         shutil.copy(source / name, scratch / name)
     environment = {**os.environ, "GIT_CONFIG_GLOBAL": "/dev/null", "GIT_CONFIG_SYSTEM": "/dev/null"}
