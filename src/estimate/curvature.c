@@ -15,9 +15,11 @@ enum { TASK_PLACES = 1 << 13, LANES = EWA_BLOCK_LANES };
 
 // Curvatures times the reach of the neighbours, which are at most its sines: from here on they count less, and from there
 // on not at all. Estimated normals turn round an edge so fast, and splats that followed them would leave gaps there.
-static const double SOFT_BEND = 0.3, SHARP_BEND = 0.4;
+static const double SOFT_BEND = 0.12, SHARP_BEND = 0.25;
 // Share of a place and its neighbours that must know how they bend.
 static const double AGREEING_SHARE = 0.4;
+// Neighbours that may bend to the other side, or not at all.
+static const uint32_t DISSENTING = 2;
 
 typedef struct curvature_job {
     const curvature_input *input;
@@ -26,6 +28,7 @@ typedef struct curvature_job {
     const float *const *offsets; // of places, if these say all; else
     double (*position)[3];
     float (*fit)[2]; // signed curvature and how far it is to be trusted
+    float *mean;     // by place, over its neighbours
 } curvature_job;
 
 static double larger(double a, double b) { return b > a ? b : a; }
@@ -106,10 +109,29 @@ static void average_places(void *data, uint32_t task, uint32_t worker) {
     const curvature_job *job = data;
     const uint32_t begin = task * TASK_PLACES;
     const uint32_t end = job->place_count - begin < TASK_PLACES ? job->place_count : begin + TASK_PLACES;
+    for (uint32_t place = begin; place < end; place++) job->mean[place] = average(job, place);
+}
+
+/// What a place moves by at contours: nothing where more than two of its neighbours bend to the other side or not at all, since it would move
+/// away from these, as rough surfaces do everywhere.
+static float agreed(const curvature_job *job, uint32_t place) {
+    const uint32_t *links = job->input->links[place];
+    const float own = job->mean[place];
+    uint32_t others = 0;
+    for (int i = 0; i < LOCAL_GRAPH_DEGREE && links[i] != UINT32_MAX; i++)
+        others += !(own < 0 ? job->mean[links[i]] < 0 : job->mean[links[i]] > 0);
+    return others > DISSENTING ? 0 : own;
+}
+
+static void hand_out(void *data, uint32_t task, uint32_t worker) {
+    (void)worker;
+    const curvature_job *job = data;
+    const uint32_t begin = task * TASK_PLACES;
+    const uint32_t end = job->place_count - begin < TASK_PLACES ? job->place_count : begin + TASK_PLACES;
     for (uint32_t place = begin; place < end; place++) {
         uint32_t count;
         const uint32_t *points = ewa_neighbours_points(job->input->neighbours, place, &count);
-        const float value = average(job, place);
+        const float value = agreed(job, place);
         for (uint32_t i = 0; i < count; i++) job->input->curvature[points[i]] = value;
     }
 }
@@ -130,10 +152,13 @@ ewa_status ewa_curvature_measure(ewa_context *context, const curvature_input *in
     const uint32_t tasks = (job.place_count + TASK_PLACES - 1) / TASK_PLACES;
     if (!job.offsets) job.position = ewa_allocate(context, job.place_count, sizeof *job.position);
     job.fit = ewa_allocate(context, job.place_count, sizeof *job.fit);
-    ewa_status status = (job.offsets || job.position) && job.fit ? EWA_OK : EWA_ERROR_MEMORY;
+    job.mean = ewa_allocate(context, job.place_count, sizeof *job.mean);
+    ewa_status status = (job.offsets || job.position) && job.fit && job.mean ? EWA_OK : EWA_ERROR_MEMORY;
     if (status == EWA_OK && job.position) ewa_parallel(context, copy_positions, &job, tasks);
     if (status == EWA_OK) status = ewa_parallel_stoppable(context, "estimate", fit_places, &job, tasks);
     if (status == EWA_OK) status = ewa_parallel_stoppable(context, "estimate", average_places, &job, tasks);
+    if (status == EWA_OK) status = ewa_parallel_stoppable(context, "estimate", hand_out, &job, tasks);
+    ewa_release(context, job.mean, job.place_count, sizeof *job.mean);
     ewa_release(context, job.fit, job.place_count, sizeof *job.fit);
     if (job.position) ewa_release(context, job.position, job.place_count, sizeof *job.position);
     return status;

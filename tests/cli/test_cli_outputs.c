@@ -42,6 +42,8 @@ static const writing writings[] = {
     {"lod", "output", "in.ply %s", ".copc.laz"},
     {"lod", "stats", "in.ply -o a.copc.laz %s", ".json"},
     {"page", "output", "in.ply %s", ".html"},
+    {"profile", "output", "in.ply --line '0,0;1,0' --width 9 %s", ".ply"},
+    {"profile", "graph", "in.ply --line '0,0;1,0' --width 9 %s", ".png"},
     {"photos", "output", "in.ply --cameras c.json %s", ".ply"},
     {"photos", "report", "in.ply --cameras c.json -o a.ply %s", ".json"},
     {"compare", "output", "in.ply --cameras c.json %s", ".png"},
