@@ -85,6 +85,8 @@ def inputs():
     """Files that keep every command busy for a second and more."""
     done("generate", "terrain", "-n", "2000000", "-o", "points.ply")
     bare("bare.ply", 1400)
+    with open("frames.txt", "w") as file:
+        file.write("do turn 1 0\nframe\n" * 100000)
     done("convert", "bare.ply", "-o", "points.laz")
     done("generate", "ball", "--dims", "256,256,256", "-o", "ball.nrrd")
     done("generate", "sphere", "-n", "400000", "-o", "a.ply")
@@ -122,7 +124,7 @@ COMMANDS = [
     (["bench", "--scene", "plane"], None),
 ]
 # Where the program was built with a window.
-VIEW = (["view", "bare.ply"], None)
+VIEW = (["view", "bare.ply", "--script", "frames.txt"], None)
 
 
 def every_command():

@@ -50,6 +50,7 @@ static void make_clouds(void) {
     ewa_instance_init(&instance, sizeof instance);
     MAKE(ewa_scene_add(made.scene, made.asset, &instance));
     MAKE(ewa_scene_renderer_create(made.context, EWA_BACKEND_CPU, NULL, &made.scene_renderer));
+    MAKE(ewa_scene_reader_create(made.context, &made.scene_reader));
     const char *const paths[] = {"right.ply"};
     MAKE(ewa_lod_build(made.context, paths, 1, "right.copc.laz", NULL, NULL));
     MAKE(ewa_lod_open(made.context, "right.copc.laz", &made.lod));

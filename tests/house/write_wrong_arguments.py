@@ -16,7 +16,7 @@ import sys
 MADE = {"ewa_context": "made.context", "ewa_cloud": "made.cloud", "ewa_image": "&made.image", "ewa_mesh": "&made.mesh",
         "ewa_volume": "&made.volume", "ewa_gaussians": "&made.gaussians", "ewa_renderer": "made.renderer",
         "ewa_surfels": "made.surfels", "ewa_scene": "made.scene", "ewa_asset": "made.asset", "ewa_camera": "&made.camera",
-        "ewa_scene_renderer": "made.scene_renderer", "ewa_framing": "made.framing", "ewa_polygon": "made.polygon",
+        "ewa_scene_renderer": "made.scene_renderer", "ewa_scene_reader": "made.scene_reader", "ewa_framing": "made.framing", "ewa_polygon": "made.polygon",
         "ewa_splats": "made.splats", "ewa_voxels": "made.voxels", "ewa_gaussian_renderer": "made.gaussian_renderer",
         "ewa_volume_renderer": "made.volume_renderer", "ewa_warp": "made.warp", "ewa_frame": "&made.frame",
         "ewa_attribute": "made.attribute", "ewa_transfer": "&made.transfer", "ewa_volume_facts": "&made.facts",

@@ -28,6 +28,7 @@ typedef struct right_things {
     ewa_camera camera;
     ewa_camera_path *path;
     ewa_scene_renderer *scene_renderer;
+    ewa_scene_reader *scene_reader;
     ewa_framing *framing;
     ewa_polygon *polygon;
     ewa_splats *splats;
