@@ -15,11 +15,12 @@ enum { TASK_PLACES = 1 << 13, LANES = EWA_BLOCK_LANES };
 
 // Curvatures times the reach of the neighbours, which are at most its sines: from here on they count less, and from there
 // on not at all. Estimated normals turn round an edge so fast, and splats that followed them would leave gaps there.
-static const double SOFT_BEND = 0.12, SHARP_BEND = 0.25;
+static const double SOFT_BEND = 0.3, SHARP_BEND = 0.4;
 // Share of a place and its neighbours that must know how they bend.
 static const double AGREEING_SHARE = 0.4;
-// Neighbours that may bend to the other side, or not at all.
+// Neighbours that may bend to the other side, or not at all; and how often they are asked, each time of one ring more.
 static const uint32_t DISSENTING = 2;
+enum { RINGS = 8, SOFT_RINGS = 3 }; // from where on what disagrees takes a part only
 
 typedef struct curvature_job {
     const curvature_input *input;
@@ -29,6 +30,8 @@ typedef struct curvature_job {
     double (*position)[3];
     float (*fit)[2]; // signed curvature and how far it is to be trusted
     float *mean;     // by place, over its neighbours
+    float *next;     // what is left of it
+    int ring;        // that is asked
 } curvature_job;
 
 static double larger(double a, double b) { return b > a ? b : a; }
@@ -112,8 +115,16 @@ static void average_places(void *data, uint32_t task, uint32_t worker) {
     for (uint32_t place = begin; place < end; place++) job->mean[place] = average(job, place);
 }
 
-/// What a place moves by at contours: nothing where more than two of its neighbours bend to the other side or not at all, since it would move
-/// away from these, as rough surfaces do everywhere.
+/// What is told of places, as long as no ring disagrees.
+static void keep_places(void *data, uint32_t task, uint32_t worker) {
+    (void)worker;
+    const curvature_job *job = data;
+    const uint32_t begin = task * TASK_PLACES;
+    const uint32_t end = job->place_count - begin < TASK_PLACES ? job->place_count : begin + TASK_PLACES;
+    for (uint32_t place = begin; place < end; place++) job->fit[place][0] = job->mean[place];
+}
+
+/// Of a place what its neighbours agree to: nothing where more than two of them bend to the other side or not at all.
 static float agreed(const curvature_job *job, uint32_t place) {
     const uint32_t *links = job->input->links[place];
     const float own = job->mean[place];
@@ -121,6 +132,18 @@ static float agreed(const curvature_job *job, uint32_t place) {
     for (int i = 0; i < LOCAL_GRAPH_DEGREE && links[i] != UINT32_MAX; i++)
         others += !(own < 0 ? job->mean[links[i]] < 0 : job->mean[links[i]] > 0);
     return others > DISSENTING ? 0 : own;
+}
+
+static void agree_places(void *data, uint32_t task, uint32_t worker) {
+    (void)worker;
+    const curvature_job *job = data;
+    const uint32_t begin = task * TASK_PLACES;
+    const uint32_t end = job->place_count - begin < TASK_PLACES ? job->place_count : begin + TASK_PLACES;
+    const float share = job->ring > SOFT_RINGS ? (float)(job->ring - SOFT_RINGS) / (RINGS - SOFT_RINGS) : 0;
+    for (uint32_t place = begin; place < end; place++) {
+        job->next[place] = job->mean[place] != 0 ? agreed(job, place) : 0;
+        if (job->mean[place] != 0 && job->next[place] == 0) job->fit[place][0] = share * job->mean[place];
+    }
 }
 
 static void hand_out(void *data, uint32_t task, uint32_t worker) {
@@ -131,9 +154,21 @@ static void hand_out(void *data, uint32_t task, uint32_t worker) {
     for (uint32_t place = begin; place < end; place++) {
         uint32_t count;
         const uint32_t *points = ewa_neighbours_points(job->input->neighbours, place, &count);
-        const float value = agreed(job, place);
-        for (uint32_t i = 0; i < count; i++) job->input->curvature[points[i]] = value;
+        for (uint32_t i = 0; i < count; i++) job->input->curvature[points[i]] = job->fit[place][0];
     }
+}
+
+/// Leaves curvatures of what bends to one side for some way around: on rough ground splats that moved at contours would leave gaps, since
+/// others beside them do not.
+static ewa_status agree(ewa_context *context, curvature_job *job, uint32_t tasks) {
+    EWA_TRY(ewa_parallel_stoppable(context, "estimate", keep_places, job, tasks));
+    for (job->ring = 0; job->ring < RINGS; job->ring++) {
+        EWA_TRY(ewa_parallel_stoppable(context, "estimate", agree_places, job, tasks));
+        float *agreed_on = job->next;
+        job->next = job->mean;
+        job->mean = agreed_on;
+    }
+    return ewa_parallel_stoppable(context, "estimate", hand_out, job, tasks);
 }
 
 static void copy_positions(void *data, uint32_t task, uint32_t worker) {
@@ -153,11 +188,13 @@ ewa_status ewa_curvature_measure(ewa_context *context, const curvature_input *in
     if (!job.offsets) job.position = ewa_allocate(context, job.place_count, sizeof *job.position);
     job.fit = ewa_allocate(context, job.place_count, sizeof *job.fit);
     job.mean = ewa_allocate(context, job.place_count, sizeof *job.mean);
-    ewa_status status = (job.offsets || job.position) && job.fit && job.mean ? EWA_OK : EWA_ERROR_MEMORY;
+    job.next = ewa_allocate(context, job.place_count, sizeof *job.next);
+    ewa_status status = (job.offsets || job.position) && job.fit && job.mean && job.next ? EWA_OK : EWA_ERROR_MEMORY;
     if (status == EWA_OK && job.position) ewa_parallel(context, copy_positions, &job, tasks);
     if (status == EWA_OK) status = ewa_parallel_stoppable(context, "estimate", fit_places, &job, tasks);
     if (status == EWA_OK) status = ewa_parallel_stoppable(context, "estimate", average_places, &job, tasks);
-    if (status == EWA_OK) status = ewa_parallel_stoppable(context, "estimate", hand_out, &job, tasks);
+    if (status == EWA_OK) status = agree(context, &job, tasks);
+    ewa_release(context, job.next, job.place_count, sizeof *job.next);
     ewa_release(context, job.mean, job.place_count, sizeof *job.mean);
     ewa_release(context, job.fit, job.place_count, sizeof *job.fit);
     if (job.position) ewa_release(context, job.position, job.place_count, sizeof *job.position);

@@ -29,7 +29,7 @@ static void test_closed(void **state) {
         double translucent, thin; ///< largest shares of the pixels inside
     } scenes[] = {{"plane", RADII_PLANE, 0, 20000, 3e-5, 4e-3},
                   {"sphere", RADII_SPHERE, 0, 100000, 1e-5, 3e-3},
-                  {"terrain", RADII_TERRAIN, 0, 60000, 3e-5, 4e-3},
+                  {"terrain", RADII_TERRAIN, 0, 60000, 5e-5, 4e-3},
                   {"lines 5 : 1", RADII_LINES, 5, 20000, 0, 1e-3},
                   {"lines 20 : 1", RADII_LINES, 20, 20000, 1e-5, 4e-3},
                   {"noise of 1/4", RADII_NOISY, 0.25, 20000, 4e-4, 2e-2}};

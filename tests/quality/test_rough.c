@@ -54,7 +54,6 @@ static void test_ground(void **state) {
         ewa_estimate_options options;
         ewa_estimate_options_init(&options, sizeof options);
         assert_int_equal(ewa_cloud_estimate(&cloud, &options), EWA_OK);
-        assert_non_null(ewa_cloud_find(cloud, EWA_CURVATURE));
         const double elevation_deg = k % 2 ? -15 : 0;
         draw(context, cloud, true, elevation_deg, bent);
         draw(context, cloud, false, elevation_deg, flat);
@@ -62,7 +61,7 @@ static void test_ground(void **state) {
         for (int i = 0; i < PIXELS; i++)
             if (is_inner(flat, i % WIDTH, i / WIDTH)) inner++, opened += bent[4 * i + 3] < 0.9f;
         print_message("%llu points: %u of %u inner pixels opened\n", (unsigned long long)generate.point_count, opened, inner);
-        assert_true(inner > 50000 && opened < 5e-4 * inner);
+        assert_true(inner > 50000 && opened < 1e-4 * inner);
         ewa_cloud_destroy(&cloud);
     }
     ewa_context_destroy(&context);
