@@ -63,7 +63,7 @@ static ewa_scene *make_scene(const ewa_cloud *cloud) {
 static void set_regions(ewa_scene *scene, const ewa_region *regions, uint32_t count) {
     static ewa_scene_options options;
     ewa_scene_get_options(scene, &options);
-    memcpy(options.regions, regions, count * sizeof *regions);
+    if (count) memcpy(options.regions, regions, count * sizeof *regions);
     options.region_count = count;
     assert_int_equal(ewa_scene_set_options(scene, &options), EWA_OK);
 }
