@@ -413,12 +413,13 @@ static bool draw(cli_session *session, const render_arguments *arguments, const 
     return done;
 }
 
-/// Gives panoramas the shape that they have, where no size is given.
+/// Gives panoramas the shape that they have, where neither a size is given nor cameras, which have one.
 static render_arguments shape_panorama(const render_arguments *given) {
     enum { HEIGHT_PX = 1024 };
     render_arguments arguments = *given;
     option_size *size = &arguments.frames.view.size;
-    if (size->given || arguments.panorama.kind == EWA_PANORAMA_NONE) return arguments;
+    const bool sized = size->given || arguments.frames.view.camera_path || arguments.frames.path_file;
+    if (sized || arguments.panorama.kind == EWA_PANORAMA_NONE) return arguments;
     size->width_px = arguments.panorama.kind == EWA_PANORAMA_EQUIRECTANGULAR ? 2 * HEIGHT_PX : HEIGHT_PX;
     size->height_px = HEIGHT_PX;
     size->given = true;

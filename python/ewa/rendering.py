@@ -195,8 +195,9 @@ def render(scene: Any, camera: Camera | None = None, *, size: Sequence[int] | No
     close_gaps : bool, optional
         Of clouds, as of :meth:`Cloud.surfels`. Default: True, but with `point_size_px`.
     panorama : "equirectangular", "fisheye", or a mapping, optional
-        All that is around the camera's eye, in a picture of its size: kind, and fov_deg (of a fisheye), up_world and finer as in
-        `ewa_panorama_options`. Depths are distances. Without a camera: from the middle of what there is, 2048 x 1024 or 1024 x 1024.
+        All that is around the camera's eye, in a picture of its size: kind, and fov_deg (of a fisheye), up_world (default: what is up in
+        the scene) and finer as in `ewa_panorama_options`. Depths are distances. Without a camera: from the middle of what there is,
+        2048 x 1024 or 1024 x 1024.
     **options
         ``cutoff``: Of clouds, as of :meth:`Cloud.surfels`. Default: 3. ``radius_scale``: Of clouds, likewise. Default: 1.
         ``shading``: Default: "phong" where there are materials or an environment, else "lambert".
@@ -244,11 +245,14 @@ def draw(world: World, camera: Camera | None, *, size: Sequence[int] | None, pla
     core = world.core
     around = initialised(b.ewa_panorama_options, lib.ewa_panorama_options_init)
     fill(around, "ewa_panorama_options", {"kind": panorama} if isinstance(panorama, str) else panorama or {})
-    if camera is None and panorama:
+    placed = None
+    if panorama:
         height = 1024
         view = view_options(size=size or (height if around.kind == b.ewa_panorama_kind.EWA_PANORAMA_FISHEYE else 2 * height, height))
-        camera = Camera._of(b.ewa_camera())
-        core.call(lib.ewa_scene_place_panorama, world.handle, ctypes.byref(view), ctypes.byref(around), ctypes.byref(camera._struct))
+        placed = Camera._of(b.ewa_camera())
+        core.call(lib.ewa_scene_place_panorama, world.handle, ctypes.byref(view), ctypes.byref(around), ctypes.byref(placed._struct))
+    if camera is None and placed:
+        camera = placed
     elif camera is None:
         camera = Camera._of(world.place(view_options(size=size)))
     elif not isinstance(camera, Camera):

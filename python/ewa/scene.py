@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import ctypes
 import json
-from typing import TYPE_CHECKING, Any, Iterable, Sequence
+from typing import TYPE_CHECKING, Any, Iterable, Mapping, Sequence
 
 import numpy as np
 
@@ -167,7 +167,7 @@ class Scene:
                lights: Sequence[Light] | None = None, materials: Materials | None = None,
                environment: Environment | Any = None, layers: int | str | None = None, section_box: Any = None,
                section_planes: Sequence[Sequence[float]] | None = None, out: Image | None = None,
-               **options: Any) -> Image:
+               panorama: str | Mapping[str, Any] | None = None, **options: Any) -> Image:
         """Draw a frame: the bytes of ``ewa render`` with the same files, camera and options. Those that are not given are of the
         scene file, if there is one.
 
@@ -177,7 +177,7 @@ class Scene:
             Default: :meth:`camera`.
         background : colour, optional
             Default: white, or that of the scene file.
-        size, planes, lights, materials, environment, layers, section_box, section_planes, out
+        size, planes, lights, materials, environment, layers, section_box, section_planes, out, panorama
             As of :func:`render`.
         **options
 
@@ -187,7 +187,7 @@ class Scene:
         """
         return draw(self._world, camera, size=size, planes=planes, background=background, lights=lights,
                     materials=materials, environment=environment, layers=layers, section_box=section_box,
-                    section_planes=section_planes, out=out, render=options)
+                    section_planes=section_planes, out=out, render=options, panorama=panorama)
 
     def draw_outlines(self, image: Image, count: int) -> None:
         """Draw the outlines of `count` of the surfels that are seen over a picture that :meth:`render` made.

@@ -61,6 +61,12 @@ class SameBytes(Case):
             self.run_program("render", "scan.ply", "-o", "theirs.png", "--panorama", kind, "--size", f"{size[0]}x{size[1]}")
             ewa.render(scan, panorama=kind, size=size).save(self.path("ours.png"))
             self.same("ours.png", "theirs.png")
+            # A camera that is tilted: what is up in the scene is upright.
+            tilted = ewa.Camera.look_at((0.1, 0, 0), (1, 0.3, 0.8), size=size)
+            tilted.save(self.path("camera.json"))
+            self.run_program("render", "scan.ply", "-o", "theirs.png", "--panorama", kind, "--camera", "camera.json")
+            ewa.Scene(self.path("scan.ply")).render(tilted, panorama=kind).save(self.path("ours.png"))
+            self.same("ours.png", "theirs.png")
         image = ewa.render(scan, ewa.Camera.look_at((0, 0, 0), (1, 0, 0), size=(60, 60)), planes=("rgba", "depth"),
                            panorama={"kind": "fisheye", "fov_deg": 360}, background="transparent")
         hit = image.rgba[..., 3] == 1

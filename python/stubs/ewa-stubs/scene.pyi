@@ -5,7 +5,7 @@
 from typing import Any, Literal, Sequence
 import ctypes
 import json
-from typing import TYPE_CHECKING, Any, Iterable, Sequence
+from typing import TYPE_CHECKING, Any, Iterable, Mapping, Sequence
 import numpy as np
 from . import _bindings as b
 from ._arrays import Array
@@ -33,7 +33,7 @@ class Scene:
     @property
     def bounds(self) -> Array: ...
     def camera(self, view: str | Sequence[float] | None=None, up: str | Sequence[float] | None=None, *, size: Sequence[int] | None=None, fov: float | None=None, ortho: float | None=None, eye: Sequence[float] | None=None, target: Sequence[float] | None=None, azimuth: float=0, elevation: float=0) -> Camera: ...
-    def render(self, camera: Camera | None=None, *, size: Sequence[int] | None=None, planes: str | Iterable[str]=('rgba8',), background: Color | None=None, lights: Sequence[Light] | None=None, materials: Materials | None=None, environment: Environment | Any=None, layers: int | str | None=None, section_box: Any=None, section_planes: Sequence[Sequence[float]] | None=None, out: Image | None=None,
+    def render(self, camera: Camera | None=None, *, size: Sequence[int] | None=None, planes: str | Iterable[str]=('rgba8',), background: Color | None=None, lights: Sequence[Light] | None=None, materials: Materials | None=None, environment: Environment | Any=None, layers: int | str | None=None, section_box: Any=None, section_planes: Sequence[Sequence[float]] | None=None, out: Image | None=None, panorama: str | Mapping[str, Any] | None=None,
             kernel: Literal["perspective", "affine", "source", "circular", "raycast"] | None = None,  # projected shape of a splat: its exact ellipse, the ellipse of the affine map at its centre, the same evaluated in the surfel's plane, the circle around it, or the exact kernel at each pixel; default perspective
             prefilter_px: float | None = None,  # standard deviation of the pixel filter; 0: none; [0, 4] px; default 0.35
             point_size_px: float | None = None,  # draws every point as a disc of that diameter that faces the viewer: for points that are no surface; 0: surfels as they are; 0 or [1, 256] px; default 0
