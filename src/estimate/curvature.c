@@ -9,6 +9,7 @@
 #include "homogeneous/vec.h"
 
 #include <math.h>
+#include <stdatomic.h>
 #include <string.h>
 
 enum { TASK_PLACES = 1 << 13, LANES = EWA_BLOCK_LANES };
@@ -18,9 +19,10 @@ enum { TASK_PLACES = 1 << 13, LANES = EWA_BLOCK_LANES };
 static const double SOFT_BEND = 0.3, SHARP_BEND = 0.4;
 // Share of a place and its neighbours that must know how they bend.
 static const double AGREEING_SHARE = 0.4;
-// Neighbours that may bend to the other side, or not at all; and how often they are asked, each time of one ring more.
+// Neighbours that may bend to the other side, or not at all.
 static const uint32_t DISSENTING = 2;
-enum { RINGS = 8, SOFT_RINGS = 3 }; // from where on what disagrees takes a part only
+// How often neighbours are asked, each time of one ring more; what drops out later than in round WHOLLY, counted from 0, keeps a part.
+enum { ROUNDS = 8, WHOLLY = 3 };
 
 typedef struct curvature_job {
     const curvature_input *input;
@@ -28,10 +30,10 @@ typedef struct curvature_job {
     uint32_t place_count;
     const float *const *offsets; // of places, if these say all; else
     double (*position)[3];
-    float (*fit)[2]; // signed curvature and how far it is to be trusted
-    float *mean;     // by place, over its neighbours
-    float *next;     // what is left of it
-    int ring;        // that is asked
+    float (*fit)[2];          // signed curvature and how far it is to be trusted
+    float *mean;              // by place, over its neighbours
+    _Atomic uint8_t *dropped; // the round in which a place dropped out; ROUNDS: none
+    uint8_t round;
 } curvature_job;
 
 static double larger(double a, double b) { return b > a ? b : a; }
@@ -115,34 +117,28 @@ static void average_places(void *data, uint32_t task, uint32_t worker) {
     for (uint32_t place = begin; place < end; place++) job->mean[place] = average(job, place);
 }
 
-/// What is told of places, as long as no ring disagrees.
-static void keep_places(void *data, uint32_t task, uint32_t worker) {
-    (void)worker;
-    const curvature_job *job = data;
-    const uint32_t begin = task * TASK_PLACES;
-    const uint32_t end = job->place_count - begin < TASK_PLACES ? job->place_count : begin + TASK_PLACES;
-    for (uint32_t place = begin; place < end; place++) job->fit[place][0] = job->mean[place];
-}
-
-/// Of a place what its neighbours agree to: nothing where more than two of them bend to the other side or not at all.
-static float agreed(const curvature_job *job, uint32_t place) {
+/// Whether no more than DISSENTING neighbours bend to the other side, do not bend, or have dropped out in an earlier round. Who drops out in this
+/// one counts still, so that it does not matter who is asked first.
+static bool is_shared(const curvature_job *job, uint32_t place) {
     const uint32_t *links = job->input->links[place];
     const float own = job->mean[place];
     uint32_t others = 0;
-    for (int i = 0; i < LOCAL_GRAPH_DEGREE && links[i] != UINT32_MAX; i++)
-        others += !(own < 0 ? job->mean[links[i]] < 0 : job->mean[links[i]] > 0);
-    return others > DISSENTING ? 0 : own;
+    for (int i = 0; i < LOCAL_GRAPH_DEGREE && links[i] != UINT32_MAX; i++) {
+        const float other = job->mean[links[i]];
+        const bool alike = own < 0 ? other < 0 : other > 0;
+        others += !alike || atomic_load_explicit(&job->dropped[links[i]], memory_order_relaxed) < job->round;
+    }
+    return others <= DISSENTING;
 }
 
-static void agree_places(void *data, uint32_t task, uint32_t worker) {
+static void drop_places(void *data, uint32_t task, uint32_t worker) {
     (void)worker;
     const curvature_job *job = data;
     const uint32_t begin = task * TASK_PLACES;
     const uint32_t end = job->place_count - begin < TASK_PLACES ? job->place_count : begin + TASK_PLACES;
-    const float share = job->ring > SOFT_RINGS ? (float)(job->ring - SOFT_RINGS) / (RINGS - SOFT_RINGS) : 0;
     for (uint32_t place = begin; place < end; place++) {
-        job->next[place] = job->mean[place] != 0 ? agreed(job, place) : 0;
-        if (job->mean[place] != 0 && job->next[place] == 0) job->fit[place][0] = share * job->mean[place];
+        const bool left = job->mean[place] != 0 && atomic_load_explicit(&job->dropped[place], memory_order_relaxed) == ROUNDS;
+        if (left && !is_shared(job, place)) atomic_store_explicit(&job->dropped[place], job->round, memory_order_relaxed);
     }
 }
 
@@ -154,20 +150,18 @@ static void hand_out(void *data, uint32_t task, uint32_t worker) {
     for (uint32_t place = begin; place < end; place++) {
         uint32_t count;
         const uint32_t *points = ewa_neighbours_points(job->input->neighbours, place, &count);
-        for (uint32_t i = 0; i < count; i++) job->input->curvature[points[i]] = job->fit[place][0];
+        const int rounds = atomic_load_explicit(&job->dropped[place], memory_order_relaxed);
+        const float share = rounds > WHOLLY ? (float)(rounds - WHOLLY) / (ROUNDS - WHOLLY) : 0;
+        for (uint32_t i = 0; i < count; i++) job->input->curvature[points[i]] = share * job->mean[place];
     }
 }
 
-/// Leaves curvatures of what bends to one side for some way around: on rough ground splats that moved at contours would leave gaps, since
+/// Leaves the curvatures of what bends to one side for some way around: on rough ground splats that moved at contours would leave gaps, since
 /// others beside them do not.
-static ewa_status agree(ewa_context *context, curvature_job *job, uint32_t tasks) {
-    EWA_TRY(ewa_parallel_stoppable(context, "estimate", keep_places, job, tasks));
-    for (job->ring = 0; job->ring < RINGS; job->ring++) {
-        EWA_TRY(ewa_parallel_stoppable(context, "estimate", agree_places, job, tasks));
-        float *agreed_on = job->next;
-        job->next = job->mean;
-        job->mean = agreed_on;
-    }
+static ewa_status leave_shared(ewa_context *context, curvature_job *job, uint32_t tasks) {
+    for (uint32_t place = 0; place < job->place_count; place++) atomic_init(&job->dropped[place], ROUNDS);
+    for (job->round = 0; job->round < ROUNDS; job->round++)
+        EWA_TRY(ewa_parallel_stoppable(context, "estimate", drop_places, job, tasks));
     return ewa_parallel_stoppable(context, "estimate", hand_out, job, tasks);
 }
 
@@ -188,13 +182,13 @@ ewa_status ewa_curvature_measure(ewa_context *context, const curvature_input *in
     if (!job.offsets) job.position = ewa_allocate(context, job.place_count, sizeof *job.position);
     job.fit = ewa_allocate(context, job.place_count, sizeof *job.fit);
     job.mean = ewa_allocate(context, job.place_count, sizeof *job.mean);
-    job.next = ewa_allocate(context, job.place_count, sizeof *job.next);
-    ewa_status status = (job.offsets || job.position) && job.fit && job.mean && job.next ? EWA_OK : EWA_ERROR_MEMORY;
+    job.dropped = ewa_allocate(context, job.place_count, sizeof *job.dropped);
+    ewa_status status = (job.offsets || job.position) && job.fit && job.mean && job.dropped ? EWA_OK : EWA_ERROR_MEMORY;
     if (status == EWA_OK && job.position) ewa_parallel(context, copy_positions, &job, tasks);
     if (status == EWA_OK) status = ewa_parallel_stoppable(context, "estimate", fit_places, &job, tasks);
     if (status == EWA_OK) status = ewa_parallel_stoppable(context, "estimate", average_places, &job, tasks);
-    if (status == EWA_OK) status = agree(context, &job, tasks);
-    ewa_release(context, job.next, job.place_count, sizeof *job.next);
+    if (status == EWA_OK) status = leave_shared(context, &job, tasks);
+    ewa_release(context, job.dropped, job.place_count, sizeof *job.dropped);
     ewa_release(context, job.mean, job.place_count, sizeof *job.mean);
     ewa_release(context, job.fit, job.place_count, sizeof *job.fit);
     if (job.position) ewa_release(context, job.position, job.place_count, sizeof *job.position);
