@@ -19,6 +19,7 @@
 enum {
     SIDES = 6,
     SAMPLES = 2,   // along each side of a pixel
+    PIXEL_SAMPLES = SAMPLES * SAMPLES,
     MARGIN_PX = 2, // of a side's picture beyond 90 degrees, so that no sample lacks a neighbour
 };
 
@@ -36,6 +37,8 @@ typedef struct panorama_job {
     uint32_t side_px;
     double focal_px; // of a side
     float *rgba;     // sums: 4 per pixel; NULL: none are wanted
+    uint8_t *sides;  // by pixel, then sample: the one that it meets; SIDES: outside of the circle
+    double (*across)[2], (*down)[2]; // sines and cosines of an equirectangular picture: by column and by row of samples
     ewa_image side_rgba, side_depth, side_normal, side_coverage;
 } panorama_job;
 
@@ -45,15 +48,14 @@ static void sin_cos(double angle_rad, double *sine, double *cosine) {
     if (angle_rad < 0) *sine = -*sine;
 }
 
-/// The direction of a place of the picture in camera axes, not of any length; false: outside of the circle.
-static bool find_direction(const panorama_job *job, double x_px, double y_px, double direction[3]) {
+/// The direction of a sample in camera axes, not of any length; false: outside of the circle.
+static bool find_direction(const panorama_job *job, uint32_t column, uint32_t row, double direction[3]) {
     if (job->options->kind == EWA_PANORAMA_EQUIRECTANGULAR) {
-        double sine[2], cosine[2];
-        sin_cos((x_px / job->width_px - 0.5) * 2 * EWA_PI, &sine[0], &cosine[0]);
-        sin_cos((y_px / job->height_px - 0.5) * EWA_PI, &sine[1], &cosine[1]);
-        direction[0] = cosine[1] * sine[0], direction[1] = sine[1], direction[2] = cosine[1] * cosine[0];
+        const double *longitude = job->across[column], *latitude = job->down[row];
+        direction[0] = latitude[1] * longitude[0], direction[1] = latitude[0], direction[2] = latitude[1] * longitude[1];
         return true;
     }
+    const double x_px = (column + 0.5) / SAMPLES, y_px = (row + 0.5) / SAMPLES;
     const double radius_px = 0.5 * (job->width_px < job->height_px ? job->width_px : job->height_px);
     const double x = (x_px - 0.5 * job->width_px) / radius_px, y = (y_px - 0.5 * job->height_px) / radius_px;
     const double away = sqrt(x * x + y * y);
@@ -103,14 +105,27 @@ static void add_sample(const panorama_job *job, const double d[3], size_t pixel)
     if (frame->coverage) frame->coverage[pixel] += job->side_coverage.pixels[nearest];
 }
 
+/// Notes which sides the samples of a row of pixels meet.
+static void find_sides(void *data, uint32_t row, uint32_t worker) {
+    (void)worker;
+    const panorama_job *job = data;
+    uint8_t *sides = job->sides + (size_t)row * job->width_px * PIXEL_SAMPLES;
+    for (uint32_t column = 0; column < job->width_px; column++)
+        for (uint32_t i = 0; i < PIXEL_SAMPLES; i++) {
+            double direction[3];
+            const bool inside = find_direction(job, column * SAMPLES + i % SAMPLES, row * SAMPLES + i / SAMPLES, direction);
+            *sides++ = (uint8_t)(inside ? find_side(direction) : SIDES);
+        }
+}
+
 static void sample_row(void *data, uint32_t row, uint32_t worker) {
     (void)worker;
     const panorama_job *job = data;
+    const uint8_t *sides = job->sides + (size_t)row * job->width_px * PIXEL_SAMPLES;
     for (uint32_t column = 0; column < job->width_px; column++)
-        for (int i = 0; i < SAMPLES * SAMPLES; i++) {
+        for (uint32_t i = 0; i < PIXEL_SAMPLES; i++) {
             double direction[3];
-            const double x_px = column + (i % SAMPLES + 0.5) / SAMPLES, y_px = row + (i / SAMPLES + 0.5) / SAMPLES;
-            if (find_direction(job, x_px, y_px, direction) && find_side(direction) == job->side)
+            if (*sides++ == job->side && find_direction(job, column * SAMPLES + i % SAMPLES, row * SAMPLES + i / SAMPLES, direction))
                 add_sample(job, direction, (size_t)row * job->width_px + column);
         }
 }
@@ -120,7 +135,7 @@ static void finish_row(void *data, uint32_t row, uint32_t worker) {
     (void)worker;
     const panorama_job *job = data;
     const ewa_frame *frame = job->frame;
-    const float share = 1.0f / (SAMPLES * SAMPLES);
+    const float share = 1.0f / PIXEL_SAMPLES;
     for (size_t pixel = (size_t)row * job->width_px; pixel < (size_t)(row + 1) * job->width_px; pixel++) {
         for (int c = 0; c < 4 && job->rgba; c++) job->rgba[4 * pixel + (size_t)c] *= share;
         if (frame->rgba8) {
@@ -184,10 +199,22 @@ static void stand_upright(const double up_world[3], ewa_camera *camera) {
     }
 }
 
-/// Makes the planes of a side, and empties those of the picture.
+/// Sines and cosines of angles from -range / 2 to range / 2, at the middles of `count` equal parts.
+static void fill_angles(double range_rad, uint32_t count, double (*angles)[2]) {
+    for (uint32_t i = 0; i < count; i++) sin_cos(((i + 0.5) / count - 0.5) * range_rad, &angles[i][0], &angles[i][1]);
+}
+
+/// Makes the planes of a side, empties those of the picture, and finds what its samples meet.
 static ewa_status begin(ewa_context *context, panorama_job *job) {
     const ewa_frame *frame = job->frame;
     const size_t pixel_count = (size_t)job->width_px * job->height_px;
+    job->sides = ewa_allocate(context, pixel_count, PIXEL_SAMPLES);
+    job->across = ewa_allocate(context, (size_t)job->width_px * SAMPLES, sizeof *job->across);
+    job->down = ewa_allocate(context, (size_t)job->height_px * SAMPLES, sizeof *job->down);
+    if (!job->sides || !job->across || !job->down) return EWA_ERROR_MEMORY;
+    fill_angles(2 * EWA_PI, job->width_px * SAMPLES, job->across);
+    fill_angles(EWA_PI, job->height_px * SAMPLES, job->down);
+    ewa_parallel(context, find_sides, job, job->height_px);
     const uint32_t side_px = job->side_px;
     if (job->rgba) EWA_TRY(ewa_image_create(context, side_px, side_px, 4, &job->side_rgba));
     if (frame->depth) EWA_TRY(ewa_image_create(context, side_px, side_px, 1, &job->side_depth));
@@ -255,6 +282,9 @@ static ewa_status draw(ewa_scene *scene, ewa_scene_renderer *renderer, const ewa
     renderer->lit_from = &upright; // one light for all sides
     const ewa_status status = draw_sides(scene, renderer, &upright, &options, &job, stats);
     renderer->lit_from = NULL;
+    ewa_release(context, job.sides, (size_t)job.width_px * job.height_px, PIXEL_SAMPLES);
+    ewa_release(context, job.across, (size_t)job.width_px * SAMPLES, sizeof *job.across);
+    ewa_release(context, job.down, (size_t)job.height_px * SAMPLES, sizeof *job.down);
     ewa_image_free(&job.side_rgba);
     ewa_image_free(&job.side_depth);
     ewa_image_free(&job.side_normal);
