@@ -254,7 +254,7 @@ static ewa_status load_pages(ewa_lod *lod, const ewa_tree_reading *how, const ui
                               node->key.cell[0], node->key.cell[1], node->key.cell[2], pages[i].fault);
         if (status == EWA_OK) status = place(how->look, &pages[i].cloud);
         if (status == EWA_OK) status = paint(how->look, &pages[i].cloud);
-        if (status == EWA_OK) 
+        if (status == EWA_OK)
             status = make_surfels(lod, how->look, pages[i].cloud, (double)entry->radius_scale, &surfels[i]);
         ewa_release(lod->context, pages[i].scratch,
                     ewa_level_raw_bytes(entry->surfel_count, lod->levels.has_curvatures), 1);

@@ -210,6 +210,8 @@ static ewa_status apply(const reading *in, bool only_defaults, ewa_scene_options
                         EWA_MAX_REGIONS);
     const bool hidden = only_defaults && options->region_count;
     for (uint32_t i = 0; i < text->light_count && !lit; i++) ewa_light_init(&options->render.lights[i]);
+    // Their members add to what is there, which may be regions that have been taken out.
+    if (!hidden) memset(options->regions, 0, text->region_count * sizeof options->regions[0]);
     ewa_status status = EWA_OK;
     for (size_t i = 0; i < text->member_count && status == EWA_OK; i++) {
         const ewa_scene_member *member = &text->members[i];

@@ -238,6 +238,15 @@ static void test_files(void **state) {
         ewa_scene_get_options(again, &read);
         assert_int_equal(read.region_count, 2);
         assert_memory_equal(read.regions, regions, sizeof regions);
+        // What was there before and is counted no longer leaves no trace in what a file says.
+        ewa_scene_file *saved = NULL;
+        for (int i = 0; i < 2; i++) read.regions[i] = (ewa_region){.kept = true, .has_classes = true, .classes = {~0u}};
+        read.region_count = 0;
+        assert_int_equal(ewa_scene_file_load(context, "region.json", NULL, &saved), EWA_OK);
+        ewa_scene_file_apply(saved, &read);
+        assert_int_equal(read.region_count, 2);
+        assert_memory_equal(read.regions, regions, sizeof regions);
+        ewa_scene_file_destroy(&saved);
         ewa_scene_destroy(&again);
         ewa_scene_destroy(&scene);
     }
