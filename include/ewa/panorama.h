@@ -37,8 +37,9 @@ EWA_API ewa_status ewa_scene_place_panorama(ewa_scene *scene, const ewa_view_opt
 
 /// Draws all around a camera's eye: ahead is in the middle. The camera gives the eye, the axes and the size of the picture; of its
 /// lens nothing counts. Up to six plane pictures of 90 degrees, on the sides of a cube, each drawn as ewa_scene_draw() does, are sampled
-/// at four places of every pixel, bilinearly, and averaged. Depths are distances from the eye, the nearest of the four; sizes in pixels
-/// (points, eye-dome lighting) are those of the panorama. Outside of a fisheye's circle there is nothing: alpha and coverage 0.
+/// at four places of every pixel, bilinearly, and averaged. Depths are distances from the eye, the nearest of the four; sizes of points
+/// are pixels of the panorama; where they would be over 256 on the sides, these are as fine as the panorama. Eye-dome lighting looks at
+/// pixels of the sides. Outside of a fisheye's circle there is nothing: alpha and coverage 0.
 /// By EWA_PANORAMA_NONE it is ewa_scene_draw(). `options` as there; `panorama` may be NULL (defaults). The same bytes for every number of
 /// threads. Errors: those of ewa_scene_draw(); EWA_ERROR_ARGUMENT (options; an orthographic camera), EWA_ERROR_LIMIT (too large).
 EWA_API ewa_status ewa_scene_draw_panorama(ewa_scene *scene, ewa_scene_renderer *renderer, const ewa_camera *camera,

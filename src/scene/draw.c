@@ -299,10 +299,13 @@ static ewa_status draw(ewa_scene *scene, ewa_scene_renderer *renderer, const ewa
     ewa_scene_options dotted;
     const ewa_scene_options *options = given;
     EWA_TRY(ewa_scene_list_shown(scene, &given->lod, renderer, &shown));
-    if (given->render.point_size_px == 0 && scene->surface && scene->surface->sparse && shown.surfels_count == 1 &&
-        !shown.lod_count) {
+    double size_px = given->render.point_size_px;
+    if (size_px == 0 && scene->surface && scene->surface->sparse && shown.surfels_count == 1 && !shown.lod_count)
+        size_px = EWA_DOT_PX;
+    if (renderer->finer > 0) size_px *= renderer->finer;
+    if (size_px != given->render.point_size_px) {
         dotted = *given;
-        dotted.render.point_size_px = EWA_DOT_PX;
+        dotted.render.point_size_px = size_px;
         options = &dotted;
     }
     if (!shown.splats_count && !shown.volume_count)

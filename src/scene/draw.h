@@ -19,6 +19,7 @@ struct ewa_scene_renderer {
     ewa_image lit_rgba, lit_depth;           ///< of everything, before eye-dome lighting
     ewa_buffer surfels, lods, splats;        ///< lists of what is visible
     const ewa_camera *lit_from;  ///< whose left and top light of bare surfaces comes from; NULL: the frame's
+    double finer;                ///< pixels of a frame for one of those that sizes of points are told in; 0: 1
     ewa_buffer looks, look_list; ///< of the octrees: one ewa_octree_look each, and a pointer to its look
 };
 

@@ -8,19 +8,22 @@
 #include "base/base.h"
 #include "base/options.h"
 #include "homogeneous/camera.h"
+#include "homogeneous/vec.h"
 #include "image/srgb.h"
 #include "math/angle.h"
 #include "scene/draw.h"
 #include "scene/parts.h"
+#include "surface/eye_dome.h"
 
 #include <math.h>
 #include <string.h>
 
 enum {
     SIDES = 6,
-    SAMPLES = 2,   // along each side of a pixel
+    SAMPLES = 2, // along each side of a pixel
     PIXEL_SAMPLES = SAMPLES * SAMPLES,
-    MARGIN_PX = 2, // of a side's picture beyond 90 degrees, so that no sample lacks a neighbour
+    // Of a side's picture beyond 90 degrees, so that no sample lacks a neighbour, lit by all that eye-dome lighting looks at.
+    MARGIN_PX = 2 + EWA_EYE_DOME_REACH,
 };
 
 /// Axes of the sides in camera coordinates: right, down, ahead.
@@ -152,13 +155,6 @@ static void finish_row(void *data, uint32_t row, uint32_t worker) {
     }
 }
 
-/// Whether anything of a side can be in the picture.
-static bool is_seen(const ewa_panorama_options *options, int side) {
-    static const double TO_SIDES_DEG = 45, TO_BACK_DEG = 125.2; // from ahead to the nearest of them; to the corners of the side behind
-    const double half_deg = options->kind == EWA_PANORAMA_FISHEYE ? 0.5 * options->fov_deg : 180;
-    return side == 0 || half_deg > (side == SIDES - 1 ? TO_BACK_DEG : TO_SIDES_DEG);
-}
-
 /// The camera of a side; `upright` looks ahead.
 static ewa_camera side_camera(const panorama_job *job, const ewa_camera *upright) {
     ewa_camera camera = *upright;
@@ -176,26 +172,18 @@ static ewa_camera side_camera(const panorama_job *job, const ewa_camera *upright
 
 /// Turns a camera so that an axis of the world is upright in it, and ahead is level; one that looks along the axis keeps its own.
 static void stand_upright(const double up_world[3], ewa_camera *camera) {
-    const double *m = camera->world_to_camera, length = sqrt(up_world[0] * up_world[0] + up_world[1] * up_world[1] + up_world[2] * up_world[2]);
-    double rows[3][3], eye[3];
-    if (!(length > 0) || !isfinite(length)) return;
+    double *m = camera->world_to_camera, eye_world[3];
+    ewa_vec3 up = vec3_load(up_world), ahead = vec3_load(m + 8);
+    if (!vec3_normalize(&up) || !vec3_normalize(&ahead)) return;
+    ahead = vec3_sub(ahead, vec3_scale(up, vec3_dot(ahead, up)));
+    if (vec3_length(ahead) < 1e-6 || !vec3_normalize(&ahead)) return;
+    ewa_camera_eye(camera, eye_world);
     // Rows of a camera may all be of one length other than 1.
-    const double scale = sqrt(m[0] * m[0] + m[1] * m[1] + m[2] * m[2]);
-    for (int c = 0; c < 3; c++) {
-        rows[1][c] = -up_world[c] / length;
-        eye[c] = -(m[c] * m[3] + m[4 + c] * m[7] + m[8 + c] * m[11]) / (scale * scale);
-    }
-    const double tilt = (m[8] * rows[1][0] + m[9] * rows[1][1] + m[10] * rows[1][2]) / scale;
-    double level = 0;
-    for (int c = 0; c < 3; c++) rows[2][c] = m[8 + c] / scale - tilt * rows[1][c], level += rows[2][c] * rows[2][c];
-    if (level < 1e-12) return;
-    for (int c = 0; c < 3; c++) rows[2][c] /= sqrt(level);
-    for (int c = 0; c < 3; c++)
-        rows[0][c] = rows[1][(c + 1) % 3] * rows[2][(c + 2) % 3] - rows[1][(c + 2) % 3] * rows[2][(c + 1) % 3];
+    const double scale = vec3_length(vec3_load(m));
+    const ewa_vec3 rows[3] = {vec3_cross(ahead, up), vec3_scale(up, -1), ahead};
     for (int r = 0; r < 3; r++) {
-        double *to = camera->world_to_camera + 4 * r;
-        for (int c = 0; c < 3; c++) to[c] = scale * rows[r][c];
-        to[3] = -(to[0] * eye[0] + to[1] * eye[1] + to[2] * eye[2]);
+        vec3_store(vec3_scale(rows[r], scale), m + 4 * r);
+        m[4 * r + 3] = -vec3_dot(vec3_load(m + 4 * r), vec3_load(eye_world));
     }
 }
 
@@ -244,7 +232,7 @@ static ewa_status draw_sides(ewa_scene *scene, ewa_scene_renderer *renderer, con
                             .normal = job->side_normal.pixels,
                             .coverage = job->side_coverage.pixels};
     for (job->side = 0; job->side < SIDES; job->side++) {
-        if (!is_seen(job->options, job->side)) continue;
+        if (!memchr(job->sides, job->side, (size_t)job->width_px * job->height_px * PIXEL_SAMPLES)) continue;
         const ewa_camera camera = side_camera(job, upright);
         ewa_scene_stats took;
         EWA_TRY(ewa_scene_draw(scene, renderer, &camera, options, &side, &took));
@@ -261,7 +249,10 @@ static ewa_status draw(ewa_scene *scene, ewa_scene_renderer *renderer, const ewa
     const bool sphere = panorama->kind == EWA_PANORAMA_EQUIRECTANGULAR;
     const double circle_px = camera->width_px < camera->height_px ? camera->width_px : camera->height_px;
     const double px_per_rad = sphere ? camera->width_px / (2 * EWA_PI) : circle_px / (panorama->fov_deg * (EWA_PI / 180));
-    const double focal_px = ceil(panorama->finer * px_per_rad), side_px = 2 * focal_px + 2 * MARGIN_PX;
+    // Of points that would be too large on finer sides, sides are as fine as the picture.
+    const ewa_option *point_sizes = ewa_option_find(&ewa_render_options_table, "point_size_px");
+    const double finer = panorama->finer * given->render.point_size_px <= point_sizes->maximum ? panorama->finer : 1;
+    const double focal_px = ceil(finer * px_per_rad), side_px = 2 * focal_px + 2 * MARGIN_PX;
     if (side_px > EWA_CAMERA_MAX_SIDE_PX)
         return ewa_fail(context, EWA_ERROR_LIMIT, "panorama: %u x %u pixels need sides of %.0f, over the limit of %d", camera->width_px,
                         camera->height_px, side_px, EWA_CAMERA_MAX_SIDE_PX);
@@ -277,11 +268,11 @@ static ewa_status draw(ewa_scene *scene, ewa_scene_renderer *renderer, const ewa
     if (own.pixels) job.rgba = own.pixels;
     ewa_camera upright = *camera;
     if (sphere) stand_upright(panorama->up_world, &upright);
-    ewa_scene_options options = *given;
-    options.render.point_size_px *= panorama->finer;
     renderer->lit_from = &upright; // one light for all sides
-    const ewa_status status = draw_sides(scene, renderer, &upright, &options, &job, stats);
+    renderer->finer = finer;
+    const ewa_status status = draw_sides(scene, renderer, &upright, given, &job, stats);
     renderer->lit_from = NULL;
+    renderer->finer = 0;
     ewa_release(context, job.sides, (size_t)job.width_px * job.height_px, PIXEL_SAMPLES);
     ewa_release(context, job.across, (size_t)job.width_px * SAMPLES, sizeof *job.across);
     ewa_release(context, job.down, (size_t)job.height_px * SAMPLES, sizeof *job.down);

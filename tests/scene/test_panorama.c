@@ -243,6 +243,68 @@ static void test_place(void **state) {
     close_stage(&s);
 }
 
+/// Points have as many pixels as in a plane picture, of what is on no surface, too, and may be as large.
+static void test_points(void **state) {
+    static shot plain, other;
+    stage s;
+    open_stage(1, &s);
+    const float places[4][3] = {{1.5f, -2, 30}, {0.5f, -1, 30}, {-0.5f, -2, 30}, {0.5f, -2.5f, 30.5f}};
+    ewa_cloud *cloud = NULL;
+    void *position = NULL;
+    assert_int_equal(ewa_cloud_create(s.context, 4, &cloud), EWA_OK);
+    assert_int_equal(ewa_cloud_add(cloud, EWA_POSITION, EWA_F32, 3, &position), EWA_OK);
+    memcpy(position, places, sizeof places);
+    ewa_scene *scene = NULL;
+    ewa_asset *asset = NULL;
+    assert_int_equal(ewa_scene_create(s.context, NULL, &scene), EWA_OK);
+    assert_int_equal(ewa_asset_create(s.context, &(ewa_asset_source){.cloud = cloud}, NULL, &asset), EWA_OK);
+    assert_int_equal(ewa_scene_add(scene, asset, NULL), EWA_OK);
+    ewa_asset_release(&asset);
+    const ewa_camera camera = make_camera(240, 120, 0, 0);
+    const ewa_panorama_options panorama = make_options(EWA_PANORAMA_EQUIRECTANGULAR);
+    ewa_scene_options options;
+    ewa_scene_get_options(scene, &options);
+    memset(options.render.background, 0, sizeof options.render.background);
+    const double sizes_px[] = {0, 6, 256, 257};
+    for (int k = 0; k < 4; k++) {
+        options.render.point_size_px = sizes_px[k];
+        assert_int_equal(ewa_scene_draw_panorama(scene, s.renderer, &camera, &options, &panorama, &(ewa_frame){.rgba = k ? other.rgba : plain.rgba}, NULL),
+                         k < 3 ? EWA_OK : EWA_ERROR_ARGUMENT);
+        if (k == 1) assert_memory_equal(plain.rgba, other.rgba, sizeof(float) * 4 * 240 * 120); // dots of 6 pixels
+    }
+    double area_px = 0; // of the two at the horizon, ahead and to the right
+    for (uint32_t y = 40; y < 80; y++)
+        for (uint32_t x = 110; x < 200; x++) area_px += (double)plain.rgba[4 * (240 * y + x) + 3];
+    print_message("discs of %.2f pixels\n", area_px / 2);
+    assert_true(fabs(area_px / (2 * PI * 3 * 3) - 1) < 0.1);
+    ewa_scene_destroy(&scene);
+    ewa_cloud_destroy(&cloud);
+    close_stage(&s);
+}
+
+/// Eye-dome lighting goes on where sides of the cube meet.
+static void test_eye_dome(void **state) {
+    static shot got;
+    stage s;
+    open_stage(2, &s);
+    ewa_scene_options options;
+    ewa_scene_get_options(s.scene, &options);
+    options.render.eye_dome = 100;
+    ewa_camera camera = make_camera(240, 120, 0, 0);
+    for (int r = 0; r < 3; r++) // half-way to the sphere, so that depths differ
+        camera.world_to_camera[4 * r + 3] -= 0.5 * RADIUS * camera.world_to_camera[4 * r + 1];
+    const ewa_panorama_options panorama = make_options(EWA_PANORAMA_EQUIRECTANGULAR);
+    assert_int_equal(ewa_scene_draw_panorama(s.scene, s.renderer, &camera, &options, &panorama, &(ewa_frame){.rgba = got.rgba}, NULL), EWA_OK);
+    double most = 0;
+    for (uint32_t y = 40; y < 80; y++) // across 45 degrees to the right
+        for (uint32_t x = 145; x < 155; x++)
+            for (uint32_t c = 0; c < 3; c++)
+                most = fmax(most, fabs((double)got.rgba[4 * (240 * y + x) + c] - (double)got.rgba[4 * (240 * y + x + 1) + c]));
+    print_message("from pixel to pixel at most %.4f\n", most);
+    assert_true(most < 0.03);
+    close_stage(&s);
+}
+
 static void test_refusals(void **state) {
     stage s;
     open_stage(1, &s);
@@ -268,6 +330,7 @@ static void test_refusals(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_directions), cmocka_unit_test(test_turned), cmocka_unit_test(test_same_bytes), cmocka_unit_test(test_place),
+                                       cmocka_unit_test(test_points), cmocka_unit_test(test_eye_dome),
                                        cmocka_unit_test(test_refusals)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
