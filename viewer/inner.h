@@ -88,7 +88,7 @@ typedef enum select_tool { SELECT_OFF, SELECT_RECTANGLE, SELECT_LASSO, SELECT_PO
 /// Points that are selected, and an outline that is being drawn.
 typedef struct viewer_selection {
     select_tool tool;
-    bool drawing; ///< the button is held
+    bool pressed; ///< the left button was pressed for the tool, and is held
     uint32_t corner_count;
     double corners[2 * SELECT_CORNERS]; ///< points of the window
     bool given, counted;
@@ -269,8 +269,6 @@ void select_clear(viewer *v);
 bool select_press(viewer *v, const viewer_event *event);
 bool select_move(viewer *v, const viewer_event *event);
 bool select_release(viewer *v, const viewer_event *event);
-/// Selects what is in the outline that was drawn; false: there is none.
-bool select_close(viewer *v);
 
 // measures.c
 bool measures_command(viewer *v, const char *rest);

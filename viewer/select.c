@@ -168,6 +168,7 @@ static bool set_tool(viewer *v, const char *word) {
             // A second time, it is put away.
             v->selection.tool = (int)v->selection.tool == k ? SELECT_OFF : (select_tool)k;
             v->selection.corner_count = 0;
+            v->selection.pressed = false; // the button may be held: an outline that was begun with another tool is given up
             viewer_note(v, v->selection.tool ? "select: draw a %s around points" : "select: %s", tools[v->selection.tool]);
             viewer_mark(v);
             return true;
@@ -264,20 +265,34 @@ static void add_corner(viewer_selection *s, double x, double y) {
     s->corners[2 * s->corner_count++ + 1] = y;
 }
 
+/// Selects what is in the outline that was drawn, unless it has too few corners.
+static void close_outline(viewer *v) {
+    viewer_selection *s = &v->selection;
+    double corners[2 * SELECT_CORNERS];
+    const uint32_t count = s->corner_count;
+    if (!s->tool || count < (s->tool == SELECT_RECTANGLE ? 2u : 3u)) return;
+    memcpy(corners, s->corners, 2 * count * sizeof *corners);
+    s->corner_count = 0;
+    if (s->tool == SELECT_RECTANGLE)
+        take_rectangle(v, corners);
+    else
+        take_outline(v, corners, count);
+}
+
 bool select_press(viewer *v, const viewer_event *event) {
     viewer_selection *s = &v->selection;
     if (!s->tool || event->button != VIEWER_LEFT || event->modifiers) return false;
     if (s->tool != SELECT_POLYGON) s->corner_count = 0;
-    s->drawing = s->tool != SELECT_POLYGON;
+    s->pressed = true;
     add_corner(s, event->x, event->y);
-    if (s->tool == SELECT_POLYGON && event->clicks >= 2) select_close(v);
+    if (s->tool == SELECT_POLYGON && event->clicks >= 2) close_outline(v);
     viewer_mark(v);
     return true;
 }
 
 bool select_move(viewer *v, const viewer_event *event) {
     viewer_selection *s = &v->selection;
-    if (!s->drawing) return false;
+    if (!s->pressed || s->tool == SELECT_POLYGON) return false;
     const double *last = s->corners + 2 * (s->corner_count - 1);
     if (s->tool == SELECT_RECTANGLE) s->corner_count = 1;
     if (s->tool == SELECT_RECTANGLE || hypot(event->x - last[0], event->y - last[1]) >= CORNER_STEP)
@@ -288,19 +303,8 @@ bool select_move(viewer *v, const viewer_event *event) {
 
 bool select_release(viewer *v, const viewer_event *event) {
     viewer_selection *s = &v->selection;
-    if (!s->tool || event->button != VIEWER_LEFT || (!s->drawing && s->tool != SELECT_POLYGON)) return false;
-    const bool drawing = s->drawing;
-    s->drawing = false;
-    if (drawing) select_close(v);
+    if (!s->pressed || event->button != VIEWER_LEFT) return false;
+    s->pressed = false;
+    if (s->tool != SELECT_POLYGON) close_outline(v);
     return true;
-}
-
-bool select_close(viewer *v) {
-    viewer_selection *s = &v->selection;
-    double corners[2 * SELECT_CORNERS];
-    const uint32_t count = s->corner_count;
-    if (!s->tool || count < (s->tool == SELECT_RECTANGLE ? 2u : 3u)) return false;
-    memcpy(corners, s->corners, 2 * count * sizeof *corners);
-    s->corner_count = 0;
-    return s->tool == SELECT_RECTANGLE ? take_rectangle(v, corners) : take_outline(v, corners, count);
 }
