@@ -339,7 +339,7 @@ static void take_preview(viewer *v, loader_note *note) {
 /// Takes in what was loaded; it is shown when the scene is made.
 static void take_asset(viewer *v, loader_note *note) {
     scene_item *item = find_item(v, note->item);
-    if (!item) return;
+    if (!item || item->asset) return; // it was closed; or closed and opened again, when two loads may have come to an end
     item->asset = note->asset;
     note->asset = NULL;
     if (!item->named) note_opened(v, item->path);

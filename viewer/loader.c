@@ -21,6 +21,7 @@ struct loader {
     bool quits;
     loader_note *orders, *reports; ///< the oldest first
     loader_note *current;          ///< the thread's own while it works
+    bool forgotten;                ///< of `current`: nobody waits for what comes of it
     ewa_scene *last;               ///< the thread's own: what was made before, which others share
     char stage[64];
     double fraction;
@@ -53,13 +54,13 @@ static void append(loader_note **list, loader_note *note) {
     *list = note;
 }
 
-/// Hands over a report. Without memory for it, nothing is said.
-static void report(loader *l, loader_note *note) {
-    if (!note) return;
-    pthread_mutex_lock(&l->lock);
-    append(&l->reports, note);
+/// Hands over what has come of an order, unless it was forgotten; with the lock.
+static void report_result(loader *l, loader_note *note) {
+    if (l->forgotten)
+        loader_note_free(note);
+    else
+        append(&l->reports, note);
     pthread_cond_broadcast(&l->changed);
-    pthread_mutex_unlock(&l->lock);
 }
 
 static bool on_progress(void *user, const char *stage, double fraction) {
@@ -80,7 +81,10 @@ static void on_message(void *user, ewa_severity severity, const char *text) {
     note->kind = LOADER_MESSAGE;
     note->severity = severity;
     snprintf(note->text, sizeof note->text, "%s", text);
-    report(l, note);
+    pthread_mutex_lock(&l->lock);
+    append(&l->reports, note);
+    pthread_cond_broadcast(&l->changed);
+    pthread_mutex_unlock(&l->lock);
 }
 
 static void on_preview(void *user, ewa_asset *asset, bool as_points) {
@@ -95,7 +99,9 @@ static void on_preview(void *user, ewa_asset *asset, bool as_points) {
     memcpy(note->path, l->current->path, sizeof note->path);
     note->asset = asset;
     note->as_points = as_points;
-    report(l, note);
+    pthread_mutex_lock(&l->lock);
+    report_result(l, note);
+    pthread_mutex_unlock(&l->lock);
 }
 
 /// Returns how many levels surfels are to have: none of so few that one cannot tell what is seen.
@@ -155,6 +161,7 @@ static void do_next(loader *l) {
     l->orders = order->next;
     order->next = NULL;
     l->current = order;
+    l->forgotten = false;
     l->fraction = 0;
     l->stage[0] = 0;
     atomic_store(&l->give_up, false);
@@ -162,8 +169,7 @@ static void do_next(loader *l) {
     carry_out(l, order);
     pthread_mutex_lock(&l->lock);
     l->current = NULL;
-    append(&l->reports, order);
-    pthread_cond_broadcast(&l->changed);
+    report_result(l, order);
 }
 
 static void *run(void *data) {
@@ -266,22 +272,32 @@ bool loader_make(loader *l, loader_scene *of) {
     return true;
 }
 
+/// Gives up the order that is under way, if there is one; with the lock. Nothing more is reported of a file.
+static void give_up_current(loader *l) {
+    if (!l->current) return;
+    atomic_store(&l->give_up, true);
+    l->forgotten = l->current->item != 0;
+}
+
 void loader_cancel(loader *l) {
     pthread_mutex_lock(&l->lock);
-    // Each order that waits reports that it came to nothing.
     for (loader_note *order; (order = l->orders);) {
         l->orders = order->next;
+        if (order->kind == LOADER_LOAD) {
+            loader_note_free(order);
+            continue;
+        }
         order->kind = LOADER_FAILED;
         append(&l->reports, order);
     }
-    if (l->current) atomic_store(&l->give_up, true);
+    give_up_current(l);
     pthread_mutex_unlock(&l->lock);
 }
 
 void loader_forget(loader *l, uint64_t item) {
     pthread_mutex_lock(&l->lock);
     drop_orders(l, item);
-    if (l->current && l->current->item == item) atomic_store(&l->give_up, true);
+    if (l->current && l->current->item == item) give_up_current(l);
     pthread_mutex_unlock(&l->lock);
 }
 
@@ -317,7 +333,7 @@ void loader_tell(loader *l, char path[VIEWER_PATH_BYTES], char stage[64], double
                  uint32_t *waiting) {
     pthread_mutex_lock(&l->lock);
     snprintf(path, VIEWER_PATH_BYTES, "%s", l->current ? l->current->path : "");
-    memcpy(stage, l->current ? l->stage : "", l->current ? sizeof l->stage : 1);
+    snprintf(stage, sizeof l->stage, "%s", l->current ? l->stage : "");
     *fraction = l->fraction;
     *waiting = 0;
     for (const loader_note *order = l->orders; order; order = order->next)

@@ -53,9 +53,9 @@ void loader_destroy(loader **loader);
 bool loader_load(loader *loader, uint64_t item, const char *path, const ewa_scene_file *file, uint32_t entry);
 /// Orders a scene in place of one that waits; takes the references of `of` over, also when it returns false.
 bool loader_make(loader *loader, loader_scene *of);
-/// Gives up the load that is under way and all that wait.
+/// Gives up what is under way and all that waits. Scenes report that they came to nothing; of files nothing more is reported.
 void loader_cancel(loader *loader);
-/// Forgets the orders of an item, and gives up the one that is under way: what it reports, if it does, is of no item.
+/// Forgets the orders of an item, and gives up the one that is under way: nothing more is reported of them.
 void loader_forget(loader *loader, uint64_t item);
 /// Gives up everything for good. Returns whether nothing is under way any more.
 bool loader_stop(loader *loader);

@@ -281,6 +281,31 @@ static void cancelled_loads_come_to_nothing(void **state) {
     ewa_context_destroy(&contents.context);
 }
 
+/// What is closed or given up while it is loaded comes back by undo: what is left of the first load is no news of the second.
+static void closed_loads_come_back(void **state) {
+    static const char *const ends[] = {"close 1", "cancel"};
+    for (int i = 0; i < 2; i++) {
+        viewer *v = make_viewer(false);
+        assert_true(viewer_open(v, "torus"));
+        settle(v);
+        contents.holds = true;
+        assert_true(viewer_do(v, "open sphere"));
+        for (int k = 0; k < 10000 && contents.loads < 2; k++)
+            nanosleep(&(struct timespec){.tv_nsec = 200000}, NULL);
+        assert_true(viewer_do(v, ends[i]));
+        assert_int_equal(viewer_item_count(v), 1);
+        contents.holds = i == 0; // the first load is given up, or comes to its end
+        assert_true(viewer_do(v, "undo"));
+        for (int k = 0; k < 10000 && contents.loads < 3; k++)
+            nanosleep(&(struct timespec){.tv_nsec = 200000}, NULL);
+        contents.holds = false;
+        settle(v);
+        assert_int_equal(viewer_item_count(v), 2);
+        viewer_destroy(&v);
+        ewa_context_destroy(&contents.context);
+    }
+}
+
 static void previews_come_first(void **state) {
     viewer *v = make_viewer(false);
     contents.preview = true;
@@ -552,6 +577,7 @@ int main(void) {
         cmocka_unit_test(failing_loads_leave_the_scene),
         cmocka_unit_test(dropped_files_queue),
         cmocka_unit_test(cancelled_loads_come_to_nothing),
+        cmocka_unit_test(closed_loads_come_back),
         cmocka_unit_test(previews_come_first),
         cmocka_unit_test(picks_name_points_exactly),
         cmocka_unit_test(picks_respect_the_box),
