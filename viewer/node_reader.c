@@ -89,14 +89,20 @@ ewa_status node_reader_create(octree_turns *of_octrees, node_reader **made) {
     return status;
 }
 
+bool node_reader_stop(node_reader *r) {
+    pthread_mutex_lock(&r->lock);
+    r->quits = true;
+    pthread_cond_broadcast(&r->changed);
+    const bool rests = !r->reads;
+    pthread_mutex_unlock(&r->lock);
+    return rests;
+}
+
 void node_reader_destroy(node_reader **made) {
     node_reader *r = *made;
     if (!r) return;
     if (r->started) {
-        pthread_mutex_lock(&r->lock);
-        r->quits = true;
-        pthread_cond_broadcast(&r->changed);
-        pthread_mutex_unlock(&r->lock);
+        (void)node_reader_stop(r);
         pthread_join(r->thread, NULL);
     }
     ewa_scene_reader_destroy(&r->reader);

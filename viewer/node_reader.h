@@ -17,6 +17,8 @@ void node_reader_destroy(node_reader **reader);
 /// points to is borrowed until node_reader_rest().
 void node_reader_post(node_reader *reader, const paint_scene *scene, uint32_t most);
 
+/// Gives up everything for good. Returns whether nothing is read any more.
+bool node_reader_stop(node_reader *reader);
 /// Gives up what was asked for and waits until nothing of it is used any more: another scene comes.
 void node_reader_rest(node_reader *reader);
 

@@ -134,7 +134,8 @@ ewa_status viewer_create(const viewer_options *options, viewer **made) {
 
 bool viewer_stop(viewer *v) {
     const bool loads = !loader_stop(v->loader), draws = !painter_stop(v->painter);
-    return !loads && !draws;
+    const bool reads = v->node_reader && !node_reader_stop(v->node_reader);
+    return !loads && !draws && !reads;
 }
 
 void viewer_destroy(viewer **made) {

@@ -20,7 +20,8 @@ cd "$folder"
 Xvfb -displayfd 3 -screen 0 1280x800x24 -nolisten tcp 3>display 2>xvfb.log &
 screen=$!
 session=""
-trap 'kill $screen $session 2>/dev/null || true' EXIT
+server=""
+trap 'kill $screen $session 2>/dev/null || true; kill -KILL $server 2>/dev/null || true' EXIT
 fail() {
     echo "session: $1" >&2
     sed 's/^/  printed: /' printed >&2 || true
@@ -164,4 +165,30 @@ kill $writer 2>/dev/null || fail "the end has waited for the pipe"
 wait $session || fail "the exit status is $?"
 session=""
 grep -q "^set navigation fly$" config/ewa/view || fail "the navigation was not kept"
+
+# Nor does a server that does not answer any more, from which nodes of an octree are read.
+"$ewa" generate terrain --points 600000 --positions-only -o ground.ply
+"$ewa" lod ground.ply -o ground.copc.laz
+"$ewa" serve --port 0 >address 2>refused &
+server=$!
+sleep 1
+if [ -s address ]; then
+    "$view" "$(cat address)ground.copc.laz" --levels always --size 400x300 >ended 2>&1 &
+    session=$!
+    wait_for "a window" xdotool search --onlyvisible --name ground.copc.laz
+    last=none.png
+    wait_for "the octree" same_as_before
+    kill -STOP $server
+    xdotool key equal equal equal equal equal equal equal equal
+    sleep 0.5
+    xdotool key ctrl+q
+    wait_for "the end" sh -c "! kill -0 $session"
+    wait $session || fail "the exit status is $?"
+    session=""
+    kill -CONT $server
+else
+    grep -q EWA_WITH_CIVETWEB refused || fail "the octree is not served"
+fi
+kill $server 2>/dev/null || true
+server=""
 echo "a session of $(wc -l <printed) results and $(ls ewa-*.png | wc -l) pictures"
