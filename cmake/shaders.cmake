@@ -5,7 +5,7 @@
 if(NOT EWA_HAS_GL)
   return()
 endif()
-foreach(name fill passes raster_cover raster_lines raster_near raster_payload raster_project raster_scene
+foreach(name band fill passes raster_cover raster_lines raster_near raster_payload raster_project raster_scene
     raster_splat raster_surface raster_vertex scene selftest setup splat surface wide)
   set(source ${PROJECT_SOURCE_DIR}/src/gl/shaders/${name}.glsl)
   set(made ${PROJECT_BINARY_DIR}/shaders/${name}.c)

@@ -58,13 +58,18 @@ typedef struct ewa_gpu_info {
 /// install; a library without OpenGL).
 EWA_API ewa_status ewa_gpu_describe(ewa_context *context, ewa_gpu_info *info);
 
-/// What draws the frames of a renderer.
+/// What draws the frames of a renderer. Of EWA_BACKEND_GL the stage times of ewa_render_stats are the device's, where it has a
+/// clock.
 typedef struct ewa_renderer_info {
     size_t struct_size; ///< sizeof(ewa_renderer_info) of the caller, who sets it
     char backend[16];   ///< "cpu", "gl", "gl-raster"; of EWA_BACKEND_AUTO what drew the last frame
     char device[128];   ///< its name; "" for the CPU
     ewa_gpu_class device_class;
     char remark[160]; ///< of EWA_BACKEND_AUTO: why; that a device is software; else ""
+    /// Of the last frame by EWA_BACKEND_GL, else 0: how often the device was waited for and read from, programs that it ran, and
+    /// bytes that it was sent.
+    uint32_t wait_count, readback_count, dispatch_count;
+    uint64_t upload_bytes;
 } ewa_renderer_info;
 
 /// Describes a renderer. Errors: EWA_ERROR_ARGUMENT (struct_size).

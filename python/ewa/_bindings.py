@@ -1148,12 +1148,20 @@ class ewa_renderer_info(c.Structure):
     device: bytes
     device_class: int
     remark: bytes
+    wait_count: int
+    readback_count: int
+    dispatch_count: int
+    upload_bytes: int
     _fields_ = [
         ("struct_size", c.c_size_t),
         ("backend", c.c_char * 16),
         ("device", c.c_char * 128),
         ("device_class", c.c_int),
         ("remark", c.c_char * 160),
+        ("wait_count", c.c_uint32),
+        ("readback_count", c.c_uint32),
+        ("dispatch_count", c.c_uint32),
+        ("upload_bytes", c.c_uint64),
     ]
 
 

@@ -18,6 +18,7 @@ void ewa_gl_compute_destroy(ewa_context *context, void *state) {
     if (old->device && !old->device->lost && ewa_gl_enter(old->device) == EWA_OK) {
         for (int i = 0; i < EWA_GL_BUFFERS; i++) ewa_gl_buffer_free(&old->buffers[i]);
         ewa_gl_variants_free(&old->variants);
+        ewa_gl_times_free(&old->times);
         ewa_gl_residents_free(old->device, &old->residents);
         ewa_gl_leave(old->device);
     } else if (old->device) {
@@ -48,6 +49,7 @@ ewa_status ewa_gl_try(ewa_gl *device, ewa_gl_verdict *verdict) {
     ewa_status status = ewa_gl_selftest(device, verdict);
     ewa_gl_leave(device);
     device->wait_count = 0, device->lose_at = lose_at, device->hang_at = hang_at;
+    device->counts = (ewa_gl_counts){0};
     return status;
 }
 
@@ -84,34 +86,34 @@ static void bind(ewa_gl_compute *gl, GLuint binding, ewa_gl_buffer_kind kind) {
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, gl->buffers[kind].name);
 }
 
+/// Waits, and notes what the stages took.
+static ewa_status wait_for(ewa_gl_compute *gl, const char *what) {
+    EWA_TRY(ewa_gl_wait(gl->device, what));
+    ewa_gl_times_read(&gl->times);
+    ewa_gl_times_resume(&gl->times);
+    return EWA_OK;
+}
+
 static void read_back(ewa_gl_compute *gl, ewa_gl_buffer_kind kind, uint64_t at_bytes, uint64_t size_bytes,
                       void *to) {
     if (!size_bytes) return;
+    gl->device->counts.readbacks++;
     glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
     glBindBuffer(GL_COPY_READ_BUFFER, gl->buffers[kind].name);
     glGetBufferSubData(GL_COPY_READ_BUFFER, (GLintptr)at_bytes, (GLsizeiptr)size_bytes, to);
 }
 
-static void set_uint(GLuint program, const char *name, uint32_t value) {
-    glProgramUniform1ui(program, glGetUniformLocation(program, name), value);
-}
+/// Places of the programs' own uniforms (layout(location) in src/gl/shaders): the first item of a dispatch, then those of the
+/// set-up, and those of the passes.
+enum { FIRST, END_PAIR, SOURCE, OPACITIES_AT, CURVATURES_AT, MATERIALS_AT, BEHIND = 1, WHOLE = 2 };
 
-static void set_int(GLuint program, const char *name, int32_t value) {
-    glProgramUniform1i(program, glGetUniformLocation(program, name), value);
-}
-
-static void set_pair(GLuint program, const char *name, uint32_t x, uint32_t y) {
-    glProgramUniform2ui(program, glGetUniformLocation(program, name), x, y);
-}
-
-/// Runs a program in groups, as many at a time as the device takes; `first` is told where each time begins.
-static void dispatch(const ewa_gl_compute *gl, GLuint program, const char *first, uint32_t step,
-                     uint32_t from, uint32_t group_count) {
+/// Runs a program that is in use in groups, as many at a time as the device takes.
+static void dispatch(const ewa_gl_compute *gl, uint32_t step, uint32_t from, uint32_t group_count) {
     const uint32_t maximum = gl->device->facts.group_count;
-    glUseProgram(program);
     for (uint32_t done = 0; done < group_count; done += maximum) {
-        set_uint(program, first, from + done * step);
+        glUniform1ui(FIRST, from + done * step);
         glDispatchCompute(group_count - done < maximum ? group_count - done : maximum, 1, 1);
+        gl->device->counts.dispatches++;
     }
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
 }
@@ -133,10 +135,13 @@ static ewa_gl_variant variant_of(const ewa_gl_compute *gl, const ewa_tile_job *j
     return v;
 }
 
-static ewa_status program_for(ewa_gl_compute *gl, const ewa_tile_job *job, ewa_gl_pass pass,
-                              GLuint *program) {
+/// Makes a pass's program the one in use.
+static ewa_status use(ewa_gl_compute *gl, const ewa_tile_job *job, ewa_gl_pass pass) {
     const ewa_gl_variant variant = variant_of(gl, job, pass);
-    return ewa_gl_variant_get(gl->device, &gl->variants, &variant, program);
+    GLuint program = 0;
+    EWA_TRY(ewa_gl_variant_get(gl->device, &gl->variants, &variant, &program));
+    glUseProgram(program);
+    return EWA_OK;
 }
 
 /// Words of a channel's sum at a pixel.
@@ -147,8 +152,7 @@ static uint32_t sum_words(const ewa_tile_job *job) {
 /// Sets up the band's surfels and counts them by tile.
 static ewa_status set_up(ewa_gl_compute *gl, const ewa_tile_job *job) {
     ewa_gl_band *band = &gl->band;
-    GLuint program = 0;
-    EWA_TRY(program_for(gl, job, EWA_GL_SETUP, &program));
+    EWA_TRY(use(gl, job, EWA_GL_SETUP));
     const uint64_t pairs = band->pair_count, lanes = pairs * EWA_PACKET_LANES;
     EWA_TRY(put(gl, EWA_GL_PAIRS, "packets", band->pairs.data, pairs * sizeof(ewa_gl_pair)));
     EWA_TRY(put(gl, EWA_GL_PLACES, "places", band->places.data, pairs * 24));
@@ -161,10 +165,6 @@ static ewa_status set_up(ewa_gl_compute *gl, const ewa_tile_job *job) {
     bind(gl, 0, EWA_GL_VIEWS), bind(gl, 2, EWA_GL_PAIRS), bind(gl, 3, EWA_GL_PLACES),
         bind(gl, 4, EWA_GL_WORDS);
     bind(gl, 5, EWA_GL_RECORDS), bind(gl, 6, EWA_GL_COUNTS), bind(gl, 7, EWA_GL_MASKS);
-    set_pair(program, "picture_px", job->tiles.width_px, job->tiles.height_px);
-    set_pair(program, "first_tile_px", 0, band->first_row_px);
-    set_uint(program, "tiles_per_row", band->tiles_per_row);
-    set_uint(program, "tile_side_px", band->tile_px);
     const uint32_t *indices = gl->indices.data;
     const ewa_gl_batch *batches = band->batches.data;
     for (uint32_t i = 0; i < band->batch_count; i++) {
@@ -173,28 +173,27 @@ static ewa_status set_up(ewa_gl_compute *gl, const ewa_tile_job *job) {
             &ewa_gl_residents_at(&gl->residents, indices[batch->source])->pages[batch->page];
         glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, page->packets.name);
         glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 8, page->attributes.name);
-        set_uint(program, "end_pair", batch->first_pair + batch->pair_count);
-        set_uint(program, "source", batch->source);
-        set_int(program, "opacities_at", job->with_opacity ? page->opacities_at : -1);
-        set_int(program, "curvatures_at", job->sources[batch->source].packets.curvatures ? page->curvatures_at : -1);
-        set_int(program, "materials_at", job->with_materials ? page->materials_at : -1);
+        glUniform1ui(END_PAIR, batch->first_pair + batch->pair_count);
+        glUniform1ui(SOURCE, batch->source);
+        glUniform1i(OPACITIES_AT, job->with_opacity ? page->opacities_at : -1);
+        glUniform1i(CURVATURES_AT, job->sources[batch->source].packets.curvatures ? page->curvatures_at : -1);
+        glUniform1i(MATERIALS_AT, job->with_materials ? page->materials_at : -1);
         enum { PAIRS = THREADS / EWA_PACKET_LANES };
-        dispatch(gl, program, "first_pair", PAIRS, batch->first_pair,
-                 (batch->pair_count + PAIRS - 1) / PAIRS);
+        dispatch(gl, PAIRS, batch->first_pair, (batch->pair_count + PAIRS - 1) / PAIRS);
     }
+    ewa_gl_times_mark(&gl->times, EWA_GL_TIME_SETUP);
     return ewa_gl_check(gl->device, "set-up");
 }
 
 /// Asks the device what it found, gives it what it needs, and lists the splats of each tile.
 static ewa_status list(ewa_gl_compute *gl, const ewa_tile_job *job) {
     ewa_gl_band *band = &gl->band;
-    EWA_TRY(ewa_gl_wait(gl->device, "set-up"));
+    EWA_TRY(wait_for(gl, "set-up"));
     read_back(gl, EWA_GL_MASKS, 0, (uint64_t)band->pair_count * 4, band->masks.data);
     read_back(gl, EWA_GL_COUNTS, 0, (uint64_t)band->tile_count * 4, band->counts.data);
     EWA_TRY(ewa_gl_band_answer(gl->context, band, job));
     EWA_TRY(ewa_gl_band_divide(gl->context, band, job, gl->unit_splats));
-    GLuint program = 0;
-    EWA_TRY(program_for(gl, job, EWA_GL_FILL, &program));
+    EWA_TRY(use(gl, job, EWA_GL_FILL));
     EWA_TRY(put(gl, EWA_GL_NEARS, "near surfels", band->nears.data,
                 (uint64_t)band->near_count * sizeof(ewa_gl_near)));
     EWA_TRY(put(gl, EWA_GL_CLIPS, "clip lines", band->clips.data,
@@ -207,12 +206,49 @@ static ewa_status list(ewa_gl_compute *gl, const ewa_tile_job *job) {
     bind(gl, 4, EWA_GL_CLIPPED), bind(gl, 5, EWA_GL_RECORDS), bind(gl, 6, EWA_GL_LIST),
         bind(gl, 7, EWA_GL_COUNTS);
     const uint32_t record_count = band->pair_count * EWA_PACKET_LANES;
-    set_uint(program, "record_count", record_count);
-    set_pair(program, "first_tile_px", 0, band->first_row_px);
-    set_uint(program, "tiles_per_row", band->tiles_per_row);
-    set_uint(program, "tile_side_px", band->tile_px);
-    dispatch(gl, program, "first_record", THREADS, 0, (record_count + THREADS - 1) / THREADS);
+    glUniform1ui(END_PAIR, record_count);
+    dispatch(gl, THREADS, 0, (record_count + THREADS - 1) / THREADS);
+    ewa_gl_times_mark(&gl->times, EWA_GL_TIME_SETUP);
     return ewa_gl_check(gl->device, "lists");
+}
+
+/// A plane of the frame.
+typedef struct wanted_plane {
+    float *plane; ///< NULL: it is not wanted
+    uint32_t floats;
+} wanted_plane;
+
+enum { PLANES = 4 };
+
+/// The planes in the order in which the device has them.
+static void list_planes(const ewa_resolve *to, wanted_plane planes[PLANES]) {
+    planes[0] = (wanted_plane){to->rgba, 4}, planes[1] = (wanted_plane){to->depth, 1};
+    planes[2] = (wanted_plane){to->normal, 3}, planes[3] = (wanted_plane){to->coverage, 1};
+}
+
+/// Tells all programs of the band, and returns how many floats its planes have.
+static ewa_status put_band(ewa_gl_compute *gl, const ewa_tile_job *job, uint64_t *float_count) {
+    const ewa_gl_band *band = &gl->band;
+    const uint64_t pixels = (uint64_t)job->tiles.width_px * (band->end_row_px - band->first_row_px);
+    ewa_gl_band_block block = {.picture_px = {job->tiles.width_px, band->end_row_px},
+                               .band_px = {band->width_px, band->height_px},
+                               .first_px = {0, band->first_row_px},
+                               .tiles_per_row = band->tiles_per_row,
+                               .tile_count = band->tile_count,
+                               .tile_side_px = band->tile_px,
+                               .exponent_end = job->view.exponent_end,
+                               .layered = job->layers > 1,
+                               .with_codes = job->resolve.rgba8 != NULL};
+    wanted_plane planes[PLANES];
+    list_planes(&job->resolve, planes);
+    *float_count = 0;
+    for (int i = 0; i < PLANES; i++) {
+        block.plane_at[i] = planes[i].plane ? (int32_t)*float_count : -1;
+        if (planes[i].plane) *float_count += planes[i].floats * pixels;
+    }
+    EWA_TRY(put(gl, EWA_GL_BAND, "the band", &block, sizeof block));
+    glBindBufferBase(GL_UNIFORM_BUFFER, 0, gl->buffers[EWA_GL_BAND].name);
+    return EWA_OK;
 }
 
 /// The planes of the band's pixels, all at their start.
@@ -221,9 +257,8 @@ static ewa_status reserve_planes(ewa_gl_compute *gl, const ewa_tile_job *job) {
     const uint64_t pixels = (uint64_t)band->width_px * band->height_px, channels = job->channel_count;
     const uint64_t cut_words = job->with_clips ? 8 * pixels + pixels / (EWA_BLOCK_PX * EWA_BLOCK_PX) : 0;
     const uint64_t picture_px = (uint64_t)job->tiles.width_px * (band->end_row_px - band->first_row_px);
-    const ewa_resolve *to = &job->resolve;
-    const uint64_t floats =
-        (to->rgba ? 4u : 0u) + (to->depth ? 1u : 0u) + (to->normal ? 3u : 0u) + (to->coverage ? 1u : 0u);
+    uint64_t float_count = 0;
+    EWA_TRY(put_band(gl, job, &float_count));
     const struct {
         ewa_gl_buffer_kind kind;
         uint64_t words;
@@ -237,20 +272,14 @@ static ewa_status reserve_planes(ewa_gl_compute *gl, const ewa_tile_job *job) {
                  {EWA_GL_CUT, cut_words, true, 0},
                  {EWA_GL_SETTLED, channels * pixels, false, 0},
                  {EWA_GL_BEHIND, 8 * pixels, false, 0},
-                 {EWA_GL_CODES, to->rgba8 ? picture_px : 0, false, 0},
-                 {EWA_GL_PLANES, floats * picture_px, false, 0}};
+                 {EWA_GL_CODES, job->resolve.rgba8 ? picture_px : 0, false, 0},
+                 {EWA_GL_PLANES, float_count, false, 0}};
     for (size_t i = 0; i < sizeof needs / sizeof needs[0]; i++) {
         EWA_TRY(reserve(gl, needs[i].kind, "the picture", needs[i].words * 4));
         if (needs[i].filled)
             ewa_gl_buffer_fill(&gl->buffers[needs[i].kind], needs[i].words * 4, needs[i].word);
     }
     return ewa_gl_check(gl->device, "the picture");
-}
-
-static void set_place(const ewa_gl_band *band, GLuint program) {
-    set_pair(program, "band_px", band->width_px, band->height_px);
-    set_pair(program, "first_px", 0, band->first_row_px);
-    set_uint(program, "tiles_per_row", band->tiles_per_row);
 }
 
 /// Both passes over the band's splats; `behind` the first surface, or of it. `whole`: all that is left is one surface.
@@ -263,13 +292,13 @@ static ewa_status gather(ewa_gl_compute *gl, const ewa_tile_job *job, bool behin
         bind(gl, 10, EWA_GL_NEARS);
     bind(gl, 11, EWA_GL_CUT), bind(gl, 12, EWA_GL_MATERIALS);
     for (int pass = whole ? EWA_GL_SUMS : EWA_GL_VISIBILITY; pass <= EWA_GL_SUMS; pass++) {
-        GLuint program = 0;
-        EWA_TRY(program_for(gl, job, (ewa_gl_pass)pass, &program));
-        set_place(band, program);
-        set_uint(program, "behind", behind);
-        set_uint(program, "whole", whole);
-        glProgramUniform1f(program, glGetUniformLocation(program, "exponent_end"), job->view.exponent_end);
-        dispatch(gl, program, "first_unit", 1, 0, band->unit_count);
+        EWA_TRY(use(gl, job, (ewa_gl_pass)pass));
+        glUniform1ui(BEHIND, behind);
+        glUniform1ui(WHOLE, whole);
+        dispatch(gl, 1, 0, band->unit_count);
+        ewa_gl_times_mark(&gl->times, behind                       ? EWA_GL_TIME_EDGES
+                                      : pass == EWA_GL_VISIBILITY ? EWA_GL_TIME_VISIBILITY
+                                                                  : EWA_GL_TIME_ACCUMULATE);
     }
     return ewa_gl_check(gl->device, "sums");
 }
@@ -277,17 +306,14 @@ static ewa_status gather(ewa_gl_compute *gl, const ewa_tile_job *job, bool behin
 /// Makes the surface that has been gathered: the first, or one behind it.
 static ewa_status make_surface(ewa_gl_compute *gl, const ewa_tile_job *job, bool behind, bool whole) {
     const ewa_gl_band *band = &gl->band;
-    GLuint program = 0;
-    EWA_TRY(program_for(gl, job, behind ? EWA_GL_NEXT_SURFACE : EWA_GL_FIRST_SURFACE, &program));
+    EWA_TRY(use(gl, job, behind ? EWA_GL_NEXT_SURFACE : EWA_GL_FIRST_SURFACE));
     bind(gl, 0, EWA_GL_RESOLVE), bind(gl, 1, EWA_GL_NEAREST), bind(gl, 2, EWA_GL_PASSED),
         bind(gl, 3, EWA_GL_OPEN);
     bind(gl, 4, EWA_GL_SUM_WORDS), bind(gl, 8, EWA_GL_BACK_FACING), bind(gl, 11, EWA_GL_CUT);
     bind(gl, 13, EWA_GL_SETTLED), bind(gl, 14, EWA_GL_BEHIND), bind(gl, 15, EWA_GL_ENVIRONMENT);
-    set_place(band, program);
-    set_uint(program, "tile_count", band->tile_count);
-    set_uint(program, "whole", whole);
-    set_uint(program, "layered", job->layers > 1);
-    dispatch(gl, program, "first_tile", 1, 0, band->tile_count);
+    glUniform1ui(WHOLE, whole);
+    dispatch(gl, 1, 0, band->tile_count);
+    ewa_gl_times_mark(&gl->times, behind ? EWA_GL_TIME_EDGES : EWA_GL_TIME_RESOLVE);
     return ewa_gl_check(gl->device, "surfaces");
 }
 
@@ -296,12 +322,11 @@ static ewa_status draw_layers(ewa_gl_compute *gl, const ewa_tile_job *job) {
     const uint64_t counter_at = (uint64_t)gl->band.tile_count * 4;
     for (uint32_t layer = 1; layer < job->layers; layer++) {
         uint32_t open = 0;
-        EWA_TRY(ewa_gl_wait(gl->device, "surfaces"));
+        EWA_TRY(wait_for(gl, "surfaces"));
         read_back(gl, EWA_GL_OPEN, counter_at, 4, &open);
         if (!open) return EWA_OK;
         static const uint32_t none = 0;
-        glBindBuffer(GL_COPY_WRITE_BUFFER, gl->buffers[EWA_GL_OPEN].name);
-        glBufferSubData(GL_COPY_WRITE_BUFFER, (GLintptr)counter_at, 4, &none);
+        ewa_gl_buffer_write(gl->device, &gl->buffers[EWA_GL_OPEN], counter_at, &none, 4);
         const bool whole = job->merge_last && layer + 1 == job->layers;
         EWA_TRY(gather(gl, job, true, whole));
         EWA_TRY(make_surface(gl, job, true, whole));
@@ -314,37 +339,23 @@ static ewa_status draw_layers(ewa_gl_compute *gl, const ewa_tile_job *job) {
 static ewa_status finish_band(ewa_gl_compute *gl, const ewa_tile_job *job, uint64_t *broken) {
     const ewa_gl_band *band = &gl->band;
     const ewa_resolve *to = &job->resolve;
-    GLuint program = 0;
-    EWA_TRY(program_for(gl, job, EWA_GL_PICTURE, &program));
+    EWA_TRY(use(gl, job, EWA_GL_PICTURE));
     const uint64_t width = job->tiles.width_px, first = width * band->first_row_px,
                    pixels = width * (band->end_row_px - band->first_row_px);
-    const struct {
-        const char *name;
-        float *plane;
-        uint32_t floats;
-    } planes[] = {{"rgba_at", to->rgba, 4},
-                  {"depth_at", to->depth, 1},
-                  {"normal_at", to->normal, 3},
-                  {"coverage_at", to->coverage, 1}};
-    uint64_t at = 0, starts[4];
-    for (int i = 0; i < 4; i++) {
-        starts[i] = at;
-        set_int(program, planes[i].name, planes[i].plane ? (int32_t)at : -1);
-        if (planes[i].plane) at += planes[i].floats * pixels;
-    }
     bind(gl, 5, EWA_GL_CODES), bind(gl, 6, EWA_GL_PLANES);
-    set_place(band, program);
-    set_pair(program, "picture_px", job->tiles.width_px, band->end_row_px);
-    set_uint(program, "with_codes", to->rgba8 != NULL);
-    set_uint(program, "tile_count", band->tile_count);
-    set_uint(program, "layered", job->layers > 1);
-    dispatch(gl, program, "first_tile", 1, 0, band->tile_count);
-    EWA_TRY(ewa_gl_wait(gl->device, "the picture"));
+    dispatch(gl, 1, 0, band->tile_count);
+    ewa_gl_times_mark(&gl->times, EWA_GL_TIME_RESOLVE);
+    EWA_TRY(wait_for(gl, "the picture"));
     if (to->rgba8) read_back(gl, EWA_GL_CODES, 0, pixels * 4, to->rgba8 + first * 4);
-    for (int i = 0; i < 4; i++)
-        if (planes[i].plane)
-            read_back(gl, EWA_GL_PLANES, starts[i] * 4, pixels * planes[i].floats * 4,
-                      planes[i].plane + first * planes[i].floats);
+    wanted_plane planes[PLANES];
+    list_planes(to, planes);
+    uint64_t at = 0;
+    for (int i = 0; i < PLANES; i++) {
+        if (!planes[i].plane) continue;
+        const uint64_t floats = pixels * planes[i].floats;
+        read_back(gl, EWA_GL_PLANES, at * 4, floats * 4, planes[i].plane + first * planes[i].floats);
+        at += floats;
+    }
     uint32_t count = 0;
     read_back(gl, EWA_GL_OPEN, (uint64_t)band->tile_count * 4 + 4, 4, &count);
     *broken += count;
@@ -399,13 +410,11 @@ static ewa_status put_environment(ewa_gl_compute *gl, const ewa_environment *env
     const ewa_status status = reserve(gl, EWA_GL_ENVIRONMENT, "the environment", texels * 12);
     gl->environment_serial = 0;
     if (status != EWA_OK || !environment) return status;
-    glBindBuffer(GL_COPY_WRITE_BUFFER, gl->buffers[EWA_GL_ENVIRONMENT].name);
     texels = 0;
     for (uint32_t i = 0; i < environment->level_count; i++) {
         const ewa_environment_level *level = &environment->levels[i];
         const uint64_t here = (uint64_t)level->width * level->height;
-        glBufferSubData(GL_COPY_WRITE_BUFFER, (GLintptr)(texels * 12), (GLsizeiptr)(here * 12),
-                        level->texels);
+        ewa_gl_buffer_write(gl->device, &gl->buffers[EWA_GL_ENVIRONMENT], texels * 12, level->texels, here * 12);
         texels += here;
     }
     gl->environment_serial = environment->serial;
@@ -443,12 +452,16 @@ ewa_status ewa_gl_compute_draw(void *state, const ewa_render_job *frame, ewa_ren
     const double binned_s = ewa_now_s();
     uint64_t broken = 0;
     EWA_TRY(ewa_gl_enter(gl->device));
+    gl->device->counts = (ewa_gl_counts){0};
+    ewa_gl_times_start(&gl->times);
+    ewa_gl_times_resume(&gl->times);
     ewa_status status = put_frame(gl, &job);
     if (status == EWA_OK) status = draw_rows(gl, &job, frame->first_row_px, frame->end_row_px, &broken);
     ewa_gl_leave(gl->device);
     EWA_TRY(status);
     ewa_job_finish(gl->context, &gl->room, frame, broken);
     *stats = (ewa_render_stats){.bin_s = binned_s - start_s};
+    ewa_gl_times_tell(&gl->times, stats);
     ewa_job_count(&job, 0, stats);
     stats->drawn_count = gl->band.list_count;
     stats->total_s = ewa_now_s() - start_s;
@@ -459,6 +472,9 @@ static void describe(const void *state, ewa_renderer_info *info) {
     const ewa_gl_compute *gl = state;
     snprintf(info->device, sizeof info->device, "%s", gl->device->facts.renderer);
     info->device_class = gl->verdict.exact ? EWA_GPU_EXACT : EWA_GPU_CLOSE;
+    const ewa_gl_counts *counts = &gl->device->counts;
+    info->wait_count = counts->waits, info->readback_count = counts->readbacks;
+    info->dispatch_count = counts->dispatches, info->upload_bytes = counts->upload_bytes;
     if (gl->device->facts.software)
         snprintf(info->remark, sizeof info->remark, "%.100s is software", gl->device->facts.renderer);
 }

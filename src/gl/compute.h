@@ -8,11 +8,13 @@
 #include "gl/band.h"
 #include "gl/resident.h"
 #include "gl/selftest.h"
+#include "gl/times.h"
 #include "surface/backend.h"
 #include "surface/job.h"
 
 /// Buffers of the device, by what they hold; src/gl/shaders tell the forms.
 typedef enum ewa_gl_buffer_kind {
+    EWA_GL_BAND,
     EWA_GL_VIEWS,
     EWA_GL_RESOLVE,
     EWA_GL_MATERIALS,
@@ -51,6 +53,7 @@ typedef struct ewa_gl_compute {
     ewa_gl_verdict verdict;
     ewa_gl_residents residents;
     ewa_gl_buffer buffers[EWA_GL_BUFFERS];
+    ewa_gl_times times;
     ewa_gl_band band;
     ewa_job_room room;
     ewa_buffer views, indices, page_packets; ///< of sources

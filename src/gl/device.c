@@ -227,7 +227,7 @@ ewa_status ewa_gl_check(ewa_gl *device, const char *what) {
 }
 
 ewa_status ewa_gl_wait(ewa_gl *device, const char *what) {
-    device->wait_count++;
+    device->wait_count++, device->counts.waits++;
     if (device->wait_count == device->lose_at) return lose(device, what, "was reset");
     if (device->wait_count == device->hang_at) return lose(device, what, "hangs");
     const GLsync fence = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);

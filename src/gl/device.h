@@ -27,6 +27,12 @@ typedef struct ewa_gl_facts {
     uint32_t texture_px;    ///< side of a picture that can be drawn into, at most
 } ewa_gl_facts;
 
+/// What a device was asked for, since its user set this to zeros.
+typedef struct ewa_gl_counts {
+    uint32_t waits, readbacks, dispatches;
+    uint64_t upload_bytes;
+} ewa_gl_counts;
+
 /// A device with a context of its own. Used by one thread at a time.
 typedef struct ewa_gl {
     ewa_context *context;
@@ -34,6 +40,7 @@ typedef struct ewa_gl {
     EGLContext gl;
     ewa_gl_facts facts;
     bool lost;                             ///< nothing works any more
+    ewa_gl_counts counts;
     uint64_t wait_count, lose_at, hang_at; ///< calls of ewa_gl_wait(), and those that tests make fail
     struct {
         EGLenum api;

@@ -23,12 +23,18 @@ ewa_status ewa_gl_buffer_reserve(ewa_gl *device, ewa_gl_buffer *buffer, const ch
     return status;
 }
 
+void ewa_gl_buffer_write(ewa_gl *device, const ewa_gl_buffer *buffer, uint64_t at_bytes, const void *bytes,
+                         uint64_t size_bytes) {
+    if (!size_bytes) return;
+    glBindBuffer(GL_COPY_WRITE_BUFFER, buffer->name);
+    glBufferSubData(GL_COPY_WRITE_BUFFER, (GLintptr)at_bytes, (GLsizeiptr)size_bytes, bytes);
+    device->counts.upload_bytes += size_bytes;
+}
+
 ewa_status ewa_gl_buffer_put(ewa_gl *device, ewa_gl_buffer *buffer, const char *what, const void *bytes,
                              uint64_t size_bytes) {
     EWA_TRY(ewa_gl_buffer_reserve(device, buffer, what, size_bytes));
-    if (!size_bytes) return EWA_OK;
-    glBindBuffer(GL_COPY_WRITE_BUFFER, buffer->name);
-    glBufferSubData(GL_COPY_WRITE_BUFFER, 0, (GLsizeiptr)size_bytes, bytes);
+    ewa_gl_buffer_write(device, buffer, 0, bytes, size_bytes);
     return EWA_OK;
 }
 

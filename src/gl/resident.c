@@ -48,15 +48,12 @@ static ewa_status put_page(ewa_gl *device, const ewa_surfels *surfels, ewa_gl_pa
     if (status == EWA_OK)
         status = ewa_gl_buffer_reserve(device, &page->attributes, "surfels", halves_bytes + material_bytes);
     EWA_TRY(status);
-    glBindBuffer(GL_COPY_WRITE_BUFFER, page->attributes.name);
     if (opacity_bytes)
-        glBufferSubData(GL_COPY_WRITE_BUFFER, 0, (GLsizeiptr)opacity_bytes, surfels->opacities + first);
+        ewa_gl_buffer_write(device, &page->attributes, 0, surfels->opacities + first, opacity_bytes);
     if (curvature_bytes)
-        glBufferSubData(GL_COPY_WRITE_BUFFER, (GLintptr)opacity_bytes, (GLsizeiptr)curvature_bytes,
-                        surfels->curvatures + first);
+        ewa_gl_buffer_write(device, &page->attributes, opacity_bytes, surfels->curvatures + first, curvature_bytes);
     if (material_bytes)
-        glBufferSubData(GL_COPY_WRITE_BUFFER, (GLintptr)halves_bytes, (GLsizeiptr)material_bytes,
-                        surfels->materials + first);
+        ewa_gl_buffer_write(device, &page->attributes, halves_bytes, surfels->materials + first, material_bytes);
     return ewa_gl_check(device, "surfels");
 }
 

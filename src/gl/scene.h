@@ -39,6 +39,15 @@ typedef struct ewa_gl_view {
     float contour_shift, contour_sine2, curvature_scale;
 } ewa_gl_view;
 
+/// What all programs see of a band of rows; as std140 has it.
+typedef struct ewa_gl_band_block {
+    uint32_t picture_px[2], band_px[2], first_px[2];
+    uint32_t tiles_per_row, tile_count, tile_side_px;
+    float exponent_end;
+    uint32_t layered, with_codes;
+    int32_t plane_at[4]; ///< of rgba, depth, normal, coverage; -1: not wanted
+} ewa_gl_band_block;
+
 /// ewa_clip.
 typedef struct ewa_gl_clip {
     float lines[EWA_CLIP_LINES][8];

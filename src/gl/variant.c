@@ -70,14 +70,15 @@ size_t ewa_gl_head_write(const ewa_gl_arithmetic *arithmetic, char *head) {
 
 static ewa_status make(ewa_gl *device, const ewa_gl_variants *variants, const ewa_gl_variant *v,
                        GLuint *program) {
-    static const char *const pieces[][4] = {
-        [EWA_GL_SETUP] = {ewa_shader_wide, ewa_shader_scene, ewa_shader_setup},
-        [EWA_GL_FILL] = {ewa_shader_wide, ewa_shader_scene, ewa_shader_fill},
-        [EWA_GL_VISIBILITY] = {ewa_shader_wide, ewa_shader_scene, ewa_shader_splat, ewa_shader_passes},
-        [EWA_GL_SUMS] = {ewa_shader_wide, ewa_shader_scene, ewa_shader_splat, ewa_shader_passes},
-        [EWA_GL_FIRST_SURFACE] = {ewa_shader_wide, ewa_shader_surface},
-        [EWA_GL_NEXT_SURFACE] = {ewa_shader_wide, ewa_shader_surface},
-        [EWA_GL_PICTURE] = {ewa_shader_wide, ewa_shader_surface},
+    enum { MAX_PIECES = 5 };
+    static const char *const pieces[][MAX_PIECES] = {
+        [EWA_GL_SETUP] = {ewa_shader_wide, ewa_shader_band, ewa_shader_scene, ewa_shader_setup},
+        [EWA_GL_FILL] = {ewa_shader_wide, ewa_shader_band, ewa_shader_scene, ewa_shader_fill},
+        [EWA_GL_VISIBILITY] = {ewa_shader_wide, ewa_shader_band, ewa_shader_scene, ewa_shader_splat, ewa_shader_passes},
+        [EWA_GL_SUMS] = {ewa_shader_wide, ewa_shader_band, ewa_shader_scene, ewa_shader_splat, ewa_shader_passes},
+        [EWA_GL_FIRST_SURFACE] = {ewa_shader_wide, ewa_shader_band, ewa_shader_surface},
+        [EWA_GL_NEXT_SURFACE] = {ewa_shader_wide, ewa_shader_band, ewa_shader_surface},
+        [EWA_GL_PICTURE] = {ewa_shader_wide, ewa_shader_band, ewa_shader_surface},
     };
     static const char *const names[] = {[EWA_GL_SETUP] = "set-up",
                                         [EWA_GL_FILL] = "lists",
@@ -101,7 +102,7 @@ static ewa_status make(ewa_gl *device, const ewa_gl_variants *variants, const ew
              v->with_normals ? 7 : 4, v->with_materials, v->with_opacity, v->with_clips, v->with_fine,
              v->rays);
     uint32_t piece_count = 0;
-    while (piece_count < 4 && pieces[v->pass][piece_count]) piece_count++;
+    while (piece_count < MAX_PIECES && pieces[v->pass][piece_count]) piece_count++;
     const ewa_gl_stage stage = {GL_COMPUTE_SHADER, head, pieces[v->pass], piece_count};
     return ewa_gl_program_make(device, names[v->pass], &stage, 1, program);
 }

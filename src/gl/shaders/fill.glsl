@@ -10,9 +10,8 @@ layout(std430, binding = 6) writeonly buffer ListBlock { uint list[]; };
 layout(std430, binding = 7) buffer NextBlock { uint next[]; };              // [tile]: place in the list
 layout(std430, binding = 4) readonly buffer ClipBlock { uvec2 clipped[]; }; // [pair]: lanes; place of the first's lines
 
-uniform uint first_record, record_count;
-uniform uvec2 first_tile_px;
-uniform uint tiles_per_row, tile_side_px;
+layout(location = 0) uniform uint first_record;
+layout(location = 1) uniform uint record_count;
 
 void main() {
     uint index = first_record + gl_GlobalInvocationID.x;
@@ -24,10 +23,8 @@ void main() {
         records[index].clip = of_pair.y + uint(bitCount(of_pair.x & ((1u << (index & 15u)) - 1u)));
     }
     uint where = records[index].field;
-    uvec2 first_px =
-        uvec2(where & 0xffffu, where >> 16) * 128u + uvec2(box & 0x3fu, box >> 8 & 0x3fu) * 4u - first_tile_px;
-    uvec2 last_px = first_px + uvec2(box >> 16 & 0x3fu, box >> 24 & 0x3fu) * 4u - 1u;
-    uvec2 first = first_px / tile_side_px, last = last_px / tile_side_px;
+    uvec2 first, last;
+    tiles_of(uvec2(where & 0xffffu, where >> 16), box, first, last);
     for (uint y = first.y; y <= last.y; y++)
         for (uint x = first.x; x <= last.x; x++) list[atomicAdd(next[y * tiles_per_row + x], 1u)] = index;
 }

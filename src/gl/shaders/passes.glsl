@@ -19,12 +19,9 @@ layout(std430, binding = 11) buffer CutBlock { int cut[]; };      // [channel][w
 layout(std430, binding = 12) readonly buffer MaterialBlock { float materials[]; };
 #endif
 
-uniform uint first_unit;
-uniform uvec2 band_px;      // size
-uniform uvec2 first_px;     // of the band in the picture
-uniform uint tiles_per_row;
-uniform uint behind;        // 0: the first surface
-uniform uint whole;         // all that is left is one surface
+layout(location = 0) uniform uint first_unit;
+layout(location = 1) uniform uint behind; // 0: the first surface
+layout(location = 2) uniform uint whole;  // all that is left is one surface
 
 #if PASS == 2
 #if WITH_FINE || WITH_DEPTH || WITH_CLIPS

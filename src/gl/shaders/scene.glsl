@@ -57,16 +57,11 @@ struct Near {
     Clip clip;
 };
 
+// The tiles of the band that a record's box lies in.
+void tiles_of(uvec2 field, uint box, out uvec2 first, out uvec2 last) {
+    uvec2 from_px = field * 128u + uvec2(box & 0x3fu, box >> 8 & 0x3fu) * 4u - first_px;
+    first = from_px / tile_side_px;
+    last = (from_px + uvec2(box >> 16 & 0x3fu, box >> 24 & 0x3fu) * 4u - 1u) / tile_side_px;
+}
+
 layout(std430, binding = 0) readonly buffer ViewBlock { View views[]; };
-
-// Floats as numbers that keep their order; 0 is below all.
-uint order_of(float f) {
-    uint bits = floatBitsToUint(f);
-    return (bits & 0x80000000u) != 0u ? ~bits : bits | 0x80000000u;
-}
-float float_of(uint order) {
-    return uintBitsToFloat((order & 0x80000000u) != 0u ? order & 0x7fffffffu : ~order);
-}
-const uint NEVER = 0x007fffffu; // order_of(-INF)
-
-bool has(uint flags, uint flag) { return (flags & flag) != 0u; }

@@ -15,12 +15,12 @@ layout(std430, binding = 6) buffer TileBlock { uint tile_counts[]; };
 layout(std430, binding = 7) buffer MaskBlock { uint masks[]; }; // [pair]: by pixel rays | clipped << 16
 layout(std430, binding = 8) readonly buffer ByteBlock { uint attributes[]; }; // of the page: opacities, then materials
 
-uniform uint first_pair, end_pair, source;
-uniform uvec2 picture_px;
-uniform uvec2 first_tile_px;   // of the band
-uniform uint tiles_per_row;
-uniform uint tile_side_px;
-uniform int opacities_at, curvatures_at, materials_at; // words in `attributes`, or -1
+layout(location = 0) uniform uint first_pair;
+layout(location = 1) uniform uint end_pair;
+layout(location = 2) uniform uint source;
+layout(location = 3) uniform int opacities_at; // words in `attributes`, or -1; as the next two
+layout(location = 4) uniform int curvatures_at;
+layout(location = 5) uniform int materials_at;
 
 const int PACKET_WORDS = 120;
 const float FIELD_PX = 128.0;
@@ -308,9 +308,8 @@ vec3 contour_way(uint surfel, float slope, bool clipped, out bool hollow) {
 }
 
 void count_tiles(uvec2 field, uint box) {
-    uvec2 first_px = field * 128u + uvec2(box & 0x3fu, box >> 8 & 0x3fu) * 4u - first_tile_px;
-    uvec2 last_px = first_px + uvec2(box >> 16 & 0x3fu, box >> 24 & 0x3fu) * 4u - 1u;
-    uvec2 first = first_px / tile_side_px, last = last_px / tile_side_px;
+    uvec2 first, last;
+    tiles_of(field, box, first, last);
     for (uint y = first.y; y <= last.y; y++)
         for (uint x = first.x; x <= last.x; x++) atomicAdd(tile_counts[y * tiles_per_row + x], 1u);
 }

@@ -16,8 +16,6 @@ struct Sample {
 layout(std430, binding = 9) readonly buffer ClipBlock { Clip clips[]; };
 layout(std430, binding = 10) readonly buffer NearBlock { Near nears[]; };
 
-uniform float exponent_end;
-
 float half_plane_share(ClipLine l, float x, float y) {
     float inside = wf_fma(l.x_inward, x, wf_fma(l.y_inward, y, l.offset));
     float left = wf_sub(l.reach, wf_abs(inside)), corner = wf_min(wf_max(left, 0.0), l.narrow);

@@ -41,12 +41,8 @@ layout(std430, binding = 6) writeonly buffer PlaneBlock { float planes[]; }; // 
 #endif
 layout(std430, binding = 15) readonly buffer EnvironmentBlock { float texels[]; };
 
-uniform uvec2 band_px, first_px, picture_px;
-uniform uint tiles_per_row, tile_count, first_tile;
-uniform uint whole;
-uniform int rgba_at, depth_at, normal_at, coverage_at; // in `planes`, or -1
-uniform uint with_codes;
-uniform uint layered;
+layout(location = 0) uniform uint first_tile;
+layout(location = 2) uniform uint whole;
 
 #if WITH_FINE || WITH_DEPTH || WITH_CLIPS
 const uint WORDS = 4u;
@@ -55,14 +51,6 @@ const uint WORDS = 2u;
 #endif
 
 struct Surface { float sums[CHANNELS]; bool has_cut; float cover, cut_x, cut_y; };
-
-bool has(uint flags, uint flag) { return (flags & flag) != 0u; }
-
-float float_of(uint order) {
-    return uintBitsToFloat((order & 0x80000000u) != 0u ? order & 0x7fffffffu : ~order);
-}
-
-const uint NEVER = 0x007fffffu;
 
 uint pixel = 0u, pixel_count = 0u;
 uvec2 in_picture;

@@ -1,0 +1,68 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// What a frame asks of the device (ewa_renderer_info), and its stages' times by the device's clock.
+#include "gpu_scene.h"
+
+enum { POINTS = 3000, WIDTH_PX = 160, HEIGHT_PX = 120 };
+
+static uint8_t rgba8[4 * GPU_MAX_PX * GPU_MAX_PX];
+
+static ewa_renderer_info info_of(const ewa_renderer *renderer) {
+    ewa_renderer_info info = {.struct_size = sizeof info};
+    assert_int_equal(ewa_renderer_describe(renderer, &info), EWA_OK);
+    return info;
+}
+
+static void test_counts(void **state) {
+    enum { WAITS = 10, READBACKS = 12, DISPATCHES = 40 };
+    gpu_scene at;
+    gpu_scene_make(&at, POINTS, WIDTH_PX, HEIGHT_PX);
+    ewa_renderer *renderer = NULL;
+    assert_int_equal(ewa_renderer_create_on(at.context, EWA_BACKEND_GL, &renderer), EWA_OK);
+    assert_int_equal(info_of(renderer).wait_count, 0);
+    assert_int_equal(gpu_scene_draw(&at, renderer, rgba8), EWA_OK);
+    const ewa_renderer_info first = info_of(renderer);
+    assert_int_equal(gpu_scene_draw(&at, renderer, rgba8), EWA_OK);
+    const ewa_renderer_info second = info_of(renderer);
+    assert_in_range(second.wait_count, 1, WAITS);
+    assert_in_range(second.readback_count, 1, READBACKS);
+    assert_in_range(second.dispatch_count, 6, DISPATCHES);
+    // The surfels are there by now.
+    enum { SURFEL_BYTES = 30 };
+    assert_true(second.upload_bytes > 0 && second.upload_bytes + SURFEL_BYTES * POINTS <= first.upload_bytes);
+    ewa_renderer_destroy(&renderer);
+    assert_int_equal(ewa_renderer_create(at.context, &renderer), EWA_OK);
+    assert_int_equal(gpu_scene_draw(&at, renderer, rgba8), EWA_OK);
+    const ewa_renderer_info none = info_of(renderer);
+    assert_true(none.wait_count + none.readback_count + none.dispatch_count == 0 && none.upload_bytes == 0);
+    ewa_renderer_destroy(&renderer);
+    gpu_scene_free(&at);
+}
+
+static void test_times(void **state) {
+    gpu_scene at;
+    gpu_scene_make(&at, POINTS, WIDTH_PX, HEIGHT_PX);
+    ewa_renderer *renderer = NULL;
+    assert_int_equal(ewa_renderer_create_on(at.context, EWA_BACKEND_GL, &renderer), EWA_OK);
+    for (int frame = 0; frame < 2; frame++) {
+        ewa_render_stats stats;
+        const ewa_frame planes = {.rgba8 = rgba8};
+        assert_int_equal(ewa_render(renderer, at.surfels, &at.camera, &at.options, &planes, &stats), EWA_OK);
+        const double stages[] = {stats.setup_s, stats.visibility_s, stats.accumulate_s, stats.edge_s, stats.resolve_s};
+        double sum_s = stats.bin_s;
+        for (size_t i = 0; i < sizeof stages / sizeof stages[0]; i++) {
+            assert_true(stages[i] > 0);
+            sum_s += stages[i];
+        }
+        assert_true(sum_s <= 1.01 * stats.total_s);
+    }
+    ewa_renderer_destroy(&renderer);
+    gpu_scene_free(&at);
+}
+
+int main(void) {
+    if (!gpu_there()) return 77;
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_counts), cmocka_unit_test(test_times)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
