@@ -17,6 +17,24 @@
 
 #include "ewa/ewa.h"
 
+/// A test, which RUN_TESTS runs, in the order in which a file has them: TEST(name) { ... }, with `state` as cmocka hands it over.
+#define TEST(name) TEST_WITHIN(name, NULL, NULL)
+
+/// A test that `set_up` runs before and `tear_down` after, if only because an assertion of it fails; either may be NULL.
+#define TEST_WITHIN(name, set_up, tear_down)                                                                            \
+    static void name(void **state);                                                                                     \
+    __attribute__((constructor)) static void add_##name(void) {                                                         \
+        check_tests[__COUNTER__] = (struct CMUnitTest){#name, name, set_up, tear_down, NULL};                           \
+        check_test_count++;                                                                                             \
+    }                                                                                                                   \
+    static void name(void **state)
+
+/// Runs the tests of a file between `set_up` and `tear_down` of all, which may be NULL; gives how many failed.
+#define RUN_TESTS(set_up, tear_down) _cmocka_run_group_tests("tests", check_tests, check_test_count, set_up, tear_down)
+
+static __attribute__((unused)) struct CMUnitTest check_tests[64];
+static __attribute__((unused)) size_t check_test_count;
+
 /// Keeps the last message of a context, for tests that look at it.
 typedef struct check_log {
     char text[1024];

@@ -87,7 +87,7 @@ static void hold(const char *name, const double *is, const double *wanted, size_
 }
 
 /// Every number is that of the reference.
-static void test_reference(void **state) {
+TEST(test_reference) {
     (void)state;
     ewa_context *context = check_context(2, NULL);
     for (size_t k = 0; k < sizeof KINDS / sizeof KINDS[0]; k++) {
@@ -128,7 +128,7 @@ static void test_reference(void **state) {
 }
 
 /// The same bytes for one to five threads, for points in another order, and for tiles of other sizes.
-static void test_same_bytes(void **state) {
+TEST(test_same_bytes) {
     (void)state;
     enum { COUNT = 1500, RUNS = 9 };
     static const uint32_t threads[RUNS] = {1, 2, 3, 4, 5, 2, 2, 3, 4};
@@ -167,7 +167,7 @@ static void test_same_bytes(void **state) {
 
 /// Colours with the picture are those that come with all others, and the picture is that of the pipeline: within what floats and
 /// packets round. <A c, r> = <c, A' r>, A c being that picture without its background.
-static void test_picture(void **state) {
+TEST(test_picture) {
     (void)state;
     ewa_context *context = check_context(2, NULL);
     for (size_t k = 0; k < sizeof KINDS / sizeof KINDS[0]; k++) {
@@ -221,7 +221,7 @@ static void test_picture(void **state) {
 }
 
 /// What is wrong is told with names and numbers; nothing is left behind when memory ends.
-static void test_errors(void **state) {
+TEST(test_errors) {
     (void)state;
     check_log log = {.count = 0};
     ewa_context *context = check_context(1, &log);
@@ -272,7 +272,7 @@ static void test_errors(void **state) {
     ewa_context_destroy(&context);
 }
 
-static void test_memory(void **state) {
+TEST(test_memory) {
     (void)state;
     bool whole = false;
     for (long calls = 0; !whole; calls++) {
@@ -295,7 +295,7 @@ static void test_memory(void **state) {
 }
 
 /// Sums that no order changes.
-static void test_exact(void **state) {
+TEST(test_exact) {
     (void)state;
     check_random random = {5};
     enum { COUNT = 1000 };
@@ -327,9 +327,4 @@ static void test_exact(void **state) {
     assert_true(isnan(ewa_exact_value(&up)) && ewa_exact_value(&down) == sum);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_reference), cmocka_unit_test(test_same_bytes),
-                                       cmocka_unit_test(test_picture), cmocka_unit_test(test_errors),
-                                       cmocka_unit_test(test_memory), cmocka_unit_test(test_exact)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -162,7 +162,7 @@ static const uint32_t KINDS[] = {
 };
 
 /// Every number of every surfel, and of the camera, in scenes of all kinds.
-static void test_differences(void **state) {
+TEST(test_differences) {
     (void)state;
     ewa_context *context = check_context(1, NULL);
     for (size_t k = 0; k < sizeof KINDS / sizeof KINDS[0]; k++) {
@@ -187,7 +187,7 @@ static void test_differences(void **state) {
 }
 
 /// The picture at the sets is that of the reference.
-static void test_picture(void **state) {
+TEST(test_picture) {
     (void)state;
     ewa_context *context = check_context(1, NULL);
     for (size_t k = 0; k < sizeof KINDS / sizeof KINDS[0]; k++) {
@@ -216,7 +216,7 @@ static void test_picture(void **state) {
 }
 
 /// Colours without opacity are linear: <A c, r> = <c, A' r>, A being the picture without its background.
-static void test_transpose(void **state) {
+TEST(test_transpose) {
     (void)state;
     ewa_context *context = check_context(1, NULL);
     for (size_t k = 0; k < sizeof KINDS / sizeof KINDS[0]; k++) {
@@ -262,7 +262,7 @@ static void random_pixel(check_random *random, ewa_reference_splat *splats, ewa_
 }
 
 /// The pixel alone: every weight, in many random pixels, so that every branch of what covers is gone through.
-static void test_pixels(void **state) {
+TEST(test_pixels) {
     (void)state;
     ewa_context *context = check_context(1, NULL);
     adjoint_scene *s = adjoint_scene_make(context, ADJOINT_LIGHTS, 1, SIDE, 4, 1);
@@ -312,8 +312,4 @@ static void test_pixels(void **state) {
     ewa_context_destroy(&context);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_differences), cmocka_unit_test(test_picture),
-                                       cmocka_unit_test(test_transpose), cmocka_unit_test(test_pixels)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -85,7 +85,7 @@ static double loss(const way_back *w) {
 }
 
 /// <A c, r> = <c, A' r>, A c being the picture that ewa_render() draws.
-static void test_transpose(void **state) {
+TEST(test_transpose) {
     (void)state;
     ewa_context *context = check_context(2, NULL);
     for (size_t k = 0; k < KIND_COUNT; k++) {
@@ -108,7 +108,7 @@ static void test_transpose(void **state) {
 
 /// Numbers that differ from the derivative in double precision do so because the pictures do: each is what the pipeline's
 /// picture changes by when that colour does.
-static void test_each(void **state) {
+TEST(test_each) {
     (void)state;
     enum { WORST = 24 };
     ewa_context *context = check_context(2, NULL);
@@ -166,7 +166,7 @@ static ewa_surfels *surfels_of(const ewa_cloud *cloud) {
 }
 
 /// The same bytes for threads, instruction sets, tiles, and any order of the points.
-static void test_same_bytes(void **state) {
+TEST(test_same_bytes) {
     (void)state;
     enum { COUNT = 4000, RUNS = 9 };
     static const uint32_t threads[RUNS] = {1, 2, 3, 4, 5, 1, 1, 2, 2}, tiles[RUNS] = {64, 64, 64, 64, 64, 64, 64, 16, 128};
@@ -206,7 +206,7 @@ static void test_same_bytes(void **state) {
 
 /// A and A' of filled pixels: what points show is the picture; A' W A x, in one go, is A' of W times what x shows; the
 /// squares of A are those of what single points show. The same bytes for threads, instruction sets and tiles.
-static void test_filled(void **state) {
+TEST(test_filled) {
     (void)state;
     enum { COUNT = 3000, RUNS = 6, SINGLES = 12 };
     static const uint32_t kinds[] = {ADJOINT_UNLIT, ADJOINT_UNLIT | ADJOINT_CLIPPED | ADJOINT_ELLIPSES,
@@ -290,7 +290,7 @@ static void test_filled(void **state) {
 
 /// A constant cotangent comes back whole: where alpha is 1, what pixels give is what surfels get, also of tiles with more
 /// records than are kept.
-static void test_sum(void **state) {
+TEST(test_sum) {
     (void)state;
     ewa_context *context = check_context(2, NULL);
     enum { COUNT = 300000, SIDE = 64 };
@@ -339,7 +339,7 @@ static void test_sum(void **state) {
 }
 
 /// What the pipeline does not go back from is done in double precision, as all is that comes with more than colours.
-static void test_roads(void **state) {
+TEST(test_roads) {
     (void)state;
     ewa_context *context = check_context(2, NULL);
     static const uint32_t kinds[] = {ADJOINT_LIGHTS, ADJOINT_PLAIN};
@@ -364,7 +364,7 @@ static void test_roads(void **state) {
     ewa_context_destroy(&context);
 }
 
-static void test_errors(void **state) {
+TEST(test_errors) {
     (void)state;
     check_log log = {.count = 0};
     ewa_context *context = check_context(1, &log);
@@ -393,7 +393,7 @@ static void test_errors(void **state) {
     ewa_context_destroy(&context);
 }
 
-static void test_memory(void **state) {
+TEST(test_memory) {
     (void)state;
     bool whole = false;
     for (long calls = 0; !whole; calls++) {
@@ -422,10 +422,4 @@ static void test_memory(void **state) {
     }
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_transpose), cmocka_unit_test(test_each),
-                                       cmocka_unit_test(test_same_bytes), cmocka_unit_test(test_filled),
-                                       cmocka_unit_test(test_sum), cmocka_unit_test(test_roads),
-                                       cmocka_unit_test(test_errors), cmocka_unit_test(test_memory)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

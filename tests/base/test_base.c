@@ -14,7 +14,7 @@ static void keep_text(void *user, ewa_severity severity, const char *text) {
     strncpy(user, text, 255);
 }
 
-static void test_defaults(void **state) {
+TEST(test_defaults) {
     ewa_context *context = NULL;
     assert_int_equal(ewa_context_create(NULL, &context), EWA_OK);
     assert_true(ewa_context_worker_count(context) >= 1);
@@ -24,7 +24,7 @@ static void test_defaults(void **state) {
     ewa_context_destroy(NULL);
 }
 
-static void test_bad_options(void **state) {
+TEST(test_bad_options) {
     ewa_context *context = NULL;
     ewa_context_options options;
     ewa_context_options_init(&options, sizeof options);
@@ -36,7 +36,7 @@ static void test_bad_options(void **state) {
     assert_int_equal(ewa_context_create(NULL, NULL), EWA_ERROR_ARGUMENT);
 }
 
-static void test_overflowing_allocation_is_a_message(void **state) {
+TEST(test_overflowing_allocation_is_a_message) {
     char text[256] = "";
     ewa_context_options options;
     ewa_context_options_init(&options, sizeof options);
@@ -63,7 +63,7 @@ static ewa_context *limited(const ewa_limits *limits, bool untrusted, char text[
 }
 
 /// One budget for blocks, buffers and what libraries take: what is given back can be had again.
-static void test_memory_is_counted(void **state) {
+TEST(test_memory_is_counted) {
     char text[256] = "";
     ewa_context *context = limited(&(ewa_limits){.max_memory_bytes = 1000}, false, text);
     assert_int_equal(ewa_memory_left(context), 1000);
@@ -96,7 +96,7 @@ static void test_memory_is_counted(void **state) {
     ewa_context_destroy(&context);
 }
 
-static void test_limits(void **state) {
+TEST(test_limits) {
     char text[256] = "";
     ewa_context *context = limited(&(ewa_limits){0}, false, text);
     const ewa_limits usual = *ewa_context_limits(context);
@@ -130,7 +130,7 @@ static void wait_a_little(void *data, uint32_t index, uint32_t worker) {
     atomic_fetch_add((atomic_uint *)data, 1);
 }
 
-static void test_time_is_over(void **state) {
+TEST(test_time_is_over) {
     char text[256] = "";
     ewa_context *context = limited(&(ewa_limits){.max_seconds = 0.05}, false, text);
     atomic_uint done = 0;
@@ -171,7 +171,7 @@ static void run_until_told(void *data, uint32_t index, uint32_t worker) {
 }
 
 /// Long tasks hear of a stop while they run, on the thread that is asked and on the others.
-static void test_long_tasks_are_stopped(void **state) {
+TEST(test_long_tasks_are_stopped) {
     for (uint32_t workers = 1; workers <= 3; workers++) {
         endless run = {.count = workers};
         ewa_context_options options;
@@ -201,7 +201,7 @@ static void count_hit(void *data, uint32_t index, uint32_t worker) {
     if (worker >= t->workers) atomic_fetch_add(&t->bad_worker, 1);
 }
 
-static void test_parallel_visits_each_index_once(void **state) {
+TEST(test_parallel_visits_each_index_once) {
     static const uint32_t counts[] = {1, 2, 7, 32};
     for (size_t c = 0; c < sizeof counts / sizeof counts[0]; c++) {
         ewa_context *context = check_context(counts[c], NULL);
@@ -216,7 +216,7 @@ static void test_parallel_visits_each_index_once(void **state) {
     }
 }
 
-static void test_split_covers(void **state) {
+TEST(test_split_covers) {
     for (uint64_t count = 0; count < 40; count++) {
         for (uint32_t parts = 1; parts < 9; parts++) {
             assert_int_equal(ewa_split(count, parts, 0), 0);
@@ -227,17 +227,4 @@ static void test_split_covers(void **state) {
     }
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_defaults),
-        cmocka_unit_test(test_bad_options),
-        cmocka_unit_test(test_overflowing_allocation_is_a_message),
-        cmocka_unit_test(test_parallel_visits_each_index_once),
-        cmocka_unit_test(test_memory_is_counted),
-        cmocka_unit_test(test_limits),
-        cmocka_unit_test(test_time_is_over),
-        cmocka_unit_test(test_long_tasks_are_stopped),
-        cmocka_unit_test(test_split_covers),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

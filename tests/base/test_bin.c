@@ -63,7 +63,7 @@ static void make_rectangles(check_random *random, uint32_t count, uint32_t colum
     }
 }
 
-static void test_lists(void **state) {
+TEST(test_lists) {
     static const uint32_t workers[] = {1, 2, 7}, counts[] = {0, 1, 15, 16, 17, 500, MAXIMUM};
     static const uint32_t grids[][2] = {{1, 1}, {5, 3}, {40, 30}, {1, 200}};
     static scene s;
@@ -82,7 +82,7 @@ static void test_lists(void **state) {
 }
 
 /// Many sets of lists at once, some without candidates: as one after the other.
-static void test_many_lists(void **state) {
+TEST(test_many_lists) {
     enum { SETS = 9, COLUMNS = 6, ROWS = 4 };
     static const uint32_t workers[] = {1, 2, 7}, counts[SETS] = {0, 1, 700, 0, 17, 16, MAXIMUM, 33, 0};
     static scene scenes[SETS];
@@ -107,7 +107,7 @@ static void test_many_lists(void **state) {
     }
 }
 
-static void test_tiles(void **state) {
+TEST(test_tiles) {
     static const uint32_t sizes[][3] = {
         {1, 1, 64}, {64, 64, 64}, {65, 63, 64}, {200, 129, 32}, {7, 300, 128}};
     for (int i = 0; i < 5; i++) {
@@ -126,8 +126,4 @@ static void test_tiles(void **state) {
     }
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_lists), cmocka_unit_test(test_many_lists),
-                                       cmocka_unit_test(test_tiles)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

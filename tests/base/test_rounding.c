@@ -24,7 +24,7 @@ __attribute__((noinline)) triple round_stored(float *to, triple from) {
 /// A product that is rounded before the sum.
 __attribute__((noinline)) static double add_product(double a, double b, double c) { return a * b + c; }
 
-static void test_floats(void **state) {
+TEST(test_floats) {
     float stored[3];
     const triple got = round_stored(stored, (triple){0.1, 0.2, 0.3});
     assert_true(got.x == 0.100000001490116119384765625);
@@ -32,15 +32,9 @@ static void test_floats(void **state) {
     assert_true(got.z == 0.300000011920928955078125);
 }
 
-static void test_no_contraction(void **state) {
+TEST(test_no_contraction) {
     const double a = 1 + 0x1p-30;
     assert_true(add_product(a, a, -1 - 0x1p-29) == 0); // a * a is rounded to 1 + 2^-29
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_floats),
-        cmocka_unit_test(test_no_contraction),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -18,7 +18,7 @@ static void make_picture(void) {
         "ewa render board.ply -o board.png --size 64x64 --view top --ortho 2 --shading none --edge-aa off");
 }
 
-static void test_mesh(void **state) {
+TEST_WITHIN(test_mesh, enter, NULL) {
     make_picture();
     scratch_text("quad.obj", quad);
     assert_int_equal(run("ewa sample quad.obj -o grey.ply -n 500"), 0);
@@ -36,7 +36,7 @@ static void test_mesh(void **state) {
     assert_true(scratch_same("again.ply", "optimal.ply"));
 }
 
-static void test_objects(void **state) {
+TEST_WITHIN(test_objects, enter, NULL) {
     make_picture();
     static const char *const objects[] = {"plane", "cube", "sphere", "torus", "terrain", "csg", "town"};
     for (size_t i = 0; i < sizeof objects / sizeof objects[0]; i++) {
@@ -46,7 +46,7 @@ static void test_objects(void **state) {
     run_done("ewa generate cube --sharp --texture board.png --pixel-sigma 1 -n 9000 -o sharp.ply");
 }
 
-static void test_what_fails(void **state) {
+TEST_WITHIN(test_what_fails, enter, NULL) {
     make_picture();
     scratch_text("bare.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n");
     run_fails(1, "texture coordinates", "ewa sample bare.obj --texture board.png -o x.ply");
@@ -58,11 +58,4 @@ static void test_what_fails(void **state) {
     assert_int_equal(scratch_size("x.ply"), -1);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup(test_mesh, enter),
-        cmocka_unit_test_setup(test_objects, enter),
-        cmocka_unit_test_setup(test_what_fails, enter),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

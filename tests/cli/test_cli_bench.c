@@ -26,7 +26,7 @@ static double member(const char *label, int threads, const char *name) {
     return -1;
 }
 
-static void test_stages(void **state) {
+TEST(test_stages) {
     run_done("TMPDIR=. ewa bench --scene plane --splats 2000 --pixels 20,40 --size 96x64 --frames 3 "
              "--workers 1,2 --cpu all,plain --json b.json && cat b.json");
     assert_non_null(strstr(last_run.out, "plane 0.002 M of 20 px"));
@@ -49,14 +49,14 @@ static void test_stages(void **state) {
     assert_int_equal(scratch_count(), 1);
 }
 
-static void test_files(void **state) {
+TEST(test_files) {
     run_done("ewa generate sphere -n 3000 -o ball.ply && "
              "ewa bench ball.ply --size 96x64 --frames 1 --workers 1 --stages off --json - 2>tables");
     assert_non_null(strstr(last_run.out, "\"scene\": \"ball.ply\""));
     assert_true(member("ball.ply", 1, "splats") == 3000);
 }
 
-static void test_unseen(void **state) {
+TEST(test_unseen) {
     run_done(
         "ewa bench --scene hidden,culled,closed,seen --splats 20000 --pixels 60 --size 256x256 --frames 1 "
         "--workers 1 --stages off --json - 2>tables");
@@ -71,7 +71,7 @@ static void test_unseen(void **state) {
     assert_non_null(strstr(closed, "\"scene\": \"seen\""));
 }
 
-static void test_recipes(void **state) {
+TEST(test_recipes) {
     run_done(
         "ewa bench --scene points,peer,color --splats 5000 --pixels 30 --frames 1 --workers 1 --stages off "
         "--json - 2>tables");
@@ -83,14 +83,14 @@ static void test_recipes(void **state) {
     assert_null(strstr(last_run.out, "plane"));
 }
 
-static void test_refusals(void **state) {
+TEST(test_refusals) {
     run_fails(1, "the pixel filter alone covers |more than 2", "ewa bench --splats 100 --pixels 2");
     run_fails(2, "--scene: 'plain' is not one of plane|color", "ewa bench --scene plain");
     run_fails(2, "--cpu: 'sse' is not one of all", "ewa bench --cpu all,sse");
 }
 
 /// Every way of drawing has its row, and all but the first say what they are of it.
-static void test_ways(void **state) {
+TEST(test_ways) {
     run_done("ewa bench --scene layers --splats 5000 --size 128x96 --frames 1 --workers 1,2 --stages off "
              "--json - 2>tables");
     static const char *const ways[] = {"opaque", "3 layers", "exact", "1 edge layer", "no edges", "no light"};
@@ -118,7 +118,7 @@ static void make_competitor(const char *lines) {
     "--against ./competitor"
 
 /// Another program gets the scene as files that it can read, and is asked for every frame in turn.
-static void test_against(void **state) {
+TEST(test_against) {
     run_done("rm -rf *");
     make_competitor("cp \"$1\" got.ply; cp \"$2\" got.json; echo \"a \\\"competitor\\\" with $3 threads\"\n"
                     "while read -r ask; do echo >>asked; sleep 0.02; echo; done; echo >>ended");
@@ -142,7 +142,7 @@ static void test_against(void **state) {
     assert_int_equal(scratch_count(), 1); // no folder is left, but the competitor
 }
 
-static void test_bad_competitors(void **state) {
+TEST(test_bad_competitors) {
     static const struct {
         const char *lines, *said;
     } cases[] = {
@@ -167,12 +167,4 @@ static void test_bad_competitors(void **state) {
               "ewa bench --scene peer --splats 2000 --size 96x64 --frames 1 --stages off --against ./nobody");
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_stages),  cmocka_unit_test(test_files),
-        cmocka_unit_test(test_unseen),  cmocka_unit_test(test_recipes),
-        cmocka_unit_test(test_ways),    cmocka_unit_test(test_refusals),
-        cmocka_unit_test(test_against), cmocka_unit_test(test_bad_competitors),
-    };
-    return cmocka_run_group_tests(tests, enter, NULL);
-}
+int main(void) { return RUN_TESTS(enter, NULL); }

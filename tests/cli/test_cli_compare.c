@@ -58,7 +58,7 @@ static double number_of(const char *name, int which) {
     return which ? ssim : psnr_db;
 }
 
-static void compared(void **state) {
+TEST(compared) {
     run_done("ewa render set.ply -o view_%%d.png --turntable 4 --size 96x72 --background 0.2,0.3,0.4 --save-camera "
              "turn.json");
     write_cameras("cameras.json", "view_2.png");
@@ -105,7 +105,7 @@ static void compared(void **state) {
     assert_true(strstr(last_run.out, "view_3.png") && !strstr(last_run.out, "view_1.png"));
 }
 
-static void refused(void **state) {
+TEST(refused) {
     const int before = scratch_count();
     run_fails(2, "--cameras", "ewa compare set.ply");
     run_fails(2, "opaque", "ewa compare set.ply --cameras cameras.json --background transparent");
@@ -120,7 +120,4 @@ static void refused(void **state) {
     assert_int_equal(scratch_count(), before + 3);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(compared), cmocka_unit_test(refused)};
-    return cmocka_run_group_tests(tests, enter, leave);
-}
+int main(void) { return RUN_TESTS(enter, leave); }

@@ -26,7 +26,7 @@ static double number_after(const char *key) {
     return strtod(at + strlen(key), NULL);
 }
 
-static void test_info(void **state) {
+TEST(test_info) {
     scratch_text("small.ply", small_cloud);
     run_done("ewa info small.ply");
     assert_non_null(strstr(last_run.out, "comment three points"));
@@ -40,7 +40,7 @@ static void test_info(void **state) {
     assert_non_null(strstr(last_run.out, "points      3"));
 }
 
-static void test_info_problems(void **state) {
+TEST(test_info_problems) {
     scratch_text("odd.ply", "ply\nformat ascii 1.0\nelement vertex 5\nproperty float x\nproperty float y\n"
                             "property float z\nproperty float nx\nproperty float ny\nproperty float nz\n"
                             "property float radius\nend_header\n"
@@ -58,7 +58,7 @@ static void test_info_problems(void **state) {
     assert_non_null(strstr(last_run.out, "problems    none"));
 }
 
-static void test_generate(void **state) {
+TEST(test_generate) {
     static const char *const kinds[] = {"plane", "checker", "cube", "sphere", "torus", "terrain"};
     for (size_t i = 0; i < sizeof kinds / sizeof kinds[0]; i++) {
         run_done("ewa generate %s -n 1000 -o a.ply && ewa generate %s -n 1000 -o b.ply --threads 3 && "
@@ -76,7 +76,7 @@ static void test_generate(void **state) {
     assert_string_equal(last_run.out, "ply\nformat ascii 1.0\n");
 }
 
-static void test_encodings(void **state) {
+TEST(test_encodings) {
     run_done("ewa generate terrain -n 2000 -o a.ply && ewa convert a.ply -o big.ply --big-endian && "
              "ewa convert big.ply -o text.ply --ascii && ewa convert text.ply -o back.ply");
     assert_true(scratch_same("a.ply", "back.ply"));
@@ -88,7 +88,7 @@ static void test_encodings(void **state) {
     assert_non_null(strstr(last_run.out, "500002.125 4000001.5 12 0 0 255 0.75"));
 }
 
-static void test_part(void **state) {
+TEST(test_part) {
     run_done("ewa generate plane -n 10000 -o a.ply && ewa convert a.ply -o b.ply --crop 0,0,-1,1,1,1 && "
              "ewa info --json b.ply");
     assert_true(fabs(number_after("\"points\": ") - 2500) < 200);
@@ -104,7 +104,7 @@ static void test_part(void **state) {
     assert_int_equal(scratch_size("d.ply"), -1);
 }
 
-static void test_move(void **state) {
+TEST(test_move) {
     scratch_text(
         "disc.ply",
         "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\n"
@@ -121,7 +121,7 @@ static void test_move(void **state) {
     run_fails(1, "last row", "ewa convert disc.ply -o a.ply --transform 1,0,0,0,0,1,0,0,0,0,1,0,0,0,1,1");
 }
 
-static void test_merge(void **state) {
+TEST(test_merge) {
     run_done("ewa generate sphere -n 300 -o a.ply && ewa generate torus -n 200 -o b.ply && "
              "ewa convert a.ply b.ply -o c.ply && ewa info --json c.ply");
     assert_true(number_after("\"points\": ") == 500);
@@ -135,7 +135,7 @@ static void test_merge(void **state) {
     run_done("ewa convert --quiet small.ply b.ply -o d.ply");
 }
 
-static void test_surfels(void **state) {
+TEST(test_surfels) {
     run_done("ewa generate sphere -n 5000 --positions-only -o a.ply && ewa surfels a.ply -o b.ply && "
              "ewa info --json b.ply");
     assert_non_null(strstr(last_run.out, "\"name\": \"normal\""));
@@ -147,7 +147,7 @@ static void test_surfels(void **state) {
 }
 
 /// Refitted colours are floats beyond [0, 1]; what they need and a file lacks is estimated.
-static void test_refit(void **state) {
+TEST(test_refit) {
     run_done("ewa generate checker -n 4000 --radius-scale 1.6 -o a.ply && "
              "ewa convert a.ply -o b.ply --refit-colors interpolate && ewa info --json b.ply");
     const char *color = strstr(last_run.out, "\"color\"");
@@ -164,7 +164,7 @@ static void test_refit(void **state) {
 }
 
 /// Solid textures on all that makes clouds, the same for any number of threads.
-static void test_procedure(void **state) {
+TEST(test_procedure) {
     run_done("ewa generate torus -n 3000 --procedure marble -o a.ply && "
              "ewa generate torus -n 3000 --procedure marble -o b.ply --threads 3 && "
              "ewa generate torus -n 3000 --procedure marble --procedure-seed 2 -o c.ply && "
@@ -183,7 +183,7 @@ static void test_procedure(void **state) {
 }
 
 /// Scene files: written by render, told of by info, refused with their place by both.
-static void test_scenes(void **state) {
+TEST(test_scenes) {
     run_done("ewa generate torus -o ring.ply -n 2000");
     run_done("ewa render ring.ply ring.ply -o made.png --size 64x48 --save-scene two.json --color-by z "
              "--filter 'z>0'");
@@ -208,7 +208,7 @@ static void test_scenes(void **state) {
     assert_int_equal(scratch_size("below/elsewhere.json"), -1);
 }
 
-static void test_failures_leave_nothing(void **state) {
+TEST(test_failures_leave_nothing) {
     assert_int_equal(scratch_enter("cli_files_none"), 0);
     run_fails(1, "none.ply: |No such file", "ewa convert none.ply -o a.ply");
     run_fails(2, "missing/a.ply|No such file", "ewa generate sphere -o missing/a.ply");
@@ -242,14 +242,4 @@ static void test_failures_leave_nothing(void **state) {
         run("ewa generate sphere -n 1000000 -o - 2>said | head -c 10 >head; test $(wc -c <head) = 10"), 0);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_info),     cmocka_unit_test(test_info_problems),
-        cmocka_unit_test(test_generate), cmocka_unit_test(test_encodings),
-        cmocka_unit_test(test_part),     cmocka_unit_test(test_move),
-        cmocka_unit_test(test_merge),    cmocka_unit_test(test_surfels),
-        cmocka_unit_test(test_refit),    cmocka_unit_test(test_procedure),
-        cmocka_unit_test(test_scenes),   cmocka_unit_test(test_failures_leave_nothing),
-    };
-    return cmocka_run_group_tests(tests, enter, NULL);
-}
+int main(void) { return RUN_TESTS(enter, NULL); }

@@ -28,7 +28,7 @@ static const char *converted(const char *options) {
     return body + strlen("end_header\n");
 }
 
-static void test_convert(void **state) {
+TEST(test_convert) {
     write_scan("a.ply", rows, 6);
     assert_string_equal(converted("--filter classification=ground"),
                         "500000.25 4200000 1 2 10\n500002.25 4200001 3 2 30\n500004.25 4200003 5 2 50\n");
@@ -50,7 +50,7 @@ static void test_convert(void **state) {
 }
 
 /// Every command that reads points takes the same ones.
-static void test_other_commands(void **state) {
+TEST(test_other_commands) {
     run_done("ewa generate terrain -n 4000 -o t.ply && ewa convert t.ply -o low.ply --filter 'z<=0.02'");
     run_done("ewa info --json low.ply");
     char kept[64] = "";
@@ -89,7 +89,7 @@ static void test_other_commands(void **state) {
     run_done("ewa render m.ply -o m.png --size 32x32 --filter 'z<0.5'");
 }
 
-static void test_polygons(void **state) {
+TEST(test_polygons) {
     write_scan("a.ply", rows, 6);
     static const char inside[] = "500001.25 4200000 2 6 20\n500002.25 4200001 3 2 30\n";
     assert_string_equal(
@@ -111,7 +111,7 @@ static void test_polygons(void **state) {
               "ewa convert a.ply -o b.ply --crop-polygon '0,0;1,0'");
 }
 
-static void test_thinning(void **state) {
+TEST(test_thinning) {
     write_scan("a.ply", rows, 6);
     assert_string_equal(converted("--voxel 4"), "500001.25 4200000 2 6 20\n500003.25 4200002 4 9 40\n"
                                                 "500004.25 4200003 5 2 50\n500005.25 4200009 6 18 60\n");
@@ -135,7 +135,7 @@ static void test_thinning(void **state) {
     run_fails(2, "--min-distance: -1 is outside (0, inf)", "ewa convert a.ply -o b.ply --min-distance -1");
 }
 
-static void test_merge(void **state) {
+TEST(test_merge) {
     write_scan("a.ply", rows, 6);
     scratch_text("c.ply", "ply\nformat ascii 1.0\nelement vertex 1\nproperty double x\nproperty double y\n"
                           "property double z\nproperty uchar red\nproperty uchar green\nproperty uchar blue\n"
@@ -155,7 +155,7 @@ static void test_merge(void **state) {
     assert_non_null(strstr(last_run.out, "500001.25 4200000 2 255 0 51 nan 6 20\n"));
 }
 
-static void test_info(void **state) {
+TEST(test_info) {
     write_scan("a.ply", rows, 6);
     run_done("ewa info a.ply");
     assert_non_null(strstr(last_run.out,
@@ -171,7 +171,7 @@ static void test_info(void **state) {
     assert_non_null(strstr(last_run.out, "  scale       0.01 0.01 0.01\n"));
 }
 
-static void test_degrees(void **state) {
+TEST(test_degrees) {
     write_scan("d.ply",
                "7.001 50.001 100 2 1\n7.002 50.001 120 2 1\n7.001 50.002 110 2 1\n7.002 50.002 150 2 1\n", 4);
     assert_int_equal(run("ewa info d.ply"), 0);
@@ -192,7 +192,7 @@ static void test_degrees(void **state) {
     assert_null(strstr(last_run.out, "degrees of longitude"));
 }
 
-static void test_colors(void **state) {
+TEST(test_colors) {
     run_done("ewa generate sphere -n 2000 -o s.ply && ewa render s.ply -o a.png --size 64x64 && "
              "ewa render s.ply -o b.png --size 64x64 --color-by rgb");
     assert_true(scratch_same("a.png", "b.png"));
@@ -228,12 +228,4 @@ static void test_colors(void **state) {
     assert_false(scratch_same("n.png", "i.png"));
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_convert),  cmocka_unit_test(test_other_commands),
-        cmocka_unit_test(test_polygons), cmocka_unit_test(test_thinning),
-        cmocka_unit_test(test_merge),    cmocka_unit_test(test_info),
-        cmocka_unit_test(test_degrees),  cmocka_unit_test(test_colors),
-    };
-    return cmocka_run_group_tests(tests, enter, NULL);
-}
+int main(void) { return RUN_TESTS(enter, NULL); }

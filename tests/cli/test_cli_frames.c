@@ -30,7 +30,7 @@ static int enter(void **state) {
 }
 
 /// Whole in every frame, with little room to spare in the worst, and the first frame again after a full turn.
-static void test_turntable(void **state) {
+TEST(test_turntable) {
     static const char *const objects[] = {"torus", "cube"};
     static const char *const views[] = {
         "", "--elevation 30", "--view top", "--up 1,1,0.3", "--azimuth 45", "--target 0.3,0.2,0.1"};
@@ -64,7 +64,7 @@ static void test_turntable(void **state) {
     }
 }
 
-static void test_turntable_camera(void **state) {
+TEST(test_turntable_camera) {
     // A quarter of the turn is what the camera sees from there: right-handed about up.
     run_done(
         "ewa render torus.ply -o q_%%d.png --turntable 4 --size 80x60 --eye 0,-5,1 --target 0,0,0 "
@@ -84,7 +84,7 @@ static void test_turntable_camera(void **state) {
     assert_true(scratch_same("a_0.png", "c_0.png"));
 }
 
-static void test_path(void **state) {
+TEST(test_path) {
     run_done("ewa render torus.ply -o k_%%d.exr --turntable 4 --size 64x48 --save-camera keys.json && "
              "ewa render torus.ply -o p_%%02d.exr --path keys.json --frames 8 --loop && "
              "ewa render torus.ply -o o_%%02d.exr --path keys.json --frames 7 && "
@@ -102,7 +102,7 @@ static void test_path(void **state) {
     assert_true(scratch_size("d_003.pfm") > 0 && scratch_size("n0.exr") > 0);
 }
 
-static void test_usage(void **state) {
+TEST(test_usage) {
     static const struct {
         const char *options, *said;
     } cases[] = {
@@ -126,14 +126,14 @@ static void test_usage(void **state) {
         run_fails(2, cases[i].said, "ewa render torus.ply %s", cases[i].options);
 }
 
-static void test_stats(void **state) {
+TEST(test_stats) {
     run_done("ewa render torus.ply -o t_%%d.png --turntable 3 --size 64x48 --stats s.json && "
              "test $(grep -c render_s s.json) = 3 && grep -q '\"frame_count\": 3' s.json");
     run_done("ewa render torus.ply -o t.png --size 64x48 --stats s.json && ! grep -q frame s.json");
 }
 
 /// JPEG by its suffix, of one frame and of several.
-static void test_jpeg(void **state) {
+TEST(test_jpeg) {
     run_done("ewa render torus.ply -o one.jpg --size 64x48 && ewa render torus.ply -o two_%%d.JPEG "
              "--turntable 2 --size 64x48 && "
              "for f in one.jpg two_0.JPEG two_1.JPEG; do test \"$(head -c 3 $f | od -An -tx1 | tr -d ' ')\" "
@@ -141,7 +141,7 @@ static void test_jpeg(void **state) {
 }
 
 /// What the fake ffmpeg is asked for, every byte of every frame, and nothing beside the film at the end.
-static void test_film(void **state) {
+TEST(test_film) {
     run_done("rm -rf films && mkdir films && PATH=$PWD/fake:$PATH && "
              "ewa render torus.ply -o films/a.mp4 --turntable 5 --size 64x48 --fps 24 --quality 100 && "
              "test $(cat films/a.mp4) = %d && test $(ls -A films) = a.mp4 && "
@@ -156,7 +156,7 @@ static void test_film(void **state) {
              "! grep -q -- -crf words && test $(ls -A films | wc -l) = 3");
 }
 
-static void test_film_fails(void **state) {
+TEST(test_film_fails) {
     run_done("rm -rf films && mkdir films");
     // Under PATH=/nonexistent the shell finds its own commands only.
     run_fails(2, "a.mp4|ffmpeg|not in PATH",
@@ -193,7 +193,7 @@ static void test_film_fails(void **state) {
 }
 
 /// An interrupt removes the film and what was begun, and ends by the signal.
-static void test_interrupt(void **state) {
+TEST(test_interrupt) {
     run("rm -rf films && mkdir films");
     const int ended =
         run("PATH=$PWD/fake:$PATH; $EWA_PROGRAM render torus.ply -o films/a.mp4 --turntable 100000 "
@@ -202,7 +202,7 @@ static void test_interrupt(void **state) {
     assert_int_equal(run("sleep 0.2; test $(ls -A films | wc -l) = 0"), 0);
 }
 
-static void test_real_film(void **state) {
+TEST(test_real_film) {
     if (run("command -v ffmpeg && command -v ffprobe") != 0) skip();
     static const char *const films[] = {"a.mp4", "a.mkv", "a.webm"};
     run("rm -rf films && mkdir films");
@@ -229,13 +229,4 @@ static void test_real_film(void **state) {
     ewa_image_free(&frame);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_turntable), cmocka_unit_test(test_turntable_camera),
-        cmocka_unit_test(test_path),      cmocka_unit_test(test_usage),
-        cmocka_unit_test(test_stats),     cmocka_unit_test(test_film),
-        cmocka_unit_test(test_jpeg),      cmocka_unit_test(test_film_fails),
-        cmocka_unit_test(test_interrupt), cmocka_unit_test(test_real_film),
-    };
-    return cmocka_run_group_tests(tests, enter, leave);
-}
+int main(void) { return RUN_TESTS(enter, leave); }

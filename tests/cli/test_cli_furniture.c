@@ -38,7 +38,7 @@ static void count_changes(const char *a, const char *b, const corner *box, size_
 }
 
 /// Each piece changes its part of the picture and nothing else; without one, and by default, the picture is as it was.
-static void test_places(void **state) {
+TEST(test_places) {
     static const struct {
         const char *options;
         const corner *box;
@@ -62,7 +62,7 @@ static void test_places(void **state) {
 }
 
 /// Every frame has its furniture, in one ink; units, labels and orthographic cameras are seen in the bytes.
-static void test_frames(void **state) {
+TEST(test_frames) {
     run_done("ewa render terrain.ply -o t%%d.png --turntable 3 --size 320x240");
     run_done(
         "ewa render terrain.ply -o f%%d.png --turntable 3 --size 320x240 --title Frames --scale-bar --axes");
@@ -81,7 +81,7 @@ static void test_frames(void **state) {
     assert_true(scratch_same("b.png", "c.png"));
 }
 
-static void test_usage(void **state) {
+TEST(test_usage) {
     run_done("ewa generate sphere -n 1000 -o sphere.ply");
     run_fails(1, "--color-bar has nothing to show", "ewa render sphere.ply -o a.png --color-bar");
     run_fails(2, "--unit needs --scale-bar or --color-bar", "ewa render a.ply -o a.png --unit m");
@@ -126,7 +126,7 @@ static void check_stripes(const char *picture, const uint8_t srgb[4][3]) {
 
 /// An attribute that is called so has the colours of classes, unless a colormap or a range is asked for; others have
 /// them when asked.
-static void test_classes(void **state) {
+TEST(test_classes) {
     static const char view[] = "--view top --ortho 20 --size 80x40 --shading none";
     static const char *const codes[] = {"2", "6", "9", "37"}, *const mixed[] = {"2", "6.5", "-1", "nan"};
     uint8_t classes[4][3], viridis[4][3], partly[4][3];
@@ -168,8 +168,4 @@ static void test_classes(void **state) {
     assert_true(inside > 1000 && outside == 0);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_places), cmocka_unit_test(test_frames),
-                                       cmocka_unit_test(test_usage), cmocka_unit_test(test_classes)};
-    return cmocka_run_group_tests(tests, enter, leave);
-}
+int main(void) { return RUN_TESTS(enter, leave); }

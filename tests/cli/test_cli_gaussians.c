@@ -36,7 +36,7 @@ static void said(const char *what) {
     if (!strstr(last_run.out, what)) fail_msg("'%s' is not in:\n%s", what, last_run.out);
 }
 
-static void told(void **state) {
+TEST(told) {
     run_done("ewa info three.ply");
     said("holds       3D Gaussians, spherical harmonics of degree 1");
     said("with a filter that thickens");
@@ -59,7 +59,7 @@ static void told(void **state) {
     said("\"format\": \"3DGS PLY\"");
 }
 
-static void converted(void **state) {
+TEST(converted) {
     run_done("ewa convert three.ply -o b.spz --spz-version 4 && ewa info b.spz");
     said("version 4");
     said("up          -y ("); // right, up, back there
@@ -92,7 +92,7 @@ static void converted(void **state) {
 }
 
 /// Scales follow, and where they are.
-static void moved(void **state) {
+TEST(moved) {
     run_done("ewa convert three.ply -o m.ply --scale 2 --translate 0,0,1000000 && ewa info m.ply");
     said("sizes       median 0.09957"); // 2 e^-3
     said("low         2 4 1000006");
@@ -108,7 +108,7 @@ static void moved(void **state) {
 }
 
 /// Options that choose points choose Gaussians, which keep all their numbers.
-static void chosen(void **state) {
+TEST(chosen) {
     FILE *file = fopen(scratch_path("line.ply"), "w");
     assert_non_null(file);
     fprintf(file, head, "", "property float scale_2\n", "");
@@ -138,7 +138,7 @@ static void chosen(void **state) {
     run_fails(1, "opacity", "ewa convert line.spz -o x.spz --filter 'weight>3'");
 }
 
-static void refused(void **state) {
+TEST(refused) {
     const int before = scratch_count();
     run_fails(1, "broken.ply: Gaussian 1 of 2: a scale is not finite", "ewa info broken.ply");
     run_fails(1, "broken.ply: Gaussian 1 of 2: a scale is not finite", "ewa convert broken.ply -o x.spz");
@@ -158,13 +158,4 @@ static void refused(void **state) {
     assert_int_equal(scratch_count(), before + 2);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(told),
-        cmocka_unit_test(converted),
-        cmocka_unit_test(moved),
-        cmocka_unit_test(chosen),
-        cmocka_unit_test(refused),
-    };
-    return cmocka_run_group_tests(tests, enter, NULL);
-}
+int main(void) { return RUN_TESTS(enter, NULL); }

@@ -19,7 +19,7 @@ static bool exact(void) {
     return there;
 }
 
-static void test_info(void **state) {
+TEST(test_info) {
     if (!exact()) return;
     assert_non_null(strstr(last_run.out, "\"native_fma\": "));
     assert_non_null(strstr(last_run.out, "\"files\": []"));
@@ -31,7 +31,7 @@ static void test_info(void **state) {
     assert_non_null(strstr(last_run.out, "fma emulated, division emulated, square root emulated"));
 }
 
-static void test_no_device(void **state) {
+TEST(test_no_device) {
     run_fails(1, "OpenGL", "EWA_GL_TUNING=nodevice=1 ewa info --gpu");
     run_fails(1, "OpenGL",
               "EWA_GL_TUNING=nodevice=1 ewa render torus.ply -o none.png --size 32x24 --backend gl");
@@ -41,7 +41,7 @@ static void test_no_device(void **state) {
 }
 
 /// A film of four frames: auto has found out by then that there is nothing to choose.
-static void test_auto(void **state) {
+TEST(test_auto) {
     run_done("ewa render torus.ply -o cpu_%%d.png --size 32x24 --turntable 4 && "
              "EWA_GL_TUNING=nodevice=1 ewa render torus.ply -o auto_%%d.png --size 32x24 --turntable 4 "
              "--backend auto --stats - ");
@@ -55,7 +55,7 @@ static void test_auto(void **state) {
     }
 }
 
-static void test_same_pictures(void **state) {
+TEST(test_same_pictures) {
     if (!exact()) return;
     run_done("ewa render torus.ply -o a.png --aov depth=a.pfm --size 64x48");
     assert_int_equal(
@@ -79,7 +79,7 @@ static void test_same_pictures(void **state) {
 }
 
 /// Three frames, of which the device is lost in one: the same film as ever, and a warning.
-static void test_lost(void **state) {
+TEST(test_lost) {
     if (!exact()) return;
     assert_int_equal(
         run("ewa render torus.ply -o whole_%%d.png --size 32x24 --turntable 3 && "
@@ -95,7 +95,7 @@ static void test_lost(void **state) {
 }
 
 /// The viewer draws by it too.
-static void test_view(void **state) {
+TEST(test_view) {
     if (!exact()) return;
     scratch_text("cpu.txt", "shot view_cpu.png\n");
     scratch_text("gl.txt", "shot view_gl.png\n");
@@ -104,10 +104,4 @@ static void test_view(void **state) {
     assert_true(scratch_same("view_cpu.png", "view_gl.png"));
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_info),          cmocka_unit_test(test_no_device), cmocka_unit_test(test_auto),
-        cmocka_unit_test(test_same_pictures), cmocka_unit_test(test_lost),      cmocka_unit_test(test_view),
-    };
-    return cmocka_run_group_tests(tests, enter, NULL);
-}
+int main(void) { return RUN_TESTS(enter, NULL); }

@@ -29,13 +29,13 @@ static void refuse_everywhere(const char *name, const char *said) {
     assert_int_equal(scratch_count(), before);
 }
 
-static void test_no_file(void **state) {
+TEST(test_no_file) {
     refuse_everywhere("none.ply", "No such file");
     run_done("mkdir -p folder.ply");
     refuse_everywhere("folder.ply", "");
 }
 
-static void test_broken_files(void **state) {
+TEST(test_broken_files) {
     scratch_text("empty.ply", "");
     refuse_everywhere("empty.ply", "");
     scratch_text("text.ply", "not a cloud at all\n");
@@ -60,7 +60,7 @@ static void test_broken_files(void **state) {
 }
 
 /// A truncated binary file at every length that matters.
-static void test_every_truncation(void **state) {
+TEST(test_every_truncation) {
     run_done("ewa generate sphere -n 3 -o whole.ply");
     const long size = scratch_size("whole.ply");
     static char bytes[4096];
@@ -74,7 +74,7 @@ static void test_every_truncation(void **state) {
     run_done("rm whole.ply cut.ply");
 }
 
-static void test_nothing_to_draw(void **state) {
+TEST(test_nothing_to_draw) {
     scratch_text("nan.ply", HEADER("2") END "nan 0 0\ninf 1 1\n");
     run_fails(1, "nan.ply: ", "ewa render nan.ply -o out.png");
     scratch_text("zeronormal.ply", HEADER("2") NORMAL RADIUS END "0 0 0 0 0 0 1\n1 0 0 0 0 0 1\n");
@@ -88,7 +88,7 @@ static void test_nothing_to_draw(void **state) {
 }
 
 /// Odd but honest clouds are drawn.
-static void test_odd_clouds(void **state) {
+TEST(test_odd_clouds) {
     scratch_text("one.ply", HEADER("1") NORMAL RADIUS END "5 5 5 0 0 1 1\n");
     run_done("ewa render one.ply -o one.png --size 32x32");
     scratch_text("same.ply", HEADER("3") NORMAL RADIUS END "1 1 1 0 0 1 1\n1 1 1 0 0 1 1\n1 1 1 0 0 1 1\n");
@@ -112,7 +112,7 @@ static void test_odd_clouds(void **state) {
     }
 }
 
-static void test_outputs(void **state) {
+TEST(test_outputs) {
     run_done("ewa generate sphere -n 500 -o ball.ply && mkdir -p taken.png");
     const int before = scratch_count();
     run_fails(2, "--output: taken.png: is a folder", "ewa render ball.ply -o taken.png");
@@ -156,7 +156,7 @@ static void write_doubles(const char *name, int count, const double *numbers) {
 }
 
 /// Extents that overflow, that vanish when they are divided, and that are nothing but rounding.
-static void test_extents(void **state) {
+TEST(test_extents) {
     enum { COUNT = 4000 };
     static double numbers[3 * COUNT];
     static const double scales[][3] = {
@@ -188,7 +188,7 @@ static void test_extents(void **state) {
     assert_int_equal(scratch_count(), before);
 }
 
-static void test_out_of_memory(void **state) {
+TEST(test_out_of_memory) {
 #ifdef __SANITIZE_ADDRESS__
     skip(); // needs address space of its own
 #elif defined(__SANITIZE_THREAD__)
@@ -205,7 +205,7 @@ static void test_out_of_memory(void **state) {
     assert_int_equal(scratch_count(), before);
 }
 
-static void test_interruption(void **state) {
+TEST(test_interruption) {
     const int before = scratch_count();
     // Terminated while it works: ends by the signal, and what it was writing is gone. `ewa` is a function of the shell
     // here, whose process the signal would end in the program's place.
@@ -215,13 +215,4 @@ static void test_interruption(void **state) {
     assert_int_equal(scratch_count(), before);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_no_file),          cmocka_unit_test(test_broken_files),
-        cmocka_unit_test(test_every_truncation), cmocka_unit_test(test_nothing_to_draw),
-        cmocka_unit_test(test_odd_clouds),       cmocka_unit_test(test_outputs),
-        cmocka_unit_test(test_out_of_memory),    cmocka_unit_test(test_interruption),
-        cmocka_unit_test(test_extents),
-    };
-    return cmocka_run_group_tests(tests, enter, NULL);
-}
+int main(void) { return RUN_TESTS(enter, NULL); }

@@ -51,7 +51,7 @@ static float red_at(const char *name, uint32_t x, uint32_t y) {
     return red;
 }
 
-static void test_materials_and_surroundings(void **state) {
+TEST(test_materials_and_surroundings) {
     run_done("ewa render discs.ply -o a.pfm --materials table.json --env sky.hdr " VIEW);
     assert_true(fabsf(red_at("a.pfm", 15, 30) - 0.5f * 0.6f) < 1e-5f); // grey of 0.6
     assert_true(fabsf(red_at("a.pfm", 44, 30) - 4 * 128.5f / 128) < 1e-4f);
@@ -64,12 +64,12 @@ static void test_materials_and_surroundings(void **state) {
     assert_true(red_at("c.pfm", 44, 30) == red_at("a.pfm", 44, 30));
 }
 
-static void test_lights(void **state) {
+TEST(test_lights) {
     run_done("ewa render disc.ply -o a.pfm --ambient 0 --light 0,0,1,0.5,1,1 --light 0,0,1,0.25,0,0 " VIEW);
     assert_true(fabsf(red_at("a.pfm", 30, 15) - 0.75f * 0.6f) < 1e-5f);
 }
 
-static void test_what_is_wrong_is_named(void **state) {
+TEST(test_what_is_wrong_is_named) {
     scratch_text("short.json", "[{}]");
     scratch_text("wrong.json", "[{\"shine\": 1}]");
     run_fails(1, "material 1, the table has 1", "ewa render discs.ply -o a.png --materials short.json");
@@ -80,11 +80,4 @@ static void test_what_is_wrong_is_named(void **state) {
     assert_int_equal(scratch_size("a.png"), -1);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_materials_and_surroundings),
-        cmocka_unit_test(test_lights),
-        cmocka_unit_test(test_what_is_wrong_is_named),
-    };
-    return cmocka_run_group_tests(tests, enter, leave);
-}
+int main(void) { return RUN_TESTS(enter, leave); }

@@ -17,7 +17,7 @@ static bool holds(const char *name, const char *text) {
     return strstr(last_run.out, text) != NULL;
 }
 
-static void test_make(void **state) {
+TEST(test_make) {
     run_done("ewa lod t.ply -o again.copc.laz --threads 1 --memory 64M --stats s.json");
     assert_true(scratch_same("t.copc.laz", "again.copc.laz"));
     assert_true(holds("s.json", "\"points\": 60000"));
@@ -44,7 +44,7 @@ static void test_make(void **state) {
 }
 
 /// Parts that are made alone become the file that is made at once.
-static void test_parts(void **state) {
+TEST(test_parts) {
     for (int part = 1; part <= 3; part++) run_done("ewa lod t.ply -o p%d.copc.laz --subset %d/3", part, part);
     run_done("ewa lod p2.copc.laz p3.copc.laz p1.copc.laz -o joined.copc.laz --merge --stats s.json");
     assert_true(scratch_same("t.copc.laz", "joined.copc.laz"));
@@ -54,7 +54,7 @@ static void test_parts(void **state) {
     assert_int_equal(scratch_size("x.copc.laz"), -1);
 }
 
-static void test_sizes(void **state) {
+TEST(test_sizes) {
     static const char *const fine[] = {"64M", "64m", "0.5G", "1GiB", "100MB", "67108864", "1T"};
     for (size_t i = 0; i < sizeof fine / sizeof fine[0]; i++)
         run_done("ewa lod t.ply -o x.copc.laz --memory %s", fine[i]);
@@ -64,7 +64,7 @@ static void test_sizes(void **state) {
         run_fails(2, "--memory", "ewa lod t.ply -o x.copc.laz --memory='%s'", wrong[i]);
 }
 
-static void test_info(void **state) {
+TEST(test_info) {
     run_done("ewa info t.copc.laz");
     assert_non_null(strstr(last_run.out, "octree      COPC 1.0"));
     assert_non_null(strstr(last_run.out, "stand for the points at its levels"));
@@ -90,7 +90,7 @@ static double mean_square(const char *a, const char *b) {
     return sum / (double)count;
 }
 
-static void test_render(void **state) {
+TEST(test_render) {
     // A small octree is drawn as any file; --lod-error 0 asks for that.
     run_done("ewa render t.copc.laz -o plain.png --size 300x300");
     run_done("ewa render t.copc.laz -o all.png --size 300x300 --lod-error 0 --memory 1G");
@@ -127,7 +127,7 @@ static void test_render(void **state) {
     assert_true(scratch_size("cut.pfm") > 0);
 }
 
-static void test_refusals(void **state) {
+TEST(test_refusals) {
     run_fails(1, "represents points at its levels has no intensity",
               "ewa render t.copc.laz -o x.png --levels always --filter 'intensity>0'");
     run_fails(1, "represents points at its levels has no classification",
@@ -143,7 +143,7 @@ static void test_refusals(void **state) {
 }
 
 /// What a box keeps is the same whether the file is read whole or by nodes.
-static void test_crop(void **state) {
+TEST(test_crop) {
     static const char sorted[] = "--ascii | sort";
     run_done("ewa convert t.copc.laz -o - --filter 'x=0.2..0.7 and y=0.1..0.6 and z>=0' %s > a.txt", sorted);
     run_done("ewa convert t.copc.laz -o - --crop 0.2,0.1,0,0.7,0.6,1 %s > b.txt", sorted);
@@ -160,7 +160,7 @@ static void test_crop(void **state) {
 }
 
 /// Folders of EPT are inputs as any file, and are drawn from their levels when that is asked for.
-static void test_folder(void **state) {
+TEST(test_folder) {
     run_done("mkdir -p e/ept-data e/ept-hierarchy && ewa generate sphere -n 5000 -o s.ply");
     run_done("ewa convert s.ply -o e/ept-data/0-0-0-0.laz && ewa convert s.ply -o - --ascii "
              "--crop 0,-1,-1,1,0,0 | sed '1,/end_header/d' | wc -l");
@@ -201,11 +201,4 @@ static void test_folder(void **state) {
     assert_int_equal(run("ewa info empty"), 1);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_make), cmocka_unit_test(test_parts),  cmocka_unit_test(test_sizes),
-        cmocka_unit_test(test_info), cmocka_unit_test(test_render), cmocka_unit_test(test_refusals),
-        cmocka_unit_test(test_crop), cmocka_unit_test(test_folder),
-    };
-    return cmocka_run_group_tests(tests, enter, leave);
-}
+int main(void) { return RUN_TESTS(enter, leave); }

@@ -12,7 +12,7 @@ static bool holds(const char *name, const char *text) {
     return strstr(last_run.out, text) != NULL;
 }
 
-static void test_large(void **state) {
+TEST(test_large) {
     run_done("ewa generate plane -n 4010000 -o big.ply && ewa lod big.ply -o big.copc.laz && rm big.ply");
     run_done("ewa render big.copc.laz -o big.png --size 200x200 --stats s.json");
     assert_true(holds("s.json", "\"nodes_drawn\": "));
@@ -23,7 +23,4 @@ static void test_large(void **state) {
     assert_false(holds("s.json", "\"nodes_drawn\": ")); // that takes all points
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_large)};
-    return cmocka_run_group_tests(tests, enter, NULL);
-}
+int main(void) { return RUN_TESTS(enter, NULL); }

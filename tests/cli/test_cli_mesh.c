@@ -48,7 +48,7 @@ static void write_cube(const char *name, const double a[3], double size) {
 static const double origin[3] = {-1, -1, -1};
 
 /// The same picture from every format and under every name, also through a pipe.
-static void test_formats(void **state) {
+TEST_WITHIN(test_formats, enter, NULL) {
     write_cube("cube", origin, 2);
     run_done("ewa render cube.obj -o obj.png --size 120x90");
     run_done("ewa render cube.ply -o ply.png --size 120x90");
@@ -99,7 +99,7 @@ static bool nearly_same(const char *first, const char *second) {
 
 /// At map coordinates and those of the earth's centre, the picture is that at the origin. The matrix of the
 /// camera that frames it holds its place to 2^-30 there.
-static void test_map_coordinates(void **state) {
+TEST_WITHIN(test_map_coordinates, enter, NULL) {
     static const double places[][3] = {{-1, -1, -1}, {500000, 4200000, 0}, {6000000.5, -3000000.25, 1048576}};
     for (int i = 0; i < 3; i++) {
         char name[16];
@@ -141,7 +141,7 @@ static void test_map_coordinates(void **state) {
         last_run.err, "ewa: warning: coarse.ply: coordinates up to 4200001 are floats, in steps of 0.5"));
 }
 
-static void test_info(void **state) {
+TEST_WITHIN(test_info, enter, NULL) {
     write_cube("cube", origin, 2);
     static const char *const files[] = {"cube.ply", "cube.obj", "cube.off"}, *const formats[] = {"PLY", "OBJ",
                                                                                                  "OFF"};
@@ -162,7 +162,7 @@ static void test_info(void **state) {
 }
 
 /// Faces stay where their vertices stay; else it is said.
-static void test_convert(void **state) {
+TEST_WITHIN(test_convert, enter, NULL) {
     write_cube("cube", origin, 2);
     run_done("ewa convert cube.ply -o same.ply --ascii && ewa convert same.ply -o again.ply --big-endian && "
              "ewa convert again.ply -o back.ply --ascii");
@@ -193,7 +193,7 @@ static void test_convert(void **state) {
 }
 
 /// Commands for points take the vertices, and say so.
-static void test_points_of_meshes(void **state) {
+TEST_WITHIN(test_points_of_meshes, enter, NULL) {
     write_cube("cube", origin, 2);
     static const char *const commands[] = {"surfels", "features --neighbours 0"};
     for (int c = 0; c < 2; c++)
@@ -208,7 +208,7 @@ static void test_points_of_meshes(void **state) {
 }
 
 /// A mesh that names files of the machine gets none of them.
-static void test_named_files(void **state) {
+TEST_WITHIN(test_named_files, enter, NULL) {
     scratch_text("m.mtl", "newmtl m\nmap_Kd ../../../../../../etc/passwd\n");
     scratch_text("m.obj", "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nusemtl m\nf 1/1 2/1 3/1\n");
     assert_int_equal(run("ewa render m.obj -o m.png --size 40x40"), 0);
@@ -223,14 +223,4 @@ static void test_named_files(void **state) {
     run_fails(1, "m.gltf: buffer 0, 'pipe.bin': it is no regular file", "ewa render m.gltf -o m.png");
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup(test_formats, enter),
-        cmocka_unit_test_setup(test_map_coordinates, enter),
-        cmocka_unit_test_setup(test_info, enter),
-        cmocka_unit_test_setup(test_convert, enter),
-        cmocka_unit_test_setup(test_points_of_meshes, enter),
-        cmocka_unit_test_setup(test_named_files, enter),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

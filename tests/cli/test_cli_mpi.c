@@ -17,7 +17,7 @@ static int enter(void **state) {
                "ewa lod torus.ply -o torus.copc.laz");
 }
 
-static void test_one_picture(void **state) {
+TEST(test_one_picture) {
     static const char *const looks[] = {
         "",
         "--lod-spacing 2 --shading lambert --aov depth=%c_z.pfm,normal=%c_n.exr",
@@ -49,7 +49,7 @@ static void test_one_picture(void **state) {
     assert_true(scratch_size("s.json") > 0);
 }
 
-static void test_films(void **state) {
+TEST(test_films) {
     static const char *const films[] = {
         "render torus.ply --turntable 5 --size 64x48 --color-by z",
         "volume ball.nrrd --turntable 5 --size 32x32",
@@ -77,7 +77,7 @@ static void test_films(void **state) {
     assert_int_equal(scratch_size("p_4.png"), -1);
 }
 
-static void test_octree(void **state) {
+TEST(test_octree) {
     for (int ranks = 2; ranks <= 4; ranks++) {
         run_done("%s %d $EWA_MPI_PROGRAM lod terrain.ply torus.ply -o together.copc.laz", mpi, ranks);
         run_done("ewa lod terrain.ply torus.ply -o alone.copc.laz");
@@ -87,7 +87,7 @@ static void test_octree(void **state) {
     assert_int_equal(run("ls *part-*"), 2); // no parts are left
 }
 
-static void test_refusals(void **state) {
+TEST(test_refusals) {
     // Gaussians with sizes, colours and turns of some kind: 32 bytes each.
     uint8_t splats[4][32];
     for (int i = 0; i < 4; i++) {
@@ -121,7 +121,7 @@ static void test_refusals(void **state) {
 }
 
 /// A rank that dies or stops amid a film: that has an end, soon, with an error, and every file that is there is whole.
-static void test_lost_ranks(void **state) {
+TEST(test_lost_ranks) {
     run_done("rm -f [wp]_*; ewa render torus.copc.laz --levels always --memory 64M --turntable 400 --frames "
              "0-0 --size 320x240 -o "
              "w_%%03d.png");
@@ -157,7 +157,7 @@ static int kill_ranks(const char *killed) {
 
 /// A rank that is killed leaves its part, which the other one removes; what nobody could remove is replaced, and gone, after the
 /// next run.
-static void test_lost_parts(void **state) {
+TEST(test_lost_parts) {
     run_done("ewa generate terrain -n 600000 -o large.ply && ewa lod large.ply -o alone.copc.laz");
     assert_int_not_equal(kill_ranks("pid_1"), 0);
     assert_int_equal(run("ls | grep -e part- -e '[.]tmp$'"), 1);
@@ -172,9 +172,5 @@ static void test_lost_parts(void **state) {
 int main(void) {
     mpi = getenv("EWA_MPI");
     if (!mpi) return 77;
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_one_picture), cmocka_unit_test(test_films),      cmocka_unit_test(test_octree),
-        cmocka_unit_test(test_refusals),    cmocka_unit_test(test_lost_ranks), cmocka_unit_test(test_lost_parts),
-    };
-    return cmocka_run_group_tests(tests, enter, NULL);
+    return RUN_TESTS(enter, NULL);
 }

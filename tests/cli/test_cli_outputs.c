@@ -56,7 +56,7 @@ static const writing writings[] = {
 enum { WRITINGS = sizeof writings / sizeof writings[0] };
 
 /// The table above is whole: it has each option that writes, and what help says to write is such an option.
-static void test_table(void **state) {
+TEST(test_table) {
     for (size_t c = 0; c < all_commands_count; c++) {
         const cli_option *option;
         for (size_t i = 0; (option = options_at(all_commands[c], i)); i++) {
@@ -87,7 +87,7 @@ static void refuse(const writing *what, const char *file, const char *said) {
     assert_int_equal(scratch_count(), before);
 }
 
-static void test_no_folder(void **state) {
+TEST(test_no_folder) {
     for (size_t i = 0; i < WRITINGS; i++) {
         char file[64];
         snprintf(file, sizeof file, "nowhere/a%s", writings[i].suffix);
@@ -95,7 +95,7 @@ static void test_no_folder(void **state) {
     }
 }
 
-static void test_folder_in_the_way(void **state) {
+TEST(test_folder_in_the_way) {
     run_done(
         "mkdir taken.png taken.copc.laz taken.pfm taken.json taken.ply taken.exr taken.nrrd taken.html taken_0.exr");
     for (size_t i = 0; i < WRITINGS; i++) {
@@ -106,7 +106,7 @@ static void test_folder_in_the_way(void **state) {
     run_done("rmdir taken*");
 }
 
-static void test_written_twice(void **state) {
+TEST(test_written_twice) {
     run_fails(2, "--stats: 'a.png' would be written twice", "ewa render in.ply -o a.png --stats a.png");
     run_fails(2, "--save-transfer: 'a.json' would be written twice",
               "ewa volume in.nrrd -o a.png --save-camera a.json --save-transfer a.json");
@@ -116,7 +116,7 @@ static void test_written_twice(void **state) {
 }
 
 /// What is over all bounds is refused, not cut.
-static void test_long_names(void **state) {
+TEST(test_long_names) {
     const cli_command *command = command_find("convert");
     static char arguments[1 << 17];
     char message[OPTION_ERROR_BYTES], path[6000];
@@ -131,13 +131,4 @@ static void test_long_names(void **state) {
     assert_non_null(strstr(message, "too long"));
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_table),
-        cmocka_unit_test(test_no_folder),
-        cmocka_unit_test(test_folder_in_the_way),
-        cmocka_unit_test(test_written_twice),
-        cmocka_unit_test(test_long_names),
-    };
-    return cmocka_run_group_tests(tests, enter, NULL);
-}
+int main(void) { return RUN_TESTS(enter, NULL); }

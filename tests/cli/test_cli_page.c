@@ -44,7 +44,7 @@ static void take_part(const char *page, const char *begin, const char *name) {
     scratch_write(name, at, strcspn(at, "<"));
 }
 
-static void digests_are_those_of_the_standard(void **state) {
+TEST(digests_are_those_of_the_standard) {
     (void)state;
     // FIPS 180-2, appendix B, and the empty text.
     static const struct {
@@ -66,7 +66,7 @@ static void digests_are_those_of_the_standard(void **state) {
     free(million);
 }
 
-static void a_page_is_whole_and_closed(void **state) {
+TEST(a_page_is_whole_and_closed) {
     (void)state;
     run_done("ewa page torus.ply -o torus.html --assets assets");
     char *page = read_text("torus.html");
@@ -92,7 +92,7 @@ static void a_page_is_whole_and_closed(void **state) {
     free(page);
 }
 
-static void names_and_titles_are_text(void **state) {
+TEST(names_and_titles_are_text) {
     (void)state;
     run_done("cp torus.ply '<script>alert(1)<;script>\"&.ply'");
     run_done("ewa page '<script>alert(1)<;script>\"&.ply' -o named.html --assets assets");
@@ -115,7 +115,7 @@ static void check_same_picture(const char *inputs, const char *options, bool sam
     assert_true(scratch_same("before.png", "after.png") == same);
 }
 
-static void pages_show_what_is_rendered(void **state) {
+TEST(pages_show_what_is_rendered) {
     (void)state;
     check_same_picture("torus.ply", "", true);
     check_same_picture("terrain.las blob.nrrd torus.ply", "", true);
@@ -137,14 +137,14 @@ static void pages_show_what_is_rendered(void **state) {
     check_same_picture("narrow.json", "", true);
 }
 
-static void cameras_come_along(void **state) {
+TEST(cameras_come_along) {
     (void)state;
     run_done("rm -rf site && ewa page torus.ply --view top --size 160x120 --folder site --assets assets");
     run_done("ewa render torus.ply --view top --size 160x120 -o before.png && ewa render site/scene.json -o after.png");
     assert_true(scratch_same("before.png", "after.png"));
 }
 
-static void failures_leave_nothing(void **state) {
+TEST(failures_leave_nothing) {
     (void)state;
     run_done("rm -rf empty && mkdir empty empty/full empty/none && echo x >empty/full/kept");
     run_fails(1, "--assets|files.js", "ewa page torus.ply -o empty/a.html --assets empty/none");
@@ -167,11 +167,4 @@ static void failures_leave_nothing(void **state) {
     run_done("ewa page torus.ply -o - --assets assets | grep -q '</html>'");
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(digests_are_those_of_the_standard), cmocka_unit_test(a_page_is_whole_and_closed),
-        cmocka_unit_test(names_and_titles_are_text),         cmocka_unit_test(pages_show_what_is_rendered),
-        cmocka_unit_test(cameras_come_along),                cmocka_unit_test(failures_leave_nothing),
-    };
-    return cmocka_run_group_tests(tests, enter, NULL);
-}
+int main(void) { return RUN_TESTS(enter, NULL); }

@@ -51,7 +51,7 @@ static void check_part(const film *of, int first, int last, int step) {
     }
 }
 
-static void test_ranges(void **state) {
+TEST(test_ranges) {
     static const int ranges[][2] = {{1, 2}, {0, 0}, {3, 3}, {2, 99}};
     for (size_t k = 0; k < FILM_COUNT; k++) {
         draw_whole(&films[k]);
@@ -63,7 +63,7 @@ static void test_ranges(void **state) {
     }
 }
 
-static void test_round_robin(void **state) {
+TEST(test_round_robin) {
     for (size_t k = 0; k < FILM_COUNT; k++) {
         draw_whole(&films[k]);
         for (int part = 1; part <= 3; part++) {
@@ -82,7 +82,7 @@ static void test_round_robin(void **state) {
 }
 
 /// Planes beside the picture, statistics and cameras of a part.
-static void test_beside(void **state) {
+TEST(test_beside) {
     run_done(
         "ewa render torus.ply -o a_%%d.exr --aov depth=ad_%%d.pfm --turntable 6 --size 64x48 --save-camera "
         "a.json "
@@ -102,7 +102,7 @@ static struct stat facts_of(const char *name) {
     return facts;
 }
 
-static void test_skip_existing(void **state) {
+TEST(test_skip_existing) {
     const film *of = &films[0];
     draw_whole(of);
     run_done("ewa %s -o p_%%03d.png && rm p_002.png && : >p_004.png", of->command);
@@ -141,7 +141,7 @@ static void test_skip_existing(void **state) {
         "grep -q '\"frame_count\": 0' s.json");
 }
 
-static void test_usage(void **state) {
+TEST(test_usage) {
     static const struct {
         const char *options, *said;
     } cases[] = {
@@ -176,7 +176,7 @@ static void test_usage(void **state) {
 }
 
 /// A frame that cannot be written: the status says so, what is written stays, and is named by its own number.
-static void test_failure(void **state) {
+TEST(test_failure) {
     run("mkdir f_5.png");
     run_fails(1, "f_5.png|of 4 frames, |are written and stay: 1, 3",
               "ewa render torus.ply -o f_%%d.png --turntable 8 --size 64x48 --frames 2/2 --threads 1");
@@ -187,7 +187,7 @@ static void test_failure(void **state) {
 }
 
 /// A film's range is that part of the film.
-static void test_film(void **state) {
+TEST(test_film) {
     run_done("mkdir fake && printf '%%s\\n' '#!/bin/sh' 'for last; do :; done' 'cat >\"${last#file:}\"' "
              ">fake/ffmpeg && "
              "chmod +x fake/ffmpeg && PATH=$PWD/fake:$PATH && "
@@ -198,7 +198,7 @@ static void test_film(void **state) {
 }
 
 /// Whatever moment it is killed at, what has a name is whole, and the rest can be drawn afterwards.
-static void test_killed(void **state) {
+TEST(test_killed) {
     static const char command[] = "render torus.ply --turntable 150 --size 320x240 --threads 2";
     run_done("ewa %s -o w_%%03d.png", command);
     for (int wanted = 1; wanted <= 9; wanted += 4) {
@@ -219,7 +219,7 @@ static void test_killed(void **state) {
 }
 
 /// The script for Slurm, as a task of an array and by itself.
-static void test_script(void **state) {
+TEST(test_script) {
     const film *of = &films[0];
     draw_whole(of);
     assert_int_equal(setenv("EWA", getenv("EWA_PROGRAM"), 1), 0);
@@ -237,13 +237,4 @@ static void test_script(void **state) {
     run_done("rmdir p_001.png && test -s p_006.png && test ! -e p_003.png");
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_ranges),  cmocka_unit_test(test_round_robin),
-        cmocka_unit_test(test_beside),  cmocka_unit_test(test_usage),
-        cmocka_unit_test(test_failure), cmocka_unit_test(test_skip_existing),
-        cmocka_unit_test(test_film),    cmocka_unit_test(test_killed),
-        cmocka_unit_test(test_script),
-    };
-    return cmocka_run_group_tests(tests, enter, NULL);
-}
+int main(void) { return RUN_TESTS(enter, NULL); }

@@ -45,7 +45,7 @@ static int enter(void **state) {
     return 0;
 }
 
-static void test_outputs(void **state) {
+TEST(test_outputs) {
     (void)state;
     photos_done("--cameras cameras.json -o out.ply --report report.json --exposure off");
     assert_non_null(strstr(last_run.err, "4 photographs see "));
@@ -67,7 +67,7 @@ static void test_outputs(void **state) {
     assert_non_null(strstr(last_run.err, "p0.png: 90 x 80, "));
 }
 
-static void test_usage(void **state) {
+TEST(test_usage) {
     (void)state;
     static const char *const wrong[][2] = {
         {"grey.ply -o a.ply", "no cameras"},
@@ -81,7 +81,7 @@ static void test_usage(void **state) {
     }
 }
 
-static void test_failures(void **state) {
+TEST(test_failures) {
     (void)state;
     scratch_text("bundle.out", "# Bundle file v0.3\n4 100\n");
     scratch_text("gone.json", "[{\"file_path\": \"gone.png\", \"width\": 9, \"height\": 9, \"fx\": 9, \"fy\": 9, \"cx\": 4, \"cy\": 4, "
@@ -107,7 +107,7 @@ static uint64_t seen_points(void) {
 }
 
 /// The same photographs by a COLMAP model, whose names are relative to the folder "images" beside it.
-static void test_colmap(void **state) {
+TEST(test_colmap) {
     (void)state;
     run_done("mkdir -p colmap/sparse/0 colmap/images");
     char images[2000] = "# Image list\n";
@@ -142,7 +142,7 @@ static void test_colmap(void **state) {
 }
 
 /// Masks: white counts, black does not; a photograph without one counts as a whole.
-static void test_masks(void **state) {
+TEST(test_masks) {
     (void)state;
     photos_done("--cameras cameras.json -o a.ply --method mean");
     const uint64_t all = seen_points();
@@ -177,9 +177,4 @@ static void test_masks(void **state) {
     ewa_context_destroy(&context);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_outputs),  cmocka_unit_test(test_usage),
-                                       cmocka_unit_test(test_failures), cmocka_unit_test(test_colmap),
-                                       cmocka_unit_test(test_masks)};
-    return cmocka_run_group_tests(tests, enter, NULL);
-}
+int main(void) { return RUN_TESTS(enter, NULL); }

@@ -41,7 +41,7 @@ static void write_points(int place) {
     fclose(file);
 }
 
-static void test_points(void **state) {
+TEST(test_points) {
     static const char *const suffixes[] = {"xyz", "csv", "ply", "pcd", "las", "laz"};
     for (int p = 0; p < PLACES; p++) {
         write_points(p);
@@ -75,7 +75,7 @@ static char *read_places(const char *name) {
     return all;
 }
 
-static void test_digits(void **state) {
+TEST(test_digits) {
     static const char *const suffixes[] = {"xyz", "csv", "las", "laz"};
     for (int p = 0; p < PLACES; p++) {
         write_points(p);
@@ -122,7 +122,7 @@ static void write_mesh(int place, const char *suffix) {
 
 /// The matrix of a camera that counts from the centre of the earth holds its place to a nanometre, which a
 /// pixel may show; test_cli_mesh.c says how few.
-static void test_meshes(void **state) {
+TEST(test_meshes) {
     static const char *const suffixes[] = {"obj", "off"};
     for (int p = 0; p < PLACES - 1; p++)
         for (int s = 0; s < 2; s++) {
@@ -135,11 +135,4 @@ static void test_meshes(void **state) {
         }
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_points),
-        cmocka_unit_test(test_digits),
-        cmocka_unit_test(test_meshes),
-    };
-    return cmocka_run_group_tests(tests, set_up, NULL);
-}
+int main(void) { return RUN_TESTS(set_up, NULL); }

@@ -22,7 +22,7 @@ static int enter(void **state) {
 }
 
 /// Stations along x are those of the points; to the right is south.
-static void test_known_answer(void **state) {
+TEST(test_known_answer) {
     (void)state;
     run_done("ewa profile ramp.csv --line '849200,1020;849230,1020' --width 1 -o profile.csv");
     scratch_text("wanted.csv", "x,y,z,code,station,offset,profile_height\n"
@@ -43,7 +43,7 @@ static void test_known_answer(void **state) {
 }
 
 /// The profile of a profile is itself.
-static void test_again(void **state) {
+TEST(test_again) {
     (void)state;
     run_done("ewa profile ramp.csv --line '849200,1000;849240,1040' --width 30 -o once.csv");
     run_done("ewa profile once.csv --line '849200,1000;849240,1040' --width 30 -o twice.csv --quiet");
@@ -54,7 +54,7 @@ static void test_again(void **state) {
     assert_true(scratch_same("a.png", "b.png"));
 }
 
-static void test_refused(void **state) {
+TEST(test_refused) {
     (void)state;
     run_fails(2, "no line", "ewa profile ramp.csv -o a.csv");
     run_fails(2, "no output", "ewa profile ramp.csv --line '0,0;1,1'");
@@ -66,11 +66,4 @@ static void test_refused(void **state) {
     assert_int_equal(scratch_size("a.csv"), -1);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_known_answer),
-        cmocka_unit_test(test_again),
-        cmocka_unit_test(test_refused),
-    };
-    return cmocka_run_group_tests(tests, enter, NULL);
-}
+int main(void) { return RUN_TESTS(enter, NULL); }

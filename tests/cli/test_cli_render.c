@@ -23,7 +23,7 @@ static double share_over(const ewa_image *image, uint32_t channel, float thresho
     return (double)over / (double)count;
 }
 
-static void test_png(void **state) {
+TEST(test_png) {
     run_done("ewa render ball.ply -o a.png --size 200x100");
     ewa_image image = load("a.png");
     assert_int_equal(image.width_px, 200);
@@ -45,7 +45,7 @@ static void test_png(void **state) {
     ewa_image_free(&image);
 }
 
-static void test_exr(void **state) {
+TEST(test_exr) {
     run_done("ewa render torus.ply -o a.exr --size 160x90 --background transparent");
     ewa_image image = load("a.exr");
     assert_int_equal(image.channel_count, 4); // the loader takes R G B A
@@ -66,7 +66,7 @@ static void test_exr(void **state) {
     }
 }
 
-static void test_planes(void **state) {
+TEST(test_planes) {
     run_done("ewa render ball.ply -o a.pfm --size 80x60 --aov depth=d.pfm,normal=n.exr,coverage=c.pfm "
              "--eye 0,-5,0 --up 0,0,1 --fov 30");
     ewa_image color = load("a.pfm"), depth = load("d.pfm"), normal = load("n.exr"), coverage = load("c.pfm");
@@ -83,7 +83,7 @@ static void test_planes(void **state) {
     ewa_image_free(&coverage);
 }
 
-static void test_camera(void **state) {
+TEST(test_camera) {
     run_done("ewa render torus.ply -o a.png --size 160x90 --view right --save-camera c.json && "
              "ewa render torus.ply -o b.png --camera c.json");
     assert_true(scratch_same("a.png", "b.png"));
@@ -98,7 +98,7 @@ static void test_camera(void **state) {
 }
 
 /// Every named view shows the whole torus: something in the middle half, nothing on the border.
-static void test_views(void **state) {
+TEST(test_views) {
     static const char *const views[] = {"front", "back", "left", "right", "top", "bottom", "iso"};
     static const char *const projections[] = {"", "--ortho 2.6"};
     for (size_t i = 0; i < 14; i++) {
@@ -117,7 +117,7 @@ static void test_views(void **state) {
 }
 
 /// The default view is one that options can ask for: docs/framing.md, test_cli_view.c.
-static void test_default_view(void **state) {
+TEST(test_default_view) {
     static const char *const views[][3] = {{"plane", "", "--view top"},
                                            {"ball", "", "--view front --up 0,1,0"},
                                            {"ball", "--translate 500000,4000000,0", "--view iso --up 0,0,1"}};
@@ -129,7 +129,7 @@ static void test_default_view(void **state) {
     }
 }
 
-static void test_far_points(void **state) {
+TEST(test_far_points) {
     scratch_text("far.ply", "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\n"
                             "property float z\nproperty float nx\nproperty float ny\nproperty float nz\n"
                             "property uchar red\nproperty uchar green\nproperty uchar blue\n"
@@ -143,7 +143,7 @@ static void test_far_points(void **state) {
 }
 
 /// A point far from all others is drawn, small: the picture is that without it but for a few pixels.
-static void test_isolated_point(void **state) {
+TEST(test_isolated_point) {
     run_done(
         "ewa generate sphere -n 5000 --positions-only -o bare.ply && ewa convert bare.ply -o - --ascii "
         ">bare.txt && "
@@ -164,7 +164,7 @@ static void test_isolated_point(void **state) {
     ewa_image_free(&bare);
 }
 
-static void test_looks_differ(void **state) {
+TEST(test_looks_differ) {
     static const char *const looks[] = {
         "",
         "--kernel affine --fov 90",
@@ -207,7 +207,7 @@ static void test_looks_differ(void **state) {
 }
 
 /// Percentiles of numbers 0, 1, ..., 100 are the numbers; every colormap is another picture.
-static void test_colors(void **state) {
+TEST(test_colors) {
     static char text[8192] = "ply\nformat ascii 1.0\nelement vertex 102\nproperty float x\nproperty float y\n"
                              "property float z\nproperty float nx\nproperty float ny\nproperty float nz\n"
                              "property float radius\nproperty float q\nend_header\n";
@@ -246,7 +246,7 @@ static void test_colors(void **state) {
 }
 
 /// Discs that the options make small stay so: gaps are closed where the file has them.
-static void test_small_discs(void **state) {
+TEST(test_small_discs) {
     run_done("ewa render ball.ply -o a.png --size 90x90 --radius-scale 0.3");
     assert_null(strstr(last_run.err, "gaps"));
     run_done("ewa render ball.ply -o b.png --size 90x90 --radius-scale 0.3 --close-gaps off");
@@ -254,7 +254,7 @@ static void test_small_discs(void **state) {
 }
 
 /// The radii of discs do not depend on the cutoff, also beside files with axes, for which they become axes.
-static void test_cutoff_of_several(void **state) {
+TEST(test_cutoff_of_several) {
     scratch_text(
         "beside.ply",
         "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\n"
@@ -273,14 +273,14 @@ static void test_cutoff_of_several(void **state) {
 }
 
 /// Coordinates whose differences are not finite are an error that says so.
-static void test_huge_coordinates(void **state) {
+TEST(test_huge_coordinates) {
     scratch_text("huge.ply", "ply\nformat ascii 1.0\nelement vertex 3\nproperty double x\nproperty double y\n"
                              "property double z\nend_header\n1e300 0 0\n-1e300 1 0\n0 1e300 2\n");
     run_fails(1, "huge.ply: no camera can be placed: the coordinates, from -1e+300,0,0",
               "ewa render huge.ply -o huge.png");
 }
 
-static void test_several_inputs(void **state) {
+TEST(test_several_inputs) {
     run_done("ewa convert torus.ply ball.ply -o joined.ply && ewa render joined.ply -o a.png --size 96x64 && "
              "ewa render torus.ply ball.ply -o b.png --size 96x64");
     assert_true(scratch_same("a.png", "b.png"));
@@ -295,7 +295,7 @@ static void test_several_inputs(void **state) {
 }
 
 /// A mesh is sampled.
-static void test_mesh(void **state) {
+TEST(test_mesh) {
     scratch_text("square.obj", "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nf 1 2 3 4\n");
     run_done("ewa render square.obj -o a.png --size 100x100 --view top --background transparent "
              "--shading none");
@@ -308,7 +308,7 @@ static void test_mesh(void **state) {
 }
 
 /// Files with clip lines keep them beside files without.
-static void test_clip_lines_of_one_file(void **state) {
+TEST(test_clip_lines_of_one_file) {
     run_done("ewa generate cube --sharp -n 600 -o cube.ply");
     // Few points, so that the median coverage stays the cube's.
     run_done("ewa generate sphere -n 100 -o few.ply");
@@ -326,7 +326,7 @@ static void test_clip_lines_of_one_file(void **state) {
 
 /// A box and planes leave their part of a square, seen from above with the view of the whole; of the far side
 /// nothing is drawn.
-static void test_sections(void **state) {
+TEST(test_sections) {
     static const struct {
         const char *options;
         double part;
@@ -352,7 +352,7 @@ static void test_sections(void **state) {
     assert_non_null(strstr(last_run.err, "the picture shows nothing"));
 }
 
-static void test_streams(void **state) {
+TEST(test_streams) {
     run_done("ewa render torus.ply -o a.png --size 96x64 && cat torus.ply | ewa render - -o - --size 96x64 "
              ">b.png");
     assert_true(scratch_same("a.png", "b.png"));
@@ -369,26 +369,4 @@ static void test_streams(void **state) {
     assert_non_null(strstr(last_run.out, "\"peak_memory_bytes\": "));
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_png),
-        cmocka_unit_test(test_exr),
-        cmocka_unit_test(test_planes),
-        cmocka_unit_test(test_camera),
-        cmocka_unit_test(test_views),
-        cmocka_unit_test(test_default_view),
-        cmocka_unit_test(test_far_points),
-        cmocka_unit_test(test_isolated_point),
-        cmocka_unit_test(test_looks_differ),
-        cmocka_unit_test(test_colors),
-        cmocka_unit_test(test_small_discs),
-        cmocka_unit_test(test_cutoff_of_several),
-        cmocka_unit_test(test_huge_coordinates),
-        cmocka_unit_test(test_several_inputs),
-        cmocka_unit_test(test_mesh),
-        cmocka_unit_test(test_clip_lines_of_one_file),
-        cmocka_unit_test(test_sections),
-        cmocka_unit_test(test_streams),
-    };
-    return cmocka_run_group_tests(tests, enter, leave);
-}
+int main(void) { return RUN_TESTS(enter, leave); }

@@ -31,7 +31,7 @@ static void says(const char *words, const char *command) {
     }
 }
 
-static void test_one_place(void **state) {
+TEST(test_one_place) {
     scratch_text("lone.ply", HEAD("1") END "1 2 3\n");
     says("1 point: drawn as dots", "ewa render lone.ply -o a.png --size 32x32");
     scratch_text("heap.ply", HEAD("3") END "1 2 3\n1 2 3\n1 2 3\n");
@@ -46,7 +46,7 @@ static void test_one_place(void **state) {
 }
 
 /// What is wrong with points that are left out is counted by its kind.
-static void test_faults(void **state) {
+TEST(test_faults) {
     scratch_text(
         "faults.ply", HEAD("6") NORMAL
         "property float radius\n" END
@@ -62,7 +62,7 @@ static void test_faults(void **state) {
 }
 
 /// Colours that are no numbers are counted, as points are; those are drawn in grey.
-static void test_colors(void **state) {
+TEST(test_colors) {
     scratch_text("colors.ply", HEAD("4") NORMAL
                  "property float radius\nproperty float red\nproperty float green\n"
                  "property float blue\n" END
@@ -77,14 +77,14 @@ static void test_colors(void **state) {
          "ewa volume blob.nrrd -o a.png --size 32x32 --surfels colors.ply");
 }
 
-static void test_csg_names_files(void **state) {
+TEST(test_csg_names_files) {
     run_fails(1, "sheet.ply is not closed", "ewa csg ball.ply sheet.ply --op union -o a.ply");
     assert_null(strstr(last_run.err, "operand"));
     run_fails(1, "sheet.ply is not closed", "ewa csg sheet.ply ball.ply --op difference -o a.ply");
 }
 
 /// Scenes of Gaussian splatting are named, whatever their columns hold besides.
-static void test_gaussians(void **state) {
+TEST(test_gaussians) {
     static const char columns[] = NORMAL
         "property float f_dc_0\nproperty float f_dc_1\nproperty float f_dc_2\n%sproperty float opacity\n"
         "property float scale_0\nproperty float scale_1\n%sproperty float rot_0\nproperty float rot_1\n"
@@ -132,7 +132,7 @@ static void test_gaussians(void **state) {
 }
 
 /// Normals that are all zero are none, and estimated; surfels of them are drawn.
-static void test_zero_normals(void **state) {
+TEST(test_zero_normals) {
     static char text[1 << 16];
     snprintf(text, sizeof text, HEAD("400") NORMAL END);
     for (int i = 0; i < 400; i++)
@@ -147,7 +147,7 @@ static void test_zero_normals(void **state) {
 }
 
 /// Floats that are too coarse for where they are: a warning with both lengths.
-static void test_steps(void **state) {
+TEST(test_steps) {
     static const struct {
         double at, apart;
         bool warned;
@@ -181,7 +181,7 @@ static void test_steps(void **state) {
     "\"world_to_camera\": [1,0,0,0,0,1,0,0,0,0,1," z ",0,0,0,1]}"
 
 /// A camera that sees nothing of what there is: a warning, once, with the number of frames.
-static void test_nothing_seen(void **state) {
+TEST(test_nothing_seen) {
     scratch_text("away.json", CAMERA("-9"));
     says("warning: the picture shows nothing|3000 splats", "ewa render ball.ply -o a.png --camera away.json");
     assert_ptr_equal(strchr(last_run.err, '\n'), last_run.err + strlen(last_run.err) - 1);
@@ -198,7 +198,7 @@ static void test_nothing_seen(void **state) {
 }
 
 /// A path that fails midway: which file, which of its frames, and which pictures are there.
-static void test_path_fails(void **state) {
+TEST(test_path_fails) {
     scratch_text(
         "beside.json",
         "[" CAMERA("3") ", " CAMERA(
@@ -212,7 +212,7 @@ static void test_path_fails(void **state) {
 }
 
 /// Poses with a lens from --fov, from numbers or from a file are cameras like others.
-static void test_poses(void **state) {
+TEST(test_poses) {
     static const char matrix[] = "1 0 0 0\n0 -1 0 0\n0 0 -1 4\n0 0 0 1\n"; // from +z, y up
     scratch_text("one.txt", matrix);
     scratch_text("two.log",
@@ -262,7 +262,7 @@ static void test_poses(void **state) {
 }
 
 /// Files that are read twice, for their bounds first, are complained of once.
-static void test_once(void **state) {
+TEST(test_once) {
     (void)state;
     run_done("ewa generate sphere -n 500 -o s.las && head -c 9000 s.las >cut.las");
     assert_int_equal(run("ewa convert cut.las -o whole.las --keep-going"), 0);
@@ -272,7 +272,7 @@ static void test_once(void **state) {
 }
 
 /// What cannot be drawn says what can.
-static void test_wording(void **state) {
+TEST(test_wording) {
     (void)state;
     run_done("ewa render torus.ply -o shot.png --size 16x16 && cp shot.png shot.hdr");
     run_fails(1, "shot.png: a picture (PNG), which has no points: 'ewa texture'", "ewa render shot.png -o a.png");
@@ -289,7 +289,7 @@ static void test_wording(void **state) {
 }
 
 /// Points that are no surface are dots, one alone too, of a size that a message names.
-static void dots(void **state) {
+TEST(dots) {
     (void)state;
     scratch_text("one.xyz", "1 2 3\n");
     scratch_text("eight.xyz", "0 0 0\n1 0 0\n0 1 0\n1 1 0\n0 0 1\n1 0 1\n0 1 1\n1 1 1\n");
@@ -306,14 +306,4 @@ static void dots(void **state) {
     assert_null(strstr(last_run.err, "--point-size"));
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_one_place),  cmocka_unit_test(test_faults),
-        cmocka_unit_test(test_colors),     cmocka_unit_test(test_csg_names_files),
-        cmocka_unit_test(test_gaussians),  cmocka_unit_test(test_zero_normals),
-        cmocka_unit_test(test_steps),      cmocka_unit_test(test_nothing_seen),
-        cmocka_unit_test(test_path_fails), cmocka_unit_test(test_poses),
-        cmocka_unit_test(test_once),       cmocka_unit_test(test_wording),    cmocka_unit_test(dots),
-    };
-    return cmocka_run_group_tests(tests, enter, NULL);
-}
+int main(void) { return RUN_TESTS(enter, NULL); }

@@ -53,7 +53,7 @@ static void check_upright(const char *name) {
     ewa_image_free(&image);
 }
 
-static void upright(void **state) {
+TEST(upright) {
     run_done("ewa render pair.ply -o trained.png --size 100x200");
     check_upright("trained.png");
     run_done("ewa render pair.ply -o exact.png --size 100x200 --projection exact --azimuth 30");
@@ -73,7 +73,7 @@ static void upright(void **state) {
 }
 
 /// What is ahead hides what is behind; a wall hides all of what is behind it.
-static void hidden(void **state) {
+TEST(hidden) {
     run_done("ewa render translucent.ply -o veiled.png --size 100x200");
     ewa_image image = load("veiled.png");
     assert_true(pixel(&image, 0.5, 0.3)[1] > 0.8f && pixel(&image, 0.5, 0.3)[0] < 0.3f);
@@ -90,7 +90,7 @@ static void hidden(void **state) {
 }
 
 /// Several sets, volumes and surfaces are in one order of depth, in whichever order they are named.
-static void together(void **state) {
+TEST(together) {
     run_done("ewa generate ball -o ball.nrrd --extent 3 && ewa generate sphere -o sphere.ply --extent 0.8");
     run_done("ewa generate ball -o between.nrrd --extent 1 && "
              "ewa render pair.ply between.nrrd -o ball.png --size 100x200 --shading none");
@@ -147,7 +147,7 @@ static void together(void **state) {
 
 /// The defaults are the order of centres of the trained projection and that of rays of the exact one; a scene file keeps
 /// what was said.
-static void ordered(void **state) {
+TEST(ordered) {
     char text[4096];
     snprintf(text, sizeof text, head, 2,
              "0 0 -0.01 1.7 -1.7 -1.7 1 0 0 -5 0.94 0 0.34 0\n0 0 0 -1.7 -1.7 1.7 1 0 0 -5 0.94 0 -0.34 0\n");
@@ -176,7 +176,7 @@ static void ordered(void **state) {
     run_fails(2, "--gaussian-near", "ewa render crossing.ply -o x.png --gaussian-near -1");
 }
 
-static void surfaces(void **state) {
+TEST(surfaces) {
     run_done(
         "ewa render pair.ply -o surface.png --surface --shading none --size 100x200 --up 0,-1,0 --view back "
         "--aov normal=normal.pfm");
@@ -186,7 +186,7 @@ static void surfaces(void **state) {
     run_done("ewa render pair.ply translucent.ply -o both.png --surface --size 50x50");
 }
 
-static void films(void **state) {
+TEST(films) {
     run_done("ewa render pair.ply -o turn_%%d.png --turntable 4 --size 60x120 --stats stats.json "
              "--save-camera cameras.json");
     for (int i = 0; i < 4; i++) {
@@ -198,7 +198,7 @@ static void films(void **state) {
     assert_true(scratch_same("again.png", "turn_2.png"));
 }
 
-static void refused(void **state) {
+TEST(refused) {
     const int before = scratch_count();
     run_fails(1, "pair.ply: |--color-by", "ewa render pair.ply -o x.png --color-by x");
     assert_int_equal(run("ewa render pair.ply -o lit.png --size 20x20 --shading phong --opacity 0.5"), 0);
@@ -212,10 +212,4 @@ static void refused(void **state) {
     assert_int_equal(scratch_count(), before + 1);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(upright),  cmocka_unit_test(hidden), cmocka_unit_test(together),
-        cmocka_unit_test(ordered),  cmocka_unit_test(surfaces), cmocka_unit_test(films),    cmocka_unit_test(refused),
-    };
-    return cmocka_run_group_tests(tests, enter, leave);
-}
+int main(void) { return RUN_TESTS(enter, leave); }

@@ -28,7 +28,7 @@ static int enter(void **state) {
 }
 
 /// The same map said in four ways gives the same picture.
-static void test_maps(void **state) {
+TEST(test_maps) {
     run_done("ewa texture rgb.pfm -o a.exr --homography 2,0,10,0,2,5,0,0,1 --size 140x90");
     run_done("ewa texture rgb.pfm -o b.exr --homography -2,0,-10,0,-2,-5,0,0,-1 --size 140x90");
     run_done("ewa texture rgb.pfm -o c.exr --corners 10,5,130,5,130,85,10,85 --size 140x90");
@@ -49,7 +49,7 @@ static void test_maps(void **state) {
 }
 
 /// All formats in and out, all methods; without a camera's options the whole image is seen.
-static void test_files(void **state) {
+TEST(test_files) {
     static const char *const inputs[] = {"grey.exr", "rgb.png", "rgb.pfm"}, *const outputs[] = {
                                                                                 "o.png", "o.exr", "o.pfm"};
     static const char *const methods[] = {"hybrid", "splat", "point", "bilinear"};
@@ -76,7 +76,7 @@ static void test_files(void **state) {
     assert_true(scratch_same("one.png", "two.png"));
 }
 
-static void test_usage(void **state) {
+TEST(test_usage) {
     run_fails(2, "texture: no output", "ewa texture rgb.png");
     run_fails(2, "an input is missing", "ewa texture -o n.png");
     run_fails(2, "one operand too many", "ewa texture rgb.png rgb.pfm -o n.png");
@@ -102,11 +102,4 @@ static void test_usage(void **state) {
     assert_int_equal(scratch_size("n.png"), -1);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_maps),
-        cmocka_unit_test(test_files),
-        cmocka_unit_test(test_usage),
-    };
-    return cmocka_run_group_tests(tests, enter, leave);
-}
+int main(void) { return RUN_TESTS(enter, leave); }

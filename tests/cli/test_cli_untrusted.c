@@ -48,65 +48,6 @@ static void write_ept(const char *hierarchy) {
     scratch_write("tree/ept-data/0-0-0-0.bin", place, sizeof place);
 }
 
-static void test_folders(void **state) {
-    run_done("ewa generate sphere -n 50 -o ball.ply");
-    write_ept("{\"0-0-0-0\":1}");
-    run_done("ewa convert tree -o point.ply");
-    trap_each("tree/ept-data/0-0-0-0.bin", "it is no regular file", "\"$EWA_PROGRAM\" convert tree -o never.ply");
-    trap_each("tree/ept-hierarchy/0-0-0-0.json", "it is no regular file", "\"$EWA_PROGRAM\" convert tree -o never.ply");
-    run_done("mkdir -p model && printf '1 PINHOLE 8 8 8 8 4 4\\n' >model/cameras.txt && "
-             "printf '1 1 0 0 0 0 0 5 1 a.png\\n\\n' >model/images.txt && "
-             "ewa render ball.ply --camera model -o ball.png && cp -r model whole");
-    run_done("rm model/images.txt && ln -s /etc/passwd model/images.txt");
-    run_fails(1, "model/images.txt: it is not below", "ewa render ball.ply --camera model -o never.png");
-    run_done("rm model/images.txt && mkfifo model/images.txt");
-    run_fails(1, "model/images.txt: it is no regular file",
-              "timeout 20 \"$EWA_PROGRAM\" render ball.ply --camera model -o never.png");
-    // Who asks for it gets links that lead out, of regular files.
-    run_done("rm model/images.txt && ln -s ../whole/images.txt model/images.txt");
-    run_fails(1, "named_files anywhere", "ewa render ball.ply --camera model -o never.png");
-    run_done("ewa render ball.ply --camera model -o linked.png --named-files anywhere && cmp ball.png linked.png");
-    run_fails(1, "files that others name are not opened", "ewa render ball.ply --camera whole -o never.png --named-files none");
-    run_fails(1, "files that others name are not opened", "ewa convert tree -o never.ply --untrusted");
-    assert_int_equal(scratch_size("never.ply"), -1);
-}
-
-static void test_volumes(void **state) {
-    run_done("mkdir -p voxels");
-    scratch_text("voxels/a.nhdr", "NRRD0004\ntype: uint8\ndimension: 3\nsizes: 4 4 4\nencoding: raw\ndata file: a.raw\n\n");
-    scratch_text("voxels/a.mhd", "ObjectType = Image\nNDims = 3\nDimSize = 4 4 4\nElementType = MET_UCHAR\nElementDataFile = a.raw\n");
-    char bytes[64];
-    for (int i = 0; i < 64; i++) bytes[i] = (char)(4 * i);
-    scratch_write("voxels/a.raw", bytes, sizeof bytes);
-    run_done("ewa info voxels/a.nhdr && ewa info voxels/a.mhd");
-    trap_each("voxels/a.raw", "it is no regular file", "\"$EWA_PROGRAM\" volume voxels/a.nhdr -o never.png");
-    trap_each("voxels/a.raw", "it is no regular file", "\"$EWA_PROGRAM\" volume voxels/a.mhd -o never.png");
-    scratch_write("outside.raw", bytes, sizeof bytes);
-    static const char *const names[] = {"../outside.raw", "../../../../../../../../../../etc/passwd"};
-    for (int i = 0; i < 2; i++) {
-        char text[256];
-        snprintf(text, sizeof text, "NRRD0004\ntype: uint8\ndimension: 3\nsizes: 4 4 4\nencoding: raw\ndata file: %s\n\n",
-                 names[i]);
-        scratch_text("voxels/b.nhdr", text);
-        run_fails(1, "it is not below the folder", "ewa info voxels/b.nhdr");
-        run_fails(1, "it is not below the folder", "ewa volume voxels/b.nhdr -o never.png");
-    }
-    scratch_text("voxels/b.nhdr", "NRRD0004\ntype: uint8\ndimension: 3\nsizes: 4 4 4\nencoding: raw\ndata file: ../outside.raw\n\n");
-    run_done("ewa info voxels/b.nhdr --named-files anywhere");
-}
-
-static void test_scenes(void **state) {
-    run_done("mkdir -p show && ewa generate sphere -n 50 -o show/ball.ply");
-    scratch_text("show/scene.json", "{\"ewa_scene\": 1, \"items\": [{\"file\": \"ball.ply\"}]}");
-    run_done("ewa render show/scene.json -o scene.png --size 16x16");
-    trap_each("show/ball.ply", "it is neither a regular file nor a folder", "\"$EWA_PROGRAM\" render show/scene.json -o never.png --size 16x16");
-    scratch_text("show/scene.json", "{\"ewa_scene\": 1, \"items\": [{\"file\": \"../../../../../../../../etc/passwd\"}]}");
-    run_fails(1, "it is not below the folder", "ewa render show/scene.json -o never.png --size 16x16");
-    run_done("ewa generate sphere -n 50 -o show/ball.ply");
-    scratch_text("show/scene.json", "{\"ewa_scene\": 1, \"items\": [{\"file\": \"ball.ply\"}]}");
-    run_fails(1, "files that others name are not opened", "ewa render show/scene.json -o never.png --untrusted");
-}
-
 enum { LIMIT_MIB = 256, SLACK_MIB = 64 };
 
 /// The largest resident memory of any command so far, in MiB.
@@ -152,8 +93,8 @@ static void encode(const uint8_t *bytes, size_t count, char *text) {
     *text = 0;
 }
 
-/// What is small in a file and large in memory is refused before it is unpacked.
-static void test_bombs(void **state) {
+/// What is small in a file and large in memory is refused before it is unpacked. The first test: memory is that of the largest command.
+TEST(test_bombs) {
     uint8_t webp[64];
     char text[128], gltf[2048];
     const size_t webp_bytes = make_webp(webp);
@@ -193,7 +134,7 @@ static void test_bombs(void **state) {
 }
 
 /// By default a small input unpacks to 1 GiB at most, whatever the machine has; who sets a limit gets it.
-static void test_defaults(void **state) {
+TEST(test_defaults) {
     uint8_t webp[64];
     const size_t webp_bytes = make_webp(webp);
     scratch_write("bomb.webp", webp, webp_bytes);
@@ -210,7 +151,66 @@ static void test_defaults(void **state) {
 #endif
 }
 
-static void test_limits(void **state) {
+TEST(test_folders) {
+    run_done("ewa generate sphere -n 50 -o ball.ply");
+    write_ept("{\"0-0-0-0\":1}");
+    run_done("ewa convert tree -o point.ply");
+    trap_each("tree/ept-data/0-0-0-0.bin", "it is no regular file", "\"$EWA_PROGRAM\" convert tree -o never.ply");
+    trap_each("tree/ept-hierarchy/0-0-0-0.json", "it is no regular file", "\"$EWA_PROGRAM\" convert tree -o never.ply");
+    run_done("mkdir -p model && printf '1 PINHOLE 8 8 8 8 4 4\\n' >model/cameras.txt && "
+             "printf '1 1 0 0 0 0 0 5 1 a.png\\n\\n' >model/images.txt && "
+             "ewa render ball.ply --camera model -o ball.png && cp -r model whole");
+    run_done("rm model/images.txt && ln -s /etc/passwd model/images.txt");
+    run_fails(1, "model/images.txt: it is not below", "ewa render ball.ply --camera model -o never.png");
+    run_done("rm model/images.txt && mkfifo model/images.txt");
+    run_fails(1, "model/images.txt: it is no regular file",
+              "timeout 20 \"$EWA_PROGRAM\" render ball.ply --camera model -o never.png");
+    // Who asks for it gets links that lead out, of regular files.
+    run_done("rm model/images.txt && ln -s ../whole/images.txt model/images.txt");
+    run_fails(1, "named_files anywhere", "ewa render ball.ply --camera model -o never.png");
+    run_done("ewa render ball.ply --camera model -o linked.png --named-files anywhere && cmp ball.png linked.png");
+    run_fails(1, "files that others name are not opened", "ewa render ball.ply --camera whole -o never.png --named-files none");
+    run_fails(1, "files that others name are not opened", "ewa convert tree -o never.ply --untrusted");
+    assert_int_equal(scratch_size("never.ply"), -1);
+}
+
+TEST(test_volumes) {
+    run_done("mkdir -p voxels");
+    scratch_text("voxels/a.nhdr", "NRRD0004\ntype: uint8\ndimension: 3\nsizes: 4 4 4\nencoding: raw\ndata file: a.raw\n\n");
+    scratch_text("voxels/a.mhd", "ObjectType = Image\nNDims = 3\nDimSize = 4 4 4\nElementType = MET_UCHAR\nElementDataFile = a.raw\n");
+    char bytes[64];
+    for (int i = 0; i < 64; i++) bytes[i] = (char)(4 * i);
+    scratch_write("voxels/a.raw", bytes, sizeof bytes);
+    run_done("ewa info voxels/a.nhdr && ewa info voxels/a.mhd");
+    trap_each("voxels/a.raw", "it is no regular file", "\"$EWA_PROGRAM\" volume voxels/a.nhdr -o never.png");
+    trap_each("voxels/a.raw", "it is no regular file", "\"$EWA_PROGRAM\" volume voxels/a.mhd -o never.png");
+    scratch_write("outside.raw", bytes, sizeof bytes);
+    static const char *const names[] = {"../outside.raw", "../../../../../../../../../../etc/passwd"};
+    for (int i = 0; i < 2; i++) {
+        char text[256];
+        snprintf(text, sizeof text, "NRRD0004\ntype: uint8\ndimension: 3\nsizes: 4 4 4\nencoding: raw\ndata file: %s\n\n",
+                 names[i]);
+        scratch_text("voxels/b.nhdr", text);
+        run_fails(1, "it is not below the folder", "ewa info voxels/b.nhdr");
+        run_fails(1, "it is not below the folder", "ewa volume voxels/b.nhdr -o never.png");
+    }
+    scratch_text("voxels/b.nhdr", "NRRD0004\ntype: uint8\ndimension: 3\nsizes: 4 4 4\nencoding: raw\ndata file: ../outside.raw\n\n");
+    run_done("ewa info voxels/b.nhdr --named-files anywhere");
+}
+
+TEST(test_scenes) {
+    run_done("mkdir -p show && ewa generate sphere -n 50 -o show/ball.ply");
+    scratch_text("show/scene.json", "{\"ewa_scene\": 1, \"items\": [{\"file\": \"ball.ply\"}]}");
+    run_done("ewa render show/scene.json -o scene.png --size 16x16");
+    trap_each("show/ball.ply", "it is neither a regular file nor a folder", "\"$EWA_PROGRAM\" render show/scene.json -o never.png --size 16x16");
+    scratch_text("show/scene.json", "{\"ewa_scene\": 1, \"items\": [{\"file\": \"../../../../../../../../etc/passwd\"}]}");
+    run_fails(1, "it is not below the folder", "ewa render show/scene.json -o never.png --size 16x16");
+    run_done("ewa generate sphere -n 50 -o show/ball.ply");
+    scratch_text("show/scene.json", "{\"ewa_scene\": 1, \"items\": [{\"file\": \"ball.ply\"}]}");
+    run_fails(1, "files that others name are not opened", "ewa render show/scene.json -o never.png --untrusted");
+}
+
+TEST(test_limits) {
     run_done("ewa generate sphere -n 400000 -o many.ply");
     run_fails(1, "0.01 s are over (max_seconds)", "ewa surfels many.ply -o never.ply --max-seconds 0.01");
     assert_int_equal(scratch_size("never.ply"), -1);
@@ -228,12 +228,4 @@ static void test_limits(void **state) {
     run_fails(1, "max_memory_bytes 1073741824", "ewa texture bomb.webp -o never.png --untrusted");
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_bombs), // first: memory is that of the largest command
-        cmocka_unit_test(test_defaults),
-        cmocka_unit_test(test_folders), cmocka_unit_test(test_volumes),
-        cmocka_unit_test(test_scenes),  cmocka_unit_test(test_limits),
-    };
-    return cmocka_run_group_tests(tests, enter, NULL);
-}
+int main(void) { return RUN_TESTS(enter, NULL); }

@@ -11,7 +11,7 @@ static int enter(void **state) { return scratch_enter("cli_usage"); }
 static const char *const commands[] = {"render", "info", "convert", "surfels", "generate", "bench"};
 enum { COMMAND_COUNT = sizeof commands / sizeof commands[0] };
 
-static void test_program_help(void **state) {
+TEST(test_program_help) {
     run_done("ewa --help");
     for (size_t i = 0; i < COMMAND_COUNT; i++) assert_non_null(strstr(last_run.out, commands[i]));
     run_done("ewa --version");
@@ -23,7 +23,7 @@ static void test_program_help(void **state) {
     assert_non_null(strstr(last_run.err, "usage: ewa COMMAND"));
 }
 
-static void test_command_help(void **state) {
+TEST(test_command_help) {
     for (size_t i = 0; i < COMMAND_COUNT; i++) {
         run_done("ewa %s --help", commands[i]);
         char usage[64];
@@ -44,7 +44,7 @@ static void test_command_help(void **state) {
     assert_non_null(strstr(last_run.out, "usage: ewa render "));
 }
 
-static void test_page(void **state) {
+TEST(test_page) {
     static const char *const rows[][2] = {{"--help-markdown", "cli.md"}, {"--help-json", "options.json"}};
     for (int i = 0; i < 2; i++) {
         run_done("ewa %s", rows[i][0]);
@@ -60,7 +60,7 @@ static void test_page(void **state) {
     }
 }
 
-static void test_wrong_usage(void **state) {
+TEST(test_wrong_usage) {
     run_fails(2, "'rendr': no such command; did you mean 'render'?", "ewa rendr");
     run_fails(2, "'--vresion': no such option; did you mean '--version'?", "ewa --vresion");
     run_fails(2, "'xyzzy': no such command; see 'ewa --help'", "ewa help xyzzy");
@@ -125,12 +125,4 @@ static void test_wrong_usage(void **state) {
     assert_int_equal(scratch_count(), 0);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_program_help),
-        cmocka_unit_test(test_command_help),
-        cmocka_unit_test(test_page),
-        cmocka_unit_test(test_wrong_usage),
-    };
-    return cmocka_run_group_tests(tests, enter, NULL);
-}
+int main(void) { return RUN_TESTS(enter, NULL); }

@@ -158,7 +158,7 @@ static void expect_shape(const char *name, shape of, const char *up, const char 
 }
 
 /// What stands has a base that its weight is over, whichever axis is the longest.
-static void test_bases(void **state) {
+TEST(test_bases) {
     shape to = animal();
     expect_shape("animal.ply", to, "y", "iso"); // long in z: seen at an angle
     to = animal();
@@ -205,7 +205,7 @@ static void expect_same(const char *path) {
 }
 
 /// Of meshes the faces stand, of Gaussians the kind of file says it, of folders the octree in them.
-static void test_info(void **state) {
+TEST(test_info) {
     // Eight corners of a plate and eight of a pillar on it, of which the corners alone say nothing.
     scratch_text("pillar.off", "OFF\n16 10 0\n"
                                "-2 -2 0\n2 -2 0\n2 2 0\n-2 2 0\n-2 -2 0.4\n2 -2 0.4\n2 2 0.4\n-2 2 0.4\n"
@@ -232,7 +232,7 @@ static void test_info(void **state) {
 }
 
 /// A man with his arms out is flat in z, and has two sides: no ground.
-static void test_flat_body(void **state) {
+TEST(test_flat_body) {
     shape to = {.random = {5}};
     add_box(&to, (double[3]){-0.2, 0.9, -0.1}, (double[3]){0.2, 1.75, 0.12}, 20000);
     add_box(&to, (double[3]){-0.9, 1.3, -0.05}, (double[3]){0.9, 1.42, 0.06}, 20000);
@@ -243,7 +243,7 @@ static void test_flat_body(void **state) {
 }
 
 /// Ground is seen from above; so is what stands at map coordinates, flat or not, unless it is a tower.
-static void test_ground(void **state) {
+TEST(test_ground) {
     shape to = hills(0.4);
     expect_shape("ground_y.ply", to, "y", "iso");
     to = hills(0.4);
@@ -264,7 +264,7 @@ static void test_ground(void **state) {
 }
 
 /// What is long and has no base lies; a box lies on its largest side.
-static void test_what_lies(void **state) {
+TEST(test_what_lies) {
     shape to = {.random = {8}};
     add_egg(&to, (double[3]){0.5, 2.2, 0.4}, -9, false, 20000);
     expect_shape("fish.ply", to, "z", "iso");
@@ -281,7 +281,7 @@ static void test_what_lies(void **state) {
 }
 
 /// A drawing is seen face on, whichever plane it lies in.
-static void test_planes(void **state) {
+TEST(test_planes) {
     static const char *const ups[] = {"y", "z", "z"}, *const views[] = {"right", "front", "top"};
     for (int axis = 0; axis < 3; axis++) {
         shape to = {.random = {2}};
@@ -314,7 +314,7 @@ static ewa_camera saved_camera(const char *name) {
 }
 
 /// What a camera at the origin saw is seen from there: upright, all of it, filling the picture.
-static void test_range_images(void **state) {
+TEST(test_range_images) {
     for (int pixels = 0; pixels < 2; pixels++) {
         for (int sign = -1; sign <= 1; sign += 2) {
             expect_shape("range.ply", range_image(160, pixels, sign), sign > 0 ? "-y" : "y", "the origin");
@@ -356,7 +356,7 @@ static void test_range_images(void **state) {
 }
 
 /// The kind of a file speaks where its shape does not.
-static void test_conventions(void **state) {
+TEST(test_conventions) {
     static const char ascii[] =
         "solid s\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0.4\n"
         "vertex 0 1 0.7\nendloop\nendfacet\nfacet normal 0 0 1\nouter loop\n"
@@ -368,7 +368,7 @@ static void test_conventions(void **state) {
 }
 
 /// Few points with discs of unequal sizes: none is cut by the frame, from any side.
-static void test_unequal_discs(void **state) {
+TEST(test_unequal_discs) {
     scratch_text("few.ply", "ply\nformat ascii 1.0\nelement vertex 5\nproperty float x\nproperty float y\n"
                             "property float z\nproperty float nx\nproperty float ny\nproperty float nz\n"
                             "property float radius\nend_header\n0 0 0 0 0 1 0.3\n0.2 0.1 0 0 0 1 0.3\n"
@@ -394,7 +394,7 @@ static void test_unequal_discs(void **state) {
 }
 
 /// The camera depends neither on the order of the points, nor on copies of them, nor on the threads.
-static void test_order(void **state) {
+TEST(test_order) {
     shape to = animal();
     while (to.count < 200000) add_box(&to, (double[3]){-0.4, 0.8, -1.5}, (double[3]){0.4, 1.6, 1.5}, 1500);
     shape shuffled = {.random = {13}};
@@ -426,14 +426,4 @@ static void test_order(void **state) {
     assert_true(scratch_same("a.json", "b.json"));
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_info),
-        cmocka_unit_test(test_bases),         cmocka_unit_test(test_flat_body),
-        cmocka_unit_test(test_ground),        cmocka_unit_test(test_what_lies),
-        cmocka_unit_test(test_planes),        cmocka_unit_test(test_range_images),
-        cmocka_unit_test(test_conventions),   cmocka_unit_test(test_order),
-        cmocka_unit_test(test_unequal_discs),
-    };
-    return cmocka_run_group_tests(tests, enter, NULL);
-}
+int main(void) { return RUN_TESTS(enter, NULL); }

@@ -10,7 +10,7 @@
 
 static int enter(void **state) { return scratch_enter("cli_view_real"); }
 
-static void test_real_files(void **state) {
+TEST(test_real_files) {
     static const struct {
         const char *path, *up, *view;
     } files[] = {
@@ -43,7 +43,4 @@ static void test_real_files(void **state) {
     }
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_real_files)};
-    return cmocka_run_group_tests(tests, enter, NULL);
-}
+int main(void) { return RUN_TESTS(enter, NULL); }

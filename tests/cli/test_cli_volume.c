@@ -37,7 +37,7 @@ static double covered(const char *name, double place[2]) {
     return share;
 }
 
-static void test_info(void **state) {
+TEST(test_info) {
     assert_int_equal(run("ewa info ball.nrrd"), 0);
     assert_non_null(strstr(last_run.out, "32 x 24 x 28 voxels of float"));
     assert_non_null(strstr(last_run.out, "values      0 .. 0.99"));
@@ -64,7 +64,7 @@ static void test_info(void **state) {
     assert_non_null(strstr(last_run.out, "points      1"));
 }
 
-static void test_generate(void **state) {
+TEST(test_generate) {
     run_done("ewa generate vessels -o again.nrrd --dims 48 --threads 3");
     assert_true(scratch_same("vessels.nrrd", "again.nrrd"));
     run_done("ewa generate vessels -o other.nrrd --dims 48 --seed 9");
@@ -79,7 +79,7 @@ static void test_generate(void **state) {
 }
 
 /// Framed whole and in the middle, from every side and in every kind of file.
-static void test_pictures(void **state) {
+TEST(test_pictures) {
     static const char *const views[] = {"",           "--view left", "--view top",
                                         "--view iso", "--ortho 1.2", "--azimuth 40 --elevation -20"};
     for (size_t i = 0; i < sizeof views / sizeof views[0]; i++) {
@@ -123,7 +123,7 @@ static double at_rim(const char *name, double *extent) {
 }
 
 /// Nothing of what can be seen touches the frame, however faint it is and however few voxels there are.
-static void test_framed_whole(void **state) {
+TEST(test_framed_whole) {
     scratch_text("few.nrrd", "NRRD0004\ntype: float\ndimension: 3\nsizes: 3 9 1\nspacings: 1 2 1\nencoding: "
                              "txt\n\n1 2 3 4 5 6 7 8 "
                              "9 10 11 12 13 14 15 16 17 18 19 20 21 22 23 24 25 26 27");
@@ -144,7 +144,7 @@ static void test_framed_whole(void **state) {
 
 /// A patient is seen from the front, a slice upright, what is unknown from a corner; options of the view
 /// start from the front.
-static void test_views(void **state) {
+TEST(test_views) {
     run_done("ewa volume ball.nrrd -o a.png --size 40x40 && ewa volume ball.nrrd -o b.png --size 40x40 "
              "--view front");
     assert_true(scratch_same("a.png", "b.png"));
@@ -173,7 +173,7 @@ static void test_views(void **state) {
 }
 
 /// From within, voxels at the eye are there: fog is as dense as without.
-static void test_from_within(void **state) {
+TEST(test_from_within) {
     run_done("ewa generate checkerbox -o solid.nrrd --dims 24 --checks 1");
     run_done("ewa volume solid.nrrd -o in.exr --size 48x48 --transfer fog --eye 0,0,0 --target 0,1,0 "
              "--background transparent "
@@ -187,7 +187,7 @@ static void test_from_within(void **state) {
 }
 
 /// What is saved gives the same picture again; so do other thread counts and a coarse picture before.
-static void test_same_again(void **state) {
+TEST(test_same_again) {
     run_done("ewa volume vessels.nrrd -o a.png --size 80x80 --azimuth 30 --threads 1 --save-camera c.json "
              "--save-transfer t.json --stats s.json");
     run_done("ewa volume vessels.nrrd -o b.png --threads 3 --camera c.json --transfer t.json --progressive");
@@ -199,7 +199,7 @@ static void test_same_again(void **state) {
     assert_false(scratch_same("a.png", "b.png"));
 }
 
-static void test_looks(void **state) {
+TEST(test_looks) {
     static const char *const looks[] = {
         "--transfer bone",       "--transfer soft",   "--transfer skin", "--transfer vessels",
         "--transfer mri",        "--transfer gray",   "--transfer fog",  "--transfer auto",
@@ -218,14 +218,14 @@ static void test_looks(void **state) {
     }
 }
 
-static void test_frames(void **state) {
+TEST(test_frames) {
     run_done("ewa volume ball.nrrd -o f_%%02d.png --turntable 3 --size 32x32");
     assert_true(scratch_size("f_00.png") > 0 && scratch_size("f_02.png") > 0);
     assert_int_equal(scratch_size("f_03.png"), -1);
 }
 
 /// A sphere within a thin fog is seen through it, in front of what is behind.
-static void test_surfels_within(void **state) {
+TEST(test_surfels_within) {
     run_done("ewa generate sphere -n 3000 --extent 0.4 -o sphere.ply");
     run_done("ewa volume ball.nrrd -o fog.exr --size 48x48 --transfer fog --background transparent");
     run_done(
@@ -243,7 +243,7 @@ static void test_surfels_within(void **state) {
     assert_true(scratch_same("both.png", "scene.png"));
 }
 
-static void test_wrong_usage(void **state) {
+TEST(test_wrong_usage) {
     run_fails(2, "-o FILE", "ewa volume blob.nrrd");
     run_fails(2, "--dims", "ewa volume blob.nrrd -o a.png --type float");
     run_fails(2, "--dims", "ewa volume blob.nrrd -o a.png --dims 0,1,1");
@@ -270,7 +270,7 @@ static void refuse(const char *name, const char *options, const char *said) {
     assert_int_equal(scratch_count(), before);
 }
 
-static void test_bad_input(void **state) {
+TEST(test_bad_input) {
     refuse("none.nrrd", "", "No such file");
     run_done("mkdir -p folder.nrrd");
     refuse("folder.nrrd", "", "");
@@ -298,7 +298,7 @@ static void test_bad_input(void **state) {
     refuse("huge.nrrd", "", "limit");
 }
 
-static void test_nothing_to_draw(void **state) {
+TEST(test_nothing_to_draw) {
     scratch_text("nan.nrrd", NRRD "sizes: 2 2 1\n\nnan nan inf nan");
     run_fails(1, "nan.nrrd: |no voxel is a finite number", "ewa volume nan.nrrd -o out.png --quiet");
     scratch_text("same.nrrd", NRRD "sizes: 2 2 1\n\n7 7 7 7");
@@ -318,21 +318,4 @@ static void test_nothing_to_draw(void **state) {
     run_done("ewa volume two.nrrd -o out.png --size 32x32");
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_info),
-        cmocka_unit_test(test_generate),
-        cmocka_unit_test(test_framed_whole),
-        cmocka_unit_test(test_views),
-        cmocka_unit_test(test_from_within),
-        cmocka_unit_test(test_pictures),
-        cmocka_unit_test(test_same_again),
-        cmocka_unit_test(test_looks),
-        cmocka_unit_test(test_frames),
-        cmocka_unit_test(test_surfels_within),
-        cmocka_unit_test(test_wrong_usage),
-        cmocka_unit_test(test_bad_input),
-        cmocka_unit_test(test_nothing_to_draw),
-    };
-    return cmocka_run_group_tests(tests, enter, leave);
-}
+int main(void) { return RUN_TESTS(enter, leave); }

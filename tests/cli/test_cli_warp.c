@@ -16,7 +16,7 @@ static int enter(void **state) {
     return 0;
 }
 
-static void test_outputs(void **state) {
+TEST(test_outputs) {
     run_done("ewa warp color.png depth.pfm --source-camera cam.json --camera cam.json -o same.png");
     run_done("ewa warp color.png depth.pfm --source-camera cam.json --shift 0.1,0,0.2 --method mcmillan -o "
              "near.png "
@@ -33,7 +33,7 @@ static void test_outputs(void **state) {
     run_done("ewa warp color.png depth.pfm --source-camera cam.json --camera cam.json -o - >piped.png");
 }
 
-static void test_said(void **state) {
+TEST(test_said) {
     // 8-bit depths are integers; their scale is guessed aloud.
     assert_int_equal(
         run("ewa warp color.png depth.pfm --source-camera cam.json --camera cam.json -o a.png --verbose"), 0);
@@ -43,7 +43,7 @@ static void test_said(void **state) {
     assert_non_null(strstr(last_run.err, "sees nothing"));
 }
 
-static void test_usage(void **state) {
+TEST(test_usage) {
     static const char *const wrong[][2] = {
         {"color.png depth.pfm --source-camera cam.json --camera cam.json", "no output"},
         {"color.png depth.pfm --source-camera cam.json -o a.png", "no new camera"},
@@ -74,7 +74,7 @@ static void test_usage(void **state) {
     assert_int_equal(scratch_size("a.bmp"), -1);
 }
 
-static void test_failures(void **state) {
+TEST(test_failures) {
     static const char *const failing[][2] = {
         {"none.png depth.pfm --source-camera cam.json --shift 0,0,0", "none.png: |No such file"},
         {"color.png none.pfm --source-camera cam.json --shift 0,0,0", "none.pfm: |No such file"},
@@ -105,12 +105,4 @@ static void test_failures(void **state) {
               "ewa warp color.png depth.pfm --source-camera big.json --shift 0,0,0 -o b.png");
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_outputs),
-        cmocka_unit_test(test_said),
-        cmocka_unit_test(test_usage),
-        cmocka_unit_test(test_failures),
-    };
-    return cmocka_run_group_tests(tests, enter, NULL);
-}
+int main(void) { return RUN_TESTS(enter, NULL); }

@@ -44,7 +44,7 @@ static bool run_helper(const char *helper, const char *path, double wall_s, uint
     return done;
 }
 
-static void test_helpers(void **state) {
+TEST_WITHIN(test_helpers, session_begin, session_finish) {
     static const struct {
         const char *script, *said; ///< NULL: it is well
     } cases[] = {
@@ -94,7 +94,7 @@ static void test_helpers(void **state) {
     free(bytes);
 }
 
-static void test_names(void **state) {
+TEST_WITHIN(test_names, session_begin, session_finish) {
     static const char *const imported[] = {"a.fbx", "a.FBX", "x/y.dae", "a.3ds"}, *const not_imported[] = {
                                                                                       "a.obj",  "a.ply",
                                                                                       "a",      "fbx",
@@ -122,7 +122,7 @@ static const char collada[] =
     "</library_visual_scenes><scene><instance_visual_scene url=\"#s\"/></scene></COLLADA>";
 
 /// The real helper: a mesh, broken files, files that are none, no memory.
-static void test_real_helper(void **state) {
+TEST_WITHIN(test_real_helper, session_begin, session_finish) {
     const char *helper = getenv("EWA_IMPORT");
     char path[512];
     uint8_t *bytes;
@@ -160,8 +160,4 @@ static void test_real_helper(void **state) {
     assert_non_null(strstr(said, "No such file"));
 }
 
-int main(void) {
-#define CASE(f) cmocka_unit_test_setup_teardown(f, session_begin, session_finish)
-    const struct CMUnitTest tests[] = {CASE(test_helpers), CASE(test_names), CASE(test_real_helper)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

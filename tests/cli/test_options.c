@@ -72,7 +72,7 @@ static bool parse(const char *line) {
     return options_parse(&sample, count, list, operands, &arguments, message);
 }
 
-static void test_values(void **state) {
+TEST(test_values) {
     assert_true(parse("--number 2.5 --integer=-3 --text a=b -f --antialias on --choice two a b"));
     assert_true(arguments.number == 2.5);
     assert_int_equal(arguments.integer, -3);
@@ -116,7 +116,7 @@ static void test_values(void **state) {
 }
 
 /// The word of a default that is worked out is as if the option was not given, whatever was before it.
-static void test_default_words(void **state) {
+TEST(test_default_words) {
     assert_true(parse("--fitting 3x4 --fitting auto -f") && !arguments.fitting.given && arguments.flag);
     assert_int_equal(arguments.fitting.width_px, 0);
     assert_true(parse("--fitting auto --fitting=3x4") && arguments.fitting.given);
@@ -133,7 +133,7 @@ static void test_default_words(void **state) {
     }
 }
 
-static void test_refusals(void **state) {
+TEST(test_refusals) {
     static const struct {
         const char *line, *said;
     } cases[] = {
@@ -201,7 +201,7 @@ static void test_refusals(void **state) {
     }
 }
 
-static void test_tables(void **state) {
+TEST(test_tables) {
     for (size_t c = 0; c < all_commands_count; c++) {
         const cli_command *command = all_commands[c];
         assert_ptr_equal(command_find(command->name), command);
@@ -229,7 +229,7 @@ static void test_tables(void **state) {
 }
 
 /// The default of each option, written as help shows it, is accepted by the parser.
-static void test_defaults_in_range(void **state) {
+TEST(test_defaults_in_range) {
     for (size_t c = 0; c < all_commands_count; c++) {
         const cli_command *command = all_commands[c];
         char *defaults = calloc(1, command->arguments_bytes), *again = calloc(1, command->arguments_bytes);
@@ -354,7 +354,7 @@ static const cli_option *find_key(const cli_command *command, const char *key, s
 }
 
 /// What the tables say of options beside each other holds in every command, in either order.
-static void test_together(void **state) {
+TEST(test_together) {
     size_t pairs = 0, needs = 0;
     for (size_t c = 0; c < all_commands_count; c++) {
         const cli_command *command = all_commands[c];
@@ -394,22 +394,11 @@ static void test_together(void **state) {
     assert_true(pairs > 40 && needs > 20);
 }
 
-static void test_nearest(void **state) {
+TEST(test_nearest) {
     static const char *const names[] = {"render", "info", "convert"};
     assert_string_equal(options_nearest("rendr", 3, names), "render");
     assert_string_equal(options_nearest("convret", 3, names), "convert");
     assert_null(options_nearest("xylophone", 3, names));
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_values),
-        cmocka_unit_test(test_refusals),
-        cmocka_unit_test(test_default_words),
-        cmocka_unit_test(test_tables),
-        cmocka_unit_test(test_defaults_in_range),
-        cmocka_unit_test(test_nearest),
-        cmocka_unit_test(test_together),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

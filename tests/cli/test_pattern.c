@@ -7,7 +7,7 @@
 
 #include <string.h>
 
-static void test_numbered(void **state) {
+TEST(test_numbered) {
     static const char *const good[] = {"%d", "a%d.png", "a%04d.png", "a%9d", "%%%d%%", "f%%d_%02d.exr"};
     static const char *const bad[] = {"",      "a.png", "%%d",   "%d%d", "%i",   "%5",  "%s",    "%n",
                                       "a%10d", "a%ld",  "a%-3d", "a%+d", "a% d", "%0d", "%00d",  "%",
@@ -18,7 +18,7 @@ static void test_numbered(void **state) {
         if (pattern_is_numbered(bad[i])) fail_msg("'%s' is accepted", bad[i]);
 }
 
-static void test_expand(void **state) {
+TEST(test_expand) {
     static const struct {
         const char *pattern;
         uint64_t number;
@@ -40,7 +40,4 @@ static void test_expand(void **state) {
     assert_false(pattern_expand("%d234567890123456", 5, sizeof text, text));
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_numbered), cmocka_unit_test(test_expand)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -9,7 +9,7 @@
 #include <math.h>
 #include <string.h>
 
-static void test_streams(void **state) {
+TEST(test_streams) {
     ewa_context *context = check_context(0, NULL);
     ewa_cloud *cloud = NULL;
     assert_int_equal(ewa_cloud_create(context, 3, &cloud), EWA_OK);
@@ -34,7 +34,7 @@ static void test_streams(void **state) {
     ewa_context_destroy(&context);
 }
 
-static void test_borrowed_stride_and_bounds(void **state) {
+TEST(test_borrowed_stride_and_bounds) {
     ewa_context *context = check_context(0, NULL);
     struct record {
         float x, y, z, unused;
@@ -55,7 +55,7 @@ static void test_borrowed_stride_and_bounds(void **state) {
 }
 
 /// Packed numbers and those with others between them read the same, whatever their type.
-static void test_packed_and_strided(void **state) {
+TEST(test_packed_and_strided) {
     enum { COUNT = 37, MAX_BYTES = 8 };
     ewa_context *context = check_context(0, NULL);
     for (int type = EWA_F32; type <= EWA_U32; type++) {
@@ -81,7 +81,7 @@ static void test_packed_and_strided(void **state) {
 }
 
 /// Names, types, components and their order count; points do not.
-static void test_alike(void **state) {
+TEST(test_alike) {
     static const struct {
         const char *names[2];
         ewa_type type;
@@ -103,7 +103,7 @@ static void test_alike(void **state) {
     ewa_context_destroy(&context);
 }
 
-static void test_too_many_points(void **state) {
+TEST(test_too_many_points) {
     check_log log = {0};
     ewa_context *context = check_context(0, &log);
     ewa_cloud *cloud = NULL;
@@ -112,13 +112,4 @@ static void test_too_many_points(void **state) {
     ewa_context_destroy(&context);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_streams),
-        cmocka_unit_test(test_borrowed_stride_and_bounds),
-        cmocka_unit_test(test_packed_and_strided),
-        cmocka_unit_test(test_alike),
-        cmocka_unit_test(test_too_many_points),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

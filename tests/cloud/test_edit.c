@@ -51,7 +51,7 @@ static double number(const ewa_cloud *cloud, const char *name, uint64_t point, u
     return values[component];
 }
 
-static void test_select(void **state) {
+TEST(test_select) {
     ewa_cloud *cloud = make(10, EWA_F32, "intensity", EWA_U8), *part = NULL;
     const double origin[3] = {1e6, 2e6, 3};
     ewa_cloud_set_origin(cloud, origin);
@@ -76,7 +76,7 @@ static void test_select(void **state) {
 }
 
 /// Streams with gaps between the points are read through their stride.
-static void test_select_borrowed(void **state) {
+TEST(test_select_borrowed) {
     const float records[] = {1, 2, 3, -1, 4, 5, 6, -1, 7, 8, 9, -1};
     ewa_cloud *cloud = NULL, *part = NULL, *both = NULL;
     assert_int_equal(ewa_cloud_create(context, 3, &cloud), EWA_OK);
@@ -92,7 +92,7 @@ static void test_select_borrowed(void **state) {
     ewa_cloud_destroy(&cloud);
 }
 
-static void test_merge(void **state) {
+TEST(test_merge) {
     ewa_cloud *a = make(300, EWA_F32, "intensity", EWA_U8), *b = make(700, EWA_F64, "intensity", EWA_F32),
               *all = NULL;
     void *times = NULL;
@@ -142,7 +142,7 @@ static void add_constant(ewa_cloud *cloud, const char *name, ewa_type type, uint
 }
 
 /// Colours of every kind become one, and those without become grey; classes become 0; normals need all.
-static void test_merge_colors(void **state) {
+TEST(test_merge_colors) {
     static const struct {
         ewa_type types[2];
         uint32_t components[2];
@@ -190,7 +190,7 @@ static void test_merge_colors(void **state) {
 }
 
 /// Reference systems that differ are named; one that is missing or the same says nothing.
-static void test_merge_systems(void **state) {
+TEST(test_merge_systems) {
     ewa_cloud *parts[3], *all = NULL;
     for (int i = 0; i < 3; i++) parts[i] = make(4, EWA_F32, "intensity", EWA_U8);
     assert_int_equal(ewa_cloud_set_note(parts[0], "crs", "EPSG:32632", 10), EWA_OK);
@@ -219,7 +219,7 @@ static void add_triple(ewa_cloud *cloud, const char *name, float x, float y, flo
 }
 
 /// A random affine map keeps what geometry says: normals stay across the axes, clip lines keep their points.
-static void test_transform(void **state) {
+TEST(test_transform) {
     check_random random = {7};
     for (int round = 0; round < 200; round++) {
         double m[16] = {0};
@@ -279,7 +279,7 @@ static void test_transform(void **state) {
     }
 }
 
-static void test_transform_refusals(void **state) {
+TEST(test_transform_refusals) {
     ewa_cloud *cloud = make(2, EWA_F32, "a", EWA_U8);
     double m[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1};
     assert_int_equal(ewa_cloud_transform(cloud, m), EWA_ERROR_NUMERIC);
@@ -291,15 +291,4 @@ static void test_transform_refusals(void **state) {
     ewa_cloud_destroy(&cloud);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_select),
-        cmocka_unit_test(test_select_borrowed),
-        cmocka_unit_test(test_merge),
-        cmocka_unit_test(test_merge_colors),
-        cmocka_unit_test(test_merge_systems),
-        cmocka_unit_test(test_transform),
-        cmocka_unit_test(test_transform_refusals),
-    };
-    return cmocka_run_group_tests(tests, enter, leave);
-}
+int main(void) { return RUN_TESTS(enter, leave); }

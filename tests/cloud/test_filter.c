@@ -65,7 +65,7 @@ static bool is_over_a_tenth(int i) { return i > 1 && i % 100 != 99; }
 static bool is_no_tenth(int i) { return i != 1 && i % 100 != 99; }
 static bool is_high(int i) { return 10 + 0.25 * i > 400; }
 
-static void test_expressions(void **state) {
+TEST(test_expressions) {
     static const struct {
         const char *texts[2];
         expected *fulfils;
@@ -113,7 +113,7 @@ static void test_expressions(void **state) {
     ewa_cloud_destroy(&cloud);
 }
 
-static void test_bad_texts(void **state) {
+TEST(test_bad_texts) {
     static const char *const cases[][2] = {
         {"", "name of an attribute is missing"},
         {"classification", "a comparison (= != < <= > >=) is missing"},
@@ -150,7 +150,7 @@ static void test_bad_texts(void **state) {
     }
 }
 
-static void test_unknown_attribute(void **state) {
+TEST(test_unknown_attribute) {
     ewa_cloud *cloud = make_cloud();
     static const char *const words[] = {"height>1", "normal.x>1", "nx>1", "color.w>1", "alpha>1", ".x>1"};
     uint8_t marks[POINTS] = {0};
@@ -175,7 +175,7 @@ static void test_unknown_attribute(void **state) {
 }
 
 /// A name that is the same wins over one that is alike, an attribute over a word for a component.
-static void test_names(void **state) {
+TEST(test_names) {
     ewa_cloud *cloud = make_cloud();
     ewa_scalar scalar;
     assert_int_equal(ewa_cloud_add(cloud, "ReturnNumber", EWA_U8, 1, NULL), EWA_OK);
@@ -203,7 +203,7 @@ static void test_names(void **state) {
 }
 
 /// Coordinates of a grid are the decimals of the file, whatever the binary fractions make of them.
-static void test_grid(void **state) {
+TEST(test_grid) {
     ewa_cloud *cloud = NULL;
     void *data;
     assert_int_equal(ewa_cloud_create(context, 1000, &cloud), EWA_OK);
@@ -228,7 +228,7 @@ static void test_grid(void **state) {
 }
 
 /// The pieces of a cloud, of any size, give what the whole does, and so does any number of threads.
-static void test_pieces_and_keep(void **state) {
+TEST(test_pieces_and_keep) {
     ewa_cloud *cloud = make_cloud();
     ewa_filter filter = {.term_count = 0};
     assert_int_equal(ewa_filter_add(&filter, "classification=2,6 and red<100", NULL), EWA_OK);
@@ -276,7 +276,7 @@ static int compare_numbers(const void *a, const void *b) {
 }
 
 /// A number by its rank is that of the sorted ones, of any sign and size, equal ones among them.
-static void test_ranks(void **state) {
+TEST(test_ranks) {
     enum { MAXIMUM = 300 };
     check_random random = {12};
     for (size_t count = 1; count <= MAXIMUM; count += count < 10 ? 1 : 29) {
@@ -296,15 +296,4 @@ static void test_ranks(void **state) {
     }
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_expressions),
-        cmocka_unit_test(test_bad_texts),
-        cmocka_unit_test(test_unknown_attribute),
-        cmocka_unit_test(test_names),
-        cmocka_unit_test(test_grid),
-        cmocka_unit_test(test_pieces_and_keep),
-        cmocka_unit_test(test_ranks),
-    };
-    return cmocka_run_group_tests(tests, enter, leave);
-}
+int main(void) { return RUN_TESTS(enter, leave); }

@@ -89,7 +89,7 @@ static void check_moved(const double m[16], const double turn[9], uint32_t sh_de
     ewa_context_destroy(&context);
 }
 
-static void similar(void **state) {
+TEST(similar) {
     // A turn about a slanted axis, twice as large.
     const double turn[9] = {2.0 / 3,  -1.0 / 3, 2.0 / 3, 2.0 / 3, 2.0 / 3,
                             -1.0 / 3, -1.0 / 3, 2.0 / 3, 2.0 / 3};
@@ -102,12 +102,12 @@ static void similar(void **state) {
     }
 }
 
-static void mirrored(void **state) {
+TEST(mirrored) {
     const double m[16] = {1, 0, 0, 0, 0, -1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
     check_moved(m, (const double[]){1, 0, 0, 0, -1, 0, 0, 0, 1}, 4);
 }
 
-static void stretched(void **state) {
+TEST(stretched) {
     const double m[16] = {2, 0, 0, 0, 0, 0.5, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
     check_moved(m, (const double[]){1, 0, 0, 0, 1, 0, 0, 0, 1}, 2);
     const double sheared[16] = {1, 0.5, 0, 0, 0, 1, 0.25, 0, 0, 0, 1, 0, 0, 0, 0, 1};
@@ -115,7 +115,7 @@ static void stretched(void **state) {
 }
 
 /// Flat ones stay flat, with the third axis as the normal.
-static void flat(void **state) {
+TEST(flat) {
     ewa_context *context = check_context(1, NULL);
     ewa_gaussians set;
     assert_int_equal(ewa_gaussians_create(context, 1, 0, &set), EWA_OK);
@@ -134,7 +134,7 @@ static void flat(void **state) {
 }
 
 /// The shortest axis is the normal, wherever it is; colours are of the display, clouds hold light.
-static void surfels(void **state) {
+TEST(surfels) {
     static const float scales[3][3] = {{3, 2, 1}, {3, 1, 2}, {1, 3, 2}};
     for (int shortest = 2, n = 0; shortest >= 0; shortest--, n++) {
         ewa_context *context = check_context(1, NULL);
@@ -175,10 +175,4 @@ static void surfels(void **state) {
     }
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(similar), cmocka_unit_test(mirrored), cmocka_unit_test(stretched),
-        cmocka_unit_test(flat),    cmocka_unit_test(surfels),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

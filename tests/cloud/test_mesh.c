@@ -6,7 +6,7 @@
 #include "cloud/mesh.h"
 #include "prepare/mesh_shapes.h"
 
-static void test_streams(void **state) {
+TEST(test_streams) {
     check_log log = {0};
     ewa_context *context = check_context(1, &log);
     ewa_mesh mesh;
@@ -33,7 +33,7 @@ static void test_streams(void **state) {
     ewa_context_destroy(&context);
 }
 
-static void test_weld(void **state) {
+TEST(test_weld) {
     ewa_context *context = check_context(1, NULL);
     const double places[][3] = {{1, 2, 3},
                                 {0, 0, 0},
@@ -71,7 +71,7 @@ static bool is_closed(const ewa_mesh *mesh) {
     return closed;
 }
 
-static void test_closed(void **state) {
+TEST(test_closed) {
     check_log log = {0};
     ewa_context *context = check_context(1, &log);
     ewa_mesh mesh;
@@ -143,8 +143,4 @@ static void test_closed(void **state) {
     ewa_context_destroy(&context);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_streams), cmocka_unit_test(test_weld),
-                                       cmocka_unit_test(test_closed)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -44,7 +44,7 @@ static void order_points(uint32_t threads, const float *xyz, uint32_t count, uin
 }
 
 /// Interleaves bit by bit the cells of the one grid that a cloud without dense cells needs.
-static void test_against_plain_sort(void **state) {
+TEST(test_against_plain_sort) {
     enum { COUNT = 200000 };
     float *xyz = random_points(COUNT, 1);
     plain_item *items = calloc(COUNT, sizeof *items);
@@ -98,7 +98,7 @@ static float *hostile_points(uint32_t count) {
     return xyz;
 }
 
-static void test_threads(void **state) {
+TEST(test_threads) {
     enum { COUNT = 150000 };
     static const uint32_t threads[] = {2, 7, 32};
     float *xyz = hostile_points(COUNT);
@@ -132,7 +132,7 @@ static void test_threads(void **state) {
 }
 
 /// An outlier so far away that all others share a cell leaves their order as it was.
-static void test_outlier(void **state) {
+TEST(test_outlier) {
     enum { COUNT = 100000 };
     float *xyz = random_points(COUNT, 4);
     uint32_t *alone = calloc(COUNT, sizeof *alone), *order = calloc(COUNT, sizeof *order);
@@ -147,7 +147,7 @@ static void test_outlier(void **state) {
 }
 
 /// Doubles of georeferenced data are told apart to the last digit.
-static void test_double(void **state) {
+TEST(test_double) {
     enum { COUNT = 1000 };
     double xyz[3 * COUNT];
     uint32_t order[COUNT], finite = 0;
@@ -168,7 +168,7 @@ static void test_double(void **state) {
 
 /// The smallest level inside a run says how large a cell holds it: runs cut there are boxes that do not
 /// overlap.
-static void test_split_levels(void **state) {
+TEST(test_split_levels) {
     enum { COUNT = 50000 };
     float *xyz = random_points(COUNT, 5);
     uint32_t *order = calloc(COUNT, sizeof *order);
@@ -194,7 +194,7 @@ static void test_split_levels(void **state) {
     free(xyz);
 }
 
-static void test_few(void **state) {
+TEST(test_few) {
     ewa_context *context = check_context(2, NULL);
     float xyz[3 * 40] = {0};
     const ewa_attribute position = positions_of(xyz);
@@ -210,14 +210,4 @@ static void test_few(void **state) {
     ewa_context_destroy(&context);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_against_plain_sort),
-        cmocka_unit_test(test_threads),
-        cmocka_unit_test(test_outlier),
-        cmocka_unit_test(test_double),
-        cmocka_unit_test(test_split_levels),
-        cmocka_unit_test(test_few),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -170,7 +170,7 @@ static void check_against_brute_force(int kind, uint32_t count, uint32_t k) {
     free(xyz);
 }
 
-static void test_against_brute_force(void **state) {
+TEST(test_against_brute_force) {
     for (int kind = 0; kind < KINDS; kind++) {
         check_against_brute_force(kind, 5000, 16);
         check_against_brute_force(kind, 3000, 6);
@@ -178,13 +178,13 @@ static void test_against_brute_force(void **state) {
     }
 }
 
-static void test_few_points(void **state) {
+TEST(test_few_points) {
     for (int kind = 0; kind < KINDS; kind++)
         for (uint32_t count = 0; count < 40; count++) check_against_brute_force(kind, count, 16);
 }
 
 /// The same neighbourhoods for any number of threads and any instruction set.
-static void test_threads_and_machines(void **state) {
+TEST(test_threads_and_machines) {
     enum { COUNT = 20000 };
     static const uint32_t threads[] = {1, 7, 32, 2, 2};
     static const uint32_t masks[] = {EWA_CPU_ALL, EWA_CPU_ALL, EWA_CPU_ALL, EWA_CPU_AVX2, 0};
@@ -212,7 +212,7 @@ static void test_threads_and_machines(void **state) {
 }
 
 /// Georeferenced doubles: the neighbourhoods of the same points near the origin.
-static void test_double(void **state) {
+TEST(test_double) {
     enum { COUNT = 4000, K = 12 };
     double *xyz = calloc(3 * (size_t)COUNT, sizeof *xyz);
     check_random random = {5};
@@ -240,7 +240,7 @@ static void test_double(void **state) {
 }
 
 /// Places are where their points are, read from any place on.
-static void test_positions(void **state) {
+TEST(test_positions) {
     enum { COUNT = 3000, STEP = 700 };
     double *xyz = calloc(3 * (size_t)COUNT, sizeof *xyz);
     float *single = calloc(3 * (size_t)COUNT, sizeof *single);
@@ -280,7 +280,7 @@ static void count_lanes(void *user, const ewa_block *block, uint32_t worker) {
 }
 
 /// Clumps and far outliers cost no more than in proportion.
-static void test_clumps(void **state) {
+TEST(test_clumps) {
     enum { COUNT = 200000 };
     float *xyz = calloc(3 * (size_t)COUNT, sizeof *xyz);
     check_random random = {6};
@@ -323,7 +323,7 @@ static void keep_radii(void *user, const ewa_block *block, uint32_t worker) {
 
 /// Places that are searched alone find what they find among others, whatever the search begins with: the
 /// radius of a sparse leaf before a dense one, or a spacing that is wrong by any factor.
-static void test_chosen(void **state) {
+TEST(test_chosen) {
     enum { SPARSE = 200, COUNT = 4000 };
     static float xyz[3 * COUNT], spacing[COUNT];
     static double all[COUNT], some[COUNT];
@@ -368,7 +368,7 @@ static void check_places(void *user, const ewa_block *block, uint32_t worker) {
 }
 
 /// Doubles whose squared distances overflow: only places that are there are found, or none.
-static void test_overflow(void **state) {
+TEST(test_overflow) {
     enum { COUNT = 600 };
     double *xyz = calloc(3 * (size_t)COUNT, sizeof *xyz);
     check_random random = {7};
@@ -391,16 +391,4 @@ static void test_overflow(void **state) {
     free(xyz);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_against_brute_force),
-        cmocka_unit_test(test_few_points),
-        cmocka_unit_test(test_threads_and_machines),
-        cmocka_unit_test(test_double),
-        cmocka_unit_test(test_positions),
-        cmocka_unit_test(test_clumps),
-        cmocka_unit_test(test_chosen),
-        cmocka_unit_test(test_overflow),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

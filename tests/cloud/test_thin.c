@@ -65,7 +65,7 @@ static void check_distance(const double *p, uint32_t count, const uint8_t *wante
     }
 }
 
-static void test_distance(void **state) {
+TEST(test_distance) {
     ewa_context *context = check_context(3, NULL);
     static double p[3 * COUNT];
     static const double distances[] = {0.05, 0.125, 0.31, 2, 30};
@@ -84,7 +84,7 @@ static void test_distance(void **state) {
 }
 
 /// Two points at the very distance both stay; one step nearer, one goes.
-static void test_exact_distance(void **state) {
+TEST(test_exact_distance) {
     ewa_context *context = check_context(1, NULL);
     double p[6] = {0, 0, 0, 3, 4, 0};
     ewa_cloud *cloud = make_cloud(context, 2, p, no_origin);
@@ -133,7 +133,7 @@ static void check_voxels(const double *p, uint32_t count, const uint8_t *wanted,
     }
 }
 
-static void test_voxels(void **state) {
+TEST(test_voxels) {
     ewa_context *context = check_context(3, NULL);
     static double p[3 * COUNT];
     static const double sizes[] = {0.05, 0.125, 0.31, 2, 30}, far[3] = {500000.125, -4200000, 123};
@@ -153,7 +153,7 @@ static void test_voxels(void **state) {
 }
 
 /// Known answers: cubes are aligned to the world's origin, below as above.
-static void test_known_voxels(void **state) {
+TEST(test_known_voxels) {
     ewa_context *context = check_context(2, NULL);
     const double p[] = {0.1, 0, 0, 0.9, 0, 0, 0.45, 0, 0, -0.1, 0, 0, 1, 0, 0, 1.5, 0, 0};
     const uint8_t expected[] = {0, 0, 1, 1, 1, 0};
@@ -189,7 +189,7 @@ static uint32_t thin(ewa_context *context, bool voxels, uint32_t count, const do
 
 /// Neither the order of the points, nor threads, nor the origin that the same places are kept from change what
 /// stays; duplicates are told apart by their other attributes.
-static void test_order_and_threads(void **state) {
+TEST(test_order_and_threads) {
     enum { MANY = 40000 };
     double *p = malloc(3 * MANY * sizeof *p), *q = malloc(3 * MANY * sizeof *q);
     uint32_t *ids = malloc(MANY * sizeof *ids);
@@ -224,7 +224,7 @@ static void test_order_and_threads(void **state) {
     free(p), free(q), free(ids), free(first), free(other);
 }
 
-static void test_refusals(void **state) {
+TEST(test_refusals) {
     check_log log = {.count = 0};
     ewa_context *context = check_context(2, &log);
     const double p[] = {0, 0, 0, 1e30, 0, 0};
@@ -255,7 +255,7 @@ static void test_refusals(void **state) {
 }
 
 /// Whichever allocation fails, the call says so and holds nothing.
-static void test_memory(void **state) {
+TEST(test_memory) {
     static double p[3 * COUNT];
     fill(1, COUNT, p);
     for (int voxels = 0; voxels < 2; voxels++) {
@@ -281,15 +281,4 @@ static void test_memory(void **state) {
     }
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_distance),
-        cmocka_unit_test(test_exact_distance),
-        cmocka_unit_test(test_voxels),
-        cmocka_unit_test(test_known_voxels),
-        cmocka_unit_test(test_order_and_threads),
-        cmocka_unit_test(test_refusals),
-        cmocka_unit_test(test_memory),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -58,7 +58,7 @@ static void hold(subject *of, int index) {
     ewa_context_destroy(&context);
 }
 
-static void test_bytes_of_one_process(void **state) {
+TEST(test_bytes_of_one_process) {
     ewa_context *context = check_context(1, NULL);
     for (int i = 0; i < JOINT_FRAMES; i++) {
         subject of;
@@ -123,7 +123,7 @@ static void give_plane(const ewa_exchange *exchange, void *data) {
     ewa_context_destroy(&context);
 }
 
-static void test_bytes_of_the_model(void **state) {
+TEST(test_bytes_of_the_model) {
     for (uint32_t count = 2; count <= 4; count++) {
         double shares[RANKS_MAX] = {0};
         ranks_run(count, 0, give_plane, shares);
@@ -152,7 +152,7 @@ static void gather_and_add(const ewa_exchange *exchange, void *data) {
     ewa_context_destroy(&context);
 }
 
-static void test_gather_and_add(void **state) {
+TEST(test_gather_and_add) {
     for (uint32_t count = 1; count <= RANKS_MAX; count++) {
         bool right[RANKS_MAX] = {false};
         ranks_run(count, 0, gather_and_add, right);
@@ -160,7 +160,7 @@ static void test_gather_and_add(void **state) {
     }
 }
 
-static void test_bad_exchanges(void **state) {
+TEST(test_bad_exchanges) {
     ewa_context *context = check_context(1, NULL);
     ewa_renderer *renderer = NULL;
     const ewa_exchange nothing = {.rank_count = 1};
@@ -176,12 +176,4 @@ static void test_bad_exchanges(void **state) {
     ewa_context_destroy(&context);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_bytes_of_one_process),
-        cmocka_unit_test(test_bytes_of_the_model),
-        cmocka_unit_test(test_gather_and_add),
-        cmocka_unit_test(test_bad_exchanges),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

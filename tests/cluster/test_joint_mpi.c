@@ -11,7 +11,7 @@ static mpi_exchange ranks;
 
 static bool never(void) { return false; }
 
-static void test_bytes_of_one_process(void **state) {
+TEST(test_bytes_of_one_process) {
     const ewa_exchange exchange = mpi_exchange_of(&ranks);
     ewa_context *context = check_context(1, NULL);
     ewa_renderer *joint = NULL, *alone = NULL;
@@ -41,8 +41,7 @@ int main(int argc, char **argv) {
     MPI_Init(&argc, &argv);
     mpi_exchange_open(&ranks, MPI_COMM_WORLD, 60, never);
     if (ranks.rank && !freopen("/dev/null", "w", stderr)) return EXIT_FAILURE;
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_bytes_of_one_process)};
-    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
+    const int failed = RUN_TESTS(NULL, NULL);
     if (failed) MPI_Abort(MPI_COMM_WORLD, EXIT_FAILURE);
     mpi_exchange_close(&ranks);
     MPI_Finalize();

@@ -101,7 +101,7 @@ static void rims_box(const ewa_camera *camera, const disc *discs, uint32_t count
 static const double AHEAD[3] = {0, 0, -1};
 
 /// Discs that face the camera end at 0.04 of the width from either side.
-static void test_room(void **state) {
+TEST(test_room) {
     const disc discs[] = {
         {{-1, 0, 0}, 0.02, {0, 0, 1}}, {{0, 0.1, 0}, 0.02, {0, 0, 1}}, {{1, 0, 0}, 0.05, {0, 0, 1}}};
     ewa_cloud *cloud = make_cloud(discs, 3);
@@ -114,7 +114,7 @@ static void test_room(void **state) {
 
 /// No disc of a few unequal ones reaches over the frame, whichever way it faces and from wherever it is seen;
 /// nor is the frame much larger than they are.
-static void test_unequal_discs(void **state) {
+TEST(test_unequal_discs) {
     static const double directions[][3] = {{0, 0, -1}, {1, 0, 0}, {0, -1, 0}, {-1, -1, -1}, {-0.3, 0.2, 0.5}};
     check_random random = {5};
     for (int round = 0; round < 40; round++) {
@@ -154,7 +154,7 @@ static double distance_of(const ewa_camera *camera) {
 }
 
 /// A disc of 2.9 times the median is framed as any other; of a giant one as much as of one of three times.
-static void test_giant_disc(void **state) {
+TEST(test_giant_disc) {
     enum { COUNT = 100 };
     static const double radii[] = {0.1, 0.29, 0.3, 100, 1e30};
     disc discs[COUNT];
@@ -180,7 +180,7 @@ static void test_giant_disc(void **state) {
 }
 
 /// Axes of surfels count by the longer axis of their ellipse, which need not be one of them.
-static void test_axes(void **state) {
+TEST(test_axes) {
     ewa_cloud *cloud = NULL;
     double *position = NULL;
     float *u = NULL, *v = NULL;
@@ -202,7 +202,7 @@ static void test_axes(void **state) {
 }
 
 /// Points without a radius that is drawn have no rim, and do not count for the median.
-static void test_no_radius(void **state) {
+TEST(test_no_radius) {
     const disc discs[] = {{{0, 0, 0}, NAN, {0, 0, 1}},
                           {{1, 0, 0}, 0, {0, 0, 1}},
                           {{0, 1, 0}, -1, {0, 0, 1}},
@@ -218,7 +218,7 @@ static void test_no_radius(void **state) {
 }
 
 /// The lens of an eye at the origin shows all discs, as large as it goes.
-static void test_zoom(void **state) {
+TEST(test_zoom) {
     static const double origin[3] = {0, 0, 0}, up[3] = {0, 1, 0};
     const disc discs[] = {{{-1, 0.2, -4}, 0.2, {0, 0, 1}},
                           {{0, 0, -5}, 0.3, {0, 0, 1}},
@@ -238,7 +238,7 @@ static void test_zoom(void **state) {
 }
 
 /// A share of less than 0.005 of the points that makes the box three times as large is left outside.
-static void test_far_points(void **state) {
+TEST(test_far_points) {
     enum { COUNT = 10000 };
     static disc discs[COUNT];
     static const struct {
@@ -303,7 +303,7 @@ static ewa_named_view view_of_shell(int axis, double sign, double cap, double ou
 
 /// A shell that is open to the front, so that 0.3 of what shows is its inside, is seen from the back, which is outside; one
 /// whose normals point inward, and a sheet, are not.
-static void test_shells(void **state) {
+TEST(test_shells) {
     const double wide = sqrt(1 - 0.36), narrow = sqrt(1 - 0.24);
     assert_int_equal(view_of_shell(2, 1, wide, 1, EWA_UP_Y_REQUIRED), EWA_VIEW_BACK);
     assert_int_equal(view_of_shell(2, 1, narrow, 1, EWA_UP_Y_REQUIRED), EWA_VIEW_FRONT);
@@ -316,7 +316,7 @@ static void test_shells(void **state) {
 }
 
 /// The body of all turns holds every point in every turn, closely, with its disc.
-static void test_revolve(void **state) {
+TEST(test_revolve) {
     static const double axis[3] = {0, 0, 2}, directions[][3] = {{0, 1, 0}, {0, 0, -1}, {1, 2, -1}};
     const disc discs[] = {
         {{1, 0, 0}, 0.1, {0, 0, 1}}, {{3, 4, 1}, 0.2, {0, 0, 1}}, {{0, 2, 3}, 0.15, {1, 0, 0}}};
@@ -355,7 +355,7 @@ static void test_revolve(void **state) {
 }
 
 /// What a caller may know of a framing, which outlives its cloud.
-static void test_info(void **state) {
+TEST(test_info) {
     const disc discs[] = {
         {{-1, 0, 2}, 0.1, {0, 0, 1}}, {{3, 4, 1}, 0.1, {0, 0, 1}}, {{0, 2, 3}, 0.1, {1, 0, 0}}};
     ewa_cloud *cloud = make_cloud(discs, 3);
@@ -385,7 +385,7 @@ static void expect_failure(ewa_status status, ewa_status expected, check_log *lo
 }
 
 /// What cannot be framed says why, and leaves cameras as they were.
-static void test_failures(void **state) {
+TEST(test_failures) {
     static const double zero[3] = {0, 0, 0}, up[3] = {0, 1, 0};
     check_log log = {.count = 0};
     ewa_context *own = check_context(1, &log), *others = context;
@@ -439,7 +439,7 @@ static void test_failures(void **state) {
 }
 
 /// Whichever allocation fails, all memory is given back.
-static void test_memory(void **state) {
+TEST(test_memory) {
     check_memory memory = {.calls_left = -1};
     ewa_context_options options;
     ewa_context_options_init(&options, sizeof options);
@@ -473,14 +473,4 @@ static void test_memory(void **state) {
     assert_int_equal(memory.held_bytes, 0);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_room),       cmocka_unit_test(test_unequal_discs),
-        cmocka_unit_test(test_giant_disc), cmocka_unit_test(test_axes),
-        cmocka_unit_test(test_no_radius),  cmocka_unit_test(test_zoom),
-        cmocka_unit_test(test_far_points), cmocka_unit_test(test_revolve),
-        cmocka_unit_test(test_info),       cmocka_unit_test(test_failures),
-        cmocka_unit_test(test_memory),     cmocka_unit_test(test_shells),
-    };
-    return cmocka_run_group_tests(tests, begin, finish);
-}
+int main(void) { return RUN_TESTS(begin, finish); }

@@ -79,7 +79,7 @@ static ewa_upright chosen_at_origin(ewa_up_convention convention) {
 #define EXPECT(convention, axis, view, why) expect_at(AT_ORIGIN, convention, axis, view, why, __LINE__)
 
 /// A plane is thinner than 1e-4 of the size, and wider than that.
-static void test_planes(void **state) {
+TEST(test_planes) {
     start();
     add_block(0, 1.85e-4, -1, 1, -1, 1, 5000);
     EXPECT(EWA_UP_ANY, 1, EWA_VIEW_RIGHT, "plane");
@@ -96,7 +96,7 @@ static void test_planes(void **state) {
 }
 
 /// Map coordinates are over 100 sizes from the origin; what is 1.5 times higher than wide there is a tower.
-static void test_maps(void **state) {
+TEST(test_maps) {
     for (int tower = 0; tower < 2; tower++) {
         const double size = tower ? 3.2 : 2.8;
         start();
@@ -110,7 +110,7 @@ static void test_maps(void **state) {
 }
 
 /// Ground is lower than 0.4 of its width, and has something above it in less than 0.3 of its places.
-static void test_ground(void **state) {
+TEST(test_ground) {
     for (int within = 0; within < 2; within++) {
         start();
         const double height = within ? 0.74 : 0.86;
@@ -141,7 +141,7 @@ static void make_pixels(int columns, int rows, double across, double down, int k
 }
 
 /// Pixels are few columns or rows against the points, lie within 45 degrees and are no strip.
-static void test_pixels(void **state) {
+TEST(test_pixels) {
     for (int within = 0; within < 2; within++) {
         make_pixels(80, 60, within ? 0.93 : 1.08, 0.5, 20);
         ewa_upright chosen = chosen_at_origin(EWA_UP_ANY);
@@ -175,7 +175,7 @@ static void make_view(double layered, int columns) {
 
 /// Where less than 0.15 of the directions have something behind another, 0.3 of those of pixels, a camera
 /// took what is aimed at.
-static void test_camera_views(void **state) {
+TEST(test_camera_views) {
     for (int within = 0; within < 2; within++) {
         make_view(within ? 0.135 : 0.165, 0);
         ewa_upright chosen = chosen_at_origin(EWA_UP_ANY);
@@ -217,7 +217,7 @@ static double share_of(int axis, bool *stable) {
 }
 
 /// What stands has a base of 0.2 of its footprint, 0.3 against the usual axis.
-static void test_base_shares(void **state) {
+TEST(test_base_shares) {
     for (int large = 0; large < 2; large++) {
         make_footed(large ? 0.22 : 0.18);
         assert_float_equal(share_of(1, NULL), large ? 0.22 : 0.18, 0.005);
@@ -246,7 +246,7 @@ static void make_prism(double bottom, double depth, double taper) {
 
 /// What is its mirror image across one axis, by 0.85, and across the other less than 0.85 times as much is level along
 /// the first.
-static void test_halves(void **state) {
+TEST(test_halves) {
     make_prism(0.25, 1.5, 0.18);
     EXPECT(EWA_UP_ANY, 1, EWA_VIEW_ISO, "nothing speaks");
     EXPECT(EWA_UP_Z_USUAL, 2, EWA_VIEW_FRONT, "base");
@@ -272,7 +272,7 @@ static void test_halves(void **state) {
 
 /// A base is twice as large as the other one; bases of 0.6 are those of a box, which lies when it is lower
 /// than 0.4 of its width.
-static void test_boxes(void **state) {
+TEST(test_boxes) {
     for (int large = 0; large < 2; large++) {
         make_prism(large ? 0.55 : 0.45, 1.5, 0.3);
         assert_float_equal(share_of(1, NULL), large ? 0.55 : 0.45, 0.03);
@@ -304,7 +304,7 @@ static void make_faced(double share, double step) {
 }
 
 /// What shows a plane in 0.6 of its front, 0.02 of its size thick, is seen at an angle; not what is surveyed.
-static void test_faces(void **state) {
+TEST(test_faces) {
     for (int large = 0; large < 2; large++) {
         const ewa_named_view view = large ? EWA_VIEW_ISO : EWA_VIEW_FRONT;
         make_faced(large ? 0.63 : 0.57, 0.1);
@@ -331,7 +331,7 @@ static void test_faces(void **state) {
 }
 
 /// What is twice as long as wide, and has no base, lies.
-static void test_tall(void **state) {
+TEST(test_tall) {
     start();
     add_diamond(0, 0.5, 0.92, 0.4);
     EXPECT(EWA_UP_ANY, 1, EWA_VIEW_FRONT, "nothing speaks");
@@ -349,7 +349,7 @@ static void test_tall(void **state) {
 }
 
 /// From the front; iso where it is lower than 0.4 of its width, or 1.5 times as deep as wide and not higher.
-static void test_views(void **state) {
+TEST(test_views) {
     assert_int_equal(ewa_upright_view((double[3]){1, 0.37, 1.2}, 1), EWA_VIEW_ISO);
     assert_int_equal(ewa_upright_view((double[3]){1, 0.43, 1.2}, 1), EWA_VIEW_FRONT);
     assert_int_equal(ewa_upright_view((double[3]){1, 1.2, 0.37}, 2), EWA_VIEW_ISO);
@@ -361,7 +361,7 @@ static void test_views(void **state) {
 }
 
 /// A floor with a peak in its middle, and a roof over a share of it: an open sheet has no base.
-static void test_open_sheets(void **state) {
+TEST(test_open_sheets) {
     for (int closed = 0; closed < 2; closed++) {
         start();
         const double roof = closed ? 0.165 : 0.135;
@@ -390,7 +390,7 @@ static void make_on_plate(double end, double lift, int below) {
 }
 
 /// The middle has to be over the base, 0.05 of the footprint's size from its rim.
-static void test_stable(void **state) {
+TEST(test_stable) {
     bool stable = false;
     make_on_plate(0.466, 0, 0);
     assert_float_equal(share_of(1, &stable), 0.534, 0.01);
@@ -410,7 +410,7 @@ static void test_stable(void **state) {
 }
 
 /// A base is what is within 0.02 of the size above the lowest points, but for 0.002 of them.
-static void test_base_height(void **state) {
+TEST(test_base_height) {
     make_on_plate(0.3, 0.018, 0);
     assert_float_equal(share_of(1, NULL), 0.7, 0.02);
     make_on_plate(0.3, 0.022, 0);
@@ -422,7 +422,7 @@ static void test_base_height(void **state) {
 }
 
 /// One surface is behind another when it is three cells away.
-static void test_layers(void **state) {
+TEST(test_layers) {
     for (int apart = 0; apart < 2; apart++) {
         start();
         for (int i = 0; i < 60000; i++)
@@ -441,7 +441,7 @@ static void test_layers(void **state) {
 }
 
 /// The convention that all names share, by their suffixes in any case.
-static void test_conventions(void **state) {
+TEST(test_conventions) {
     static const struct {
         size_t count;
         const char *paths[3];
@@ -476,7 +476,7 @@ static void expect_look(int axis, bool reversed, ewa_named_view view, const doub
 #define V(x, y, z) ((const double[3]){x, y, z})
 
 /// Where each side is, with y, z and -y up.
-static void test_looks(void **state) {
+TEST(test_looks) {
     expect_look(2, false, EWA_VIEW_FRONT, V(0, 1, 0), V(0, 0, 1), __LINE__);
     expect_look(2, false, EWA_VIEW_BACK, V(0, -1, 0), V(0, 0, 1), __LINE__);
     expect_look(2, false, EWA_VIEW_LEFT, V(1, 0, 0), V(0, 0, 1), __LINE__);
@@ -492,7 +492,7 @@ static void test_looks(void **state) {
 }
 
 /// The eye goes counter-clockwise about the axis, then up; over a pole up turns along.
-static void test_turns(void **state) {
+TEST(test_turns) {
     const double *axis = V(0, 0, 1);
     double ahead[3] = {0, 1, 0}, up[3] = {0, 0, 1};
     assert_int_equal(ewa_upright_turn(axis, 90, 0, ahead, up), EWA_OK); // the eye from -y to +x
@@ -509,7 +509,7 @@ static void test_turns(void **state) {
 }
 
 /// The words that a program prints.
-static void test_words(void **state) {
+TEST(test_words) {
     char text[EWA_UPRIGHT_TEXT_BYTES];
     ewa_upright upright = {.axis = 2, .view = EWA_VIEW_ISO, .why = "map coordinates"};
     ewa_upright_describe(&upright, text);
@@ -521,7 +521,7 @@ static void test_words(void **state) {
 }
 
 /// What a cloud's framing chooses is what its points choose; in another order too.
-static void test_of_cloud(void **state) {
+TEST(test_of_cloud) {
     ewa_context *context = check_context(1, NULL);
     make_footed(0.33);
     const ewa_upright direct = chosen_at_origin(EWA_UP_Z_USUAL);
@@ -545,18 +545,4 @@ static void test_of_cloud(void **state) {
     ewa_context_destroy(&context);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_planes),       cmocka_unit_test(test_maps),
-        cmocka_unit_test(test_ground),       cmocka_unit_test(test_pixels),
-        cmocka_unit_test(test_camera_views), cmocka_unit_test(test_base_shares),
-        cmocka_unit_test(test_halves),       cmocka_unit_test(test_boxes),
-        cmocka_unit_test(test_faces),        cmocka_unit_test(test_tall),
-        cmocka_unit_test(test_views),        cmocka_unit_test(test_open_sheets),
-        cmocka_unit_test(test_stable),       cmocka_unit_test(test_base_height),
-        cmocka_unit_test(test_layers),       cmocka_unit_test(test_conventions),
-        cmocka_unit_test(test_looks),        cmocka_unit_test(test_turns),
-        cmocka_unit_test(test_words),        cmocka_unit_test(test_of_cloud),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -43,7 +43,7 @@ static const double AZIMUTHS[] = {0, 0.35, 1.5707963267948966, 3.7};
 enum { AZIMUTH_COUNT = sizeof AZIMUTHS / sizeof AZIMUTHS[0] };
 
 /// Bodies as their kind of file has them are right, all of them.
-static void usual(void **state) {
+TEST(usual) {
     (void)state;
     static const struct {
         ewa_up_convention convention;
@@ -63,7 +63,7 @@ static void usual(void **state) {
 
 /// Where the kind of a file says nothing, or has it otherwise, bases and halves tell: at least as many as here. The others
 /// have none (a tree, a mushroom, of kinds with an axis), or sides that are as good (a sofa, the back of a car).
-static void measured(void **state) {
+TEST(measured) {
     (void)state;
     static const struct {
         ewa_up_convention convention;
@@ -92,7 +92,7 @@ static void measured(void **state) {
 }
 
 /// What is surveyed has z up, whichever of its walls is largest.
-static void surveyed(void **state) {
+TEST(surveyed) {
     (void)state;
     score sum = {0, 0};
     for (int s = 0; s < SURVEY_COUNT; s++)
@@ -110,7 +110,4 @@ static void surveyed(void **state) {
     assert_int_equal(sum.right, sum.all);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(usual), cmocka_unit_test(measured), cmocka_unit_test(surveyed)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

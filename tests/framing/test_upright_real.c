@@ -29,7 +29,7 @@ static void up_of(ewa_context *context, const char *path, char up[4], ewa_view_i
     ewa_asset_release(&asset);
 }
 
-static void labels(void **state) {
+TEST(labels) {
     (void)state;
     int right = 0, all = 0, open = 0, unexpected = 0;
     for (int i = 0; i < UPRIGHT_LABEL_COUNT; i++) {
@@ -54,7 +54,4 @@ static void labels(void **state) {
     assert_int_equal(unexpected, 0);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(labels)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

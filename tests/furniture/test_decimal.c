@@ -21,7 +21,7 @@ static const char *ticks_text(double low, double high, uint32_t maximum) {
     return all;
 }
 
-static void test_ticks(void **state) {
+TEST(test_ticks) {
     static const struct {
         double low, high;
         uint32_t maximum;
@@ -60,7 +60,7 @@ static void test_ticks(void **state) {
 
 /// However the range lies: no more steps than asked for, at least a fifth as many less one, all within the range, and
 /// no neighbour left out.
-static void test_tick_properties(void **state) {
+TEST(test_tick_properties) {
     check_random random = {5};
     for (int i = 0; i < 20000; i++) {
         const double size = pow(10, check_uniform(&random, -250, 250));
@@ -84,7 +84,7 @@ static void test_tick_properties(void **state) {
     }
 }
 
-static void test_write(void **state) {
+TEST(test_write) {
     static const struct {
         ewa_decimal number;
         const char *text;
@@ -114,7 +114,7 @@ static void test_write(void **state) {
     }
 }
 
-static void test_near(void **state) {
+TEST(test_near) {
     static const struct {
         double value;
         const char *text;
@@ -146,7 +146,7 @@ static void test_near(void **state) {
     }
 }
 
-static void test_nice(void **state) {
+TEST(test_nice) {
     static const struct {
         double maximum;
         int64_t digits;
@@ -167,9 +167,4 @@ static void test_nice(void **state) {
     }
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_ticks), cmocka_unit_test(test_tick_properties),
-                                       cmocka_unit_test(test_write), cmocka_unit_test(test_near),
-                                       cmocka_unit_test(test_nice)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -51,7 +51,7 @@ static uint32_t lowest_run(const ewa_canvas *canvas, uint32_t *end) {
 }
 
 /// The scale bar is as long as it says, on canvases of the picture's size and of others, near the lower right corner.
-static void test_scale_bar(void **state) {
+TEST(test_scale_bar) {
     static const struct {
         double scale_px;
         uint32_t wanted_px;
@@ -104,7 +104,7 @@ static int count_of(const ewa_canvas *canvas, int channel, double x, double y, i
 }
 
 /// Axes point where the camera sees them point: red x, green y, blue z.
-static void test_axes(void **state) {
+TEST(test_axes) {
     ewa_canvas canvas = painting_make(720, 720, white);
     ewa_furniture_options options = no_furniture();
     options.axes = true;
@@ -131,7 +131,7 @@ static void test_axes(void **state) {
 }
 
 /// The colour bar has the colormap's colours, the last one at the top; a legend has those of its categories.
-static void test_colors(void **state) {
+TEST(test_colors) {
     ewa_canvas canvas = painting_make(1280, 720, white);
     const ewa_camera camera = map_camera(&canvas, 10);
     ewa_furniture_options options = no_furniture();
@@ -188,7 +188,7 @@ static double luminance(const uint8_t *pixel) {
 
 /// On any ground, given ink or not, all of the letters' ink has something near it that it can be told from: a contrast
 /// of 4.5 at least, as WCAG 2 asks of text.
-static void test_legible(void **state) {
+TEST(test_legible) {
     const uint8_t *const grounds[] = {black, white, grey};
     for (int ground = 0; ground < 3; ground++) {
         for (int ink = EWA_INK_AUTO; ink <= EWA_INK_LIGHT; ink++) {
@@ -233,7 +233,7 @@ static void test_legible(void **state) {
 }
 
 /// Titles that are too long end in dots, within the canvas, and in the middle of it.
-static void test_shorten(void **state) {
+TEST(test_shorten) {
     char text[EWA_LAYOUT_TEXT_BYTES];
     assert_true(ewa_layout_shorten("Short", 20, 500, text));
     assert_string_equal(text, "Short");
@@ -289,7 +289,7 @@ static ewa_furniture_options all_furniture(bool legend) {
 }
 
 /// Canvases of every shape: nothing beside them is written, and what has no room is left out.
-static void test_room(void **state) {
+TEST(test_room) {
     static const uint32_t sizes[][2] = {{1, 1},      {16, 16},    {1, 500},    {500, 1},
                                         {40, 30},    {64, 48},    {100, 80},   {160, 120},
                                         {200, 2000}, {2000, 200}, {320, 1200}, {3840, 2160}};
@@ -348,7 +348,7 @@ static found_bar find_bar(const ewa_canvas *canvas) {
 
 /// The colour bar stands on whole pixels at the right end of the room that its widest number leaves, and its ticks are
 /// where their numbers are, no nearer to each other than 30 points.
-static void test_color_bar_places(void **state) {
+TEST(test_color_bar_places) {
     static const double scales[] = {1, 1.3, 1.9}, ranges[][2] = {{0, 1}, {-3, 12}, {-1.7e308, 1.7e308}};
     for (uint32_t height = 250; height < 560; height += 31)
         for (int k = 0; k < 9; k++) {
@@ -390,7 +390,7 @@ static void test_color_bar_places(void **state) {
 }
 
 /// The ink of the scale bar is that of what is behind it, and of nothing else; it is no shorter than 20 points.
-static void test_scale_bar_ground(void **state) {
+TEST(test_scale_bar_ground) {
     for (int inside = 0; inside < 2; inside++) { // black under it, white around it, and the other way round
         ewa_canvas canvas = painting_make(1280, 720, inside ? white : black);
         const ewa_camera camera = map_camera(&canvas, 10); // a bar of 100 pixels, longer than its text
@@ -422,7 +422,7 @@ static void test_scale_bar_ground(void **state) {
 }
 
 /// Of a box about 64 pixels of a row and of a column are looked at: every third of 128.
-static void test_looks(void **state) {
+TEST(test_looks) {
     for (int rows = 0; rows < 2; rows++) {
         ewa_canvas canvas = painting_make(300, 300, white);
         ewa_furniture_options options = no_furniture();
@@ -439,7 +439,7 @@ static void test_looks(void **state) {
 }
 
 /// The title's ink is that of what is behind it; a legend stands on whole pixels, as far right as its texts let it.
-static void test_title_and_legend_places(void **state) {
+TEST(test_title_and_legend_places) {
     ewa_canvas canvas = painting_make(400, 100, white);
     ewa_camera camera = map_camera(&canvas, 1);
     ewa_furniture_options options = no_furniture();
@@ -477,7 +477,7 @@ static void test_title_and_legend_places(void **state) {
 }
 
 /// The scale bar is there where it and its text stay a margin away from the axes.
-static void test_scale_bar_beside_axes(void **state) {
+TEST(test_scale_bar_beside_axes) {
     int drawn_count = 0;
     for (uint32_t width = 212; width < 420; width += 8) {
         ewa_canvas canvas = painting_make(width, 500, white), alone = painting_make(width, 500, white);
@@ -504,7 +504,7 @@ static void test_scale_bar_beside_axes(void **state) {
 }
 
 /// One number as range, and one that is too narrow to be told apart: no ticks that lie, no crash.
-static void test_degenerate_ranges(void **state) {
+TEST(test_degenerate_ranges) {
     static const double ranges[][2] = {{5, 5},          {0, 0},           {1e16, 1e16 + 2},
                                        {-1e308, 1e308}, {5e-324, 1e-323}, {1e-310, 1}};
     for (size_t k = 0; k < sizeof ranges / sizeof ranges[0]; k++) {
@@ -522,7 +522,7 @@ static void test_degenerate_ranges(void **state) {
 }
 
 /// What the contract excludes is refused with the name of the member, and nothing is drawn.
-static void test_refused(void **state) {
+TEST(test_refused) {
     check_log log = {.count = 0};
     ewa_context *context = check_context(1, &log);
     ewa_canvas canvas = painting_make(640, 480, white), bare = painting_make(640, 480, white);
@@ -566,7 +566,7 @@ static void test_refused(void **state) {
 }
 
 /// The same bytes on every machine.
-static void test_golden(void **state) {
+TEST(test_golden) {
     static const uint64_t wanted[2] = {UINT64_C(0x63f8a141e555b726), UINT64_C(0xad321c233212d2e1)};
     for (int legend = 0; legend < 2; legend++) {
         ewa_canvas canvas = painting_make(900, 720, white);
@@ -586,22 +586,4 @@ static void test_golden(void **state) {
     }
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_scale_bar),
-        cmocka_unit_test(test_axes),
-        cmocka_unit_test(test_colors),
-        cmocka_unit_test(test_legible),
-        cmocka_unit_test(test_shorten),
-        cmocka_unit_test(test_room),
-        cmocka_unit_test(test_color_bar_places),
-        cmocka_unit_test(test_scale_bar_ground),
-        cmocka_unit_test(test_looks),
-        cmocka_unit_test(test_title_and_legend_places),
-        cmocka_unit_test(test_scale_bar_beside_axes),
-        cmocka_unit_test(test_degenerate_ranges),
-        cmocka_unit_test(test_refused),
-        cmocka_unit_test(test_golden),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -10,7 +10,7 @@ static const uint8_t white[4] = {255, 255, 255, 255}, orange[4] = {250, 120, 20,
 static const double pi = 3.14159265358979323846;
 
 /// A level line three pixels wide covers three rows, and nothing of those beside them.
-static void test_rows(void **state) {
+TEST(test_rows) {
     ewa_canvas canvas = painting_empty(100, 40);
     ewa_draw_line(&canvas, 10, 20.5, 90, 20.5, 3, white);
     for (uint32_t x = 12; x < 88; x++)
@@ -33,7 +33,7 @@ static void test_rows(void **state) {
 }
 
 /// In every direction a line covers its area: a rectangle and two halves of a disc.
-static void test_area(void **state) {
+TEST(test_area) {
     check_random random = {1};
     ewa_canvas canvas = painting_empty(300, 300);
     for (int k = 0; k < 200; k++) {
@@ -53,7 +53,7 @@ static void test_area(void **state) {
 }
 
 /// A rectangle covers its exact part of each pixel, whichever corners it is given by.
-static void test_rectangle(void **state) {
+TEST(test_rectangle) {
     ewa_canvas canvas = painting_empty(20, 20), other = painting_empty(20, 20);
     ewa_draw_rectangle(&canvas, 3.25, 4.5, 9.75, 12, white);
     ewa_draw_rectangle(&other, 9.75, 4.5, 3.25, 12, white);
@@ -77,7 +77,7 @@ static void test_rectangle(void **state) {
 }
 
 /// Colours are mixed in linear light, alpha stays straight, and what is covered whole has the very colour.
-static void test_blending(void **state) {
+TEST(test_blending) {
     ewa_canvas canvas = painting_make(10, 1, (const uint8_t[4]){0, 0, 0, 255});
     ewa_draw_rectangle(&canvas, 0, 0, 1.5, 1, white);
     assert_memory_equal(painting_at(&canvas, 0, 0), white, 4);
@@ -99,7 +99,7 @@ static void test_blending(void **state) {
 }
 
 /// What is not finite, too far, or no width leaves the canvas alone; what is near is clipped.
-static void test_hostile(void **state) {
+TEST(test_hostile) {
     static const double bad[] = {NAN, INFINITY, -INFINITY, 1e300, -1e300, 1.1e6};
     static const double bad_widths[] = {NAN, INFINITY, 0, -1, 1e9, 10001};
     ewa_canvas canvas = painting_empty(17, 5);
@@ -129,7 +129,7 @@ static void test_hostile(void **state) {
 }
 
 /// Rows are clipped to what the line can reach: the same as looking at every pixel.
-static void test_reach(void **state) {
+TEST(test_reach) {
     check_random random = {3};
     ewa_canvas canvas = painting_empty(50, 50);
     for (int k = 0; k < 500; k++) {
@@ -153,10 +153,4 @@ static void test_reach(void **state) {
     free(canvas.rgba8);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_rows),     cmocka_unit_test(test_area),    cmocka_unit_test(test_rectangle),
-        cmocka_unit_test(test_blending), cmocka_unit_test(test_hostile), cmocka_unit_test(test_reach),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -17,7 +17,7 @@ static const char *const signs[] = {"°", "±", "²", "³", "µ", "·", "×", "�
 enum { SIGNS = sizeof signs / sizeof signs[0], GOLDEN_SIGNS = 10 };
 
 /// The width of a text is the sum of its characters', in whole pixels.
-static void test_width(void **state) {
+TEST(test_width) {
     check_random random = {1};
     for (int k = 0; k < 2000; k++) {
         char text[41] = "";
@@ -38,7 +38,7 @@ static void test_width(void **state) {
 }
 
 /// Digits are of one width, so that numbers below each other stand in columns.
-static void test_digits(void **state) {
+TEST(test_digits) {
     for (double height = 4; height < 100; height += 0.7)
         for (char digit = '1'; digit <= '9'; digit++)
             assert_true(ewa_text_width_px((const char[]){digit, 0}, height) ==
@@ -46,7 +46,7 @@ static void test_digits(void **state) {
 }
 
 /// Upright and level strokes of small letters cover whole pixels; they stand on the baseline and 0.7 high.
-static void test_whole_pixels(void **state) {
+TEST(test_whole_pixels) {
     ewa_canvas canvas = painting_empty(60, 60);
     for (int height = 10; height <= 28; height++) {
         ewa_text_style style = plain;
@@ -74,7 +74,7 @@ static void test_whole_pixels(void **state) {
 }
 
 /// Letters that are symmetric are so on the pixels.
-static void test_symmetric(void **state) {
+TEST(test_symmetric) {
     for (double height = 6; height < 60; height += 1.3) {
         for (const char *c = "oAHIMOTUVWXYvwx018-+=|\".:*^_"; *c; c++) {
             if (*c == '1') continue;
@@ -105,7 +105,7 @@ static void test_symmetric(void **state) {
 }
 
 /// Every character is drawn, and no two alike but for the two signs of micro.
-static void test_letters_differ(void **state) {
+TEST(test_letters_differ) {
     enum { ALL = 94 + SIGNS + 1 };
     static const double heights[] = {10, 20, 40};
     for (int h = 0; h < 3; h++) {
@@ -130,7 +130,7 @@ static void test_letters_differ(void **state) {
 }
 
 /// A letter with a mark is the letter, as wide as without, and something above it, or below.
-static void test_marks(void **state) {
+TEST(test_marks) {
     static const struct {
         const char *marked, *bare;
         bool below;
@@ -163,7 +163,7 @@ static void test_marks(void **state) {
 }
 
 /// Paths are what font.h says, and lie within the letter's width and what text.c takes for its height.
-static void test_paths(void **state) {
+TEST(test_paths) {
     static const char digits[] = "0123456789abcdefghijklmnopqrstuvwxyz";
     for (uint32_t k = 0; k < 0x4200; k++) {
         bool raised;
@@ -196,7 +196,7 @@ static void check_codes(const char *text, const uint32_t *codes) {
 }
 
 /// Well-formed UTF-8 is read, each byte of what is not counts alone.
-static void test_utf8(void **state) {
+TEST(test_utf8) {
     enum { BAD = 0xffffffffu };
     check_codes("aµ…\xf0\x9f\x98\x80", (const uint32_t[]){'a', 0xb5, 0x2026, 0x1f600, 0});
     check_codes("\xff\x80", (const uint32_t[]){BAD, BAD, 0});
@@ -213,7 +213,7 @@ static void test_utf8(void **state) {
 }
 
 /// Where a text goes by each of its anchors.
-static void test_anchors(void **state) {
+TEST(test_anchors) {
     const double gap = 3, width = ewa_text_width_px("Hello", 20) - gap, high = 14;
     ewa_canvas wanted = painting_empty(200, 80), canvas = painting_empty(200, 80);
     ewa_draw_text(&wanted, "Hello", 50, 40, &plain);
@@ -234,7 +234,7 @@ static void test_anchors(void **state) {
 }
 
 /// A rim surrounds the letters evenly, and leaves their inside alone.
-static void test_rim(void **state) {
+TEST(test_rim) {
     ewa_text_style style = plain;
     style.height_px = 24;
     ewa_canvas bare = painting_empty(300, 60), rimmed = painting_empty(300, 60);
@@ -263,7 +263,7 @@ static void test_rim(void **state) {
 }
 
 /// Nothing is drawn of what has no size or no place; edges clip; long texts take no time off the canvas.
-static void test_hostile(void **state) {
+TEST(test_hostile) {
     static const double heights[] = {NAN, INFINITY, -INFINITY, 0, -10, 3.9, 1001, 1e300};
     ewa_canvas canvas = painting_empty(31, 17);
     for (size_t k = 0; k < sizeof heights / sizeof heights[0]; k++) {
@@ -300,7 +300,7 @@ static void test_hostile(void **state) {
 }
 
 /// Pixels do not depend on where the canvas lies in memory, nor on how it is cut off.
-static void test_same(void **state) {
+TEST(test_same) {
     ewa_text_style style = {22.5, {250, 240, 20, 230}, 7, {10, 20, 90, 160}, EWA_TEXT_LEFT};
     enum { WIDE = 211, HIGH = 60 };
     ewa_canvas whole = painting_make(WIDE, HIGH, (const uint8_t[4]){40, 90, 60, 255});
@@ -326,7 +326,7 @@ static void test_same(void **state) {
 }
 
 /// The same bytes on every machine: all letters in three sizes.
-static void test_golden(void **state) {
+TEST(test_golden) {
     static const double heights[] = {10, 14, 37};
     ewa_canvas canvas = painting_make(800, 260, (const uint8_t[4]){70, 130, 180, 255});
     double y = 20;
@@ -344,15 +344,4 @@ static void test_golden(void **state) {
     free(canvas.rgba8);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_width),          cmocka_unit_test(test_digits),
-        cmocka_unit_test(test_whole_pixels),   cmocka_unit_test(test_symmetric),
-        cmocka_unit_test(test_letters_differ), cmocka_unit_test(test_paths),
-        cmocka_unit_test(test_marks),          cmocka_unit_test(test_utf8),
-        cmocka_unit_test(test_anchors),        cmocka_unit_test(test_rim),
-        cmocka_unit_test(test_hostile),        cmocka_unit_test(test_same),
-        cmocka_unit_test(test_golden),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

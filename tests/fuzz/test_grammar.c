@@ -48,7 +48,7 @@ static bool is_xml(const uint8_t *bytes, size_t size_bytes) {
 }
 
 /// Of edits that leave the length of a GLB's header as it was in relation to the bytes, most are of JSON.
-static void glb(void **state) {
+TEST(glb) {
     static uint8_t original[ROOM], bytes[ROOM];
     const size_t original_bytes = load("gaussians/degree1.glb", original);
     int whole_count = 0, huge_count = 0, changed_count = 0;
@@ -85,7 +85,7 @@ static void stays_whole(const char *name, bool (*is_whole)(uint8_t *bytes, size_
     assert_true(whole_count > SEEDS * 3 / 4);
 }
 
-static void json(void **state) {
+TEST(json) {
     stays_whole("camera/transforms", is_json);
     stays_whole("camera/open3d", is_json);
     stays_whole("scene/saved", is_json);
@@ -102,7 +102,7 @@ static bool is_e57(uint8_t *bytes, size_t size_bytes) {
     return whole;
 }
 
-static void e57(void **state) { stays_whole("e57/scans.e57", is_e57); }
+TEST(e57) { stays_whole("e57/scans.e57", is_e57); }
 
 /// Whether the directory of an archive whose meta.json is stored leads to it, however long it became.
 static bool is_zip(uint8_t *bytes, size_t size_bytes) {
@@ -122,10 +122,10 @@ static bool is_zip(uint8_t *bytes, size_t size_bytes) {
     return true;
 }
 
-static void zip(void **state) { stays_whole("gaussians/sog_stored", is_zip); }
+TEST(zip) { stays_whole("gaussians/sog_stored", is_zip); }
 
 /// Every kind of file: the same seed is the same edit, and no byte beyond the room is touched.
-static void bounds(void **state) {
+TEST(bounds) {
     static uint8_t original[ROOM];
     static const char *const names[] = {"gaussians/degree1.glb", "gaussians/sog", "e57/short.e57",     "ept/parts",
                                         "las/format_6.laz",      "ply/ascii",     "camera/colmap_text", "camera/colmap_binary",
@@ -147,9 +147,4 @@ static void bounds(void **state) {
     }
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(glb), cmocka_unit_test(json), cmocka_unit_test(e57), cmocka_unit_test(zip), cmocka_unit_test(bounds),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

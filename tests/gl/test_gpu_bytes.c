@@ -41,7 +41,7 @@ static void draw(ewa_renderer *renderer, ewa_surfels *const *parts, const char *
     assert_int_equal(ewa_render_finish(renderer, NULL), EWA_OK);
 }
 
-static void test_division_has_no_say(void **state) {
+TEST(test_division_has_no_say) {
     static const char *const tunings[][2] = {{"tile_px=8 unit=1 page=3", "tile_px=16 storage=4500000"},
                                              {"tile_px=4 unit=7 page=100", "tile_px=16 unit=5000"},
                                              {"tile_px=16 unit=100 page=7", "storage=4500000"}};
@@ -74,7 +74,7 @@ static void test_division_has_no_say(void **state) {
     ewa_context_destroy(&context);
 }
 
-static void test_pixels_of_parts(void **state) {
+TEST(test_pixels_of_parts) {
     enum { SMALL_PX = 40 };
     ewa_context *context = check_context(0, NULL);
     picture expected = picture_make(SMALL_PX, SMALL_PX), found = picture_make(SMALL_PX, SMALL_PX);
@@ -100,7 +100,7 @@ static void test_pixels_of_parts(void **state) {
     ewa_context_destroy(&context);
 }
 
-static void test_order_has_no_say(void **state) {
+TEST(test_order_has_no_say) {
     static const scene_kind kinds[] = {SCENE_SPHERE, SCENE_CUBE, SCENE_TORUS};
     ewa_context *context = check_context(0, NULL);
     picture expected = picture_make(WIDTH_PX, HEIGHT_PX), found = picture_make(WIDTH_PX, HEIGHT_PX);
@@ -140,7 +140,7 @@ static void test_order_has_no_say(void **state) {
 }
 
 /// Surfels that are freed and made again at the same address are other surfels.
-static void test_surfels_come_and_go(void **state) {
+TEST(test_surfels_come_and_go) {
     ewa_context *context = check_context(0, NULL);
     picture expected = picture_make(WIDTH_PX, HEIGHT_PX), found = picture_make(WIDTH_PX, HEIGHT_PX);
     ewa_renderer *cpu = NULL, *gl = open_tuned(context, "");
@@ -174,11 +174,5 @@ int main(void) {
         printf("skipped: no device that draws by OpenGL 4.3\n");
         return 77;
     }
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_division_has_no_say),
-        cmocka_unit_test(test_pixels_of_parts),
-        cmocka_unit_test(test_order_has_no_say),
-        cmocka_unit_test(test_surfels_come_and_go),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return RUN_TESTS(NULL, NULL);
 }

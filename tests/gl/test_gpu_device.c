@@ -25,7 +25,7 @@ static ewa_gl_verdict try_arithmetic(const char *text) {
 }
 
 /// Emulation gives the bits of the processor where a device's own operations do not; without it, it is only close.
-static void test_classes(void **state) {
+TEST(test_classes) {
     const ewa_gl_verdict own = try_arithmetic(""), emulated = try_arithmetic("arith=emulated"),
                          close = try_arithmetic("arith=close");
     assert_true(emulated.exact && !emulated.differs);
@@ -44,7 +44,7 @@ static void test_classes(void **state) {
 }
 
 /// Arithmetic that rounds otherwise: at least 60 dB, and at most one pixel in 10^5 off by more than a level.
-static void test_close_pictures(void **state) {
+TEST(test_close_pictures) {
     enum { SIDE_PX = GPU_MAX_PX };
     static uint8_t planes[2][4 * SIDE_PX * SIDE_PX];
     tune("arith=close");
@@ -85,7 +85,7 @@ static long resident_kib(void) {
 }
 
 /// A thousand sizes: no error of OpenGL, and no more memory than the largest takes.
-static void test_resizes(void **state) {
+TEST(test_resizes) {
     enum { SIZES = 1000, WARM = 100, MAX_PX = 40, ALLOWED_KIB = 24 << 10 };
     static uint8_t rgba8[4 * MAX_PX * MAX_PX];
     gpu_scene at;
@@ -111,7 +111,7 @@ static void test_resizes(void **state) {
 }
 
 /// A hundred renderers, each with its device, programs and surfels.
-static void test_creations(void **state) {
+TEST(test_creations) {
     enum { RENDERERS = 100, WARM = 20, SIDE_PX = 16, ALLOWED_KIB = 64 << 10 };
     static uint8_t rgba8[4 * SIDE_PX * SIDE_PX];
     check_memory memory = {.calls_left = -1};
@@ -140,7 +140,7 @@ static void test_creations(void **state) {
 }
 
 /// A context of the caller's own stays current.
-static void test_outside_stays(void **state) {
+TEST(test_outside_stays) {
     tune("");
     ewa_context *context = check_context(1, NULL);
     ewa_gl *outside = NULL;
@@ -166,10 +166,5 @@ static void test_outside_stays(void **state) {
 int main(void) {
     enum { SKIPPED = 77 };
     if (!gpu_there()) return SKIPPED;
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_classes),       cmocka_unit_test(test_close_pictures),
-        cmocka_unit_test(test_resizes),       cmocka_unit_test(test_creations),
-        cmocka_unit_test(test_outside_stays),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return RUN_TESTS(NULL, NULL);
 }

@@ -148,7 +148,7 @@ static void hold(const char *what, const ewa_surfels *surfels, const view *of) {
     compare(what, of->floats);
 }
 
-static void test_kernels(void **state) {
+TEST(test_kernels) {
     if (!shared.raster) skip();
     static const char *const names[] = {"perspective", "affine", "source", "circular", "raycast"};
     ewa_bounds bounds;
@@ -171,7 +171,7 @@ static void test_kernels(void **state) {
     ewa_surfels_destroy(&surfels);
 }
 
-static void test_options(void **state) {
+TEST(test_options) {
     if (!shared.raster) skip();
     ewa_bounds bounds;
     ewa_surfels *surfels = make_surfels(EWA_OBJECT_TERRAIN, false, &bounds);
@@ -198,7 +198,7 @@ static void test_options(void **state) {
     ewa_surfels_destroy(&surfels);
 }
 
-static void test_lines(void **state) {
+TEST(test_lines) {
     if (!shared.raster) skip();
     ewa_bounds bounds;
     ewa_surfels *surfels = make_surfels(EWA_OBJECT_CSG, true, &bounds);
@@ -219,7 +219,7 @@ static void test_lines(void **state) {
 }
 
 /// Several sources of different weights; rows of a picture that is drawn in bands are those of the whole.
-static void test_sources_and_bands(void **state) {
+TEST(test_sources_and_bands) {
     if (!shared.raster) skip();
     ewa_bounds bounds;
     ewa_surfels *surfels[2] = {make_surfels(EWA_OBJECT_CUBE, false, &bounds),
@@ -254,7 +254,7 @@ static void test_sources_and_bands(void **state) {
 }
 
 /// Three materials, highlights and what mirrors.
-static void test_materials(void **state) {
+TEST(test_materials) {
     if (!shared.raster) skip();
     enum { SKY_HEIGHT = 32, SKY_WIDTH = 2 * SKY_HEIGHT, MATERIALS = 3 };
     static float sky[3 * SKY_WIDTH * SKY_HEIGHT];
@@ -296,7 +296,7 @@ static void test_materials(void **state) {
 }
 
 /// What is wider than any device's pictures is refused, with a reason; the renderer goes on.
-static void test_refusal(void **state) {
+TEST(test_refusal) {
     if (!shared.raster) skip();
     enum { WIDE = 65535 };
     ewa_bounds bounds;
@@ -348,7 +348,7 @@ static object_counts count_objects(void) {
 }
 
 /// Other sizes and options leave no objects behind.
-static void test_objects(void **state) {
+TEST(test_objects) {
     if (!shared.raster) skip();
     enum { TURNS = 61, WARM = 30 };
     ewa_renderer *renderer = NULL;
@@ -374,12 +374,4 @@ static void test_objects(void **state) {
     ewa_surfels_destroy(&surfels);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_kernels),   cmocka_unit_test(test_options),
-        cmocka_unit_test(test_lines),     cmocka_unit_test(test_sources_and_bands),
-        cmocka_unit_test(test_materials), cmocka_unit_test(test_refusal),
-        cmocka_unit_test(test_objects),
-    };
-    return cmocka_run_group_tests(tests, set_up, tear_down);
-}
+int main(void) { return RUN_TESTS(set_up, tear_down); }

@@ -133,7 +133,7 @@ static const char *run(const wrong_call *wrong, char text[128]) {
     return text;
 }
 
-static void test_no_wrong_argument_ends_the_process(void **state) {
+TEST(test_no_wrong_argument_ends_the_process) {
     char folder[] = "/tmp/ewa-wrong-arguments-XXXXXX";
     assert_true(mkdtemp(folder) && chdir(folder) == 0);
     ewa_context_options options;
@@ -157,7 +157,4 @@ static void test_no_wrong_argument_ends_the_process(void **state) {
     assert_int_equal(failed, 0);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_no_wrong_argument_ends_the_process)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -26,7 +26,7 @@ static void expect(const char *what, double value, double low, double high) {
 }
 
 /// A tree in noisy air, whatever the noise, with and without zeros around it.
-static void test_bonsai(void **state) {
+TEST(test_bonsai) {
     static const phantom_scan scans[] = {
         {12, 5, true}, {12, 5, false}, {14, 7, true}, {2, 1, false}, {30, 5, true}};
     ewa_context *context = check_context(1, NULL);
@@ -50,7 +50,7 @@ static void test_bonsai(void **state) {
 }
 
 /// A nut in a cup: the cup is left out.
-static void test_walnut(void **state) {
+TEST(test_walnut) {
     static const struct {
         phantom_scan scan;
         double cup, thick, shell, kernel;
@@ -77,7 +77,7 @@ static void test_walnut(void **state) {
 
 /// A head in computed tomography: skin and bone, the one through the other. In magnetic resonance, where bone
 /// is dark, the skin is solid.
-static void test_heads(void **state) {
+TEST(test_heads) {
     ewa_context *context = check_context(1, NULL);
     phantom scene = phantom_make(4);
     phantom_add_head(&scene, 70, 72, 170);
@@ -111,7 +111,7 @@ static void test_heads(void **state) {
 }
 
 /// The same look of the same matter: turned, mirrored, in other numbers, with a few that are far off or none.
-static void test_same_look(void **state) {
+TEST(test_same_look) {
     ewa_context *context = check_context(1, NULL);
     phantom scene = phantom_make(12);
     phantom_add_bonsai(&scene, 60, 80, 100, 140);
@@ -159,7 +159,7 @@ static void test_same_look(void **state) {
 }
 
 /// Whatever comes, there is a look, and it shows something where there is something.
-static void test_odd_volumes(void **state) {
+TEST(test_odd_volumes) {
     static const uint32_t sizes[][3] = {{1, 1, 2},   {2, 1, 1}, {27, 1, 1},   {1, 9, 3},
                                         {64, 64, 1}, {5, 5, 5}, {40, 3, 2000}};
     ewa_context *context = check_context(1, NULL);
@@ -197,7 +197,7 @@ static void test_odd_volumes(void **state) {
 }
 
 /// Volumes that are filled to their faces show their denser half.
-static void test_full_volume(void **state) {
+TEST(test_full_volume) {
     ewa_context *context = check_context(1, NULL);
     phantom scene = phantom_make(40);
     for (int i = 0; i < PHANTOM_VOXELS; i++)
@@ -215,7 +215,7 @@ static void test_full_volume(void **state) {
 
 /// Nearly all voxels have the value next to the highest, and the lowest is in a row that is not looked at: no
 /// class begins above the last threshold.
-static void test_highest_class(void **state) {
+TEST(test_highest_class) {
     enum { SIDE = 128 };
     ewa_context *context = check_context(1, NULL);
     const uint32_t dims[3] = {SIDE, SIDE, SIDE};
@@ -234,7 +234,7 @@ static void test_highest_class(void **state) {
 
 /// A look along one column of voxels, from its two ends: three voxels in front hide, two do not; a gap of
 /// three parts, one of two does not. Across, lines are too short to meet anything.
-static void test_sight(void **state) {
+TEST(test_sight) {
     static const struct {
         const char *column; // o: outer, i: inner, anything else: neither
         double hit, hidden, apart;
@@ -266,12 +266,4 @@ static void test_sight(void **state) {
     ewa_context_destroy(&context);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_bonsai),        cmocka_unit_test(test_walnut),
-        cmocka_unit_test(test_heads),         cmocka_unit_test(test_same_look),
-        cmocka_unit_test(test_odd_volumes),   cmocka_unit_test(test_full_volume),
-        cmocka_unit_test(test_highest_class), cmocka_unit_test(test_sight),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -87,7 +87,7 @@ static void fill_labels(ewa_volume *volume, bool body) {
 }
 
 /// The colour of its class for each label, whatever the type; what is around all others lets them be seen.
-static void test_labels(void **state) {
+TEST(test_labels) {
     static const ewa_type types[] = {EWA_U8, EWA_I16, EWA_F32};
     ewa_context *context = check_context(1, NULL);
     for (int n = 0; n < 6; n++) {
@@ -117,7 +117,7 @@ static void test_labels(void **state) {
 }
 
 /// Things that are no labels: a ball in few steps, two values, a scan without noise.
-static void test_no_labels(void **state) {
+TEST(test_no_labels) {
     ewa_context *context = check_context(1, NULL);
     ewa_volume volume = make_volume(context, EWA_U8);
     uint8_t *voxels = volume.voxels;
@@ -152,7 +152,7 @@ static double depth_along(const ewa_volume *volume, const ewa_transfer *transfer
 
 /// A hydrogen atom, |3d z2|^2: two lobes, and a ring of a quarter of their density, are seen; what is far off is not. The
 /// same in other units.
-static void test_field(void **state) {
+TEST(test_field) {
     ewa_context *context = check_context(1, NULL);
     ewa_volume volume = make_volume(context, EWA_F32);
     float *numbers = volume.voxels;
@@ -180,7 +180,7 @@ static void test_field(void **state) {
 }
 
 /// Fields that reach the faces of the box have shells, too.
-static void test_full_field(void **state) {
+TEST(test_full_field) {
     ewa_context *context = check_context(1, NULL);
     ewa_volume volume = make_volume(context, EWA_F32);
     for (int i = 0; i < ALL; i++) {
@@ -199,7 +199,7 @@ static void test_full_field(void **state) {
 }
 
 /// One slice along any axis: greys that become lighter, all of it solid.
-static void test_picture(void **state) {
+TEST(test_picture) {
     ewa_context *context = check_context(1, NULL);
     for (int axis = 0; axis < 3; axis++) {
         uint32_t dims[3] = {SIDE, SIDE, SIDE};
@@ -228,7 +228,7 @@ static void test_picture(void **state) {
 }
 
 /// Noise is told of, and scans with noise are not.
-static void test_noise(void **state) {
+TEST(test_noise) {
     check_log log = {.count = 0};
     ewa_context *context = check_context(1, &log);
     ewa_volume volume = make_volume(context, EWA_U8);
@@ -253,7 +253,7 @@ static void test_noise(void **state) {
 }
 
 /// A nut packed in foam in a cup: lines of sight pass much of the foam, which lets the nut be seen.
-static void test_packed(void **state) {
+TEST(test_packed) {
     ewa_context *context = check_context(1, NULL);
     phantom scene = phantom_make(12);
     phantom_add_walnut(&scene, 60, 3, false, 150, 110);
@@ -275,11 +275,4 @@ static void test_packed(void **state) {
     ewa_context_destroy(&context);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_labels),     cmocka_unit_test(test_no_labels), cmocka_unit_test(test_field),
-        cmocka_unit_test(test_full_field), cmocka_unit_test(test_picture),   cmocka_unit_test(test_noise),
-        cmocka_unit_test(test_packed),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

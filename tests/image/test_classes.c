@@ -6,7 +6,7 @@
 
 #include <math.h>
 
-static void test_names(void **state) {
+TEST(test_names) {
     static const struct {
         uint32_t code;
         const char *name;
@@ -29,7 +29,7 @@ static void test_names(void **state) {
 }
 
 /// What the classes are called is what they look like.
-static void test_known_colors(void **state) {
+TEST(test_known_colors) {
     uint8_t ground[3], tree[3], building[3], water[3];
     ewa_class_color(2, ground), ewa_class_color(5, tree), ewa_class_color(6, building),
         ewa_class_color(9, water);
@@ -46,7 +46,7 @@ static double distance(const uint8_t a[3], const uint8_t b[3]) {
 }
 
 /// Known classes are told apart, and so are any twelve codes in a row beyond; of the first 120 no two are alike.
-static void test_apart(void **state) {
+TEST(test_apart) {
     for (uint32_t i = 0; i < 400; i++) {
         for (uint32_t j = i < 19 ? 0 : i < 31 ? 19 : i - 12; j < i; j++) {
             uint8_t a[3], b[3];
@@ -67,8 +67,4 @@ static void test_apart(void **state) {
     assert_true(last[0] > 60 || last[1] > 60 || last[2] > 60);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_names), cmocka_unit_test(test_known_colors),
-                                       cmocka_unit_test(test_apart)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -15,7 +15,7 @@ static const ewa_colormap maps[] = {
 enum { MAPS = sizeof maps / sizeof maps[0] };
 
 /// Colours of the published tables, exact at their places: first, entry 128, last.
-static void test_known(void **state) {
+TEST(test_known) {
     static const struct {
         ewa_colormap map;
         uint8_t rgb[3][3];
@@ -40,7 +40,7 @@ static void test_known(void **state) {
 
 /// Moreland's own table of "cool to warm" (33 places) at its ends, quarters and middle. Published rounded,
 /// from another conversion to XYZ: within 4.
-static void test_coolwarm(void **state) {
+TEST(test_coolwarm) {
     static const int anchors[5][3] = {
         {59, 76, 192}, {141, 176, 254}, {221, 221, 221}, {244, 154, 123}, {180, 4, 38}};
     for (int k = 0; k < 5; k++) {
@@ -61,7 +61,7 @@ static double lightness(ewa_colormap map, double number) {
 }
 
 /// Sequential maps get lighter all the way, evenly; coolwarm rises to its middle and falls from there.
-static void test_lightness(void **state) {
+TEST(test_lightness) {
     for (int k = 0; k < MAPS; k++) {
         if (maps[k] == EWA_COLORMAP_TURBO) continue;
         const double low = lightness(maps[k], 0), high = lightness(maps[k], 1);
@@ -76,7 +76,7 @@ static void test_lightness(void **state) {
 }
 
 /// No jumps, and clamped outside of [0, 1].
-static void test_smooth(void **state) {
+TEST(test_smooth) {
     for (int map = 0; map < MAPS; map++) {
         uint8_t last[3], next[3], end[3];
         ewa_colormap_color(maps[map], 0, last);
@@ -94,8 +94,4 @@ static void test_smooth(void **state) {
     }
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_known), cmocka_unit_test(test_coolwarm),
-                                       cmocka_unit_test(test_lightness), cmocka_unit_test(test_smooth)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

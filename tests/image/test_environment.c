@@ -30,7 +30,7 @@ static float constant(uint32_t x, uint32_t y, uint32_t channel) {
     return 0.1f + (float)channel;
 }
 
-static void test_constants_stay(void **state) {
+TEST(test_constants_stay) {
     static const uint32_t sizes[][2] = {{1, 1}, {2, 1}, {64, 32}, {37, 21}, {5, 40}, {100, 3}};
     ewa_context *context = check_context(1, NULL);
     for (size_t i = 0; i < sizeof sizes / sizeof sizes[0]; i++)
@@ -70,7 +70,7 @@ static double mean_of(const ewa_environment_level *level) {
     return sum / area;
 }
 
-static void test_levels_keep_the_mean(void **state) {
+TEST(test_levels_keep_the_mean) {
     ewa_context *context = check_context(1, NULL);
     ewa_environment *made = make(context, 96, 48, 3, noise);
     const double mean = mean_of(&made->levels[0]);
@@ -87,7 +87,7 @@ static float lone_texel(uint32_t x, uint32_t y, uint32_t channel) {
     return (x == 10 && y == 0) || (x == 40 && y == 16);
 }
 
-static void test_texels_are_round(void **state) {
+TEST(test_texels_are_round) {
     enum { WIDTH = 64, HEIGHT = 32 };
     ewa_context *context = check_context(1, NULL);
     ewa_environment *made = make(context, WIDTH, HEIGHT, 1, lone_texel);
@@ -112,7 +112,7 @@ static float wild(uint32_t x, uint32_t y, uint32_t channel) {
     return values[(x + y + channel) % 6];
 }
 
-static void test_wild_numbers(void **state) {
+TEST(test_wild_numbers) {
     check_log log = {0};
     ewa_context *context = check_context(1, &log);
     ewa_environment *made = make(context, 12, 6, 3, wild);
@@ -134,12 +134,4 @@ static void test_wild_numbers(void **state) {
     ewa_context_destroy(&context);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_constants_stay),
-        cmocka_unit_test(test_levels_keep_the_mean),
-        cmocka_unit_test(test_texels_are_round),
-        cmocka_unit_test(test_wild_numbers),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

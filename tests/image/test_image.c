@@ -8,7 +8,7 @@
 #include <math.h>
 #include <string.h>
 
-static void test_create_and_free(void **state) {
+TEST(test_create_and_free) {
     check_log log = {0};
     ewa_context *context = check_context(1, &log);
     ewa_image image;
@@ -26,7 +26,7 @@ static void test_create_and_free(void **state) {
 }
 
 /// What many tests measure with.
-static void test_difference(void **state) {
+TEST(test_difference) {
     ewa_context *context = check_context(1, NULL);
     ewa_image a, b, c;
     assert_int_equal(ewa_image_create(context, 2, 2, 3, &a), EWA_OK);
@@ -56,10 +56,4 @@ static void test_difference(void **state) {
     ewa_context_destroy(&context);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_create_and_free),
-        cmocka_unit_test(test_difference),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

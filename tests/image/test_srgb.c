@@ -15,7 +15,7 @@ static double decode_by_pow(double srgb) {
     return srgb <= 0.04045 ? srgb / 12.92 : pow((srgb + 0.055) / 1.055, 2.4);
 }
 
-static void test_thresholds_are_where_the_code_changes(void **state) {
+TEST(test_thresholds_are_where_the_code_changes) {
     for (int code = 1; code < 256; code++) {
         const float threshold = ewa_srgb_threshold[code], before = nextafterf(threshold, 0);
         const double exact = decode_by_pow((code - 0.5) / 255);
@@ -25,7 +25,7 @@ static void test_thresholds_are_where_the_code_changes(void **state) {
     }
 }
 
-static void test_eight_bits_everywhere(void **state) {
+TEST(test_eight_bits_everywhere) {
     union {
         uint32_t bits;
         float value;
@@ -42,7 +42,7 @@ static void test_eight_bits_everywhere(void **state) {
     }
 }
 
-static void test_outside_is_clamped(void **state) {
+TEST(test_outside_is_clamped) {
     assert_int_equal(ewa_srgb8_from_linear(NAN), 0);
     assert_int_equal(ewa_srgb8_from_linear(-INFINITY), 0);
     assert_int_equal(ewa_srgb8_from_linear(-0.0f), 0);
@@ -54,7 +54,7 @@ static void test_outside_is_clamped(void **state) {
                 ewa_linear_from_srgb(NAN) == 0);
 }
 
-static void test_codes_survive_the_round_trip(void **state) {
+TEST(test_codes_survive_the_round_trip) {
     for (int code = 0; code < 256; code++) {
         assert_int_equal(ewa_srgb8_from_linear(ewa_srgb_decoded[code]), code);
         assert_true(ewa_srgb_decoded[code] == (float)decode_by_pow(code / 255.0));
@@ -62,7 +62,7 @@ static void test_codes_survive_the_round_trip(void **state) {
     }
 }
 
-static void test_curve_matches_pow(void **state) {
+TEST(test_curve_matches_pow) {
     for (int i = 0; i <= 1000000; i++) {
         const double x = i / 1e6;
         if (fabs(ewa_srgb_encode(x) - encode_by_pow(x)) > 1e-15) fail_msg("encode(%.6f)", x);
@@ -73,13 +73,4 @@ static void test_curve_matches_pow(void **state) {
     assert_true(fabs((double)ewa_linear_from_srgb(128 / 255.0f) - 0.2158605) < 1e-6);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_thresholds_are_where_the_code_changes),
-        cmocka_unit_test(test_eight_bits_everywhere),
-        cmocka_unit_test(test_outside_is_clamped),
-        cmocka_unit_test(test_codes_survive_the_round_trip),
-        cmocka_unit_test(test_curve_matches_pow),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -181,7 +181,7 @@ static void hold_scene(ewa_context *context, uint64_t seed, random_scene *made) 
     planes_free(&other);
 }
 
-static void test_random(void **state) {
+TEST(test_random) {
     ewa_context *context = check_context(0, NULL);
     for (uint64_t seed = 0; seed < EWA_RANDOM_SCENES; seed++) {
         random_scene made;
@@ -192,7 +192,7 @@ static void test_random(void **state) {
     ewa_context_destroy(&context);
 }
 
-static void test_named(void **state) {
+TEST(test_named) {
     ewa_context *context = check_context(0, NULL);
     random_scene made;
     for (uint32_t i = 0; named_scene_make(context, i, &made); i++) {
@@ -202,7 +202,4 @@ static void test_named(void **state) {
     ewa_context_destroy(&context);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_random), cmocka_unit_test(test_named)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -51,7 +51,7 @@ static double hold(ewa_context *context, const char *set, uint64_t number, rando
     return pipeline->color_db;
 }
 
-static void test_random(void **state) {
+TEST(test_random) {
     ewa_context *context = check_context(0, NULL);
     double pipeline[SCENES];
     for (uint64_t i = 0; i < SCENES; i++) {
@@ -66,7 +66,7 @@ static void test_random(void **state) {
     ewa_context_destroy(&context);
 }
 
-static void test_named(void **state) {
+TEST(test_named) {
     ewa_context *context = check_context(0, NULL);
     random_scene made;
     for (uint32_t i = 0; named_scene_make(context, i, &made); i++) {
@@ -77,7 +77,7 @@ static void test_named(void **state) {
 }
 
 /// The scale must not read zero where something is wrong.
-static void test_distance(void **state) {
+TEST(test_distance) {
     ewa_context *context = check_context(0, NULL);
     random_scene made;
     random_scene_make(context, 1, &made);
@@ -113,11 +113,4 @@ static void test_distance(void **state) {
     ewa_context_destroy(&context);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_distance),
-        cmocka_unit_test(test_random),
-        cmocka_unit_test(test_named),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -21,6 +21,6 @@ static inline int end(void **state) {
 }
 
 /// A case with a context of its own.
-#define CASE(f) cmocka_unit_test_setup_teardown(f, begin, end)
+#define CASE(name) TEST_WITHIN(name, begin, end)
 
 #endif

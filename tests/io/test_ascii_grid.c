@@ -7,7 +7,7 @@
 #define HEAD "ncols 3\nnrows 2\nxllcorner 100\nyllcorner 50\ncellsize 10\n"
 
 /// Rows from the north, points in the middles of cells, none where there is no height.
-static void test_places(void **state) {
+TEST_WITHIN(test_places, set_up, tear_down) {
     ewa_cloud *cloud = rows_load(HEAD "NODATA_value -1\n1 2 3\n4 -1.0 6.5\n");
     rows_expect(cloud, 5, "position");
     rows_find(cloud, EWA_POSITION, EWA_F64, 3);
@@ -34,7 +34,7 @@ static void test_places(void **state) {
 }
 
 /// Degrees with heights in metres, which slopes tell, become metres; of marks and gentle slopes nothing is said.
-static void test_degrees(void **state) {
+TEST_WITHIN(test_degrees, set_up, tear_down) {
     ewa_cloud *cloud = rows_load("ncols 3\nnrows 2\nxllcorner 7\nyllcorner 49.99\ncellsize 0.01\n"
                                  "-9999 200 230\n190 -9999 250\n");
     rows_expect(cloud, 4, "position");
@@ -51,7 +51,7 @@ static void test_degrees(void **state) {
     ewa_cloud_destroy(&cloud);
 }
 
-static void test_refused(void **state) {
+TEST_WITHIN(test_refused, set_up, tear_down) {
     static const struct {
         const char *text, *said;
     } files[] = {
@@ -71,7 +71,7 @@ static void test_refused(void **state) {
     for (size_t i = 0; i < sizeof files / sizeof files[0]; i++) rows_refuse(files[i].text, files[i].said);
 }
 
-static void test_keep_going(void **state) {
+TEST_WITHIN(test_keep_going, set_up, tear_down) {
     ewa_cloud_load_options options;
     ewa_cloud_load_options_init(&options, sizeof options);
     options.keep_going = true;
@@ -86,7 +86,7 @@ static void test_keep_going(void **state) {
 }
 
 /// Cut anywhere it is refused, but within the last number, which only is a shorter one.
-static void test_truncation(void **state) {
+TEST_WITHIN(test_truncation, set_up, tear_down) {
     const char *text = HEAD "1 2 3\n4 5 678\n";
     const size_t length = strlen(text);
     for (size_t cut = 0; cut < length; cut++) {
@@ -105,7 +105,7 @@ static void test_truncation(void **state) {
 }
 
 /// Piece by piece as at once.
-static void test_pieces(void **state) {
+TEST_WITHIN(test_pieces, set_up, tear_down) {
     char path[512];
     FILE *file = fopen(scratch_path("pieces.asc", path), "wb");
     assert_non_null(file);
@@ -130,14 +130,4 @@ static void test_pieces(void **state) {
     assert_string_equal(ewa_model_format_name(format), "ASCII grid");
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(test_places, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(test_degrees, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(test_refused, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(test_keep_going, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(test_truncation, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(test_pieces, set_up, tear_down),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -58,7 +58,7 @@ static ewa_status load_text(ewa_context *context, const char *text, uint32_t ind
     return ewa_camera_load(context, path, index, camera);
 }
 
-static void test_every_format_gives_the_same_camera(void **state) {
+TEST(test_every_format_gives_the_same_camera) {
     ewa_context *context = check_context(1, NULL);
     ewa_camera camera;
     const char *const texts[] = {NATIVE, OPEN3D, TRANSFORMS, STACKS};
@@ -76,7 +76,7 @@ static void test_every_format_gives_the_same_camera(void **state) {
 }
 
 /// Open3D has pixel centres at whole numbers: what it calls the middle of its pictures is the middle of ours.
-static void test_open3d_middle(void **state) {
+TEST(test_open3d_middle) {
     ewa_context *context = check_context(1, NULL);
     ewa_camera camera;
     char text[600];
@@ -90,7 +90,7 @@ static void test_open3d_middle(void **state) {
 }
 
 /// A lens comes from every format, without the pose, and from Open3D's file of a lens alone.
-static void test_lens(void **state) {
+TEST(test_lens) {
     check_log log = {0};
     ewa_context *context = check_context(1, &log);
     static const char alone[] =
@@ -126,7 +126,7 @@ static void test_lens(void **state) {
     ewa_context_destroy(&context);
 }
 
-static void test_many_cameras(void **state) {
+TEST(test_many_cameras) {
     check_log log = {0};
     ewa_context *context = check_context(1, &log);
     char path[512], text[2000];
@@ -147,7 +147,7 @@ static void test_many_cameras(void **state) {
     ewa_context_destroy(&context);
 }
 
-static void test_round_trip_is_exact(void **state) {
+TEST(test_round_trip_is_exact) {
     ewa_context *context = check_context(1, NULL);
     char path[512];
     scratch_path("saved.json", path);
@@ -173,7 +173,7 @@ static void test_round_trip_is_exact(void **state) {
     ewa_context_destroy(&context);
 }
 
-static void test_transforms_lens(void **state) {
+TEST(test_transforms_lens) {
     check_log log = {0};
     ewa_context *context = check_context(1, &log);
     ewa_camera camera;
@@ -222,7 +222,7 @@ static void test_transforms_lens(void **state) {
     ewa_context_destroy(&context);
 }
 
-static void test_messages_name_the_member(void **state) {
+TEST(test_messages_name_the_member) {
     static const struct {
         const char *text, *said;
     } cases[] = {
@@ -311,7 +311,7 @@ static void test_messages_name_the_member(void **state) {
     ewa_context_destroy(&context);
 }
 
-static void test_every_truncation_is_refused(void **state) {
+TEST(test_every_truncation_is_refused) {
     check_log log = {0};
     ewa_context *context = check_context(1, &log);
     const char *const texts[] = {NATIVE, OPEN3D, TRANSFORMS, INRIA, STACKS, CAMERA_PATH};
@@ -344,7 +344,7 @@ static void receive(void *user, uint32_t index, const ewa_camera *camera) {
 }
 
 /// A list that was written comes back bit by bit, in order; a broken file hands over nothing.
-static void test_list(void **state) {
+TEST(test_list) {
     ewa_context *context = check_context(1, NULL);
     char path[512];
     scratch_path("list.json", path);
@@ -373,7 +373,7 @@ static void test_list(void **state) {
     ewa_context_destroy(&context);
 }
 
-static void test_refuses_to_write_nonsense(void **state) {
+TEST(test_refuses_to_write_nonsense) {
     check_log log = {0};
     ewa_context *context = check_context(1, &log);
     char path[512];
@@ -446,7 +446,7 @@ static void check_colmap(ewa_context *context, check_log *log, const char *folde
     assert_int_equal(count_cameras(context, folder), 2);
 }
 
-static void test_colmap(void **state) {
+TEST(test_colmap) {
     check_log log = {0};
     ewa_context *context = check_context(1, &log);
     static const char *const names[] = {"cameras.txt", "images.txt", "cameras.bin", "images.bin"};
@@ -494,7 +494,7 @@ static ewa_status read_colmap(ewa_context *context, bool is_text, const void *le
     return status;
 }
 
-static void test_broken_colmap(void **state) {
+TEST(test_broken_colmap) {
     check_log log = {0};
     ewa_context *context = check_context(1, &log);
     packer lenses, images;
@@ -539,7 +539,7 @@ static void test_broken_colmap(void **state) {
     ewa_context_destroy(&context);
 }
 
-static void test_real_files(void **state) {
+TEST(test_real_files) {
     check_log log = {0};
     ewa_context *context = check_context(1, &log);
     char path[512];
@@ -583,28 +583,10 @@ static ewa_status colmap_work(ewa_context *context, void *user) {
                        sizeof IMAGES_TEXT - 1);
 }
 
-static void test_failing_allocations(void **state) {
+TEST(test_failing_allocations) {
     char path[512];
     scratch_fail_each(save_and_load_work, (void *)(uintptr_t)scratch_path("memory.json", path));
     scratch_fail_each(colmap_work, NULL);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_every_format_gives_the_same_camera),
-        cmocka_unit_test(test_open3d_middle),
-        cmocka_unit_test(test_lens),
-        cmocka_unit_test(test_many_cameras),
-        cmocka_unit_test(test_round_trip_is_exact),
-        cmocka_unit_test(test_transforms_lens),
-        cmocka_unit_test(test_messages_name_the_member),
-        cmocka_unit_test(test_every_truncation_is_refused),
-        cmocka_unit_test(test_list),
-        cmocka_unit_test(test_refuses_to_write_nonsense),
-        cmocka_unit_test(test_colmap),
-        cmocka_unit_test(test_broken_colmap),
-        cmocka_unit_test(test_real_files),
-        cmocka_unit_test(test_failing_allocations),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

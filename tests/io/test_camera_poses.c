@@ -31,7 +31,7 @@ static const char MATRICES[] = "# a comment\n0 0 2\n1 0 0 1.5\n0 1 0 -2\n0 0 1 3
 static const char TUM[] = "# time tx ty tz qx qy qz qw\n1305031102.17 1 2 3 0 0 0 1\n"
                           "1305031102.21 4 5 6 0 0 0.7071067811865476 0.7071067811865476\n";
 
-static void test_matrices(void **state) {
+TEST(test_matrices) {
     ewa_context *context = check_context(1, NULL);
     ewa_camera_list list;
     assert_int_equal(read_text(context, MATRICES, &list), EWA_OK);
@@ -44,7 +44,7 @@ static void test_matrices(void **state) {
     ewa_context_destroy(&context);
 }
 
-static void test_tum(void **state) {
+TEST(test_tum) {
     ewa_context *context = check_context(1, NULL);
     ewa_camera_list list;
     assert_int_equal(read_text(context, TUM, &list), EWA_OK);
@@ -56,7 +56,7 @@ static void test_tum(void **state) {
     ewa_context_destroy(&context);
 }
 
-static void test_broken(void **state) {
+TEST(test_broken) {
     static const struct {
         const char *text, *said;
     } broken[] = {
@@ -104,7 +104,7 @@ static ewa_status work(ewa_context *context, void *user) {
     return status;
 }
 
-static void test_failing_allocations(void **state) { scratch_fail_each(work, NULL); }
+TEST(test_failing_allocations) { scratch_fail_each(work, NULL); }
 
 static void count_pose(void *user, uint32_t index, const ewa_camera *camera) {
     assert_int_equal(index, *(uint32_t *)user);
@@ -112,7 +112,7 @@ static void count_pose(void *user, uint32_t index, const ewa_camera *camera) {
     ++*(uint32_t *)user;
 }
 
-static void test_files(void **state) {
+TEST(test_files) {
     char path[512];
     ewa_context *context = check_context(1, NULL);
     scratch_write(scratch_path("poses.txt", path), TUM, sizeof TUM - 1);
@@ -132,7 +132,7 @@ static void test_files(void **state) {
 }
 
 /// Depths in PNG are integers, not colours.
-static void test_depths(void **state) {
+TEST(test_depths) {
     char path[512];
     check_log log = {0};
     ewa_context *context = check_context(1, &log);
@@ -174,7 +174,7 @@ static void test_depths(void **state) {
 }
 
 /// Every beginning of a file is refused.
-static void test_cut_short(void **state) {
+TEST(test_cut_short) {
     char path[512];
     if (!check_data("rgbd/sensor_sequence/frame-000065.depth.png", path, sizeof path)) skip();
     ewa_context *context = check_context(1, NULL);
@@ -192,12 +192,4 @@ static void test_cut_short(void **state) {
     ewa_context_destroy(&context);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_matrices),  cmocka_unit_test(test_tum),
-        cmocka_unit_test(test_broken),    cmocka_unit_test(test_failing_allocations),
-        cmocka_unit_test(test_files),     cmocka_unit_test(test_depths),
-        cmocka_unit_test(test_cut_short),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

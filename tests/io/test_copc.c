@@ -62,7 +62,7 @@ static void expect_point(const ewa_cloud *before, const ewa_cloud *after) {
     }
 }
 
-static void gives_back_what_was_written(void **state) {
+TEST_WITHIN(gives_back_what_was_written, begin, end) {
     for (int wide = 0; wide < 2; wide++) {
         ewa_cloud *cloud = copc_cloud(context, 5000, wide);
         copc_nodes nodes = copc_share(cloud, 4);
@@ -103,7 +103,7 @@ static void gives_back_what_was_written(void **state) {
     assert_int_equal(messages.count, 0);
 }
 
-static void has_the_points_of_the_whole_file(void **state) {
+TEST_WITHIN(has_the_points_of_the_whole_file, begin, end) {
     for (int wide = 0; wide < 2; wide++) {
         write_made(20000, 5, wide, 77);
         ewa_cloud *whole = NULL;
@@ -117,7 +117,7 @@ static void has_the_points_of_the_whole_file(void **state) {
 }
 
 /// Chunks that count for themselves are read though the header counts nothing.
-static void reads_what_no_header_counts(void **state) {
+TEST_WITHIN(reads_what_no_header_counts, begin, end) {
     write_made(20000, 5, false, 0);
     FILE *file = fopen(path, "r+b");
     const uint8_t none[8] = {0};
@@ -133,7 +133,7 @@ static void reads_what_no_header_counts(void **state) {
     messages = (check_log){0};
 }
 
-static void counts_colors_that_others_do_not_lead_to_expect(void **state) {
+TEST_WITHIN(counts_colors_that_others_do_not_lead_to_expect, begin, end) {
     enum { NODES = 40, ODD = 7 }; // not among the eight chunks that are looked at
     ewa_cloud *cloud = copc_cloud(context, 2 * NODES, true);
     copc_nodes nodes = {calloc(NODES, sizeof *nodes.keys), calloc(NODES, sizeof(ewa_cloud *)), NODES};
@@ -160,7 +160,7 @@ static void counts_colors_that_others_do_not_lead_to_expect(void **state) {
     ewa_cloud_destroy(&cloud);
 }
 
-static void notes_the_times_of_the_points(void **state) {
+TEST_WITHIN(notes_the_times_of_the_points, begin, end) {
     size_t size_bytes;
     write_made(101, 2, false, 0);
     uint8_t *bytes = scratch_read(path, &size_bytes);
@@ -168,7 +168,7 @@ static void notes_the_times_of_the_points(void **state) {
     free(bytes);
 }
 
-static void reads_files_of_others(void **state) {
+TEST_WITHIN(reads_files_of_others, begin, end) {
     static const char *const files[] = {"simple.copc.laz", "simple_with_page.copc.laz",
                                         "lion_takanawa.copc.laz"};
     for (size_t i = 0; i < sizeof files / sizeof files[0]; i++) {
@@ -187,7 +187,7 @@ static void reads_files_of_others(void **state) {
     assert_int_equal(messages.count, 0);
 }
 
-static void reads_the_attributes_that_are_wanted(void **state) {
+TEST_WITHIN(reads_the_attributes_that_are_wanted, begin, end) {
     write_made(100, 1, false, 0);
     ewa_octree *octree = open_made();
     const uint32_t index = 0;
@@ -203,7 +203,7 @@ static void reads_the_attributes_that_are_wanted(void **state) {
     ewa_octree_close(&octree);
 }
 
-static void is_the_same_for_any_number_of_threads(void **state) {
+TEST_WITHIN(is_the_same_for_any_number_of_threads, begin, end) {
     size_t size_bytes = 0, other_bytes;
     uint8_t *bytes = NULL;
     ewa_context *kept = context;
@@ -225,7 +225,7 @@ static void is_the_same_for_any_number_of_threads(void **state) {
     free(bytes);
 }
 
-static void keeps_levels_of_any_size(void **state) {
+TEST_WITHIN(keeps_levels_of_any_size, begin, end) {
     for (uint64_t size = 1; size < 70000; size = size * 5 + 2) {
         write_made(50, 2, false, size);
         ewa_octree *octree = open_made();
@@ -257,7 +257,7 @@ static copc_nodes make_many(const ewa_cloud *cloud, uint32_t count) {
     return nodes;
 }
 
-static void writes_many_nodes_in_pages(void **state) {
+TEST_WITHIN(writes_many_nodes_in_pages, begin, end) {
     enum { COUNT = 5461, PAGE_ENTRIES = 1000, ENTRY_BYTES = 32 };
     ewa_cloud *cloud = copc_cloud(context, 1, false);
     copc_nodes nodes = make_many(cloud, COUNT);
@@ -308,7 +308,7 @@ static void writes_many_nodes_in_pages(void **state) {
     ewa_cloud_destroy(&cloud);
 }
 
-static void writes_trees_without_nodes(void **state) {
+TEST_WITHIN(writes_trees_without_nodes, begin, end) {
     ewa_cloud *cloud = copc_cloud(context, 0, false);
     const ewa_octree_plan plan = copc_plan(cloud);
     const ewa_octree_key key = {0, {0, 0, 0}};
@@ -365,7 +365,7 @@ static void expect_system(const char *crs, const char *wkt_begin, const char *wk
     free(bytes);
 }
 
-static void has_its_system_as_text(void **state) {
+TEST_WITHIN(has_its_system_as_text, begin, end) {
     expect_system(NULL, NULL, NULL, false);
     expect_system("EPSG:25832+7837", "COMPD_CS[\"ETRS89 / UTM zone 32N + DHHN2016 height\",PROJCS[\"ETRS89 / UTM zone 32N\",",
                   "AXIS[\"Gravity-related height\",UP],AUTHORITY[\"EPSG\",\"7837\"]]]", false);
@@ -383,7 +383,7 @@ static void has_its_system_as_text(void **state) {
 }
 
 /// The keys of a file in an older point format become text, and are gone.
-static void makes_text_of_keys(void **state) {
+TEST_WITHIN(makes_text_of_keys, begin, end) {
     const uint8_t keys[] = {1, 0, 1, 0, 0, 0, 2, 0, 0, 4, 0, 0, 1, 0, 1, 0, 0, 12, 0, 0, 1, 0, 0x17, 0x69};
     uint8_t vlr[200];
     const size_t vlr_bytes = las_vlr(vlr, "LASF_Projection", 34735, keys, sizeof keys);
@@ -401,7 +401,7 @@ static void makes_text_of_keys(void **state) {
     free(sample.bytes);
 }
 
-static void refuses_what_it_cannot_write(void **state) {
+TEST_WITHIN(refuses_what_it_cannot_write, begin, end) {
     ewa_cloud *cloud = copc_cloud(context, 10, false), *other = copc_cloud(context, 10, true);
     ewa_octree_plan plan = copc_plan(cloud);
     ewa_octree_key keys[2] = {{1, {0, 1, 0}}, {1, {0, 1, 0}}};
@@ -460,7 +460,7 @@ static ewa_status try_bytes(const uint8_t *bytes, size_t size_bytes) {
     return status;
 }
 
-static void refuses_every_beginning(void **state) {
+TEST_WITHIN(refuses_every_beginning, begin, end) {
     size_t size_bytes;
     write_made(12, 2, false, 0);
     uint8_t *bytes = scratch_read(path, &size_bytes);
@@ -480,7 +480,7 @@ static void refuses_every_beginning(void **state) {
     free(bytes);
 }
 
-static void refuses_hierarchies_that_lie(void **state) {
+TEST_WITHIN(refuses_hierarchies_that_lie, begin, end) {
     enum { ENTRY_BYTES = 32 };
     size_t size_bytes;
     write_made(400, 2, false, 0);
@@ -524,7 +524,7 @@ static void refuses_hierarchies_that_lie(void **state) {
     free(bytes);
 }
 
-static void is_no_other_file(void **state) {
+TEST_WITHIN(is_no_other_file, begin, end) {
     ewa_octree *octree = NULL;
     assert_false(ewa_octree_is(context, "/nowhere/at/all"));
     assert_false(ewa_octree_is(context, "/tmp"));
@@ -552,7 +552,7 @@ static ewa_status write_and_read(ewa_context *failing, void *user) {
     return status;
 }
 
-static void survives_memory_that_fails(void **state) {
+TEST_WITHIN(survives_memory_that_fails, begin, end) {
     ewa_cloud *cloud = copc_cloud(context, 40, false);
     copc_nodes nodes = copc_share(cloud, 2);
     scratch_fail_each(write_and_read, &nodes);
@@ -560,26 +560,4 @@ static void survives_memory_that_fails(void **state) {
     ewa_cloud_destroy(&cloud);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(gives_back_what_was_written, begin, end),
-        cmocka_unit_test_setup_teardown(has_the_points_of_the_whole_file, begin, end),
-        cmocka_unit_test_setup_teardown(reads_what_no_header_counts, begin, end),
-        cmocka_unit_test_setup_teardown(counts_colors_that_others_do_not_lead_to_expect, begin, end),
-        cmocka_unit_test_setup_teardown(notes_the_times_of_the_points, begin, end),
-        cmocka_unit_test_setup_teardown(reads_files_of_others, begin, end),
-        cmocka_unit_test_setup_teardown(reads_the_attributes_that_are_wanted, begin, end),
-        cmocka_unit_test_setup_teardown(is_the_same_for_any_number_of_threads, begin, end),
-        cmocka_unit_test_setup_teardown(keeps_levels_of_any_size, begin, end),
-        cmocka_unit_test_setup_teardown(writes_many_nodes_in_pages, begin, end),
-        cmocka_unit_test_setup_teardown(writes_trees_without_nodes, begin, end),
-        cmocka_unit_test_setup_teardown(has_its_system_as_text, begin, end),
-        cmocka_unit_test_setup_teardown(makes_text_of_keys, begin, end),
-        cmocka_unit_test_setup_teardown(refuses_what_it_cannot_write, begin, end),
-        cmocka_unit_test_setup_teardown(refuses_every_beginning, begin, end),
-        cmocka_unit_test_setup_teardown(refuses_hierarchies_that_lie, begin, end),
-        cmocka_unit_test_setup_teardown(is_no_other_file, begin, end),
-        cmocka_unit_test_setup_teardown(survives_memory_that_fails, begin, end),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

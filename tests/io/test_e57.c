@@ -258,7 +258,7 @@ static uint32_t count_points(uint32_t record_count) {
     return count;
 }
 
-static void test_floats_colors_and_states(void **state) {
+CASE(test_floats_colors_and_states) {
     cloud_bytes file = make(&float_scan, 1, "<coordinateMetadata>EPSG:32632</coordinateMetadata>");
     ewa_cloud *cloud = load(&file);
     assert_int_equal(ewa_cloud_point_count(cloud), count_points(3000));
@@ -283,7 +283,7 @@ static void test_floats_colors_and_states(void **state) {
 }
 
 /// Half a turn about each axis alone, and a shift along each, are poses.
-static void test_poses_of_one_axis(void **state) {
+CASE(test_poses_of_one_axis) {
     enum { POINTS = 6 };
     made_scan scan = {float_fields, 3, POINTS, ""};
     double places[POINTS][3], origin[3];
@@ -316,7 +316,7 @@ static void test_poses_of_one_axis(void **state) {
     }
 }
 
-static void test_spherical(void **state) {
+CASE(test_spherical) {
     cloud_bytes file = make(&spherical_scan, 1, "");
     ewa_cloud *cloud = load(&file);
     assert_int_equal(ewa_cloud_point_count(cloud), 700);
@@ -337,7 +337,7 @@ static void test_spherical(void **state) {
     free(file.bytes);
 }
 
-static void test_scaled_integers_of_any_width(void **state) {
+CASE(test_scaled_integers_of_any_width) {
     cloud_bytes file = make(&scaled_scan, 1, "");
     ewa_cloud *cloud = load(&file);
     double origin[3];
@@ -363,7 +363,7 @@ static void test_scaled_integers_of_any_width(void **state) {
     free(file.bytes);
 }
 
-static void test_several_scans_are_one_cloud(void **state) {
+CASE(test_several_scans_are_one_cloud) {
     const made_scan scans[3] = {posed_scan, spherical_scan, {float_fields, 3, 0, POSE}};
     cloud_bytes file = make(scans, 3, "");
     ewa_cloud *cloud = load(&file);
@@ -398,7 +398,7 @@ static void test_several_scans_are_one_cloud(void **state) {
 
 // ---- what is wrong ---------------------------------------------------------------------------------------
 
-static void test_checksums(void **state) {
+CASE(test_checksums) {
     uint8_t bytes[2048];
     check_random random = {4};
     for (size_t i = 0; i < sizeof bytes; i++) bytes[i] = (uint8_t)check_random_u64(&random);
@@ -411,7 +411,7 @@ static void test_checksums(void **state) {
 }
 
 /// Every page counts, whatever its bytes are for, with the instruction and without.
-static void test_every_page_is_checked(void **state) {
+CASE(test_every_page_is_checked) {
     static const uint32_t masks[2] = {EWA_CPU_ALL, 0};
     const made_scan scan = {float_fields, 8, 300, ""};
     cloud_bytes file = make(&scan, 1, "");
@@ -436,7 +436,7 @@ static void test_every_page_is_checked(void **state) {
     free(file.bytes);
 }
 
-static void test_damaged_pages_are_stepped_over(void **state) {
+CASE(test_damaged_pages_are_stepped_over) {
     cloud_bytes file = make(&scaled_scan, 1, "");
     // Within the first packet: 500 records are lost, the others are what they were.
     file.bytes[5 * PAGE + 100] ^= 1;
@@ -490,7 +490,7 @@ static void change(cloud_bytes *file, const char *from, const char *to) {
     fail_msg("no %s", from);
 }
 
-static void test_files_that_are_wrong(void **state) {
+CASE(test_files_that_are_wrong) {
     static const struct {
         const char *from, *to, *message;
     } cases[] = {
@@ -531,7 +531,7 @@ static void test_files_that_are_wrong(void **state) {
     free(file.bytes);
 }
 
-static void test_truncated(void **state) {
+CASE(test_truncated) {
     const made_scan scans[2] = {{float_fields, 8, 20, ""}, {spherical_fields, 8, 9, ""}};
     cloud_bytes file = make(scans, 2, "");
     cloud_check_truncations(&file, "cut.e57", 0);
@@ -539,7 +539,7 @@ static void test_truncated(void **state) {
 }
 
 /// Changed bytes behind checksums that fit.
-static void test_damaged_bytes_are_survived(void **state) {
+CASE(test_damaged_bytes_are_survived) {
     const made_scan scans[2] = {{scaled_fields, 12, 30, POSE}, {spherical_fields, 8, 9, ""}};
     cloud_bytes file = make(scans, 2, "");
     check_random random = {8};
@@ -568,25 +568,11 @@ static ewa_status load_each(ewa_context *failing, void *user) {
     return status;
 }
 
-static void test_memory_that_fails(void **state) {
+CASE(test_memory_that_fails) {
     const made_scan scans[2] = {{scaled_fields, 12, 30, POSE}, {spherical_fields, 8, 9, ""}};
     cloud_bytes file = make(scans, 2, "<coordinateMetadata>EPSG:32632</coordinateMetadata>");
     scratch_fail_each(load_each, &file);
     free(file.bytes);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {CASE(test_floats_colors_and_states),
-                                       CASE(test_poses_of_one_axis),
-                                       CASE(test_spherical),
-                                       CASE(test_scaled_integers_of_any_width),
-                                       CASE(test_several_scans_are_one_cloud),
-                                       CASE(test_checksums),
-                                       CASE(test_every_page_is_checked),
-                                       CASE(test_damaged_pages_are_stepped_over),
-                                       CASE(test_files_that_are_wrong),
-                                       CASE(test_truncated),
-                                       CASE(test_damaged_bytes_are_survived),
-                                       CASE(test_memory_that_fails)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

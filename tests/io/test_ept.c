@@ -231,7 +231,7 @@ static ewa_status try_folder(void) {
     return status;
 }
 
-static void reads_all_encodings(void **state) {
+TEST_WITHIN(reads_all_encodings, begin, end) {
     for (int encoding = 0; encoding < ENCODING_COUNT; encoding++) {
         write_folder(encoding);
         char description[600];
@@ -291,7 +291,7 @@ static void reads_all_encodings(void **state) {
     assert_int_equal(messages.count, 0);
 }
 
-static void reads_positions_of_any_type(void **state) {
+TEST_WITHIN(reads_positions_of_any_type, begin, end) {
     static const struct {
         const char *type;
         int size_bytes;
@@ -328,7 +328,7 @@ static void reads_positions_of_any_type(void **state) {
     }
 }
 
-static void takes_narrow_colors_for_all(void **state) {
+TEST_WITHIN(takes_narrow_colors_for_all, begin, end) {
     write_folder(BINARY);
     // One byte twice in all nodes, of which each would be looked at alone.
     for (uint32_t i = 0; i < nodes.count; i++) {
@@ -352,7 +352,7 @@ static void takes_narrow_colors_for_all(void **state) {
     ewa_octree_close(&octree);
 }
 
-static void says_which_node_is_missing_or_miscounted(void **state) {
+TEST_WITHIN(says_which_node_is_missing_or_miscounted, begin, end) {
     for (int encoding = 0; encoding < ENCODING_COUNT; encoding++) {
         // The last node: at every level the first is the tree's pattern.
         const ewa_octree_key *k = &nodes.keys[nodes.count - 1];
@@ -388,7 +388,7 @@ static void says_which_node_is_missing_or_miscounted(void **state) {
     }
 }
 
-static void refuses_files_that_are_not_alike(void **state) {
+TEST_WITHIN(refuses_files_that_are_not_alike, begin, end) {
     char path[600];
     ewa_cloud *piece = nodes.pieces[nodes.count - 1];
     ewa_coordinate_grid grid;
@@ -406,7 +406,7 @@ static void refuses_files_that_are_not_alike(void **state) {
     assert_int_equal(try_folder(), EWA_ERROR_FORMAT);
 }
 
-static void refuses_hierarchies_that_lead_nowhere(void **state) {
+TEST_WITHIN(refuses_hierarchies_that_lead_nowhere, begin, end) {
     write_folder(BINARY);
     static const char *const bad[] = {
         "",
@@ -449,7 +449,7 @@ static void refuses_hierarchies_that_lead_nowhere(void **state) {
     assert_non_null(strstr(messages.text, "3-0-0-0.json"));
 }
 
-static void refuses_descriptions_that_are_none(void **state) {
+TEST_WITHIN(refuses_descriptions_that_are_none, begin, end) {
 #define HEAD                                                                                                 \
     "{\"version\":\"1.1.0\",\"dataType\":\"binary\",\"hierarchyType\":\"json\",\"points\":1,\"span\":128,"
 #define BOUNDS "\"bounds\":[0,0,0,1,1,1],"
@@ -492,7 +492,7 @@ static void refuses_descriptions_that_are_none(void **state) {
     assert_int_equal(try_folder(), EWA_ERROR_UNSUPPORTED);
 }
 
-static void survives_changed_bytes(void **state) {
+TEST_WITHIN(survives_changed_bytes, begin, end) {
     char path[600];
     check_random random = {3};
     write_folder(ZSTANDARD);
@@ -526,7 +526,7 @@ static ewa_status open_and_read(ewa_context *failing, void *user) {
     return status;
 }
 
-static void survives_memory_that_fails(void **state) {
+TEST_WITHIN(survives_memory_that_fails, begin, end) {
     for (int encoding = 0; encoding < ENCODING_COUNT; encoding++) {
         char entries[128];
         uint32_t root = 0, below = 0;
@@ -548,17 +548,4 @@ static void survives_memory_that_fails(void **state) {
     }
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(reads_all_encodings, begin, end),
-        cmocka_unit_test_setup_teardown(reads_positions_of_any_type, begin, end),
-        cmocka_unit_test_setup_teardown(takes_narrow_colors_for_all, begin, end),
-        cmocka_unit_test_setup_teardown(says_which_node_is_missing_or_miscounted, begin, end),
-        cmocka_unit_test_setup_teardown(refuses_files_that_are_not_alike, begin, end),
-        cmocka_unit_test_setup_teardown(refuses_hierarchies_that_lead_nowhere, begin, end),
-        cmocka_unit_test_setup_teardown(refuses_descriptions_that_are_none, begin, end),
-        cmocka_unit_test_setup_teardown(survives_changed_bytes, begin, end),
-        cmocka_unit_test_setup_teardown(survives_memory_that_fails, begin, end),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -38,7 +38,7 @@ static uint8_t *make_picture(const uint8_t *segment, size_t segment_bytes, size_
     return made;
 }
 
-static void test_orientations(void **state) {
+TEST(test_orientations) {
     (void)state;
     uint8_t segment[HEAD_BYTES + TIFF_BYTES];
     for (int big = 0; big < 2; big++)
@@ -62,7 +62,7 @@ static void test_orientations(void **state) {
 }
 
 /// What is broken says nothing.
-static void test_broken(void **state) {
+TEST(test_broken) {
     (void)state;
     static const struct {
         size_t at;
@@ -119,7 +119,7 @@ static int quarter_of(const ewa_image *image) {
     return found;
 }
 
-static void test_turned(void **state) {
+TEST(test_turned) {
     (void)state;
     static const int wanted[9] = {[5] = 0, [6] = 1, [7] = 3, [8] = 2};
     ewa_context *context = check_context(1, NULL);
@@ -143,8 +143,4 @@ static void test_turned(void **state) {
     ewa_context_destroy(&context);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_orientations), cmocka_unit_test(test_broken),
-                                       cmocka_unit_test(test_turned)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

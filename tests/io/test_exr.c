@@ -26,7 +26,7 @@ static void assert_same(const ewa_image *a, const ewa_image *b) {
                         (size_t)a->width_px * a->height_px * a->channel_count * sizeof(float));
 }
 
-static void test_round_trip_is_exact(void **state) {
+TEST(test_round_trip_is_exact) {
     static const uint32_t sizes[][2] = {{1, 1}, {3, 16}, {17, 33}, {500, 1}, {1, 100}};
     char path[512];
     scratch_path("saved.exr", path);
@@ -55,7 +55,7 @@ static void test_round_trip_is_exact(void **state) {
     }
 }
 
-static void test_channels_go_by_name(void **state) {
+TEST(test_channels_go_by_name) {
     ewa_context *context = check_context(1, NULL);
     char path[512];
     scratch_path("named.exr", path);
@@ -81,7 +81,7 @@ static void test_channels_go_by_name(void **state) {
     ewa_context_destroy(&context);
 }
 
-static void test_half(void **state) {
+TEST(test_half) {
     ewa_context *context = check_context(1, NULL);
     char path[512];
     scratch_path("half.exr", path);
@@ -101,7 +101,7 @@ static void test_half(void **state) {
     ewa_context_destroy(&context);
 }
 
-static void test_camera_attribute(void **state) {
+TEST(test_camera_attribute) {
     ewa_context *context = check_context(1, NULL);
     char path[512];
     scratch_path("camera.exr", path);
@@ -130,7 +130,7 @@ static void test_camera_attribute(void **state) {
     ewa_context_destroy(&context);
 }
 
-static void test_names_are_checked(void **state) {
+TEST(test_names_are_checked) {
     check_log log = {0};
     ewa_context *context = check_context(1, &log);
     char path[512];
@@ -156,7 +156,7 @@ static void test_names_are_checked(void **state) {
     ewa_context_destroy(&context);
 }
 
-static void test_real_files(void **state) {
+TEST(test_real_files) {
     check_log log = {0};
     ewa_context *context = check_context(1, &log);
     char path[512];
@@ -183,7 +183,7 @@ static void test_real_files(void **state) {
     ewa_context_destroy(&context);
 }
 
-static void test_hostile(void **state) {
+TEST(test_hostile) {
     scratch_pictures t = {0};
     t.context = check_context(1, &t.log);
     const int count = scratch_each("hostile/exr", scratch_load_picture, &t);
@@ -192,7 +192,7 @@ static void test_hostile(void **state) {
     ewa_context_destroy(&t.context);
 }
 
-static void test_every_truncation_is_refused(void **state) {
+TEST(test_every_truncation_is_refused) {
     check_log log = {0};
     ewa_context *context = check_context(1, &log);
     char path[512];
@@ -218,7 +218,7 @@ static void test_every_truncation_is_refused(void **state) {
     ewa_context_destroy(&context);
 }
 
-static void test_lost_chunk_table_is_refused(void **state) {
+TEST(test_lost_chunk_table_is_refused) {
     check_log log = {0};
     ewa_context *context = check_context(1, &log);
     char path[512];
@@ -238,7 +238,7 @@ static void test_lost_chunk_table_is_refused(void **state) {
     ewa_context_destroy(&context);
 }
 
-static void test_limits(void **state) {
+TEST(test_limits) {
     check_log log = {0};
     ewa_context *context = check_context(1, &log);
     char path[512];
@@ -275,7 +275,7 @@ static ewa_status load_work(ewa_context *context, void *user) {
     return status;
 }
 
-static void test_failing_allocations(void **state) {
+TEST(test_failing_allocations) {
     char path[512];
     scratch_path("memory.exr", path);
     scratch_fail_each(save_work, path);
@@ -329,18 +329,5 @@ int main(int argument_count, char **arguments) {
         bench();
         return 0;
     }
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_round_trip_is_exact),
-        cmocka_unit_test(test_channels_go_by_name),
-        cmocka_unit_test(test_half),
-        cmocka_unit_test(test_camera_attribute),
-        cmocka_unit_test(test_names_are_checked),
-        cmocka_unit_test(test_real_files),
-        cmocka_unit_test(test_hostile),
-        cmocka_unit_test(test_every_truncation_is_refused),
-        cmocka_unit_test(test_lost_chunk_table_is_refused),
-        cmocka_unit_test(test_limits),
-        cmocka_unit_test(test_failing_allocations),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return RUN_TESTS(NULL, NULL);
 }

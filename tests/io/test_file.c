@@ -72,7 +72,7 @@ static void assert_content(place *p, const char *path, const char *text) {
     assert_null(file.bytes);
 }
 
-static void test_regular_file_is_mapped(void **state) {
+TEST_WITHIN(test_regular_file_is_mapped, set_up, tear_down) {
     place *p = *state;
     char path[128];
     put_file(inside(p, "a", path), "some bytes");
@@ -86,7 +86,7 @@ static void test_regular_file_is_mapped(void **state) {
     assert_content(p, path, "");
 }
 
-static void test_unreadable_inputs(void **state) {
+TEST_WITHIN(test_unreadable_inputs, set_up, tear_down) {
     place *p = *state;
     char path[128], expected[256];
     ewa_file file;
@@ -112,7 +112,7 @@ static void *feed(void *argument) {
     return NULL;
 }
 
-static void test_pipe_is_read_to_its_end(void **state) {
+TEST_WITHIN(test_pipe_is_read_to_its_end, set_up, tear_down) {
     place *p = *state;
     char path[128];
     assert_int_equal(mkfifo(inside(p, "pipe", path), 0600), 0);
@@ -127,7 +127,7 @@ static void test_pipe_is_read_to_its_end(void **state) {
     ewa_file_unmap(p->context, &file);
 }
 
-static void test_endless_input_meets_the_limit(void **state) {
+TEST_WITHIN(test_endless_input_meets_the_limit, set_up, tear_down) {
     place *p = *state;
     ewa_context_options options;
     ewa_context_options_init(&options, sizeof options);
@@ -141,7 +141,7 @@ static void test_endless_input_meets_the_limit(void **state) {
     (void)p;
 }
 
-static void test_output_appears_on_commit(void **state) {
+TEST_WITHIN(test_output_appears_on_commit, set_up, tear_down) {
     place *p = *state;
     char path[128];
     inside(p, "out", path);
@@ -160,7 +160,7 @@ static void test_output_appears_on_commit(void **state) {
     assert_int_equal(facts.st_mode & 0777, 0666 & ~mask);
 }
 
-static void test_large_and_small_pieces_keep_their_order(void **state) {
+TEST_WITHIN(test_large_and_small_pieces_keep_their_order, set_up, tear_down) {
     place *p = *state;
     char path[128];
     enum { SIZE = 1000000 };
@@ -185,7 +185,7 @@ static void test_large_and_small_pieces_keep_their_order(void **state) {
     free(bytes);
 }
 
-static void test_abort_leaves_the_old_file(void **state) {
+TEST_WITHIN(test_abort_leaves_the_old_file, set_up, tear_down) {
     place *p = *state;
     char path[128];
     put_file(inside(p, "out", path), "old");
@@ -199,7 +199,7 @@ static void test_abort_leaves_the_old_file(void **state) {
     assert_int_equal(count_files(p), 1);
 }
 
-static void test_replacing_keeps_permissions_and_links(void **state) {
+TEST_WITHIN(test_replacing_keeps_permissions_and_links, set_up, tear_down) {
     place *p = *state;
     char path[128], link_path[128];
     put_file(inside(p, "out", path), "old");
@@ -217,7 +217,7 @@ static void test_replacing_keeps_permissions_and_links(void **state) {
     assert_content(p, path, "new");
 }
 
-static void test_outputs_that_cannot_be(void **state) {
+TEST_WITHIN(test_outputs_that_cannot_be, set_up, tear_down) {
     place *p = *state;
     char path[128], expected[256];
     ewa_writer *writer = NULL;
@@ -238,7 +238,7 @@ static void test_outputs_that_cannot_be(void **state) {
     assert_int_equal(count_files(p), 1);
 }
 
-static void test_full_device_fails_once(void **state) {
+TEST_WITHIN(test_full_device_fails_once, set_up, tear_down) {
     place *p = *state;
     if (access("/dev/full", W_OK) != 0) skip();
     ewa_writer *writer = NULL;
@@ -256,7 +256,7 @@ static void test_full_device_fails_once(void **state) {
     assert_int_equal(ewa_writer_commit(&writer), EWA_ERROR_IO);
 }
 
-static void test_vanished_folder_fails_at_commit(void **state) {
+TEST_WITHIN(test_vanished_folder_fails_at_commit, set_up, tear_down) {
     place *p = *state;
     char folder[128], path[160];
     assert_int_equal(mkdir(inside(p, "sub", folder), 0700), 0);
@@ -270,7 +270,7 @@ static void test_vanished_folder_fails_at_commit(void **state) {
     assert_int_equal(rmdir(elsewhere), 0);
 }
 
-static void test_standard_output(void **state) {
+TEST_WITHIN(test_standard_output, set_up, tear_down) {
     place *p = *state;
     char path[128];
     fflush(stdout);
@@ -293,7 +293,7 @@ static void test_standard_output(void **state) {
 }
 
 /// What was given up of a mapped file belongs to whom the system gives its addresses, also when the file is closed.
-static void test_given_up(void **state) {
+TEST_WITHIN(test_given_up, set_up, tear_down) {
     place *p = *state;
     char path[128];
     const size_t page = (size_t)sysconf(_SC_PAGESIZE), size_bytes = 64 * page;
@@ -328,22 +328,4 @@ static void test_given_up(void **state) {
     free(bytes);
 }
 
-int main(void) {
-#define CASE(f) cmocka_unit_test_setup_teardown(f, set_up, tear_down)
-    const struct CMUnitTest tests[] = {
-        CASE(test_regular_file_is_mapped),
-        CASE(test_unreadable_inputs),
-        CASE(test_pipe_is_read_to_its_end),
-        CASE(test_endless_input_meets_the_limit),
-        CASE(test_output_appears_on_commit),
-        CASE(test_large_and_small_pieces_keep_their_order),
-        CASE(test_abort_leaves_the_old_file),
-        CASE(test_replacing_keeps_permissions_and_links),
-        CASE(test_outputs_that_cannot_be),
-        CASE(test_full_device_fails_once),
-        CASE(test_vanished_folder_fails_at_commit),
-        CASE(test_standard_output),
-        CASE(test_given_up),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -8,7 +8,7 @@
 
 static bool file_is_spz(int number) { return number >= 5 && number <= 8; }
 
-static void forms(void **state) {
+TEST(forms) {
     static sample_file file;
     uint32_t degree;
     sample_limits limits;
@@ -75,7 +75,7 @@ static ewa_status load_exact(ewa_context *context, const uint8_t *bytes, size_t 
     return status;
 }
 
-static void cut_short(void **state) {
+TEST(cut_short) {
     static sample_file file;
     uint32_t degree;
     sample_limits limits;
@@ -92,7 +92,7 @@ static void cut_short(void **state) {
     }
 }
 
-static void broken(void **state) {
+TEST(broken) {
     static sample_file file;
     uint32_t degree;
     sample_limits limits;
@@ -133,7 +133,7 @@ static void refuse(const sample_file *file, ewa_status status, const char *reaso
 }
 
 /// Versions, counts and numbers that cannot be.
-static void lies(void **state) {
+TEST(lies) {
     static sample_file file;
     uint32_t degree;
     sample_limits limits;
@@ -195,7 +195,7 @@ static void replace(sample_file *file, const char *old, const char *with) {
     fail_msg("there is no %s", old);
 }
 
-static void words(void **state) {
+TEST(words) {
     static sample_file file;
     const struct {
         int number;
@@ -229,7 +229,7 @@ static void words(void **state) {
 }
 
 /// What version 1 of SOG may not say.
-static void steps(void **state) {
+TEST(steps) {
     static sample_file meta;
     static const struct {
         const char *old, *with, *reason;
@@ -248,7 +248,7 @@ static void steps(void **state) {
 }
 
 /// A picture of SOG with other bytes.
-static void palettes(void **state) {
+TEST(palettes) {
     static sample_file meta, file, directory;
     static const struct {
         int picture;
@@ -284,7 +284,7 @@ static void palettes(void **state) {
 }
 
 /// meta.json with its pictures beside it, and without.
-static void beside(void **state) {
+TEST(beside) {
     static sample_file meta;
     char path[512], name[64];
     for (int picture = 0; picture < SAMPLE_PICTURES; picture++) {
@@ -312,7 +312,7 @@ static void beside(void **state) {
 }
 
 /// A node moves, turns and scales what hangs on it.
-static void placed(void **state) {
+TEST(placed) {
     static sample_file file;
     sample_glb(&file, 1,
                "\"translation\":[10,20,30],\"rotation\":[0,0,0.70710678,0.70710678],\"scale\":[2,2,2],",
@@ -356,7 +356,7 @@ static void make_glb(sample_file *file, const char *json, const sample_file *bod
 }
 
 /// SPZ in a buffer view, twice: where it is and moved; beside a primitive of triangles, which is left out.
-static void packed_in_gltf(void **state) {
+TEST(packed_in_gltf) {
     static sample_file body, file;
     sample_spz(&body, 3, 1);
     make_glb(
@@ -393,7 +393,7 @@ static void packed_in_gltf(void **state) {
 }
 
 /// A count that a short file cannot have, of accessors without a buffer: refused wherever it is met.
-static void counts(void **state) {
+TEST(counts) {
     static sample_file file;
     static const char accessor[] = "{\"componentType\":5126,\"count\":%s,\"type\":\"%s\"}";
     for (int large = 0; large < 5; large++) {
@@ -413,7 +413,7 @@ static void counts(void **state) {
 }
 
 /// The first draft: colours and opacities of the display in COLOR_0.
-static void draft(void **state) {
+TEST(draft) {
     static sample_file body, file;
     body.size = 0;
     const double numbers[14] = {1, 2, 3, 0.1, 0.2, 0.3, 0, 0, 0, 1, 1, 0.5, 0, 0.25};
@@ -445,7 +445,7 @@ static void draft(void **state) {
 }
 
 /// SPZ that names its axes: whichever these are, a set has right, down, front.
-static void axes(void **state) {
+TEST(axes) {
     static sample_file plain, file;
     for (uint32_t number = 4; number <= 9; number++) {
         sample_spz(&plain, 4, 4);
@@ -476,7 +476,7 @@ static void axes(void **state) {
 }
 
 /// Memory that runs out anywhere leaves nothing behind.
-static void memory(void **state) {
+TEST(memory) {
     static sample_file file;
     uint32_t degree;
     sample_limits limits;
@@ -509,13 +509,4 @@ static void memory(void **state) {
     }
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(forms),  cmocka_unit_test(cut_short), cmocka_unit_test(broken),
-        cmocka_unit_test(lies),   cmocka_unit_test(words),     cmocka_unit_test(steps),    cmocka_unit_test(palettes),
-        cmocka_unit_test(beside), cmocka_unit_test(placed),    cmocka_unit_test(packed_in_gltf),
-        cmocka_unit_test(draft),  cmocka_unit_test(axes),      cmocka_unit_test(memory),
-        cmocka_unit_test(counts),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

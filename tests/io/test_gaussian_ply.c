@@ -27,7 +27,7 @@ static const char plain[] = "property float x\nproperty float y\nproperty float 
                             "property float scale_2\nproperty float rot_0\nproperty float rot_1\n"
                             "property float rot_2\nproperty float rot_3\n";
 
-static void columns(void **state) {
+TEST(columns) {
     char text[2048];
     snprintf(text, sizeof text,
              "%scomment SplatRenderMode: mip\ncomment Vertical axis: z\nelement vertex 2\n%send_header\n"
@@ -61,7 +61,7 @@ static void columns(void **state) {
 }
 
 /// What trainers write about their scenes.
-static void comments(void **state) {
+TEST(comments) {
     static const struct {
         const char *comment;
         bool antialiased, flat, z_up;
@@ -95,7 +95,7 @@ static void comments(void **state) {
 }
 
 /// Red comes first as a whole in files, each coefficient as a whole in sets.
-static void harmonics(void **state) {
+TEST(harmonics) {
     for (uint32_t degree = 0; degree <= 4; degree++) {
         char text[8192];
         const uint32_t count = (degree + 1) * (degree + 1), rest = 3 * (count - 1);
@@ -121,7 +121,7 @@ static void harmonics(void **state) {
     }
 }
 
-static void flat(void **state) {
+TEST(flat) {
     const char text[] =
         "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\n"
         "property float f_dc_0\nproperty float f_dc_1\nproperty float f_dc_2\nproperty float opacity\n"
@@ -137,7 +137,7 @@ static void flat(void **state) {
 }
 
 /// A filter widens, and the opacity falls as the volume grows.
-static void filtered(void **state) {
+TEST(filtered) {
     char text[2048];
     snprintf(text, sizeof text,
              "%selement vertex 1\n%sproperty float filter_3D\nend_header\n0 0 0 0 0 0 0 0 0 0.69314718 1 0 0 "
@@ -157,7 +157,7 @@ static void filtered(void **state) {
 }
 
 /// Coordinates of a map in doubles keep their digits by the origin.
-static void doubles(void **state) {
+TEST(doubles) {
     char text[4096] =
         "ply\nformat binary_big_endian 1.0\nelement first 1\nproperty uchar skipped\nelement vertex 2\n"
         "property double x\nproperty double y\nproperty double z\n";
@@ -195,7 +195,7 @@ static void doubles(void **state) {
     ewa_context_destroy(&context);
 }
 
-static void refused(void **state) {
+TEST(refused) {
     static const struct {
         const char *count, *more, *record, *reason;
     } cases[] = {
@@ -229,7 +229,7 @@ static void refused(void **state) {
 }
 
 /// Logits of any size are opacities.
-static void steep(void **state) {
+TEST(steep) {
     char text[2048];
     snprintf(text, sizeof text,
              "%selement vertex 2\n%send_header\n0 0 0 0 0 0 1e30 -inf 0 0 1 0 0 0\n0 0 0 0 0 0 -1e30 -1e30 0 "
@@ -244,11 +244,4 @@ static void steep(void **state) {
     ewa_context_destroy(&context);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(columns), cmocka_unit_test(comments), cmocka_unit_test(harmonics),
-        cmocka_unit_test(flat),    cmocka_unit_test(filtered), cmocka_unit_test(doubles),
-        cmocka_unit_test(refused), cmocka_unit_test(steep),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

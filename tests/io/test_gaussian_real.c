@@ -59,7 +59,7 @@ static differences compare(const ewa_gaussians *a, const ewa_gaussians *b, const
     return maximum;
 }
 
-static void guitar(void **state) {
+TEST(guitar) {
     ewa_context *context = check_context(2, NULL);
     loaded plain, packed, splat, spz, flat;
     if (load(context, "gaussians/guitar_3dgs.ply", &plain) &&
@@ -123,7 +123,7 @@ static void guitar(void **state) {
 }
 
 /// Small ones: what is in them is known.
-static void small(void **state) {
+TEST(small) {
     static const struct {
         const char *name;
         ewa_gaussian_format format;
@@ -160,7 +160,4 @@ static void small(void **state) {
     ewa_context_destroy(&context);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(guitar), cmocka_unit_test(small)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -36,7 +36,7 @@ static void pass(ewa_context *context, const ewa_gaussians *set, const char *nam
     assert_int_equal(ewa_gaussians_load(context, path, read, facts), EWA_OK);
 }
 
-static void round_trips(void **state) {
+TEST(round_trips) {
     static const struct {
         const char *name;
         uint32_t version, degree;
@@ -72,7 +72,7 @@ static void round_trips(void **state) {
 }
 
 /// What is up in a set becomes what is up in files, and -y when these are read; colours go along.
-static void upright(void **state) {
+TEST(upright) {
     static const double ups[3][3] = {{0, 0, 0}, {0, 1, 0}, {0, 0, 1}};
     static const double wanted[3][3] = {{1, 2, 3}, {1, -2, -3}, {1, -3, 2}}; // of (1, 2, 3) with -y up
     ewa_context *context = check_context(1, NULL);
@@ -106,7 +106,7 @@ static void upright(void **state) {
 }
 
 /// Random turns come back, whichever component is the largest.
-static void turns(void **state) {
+TEST(turns) {
     enum { TURNS = 500 };
     static const struct {
         const char *name;
@@ -144,7 +144,7 @@ static void turns(void **state) {
 }
 
 /// Flat ones, opacities of 0 and 1, scales of 0, places far away.
-static void corners(void **state) {
+TEST(corners) {
     check_log log = {.count = 0};
     ewa_context *context = check_context(1, &log);
     ewa_gaussians set, read;
@@ -176,7 +176,7 @@ static void corners(void **state) {
 }
 
 /// What is lost is said, with numbers.
-static void losses(void **state) {
+TEST(losses) {
     check_log log = {.count = 0};
     ewa_context *context = check_context(1, &log);
     ewa_gaussians set, read;
@@ -193,7 +193,7 @@ static void losses(void **state) {
     ewa_context_destroy(&context);
 }
 
-static void refused(void **state) {
+TEST(refused) {
     check_log log = {.count = 0};
     ewa_context *context = check_context(1, &log);
     ewa_gaussians set, none = {.context = context};
@@ -230,7 +230,7 @@ static void refused(void **state) {
 
 /// Compressed PLY of several chunks, the last one not full: in another order, each within a step of the chunks that
 /// neighbours share; one far away costs its own chunk alone.
-static void chunks(void **state) {
+TEST(chunks) {
     enum { COUNT = 5000 };
     check_random random = {5};
     ewa_context *context = check_context(2, NULL);
@@ -278,7 +278,7 @@ static void chunks(void **state) {
 }
 
 /// The same bytes for any number of threads.
-static void same_bytes(void **state) {
+TEST(same_bytes) {
     static const char *const names[] = {"s.ply", "s.splat", "s.spz", "s.compressed.ply"};
     for (int n = 0; n < 4; n++) {
         uint8_t *first = NULL;
@@ -305,11 +305,4 @@ static void same_bytes(void **state) {
     }
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(round_trips), cmocka_unit_test(upright), cmocka_unit_test(turns),
-        cmocka_unit_test(corners),     cmocka_unit_test(losses),  cmocka_unit_test(refused),
-        cmocka_unit_test(chunks),      cmocka_unit_test(same_bytes),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

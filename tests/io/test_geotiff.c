@@ -41,7 +41,7 @@ static void expect_cells(const ewa_cloud *cloud, bool has_hole) {
 
 static const tiff_kind PLACED = {.scale = 10, .x = 1000, .y = 5000, .model = 1};
 
-static void test_numbers(void **state) {
+TEST_WITHIN(test_numbers, set_up, tear_down) {
     static const struct {
         int bits, kind;
     } kinds[] = {{8, SAMPLE_UINT},  {16, SAMPLE_UINT}, {16, SAMPLE_INT},   {32, SAMPLE_UINT},
@@ -64,7 +64,7 @@ static void test_numbers(void **state) {
 }
 
 /// libtiff's own files: packed, with predictors.
-static void test_packed(void **state) {
+TEST_WITHIN(test_packed, set_up, tear_down) {
     static const struct {
         int compression, predictor;
     } ways[] = {{COMPRESSION_LZW, 1}, {COMPRESSION_LZW, 3}, {COMPRESSION_ADOBE_DEFLATE, 2}, {COMPRESSION_PACKBITS, 1}};
@@ -102,7 +102,7 @@ static void test_packed(void **state) {
     }
 }
 
-static void test_places(void **state) {
+TEST_WITHIN(test_places, set_up, tear_down) {
     tiff_kind kind = PLACED;
     kind.is_point = true;
     tiff_make(&file, kind);
@@ -120,7 +120,7 @@ static void test_places(void **state) {
 }
 
 /// Cells of 0.01 degrees about 50 degrees north, with the key, and without it, where slopes tell.
-static void test_degrees(void **state) {
+TEST_WITHIN(test_degrees, set_up, tear_down) {
     for (int model = 0; model <= 2; model += 2)
         for (int tiled = 0; tiled < 2; tiled++) {
             tiff_make(&file, (tiff_kind){.scale = 0.01, .x = 7, .y = 50.025, .model = model, .tiled = tiled});
@@ -143,7 +143,7 @@ static void test_degrees(void **state) {
     ewa_cloud_destroy(&cloud);
 }
 
-static void test_no_data(void **state) {
+TEST_WITHIN(test_no_data, set_up, tear_down) {
     static const struct {
         const char *said;
         double hole;
@@ -172,7 +172,7 @@ static void test_no_data(void **state) {
     ewa_cloud_destroy(&cloud);
 }
 
-static void test_refused(void **state) {
+TEST_WITHIN(test_refused, set_up, tear_down) {
     tiff_kind kind = PLACED;
     kind.photometric = PHOTOMETRIC_RGB;
     kind.bands = 3;
@@ -209,7 +209,7 @@ static void set_tag(uint16_t wanted, uint32_t number) {
 }
 
 /// A directory that claims any size costs no memory and no time.
-static void test_sizes(void **state) {
+TEST_WITHIN(test_sizes, set_up, tear_down) {
     static const uint32_t sizes[] = {0, 1, 65535, 1u << 20, 1u << 30, UINT32_MAX};
     for (int a = 0; a < 6; a++)
         for (int b = 0; b < 6; b++)
@@ -229,7 +229,7 @@ static void test_sizes(void **state) {
 }
 
 /// Nor do 2^40 cells in strips that are not there, also where their slopes have to say whether they are in degrees.
-static void test_empty(void **state) {
+TEST_WITHIN(test_empty, set_up, tear_down) {
     for (int model = 0; model < 2; model++) {
         tiff_make(&file, (tiff_kind){.scale = 1e-5, .model = model});
         set_tag(256, 1 << 20); // columns
@@ -242,7 +242,7 @@ static void test_empty(void **state) {
     }
 }
 
-static void test_truncation(void **state) {
+TEST_WITHIN(test_truncation, set_up, tear_down) {
     tiff_make(&file, PLACED);
     char path[512];
     ewa_cloud_load_options options;
@@ -275,7 +275,7 @@ static void test_truncation(void **state) {
     assert_int_equal(last, 2 * 2 * TIFF_COLUMNS);
 }
 
-static void test_name(void **state) {
+TEST_WITHIN(test_name, set_up, tear_down) {
     char path[512];
     ewa_model_format format;
     tiff_make(&file, PLACED);
@@ -293,24 +293,9 @@ static ewa_status load_failing(ewa_context *failing, void *user) {
     return status;
 }
 
-static void test_failing_allocations(void **state) {
+TEST(test_failing_allocations) {
     tiff_make(&file, (tiff_kind){.scale = 0.01, .x = 7, .y = 50});
     scratch_fail_each(load_failing, &file);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(test_numbers, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(test_packed, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(test_places, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(test_degrees, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(test_no_data, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(test_refused, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(test_sizes, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(test_empty, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(test_truncation, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(test_name, set_up, tear_down),
-        cmocka_unit_test(test_failing_allocations),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -21,7 +21,7 @@ static ewa_status decode(ewa_context *context, const uint8_t *bytes, size_t size
 /// 2 x 2 pixels, plain.
 #define PLAIN_HEAD "#?RADIANCE\n# a comment\nFORMAT=32-bit_rle_rgbe\n\n"
 
-static void test_plain_rows(void **state) {
+TEST(test_plain_rows) {
     ewa_context *context = check_context(1, NULL);
     static const char pixels[] = "\x80\x40\x00\x81\xff\x00\x01\x80\x01\x02\x03\x88\x00\x00\x00\x00";
     for (int from_bottom = 0; from_bottom < 2; from_bottom++) {
@@ -43,7 +43,7 @@ static void test_plain_rows(void **state) {
     ewa_context_destroy(&context);
 }
 
-static void test_repeated_pixels(void **state) {
+TEST(test_repeated_pixels) {
     ewa_context *context = check_context(1, NULL);
     // 1 pixel, 2 more like it, another, and 0x0102 = 258 more like that: the low digit comes first.
     static const char file[] = PLAIN_HEAD
@@ -64,7 +64,7 @@ static const char RUNS[] = "#?RADIANCE\r\nEXPOSURE=2\nEXPOSURE= 0.25\n\n-Y 2 +X 
                            "\x02\x02\x00\x08\x88\x80\x88\x40\x83\x20\x05\x01\x02\x03\x04\x05\x88\x88"
                            "\x02\x02\x00\x08\x08\x00\x01\x02\x03\x04\x05\x06\x07\x88\x40\x88\x20\x88\x88";
 
-static void test_runs_of_components(void **state) {
+TEST(test_runs_of_components) {
     ewa_context *context = check_context(1, NULL);
     ewa_image image;
     assert_int_equal(decode(context, BYTES(RUNS), &image), EWA_OK);
@@ -77,7 +77,7 @@ static void test_runs_of_components(void **state) {
     ewa_context_destroy(&context);
 }
 
-static void test_every_truncation_fails(void **state) {
+TEST(test_every_truncation_fails) {
     check_log log = {0};
     ewa_context *context = check_context(1, &log);
     ewa_image image;
@@ -89,7 +89,7 @@ static void test_every_truncation_fails(void **state) {
     ewa_context_destroy(&context);
 }
 
-static void test_broken_files(void **state) {
+TEST(test_broken_files) {
     static const struct {
         const char *text;
         ewa_status status;
@@ -124,13 +124,6 @@ static ewa_status load_runs(ewa_context *context, void *user) {
     return status;
 }
 
-static void test_failing_allocations(void **state) { scratch_fail_each(load_runs, NULL); }
+TEST(test_failing_allocations) { scratch_fail_each(load_runs, NULL); }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_plain_rows),         cmocka_unit_test(test_repeated_pixels),
-        cmocka_unit_test(test_runs_of_components), cmocka_unit_test(test_every_truncation_fails),
-        cmocka_unit_test(test_broken_files),       cmocka_unit_test(test_failing_allocations),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -31,7 +31,7 @@ static bool is_near(const ewa_image *image, uint32_t x, uint32_t y, const int co
     return near;
 }
 
-static void test_known_pixels(void **state) {
+TEST(test_known_pixels) {
     ewa_context *context = check_context(1, NULL);
     static const int red[3] = {200, 60, 40}, blue[3] = {40, 80, 220};
     static const char *const names[] = {"colour.jpg", "progressive.jpg"};
@@ -57,7 +57,7 @@ static void test_known_pixels(void **state) {
 }
 
 /// What is cut in its pixels is a picture with a warning, as other programs have it; all else is an error.
-static void test_every_truncation(void **state) {
+TEST(test_every_truncation) {
     check_log log = {0};
     ewa_context *context = check_context(1, &log);
     static const char *const names[] = {"colour.jpg", "progressive.jpg", "grey.jpg"};
@@ -81,7 +81,7 @@ static void test_every_truncation(void **state) {
     ewa_context_destroy(&context);
 }
 
-static void test_broken_bytes(void **state) {
+TEST(test_broken_bytes) {
     ewa_context *context = check_context(1, NULL);
     static const char *const names[] = {"colour.jpg", "progressive.jpg", "grey.jpg", "cmyk.jpg"};
     check_random random = {3};
@@ -103,7 +103,7 @@ static void test_broken_bytes(void **state) {
     ewa_context_destroy(&context);
 }
 
-static void test_refused(void **state) {
+TEST(test_refused) {
     check_log log = {0};
     ewa_context *context = check_context(1, &log);
     ewa_image image;
@@ -134,7 +134,7 @@ static void test_refused(void **state) {
 }
 
 /// Sizes are checked before pixels are allocated, whatever the head says.
-static void test_limits(void **state) {
+TEST(test_limits) {
     size_t size_bytes;
     uint8_t *bytes = read_picture("colour.jpg", &size_bytes);
     size_t head = 0; // the frame's: ff c0, length, bits, height, width
@@ -169,7 +169,7 @@ static ewa_status load_colour(ewa_context *context, void *user) {
     return status;
 }
 
-static void test_failing_allocations(void **state) { scratch_fail_each(load_colour, NULL); }
+TEST(test_failing_allocations) { scratch_fail_each(load_colour, NULL); }
 
 /// A smooth picture with a line of another colour, which coarser colours would smear.
 static void fill_codes(uint8_t *codes, uint32_t width, uint32_t height, uint32_t channels) {
@@ -200,7 +200,7 @@ static void compare(ewa_context *context, const char *path, const uint8_t *codes
 }
 
 /// Grey, RGB and opaque RGBA come back, whatever the suffix's case, from 8 bits and from floats; nothing is said.
-static void test_round_trip(void **state) {
+TEST(test_round_trip) {
     check_log log = {.count = 0};
     ewa_context *context = check_context(2, &log);
     static const uint32_t sizes[][2] = {{1, 1}, {7, 300}, {160, 90}}, counts[] = {1, 3, 4};
@@ -239,7 +239,7 @@ static void test_round_trip(void **state) {
 }
 
 /// What is transparent is over white, by light: half of black over white is 188, and a warning says so.
-static void test_over_white(void **state) {
+TEST(test_over_white) {
     check_log log = {.count = 0};
     ewa_context *context = check_context(1, &log);
     uint8_t codes[16 * 16 * 4] = {0}, wanted[16 * 16 * 3];
@@ -261,7 +261,7 @@ static void test_over_white(void **state) {
     ewa_context_destroy(&context);
 }
 
-static void test_not_written(void **state) {
+TEST(test_not_written) {
     check_log log = {.count = 0};
     ewa_context *context = check_context(1, &log);
     char path[512];
@@ -287,19 +287,10 @@ static ewa_status save_colour(ewa_context *context, void *user) {
     return status;
 }
 
-static void test_failing_saves(void **state) {
+TEST(test_failing_saves) {
     char path[512];
     scratch_path("failing.jpg", path);
     scratch_fail_each(save_colour, path);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_known_pixels), cmocka_unit_test(test_every_truncation),
-        cmocka_unit_test(test_broken_bytes), cmocka_unit_test(test_refused),
-        cmocka_unit_test(test_limits),       cmocka_unit_test(test_failing_allocations),
-        cmocka_unit_test(test_round_trip),   cmocka_unit_test(test_over_white),
-        cmocka_unit_test(test_not_written),  cmocka_unit_test(test_failing_saves),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

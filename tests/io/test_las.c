@@ -6,7 +6,7 @@
 
 #include "io/fixture.h"
 
-static void test_fields_of_all_formats(void **state) {
+CASE(test_fields_of_all_formats) {
     enum { COUNT = 20000 }; // more than a task takes
     for (uint8_t format = 0; format < LAS_FORMATS; format++) {
         las_sample s = las_make(format, format < 4 ? 2 : format < 6 ? 3 : 4, 0, COUNT, NULL, 0, 0);
@@ -60,7 +60,7 @@ static void describe(uint8_t *to, const char *name, uint8_t type, uint8_t option
     memcpy(to + 4, name, strlen(name));
 }
 
-static void test_extra_bytes(void **state) {
+CASE(test_extra_bytes) {
     static const uint8_t sizes[11] = {0, 1, 1, 2, 2, 4, 4, 8, 8, 4, 8};
     static const char *const names[11] = {"",    "u8",  "i8",  "u16", "i16", "u32",
                                           "i32", "u64", "i64", "f32", "f64"};
@@ -124,7 +124,7 @@ static void test_extra_bytes(void **state) {
     free(s.bytes);
 }
 
-static void test_names_of_parts(void **state) {
+CASE(test_names_of_parts) {
     uint8_t fields[4 * 192], vlr[54 + sizeof fields];
     describe(fields, "ny", 9, 0);
     describe(fields + 192, "nx", 9, 0);
@@ -142,7 +142,7 @@ static void test_names_of_parts(void **state) {
     free(s.bytes);
 }
 
-static void test_colors_of_eight_bits(void **state) {
+CASE(test_colors_of_eight_bits) {
     enum { COUNT = 1000 };
     las_sample s = las_make(2, 2, 0, COUNT, NULL, 0, 0);
     for (int kind = 0; kind < 4; kind++) {
@@ -167,7 +167,7 @@ static void test_colors_of_eight_bits(void **state) {
     free(s.bytes);
 }
 
-static void test_notes(void **state) {
+CASE(test_notes) {
     const char wkt[] = "PROJCS[\"Somewhere / zone 1\",GEOGCS[\"Somewhere\"]]";
     uint8_t vlrs[600];
     size_t at = las_vlr(vlrs, "LASF_Projection", 2112, wkt, sizeof wkt);
@@ -213,7 +213,7 @@ static void test_notes(void **state) {
     }
 }
 
-static void test_headers_that_lie(void **state) {
+CASE(test_headers_that_lie) {
     las_sample s = las_make(3, 4, 0, 10, NULL, 0, 0);
     // The count of 64 bits is 0: that of 32 bits counts.
     las_put(s.bytes + 247, 0, 8);
@@ -256,7 +256,7 @@ static void test_headers_that_lie(void **state) {
     free(s.bytes);
 }
 
-static void test_only_what_is_wanted(void **state) {
+CASE(test_only_what_is_wanted) {
     las_sample s = las_make(3, 2, 0, 50, NULL, 0, 0);
     const char *path = "las_wanted.las";
     FILE *file = fopen(path, "wb");
@@ -285,10 +285,4 @@ static void test_only_what_is_wanted(void **state) {
     free(s.bytes);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        CASE(test_fields_of_all_formats), CASE(test_extra_bytes), CASE(test_names_of_parts),
-        CASE(test_colors_of_eight_bits),  CASE(test_notes),       CASE(test_headers_that_lie),
-        CASE(test_only_what_is_wanted)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

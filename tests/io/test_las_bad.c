@@ -39,7 +39,7 @@ static ewa_status load(const uint8_t *bytes, size_t size_bytes, uint64_t *point_
     return status;
 }
 
-static void test_every_truncation(void **state) {
+CASE(test_every_truncation) {
     for (uint8_t format = 3; format <= 7; format += 4) {
         las_sample s = las_make(format, 4, 4, 40, NULL, 0, 0);
         for (size_t size = 0; size < s.size_bytes; size++) {
@@ -59,7 +59,7 @@ static void test_every_truncation(void **state) {
     }
 }
 
-static void test_every_byte_of_the_header(void **state) {
+CASE(test_every_byte_of_the_header) {
     las_sample s = las_make(7, 4, 0, 40, NULL, 0, 0);
     size_t size_bytes;
     uint8_t *bytes = compress(&s, 15, &size_bytes);
@@ -82,7 +82,7 @@ static void test_every_byte_of_the_header(void **state) {
     free(s.bytes);
 }
 
-static void test_damaged_chunk(void **state) {
+CASE(test_damaged_chunk) {
     las_sample s = las_make(6, 4, 0, 1000, NULL, 0, 0);
     size_t size_bytes;
     uint8_t *bytes = compress(&s, 100, &size_bytes);
@@ -124,7 +124,7 @@ static void test_damaged_chunk(void **state) {
     free(s.bytes);
 }
 
-static void test_lies_about_chunks(void **state) {
+CASE(test_lies_about_chunks) {
     las_sample s = las_make(6, 4, 0, 100, NULL, 0, 0);
     size_t size_bytes;
     uint8_t *bytes = compress(&s, 30, &size_bytes);
@@ -184,7 +184,7 @@ static void test_lies_about_chunks(void **state) {
     free(s.bytes);
 }
 
-static void test_pipes(void **state) {
+CASE(test_pipes) {
     // What cannot be patched is written at once, or not at all.
     las_sample s = las_make(1, 2, 0, 500, NULL, 0, 0);
     ewa_cloud *cloud = las_load(context, &s);
@@ -211,9 +211,4 @@ static void test_pipes(void **state) {
     free(s.bytes);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {CASE(test_every_truncation), CASE(test_every_byte_of_the_header),
-                                       CASE(test_damaged_chunk), CASE(test_lies_about_chunks),
-                                       CASE(test_pipes)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

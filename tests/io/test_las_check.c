@@ -97,17 +97,14 @@ static void judge(const char *name, uint32_t threads) {
     free(bytes);
 }
 
-static void las_is_checked(void **state) {
+TEST(las_is_checked) {
     judge("checked.las", 1);
     judge("checked.las", 3);
 }
 
-static void laz_is_checked(void **state) {
+TEST(laz_is_checked) {
     judge("checked.laz", 1);
     judge("checked.laz", 3);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(las_is_checked), cmocka_unit_test(laz_is_checked)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -73,7 +73,7 @@ static const struct {
     {"laz/lion_takanawa.copc.laz", 341989, LION_TAKANAWA, "LAS 1.4, point format 7, 40", "", -1},
 };
 
-static void test_counts_bounds_and_formats(void **state) {
+CASE(test_counts_bounds_and_formats) {
     for (size_t k = 0; k < sizeof files / sizeof *files; k++) {
         char relative[256];
         snprintf(relative, sizeof relative, "clouds/%s", files[k].path);
@@ -101,7 +101,7 @@ static void test_counts_bounds_and_formats(void **state) {
     }
 }
 
-static void test_twins(void **state) {
+CASE(test_twins) {
     static const char *const twins[][2] = {{"laz/point10.las", "laz/point10.laz"},
                                            {"laz/point-time.las", "laz/point-time.laz"},
                                            {"laz/point-color.las", "laz/point-color.laz"},
@@ -153,7 +153,7 @@ static void round_trip(void *user, const char *path) {
     ewa_cloud_destroy(&cloud);
 }
 
-static void test_round_trips(void **state) {
+CASE(test_round_trips) {
     if (scratch_each("clouds/las", round_trip, NULL) == 0) skip();
     scratch_each("clouds/laz", round_trip, NULL);
 }
@@ -169,14 +169,10 @@ static void refuse_or_read(void *user, const char *path) {
     ewa_cloud_destroy(&cloud);
 }
 
-static void test_hostile(void **state) {
+CASE(test_hostile) {
     visit v = {0};
     if (scratch_each("hostile/las", refuse_or_read, &v) == 0) skip();
     assert_int_equal(v.refused, 1); // the other two are merely odd
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {CASE(test_counts_bounds_and_formats), CASE(test_twins),
-                                       CASE(test_round_trips), CASE(test_hostile)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

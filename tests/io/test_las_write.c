@@ -21,7 +21,7 @@ static ewa_cloud *save_and_load(const ewa_cloud *cloud, const char *name,
     return back;
 }
 
-static void test_round_trips(void **state) {
+CASE(test_round_trips) {
     enum { COUNT = 12345 };
     for (uint8_t format = 0; format < LAS_FORMATS; format++) {
         las_sample s = las_make(format, format < 4 ? 2 : format < 6 ? 3 : 4, 0, COUNT, NULL, 0, 0);
@@ -52,7 +52,7 @@ static void test_round_trips(void **state) {
     assert_int_equal(messages.count, 0);
 }
 
-static void test_header(void **state) {
+CASE(test_header) {
     enum { COUNT = 5000 };
     las_sample s = las_make(1, 2, 0, COUNT, NULL, 0, 0);
     ewa_cloud *cloud = las_load(context, &s);
@@ -77,7 +77,7 @@ static void test_header(void **state) {
     free(s.bytes);
 }
 
-static void test_pieces(void **state) {
+CASE(test_pieces) {
     enum { COUNT = 4321 };
     las_sample s = las_make(7, 4, 0, COUNT, NULL, 0, 0);
     ewa_cloud *cloud = las_load(context, &s);
@@ -129,7 +129,7 @@ static ewa_cloud *make_cloud(uint64_t count, double **positions) {
     return cloud;
 }
 
-static void test_attributes_of_every_type(void **state) {
+CASE(test_attributes_of_every_type) {
     enum { COUNT = 300 };
     static const struct {
         const char *name;
@@ -164,7 +164,7 @@ static void test_attributes_of_every_type(void **state) {
     ewa_cloud_destroy(&cloud);
 }
 
-static void test_colors(void **state) {
+CASE(test_colors) {
     double *positions;
     ewa_cloud *cloud = make_cloud(256, &positions);
     uint8_t *color;
@@ -193,7 +193,7 @@ static void test_colors(void **state) {
     ewa_cloud_destroy(&cloud);
 }
 
-static void test_grids(void **state) {
+CASE(test_grids) {
     static const struct {
         double low, high, step, offset;
         const char *crs;
@@ -244,7 +244,7 @@ static void test_grids(void **state) {
     ewa_cloud_destroy(&cloud);
 }
 
-static void test_points_without_a_place(void **state) {
+CASE(test_points_without_a_place) {
     double *positions;
     ewa_cloud *cloud = make_cloud(5, &positions);
     for (int i = 0; i < 15; i++) positions[i] = i;
@@ -258,7 +258,7 @@ static void test_points_without_a_place(void **state) {
     ewa_cloud_destroy(&cloud);
 }
 
-static void test_format_that_holds_the_numbers(void **state) {
+CASE(test_format_that_holds_the_numbers) {
     static const struct {
         const char *name;
         double value;
@@ -286,7 +286,7 @@ static void test_format_that_holds_the_numbers(void **state) {
     }
 }
 
-static void test_records_and_systems(void **state) {
+CASE(test_records_and_systems) {
     const char wkt[] = "GEOGCS[\"WGS 84\"]";
     uint8_t vlrs[300];
     size_t at = las_vlr(vlrs, "LASF_Projection", 2112, wkt, sizeof wkt), bytes_count;
@@ -312,7 +312,7 @@ static void test_records_and_systems(void **state) {
     free(s.bytes);
 }
 
-static void test_memory(void **state) {
+CASE(test_memory) {
     // Every allocation of reading and of writing fails once.
     las_sample s = las_make(8, 4, 0, 700, NULL, 0, 0);
     for (int compressed = 0; compressed < 2; compressed++) {
@@ -341,16 +341,4 @@ static void test_memory(void **state) {
     free(s.bytes);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {CASE(test_round_trips),
-                                       CASE(test_header),
-                                       CASE(test_pieces),
-                                       CASE(test_attributes_of_every_type),
-                                       CASE(test_colors),
-                                       CASE(test_grids),
-                                       CASE(test_points_without_a_place),
-                                       CASE(test_format_that_holds_the_numbers),
-                                       CASE(test_records_and_systems),
-                                       CASE(test_memory)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

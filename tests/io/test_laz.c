@@ -83,7 +83,7 @@ static void check_back(chunk *c) {
     assert_memory_equal(c->decoded, c->records, (size_t)c->point_count * c->plan.record_bytes);
 }
 
-static void test_facts(void **state) {
+TEST(test_facts) {
     for (size_t i = 0; i < sizeof laz_fact_chunks / sizeof laz_fact_chunks[0]; i++) {
         const uint8_t format = laz_fact_chunks[i].point_format;
         const uint32_t record_bytes = laz_fact_chunks[i].record_bytes;
@@ -102,7 +102,7 @@ static void test_facts(void **state) {
     }
 }
 
-static void test_round_trips(void **state) {
+TEST(test_round_trips) {
     static const uint32_t COUNTS[] = {1, 2, 3, 1000};
     for (uint8_t format = 0; format < 11; format++)
         for (int kind = 0; kind < LAZ_SAMPLE_KIND_COUNT; kind++)
@@ -119,7 +119,7 @@ static void test_round_trips(void **state) {
                 }
 }
 
-static void test_no_points(void **state) {
+TEST(test_no_points) {
     chunk c = chunk_make(plan_of(3, 0), LAZ_SAMPLE_SMOOTH, 3, 0);
     assert_int_equal(c.size_bytes, 0);
     assert_null(decode(&c, NULL, 0, 0).fault);
@@ -127,7 +127,7 @@ static void test_no_points(void **state) {
     chunk_free(&c);
 }
 
-static void test_constant_is_small(void **state) {
+TEST(test_constant_is_small) {
     for (uint8_t format = 0; format < 11; format++) {
         chunk c = chunk_make(plan_of(format, 0), LAZ_SAMPLE_CONSTANT, format, 5000);
         if (c.size_bytes > 1000) fail_msg("format %d: %u bytes", format, (unsigned)c.size_bytes);
@@ -135,7 +135,7 @@ static void test_constant_is_small(void **state) {
     }
 }
 
-static void test_truncations(void **state) {
+TEST(test_truncations) {
     for (uint8_t format = 0; format < 11; format++) {
         chunk c = chunk_make(plan_of(format, 2), LAZ_SAMPLE_JUMPS, format, 20);
         const uint32_t record_bytes = c.plan.record_bytes;
@@ -151,7 +151,7 @@ static void test_truncations(void **state) {
     }
 }
 
-static void test_changes(void **state) {
+TEST(test_changes) {
     static const uint8_t CHANGES[] = {1, 0x80, 0xFF};
     for (uint8_t format = 0; format < 11; format++) {
         uint64_t told = 0, tried = 0;
@@ -172,7 +172,7 @@ static void test_changes(void **state) {
     }
 }
 
-static void test_layers(void **state) {
+TEST(test_layers) {
     chunk c = chunk_make(plan_of(7, 1), LAZ_SAMPLE_SMOOTH, 7, 50);
     uint8_t *bytes = c.bytes.data, *count = bytes + c.plan.record_bytes, *sizes = count + 4;
     laz_sample_put(count, 51, 4);
@@ -198,7 +198,7 @@ static void test_layers(void **state) {
     chunk_free(&c);
 }
 
-static void test_plans(void **state) {
+TEST(test_plans) {
     static const struct {
         ewa_laz_item items[3];
         uint32_t item_count;
@@ -257,7 +257,7 @@ static void check_table(const uint64_t (*chunks)[2], uint32_t count, bool variab
     free(out);
 }
 
-static void test_tables(void **state) {
+TEST(test_tables) {
     const uint32_t count = sizeof laz_fact_table / sizeof laz_fact_table[0];
     check_table(laz_fact_table, count, false, laz_fact_table_fixed, sizeof laz_fact_table_fixed);
     check_table(laz_fact_table, count, true, laz_fact_table_variable, sizeof laz_fact_table_variable);
@@ -272,7 +272,7 @@ static void test_tables(void **state) {
 }
 
 /// One memory for several plans, as a program has it that reads one file after the other.
-static void test_memory(void **state) {
+TEST(test_memory) {
     ewa_laz_memory *memory = NULL;
     for (int turn = 0; turn < 4; turn++) {
         const uint8_t format = turn % 2 ? 3 : 7;
@@ -287,7 +287,7 @@ static void test_memory(void **state) {
     ewa_laz_memory_free(context, &memory);
 }
 
-static void test_allocations_fail(void **state) {
+TEST(test_allocations_fail) {
     for (uint8_t format = 3; format < 8; format += 4) {
         long calls = 0;
         for (ewa_status status = EWA_ERROR_MEMORY; status != EWA_OK; calls++) {
@@ -314,19 +314,4 @@ static void test_allocations_fail(void **state) {
     }
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_facts),
-        cmocka_unit_test(test_round_trips),
-        cmocka_unit_test(test_no_points),
-        cmocka_unit_test(test_constant_is_small),
-        cmocka_unit_test(test_truncations),
-        cmocka_unit_test(test_changes),
-        cmocka_unit_test(test_layers),
-        cmocka_unit_test(test_plans),
-        cmocka_unit_test(test_tables),
-        cmocka_unit_test(test_memory),
-        cmocka_unit_test(test_allocations_fail),
-    };
-    return cmocka_run_group_tests(tests, begin, end);
-}
+int main(void) { return RUN_TESTS(begin, end); }

@@ -176,16 +176,16 @@ static void try_cuts(cut_kind kind, size_t step) {
     ewa_context_destroy(&context);
 }
 
-static void test_flat(void **state) { try_cuts(FLAT, 61); }
+TEST(test_flat) { try_cuts(FLAT, 61); }
 
-static void test_layered(void **state) { try_cuts(LAYERED, 173); }
+TEST(test_layered) { try_cuts(LAYERED, 173); }
 
-static void test_layered_color(void **state) { try_cuts(LAYERED_COLOR, 251); }
+TEST(test_layered_color) { try_cuts(LAYERED_COLOR, 251); }
 
-static void test_layered_infrared(void **state) { try_cuts(LAYERED_INFRARED, 251); }
+TEST(test_layered_infrared) { try_cuts(LAYERED_INFRARED, 251); }
 
 /// Chunks of COPC have sizes of their own, which only the table tells, and they themselves.
-static void test_octree(void **state) {
+TEST(test_octree) {
     enum { COUNT = 3000 };
     check_log log = {.count = 0};
     ewa_context *context = check_context(2, &log);
@@ -237,17 +237,9 @@ static ewa_status load_failing(ewa_context *context, void *user) {
     return status;
 }
 
-static void test_failing_allocations(void **state) {
+TEST(test_failing_allocations) {
     char path[512];
     scratch_fail_each(load_failing, (void *)(uintptr_t)scratch_path("cut.laz", path));
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_flat),
-                                       cmocka_unit_test(test_layered),
-                                       cmocka_unit_test(test_layered_color),
-                                       cmocka_unit_test(test_layered_infrared),
-                                       cmocka_unit_test(test_octree),
-                                       cmocka_unit_test(test_failing_allocations)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

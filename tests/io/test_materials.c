@@ -11,7 +11,7 @@ static ewa_status read_text(ewa_context *context, const char *text, ewa_material
     return ewa_materials_read(context, "m.json", (const uint8_t *)text, strlen(text), materials, count);
 }
 
-static void test_known_table(void **state) {
+TEST(test_known_table) {
     ewa_context *context = check_context(1, NULL);
     ewa_material materials[EWA_MAX_MATERIALS], initial;
     ewa_material_init(&initial);
@@ -41,7 +41,7 @@ static void test_known_table(void **state) {
     ewa_context_destroy(&context);
 }
 
-static void test_broken_tables(void **state) {
+TEST(test_broken_tables) {
     static const struct {
         const char *text, *words;
     } tables[] = {
@@ -71,7 +71,7 @@ static void test_broken_tables(void **state) {
     ewa_context_destroy(&context);
 }
 
-static void test_as_many_as_indices(void **state) {
+TEST(test_as_many_as_indices) {
     ewa_context *context = check_context(1, NULL);
     ewa_material materials[EWA_MAX_MATERIALS];
     for (uint32_t wanted = EWA_MAX_MATERIALS; wanted <= EWA_MAX_MATERIALS + 1; wanted++) {
@@ -86,11 +86,4 @@ static void test_as_many_as_indices(void **state) {
     ewa_context_destroy(&context);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_known_table),
-        cmocka_unit_test(test_broken_tables),
-        cmocka_unit_test(test_as_many_as_indices),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -166,7 +166,7 @@ static ewa_status try_bytes(ewa_context *context, mesh_messages *messages, const
     return status;
 }
 
-static void test_samples_load(void **state) {
+TEST(test_samples_load) {
     mesh_messages messages;
     ewa_context *context = mesh_context(&messages);
     for (int i = 0; i < SAMPLES; i++) {
@@ -177,7 +177,7 @@ static void test_samples_load(void **state) {
     ewa_context_destroy(&context);
 }
 
-static void test_every_truncation(void **state) {
+TEST(test_every_truncation) {
     mesh_messages messages;
     ewa_context *context = mesh_context(&messages);
     for (int i = 0; i < SAMPLES; i++)
@@ -225,7 +225,7 @@ static size_t change(check_random *random, const sample *from, uint8_t *to, size
     return size;
 }
 
-static void test_changed_bytes(void **state) {
+TEST(test_changed_bytes) {
     mesh_messages messages;
     ewa_context *context = mesh_context(&messages);
     const char *wanted = getenv("EWA_MUTATIONS");
@@ -256,7 +256,7 @@ static ewa_status load_file(ewa_context *context, void *user) {
     return closing;
 }
 
-static void test_failing_allocations(void **state) {
+TEST(test_failing_allocations) {
     char path[512];
     mesh_messages messages;
     ewa_context *context = mesh_context(&messages);
@@ -276,7 +276,7 @@ static void test_failing_allocations(void **state) {
 }
 
 /// Limits hold before memory is taken: as many points, triangles and bytes as the context allows.
-static void test_limits(void **state) {
+TEST(test_limits) {
     for (int i = 0; i < SAMPLES; i++)
         for (int kind = 0; kind < 2; kind++) {
             mesh_messages messages = {.errors = 0};
@@ -322,7 +322,7 @@ static void test_limits(void **state) {
 }
 
 /// Polygons that clip_ears() would work on for hours.
-static void test_time(void **state) {
+TEST(test_time) {
     enum { CORNERS = 3000, FACES = 40 };
     mesh_messages messages;
     ewa_context *context = mesh_context(&messages);
@@ -354,7 +354,7 @@ static void test_time(void **state) {
 }
 
 /// Every format under every name, and what is none.
-static void test_probe(void **state) {
+TEST(test_probe) {
     mesh_messages messages;
     ewa_context *context = mesh_context(&messages);
     static const ewa_model_format formats[SAMPLES] = {EWA_MODEL_PLY,  EWA_MODEL_PLY, EWA_MODEL_OBJ,
@@ -420,12 +420,4 @@ static void test_probe(void **state) {
     ewa_context_destroy(&context);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_samples_load),  cmocka_unit_test(test_every_truncation),
-        cmocka_unit_test(test_changed_bytes), cmocka_unit_test(test_failing_allocations),
-        cmocka_unit_test(test_limits),        cmocka_unit_test(test_time),
-        cmocka_unit_test(test_probe),
-    };
-    return cmocka_run_group_tests(tests, make_samples, NULL);
-}
+int main(void) { return RUN_TESTS(make_samples, NULL); }

@@ -14,7 +14,7 @@ static void check_square(const ewa_mesh *mesh) {
 }
 
 /// Modes, and indices of every type.
-static void test_primitives(void **state) {
+CASE(test_primitives) {
     static const struct {
         const char *primitive;
         const float *places;
@@ -56,7 +56,7 @@ static void test_primitives(void **state) {
 }
 
 /// Positions as integers of every kind, plain and normalised, with strides and offsets, and sparse ones.
-static void test_accessors(void **state) {
+CASE(test_accessors) {
     static const struct {
         int type;
         bool normalized;
@@ -142,7 +142,7 @@ static void test_accessors(void **state) {
 
 /// Matrices, translation, rotation and scale, one below the other; what mirrors keeps its outside;
 /// coordinates of maps keep their digits.
-static void test_nodes(void **state) {
+CASE(test_nodes) {
     static const struct {
         const char *nodes;
         double low[3], high[3], up; ///< box, and the z of the area
@@ -193,7 +193,7 @@ static void test_nodes(void **state) {
 }
 
 /// Floats that are too coarse are said, unless a node puts them where they are.
-static void test_coarse_floats(void **state) {
+CASE(test_coarse_floats) {
     static const float far[12] = {500000, 4200000, 0, 500001, 4200000, 0,
                                   500001, 4200001, 0, 500000, 4200001, 0};
     for (int moved = 0; moved < 2; moved++) {
@@ -251,13 +251,13 @@ static void try_normals_and_colors(const char *material, float alpha) {
     ewa_mesh_free(&mesh);
 }
 
-static void test_normals_and_colors(void **state) {
+CASE(test_normals_and_colors) {
     try_normals_and_colors("\"alphaMode\":\"BLEND\"", 128 / 255.0f);
     try_normals_and_colors("", 1);
 }
 
 /// A buffer in text, in a file beside, in a file elsewhere.
-static void test_buffers(void **state) {
+CASE(test_buffers) {
     static const char text[] =
         "{\"asset\":{\"version\":\"2.0\"},\"scenes\":[{\"nodes\":[0]}],\"nodes\":[{\"mesh\":0}],\"meshes\":[{"
         "\"primitives\":[{\"attributes\":{\"POSITION\":0}}]}],"
@@ -307,7 +307,7 @@ static void test_buffers(void **state) {
 }
 
 /// Points are a cloud where there are no triangles, and counted beside them, as lines are.
-static void test_points_and_lines(void **state) {
+CASE(test_points_and_lines) {
     glb g = {.size = 0};
     uint8_t file[16384];
     put_floats(&g, 12, gltf_square);
@@ -338,7 +338,7 @@ static void test_points_and_lines(void **state) {
 }
 
 /// Numbers that lie: each is an error that names the place.
-static void test_lies(void **state) {
+CASE(test_lies) {
     static const struct {
         const char *from, *to, *said;
         ewa_status status;
@@ -407,7 +407,7 @@ static void test_lies(void **state) {
 
 /// A tree that names a child twice at each level would have 2^n nodes; a short file that names one accessor a
 /// thousand times, or a huge one of zeros, is refused before it takes memory.
-static void test_amplification(void **state) {
+CASE(test_amplification) {
     static char text[1 << 16];
     size_t at = (size_t)snprintf(text, sizeof text,
                                  "{\"asset\":{\"version\":\"2.0\"},\"scenes\":[{\"nodes\":[0]}],\"nodes\":[");
@@ -439,7 +439,7 @@ static void test_amplification(void **state) {
 }
 
 /// A short file over a large buffer beside it: how much it may hold goes by both.
-static void test_large_buffer(void **state) {
+CASE(test_large_buffer) {
     enum { PLACES = 3, CORNERS = 4500000, BYTES = 12 * PLACES + CORNERS };
     uint8_t *bytes = calloc(BYTES, 1);
     assert_non_null(bytes);
@@ -466,7 +466,7 @@ static void test_large_buffer(void **state) {
 
 /// What is looked at again and again costs little each time: empty primitives of a mesh that many nodes have,
 /// and objects of more members than glTF has names for.
-static void test_repetition(void **state) {
+CASE(test_repetition) {
     static char text[1 << 17];
     size_t at = (size_t)snprintf(text, sizeof text, "{\"asset\":{\"version\":\"2.0\"},\"nodes\":[{}");
     for (int i = 0; i < 4000; i++) at += (size_t)snprintf(text + at, sizeof text - at, ",{\"mesh\":0}");
@@ -486,17 +486,4 @@ static void test_repetition(void **state) {
     }
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {CASE(test_primitives),
-                                       CASE(test_accessors),
-                                       CASE(test_nodes),
-                                       CASE(test_coarse_floats),
-                                       CASE(test_normals_and_colors),
-                                       CASE(test_buffers),
-                                       CASE(test_points_and_lines),
-                                       CASE(test_lies),
-                                       CASE(test_amplification),
-                                       CASE(test_large_buffer),
-                                       CASE(test_repetition)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -33,7 +33,7 @@ static glb textured(const char *json) {
     "data:image/png;base64,iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAIAAACQd1PeAAAADElEQVR4nGP4z8AAAAMBAQDJ/"        \
     "pLvAAAAAElFTkSuQmCC"
 
-static void test_materials(void **state) {
+CASE(test_materials) {
     ewa_mesh mesh;
     glb g = textured(TEXTURED("{\"pbrMetallicRoughness\":{\"baseColorFactor\":[0.5,0.25,1,0.5],"
                               "\"baseColorTexture\":{\"index\":0}}}",
@@ -76,7 +76,7 @@ static void test_materials(void **state) {
 }
 
 /// Alpha of pictures: kept where it blends, dropped where the material is opaque, cut where it is a mask.
-static void test_alpha(void **state) {
+CASE(test_alpha) {
     char path[512];
     ewa_mesh mesh;
     const uint8_t pixels[8] = {255, 0, 0, 51, 0, 255, 0, 204};
@@ -113,7 +113,7 @@ static void test_alpha(void **state) {
 }
 
 /// Materials with one picture have it once, whatever is done with alpha, where it has none.
-static void test_shared(void **state) {
+CASE(test_shared) {
     ewa_mesh mesh;
 #define PART(material)                                                                                       \
     "{\"attributes\":{\"POSITION\":0,\"TEXCOORD_0\":1},\"mode\":6,\"material\":" material "}"
@@ -140,7 +140,7 @@ static void test_shared(void **state) {
     "data:image/webp;base64,UklGRjgAAABXRUJQVlA4ICwAAACQAQCdASoBAAEAAgA0JaACdLoAA5gA/vmTb/+QH/+QH/+QH/"      \
     "8gP+IXeyAwAA=="
 
-static void test_extensions(void **state) {
+CASE(test_extensions) {
     ewa_mesh mesh;
     glb g = textured(TEXTURED(
         "{\"pbrMetallicRoughness\":{\"baseColorTexture\":{\"index\":0}}}",
@@ -167,7 +167,4 @@ static void test_extensions(void **state) {
     }
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {CASE(test_materials), CASE(test_alpha), CASE(test_shared), CASE(test_extensions)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

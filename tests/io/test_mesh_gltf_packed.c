@@ -50,7 +50,7 @@ static uint32_t nearest(const ewa_mesh *mesh, const double place[3], double *dis
 }
 
 /// Places within a step of 14 bits, colours within one of 8, the same faces and area.
-static void test_same_torus(void **state) {
+TEST(test_same_torus) {
     ewa_mesh plain, packed;
     load_corpus("torus.glb", &plain);
     double sum[3];
@@ -92,7 +92,7 @@ static ewa_status try_bytes(const uint8_t *bytes, size_t size_bytes) {
     return status;
 }
 
-static void test_every_truncation(void **state) {
+TEST(test_every_truncation) {
     for (int n = 0; n < PACKED; n++) {
         size_t size_bytes;
         uint8_t *bytes = read_corpus(packed_names[n], &size_bytes);
@@ -108,7 +108,7 @@ static size_t read_length(const uint8_t *bytes) {
 }
 
 /// Every byte of the packed streams turned over and set to ends of its range; and whole streams of one byte.
-static void test_wrong_bytes(void **state) {
+TEST(test_wrong_bytes) {
     static const uint8_t values[] = {0, 1, 0x7f, 0x80, 0xff};
     for (int n = 0; n < PACKED; n++) {
         size_t size_bytes;
@@ -145,7 +145,7 @@ static void replace(uint8_t *bytes, size_t size_bytes, const char *from, const c
 }
 
 /// What extensions claim that is not so.
-static void test_wrong_claims(void **state) {
+TEST(test_wrong_claims) {
     static const struct {
         int file;
         const char *from, *to, *said;
@@ -193,7 +193,7 @@ static ewa_status load_packed(ewa_context *failing, void *user) {
     return status;
 }
 
-static void test_failing_allocations(void **state) {
+TEST(test_failing_allocations) {
     for (int n = 0; n < PACKED; n++) {
         char name[64];
         snprintf(name, sizeof name, "%s", packed_names[n]);
@@ -201,11 +201,4 @@ static void test_failing_allocations(void **state) {
     }
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_same_torus),          cmocka_unit_test(test_every_truncation),
-        cmocka_unit_test(test_wrong_bytes),         cmocka_unit_test(test_wrong_claims),
-        cmocka_unit_test(test_failing_allocations),
-    };
-    return cmocka_run_group_tests(tests, begin, end);
-}
+int main(void) { return RUN_TESTS(begin, end); }

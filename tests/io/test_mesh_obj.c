@@ -7,7 +7,7 @@
 #define SQUARE "v 0 0 0\nv 2 0 0\nv 2 3 0\nv 0 3 0\n"
 
 /// The same square in many spellings.
-static void test_spellings(void **state) {
+CASE(test_spellings) {
     static const char *const texts[] = {
         SQUARE "f 1 2 3 4\n",
         SQUARE "f 1 2 3 4",
@@ -48,7 +48,7 @@ static void test_spellings(void **state) {
 }
 
 /// The same text in two bytes per letter, both orders; letters beyond ASCII and beyond 16 bits in remarks.
-static void test_utf16(void **state) {
+CASE(test_utf16) {
     static const char text[] = "# caf\xc3\xa9 \xf0\x9f\x90\x80\n" SQUARE "f 1 2 3 4\n";
     for (int big = 0; big < 2; big++) {
         uint8_t bytes[1024];
@@ -78,7 +78,7 @@ static void test_utf16(void **state) {
     }
 }
 
-static void test_texcoords_and_normals(void **state) {
+CASE(test_texcoords_and_normals) {
     ewa_mesh mesh;
     mesh_load_text(context, &messages, "a.obj",
                    SQUARE "vt 0 0\nvt 1 0 0.5\nvt 0.25\nvn 0 0 2\nvn 1 0 0\n"
@@ -99,7 +99,7 @@ static void test_texcoords_and_normals(void **state) {
     ewa_mesh_free(&mesh);
 }
 
-static void test_vertex_colors(void **state) {
+CASE(test_vertex_colors) {
     ewa_mesh mesh;
     mesh_load_text(context, &messages, "a.obj",
                    "v 0 0 0\nv 1 0 0 0.5 0 1\nv 0 1 0 1 0 0 0.25\nv 1 1 0\nf 1 2 3\nf 2 4 3\n", &mesh);
@@ -119,7 +119,7 @@ static void test_vertex_colors(void **state) {
 }
 
 /// What is no number, no corner, no face: the rest is a mesh, and it is said.
-static void test_bad_statements(void **state) {
+CASE(test_bad_statements) {
     ewa_mesh mesh;
     static const struct {
         const char *text, *said;
@@ -149,7 +149,7 @@ static void test_bad_statements(void **state) {
 }
 
 /// Without faces, places are points.
-static void test_points(void **state) {
+CASE(test_points) {
     static const char *const texts[] = {"v 1 2 3\nv 4 5 6\nv 7 8 9\n", "v 1 2 3\nv 4 5 6\nv 7 8 9\np 1 2 3\n",
                                         "vn 0 0 1\nv 1 2 3\nvn 0 0 1\nv 4 5 6\nv 7 8 9\n"};
     for (size_t i = 0; i < sizeof texts / sizeof texts[0]; i++) {
@@ -190,7 +190,7 @@ static void load_with(const char *library, const char *object, ewa_mesh *mesh) {
 }
 
 /// Several materials, colours, pictures with blanks in their names, options before them.
-static void test_materials(void **state) {
+CASE(test_materials) {
     ewa_mesh mesh;
     mesh_picture(context, "mtl red.png", 255, 0, 0);
     mesh_picture(context, "mtl_green.png", 0, 255, 0);
@@ -224,7 +224,7 @@ static void test_materials(void **state) {
 
 /// What is written as PLY is the same mesh when it is read again: places, pictures, their coordinates,
 /// colours.
-static void test_written_as_ply(void **state) {
+CASE(test_written_as_ply) {
     static const char *const library =
         "newmtl a\nmap_Kd -s 2 1 one picture.png\nnewmtl b\nKd 0.2 0.4 0.6\nd 0.4\nnewmtl c\n"
         "map_Kd written.png\n";
@@ -275,7 +275,7 @@ static void test_written_as_ply(void **state) {
 }
 
 /// One picture that many materials name is there once.
-static void test_shared_picture(void **state) {
+CASE(test_shared_picture) {
     ewa_mesh mesh;
     mesh_picture(context, "shared.png", 255, 0, 0);
     load_with(
@@ -289,7 +289,7 @@ static void test_shared_picture(void **state) {
     ewa_mesh_free(&mesh);
 }
 
-static void test_libraries(void **state) {
+CASE(test_libraries) {
     char path[512];
     ewa_mesh mesh;
     static const char *const library = "newmtl m\nKd 0 1 0\n";
@@ -333,7 +333,7 @@ static void test_libraries(void **state) {
 }
 
 /// A mesh that was renamed together with its library.
-static void test_renamed(void **state) {
+CASE(test_renamed) {
     char path[512];
     ewa_mesh mesh;
     static const char *const library = "newmtl m\nKd 0 1 0\n", *const text =
@@ -364,7 +364,7 @@ static void test_renamed(void **state) {
 }
 
 /// A mesh that names no library has the one material of that beside it, where it has texture coordinates.
-static void test_unnamed(void **state) {
+CASE(test_unnamed) {
     (void)state;
     static const struct {
         const char *library, *text;
@@ -394,7 +394,7 @@ static void test_unnamed(void **state) {
 }
 
 /// A library that is a folder, a pipe, a device or elsewhere is not opened.
-static void test_hostile_names(void **state) {
+CASE(test_hostile_names) {
     char path[512];
     ewa_mesh mesh;
     unlink(scratch_path("pipe.png", path));
@@ -442,7 +442,7 @@ static void test_hostile_names(void **state) {
 }
 
 /// Many pictures that are missing are named a few times and counted.
-static void test_many_missing(void **state) {
+CASE(test_many_missing) {
     ewa_mesh mesh;
     char library[4096] = "", object[8192] = TEXTURED("mtl.mtl");
     for (int i = 0; i < 50; i++) {
@@ -457,12 +457,4 @@ static void test_many_missing(void **state) {
     ewa_mesh_free(&mesh);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        CASE(test_spellings),     CASE(test_utf16),          CASE(test_texcoords_and_normals),
-        CASE(test_vertex_colors), CASE(test_bad_statements), CASE(test_points),
-        CASE(test_materials),     CASE(test_shared_picture), CASE(test_written_as_ply),
-        CASE(test_libraries),     CASE(test_renamed),        CASE(test_unnamed),
-        CASE(test_hostile_names), CASE(test_many_missing)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -9,7 +9,7 @@
 
 #define SQUARE_VERTICES "0 0 0\n2 0 0\n2 3 0\n0 3 0\n"
 
-static void test_polygons(void **state) {
+CASE(test_polygons) {
     ewa_mesh mesh;
     double sum[3];
     mesh_load_text(context, &messages, "a.ply",
@@ -35,7 +35,7 @@ static void test_polygons(void **state) {
 }
 
 /// Faces first, an element of unknown kind between, and numbers of the other byte order.
-static void test_order_of_elements(void **state) {
+CASE(test_order_of_elements) {
     static const char head[] =
         "ply\nformat %s 1.0\nelement face 2\nproperty list uchar short vertex_indices\n"
         "element odd 2\nproperty list uchar uchar things\nproperty short n\n"
@@ -68,7 +68,7 @@ static void test_order_of_elements(void **state) {
 }
 
 /// Header lines that end in a lone carriage return; a line feed that belongs to the data.
-static void test_line_ends(void **state) {
+CASE(test_line_ends) {
     static const char *const ends[] = {"\n", "\r\n", "\r"};
     for (int e = 0; e < 3; e++) {
         char text[2048] = "";
@@ -97,7 +97,7 @@ static void test_line_ends(void **state) {
 }
 
 /// A strip turns every other triangle; -1 begins anew; a vertex twice in a row turns it.
-static void test_strips(void **state) {
+CASE(test_strips) {
     static const char head[] = "ply\nformat ascii 1.0\nelement vertex 8\n" XYZ
                                "element tristrips %d\nproperty list int int vertex_indices\nend_header\n"
                                "0 0 0\n1 0 0\n0 1 0\n1 1 0\n0 2 0\n1 2 0\n0 3 0\n1 3 0\n%s";
@@ -129,7 +129,7 @@ static void test_strips(void **state) {
     }
 }
 
-static void test_colors_and_normals(void **state) {
+CASE(test_colors_and_normals) {
     ewa_mesh mesh;
     // 8 bits are sRGB, alpha is linear.
     mesh_load_text(context, &messages, "a.ply",
@@ -172,7 +172,7 @@ static void test_colors_and_normals(void **state) {
 }
 
 /// Texture coordinates by vertex, under each of their names.
-static void test_texcoords_of_vertices(void **state) {
+CASE(test_texcoords_of_vertices) {
     static const char *const names[][2] = {
         {"s", "t"}, {"u", "v"}, {"texture_u", "texture_v"}, {"texture_s", "texture_t"}};
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
@@ -191,7 +191,7 @@ static void test_texcoords_of_vertices(void **state) {
 }
 
 /// As MeshLab writes them: by corner, a number of a picture per face, pictures in comments.
-static void test_texcoords_of_faces(void **state) {
+CASE(test_texcoords_of_faces) {
     char path[512];
     ewa_mesh mesh;
     static const char text[] =
@@ -222,7 +222,7 @@ static void test_texcoords_of_faces(void **state) {
 }
 
 /// As Artec writes them: in elements of their own, behind the faces.
-static void test_multi_texture(void **state) {
+CASE(test_multi_texture) {
     ewa_mesh mesh;
     mesh_load_text(context, &messages, "a.ply",
                    "ply\nformat ascii 1.0\nelement vertex 4\n" XYZ
@@ -239,7 +239,7 @@ static void test_multi_texture(void **state) {
 }
 
 /// Faces that cannot be used are counted and said; the rest is a mesh.
-static void test_bad_faces(void **state) {
+CASE(test_bad_faces) {
     static const char head[] =
         "ply\nformat ascii 1.0\nelement vertex 4\nproperty double x\nproperty double y\n"
         "property double z\nelement face %d\nproperty list int int vertex_indices\nend_header\n"
@@ -268,7 +268,7 @@ static void test_bad_faces(void **state) {
 }
 
 /// Colours that are not finite, or not as floats, are counted and white; others stay.
-static void test_odd_colors(void **state) {
+CASE(test_odd_colors) {
     static const char text[] = "ply\nformat ascii 1.0\nelement vertex 4\n" XYZ
                                "property double red\nproperty double green\nproperty double blue\n"
                                "element face 2\nproperty list uchar int vertex_indices\nend_header\n"
@@ -286,7 +286,7 @@ static void test_odd_colors(void **state) {
 }
 
 /// Without faces it is a cloud, whatever is declared; with them, a mesh whatever the name.
-static void test_what_is_a_mesh(void **state) {
+CASE(test_what_is_a_mesh) {
     static const struct {
         const char *elements;
         uint64_t faces;
@@ -315,7 +315,7 @@ static void test_what_is_a_mesh(void **state) {
 }
 
 /// Coordinates keep every digit: floats as they are, doubles far from the origin too.
-static void test_digits(void **state) {
+CASE(test_digits) {
     ewa_mesh mesh;
     mesh_load_text(
         context, &messages, "a.ply",
@@ -335,7 +335,7 @@ static void test_digits(void **state) {
 }
 
 /// Everything that is no vertex is written again as it was read, in every encoding.
-static void test_elements_round_trip(void **state) {
+CASE(test_elements_round_trip) {
     static const char text[] =
         "ply\nformat ascii 1.0\ncomment first\nobj_info second\nelement camera 1\nproperty float focal\n"
         "property list ushort double k\nelement vertex 4\n" XYZ "property int flags\n"
@@ -377,13 +377,4 @@ static void test_elements_round_trip(void **state) {
     assert_string_equal(messages.text, "");
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {CASE(test_polygons),           CASE(test_order_of_elements),
-                                       CASE(test_line_ends),          CASE(test_strips),
-                                       CASE(test_colors_and_normals), CASE(test_texcoords_of_vertices),
-                                       CASE(test_texcoords_of_faces), CASE(test_multi_texture),
-                                       CASE(test_bad_faces),          CASE(test_odd_colors),
-                                       CASE(test_what_is_a_mesh),     CASE(test_digits),
-                                       CASE(test_elements_round_trip)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

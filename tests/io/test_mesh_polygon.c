@@ -90,7 +90,7 @@ static void hold(const double (*outline)[2], uint32_t count, const char *name) {
         }
 }
 
-static void test_shapes(void **state) {
+TEST_WITHIN(test_shapes, begin, end) {
     static const double concave_quad[][2] = {{0, 0}, {2, 1}, {4, 0}, {2, 4}},
                         turned_quad[][2] = {{2, 4}, {4, 0}, {2, 1}, {0, 0}};
     static const double arrow[][2] = {{2, 1}, {4, 0}, {2, 4}, {0, 0}};
@@ -114,7 +114,7 @@ static void test_shapes(void **state) {
 }
 
 /// Stars around a point, of up to 2,000 corners, turned both ways.
-static void test_stars(void **state) {
+TEST_WITHIN(test_stars, begin, end) {
     static double outline[2000][2], turned[2000][2];
     static const uint32_t counts[] = {5, 17, 100, 2000};
     check_random random = {11};
@@ -132,7 +132,7 @@ static void test_stars(void **state) {
 }
 
 /// What has no area, crosses itself, repeats itself or is no number becomes some triangles, and ends soon.
-static void test_degenerate(void **state) {
+TEST_WITHIN(test_degenerate, begin, end) {
     static const double point[][2] = {{1, 1}, {1, 1}, {1, 1}, {1, 1}},
                         line[][2] = {{0, 0}, {1, 0}, {2, 0}, {3, 0}, {1.5, 0}};
     static const double bow[][2] = {{0, 0}, {2, 2}, {2, 0}, {0, 2}},
@@ -171,8 +171,4 @@ static void test_degenerate(void **state) {
     free(outline);
 }
 
-int main(void) {
-#define CASE(f) cmocka_unit_test_setup_teardown(f, begin, end)
-    const struct CMUnitTest tests[] = {CASE(test_shapes), CASE(test_stars), CASE(test_degenerate)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -5,7 +5,7 @@
 // what is read of each format, and what is refused, is held by files that the other tests make.
 #include "io/mesh_fixture.h"
 
-static void test_ply(void **state) {
+CASE(test_ply) {
     static const struct {
         const char *path;
         uint32_t triangles;
@@ -41,7 +41,7 @@ static void test_ply(void **state) {
     assert_string_equal(messages.text, "");
 }
 
-static void test_obj(void **state) {
+CASE(test_obj) {
     static const struct {
         const char *path;
         uint32_t triangles;
@@ -79,7 +79,7 @@ static void test_obj(void **state) {
     }
 }
 
-static void test_stl(void **state) {
+CASE(test_stl) {
     static const struct {
         const char *path;
         uint32_t triangles;
@@ -115,14 +115,10 @@ static void load_hostile(void *user, const char *path) {
         assert_true(messages.errors > 0 && strncmp(messages.text, path, strlen(path)) == 0);
 }
 
-static void test_hostile_files(void **state) {
+CASE(test_hostile_files) {
     static const char *const folders[] = {"hostile/mesh", "hostile/img", "hostile/text"};
     for (size_t i = 0; i < sizeof folders / sizeof folders[0]; i++)
         assert_true(scratch_each(folders[i], load_hostile, NULL) > 0);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {CASE(test_ply), CASE(test_obj), CASE(test_stl),
-                                       CASE(test_hostile_files)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -8,7 +8,7 @@
     "facet normal 0 0 1\nouter loop\nvertex " a "\nvertex " b "\nvertex " c "\nendloop\nendfacet\n"
 #define TWO_FACETS FACET("0 0 0", "2 0 0", "2 3 0") FACET("0 0 0", "2 3 0", "0 3 0")
 
-static void test_ascii_stl(void **state) {
+CASE(test_ascii_stl) {
     static const char *const texts[] = {
         "solid s\n" TWO_FACETS "endsolid s\n",
         "SOLID\n" TWO_FACETS "ENDSOLID",
@@ -74,7 +74,7 @@ static void check_color(const ewa_mesh *mesh, uint32_t triangle, double red, dou
     assert_true(color[3] == 1);
 }
 
-static void test_binary_stl(void **state) {
+CASE(test_binary_stl) {
     uint8_t bytes[256];
     ewa_mesh mesh;
     // A head that begins as text does, or is empty; any name.
@@ -101,7 +101,7 @@ static void test_binary_stl(void **state) {
     mesh_refuse(context, &messages, "a.stl", bytes, 84, EWA_ERROR_FORMAT, "neither faces nor points");
 }
 
-static void test_colors_of_stl(void **state) {
+CASE(test_colors_of_stl) {
     uint8_t bytes[256];
     ewa_mesh mesh;
     // Magics: components from the low end, the high bit means the common colour.
@@ -127,7 +127,7 @@ static void test_colors_of_stl(void **state) {
     ewa_mesh_free(&mesh);
 }
 
-static void test_off(void **state) {
+CASE(test_off) {
 #define BODY "4 1 0\n0 0 0\n2 0 0\n2 3 0\n0 3 0\n4 0 1 2 3\n"
     static const char *const texts[] = {
         "OFF\n" BODY,
@@ -183,8 +183,4 @@ static void test_off(void **state) {
                     broken[i].said);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {CASE(test_ascii_stl), CASE(test_binary_stl), CASE(test_colors_of_stl),
-                                       CASE(test_off)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

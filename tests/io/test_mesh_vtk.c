@@ -19,7 +19,7 @@ static void load_square(const char *text, ewa_mesh *mesh) {
     if (sum[2] != 6) fail_msg("%g of %s", sum[2], text);
 }
 
-static void test_cells(void **state) {
+CASE(test_cells) {
     static const char *const texts[] = {
         SQUARE,
         TEXT POINTS "POLYGONS 2 8\n3 0 1 2 3 0\n2 3\n",
@@ -47,7 +47,7 @@ static void test_cells(void **state) {
     }
 }
 
-static void test_data(void **state) {
+CASE(test_data) {
     static const char *const colors[] = {
         "SCALARS rgb unsigned_char 4\nLOOKUP_TABLE default\n255 0 0 255 255 0 0 51 255 0 0 255 255 0 0 255\n",
         "COLOR_SCALARS rgba 4\n1 0 0 1 1 0 0 0.2 1 0 0 1 1 0 0 1\n",
@@ -107,7 +107,7 @@ static size_t make_bytes(bool new, uint8_t bytes[1024]) {
     return size;
 }
 
-static void test_bytes(void **state) {
+CASE(test_bytes) {
     for (int new = 0; new < 2; new++) {
         uint8_t bytes[1024];
         const size_t size = make_bytes(new, bytes);
@@ -132,7 +132,7 @@ static void test_bytes(void **state) {
     }
 }
 
-static void test_refused(void **state) {
+CASE(test_refused) {
     static const struct {
         const char *text, *said;
     } broken[] = {
@@ -164,7 +164,7 @@ static void test_refused(void **state) {
 
 /// Cells that are not known are left out, words that are not known end the file; points alone are points. Grids of voxels
 /// are none.
-static void test_left_out(void **state) {
+CASE(test_left_out) {
     ewa_mesh mesh;
     static const char mixed[] = HEAD "ASCII\nDATASET UNSTRUCTURED_GRID\n" POINTS
                                      "CELLS 2 10\n4 0 1 2 3\n4 0 1 2 3\nCELL_TYPES 2\n99 9\n",
@@ -201,12 +201,6 @@ static ewa_status load_failing(ewa_context *failing, void *user) {
     return status;
 }
 
-static void test_failing_allocations(void **state) { scratch_fail_each(load_failing, NULL); }
+TEST(test_failing_allocations) { scratch_fail_each(load_failing, NULL); }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        CASE(test_cells),   CASE(test_data),     CASE(test_bytes),
-        CASE(test_refused), CASE(test_left_out), cmocka_unit_test(test_failing_allocations),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

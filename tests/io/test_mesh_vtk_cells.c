@@ -38,7 +38,7 @@ static void check(const char *text, double area, double volume, uint32_t triangl
     ewa_mesh_free(&mesh);
 }
 
-static void test_solids(void **state) {
+CASE(test_solids) {
     const double s5 = sin(PI / 5) * cos(PI / 5) * 5, s6 = 1.5 * R3;
     check(GRID "POINTS 4 float 0 0 0 1 0 0 0 1 0 0 0 1 CELLS 1 5 4 0 1 2 3 CELL_TYPES 1 10\n", 1.5 + R3 / 2, 1.0 / 6, 4);
     check(GRID "POINTS 8 float 0 0 0 1 0 0 0 1 0 1 1 0 0 0 1 1 0 1 0 1 1 1 1 1 CELLS 1 9 8 0 1 2 3 4 5 6 7\n"
@@ -65,7 +65,7 @@ static void test_solids(void **state) {
 }
 
 /// Cells of second order whose middles stand out, and of higher order, of which corners count.
-static void test_curved(void **state) {
+CASE(test_curved) {
     // Middles on the edges change nothing but the number of triangles: two and two at the corners of each face.
     check(GRID "POINTS 10 float 0 0 0 2 0 0 0 2 0 0 0 2 1 0 0 1 1 0 0 1 0 0 0 1 1 0 1 0 1 1\n"
                "CELLS 1 11 10 0 1 2 3 4 5 6 7 8 9 CELL_TYPES 1 24\n",
@@ -91,7 +91,7 @@ static void test_curved(void **state) {
 }
 
 /// Of faces that two cells share none is left, whatever kinds they are and however their corners turn.
-static void test_shared(void **state) {
+CASE(test_shared) {
     static const struct {
         const char *cells;
         double area, volume;
@@ -123,7 +123,7 @@ static void test_shared(void **state) {
     }
 }
 
-static void test_grids(void **state) {
+CASE(test_grids) {
     // Structured: a block, inside out where its axes are left-handed; a sheet; scalars behind it are stepped over.
     check(HEAD "DATASET STRUCTURED_GRID\nDIMENSIONS 3 2 2\nPOINTS 12 float\n"
                "0 0 0 1 0 0 2 0 0 0 1 0 1 1 0 2 1 0 0 0 3 1 0 3 2 0 3 0 1 3 1 1 3 2 1 3\n"
@@ -148,7 +148,7 @@ static void test_grids(void **state) {
     assert_false(ewa_volume_is_file(context, path));
 }
 
-static void test_refused(void **state) {
+CASE(test_refused) {
     static const struct {
         const char *text, *said;
     } broken[] = {
@@ -197,12 +197,6 @@ static ewa_status load_failing(ewa_context *failing, void *user) {
     return status;
 }
 
-static void test_failing_allocations(void **state) { scratch_fail_each(load_failing, NULL); }
+TEST(test_failing_allocations) { scratch_fail_each(load_failing, NULL); }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        CASE(test_solids), CASE(test_curved),  CASE(test_shared),
-        CASE(test_grids),  CASE(test_refused), cmocka_unit_test(test_failing_allocations),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

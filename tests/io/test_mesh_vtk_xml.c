@@ -157,7 +157,7 @@ static void make_grid(writer *w, int storage, bool big_endian, bool two_pieces) 
 }
 
 /// Every way of storing numbers, from lowest to highest byte and the other way, one piece and two.
-static void test_storages(void **state) {
+CASE(test_storages) {
     static writer w;
     for (int storage = 0; storage < STORAGES; storage++) {
         for (int way = 0; way < 4; way++) {
@@ -179,7 +179,7 @@ static void test_storages(void **state) {
     }
 }
 
-static void test_polygons(void **state) {
+CASE(test_polygons) {
     static writer w;
     static const double lines[2] = {0, 8}, line_ends[1] = {2}, strip[4] = {0, 1, 3, 2}, strip_ends[1] = {4},
                         polygons[7] = {4, 5, 6, 4, 6, 7, 8}, polygon_ends[2] = {3, 7};
@@ -217,7 +217,7 @@ static void test_polygons(void **state) {
 #define PLACES               "0 0 0 1 0 0 1 1 0 0 1 0 0 0 1 1 0 1 1 1 1 0 1 1"
 
 /// Kinds of cells begin anew with a piece; normals are those of all pieces or, behind one without, of none.
-static void test_pieces(void **state) {
+CASE(test_pieces) {
     ewa_mesh mesh;
     static const char pieces[] =
         ROOT("PolyData") "<Piece NumberOfPoints=\"8\" NumberOfPolys=\"1\"><Points>" ARRAY("p", PLACES)
@@ -240,7 +240,7 @@ static void test_pieces(void **state) {
     }
 }
 
-static void test_grids(void **state) {
+CASE(test_grids) {
     ewa_mesh mesh;
     double sum[3];
     // Two pieces of a structured sheet that meet, behind remarks and what is not read.
@@ -264,7 +264,7 @@ static void test_grids(void **state) {
 }
 
 /// Two polyhedra that share a face, in the second piece, where their corners are counted on.
-static void test_polyhedra(void **state) {
+CASE(test_polyhedra) {
 #define FIRST "<Piece NumberOfPoints=\"1\" NumberOfCells=\"0\"><Points>" ARRAY("p", "9 9 9") "</Points></Piece>\n"
 #define GRID  ROOT("UnstructuredGrid") FIRST "<Piece NumberOfPoints=\"8\" NumberOfCells=\"2\"><Points>" ARRAY("p", PLACES) "</Points><Cells>"
 #define WEDGES COUNT("connectivity", "0 1 2 4 5 6 0 2 3 4 6 7") COUNT("offsets", "6 12 12") COUNT("types", "42 42 42")
@@ -296,7 +296,7 @@ static void test_polyhedra(void **state) {
     }
 }
 
-static void test_refused(void **state) {
+CASE(test_refused) {
 #define PIECE ROOT("UnstructuredGrid") "<Piece NumberOfPoints=\"8\" NumberOfCells=\"1\"><Points>"
     static const struct {
         const char *text, *said;
@@ -330,7 +330,7 @@ static void test_refused(void **state) {
 }
 
 /// Cut anywhere: refused, or as much as there is, and never a byte behind the end.
-static void test_cut(void **state) {
+CASE(test_cut) {
     static writer w;
     for (int storage = 1; storage <= 4; storage += 3) {
         make_grid(&w, storage, false, false);
@@ -359,16 +359,9 @@ static ewa_status load_failing(ewa_context *failing, void *user) {
     return status;
 }
 
-static void test_failing_allocations(void **state) {
+CASE(test_failing_allocations) {
     make_grid(&for_failing, 5, false, false);
     scratch_fail_each(load_failing, NULL);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        CASE(test_storages), CASE(test_polygons), CASE(test_pieces), CASE(test_grids),
-        CASE(test_polyhedra),
-        CASE(test_refused),  CASE(test_cut),      CASE(test_failing_allocations),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -56,7 +56,7 @@ static void assert_like_library(const char *text) {
         fail_msg("'%s' read as float %.9g, expected %.9g", text, narrow, strtof(text, NULL));
 }
 
-static void test_plain_numbers(void **state) {
+TEST(test_plain_numbers) {
     static const char *const texts[] = {
         "0",
         "-0",
@@ -106,7 +106,7 @@ static void test_plain_numbers(void **state) {
     for (size_t i = 0; i < sizeof texts / sizeof texts[0]; i++) assert_like_library(texts[i]);
 }
 
-static void test_edges_of_the_formats(void **state) {
+TEST(test_edges_of_the_formats) {
     static const char *const texts[] = {
         // around the largest and least double, the normal limit, and halves between neighbours
         "1.7976931348623157e308",
@@ -171,7 +171,7 @@ static void test_edges_of_the_formats(void **state) {
     for (size_t i = 0; i < sizeof texts / sizeof texts[0]; i++) assert_like_library(texts[i]);
 }
 
-static void test_random_decimals(void **state) {
+TEST(test_random_decimals) {
     check_random random = {1};
     char text[1100];
     for (int i = 0; i < 60000; i++) {
@@ -192,7 +192,7 @@ static void test_random_decimals(void **state) {
     }
 }
 
-static void test_decimals_near_halves(void **state) {
+TEST(test_decimals_near_halves) {
     // Exact decimal expansions of midpoints between neighbours, and those with the last digit changed.
     check_random random = {2};
     char text[1200];
@@ -216,7 +216,7 @@ static void test_decimals_near_halves(void **state) {
     }
 }
 
-static void test_words(void **state) {
+TEST(test_words) {
     static const struct {
         const char *text;
         int kind; // 0 NaN, else the sign of infinity
@@ -239,7 +239,7 @@ static void test_words(void **state) {
     }
 }
 
-static void test_what_is_no_number(void **state) {
+TEST(test_what_is_no_number) {
     static const char *const texts[] = {"",    "-",   "+",  ".",  "-.", "e5",  ".e5", "abc",
                                         "--1", "+-1", "na", "in", " 1", "1.#", "#"};
     for (size_t i = 0; i < sizeof texts / sizeof texts[0]; i++) {
@@ -262,7 +262,7 @@ static void test_what_is_no_number(void **state) {
     }
 }
 
-static void test_integers(void **state) {
+TEST(test_integers) {
     static const struct {
         const char *text;
         int64_t value;
@@ -294,7 +294,7 @@ static void test_integers(void **state) {
     }
 }
 
-static void test_written_text(void **state) {
+TEST(test_written_text) {
     static const struct {
         double value;
         const char *text;
@@ -341,7 +341,7 @@ static void test_written_text(void **state) {
     }
 }
 
-static void test_written_numbers_read_back(void **state) {
+TEST(test_written_numbers_read_back) {
     check_random random = {3};
     for (int i = 0; i < 100000; i++) {
         uint64_t bits = check_random_u64(&random);
@@ -372,7 +372,7 @@ static void test_written_numbers_read_back(void **state) {
     }
 }
 
-static void test_locale_changes_nothing(void **state) {
+TEST(test_locale_changes_nothing) {
     static const char *const names[] = {"de_DE.UTF-8", "de_DE.utf8", "fr_FR.UTF-8", "fr_FR.utf8",
                                         "ru_RU.UTF-8"};
     bool found = false;
@@ -388,18 +388,4 @@ static void test_locale_changes_nothing(void **state) {
     if (!found) skip();
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_plain_numbers),
-        cmocka_unit_test(test_edges_of_the_formats),
-        cmocka_unit_test(test_random_decimals),
-        cmocka_unit_test(test_decimals_near_halves),
-        cmocka_unit_test(test_words),
-        cmocka_unit_test(test_what_is_no_number),
-        cmocka_unit_test(test_integers),
-        cmocka_unit_test(test_written_text),
-        cmocka_unit_test(test_written_numbers_read_back),
-        cmocka_unit_test(test_locale_changes_nothing),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

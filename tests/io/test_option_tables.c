@@ -30,7 +30,7 @@ static const ewa_option_table *const tables[] = {
 
 /// Defaults are allowed, survive as text, and every member is named once, said in a sentence and in its
 /// struct.
-static void test_tables(void **state) {
+TEST(test_tables) {
     check_log log = {0};
     ewa_context *context = check_context(1, &log);
     static double made[512], again[512];
@@ -85,7 +85,7 @@ static const ewa_option sample_rows[] = {
 
 static const ewa_option_table sample_table = EWA_OPTION_TABLE(sample_options, sample_rows);
 
-static void test_ranges(void **state) {
+TEST(test_ranges) {
     static const struct {
         int row;
         const char *range;
@@ -109,7 +109,7 @@ static void test_ranges(void **state) {
     }
 }
 
-static void test_text(void **state) {
+TEST(test_text) {
     static const struct {
         int row;
         const char *text, *said; ///< said NULL: accepted, and written as it was read
@@ -174,7 +174,7 @@ typedef struct later_options {
 } later_options;
 
 /// What an older header does not have gets its default; what a newer one has may be zero only.
-static void test_sizes(void **state) {
+TEST(test_sizes) {
     check_log log = {0};
     ewa_context *context = check_context(1, &log);
     sample_options given, chosen;
@@ -216,7 +216,7 @@ static void test_sizes(void **state) {
 }
 
 /// The same through the public functions.
-static void test_callers(void **state) {
+TEST(test_callers) {
     check_log log = {0};
     ewa_context *context = check_context(1, &log);
     ewa_cloud *cloud = NULL;
@@ -243,7 +243,7 @@ static void test_callers(void **state) {
     ewa_context_destroy(&context);
 }
 
-static void test_colors(void **state) {
+TEST(test_colors) {
     static const struct {
         const char *text;
         double srgba[4];
@@ -274,10 +274,4 @@ static void test_colors(void **state) {
     assert_false(ewa_color_read(NULL, NULL));
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_tables), cmocka_unit_test(test_ranges), cmocka_unit_test(test_text),
-        cmocka_unit_test(test_sizes),  cmocka_unit_test(test_colors), cmocka_unit_test(test_callers),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

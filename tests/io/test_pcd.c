@@ -164,7 +164,7 @@ static size_t to_columns(bool padding, uint8_t *columns) {
     return at;
 }
 
-static void test_every_type_in_every_encoding(void **state) {
+CASE(test_every_type_in_every_encoding) {
     cloud_bytes file = make(ALL_TYPES, "binary", records, sizeof records);
     check_all_types(load(&file));
     free(file.bytes);
@@ -183,7 +183,7 @@ static void test_every_type_in_every_encoding(void **state) {
                   ".4 1e300\n"));
 }
 
-static void test_colors(void **state) {
+CASE(test_colors) {
     // The bits of a float.
     ewa_cloud *cloud =
         load_text(HEADER("x y z rgb", "4 4 4 4", "F F F F", "1 1 1 1", "1") "DATA ascii\n0 0 0 4.2108e+06\n");
@@ -216,7 +216,7 @@ static void test_colors(void **state) {
     assert_string_equal(messages.text, "");
 }
 
-static void test_names_of_scans(void **state) {
+CASE(test_names_of_scans) {
     ewa_cloud *cloud = load_text(HEADER(
         "x y z nx ny nz Intensity ReturnNumber ScanAngleRank GpsTime other", "4 4 4 4 4 4 2 1 1 4 4",
         "F F F F F F U U I F I", "1 1 1 1 1 1 1 1 1 1 1", "1") "DATA ascii\n1 2 3 0 0 1 500 2 -9 0.5 7\n");
@@ -229,7 +229,7 @@ static void test_names_of_scans(void **state) {
     ewa_cloud_destroy(&cloud);
 }
 
-static void test_histograms_are_split(void **state) {
+CASE(test_histograms_are_split) {
     float body[3 + 33];
     for (int i = 0; i < 36; i++) body[i] = (float)i;
     cloud_bytes file =
@@ -242,7 +242,7 @@ static void test_histograms_are_split(void **state) {
     free(file.bytes);
 }
 
-static void test_names_that_clash_are_left_out(void **state) {
+CASE(test_names_that_clash_are_left_out) {
     ewa_cloud *cloud = load_text(HEADER("x y z a a normal", "4 4 4 4 4 4", "F F F F F F", "1 1 1 1 1 1",
                                         "1") "DATA ascii\n1 2 3 4 5 6\n");
     assert_int_equal(messages.count, 2);
@@ -253,7 +253,7 @@ static void test_names_that_clash_are_left_out(void **state) {
 
 // ---- text ------------------------------------------------------------------------------------------------
 
-static void test_text_keeps_digits(void **state) {
+CASE(test_text_keeps_digits) {
     ewa_cloud *cloud = load_text(XYZ("2") "DATA ascii\n289814.15,4320978.61,170.76\r\n\r\n# no point\r\n"
                                           "\t289814.64 ,\t4320978.84 170.76");
     cloud_expect_world(cloud, 0, (const double[]){289814.15, 4320978.61, 170.76});
@@ -290,7 +290,7 @@ static cloud_bytes make_text(uint32_t point_count, uint32_t *finite_count) {
     return file;
 }
 
-static void test_text_of_many_pieces(void **state) {
+CASE(test_text_of_many_pieces) {
     uint32_t finite_count;
     cloud_bytes file = make_text(60000, &finite_count);
     assert_true(file.size > 1 << 20);
@@ -316,7 +316,7 @@ static void test_text_of_many_pieces(void **state) {
     assert_string_equal(messages.text, "");
 }
 
-static void test_more_lines_than_points(void **state) {
+CASE(test_more_lines_than_points) {
     ewa_cloud *cloud = load_text(XYZ("1") "DATA ascii\n1 2 3\n4 5 6\nrubbish\n");
     assert_int_equal(ewa_cloud_point_count(cloud), 1);
     ewa_cloud_destroy(&cloud);
@@ -324,7 +324,7 @@ static void test_more_lines_than_points(void **state) {
 
 // ---- points without a place ------------------------------------------------------------------------------
 
-static void test_organised_clouds(void **state) {
+CASE(test_organised_clouds) {
     enum { WIDTH = 100, HEIGHT = 70, COUNT = WIDTH * HEIGHT };
     static float body[COUNT][4];
     check_random random = {9};
@@ -363,7 +363,7 @@ static void test_organised_clouds(void **state) {
 
 // ---- what is wrong ---------------------------------------------------------------------------------------
 
-static void test_headers_and_their_messages(void **state) {
+CASE(test_headers_and_their_messages) {
     static const struct {
         const char *text, *message;
     } cases[] = {
@@ -419,7 +419,7 @@ static void test_headers_and_their_messages(void **state) {
     }
 }
 
-static void test_what_lzf_packs(void **state) {
+CASE(test_what_lzf_packs) {
     static const struct {
         const char *packed;
         size_t packed_bytes;
@@ -494,7 +494,7 @@ static void test_what_lzf_packs(void **state) {
 }
 
 /// Every beginning of a file is refused, or stepped over with all its points counted.
-static void test_truncated(void **state) {
+CASE(test_truncated) {
     uint8_t columns[2 * sizeof(record)];
     const size_t size = to_columns(false, columns);
     cloud_bytes files[3] = {make(ALL_TYPES, "binary", records, sizeof records),
@@ -506,7 +506,7 @@ static void test_truncated(void **state) {
     }
 }
 
-static void test_keeps_going(void **state) {
+CASE(test_keeps_going) {
     cloud_bytes file = make(XYZ("5"), "ascii", "1 2 3\n4 5\nx\n7 8 9\n", 18);
     uint64_t lost_count;
     ewa_cloud *cloud = cloud_keep_going(context, &file, "keep.pcd", &lost_count);
@@ -524,7 +524,7 @@ static void test_keeps_going(void **state) {
     free(file.bytes);
 }
 
-static void test_damaged_bytes_are_survived(void **state) {
+CASE(test_damaged_bytes_are_survived) {
     uint8_t columns[2 * sizeof(record)];
     const size_t size = to_columns(true, columns);
     cloud_bytes files[2] = {compress(ALL_TYPES, columns, size),
@@ -543,7 +543,7 @@ static ewa_status load_each(ewa_context *failing, void *user) {
     return status;
 }
 
-static void test_memory_that_fails(void **state) {
+CASE(test_memory_that_fails) {
     uint8_t columns[2 * sizeof(record)];
     const size_t size = to_columns(true, columns);
     cloud_bytes files[2] = {compress(ALL_TYPES, columns, size), make(XYZ("1"), "ascii", "1 2 3\n", 6)};
@@ -553,21 +553,4 @@ static void test_memory_that_fails(void **state) {
     }
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {CASE(test_every_type_in_every_encoding),
-                                       CASE(test_colors),
-                                       CASE(test_names_of_scans),
-                                       CASE(test_histograms_are_split),
-                                       CASE(test_names_that_clash_are_left_out),
-                                       CASE(test_text_keeps_digits),
-                                       CASE(test_text_of_many_pieces),
-                                       CASE(test_more_lines_than_points),
-                                       CASE(test_organised_clouds),
-                                       CASE(test_headers_and_their_messages),
-                                       CASE(test_what_lzf_packs),
-                                       CASE(test_truncated),
-                                       CASE(test_keeps_going),
-                                       CASE(test_damaged_bytes_are_survived),
-                                       CASE(test_memory_that_fails)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -55,7 +55,7 @@ static void check_written(const ewa_cloud *cloud, const ewa_cloud *back) {
     }
 }
 
-static void test_written_files_read_back(void **state) {
+CASE(test_written_files_read_back) {
     char path[512];
     scratch_path("back.pcd", path);
     for (int encoding = 0; encoding < 3; encoding += 2)
@@ -77,7 +77,7 @@ static void test_written_files_read_back(void **state) {
     assert_string_equal(messages.text, "");
 }
 
-static void test_written_in_pieces_of_unknown_count(void **state) {
+CASE(test_written_in_pieces_of_unknown_count) {
     char path[512];
     scratch_path("pieces.pcd", path);
     ewa_cloud *cloud = make_cloud(300, EWA_F32), *back = NULL;
@@ -92,7 +92,7 @@ static void test_written_in_pieces_of_unknown_count(void **state) {
     ewa_cloud_destroy(&cloud);
 }
 
-static void test_world_coordinates_are_written(void **state) {
+CASE(test_world_coordinates_are_written) {
     char path[512];
     scratch_path("world.pcd", path);
     ewa_cloud *cloud = NULL, *back = NULL;
@@ -108,7 +108,7 @@ static void test_world_coordinates_are_written(void **state) {
     ewa_cloud_destroy(&cloud);
 }
 
-static void test_what_is_not_written(void **state) {
+CASE(test_what_is_not_written) {
     char path[512];
     scratch_path("refused.pcd", path);
     ewa_cloud *cloud = make_cloud(1, EWA_F32);
@@ -123,9 +123,4 @@ static void test_what_is_not_written(void **state) {
     ewa_cloud_destroy(&cloud);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        CASE(test_written_files_read_back), CASE(test_written_in_pieces_of_unknown_count),
-        CASE(test_world_coordinates_are_written), CASE(test_what_is_not_written)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

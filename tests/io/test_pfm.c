@@ -6,7 +6,7 @@
 
 #include <math.h>
 
-static void test_known_bytes(void **state) {
+TEST(test_known_bytes) {
     ewa_context *context = check_context(1, NULL);
     // 1 x 2, rows from the bottom up: the first in the file is the lower one.
     static const char little[] = "Pf\n1 2\n-1.0\n\0\0\x80\x3f\0\0\0\xc0",
@@ -30,7 +30,7 @@ static void test_known_bytes(void **state) {
     ewa_context_destroy(&context);
 }
 
-static void test_round_trip_is_exact(void **state) {
+TEST(test_round_trip_is_exact) {
     ewa_context *context = check_context(1, NULL);
     char path[512];
     scratch_path("saved.pfm", path);
@@ -58,7 +58,7 @@ static void test_round_trip_is_exact(void **state) {
     ewa_context_destroy(&context);
 }
 
-static void test_broken_heads(void **state) {
+TEST(test_broken_heads) {
     check_log log = {0};
     ewa_context *context = check_context(1, &log);
     static const char *const heads[] = {
@@ -89,7 +89,7 @@ static void test_broken_heads(void **state) {
     ewa_context_destroy(&context);
 }
 
-static void test_every_truncation_is_refused(void **state) {
+TEST(test_every_truncation_is_refused) {
     ewa_context *context = check_context(1, NULL);
     static const char whole[] = "PF\n1 2\n-0.5\nabcdefghijklmnopqrstuvwx";
     ewa_image image;
@@ -104,7 +104,7 @@ static void test_every_truncation_is_refused(void **state) {
     ewa_context_destroy(&context);
 }
 
-static void test_real_file(void **state) {
+TEST(test_real_file) {
     ewa_context *context = check_context(1, NULL);
     char path[512];
     if (check_data("rgbd/stereo/motorcycle_disp.pfm", path, sizeof path)) {
@@ -134,12 +134,12 @@ static ewa_status round_trip_work(ewa_context *context, void *user) {
     return status;
 }
 
-static void test_failing_allocations(void **state) {
+TEST(test_failing_allocations) {
     char path[512];
     scratch_fail_each(round_trip_work, (void *)(uintptr_t)scratch_path("memory.pfm", path));
 }
 
-static void test_unwritable(void **state) {
+TEST(test_unwritable) {
     check_log log = {0};
     ewa_context *context = check_context(1, &log);
     float pixels[3] = {0};
@@ -149,12 +149,4 @@ static void test_unwritable(void **state) {
     ewa_context_destroy(&context);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_known_bytes),  cmocka_unit_test(test_round_trip_is_exact),
-        cmocka_unit_test(test_broken_heads), cmocka_unit_test(test_every_truncation_is_refused),
-        cmocka_unit_test(test_real_file),    cmocka_unit_test(test_failing_allocations),
-        cmocka_unit_test(test_unwritable),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

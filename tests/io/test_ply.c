@@ -37,7 +37,7 @@ static const double type_values[TYPES][4] = {
     {-2147483648.0, 2147483647, 16777217, -1},
     {0, 4294967295, 2147483648, 16909060}};
 
-static void test_every_type_in_every_encoding(void **state) {
+TEST_WITHIN(test_every_type_in_every_encoding, open_context, close_context) {
     for (int encoding = 0; encoding < ENCODINGS; encoding++)
         for (int type = 0; type < TYPES; type++)
             for (int spelling = 0; spelling < 3 && type_names[type][spelling]; spelling++) {
@@ -73,7 +73,7 @@ static void test_every_type_in_every_encoding(void **state) {
     assert_int_equal(messages.count, 0);
 }
 
-static void test_positions_are_exact(void **state) {
+TEST_WITHIN(test_positions_are_exact, open_context, close_context) {
     static const ewa_type expected[TYPES] = {EWA_F32, EWA_F64, EWA_F32, EWA_F32,
                                              EWA_F32, EWA_F32, EWA_F64, EWA_F64};
     for (int encoding = 0; encoding < ENCODINGS; encoding++)
@@ -106,7 +106,7 @@ static void test_positions_are_exact(void **state) {
             }
 }
 
-static void test_any_order_of_properties(void **state) {
+TEST_WITHIN(test_any_order_of_properties, open_context, close_context) {
     static const struct {
         const char *name, *attribute;
         ewa_type type;
@@ -176,7 +176,7 @@ static ewa_cloud *load_counting(const char *properties) {
 
 #define XYZ "property float x\nproperty float y\nproperty float z\n"
 
-static void test_other_names_of_attributes(void **state) {
+TEST_WITHIN(test_other_names_of_attributes, open_context, close_context) {
     ewa_cloud *cloud =
         load_counting(XYZ "property float normal_x\nproperty float normal_y\nproperty float normal_z\n"
                           "property uchar diffuse_red\nproperty uchar diffuse_green\n"
@@ -196,7 +196,7 @@ static void test_other_names_of_attributes(void **state) {
     ewa_cloud_destroy(&cloud);
 }
 
-static void test_types_of_colors(void **state) {
+TEST_WITHIN(test_types_of_colors, open_context, close_context) {
     static const ewa_type expected[TYPES] = {EWA_F32, EWA_F32, EWA_U8, EWA_U8,
                                              EWA_U8,  EWA_U16, EWA_U8, EWA_U8};
     for (int encoding = 0; encoding < ENCODINGS; encoding++)
@@ -228,7 +228,7 @@ static void test_types_of_colors(void **state) {
         }
 }
 
-static void test_incomplete_groups_stay_scalars(void **state) {
+TEST_WITHIN(test_incomplete_groups_stay_scalars, open_context, close_context) {
     ewa_cloud *cloud =
         load_counting(XYZ "property float nx\nproperty float ny\nproperty uchar red\nproperty uchar green\n"
                           "property float blue\nproperty uchar r\nproperty uchar g\n");
@@ -247,7 +247,7 @@ static void test_incomplete_groups_stay_scalars(void **state) {
     assert_int_equal(messages.count, 0);
 }
 
-static void test_names_that_no_attribute_can_have(void **state) {
+TEST_WITHIN(test_names_that_no_attribute_can_have, open_context, close_context) {
     ewa_cloud *cloud = load_counting(XYZ "property float color\nproperty float intensity\n");
     assert_int_equal(ewa_cloud_attribute_count(cloud), 2);
     assert_true(sample_value(cloud, "intensity", EWA_F32, 1, 0, 0) == 5);
@@ -269,7 +269,7 @@ static void test_names_that_no_attribute_can_have(void **state) {
     ewa_cloud_destroy(&cloud);
 }
 
-static void test_elements_and_lists_around_the_vertices(void **state) {
+TEST_WITHIN(test_elements_and_lists_around_the_vertices, open_context, close_context) {
     for (int encoding = 0; encoding < ENCODINGS; encoding++) {
         sample s = sample_start((ewa_ply_encoding)encoding, "\n");
         sample_text(
@@ -319,7 +319,7 @@ static void test_elements_and_lists_around_the_vertices(void **state) {
     assert_int_equal(messages.count, 0);
 }
 
-static void test_line_ends(void **state) {
+TEST_WITHIN(test_line_ends, open_context, close_context) {
     static const char *const ends[] = {"\n", "\r\n", "\r"};
     for (int encoding = 0; encoding < ENCODINGS; encoding++)
         for (int end = 0; end < 3; end++) {
@@ -347,7 +347,7 @@ static void test_line_ends(void **state) {
 
 #define ASCII_HEADER(count) "ply\nformat ascii 1.0\nelement vertex " #count "\n" XYZ "end_header\n"
 
-static void test_ascii_layouts(void **state) {
+TEST_WITHIN(test_ascii_layouts, open_context, close_context) {
     static const struct {
         const char *text;
         bool warns;
@@ -373,7 +373,7 @@ static void test_ascii_layouts(void **state) {
     }
 }
 
-static void test_ascii_words_and_integers(void **state) {
+TEST_WITHIN(test_ascii_words_and_integers, open_context, close_context) {
     ewa_cloud *cloud;
     assert_int_equal(sample_load_text(context,
                                       "ply\nformat ascii 1.0\nelement vertex 2\n" XYZ
@@ -414,7 +414,7 @@ static sample make_long_ascii(uint64_t points, uint64_t blank_after, const char 
     return s;
 }
 
-static void test_long_ascii(void **state) {
+TEST_WITHIN(test_long_ascii, open_context, close_context) {
     enum { POINTS = 140000 }; // more text than one wave of parallel tasks takes
     static const struct {
         uint64_t blank_after;
@@ -442,7 +442,7 @@ static void test_long_ascii(void **state) {
     assert_int_equal(messages.count, 0);
 }
 
-static void test_empty_cloud(void **state) {
+TEST_WITHIN(test_empty_cloud, open_context, close_context) {
     for (int encoding = 0; encoding < ENCODINGS; encoding++) {
         sample s = sample_start((ewa_ply_encoding)encoding, "\n");
         sample_text(&s, "element vertex 0\n" XYZ "end_header");
@@ -457,7 +457,7 @@ static void test_empty_cloud(void **state) {
 
 /// What the models' README says of the files that hold vertices.
 
-static void test_real_models(void **state) {
+TEST_WITHIN(test_real_models, open_context, close_context) {
     for (size_t i = 0; i < sizeof model_facts / sizeof model_facts[0]; i++) {
         char path[512];
         if (!check_data(model_facts[i].path, path, sizeof path)) skip();
@@ -476,7 +476,7 @@ static void test_real_models(void **state) {
     assert_int_equal(messages.count, 0);
 }
 
-static void test_one_model_in_both_byte_orders(void **state) {
+TEST_WITHIN(test_one_model_in_both_byte_orders, open_context, close_context) {
     char path[512];
     ewa_cloud *little, *big;
     if (!check_data("models/variants/dolphins_le.ply", path, sizeof path)) skip();
@@ -488,24 +488,4 @@ static void test_one_model_in_both_byte_orders(void **state) {
     ewa_cloud_destroy(&big);
 }
 
-int main(void) {
-#define CASE(f) cmocka_unit_test_setup_teardown(f, open_context, close_context)
-    const struct CMUnitTest tests[] = {
-        CASE(test_every_type_in_every_encoding),
-        CASE(test_positions_are_exact),
-        CASE(test_any_order_of_properties),
-        CASE(test_other_names_of_attributes),
-        CASE(test_types_of_colors),
-        CASE(test_incomplete_groups_stay_scalars),
-        CASE(test_names_that_no_attribute_can_have),
-        CASE(test_elements_and_lists_around_the_vertices),
-        CASE(test_line_ends),
-        CASE(test_ascii_layouts),
-        CASE(test_ascii_words_and_integers),
-        CASE(test_long_ascii),
-        CASE(test_empty_cloud),
-        CASE(test_real_models),
-        CASE(test_one_model_in_both_byte_orders),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

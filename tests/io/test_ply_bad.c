@@ -27,7 +27,7 @@ static int close_context(void **state) {
 #define BINARY   "ply\nformat binary_little_endian 1.0\n"
 #define VERTEX_1 "element vertex 1\n" XYZ
 
-static void test_headers_and_their_messages(void **state) {
+TEST_WITHIN(test_headers_and_their_messages, open_context, close_context) {
     static const struct {
         const char *text, *message;
         ewa_status status;
@@ -90,7 +90,7 @@ static void test_headers_and_their_messages(void **state) {
     }
 }
 
-static void test_bodies_and_their_messages(void **state) {
+TEST_WITHIN(test_bodies_and_their_messages, open_context, close_context) {
     static const struct {
         const char *text, *message;
     } cases[] = {
@@ -139,7 +139,7 @@ static void test_bodies_and_their_messages(void **state) {
     }
 }
 
-static void test_lying_counts(void **state) {
+TEST_WITHIN(test_lying_counts, open_context, close_context) {
     static const char *const counts[] = {"2",
                                          "3",
                                          "1000",
@@ -167,7 +167,7 @@ static void test_lying_counts(void **state) {
             }
 }
 
-static void test_warnings_about_the_rest(void **state) {
+TEST_WITHIN(test_warnings_about_the_rest, open_context, close_context) {
     ewa_cloud *cloud;
     assert_int_equal(
         sample_load_text(context,
@@ -187,7 +187,7 @@ static void test_warnings_about_the_rest(void **state) {
     ewa_cloud_destroy(&cloud);
 }
 
-static void test_limits(void **state) {
+TEST_WITHIN(test_limits, open_context, close_context) {
     ewa_context_options options;
     ewa_context_options_init(&options, sizeof options);
     options.limits.max_points = 2;
@@ -254,7 +254,7 @@ static sample make_rich(ewa_ply_encoding encoding, bool lists) {
     return s;
 }
 
-static void test_every_truncation(void **state) {
+TEST_WITHIN(test_every_truncation, open_context, close_context) {
     for (int encoding = 0; encoding < 3; encoding++)
         for (int lists = 0; lists < 2; lists++) {
             sample s = make_rich((ewa_ply_encoding)encoding, lists);
@@ -275,7 +275,7 @@ static void test_every_truncation(void **state) {
         }
 }
 
-static void test_changed_bytes_do_no_harm(void **state) {
+TEST_WITHIN(test_changed_bytes_do_no_harm, open_context, close_context) {
     check_random random = {5};
     for (int encoding = 0; encoding < 3; encoding++)
         for (int lists = 0; lists < 2; lists++) {
@@ -294,7 +294,7 @@ static void test_changed_bytes_do_no_harm(void **state) {
         }
 }
 
-static void test_failing_allocations(void **state) {
+TEST_WITHIN(test_failing_allocations, open_context, close_context) {
     check_memory memory = {.calls_left = -1};
     ewa_context_options options;
     ewa_context_options_init(&options, sizeof options);
@@ -345,7 +345,7 @@ static bool cancel_now(void *user, const char *stage, double fraction) {
     return --*(int *)user > 0;
 }
 
-static void test_cancelling(void **state) {
+TEST_WITHIN(test_cancelling, open_context, close_context) {
     for (int encoding = 0; encoding < 3; encoding++) {
         int calls_left = 1;
         ewa_context_options options;
@@ -361,7 +361,7 @@ static void test_cancelling(void **state) {
     }
 }
 
-static void test_hostile_files(void **state) {
+TEST_WITHIN(test_hostile_files, open_context, close_context) {
     static const struct {
         const char *path;
         ewa_status status;
@@ -385,7 +385,7 @@ static void test_hostile_files(void **state) {
     }
 }
 
-static void test_wrong_arguments(void **state) {
+TEST_WITHIN(test_wrong_arguments, open_context, close_context) {
     ewa_cloud *cloud;
     assert_int_equal(ewa_cloud_load(NULL, "a.ply", &cloud), EWA_ERROR_ARGUMENT);
     assert_int_equal(ewa_cloud_load(context, NULL, &cloud), EWA_ERROR_ARGUMENT);
@@ -396,20 +396,4 @@ static void test_wrong_arguments(void **state) {
     assert_null(cloud);
 }
 
-int main(void) {
-#define CASE(f) cmocka_unit_test_setup_teardown(f, open_context, close_context)
-    const struct CMUnitTest tests[] = {
-        CASE(test_headers_and_their_messages),
-        CASE(test_bodies_and_their_messages),
-        CASE(test_lying_counts),
-        CASE(test_warnings_about_the_rest),
-        CASE(test_limits),
-        CASE(test_every_truncation),
-        CASE(test_changed_bytes_do_no_harm),
-        CASE(test_failing_allocations),
-        CASE(test_cancelling),
-        CASE(test_hostile_files),
-        CASE(test_wrong_arguments),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

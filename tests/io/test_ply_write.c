@@ -92,7 +92,7 @@ static ewa_cloud *make_everything(ewa_context *owner, uint64_t points, ewa_type 
     return cloud;
 }
 
-static void test_round_trips_are_exact(void **state) {
+TEST_WITHIN(test_round_trips_are_exact, set_up, tear_down) {
     static const ewa_type colors[] = {EWA_U8, EWA_U16, EWA_F32};
     static const uint64_t counts[] = {0, 1, 2, 1000};
     char path[128];
@@ -112,7 +112,7 @@ static void test_round_trips_are_exact(void **state) {
     assert_int_equal(count_files(false), 1);
 }
 
-static void test_bits_of_nan_survive_in_binary(void **state) {
+TEST_WITHIN(test_bits_of_nan_survive_in_binary, set_up, tear_down) {
     char path[128];
     inside("nan.ply", path);
     for (int encoding = 0; encoding < 2; encoding++) {
@@ -136,7 +136,7 @@ static void assert_file(const char *path, const char *text) {
     ewa_file_unmap(context, &file);
 }
 
-static void test_text_that_is_written(void **state) {
+TEST_WITHIN(test_text_that_is_written, set_up, tear_down) {
     // Interleaved memory of the caller, an attribute of several components that has no canonical names,
     // blanks.
     struct vertex {
@@ -163,7 +163,7 @@ static void test_text_that_is_written(void **state) {
     ewa_cloud_destroy(&cloud);
 }
 
-static void test_origin_gives_doubles(void **state) {
+TEST_WITHIN(test_origin_gives_doubles, set_up, tear_down) {
     char path[128];
     inside("georeferenced.ply", path);
     for (int encoding = 0; encoding < 3; encoding++)
@@ -191,7 +191,7 @@ static void test_origin_gives_doubles(void **state) {
         }
 }
 
-static void test_threads_change_no_byte(void **state) {
+TEST_WITHIN(test_threads_change_no_byte, set_up, tear_down) {
     for (int encoding = 0; encoding < 3; encoding++) {
         char first_path[128];
         ewa_file first;
@@ -219,7 +219,7 @@ static void test_threads_change_no_byte(void **state) {
     }
 }
 
-static void test_many_points(void **state) {
+TEST_WITHIN(test_many_points, set_up, tear_down) {
     enum { POINTS = 300000 }; // more bytes than one wave of parallel tasks takes
     char path[128];
     ewa_cloud *cloud, *back;
@@ -240,7 +240,7 @@ static void test_many_points(void **state) {
     ewa_cloud_destroy(&cloud);
 }
 
-static void test_outputs_that_fail_leave_nothing(void **state) {
+TEST_WITHIN(test_outputs_that_fail_leave_nothing, set_up, tear_down) {
     char path[128];
     ewa_cloud *cloud = make_everything(context, 100, EWA_F32, EWA_U8);
     assert_int_equal(save_as(cloud, inside("cloud.obj", path), 0), EWA_ERROR_UNSUPPORTED);
@@ -278,7 +278,7 @@ static bool stop_writing(void *user, const char *stage, double fraction) {
     return strcmp(stage, "write") != 0;
 }
 
-static void test_cancelled_output_keeps_the_old_file(void **state) {
+TEST_WITHIN(test_cancelled_output_keeps_the_old_file, set_up, tear_down) {
     char path[128];
     ewa_cloud *cloud = make_everything(context, 10, EWA_F32, EWA_U8), *back;
     assert_int_equal(save_as(cloud, inside("cloud.ply", path), 0), EWA_OK);
@@ -303,7 +303,7 @@ static void collect_line(void *user, const char *line) {
     strcat(strcat(text, line), "|");
 }
 
-static void test_description(void **state) {
+TEST_WITHIN(test_description, set_up, tear_down) {
     char path[128], text[1024] = "";
     FILE *file = fopen(inside("described.ply", path), "wb");
     fputs("ply\r\nformat ascii 1.0\r\ncomment by\thand \xff\r\nelement vertex 0\r\nproperty float "
@@ -322,18 +322,4 @@ static void test_description(void **state) {
     assert_int_equal(ewa_ply_describe(context, path, collect_line, text), EWA_ERROR_FORMAT);
 }
 
-int main(void) {
-#define CASE(f) cmocka_unit_test_setup_teardown(f, set_up, tear_down)
-    const struct CMUnitTest tests[] = {
-        CASE(test_round_trips_are_exact),
-        CASE(test_bits_of_nan_survive_in_binary),
-        CASE(test_text_that_is_written),
-        CASE(test_origin_gives_doubles),
-        CASE(test_threads_change_no_byte),
-        CASE(test_many_points),
-        CASE(test_outputs_that_fail_leave_nothing),
-        CASE(test_cancelled_output_keeps_the_old_file),
-        CASE(test_description),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -26,7 +26,7 @@ static uint8_t *make_codes(uint32_t width, uint32_t height, uint32_t channels) {
     return codes;
 }
 
-static void test_save_and_load(void **state) {
+TEST(test_save_and_load) {
     static const uint32_t sizes[][2] = {{1, 1}, {1, 300},     {300, 1},
                                         {7, 5}, {1100, 1100}, {44000, 3}}; // the fifth: several IDAT chunks
     ewa_context *context = check_context(2, NULL);
@@ -59,7 +59,7 @@ static void test_save_and_load(void **state) {
     ewa_context_destroy(&context);
 }
 
-static void test_same_file_for_any_thread_count(void **state) {
+TEST(test_same_file_for_any_thread_count) {
     enum { WIDTH = 700, HEIGHT = 900 };
     static const uint32_t threads[] = {1, 2, 7, 32};
     uint8_t *codes = make_codes(WIDTH, HEIGHT, 3), *first = NULL;
@@ -85,7 +85,7 @@ static void test_same_file_for_any_thread_count(void **state) {
     free(codes);
 }
 
-static void test_float_to_codes(void **state) {
+TEST(test_float_to_codes) {
     ewa_context *context = check_context(1, NULL);
     char path[512];
     scratch_path("float.png", path);
@@ -124,7 +124,7 @@ static void test_float_to_codes(void **state) {
     ewa_context_destroy(&context);
 }
 
-static void test_head_says_srgb(void **state) {
+TEST(test_head_says_srgb) {
     ewa_context *context = check_context(1, NULL);
     char path[512];
     const uint8_t code = 77;
@@ -146,7 +146,7 @@ static void load_good(void *user, const char *path) {
     ewa_image_free(&image);
 }
 
-static void test_pngsuite(void **state) {
+TEST(test_pngsuite) {
     ewa_context *context = check_context(1, NULL);
     scratch_each("images/pngsuite", load_good, context);
     char path[512];
@@ -176,7 +176,7 @@ static void test_pngsuite(void **state) {
     ewa_context_destroy(&context);
 }
 
-static void test_hostile(void **state) {
+TEST(test_hostile) {
     scratch_pictures t = {0};
     t.context = check_context(1, &t.log);
     if (scratch_each("hostile/png", scratch_load_picture, &t) > 0) assert_true(t.refused >= 7);
@@ -188,7 +188,7 @@ static void test_hostile(void **state) {
     ewa_context_destroy(&t.context);
 }
 
-static void test_every_truncation_is_refused(void **state) {
+TEST(test_every_truncation_is_refused) {
     check_log log = {0};
     ewa_context *context = check_context(1, &log);
     char path[512];
@@ -219,7 +219,7 @@ static void test_every_truncation_is_refused(void **state) {
     ewa_context_destroy(&context);
 }
 
-static void test_limits_come_before_memory(void **state) {
+TEST(test_limits_come_before_memory) {
     check_log log = {0};
     ewa_context_options options;
     ewa_context_options_init(&options, sizeof options);
@@ -249,7 +249,7 @@ static void test_limits_come_before_memory(void **state) {
     ewa_context_destroy(&context);
 }
 
-static void test_arguments(void **state) {
+TEST(test_arguments) {
     check_log log = {0};
     ewa_context *context = check_context(1, &log);
     char path[512];
@@ -293,7 +293,7 @@ static ewa_status save_float_work(ewa_context *context, void *user) {
     return ewa_image_save(&image, user, NULL);
 }
 
-static void test_failing_allocations(void **state) {
+TEST(test_failing_allocations) {
     char path[512];
     scratch_path("memory.png", path);
     remove(path);
@@ -358,17 +358,5 @@ int main(int argument_count, char **arguments) {
         bench();
         return 0;
     }
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_save_and_load),
-        cmocka_unit_test(test_same_file_for_any_thread_count),
-        cmocka_unit_test(test_float_to_codes),
-        cmocka_unit_test(test_head_says_srgb),
-        cmocka_unit_test(test_pngsuite),
-        cmocka_unit_test(test_hostile),
-        cmocka_unit_test(test_every_truncation_is_refused),
-        cmocka_unit_test(test_limits_come_before_memory),
-        cmocka_unit_test(test_arguments),
-        cmocka_unit_test(test_failing_allocations),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return RUN_TESTS(NULL, NULL);
 }

@@ -69,7 +69,7 @@ static const char square_with_hole[] = "...........\n"
                                        "...........\n";
 
 /// The same outline in all forms; what is on an edge, of a hole too, is inside.
-static void test_forms(void **state) {
+TEST(test_forms) {
     static const char *const texts[] = {
         "1,1;8,1;8,8;1,8;;3,3;6,3;6,6;3,6",
         "1 1\n8 1\n8 8\n1 8\n1 1\n\n3 3\n6 3\n6 6\n3 6\n",
@@ -105,7 +105,7 @@ static void test_forms(void **state) {
     }
 }
 
-static void test_bad(void **state) {
+TEST(test_bad) {
     static const char *const cases[][2] = {
         {"", "there is no polygon"},
         {"1 2\n3 4\n", "ring 1 of the outline has 2 corners"},
@@ -138,7 +138,7 @@ static void test_bad(void **state) {
 }
 
 /// Every begin of a text is read or refused, with a message then.
-static void test_truncations(void **state) {
+TEST(test_truncations) {
     static const char *const texts[] = {
         "1,1;8,1;8,8;1,8;;3,3;6,3;6,6;3,6",
         "SRID=4326;MULTIPOLYGON ZM (((1 1 2 3, 8 1 2 3, 8 8 2 3)), ((1 1 0 0, 2 2 0 0, 3 1 0 0)))",
@@ -161,7 +161,7 @@ static void test_truncations(void **state) {
 }
 
 /// Many corners in many bands: against the definition, edge by edge.
-static void test_many_corners(void **state) {
+TEST(test_many_corners) {
     enum { CORNERS = 5000, POINTS = 3000 };
     static double corners[2 * CORNERS];
     check_random random = {5};
@@ -206,12 +206,4 @@ static void test_many_corners(void **state) {
     }
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_forms),
-        cmocka_unit_test(test_bad),
-        cmocka_unit_test(test_truncations),
-        cmocka_unit_test(test_many_corners),
-    };
-    return cmocka_run_group_tests(tests, enter, leave);
-}
+int main(void) { return RUN_TESTS(enter, leave); }

@@ -8,7 +8,7 @@
 // A quarter turn about z: the x of the scanner becomes y of the world; then a step.
 #define TURNED "10 20 30\n0 1 0\n-1 0 0\n0 0 1\n0 1 0 0\n-1 0 0 0\n0 0 1 0\n10 20 30 1\n"
 
-static void test_scans(void **state) {
+TEST_WITHIN(test_scans, set_up, tear_down) {
     ewa_cloud *cloud = rows_load("2\n2\n" STILL "1 2 3 0.5\n0 0 0 0.5\n4 5 6 0.25\n-1 0 0 1\n"
                                  "1\n2\n" TURNED "1 2 3 0.125 255 7 0\n4 5 6 0 1 2 3\n");
     rows_expect(cloud, 5, "position,intensity,color,scan");
@@ -27,7 +27,7 @@ static void test_scans(void **state) {
     ewa_cloud_destroy(&cloud);
 }
 
-static void test_places(void **state) {
+TEST_WITHIN(test_places, set_up, tear_down) {
     ewa_cloud *far = rows_load("1\r\n3\r\n" STILL
                                "4200000.125 5200007.3 1 0.5\r\n0 0 0 0.5\r\n4200001.1 5200000.7 2 1\r\n"),
               *near = rows_load("1\n3\n" STILL "0.125 7.3 1 0.5\n0 0 0 0.5\n1.1 0.7 2 1");
@@ -46,7 +46,7 @@ static void test_places(void **state) {
     ewa_cloud_destroy(&near);
 }
 
-static void test_damage(void **state) {
+TEST_WITHIN(test_damage, set_up, tear_down) {
     static const struct {
         const char *text, *said;
     } files[] = {
@@ -63,7 +63,7 @@ static void test_damage(void **state) {
     for (size_t i = 0; i < sizeof files / sizeof files[0]; i++) rows_refuse(files[i].text, files[i].said);
 }
 
-static void test_keep_going(void **state) {
+TEST_WITHIN(test_keep_going, set_up, tear_down) {
     ewa_cloud_load_options options;
     ewa_cloud_load_options_init(&options, sizeof options);
     options.keep_going = true;
@@ -77,7 +77,7 @@ static void test_keep_going(void **state) {
     ewa_cloud_destroy(&cloud);
 }
 
-static void test_truncation(void **state) {
+TEST_WITHIN(test_truncation, set_up, tear_down) {
     const char *text =
         "1\n2\n" STILL "1 2 3 0.5 1 2 3\n4 5 6 0.25 4 5 6\n2\n1\n" TURNED "1 2 3 0 1 2 3\n4 5 6 0 1 2 3\n";
     const size_t length = strlen(text),
@@ -97,7 +97,7 @@ static void test_truncation(void **state) {
     }
 }
 
-static void test_threads(void **state) {
+TEST_WITHIN(test_threads, set_up, tear_down) {
     enum { POINTS = 20000, BYTES = 64 };
     char *text = malloc(POINTS * BYTES);
     assert_non_null(text);
@@ -123,14 +123,4 @@ static void test_threads(void **state) {
     free(text);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(test_scans, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(test_places, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(test_damage, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(test_keep_going, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(test_truncation, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(test_threads, set_up, tear_down),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

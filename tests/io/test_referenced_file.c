@@ -39,7 +39,7 @@ static int make_folder(void **state) {
     return 0;
 }
 
-static void test_names(void **state) {
+TEST(test_names) {
     static const struct {
         const char *name, *content, *reason; ///< one of the two
     } cases[] = {
@@ -105,7 +105,7 @@ static void test_names(void **state) {
 }
 
 /// A mesh in the working folder, and one in the root.
-static void test_folders(void **state) {
+TEST(test_folders) {
     char reason[EWA_REASON_BYTES], back[4096], folder[512];
     ewa_file file;
     ewa_context *context = check_context(1, NULL);
@@ -119,7 +119,7 @@ static void test_folders(void **state) {
     ewa_context_destroy(&context);
 }
 
-static void test_base64(void **state) {
+TEST(test_base64) {
     static const struct {
         const char *letters, *bytes; ///< NULL: refused
     } cases[] = {{"", ""},
@@ -151,8 +151,4 @@ static void test_base64(void **state) {
     }
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_names), cmocka_unit_test(test_folders),
-                                       cmocka_unit_test(test_base64)};
-    return cmocka_run_group_tests(tests, make_folder, NULL);
-}
+int main(void) { return RUN_TESTS(make_folder, NULL); }

@@ -10,7 +10,7 @@
 #define FIXTURE_THREADS 0
 #include "io/fixture.h"
 
-static void test_counts_boxes_and_attributes(void **state) {
+CASE(test_counts_boxes_and_attributes) {
     static const struct {
         const char *path;
         double box[6]; ///< lower corner, upper corner
@@ -76,7 +76,7 @@ static void test_counts_boxes_and_attributes(void **state) {
     assert_string_equal(messages.text, "");
 }
 
-static void test_spherical_and_empty(void **state) {
+CASE(test_spherical_and_empty) {
     char path[512];
     ewa_cloud *cloud = NULL;
     if (!check_data("clouds/e57/tiny_spherical.e57", path, sizeof path)) skip();
@@ -94,7 +94,7 @@ static void test_spherical_and_empty(void **state) {
     ewa_cloud_destroy(&cloud);
 }
 
-static void test_broken(void **state) {
+CASE(test_broken) {
     static const struct {
         const char *path, *message; ///< NULL: merely odd
     } files[] = {{"pcd/missingheader.pcd", "line 1: '289814.15' is no word of a PCD header"},
@@ -115,8 +115,4 @@ static void test_broken(void **state) {
     }
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {CASE(test_counts_boxes_and_attributes), CASE(test_spherical_and_empty),
-                                       CASE(test_broken)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

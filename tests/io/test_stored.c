@@ -40,7 +40,7 @@ static void check_bare(const ewa_deflated *packed, const uint8_t *bytes, size_t 
     assert_int_equal(stored_inflate("\x03\x00    ", 6, back, 0), EWA_ERROR_UNSUPPORTED);
 }
 
-static void reads_back(void **state) {
+TEST(reads_back) {
     static const int windows[] = {[EWA_DEFLATE_BARE] = -15, [EWA_DEFLATE_ZLIB] = 15, [EWA_DEFLATE_GZIP] = 31};
     ewa_context *context = NULL;
     assert_int_equal(ewa_context_create(NULL, &context), EWA_OK);
@@ -68,7 +68,7 @@ static void reads_back(void **state) {
     ewa_context_destroy(&context);
 }
 
-static void checksum_is_the_same(void **state) {
+TEST(checksum_is_the_same) {
     uint8_t *bytes = make_bytes();
     for (int i = 0; i < SIZES; i++) assert_int_equal(stored_crc32(0, bytes, sizes[i]), ewa_crc32(0, bytes, sizes[i]));
     assert_int_equal(stored_crc32(stored_crc32(0, bytes, 1000), bytes + 1000, 2000), ewa_crc32(0, bytes, 3000));
@@ -76,7 +76,4 @@ static void checksum_is_the_same(void **state) {
     free(bytes);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(reads_back), cmocka_unit_test(checksum_is_the_same)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

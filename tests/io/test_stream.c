@@ -65,7 +65,7 @@ static void world_of(const ewa_cloud *cloud, uint64_t point, double world[3]) {
 }
 
 /// Every format that is written, and the pieces of prime sizes that it is read and written in.
-static void test_pieces(void **state) {
+TEST_WITHIN(test_pieces, set_up, tear_down) {
     static const char *const suffixes[] = {".ply", ".las", ".laz", ".pcd", ".csv"};
     static const uint64_t sizes[] = {1, 7, 997, 5003, 100000};
     ewa_cloud *scan = make_scan();
@@ -133,7 +133,7 @@ static void let_go(void *user, void *block, size_t size_bytes) {
 }
 
 /// A file that is passed through needs memory for a piece, not for its points.
-static void test_memory(void **state) {
+TEST_WITHIN(test_memory, set_up, tear_down) {
     enum { MANY = 400000, PIECE = 4096, MAX_BYTES = 3 << 20 };
     ewa_cloud *cloud = NULL;
     float *position = NULL;
@@ -183,7 +183,7 @@ static void test_memory(void **state) {
 }
 
 /// Only what is wanted is read, and positions always.
-static void test_wanted(void **state) {
+TEST_WITHIN(test_wanted, set_up, tear_down) {
     char path[512];
     ewa_cloud *scan = make_scan(), *piece = NULL;
     assert_int_equal(ewa_cloud_save(scan, scratch_path("wanted.ply", path), NULL), EWA_OK);
@@ -206,7 +206,7 @@ static void test_wanted(void **state) {
 }
 
 /// A writer that was promised other points than it gets says so, and leaves nothing behind.
-static void test_promises(void **state) {
+TEST_WITHIN(test_promises, set_up, tear_down) {
     char path[512];
     ewa_cloud *scan = make_scan();
     scratch_path("promised.ply", path);
@@ -227,7 +227,7 @@ static void test_promises(void **state) {
 }
 
 /// A number of points that is only known at the end is put where it belongs.
-static void test_unknown_count(void **state) {
+TEST_WITHIN(test_unknown_count, set_up, tear_down) {
     char path[512];
     ewa_cloud *scan = make_scan();
     ewa_cloud_writer *writer = NULL;
@@ -243,7 +243,7 @@ static void test_unknown_count(void **state) {
 }
 
 /// Decimals are those that were there, also where the sum of two doubles is another double.
-static void test_grid(void **state) {
+TEST_WITHIN(test_grid, set_up, tear_down) {
     const ewa_coordinate_grid grid = {{0.01, 0.001, 0.25}, {600000, 0, 0.125}};
     assert_true(ewa_grid_world(&grid, 0, 600000 + 35619.85) == 635619.85);
     uint32_t inexact = 0;
@@ -261,7 +261,7 @@ static void test_grid(void **state) {
 }
 
 /// The suffix chooses, wherever a file lies; streams and devices have none.
-static void test_places(void **state) {
+TEST(test_places) {
     static const struct {
         const char *path, *suffixes;
     } cases[] = {{"-", ".ply"},
@@ -282,7 +282,7 @@ static void test_places(void **state) {
 }
 
 /// Notes are copies, are replaced, removed, and handed on.
-static void test_notes(void **state) {
+TEST_WITHIN(test_notes, set_up, tear_down) {
     ewa_cloud *scan = make_scan(), *some = NULL, *both = NULL;
     size_t size_bytes;
     assert_int_equal(ewa_cloud_set_note(scan, "file.what", "a\0b", 3), EWA_OK);
@@ -317,16 +317,4 @@ static void test_notes(void **state) {
     ewa_cloud_destroy(&scan);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(test_pieces, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(test_memory, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(test_wanted, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(test_promises, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(test_unknown_count, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(test_grid, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(test_notes, set_up, tear_down),
-        cmocka_unit_test(test_places),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -73,7 +73,7 @@ static void expect_tile(const ewa_model *model, double length, int hole) {
     assert_int_equal(point, ewa_cloud_point_count(model->points));
 }
 
-static void test_codes(void **state) {
+TEST_WITHIN(test_codes, set_up, tear_down) {
     char path[512];
     ewa_model model;
     for (int heights = EWA_HEIGHTS_TERRAIN_RGB; heights <= EWA_HEIGHTS_TERRARIUM; heights++)
@@ -99,7 +99,7 @@ static void test_codes(void **state) {
     ewa_model_free(&model);
 }
 
-static void test_tiles(void **state) {
+TEST_WITHIN(test_tiles, set_up, tear_down) {
     static const struct {
         const char *name;
         double length; ///< 0: no name of a tile
@@ -122,7 +122,7 @@ static void test_tiles(void **state) {
     }
 }
 
-static void test_refused(void **state) {
+TEST_WITHIN(test_refused, set_up, tear_down) {
     char path[512];
     ewa_model model;
     write_tile(scratch_path("heights", path), EWA_HEIGHTS_TERRARIUM, false, -1);
@@ -135,7 +135,7 @@ static void test_refused(void **state) {
     ewa_model_free(&model);
 }
 
-static void test_truncation(void **state) {
+TEST_WITHIN(test_truncation, set_up, tear_down) {
     char path[512], cut_path[512];
     for (int webp = 0; webp < 2; webp++) {
         size_t size_bytes;
@@ -165,19 +165,10 @@ static ewa_status load_failing(ewa_context *failing, void *user) {
     return status;
 }
 
-static void test_failing_allocations(void **state) {
+TEST_WITHIN(test_failing_allocations, set_up, tear_down) {
     char path[512];
     write_tile(scratch_path("heights", path), EWA_HEIGHTS_TERRARIUM, true, -1);
     scratch_fail_each(load_failing, path);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(test_codes, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(test_tiles, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(test_refused, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(test_truncation, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(test_failing_allocations, set_up, tear_down),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

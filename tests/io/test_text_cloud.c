@@ -4,7 +4,7 @@
 // Clouds of text: separators, heads, columns by names and by numbers, types, exact places, damage.
 #include "io/rows_check.h"
 
-static void test_separators(void **state) {
+TEST_WITHIN(test_separators, set_up, tear_down) {
     static const char *const texts[] = {"1.5 2.5 3\n-4 5.25 6\n",
                                         "1.5\t2.5\t3\n-4\t5.25\t6",
                                         "1.5,2.5,3\n-4,5.25,6\n",
@@ -40,7 +40,7 @@ static void test_separators(void **state) {
     }
 }
 
-static void test_utf16(void **state) {
+TEST_WITHIN(test_utf16, set_up, tear_down) {
     const char text[] = "x,y,z\n1.5,2,3\n4,5,6\n";
     for (int big = 0; big < 2; big++) {
         char wide[2 * sizeof text];
@@ -57,7 +57,7 @@ static void test_utf16(void **state) {
     }
 }
 
-static void test_names(void **state) {
+TEST_WITHIN(test_names, set_up, tear_down) {
     static const struct {
         const char *text, *names;
     } files[] = {
@@ -85,7 +85,7 @@ static void test_names(void **state) {
     }
 }
 
-static void test_numbers_without_names(void **state) {
+TEST_WITHIN(test_numbers_without_names, set_up, tear_down) {
     static const struct {
         const char *text, *names;
     } files[] = {
@@ -110,7 +110,7 @@ static void test_numbers_without_names(void **state) {
     }
 }
 
-static void test_types(void **state) {
+TEST_WITHIN(test_types, set_up, tear_down) {
     ewa_cloud *cloud = rows_load("x,y,z,intensity,classification,a1,a2,a3,a4,a5,a6,a7,gps_time,a8\n"
                                  "1,2,3,5,2.000,255,256,-1,70000,0.25,0.1234567,123456789,1,1e3\n"
                                  "1,2,3,65535,6.000,0,0,300,0,12.125,0.5,0,2,7\n");
@@ -147,7 +147,7 @@ static void test_types(void **state) {
 }
 
 /// Types hold for numbers that come long after the sample.
-static void test_late_numbers(void **state) {
+TEST_WITHIN(test_late_numbers, set_up, tear_down) {
     enum { ROWS = 40000, BYTES = 40 };
     char *text = malloc(ROWS * BYTES);
     assert_non_null(text);
@@ -168,7 +168,7 @@ static void test_late_numbers(void **state) {
     free(text);
 }
 
-static void test_places(void **state) {
+TEST_WITHIN(test_places, set_up, tear_down) {
     ewa_cloud *far = rows_load("4200000.125 -5200017.3 99.07\n4200001.1 -5199999.9999 -3\n"),
               *near = rows_load("0.125 -17.3 99.07\n1.1 0.0001 -3\n");
     double origin_world[3];
@@ -192,7 +192,7 @@ static void test_places(void **state) {
 }
 
 /// Every decimal, however long, is the nearest double less the origin.
-static void test_nearest(void **state) {
+TEST_WITHIN(test_nearest, set_up, tear_down) {
     check_random random = {7};
     for (int i = 0; i < 2000; i++) {
         char text[256];
@@ -218,7 +218,7 @@ static void test_nearest(void **state) {
     }
 }
 
-static void test_damage(void **state) {
+TEST_WITHIN(test_damage, set_up, tear_down) {
     static const struct {
         const char *text, *said;
     } files[] = {
@@ -242,7 +242,7 @@ static void test_damage(void **state) {
     for (size_t i = 0; i < sizeof files / sizeof files[0]; i++) rows_refuse(files[i].text, files[i].said);
 }
 
-static void test_keep_going(void **state) {
+TEST_WITHIN(test_keep_going, set_up, tear_down) {
     ewa_cloud_load_options options;
     ewa_cloud_load_options_init(&options, sizeof options);
     const char *text = "1 2 3\n4 5 6\nbad 1 2\n7 8 9\n7 8 9\n7 8 9\n7 8 9\n7 8 9\n1 2\n10 11 12\n13 14 15 "
@@ -268,7 +268,7 @@ static void test_keep_going(void **state) {
     ewa_cloud_destroy(&cloud);
 }
 
-static void test_columns(void **state) {
+TEST_WITHIN(test_columns, set_up, tear_down) {
     ewa_cloud_load_options options;
     ewa_cloud_load_options_init(&options, sizeof options);
     options.columns = "intensity,-,z,x,Y";
@@ -285,7 +285,7 @@ static void test_columns(void **state) {
 }
 
 /// Columns of words are left out, and said.
-static void test_words(void **state) {
+TEST_WITHIN(test_words, set_up, tear_down) {
     ewa_cloud *cloud = NULL;
     const char *text = "x,y,z,kind of thing,v\n1,2,3,a tree,5\n4,5,6,\"a, b\",7\n7,8,9,,11\n1,1,1,tree,9\n";
     messages.count = 0;
@@ -298,7 +298,7 @@ static void test_words(void **state) {
 }
 
 /// A text that is cut reads as what is left, or is refused; never more points, and all of them those of the whole.
-static void test_truncation(void **state) {
+TEST_WITHIN(test_truncation, set_up, tear_down) {
     static const char *const texts[] = {
         "x,y,z,intensity\n100.5,200.25,300,7\n101.5,201.25,301,8\n102.5,202.25,302,9\n103.5,203.25,303,10\n",
         "4\r\n1 2 3\r\n4 5 6\r\n7 8 9\r\n10 11 12\r\n",
@@ -324,7 +324,7 @@ static void test_truncation(void **state) {
 }
 
 /// Any number of threads and any pieces give the same bytes, and the plain path those of the careful one.
-static void test_paths(void **state) {
+TEST_WITHIN(test_paths, set_up, tear_down) {
     enum { ROWS = 30000, BYTES = 90 };
     check_random random = {3};
     char *plain = malloc(ROWS * BYTES), *odd = malloc(ROWS * BYTES);
@@ -392,7 +392,7 @@ static void test_paths(void **state) {
 }
 
 /// Every allocation that fails ends in an error, and nothing is kept.
-static void test_memory(void **state) {
+TEST_WITHIN(test_memory, set_up, tear_down) {
     const char *text = "x;y;z;name;intensity\n1,5;2,5;3;a b;0,5\n1,5;2,5;4;c;NA\n";
     bool done = false;
     for (long call = 0; !done; call++) {
@@ -411,23 +411,4 @@ static void test_memory(void **state) {
     }
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(test_separators, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(test_utf16, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(test_names, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(test_numbers_without_names, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(test_types, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(test_late_numbers, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(test_places, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(test_nearest, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(test_damage, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(test_keep_going, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(test_columns, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(test_words, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(test_truncation, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(test_paths, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(test_memory, set_up, tear_down),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

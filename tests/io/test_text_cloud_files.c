@@ -4,7 +4,7 @@
 // Clouds of text of the data set, which others' programs have written: counts, attributes, first and last points.
 #include "io/rows_check.h"
 
-static void test_files(void **state) {
+TEST_WITHIN(test_files, set_up, tear_down) {
     static const struct {
         const char *path;
         ewa_model_format format;
@@ -91,7 +91,7 @@ static void test_files(void **state) {
 }
 
 /// By hand from the matrix and the line of the file: x y z 1 times the matrix, whose rows come in the file's order.
-static void test_matrix(void **state) {
+TEST_WITHIN(test_matrix, set_up, tear_down) {
     char path[512];
     if (!check_data("clouds/text/complex-transform.ptx", path, sizeof path)) skip();
     ewa_cloud *cloud = NULL;
@@ -107,7 +107,7 @@ static void test_matrix(void **state) {
     ewa_cloud_destroy(&cloud);
 }
 
-static void test_mesh_and_broken(void **state) {
+TEST_WITHIN(test_mesh_and_broken, set_up, tear_down) {
     char path[512];
     ewa_cloud *cloud = NULL;
     if (!check_data("hostile/text/badheader.txt", path, sizeof path)) skip();
@@ -120,11 +120,4 @@ static void test_mesh_and_broken(void **state) {
     ewa_model_free(&model);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(test_files, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(test_matrix, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(test_mesh_and_broken, set_up, tear_down),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -16,7 +16,7 @@ static void expect_file(const ewa_cloud *cloud, const char *name, const char *ex
 }
 
 /// Text that is read and written is the same text.
-static void test_same(void **state) {
+TEST_WITHIN(test_same, set_up, tear_down) {
     static const struct {
         const char *name, *text;
     } files[] = {
@@ -44,7 +44,7 @@ static void test_same(void **state) {
 }
 
 /// Any decimals and any whole number of steps, also where origin and offset differ.
-static void test_every_digit(void **state) {
+TEST_WITHIN(test_every_digit, set_up, tear_down) {
     enum { POINTS = 500 };
     check_random random = {11};
     for (int decimals = 0; decimals <= 9; decimals++) {
@@ -73,7 +73,7 @@ static void test_every_digit(void **state) {
 }
 
 /// Coordinates of no grid and floats read back as they were.
-static void test_shortest(void **state) {
+TEST_WITHIN(test_shortest, set_up, tear_down) {
     enum { POINTS = 1000 };
     check_random random = {5};
     ewa_cloud *cloud = NULL, *back = NULL;
@@ -105,7 +105,7 @@ static void test_shortest(void **state) {
     ewa_cloud_destroy(&back);
 }
 
-static void test_linear_colors(void **state) {
+TEST_WITHIN(test_linear_colors, set_up, tear_down) {
     ewa_cloud *cloud = NULL;
     const float position[3] = {0.1f, 2, 3}, color[3] = {1, 0, 0.21404114f};
     assert_int_equal(ewa_cloud_create(context, 1, &cloud), EWA_OK);
@@ -117,7 +117,7 @@ static void test_linear_colors(void **state) {
 }
 
 /// The file does not depend on pieces and threads; a count that comes late is put in front.
-static void test_pieces(void **state) {
+TEST_WITHIN(test_pieces, set_up, tear_down) {
     enum { POINTS = 20000, BYTES = 48 };
     char *text = malloc(POINTS * BYTES);
     assert_non_null(text);
@@ -151,7 +151,7 @@ static void test_pieces(void **state) {
     free(text);
 }
 
-static void test_refused(void **state) {
+TEST_WITHIN(test_refused, set_up, tear_down) {
     char path[512];
     ewa_cloud *cloud = rows_load("1 2 3\n");
     void *value;
@@ -167,14 +167,4 @@ static void test_refused(void **state) {
     ewa_cloud_destroy(&cloud);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(test_same, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(test_every_digit, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(test_shortest, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(test_linear_colors, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(test_pieces, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(test_refused, set_up, tear_down),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -17,7 +17,7 @@ static ewa_status read_text(ewa_context *context, const char *text, ewa_transfer
     return status;
 }
 
-static void test_opacity(void **state) {
+TEST(test_opacity) {
     // Against the library's own logarithm.
     for (int i = 0; i < 100000; i++) {
         const double opacity = i / 100000.0, wanted = -log1p(-opacity);
@@ -33,7 +33,7 @@ static const char WHOLE[] =
     "  {\"value\": 10, \"color\": [1, 1, 1], \"opacity\": 0.5},\n"
     "  {\"value\": 10, \"color\": [1, 0, 0], \"extinction\": 3}]}\n";
 
-static void test_known_file(void **state) {
+TEST(test_known_file) {
     ewa_context *context = check_context(1, NULL);
     ewa_transfer transfer;
     assert_int_equal(read_text(context, WHOLE, &transfer), EWA_OK);
@@ -65,7 +65,7 @@ static void test_known_file(void **state) {
 #define POINT(value)    "{\"value\": " value ", \"color\": [0, 0, 0], \"opacity\": 0.5}"
 #define FILE_OF(points) "{\"points\": [" points "]}"
 
-static void test_broken_files(void **state) {
+TEST(test_broken_files) {
     static const struct {
         const char *text, *said;
     } files[] = {
@@ -110,7 +110,7 @@ static void test_broken_files(void **state) {
     ewa_context_destroy(&context);
 }
 
-static void test_every_truncation_fails(void **state) {
+TEST(test_every_truncation_fails) {
     ewa_context *context = check_context(1, NULL);
     for (size_t size = 0; size < sizeof WHOLE - 2; size++) {
         char text[sizeof WHOLE];
@@ -122,7 +122,7 @@ static void test_every_truncation_fails(void **state) {
     ewa_context_destroy(&context);
 }
 
-static void test_too_many_points(void **state) {
+TEST(test_too_many_points) {
     ewa_context *context = check_context(1, NULL);
     char *text = malloc(EWA_MAX_TRANSFER_POINTS * 64 + 256);
     for (int more = 0; more < 2; more++) {
@@ -162,7 +162,7 @@ static double extinction_at(const ewa_transfer *transfer, double value) {
     return 0;
 }
 
-static void test_automatic(void **state) {
+TEST(test_automatic) {
     ewa_context *context = check_context(1, NULL);
     ewa_volume volume;
     ewa_volume_facts facts;
@@ -201,7 +201,7 @@ static void test_automatic(void **state) {
 }
 
 /// What a volume holds, against sums of our own: every type, numbers that are none, a slanted grid.
-static void test_measure(void **state) {
+TEST(test_measure) {
     static const ewa_type types[] = {EWA_U8, EWA_I8, EWA_U16, EWA_I16, EWA_F32};
     enum { X = 13, Y = 7, Z = 29, COUNT = X * Y * Z };
     ewa_context *context = check_context(1, NULL);
@@ -271,7 +271,7 @@ static void test_measure(void **state) {
 }
 
 /// Every preset's points, where values are Hounsfield units and where they are shares of the range.
-static void test_preset_points(void **state) {
+TEST(test_preset_points) {
     static const struct {
         const char *name, *points;
     } presets[] = {
@@ -327,7 +327,7 @@ static void test_preset_points(void **state) {
     ewa_context_destroy(&context);
 }
 
-static void test_presets(void **state) {
+TEST(test_presets) {
     check_log log = {0};
     ewa_context *context = check_context(1, &log);
     ewa_volume volume;
@@ -370,7 +370,7 @@ static ewa_status save_and_load(ewa_context *context, void *user) {
     return status;
 }
 
-static void test_failing_allocations(void **state) {
+TEST(test_failing_allocations) {
     char path[512];
     scratch_fail_each(save_and_load, (void *)(uintptr_t)scratch_path("failing.json", path));
     ewa_context *context = check_context(1, NULL);
@@ -383,14 +383,4 @@ static void test_failing_allocations(void **state) {
     ewa_context_destroy(&context);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_opacity),         cmocka_unit_test(test_known_file),
-        cmocka_unit_test(test_broken_files),    cmocka_unit_test(test_every_truncation_fails),
-        cmocka_unit_test(test_too_many_points), cmocka_unit_test(test_automatic),
-
-        cmocka_unit_test(test_measure),         cmocka_unit_test(test_preset_points),
-        cmocka_unit_test(test_presets),         cmocka_unit_test(test_failing_allocations),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

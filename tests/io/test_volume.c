@@ -19,7 +19,7 @@ static void check_place(ewa_context *context, const sample_file *file, const cha
     ewa_volume_free(&volume);
 }
 
-static void test_every_format(void **state) {
+TEST(test_every_format) {
     check_log log = {0};
     ewa_context *context = check_context(1, &log);
     sample_file file;
@@ -35,7 +35,7 @@ static void test_every_format(void **state) {
     ewa_context_destroy(&context);
 }
 
-static void test_every_type(void **state) {
+TEST(test_every_type) {
     static const struct {
         const char *word;
         ewa_type type, becomes;
@@ -61,7 +61,7 @@ static void test_every_type(void **state) {
     ewa_context_destroy(&context);
 }
 
-static void test_nrrd_places(void **state) {
+TEST(test_nrrd_places) {
     ewa_context *context = check_context(1, NULL);
     sample_file file;
     static const struct {
@@ -108,7 +108,7 @@ static void test_nrrd_places(void **state) {
     ewa_context_destroy(&context);
 }
 
-static void test_nrrd_axes(void **state) {
+TEST(test_nrrd_axes) {
     static const struct {
         const char *text;
         ewa_status status;
@@ -149,7 +149,7 @@ static void test_nrrd_axes(void **state) {
     ewa_context_destroy(&context);
 }
 
-static void test_nifti_places(void **state) {
+TEST(test_nifti_places) {
     ewa_context *context = check_context(1, NULL);
     for (int kind = 0; kind < 4; kind++) {
         const bool second = kind & 1, big = kind & 2;
@@ -187,7 +187,7 @@ static void test_nifti_places(void **state) {
     ewa_context_destroy(&context);
 }
 
-static void test_nifti_packed_and_pairs(void **state) {
+TEST(test_nifti_packed_and_pairs) {
     ewa_context *context = check_context(1, NULL);
     sample_file whole, packed = {.size_bytes = 0}, head;
     sample_make(4, &whole);
@@ -213,7 +213,7 @@ static void test_nifti_packed_and_pairs(void **state) {
     ewa_context_destroy(&context);
 }
 
-static void test_meta_places(void **state) {
+TEST(test_meta_places) {
     ewa_context *context = check_context(1, NULL);
     sample_file file = {.size_bytes = 0};
     sample_text(&file, "NDims = 3\nDimSize = 2 3 4\nElementType = MET_SHORT\nElementByteOrderMSB = True\n"
@@ -226,7 +226,7 @@ static void test_meta_places(void **state) {
 }
 
 /// Cells, axes that are turned, places of extents that do not begin at zero.
-static void test_vti_places(void **state) {
+TEST(test_vti_places) {
     ewa_context *context = check_context(1, NULL);
     static const struct {
         const char *image, *section;
@@ -276,7 +276,7 @@ static void put_sample(sample_file *file) {
 
 /// Legacy files with several arrays, in text and in bytes: scalars of points are taken before a field, both before those of
 /// cells, whose grid is smaller by one along each axis. Other arrays are stepped over, bytes that look like lines too.
-static void test_vtk_arrays(void **state) {
+TEST(test_vtk_arrays) {
     ewa_context *context = check_context(1, NULL);
     static const double of_points[12] = {2, 0, 0, 10, 0, 3, 0, 20, 0, 0, 4, 30},
                         of_cells[12] = {2, 0, 0, 11, 0, 3, 0, 21.5, 0, 0, 4, 32};
@@ -327,7 +327,7 @@ static void test_vtk_arrays(void **state) {
 }
 
 /// A MetaImage of two axes may have spacings and offsets of three.
-static void test_meta_slice(void **state) {
+TEST(test_meta_slice) {
     ewa_context *context = check_context(1, NULL);
     sample_file file = {.size_bytes = 0};
     ewa_volume volume;
@@ -341,7 +341,7 @@ static void test_meta_slice(void **state) {
 }
 
 /// A slice has one layer of cells along its normal.
-static void test_vtk_slice(void **state) {
+TEST(test_vtk_slice) {
     ewa_context *context = check_context(1, NULL);
     sample_file file = {.size_bytes = 0};
     ewa_volume volume;
@@ -354,7 +354,7 @@ static void test_vtk_slice(void **state) {
 }
 
 /// Three bytes for each place: colours, by the kinds, by what early writers did, and in XML images.
-static void test_colors(void **state) {
+TEST(test_colors) {
     ewa_context *context = check_context(1, NULL);
     sample_file files[2] = {{.size_bytes = 0}, {.size_bytes = 0}};
     sample_text(&files[0], "NRRD0001\ntype: unsigned char\ndimension: 3\nsizes: 3 4 5\nencoding: raw\n\n");
@@ -384,7 +384,7 @@ static void test_colors(void **state) {
 }
 
 /// Which files say how a patient lies.
-static void test_anatomical(void **state) {
+TEST(test_anatomical) {
     ewa_context *context = check_context(1, NULL);
     static const char *const fields[] = {"", "space: RAS\n", "space: left-posterior-superior\n",
                                          "space: 3D-right-handed\n"};
@@ -402,7 +402,7 @@ static void test_anatomical(void **state) {
     ewa_context_destroy(&context);
 }
 
-static void test_raw_numbers(void **state) {
+TEST(test_raw_numbers) {
     ewa_context *context = check_context(1, NULL);
     sample_file file = {.size_bytes = 0};
     ewa_volume volume;
@@ -445,7 +445,7 @@ static void test_raw_numbers(void **state) {
     ewa_context_destroy(&context);
 }
 
-static void test_parts(void **state) {
+TEST(test_parts) {
     ewa_context *context = check_context(1, NULL);
     uint8_t numbers[8 * SAMPLE_VOXELS];
     sample_numbers(EWA_U8, false, numbers);
@@ -496,7 +496,7 @@ static void test_parts(void **state) {
     ewa_context_destroy(&context);
 }
 
-static void test_numbers_that_are_none(void **state) {
+TEST(test_numbers_that_are_none) {
     check_log log = {0};
     ewa_context *context = check_context(1, &log);
     sample_file file = {.size_bytes = 0};
@@ -514,7 +514,7 @@ static void test_numbers_that_are_none(void **state) {
     ewa_context_destroy(&context);
 }
 
-static void test_saving(void **state) {
+TEST(test_saving) {
     static const ewa_type types[] = {EWA_U8, EWA_I8, EWA_U16, EWA_I16, EWA_F32};
     ewa_context *context = check_context(1, NULL);
     char path[512];
@@ -553,7 +553,7 @@ static bool load_data(ewa_context *context, const char *name, ewa_volume *volume
     return true;
 }
 
-static void test_real_files(void **state) {
+TEST(test_real_files) {
     ewa_context *context = check_context(0, NULL);
     for (size_t i = 0; i < sizeof volume_facts / sizeof volume_facts[0]; i++) {
         ewa_volume volume;
@@ -570,7 +570,7 @@ static void test_real_files(void **state) {
 }
 
 /// The same voxels in different wrappings.
-static void test_real_twins(void **state) {
+TEST(test_real_twins) {
     static const char *const twins[][2] = {
         {"aneurism.vti", "aneurism_256x256x256_uint8.raw.gz"},
         {"nrrd_variants/BallBinary30x30x30.nrrd", "nrrd_variants/BallBinary30x30x30.nhdr"},
@@ -594,25 +594,4 @@ static void test_real_twins(void **state) {
     ewa_context_destroy(&context);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_every_format),
-        cmocka_unit_test(test_every_type),
-        cmocka_unit_test(test_nrrd_places),
-        cmocka_unit_test(test_nrrd_axes),
-        cmocka_unit_test(test_nifti_places),
-        cmocka_unit_test(test_nifti_packed_and_pairs),
-        cmocka_unit_test(test_meta_places),
-        cmocka_unit_test(test_vti_places),
-        cmocka_unit_test(test_vtk_arrays), cmocka_unit_test(test_vtk_slice), cmocka_unit_test(test_meta_slice),
-        cmocka_unit_test(test_colors),
-        cmocka_unit_test(test_anatomical),
-        cmocka_unit_test(test_raw_numbers),
-        cmocka_unit_test(test_parts),
-        cmocka_unit_test(test_numbers_that_are_none),
-        cmocka_unit_test(test_saving),
-        cmocka_unit_test(test_real_files),
-        cmocka_unit_test(test_real_twins),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

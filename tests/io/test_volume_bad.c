@@ -4,7 +4,7 @@
 // Tests of volume files that are cut short, broken, or claim more than they hold.
 #include "volume_sample.h"
 
-static void test_every_truncation_fails(void **state) {
+TEST(test_every_truncation_fails) {
     check_log log = {0};
     ewa_context *context = check_context(1, &log);
     sample_file file;
@@ -32,7 +32,7 @@ static void test_every_truncation_fails(void **state) {
 }
 
 /// Every byte of every file is changed in a few ways: whatever comes back, nothing breaks.
-static void test_every_changed_byte(void **state) {
+TEST(test_every_changed_byte) {
     static const uint8_t others[] = {0x00, 0x20, 0x2d, 0x39, 0x7f, 0x80, 0xff};
     ewa_context_options options;
     ewa_context_options_init(&options, sizeof options);
@@ -69,7 +69,7 @@ static void test_every_changed_byte(void **state) {
 #define VTI_END "</PointData></Piece></ImageData></VTKFile>"
 #define ZLIB    "compressor=\"vtkZLibDataCompressor\""
 
-static void test_broken_files(void **state) {
+TEST(test_broken_files) {
     static const struct {
         const char *text, *said;
         ewa_status status;
@@ -205,7 +205,7 @@ static void test_broken_files(void **state) {
     ewa_context_destroy(&context);
 }
 
-static void test_broken_nifti(void **state) {
+TEST(test_broken_nifti) {
     static const struct {
         size_t at, size;
         uint64_t bits;
@@ -237,7 +237,7 @@ static void test_broken_nifti(void **state) {
     ewa_context_destroy(&context);
 }
 
-static void test_limit(void **state) {
+TEST(test_limit) {
     ewa_context_options options;
     ewa_context_options_init(&options, sizeof options);
     options.limits.max_memory_bytes = 1000;
@@ -262,7 +262,7 @@ static ewa_status load_one(ewa_context *context, void *user) {
     return status;
 }
 
-static void test_failing_allocations(void **state) {
+TEST(test_failing_allocations) {
     sample_file file;
     for (int which = 0; sample_make(which, &file); which++) scratch_fail_each(load_one, &which);
 }
@@ -275,7 +275,7 @@ static ewa_status save_one(ewa_context *context, void *user) {
     return status;
 }
 
-static void test_failing_save(void **state) {
+TEST(test_failing_save) {
     char path[512];
     scratch_fail_each(save_one, (void *)(uintptr_t)scratch_path("failing.nrrd", path));
     ewa_context *context = check_context(1, NULL);
@@ -283,15 +283,4 @@ static void test_failing_save(void **state) {
     ewa_context_destroy(&context);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_every_truncation_fails),
-        cmocka_unit_test(test_every_changed_byte),
-        cmocka_unit_test(test_broken_files),
-        cmocka_unit_test(test_broken_nifti),
-        cmocka_unit_test(test_limit),
-        cmocka_unit_test(test_failing_allocations),
-        cmocka_unit_test(test_failing_save),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

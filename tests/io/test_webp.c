@@ -22,7 +22,7 @@ static const uint8_t animation[] = {0x52, 0x49, 0x46, 0x46, 0xc0, 0x00, 0x00, 0x
                                     0x00, 0x00, 0x01, 0x00, 0x00, 0x01, 0x00, 0x00, 0x41, 0x4e, 0x49,
                                     0x4d, 0x06, 0x00, 0x00, 0x00, 0xff, 0xff, 0xff, 0xff, 0x00, 0x00};
 
-static void test_known_pixels(void **state) {
+TEST(test_known_pixels) {
     mesh_messages messages;
     ewa_context *context = mesh_context(&messages);
     ewa_image image;
@@ -46,7 +46,7 @@ static void test_known_pixels(void **state) {
     ewa_context_destroy(&context);
 }
 
-static void test_broken(void **state) {
+TEST(test_broken) {
     mesh_messages messages;
     ewa_context *context = mesh_context(&messages);
     ewa_image image;
@@ -86,7 +86,7 @@ static ewa_status work(ewa_context *context, void *user) {
     return status;
 }
 
-static void test_limits(void **state) {
+TEST(test_limits) {
     scratch_fail_each(work, NULL);
     ewa_context_options options;
     ewa_context_options_init(&options, sizeof options);
@@ -98,8 +98,4 @@ static void test_limits(void **state) {
     ewa_context_destroy(&context);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_known_pixels), cmocka_unit_test(test_broken),
-                                       cmocka_unit_test(test_limits)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

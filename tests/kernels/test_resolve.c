@@ -58,7 +58,7 @@ static void assert_code(uint32_t value, uint8_t code) {
     if (fabs(code - exact) > 0.501) fail_msg("%u / 65535: code %u, exactly %.6f", value, code, exact);
 }
 
-static void test_codes_are_those_of_the_curve(void **state) {
+TEST(test_codes_are_those_of_the_curve) {
     float *sums = calloc(PIXELS * CHANNELS, sizeof *sums);
     uint8_t *rgba8 = calloc(PIXELS, 4);
     const ewa_tile tile = whole_tile(sums);
@@ -83,7 +83,7 @@ static void test_codes_are_those_of_the_curve(void **state) {
 }
 
 /// Values that no picture should hold stay within the codes.
-static void test_codes_are_clamped(void **state) {
+TEST(test_codes_are_clamped) {
     float *sums = calloc(PIXELS * CHANNELS, sizeof *sums);
     uint8_t *rgba8 = calloc(PIXELS, 4);
     const ewa_tile tile = whole_tile(sums);
@@ -104,7 +104,7 @@ static void test_codes_are_clamped(void **state) {
 
 /// A tile of which the picture holds 37x30 pixels, with covered, half covered and empty ones: alpha, colour
 /// over the background, nothing beyond the picture's edge, the same in 8 bits as in floats.
-static void test_partial_tile_over_background(void **state) {
+TEST(test_partial_tile_over_background) {
     enum { WIDTH_PX = 37, HEIGHT_PX = 30, GUARD = 64 };
     float *sums = calloc(PIXELS * CHANNELS, sizeof *sums);
     for (uint32_t i = 0; i < PIXELS; i++) {
@@ -155,11 +155,4 @@ static void test_partial_tile_over_background(void **state) {
     free(sums);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_codes_are_those_of_the_curve),
-        cmocka_unit_test(test_codes_are_clamped),
-        cmocka_unit_test(test_partial_tile_over_background),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -81,7 +81,7 @@ static void hold_round_trip(bool curved) {
     ewa_context_destroy(&context);
 }
 
-static void test_round_trip(void **state) {
+TEST(test_round_trip) {
     for (int curved = 0; curved < 2; curved++) hold_round_trip(curved);
 }
 
@@ -164,11 +164,11 @@ static void hold_record(bool curved) {
     ewa_context_destroy(&context);
 }
 
-static void test_record(void **state) {
+TEST(test_record) {
     for (int curved = 0; curved < 2; curved++) hold_record(curved);
 }
 
-static void test_damage(void **state) {
+TEST(test_damage) {
     ewa_context *context = check_context(1, NULL);
     size_t size_bytes;
     uint8_t *bytes = make_record(context, true, &size_bytes);
@@ -204,7 +204,7 @@ static ewa_status read_with(ewa_context *context, const uint8_t *bytes, size_t r
     return status;
 }
 
-static void test_refusals(void **state) {
+TEST(test_refusals) {
     check_log log = {0};
     ewa_context *context = check_context(1, &log);
     size_t size_bytes;
@@ -253,12 +253,4 @@ static void test_refusals(void **state) {
     ewa_context_destroy(&context);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_round_trip),
-        cmocka_unit_test(test_record),
-        cmocka_unit_test(test_damage),
-        cmocka_unit_test(test_refusals),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

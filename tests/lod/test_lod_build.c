@@ -36,7 +36,7 @@ static void hold_surfels(const ewa_cloud *cloud) {
     }
 }
 
-static void test_points(void **state) {
+TEST_WITHIN(test_points, enter, NULL) {
     ewa_context *context = check_context(2, NULL);
     make_files(context, (lod_look){.colors = true});
     ewa_lod_build_stats stats;
@@ -82,7 +82,7 @@ static void test_points(void **state) {
     ewa_context_destroy(&context);
 }
 
-static void test_threads(void **state) {
+TEST_WITHIN(test_threads, enter, NULL) {
     static const uint32_t threads[] = {1, 2, 4};
     char names[3][16];
     for (int i = 0; i < 3; i++) {
@@ -97,7 +97,7 @@ static void test_threads(void **state) {
 }
 
 /// Normals and radii that points have stay as they are, in files of different kinds.
-static void test_own_surfels(void **state) {
+TEST_WITHIN(test_own_surfels, enter, NULL) {
     static const char *const names[] = {"a.las", "b.ply"};
     ewa_context *context = check_context(2, NULL);
     const lod_look look = {true, true};
@@ -123,7 +123,7 @@ static void put_scan(FILE *file, double x_world, double scanner_z_world) {
 }
 
 /// Normals that are made face the scanner that saw the point.
-static void test_scanners(void **state) {
+TEST_WITHIN(test_scanners, enter, NULL) {
     static const char *const names[] = {"two.ptx"};
     char path[512];
     FILE *file = fopen(scratch_path(names[0], path), "w");
@@ -150,7 +150,7 @@ static void test_scanners(void **state) {
 }
 
 /// Points and what stands for them know how much their surface bends, to the side of the normals that they came with.
-static void test_curvatures(void **state) {
+TEST_WITHIN(test_curvatures, enter, NULL) {
     enum { COUNT = 100000 }; // of one region
     static const char *const names[] = {"a.ply"};
     ewa_context *context = check_context(2, NULL);
@@ -183,7 +183,7 @@ static void test_curvatures(void **state) {
     ewa_context_destroy(&context);
 }
 
-static void test_without_colors(void **state) {
+TEST_WITHIN(test_without_colors, enter, NULL) {
     static const char *const names[] = {"a.ply"};
     ewa_context *context = check_context(2, NULL);
     lod_save(lod_ground(context, 0, 20000, (lod_look){.colors = false}), names[0]);
@@ -212,7 +212,7 @@ static ewa_cloud *build_of(ewa_context *context, ewa_cloud *cloud, ewa_lod_build
     return made;
 }
 
-static void test_few(void **state) {
+TEST_WITHIN(test_few, enter, NULL) {
     ewa_context *context = check_context(2, NULL);
     static const uint64_t counts[] = {0, 1, 2, 3, 10};
     for (int i = 0; i < 5; i++) {
@@ -230,7 +230,7 @@ static void test_few(void **state) {
     ewa_context_destroy(&context);
 }
 
-static void test_one_place(void **state) {
+TEST_WITHIN(test_one_place, enter, NULL) {
     enum { COUNT = 5000 };
     ewa_context *context = check_context(2, NULL);
     ewa_cloud *cloud = lod_ground(context, 0, COUNT, (lod_look){.colors = true});
@@ -251,7 +251,7 @@ static void test_one_place(void **state) {
     ewa_context_destroy(&context);
 }
 
-static void test_left_out(void **state) {
+TEST_WITHIN(test_left_out, enter, NULL) {
     enum { COUNT = 5000 };
     ewa_context *context = check_context(2, NULL);
     ewa_cloud *cloud = lod_ground(context, 0, COUNT, (lod_look){.colors = true});
@@ -269,7 +269,7 @@ static void test_left_out(void **state) {
     ewa_context_destroy(&context);
 }
 
-static void test_refusals(void **state) {
+TEST_WITHIN(test_refusals, enter, NULL) {
     static const char *const names[] = {"a.ply", "nothing.ply"};
     check_log log = {0};
     ewa_context *context = check_context(1, &log);
@@ -288,14 +288,4 @@ static void test_refusals(void **state) {
     ewa_context_destroy(&context);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup(test_points, enter),      cmocka_unit_test_setup(test_threads, enter),
-        cmocka_unit_test_setup(test_scanners, enter),
-        cmocka_unit_test_setup(test_curvatures, enter),
-        cmocka_unit_test_setup(test_own_surfels, enter), cmocka_unit_test_setup(test_without_colors, enter),
-        cmocka_unit_test_setup(test_few, enter),         cmocka_unit_test_setup(test_one_place, enter),
-        cmocka_unit_test_setup(test_left_out, enter),    cmocka_unit_test_setup(test_refusals, enter),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

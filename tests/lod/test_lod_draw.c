@@ -138,7 +138,7 @@ static void hold_like(const char *what, const shot *plain, const shot *made, dou
     assert_true(found >= min_db);
 }
 
-static void test_like_plain(void **state) {
+TEST(test_like_plain) {
     ewa_context *context = check_context(2, NULL);
     ewa_lod *lod = open_file(context, file);
     static const double distances[] = {0.6, 2.2, 8, 25};
@@ -163,7 +163,7 @@ static void test_like_plain(void **state) {
     ewa_context_destroy(&context);
 }
 
-static void test_threads(void **state) {
+TEST(test_threads) {
     static const uint32_t threads[] = {1, 2, 4, 8};
     const ewa_camera camera = camera_at(2.2);
     const ewa_lod_options options = lod_options_of(16, 2, 1 << 30);
@@ -184,7 +184,7 @@ static void test_threads(void **state) {
     free(first);
 }
 
-static void test_memory(void **state) {
+TEST(test_memory) {
     static const uint64_t memories[] = {1 << 30, 1 << 26, 1 << 24};
     static const double errors[] = {0, 16};
     ewa_context *context = check_context(2, NULL);
@@ -214,7 +214,7 @@ static void test_memory(void **state) {
 }
 
 /// No more than 8 surfels for a covered pixel, from wherever it is seen; a few nodes are few surfels.
-static void test_bound(void **state) {
+TEST(test_bound) {
     enum { FEW_NODES = 8 };
     static const double distances[] = {1, 2.2, 3.1, 6, 16};
     ewa_context *context = check_context(2, NULL);
@@ -233,7 +233,7 @@ static void test_bound(void **state) {
 }
 
 /// As many surfels as were asked for, about: what fades counts twice, and the root is never left out.
-static void test_max_splats(void **state) {
+TEST(test_max_splats) {
     static const uint64_t counts[] = {UINT64_C(1) << 50, 400000, 200000, 100000, 1};
     ewa_context *context = check_context(2, NULL);
     ewa_lod *lod = open_file(context, file);
@@ -269,7 +269,7 @@ static void test_max_splats(void **state) {
 }
 
 /// Going near, with few surfels: no value changes much more from picture to picture than in those of all points.
-static void test_no_jumps(void **state) {
+TEST(test_no_jumps) {
     enum { FRAMES = 12, JUMP = 8 };
     ewa_context *context = check_context(2, NULL);
     ewa_lod *lod = open_file(context, file);
@@ -325,7 +325,7 @@ static shot *draw_parts(ewa_lod *lod, ewa_context *context, const ewa_camera *ca
 }
 
 /// From far away parts of pixels are nearer to the truth, as many as the nodes' surfels ask for.
-static void test_supersampling(void **state) {
+TEST(test_supersampling) {
     ewa_context *context = check_context(2, NULL);
     const ewa_camera camera = camera_at(40);
     shot *truth = draw_parts(NULL, context, &camera, NULL, EWA_MAX_SUPERSAMPLING);
@@ -345,7 +345,7 @@ static void test_supersampling(void **state) {
 }
 
 /// Bands know as little of each other's nodes as ranks do, and come to as many parts.
-static void test_supersampling_in_bands(void **state) {
+TEST(test_supersampling_in_bands) {
     ewa_context *context = check_context(2, NULL);
     const ewa_camera camera = camera_at(2.2);
     for (uint32_t n = 0; n < 4; n += 2) {
@@ -365,7 +365,7 @@ static void test_supersampling_in_bands(void **state) {
 }
 
 /// With next to no time each picture shows more, until nothing is missing.
-static void test_load(void **state) {
+TEST(test_load) {
     enum { MAX_CALLS = 400 };
     ewa_context *context = check_context(2, NULL);
     const ewa_camera camera = camera_at(1);
@@ -393,7 +393,7 @@ static void test_load(void **state) {
 }
 
 /// Points of a box are those of the whole file that lie in it.
-static void test_read(void **state) {
+TEST(test_read) {
     ewa_context *context = check_context(2, NULL);
     ewa_lod *lod = open_file(context, file);
     ewa_lod_info info;
@@ -445,7 +445,7 @@ static void test_read(void **state) {
     ewa_context_destroy(&context);
 }
 
-static void test_sample(void **state) {
+TEST(test_sample) {
     ewa_context *context = check_context(2, NULL);
     ewa_lod *lod = open_file(context, file);
     ewa_cloud *few = NULL, *some = NULL, *all = NULL;
@@ -481,7 +481,7 @@ static void strip(const char *from, const char *to) {
     free(bytes);
 }
 
-static void test_without_levels(void **state) {
+TEST(test_without_levels) {
     ewa_context *context = check_context(2, NULL);
     strip(file, "plain.copc.laz");
     ewa_lod *lod = open_file(context, "plain.copc.laz");
@@ -512,7 +512,7 @@ static void test_without_levels(void **state) {
 
 /// Points of a node that lie in a part of it without a node are drawn, too: other programs leave such parts
 /// out.
-static void test_parts_without_nodes(void **state) {
+TEST(test_parts_without_nodes) {
     enum { COUNT = 40000 };
     ewa_context *context = check_context(2, NULL);
     ewa_cloud *coarse = lod_ground(context, 0, COUNT, (lod_look){true, true}),
@@ -560,16 +560,4 @@ static void test_parts_without_nodes(void **state) {
     ewa_context_destroy(&context);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_like_plain),     cmocka_unit_test(test_threads),
-        cmocka_unit_test(test_memory),         cmocka_unit_test(test_bound),
-        cmocka_unit_test(test_max_splats),     cmocka_unit_test(test_no_jumps),
-        cmocka_unit_test(test_supersampling),
-        cmocka_unit_test(test_supersampling_in_bands),
-        cmocka_unit_test(test_load),           cmocka_unit_test(test_read),
-        cmocka_unit_test(test_sample),
-        cmocka_unit_test(test_without_levels), cmocka_unit_test(test_parts_without_nodes),
-    };
-    return cmocka_run_group_tests(tests, enter, leave);
-}
+int main(void) { return RUN_TESTS(enter, leave); }

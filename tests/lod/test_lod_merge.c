@@ -41,7 +41,7 @@ static void hold_near(double found, double wanted) {
 }
 
 /// One alone stays as it is; of two of a sheet, areas are added and all else is their mean by area.
-static void test_means(void **state) {
+TEST(test_means) {
     const ewa_representative alone = surfel_of(3, 5, up, 2);
     ewa_representatives merged = merge(&alone, 1);
     assert_int_equal(merged.count, 1);
@@ -65,7 +65,7 @@ static void test_means(void **state) {
 }
 
 /// Normals up to 60 degrees apart are of one sheet, which is that of the first that is nearest.
-static void test_sheets(void **state) {
+TEST(test_sheets) {
     const float edge[3] = {sqrtf(0.75f), 0, 0.5f}, beyond[3] = {sqrtf(0.7501f), 0, 0.4999f},
                 between[3] = {sqrtf(0.5f), 0, sqrtf(0.5f)};
     ewa_representative of[3] = {surfel_of(0, 0, up, 1), surfel_of(0, 1, edge, 1)};
@@ -108,7 +108,7 @@ static void test_sheets(void **state) {
 
 /// What stands for members of a surface that bends lies on it, not in their middle below; where nothing is known to bend,
 /// in the middle.
-static void test_bent(void **state) {
+TEST(test_bent) {
     for (int saddle = 0; saddle < 2; saddle++) {
         // z = -(x^2 + y^2) / 8 or -(x^2 - y^2 / 2) / 8, with normals to second order.
         static const double places[4][2] = {{-0.3, -0.3}, {0.4, -0.3}, {-0.3, 0.4}, {0.4, 0.4}};
@@ -136,7 +136,7 @@ static void test_bent(void **state) {
 }
 
 /// From five surfels on, radii count up to three times their median.
-static void test_large_radii(void **state) {
+TEST(test_large_radii) {
     ewa_representative few[5];
     for (uint32_t k = 0; k < 5; k++) few[k] = surfel_of(0, k, up, k == 4 ? 100 : 1);
     ewa_representatives merged = merge(few, 5);
@@ -152,7 +152,7 @@ static void test_large_radii(void **state) {
 }
 
 /// Cells stay apart, in their order, wherever the parts of the work end.
-static void test_cells(void **state) {
+TEST(test_cells) {
     static ewa_representative fine[MANY];
     uint32_t count = 0;
     for (uint64_t cell = 0; cell < 64; cell++)
@@ -167,8 +167,4 @@ static void test_cells(void **state) {
     free(merged.items);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_means), cmocka_unit_test(test_sheets),
-                                       cmocka_unit_test(test_large_radii), cmocka_unit_test(test_bent), cmocka_unit_test(test_cells)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -50,7 +50,7 @@ static ewa_status merge(ewa_context *context, const char *const *names, uint32_t
     return ewa_lod_merge(context, given, count, scratch_path(out, out_path), stats);
 }
 
-static void test_orders(void **state) {
+TEST(test_orders) {
     static const uint32_t orders[][PARTS] = {{0, 1, 2}, {1, 2, 0}, {2, 1, 0}};
     uint64_t sum = 0;
     // Several regions, so that there is something to merge.
@@ -82,7 +82,7 @@ static void hold_refused(ewa_context *context, const char *const *names, uint32_
     assert_false(lod_is_there("x.copc.laz"));
 }
 
-static void test_wrong_parts(void **state) {
+TEST(test_wrong_parts) {
     check_log log;
     ewa_context *context = check_context(1, &log);
     hold_refused(context, (const char *const[]){"p0", "p1"}, 2, &log);
@@ -101,7 +101,7 @@ static void test_wrong_parts(void **state) {
 }
 
 /// Fewer regions than parts, or none at all.
-static void test_empty_parts(void **state) {
+TEST(test_empty_parts) {
     static const char *const files[] = {"e.ply"}, *const parts[] = {"e0", "e1", "e2"};
     static const uint64_t counts[] = {0, 1, 1000};
     ewa_context *context = check_context(2, NULL);
@@ -118,7 +118,7 @@ static void test_empty_parts(void **state) {
 }
 
 /// A byte that is another, at many places, and ends of all kinds.
-static void test_damage(void **state) {
+TEST(test_damage) {
     enum { PLACES = 60 };
     check_log log;
     ewa_context *context = check_context(2, &log);
@@ -149,12 +149,4 @@ static void test_damage(void **state) {
     ewa_context_destroy(&context);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_orders),
-        cmocka_unit_test(test_wrong_parts),
-        cmocka_unit_test(test_empty_parts),
-        cmocka_unit_test(test_damage),
-    };
-    return cmocka_run_group_tests(tests, enter, leave);
-}
+int main(void) { return RUN_TESTS(enter, leave); }

@@ -32,14 +32,14 @@ static void assert_near(double value, double expected, double tolerance) {
         fail_msg("%.17g, not %.17g within %g", value, expected, tolerance);
 }
 
-static void test_tangent(void **state) {
+TEST(test_tangent) {
     for (int i = 0; i < 100000; i++) {
         const double angle = i * (EWA_PI / 2 / 100000), expected = tan(angle);
         assert_near(ewa_tan(angle), expected, 4 * DBL_EPSILON * fmax(expected, 1e-3) * fmax(1, expected));
     }
 }
 
-static void test_defaults(void **state) {
+TEST(test_defaults) {
     ewa_context *context = check_context(1, NULL);
     const ewa_camera camera = default_camera();
     assert_int_equal(ewa_camera_check(context, &camera), EWA_OK);
@@ -54,7 +54,7 @@ static void test_defaults(void **state) {
     ewa_context_destroy(&context);
 }
 
-static void test_look_at_known(void **state) {
+TEST(test_look_at_known) {
     ewa_camera camera = default_camera();
     const double eye[3] = {10, 0, 0}, target[3] = {0, 0, 0}, up[3] = {0, 0, 1};
     assert_int_equal(ewa_camera_look_at(&camera, eye, target, up), EWA_OK);
@@ -66,7 +66,7 @@ static void test_look_at_known(void **state) {
     assert_true(pixel[0] > 640 && pixel[1] == 360); // looking to -x with z up, +y is on the right
 }
 
-static void test_look_at_properties(void **state) {
+TEST(test_look_at_properties) {
     ewa_context *context = check_context(1, NULL);
     check_random random = {7};
     for (int round = 0; round < 1000; round++) {
@@ -98,7 +98,7 @@ static void test_look_at_properties(void **state) {
     ewa_context_destroy(&context);
 }
 
-static void test_map_from_above_has_north_up(void **state) {
+TEST(test_map_from_above_has_north_up) {
     ewa_camera camera = default_camera();
     const double eye[3] = {0, 0, 10}, target[3] = {0, 0, 0}, up[3] = {0, 0, 1}, north[3] = {0, 1, 0};
     assert_int_equal(ewa_camera_look_at(&camera, eye, target, up), EWA_OK);
@@ -107,7 +107,7 @@ static void test_map_from_above_has_north_up(void **state) {
     assert_true(pixel[0] == 640 && pixel[1] < 360);
 }
 
-static void test_failures_leave_the_camera_alone(void **state) {
+TEST(test_failures_leave_the_camera_alone) {
     ewa_camera camera = default_camera();
     const ewa_camera before = camera;
     const double zero[3] = {0, 0, 0}, up[3] = {0, 1, 0}, ahead[3] = {0, 0, 1}, broken[3] = {NAN, 0, 0};
@@ -132,7 +132,7 @@ static void test_failures_leave_the_camera_alone(void **state) {
     assert_memory_equal(&camera, &before, sizeof camera);
 }
 
-static void test_ortho_shows_its_height(void **state) {
+TEST(test_ortho_shows_its_height) {
     ewa_camera camera = default_camera();
     assert_int_equal(ewa_camera_set_ortho(&camera, 4), EWA_OK);
     double pixel[2];
@@ -171,7 +171,7 @@ static void check_frame(ewa_camera camera, const ewa_bounds *box, const double d
     assert_near(pixel[1], 0.5 * sides[1], 1e-2);
 }
 
-static void test_frame_random_boxes(void **state) {
+TEST(test_frame_random_boxes) {
     check_random random = {11};
     for (int round = 0; round < 4000; round++) {
         ewa_camera camera = default_camera();
@@ -197,7 +197,7 @@ static void test_frame_random_boxes(void **state) {
     }
 }
 
-static void test_frame_degenerate_boxes(void **state) {
+TEST(test_frame_degenerate_boxes) {
     const double directions[3][3] = {{0, 0, 1}, {1, 0, 0}, {0.3, -0.5, 0.8}}, up[3] = {0, -1, 0};
     const ewa_bounds boxes[] = {
         {{5e5, 5.4e6, 100}, {5e5, 5.4e6, 100}, 1}, // a point
@@ -215,7 +215,7 @@ static void test_frame_degenerate_boxes(void **state) {
     }
 }
 
-static void test_frame_of_a_point_is_of_size_one(void **state) {
+TEST(test_frame_of_a_point_is_of_size_one) {
     ewa_camera camera = default_camera();
     ewa_camera_set_ortho(&camera, 77);
     const ewa_bounds point = {{3, 4, 5}, {3, 4, 5}, 1};
@@ -224,7 +224,7 @@ static void test_frame_of_a_point_is_of_size_one(void **state) {
     assert_near(camera.height_px / camera.fy_px, 1, 1e-9);
 }
 
-static void test_check_names_the_member(void **state) {
+TEST(test_check_names_the_member) {
     check_log log = {0};
     ewa_context *context = check_context(1, &log);
     const ewa_camera good = default_camera();
@@ -266,19 +266,4 @@ static void test_check_names_the_member(void **state) {
     ewa_context_destroy(&context);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_tangent),
-        cmocka_unit_test(test_defaults),
-        cmocka_unit_test(test_look_at_known),
-        cmocka_unit_test(test_look_at_properties),
-        cmocka_unit_test(test_map_from_above_has_north_up),
-        cmocka_unit_test(test_failures_leave_the_camera_alone),
-        cmocka_unit_test(test_ortho_shows_its_height),
-        cmocka_unit_test(test_frame_random_boxes),
-        cmocka_unit_test(test_frame_degenerate_boxes),
-        cmocka_unit_test(test_frame_of_a_point_is_of_size_one),
-        cmocka_unit_test(test_check_names_the_member),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -59,7 +59,7 @@ static double turn_deg(const ewa_camera *a, const ewa_camera *b) {
     return 2 * asin(fmin(1, sqrt(square / 8))) * 180 / EWA_PI;
 }
 
-static void test_functions(void **state) {
+TEST(test_functions) {
     for (int i = 0; i <= 100000; i++) {
         const double angle = i * (EWA_PI / 100000), slope = tan(0.5 * angle);
         double sine, cosine;
@@ -71,7 +71,7 @@ static void test_functions(void **state) {
     assert_near(ewa_atan(INFINITY), EWA_PI / 2, DBL_EPSILON);
 }
 
-static void test_keys(void **state) {
+TEST(test_keys) {
     ewa_camera keys[7];
     check_random random = {5};
     for (int i = 0; i < 7; i++) {
@@ -110,7 +110,7 @@ static void test_keys(void **state) {
 
 /// On a circle, the rotation turns at one speed to rounding; the eye stays within 3 % (4 keys), 0.2 % (8
 /// keys) of the radius, and its angular speed within 7 % and 0.5 % of its mean.
-static void test_circle(void **state) {
+TEST(test_circle) {
     static const struct {
         size_t count;
         double radius, speed;
@@ -138,7 +138,7 @@ static void test_circle(void **state) {
 }
 
 /// Through uneven keys, the turn's speed and the eye's speed and acceleration go on without a jump.
-static void test_smooth(void **state) {
+TEST(test_smooth) {
     enum { KEYS = 6 };
     ewa_camera keys[KEYS], frames[5];
     check_random random = {11};
@@ -179,7 +179,7 @@ static void test_smooth(void **state) {
 }
 
 /// A loop over the pole, whose quaternions come with either sign: no step is much longer than the mean.
-static void test_pole(void **state) {
+TEST(test_pole) {
     enum { KEYS = 12, FRAMES = 600 };
     ewa_camera keys[KEYS];
     for (int i = 0; i < KEYS; i++) {
@@ -199,7 +199,7 @@ static void test_pole(void **state) {
 }
 
 /// Few and odd keys: a straight line at even speed, one key, twice the same key, opposite directions.
-static void test_few(void **state) {
+TEST(test_few) {
     ewa_camera camera, keys[3] = {look(0, 0, 0, 1, 0, 0), look(2, 4, 6, 3, 4, 6), look(2, 4, 6, 3, 4, 6)};
     ewa_camera_path *path = make(keys, 2, false);
     double eye[3];
@@ -227,7 +227,7 @@ static void test_few(void **state) {
     ewa_camera_path_destroy(&path);
 }
 
-static void test_refused(void **state) {
+TEST(test_refused) {
     ewa_camera_path *path = NULL;
     ewa_camera keys[2] = {look(0, 0, 0, 1, 0, 0), look(2, 4, 6, 3, 4, 6)};
     assert_int_equal(ewa_camera_path_create(context, keys, 0, false, &path), EWA_ERROR_ARGUMENT);
@@ -243,7 +243,7 @@ static void test_refused(void **state) {
     ewa_camera_path_destroy(&path);
 }
 
-static void test_orbit(void **state) {
+TEST(test_orbit) {
     ewa_camera camera = look(7, 1, 1, 1, 1, 1);
     const double pivot[3] = {1, 1, 0}, axis[3] = {0, 0, 3}, none[3] = {0, 0, 0};
     double eye[3];
@@ -268,11 +268,4 @@ static void test_orbit(void **state) {
     assert_int_equal(ewa_camera_orbit(&camera, pivot, axis, NAN), EWA_ERROR_NUMERIC);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_functions), cmocka_unit_test(test_keys),  cmocka_unit_test(test_circle),
-        cmocka_unit_test(test_smooth),    cmocka_unit_test(test_pole),  cmocka_unit_test(test_few),
-        cmocka_unit_test(test_refused),   cmocka_unit_test(test_orbit),
-    };
-    return cmocka_run_group_tests(tests, enter, leave);
-}
+int main(void) { return RUN_TESTS(enter, leave); }

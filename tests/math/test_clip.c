@@ -45,7 +45,7 @@ static void check_part(ewa_vec4 p1, ewa_vec4 p2, const ewa_segment_part *part, d
     }
 }
 
-static void test_segments_by_sampling(void **state) {
+TEST(test_segments_by_sampling) {
     check_random random = {1};
     int seen[4] = {0};
     for (int i = 0; i < SEGMENTS; i++) {
@@ -75,7 +75,7 @@ static void test_segments_by_sampling(void **state) {
 }
 
 /// An external segment: from one side of the picture through infinity to the other.
-static void test_external_segment(void **state) {
+TEST(test_external_segment) {
     ewa_segment_part parts[2];
     uint32_t visible;
     // (0.5, 0) with w = 1 and (-0.5, 0) with w = -1: what is drawn is the outside of the two, cut at the
@@ -96,7 +96,7 @@ static void test_external_segment(void **state) {
     assert_int_equal(visible, EWA_VISIBLE_POSITIVE);
 }
 
-static void test_degenerate_segments(void **state) {
+TEST(test_degenerate_segments) {
     ewa_segment_part parts[2];
     uint32_t visible;
     ewa_vec4 inside = {0.1, 0.2, 0.3, 1}, outside = {2, 0, 0.5, 1}, corner = {1, 1, 1, 1};
@@ -140,7 +140,7 @@ static void test_degenerate_segments(void **state) {
     }
 }
 
-static void test_alphas_of_all_planes(void **state) {
+TEST(test_alphas_of_all_planes) {
     check_random random = {3};
     for (int i = 0; i < SEGMENTS; i++) {
         ewa_vec4 p1 = random_clip_point(&random, i), p2 = random_clip_point(&random, i / 4);
@@ -189,7 +189,7 @@ static double inside_by(const ewa_vec4 *points, uint32_t count, double x, double
     return count ? fmax(low, -high) : -INFINITY;
 }
 
-static void test_polygons_by_sampling(void **state) {
+TEST(test_polygons_by_sampling) {
     check_random random = {4};
     int seen[4] = {0};
     enum { MAXIMUM = 9 };
@@ -234,7 +234,7 @@ static void test_polygons_by_sampling(void **state) {
 }
 
 /// Neighbours share an edge in opposite directions; the corners that clipping makes on it are the same bytes.
-static void test_polygons_stay_joined(void **state) {
+TEST(test_polygons_stay_joined) {
     check_random random = {5};
     int shared = 0;
     for (int i = 0; i < 1000; i++) {
@@ -262,7 +262,7 @@ static void test_polygons_stay_joined(void **state) {
     assert_true(shared > 100);
 }
 
-static void test_polygon_input(void **state) {
+TEST(test_polygon_input) {
     ewa_vec4 points[5] = {
         {0, 0, 0.5, 1}, {0.5, 0, 0.5, 1}, {0.5, 0.5, 0.5, 1}, {0, 0.5, 0.5, 1}, {9, 9, 9, 9}};
     ewa_vec4 clipped[3 * 11];
@@ -289,7 +289,7 @@ static void test_polygon_input(void **state) {
 }
 
 /// Object space, a triangle with attributes; the map of a frustum; the picture: the same numbers both ways.
-static void test_hyperbolic_is_3d_interpolation(void **state) {
+TEST(test_hyperbolic_is_3d_interpolation) {
     check_random random = {7};
     ewa_mat4 map;
     assert_int_equal(check_window_map((const double[]){-0.7, 1.1, -0.4, 0.6}, 0.5, 20, false, &map), EWA_OK);
@@ -345,7 +345,7 @@ static void test_hyperbolic_is_3d_interpolation(void **state) {
     assert_int_equal(ewa_hyperbolic_alpha(NAN, -1, 0.5, &number), EWA_ERROR_NUMERIC);
 }
 
-static void test_not_finite(void **state) {
+TEST(test_not_finite) {
     double bad[3] = {NAN, INFINITY, -INFINITY}, alpha[6];
     ewa_segment_part parts[2];
     uint32_t bits = 77;
@@ -361,7 +361,7 @@ static void test_not_finite(void **state) {
 }
 
 /// Every combination of w = 0 and zero boundary coordinates: no division by zero, nothing invalid.
-static void test_no_division_by_zero(void **state) {
+TEST(test_no_division_by_zero) {
     feclearexcept(FE_ALL_EXCEPT);
     ewa_segment_part parts[2];
     uint32_t bits, count[2];
@@ -384,13 +384,4 @@ static void test_no_division_by_zero(void **state) {
 #endif
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_segments_by_sampling), cmocka_unit_test(test_external_segment),
-        cmocka_unit_test(test_degenerate_segments),  cmocka_unit_test(test_alphas_of_all_planes),
-        cmocka_unit_test(test_polygons_by_sampling), cmocka_unit_test(test_polygons_stay_joined),
-        cmocka_unit_test(test_polygon_input),        cmocka_unit_test(test_hyperbolic_is_3d_interpolation),
-        cmocka_unit_test(test_not_finite),           cmocka_unit_test(test_no_division_by_zero),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -128,7 +128,7 @@ static void check_ends(const batch *b, int i) {
         }
 }
 
-static void test_against_double(void **state) {
+TEST(test_against_double) {
     batch *b = make_batch();
     ewa_context *context = check_context_of(1, EWA_CPU_ALL);
     int seen[4] = {0};
@@ -148,7 +148,7 @@ static void test_against_double(void **state) {
 }
 
 /// Touching counts: a corner of the frustum, an edge from inside, a point on a face.
-static void test_touching(void **state) {
+TEST(test_touching) {
     static const float segments[3][8] = {
         {2, 0, 1, 1, 0, 2, 1, 1}, {0, 0, 0, 1, 0, 0, -1, 1}, {1, 0, 0.5f, 1, 1, 0, 0.5f, 1}};
     static const float alpha[3][2] = {{0.5f, 0.5f}, {0, 0}, {0, 1}};
@@ -169,7 +169,7 @@ static void test_touching(void **state) {
     free_batch(b);
 }
 
-static void test_same_bytes(void **state) {
+TEST(test_same_bytes) {
     static const uint32_t masks[] = {0, EWA_CPU_AVX2, EWA_CPU_ALL}, threads[] = {1, 2, 7};
     batch *reference = make_batch(), *b = make_batch();
     fill(reference, 9);
@@ -212,7 +212,7 @@ static void test_same_bytes(void **state) {
     free_batch(b);
 }
 
-static void test_invalid(void **state) {
+TEST(test_invalid) {
     static const float bad[] = {NAN, INFINITY, -INFINITY, 0x1.1p124f, -FLT_MAX};
     batch *b = make_batch(), *good = make_batch();
     fill(b, 5);
@@ -244,12 +244,4 @@ static void test_invalid(void **state) {
     free_batch(good);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_against_double),
-        cmocka_unit_test(test_touching),
-        cmocka_unit_test(test_same_bytes),
-        cmocka_unit_test(test_invalid),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

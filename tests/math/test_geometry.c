@@ -11,7 +11,7 @@ enum { ROUNDS = 2000 };
 
 #define SMALL 1e-14
 
-static void test_plane_duality(void **state) {
+TEST(test_plane_duality) {
     check_random random = {1};
     for (int i = 0; i < ROUNDS; i++) {
         ewa_vec3 p = check_random_vec3(&random), q = check_random_vec3(&random), k, l, r;
@@ -31,7 +31,7 @@ static void test_plane_duality(void **state) {
     }
 }
 
-static void test_space_duality(void **state) {
+TEST(test_space_duality) {
     check_random random = {2};
     for (int i = 0; i < ROUNDS; i++) {
         ewa_vec4 p = check_random_vec4(&random), q = check_random_vec4(&random),
@@ -60,7 +60,7 @@ static ewa_vec4 check_whole_vec4(check_random *random) {
 
 /// A line of space from two points and as the meet of two planes through them; meets and joins with planes
 /// and points.
-static void test_plucker_lines(void **state) {
+TEST(test_plucker_lines) {
     check_random random = {3};
     for (int i = 0; i < ROUNDS; i++) {
         ewa_vec4 p = check_random_vec4(&random), q = check_random_vec4(&random),
@@ -118,7 +118,7 @@ static void test_plucker_lines(void **state) {
     check_same(&point, (&(ewa_vec4){1, 2, 3, 0}), 4, SMALL);
 }
 
-static void test_line_transform(void **state) {
+TEST(test_line_transform) {
     check_random random = {4};
     for (int i = 0; i < ROUNDS; i++) {
         ewa_vec4 p = check_random_vec4(&random), q = check_random_vec4(&random);
@@ -132,7 +132,7 @@ static void test_line_transform(void **state) {
     }
 }
 
-static void test_distances(void **state) {
+TEST(test_distances) {
     double distance;
     assert_int_equal(ewa_line2_distance(vec3_make(3, 4, -10), vec3_make(2, 6, 2), &distance), EWA_OK);
     check_near(distance, (3 * 1 + 4 * 3 - 10) / 5.0, SMALL);
@@ -149,7 +149,7 @@ static void test_distances(void **state) {
                      EWA_ERROR_NUMERIC);
 }
 
-static void test_triangle_round_trips(void **state) {
+TEST(test_triangle_round_trips) {
     check_random random = {5};
     for (int i = 0; i < ROUNDS; i++) {
         double offset = i % 3 == 1 ? 4e6 : 0; // as far out as map projections go
@@ -186,7 +186,7 @@ static void test_triangle_round_trips(void **state) {
 }
 
 /// What does not exist is a status, exactly and to within rounding.
-static void test_degenerate(void **state) {
+TEST(test_degenerate) {
     check_random random = {6};
     for (int i = 0; i < ROUNDS; i++) {
         ewa_vec3 p = check_random_vec3(&random), l;
@@ -209,7 +209,7 @@ static void test_degenerate(void **state) {
     check_same(&line, (&(ewa_vec3){1, 1, -1}), 3, SMALL);
 }
 
-static void test_not_finite(void **state) {
+TEST(test_not_finite) {
     double bad[3] = {NAN, INFINITY, -INFINITY}, xy[3], number;
     for (int i = 0; i < 3; i++) {
         ewa_vec3 v = {1, bad[i], 1}, good = {1, 2, 3}, line;
@@ -239,7 +239,7 @@ static void test_not_finite(void **state) {
 }
 
 /// w = 0 everywhere and nothing divides by it.
-static void test_no_division_by_zero(void **state) {
+TEST(test_no_division_by_zero) {
     feclearexcept(FE_ALL_EXCEPT);
     double xy[3];
     ewa_vec3 triangle[3] = {{1, 1, 0}, {0, 1, 0}, {1, 0, 0}}, line, zero = {0, 0, 0};
@@ -258,13 +258,4 @@ static void test_no_division_by_zero(void **state) {
     assert_int_equal(fetestexcept(FE_DIVBYZERO | FE_INVALID), 0);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_plane_duality),       cmocka_unit_test(test_space_duality),
-        cmocka_unit_test(test_plucker_lines),       cmocka_unit_test(test_line_transform),
-        cmocka_unit_test(test_distances),           cmocka_unit_test(test_triangle_round_trips),
-        cmocka_unit_test(test_degenerate),          cmocka_unit_test(test_not_finite),
-        cmocka_unit_test(test_no_division_by_zero),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

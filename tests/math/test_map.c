@@ -18,7 +18,7 @@ static double largest_of(const double *numbers, int count) {
     return largest;
 }
 
-static void test_composition_is_product(void **state) {
+TEST(test_composition_is_product) {
     check_random random = {1};
     for (int i = 0; i < ROUNDS; i++) {
         ewa_mat3 a = check_random_mat3(&random), b = check_random_mat3(&random),
@@ -35,7 +35,7 @@ static void test_composition_is_product(void **state) {
     }
 }
 
-static void test_inverse(void **state) {
+TEST(test_inverse) {
     check_random random = {2};
     for (int i = 0; i < ROUNDS; i++) {
         ewa_mat4 a = check_random_mat4(&random), inverse, product;
@@ -67,7 +67,7 @@ static void test_inverse(void **state) {
     assert_int_equal(ewa_mat4_invert(&view, &inverse), EWA_OK);
 }
 
-static void test_singular(void **state) {
+TEST(test_singular) {
     check_random random = {3};
     for (int i = 0; i < ROUNDS; i++) {
         ewa_mat4 a = check_random_mat4(&random), inverse;
@@ -95,7 +95,7 @@ static void test_singular(void **state) {
     assert_int_equal(ewa_mat4_invert(&bad, &out), EWA_ERROR_NUMERIC);
 }
 
-static void test_action_on_lines_and_planes(void **state) {
+TEST(test_action_on_lines_and_planes) {
     check_random random = {5};
     for (int i = 0; i < ROUNDS; i++) {
         ewa_mat3 map = check_random_mat3(&random), inverse;
@@ -126,7 +126,7 @@ static void test_action_on_lines_and_planes(void **state) {
 
 static ewa_vec3 on_circle(double angle) { return vec3_make(cos(angle), sin(angle), 1); }
 
-static void test_conics(void **state) {
+TEST(test_conics) {
     check_random random = {6};
     const ewa_conic circle = {1, 0, 0, 1, 0, -1};
     for (int i = 0; i < ROUNDS; i++) {
@@ -153,7 +153,7 @@ static void test_conics(void **state) {
 }
 
 /// The ellipse of a dual conic against the points of a mapped circle.
-static void test_ellipse(void **state) {
+TEST(test_ellipse) {
     check_random random = {7};
     for (int i = 0; i < 200; i++) {
         const double a[2][2] = {{check_uniform(&random, -2, 2), check_uniform(&random, -2, 2)},
@@ -199,7 +199,7 @@ static double depth_of(const ewa_mat4 *map, double z) {
     return xyz[2];
 }
 
-static void test_window_maps(void **state) {
+TEST(test_window_maps) {
     const double window[4] = {-1, 3, -2, 0.5};
     ewa_mat4 map;
     for (int variant = 0; variant < 3; variant++) { // perspective, infinite far, box
@@ -239,7 +239,7 @@ static void test_window_maps(void **state) {
 }
 
 /// A camera's clip map against its pixels, and the planes against the clip conditions they come from.
-static void test_camera_and_planes(void **state) {
+TEST(test_camera_and_planes) {
     check_random random = {8};
     for (int i = 0; i < 400; i++) {
         ewa_camera camera;
@@ -293,7 +293,7 @@ static void test_camera_and_planes(void **state) {
 }
 
 /// The plane at infinity as far plane, and maps that have no frustum.
-static void test_planes_at_infinity(void **state) {
+TEST(test_planes_at_infinity) {
     const double window[4] = {-1, 1, -1, 1};
     ewa_mat4 map, view = {{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {3, 4, 1e5, 1}}};
     ewa_vec4 planes[6];
@@ -313,7 +313,7 @@ static void test_planes_at_infinity(void **state) {
     assert_int_equal(ewa_frustum_planes(&map, planes), EWA_ERROR_NUMERIC);
 }
 
-static void test_no_division_by_zero(void **state) {
+TEST(test_no_division_by_zero) {
     feclearexcept(FE_ALL_EXCEPT);
     ewa_mat4 zero = {{{0}}}, map;
     ewa_vec4 planes[6];
@@ -328,18 +328,4 @@ static void test_no_division_by_zero(void **state) {
     assert_int_equal(fetestexcept(FE_DIVBYZERO | FE_INVALID), 0);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_composition_is_product),
-        cmocka_unit_test(test_inverse),
-        cmocka_unit_test(test_singular),
-        cmocka_unit_test(test_action_on_lines_and_planes),
-        cmocka_unit_test(test_conics),
-        cmocka_unit_test(test_ellipse),
-        cmocka_unit_test(test_window_maps),
-        cmocka_unit_test(test_camera_and_planes),
-        cmocka_unit_test(test_planes_at_infinity),
-        cmocka_unit_test(test_no_division_by_zero),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -15,7 +15,7 @@ static double area(ewa_vec3 a, ewa_vec3 b, ewa_vec3 c) {
 }
 
 /// Introduction: Möbius. Printed: p = (wa a, wb b, wc c), wa = Ab / (Aa + Ab + Ac); holds: the sum, and Aa.
-static void test_barycentric(void **state) {
+TEST(test_barycentric) {
     ewa_vec3 p = {3, 3, 1};
     double w[3];
     assert_int_equal(ewa_triangle_barycentric(triangle, p, w), EWA_OK);
@@ -31,7 +31,7 @@ static void test_barycentric(void **state) {
 
 /// Introduction: the remark on scaling. Weights and distances may be scaled; the triangle may be scaled under
 /// the weights' point only relative to itself, and keeping the distances while it grows moves the point.
-static void test_scaled_coordinates(void **state) {
+TEST(test_scaled_coordinates) {
     ewa_vec3 p = {3, 3, 1}, q;
     double w[3], l[3], xy[2];
     assert_int_equal(ewa_triangle_barycentric(triangle, p, w), EWA_OK);
@@ -55,7 +55,7 @@ static void test_scaled_coordinates(void **state) {
 
 /// Plücker coordinates with one side at infinity and the opposite vertex at the origin are [x y w]: as the
 /// side moves away, its distance becomes the same for every point.
-static void test_side_at_infinity(void **state) {
+TEST(test_side_at_infinity) {
     double far = 1e9, l[3];
     ewa_vec3 right_angle[3] = {{0, 0, 1}, {far, 0, 1}, {0, far, 1}};
     assert_int_equal(ewa_triangle_distances(right_angle, vec3_make(2, 3, 1), l), EWA_OK);
@@ -64,7 +64,7 @@ static void test_side_at_infinity(void **state) {
 }
 
 /// Figure 3: [2 3 w] for w = 4, 2, 1, 1/2, 0; the sum of two representatives on w = 1 is their midpoint.
-static void test_projection_to_w_1(void **state) {
+TEST(test_projection_to_w_1) {
     static const double w[4] = {4, 2, 1, 0.5};
     double xy[2];
     for (int i = 0; i < 4; i++) {
@@ -77,7 +77,7 @@ static void test_projection_to_w_1(void **state) {
 }
 
 /// The homogeneous conic: degree two, and w^2 times the Euclidean one.
-static void test_homogeneous_conic(void **state) {
+TEST(test_homogeneous_conic) {
     double a = 3, b = 2, c = 0.5, d = -1, e = 4, f = -7, x = 1.5, y = -2.5, w = 2;
     ewa_conic q = {a, c / 2, d / 2, b, e / 2, f};
     double euclidean = a * x * x + b * y * y + c * x * y + d * x + e * y + f;
@@ -86,7 +86,7 @@ static void test_homogeneous_conic(void **state) {
 }
 
 /// Transformations: translation, rotation, scaling, bordered form.
-static void test_transformations(void **state) {
+TEST(test_transformations) {
     const ewa_mat3 t = {{{1, 0, 0}, {0, 1, 0}, {5, -2, 1}}}, s = {{{3, 0, 0}, {0, 0.5, 0}, {0, 0, 1}}};
     check_vec3(ewa_point2_transform(vec3_make(4, 6, 2), &s), 12, 3, 2, 0);
     check_vec3(ewa_point2_transform(vec3_make(1, 1, 1), &t), 6, -1, 1, 0);
@@ -106,7 +106,7 @@ static void test_transformations(void **state) {
 }
 
 /// Sequences: translation, rotation, scaling = [RS 0; cRS 1].
-static void test_sequence(void **state) {
+TEST(test_sequence) {
     const ewa_mat3 t = {{{1, 0, 0}, {0, 1, 0}, {5, -2, 1}}}, s = {{{3, 0, 0}, {0, 0.5, 0}, {0, 0, 1}}},
                    r = check_turn(0.7);
     ewa_mat3 product = ewa_mat3_concatenate(&t, &r);
@@ -122,7 +122,7 @@ static double det2(double a, double b, double c, double d) { return a * d - b * 
 
 /// Homogeneous Lines: the intersection by determinants is the cross product; parallel lines; the line at
 /// infinity.
-static void test_lines(void **state) {
+TEST(test_lines) {
     double a1 = 2, b1 = -3, c1 = 5, a2 = 1, b2 = 4, c2 = -6;
     ewa_vec3 point, k = {a1, b1, c1}, l = {a2, b2, c2};
     assert_int_equal(ewa_line2_meet(k, l, &point), EWA_OK);
@@ -158,7 +158,7 @@ static ewa_mat4 product_of(double d) {
 /// Perspective Projection: (x, y, z) -> (xD/z, yD/z, D). Printed: for D -> infinity orthographic; with the
 /// eye at the origin the picture grows with D and still depends on z. With the eye at z = -D, last column [0
 /// 0 1/D 1], it holds.
-static void test_perspective_projection(void **state) {
+TEST(test_perspective_projection) {
     double d = 3, xyz[3];
     ewa_mat4 map = product_of(d);
     check_vec4(ewa_point3_transform(vec4_make(4, -5, 6, 1), &map), 4, -5, 6, 6 / d, 0);
@@ -186,7 +186,7 @@ static void test_perspective_projection(void **state) {
 
 /// Perspective, Projection, and Perspective Projection: z' = D - D/z (printed z^-1 for z - 1 in the product),
 /// [1, inf] to [0, D], and the product of the two maps.
-static void test_perspective_times_projection(void **state) {
+TEST(test_perspective_times_projection) {
     double d = 3, xyz[3];
     const ewa_mat4 perspective = perspective_of(d), projection = projection_of(d), expected = product_of(d);
     ewa_mat4 singular;
@@ -216,7 +216,7 @@ static void test_perspective_times_projection(void **state) {
 
 /// Perspective Space: printed [a b c 0] -> w = -c/D from a last column [0 0 -1/D 1]; the column of every
 /// matrix in the paper is [0 0 1/D 0], and w = c/D.
-static void test_vanishing_point(void **state) {
+TEST(test_vanishing_point) {
     const ewa_mat4 map = perspective_of(4);
     const ewa_vec4 vanishing = ewa_point3_transform(vec4_make(1, 2, 8, 0), &map);
     check_vec4(vanishing, 1, 2, 8, 8 / 4.0, 0);
@@ -232,7 +232,7 @@ static void test_vanishing_point(void **state) {
 }
 
 /// The frustum map [P], the two transformed points, and the nine rows of Example Perspective Transformations.
-static void test_example_perspective_transformations(void **state) {
+TEST(test_example_perspective_transformations) {
     double d = 2, f = 10, fov = 1.1, s = d * tan(fov / 2), k = 1 / (1 - d / f), a = 3, b = -7, c = 5;
     ewa_mat4 p;
     assert_int_equal(check_window_map((const double[]){-s, s, -s, s}, d, f, false, &p), EWA_OK);
@@ -272,7 +272,7 @@ static void test_example_perspective_transformations(void **state) {
 }
 
 /// Associated Vertex Transformations: parallel to the picture, the quotient becomes linear (d = e = 0).
-static void test_parallel_polygon_is_linear(void **state) {
+TEST(test_parallel_polygon_is_linear) {
     ewa_vec4 corners[3] = {{0, 0, 1, 4}, {8, 0, 1, 4}, {0, 8, 1, 4}};
     const double values[3] = {1, 5, 9};
     ewa_vec3 numerator, denominator;
@@ -285,7 +285,7 @@ static void test_parallel_polygon_is_linear(void **state) {
 
 /// Homogeneous Clipping: behind the eye z < 0 gives w < 0 and z' > 0, indeed z' > 1: such points are never
 /// visible with this [P]; negative w becomes visible through points that have it themselves.
-static void test_behind_the_eye(void **state) {
+TEST(test_behind_the_eye) {
     ewa_mat4 p;
     assert_int_equal(check_window_map((const double[]){-1, 1, -1, 1}, 2, 10, false, &p), EWA_OK);
     for (double z = -0.01; z > -1e6; z *= 3) {
@@ -301,7 +301,7 @@ static void test_behind_the_eye(void **state) {
 }
 
 /// Homogeneous Clipping: the worked example. Printed alpha = 8/3; holds: 8/9, with the printed end point.
-static void test_clipping_example(void **state) {
+TEST(test_clipping_example) {
     double y1 = 0.5, z1 = 1, y2 = 0.25, z2 = 0.25, alpha[6], xyz[3];
     ewa_vec4 p1 = {2, y1, z1, 2}, p2 = {-1, y2, z2, 0.5};
     uint32_t crossed, visible;
@@ -323,7 +323,7 @@ static void test_clipping_example(void **state) {
 }
 
 /// The six formulas for alpha, as printed, against the points they name.
-static void test_alpha_formulas(void **state) {
+TEST(test_alpha_formulas) {
     ewa_vec4 p1 = {0.3, -2, 5, 1.5}, p2 = {-4, 3, -1, 0.7};
     double dx = p2.x - p1.x, dy = p2.y - p1.y, dz = p2.z - p1.z, dw = p2.w - p1.w, alpha[6];
     const double printed[6] = {(p1.x + p1.w) / (-dw - dx),
@@ -338,24 +338,4 @@ static void test_alpha_formulas(void **state) {
     check_numbers(alpha, printed, 6, 4 * EXACT);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_barycentric),
-        cmocka_unit_test(test_scaled_coordinates),
-        cmocka_unit_test(test_side_at_infinity),
-        cmocka_unit_test(test_projection_to_w_1),
-        cmocka_unit_test(test_homogeneous_conic),
-        cmocka_unit_test(test_transformations),
-        cmocka_unit_test(test_sequence),
-        cmocka_unit_test(test_lines),
-        cmocka_unit_test(test_perspective_projection),
-        cmocka_unit_test(test_perspective_times_projection),
-        cmocka_unit_test(test_vanishing_point),
-        cmocka_unit_test(test_example_perspective_transformations),
-        cmocka_unit_test(test_parallel_polygon_is_linear),
-        cmocka_unit_test(test_behind_the_eye),
-        cmocka_unit_test(test_clipping_example),
-        cmocka_unit_test(test_alpha_formulas),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -23,7 +23,7 @@ static float float_of_bits(uint32_t bits) {
     return value;
 }
 
-static void test_log2(void **state) {
+TEST(test_log2) {
     for (uint32_t bits = 0x00800000; bits < 0x7f800000; bits += 4999) {
         const float x = float_of_bits(bits);
         const double exact = log2((double)x), error = fabs((double)first_lane(wf_log2(wf_set(x))) - exact);
@@ -37,7 +37,7 @@ static void test_log2(void **state) {
     assert_true(first_lane(wf_log2(wf_set(1))) == 0);
 }
 
-static void test_exp2(void **state) {
+TEST(test_exp2) {
     for (double x = -126; x <= 127; x += 0.00217) {
         const double exact = exp2((double)(float)x);
         assert_true(fabs((double)first_lane(wf_exp2(wf_set((float)x))) / exact - 1) < 3e-7);
@@ -55,7 +55,7 @@ static float power_of(float x, float exponent) {
     return first_lane(values[WIDE_TOGETHER - 1]);
 }
 
-static void test_power(void **state) {
+TEST(test_power) {
     static const float exponents[] = {1, 1.5f, 32, 200, 5000, 65536};
     for (size_t k = 0; k < sizeof exponents / sizeof exponents[0]; k++) {
         for (uint32_t bits = 0x30000000; bits <= 0x3f800000; bits += 3001) {
@@ -73,7 +73,7 @@ static void test_power(void **state) {
     }
 }
 
-static void test_atan2(void **state) {
+TEST(test_atan2) {
     for (double angle = -3.1415; angle < 3.1415; angle += 0.000217)
         for (double length = 1e-20; length < 1e25; length *= 1e20) {
             const float x = (float)(length * cos(angle)), y = (float)(length * sin(angle));
@@ -88,12 +88,4 @@ static void test_atan2(void **state) {
     assert_true(first_lane(wf_atan2(wf_set(0), wf_set(0))) == 0);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_log2),
-        cmocka_unit_test(test_exp2),
-        cmocka_unit_test(test_power),
-        cmocka_unit_test(test_atan2),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -173,7 +173,7 @@ static void hold_version(wide_operations *operate) {
     }
 }
 
-static void test_versions(void **state) {
+TEST(test_versions) {
     ewa_context *context = check_context(1, NULL);
     const uint32_t features = ewa_context_cpu_features(context);
     hold_version(wide_operate_portable);
@@ -186,7 +186,4 @@ static void test_versions(void **state) {
     ewa_context_destroy(&context);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_versions)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -58,7 +58,7 @@ static void compare_plainly(const ewa_image *image, const ewa_image *truth, doub
     *squares /= count, *ssim /= count;
 }
 
-static void test_formulas(void **state) {
+TEST(test_formulas) {
     static const uint32_t channels[3][2] = {{3, 3}, {4, 1}, {3, 4}};
     for (int n = 0; n < 3; n++) {
         double before = NAN;
@@ -85,7 +85,7 @@ static void test_formulas(void **state) {
 }
 
 /// The same is alike; a difference of 0.1 everywhere is 20 dB; where nothing counts there is no number.
-static void test_known(void **state) {
+TEST(test_known) {
     ewa_context *context = check_context(1, NULL);
     ewa_image image = noise(context, 3, 2, 0.1), other;
     ewa_image_quality found;
@@ -116,7 +116,7 @@ static void test_known(void **state) {
 }
 
 /// Half of red over a background of 0.25 is what sRGB numbers make of it; without one it stays as it is.
-static void test_transparent(void **state) {
+TEST(test_transparent) {
     ewa_context *context = check_context(1, NULL);
     ewa_image half;
     assert_int_equal(ewa_image_create(context, WIDTH, HEIGHT, 4, &half), EWA_OK);
@@ -144,7 +144,7 @@ static void test_transparent(void **state) {
     ewa_context_destroy(&context);
 }
 
-static void test_memory(void **state) {
+TEST(test_memory) {
     for (long n = 0;; n++) {
         check_memory memory = {.calls_left = -1};
         ewa_context *context = check_context_on(1, &memory);
@@ -161,8 +161,4 @@ static void test_memory(void **state) {
     }
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_formulas), cmocka_unit_test(test_known),
-                                       cmocka_unit_test(test_transparent), cmocka_unit_test(test_memory)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -42,7 +42,7 @@ static double gains_off(const photo_scene *scene, const ewa_photo_report *per_ph
     return worst;
 }
 
-static void test_fit_is_sharper_than_means(void **state) {
+TEST(test_fit_is_sharper_than_means) {
     (void)state;
     ewa_context *context = check_context(0, NULL);
     photo_scene *scene = photo_scene_make(context, POINTS, PHOTOS, SIDE_PX, 0.2, 0);
@@ -69,7 +69,7 @@ static void test_fit_is_sharper_than_means(void **state) {
 }
 
 /// What 20 % of gains cost where nobody looks for them.
-static void test_exposure_is_needed(void **state) {
+TEST(test_exposure_is_needed) {
     (void)state;
     ewa_context *context = check_context(0, NULL);
     photo_scene *scene = photo_scene_make(context, POINTS, PHOTOS, SIDE_PX, 0.2, 0.03);
@@ -100,7 +100,7 @@ static void cover(photo_scene *scene, uint32_t index, double x_px, double y_px, 
         }
 }
 
-static void test_what_walks_by_is_rejected(void **state) {
+TEST(test_what_walks_by_is_rejected) {
     (void)state;
     ewa_context *context = check_context(0, NULL);
     photo_scene *scene = photo_scene_make(context, POINTS, PHOTOS, SIDE_PX, 0.1, 0);
@@ -141,7 +141,7 @@ static void keep(const ewa_cloud *cloud, uint8_t *to) {
     }
 }
 
-static void test_threads_and_order_change_no_byte(void **state) {
+TEST(test_threads_and_order_change_no_byte) {
     (void)state;
     enum { BYTES = 5 * 2000 * sizeof(float) };
     static uint8_t first[BYTES], other[BYTES];
@@ -170,7 +170,7 @@ static void test_threads_and_order_change_no_byte(void **state) {
 }
 
 /// What is held out is compared with and nothing else: other pictures there change no byte of the cloud.
-static void test_held_out_changes_no_byte(void **state) {
+TEST(test_held_out_changes_no_byte) {
     (void)state;
     enum { BYTES = 5 * 1000 * sizeof(float) };
     static uint8_t first[BYTES], other[BYTES];
@@ -206,7 +206,7 @@ static void test_held_out_changes_no_byte(void **state) {
 }
 
 /// Colours of what is hidden, and of clouds without photographs on one side, stay.
-static void test_unseen_points_keep_their_colors(void **state) {
+TEST(test_unseen_points_keep_their_colors) {
     (void)state;
     ewa_context *context = check_context(0, NULL);
     photo_scene *scene = photo_scene_make(context, 2000, 12, 100, 0, 0);
@@ -237,7 +237,7 @@ static void test_unseen_points_keep_their_colors(void **state) {
     ewa_context_destroy(&context);
 }
 
-static void test_photographs_are_halved(void **state) {
+TEST(test_photographs_are_halved) {
     (void)state;
     ewa_context *context = check_context(0, NULL);
     photo_scene *scene = photo_scene_make(context, 1000, 4, 301, 0, 0);
@@ -265,7 +265,7 @@ static void fails(photo_scene *scene, uint32_t count, const ewa_photos_options *
     assert_null(ewa_cloud_find(scene->cloud, EWA_PHOTO_COUNT));
 }
 
-static void test_bad_input_is_named(void **state) {
+TEST(test_bad_input_is_named) {
     (void)state;
     check_log log = {.count = 0};
     ewa_context *context = check_context(0, &log);
@@ -292,7 +292,7 @@ static void test_bad_input_is_named(void **state) {
     ewa_context_destroy(&context);
 }
 
-static void test_nothing_is_left_where_memory_ends(void **state) {
+TEST(test_nothing_is_left_where_memory_ends) {
     (void)state;
     check_memory memory = {.calls_left = -1};
     ewa_context *context = check_context_on(2, &memory);
@@ -318,17 +318,4 @@ static void test_nothing_is_left_where_memory_ends(void **state) {
     assert_int_equal(memory.held_bytes, 0);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_fit_is_sharper_than_means),
-        cmocka_unit_test(test_exposure_is_needed),
-        cmocka_unit_test(test_what_walks_by_is_rejected),
-        cmocka_unit_test(test_threads_and_order_change_no_byte),
-        cmocka_unit_test(test_held_out_changes_no_byte),
-        cmocka_unit_test(test_unseen_points_keep_their_colors),
-        cmocka_unit_test(test_photographs_are_halved),
-        cmocka_unit_test(test_bad_input_is_named),
-        cmocka_unit_test(test_nothing_is_left_where_memory_ends),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

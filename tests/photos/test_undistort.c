@@ -104,7 +104,7 @@ static void hold(const char *name, const ewa_lens *lens, double least_share) {
     ewa_context_destroy(&context);
 }
 
-static void test_lenses_are_undone(void **state) {
+TEST(test_lenses_are_undone) {
     (void)state;
     hold("radial", &(ewa_lens){EWA_LENS_BROWN, {-0.12, 0.03}, {0}}, 0.9);
     hold("opencv", &(ewa_lens){EWA_LENS_BROWN, {0.08, -0.02}, {0.01, -0.015}}, 0.6);
@@ -113,7 +113,7 @@ static void test_lenses_are_undone(void **state) {
 }
 
 /// A lens that turns back shows its rim once.
-static void test_what_a_lens_does_not_show_is_transparent(void **state) {
+TEST(test_what_a_lens_does_not_show_is_transparent) {
     (void)state;
     ewa_context *context = check_context(0, NULL);
     const ewa_camera camera = camera_of();
@@ -134,7 +134,7 @@ static void test_what_a_lens_does_not_show_is_transparent(void **state) {
     ewa_context_destroy(&context);
 }
 
-static void test_bad_lenses_are_named(void **state) {
+TEST(test_bad_lenses_are_named) {
     (void)state;
     check_log log = {.count = 0};
     ewa_context *context = check_context(0, &log);
@@ -160,7 +160,7 @@ static void write_text(const char *name, const char *text) {
 }
 
 /// Files in the folder of the test, whose photographs are only looked for.
-static void test_lists_have_lenses_and_paths(void **state) {
+TEST(test_lists_have_lenses_and_paths) {
     (void)state;
     check_log log = {.count = 0};
     ewa_context *context = check_context(0, &log);
@@ -201,12 +201,4 @@ static void test_lists_have_lenses_and_paths(void **state) {
     ewa_context_destroy(&context);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_lenses_are_undone),
-        cmocka_unit_test(test_what_a_lens_does_not_show_is_transparent),
-        cmocka_unit_test(test_bad_lenses_are_named),
-        cmocka_unit_test(test_lists_have_lenses_and_paths),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

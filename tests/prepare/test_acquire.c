@@ -31,7 +31,7 @@ static void make_picture(ewa_context *context, uint32_t width, uint32_t height, 
 
 /// The mean under a Gaussian is the sum over all pixels, near and far, less what is under its outermost part;
 /// of a picture turned upside down or around it is the same, wherever the Gaussian begins and ends.
-static void test_means_are_sums(void **state) {
+TEST(test_means_are_sums) {
     enum { WIDTH = 23, HEIGHT = 19 };
     ewa_context *context = check_context(1, NULL);
     check_random random = {21};
@@ -92,7 +92,7 @@ static void test_means_are_sums(void **state) {
 
 /// A picture of one, three or four channels gives the same means, bit for bit, and so does one with a number that is none, which
 /// counts as 0.
-static void test_means_of_channels_agree(void **state) {
+TEST(test_means_of_channels_agree) {
     ewa_context *context = check_context(1, NULL);
     enum { SIDE = 37, FORMS = 4 };
     static const uint32_t channels[FORMS] = {1, 3, 4, 3};
@@ -131,7 +131,7 @@ static void test_means_of_channels_agree(void **state) {
 }
 
 /// The mean on a small copy of a picture is near that on the picture itself.
-static void test_means_of_levels_agree(void **state) {
+TEST(test_means_of_levels_agree) {
     ewa_context *context = check_context(1, NULL);
     ewa_image image;
     ewa_texture texture;
@@ -188,7 +188,7 @@ static void fill(const ewa_image *image, float r, float g, float b) {
         image->pixels[3 * i] = r, image->pixels[3 * i + 1] = g, image->pixels[3 * i + 2] = b;
 }
 
-static void test_a_constant_stays(void **state) {
+TEST(test_a_constant_stays) {
     static const ewa_object objects[] = {EWA_OBJECT_PLANE, EWA_OBJECT_SPHERE, EWA_OBJECT_TORUS,
                                          EWA_OBJECT_CUBE, EWA_OBJECT_TERRAIN};
     ewa_context *context = check_context(0, NULL);
@@ -267,7 +267,7 @@ static double measure(ewa_context *context, const ewa_image *image, ewa_texture_
 }
 
 /// A ramp of 1 over the plane, 50 points wide: within an eighth of the step from point to point.
-static void test_a_ramp_is_kept(void **state) {
+TEST(test_a_ramp_is_kept) {
     ewa_context *context = check_context(0, NULL);
     ewa_image image;
     assert_int_equal(ewa_image_create(context, 200, 200, 3, &image), EWA_OK);
@@ -289,7 +289,7 @@ static void test_a_ramp_is_kept(void **state) {
     ewa_context_destroy(&context);
 }
 
-static void test_optimal_is_better(void **state) {
+TEST(test_optimal_is_better) {
     ewa_context *context = check_context(0, NULL);
     ewa_image image;
     assert_int_equal(ewa_image_create(context, 100, 100, 3, &image), EWA_OK);
@@ -307,7 +307,7 @@ static void test_optimal_is_better(void **state) {
 }
 
 /// The gradient of what is minimised, by quadrature: nearly nothing at the optimal colours, much elsewhere.
-static void test_the_gradient_vanishes(void **state) {
+TEST(test_the_gradient_vanishes) {
     enum { POINTS = 100, STEPS = 700 };
     ewa_context *context = check_context(0, NULL);
     ewa_image image;
@@ -357,7 +357,7 @@ static void test_the_gradient_vanishes(void **state) {
     ewa_context_destroy(&context);
 }
 
-static void test_threads_change_nothing(void **state) {
+TEST(test_threads_change_nothing) {
     static const uint32_t threads[] = {1, 2, 7};
     float *first = NULL;
     for (int k = 0; k < 3; k++) {
@@ -381,7 +381,7 @@ static void test_threads_change_nothing(void **state) {
 }
 
 /// Straight alpha comes back; colours are multiplied; what has no coordinates or no picture is white.
-static void test_alpha_tint_and_gaps(void **state) {
+TEST(test_alpha_tint_and_gaps) {
     ewa_context *context = check_context(0, NULL);
     ewa_image image[2] = {{0}};
     assert_int_equal(ewa_image_create(context, 8, 8, 4, &image[0]), EWA_OK);
@@ -419,7 +419,7 @@ static void test_alpha_tint_and_gaps(void **state) {
 }
 
 /// Points that are no surfels, at one place, or without area on the picture: finite colours.
-static void test_odd_points(void **state) {
+TEST(test_odd_points) {
     ewa_context *context = check_context(2, NULL);
     ewa_image image;
     make_picture(context, 32, 32, 2, &image);
@@ -446,7 +446,7 @@ static void test_odd_points(void **state) {
     ewa_context_destroy(&context);
 }
 
-static void test_wrong_use_is_named(void **state) {
+TEST(test_wrong_use_is_named) {
     check_log log = {0};
     ewa_context *context = check_context(1, &log);
     ewa_image image;
@@ -487,7 +487,7 @@ static void test_wrong_use_is_named(void **state) {
     ewa_context_destroy(&context);
 }
 
-static void test_every_failing_allocation_is_clean(void **state) {
+TEST(test_every_failing_allocation_is_clean) {
     bool done = false;
     for (long n = 0; !done; n++) {
         check_memory memory = {.calls_left = -1};
@@ -509,7 +509,7 @@ static void test_every_failing_allocation_is_clean(void **state) {
     }
 }
 
-static void test_every_cancel_is_clean(void **state) {
+TEST(test_every_cancel_is_clean) {
     bool done = false;
     for (int n = 0; !done; n += 1 + n / 8) {
         int left = 1000;
@@ -531,7 +531,7 @@ static void test_every_cancel_is_clean(void **state) {
 }
 
 /// Gradients say where points a little further on the surface are on the picture, to a thousandth of the way.
-static void test_charts_of_objects(void **state) {
+TEST(test_charts_of_objects) {
     static const ewa_object objects[] = {EWA_OBJECT_PLANE, EWA_OBJECT_CUBE, EWA_OBJECT_SPHERE,
                                          EWA_OBJECT_TORUS, EWA_OBJECT_TERRAIN};
     ewa_context *context = check_context(0, NULL);
@@ -571,22 +571,4 @@ static void test_charts_of_objects(void **state) {
     ewa_context_destroy(&context);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_means_are_sums),
-        cmocka_unit_test(test_means_of_channels_agree),
-        cmocka_unit_test(test_means_of_levels_agree),
-        cmocka_unit_test(test_a_constant_stays),
-        cmocka_unit_test(test_a_ramp_is_kept),
-        cmocka_unit_test(test_optimal_is_better),
-        cmocka_unit_test(test_the_gradient_vanishes),
-        cmocka_unit_test(test_threads_change_nothing),
-        cmocka_unit_test(test_alpha_tint_and_gaps),
-        cmocka_unit_test(test_odd_points),
-        cmocka_unit_test(test_wrong_use_is_named),
-        cmocka_unit_test(test_every_failing_allocation_is_clean),
-        cmocka_unit_test(test_every_cancel_is_clean),
-        cmocka_unit_test(test_charts_of_objects),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

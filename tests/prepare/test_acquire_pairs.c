@@ -73,7 +73,7 @@ static void hold_moments(const double got[6], const double expected[6], double t
             fail_msg("moment %d is %.9g instead of %.9g", k, got[k], expected[k]);
 }
 
-static void test_products_are_those_of_quadrature(void **state) {
+TEST(test_products_are_those_of_quadrature) {
     const ewa_acquire_set set = {.usual_sigma_world = 0.4};
     const ewa_acquire_point a = flat_point(0.1, -0.2, 0.6, 0.1, -0.2, 0.5),
                             b = flat_point(0.5, 0.3, 0.4, 0.3, 0, 0.7),
@@ -92,7 +92,7 @@ static void test_products_are_those_of_quadrature(void **state) {
 }
 
 /// Both cut by one line, as beside a sharp edge; one alone.
-static void test_cut_products_are_those_of_quadrature(void **state) {
+TEST(test_cut_products_are_those_of_quadrature) {
     const ewa_acquire_set set = {.usual_sigma_world = 0.4};
     ewa_acquire_point a = flat_point(0.1, -0.2, 0.6, 0.1, -0.2, 0.5),
                       b = flat_point(0.5, 0.3, 0.4, 0.3, 0, 0.7);
@@ -118,7 +118,7 @@ static void test_cut_products_are_those_of_quadrature(void **state) {
     hold_moments(got, expected, 2e-3);
 }
 
-static void test_normal_distribution(void **state) {
+TEST(test_normal_distribution) {
     for (double z = -7; z <= 7; z += 0.01) {
         assert_true(fabs(ewa_normal_below(z) - 0.5 * erfc(-z / sqrt(2))) < 2e-9);
         assert_true(fabs(ewa_exp(z * 20) / exp(z * 20) - 1) < 1e-14);
@@ -150,7 +150,7 @@ static double thick_kernel_at(const ewa_acquire_point *point, double thickness_w
 }
 
 /// On a curved surface: the integral over space, over that of the thickness, times ((1 + cos) / 2)^4.
-static void test_tilted_products_are_those_of_quadrature(void **state) {
+TEST(test_tilted_products_are_those_of_quadrature) {
     enum { STEPS = 110 };
     const ewa_acquire_set set = {.usual_sigma_world = 0.4};
     static const double places[2][3] = {{0.1, -0.2, 0.05}, {0.35, 0.1, -0.15}};
@@ -181,7 +181,7 @@ static double ramp_at(int channel, double x_px, double y_px) {
 }
 
 /// Alone, cut by a line, so that its mean is not its centre; and under products, on one chart and on two.
-static void test_looks_follow_the_jacobian(void **state) {
+TEST(test_looks_follow_the_jacobian) {
     ewa_context *context = check_context(1, NULL);
     ewa_image image;
     ewa_texture texture;
@@ -232,13 +232,4 @@ static void test_looks_follow_the_jacobian(void **state) {
     ewa_context_destroy(&context);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_normal_distribution),
-        cmocka_unit_test(test_products_are_those_of_quadrature),
-        cmocka_unit_test(test_cut_products_are_those_of_quadrature),
-        cmocka_unit_test(test_tilted_products_are_those_of_quadrature),
-        cmocka_unit_test(test_looks_follow_the_jacobian),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -77,7 +77,7 @@ static void hold_lane(const told *all, uint32_t lane, const told *alone) {
     for (int c = 0; c < 3; c++) assert_true(all->border.direction[c][lane] == alone->border.direction[c][0]);
 }
 
-static void test_company(void **state) {
+TEST(test_company) {
     static const uint32_t masks[] = {0, EWA_CPU_AVX2, EWA_CPU_ALL};
     static ewa_block block;
     static local_batch batch;
@@ -105,7 +105,4 @@ static void test_company(void **state) {
     }
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_company)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -208,7 +208,7 @@ static double distance_back(ewa_context *context, const solid_pair *pair, ewa_cs
     return largest;
 }
 
-static void test_against_closed_form(void **state) {
+TEST(test_against_closed_form) {
     static const solid_pair pairs[] = {
         {{EWA_OBJECT_SPHERE, EWA_OBJECT_SPHERE}, {2, 1.6}, {{0, 0, 0}, {0.7, 0.5, 0.3}}, {4000, 4000}},
         {{EWA_OBJECT_CUBE, EWA_OBJECT_SPHERE}, {2, 2.5}, {{0, 0, 0}, {0, 0, 0}}, {4000, 4000}},
@@ -286,7 +286,7 @@ static double distance_from_faces(const plain_surfels *s, uint64_t i, const doub
 
 /// Where every face is a plane, lines are exact: each lies in the plane of a face, that of the own cube
 /// beyond an edge or one of the other cube, on whole surfels as on their parts.
-static void test_lines_of_planes(void **state) {
+TEST(test_lines_of_planes) {
     ewa_context *context = check_context(0, NULL);
     const double here[3] = {0, 0, 0}, half[2] = {1, 0.75};
     // The second cube is turned by 3-4-5 about z, then by 5-12-13 about x, so that no edge is along an axis.
@@ -334,7 +334,7 @@ static uint64_t count_on_plane(const ewa_cloud *cloud, double at) {
     return count;
 }
 
-static void test_coinciding_faces(void **state) {
+TEST(test_coinciding_faces) {
     check_log log = {.count = 0};
     ewa_context *context = check_context(0, &log);
     const double here[3] = {0, 0, 0}, beside[3] = {2, 0, 0};
@@ -364,7 +364,7 @@ static void test_coinciding_faces(void **state) {
     ewa_context_destroy(&context);
 }
 
-static void test_far_apart_and_within(void **state) {
+TEST(test_far_apart_and_within) {
     ewa_context *context = check_context(0, NULL);
     const double here[3] = {0, 0, 0}, far[3] = {50, 0, 0};
     ewa_cloud *a = make(context, EWA_OBJECT_SPHERE, 2000, 2, here);
@@ -410,7 +410,7 @@ static ewa_cloud *cut_off(const ewa_cloud *cloud, int axis, double limit) {
     return part;
 }
 
-static void test_open_operands(void **state) {
+TEST(test_open_operands) {
     check_log log = {.count = 0};
     ewa_context *context = check_context(0, &log);
     const double here[3] = {0, 0, 0}, up[3] = {0, 0, 1};
@@ -430,7 +430,7 @@ static void test_open_operands(void **state) {
     ewa_context_destroy(&context);
 }
 
-static void test_same_bytes(void **state) {
+TEST(test_same_bytes) {
     ewa_cloud *results[3];
     ewa_context *contexts[3];
     for (uint32_t t = 0; t < 3; t++) {
@@ -459,7 +459,7 @@ static void test_same_bytes(void **state) {
 }
 
 /// A point so far off that squares overflow is no surfel, in either operand.
-static void test_overflow(void **state) {
+TEST(test_overflow) {
     enum { POINTS = 500 };
     ewa_context *context = check_context(1, NULL);
     const double here[3] = {0, 0, 0}, aside[3] = {0.5, 0, 0};
@@ -482,7 +482,7 @@ static void test_overflow(void **state) {
     ewa_context_destroy(&context);
 }
 
-static void test_refused(void **state) {
+TEST(test_refused) {
     check_log log = {.count = 0};
     ewa_context *context = check_context(0, &log);
     const double here[3] = {0, 0, 0};
@@ -544,22 +544,9 @@ static ewa_status combine_work(ewa_context *context, void *user) {
     return status;
 }
 
-static void test_failing_allocations(void **state) {
+TEST(test_failing_allocations) {
     for (ewa_csg_operation operation = EWA_CSG_UNION; operation <= EWA_CSG_DIFFERENCE; operation++)
         scratch_fail_each(combine_work, &operation);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_against_closed_form),
-        cmocka_unit_test(test_lines_of_planes),
-        cmocka_unit_test(test_coinciding_faces),
-        cmocka_unit_test(test_far_apart_and_within),
-        cmocka_unit_test(test_open_operands),
-        cmocka_unit_test(test_same_bytes),
-        cmocka_unit_test(test_refused),
-        cmocka_unit_test(test_overflow),
-        cmocka_unit_test(test_failing_allocations),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -57,7 +57,7 @@ static double percentile(const float *values, uint64_t count, double share) {
 }
 
 /// Points of known surfaces, of any size; curvature is the other way where normals point to the other side.
-static void test_known_surfaces(void **state) {
+TEST(test_known_surfaces) {
     static const double sizes[] = {1, 1e-18, 1e18};
     ewa_context *context = check_context(2, NULL);
     for (int k = 0; k < 3 * SHAPES; k++) {
@@ -102,7 +102,7 @@ static void test_known_surfaces(void **state) {
 }
 
 /// Meshes and generated objects know as much, and a torus bends least where it is hollow.
-static void test_made_surfaces(void **state) {
+TEST(test_made_surfaces) {
     ewa_context *context = check_context(0, NULL);
     ewa_mesh mesh;
     shape_sphere(context, 60, &mesh);
@@ -139,7 +139,7 @@ static void test_made_surfaces(void **state) {
 
 /// Normals turn round the edges of a cube, which does not bend there: splats that moved by half of their radius would
 /// leave gaps beside the edges.
-static void test_edges(void **state) {
+TEST(test_edges) {
     ewa_context *context = check_context(0, NULL);
     for (uint64_t wanted = 6000; wanted <= 60000; wanted *= 10) {
         ewa_generate_options generate;
@@ -163,7 +163,7 @@ static void test_edges(void **state) {
 }
 
 /// Moved points bend as they are moved: by 1 / scale, and a mirror changes no sign, since normals stay outside.
-static void test_moved(void **state) {
+TEST(test_moved) {
     ewa_context *context = check_context(0, NULL);
     static const double mirror[16] = {0, -4, 0, 1, 4, 0, 0, 2, 0, 0, -4, 3, 0, 0, 0, 1};
     ewa_generate_options options;
@@ -184,12 +184,4 @@ static void test_moved(void **state) {
     ewa_context_destroy(&context);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_known_surfaces),
-        cmocka_unit_test(test_made_surfaces),
-        cmocka_unit_test(test_edges),
-        cmocka_unit_test(test_moved),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -43,7 +43,7 @@ static uint32_t sample_square(sampling kind, float *xyz) {
 
 static bool is_inner(const float *p) { return fminf(fminf(p[0], p[1]), fminf(SIDE - p[0], SIDE - p[1])) > 6; }
 
-static void test_spacing(void **state) {
+TEST(test_spacing) {
     ewa_context *context = check_context(2, NULL);
     for (int kind = 0; kind < SAMPLINGS; kind++) {
         float xyz[3 * MAXIMUM];
@@ -89,7 +89,7 @@ static void test_spacing(void **state) {
 
 /// Shares of the inner square that no disc covers: the plain 1.2 spacings would leave 1 % of a random
 /// sampling open.
-static void test_no_holes(void **state) {
+TEST(test_no_holes) {
     ewa_context *context = check_context(2, NULL);
     for (int kind = 0; kind < SAMPLINGS; kind++) {
         float xyz[3 * MAXIMUM];
@@ -119,7 +119,7 @@ static void test_no_holes(void **state) {
     ewa_context_destroy(&context);
 }
 
-static void test_axes(void **state) {
+TEST(test_axes) {
     ewa_context *context = check_context(2, NULL);
     float xyz[3 * MAXIMUM];
     const uint32_t count = sample_square(STRETCHED, xyz);
@@ -153,7 +153,7 @@ static void test_axes(void **state) {
 }
 
 /// A scanner's lines 20 samples apart: 16 neighbours are all on one line, and say nothing about the surface.
-static void test_scan_lines(void **state) {
+TEST(test_scan_lines) {
     enum { ALONG = 600, LINES = 40, GAP = 20, LINE_COUNT = ALONG * LINES };
     ewa_context *context = check_context(2, NULL);
     float *xyz = NULL;
@@ -180,7 +180,7 @@ static void test_scan_lines(void **state) {
 }
 
 /// PCA against the true normal of a sphere, also for doubles far from the origin.
-static void test_normals(void **state) {
+TEST(test_normals) {
     enum { COUNT = 20000 };
     ewa_context *context = check_context(2, NULL);
     for (int far = 0; far < 2; far++) {
@@ -216,7 +216,7 @@ static void test_normals(void **state) {
     ewa_context_destroy(&context);
 }
 
-static void test_keep(void **state) {
+TEST(test_keep) {
     ewa_context *context = check_context(2, NULL);
     float xyz[3 * MAXIMUM];
     const uint32_t count = sample_square(JITTERED, xyz);
@@ -290,7 +290,7 @@ static void make_degenerate(int kind, uint32_t i, check_random *random, float p[
     }
 }
 
-static void test_degenerate(void **state) {
+TEST(test_degenerate) {
     static const uint32_t counts[] = {0, 1, 2, 3, 4, 7, 16, 17, 1000};
     ewa_context *context = check_context(2, NULL);
     for (int kind = 0; kind < 11; kind++)
@@ -361,7 +361,7 @@ static ewa_cloud *estimate_uneven(uint32_t threads, uint32_t mask, const float *
 }
 
 /// Around doubles beyond the range of floats there are no numbers, but nothing that is not finite comes out.
-static void test_overflow(void **state) {
+TEST(test_overflow) {
     enum { COUNT = 400 };
     for (int shape = 0; shape < 2; shape++) {
         ewa_context *context = check_context(1, NULL);
@@ -418,7 +418,7 @@ static bool is_at_corner(const float *p) {
 }
 
 /// Borders are where the samples end, and nowhere else; discs reach no farther, lengths in spacings.
-static void test_borders(void **state) {
+TEST(test_borders) {
     static const sampling kinds[] = {REGULAR, JITTERED, SCATTERED, HEXAGONAL, POISSON};
     ewa_context *context = check_context(2, NULL);
     for (int k = 0; k < 10; k++) {
@@ -447,7 +447,7 @@ static void test_borders(void **state) {
 }
 
 /// What has no border gets no stream; axes get clip lines where discs get borders.
-static void test_borders_as_streams(void **state) {
+TEST(test_borders_as_streams) {
     enum { POINTS = 20000 };
     ewa_context *context = check_context(2, NULL);
     for (int s = 0; s < 2; s++) {
@@ -493,7 +493,7 @@ static void test_borders_as_streams(void **state) {
     ewa_context_destroy(&context);
 }
 
-static void test_threads_and_machines(void **state) {
+TEST(test_threads_and_machines) {
     enum { COUNT = 60000 };
     static const uint32_t threads[] = {2, 7, 32, 1, 1};
     static const uint32_t masks[] = {EWA_CPU_ALL, EWA_CPU_ALL, EWA_CPU_ALL, EWA_CPU_AVX2, 0};
@@ -523,7 +523,7 @@ static void test_threads_and_machines(void **state) {
 }
 
 /// Each point's surfel is the same wherever it stands in the file.
-static void test_order_of_points(void **state) {
+TEST(test_order_of_points) {
     enum { COUNT = 20000, STEP = 7919 };
     float *xyz = calloc(6 * (size_t)COUNT, sizeof *xyz), *shuffled = xyz + 3 * (size_t)COUNT;
     make_uneven(xyz, COUNT);
@@ -558,7 +558,7 @@ static void test_order_of_points(void **state) {
     free(xyz);
 }
 
-static void test_out_of_memory(void **state) {
+TEST(test_out_of_memory) {
     enum { COUNT = 2000 };
     float *xyz = calloc(3 * (size_t)COUNT, sizeof *xyz);
     make_uneven(xyz, COUNT);
@@ -595,7 +595,7 @@ static void test_out_of_memory(void **state) {
 }
 
 /// What is marked is what the estimate leaves, whatever is marked before; points that are not finite are none.
-static void test_marked_outliers(void **state) {
+TEST(test_marked_outliers) {
     enum { COUNT = 3000, FAR = 40 };
     ewa_context *context = check_context(2, NULL);
     float *xyz = NULL;
@@ -637,7 +637,7 @@ static bool cancel_at(void *user, const char *stage, double fraction) {
     return strcmp(stage, user) != 0;
 }
 
-static void test_cancel_and_options(void **state) {
+TEST(test_cancel_and_options) {
     float xyz[3 * MAXIMUM];
     const uint32_t count = sample_square(JITTERED, xyz);
     static char stages[3][16] = {"outliers", "estimate", "orient"};
@@ -672,7 +672,7 @@ static void test_cancel_and_options(void **state) {
 }
 
 /// Points strewn in space are no surface; a plane has no such attribute, and keeps none of before.
-static void test_surfaceness(void **state) {
+TEST(test_surfaceness) {
     ewa_context *context = check_context(2, NULL);
     enum { COUNT = 4000 };
     for (int kind = 0; kind < 4; kind++) { // a plane; in space; a plane and a wire above it; a box's edge
@@ -711,24 +711,4 @@ static void test_surfaceness(void **state) {
     ewa_context_destroy(&context);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_spacing),
-        cmocka_unit_test(test_no_holes),
-        cmocka_unit_test(test_axes),
-        cmocka_unit_test(test_scan_lines),
-        cmocka_unit_test(test_normals),
-        cmocka_unit_test(test_surfaceness),
-        cmocka_unit_test(test_keep),
-        cmocka_unit_test(test_degenerate),
-        cmocka_unit_test(test_overflow),
-        cmocka_unit_test(test_borders),
-        cmocka_unit_test(test_borders_as_streams),
-        cmocka_unit_test(test_threads_and_machines),
-        cmocka_unit_test(test_order_of_points),
-        cmocka_unit_test(test_out_of_memory),
-        cmocka_unit_test(test_marked_outliers),
-        cmocka_unit_test(test_cancel_and_options),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -43,7 +43,7 @@ static uint32_t planes_of(const feature_scale *scale) {
 }
 
 /// A tenth of the points have to be on either side of an edge.
-static void test_edge_share(void **state) {
+TEST(test_edge_share) {
     make_crease(11, 3, 1);
     assert_int_equal(planes_of(&EXACT), 2);
     make_crease(8, 3, 1);
@@ -61,7 +61,7 @@ static void bend(double squares) {
 }
 
 /// The squares of a quadric and what is never explained, 0.04 spacings, are 1.3 times those of an edge.
-static void test_edge_gain(void **state) {
+TEST(test_edge_gain) {
     const double rest = COUNT * 0.04 * 0.04;
     bend(0.40 * rest);
     assert_int_equal(planes_of(&EXACT), 2);
@@ -70,7 +70,7 @@ static void test_edge_gain(void **state) {
 }
 
 /// Of noise a good fit leaves 0.6 of the squares.
-static void test_noise(void **state) {
+TEST(test_noise) {
     feature_scale scale = EXACT;
     scale.noise = 0.2;
     const double minimum = COUNT * (0.04 * 0.04 + 0.6 * scale.noise * scale.noise);
@@ -82,7 +82,7 @@ static void test_noise(void **state) {
 
 /// Points far off count as three deviations, of 0.04 spacings where there is less noise, to an edge as to a
 /// quadric.
-static void test_truncation(void **state) {
+TEST(test_truncation) {
     for (int steep = 0; steep < 2; steep++) {
         make_crease(COUNT / 2, 0, steep ? 0.115 : 0.09);
         // By turns above and below, far apart, so that they move neither surface much.
@@ -111,7 +111,7 @@ static void make_corner(uint32_t on_third, double third, double slope) {
 }
 
 /// A corner has 0.07 of the points on each of its planes.
-static void test_corner_share(void **state) {
+TEST(test_corner_share) {
     make_corner(8, 2.5, 1);
     assert_int_equal(planes_of(&EXACT), 3);
     make_corner(6, 2.5, 1);
@@ -120,18 +120,11 @@ static void test_corner_share(void **state) {
 
 /// A corner explains 1.4 times as much as an edge: the squares that a bend leaves to an edge grow with its
 /// slope, and are 0.4 of what is never explained at 0.046.
-static void test_corner_gain(void **state) {
+TEST(test_corner_gain) {
     make_corner(24, 0, 0.042);
     assert_int_equal(planes_of(&EXACT), 2);
     make_corner(24, 0, 0.050);
     assert_int_equal(planes_of(&EXACT), 3);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_edge_share),   cmocka_unit_test(test_edge_gain),
-        cmocka_unit_test(test_noise),        cmocka_unit_test(test_truncation),
-        cmocka_unit_test(test_corner_share), cmocka_unit_test(test_corner_gain),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -137,7 +137,7 @@ static void check_crease(double angle_deg, bool valley) {
     ewa_context_destroy(&context);
 }
 
-static void test_creases(void **state) {
+TEST(test_creases) {
     static const double angles[] = {25, 40, 60, 90, 120};
     for (size_t i = 0; i < sizeof angles / sizeof angles[0]; i++) {
         check_crease(angles[i], false);
@@ -147,7 +147,7 @@ static void test_creases(void **state) {
 
 /// Points over the surface are put onto it up to 0.3 spacings, or 4 times the noise where that is more; those
 /// that are farther off are left alone.
-static void test_outliers(void **state) {
+TEST(test_outliers) {
     static const struct {
         double noise;  ///< in spacings, which are 0.87 here
         double height; ///< in world units
@@ -183,7 +183,7 @@ static void test_outliers(void **state) {
 }
 
 /// Below the threshold nothing changes, not even the streams.
-static void test_threshold(void **state) {
+TEST(test_threshold) {
     ewa_context *context = check_context(2, NULL);
     ewa_cloud *cloud = make_crease(context, 22, false), *before = make_crease(context, 22, false);
     const ewa_feature_options options = default_options();
@@ -200,7 +200,7 @@ static void test_threshold(void **state) {
 
 /// Exact points have 24 neighbours looked at, those with noise of a quarter of a spacing or more all 64, and
 /// between these as many more as there is noise.
-static void test_neighbour_counts(void **state) {
+TEST(test_neighbour_counts) {
     static const double noise[] = {0, 0.0625, 0.125, 0.1875, 0.25, 0.5};
     static const uint32_t expected[] = {24, 34, 44, 54, 64, 64};
     ewa_context *context = check_context(2, NULL);
@@ -247,7 +247,7 @@ static void count_at_step(double step, uint32_t *lines, uint32_t *moved) {
 
 /// Neighbours whose planes are less than 0.6 spacings apart have one edge, the mean of theirs; at a higher
 /// step each side keeps its own.
-static void test_steps(void **state) {
+TEST(test_steps) {
     static const double high[] = {0.7, 0.75, 0.8, 0.9};
     uint32_t lines, moved;
     count_at_step(0, &lines, &moved);
@@ -318,12 +318,12 @@ static void check_corner(corner_kind kind) {
     ewa_context_destroy(&context);
 }
 
-static void test_corners(void **state) {
+TEST(test_corners) {
     for (int kind = CORNER_CUBE; kind <= CORNER_NOTCH; kind++) check_corner((corner_kind)kind);
 }
 
 /// Smooth objects have no edges, exact or noisy; their bytes stay.
-static void test_smooth(void **state) {
+TEST(test_smooth) {
     static const ewa_object objects[] = {EWA_OBJECT_PLANE, EWA_OBJECT_SPHERE, EWA_OBJECT_TORUS};
     ewa_context *context = check_context(0, NULL);
     for (int i = 0; i < 6; i++) {
@@ -352,7 +352,7 @@ static void test_smooth(void **state) {
     ewa_context_destroy(&context);
 }
 
-static void test_threads(void **state) {
+TEST(test_threads) {
     static const uint32_t threads[] = {1, 2, 5};
     static const char *const names[] = {EWA_POSITION,  EWA_NORMAL, EWA_TANGENT_U,
                                         EWA_TANGENT_V, EWA_CLIP0,  EWA_CLIP1};
@@ -381,7 +381,7 @@ static void test_threads(void **state) {
 }
 
 /// Clouds of few points, of one place, on a line, and with coordinates that are not finite.
-static void test_odd_clouds(void **state) {
+TEST(test_odd_clouds) {
     ewa_context *context = check_context(2, NULL);
     for (uint32_t count = 0; count < 90; count += count < 8 ? 1 : 27) {
         for (int kind = 0; kind < 3; kind++) {
@@ -413,7 +413,7 @@ static void test_odd_clouds(void **state) {
 }
 
 /// Doubles stay doubles, borrowed memory is not written to, axes that are there keep their size.
-static void test_streams(void **state) {
+TEST(test_streams) {
     ewa_context *context = check_context(2, NULL);
     ewa_cloud *cloud = make_crease(context, 90, false);
     const uint64_t count = ewa_cloud_point_count(cloud);
@@ -439,7 +439,7 @@ static void test_streams(void **state) {
     ewa_context_destroy(&context);
 }
 
-static void test_refusals(void **state) {
+TEST(test_refusals) {
     check_log log = {{0}, 0};
     ewa_context *context = check_context(1, &log);
     ewa_cloud *cloud = make_crease(context, 90, false);
@@ -489,14 +489,14 @@ static ewa_status detect_work(ewa_context *context, void *user) {
     return status;
 }
 
-static void test_failing_allocations(void **state) {
+TEST(test_failing_allocations) {
     uint64_t edges = 0;
     scratch_fail_each(detect_work, &edges);
     assert_true(edges > 20);
 }
 
 /// Discs get axes where there are features; their borders become clip lines, which end the surface where it ended.
-static void test_borders_become_lines(void **state) {
+TEST(test_borders_become_lines) {
     ewa_context *context = check_context(2, NULL);
     ewa_cloud *cloud = make_bordered_crease(context, 90, false);
     const uint64_t count = ewa_cloud_point_count(cloud);
@@ -527,15 +527,4 @@ static void test_borders_become_lines(void **state) {
     ewa_context_destroy(&context);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_creases),    cmocka_unit_test(test_outliers),
-        cmocka_unit_test(test_threshold),  cmocka_unit_test(test_corners),
-        cmocka_unit_test(test_smooth),     cmocka_unit_test(test_threads),
-        cmocka_unit_test(test_odd_clouds), cmocka_unit_test(test_streams),
-        cmocka_unit_test(test_refusals),   cmocka_unit_test(test_neighbour_counts),
-        cmocka_unit_test(test_steps),      cmocka_unit_test(test_failing_allocations),
-        cmocka_unit_test(test_borders_become_lines),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

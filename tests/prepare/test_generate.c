@@ -30,7 +30,7 @@ static double distance2(const float *a, const double *b) {
     return x * x + y * y + z * z;
 }
 
-static void test_sine_and_cosine(void **state) {
+TEST(test_sine_and_cosine) {
     const double circle = 6.283185307179586;
     double largest = 0, largest_coarse = 0;
     for (int i = -4000; i <= 4000; i++) {
@@ -44,7 +44,7 @@ static void test_sine_and_cosine(void **state) {
     assert_true(largest_coarse < 1.2e-3);
 }
 
-static void test_counts_and_attributes(void **state) {
+TEST(test_counts_and_attributes) {
     static const uint64_t counts[] = {0, 1, 2, 3, 5, 7, 64, 65, 1000, 12345};
     ewa_context *context = check_context(2, NULL);
     for (int object = 0; object < OBJECT_COUNT; object++) {
@@ -99,7 +99,7 @@ static void check_on_surface(ewa_object object, double size, const float *positi
     for (int c = 0; c < 3; c++) assert_true(fabs(expected[c] - normal[c]) < 2e-6);
 }
 
-static void test_positions_and_normals(void **state) {
+TEST(test_positions_and_normals) {
     ewa_context *context = check_context(2, NULL);
     for (int object = 0; object < EWA_OBJECT_TERRAIN; object++) {
         ewa_generate_options options = check_generate_options((ewa_object)object, 10000);
@@ -113,7 +113,7 @@ static void test_positions_and_normals(void **state) {
     ewa_context_destroy(&context);
 }
 
-static void test_terrain_normals_are_its_derivatives(void **state) {
+TEST(test_terrain_normals_are_its_derivatives) {
     ewa_terrain terrain;
     ewa_terrain_init(&terrain, 3, 100000);
     check_random random = {5};
@@ -130,7 +130,7 @@ static void test_terrain_normals_are_its_derivatives(void **state) {
     }
 }
 
-static void test_terrain_has_land_water_and_upward_unit_normals(void **state) {
+TEST(test_terrain_has_land_water_and_upward_unit_normals) {
     ewa_context *context = check_context(2, NULL);
     for (uint64_t seed = 0; seed < 5; seed++) {
         ewa_generate_options options = check_generate_options(EWA_OBJECT_TERRAIN, 50000);
@@ -189,7 +189,7 @@ static void random_place(ewa_object object, const ewa_terrain *terrain, check_ra
     }
 }
 
-static void test_discs_cover_every_place(void **state) {
+TEST(test_discs_cover_every_place) {
     ewa_context *context = check_context(2, NULL);
     for (int object = 0; object < OBJECT_COUNT; object++) {
         for (int jittered = 0; jittered < 2; jittered++) {
@@ -229,7 +229,7 @@ static int area_bin(ewa_object object, const float *p) {
     return 8 * (j > 7 ? 7 : j) + (i > 7 ? 7 : i);
 }
 
-static void test_density_is_even(void **state) {
+TEST(test_density_is_even) {
     static const ewa_object objects[] = {EWA_OBJECT_PLANE, EWA_OBJECT_SPHERE, EWA_OBJECT_TORUS,
                                          EWA_OBJECT_TERRAIN};
     ewa_context *context = check_context(2, NULL);
@@ -252,7 +252,7 @@ static void test_density_is_even(void **state) {
     ewa_context_destroy(&context);
 }
 
-static void test_regular_grid(void **state) {
+TEST(test_regular_grid) {
     ewa_context *context = check_context(1, NULL);
     ewa_generate_options options = check_generate_options(EWA_OBJECT_PLANE, 16);
     options.jitter = 0;
@@ -268,7 +268,7 @@ static void test_regular_grid(void **state) {
     ewa_context_destroy(&context);
 }
 
-static void test_checks(void **state) {
+TEST(test_checks) {
     ewa_context *context = check_context(1, NULL);
     ewa_generate_options options = check_generate_options(EWA_OBJECT_CHECKER, 10000);
     options.checks = 5;
@@ -285,7 +285,7 @@ static void test_checks(void **state) {
     ewa_context_destroy(&context);
 }
 
-static void test_same_bytes_for_every_thread_count(void **state) {
+TEST(test_same_bytes_for_every_thread_count) {
     static const uint32_t threads[] = {1, 2, 7, 32};
     for (int object = 0; object < OBJECT_COUNT; object++) {
         uint64_t first = 0;
@@ -310,7 +310,7 @@ static void test_same_bytes_for_every_thread_count(void **state) {
 
 /// The bytes are a promise to everybody who names an object, a count and a seed: a change here needs a
 /// changelog line.
-static void test_bytes_are_known(void **state) {
+TEST(test_bytes_are_known) {
     static const uint64_t known[OBJECT_COUNT] = {0x4b5329827d8f3eda, 0x3fc871025e145fa5, 0xd45a56f3a3a49a4a,
                                                  0xc38fbb3e780e9457, 0xbe57c01769ed62b2, 0xf927b2c3daffc417};
     int wrong = 0;
@@ -338,7 +338,7 @@ static void check_refused(ewa_context *context, const check_log *log, const ewa_
     assert_non_null(strstr(log->text, member));
 }
 
-static void test_bad_options(void **state) {
+TEST(test_bad_options) {
     check_log log = {0};
     ewa_context *context = check_context(1, &log);
     const ewa_generate_options good = check_generate_options(EWA_OBJECT_CHECKER, 10);
@@ -373,7 +373,7 @@ static void test_bad_options(void **state) {
     ewa_context_destroy(&context);
 }
 
-static void test_extreme_sizes_stay_finite(void **state) {
+TEST(test_extreme_sizes_stay_finite) {
     ewa_context *context = check_context(1, NULL);
     static const double sizes[] = {1e-25, 1e25}, scales[] = {1e-6, 1e6};
     for (int object = 0; object < OBJECT_COUNT; object++) {
@@ -390,7 +390,7 @@ static void test_extreme_sizes_stay_finite(void **state) {
     ewa_context_destroy(&context);
 }
 
-static void test_every_failing_allocation(void **state) {
+TEST(test_every_failing_allocation) {
     const ewa_generate_options options = check_generate_options(EWA_OBJECT_TORUS, 1000);
     check_generate_without_memory(&options);
 }
@@ -401,7 +401,7 @@ static bool cancel(void *user, const char *stage, double fraction) {
     return fraction < 0.4;
 }
 
-static void test_progress_cancels(void **state) {
+TEST(test_progress_cancels) {
     ewa_context_options context_options;
     ewa_context_options_init(&context_options, sizeof context_options);
     context_options.progress = cancel;
@@ -414,7 +414,7 @@ static void test_progress_cancels(void **state) {
     ewa_context_destroy(&context);
 }
 
-static void test_sharp_objects(void **state) {
+TEST(test_sharp_objects) {
     check_log log = {.count = 0};
     ewa_context *context = check_context(0, &log);
     for (int object = 0; object <= EWA_OBJECT_CSG; object++) {
@@ -459,7 +459,7 @@ static void test_sharp_objects(void **state) {
 
 /// The part measures what docs/sharp.md says: its box, the floors of slot and notch, and its holes, whose
 /// axes are a radius in front of every place of their walls.
-static void test_part_measures(void **state) {
+TEST(test_part_measures) {
     enum { WALLS = 2 };
     static const struct {
         int axis;
@@ -501,25 +501,4 @@ static void test_part_measures(void **state) {
     ewa_context_destroy(&context);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_sine_and_cosine),
-        cmocka_unit_test(test_sharp_objects),
-        cmocka_unit_test(test_part_measures),
-        cmocka_unit_test(test_counts_and_attributes),
-        cmocka_unit_test(test_positions_and_normals),
-        cmocka_unit_test(test_terrain_normals_are_its_derivatives),
-        cmocka_unit_test(test_terrain_has_land_water_and_upward_unit_normals),
-        cmocka_unit_test(test_discs_cover_every_place),
-        cmocka_unit_test(test_density_is_even),
-        cmocka_unit_test(test_regular_grid),
-        cmocka_unit_test(test_checks),
-        cmocka_unit_test(test_same_bytes_for_every_thread_count),
-        cmocka_unit_test(test_bytes_are_known),
-        cmocka_unit_test(test_bad_options),
-        cmocka_unit_test(test_extreme_sizes_stay_finite),
-        cmocka_unit_test(test_every_failing_allocation),
-        cmocka_unit_test(test_progress_cancels),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -25,7 +25,7 @@ static void index_to_world(const ewa_volume *volume, const double index[3], doub
 
 /// Sums along each column of z are the documented line integrals: for these smooth functions the trapezoidal
 /// rule is exact to many digits.
-static void test_line_integrals(void **state) {
+TEST(test_line_integrals) {
     ewa_context *context = check_context(0, NULL);
     for (int kind = 0; kind < 2; kind++) {
         ewa_volume volume;
@@ -50,7 +50,7 @@ static void test_line_integrals(void **state) {
     ewa_context_destroy(&context);
 }
 
-static void test_checkerbox(void **state) {
+TEST(test_checkerbox) {
     ewa_context *context = check_context(0, NULL);
     ewa_volume volume;
     make(context, EWA_VOLUME_CHECKERBOX, 129, 129, 129, &volume);
@@ -77,7 +77,7 @@ static uint64_t hash(const ewa_volume *volume) {
     return sum;
 }
 
-static void test_same_bytes(void **state) {
+TEST(test_same_bytes) {
     uint64_t sums[4][2];
     for (uint32_t threads = 1; threads <= 2; threads++) {
         ewa_context *context = check_context(3 * threads - 2, NULL);
@@ -93,7 +93,7 @@ static void test_same_bytes(void **state) {
 }
 
 /// The tree is thin, inside, of the documented brightness, and another one for another seed.
-static void test_vessels(void **state) {
+TEST(test_vessels) {
     ewa_context *context = check_context(0, NULL);
     ewa_volume_generate_options options;
     ewa_volume_generate_options_init(&options, sizeof options);
@@ -130,7 +130,7 @@ static ewa_bounds outline_box(const ewa_volume *volume, const ewa_transfer *tran
     return bounds;
 }
 
-static void test_outline(void **state) {
+TEST(test_outline) {
     ewa_context *context = check_context(1, NULL);
     ewa_volume volume;
     assert_int_equal(ewa_volume_create(context, (const uint32_t[3]){20, 20, 20}, EWA_U8, &volume), EWA_OK);
@@ -172,7 +172,7 @@ static void test_outline(void **state) {
     ewa_context_destroy(&context);
 }
 
-static void test_bad_options(void **state) {
+TEST(test_bad_options) {
     ewa_context *context = check_context(1, NULL);
     ewa_volume volume;
     for (int i = 0; i < 7; i++) {
@@ -214,19 +214,11 @@ static ewa_status generate_and_outline(ewa_context *context, void *user) {
     return status;
 }
 
-static void test_failing_allocations(void **state) {
+TEST(test_failing_allocations) {
     for (int object = 0; object < 4; object++) {
         ewa_volume_object chosen = (ewa_volume_object)object;
         scratch_fail_each(generate_and_outline, &chosen);
     }
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_line_integrals),      cmocka_unit_test(test_checkerbox),
-        cmocka_unit_test(test_same_bytes),          cmocka_unit_test(test_vessels),
-        cmocka_unit_test(test_bad_options),         cmocka_unit_test(test_outline),
-        cmocka_unit_test(test_failing_allocations),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -439,7 +439,7 @@ static void hold_distances(const local_kernels *kernels, const ewa_block *block)
     }
 }
 
-static void test_tables(void **state) {
+TEST(test_tables) {
     static const uint32_t masks[] = {0, EWA_CPU_AVX2, EWA_CPU_ALL};
     static ewa_block block;
     for (int k = 0; k < 3; k++) {
@@ -461,7 +461,4 @@ static void test_tables(void **state) {
     }
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_tables)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -59,7 +59,7 @@ static pages_seen look_at_book(ewa_context *context, uint32_t pages, double spac
 
 /// However many pages meet in one edge, each is sampled and cut as if it were alone; and the work is that of
 /// the pages, not of all pairs of them, or this would take very long.
-static void test_book(void **state) {
+TEST(test_book) {
     enum { PAGES = 5000, ALONE = 200 };
     const double spacing = 0.3;
     ewa_context *context = check_context(1, NULL);
@@ -129,7 +129,7 @@ static ewa_status sample_square(progress_log *log, uint64_t point_count, ewa_clo
 
 /// Sampling asks all along whether to go on, also while many points get their colours and lines; it ends at
 /// whichever no.
-static void test_progress(void **state) {
+TEST(test_progress) {
     ewa_cloud *cloud;
     progress_log many = {.stop_at = -1}, all = {.stop_at = -1};
     assert_int_equal(sample_square(&many, 700000, &cloud), EWA_OK);
@@ -144,10 +144,4 @@ static void test_progress(void **state) {
     }
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_book),
-        cmocka_unit_test(test_progress),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

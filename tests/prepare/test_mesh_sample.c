@@ -27,7 +27,7 @@ static int face_of(const float *normal) {
 
 /// All on the faces, as many on each, within the count, no two of a face too near, bytes the same for any
 /// number of threads.
-static void test_cube_points(void **state) {
+TEST(test_cube_points) {
     ewa_context *context = check_context(1, NULL), *many = check_context(5, NULL);
     ewa_mesh mesh;
     shape_cube(context, &mesh);
@@ -154,13 +154,13 @@ static void hold_outline(void (*make)(ewa_context *, ewa_mesh *), outline *insid
     ewa_context_destroy(&context);
 }
 
-static void test_cube_lines(void **state) { hold_outline(shape_cube, cube_outline); }
+TEST(test_cube_lines) { hold_outline(shape_cube, cube_outline); }
 
 /// Its ends have a concave corner, where one of two lines is enough.
-static void test_angle_lines(void **state) { hold_outline(shape_angle, angle_outline); }
+TEST(test_angle_lines) { hold_outline(shape_angle, angle_outline); }
 
 /// No sharp edges: radii, smooth normals, no lines; an opened one has lines along its border only.
-static void test_sphere(void **state) {
+TEST(test_sphere) {
     ewa_context *context = check_context(0, NULL);
     ewa_mesh mesh;
     shape_sphere(context, 32, &mesh);
@@ -199,7 +199,7 @@ static void test_sphere(void **state) {
     ewa_context_destroy(&context);
 }
 
-static void test_colors(void **state) {
+TEST(test_colors) {
     static const double positions[12] = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0};
     static const float texcoords[8] = {0, 0, 1, 0, 1, 1, 0, 1};
     static const uint32_t triangles[6] = {0, 1, 2, 0, 2, 3};
@@ -244,7 +244,7 @@ static void test_colors(void **state) {
 }
 
 /// A picture in place of materials and vertex colours; its coordinates stay when asked for.
-static void test_picture(void **state) {
+TEST(test_picture) {
     static const double positions[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
     static const float texcoords[6] = {0, 0, 1, 0, 0, 1};
     ewa_context *context = check_context(0, NULL);
@@ -296,7 +296,7 @@ static void refuse(const ewa_mesh *mesh, const ewa_mesh_sample_options *options,
     if (!strstr(log->text, text)) fail_msg("'%s' is not in '%s'", text, log->text);
 }
 
-static void test_bad_meshes(void **state) {
+TEST(test_bad_meshes) {
     check_log log = {0};
     ewa_context *context = check_context(0, &log);
     ewa_mesh mesh;
@@ -336,7 +336,7 @@ static void test_bad_meshes(void **state) {
 }
 
 /// Random triangles through each other, with huge, tiny and doubled ones: finite surfels on their planes.
-static void test_soup(void **state) {
+TEST(test_soup) {
     ewa_context *context = check_context(0, NULL);
     for (uint64_t seed = 1; seed < 20; seed++) {
         check_random random = {seed};
@@ -375,7 +375,7 @@ static void same_points(const ewa_cloud *a, const ewa_cloud *b) {
 
 /// A mesh far from the origin is sampled as the same mesh at it, bit for bit, where the shift is exact; the
 /// origin of the cloud says where it is.
-static void test_map_coordinates(void **state) {
+TEST(test_map_coordinates) {
     static const double shifts[][3] = {{500000, 4200000, 0}, {-6378137, 6378137.5, 1e6}, {1e9, -1e9, 1e9}};
     ewa_context *context = check_context(0, NULL);
     for (int shape = 0; shape < 3; shape++) {
@@ -408,7 +408,7 @@ static void test_map_coordinates(void **state) {
 }
 
 /// Two small cubes far apart: places are doubles, and lie on their faces to a billionth of the distance.
-static void test_far_parts(void **state) {
+TEST(test_far_parts) {
     ewa_context *context = check_context(0, NULL);
     ewa_mesh cube, mesh;
     shape_cube(context, &cube);
@@ -441,7 +441,7 @@ static void test_far_parts(void **state) {
 }
 
 /// Triangles that are there twice count once; those of another side stay.
-static void test_copies(void **state) {
+TEST(test_copies) {
     ewa_context *context = check_context(0, NULL);
     ewa_mesh cube, mesh;
     shape_cube(context, &cube);
@@ -483,7 +483,7 @@ static void test_copies(void **state) {
 }
 
 /// Normals of the mesh are used where they are within the crease angle of the triangle, and only there.
-static void test_given_normals(void **state) {
+TEST(test_given_normals) {
     static const double positions[12] = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0};
     static const uint32_t triangles[6] = {0, 1, 2, 0, 2, 3};
     ewa_context *context = check_context(0, NULL);
@@ -540,10 +540,10 @@ static ewa_status sample_all(ewa_context *context, void *user) {
     return status;
 }
 
-static void test_failing_allocations(void **state) { scratch_fail_each(sample_all, NULL); }
+TEST(test_failing_allocations) { scratch_fail_each(sample_all, NULL); }
 
 /// A needle of 1e20 by 1e32: its rows, not its area, say how far points are from each other.
-static void test_needle(void **state) {
+TEST(test_needle) {
     ewa_context *context = NULL;
     assert_int_equal(ewa_context_create(NULL, &context), EWA_OK);
     static const double places[9] = {0, 0, 0, 1e20, 0, 0, 0, 1e32, 0};
@@ -599,7 +599,7 @@ static int64_t peak_of(int material_count) {
 }
 
 /// A picture that many materials have is held once, with its smaller copies.
-static void test_shared_picture(void **state) {
+TEST(test_shared_picture) {
     enum { SIDE = 512 };
     static uint8_t pixels[SIDE * SIDE * 3];
     char path[512];
@@ -618,7 +618,7 @@ static int by_value(const void *a, const void *b) {
 }
 
 /// A strip that is thinner than samples are exact, 2^-32 of its length, has its points all along it.
-static void test_thin_strip(void **state) {
+TEST(test_thin_strip) {
     (void)state;
     static const double lengths[] = {1e6, 1e33}, widths[] = {1e-9, 1};
     for (int i = 0; i < 2; i++) {
@@ -648,16 +648,4 @@ static void test_thin_strip(void **state) {
     }
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_needle),        cmocka_unit_test(test_cube_points),
-        cmocka_unit_test(test_cube_lines),    cmocka_unit_test(test_angle_lines),
-        cmocka_unit_test(test_sphere),        cmocka_unit_test(test_colors),
-        cmocka_unit_test(test_picture),       cmocka_unit_test(test_bad_meshes),
-        cmocka_unit_test(test_soup),          cmocka_unit_test(test_map_coordinates),
-        cmocka_unit_test(test_far_parts),     cmocka_unit_test(test_copies),
-        cmocka_unit_test(test_given_normals), cmocka_unit_test(test_failing_allocations),
-        cmocka_unit_test(test_shared_picture), cmocka_unit_test(test_thin_strip),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -43,7 +43,7 @@ static double lean_of(ewa_context *context, const double angle_deg[2], const dou
 
 /// A vertex faces more as that triangle does which has the larger angle there, whatever their areas; between
 /// equal angles it faces half way.
-static void test_normal_of_vertex(void **state) {
+TEST(test_normal_of_vertex) {
     static const double even[2] = {1, 1}, uneven[2] = {0.2, 7};
     ewa_context *context = check_context(1, NULL);
     for (double first = 20; first < 170; first += 20) {
@@ -89,7 +89,7 @@ static void check_line(const double line[3], const double turn[2], int side, con
 }
 
 /// A disc on a plate is cut by the two of its sides that are nearest, in whatever way its axes are turned.
-static void test_nearest_sides(void **state) {
+TEST(test_nearest_sides) {
     enum { DISCS = 4000 };
     static const uint32_t triangles[9] = {0, 1, 2, 0, 2, 3, 0, 3, 4};
     const double tilt[2] = {0.8, 0.6}; // of the plate about x
@@ -161,10 +161,4 @@ static void test_nearest_sides(void **state) {
     ewa_context_destroy(&context);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_normal_of_vertex),
-        cmocka_unit_test(test_nearest_sides),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

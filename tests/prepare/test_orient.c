@@ -90,7 +90,7 @@ static void make_point(object kind, uint32_t i, check_random *random, double p[3
     }
 }
 
-static void test_propagation(void **state) {
+TEST(test_propagation) {
     ewa_context *context = check_context(2, NULL);
     for (int run = 0; run < 3 * OBJECTS; run++) {
         const int kind = run % OBJECTS;
@@ -121,7 +121,7 @@ static void test_propagation(void **state) {
     ewa_context_destroy(&context);
 }
 
-static void test_viewpoint_and_none(void **state) {
+TEST(test_viewpoint_and_none) {
     ewa_context *context = check_context(2, NULL);
     for (int none = 0; none < 2; none++) {
         float *xyz = NULL;
@@ -191,7 +191,7 @@ static uint32_t count_turned(ewa_cloud **cloud, const double (*seen_from)[3], co
 }
 
 /// Scanners decide before returns do, and returns before the shape does.
-static void test_what_the_cloud_knows(void **state) {
+TEST(test_what_the_cloud_knows) {
     static const char *const notes[] = {"1003 0 0\n997 0 0\n", "1003 0 0", NULL, "1003 0", "here"};
     static const double seen_from[2][3] = {{3, 0, 0}, {-3, 0, 0}};
     ewa_context *context = check_context(2, NULL);
@@ -215,7 +215,7 @@ static void test_what_the_cloud_knows(void **state) {
 
 /// The limit by its definition: over the mean of all mean distances to 16 neighbours plus so many of their
 /// deviations.
-static void test_outlier_limit(void **state) {
+TEST(test_outlier_limit) {
     enum { OUTLIER_POINTS = 1200, K = 16 };
     static const double factors[] = {0.3, 1, 2.5};
     static double distance[OUTLIER_POINTS];
@@ -264,7 +264,7 @@ static void test_outlier_limit(void **state) {
     ewa_context_destroy(&context);
 }
 
-static void test_outliers(void **state) {
+TEST(test_outliers) {
     ewa_context *context = check_context(2, NULL);
     float *xyz = NULL;
     uint16_t *label = NULL;
@@ -319,13 +319,4 @@ static void test_outliers(void **state) {
     ewa_context_destroy(&context);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_propagation),
-        cmocka_unit_test(test_viewpoint_and_none),
-        cmocka_unit_test(test_what_the_cloud_knows),
-        cmocka_unit_test(test_outlier_limit),
-        cmocka_unit_test(test_outliers),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -47,7 +47,7 @@ static double checker_value(ewa_vec3 p, const void *user) {
 }
 
 /// Round and elongated footprints of all sizes, across and along the axes too.
-static void test_checker_means(void **state) {
+TEST(test_checker_means) {
     check_random random = {31};
     const double sizes[][2] = {{0.02, 0.02}, {0.2, 0.2},  {0.4, 0.4}, {0.7, 0.7}, {0.79, 3},
                                {0.2, 0.8},   {0.85, 0.9}, {1.2, 1.2}, {2, 2},     {0.9, 3}};
@@ -87,7 +87,7 @@ static pattern make_pattern(ewa_procedure procedure, double frequency) {
 
 /// Noise is exact where it is not clamped to [0, 1]; bands bent by noise are near, root mean square over
 /// places, at every size.
-static void test_wave_means(void **state) {
+TEST(test_wave_means) {
     const struct {
         ewa_procedure procedure;
         double rms;
@@ -112,7 +112,7 @@ static void test_wave_means(void **state) {
 }
 
 /// Whatever the frequency, what is too fine becomes the mean of the texture, everywhere.
-static void test_high_frequency(void **state) {
+TEST(test_high_frequency) {
     for (int procedure = EWA_PROCEDURE_CHECKER; procedure <= EWA_PROCEDURE_NOISE; procedure++) {
         check_random random = {41};
         const pattern texture = make_pattern((ewa_procedure)procedure, 1);
@@ -144,7 +144,7 @@ static ewa_cloud *sphere(ewa_context *context, uint64_t count) {
 }
 
 /// The same bytes for any number of threads; a disc and its axes give the same colours; the seed matters.
-static void test_clouds(void **state) {
+TEST(test_clouds) {
     ewa_context *one = check_context(1, NULL), *many = check_context(7, NULL);
     for (int procedure = EWA_PROCEDURE_CHECKER; procedure <= EWA_PROCEDURE_NOISE; procedure++) {
         ewa_procedure_options options;
@@ -189,7 +189,7 @@ static void test_clouds(void **state) {
 
 /// Without a filter points have the texture's own two colours; alpha stays; the origin counts; what is no
 /// number is the mean.
-static void test_values(void **state) {
+TEST(test_values) {
     ewa_context *context = check_context(0, NULL);
     float *xyz;
     ewa_cloud *cloud = check_cloud(context, 3, &xyz);
@@ -217,7 +217,7 @@ static void test_values(void **state) {
     ewa_context_destroy(&context);
 }
 
-static void test_arguments(void **state) {
+TEST(test_arguments) {
     check_log log = {0};
     ewa_context *context = check_context(1, &log);
     ewa_cloud *cloud = sphere(context, 10);
@@ -270,7 +270,7 @@ static ewa_status color_points(ewa_context *context, void *user) {
 }
 
 /// The default colours are those of the table in docs/colors.md.
-static void test_default_colors(void **state) {
+TEST(test_default_colors) {
     static const char *const names[] = {"checker", "marble", "wood", "noise"};
     char path[512], line[512], name[32];
     snprintf(path, sizeof path, "%s/docs/colors.md", getenv("EWA_SOURCE_DIR"));
@@ -293,19 +293,11 @@ static void test_default_colors(void **state) {
     assert_int_equal(found, 4);
 }
 
-static void test_cancel_and_memory(void **state) {
+TEST(test_cancel_and_memory) {
     uint64_t count = 100;
     scratch_fail_each(color_points, &count);
     count = 600000;
     assert_int_equal(check_cancel_each("procedure", color_points, &count), 4);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_checker_means),  cmocka_unit_test(test_wave_means),
-        cmocka_unit_test(test_high_frequency), cmocka_unit_test(test_clouds),
-        cmocka_unit_test(test_values),         cmocka_unit_test(test_default_colors),
-        cmocka_unit_test(test_arguments),      cmocka_unit_test(test_cancel_and_memory),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

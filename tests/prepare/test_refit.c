@@ -53,7 +53,7 @@ static double blend_at(const ewa_cloud *cloud, uint64_t i, uint64_t c) {
 }
 
 /// Interpolation gives the points their colours, a fit comes nearer; the report says by how much.
-static void test_reconstruction(void **state) {
+TEST(test_reconstruction) {
     ewa_context *context = check_context(0, NULL);
     for (int goal = EWA_REFIT_INTERPOLATE; goal <= EWA_REFIT_FIT; goal++) {
         ewa_cloud *cloud = generate(context, EWA_OBJECT_PLANE, 900, false);
@@ -85,7 +85,7 @@ static void test_reconstruction(void **state) {
 
 /// Colours that do not change over the surface stay what they are, and alpha always does; one face of a sharp
 /// cube does not see the next one.
-static void test_constant(void **state) {
+TEST(test_constant) {
     ewa_context *context = check_context(0, NULL);
     for (int sharp = 0; sharp < 2; sharp++) {
         ewa_cloud *cloud = generate(context, EWA_OBJECT_CUBE, 3000, sharp);
@@ -120,7 +120,7 @@ static void test_constant(void **state) {
 }
 
 /// The same bytes for any number of threads.
-static void test_threads(void **state) {
+TEST(test_threads) {
     float *first = NULL;
     const uint32_t threads[] = {1, 2, 7};
     for (int t = 0; t < 3; t++) {
@@ -143,7 +143,7 @@ static void test_threads(void **state) {
 
 /// Points at one place with different colours, places covered by hundreds of kernels, points that are no
 /// surfels, colours that are no numbers: everything stays finite and bounded.
-static void test_bad_points(void **state) {
+TEST(test_bad_points) {
     ewa_context *context = check_context(0, NULL);
     ewa_cloud *cloud = generate(context, EWA_OBJECT_PLANE, 2000, false);
     float *position = (float *)ewa_cloud_find(cloud, EWA_POSITION)->data,
@@ -167,7 +167,7 @@ static void test_bad_points(void **state) {
 }
 
 /// What is missing or out of range is named, and the cloud stays as it was.
-static void test_arguments(void **state) {
+TEST(test_arguments) {
     check_log log = {0};
     ewa_context *context = check_context(1, &log);
     ewa_cloud *cloud = generate(context, EWA_OBJECT_PLANE, 100, false);
@@ -218,7 +218,7 @@ static ewa_status refit_plane(ewa_context *context, void *user) {
     return status;
 }
 
-static void test_cancel_and_memory(void **state) {
+TEST(test_cancel_and_memory) {
     scratch_fail_each(refit_plane, NULL);
     assert_true(check_cancel_each("refit", refit_plane, NULL) > 5);
 }
@@ -241,7 +241,7 @@ static bool note_progress(void *user, const char *stage, double fraction) {
 
 /// The steps end at a share of the first gradient that is known beforehand, and each takes off about as much,
 /// so that the report of progress gets there evenly.
-static void test_progress(void **state) {
+TEST(test_progress) {
     solver_progress progress = {0};
     ewa_context_options options;
     ewa_context_options_init(&options, sizeof options);
@@ -264,7 +264,7 @@ static void test_progress(void **state) {
 
 /// Pictures of a magnified texture come nearer to it: by over a decibel for exact colours, by some for noisy
 /// ones that are fitted.
-static void test_pictures(void **state) {
+TEST(test_pictures) {
     ewa_context *context = check_context(0, NULL);
     const refit_setting clean = {EWA_PROCEDURE_NOISE, 4, 10000, 0.5, 1.6, 0},
                         noisy = {EWA_PROCEDURE_NOISE, 4, 10000, 1, 1.6, 0.02};
@@ -278,7 +278,7 @@ static void test_pictures(void **state) {
 }
 
 /// Coefficients of any sign are drawn as the reference draws them.
-static void test_drawn(void **state) {
+TEST(test_drawn) {
     enum { SIDE = 48 };
     ewa_context *context = check_context(0, NULL);
     ewa_cloud *cloud = generate(context, EWA_OBJECT_PLANE, 400, false);
@@ -315,7 +315,7 @@ static void test_drawn(void **state) {
 }
 
 /// Coefficients of any sign survive a file.
-static void test_file(void **state) {
+TEST(test_file) {
     ewa_context *context = check_context(0, NULL);
     ewa_cloud *cloud = generate(context, EWA_OBJECT_PLANE, 500, false), *back = NULL;
     random_colors(cloud, 3);
@@ -332,13 +332,4 @@ static void test_file(void **state) {
     ewa_context_destroy(&context);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_reconstruction), cmocka_unit_test(test_constant),
-        cmocka_unit_test(test_threads),        cmocka_unit_test(test_bad_points),
-        cmocka_unit_test(test_arguments),      cmocka_unit_test(test_cancel_and_memory),
-        cmocka_unit_test(test_pictures),       cmocka_unit_test(test_drawn),
-        cmocka_unit_test(test_file),           cmocka_unit_test(test_progress),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

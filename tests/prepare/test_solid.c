@@ -35,7 +35,7 @@ static ewa_cloud *make_roof(ewa_context *context, double half_angle) {
 
 /// What there is to see from a place above the ridge: one bent surface up to 37 degrees, from there on two
 /// planes, each with its own normal and distance.
-static void test_roofs(void **state) {
+TEST(test_roofs) {
     static const double origin[3] = {0, 0, 0};
     static const double degrees[] = {10, 30, 45, 55, 80, 120};
     ewa_context *context = check_context(1, NULL);
@@ -68,7 +68,4 @@ static void test_roofs(void **state) {
     ewa_context_destroy(&context);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_roofs)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

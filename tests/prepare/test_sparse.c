@@ -8,7 +8,7 @@
 
 /// Both methods find the known solution, for one to seven right sides, in the same bytes for any number of
 /// threads.
-static void test_known_solution(void **state) {
+TEST(test_known_solution) {
     ewa_context *contexts[3] = {check_context(1, NULL), check_context(2, NULL), check_context(7, NULL)};
     owned matrix = make_gram(90, 0.5);
     for (uint32_t side_count = 1; side_count <= 7; side_count += 2) {
@@ -45,7 +45,7 @@ static void test_known_solution(void **state) {
 }
 
 /// A dense little system by hand, one row, no rows, no sides, sides of zeros.
-static void test_small(void **state) {
+TEST(test_small) {
     ewa_context *context = check_context(2, NULL);
     for (int method = EWA_SPARSE_AUTO; method <= EWA_SPARSE_GRADIENT; method++) {
         const ewa_sparse_options options = {.method = (ewa_sparse_method)method};
@@ -73,7 +73,7 @@ static void test_small(void **state) {
 }
 
 /// Each bad system gives its status and a message, by either method.
-static void test_unsolvable(void **state) {
+TEST(test_unsolvable) {
     check_log log = {0};
     ewa_context *context = check_context(1, &log);
     const struct {
@@ -106,7 +106,7 @@ static void test_unsolvable(void **state) {
 }
 
 /// Too few steps are an error that says so; a factor over the limit is one, or, by AUTO, the gradient.
-static void test_limits(void **state) {
+TEST(test_limits) {
     check_log log = {0};
     ewa_context *context = check_context(1, &log);
     owned matrix = make_gram(30, 0.5);
@@ -135,7 +135,7 @@ static void test_limits(void **state) {
 }
 
 /// AUTO takes the gradient for many rows, and a factor where that needs more than 500 steps.
-static void test_choice(void **state) {
+TEST(test_choice) {
     ewa_context *context = check_context(0, NULL);
     const struct {
         double sigma;
@@ -176,7 +176,7 @@ static ewa_status solve_system(ewa_context *context, void *user) {
 }
 
 /// Progress grows to 1; it may cancel at any call; each allocation may fail; nothing leaks.
-static void test_cancel_and_memory(void **state) {
+TEST(test_cancel_and_memory) {
     owned matrix = make_gram(20, 0.5);
     double *truth, *sides = make_sides(&matrix.view, 2, &truth);
     double *solution = malloc(2 * matrix.view.size * sizeof(double));
@@ -192,11 +192,4 @@ static void test_cancel_and_memory(void **state) {
     owned_free(&matrix);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_known_solution), cmocka_unit_test(test_small),
-        cmocka_unit_test(test_unsolvable),     cmocka_unit_test(test_limits),
-        cmocka_unit_test(test_choice),         cmocka_unit_test(test_cancel_and_memory),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -17,7 +17,7 @@ static ewa_generate_options town_options(uint64_t point_count) {
     return check_generate_options(EWA_OBJECT_TOWN, point_count);
 }
 
-static void test_counts_and_unit_normals(void **state) {
+TEST(test_counts_and_unit_normals) {
     static const uint64_t counts[] = {0, 1, 2, 3, 64, 1000, 54321};
     ewa_context *context = check_context(2, NULL);
     for (size_t c = 0; c < sizeof counts / sizeof counts[0]; c++) {
@@ -42,7 +42,7 @@ static void test_counts_and_unit_normals(void **state) {
     ewa_context_destroy(&context);
 }
 
-static void test_there_are_160_boxes_and_1400_trees(void **state) {
+TEST(test_there_are_160_boxes_and_1400_trees) {
     ewa_town_patch *patches = calloc(EWA_TOWN_PATCHES, sizeof *patches);
     const double area = ewa_town_make(1, patches);
     uint32_t counts[EWA_TOWN_SCATTER + 1] = {0};
@@ -71,7 +71,7 @@ static bool is_on(const ewa_town_patch *patch, const double p[3], const float *n
 }
 
 /// Points of walls, roofs and ground lie on them, one of each patch after another, as many as their areas say.
-static void test_points_lie_on_their_patches(void **state) {
+TEST(test_points_lie_on_their_patches) {
     ewa_context *context = check_context(2, NULL);
     ewa_town_patch *patches = calloc(EWA_TOWN_PATCHES, sizeof *patches);
     const ewa_generate_options options = town_options(POINTS);
@@ -101,7 +101,7 @@ static void test_points_lie_on_their_patches(void **state) {
 }
 
 /// The boxes stand apart, so that no wall lies in another box.
-static void test_boxes_stand_apart(void **state) {
+TEST(test_boxes_stand_apart) {
     for (uint64_t seed = 0; seed < 5; seed++) {
         ewa_town_patch *patches = calloc(EWA_TOWN_PATCHES, sizeof *patches);
         ewa_town_make(seed, patches);
@@ -122,7 +122,7 @@ static void test_boxes_stand_apart(void **state) {
 }
 
 /// Every place of the walls, roofs and the ground is within the disc of some point of them.
-static void test_discs_close_the_walls(void **state) {
+TEST(test_discs_close_the_walls) {
     enum { PROBES = 300 };
     ewa_context *context = check_context(2, NULL);
     ewa_town_patch *patches = calloc(EWA_TOWN_PATCHES, sizeof *patches);
@@ -153,7 +153,7 @@ static void test_discs_close_the_walls(void **state) {
 }
 
 /// Bytes are a promise, as those of other objects (test generate).
-static void test_bytes_are_known_for_every_thread_count(void **state) {
+TEST(test_bytes_are_known_for_every_thread_count) {
     static const uint32_t threads[] = {1, 2, 7, 32};
     static const uint64_t known = 0x2a9e5caed89e7b5eu;
     for (size_t t = 0; t < sizeof threads / sizeof threads[0]; t++) {
@@ -174,7 +174,7 @@ static void test_bytes_are_known_for_every_thread_count(void **state) {
     }
 }
 
-static void test_positions_alone_and_a_picture_upon_it(void **state) {
+TEST(test_positions_alone_and_a_picture_upon_it) {
     check_log log = {.count = 0};
     ewa_context *context = check_context(0, &log);
     ewa_generate_options options = town_options(1000);
@@ -195,21 +195,9 @@ static void test_positions_alone_and_a_picture_upon_it(void **state) {
     ewa_context_destroy(&context);
 }
 
-static void test_every_failing_allocation(void **state) {
+TEST(test_every_failing_allocation) {
     const ewa_generate_options options = town_options(1000);
     check_generate_without_memory(&options);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_counts_and_unit_normals),
-        cmocka_unit_test(test_there_are_160_boxes_and_1400_trees),
-        cmocka_unit_test(test_points_lie_on_their_patches),
-        cmocka_unit_test(test_boxes_stand_apart),
-        cmocka_unit_test(test_discs_close_the_walls),
-        cmocka_unit_test(test_bytes_are_known_for_every_thread_count),
-        cmocka_unit_test(test_positions_alone_and_a_picture_upon_it),
-        cmocka_unit_test(test_every_failing_allocation),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -36,7 +36,7 @@ static void measure(acquire_scene *scene, ewa_texture_filter filter, double rms[
     ewa_cloud_destroy(&cloud);
 }
 
-static void test_figure_6(void **state) {
+TEST(test_figure_6) {
     ewa_context *context = check_context(0, NULL);
     acquire_scene scene = {.context = context, .radius_scale = 1.14, .jitter = 0.5, .pixel_sigma_px = 1};
     double filtered[VIEWS], optimal[VIEWS];
@@ -52,7 +52,7 @@ static void test_figure_6(void **state) {
 }
 
 /// A quad with a checkerboard, whose ray-cast picture is known in its middle.
-static void test_ray_caster(void **state) {
+TEST(test_ray_caster) {
     static const double positions[12] = {-1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0};
     static const float texcoords[8] = {0, 0, 1, 0, 1, 1, 0, 1};
     static const uint32_t triangles[6] = {0, 1, 2, 0, 2, 3};
@@ -90,10 +90,4 @@ static void test_ray_caster(void **state) {
     ewa_context_destroy(&context);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_figure_6),
-        cmocka_unit_test(test_ray_caster),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -36,7 +36,7 @@ static void measure(const fixture *board, const checker_setting *setting, checke
                   errors->gauss_percent[1], errors->gauss_percent[2]);
 }
 
-static void test_truth_is_the_board(void **state) {
+TEST(test_truth_is_the_board) {
     const checker_truth *truth = &((const fixture *)*state)->truth;
     int rows[CHECKER_BANDS] = {0};
     for (int y = 0; y < CHECKER_SIDE; y++) {
@@ -56,7 +56,7 @@ static void test_truth_is_the_board(void **state) {
     for (int band = 0; band < CHECKER_BANDS; band++) assert_true(rows[band] > 30);
 }
 
-static void test_ahead_of_peers_in_every_band(void **state) {
+TEST(test_ahead_of_peers_in_every_band) {
     const checker_setting setting = {EWA_KERNEL_PERSPECTIVE, 3, 0.35, 0.38, 0.4, false};
     checker_errors errors;
     measure(*state, &setting, &errors);
@@ -67,18 +67,11 @@ static void test_ahead_of_peers_in_every_band(void **state) {
     assert_int_equal(errors.hole_count, 0);
 }
 
-static void test_prefilter_matters(void **state) {
+TEST(test_prefilter_matters) {
     const checker_setting setting = {EWA_KERNEL_PERSPECTIVE, 3, 0, 0.38, 0.4, false};
     checker_errors errors;
     measure(*state, &setting, &errors);
     assert_true(errors.box_percent[0] > 20);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_truth_is_the_board),
-        cmocka_unit_test(test_ahead_of_peers_in_every_band),
-        cmocka_unit_test(test_prefilter_matters),
-    };
-    return cmocka_run_group_tests(tests, set_up, tear_down);
-}
+int main(void) { return RUN_TESTS(set_up, tear_down); }

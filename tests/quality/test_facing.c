@@ -231,7 +231,7 @@ static void count_rims(ewa_renderer *renderer, const ewa_cloud *cloud, const tru
     ewa_surfels_destroy(&surfels);
 }
 
-static void test_no_rims_of_far_sides(void **state) {
+TEST(test_no_rims_of_far_sides) {
     ewa_context *context = check_context(0, NULL);
     ewa_renderer *renderer = NULL;
     assert_int_equal(ewa_renderer_create(context, &renderer), EWA_OK);
@@ -266,7 +266,7 @@ static void test_no_rims_of_far_sides(void **state) {
 
 /// A disc that faces the viewer, in a sheet that does not: as its weight grows the mean goes over to it evenly,
 /// however much more the sheet weighs.
-static void test_means_go_over(void **state) {
+TEST(test_means_go_over) {
     enum { ROWS = 60 };
     static float both[4 * SIDE * SIDE], all[SIDE * SIDE], front[SIDE * SIDE];
     static const double eye[3] = {0.3, -0.4, 3}, target[3] = {0, 0, 0}, up[3] = {0.1, 1, 0};
@@ -389,7 +389,7 @@ static double largest_difference(const float *a, const float *b, int channels, i
     return maximum;
 }
 
-static void test_cover_is_blind_to_normals(void **state) {
+TEST(test_cover_is_blind_to_normals) {
     static float rgba[2][4 * SIDE * SIDE], coverage[2][SIDE * SIDE];
     static const double eyes[][3] = {{2.2, -2.6, 1.9}, {1.5, -2.2, -2.2}, {3, -0.4, 0.3}, {0.3, -0.2, -3}};
     static const char *const names[SIGN_KINDS] = {"all", "in patches", "at random"};
@@ -416,7 +416,7 @@ static void test_cover_is_blind_to_normals(void **state) {
 }
 
 /// A sphere seen from inside shows its whole inner side, whichever way its normals point, and the same.
-static void test_inside_is_shown(void **state) {
+TEST(test_inside_is_shown) {
     static float rgba[2][4 * SIDE * SIDE], coverage[SIDE * SIDE];
     static const double eye[3] = {0.2, -0.5, 0.1};
     ewa_context *context = check_context(0, NULL);
@@ -433,12 +433,4 @@ static void test_inside_is_shown(void **state) {
     ewa_context_destroy(&context);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_no_rims_of_far_sides),
-        cmocka_unit_test(test_cover_is_blind_to_normals),
-        cmocka_unit_test(test_means_go_over),
-        cmocka_unit_test(test_inside_is_shown),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -20,7 +20,7 @@ static void fill_square(float *rgba, uint32_t low, uint32_t high, float grey) {
             for (uint32_t c = 0; c < 4; c++) rgba[4 * (y * SIDE_PX + x) + c] = c < 3 ? grey : 1;
 }
 
-static void test_comparison_has_known_answers(void **state) {
+TEST(test_comparison_has_known_answers) {
     static float truth[4 * PIXELS], other[4 * PIXELS];
     far_errors e;
     fill_square(truth, 16, 48, 0.5f);
@@ -43,7 +43,7 @@ static void test_comparison_has_known_answers(void **state) {
     assert_true(e.fat_px > 0.95 && e.fat_px < 1.1);
 }
 
-static void test_average_is_that_of_pixels(void **state) {
+TEST(test_average_is_that_of_pixels) {
     float fine[4 * 4 * 4], rgba[4];
     for (int i = 0; i < 4 * 4 * 4; i++) fine[i] = (float)(i % 4 + 4 * (i / 4 % 2));
     far_average(fine, 1, 4, rgba);
@@ -54,7 +54,7 @@ static void draw(ewa_renderer *renderer, const ewa_surfels *surfels, const ewa_c
     assert_int_equal(ewa_render(renderer, surfels, camera, NULL, &(ewa_frame){.rgba = rgba}, NULL), EWA_OK);
 }
 
-static void test_town_stays_as_near_to_the_truth(void **state) {
+TEST(test_town_stays_as_near_to_the_truth) {
     static const struct {
         double times, least_db;
     } rows[] = {{1, 22.0}, {4, 18.0}, {8, 16.0}};
@@ -92,11 +92,4 @@ static void test_town_stays_as_near_to_the_truth(void **state) {
     ewa_context_destroy(&context);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_comparison_has_known_answers),
-        cmocka_unit_test(test_average_is_that_of_pixels),
-        cmocka_unit_test(test_town_stays_as_near_to_the_truth),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

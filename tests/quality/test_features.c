@@ -8,7 +8,7 @@
 
 enum { SIDE = 192, CAMERAS = 40, MARGIN = 4 };
 
-static void test_scores(void **state) {
+TEST(test_scores) {
     // The floors leave some room below what docs/features.md says.
     static const struct {
         feature_solid solid;
@@ -121,7 +121,7 @@ static void count_holes(ewa_context *context, double noise, hole_counts *found) 
     ewa_cloud_destroy(&cloud);
 }
 
-static void test_no_holes(void **state) {
+TEST(test_no_holes) {
     static const double noises[] = {0, 0.1, 0.25};
     ewa_context *context = check_context(0, NULL);
     for (int i = 0; i < 3; i++) {
@@ -135,10 +135,4 @@ static void test_no_holes(void **state) {
     ewa_context_destroy(&context);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_scores),
-        cmocka_unit_test(test_no_holes),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

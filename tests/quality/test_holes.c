@@ -107,7 +107,7 @@ static void render_cameras(ewa_kernel kernel, double prefilter_px, hole_counts *
     ewa_context_destroy(&context);
 }
 
-static void test_perspective_has_no_holes(void **state) {
+TEST(test_perspective_has_no_holes) {
     ewa_render_options options;
     ewa_render_options_init(&options, sizeof options);
     hole_counts counts;
@@ -119,7 +119,7 @@ static void test_perspective_has_no_holes(void **state) {
 }
 
 /// The affine kernel does leave holes: so the test above can see them.
-static void test_affine_has_holes(void **state) {
+TEST(test_affine_has_holes) {
     ewa_render_options options;
     ewa_render_options_init(&options, sizeof options);
     hole_counts counts;
@@ -129,7 +129,7 @@ static void test_affine_has_holes(void **state) {
 }
 
 /// Objects with the radii that ewa_cloud_generate() chooses are opaque up to a few pixels from the outline.
-static void test_generated_discs_close(void **state) {
+TEST(test_generated_discs_close) {
     enum { VIEW_PX = 400, RIM_PX = 8 };
     static float rgba[VIEW_PX * VIEW_PX * 4];
     static const double jitters[] = {0, 0.25, 0.5, 1};
@@ -175,11 +175,4 @@ static void test_generated_discs_close(void **state) {
     ewa_context_destroy(&context);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_generated_discs_close),
-        cmocka_unit_test(test_perspective_has_no_holes),
-        cmocka_unit_test(test_affine_has_holes),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -147,12 +147,12 @@ static void hold(const solid *of) {
     }
 }
 
-static void test_cube(void **state) { hold(&cube); }
+TEST(test_cube) { hold(&cube); }
 
-static void test_angle(void **state) { hold(&angle); }
+TEST(test_angle) { hold(&angle); }
 
 /// Where faces meet the light is between theirs: no line along the edge is brighter than both, nor darker.
-static void test_light_at_edges(void **state) {
+TEST(test_light_at_edges) {
     static const double eye[3] = {3.1, 2.9, 2.7}, target[3] = {0, 0, 0}, up[3] = {0, 0, 1};
     static float rgba[4 * SIDE * SIDE];
     ewa_context *context = check_context(0, NULL);
@@ -199,8 +199,4 @@ static void test_light_at_edges(void **state) {
     ewa_context_destroy(&context);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_cube), cmocka_unit_test(test_angle),
-                                       cmocka_unit_test(test_light_at_edges)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

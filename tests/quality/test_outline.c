@@ -97,7 +97,7 @@ static outline_errors measure(ewa_context *context, const char *name, outline_sh
 
 static const double oblique[3] = {1.2, -2.6, 1.7};
 
-static void test_silhouettes(void **state) {
+TEST(test_silhouettes) {
     ewa_context *context = check_context(0, NULL);
     // What is sparser than pixels ends where its discs do.
     static const uint64_t counts[] = {3000, 20000, 100000};
@@ -128,7 +128,7 @@ static void test_silhouettes(void **state) {
 }
 
 /// Levels in memory, down to surfels 2.5 px apart; what stands for others where they are 5 px apart lies on the surface.
-static void test_levels(void **state) {
+TEST(test_levels) {
     ewa_context *context = check_context(0, NULL);
     static outline_truth truth;
     ewa_camera camera;
@@ -153,7 +153,7 @@ static void test_levels(void **state) {
 }
 
 /// The coarse nodes of an octree, of bare points and of surfels with curvatures.
-static void test_octrees(void **state) {
+TEST(test_octrees) {
     ewa_context *context = check_context(0, NULL);
     static outline_truth truth;
     static float rgba[OUTLINE_SIDE_PX * OUTLINE_SIDE_PX][4];
@@ -210,7 +210,7 @@ static double tail(double below) {
 /// Without curvatures, where samples are finer than pixels, the coverage of a smooth silhouette is the prefilter's
 /// integral, alpha is that over tau, and what the near side leaves the far side covers by as much again: together a half
 /// where the integral is tau (1 - sqrt(1/2)), which lies outside.
-static void test_silhouettes_follow_the_filter(void **state) {
+TEST(test_silhouettes_follow_the_filter) {
     ewa_context *context = check_context(0, NULL);
     static outline_truth truth;
     ewa_camera camera;
@@ -234,7 +234,7 @@ static void test_silhouettes_follow_the_filter(void **state) {
     ewa_context_destroy(&context);
 }
 
-static void test_borders(void **state) {
+TEST(test_borders) {
     ewa_context *context = check_context(0, NULL);
     static const uint64_t counts[] = {1000, 20000, 100000}; // spacings of 6, 1.4 and 0.6 px
     static const double fat_px[] = {0.6, 0.06, 0.06}, rms[] = {0.45, 0.23, 0.15}, open[] = {0.015, 1e-3, 1e-4};
@@ -254,7 +254,7 @@ static void test_borders(void **state) {
     ewa_context_destroy(&context);
 }
 
-static void test_flat_angles(void **state) {
+TEST(test_flat_angles) {
     ewa_context *context = check_context(0, NULL);
     static const double angles_deg[] = {5, 7, 10, 20, 45, 90};
     for (int i = 0; i < 6; i++) {
@@ -289,7 +289,7 @@ static ewa_cloud *doubtful_square(ewa_context *context, bool noisy) {
 }
 
 /// Where both sides of one plane face the viewer it stays closed.
-static void test_doubtful_normals(void **state) {
+TEST(test_doubtful_normals) {
     ewa_context *context = check_context(0, NULL);
     static const double angles_deg[] = {7, 30, 90};
     for (int noisy = 0; noisy < 2; noisy++)
@@ -306,15 +306,4 @@ static void test_doubtful_normals(void **state) {
     ewa_context_destroy(&context);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_silhouettes),
-        cmocka_unit_test(test_levels),
-        cmocka_unit_test(test_octrees),
-        cmocka_unit_test(test_silhouettes_follow_the_filter),
-        cmocka_unit_test(test_borders),
-        cmocka_unit_test(test_flat_angles),
-        cmocka_unit_test(test_doubtful_normals),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -20,7 +20,7 @@ static ewa_cloud *make_scene(ewa_context *context, radii_kind kind, double detai
 }
 
 /// Gaps that larger discs would close are none, and pixels inside are opaque.
-static void test_closed(void **state) {
+TEST(test_closed) {
     static const struct {
         const char *name;
         radii_kind kind;
@@ -52,7 +52,7 @@ static void test_closed(void **state) {
 }
 
 /// No disc is much larger than the spacing around it.
-static void test_limited(void **state) {
+TEST(test_limited) {
     static const struct {
         const char *name;
         radii_kind kind;
@@ -77,7 +77,7 @@ static void test_limited(void **state) {
 }
 
 /// Single points above a plane get the plain radius of what is nearest, those of the plane stay as they were.
-static void test_lone_points(void **state) {
+TEST(test_lone_points) {
     enum { COUNT = 20000 };
     ewa_context *context = check_context(0, NULL);
     ewa_cloud *cloud = make_scene(context, RADII_LONE, 0, COUNT);
@@ -122,7 +122,7 @@ static double radius_in_hole(ewa_context *context, double hole) {
 
 /// A place in a gap is enlarged to close it, but in a hole that is much wider than the spacing it is alone:
 /// it gets the plain radius of what is around.
-static void test_holes(void **state) {
+TEST(test_holes) {
     ewa_context *context = check_context(0, NULL);
     for (int hole = 2; hole < 12; hole++) {
         const double radius = radius_in_hole(context, hole);
@@ -133,12 +133,4 @@ static void test_holes(void **state) {
     ewa_context_destroy(&context);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_closed),
-        cmocka_unit_test(test_limited),
-        cmocka_unit_test(test_lone_points),
-        cmocka_unit_test(test_holes),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -5,7 +5,7 @@
 // Only where the data set is: test_radii holds the rule on samplings that it makes.
 #include "quality/radii_scene.h"
 
-static void test_garden(void **state) {
+TEST(test_garden) {
     char path[1024];
     const char *file = check_data("gaussians/garden_sfm_points.ply", path, sizeof path);
     if (!file) skip();
@@ -24,7 +24,4 @@ static void test_garden(void **state) {
     ewa_context_destroy(&context);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_garden)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

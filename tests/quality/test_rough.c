@@ -40,7 +40,7 @@ static bool is_inner(const float *rgba, int x, int y) {
     return true;
 }
 
-static void test_ground(void **state) {
+TEST(test_ground) {
     static float flat[4 * PIXELS], bent[4 * PIXELS];
     ewa_context *context = check_context(0, NULL);
     for (int k = 0; k < 4; k++) {
@@ -67,7 +67,4 @@ static void test_ground(void **state) {
     ewa_context_destroy(&context);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_ground)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

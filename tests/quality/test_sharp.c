@@ -78,7 +78,7 @@ static double psnr(const float *picture, const float *truth, const uint8_t *mask
     return 10 * log10((double)count / sum);
 }
 
-static void test_edges_close_up(void **state) {
+TEST(test_edges_close_up) {
     static const struct {
         const char *name;
         ewa_object object;
@@ -201,7 +201,7 @@ static void hold_outlines(ewa_context *context, ewa_renderer *renderer, ewa_obje
     ewa_cloud_destroy(&cloud);
 }
 
-static void test_outlines(void **state) {
+TEST(test_outlines) {
     // Not circles: those of discs that are seen edge-on reach far beyond what their clip lines leave.
     static const struct {
         ewa_kernel kernel;
@@ -277,16 +277,9 @@ static void count_holes(ewa_object object, uint64_t points) {
     ewa_context_destroy(&context);
 }
 
-static void test_no_holes_along_edges(void **state) {
+TEST(test_no_holes_along_edges) {
     count_holes(EWA_OBJECT_CUBE, 6000);
     count_holes(EWA_OBJECT_CSG, 7000);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_edges_close_up),
-        cmocka_unit_test(test_outlines),
-        cmocka_unit_test(test_no_holes_along_edges),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

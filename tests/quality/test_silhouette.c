@@ -98,7 +98,7 @@ static bool surrounded_by(const scene *s, int x, int y, float truth) {
     return true;
 }
 
-static void test_silhouettes(void **state) {
+TEST(test_silhouettes) {
     ewa_context *context = check_context(0, NULL);
     scene *s = calloc(1, sizeof *s);
     assert_non_null(s);
@@ -157,7 +157,4 @@ static void test_silhouettes(void **state) {
     ewa_context_destroy(&context);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_silhouettes)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -46,7 +46,7 @@ enum { MAPS = sizeof maps / sizeof maps[0] };
 static const char *const methods[] = {"hybrid", "splat", "point", "bilinear"};
 
 /// Floats differ by rounding; the hybrid's blocks decide together what texels are, and use levels.
-static void test_reference(void **state) {
+TEST(test_reference) {
     for (int channels = 1; channels <= 4; channels++) {
         if (channels == 2) continue;
         raster source = raster_make(EWA_PIXEL_LINEAR, (uint32_t)channels, 96, 80);
@@ -74,7 +74,7 @@ static void test_reference(void **state) {
 }
 
 /// Wide kernels, whose points do not fit into two by two pixels, and narrow ones.
-static void test_reference_kernels(void **state) {
+TEST(test_reference_kernels) {
     static const double kernels[][4] = {
         {0.3, 2, 0.3, 0.5}, {0.7, 3, 0.5, 0.8}, {2, 4, 2, 1}, {0.1, 1, 1, 0.1}};
     raster source = raster_make(EWA_PIXEL_SRGB8, 3, 96, 80);
@@ -106,7 +106,7 @@ static void test_reference_kernels(void **state) {
 }
 
 /// The same bytes for one thread and for many, and from each instruction set.
-static void test_same_bytes(void **state) {
+TEST(test_same_bytes) {
     raster source = raster_make(EWA_PIXEL_SRGB8, 4, 130, 117);
     raster_paint(&source, 8);
     for (int m = 0; m < MAPS; m++) {
@@ -135,7 +135,7 @@ static void test_same_bytes(void **state) {
 
 /// Identity keeps every pixel covered and blurs a little: by the filter and the discs together, whose
 /// standard deviation is half a pixel. A smooth image comes back within 1 %.
-static void test_identity(void **state) {
+TEST(test_identity) {
     raster source = raster_make(EWA_PIXEL_LINEAR, 3, 100, 90),
            target = raster_make(EWA_PIXEL_LINEAR, 4, 100, 90);
     for (uint32_t y = 0; y < 90; y++)
@@ -174,7 +174,7 @@ static void test_identity(void **state) {
 }
 
 /// Whole shifts move the bytes, also across tiles.
-static void test_shift(void **state) {
+TEST(test_shift) {
     raster source = raster_make(EWA_PIXEL_SRGB8, 4, 90, 70);
     raster_paint(&source, 12);
     for (int method = 0; method < 4; method++) {
@@ -202,7 +202,7 @@ static void test_shift(void **state) {
 
 /// One colour stays that colour, wherever it is seen, and alpha is the share of the pixel that is covered:
 /// all of it together is the area of the quadrangle.
-static void test_constant_and_area(void **state) {
+TEST(test_constant_and_area) {
     raster source = raster_make(EWA_PIXEL_LINEAR, 3, 96, 80),
            target = raster_make(EWA_PIXEL_LINEAR, 4, 150, 110);
     static const double color[3] = {0.2, 0.5, 0.8};
@@ -245,7 +245,7 @@ static void test_constant_and_area(void **state) {
 }
 
 /// Where a texture is minified, its mean stays.
-static void test_energy(void **state) {
+TEST(test_energy) {
     raster source = raster_make(EWA_PIXEL_LINEAR, 1, 512, 384),
            target = raster_make(EWA_PIXEL_LINEAR, 1, 128, 96);
     check_random random = {3};
@@ -269,7 +269,7 @@ static void test_energy(void **state) {
 }
 
 /// 8-bit and float sources and targets say the same; straight and premultiplied alpha too.
-static void test_formats(void **state) {
+TEST(test_formats) {
     const ewa_mat3 map = texture_map_of(maps[6].h);
     const ewa_texture_options options = texture_options(EWA_TEXTURE_HYBRID);
     for (uint32_t channels = 1; channels <= 4; channels++) {
@@ -313,7 +313,7 @@ static void test_formats(void **state) {
 }
 
 /// What lies behind the eye does not show: the picture above the horizon stays empty.
-static void test_horizon(void **state) {
+TEST(test_horizon) {
     raster source = raster_make(EWA_PIXEL_SRGB8, 3, 64, 64),
            target = raster_make(EWA_PIXEL_LINEAR, 4, 100, 100);
     raster_paint(&source, 2);
@@ -341,7 +341,7 @@ static void test_horizon(void **state) {
 
 /// Repeating is the same as a texture of copies, for sides of any factors; where one draws levels and the
 /// other does not, the noise of these textures differs by up to 1.5 %.
-static void test_repeat(void **state) {
+TEST(test_repeat) {
     static const uint32_t sides[][2] = {{32, 32}, {12, 20}, {7, 5}, {1, 1}, {13, 64}};
     for (size_t k = 0; k < 5; k++) {
         const uint32_t width = sides[k][0], height = sides[k][1], across = 1200 / width, down = 1200 / height;
@@ -391,7 +391,7 @@ static bool pull_back(const double h[9], double x, double y, double *u, double *
 
 /// Backward mapping is the sum of the texels around where a pixel's centre is from, each weighted by what the
 /// distance leaves of a texel along u and along v.
-static void test_bilinear(void **state) {
+TEST(test_bilinear) {
     enum { WIDTH = 150, HEIGHT = 110, U = 96, V = 80 };
     raster source = raster_make(EWA_PIXEL_LINEAR, 4, U, V);
     raster target = raster_make(EWA_PIXEL_LINEAR, 4, WIDTH, HEIGHT);
@@ -431,7 +431,7 @@ static void test_bilinear(void **state) {
 
 /// Where neighbours along one axis part ever farther along the other, like the ribs of a fan, only texels
 /// that are close along both axes are points: not more than by the definition, and not a few.
-static void test_points_of_a_fan(void **state) {
+TEST(test_points_of_a_fan) {
     enum { RIBS = 128, LONG = 24 };
     const double wide = 0.5, high = 0.3, tilt = 0.02;
     for (int k = 0; k < 4; k++) {
@@ -466,7 +466,7 @@ static void test_points_of_a_fan(void **state) {
 }
 
 /// The least textures and pictures.
-static void test_tiny(void **state) {
+TEST(test_tiny) {
     static const uint32_t sides[][2] = {{1, 1}, {1, 9}, {33, 1}, {2, 2}};
     for (size_t k = 0; k < 4; k++) {
         raster source = raster_make(EWA_PIXEL_SRGB8, 4, sides[k][0], sides[k][1]);
@@ -492,15 +492,4 @@ static void test_tiny(void **state) {
     }
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_reference),  cmocka_unit_test(test_reference_kernels),
-        cmocka_unit_test(test_same_bytes), cmocka_unit_test(test_identity),
-        cmocka_unit_test(test_shift),      cmocka_unit_test(test_constant_and_area),
-        cmocka_unit_test(test_energy),     cmocka_unit_test(test_formats),
-        cmocka_unit_test(test_horizon),    cmocka_unit_test(test_repeat),
-        cmocka_unit_test(test_bilinear),   cmocka_unit_test(test_points_of_a_fan),
-        cmocka_unit_test(test_tiny),
-    };
-    return cmocka_run_group_tests(tests, enter, leave);
-}
+int main(void) { return RUN_TESTS(enter, leave); }

@@ -156,7 +156,7 @@ static void hold(const ewa_texture_kernels **sets, const task *of, bool as_point
     assert_true(!some || drawn[0] > 0);
 }
 
-static void test_points(void **state) {
+TEST(test_points) {
     const ewa_texture_kernels *sets[SETS];
     kernel_sets(sets);
     check_random random = {91};
@@ -167,7 +167,7 @@ static void test_points(void **state) {
     }
 }
 
-static void test_splats(void **state) {
+TEST(test_splats) {
     const ewa_texture_kernels *sets[SETS];
     kernel_sets(sets);
     check_random random = {92};
@@ -194,7 +194,7 @@ static void resolve_plainly(const float sums[4], double weight, bool with_weight
     out[3] += behind;
 }
 
-static void test_pixels(void **state) {
+TEST(test_pixels) {
     static const uint32_t channel_counts[] = {1, 3, 4};
     enum { WIDTH = 90, HEIGHT = 70 };
     static float color[4 * NUMBERS], weight[NUMBERS], coverage[64 * 64], made[4 * WIDTH * HEIGHT];
@@ -255,11 +255,4 @@ static void test_pixels(void **state) {
         }
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_points),
-        cmocka_unit_test(test_splats),
-        cmocka_unit_test(test_pixels),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

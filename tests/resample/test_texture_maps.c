@@ -23,7 +23,7 @@ static int leave(void **state) {
     return 0;
 }
 
-static void test_corners(void **state) {
+TEST(test_corners) {
     static const double corners[4][2] = {{10, 20}, {300, -40}, {250, 180}, {-30, 90}};
     ewa_mat3 map;
     assert_int_equal(ewa_texture_map_from_corners(context, 64, 48, corners, &map), EWA_OK);
@@ -52,7 +52,7 @@ static void test_corners(void **state) {
 }
 
 /// Points of the plane go where the camera sees them.
-static void test_camera(void **state) {
+TEST(test_camera) {
     static const double origin[3] = {-2, 1, 0.5}, across[3] = {3, 0.5, 0}, down[3] = {0.2, -2, 1};
     for (int projection = 0; projection < 2; projection++) {
         ewa_camera camera;
@@ -98,7 +98,7 @@ static void refuse(const raster *source, const ewa_mat3 *map, const ewa_texture_
                      status);
 }
 
-static void test_refused(void **state) {
+TEST(test_refused) {
     raster source = raster_make(EWA_PIXEL_LINEAR, 3, 8, 6), target = raster_make(EWA_PIXEL_LINEAR, 4, 10, 9);
     const ewa_mat3 good = mat3_identity();
     static const double singular[][9] = {
@@ -164,7 +164,7 @@ static void test_refused(void **state) {
 }
 
 /// Whatever the numbers of a map are, drawing ends, and what is drawn is finite.
-static void test_wild_maps(void **state) {
+TEST(test_wild_maps) {
     check_random random = {77};
     raster source = raster_make(EWA_PIXEL_SRGB8, 4, 40, 30),
            target = raster_make(EWA_PIXEL_LINEAR, 4, 70, 66);
@@ -213,7 +213,7 @@ static void test_wild_maps(void **state) {
 }
 
 /// A failing allocation, whichever it is, fails the call and leaves nothing behind.
-static void test_memory(void **state) {
+TEST(test_memory) {
     raster source = raster_make(EWA_PIXEL_SRGB8, 3, 256, 256),
            target = raster_make(EWA_PIXEL_SRGB8, 3, 64, 64);
     raster_paint(&source, 1);
@@ -245,7 +245,7 @@ static bool cancel(void *user, const char *stage, double fraction) {
     return fraction < *(const double *)user;
 }
 
-static void test_cancelled(void **state) {
+TEST(test_cancelled) {
     static const double ends[] = {0, 0.2, 0.9};
     raster source = raster_make(EWA_PIXEL_SRGB8, 3, 64, 64), target = raster_make(EWA_PIXEL_SRGB8, 3, 64, 64);
     const ewa_mat3 map = mat3_identity();
@@ -265,10 +265,4 @@ static void test_cancelled(void **state) {
     raster_free(&target);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_corners),   cmocka_unit_test(test_camera), cmocka_unit_test(test_refused),
-        cmocka_unit_test(test_wild_maps), cmocka_unit_test(test_memory), cmocka_unit_test(test_cancelled),
-    };
-    return cmocka_run_group_tests(tests, enter, leave);
-}
+int main(void) { return RUN_TESTS(enter, leave); }

@@ -10,7 +10,7 @@
 static plane_image plane;
 static plane_frame drawn, other;
 
-static void test_masked_depths(void **state) {
+TEST(test_masked_depths) {
     ewa_context *context = check_context(2, NULL);
     ewa_warp *warp = plane_warp(context);
     plane_set(&plane, 2);
@@ -42,7 +42,7 @@ static void test_masked_depths(void **state) {
     ewa_context_destroy(&context);
 }
 
-static void test_sixteen_bits(void **state) {
+TEST(test_sixteen_bits) {
     ewa_context *context = check_context(2, NULL);
     ewa_warp *warp = plane_warp(context);
     plane_set(&plane, 2);
@@ -69,7 +69,7 @@ static void test_sixteen_bits(void **state) {
 }
 
 /// z, distance and disparity of one slanted plane give the same surface, whose normals are known.
-static void test_kinds(void **state) {
+TEST(test_kinds) {
     ewa_context *context = check_context(2, NULL);
     ewa_warp *warp = plane_warp(context);
     const double n[3] = {0.4, -0.3, -0.866025403784}, at = -2 * n[2]; // n.p = -at
@@ -102,7 +102,7 @@ static void test_kinds(void **state) {
 }
 
 /// The covariance of the packed ellipses is that of the axes they were made of.
-static void test_packed_ellipses(void **state) {
+TEST(test_packed_ellipses) {
     ewa_context *context = check_context(1, NULL);
     ewa_warp *warp = plane_warp(context);
     plane_set(&plane, 1);
@@ -151,7 +151,7 @@ static ewa_vec3 normal_at(const ewa_warp *warp, uint32_t column, uint32_t row) {
 
 /// Roofs whose sides' slopes differ by more than 0.36 have a crease: a surfel at the ridge lies on one side.
 /// Flatter ones are bent, and it lies between both. Along rows and columns, with pixels that are no squares.
-static void test_creases(void **state) {
+TEST(test_creases) {
     ewa_context *context = check_context(1, NULL);
     ewa_warp *warp = plane_warp(context);
     static const double slopes[] = {0.05, 0.12, 0.16, 0.2, 0.25, 0.33};
@@ -181,7 +181,7 @@ static void test_creases(void **state) {
 
 /// What a plane's grid adds up to, seen from where it was taken, whatever the kernels' size and cutoff are:
 /// the sum is told as the coverage that a whole surface has.
-static void test_coverage_of_planes(void **state) {
+TEST(test_coverage_of_planes) {
     ewa_context *context = check_context(1, NULL);
     ewa_warp *warp = plane_warp(context);
     static const double cutoffs[] = {1.5, 2, 3}, radii[] = {1.1, 1.3, 1.5};
@@ -207,7 +207,7 @@ static void test_coverage_of_planes(void **state) {
 
 /// Rows with gaps between them, floats instead of bytes, grey and alpha.
 /// Files whose numbers nobody says the unit of: PNG has millimetres, but for disparities.
-static void test_file_scales(void **state) {
+TEST(test_file_scales) {
     assert_true(ewa_depth_file_scale("a.depth.PNG", EWA_DEPTH_Z) == 1000);
     assert_true(ewa_depth_file_scale("a.png", EWA_DEPTH_RAY) == 1000);
     assert_true(ewa_depth_file_scale("a.png", EWA_DEPTH_DISPARITY) == 1);
@@ -215,7 +215,7 @@ static void test_file_scales(void **state) {
     assert_true(ewa_depth_file_scale("-", EWA_DEPTH_Z) == 1 && ewa_depth_file_scale(NULL, EWA_DEPTH_RAY) == 1);
 }
 
-static void test_layouts(void **state) {
+TEST(test_layouts) {
     enum { STRIDE = PLANE_WIDTH + 13 };
     static float depth[PLANE_HEIGHT * STRIDE], color[4 * PLANE_HEIGHT * STRIDE];
     static uint8_t color8[4 * PLANE_HEIGHT * STRIDE];
@@ -284,7 +284,7 @@ static void expect(ewa_warp *warp, check_log *log, ewa_status status, const char
     plane_set(&plane, 2);
 }
 
-static void test_bad_images(void **state) {
+TEST(test_bad_images) {
     check_log log = {0};
     ewa_context *context = check_context(1, &log);
     ewa_warp *warp = plane_warp(context);
@@ -334,7 +334,7 @@ static void test_bad_images(void **state) {
     ewa_context_destroy(&context);
 }
 
-static void test_bad_options(void **state) {
+TEST(test_bad_options) {
     check_log log = {0};
     ewa_context *context = check_context(1, &log);
     ewa_warp *warp = plane_warp(context);
@@ -383,13 +383,13 @@ static ewa_status work(ewa_context *context, void *user) {
     return status;
 }
 
-static void test_failing_allocations(void **state) {
+TEST(test_failing_allocations) {
     plane_set(&plane, 2);
     scratch_fail_each(work, &plane.image);
 }
 
 /// Whoever says no at any time, while images are taken, too, is heard, and nothing is left.
-static void test_every_stop_is_clean(void **state) {
+TEST(test_every_stop_is_clean) {
     plane_set(&plane, 2);
     ewa_status status = EWA_CANCELLED;
     int stops = 0;
@@ -412,7 +412,7 @@ static void test_every_stop_is_clean(void **state) {
 }
 
 /// Nothing is allocated from the second frame on.
-static void test_warm(void **state) {
+TEST(test_warm) {
     check_memory memory = {.calls_left = -1};
     check_log log = {0};
     ewa_context *context = scratch_context(&memory, &log);
@@ -430,16 +430,4 @@ static void test_warm(void **state) {
     assert_int_equal(memory.held_bytes, 0);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_masked_depths), cmocka_unit_test(test_sixteen_bits),
-        cmocka_unit_test(test_kinds),         cmocka_unit_test(test_packed_ellipses),
-        cmocka_unit_test(test_creases),       cmocka_unit_test(test_coverage_of_planes),
-        cmocka_unit_test(test_file_scales),   cmocka_unit_test(test_layouts),
-        cmocka_unit_test(test_bad_images),
-        cmocka_unit_test(test_bad_options),   cmocka_unit_test(test_failing_allocations),
-        cmocka_unit_test(test_every_stop_is_clean),
-        cmocka_unit_test(test_warm),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -65,7 +65,7 @@ static void expect_slope(const sheet *of, int x, double slope, double distance) 
 }
 
 /// A plane: the key's own differences; at the ends those of the one side there is.
-static void test_planes(void **state) {
+TEST(test_planes) {
     const ewa_warp_kernels *sets[SETS];
     kernel_sets(sets);
     const ewa_warp_lens lens = make_lens();
@@ -87,7 +87,7 @@ static void test_planes(void **state) {
 
 /// A roof: each side keeps its own slope up to the ridge, which the straighter side has; a valley likewise.
 /// Across a crease of less than the limit the two sides are averaged.
-static void test_creases(void **state) {
+TEST(test_creases) {
     const ewa_warp_kernels *sets[SETS];
     kernel_sets(sets);
     ewa_warp_lens lens = make_lens();
@@ -120,7 +120,7 @@ static void test_creases(void **state) {
 }
 
 /// A step: the rims look at their own side only; the nearer one is 0.7 pixels long, the farther one a whole.
-static void test_rims(void **state) {
+TEST(test_rims) {
     const ewa_warp_kernels *sets[SETS];
     kernel_sets(sets);
     const ewa_warp_lens lens = make_lens();
@@ -142,7 +142,7 @@ static void test_rims(void **state) {
 }
 
 /// A steep plane goes on where its second difference says so, and not beyond the steepest.
-static void test_steep_planes(void **state) {
+TEST(test_steep_planes) {
     const ewa_warp_kernels *sets[SETS];
     kernel_sets(sets);
     const ewa_warp_lens lens = make_lens();
@@ -164,7 +164,7 @@ static void test_steep_planes(void **state) {
 }
 
 /// Single pixels without a depth are looked across; two are an end.
-static void test_gaps(void **state) {
+TEST(test_gaps) {
     const ewa_warp_kernels *sets[SETS];
     kernel_sets(sets);
     const ewa_warp_lens lens = make_lens();
@@ -190,7 +190,7 @@ static void test_gaps(void **state) {
 }
 
 /// What hangs between a near and a far surface is dropped, what stands before both is not.
-static void test_flying(void **state) {
+TEST(test_flying) {
     const ewa_warp_kernels *sets[SETS];
     kernel_sets(sets);
     ewa_warp_lens lens = make_lens();
@@ -251,7 +251,7 @@ static double slope_plainly(const ewa_warp_lens *lens, double crease, const doub
 }
 
 /// Steps, creases, gaps and single pixels at random, on a scale of which all differences are exact in floats.
-static void test_random_rows(void **state) {
+TEST(test_random_rows) {
     const ewa_warp_kernels *sets[SETS];
     kernel_sets(sets);
     const ewa_warp_lens lens = make_lens();
@@ -305,7 +305,7 @@ static void test_random_rows(void **state) {
 }
 
 /// The mean of what differs by at most 2.5 times the noise, 5 x 5; alone where nothing does.
-static void test_smoothing(void **state) {
+TEST(test_smoothing) {
     const ewa_warp_kernels *sets[SETS];
     kernel_sets(sets);
     static sheet made;
@@ -348,7 +348,7 @@ static void place(const ewa_warp_lens *lens, double x, double y, double key, dou
 }
 
 /// Axes are what the place changes per pixel times sigma and the distances; normals look at the eye.
-static void test_surfels(void **state) {
+TEST(test_surfels) {
     const ewa_warp_kernels *sets[SETS];
     kernel_sets(sets);
     enum { SIDE = 8, ROW = 64 };
@@ -402,11 +402,4 @@ static void test_surfels(void **state) {
         }
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_planes),       cmocka_unit_test(test_creases),   cmocka_unit_test(test_rims),
-        cmocka_unit_test(test_steep_planes), cmocka_unit_test(test_gaps),      cmocka_unit_test(test_flying),
-        cmocka_unit_test(test_random_rows),  cmocka_unit_test(test_smoothing), cmocka_unit_test(test_surfels),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

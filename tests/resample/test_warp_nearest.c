@@ -39,7 +39,7 @@ static void make_scene(void) {
 
 /// From in front, behind, all sides, and where the epipole is in the picture, on its border, far outside or
 /// at infinity: no more than rounding separates the order from the depth test.
-static void test_order(void **state) {
+TEST(test_order) {
     static const double places[][3] = {{0, 0, 0.5},    {0.1, 0.05, 0.6}, {0, 0, -1},        {0.3, 0.1, -0.8},
                                        {0.4, 0, 0},    {-0.4, 0, 0},     {0, 0.3, 0},       {0, -0.3, 0},
                                        {0.3, 0.3, 0},  {-0.3, 0.2, 0.1}, {-0.3, -0.3, 0.7}, {0.5, -0.2, -0.3},
@@ -75,7 +75,7 @@ static void test_order(void **state) {
 }
 
 /// The identity gives the bytes of the picture.
-static void test_identity(void **state) {
+TEST(test_identity) {
     ewa_context *context = check_context(1, NULL);
     ewa_warp *warp = plane_warp(context);
     make_scene();
@@ -93,7 +93,7 @@ static void test_identity(void **state) {
 }
 
 /// Of two sources the nearer one shows, whichever comes first.
-static void test_two_sources(void **state) {
+TEST(test_two_sources) {
     static plane_image near;
     ewa_context *context = check_context(2, NULL);
     ewa_warp *warp = plane_warp(context);
@@ -113,11 +113,4 @@ static void test_two_sources(void **state) {
     ewa_context_destroy(&context);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_order),
-        cmocka_unit_test(test_identity),
-        cmocka_unit_test(test_two_sources),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -8,7 +8,7 @@
 static plane_image plane;
 static plane_frame drawn, other;
 
-static void test_identity(void **state) {
+TEST(test_identity) {
     enum { WIDTH = 320, HEIGHT = 240, COUNT = WIDTH * HEIGHT };
     static uint8_t color[3 * COUNT], rgba8[4 * COUNT], rgb8[3 * COUNT];
     static float depth[COUNT];
@@ -33,7 +33,7 @@ static void test_identity(void **state) {
 }
 
 /// A step of the camera that is five pixels on the plane.
-static void test_shift(void **state) {
+TEST(test_shift) {
     ewa_context *context = check_context(2, NULL);
     ewa_warp *warp = plane_warp(context);
     plane_set(&plane, 2);
@@ -57,7 +57,7 @@ static void test_shift(void **state) {
     ewa_context_destroy(&context);
 }
 
-static void test_constant(void **state) {
+TEST(test_constant) {
     ewa_context *context = check_context(2, NULL);
     ewa_warp *warp = plane_warp(context);
     plane_set(&plane, 2);
@@ -77,7 +77,7 @@ static void test_constant(void **state) {
 
 /// A white half at 1 before a black one at 2, moved by 6 and 3 pixels: where the edge is, how wide, and the
 /// three columns that nothing fills.
-static void test_step(void **state) {
+TEST(test_step) {
     ewa_context *context = check_context(2, NULL);
     ewa_warp *warp = plane_warp(context);
     plane_set(&plane, 2);
@@ -120,7 +120,7 @@ static void test_step(void **state) {
 }
 
 /// What hangs between two surfaces is dropped, unless it is asked for.
-static void test_flying(void **state) {
+TEST(test_flying) {
     ewa_context *context = check_context(1, NULL);
     ewa_warp *warp = plane_warp(context);
     plane_set(&plane, 2);
@@ -146,7 +146,7 @@ static void test_flying(void **state) {
 }
 
 /// Rows and columns without depth, as depth cameras leave them, are covered; wider gaps are not.
-static void test_lattice(void **state) {
+TEST(test_lattice) {
     ewa_context *context = check_context(2, NULL);
     ewa_warp *warp = plane_warp(context);
     const ewa_camera target = plane_camera_at(0.02, 0.01, 0.3);
@@ -165,7 +165,7 @@ static void test_lattice(void **state) {
 }
 
 /// Steps of a sensor fade out; edges stay.
-static void test_noise(void **state) {
+TEST(test_noise) {
     ewa_context *context = check_context(2, NULL);
     ewa_warp *warp = plane_warp(context);
     plane_set(&plane, 2);
@@ -196,7 +196,7 @@ static void test_noise(void **state) {
 }
 
 /// Two views of one plane, in either order.
-static void test_source_order(void **state) {
+TEST(test_source_order) {
     static plane_image second;
     ewa_context *context = check_context(2, NULL);
     ewa_warp *warp = plane_warp(context);
@@ -218,7 +218,7 @@ static void test_source_order(void **state) {
 }
 
 /// The same bytes from any number of threads and every instruction set, also from ragged sizes and noise.
-static void test_same_bytes(void **state) {
+TEST(test_same_bytes) {
     static plane_frame first[2];
     static const struct {
         uint32_t threads, mask;
@@ -250,7 +250,7 @@ static void test_same_bytes(void **state) {
 
 /// A camera behind the scene, one inside of it, one that looks away; the backs of all samples are dropped on
 /// request.
-static void test_strange_cameras(void **state) {
+TEST(test_strange_cameras) {
     ewa_context *context = check_context(2, NULL);
     ewa_warp *warp = plane_warp(context);
     plane_set(&plane, 2);
@@ -280,7 +280,7 @@ static void test_strange_cameras(void **state) {
 }
 
 /// The background behind holes is the renderer's, whether or not the holes are asked for.
-static void test_background(void **state) {
+TEST(test_background) {
     ewa_context *context = check_context(2, NULL);
     ewa_warp *warp = plane_warp(context);
     plane_set(&plane, 2);
@@ -303,7 +303,7 @@ static void test_background(void **state) {
 }
 
 /// Known answers of the measures that docs/warp.md uses.
-static void test_likeness(void **state) {
+TEST(test_likeness) {
     enum { SIDE = 32, COUNT = SIDE * SIDE };
     static uint8_t a[3 * COUNT], b[3 * COUNT], counts[COUNT];
     check_random random = {1};
@@ -328,14 +328,4 @@ static void test_likeness(void **state) {
     assert_true(isinf(same.psnr_db) && fabs(same.ssim - 1) < 1e-12 && same.pixel_count == COUNT - 3);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_identity),   cmocka_unit_test(test_shift),
-        cmocka_unit_test(test_constant),   cmocka_unit_test(test_step),
-        cmocka_unit_test(test_flying),     cmocka_unit_test(test_lattice),
-        cmocka_unit_test(test_noise),      cmocka_unit_test(test_source_order),
-        cmocka_unit_test(test_same_bytes), cmocka_unit_test(test_strange_cameras),
-        cmocka_unit_test(test_background), cmocka_unit_test(test_likeness),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

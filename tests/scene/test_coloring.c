@@ -113,7 +113,7 @@ static bool same(const look *a, const look *b) { return memcmp(a->rgba8, b->rgba
 
 static look automatic, asked;
 
-static void test_signal(void **state) {
+TEST(test_signal) {
     (void)state;
     static const char *const names[] = {"intensity", "scalar_Intensity", "Reflectance", "amplitude"};
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
@@ -132,7 +132,7 @@ static void test_signal(void **state) {
 }
 
 /// Numbers that are the same everywhere show nothing; then surveys show their height, and bodies stay grey.
-static void test_height(void **state) {
+TEST(test_height) {
     (void)state;
     const scan survey = {"intensity", 7, 0, true, -1, false},
                body = {"intensity", 7, 0, false, -1, false},
@@ -158,7 +158,7 @@ static void test_height(void **state) {
 }
 
 /// Colours are kept, but for those that are black everywhere, which writers leave where they know none.
-static void test_own(void **state) {
+TEST(test_own) {
     (void)state;
     const scan colored = {"intensity", 0, 1, true, 90, false}, plain = {NULL, 0, 0, false, 90, false};
     draw(&plain, 1, NULL, &asked);
@@ -184,7 +184,7 @@ static void test_own(void **state) {
 }
 
 /// Scans are coloured together: on one scale, and by a number that tells them apart although it is one in each.
-static void test_together(void **state) {
+TEST(test_together) {
     (void)state;
     const scan tiles[2] = {{"intensity", 1, 0, true, -1, false}, {"intensity", 3, 0, true, -1, false}};
     const ewa_coloring coloring = by("intensity");
@@ -200,8 +200,4 @@ static void test_together(void **state) {
     assert_int_equal(automatic.notes, 1);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_signal), cmocka_unit_test(test_height),
-                                       cmocka_unit_test(test_own), cmocka_unit_test(test_together)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

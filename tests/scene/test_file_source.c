@@ -171,7 +171,7 @@ static far_place hold_same(const char *name, ewa_octree_levels levels, double zo
 }
 
 /// From far, from near, by short reads: the same bytes as of the file, of which a part is read.
-static void test_octree(void **state) {
+TEST(test_octree) {
     static const double zooms[] = {1, 20, 1};
     for (int i = 0; i < 3; i++) {
         const far_place place = hold_same(large, EWA_OCTREE_ALWAYS, zooms[i], (far_place){.reads_left = -1, .by_little = i == 2});
@@ -182,7 +182,7 @@ static void test_octree(void **state) {
 }
 
 /// Whole files are read once, whoever looks at them before; files that they name beside them.
-static void test_whole_files(void **state) {
+TEST(test_whole_files) {
     static const char obj[] = "mtllib red.mtl\nusemtl red\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n",
                       mtl[] = "newmtl red\nKd 1 0 0\n",
                       header[] = HEADER "voxels.raw\n\n";
@@ -211,7 +211,7 @@ static void test_whole_files(void **state) {
 }
 
 /// A name that leads out of the folder is not asked for, and none is where named files are not opened.
-static void test_named_files(void **state) {
+TEST(test_named_files) {
     static const char out[] = HEADER "../a/absent.raw\n\n";
     char path[512];
     scratch_write(scratch_path("out.nhdr", path), out, sizeof out - 1);
@@ -256,7 +256,7 @@ static void hold_failure(const char *name, far_place place, const char *reason) 
 }
 
 /// The first, the second, ... reading and all after it fail, until none does.
-static void test_failures(void **state) {
+TEST(test_failures) {
     static const char *const names[] = {octree, "red.obj"};
     for (int i = 0; i < 2; i++) {
         int failed = 0;
@@ -279,7 +279,7 @@ static void test_failures(void **state) {
     }
 }
 
-static void test_lies(void **state) {
+TEST(test_lies) {
     hold_failure(points, (far_place){.reads_left = -1, .more_bytes = 1000}, "shorter than it was said to be");
     hold_failure(points, (far_place){.reads_left = -1, .more_bytes = 1 << 20}, "shorter than it was said to be");
     hold_failure(points, (far_place){.reads_left = -1, .says_too_much = true}, "more came than were asked for");
@@ -295,7 +295,7 @@ static bool open_without_reader(void *user, const char *path, ewa_file_source *s
     return true;
 }
 
-static void test_no_reader(void **state) {
+TEST(test_no_reader) {
     check_log log = {0};
     ewa_context_options options;
     ewa_context_options_init(&options, sizeof options);
@@ -309,10 +309,4 @@ static void test_no_reader(void **state) {
     ewa_context_destroy(&context);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_octree),   cmocka_unit_test(test_whole_files), cmocka_unit_test(test_named_files),
-        cmocka_unit_test(test_failures), cmocka_unit_test(test_lies),        cmocka_unit_test(test_no_reader),
-    };
-    return cmocka_run_group_tests(tests, enter, leave);
-}
+int main(void) { return RUN_TESTS(enter, leave); }

@@ -68,7 +68,7 @@ static int draw(ewa_context *context, bool clip, bool orthographic, uint32_t cou
 }
 
 /// The axes are 0.5 and 0.25 long, the cutoff 3: half axes of 24 and 12 pixels. Hidden discs have no outline.
-static void test_ellipses(void **state) {
+TEST(test_ellipses) {
     static uint8_t pixels[4 * SIDE * SIDE];
     ewa_context *context = check_context(1, NULL);
     for (int orthographic = 0; orthographic < 2; orthographic++) {
@@ -88,7 +88,7 @@ static void test_ellipses(void **state) {
 }
 
 /// A line u >= 0 leaves the right half, through which the hidden disc's middle is still not seen.
-static void test_clip_lines(void **state) {
+TEST(test_clip_lines) {
     static uint8_t pixels[4 * SIDE * SIDE];
     ewa_context *context = check_context(1, NULL);
     const int whole = draw(context, false, false, 5, pixels), half = draw(context, true, false, 5, pixels);
@@ -99,7 +99,7 @@ static void test_clip_lines(void **state) {
 }
 
 /// Where gaps between the discs are closed, outlines are those of the larger discs that are drawn.
-static void test_closed_gaps(void **state) {
+TEST(test_closed_gaps) {
     enum { COLUMNS = 40 };
     static uint8_t pixels[4 * SIDE * SIDE];
     ewa_context *context = check_context(1, NULL);
@@ -124,11 +124,4 @@ static void test_closed_gaps(void **state) {
     ewa_context_destroy(&context);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_ellipses),
-        cmocka_unit_test(test_clip_lines),
-        cmocka_unit_test(test_closed_gaps),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

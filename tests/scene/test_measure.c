@@ -15,7 +15,7 @@ static ewa_measurement measure(ewa_measure_kind kind, const double *places, uint
     return m;
 }
 
-static void test_squares(void **state) {
+TEST(test_squares) {
     (void)state;
     for (int far = 0; far < 2; far++) {
         const double x = far ? 500000.25 : 0, y = far ? 4200000.5 : 0, z = far ? 300.125 : 0;
@@ -39,7 +39,7 @@ static void test_squares(void **state) {
     }
 }
 
-static void test_angles(void **state) {
+TEST(test_angles) {
     (void)state;
     const double right[9] = {1, 0, 0, 0, 0, 0, 0, 5, 0}, straight[9] = {1, 1, 1, 2, 2, 2, 4, 4, 4}, sixty[9] = {1, 0, 0, 0, 0, 0, 1, 0, sqrt(3)};
     assert_true(measure(EWA_MEASURE_ANGLE, right, 3).angle_deg == 90);
@@ -49,7 +49,7 @@ static void test_angles(void **state) {
     assert_true(measure(EWA_MEASURE_ANGLE, back, 3).angle_deg == 0);
 }
 
-static void test_distances(void **state) {
+TEST(test_distances) {
     (void)state;
     const double way[9] = {0, 0, 0, 3, 4, 0, 3, 4, 12}, slope[6] = {0, 0, 5, 3, 4, 0};
     ewa_measurement m = measure(EWA_MEASURE_DISTANCE, way, 3);
@@ -62,7 +62,7 @@ static void test_distances(void **state) {
     assert_true(m.length_world == 0 && m.slope_deg == 0);
 }
 
-static void test_refused(void **state) {
+TEST(test_refused) {
     (void)state;
     const double places[12] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0}, none[3] = {0}, wild[6] = {0, 0, 0, NAN, 0, 0};
     ewa_measurement m;
@@ -76,12 +76,4 @@ static void test_refused(void **state) {
     assert_null(ewa_measure_kind_name(4));
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_squares),
-        cmocka_unit_test(test_angles),
-        cmocka_unit_test(test_distances),
-        cmocka_unit_test(test_refused),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -127,7 +127,7 @@ static bool direction_of(const ewa_camera *camera, const ewa_panorama_options *o
 }
 
 /// Every pixel shows what lies in its direction, at its distance, also where sides of the cube meet.
-static void test_directions(void **state) {
+TEST(test_directions) {
     static const struct {
         ewa_panorama_kind kind;
         uint32_t width_px, height_px;
@@ -168,7 +168,7 @@ static void test_directions(void **state) {
 }
 
 /// A camera that is turned shows the same, moved along; what is upright stays so whatever the camera's tilt.
-static void test_turned(void **state) {
+TEST(test_turned) {
     stage s;
     open_stage(2, &s);
     static shot plain, other;
@@ -190,7 +190,7 @@ static void test_turned(void **state) {
 }
 
 /// The same bytes for any number of threads, and with fewer planes; without a kind it is the plane picture.
-static void test_same_bytes(void **state) {
+TEST(test_same_bytes) {
     static shot one, more;
     const ewa_camera camera = make_camera(120, 60, 0.3, 0.2);
     const ewa_panorama_options kinds[] = {make_options(EWA_PANORAMA_NONE), make_options(EWA_PANORAMA_EQUIRECTANGULAR),
@@ -217,7 +217,7 @@ static void test_same_bytes(void **state) {
 }
 
 /// Who says nothing stands in the middle, upright.
-static void test_place(void **state) {
+TEST(test_place) {
     stage s;
     open_stage(1, &s);
     ewa_panorama_options options = make_options(EWA_PANORAMA_EQUIRECTANGULAR);
@@ -244,7 +244,7 @@ static void test_place(void **state) {
 }
 
 /// Points have as many pixels as in a plane picture, of what is on no surface, too, and may be as large.
-static void test_points(void **state) {
+TEST(test_points) {
     static shot plain, other;
     stage s;
     open_stage(1, &s);
@@ -283,7 +283,7 @@ static void test_points(void **state) {
 }
 
 /// Eye-dome lighting goes on where sides of the cube meet.
-static void test_eye_dome(void **state) {
+TEST(test_eye_dome) {
     static shot got;
     stage s;
     open_stage(2, &s);
@@ -305,7 +305,7 @@ static void test_eye_dome(void **state) {
     close_stage(&s);
 }
 
-static void test_refusals(void **state) {
+TEST(test_refusals) {
     stage s;
     open_stage(1, &s);
     static shot got;
@@ -328,9 +328,4 @@ static void test_refusals(void **state) {
     close_stage(&s);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_directions), cmocka_unit_test(test_turned), cmocka_unit_test(test_same_bytes), cmocka_unit_test(test_place),
-                                       cmocka_unit_test(test_points), cmocka_unit_test(test_eye_dome),
-                                       cmocka_unit_test(test_refusals)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

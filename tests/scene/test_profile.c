@@ -78,7 +78,7 @@ static const double *numbers_of(const ewa_profile *profile, const char *name) {
 }
 
 /// Along x the station is x, the offset -y, the height that of the ramp: 41 stations of 5 points, however far off.
-static void test_ramp(void **state) {
+TEST(test_ramp) {
     (void)state;
     static const double places[][3] = {{0, 0, 0}, {500000.25, -4200000.5, 100}};
     for (int k = 0; k < 2; k++) {
@@ -107,7 +107,7 @@ static void test_ramp(void **state) {
 }
 
 /// Towards (3, 4) a place's station and offset are its products with (3, 4) / 5 and (4, -3) / 5.
-static void test_oblique(void **state) {
+TEST(test_oblique) {
     (void)state;
     static const double line[2][3] = {{0, 0, 7}, {6, 8, -7}};
     ewa_scene *scene = make_scene();
@@ -138,7 +138,7 @@ static void test_oblique(void **state) {
 }
 
 /// Around a right bend stations go on: (5, 0) is at 5, (5, 3) at 8.
-static void test_bend(void **state) {
+TEST(test_bend) {
     (void)state;
     static const double line[3][3] = {{0, 0, 0}, {5, 0, 0}, {5, 4, 0}};
     ewa_scene *scene = make_scene();
@@ -159,7 +159,7 @@ static void test_bend(void **state) {
 }
 
 /// What is hidden, and what sections cut away, is in no profile; two scans are, in either order.
-static void test_what_is_shown(void **state) {
+TEST(test_what_is_shown) {
     (void)state;
     static const double line[2][3] = {{0, 0, 0}, {20, 0, 0}};
     double sums[2] = {0};
@@ -195,7 +195,7 @@ static void test_what_is_shown(void **state) {
 }
 
 /// With y up and the world turned as glTF has it, the same line gives the same numbers.
-static void test_y_up(void **state) {
+TEST(test_y_up) {
     (void)state;
     static const double line[2][3] = {{0, 0, 0}, {10, 0, 0}};
     ewa_scene *scene = make_scene();
@@ -224,7 +224,7 @@ static void test_y_up(void **state) {
 }
 
 /// Decimals of a file stay decimals: the grid's step is a hundredth.
-static void test_decimals(void **state) {
+TEST(test_decimals) {
     (void)state;
     ewa_cloud *cloud = make_ramp((double[3]){849200, 0, 400});
     const ewa_coordinate_grid grid = {{0.01, 0.01, 0.01}, {0}};
@@ -244,7 +244,7 @@ static void test_decimals(void **state) {
 }
 
 /// Colours are those of the scene: by height from the lowest to the highest point of all; one colour; none.
-static void test_colors(void **state) {
+TEST(test_colors) {
     (void)state;
     static const double line[2][3] = {{0, 0, 0}, {10, 0, 0}};
     uint8_t ends[2][3];
@@ -295,7 +295,7 @@ static double red_middle(const uint8_t *rgba8, int low_x, int high_x, double mid
 }
 
 /// A ramp of slope 1/2 rises by half its length on the picture, times the exaggeration.
-static void test_graph(void **state) {
+TEST(test_graph) {
     (void)state;
     static const double line[2][3] = {{-0.125, 0, 0}, {10.125, 0, 0}};
     ewa_scene *scene = make_scene();
@@ -345,7 +345,7 @@ static void test_graph(void **state) {
     ewa_cloud_destroy(&cloud);
 }
 
-static void test_refused(void **state) {
+TEST(test_refused) {
     (void)state;
     double corners[3 * EWA_PROFILE_CORNERS];
     uint32_t count;
@@ -367,11 +367,4 @@ static void test_refused(void **state) {
     ewa_scene_destroy(&scene);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_ramp),     cmocka_unit_test(test_oblique),  cmocka_unit_test(test_bend),
-        cmocka_unit_test(test_what_is_shown), cmocka_unit_test(test_y_up), cmocka_unit_test(test_decimals),
-        cmocka_unit_test(test_colors),   cmocka_unit_test(test_graph),    cmocka_unit_test(test_refused),
-    };
-    return cmocka_run_group_tests(tests, enter, leave);
-}
+int main(void) { return RUN_TESTS(enter, leave); }

@@ -92,7 +92,7 @@ static uint32_t read_all(shown *s, ewa_scene_reader *reader, uint32_t *read_coun
     }
 }
 
-static void all_of_it_in_the_end(void **state) {
+TEST(all_of_it_in_the_end) {
     open_scene(&one, file);
     open_scene(&other, file);
     ewa_scene_reader *reader = NULL;
@@ -131,7 +131,7 @@ static void all_of_it_in_the_end(void **state) {
 }
 
 /// What was read for another look comes to nothing.
-static void looks_that_change(void **state) {
+TEST(looks_that_change) {
     open_scene(&one, file);
     ewa_scene_reader *reader = NULL;
     ewa_context *context = check_context(1, NULL);
@@ -184,7 +184,7 @@ static void *read_beside(void *data) {
     return NULL;
 }
 
-static void pictures_meanwhile(void **state) {
+TEST(pictures_meanwhile) {
     open_scene(&one, file);
     open_scene(&other, file);
     one.options.lod.resident_only = true;
@@ -232,7 +232,7 @@ static void damage(void) {
 }
 
 /// What is damaged is read once by itself, and represented by what is above it for good.
-static void damaged_nodes_are_left_out(void **state) {
+TEST(damaged_nodes_are_left_out) {
     damage();
     open_scene(&one, damaged);
     one.options.lod.error = 0.01;
@@ -255,12 +255,4 @@ static void damaged_nodes_are_left_out(void **state) {
     close_scene(&one);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(all_of_it_in_the_end),
-        cmocka_unit_test(looks_that_change),
-        cmocka_unit_test(pictures_meanwhile),
-        cmocka_unit_test(damaged_nodes_are_left_out),
-    };
-    return cmocka_run_group_tests(tests, enter, leave);
-}
+int main(void) { return RUN_TESTS(enter, leave); }

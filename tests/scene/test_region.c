@@ -98,7 +98,7 @@ static uint64_t count_left(const ewa_region *regions, uint32_t count) {
 }
 
 /// Boxes hold their faces; classes are those of the codes; several regions hide together.
-static void test_known_counts(void **state) {
+TEST(test_known_counts) {
     (void)state;
     ewa_region box = {.has_box = true, .box_world = {2, 3, -1, 5, 9, 1}}, kept = box, classes = {.has_classes = true};
     kept.kept = true;
@@ -119,7 +119,7 @@ static void test_known_counts(void **state) {
 }
 
 /// The outline of [7.5, 12.5] x [5.5, 14.5] on the picture, at 2 pixels a unit, as a rectangle and with a notch.
-static void test_outlines(void **state) {
+TEST(test_outlines) {
     (void)state;
     static const double rectangle[8] = {35, 39, 45, 39, 45, 21, 35, 21}, triangle[6] = {0, 0, 80, 0, 40, 30};
     for (int flat = 0; flat < 2; flat++) {
@@ -164,7 +164,7 @@ static void draw(ewa_scene *scene, uint8_t *rgba8) {
 }
 
 /// A picture of a scene of which points are hidden is that of the points that are left; shown again, that of all.
-static void test_pictures(void **state) {
+TEST(test_pictures) {
     (void)state;
     static uint8_t all[4 * WIDTH * HEIGHT], hidden[4 * WIDTH * HEIGHT], other[4 * WIDTH * HEIGHT];
     ewa_cloud *cloud = make_grid(), *left = NULL;
@@ -204,7 +204,7 @@ static void test_pictures(void **state) {
 }
 
 /// Octrees hide the same points, and scene files keep regions to the bit.
-static void test_files(void **state) {
+TEST(test_files) {
     (void)state;
     ewa_cloud *cloud = make_grid(), *left = NULL;
     const double line[8] = {10, 10, 70, 12, 60, 50, 12, 44};
@@ -263,12 +263,4 @@ static void test_files(void **state) {
     ewa_cloud_destroy(&cloud);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_known_counts),
-        cmocka_unit_test(test_outlines),
-        cmocka_unit_test(test_pictures),
-        cmocka_unit_test(test_files),
-    };
-    return cmocka_run_group_tests(tests, enter, leave);
-}
+int main(void) { return RUN_TESTS(enter, leave); }

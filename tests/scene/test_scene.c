@@ -91,7 +91,7 @@ static ewa_camera place(ewa_scene *scene) {
     return camera;
 }
 
-static void test_added_is_merged(void **state) {
+TEST(test_added_is_merged) {
     ewa_context *context = check_context(0, NULL);
     ewa_cloud *clouds[2] = {make_object(context, EWA_OBJECT_TORUS, 0),
                             make_object(context, EWA_OBJECT_SPHERE, 1.25)};
@@ -147,7 +147,7 @@ static double largest_difference(const planes *a, const planes *b) {
 
 /// Tiles and interleaved scans of one place are the picture of the one file. Not to the byte: among neighbours that are
 /// equally far, as on the regular grid of a torus, the numbering of points decides which ones count.
-static void test_estimated_together(void **state) {
+TEST(test_estimated_together) {
     ewa_context *context = check_context(0, NULL);
     ewa_cloud *object = make_object(context, EWA_OBJECT_TORUS, 0), *whole = bare_part(context, object, all);
     ewa_scene *one = make_scene(context);
@@ -178,7 +178,7 @@ static void test_estimated_together(void **state) {
 }
 
 /// Gaussians out of sight change none of the planes of a surface but where colours are rounded.
-static void test_planes_among_gaussians(void **state) {
+TEST(test_planes_among_gaussians) {
     ewa_context *context = check_context(0, NULL);
     ewa_cloud *cloud = make_object(context, EWA_OBJECT_SPHERE, 0);
     ewa_scene *scene = make_scene(context);
@@ -205,7 +205,7 @@ static void test_planes_among_gaussians(void **state) {
 }
 
 /// A hidden instance is not drawn, a tint is one colour, and a copy goes its own way.
-static void test_instances(void **state) {
+TEST(test_instances) {
     ewa_context *context = check_context(0, NULL);
     ewa_cloud *clouds[2] = {make_object(context, EWA_OBJECT_TORUS, 0),
                             make_object(context, EWA_OBJECT_SPHERE, 1.25)};
@@ -246,7 +246,7 @@ static void test_instances(void **state) {
 }
 
 /// A range is one for all clouds that are coloured alike, and percentiles are those of all their numbers.
-static void test_one_range(void **state) {
+TEST(test_one_range) {
     ewa_context *context = check_context(0, NULL);
     ewa_cloud *clouds[2];
     for (int k = 0; k < 2; k++) {
@@ -274,7 +274,7 @@ static void test_one_range(void **state) {
     ewa_context_destroy(&context);
 }
 
-static void test_refused(void **state) {
+TEST(test_refused) {
     check_log log = {.count = 0};
     ewa_context *context = check_context(1, &log);
     ewa_cloud *cloud = make_object(context, EWA_OBJECT_PLANE, 0);
@@ -321,7 +321,7 @@ static void test_refused(void **state) {
 }
 
 /// What was made for an asset that is gone is not taken for another one, which may lie in the same place of memory.
-static void test_another_asset(void **state) {
+TEST(test_another_asset) {
     ewa_context *context = check_context(1, NULL);
     ewa_cloud *clouds[2] = {make_object(context, EWA_OBJECT_TORUS, 0), make_object(context, EWA_OBJECT_SPHERE, 0)};
     ewa_scene *scene = make_scene(context), *alone = make_scene(context);
@@ -341,7 +341,7 @@ static void test_another_asset(void **state) {
 
 /// A thousand tiles without normals, each of which touches the next, in an order in which none comes after a neighbour: one
 /// group, found before long.
-static void test_chain_of_tiles(void **state) {
+TEST(test_chain_of_tiles) {
     enum { TILES = 1000, OF_TILE = 4 };
     check_log log = {.count = 0};
     ewa_context *context = check_context(1, &log);
@@ -370,7 +370,7 @@ static void test_chain_of_tiles(void **state) {
 }
 
 /// The cloud of a scene is what its surfels are made of: their picture is the scene's.
-static void test_cloud_of_scene(void **state) {
+TEST(test_cloud_of_scene) {
     check_log log = {.count = 0};
     ewa_context *context = check_context(1, &log);
     ewa_cloud *clouds[2] = {make_object(context, EWA_OBJECT_TORUS, 0), make_object(context, EWA_OBJECT_SPHERE, 1.25)};
@@ -400,7 +400,7 @@ static void test_cloud_of_scene(void **state) {
 }
 
 /// Who puts things of different coordinates together is told.
-static void test_far_apart(void **state) {
+TEST(test_far_apart) {
     const double shifts_world[2] = {900, 4e6};
     for (int i = 0; i < 2; i++) {
         check_log log = {.count = 0};
@@ -418,7 +418,7 @@ static void test_far_apart(void **state) {
 }
 
 /// Picks find the point that is nearest to what is seen, and sections hide points.
-static void test_pick(void **state) {
+TEST(test_pick) {
     ewa_context *context = check_context(1, NULL);
     ewa_cloud *cloud = NULL;
     ewa_scene *scene = make_scene_of(context, EWA_OBJECT_SPHERE, &cloud);
@@ -454,7 +454,7 @@ static void test_pick(void **state) {
 }
 
 /// From wherever a sphere is seen, what is picked lies on it, behind the pixel that was asked for.
-static void test_pick_aslant(void **state) {
+TEST(test_pick_aslant) {
     ewa_context *context = check_context(1, NULL);
     ewa_cloud *cloud = NULL;
     ewa_scene *scene = make_scene_of(context, EWA_OBJECT_SPHERE, &cloud);
@@ -480,7 +480,7 @@ static void test_pick_aslant(void **state) {
 }
 
 /// Few points are dots of 0.004 of the scene's size; those that have radii keep them.
-static void test_dots(void **state) {
+TEST(test_dots) {
     static double places[3][3] = {{0, 0, 0}, {3, 0, 0}, {0, 4, 0}};
     static float radii[3] = {1, 2, 3};
     ewa_context *context = check_context(1, NULL);
@@ -536,14 +536,14 @@ static double first_radius(bool curve, bool backwards) {
 
 /// A curve is dots of any number of points: lines as thin as its spacing were next to nothing. Many points that are strewn
 /// are none.
-static void test_curve(void **state) {
+TEST(test_curve) {
     assert_true(fabs(first_radius(true, false) - 0.004) < 1e-9);
     assert_true(fabs(first_radius(true, true) - 0.004) < 1e-9);
     assert_true(first_radius(false, false) > 0.01);
 }
 
 /// What is asked to be up is up, along any axis.
-static void test_asked_up(void **state) {
+TEST(test_asked_up) {
     ewa_context *context = check_context(1, NULL);
     ewa_cloud *cloud = NULL;
     ewa_scene *scene = make_scene_of(context, EWA_OBJECT_TORUS, &cloud);
@@ -562,7 +562,7 @@ static void test_asked_up(void **state) {
 }
 
 /// Small coordinates far from the origin whose heights stand out are degrees, unless no degrees are so many.
-static void test_degrees(void **state) {
+TEST(test_degrees) {
     static const struct {
         double x, y, z;
         bool degrees;
@@ -586,7 +586,7 @@ static void test_degrees(void **state) {
 }
 
 /// A description has the options that are no defaults, and all that is there.
-static void test_described(void **state) {
+TEST(test_described) {
     ewa_context *context = check_context(1, NULL);
     ewa_cloud *cloud = NULL;
     ewa_scene *scene = make_scene_of(context, EWA_OBJECT_PLANE, &cloud);
@@ -635,7 +635,7 @@ static ewa_surfels *add_as(ewa_context *context, ewa_scene *scene, const ewa_clo
 
 /// A sphere without colours is lit from above left, wherever it is seen from, as points and as resident surfels; one with
 /// colours, or by lights that are given, is not.
-static void test_bare_light(void **state) {
+TEST(test_bare_light) {
     (void)state;
     ewa_context *context = check_context(1, NULL);
     ewa_cloud *cloud = make_object(context, EWA_OBJECT_SPHERE, 0);
@@ -667,18 +667,4 @@ static void test_bare_light(void **state) {
     ewa_context_destroy(&context);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_added_is_merged),
-                                       cmocka_unit_test(test_estimated_together),
-                                       cmocka_unit_test(test_planes_among_gaussians),
-                                       cmocka_unit_test(test_instances),
-                                       cmocka_unit_test(test_one_range),
-                                       cmocka_unit_test(test_refused),
-                                       cmocka_unit_test(test_another_asset), cmocka_unit_test(test_chain_of_tiles), cmocka_unit_test(test_far_apart),
-        cmocka_unit_test(test_cloud_of_scene), cmocka_unit_test(test_pick),
-                                       cmocka_unit_test(test_pick_aslant), cmocka_unit_test(test_described),
-                                       cmocka_unit_test(test_asked_up), cmocka_unit_test(test_degrees),
-                                       cmocka_unit_test(test_dots),      cmocka_unit_test(test_curve),
-                                       cmocka_unit_test(test_bare_light)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -109,7 +109,7 @@ static ewa_scene_options make_options(void) {
     return options;
 }
 
-static void test_saved_opens_alike(void **state) {
+TEST(test_saved_opens_alike) {
     ewa_context *context = check_context(0, NULL);
     ewa_scene *made = NULL, *opened = NULL;
     const ewa_scene_options options = make_options();
@@ -188,7 +188,7 @@ static char *save_asset(ewa_context *context, const char *path, const ewa_asset_
 }
 
 /// What a kind of asset is made by is saved with it, and nothing else.
-static void test_saved_assets(void **state) {
+TEST(test_saved_assets) {
     static const char off[] = "OFF\n4 2 0\n-1 -1 0\n1 -1 0\n1 1 0.5\n-1 1 0\n3 0 1 2\n3 0 2 3\n";
     static const char *const files[] = {"square.off", "torus.ply", "deep/ball.nrrd"};
     FILE *file = fopen(files[0], "w");
@@ -209,7 +209,7 @@ static void test_saved_assets(void **state) {
     ewa_context_destroy(&context);
 }
 
-static void test_files_in_files(void **state) {
+TEST(test_files_in_files) {
     write_text("deep/inner.json",
                "{\"ewa_scene\": 1, \"options\": {\"render\": {\"ambient\": 0.9}}, \"items\": ["
                "{\"file\": \"sphere.ply\", \"to_world\": [0.5,0,0,0, 0,0.5,0,0.25, 0,0,0.5,0, 0,0,0,1]},"
@@ -251,7 +251,7 @@ static void test_files_in_files(void **state) {
     ewa_context_destroy(&context);
 }
 
-static void test_callers_options_win(void **state) {
+TEST(test_callers_options_win) {
     write_text("options.json",
                "{\"ewa_scene\": 1, \"options\": {\"up\": \"z\", \"render\": {\"ambient\": 0.5, "
                "\"eye_dome\": 0.5}, \"lights\": [{\"color\": [1, 0, 0]}]}, \"items\": []}");
@@ -273,7 +273,7 @@ static void test_callers_options_win(void **state) {
     ewa_context_destroy(&context);
 }
 
-static void test_cameras_keep_their_heights(void **state) {
+TEST(test_cameras_keep_their_heights) {
     ewa_context *context = check_context(0, NULL);
     ewa_scene *scene = NULL;
     assert_int_equal(ewa_scene_create(context, NULL, &scene), EWA_OK);
@@ -327,7 +327,7 @@ static void refuse(const char *text, ewa_status expected, const char *part) {
 #define OPTIONS(members)                                                                                     \
     "{\"ewa_scene\": 1, \"items\": [{\"file\": \"torus.ply\"}], \"options\": {" members "}}"
 
-static void test_bad_is_refused(void **state) {
+TEST(test_bad_is_refused) {
     static const struct {
         const char *text;
         ewa_status status;
@@ -395,7 +395,7 @@ static void test_bad_is_refused(void **state) {
 }
 
 /// Percentiles are those from the lowest number to the highest.
-static void test_percentiles(void **state) {
+TEST(test_percentiles) {
     write_text("all.json", ITEM("\"file\": \"torus.ply\", \"range\": [\"0%\", \"100%\"]"));
     ewa_context *context = check_context(0, NULL);
     ewa_scene_file *file = NULL;
@@ -409,7 +409,7 @@ static void test_percentiles(void **state) {
     ewa_context_destroy(&context);
 }
 
-static void test_depth_and_number(void **state) {
+TEST(test_depth_and_number) {
     char name[64], text[1 << 12];
     for (int i = 1; i <= 9; i++) {
         snprintf(name, sizeof name, "level%d.json", i);
@@ -439,7 +439,7 @@ static void test_depth_and_number(void **state) {
     ewa_context_destroy(&context);
 }
 
-static void test_truncations(void **state) {
+TEST(test_truncations) {
     ewa_context *context = check_context(0, NULL);
     char *text = read_text("saved.json");
     const size_t size = strlen(text);
@@ -457,7 +457,7 @@ static void test_truncations(void **state) {
     ewa_context_destroy(&context);
 }
 
-static void test_unsaveable(void **state) {
+TEST(test_unsaveable) {
     check_log heard = {.count = 0};
     ewa_context *context = check_context(0, &heard);
     ewa_scene *scene = NULL;
@@ -483,7 +483,7 @@ static void test_unsaveable(void **state) {
     ewa_context_destroy(&context);
 }
 
-static void test_filters_as_text(void **state) {
+TEST(test_filters_as_text) {
     static const char *const texts[] = {"classification=2,6",
                                         "z>0.1",
                                         "z>=0.1",
@@ -504,15 +504,4 @@ static void test_filters_as_text(void **state) {
     }
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_saved_opens_alike),
-        cmocka_unit_test(test_saved_assets),
-        cmocka_unit_test(test_percentiles),   cmocka_unit_test(test_files_in_files),
-        cmocka_unit_test(test_callers_options_win), cmocka_unit_test(test_cameras_keep_their_heights),
-        cmocka_unit_test(test_bad_is_refused),      cmocka_unit_test(test_depth_and_number),
-        cmocka_unit_test(test_truncations),         cmocka_unit_test(test_unsaveable),
-        cmocka_unit_test(test_filters_as_text),
-    };
-    return cmocka_run_group_tests_name("scene_file", tests, set_up, NULL);
-}
+int main(void) { return RUN_TESTS(set_up, NULL); }

@@ -128,7 +128,7 @@ static void set(ewa_scene *scene, const ewa_instance *instance) {
 }
 
 /// What is done to the octree is done to the camera the other way round: cuts and places are those of its own space.
-static void test_moves_like_a_camera(void **state) {
+TEST(test_moves_like_a_camera) {
     ewa_context *context = check_context(2, NULL);
     const ewa_asset_options still = asset_options(NULL), moved = asset_options(turned);
     ewa_scene *scene = make_scene(context, file, &still), *away = make_scene(context, file, &moved);
@@ -158,7 +158,7 @@ static void test_moves_like_a_camera(void **state) {
 }
 
 /// All points of the octree are those of the cloud, wherever both are put; its levels are like them.
-static void test_moves_like_a_cloud(void **state) {
+TEST(test_moves_like_a_cloud) {
     const double *const maps[] = {turned, mirrored};
     ewa_context *context = check_context(2, NULL);
     for (int m = 0; m < 2; m++) {
@@ -184,7 +184,7 @@ static void test_moves_like_a_cloud(void **state) {
 }
 
 /// Colours by numbers, a tint, opacity, sizes: as the cloud's; and the old picture when all is as it was.
-static void test_instances(void **state) {
+TEST(test_instances) {
     static const char *const attributes[] = {"z", "normal.x", "red", "intensity", "", ""};
     ewa_context *context = check_context(2, NULL);
     const ewa_asset_options options = asset_options(turned);
@@ -220,7 +220,7 @@ static void test_instances(void **state) {
 }
 
 /// A scale is one for a cloud and an octree that are coloured alike.
-static void test_one_scale(void **state) {
+TEST(test_one_scale) {
     ewa_context *context = check_context(1, NULL);
     const ewa_asset_options still = asset_options(NULL), away = asset_options(turned);
     ewa_scene *scene = make_scene(context, file, &still);
@@ -245,7 +245,7 @@ static void test_one_scale(void **state) {
 }
 
 /// A filter takes the points that it takes of a cloud, in the octree's own space.
-static void test_filters(void **state) {
+TEST(test_filters) {
     static const char *const terms[] = {"x > 0.25 and normal.z > 0.97", "intensity < 30000"};
     ewa_context *context = check_context(2, NULL);
     for (int k = 0; k < 2; k++) {
@@ -276,7 +276,7 @@ static void test_filters(void **state) {
 }
 
 /// What cannot be is refused with the file's name, and leaves the octree as it was.
-static void test_refused(void **state) {
+TEST(test_refused) {
     check_log log = {.count = 0};
     ewa_context *context = check_context(1, &log);
     const ewa_asset_options options = asset_options(NULL);
@@ -304,7 +304,7 @@ static void test_refused(void **state) {
 }
 
 /// Picks find points where they were moved to.
-static void test_pick(void **state) {
+TEST(test_pick) {
     ewa_context *context = check_context(1, NULL);
     const ewa_asset_options options = asset_options(turned);
     ewa_scene *scene = make_scene(context, file, &options);
@@ -328,7 +328,7 @@ static void test_pick(void **state) {
 }
 
 /// An octree that is lent to a scene is drawn as it is where nobody says otherwise.
-static void test_lent(void **state) {
+TEST(test_lent) {
     char path[512];
     ewa_context *context = check_context(1, NULL);
     ewa_lod *lod = NULL;
@@ -377,7 +377,7 @@ static void add_three(ewa_context *context, ewa_scene *scene, ewa_lod *lent) {
 }
 
 /// One octree several times in a scene is drawn as octrees of their own are, whichever of them can be seen.
-static void test_several_times(void **state) {
+TEST(test_several_times) {
     char path[512];
     ewa_context *context = check_context(1, NULL);
     ewa_lod *lod = NULL;
@@ -408,17 +408,4 @@ static void test_several_times(void **state) {
     ewa_context_destroy(&context);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_moves_like_a_camera),
-        cmocka_unit_test(test_moves_like_a_cloud),
-        cmocka_unit_test(test_instances),
-        cmocka_unit_test(test_one_scale),
-        cmocka_unit_test(test_filters),
-        cmocka_unit_test(test_refused),
-        cmocka_unit_test(test_pick),
-        cmocka_unit_test(test_lent),
-        cmocka_unit_test(test_several_times),
-    };
-    return cmocka_run_group_tests(tests, enter, leave);
-}
+int main(void) { return RUN_TESTS(enter, leave); }

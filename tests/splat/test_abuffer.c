@@ -68,7 +68,7 @@ static void assert_rgba(const double found[4], double r, double g, double b, dou
 }
 
 /// With room for all, every order gives equation 12 from front to back.
-static void test_room_for_all(void **state) {
+TEST(test_room_for_all) {
     const disc orders[][3] = {{red, green, blue}, {blue, green, red}, {green, blue, red}, {red, blue, green}};
     for (size_t i = 0; i < sizeof orders / sizeof orders[0]; i++) {
         double rgba[4];
@@ -78,7 +78,7 @@ static void test_room_for_all(void **state) {
 }
 
 /// With too few fragments the points' order decides: what was merged cannot be parted any more.
-static void test_order_decides(void **state) {
+TEST(test_order_decides) {
     const disc in_order[3] = {red, green, blue}, out_of_order[3] = {red, blue, green};
     double rgba[4];
     draw_discs(in_order, 3, 1, NULL, NULL, rgba);
@@ -102,7 +102,7 @@ static ewa_vec3 square(const void *data, ewa_vec3 color, ewa_vec3 normal_world, 
 
 /// Contributions of one surface are averaged and then shaded; fragments are shaded, once each, and then
 /// merged.
-static void test_shading(void **state) {
+TEST(test_shading) {
     int calls = 0, *const counter = &calls;
     double rgba[4];
     const disc one_surface[2] = {{2, {0.2f, 0, 0}}, {2, {0.6f, 0, 0}}};
@@ -117,7 +117,7 @@ static void test_shading(void **state) {
 }
 
 /// In the middle of a sphere, front and back, as many fragments as surfaces are exact layers.
-static void test_exact_on_separate_surfaces(void **state) {
+TEST(test_exact_on_separate_surfaces) {
     ewa_context *context = check_context(0, NULL);
     scene of = picture_measured_scene(context, SCENE_SPHERE, 8000, NULL);
     ewa_render_options options;
@@ -148,7 +148,7 @@ static void test_exact_on_separate_surfaces(void **state) {
     ewa_context_destroy(&context);
 }
 
-static void test_arguments(void **state) {
+TEST(test_arguments) {
     ewa_context *context = check_context(1, NULL);
     ewa_cloud *cloud = make_discs(context, &red, 1);
     ewa_camera camera = disc_camera();
@@ -163,11 +163,4 @@ static void test_arguments(void **state) {
     ewa_context_destroy(&context);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_room_for_all), cmocka_unit_test(test_order_decides),
-        cmocka_unit_test(test_shading),      cmocka_unit_test(test_exact_on_separate_surfaces),
-        cmocka_unit_test(test_arguments),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -118,7 +118,7 @@ static void hold(scene_kind kind, const ewa_render_options *options, bool clips,
     for (int i = 0; i < 3; i++) picture_free(&done[i]);
 }
 
-static void test_bands(void **state) {
+TEST(test_bands) {
     ewa_render_options options;
     ewa_render_options_init(&options, sizeof options);
     for (scene_kind kind = 0; kind < SCENE_COUNT; kind++) hold(kind, &options, false, "as it is");
@@ -137,7 +137,7 @@ static void test_bands(void **state) {
 }
 
 /// Eye-dome lighting where neither depths nor linear colours are asked for.
-static void test_eye_dome_bytes(void **state) {
+TEST(test_eye_dome_bytes) {
     bench b = start(2, SCENE_TORUS, false);
     ewa_render_options options;
     ewa_render_options_init(&options, sizeof options);
@@ -158,7 +158,7 @@ static void test_eye_dome_bytes(void **state) {
 }
 
 /// What only some sources have: alphas and materials of a proxy count.
-static void test_proxy_facts(void **state) {
+TEST(test_proxy_facts) {
     ewa_context *context = check_context(2, NULL);
     scene of;
     assert_int_equal(scene_make(context, SCENE_TORUS, POINTS, WIDTH, HEIGHT, &of), EWA_OK);
@@ -216,7 +216,7 @@ static void test_proxy_facts(void **state) {
 }
 
 /// q0 that is set is what coverage is measured by.
-static void test_unit_coverage(void **state) {
+TEST(test_unit_coverage) {
     bench b = start(2, SCENE_SPHERE, false);
     picture drawn[2] = {picture_make(WIDTH, HEIGHT), picture_make(WIDTH, HEIGHT)};
     ewa_surfels *surfels = NULL;
@@ -238,7 +238,7 @@ static void test_unit_coverage(void **state) {
     stop(&b);
 }
 
-static void test_refusals(void **state) {
+TEST(test_refusals) {
     bench b = start(1, SCENE_SPHERE, false);
     picture drawn = picture_make(WIDTH, HEIGHT);
     assert_int_equal(ewa_render_set_rows(b.renderer, 0, BAND), EWA_ERROR_ARGUMENT);
@@ -257,11 +257,4 @@ static void test_refusals(void **state) {
     stop(&b);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_bands),       cmocka_unit_test(test_eye_dome_bytes),
-        cmocka_unit_test(test_proxy_facts), cmocka_unit_test(test_unit_coverage),
-        cmocka_unit_test(test_refusals),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

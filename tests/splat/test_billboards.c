@@ -25,7 +25,7 @@ static double measure_coverage(const ewa_cloud *cloud) {
 }
 
 /// The fast pipeline agrees with the reference, for every kernel, with back faces left out and cut by planes.
-static void test_reference(void **state) {
+TEST(test_reference) {
     (void)state;
     ewa_context *context = check_context(0, NULL);
     static const scene_kind kinds[] = {SCENE_SPHERE, SCENE_ELLIPSES, SCENE_NEAR};
@@ -81,7 +81,7 @@ static ewa_cloud *make_points(ewa_context *context, const double forward[3], boo
 
 /// From wherever they are seen, points of no surface are the discs that face the picture; so they are from afar, by
 /// their levels, and back faces they have none.
-static void test_face_the_picture(void **state) {
+TEST(test_face_the_picture) {
     (void)state;
     ewa_context *context = check_context(0, NULL);
     static const double forwards[3][3] = {{1, 0, 0}, {0, -1, 0}, {0, 0, -1}};
@@ -114,7 +114,4 @@ static void test_face_the_picture(void **state) {
     ewa_context_destroy(&context);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_reference), cmocka_unit_test(test_face_the_picture)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -45,7 +45,7 @@ static uint32_t finest_in_time(const machine *m, double budget_s) {
 static const machine fast = {{10e-9, 14e-9, 25e-9, 60e-9, 180e-9}, 2e-9, 0.5};
 static const machine slow = {{90e-9, 120e-9, 200e-9, 480e-9, 1000e-9}, 8e-9, 0.9};
 
-static void test_first_frame_is_careful(void **state) {
+TEST(test_first_frame_is_careful) {
     ewa_budget budget;
     ewa_budget_start(&budget);
     assert_true(frame_s(&slow, draw(&budget, &slow, 0.2, 0, 1)) <= 0.2);
@@ -53,7 +53,7 @@ static void test_first_frame_is_careful(void **state) {
     assert_int_equal(draw(&budget, &fast, 1e15, 0, 1), 0);
 }
 
-static void test_settles_and_stays(void **state) {
+TEST(test_settles_and_stays) {
     static const double budgets_s[] = {0.01, 0.025, 0.04, 0.08, 0.2, 1};
     const machine *const machines[] = {&fast, &slow};
     for (int i = 0; i < 12; i++) {
@@ -74,7 +74,7 @@ static void test_settles_and_stays(void **state) {
     }
 }
 
-static void test_reacts_to_a_slower_view(void **state) {
+TEST(test_reacts_to_a_slower_view) {
     ewa_budget budget;
     ewa_budget_start(&budget);
     machine m = fast;
@@ -91,7 +91,7 @@ static void test_reacts_to_a_slower_view(void **state) {
     assert_true(level <= before + 1); // one coarser, where the finer one has little time to spare
 }
 
-static void test_one_slow_frame_changes_nothing(void **state) {
+TEST(test_one_slow_frame_changes_nothing) {
     ewa_budget budget;
     ewa_budget_start(&budget);
     for (int k = 0; k < 24; k++) draw(&budget, &fast, 0.06, 0, 1);
@@ -101,7 +101,7 @@ static void test_one_slow_frame_changes_nothing(void **state) {
 }
 
 /// A coarse level whose splats cost far more each does not make finer ones look dear, nor the other way round.
-static void test_levels_are_not_mixed_up(void **state) {
+TEST(test_levels_are_not_mixed_up) {
     ewa_budget budget;
     ewa_budget_start(&budget);
     for (int k = 0; k < 24; k++) draw(&budget, &fast, 0.06, 0, 1);
@@ -111,7 +111,7 @@ static void test_levels_are_not_mixed_up(void **state) {
     assert_true(after_s > 0.99 * before_s && after_s < 1.01 * before_s);
 }
 
-static void test_not_finer_than_asked(void **state) {
+TEST(test_not_finer_than_asked) {
     ewa_budget budget;
     ewa_budget_start(&budget);
     for (uint32_t level = 0; level < EWA_MAX_LEVELS; level++)
@@ -122,7 +122,7 @@ static void test_not_finer_than_asked(void **state) {
 }
 
 /// Where nothing is fast enough, what is fastest is drawn, not what is coarsest.
-static void test_fastest_where_time_lacks(void **state) {
+TEST(test_fastest_where_time_lacks) {
     machine m = fast;
     m.splat_s[3] = 500e-9, m.splat_s[4] = 4000e-9; // level 2 takes the least
     ewa_budget budget;
@@ -134,7 +134,7 @@ static void test_fastest_where_time_lacks(void **state) {
 }
 
 /// Frames without anything that is visible, pixels or time say nothing.
-static void test_empty_frames(void **state) {
+TEST(test_empty_frames) {
     ewa_budget budget;
     ewa_budget_start(&budget);
     const ewa_budget fresh = budget;
@@ -149,16 +149,4 @@ static void test_empty_frames(void **state) {
     assert_int_equal(ewa_budget_choose(&budget, 1e-9, &none, 7), 0);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_first_frame_is_careful),
-        cmocka_unit_test(test_settles_and_stays),
-        cmocka_unit_test(test_reacts_to_a_slower_view),
-        cmocka_unit_test(test_one_slow_frame_changes_nothing),
-        cmocka_unit_test(test_levels_are_not_mixed_up),
-        cmocka_unit_test(test_not_finer_than_asked),
-        cmocka_unit_test(test_fastest_where_time_lacks),
-        cmocka_unit_test(test_empty_frames),
-    };
-    return cmocka_run_group_tests_name("budget", tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -21,7 +21,7 @@ static void hold(scene_kind kind, const ewa_render_options *options, bool orthog
     ewa_context_destroy(&context);
 }
 
-static void test_pipeline_holds(void **state) {
+TEST(test_pipeline_holds) {
     static const scene_kind kinds[] = {SCENE_ELLIPSES, SCENE_NEAR};
     static const char *const names[] = {"perspective", "affine", "source", "circular", "raycast"};
     for (size_t i = 0; i < sizeof kinds / sizeof kinds[0]; i++) {
@@ -75,7 +75,7 @@ static ewa_camera ahead(void) {
     return camera;
 }
 
-static void test_known_answers(void **state) {
+TEST(test_known_answers) {
     // Picture x = -v, y = u / 2 in world units; 32 pixels per unit.
     static const struct {
         float lines[2][3];
@@ -118,7 +118,7 @@ static void test_known_answers(void **state) {
 }
 
 /// A scaled radius moves no line; a line elsewhere than through the centre is where it should be.
-static void test_line_stays(void **state) {
+TEST(test_line_stays) {
     static const float lines[2][3] = {{0, 1, 0.25f},
                                       {0, 0, 0}}; // v > -0.25: x < 0.25, 8 pixels right of the middle
     ewa_context *context = check_context(0, NULL);
@@ -154,7 +154,7 @@ static ewa_cloud *one_disc(ewa_context *context, const float normal[3], const fl
 }
 
 /// Discs end at their borders, whichever way normals point; borders off the plane cut it where they meet it.
-static void test_borders(void **state) {
+TEST(test_borders) {
     static const float normals[][3] = {{0, 0, -1}, {0, 0, 2}};
     static const struct {
         float border[3];
@@ -178,12 +178,4 @@ static void test_borders(void **state) {
     ewa_context_destroy(&context);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_known_answers),
-        cmocka_unit_test(test_line_stays),
-        cmocka_unit_test(test_borders),
-        cmocka_unit_test(test_pipeline_holds),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -12,7 +12,7 @@
 enum { SIDE_PX = 96 };
 
 /// The way of a splat follows from where alpha is a half; without a threshold there is none.
-static void test_shift(void **state) {
+TEST(test_shift) {
     ewa_render_options options;
     ewa_render_options_init(&options, sizeof options);
     const double both = ewa_contour_shift(&options, false);
@@ -61,7 +61,7 @@ static double cover(const picture *drawn) {
 
 /// Spheres and tori, and the same with normals inside out, for each kernel and both projections: pipeline and reference
 /// draw the same, and less than without the rule.
-static void test_pipelines(void **state) {
+TEST(test_pipelines) {
     ewa_context *context = check_context(0, NULL);
     for (int variant = 0; variant < 20; variant++) {
         const int kernel = variant % 5;
@@ -105,10 +105,4 @@ static void test_pipelines(void **state) {
     ewa_context_destroy(&context);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_shift),
-        cmocka_unit_test(test_pipelines),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -15,7 +15,7 @@ static void random_pixel(check_random *random, const double center[2], double re
 }
 
 /// SS equations 7 and 8: the same kernel in screen and in source space.
-static void test_source_equals_affine(void **state) {
+TEST(test_source_equals_affine) {
     ewa_camera camera = odd_camera();
     check_random random = {1};
     double worst = 0;
@@ -50,7 +50,7 @@ static void test_source_equals_affine(void **state) {
 }
 
 /// Backward mapping by itself: the kernel's coordinates of a point that the affine map has put on the screen.
-static void test_source_maps_backward(void **state) {
+TEST(test_source_maps_backward) {
     const ewa_camera camera = odd_camera();
     const ewa_reference_view view = make_view(&camera, 2, 0, EWA_KERNEL_SOURCE);
     check_random random = {2};
@@ -74,7 +74,7 @@ static void test_source_maps_backward(void **state) {
 }
 
 /// The circle reaches as far as the ellipse does where it is longest, and holds as much.
-static void test_circle_around_ellipse(void **state) {
+TEST(test_circle_around_ellipse) {
     ewa_camera camera = odd_camera();
     check_random random = {3};
     for (int i = 0; i < 300; i++) {
@@ -110,7 +110,7 @@ static void test_circle_around_ellipse(void **state) {
 
 /// Raycast without a prefilter: the kernel's own coordinates come back from anywhere on the disc, however
 /// large.
-static void test_raycast_is_exact(void **state) {
+TEST(test_raycast_is_exact) {
     const ewa_camera camera = odd_camera();
     const double F = 2;
     const ewa_reference_view view = make_view(&camera, F, 0, EWA_KERNEL_RAYCAST);
@@ -141,7 +141,7 @@ static void test_raycast_is_exact(void **state) {
 }
 
 /// For small discs raycast is the affine kernel, from the edge and beyond the plane's horizon too.
-static void test_raycast_limit(void **state) {
+TEST(test_raycast_limit) {
     const ewa_camera camera = odd_camera();
     const ewa_reference_view exact = make_view(&camera, 2, 0.5, EWA_KERNEL_RAYCAST);
     const ewa_reference_view affine = make_view(&camera, 2, 0.5, EWA_KERNEL_AFFINE);
@@ -177,7 +177,7 @@ static void test_raycast_limit(void **state) {
 
 /// Parallel to the picture there is no perspective within a disc: all kernels but the circular one's shape
 /// agree.
-static void test_frontal(void **state) {
+TEST(test_frontal) {
     ewa_camera camera = odd_camera();
     camera.fx_px = camera.fy_px = 300;
     const ewa_surfel surfel =
@@ -195,7 +195,7 @@ static void test_frontal(void **state) {
 }
 
 /// Discs that orthographic cameras see from their edge, but for rounding: weights stay what weights may be.
-static void test_edges_seen_by_source(void **state) {
+TEST(test_edges_seen_by_source) {
     ewa_camera camera = odd_camera();
     camera.projection = EWA_ORTHOGRAPHIC;
     check_random random = {14};
@@ -219,12 +219,4 @@ static void test_edges_seen_by_source(void **state) {
     assert_true(drawn > 1000);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_source_equals_affine),  cmocka_unit_test(test_source_maps_backward),
-        cmocka_unit_test(test_circle_around_ellipse), cmocka_unit_test(test_raycast_is_exact),
-        cmocka_unit_test(test_raycast_limit),         cmocka_unit_test(test_frontal),
-        cmocka_unit_test(test_edges_seen_by_source),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

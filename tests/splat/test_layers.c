@@ -43,7 +43,7 @@ static void hold(scene_kind kind, const ewa_render_options *options, int minimum
     ewa_context_destroy(&context);
 }
 
-static void test_pipeline_holds(void **state) {
+TEST(test_pipeline_holds) {
     static const scene_kind kinds[] = {SCENE_SPHERE, SCENE_TORUS, SCENE_ELLIPSES, SCENE_NEAR};
     for (size_t i = 0; i < sizeof kinds / sizeof kinds[0]; i++) {
         ewa_render_options o;
@@ -107,7 +107,7 @@ static ewa_camera sheet_camera(void) {
 
 /// Colours over each other in front-to-back order, whatever the number of layers allows; a layer's own alpha
 /// is that of its surfels times the opacity.
-static void test_sheets_over_each_other(void **state) {
+TEST(test_sheets_over_each_other) {
     static const uint8_t rgba[4][4] = {
         {255, 0, 0, 51}, {0, 255, 0, 102}, {0, 0, 255, 204}, {255, 255, 255, 255}};
     ewa_context *context = check_context(0, NULL);
@@ -151,7 +151,7 @@ static void test_sheets_over_each_other(void **state) {
 
 /// Many sheets end at one place, where each covers the same part of a pixel: the background shows no more than through
 /// all of them, however few are told apart, and the last layer has the mean colour of what is left.
-static void test_last_edge_layer_takes_all(void **state) {
+TEST(test_last_edge_layer_takes_all) {
     enum { SHEETS = 30, RED = 3 };
     uint8_t rgba[SHEETS][4] = {{255, 0, 0, 255}, {255, 0, 0, 255}, {255, 0, 0, 255}};
     for (int k = RED; k < SHEETS; k++) rgba[k][2] = rgba[k][3] = 255;
@@ -193,7 +193,7 @@ static void test_last_edge_layer_takes_all(void **state) {
 }
 
 /// A transparent sphere's middle has even opacity: 1 - (1 - a)^2.
-static void test_sphere_is_even(void **state) {
+TEST(test_sphere_is_even) {
     ewa_context *context = check_context(0, NULL);
     scene of = picture_measured_scene(context, SCENE_SPHERE, 8000, NULL);
     ewa_render_options o;
@@ -226,7 +226,7 @@ static void assert_same(const picture *a, const picture *b) {
 }
 
 /// The same bytes from every instruction set, any number of threads, and the points in reverse.
-static void test_same_bytes(void **state) {
+TEST(test_same_bytes) {
     static const uint32_t threads[] = {1, 2, 7}, masks[] = {UINT32_MAX, EWA_CPU_AVX2, 0};
     ewa_context *context = check_context(0, NULL);
     scene of = picture_measured_scene(context, SCENE_TORUS, POINTS, NULL);
@@ -261,13 +261,4 @@ static void test_same_bytes(void **state) {
     ewa_context_destroy(&context);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_sheets_over_each_other),
-        cmocka_unit_test(test_last_edge_layer_takes_all),
-        cmocka_unit_test(test_sphere_is_even),
-        cmocka_unit_test(test_same_bytes),
-        cmocka_unit_test(test_pipeline_holds),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

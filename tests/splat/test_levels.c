@@ -46,7 +46,7 @@ static void assert_same_level(const ewa_surfels *a, const ewa_surfels *b) {
     assert_true(a->unit_coverage == b->unit_coverage);
 }
 
-static void test_first_level_is_all_surfels(void **state) {
+TEST(test_first_level_is_all_surfels) {
     ewa_context *context = check_context(2, NULL);
     ewa_cloud *cloud = level_cloud(context, LEVEL_SPHERE, POINTS);
     ewa_surfels *plain = surfels_of(cloud, 1), *levels = surfels_of(cloud, EWA_MAX_LEVELS);
@@ -72,7 +72,7 @@ static void test_first_level_is_all_surfels(void **state) {
 }
 
 /// Every pixel inside of a closed surface is opaque, at every level, from near and far, from above and aslant.
-static void test_levels_are_closed(void **state) {
+TEST(test_levels_are_closed) {
     static const double distances[] = {0.4, 1.3, 4}, tilts[] = {0, 40, 65};
     static uint8_t rgba8[4 * PIXELS];
     ewa_context *context = check_context(2, NULL);
@@ -127,7 +127,7 @@ static ewa_cloud *shuffled(ewa_context *context, const ewa_cloud *of) {
     return made;
 }
 
-static void test_same_bytes(void **state) {
+TEST(test_same_bytes) {
     static const struct {
         uint32_t threads, cpu_mask;
     } ways[] = {{2, EWA_CPU_ALL}, {3, EWA_CPU_AVX2}, {1, EWA_CPU_ALL}};
@@ -167,7 +167,7 @@ static void mean_color(const ewa_surfels *surfels, double mean[4]) {
     for (int c = 0; c < 4; c++) mean[c] /= area;
 }
 
-static void test_colors_are_kept(void **state) {
+TEST(test_colors_are_kept) {
     ewa_context *context = check_context(2, NULL);
     for (int constant = 0; constant < 2; constant++) {
         ewa_cloud *cloud = level_cloud(context, LEVEL_EVEN, POINTS);
@@ -192,7 +192,7 @@ static void test_colors_are_kept(void **state) {
 }
 
 /// A picture of a budget's level is that of the level itself; what is beyond the last one is the last one.
-static void test_budget_draws_a_level(void **state) {
+TEST(test_budget_draws_a_level) {
     static uint8_t pictures[2][4 * PIXELS];
     ewa_context *context = check_context(2, NULL);
     ewa_cloud *cloud = level_cloud(context, LEVEL_GRID, POINTS);
@@ -238,7 +238,7 @@ static ewa_cloud *discs_at(ewa_context *context, uint32_t count, const double (*
     return cloud;
 }
 
-static void test_few_points(void **state) {
+TEST(test_few_points) {
     static const uint32_t counts[] = {0, 1, 3, 5, 15, 17, 1023, 1024, 4095, 4096, 4200, 5000};
     static double places[5000][3];
     ewa_context *context = check_context(2, NULL);
@@ -257,7 +257,7 @@ static void test_few_points(void **state) {
 }
 
 /// Points upon each other do not grow; two patches far from each other stay what each of them is alone.
-static void test_odd_places(void **state) {
+TEST(test_odd_places) {
     enum { COUNT = 20000, HALF = COUNT / 2 };
     static double places[COUNT][3];
     ewa_context *context = check_context(2, NULL);
@@ -293,7 +293,7 @@ static void test_odd_places(void **state) {
 }
 
 /// Clip lines stay where they are in the world; materials are some member's; opacities are means.
-static void test_extras(void **state) {
+TEST(test_extras) {
     enum { SIDE = 128, COUNT = SIDE * SIDE };
     ewa_context *context = check_context(2, NULL);
     ewa_cloud *cloud = NULL;
@@ -351,7 +351,7 @@ static void test_extras(void **state) {
 }
 
 /// Callers of before levels have smaller structs, and no levels.
-static void test_older_callers(void **state) {
+TEST(test_older_callers) {
     ewa_context *context = check_context(1, NULL);
     ewa_cloud *cloud = level_cloud(context, LEVEL_GRID, POINTS);
     ewa_surfels_options options;
@@ -369,7 +369,7 @@ static void test_older_callers(void **state) {
 }
 
 /// Whichever allocation fails, nothing is left behind.
-static void test_out_of_memory(void **state) {
+TEST(test_out_of_memory) {
     ewa_context *plain = check_context(1, NULL);
     ewa_cloud *cloud = level_cloud(plain, LEVEL_GRID, 6000);
     for (long call = 0;; call++) {
@@ -402,7 +402,7 @@ static bool stop_after(void *user, const char *stage, double fraction) {
     return *left < 0 || (*left)-- > 0;
 }
 
-static void test_cancelled_frame_changes_nothing(void **state) {
+TEST(test_cancelled_frame_changes_nothing) {
     static uint8_t pictures[2][4 * PIXELS];
     int left = -1;
     ewa_context_options options;
@@ -434,7 +434,7 @@ static void test_cancelled_frame_changes_nothing(void **state) {
 }
 
 /// What is said of a frame is its coarsest part: 0 says that all surfels were drawn.
-static void level_of_several_sources(void **state) {
+TEST(level_of_several_sources) {
     ewa_context *context = check_context(2, NULL);
     ewa_cloud *cloud = level_cloud(context, LEVEL_SPHERE, POINTS);
     ewa_surfels *sources[2] = {surfels_of(cloud, 1), surfels_of(cloud, EWA_MAX_LEVELS)};
@@ -459,20 +459,4 @@ static void level_of_several_sources(void **state) {
     ewa_context_destroy(&context);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_first_level_is_all_surfels),
-        cmocka_unit_test(test_levels_are_closed),
-        cmocka_unit_test(test_same_bytes),
-        cmocka_unit_test(test_colors_are_kept),
-        cmocka_unit_test(test_budget_draws_a_level),
-        cmocka_unit_test(test_few_points),
-        cmocka_unit_test(test_odd_places),
-        cmocka_unit_test(test_extras),
-        cmocka_unit_test(test_older_callers),
-        cmocka_unit_test(test_out_of_memory),
-        cmocka_unit_test(test_cancelled_frame_changes_nothing),
-        cmocka_unit_test(level_of_several_sources),
-    };
-    return cmocka_run_group_tests_name("levels", tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

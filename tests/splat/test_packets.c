@@ -89,7 +89,7 @@ static void assert_same_packets(const ewa_surfels *a, const ewa_surfels *b) {
     assert_memory_equal(a->bounds_memory, b->bounds_memory, a->bounds_stride * EWA_BOUNDS_BYTES);
 }
 
-static void test_same_bytes_from_all_kernels(void **state) {
+TEST(test_same_bytes_from_all_kernels) {
     static numbers of;
     make_numbers(&of);
     ewa_context *plain = check_context_of(1, 0);
@@ -108,7 +108,7 @@ static void test_same_bytes_from_all_kernels(void **state) {
 }
 
 /// Records of all numbers side by side, and positions in double precision: the same packets.
-static void test_same_bytes_from_all_layouts(void **state) {
+TEST(test_same_bytes_from_all_layouts) {
     static numbers of;
     static struct {
         double position[3];
@@ -140,7 +140,7 @@ static void test_same_bytes_from_all_layouts(void **state) {
 
 /// Discs by the vectorised path and surfel by surfel, which normals in double precision ask for: as equal as
 /// their codes are.
-static void test_discs_equal_surfels(void **state) {
+TEST(test_discs_equal_surfels) {
     static numbers of;
     static double normal[POINTS][3];
     make_numbers(&of);
@@ -175,7 +175,7 @@ static void test_discs_equal_surfels(void **state) {
 }
 
 /// The code of a normal is the nearest one, or nearly.
-static void test_normals_are_kept(void **state) {
+TEST(test_normals_are_kept) {
     check_random random = {3};
     ewa_context *context = check_context_of(1, EWA_CPU_ALL);
     for (int turn = 0; turn < 2000; turn++) {
@@ -219,7 +219,7 @@ static double radius_of(const ewa_surfels *surfels, uint32_t packet) {
 }
 
 /// Spheres and cones hold their surfels, and are hardly larger.
-static void test_bounds_hold(void **state) {
+TEST(test_bounds_hold) {
     static numbers of;
     make_numbers(&of);
     for (int i = 0; i < POINTS; i++) of.normal[i][2] = 30 * fabsf(of.normal[i][0]); // narrow and wide cones
@@ -249,7 +249,7 @@ static void test_bounds_hold(void **state) {
 }
 
 /// The largest sigmas are those of some surfel, of discs and of ellipses, wherever in the set it is.
-static void test_largest_sigmas(void **state) {
+TEST(test_largest_sigmas) {
     static float position[POINTS][3], axis_u[POINTS][3], axis_v[POINTS][3];
     static const uint32_t counts[] = {1, 17, 16 * 64 - 1, POINTS};
     check_random random = {11};
@@ -286,14 +286,4 @@ static void test_largest_sigmas(void **state) {
     ewa_context_destroy(&context);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_same_bytes_from_all_kernels),
-        cmocka_unit_test(test_same_bytes_from_all_layouts),
-        cmocka_unit_test(test_discs_equal_surfels),
-        cmocka_unit_test(test_normals_are_kept),
-        cmocka_unit_test(test_bounds_hold),
-        cmocka_unit_test(test_largest_sigmas),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -114,7 +114,7 @@ static void hold_parts(scene_kind kind, sort_point *sort, bool materials, const 
     ewa_context_destroy(&context);
 }
 
-static void test_parts_are_the_whole(void **state) {
+TEST(test_parts_are_the_whole) {
     static const scene_kind kinds[] = {SCENE_SPHERE, SCENE_CUBE, SCENE_TORUS};
     ewa_render_options options;
     ewa_render_options_init(&options, sizeof options);
@@ -131,7 +131,7 @@ static void test_parts_are_the_whole(void **state) {
 }
 
 /// A source whose surfels all have one material beside one with another: as if each surfel had its own.
-static void test_materials_of_sources(void **state) {
+TEST(test_materials_of_sources) {
     ewa_material materials[2];
     ewa_render_options options;
     ewa_render_options_init(&options, sizeof options);
@@ -144,7 +144,7 @@ static void test_materials_of_sources(void **state) {
     hold_parts(SCENE_SPHERE, left_or_right, true, &options, 50, "halves of two materials");
 }
 
-static void test_refusals(void **state) {
+TEST(test_refusals) {
     check_log log = {.count = 0};
     ewa_context *context = check_context(1, &log);
     scene of;
@@ -283,18 +283,10 @@ static void hold_stop(uint32_t threads, bool foreign_executor) {
     ewa_context_destroy(&context);
 }
 
-static void test_stops_between_tiles(void **state) {
+TEST(test_stops_between_tiles) {
     hold_stop(1, false);
     hold_stop(3, false);
     hold_stop(1, true);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_parts_are_the_whole),
-        cmocka_unit_test(test_materials_of_sources),
-        cmocka_unit_test(test_refusals),
-        cmocka_unit_test(test_stops_between_tiles),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -87,7 +87,7 @@ static void draw_one(ewa_context *context, const ewa_camera *camera, const doubl
 
 /// Alpha adds up to the area of the disc, whatever the depth, the lens, the radius and the normal; the rim is
 /// where it should be.
-static void test_size(void **state) {
+TEST(test_size) {
     static const double sizes_px[] = {1, 1.4, 2, 3, 5, 10, 24, 100};
     static const double depths[] = {1e-4, 0.7, 3, 1e5}, zooms[] = {0.3, 1, 40};
     static float rgba[4 * SIDE * SIDE];
@@ -128,7 +128,7 @@ static void test_size(void **state) {
 
 /// The pipeline against the reference: many points, hidden ones and half hidden ones, with axes and clip
 /// lines that must not count.
-static void test_against_reference(void **state) {
+TEST(test_against_reference) {
     enum { COUNT = 700 };
     static float fast[4 * SIDE * SIDE], depth[SIDE * SIDE], normal_out[3 * SIDE * SIDE];
     static float plain[4 * SIDE * SIDE], plain_depth[SIDE * SIDE], plain_normal[3 * SIDE * SIDE];
@@ -195,7 +195,7 @@ static void test_against_reference(void **state) {
     ewa_context_destroy(&context);
 }
 
-static void test_options(void **state) {
+TEST(test_options) {
     static const double wrong_px[] = {-1, 0.5, 0.999, 256.5, INFINITY, NAN};
     static float rgba[4 * SIDE * SIDE];
     check_log log = {.count = 0};
@@ -223,11 +223,4 @@ static void test_options(void **state) {
     ewa_context_destroy(&context);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_size),
-        cmocka_unit_test(test_against_reference),
-        cmocka_unit_test(test_options),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -98,7 +98,7 @@ static void assert_close(const char *what, double db, double min_db) {
 }
 
 /// One light of 10,000, one of -300 and one that is infinite cost their neighbours nothing.
-static void test_one_bright_colour(void **state) {
+TEST(test_one_bright_colour) {
     ewa_context *context = check_context(0, NULL);
     const uint64_t count = 20000;
     points made = make_points(context, count);
@@ -117,7 +117,7 @@ static void test_one_bright_colour(void **state) {
 
 /// Ellipses of aspects from 8,000 to 800,000 of which the length alone is seen, and how much there is of
 /// them.
-static void test_needles(void **state) {
+TEST(test_needles) {
     ewa_context *context = check_context(0, NULL);
     enum { NEEDLES = 400 };
     check_random random = {3};
@@ -153,7 +153,7 @@ static void test_needles(void **state) {
 }
 
 /// Two spheres of a centimetre, far apart, each as good as if it were alone; and so from the other's origin.
-static void test_spheres_far_apart(void **state) {
+TEST(test_spheres_far_apart) {
     static const double apart_m[] = {1e3, 1e5};
     const uint64_t count = 8000;
     ewa_context *context = check_context(0, NULL);
@@ -177,7 +177,7 @@ static void test_spheres_far_apart(void **state) {
 }
 
 /// From 10 to 10^15 radii away, and from 10^-15 of a unit: always the same sphere.
-static void test_distances(void **state) {
+TEST(test_distances) {
     const uint64_t count = 20000;
     const double center[3] = {0, 0, 0}, toward[3] = {0.48, -0.8, 0.36};
     ewa_context *context = check_context(0, NULL);
@@ -250,7 +250,7 @@ static void assert_same_picture(const picture *a, const picture *b, double scale
 static const double HERE[3] = {0, 0, 0};
 
 /// A scene that is shifted by powers of two, in its positions or by its origin, is the same picture.
-static void test_shifts_by_powers_of_two(void **state) {
+TEST(test_shifts_by_powers_of_two) {
     static const double shifts[][3] = {
         {1024, 0, 0}, {0x1p22, -0x1p23, 0x1p20}, {-0x1p30, 0x1p30, 0}, {0, 0x1p29, -0x1p31}};
     ewa_context *context = check_context(0, NULL);
@@ -268,7 +268,7 @@ static void test_shifts_by_powers_of_two(void **state) {
 }
 
 /// A world whose unit is larger or smaller by a power of two is the same picture.
-static void test_units_by_powers_of_two(void **state) {
+TEST(test_units_by_powers_of_two) {
     static const int powers[] = {1, -7, 20, -46, 60, -95, 98};
     ewa_context *context = check_context(0, NULL);
     for (int orthographic = 0; orthographic < 2; orthographic++) {
@@ -285,7 +285,7 @@ static void test_units_by_powers_of_two(void **state) {
 }
 
 /// Colours that floats do not hold are told of: 8-bit pixels would hide them.
-static void test_broken_pixels_are_told(void **state) {
+TEST(test_broken_pixels_are_told) {
     check_log log = {.count = 0};
     ewa_context *context = check_context(0, &log);
     scene of;
@@ -323,12 +323,4 @@ static void test_broken_pixels_are_told(void **state) {
     ewa_context_destroy(&context);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_one_bright_colour),       cmocka_unit_test(test_needles),
-        cmocka_unit_test(test_spheres_far_apart),       cmocka_unit_test(test_distances),
-        cmocka_unit_test(test_shifts_by_powers_of_two), cmocka_unit_test(test_units_by_powers_of_two),
-        cmocka_unit_test(test_broken_pixels_are_told),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

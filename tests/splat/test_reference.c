@@ -39,7 +39,7 @@ static double sphere_depth(const ewa_camera *camera, double x_px, double y_px, d
 
 /// A sphere against its ray-traced truth: no holes, nothing outside, depth and normals right, edges
 /// antialiased.
-static void test_sphere(void **state) {
+TEST(test_sphere) {
     enum { WIDTH = 256 };
     ewa_context *context = check_context(0, NULL);
     scene made;
@@ -91,7 +91,7 @@ static void test_sphere(void **state) {
 
 /// A plane of coplanar discs, oblique to the view: its depth is exact, its normal too, in both projections
 /// and kernels.
-static void test_plane_depth(void **state) {
+TEST(test_plane_depth) {
     ewa_context *context = check_context(0, NULL);
     scene made = picture_small_scene(context, SCENE_PLANE);
     const double eye[3] = {0.3, -1.1, 0.8}, target[3] = {0, 0, 0}, up[3] = {0, 0, 1};
@@ -132,7 +132,7 @@ static void test_plane_depth(void **state) {
 /// tau are the first ones of docs/math.md section 14: an ellipse's bell sits nearer to the eye than its
 /// disc's middle, which discs as large as here (0.6 of their distance) do not even out at F = 3, where two
 /// rows have alpha 0.81.
-static void test_floor_through_the_eye(void **state) {
+TEST(test_floor_through_the_eye) {
     enum { ROWS = 40, COUNT = ROWS * ROWS };
     ewa_context *context = check_context(0, NULL);
     scene made = {.unit_coverage = 0.3};
@@ -186,7 +186,7 @@ static void test_floor_through_the_eye(void **state) {
 }
 
 /// One disc in front of the middle of a picture, radius and colour given; the frame's planes by hand.
-static void test_resolve(void **state) {
+TEST(test_resolve) {
     ewa_context *context = check_context(1, NULL);
     const float position[3] = {0, 0, 2}, normal[3] = {0, 0.6f, -0.8f}, radius = 4,
                 color[4] = {0.5f, 0.25f, 1, 1};
@@ -256,7 +256,7 @@ static void test_resolve(void **state) {
 }
 
 /// A disc in front hides one behind it unless both lie within the tolerance.
-static void test_visibility(void **state) {
+TEST(test_visibility) {
     ewa_context *context = check_context(1, NULL);
     const float normal[6] = {0, 0, -1, 0, 0, -1}, radius[2] = {0.5f, 0.5f};
     const float color[6] = {1, 0, 0, 0, 0, 1};
@@ -289,7 +289,7 @@ static void test_visibility(void **state) {
 }
 
 /// Arguments that are refused, planes that are not wanted, clouds of nothing.
-static void test_arguments(void **state) {
+TEST(test_arguments) {
     check_log log = {0};
     ewa_context *context = check_context(0, &log);
     scene made = picture_small_scene(context, SCENE_SPHERE);
@@ -329,7 +329,7 @@ static bool refuse_to_go_on(void *user, const char *stage, double fraction) {
 }
 
 /// Every allocation that fails and every moment to cancel gives its status and frees what there was.
-static void test_failures(void **state) {
+TEST(test_failures) {
     check_memory memory = {.calls_left = -1};
     double patience = 2;
     ewa_context_options options;
@@ -363,7 +363,7 @@ static void test_failures(void **state) {
 }
 
 /// The comparison finds what differs and the mask where it may.
-static void test_comparison(void **state) {
+TEST(test_comparison) {
     ewa_context *context = check_context(0, NULL);
     scene made = picture_small_scene(context, SCENE_TORUS);
     ewa_cloud_remove(made.cloud, EWA_CURVATURE); // splats at contours move by their size, not at its edges alone
@@ -401,16 +401,4 @@ static void test_comparison(void **state) {
     ewa_context_destroy(&context);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_sphere),
-        cmocka_unit_test(test_plane_depth),
-        cmocka_unit_test(test_floor_through_the_eye),
-        cmocka_unit_test(test_resolve),
-        cmocka_unit_test(test_visibility),
-        cmocka_unit_test(test_arguments),
-        cmocka_unit_test(test_failures),
-        cmocka_unit_test(test_comparison),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

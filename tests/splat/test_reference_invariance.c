@@ -92,7 +92,7 @@ static void assert_same(const char *name, const picture *a, const picture *b, do
 }
 
 /// Colours are weighted means: one colour in, the same colour out, wherever there is something.
-static void test_constant_color(void **state) {
+TEST(test_constant_color) {
     ewa_context *context = check_context(0, NULL);
     const float color[3] = {0.25f, 0.5f, 0.75f};
     for (int kind = 0; kind < 2 * SCENE_COUNT; kind++) {
@@ -124,7 +124,7 @@ static void test_constant_color(void **state) {
 }
 
 /// Moving the principal point by whole pixels moves the picture.
-static void test_shift(void **state) {
+TEST(test_shift) {
     ewa_context *context = check_context(0, NULL);
     for (int kind = 0; kind < SCENE_COUNT; kind++) {
         scene made = picture_small_scene(context, (scene_kind)kind);
@@ -150,7 +150,7 @@ static void test_shift(void **state) {
 
 /// Order of the points, number of threads, rotation and place of the world, scale of the camera: the same
 /// picture.
-static void test_invariance(void **state) {
+TEST(test_invariance) {
     ewa_context *context = check_context(0, NULL), *lonely = check_context(1, NULL);
     for (int kind = 0; kind < 2 * SCENE_COUNT; kind++) {
         scene made = picture_small_scene(context, (scene_kind)(kind / 2)), other = made;
@@ -218,7 +218,7 @@ static void test_invariance(void **state) {
 }
 
 /// A quarter turn of the camera around its view turns the picture.
-static void test_quarter_turn(void **state) {
+TEST(test_quarter_turn) {
     ewa_context *context = check_context(0, NULL);
     for (int kind = 0; kind < SCENE_COUNT; kind++) {
         scene made = picture_small_scene(context, (scene_kind)kind);
@@ -246,7 +246,7 @@ static void test_quarter_turn(void **state) {
 }
 
 /// Points that coincide but for their colour: one pass has a rule for who wins that is not the order.
-static void test_coincident_points(void **state) {
+TEST(test_coincident_points) {
     ewa_context *context = check_context(1, NULL);
     float shown[2][4];
     for (int order = 0; order < 2; order++) {
@@ -277,11 +277,4 @@ static void test_coincident_points(void **state) {
     ewa_context_destroy(&context);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_constant_color),    cmocka_unit_test(test_shift),
-        cmocka_unit_test(test_invariance),        cmocka_unit_test(test_quarter_turn),
-        cmocka_unit_test(test_coincident_points),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -7,7 +7,7 @@
 #include "tests/splat/surfels.h"
 
 /// PAS equations 4 and 7 to 11: the conic Q' = M^-1 Q M^-T, its centre and its central form.
-static void test_conic_by_inverse_map(void **state) {
+TEST(test_conic_by_inverse_map) {
     const ewa_camera camera = odd_camera();
     const double F = 1.7;
     const ewa_reference_view view = make_view(&camera, F, 0.5, EWA_KERNEL_PERSPECTIVE);
@@ -45,7 +45,7 @@ static void test_conic_by_inverse_map(void **state) {
 
 /// The rim of a disc, point by point, lies on the ellipse; the ellipse's box is as large as the rim's; the
 /// weight's determinant is that of V; the inverse is one.
-static void test_rim(void **state) {
+TEST(test_rim) {
     const ewa_camera camera = odd_camera();
     const double F = 2;
     check_random random = {2};
@@ -82,7 +82,7 @@ static void test_rim(void **state) {
 
 /// Whatever the kernel, every pixel that counts is in the box; and where that is the ellipse's own, no row or
 /// column of it that lies within the picture is wasted.
-static void test_boxes(void **state) {
+TEST(test_boxes) {
     ewa_camera camera = odd_camera();
     camera.width_px = 120;
     camera.height_px = 90;
@@ -133,7 +133,7 @@ static void test_boxes(void **state) {
 
 /// A disc that faces the eye is the section of a round cone: half angle a around an axis at angle t from the
 /// view, its picture reaches from tan(t - a) to tan(t + a).
-static void test_round_cone(void **state) {
+TEST(test_round_cone) {
     ewa_camera camera = odd_camera();
     camera.fx_px = camera.fy_px = 300;
     const double F = 1.5;
@@ -155,7 +155,7 @@ static void test_round_cone(void **state) {
 }
 
 /// From very far away through a long lens a perspective camera is an orthographic one.
-static void test_orthographic_limit(void **state) {
+TEST(test_orthographic_limit) {
     const double F = 2, scale = 40;
     ewa_camera camera = odd_camera();
     check_random random = {4};
@@ -197,7 +197,7 @@ static void test_orthographic_limit(void **state) {
 
 /// The affine kernel is what the perspective one becomes for small discs; the difference falls with their
 /// square.
-static void test_affine_limit(void **state) {
+TEST(test_affine_limit) {
     const ewa_camera camera = odd_camera();
     const ewa_reference_view exact = make_view(&camera, 2, 0, EWA_KERNEL_PERSPECTIVE);
     const ewa_reference_view affine = make_view(&camera, 2, 0, EWA_KERNEL_AFFINE);
@@ -226,7 +226,7 @@ static void test_affine_limit(void **state) {
 }
 
 /// The Jacobian of the projection by differences of projected points (SS 3; docs/math.md section 3, affine).
-static void test_affine_jacobian(void **state) {
+TEST(test_affine_jacobian) {
     const ewa_camera camera = odd_camera();
     const ewa_reference_view view = make_view(&camera, 2, 0.5, EWA_KERNEL_AFFINE);
     check_random random = {6};
@@ -251,7 +251,7 @@ static void test_affine_jacobian(void **state) {
 
 /// Pixel rays against points of the disc: without a prefilter the kernel's own coordinates come back exactly,
 /// with one the variance in the tangent frame is I + h^2 times the derivatives found by differences.
-static void test_rays(void **state) {
+TEST(test_rays) {
     ewa_camera camera = odd_camera();
     check_random random = {7};
     int compared = 0;
@@ -311,7 +311,7 @@ static void test_rays(void **state) {
 }
 
 /// For small discs the pixel rays and the ellipse are the same kernel.
-static void test_rays_meet_ellipse(void **state) {
+TEST(test_rays_meet_ellipse) {
     const ewa_camera camera = odd_camera();
     const ewa_reference_view view = make_view(&camera, 2, 0.5, EWA_KERNEL_PERSPECTIVE);
     check_random random = {8};
@@ -343,7 +343,7 @@ static void test_rays_meet_ellipse(void **state) {
 }
 
 /// A disc parallel to the picture: sigma f / z pixels, peak by hand, and all of its kernel on the pixels.
-static void test_frontal_disc(void **state) {
+TEST(test_frontal_disc) {
     ewa_camera camera = odd_camera();
     camera.fx_px = camera.fy_px = 300;
     const double F = 2, sigma = 0.5, z = 10, sigma_px = 15;
@@ -376,7 +376,7 @@ static void test_frontal_disc(void **state) {
 
 /// Depth is that of ray and plane on the disc, and stays within the disc's range beyond it; the tolerance's
 /// slope is that of the depth itself.
-static void test_depth(void **state) {
+TEST(test_depth) {
     ewa_camera camera = odd_camera();
     check_random random = {9};
     for (int i = 0; i < 1000; i++) {
@@ -427,7 +427,7 @@ static void test_depth(void **state) {
 }
 
 /// What is dropped, what is turned, what goes by rays.
-static void test_sides(void **state) {
+TEST(test_sides) {
     ewa_camera camera = odd_camera();
     ewa_render_options options;
     ewa_render_options_init(&options, sizeof options);
@@ -494,20 +494,4 @@ static void test_sides(void **state) {
     }
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_conic_by_inverse_map),
-        cmocka_unit_test(test_rim),
-        cmocka_unit_test(test_boxes),
-        cmocka_unit_test(test_round_cone),
-        cmocka_unit_test(test_orthographic_limit),
-        cmocka_unit_test(test_affine_limit),
-        cmocka_unit_test(test_affine_jacobian),
-        cmocka_unit_test(test_rays),
-        cmocka_unit_test(test_rays_meet_ellipse),
-        cmocka_unit_test(test_frontal_disc),
-        cmocka_unit_test(test_depth),
-        cmocka_unit_test(test_sides),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

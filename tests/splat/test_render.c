@@ -60,7 +60,7 @@ static void hold(scene_kind kind, const ewa_surfels_options *surfels_options,
     ewa_context_destroy(&context);
 }
 
-static void test_defaults_hold(void **state) {
+TEST(test_defaults_hold) {
     for (int kind = 0; kind < SCENE_COUNT; kind++) {
         ewa_render_options options;
         ewa_render_options_init(&options, sizeof options);
@@ -70,7 +70,7 @@ static void test_defaults_hold(void **state) {
     }
 }
 
-static void test_kernels_hold(void **state) {
+TEST(test_kernels_hold) {
     static const struct {
         ewa_kernel kernel;
         const char *name;
@@ -103,7 +103,7 @@ static void test_kernels_hold(void **state) {
     }
 }
 
-static void test_options_hold(void **state) {
+TEST(test_options_hold) {
     ewa_render_options init;
     ewa_render_options_init(&init, sizeof init);
     init.edge_layers = 1;
@@ -139,7 +139,7 @@ static void assert_same_bytes(const picture *a, const picture *b) {
     assert_memory_equal(a->frame.coverage, b->frame.coverage, 4 * pixels);
 }
 
-static void test_same_bytes_of_every_kernel(void **state) {
+TEST(test_same_bytes_of_every_kernel) {
     static const uint32_t masks[] = {EWA_CPU_ALL, EWA_CPU_AVX2, 0};
     static const scene_kind kinds[] = {SCENE_PLANE, SCENE_ELLIPSES, SCENE_NEAR};
     for (int kernel = EWA_KERNEL_AFFINE; kernel <= EWA_KERNEL_RAYCAST; kernel++) {
@@ -169,7 +169,7 @@ static void test_same_bytes_of_every_kernel(void **state) {
 
 /// The source kernel is the affine one (SS 3.2: equations 7 and 8 are equivalent), in the pipeline's single
 /// precision.
-static void test_source_is_affine(void **state) {
+TEST(test_source_is_affine) {
     ewa_context *context = check_context(0, NULL);
     double worst = 0;
     for (int kind = 0; kind < SCENE_COUNT; kind++) {
@@ -200,7 +200,7 @@ static void test_source_is_affine(void **state) {
     ewa_context_destroy(&context);
 }
 
-static void test_same_bytes_on_all_threads_and_instruction_sets(void **state) {
+TEST(test_same_bytes_on_all_threads_and_instruction_sets) {
     static const struct {
         uint32_t threads, mask;
     } runs[] = {{1, EWA_CPU_ALL},  {2, EWA_CPU_ALL},  {7, EWA_CPU_ALL},
@@ -247,7 +247,7 @@ static ewa_cloud *reordered(const ewa_cloud *cloud, uint64_t step) {
     return made;
 }
 
-static void test_order_of_points_does_not_matter(void **state) {
+TEST(test_order_of_points_does_not_matter) {
     ewa_context *context = check_context(0, NULL);
     for (int kind = 0; kind < SCENE_COUNT; kind++) {
         scene of;
@@ -268,7 +268,7 @@ static void test_order_of_points_does_not_matter(void **state) {
 }
 
 /// More splats in a tile than are kept from pass to pass: the runs are set up again, with the same result.
-static void test_dense_tile_holds(void **state) {
+TEST(test_dense_tile_holds) {
     ewa_context *context = check_context(0, NULL);
     scene of;
     assert_int_equal(scene_make(context, SCENE_TORUS, 300000, 48, 40, &of), EWA_OK);
@@ -291,7 +291,7 @@ static void test_dense_tile_holds(void **state) {
     ewa_context_destroy(&context);
 }
 
-static void test_empty_and_lonely(void **state) {
+TEST(test_empty_and_lonely) {
     ewa_context *context = check_context(0, NULL);
     for (uint64_t count = 0; count < 2; count++) {
         ewa_cloud *cloud = NULL;
@@ -330,7 +330,7 @@ static bool is_some_surfel(const ewa_cloud *cloud, const float rgb[3]) {
 
 /// One pass (PAS 6): every pixel shows one surfel, opaque and whole; three passes blend.
 /// Cameras whose scale takes depths beyond the range of floats draw something or nothing, safely.
-static void test_scales_beyond_floats(void **state) {
+TEST(test_scales_beyond_floats) {
     static const double scales[] = {1e-40, 1e-30, 1e20, 3e38, 1e60};
     ewa_context *context = check_context(1, NULL);
     ewa_generate_options generate;
@@ -358,7 +358,7 @@ static void test_scales_beyond_floats(void **state) {
 }
 
 /// Without a prefilter, splats that are nearly lines are of a few pixels, not beyond all numbers.
-static void test_seen_from_the_edge(void **state) {
+TEST(test_seen_from_the_edge) {
     enum { WIDTH_PX = 96, DISCS = 400 };
     static const ewa_kernel kernels[] = {EWA_KERNEL_PERSPECTIVE, EWA_KERNEL_AFFINE, EWA_KERNEL_SOURCE};
     ewa_context *context = check_context(1, NULL);
@@ -407,7 +407,7 @@ static void test_seen_from_the_edge(void **state) {
     ewa_context_destroy(&context);
 }
 
-static void test_one_pass_shows_one_surfel(void **state) {
+TEST(test_one_pass_shows_one_surfel) {
     ewa_context *context = check_context(0, NULL);
     scene of;
     assert_int_equal(scene_make(context, SCENE_ELLIPSES, 600, 96, 96, &of), EWA_OK);
@@ -436,7 +436,7 @@ static void test_one_pass_shows_one_surfel(void **state) {
     ewa_context_destroy(&context);
 }
 
-static void test_every_failing_allocation_is_clean(void **state) {
+TEST(test_every_failing_allocation_is_clean) {
     bool done = false;
     for (long n = 0; !done; n++) {
         check_memory memory = {.calls_left = n};
@@ -468,7 +468,7 @@ static void test_every_failing_allocation_is_clean(void **state) {
 }
 
 /// A warm renderer allocates nothing.
-static void test_warm_frames_allocate_nothing(void **state) {
+TEST(test_warm_frames_allocate_nothing) {
     check_memory memory = {.calls_left = -1};
     ewa_context *context = check_context_on(0, &memory);
     scene of;
@@ -489,22 +489,4 @@ static void test_warm_frames_allocate_nothing(void **state) {
     ewa_context_destroy(&context);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_defaults_hold),
-        cmocka_unit_test(test_kernels_hold),
-        cmocka_unit_test(test_options_hold),
-        cmocka_unit_test(test_same_bytes_of_every_kernel),
-        cmocka_unit_test(test_source_is_affine),
-        cmocka_unit_test(test_same_bytes_on_all_threads_and_instruction_sets),
-        cmocka_unit_test(test_order_of_points_does_not_matter),
-        cmocka_unit_test(test_seen_from_the_edge),
-        cmocka_unit_test(test_one_pass_shows_one_surfel),
-        cmocka_unit_test(test_dense_tile_holds),
-        cmocka_unit_test(test_scales_beyond_floats),
-        cmocka_unit_test(test_empty_and_lonely),
-        cmocka_unit_test(test_every_failing_allocation_is_clean),
-        cmocka_unit_test(test_warm_frames_allocate_nothing),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -153,7 +153,7 @@ static void check_cut(const ewa_render_options *options, double spacing, const d
     assert_true(inside_count > 100 && outside_count > 100);
 }
 
-static void test_grid(void **state) {
+TEST(test_grid) {
     static const double none[3] = {0, 0, 0};
     static const double planes[][4] = {{1, 0, 0, 0},          {0, -1, 0, 0.25},      {3, 4, 0, -5.25},
                                        {1, 1, 0, 0.125},      {-1, 0.5, 7, 0.03125}, {1e-300, 0, 0, 0},
@@ -181,7 +181,7 @@ static void test_grid(void **state) {
 }
 
 /// A box in the middle of a grid; nothing of one beside it.
-static void test_box(void **state) {
+TEST(test_box) {
     static const double none[3] = {0, 0, 0};
     static drawn to;
     ewa_context *context = check_context(2, NULL);
@@ -231,7 +231,7 @@ static void hold(scene_kind kind, const ewa_render_options *options, uint32_t pl
     ewa_context_destroy(&context);
 }
 
-static void test_pipeline_holds(void **state) {
+TEST(test_pipeline_holds) {
     static const char *const names[] = {"perspective", "affine", "source", "circular", "raycast"};
     for (int kind = 0; kind < SCENE_COUNT; kind++) {
         ewa_render_options options = plain_options();
@@ -265,7 +265,7 @@ static void test_pipeline_holds(void **state) {
 }
 
 /// Planes that touch nothing change no byte; nor does the length of a normal.
-static void test_untouched(void **state) {
+TEST(test_untouched) {
     static drawn whole, cut;
     ewa_context *context = check_context(2, NULL);
     for (int kind = 0; kind < SCENE_COUNT; kind++) {
@@ -288,7 +288,7 @@ static void test_untouched(void **state) {
     ewa_context_destroy(&context);
 }
 
-static void test_threads_and_instructions(void **state) {
+TEST(test_threads_and_instructions) {
     static const struct {
         uint32_t threads, mask;
     } runs[] = {{1, EWA_CPU_ALL}, {7, EWA_CPU_ALL}, {2, EWA_CPU_AVX2}, {2, 0}};
@@ -309,7 +309,7 @@ static void test_threads_and_instructions(void **state) {
 }
 
 /// Neither the order of the points, nor a distant origin, nor another source beside changes a byte.
-static void test_order_and_origin(void **state) {
+TEST(test_order_and_origin) {
     static const double none[3] = {0, 0, 0}, far[3] = {4194304, -524288, 2048};
     static drawn whole, first, other;
     ewa_context *context = check_context(2, NULL);
@@ -343,7 +343,7 @@ static void test_order_and_origin(void **state) {
 }
 
 /// What a source beside draws is cut, too, by the same planes of the world, whatever its origin.
-static void test_sources(void **state) {
+TEST(test_sources) {
     static const double none[3] = {0, 0, 0}, beside[3] = {2, 0, 0};
     static drawn one, two, other;
     ewa_context *context = check_context(2, NULL);
@@ -368,7 +368,7 @@ static void test_sources(void **state) {
     ewa_context_destroy(&context);
 }
 
-static void test_bad_planes(void **state) {
+TEST(test_bad_planes) {
     static const double none[3] = {0, 0, 0};
     static const double planes[][4] = {
         {0, 0, 0, 1}, {NAN, 0, 0, 1}, {1, INFINITY, 0, 0}, {1, 0, 0, -INFINITY}, {0, 0, 1, NAN}};
@@ -403,7 +403,7 @@ static double now_s(void) {
 }
 
 /// What a box saves, to be read: nothing is asserted of times.
-static void test_time_is_printed(void **state) {
+TEST(test_time_is_printed) {
     static drawn to;
     ewa_context *context = check_context(1, NULL);
     scene of;
@@ -431,17 +431,4 @@ static void test_time_is_printed(void **state) {
     ewa_context_destroy(&context);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_grid),
-        cmocka_unit_test(test_box),
-        cmocka_unit_test(test_untouched),
-        cmocka_unit_test(test_threads_and_instructions),
-        cmocka_unit_test(test_order_and_origin),
-        cmocka_unit_test(test_sources),
-        cmocka_unit_test(test_bad_planes),
-        cmocka_unit_test(test_time_is_printed),
-        cmocka_unit_test(test_pipeline_holds),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -37,7 +37,7 @@ static ewa_vec3 unit(double x, double y, double z) {
 
 /// A sphere lit from one direction shows the formula of ewa_material at every pixel that is not at its edge,
 /// and its brightest pixel where N is H.
-static void test_highlight_on_a_sphere(void **state) {
+TEST(test_highlight_on_a_sphere) {
     ewa_context *context = check_context(0, NULL);
     ewa_cloud *cloud = shade_sphere(context, POINTS, GREY);
     const ewa_material material = {.ambient = 0.1f, .diffuse = 0.5f, .specular = 0.8f, .shininess = 40};
@@ -82,7 +82,7 @@ static void test_highlight_on_a_sphere(void **state) {
 }
 
 /// Lights add up, each with its colour, and a zero direction is the eye's.
-static void test_lights_add_up(void **state) {
+TEST(test_lights_add_up) {
     ewa_context *context = check_context(0, NULL);
     ewa_cloud *cloud = shade_sphere(context, POINTS, GREY);
     const ewa_camera camera = shade_camera(SIDE_PX, EYE, 32, 0);
@@ -124,7 +124,7 @@ static void test_lights_add_up(void **state) {
 }
 
 /// A mirror sphere shows the light of the direction that it mirrors, for an environment any way up.
-static void test_mirror_sphere(void **state) {
+TEST(test_mirror_sphere) {
     static const double ups[4][3] = {{0, 1, 0}, {0, 0, 2}, {0, -1, 0}, {1, 2, -1}};
     const ewa_material mirror = {.shininess = 1, .reflection = 1};
     ewa_context *context = check_context(0, NULL);
@@ -176,7 +176,7 @@ static void constant_light(ewa_vec3 direction, float rgb[3]) {
 }
 
 /// A constant environment is a constant, whatever the footprint.
-static void test_constant_environment(void **state) {
+TEST(test_constant_environment) {
     const ewa_material mirror = {.shininess = 1, .reflection = 1};
     ewa_context *context = check_context(0, NULL);
     ewa_cloud *cloud = shade_sphere(context, POINTS, GREY);
@@ -211,7 +211,7 @@ static void checker_light(ewa_vec3 direction, float rgb[3]) {
 }
 
 /// Where a pixel mirrors many squares, it shows their mean; a lookup of single texels is black or white.
-static void test_fine_environment_does_not_alias(void **state) {
+TEST(test_fine_environment_does_not_alias) {
     const ewa_material mirror = {.shininess = 1, .reflection = 1};
     ewa_context *context = check_context(0, NULL);
     ewa_cloud *cloud = shade_sphere(context, POINTS, GREY);
@@ -278,7 +278,7 @@ static bool near_rim(const picture *of, size_t pixel) {
 /// A plane, seen from the front or at an angle, keeps all of its light, and so does the background. At its
 /// rim it may lose a little where it is seen at a grazing angle: there the depths of discs end with the
 /// discs.
-static void test_eye_dome_leaves_planes_alone(void **state) {
+TEST(test_eye_dome_leaves_planes_alone) {
     ewa_context *context = check_context(0, NULL);
     static const double eyes[3][3] = {{0, 0, 4}, {2.5, -1, 2.5}, {-2, 2, 1.2}};
     for (int run = 0; run < 12; run++) {
@@ -310,7 +310,7 @@ static void test_eye_dome_leaves_planes_alone(void **state) {
 
 /// A square in front of another: the one behind gets darker beside it and nowhere else, the one in front
 /// keeps its light.
-static void test_eye_dome_darkens_behind_steps(void **state) {
+TEST(test_eye_dome_darkens_behind_steps) {
     ewa_context *context = check_context(0, NULL);
     ewa_cloud *cloud = make_squares(context, 2, 0);
     for (int run = 0; run < 4; run++) {
@@ -336,15 +336,4 @@ static void test_eye_dome_darkens_behind_steps(void **state) {
     ewa_context_destroy(&context);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_highlight_on_a_sphere),
-        cmocka_unit_test(test_lights_add_up),
-        cmocka_unit_test(test_mirror_sphere),
-        cmocka_unit_test(test_constant_environment),
-        cmocka_unit_test(test_fine_environment_does_not_alias),
-        cmocka_unit_test(test_eye_dome_leaves_planes_alone),
-        cmocka_unit_test(test_eye_dome_darkens_behind_steps),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

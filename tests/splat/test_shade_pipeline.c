@@ -76,7 +76,7 @@ static scene make_scene(ewa_context *context, scene_kind kind, bool orthographic
     return made;
 }
 
-static void test_pipeline_holds_to_the_reference(void **state) {
+TEST(test_pipeline_holds_to_the_reference) {
     ewa_context *context = check_context(0, NULL);
     ewa_environment *environment = shade_environment(context, 64, shade_linear_light);
     for (int kind = 0; kind < 2 * SCENE_COUNT; kind++) {
@@ -113,7 +113,7 @@ static void test_pipeline_holds_to_the_reference(void **state) {
 }
 
 /// Surfels with an alpha and a material each: colours are weighted by the alpha, materials are not.
-static void test_transparent_materials_hold(void **state) {
+TEST(test_transparent_materials_hold) {
     ewa_context *context = check_context(0, NULL);
     const float white[3] = {1, 1, 1};
     const double eye[3] = {1, 0.6, 4};
@@ -145,7 +145,7 @@ static void assert_same_bytes(const picture *a, const picture *b) {
     assert_memory_equal(a->frame.depth, b->frame.depth, 4 * pixels);
 }
 
-static void test_same_bytes_everywhere(void **state) {
+TEST(test_same_bytes_everywhere) {
     static const struct {
         uint32_t threads, mask;
     } runs[] = {{1, EWA_CPU_ALL}, {5, EWA_CPU_ALL}, {2, EWA_CPU_AVX2}, {2, 0}};
@@ -175,7 +175,7 @@ static void test_same_bytes_everywhere(void **state) {
 }
 
 /// Two points at the same place that differ in nothing but their material.
-static void test_order_of_materials_does_not_matter(void **state) {
+TEST(test_order_of_materials_does_not_matter) {
     ewa_context *context = check_context(0, NULL);
     enum { COUNT = 64 };
     const double eye[3] = {0, 0, 5};
@@ -209,7 +209,7 @@ static void test_order_of_materials_does_not_matter(void **state) {
 static int alternate(const float position[3]) { return (int)(1000 + floor((double)position[0] * 400)) % 2; }
 
 /// Where pixels hold surfels of two materials in equal parts, they look like the material between them.
-static void test_materials_are_averaged(void **state) {
+TEST(test_materials_are_averaged) {
     ewa_context *context = check_context(0, NULL);
     const float white[3] = {1, 1, 1};
     const double eye[3] = {0, 0, 5};
@@ -247,7 +247,7 @@ static void test_materials_are_averaged(void **state) {
 }
 
 /// One material that all surfels have needs no memory of its own and looks as the table's only one does.
-static void test_one_material_of_many(void **state) {
+TEST(test_one_material_of_many) {
     ewa_context *context = check_context(0, NULL);
     scene of;
     assert_int_equal(scene_make(context, SCENE_TORUS, POINTS, 64, 64, &of), EWA_OK);
@@ -298,7 +298,7 @@ static void refuse(ewa_context *context, const check_log *log, const scene *of,
     picture_free(&made);
 }
 
-static void test_wrong_options_are_refused(void **state) {
+TEST(test_wrong_options_are_refused) {
     check_log log = {.count = 0};
     ewa_context *context = check_context(0, &log);
     scene of;
@@ -332,7 +332,7 @@ static void test_wrong_options_are_refused(void **state) {
     ewa_context_destroy(&context);
 }
 
-static void test_every_failing_allocation_is_clean(void **state) {
+TEST(test_every_failing_allocation_is_clean) {
     float pixels[8 * 4 * 3] = {1};
     uint8_t rgba8[64 * 64 * 4], material[300];
     for (int i = 0; i < 300; i++) material[i] = (uint8_t)(i % MATERIALS);
@@ -380,16 +380,4 @@ static void test_every_failing_allocation_is_clean(void **state) {
     }
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_pipeline_holds_to_the_reference),
-        cmocka_unit_test(test_transparent_materials_hold),
-        cmocka_unit_test(test_same_bytes_everywhere),
-        cmocka_unit_test(test_order_of_materials_does_not_matter),
-        cmocka_unit_test(test_materials_are_averaged),
-        cmocka_unit_test(test_one_material_of_many),
-        cmocka_unit_test(test_wrong_options_are_refused),
-        cmocka_unit_test(test_every_failing_allocation_is_clean),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

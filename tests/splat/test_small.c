@@ -110,7 +110,7 @@ static void hold(ewa_context *context, const ewa_surfels *surfels, const ewa_ren
     for (int i = 0; i < 2; i++) free_planes(&to[i]);
 }
 
-static void test_planes_do_not_depend_on_depths(void **state) {
+TEST(test_planes_do_not_depend_on_depths) {
     static const struct {
         const char *name;
         uint32_t points;
@@ -145,7 +145,4 @@ static void test_planes_do_not_depend_on_depths(void **state) {
     ewa_context_destroy(&context);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_planes_do_not_depend_on_depths)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -87,7 +87,7 @@ static void check_pixel(const planes *parts, const planes *whole, uint32_t width
     assert_true(isinf(depth) ? isinf(whole->frame.depth[pixel]) : (double)whole->frame.depth[pixel] == depth);
 }
 
-static void test_planes_are_averages_of_the_finer_picture(void **state) {
+TEST(test_planes_are_averages_of_the_finer_picture) {
     ewa_context *context = check_context(2, NULL);
     ewa_bounds bounds;
     ewa_surfels *surfels = make_surfels(context, FAR_TOWN, 50000, &bounds);
@@ -108,7 +108,7 @@ static void test_planes_are_averages_of_the_finer_picture(void **state) {
 }
 
 /// A picture of several bands, drawn whole and in the caller's bands, for one thread and four, for every instruction set.
-static void test_same_bytes_for_threads_bands_and_instruction_sets(void **state) {
+TEST(test_same_bytes_for_threads_bands_and_instruction_sets) {
     static const uint32_t threads[] = {1, 4}, masks[] = {0, EWA_CPU_ALL};
     planes first = {.memory = NULL};
     for (int variant = 0; variant < 4; variant++) {
@@ -141,7 +141,7 @@ static void test_same_bytes_for_threads_bands_and_instruction_sets(void **state)
 }
 
 /// More parts than are drawn at a time: those of the last rows are where they belong.
-static void test_bands_of_parts_end_where_they_should(void **state) {
+TEST(test_bands_of_parts_end_where_they_should) {
     enum { FINER = 8, WIDE_PX = 1030, HIGH_PX = 130, FIRST_PX = 128, ROW = WIDE_PX * FINER };
     ewa_context *context = check_context(0, NULL);
     ewa_bounds bounds;
@@ -178,7 +178,7 @@ static void test_bands_of_parts_end_where_they_should(void **state) {
     ewa_context_destroy(&context);
 }
 
-static void test_reference_draws_the_same(void **state) {
+TEST(test_reference_draws_the_same) {
     ewa_context *context = check_context(2, NULL);
     ewa_cloud *cloud = NULL;
     ewa_surfels *surfels = NULL;
@@ -209,7 +209,7 @@ static void test_reference_draws_the_same(void **state) {
 }
 
 /// 0 takes so many parts that discs are about as large as one, none where they are, and never too many.
-static void test_surfels_say_how_many_parts(void **state) {
+TEST(test_surfels_say_how_many_parts) {
     static const struct {
         double times;
         uint32_t parts;
@@ -233,7 +233,7 @@ static void test_surfels_say_how_many_parts(void **state) {
     ewa_context_destroy(&context);
 }
 
-static void test_refused(void **state) {
+TEST(test_refused) {
     check_log log = {.count = 0};
     ewa_context *context = check_context(1, &log);
     ewa_bounds bounds;
@@ -260,7 +260,7 @@ static void test_refused(void **state) {
     ewa_context_destroy(&context);
 }
 
-static void test_every_failing_allocation(void **state) {
+TEST(test_every_failing_allocation) {
     for (int fail_at = 0;; fail_at++) {
         check_memory memory = {.calls_left = -1};
         ewa_context *context = check_context_on(0, &memory);
@@ -286,15 +286,4 @@ static void test_every_failing_allocation(void **state) {
     }
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_planes_are_averages_of_the_finer_picture),
-        cmocka_unit_test(test_same_bytes_for_threads_bands_and_instruction_sets),
-        cmocka_unit_test(test_bands_of_parts_end_where_they_should),
-        cmocka_unit_test(test_reference_draws_the_same),
-        cmocka_unit_test(test_surfels_say_how_many_parts),
-        cmocka_unit_test(test_refused),
-        cmocka_unit_test(test_every_failing_allocation),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -34,7 +34,7 @@ static void open_reader(const ewa_cloud *cloud, double cutoff, double radius_sca
 }
 
 /// Discs: orthogonal axes of length radius * scale / F across the unit normal, right-handed with it.
-static void test_discs(void **state) {
+TEST(test_discs) {
     enum { COUNT = 1000 };
     ewa_context *context = check_context(1, NULL);
     ewa_cloud *cloud = make_cloud(context, COUNT);
@@ -82,7 +82,7 @@ static void test_discs(void **state) {
 
 /// Any two tangent axes: the principal ones have the same covariance, are orthogonal and sorted; the normal
 /// follows the given one.
-static void test_ellipses(void **state) {
+TEST(test_ellipses) {
     enum { COUNT = 1000 };
     ewa_context *context = check_context(1, NULL);
     ewa_cloud *cloud = make_cloud(context, COUNT);
@@ -122,7 +122,7 @@ static void test_ellipses(void **state) {
 }
 
 /// Every reason to leave a point out.
-static void test_left_out(void **state) {
+TEST(test_left_out) {
     static const float rows[][7] = {
         // position, normal, radius
         {0, 0, 1, 0, 0, 1, 1},         {NAN, 0, 1, 0, 0, 1, 1},   {0, INFINITY, 1, 0, 0, 1, 1},
@@ -180,7 +180,7 @@ static double read_one_color(ewa_context *context, ewa_type type, uint32_t compo
 
 static double curve(double s) { return s <= 0.04045 ? s / 12.92 : pow((s + 0.055) / 1.055, 2.4); }
 
-static void test_colors(void **state) {
+TEST(test_colors) {
     ewa_context *context = check_context(1, NULL);
     ewa_surfel surfel;
     for (int i = 0; i < 256; i++) {
@@ -203,7 +203,7 @@ static void test_colors(void **state) {
 }
 
 /// Missing and misshapen attributes are named.
-static void test_refused_clouds(void **state) {
+TEST(test_refused_clouds) {
     static const struct {
         const char *names[4];
         uint32_t components[4];
@@ -238,7 +238,7 @@ static void test_refused_clouds(void **state) {
 }
 
 /// Every member out of its range, named in the message.
-static void test_options(void **state) {
+TEST(test_options) {
     check_log log = {0};
     ewa_context *context = check_context(1, &log);
     ewa_surfels_options surfels, chosen_surfels;
@@ -288,10 +288,4 @@ static void test_options(void **state) {
     ewa_context_destroy(&context);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_discs),  cmocka_unit_test(test_ellipses),       cmocka_unit_test(test_left_out),
-        cmocka_unit_test(test_colors), cmocka_unit_test(test_refused_clouds), cmocka_unit_test(test_options),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

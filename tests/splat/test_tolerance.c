@@ -60,7 +60,7 @@ static void look(const picture made[2], int x, int channel, bool there[2]) {
         there[i] = made[i].frame.rgba[4 * (SIDE_PX / 2 * SIDE_PX + x) + channel] > 0.01f;
 }
 
-static void test_tolerance_at_each_pixel(void **state) {
+TEST(test_tolerance_at_each_pixel) {
     static const double origin[3] = {0, 0, 0};
     static const double beyond[] = {0.5, 0.9, 0.98, 1.02, 1.1, 1.5};
     ewa_context *context = check_context(0, NULL);
@@ -92,7 +92,4 @@ static void test_tolerance_at_each_pixel(void **state) {
     ewa_context_destroy(&context);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_tolerance_at_each_pixel)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -65,7 +65,7 @@ static void hold_halves(scene_kind kind, const ewa_render_options *options, bool
     ewa_context_destroy(&context);
 }
 
-static void test_halves(void **state) {
+TEST(test_halves) {
     ewa_render_options options;
     ewa_render_options_init(&options, sizeof options);
     options.background[0] = 0.3f, options.background[3] = 1; // no colour is divided by a small alpha
@@ -134,7 +134,7 @@ static void read_middle(const picture *from, double mean[2]) {
 }
 
 /// Two sheets at one place: the picture goes from one to the other as the weights do.
-static void test_cross_fade(void **state) {
+TEST(test_cross_fade) {
     ewa_context *context = check_context(0, NULL);
     scene of = sheet_scene();
     ewa_surfels *red = make_sheet(context, 4, 255, 0, 1), *blue = make_sheet(context, 4, 0, 255, 1);
@@ -159,7 +159,7 @@ static void test_cross_fade(void **state) {
 }
 
 /// A faint sheet a little in front hides what is behind it only if it is to.
-static void test_hiding(void **state) {
+TEST(test_hiding) {
     ewa_context *context = check_context(0, NULL);
     scene of = sheet_scene();
     ewa_surfels *front = make_sheet(context, 3.5, 255, 0, 1), *back = make_sheet(context, 4, 0, 255, 0.7),
@@ -243,7 +243,7 @@ static void hold_invariance(scene_kind kind, const ewa_render_options *options, 
     for (int i = 0; i < 2; i++) picture_free(&drawn[i]);
 }
 
-static void test_invariance(void **state) {
+TEST(test_invariance) {
     ewa_render_options options;
     ewa_render_options_init(&options, sizeof options);
     for (scene_kind kind = 0; kind < SCENE_COUNT; kind++) hold_invariance(kind, &options, "as it is");
@@ -258,7 +258,7 @@ static void test_invariance(void **state) {
     hold_invariance(SCENE_ELLIPSES, &options, "three layers");
 }
 
-static void test_refusals(void **state) {
+TEST(test_refusals) {
     check_log log = {0};
     ewa_context *context = check_context(0, &log);
     scene of = sheet_scene();
@@ -279,10 +279,4 @@ static void test_refusals(void **state) {
     ewa_context_destroy(&context);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_halves),     cmocka_unit_test(test_cross_fade), cmocka_unit_test(test_hiding),
-        cmocka_unit_test(test_invariance), cmocka_unit_test(test_refusals),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

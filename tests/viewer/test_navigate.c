@@ -49,7 +49,7 @@ static void assert_place(const ewa_camera *camera, const double point_world[3], 
     assert_near(place_px[1], y_px, 1e-6);
 }
 
-static void projects_both_ways(void **state) {
+TEST(projects_both_ways) {
     check_random random = {1};
     for (int i = 0; i < TRIALS; i++) {
         const ewa_camera camera = random_camera(&random, i);
@@ -62,7 +62,7 @@ static void projects_both_ways(void **state) {
     }
 }
 
-static void zoom_keeps_the_point_in_its_place(void **state) {
+TEST(zoom_keeps_the_point_in_its_place) {
     check_random random = {2};
     for (int i = 0; i < TRIALS; i++) {
         ewa_camera camera = random_camera(&random, i);
@@ -79,7 +79,7 @@ static void zoom_keeps_the_point_in_its_place(void **state) {
     }
 }
 
-static void pan_moves_the_point_with_the_hand(void **state) {
+TEST(pan_moves_the_point_with_the_hand) {
     check_random random = {3};
     for (int i = 0; i < TRIALS; i++) {
         ewa_camera camera = random_camera(&random, i);
@@ -98,7 +98,7 @@ static double roll(const ewa_camera *camera, const double up_world[3]) {
            sqrt(m[0] * m[0] + m[1] * m[1] + m[2] * m[2]);
 }
 
-static void orbit_keeps_pivot_and_horizon(void **state) {
+TEST(orbit_keeps_pivot_and_horizon) {
     static const double up_world[3] = {0, 0, 1};
     check_random random = {4};
     for (int i = 0; i < TRIALS; i++) {
@@ -129,7 +129,7 @@ static void orbit_keeps_pivot_and_horizon(void **state) {
     }
 }
 
-static void orbit_follows_the_hand(void **state) {
+TEST(orbit_follows_the_hand) {
     static const double up_world[3] = {0, 0, 1}, eye_world[3] = {0, -5, 0}, middle[3] = {0, 0, 0};
     static const double front[3] = {0, -1, 0};
     ewa_camera camera;
@@ -145,7 +145,7 @@ static void orbit_follows_the_hand(void **state) {
     assert_true(after[1] > before[1] + 1); // and down
 }
 
-static void turntable_stops_at_the_poles(void **state) {
+TEST(turntable_stops_at_the_poles) {
     static const double up_world[3] = {0, 0, 1}, eye_world[3] = {0, -5, 0}, middle[3] = {0, 0, 0};
     ewa_camera camera;
     ewa_camera_init(&camera);
@@ -160,7 +160,7 @@ static void turntable_stops_at_the_poles(void **state) {
     assert_true(fabs(eye[2] - 5) > 0.1);
 }
 
-static void centers_at_the_same_depth(void **state) {
+TEST(centers_at_the_same_depth) {
     check_random random = {5};
     for (int i = 0; i < TRIALS; i++) {
         ewa_camera camera = random_camera(&random, i);
@@ -173,7 +173,7 @@ static void centers_at_the_same_depth(void **state) {
     }
 }
 
-static void resize_keeps_what_the_height_shows(void **state) {
+TEST(resize_keeps_what_the_height_shows) {
     check_random random = {6};
     for (int i = 0; i < TRIALS; i++) {
         ewa_camera camera = random_camera(&random, i);
@@ -191,7 +191,7 @@ static void resize_keeps_what_the_height_shows(void **state) {
     }
 }
 
-static void ortho_and_back_keep_the_size_at_a_point(void **state) {
+TEST(ortho_and_back_keep_the_size_at_a_point) {
     check_random random = {7};
     for (int i = 0; i < TRIALS; i += 2) {
         ewa_camera camera = random_camera(&random, i & ~1);
@@ -210,17 +210,4 @@ static void ortho_and_back_keep_the_size_at_a_point(void **state) {
     }
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(projects_both_ways),
-        cmocka_unit_test(zoom_keeps_the_point_in_its_place),
-        cmocka_unit_test(pan_moves_the_point_with_the_hand),
-        cmocka_unit_test(orbit_keeps_pivot_and_horizon),
-        cmocka_unit_test(orbit_follows_the_hand),
-        cmocka_unit_test(turntable_stops_at_the_poles),
-        cmocka_unit_test(centers_at_the_same_depth),
-        cmocka_unit_test(resize_keeps_what_the_height_shows),
-        cmocka_unit_test(ortho_and_back_keep_the_size_at_a_point),
-    };
-    return cmocka_run_group_tests(tests, make_context, end_context);
-}
+int main(void) { return RUN_TESTS(make_context, end_context); }

@@ -29,7 +29,7 @@ static const char *name_of(const char *path) {
     return slash ? slash + 1 : path;
 }
 
-static void the_newest_is_first(void **state) {
+TEST(the_newest_is_first) {
     recent_read(&files);
     assert_int_equal(files.count, 0);
     char name[32];
@@ -51,7 +51,7 @@ static void the_newest_is_first(void **state) {
     assert_string_equal(name_of(again.paths[RECENT_FILES - 1]), "scan 4.ply");
 }
 
-static void broken_texts_do_no_harm(void **state) {
+TEST(broken_texts_do_no_harm) {
     static char line[3 * VIEWER_PATH_BYTES];
     memset(line, 'x', sizeof line - 1);
     write_file("ewa/recent", line);
@@ -65,7 +65,7 @@ static void broken_texts_do_no_harm(void **state) {
     assert_int_equal(again.count, 1);
 }
 
-static void without_a_place_they_are_of_this_session(void **state) {
+TEST(without_a_place_they_are_of_this_session) {
     assert_int_equal(setenv("XDG_STATE_HOME", "/dev/null/nowhere", 1), 0);
     recent_read(&again);
     assert_int_equal(again.count, 0);
@@ -79,8 +79,4 @@ static void without_a_place_they_are_of_this_session(void **state) {
     assert_int_not_equal(access("state", F_OK), 0);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(the_newest_is_first), cmocka_unit_test(broken_texts_do_no_harm),
-                                       cmocka_unit_test(without_a_place_they_are_of_this_session)};
-    return cmocka_run_group_tests(tests, make_folder, NULL);
-}
+int main(void) { return RUN_TESTS(make_folder, NULL); }

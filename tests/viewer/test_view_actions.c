@@ -8,7 +8,7 @@
 
 enum { TEXT_BYTES = 1 << 16 };
 
-static void keys_do_one_thing(void **state) {
+TEST(keys_do_one_thing) {
     const viewer_action *one, *other;
     for (uint32_t i = 0; (one = viewer_action_at(i)); i++)
         for (uint32_t k = 0; k < i && (other = viewer_action_at(k)); k++)
@@ -16,7 +16,7 @@ static void keys_do_one_thing(void **state) {
                 fail_msg("%s and %s have one key", one->command, other->command);
 }
 
-static void rows_of_menus_are_whole(void **state) {
+TEST(rows_of_menus_are_whole) {
     const viewer_action *action;
     for (uint32_t i = 0; (action = viewer_action_at(i)); i++) {
         if (!action->menu) {
@@ -54,7 +54,7 @@ static void write_table(char text[TEXT_BYTES]) {
     }
 }
 
-static void docs_say_the_same(void **state) {
+TEST(docs_say_the_same) {
     static char wanted[TEXT_BYTES], docs[TEXT_BYTES];
     write_table(wanted);
     FILE *file = fopen(DOCS_PATH, "r");
@@ -91,7 +91,7 @@ static const viewer_action *find(const char *command) {
 }
 
 /// Switches say how they are, and what was done is noted.
-static void actions_are_noted(void **state) {
+TEST(actions_are_noted) {
     viewer *v = make_viewer();
     viewer_state now;
     bool on = true;
@@ -112,7 +112,7 @@ static void actions_are_noted(void **state) {
 }
 
 /// The button of the tool that the hand holds is lit, and of no other.
-static void tools_are_lit(void **state) {
+TEST(tools_are_lit) {
     viewer *v = make_viewer();
     assert_false(viewer_action_is_lit(v, find("select lasso")));
     assert_true(viewer_act(v, find("select lasso")));
@@ -129,7 +129,7 @@ static void tools_are_lit(void **state) {
 }
 
 /// Escape takes away what lies on top, one thing at a time.
-static void escape_goes_down(void **state) {
+TEST(escape_goes_down) {
     viewer *v = make_viewer();
     viewer_state now;
     assert_true(viewer_do(v, "help on"));
@@ -148,11 +148,4 @@ static void escape_goes_down(void **state) {
     viewer_destroy(&v);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(keys_do_one_thing),  cmocka_unit_test(rows_of_menus_are_whole),
-        cmocka_unit_test(docs_say_the_same),  cmocka_unit_test(actions_are_noted),
-        cmocka_unit_test(tools_are_lit),      cmocka_unit_test(escape_goes_down),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

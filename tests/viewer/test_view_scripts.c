@@ -191,15 +191,15 @@ static void run_all(uint32_t cpu_mask, int64_t threads) {
     assert_int_equal(failed, 0);
 }
 
-static void scripts_with_everything(void **state) { run_all(EWA_CPU_ALL, 2); }
+TEST(scripts_with_everything) { run_all(EWA_CPU_ALL, 2); }
 
-#ifndef EVENTS_ONLY
-static void scripts_without_avx512(void **state) { run_all(EWA_CPU_AVX2, 1); }
+#ifndef EVENTS_ONLY // other instruction sets change nothing about a window's events
+TEST(scripts_without_avx512) { run_all(EWA_CPU_AVX2, 1); }
 
-static void scripts_portable(void **state) { run_all(0, 3); }
+TEST(scripts_portable) { run_all(0, 3); }
 #endif
 
-static void wrong_scripts_fail(void **state) {
+TEST(wrong_scripts_fail) {
     static const char *const wrong[] = {"nothing\n",       "1 frame\n0.5 frame\n",
                                         "press 1\n",       "do nothing\n",
                                         "key\n",           "expect-hash 0123456789abcdef\n",
@@ -222,14 +222,4 @@ static void wrong_scripts_fail(void **state) {
     memcpy(scripts_folder, saved, sizeof saved);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(scripts_with_everything),
-#ifndef EVENTS_ONLY // other instruction sets change nothing about a window's events
-        cmocka_unit_test(scripts_without_avx512),
-        cmocka_unit_test(scripts_portable),
-#endif
-        cmocka_unit_test(wrong_scripts_fail),
-    };
-    return cmocka_run_group_tests(tests, make_files, NULL);
-}
+int main(void) { return RUN_TESTS(make_files, NULL); }

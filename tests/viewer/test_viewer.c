@@ -69,7 +69,7 @@ static void drag(viewer *v, double x0, double y0, double x1, double y1) {
     handle(v, (viewer_event){.kind = VIEWER_RELEASE, .x = x1, .y = y1, .button = VIEWER_LEFT, .clicks = 1});
 }
 
-static void still_pictures_are_the_renderers(void **state) {
+TEST(still_pictures_are_the_renderers) {
     for (int waits = 0; waits < 2; waits++) {
         viewer *v = make_viewer(waits);
         assert_true(viewer_open(v, "torus"));
@@ -107,7 +107,7 @@ static void still_pictures_are_the_renderers(void **state) {
     }
 }
 
-static void moving_ends_in_the_same_picture(void **state) {
+TEST(moving_ends_in_the_same_picture) {
     viewer *v = make_viewer(false);
     viewer_do(v, "set budget_ms 1");
     assert_true(viewer_open(v, "sphere"));
@@ -137,7 +137,7 @@ static void close_viewer(viewer *v) {
 }
 
 /// However little time there is, what moves is at least half as large as the window, of enough surfels or voxels to be told.
-static void moving_pictures_can_be_told(void **state) {
+TEST(moving_pictures_can_be_told) {
     static const char *const names[] = {"torus", "octree", "volume"};
     for (int i = 0; i < 3; i++) {
         viewer *v = make_viewer(false);
@@ -184,7 +184,7 @@ static bool is_waiting(void *user) {
 }
 
 /// Without threads, a frame does one thing: loads, makes the scene, draws roughly, draws the whole picture.
-static void stepped_viewers_show_the_same(void **state) {
+TEST(stepped_viewers_show_the_same) {
     static const char *const names[] = {"torus", "volume", "octree"};
     for (int k = 0; k < 3; k++) {
         uint8_t *pictures[2];
@@ -216,7 +216,7 @@ static void stepped_viewers_show_the_same(void **state) {
     }
 }
 
-static void failing_loads_leave_the_scene(void **state) {
+TEST(failing_loads_leave_the_scene) {
     viewer *v = make_viewer(true);
     assert_true(viewer_open(v, "sphere"));
     viewer_picture picture = settle(v);
@@ -236,7 +236,7 @@ static void failing_loads_leave_the_scene(void **state) {
     assert_int_equal(contents.frees, 1);
 }
 
-static void dropped_files_queue(void **state) {
+TEST(dropped_files_queue) {
     viewer *v = make_viewer(false);
     contents.holds = true;
     handle(v, (viewer_event){.kind = VIEWER_DROP, .text = "sphere"});
@@ -263,7 +263,7 @@ static void dropped_files_queue(void **state) {
     assert_int_equal(contents.frees, 3);
 }
 
-static void cancelled_loads_come_to_nothing(void **state) {
+TEST(cancelled_loads_come_to_nothing) {
     viewer *v = make_viewer(false);
     assert_true(viewer_open(v, "torus"));
     settle(v);
@@ -282,7 +282,7 @@ static void cancelled_loads_come_to_nothing(void **state) {
 }
 
 /// What is closed or given up while it is loaded comes back by undo: what is left of the first load is no news of the second.
-static void closed_loads_come_back(void **state) {
+TEST(closed_loads_come_back) {
     static const char *const ends[] = {"close 1", "cancel"};
     for (int i = 0; i < 2; i++) {
         viewer *v = make_viewer(false);
@@ -306,7 +306,7 @@ static void closed_loads_come_back(void **state) {
     }
 }
 
-static void previews_come_first(void **state) {
+TEST(previews_come_first) {
     viewer *v = make_viewer(false);
     contents.preview = true;
     viewer_open(v, "sphere");
@@ -320,7 +320,7 @@ static void previews_come_first(void **state) {
     assert_int_equal(contents.frees, 2);
 }
 
-static void picks_name_points_exactly(void **state) {
+TEST(picks_name_points_exactly) {
     viewer *v = make_viewer(true);
     assert_true(viewer_open(v, "sphere"));
     settle(v);
@@ -344,7 +344,7 @@ static void picks_name_points_exactly(void **state) {
     ewa_context_destroy(&contents.context);
 }
 
-static void picks_respect_the_box(void **state) {
+TEST(picks_respect_the_box) {
     viewer *v = make_viewer(true);
     assert_true(viewer_open(v, "sphere"));
     assert_true(viewer_do(v, "box -2,0,-2,2,2,2")); // the half that is behind
@@ -361,7 +361,7 @@ static void picks_respect_the_box(void **state) {
 }
 
 /// Beside the cut, where the nearest point of all may have been cut off.
-static void picks_beside_the_box_are_inside(void **state) {
+TEST(picks_beside_the_box_are_inside) {
     viewer *v = make_viewer(true);
     assert_true(viewer_open(v, "plane"));
     assert_true(viewer_do(v, "view top"));
@@ -383,7 +383,7 @@ static void picks_beside_the_box_are_inside(void **state) {
     ewa_context_destroy(&contents.context);
 }
 
-static void cameras_are_copied(void **state) {
+TEST(cameras_are_copied) {
     viewer *v = make_viewer(true);
     assert_true(viewer_open(v, "torus"));
     settle(v);
@@ -403,7 +403,7 @@ static void cameras_are_copied(void **state) {
     ewa_context_destroy(&contents.context);
 }
 
-static void opening_more_never_moves_the_camera(void **state) {
+TEST(opening_more_never_moves_the_camera) {
     viewer *v = make_viewer(true);
     assert_true(viewer_open(v, "sphere"));
     settle(v);
@@ -418,7 +418,7 @@ static void opening_more_never_moves_the_camera(void **state) {
     ewa_context_destroy(&contents.context);
 }
 
-static void commands_refuse_what_is_wrong(void **state) {
+TEST(commands_refuse_what_is_wrong) {
     static const char *const wrong[] = {"",
                                         "nothing",
                                         "close 7",
@@ -472,7 +472,7 @@ static void commands_refuse_what_is_wrong(void **state) {
     ewa_context_destroy(&contents.context);
 }
 
-static void hostile_events_do_no_harm(void **state) {
+TEST(hostile_events_do_no_harm) {
     check_random random = {9};
     viewer *v = make_viewer(true);
     assert_true(viewer_open(v, "torus"));
@@ -504,7 +504,7 @@ static size_t count_descriptors(void) {
     return count;
 }
 
-static void resizes_and_loads_leave_nothing_behind(void **state) {
+TEST(resizes_and_loads_leave_nothing_behind) {
     enum { RESIZES = 1000, LOADS = 100 };
     viewer *v = make_viewer(false);
     viewer_picture picture;
@@ -531,7 +531,7 @@ static void resizes_and_loads_leave_nothing_behind(void **state) {
 }
 
 /// What is seen of an octree gets finer until nothing is missing: then it is the picture of viewers that wait.
-static void octrees_get_finer(void **state) {
+TEST(octrees_get_finer) {
     uint8_t *pictures[2];
     for (int waits = 0; waits < 2; waits++) {
         viewer *v = make_viewer(waits);
@@ -567,26 +567,4 @@ static void octrees_get_finer(void **state) {
     compare_pictures(pictures);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(still_pictures_are_the_renderers),
-        cmocka_unit_test(moving_pictures_can_be_told),
-        cmocka_unit_test(octrees_get_finer),
-        cmocka_unit_test(moving_ends_in_the_same_picture),
-        cmocka_unit_test(stepped_viewers_show_the_same),
-        cmocka_unit_test(failing_loads_leave_the_scene),
-        cmocka_unit_test(dropped_files_queue),
-        cmocka_unit_test(cancelled_loads_come_to_nothing),
-        cmocka_unit_test(closed_loads_come_back),
-        cmocka_unit_test(previews_come_first),
-        cmocka_unit_test(picks_name_points_exactly),
-        cmocka_unit_test(picks_respect_the_box),
-        cmocka_unit_test(picks_beside_the_box_are_inside),
-        cmocka_unit_test(cameras_are_copied),
-        cmocka_unit_test(opening_more_never_moves_the_camera),
-        cmocka_unit_test(commands_refuse_what_is_wrong),
-        cmocka_unit_test(hostile_events_do_no_harm),
-        cmocka_unit_test(resizes_and_loads_leave_nothing_behind),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -31,7 +31,7 @@ static int key_of(SDL_Keycode code, SDL_Scancode place, uint16_t modifiers) {
     return to.key;
 }
 
-static void keys_of_keyboards(void **state) {
+TEST(keys_of_keyboards) {
     assert_int_equal(key_of('w', SDL_SCANCODE_W, 0), 'w');
     assert_int_equal(key_of('w', SDL_SCANCODE_Z, 0), 'w'); // AZERTY: what is written on it
     assert_int_equal(key_of('&', SDL_SCANCODE_1, 0), '1');
@@ -50,7 +50,7 @@ static void keys_of_keyboards(void **state) {
     assert_int_equal(key_of(SDLK_VOLUMEUP, SDL_SCANCODE_VOLUMEUP, 0), 0);
 }
 
-static void presses_of_panels_end_there(void **state) {
+TEST(presses_of_panels_end_there) {
     viewer_event to;
     SDL_Event event = {.button = {.type = SDL_MOUSEBUTTONUP, .button = SDL_BUTTON_LEFT}};
     assert_false(events_translate(&shown, &event, 1, &to));
@@ -78,7 +78,7 @@ static void presses_of_panels_end_there(void **state) {
     assert_int_equal(shown.key_count, 0);
 }
 
-static void wheels_and_fingers(void **state) {
+TEST(wheels_and_fingers) {
     viewer_event to;
     SDL_Event event = {
         .wheel = {.type = SDL_MOUSEWHEEL, .preciseX = 0.25f, .preciseY = 0.1f, .mouseX = 300, .mouseY = 200}};
@@ -104,7 +104,7 @@ static void wheels_and_fingers(void **state) {
     assert_false(events_translate(&shown, &pinch, 1, &to));
 }
 
-static void way_back(void **state) {
+TEST(way_back) {
     static const viewer_event sent[] = {
         {.kind = VIEWER_MOVE, .x = 12, .y = 34, .modifiers = VIEWER_SHIFT},
         {.kind = VIEWER_PRESS, .x = 5, .y = 6, .button = VIEWER_RIGHT, .clicks = 2, .modifiers = VIEWER_CTRL},
@@ -142,7 +142,7 @@ static void way_back(void **state) {
     }
 }
 
-static void rows_of_pictures(void **state) {
+TEST(rows_of_pictures) {
     const uint8_t opaque[8] = {1, 2, 3, 255, 200, 100, 50, 255};
     uint32_t xrgb[6];
     picture_row(opaque, 2, 0, 4, xrgb);
@@ -160,9 +160,4 @@ static void rows_of_pictures(void **state) {
     assert_int_equal(xrgb[1], 0x707070);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(keys_of_keyboards), cmocka_unit_test(presses_of_panels_end_there),
-        cmocka_unit_test(wheels_and_fingers), cmocka_unit_test(way_back), cmocka_unit_test(rows_of_pictures)};
-    return cmocka_run_group_tests(tests, open_window, close_window);
-}
+int main(void) { return RUN_TESTS(open_window, close_window); }

@@ -56,7 +56,7 @@ static ewa_image draw_integrals(ewa_context *context, const ewa_camera *camera, 
 }
 
 /// Places in the picture under 120 degrees, shapes, and what either projection makes of them.
-static void test_integrals(void **state) {
+TEST(test_integrals) {
     static const double white[3] = {1, 1, 1}, ahead[3] = {0, 0, -1};
     static const double shapes[3][3] = {{0.2, 0.2, 0.2}, {0.5, 0.15, 0.1}, {0.4, 0.3, 0.03}};
     static const double angles[3] = {0, 35, 55};
@@ -166,7 +166,7 @@ static double popped(const ewa_gaussians *set, double first_deg, bool by_centers
 /// Shields that cut each other while the camera turns about them through 90 degrees in steps of a quarter of
 /// a degree: what passes before what changes pixel by pixel. Sorted by centres whole shields do, and the
 /// largest change from frame to frame is several times as large.
-static void test_popping(void **state) {
+TEST(test_popping) {
     ewa_context *context = check_context(2, NULL);
     ewa_gaussians set = gaussians_random(context, 10, 0, 21);
     for (size_t i = 0; i < set.count; i++) {
@@ -193,7 +193,4 @@ static void test_popping(void **state) {
     ewa_context_destroy(&context);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_integrals), cmocka_unit_test(test_popping)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

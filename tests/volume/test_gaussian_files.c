@@ -6,7 +6,7 @@
 
 #include <math.h>
 
-static void test_scenes(void **state) {
+TEST(test_scenes) {
     static const char *const files[] = {"gaussians/guitar_3dgs.ply", "gaussians/pc_short_100_sh3.ply",
                                         "gaussians/train_3_points.ply",
                                         "gaussians/guitar_40k_2dgs_derived.ply"};
@@ -49,7 +49,4 @@ static void test_scenes(void **state) {
     }
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_scenes)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

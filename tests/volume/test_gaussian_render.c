@@ -41,7 +41,7 @@ static void check_held(const ewa_gaussians *set, const ewa_camera *camera, const
 }
 
 /// Both projections, both orders, all degrees, both filters, flat ones, orthographic, from within, under 130 degrees.
-static void test_reference(void **state) {
+TEST(test_reference) {
     ewa_context *context = check_context(2, NULL);
     for (uint32_t degree = 0; degree <= EWA_MAX_SH_DEGREE; degree++)
         for (int exact = 0; exact < 2; exact++) {
@@ -90,7 +90,7 @@ static void test_reference(void **state) {
 }
 
 /// More faint ones behind each other than are sorted at once: over many octaves of depth, at one depth.
-static void test_dense(void **state) {
+TEST(test_dense) {
     ewa_context *context = check_context(2, NULL);
     for (int many = 0; many < 2; many++)
         for (int flat = 0; flat < 2; flat++) {
@@ -126,7 +126,7 @@ static void test_dense(void **state) {
 }
 
 /// Threads, instruction sets, order of the set: nothing changes a byte.
-static void test_bytes(void **state) {
+TEST(test_bytes) {
     static const uint32_t masks[3] = {0, EWA_CPU_AVX2, EWA_CPU_ALL};
     const ewa_camera camera = gaussians_camera(203, 131, 70, FRONT, 1.2);
     for (int mode = 0; mode < 4; mode++) {
@@ -172,7 +172,7 @@ static void test_bytes(void **state) {
 /// Two sheets that cross where the middle column looks, red nearer on the left, blue on the right, red's centre 0.01
 /// nearer, or blue's: in each pixel by its ray, or red before blue, or blue before red, in all of them. The defaults are
 /// the order of centres of the trained projection and that of rays of the exact one.
-static void test_crossing(void **state) {
+TEST(test_crossing) {
     static const double half_deg = 20 * 3.141592653589793 / 180;
     static const ewa_gaussian_order orders[3] = {EWA_ORDER_OF_PROJECTION, EWA_ORDER_CENTER, EWA_ORDER_RAY};
     ewa_context *context = check_context(1, NULL);
@@ -214,7 +214,7 @@ static void test_crossing(void **state) {
 
 /// A sheet that goes through another one, whose deviations in depth are 0.1: by rays the share of the farther one that is in
 /// front is 1/2 (1 - distance / 0.2), but no longer when a third one is nearer to it, and nothing changes at once.
-static void test_passing(void **state) {
+TEST(test_passing) {
     static const double scales[3] = {80, 80, 0.1};
     ewa_context *context = check_context(1, NULL);
     const ewa_camera camera = gaussians_camera(16, 16, 5, (const double[3]){0, 0, -1}, 5);
@@ -256,7 +256,7 @@ static void test_passing(void **state) {
 
 /// Trained 2D Gaussians of which the numbers are known: one that leans by 60 degrees, where its ray crosses it, and one far
 /// smaller than a pixel, a dot of variance 1/2 px^2.
-static void test_flat(void **state) {
+TEST(test_flat) {
     static const double white[3] = {1, 1, 1}, sizes[2] = {1, 1e-4}, turn = 30 * 3.141592653589793 / 180;
     const double lean[4] = {cos(turn), 0, sin(turn), 0}; // about y, by twice that
     ewa_context *context = check_context(1, NULL);
@@ -286,7 +286,7 @@ static void test_flat(void **state) {
 }
 
 /// A colour that all have is that of the picture, whatever is behind what.
-static void test_constant(void **state) {
+TEST(test_constant) {
     ewa_context *context = check_context(1, NULL);
     ewa_gaussians set = gaussians_random(context, 3000, 0, 11);
     for (size_t i = 0; i < set.count; i++)
@@ -311,7 +311,7 @@ static void test_constant(void **state) {
 }
 
 /// None, those without opacity, numbers that are none: the background.
-static void test_nothing(void **state) {
+TEST(test_nothing) {
     ewa_context *context = check_context(1, NULL);
     const ewa_camera camera = gaussians_camera(40, 30, 50, FRONT, 2);
     ewa_gaussian_options options = options_of(EWA_PROJECTION_EXACT);
@@ -336,7 +336,7 @@ static void test_nothing(void **state) {
 }
 
 /// One that covers the picture: alpha is its opacity, to 0.99; depth is where half of the light is gone.
-static void test_one(void **state) {
+TEST(test_one) {
     static const double center[3] = {0, 0, 0}, scales[3] = {50, 50, 0.1}, color[3] = {1, 0.25, 0.5};
     static const double front[3] = {0, 0, -1};
     ewa_context *context = check_context(1, NULL);
@@ -365,7 +365,7 @@ static void test_one(void **state) {
 
 /// A surface a standard deviation behind the middle of a Gaussian leaves 84.13 % of it, 1.665 behind it 95.20 %, one before it
 /// nothing, one behind it all.
-static void test_surface(void **state) {
+TEST(test_surface) {
     enum { PIXELS = 64 * 48 };
     static const double center[3] = {0, 0, 0}, scales[3] = {20, 20, 0.5}, color[3] = {1, 0, 0};
     static const double front[3] = {0, 0, -1};
@@ -399,7 +399,7 @@ static void test_surface(void **state) {
 }
 
 /// Section planes cut along every ray; also with edges of surfaces, whose share of a pixel is what the reference has.
-static void test_sections(void **state) {
+TEST(test_sections) {
     enum { PIXELS = 150 * 110 };
     static float depth[PIXELS], rgba[4 * PIXELS];
     static const double planes[3][4] = {{0, 2, 0, 0.4}, {-3, 0, 1, 1}, {0.1, 0.2, 1, 0.1}};
@@ -470,7 +470,7 @@ static void test_sections(void **state) {
 }
 
 /// Harmonics are orthonormal: means over directions of products of two, from the colours that they give.
-static void test_harmonics(void **state) {
+TEST(test_harmonics) {
     enum { COUNT = 25, AROUND = 24, DOWN = 12 };
     // Gauss-Legendre places and weights for polynomials up to degree 23.
     static const double places[6] = {0.1252334085114689, 0.3678314989981802, 0.5873179542866175,
@@ -521,7 +521,7 @@ static void test_harmonics(void **state) {
 }
 
 /// Whichever allocation fails, the calls say so and leave nothing behind.
-static void test_memory(void **state) {
+TEST(test_memory) {
     const ewa_camera camera = gaussians_camera(40, 30, 50, FRONT, 2);
     for (long n = 0;; n++) {
         check_memory memory = {.calls_left = -1};
@@ -548,12 +548,4 @@ static void test_memory(void **state) {
     }
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_reference), cmocka_unit_test(test_dense),    cmocka_unit_test(test_bytes),
-        cmocka_unit_test(test_crossing), cmocka_unit_test(test_flat), cmocka_unit_test(test_passing), cmocka_unit_test(test_constant),  cmocka_unit_test(test_nothing),  cmocka_unit_test(test_one),
-        cmocka_unit_test(test_surface),   cmocka_unit_test(test_sections), cmocka_unit_test(test_harmonics),
-        cmocka_unit_test(test_memory),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -127,7 +127,7 @@ static ewa_camera camera_of(int n) {
 }
 
 /// One volume is drawn as ewa_volume_render() does; one set, and nothing, as ewa_gaussian_render(), to the byte.
-static void test_alone(void **state) {
+TEST(test_alone) {
     ewa_context *context = check_context(2, NULL);
     for (int n = 0; n < 4; n++) {
         const ewa_camera camera = camera_of(n);
@@ -181,7 +181,7 @@ static void convert(const double from[4], bool back, double to[4]) {
 }
 
 /// A sheet within a ball: the ball's front half, the sheet, its back half, of pictures of their own.
-static void test_between(void **state) {
+TEST(test_between) {
     ewa_context *context = check_context(2, NULL);
     for (int n = 0; n < 3; n++) {
         ewa_camera camera =
@@ -232,7 +232,7 @@ static void test_between(void **state) {
 }
 
 /// Halves of a volume, and of a set, are the whole, also where the sets have other units and origins.
-static void test_halves(void **state) {
+TEST(test_halves) {
     ewa_context *context = check_context(2, NULL);
     const ewa_camera camera = gaussians_camera(WIDTH, HEIGHT, 40, FRONT, 3);
     cast whole = start_on(context), halves = start_on(context);
@@ -273,7 +273,7 @@ static void test_halves(void **state) {
 
 /// A pixel that a surface covers in part shows the surface with what is in front of it there, and all there is
 /// in the rest.
-static void test_edges(void **state) {
+TEST(test_edges) {
     ewa_context *context = check_context(2, NULL);
     const ewa_camera camera = scene_camera(WIDTH, HEIGHT, SLANTED, 3);
     static float depth[PIXELS], rgba[4 * PIXELS], solid[4 * PIXELS];
@@ -318,7 +318,7 @@ static void test_edges(void **state) {
 }
 
 /// Depth is where half of the light is gone, of whatever takes it.
-static void test_depth(void **state) {
+TEST(test_depth) {
     ewa_context *context = check_context(1, NULL);
     const ewa_camera camera = scene_camera(WIDTH, HEIGHT, FRONT, 4);
     static float depth[PIXELS], coverage[PIXELS];
@@ -339,7 +339,7 @@ static void test_depth(void **state) {
 }
 
 /// Threads and instruction sets change no byte.
-static void test_bytes(void **state) {
+TEST(test_bytes) {
     static const uint32_t masks[3] = {0, EWA_CPU_AVX2, EWA_CPU_ALL};
     static float first[4 * PIXELS];
     for (int n = 0; n < 6; n++) {
@@ -360,7 +360,7 @@ static void test_bytes(void **state) {
     }
 }
 
-static void test_bad(void **state) {
+TEST(test_bad) {
     ewa_context *context = check_context(1, NULL);
     const ewa_camera camera = scene_camera(WIDTH, HEIGHT, FRONT, 4);
     cast c = start_on(context);
@@ -398,7 +398,7 @@ static void test_bad(void **state) {
 }
 
 /// Whichever allocation fails, the call says so; the next one draws.
-static void test_memory(void **state) {
+TEST(test_memory) {
     const ewa_camera camera = scene_camera(WIDTH, HEIGHT, SLANTED, 3);
     check_memory memory = {.calls_left = -1};
     ewa_context *context = check_context_on(1, &memory);
@@ -440,7 +440,7 @@ static void take(void *user, void *memory, size_t size_bytes) {
     free(memory);
 }
 
-static void test_allocator(void **state) {
+TEST(test_allocator) {
     own_thread own = {.caller = pthread_self()};
     ewa_context_options chosen;
     ewa_context_options_init(&chosen, sizeof chosen);
@@ -460,7 +460,7 @@ static void test_allocator(void **state) {
 }
 
 /// A world of any scale, whose camera makes up for it; no sets and one beside a volume.
-static void test_scales(void **state) {
+TEST(test_scales) {
     ewa_context *context = check_context(2, NULL);
     ewa_image first = {0};
     for (int n = 0; n < 3; n++) {
@@ -495,12 +495,6 @@ static void test_scales(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_alone),  cmocka_unit_test(test_between), cmocka_unit_test(test_halves),
-        cmocka_unit_test(test_edges),  cmocka_unit_test(test_depth),   cmocka_unit_test(test_bytes),
-        cmocka_unit_test(test_bad),    cmocka_unit_test(test_memory),  cmocka_unit_test(test_allocator),
-        cmocka_unit_test(test_scales),
-    };
-    return cmocka_run_group_tests_name("by centres", tests, by_centers, NULL) +
-           cmocka_run_group_tests_name("by rays", tests, by_rays, NULL);
+    return RUN_TESTS(by_centers, NULL) +
+           RUN_TESTS(by_rays, NULL);
 }

@@ -126,7 +126,7 @@ static ewa_voxels *make_fog(ewa_context *context, const double place[3], float e
 }
 
 /// Gaussians and fog that no pixel sees leave the scan's planes as they are, its soft edges and transparent ones too.
-static void test_out_of_sight(void **state) {
+TEST(test_out_of_sight) {
     static planes scan, out;
     ewa_context *context = check_context(2, NULL);
     const ewa_camera camera = gaussians_camera(WIDTH, HEIGHT, 40, SLANTED, 3);
@@ -160,7 +160,7 @@ static void test_out_of_sight(void **state) {
 }
 
 /// Pixels beside what lets light through, and those whose surface hides it all, keep the surface's planes.
-static void test_beside(void **state) {
+TEST(test_beside) {
     static planes scan, alone, out;
     static bool seen[PIXELS];
     ewa_context *context = check_context(2, NULL);
@@ -213,7 +213,7 @@ static void make_ramp(planes *to) {
 }
 
 /// Sheets of known opacities before and behind the ramp: depth, normal and coverage in closed form.
-static void test_sheets(void **state) {
+TEST(test_sheets) {
     static const double opacities[6][2] = {{0.3, 0.3},  {0.45, 0.9}, {0.6, 0.9},
                                            {0.02, 0.2}, {0.02, 0.7}, {0.9, 0.02}};
     static planes ramp, out, slow;
@@ -266,7 +266,7 @@ static void test_sheets(void **state) {
 }
 
 /// Fog of a known optical depth before a surface, by ewa_volume_render() and as a mixture.
-static void test_fog(void **state) {
+TEST(test_fog) {
     static planes wall, out;
     ewa_context *context = check_context(2, NULL);
     // So narrow that every ray goes through the fog's faces, which are 1.2 apart.
@@ -305,7 +305,7 @@ static void test_fog(void **state) {
 }
 
 /// A wavy surface among Gaussians, with soft places everywhere, as the reference has it.
-static void test_reference(void **state) {
+TEST(test_reference) {
     static planes surface, out, slow;
     ewa_context *context = check_context(2, NULL);
     check_random random = {3};
@@ -349,7 +349,7 @@ static void test_reference(void **state) {
 }
 
 /// A volume's reference, over the same kind of surface.
-static void test_volume_reference(void **state) {
+TEST(test_volume_reference) {
     static planes surface, out, slow;
     ewa_context *context = check_context(2, NULL);
     const ewa_camera camera = scene_camera(WIDTH, HEIGHT, SLANTED, 24);
@@ -386,7 +386,7 @@ static void test_volume_reference(void **state) {
 
 /// A frame's planes are the same bytes whichever others are asked for; surfaces without normals have 0, without
 /// coverage their alpha.
-static void test_null(void **state) {
+TEST(test_null) {
     static planes ramp, all, some, alphas;
     ewa_context *context = check_context(1, NULL);
     const ewa_camera camera = gaussians_camera(WIDTH, HEIGHT, 50, SLANTED, 5);
@@ -439,7 +439,7 @@ static void test_null(void **state) {
 }
 
 /// Threads and instruction sets change no byte.
-static void test_bytes(void **state) {
+TEST(test_bytes) {
     static const uint32_t masks[3] = {0, EWA_CPU_AVX2, EWA_CPU_ALL};
     static planes scan, first[3], out;
     for (int n = 0; n < 6; n++) {
@@ -466,7 +466,7 @@ static void test_bytes(void **state) {
 
 /// Eye-dome lighting of a finished picture: of surfaces that of ewa_render(), to the byte; a sheet of Gaussians some way
 /// before a wall darkens the wall beside it.
-static void test_eye_dome(void **state) {
+TEST(test_eye_dome) {
     static planes whole, plain;
     ewa_context *context = check_context(2, NULL);
     ewa_render_options how;
@@ -505,7 +505,7 @@ static void test_eye_dome(void **state) {
 }
 
 /// Planes of a surface that is not given.
-static void test_bad(void **state) {
+TEST(test_bad) {
     static planes ramp, out;
     check_log log = {0};
     ewa_context *context = check_context(1, &log);
@@ -535,13 +535,4 @@ static void test_bad(void **state) {
     ewa_context_destroy(&context);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_out_of_sight), cmocka_unit_test(test_beside),
-        cmocka_unit_test(test_sheets),       cmocka_unit_test(test_fog),
-        cmocka_unit_test(test_reference),    cmocka_unit_test(test_volume_reference),
-        cmocka_unit_test(test_null),         cmocka_unit_test(test_bytes),
-        cmocka_unit_test(test_eye_dome),     cmocka_unit_test(test_bad),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

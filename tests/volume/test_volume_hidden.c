@@ -50,7 +50,7 @@ static double compare_open(ewa_context *context, const ewa_voxels *voxels, const
 }
 
 /// Points, splats and both, behind a wall that ends within a block, from several sides.
-static void test_open_pixels(void **state) {
+TEST(test_open_pixels) {
     static const uint32_t dims[3] = {48, 40, 56};
     static const double directions[][3] = {{0, 0, -1}, {0.3, 0.2, -1}, {-1, 0.4, 0.1}, {0.2, 1, 0.5}};
     for (uint32_t threads = 1; threads < 3; threads++) {
@@ -84,7 +84,7 @@ static void test_open_pixels(void **state) {
 
 /// Within blocks of which a part can be seen, voxels that cannot are left out: three quarters of a box are
 /// opaque in its front half, which ends within blocks, and no block is covered whole.
-static void test_part_of_block(void **state) {
+TEST(test_part_of_block) {
     enum { BOX = 16, COVERED = 12, VOXELS = BOX * BOX * BOX };
     static const uint32_t dims[3] = {BOX, BOX, BOX};
     ewa_context *context = check_context(1, NULL);
@@ -115,10 +115,4 @@ static void test_part_of_block(void **state) {
     ewa_context_destroy(&context);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_open_pixels),
-        cmocka_unit_test(test_part_of_block),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -13,7 +13,7 @@
 static const double PI = 3.14159265358979323846, UNIT[3] = {1, 1, 1}, DIRECTION[3] = {0.4, 0.3, -1};
 
 /// d = sin(atan(i tan alpha)) / sin alpha; with tan alpha below, as printed, the rim is at cos alpha.
-static void test_index(void **state) {
+TEST(test_index) {
     for (int degrees = 1; degrees <= 80; degrees += 7) {
         const double alpha = degrees * PI / 180, sine2 = sin(alpha) * sin(alpha);
         for (double i = 0; i <= 1; i += 0.125) {
@@ -27,7 +27,7 @@ static void test_index(void **state) {
     }
 }
 
-static void test_table(void **state) {
+TEST(test_table) {
     ewa_footprint_table table;
     ewa_footprint_table_make(&table);
     double maximum = 0;
@@ -49,7 +49,7 @@ static double optical_depth(const ewa_image *image, size_t pixel) {
 }
 
 /// A Gaussian blob of Gaussian kernels is a Gaussian blob, whose line integrals are known.
-static void test_blob(void **state) {
+TEST(test_blob) {
     static const uint32_t dims[3] = {48, 48, 48};
     enum { SIDE = 64 };
     const double q = 5, kappa = 0.05;
@@ -84,7 +84,7 @@ static void test_blob(void **state) {
 }
 
 /// Through single voxels and thin tubes, near enough for large cone angles.
-static void test_marched(void **state) {
+TEST(test_marched) {
     static const uint32_t dims[3] = {16, 16, 16};
     enum { SIDE = 48 };
     const double half = 6;
@@ -140,7 +140,7 @@ static void turn_past_diagonal(ewa_context *context, const ewa_voxels *voxels, b
 }
 
 /// Turning past the diagonal changes a checker box no more than turning elsewhere.
-static void test_no_popping(void **state) {
+TEST(test_no_popping) {
     static const uint32_t dims[3] = {32, 32, 32};
     static const double sides[2] = {4, 13};
     ewa_context *context = check_context(2, NULL);
@@ -160,10 +160,4 @@ static void test_no_popping(void **state) {
     ewa_context_destroy(&context);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_index),   cmocka_unit_test(test_table),      cmocka_unit_test(test_blob),
-        cmocka_unit_test(test_marched), cmocka_unit_test(test_no_popping),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -38,7 +38,7 @@ static double optical_depth(const ewa_image *image, size_t pixel) {
 }
 
 /// What begins at the eye is all there: rays marched from it through the sum of all kernels.
-static void test_marched(void **state) {
+TEST(test_marched) {
     static const uint32_t dims[3] = {15, 14, 16};
     static const double eyes[][3] = {
         {0, 0, 0}, {1.3, -2.2, 0.4}, {0.5, 0.5, 0.5}, {-4.1, 3.3, -7.6}, {0, 0, 9.5}};
@@ -114,7 +114,7 @@ static double error_of(const double spacing[3], ewa_volume_options options, doub
     return maximum;
 }
 
-static void test_equals_reference(void **state) {
+TEST(test_equals_reference) {
     static const double oblong[3] = {0.6, 1.7, 1};
     ewa_volume_options options = defaults();
     options.method = EWA_VOLUME_SPLATS;
@@ -134,7 +134,7 @@ static void test_equals_reference(void **state) {
 }
 
 /// Moving through a volume changes pictures by little at a time: nothing comes or goes at once.
-static void test_moving(void **state) {
+TEST(test_moving) {
     static const uint32_t dims[3] = {24, 24, 24};
     static const double ahead[3] = {0.1, 0.05, -1};
     enum { SIDE = 64, STEPS = 160 };
@@ -168,7 +168,7 @@ static void test_moving(void **state) {
 }
 
 /// Within homogeneous fog, a plane at any distance shows through exp(-kappa d), however near it is.
-static void test_plane_in_fog(void **state) {
+TEST(test_plane_in_fog) {
     static const uint32_t dims[3] = {40, 40, 40};
     static const double eye[3] = {0.2, 0.1, 0.3}, ahead[3] = {0, 0, -1};
     enum { SIDE = 32 };
@@ -194,7 +194,7 @@ static void test_plane_in_fog(void **state) {
 }
 
 /// The same bytes from any number of threads and any instruction set, and nothing to see through from within.
-static void test_same_bytes(void **state) {
+TEST(test_same_bytes) {
     static const uint32_t dims[3] = {30, 30, 30};
     static const double eye[3] = {3.2, -4.1, 2.2}, ahead[3] = {-0.4, 0.7, -1};
     enum { WIDTH = 150, HEIGHT = 90, FLOATS = 4 * WIDTH * HEIGHT };
@@ -228,7 +228,7 @@ static void test_same_bytes(void **state) {
 
 /// The picture does not depend on the unit of the world, nor on the camera's: scaled by a power of two, every
 /// byte is the same, and depths are scaled.
-static void test_scales(void **state) {
+TEST(test_scales) {
     static const uint32_t dims[3] = {19, 22, 17};
     static const double aheads[2][3] = {{0.4, 0.3, -1}, {0, 0.2, 1}};
     static const double scales[] = {1, 0x1p-46, 0x1p43, 0x1p-100, 0x1p100, 0x1p-400, 0x1p400};
@@ -287,7 +287,7 @@ static void test_scales(void **state) {
 }
 
 /// From as far away as cameras can be, and with any focal length, pictures are numbers.
-static void test_extremes(void **state) {
+TEST(test_extremes) {
     static const uint32_t dims[3] = {8, 8, 8};
     static const double eye[3] = {0, 0, 0}, ahead[3] = {0, 0, -1};
     enum { SIDE = 16 };
@@ -327,7 +327,7 @@ static double angle_of(ewa_vec3 a, ewa_vec3 b) {
 
 /// All rays of a rectangle of pixels are in its cone, which is no wider than the rectangle is across; it
 /// meets balls at these rays, and none that lies farther off than it is wide.
-static void test_ray_cones(void **state) {
+TEST(test_ray_cones) {
     check_random random = {12};
     for (int round = 0; round < 200; round++) {
         ewa_grid_view grid = {.fx_px = check_uniform(&random, 60, 300),
@@ -371,12 +371,4 @@ static void test_ray_cones(void **state) {
     }
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_marched),    cmocka_unit_test(test_equals_reference),
-        cmocka_unit_test(test_moving),     cmocka_unit_test(test_plane_in_fog),
-        cmocka_unit_test(test_same_bytes), cmocka_unit_test(test_scales),
-        cmocka_unit_test(test_extremes),   cmocka_unit_test(test_ray_cones),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

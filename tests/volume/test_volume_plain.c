@@ -132,7 +132,7 @@ static void hold(const char *what, bool slanted, colors look, const ewa_volume_o
     ewa_context_destroy(&context);
 }
 
-static void test_bare(void **state) {
+TEST(test_bare) {
     ewa_volume_options options = make_options();
     hold("cubes", false, WHITE, &options, 2e-5, 1e-4);
     hold("cubes, coloured", false, COLORED, &options, 5e-5, 6e-3);
@@ -141,20 +141,20 @@ static void test_bare(void **state) {
     hold("other options", false, COLORED, &options, 3e-4, 6e-3); // a rim may pass through a pixel
 }
 
-static void test_slanted(void **state) {
+TEST(test_slanted) {
     const ewa_volume_options options = make_options();
     // The renderer takes the length of a standard deviation in the middle, not along each ray.
     hold("slanted", true, WHITE, &options, 1e-4, 0.02);
     hold("slanted, coloured", true, COLORED, &options, 1e-4, 0.03);
 }
 
-static void test_ramp(void **state) {
+TEST(test_ramp) {
     const ewa_volume_options options = make_options();
     hold("gradient ramp", false, RAMP, &options, 5e-5, 6e-3);
     hold("gradient ramp, slanted", true, RAMP, &options, 1e-4, 0.03);
 }
 
-static void test_lit(void **state) {
+TEST(test_lit) {
     ewa_volume_options options = make_options();
     light_up(&options);
     hold("coloured lights", false, COLORED, &options, 5e-5, 0.015);
@@ -165,7 +165,7 @@ static void test_lit(void **state) {
     hold("headlight", false, RAMP, &options, 5e-5, 6e-3);
 }
 
-static void test_filtered(void **state) {
+TEST(test_filtered) {
     ewa_volume_options options = make_options();
     options.prefilter_px = 0.35;
     hold("filtered", false, WHITE, &options, 2e-5, 1e-4);
@@ -174,10 +174,4 @@ static void test_filtered(void **state) {
     hold("blurred, slanted", true, COLORED, &options, 1e-4, 0.03);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_bare), cmocka_unit_test(test_slanted),  cmocka_unit_test(test_ramp),
-        cmocka_unit_test(test_lit),  cmocka_unit_test(test_filtered),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

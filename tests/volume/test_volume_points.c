@@ -59,7 +59,7 @@ static ewa_camera look(double distance, double focal_px, double shift_px) {
 
 /// One voxel: extinction times cell, seen from p with the Jacobian fx fy |p| / z^3, is all there is; it is as
 /// wide as its kernel and the pixel's filter together.
-static void test_single_voxels(void **state) {
+TEST(test_single_voxels) {
     static const uint32_t dims[3] = {3, 3, 3};
     const double kappa = 0.02, spacing[3] = {1.3, 1.3, 1.3}, cell = 1.3 * 1.3 * 1.3;
     ewa_context *context = check_context(1, NULL);
@@ -114,7 +114,7 @@ static void test_single_voxels(void **state) {
 }
 
 /// Voxels are points while they are at most 1.2 px apart and their filter at most 0.8 px wide.
-static void test_threshold(void **state) {
+TEST(test_threshold) {
     static const uint32_t dims[3] = {6, 6, 6};
     static const struct {
         double step_px, prefilter_px, threshold_px;
@@ -144,7 +144,7 @@ static void test_threshold(void **state) {
 }
 
 /// Coarser levels hold the means of eight: in thin fog the same light, from the middle of these eight.
-static void test_levels(void **state) {
+TEST(test_levels) {
     static const uint32_t dims[3] = {4, 4, 4};
     ewa_context *context = check_context(1, NULL);
     ewa_volume volume = scene_volume(context, dims, UNIT, scene_ones, NULL);
@@ -199,7 +199,7 @@ static void test_levels(void **state) {
 }
 
 /// Marked splats are red, in the reference as well; points keep their colours, to the bit.
-static void test_marks(void **state) {
+TEST(test_marks) {
     static const uint32_t dims[3] = {8, 8, 8};
     ewa_context *context = check_context(1, NULL);
     ewa_volume volume = scene_volume(context, dims, UNIT, scene_ones, NULL);
@@ -249,12 +249,4 @@ static void test_marks(void **state) {
     ewa_context_destroy(&context);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_single_voxels),
-        cmocka_unit_test(test_threshold),
-        cmocka_unit_test(test_levels),
-        cmocka_unit_test(test_marks),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

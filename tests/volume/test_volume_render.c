@@ -53,7 +53,7 @@ static double error_of(const double spacing[3], double distance, ewa_volume_opti
     return error;
 }
 
-static void test_splats_equal_reference(void **state) {
+TEST(test_splats_equal_reference) {
     static const double oblong[3] = {0.8, 1.3, 1};
     ewa_volume_options options = defaults();
     options.method = EWA_VOLUME_SPLATS;
@@ -69,7 +69,7 @@ static void test_splats_equal_reference(void **state) {
     assert_true(error_of(UNIT, 40, options, false) < 2e-2); // gradients are resident in 30 bits
 }
 
-static void test_points_are_near_reference(void **state) {
+TEST(test_points_are_near_reference) {
     ewa_volume_options options = defaults();
     // 71 px for 40 degrees: voxels of 1 px at a distance of 97.
     assert_true(error_of(UNIT, 120, options, false) < 0.05);
@@ -77,7 +77,7 @@ static void test_points_are_near_reference(void **state) {
 }
 
 /// Through a slab of thickness t gets exp(-kappa t), from any direction in which it is thick enough.
-static void test_slab(void **state) {
+TEST(test_slab) {
     static const uint32_t dims[3] = {64, 64, 12};
     static const double direction[3] = {0, 0, -1};
     const double kappa = 0.11, truth = 1 - exp(-kappa * 12);
@@ -109,7 +109,7 @@ static void test_slab(void **state) {
 }
 
 /// The same bytes from any number of threads and any instruction set.
-static void test_same_bytes(void **state) {
+TEST(test_same_bytes) {
     static const uint32_t dims[3] = {60, 60, 60};
     static const double direction[3] = {0.7, 0.4, -1};
     const double half = 28;
@@ -146,7 +146,7 @@ static void test_same_bytes(void **state) {
 }
 
 /// What is culled because it is hidden does not show.
-static void test_culling_changes_nothing(void **state) {
+TEST(test_culling_changes_nothing) {
     static const uint32_t dims[3] = {48, 48, 48};
     static const double direction[3] = {0.3, 0.2, -1};
     const double radius = 20;
@@ -192,7 +192,7 @@ static bool on_progress(void *user, const char *stage, double fraction) {
     return strcmp(stage, "volume") != 0 || ++self->reports != self->stop_at;
 }
 
-static void test_stops_between_tiles(void **state) {
+TEST(test_stops_between_tiles) {
     static const uint32_t dims[3] = {32, 32, 32};
     static const double direction[3] = {0.3, 0.2, -1};
     const double radius = 12;
@@ -251,7 +251,7 @@ static void free_fog(fog *f) {
 }
 
 /// A plane in homogeneous fog: exp(-kappa d) of it is seen through d of fog.
-static void test_surface_in_fog(void **state) {
+TEST(test_surface_in_fog) {
     fog f = make_fog();
     float depth[SIDE * SIDE], rgba[4 * SIDE * SIDE];
     for (int method = EWA_VOLUME_HYBRID; method <= EWA_VOLUME_POINTS; method++)
@@ -279,7 +279,7 @@ static void test_surface_in_fog(void **state) {
 
 /// Coarser levels are the same fog in fewer voxels.
 /// What section planes leave of fog keeps the light off as far as it reaches; the rest is as the reference has it.
-static void test_sections(void **state) {
+TEST(test_sections) {
     fog f = make_fog();
     for (int method = EWA_VOLUME_HYBRID; method <= EWA_VOLUME_POINTS; method++)
         for (double low = -15.2; low < 10; low += 6.1) {
@@ -315,7 +315,7 @@ static void test_sections(void **state) {
     free_fog(&f);
 }
 
-static void test_levels(void **state) {
+TEST(test_levels) {
     static const uint32_t dims[3] = {50, 50, 50};
     static const double direction[3] = {0.3, 0.2, -1};
     const double sigma = 9;
@@ -342,17 +342,4 @@ static void test_levels(void **state) {
     ewa_context_destroy(&context);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_splats_equal_reference),
-        cmocka_unit_test(test_points_are_near_reference),
-        cmocka_unit_test(test_slab),
-        cmocka_unit_test(test_same_bytes),
-        cmocka_unit_test(test_culling_changes_nothing),
-        cmocka_unit_test(test_stops_between_tiles),
-        cmocka_unit_test(test_surface_in_fog),
-        cmocka_unit_test(test_sections),
-        cmocka_unit_test(test_levels),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }

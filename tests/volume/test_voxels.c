@@ -12,7 +12,7 @@
 
 static const double UNIT[3] = {1, 1, 1}, DIRECTION[3] = {0.7, 0.4, -1};
 
-static void test_counts_and_bytes(void **state) {
+TEST(test_counts_and_bytes) {
     static const uint32_t dims[3] = {61, 70, 83};
     const double radius = 22;
     ewa_context *context = check_context(2, NULL);
@@ -39,7 +39,7 @@ static void test_counts_and_bytes(void **state) {
 }
 
 /// Where a volume is does not matter, nor in which type its numbers are, nor what is NaN or out of range.
-static void test_types_and_holes(void **state) {
+TEST(test_types_and_holes) {
     static const uint32_t dims[3] = {20, 20, 20};
     enum { COUNT = 8000 };
     ewa_context *context = check_context(2, NULL);
@@ -101,7 +101,7 @@ static void refuse(ewa_context *context, const ewa_volume *volume, const ewa_tra
 
 /// A volume of values that are a plane has that plane's gradient in every voxel, the border among them, and
 /// for every type. Around it in memory lie other numbers, that no border may look at.
-static void test_gradients_up_to_the_border(void **state) {
+TEST(test_gradients_up_to_the_border) {
     enum { GUARD = 400, MAXIMUM = 7 * 6 * 9 };
     static const uint32_t shapes[][3] = {{7, 6, 3}, {3, 7, 6}, {6, 3, 7}, {2, 5, 9}, {5, 2, 2}, {4, 4, 4}};
     static const ewa_type types[] = {EWA_U8, EWA_I8, EWA_U16, EWA_I16, EWA_F32};
@@ -161,7 +161,7 @@ static void test_gradients_up_to_the_border(void **state) {
     ewa_context_destroy(&context);
 }
 
-static void test_bad_input(void **state) {
+TEST(test_bad_input) {
     static const uint32_t dims[3] = {4, 4, 4};
     check_log log = {0};
     ewa_context *context = check_context(1, &log);
@@ -189,7 +189,7 @@ static void test_bad_input(void **state) {
     ewa_context_destroy(&context);
 }
 
-static void test_bad_options(void **state) {
+TEST(test_bad_options) {
     static const uint32_t dims[3] = {4, 4, 4};
     check_log log = {0};
     ewa_context *context = check_context(1, &log);
@@ -297,7 +297,7 @@ static ewa_status draw_all(ewa_context *context, uint32_t frames, const check_me
     return status;
 }
 
-static void test_failing_memory(void **state) {
+TEST(test_failing_memory) {
     check_memory memory = {.calls_left = -1};
     ewa_context *context = check_context_on(2, &memory);
     const int64_t held_bytes = memory.held_bytes;
@@ -321,7 +321,7 @@ static void test_failing_memory(void **state) {
 }
 
 /// From within, from behind, from far away, of nothing: finite pictures.
-static void test_odd_views(void **state) {
+TEST(test_odd_views) {
     static const uint32_t dims[3] = {30, 30, 30};
     ewa_context *context = check_context(2, NULL);
     ewa_volume volume = scene_volume(context, dims, UNIT, scene_ones, NULL);
@@ -352,15 +352,4 @@ static void test_odd_views(void **state) {
     ewa_context_destroy(&context);
 }
 
-int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_counts_and_bytes),
-        cmocka_unit_test(test_types_and_holes),
-        cmocka_unit_test(test_gradients_up_to_the_border),
-        cmocka_unit_test(test_bad_input),
-        cmocka_unit_test(test_bad_options),
-        cmocka_unit_test(test_failing_memory),
-        cmocka_unit_test(test_odd_views),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return RUN_TESTS(NULL, NULL); }
