@@ -33,8 +33,9 @@ typedef struct ewa_measurement {
     double horizontal_area;  ///< the same, seen from above
 } ewa_measurement;
 
-/// Measures places: 3 numbers each in `places_world`, of which differences count alone. `up_world`: what is up, any length but
-/// 0. Any thread. Errors: EWA_ERROR_ARGUMENT (fewer places than the kind has, or more; numbers that are not finite; no up).
+/// Measures `count` places, 3 numbers each in `places_world`, world units, of which differences count alone. `up_world`: what is up,
+/// any length but 0. Fills `*measured`, with zeros after a failure. Any thread. Errors: EWA_ERROR_ARGUMENT (fewer places than the
+/// kind has, or more; numbers that are not finite; no up).
 EWA_API ewa_status ewa_places_measure(ewa_measure_kind kind, const double *places_world, uint32_t count,
                                       const double up_world[3], ewa_measurement *measured);
 

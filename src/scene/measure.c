@@ -6,11 +6,10 @@
 // Areas are those of vectors of triangles about the first place, half the sum of their cross products (M. E. Newell's
 // normal of a polygon), which is exact of plane ones and does not lose digits far from the origin.
 #include "ewa/measure.h"
+#include "homogeneous/vec.h"
+#include "math/angle.h"
 
-#include <math.h>
-#include <string.h>
-
-static const double DEGREES = 180 / 3.14159265358979323846;
+static const double DEGREES = 180 / EWA_PI;
 
 static const struct {
     const char *name;
@@ -21,26 +20,15 @@ enum { KIND_COUNT = sizeof kinds / sizeof kinds[0] };
 
 const char *ewa_measure_kind_name(uint32_t kind) { return kind < KIND_COUNT ? kinds[kind].name : NULL; }
 
-static double dot(const double a[3], const double b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+static ewa_vec3 step(const double *from, const double *to) { return vec3_sub(vec3_load(to), vec3_load(from)); }
 
-static void difference(const double *from, const double *to, double by[3]) {
-    for (int c = 0; c < 3; c++) by[c] = to[c] - from[c];
-}
-
-static void cross(const double a[3], const double b[3], double product[3]) {
-    for (int c = 0; c < 3; c++) {
-        const int n = (c + 1) % 3, l = (c + 2) % 3;
-        product[c] = a[n] * b[l] - a[l] * b[n];
-    }
-}
+/// What of a step is across the up axis, without a difference of squares, which would lose the digits of steep ones.
+static double length_across(ewa_vec3 by, ewa_vec3 up) { return vec3_length(vec3_sub(by, vec3_scale(up, vec3_dot(by, up)))); }
 
 /// Adds a step of the line.
-static void add_step(const double *from, const double *to, const double up[3], ewa_measurement *m) {
-    double by[3];
-    difference(from, to, by);
-    const double length2 = dot(by, by), rise = dot(by, up);
-    m->length_world += sqrt(length2);
-    m->horizontal_world += sqrt(fmax(length2 - rise * rise, 0));
+static void add_step(ewa_vec3 by, ewa_vec3 up, ewa_measurement *m) {
+    m->length_world += vec3_length(by);
+    m->horizontal_world += length_across(by, up);
 }
 
 ewa_status ewa_places_measure(ewa_measure_kind kind, const double *places_world, uint32_t count,
@@ -48,37 +36,25 @@ ewa_status ewa_places_measure(ewa_measure_kind kind, const double *places_world,
     if (!measured) return EWA_ERROR_ARGUMENT;
     *measured = (ewa_measurement){0};
     if ((unsigned)kind >= KIND_COUNT || !places_world || !up_world) return EWA_ERROR_ARGUMENT;
-    const double up_length = sqrt(dot(up_world, up_world));
-    if (count < kinds[kind].low || count > kinds[kind].high || !(up_length > 0 && isfinite(up_length)))
-        return EWA_ERROR_ARGUMENT;
+    ewa_vec3 up = vec3_load(up_world), area = {0};
+    if (count < kinds[kind].low || count > kinds[kind].high || !vec3_normalize(&up)) return EWA_ERROR_ARGUMENT;
     for (uint64_t i = 0; i < 3 * (uint64_t)count; i++)
         if (!isfinite(places_world[i])) return EWA_ERROR_ARGUMENT;
-    double up[3], first_to_last[3], area[3] = {0};
-    for (int c = 0; c < 3; c++) up[c] = up_world[c] / up_length;
-    for (uint32_t i = 1; i < count; i++)
-        add_step(places_world + 3 * (size_t)(i - 1), places_world + 3 * (size_t)i, up, measured);
-    const double *last = places_world + 3 * (size_t)(count - 1);
-    if (kind == EWA_MEASURE_AREA) add_step(last, places_world, up, measured);
-    difference(places_world, last, first_to_last);
-    measured->rise_world = dot(first_to_last, up);
-    const double away2 = dot(first_to_last, first_to_last);
-    const double across = sqrt(fmax(away2 - measured->rise_world * measured->rise_world, 0));
-    measured->slope_deg = away2 > 0 ? atan2(measured->rise_world, across) * DEGREES : 0;
+    const double *first = places_world, *last = places_world + 3 * (size_t)(count - 1);
+    for (const double *at = first; at != last; at += 3) add_step(step(at, at + 3), up, measured);
+    if (kind == EWA_MEASURE_AREA) add_step(step(last, first), up, measured);
+    const ewa_vec3 whole = step(first, last);
+    measured->rise_world = vec3_dot(whole, up);
+    measured->slope_deg = vec3_length(whole) > 0 ? atan2(measured->rise_world, length_across(whole, up)) * DEGREES : 0;
     for (uint32_t i = 2; i < count; i++) {
-        double a[3], b[3], product[3];
-        difference(places_world, places_world + 3 * (size_t)(i - 1), a);
-        difference(places_world, places_world + 3 * (size_t)i, b);
-        cross(a, b, product);
-        for (int c = 0; c < 3; c++) area[c] += 0.5 * product[c];
+        const double *at = places_world + 3 * (size_t)i;
+        area = vec3_add(area, vec3_scale(vec3_cross(step(first, at - 3), step(first, at)), 0.5));
     }
-    measured->area = sqrt(dot(area, area));
-    measured->horizontal_area = fabs(dot(area, up));
+    measured->area = vec3_length(area);
+    measured->horizontal_area = fabs(vec3_dot(area, up));
     if (count == 3) {
-        double a[3], b[3], product[3];
-        difference(places_world + 3, places_world, a);
-        difference(places_world + 3, places_world + 6, b);
-        cross(a, b, product);
-        measured->angle_deg = atan2(sqrt(dot(product, product)), dot(a, b)) * DEGREES;
+        const ewa_vec3 a = step(first + 3, first), b = step(first + 3, last);
+        measured->angle_deg = atan2(vec3_length(vec3_cross(a, b)), vec3_dot(a, b)) * DEGREES;
     }
     return EWA_OK;
 }

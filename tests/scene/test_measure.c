@@ -57,6 +57,10 @@ TEST(test_distances) {
     assert_true(fabs(m.slope_deg - atan2(12, 5) * 180 / 3.14159265358979323846) < 1e-12);
     m = measure(EWA_MEASURE_HEIGHT, slope, 2);
     assert_true(m.rise_world == -5 && m.horizontal_world == 5 && m.slope_deg == -45);
+    // Of what is as upright as can be, next to nothing is seen from above.
+    const double oblique[3] = {1, 2, 2}, mast[6] = {0.5, 0.25, 7, 0.5 + 100.0 / 3, 0.25 + 200.0 / 3, 7 + 200.0 / 3};
+    assert_int_equal(ewa_places_measure(EWA_MEASURE_HEIGHT, mast, 2, oblique, &m), EWA_OK);
+    assert_true(fabs(m.rise_world - 100) < 1e-12 && m.horizontal_world < 1e-12 && m.slope_deg > 90 - 1e-12);
     const double same[6] = {1, 2, 3, 1, 2, 3};
     m = measure(EWA_MEASURE_DISTANCE, same, 2);
     assert_true(m.length_world == 0 && m.slope_deg == 0);
