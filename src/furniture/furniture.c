@@ -11,7 +11,7 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { MAX_SIDE_PX = 65536, MAX_CATEGORIES = 65536 };
+enum { MAX_CATEGORIES = 65536 };
 
 /// Sizes in points.
 static const double ARM_PT = 30, LETTER_PT = 12, LETTER_OFF_PT = 9, AXIS_PT = 2;
@@ -225,11 +225,7 @@ ewa_status ewa_furniture_draw(ewa_context *context, const ewa_camera *camera,
                               const ewa_furniture_options *options, const ewa_canvas *canvas) {
     if (!camera || !canvas || !canvas->rgba8)
         return ewa_fail(context, EWA_ERROR_ARGUMENT, "ewa_furniture_draw: no camera, or no canvas");
-    const uint32_t width = canvas->width_px, height = canvas->height_px;
-    if (width < 1 || height < 1 || width > MAX_SIDE_PX || height > MAX_SIDE_PX)
-        return ewa_fail(context, EWA_ERROR_ARGUMENT,
-                        "ewa_furniture_draw: the canvas has %u x %u pixels, allowed are 1 to %d", width,
-                        height, MAX_SIDE_PX);
+    EWA_TRY(ewa_layout_check(context, canvas, "ewa_furniture_draw"));
     ewa_furniture_options chosen;
     EWA_TRY(take_options(context, options, &chosen));
     EWA_TRY(ewa_camera_check(context, camera));
@@ -238,7 +234,7 @@ ewa_status ewa_furniture_draw(ewa_context *context, const ewa_camera *camera,
     ewa_layout layout = {.canvas = canvas,
                          .options = &chosen,
                          .point_px = point,
-                         .room = {margin, margin, width - margin, height - margin}};
+                         .room = {margin, margin, canvas->width_px - margin, canvas->height_px - margin}};
     if (chosen.title) draw_title(&layout);
     const double left_px = chosen.axes ? draw_axes(&layout, camera) : 0;
     if (chosen.scale_bar) draw_scale_bar(&layout, camera, left_px);

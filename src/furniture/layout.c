@@ -3,6 +3,7 @@
 //
 // Room, sizes, ink.
 #include "furniture/layout.h"
+#include "base/base.h"
 #include "furniture/canvas.h"
 #include "furniture/font.h"
 
@@ -18,6 +19,14 @@ static const double RIM_PART = 0.13;
 
 /// Pixels of a row or column of a box that are looked at, at most about.
 enum { LOOKS = 64 };
+
+ewa_status ewa_layout_check(ewa_context *context, const ewa_canvas *canvas, const char *caller) {
+    enum { MAX_SIDE_PX = 65536 };
+    const uint32_t width = canvas->width_px, height = canvas->height_px;
+    if (width >= 1 && height >= 1 && width <= MAX_SIDE_PX && height <= MAX_SIDE_PX) return EWA_OK;
+    return ewa_fail(context, EWA_ERROR_ARGUMENT, "%s: the canvas has %u x %u pixels, allowed are 1 to %d", caller, width, height,
+                    MAX_SIDE_PX);
+}
 
 double ewa_layout_point_px(const ewa_canvas *canvas, double pixel_scale) {
     const double smaller = canvas->width_px < canvas->height_px ? canvas->width_px : canvas->height_px;

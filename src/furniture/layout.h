@@ -30,6 +30,9 @@ typedef struct ewa_inks {
     uint8_t ink[4], rim[4];
 } ewa_inks;
 
+/// Checks that a canvas has pixels, at most 65,536 along each side; `caller` is named in the message. Errors: EWA_ERROR_ARGUMENT.
+ewa_status ewa_layout_check(ewa_context *context, const ewa_canvas *canvas, const char *caller);
+
 /// Pixels of a point on a canvas: `pixel_scale`, or, where it is 0, as suits its size.
 double ewa_layout_point_px(const ewa_canvas *canvas, double pixel_scale);
 

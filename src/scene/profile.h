@@ -5,11 +5,12 @@
 #ifndef EWA_SRC_SCENE_PROFILE_H
 #define EWA_SRC_SCENE_PROFILE_H
 
+#include "ewa/homogeneous.h"
 #include "ewa/profile.h"
 
 /// A straight piece of a line. Directions are unit vectors across the up axis.
 typedef struct ewa_strip_piece {
-    double from_world[3], along_world[3], right_world[3];
+    ewa_vec3 from_world, along_world, right_world;
     double station, length_world; ///< of its first corner; of the piece
 } ewa_strip_piece;
 

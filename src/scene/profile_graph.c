@@ -13,8 +13,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MAX_SIDE_PX = 65536 };
-
 /// Sizes in points: between text and what it belongs to, of ticks, from one tick to the next at least, of dots.
 static const double GAP_PT = 6, TICK_PT = 4, TICK_STEP_PT = 70, LEVEL_STEP_PT = 34, DOT_PT = 2;
 /// Share of the heights' range that is left free above and below.
@@ -153,9 +151,12 @@ static void draw_names(const graph *g) {
     snprintf(text, sizeof text, *unit ? "station [%.200s]" : "station", unit);
     ewa_draw_text(g->canvas, text, middle, g->canvas->height_px - EWA_MARGIN_PT * point, &center);
     const double times = g->height_px / g->station_px;
-    if (fabs(times - 1) > 1e-6) {
-        char number[32];
-        snprintf(number, sizeof number, "%.3g", times);
+    ewa_decimal rounded;
+    if (fabs(times - 1) > 1e-6 && ewa_decimal_nice(times, &rounded)) {
+        char number[EWA_DECIMAL_BYTES];
+        rounded = (ewa_decimal){1, rounded.exponent - 2}; // to three digits
+        rounded.digits = (int64_t)(times / ewa_decimal_value(rounded) + 0.5);
+        ewa_decimal_write(ewa_decimal_near(ewa_decimal_value(rounded)), number);
         snprintf(text, sizeof text, "heights \xc3\x97 %s", number);
         ewa_draw_text(g->canvas, text, g->room.right, top, &right);
     }
@@ -195,10 +196,7 @@ static void draw_dots(const graph *g, const ewa_profile *profile, const dot *dot
 ewa_status ewa_profile_draw(const ewa_profile *profile, const ewa_profile_graph_options *given, const ewa_canvas *canvas) {
     if (!profile || !profile->context || !profile->points || !canvas || !canvas->rgba8) return EWA_ERROR_ARGUMENT;
     ewa_context *context = profile->context;
-    const uint32_t width_px = canvas->width_px, height_px = canvas->height_px;
-    if (!width_px || !height_px || width_px > MAX_SIDE_PX || height_px > MAX_SIDE_PX)
-        return ewa_fail(context, EWA_ERROR_ARGUMENT, "ewa_profile_draw: the canvas has %u x %u pixels, allowed are 1 to %d",
-                        width_px, height_px, MAX_SIDE_PX);
+    EWA_TRY(ewa_layout_check(context, canvas, "ewa_profile_draw"));
     ewa_profile_graph_options options;
     ewa_profile_graph_options_init(&options, sizeof options);
     EWA_TRY(ewa_options_take(context, &ewa_profile_graph_options_table, given, &options));
@@ -212,7 +210,7 @@ ewa_status ewa_profile_draw(const ewa_profile *profile, const ewa_profile_graph_
     double range[2];
     find_range(profile, range);
     lay_out(&g, profile, range);
-    ewa_draw_rectangle(canvas, 0, 0, width_px, height_px, WHITE);
+    ewa_draw_rectangle(canvas, 0, 0, canvas->width_px, canvas->height_px, WHITE);
     draw_scales(&g);
     if (count) draw_dots(&g, profile, dots, count);
     draw_names(&g);

@@ -3,6 +3,7 @@
 //
 // Lines of profiles as text, and the strip beside one.
 #include "base/base.h"
+#include "homogeneous/vec.h"
 #include "io/number.h"
 #include "scene/profile.h"
 
@@ -43,30 +44,19 @@ ewa_status ewa_profile_line_read(const char *text, double *corners_world, uint32
     return *corner_count >= 2 ? EWA_OK : refuse(problem, "a line has at least two corners");
 }
 
-static double dot(const double a[3], const double b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-
 /// Adds the piece between two corners, unless they are one place on the map.
 static void add_piece(ewa_strip *strip, const double from_world[3], const double to_world[3]) {
-    const double *up = strip->up_world;
-    double d[3], length2 = 0;
-    for (int c = 0; c < 3; c++) d[c] = to_world[c] - from_world[c];
-    const double rise = dot(d, up);
-    for (int c = 0; c < 3; c++) {
-        d[c] -= rise * up[c];
-        length2 += d[c] * d[c];
-    }
-    if (!(length2 > 0)) return;
-    ewa_strip_piece *piece = &strip->pieces[strip->piece_count++];
-    piece->station = strip->length_world;
-    piece->length_world = sqrt(length2);
-    memcpy(piece->from_world, from_world, sizeof piece->from_world);
-    for (int c = 0; c < 3; c++) piece->along_world[c] = d[c] / piece->length_world;
-    const double *e = piece->along_world;
-    for (int c = 0; c < 3; c++) {
-        const int n = (c + 1) % 3, l = (c + 2) % 3;
-        piece->right_world[c] = e[n] * up[l] - e[l] * up[n];
-    }
-    strip->length_world += piece->length_world;
+    const ewa_vec3 up = vec3_load(strip->up_world), from = vec3_load(from_world), by = vec3_sub(vec3_load(to_world), from);
+    const ewa_vec3 across = vec3_sub(by, vec3_scale(up, vec3_dot(by, up)));
+    const double length = vec3_length(across);
+    if (!(length > 0)) return;
+    const ewa_vec3 along = vec3_make(across.x / length, across.y / length, across.z / length);
+    strip->pieces[strip->piece_count++] = (ewa_strip_piece){.from_world = from,
+                                                            .along_world = along,
+                                                            .right_world = vec3_cross(along, up),
+                                                            .station = strip->length_world,
+                                                            .length_world = length};
+    strip->length_world += length;
 }
 
 ewa_status ewa_strip_make(ewa_context *context, const double *corners_world, uint32_t corner_count,
@@ -102,9 +92,8 @@ bool ewa_strip_locate(const ewa_strip *strip, const double place_world[3], doubl
     bool beyond = true;
     for (uint32_t i = 0; i < strip->piece_count; i++) {
         const ewa_strip_piece *piece = &strip->pieces[i];
-        double from[3];
-        for (int c = 0; c < 3; c++) from[c] = place_world[c] - piece->from_world[c];
-        const double along = dot(from, piece->along_world), right = dot(from, piece->right_world);
+        const ewa_vec3 from = vec3_sub(vec3_load(place_world), piece->from_world);
+        const double along = vec3_dot(from, piece->along_world), right = vec3_dot(from, piece->right_world);
         const double on = fmin(fmax(along, 0), piece->length_world), past = along - on;
         const double away2 = past * past + right * right;
         if (!(away2 < nearest2)) continue;
