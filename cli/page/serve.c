@@ -60,8 +60,8 @@ const cli_command serve_command = {
     .summary = "show a folder to browsers of this machine",
     .details = "Prints the address, and answers until it is interrupted: for pages of 'ewa page --folder', and to try what reads from servers. "
                "Files come as they are, whole or in parts (ranges), with the headers by which pages may have threads. It listens at 127.0.0.1, "
-               "which no other machine reaches; what begins with a dot and links out of the folder are not shown, nothing is run or "
-               "written. For other machines there are web servers.",
+               "which no other machine reaches; names that begin with a dot are left out, links out of the folder are not followed, nothing is "
+               "run or written. For other machines there are web servers.",
     .examples = "ewa page survey.laz --folder site && ewa serve site\n"
                 "ewa serve --port 0 data\n",
     .low_operands = 0,

@@ -101,6 +101,7 @@ folder_server *folder_server_start(cli_session *session, const char *folder, uin
                              "tcp_nodelay", "1",
                              "cgi_pattern", "", // nothing is run
                              "ssi_pattern", "",
+                             "hide_files_patterns", ".**", // of lists of folders, by names alone
                              "static_file_max_age", "0",
                              "extra_mime_types", ".mjs=text/javascript,.wasm=application/wasm,.json=application/json",
                              "additional_header",

@@ -65,6 +65,8 @@ text = bytes(range(256)) * 40
 (site / "run.cgi").chmod(0o755)
 (site / "name with \u00e4.txt").write_text("name")
 (site / ".secret").write_text("secret")
+(site / "sub" / "shown.txt").write_text("shown")
+(site / "sub" / ".hidden").write_text("hidden")
 (ROOT / "outside.txt").write_text("outside")
 (ROOT / "sitemap").mkdir()
 (ROOT / "sitemap" / "x").write_text("outside")
@@ -91,6 +93,8 @@ hold("a head is without a body", status == 200 and body == b"" and headers.get("
 hold("modules say what they are", server.ask("/page.wasm")[1].get("Content-Type") == "application/wasm"
      and server.ask("/script.mjs")[1].get("Content-Type", "").startswith("text/javascript"))
 hold("a folder shows its page", server.ask("/")[2].startswith(b"<!doctype html>"))
+listed = server.ask("/sub/")[2]
+hold("a folder without a page lists its files", b"shown.txt" in listed and b".hidden" not in listed)
 hold("names are decoded", server.ask("/name%20with%20%C3%A4.txt")[2] == b"name")
 hold("links within are followed", server.ask("/within")[2] == text)
 hold("a program is a file", b"echo ran" in server.ask("/run.cgi")[2])
