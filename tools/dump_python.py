@@ -3,12 +3,11 @@
 # SPDX-License-Identifier: MIT
 """The binding layer of the Python package, from docs/api.json and docs/options.json.
 
-    dump_python.py           writes python/ewa/_bindings.py, python/ewa/_options.py and python/stubs anew
+    dump_python.py           writes python/ewa/_bindings.py and python/ewa/_options.py anew
     dump_python.py --check   fails when they are not what the two files say
 
 _bindings.py has every enumeration, struct, callback and function of include/ewa as ctypes, under the names of C.
 _options.py has the members of the structs of options as TypedDicts, which are the keyword arguments of the package.
-python/stubs has these arguments one by one, of the sources and docs/options.json, for editors and type checkers.
 """
 import json
 import keyword
@@ -16,11 +15,8 @@ import re
 import sys
 from pathlib import Path
 
-from python_stubs import write_stub
-
 ROOT = Path(__file__).resolve().parent.parent
 PACKAGE = ROOT / "python" / "ewa"
-STUBS = ROOT / "python" / "stubs" / "ewa-stubs"
 HEAD = """\
 # SPDX-FileCopyrightText: 2026 The ewa authors
 # SPDX-License-Identifier: MIT
@@ -285,22 +281,15 @@ def write_options(options):
 
 def main():
     api = Api(json.loads((ROOT / "docs" / "api.json").read_text()))
-    options = json.loads((ROOT / "docs" / "options.json").read_text())
-    texts = {PACKAGE / "_bindings.py": write_bindings(api), PACKAGE / "_options.py": write_options(options)}
-    for path in sorted(PACKAGE.glob("*.py")):
-        stub = write_stub(path, options, OWN)
-        if stub is not None:
-            texts[STUBS / f"{path.stem}.pyi"] = stub
-    stale = set(STUBS.glob("*.pyi")) - set(texts)
-    if stale:
-        sys.exit(f"stubs of nothing: {', '.join(str(path.relative_to(ROOT)) for path in sorted(stale))}")
+    texts = {PACKAGE / "_bindings.py": write_bindings(api),
+             PACKAGE / "_options.py": write_options(json.loads((ROOT / "docs" / "options.json").read_text()))}
     if sys.argv[1:] not in ([], ["--check"]):
         sys.exit(__doc__)
     for path, text in texts.items():
         if not sys.argv[1:]:
             path.write_text(text)
         elif not path.exists() or path.read_text() != text:
-            sys.exit(f"{path.relative_to(ROOT)} is not what docs/api.json, docs/options.json and the sources say: "
+            sys.exit(f"{path.relative_to(ROOT)} is not what docs/api.json and docs/options.json say: "
                      "run tools/dump_python.py")
 
 

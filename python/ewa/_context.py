@@ -24,15 +24,16 @@ from . import _bindings as b
 from ._errors import ClosedError, Error, EwaWarning, make
 from ._keywords import keywords
 from ._library import functions as lib
+from ._options import ContextOptions, LimitsOptions
 from ._struct import fill, initialised, table
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
 
-    from ._options import ContextOptions, LimitsOptions
 
-    class ContextArguments(ContextOptions, LimitsOptions, total=False):
-        """What a context is made with."""
+class ContextArguments(ContextOptions, LimitsOptions, total=False):
+    """What a context is made with."""
+
 
 #: Receives a stage and the share of it that is done, in [0, 1]; returning False stops the call.
 ProgressFunction = Callable[[str, float], Union[bool, None]]

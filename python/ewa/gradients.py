@@ -13,6 +13,7 @@ from ._arrays import Array, as_contiguous
 from ._errors import ArgumentError
 from ._keywords import keywords
 from ._library import functions as lib
+from ._options import RenderOptions
 from ._struct import fill, initialised
 from .adapters import as_cloud
 from .camera import Camera
@@ -23,7 +24,13 @@ from .shade import Light
 if TYPE_CHECKING:
     from typing_extensions import Unpack
 
-    from ._options import RenderOptions
+
+class BackwardOptions(RenderOptions, total=False):
+    """What pictures that have derivatives are drawn with."""
+
+    cutoff: float | None
+    radius_scale: float | None
+
 
 #: What there are derivatives by: numbers per point.
 STREAMS = {"color": 3, "opacity": 1, "position": 3, "normal": 3, "radius": 1, "tangent_u": 3, "tangent_v": 3}
@@ -79,7 +86,7 @@ def render_backward(cloud: Any, camera: Camera, *, rgba: Any = None, depth: Any 
                     unit_coverage: float | None = None, background: Color = "white",
                     lights: Sequence[Light] | None = None, layers: int | str | None = None,
                     section_box: Any = None, section_planes: Sequence[Sequence[float]] | None = None,
-                    **options: Unpack[RenderOptions]) -> Gradients:
+                    **options: Unpack[BackwardOptions]) -> Gradients:
     """Take what a loss changes per number of a picture to what it changes per number of what made it.
 
     The picture is that of ``render(cloud.surfels(close_gaps=False), camera)`` with the same options. What jumps has no

@@ -13,6 +13,7 @@ from ._arrays import Array
 from ._context import Core, Handle
 from ._errors import ArgumentError
 from ._held import Held
+from ._keywords import keywords
 from ._library import functions as lib
 from ._struct import fill, initialised, numbers
 from .cloud import Cloud
@@ -74,6 +75,7 @@ class Profile(Held):
     def __repr__(self) -> str:
         return f"<ewa.Profile of {len(self.cloud)} points along {self.length:g}>"
 
+    @keywords("ewa_profile_graph_options")
     def draw(self, size: Sequence[int] = (1280, 720), *, title: str = "", unit: str = "",
              **options: Unpack[ProfileGraphOptions]) -> Image:
         """Draw the graph of stations and heights: the bytes of ``ewa profile --graph``.
@@ -85,7 +87,6 @@ class Profile(Held):
         title, unit : str
             A line over the top; what the world's lengths are called.
         **options
-            Members of ``ewa_profile_graph_options``: ``exaggeration``, ``point_size_px``, ``pixel_scale``.
 
         Raises
         ------

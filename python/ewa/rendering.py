@@ -14,6 +14,7 @@ from ._context import Context, Core, Handle, core_of
 from ._errors import ArgumentError
 from ._keywords import keywords
 from ._library import functions as lib
+from ._options import RenderOptions, SurfelsOptions
 from ._scene import World, core_of_things, things_of, view_options
 from ._struct import fill, initialised, table
 from .camera import Camera
@@ -23,10 +24,10 @@ from .shade import (Environment, Light, Materials, set_background, set_lights, s
 if TYPE_CHECKING:
     from typing_extensions import Unpack
 
-    from ._options import RenderOptions, SurfelsOptions
 
-    class DrawOptions(RenderOptions, SurfelsOptions, total=False):
-        """What clouds are drawn with."""
+class DrawOptions(RenderOptions, SurfelsOptions, total=False):
+    """What clouds are drawn with."""
+
 
 #: Names of planes: their types and numbers per pixel.
 PLANES: dict[str, tuple[Any, int]] = {"rgba8": (np.uint8, 4), "rgba": (np.float32, 4), "depth": (np.float32, 1),

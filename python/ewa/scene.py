@@ -27,7 +27,7 @@ from .shade import Environment, Light, Materials
 if TYPE_CHECKING:
     from typing_extensions import Unpack
 
-    from ._options import FurnitureOptions
+    from ._options import FurnitureOptions, RenderOptions, SurfelsOptions
 
 @keywords("ewa_surfels_options")
 class Scene:
@@ -52,7 +52,7 @@ class Scene:
     """
 
     def __init__(self, *things: Any, close_gaps: bool = True, up: str = "auto",
-                 context: Context | None = None, **surfels: Any) -> None:
+                 context: Context | None = None, **surfels: Unpack[SurfelsOptions]) -> None:
         self._core: Core = core_of_things(things) if context is None else core_of(context)
         self._world = World(self._core, close_gaps=close_gaps, up=up, surfels=surfels)
         for thing in things:
@@ -167,7 +167,7 @@ class Scene:
                lights: Sequence[Light] | None = None, materials: Materials | None = None,
                environment: Environment | Any = None, layers: int | str | None = None, section_box: Any = None,
                section_planes: Sequence[Sequence[float]] | None = None, out: Image | None = None,
-               panorama: str | Mapping[str, Any] | None = None, **options: Any) -> Image:
+               panorama: str | Mapping[str, Any] | None = None, **options: Unpack[RenderOptions]) -> Image:
         """Draw a frame: the bytes of ``ewa render`` with the same files, camera and options. Those that are not given are of the
         scene file, if there is one.
 

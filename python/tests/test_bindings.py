@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import ctypes
 import inspect
+import re
 import shutil
 import subprocess
 import sys
@@ -14,7 +15,7 @@ from common import ROOT, Case
 
 import ewa
 from ewa import _bindings as b
-from ewa import _struct
+from ewa import _options, _struct
 from ewa._options import OWN
 from ewa._library import functions, library
 
@@ -82,6 +83,23 @@ class Bindings(Case):
                         self.assertIs(shown[name].kind, inspect.Parameter.KEYWORD_ONLY)
                         self.assertIn(f"\n{name} : ", told)
                         self.assertIn(option.help[1:30], " ".join(told.split()))
+
+    def test_types_have_the_keyword_arguments(self) -> None:
+        """Type checkers and editors read `**options: Unpack[...]` of the sources: it names what the calls take."""
+        count = 0
+        for module in [value for name, value in sys.modules.items() if name.startswith("ewa.")]:
+            calls = [value for value in vars(module).values() if getattr(value, "__module__", "") == module.__name__]
+            calls += [member for kind in calls if inspect.isclass(kind) for member in vars(kind).values()]
+            for call in [call for call in calls if inspect.isfunction(call) and hasattr(call, "option_structs")]:
+                said = " ".join(map(str, call.__annotations__.values()))
+                [name] = re.findall(r"Unpack\[(\w+)\]", said)
+                typed = getattr(module, name, None) or getattr(_options, name)
+                code = call.__code__
+                own = code.co_varnames[:code.co_argcount + code.co_kwonlyargcount]
+                shown = {p.name for p in inspect.signature(call).parameters.values() if p.kind is not p.VAR_POSITIONAL}
+                self.assertEqual(shown - set(own), set(typed.__annotations__), call)
+                count += 1
+        self.assertGreater(count, 20)
 
     def test_library_has_the_version_of_the_package(self) -> None:
         version = (functions.ewa_version() or b"").decode()

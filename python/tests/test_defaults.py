@@ -104,6 +104,7 @@ class Defaults(Case):
         gaussians = ewa.Gaussians(rng.normal(size=(20, 3)), np.full((20, 3), 0.2), np.tile([1.0, 0, 0, 0], (20, 1)),
                                   np.full(20, 0.7), rng.normal(size=(20, 4, 3)))
         size, scene = {"size": (48, 32), "planes": "all"}, ewa.Scene(bare)
+        profile = scene.profile([(-1, 0), (1, 0)])
         camera = ewa.Camera.frame(cloud, size=(48, 32))
         image = ewa.render(cloud, camera, planes=("rgba", "depth"))
         depths = ewa.DepthImage(image.depth, image.rgba, camera)
@@ -128,6 +129,7 @@ class Defaults(Case):
             "convert": saved("other.ply", ewa.convert, self.path("bare.ply")),
             "build_octree": saved("again.copc.laz", ewa.build_octree, self.path("bare.ply")),
             "Octree.render": lambda **o: octree.render(**{**size, **o}),
+            "Profile.draw": lambda **o: profile.draw(**{"size": (96, 64), **o}),
             "render": lambda **o: ewa.render(bare, **{**size, **o}),
             "Renderer.render": lambda **o: ewa.Renderer().render(bare, **{**size, **o}),
             "Scene.draw_furniture": lambda **o: scene.draw_furniture(scene.render(size=(96, 64)), **{"axes": True, **o}),
