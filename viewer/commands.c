@@ -211,15 +211,15 @@ static bool do_radius(viewer *v, const char *rest) {
 static bool do_set(viewer *v, const char *rest) {
     char name[WORD_BYTES];
     rest = take_word(rest, name);
-    return settings_set(v, name, rest);
+    return viewer_setting_set(v, name, rest);
 }
 
 /// Steps to the next word of a choice, or turns a switch.
 static bool do_next(viewer *v, const char *rest) {
     char now[EWA_OPTION_TEXT_BYTES];
     if (!viewer_setting_get(v, rest, now)) return refuse(v, "next", rest, "a setting");
-    if (strcmp(now, "on") == 0) return settings_set(v, rest, "off");
-    if (strcmp(now, "off") == 0) return settings_set(v, rest, "on");
+    if (strcmp(now, "on") == 0) return viewer_setting_set(v, rest, "off");
+    if (strcmp(now, "off") == 0) return viewer_setting_set(v, rest, "on");
     const char *group;
     const ewa_option *option = NULL;
     for (uint32_t i = 0; (option = viewer_setting_at(v, i, &group)); i++)
@@ -230,13 +230,13 @@ static bool do_next(viewer *v, const char *rest) {
     while (!(strncmp(at, now, length) == 0 && (at[length] == '|' || !at[length]))) at = strchr(at, '|') + 1;
     at = at[length] ? at + length + 1 : option->words;
     snprintf(now, sizeof now, "%.*s", (int)strcspn(at, "|"), at);
-    return settings_set(v, rest, now);
+    return viewer_setting_set(v, rest, now);
 }
 
 static bool set_number(viewer *v, const char *name, double number) {
     char text[64];
     snprintf(text, sizeof text, "%.17g", number);
-    return settings_set(v, name, text);
+    return viewer_setting_set(v, name, text);
 }
 
 static bool do_eye_dome(viewer *v, const char *rest) {
@@ -264,7 +264,7 @@ static bool do_view(viewer *v, const char *rest) {
     return true;
 }
 
-static bool do_mode(viewer *v, const char *rest) { return settings_set(v, "navigation", rest); }
+static bool do_mode(viewer *v, const char *rest) { return viewer_setting_set(v, "navigation", rest); }
 
 static bool do_ortho(viewer *v, const char *rest) {
     bool ortho = is_ortho(v);

@@ -289,7 +289,6 @@ void history_free(viewer *v);
 
 // settings.c
 void settings_init(viewer *v);
-bool settings_set(viewer *v, const char *name, const char *text);
 
 // commands.c
 /// Writes what an action has set, such as "affine" of "next kernel" or "on" of "box next"; false: nothing that has a

@@ -120,7 +120,7 @@ static bool set_background(viewer *v, const char *text) {
     return true;
 }
 
-bool settings_set(viewer *v, const char *name, const char *text) {
+bool viewer_setting_set(viewer *v, const char *name, const char *text) {
     setting_owner owner = OWN;
     char problem[EWA_OPTION_TEXT_BYTES];
     if (strcmp(name, "background") == 0) {

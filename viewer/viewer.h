@@ -256,6 +256,8 @@ bool viewer_help_at(uint32_t index, viewer_help *row);
 const ewa_option *viewer_setting_at(const viewer *viewer, uint32_t index, const char **group);
 /// Its value as "set NAME VALUE" takes it; false: there is no such setting.
 bool viewer_setting_get(const viewer *viewer, const char *name, char text[EWA_OPTION_TEXT_BYTES]);
+/// Sets it, as "set NAME VALUE" does, but not as a step that can be undone. Returns false after saying what is wrong.
+bool viewer_setting_set(viewer *viewer, const char *name, const char *text);
 
 /// What a panel says of one thing that was loaded.
 typedef struct viewer_item {

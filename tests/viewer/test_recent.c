@@ -1,8 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// The files that were opened last: kept, the newest first, each once, and no harm where they cannot be.
+// What is kept from one session to the next: the files that were opened last, the newest first, each once; how a person
+// works; and no harm where it cannot be.
 #include "check.h"
+#include "view_contents.h"
+#include "viewer/sdl/preferences.h"
 #include "viewer/sdl/recent.h"
 
 #include <stdlib.h>
@@ -16,7 +19,8 @@ static int make_folder(void **state) {
     (void)mkdir("recent_files", 0700); // of a run before
     if (chdir("recent_files") != 0 || !getcwd(whole, sizeof whole)) return -1;
     (void)unlink("ewa/recent");
-    return setenv("XDG_STATE_HOME", whole, 1);
+    (void)unlink("ewa/view");
+    return setenv("XDG_STATE_HOME", whole, 1) != 0 || setenv("XDG_CONFIG_HOME", whole, 1) != 0;
 }
 
 static void write_file(const char *path, const char *text) {
@@ -27,6 +31,42 @@ static void write_file(const char *path, const char *text) {
 static const char *name_of(const char *path) {
     const char *slash = strrchr(path, '/');
     return slash ? slash + 1 : path;
+}
+
+/// They are set where a session begins, which is nothing that could be undone; what is none of them is left out.
+TEST(preferences_are_kept) {
+    static view_contents contents;
+    const viewer_options options = {.services = view_contents_services(&contents),
+                                    .thread_count = 1,
+                                    .cpu_mask = EWA_CPU_ALL,
+                                    .width = 64,
+                                    .height = 48,
+                                    .scale = 1,
+                                    .waits = true};
+    char lines[PREFERENCES_BYTES], value[EWA_OPTION_TEXT_BYTES];
+    for (int session = 0; session < 2; session++) {
+        viewer *v = NULL;
+        assert_int_equal(viewer_create(&options, &v), EWA_OK);
+        if (session) write_file("ewa/view", "set navigation fly\nquit\nset shading phong\nset budget_ms\nset animate\n");
+        preferences_read(v, lines);
+        viewer_state now;
+        viewer_get_state(v, &now);
+        assert_false(now.quit);
+        assert_true(viewer_setting_get(v, "navigation", value));
+        assert_string_equal(value, session ? "fly" : "turntable");
+        assert_true(viewer_setting_get(v, "shading", value));
+        assert_string_equal(value, "lambert");
+        assert_false(viewer_do(v, "undo"));
+        assert_true(viewer_do(v, "set budget_ms 40"));
+        preferences_write(v, lines);
+        viewer_destroy(&v);
+    }
+    viewer *v = NULL;
+    assert_int_equal(viewer_create(&options, &v), EWA_OK);
+    preferences_read(v, lines);
+    assert_true(viewer_setting_get(v, "budget_ms", value));
+    assert_string_equal(value, "40");
+    viewer_destroy(&v);
 }
 
 TEST(the_newest_is_first) {

@@ -15,9 +15,10 @@ enum { NAME_COUNT = sizeof names / sizeof names[0] };
 
 static bool take_line(void *user, const char *line) {
     char name[EWA_OPTION_TEXT_BYTES];
-    if (sscanf(line, "set %127s", name) != 1) return true;
+    int value_at = 0;
+    if (sscanf(line, "set %127s %n", name, &value_at) != 1 || !value_at) return true;
     for (int i = 0; i < NAME_COUNT; i++)
-        if (strcmp(name, names[i]) == 0) viewer_do(user, line);
+        if (strcmp(name, names[i]) == 0) (void)viewer_setting_set(user, name, line + value_at);
     return true;
 }
 
