@@ -38,6 +38,7 @@ LIMITS = {"UINT64_MAX": 2**64 - 1, "UINT32_MAX": 2**32 - 1, "UINT16_MAX": 2**16 
 
 # Members that the package sets by arguments of its own.
 OWN = {
+    "ewa_asset_options": {"own_context", "to_world"},
     "ewa_render_options": {"background", "layers", "light_count", "material_count", "section_count"},
     "ewa_volume_options": {"background", "light_count", "section_count"}, "ewa_texture_options": {"background"},
     "ewa_gaussian_options": {"background", "section_count"},

@@ -41,7 +41,7 @@ typedef struct ewa_coloring {
     ewa_coloring_map map; ///< default EWA_COLORING_AUTO
     bool ranged;          ///< `range` is given; default false: the smallest to the largest number, of strengths of light
                           ///< (intensity, nir, amplitude, reflectance) the 2nd to the 98th percentile
-    bool percent[2];      ///< an end of `range` is a percentile, [0, 100]; default false
+    bool percent[2];      ///< an end of `range` is a percentile, 0 to 100; default false
     double range[2];      ///< numbers of the first and the last colour
     bool tinted;          ///< without an attribute, all points have the colour `tint`; default false
     double tint[3];       ///< sRGB, [0, 1]

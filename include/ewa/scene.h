@@ -71,7 +71,7 @@ typedef struct ewa_asset_options {
     /// "auto": ewa_transfer_automatic().
     const char *transfer;
     uint32_t voxel_level_count; ///< of volumes: ewa_voxels_options.level_count; [1, EWA_MAX_VOLUME_LEVELS]; default 1
-    double reach_steps;      ///< of volumes: how far a voxel's footprint counts in the outline, steps of the grid; default 1.8
+    double reach_steps;      ///< of volumes: how far a voxel's footprint counts, steps of the grid; [0, 64], default 1.8
     /// Octrees get a context of their own, like the one that loads, so that they can be drawn while that loads other
     /// files; default false
     bool own_context;
@@ -196,7 +196,7 @@ typedef struct ewa_instance {
     bool visible;         ///< default true
     double opacity;       ///< of a surface's points, times their own; [0, 1]; default 1
     double radius_scale;  ///< of a surface's radii, beside that of all; (0, 100]; default 1
-    uint32_t material;    ///< of all points of a surface; [0, 255]; EWA_MATERIAL_OWN (default): as each says
+    uint32_t material;    ///< of all points of a surface, 0 to 255; EWA_MATERIAL_OWN (default): as each says
     ewa_coloring coloring; ///< of a surface's points; default: their own colours
 } ewa_instance;
 
@@ -291,9 +291,9 @@ typedef struct ewa_view_options {
     size_t struct_size;
     uint32_t width_px, height_px;  ///< of the picture; [1, 65536], or both 0 (default): those of the scene's camera, else
                                    ///< 1280 x 720
-    double fov_deg;                ///< vertical field of view; (0, 180), or 0 (default): EWA_VIEW_FOV_DEG, but for what a
+    double fov_deg;                ///< vertical field of view; [0, 180); 0 (default): EWA_VIEW_FOV_DEG, but for what a
                                    ///< camera at the origin took, which is seen from there as wide as it is
-    double ortho_height_world;     ///< an orthographic camera that shows so much; 0 (default): perspective
+    double ortho_height_world;     ///< an orthographic camera that shows so much; [0, inf); 0 (default): perspective
     int32_t view;                  ///< ewa_named_view; -1 (default): as suits what is seen
     double up_world[3];            ///< up in the picture; zeros (default): the scene's
     bool has_eye, has_target;      ///< whether the next two are given; default false

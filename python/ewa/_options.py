@@ -30,6 +30,30 @@ class AcquireOptions(TypedDict, total=False):
     modulate: bool | None
 
 
+class AssetOptions(TypedDict, total=False):
+    """Members of ewa_asset_options."""
+
+    #: draw trained Gaussians as opaque surfels, in their constant colours; on|off, default off
+    gaussians_as_surfels: bool | None
+    #: draw octrees (COPC, EPT) from their levels; auto: those of more than 4000000 points; auto|always|never, default auto
+    levels: Literal["auto", "always", "never"] | int | None
+    #: standard deviations at which kernels of a mesh's points end; (0, 4], default 3
+    cutoff: float | None
+    #: levels of detail of volumes; [1, 4], default 1
+    voxel_level_count: int | None
+    #: how far a voxel's footprint counts in the picture's frame, steps of the grid; [0, 64], default 1.7999999999999998
+    reach_steps: float | None
+
+
+class CloudLoadOptions(TypedDict, total=False):
+    """Members of ewa_cloud_load_options."""
+
+    #: step over damaged pieces of a file, with a warning, and count the points that are lost; on|off, default off
+    keep_going: bool | None
+    #: PNG and WebP are grids of heights, in colours as Mapbox or as Mapzen has them; none|terrain-rgb|terrarium, default none
+    heights: Literal["none", "terrain-rgb", "terrarium"] | int | None
+
+
 class CloudSaveOptions(TypedDict, total=False):
     """Members of ewa_cloud_save_options."""
 
@@ -39,6 +63,23 @@ class CloudSaveOptions(TypedDict, total=False):
     step_world: float | None
     #: points of one chunk of LAZ; [1, 10000000], default 50000
     chunk_points: int | None
+
+
+class ColoringOptions(TypedDict, total=False):
+    """Members of ewa_coloring."""
+
+    #: colours of the numbers; auto: classes for whole numbers named classification, else viridis; auto|viridis|turbo|gray|plasma|inferno|magma|cividis|coolwarm|classes, default auto
+    map: Literal["auto", "viridis", "turbo", "gray", "plasma", "inferno", "magma", "cividis", "coolwarm", "classes"] | int | None
+    #: the range is given; on|off, default off
+    ranged: bool | None
+    #: an end of the range is a percentile; on|off, default off
+    percent: Sequence[bool] | None
+    #: numbers of the first and the last colour; (-inf, inf), default 0
+    range: Sequence[float] | None
+    #: all points have the colour tint; on|off, default off
+    tinted: bool | None
+    #: sRGB; [0, 1], default 0
+    tint: Sequence[float] | None
 
 
 class ContextOptions(TypedDict, total=False):
@@ -126,6 +167,40 @@ class FurnitureOptions(TypedDict, total=False):
     ink: Literal["auto", "dark", "light"] | int | None
 
 
+class GaussianOptions(TypedDict, total=False):
+    """Members of ewa_gaussian_options."""
+
+    #: how a Gaussian gets onto the screen: by the affine map at its centre, as in training, or by what each pixel's ray meets of it; trained|exact, default trained
+    projection: Literal["trained", "exact"] | int | None
+    #: what is in front of what: by the depth of the centres, as in training, or in each pixel by the depth at which its ray passes the greatest density; auto: centre of trained, ray of exact; auto|centre|ray, default auto
+    order: Literal["auto", "centre", "ray"] | int | None
+    #: what the pixel filter does to small Gaussians: what the file was trained with, of 2DGS a dot at least, nothing but thicken them, or lower them so that they add as much as before; file|thicken|keep, default file
+    filter: Literal["file", "thicken", "keep"] | int | None
+    #: variance of the pixel filter; [0, 16], px^2, default 0.3
+    prefilter_px2: float | None
+    #: standard deviations at which every Gaussian ends; [1, 6], default 4
+    cutoff: float | None
+    #: less of a Gaussian is not drawn; [1e-6, 0.5], default 0.00392156862745098
+    minimum_alpha: float | None
+    #: a pixel where less of what is behind would show gets nothing more; [0, 0.999999], default 0.001953125
+    minimum_transmittance: float | None
+    #: trained: Gaussians whose centres are nearer to the eye along its axis are not drawn; [0, 1e15], world, default 0.2
+    near_world: float | None
+    #: spherical harmonics beyond that degree are not used; [0, 4], default 4
+    sh_degree: int | None
+
+
+class GaussiansSaveOptions(TypedDict, total=False):
+    """Members of ewa_gaussians_save_options."""
+
+    #: highest degree of the spherical harmonics that are kept; .splat: 0; [0, 4], default 4
+    sh_degree: int | None
+    #: what is up in the set, which is turned to what is up in files; zeros: -y, as in 3DGS; (-inf, inf), default 0
+    up_world: Sequence[float] | None
+    #: of .spz: 2 and 3 are gzip, 3 has finer quaternions, 4 is zstd; [2, 4], default 3
+    spz_version: int | None
+
+
 class GenerateOptions(TypedDict, total=False):
     """Members of ewa_generate_options."""
 
@@ -154,6 +229,19 @@ class ImageSaveOptions(TypedDict, total=False):
     exr_half: bool | None
     #: PNG, JPEG: un-premultiply before encoding; on|off, default on
     srgb_alpha_straight: bool | None
+
+
+class InstanceOptions(TypedDict, total=False):
+    """Members of ewa_instance."""
+
+    #: whether it is drawn; on|off, default on
+    visible: bool | None
+    #: of its points, times their own; [0, 1], default 1
+    opacity: float | None
+    #: of its points' radii; (0, 100], default 1
+    radius_scale: float | None
+    #: of all its points; 4294967295: as each says; [0, 4294967295], default 4294967295
+    material: int | None
 
 
 class LimitsOptions(TypedDict, total=False):
@@ -203,6 +291,21 @@ class LodOptions(TypedDict, total=False):
     resident_only: bool | None
 
 
+class MaterialOptions(TypedDict, total=False):
+    """Members of ewa_material."""
+
+    #: light from everywhere; [0, 1000], default 0.15
+    ambient: float | None
+    #: light from the lights, in all directions; [0, 1000], default 0.85
+    diffuse: float | None
+    #: strength of the highlights, which have the light's colour; [0, 1000], default 0.3
+    specular: float | None
+    #: exponent of the highlights; [1, 65536], default 32
+    shininess: float | None
+    #: strength of the environment's mirror image; [0, 1000], default 0.25
+    reflection: float | None
+
+
 class MeshSampleOptions(TypedDict, total=False):
     """Members of ewa_mesh_sample_options."""
 
@@ -230,34 +333,17 @@ class MeshSampleOptions(TypedDict, total=False):
     texcoords: bool | None
 
 
-class MaterialOptions(TypedDict, total=False):
-    """Members of ewa_material."""
+class PanoramaOptions(TypedDict, total=False):
+    """Members of ewa_panorama_options."""
 
-    #: light from everywhere; [0, 1000], default 0.15
-    ambient: float | None
-    #: light from the lights, in all directions; [0, 1000], default 0.85
-    diffuse: float | None
-    #: strength of the highlights, which have the light's colour; [0, 1000], default 0.3
-    specular: float | None
-    #: exponent of the highlights; [1, 65536], default 32
-    shininess: float | None
-    #: strength of the environment's mirror image; [0, 1000], default 0.25
-    reflection: float | None
-
-
-class ProcedureOptions(TypedDict, total=False):
-    """Members of ewa_procedure_options."""
-
-    #: features per world unit: cubes, veins, rings, waves; (0, 1000000000], default 8
-    frequency: float | None
-    #: width of the filter in units of the surfel's kernel; 0: none, which aliases; [0, 10], default 1
-    prefilter: float | None
-    #: standard deviations at which kernels end; (0, 4], default 3
-    cutoff: float | None
-    #: same seed, same noise; [0, inf), default 1
-    seed: int | None
-    #: two linear colours, whose defaults go with the procedure; [0, 1], default 0
-    colors: Sequence[float] | None
+    #: all that is around the eye, in place of a plane picture: longitude and latitude, twice as wide as high; or a circle, in which distances from the middle are angles; none|equirectangular|fisheye, default none
+    kind: Literal["none", "equirectangular", "fisheye"] | int | None
+    #: angle across the circle of a fisheye; (0, 360], deg, default 180
+    fov_deg: float | None
+    #: axis that stands upright in an equirectangular picture; 0,0,0: the camera's own; (-inf, inf), default 0
+    up_world: Sequence[float] | None
+    #: pixels of the plane pictures that it is made of, along each side of its own; [1, 4], default 2
+    finer: float | None
 
 
 class PhotosOptions(TypedDict, total=False):
@@ -281,13 +367,19 @@ class PhotosOptions(TypedDict, total=False):
     cutoff: float | None
 
 
-class ProfileOptions(TypedDict, total=False):
-    """Members of ewa_profile_options."""
+class ProcedureOptions(TypedDict, total=False):
+    """Members of ewa_procedure_options."""
 
-    #: of the strip beside the line, half of it on each side; (0, 1e30], world, default 1
-    width_world: float | None
-    #: what is up; zeros: as the scene has it; (-inf, inf), default 0
-    up_world: Sequence[float] | None
+    #: features per world unit: cubes, veins, rings, waves; (0, 1000000000], default 8
+    frequency: float | None
+    #: width of the filter in units of the surfel's kernel; 0: none, which aliases; [0, 10], default 1
+    prefilter: float | None
+    #: standard deviations at which kernels end; (0, 4], default 3
+    cutoff: float | None
+    #: same seed, same noise; [0, inf), default 1
+    seed: int | None
+    #: two linear colours, whose defaults go with the procedure; [0, 1], default 0
+    colors: Sequence[float] | None
 
 
 class ProfileGraphOptions(TypedDict, total=False):
@@ -299,6 +391,15 @@ class ProfileGraphOptions(TypedDict, total=False):
     point_size_px: float | None
     #: pixels per point, of which text has 12; 0: a 720th of the picture's smaller side, at least 0.84; [0, 100], px, default 0
     pixel_scale: float | None
+
+
+class ProfileOptions(TypedDict, total=False):
+    """Members of ewa_profile_options."""
+
+    #: of the strip beside the line, half of it on each side; (0, 1e30], world, default 1
+    width_world: float | None
+    #: what is up; zeros: as the scene has it; (-inf, inf), default 0
+    up_world: Sequence[float] | None
 
 
 class RefitOptions(TypedDict, total=False):
@@ -349,6 +450,21 @@ class RenderOptions(TypedDict, total=False):
     supersampling: int | None
 
 
+class SceneOptions(TypedDict, total=False):
+    """Members of ewa_scene_options."""
+
+    #: what is up; auto: as files and points say; auto|y|z|-y|-z, default auto
+    up: Literal["auto", "y", "z", "-y", "-z"] | int | None
+    #: measure the radii anew from the spacing where the file's leave gaps between the discs; on|off, default on
+    close_gaps: bool | None
+    #: clouds stay in memory beside their surfels, for picks and changes; on|off, default on
+    keep_points: bool | None
+    #: volumes get the light that suits their transfer function; on|off, default on
+    shade_volumes: bool | None
+    #: of the regions that hide points; [0, 16], default 0
+    region_count: int | None
+
+
 class SurfelsOptions(TypedDict, total=False):
     """Members of ewa_surfels_options."""
 
@@ -377,6 +493,37 @@ class TextureOptions(TypedDict, total=False):
     repeat: bool | None
 
 
+class ViewOptions(TypedDict, total=False):
+    """Members of ewa_view_options."""
+
+    #: of the picture; 0: of the scene's camera, else 1280; 0 or [1, 65536], px, default 0
+    width_px: int | None
+    #: of the picture; 0: of the scene's camera, else 720; 0 or [1, 65536], px, default 0
+    height_px: int | None
+    #: vertical field of view; 0: 30, but for what a camera at the origin took; [0, 180), deg, default 0
+    fov_deg: float | None
+    #: an orthographic camera that shows so much; 0: perspective; [0, inf), world, default 0
+    ortho_height_world: float | None
+    #: up in the picture; zeros: the scene's; (-inf, inf), default 0
+    up_world: Sequence[float] | None
+    #: the eye is given; on|off, default off
+    has_eye: bool | None
+    #: the target is given; on|off, default off
+    has_target: bool | None
+    #: where the camera is; (-inf, inf), default 0
+    eye_world: Sequence[float] | None
+    #: what it looks at; (-inf, inf), default 0
+    target_world: Sequence[float] | None
+    #: carries the camera about the up axis; [-360, 360], deg, default 0
+    azimuth_deg: float | None
+    #: then raises it; [-180, 180], deg, default 0
+    elevation_deg: float | None
+    #: all is in the picture in every turn about the axis; on|off, default off
+    turntable: bool | None
+    #: in which it looks; zeros: as the view says; (-inf, inf), default 0
+    direction_world: Sequence[float] | None
+
+
 class VolumeGenerateOptions(TypedDict, total=False):
     """Members of ewa_volume_generate_options."""
 
@@ -401,29 +548,6 @@ class VolumeLoadOptions(TypedDict, total=False):
     header_bytes: int | None
     #: distances of the voxels along each axis; 0: as the file says, else 1; [0, inf), world, default 0
     spacing_world: Sequence[float] | None
-
-
-class GaussianOptions(TypedDict, total=False):
-    """Members of ewa_gaussian_options."""
-
-    #: how a Gaussian gets onto the screen: by the affine map at its centre, as in training, or by what each pixel's ray meets of it; trained|exact, default trained
-    projection: Literal["trained", "exact"] | int | None
-    #: what is in front of what: by the depth of the centres, as in training, or in each pixel by the depth at which its ray passes the greatest density; auto: centre of trained, ray of exact; auto|centre|ray, default auto
-    order: Literal["auto", "centre", "ray"] | int | None
-    #: what the pixel filter does to small Gaussians: what the file was trained with, of 2DGS a dot at least, nothing but thicken them, or lower them so that they add as much as before; file|thicken|keep, default file
-    filter: Literal["file", "thicken", "keep"] | int | None
-    #: variance of the pixel filter; [0, 16], px^2, default 0.3
-    prefilter_px2: float | None
-    #: standard deviations at which every Gaussian ends; [1, 6], default 4
-    cutoff: float | None
-    #: less of a Gaussian is not drawn; [1e-6, 0.5], default 0.00392156862745098
-    minimum_alpha: float | None
-    #: a pixel where less of what is behind would show gets nothing more; [0, 0.999999], default 0.001953125
-    minimum_transmittance: float | None
-    #: trained: Gaussians whose centres are nearer to the eye along its axis are not drawn; [0, 1e15], world, default 0.2
-    near_world: float | None
-    #: spherical harmonics beyond that degree are not used; [0, 4], default 4
-    sh_degree: int | None
 
 
 class VolumeOptions(TypedDict, total=False):
@@ -462,17 +586,6 @@ class VolumeSaveOptions(TypedDict, total=False):
     plain: bool | None
 
 
-class GaussiansSaveOptions(TypedDict, total=False):
-    """Members of ewa_gaussians_save_options."""
-
-    #: highest degree of the spherical harmonics that are kept; .splat: 0; [0, 4], default 4
-    sh_degree: int | None
-    #: what is up in the set, which is turned to what is up in files; zeros: -y, as in 3DGS; (-inf, inf), default 0
-    up_world: Sequence[float] | None
-    #: of .spz: 2 and 3 are gzip, 3 has finer quaternions, 4 is zstd; [2, 4], default 3
-    spz_version: int | None
-
-
 class VoxelsOptions(TypedDict, total=False):
     """Members of ewa_voxels_options."""
 
@@ -501,6 +614,7 @@ class WarpOptions(TypedDict, total=False):
 
 #: Members that are no keyword arguments: the package sets them by arguments of its own.
 OWN: dict[str, frozenset[str]] = {
+    "ewa_asset_options": frozenset(['own_context', 'to_world']),
     "ewa_render_options": frozenset(['background', 'layers', 'light_count', 'material_count', 'section_count']),
     "ewa_volume_options": frozenset(['background', 'light_count', 'section_count']),
     "ewa_texture_options": frozenset(['background']),
@@ -513,7 +627,10 @@ OWN: dict[str, frozenset[str]] = {
 
 __all__ = [
     "AcquireOptions",
+    "AssetOptions",
+    "CloudLoadOptions",
     "CloudSaveOptions",
+    "ColoringOptions",
     "ContextOptions",
     "CsgOptions",
     "EstimateOptions",
@@ -523,19 +640,23 @@ __all__ = [
     "GaussiansSaveOptions",
     "GenerateOptions",
     "ImageSaveOptions",
+    "InstanceOptions",
     "LimitsOptions",
     "LodBuildOptions",
     "LodOptions",
     "MaterialOptions",
     "MeshSampleOptions",
+    "PanoramaOptions",
     "PhotosOptions",
     "ProcedureOptions",
     "ProfileGraphOptions",
     "ProfileOptions",
     "RefitOptions",
     "RenderOptions",
+    "SceneOptions",
     "SurfelsOptions",
     "TextureOptions",
+    "ViewOptions",
     "VolumeGenerateOptions",
     "VolumeLoadOptions",
     "VolumeOptions",

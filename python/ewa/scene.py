@@ -27,7 +27,7 @@ from .shade import Environment, Light, Materials
 if TYPE_CHECKING:
     from typing_extensions import Unpack
 
-    from ._options import FurnitureOptions, RenderOptions, SurfelsOptions
+    from ._options import AssetOptions, FurnitureOptions, RenderOptions, SurfelsOptions
 
 @keywords("ewa_surfels_options")
 class Scene:
@@ -61,11 +61,11 @@ class Scene:
     def __len__(self) -> int:
         return int(self._core.value(lib.ewa_scene_count, self._handle))
 
+    @keywords("ewa_asset_options")
     def add(self, thing: Any, *, visible: bool = True, opacity: float = 1.0, radius_scale: float = 1.0,
             color_by: str = "", colormap: str = "auto", range: Sequence[float] | None = None,
             tint: Sequence[float] | None = None, transfer: str | None = None, to_world: Any = None,
-            gaussians_as_surfels: bool | None = None, levels: str | None = None, cutoff: float | None = None,
-            voxel_level_count: int | None = None, reach_steps: float | None = None) -> int:
+            **options: Unpack[AssetOptions]) -> int:
         """Add something; returns its number.
 
         Parameters
@@ -79,26 +79,15 @@ class Scene:
             Of volumes: a file of a transfer function, or the name of a preset.
         to_world : array_like, shape (4, 4), optional
             Where its coordinates lie in the scene; acts on columns.
-        gaussians_as_surfels : bool, optional
-            Trained Gaussians become a surface, in their constant colours. Default False.
-        levels : {"auto", "always", "never"}, optional
-            Whether octrees are drawn from their levels. Default: those that are large.
-        cutoff : float, optional
-            Standard deviations that axes of a mesh's points are made for, in (0, 4]. Default 3.
-        voxel_level_count : int, optional
-            Levels of detail of volumes. Default 1.
-        reach_steps : float, optional
-            How far a voxel counts where a camera is placed, steps of the grid. Default 1.8.
+        **options
 
         Raises
         ------
         FileError, FormatError, ArgumentError, OutOfMemory
         """
-        options = {"to_world": to_world, "gaussians_as_surfels": gaussians_as_surfels, "levels": levels, "cutoff": cutoff,
-                   "voxel_level_count": voxel_level_count, "reach_steps": reach_steps}
-        options = {name: value for name, value in options.items() if value is not None}
         made = initialised(b.ewa_asset_options, lib.ewa_asset_options_init)
         fill(made, "ewa_asset_options", options)
+        fill(made, "ewa_asset_options", {"to_world": to_world}, own=True)
         if transfer is not None:
             made.transfer = path_bytes(transfer, "transfer")
         instance = initialised(b.ewa_instance, lib.ewa_instance_init)
@@ -112,7 +101,7 @@ class Scene:
         instance.coloring.attribute = text_bytes(color_by, b.EWA_SCALAR_NAME_BYTES, "color_by")
         number = len(self)
         if not is_path(thing):
-            plain = transfer is None and not options
+            plain = transfer is None and to_world is None and all(value is None for value in options.values())
             self._world.add(thing, None if plain else made, instance)
         else:
             changed = not visible or opacity != 1 or radius_scale != 1 or color_by or range is not None or tint is not None

@@ -116,6 +116,11 @@ class Defaults(Case):
 
             return run
 
+        def added(**options: Any) -> ewa.Image:
+            shown = ewa.Scene()
+            shown.add(bare, **options)
+            return shown.render(**size)
+
         return {
             "Context": lambda **o: ewa.Context(**o), "Cloud.estimate": lambda **o: bare.estimate(**o),
             "Cloud.surfels": lambda **o: bare.surfels(**o),
@@ -129,7 +134,7 @@ class Defaults(Case):
             "convert": saved("other.ply", ewa.convert, self.path("bare.ply")),
             "build_octree": saved("again.copc.laz", ewa.build_octree, self.path("bare.ply")),
             "Octree.render": lambda **o: octree.render(**{**size, **o}),
-            "Profile.draw": lambda **o: profile.draw(**{"size": (96, 64), **o}),
+            "Scene.add": added, "Profile.draw": lambda **o: profile.draw(**{"size": (96, 64), **o}),
             "render": lambda **o: ewa.render(bare, **{**size, **o}),
             "Renderer.render": lambda **o: ewa.Renderer().render(bare, **{**size, **o}),
             "Scene.draw_furniture": lambda **o: scene.draw_furniture(scene.render(size=(96, 64)), **{"axes": True, **o}),
