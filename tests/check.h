@@ -29,6 +29,16 @@
     }                                                                                                                   \
     static void name(void **state)
 
+/// A test that has a `context` of `threads` workers (0: default), which is destroyed after it.
+#define TEST_ON(name, threads)                                                                                          \
+    static void name##_on(ewa_context *context);                                                                        \
+    TEST(name) {                                                                                                        \
+        ewa_context *context = check_context(threads, NULL);                                                            \
+        name##_on(context);                                                                                             \
+        ewa_context_destroy(&context);                                                                                  \
+    }                                                                                                                   \
+    static void name##_on(ewa_context *context)
+
 /// Runs the tests of a file between `set_up` and `tear_down` of all, which may be NULL; gives how many failed.
 #define RUN_TESTS(set_up, tear_down) _cmocka_run_group_tests("tests", check_tests, check_test_count, set_up, tear_down)
 

@@ -222,7 +222,7 @@ def write_bindings(api):
         lines += written[name]
     lines += ["#: Tables of options that the library exports.", "TABLES = ("]
     lines += [f'    "{table}",' for table in api.tables] + [")", "", ""]
-    annotations, binds = [], []
+    binds = []
     for name, text in api.functions.items():
         result, parameters = re.fullmatch(rf"(.*?)\b{name}\((.*)\)", text).groups()
         result_type, *parameter_types = types.signature(result, parameters)
@@ -230,15 +230,15 @@ def write_bindings(api):
             annotation = "None"
         else:
             annotation = types.declaration(result + " f", parameter=True)[2]
-        annotations.append(f"    {name}: Callable[..., {annotation}]")
-        binds.append(f'        self.{name} = bind("{name}", {", ".join([result_type] + parameter_types)})')
-    lines += ["class Functions:", '    """Every function of the library, with the types of its arguments."""', ""]
-    lines += annotations + ["", "    def __init__(self, library: c.CDLL) -> None:",
-                            "        def bind(name: str, result: Any, *parameters: Any) -> Any:",
-                            "            function = getattr(library, name)",
-                            "            function.restype = result",
-                            "            function.argtypes = parameters",
-                            "            return function", ""]
+        arguments = ", ".join([f'"{name}"', result_type] + parameter_types)
+        binds.append(f"        self.{name}: Callable[..., {annotation}] = bind({arguments})")
+    lines += ["class Functions:", '    """Every function of the library, with the types of its arguments."""', "",
+              "    def __init__(self, library: c.CDLL) -> None:",
+              "        def bind(name: str, result: Any, *parameters: Any) -> Any:",
+              "            function = getattr(library, name)",
+              "            function.restype = result",
+              "            function.argtypes = parameters",
+              "            return function", ""]
     return "\n".join(lines + binds) + "\n"
 
 

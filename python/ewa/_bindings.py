@@ -2797,400 +2797,6 @@ TABLES = (
 class Functions:
     """Every function of the library, with the types of its arguments."""
 
-    ewa_context_cpu_features: Callable[..., int]
-    ewa_context_create: Callable[..., int]
-    ewa_context_destroy: Callable[..., None]
-    ewa_context_options_init: Callable[..., None]
-    ewa_context_worker_count: Callable[..., int]
-    ewa_status_name: Callable[..., bytes | None]
-    ewa_type_bytes: Callable[..., int]
-    ewa_type_name: Callable[..., bytes | None]
-    ewa_version: Callable[..., bytes | None]
-    ewa_acquire_options_init: Callable[..., None]
-    ewa_cloud_acquire: Callable[..., int]
-    ewa_render_backward: Callable[..., int]
-    ewa_camera_check: Callable[..., int]
-    ewa_camera_eye: Callable[..., None]
-    ewa_camera_frame: Callable[..., int]
-    ewa_camera_init: Callable[..., None]
-    ewa_camera_look_at: Callable[..., int]
-    ewa_camera_orbit: Callable[..., int]
-    ewa_camera_path_at: Callable[..., int]
-    ewa_camera_path_create: Callable[..., int]
-    ewa_camera_path_destroy: Callable[..., None]
-    ewa_camera_set_fov: Callable[..., int]
-    ewa_camera_set_ortho: Callable[..., int]
-    ewa_attribute_read_f32: Callable[..., None]
-    ewa_attribute_read_f64: Callable[..., None]
-    ewa_cloud_add: Callable[..., int]
-    ewa_cloud_attribute_at: Callable[..., Any]
-    ewa_cloud_attribute_count: Callable[..., int]
-    ewa_cloud_borrow: Callable[..., int]
-    ewa_cloud_create: Callable[..., int]
-    ewa_cloud_destroy: Callable[..., None]
-    ewa_cloud_find: Callable[..., Any]
-    ewa_cloud_grid: Callable[..., None]
-    ewa_cloud_is_drawable: Callable[..., bool]
-    ewa_cloud_measure: Callable[..., int]
-    ewa_cloud_merge: Callable[..., int]
-    ewa_cloud_note: Callable[..., bytes | None]
-    ewa_cloud_note_name: Callable[..., bytes | None]
-    ewa_cloud_origin: Callable[..., None]
-    ewa_cloud_point_count: Callable[..., int]
-    ewa_cloud_remove: Callable[..., None]
-    ewa_cloud_select: Callable[..., int]
-    ewa_cloud_set_grid: Callable[..., None]
-    ewa_cloud_set_note: Callable[..., int]
-    ewa_cloud_set_origin: Callable[..., None]
-    ewa_cloud_transform: Callable[..., int]
-    ewa_grid_world: Callable[..., float]
-    ewa_exchange_add: Callable[..., int]
-    ewa_exchange_gather: Callable[..., int]
-    ewa_renderer_create_joint: Callable[..., int]
-    ewa_clouds_color: Callable[..., int]
-    ewa_coloring_init: Callable[..., None]
-    ewa_coloring_is_own: Callable[..., bool]
-    ewa_coloring_names_classes: Callable[..., bool]
-    ewa_legend_free: Callable[..., None]
-    ewa_cloud_check_degrees: Callable[..., None]
-    ewa_cloud_check_steps: Callable[..., None]
-    ewa_cloud_count_invalid_points: Callable[..., None]
-    ewa_cloud_drop_zero_normals: Callable[..., None]
-    ewa_cloud_find_degrees: Callable[..., bool]
-    ewa_cloud_find_gaussians: Callable[..., ewa_gaussian_columns]
-    ewa_cloud_refuse_gaussians: Callable[..., int]
-    ewa_cloud_report_invalid_points: Callable[..., int]
-    ewa_gaussian_columns_describe: Callable[..., None]
-    ewa_framing_choose: Callable[..., None]
-    ewa_framing_create: Callable[..., int]
-    ewa_framing_describe: Callable[..., None]
-    ewa_framing_destroy: Callable[..., None]
-    ewa_framing_fit: Callable[..., int]
-    ewa_framing_revolve: Callable[..., int]
-    ewa_framing_zoom: Callable[..., int]
-    ewa_up_convention_of: Callable[..., int]
-    ewa_upright_describe: Callable[..., None]
-    ewa_upright_look: Callable[..., None]
-    ewa_upright_place: Callable[..., bytes | None]
-    ewa_upright_turn: Callable[..., int]
-    ewa_upright_view: Callable[..., int]
-    ewa_draw_line: Callable[..., None]
-    ewa_draw_rectangle: Callable[..., None]
-    ewa_draw_text: Callable[..., None]
-    ewa_furniture_draw: Callable[..., int]
-    ewa_furniture_options_init: Callable[..., None]
-    ewa_text_width_px: Callable[..., float]
-    ewa_gaussians_create: Callable[..., int]
-    ewa_gaussians_free: Callable[..., None]
-    ewa_gaussians_measure: Callable[..., int]
-    ewa_gaussians_outline: Callable[..., int]
-    ewa_gaussians_to_cloud: Callable[..., int]
-    ewa_gaussians_transform: Callable[..., int]
-    ewa_gaussian_format_name: Callable[..., bytes | None]
-    ewa_gaussians_format_of: Callable[..., int]
-    ewa_gaussians_load: Callable[..., int]
-    ewa_gaussians_load_memory: Callable[..., int]
-    ewa_gaussians_probe: Callable[..., int]
-    ewa_gaussians_save: Callable[..., int]
-    ewa_gaussians_save_options_init: Callable[..., None]
-    ewa_gaussian_options_init: Callable[..., None]
-    ewa_gaussian_render: Callable[..., int]
-    ewa_gaussian_renderer_create: Callable[..., int]
-    ewa_gaussian_renderer_destroy: Callable[..., None]
-    ewa_splats_create: Callable[..., int]
-    ewa_splats_describe: Callable[..., None]
-    ewa_splats_destroy: Callable[..., None]
-    ewa_gpu_class_name: Callable[..., bytes | None]
-    ewa_gpu_describe: Callable[..., int]
-    ewa_renderer_create_on: Callable[..., int]
-    ewa_renderer_describe: Callable[..., int]
-    ewa_camera_clip_map: Callable[..., int]
-    ewa_clip_alphas: Callable[..., int]
-    ewa_clip_polygon: Callable[..., int]
-    ewa_clip_segment: Callable[..., int]
-    ewa_clip_segments: Callable[..., int]
-    ewa_conic_dual: Callable[..., ewa_conic]
-    ewa_conic_polar: Callable[..., ewa_vec3]
-    ewa_conic_pull: Callable[..., ewa_conic]
-    ewa_conic_transform: Callable[..., int]
-    ewa_conic_value: Callable[..., float]
-    ewa_dual_conic_ellipse: Callable[..., int]
-    ewa_dual_conic_transform: Callable[..., ewa_conic]
-    ewa_hyperbolic_alpha: Callable[..., int]
-    ewa_hyperbolic_at: Callable[..., int]
-    ewa_hyperbolic_fit: Callable[..., int]
-    ewa_incidence2: Callable[..., float]
-    ewa_incidence3: Callable[..., float]
-    ewa_line2_distance: Callable[..., int]
-    ewa_line2_join: Callable[..., int]
-    ewa_line2_meet: Callable[..., int]
-    ewa_line2_pull: Callable[..., ewa_vec3]
-    ewa_line2_transform: Callable[..., int]
-    ewa_line3_incidence: Callable[..., float]
-    ewa_line3_join: Callable[..., int]
-    ewa_line3_join_point: Callable[..., int]
-    ewa_line3_meet: Callable[..., int]
-    ewa_line3_meet_plane: Callable[..., int]
-    ewa_line3_transform: Callable[..., ewa_line3]
-    ewa_mat3_concatenate: Callable[..., ewa_mat3]
-    ewa_mat3_invert: Callable[..., int]
-    ewa_mat4_concatenate: Callable[..., ewa_mat4]
-    ewa_mat4_invert: Callable[..., int]
-    ewa_plane_distance: Callable[..., int]
-    ewa_plane_join: Callable[..., int]
-    ewa_plane_meet: Callable[..., int]
-    ewa_plane_pull: Callable[..., ewa_vec4]
-    ewa_plane_transform: Callable[..., int]
-    ewa_point2_divide: Callable[..., int]
-    ewa_point2_transform: Callable[..., ewa_vec3]
-    ewa_point3_divide: Callable[..., int]
-    ewa_point3_transform: Callable[..., ewa_vec4]
-    ewa_triangle_barycentric: Callable[..., int]
-    ewa_triangle_distances: Callable[..., int]
-    ewa_triangle_point: Callable[..., int]
-    ewa_triangle_point_from_distances: Callable[..., int]
-    ewa_class_color: Callable[..., None]
-    ewa_class_find: Callable[..., bool]
-    ewa_class_name: Callable[..., None]
-    ewa_colormap_color: Callable[..., None]
-    ewa_image_create: Callable[..., int]
-    ewa_image_free: Callable[..., None]
-    ewa_linear_from_srgb: Callable[..., float]
-    ewa_srgb_from_linear: Callable[..., float]
-    ewa_camera_load: Callable[..., int]
-    ewa_camera_load_each: Callable[..., int]
-    ewa_camera_load_lens: Callable[..., int]
-    ewa_camera_load_poses: Callable[..., int]
-    ewa_camera_save: Callable[..., int]
-    ewa_camera_save_list: Callable[..., int]
-    ewa_cloud_load: Callable[..., int]
-    ewa_cloud_load_memory: Callable[..., int]
-    ewa_cloud_load_options_init: Callable[..., None]
-    ewa_cloud_reader_close: Callable[..., None]
-    ewa_cloud_reader_lost_count: Callable[..., int]
-    ewa_cloud_reader_maximum_points: Callable[..., int]
-    ewa_cloud_reader_next: Callable[..., int]
-    ewa_cloud_reader_open: Callable[..., int]
-    ewa_cloud_reader_prototype: Callable[..., int | None]
-    ewa_cloud_save: Callable[..., int]
-    ewa_cloud_save_options_init: Callable[..., None]
-    ewa_cloud_writer_abort: Callable[..., None]
-    ewa_cloud_writer_commit: Callable[..., int]
-    ewa_cloud_writer_needs_bounds: Callable[..., bool]
-    ewa_cloud_writer_open: Callable[..., int]
-    ewa_cloud_writer_put: Callable[..., int]
-    ewa_depth_load: Callable[..., int]
-    ewa_depth_load_memory: Callable[..., int]
-    ewa_elements_face_count: Callable[..., int]
-    ewa_elements_free: Callable[..., None]
-    ewa_image_load: Callable[..., int]
-    ewa_image_load_memory: Callable[..., int]
-    ewa_image_save: Callable[..., int]
-    ewa_image_save_options_init: Callable[..., None]
-    ewa_jpeg_save: Callable[..., int]
-    ewa_materials_load: Callable[..., int]
-    ewa_parts: Callable[..., bytes | None]
-    ewa_photo_list_destroy: Callable[..., None]
-    ewa_photo_list_find_masks: Callable[..., int]
-    ewa_photo_list_load: Callable[..., int]
-    ewa_photo_list_photos: Callable[..., Any]
-    ewa_pixels_save: Callable[..., int]
-    ewa_ply_describe: Callable[..., int]
-    ewa_png_save: Callable[..., int]
-    ewa_transfer_choose: Callable[..., int]
-    ewa_transfer_load: Callable[..., int]
-    ewa_transfer_save: Callable[..., int]
-    ewa_volume_is_file: Callable[..., bool]
-    ewa_volume_is_named: Callable[..., bool]
-    ewa_volume_load: Callable[..., int]
-    ewa_volume_load_memory: Callable[..., int]
-    ewa_volume_load_options_init: Callable[..., None]
-    ewa_volume_save: Callable[..., int]
-    ewa_volume_save_options_init: Callable[..., None]
-    ewa_lod_build: Callable[..., int]
-    ewa_lod_build_options_init: Callable[..., None]
-    ewa_lod_close: Callable[..., None]
-    ewa_lod_describe: Callable[..., None]
-    ewa_lod_is_folder: Callable[..., bool]
-    ewa_lod_merge: Callable[..., int]
-    ewa_lod_open: Callable[..., int]
-    ewa_lod_options_init: Callable[..., None]
-    ewa_lod_probe: Callable[..., bool]
-    ewa_lod_read: Callable[..., int]
-    ewa_lod_render: Callable[..., int]
-    ewa_lod_sample: Callable[..., int]
-    ewa_lod_scene_render: Callable[..., int]
-    ewa_measure_kind_name: Callable[..., bytes | None]
-    ewa_places_measure: Callable[..., int]
-    ewa_mesh_create: Callable[..., int]
-    ewa_mesh_free: Callable[..., None]
-    ewa_mesh_is_closed: Callable[..., int]
-    ewa_mesh_load: Callable[..., int]
-    ewa_mesh_sample: Callable[..., int]
-    ewa_mesh_sample_options_init: Callable[..., None]
-    ewa_mesh_set_picture: Callable[..., int]
-    ewa_mixture_render: Callable[..., int]
-    ewa_model_format_name: Callable[..., bytes | None]
-    ewa_model_free: Callable[..., None]
-    ewa_model_load: Callable[..., int]
-    ewa_model_load_memory: Callable[..., int]
-    ewa_model_probe: Callable[..., int]
-    ewa_color_read: Callable[..., bool]
-    ewa_option_find: Callable[..., Any]
-    ewa_option_get: Callable[..., None]
-    ewa_option_range: Callable[..., None]
-    ewa_option_set: Callable[..., int]
-    ewa_panorama_options_init: Callable[..., None]
-    ewa_scene_draw_panorama: Callable[..., int]
-    ewa_scene_place_panorama: Callable[..., int]
-    ewa_cloud_color_from_photos: Callable[..., int]
-    ewa_image_compare: Callable[..., int]
-    ewa_image_undistort: Callable[..., int]
-    ewa_photo_load: Callable[..., int]
-    ewa_photos_options_init: Callable[..., None]
-    ewa_cloud_csg: Callable[..., int]
-    ewa_cloud_detect_features: Callable[..., int]
-    ewa_cloud_estimate: Callable[..., int]
-    ewa_cloud_generate: Callable[..., int]
-    ewa_cloud_mark_outliers: Callable[..., int]
-    ewa_cloud_measure_spacing: Callable[..., int]
-    ewa_cloud_refit_colors: Callable[..., int]
-    ewa_csg_options_init: Callable[..., None]
-    ewa_estimate_options_init: Callable[..., None]
-    ewa_feature_options_init: Callable[..., None]
-    ewa_generate_options_init: Callable[..., None]
-    ewa_refit_options_init: Callable[..., None]
-    ewa_volume_generate: Callable[..., int]
-    ewa_volume_generate_options_init: Callable[..., None]
-    ewa_volume_outline: Callable[..., int]
-    ewa_cloud_color_by_procedure: Callable[..., int]
-    ewa_procedure_options_init: Callable[..., None]
-    ewa_profile_draw: Callable[..., int]
-    ewa_profile_free: Callable[..., None]
-    ewa_profile_graph_options_init: Callable[..., None]
-    ewa_profile_line_read: Callable[..., int]
-    ewa_profile_options_init: Callable[..., None]
-    ewa_scene_profile: Callable[..., int]
-    ewa_region_set_outline: Callable[..., int]
-    ewa_regions_mark: Callable[..., int]
-    ewa_render: Callable[..., int]
-    ewa_render_add: Callable[..., int]
-    ewa_render_add_weighted: Callable[..., int]
-    ewa_render_begin: Callable[..., int]
-    ewa_render_finish: Callable[..., int]
-    ewa_render_options_init: Callable[..., None]
-    ewa_render_stats_add: Callable[..., None]
-    ewa_renderer_create: Callable[..., int]
-    ewa_renderer_destroy: Callable[..., None]
-    ewa_surfels_create: Callable[..., int]
-    ewa_surfels_describe: Callable[..., None]
-    ewa_surfels_destroy: Callable[..., None]
-    ewa_surfels_options_init: Callable[..., None]
-    ewa_texture_map: Callable[..., int]
-    ewa_texture_map_from_camera: Callable[..., int]
-    ewa_texture_map_from_corners: Callable[..., int]
-    ewa_texture_options_init: Callable[..., None]
-    ewa_asset_create: Callable[..., int]
-    ewa_asset_describe: Callable[..., None]
-    ewa_asset_find_upright: Callable[..., int]
-    ewa_asset_kind_name: Callable[..., bytes | None]
-    ewa_asset_load: Callable[..., int]
-    ewa_asset_options_init: Callable[..., None]
-    ewa_asset_probe: Callable[..., int]
-    ewa_asset_release: Callable[..., None]
-    ewa_asset_retain: Callable[..., int | None]
-    ewa_cloud_place_camera: Callable[..., int]
-    ewa_instance_init: Callable[..., None]
-    ewa_scene_add: Callable[..., int]
-    ewa_scene_asset: Callable[..., int | None]
-    ewa_scene_bounds: Callable[..., None]
-    ewa_scene_cloud: Callable[..., int]
-    ewa_scene_commit: Callable[..., int]
-    ewa_scene_compare_photo: Callable[..., int]
-    ewa_scene_complete: Callable[..., int]
-    ewa_scene_copy: Callable[..., int]
-    ewa_scene_count: Callable[..., int]
-    ewa_scene_create: Callable[..., int]
-    ewa_scene_describe: Callable[..., None]
-    ewa_scene_destroy: Callable[..., None]
-    ewa_scene_draw: Callable[..., int]
-    ewa_scene_draw_outlines: Callable[..., int]
-    ewa_scene_get: Callable[..., int]
-    ewa_scene_get_camera: Callable[..., bool]
-    ewa_scene_get_options: Callable[..., None]
-    ewa_scene_legend: Callable[..., Any]
-    ewa_scene_options_init: Callable[..., None]
-    ewa_scene_pick: Callable[..., int]
-    ewa_scene_place_camera: Callable[..., int]
-    ewa_scene_points: Callable[..., int]
-    ewa_scene_reader_choose: Callable[..., int]
-    ewa_scene_reader_create: Callable[..., int]
-    ewa_scene_reader_destroy: Callable[..., None]
-    ewa_scene_reader_put: Callable[..., None]
-    ewa_scene_reader_read: Callable[..., int]
-    ewa_scene_remove: Callable[..., int]
-    ewa_scene_renderer_create: Callable[..., int]
-    ewa_scene_renderer_destroy: Callable[..., None]
-    ewa_scene_renderer_surfaces: Callable[..., int | None]
-    ewa_scene_reuse: Callable[..., None]
-    ewa_scene_set: Callable[..., int]
-    ewa_scene_set_camera: Callable[..., int]
-    ewa_scene_set_options: Callable[..., int]
-    ewa_view_options_init: Callable[..., None]
-    ewa_scene_describe_json: Callable[..., int]
-    ewa_scene_file_apply: Callable[..., None]
-    ewa_scene_file_camera: Callable[..., bool]
-    ewa_scene_file_count: Callable[..., int]
-    ewa_scene_file_destroy: Callable[..., None]
-    ewa_scene_file_entry: Callable[..., int]
-    ewa_scene_file_load: Callable[..., int]
-    ewa_scene_file_probe: Callable[..., bool]
-    ewa_scene_open: Callable[..., int]
-    ewa_scene_save: Callable[..., int]
-    ewa_text_free: Callable[..., None]
-    ewa_box_mark: Callable[..., int]
-    ewa_cloud_find_scalar: Callable[..., int]
-    ewa_cloud_keep: Callable[..., int]
-    ewa_cloud_thin_distance: Callable[..., int]
-    ewa_cloud_thin_voxels: Callable[..., int]
-    ewa_filter_add: Callable[..., int]
-    ewa_filter_mark: Callable[..., int]
-    ewa_filter_write: Callable[..., bool]
-    ewa_polygon_box: Callable[..., None]
-    ewa_polygon_create: Callable[..., int]
-    ewa_polygon_destroy: Callable[..., None]
-    ewa_polygon_load: Callable[..., int]
-    ewa_polygon_mark: Callable[..., int]
-    ewa_polygon_read: Callable[..., int]
-    ewa_rank_select: Callable[..., float]
-    ewa_scalar_read: Callable[..., None]
-    ewa_environment_create: Callable[..., int]
-    ewa_environment_destroy: Callable[..., None]
-    ewa_light_init: Callable[..., None]
-    ewa_material_init: Callable[..., None]
-    ewa_transfer_automatic: Callable[..., int]
-    ewa_transfer_preset: Callable[..., int]
-    ewa_transfer_preset_name: Callable[..., bytes | None]
-    ewa_volume_create: Callable[..., int]
-    ewa_volume_free: Callable[..., None]
-    ewa_volume_measure: Callable[..., int]
-    ewa_volume_options_init: Callable[..., None]
-    ewa_volume_render: Callable[..., int]
-    ewa_volume_renderer_create: Callable[..., int]
-    ewa_volume_renderer_destroy: Callable[..., None]
-    ewa_voxels_create: Callable[..., int]
-    ewa_voxels_describe: Callable[..., None]
-    ewa_voxels_destroy: Callable[..., None]
-    ewa_voxels_options_init: Callable[..., None]
-    ewa_depth_file_scale: Callable[..., float]
-    ewa_depth_image_init: Callable[..., None]
-    ewa_warp_create: Callable[..., int]
-    ewa_warp_destroy: Callable[..., None]
-    ewa_warp_draw: Callable[..., int]
-    ewa_warp_options_init: Callable[..., None]
-    ewa_warp_render_options_init: Callable[..., None]
-    ewa_warp_take: Callable[..., int]
-
     def __init__(self, library: c.CDLL) -> None:
         def bind(name: str, result: Any, *parameters: Any) -> Any:
             function = getattr(library, name)
@@ -3198,396 +2804,396 @@ class Functions:
             function.argtypes = parameters
             return function
 
-        self.ewa_context_cpu_features = bind("ewa_context_cpu_features", c.c_uint32, c.c_void_p)
-        self.ewa_context_create = bind("ewa_context_create", c.c_int, c.POINTER(ewa_context_options), c.c_void_p)
-        self.ewa_context_destroy = bind("ewa_context_destroy", None, c.c_void_p)
-        self.ewa_context_options_init = bind("ewa_context_options_init", None, c.POINTER(ewa_context_options), c.c_size_t)
-        self.ewa_context_worker_count = bind("ewa_context_worker_count", c.c_uint32, c.c_void_p)
-        self.ewa_status_name = bind("ewa_status_name", c.c_char_p, c.c_int)
-        self.ewa_type_bytes = bind("ewa_type_bytes", c.c_size_t, c.c_int)
-        self.ewa_type_name = bind("ewa_type_name", c.c_char_p, c.c_int)
-        self.ewa_version = bind("ewa_version", c.c_char_p)
-        self.ewa_acquire_options_init = bind("ewa_acquire_options_init", None, c.POINTER(ewa_acquire_options), c.c_size_t)
-        self.ewa_cloud_acquire = bind("ewa_cloud_acquire", c.c_int, c.c_void_p, c.POINTER(ewa_image), c.c_uint32, c.POINTER(ewa_acquire_options), c.POINTER(ewa_acquire_report))
-        self.ewa_render_backward = bind("ewa_render_backward", c.c_int, c.c_void_p, c.POINTER(ewa_surfels_options), c.c_double, c.POINTER(ewa_camera), c.POINTER(ewa_render_options), c.POINTER(ewa_frame_cotangent), c.POINTER(ewa_gradient))
-        self.ewa_camera_check = bind("ewa_camera_check", c.c_int, c.c_void_p, c.POINTER(ewa_camera))
-        self.ewa_camera_eye = bind("ewa_camera_eye", None, c.POINTER(ewa_camera), c.c_void_p)
-        self.ewa_camera_frame = bind("ewa_camera_frame", c.c_int, c.POINTER(ewa_camera), c.POINTER(ewa_bounds), c.c_void_p, c.c_void_p, c.c_double)
-        self.ewa_camera_init = bind("ewa_camera_init", None, c.POINTER(ewa_camera))
-        self.ewa_camera_look_at = bind("ewa_camera_look_at", c.c_int, c.POINTER(ewa_camera), c.c_void_p, c.c_void_p, c.c_void_p)
-        self.ewa_camera_orbit = bind("ewa_camera_orbit", c.c_int, c.POINTER(ewa_camera), c.c_void_p, c.c_void_p, c.c_double)
-        self.ewa_camera_path_at = bind("ewa_camera_path_at", c.c_int, c.c_void_p, c.c_double, c.POINTER(ewa_camera))
-        self.ewa_camera_path_create = bind("ewa_camera_path_create", c.c_int, c.c_void_p, c.POINTER(ewa_camera), c.c_size_t, c.c_bool, c.c_void_p)
-        self.ewa_camera_path_destroy = bind("ewa_camera_path_destroy", None, c.c_void_p)
-        self.ewa_camera_set_fov = bind("ewa_camera_set_fov", c.c_int, c.POINTER(ewa_camera), c.c_double)
-        self.ewa_camera_set_ortho = bind("ewa_camera_set_ortho", c.c_int, c.POINTER(ewa_camera), c.c_double)
-        self.ewa_attribute_read_f32 = bind("ewa_attribute_read_f32", None, c.POINTER(ewa_attribute), c.c_uint64, c.c_uint64, c.c_void_p)
-        self.ewa_attribute_read_f64 = bind("ewa_attribute_read_f64", None, c.POINTER(ewa_attribute), c.c_uint64, c.c_uint64, c.c_void_p)
-        self.ewa_cloud_add = bind("ewa_cloud_add", c.c_int, c.c_void_p, c.c_char_p, c.c_int, c.c_uint32, c.c_void_p)
-        self.ewa_cloud_attribute_at = bind("ewa_cloud_attribute_at", c.POINTER(ewa_attribute), c.c_void_p, c.c_uint32)
-        self.ewa_cloud_attribute_count = bind("ewa_cloud_attribute_count", c.c_uint32, c.c_void_p)
-        self.ewa_cloud_borrow = bind("ewa_cloud_borrow", c.c_int, c.c_void_p, c.c_char_p, c.c_int, c.c_uint32, c.c_void_p, c.c_size_t)
-        self.ewa_cloud_create = bind("ewa_cloud_create", c.c_int, c.c_void_p, c.c_uint64, c.c_void_p)
-        self.ewa_cloud_destroy = bind("ewa_cloud_destroy", None, c.c_void_p)
-        self.ewa_cloud_find = bind("ewa_cloud_find", c.POINTER(ewa_attribute), c.c_void_p, c.c_char_p)
-        self.ewa_cloud_grid = bind("ewa_cloud_grid", None, c.c_void_p, c.POINTER(ewa_coordinate_grid))
-        self.ewa_cloud_is_drawable = bind("ewa_cloud_is_drawable", c.c_bool, c.c_void_p)
-        self.ewa_cloud_measure = bind("ewa_cloud_measure", c.c_int, c.c_void_p, c.POINTER(ewa_bounds))
-        self.ewa_cloud_merge = bind("ewa_cloud_merge", c.c_int, c.c_void_p, c.c_uint32, c.c_void_p)
-        self.ewa_cloud_note = bind("ewa_cloud_note", c.c_char_p, c.c_void_p, c.c_char_p, c.c_void_p)
-        self.ewa_cloud_note_name = bind("ewa_cloud_note_name", c.c_char_p, c.c_void_p, c.c_uint32)
-        self.ewa_cloud_origin = bind("ewa_cloud_origin", None, c.c_void_p, c.c_void_p)
-        self.ewa_cloud_point_count = bind("ewa_cloud_point_count", c.c_uint64, c.c_void_p)
-        self.ewa_cloud_remove = bind("ewa_cloud_remove", None, c.c_void_p, c.c_char_p)
-        self.ewa_cloud_select = bind("ewa_cloud_select", c.c_int, c.c_void_p, c.c_void_p, c.c_uint64, c.c_void_p)
-        self.ewa_cloud_set_grid = bind("ewa_cloud_set_grid", None, c.c_void_p, c.POINTER(ewa_coordinate_grid))
-        self.ewa_cloud_set_note = bind("ewa_cloud_set_note", c.c_int, c.c_void_p, c.c_char_p, c.c_void_p, c.c_size_t)
-        self.ewa_cloud_set_origin = bind("ewa_cloud_set_origin", None, c.c_void_p, c.c_void_p)
-        self.ewa_cloud_transform = bind("ewa_cloud_transform", c.c_int, c.c_void_p, c.c_void_p)
-        self.ewa_grid_world = bind("ewa_grid_world", c.c_double, c.POINTER(ewa_coordinate_grid), c.c_uint32, c.c_double)
-        self.ewa_exchange_add = bind("ewa_exchange_add", c.c_int, c.c_void_p, c.POINTER(ewa_exchange), c.c_void_p, c.c_size_t)
-        self.ewa_exchange_gather = bind("ewa_exchange_gather", c.c_int, c.c_void_p, c.POINTER(ewa_exchange), c.c_void_p, c.c_size_t, c.c_void_p)
-        self.ewa_renderer_create_joint = bind("ewa_renderer_create_joint", c.c_int, c.c_void_p, c.POINTER(ewa_exchange), c.c_void_p)
-        self.ewa_clouds_color = bind("ewa_clouds_color", c.c_int, c.c_void_p, c.c_uint32, c.POINTER(ewa_coloring), c.POINTER(ewa_legend))
-        self.ewa_coloring_init = bind("ewa_coloring_init", None, c.POINTER(ewa_coloring), c.c_size_t)
-        self.ewa_coloring_is_own = bind("ewa_coloring_is_own", c.c_bool, c.c_char_p)
-        self.ewa_coloring_names_classes = bind("ewa_coloring_names_classes", c.c_bool, c.c_char_p)
-        self.ewa_legend_free = bind("ewa_legend_free", None, c.POINTER(ewa_legend))
-        self.ewa_cloud_check_degrees = bind("ewa_cloud_check_degrees", None, c.c_void_p)
-        self.ewa_cloud_check_steps = bind("ewa_cloud_check_steps", None, c.c_void_p)
-        self.ewa_cloud_count_invalid_points = bind("ewa_cloud_count_invalid_points", None, c.c_void_p, c.POINTER(ewa_cloud_invalid_points))
-        self.ewa_cloud_drop_zero_normals = bind("ewa_cloud_drop_zero_normals", None, c.c_void_p)
-        self.ewa_cloud_find_degrees = bind("ewa_cloud_find_degrees", c.c_bool, c.c_void_p, c.c_void_p)
-        self.ewa_cloud_find_gaussians = bind("ewa_cloud_find_gaussians", ewa_gaussian_columns, c.c_void_p)
-        self.ewa_cloud_refuse_gaussians = bind("ewa_cloud_refuse_gaussians", c.c_int, c.c_void_p)
-        self.ewa_cloud_report_invalid_points = bind("ewa_cloud_report_invalid_points", c.c_int, c.c_void_p, c.POINTER(ewa_surfels_info))
-        self.ewa_gaussian_columns_describe = bind("ewa_gaussian_columns_describe", None, c.POINTER(ewa_gaussian_columns), c.c_void_p)
-        self.ewa_framing_choose = bind("ewa_framing_choose", None, c.c_void_p, c.c_int, c.POINTER(ewa_upright))
-        self.ewa_framing_create = bind("ewa_framing_create", c.c_int, c.c_void_p, c.c_double, c.c_void_p)
-        self.ewa_framing_describe = bind("ewa_framing_describe", None, c.c_void_p, c.POINTER(ewa_framing_info))
-        self.ewa_framing_destroy = bind("ewa_framing_destroy", None, c.c_void_p)
-        self.ewa_framing_fit = bind("ewa_framing_fit", c.c_int, c.c_void_p, c.c_void_p, c.c_void_p, c.POINTER(ewa_camera))
-        self.ewa_framing_revolve = bind("ewa_framing_revolve", c.c_int, c.c_void_p, c.c_void_p, c.c_void_p, c.c_void_p, c.c_void_p)
-        self.ewa_framing_zoom = bind("ewa_framing_zoom", c.c_int, c.c_void_p, c.c_void_p, c.c_void_p, c.POINTER(ewa_camera))
-        self.ewa_up_convention_of = bind("ewa_up_convention_of", c.c_int, c.c_size_t, c.c_void_p)
-        self.ewa_upright_describe = bind("ewa_upright_describe", None, c.POINTER(ewa_upright), c.c_void_p)
-        self.ewa_upright_look = bind("ewa_upright_look", None, c.POINTER(ewa_upright), c.c_void_p, c.c_void_p)
-        self.ewa_upright_place = bind("ewa_upright_place", c.c_char_p, c.POINTER(ewa_upright))
-        self.ewa_upright_turn = bind("ewa_upright_turn", c.c_int, c.c_void_p, c.c_double, c.c_double, c.c_void_p, c.c_void_p)
-        self.ewa_upright_view = bind("ewa_upright_view", c.c_int, c.c_void_p, c.c_int)
-        self.ewa_draw_line = bind("ewa_draw_line", None, c.POINTER(ewa_canvas), c.c_double, c.c_double, c.c_double, c.c_double, c.c_double, c.c_void_p)
-        self.ewa_draw_rectangle = bind("ewa_draw_rectangle", None, c.POINTER(ewa_canvas), c.c_double, c.c_double, c.c_double, c.c_double, c.c_void_p)
-        self.ewa_draw_text = bind("ewa_draw_text", None, c.POINTER(ewa_canvas), c.c_char_p, c.c_double, c.c_double, c.POINTER(ewa_text_style))
-        self.ewa_furniture_draw = bind("ewa_furniture_draw", c.c_int, c.c_void_p, c.POINTER(ewa_camera), c.POINTER(ewa_furniture_options), c.POINTER(ewa_canvas))
-        self.ewa_furniture_options_init = bind("ewa_furniture_options_init", None, c.POINTER(ewa_furniture_options), c.c_size_t)
-        self.ewa_text_width_px = bind("ewa_text_width_px", c.c_double, c.c_char_p, c.c_double)
-        self.ewa_gaussians_create = bind("ewa_gaussians_create", c.c_int, c.c_void_p, c.c_uint32, c.c_uint32, c.POINTER(ewa_gaussians))
-        self.ewa_gaussians_free = bind("ewa_gaussians_free", None, c.POINTER(ewa_gaussians))
-        self.ewa_gaussians_measure = bind("ewa_gaussians_measure", c.c_int, c.POINTER(ewa_gaussians), c.POINTER(ewa_bounds))
-        self.ewa_gaussians_outline = bind("ewa_gaussians_outline", c.c_int, c.POINTER(ewa_gaussians), c.POINTER(ewa_bounds), c.c_void_p)
-        self.ewa_gaussians_to_cloud = bind("ewa_gaussians_to_cloud", c.c_int, c.POINTER(ewa_gaussians), c.c_void_p)
-        self.ewa_gaussians_transform = bind("ewa_gaussians_transform", c.c_int, c.POINTER(ewa_gaussians), c.c_void_p)
-        self.ewa_gaussian_format_name = bind("ewa_gaussian_format_name", c.c_char_p, c.c_int)
-        self.ewa_gaussians_format_of = bind("ewa_gaussians_format_of", c.c_int, c.c_char_p)
-        self.ewa_gaussians_load = bind("ewa_gaussians_load", c.c_int, c.c_void_p, c.c_char_p, c.POINTER(ewa_gaussians), c.POINTER(ewa_gaussian_facts))
-        self.ewa_gaussians_load_memory = bind("ewa_gaussians_load_memory", c.c_int, c.c_void_p, c.c_void_p, c.c_size_t, c.c_char_p, c.c_char_p, c.POINTER(ewa_gaussians), c.POINTER(ewa_gaussian_facts))
-        self.ewa_gaussians_probe = bind("ewa_gaussians_probe", c.c_int, c.c_void_p, c.c_char_p, c.c_void_p)
-        self.ewa_gaussians_save = bind("ewa_gaussians_save", c.c_int, c.POINTER(ewa_gaussians), c.c_char_p, c.POINTER(ewa_gaussians_save_options))
-        self.ewa_gaussians_save_options_init = bind("ewa_gaussians_save_options_init", None, c.POINTER(ewa_gaussians_save_options), c.c_size_t)
-        self.ewa_gaussian_options_init = bind("ewa_gaussian_options_init", None, c.POINTER(ewa_gaussian_options), c.c_size_t)
-        self.ewa_gaussian_render = bind("ewa_gaussian_render", c.c_int, c.c_void_p, c.c_void_p, c.POINTER(ewa_camera), c.POINTER(ewa_gaussian_options), c.POINTER(ewa_frame), c.POINTER(ewa_gaussian_stats))
-        self.ewa_gaussian_renderer_create = bind("ewa_gaussian_renderer_create", c.c_int, c.c_void_p, c.c_void_p)
-        self.ewa_gaussian_renderer_destroy = bind("ewa_gaussian_renderer_destroy", None, c.c_void_p)
-        self.ewa_splats_create = bind("ewa_splats_create", c.c_int, c.POINTER(ewa_gaussians), c.c_void_p)
-        self.ewa_splats_describe = bind("ewa_splats_describe", None, c.c_void_p, c.POINTER(ewa_splats_info))
-        self.ewa_splats_destroy = bind("ewa_splats_destroy", None, c.c_void_p)
-        self.ewa_gpu_class_name = bind("ewa_gpu_class_name", c.c_char_p, c.c_int)
-        self.ewa_gpu_describe = bind("ewa_gpu_describe", c.c_int, c.c_void_p, c.POINTER(ewa_gpu_info))
-        self.ewa_renderer_create_on = bind("ewa_renderer_create_on", c.c_int, c.c_void_p, c.c_int, c.c_void_p)
-        self.ewa_renderer_describe = bind("ewa_renderer_describe", c.c_int, c.c_void_p, c.POINTER(ewa_renderer_info))
-        self.ewa_camera_clip_map = bind("ewa_camera_clip_map", c.c_int, c.POINTER(ewa_camera), c.c_double, c.c_double, c.POINTER(ewa_mat4))
-        self.ewa_clip_alphas = bind("ewa_clip_alphas", c.c_int, ewa_vec4, ewa_vec4, c.c_void_p, c.c_void_p)
-        self.ewa_clip_polygon = bind("ewa_clip_polygon", c.c_int, c.POINTER(ewa_vec4), c.c_void_p, c.c_uint32, c.c_uint32, c.POINTER(ewa_vec4), c.c_void_p, c.c_void_p)
-        self.ewa_clip_segment = bind("ewa_clip_segment", c.c_int, ewa_vec4, ewa_vec4, c.POINTER(ewa_segment_part), c.c_void_p)
-        self.ewa_clip_segments = bind("ewa_clip_segments", c.c_int, c.c_void_p, c.POINTER(ewa_segment_batch), c.POINTER(ewa_segment_clips))
-        self.ewa_conic_dual = bind("ewa_conic_dual", ewa_conic, c.POINTER(ewa_conic))
-        self.ewa_conic_polar = bind("ewa_conic_polar", ewa_vec3, c.POINTER(ewa_conic), ewa_vec3)
-        self.ewa_conic_pull = bind("ewa_conic_pull", ewa_conic, c.POINTER(ewa_conic), c.POINTER(ewa_mat3))
-        self.ewa_conic_transform = bind("ewa_conic_transform", c.c_int, c.POINTER(ewa_conic), c.POINTER(ewa_mat3), c.POINTER(ewa_conic))
-        self.ewa_conic_value = bind("ewa_conic_value", c.c_double, c.POINTER(ewa_conic), ewa_vec3)
-        self.ewa_dual_conic_ellipse = bind("ewa_dual_conic_ellipse", c.c_int, c.POINTER(ewa_conic), c.c_void_p, c.c_void_p)
-        self.ewa_dual_conic_transform = bind("ewa_dual_conic_transform", ewa_conic, c.POINTER(ewa_conic), c.POINTER(ewa_mat3))
-        self.ewa_hyperbolic_alpha = bind("ewa_hyperbolic_alpha", c.c_int, c.c_double, c.c_double, c.c_double, c.c_void_p)
-        self.ewa_hyperbolic_at = bind("ewa_hyperbolic_at", c.c_int, ewa_vec3, ewa_vec3, c.c_double, c.c_double, c.c_void_p)
-        self.ewa_hyperbolic_fit = bind("ewa_hyperbolic_fit", c.c_int, c.POINTER(ewa_vec4), c.c_void_p, c.c_uint32, c.POINTER(ewa_vec3), c.POINTER(ewa_vec3))
-        self.ewa_incidence2 = bind("ewa_incidence2", c.c_double, ewa_vec3, ewa_vec3)
-        self.ewa_incidence3 = bind("ewa_incidence3", c.c_double, ewa_vec4, ewa_vec4)
-        self.ewa_line2_distance = bind("ewa_line2_distance", c.c_int, ewa_vec3, ewa_vec3, c.c_void_p)
-        self.ewa_line2_join = bind("ewa_line2_join", c.c_int, ewa_vec3, ewa_vec3, c.POINTER(ewa_vec3))
-        self.ewa_line2_meet = bind("ewa_line2_meet", c.c_int, ewa_vec3, ewa_vec3, c.POINTER(ewa_vec3))
-        self.ewa_line2_pull = bind("ewa_line2_pull", ewa_vec3, ewa_vec3, c.POINTER(ewa_mat3))
-        self.ewa_line2_transform = bind("ewa_line2_transform", c.c_int, ewa_vec3, c.POINTER(ewa_mat3), c.POINTER(ewa_vec3))
-        self.ewa_line3_incidence = bind("ewa_line3_incidence", c.c_double, ewa_line3, ewa_line3)
-        self.ewa_line3_join = bind("ewa_line3_join", c.c_int, ewa_vec4, ewa_vec4, c.POINTER(ewa_line3))
-        self.ewa_line3_join_point = bind("ewa_line3_join_point", c.c_int, ewa_line3, ewa_vec4, c.POINTER(ewa_vec4))
-        self.ewa_line3_meet = bind("ewa_line3_meet", c.c_int, ewa_vec4, ewa_vec4, c.POINTER(ewa_line3))
-        self.ewa_line3_meet_plane = bind("ewa_line3_meet_plane", c.c_int, ewa_line3, ewa_vec4, c.POINTER(ewa_vec4))
-        self.ewa_line3_transform = bind("ewa_line3_transform", ewa_line3, ewa_line3, c.POINTER(ewa_mat4))
-        self.ewa_mat3_concatenate = bind("ewa_mat3_concatenate", ewa_mat3, c.POINTER(ewa_mat3), c.POINTER(ewa_mat3))
-        self.ewa_mat3_invert = bind("ewa_mat3_invert", c.c_int, c.POINTER(ewa_mat3), c.POINTER(ewa_mat3))
-        self.ewa_mat4_concatenate = bind("ewa_mat4_concatenate", ewa_mat4, c.POINTER(ewa_mat4), c.POINTER(ewa_mat4))
-        self.ewa_mat4_invert = bind("ewa_mat4_invert", c.c_int, c.POINTER(ewa_mat4), c.POINTER(ewa_mat4))
-        self.ewa_plane_distance = bind("ewa_plane_distance", c.c_int, ewa_vec4, ewa_vec4, c.c_void_p)
-        self.ewa_plane_join = bind("ewa_plane_join", c.c_int, ewa_vec4, ewa_vec4, ewa_vec4, c.POINTER(ewa_vec4))
-        self.ewa_plane_meet = bind("ewa_plane_meet", c.c_int, ewa_vec4, ewa_vec4, ewa_vec4, c.POINTER(ewa_vec4))
-        self.ewa_plane_pull = bind("ewa_plane_pull", ewa_vec4, ewa_vec4, c.POINTER(ewa_mat4))
-        self.ewa_plane_transform = bind("ewa_plane_transform", c.c_int, ewa_vec4, c.POINTER(ewa_mat4), c.POINTER(ewa_vec4))
-        self.ewa_point2_divide = bind("ewa_point2_divide", c.c_int, ewa_vec3, c.c_void_p)
-        self.ewa_point2_transform = bind("ewa_point2_transform", ewa_vec3, ewa_vec3, c.POINTER(ewa_mat3))
-        self.ewa_point3_divide = bind("ewa_point3_divide", c.c_int, ewa_vec4, c.c_void_p)
-        self.ewa_point3_transform = bind("ewa_point3_transform", ewa_vec4, ewa_vec4, c.POINTER(ewa_mat4))
-        self.ewa_triangle_barycentric = bind("ewa_triangle_barycentric", c.c_int, c.POINTER(ewa_vec3), ewa_vec3, c.c_void_p)
-        self.ewa_triangle_distances = bind("ewa_triangle_distances", c.c_int, c.POINTER(ewa_vec3), ewa_vec3, c.c_void_p)
-        self.ewa_triangle_point = bind("ewa_triangle_point", c.c_int, c.POINTER(ewa_vec3), c.c_void_p, c.POINTER(ewa_vec3))
-        self.ewa_triangle_point_from_distances = bind("ewa_triangle_point_from_distances", c.c_int, c.POINTER(ewa_vec3), c.c_void_p, c.POINTER(ewa_vec3))
-        self.ewa_class_color = bind("ewa_class_color", None, c.c_uint32, c.c_void_p)
-        self.ewa_class_find = bind("ewa_class_find", c.c_bool, c.c_char_p, c.c_void_p)
-        self.ewa_class_name = bind("ewa_class_name", None, c.c_uint32, c.c_void_p)
-        self.ewa_colormap_color = bind("ewa_colormap_color", None, c.c_int, c.c_double, c.c_void_p)
-        self.ewa_image_create = bind("ewa_image_create", c.c_int, c.c_void_p, c.c_uint32, c.c_uint32, c.c_uint32, c.POINTER(ewa_image))
-        self.ewa_image_free = bind("ewa_image_free", None, c.POINTER(ewa_image))
-        self.ewa_linear_from_srgb = bind("ewa_linear_from_srgb", c.c_float, c.c_float)
-        self.ewa_srgb_from_linear = bind("ewa_srgb_from_linear", c.c_float, c.c_float)
-        self.ewa_camera_load = bind("ewa_camera_load", c.c_int, c.c_void_p, c.c_char_p, c.c_uint32, c.POINTER(ewa_camera))
-        self.ewa_camera_load_each = bind("ewa_camera_load_each", c.c_int, c.c_void_p, c.c_char_p, ewa_camera_callback, c.c_void_p)
-        self.ewa_camera_load_lens = bind("ewa_camera_load_lens", c.c_int, c.c_void_p, c.c_char_p, c.POINTER(ewa_camera))
-        self.ewa_camera_load_poses = bind("ewa_camera_load_poses", c.c_int, c.c_void_p, c.c_char_p, c.POINTER(ewa_camera), ewa_camera_callback, c.c_void_p)
-        self.ewa_camera_save = bind("ewa_camera_save", c.c_int, c.c_void_p, c.POINTER(ewa_camera), c.c_char_p)
-        self.ewa_camera_save_list = bind("ewa_camera_save_list", c.c_int, c.c_void_p, c.POINTER(ewa_camera), c.c_size_t, c.c_char_p)
-        self.ewa_cloud_load = bind("ewa_cloud_load", c.c_int, c.c_void_p, c.c_char_p, c.c_void_p)
-        self.ewa_cloud_load_memory = bind("ewa_cloud_load_memory", c.c_int, c.c_void_p, c.c_void_p, c.c_size_t, c.c_char_p, c.c_void_p)
-        self.ewa_cloud_load_options_init = bind("ewa_cloud_load_options_init", None, c.POINTER(ewa_cloud_load_options), c.c_size_t)
-        self.ewa_cloud_reader_close = bind("ewa_cloud_reader_close", None, c.c_void_p)
-        self.ewa_cloud_reader_lost_count = bind("ewa_cloud_reader_lost_count", c.c_uint64, c.c_void_p)
-        self.ewa_cloud_reader_maximum_points = bind("ewa_cloud_reader_maximum_points", c.c_uint64, c.c_void_p)
-        self.ewa_cloud_reader_next = bind("ewa_cloud_reader_next", c.c_int, c.c_void_p, c.c_uint64, c.c_void_p)
-        self.ewa_cloud_reader_open = bind("ewa_cloud_reader_open", c.c_int, c.c_void_p, c.c_char_p, c.POINTER(ewa_cloud_load_options), c.c_void_p)
-        self.ewa_cloud_reader_prototype = bind("ewa_cloud_reader_prototype", c.c_void_p, c.c_void_p)
-        self.ewa_cloud_save = bind("ewa_cloud_save", c.c_int, c.c_void_p, c.c_char_p, c.POINTER(ewa_cloud_save_options))
-        self.ewa_cloud_save_options_init = bind("ewa_cloud_save_options_init", None, c.POINTER(ewa_cloud_save_options), c.c_size_t)
-        self.ewa_cloud_writer_abort = bind("ewa_cloud_writer_abort", None, c.c_void_p)
-        self.ewa_cloud_writer_commit = bind("ewa_cloud_writer_commit", c.c_int, c.c_void_p)
-        self.ewa_cloud_writer_needs_bounds = bind("ewa_cloud_writer_needs_bounds", c.c_bool, c.c_char_p, c.c_void_p)
-        self.ewa_cloud_writer_open = bind("ewa_cloud_writer_open", c.c_int, c.c_void_p, c.c_char_p, c.POINTER(ewa_cloud_save_options), c.c_void_p, c.c_uint64, c.POINTER(ewa_bounds), c.c_void_p)
-        self.ewa_cloud_writer_put = bind("ewa_cloud_writer_put", c.c_int, c.c_void_p, c.c_void_p)
-        self.ewa_depth_load = bind("ewa_depth_load", c.c_int, c.c_void_p, c.c_char_p, c.POINTER(ewa_image))
-        self.ewa_depth_load_memory = bind("ewa_depth_load_memory", c.c_int, c.c_void_p, c.c_void_p, c.c_size_t, c.c_char_p, c.POINTER(ewa_image))
-        self.ewa_elements_face_count = bind("ewa_elements_face_count", c.c_uint64, c.c_void_p)
-        self.ewa_elements_free = bind("ewa_elements_free", None, c.c_void_p)
-        self.ewa_image_load = bind("ewa_image_load", c.c_int, c.c_void_p, c.c_char_p, c.POINTER(ewa_image))
-        self.ewa_image_load_memory = bind("ewa_image_load_memory", c.c_int, c.c_void_p, c.c_void_p, c.c_size_t, c.c_char_p, c.POINTER(ewa_image))
-        self.ewa_image_save = bind("ewa_image_save", c.c_int, c.POINTER(ewa_image), c.c_char_p, c.POINTER(ewa_image_save_options))
-        self.ewa_image_save_options_init = bind("ewa_image_save_options_init", None, c.POINTER(ewa_image_save_options), c.c_size_t)
-        self.ewa_jpeg_save = bind("ewa_jpeg_save", c.c_int, c.c_void_p, c.c_char_p, c.c_uint32, c.c_uint32, c.c_uint32, c.c_void_p, c.c_size_t)
-        self.ewa_materials_load = bind("ewa_materials_load", c.c_int, c.c_void_p, c.c_char_p, c.POINTER(ewa_material), c.c_void_p)
-        self.ewa_parts = bind("ewa_parts", c.c_char_p)
-        self.ewa_photo_list_destroy = bind("ewa_photo_list_destroy", None, c.c_void_p)
-        self.ewa_photo_list_find_masks = bind("ewa_photo_list_find_masks", c.c_int, c.c_void_p, c.c_char_p)
-        self.ewa_photo_list_load = bind("ewa_photo_list_load", c.c_int, c.c_void_p, c.c_char_p, c.c_char_p, c.c_void_p)
-        self.ewa_photo_list_photos = bind("ewa_photo_list_photos", c.POINTER(ewa_photo), c.c_void_p, c.c_void_p)
-        self.ewa_pixels_save = bind("ewa_pixels_save", c.c_int, c.c_void_p, c.c_char_p, c.c_uint32, c.c_uint32, c.c_uint32, c.c_void_p, c.c_size_t)
-        self.ewa_ply_describe = bind("ewa_ply_describe", c.c_int, c.c_void_p, c.c_char_p, ewa_line_callback, c.c_void_p)
-        self.ewa_png_save = bind("ewa_png_save", c.c_int, c.c_void_p, c.c_char_p, c.c_uint32, c.c_uint32, c.c_uint32, c.c_void_p, c.c_size_t)
-        self.ewa_transfer_choose = bind("ewa_transfer_choose", c.c_int, c.c_void_p, c.c_char_p, c.POINTER(ewa_volume), c.POINTER(ewa_transfer))
-        self.ewa_transfer_load = bind("ewa_transfer_load", c.c_int, c.c_void_p, c.c_char_p, c.POINTER(ewa_transfer))
-        self.ewa_transfer_save = bind("ewa_transfer_save", c.c_int, c.c_void_p, c.POINTER(ewa_transfer), c.c_char_p)
-        self.ewa_volume_is_file = bind("ewa_volume_is_file", c.c_bool, c.c_void_p, c.c_char_p)
-        self.ewa_volume_is_named = bind("ewa_volume_is_named", c.c_bool, c.c_char_p)
-        self.ewa_volume_load = bind("ewa_volume_load", c.c_int, c.c_void_p, c.c_char_p, c.POINTER(ewa_volume_load_options), c.POINTER(ewa_volume))
-        self.ewa_volume_load_memory = bind("ewa_volume_load_memory", c.c_int, c.c_void_p, c.c_void_p, c.c_size_t, c.c_char_p, c.POINTER(ewa_volume_load_options), c.POINTER(ewa_volume))
-        self.ewa_volume_load_options_init = bind("ewa_volume_load_options_init", None, c.POINTER(ewa_volume_load_options), c.c_size_t)
-        self.ewa_volume_save = bind("ewa_volume_save", c.c_int, c.POINTER(ewa_volume), c.c_char_p, c.POINTER(ewa_volume_save_options))
-        self.ewa_volume_save_options_init = bind("ewa_volume_save_options_init", None, c.POINTER(ewa_volume_save_options), c.c_size_t)
-        self.ewa_lod_build = bind("ewa_lod_build", c.c_int, c.c_void_p, c.c_void_p, c.c_uint32, c.c_char_p, c.POINTER(ewa_lod_build_options), c.POINTER(ewa_lod_build_stats))
-        self.ewa_lod_build_options_init = bind("ewa_lod_build_options_init", None, c.POINTER(ewa_lod_build_options), c.c_size_t)
-        self.ewa_lod_close = bind("ewa_lod_close", None, c.c_void_p)
-        self.ewa_lod_describe = bind("ewa_lod_describe", None, c.c_void_p, c.POINTER(ewa_lod_info))
-        self.ewa_lod_is_folder = bind("ewa_lod_is_folder", c.c_bool, c.c_void_p, c.c_char_p)
-        self.ewa_lod_merge = bind("ewa_lod_merge", c.c_int, c.c_void_p, c.c_void_p, c.c_uint32, c.c_char_p, c.POINTER(ewa_lod_build_stats))
-        self.ewa_lod_open = bind("ewa_lod_open", c.c_int, c.c_void_p, c.c_char_p, c.c_void_p)
-        self.ewa_lod_options_init = bind("ewa_lod_options_init", None, c.POINTER(ewa_lod_options), c.c_size_t)
-        self.ewa_lod_probe = bind("ewa_lod_probe", c.c_bool, c.c_void_p, c.c_char_p)
-        self.ewa_lod_read = bind("ewa_lod_read", c.c_int, c.c_void_p, c.c_void_p, c.c_void_p, c.c_double, c.c_void_p)
-        self.ewa_lod_render = bind("ewa_lod_render", c.c_int, c.c_void_p, c.c_void_p, c.POINTER(ewa_camera), c.POINTER(ewa_render_options), c.POINTER(ewa_lod_options), c.POINTER(ewa_frame), c.POINTER(ewa_lod_stats))
-        self.ewa_lod_sample = bind("ewa_lod_sample", c.c_int, c.c_void_p, c.c_uint64, c.c_void_p)
-        self.ewa_lod_scene_render = bind("ewa_lod_scene_render", c.c_int, c.POINTER(ewa_lod_scene), c.c_void_p, c.POINTER(ewa_camera), c.POINTER(ewa_render_options), c.POINTER(ewa_lod_options), c.POINTER(ewa_frame), c.POINTER(ewa_lod_stats))
-        self.ewa_measure_kind_name = bind("ewa_measure_kind_name", c.c_char_p, c.c_uint32)
-        self.ewa_places_measure = bind("ewa_places_measure", c.c_int, c.c_int, c.c_void_p, c.c_uint32, c.c_void_p, c.POINTER(ewa_measurement))
-        self.ewa_mesh_create = bind("ewa_mesh_create", c.c_int, c.c_void_p, c.c_uint32, c.c_uint32, c.c_uint32, c.c_uint32, c.POINTER(ewa_mesh))
-        self.ewa_mesh_free = bind("ewa_mesh_free", None, c.POINTER(ewa_mesh))
-        self.ewa_mesh_is_closed = bind("ewa_mesh_is_closed", c.c_int, c.POINTER(ewa_mesh), c.c_void_p)
-        self.ewa_mesh_load = bind("ewa_mesh_load", c.c_int, c.c_void_p, c.c_char_p, c.POINTER(ewa_mesh))
-        self.ewa_mesh_sample = bind("ewa_mesh_sample", c.c_int, c.POINTER(ewa_mesh), c.POINTER(ewa_mesh_sample_options), c.c_void_p)
-        self.ewa_mesh_sample_options_init = bind("ewa_mesh_sample_options_init", None, c.POINTER(ewa_mesh_sample_options), c.c_size_t)
-        self.ewa_mesh_set_picture = bind("ewa_mesh_set_picture", c.c_int, c.POINTER(ewa_mesh), c.POINTER(ewa_image))
-        self.ewa_mixture_render = bind("ewa_mixture_render", c.c_int, c.c_void_p, c.POINTER(ewa_mixture), c.POINTER(ewa_camera), c.POINTER(ewa_gaussian_options), c.POINTER(ewa_frame), c.POINTER(ewa_gaussian_stats))
-        self.ewa_model_format_name = bind("ewa_model_format_name", c.c_char_p, c.c_int)
-        self.ewa_model_free = bind("ewa_model_free", None, c.POINTER(ewa_model))
-        self.ewa_model_load = bind("ewa_model_load", c.c_int, c.c_void_p, c.c_char_p, c.c_uint32, c.POINTER(ewa_cloud_load_options), c.POINTER(ewa_model))
-        self.ewa_model_load_memory = bind("ewa_model_load_memory", c.c_int, c.c_void_p, c.c_void_p, c.c_size_t, c.c_char_p, c.c_char_p, c.c_uint32, c.POINTER(ewa_cloud_load_options), c.POINTER(ewa_model))
-        self.ewa_model_probe = bind("ewa_model_probe", c.c_int, c.c_void_p, c.c_char_p, c.c_void_p)
-        self.ewa_color_read = bind("ewa_color_read", c.c_bool, c.c_char_p, c.c_void_p)
-        self.ewa_option_find = bind("ewa_option_find", c.POINTER(ewa_option), c.POINTER(ewa_option_table), c.c_char_p)
-        self.ewa_option_get = bind("ewa_option_get", None, c.POINTER(ewa_option), c.c_void_p, c.c_void_p)
-        self.ewa_option_range = bind("ewa_option_range", None, c.POINTER(ewa_option), c.c_void_p)
-        self.ewa_option_set = bind("ewa_option_set", c.c_int, c.POINTER(ewa_option), c.c_void_p, c.c_char_p, c.c_void_p)
-        self.ewa_panorama_options_init = bind("ewa_panorama_options_init", None, c.POINTER(ewa_panorama_options), c.c_size_t)
-        self.ewa_scene_draw_panorama = bind("ewa_scene_draw_panorama", c.c_int, c.c_void_p, c.c_void_p, c.POINTER(ewa_camera), c.POINTER(ewa_scene_options), c.POINTER(ewa_panorama_options), c.POINTER(ewa_frame), c.POINTER(ewa_scene_stats))
-        self.ewa_scene_place_panorama = bind("ewa_scene_place_panorama", c.c_int, c.c_void_p, c.POINTER(ewa_view_options), c.POINTER(ewa_panorama_options), c.POINTER(ewa_camera))
-        self.ewa_cloud_color_from_photos = bind("ewa_cloud_color_from_photos", c.c_int, c.c_void_p, c.POINTER(ewa_photo), c.c_uint32, c.POINTER(ewa_photos_options), c.POINTER(ewa_photos_report), c.POINTER(ewa_photo_report))
-        self.ewa_image_compare = bind("ewa_image_compare", c.c_int, c.POINTER(ewa_image), c.POINTER(ewa_image), c.POINTER(ewa_image_quality))
-        self.ewa_image_undistort = bind("ewa_image_undistort", c.c_int, c.POINTER(ewa_image), c.POINTER(ewa_camera), c.POINTER(ewa_lens), c.POINTER(ewa_image))
-        self.ewa_photo_load = bind("ewa_photo_load", c.c_int, c.c_void_p, c.POINTER(ewa_photo), c.c_void_p, c.POINTER(ewa_image))
-        self.ewa_photos_options_init = bind("ewa_photos_options_init", None, c.POINTER(ewa_photos_options), c.c_size_t)
-        self.ewa_cloud_csg = bind("ewa_cloud_csg", c.c_int, c.c_void_p, c.c_void_p, c.POINTER(ewa_csg_options), c.c_void_p)
-        self.ewa_cloud_detect_features = bind("ewa_cloud_detect_features", c.c_int, c.c_void_p, c.POINTER(ewa_feature_options), c.POINTER(ewa_feature_counts))
-        self.ewa_cloud_estimate = bind("ewa_cloud_estimate", c.c_int, c.c_void_p, c.POINTER(ewa_estimate_options))
-        self.ewa_cloud_generate = bind("ewa_cloud_generate", c.c_int, c.c_void_p, c.POINTER(ewa_generate_options), c.c_void_p)
-        self.ewa_cloud_mark_outliers = bind("ewa_cloud_mark_outliers", c.c_int, c.c_void_p, c.POINTER(ewa_estimate_options), c.c_void_p)
-        self.ewa_cloud_measure_spacing = bind("ewa_cloud_measure_spacing", c.c_int, c.c_void_p, c.c_uint64, c.POINTER(ewa_spacing))
-        self.ewa_cloud_refit_colors = bind("ewa_cloud_refit_colors", c.c_int, c.c_void_p, c.POINTER(ewa_refit_options), c.POINTER(ewa_refit_report))
-        self.ewa_csg_options_init = bind("ewa_csg_options_init", None, c.POINTER(ewa_csg_options), c.c_size_t)
-        self.ewa_estimate_options_init = bind("ewa_estimate_options_init", None, c.POINTER(ewa_estimate_options), c.c_size_t)
-        self.ewa_feature_options_init = bind("ewa_feature_options_init", None, c.POINTER(ewa_feature_options), c.c_size_t)
-        self.ewa_generate_options_init = bind("ewa_generate_options_init", None, c.POINTER(ewa_generate_options), c.c_size_t)
-        self.ewa_refit_options_init = bind("ewa_refit_options_init", None, c.POINTER(ewa_refit_options), c.c_size_t)
-        self.ewa_volume_generate = bind("ewa_volume_generate", c.c_int, c.c_void_p, c.POINTER(ewa_volume_generate_options), c.POINTER(ewa_volume))
-        self.ewa_volume_generate_options_init = bind("ewa_volume_generate_options_init", None, c.POINTER(ewa_volume_generate_options), c.c_size_t)
-        self.ewa_volume_outline = bind("ewa_volume_outline", c.c_int, c.POINTER(ewa_volume), c.POINTER(ewa_transfer), c.c_double, c.c_void_p)
-        self.ewa_cloud_color_by_procedure = bind("ewa_cloud_color_by_procedure", c.c_int, c.c_void_p, c.POINTER(ewa_procedure_options))
-        self.ewa_procedure_options_init = bind("ewa_procedure_options_init", None, c.POINTER(ewa_procedure_options), c.c_int, c.c_size_t)
-        self.ewa_profile_draw = bind("ewa_profile_draw", c.c_int, c.POINTER(ewa_profile), c.POINTER(ewa_profile_graph_options), c.POINTER(ewa_canvas))
-        self.ewa_profile_free = bind("ewa_profile_free", None, c.POINTER(ewa_profile))
-        self.ewa_profile_graph_options_init = bind("ewa_profile_graph_options_init", None, c.POINTER(ewa_profile_graph_options), c.c_size_t)
-        self.ewa_profile_line_read = bind("ewa_profile_line_read", c.c_int, c.c_char_p, c.c_void_p, c.c_void_p, c.c_void_p)
-        self.ewa_profile_options_init = bind("ewa_profile_options_init", None, c.POINTER(ewa_profile_options), c.c_size_t)
-        self.ewa_scene_profile = bind("ewa_scene_profile", c.c_int, c.c_void_p, c.c_void_p, c.c_uint32, c.POINTER(ewa_profile_options), c.POINTER(ewa_profile))
-        self.ewa_region_set_outline = bind("ewa_region_set_outline", c.c_int, c.POINTER(ewa_region), c.POINTER(ewa_camera), c.c_void_p, c.c_uint32)
-        self.ewa_regions_mark = bind("ewa_regions_mark", c.c_int, c.POINTER(ewa_region), c.c_uint32, c.c_void_p, c.c_void_p)
-        self.ewa_render = bind("ewa_render", c.c_int, c.c_void_p, c.c_void_p, c.POINTER(ewa_camera), c.POINTER(ewa_render_options), c.POINTER(ewa_frame), c.POINTER(ewa_render_stats))
-        self.ewa_render_add = bind("ewa_render_add", c.c_int, c.c_void_p, c.c_void_p)
-        self.ewa_render_add_weighted = bind("ewa_render_add_weighted", c.c_int, c.c_void_p, c.c_void_p, c.c_double)
-        self.ewa_render_begin = bind("ewa_render_begin", c.c_int, c.c_void_p, c.POINTER(ewa_camera), c.POINTER(ewa_render_options), c.POINTER(ewa_frame))
-        self.ewa_render_finish = bind("ewa_render_finish", c.c_int, c.c_void_p, c.POINTER(ewa_render_stats))
-        self.ewa_render_options_init = bind("ewa_render_options_init", None, c.POINTER(ewa_render_options), c.c_size_t)
-        self.ewa_render_stats_add = bind("ewa_render_stats_add", None, c.POINTER(ewa_render_stats), c.POINTER(ewa_render_stats))
-        self.ewa_renderer_create = bind("ewa_renderer_create", c.c_int, c.c_void_p, c.c_void_p)
-        self.ewa_renderer_destroy = bind("ewa_renderer_destroy", None, c.c_void_p)
-        self.ewa_surfels_create = bind("ewa_surfels_create", c.c_int, c.c_void_p, c.POINTER(ewa_surfels_options), c.c_void_p)
-        self.ewa_surfels_describe = bind("ewa_surfels_describe", None, c.c_void_p, c.POINTER(ewa_surfels_info))
-        self.ewa_surfels_destroy = bind("ewa_surfels_destroy", None, c.c_void_p)
-        self.ewa_surfels_options_init = bind("ewa_surfels_options_init", None, c.POINTER(ewa_surfels_options), c.c_size_t)
-        self.ewa_texture_map = bind("ewa_texture_map", c.c_int, c.c_void_p, c.POINTER(ewa_texture_source), c.POINTER(ewa_mat3), c.POINTER(ewa_texture_options), c.POINTER(ewa_texture_target), c.POINTER(ewa_texture_stats))
-        self.ewa_texture_map_from_camera = bind("ewa_texture_map_from_camera", c.c_int, c.c_void_p, c.c_uint32, c.c_uint32, c.POINTER(ewa_camera), c.c_void_p, c.c_void_p, c.c_void_p, c.POINTER(ewa_mat3))
-        self.ewa_texture_map_from_corners = bind("ewa_texture_map_from_corners", c.c_int, c.c_void_p, c.c_uint32, c.c_uint32, c.c_void_p, c.POINTER(ewa_mat3))
-        self.ewa_texture_options_init = bind("ewa_texture_options_init", None, c.POINTER(ewa_texture_options), c.c_size_t)
-        self.ewa_asset_create = bind("ewa_asset_create", c.c_int, c.c_void_p, c.POINTER(ewa_asset_source), c.POINTER(ewa_asset_options), c.c_void_p)
-        self.ewa_asset_describe = bind("ewa_asset_describe", None, c.c_void_p, c.POINTER(ewa_asset_info))
-        self.ewa_asset_find_upright = bind("ewa_asset_find_upright", c.c_int, c.c_void_p, c.POINTER(ewa_upright))
-        self.ewa_asset_kind_name = bind("ewa_asset_kind_name", c.c_char_p, c.c_int)
-        self.ewa_asset_load = bind("ewa_asset_load", c.c_int, c.c_void_p, c.c_char_p, c.POINTER(ewa_asset_options), c.c_void_p)
-        self.ewa_asset_options_init = bind("ewa_asset_options_init", None, c.POINTER(ewa_asset_options), c.c_size_t)
-        self.ewa_asset_probe = bind("ewa_asset_probe", c.c_int, c.c_void_p, c.c_char_p, c.POINTER(ewa_asset_options), c.c_void_p)
-        self.ewa_asset_release = bind("ewa_asset_release", None, c.c_void_p)
-        self.ewa_asset_retain = bind("ewa_asset_retain", c.c_void_p, c.c_void_p)
-        self.ewa_cloud_place_camera = bind("ewa_cloud_place_camera", c.c_int, c.c_void_p, c.c_double, c.c_int, c.c_int, c.POINTER(ewa_view_options), c.POINTER(ewa_camera), c.POINTER(ewa_view_info))
-        self.ewa_instance_init = bind("ewa_instance_init", None, c.POINTER(ewa_instance), c.c_size_t)
-        self.ewa_scene_add = bind("ewa_scene_add", c.c_int, c.c_void_p, c.c_void_p, c.POINTER(ewa_instance))
-        self.ewa_scene_asset = bind("ewa_scene_asset", c.c_void_p, c.c_void_p, c.c_uint32)
-        self.ewa_scene_bounds = bind("ewa_scene_bounds", None, c.c_void_p, c.POINTER(ewa_bounds))
-        self.ewa_scene_cloud = bind("ewa_scene_cloud", c.c_int, c.c_void_p, c.c_void_p)
-        self.ewa_scene_commit = bind("ewa_scene_commit", c.c_int, c.c_void_p)
-        self.ewa_scene_compare_photo = bind("ewa_scene_compare_photo", c.c_int, c.c_void_p, c.c_void_p, c.POINTER(ewa_photo), c.POINTER(ewa_scene_options), c.POINTER(ewa_photo_comparison))
-        self.ewa_scene_complete = bind("ewa_scene_complete", c.c_int, c.c_void_p)
-        self.ewa_scene_copy = bind("ewa_scene_copy", c.c_int, c.c_void_p, c.c_void_p, c.c_void_p)
-        self.ewa_scene_count = bind("ewa_scene_count", c.c_uint32, c.c_void_p)
-        self.ewa_scene_create = bind("ewa_scene_create", c.c_int, c.c_void_p, c.POINTER(ewa_scene_options), c.c_void_p)
-        self.ewa_scene_describe = bind("ewa_scene_describe", None, c.c_void_p, c.POINTER(ewa_scene_info))
-        self.ewa_scene_destroy = bind("ewa_scene_destroy", None, c.c_void_p)
-        self.ewa_scene_draw = bind("ewa_scene_draw", c.c_int, c.c_void_p, c.c_void_p, c.POINTER(ewa_camera), c.POINTER(ewa_scene_options), c.POINTER(ewa_frame), c.POINTER(ewa_scene_stats))
-        self.ewa_scene_draw_outlines = bind("ewa_scene_draw_outlines", c.c_int, c.c_void_p, c.c_void_p, c.POINTER(ewa_camera), c.POINTER(ewa_scene_options), c.c_uint32, c.POINTER(ewa_canvas))
-        self.ewa_scene_get = bind("ewa_scene_get", c.c_int, c.c_void_p, c.c_uint32, c.POINTER(ewa_instance))
-        self.ewa_scene_get_camera = bind("ewa_scene_get_camera", c.c_bool, c.c_void_p, c.POINTER(ewa_camera))
-        self.ewa_scene_get_options = bind("ewa_scene_get_options", None, c.c_void_p, c.POINTER(ewa_scene_options))
-        self.ewa_scene_legend = bind("ewa_scene_legend", c.POINTER(ewa_legend), c.c_void_p, c.c_uint32)
-        self.ewa_scene_options_init = bind("ewa_scene_options_init", None, c.POINTER(ewa_scene_options), c.c_size_t)
-        self.ewa_scene_pick = bind("ewa_scene_pick", c.c_int, c.c_void_p, c.c_void_p, c.POINTER(ewa_camera), c.POINTER(ewa_scene_options), c.c_double, c.c_double, c.c_double, c.c_double, c.POINTER(ewa_scene_hit))
-        self.ewa_scene_place_camera = bind("ewa_scene_place_camera", c.c_int, c.c_void_p, c.POINTER(ewa_view_options), c.POINTER(ewa_camera), c.POINTER(ewa_view_info))
-        self.ewa_scene_points = bind("ewa_scene_points", c.c_int, c.c_void_p, c.c_void_p)
-        self.ewa_scene_reader_choose = bind("ewa_scene_reader_choose", c.c_int, c.c_void_p, c.c_void_p, c.POINTER(ewa_camera), c.POINTER(ewa_scene_options), c.c_uint32, c.c_void_p)
-        self.ewa_scene_reader_create = bind("ewa_scene_reader_create", c.c_int, c.c_void_p, c.c_void_p)
-        self.ewa_scene_reader_destroy = bind("ewa_scene_reader_destroy", None, c.c_void_p)
-        self.ewa_scene_reader_put = bind("ewa_scene_reader_put", None, c.c_void_p)
-        self.ewa_scene_reader_read = bind("ewa_scene_reader_read", c.c_int, c.c_void_p)
-        self.ewa_scene_remove = bind("ewa_scene_remove", c.c_int, c.c_void_p, c.c_uint32)
-        self.ewa_scene_renderer_create = bind("ewa_scene_renderer_create", c.c_int, c.c_void_p, c.c_int, c.POINTER(ewa_exchange), c.c_void_p)
-        self.ewa_scene_renderer_destroy = bind("ewa_scene_renderer_destroy", None, c.c_void_p)
-        self.ewa_scene_renderer_surfaces = bind("ewa_scene_renderer_surfaces", c.c_void_p, c.c_void_p)
-        self.ewa_scene_reuse = bind("ewa_scene_reuse", None, c.c_void_p, c.c_void_p)
-        self.ewa_scene_set = bind("ewa_scene_set", c.c_int, c.c_void_p, c.c_uint32, c.POINTER(ewa_instance))
-        self.ewa_scene_set_camera = bind("ewa_scene_set_camera", c.c_int, c.c_void_p, c.POINTER(ewa_camera))
-        self.ewa_scene_set_options = bind("ewa_scene_set_options", c.c_int, c.c_void_p, c.POINTER(ewa_scene_options))
-        self.ewa_view_options_init = bind("ewa_view_options_init", None, c.POINTER(ewa_view_options), c.c_size_t)
-        self.ewa_scene_describe_json = bind("ewa_scene_describe_json", c.c_int, c.c_void_p, c.c_void_p)
-        self.ewa_scene_file_apply = bind("ewa_scene_file_apply", None, c.c_void_p, c.POINTER(ewa_scene_options))
-        self.ewa_scene_file_camera = bind("ewa_scene_file_camera", c.c_bool, c.c_void_p, c.POINTER(ewa_camera))
-        self.ewa_scene_file_count = bind("ewa_scene_file_count", c.c_uint32, c.c_void_p)
-        self.ewa_scene_file_destroy = bind("ewa_scene_file_destroy", None, c.c_void_p)
-        self.ewa_scene_file_entry = bind("ewa_scene_file_entry", c.c_int, c.c_void_p, c.c_uint32, c.POINTER(ewa_scene_entry))
-        self.ewa_scene_file_load = bind("ewa_scene_file_load", c.c_int, c.c_void_p, c.c_char_p, c.POINTER(ewa_asset_options), c.c_void_p)
-        self.ewa_scene_file_probe = bind("ewa_scene_file_probe", c.c_bool, c.c_char_p)
-        self.ewa_scene_open = bind("ewa_scene_open", c.c_int, c.c_void_p, c.c_char_p, c.POINTER(ewa_asset_options))
-        self.ewa_scene_save = bind("ewa_scene_save", c.c_int, c.c_void_p, c.POINTER(ewa_camera), c.c_char_p)
-        self.ewa_text_free = bind("ewa_text_free", None, c.c_void_p)
-        self.ewa_box_mark = bind("ewa_box_mark", c.c_int, c.c_void_p, c.c_void_p, c.c_void_p)
-        self.ewa_cloud_find_scalar = bind("ewa_cloud_find_scalar", c.c_int, c.c_void_p, c.c_char_p, c.POINTER(ewa_scalar))
-        self.ewa_cloud_keep = bind("ewa_cloud_keep", c.c_int, c.c_void_p, c.c_void_p, c.c_void_p)
-        self.ewa_cloud_thin_distance = bind("ewa_cloud_thin_distance", c.c_int, c.c_void_p, c.c_double, c.c_void_p)
-        self.ewa_cloud_thin_voxels = bind("ewa_cloud_thin_voxels", c.c_int, c.c_void_p, c.c_double, c.c_void_p)
-        self.ewa_filter_add = bind("ewa_filter_add", c.c_int, c.POINTER(ewa_filter), c.c_char_p, c.c_void_p)
-        self.ewa_filter_mark = bind("ewa_filter_mark", c.c_int, c.POINTER(ewa_filter), c.c_void_p, c.c_void_p)
-        self.ewa_filter_write = bind("ewa_filter_write", c.c_bool, c.POINTER(ewa_filter), c.c_char_p, c.c_size_t)
-        self.ewa_polygon_box = bind("ewa_polygon_box", None, c.c_void_p, c.c_void_p)
-        self.ewa_polygon_create = bind("ewa_polygon_create", c.c_int, c.c_void_p, c.c_void_p, c.c_void_p, c.c_uint32, c.c_void_p)
-        self.ewa_polygon_destroy = bind("ewa_polygon_destroy", None, c.c_void_p)
-        self.ewa_polygon_load = bind("ewa_polygon_load", c.c_int, c.c_void_p, c.c_char_p, c.c_void_p)
-        self.ewa_polygon_mark = bind("ewa_polygon_mark", c.c_int, c.c_void_p, c.c_void_p, c.c_void_p)
-        self.ewa_polygon_read = bind("ewa_polygon_read", c.c_int, c.c_void_p, c.c_char_p, c.c_void_p, c.c_size_t, c.c_void_p)
-        self.ewa_rank_select = bind("ewa_rank_select", c.c_double, c.c_void_p, c.c_size_t, c.c_size_t)
-        self.ewa_scalar_read = bind("ewa_scalar_read", None, c.POINTER(ewa_scalar), c.c_uint64, c.c_uint64, c.c_void_p)
-        self.ewa_environment_create = bind("ewa_environment_create", c.c_int, c.POINTER(ewa_image), c.c_void_p)
-        self.ewa_environment_destroy = bind("ewa_environment_destroy", None, c.c_void_p)
-        self.ewa_light_init = bind("ewa_light_init", None, c.POINTER(ewa_light))
-        self.ewa_material_init = bind("ewa_material_init", None, c.POINTER(ewa_material))
-        self.ewa_transfer_automatic = bind("ewa_transfer_automatic", c.c_int, c.POINTER(ewa_volume), c.POINTER(ewa_volume_facts), c.POINTER(ewa_transfer))
-        self.ewa_transfer_preset = bind("ewa_transfer_preset", c.c_int, c.POINTER(ewa_volume), c.POINTER(ewa_volume_facts), c.c_char_p, c.POINTER(ewa_transfer))
-        self.ewa_transfer_preset_name = bind("ewa_transfer_preset_name", c.c_char_p, c.c_uint32, c.c_void_p)
-        self.ewa_volume_create = bind("ewa_volume_create", c.c_int, c.c_void_p, c.c_void_p, c.c_int, c.POINTER(ewa_volume))
-        self.ewa_volume_free = bind("ewa_volume_free", None, c.POINTER(ewa_volume))
-        self.ewa_volume_measure = bind("ewa_volume_measure", c.c_int, c.POINTER(ewa_volume), c.POINTER(ewa_volume_facts))
-        self.ewa_volume_options_init = bind("ewa_volume_options_init", None, c.POINTER(ewa_volume_options), c.c_size_t)
-        self.ewa_volume_render = bind("ewa_volume_render", c.c_int, c.c_void_p, c.c_void_p, c.POINTER(ewa_camera), c.POINTER(ewa_volume_options), c.POINTER(ewa_frame), c.POINTER(ewa_volume_stats))
-        self.ewa_volume_renderer_create = bind("ewa_volume_renderer_create", c.c_int, c.c_void_p, c.c_void_p)
-        self.ewa_volume_renderer_destroy = bind("ewa_volume_renderer_destroy", None, c.c_void_p)
-        self.ewa_voxels_create = bind("ewa_voxels_create", c.c_int, c.POINTER(ewa_volume), c.POINTER(ewa_transfer), c.POINTER(ewa_voxels_options), c.c_void_p)
-        self.ewa_voxels_describe = bind("ewa_voxels_describe", None, c.c_void_p, c.POINTER(ewa_voxels_info))
-        self.ewa_voxels_destroy = bind("ewa_voxels_destroy", None, c.c_void_p)
-        self.ewa_voxels_options_init = bind("ewa_voxels_options_init", None, c.POINTER(ewa_voxels_options), c.c_size_t)
-        self.ewa_depth_file_scale = bind("ewa_depth_file_scale", c.c_double, c.c_char_p, c.c_int)
-        self.ewa_depth_image_init = bind("ewa_depth_image_init", None, c.POINTER(ewa_depth_image))
-        self.ewa_warp_create = bind("ewa_warp_create", c.c_int, c.c_void_p, c.c_void_p)
-        self.ewa_warp_destroy = bind("ewa_warp_destroy", None, c.c_void_p)
-        self.ewa_warp_draw = bind("ewa_warp_draw", c.c_int, c.c_void_p, c.POINTER(ewa_camera), c.c_int, c.POINTER(ewa_render_options), c.POINTER(ewa_frame), c.c_void_p, c.POINTER(ewa_render_stats))
-        self.ewa_warp_options_init = bind("ewa_warp_options_init", None, c.POINTER(ewa_warp_options), c.c_size_t)
-        self.ewa_warp_render_options_init = bind("ewa_warp_render_options_init", None, c.POINTER(ewa_render_options), c.c_size_t)
-        self.ewa_warp_take = bind("ewa_warp_take", c.c_int, c.c_void_p, c.POINTER(ewa_depth_image), c.c_uint32, c.POINTER(ewa_warp_options), c.POINTER(ewa_warp_facts))
+        self.ewa_context_cpu_features: Callable[..., int] = bind("ewa_context_cpu_features", c.c_uint32, c.c_void_p)
+        self.ewa_context_create: Callable[..., int] = bind("ewa_context_create", c.c_int, c.POINTER(ewa_context_options), c.c_void_p)
+        self.ewa_context_destroy: Callable[..., None] = bind("ewa_context_destroy", None, c.c_void_p)
+        self.ewa_context_options_init: Callable[..., None] = bind("ewa_context_options_init", None, c.POINTER(ewa_context_options), c.c_size_t)
+        self.ewa_context_worker_count: Callable[..., int] = bind("ewa_context_worker_count", c.c_uint32, c.c_void_p)
+        self.ewa_status_name: Callable[..., bytes | None] = bind("ewa_status_name", c.c_char_p, c.c_int)
+        self.ewa_type_bytes: Callable[..., int] = bind("ewa_type_bytes", c.c_size_t, c.c_int)
+        self.ewa_type_name: Callable[..., bytes | None] = bind("ewa_type_name", c.c_char_p, c.c_int)
+        self.ewa_version: Callable[..., bytes | None] = bind("ewa_version", c.c_char_p)
+        self.ewa_acquire_options_init: Callable[..., None] = bind("ewa_acquire_options_init", None, c.POINTER(ewa_acquire_options), c.c_size_t)
+        self.ewa_cloud_acquire: Callable[..., int] = bind("ewa_cloud_acquire", c.c_int, c.c_void_p, c.POINTER(ewa_image), c.c_uint32, c.POINTER(ewa_acquire_options), c.POINTER(ewa_acquire_report))
+        self.ewa_render_backward: Callable[..., int] = bind("ewa_render_backward", c.c_int, c.c_void_p, c.POINTER(ewa_surfels_options), c.c_double, c.POINTER(ewa_camera), c.POINTER(ewa_render_options), c.POINTER(ewa_frame_cotangent), c.POINTER(ewa_gradient))
+        self.ewa_camera_check: Callable[..., int] = bind("ewa_camera_check", c.c_int, c.c_void_p, c.POINTER(ewa_camera))
+        self.ewa_camera_eye: Callable[..., None] = bind("ewa_camera_eye", None, c.POINTER(ewa_camera), c.c_void_p)
+        self.ewa_camera_frame: Callable[..., int] = bind("ewa_camera_frame", c.c_int, c.POINTER(ewa_camera), c.POINTER(ewa_bounds), c.c_void_p, c.c_void_p, c.c_double)
+        self.ewa_camera_init: Callable[..., None] = bind("ewa_camera_init", None, c.POINTER(ewa_camera))
+        self.ewa_camera_look_at: Callable[..., int] = bind("ewa_camera_look_at", c.c_int, c.POINTER(ewa_camera), c.c_void_p, c.c_void_p, c.c_void_p)
+        self.ewa_camera_orbit: Callable[..., int] = bind("ewa_camera_orbit", c.c_int, c.POINTER(ewa_camera), c.c_void_p, c.c_void_p, c.c_double)
+        self.ewa_camera_path_at: Callable[..., int] = bind("ewa_camera_path_at", c.c_int, c.c_void_p, c.c_double, c.POINTER(ewa_camera))
+        self.ewa_camera_path_create: Callable[..., int] = bind("ewa_camera_path_create", c.c_int, c.c_void_p, c.POINTER(ewa_camera), c.c_size_t, c.c_bool, c.c_void_p)
+        self.ewa_camera_path_destroy: Callable[..., None] = bind("ewa_camera_path_destroy", None, c.c_void_p)
+        self.ewa_camera_set_fov: Callable[..., int] = bind("ewa_camera_set_fov", c.c_int, c.POINTER(ewa_camera), c.c_double)
+        self.ewa_camera_set_ortho: Callable[..., int] = bind("ewa_camera_set_ortho", c.c_int, c.POINTER(ewa_camera), c.c_double)
+        self.ewa_attribute_read_f32: Callable[..., None] = bind("ewa_attribute_read_f32", None, c.POINTER(ewa_attribute), c.c_uint64, c.c_uint64, c.c_void_p)
+        self.ewa_attribute_read_f64: Callable[..., None] = bind("ewa_attribute_read_f64", None, c.POINTER(ewa_attribute), c.c_uint64, c.c_uint64, c.c_void_p)
+        self.ewa_cloud_add: Callable[..., int] = bind("ewa_cloud_add", c.c_int, c.c_void_p, c.c_char_p, c.c_int, c.c_uint32, c.c_void_p)
+        self.ewa_cloud_attribute_at: Callable[..., Any] = bind("ewa_cloud_attribute_at", c.POINTER(ewa_attribute), c.c_void_p, c.c_uint32)
+        self.ewa_cloud_attribute_count: Callable[..., int] = bind("ewa_cloud_attribute_count", c.c_uint32, c.c_void_p)
+        self.ewa_cloud_borrow: Callable[..., int] = bind("ewa_cloud_borrow", c.c_int, c.c_void_p, c.c_char_p, c.c_int, c.c_uint32, c.c_void_p, c.c_size_t)
+        self.ewa_cloud_create: Callable[..., int] = bind("ewa_cloud_create", c.c_int, c.c_void_p, c.c_uint64, c.c_void_p)
+        self.ewa_cloud_destroy: Callable[..., None] = bind("ewa_cloud_destroy", None, c.c_void_p)
+        self.ewa_cloud_find: Callable[..., Any] = bind("ewa_cloud_find", c.POINTER(ewa_attribute), c.c_void_p, c.c_char_p)
+        self.ewa_cloud_grid: Callable[..., None] = bind("ewa_cloud_grid", None, c.c_void_p, c.POINTER(ewa_coordinate_grid))
+        self.ewa_cloud_is_drawable: Callable[..., bool] = bind("ewa_cloud_is_drawable", c.c_bool, c.c_void_p)
+        self.ewa_cloud_measure: Callable[..., int] = bind("ewa_cloud_measure", c.c_int, c.c_void_p, c.POINTER(ewa_bounds))
+        self.ewa_cloud_merge: Callable[..., int] = bind("ewa_cloud_merge", c.c_int, c.c_void_p, c.c_uint32, c.c_void_p)
+        self.ewa_cloud_note: Callable[..., bytes | None] = bind("ewa_cloud_note", c.c_char_p, c.c_void_p, c.c_char_p, c.c_void_p)
+        self.ewa_cloud_note_name: Callable[..., bytes | None] = bind("ewa_cloud_note_name", c.c_char_p, c.c_void_p, c.c_uint32)
+        self.ewa_cloud_origin: Callable[..., None] = bind("ewa_cloud_origin", None, c.c_void_p, c.c_void_p)
+        self.ewa_cloud_point_count: Callable[..., int] = bind("ewa_cloud_point_count", c.c_uint64, c.c_void_p)
+        self.ewa_cloud_remove: Callable[..., None] = bind("ewa_cloud_remove", None, c.c_void_p, c.c_char_p)
+        self.ewa_cloud_select: Callable[..., int] = bind("ewa_cloud_select", c.c_int, c.c_void_p, c.c_void_p, c.c_uint64, c.c_void_p)
+        self.ewa_cloud_set_grid: Callable[..., None] = bind("ewa_cloud_set_grid", None, c.c_void_p, c.POINTER(ewa_coordinate_grid))
+        self.ewa_cloud_set_note: Callable[..., int] = bind("ewa_cloud_set_note", c.c_int, c.c_void_p, c.c_char_p, c.c_void_p, c.c_size_t)
+        self.ewa_cloud_set_origin: Callable[..., None] = bind("ewa_cloud_set_origin", None, c.c_void_p, c.c_void_p)
+        self.ewa_cloud_transform: Callable[..., int] = bind("ewa_cloud_transform", c.c_int, c.c_void_p, c.c_void_p)
+        self.ewa_grid_world: Callable[..., float] = bind("ewa_grid_world", c.c_double, c.POINTER(ewa_coordinate_grid), c.c_uint32, c.c_double)
+        self.ewa_exchange_add: Callable[..., int] = bind("ewa_exchange_add", c.c_int, c.c_void_p, c.POINTER(ewa_exchange), c.c_void_p, c.c_size_t)
+        self.ewa_exchange_gather: Callable[..., int] = bind("ewa_exchange_gather", c.c_int, c.c_void_p, c.POINTER(ewa_exchange), c.c_void_p, c.c_size_t, c.c_void_p)
+        self.ewa_renderer_create_joint: Callable[..., int] = bind("ewa_renderer_create_joint", c.c_int, c.c_void_p, c.POINTER(ewa_exchange), c.c_void_p)
+        self.ewa_clouds_color: Callable[..., int] = bind("ewa_clouds_color", c.c_int, c.c_void_p, c.c_uint32, c.POINTER(ewa_coloring), c.POINTER(ewa_legend))
+        self.ewa_coloring_init: Callable[..., None] = bind("ewa_coloring_init", None, c.POINTER(ewa_coloring), c.c_size_t)
+        self.ewa_coloring_is_own: Callable[..., bool] = bind("ewa_coloring_is_own", c.c_bool, c.c_char_p)
+        self.ewa_coloring_names_classes: Callable[..., bool] = bind("ewa_coloring_names_classes", c.c_bool, c.c_char_p)
+        self.ewa_legend_free: Callable[..., None] = bind("ewa_legend_free", None, c.POINTER(ewa_legend))
+        self.ewa_cloud_check_degrees: Callable[..., None] = bind("ewa_cloud_check_degrees", None, c.c_void_p)
+        self.ewa_cloud_check_steps: Callable[..., None] = bind("ewa_cloud_check_steps", None, c.c_void_p)
+        self.ewa_cloud_count_invalid_points: Callable[..., None] = bind("ewa_cloud_count_invalid_points", None, c.c_void_p, c.POINTER(ewa_cloud_invalid_points))
+        self.ewa_cloud_drop_zero_normals: Callable[..., None] = bind("ewa_cloud_drop_zero_normals", None, c.c_void_p)
+        self.ewa_cloud_find_degrees: Callable[..., bool] = bind("ewa_cloud_find_degrees", c.c_bool, c.c_void_p, c.c_void_p)
+        self.ewa_cloud_find_gaussians: Callable[..., ewa_gaussian_columns] = bind("ewa_cloud_find_gaussians", ewa_gaussian_columns, c.c_void_p)
+        self.ewa_cloud_refuse_gaussians: Callable[..., int] = bind("ewa_cloud_refuse_gaussians", c.c_int, c.c_void_p)
+        self.ewa_cloud_report_invalid_points: Callable[..., int] = bind("ewa_cloud_report_invalid_points", c.c_int, c.c_void_p, c.POINTER(ewa_surfels_info))
+        self.ewa_gaussian_columns_describe: Callable[..., None] = bind("ewa_gaussian_columns_describe", None, c.POINTER(ewa_gaussian_columns), c.c_void_p)
+        self.ewa_framing_choose: Callable[..., None] = bind("ewa_framing_choose", None, c.c_void_p, c.c_int, c.POINTER(ewa_upright))
+        self.ewa_framing_create: Callable[..., int] = bind("ewa_framing_create", c.c_int, c.c_void_p, c.c_double, c.c_void_p)
+        self.ewa_framing_describe: Callable[..., None] = bind("ewa_framing_describe", None, c.c_void_p, c.POINTER(ewa_framing_info))
+        self.ewa_framing_destroy: Callable[..., None] = bind("ewa_framing_destroy", None, c.c_void_p)
+        self.ewa_framing_fit: Callable[..., int] = bind("ewa_framing_fit", c.c_int, c.c_void_p, c.c_void_p, c.c_void_p, c.POINTER(ewa_camera))
+        self.ewa_framing_revolve: Callable[..., int] = bind("ewa_framing_revolve", c.c_int, c.c_void_p, c.c_void_p, c.c_void_p, c.c_void_p, c.c_void_p)
+        self.ewa_framing_zoom: Callable[..., int] = bind("ewa_framing_zoom", c.c_int, c.c_void_p, c.c_void_p, c.c_void_p, c.POINTER(ewa_camera))
+        self.ewa_up_convention_of: Callable[..., int] = bind("ewa_up_convention_of", c.c_int, c.c_size_t, c.c_void_p)
+        self.ewa_upright_describe: Callable[..., None] = bind("ewa_upright_describe", None, c.POINTER(ewa_upright), c.c_void_p)
+        self.ewa_upright_look: Callable[..., None] = bind("ewa_upright_look", None, c.POINTER(ewa_upright), c.c_void_p, c.c_void_p)
+        self.ewa_upright_place: Callable[..., bytes | None] = bind("ewa_upright_place", c.c_char_p, c.POINTER(ewa_upright))
+        self.ewa_upright_turn: Callable[..., int] = bind("ewa_upright_turn", c.c_int, c.c_void_p, c.c_double, c.c_double, c.c_void_p, c.c_void_p)
+        self.ewa_upright_view: Callable[..., int] = bind("ewa_upright_view", c.c_int, c.c_void_p, c.c_int)
+        self.ewa_draw_line: Callable[..., None] = bind("ewa_draw_line", None, c.POINTER(ewa_canvas), c.c_double, c.c_double, c.c_double, c.c_double, c.c_double, c.c_void_p)
+        self.ewa_draw_rectangle: Callable[..., None] = bind("ewa_draw_rectangle", None, c.POINTER(ewa_canvas), c.c_double, c.c_double, c.c_double, c.c_double, c.c_void_p)
+        self.ewa_draw_text: Callable[..., None] = bind("ewa_draw_text", None, c.POINTER(ewa_canvas), c.c_char_p, c.c_double, c.c_double, c.POINTER(ewa_text_style))
+        self.ewa_furniture_draw: Callable[..., int] = bind("ewa_furniture_draw", c.c_int, c.c_void_p, c.POINTER(ewa_camera), c.POINTER(ewa_furniture_options), c.POINTER(ewa_canvas))
+        self.ewa_furniture_options_init: Callable[..., None] = bind("ewa_furniture_options_init", None, c.POINTER(ewa_furniture_options), c.c_size_t)
+        self.ewa_text_width_px: Callable[..., float] = bind("ewa_text_width_px", c.c_double, c.c_char_p, c.c_double)
+        self.ewa_gaussians_create: Callable[..., int] = bind("ewa_gaussians_create", c.c_int, c.c_void_p, c.c_uint32, c.c_uint32, c.POINTER(ewa_gaussians))
+        self.ewa_gaussians_free: Callable[..., None] = bind("ewa_gaussians_free", None, c.POINTER(ewa_gaussians))
+        self.ewa_gaussians_measure: Callable[..., int] = bind("ewa_gaussians_measure", c.c_int, c.POINTER(ewa_gaussians), c.POINTER(ewa_bounds))
+        self.ewa_gaussians_outline: Callable[..., int] = bind("ewa_gaussians_outline", c.c_int, c.POINTER(ewa_gaussians), c.POINTER(ewa_bounds), c.c_void_p)
+        self.ewa_gaussians_to_cloud: Callable[..., int] = bind("ewa_gaussians_to_cloud", c.c_int, c.POINTER(ewa_gaussians), c.c_void_p)
+        self.ewa_gaussians_transform: Callable[..., int] = bind("ewa_gaussians_transform", c.c_int, c.POINTER(ewa_gaussians), c.c_void_p)
+        self.ewa_gaussian_format_name: Callable[..., bytes | None] = bind("ewa_gaussian_format_name", c.c_char_p, c.c_int)
+        self.ewa_gaussians_format_of: Callable[..., int] = bind("ewa_gaussians_format_of", c.c_int, c.c_char_p)
+        self.ewa_gaussians_load: Callable[..., int] = bind("ewa_gaussians_load", c.c_int, c.c_void_p, c.c_char_p, c.POINTER(ewa_gaussians), c.POINTER(ewa_gaussian_facts))
+        self.ewa_gaussians_load_memory: Callable[..., int] = bind("ewa_gaussians_load_memory", c.c_int, c.c_void_p, c.c_void_p, c.c_size_t, c.c_char_p, c.c_char_p, c.POINTER(ewa_gaussians), c.POINTER(ewa_gaussian_facts))
+        self.ewa_gaussians_probe: Callable[..., int] = bind("ewa_gaussians_probe", c.c_int, c.c_void_p, c.c_char_p, c.c_void_p)
+        self.ewa_gaussians_save: Callable[..., int] = bind("ewa_gaussians_save", c.c_int, c.POINTER(ewa_gaussians), c.c_char_p, c.POINTER(ewa_gaussians_save_options))
+        self.ewa_gaussians_save_options_init: Callable[..., None] = bind("ewa_gaussians_save_options_init", None, c.POINTER(ewa_gaussians_save_options), c.c_size_t)
+        self.ewa_gaussian_options_init: Callable[..., None] = bind("ewa_gaussian_options_init", None, c.POINTER(ewa_gaussian_options), c.c_size_t)
+        self.ewa_gaussian_render: Callable[..., int] = bind("ewa_gaussian_render", c.c_int, c.c_void_p, c.c_void_p, c.POINTER(ewa_camera), c.POINTER(ewa_gaussian_options), c.POINTER(ewa_frame), c.POINTER(ewa_gaussian_stats))
+        self.ewa_gaussian_renderer_create: Callable[..., int] = bind("ewa_gaussian_renderer_create", c.c_int, c.c_void_p, c.c_void_p)
+        self.ewa_gaussian_renderer_destroy: Callable[..., None] = bind("ewa_gaussian_renderer_destroy", None, c.c_void_p)
+        self.ewa_splats_create: Callable[..., int] = bind("ewa_splats_create", c.c_int, c.POINTER(ewa_gaussians), c.c_void_p)
+        self.ewa_splats_describe: Callable[..., None] = bind("ewa_splats_describe", None, c.c_void_p, c.POINTER(ewa_splats_info))
+        self.ewa_splats_destroy: Callable[..., None] = bind("ewa_splats_destroy", None, c.c_void_p)
+        self.ewa_gpu_class_name: Callable[..., bytes | None] = bind("ewa_gpu_class_name", c.c_char_p, c.c_int)
+        self.ewa_gpu_describe: Callable[..., int] = bind("ewa_gpu_describe", c.c_int, c.c_void_p, c.POINTER(ewa_gpu_info))
+        self.ewa_renderer_create_on: Callable[..., int] = bind("ewa_renderer_create_on", c.c_int, c.c_void_p, c.c_int, c.c_void_p)
+        self.ewa_renderer_describe: Callable[..., int] = bind("ewa_renderer_describe", c.c_int, c.c_void_p, c.POINTER(ewa_renderer_info))
+        self.ewa_camera_clip_map: Callable[..., int] = bind("ewa_camera_clip_map", c.c_int, c.POINTER(ewa_camera), c.c_double, c.c_double, c.POINTER(ewa_mat4))
+        self.ewa_clip_alphas: Callable[..., int] = bind("ewa_clip_alphas", c.c_int, ewa_vec4, ewa_vec4, c.c_void_p, c.c_void_p)
+        self.ewa_clip_polygon: Callable[..., int] = bind("ewa_clip_polygon", c.c_int, c.POINTER(ewa_vec4), c.c_void_p, c.c_uint32, c.c_uint32, c.POINTER(ewa_vec4), c.c_void_p, c.c_void_p)
+        self.ewa_clip_segment: Callable[..., int] = bind("ewa_clip_segment", c.c_int, ewa_vec4, ewa_vec4, c.POINTER(ewa_segment_part), c.c_void_p)
+        self.ewa_clip_segments: Callable[..., int] = bind("ewa_clip_segments", c.c_int, c.c_void_p, c.POINTER(ewa_segment_batch), c.POINTER(ewa_segment_clips))
+        self.ewa_conic_dual: Callable[..., ewa_conic] = bind("ewa_conic_dual", ewa_conic, c.POINTER(ewa_conic))
+        self.ewa_conic_polar: Callable[..., ewa_vec3] = bind("ewa_conic_polar", ewa_vec3, c.POINTER(ewa_conic), ewa_vec3)
+        self.ewa_conic_pull: Callable[..., ewa_conic] = bind("ewa_conic_pull", ewa_conic, c.POINTER(ewa_conic), c.POINTER(ewa_mat3))
+        self.ewa_conic_transform: Callable[..., int] = bind("ewa_conic_transform", c.c_int, c.POINTER(ewa_conic), c.POINTER(ewa_mat3), c.POINTER(ewa_conic))
+        self.ewa_conic_value: Callable[..., float] = bind("ewa_conic_value", c.c_double, c.POINTER(ewa_conic), ewa_vec3)
+        self.ewa_dual_conic_ellipse: Callable[..., int] = bind("ewa_dual_conic_ellipse", c.c_int, c.POINTER(ewa_conic), c.c_void_p, c.c_void_p)
+        self.ewa_dual_conic_transform: Callable[..., ewa_conic] = bind("ewa_dual_conic_transform", ewa_conic, c.POINTER(ewa_conic), c.POINTER(ewa_mat3))
+        self.ewa_hyperbolic_alpha: Callable[..., int] = bind("ewa_hyperbolic_alpha", c.c_int, c.c_double, c.c_double, c.c_double, c.c_void_p)
+        self.ewa_hyperbolic_at: Callable[..., int] = bind("ewa_hyperbolic_at", c.c_int, ewa_vec3, ewa_vec3, c.c_double, c.c_double, c.c_void_p)
+        self.ewa_hyperbolic_fit: Callable[..., int] = bind("ewa_hyperbolic_fit", c.c_int, c.POINTER(ewa_vec4), c.c_void_p, c.c_uint32, c.POINTER(ewa_vec3), c.POINTER(ewa_vec3))
+        self.ewa_incidence2: Callable[..., float] = bind("ewa_incidence2", c.c_double, ewa_vec3, ewa_vec3)
+        self.ewa_incidence3: Callable[..., float] = bind("ewa_incidence3", c.c_double, ewa_vec4, ewa_vec4)
+        self.ewa_line2_distance: Callable[..., int] = bind("ewa_line2_distance", c.c_int, ewa_vec3, ewa_vec3, c.c_void_p)
+        self.ewa_line2_join: Callable[..., int] = bind("ewa_line2_join", c.c_int, ewa_vec3, ewa_vec3, c.POINTER(ewa_vec3))
+        self.ewa_line2_meet: Callable[..., int] = bind("ewa_line2_meet", c.c_int, ewa_vec3, ewa_vec3, c.POINTER(ewa_vec3))
+        self.ewa_line2_pull: Callable[..., ewa_vec3] = bind("ewa_line2_pull", ewa_vec3, ewa_vec3, c.POINTER(ewa_mat3))
+        self.ewa_line2_transform: Callable[..., int] = bind("ewa_line2_transform", c.c_int, ewa_vec3, c.POINTER(ewa_mat3), c.POINTER(ewa_vec3))
+        self.ewa_line3_incidence: Callable[..., float] = bind("ewa_line3_incidence", c.c_double, ewa_line3, ewa_line3)
+        self.ewa_line3_join: Callable[..., int] = bind("ewa_line3_join", c.c_int, ewa_vec4, ewa_vec4, c.POINTER(ewa_line3))
+        self.ewa_line3_join_point: Callable[..., int] = bind("ewa_line3_join_point", c.c_int, ewa_line3, ewa_vec4, c.POINTER(ewa_vec4))
+        self.ewa_line3_meet: Callable[..., int] = bind("ewa_line3_meet", c.c_int, ewa_vec4, ewa_vec4, c.POINTER(ewa_line3))
+        self.ewa_line3_meet_plane: Callable[..., int] = bind("ewa_line3_meet_plane", c.c_int, ewa_line3, ewa_vec4, c.POINTER(ewa_vec4))
+        self.ewa_line3_transform: Callable[..., ewa_line3] = bind("ewa_line3_transform", ewa_line3, ewa_line3, c.POINTER(ewa_mat4))
+        self.ewa_mat3_concatenate: Callable[..., ewa_mat3] = bind("ewa_mat3_concatenate", ewa_mat3, c.POINTER(ewa_mat3), c.POINTER(ewa_mat3))
+        self.ewa_mat3_invert: Callable[..., int] = bind("ewa_mat3_invert", c.c_int, c.POINTER(ewa_mat3), c.POINTER(ewa_mat3))
+        self.ewa_mat4_concatenate: Callable[..., ewa_mat4] = bind("ewa_mat4_concatenate", ewa_mat4, c.POINTER(ewa_mat4), c.POINTER(ewa_mat4))
+        self.ewa_mat4_invert: Callable[..., int] = bind("ewa_mat4_invert", c.c_int, c.POINTER(ewa_mat4), c.POINTER(ewa_mat4))
+        self.ewa_plane_distance: Callable[..., int] = bind("ewa_plane_distance", c.c_int, ewa_vec4, ewa_vec4, c.c_void_p)
+        self.ewa_plane_join: Callable[..., int] = bind("ewa_plane_join", c.c_int, ewa_vec4, ewa_vec4, ewa_vec4, c.POINTER(ewa_vec4))
+        self.ewa_plane_meet: Callable[..., int] = bind("ewa_plane_meet", c.c_int, ewa_vec4, ewa_vec4, ewa_vec4, c.POINTER(ewa_vec4))
+        self.ewa_plane_pull: Callable[..., ewa_vec4] = bind("ewa_plane_pull", ewa_vec4, ewa_vec4, c.POINTER(ewa_mat4))
+        self.ewa_plane_transform: Callable[..., int] = bind("ewa_plane_transform", c.c_int, ewa_vec4, c.POINTER(ewa_mat4), c.POINTER(ewa_vec4))
+        self.ewa_point2_divide: Callable[..., int] = bind("ewa_point2_divide", c.c_int, ewa_vec3, c.c_void_p)
+        self.ewa_point2_transform: Callable[..., ewa_vec3] = bind("ewa_point2_transform", ewa_vec3, ewa_vec3, c.POINTER(ewa_mat3))
+        self.ewa_point3_divide: Callable[..., int] = bind("ewa_point3_divide", c.c_int, ewa_vec4, c.c_void_p)
+        self.ewa_point3_transform: Callable[..., ewa_vec4] = bind("ewa_point3_transform", ewa_vec4, ewa_vec4, c.POINTER(ewa_mat4))
+        self.ewa_triangle_barycentric: Callable[..., int] = bind("ewa_triangle_barycentric", c.c_int, c.POINTER(ewa_vec3), ewa_vec3, c.c_void_p)
+        self.ewa_triangle_distances: Callable[..., int] = bind("ewa_triangle_distances", c.c_int, c.POINTER(ewa_vec3), ewa_vec3, c.c_void_p)
+        self.ewa_triangle_point: Callable[..., int] = bind("ewa_triangle_point", c.c_int, c.POINTER(ewa_vec3), c.c_void_p, c.POINTER(ewa_vec3))
+        self.ewa_triangle_point_from_distances: Callable[..., int] = bind("ewa_triangle_point_from_distances", c.c_int, c.POINTER(ewa_vec3), c.c_void_p, c.POINTER(ewa_vec3))
+        self.ewa_class_color: Callable[..., None] = bind("ewa_class_color", None, c.c_uint32, c.c_void_p)
+        self.ewa_class_find: Callable[..., bool] = bind("ewa_class_find", c.c_bool, c.c_char_p, c.c_void_p)
+        self.ewa_class_name: Callable[..., None] = bind("ewa_class_name", None, c.c_uint32, c.c_void_p)
+        self.ewa_colormap_color: Callable[..., None] = bind("ewa_colormap_color", None, c.c_int, c.c_double, c.c_void_p)
+        self.ewa_image_create: Callable[..., int] = bind("ewa_image_create", c.c_int, c.c_void_p, c.c_uint32, c.c_uint32, c.c_uint32, c.POINTER(ewa_image))
+        self.ewa_image_free: Callable[..., None] = bind("ewa_image_free", None, c.POINTER(ewa_image))
+        self.ewa_linear_from_srgb: Callable[..., float] = bind("ewa_linear_from_srgb", c.c_float, c.c_float)
+        self.ewa_srgb_from_linear: Callable[..., float] = bind("ewa_srgb_from_linear", c.c_float, c.c_float)
+        self.ewa_camera_load: Callable[..., int] = bind("ewa_camera_load", c.c_int, c.c_void_p, c.c_char_p, c.c_uint32, c.POINTER(ewa_camera))
+        self.ewa_camera_load_each: Callable[..., int] = bind("ewa_camera_load_each", c.c_int, c.c_void_p, c.c_char_p, ewa_camera_callback, c.c_void_p)
+        self.ewa_camera_load_lens: Callable[..., int] = bind("ewa_camera_load_lens", c.c_int, c.c_void_p, c.c_char_p, c.POINTER(ewa_camera))
+        self.ewa_camera_load_poses: Callable[..., int] = bind("ewa_camera_load_poses", c.c_int, c.c_void_p, c.c_char_p, c.POINTER(ewa_camera), ewa_camera_callback, c.c_void_p)
+        self.ewa_camera_save: Callable[..., int] = bind("ewa_camera_save", c.c_int, c.c_void_p, c.POINTER(ewa_camera), c.c_char_p)
+        self.ewa_camera_save_list: Callable[..., int] = bind("ewa_camera_save_list", c.c_int, c.c_void_p, c.POINTER(ewa_camera), c.c_size_t, c.c_char_p)
+        self.ewa_cloud_load: Callable[..., int] = bind("ewa_cloud_load", c.c_int, c.c_void_p, c.c_char_p, c.c_void_p)
+        self.ewa_cloud_load_memory: Callable[..., int] = bind("ewa_cloud_load_memory", c.c_int, c.c_void_p, c.c_void_p, c.c_size_t, c.c_char_p, c.c_void_p)
+        self.ewa_cloud_load_options_init: Callable[..., None] = bind("ewa_cloud_load_options_init", None, c.POINTER(ewa_cloud_load_options), c.c_size_t)
+        self.ewa_cloud_reader_close: Callable[..., None] = bind("ewa_cloud_reader_close", None, c.c_void_p)
+        self.ewa_cloud_reader_lost_count: Callable[..., int] = bind("ewa_cloud_reader_lost_count", c.c_uint64, c.c_void_p)
+        self.ewa_cloud_reader_maximum_points: Callable[..., int] = bind("ewa_cloud_reader_maximum_points", c.c_uint64, c.c_void_p)
+        self.ewa_cloud_reader_next: Callable[..., int] = bind("ewa_cloud_reader_next", c.c_int, c.c_void_p, c.c_uint64, c.c_void_p)
+        self.ewa_cloud_reader_open: Callable[..., int] = bind("ewa_cloud_reader_open", c.c_int, c.c_void_p, c.c_char_p, c.POINTER(ewa_cloud_load_options), c.c_void_p)
+        self.ewa_cloud_reader_prototype: Callable[..., int | None] = bind("ewa_cloud_reader_prototype", c.c_void_p, c.c_void_p)
+        self.ewa_cloud_save: Callable[..., int] = bind("ewa_cloud_save", c.c_int, c.c_void_p, c.c_char_p, c.POINTER(ewa_cloud_save_options))
+        self.ewa_cloud_save_options_init: Callable[..., None] = bind("ewa_cloud_save_options_init", None, c.POINTER(ewa_cloud_save_options), c.c_size_t)
+        self.ewa_cloud_writer_abort: Callable[..., None] = bind("ewa_cloud_writer_abort", None, c.c_void_p)
+        self.ewa_cloud_writer_commit: Callable[..., int] = bind("ewa_cloud_writer_commit", c.c_int, c.c_void_p)
+        self.ewa_cloud_writer_needs_bounds: Callable[..., bool] = bind("ewa_cloud_writer_needs_bounds", c.c_bool, c.c_char_p, c.c_void_p)
+        self.ewa_cloud_writer_open: Callable[..., int] = bind("ewa_cloud_writer_open", c.c_int, c.c_void_p, c.c_char_p, c.POINTER(ewa_cloud_save_options), c.c_void_p, c.c_uint64, c.POINTER(ewa_bounds), c.c_void_p)
+        self.ewa_cloud_writer_put: Callable[..., int] = bind("ewa_cloud_writer_put", c.c_int, c.c_void_p, c.c_void_p)
+        self.ewa_depth_load: Callable[..., int] = bind("ewa_depth_load", c.c_int, c.c_void_p, c.c_char_p, c.POINTER(ewa_image))
+        self.ewa_depth_load_memory: Callable[..., int] = bind("ewa_depth_load_memory", c.c_int, c.c_void_p, c.c_void_p, c.c_size_t, c.c_char_p, c.POINTER(ewa_image))
+        self.ewa_elements_face_count: Callable[..., int] = bind("ewa_elements_face_count", c.c_uint64, c.c_void_p)
+        self.ewa_elements_free: Callable[..., None] = bind("ewa_elements_free", None, c.c_void_p)
+        self.ewa_image_load: Callable[..., int] = bind("ewa_image_load", c.c_int, c.c_void_p, c.c_char_p, c.POINTER(ewa_image))
+        self.ewa_image_load_memory: Callable[..., int] = bind("ewa_image_load_memory", c.c_int, c.c_void_p, c.c_void_p, c.c_size_t, c.c_char_p, c.POINTER(ewa_image))
+        self.ewa_image_save: Callable[..., int] = bind("ewa_image_save", c.c_int, c.POINTER(ewa_image), c.c_char_p, c.POINTER(ewa_image_save_options))
+        self.ewa_image_save_options_init: Callable[..., None] = bind("ewa_image_save_options_init", None, c.POINTER(ewa_image_save_options), c.c_size_t)
+        self.ewa_jpeg_save: Callable[..., int] = bind("ewa_jpeg_save", c.c_int, c.c_void_p, c.c_char_p, c.c_uint32, c.c_uint32, c.c_uint32, c.c_void_p, c.c_size_t)
+        self.ewa_materials_load: Callable[..., int] = bind("ewa_materials_load", c.c_int, c.c_void_p, c.c_char_p, c.POINTER(ewa_material), c.c_void_p)
+        self.ewa_parts: Callable[..., bytes | None] = bind("ewa_parts", c.c_char_p)
+        self.ewa_photo_list_destroy: Callable[..., None] = bind("ewa_photo_list_destroy", None, c.c_void_p)
+        self.ewa_photo_list_find_masks: Callable[..., int] = bind("ewa_photo_list_find_masks", c.c_int, c.c_void_p, c.c_char_p)
+        self.ewa_photo_list_load: Callable[..., int] = bind("ewa_photo_list_load", c.c_int, c.c_void_p, c.c_char_p, c.c_char_p, c.c_void_p)
+        self.ewa_photo_list_photos: Callable[..., Any] = bind("ewa_photo_list_photos", c.POINTER(ewa_photo), c.c_void_p, c.c_void_p)
+        self.ewa_pixels_save: Callable[..., int] = bind("ewa_pixels_save", c.c_int, c.c_void_p, c.c_char_p, c.c_uint32, c.c_uint32, c.c_uint32, c.c_void_p, c.c_size_t)
+        self.ewa_ply_describe: Callable[..., int] = bind("ewa_ply_describe", c.c_int, c.c_void_p, c.c_char_p, ewa_line_callback, c.c_void_p)
+        self.ewa_png_save: Callable[..., int] = bind("ewa_png_save", c.c_int, c.c_void_p, c.c_char_p, c.c_uint32, c.c_uint32, c.c_uint32, c.c_void_p, c.c_size_t)
+        self.ewa_transfer_choose: Callable[..., int] = bind("ewa_transfer_choose", c.c_int, c.c_void_p, c.c_char_p, c.POINTER(ewa_volume), c.POINTER(ewa_transfer))
+        self.ewa_transfer_load: Callable[..., int] = bind("ewa_transfer_load", c.c_int, c.c_void_p, c.c_char_p, c.POINTER(ewa_transfer))
+        self.ewa_transfer_save: Callable[..., int] = bind("ewa_transfer_save", c.c_int, c.c_void_p, c.POINTER(ewa_transfer), c.c_char_p)
+        self.ewa_volume_is_file: Callable[..., bool] = bind("ewa_volume_is_file", c.c_bool, c.c_void_p, c.c_char_p)
+        self.ewa_volume_is_named: Callable[..., bool] = bind("ewa_volume_is_named", c.c_bool, c.c_char_p)
+        self.ewa_volume_load: Callable[..., int] = bind("ewa_volume_load", c.c_int, c.c_void_p, c.c_char_p, c.POINTER(ewa_volume_load_options), c.POINTER(ewa_volume))
+        self.ewa_volume_load_memory: Callable[..., int] = bind("ewa_volume_load_memory", c.c_int, c.c_void_p, c.c_void_p, c.c_size_t, c.c_char_p, c.POINTER(ewa_volume_load_options), c.POINTER(ewa_volume))
+        self.ewa_volume_load_options_init: Callable[..., None] = bind("ewa_volume_load_options_init", None, c.POINTER(ewa_volume_load_options), c.c_size_t)
+        self.ewa_volume_save: Callable[..., int] = bind("ewa_volume_save", c.c_int, c.POINTER(ewa_volume), c.c_char_p, c.POINTER(ewa_volume_save_options))
+        self.ewa_volume_save_options_init: Callable[..., None] = bind("ewa_volume_save_options_init", None, c.POINTER(ewa_volume_save_options), c.c_size_t)
+        self.ewa_lod_build: Callable[..., int] = bind("ewa_lod_build", c.c_int, c.c_void_p, c.c_void_p, c.c_uint32, c.c_char_p, c.POINTER(ewa_lod_build_options), c.POINTER(ewa_lod_build_stats))
+        self.ewa_lod_build_options_init: Callable[..., None] = bind("ewa_lod_build_options_init", None, c.POINTER(ewa_lod_build_options), c.c_size_t)
+        self.ewa_lod_close: Callable[..., None] = bind("ewa_lod_close", None, c.c_void_p)
+        self.ewa_lod_describe: Callable[..., None] = bind("ewa_lod_describe", None, c.c_void_p, c.POINTER(ewa_lod_info))
+        self.ewa_lod_is_folder: Callable[..., bool] = bind("ewa_lod_is_folder", c.c_bool, c.c_void_p, c.c_char_p)
+        self.ewa_lod_merge: Callable[..., int] = bind("ewa_lod_merge", c.c_int, c.c_void_p, c.c_void_p, c.c_uint32, c.c_char_p, c.POINTER(ewa_lod_build_stats))
+        self.ewa_lod_open: Callable[..., int] = bind("ewa_lod_open", c.c_int, c.c_void_p, c.c_char_p, c.c_void_p)
+        self.ewa_lod_options_init: Callable[..., None] = bind("ewa_lod_options_init", None, c.POINTER(ewa_lod_options), c.c_size_t)
+        self.ewa_lod_probe: Callable[..., bool] = bind("ewa_lod_probe", c.c_bool, c.c_void_p, c.c_char_p)
+        self.ewa_lod_read: Callable[..., int] = bind("ewa_lod_read", c.c_int, c.c_void_p, c.c_void_p, c.c_void_p, c.c_double, c.c_void_p)
+        self.ewa_lod_render: Callable[..., int] = bind("ewa_lod_render", c.c_int, c.c_void_p, c.c_void_p, c.POINTER(ewa_camera), c.POINTER(ewa_render_options), c.POINTER(ewa_lod_options), c.POINTER(ewa_frame), c.POINTER(ewa_lod_stats))
+        self.ewa_lod_sample: Callable[..., int] = bind("ewa_lod_sample", c.c_int, c.c_void_p, c.c_uint64, c.c_void_p)
+        self.ewa_lod_scene_render: Callable[..., int] = bind("ewa_lod_scene_render", c.c_int, c.POINTER(ewa_lod_scene), c.c_void_p, c.POINTER(ewa_camera), c.POINTER(ewa_render_options), c.POINTER(ewa_lod_options), c.POINTER(ewa_frame), c.POINTER(ewa_lod_stats))
+        self.ewa_measure_kind_name: Callable[..., bytes | None] = bind("ewa_measure_kind_name", c.c_char_p, c.c_uint32)
+        self.ewa_places_measure: Callable[..., int] = bind("ewa_places_measure", c.c_int, c.c_int, c.c_void_p, c.c_uint32, c.c_void_p, c.POINTER(ewa_measurement))
+        self.ewa_mesh_create: Callable[..., int] = bind("ewa_mesh_create", c.c_int, c.c_void_p, c.c_uint32, c.c_uint32, c.c_uint32, c.c_uint32, c.POINTER(ewa_mesh))
+        self.ewa_mesh_free: Callable[..., None] = bind("ewa_mesh_free", None, c.POINTER(ewa_mesh))
+        self.ewa_mesh_is_closed: Callable[..., int] = bind("ewa_mesh_is_closed", c.c_int, c.POINTER(ewa_mesh), c.c_void_p)
+        self.ewa_mesh_load: Callable[..., int] = bind("ewa_mesh_load", c.c_int, c.c_void_p, c.c_char_p, c.POINTER(ewa_mesh))
+        self.ewa_mesh_sample: Callable[..., int] = bind("ewa_mesh_sample", c.c_int, c.POINTER(ewa_mesh), c.POINTER(ewa_mesh_sample_options), c.c_void_p)
+        self.ewa_mesh_sample_options_init: Callable[..., None] = bind("ewa_mesh_sample_options_init", None, c.POINTER(ewa_mesh_sample_options), c.c_size_t)
+        self.ewa_mesh_set_picture: Callable[..., int] = bind("ewa_mesh_set_picture", c.c_int, c.POINTER(ewa_mesh), c.POINTER(ewa_image))
+        self.ewa_mixture_render: Callable[..., int] = bind("ewa_mixture_render", c.c_int, c.c_void_p, c.POINTER(ewa_mixture), c.POINTER(ewa_camera), c.POINTER(ewa_gaussian_options), c.POINTER(ewa_frame), c.POINTER(ewa_gaussian_stats))
+        self.ewa_model_format_name: Callable[..., bytes | None] = bind("ewa_model_format_name", c.c_char_p, c.c_int)
+        self.ewa_model_free: Callable[..., None] = bind("ewa_model_free", None, c.POINTER(ewa_model))
+        self.ewa_model_load: Callable[..., int] = bind("ewa_model_load", c.c_int, c.c_void_p, c.c_char_p, c.c_uint32, c.POINTER(ewa_cloud_load_options), c.POINTER(ewa_model))
+        self.ewa_model_load_memory: Callable[..., int] = bind("ewa_model_load_memory", c.c_int, c.c_void_p, c.c_void_p, c.c_size_t, c.c_char_p, c.c_char_p, c.c_uint32, c.POINTER(ewa_cloud_load_options), c.POINTER(ewa_model))
+        self.ewa_model_probe: Callable[..., int] = bind("ewa_model_probe", c.c_int, c.c_void_p, c.c_char_p, c.c_void_p)
+        self.ewa_color_read: Callable[..., bool] = bind("ewa_color_read", c.c_bool, c.c_char_p, c.c_void_p)
+        self.ewa_option_find: Callable[..., Any] = bind("ewa_option_find", c.POINTER(ewa_option), c.POINTER(ewa_option_table), c.c_char_p)
+        self.ewa_option_get: Callable[..., None] = bind("ewa_option_get", None, c.POINTER(ewa_option), c.c_void_p, c.c_void_p)
+        self.ewa_option_range: Callable[..., None] = bind("ewa_option_range", None, c.POINTER(ewa_option), c.c_void_p)
+        self.ewa_option_set: Callable[..., int] = bind("ewa_option_set", c.c_int, c.POINTER(ewa_option), c.c_void_p, c.c_char_p, c.c_void_p)
+        self.ewa_panorama_options_init: Callable[..., None] = bind("ewa_panorama_options_init", None, c.POINTER(ewa_panorama_options), c.c_size_t)
+        self.ewa_scene_draw_panorama: Callable[..., int] = bind("ewa_scene_draw_panorama", c.c_int, c.c_void_p, c.c_void_p, c.POINTER(ewa_camera), c.POINTER(ewa_scene_options), c.POINTER(ewa_panorama_options), c.POINTER(ewa_frame), c.POINTER(ewa_scene_stats))
+        self.ewa_scene_place_panorama: Callable[..., int] = bind("ewa_scene_place_panorama", c.c_int, c.c_void_p, c.POINTER(ewa_view_options), c.POINTER(ewa_panorama_options), c.POINTER(ewa_camera))
+        self.ewa_cloud_color_from_photos: Callable[..., int] = bind("ewa_cloud_color_from_photos", c.c_int, c.c_void_p, c.POINTER(ewa_photo), c.c_uint32, c.POINTER(ewa_photos_options), c.POINTER(ewa_photos_report), c.POINTER(ewa_photo_report))
+        self.ewa_image_compare: Callable[..., int] = bind("ewa_image_compare", c.c_int, c.POINTER(ewa_image), c.POINTER(ewa_image), c.POINTER(ewa_image_quality))
+        self.ewa_image_undistort: Callable[..., int] = bind("ewa_image_undistort", c.c_int, c.POINTER(ewa_image), c.POINTER(ewa_camera), c.POINTER(ewa_lens), c.POINTER(ewa_image))
+        self.ewa_photo_load: Callable[..., int] = bind("ewa_photo_load", c.c_int, c.c_void_p, c.POINTER(ewa_photo), c.c_void_p, c.POINTER(ewa_image))
+        self.ewa_photos_options_init: Callable[..., None] = bind("ewa_photos_options_init", None, c.POINTER(ewa_photos_options), c.c_size_t)
+        self.ewa_cloud_csg: Callable[..., int] = bind("ewa_cloud_csg", c.c_int, c.c_void_p, c.c_void_p, c.POINTER(ewa_csg_options), c.c_void_p)
+        self.ewa_cloud_detect_features: Callable[..., int] = bind("ewa_cloud_detect_features", c.c_int, c.c_void_p, c.POINTER(ewa_feature_options), c.POINTER(ewa_feature_counts))
+        self.ewa_cloud_estimate: Callable[..., int] = bind("ewa_cloud_estimate", c.c_int, c.c_void_p, c.POINTER(ewa_estimate_options))
+        self.ewa_cloud_generate: Callable[..., int] = bind("ewa_cloud_generate", c.c_int, c.c_void_p, c.POINTER(ewa_generate_options), c.c_void_p)
+        self.ewa_cloud_mark_outliers: Callable[..., int] = bind("ewa_cloud_mark_outliers", c.c_int, c.c_void_p, c.POINTER(ewa_estimate_options), c.c_void_p)
+        self.ewa_cloud_measure_spacing: Callable[..., int] = bind("ewa_cloud_measure_spacing", c.c_int, c.c_void_p, c.c_uint64, c.POINTER(ewa_spacing))
+        self.ewa_cloud_refit_colors: Callable[..., int] = bind("ewa_cloud_refit_colors", c.c_int, c.c_void_p, c.POINTER(ewa_refit_options), c.POINTER(ewa_refit_report))
+        self.ewa_csg_options_init: Callable[..., None] = bind("ewa_csg_options_init", None, c.POINTER(ewa_csg_options), c.c_size_t)
+        self.ewa_estimate_options_init: Callable[..., None] = bind("ewa_estimate_options_init", None, c.POINTER(ewa_estimate_options), c.c_size_t)
+        self.ewa_feature_options_init: Callable[..., None] = bind("ewa_feature_options_init", None, c.POINTER(ewa_feature_options), c.c_size_t)
+        self.ewa_generate_options_init: Callable[..., None] = bind("ewa_generate_options_init", None, c.POINTER(ewa_generate_options), c.c_size_t)
+        self.ewa_refit_options_init: Callable[..., None] = bind("ewa_refit_options_init", None, c.POINTER(ewa_refit_options), c.c_size_t)
+        self.ewa_volume_generate: Callable[..., int] = bind("ewa_volume_generate", c.c_int, c.c_void_p, c.POINTER(ewa_volume_generate_options), c.POINTER(ewa_volume))
+        self.ewa_volume_generate_options_init: Callable[..., None] = bind("ewa_volume_generate_options_init", None, c.POINTER(ewa_volume_generate_options), c.c_size_t)
+        self.ewa_volume_outline: Callable[..., int] = bind("ewa_volume_outline", c.c_int, c.POINTER(ewa_volume), c.POINTER(ewa_transfer), c.c_double, c.c_void_p)
+        self.ewa_cloud_color_by_procedure: Callable[..., int] = bind("ewa_cloud_color_by_procedure", c.c_int, c.c_void_p, c.POINTER(ewa_procedure_options))
+        self.ewa_procedure_options_init: Callable[..., None] = bind("ewa_procedure_options_init", None, c.POINTER(ewa_procedure_options), c.c_int, c.c_size_t)
+        self.ewa_profile_draw: Callable[..., int] = bind("ewa_profile_draw", c.c_int, c.POINTER(ewa_profile), c.POINTER(ewa_profile_graph_options), c.POINTER(ewa_canvas))
+        self.ewa_profile_free: Callable[..., None] = bind("ewa_profile_free", None, c.POINTER(ewa_profile))
+        self.ewa_profile_graph_options_init: Callable[..., None] = bind("ewa_profile_graph_options_init", None, c.POINTER(ewa_profile_graph_options), c.c_size_t)
+        self.ewa_profile_line_read: Callable[..., int] = bind("ewa_profile_line_read", c.c_int, c.c_char_p, c.c_void_p, c.c_void_p, c.c_void_p)
+        self.ewa_profile_options_init: Callable[..., None] = bind("ewa_profile_options_init", None, c.POINTER(ewa_profile_options), c.c_size_t)
+        self.ewa_scene_profile: Callable[..., int] = bind("ewa_scene_profile", c.c_int, c.c_void_p, c.c_void_p, c.c_uint32, c.POINTER(ewa_profile_options), c.POINTER(ewa_profile))
+        self.ewa_region_set_outline: Callable[..., int] = bind("ewa_region_set_outline", c.c_int, c.POINTER(ewa_region), c.POINTER(ewa_camera), c.c_void_p, c.c_uint32)
+        self.ewa_regions_mark: Callable[..., int] = bind("ewa_regions_mark", c.c_int, c.POINTER(ewa_region), c.c_uint32, c.c_void_p, c.c_void_p)
+        self.ewa_render: Callable[..., int] = bind("ewa_render", c.c_int, c.c_void_p, c.c_void_p, c.POINTER(ewa_camera), c.POINTER(ewa_render_options), c.POINTER(ewa_frame), c.POINTER(ewa_render_stats))
+        self.ewa_render_add: Callable[..., int] = bind("ewa_render_add", c.c_int, c.c_void_p, c.c_void_p)
+        self.ewa_render_add_weighted: Callable[..., int] = bind("ewa_render_add_weighted", c.c_int, c.c_void_p, c.c_void_p, c.c_double)
+        self.ewa_render_begin: Callable[..., int] = bind("ewa_render_begin", c.c_int, c.c_void_p, c.POINTER(ewa_camera), c.POINTER(ewa_render_options), c.POINTER(ewa_frame))
+        self.ewa_render_finish: Callable[..., int] = bind("ewa_render_finish", c.c_int, c.c_void_p, c.POINTER(ewa_render_stats))
+        self.ewa_render_options_init: Callable[..., None] = bind("ewa_render_options_init", None, c.POINTER(ewa_render_options), c.c_size_t)
+        self.ewa_render_stats_add: Callable[..., None] = bind("ewa_render_stats_add", None, c.POINTER(ewa_render_stats), c.POINTER(ewa_render_stats))
+        self.ewa_renderer_create: Callable[..., int] = bind("ewa_renderer_create", c.c_int, c.c_void_p, c.c_void_p)
+        self.ewa_renderer_destroy: Callable[..., None] = bind("ewa_renderer_destroy", None, c.c_void_p)
+        self.ewa_surfels_create: Callable[..., int] = bind("ewa_surfels_create", c.c_int, c.c_void_p, c.POINTER(ewa_surfels_options), c.c_void_p)
+        self.ewa_surfels_describe: Callable[..., None] = bind("ewa_surfels_describe", None, c.c_void_p, c.POINTER(ewa_surfels_info))
+        self.ewa_surfels_destroy: Callable[..., None] = bind("ewa_surfels_destroy", None, c.c_void_p)
+        self.ewa_surfels_options_init: Callable[..., None] = bind("ewa_surfels_options_init", None, c.POINTER(ewa_surfels_options), c.c_size_t)
+        self.ewa_texture_map: Callable[..., int] = bind("ewa_texture_map", c.c_int, c.c_void_p, c.POINTER(ewa_texture_source), c.POINTER(ewa_mat3), c.POINTER(ewa_texture_options), c.POINTER(ewa_texture_target), c.POINTER(ewa_texture_stats))
+        self.ewa_texture_map_from_camera: Callable[..., int] = bind("ewa_texture_map_from_camera", c.c_int, c.c_void_p, c.c_uint32, c.c_uint32, c.POINTER(ewa_camera), c.c_void_p, c.c_void_p, c.c_void_p, c.POINTER(ewa_mat3))
+        self.ewa_texture_map_from_corners: Callable[..., int] = bind("ewa_texture_map_from_corners", c.c_int, c.c_void_p, c.c_uint32, c.c_uint32, c.c_void_p, c.POINTER(ewa_mat3))
+        self.ewa_texture_options_init: Callable[..., None] = bind("ewa_texture_options_init", None, c.POINTER(ewa_texture_options), c.c_size_t)
+        self.ewa_asset_create: Callable[..., int] = bind("ewa_asset_create", c.c_int, c.c_void_p, c.POINTER(ewa_asset_source), c.POINTER(ewa_asset_options), c.c_void_p)
+        self.ewa_asset_describe: Callable[..., None] = bind("ewa_asset_describe", None, c.c_void_p, c.POINTER(ewa_asset_info))
+        self.ewa_asset_find_upright: Callable[..., int] = bind("ewa_asset_find_upright", c.c_int, c.c_void_p, c.POINTER(ewa_upright))
+        self.ewa_asset_kind_name: Callable[..., bytes | None] = bind("ewa_asset_kind_name", c.c_char_p, c.c_int)
+        self.ewa_asset_load: Callable[..., int] = bind("ewa_asset_load", c.c_int, c.c_void_p, c.c_char_p, c.POINTER(ewa_asset_options), c.c_void_p)
+        self.ewa_asset_options_init: Callable[..., None] = bind("ewa_asset_options_init", None, c.POINTER(ewa_asset_options), c.c_size_t)
+        self.ewa_asset_probe: Callable[..., int] = bind("ewa_asset_probe", c.c_int, c.c_void_p, c.c_char_p, c.POINTER(ewa_asset_options), c.c_void_p)
+        self.ewa_asset_release: Callable[..., None] = bind("ewa_asset_release", None, c.c_void_p)
+        self.ewa_asset_retain: Callable[..., int | None] = bind("ewa_asset_retain", c.c_void_p, c.c_void_p)
+        self.ewa_cloud_place_camera: Callable[..., int] = bind("ewa_cloud_place_camera", c.c_int, c.c_void_p, c.c_double, c.c_int, c.c_int, c.POINTER(ewa_view_options), c.POINTER(ewa_camera), c.POINTER(ewa_view_info))
+        self.ewa_instance_init: Callable[..., None] = bind("ewa_instance_init", None, c.POINTER(ewa_instance), c.c_size_t)
+        self.ewa_scene_add: Callable[..., int] = bind("ewa_scene_add", c.c_int, c.c_void_p, c.c_void_p, c.POINTER(ewa_instance))
+        self.ewa_scene_asset: Callable[..., int | None] = bind("ewa_scene_asset", c.c_void_p, c.c_void_p, c.c_uint32)
+        self.ewa_scene_bounds: Callable[..., None] = bind("ewa_scene_bounds", None, c.c_void_p, c.POINTER(ewa_bounds))
+        self.ewa_scene_cloud: Callable[..., int] = bind("ewa_scene_cloud", c.c_int, c.c_void_p, c.c_void_p)
+        self.ewa_scene_commit: Callable[..., int] = bind("ewa_scene_commit", c.c_int, c.c_void_p)
+        self.ewa_scene_compare_photo: Callable[..., int] = bind("ewa_scene_compare_photo", c.c_int, c.c_void_p, c.c_void_p, c.POINTER(ewa_photo), c.POINTER(ewa_scene_options), c.POINTER(ewa_photo_comparison))
+        self.ewa_scene_complete: Callable[..., int] = bind("ewa_scene_complete", c.c_int, c.c_void_p)
+        self.ewa_scene_copy: Callable[..., int] = bind("ewa_scene_copy", c.c_int, c.c_void_p, c.c_void_p, c.c_void_p)
+        self.ewa_scene_count: Callable[..., int] = bind("ewa_scene_count", c.c_uint32, c.c_void_p)
+        self.ewa_scene_create: Callable[..., int] = bind("ewa_scene_create", c.c_int, c.c_void_p, c.POINTER(ewa_scene_options), c.c_void_p)
+        self.ewa_scene_describe: Callable[..., None] = bind("ewa_scene_describe", None, c.c_void_p, c.POINTER(ewa_scene_info))
+        self.ewa_scene_destroy: Callable[..., None] = bind("ewa_scene_destroy", None, c.c_void_p)
+        self.ewa_scene_draw: Callable[..., int] = bind("ewa_scene_draw", c.c_int, c.c_void_p, c.c_void_p, c.POINTER(ewa_camera), c.POINTER(ewa_scene_options), c.POINTER(ewa_frame), c.POINTER(ewa_scene_stats))
+        self.ewa_scene_draw_outlines: Callable[..., int] = bind("ewa_scene_draw_outlines", c.c_int, c.c_void_p, c.c_void_p, c.POINTER(ewa_camera), c.POINTER(ewa_scene_options), c.c_uint32, c.POINTER(ewa_canvas))
+        self.ewa_scene_get: Callable[..., int] = bind("ewa_scene_get", c.c_int, c.c_void_p, c.c_uint32, c.POINTER(ewa_instance))
+        self.ewa_scene_get_camera: Callable[..., bool] = bind("ewa_scene_get_camera", c.c_bool, c.c_void_p, c.POINTER(ewa_camera))
+        self.ewa_scene_get_options: Callable[..., None] = bind("ewa_scene_get_options", None, c.c_void_p, c.POINTER(ewa_scene_options))
+        self.ewa_scene_legend: Callable[..., Any] = bind("ewa_scene_legend", c.POINTER(ewa_legend), c.c_void_p, c.c_uint32)
+        self.ewa_scene_options_init: Callable[..., None] = bind("ewa_scene_options_init", None, c.POINTER(ewa_scene_options), c.c_size_t)
+        self.ewa_scene_pick: Callable[..., int] = bind("ewa_scene_pick", c.c_int, c.c_void_p, c.c_void_p, c.POINTER(ewa_camera), c.POINTER(ewa_scene_options), c.c_double, c.c_double, c.c_double, c.c_double, c.POINTER(ewa_scene_hit))
+        self.ewa_scene_place_camera: Callable[..., int] = bind("ewa_scene_place_camera", c.c_int, c.c_void_p, c.POINTER(ewa_view_options), c.POINTER(ewa_camera), c.POINTER(ewa_view_info))
+        self.ewa_scene_points: Callable[..., int] = bind("ewa_scene_points", c.c_int, c.c_void_p, c.c_void_p)
+        self.ewa_scene_reader_choose: Callable[..., int] = bind("ewa_scene_reader_choose", c.c_int, c.c_void_p, c.c_void_p, c.POINTER(ewa_camera), c.POINTER(ewa_scene_options), c.c_uint32, c.c_void_p)
+        self.ewa_scene_reader_create: Callable[..., int] = bind("ewa_scene_reader_create", c.c_int, c.c_void_p, c.c_void_p)
+        self.ewa_scene_reader_destroy: Callable[..., None] = bind("ewa_scene_reader_destroy", None, c.c_void_p)
+        self.ewa_scene_reader_put: Callable[..., None] = bind("ewa_scene_reader_put", None, c.c_void_p)
+        self.ewa_scene_reader_read: Callable[..., int] = bind("ewa_scene_reader_read", c.c_int, c.c_void_p)
+        self.ewa_scene_remove: Callable[..., int] = bind("ewa_scene_remove", c.c_int, c.c_void_p, c.c_uint32)
+        self.ewa_scene_renderer_create: Callable[..., int] = bind("ewa_scene_renderer_create", c.c_int, c.c_void_p, c.c_int, c.POINTER(ewa_exchange), c.c_void_p)
+        self.ewa_scene_renderer_destroy: Callable[..., None] = bind("ewa_scene_renderer_destroy", None, c.c_void_p)
+        self.ewa_scene_renderer_surfaces: Callable[..., int | None] = bind("ewa_scene_renderer_surfaces", c.c_void_p, c.c_void_p)
+        self.ewa_scene_reuse: Callable[..., None] = bind("ewa_scene_reuse", None, c.c_void_p, c.c_void_p)
+        self.ewa_scene_set: Callable[..., int] = bind("ewa_scene_set", c.c_int, c.c_void_p, c.c_uint32, c.POINTER(ewa_instance))
+        self.ewa_scene_set_camera: Callable[..., int] = bind("ewa_scene_set_camera", c.c_int, c.c_void_p, c.POINTER(ewa_camera))
+        self.ewa_scene_set_options: Callable[..., int] = bind("ewa_scene_set_options", c.c_int, c.c_void_p, c.POINTER(ewa_scene_options))
+        self.ewa_view_options_init: Callable[..., None] = bind("ewa_view_options_init", None, c.POINTER(ewa_view_options), c.c_size_t)
+        self.ewa_scene_describe_json: Callable[..., int] = bind("ewa_scene_describe_json", c.c_int, c.c_void_p, c.c_void_p)
+        self.ewa_scene_file_apply: Callable[..., None] = bind("ewa_scene_file_apply", None, c.c_void_p, c.POINTER(ewa_scene_options))
+        self.ewa_scene_file_camera: Callable[..., bool] = bind("ewa_scene_file_camera", c.c_bool, c.c_void_p, c.POINTER(ewa_camera))
+        self.ewa_scene_file_count: Callable[..., int] = bind("ewa_scene_file_count", c.c_uint32, c.c_void_p)
+        self.ewa_scene_file_destroy: Callable[..., None] = bind("ewa_scene_file_destroy", None, c.c_void_p)
+        self.ewa_scene_file_entry: Callable[..., int] = bind("ewa_scene_file_entry", c.c_int, c.c_void_p, c.c_uint32, c.POINTER(ewa_scene_entry))
+        self.ewa_scene_file_load: Callable[..., int] = bind("ewa_scene_file_load", c.c_int, c.c_void_p, c.c_char_p, c.POINTER(ewa_asset_options), c.c_void_p)
+        self.ewa_scene_file_probe: Callable[..., bool] = bind("ewa_scene_file_probe", c.c_bool, c.c_char_p)
+        self.ewa_scene_open: Callable[..., int] = bind("ewa_scene_open", c.c_int, c.c_void_p, c.c_char_p, c.POINTER(ewa_asset_options))
+        self.ewa_scene_save: Callable[..., int] = bind("ewa_scene_save", c.c_int, c.c_void_p, c.POINTER(ewa_camera), c.c_char_p)
+        self.ewa_text_free: Callable[..., None] = bind("ewa_text_free", None, c.c_void_p)
+        self.ewa_box_mark: Callable[..., int] = bind("ewa_box_mark", c.c_int, c.c_void_p, c.c_void_p, c.c_void_p)
+        self.ewa_cloud_find_scalar: Callable[..., int] = bind("ewa_cloud_find_scalar", c.c_int, c.c_void_p, c.c_char_p, c.POINTER(ewa_scalar))
+        self.ewa_cloud_keep: Callable[..., int] = bind("ewa_cloud_keep", c.c_int, c.c_void_p, c.c_void_p, c.c_void_p)
+        self.ewa_cloud_thin_distance: Callable[..., int] = bind("ewa_cloud_thin_distance", c.c_int, c.c_void_p, c.c_double, c.c_void_p)
+        self.ewa_cloud_thin_voxels: Callable[..., int] = bind("ewa_cloud_thin_voxels", c.c_int, c.c_void_p, c.c_double, c.c_void_p)
+        self.ewa_filter_add: Callable[..., int] = bind("ewa_filter_add", c.c_int, c.POINTER(ewa_filter), c.c_char_p, c.c_void_p)
+        self.ewa_filter_mark: Callable[..., int] = bind("ewa_filter_mark", c.c_int, c.POINTER(ewa_filter), c.c_void_p, c.c_void_p)
+        self.ewa_filter_write: Callable[..., bool] = bind("ewa_filter_write", c.c_bool, c.POINTER(ewa_filter), c.c_char_p, c.c_size_t)
+        self.ewa_polygon_box: Callable[..., None] = bind("ewa_polygon_box", None, c.c_void_p, c.c_void_p)
+        self.ewa_polygon_create: Callable[..., int] = bind("ewa_polygon_create", c.c_int, c.c_void_p, c.c_void_p, c.c_void_p, c.c_uint32, c.c_void_p)
+        self.ewa_polygon_destroy: Callable[..., None] = bind("ewa_polygon_destroy", None, c.c_void_p)
+        self.ewa_polygon_load: Callable[..., int] = bind("ewa_polygon_load", c.c_int, c.c_void_p, c.c_char_p, c.c_void_p)
+        self.ewa_polygon_mark: Callable[..., int] = bind("ewa_polygon_mark", c.c_int, c.c_void_p, c.c_void_p, c.c_void_p)
+        self.ewa_polygon_read: Callable[..., int] = bind("ewa_polygon_read", c.c_int, c.c_void_p, c.c_char_p, c.c_void_p, c.c_size_t, c.c_void_p)
+        self.ewa_rank_select: Callable[..., float] = bind("ewa_rank_select", c.c_double, c.c_void_p, c.c_size_t, c.c_size_t)
+        self.ewa_scalar_read: Callable[..., None] = bind("ewa_scalar_read", None, c.POINTER(ewa_scalar), c.c_uint64, c.c_uint64, c.c_void_p)
+        self.ewa_environment_create: Callable[..., int] = bind("ewa_environment_create", c.c_int, c.POINTER(ewa_image), c.c_void_p)
+        self.ewa_environment_destroy: Callable[..., None] = bind("ewa_environment_destroy", None, c.c_void_p)
+        self.ewa_light_init: Callable[..., None] = bind("ewa_light_init", None, c.POINTER(ewa_light))
+        self.ewa_material_init: Callable[..., None] = bind("ewa_material_init", None, c.POINTER(ewa_material))
+        self.ewa_transfer_automatic: Callable[..., int] = bind("ewa_transfer_automatic", c.c_int, c.POINTER(ewa_volume), c.POINTER(ewa_volume_facts), c.POINTER(ewa_transfer))
+        self.ewa_transfer_preset: Callable[..., int] = bind("ewa_transfer_preset", c.c_int, c.POINTER(ewa_volume), c.POINTER(ewa_volume_facts), c.c_char_p, c.POINTER(ewa_transfer))
+        self.ewa_transfer_preset_name: Callable[..., bytes | None] = bind("ewa_transfer_preset_name", c.c_char_p, c.c_uint32, c.c_void_p)
+        self.ewa_volume_create: Callable[..., int] = bind("ewa_volume_create", c.c_int, c.c_void_p, c.c_void_p, c.c_int, c.POINTER(ewa_volume))
+        self.ewa_volume_free: Callable[..., None] = bind("ewa_volume_free", None, c.POINTER(ewa_volume))
+        self.ewa_volume_measure: Callable[..., int] = bind("ewa_volume_measure", c.c_int, c.POINTER(ewa_volume), c.POINTER(ewa_volume_facts))
+        self.ewa_volume_options_init: Callable[..., None] = bind("ewa_volume_options_init", None, c.POINTER(ewa_volume_options), c.c_size_t)
+        self.ewa_volume_render: Callable[..., int] = bind("ewa_volume_render", c.c_int, c.c_void_p, c.c_void_p, c.POINTER(ewa_camera), c.POINTER(ewa_volume_options), c.POINTER(ewa_frame), c.POINTER(ewa_volume_stats))
+        self.ewa_volume_renderer_create: Callable[..., int] = bind("ewa_volume_renderer_create", c.c_int, c.c_void_p, c.c_void_p)
+        self.ewa_volume_renderer_destroy: Callable[..., None] = bind("ewa_volume_renderer_destroy", None, c.c_void_p)
+        self.ewa_voxels_create: Callable[..., int] = bind("ewa_voxels_create", c.c_int, c.POINTER(ewa_volume), c.POINTER(ewa_transfer), c.POINTER(ewa_voxels_options), c.c_void_p)
+        self.ewa_voxels_describe: Callable[..., None] = bind("ewa_voxels_describe", None, c.c_void_p, c.POINTER(ewa_voxels_info))
+        self.ewa_voxels_destroy: Callable[..., None] = bind("ewa_voxels_destroy", None, c.c_void_p)
+        self.ewa_voxels_options_init: Callable[..., None] = bind("ewa_voxels_options_init", None, c.POINTER(ewa_voxels_options), c.c_size_t)
+        self.ewa_depth_file_scale: Callable[..., float] = bind("ewa_depth_file_scale", c.c_double, c.c_char_p, c.c_int)
+        self.ewa_depth_image_init: Callable[..., None] = bind("ewa_depth_image_init", None, c.POINTER(ewa_depth_image))
+        self.ewa_warp_create: Callable[..., int] = bind("ewa_warp_create", c.c_int, c.c_void_p, c.c_void_p)
+        self.ewa_warp_destroy: Callable[..., None] = bind("ewa_warp_destroy", None, c.c_void_p)
+        self.ewa_warp_draw: Callable[..., int] = bind("ewa_warp_draw", c.c_int, c.c_void_p, c.POINTER(ewa_camera), c.c_int, c.POINTER(ewa_render_options), c.POINTER(ewa_frame), c.c_void_p, c.POINTER(ewa_render_stats))
+        self.ewa_warp_options_init: Callable[..., None] = bind("ewa_warp_options_init", None, c.POINTER(ewa_warp_options), c.c_size_t)
+        self.ewa_warp_render_options_init: Callable[..., None] = bind("ewa_warp_render_options_init", None, c.POINTER(ewa_render_options), c.c_size_t)
+        self.ewa_warp_take: Callable[..., int] = bind("ewa_warp_take", c.c_int, c.c_void_p, c.POINTER(ewa_depth_image), c.c_uint32, c.POINTER(ewa_warp_options), c.POINTER(ewa_warp_facts))

@@ -9,8 +9,7 @@
 #include <math.h>
 #include <string.h>
 
-TEST(test_streams) {
-    ewa_context *context = check_context(0, NULL);
+TEST_ON(test_streams, 0) {
     ewa_cloud *cloud = NULL;
     assert_int_equal(ewa_cloud_create(context, 3, &cloud), EWA_OK);
     for (int i = 0; i < 20; i++) {
@@ -31,11 +30,9 @@ TEST(test_streams) {
     assert_int_equal(ewa_cloud_add(cloud, "five", EWA_F32, 5, NULL), EWA_ERROR_ARGUMENT);
     assert_int_equal(ewa_cloud_add(cloud, "odd", (ewa_type)99, 1, NULL), EWA_ERROR_ARGUMENT);
     ewa_cloud_destroy(&cloud);
-    ewa_context_destroy(&context);
 }
 
-TEST(test_borrowed_stride_and_bounds) {
-    ewa_context *context = check_context(0, NULL);
+TEST_ON(test_borrowed_stride_and_bounds, 0) {
     struct record {
         float x, y, z, unused;
     } records[4] = {{1, 2, 3, 9}, {NAN, 0, 0, 9}, {-1, INFINITY, 0, 9}, {4, -5, 6, 9}};
@@ -51,13 +48,11 @@ TEST(test_borrowed_stride_and_bounds) {
     assert_true(bounds.low_world[0] == 500001 && bounds.high_world[0] == 500004);
     assert_true(bounds.low_world[1] == 3999995 && bounds.high_world[2] == 106);
     ewa_cloud_destroy(&cloud);
-    ewa_context_destroy(&context);
 }
 
 /// Packed numbers and those with others between them read the same, whatever their type.
-TEST(test_packed_and_strided) {
+TEST_ON(test_packed_and_strided, 0) {
     enum { COUNT = 37, MAX_BYTES = 8 };
-    ewa_context *context = check_context(0, NULL);
     for (int type = EWA_F32; type <= EWA_U32; type++) {
         _Alignas(8) static uint8_t packed[COUNT * 3 * MAX_BYTES], strided[COUNT * 4 * MAX_BYTES];
         const size_t bytes = ewa_type_bytes((ewa_type)type);
@@ -77,18 +72,16 @@ TEST(test_packed_and_strided) {
         assert_memory_equal(c, d, 3 * (COUNT - 6) * sizeof *c);
         ewa_cloud_destroy(&cloud);
     }
-    ewa_context_destroy(&context);
 }
 
 /// Names, types, components and their order count; points do not.
-TEST(test_alike) {
+TEST_ON(test_alike, 0) {
     static const struct {
         const char *names[2];
         ewa_type type;
         uint32_t component_count, count;
     } others[] = {{{"a", "b"}, EWA_F32, 1, 2}, {{"a", "b"}, EWA_U16, 1, 2}, {{"a", "b"}, EWA_F32, 2, 2},
                   {{"b", "a"}, EWA_F32, 1, 2}, {{"a", "c"}, EWA_F32, 1, 2}, {{"a", "b"}, EWA_F32, 1, 1}};
-    ewa_context *context = check_context(0, NULL);
     ewa_cloud *clouds[6];
     for (uint32_t i = 0; i < 6; i++) {
         assert_int_equal(ewa_cloud_create(context, i, &clouds[i]), EWA_OK);
@@ -100,7 +93,6 @@ TEST(test_alike) {
         assert_int_equal(ewa_cloud_is_alike(clouds[0], clouds[i]), i == 0);
     }
     for (uint32_t i = 0; i < 6; i++) ewa_cloud_destroy(&clouds[i]);
-    ewa_context_destroy(&context);
 }
 
 TEST(test_too_many_points) {

@@ -115,8 +115,7 @@ TEST(stretched) {
 }
 
 /// Flat ones stay flat, with the third axis as the normal.
-TEST(flat) {
-    ewa_context *context = check_context(1, NULL);
+TEST_ON(flat, 1) {
     ewa_gaussians set;
     assert_int_equal(ewa_gaussians_create(context, 1, 0, &set), EWA_OK);
     set.flat = true;
@@ -130,7 +129,6 @@ TEST(flat) {
     const double last[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 1, 1};
     assert_int_equal(ewa_gaussians_transform(&set, last), EWA_ERROR_ARGUMENT);
     ewa_gaussians_free(&set);
-    ewa_context_destroy(&context);
 }
 
 /// The shortest axis is the normal, wherever it is; colours are of the display, clouds hold light.

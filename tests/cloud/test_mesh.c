@@ -33,8 +33,7 @@ TEST(test_streams) {
     ewa_context_destroy(&context);
 }
 
-TEST(test_weld) {
-    ewa_context *context = check_context(1, NULL);
+TEST_ON(test_weld, 1) {
     const double places[][3] = {{1, 2, 3},
                                 {0, 0, 0},
                                 {1, 2, 3},
@@ -62,7 +61,6 @@ TEST(test_weld) {
     for (uint32_t i = 0; i < 3 * MANY; i++) assert_int_equal(numbers[i], i % MANY);
     free(many);
     free(numbers);
-    ewa_context_destroy(&context);
 }
 
 static bool is_closed(const ewa_mesh *mesh) {

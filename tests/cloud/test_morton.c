@@ -147,7 +147,7 @@ TEST(test_outlier) {
 }
 
 /// Doubles of georeferenced data are told apart to the last digit.
-TEST(test_double) {
+TEST_ON(test_double, 1) {
     enum { COUNT = 1000 };
     double xyz[3 * COUNT];
     uint32_t order[COUNT], finite = 0;
@@ -158,12 +158,10 @@ TEST(test_double) {
     }
     const ewa_attribute position = {
         .type = EWA_F64, .component_count = 3, .stride_bytes = 3 * sizeof *xyz, .data = xyz};
-    ewa_context *context = check_context(1, NULL);
     assert_int_equal(ewa_morton_order(context, &position, COUNT, order, NULL, &finite), EWA_OK);
     assert_int_equal(finite, COUNT);
     assert_int_equal(order[0], 0);
     for (uint32_t i = 2; i < COUNT; i++) assert_true(xyz[3 * order[i]] >= xyz[3 * order[i - 1]]);
-    ewa_context_destroy(&context);
 }
 
 /// The smallest level inside a run says how large a cell holds it: runs cut there are boxes that do not
@@ -194,8 +192,7 @@ TEST(test_split_levels) {
     free(xyz);
 }
 
-TEST(test_few) {
-    ewa_context *context = check_context(2, NULL);
+TEST_ON(test_few, 2) {
     float xyz[3 * 40] = {0};
     const ewa_attribute position = positions_of(xyz);
     uint32_t order[40];
@@ -207,7 +204,6 @@ TEST(test_few) {
             if (i) assert_int_equal(level[i], EWA_MORTON_SAME);
         }
     }
-    ewa_context_destroy(&context);
 }
 
 int main(void) { return RUN_TESTS(NULL, NULL); }

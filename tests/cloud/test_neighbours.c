@@ -323,7 +323,7 @@ static void keep_radii(void *user, const ewa_block *block, uint32_t worker) {
 
 /// Places that are searched alone find what they find among others, whatever the search begins with: the
 /// radius of a sparse leaf before a dense one, or a spacing that is wrong by any factor.
-TEST(test_chosen) {
+TEST_ON(test_chosen, 1) {
     enum { SPARSE = 200, COUNT = 4000 };
     static float xyz[3 * COUNT], spacing[COUNT];
     static double all[COUNT], some[COUNT];
@@ -334,7 +334,6 @@ TEST(test_chosen) {
             xyz[3 * i + (uint32_t)c] =
                 (float)(i < SPARSE ? check_uniform(&random, 0, 8) : 10 + check_uniform(&random, 0, 0.25));
     const ewa_attribute position = positions_of(xyz);
-    ewa_context *context = check_context(1, NULL);
     ewa_neighbours *tree = NULL;
     assert_int_equal(ewa_neighbours_create(context, &position, COUNT, &tree), EWA_OK);
     const uint32_t places = ewa_neighbours_place_count(tree);
@@ -357,7 +356,6 @@ TEST(test_chosen) {
         }
     }
     ewa_neighbours_destroy(&tree);
-    ewa_context_destroy(&context);
 }
 
 static void check_places(void *user, const ewa_block *block, uint32_t worker) {

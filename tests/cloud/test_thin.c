@@ -65,8 +65,7 @@ static void check_distance(const double *p, uint32_t count, const uint8_t *wante
     }
 }
 
-TEST(test_distance) {
-    ewa_context *context = check_context(3, NULL);
+TEST_ON(test_distance, 3) {
     static double p[3 * COUNT];
     static const double distances[] = {0.05, 0.125, 0.31, 2, 30};
     for (int kind = 0; kind < KINDS; kind++) {
@@ -80,12 +79,10 @@ TEST(test_distance) {
         }
         ewa_cloud_destroy(&cloud);
     }
-    ewa_context_destroy(&context);
 }
 
 /// Two points at the very distance both stay; one step nearer, one goes.
-TEST(test_exact_distance) {
-    ewa_context *context = check_context(1, NULL);
+TEST_ON(test_exact_distance, 1) {
     double p[6] = {0, 0, 0, 3, 4, 0};
     ewa_cloud *cloud = make_cloud(context, 2, p, no_origin);
     uint8_t marks[2] = {1, 1};
@@ -94,7 +91,6 @@ TEST(test_exact_distance) {
     assert_int_equal(ewa_cloud_thin_distance(cloud, nextafter(5, 6), marks), EWA_OK);
     assert_int_equal(marks[0] + marks[1], 1);
     ewa_cloud_destroy(&cloud);
-    ewa_context_destroy(&context);
 }
 
 /// One point stays of each voxel, the one nearest to the mean.
@@ -133,8 +129,7 @@ static void check_voxels(const double *p, uint32_t count, const uint8_t *wanted,
     }
 }
 
-TEST(test_voxels) {
-    ewa_context *context = check_context(3, NULL);
+TEST_ON(test_voxels, 3) {
     static double p[3 * COUNT];
     static const double sizes[] = {0.05, 0.125, 0.31, 2, 30}, far[3] = {500000.125, -4200000, 123};
     for (int kind = 0; kind < KINDS; kind++) {
@@ -149,12 +144,10 @@ TEST(test_voxels) {
         }
         ewa_cloud_destroy(&cloud);
     }
-    ewa_context_destroy(&context);
 }
 
 /// Known answers: cubes are aligned to the world's origin, below as above.
-TEST(test_known_voxels) {
-    ewa_context *context = check_context(2, NULL);
+TEST_ON(test_known_voxels, 2) {
     const double p[] = {0.1, 0, 0, 0.9, 0, 0, 0.45, 0, 0, -0.1, 0, 0, 1, 0, 0, 1.5, 0, 0};
     const uint8_t expected[] = {0, 0, 1, 1, 1, 0};
     ewa_cloud *cloud = make_cloud(context, 6, p, no_origin);
@@ -162,7 +155,6 @@ TEST(test_known_voxels) {
     assert_int_equal(ewa_cloud_thin_voxels(cloud, 1, marks), EWA_OK);
     assert_memory_equal(marks, expected, sizeof marks);
     ewa_cloud_destroy(&cloud);
-    ewa_context_destroy(&context);
 }
 
 /// Numbers of the points that stay, in rising order.

@@ -58,14 +58,12 @@ static void hold(subject *of, int index) {
     ewa_context_destroy(&context);
 }
 
-TEST(test_bytes_of_one_process) {
-    ewa_context *context = check_context(1, NULL);
+TEST_ON(test_bytes_of_one_process, 1) {
     for (int i = 0; i < JOINT_FRAMES; i++) {
         subject of;
         joint_frame_make(context, i, &of.frame);
         hold(&of, i);
     }
-    ewa_context_destroy(&context);
 }
 
 enum { MODEL_PX = 640 };
@@ -160,8 +158,7 @@ TEST(test_gather_and_add) {
     }
 }
 
-TEST(test_bad_exchanges) {
-    ewa_context *context = check_context(1, NULL);
+TEST_ON(test_bad_exchanges, 1) {
     ewa_renderer *renderer = NULL;
     const ewa_exchange nothing = {.rank_count = 1};
     assert_int_equal(ewa_renderer_create_joint(context, &nothing, &renderer), EWA_ERROR_ARGUMENT);
@@ -173,7 +170,6 @@ TEST(test_bad_exchanges) {
     assert_int_equal(ewa_exchange_add(context, NULL, &value, 1), EWA_ERROR_ARGUMENT);
     assert_int_equal(ewa_exchange_add(context, &nothing, &value, 1), EWA_ERROR_ARGUMENT);
     assert_true(value == 1 && all == 0);
-    ewa_context_destroy(&context);
 }
 
 int main(void) { return RUN_TESTS(NULL, NULL); }

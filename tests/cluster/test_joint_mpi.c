@@ -11,9 +11,8 @@ static mpi_exchange ranks;
 
 static bool never(void) { return false; }
 
-TEST(test_bytes_of_one_process) {
+TEST_ON(test_bytes_of_one_process, 1) {
     const ewa_exchange exchange = mpi_exchange_of(&ranks);
-    ewa_context *context = check_context(1, NULL);
     ewa_renderer *joint = NULL, *alone = NULL;
     assert_int_equal(ewa_renderer_create_joint(context, &exchange, &joint), EWA_OK);
     assert_int_equal(ewa_renderer_create(context, &alone), EWA_OK);
@@ -34,7 +33,6 @@ TEST(test_bytes_of_one_process) {
     }
     ewa_renderer_destroy(&alone);
     ewa_renderer_destroy(&joint);
-    ewa_context_destroy(&context);
 }
 
 int main(int argc, char **argv) {

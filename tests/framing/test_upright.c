@@ -521,8 +521,7 @@ TEST(test_words) {
 }
 
 /// What a cloud's framing chooses is what its points choose; in another order too.
-TEST(test_of_cloud) {
-    ewa_context *context = check_context(1, NULL);
+TEST_ON(test_of_cloud, 1) {
     make_footed(0.33);
     const ewa_upright direct = chosen_at_origin(EWA_UP_Z_USUAL);
     for (int order = 0; order < 2; order++) {
@@ -542,7 +541,6 @@ TEST(test_of_cloud) {
         assert_ptr_equal(chosen.why, direct.why);
         ewa_framing_destroy(&framing);
     }
-    ewa_context_destroy(&context);
 }
 
 int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -41,12 +41,11 @@ static void draw(ewa_renderer *renderer, ewa_surfels *const *parts, const char *
     assert_int_equal(ewa_render_finish(renderer, NULL), EWA_OK);
 }
 
-TEST(test_division_has_no_say) {
+TEST_ON(test_division_has_no_say, 0) {
     static const char *const tunings[][2] = {{"tile_px=8 unit=1 page=3", "tile_px=16 storage=4500000"},
                                              {"tile_px=4 unit=7 page=100", "tile_px=16 unit=5000"},
                                              {"tile_px=16 unit=100 page=7", "storage=4500000"}};
     static const scene_kind kinds[] = {SCENE_CUBE, SCENE_NEAR, SCENE_ELLIPSES};
-    ewa_context *context = check_context(0, NULL);
     picture expected = picture_make(WIDTH_PX, HEIGHT_PX), found = picture_make(WIDTH_PX, HEIGHT_PX);
     for (size_t k = 0; k < sizeof kinds / sizeof kinds[0]; k++) {
         scene of;
@@ -71,12 +70,10 @@ TEST(test_division_has_no_say) {
     }
     picture_free(&expected);
     picture_free(&found);
-    ewa_context_destroy(&context);
 }
 
-TEST(test_pixels_of_parts) {
+TEST_ON(test_pixels_of_parts, 0) {
     enum { SMALL_PX = 40 };
-    ewa_context *context = check_context(0, NULL);
     picture expected = picture_make(SMALL_PX, SMALL_PX), found = picture_make(SMALL_PX, SMALL_PX);
     scene of;
     assert_int_equal(scene_make(context, SCENE_CUBE, POINTS, SMALL_PX, SMALL_PX, &of), EWA_OK);
@@ -97,12 +94,10 @@ TEST(test_pixels_of_parts) {
     scene_free(&of);
     picture_free(&expected);
     picture_free(&found);
-    ewa_context_destroy(&context);
 }
 
-TEST(test_order_has_no_say) {
+TEST_ON(test_order_has_no_say, 0) {
     static const scene_kind kinds[] = {SCENE_SPHERE, SCENE_CUBE, SCENE_TORUS};
-    ewa_context *context = check_context(0, NULL);
     picture expected = picture_make(WIDTH_PX, HEIGHT_PX), found = picture_make(WIDTH_PX, HEIGHT_PX);
     scene scenes[3];
     ewa_surfels *parts[3];
@@ -136,12 +131,10 @@ TEST(test_order_has_no_say) {
     }
     picture_free(&expected);
     picture_free(&found);
-    ewa_context_destroy(&context);
 }
 
 /// Surfels that are freed and made again at the same address are other surfels.
-TEST(test_surfels_come_and_go) {
-    ewa_context *context = check_context(0, NULL);
+TEST_ON(test_surfels_come_and_go, 0) {
     picture expected = picture_make(WIDTH_PX, HEIGHT_PX), found = picture_make(WIDTH_PX, HEIGHT_PX);
     ewa_renderer *cpu = NULL, *gl = open_tuned(context, "");
     assert_int_equal(ewa_renderer_create(context, &cpu), EWA_OK);
@@ -161,7 +154,6 @@ TEST(test_surfels_come_and_go) {
     ewa_renderer_destroy(&cpu);
     picture_free(&expected);
     picture_free(&found);
-    ewa_context_destroy(&context);
 }
 
 int main(void) {

@@ -25,7 +25,7 @@ static ewa_gl_verdict try_arithmetic(const char *text) {
 }
 
 /// Emulation gives the bits of the processor where a device's own operations do not; without it, it is only close.
-TEST(test_classes) {
+TEST_ON(test_classes, 1) {
     const ewa_gl_verdict own = try_arithmetic(""), emulated = try_arithmetic("arith=emulated"),
                          close = try_arithmetic("arith=close");
     assert_true(emulated.exact && !emulated.differs);
@@ -35,12 +35,10 @@ TEST(test_classes) {
     assert_true(close.arithmetic.fused && close.arithmetic.divides && close.arithmetic.roots);
     assert_int_equal(close.exact, all_own);
     assert_true(close.exact || close.differs);
-    ewa_context *context = check_context(1, NULL);
     ewa_gpu_info info = {.struct_size = sizeof info};
     assert_int_equal(ewa_gpu_describe(context, &info), EWA_OK);
     assert_int_equal(info.device_class, close.exact ? EWA_GPU_EXACT : EWA_GPU_CLOSE);
     assert_true(info.renderer[0] && info.storage_bytes >= 1 << 27 && info.storage_count >= 14);
-    ewa_context_destroy(&context);
 }
 
 /// Arithmetic that rounds otherwise: at least 60 dB, and at most one pixel in 10^5 off by more than a level.
@@ -140,9 +138,8 @@ TEST(test_creations) {
 }
 
 /// A context of the caller's own stays current.
-TEST(test_outside_stays) {
+TEST_ON(test_outside_stays, 1) {
     tune("");
-    ewa_context *context = check_context(1, NULL);
     ewa_gl *outside = NULL;
     assert_int_equal(ewa_gl_open(context, &outside), EWA_OK);
     assert_int_equal(ewa_gl_enter(outside), EWA_OK);
@@ -160,7 +157,6 @@ TEST(test_outside_stays) {
     gpu_scene_free(&at);
     ewa_gl_leave(outside);
     ewa_gl_close(&outside);
-    ewa_context_destroy(&context);
 }
 
 int main(void) {

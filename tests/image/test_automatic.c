@@ -26,10 +26,9 @@ static void expect(const char *what, double value, double low, double high) {
 }
 
 /// A tree in noisy air, whatever the noise, with and without zeros around it.
-TEST(test_bonsai) {
+TEST_ON(test_bonsai, 1) {
     static const phantom_scan scans[] = {
         {12, 5, true}, {12, 5, false}, {14, 7, true}, {2, 1, false}, {30, 5, true}};
-    ewa_context *context = check_context(1, NULL);
     for (size_t n = 0; n < sizeof scans / sizeof scans[0]; n++) {
         phantom scene = phantom_make(scans[n].air);
         phantom_add_bonsai(&scene, 50 + scans[n].air, 70 + scans[n].air, 90 + scans[n].air,
@@ -46,11 +45,10 @@ TEST(test_bonsai) {
         ewa_volume_free(&volume);
         phantom_free(&scene);
     }
-    ewa_context_destroy(&context);
 }
 
 /// A nut in a cup: the cup is left out.
-TEST(test_walnut) {
+TEST_ON(test_walnut, 1) {
     static const struct {
         phantom_scan scan;
         double cup, thick, shell, kernel;
@@ -58,7 +56,6 @@ TEST(test_walnut) {
     } cases[] = {{{10, 6, false}, 60, 3, 150, 110, false}, {{10, 6, true}, 60, 3, 150, 110, true},
                  {{10, 6, false}, 80, 8, 150, 110, true},  {{10, 9, false}, 100, 4, 180, 150, true},
                  {{10, 1, false}, 60, 2, 150, 110, true},  {{0, 0, false}, 60, 4, 150, 150, true}};
-    ewa_context *context = check_context(1, NULL);
     for (size_t n = 0; n < sizeof cases / sizeof cases[0]; n++) {
         phantom scene = phantom_make(cases[n].scan.air);
         phantom_add_walnut(&scene, cases[n].cup, cases[n].thick, cases[n].lid, cases[n].shell,
@@ -72,13 +69,11 @@ TEST(test_walnut) {
         ewa_volume_free(&volume);
         phantom_free(&scene);
     }
-    ewa_context_destroy(&context);
 }
 
 /// A head in computed tomography: skin and bone, the one through the other. In magnetic resonance, where bone
 /// is dark, the skin is solid.
-TEST(test_heads) {
-    ewa_context *context = check_context(1, NULL);
+TEST_ON(test_heads, 1) {
     phantom scene = phantom_make(4);
     phantom_add_head(&scene, 70, 72, 170);
     const phantom_scan tomograph = {4, 2, false};
@@ -107,12 +102,10 @@ TEST(test_heads) {
     expect("outside", head.elsewhere, 0, 0.02);
     ewa_volume_free(&volume);
     phantom_free(&scene);
-    ewa_context_destroy(&context);
 }
 
 /// The same look of the same matter: turned, mirrored, in other numbers, with a few that are far off or none.
-TEST(test_same_look) {
-    ewa_context *context = check_context(1, NULL);
+TEST_ON(test_same_look, 1) {
     phantom scene = phantom_make(12);
     phantom_add_bonsai(&scene, 60, 80, 100, 140);
     const phantom_scan scan = {12, 5, true};
@@ -155,14 +148,12 @@ TEST(test_same_look) {
     ewa_volume_free(&other);
     ewa_volume_free(&volume);
     phantom_free(&scene);
-    ewa_context_destroy(&context);
 }
 
 /// Whatever comes, there is a look, and it shows something where there is something.
-TEST(test_odd_volumes) {
+TEST_ON(test_odd_volumes, 1) {
     static const uint32_t sizes[][3] = {{1, 1, 2},   {2, 1, 1}, {27, 1, 1},   {1, 9, 3},
                                         {64, 64, 1}, {5, 5, 5}, {40, 3, 2000}};
-    ewa_context *context = check_context(1, NULL);
     for (size_t s = 0; s < sizeof sizes / sizeof sizes[0]; s++)
         for (int kind = 0; kind < 6; kind++) {
             ewa_volume volume;
@@ -193,12 +184,10 @@ TEST(test_odd_volumes) {
             }
             ewa_volume_free(&volume);
         }
-    ewa_context_destroy(&context);
 }
 
 /// Volumes that are filled to their faces show their denser half.
-TEST(test_full_volume) {
-    ewa_context *context = check_context(1, NULL);
+TEST_ON(test_full_volume, 1) {
     phantom scene = phantom_make(40);
     for (int i = 0; i < PHANTOM_VOXELS; i++)
         if (i / PHANTOM_SIDE % PHANTOM_SIDE > 40) scene.values[i] = 160, scene.material[i] = PHANTOM_SOFT;
@@ -210,14 +199,12 @@ TEST(test_full_volume) {
     expect("other half", dense.elsewhere, 0, 0.05);
     ewa_volume_free(&volume);
     phantom_free(&scene);
-    ewa_context_destroy(&context);
 }
 
 /// Nearly all voxels have the value next to the highest, and the lowest is in a row that is not looked at: no
 /// class begins above the last threshold.
-TEST(test_highest_class) {
+TEST_ON(test_highest_class, 1) {
     enum { SIDE = 128 };
-    ewa_context *context = check_context(1, NULL);
     const uint32_t dims[3] = {SIDE, SIDE, SIDE};
     ewa_volume volume;
     assert_int_equal(ewa_volume_create(context, dims, EWA_U8, &volume), EWA_OK);
@@ -229,12 +216,11 @@ TEST(test_highest_class) {
     for (uint32_t i = 0; i < transfer.point_count; i++)
         expect("point", transfer.points[i].value, 254.4999, 255);
     ewa_volume_free(&volume);
-    ewa_context_destroy(&context);
 }
 
 /// A look along one column of voxels, from its two ends: three voxels in front hide, two do not; a gap of
 /// three parts, one of two does not. Across, lines are too short to meet anything.
-TEST(test_sight) {
+TEST_ON(test_sight, 1) {
     static const struct {
         const char *column; // o: outer, i: inner, anything else: neither
         double hit, hidden, apart;
@@ -245,7 +231,6 @@ TEST(test_sight) {
         {"o...ii", 2, 0, 0},       {"oo...ii..oo", 2, 0, 0.5},    {"oo...ii...oo", 2, 0, 1},
         {"oo.o.o.oii", 2, 0.5, 0}, {"ooo.i.ooo", 0, 0, 0},
     };
-    ewa_context *context = check_context(1, NULL);
     for (size_t n = 0; n < sizeof cases / sizeof cases[0]; n++) {
         const char *column = cases[n].column;
         for (int axis = 0; axis < 3; axis++) {
@@ -263,7 +248,6 @@ TEST(test_sight) {
             ewa_volume_free(&volume);
         }
     }
-    ewa_context_destroy(&context);
 }
 
 int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -87,9 +87,8 @@ static void fill_labels(ewa_volume *volume, bool body) {
 }
 
 /// The colour of its class for each label, whatever the type; what is around all others lets them be seen.
-TEST(test_labels) {
+TEST_ON(test_labels, 1) {
     static const ewa_type types[] = {EWA_U8, EWA_I16, EWA_F32};
-    ewa_context *context = check_context(1, NULL);
     for (int n = 0; n < 6; n++) {
         ewa_volume volume = make_volume(context, types[n % 3]);
         const bool body = n >= 3;
@@ -113,12 +112,10 @@ TEST(test_labels) {
         }
         ewa_volume_free(&volume);
     }
-    ewa_context_destroy(&context);
 }
 
 /// Things that are no labels: a ball in few steps, two values, a scan without noise.
-TEST(test_no_labels) {
-    ewa_context *context = check_context(1, NULL);
+TEST_ON(test_no_labels, 1) {
     ewa_volume volume = make_volume(context, EWA_U8);
     uint8_t *voxels = volume.voxels;
     for (int steps = 2; steps <= 200; steps += 33) {
@@ -139,7 +136,6 @@ TEST(test_no_labels) {
         ewa_volume_free(&volume);
     }
     phantom_free(&scene);
-    ewa_context_destroy(&context);
 }
 
 /// Optical depth along a line of voxels parallel to x.
@@ -152,8 +148,7 @@ static double depth_along(const ewa_volume *volume, const ewa_transfer *transfer
 
 /// A hydrogen atom, |3d z2|^2: two lobes, and a ring of a quarter of their density, are seen; what is far off is not. The
 /// same in other units.
-TEST(test_field) {
-    ewa_context *context = check_context(1, NULL);
+TEST_ON(test_field, 1) {
     ewa_volume volume = make_volume(context, EWA_F32);
     float *numbers = volume.voxels;
     for (int n = 0; n < 3; n++) {
@@ -176,12 +171,10 @@ TEST(test_field) {
         expect("far off", depth_along(&volume, &transfer, 2, 2), 0, 0);
     }
     ewa_volume_free(&volume);
-    ewa_context_destroy(&context);
 }
 
 /// Fields that reach the faces of the box have shells, too.
-TEST(test_full_field) {
-    ewa_context *context = check_context(1, NULL);
+TEST_ON(test_full_field, 1) {
     ewa_volume volume = make_volume(context, EWA_F32);
     for (int i = 0; i < ALL; i++) {
         double p[3];
@@ -195,12 +188,10 @@ TEST(test_full_field) {
     expect("outermost shell", transfer.points[1].value, 0.5, 2);
     assert_true(look_up(&transfer, 2.9, color) > 0.5);
     ewa_volume_free(&volume);
-    ewa_context_destroy(&context);
 }
 
 /// One slice along any axis: greys that become lighter, all of it solid.
-TEST(test_picture) {
-    ewa_context *context = check_context(1, NULL);
+TEST_ON(test_picture, 1) {
     for (int axis = 0; axis < 3; axis++) {
         uint32_t dims[3] = {SIDE, SIDE, SIDE};
         dims[axis] = 1;
@@ -224,7 +215,6 @@ TEST(test_picture) {
         expect("white", last, 1, 1);
         ewa_volume_free(&volume);
     }
-    ewa_context_destroy(&context);
 }
 
 /// Noise is told of, and scans with noise are not.
@@ -253,8 +243,7 @@ TEST(test_noise) {
 }
 
 /// A nut packed in foam in a cup: lines of sight pass much of the foam, which lets the nut be seen.
-TEST(test_packed) {
-    ewa_context *context = check_context(1, NULL);
+TEST_ON(test_packed, 1) {
     phantom scene = phantom_make(12);
     phantom_add_walnut(&scene, 60, 3, false, 150, 110);
     check_random random = {7};
@@ -272,7 +261,6 @@ TEST(test_packed) {
     expect("nut", nut.object, 0.69, 1); // 0.67 by the mean chord of the foam's pieces
     ewa_volume_free(&volume);
     phantom_free(&scene);
-    ewa_context_destroy(&context);
 }
 
 int main(void) { return RUN_TESTS(NULL, NULL); }

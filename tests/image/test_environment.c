@@ -30,9 +30,8 @@ static float constant(uint32_t x, uint32_t y, uint32_t channel) {
     return 0.1f + (float)channel;
 }
 
-TEST(test_constants_stay) {
+TEST_ON(test_constants_stay, 1) {
     static const uint32_t sizes[][2] = {{1, 1}, {2, 1}, {64, 32}, {37, 21}, {5, 40}, {100, 3}};
-    ewa_context *context = check_context(1, NULL);
     for (size_t i = 0; i < sizeof sizes / sizeof sizes[0]; i++)
         for (uint32_t channels = 1; channels <= 4; channels++) {
             if (channels == 2) continue;
@@ -48,7 +47,6 @@ TEST(test_constants_stay) {
             }
             ewa_environment_destroy(&made);
         }
-    ewa_context_destroy(&context);
 }
 
 static float noise(uint32_t x, uint32_t y, uint32_t channel) {
@@ -70,14 +68,12 @@ static double mean_of(const ewa_environment_level *level) {
     return sum / area;
 }
 
-TEST(test_levels_keep_the_mean) {
-    ewa_context *context = check_context(1, NULL);
+TEST_ON(test_levels_keep_the_mean, 1) {
     ewa_environment *made = make(context, 96, 48, 3, noise);
     const double mean = mean_of(&made->levels[0]);
     for (uint32_t k = 1; k < made->level_count; k++)
         assert_true(fabs(mean_of(&made->levels[k]) / mean - 1) < 1e-3);
     ewa_environment_destroy(&made);
-    ewa_context_destroy(&context);
 }
 
 /// A single bright texel in the uppermost row covers as much of the sphere as one texel on the equator: a
@@ -87,9 +83,8 @@ static float lone_texel(uint32_t x, uint32_t y, uint32_t channel) {
     return (x == 10 && y == 0) || (x == 40 && y == 16);
 }
 
-TEST(test_texels_are_round) {
+TEST_ON(test_texels_are_round, 1) {
     enum { WIDTH = 64, HEIGHT = 32 };
-    ewa_context *context = check_context(1, NULL);
     ewa_environment *made = make(context, WIDTH, HEIGHT, 1, lone_texel);
     const float *row = made->levels[0].texels;
     uint32_t bright = 0;
@@ -104,7 +99,6 @@ TEST(test_texels_are_round) {
     // sin of half a texel from the equator: texels there are wider than high by a thousandth.
     assert_true(fabsf(equator[3 * 40] - 1) < 2e-3f && fabsf(equator[3 * 39]) < 2e-3f);
     ewa_environment_destroy(&made);
-    ewa_context_destroy(&context);
 }
 
 static float wild(uint32_t x, uint32_t y, uint32_t channel) {

@@ -26,8 +26,7 @@ TEST(test_create_and_free) {
 }
 
 /// What many tests measure with.
-TEST(test_difference) {
-    ewa_context *context = check_context(1, NULL);
+TEST_ON(test_difference, 1) {
     ewa_image a, b, c;
     assert_int_equal(ewa_image_create(context, 2, 2, 3, &a), EWA_OK);
     assert_int_equal(ewa_image_create(context, 2, 2, 3, &b), EWA_OK);
@@ -53,7 +52,6 @@ TEST(test_difference) {
     ewa_image_free(&a);
     ewa_image_free(&b);
     ewa_image_free(&c);
-    ewa_context_destroy(&context);
 }
 
 int main(void) { return RUN_TESTS(NULL, NULL); }

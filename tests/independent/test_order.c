@@ -181,25 +181,21 @@ static void hold_scene(ewa_context *context, uint64_t seed, random_scene *made) 
     planes_free(&other);
 }
 
-TEST(test_random) {
-    ewa_context *context = check_context(0, NULL);
+TEST_ON(test_random, 0) {
     for (uint64_t seed = 0; seed < EWA_RANDOM_SCENES; seed++) {
         random_scene made;
         random_scene_make(context, seed, &made);
         hold_scene(context, seed, &made);
         random_scene_free(&made);
     }
-    ewa_context_destroy(&context);
 }
 
-TEST(test_named) {
-    ewa_context *context = check_context(0, NULL);
+TEST_ON(test_named, 0) {
     random_scene made;
     for (uint32_t i = 0; named_scene_make(context, i, &made); i++) {
         hold_scene(context, i, &made);
         random_scene_free(&made);
     }
-    ewa_context_destroy(&context);
 }
 
 int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -51,8 +51,7 @@ static double hold(ewa_context *context, const char *set, uint64_t number, rando
     return pipeline->color_db;
 }
 
-TEST(test_random) {
-    ewa_context *context = check_context(0, NULL);
+TEST_ON(test_random, 0) {
     double pipeline[SCENES];
     for (uint64_t i = 0; i < SCENES; i++) {
         random_scene made;
@@ -63,22 +62,18 @@ TEST(test_random) {
     qsort(pipeline, SCENES, sizeof *pipeline, compare_doubles);
     print_message("pipeline: least %.1f, median %.1f dB\n", pipeline[0], pipeline[SCENES / 2]);
     assert_true(pipeline[SCENES / 2] >= TYPICAL_DB);
-    ewa_context_destroy(&context);
 }
 
-TEST(test_named) {
-    ewa_context *context = check_context(0, NULL);
+TEST_ON(test_named, 0) {
     random_scene made;
     for (uint32_t i = 0; named_scene_make(context, i, &made); i++) {
         hold(context, "named", i, &made);
         random_scene_free(&made);
     }
-    ewa_context_destroy(&context);
 }
 
 /// The scale must not read zero where something is wrong.
-TEST(test_distance) {
-    ewa_context *context = check_context(0, NULL);
+TEST_ON(test_distance, 0) {
     random_scene made;
     random_scene_make(context, 1, &made);
     made.scene.unit_coverage = 0.5;
@@ -110,7 +105,6 @@ TEST(test_distance) {
     free(rgba), free(depth), free(normal), free(coverage), free(rgba8);
     independent_free(&truth);
     random_scene_free(&made);
-    ewa_context_destroy(&context);
 }
 
 int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -58,8 +58,7 @@ static ewa_status load_text(ewa_context *context, const char *text, uint32_t ind
     return ewa_camera_load(context, path, index, camera);
 }
 
-TEST(test_every_format_gives_the_same_camera) {
-    ewa_context *context = check_context(1, NULL);
+TEST_ON(test_every_format_gives_the_same_camera, 1) {
     ewa_camera camera;
     const char *const texts[] = {NATIVE, OPEN3D, TRANSFORMS, STACKS};
     for (size_t i = 0; i < sizeof texts / sizeof texts[0]; i++) {
@@ -72,12 +71,10 @@ TEST(test_every_format_gives_the_same_camera) {
     assert_true(fabs(camera.fx_px - 240) < 1e-12 && camera.fy_px == camera.fx_px);
     camera.fx_px = 500, camera.fy_px = 510;
     assert_expected(&camera, 320, 240);
-    ewa_context_destroy(&context);
 }
 
 /// Open3D has pixel centres at whole numbers: what it calls the middle of its pictures is the middle of ours.
-TEST(test_open3d_middle) {
-    ewa_context *context = check_context(1, NULL);
+TEST_ON(test_open3d_middle, 1) {
     ewa_camera camera;
     char text[600];
     snprintf(text, sizeof text,
@@ -86,7 +83,6 @@ TEST(test_open3d_middle) {
              641, 480, 641 / 2.0 - 0.5, 480 / 2.0 - 0.5);
     assert_int_equal(load_text(context, text, 0, &camera), EWA_OK);
     assert_true(camera.cx_px == 320.5 && camera.cy_px == 240);
-    ewa_context_destroy(&context);
 }
 
 /// A lens comes from every format, without the pose, and from Open3D's file of a lens alone.
@@ -147,8 +143,7 @@ TEST(test_many_cameras) {
     ewa_context_destroy(&context);
 }
 
-TEST(test_round_trip_is_exact) {
-    ewa_context *context = check_context(1, NULL);
+TEST_ON(test_round_trip_is_exact, 1) {
     char path[512];
     scratch_path("saved.json", path);
     check_random random = {5};
@@ -170,7 +165,6 @@ TEST(test_round_trip_is_exact) {
         assert_int_equal(ewa_camera_load(context, path, 0, &back), EWA_OK);
         assert_memory_equal(&camera, &back, sizeof camera);
     }
-    ewa_context_destroy(&context);
 }
 
 TEST(test_transforms_lens) {
@@ -344,8 +338,7 @@ static void receive(void *user, uint32_t index, const ewa_camera *camera) {
 }
 
 /// A list that was written comes back bit by bit, in order; a broken file hands over nothing.
-TEST(test_list) {
-    ewa_context *context = check_context(1, NULL);
+TEST_ON(test_list, 1) {
     char path[512];
     scratch_path("list.json", path);
     ewa_camera cameras[3];
@@ -370,7 +363,6 @@ TEST(test_list) {
     all.count = 0;
     assert_int_equal(ewa_camera_load_each(context, path, receive, &all), EWA_ERROR_FORMAT);
     assert_int_equal(all.count, 0);
-    ewa_context_destroy(&context);
 }
 
 TEST(test_refuses_to_write_nonsense) {

@@ -31,8 +31,7 @@ static const char MATRICES[] = "# a comment\n0 0 2\n1 0 0 1.5\n0 1 0 -2\n0 0 1 3
 static const char TUM[] = "# time tx ty tz qx qy qz qw\n1305031102.17 1 2 3 0 0 0 1\n"
                           "1305031102.21 4 5 6 0 0 0.7071067811865476 0.7071067811865476\n";
 
-TEST(test_matrices) {
-    ewa_context *context = check_context(1, NULL);
+TEST_ON(test_matrices, 1) {
     ewa_camera_list list;
     assert_int_equal(read_text(context, MATRICES, &list), EWA_OK);
     assert_int_equal(list.count, 2);
@@ -41,11 +40,9 @@ TEST(test_matrices) {
     // Camera to world takes x to y: world to camera takes y to x.
     assert_true(list.cameras[1].world_to_camera[1] == 1 && list.cameras[1].world_to_camera[4] == -1);
     ewa_camera_list_free(&list);
-    ewa_context_destroy(&context);
 }
 
-TEST(test_tum) {
-    ewa_context *context = check_context(1, NULL);
+TEST_ON(test_tum, 1) {
     ewa_camera_list list;
     assert_int_equal(read_text(context, TUM, &list), EWA_OK);
     assert_int_equal(list.count, 2);
@@ -53,7 +50,6 @@ TEST(test_tum) {
     expect_eye(&list.cameras[1], 4, 5, 6);
     assert_true(fabs(list.cameras[1].world_to_camera[1] - 1) < 1e-12); // a quarter turn about z, x to y
     ewa_camera_list_free(&list);
-    ewa_context_destroy(&context);
 }
 
 TEST(test_broken) {
@@ -112,9 +108,8 @@ static void count_pose(void *user, uint32_t index, const ewa_camera *camera) {
     ++*(uint32_t *)user;
 }
 
-TEST(test_files) {
+TEST_ON(test_files, 1) {
     char path[512];
-    ewa_context *context = check_context(1, NULL);
     scratch_write(scratch_path("poses.txt", path), TUM, sizeof TUM - 1);
     const ewa_camera camera = lens();
     uint32_t count = 0;
@@ -128,7 +123,6 @@ TEST(test_files) {
         assert_int_equal(ewa_camera_load_poses(context, path, &camera, count_pose, &count), EWA_OK);
         assert_int_equal(count, 5);
     }
-    ewa_context_destroy(&context);
 }
 
 /// Depths in PNG are integers, not colours.
@@ -174,10 +168,9 @@ TEST(test_depths) {
 }
 
 /// Every beginning of a file is refused.
-TEST(test_cut_short) {
+TEST_ON(test_cut_short, 1) {
     char path[512];
     if (!check_data("rgbd/sensor_sequence/frame-000065.depth.png", path, sizeof path)) skip();
-    ewa_context *context = check_context(1, NULL);
     ewa_image depth;
     size_t size_bytes;
     uint8_t *bytes = scratch_read(path, &size_bytes);
@@ -189,7 +182,6 @@ TEST(test_cut_short) {
         free(cut);
     }
     free(bytes);
-    ewa_context_destroy(&context);
 }
 
 int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -55,8 +55,7 @@ TEST(test_round_trip_is_exact) {
     }
 }
 
-TEST(test_channels_go_by_name) {
-    ewa_context *context = check_context(1, NULL);
+TEST_ON(test_channels_go_by_name, 1) {
     char path[512];
     scratch_path("named.exr", path);
     ewa_image image, back;
@@ -78,11 +77,9 @@ TEST(test_channels_go_by_name) {
     assert_memory_equal(back.pixels, expected, sizeof expected);
     ewa_image_free(&back);
     ewa_image_free(&image);
-    ewa_context_destroy(&context);
 }
 
-TEST(test_half) {
-    ewa_context *context = check_context(1, NULL);
+TEST_ON(test_half, 1) {
     char path[512];
     scratch_path("half.exr", path);
     ewa_image image, back;
@@ -98,11 +95,9 @@ TEST(test_half) {
     assert_true(back.pixels[0] == 1.0f + 0x1p-10f && back.pixels[1] == 1 && isinf(back.pixels[2]));
     ewa_image_free(&image);
     ewa_image_free(&back);
-    ewa_context_destroy(&context);
 }
 
-TEST(test_camera_attribute) {
-    ewa_context *context = check_context(1, NULL);
+TEST_ON(test_camera_attribute, 1) {
     char path[512];
     scratch_path("camera.exr", path);
     ewa_camera camera;
@@ -127,7 +122,6 @@ TEST(test_camera_attribute) {
     assert_int_equal(compression, EXR_COMPRESSION_ZIP);
     exr_finish(&file);
     ewa_image_free(&image);
-    ewa_context_destroy(&context);
 }
 
 TEST(test_names_are_checked) {

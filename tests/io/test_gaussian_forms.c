@@ -312,12 +312,11 @@ TEST(beside) {
 }
 
 /// A node moves, turns and scales what hangs on it.
-TEST(placed) {
+TEST_ON(placed, 1) {
     static sample_file file;
     sample_glb(&file, 1,
                "\"translation\":[10,20,30],\"rotation\":[0,0,0.70710678,0.70710678],\"scale\":[2,2,2],",
                "KHR_gaussian_splatting:");
-    ewa_context *context = check_context(1, NULL);
     ewa_gaussians set;
     ewa_gaussian_facts facts;
     assert_int_equal(ewa_gaussians_load_memory(context, file.bytes, file.size, "test", NULL, &set, &facts),
@@ -335,7 +334,6 @@ TEST(placed) {
         sample_near("z", i, set.harmonics[3 * (4 * i + 2)], sample_rest(2, 0), 1e-5);
     }
     ewa_gaussians_free(&set);
-    ewa_context_destroy(&context);
 }
 
 /// A .glb of the given JSON, in which %zu is the number of bytes of the buffer.

@@ -59,8 +59,7 @@ static differences compare(const ewa_gaussians *a, const ewa_gaussians *b, const
     return maximum;
 }
 
-TEST(guitar) {
-    ewa_context *context = check_context(2, NULL);
+TEST_ON(guitar, 2) {
     loaded plain, packed, splat, spz, flat;
     if (load(context, "gaussians/guitar_3dgs.ply", &plain) &&
         load(context, "gaussians/guitar.compressed.ply", &packed)) {
@@ -119,11 +118,10 @@ TEST(guitar) {
     ewa_gaussians_free(&splat.set);
     ewa_gaussians_free(&spz.set);
     ewa_gaussians_free(&flat.set);
-    ewa_context_destroy(&context);
 }
 
 /// Small ones: what is in them is known.
-TEST(small) {
+TEST_ON(small, 1) {
     static const struct {
         const char *name;
         ewa_gaussian_format format;
@@ -133,7 +131,6 @@ TEST(small) {
                  {"gaussians/minimal-v4.spz", EWA_GAUSSIANS_SPZ, 4, 0, 4},
                  {"gaussians/pc_short_100_sh3.ply", EWA_GAUSSIANS_PLY, 100, 3, 0},
                  {"gaussians/train_3_points.ply", EWA_GAUSSIANS_PLY, 3, 3, 0}};
-    ewa_context *context = check_context(1, NULL);
     for (size_t i = 0; i < sizeof files / sizeof files[0]; i++) {
         loaded made;
         if (!load(context, files[i].name, &made)) continue;
@@ -157,7 +154,6 @@ TEST(small) {
         assert_int_equal(ewa_gaussians_probe(context, path, &format), EWA_OK);
         assert_int_equal(format, EWA_GAUSSIANS_NONE);
     }
-    ewa_context_destroy(&context);
 }
 
 int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -72,10 +72,9 @@ TEST(round_trips) {
 }
 
 /// What is up in a set becomes what is up in files, and -y when these are read; colours go along.
-TEST(upright) {
+TEST_ON(upright, 1) {
     static const double ups[3][3] = {{0, 0, 0}, {0, 1, 0}, {0, 0, 1}};
     static const double wanted[3][3] = {{1, 2, 3}, {1, -2, -3}, {1, -3, 2}}; // of (1, 2, 3) with -y up
-    ewa_context *context = check_context(1, NULL);
     for (int u = 0; u < 3; u++)
         for (int form = 0; form < 3; form++) {
             static const char *const names[] = {"u.ply", "u.splat", "u.spz"};
@@ -102,11 +101,10 @@ TEST(upright) {
             ewa_gaussians_free(&set);
             ewa_gaussians_free(&read);
         }
-    ewa_context_destroy(&context);
 }
 
 /// Random turns come back, whichever component is the largest.
-TEST(turns) {
+TEST_ON(turns, 1) {
     enum { TURNS = 500 };
     static const struct {
         const char *name;
@@ -115,7 +113,6 @@ TEST(turns) {
     } cases[] = {
         {"t.splat", 0, 2e-4}, {"t.spz", 2, 6e-3}, {"t.spz", 3, 4e-6}, {"t.spz", 4, 4e-6}, {"t.ply", 0, 1e-6}};
     check_random random = {11};
-    ewa_context *context = check_context(1, NULL);
     ewa_gaussians set, read;
     assert_int_equal(ewa_gaussians_create(context, TURNS, 0, &set), EWA_OK);
     for (uint32_t i = 0; i < TURNS; i++) {
@@ -140,7 +137,6 @@ TEST(turns) {
         ewa_gaussians_free(&read);
     }
     ewa_gaussians_free(&set);
-    ewa_context_destroy(&context);
 }
 
 /// Flat ones, opacities of 0 and 1, scales of 0, places far away.
@@ -230,10 +226,9 @@ TEST(refused) {
 
 /// Compressed PLY of several chunks, the last one not full: in another order, each within a step of the chunks that
 /// neighbours share; one far away costs its own chunk alone.
-TEST(chunks) {
+TEST_ON(chunks, 2) {
     enum { COUNT = 5000 };
     check_random random = {5};
-    ewa_context *context = check_context(2, NULL);
     ewa_gaussians set, read;
     assert_int_equal(ewa_gaussians_create(context, COUNT, 1, &set), EWA_OK);
     for (size_t i = 0; i < COUNT; i++) {
@@ -274,7 +269,6 @@ TEST(chunks) {
     assert_true(coarse <= 256 && worst[0] < 2e-3 && worst[1] < 4e-3 && worst[2] < 1.6e-2 + 1e-6);
     ewa_gaussians_free(&set);
     ewa_gaussians_free(&read);
-    ewa_context_destroy(&context);
 }
 
 /// The same bytes for any number of threads.

@@ -21,8 +21,7 @@ static ewa_status decode(ewa_context *context, const uint8_t *bytes, size_t size
 /// 2 x 2 pixels, plain.
 #define PLAIN_HEAD "#?RADIANCE\n# a comment\nFORMAT=32-bit_rle_rgbe\n\n"
 
-TEST(test_plain_rows) {
-    ewa_context *context = check_context(1, NULL);
+TEST_ON(test_plain_rows, 1) {
     static const char pixels[] = "\x80\x40\x00\x81\xff\x00\x01\x80\x01\x02\x03\x88\x00\x00\x00\x00";
     for (int from_bottom = 0; from_bottom < 2; from_bottom++) {
         char file[256];
@@ -40,11 +39,9 @@ TEST(test_plain_rows) {
         assert_true(last[3] == 0 && last[4] == 0 && last[5] == 0);
         ewa_image_free(&image);
     }
-    ewa_context_destroy(&context);
 }
 
-TEST(test_repeated_pixels) {
-    ewa_context *context = check_context(1, NULL);
+TEST_ON(test_repeated_pixels, 1) {
     // 1 pixel, 2 more like it, another, and 0x0102 = 258 more like that: the low digit comes first.
     static const char file[] = PLAIN_HEAD
         "-Y 1 +X 262\n\x10\x20\x30\x88\x01\x01\x01\x02\x40\x50\x60\x88\x01\x01\x01\x02\x01\x01\x01\x01";
@@ -57,15 +54,13 @@ TEST(test_repeated_pixels) {
     memcpy(longer, file, sizeof file);
     longer[sizeof file - 6] = 3;
     assert_int_equal(decode(context, (const uint8_t *)longer, sizeof file - 1, &image), EWA_ERROR_FORMAT);
-    ewa_context_destroy(&context);
 }
 
 static const char RUNS[] = "#?RADIANCE\r\nEXPOSURE=2\nEXPOSURE= 0.25\n\n-Y 2 +X 8\n"
                            "\x02\x02\x00\x08\x88\x80\x88\x40\x83\x20\x05\x01\x02\x03\x04\x05\x88\x88"
                            "\x02\x02\x00\x08\x08\x00\x01\x02\x03\x04\x05\x06\x07\x88\x40\x88\x20\x88\x88";
 
-TEST(test_runs_of_components) {
-    ewa_context *context = check_context(1, NULL);
+TEST_ON(test_runs_of_components, 1) {
     ewa_image image;
     assert_int_equal(decode(context, BYTES(RUNS), &image), EWA_OK);
     for (size_t x = 0; x < 8; x++) {
@@ -74,7 +69,6 @@ TEST(test_runs_of_components) {
         assert_true(image.pixels[24 + 3 * x] == 2 * ((float)x + 0.5f));
     }
     ewa_image_free(&image);
-    ewa_context_destroy(&context);
 }
 
 TEST(test_every_truncation_fails) {
@@ -89,7 +83,7 @@ TEST(test_every_truncation_fails) {
     ewa_context_destroy(&context);
 }
 
-TEST(test_broken_files) {
+TEST_ON(test_broken_files, 1) {
     static const struct {
         const char *text;
         ewa_status status;
@@ -107,13 +101,11 @@ TEST(test_broken_files) {
          EWA_ERROR_FORMAT}, // of another width
         {"#?RADIANCE\n\n-Y 1 +X 8\n\2\2\1", EWA_ERROR_FORMAT},
     };
-    ewa_context *context = check_context(1, NULL);
     for (size_t i = 0; i < sizeof files / sizeof files[0]; i++) {
         ewa_image image;
         assert_int_equal(decode(context, (const uint8_t *)files[i].text, strlen(files[i].text), &image),
                          files[i].status);
     }
-    ewa_context_destroy(&context);
 }
 
 static ewa_status load_runs(ewa_context *context, void *user) {

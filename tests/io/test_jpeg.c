@@ -31,8 +31,7 @@ static bool is_near(const ewa_image *image, uint32_t x, uint32_t y, const int co
     return near;
 }
 
-TEST(test_known_pixels) {
-    ewa_context *context = check_context(1, NULL);
+TEST_ON(test_known_pixels, 1) {
     static const int red[3] = {200, 60, 40}, blue[3] = {40, 80, 220};
     static const char *const names[] = {"colour.jpg", "progressive.jpg"};
     ewa_image image;
@@ -53,7 +52,6 @@ TEST(test_known_pixels) {
         assert_true(is_near(&image, 4, y, (const int[3]){y == 0 ? 0 : y == 1 ? 128 : 255}));
     ewa_image_free(&image);
     free(bytes);
-    ewa_context_destroy(&context);
 }
 
 /// What is cut in its pixels is a picture with a warning, as other programs have it; all else is an error.
@@ -81,8 +79,7 @@ TEST(test_every_truncation) {
     ewa_context_destroy(&context);
 }
 
-TEST(test_broken_bytes) {
-    ewa_context *context = check_context(1, NULL);
+TEST_ON(test_broken_bytes, 1) {
     static const char *const names[] = {"colour.jpg", "progressive.jpg", "grey.jpg", "cmyk.jpg"};
     check_random random = {3};
     for (int k = 0; k < 4; k++) {
@@ -100,7 +97,6 @@ TEST(test_broken_bytes) {
         }
         free(bytes);
     }
-    ewa_context_destroy(&context);
 }
 
 TEST(test_refused) {

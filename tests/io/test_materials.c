@@ -11,8 +11,7 @@ static ewa_status read_text(ewa_context *context, const char *text, ewa_material
     return ewa_materials_read(context, "m.json", (const uint8_t *)text, strlen(text), materials, count);
 }
 
-TEST(test_known_table) {
-    ewa_context *context = check_context(1, NULL);
+TEST_ON(test_known_table, 1) {
     ewa_material materials[EWA_MAX_MATERIALS], initial;
     ewa_material_init(&initial);
     uint32_t count;
@@ -38,7 +37,6 @@ TEST(test_known_table) {
     }
     assert_int_equal(ewa_materials_load(context, "/nowhere/m.json", materials, &count), EWA_ERROR_IO);
     assert_int_equal(count, 0);
-    ewa_context_destroy(&context);
 }
 
 TEST(test_broken_tables) {
@@ -71,8 +69,7 @@ TEST(test_broken_tables) {
     ewa_context_destroy(&context);
 }
 
-TEST(test_as_many_as_indices) {
-    ewa_context *context = check_context(1, NULL);
+TEST_ON(test_as_many_as_indices, 1) {
     ewa_material materials[EWA_MAX_MATERIALS];
     for (uint32_t wanted = EWA_MAX_MATERIALS; wanted <= EWA_MAX_MATERIALS + 1; wanted++) {
         char text[4 * EWA_MAX_MATERIALS] = "[{}";
@@ -83,7 +80,6 @@ TEST(test_as_many_as_indices) {
         assert_int_equal(read_text(context, text, materials, &count), fits ? EWA_OK : EWA_ERROR_LIMIT);
         assert_int_equal(count, fits ? wanted : 0);
     }
-    ewa_context_destroy(&context);
 }
 
 int main(void) { return RUN_TESTS(NULL, NULL); }

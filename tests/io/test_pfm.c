@@ -6,8 +6,7 @@
 
 #include <math.h>
 
-TEST(test_known_bytes) {
-    ewa_context *context = check_context(1, NULL);
+TEST_ON(test_known_bytes, 1) {
     // 1 x 2, rows from the bottom up: the first in the file is the lower one.
     static const char little[] = "Pf\n1 2\n-1.0\n\0\0\x80\x3f\0\0\0\xc0",
                       big[] = "Pf 1\t2\r1e0\n\x3f\x80\0\0\xc0\0\0\0";
@@ -27,11 +26,9 @@ TEST(test_known_bytes) {
     assert_int_equal(ewa_image_load_memory(context, big, sizeof big - 1, "big.pfm", &image), EWA_OK);
     assert_true(image.pixels[0] == -2 && image.pixels[1] == 1);
     ewa_image_free(&image);
-    ewa_context_destroy(&context);
 }
 
-TEST(test_round_trip_is_exact) {
-    ewa_context *context = check_context(1, NULL);
+TEST_ON(test_round_trip_is_exact, 1) {
     char path[512];
     scratch_path("saved.pfm", path);
     check_random random = {1};
@@ -55,7 +52,6 @@ TEST(test_round_trip_is_exact) {
         }
         ewa_image_free(&image);
     }
-    ewa_context_destroy(&context);
 }
 
 TEST(test_broken_heads) {
@@ -89,8 +85,7 @@ TEST(test_broken_heads) {
     ewa_context_destroy(&context);
 }
 
-TEST(test_every_truncation_is_refused) {
-    ewa_context *context = check_context(1, NULL);
+TEST_ON(test_every_truncation_is_refused, 1) {
     static const char whole[] = "PF\n1 2\n-0.5\nabcdefghijklmnopqrstuvwx";
     ewa_image image;
     for (size_t length = 0; length < sizeof whole - 1; length++) {
@@ -101,11 +96,9 @@ TEST(test_every_truncation_is_refused) {
     }
     assert_int_equal(ewa_image_load_memory(context, whole, sizeof whole - 1, "x.pfm", &image), EWA_OK);
     ewa_image_free(&image);
-    ewa_context_destroy(&context);
 }
 
-TEST(test_real_file) {
-    ewa_context *context = check_context(1, NULL);
+TEST_ON(test_real_file, 1) {
     char path[512];
     if (check_data("rgbd/stereo/motorcycle_disp.pfm", path, sizeof path)) {
         ewa_image image;
@@ -122,7 +115,6 @@ TEST(test_real_file) {
         assert_true(bottom / bottom_count > top / top_count);
         ewa_image_free(&image);
     }
-    ewa_context_destroy(&context);
 }
 
 static ewa_status round_trip_work(ewa_context *context, void *user) {

@@ -26,10 +26,9 @@ static uint8_t *make_codes(uint32_t width, uint32_t height, uint32_t channels) {
     return codes;
 }
 
-TEST(test_save_and_load) {
+TEST_ON(test_save_and_load, 2) {
     static const uint32_t sizes[][2] = {{1, 1}, {1, 300},     {300, 1},
                                         {7, 5}, {1100, 1100}, {44000, 3}}; // the fifth: several IDAT chunks
-    ewa_context *context = check_context(2, NULL);
     char path[512];
     scratch_path("saved.png", path);
     for (size_t s = 0; s < sizeof sizes / sizeof sizes[0]; s++) {
@@ -56,7 +55,6 @@ TEST(test_save_and_load) {
             free(rows);
         }
     }
-    ewa_context_destroy(&context);
 }
 
 TEST(test_same_file_for_any_thread_count) {
@@ -85,8 +83,7 @@ TEST(test_same_file_for_any_thread_count) {
     free(codes);
 }
 
-TEST(test_float_to_codes) {
-    ewa_context *context = check_context(1, NULL);
+TEST_ON(test_float_to_codes, 1) {
     char path[512];
     scratch_path("float.png", path);
     ewa_image image, back;
@@ -121,11 +118,9 @@ TEST(test_float_to_codes) {
     assert_int_equal(back.channel_count, 3);
     ewa_image_free(&back);
     ewa_image_free(&image);
-    ewa_context_destroy(&context);
 }
 
-TEST(test_head_says_srgb) {
-    ewa_context *context = check_context(1, NULL);
+TEST_ON(test_head_says_srgb, 1) {
     char path[512];
     const uint8_t code = 77;
     assert_int_equal(ewa_png_save(context, scratch_path("head.png", path), 1, 1, 1, &code, 1), EWA_OK);
@@ -134,7 +129,6 @@ TEST(test_head_says_srgb) {
     assert_memory_equal(bytes, "\x89PNG\r\n\x1a\n\0\0\0\x0dIHDR\0\0\0\1\0\0\0\1\x08\0\0\0\0", 29);
     assert_memory_equal(bytes + 33, "\0\0\0\1sRGB\0\xae\xce\x1c\xe9", 13);
     free(bytes);
-    ewa_context_destroy(&context);
 }
 
 static void load_good(void *user, const char *path) {
@@ -146,8 +140,7 @@ static void load_good(void *user, const char *path) {
     ewa_image_free(&image);
 }
 
-TEST(test_pngsuite) {
-    ewa_context *context = check_context(1, NULL);
+TEST_ON(test_pngsuite, 1) {
     scratch_each("images/pngsuite", load_good, context);
     char path[512];
     ewa_image a, b;
@@ -173,7 +166,6 @@ TEST(test_pngsuite) {
         assert_true(a.pixels[3] == 0);
         ewa_image_free(&a);
     }
-    ewa_context_destroy(&context);
 }
 
 TEST(test_hostile) {

@@ -39,7 +39,7 @@ static int make_folder(void **state) {
     return 0;
 }
 
-TEST(test_names) {
+TEST_ON(test_names, 1) {
     static const struct {
         const char *name, *content, *reason; ///< one of the two
     } cases[] = {
@@ -78,7 +78,6 @@ TEST(test_names) {
         {"", NULL, "it has no name"},
         {"mesh.obj/x", NULL, "it is not there"},
     };
-    ewa_context *context = check_context(1, NULL);
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         char reason[EWA_REASON_BYTES] = "";
         ewa_file file;
@@ -101,14 +100,12 @@ TEST(test_names) {
     assert_false(ewa_referenced_file_map(context, mesh, (ewa_text){longest, 300}, &file, reason));
     assert_false(ewa_referenced_file_map(context, mesh, (ewa_text){"a\0b", 3}, &file, reason));
     assert_false(ewa_referenced_file_map(context, "/no/such/folder/mesh.obj", (ewa_text){"a", 1}, &file, reason));
-    ewa_context_destroy(&context);
 }
 
 /// A mesh in the working folder, and one in the root.
-TEST(test_folders) {
+TEST_ON(test_folders, 1) {
     char reason[EWA_REASON_BYTES], back[4096], folder[512];
     ewa_file file;
-    ewa_context *context = check_context(1, NULL);
     assert_non_null(getcwd(back, sizeof back));
     assert_int_equal(chdir(scratch_path("beside", folder)), 0);
     assert_true(ewa_referenced_file_map(context, "mesh.obj", (ewa_text){"a file.txt", 10}, &file, reason));
@@ -116,7 +113,6 @@ TEST(test_folders) {
     assert_false(ewa_referenced_file_map(context, "mesh.obj", (ewa_text){"../beside_outside.txt", 21}, &file, reason));
     assert_false(ewa_referenced_file_map(context, "/mesh.obj", (ewa_text){"no/such", 7}, &file, reason));
     assert_int_equal(chdir(back), 0);
-    ewa_context_destroy(&context);
 }
 
 TEST(test_base64) {

@@ -33,8 +33,7 @@ static const char WHOLE[] =
     "  {\"value\": 10, \"color\": [1, 1, 1], \"opacity\": 0.5},\n"
     "  {\"value\": 10, \"color\": [1, 0, 0], \"extinction\": 3}]}\n";
 
-TEST(test_known_file) {
-    ewa_context *context = check_context(1, NULL);
+TEST_ON(test_known_file, 1) {
     ewa_transfer transfer;
     assert_int_equal(read_text(context, WHOLE, &transfer), EWA_OK);
     assert_int_equal(transfer.point_count, 3);
@@ -59,7 +58,6 @@ TEST(test_known_file) {
                      EWA_OK);
     assert_true(transfer.points[0].color[0] == 0.25f && transfer.points[0].color[1] == 7);
     assert_true(transfer.unit_length_world == 0 && transfer.gradient_high == 0);
-    ewa_context_destroy(&context);
 }
 
 #define POINT(value)    "{\"value\": " value ", \"color\": [0, 0, 0], \"opacity\": 0.5}"
@@ -110,8 +108,7 @@ TEST(test_broken_files) {
     ewa_context_destroy(&context);
 }
 
-TEST(test_every_truncation_fails) {
-    ewa_context *context = check_context(1, NULL);
+TEST_ON(test_every_truncation_fails, 1) {
     for (size_t size = 0; size < sizeof WHOLE - 2; size++) {
         char text[sizeof WHOLE];
         ewa_transfer transfer;
@@ -119,11 +116,9 @@ TEST(test_every_truncation_fails) {
         text[size] = 0;
         assert_int_equal(read_text(context, text, &transfer), EWA_ERROR_FORMAT);
     }
-    ewa_context_destroy(&context);
 }
 
-TEST(test_too_many_points) {
-    ewa_context *context = check_context(1, NULL);
+TEST_ON(test_too_many_points, 1) {
     char *text = malloc(EWA_MAX_TRANSFER_POINTS * 64 + 256);
     for (int more = 0; more < 2; more++) {
         char *at = text + sprintf(text, "{\"points\": [" POINT("0"));
@@ -133,7 +128,6 @@ TEST(test_too_many_points) {
         assert_int_equal(read_text(context, text, &transfer), more ? EWA_ERROR_LIMIT : EWA_OK);
     }
     free(text);
-    ewa_context_destroy(&context);
 }
 
 /// 16 x 16 x 16 shorts from `low` on: noise, in it a ball at 40 %, in that one at 90 %.
@@ -162,8 +156,7 @@ static double extinction_at(const ewa_transfer *transfer, double value) {
     return 0;
 }
 
-TEST(test_automatic) {
-    ewa_context *context = check_context(1, NULL);
+TEST_ON(test_automatic, 1) {
     ewa_volume volume;
     ewa_volume_facts facts;
     ewa_transfer transfer;
@@ -197,14 +190,12 @@ TEST(test_automatic) {
     }
     ewa_volume_free(&other);
     ewa_volume_free(&volume);
-    ewa_context_destroy(&context);
 }
 
 /// What a volume holds, against sums of our own: every type, numbers that are none, a slanted grid.
-TEST(test_measure) {
+TEST_ON(test_measure, 1) {
     static const ewa_type types[] = {EWA_U8, EWA_I8, EWA_U16, EWA_I16, EWA_F32};
     enum { X = 13, Y = 7, Z = 29, COUNT = X * Y * Z };
-    ewa_context *context = check_context(1, NULL);
     for (int t = 0; t < 5; t++) {
         ewa_volume volume;
         assert_int_equal(ewa_volume_create(context, (const uint32_t[3]){X, Y, Z}, types[t], &volume), EWA_OK);
@@ -267,11 +258,10 @@ TEST(test_measure) {
         free(numbers);
         ewa_volume_free(&volume);
     }
-    ewa_context_destroy(&context);
 }
 
 /// Every preset's points, where values are Hounsfield units and where they are shares of the range.
-TEST(test_preset_points) {
+TEST_ON(test_preset_points, 1) {
     static const struct {
         const char *name, *points;
     } presets[] = {
@@ -288,7 +278,6 @@ TEST(test_preset_points) {
         {"gray", "0 0 000000 0; 1 1 ffffff 0.25; "},
         {"fog", "0 0 ffffff 0; 1 1 ffffff 0.03; "},
     };
-    ewa_context *context = check_context(1, NULL);
     ewa_volume volumes[2];
     ewa_volume_facts facts[2];
     for (int kind = 0; kind < 2; kind++) {
@@ -324,7 +313,6 @@ TEST(test_preset_points) {
         if (strcmp(points, presets[n].points) != 0) fail_msg("%s: %s", presets[n].name, points);
     }
     for (int kind = 0; kind < 2; kind++) ewa_volume_free(&volumes[kind]);
-    ewa_context_destroy(&context);
 }
 
 TEST(test_presets) {
@@ -370,17 +358,15 @@ static ewa_status save_and_load(ewa_context *context, void *user) {
     return status;
 }
 
-TEST(test_failing_allocations) {
+TEST_ON(test_failing_allocations, 1) {
     char path[512];
     scratch_fail_each(save_and_load, (void *)(uintptr_t)scratch_path("failing.json", path));
-    ewa_context *context = check_context(1, NULL);
     ewa_transfer transfer;
     assert_int_equal(ewa_transfer_load(context, "/no/such/file", &transfer), EWA_ERROR_IO);
     assert_int_equal(read_text(context, WHOLE, &transfer), EWA_OK);
     assert_int_equal(ewa_transfer_save(context, &transfer, "/no/such/folder/file"), EWA_ERROR_IO);
     transfer.points[0].value = NAN;
     assert_int_equal(ewa_transfer_save(context, &transfer, path), EWA_ERROR_ARGUMENT);
-    ewa_context_destroy(&context);
 }
 
 int main(void) { return RUN_TESTS(NULL, NULL); }

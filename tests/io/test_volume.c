@@ -35,14 +35,13 @@ TEST(test_every_format) {
     ewa_context_destroy(&context);
 }
 
-TEST(test_every_type) {
+TEST_ON(test_every_type, 1) {
     static const struct {
         const char *word;
         ewa_type type, becomes;
     } types[] = {{"int8", EWA_I8, EWA_I8},    {"uint16", EWA_U16, EWA_U16}, {"short", EWA_I16, EWA_I16},
                  {"int", EWA_I32, EWA_F32},   {"uint32", EWA_U32, EWA_F32}, {"float", EWA_F32, EWA_F32},
                  {"double", EWA_F64, EWA_F32}};
-    ewa_context *context = check_context(1, NULL);
     for (size_t i = 0; i < sizeof types / sizeof types[0]; i++)
         for (int big = 0; big < 2; big++) {
             sample_file file = {.size_bytes = 0};
@@ -58,11 +57,9 @@ TEST(test_every_type) {
             sample_check(&volume);
             ewa_volume_free(&volume);
         }
-    ewa_context_destroy(&context);
 }
 
-TEST(test_nrrd_places) {
-    ewa_context *context = check_context(1, NULL);
+TEST_ON(test_nrrd_places, 1) {
     sample_file file;
     static const struct {
         const char *fields;
@@ -105,7 +102,6 @@ TEST(test_nrrd_places) {
     assert_true(volume.index_to_world[0] == 10 && volume.index_to_world[3] == -5 &&
                 volume.index_to_world[5] == 1);
     ewa_volume_free(&volume);
-    ewa_context_destroy(&context);
 }
 
 TEST(test_nrrd_axes) {
@@ -149,8 +145,7 @@ TEST(test_nrrd_axes) {
     ewa_context_destroy(&context);
 }
 
-TEST(test_nifti_places) {
-    ewa_context *context = check_context(1, NULL);
+TEST_ON(test_nifti_places, 1) {
     for (int kind = 0; kind < 4; kind++) {
         const bool second = kind & 1, big = kind & 2;
         const char *magic = second ? "n+2" : "n+1";
@@ -184,11 +179,9 @@ TEST(test_nifti_places) {
             assert_true(((const float *)volume.voxels)[i] == 100 + 0.5f * (float)i);
         ewa_volume_free(&volume);
     }
-    ewa_context_destroy(&context);
 }
 
-TEST(test_nifti_packed_and_pairs) {
-    ewa_context *context = check_context(1, NULL);
+TEST_ON(test_nifti_packed_and_pairs, 1) {
     sample_file whole, packed = {.size_bytes = 0}, head;
     sample_make(4, &whole);
     sample_put_packed(&packed, true, whole.bytes, whole.size_bytes);
@@ -210,11 +203,9 @@ TEST(test_nifti_packed_and_pairs) {
     assert_int_equal(sample_load(context, &head, 348, "pair.hdr", NULL, &volume), EWA_ERROR_UNSUPPORTED);
     remove(image);
     assert_int_equal(ewa_volume_load(context, path, NULL, &volume), EWA_ERROR_IO);
-    ewa_context_destroy(&context);
 }
 
-TEST(test_meta_places) {
-    ewa_context *context = check_context(1, NULL);
+TEST_ON(test_meta_places, 1) {
     sample_file file = {.size_bytes = 0};
     sample_text(&file, "NDims = 3\nDimSize = 2 3 4\nElementType = MET_SHORT\nElementByteOrderMSB = True\n"
                        "ElementSpacing = 2 3 4\nTransformMatrix = 0 1 0 1 0 0 0 0 -1\nOffset = 5 6 7\n"
@@ -222,12 +213,10 @@ TEST(test_meta_places) {
     sample_put_numbers(&file, EWA_I16, true);
     // Each row of the matrix is the direction of an axis.
     check_place(context, &file, "p.mha", (const double[12]){0, 3, 0, 5, 2, 0, 0, 6, 0, 0, -4, 7});
-    ewa_context_destroy(&context);
 }
 
 /// Cells, axes that are turned, places of extents that do not begin at zero.
-TEST(test_vti_places) {
-    ewa_context *context = check_context(1, NULL);
+TEST_ON(test_vti_places, 1) {
     static const struct {
         const char *image, *section;
         double place[12];
@@ -259,7 +248,6 @@ TEST(test_vti_places) {
         sample_text(&file, "></Piece></ImageData></VTKFile>");
         check_place(context, &file, "p.vti", cases[i].place);
     }
-    ewa_context_destroy(&context);
 }
 
 static void put_other(sample_file *file, bool text, int bytes) {
@@ -276,8 +264,7 @@ static void put_sample(sample_file *file) {
 
 /// Legacy files with several arrays, in text and in bytes: scalars of points are taken before a field, both before those of
 /// cells, whose grid is smaller by one along each axis. Other arrays are stepped over, bytes that look like lines too.
-TEST(test_vtk_arrays) {
-    ewa_context *context = check_context(1, NULL);
+TEST_ON(test_vtk_arrays, 1) {
     static const double of_points[12] = {2, 0, 0, 10, 0, 3, 0, 20, 0, 0, 4, 30},
                         of_cells[12] = {2, 0, 0, 11, 0, 3, 0, 21.5, 0, 0, 4, 32};
     for (int kind = 0; kind < 8; kind++) {
@@ -323,12 +310,10 @@ TEST(test_vtk_arrays) {
         sample_text(&file, "\nPOINT_DATA 60\nVECTORS v bit\n");
         check_place(context, &file, "a.vtk", cells ? of_cells : of_points);
     }
-    ewa_context_destroy(&context);
 }
 
 /// A MetaImage of two axes may have spacings and offsets of three.
-TEST(test_meta_slice) {
-    ewa_context *context = check_context(1, NULL);
+TEST_ON(test_meta_slice, 1) {
     sample_file file = {.size_bytes = 0};
     ewa_volume volume;
     sample_text(&file, "NDims = 2\nDimSize = 2 3\nElementType = MET_UCHAR\nElementSpacing = 2 4 5\nOffset = 1 2 3\n"
@@ -337,12 +322,10 @@ TEST(test_meta_slice) {
     assert_true(volume.dims[0] == 2 && volume.dims[1] == 3 && volume.dims[2] == 1);
     assert_true(volume.index_to_world[0] == 2 && volume.index_to_world[5] == 4 && volume.index_to_world[3] == 1);
     ewa_volume_free(&volume);
-    ewa_context_destroy(&context);
 }
 
 /// A slice has one layer of cells along its normal.
-TEST(test_vtk_slice) {
-    ewa_context *context = check_context(1, NULL);
+TEST_ON(test_vtk_slice, 1) {
     sample_file file = {.size_bytes = 0};
     ewa_volume volume;
     sample_text(&file, "# vtk DataFile Version 4.2\nt\nASCII\nDATASET STRUCTURED_POINTS\nDIMENSIONS 3 1 2\nCELL_DATA 2\n"
@@ -350,12 +333,10 @@ TEST(test_vtk_slice) {
     assert_int_equal(sample_load(context, &file, file.size_bytes, "a.vtk", NULL, &volume), EWA_OK);
     assert_true(volume.dims[0] == 2 && volume.dims[1] == 1 && volume.dims[2] == 1);
     ewa_volume_free(&volume);
-    ewa_context_destroy(&context);
 }
 
 /// Three bytes for each place: colours, by the kinds, by what early writers did, and in XML images.
-TEST(test_colors) {
-    ewa_context *context = check_context(1, NULL);
+TEST_ON(test_colors, 1) {
     sample_file files[2] = {{.size_bytes = 0}, {.size_bytes = 0}};
     sample_text(&files[0], "NRRD0001\ntype: unsigned char\ndimension: 3\nsizes: 3 4 5\nencoding: raw\n\n");
     uint8_t colors[60];
@@ -380,12 +361,10 @@ TEST(test_colors) {
         }
         ewa_volume_free(&volume);
     }
-    ewa_context_destroy(&context);
 }
 
 /// Which files say how a patient lies.
-TEST(test_anatomical) {
-    ewa_context *context = check_context(1, NULL);
+TEST_ON(test_anatomical, 1) {
     static const char *const fields[] = {"", "space: RAS\n", "space: left-posterior-superior\n",
                                          "space: 3D-right-handed\n"};
     for (int i = 0; i < 4; i++) {
@@ -399,11 +378,9 @@ TEST(test_anatomical) {
         assert_true(volume.anatomical == (i == 1 || i == 2));
         ewa_volume_free(&volume);
     }
-    ewa_context_destroy(&context);
 }
 
-TEST(test_raw_numbers) {
-    ewa_context *context = check_context(1, NULL);
+TEST_ON(test_raw_numbers, 1) {
     sample_file file = {.size_bytes = 0};
     ewa_volume volume;
     ewa_volume_load_options options;
@@ -442,11 +419,9 @@ TEST(test_raw_numbers) {
     ewa_volume_free(&volume);
     assert_int_equal(sample_load(context, &file, file.size_bytes, "b_2x3_int16be.raw", NULL, &volume),
                      EWA_ERROR_FORMAT);
-    ewa_context_destroy(&context);
 }
 
-TEST(test_parts) {
-    ewa_context *context = check_context(1, NULL);
+TEST_ON(test_parts, 1) {
     uint8_t numbers[8 * SAMPLE_VOXELS];
     sample_numbers(EWA_U8, false, numbers);
     char path[512], header[512];
@@ -493,7 +468,6 @@ TEST(test_parts) {
         if (ewa_volume_load(context, header, NULL, &volume) != bad[i].status) fail_msg("%s", bad[i].file);
         assert_null(volume.voxels);
     }
-    ewa_context_destroy(&context);
 }
 
 TEST(test_numbers_that_are_none) {
@@ -514,9 +488,8 @@ TEST(test_numbers_that_are_none) {
     ewa_context_destroy(&context);
 }
 
-TEST(test_saving) {
+TEST_ON(test_saving, 1) {
     static const ewa_type types[] = {EWA_U8, EWA_I8, EWA_U16, EWA_I16, EWA_F32};
-    ewa_context *context = check_context(1, NULL);
     char path[512];
     scratch_path("saved.nrrd", path);
     for (size_t t = 0; t < 2 * sizeof types / sizeof types[0]; t++) {
@@ -541,7 +514,6 @@ TEST(test_saving) {
         ewa_volume_free(&again);
         ewa_volume_free(&volume);
     }
-    ewa_context_destroy(&context);
 }
 
 /// Voxels of a file of the shared data; false when there is none.
@@ -553,8 +525,7 @@ static bool load_data(ewa_context *context, const char *name, ewa_volume *volume
     return true;
 }
 
-TEST(test_real_files) {
-    ewa_context *context = check_context(0, NULL);
+TEST_ON(test_real_files, 0) {
     for (size_t i = 0; i < sizeof volume_facts / sizeof volume_facts[0]; i++) {
         ewa_volume volume;
         ewa_volume_facts facts;
@@ -566,11 +537,10 @@ TEST(test_real_files) {
             fail_msg("%s: %.9g .. %.9g", volume_facts[i].name, facts.low, facts.high);
         ewa_volume_free(&volume);
     }
-    ewa_context_destroy(&context);
 }
 
 /// The same voxels in different wrappings.
-TEST(test_real_twins) {
+TEST_ON(test_real_twins, 0) {
     static const char *const twins[][2] = {
         {"aneurism.vti", "aneurism_256x256x256_uint8.raw.gz"},
         {"nrrd_variants/BallBinary30x30x30.nrrd", "nrrd_variants/BallBinary30x30x30.nhdr"},
@@ -578,7 +548,6 @@ TEST(test_real_twins) {
         {"nrrd_variants/BallBinary30x30x30.nrrd", "nrrd_variants/BallBinary30x30x30_bz2.nrrd"},
         {"nrrd_variants/BallBinary30x30x30.nrrd", "nrrd_variants/BallBinary30x30x30_gz_lineskip.nrrd"},
     };
-    ewa_context *context = check_context(0, NULL);
     for (size_t i = 0; i < sizeof twins / sizeof twins[0]; i++) {
         ewa_volume a, b;
         if (!load_data(context, twins[i][0], &a)) continue;
@@ -591,7 +560,6 @@ TEST(test_real_twins) {
         }
         ewa_volume_free(&a);
     }
-    ewa_context_destroy(&context);
 }
 
 int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -275,12 +275,10 @@ static ewa_status save_one(ewa_context *context, void *user) {
     return status;
 }
 
-TEST(test_failing_save) {
+TEST_ON(test_failing_save, 1) {
     char path[512];
     scratch_fail_each(save_one, (void *)(uintptr_t)scratch_path("failing.nrrd", path));
-    ewa_context *context = check_context(1, NULL);
     assert_int_equal(save_one(context, "/no/such/folder/a.nrrd"), EWA_ERROR_IO);
-    ewa_context_destroy(&context);
 }
 
 int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -168,8 +168,7 @@ TEST(test_record) {
     for (int curved = 0; curved < 2; curved++) hold_record(curved);
 }
 
-TEST(test_damage) {
-    ewa_context *context = check_context(1, NULL);
+TEST_ON(test_damage, 1) {
     size_t size_bytes;
     uint8_t *bytes = make_record(context, true, &size_bytes);
     // Whatever is cut off, a page's block is not whole.
@@ -189,7 +188,6 @@ TEST(test_damage) {
         bytes[at] ^= 0x55;
     }
     free(bytes);
-    ewa_context_destroy(&context);
 }
 
 /// Reads a record in which `size_bytes` bytes at a place are others.

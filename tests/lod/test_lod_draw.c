@@ -138,8 +138,7 @@ static void hold_like(const char *what, const shot *plain, const shot *made, dou
     assert_true(found >= min_db);
 }
 
-TEST(test_like_plain) {
-    ewa_context *context = check_context(2, NULL);
+TEST_ON(test_like_plain, 2) {
     ewa_lod *lod = open_file(context, file);
     static const double distances[] = {0.6, 2.2, 8, 25};
     for (int i = 0; i < 4; i++) {
@@ -160,7 +159,6 @@ TEST(test_like_plain) {
         free(merged);
     }
     ewa_lod_close(&lod);
-    ewa_context_destroy(&context);
 }
 
 TEST(test_threads) {
@@ -184,10 +182,9 @@ TEST(test_threads) {
     free(first);
 }
 
-TEST(test_memory) {
+TEST_ON(test_memory, 2) {
     static const uint64_t memories[] = {1 << 30, 1 << 26, 1 << 24};
     static const double errors[] = {0, 16};
-    ewa_context *context = check_context(2, NULL);
     const ewa_camera camera = camera_at(2.2);
     for (int e = 0; e < 2; e++) {
         shot *first = NULL;
@@ -210,14 +207,12 @@ TEST(test_memory) {
         }
         free(first);
     }
-    ewa_context_destroy(&context);
 }
 
 /// No more than 8 surfels for a covered pixel, from wherever it is seen; a few nodes are few surfels.
-TEST(test_bound) {
+TEST_ON(test_bound, 2) {
     enum { FEW_NODES = 8 };
     static const double distances[] = {1, 2.2, 3.1, 6, 16};
-    ewa_context *context = check_context(2, NULL);
     ewa_lod *lod = open_file(context, file);
     for (size_t i = 0; i < sizeof distances / sizeof distances[0]; i++) {
         const ewa_camera camera = camera_at(distances[i]);
@@ -229,13 +224,11 @@ TEST(test_bound) {
         free(made);
     }
     ewa_lod_close(&lod);
-    ewa_context_destroy(&context);
 }
 
 /// As many surfels as were asked for, about: what fades counts twice, and the root is never left out.
-TEST(test_max_splats) {
+TEST_ON(test_max_splats, 2) {
     static const uint64_t counts[] = {UINT64_C(1) << 50, 400000, 200000, 100000, 1};
-    ewa_context *context = check_context(2, NULL);
     ewa_lod *lod = open_file(context, file);
     const ewa_camera camera = camera_at(5);
     ewa_lod_options options = lod_options_of(3, 0.25, 1 << 30);
@@ -265,13 +258,11 @@ TEST(test_max_splats) {
     hold_same(points, few);
     free(root), free(before), free(points), free(few);
     ewa_lod_close(&lod);
-    ewa_context_destroy(&context);
 }
 
 /// Going near, with few surfels: no value changes much more from picture to picture than in those of all points.
-TEST(test_no_jumps) {
+TEST_ON(test_no_jumps, 2) {
     enum { FRAMES = 12, JUMP = 8 };
-    ewa_context *context = check_context(2, NULL);
     ewa_lod *lod = open_file(context, file);
     ewa_lod_options options = lod_options_of(3, 1, 1 << 30);
     options.max_splats = 180000;
@@ -297,7 +288,6 @@ TEST(test_no_jumps) {
     assert_true((double)jumps < 8e-4 * (double)values);
     free(before), free(before_plain);
     ewa_lod_close(&lod);
-    ewa_context_destroy(&context);
 }
 
 /// Draws an octree, or without one all points of the file, in parts of pixels.
@@ -325,8 +315,7 @@ static shot *draw_parts(ewa_lod *lod, ewa_context *context, const ewa_camera *ca
 }
 
 /// From far away parts of pixels are nearer to the truth, as many as the nodes' surfels ask for.
-TEST(test_supersampling) {
-    ewa_context *context = check_context(2, NULL);
+TEST_ON(test_supersampling, 2) {
     const ewa_camera camera = camera_at(40);
     shot *truth = draw_parts(NULL, context, &camera, NULL, EWA_MAX_SUPERSAMPLING);
     const ewa_lod_options options = lod_options_of(255, 0.5, 1 << 30);
@@ -341,12 +330,10 @@ TEST(test_supersampling) {
     }
     assert_true(found[0] > found[1] + 3 && found[2] > found[1] + 3 && found[3] > found[1] + 2);
     free(truth);
-    ewa_context_destroy(&context);
 }
 
 /// Bands know as little of each other's nodes as ranks do, and come to as many parts.
-TEST(test_supersampling_in_bands) {
-    ewa_context *context = check_context(2, NULL);
+TEST_ON(test_supersampling_in_bands, 2) {
     const ewa_camera camera = camera_at(2.2);
     for (uint32_t n = 0; n < 4; n += 2) {
         shot *made[2];
@@ -361,13 +348,11 @@ TEST(test_supersampling_in_bands) {
         free(made[0]);
         free(made[1]);
     }
-    ewa_context_destroy(&context);
 }
 
 /// With next to no time each picture shows more, until nothing is missing.
-TEST(test_load) {
+TEST_ON(test_load, 2) {
     enum { MAX_CALLS = 400 };
-    ewa_context *context = check_context(2, NULL);
     const ewa_camera camera = camera_at(1);
     ewa_lod_options options = lod_options_of(16, 0.5, 1 << 30);
     ewa_lod *lod = open_file(context, file);
@@ -389,12 +374,10 @@ TEST(test_load) {
     free(whole);
     free(made);
     ewa_lod_close(&lod);
-    ewa_context_destroy(&context);
 }
 
 /// Points of a box are those of the whole file that lie in it.
-TEST(test_read) {
-    ewa_context *context = check_context(2, NULL);
+TEST_ON(test_read, 2) {
     ewa_lod *lod = open_file(context, file);
     ewa_lod_info info;
     ewa_lod_describe(lod, &info);
@@ -442,11 +425,9 @@ TEST(test_read) {
     ewa_cloud_destroy(&all);
     free(inside);
     ewa_lod_close(&lod);
-    ewa_context_destroy(&context);
 }
 
-TEST(test_sample) {
-    ewa_context *context = check_context(2, NULL);
+TEST_ON(test_sample, 2) {
     ewa_lod *lod = open_file(context, file);
     ewa_cloud *few = NULL, *some = NULL, *all = NULL;
     assert_int_equal(ewa_lod_sample(lod, 1, &few), EWA_OK);
@@ -465,7 +446,6 @@ TEST(test_sample) {
     ewa_cloud_destroy(&some);
     ewa_cloud_destroy(&all);
     ewa_lod_close(&lod);
-    ewa_context_destroy(&context);
 }
 
 /// Copies the file with another user in the record of surfels, as one that another program has made.
@@ -481,8 +461,7 @@ static void strip(const char *from, const char *to) {
     free(bytes);
 }
 
-TEST(test_without_levels) {
-    ewa_context *context = check_context(2, NULL);
+TEST_ON(test_without_levels, 2) {
     strip(file, "plain.copc.laz");
     ewa_lod *lod = open_file(context, "plain.copc.laz");
     ewa_lod_info info;
@@ -507,14 +486,12 @@ TEST(test_without_levels) {
     free(bands);
     free(coarse);
     ewa_lod_close(&lod);
-    ewa_context_destroy(&context);
 }
 
 /// Points of a node that lie in a part of it without a node are drawn, too: other programs leave such parts
 /// out.
-TEST(test_parts_without_nodes) {
+TEST_ON(test_parts_without_nodes, 2) {
     enum { COUNT = 40000 };
-    ewa_context *context = check_context(2, NULL);
     ewa_cloud *coarse = lod_ground(context, 0, COUNT, (lod_look){true, true}),
               *all = lod_ground(context, COUNT, COUNT, (lod_look){true, true}), *corner = NULL;
     uint64_t *indices = malloc(COUNT * sizeof *indices), count = 0;
@@ -557,7 +534,6 @@ TEST(test_parts_without_nodes) {
     free(plain);
     free(made);
     ewa_lod_close(&lod);
-    ewa_context_destroy(&context);
 }
 
 int main(void) { return RUN_TESTS(enter, leave); }

@@ -101,10 +101,9 @@ TEST(test_wrong_parts) {
 }
 
 /// Fewer regions than parts, or none at all.
-TEST(test_empty_parts) {
+TEST_ON(test_empty_parts, 2) {
     static const char *const files[] = {"e.ply"}, *const parts[] = {"e0", "e1", "e2"};
     static const uint64_t counts[] = {0, 1, 1000};
-    ewa_context *context = check_context(2, NULL);
     for (int i = 0; i < 3; i++) {
         lod_save(lod_ground(context, 0, counts[i], (lod_look){.colors = true}), files[0]);
         make_parts(context, files, 1, parts, NULL);
@@ -114,7 +113,6 @@ TEST(test_empty_parts) {
         assert_int_equal(stats.point_count, counts[i]);
         lod_hold_same_files("e.copc.laz", "em.copc.laz");
     }
-    ewa_context_destroy(&context);
 }
 
 /// A byte that is another, at many places, and ends of all kinds.

@@ -39,8 +39,7 @@ TEST(test_tangent) {
     }
 }
 
-TEST(test_defaults) {
-    ewa_context *context = check_context(1, NULL);
+TEST_ON(test_defaults, 1) {
     const ewa_camera camera = default_camera();
     assert_int_equal(ewa_camera_check(context, &camera), EWA_OK);
     assert_int_equal(camera.width_px, 1280);
@@ -51,7 +50,6 @@ TEST(test_defaults) {
     assert_true(pixel[0] == 640 && pixel[1] == 360);
     ewa_camera_eye(&camera, eye);
     assert_true(eye[0] == 0 && eye[1] == 0 && eye[2] == 0);
-    ewa_context_destroy(&context);
 }
 
 TEST(test_look_at_known) {
@@ -66,8 +64,7 @@ TEST(test_look_at_known) {
     assert_true(pixel[0] > 640 && pixel[1] == 360); // looking to -x with z up, +y is on the right
 }
 
-TEST(test_look_at_properties) {
-    ewa_context *context = check_context(1, NULL);
+TEST_ON(test_look_at_properties, 1) {
     check_random random = {7};
     for (int round = 0; round < 1000; round++) {
         ewa_camera camera = default_camera();
@@ -95,7 +92,6 @@ TEST(test_look_at_properties) {
         assert_near(pixel[0], 640, 1e3 * tolerance / distance);
         assert_near(pixel[1], 360, 1e3 * tolerance / distance);
     }
-    ewa_context_destroy(&context);
 }
 
 TEST(test_map_from_above_has_north_up) {

@@ -173,8 +173,7 @@ static void hold_version(wide_operations *operate) {
     }
 }
 
-TEST(test_versions) {
-    ewa_context *context = check_context(1, NULL);
+TEST_ON(test_versions, 1) {
     const uint32_t features = ewa_context_cpu_features(context);
     hold_version(wide_operate_portable);
 #if defined(__x86_64__)
@@ -183,7 +182,6 @@ TEST(test_versions) {
 #elif defined(__aarch64__)
     if (features & EWA_CPU_NEON) hold_version(wide_operate_neon);
 #endif
-    ewa_context_destroy(&context);
 }
 
 int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -85,8 +85,7 @@ TEST(test_formulas) {
 }
 
 /// The same is alike; a difference of 0.1 everywhere is 20 dB; where nothing counts there is no number.
-TEST(test_known) {
-    ewa_context *context = check_context(1, NULL);
+TEST_ON(test_known, 1) {
     ewa_image image = noise(context, 3, 2, 0.1), other;
     ewa_image_quality found;
     assert_int_equal(ewa_image_compare(&image, &image, &found), EWA_OK);
@@ -112,12 +111,10 @@ TEST(test_known) {
     ewa_image_free(&small);
     ewa_image_free(&image);
     ewa_image_free(&other);
-    ewa_context_destroy(&context);
 }
 
 /// Half of red over a background of 0.25 is what sRGB numbers make of it; without one it stays as it is.
-TEST(test_transparent) {
-    ewa_context *context = check_context(1, NULL);
+TEST_ON(test_transparent, 1) {
     ewa_image half;
     assert_int_equal(ewa_image_create(context, WIDTH, HEIGHT, 4, &half), EWA_OK);
     for (size_t i = 0; i < WIDTH * HEIGHT; i++) half.pixels[4 * i] = half.pixels[4 * i + 3] = i ? 0.5f : 0;
@@ -141,7 +138,6 @@ TEST(test_transparent) {
     photo.image = NULL;
     assert_int_equal(ewa_photo_load(context, &photo, background, &loaded), EWA_ERROR_ARGUMENT);
     ewa_image_free(&half);
-    ewa_context_destroy(&context);
 }
 
 TEST(test_memory) {

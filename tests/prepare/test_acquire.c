@@ -31,9 +31,8 @@ static void make_picture(ewa_context *context, uint32_t width, uint32_t height, 
 
 /// The mean under a Gaussian is the sum over all pixels, near and far, less what is under its outermost part;
 /// of a picture turned upside down or around it is the same, wherever the Gaussian begins and ends.
-TEST(test_means_are_sums) {
+TEST_ON(test_means_are_sums, 1) {
     enum { WIDTH = 23, HEIGHT = 19 };
-    ewa_context *context = check_context(1, NULL);
     check_random random = {21};
     ewa_image images[4]; // as it is, mirrored across, mirrored down, both
     ewa_texture textures[4];
@@ -87,13 +86,11 @@ TEST(test_means_are_sums) {
         ewa_texture_free(&textures[k]);
         ewa_image_free(&images[k]);
     }
-    ewa_context_destroy(&context);
 }
 
 /// A picture of one, three or four channels gives the same means, bit for bit, and so does one with a number that is none, which
 /// counts as 0.
-TEST(test_means_of_channels_agree) {
-    ewa_context *context = check_context(1, NULL);
+TEST_ON(test_means_of_channels_agree, 1) {
     enum { SIDE = 37, FORMS = 4 };
     static const uint32_t channels[FORMS] = {1, 3, 4, 3};
     ewa_image images[FORMS];
@@ -127,12 +124,10 @@ TEST(test_means_of_channels_agree) {
         ewa_texture_free(&textures[k]);
         ewa_image_free(&images[k]);
     }
-    ewa_context_destroy(&context);
 }
 
 /// The mean on a small copy of a picture is near that on the picture itself.
-TEST(test_means_of_levels_agree) {
-    ewa_context *context = check_context(1, NULL);
+TEST_ON(test_means_of_levels_agree, 1) {
     ewa_image image;
     ewa_texture texture;
     make_picture(context, 203, 91, 3, &image);
@@ -159,7 +154,6 @@ TEST(test_means_of_levels_agree) {
     ewa_texture_mean(&texture, 0, &point, color);
     ewa_texture_free(&texture);
     ewa_image_free(&image);
-    ewa_context_destroy(&context);
 }
 
 static ewa_cloud *make_object(ewa_context *context, ewa_object object, uint64_t count, double radius_scale) {
@@ -188,10 +182,9 @@ static void fill(const ewa_image *image, float r, float g, float b) {
         image->pixels[3 * i] = r, image->pixels[3 * i + 1] = g, image->pixels[3 * i + 2] = b;
 }
 
-TEST(test_a_constant_stays) {
+TEST_ON(test_a_constant_stays, 0) {
     static const ewa_object objects[] = {EWA_OBJECT_PLANE, EWA_OBJECT_SPHERE, EWA_OBJECT_TORUS,
                                          EWA_OBJECT_CUBE, EWA_OBJECT_TERRAIN};
-    ewa_context *context = check_context(0, NULL);
     ewa_image image;
     assert_int_equal(ewa_image_create(context, 50, 30, 3, &image), EWA_OK);
     fill(&image, 0.7f, 3, 0);
@@ -211,7 +204,6 @@ TEST(test_a_constant_stays) {
             ewa_cloud_destroy(&cloud);
         }
     ewa_image_free(&image);
-    ewa_context_destroy(&context);
 }
 
 /// The drawn colour at a place of the plane z = 0: kernels of one sigma, normalised.
@@ -267,8 +259,7 @@ static double measure(ewa_context *context, const ewa_image *image, ewa_texture_
 }
 
 /// A ramp of 1 over the plane, 50 points wide: within an eighth of the step from point to point.
-TEST(test_a_ramp_is_kept) {
-    ewa_context *context = check_context(0, NULL);
+TEST_ON(test_a_ramp_is_kept, 0) {
     ewa_image image;
     assert_int_equal(ewa_image_create(context, 200, 200, 3, &image), EWA_OK);
     for (uint32_t i = 0; i < 200 * 200; i++)
@@ -286,11 +277,9 @@ TEST(test_a_ramp_is_kept) {
     print_message("ramp: EWA %.2g, optimal %.2g of its height\n", ewa, optimal);
     assert_true(optimal < 0.0025 && optimal < 0.7 * ewa);
     ewa_image_free(&image);
-    ewa_context_destroy(&context);
 }
 
-TEST(test_optimal_is_better) {
-    ewa_context *context = check_context(0, NULL);
+TEST_ON(test_optimal_is_better, 0) {
     ewa_image image;
     assert_int_equal(ewa_image_create(context, 100, 100, 3, &image), EWA_OK);
     for (uint32_t i = 0; i < 100 * 100; i++)
@@ -303,13 +292,11 @@ TEST(test_optimal_is_better) {
                   sum);
     assert_true(optimal < 0.7 * ewa && optimal < 0.7 * nearest && optimal < 0.7 * sum);
     ewa_image_free(&image);
-    ewa_context_destroy(&context);
 }
 
 /// The gradient of what is minimised, by quadrature: nearly nothing at the optimal colours, much elsewhere.
-TEST(test_the_gradient_vanishes) {
+TEST_ON(test_the_gradient_vanishes, 0) {
     enum { POINTS = 100, STEPS = 700 };
-    ewa_context *context = check_context(0, NULL);
     ewa_image image;
     ewa_texture texture;
     make_picture(context, 40, 40, 5, &image);
@@ -354,7 +341,6 @@ TEST(test_the_gradient_vanishes) {
     ewa_cloud_destroy(&cloud);
     ewa_texture_free(&texture);
     ewa_image_free(&image);
-    ewa_context_destroy(&context);
 }
 
 TEST(test_threads_change_nothing) {
@@ -381,8 +367,7 @@ TEST(test_threads_change_nothing) {
 }
 
 /// Straight alpha comes back; colours are multiplied; what has no coordinates or no picture is white.
-TEST(test_alpha_tint_and_gaps) {
-    ewa_context *context = check_context(0, NULL);
+TEST_ON(test_alpha_tint_and_gaps, 0) {
     ewa_image image[2] = {{0}};
     assert_int_equal(ewa_image_create(context, 8, 8, 4, &image[0]), EWA_OK);
     for (int i = 0; i < 64; i++)
@@ -415,12 +400,10 @@ TEST(test_alpha_tint_and_gaps) {
         ewa_cloud_destroy(&cloud);
     }
     ewa_image_free(&image[0]);
-    ewa_context_destroy(&context);
 }
 
 /// Points that are no surfels, at one place, or without area on the picture: finite colours.
-TEST(test_odd_points) {
-    ewa_context *context = check_context(2, NULL);
+TEST_ON(test_odd_points, 2) {
     ewa_image image;
     make_picture(context, 32, 32, 2, &image);
     ewa_cloud *cloud = make_object(context, EWA_OBJECT_SPHERE, 2000, 1.5);
@@ -443,7 +426,6 @@ TEST(test_odd_points) {
     assert_int_equal(ewa_cloud_acquire(cloud, &image, 1, NULL, NULL), EWA_OK);
     ewa_cloud_destroy(&cloud);
     ewa_image_free(&image);
-    ewa_context_destroy(&context);
 }
 
 TEST(test_wrong_use_is_named) {
@@ -531,10 +513,9 @@ TEST(test_every_cancel_is_clean) {
 }
 
 /// Gradients say where points a little further on the surface are on the picture, to a thousandth of the way.
-TEST(test_charts_of_objects) {
+TEST_ON(test_charts_of_objects, 0) {
     static const ewa_object objects[] = {EWA_OBJECT_PLANE, EWA_OBJECT_CUBE, EWA_OBJECT_SPHERE,
                                          EWA_OBJECT_TORUS, EWA_OBJECT_TERRAIN};
-    ewa_context *context = check_context(0, NULL);
     for (size_t k = 0; k < sizeof objects / sizeof objects[0]; k++) {
         enum { COUNT = 40000 };
         ewa_cloud *cloud = make_object(context, objects[k], COUNT, 1.5);
@@ -568,7 +549,6 @@ TEST(test_charts_of_objects) {
         assert_true(compared > COUNT / 10);
         ewa_cloud_destroy(&cloud);
     }
-    ewa_context_destroy(&context);
 }
 
 int main(void) { return RUN_TESTS(NULL, NULL); }

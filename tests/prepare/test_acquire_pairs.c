@@ -181,8 +181,7 @@ static double ramp_at(int channel, double x_px, double y_px) {
 }
 
 /// Alone, cut by a line, so that its mean is not its centre; and under products, on one chart and on two.
-TEST(test_looks_follow_the_jacobian) {
-    ewa_context *context = check_context(1, NULL);
+TEST_ON(test_looks_follow_the_jacobian, 1) {
     ewa_image image;
     ewa_texture texture;
     assert_int_equal(ewa_image_create(context, 64, 64, 3, &image), EWA_OK);
@@ -229,7 +228,6 @@ TEST(test_looks_follow_the_jacobian) {
     }
     ewa_texture_free(&texture);
     ewa_image_free(&image);
-    ewa_context_destroy(&context);
 }
 
 int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -208,7 +208,7 @@ static double distance_back(ewa_context *context, const solid_pair *pair, ewa_cs
     return largest;
 }
 
-TEST(test_against_closed_form) {
+TEST_ON(test_against_closed_form, 0) {
     static const solid_pair pairs[] = {
         {{EWA_OBJECT_SPHERE, EWA_OBJECT_SPHERE}, {2, 1.6}, {{0, 0, 0}, {0.7, 0.5, 0.3}}, {4000, 4000}},
         {{EWA_OBJECT_CUBE, EWA_OBJECT_SPHERE}, {2, 2.5}, {{0, 0, 0}, {0, 0, 0}}, {4000, 4000}},
@@ -216,7 +216,6 @@ TEST(test_against_closed_form) {
         {{EWA_OBJECT_CUBE, EWA_OBJECT_SPHERE}, {2, 1}, {{0, 0, 0}, {1, 1, 1}}, {4000, 400}},
         {{EWA_OBJECT_CUBE, EWA_OBJECT_SPHERE}, {2, 0.4}, {{0, 0, 0}, {0.1, 0.2, 1}}, {1500, 1500}},
     };
-    ewa_context *context = check_context(0, NULL);
     for (size_t i = 0; i < sizeof pairs / sizeof pairs[0]; i++) {
         const solid_pair *pair = &pairs[i];
         ewa_cloud *operands[2];
@@ -248,7 +247,6 @@ TEST(test_against_closed_form) {
         }
         for (int k = 0; k < 2; k++) ewa_cloud_destroy(&operands[k]);
     }
-    ewa_context_destroy(&context);
 }
 
 /// The distance of a place from the plane of a face of the cube that a matrix puts into the world; faces are
@@ -286,8 +284,7 @@ static double distance_from_faces(const plain_surfels *s, uint64_t i, const doub
 
 /// Where every face is a plane, lines are exact: each lies in the plane of a face, that of the own cube
 /// beyond an edge or one of the other cube, on whole surfels as on their parts.
-TEST(test_lines_of_planes) {
-    ewa_context *context = check_context(0, NULL);
+TEST_ON(test_lines_of_planes, 0) {
     const double here[3] = {0, 0, 0}, half[2] = {1, 0.75};
     // The second cube is turned by 3-4-5 about z, then by 5-12-13 about x, so that no edge is along an axis.
     const double a = 0.6, b = 0.8, c = 12.0 / 13, d = 5.0 / 13;
@@ -319,7 +316,6 @@ TEST(test_lines_of_planes) {
         ewa_cloud_destroy(&result);
     }
     for (int k = 0; k < 2; k++) ewa_cloud_destroy(&operands[k]);
-    ewa_context_destroy(&context);
 }
 
 /// Counts surfels on the plane x = at within the unit square about the axis.
@@ -364,8 +360,7 @@ TEST(test_coinciding_faces) {
     ewa_context_destroy(&context);
 }
 
-TEST(test_far_apart_and_within) {
-    ewa_context *context = check_context(0, NULL);
+TEST_ON(test_far_apart_and_within, 0) {
     const double here[3] = {0, 0, 0}, far[3] = {50, 0, 0};
     ewa_cloud *a = make(context, EWA_OBJECT_SPHERE, 2000, 2, here);
     ewa_cloud *b = make(context, EWA_OBJECT_SPHERE, 1000, 2, far);
@@ -392,7 +387,6 @@ TEST(test_far_apart_and_within) {
     ewa_cloud_destroy(&a);
     ewa_cloud_destroy(&b);
     ewa_cloud_destroy(&inner);
-    ewa_context_destroy(&context);
 }
 
 /// The points of a cloud whose coordinate `axis` is below a limit.
@@ -459,9 +453,8 @@ TEST(test_same_bytes) {
 }
 
 /// A point so far off that squares overflow is no surfel, in either operand.
-TEST(test_overflow) {
+TEST_ON(test_overflow, 1) {
     enum { POINTS = 500 };
-    ewa_context *context = check_context(1, NULL);
     const double here[3] = {0, 0, 0}, aside[3] = {0.5, 0, 0};
     ewa_cloud *clouds[2] = {make(context, EWA_OBJECT_SPHERE, POINTS, 2, here),
                             make(context, EWA_OBJECT_SPHERE, POINTS, 2, aside)};
@@ -479,7 +472,6 @@ TEST(test_overflow) {
         ewa_cloud_destroy(&both);
     }
     for (int k = 0; k < 2; k++) ewa_cloud_destroy(&clouds[k]);
-    ewa_context_destroy(&context);
 }
 
 TEST(test_refused) {

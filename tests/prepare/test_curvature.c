@@ -57,9 +57,8 @@ static double percentile(const float *values, uint64_t count, double share) {
 }
 
 /// Points of known surfaces, of any size; curvature is the other way where normals point to the other side.
-TEST(test_known_surfaces) {
+TEST_ON(test_known_surfaces, 2) {
     static const double sizes[] = {1, 1e-18, 1e18};
-    ewa_context *context = check_context(2, NULL);
     for (int k = 0; k < 3 * SHAPES; k++) {
         const shape of = (shape)(k % SHAPES);
         const double size = sizes[k / SHAPES];
@@ -98,12 +97,10 @@ TEST(test_known_surfaces) {
         free(before);
         ewa_cloud_destroy(&cloud);
     }
-    ewa_context_destroy(&context);
 }
 
 /// Meshes and generated objects know as much, and a torus bends least where it is hollow.
-TEST(test_made_surfaces) {
-    ewa_context *context = check_context(0, NULL);
+TEST_ON(test_made_surfaces, 0) {
     ewa_mesh mesh;
     shape_sphere(context, 60, &mesh);
     ewa_mesh_sample_options sampling;
@@ -134,13 +131,11 @@ TEST(test_made_surfaces) {
         }
         ewa_cloud_destroy(&cloud);
     }
-    ewa_context_destroy(&context);
 }
 
 /// Normals turn round the edges of a cube, which does not bend there: splats that moved by half of their radius would
 /// leave gaps beside the edges.
-TEST(test_edges) {
-    ewa_context *context = check_context(0, NULL);
+TEST_ON(test_edges, 0) {
     for (uint64_t wanted = 6000; wanted <= 60000; wanted *= 10) {
         ewa_generate_options generate;
         ewa_generate_options_init(&generate, sizeof generate);
@@ -159,12 +154,10 @@ TEST(test_edges) {
         assert_true(most * spacing < 0.35);
         ewa_cloud_destroy(&cloud);
     }
-    ewa_context_destroy(&context);
 }
 
 /// Moved points bend as they are moved: by 1 / scale, and a mirror changes no sign, since normals stay outside.
-TEST(test_moved) {
-    ewa_context *context = check_context(0, NULL);
+TEST_ON(test_moved, 0) {
     static const double mirror[16] = {0, -4, 0, 1, 4, 0, 0, 2, 0, 0, -4, 3, 0, 0, 0, 1};
     ewa_generate_options options;
     ewa_generate_options_init(&options, sizeof options);
@@ -181,7 +174,6 @@ TEST(test_moved) {
         assert_true(fabs((double)found[i] - 0.25) < 1e-5 && outward > 0);
     }
     ewa_cloud_destroy(&cloud);
-    ewa_context_destroy(&context);
 }
 
 int main(void) { return RUN_TESTS(NULL, NULL); }

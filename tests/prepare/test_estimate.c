@@ -43,8 +43,7 @@ static uint32_t sample_square(sampling kind, float *xyz) {
 
 static bool is_inner(const float *p) { return fminf(fminf(p[0], p[1]), fminf(SIDE - p[0], SIDE - p[1])) > 6; }
 
-TEST(test_spacing) {
-    ewa_context *context = check_context(2, NULL);
+TEST_ON(test_spacing, 2) {
     for (int kind = 0; kind < SAMPLINGS; kind++) {
         float xyz[3 * MAXIMUM];
         const uint32_t count = sample_square((sampling)kind, xyz);
@@ -84,13 +83,11 @@ TEST(test_spacing) {
         assert_true(border < (kind == STRETCHED ? 1.25 : 1.2) * inner && border > 0.9 * inner);
         ewa_cloud_destroy(&cloud);
     }
-    ewa_context_destroy(&context);
 }
 
 /// Shares of the inner square that no disc covers: the plain 1.2 spacings would leave 1 % of a random
 /// sampling open.
-TEST(test_no_holes) {
-    ewa_context *context = check_context(2, NULL);
+TEST_ON(test_no_holes, 2) {
     for (int kind = 0; kind < SAMPLINGS; kind++) {
         float xyz[3 * MAXIMUM];
         const uint32_t count = sample_square((sampling)kind, xyz);
@@ -116,11 +113,9 @@ TEST(test_no_holes) {
         assert_in_range(open, 0, kind == POISSON ? PROBES / 400 : PROBES / 2000);
         ewa_cloud_destroy(&cloud);
     }
-    ewa_context_destroy(&context);
 }
 
-TEST(test_axes) {
-    ewa_context *context = check_context(2, NULL);
+TEST_ON(test_axes, 2) {
     float xyz[3 * MAXIMUM];
     const uint32_t count = sample_square(STRETCHED, xyz);
     ewa_cloud *cloud = NULL;
@@ -149,13 +144,11 @@ TEST(test_axes) {
     }
     assert_true(checked > count / 2);
     ewa_cloud_destroy(&cloud);
-    ewa_context_destroy(&context);
 }
 
 /// A scanner's lines 20 samples apart: 16 neighbours are all on one line, and say nothing about the surface.
-TEST(test_scan_lines) {
+TEST_ON(test_scan_lines, 2) {
     enum { ALONG = 600, LINES = 40, GAP = 20, LINE_COUNT = ALONG * LINES };
-    ewa_context *context = check_context(2, NULL);
     float *xyz = NULL;
     ewa_cloud *cloud = check_cloud(context, LINE_COUNT, &xyz);
     check_random random = {12};
@@ -176,13 +169,11 @@ TEST(test_scan_lines) {
         assert_true(radius[i] > half_gap && radius[i] < 4 * half_gap);
     }
     ewa_cloud_destroy(&cloud);
-    ewa_context_destroy(&context);
 }
 
 /// PCA against the true normal of a sphere, also for doubles far from the origin.
-TEST(test_normals) {
+TEST_ON(test_normals, 2) {
     enum { COUNT = 20000 };
-    ewa_context *context = check_context(2, NULL);
     for (int far = 0; far < 2; far++) {
         const double center[3] = {far ? 512345.25 : 0, far ? 5412345.5 : 0, far ? 321.0 : 0};
         ewa_cloud *cloud = NULL;
@@ -213,11 +204,9 @@ TEST(test_normals) {
         assert_true(sum / COUNT > 1 - 1e-4);
         ewa_cloud_destroy(&cloud);
     }
-    ewa_context_destroy(&context);
 }
 
-TEST(test_keep) {
-    ewa_context *context = check_context(2, NULL);
+TEST_ON(test_keep, 2) {
     float xyz[3 * MAXIMUM];
     const uint32_t count = sample_square(JITTERED, xyz);
     for (int keep = 0; keep < 2; keep++) {
@@ -246,7 +235,6 @@ TEST(test_keep) {
         }
         ewa_cloud_destroy(&cloud);
     }
-    ewa_context_destroy(&context);
 }
 
 /// Fills `count` points with one of many useless shapes.
@@ -290,9 +278,8 @@ static void make_degenerate(int kind, uint32_t i, check_random *random, float p[
     }
 }
 
-TEST(test_degenerate) {
+TEST_ON(test_degenerate, 2) {
     static const uint32_t counts[] = {0, 1, 2, 3, 4, 7, 16, 17, 1000};
-    ewa_context *context = check_context(2, NULL);
     for (int kind = 0; kind < 11; kind++)
         for (size_t n = 0; n < sizeof counts / sizeof counts[0]; n++)
             for (int shape = 0; shape < 2; shape++) {
@@ -327,7 +314,6 @@ TEST(test_degenerate) {
                 if (kind == 0 && counts[n] > 1) assert_int_equal(spacing.duplicate_count, counts[n]);
                 ewa_cloud_destroy(&cloud);
             }
-    ewa_context_destroy(&context);
 }
 
 /// A bumpy surface with uneven sampling, duplicates and a few points that are not finite.
@@ -418,9 +404,8 @@ static bool is_at_corner(const float *p) {
 }
 
 /// Borders are where the samples end, and nowhere else; discs reach no farther, lengths in spacings.
-TEST(test_borders) {
+TEST_ON(test_borders, 2) {
     static const sampling kinds[] = {REGULAR, JITTERED, SCATTERED, HEXAGONAL, POISSON};
-    ewa_context *context = check_context(2, NULL);
     for (int k = 0; k < 10; k++) {
         const bool hole = k >= 5;
         ewa_cloud *cloud = with_borders(context, kinds[k % 5], EWA_SHAPE_DISC, hole);
@@ -443,13 +428,11 @@ TEST(test_borders) {
         assert_true(near >= 4 * (SIDE - 16) && off / (double)near < 0.4 && over < 3);
         ewa_cloud_destroy(&cloud);
     }
-    ewa_context_destroy(&context);
 }
 
 /// What has no border gets no stream; axes get clip lines where discs get borders.
-TEST(test_borders_as_streams) {
+TEST_ON(test_borders_as_streams, 2) {
     enum { POINTS = 20000 };
-    ewa_context *context = check_context(2, NULL);
     for (int s = 0; s < 2; s++) {
         ewa_cloud *cloud = with_borders(context, POISSON, (ewa_surfel_shape)s, false);
         assert_true((ewa_cloud_find(cloud, EWA_BORDER) != NULL) == (s == EWA_SHAPE_DISC));
@@ -490,7 +473,6 @@ TEST(test_borders_as_streams) {
     assert_int_equal(ewa_cloud_estimate(&sphere, &options), EWA_OK);
     assert_null(ewa_cloud_find(sphere, EWA_BORDER));
     ewa_cloud_destroy(&sphere);
-    ewa_context_destroy(&context);
 }
 
 TEST(test_threads_and_machines) {
@@ -595,9 +577,8 @@ TEST(test_out_of_memory) {
 }
 
 /// What is marked is what the estimate leaves, whatever is marked before; points that are not finite are none.
-TEST(test_marked_outliers) {
+TEST_ON(test_marked_outliers, 2) {
     enum { COUNT = 3000, FAR = 40 };
-    ewa_context *context = check_context(2, NULL);
     float *xyz = NULL;
     ewa_cloud *cloud = check_cloud(context, COUNT, &xyz), *left = NULL;
     check_random random = {11};
@@ -629,7 +610,6 @@ TEST(test_marked_outliers) {
     ewa_cloud_remove(cloud, EWA_POSITION);
     assert_int_equal(ewa_cloud_mark_outliers(cloud, &options, marks), EWA_ERROR_ARGUMENT);
     ewa_cloud_destroy(&cloud);
-    ewa_context_destroy(&context);
 }
 
 static bool cancel_at(void *user, const char *stage, double fraction) {
@@ -672,8 +652,7 @@ TEST(test_cancel_and_options) {
 }
 
 /// Points strewn in space are no surface; a plane has no such attribute, and keeps none of before.
-TEST(test_surfaceness) {
-    ewa_context *context = check_context(2, NULL);
+TEST_ON(test_surfaceness, 2) {
     enum { COUNT = 4000 };
     for (int kind = 0; kind < 4; kind++) { // a plane; in space; a plane and a wire above it; a box's edge
         float *xyz = NULL, *before = NULL;
@@ -708,7 +687,6 @@ TEST(test_surfaceness) {
         if (kind == 3) assert_true(strewn < 0.01 * COUNT);
         ewa_cloud_destroy(&cloud);
     }
-    ewa_context_destroy(&context);
 }
 
 int main(void) { return RUN_TESTS(NULL, NULL); }

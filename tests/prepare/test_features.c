@@ -147,13 +147,12 @@ TEST(test_creases) {
 
 /// Points over the surface are put onto it up to 0.3 spacings, or 4 times the noise where that is more; those
 /// that are farther off are left alone.
-TEST(test_outliers) {
+TEST_ON(test_outliers, 2) {
     static const struct {
         double noise;  ///< in spacings, which are 0.87 here
         double height; ///< in world units
         bool snapped;
     } cases[] = {{0.01, 0.23, true}, {0.01, 0.29, false}, {0.1, 0.32, true}, {0.1, 0.39, false}};
-    ewa_context *context = check_context(2, NULL);
     for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
         ewa_cloud *cloud = make_crease(context, 90, false), *before = make_crease(context, 90, false);
         float *position = ewa_cloud_find(cloud, EWA_POSITION)->data;
@@ -179,12 +178,10 @@ TEST(test_outliers) {
         ewa_cloud_destroy(&cloud);
         ewa_cloud_destroy(&before);
     }
-    ewa_context_destroy(&context);
 }
 
 /// Below the threshold nothing changes, not even the streams.
-TEST(test_threshold) {
-    ewa_context *context = check_context(2, NULL);
+TEST_ON(test_threshold, 2) {
     ewa_cloud *cloud = make_crease(context, 22, false), *before = make_crease(context, 22, false);
     const ewa_feature_options options = default_options();
     ewa_feature_counts counts;
@@ -195,15 +192,13 @@ TEST(test_threshold) {
                         sizeof(float) * ewa_cloud_point_count(cloud));
     ewa_cloud_destroy(&cloud);
     ewa_cloud_destroy(&before);
-    ewa_context_destroy(&context);
 }
 
 /// Exact points have 24 neighbours looked at, those with noise of a quarter of a spacing or more all 64, and
 /// between these as many more as there is noise.
-TEST(test_neighbour_counts) {
+TEST_ON(test_neighbour_counts, 2) {
     static const double noise[] = {0, 0.0625, 0.125, 0.1875, 0.25, 0.5};
     static const uint32_t expected[] = {24, 34, 44, 54, 64, 64};
-    ewa_context *context = check_context(2, NULL);
     ewa_cloud *cloud = make_crease(context, 90, false);
     for (size_t k = 0; k < sizeof noise / sizeof noise[0]; k++) {
         ewa_feature_options options = default_options();
@@ -213,7 +208,6 @@ TEST(test_neighbour_counts) {
         assert_int_equal(counts.neighbour_count, expected[k]);
     }
     ewa_cloud_destroy(&cloud);
-    ewa_context_destroy(&context);
 }
 
 /// The lines near a step of so many spacings that runs across a crease, and how many of them are not where
@@ -323,9 +317,8 @@ TEST(test_corners) {
 }
 
 /// Smooth objects have no edges, exact or noisy; their bytes stay.
-TEST(test_smooth) {
+TEST_ON(test_smooth, 0) {
     static const ewa_object objects[] = {EWA_OBJECT_PLANE, EWA_OBJECT_SPHERE, EWA_OBJECT_TORUS};
-    ewa_context *context = check_context(0, NULL);
     for (int i = 0; i < 6; i++) {
         ewa_generate_options generate;
         ewa_generate_options_init(&generate, sizeof generate);
@@ -349,7 +342,6 @@ TEST(test_smooth) {
         assert_non_null(ewa_cloud_find(cloud, EWA_RADIUS));
         ewa_cloud_destroy(&cloud);
     }
-    ewa_context_destroy(&context);
 }
 
 TEST(test_threads) {
@@ -381,8 +373,7 @@ TEST(test_threads) {
 }
 
 /// Clouds of few points, of one place, on a line, and with coordinates that are not finite.
-TEST(test_odd_clouds) {
-    ewa_context *context = check_context(2, NULL);
+TEST_ON(test_odd_clouds, 2) {
     for (uint32_t count = 0; count < 90; count += count < 8 ? 1 : 27) {
         for (int kind = 0; kind < 3; kind++) {
             float *xyz;
@@ -409,12 +400,10 @@ TEST(test_odd_clouds) {
     const float *clip = check_stream(cloud, EWA_CLIP0);
     for (uint64_t i = 0; i < ewa_cloud_point_count(cloud); i += 11) assert_false(has_line(clip, i));
     ewa_cloud_destroy(&cloud);
-    ewa_context_destroy(&context);
 }
 
 /// Doubles stay doubles, borrowed memory is not written to, axes that are there keep their size.
-TEST(test_streams) {
-    ewa_context *context = check_context(2, NULL);
+TEST_ON(test_streams, 2) {
     ewa_cloud *cloud = make_crease(context, 90, false);
     const uint64_t count = ewa_cloud_point_count(cloud);
     double *position = malloc(3 * count * sizeof *position), *copy = malloc(3 * count * sizeof *copy);
@@ -436,7 +425,6 @@ TEST(test_streams) {
     ewa_cloud_destroy(&cloud);
     free(copy);
     free(position);
-    ewa_context_destroy(&context);
 }
 
 TEST(test_refusals) {
@@ -496,8 +484,7 @@ TEST(test_failing_allocations) {
 }
 
 /// Discs get axes where there are features; their borders become clip lines, which end the surface where it ended.
-TEST(test_borders_become_lines) {
-    ewa_context *context = check_context(2, NULL);
+TEST_ON(test_borders_become_lines, 2) {
     ewa_cloud *cloud = make_bordered_crease(context, 90, false);
     const uint64_t count = ewa_cloud_point_count(cloud);
     float *ends = malloc(3 * count * sizeof *ends);
@@ -524,7 +511,6 @@ TEST(test_borders_become_lines) {
     assert_true(bordered > 40);
     free(ends);
     ewa_cloud_destroy(&cloud);
-    ewa_context_destroy(&context);
 }
 
 int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -44,9 +44,8 @@ TEST(test_sine_and_cosine) {
     assert_true(largest_coarse < 1.2e-3);
 }
 
-TEST(test_counts_and_attributes) {
+TEST_ON(test_counts_and_attributes, 2) {
     static const uint64_t counts[] = {0, 1, 2, 3, 5, 7, 64, 65, 1000, 12345};
-    ewa_context *context = check_context(2, NULL);
     for (int object = 0; object < OBJECT_COUNT; object++) {
         for (size_t c = 0; c < sizeof counts / sizeof counts[0]; c++) {
             ewa_generate_options options = check_generate_options((ewa_object)object, counts[c]);
@@ -72,7 +71,6 @@ TEST(test_counts_and_attributes) {
         assert_null(ewa_cloud_find(cloud, EWA_RADIUS));
         ewa_cloud_destroy(&cloud);
     }
-    ewa_context_destroy(&context);
 }
 
 /// What the surface and its normal are at a position, from the closed form.
@@ -99,8 +97,7 @@ static void check_on_surface(ewa_object object, double size, const float *positi
     for (int c = 0; c < 3; c++) assert_true(fabs(expected[c] - normal[c]) < 2e-6);
 }
 
-TEST(test_positions_and_normals) {
-    ewa_context *context = check_context(2, NULL);
+TEST_ON(test_positions_and_normals, 2) {
     for (int object = 0; object < EWA_OBJECT_TERRAIN; object++) {
         ewa_generate_options options = check_generate_options((ewa_object)object, 10000);
         options.size_world = 5;
@@ -110,7 +107,6 @@ TEST(test_positions_and_normals) {
             check_on_surface((ewa_object)object, 5, &position[3 * i], &normal[3 * i]);
         ewa_cloud_destroy(&cloud);
     }
-    ewa_context_destroy(&context);
 }
 
 TEST(test_terrain_normals_are_its_derivatives) {
@@ -130,8 +126,7 @@ TEST(test_terrain_normals_are_its_derivatives) {
     }
 }
 
-TEST(test_terrain_has_land_water_and_upward_unit_normals) {
-    ewa_context *context = check_context(2, NULL);
+TEST_ON(test_terrain_has_land_water_and_upward_unit_normals, 2) {
     for (uint64_t seed = 0; seed < 5; seed++) {
         ewa_generate_options options = check_generate_options(EWA_OBJECT_TERRAIN, 50000);
         options.seed = seed;
@@ -153,7 +148,6 @@ TEST(test_terrain_has_land_water_and_upward_unit_normals) {
         assert_true(highest > 0.1 && highest < 0.8);
         ewa_cloud_destroy(&cloud);
     }
-    ewa_context_destroy(&context);
 }
 
 /// A place on the object, uniform on it (terrain: on its ground), for size 2.
@@ -189,8 +183,7 @@ static void random_place(ewa_object object, const ewa_terrain *terrain, check_ra
     }
 }
 
-TEST(test_discs_cover_every_place) {
-    ewa_context *context = check_context(2, NULL);
+TEST_ON(test_discs_cover_every_place, 2) {
     for (int object = 0; object < OBJECT_COUNT; object++) {
         for (int jittered = 0; jittered < 2; jittered++) {
             const uint64_t count = 8000;
@@ -213,7 +206,6 @@ TEST(test_discs_cover_every_place) {
             ewa_cloud_destroy(&cloud);
         }
     }
-    ewa_context_destroy(&context);
 }
 
 /// Which of 8 x 8 parts of equal area a place lies in.
@@ -229,10 +221,9 @@ static int area_bin(ewa_object object, const float *p) {
     return 8 * (j > 7 ? 7 : j) + (i > 7 ? 7 : i);
 }
 
-TEST(test_density_is_even) {
+TEST_ON(test_density_is_even, 2) {
     static const ewa_object objects[] = {EWA_OBJECT_PLANE, EWA_OBJECT_SPHERE, EWA_OBJECT_TORUS,
                                          EWA_OBJECT_TERRAIN};
-    ewa_context *context = check_context(2, NULL);
     for (size_t o = 0; o < sizeof objects / sizeof objects[0]; o++) {
         for (uint64_t seed = 0; seed < 4; seed++) {
             ewa_generate_options options = check_generate_options(objects[o], 64 * 997);
@@ -249,11 +240,9 @@ TEST(test_density_is_even) {
             ewa_cloud_destroy(&cloud);
         }
     }
-    ewa_context_destroy(&context);
 }
 
-TEST(test_regular_grid) {
-    ewa_context *context = check_context(1, NULL);
+TEST_ON(test_regular_grid, 1) {
     ewa_generate_options options = check_generate_options(EWA_OBJECT_PLANE, 16);
     options.jitter = 0;
     options.radius_scale = 1;
@@ -265,11 +254,9 @@ TEST(test_regular_grid) {
         assert_true(radius[i] == 0.5f);
     }
     ewa_cloud_destroy(&cloud);
-    ewa_context_destroy(&context);
 }
 
-TEST(test_checks) {
-    ewa_context *context = check_context(1, NULL);
+TEST_ON(test_checks, 1) {
     ewa_generate_options options = check_generate_options(EWA_OBJECT_CHECKER, 10000);
     options.checks = 5;
     ewa_cloud *cloud = check_generated(context, &options);
@@ -282,7 +269,6 @@ TEST(test_checks) {
         for (int c = 0; c < 3; c++) assert_int_equal(color[3 * i + c], expected);
     }
     ewa_cloud_destroy(&cloud);
-    ewa_context_destroy(&context);
 }
 
 TEST(test_same_bytes_for_every_thread_count) {
@@ -310,11 +296,10 @@ TEST(test_same_bytes_for_every_thread_count) {
 
 /// The bytes are a promise to everybody who names an object, a count and a seed: a change here needs a
 /// changelog line.
-TEST(test_bytes_are_known) {
+TEST_ON(test_bytes_are_known, 0) {
     static const uint64_t known[OBJECT_COUNT] = {0x4b5329827d8f3eda, 0x3fc871025e145fa5, 0xd45a56f3a3a49a4a,
                                                  0xc38fbb3e780e9457, 0xbe57c01769ed62b2, 0xf927b2c3daffc417};
     int wrong = 0;
-    ewa_context *context = check_context(0, NULL);
     for (int object = 0; object < OBJECT_COUNT; object++) {
         ewa_generate_options options = check_generate_options((ewa_object)object, 10007);
         options.seed = 42;
@@ -327,7 +312,6 @@ TEST(test_bytes_are_known) {
         wrong++;
     }
     assert_int_equal(wrong, 0);
-    ewa_context_destroy(&context);
 }
 
 static void check_refused(ewa_context *context, const check_log *log, const ewa_generate_options *options,
@@ -373,8 +357,7 @@ TEST(test_bad_options) {
     ewa_context_destroy(&context);
 }
 
-TEST(test_extreme_sizes_stay_finite) {
-    ewa_context *context = check_context(1, NULL);
+TEST_ON(test_extreme_sizes_stay_finite, 1) {
     static const double sizes[] = {1e-25, 1e25}, scales[] = {1e-6, 1e6};
     for (int object = 0; object < OBJECT_COUNT; object++) {
         for (int i = 0; i < 4; i++) {
@@ -387,7 +370,6 @@ TEST(test_extreme_sizes_stay_finite) {
             ewa_cloud_destroy(&cloud);
         }
     }
-    ewa_context_destroy(&context);
 }
 
 TEST(test_every_failing_allocation) {
@@ -459,14 +441,13 @@ TEST(test_sharp_objects) {
 
 /// The part measures what docs/sharp.md says: its box, the floors of slot and notch, and its holes, whose
 /// axes are a radius in front of every place of their walls.
-TEST(test_part_measures) {
+TEST_ON(test_part_measures, 0) {
     enum { WALLS = 2 };
     static const struct {
         int axis;
         double center[2], radius; ///< across the axis: x and y, or x and z
     } holes[WALLS] = {{2, {-0.225, 0}, 0.32 / 2}, {1, {0.395, -0.1}, 0.1 / 2}};
     static const double box[3] = {1, 0.7, 0.4};
-    ewa_context *context = check_context(0, NULL);
     ewa_generate_options options = check_generate_options(EWA_OBJECT_CSG, 7000);
     options.size_world = 3;
     ewa_cloud *cloud = check_generated(context, &options);
@@ -498,7 +479,6 @@ TEST(test_part_measures) {
     for (int k = 0; k < WALLS; k++) assert_true(on_wall[k] > 100);
     assert_true(bottom_of_slot > 100 && bottom_of_notch > 30);
     ewa_cloud_destroy(&cloud);
-    ewa_context_destroy(&context);
 }
 
 int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -25,8 +25,7 @@ static void index_to_world(const ewa_volume *volume, const double index[3], doub
 
 /// Sums along each column of z are the documented line integrals: for these smooth functions the trapezoidal
 /// rule is exact to many digits.
-TEST(test_line_integrals) {
-    ewa_context *context = check_context(0, NULL);
+TEST_ON(test_line_integrals, 0) {
     for (int kind = 0; kind < 2; kind++) {
         ewa_volume volume;
         make(context, kind ? EWA_VOLUME_BALL : EWA_VOLUME_BLOB, 65, 33, 129, &volume);
@@ -47,11 +46,9 @@ TEST(test_line_integrals) {
         if (worst > (kind ? 2e-4 : 1e-6)) fail_msg("%s: off by %g", kind ? "ball" : "blob", worst);
         ewa_volume_free(&volume);
     }
-    ewa_context_destroy(&context);
 }
 
-TEST(test_checkerbox) {
-    ewa_context *context = check_context(0, NULL);
+TEST_ON(test_checkerbox, 0) {
     ewa_volume volume;
     make(context, EWA_VOLUME_CHECKERBOX, 129, 129, 129, &volume);
     const uint8_t *voxels = volume.voxels;
@@ -65,7 +62,6 @@ TEST(test_checkerbox) {
     for (int c = 0; c < 8; c++)
         assert_int_equal(voxels[(20 * 129 + 20) * 129 + 20 + 12 * c], c & 1 ? 96 : 255);
     ewa_volume_free(&volume);
-    ewa_context_destroy(&context);
 }
 
 /// FNV-1a over the voxels.
@@ -93,8 +89,7 @@ TEST(test_same_bytes) {
 }
 
 /// The tree is thin, inside, of the documented brightness, and another one for another seed.
-TEST(test_vessels) {
-    ewa_context *context = check_context(0, NULL);
+TEST_ON(test_vessels, 0) {
     ewa_volume_generate_options options;
     ewa_volume_generate_options_init(&options, sizeof options);
     options.object = EWA_VOLUME_VESSELS;
@@ -117,7 +112,6 @@ TEST(test_vessels) {
         ewa_volume_free(&volume);
     }
     assert_true(sums[0] != sums[1]);
-    ewa_context_destroy(&context);
 }
 
 /// The box of an outline.
@@ -130,8 +124,7 @@ static ewa_bounds outline_box(const ewa_volume *volume, const ewa_transfer *tran
     return bounds;
 }
 
-TEST(test_outline) {
-    ewa_context *context = check_context(1, NULL);
+TEST_ON(test_outline, 1) {
     ewa_volume volume;
     assert_int_equal(ewa_volume_create(context, (const uint32_t[3]){20, 20, 20}, EWA_U8, &volume), EWA_OK);
     static const double place[12] = {0, -2, 0, 10, 1, 0, 0, 20, 0, 0, 3, 30};
@@ -169,11 +162,9 @@ TEST(test_outline) {
     ewa_cloud *cloud;
     assert_int_equal(ewa_volume_outline(&volume, &transfer, -1, &cloud), EWA_ERROR_ARGUMENT);
     ewa_volume_free(&volume);
-    ewa_context_destroy(&context);
 }
 
-TEST(test_bad_options) {
-    ewa_context *context = check_context(1, NULL);
+TEST_ON(test_bad_options, 1) {
     ewa_volume volume;
     for (int i = 0; i < 7; i++) {
         ewa_volume_generate_options options;
@@ -192,7 +183,6 @@ TEST(test_bad_options) {
         assert_int_equal(ewa_volume_generate(context, &options, &volume), wanted);
         assert_null(volume.voxels);
     }
-    ewa_context_destroy(&context);
 }
 
 static ewa_status generate_and_outline(ewa_context *context, void *user) {

@@ -59,10 +59,9 @@ static pages_seen look_at_book(ewa_context *context, uint32_t pages, double spac
 
 /// However many pages meet in one edge, each is sampled and cut as if it were alone; and the work is that of
 /// the pages, not of all pairs of them, or this would take very long.
-TEST(test_book) {
+TEST_ON(test_book, 1) {
     enum { PAGES = 5000, ALONE = 200 };
     const double spacing = 0.3;
-    ewa_context *context = check_context(1, NULL);
     double points = 0, cut = 0;
     for (uint64_t seed = 1; seed <= ALONE; seed++) {
         const pages_seen page = look_at_book(context, 1, spacing, seed);
@@ -80,7 +79,6 @@ TEST(test_book) {
     assert_float_equal(sum / PAGES, points / ALONE, 0.05 * points / ALONE);
     assert_float_equal(book.cut, cut / points, 0.02);
     free(book.points);
-    ewa_context_destroy(&context);
 }
 
 typedef struct progress_log {

@@ -160,8 +160,7 @@ TEST(test_cube_lines) { hold_outline(shape_cube, cube_outline); }
 TEST(test_angle_lines) { hold_outline(shape_angle, angle_outline); }
 
 /// No sharp edges: radii, smooth normals, no lines; an opened one has lines along its border only.
-TEST(test_sphere) {
-    ewa_context *context = check_context(0, NULL);
+TEST_ON(test_sphere, 0) {
     ewa_mesh mesh;
     shape_sphere(context, 32, &mesh);
     const ewa_mesh_sample_options options = options_of(5000);
@@ -196,14 +195,12 @@ TEST(test_sphere) {
     mesh.triangle_count *= 2;
     ewa_cloud_destroy(&cloud);
     ewa_mesh_free(&mesh);
-    ewa_context_destroy(&context);
 }
 
-TEST(test_colors) {
+TEST_ON(test_colors, 0) {
     static const double positions[12] = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0};
     static const float texcoords[8] = {0, 0, 1, 0, 1, 1, 0, 1};
     static const uint32_t triangles[6] = {0, 1, 2, 0, 2, 3};
-    ewa_context *context = check_context(0, NULL);
     ewa_mesh mesh;
     assert_int_equal(ewa_mesh_create(context, 4, 2, 1, EWA_MESH_COLORS | EWA_MESH_TEXCOORDS, &mesh), EWA_OK);
     memcpy(mesh.positions, positions, sizeof positions);
@@ -240,14 +237,12 @@ TEST(test_colors) {
     assert_float_equal(((const float *)color->data)[3], 0.5, 1e-6);
     ewa_cloud_destroy(&cloud);
     ewa_mesh_free(&mesh);
-    ewa_context_destroy(&context);
 }
 
 /// A picture in place of materials and vertex colours; its coordinates stay when asked for.
-TEST(test_picture) {
+TEST_ON(test_picture, 0) {
     static const double positions[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
     static const float texcoords[6] = {0, 0, 1, 0, 0, 1};
-    ewa_context *context = check_context(0, NULL);
     ewa_mesh mesh;
     ewa_image picture;
     assert_int_equal(ewa_mesh_create(context, 3, 1, 2, EWA_MESH_COLORS | EWA_MESH_TEXCOORDS, &mesh), EWA_OK);
@@ -284,7 +279,6 @@ TEST(test_picture) {
     assert_int_equal(ewa_mesh_sample(&mesh, &options, &cloud), EWA_ERROR_ARGUMENT);
     ewa_image_free(&picture);
     ewa_mesh_free(&mesh);
-    ewa_context_destroy(&context);
 }
 
 /// Fails with a status and a message that has `text` in it.
@@ -336,8 +330,7 @@ TEST(test_bad_meshes) {
 }
 
 /// Random triangles through each other, with huge, tiny and doubled ones: finite surfels on their planes.
-TEST(test_soup) {
-    ewa_context *context = check_context(0, NULL);
+TEST_ON(test_soup, 0) {
     for (uint64_t seed = 1; seed < 20; seed++) {
         check_random random = {seed};
         ewa_mesh mesh;
@@ -358,7 +351,6 @@ TEST(test_soup) {
         ewa_cloud_destroy(&cloud);
         ewa_mesh_free(&mesh);
     }
-    ewa_context_destroy(&context);
 }
 
 /// Everything of two clouds but their origin.
@@ -375,9 +367,8 @@ static void same_points(const ewa_cloud *a, const ewa_cloud *b) {
 
 /// A mesh far from the origin is sampled as the same mesh at it, bit for bit, where the shift is exact; the
 /// origin of the cloud says where it is.
-TEST(test_map_coordinates) {
+TEST_ON(test_map_coordinates, 0) {
     static const double shifts[][3] = {{500000, 4200000, 0}, {-6378137, 6378137.5, 1e6}, {1e9, -1e9, 1e9}};
-    ewa_context *context = check_context(0, NULL);
     for (int shape = 0; shape < 3; shape++) {
         ewa_mesh mesh;
         void (*const shapes[2])(ewa_context *, ewa_mesh *) = {shape_cube, shape_angle};
@@ -404,12 +395,10 @@ TEST(test_map_coordinates) {
         ewa_cloud_destroy(&near);
         ewa_mesh_free(&mesh);
     }
-    ewa_context_destroy(&context);
 }
 
 /// Two small cubes far apart: places are doubles, and lie on their faces to a billionth of the distance.
-TEST(test_far_parts) {
-    ewa_context *context = check_context(0, NULL);
+TEST_ON(test_far_parts, 0) {
     ewa_mesh cube, mesh;
     shape_cube(context, &cube);
     assert_int_equal(ewa_mesh_create(context, 16, 24, 0, 0, &mesh), EWA_OK);
@@ -437,12 +426,10 @@ TEST(test_far_parts) {
     ewa_cloud_destroy(&cloud);
     ewa_mesh_free(&cube);
     ewa_mesh_free(&mesh);
-    ewa_context_destroy(&context);
 }
 
 /// Triangles that are there twice count once; those of another side stay.
-TEST(test_copies) {
-    ewa_context *context = check_context(0, NULL);
+TEST_ON(test_copies, 0) {
     ewa_mesh cube, mesh;
     shape_cube(context, &cube);
     const ewa_mesh_sample_options options = options_of(3000);
@@ -479,14 +466,12 @@ TEST(test_copies) {
     ewa_cloud_destroy(&once);
     ewa_mesh_free(&mesh);
     ewa_mesh_free(&cube);
-    ewa_context_destroy(&context);
 }
 
 /// Normals of the mesh are used where they are within the crease angle of the triangle, and only there.
-TEST(test_given_normals) {
+TEST_ON(test_given_normals, 0) {
     static const double positions[12] = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0};
     static const uint32_t triangles[6] = {0, 1, 2, 0, 2, 3};
-    ewa_context *context = check_context(0, NULL);
     ewa_mesh mesh;
     assert_int_equal(ewa_mesh_create(context, 4, 2, 0, EWA_MESH_NORMALS, &mesh), EWA_OK);
     memcpy(mesh.positions, positions, sizeof positions);
@@ -515,7 +500,6 @@ TEST(test_given_normals) {
         ewa_cloud_destroy(&cloud);
     }
     ewa_mesh_free(&mesh);
-    ewa_context_destroy(&context);
 }
 
 /// A cube with colours, a picture and copies of triangles, so that every allocation of the sampling is

@@ -43,9 +43,8 @@ static double lean_of(ewa_context *context, const double angle_deg[2], const dou
 
 /// A vertex faces more as that triangle does which has the larger angle there, whatever their areas; between
 /// equal angles it faces half way.
-TEST(test_normal_of_vertex) {
+TEST_ON(test_normal_of_vertex, 1) {
     static const double even[2] = {1, 1}, uneven[2] = {0.2, 7};
-    ewa_context *context = check_context(1, NULL);
     for (double first = 20; first < 170; first += 20) {
         double last = 0;
         for (double second = 20; second < 170; second += 20) {
@@ -58,7 +57,6 @@ TEST(test_normal_of_vertex) {
             last = lean;
         }
     }
-    ewa_context_destroy(&context);
 }
 
 enum { SIDES = 5 };
@@ -89,7 +87,7 @@ static void check_line(const double line[3], const double turn[2], int side, con
 }
 
 /// A disc on a plate is cut by the two of its sides that are nearest, in whatever way its axes are turned.
-TEST(test_nearest_sides) {
+TEST_ON(test_nearest_sides, 1) {
     enum { DISCS = 4000 };
     static const uint32_t triangles[9] = {0, 1, 2, 0, 2, 3, 0, 3, 4};
     const double tilt[2] = {0.8, 0.6}; // of the plate about x
@@ -99,7 +97,6 @@ TEST(test_nearest_sides) {
         positions[3 * i + 1] = tilt[0] * outline[i][1];
         positions[3 * i + 2] = tilt[1] * outline[i][1];
     }
-    ewa_context *context = check_context(1, NULL);
     ewa_mesh mesh;
     shape_fill(context, SIDES, positions, 3, triangles, &mesh);
     const ewa_mesh_sample_options options = options_of(0.01);
@@ -158,7 +155,6 @@ TEST(test_nearest_sides) {
     ewa_mesh_edge_grid_free(&grid);
     ewa_mesh_surface_free(&surface);
     ewa_mesh_free(&mesh);
-    ewa_context_destroy(&context);
 }
 
 int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -90,8 +90,7 @@ static void make_point(object kind, uint32_t i, check_random *random, double p[3
     }
 }
 
-TEST(test_propagation) {
-    ewa_context *context = check_context(2, NULL);
+TEST_ON(test_propagation, 2) {
     for (int run = 0; run < 3 * OBJECTS; run++) {
         const int kind = run % OBJECTS;
         float *xyz = NULL;
@@ -118,11 +117,9 @@ TEST(test_propagation) {
         free(truth);
         ewa_cloud_destroy(&cloud);
     }
-    ewa_context_destroy(&context);
 }
 
-TEST(test_viewpoint_and_none) {
-    ewa_context *context = check_context(2, NULL);
+TEST_ON(test_viewpoint_and_none, 2) {
     for (int none = 0; none < 2; none++) {
         float *xyz = NULL;
         ewa_cloud *cloud = check_cloud(context, COUNT, &xyz);
@@ -157,7 +154,6 @@ TEST(test_viewpoint_and_none) {
         }
         ewa_cloud_destroy(&cloud);
     }
-    ewa_context_destroy(&context);
 }
 
 /// A random sphere around the origin of a cloud whose origin is at x = 1000.
@@ -191,10 +187,9 @@ static uint32_t count_turned(ewa_cloud **cloud, const double (*seen_from)[3], co
 }
 
 /// Scanners decide before returns do, and returns before the shape does.
-TEST(test_what_the_cloud_knows) {
+TEST_ON(test_what_the_cloud_knows, 2) {
     static const char *const notes[] = {"1003 0 0\n997 0 0\n", "1003 0 0", NULL, "1003 0", "here"};
     static const double seen_from[2][3] = {{3, 0, 0}, {-3, 0, 0}};
-    ewa_context *context = check_context(2, NULL);
     for (size_t k = 0; k < sizeof notes / sizeof *notes; k++) {
         float *xyz = NULL;
         void *returns = NULL, *scan = NULL;
@@ -210,16 +205,14 @@ TEST(test_what_the_cloud_knows) {
         assert_int_equal(count_turned(&cloud, k < 2 ? seen_from : NULL, scan), 0);
         ewa_cloud_destroy(&cloud);
     }
-    ewa_context_destroy(&context);
 }
 
 /// The limit by its definition: over the mean of all mean distances to 16 neighbours plus so many of their
 /// deviations.
-TEST(test_outlier_limit) {
+TEST_ON(test_outlier_limit, 2) {
     enum { OUTLIER_POINTS = 1200, K = 16 };
     static const double factors[] = {0.3, 1, 2.5};
     static double distance[OUTLIER_POINTS];
-    ewa_context *context = check_context(2, NULL);
     for (size_t f = 0; f < sizeof factors / sizeof *factors; f++) {
         float *xyz = NULL;
         ewa_cloud *cloud = check_cloud(context, OUTLIER_POINTS, &xyz);
@@ -261,11 +254,9 @@ TEST(test_outlier_limit) {
         assert_memory_equal(check_stream(cloud, EWA_POSITION), kept, 3 * kept_count * sizeof *kept);
         ewa_cloud_destroy(&cloud);
     }
-    ewa_context_destroy(&context);
 }
 
-TEST(test_outliers) {
-    ewa_context *context = check_context(2, NULL);
+TEST_ON(test_outliers, 2) {
     float *xyz = NULL;
     uint16_t *label = NULL;
     double *precise = NULL;
@@ -316,7 +307,6 @@ TEST(test_outliers) {
     assert_memory_equal(kept_origin, origin, sizeof origin);
     ewa_cloud_destroy(&cloud);
     free(records);
-    ewa_context_destroy(&context);
 }
 
 int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -189,8 +189,7 @@ TEST(test_clouds) {
 
 /// Without a filter points have the texture's own two colours; alpha stays; the origin counts; what is no
 /// number is the mean.
-TEST(test_values) {
-    ewa_context *context = check_context(0, NULL);
+TEST_ON(test_values, 0) {
     float *xyz;
     ewa_cloud *cloud = check_cloud(context, 3, &xyz);
     const float at[] = {0.25f, 0.25f, 0.25f, 1.25f, 0.25f, 0.25f, NAN, 0, 0};
@@ -214,7 +213,6 @@ TEST(test_values) {
     assert_int_equal(((const uint8_t *)color->data)[0], 0);
     assert_int_equal(((const uint8_t *)color->data)[4], 255);
     ewa_cloud_destroy(&cloud);
-    ewa_context_destroy(&context);
 }
 
 TEST(test_arguments) {

@@ -53,8 +53,7 @@ static double blend_at(const ewa_cloud *cloud, uint64_t i, uint64_t c) {
 }
 
 /// Interpolation gives the points their colours, a fit comes nearer; the report says by how much.
-TEST(test_reconstruction) {
-    ewa_context *context = check_context(0, NULL);
+TEST_ON(test_reconstruction, 0) {
     for (int goal = EWA_REFIT_INTERPOLATE; goal <= EWA_REFIT_FIT; goal++) {
         ewa_cloud *cloud = generate(context, EWA_OBJECT_PLANE, 900, false);
         const uint64_t count = ewa_cloud_point_count(cloud);
@@ -80,13 +79,11 @@ TEST(test_reconstruction) {
         free(wanted);
         ewa_cloud_destroy(&cloud);
     }
-    ewa_context_destroy(&context);
 }
 
 /// Colours that do not change over the surface stay what they are, and alpha always does; one face of a sharp
 /// cube does not see the next one.
-TEST(test_constant) {
-    ewa_context *context = check_context(0, NULL);
+TEST_ON(test_constant, 0) {
     for (int sharp = 0; sharp < 2; sharp++) {
         ewa_cloud *cloud = generate(context, EWA_OBJECT_CUBE, 3000, sharp);
         const uint64_t count = ewa_cloud_point_count(cloud);
@@ -116,7 +113,6 @@ TEST(test_constant) {
         ewa_cloud_destroy(&copy);
         ewa_cloud_destroy(&cloud);
     }
-    ewa_context_destroy(&context);
 }
 
 /// The same bytes for any number of threads.
@@ -143,8 +139,7 @@ TEST(test_threads) {
 
 /// Points at one place with different colours, places covered by hundreds of kernels, points that are no
 /// surfels, colours that are no numbers: everything stays finite and bounded.
-TEST(test_bad_points) {
-    ewa_context *context = check_context(0, NULL);
+TEST_ON(test_bad_points, 0) {
     ewa_cloud *cloud = generate(context, EWA_OBJECT_PLANE, 2000, false);
     float *position = (float *)ewa_cloud_find(cloud, EWA_POSITION)->data,
           *radius = (float *)ewa_cloud_find(cloud, EWA_RADIUS)->data, *color = random_colors(cloud, 3);
@@ -163,7 +158,6 @@ TEST(test_bad_points) {
     for (uint64_t i = 0; i < 3 * ewa_cloud_point_count(cloud); i++) assert_true(fabsf(made[i]) < 40);
     for (int c = 0; c < 3; c++) assert_true(made[3 * 21 + c] == kept[c]);
     ewa_cloud_destroy(&cloud);
-    ewa_context_destroy(&context);
 }
 
 /// What is missing or out of range is named, and the cloud stays as it was.
@@ -264,8 +258,7 @@ TEST(test_progress) {
 
 /// Pictures of a magnified texture come nearer to it: by over a decibel for exact colours, by some for noisy
 /// ones that are fitted.
-TEST(test_pictures) {
-    ewa_context *context = check_context(0, NULL);
+TEST_ON(test_pictures, 0) {
     const refit_setting clean = {EWA_PROCEDURE_NOISE, 4, 10000, 0.5, 1.6, 0},
                         noisy = {EWA_PROCEDURE_NOISE, 4, 10000, 1, 1.6, 0.02};
     const double plain = refit_scene_psnr(context, &clean, REFIT_PLAIN, NULL);
@@ -274,13 +267,11 @@ TEST(test_pictures) {
     assert_true(refit_scene_psnr(context, &clean, EWA_REFIT_FIT, NULL) > plain + 1);
     assert_true(refit_scene_psnr(context, &noisy, EWA_REFIT_FIT, NULL) >
                 refit_scene_psnr(context, &noisy, REFIT_PLAIN, NULL) + 0.5);
-    ewa_context_destroy(&context);
 }
 
 /// Coefficients of any sign are drawn as the reference draws them.
-TEST(test_drawn) {
+TEST_ON(test_drawn, 0) {
     enum { SIDE = 48 };
-    ewa_context *context = check_context(0, NULL);
     ewa_cloud *cloud = generate(context, EWA_OBJECT_PLANE, 400, false);
     float *color = random_colors(cloud, 3), lowest = 0;
     for (uint64_t i = 0; i < 3 * ewa_cloud_point_count(cloud); i++) color[i] = 6 * color[i] - 3;
@@ -311,12 +302,10 @@ TEST(test_drawn) {
     ewa_renderer_destroy(&renderer);
     ewa_surfels_destroy(&surfels);
     ewa_cloud_destroy(&cloud);
-    ewa_context_destroy(&context);
 }
 
 /// Coefficients of any sign survive a file.
-TEST(test_file) {
-    ewa_context *context = check_context(0, NULL);
+TEST_ON(test_file, 0) {
     ewa_cloud *cloud = generate(context, EWA_OBJECT_PLANE, 500, false), *back = NULL;
     random_colors(cloud, 3);
     assert_int_equal(ewa_cloud_refit_colors(cloud, NULL, NULL), EWA_OK);
@@ -329,7 +318,6 @@ TEST(test_file) {
     remove(path);
     ewa_cloud_destroy(&back);
     ewa_cloud_destroy(&cloud);
-    ewa_context_destroy(&context);
 }
 
 int main(void) { return RUN_TESTS(NULL, NULL); }

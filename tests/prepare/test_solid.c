@@ -35,10 +35,9 @@ static ewa_cloud *make_roof(ewa_context *context, double half_angle) {
 
 /// What there is to see from a place above the ridge: one bent surface up to 37 degrees, from there on two
 /// planes, each with its own normal and distance.
-TEST(test_roofs) {
+TEST_ON(test_roofs, 1) {
     static const double origin[3] = {0, 0, 0};
     static const double degrees[] = {10, 30, 45, 55, 80, 120};
-    ewa_context *context = check_context(1, NULL);
     for (int k = 0; k < 6; k++) {
         const double half = degrees[k] * acos(-1) / 360;
         ewa_cloud *cloud = make_roof(context, half);
@@ -65,7 +64,6 @@ TEST(test_roofs) {
         ewa_solid_close(&solid);
         ewa_cloud_destroy(&cloud);
     }
-    ewa_context_destroy(&context);
 }
 
 int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -45,8 +45,7 @@ TEST(test_known_solution) {
 }
 
 /// A dense little system by hand, one row, no rows, no sides, sides of zeros.
-TEST(test_small) {
-    ewa_context *context = check_context(2, NULL);
+TEST_ON(test_small, 2) {
     for (int method = EWA_SPARSE_AUTO; method <= EWA_SPARSE_GRADIENT; method++) {
         const ewa_sparse_options options = {.method = (ewa_sparse_method)method};
         ewa_sparse_report report;
@@ -69,7 +68,6 @@ TEST(test_small) {
         assert_int_equal(ewa_sparse_solve(context, &none, 3, NULL, NULL, &options, &report), EWA_OK);
         assert_int_equal(ewa_sparse_solve(context, &one, 0, NULL, NULL, &options, &report), EWA_OK);
     }
-    ewa_context_destroy(&context);
 }
 
 /// Each bad system gives its status and a message, by either method.
@@ -135,8 +133,7 @@ TEST(test_limits) {
 }
 
 /// AUTO takes the gradient for many rows, and a factor where that needs more than 500 steps.
-TEST(test_choice) {
-    ewa_context *context = check_context(0, NULL);
+TEST_ON(test_choice, 0) {
     const struct {
         double sigma;
         uint64_t max_factor_bytes;
@@ -159,7 +156,6 @@ TEST(test_choice) {
         free(truth);
         owned_free(&matrix);
     }
-    ewa_context_destroy(&context);
 }
 
 typedef struct system_of_equations {

@@ -17,9 +17,8 @@ static ewa_generate_options town_options(uint64_t point_count) {
     return check_generate_options(EWA_OBJECT_TOWN, point_count);
 }
 
-TEST(test_counts_and_unit_normals) {
+TEST_ON(test_counts_and_unit_normals, 2) {
     static const uint64_t counts[] = {0, 1, 2, 3, 64, 1000, 54321};
-    ewa_context *context = check_context(2, NULL);
     for (size_t c = 0; c < sizeof counts / sizeof counts[0]; c++) {
         const ewa_generate_options options = town_options(counts[c]);
         ewa_cloud *cloud = check_generated(context, &options);
@@ -39,7 +38,6 @@ TEST(test_counts_and_unit_normals) {
         }
         ewa_cloud_destroy(&cloud);
     }
-    ewa_context_destroy(&context);
 }
 
 TEST(test_there_are_160_boxes_and_1400_trees) {
@@ -71,8 +69,7 @@ static bool is_on(const ewa_town_patch *patch, const double p[3], const float *n
 }
 
 /// Points of walls, roofs and ground lie on them, one of each patch after another, as many as their areas say.
-TEST(test_points_lie_on_their_patches) {
-    ewa_context *context = check_context(2, NULL);
+TEST_ON(test_points_lie_on_their_patches, 2) {
     ewa_town_patch *patches = calloc(EWA_TOWN_PATCHES, sizeof *patches);
     const ewa_generate_options options = town_options(POINTS);
     const double area = ewa_town_make(options.seed, patches);
@@ -97,7 +94,6 @@ TEST(test_points_lie_on_their_patches) {
     }
     ewa_cloud_destroy(&cloud);
     free(patches);
-    ewa_context_destroy(&context);
 }
 
 /// The boxes stand apart, so that no wall lies in another box.
@@ -122,9 +118,8 @@ TEST(test_boxes_stand_apart) {
 }
 
 /// Every place of the walls, roofs and the ground is within the disc of some point of them.
-TEST(test_discs_close_the_walls) {
+TEST_ON(test_discs_close_the_walls, 2) {
     enum { PROBES = 300 };
-    ewa_context *context = check_context(2, NULL);
     ewa_town_patch *patches = calloc(EWA_TOWN_PATCHES, sizeof *patches);
     const ewa_generate_options options = town_options(POINTS);
     ewa_town_make(options.seed, patches);
@@ -149,7 +144,6 @@ TEST(test_discs_close_the_walls) {
     }
     ewa_cloud_destroy(&cloud);
     free(patches);
-    ewa_context_destroy(&context);
 }
 
 /// Bytes are a promise, as those of other objects (test generate).

@@ -52,12 +52,11 @@ TEST(test_figure_6) {
 }
 
 /// A quad with a checkerboard, whose ray-cast picture is known in its middle.
-TEST(test_ray_caster) {
+TEST_ON(test_ray_caster, 0) {
     static const double positions[12] = {-1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0};
     static const float texcoords[8] = {0, 0, 1, 0, 1, 1, 0, 1};
     static const uint32_t triangles[6] = {0, 1, 2, 0, 2, 3};
     const double eye[3] = {0, 0, 3}, back[3] = {0, 0, -3}, target[3] = {0, 0, 0}, up[3] = {0, 1, 0};
-    ewa_context *context = check_context(0, NULL);
     ewa_mesh mesh;
     ewa_image board, picture;
     assert_int_equal(ewa_mesh_create(context, 4, 2, 0, EWA_MESH_TEXCOORDS, &mesh), EWA_OK);
@@ -87,7 +86,6 @@ TEST(test_ray_caster) {
     for (int i = 0; i < 40000; i++) assert_true(picture.pixels[i] == 0);
     ewa_image_free(&picture);
     ewa_mesh_free(&mesh);
-    ewa_context_destroy(&context);
 }
 
 int main(void) { return RUN_TESTS(NULL, NULL); }

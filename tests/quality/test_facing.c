@@ -231,8 +231,7 @@ static void count_rims(ewa_renderer *renderer, const ewa_cloud *cloud, const tru
     ewa_surfels_destroy(&surfels);
 }
 
-TEST(test_no_rims_of_far_sides) {
-    ewa_context *context = check_context(0, NULL);
+TEST_ON(test_no_rims_of_far_sides, 0) {
     ewa_renderer *renderer = NULL;
     assert_int_equal(ewa_renderer_create(context, &renderer), EWA_OK);
     const truth cube = {.shape = ewa_solid_shape_of(EWA_OBJECT_CUBE)};
@@ -261,16 +260,14 @@ TEST(test_no_rims_of_far_sides) {
         ewa_cloud_destroy(&cloud);
     }
     ewa_renderer_destroy(&renderer);
-    ewa_context_destroy(&context);
 }
 
 /// A disc that faces the viewer, in a sheet that does not: as its weight grows the mean goes over to it evenly,
 /// however much more the sheet weighs.
-TEST(test_means_go_over) {
+TEST_ON(test_means_go_over, 0) {
     enum { ROWS = 60 };
     static float both[4 * SIDE * SIDE], all[SIDE * SIDE], front[SIDE * SIDE];
     static const double eye[3] = {0.3, -0.4, 3}, target[3] = {0, 0, 0}, up[3] = {0.1, 1, 0};
-    ewa_context *context = check_context(0, NULL);
     points made = {calloc(3 * (ROWS * ROWS + 1), sizeof(float)), calloc(3 * (ROWS * ROWS + 1), sizeof(float)), 0, {1}};
     assert_true(made.position && made.normal);
     for (int i = 0; i <= ROWS * ROWS; i++) {
@@ -317,7 +314,6 @@ TEST(test_means_go_over) {
     ewa_cloud_destroy(&cloud);
     free(made.position);
     free(made.normal);
-    ewa_context_destroy(&context);
 }
 
 /// A sheet in waves that hang over: it folds twice in each, and shows both of its sides from everywhere.
@@ -389,11 +385,10 @@ static double largest_difference(const float *a, const float *b, int channels, i
     return maximum;
 }
 
-TEST(test_cover_is_blind_to_normals) {
+TEST_ON(test_cover_is_blind_to_normals, 0) {
     static float rgba[2][4 * SIDE * SIDE], coverage[2][SIDE * SIDE];
     static const double eyes[][3] = {{2.2, -2.6, 1.9}, {1.5, -2.2, -2.2}, {3, -0.4, 0.3}, {0.3, -0.2, -3}};
     static const char *const names[SIGN_KINDS] = {"all", "in patches", "at random"};
-    ewa_context *context = check_context(0, NULL);
     ewa_renderer *renderer = NULL;
     assert_int_equal(ewa_renderer_create(context, &renderer), EWA_OK);
     for (int kind = 0; kind < SIGN_KINDS; kind++)
@@ -412,14 +407,12 @@ TEST(test_cover_is_blind_to_normals) {
             ewa_cloud_destroy(&cloud);
         }
     ewa_renderer_destroy(&renderer);
-    ewa_context_destroy(&context);
 }
 
 /// A sphere seen from inside shows its whole inner side, whichever way its normals point, and the same.
-TEST(test_inside_is_shown) {
+TEST_ON(test_inside_is_shown, 0) {
     static float rgba[2][4 * SIDE * SIDE], coverage[SIDE * SIDE];
     static const double eye[3] = {0.2, -0.5, 0.1};
-    ewa_context *context = check_context(0, NULL);
     ewa_renderer *renderer = NULL;
     assert_int_equal(ewa_renderer_create(context, &renderer), EWA_OK);
     ewa_cloud *cloud = make_generated(context, EWA_OBJECT_SPHERE);
@@ -430,7 +423,6 @@ TEST(test_inside_is_shown) {
     assert_true(largest_difference(rgba[0], rgba[1], 4, -1) < 2e-5);
     ewa_cloud_destroy(&cloud);
     ewa_renderer_destroy(&renderer);
-    ewa_context_destroy(&context);
 }
 
 int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -54,11 +54,10 @@ static void draw(ewa_renderer *renderer, const ewa_surfels *surfels, const ewa_c
     assert_int_equal(ewa_render(renderer, surfels, camera, NULL, &(ewa_frame){.rgba = rgba}, NULL), EWA_OK);
 }
 
-TEST(test_town_stays_as_near_to_the_truth) {
+TEST_ON(test_town_stays_as_near_to_the_truth, 0) {
     static const struct {
         double times, least_db;
     } rows[] = {{1, 22.0}, {4, 18.0}, {8, 16.0}};
-    ewa_context *context = check_context(0, NULL);
     ewa_renderer *renderer = NULL;
     ewa_surfels *surfels = NULL;
     ewa_cloud *cloud = NULL;
@@ -89,7 +88,6 @@ TEST(test_town_stays_as_near_to_the_truth) {
     ewa_surfels_destroy(&surfels);
     ewa_cloud_destroy(&cloud);
     ewa_renderer_destroy(&renderer);
-    ewa_context_destroy(&context);
 }
 
 int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -8,7 +8,7 @@
 
 enum { SIDE = 192, CAMERAS = 40, MARGIN = 4 };
 
-TEST(test_scores) {
+TEST_ON(test_scores, 0) {
     // The floors leave some room below what docs/features.md says.
     static const struct {
         feature_solid solid;
@@ -21,7 +21,6 @@ TEST(test_scores) {
     };
     char path[512];
     const char *part = check_data("models/fuze/fuze.obj", path, sizeof path);
-    ewa_context *context = check_context(0, NULL);
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         feature_scene scene;
         if (!feature_scene_make(rows[i].solid, part, rows[i].solid == SOLID_PART ? 60000 : 24000, &scene))
@@ -36,7 +35,6 @@ TEST(test_scores) {
         assert_true(fabs(score.counts.noise - rows[i].noise) < 0.05);
         feature_scene_free(&scene);
     }
-    ewa_context_destroy(&context);
 }
 
 /// Whether the ray through a point of the picture meets the cube of edge 2.
@@ -121,9 +119,8 @@ static void count_holes(ewa_context *context, double noise, hole_counts *found) 
     ewa_cloud_destroy(&cloud);
 }
 
-TEST(test_no_holes) {
+TEST_ON(test_no_holes, 0) {
     static const double noises[] = {0, 0.1, 0.25};
-    ewa_context *context = check_context(0, NULL);
     for (int i = 0; i < 3; i++) {
         hole_counts found;
         count_holes(context, noises[i], &found);
@@ -132,7 +129,6 @@ TEST(test_no_holes) {
         // Noise moves the silhouette; without clip lines as many pixels are translucent.
         assert_true((double)found.thin < (noises[i] > 0 ? 0.05 : 2e-4) * (double)found.inside);
     }
-    ewa_context_destroy(&context);
 }
 
 int main(void) { return RUN_TESTS(NULL, NULL); }

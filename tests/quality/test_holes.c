@@ -129,11 +129,10 @@ TEST(test_affine_has_holes) {
 }
 
 /// Objects with the radii that ewa_cloud_generate() chooses are opaque up to a few pixels from the outline.
-TEST(test_generated_discs_close) {
+TEST_ON(test_generated_discs_close, 0) {
     enum { VIEW_PX = 400, RIM_PX = 8 };
     static float rgba[VIEW_PX * VIEW_PX * 4];
     static const double jitters[] = {0, 0.25, 0.5, 1};
-    ewa_context *context = check_context(0, NULL);
     ewa_renderer *renderer = NULL;
     assert_int_equal(ewa_renderer_create(context, &renderer), EWA_OK);
     for (size_t i = 0; i < sizeof jitters / sizeof jitters[0]; i++) {
@@ -172,7 +171,6 @@ TEST(test_generated_discs_close) {
         ewa_cloud_destroy(&cloud);
     }
     ewa_renderer_destroy(&renderer);
-    ewa_context_destroy(&context);
 }
 
 int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -152,10 +152,9 @@ TEST(test_cube) { hold(&cube); }
 TEST(test_angle) { hold(&angle); }
 
 /// Where faces meet the light is between theirs: no line along the edge is brighter than both, nor darker.
-TEST(test_light_at_edges) {
+TEST_ON(test_light_at_edges, 0) {
     static const double eye[3] = {3.1, 2.9, 2.7}, target[3] = {0, 0, 0}, up[3] = {0, 0, 1};
     static float rgba[4 * SIDE * SIDE];
-    ewa_context *context = check_context(0, NULL);
     ewa_mesh mesh;
     shape_cube(context, &mesh);
     ewa_cloud *cloud = sample_points(&mesh, 100000);
@@ -196,7 +195,6 @@ TEST(test_light_at_edges) {
     ewa_surfels_destroy(&surfels);
     ewa_cloud_destroy(&cloud);
     ewa_mesh_free(&mesh);
-    ewa_context_destroy(&context);
 }
 
 int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -97,8 +97,7 @@ static outline_errors measure(ewa_context *context, const char *name, outline_sh
 
 static const double oblique[3] = {1.2, -2.6, 1.7};
 
-TEST(test_silhouettes) {
-    ewa_context *context = check_context(0, NULL);
+TEST_ON(test_silhouettes, 0) {
     // What is sparser than pixels ends where its discs do.
     static const uint64_t counts[] = {3000, 20000, 100000};
     static const double fat_px[] = {0.2, 0.1, 0.1}, rms[] = {0.3, 0.19, 0.17};
@@ -124,12 +123,10 @@ TEST(test_silhouettes) {
             assert_true(found.open < 5e-4 && found.deepest < 0.1 && found.strewn < 1e-3);
         }
     }
-    ewa_context_destroy(&context);
 }
 
 /// Levels in memory, down to surfels 2.5 px apart; what stands for others where they are 5 px apart lies on the surface.
-TEST(test_levels) {
-    ewa_context *context = check_context(0, NULL);
+TEST_ON(test_levels, 0) {
     static outline_truth truth;
     ewa_camera camera;
     outline_camera(oblique, 42, &camera);
@@ -149,12 +146,10 @@ TEST(test_levels) {
         }
         ewa_cloud_destroy(&cloud);
     }
-    ewa_context_destroy(&context);
 }
 
 /// The coarse nodes of an octree, of bare points and of surfels with curvatures.
-TEST(test_octrees) {
-    ewa_context *context = check_context(0, NULL);
+TEST_ON(test_octrees, 0) {
     static outline_truth truth;
     static float rgba[OUTLINE_SIDE_PX * OUTLINE_SIDE_PX][4];
     ewa_camera camera;
@@ -191,7 +186,6 @@ TEST(test_octrees) {
         unlink(points), unlink(octree);
     }
     ewa_renderer_destroy(&renderer);
-    ewa_context_destroy(&context);
 }
 
 /// x that the normal distribution has the share `below` below -x, 0 < below < 1/2.
@@ -210,8 +204,7 @@ static double tail(double below) {
 /// Without curvatures, where samples are finer than pixels, the coverage of a smooth silhouette is the prefilter's
 /// integral, alpha is that over tau, and what the near side leaves the far side covers by as much again: together a half
 /// where the integral is tau (1 - sqrt(1/2)), which lies outside.
-TEST(test_silhouettes_follow_the_filter) {
-    ewa_context *context = check_context(0, NULL);
+TEST_ON(test_silhouettes_follow_the_filter, 0) {
     static outline_truth truth;
     ewa_camera camera;
     outline_camera(oblique, 42, &camera);
@@ -231,11 +224,9 @@ TEST(test_silhouettes_follow_the_filter) {
         assert_true(fabs(found.fat_px - expected) < 0.03);
     }
     ewa_cloud_destroy(&cloud);
-    ewa_context_destroy(&context);
 }
 
-TEST(test_borders) {
-    ewa_context *context = check_context(0, NULL);
+TEST_ON(test_borders, 0) {
     static const uint64_t counts[] = {1000, 20000, 100000}; // spacings of 6, 1.4 and 0.6 px
     static const double fat_px[] = {0.6, 0.06, 0.06}, rms[] = {0.45, 0.23, 0.15}, open[] = {0.015, 1e-3, 1e-4};
     for (int i = 0; i < 3; i++) {
@@ -251,11 +242,9 @@ TEST(test_borders) {
         assert_true(fabs(disc.fat_px) < fat_px[i] && disc.rms < rms[i] && disc.open < open[i]);
         assert_true(fabs(square.fat_px) < fat_px[i] && square.rms < rms[i] && square.open < open[i]);
     }
-    ewa_context_destroy(&context);
 }
 
-TEST(test_flat_angles) {
-    ewa_context *context = check_context(0, NULL);
+TEST_ON(test_flat_angles, 0) {
     static const double angles_deg[] = {5, 7, 10, 20, 45, 90};
     for (int i = 0; i < 6; i++) {
         const double angle = angles_deg[i] * 3.141592653589793 / 180;
@@ -266,7 +255,6 @@ TEST(test_flat_angles) {
             measure(context, name, OUTLINE_SQUARE, eye, estimated(context, OUTLINE_SQUARE, 20000));
         assert_true(found.open < 2e-3);
     }
-    ewa_context_destroy(&context);
 }
 
 /// A square of points whose normals are noisy, or point to either side at random.
@@ -289,8 +277,7 @@ static ewa_cloud *doubtful_square(ewa_context *context, bool noisy) {
 }
 
 /// Where both sides of one plane face the viewer it stays closed.
-TEST(test_doubtful_normals) {
-    ewa_context *context = check_context(0, NULL);
+TEST_ON(test_doubtful_normals, 0) {
     static const double angles_deg[] = {7, 30, 90};
     for (int noisy = 0; noisy < 2; noisy++)
         for (int i = 0; i < 3; i++) {
@@ -303,7 +290,6 @@ TEST(test_doubtful_normals) {
                 measure(context, name, OUTLINE_SQUARE, eye, doubtful_square(context, noisy));
             assert_true(found.open < 0.08);
         }
-    ewa_context_destroy(&context);
 }
 
 int main(void) { return RUN_TESTS(NULL, NULL); }

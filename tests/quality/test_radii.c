@@ -20,7 +20,7 @@ static ewa_cloud *make_scene(ewa_context *context, radii_kind kind, double detai
 }
 
 /// Gaps that larger discs would close are none, and pixels inside are opaque.
-TEST(test_closed) {
+TEST_ON(test_closed, 0) {
     static const struct {
         const char *name;
         radii_kind kind;
@@ -33,7 +33,6 @@ TEST(test_closed) {
                   {"lines 5 : 1", RADII_LINES, 5, 20000, 0, 1e-3},
                   {"lines 20 : 1", RADII_LINES, 20, 20000, 1e-5, 4e-3},
                   {"noise of 1/4", RADII_NOISY, 0.25, 20000, 4e-4, 2e-2}};
-    ewa_context *context = check_context(0, NULL);
     for (size_t i = 0; i < sizeof scenes / sizeof *scenes; i++) {
         ewa_cloud *cloud = make_scene(context, scenes[i].kind, scenes[i].detail, scenes[i].count);
         radii_holes holes;
@@ -48,11 +47,10 @@ TEST(test_closed) {
         assert_true(thin <= scenes[i].thin);
         ewa_cloud_destroy(&cloud);
     }
-    ewa_context_destroy(&context);
 }
 
 /// No disc is much larger than the spacing around it.
-TEST(test_limited) {
+TEST_ON(test_limited, 0) {
     static const struct {
         const char *name;
         radii_kind kind;
@@ -63,7 +61,6 @@ TEST(test_limited) {
                   {"sphere", RADII_SPHERE, 0, 100000, 3},      {"terrain", RADII_TERRAIN, 0, 60000, 3.05},
                   {"lone points", RADII_LONE, 0, 20000, 3.05}, {"fog", RADII_FOG, 0, 20000, 3.8},
                   {"garden", RADII_GARDEN, 0, 20000, 4.2},     {"lines 20 : 1", RADII_LINES, 20, 20000, 4}};
-    ewa_context *context = check_context(0, NULL);
     for (size_t i = 0; i < sizeof scenes / sizeof *scenes; i++) {
         ewa_cloud *cloud = make_scene(context, scenes[i].kind, scenes[i].detail, scenes[i].count);
         radii_sizes sizes;
@@ -73,13 +70,11 @@ TEST(test_limited) {
         assert_true(sizes.largest <= scenes[i].largest);
         ewa_cloud_destroy(&cloud);
     }
-    ewa_context_destroy(&context);
 }
 
 /// Single points above a plane get the plain radius of what is nearest, those of the plane stay as they were.
-TEST(test_lone_points) {
+TEST_ON(test_lone_points, 0) {
     enum { COUNT = 20000 };
-    ewa_context *context = check_context(0, NULL);
     ewa_cloud *cloud = make_scene(context, RADII_LONE, 0, COUNT);
     const float *xyz = ewa_cloud_find(cloud, EWA_POSITION)->data,
                 *radius = ewa_cloud_find(cloud, EWA_RADIUS)->data;
@@ -92,7 +87,6 @@ TEST(test_lone_points) {
     }
     assert_int_equal(lone, COUNT / 5000);
     ewa_cloud_destroy(&cloud);
-    ewa_context_destroy(&context);
 }
 
 /// The radius of a place in the middle of a round hole in a plane of unit spacing.
@@ -122,15 +116,13 @@ static double radius_in_hole(ewa_context *context, double hole) {
 
 /// A place in a gap is enlarged to close it, but in a hole that is much wider than the spacing it is alone:
 /// it gets the plain radius of what is around.
-TEST(test_holes) {
-    ewa_context *context = check_context(0, NULL);
+TEST_ON(test_holes, 0) {
     for (int hole = 2; hole < 12; hole++) {
         const double radius = radius_in_hole(context, hole);
         print_message("in a hole of %d spacings: radius %.3f\n", hole, radius);
         if (hole <= 2) assert_true(radius > hole);
         if (hole >= 5) assert_true(radius > 1 && radius < 1.5);
     }
-    ewa_context_destroy(&context);
 }
 
 int main(void) { return RUN_TESTS(NULL, NULL); }

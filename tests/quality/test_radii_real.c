@@ -5,11 +5,10 @@
 // Only where the data set is: test_radii holds the rule on samplings that it makes.
 #include "quality/radii_scene.h"
 
-TEST(test_garden) {
+TEST_ON(test_garden, 0) {
     char path[1024];
     const char *file = check_data("gaussians/garden_sfm_points.ply", path, sizeof path);
     if (!file) skip();
-    ewa_context *context = check_context(0, NULL);
     ewa_cloud *cloud = NULL;
     assert_int_equal(ewa_cloud_load(context, file, &cloud), EWA_OK);
     ewa_estimate_options options;
@@ -21,7 +20,6 @@ TEST(test_garden) {
                   sizes.of_diagonal);
     assert_true(sizes.largest < 3.4 && sizes.of_diagonal < 0.03);
     ewa_cloud_destroy(&cloud);
-    ewa_context_destroy(&context);
 }
 
 int main(void) { return RUN_TESTS(NULL, NULL); }

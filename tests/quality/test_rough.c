@@ -40,9 +40,8 @@ static bool is_inner(const float *rgba, int x, int y) {
     return true;
 }
 
-TEST(test_ground) {
+TEST_ON(test_ground, 0) {
     static float flat[4 * PIXELS], bent[4 * PIXELS];
-    ewa_context *context = check_context(0, NULL);
     for (int k = 0; k < 4; k++) {
         ewa_generate_options generate;
         ewa_generate_options_init(&generate, sizeof generate);
@@ -64,7 +63,6 @@ TEST(test_ground) {
         assert_true(inner > 50000 && opened < 1e-4 * inner);
         ewa_cloud_destroy(&cloud);
     }
-    ewa_context_destroy(&context);
 }
 
 int main(void) { return RUN_TESTS(NULL, NULL); }

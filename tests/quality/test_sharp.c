@@ -78,7 +78,7 @@ static double psnr(const float *picture, const float *truth, const uint8_t *mask
     return 10 * log10((double)count / sum);
 }
 
-TEST(test_edges_close_up) {
+TEST_ON(test_edges_close_up, 0) {
     static const struct {
         const char *name;
         ewa_object object;
@@ -94,7 +94,6 @@ TEST(test_edges_close_up) {
     };
     static float truth[4 * SIDE * SIDE], rgba[4 * SIDE * SIDE];
     static uint8_t mask[SIDE * SIDE];
-    ewa_context *context = check_context(0, NULL);
     ewa_renderer *renderer = NULL;
     assert_int_equal(ewa_renderer_create(context, &renderer), EWA_OK);
     for (size_t i = 0; i < sizeof views / sizeof views[0]; i++) {
@@ -125,7 +124,6 @@ TEST(test_edges_close_up) {
         ewa_cloud_destroy(&sharp);
     }
     ewa_renderer_destroy(&renderer);
-    ewa_context_destroy(&context);
 }
 
 /// The pixels of outlines: those where a single face ends before the background, two pixels around it and no
@@ -201,7 +199,7 @@ static void hold_outlines(ewa_context *context, ewa_renderer *renderer, ewa_obje
     ewa_cloud_destroy(&cloud);
 }
 
-TEST(test_outlines) {
+TEST_ON(test_outlines, 0) {
     // Not circles: those of discs that are seen edge-on reach far beyond what their clip lines leave.
     static const struct {
         ewa_kernel kernel;
@@ -210,7 +208,6 @@ TEST(test_outlines) {
                    {EWA_KERNEL_AFFINE, "cube, affine"},
                    {EWA_KERNEL_SOURCE, "cube, source"},
                    {EWA_KERNEL_RAYCAST, "cube, raycast"}};
-    ewa_context *context = check_context(0, NULL);
     ewa_renderer *renderer = NULL;
     assert_int_equal(ewa_renderer_create(context, &renderer), EWA_OK);
     for (size_t i = 0; i < sizeof kernels / sizeof kernels[0]; i++)
@@ -220,7 +217,6 @@ TEST(test_outlines) {
                   "cube, back faces culled");
     hold_outlines(context, renderer, EWA_OBJECT_CSG, 7000, EWA_KERNEL_PERSPECTIVE, EWA_CULL_NONE, "part");
     ewa_renderer_destroy(&renderer);
-    ewa_context_destroy(&context);
 }
 
 /// Whether a pixel and its surroundings of half a pixel are all within the solid's picture.

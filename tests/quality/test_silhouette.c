@@ -98,8 +98,7 @@ static bool surrounded_by(const scene *s, int x, int y, float truth) {
     return true;
 }
 
-TEST(test_silhouettes) {
-    ewa_context *context = check_context(0, NULL);
+TEST_ON(test_silhouettes, 0) {
     scene *s = calloc(1, sizeof *s);
     assert_non_null(s);
     const double eye[3] = {1.2, -2.6, 1.7}, target[3] = {0, 0, 0.05}, up[3] = {0, 0, 1};
@@ -154,7 +153,6 @@ TEST(test_silhouettes) {
     ewa_surfels_destroy(&surfels);
     ewa_cloud_destroy(&cloud);
     free(s);
-    ewa_context_destroy(&context);
 }
 
 int main(void) { return RUN_TESTS(NULL, NULL); }

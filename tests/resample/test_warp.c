@@ -10,8 +10,7 @@
 static plane_image plane;
 static plane_frame drawn, other;
 
-TEST(test_masked_depths) {
-    ewa_context *context = check_context(2, NULL);
+TEST_ON(test_masked_depths, 2) {
     ewa_warp *warp = plane_warp(context);
     plane_set(&plane, 2);
     ewa_warp_facts facts;
@@ -39,11 +38,9 @@ TEST(test_masked_depths) {
         }
     }
     ewa_warp_destroy(&warp);
-    ewa_context_destroy(&context);
 }
 
-TEST(test_sixteen_bits) {
-    ewa_context *context = check_context(2, NULL);
+TEST_ON(test_sixteen_bits, 2) {
     ewa_warp *warp = plane_warp(context);
     plane_set(&plane, 2);
     static uint16_t numbers[PLANE_PIXELS];
@@ -65,12 +62,10 @@ TEST(test_sixteen_bits) {
     plane_take(warp, &plane, &facts);
     assert_int_equal(facts.sample_count, PLANE_PIXELS - 2);
     ewa_warp_destroy(&warp);
-    ewa_context_destroy(&context);
 }
 
 /// z, distance and disparity of one slanted plane give the same surface, whose normals are known.
-TEST(test_kinds) {
-    ewa_context *context = check_context(2, NULL);
+TEST_ON(test_kinds, 2) {
     ewa_warp *warp = plane_warp(context);
     const double n[3] = {0.4, -0.3, -0.866025403784}, at = -2 * n[2]; // n.p = -at
     for (int kind = 0; kind < 3; kind++) {
@@ -98,12 +93,10 @@ TEST(test_kinds) {
         }
     }
     ewa_warp_destroy(&warp);
-    ewa_context_destroy(&context);
 }
 
 /// The covariance of the packed ellipses is that of the axes they were made of.
-TEST(test_packed_ellipses) {
-    ewa_context *context = check_context(1, NULL);
+TEST_ON(test_packed_ellipses, 1) {
     ewa_warp *warp = plane_warp(context);
     plane_set(&plane, 1);
     plane.image.camera.fy_px = 50; // samples that are no squares
@@ -136,7 +129,6 @@ TEST(test_packed_ellipses) {
         assert_true(fabs(center.x - z * x) + fabs(center.y - z * y) + fabs(center.z - z) < 1e-5);
     }
     ewa_warp_destroy(&warp);
-    ewa_context_destroy(&context);
 }
 
 /// The normal of the surfel that a pixel was made into.
@@ -151,8 +143,7 @@ static ewa_vec3 normal_at(const ewa_warp *warp, uint32_t column, uint32_t row) {
 
 /// Roofs whose sides' slopes differ by more than 0.36 have a crease: a surfel at the ridge lies on one side.
 /// Flatter ones are bent, and it lies between both. Along rows and columns, with pixels that are no squares.
-TEST(test_creases) {
-    ewa_context *context = check_context(1, NULL);
+TEST_ON(test_creases, 1) {
     ewa_warp *warp = plane_warp(context);
     static const double slopes[] = {0.05, 0.12, 0.16, 0.2, 0.25, 0.33};
     for (int k = 0; k < 12; k++) {
@@ -176,13 +167,11 @@ TEST(test_creases) {
         assert_float_equal(across, 2 * slope > 0.36 ? slope : 0, 4e-3);
     }
     ewa_warp_destroy(&warp);
-    ewa_context_destroy(&context);
 }
 
 /// What a plane's grid adds up to, seen from where it was taken, whatever the kernels' size and cutoff are:
 /// the sum is told as the coverage that a whole surface has.
-TEST(test_coverage_of_planes) {
-    ewa_context *context = check_context(1, NULL);
+TEST_ON(test_coverage_of_planes, 1) {
     ewa_warp *warp = plane_warp(context);
     static const double cutoffs[] = {1.5, 2, 3}, radii[] = {1.1, 1.3, 1.5};
     for (int k = 0; k < 9; k++) {
@@ -202,7 +191,6 @@ TEST(test_coverage_of_planes) {
         assert_float_equal(mean / count, 1, 0.02);
     }
     ewa_warp_destroy(&warp);
-    ewa_context_destroy(&context);
 }
 
 /// Rows with gaps between them, floats instead of bytes, grey and alpha.
@@ -215,11 +203,10 @@ TEST(test_file_scales) {
     assert_true(ewa_depth_file_scale("-", EWA_DEPTH_Z) == 1 && ewa_depth_file_scale(NULL, EWA_DEPTH_RAY) == 1);
 }
 
-TEST(test_layouts) {
+TEST_ON(test_layouts, 2) {
     enum { STRIDE = PLANE_WIDTH + 13 };
     static float depth[PLANE_HEIGHT * STRIDE], color[4 * PLANE_HEIGHT * STRIDE];
     static uint8_t color8[4 * PLANE_HEIGHT * STRIDE];
-    ewa_context *context = check_context(2, NULL);
     ewa_warp *warp = plane_warp(context);
     plane_set(&plane, 2);
     const ewa_camera target = plane_camera_at(0.07, -0.03, 0.2);
@@ -274,7 +261,6 @@ TEST(test_layouts) {
         assert_true(grey > PLANE_PIXELS / 2);
     }
     ewa_warp_destroy(&warp);
-    ewa_context_destroy(&context);
 }
 
 static void expect(ewa_warp *warp, check_log *log, ewa_status status, const char *said) {

@@ -39,12 +39,11 @@ static void make_scene(void) {
 
 /// From in front, behind, all sides, and where the epipole is in the picture, on its border, far outside or
 /// at infinity: no more than rounding separates the order from the depth test.
-TEST(test_order) {
+TEST_ON(test_order, 2) {
     static const double places[][3] = {{0, 0, 0.5},    {0.1, 0.05, 0.6}, {0, 0, -1},        {0.3, 0.1, -0.8},
                                        {0.4, 0, 0},    {-0.4, 0, 0},     {0, 0.3, 0},       {0, -0.3, 0},
                                        {0.3, 0.3, 0},  {-0.3, 0.2, 0.1}, {-0.3, -0.3, 0.7}, {0.5, -0.2, -0.3},
                                        {0.24, 0, 0.4}, {0, 0, 0}};
-    ewa_context *context = check_context(2, NULL);
     ewa_warp *warp = plane_warp(context);
     make_scene();
     ewa_warp_options options;
@@ -71,12 +70,10 @@ TEST(test_order) {
             fail_msg("place %zu: %d of %d differ, %d hidden ones show", k, differ, drawn_count, hidden);
     }
     ewa_warp_destroy(&warp);
-    ewa_context_destroy(&context);
 }
 
 /// The identity gives the bytes of the picture.
-TEST(test_identity) {
-    ewa_context *context = check_context(1, NULL);
+TEST_ON(test_identity, 1) {
     ewa_warp *warp = plane_warp(context);
     make_scene();
     plane_take(warp, &plane, NULL);
@@ -89,13 +86,11 @@ TEST(test_identity) {
         assert_true(drawn.normal[3 * i + 2] < 0);
     }
     ewa_warp_destroy(&warp);
-    ewa_context_destroy(&context);
 }
 
 /// Of two sources the nearer one shows, whichever comes first.
-TEST(test_two_sources) {
+TEST_ON(test_two_sources, 2) {
     static plane_image near;
-    ewa_context *context = check_context(2, NULL);
     ewa_warp *warp = plane_warp(context);
     plane_set(&plane, 3);
     plane_set(&near, 1);
@@ -110,7 +105,6 @@ TEST(test_two_sources) {
             assert_true(fabsf(drawn.depth[i] - (i % PLANE_WIDTH > 40 ? 3.0f : 1.0f)) < 1e-5f);
     }
     ewa_warp_destroy(&warp);
-    ewa_context_destroy(&context);
 }
 
 int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -8,11 +8,10 @@
 static plane_image plane;
 static plane_frame drawn, other;
 
-TEST(test_identity) {
+TEST_ON(test_identity, 2) {
     enum { WIDTH = 320, HEIGHT = 240, COUNT = WIDTH * HEIGHT };
     static uint8_t color[3 * COUNT], rgba8[4 * COUNT], rgb8[3 * COUNT];
     static float depth[COUNT];
-    ewa_context *context = check_context(2, NULL);
     ewa_warp *warp = plane_warp(context);
     ewa_depth_image image;
     ewa_depth_image_init(&image);
@@ -29,12 +28,10 @@ TEST(test_identity) {
     print_message("identity: %.2f dB, SSIM %.4f\n", likeness.psnr_db, likeness.ssim);
     assert_true(likeness.psnr_db > 40 && likeness.ssim > 0.995);
     ewa_warp_destroy(&warp);
-    ewa_context_destroy(&context);
 }
 
 /// A step of the camera that is five pixels on the plane.
-TEST(test_shift) {
-    ewa_context *context = check_context(2, NULL);
+TEST_ON(test_shift, 2) {
     ewa_warp *warp = plane_warp(context);
     plane_set(&plane, 2);
     plane_take(warp, &plane, NULL);
@@ -54,11 +51,9 @@ TEST(test_shift) {
         }
     }
     ewa_warp_destroy(&warp);
-    ewa_context_destroy(&context);
 }
 
-TEST(test_constant) {
-    ewa_context *context = check_context(2, NULL);
+TEST_ON(test_constant, 2) {
     ewa_warp *warp = plane_warp(context);
     plane_set(&plane, 2);
     memset(plane.rgb8, 137, sizeof plane.rgb8);
@@ -72,13 +67,11 @@ TEST(test_constant) {
             for (int c = 0; c < 3; c++) assert_true(!drawn.rgba8[4 * i + 3] || drawn.rgba8[4 * i + c] == 137);
     }
     ewa_warp_destroy(&warp);
-    ewa_context_destroy(&context);
 }
 
 /// A white half at 1 before a black one at 2, moved by 6 and 3 pixels: where the edge is, how wide, and the
 /// three columns that nothing fills.
-TEST(test_step) {
-    ewa_context *context = check_context(2, NULL);
+TEST_ON(test_step, 2) {
     ewa_warp *warp = plane_warp(context);
     plane_set(&plane, 2);
     for (int i = 0; i < PLANE_PIXELS; i++) {
@@ -116,12 +109,10 @@ TEST(test_step) {
             if (x > 46) assert_in_range(other.rgba8[4 * at], 0, 5);
         }
     ewa_warp_destroy(&warp);
-    ewa_context_destroy(&context);
 }
 
 /// What hangs between two surfaces is dropped, unless it is asked for.
-TEST(test_flying) {
-    ewa_context *context = check_context(1, NULL);
+TEST_ON(test_flying, 1) {
     ewa_warp *warp = plane_warp(context);
     plane_set(&plane, 2);
     for (int i = 0; i < PLANE_PIXELS; i++) {
@@ -142,12 +133,10 @@ TEST(test_flying) {
     plane_take(warp, &plane, &facts);
     assert_int_equal(facts.sample_count, PLANE_PIXELS);
     ewa_warp_destroy(&warp);
-    ewa_context_destroy(&context);
 }
 
 /// Rows and columns without depth, as depth cameras leave them, are covered; wider gaps are not.
-TEST(test_lattice) {
-    ewa_context *context = check_context(2, NULL);
+TEST_ON(test_lattice, 2) {
     ewa_warp *warp = plane_warp(context);
     const ewa_camera target = plane_camera_at(0.02, 0.01, 0.3);
     for (int gap = 1; gap < 3; gap++) {
@@ -161,12 +150,10 @@ TEST(test_lattice) {
         assert_true(gap == 1 ? hole_count == 0 : hole_count > PLANE_PIXELS / 20);
     }
     ewa_warp_destroy(&warp);
-    ewa_context_destroy(&context);
 }
 
 /// Steps of a sensor fade out; edges stay.
-TEST(test_noise) {
-    ewa_context *context = check_context(2, NULL);
+TEST_ON(test_noise, 2) {
     ewa_warp *warp = plane_warp(context);
     plane_set(&plane, 2);
     const float step = 0.004f;
@@ -192,13 +179,11 @@ TEST(test_noise) {
     }
     assert_true(error[0] > 1.5e-3 && error[1] < 0.6 * error[0]);
     ewa_warp_destroy(&warp);
-    ewa_context_destroy(&context);
 }
 
 /// Two views of one plane, in either order.
-TEST(test_source_order) {
+TEST_ON(test_source_order, 2) {
     static plane_image second;
-    ewa_context *context = check_context(2, NULL);
     ewa_warp *warp = plane_warp(context);
     plane_set(&plane, 2);
     plane_set(&second, 2.5);
@@ -214,7 +199,6 @@ TEST(test_source_order) {
         for (int i = 0; i < 4 * PLANE_PIXELS; i++) assert_in_range(drawn.rgba8[i] - other.rgba8[i] + 1, 0, 2);
     }
     ewa_warp_destroy(&warp);
-    ewa_context_destroy(&context);
 }
 
 /// The same bytes from any number of threads and every instruction set, also from ragged sizes and noise.
@@ -250,8 +234,7 @@ TEST(test_same_bytes) {
 
 /// A camera behind the scene, one inside of it, one that looks away; the backs of all samples are dropped on
 /// request.
-TEST(test_strange_cameras) {
-    ewa_context *context = check_context(2, NULL);
+TEST_ON(test_strange_cameras, 2) {
     ewa_warp *warp = plane_warp(context);
     plane_set(&plane, 2);
     plane_take(warp, &plane, NULL);
@@ -276,12 +259,10 @@ TEST(test_strange_cameras) {
         for (int i = 0; i < PLANE_PIXELS; i++) assert_int_equal(drawn.holes[i], 255);
     }
     ewa_warp_destroy(&warp);
-    ewa_context_destroy(&context);
 }
 
 /// The background behind holes is the renderer's, whether or not the holes are asked for.
-TEST(test_background) {
-    ewa_context *context = check_context(2, NULL);
+TEST_ON(test_background, 2) {
     ewa_warp *warp = plane_warp(context);
     plane_set(&plane, 2);
     plane_take(warp, &plane, NULL);
@@ -299,7 +280,6 @@ TEST(test_background) {
         assert_true(fabsf(drawn.rgba[i] - other.rgba[i]) < 1e-5f);
     }
     ewa_warp_destroy(&warp);
-    ewa_context_destroy(&context);
 }
 
 /// Known answers of the measures that docs/warp.md uses.

@@ -68,9 +68,8 @@ static int draw(ewa_context *context, bool clip, bool orthographic, uint32_t cou
 }
 
 /// The axes are 0.5 and 0.25 long, the cutoff 3: half axes of 24 and 12 pixels. Hidden discs have no outline.
-TEST(test_ellipses) {
+TEST_ON(test_ellipses, 1) {
     static uint8_t pixels[4 * SIDE * SIDE];
-    ewa_context *context = check_context(1, NULL);
     for (int orthographic = 0; orthographic < 2; orthographic++) {
         assert_int_equal(draw(context, false, orthographic, 0, pixels), 0);
         const int dark = draw(context, false, orthographic, 100, pixels);
@@ -84,25 +83,21 @@ TEST(test_ellipses) {
                 if (away > 2.5) assert_int_equal(pixels[4 * (y * SIDE + x)], 255);
             }
     }
-    ewa_context_destroy(&context);
 }
 
 /// A line u >= 0 leaves the right half, through which the hidden disc's middle is still not seen.
-TEST(test_clip_lines) {
+TEST_ON(test_clip_lines, 1) {
     static uint8_t pixels[4 * SIDE * SIDE];
-    ewa_context *context = check_context(1, NULL);
     const int whole = draw(context, false, false, 5, pixels), half = draw(context, true, false, 5, pixels);
     assert_true(half > 0.4 * whole && half < 0.6 * whole);
     for (int y = 0; y < SIDE; y++)
         for (int x = 0; x < SIDE / 2 - 3; x++) assert_int_equal(pixels[4 * (y * SIDE + x)], 255);
-    ewa_context_destroy(&context);
 }
 
 /// Where gaps between the discs are closed, outlines are those of the larger discs that are drawn.
-TEST(test_closed_gaps) {
+TEST_ON(test_closed_gaps, 1) {
     enum { COLUMNS = 40 };
     static uint8_t pixels[4 * SIDE * SIDE];
-    ewa_context *context = check_context(1, NULL);
     int dark[2];
     for (int closed = 0; closed < 2; closed++) {
         void *position = NULL, *normal = NULL, *radius = NULL;
@@ -121,7 +116,6 @@ TEST(test_closed_gaps) {
         dark[closed] = outline(context, cloud, closed, true, 1, pixels);
     }
     assert_true(dark[0] > 0 && dark[1] > 2 * dark[0]);
-    ewa_context_destroy(&context);
 }
 
 int main(void) { return RUN_TESTS(NULL, NULL); }

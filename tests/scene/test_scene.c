@@ -91,8 +91,7 @@ static ewa_camera place(ewa_scene *scene) {
     return camera;
 }
 
-TEST(test_added_is_merged) {
-    ewa_context *context = check_context(0, NULL);
+TEST_ON(test_added_is_merged, 0) {
     ewa_cloud *clouds[2] = {make_object(context, EWA_OBJECT_TORUS, 0),
                             make_object(context, EWA_OBJECT_SPHERE, 1.25)};
     ewa_cloud *merged = NULL;
@@ -113,7 +112,6 @@ TEST(test_added_is_merged) {
     assert_true(isfinite(first.depth[PIXELS / 2 + WIDTH / 2]) || isfinite(first.depth[PIXELS / 2]));
     ewa_scene_destroy(&one), ewa_scene_destroy(&two), ewa_scene_destroy(&turned);
     ewa_cloud_destroy(&clouds[0]), ewa_cloud_destroy(&clouds[1]), ewa_cloud_destroy(&merged);
-    ewa_context_destroy(&context);
 }
 
 static bool all(uint64_t i, const double *p) { return (void)i, (void)p, true; }
@@ -147,8 +145,7 @@ static double largest_difference(const planes *a, const planes *b) {
 
 /// Tiles and interleaved scans of one place are the picture of the one file. Not to the byte: among neighbours that are
 /// equally far, as on the regular grid of a torus, the numbering of points decides which ones count.
-TEST(test_estimated_together) {
-    ewa_context *context = check_context(0, NULL);
+TEST_ON(test_estimated_together, 0) {
     ewa_cloud *object = make_object(context, EWA_OBJECT_TORUS, 0), *whole = bare_part(context, object, all);
     ewa_scene *one = make_scene(context);
     add_cloud(context, one, whole, NULL);
@@ -174,12 +171,10 @@ TEST(test_estimated_together) {
     }
     ewa_scene_destroy(&one);
     ewa_cloud_destroy(&whole), ewa_cloud_destroy(&object);
-    ewa_context_destroy(&context);
 }
 
 /// Gaussians out of sight change none of the planes of a surface but where colours are rounded.
-TEST(test_planes_among_gaussians) {
-    ewa_context *context = check_context(0, NULL);
+TEST_ON(test_planes_among_gaussians, 0) {
     ewa_cloud *cloud = make_object(context, EWA_OBJECT_SPHERE, 0);
     ewa_scene *scene = make_scene(context);
     add_cloud(context, scene, cloud, NULL);
@@ -201,12 +196,10 @@ TEST(test_planes_among_gaussians) {
     assert_memory_equal(first.coverage, second.coverage, sizeof first.coverage);
     ewa_scene_destroy(&scene);
     ewa_cloud_destroy(&cloud);
-    ewa_context_destroy(&context);
 }
 
 /// A hidden instance is not drawn, a tint is one colour, and a copy goes its own way.
-TEST(test_instances) {
-    ewa_context *context = check_context(0, NULL);
+TEST_ON(test_instances, 0) {
     ewa_cloud *clouds[2] = {make_object(context, EWA_OBJECT_TORUS, 0),
                             make_object(context, EWA_OBJECT_SPHERE, 1.25)};
     ewa_scene *scene = make_scene(context), *alone = make_scene(context), *copy = NULL;
@@ -242,12 +235,10 @@ TEST(test_instances) {
     assert_true(red > 100);
     ewa_scene_destroy(&scene), ewa_scene_destroy(&alone), ewa_scene_destroy(&copy);
     ewa_cloud_destroy(&clouds[0]), ewa_cloud_destroy(&clouds[1]);
-    ewa_context_destroy(&context);
 }
 
 /// A range is one for all clouds that are coloured alike, and percentiles are those of all their numbers.
-TEST(test_one_range) {
-    ewa_context *context = check_context(0, NULL);
+TEST_ON(test_one_range, 0) {
     ewa_cloud *clouds[2];
     for (int k = 0; k < 2; k++) {
         void *data = NULL;
@@ -271,7 +262,6 @@ TEST(test_one_range) {
     assert_true(legend.range[0] == 10 && legend.range[1] == 51);
     ewa_legend_free(&legend);
     ewa_cloud_destroy(&clouds[0]), ewa_cloud_destroy(&clouds[1]);
-    ewa_context_destroy(&context);
 }
 
 TEST(test_refused) {
@@ -321,8 +311,7 @@ TEST(test_refused) {
 }
 
 /// What was made for an asset that is gone is not taken for another one, which may lie in the same place of memory.
-TEST(test_another_asset) {
-    ewa_context *context = check_context(1, NULL);
+TEST_ON(test_another_asset, 1) {
     ewa_cloud *clouds[2] = {make_object(context, EWA_OBJECT_TORUS, 0), make_object(context, EWA_OBJECT_SPHERE, 0)};
     ewa_scene *scene = make_scene(context), *alone = make_scene(context);
     add_cloud(context, alone, clouds[1], NULL);
@@ -336,7 +325,6 @@ TEST(test_another_asset) {
     }
     ewa_scene_destroy(&scene), ewa_scene_destroy(&alone);
     ewa_cloud_destroy(&clouds[0]), ewa_cloud_destroy(&clouds[1]);
-    ewa_context_destroy(&context);
 }
 
 /// A thousand tiles without normals, each of which touches the next, in an order in which none comes after a neighbour: one
@@ -418,8 +406,7 @@ TEST(test_far_apart) {
 }
 
 /// Picks find the point that is nearest to what is seen, and sections hide points.
-TEST(test_pick) {
-    ewa_context *context = check_context(1, NULL);
+TEST_ON(test_pick, 1) {
     ewa_cloud *cloud = NULL;
     ewa_scene *scene = make_scene_of(context, EWA_OBJECT_SPHERE, &cloud);
     ewa_camera camera = place(scene);
@@ -450,12 +437,10 @@ TEST(test_pick) {
     ewa_scene_renderer_destroy(&renderer);
     ewa_scene_destroy(&scene);
     ewa_cloud_destroy(&cloud);
-    ewa_context_destroy(&context);
 }
 
 /// From wherever a sphere is seen, what is picked lies on it, behind the pixel that was asked for.
-TEST(test_pick_aslant) {
-    ewa_context *context = check_context(1, NULL);
+TEST_ON(test_pick_aslant, 1) {
     ewa_cloud *cloud = NULL;
     ewa_scene *scene = make_scene_of(context, EWA_OBJECT_SPHERE, &cloud);
     ewa_camera camera = place(scene);
@@ -476,14 +461,12 @@ TEST(test_pick_aslant) {
     ewa_scene_renderer_destroy(&renderer);
     ewa_scene_destroy(&scene);
     ewa_cloud_destroy(&cloud);
-    ewa_context_destroy(&context);
 }
 
 /// Few points are dots of 0.004 of the scene's size; those that have radii keep them.
-TEST(test_dots) {
+TEST_ON(test_dots, 1) {
     static double places[3][3] = {{0, 0, 0}, {3, 0, 0}, {0, 4, 0}};
     static float radii[3] = {1, 2, 3};
-    ewa_context *context = check_context(1, NULL);
     for (int sized = 0; sized < 2; sized++) {
         ewa_cloud *cloud = NULL, *whole = NULL;
         assert_int_equal(ewa_cloud_create(context, 3, &cloud), EWA_OK);
@@ -502,7 +485,6 @@ TEST(test_dots) {
         ewa_scene_destroy(&scene);
         ewa_cloud_destroy(&cloud);
     }
-    ewa_context_destroy(&context);
 }
 
 /// Radius of the first point of 5,000 on a helix, forwards or backwards, or strewn in a cube, over the size of all.
@@ -543,8 +525,7 @@ TEST(test_curve) {
 }
 
 /// What is asked to be up is up, along any axis.
-TEST(test_asked_up) {
-    ewa_context *context = check_context(1, NULL);
+TEST_ON(test_asked_up, 1) {
     ewa_cloud *cloud = NULL;
     ewa_scene *scene = make_scene_of(context, EWA_OBJECT_TORUS, &cloud);
     for (int axis = 0; axis < 3; axis++) {
@@ -558,17 +539,15 @@ TEST(test_asked_up) {
     }
     ewa_scene_destroy(&scene);
     ewa_cloud_destroy(&cloud);
-    ewa_context_destroy(&context);
 }
 
 /// Small coordinates far from the origin whose heights stand out are degrees, unless no degrees are so many.
-TEST(test_degrees) {
+TEST_ON(test_degrees, 1) {
     static const struct {
         double x, y, z;
         bool degrees;
     } cases[] = {{13, 52, 100, true},   {13, 52, -5000, true}, {179, -89, 9000, true}, {181, 52, 100, false},
                  {-181, 52, 100, false}, {13, 91, 100, false},  {13, -91, 100, false}, {0.001, 52, 100, false}};
-    ewa_context *context = check_context(1, NULL);
     for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
         double places[8][3];
         for (int i = 0; i < 8; i++) {
@@ -582,12 +561,10 @@ TEST(test_degrees) {
         assert_int_equal(ewa_cloud_find_degrees(cloud, text), cases[k].degrees);
         ewa_cloud_destroy(&cloud);
     }
-    ewa_context_destroy(&context);
 }
 
 /// A description has the options that are no defaults, and all that is there.
-TEST(test_described) {
-    ewa_context *context = check_context(1, NULL);
+TEST_ON(test_described, 1) {
     ewa_cloud *cloud = NULL;
     ewa_scene *scene = make_scene_of(context, EWA_OBJECT_PLANE, &cloud);
     ewa_scene_options options;
@@ -602,7 +579,6 @@ TEST(test_described) {
     assert_null(text);
     ewa_scene_destroy(&scene);
     ewa_cloud_destroy(&cloud);
-    ewa_context_destroy(&context);
 }
 
 /// By how much the left half is brighter than the right one, the upper than the lower one, in shares of all light.

@@ -109,8 +109,7 @@ static ewa_scene_options make_options(void) {
     return options;
 }
 
-TEST(test_saved_opens_alike) {
-    ewa_context *context = check_context(0, NULL);
+TEST_ON(test_saved_opens_alike, 0) {
     ewa_scene *made = NULL, *opened = NULL;
     const ewa_scene_options options = make_options();
     assert_int_equal(ewa_scene_create(context, &options, &made), EWA_OK);
@@ -168,7 +167,6 @@ TEST(test_saved_opens_alike) {
     assert_non_null(strstr(told, "\"high_world\""));
     ewa_text_free(&told);
     ewa_scene_destroy(&made), ewa_scene_destroy(&opened);
-    ewa_context_destroy(&context);
 }
 
 /// Saves a scene of one file with these options of its asset; the text is the caller's.
@@ -188,12 +186,11 @@ static char *save_asset(ewa_context *context, const char *path, const ewa_asset_
 }
 
 /// What a kind of asset is made by is saved with it, and nothing else.
-TEST(test_saved_assets) {
+TEST_ON(test_saved_assets, 0) {
     static const char off[] = "OFF\n4 2 0\n-1 -1 0\n1 -1 0\n1 1 0.5\n-1 1 0\n3 0 1 2\n3 0 2 3\n";
     static const char *const files[] = {"square.off", "torus.ply", "deep/ball.nrrd"};
     FILE *file = fopen(files[0], "w");
     assert_true(file && fputs(off, file) >= 0 && fclose(file) == 0);
-    ewa_context *context = check_context(0, NULL);
     ewa_asset_options options;
     ewa_asset_options_init(&options, sizeof options);
     options.cutoff = 2;
@@ -206,10 +203,9 @@ TEST(test_saved_assets) {
         assert_true((strstr(text, "\"reach_steps\":\t3") != NULL) == (i == 2));
         free(text);
     }
-    ewa_context_destroy(&context);
 }
 
-TEST(test_files_in_files) {
+TEST_ON(test_files_in_files, 0) {
     write_text("deep/inner.json",
                "{\"ewa_scene\": 1, \"options\": {\"render\": {\"ambient\": 0.9}}, \"items\": ["
                "{\"file\": \"sphere.ply\", \"to_world\": [0.5,0,0,0, 0,0.5,0,0.25, 0,0,0.5,0, 0,0,0,1]},"
@@ -218,7 +214,6 @@ TEST(test_files_in_files) {
                "{\"ewa_scene\": 1, \"items\": [{\"file\": \"torus.ply\", \"tint\": [1, 0.5, 0]},"
                "{\"scene\": \"deep/inner.json\", \"to_world\": [0,-1,0,2, 1,0,0,0, 0,0,1,0, 0,0,0,1]},"
                "{\"scene\": \"deep/inner.json\", \"visible\": false}]}");
-    ewa_context *context = check_context(0, NULL);
     ewa_scene *opened = NULL, *made = NULL;
     assert_int_equal(ewa_scene_create(context, NULL, &opened), EWA_OK);
     assert_int_equal(ewa_scene_create(context, NULL, &made), EWA_OK);
@@ -248,14 +243,12 @@ TEST(test_files_in_files) {
     ewa_scene_get_options(opened, &options);
     assert_true(options.render.ambient == 0.15);
     ewa_scene_destroy(&opened), ewa_scene_destroy(&made);
-    ewa_context_destroy(&context);
 }
 
-TEST(test_callers_options_win) {
+TEST_ON(test_callers_options_win, 0) {
     write_text("options.json",
                "{\"ewa_scene\": 1, \"options\": {\"up\": \"z\", \"render\": {\"ambient\": 0.5, "
                "\"eye_dome\": 0.5}, \"lights\": [{\"color\": [1, 0, 0]}]}, \"items\": []}");
-    ewa_context *context = check_context(0, NULL);
     ewa_scene_options options;
     ewa_scene_options_init(&options, sizeof options);
     options.render.ambient = 0.25;
@@ -270,11 +263,9 @@ TEST(test_callers_options_win) {
     assert_int_equal(options.render.light_count, 1);
     assert_true(options.render.lights[0].color[1] == 1);
     ewa_scene_destroy(&scene);
-    ewa_context_destroy(&context);
 }
 
-TEST(test_cameras_keep_their_heights) {
-    ewa_context *context = check_context(0, NULL);
+TEST_ON(test_cameras_keep_their_heights, 0) {
     ewa_scene *scene = NULL;
     assert_int_equal(ewa_scene_create(context, NULL, &scene), EWA_OK);
     add(context, scene, "torus.ply", NULL, NULL);
@@ -299,7 +290,6 @@ TEST(test_cameras_keep_their_heights) {
     assert_int_equal(ewa_scene_set_camera(scene, NULL), EWA_OK);
     assert_false(ewa_scene_get_camera(scene, &top));
     ewa_scene_destroy(&scene);
-    ewa_context_destroy(&context);
 }
 
 static void refuse(const char *text, ewa_status expected, const char *part) {
@@ -395,9 +385,8 @@ TEST(test_bad_is_refused) {
 }
 
 /// Percentiles are those from the lowest number to the highest.
-TEST(test_percentiles) {
+TEST_ON(test_percentiles, 0) {
     write_text("all.json", ITEM("\"file\": \"torus.ply\", \"range\": [\"0%\", \"100%\"]"));
-    ewa_context *context = check_context(0, NULL);
     ewa_scene_file *file = NULL;
     ewa_scene_entry entry;
     assert_int_equal(ewa_scene_file_load(context, "all.json", NULL, &file), EWA_OK);
@@ -406,10 +395,9 @@ TEST(test_percentiles) {
     assert_true(coloring->ranged && coloring->percent[0] && coloring->percent[1]);
     assert_true(coloring->range[0] == 0 && coloring->range[1] == 100);
     ewa_scene_file_destroy(&file);
-    ewa_context_destroy(&context);
 }
 
-TEST(test_depth_and_number) {
+TEST_ON(test_depth_and_number, 0) {
     char name[64], text[1 << 12];
     for (int i = 1; i <= 9; i++) {
         snprintf(name, sizeof name, "level%d.json", i);
@@ -417,7 +405,6 @@ TEST(test_depth_and_number) {
         write_text(name, text);
     }
     write_text("level0.json", "{\"ewa_scene\": 1, \"items\": [{\"file\": \"torus.ply\"}]}");
-    ewa_context *context = check_context(0, NULL);
     ewa_scene_file *file = NULL;
     assert_int_equal(ewa_scene_file_load(context, "level7.json", NULL, &file), EWA_OK);
     assert_int_equal(ewa_scene_file_count(file), 1);
@@ -436,11 +423,9 @@ TEST(test_depth_and_number) {
     }
     write_text("many0.json", "{\"ewa_scene\": 1, \"items\": []}");
     assert_int_equal(ewa_scene_file_load(context, "many6.json", NULL, &file), EWA_ERROR_LIMIT);
-    ewa_context_destroy(&context);
 }
 
-TEST(test_truncations) {
-    ewa_context *context = check_context(0, NULL);
+TEST_ON(test_truncations, 0) {
     char *text = read_text("saved.json");
     const size_t size = strlen(text);
     assert_true(size > 500);
@@ -454,7 +439,6 @@ TEST(test_truncations) {
         if (!length) break;
     }
     free(text);
-    ewa_context_destroy(&context);
 }
 
 TEST(test_unsaveable) {

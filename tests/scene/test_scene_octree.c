@@ -128,8 +128,7 @@ static void set(ewa_scene *scene, const ewa_instance *instance) {
 }
 
 /// What is done to the octree is done to the camera the other way round: cuts and places are those of its own space.
-TEST(test_moves_like_a_camera) {
-    ewa_context *context = check_context(2, NULL);
+TEST_ON(test_moves_like_a_camera, 2) {
     const ewa_asset_options still = asset_options(NULL), moved = asset_options(turned);
     ewa_scene *scene = make_scene(context, file, &still), *away = make_scene(context, file, &moved);
     ewa_camera camera = place(scene);
@@ -154,13 +153,11 @@ TEST(test_moves_like_a_camera) {
         camera.fx_px *= 20, camera.fy_px *= 20; // a few nodes, and all of their points
     }
     ewa_scene_destroy(&scene), ewa_scene_destroy(&away);
-    ewa_context_destroy(&context);
 }
 
 /// All points of the octree are those of the cloud, wherever both are put; its levels are like them.
-TEST(test_moves_like_a_cloud) {
+TEST_ON(test_moves_like_a_cloud, 2) {
     const double *const maps[] = {turned, mirrored};
-    ewa_context *context = check_context(2, NULL);
     for (int m = 0; m < 2; m++) {
         const ewa_asset_options options = asset_options(maps[m]);
         ewa_scene *octree = make_scene(context, file, &options),
@@ -180,13 +177,11 @@ TEST(test_moves_like_a_cloud) {
         }
         ewa_scene_destroy(&octree), ewa_scene_destroy(&cloud);
     }
-    ewa_context_destroy(&context);
 }
 
 /// Colours by numbers, a tint, opacity, sizes: as the cloud's; and the old picture when all is as it was.
-TEST(test_instances) {
+TEST_ON(test_instances, 2) {
     static const char *const attributes[] = {"z", "normal.x", "red", "intensity", "", ""};
-    ewa_context *context = check_context(2, NULL);
     const ewa_asset_options options = asset_options(turned);
     ewa_scene *octree = make_scene(context, file, &options), *cloud = make_scene(context, points, &options);
     const ewa_camera camera = place(cloud);
@@ -216,12 +211,10 @@ TEST(test_instances) {
     draw(context, octree, &camera, 0, &second);
     assert_memory_equal(second.rgba8, third.rgba8, sizeof second.rgba8);
     ewa_scene_destroy(&octree), ewa_scene_destroy(&cloud);
-    ewa_context_destroy(&context);
 }
 
 /// A scale is one for a cloud and an octree that are coloured alike.
-TEST(test_one_scale) {
-    ewa_context *context = check_context(1, NULL);
+TEST_ON(test_one_scale, 1) {
     const ewa_asset_options still = asset_options(NULL), away = asset_options(turned);
     ewa_scene *scene = make_scene(context, file, &still);
     ewa_asset *cloud = NULL;
@@ -241,13 +234,11 @@ TEST(test_one_scale) {
     assert_true(fabs(legend->range[0] + 0.1) < 0.01 && legend->range[1] > 41);
     ewa_asset_release(&cloud);
     ewa_scene_destroy(&scene);
-    ewa_context_destroy(&context);
 }
 
 /// A filter takes the points that it takes of a cloud, in the octree's own space.
-TEST(test_filters) {
+TEST_ON(test_filters, 2) {
     static const char *const terms[] = {"x > 0.25 and normal.z > 0.97", "intensity < 30000"};
-    ewa_context *context = check_context(2, NULL);
     for (int k = 0; k < 2; k++) {
         ewa_filter filter = {.term_count = 0};
         assert_int_equal(ewa_filter_add(&filter, terms[k], NULL), EWA_OK);
@@ -272,7 +263,6 @@ TEST(test_filters) {
     draw(context, empty, &camera, 16, &first);
     for (int i = 0; i < PIXELS; i++) assert_true(isinf(first.depth[i]));
     ewa_scene_destroy(&empty);
-    ewa_context_destroy(&context);
 }
 
 /// What cannot be is refused with the file's name, and leaves the octree as it was.
@@ -304,8 +294,7 @@ TEST(test_refused) {
 }
 
 /// Picks find points where they were moved to.
-TEST(test_pick) {
-    ewa_context *context = check_context(1, NULL);
+TEST_ON(test_pick, 1) {
     const ewa_asset_options options = asset_options(turned);
     ewa_scene *scene = make_scene(context, file, &options);
     const ewa_camera camera = place(scene);
@@ -324,13 +313,11 @@ TEST(test_pick) {
     ewa_cloud_destroy(&hit.points);
     ewa_scene_renderer_destroy(&renderer);
     ewa_scene_destroy(&scene);
-    ewa_context_destroy(&context);
 }
 
 /// An octree that is lent to a scene is drawn as it is where nobody says otherwise.
-TEST(test_lent) {
+TEST_ON(test_lent, 1) {
     char path[512];
-    ewa_context *context = check_context(1, NULL);
     ewa_lod *lod = NULL;
     assert_int_equal(ewa_lod_open(context, scratch_path(file, path), &lod), EWA_OK);
     const ewa_asset_options options = asset_options(turned);
@@ -353,7 +340,6 @@ TEST(test_lent) {
     ewa_asset_release(&asset);
     ewa_scene_destroy(&scene);
     ewa_lod_close(&lod);
-    ewa_context_destroy(&context);
 }
 
 /// Adds one octree in two places, and in one of them once more in another colour: of one that is lent, or of files that
@@ -377,9 +363,8 @@ static void add_three(ewa_context *context, ewa_scene *scene, ewa_lod *lent) {
 }
 
 /// One octree several times in a scene is drawn as octrees of their own are, whichever of them can be seen.
-TEST(test_several_times) {
+TEST_ON(test_several_times, 1) {
     char path[512];
-    ewa_context *context = check_context(1, NULL);
     ewa_lod *lod = NULL;
     ewa_scene *shared = NULL, *apart = NULL;
     assert_int_equal(ewa_lod_open(context, scratch_path(file, path), &lod), EWA_OK);
@@ -405,7 +390,6 @@ TEST(test_several_times) {
     }
     ewa_scene_destroy(&shared), ewa_scene_destroy(&apart);
     ewa_lod_close(&lod);
-    ewa_context_destroy(&context);
 }
 
 int main(void) { return RUN_TESTS(enter, leave); }

@@ -117,8 +117,7 @@ TEST(test_shading) {
 }
 
 /// In the middle of a sphere, front and back, as many fragments as surfaces are exact layers.
-TEST(test_exact_on_separate_surfaces) {
-    ewa_context *context = check_context(0, NULL);
+TEST_ON(test_exact_on_separate_surfaces, 0) {
     scene of = picture_measured_scene(context, SCENE_SPHERE, 8000, NULL);
     ewa_render_options options;
     ewa_render_options_init(&options, sizeof options);
@@ -145,11 +144,9 @@ TEST(test_exact_on_separate_surfaces) {
     free(greedy);
     picture_free(&exact);
     scene_free(&of);
-    ewa_context_destroy(&context);
 }
 
-TEST(test_arguments) {
-    ewa_context *context = check_context(1, NULL);
+TEST_ON(test_arguments, 1) {
     ewa_cloud *cloud = make_discs(context, &red, 1);
     ewa_camera camera = disc_camera();
     ewa_render_options options;
@@ -160,7 +157,6 @@ TEST(test_arguments) {
     camera.fx_px = 0;
     assert_int_equal(abuffer_render(cloud, 1, &camera, &options, 1, NULL, NULL, plane), EWA_ERROR_ARGUMENT);
     ewa_cloud_destroy(&cloud);
-    ewa_context_destroy(&context);
 }
 
 int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -158,8 +158,7 @@ TEST(test_eye_dome_bytes) {
 }
 
 /// What only some sources have: alphas and materials of a proxy count.
-TEST(test_proxy_facts) {
-    ewa_context *context = check_context(2, NULL);
+TEST_ON(test_proxy_facts, 2) {
     scene of;
     assert_int_equal(scene_make(context, SCENE_TORUS, POINTS, WIDTH, HEIGHT, &of), EWA_OK);
     ewa_cloud *other = NULL;
@@ -212,7 +211,6 @@ TEST(test_proxy_facts) {
     ewa_renderer_destroy(&renderer);
     ewa_cloud_destroy(&other);
     scene_free(&of);
-    ewa_context_destroy(&context);
 }
 
 /// q0 that is set is what coverage is measured by.

@@ -75,7 +75,7 @@ static ewa_camera ahead(void) {
     return camera;
 }
 
-TEST(test_known_answers) {
+TEST_ON(test_known_answers, 0) {
     // Picture x = -v, y = u / 2 in world units; 32 pixels per unit.
     static const struct {
         float lines[2][3];
@@ -90,7 +90,6 @@ TEST(test_known_answers) {
         {{{0, 0, 0}, {0, 0, -5}}, 0, 0xf}, // no lines
         {{{NAN, 1, 0}, {1, 0, INFINITY}}, 0, 0xf}, {{{0, 1, -9}, {0, 0, 0}}, 0, 0}, // all cut off
     };
-    ewa_context *context = check_context(0, NULL);
     const ewa_camera camera = ahead();
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         ewa_cloud *cloud = one_surfel(context, rows[i].lines, rows[i].mode);
@@ -114,14 +113,12 @@ TEST(test_known_answers) {
         }
         ewa_cloud_destroy(&cloud);
     }
-    ewa_context_destroy(&context);
 }
 
 /// A scaled radius moves no line; a line elsewhere than through the centre is where it should be.
-TEST(test_line_stays) {
+TEST_ON(test_line_stays, 0) {
     static const float lines[2][3] = {{0, 1, 0.25f},
                                       {0, 0, 0}}; // v > -0.25: x < 0.25, 8 pixels right of the middle
-    ewa_context *context = check_context(0, NULL);
     const ewa_camera camera = ahead();
     ewa_cloud *cloud = one_surfel(context, lines, 0);
     for (double scale = 0.5; scale < 3; scale *= 2) {
@@ -134,7 +131,6 @@ TEST(test_line_stays) {
         picture_free(&made);
     }
     ewa_cloud_destroy(&cloud);
-    ewa_context_destroy(&context);
 }
 
 /// A disc of radius 3 seen straight on, whose surface ends at `border`.
@@ -154,7 +150,7 @@ static ewa_cloud *one_disc(ewa_context *context, const float normal[3], const fl
 }
 
 /// Discs end at their borders, whichever way normals point; borders off the plane cut it where they meet it.
-TEST(test_borders) {
+TEST_ON(test_borders, 0) {
     static const float normals[][3] = {{0, 0, -1}, {0, 0, 2}};
     static const struct {
         float border[3];
@@ -164,7 +160,6 @@ TEST(test_borders) {
         {{0, 0, 0}, -40, 40},           {{NAN, 0, 0}, -40, 40},   {{9, 0, 0}, -40, 40},
         {{0, 0, 1}, -40, 40}, // beyond the disc, along its normal
     };
-    ewa_context *context = check_context(0, NULL);
     const ewa_camera camera = ahead();
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++)
         for (int side = 0; side < 2; side++) {
@@ -175,7 +170,6 @@ TEST(test_borders) {
             picture_free(&made);
             ewa_cloud_destroy(&cloud);
         }
-    ewa_context_destroy(&context);
 }
 
 int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -61,8 +61,7 @@ static double cover(const picture *drawn) {
 
 /// Spheres and tori, and the same with normals inside out, for each kernel and both projections: pipeline and reference
 /// draw the same, and less than without the rule.
-TEST(test_pipelines) {
-    ewa_context *context = check_context(0, NULL);
+TEST_ON(test_pipelines, 0) {
     for (int variant = 0; variant < 20; variant++) {
         const int kernel = variant % 5;
         ewa_cloud *cloud = make_object(context, variant % 4 < 2 ? EWA_OBJECT_SPHERE : EWA_OBJECT_TORUS);
@@ -102,7 +101,6 @@ TEST(test_pipelines) {
         picture_free(&fast);
         ewa_cloud_destroy(&cloud);
     }
-    ewa_context_destroy(&context);
 }
 
 int main(void) { return RUN_TESTS(NULL, NULL); }

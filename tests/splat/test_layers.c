@@ -107,10 +107,9 @@ static ewa_camera sheet_camera(void) {
 
 /// Colours over each other in front-to-back order, whatever the number of layers allows; a layer's own alpha
 /// is that of its surfels times the opacity.
-TEST(test_sheets_over_each_other) {
+TEST_ON(test_sheets_over_each_other, 0) {
     static const uint8_t rgba[4][4] = {
         {255, 0, 0, 51}, {0, 255, 0, 102}, {0, 0, 255, 204}, {255, 255, 255, 255}};
-    ewa_context *context = check_context(0, NULL);
     ewa_cloud *cloud = make_sheets(context, 4, rgba);
     const ewa_camera camera = sheet_camera();
     for (uint32_t layers = 1; layers <= 6; layers++) {
@@ -146,16 +145,14 @@ TEST(test_sheets_over_each_other) {
         picture_free(&made);
     }
     ewa_cloud_destroy(&cloud);
-    ewa_context_destroy(&context);
 }
 
 /// Many sheets end at one place, where each covers the same part of a pixel: the background shows no more than through
 /// all of them, however few are told apart, and the last layer has the mean colour of what is left.
-TEST(test_last_edge_layer_takes_all) {
+TEST_ON(test_last_edge_layer_takes_all, 0) {
     enum { SHEETS = 30, RED = 3 };
     uint8_t rgba[SHEETS][4] = {{255, 0, 0, 255}, {255, 0, 0, 255}, {255, 0, 0, 255}};
     for (int k = RED; k < SHEETS; k++) rgba[k][2] = rgba[k][3] = 255;
-    ewa_context *context = check_context(0, NULL);
     ewa_cloud *one = make_sheets(context, 1, rgba), *all = make_sheets(context, SHEETS, rgba);
     ewa_camera camera;
     ewa_camera_init(&camera);
@@ -189,12 +186,10 @@ TEST(test_last_edge_layer_takes_all) {
     assert_true(partly_count > 100);
     ewa_cloud_destroy(&one);
     ewa_cloud_destroy(&all);
-    ewa_context_destroy(&context);
 }
 
 /// A transparent sphere's middle has even opacity: 1 - (1 - a)^2.
-TEST(test_sphere_is_even) {
-    ewa_context *context = check_context(0, NULL);
+TEST_ON(test_sphere_is_even, 0) {
     scene of = picture_measured_scene(context, SCENE_SPHERE, 8000, NULL);
     ewa_render_options o;
     ewa_render_options_init(&o, sizeof o);
@@ -215,7 +210,6 @@ TEST(test_sphere_is_even) {
     assert_true(sum2 / count < 1e-5 && maximum < expected + 1e-4);
     picture_free(&made);
     scene_free(&of);
-    ewa_context_destroy(&context);
 }
 
 static void assert_same(const picture *a, const picture *b) {
@@ -226,9 +220,8 @@ static void assert_same(const picture *a, const picture *b) {
 }
 
 /// The same bytes from every instruction set, any number of threads, and the points in reverse.
-TEST(test_same_bytes) {
+TEST_ON(test_same_bytes, 0) {
     static const uint32_t threads[] = {1, 2, 7}, masks[] = {UINT32_MAX, EWA_CPU_AVX2, 0};
-    ewa_context *context = check_context(0, NULL);
     scene of = picture_measured_scene(context, SCENE_TORUS, POINTS, NULL);
     add_alpha(of.cloud, 20, 5);
     ewa_render_options o;
@@ -258,7 +251,6 @@ TEST(test_same_bytes) {
     }
     picture_free(&first);
     scene_free(&of);
-    ewa_context_destroy(&context);
 }
 
 int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -46,8 +46,7 @@ static void assert_same_level(const ewa_surfels *a, const ewa_surfels *b) {
     assert_true(a->unit_coverage == b->unit_coverage);
 }
 
-TEST(test_first_level_is_all_surfels) {
-    ewa_context *context = check_context(2, NULL);
+TEST_ON(test_first_level_is_all_surfels, 2) {
     ewa_cloud *cloud = level_cloud(context, LEVEL_SPHERE, POINTS);
     ewa_surfels *plain = surfels_of(cloud, 1), *levels = surfels_of(cloud, EWA_MAX_LEVELS);
     assert_same_level(plain, levels);
@@ -68,14 +67,12 @@ TEST(test_first_level_is_all_surfels) {
     ewa_surfels_destroy(&plain);
     ewa_surfels_destroy(&levels);
     ewa_cloud_destroy(&cloud);
-    ewa_context_destroy(&context);
 }
 
 /// Every pixel inside of a closed surface is opaque, at every level, from near and far, from above and aslant.
-TEST(test_levels_are_closed) {
+TEST_ON(test_levels_are_closed, 2) {
     static const double distances[] = {0.4, 1.3, 4}, tilts[] = {0, 40, 65};
     static uint8_t rgba8[4 * PIXELS];
-    ewa_context *context = check_context(2, NULL);
     for (int kind = 0; kind < LEVEL_KINDS; kind++) {
         ewa_cloud *cloud = level_cloud(context, (level_kind)kind, POINTS);
         ewa_surfels *surfels = surfels_of(cloud, EWA_MAX_LEVELS);
@@ -105,7 +102,6 @@ TEST(test_levels_are_closed) {
         ewa_surfels_destroy(&surfels);
         ewa_cloud_destroy(&cloud);
     }
-    ewa_context_destroy(&context);
 }
 
 /// The same cloud with its points in another order.
@@ -167,8 +163,7 @@ static void mean_color(const ewa_surfels *surfels, double mean[4]) {
     for (int c = 0; c < 4; c++) mean[c] /= area;
 }
 
-TEST(test_colors_are_kept) {
-    ewa_context *context = check_context(2, NULL);
+TEST_ON(test_colors_are_kept, 2) {
     for (int constant = 0; constant < 2; constant++) {
         ewa_cloud *cloud = level_cloud(context, LEVEL_EVEN, POINTS);
         const uint64_t count = ewa_cloud_point_count(cloud);
@@ -188,13 +183,11 @@ TEST(test_colors_are_kept) {
         ewa_surfels_destroy(&surfels);
         ewa_cloud_destroy(&cloud);
     }
-    ewa_context_destroy(&context);
 }
 
 /// A picture of a budget's level is that of the level itself; what is beyond the last one is the last one.
-TEST(test_budget_draws_a_level) {
+TEST_ON(test_budget_draws_a_level, 2) {
     static uint8_t pictures[2][4 * PIXELS];
-    ewa_context *context = check_context(2, NULL);
     ewa_cloud *cloud = level_cloud(context, LEVEL_GRID, POINTS);
     ewa_surfels *surfels = surfels_of(cloud, EWA_MAX_LEVELS);
     const ewa_camera camera = level_camera(SIDE_PX, SIDE_PX, 1.5, 30);
@@ -218,7 +211,6 @@ TEST(test_budget_draws_a_level) {
     ewa_renderer_destroy(&renderer);
     ewa_surfels_destroy(&surfels);
     ewa_cloud_destroy(&cloud);
-    ewa_context_destroy(&context);
 }
 
 /// Discs at `places`, of one radius, whose normals point up.
@@ -238,10 +230,9 @@ static ewa_cloud *discs_at(ewa_context *context, uint32_t count, const double (*
     return cloud;
 }
 
-TEST(test_few_points) {
+TEST_ON(test_few_points, 2) {
     static const uint32_t counts[] = {0, 1, 3, 5, 15, 17, 1023, 1024, 4095, 4096, 4200, 5000};
     static double places[5000][3];
-    ewa_context *context = check_context(2, NULL);
     for (uint32_t i = 0; i < 5000; i++) places[i][0] = i % 71, places[i][1] = i / 71, places[i][2] = 0;
     for (int i = 0; i < 12; i++) {
         ewa_cloud *cloud = discs_at(context, counts[i], (const double(*)[3])places, 1.14f);
@@ -253,14 +244,12 @@ TEST(test_few_points) {
         ewa_surfels_destroy(&surfels);
         ewa_cloud_destroy(&cloud);
     }
-    ewa_context_destroy(&context);
 }
 
 /// Points upon each other do not grow; two patches far from each other stay what each of them is alone.
-TEST(test_odd_places) {
+TEST_ON(test_odd_places, 2) {
     enum { COUNT = 20000, HALF = COUNT / 2 };
     static double places[COUNT][3];
-    ewa_context *context = check_context(2, NULL);
     for (int i = 0; i < COUNT; i++) places[i][0] = 5, places[i][1] = -3, places[i][2] = 1;
     ewa_cloud *cloud = discs_at(context, COUNT, (const double(*)[3])places, 1);
     ewa_surfels *surfels = surfels_of(cloud, EWA_MAX_LEVELS);
@@ -289,13 +278,11 @@ TEST(test_odd_places) {
     surfels = surfels_of(cloud, EWA_MAX_LEVELS);
     ewa_surfels_destroy(&surfels);
     ewa_cloud_destroy(&cloud);
-    ewa_context_destroy(&context);
 }
 
 /// Clip lines stay where they are in the world; materials are some member's; opacities are means.
-TEST(test_extras) {
+TEST_ON(test_extras, 2) {
     enum { SIDE = 128, COUNT = SIDE * SIDE };
-    ewa_context *context = check_context(2, NULL);
     ewa_cloud *cloud = NULL;
     float *position, *u, *v, *clip, *rgba;
     uint8_t *material;
@@ -347,12 +334,10 @@ TEST(test_extras) {
     assert_int_equal(surfels->coarser->max_material, 9);
     ewa_surfels_destroy(&surfels);
     ewa_cloud_destroy(&cloud);
-    ewa_context_destroy(&context);
 }
 
 /// Callers of before levels have smaller structs, and no levels.
-TEST(test_older_callers) {
-    ewa_context *context = check_context(1, NULL);
+TEST_ON(test_older_callers, 1) {
     ewa_cloud *cloud = level_cloud(context, LEVEL_GRID, POINTS);
     ewa_surfels_options options;
     ewa_surfels_options_init(&options, offsetof(ewa_surfels_options, level_count));
@@ -365,7 +350,6 @@ TEST(test_older_callers) {
     options.level_count = EWA_MAX_LEVELS + 1;
     assert_int_equal(ewa_surfels_create(cloud, &options, &surfels), EWA_ERROR_ARGUMENT);
     ewa_cloud_destroy(&cloud);
-    ewa_context_destroy(&context);
 }
 
 /// Whichever allocation fails, nothing is left behind.
@@ -434,8 +418,7 @@ TEST(test_cancelled_frame_changes_nothing) {
 }
 
 /// What is said of a frame is its coarsest part: 0 says that all surfels were drawn.
-TEST(level_of_several_sources) {
-    ewa_context *context = check_context(2, NULL);
+TEST_ON(level_of_several_sources, 2) {
     ewa_cloud *cloud = level_cloud(context, LEVEL_SPHERE, POINTS);
     ewa_surfels *sources[2] = {surfels_of(cloud, 1), surfels_of(cloud, EWA_MAX_LEVELS)};
     const ewa_camera camera = level_camera(SIDE_PX, SIDE_PX, 2.2, 20);
@@ -456,7 +439,6 @@ TEST(level_of_several_sources) {
     ewa_renderer_destroy(&renderer);
     for (int i = 0; i < 2; i++) ewa_surfels_destroy(&sources[i]);
     ewa_cloud_destroy(&cloud);
-    ewa_context_destroy(&context);
 }
 
 int main(void) { return RUN_TESTS(NULL, NULL); }

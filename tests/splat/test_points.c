@@ -87,11 +87,10 @@ static void draw_one(ewa_context *context, const ewa_camera *camera, const doubl
 
 /// Alpha adds up to the area of the disc, whatever the depth, the lens, the radius and the normal; the rim is
 /// where it should be.
-TEST(test_size) {
+TEST_ON(test_size, 1) {
     static const double sizes_px[] = {1, 1.4, 2, 3, 5, 10, 24, 100};
     static const double depths[] = {1e-4, 0.7, 3, 1e5}, zooms[] = {0.3, 1, 40};
     static float rgba[4 * SIDE * SIDE];
-    ewa_context *context = check_context(1, NULL);
     check_random random = {5};
     for (size_t s = 0; s < sizeof sizes_px / sizeof *sizes_px; s++)
         for (int i = 0; i < 24; i++) {
@@ -123,16 +122,14 @@ TEST(test_size) {
             assert_int_equal(hard.clear, 0);
             assert_true(hard.min_inside == 1 && hard.max_outside == 0);
         }
-    ewa_context_destroy(&context);
 }
 
 /// The pipeline against the reference: many points, hidden ones and half hidden ones, with axes and clip
 /// lines that must not count.
-TEST(test_against_reference) {
+TEST_ON(test_against_reference, 2) {
     enum { COUNT = 700 };
     static float fast[4 * SIDE * SIDE], depth[SIDE * SIDE], normal_out[3 * SIDE * SIDE];
     static float plain[4 * SIDE * SIDE], plain_depth[SIDE * SIDE], plain_normal[3 * SIDE * SIDE];
-    ewa_context *context = check_context(2, NULL);
     for (int i = 0; i < 8; i++) {
         float *xyz, *normal, *radius, *u, *v, *clip;
         ewa_cloud *cloud = make_cloud(context, COUNT, &xyz, &normal, &radius);
@@ -192,7 +189,6 @@ TEST(test_against_reference) {
         ewa_surfels_destroy(&surfels);
         ewa_cloud_destroy(&cloud);
     }
-    ewa_context_destroy(&context);
 }
 
 TEST(test_options) {

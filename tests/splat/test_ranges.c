@@ -98,8 +98,7 @@ static void assert_close(const char *what, double db, double min_db) {
 }
 
 /// One light of 10,000, one of -300 and one that is infinite cost their neighbours nothing.
-TEST(test_one_bright_colour) {
-    ewa_context *context = check_context(0, NULL);
+TEST_ON(test_one_bright_colour, 0) {
     const uint64_t count = 20000;
     points made = make_points(context, count);
     const double center[3] = {0, 0, 0}, eye[3] = {3, -2, 1};
@@ -112,13 +111,11 @@ TEST(test_one_bright_colour) {
     ewa_render_options_init(&options, sizeof options);
     assert_close("one bright colour", closeness_db(made.cloud, &camera, &options, 1), 60);
     ewa_cloud_destroy(&made.cloud);
-    ewa_context_destroy(&context);
 }
 
 /// Ellipses of aspects from 8,000 to 800,000 of which the length alone is seen, and how much there is of
 /// them.
-TEST(test_needles) {
-    ewa_context *context = check_context(0, NULL);
+TEST_ON(test_needles, 0) {
     enum { NEEDLES = 400 };
     check_random random = {3};
     ewa_cloud *cloud = NULL;
@@ -149,14 +146,12 @@ TEST(test_needles) {
     options.shading = EWA_SHADING_NONE;
     assert_close("needles", closeness_db(cloud, &camera, &options, 1), 50);
     ewa_cloud_destroy(&cloud);
-    ewa_context_destroy(&context);
 }
 
 /// Two spheres of a centimetre, far apart, each as good as if it were alone; and so from the other's origin.
-TEST(test_spheres_far_apart) {
+TEST_ON(test_spheres_far_apart, 0) {
     static const double apart_m[] = {1e3, 1e5};
     const uint64_t count = 8000;
-    ewa_context *context = check_context(0, NULL);
     for (size_t k = 0; k < sizeof apart_m / sizeof apart_m[0]; k++) {
         const double centers[2][3] = {{0.001, 0.002, -0.003},
                                       {apart_m[k] * 0.6 + 0.1, apart_m[k] * 0.64 + 0.01, apart_m[k] * 0.48}};
@@ -173,14 +168,12 @@ TEST(test_spheres_far_apart) {
         }
         ewa_cloud_destroy(&made.cloud);
     }
-    ewa_context_destroy(&context);
 }
 
 /// From 10 to 10^15 radii away, and from 10^-15 of a unit: always the same sphere.
-TEST(test_distances) {
+TEST_ON(test_distances, 0) {
     const uint64_t count = 20000;
     const double center[3] = {0, 0, 0}, toward[3] = {0.48, -0.8, 0.36};
-    ewa_context *context = check_context(0, NULL);
     for (int power = 1; power <= 15; power += 2) {
         points made = make_points(context, count);
         put_sphere(&made, 0, count, center, 1);
@@ -195,7 +188,6 @@ TEST(test_distances) {
         assert_close(what, closeness_db(made.cloud, &camera, &options, 1), 50);
         ewa_cloud_destroy(&made.cloud);
     }
-    ewa_context_destroy(&context);
 }
 
 static picture draw_torus(ewa_context *context, const double shift[3], double scale, bool by_origin,
@@ -250,10 +242,9 @@ static void assert_same_picture(const picture *a, const picture *b, double scale
 static const double HERE[3] = {0, 0, 0};
 
 /// A scene that is shifted by powers of two, in its positions or by its origin, is the same picture.
-TEST(test_shifts_by_powers_of_two) {
+TEST_ON(test_shifts_by_powers_of_two, 0) {
     static const double shifts[][3] = {
         {1024, 0, 0}, {0x1p22, -0x1p23, 0x1p20}, {-0x1p30, 0x1p30, 0}, {0, 0x1p29, -0x1p31}};
-    ewa_context *context = check_context(0, NULL);
     for (int orthographic = 0; orthographic < 2; orthographic++) {
         picture here = draw_torus(context, HERE, 1, false, orthographic);
         for (size_t i = 0; i < sizeof shifts / sizeof shifts[0]; i++)
@@ -264,13 +255,11 @@ TEST(test_shifts_by_powers_of_two) {
             }
         picture_free(&here);
     }
-    ewa_context_destroy(&context);
 }
 
 /// A world whose unit is larger or smaller by a power of two is the same picture.
-TEST(test_units_by_powers_of_two) {
+TEST_ON(test_units_by_powers_of_two, 0) {
     static const int powers[] = {1, -7, 20, -46, 60, -95, 98};
-    ewa_context *context = check_context(0, NULL);
     for (int orthographic = 0; orthographic < 2; orthographic++) {
         picture one = draw_torus(context, HERE, 1, false, orthographic);
         for (size_t i = 0; i < sizeof powers / sizeof powers[0]; i++) {
@@ -281,7 +270,6 @@ TEST(test_units_by_powers_of_two) {
         }
         picture_free(&one);
     }
-    ewa_context_destroy(&context);
 }
 
 /// Colours that floats do not hold are told of: 8-bit pixels would hide them.

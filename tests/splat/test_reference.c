@@ -39,9 +39,8 @@ static double sphere_depth(const ewa_camera *camera, double x_px, double y_px, d
 
 /// A sphere against its ray-traced truth: no holes, nothing outside, depth and normals right, edges
 /// antialiased.
-TEST(test_sphere) {
+TEST_ON(test_sphere, 0) {
     enum { WIDTH = 256 };
-    ewa_context *context = check_context(0, NULL);
     scene made;
     assert_int_equal(scene_make(context, SCENE_SPHERE, 20000, WIDTH, WIDTH, &made), EWA_OK);
     ewa_surfels_options surfels;
@@ -86,13 +85,11 @@ TEST(test_sphere) {
     assert_true(normal_error < 2 * sigma);
     picture_free(&shown);
     scene_free(&made);
-    ewa_context_destroy(&context);
 }
 
 /// A plane of coplanar discs, oblique to the view: its depth is exact, its normal too, in both projections
 /// and kernels.
-TEST(test_plane_depth) {
-    ewa_context *context = check_context(0, NULL);
+TEST_ON(test_plane_depth, 0) {
     scene made = picture_small_scene(context, SCENE_PLANE);
     const double eye[3] = {0.3, -1.1, 0.8}, target[3] = {0, 0, 0}, up[3] = {0, 0, 1};
     assert_int_equal(ewa_camera_look_at(&made.camera, eye, target, up), EWA_OK);
@@ -125,16 +122,14 @@ TEST(test_plane_depth) {
         picture_free(&shown);
     }
     scene_free(&made);
-    ewa_context_destroy(&context);
 }
 
 /// A floor of large discs through the eye plane covers everything below the horizon, with its depth. F, h and
 /// tau are the first ones of docs/math.md section 14: an ellipse's bell sits nearer to the eye than its
 /// disc's middle, which discs as large as here (0.6 of their distance) do not even out at F = 3, where two
 /// rows have alpha 0.81.
-TEST(test_floor_through_the_eye) {
+TEST_ON(test_floor_through_the_eye, 0) {
     enum { ROWS = 40, COUNT = ROWS * ROWS };
-    ewa_context *context = check_context(0, NULL);
     scene made = {.unit_coverage = 0.3};
     float position[COUNT][3], radius[COUNT];
     static float normal[COUNT][3];
@@ -182,12 +177,10 @@ TEST(test_floor_through_the_eye) {
         picture_free(&shown);
     }
     scene_free(&made);
-    ewa_context_destroy(&context);
 }
 
 /// One disc in front of the middle of a picture, radius and colour given; the frame's planes by hand.
-TEST(test_resolve) {
-    ewa_context *context = check_context(1, NULL);
+TEST_ON(test_resolve, 1) {
     const float position[3] = {0, 0, 2}, normal[3] = {0, 0.6f, -0.8f}, radius = 4,
                 color[4] = {0.5f, 0.25f, 1, 1};
     scene made = {.unit_coverage = 0.5};
@@ -252,12 +245,10 @@ TEST(test_resolve) {
     assert_true(shown.frame.coverage[0] == 0 && shown.frame.normal[2] == 0);
     picture_free(&shown);
     scene_free(&made);
-    ewa_context_destroy(&context);
 }
 
 /// A disc in front hides one behind it unless both lie within the tolerance.
-TEST(test_visibility) {
-    ewa_context *context = check_context(1, NULL);
+TEST_ON(test_visibility, 1) {
     const float normal[6] = {0, 0, -1, 0, 0, -1}, radius[2] = {0.5f, 0.5f};
     const float color[6] = {1, 0, 0, 0, 0, 1};
     // Depth of the second disc, kappa, and whether it takes part: eps = kappa * 0.5.
@@ -285,7 +276,6 @@ TEST(test_visibility) {
         picture_free(&shown);
         scene_free(&made);
     }
-    ewa_context_destroy(&context);
 }
 
 /// Arguments that are refused, planes that are not wanted, clouds of nothing.
@@ -363,8 +353,7 @@ TEST(test_failures) {
 }
 
 /// The comparison finds what differs and the mask where it may.
-TEST(test_comparison) {
-    ewa_context *context = check_context(0, NULL);
+TEST_ON(test_comparison, 0) {
     scene made = picture_small_scene(context, SCENE_TORUS);
     ewa_cloud_remove(made.cloud, EWA_CURVATURE); // splats at contours move by their size, not at its edges alone
     for (uint32_t passes = 1; passes <= 3; passes += 2) {
@@ -398,7 +387,6 @@ TEST(test_comparison) {
         picture_free(&b);
     }
     scene_free(&made);
-    ewa_context_destroy(&context);
 }
 
 int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -92,8 +92,7 @@ static void assert_same(const char *name, const picture *a, const picture *b, do
 }
 
 /// Colours are weighted means: one colour in, the same colour out, wherever there is something.
-TEST(test_constant_color) {
-    ewa_context *context = check_context(0, NULL);
+TEST_ON(test_constant_color, 0) {
     const float color[3] = {0.25f, 0.5f, 0.75f};
     for (int kind = 0; kind < 2 * SCENE_COUNT; kind++) {
         scene made = picture_small_scene(context, (scene_kind)(kind / 2));
@@ -120,12 +119,10 @@ TEST(test_constant_color) {
         picture_free(&shown);
         scene_free(&made);
     }
-    ewa_context_destroy(&context);
 }
 
 /// Moving the principal point by whole pixels moves the picture.
-TEST(test_shift) {
-    ewa_context *context = check_context(0, NULL);
+TEST_ON(test_shift, 0) {
     for (int kind = 0; kind < SCENE_COUNT; kind++) {
         scene made = picture_small_scene(context, (scene_kind)kind);
         picture before = picture_of_scene(&made, NULL, NULL);
@@ -145,7 +142,6 @@ TEST(test_shift) {
         picture_free(&after);
         scene_free(&made);
     }
-    ewa_context_destroy(&context);
 }
 
 /// Order of the points, number of threads, rotation and place of the world, scale of the camera: the same
@@ -218,8 +214,7 @@ TEST(test_invariance) {
 }
 
 /// A quarter turn of the camera around its view turns the picture.
-TEST(test_quarter_turn) {
-    ewa_context *context = check_context(0, NULL);
+TEST_ON(test_quarter_turn, 0) {
     for (int kind = 0; kind < SCENE_COUNT; kind++) {
         scene made = picture_small_scene(context, (scene_kind)kind);
         made.camera.cx_px = made.camera.cy_px = SIZE / 2.0;
@@ -242,12 +237,10 @@ TEST(test_quarter_turn) {
         picture_free(&after);
         scene_free(&made);
     }
-    ewa_context_destroy(&context);
 }
 
 /// Points that coincide but for their colour: one pass has a rule for who wins that is not the order.
-TEST(test_coincident_points) {
-    ewa_context *context = check_context(1, NULL);
+TEST_ON(test_coincident_points, 1) {
     float shown[2][4];
     for (int order = 0; order < 2; order++) {
         const float position[6] = {0, 0, 1, 0, 0, 1}, normal[6] = {0, 0, -1, 0, 0, -1}, radius[2] = {1, 1};
@@ -274,7 +267,6 @@ TEST(test_coincident_points) {
     }
     assert_memory_equal(shown[0], shown[1], sizeof shown[0]);
     assert_true(shown[0][3] == 1 && shown[0][0] + shown[0][1] > 0.9f);
-    ewa_context_destroy(&context);
 }
 
 int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -169,8 +169,7 @@ TEST(test_same_bytes_of_every_kernel) {
 
 /// The source kernel is the affine one (SS 3.2: equations 7 and 8 are equivalent), in the pipeline's single
 /// precision.
-TEST(test_source_is_affine) {
-    ewa_context *context = check_context(0, NULL);
+TEST_ON(test_source_is_affine, 0) {
     double worst = 0;
     for (int kind = 0; kind < SCENE_COUNT; kind++) {
         scene of;
@@ -197,7 +196,6 @@ TEST(test_source_is_affine) {
     }
     print_message("largest difference: %.2g\n", worst);
     assert_true(worst < 1e-4);
-    ewa_context_destroy(&context);
 }
 
 TEST(test_same_bytes_on_all_threads_and_instruction_sets) {
@@ -247,8 +245,7 @@ static ewa_cloud *reordered(const ewa_cloud *cloud, uint64_t step) {
     return made;
 }
 
-TEST(test_order_of_points_does_not_matter) {
-    ewa_context *context = check_context(0, NULL);
+TEST_ON(test_order_of_points_does_not_matter, 0) {
     for (int kind = 0; kind < SCENE_COUNT; kind++) {
         scene of;
         assert_int_equal(scene_make(context, (scene_kind)kind, POINTS, SIDE_PX, SIDE_PX, &of), EWA_OK);
@@ -264,12 +261,10 @@ TEST(test_order_of_points_does_not_matter) {
         ewa_cloud_destroy(&other);
         scene_free(&of);
     }
-    ewa_context_destroy(&context);
 }
 
 /// More splats in a tile than are kept from pass to pass: the runs are set up again, with the same result.
-TEST(test_dense_tile_holds) {
-    ewa_context *context = check_context(0, NULL);
+TEST_ON(test_dense_tile_holds, 0) {
     scene of;
     assert_int_equal(scene_make(context, SCENE_TORUS, 300000, 48, 40, &of), EWA_OK);
     ewa_surfels *surfels = NULL;
@@ -288,11 +283,9 @@ TEST(test_dense_tile_holds) {
     picture_free(&reference);
     picture_free(&fast);
     scene_free(&of);
-    ewa_context_destroy(&context);
 }
 
-TEST(test_empty_and_lonely) {
-    ewa_context *context = check_context(0, NULL);
+TEST_ON(test_empty_and_lonely, 0) {
     for (uint64_t count = 0; count < 2; count++) {
         ewa_cloud *cloud = NULL;
         const float position[3] = {0, 0, 5}, normal[3] = {0, 0, -1}, radius = 1;
@@ -312,7 +305,6 @@ TEST(test_empty_and_lonely) {
         picture_free(&made);
         ewa_cloud_destroy(&cloud);
     }
-    ewa_context_destroy(&context);
 }
 
 /// Whether a linear colour is, but for the packets' 16 bits, that of one of the surfels.
@@ -330,9 +322,8 @@ static bool is_some_surfel(const ewa_cloud *cloud, const float rgb[3]) {
 
 /// One pass (PAS 6): every pixel shows one surfel, opaque and whole; three passes blend.
 /// Cameras whose scale takes depths beyond the range of floats draw something or nothing, safely.
-TEST(test_scales_beyond_floats) {
+TEST_ON(test_scales_beyond_floats, 1) {
     static const double scales[] = {1e-40, 1e-30, 1e20, 3e38, 1e60};
-    ewa_context *context = check_context(1, NULL);
     ewa_generate_options generate;
     ewa_generate_options_init(&generate, sizeof generate);
     generate.object = EWA_OBJECT_SPHERE;
@@ -354,14 +345,12 @@ TEST(test_scales_beyond_floats) {
         picture_free(&drawn);
     }
     ewa_cloud_destroy(&cloud);
-    ewa_context_destroy(&context);
 }
 
 /// Without a prefilter, splats that are nearly lines are of a few pixels, not beyond all numbers.
-TEST(test_seen_from_the_edge) {
+TEST_ON(test_seen_from_the_edge, 1) {
     enum { WIDTH_PX = 96, DISCS = 400 };
     static const ewa_kernel kernels[] = {EWA_KERNEL_PERSPECTIVE, EWA_KERNEL_AFFINE, EWA_KERNEL_SOURCE};
-    ewa_context *context = check_context(1, NULL);
     for (size_t k = 0; k < sizeof kernels / sizeof kernels[0]; k++) {
         int covered = 0;
         float most = 0, whole = 0; // of coverage: of the first disc, which is seen from the front, and of the others
@@ -404,11 +393,9 @@ TEST(test_seen_from_the_edge) {
                       (double)most);
         assert_true(covered > 10000 && most < 1.02F * whole);
     }
-    ewa_context_destroy(&context);
 }
 
-TEST(test_one_pass_shows_one_surfel) {
-    ewa_context *context = check_context(0, NULL);
+TEST_ON(test_one_pass_shows_one_surfel, 0) {
     scene of;
     assert_int_equal(scene_make(context, SCENE_ELLIPSES, 600, 96, 96, &of), EWA_OK);
     ewa_render_options options;
@@ -433,7 +420,6 @@ TEST(test_one_pass_shows_one_surfel) {
                   others[1]);
     assert_true(covered > 1000 && others[0] == 0 && others[1] > covered / 20);
     scene_free(&of);
-    ewa_context_destroy(&context);
 }
 
 TEST(test_every_failing_allocation_is_clean) {

@@ -153,13 +153,12 @@ static void check_cut(const ewa_render_options *options, double spacing, const d
     assert_true(inside_count > 100 && outside_count > 100);
 }
 
-TEST(test_grid) {
+TEST_ON(test_grid, 2) {
     static const double none[3] = {0, 0, 0};
     static const double planes[][4] = {{1, 0, 0, 0},          {0, -1, 0, 0.25},      {3, 4, 0, -5.25},
                                        {1, 1, 0, 0.125},      {-1, 0.5, 7, 0.03125}, {1e-300, 0, 0, 0},
                                        {0, -1e300, 0, 2e300}, {0, 1e-320, 0, 0}};
     static drawn whole, to;
-    ewa_context *context = check_context(2, NULL);
     const double spacing = 1;
     ewa_cloud *cloud = make_grid(context, spacing, none, 0);
     for (int way = 0; way < 2 * 2; way++)
@@ -177,14 +176,12 @@ TEST(test_grid) {
             assert_true(to.stats.culled_count > 0 && to.stats.culled_count < GRID * GRID);
         }
     ewa_cloud_destroy(&cloud);
-    ewa_context_destroy(&context);
 }
 
 /// A box in the middle of a grid; nothing of one beside it.
-TEST(test_box) {
+TEST_ON(test_box, 2) {
     static const double none[3] = {0, 0, 0};
     static drawn to;
-    ewa_context *context = check_context(2, NULL);
     ewa_cloud *cloud = make_grid(context, 1, none, 0);
     const ewa_camera camera = make_camera(false, 1, none);
     ewa_render_options options = plain_options();
@@ -199,7 +196,6 @@ TEST(test_box) {
     for (size_t i = 0; i < SIDE * SIDE; i++)
         assert_true(to.rgba[4 * i] == 0.25f && to.rgba[4 * i + 3] == 0.5f && isinf(to.depth[i]));
     ewa_cloud_destroy(&cloud);
-    ewa_context_destroy(&context);
 }
 
 /// The scenes of the other tests, cut by some planes that are not along an axis.
@@ -265,9 +261,8 @@ TEST(test_pipeline_holds) {
 }
 
 /// Planes that touch nothing change no byte; nor does the length of a normal.
-TEST(test_untouched) {
+TEST_ON(test_untouched, 2) {
     static drawn whole, cut;
-    ewa_context *context = check_context(2, NULL);
     for (int kind = 0; kind < SCENE_COUNT; kind++) {
         scene of;
         assert_int_equal(scene_make(context, (scene_kind)kind, POINTS, SIDE, SIDE, &of), EWA_OK);
@@ -285,7 +280,6 @@ TEST(test_untouched) {
         assert_same(&whole, &cut, scene_name((scene_kind)kind));
         scene_free(&of);
     }
-    ewa_context_destroy(&context);
 }
 
 TEST(test_threads_and_instructions) {
@@ -309,10 +303,9 @@ TEST(test_threads_and_instructions) {
 }
 
 /// Neither the order of the points, nor a distant origin, nor another source beside changes a byte.
-TEST(test_order_and_origin) {
+TEST_ON(test_order_and_origin, 2) {
     static const double none[3] = {0, 0, 0}, far[3] = {4194304, -524288, 2048};
     static drawn whole, first, other;
-    ewa_context *context = check_context(2, NULL);
     const double spacing = 0.25;
     const ewa_render_options no_planes = plain_options();
     ewa_render_options options = plain_options();
@@ -339,14 +332,12 @@ TEST(test_order_and_origin) {
         assert_same(&first, &other, "origin");
         ewa_cloud_destroy(&cloud);
     }
-    ewa_context_destroy(&context);
 }
 
 /// What a source beside draws is cut, too, by the same planes of the world, whatever its origin.
-TEST(test_sources) {
+TEST_ON(test_sources, 2) {
     static const double none[3] = {0, 0, 0}, beside[3] = {2, 0, 0};
     static drawn one, two, other;
-    ewa_context *context = check_context(2, NULL);
     ewa_surfels *surfels[2] = {NULL, NULL};
     for (int i = 0; i < 2; i++) {
         ewa_cloud *cloud = make_grid(context, 1, i ? beside : none, 0);
@@ -365,7 +356,6 @@ TEST(test_sources) {
     check_grid(&options, 1, &two);
     assert_true(two.stats.culled_count > one.stats.culled_count);
     for (int i = 0; i < 2; i++) ewa_surfels_destroy(&surfels[i]);
-    ewa_context_destroy(&context);
 }
 
 TEST(test_bad_planes) {
@@ -403,9 +393,8 @@ static double now_s(void) {
 }
 
 /// What a box saves, to be read: nothing is asserted of times.
-TEST(test_time_is_printed) {
+TEST_ON(test_time_is_printed, 1) {
     static drawn to;
-    ewa_context *context = check_context(1, NULL);
     scene of;
     assert_int_equal(scene_make(context, SCENE_SPHERE, 60000, SIDE, SIDE, &of), EWA_OK);
     ewa_surfels *surfels = NULL;
@@ -428,7 +417,6 @@ TEST(test_time_is_printed) {
     assert_true(culled[1] == culled[0] && culled[2] > culled[0] + 20000);
     ewa_surfels_destroy(&surfels);
     scene_free(&of);
-    ewa_context_destroy(&context);
 }
 
 int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -37,8 +37,7 @@ static ewa_vec3 unit(double x, double y, double z) {
 
 /// A sphere lit from one direction shows the formula of ewa_material at every pixel that is not at its edge,
 /// and its brightest pixel where N is H.
-TEST(test_highlight_on_a_sphere) {
-    ewa_context *context = check_context(0, NULL);
+TEST_ON(test_highlight_on_a_sphere, 0) {
     ewa_cloud *cloud = shade_sphere(context, POINTS, GREY);
     const ewa_material material = {.ambient = 0.1f, .diffuse = 0.5f, .specular = 0.8f, .shininess = 40};
     const ewa_vec3 L = unit(2, 1, 2);
@@ -78,12 +77,10 @@ TEST(test_highlight_on_a_sphere) {
         picture_free(&shown);
     }
     ewa_cloud_destroy(&cloud);
-    ewa_context_destroy(&context);
 }
 
 /// Lights add up, each with its colour, and a zero direction is the eye's.
-TEST(test_lights_add_up) {
-    ewa_context *context = check_context(0, NULL);
+TEST_ON(test_lights_add_up, 0) {
     ewa_cloud *cloud = shade_sphere(context, POINTS, GREY);
     const ewa_camera camera = shade_camera(SIDE_PX, EYE, 32, 0);
     for (int run = 0; run < 4; run++) {
@@ -120,14 +117,12 @@ TEST(test_lights_add_up) {
         for (int i = 0; i < 3; i++) picture_free(&alone[i]);
     }
     ewa_cloud_destroy(&cloud);
-    ewa_context_destroy(&context);
 }
 
 /// A mirror sphere shows the light of the direction that it mirrors, for an environment any way up.
-TEST(test_mirror_sphere) {
+TEST_ON(test_mirror_sphere, 0) {
     static const double ups[4][3] = {{0, 1, 0}, {0, 0, 2}, {0, -1, 0}, {1, 2, -1}};
     const ewa_material mirror = {.shininess = 1, .reflection = 1};
-    ewa_context *context = check_context(0, NULL);
     ewa_cloud *cloud = shade_sphere(context, POINTS, GREY);
     ewa_environment *environment = shade_environment(context, 128, shade_linear_light);
     for (int run = 0; run < 8; run++) {
@@ -167,7 +162,6 @@ TEST(test_mirror_sphere) {
     }
     ewa_environment_destroy(&environment);
     ewa_cloud_destroy(&cloud);
-    ewa_context_destroy(&context);
 }
 
 static void constant_light(ewa_vec3 direction, float rgb[3]) {
@@ -176,9 +170,8 @@ static void constant_light(ewa_vec3 direction, float rgb[3]) {
 }
 
 /// A constant environment is a constant, whatever the footprint.
-TEST(test_constant_environment) {
+TEST_ON(test_constant_environment, 0) {
     const ewa_material mirror = {.shininess = 1, .reflection = 1};
-    ewa_context *context = check_context(0, NULL);
     ewa_cloud *cloud = shade_sphere(context, POINTS, GREY);
     ewa_environment *environment = shade_environment(context, 50, constant_light);
     for (int way = 0; way < 2; way++)
@@ -200,7 +193,6 @@ TEST(test_constant_environment) {
         }
     ewa_environment_destroy(&environment);
     ewa_cloud_destroy(&cloud);
-    ewa_context_destroy(&context);
 }
 
 /// Squares of two degrees, black and white.
@@ -211,9 +203,8 @@ static void checker_light(ewa_vec3 direction, float rgb[3]) {
 }
 
 /// Where a pixel mirrors many squares, it shows their mean; a lookup of single texels is black or white.
-TEST(test_fine_environment_does_not_alias) {
+TEST_ON(test_fine_environment_does_not_alias, 0) {
     const ewa_material mirror = {.shininess = 1, .reflection = 1};
-    ewa_context *context = check_context(0, NULL);
     ewa_cloud *cloud = shade_sphere(context, POINTS, GREY);
     ewa_environment *environment = shade_environment(context, 720, checker_light);
     for (int way = 0; way < 2; way++) {
@@ -234,7 +225,6 @@ TEST(test_fine_environment_does_not_alias) {
     }
     ewa_environment_destroy(&environment);
     ewa_cloud_destroy(&cloud);
-    ewa_context_destroy(&context);
 }
 
 /// A square [-1, 1]^2 in the plane z = height + tilt x, facing +z, with discs that close it.
@@ -278,8 +268,7 @@ static bool near_rim(const picture *of, size_t pixel) {
 /// A plane, seen from the front or at an angle, keeps all of its light, and so does the background. At its
 /// rim it may lose a little where it is seen at a grazing angle: there the depths of discs end with the
 /// discs.
-TEST(test_eye_dome_leaves_planes_alone) {
-    ewa_context *context = check_context(0, NULL);
+TEST_ON(test_eye_dome_leaves_planes_alone, 0) {
     static const double eyes[3][3] = {{0, 0, 4}, {2.5, -1, 2.5}, {-2, 2, 1.2}};
     for (int run = 0; run < 12; run++) {
         ewa_cloud *cloud = make_squares(context, 1, run % 3 ? 0 : 0.3);
@@ -305,13 +294,11 @@ TEST(test_eye_dome_leaves_planes_alone) {
         picture_free(&shown);
         ewa_cloud_destroy(&cloud);
     }
-    ewa_context_destroy(&context);
 }
 
 /// A square in front of another: the one behind gets darker beside it and nowhere else, the one in front
 /// keeps its light.
-TEST(test_eye_dome_darkens_behind_steps) {
-    ewa_context *context = check_context(0, NULL);
+TEST_ON(test_eye_dome_darkens_behind_steps, 0) {
     ewa_cloud *cloud = make_squares(context, 2, 0);
     for (int run = 0; run < 4; run++) {
         const double eye[3] = {0, 0, 4};
@@ -333,7 +320,6 @@ TEST(test_eye_dome_darkens_behind_steps) {
         picture_free(&shown);
     }
     ewa_cloud_destroy(&cloud);
-    ewa_context_destroy(&context);
 }
 
 int main(void) { return RUN_TESTS(NULL, NULL); }

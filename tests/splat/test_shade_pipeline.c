@@ -76,8 +76,7 @@ static scene make_scene(ewa_context *context, scene_kind kind, bool orthographic
     return made;
 }
 
-TEST(test_pipeline_holds_to_the_reference) {
-    ewa_context *context = check_context(0, NULL);
+TEST_ON(test_pipeline_holds_to_the_reference, 0) {
     ewa_environment *environment = shade_environment(context, 64, shade_linear_light);
     for (int kind = 0; kind < 2 * SCENE_COUNT; kind++) {
         if (kind == 2 * SCENE_NEAR + 1) continue; // touches the eye, which orthographic views do not have
@@ -109,12 +108,10 @@ TEST(test_pipeline_holds_to_the_reference) {
         scene_free(&of);
     }
     ewa_environment_destroy(&environment);
-    ewa_context_destroy(&context);
 }
 
 /// Surfels with an alpha and a material each: colours are weighted by the alpha, materials are not.
-TEST(test_transparent_materials_hold) {
-    ewa_context *context = check_context(0, NULL);
+TEST_ON(test_transparent_materials_hold, 0) {
     const float white[3] = {1, 1, 1};
     const double eye[3] = {1, 0.6, 4};
     ewa_cloud *cloud = shade_sphere(context, 3000, white);
@@ -135,7 +132,6 @@ TEST(test_transparent_materials_hold) {
     }
     ewa_environment_destroy(&environment);
     ewa_cloud_destroy(&cloud);
-    ewa_context_destroy(&context);
 }
 
 static void assert_same_bytes(const picture *a, const picture *b) {
@@ -175,8 +171,7 @@ TEST(test_same_bytes_everywhere) {
 }
 
 /// Two points at the same place that differ in nothing but their material.
-TEST(test_order_of_materials_does_not_matter) {
-    ewa_context *context = check_context(0, NULL);
+TEST_ON(test_order_of_materials_does_not_matter, 0) {
     enum { COUNT = 64 };
     const double eye[3] = {0, 0, 5};
     const ewa_camera camera = shade_camera(64, eye, 30, 0);
@@ -202,15 +197,13 @@ TEST(test_order_of_materials_does_not_matter) {
     assert_same_bytes(&shown[0], &shown[1]);
     picture_free(&shown[0]);
     picture_free(&shown[1]);
-    ewa_context_destroy(&context);
 }
 
 /// Stripes as narrow as the points' spacing.
 static int alternate(const float position[3]) { return (int)(1000 + floor((double)position[0] * 400)) % 2; }
 
 /// Where pixels hold surfels of two materials in equal parts, they look like the material between them.
-TEST(test_materials_are_averaged) {
-    ewa_context *context = check_context(0, NULL);
+TEST_ON(test_materials_are_averaged, 0) {
     const float white[3] = {1, 1, 1};
     const double eye[3] = {0, 0, 5};
     ewa_cloud *cloud = shade_sphere(context, 200000, white);
@@ -243,12 +236,10 @@ TEST(test_materials_are_averaged) {
     picture_free(&wanted);
     picture_free(&shown);
     ewa_cloud_destroy(&cloud);
-    ewa_context_destroy(&context);
 }
 
 /// One material that all surfels have needs no memory of its own and looks as the table's only one does.
-TEST(test_one_material_of_many) {
-    ewa_context *context = check_context(0, NULL);
+TEST_ON(test_one_material_of_many, 0) {
     scene of;
     assert_int_equal(scene_make(context, SCENE_TORUS, POINTS, 64, 64, &of), EWA_OK);
     ewa_surfels_info plain, one, several;
@@ -278,7 +269,6 @@ TEST(test_one_material_of_many) {
     picture_free(&wanted);
     picture_free(&shown);
     scene_free(&of);
-    ewa_context_destroy(&context);
 }
 
 static void refuse(ewa_context *context, const check_log *log, const scene *of,

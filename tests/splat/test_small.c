@@ -110,7 +110,7 @@ static void hold(ewa_context *context, const ewa_surfels *surfels, const ewa_ren
     for (int i = 0; i < 2; i++) free_planes(&to[i]);
 }
 
-TEST(test_planes_do_not_depend_on_depths) {
+TEST_ON(test_planes_do_not_depend_on_depths, 2) {
     static const struct {
         const char *name;
         uint32_t points;
@@ -125,7 +125,6 @@ TEST(test_planes_do_not_depend_on_depths) {
                   {"all sizes", 15000, 0.1, 4, 0, 1}};
     static const ewa_kernel kernels[] = {EWA_KERNEL_PERSPECTIVE, EWA_KERNEL_AFFINE, EWA_KERNEL_SOURCE,
                                          EWA_KERNEL_CIRCULAR};
-    ewa_context *context = check_context(2, NULL);
     for (size_t c = 0; c < sizeof clouds / sizeof clouds[0]; c++) {
         ewa_surfels *surfels = make_sheets(context, clouds[c].points, clouds[c].min_px, clouds[c].max_px,
                                            clouds[c].every, clouds[c].times);
@@ -142,7 +141,6 @@ TEST(test_planes_do_not_depend_on_depths) {
             }
         ewa_surfels_destroy(&surfels);
     }
-    ewa_context_destroy(&context);
 }
 
 int main(void) { return RUN_TESTS(NULL, NULL); }

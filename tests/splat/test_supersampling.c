@@ -87,8 +87,7 @@ static void check_pixel(const planes *parts, const planes *whole, uint32_t width
     assert_true(isinf(depth) ? isinf(whole->frame.depth[pixel]) : (double)whole->frame.depth[pixel] == depth);
 }
 
-TEST(test_planes_are_averages_of_the_finer_picture) {
-    ewa_context *context = check_context(2, NULL);
+TEST_ON(test_planes_are_averages_of_the_finer_picture, 2) {
     ewa_bounds bounds;
     ewa_surfels *surfels = make_surfels(context, FAR_TOWN, 50000, &bounds);
     static const uint32_t finer[] = {2, 3, 8};
@@ -104,7 +103,6 @@ TEST(test_planes_are_averages_of_the_finer_picture) {
         free(whole.memory);
     }
     ewa_surfels_destroy(&surfels);
-    ewa_context_destroy(&context);
 }
 
 /// A picture of several bands, drawn whole and in the caller's bands, for one thread and four, for every instruction set.
@@ -141,9 +139,8 @@ TEST(test_same_bytes_for_threads_bands_and_instruction_sets) {
 }
 
 /// More parts than are drawn at a time: those of the last rows are where they belong.
-TEST(test_bands_of_parts_end_where_they_should) {
+TEST_ON(test_bands_of_parts_end_where_they_should, 0) {
     enum { FINER = 8, WIDE_PX = 1030, HIGH_PX = 130, FIRST_PX = 128, ROW = WIDE_PX * FINER };
-    ewa_context *context = check_context(0, NULL);
     ewa_bounds bounds;
     ewa_surfels *surfels = make_surfels(context, FAR_SPHERE, 5000, &bounds);
     ewa_renderer *renderer = NULL;
@@ -175,11 +172,9 @@ TEST(test_bands_of_parts_end_where_they_should) {
     free(parts);
     ewa_renderer_destroy(&renderer);
     ewa_surfels_destroy(&surfels);
-    ewa_context_destroy(&context);
 }
 
-TEST(test_reference_draws_the_same) {
-    ewa_context *context = check_context(2, NULL);
+TEST_ON(test_reference_draws_the_same, 2) {
     ewa_cloud *cloud = NULL;
     ewa_surfels *surfels = NULL;
     ewa_bounds bounds;
@@ -205,16 +200,14 @@ TEST(test_reference_draws_the_same) {
     free(plain.memory);
     ewa_surfels_destroy(&surfels);
     ewa_cloud_destroy(&cloud);
-    ewa_context_destroy(&context);
 }
 
 /// 0 takes so many parts that discs are about as large as one, none where they are, and never too many.
-TEST(test_surfels_say_how_many_parts) {
+TEST_ON(test_surfels_say_how_many_parts, 2) {
     static const struct {
         double times;
         uint32_t parts;
     } cases[] = {{0.05, 1}, {1, 1}, {2, 2}, {4, 4}, {8, 8}, {200, 8}};
-    ewa_context *context = check_context(2, NULL);
     ewa_bounds bounds;
     // Discs are 1.6 spacings of sqrt(4 pi / 40,000) in radius, 0.7 px from the distance that is called 1 here.
     ewa_surfels *surfels = make_surfels(context, FAR_SPHERE, 40000, &bounds);
@@ -230,7 +223,6 @@ TEST(test_surfels_say_how_many_parts) {
     free(chosen.memory);
     free(said.memory);
     ewa_surfels_destroy(&surfels);
-    ewa_context_destroy(&context);
 }
 
 TEST(test_refused) {

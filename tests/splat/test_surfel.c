@@ -34,9 +34,8 @@ static void open_reader(const ewa_cloud *cloud, double cutoff, double radius_sca
 }
 
 /// Discs: orthogonal axes of length radius * scale / F across the unit normal, right-handed with it.
-TEST(test_discs) {
+TEST_ON(test_discs, 1) {
     enum { COUNT = 1000 };
-    ewa_context *context = check_context(1, NULL);
     ewa_cloud *cloud = make_cloud(context, COUNT);
     double *position = add(cloud, EWA_POSITION, EWA_F64, 3);
     float *normal = add(cloud, EWA_NORMAL, EWA_F32, 3), *radius = add(cloud, EWA_RADIUS, EWA_F32, 1);
@@ -77,14 +76,12 @@ TEST(test_discs) {
         assert_true(s->alpha == 1);
     }
     ewa_cloud_destroy(&cloud);
-    ewa_context_destroy(&context);
 }
 
 /// Any two tangent axes: the principal ones have the same covariance, are orthogonal and sorted; the normal
 /// follows the given one.
-TEST(test_ellipses) {
+TEST_ON(test_ellipses, 1) {
     enum { COUNT = 1000 };
-    ewa_context *context = check_context(1, NULL);
     ewa_cloud *cloud = make_cloud(context, COUNT);
     double *position = add(cloud, EWA_POSITION, EWA_F64, 3), *tu = add(cloud, EWA_TANGENT_U, EWA_F64, 3);
     double *tv = add(cloud, EWA_TANGENT_V, EWA_F64, 3), *normal = add(cloud, EWA_NORMAL, EWA_F64, 3);
@@ -118,11 +115,10 @@ TEST(test_ellipses) {
         assert_true(dot(n, &normal[3 * i]) >= 0);
     }
     ewa_cloud_destroy(&cloud);
-    ewa_context_destroy(&context);
 }
 
 /// Every reason to leave a point out.
-TEST(test_left_out) {
+TEST_ON(test_left_out, 1) {
     static const float rows[][7] = {
         // position, normal, radius
         {0, 0, 1, 0, 0, 1, 1},         {NAN, 0, 1, 0, 0, 1, 1},   {0, INFINITY, 1, 0, 0, 1, 1},
@@ -134,7 +130,6 @@ TEST(test_left_out) {
     static const bool wanted[] = {true,  false, false, false, false, false, false,
                                   false, false, false, false, true,  false};
     enum { COUNT = sizeof rows / sizeof rows[0] };
-    ewa_context *context = check_context(1, NULL);
     ewa_cloud *cloud = make_cloud(context, COUNT);
     assert_int_equal(ewa_cloud_borrow(cloud, EWA_POSITION, EWA_F32, 3, &rows[0][0], sizeof rows[0]), EWA_OK);
     assert_int_equal(ewa_cloud_borrow(cloud, EWA_NORMAL, EWA_F32, 3, &rows[0][3], sizeof rows[0]), EWA_OK);
@@ -159,7 +154,6 @@ TEST(test_left_out) {
     assert_int_equal(ewa_surfel_read(&reader, 0, 8, surfel, drawable), 2);
     for (int i = 0; i < 8; i++) assert_int_equal(drawable[i], axes_wanted[i]);
     ewa_cloud_destroy(&cloud);
-    ewa_context_destroy(&context);
 }
 
 static double read_one_color(ewa_context *context, ewa_type type, uint32_t components, const void *value,
@@ -180,8 +174,7 @@ static double read_one_color(ewa_context *context, ewa_type type, uint32_t compo
 
 static double curve(double s) { return s <= 0.04045 ? s / 12.92 : pow((s + 0.055) / 1.055, 2.4); }
 
-TEST(test_colors) {
-    ewa_context *context = check_context(1, NULL);
+TEST_ON(test_colors, 1) {
     ewa_surfel surfel;
     for (int i = 0; i < 256; i++) {
         const uint8_t bytes[4] = {(uint8_t)i, 0, 255, (uint8_t)i};
@@ -199,7 +192,6 @@ TEST(test_colors) {
                 EWA_DEFAULT_GREY);
     assert_true(read_one_color(context, EWA_I8, 3, (int8_t[]){-3, 127, 0}, &surfel) == 0);
     assert_true(fabs(surfel.color_linear[1] - 1) < 1e-14);
-    ewa_context_destroy(&context);
 }
 
 /// Missing and misshapen attributes are named.

@@ -60,10 +60,9 @@ static void look(const picture made[2], int x, int channel, bool there[2]) {
         there[i] = made[i].frame.rgba[4 * (SIDE_PX / 2 * SIDE_PX + x) + channel] > 0.01f;
 }
 
-TEST(test_tolerance_at_each_pixel) {
+TEST_ON(test_tolerance_at_each_pixel, 0) {
     static const double origin[3] = {0, 0, 0};
     static const double beyond[] = {0.5, 0.9, 0.98, 1.02, 1.1, 1.5};
-    ewa_context *context = check_context(0, NULL);
     for (int kernel = EWA_KERNEL_PERSPECTIVE; kernel <= EWA_KERNEL_RAYCAST; kernel++) {
         double nearest = INFINITY, farthest = 0;
         picture alone[2], pair[2];
@@ -89,7 +88,6 @@ TEST(test_tolerance_at_each_pixel) {
         print_message("kernel %d: depths %.2f to %.2f\n", kernel, nearest, farthest);
         assert_true(nearest < 0.75 * CENTER && farthest > 1.2 * CENTER);
     }
-    ewa_context_destroy(&context);
 }
 
 int main(void) { return RUN_TESTS(NULL, NULL); }

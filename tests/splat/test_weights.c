@@ -134,8 +134,7 @@ static void read_middle(const picture *from, double mean[2]) {
 }
 
 /// Two sheets at one place: the picture goes from one to the other as the weights do.
-TEST(test_cross_fade) {
-    ewa_context *context = check_context(0, NULL);
+TEST_ON(test_cross_fade, 0) {
     scene of = sheet_scene();
     ewa_surfels *red = make_sheet(context, 4, 255, 0, 1), *blue = make_sheet(context, 4, 0, 255, 1);
     ewa_renderer *renderer = NULL;
@@ -155,12 +154,10 @@ TEST(test_cross_fade) {
     ewa_renderer_destroy(&renderer);
     ewa_surfels_destroy(&red);
     ewa_surfels_destroy(&blue);
-    ewa_context_destroy(&context);
 }
 
 /// A faint sheet a little in front hides what is behind it only if it is to.
-TEST(test_hiding) {
-    ewa_context *context = check_context(0, NULL);
+TEST_ON(test_hiding, 0) {
     scene of = sheet_scene();
     ewa_surfels *front = make_sheet(context, 3.5, 255, 0, 1), *back = make_sheet(context, 4, 0, 255, 0.7),
                 *far = make_sheet(context, 4.5, 255, 0, 1);
@@ -209,7 +206,6 @@ TEST(test_hiding) {
     ewa_surfels_destroy(&front);
     ewa_surfels_destroy(&back);
     ewa_surfels_destroy(&far);
-    ewa_context_destroy(&context);
 }
 
 /// With weights and sources that hide nothing, too, no order, number of threads or size of tiles changes a byte.

@@ -56,11 +56,10 @@ static ewa_image draw_integrals(ewa_context *context, const ewa_camera *camera, 
 }
 
 /// Places in the picture under 120 degrees, shapes, and what either projection makes of them.
-TEST(test_integrals) {
+TEST_ON(test_integrals, 2) {
     static const double white[3] = {1, 1, 1}, ahead[3] = {0, 0, -1};
     static const double shapes[3][3] = {{0.2, 0.2, 0.2}, {0.5, 0.15, 0.1}, {0.4, 0.3, 0.03}};
     static const double angles[3] = {0, 35, 55};
-    ewa_context *context = check_context(2, NULL);
     double worst_exact = INFINITY, worst_trained = INFINITY;
     for (int n = 0; n < 9; n++) {
         const double *scales = shapes[n % 3], angle = angles[n / 3] * 3.141592653589793 / 180;
@@ -101,7 +100,6 @@ TEST(test_integrals) {
     }
     if (!(worst_exact > 60)) fail_msg("%g dB", worst_exact);
     assert_true(worst_trained < 40); // the affine map fails
-    ewa_context_destroy(&context);
 }
 
 /// The largest change between two pictures, RMS.
@@ -166,8 +164,7 @@ static double popped(const ewa_gaussians *set, double first_deg, bool by_centers
 /// Shields that cut each other while the camera turns about them through 90 degrees in steps of a quarter of
 /// a degree: what passes before what changes pixel by pixel. Sorted by centres whole shields do, and the
 /// largest change from frame to frame is several times as large.
-TEST(test_popping) {
-    ewa_context *context = check_context(2, NULL);
+TEST_ON(test_popping, 2) {
     ewa_gaussians set = gaussians_random(context, 10, 0, 21);
     for (size_t i = 0; i < set.count; i++) {
         set.opacities[i] = 0.9f;
@@ -190,7 +187,6 @@ TEST(test_popping) {
     assert_true(share[1] > 0.05);
     assert_true(largest[1] > 3 * largest[0]);
     ewa_gaussians_free(&set);
-    ewa_context_destroy(&context);
 }
 
 int main(void) { return RUN_TESTS(NULL, NULL); }

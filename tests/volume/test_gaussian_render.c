@@ -41,8 +41,7 @@ static void check_held(const ewa_gaussians *set, const ewa_camera *camera, const
 }
 
 /// Both projections, both orders, all degrees, both filters, flat ones, orthographic, from within, under 130 degrees.
-TEST(test_reference) {
-    ewa_context *context = check_context(2, NULL);
+TEST_ON(test_reference, 2) {
     for (uint32_t degree = 0; degree <= EWA_MAX_SH_DEGREE; degree++)
         for (int exact = 0; exact < 2; exact++) {
             ewa_gaussians set = gaussians_random(context, 1500, degree, 7 + degree);
@@ -86,12 +85,10 @@ TEST(test_reference) {
         check_held(&flat, &place, &options, "2D");
     }
     ewa_gaussians_free(&flat);
-    ewa_context_destroy(&context);
 }
 
 /// More faint ones behind each other than are sorted at once: over many octaves of depth, at one depth.
-TEST(test_dense) {
-    ewa_context *context = check_context(2, NULL);
+TEST_ON(test_dense, 2) {
     for (int many = 0; many < 2; many++)
         for (int flat = 0; flat < 2; flat++) {
             ewa_gaussians set = gaussians_random(context, many ? 3000 : 150, 0, 21);
@@ -122,7 +119,6 @@ TEST(test_dense) {
             check_held(&set, &camera, &options, what);
             ewa_gaussians_free(&set);
         }
-    ewa_context_destroy(&context);
 }
 
 /// Threads, instruction sets, order of the set: nothing changes a byte.
@@ -172,10 +168,9 @@ TEST(test_bytes) {
 /// Two sheets that cross where the middle column looks, red nearer on the left, blue on the right, red's centre 0.01
 /// nearer, or blue's: in each pixel by its ray, or red before blue, or blue before red, in all of them. The defaults are
 /// the order of centres of the trained projection and that of rays of the exact one.
-TEST(test_crossing) {
+TEST_ON(test_crossing, 1) {
     static const double half_deg = 20 * 3.141592653589793 / 180;
     static const ewa_gaussian_order orders[3] = {EWA_ORDER_OF_PROJECTION, EWA_ORDER_CENTER, EWA_ORDER_RAY};
-    ewa_context *context = check_context(1, NULL);
     const ewa_camera camera = gaussians_camera(65, 33, 30, (const double[3]){0, 0, -1}, 5);
     for (int n = 0; n < 12; n++) {
         const bool red_first = n % 2;
@@ -209,14 +204,12 @@ TEST(test_crossing) {
         ewa_image_free(&image);
         ewa_gaussians_free(&set);
     }
-    ewa_context_destroy(&context);
 }
 
 /// A sheet that goes through another one, whose deviations in depth are 0.1: by rays the share of the farther one that is in
 /// front is 1/2 (1 - distance / 0.2), but no longer when a third one is nearer to it, and nothing changes at once.
-TEST(test_passing) {
+TEST_ON(test_passing, 1) {
     static const double scales[3] = {80, 80, 0.1};
-    ewa_context *context = check_context(1, NULL);
     const ewa_camera camera = gaussians_camera(16, 16, 5, (const double[3]){0, 0, -1}, 5);
     double before = 0;
     for (int n = 0; n < 200; n++) {
@@ -251,15 +244,13 @@ TEST(test_passing) {
         ewa_image_free(&slow);
         ewa_gaussians_free(&set);
     }
-    ewa_context_destroy(&context);
 }
 
 /// Trained 2D Gaussians of which the numbers are known: one that leans by 60 degrees, where its ray crosses it, and one far
 /// smaller than a pixel, a dot of variance 1/2 px^2.
-TEST(test_flat) {
+TEST_ON(test_flat, 1) {
     static const double white[3] = {1, 1, 1}, sizes[2] = {1, 1e-4}, turn = 30 * 3.141592653589793 / 180;
     const double lean[4] = {cos(turn), 0, sin(turn), 0}; // about y, by twice that
-    ewa_context *context = check_context(1, NULL);
     const ewa_camera camera = gaussians_camera(65, 65, 40, (const double[3]){0, 0, -1}, 4);
     for (int n = 0; n < 2; n++) {
         ewa_gaussians set = gaussians_one(context, (const double[3]){0, 0, 0}, (const double[3]){sizes[n], sizes[n], 0},
@@ -282,12 +273,10 @@ TEST(test_flat) {
         ewa_image_free(&image);
         ewa_gaussians_free(&set);
     }
-    ewa_context_destroy(&context);
 }
 
 /// A colour that all have is that of the picture, whatever is behind what.
-TEST(test_constant) {
-    ewa_context *context = check_context(1, NULL);
+TEST_ON(test_constant, 1) {
     ewa_gaussians set = gaussians_random(context, 3000, 0, 11);
     for (size_t i = 0; i < set.count; i++)
         for (size_t k = 0; k < 3; k++)
@@ -307,12 +296,10 @@ TEST(test_constant) {
     }
     ewa_image_free(&image);
     ewa_gaussians_free(&set);
-    ewa_context_destroy(&context);
 }
 
 /// None, those without opacity, numbers that are none: the background.
-TEST(test_nothing) {
-    ewa_context *context = check_context(1, NULL);
+TEST_ON(test_nothing, 1) {
     const ewa_camera camera = gaussians_camera(40, 30, 50, FRONT, 2);
     ewa_gaussian_options options = options_of(EWA_PROJECTION_EXACT);
     options.background[1] = options.background[3] = 1;
@@ -332,14 +319,12 @@ TEST(test_nothing) {
         ewa_image_free(&image);
         ewa_gaussians_free(&set);
     }
-    ewa_context_destroy(&context);
 }
 
 /// One that covers the picture: alpha is its opacity, to 0.99; depth is where half of the light is gone.
-TEST(test_one) {
+TEST_ON(test_one, 1) {
     static const double center[3] = {0, 0, 0}, scales[3] = {50, 50, 0.1}, color[3] = {1, 0.25, 0.5};
     static const double front[3] = {0, 0, -1};
-    ewa_context *context = check_context(1, NULL);
     const ewa_camera camera = gaussians_camera(64, 48, 30, front, 5);
     for (int n = 0; n < 6; n++) {
         const double opacity = n % 3 == 0 ? 0.3 : n % 3 == 1 ? 0.8 : 1;
@@ -360,19 +345,17 @@ TEST(test_one) {
         ewa_splats_destroy(&splats);
         ewa_gaussians_free(&set);
     }
-    ewa_context_destroy(&context);
 }
 
 /// A surface a standard deviation behind the middle of a Gaussian leaves 84.13 % of it, 1.665 behind it 95.20 %, one before it
 /// nothing, one behind it all.
-TEST(test_surface) {
+TEST_ON(test_surface, 1) {
     enum { PIXELS = 64 * 48 };
     static const double center[3] = {0, 0, 0}, scales[3] = {20, 20, 0.5}, color[3] = {1, 0, 0};
     static const double front[3] = {0, 0, -1};
     enum { CASES = 4 };
     static const double depths[CASES] = {5.5, 5.8325, 2, 8}, wanted[CASES] = {0.8 * 0.841345, 0.8 * 0.952043, 0, 0.8};
     static float depth[PIXELS], rgba[4 * PIXELS];
-    ewa_context *context = check_context(1, NULL);
     const ewa_camera camera = gaussians_camera(64, 48, 10, front, 5);
     ewa_gaussians set = gaussians_one(context, center, scales, ROUND, 0.8, color);
     for (int n = 0; n < 2 * CASES; n++) {
@@ -395,15 +378,13 @@ TEST(test_surface) {
         ewa_image_free(&slow);
     }
     ewa_gaussians_free(&set);
-    ewa_context_destroy(&context);
 }
 
 /// Section planes cut along every ray; also with edges of surfaces, whose share of a pixel is what the reference has.
-TEST(test_sections) {
+TEST_ON(test_sections, 2) {
     enum { PIXELS = 150 * 110 };
     static float depth[PIXELS], rgba[4 * PIXELS];
     static const double planes[3][4] = {{0, 2, 0, 0.4}, {-3, 0, 1, 1}, {0.1, 0.2, 1, 0.1}};
-    ewa_context *context = check_context(2, NULL);
     ewa_gaussians set = gaussians_random(context, 1500, 0, 7);
     set.origin[1] = 100;
     for (int n = 0; n < 8; n++) {
@@ -466,11 +447,10 @@ TEST(test_sections) {
                      EWA_ERROR_ARGUMENT);
     ewa_image_free(&none);
     ewa_gaussians_free(&sheet);
-    ewa_context_destroy(&context);
 }
 
 /// Harmonics are orthonormal: means over directions of products of two, from the colours that they give.
-TEST(test_harmonics) {
+TEST_ON(test_harmonics, 1) {
     enum { COUNT = 25, AROUND = 24, DOWN = 12 };
     // Gauss-Legendre places and weights for polynomials up to degree 23.
     static const double places[6] = {0.1252334085114689, 0.3678314989981802, 0.5873179542866175,
@@ -479,7 +459,6 @@ TEST(test_harmonics) {
                                       0.1600783285433462, 0.1069393259953184, 0.0471753363865118};
     static double values[AROUND * DOWN][COUNT];
     static const double center[3] = {0}, scales[3] = {0.1, 0.1, 0.1}, grey[3] = {0.5, 0.5, 0.5};
-    ewa_context *context = check_context(1, NULL);
     for (size_t k = 0; k < COUNT; k += 3) {
         ewa_gaussians one = gaussians_one(context, center, scales, ROUND, 0.99, grey), set;
         assert_int_equal(ewa_gaussians_create(context, 1, 4, &set), EWA_OK);
@@ -517,7 +496,6 @@ TEST(test_harmonics) {
                 sum += values[n][i] * values[n][j] * weights[n % DOWN % 6] * 6.283185307179586 / AROUND;
             if (fabs(sum - (i == j)) > 1e-3) fail_msg("harmonics %zu and %zu: %g", i, j, sum);
         }
-    ewa_context_destroy(&context);
 }
 
 /// Whichever allocation fails, the calls say so and leave nothing behind.

@@ -127,8 +127,7 @@ static ewa_camera camera_of(int n) {
 }
 
 /// One volume is drawn as ewa_volume_render() does; one set, and nothing, as ewa_gaussian_render(), to the byte.
-TEST(test_alone) {
-    ewa_context *context = check_context(2, NULL);
+TEST_ON(test_alone, 2) {
     for (int n = 0; n < 4; n++) {
         const ewa_camera camera = camera_of(n);
         cast c = start_on(context);
@@ -165,7 +164,6 @@ TEST(test_alone) {
     ewa_image_free(&mixed);
     ewa_image_free(&nothing);
     end(&c);
-    ewa_context_destroy(&context);
 }
 
 /// Linear premultiplied colours to display values, and back.
@@ -181,8 +179,7 @@ static void convert(const double from[4], bool back, double to[4]) {
 }
 
 /// A sheet within a ball: the ball's front half, the sheet, its back half, of pictures of their own.
-TEST(test_between) {
-    ewa_context *context = check_context(2, NULL);
+TEST_ON(test_between, 2) {
     for (int n = 0; n < 3; n++) {
         ewa_camera camera =
             scene_camera(WIDTH, HEIGHT, FRONT, n == 1 ? 30 : 4); // splats, points, orthographic
@@ -228,12 +225,10 @@ TEST(test_between) {
         ewa_image_free(&mixed);
         end(&c);
     }
-    ewa_context_destroy(&context);
 }
 
 /// Halves of a volume, and of a set, are the whole, also where the sets have other units and origins.
-TEST(test_halves) {
-    ewa_context *context = check_context(2, NULL);
+TEST_ON(test_halves, 2) {
     const ewa_camera camera = gaussians_camera(WIDTH, HEIGHT, 40, FRONT, 3);
     cast whole = start_on(context), halves = start_on(context);
     add_ball(&whole, -20, 20, 1);
@@ -268,13 +263,11 @@ TEST(test_halves) {
     ewa_image_free(&two);
     end(&whole);
     end(&halves);
-    ewa_context_destroy(&context);
 }
 
 /// A pixel that a surface covers in part shows the surface with what is in front of it there, and all there is
 /// in the rest.
-TEST(test_edges) {
-    ewa_context *context = check_context(2, NULL);
+TEST_ON(test_edges, 2) {
     const ewa_camera camera = scene_camera(WIDTH, HEIGHT, SLANTED, 3);
     static float depth[PIXELS], rgba[4 * PIXELS], solid[4 * PIXELS];
     for (int n = 0; n < 3; n++) {
@@ -314,12 +307,10 @@ TEST(test_edges) {
         ewa_image_free(&open);
         end(&c);
     }
-    ewa_context_destroy(&context);
 }
 
 /// Depth is where half of the light is gone, of whatever takes it.
-TEST(test_depth) {
-    ewa_context *context = check_context(1, NULL);
+TEST_ON(test_depth, 1) {
     const ewa_camera camera = scene_camera(WIDTH, HEIGHT, FRONT, 4);
     static float depth[PIXELS], coverage[PIXELS];
     for (int n = 0; n < 2; n++) {
@@ -335,7 +326,6 @@ TEST(test_depth) {
         assert_true(fabs((double)coverage[0] - SHEET_OPACITY) < 1e-3);
         end(&c);
     }
-    ewa_context_destroy(&context);
 }
 
 /// Threads and instruction sets change no byte.
@@ -360,8 +350,7 @@ TEST(test_bytes) {
     }
 }
 
-TEST(test_bad) {
-    ewa_context *context = check_context(1, NULL);
+TEST_ON(test_bad, 1) {
     const ewa_camera camera = scene_camera(WIDTH, HEIGHT, FRONT, 4);
     cast c = start_on(context);
     add_ball(&c, -20, 20, 1);
@@ -394,7 +383,6 @@ TEST(test_bad) {
     ewa_context_destroy(&elsewhere);
     assert_int_equal(ewa_mixture_render(c.renderer, NULL, &camera, NULL, &frame, NULL), EWA_ERROR_ARGUMENT);
     end(&c);
-    ewa_context_destroy(&context);
 }
 
 /// Whichever allocation fails, the call says so; the next one draws.
@@ -460,8 +448,7 @@ TEST(test_allocator) {
 }
 
 /// A world of any scale, whose camera makes up for it; no sets and one beside a volume.
-TEST(test_scales) {
-    ewa_context *context = check_context(2, NULL);
+TEST_ON(test_scales, 2) {
     ewa_image first = {0};
     for (int n = 0; n < 3; n++) {
         const int exponent = n == 0 ? 0 : n == 1 ? 200 : -200;
@@ -491,7 +478,6 @@ TEST(test_scales) {
         end(&c);
     }
     ewa_image_free(&first);
-    ewa_context_destroy(&context);
 }
 
 int main(void) {

@@ -126,9 +126,8 @@ static ewa_voxels *make_fog(ewa_context *context, const double place[3], float e
 }
 
 /// Gaussians and fog that no pixel sees leave the scan's planes as they are, its soft edges and transparent ones too.
-TEST(test_out_of_sight) {
+TEST_ON(test_out_of_sight, 2) {
     static planes scan, out;
-    ewa_context *context = check_context(2, NULL);
     const ewa_camera camera = gaussians_camera(WIDTH, HEIGHT, 40, SLANTED, 3);
     ewa_gaussians set = gaussians_random(context, 300, 1, 5);
     for (uint32_t i = 0; i < set.count; i++) set.centers[3 * i + 1] += 500;
@@ -156,14 +155,12 @@ TEST(test_out_of_sight) {
     }
     ewa_voxels_destroy(&fog);
     ewa_gaussians_free(&set);
-    ewa_context_destroy(&context);
 }
 
 /// Pixels beside what lets light through, and those whose surface hides it all, keep the surface's planes.
-TEST(test_beside) {
+TEST_ON(test_beside, 2) {
     static planes scan, alone, out;
     static bool seen[PIXELS];
-    ewa_context *context = check_context(2, NULL);
     const ewa_camera camera = gaussians_camera(WIDTH, HEIGHT, 40, FRONT, 3);
     draw_scan(context, &camera, 1, &scan);
     const ewa_gaussian_options over = options_over(&scan), plain = options_over(NULL);
@@ -198,7 +195,6 @@ TEST(test_beside) {
         ewa_voxels_destroy(&fog);
         ewa_gaussians_free(&set);
     }
-    ewa_context_destroy(&context);
 }
 
 /// A surface at depth 5 whose alpha goes from 0 to 1 along rows and whose coverage is 1.5 times that.
@@ -213,11 +209,10 @@ static void make_ramp(planes *to) {
 }
 
 /// Sheets of known opacities before and behind the ramp: depth, normal and coverage in closed form.
-TEST(test_sheets) {
+TEST_ON(test_sheets, 2) {
     static const double opacities[6][2] = {{0.3, 0.3},  {0.45, 0.9}, {0.6, 0.9},
                                            {0.02, 0.2}, {0.02, 0.7}, {0.9, 0.02}};
     static planes ramp, out, slow;
-    ewa_context *context = check_context(2, NULL);
     const ewa_camera camera = gaussians_camera(WIDTH, HEIGHT, 30, FRONT, 5);
     make_ramp(&ramp);
     size_t before_count = 0, own_count = 0, behind_count = 0;
@@ -262,13 +257,11 @@ TEST(test_sheets) {
         ewa_gaussians_free(&set);
     }
     assert_true(before_count > 1000 && behind_count > 1000 && own_count > 1000);
-    ewa_context_destroy(&context);
 }
 
 /// Fog of a known optical depth before a surface, by ewa_volume_render() and as a mixture.
-TEST(test_fog) {
+TEST_ON(test_fog, 2) {
     static planes wall, out;
-    ewa_context *context = check_context(2, NULL);
     // So narrow that every ray goes through the fog's faces, which are 1.2 apart.
     const ewa_camera camera = gaussians_camera(WIDTH, HEIGHT, 2, FRONT, 5);
     ewa_gaussians nothing;
@@ -301,13 +294,11 @@ TEST(test_fog) {
         ewa_voxels_destroy(&fog);
     }
     ewa_gaussians_free(&nothing);
-    ewa_context_destroy(&context);
 }
 
 /// A wavy surface among Gaussians, with soft places everywhere, as the reference has it.
-TEST(test_reference) {
+TEST_ON(test_reference, 2) {
     static planes surface, out, slow;
-    ewa_context *context = check_context(2, NULL);
     check_random random = {3};
     ewa_gaussians set = gaussians_random(context, 400, 1, 5);
     for (int n = 0; n < 4; n++) {
@@ -345,13 +336,11 @@ TEST(test_reference) {
         assert_true(apart < PIXELS / 50 && largest < 0.02 && sum / PIXELS < 1e-3);
     }
     ewa_gaussians_free(&set);
-    ewa_context_destroy(&context);
 }
 
 /// A volume's reference, over the same kind of surface.
-TEST(test_volume_reference) {
+TEST_ON(test_volume_reference, 2) {
     static planes surface, out, slow;
-    ewa_context *context = check_context(2, NULL);
     const ewa_camera camera = scene_camera(WIDTH, HEIGHT, SLANTED, 24);
     static const uint32_t dims[3] = {10, 12, 11};
     static const double width = 3;
@@ -381,14 +370,12 @@ TEST(test_volume_reference) {
     assert_true(own > 1000 && own < PIXELS - 500 && apart < PIXELS / 50 && largest < 0.02);
     ewa_voxels_destroy(&voxels);
     ewa_volume_free(&volume);
-    ewa_context_destroy(&context);
 }
 
 /// A frame's planes are the same bytes whichever others are asked for; surfaces without normals have 0, without
 /// coverage their alpha.
-TEST(test_null) {
+TEST_ON(test_null, 1) {
     static planes ramp, all, some, alphas;
-    ewa_context *context = check_context(1, NULL);
     const ewa_camera camera = gaussians_camera(WIDTH, HEIGHT, 50, SLANTED, 5);
     make_ramp(&ramp), make_ramp(&alphas);
     for (size_t i = 0; i < PIXELS; i++) {
@@ -435,7 +422,6 @@ TEST(test_null) {
     for (size_t i = 0; i < 3 * PIXELS; i++) assert_true(some.normal[i] == 0);
     ewa_voxels_destroy(&fog);
     ewa_gaussians_free(&set);
-    ewa_context_destroy(&context);
 }
 
 /// Threads and instruction sets change no byte.
@@ -466,9 +452,8 @@ TEST(test_bytes) {
 
 /// Eye-dome lighting of a finished picture: of surfaces that of ewa_render(), to the byte; a sheet of Gaussians some way
 /// before a wall darkens the wall beside it.
-TEST(test_eye_dome) {
+TEST_ON(test_eye_dome, 2) {
     static planes whole, plain;
-    ewa_context *context = check_context(2, NULL);
     ewa_render_options how;
     ewa_render_options_init(&how, sizeof how);
     const float background[4] = {0.2f, 0.5f, 0.9f, 0.75f};
@@ -501,7 +486,6 @@ TEST(test_eye_dome) {
     assert_true(minimum < 0.7f);
     assert_true(fabsf(plain.rgba[0] - 1) < 1e-3f && fabsf(plain.rgba[4 * (35 * WIDTH + 45)] - 1) < 1e-2f);
     ewa_gaussians_free(&set);
-    ewa_context_destroy(&context);
 }
 
 /// Planes of a surface that is not given.

@@ -84,10 +84,9 @@ TEST(test_open_pixels) {
 
 /// Within blocks of which a part can be seen, voxels that cannot are left out: three quarters of a box are
 /// opaque in its front half, which ends within blocks, and no block is covered whole.
-TEST(test_part_of_block) {
+TEST_ON(test_part_of_block, 1) {
     enum { BOX = 16, COVERED = 12, VOXELS = BOX * BOX * BOX };
     static const uint32_t dims[3] = {BOX, BOX, BOX};
-    ewa_context *context = check_context(1, NULL);
     ewa_volume volume = scene_volume(context, dims, UNIT, scene_ones, NULL);
     for (int i = 0; i < VOXELS; i++)
         ((float *)volume.voxels)[i] = i % BOX < COVERED && i < VOXELS / 2 ? 2 : 0.001f;
@@ -112,7 +111,6 @@ TEST(test_part_of_block) {
     }
     ewa_voxels_destroy(&voxels);
     ewa_volume_free(&volume);
-    ewa_context_destroy(&context);
 }
 
 int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -49,11 +49,10 @@ static double optical_depth(const ewa_image *image, size_t pixel) {
 }
 
 /// A Gaussian blob of Gaussian kernels is a Gaussian blob, whose line integrals are known.
-TEST(test_blob) {
+TEST_ON(test_blob, 2) {
     static const uint32_t dims[3] = {48, 48, 48};
     enum { SIDE = 64 };
     const double q = 5, kappa = 0.05;
-    ewa_context *context = check_context(2, NULL);
     ewa_volume volume = scene_volume(context, dims, UNIT, scene_blob, &q);
     const ewa_transfer transfer = scene_linear(1, 1, 1, (float)kappa);
     ewa_voxels *voxels = scene_voxels(&volume, &transfer);
@@ -80,15 +79,13 @@ TEST(test_blob) {
     }
     ewa_voxels_destroy(&voxels);
     ewa_volume_free(&volume);
-    ewa_context_destroy(&context);
 }
 
 /// Through single voxels and thin tubes, near enough for large cone angles.
-TEST(test_marched) {
+TEST_ON(test_marched, 2) {
     static const uint32_t dims[3] = {16, 16, 16};
     enum { SIDE = 48 };
     const double half = 6;
-    ewa_context *context = check_context(2, NULL);
     ewa_volume volume = scene_volume(context, dims, UNIT, scene_vessels, &half);
     const ewa_transfer transfer = scene_linear(1, 1, 1, 0.2f);
     ewa_voxels *voxels = scene_voxels(&volume, &transfer);
@@ -115,7 +112,6 @@ TEST(test_marched) {
     assert_true(errors[EWA_INDEX_TABLE] < 0.05 * largest);
     ewa_voxels_destroy(&voxels);
     ewa_volume_free(&volume);
-    ewa_context_destroy(&context);
 }
 
 /// Largest changes between pictures of a turning box within 0.3 degrees of the diagonal, and elsewhere.
@@ -140,10 +136,9 @@ static void turn_past_diagonal(ewa_context *context, const ewa_voxels *voxels, b
 }
 
 /// Turning past the diagonal changes a checker box no more than turning elsewhere.
-TEST(test_no_popping) {
+TEST_ON(test_no_popping, 2) {
     static const uint32_t dims[3] = {32, 32, 32};
     static const double sides[2] = {4, 13};
-    ewa_context *context = check_context(2, NULL);
     ewa_volume volume = scene_volume(context, dims, UNIT, scene_checker, sides);
     ewa_transfer transfer = {.point_count = 2, .unit_length_world = 1};
     transfer.points[0] = (ewa_transfer_point){0.75, {0.9f, 0.2f, 0.1f}, 0.5f};
@@ -157,7 +152,6 @@ TEST(test_no_popping) {
     }
     ewa_voxels_destroy(&voxels);
     ewa_volume_free(&volume);
-    ewa_context_destroy(&context);
 }
 
 int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -38,14 +38,13 @@ static double optical_depth(const ewa_image *image, size_t pixel) {
 }
 
 /// What begins at the eye is all there: rays marched from it through the sum of all kernels.
-TEST(test_marched) {
+TEST_ON(test_marched, 2) {
     static const uint32_t dims[3] = {15, 14, 16};
     static const double eyes[][3] = {
         {0, 0, 0}, {1.3, -2.2, 0.4}, {0.5, 0.5, 0.5}, {-4.1, 3.3, -7.6}, {0, 0, 9.5}};
     static const double aheads[][3] = {{0, 0, -1}, {0.6, 0.5, 1}, {1, 0.1, 0.2}};
     enum { WIDTH = 16, HEIGHT = 12 };
     const double half = 6;
-    ewa_context *context = check_context(2, NULL);
     ewa_volume volume = scene_volume(context, dims, UNIT, scene_vessels, &half);
     for (int i = 0; i < 15 * 14 * 16; i++) ((float *)volume.voxels)[i] += 0.3f; // fog as well
     const ewa_transfer transfer = scene_linear(1, 1, 1, 0.15f);
@@ -75,7 +74,6 @@ TEST(test_marched) {
     assert_true(maximum[0] < 5e-4 * largest && maximum[1] < 5e-4 * largest);
     ewa_voxels_destroy(&voxels);
     ewa_volume_free(&volume);
-    ewa_context_destroy(&context);
 }
 
 /// The largest difference from the reference of pictures from within.
@@ -134,12 +132,11 @@ TEST(test_equals_reference) {
 }
 
 /// Moving through a volume changes pictures by little at a time: nothing comes or goes at once.
-TEST(test_moving) {
+TEST_ON(test_moving, 2) {
     static const uint32_t dims[3] = {24, 24, 24};
     static const double ahead[3] = {0.1, 0.05, -1};
     enum { SIDE = 64, STEPS = 160 };
     const double sides[2] = {3, 11};
-    ewa_context *context = check_context(2, NULL);
     ewa_volume volume = scene_volume(context, dims, UNIT, scene_checker, sides);
     ewa_transfer transfer = {.point_count = 2, .unit_length_world = 1};
     transfer.points[0] = (ewa_transfer_point){0.75, {0.9f, 0.2f, 0.1f}, 0.1f};
@@ -164,16 +161,14 @@ TEST(test_moving) {
     assert_true(mean > 1e-4 && maximum < 2.5 * mean);
     ewa_voxels_destroy(&voxels);
     ewa_volume_free(&volume);
-    ewa_context_destroy(&context);
 }
 
 /// Within homogeneous fog, a plane at any distance shows through exp(-kappa d), however near it is.
-TEST(test_plane_in_fog) {
+TEST_ON(test_plane_in_fog, 2) {
     static const uint32_t dims[3] = {40, 40, 40};
     static const double eye[3] = {0.2, 0.1, 0.3}, ahead[3] = {0, 0, -1};
     enum { SIDE = 32 };
     const double kappa = 0.2;
-    ewa_context *context = check_context(2, NULL);
     ewa_volume volume = scene_volume(context, dims, UNIT, scene_ones, NULL);
     const ewa_transfer transfer = scene_linear(1, 1, 1, (float)kappa);
     ewa_voxels *voxels = scene_voxels(&volume, &transfer);
@@ -190,7 +185,6 @@ TEST(test_plane_in_fog) {
     }
     ewa_voxels_destroy(&voxels);
     ewa_volume_free(&volume);
-    ewa_context_destroy(&context);
 }
 
 /// The same bytes from any number of threads and any instruction set, and nothing to see through from within.
@@ -287,11 +281,10 @@ TEST(test_scales) {
 }
 
 /// From as far away as cameras can be, and with any focal length, pictures are numbers.
-TEST(test_extremes) {
+TEST_ON(test_extremes, 1) {
     static const uint32_t dims[3] = {8, 8, 8};
     static const double eye[3] = {0, 0, 0}, ahead[3] = {0, 0, -1};
     enum { SIDE = 16 };
-    ewa_context *context = check_context(1, NULL);
     ewa_volume volume = scene_volume(context, dims, UNIT, scene_ones, NULL);
     const ewa_transfer transfer = scene_linear(1, 1, 1, 1);
     ewa_voxels *voxels = scene_voxels(&volume, &transfer);
@@ -317,7 +310,6 @@ TEST(test_extremes) {
             }
     ewa_voxels_destroy(&voxels);
     ewa_volume_free(&volume);
-    ewa_context_destroy(&context);
 }
 
 /// The angle between two directions, free of cancellation.

@@ -59,10 +59,9 @@ static ewa_camera look(double distance, double focal_px, double shift_px) {
 
 /// One voxel: extinction times cell, seen from p with the Jacobian fx fy |p| / z^3, is all there is; it is as
 /// wide as its kernel and the pixel's filter together.
-TEST(test_single_voxels) {
+TEST_ON(test_single_voxels, 1) {
     static const uint32_t dims[3] = {3, 3, 3};
     const double kappa = 0.02, spacing[3] = {1.3, 1.3, 1.3}, cell = 1.3 * 1.3 * 1.3;
-    ewa_context *context = check_context(1, NULL);
     ewa_volume volume = scene_volume(context, dims, spacing, scene_ones, NULL);
     for (int i = 0; i < 27; i++) ((float *)volume.voxels)[i] = i == 13;
     const ewa_transfer transfer = scene_linear(1, 1, 1, (float)kappa);
@@ -110,11 +109,10 @@ TEST(test_single_voxels) {
     }
     ewa_voxels_destroy(&voxels);
     ewa_volume_free(&volume);
-    ewa_context_destroy(&context);
 }
 
 /// Voxels are points while they are at most 1.2 px apart and their filter at most 0.8 px wide.
-TEST(test_threshold) {
+TEST_ON(test_threshold, 1) {
     static const uint32_t dims[3] = {6, 6, 6};
     static const struct {
         double step_px, prefilter_px, threshold_px;
@@ -123,7 +121,6 @@ TEST(test_threshold) {
         {1.19, 0.3, 1.2, true}, {1.21, 0.3, 1.2, false}, {0.87, 0.6, 1.2, true},   {0.89, 0.6, 1.2, false},
         {0.69, 0.3, 0.7, true}, {0.71, 0.3, 0.7, false}, {0.01, 0.85, 1.2, false}, {0.01, 0.3, 0, false},
     };
-    ewa_context *context = check_context(1, NULL);
     ewa_volume volume = scene_volume(context, dims, UNIT, scene_ones, NULL);
     const ewa_transfer transfer = scene_linear(1, 1, 1, 0.1f);
     ewa_voxels *voxels = scene_voxels(&volume, &transfer);
@@ -140,13 +137,11 @@ TEST(test_threshold) {
         }
     ewa_voxels_destroy(&voxels);
     ewa_volume_free(&volume);
-    ewa_context_destroy(&context);
 }
 
 /// Coarser levels hold the means of eight: in thin fog the same light, from the middle of these eight.
-TEST(test_levels) {
+TEST_ON(test_levels, 1) {
     static const uint32_t dims[3] = {4, 4, 4};
-    ewa_context *context = check_context(1, NULL);
     ewa_volume volume = scene_volume(context, dims, UNIT, scene_ones, NULL);
     check_random random = {3};
     double light[3] = {0, 0, 0}, middle[2] = {0, 0}, all = 0;
@@ -195,13 +190,11 @@ TEST(test_levels) {
     }
     ewa_voxels_destroy(&voxels);
     ewa_volume_free(&volume);
-    ewa_context_destroy(&context);
 }
 
 /// Marked splats are red, in the reference as well; points keep their colours, to the bit.
-TEST(test_marks) {
+TEST_ON(test_marks, 1) {
     static const uint32_t dims[3] = {8, 8, 8};
-    ewa_context *context = check_context(1, NULL);
     ewa_volume volume = scene_volume(context, dims, UNIT, scene_ones, NULL);
     const ewa_transfer transfer = scene_linear(0.2f, 0.9f, 0.4f, 0.05f);
     ewa_voxels *voxels = scene_voxels(&volume, &transfer);
@@ -246,7 +239,6 @@ TEST(test_marks) {
     ewa_volume_free(&row);
     ewa_voxels_destroy(&voxels);
     ewa_volume_free(&volume);
-    ewa_context_destroy(&context);
 }
 
 int main(void) { return RUN_TESTS(NULL, NULL); }

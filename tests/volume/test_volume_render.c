@@ -77,11 +77,10 @@ TEST(test_points_are_near_reference) {
 }
 
 /// Through a slab of thickness t gets exp(-kappa t), from any direction in which it is thick enough.
-TEST(test_slab) {
+TEST_ON(test_slab, 2) {
     static const uint32_t dims[3] = {64, 64, 12};
     static const double direction[3] = {0, 0, -1};
     const double kappa = 0.11, truth = 1 - exp(-kappa * 12);
-    ewa_context *context = check_context(2, NULL);
     ewa_volume volume = scene_volume(context, dims, UNIT, scene_ones, NULL);
     const ewa_transfer transfer = scene_linear(1, 1, 1, (float)kappa);
     ewa_voxels *voxels = scene_voxels(&volume, &transfer);
@@ -105,7 +104,6 @@ TEST(test_slab) {
         }
     ewa_voxels_destroy(&voxels);
     ewa_volume_free(&volume);
-    ewa_context_destroy(&context);
 }
 
 /// The same bytes from any number of threads and any instruction set.
@@ -146,11 +144,10 @@ TEST(test_same_bytes) {
 }
 
 /// What is culled because it is hidden does not show.
-TEST(test_culling_changes_nothing) {
+TEST_ON(test_culling_changes_nothing, 2) {
     static const uint32_t dims[3] = {48, 48, 48};
     static const double direction[3] = {0.3, 0.2, -1};
     const double radius = 20;
-    ewa_context *context = check_context(2, NULL);
     ewa_volume volume = scene_volume(context, dims, UNIT, scene_ball, &radius);
     const ewa_transfer transfer = scene_linear(0.2f, 0.5f, 0.9f, 3);
     ewa_voxels *voxels = scene_voxels(&volume, &transfer);
@@ -178,7 +175,6 @@ TEST(test_culling_changes_nothing) {
     ewa_volume_renderer_destroy(&renderer);
     ewa_voxels_destroy(&voxels);
     ewa_volume_free(&volume);
-    ewa_context_destroy(&context);
 }
 
 /// Reports of progress, and the one that says stop (0: none).
@@ -315,11 +311,10 @@ TEST(test_sections) {
     free_fog(&f);
 }
 
-TEST(test_levels) {
+TEST_ON(test_levels, 2) {
     static const uint32_t dims[3] = {50, 50, 50};
     static const double direction[3] = {0.3, 0.2, -1};
     const double sigma = 9;
-    ewa_context *context = check_context(2, NULL);
     ewa_volume volume = scene_volume(context, dims, UNIT, scene_blob, &sigma);
     const ewa_transfer transfer = scene_linear(0.2f, 0.5f, 0.9f, 0.1f);
     ewa_voxels_options voxels_options;
@@ -339,7 +334,6 @@ TEST(test_levels) {
     for (int i = 0; i < 3; i++) ewa_image_free(&images[i]);
     ewa_voxels_destroy(&voxels);
     ewa_volume_free(&volume);
-    ewa_context_destroy(&context);
 }
 
 int main(void) { return RUN_TESTS(NULL, NULL); }

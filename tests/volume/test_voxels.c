@@ -12,10 +12,9 @@
 
 static const double UNIT[3] = {1, 1, 1}, DIRECTION[3] = {0.7, 0.4, -1};
 
-TEST(test_counts_and_bytes) {
+TEST_ON(test_counts_and_bytes, 2) {
     static const uint32_t dims[3] = {61, 70, 83};
     const double radius = 22;
-    ewa_context *context = check_context(2, NULL);
     ewa_volume volume = scene_volume(context, dims, UNIT, scene_ball, &radius);
     const ewa_transfer transfer = scene_linear(1, 1, 1, 1);
     uint64_t occupied = 0;
@@ -35,14 +34,12 @@ TEST(test_counts_and_bytes) {
     ewa_voxels_destroy(&voxels);
     assert_null(voxels);
     ewa_volume_free(&volume);
-    ewa_context_destroy(&context);
 }
 
 /// Where a volume is does not matter, nor in which type its numbers are, nor what is NaN or out of range.
-TEST(test_types_and_holes) {
+TEST_ON(test_types_and_holes, 2) {
     static const uint32_t dims[3] = {20, 20, 20};
     enum { COUNT = 8000 };
-    ewa_context *context = check_context(2, NULL);
     ewa_transfer transfer = {.point_count = 2, .unit_length_world = 1};
     transfer.points[0] = (ewa_transfer_point){10, {1, 1, 1}, 0.5f};
     transfer.points[1] = (ewa_transfer_point){100, {1, 0, 0}, 1};
@@ -86,7 +83,6 @@ TEST(test_types_and_holes) {
         ewa_volume_free(&volume);
     }
     ewa_image_free(&first);
-    ewa_context_destroy(&context);
 }
 
 static void refuse(ewa_context *context, const ewa_volume *volume, const ewa_transfer *transfer,
@@ -101,7 +97,7 @@ static void refuse(ewa_context *context, const ewa_volume *volume, const ewa_tra
 
 /// A volume of values that are a plane has that plane's gradient in every voxel, the border among them, and
 /// for every type. Around it in memory lie other numbers, that no border may look at.
-TEST(test_gradients_up_to_the_border) {
+TEST_ON(test_gradients_up_to_the_border, 1) {
     enum { GUARD = 400, MAXIMUM = 7 * 6 * 9 };
     static const uint32_t shapes[][3] = {{7, 6, 3}, {3, 7, 6}, {6, 3, 7}, {2, 5, 9}, {5, 2, 2}, {4, 4, 4}};
     static const ewa_type types[] = {EWA_U8, EWA_I8, EWA_U16, EWA_I16, EWA_F32};
@@ -112,7 +108,6 @@ TEST(test_gradients_up_to_the_border) {
         int16_t i16[MAXIMUM + 2 * GUARD];
         float f32[MAXIMUM + 2 * GUARD];
     } numbers;
-    ewa_context *context = check_context(1, NULL);
     ewa_transfer transfer = {.point_count = 2, .unit_length_world = 1};
     transfer.points[0] = (ewa_transfer_point){-1000, {1, 1, 1}, 1};
     transfer.points[1] = (ewa_transfer_point){1000, {1, 1, 1}, 1};
@@ -158,7 +153,6 @@ TEST(test_gradients_up_to_the_border) {
             assert_float_equal(voxel.normal_world.z, -expected[2] / length, 1e-9);
         }
     }
-    ewa_context_destroy(&context);
 }
 
 TEST(test_bad_input) {
@@ -321,9 +315,8 @@ TEST(test_failing_memory) {
 }
 
 /// From within, from behind, from far away, of nothing: finite pictures.
-TEST(test_odd_views) {
+TEST_ON(test_odd_views, 2) {
     static const uint32_t dims[3] = {30, 30, 30};
-    ewa_context *context = check_context(2, NULL);
     ewa_volume volume = scene_volume(context, dims, UNIT, scene_ones, NULL);
     const ewa_transfer transfers[2] = {scene_linear(1, 1, 1, 0.2f), scene_linear(1, 1, 1, 0)};
     for (int empty = 0; empty < 2; empty++) {
@@ -349,7 +342,6 @@ TEST(test_odd_views) {
         ewa_voxels_destroy(&voxels);
     }
     ewa_volume_free(&volume);
-    ewa_context_destroy(&context);
 }
 
 int main(void) { return RUN_TESTS(NULL, NULL); }
