@@ -42,7 +42,7 @@ EWA = build/release/cli/ewa
 VERSION := $(shell sed -n 's/^project.ewa VERSION \([0-9.]*\).*/\1/p' CMakeLists.txt)
 
 # $(call quietly,COMMAND): prints what a command said only when it fails.
-quietly = @mkdir -p build && { $(1) >build/log-$@.txt 2>&1 || { cat build/log-$@.txt; exit 1; }; }
+quietly = @mkdir -p build && { ( $(1) ) >build/log-$@.txt 2>&1 || { cat build/log-$@.txt; exit 1; }; }
 
 # Compiled once, found again in every folder and checkout, where there is ccache.
 ifneq ($(shell command -v ccache),)
