@@ -23,6 +23,7 @@
 #   make interop                compares files with what laspy, laszip, libE57Format and others read and write
 #   make measure                programs of the figures in docs/, into build/release/measure
 #   make gallery docs           pictures and pages that the program makes
+#   make site                   docs as a site of HTML with search, into build/website/site; it asks no other site for anything
 #   make papers                 every figure, table and claim of the papers into docs/papers; PAPER=pas ITEM=fig3: one of them
 #   make wheel                  the Python package as a wheel, into build/wheels; PYTHONS names interpreters to test it with
 #   make install                to PREFIX (default /usr/local)
@@ -52,7 +53,7 @@ export CCACHE_BASEDIR ?= $(CURDIR)
 export CCACHE_NOHASHDIR ?= 1
 endif
 
-.PHONY: minimal wasm windows macos riscv64 musl interop build program measure setup demo check check-all asan asan-build tsan tsan-build clang clang-build mutate fuzz arm64 bench sweep gallery papers docs wheel format install dist deb clean
+.PHONY: minimal wasm windows macos riscv64 musl interop build program measure setup demo check check-all asan asan-build tsan tsan-build clang clang-build mutate fuzz arm64 bench sweep gallery papers docs site wheel format install dist deb clean
 
 build: setup
 	@echo "Building build/release"
@@ -73,9 +74,10 @@ setup:
 demo: program
 	@sh tools/demo.sh $(EWA) "$(OUT)" "$(FILE)"
 
-# A person's session in a window needs a screen and a hand; completion needs its shells, manual pages and desktop files what checks them.
+# A person's session in a window needs a screen and a hand; completion needs its shells, manual pages and desktop files what checks
+# them, the site what makes it.
 check: build asan-build clang-build tsan-build
-	@sh tools/setup.sh xvfb xdotool mandoc zsh fish desktop-file-utils shared-mime-info || echo "Without these it is skipped."
+	@sh tools/setup.sh xvfb xdotool mandoc zsh fish desktop-file-utils shared-mime-info mkdocs mkdocs-material || echo "Without these it is skipped."
 	@sh tools/check.sh build/release build/asan:quick build/clang:parallel build/tsan:parallel
 
 check-all: asan tsan clang check
@@ -221,6 +223,12 @@ docs: program
 	$(EWA) --help-markdown >docs/cli.md
 	$(EWA) --help-json >docs/options.json
 	python3 tools/dump_python.py
+
+site: setup
+	@sh tools/setup.sh mkdocs mkdocs-material
+	$(call quietly,cmake --preset release)
+	$(call quietly,cmake --build build/release -j $(JOBS) --target ewa_shared)
+	@python3 tools/website.py build/website build/release/libewa.so
 
 wheel: setup
 	@sh tools/wheel.sh $(PYTHONS)

@@ -5,7 +5,8 @@
 
     check_names.py [ROOT]
 
-Read are README.md, CONTRIBUTING.md, docs/*.md and the comments of C. Fails, and lists what it found, for
+Read are README.md, CONTRIBUTING.md, docs/*.md and the comments of C, for links every page beside README.md too. Fails, and
+lists what it found, for
 
 - citations "docs/math.md section 6", "sections 3, 4 and 11", "sections 2 to 9": sections and departures that the page
   does not have, departures that no section speaks of, and other ways of citing it;
@@ -237,9 +238,10 @@ def slug(heading):
 
 
 def check_links(tree, found):
-    anchors = {name: {slug(h) for h in re.findall(r"(?m)^#+ (.*)$", text)} | set(re.findall(r'<a id="([\w-]+)"></a>', text))
-               for name, text in tree.pages.items()}
-    for name, text in tree.pages.items():
+    pages = tree.pages | {path.name: path.read_text() for path in tree.root.glob("*.md")}
+    anchors = {name: {slug(h) for h in re.findall(r"(?m)^#+ (.*)$", re.sub(r"(?ms)^```.*?^```", "", text))} |
+               set(re.findall(r'<a id="([\w-]+)"></a>', text)) for name, text in pages.items()}
+    for name, text in pages.items():
         for match in re.finditer(r"\]\(([^)#\s]*)(?:#([^)\s]*))?\)", text):
             target, anchor = match.groups()
             if target.startswith(("http:", "https:")):
