@@ -34,7 +34,7 @@ elseif(CMAKE_SYSTEM_PROCESSOR MATCHES "aarch64|arm64|ARM64")
   list(APPEND instruction_sets neon)
 endif()
 
-foreach(body cloud/cells cloud/neighbours estimate/local homogeneous/clip_batch surface/pack surface/pipeline texture/texture
+foreach(body adjoint/kernels cloud/cells cloud/neighbours estimate/local homogeneous/clip_batch surface/pack surface/pipeline texture/texture
     volume/gaussian volume/kernels warp/warp)
   foreach(set ${instruction_sets})
     string(TOUPPER ${set} SET)

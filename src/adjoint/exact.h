@@ -10,6 +10,7 @@
 #include <math.h>
 #include <stdbool.h>
 #include <stdint.h>
+#include <string.h>
 
 enum {
     EWA_EXACT_STEP = 8, ///< binary digits from one part to the next; a part has room for 2^29 terms
@@ -31,15 +32,19 @@ static inline void ewa_exact_add_whole(ewa_exact_sum *sum, int64_t whole, int ex
 
 /// Adds a number, exactly if it is finite.
 static inline void ewa_exact_add(ewa_exact_sum *sum, double value) {
-    enum { HALF = 26 };
-    if (!isfinite(value)) {
+    enum { HALF = 26, DIGITS = 52, SCALE = 1075 };
+    uint64_t bits;
+    memcpy(&bits, &value, sizeof bits);
+    const int exponent = (int)(bits >> DIGITS & 0x7ff);
+    if (exponent == 0x7ff) {
         sum->not_finite = true;
         return;
     }
-    int exponent;
-    const double part = ldexp(frexp(value, &exponent), HALF), high = trunc(part); // |part| < 2^26
-    ewa_exact_add_whole(sum, (int64_t)high, exponent - HALF);
-    ewa_exact_add_whole(sum, (int64_t)ldexp(part - high, HALF + 1), exponent - 2 * HALF - 1);
+    const uint64_t digits = bits & ((UINT64_C(1) << DIGITS) - 1), whole = exponent ? digits | UINT64_C(1) << DIGITS : digits;
+    const int64_t high = (int64_t)(whole >> HALF), low = (int64_t)(whole & ((1 << HALF) - 1));
+    const int last = (exponent ? exponent : 1) - SCALE; // of the last digit
+    ewa_exact_add_whole(sum, bits >> 63 ? -low : low, last);
+    ewa_exact_add_whole(sum, bits >> 63 ? -high : high, last + HALF);
 }
 
 static inline void ewa_exact_join(ewa_exact_sum *sum, const ewa_exact_sum *more) {

@@ -14,6 +14,21 @@ enum {
     UNIT_BITS = 36,      ///< units per bound of a term
 };
 
+/// No depth of a splat is smaller.
+static float begin_of(const ewa_reference_view *view, const ewa_reference_splat *splat) {
+    double begin = splat->center.z - splat->half_range;
+    if (!splat->by_rays) begin = view->orthographic ? -splat->key_high : 1 / splat->key_high;
+    return nextafterf((float)begin, -INFINITY);
+}
+
+static ewa_adjoint_range range_of(const ewa_reference_splat *splat, uint32_t side_px) {
+    if (!splat->drawn || splat->x_begin >= splat->x_end || splat->y_begin >= splat->y_end)
+        return (ewa_adjoint_range){0, 0};
+    const uint32_t x0 = (uint32_t)splat->x_begin / side_px, x1 = ((uint32_t)splat->x_end + side_px - 1) / side_px;
+    const uint32_t y0 = (uint32_t)splat->y_begin / side_px, y1 = ((uint32_t)splat->y_end + side_px - 1) / side_px;
+    return (ewa_adjoint_range){x0 | y0 << 16, x1 | y1 << 16};
+}
+
 static uint32_t find_splats(const void *data, uint32_t worker, uint32_t first, uint32_t count,
                             const ewa_bin_items *items) {
     const ewa_adjoint_job *job = data;
@@ -26,8 +41,9 @@ static uint32_t find_splats(const void *data, uint32_t worker, uint32_t first, u
         if (in_block == 0)
             ewa_reference_frame_project(&job->frame, i, left < BLOCK_POINTS ? left : BLOCK_POINTS, surfels, splats);
         const ewa_reference_splat *splat = &splats[in_block];
-        const ewa_reference_tiles range = job->ranges[i] = ewa_reference_tiles_of(splat, job->tiles.side_px);
+        const ewa_adjoint_range range = job->ranges[i] = range_of(splat, job->tiles.side_px);
         if (range.end == 0) continue;
+        job->begins[i] = begin_of(&job->frame.view, splat);
         items->ids[next] = (int32_t)i, items->first[next] = (int32_t)range.first, items->end[next] = (int32_t)range.end;
         next++;
         const double color = fmax(fabs(splat->color.x), fmax(fabs(splat->color.y), fabs(splat->color.z)));
@@ -68,26 +84,33 @@ static void store_point(double *stream, uint64_t point, int components, const do
     if (stream) memcpy(stream + point * (uint64_t)components, values, (size_t)components * sizeof *values);
 }
 
-/// The sums of a splat over all of its tiles.
-static void add_slots(const ewa_adjoint_job *job, uint64_t point, const double scales[EWA_MOMENT_COUNT],
+/// The sums of a point.
+static void read_sums(const ewa_adjoint_job *job, uint64_t point, const double scales[EWA_MOMENT_COUNT],
                       double moments[EWA_MOMENT_COUNT]) {
-    int64_t sums[EWA_MOMENT_COUNT] = {0};
-    for (uint64_t slot = job->first_slots[point]; slot < job->first_slots[point + 1]; slot++)
-        for (uint32_t m = 0; m < job->width; m++) sums[m] += job->slots[slot * job->width + m];
-    for (int m = 0; m < EWA_MOMENT_COUNT; m++) moments[m] = (double)sums[m] / scales[m];
+    const int64_t *sums = job->sums + point * job->width;
+    for (uint32_t m = 0; m < EWA_MOMENT_COUNT; m++)
+        moments[m] = m < job->width ? (double)sums[m] / scales[m] : 0;
+}
+
+/// Whether a point is anywhere seen.
+static bool has_sums(const ewa_adjoint_job *job, uint64_t point) {
+    const int64_t *sums = job->sums + point * job->width;
+    int64_t any = 0;
+    for (uint32_t m = 0; m < job->width; m++) any |= sums[m];
+    return any != 0;
 }
 
 static void pull_back_point(const ewa_adjoint_job *job, ewa_adjoint_scratch *s, uint64_t point) {
     ewa_reference_point_cotangent at;
     memset(&at, 0, sizeof at);
-    if (job->ranges[point].end != 0) {
+    if (has_sums(job, point)) {
         double scales[EWA_MOMENT_COUNT], moments[EWA_MOMENT_COUNT], camera[EWA_CAMERA_NUMBERS] = {0};
         ewa_surfel surfel;
         ewa_reference_splat splat;
         ewa_reference_surfel_cotangent of_surfel;
         ewa_reference_frame_project(&job->frame, point, 1, &surfel, &splat);
         ewa_adjoint_scales(job, &splat, scales);
-        add_slots(job, point, scales, moments);
+        read_sums(job, point, scales, moments);
         ewa_reference_moments_pull_back(&job->frame.view, &splat, &surfel, moments, &of_surfel, camera);
         ewa_reference_surfel_pull_back(&job->frame.reader, point, &surfel, &of_surfel, &at);
         for (int i = 0; i < EWA_CAMERA_NUMBERS && s->camera; i++) ewa_exact_add(&s->camera[i], camera[i]);
@@ -112,7 +135,7 @@ static void pull_back_piece(void *data, uint32_t index, uint32_t worker) {
         }
         double moments[EWA_MOMENT_COUNT], scales[EWA_MOMENT_COUNT];
         for (int m = 0; m < EWA_MOMENT_COUNT; m++) scales[m] = job->units.color;
-        add_slots(job, i, scales, moments);
+        read_sums(job, i, scales, moments);
         store_point(job->gradient.color, i, 3, moments + EWA_MOMENT_COLOR);
     }
 }
@@ -120,32 +143,44 @@ static void pull_back_piece(void *data, uint32_t index, uint32_t worker) {
 /// Gives the workers what they need for the tiles.
 static ewa_status reserve(ewa_adjoint_job *job) {
     ewa_context *context = job->frame.context;
-    const uint64_t splats = job->lists.largest;
+    const uint32_t splats = (uint32_t)job->lists.largest, most = job->frame.resolve.layering.most;
+    job->surface_count = splats < most ? (splats > 0 ? splats : 1) : most;
+    const size_t pixels = (size_t)job->tiles.side_px * job->tiles.side_px, surfaces = job->surface_count;
     for (uint32_t i = 0; i < job->worker_count; i++) {
         ewa_adjoint_scratch *s = &job->scratch[i];
-        EWA_TRY(ewa_reference_rows_reserve(context, &s->rows, (uint32_t)splats, job->frame.resolve.layering.most,
-                                          job->tiles.side_px));
-        s->moments = ewa_allocate(context, splats, sizeof *s->moments);
-        s->scales = ewa_allocate(context, splats, sizeof *s->scales);
-        if (!s->moments || !s->scales) return EWA_ERROR_MEMORY;
+        s->splat_capacity = splats;
+        s->plane_capacity = surfaces * ewa_adjoint_block_count(job) * EWA_PLANES * EWA_EIGHT_LANES;
+        s->near_first = ewa_allocate(context, splats, sizeof *s->near_first);
+        s->splats = ewa_allocate(context, splats, sizeof *s->splats);
+        s->order = ewa_allocate(context, splats, sizeof *s->order);
+        s->planes = ewa_allocate(context, s->plane_capacity, sizeof *s->planes);
+        s->reached = ewa_allocate(context, surfaces, sizeof *s->reached);
+        s->layers = ewa_allocate(context, surfaces, sizeof *s->layers);
+        s->pixels = ewa_allocate(context, pixels, sizeof *s->pixels);
+        if (!s->near_first || !s->splats || !s->order || !s->planes || !s->reached || !s->layers || !s->pixels)
+            return EWA_ERROR_MEMORY;
     }
     return EWA_OK;
 }
 
 static void release(ewa_adjoint_job *job) {
     ewa_context *context = job->frame.context;
+    const size_t pixels = (size_t)job->tiles.side_px * job->tiles.side_px;
     for (uint32_t i = 0; job->scratch && i < job->worker_count; i++) {
         ewa_adjoint_scratch *s = &job->scratch[i];
-        const size_t splats = s->rows.capacity;
-        ewa_reference_rows_free(context, &s->rows);
-        ewa_release(context, s->moments, splats, sizeof *s->moments);
-        ewa_release(context, s->scales, splats, sizeof *s->scales);
+        ewa_release(context, s->near_first, s->splat_capacity, sizeof *s->near_first);
+        ewa_release(context, s->splats, s->splat_capacity, sizeof *s->splats);
+        ewa_release(context, s->order, s->splat_capacity, sizeof *s->order);
+        ewa_release(context, s->planes, s->plane_capacity, sizeof *s->planes);
+        ewa_release(context, s->reached, job->surface_count, sizeof *s->reached);
+        ewa_release(context, s->layers, job->surface_count, sizeof *s->layers);
+        ewa_release(context, s->pixels, pixels, sizeof *s->pixels);
         ewa_release(context, s->camera, EWA_CAMERA_NUMBERS, sizeof *s->camera);
     }
     const uint64_t points = job->frame.point_count;
-    if (job->slots) ewa_release(context, job->slots, job->first_slots[points] * job->width, sizeof *job->slots);
     ewa_release(context, job->scratch, job->worker_count, sizeof *job->scratch);
-    ewa_release(context, job->first_slots, points + 1, sizeof *job->first_slots);
+    ewa_release(context, job->sums, points * job->width, sizeof *job->sums);
+    ewa_release(context, job->begins, points, sizeof *job->begins);
     ewa_release(context, job->ranges, points, sizeof *job->ranges);
     ewa_bin_lists_free(context, &job->lists);
 }
@@ -154,29 +189,17 @@ static void release(ewa_adjoint_job *job) {
 static ewa_status start(ewa_adjoint_job *job) {
     ewa_context *context = job->frame.context;
     job->worker_count = ewa_context_worker_count(context);
+    job->kernels = EWA_CHOOSE(ewa_context_cpu_features(context), ewa_adjoint_kernels);
     job->ranges = ewa_allocate(context, job->frame.point_count, sizeof *job->ranges);
-    job->first_slots = ewa_allocate(context, job->frame.point_count + 1, sizeof *job->first_slots);
+    job->begins = ewa_allocate(context, job->frame.point_count, sizeof *job->begins);
+    if (job->width) job->sums = ewa_allocate_zeroed(context, job->frame.point_count * job->width, sizeof *job->sums);
     job->scratch = ewa_allocate_zeroed(context, job->worker_count, sizeof *job->scratch);
-    if (!job->ranges || !job->first_slots || !job->scratch) return EWA_ERROR_MEMORY;
+    if (!job->ranges || !job->begins || (job->width && !job->sums) || !job->scratch) return EWA_ERROR_MEMORY;
     for (uint32_t i = 0; i < job->worker_count && job->gradient.camera; i++) {
         job->scratch[i].camera = ewa_allocate_zeroed(context, EWA_CAMERA_NUMBERS, sizeof *job->scratch[i].camera);
         if (!job->scratch[i].camera) return EWA_ERROR_MEMORY;
     }
     return EWA_OK;
-}
-
-/// Gives each splat as many slots as it has tiles.
-static ewa_status place_slots(ewa_adjoint_job *job) {
-    uint64_t sum = 0;
-    for (uint64_t i = 0; i < job->frame.point_count; i++) {
-        const ewa_reference_tiles *range = &job->ranges[i];
-        job->first_slots[i] = sum;
-        const uint32_t columns = (range->end & 0xffff) - (range->first & 0xffff);
-        sum += (uint64_t)columns * ((range->end >> 16) - (range->first >> 16));
-    }
-    job->first_slots[job->frame.point_count] = sum;
-    job->slots = ewa_allocate(job->frame.context, sum * job->width, sizeof *job->slots);
-    return job->slots ? EWA_OK : EWA_ERROR_MEMORY;
 }
 
 /// The camera's numbers, each the exact sum of all.
@@ -207,7 +230,6 @@ static ewa_status run(ewa_adjoint_job *job) {
     if (job->lists.item_count == 0)
         ewa_adjoint_warn_unseen(context, job->frame.point_count, job->tiles.width_px, job->tiles.height_px);
     set_units(job);
-    EWA_TRY(place_slots(job));
     EWA_TRY(reserve(job));
     EWA_TRY(ewa_parallel_within(context, "gradients", 0.1, 0.9, ewa_adjoint_tile, job, ewa_tiles_count(&job->tiles)));
     if (job->width)

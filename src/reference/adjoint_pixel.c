@@ -6,21 +6,14 @@
 #include "reference/adjoint_pixel.h"
 #include "surface/semantics.h"
 
-/// Gathers one surface behind those that are there, and what it comes to.
-static void gather(const ewa_reference_resolve *to, double x_px, double y_px, const ewa_reference_fragment *fragments,
-                   uint32_t count, uint32_t index, ewa_reference_layer *layers) {
-    ewa_reference_layer *layer = &layers[index];
-    const ewa_material *m = &to->shading->materials[0];
-    const float numbers[5] = {m->ambient, m->diffuse, m->specular, m->shininess, m->reflection};
-    *layer = (ewa_reference_layer){.covered = 1, .through = 1};
+#include <string.h>
+
+void ewa_reference_layer_settle(const ewa_reference_resolve *to, double x_px, double y_px, uint32_t index, double through,
+                                const ewa_reference_cover *first, ewa_reference_layer *layer) {
     layer->merged = to->layering.merge_last && index + 1 == to->layering.most;
-    if (index > 0) layer->through = layers[index - 1].through * (1 - layers[index - 1].alpha);
-    for (uint32_t i = 0; i < count; i++) {
-        const ewa_reference_fragment *from = &fragments[i];
-        if (from->layer != index) continue;
-        ewa_reference_gather(&layer->gathered, from->splat, &from->sample, from->sample.weight,
-                             to->layering.transparent ? from->splat->opacity : 1, numbers);
-    }
+    layer->through = through;
+    layer->covered = 1;
+    layer->cover = (ewa_reference_cover){.share = 0};
     layer->sums = ewa_reference_settle(&layer->gathered, to->unit_coverage, layer->merged);
     layer->surface = ewa_reference_surface_of(to->view, &layer->sums, x_px, y_px);
     layer->shaded = ewa_reference_shade(to->shading, NULL, &layer->surface, &layer->surface, &layer->surface);
@@ -28,13 +21,36 @@ static void gather(const ewa_reference_resolve *to, double x_px, double y_px, co
         layer->cover = ewa_reference_cover_of(&layer->gathered, to->unit_coverage, to->options->edge_threshold,
                                               layer->merged);
         layer->covered = index == 0 || to->layering.transparent ? layer->cover.share
-                                                       : ewa_reference_cover_behind(&layers[0].cover, &layer->cover);
+                                                                : ewa_reference_cover_behind(first, &layer->cover);
     }
     layer->single = layer->covered;
     if (to->layering.transparent) layer->single *= to->options->opacity * layer->sums.opacity / layer->sums.weight;
     layer->alpha = layer->single;
     if (layer->merged)
         layer->alpha = ewa_reference_merged_alpha(layer->single, layer->sums.weight / to->unit_coverage);
+}
+
+void ewa_reference_material_of(const ewa_reference_resolve *to, float numbers[5]) {
+    const ewa_material *m = &to->shading->materials[0];
+    const float all[5] = {m->ambient, m->diffuse, m->specular, m->shininess, m->reflection};
+    memcpy(numbers, all, sizeof all);
+}
+
+/// Gathers one surface behind those that are there, and what it comes to.
+static void gather(const ewa_reference_resolve *to, double x_px, double y_px, const ewa_reference_fragment *fragments,
+                   uint32_t count, uint32_t index, ewa_reference_layer *layers) {
+    ewa_reference_layer *layer = &layers[index];
+    float numbers[5];
+    ewa_reference_material_of(to, numbers);
+    *layer = (ewa_reference_layer){.covered = 1};
+    for (uint32_t i = 0; i < count; i++) {
+        const ewa_reference_fragment *from = &fragments[i];
+        if (from->layer != index) continue;
+        ewa_reference_gather(&layer->gathered, from->splat, &from->sample, from->sample.weight,
+                             to->layering.transparent ? from->splat->opacity : 1, numbers);
+    }
+    const double through = index > 0 ? layers[index - 1].through * (1 - layers[index - 1].alpha) : 1;
+    ewa_reference_layer_settle(to, x_px, y_px, index, through, &layers[0].cover, layer);
 }
 
 /// Whether what a splat is at a pixel is behind the surfaces that there are.

@@ -63,6 +63,14 @@ typedef struct ewa_reference_values {
 uint32_t ewa_reference_layers_find(const ewa_reference_resolve *to, double x_px, double y_px,
                                    ewa_reference_fragment *fragments, uint32_t count, ewa_reference_layer *layers);
 
+/// Sets what a surface comes to, of which `gathered` is there: surface `index`, 0 being the nearest; `through`: what those in
+/// front leave open; `first`: the nearest one's cover. Any thread.
+void ewa_reference_layer_settle(const ewa_reference_resolve *to, double x_px, double y_px, uint32_t index, double through,
+                                const ewa_reference_cover *first, ewa_reference_layer *layer);
+
+/// The material of all surfaces: ambient, diffuse, specular, shininess, reflection.
+void ewa_reference_material_of(const ewa_reference_resolve *to, float numbers[5]);
+
 /// Gathers so many surfaces of which the fragments say that they are part.
 void ewa_reference_layers_gather(const ewa_reference_resolve *to, double x_px, double y_px,
                                  const ewa_reference_fragment *fragments, uint32_t count, uint32_t layer_count,
