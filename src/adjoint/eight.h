@@ -74,10 +74,12 @@ EIGHT bool m8_any(m8 a) {
 #endif
 }
 
-/// Adding this rounds numbers below 2^51 to whole ones, which taking it away again leaves.
+/// From 2^52 to 2^53 doubles are whole numbers. A sum that begins in the middle, here, and stays within is one of whole
+/// numbers: what is added is rounded to one, and no order of the terms changes it, unless one is halfway between two.
 static const double WHOLE = 0x1.8p52;
 
-EIGHT d8 d8_whole(d8 a) { return d8_sub(d8_add(a, d8_set(WHOLE)), d8_set(WHOLE)); }
+/// a with an odd last digit: not halfway between two whole numbers, if below 2^51.
+EIGHT d8 d8_odd(d8 a) { EACH(d8, (d_part)((m_part)a.part[i] | 1)); }
 
 /// exp(x) within 1e-11 relative for x in [-700, 0].
 EIGHT d8 d8_exp(d8 x) {

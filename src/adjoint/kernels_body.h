@@ -37,7 +37,7 @@ EIGHT sample sample_plain(const ewa_reference_view *view, const ewa_reference_sp
     const double *q = splat->inverse;
     const d8 xx = d8_mul(d8_mul(d8_set(q[0]), dx), dx), xy = d8_mul(d8_mul(d8_set(2 * q[1]), dx), dy),
              yy = d8_mul(d8_mul(d8_set(q[2]), dy), dy);
-    sample s = {.distance2 = d8_add(d8_add(xx, xy), yy), .share = d8_set(1)};
+    sample s = {.distance2 = d8_add(d8_add(xx, xy), yy)};
     s.counts = d8_lt(s.distance2, d8_set(view->cutoff * view->cutoff));
     const d8 plane = plane_at(splat, x, y), flat = d8_sub(d8_set(0), plane);
     const d8 key = d8_min(d8_max(view->orthographic ? flat : plane, d8_set(splat->key_low)), d8_set(splat->key_high));
@@ -46,8 +46,8 @@ EIGHT sample sample_plain(const ewa_reference_view *view, const ewa_reference_sp
 }
 
 /// Of a splat with clip lines or that is drawn by rays, pixel by pixel.
-static void sample_any(const ewa_reference_view *view, const ewa_reference_splat *splat, double x_px, double y_px,
-                       sample *s) {
+static __attribute__((noinline)) void sample_any(const ewa_reference_view *view, const ewa_reference_splat *splat,
+                                                 double x_px, double y_px, sample *s) {
     double planes[6][LANES] = {{0}};
     int64_t counts[LANES] = {0};
     for (int i = 0; i < LANES; i++) {
@@ -94,41 +94,52 @@ EIGHT block block_at(const ewa_adjoint_area *area, uint32_t column, uint32_t row
                    area->planes + ((size_t)row * area->columns + column) * EWA_PLANES * LANES};
 }
 
-/// Sets all but the weight of plain splats; returns whether the splat counts anywhere beyond what is passed.
-EIGHT bool sample_block(const ewa_adjoint_area *area, const ewa_reference_splat *splat, const block *at, sample *s) {
-    if (is_plain(splat))
+/// Sets all but the weight of plain splats, which have no share; returns whether the splat counts anywhere beyond what is
+/// passed. `plain` is a constant.
+EIGHT bool sample_block(const ewa_adjoint_area *area, const ewa_reference_splat *splat, const block *at, bool plain,
+                        sample *s) {
+    if (plain) {
         *s = sample_plain(area->view, splat, lanes_x(at->x_px), lanes_y(at->y_px));
-    else
-        sample_any(area->view, splat, at->x_px, at->y_px, s);
+    } else {
+        sample any;
+        sample_any(area->view, splat, at->x_px, at->y_px, &any);
+        *s = any;
+    }
     s->counts = m8_and(s->counts, d8_lt(d8_load(at->planes + EWA_PLANE_PASSED * LANES), s->z));
     return m8_any(s->counts);
 }
 
 /// Leaves what counts up to the bounds, and sets the weight there, 0 elsewhere; returns whether any does.
-EIGHT bool weigh_block(const ewa_reference_splat *splat, const block *at, sample *s) {
+EIGHT bool weigh_block(const ewa_reference_splat *splat, const block *at, bool plain, sample *s) {
     s->counts = m8_and(s->counts, d8_le(s->z, d8_load(at->planes + EWA_PLANE_BOUND * LANES)));
     if (!m8_any(s->counts)) return false;
     s->z = d8_keep(s->counts, s->z);
-    if (is_plain(splat))
+    if (plain)
         s->weight = d8_mul(d8_set(splat->peak), d8_exp(d8_mul(d8_set(-0.5), d8_keep(s->counts, s->distance2))));
     s->weight = d8_keep(s->counts, s->weight);
     return true;
 }
 
+EIGHT void find_splat(const ewa_adjoint_area *area, const ewa_reference_splat *splat, bool plain) {
+    const block_range range = blocks_of(area, splat);
+    for (uint32_t row = range.first_row; row < range.end_row; row++)
+        for (uint32_t column = range.first_column; column < range.end_column; column++) {
+            const block at = block_at(area, column, row);
+            sample s;
+            if (!sample_block(area, splat, &at, plain, &s)) continue;
+            double *bound = at.planes + EWA_PLANE_BOUND * LANES;
+            const d8 old = d8_load(bound), reached = d8_add(s.z, d8_set(splat->epsilon));
+            d8_store(bound, d8_select(m8_and(s.counts, d8_lt(reached, old)), reached, old));
+        }
+}
+
 static double find(const ewa_adjoint_area *area, const ewa_reference_splat *const *splats, uint32_t count) {
     for (uint32_t k = 0; k < count; k++) {
-        const ewa_reference_splat *splat = splats[k];
-        if (area->behind && splat->hollow) continue;
-        const block_range range = blocks_of(area, splat);
-        for (uint32_t row = range.first_row; row < range.end_row; row++)
-            for (uint32_t column = range.first_column; column < range.end_column; column++) {
-                const block at = block_at(area, column, row);
-                sample s;
-                if (!sample_block(area, splat, &at, &s)) continue;
-                double *bound = at.planes + EWA_PLANE_BOUND * LANES;
-                const d8 old = d8_load(bound), reached = d8_add(s.z, d8_set(splat->epsilon));
-                d8_store(bound, d8_select(m8_and(s.counts, d8_lt(reached, old)), reached, old));
-            }
+        if (area->behind && splats[k]->hollow) continue;
+        if (is_plain(splats[k]))
+            find_splat(area, splats[k], true);
+        else
+            find_splat(area, splats[k], false);
     }
     d8 farthest = d8_set(-__builtin_inf());
     for (size_t i = 0; i < (size_t)area->columns * area->rows; i++)
@@ -154,37 +165,36 @@ static void add_cut(const sample *s, double *planes) {
     for (int c = 0; c < 2; c++) add(planes + (EWA_PLANE_INWARD + c) * LANES, d8_mul(whole, s->inward[c]));
 }
 
+EIGHT void sum_splat(const ewa_adjoint_area *area, const ewa_reference_splat *splat, bool plain) {
+    const block_range range = blocks_of(area, splat);
+    const double opacity = area->transparent ? splat->opacity : 1;
+    const ewa_vec3 color = vec3_scale(splat->color, opacity), normal = splat->normal_world;
+    const double parts[EWA_SIDE_PLANES] = {1, color.x, color.y, color.z, normal.x, normal.y, normal.z, 0, opacity};
+    const size_t side = splat->is_back ? EWA_SIDE_PLANES * LANES : 0;
+    for (uint32_t row = range.first_row; row < range.end_row; row++)
+        for (uint32_t column = range.first_column; column < range.end_column; column++) {
+            const block at = block_at(area, column, row);
+            sample s;
+            if (!sample_block(area, splat, &at, plain, &s) || !weigh_block(splat, &at, plain, &s)) continue;
+            for (int p = 0; p < EWA_SIDE_PLANES; p++)
+                add(at.planes + side + p * LANES, d8_mul(s.weight, p == EWA_PLANE_Z ? s.z : d8_set(parts[p])));
+            if (!plain) add_cut(&s, at.planes);
+        }
+}
+
 static void sum(const ewa_adjoint_area *area, const ewa_reference_splat *const *splats, uint32_t count) {
     for (uint32_t k = 0; k < count; k++) {
-        const ewa_reference_splat *splat = splats[k];
-        if (area->behind && splat->hollow) continue;
-        const block_range range = blocks_of(area, splat);
-        const double opacity = area->transparent ? splat->opacity : 1;
-        const double parts[EWA_SIDE_PLANES] = {1,
-                                               splat->color.x * opacity,
-                                               splat->color.y * opacity,
-                                               splat->color.z * opacity,
-                                               splat->normal_world.x,
-                                               splat->normal_world.y,
-                                               splat->normal_world.z,
-                                               0,
-                                               opacity};
-        for (uint32_t row = range.first_row; row < range.end_row; row++)
-            for (uint32_t column = range.first_column; column < range.end_column; column++) {
-                const block at = block_at(area, column, row);
-                sample s;
-                if (!sample_block(area, splat, &at, &s) || !weigh_block(splat, &at, &s)) continue;
-                double *side = at.planes + (splat->is_back ? EWA_SIDE_PLANES * LANES : 0);
-                for (int p = 0; p < EWA_SIDE_PLANES; p++)
-                    add(side + p * LANES, d8_mul(s.weight, p == EWA_PLANE_Z ? s.z : d8_set(parts[p])));
-                if (splat->clip_count) add_cut(&s, at.planes);
-            }
+        if (area->behind && splats[k]->hollow) continue;
+        if (is_plain(splats[k]))
+            sum_splat(area, splats[k], true);
+        else
+            sum_splat(area, splats[k], false);
     }
 }
 
-/// Adds a term in whole units.
+/// Adds a term in whole units to a sum that has begun at WHOLE.
 EIGHT void gain(d8 *sums, const double *scales, int moment, d8 term) {
-    sums[moment] = d8_add(sums[moment], d8_whole(d8_mul(term, d8_set(scales[moment]))));
+    sums[moment] = d8_add(sums[moment], d8_odd(d8_mul(term, d8_set(scales[moment]))));
 }
 
 /// By the plane of depths, where it decides them.
@@ -224,51 +234,66 @@ static d8 by_cut(const sample *s, const double *planes) {
     return d8_mul(cut_share(s), d8_add(d8_load(planes + EWA_PLANE_KEPT * LANES), of_whole));
 }
 
-static void gather(const ewa_adjoint_area *area, const ewa_reference_splat *splat, uint32_t width, bool with_depth,
-                   const double scales[EWA_MOMENT_COUNT], int64_t totals[EWA_MOMENT_COUNT]) {
+/// Adds what a splat gets of a block where it counts.
+EIGHT void gain_block(const ewa_adjoint_area *area, const ewa_reference_splat *splat, const block *at, const sample *s,
+                      bool plain, uint32_t width, bool with_depth, const double *scales, d8 *sums) {
+    const double *of = at->planes + (splat->is_back ? EWA_SIDE_PLANES * LANES : 0);
+    const double colors[3] = {splat->color.x, splat->color.y, splat->color.z};
+    const double normals[3] = {splat->normal_world.x, splat->normal_world.y, splat->normal_world.z};
+    const d8 opacity = d8_set(area->transparent ? splat->opacity : 1), shining = d8_mul(s->weight, opacity);
+    d8 shown = d8_load(of + EWA_PLANE_OPACITY * LANES), by_weight = d8_load(of + EWA_PLANE_WEIGHT * LANES);
+    for (int c = 0; c < 3; c++) {
+        const d8 by_color = d8_load(of + (EWA_PLANE_COLOR + c) * LANES);
+        gain(sums, scales, EWA_MOMENT_COLOR + c, d8_mul(shining, by_color));
+        shown = d8_add(shown, d8_mul(d8_set(colors[c]), by_color));
+    }
+    if (width <= EWA_MOMENT_OPACITY) return;
+    if (area->transparent) gain(sums, scales, EWA_MOMENT_OPACITY, d8_mul(s->weight, shown));
+    for (int c = 0; c < 3; c++) {
+        const d8 by_normal = d8_load(of + (EWA_PLANE_NORMAL + c) * LANES);
+        gain(sums, scales, EWA_MOMENT_NORMAL + c, d8_mul(s->weight, by_normal));
+        by_weight = d8_add(by_weight, d8_mul(d8_set(normals[c]), by_normal));
+    }
+    if (!plain && splat->by_rays) return;
+    const d8 by_z = d8_load(of + EWA_PLANE_Z * LANES);
+    by_weight = d8_add(by_weight, d8_add(d8_mul(opacity, shown), d8_mul(s->z, by_z)));
+    if (!plain) by_weight = d8_add(by_weight, d8_keep(s->counts, by_cut(s, at->planes)));
+    gain_kernel(splat, at, s, by_weight, scales, sums);
+    if (with_depth) gain_depth(area, splat, at, s, by_z, scales, sums);
+}
+
+EIGHT void gather_splat(const ewa_adjoint_area *area, const ewa_reference_splat *splat, bool plain, uint32_t width,
+                        bool with_depth, const double *scales, int64_t totals[EWA_MOMENT_COUNT]) {
     const block_range range = blocks_of(area, splat);
-    const d8 opacity = d8_set(area->transparent ? splat->opacity : 1);
-    const d8 color[3] = {d8_set(splat->color.x), d8_set(splat->color.y), d8_set(splat->color.z)};
-    const d8 normal[3] = {d8_set(splat->normal_world.x), d8_set(splat->normal_world.y), d8_set(splat->normal_world.z)};
     d8 sums[EWA_MOMENT_COUNT];
     bool any = false;
-    if (area->behind && splat->hollow) return;
-    for (int m = 0; m < EWA_MOMENT_COUNT; m++) sums[m] = d8_set(0);
+    for (int m = 0; m < EWA_MOMENT_COUNT; m++) sums[m] = d8_set(WHOLE);
     for (uint32_t row = range.first_row; row < range.end_row; row++)
         for (uint32_t column = range.first_column; column < range.end_column; column++) {
             const block at = block_at(area, column, row);
             sample s;
-            if (!sample_block(area, splat, &at, &s) || !weigh_block(splat, &at, &s)) continue;
+            if (!sample_block(area, splat, &at, plain, &s) || !weigh_block(splat, &at, plain, &s)) continue;
             any = true;
-            const double *of = at.planes + (splat->is_back ? EWA_SIDE_PLANES * LANES : 0);
-            const d8 shining = d8_mul(s.weight, opacity);
-            d8 shown = d8_load(of + EWA_PLANE_OPACITY * LANES), by_weight = d8_load(of + EWA_PLANE_WEIGHT * LANES);
-            for (int c = 0; c < 3; c++) {
-                const d8 by_color = d8_load(of + (EWA_PLANE_COLOR + c) * LANES);
-                gain(sums, scales, EWA_MOMENT_COLOR + c, d8_mul(shining, by_color));
-                shown = d8_add(shown, d8_mul(color[c], by_color));
-            }
-            if (width <= EWA_MOMENT_OPACITY) continue;
-            if (area->transparent) gain(sums, scales, EWA_MOMENT_OPACITY, d8_mul(s.weight, shown));
-            for (int c = 0; c < 3; c++) {
-                const d8 by_normal = d8_load(of + (EWA_PLANE_NORMAL + c) * LANES);
-                gain(sums, scales, EWA_MOMENT_NORMAL + c, d8_mul(s.weight, by_normal));
-                by_weight = d8_add(by_weight, d8_mul(normal[c], by_normal));
-            }
-            if (splat->by_rays) continue;
-            const d8 by_z = d8_load(of + EWA_PLANE_Z * LANES);
-            by_weight = d8_add(by_weight, d8_add(d8_mul(opacity, shown), d8_mul(s.z, by_z)));
-            if (splat->clip_count) by_weight = d8_add(by_weight, d8_keep(s.counts, by_cut(&s, at.planes)));
-            gain_kernel(splat, &at, &s, by_weight, scales, sums);
-            if (with_depth) gain_depth(area, splat, &at, &s, by_z, scales, sums);
+            gain_block(area, splat, &at, &s, plain, width, with_depth, scales, sums);
         }
-    for (uint32_t m = 0; m < width && any; m++) {
+    for (uint32_t m = 0; m < EWA_MOMENT_COUNT && any; m++) {
         double lanes[LANES], total = 0;
-        d8_store(lanes, sums[m]);
+        d8_store(lanes, d8_sub(sums[m], d8_set(WHOLE)));
         for (int i = 0; i < LANES; i++) total += lanes[i]; // whole numbers, in any order
         // Of colours beyond all range nothing is known, but that every order gives the same.
         totals[m] += total > -0x1p52 && total < 0x1p52 ? (int64_t)total : 0;
     }
+}
+
+static void gather(const ewa_adjoint_area *area, const ewa_reference_splat *splat, uint32_t width, bool with_depth,
+                   const double scales[EWA_MOMENT_COUNT], int64_t totals[EWA_MOMENT_COUNT]) {
+    if (area->behind && splat->hollow) return;
+    if (!is_plain(splat))
+        gather_splat(area, splat, false, width, with_depth, scales, totals);
+    else if (with_depth || width <= EWA_MOMENT_OPACITY)
+        gather_splat(area, splat, true, width, with_depth, scales, totals);
+    else
+        gather_splat(area, splat, true, EWA_MOMENT_COUNT, false, scales, totals);
 }
 
 const ewa_adjoint_kernels EWA_VERSION(ewa_adjoint_kernels) = {.find = find, .sum = sum, .gather = gather};

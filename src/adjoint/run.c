@@ -5,6 +5,7 @@
 // camera.
 #include "adjoint/tiles.h"
 #include "base/base.h"
+#include "surface/semantics.h"
 
 #include <string.h>
 
@@ -14,19 +15,77 @@ enum {
     UNIT_BITS = 36,      ///< units per bound of a term
 };
 
-/// No depth of a splat is smaller.
-static float begin_of(const ewa_reference_view *view, const ewa_reference_splat *splat) {
-    double begin = splat->center.z - splat->half_range;
-    if (!splat->by_rays) begin = view->orthographic ? -splat->key_high : 1 / splat->key_high;
-    return nextafterf((float)begin, -INFINITY);
+/// Where a splat may be seen: more than it is.
+typedef struct reach {
+    double x_px[2], y_px[2]; ///< from, to
+    double begin;            ///< no depth is smaller
+    double end;              ///< no distance of its disc along the view is larger
+} reach;
+
+/// Of a surfel near the eye, or whatever its numbers are.
+static bool find_reach_exactly(const ewa_reference_view *view, const ewa_surfel *surfel, reach *found) {
+    ewa_reference_splat splat;
+    ewa_reference_project(view, surfel, &splat);
+    if (!splat.drawn) return false;
+    double begin = splat.center.z - splat.half_range;
+    if (!splat.by_rays) begin = view->orthographic ? -splat.key_high : 1 / splat.key_high;
+    *found = (reach){{splat.x_begin, splat.x_end}, {splat.y_begin, splat.y_end}, begin,
+                     fabs(splat.center.z) + splat.half_range};
+    return true;
 }
 
-static ewa_adjoint_range range_of(const ewa_reference_splat *splat, uint32_t side_px) {
-    if (!splat->drawn || splat->x_begin >= splat->x_end || splat->y_begin >= splat->y_end)
-        return (ewa_adjoint_range){0, 0};
-    const uint32_t x0 = (uint32_t)splat->x_begin / side_px, x1 = ((uint32_t)splat->x_end + side_px - 1) / side_px;
-    const uint32_t y0 = (uint32_t)splat->y_begin / side_px, y1 = ((uint32_t)splat->y_end + side_px - 1) / side_px;
-    return (ewa_adjoint_range){x0 | y0 << 16, x1 | y1 << 16};
+/// The box of the filtered ellipse (docs/math.md section 3), with room for the way of a splat at its contour, and depths
+/// from a sphere around the disc on. False: it is not drawn.
+static bool find_reach(const ewa_reference_view *view, const ewa_surfel *surfel, reach *found) {
+    const bool flat = view->orthographic;
+    const ewa_mat3 *linear = &view->placement.linear;
+    const ewa_vec3 p = ewa_placement_apply(&view->placement, vec3_load(surfel->center));
+    const double scale = vec3_length(mat3_row(linear, 2)), F = view->cutoff;
+    const double sigma = vec3_length(vec3_load(surfel->axis_u_world)) * scale, radius = F * sigma;
+    if (surfel->billboard || !(p.z > 2 * radius) || !(sigma * fmax(view->fx_px, view->fy_px) < (flat ? 1 : p.z) * EWA_BROAD_PX))
+        return find_reach_exactly(view, surfel, found);
+    const ewa_vec3 axes[2] = {mat3_mul_vec3(linear, vec3_load(surfel->axis_u_world)),
+                              mat3_mul_vec3(linear, vec3_load(surfel->axis_v_world))};
+    const double x0 = flat ? 0 : p.x / p.z, y0 = flat ? 0 : p.y / p.z;
+    double s11 = 0, s22 = 0, s13 = 0, s23 = 0, s33 = 0;
+    for (int i = 0; i < 2; i++) {
+        const double x = view->fx_px * (axes[i].x - x0 * axes[i].z), y = view->fy_px * (axes[i].y - y0 * axes[i].z);
+        s11 += x * x, s22 += y * y, s13 += x * axes[i].z, s23 += y * axes[i].z, s33 += axes[i].z * axes[i].z;
+    }
+    const double F2 = flat || view->kernel != EWA_KERNEL_PERSPECTIVE ? 0 : F * F, h2 = view->prefilter_px * view->prefilter_px;
+    const double k = flat ? 1 : 1 / (p.z * p.z - F2 * s33);
+    const double center_px[2] = {view->fx_px * (flat ? p.x : x0) + view->cx_px - F2 * k * s13,
+                                 view->fy_px * (flat ? p.y : y0) + view->cy_px - F2 * k * s23};
+    const ewa_vec3 n = mat3_mul_vec3(linear, vec3_load(surfel->normal_world));
+    const double sine = (flat ? n.z : vec3_dot(n, p) / p.z) / scale;
+    const double depth = flat ? 1 : p.z, sigma_px = fmax(view->fx_px, view->fy_px) * sigma / depth;
+    const double across = view->prefilter_px + EWA_CONTOUR_WIDTH * sigma_px * fabs(sine); // no less than E of section 5
+    const double bend = 2 * fabs(surfel->curvature_world) / scale * depth / view->fx_px;
+    const bool moves = sine * sine < fmin(EWA_CONTOUR_REACH * across * bend, view->contour_sine2);
+    const double way_px = moves ? view->contour_shift * across : 0;
+    const double half_px[2] = {F * sqrt(k * s11 + F2 * k * k * s13 * s13 + h2) * (1 + 1e-9) + way_px,
+                               F * sqrt(k * s22 + F2 * k * k * s23 * s23 + h2) * (1 + 1e-9) + way_px};
+    const double free = fmin(EWA_FREE_RADII * radius, EWA_FREE_DEPTH * p.z);
+    *found = (reach){{center_px[0] - half_px[0], center_px[0] + half_px[0]},
+                     {center_px[1] - half_px[1], center_px[1] + half_px[1]},
+                     flat ? p.z - radius - free : 1 / (1 / (p.z - radius) + free / (p.z * p.z)),
+                     p.z + radius};
+    return true;
+}
+
+/// Tiles [first, end) along a side that have pixels whose centres are within; none: `end` is 0.
+static void tiles_along(const double reach_px[2], uint32_t size_px, uint32_t side_px, uint32_t *first, uint32_t *end) {
+    const double from = fmax(ceil(reach_px[0] - 0.5), 0), to = fmin(floor(reach_px[1] + 0.5), size_px);
+    *first = *end = 0;
+    if (!(from < to)) return;
+    *first = (uint32_t)from / side_px, *end = ((uint32_t)to + side_px - 1) / side_px;
+}
+
+static ewa_adjoint_range range_of(const ewa_tiles *tiles, const reach *found) {
+    uint32_t x[2], y[2];
+    tiles_along(found->x_px, tiles->width_px, tiles->side_px, &x[0], &x[1]);
+    tiles_along(found->y_px, tiles->height_px, tiles->side_px, &y[0], &y[1]);
+    return x[1] && y[1] ? (ewa_adjoint_range){x[0] | y[0] << 16, x[1] | y[1] << 16} : (ewa_adjoint_range){0, 0};
 }
 
 static uint32_t find_splats(const void *data, uint32_t worker, uint32_t first, uint32_t count,
@@ -35,20 +94,22 @@ static uint32_t find_splats(const void *data, uint32_t worker, uint32_t first, u
     ewa_adjoint_scratch *s = &job->scratch[worker];
     uint32_t next = first;
     ewa_surfel surfels[BLOCK_POINTS];
-    ewa_reference_splat splats[BLOCK_POINTS];
+    bool drawable[BLOCK_POINTS];
     for (uint32_t i = first; i < first + count; i++) {
         const uint32_t in_block = (i - first) % BLOCK_POINTS, left = first + count - i;
         if (in_block == 0)
-            ewa_reference_frame_project(&job->frame, i, left < BLOCK_POINTS ? left : BLOCK_POINTS, surfels, splats);
-        const ewa_reference_splat *splat = &splats[in_block];
-        const ewa_adjoint_range range = job->ranges[i] = range_of(splat, job->tiles.side_px);
+            ewa_surfel_read(&job->frame.reader, i, left < BLOCK_POINTS ? left : BLOCK_POINTS, surfels, drawable);
+        const ewa_surfel *surfel = &surfels[in_block];
+        reach found;
+        job->ranges[i] = (ewa_adjoint_range){0, 0};
+        if (!drawable[in_block] || !find_reach(&job->frame.view, surfel, &found)) continue;
+        const ewa_adjoint_range range = job->ranges[i] = range_of(&job->tiles, &found);
         if (range.end == 0) continue;
-        job->begins[i] = begin_of(&job->frame.view, splat);
+        job->begins[i] = nextafterf((float)found.begin, -INFINITY);
         items->ids[next] = (int32_t)i, items->first[next] = (int32_t)range.first, items->end[next] = (int32_t)range.end;
         next++;
-        const double color = fmax(fabs(splat->color.x), fmax(fabs(splat->color.y), fabs(splat->color.z)));
-        s->largest_color = fmax(s->largest_color, color);
-        s->largest_depth = fmax(s->largest_depth, fabs(splat->center.z) + splat->half_range);
+        for (int c = 0; c < 3; c++) s->largest_color = fmax(s->largest_color, fabs(surfel->color_linear[c]));
+        s->largest_depth = fmax(s->largest_depth, found.end);
     }
     return next - first;
 }

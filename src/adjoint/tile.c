@@ -123,8 +123,10 @@ static void project_more(const tile_work *w) {
         if (begins_anew && k - run > 1) qsort(s->order + run, k - run, sizeof *s->order, compare_splats);
         if (begins_anew) run = k;
         ewa_surfel surfel;
-        ewa_reference_frame_project(&w->job->frame, s->near_first[k] & UINT32_MAX, 1, &surfel, &s->splats[k]);
-        s->order[k] = &s->splats[k];
+        ewa_reference_splat *splat = &s->splats[k];
+        ewa_reference_frame_project(&w->job->frame, s->near_first[k] & UINT32_MAX, 1, &surfel, splat);
+        if (!splat->drawn) *splat = (ewa_reference_splat){.drawn = false}; // in no pixel
+        s->order[k] = splat;
     }
     if (k - run > 1) qsort(s->order + run, k - run, sizeof *s->order, compare_splats);
     s->splat_count = k;
