@@ -56,7 +56,7 @@ ewa_status ewa_adjoint_backward(const ewa_cloud *cloud, const ewa_surfels_option
         EWA_TRY(check_cotangent(context, cotangent, camera));
         job.cotangent = *cotangent;
     }
-    job.width = wants_more(gradient) ? EWA_MOMENT_COUNT : gradient->color ? 3 : 0;
+    job.width = wants_more(gradient) ? (job.cotangent.depth ? EWA_MOMENT_COUNT : EWA_MOMENT_DEPTH) : gradient->color ? 3 : 0;
     job.tiles = ewa_tiles_make(camera->width_px, camera->height_px, tile_px);
     return ewa_adjoint_run(&job);
 }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Part of kernels_body.h: eight lanes of double. Sums, products and quotients are rounded one by one, never fused, so that
+// Part of kernels_body.h (docs/math.md section 15): eight lanes of double. Sums, products and quotients are rounded one by one, never fused, so that
 // lanes are the numbers that scalar code gets, whatever the instruction set.
 #ifndef EWA_SRC_ADJOINT_EIGHT_H
 #define EWA_SRC_ADJOINT_EIGHT_H

@@ -127,16 +127,17 @@ TEST(test_reference) {
     ewa_context_destroy(&context);
 }
 
-/// The same bytes for one to five threads, for points in another order, and for tiles of other sizes.
+/// The same bytes for one to five threads, every instruction set, points in another order, and tiles of other sizes.
 TEST(test_same_bytes) {
     (void)state;
-    enum { COUNT = 1500, RUNS = 9 };
-    static const uint32_t threads[RUNS] = {1, 2, 3, 4, 5, 2, 2, 3, 4};
-    static const uint32_t tiles[RUNS] = {16, 16, 16, 16, 16, 16, 5, 32, 64};
+    enum { COUNT = 1500, RUNS = 10 };
+    static const uint32_t threads[RUNS] = {1, 2, 3, 4, 5, 2, 2, 3, 4, 1};
+    static const uint32_t tiles[RUNS] = {16, 16, 16, 16, 16, 16, 5, 32, 64, 16};
+    static const uint32_t masks[RUNS] = {~0u, ~0u, 0, EWA_CPU_AVX2, ~0u, ~0u, 0, ~0u, EWA_CPU_AVX2, ~0u};
     for (size_t k = 0; k < sizeof KINDS / sizeof KINDS[0]; k++) {
         backward first = {.scene = NULL};
         for (int n = 0; n < RUNS; n++) {
-            ewa_context *context = check_context(threads[n], NULL);
+            ewa_context *context = check_context_of(threads[n], masks[n]);
             adjoint_scene *s = adjoint_scene_make(context, KINDS[k], COUNT, 130, 4, k);
             uint64_t order[COUNT];
             for (uint64_t i = 0; i < COUNT; i++) order[i] = n >= 5 ? (i * 1399 + 77) % COUNT : i;
