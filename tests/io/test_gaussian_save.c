@@ -24,6 +24,27 @@ static void make_set(ewa_context *context, uint32_t sh_degree, ewa_gaussians *se
     }
 }
 
+static void swap_numbers(float *a, float *b, uint32_t count) {
+    for (uint32_t k = 0; k < count; k++) {
+        const float kept = a[k];
+        a[k] = b[k];
+        b[k] = kept;
+    }
+}
+
+/// Orders a set by x: SOG has an order of its own.
+static void order(ewa_gaussians *set) {
+    const uint32_t numbers = 3 * (set->sh_degree + 1) * (set->sh_degree + 1);
+    for (uint32_t i = 1; i < set->count; i++)
+        for (uint32_t j = i; j && set->centers[3 * j] < set->centers[3 * j - 3]; j--) {
+            swap_numbers(set->centers + 3 * j, set->centers + 3 * j - 3, 3);
+            swap_numbers(set->scales + 3 * j, set->scales + 3 * j - 3, 3);
+            swap_numbers(set->rotations + 4 * j, set->rotations + 4 * j - 4, 4);
+            swap_numbers(set->opacities + j, set->opacities + j - 1, 1);
+            swap_numbers(set->harmonics + numbers * j, set->harmonics + numbers * (j - 1), numbers);
+        }
+}
+
 /// Writes and reads again.
 static void pass(ewa_context *context, const ewa_gaussians *set, const char *name, uint32_t sh_degree,
                  uint32_t spz_version, ewa_gaussians *read, ewa_gaussian_facts *facts) {
@@ -50,7 +71,12 @@ TEST(round_trips) {
                  {"a.spz", 2, 3, EWA_GAUSSIANS_SPZ, {4e-6, 4e-2, 2e-4, 2e-3, 2e-2, 1e-2}},
                  {"a.spz", 0, 4, EWA_GAUSSIANS_SPZ, {4e-6, 4e-2, 2e-6, 2e-3, 2e-2, 1e-2}},
                  {"a.spz", 4, 4, EWA_GAUSSIANS_SPZ, {4e-6, 4e-2, 2e-6, 2e-3, 2e-2, 1e-2}},
-                 {"a.spz", 4, 0, EWA_GAUSSIANS_SPZ, {4e-6, 4e-2, 2e-6, 2e-3, 2e-2, 1e-2}}};
+                 {"a.spz", 4, 0, EWA_GAUSSIANS_SPZ, {4e-6, 4e-2, 2e-6, 2e-3, 2e-2, 1e-2}},
+                 {"a.glb", 0, 3, EWA_GAUSSIANS_GLTF, {0, 1e-7, 1e-7, 0, 0, 0}},
+                 {"a.glb", 0, 0, EWA_GAUSSIANS_GLTF, {0, 1e-7, 1e-7, 0, 0, 0}},
+                 {"a.sog", 0, 3, EWA_GAUSSIANS_SOG, {1e-4, 1e-6, 2e-5, 2e-3, 1e-6, 1e-6}},
+                 {"a.sog", 0, 1, EWA_GAUSSIANS_SOG, {1e-4, 1e-6, 2e-5, 2e-3, 1e-6, 1e-6}},
+                 {"meta.json", 0, 0, EWA_GAUSSIANS_SOG, {1e-4, 1e-6, 2e-5, 2e-3, 1e-6, 1e-6}}};
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++)
         for (int antialiased = 0; antialiased < 2; antialiased++) {
             ewa_context *context = check_context(2, NULL);
@@ -62,7 +88,10 @@ TEST(round_trips) {
             assert_int_equal(facts.format, cases[i].format);
             if (facts.format == EWA_GAUSSIANS_SPZ)
                 assert_int_equal(facts.version, cases[i].version ? cases[i].version : 3);
-            assert_true(read.antialiased == (antialiased && cases[i].format != EWA_GAUSSIANS_SPLAT && cases[i].format != EWA_GAUSSIANS_PACKED_PLY));
+            const bool says = cases[i].format == EWA_GAUSSIANS_PLY || cases[i].format == EWA_GAUSSIANS_SPZ || cases[i].format == EWA_GAUSSIANS_SOG;
+            assert_true(read.antialiased == (antialiased && says));
+            if (facts.format == EWA_GAUSSIANS_SOG) order(&read);
+            if (facts.format == EWA_GAUSSIANS_GLTF) sample_turn_over(&read);
             assert_false(read.flat);
             sample_check(&read, cases[i].degree, &cases[i].limits);
             ewa_gaussians_free(&set);
@@ -73,11 +102,12 @@ TEST(round_trips) {
 
 /// What is up in a set becomes what is up in files, and -y when these are read; colours go along.
 TEST_ON(upright, 1) {
+    enum { FORMS = 5 };
     static const double ups[3][3] = {{0, 0, 0}, {0, 1, 0}, {0, 0, 1}};
     static const double wanted[3][3] = {{1, 2, 3}, {1, -2, -3}, {1, -3, 2}}; // of (1, 2, 3) with -y up
     for (int u = 0; u < 3; u++)
-        for (int form = 0; form < 3; form++) {
-            static const char *const names[] = {"u.ply", "u.splat", "u.spz"};
+        for (int form = 0; form < FORMS; form++) {
+            static const char *const names[FORMS] = {"u.ply", "u.splat", "u.spz", "u.glb", "u.sog"};
             char path[512];
             ewa_gaussians set, read;
             ewa_gaussians_save_options options;
@@ -88,8 +118,12 @@ TEST_ON(upright, 1) {
             for (int k = 0; k < 3; k++) set.centers[k] = (float)(k + 1);
             assert_int_equal(ewa_gaussians_save(&set, scratch_path(names[form], path), &options), EWA_OK);
             assert_int_equal(ewa_gaussians_load(context, path, &read, NULL), EWA_OK);
+            if (form == 3) sample_turn_over(&read); // y is up in glTF
+            for (uint32_t i = 0; i < SAMPLE_COUNT && form == 4; i++) // in an order of its own
+                if (fabs((double)read.centers[3 * i] - wanted[u][0]) < 1e-3 && fabs((double)read.centers[3 * i + 1] - wanted[u][1]) < 1e-3)
+                    memcpy(read.centers, read.centers + 3 * i, 3 * sizeof(float));
             for (uint32_t k = 0; k < 3; k++) {
-                sample_near("centre", k, read.centers[k], wanted[u][k], 1e-5);
+                sample_near("centre", k, read.centers[k], wanted[u][k], form == 4 ? 1e-4 : 1e-5);
                 assert_true(set.centers[k] == (float)(k + 1));
             }
             // The harmonics of degree 1 are -y, z and -x: their coefficients are a vector that turns along.
@@ -111,7 +145,7 @@ TEST_ON(turns, 1) {
         uint32_t version;
         double limit; ///< of 1 - the cosine of half the angle between
     } cases[] = {
-        {"t.splat", 0, 2e-4}, {"t.spz", 2, 6e-3}, {"t.spz", 3, 4e-6}, {"t.spz", 4, 4e-6}, {"t.ply", 0, 1e-6}};
+        {"t.splat", 0, 2e-4}, {"t.sog", 0, 5e-5}, {"t.glb", 0, 1e-6}, {"t.spz", 2, 6e-3}, {"t.spz", 3, 4e-6}, {"t.spz", 4, 4e-6}, {"t.ply", 0, 1e-6}};
     check_random random = {11};
     ewa_gaussians set, read;
     assert_int_equal(ewa_gaussians_create(context, TURNS, 0, &set), EWA_OK);
@@ -123,9 +157,12 @@ TEST_ON(turns, 1) {
         }
         for (uint32_t k = 0; k < 4; k++) set.rotations[4 * i + k] = (float)(q[k] / sqrt(norm2));
         for (uint32_t k = 0; k < 3; k++) set.scales[3 * i + k] = 1;
+        set.centers[3 * i] = (float)i; // by which it is known again
     }
     for (size_t c = 0; c < sizeof cases / sizeof cases[0]; c++) {
         pass(context, &set, cases[c].name, 0, cases[c].version, &read, NULL);
+        if (strcmp(cases[c].name, "t.sog") == 0) order(&read);
+        if (strcmp(cases[c].name, "t.glb") == 0) sample_turn_over(&read);
         for (uint32_t i = 0; i < TURNS; i++) {
             double cosine = 0;
             for (uint32_t k = 0; k < 4; k++)
@@ -163,6 +200,19 @@ TEST(corners) {
     for (uint32_t i = 0; i < 9; i++)
         assert_true(fabs(set.origin[i % 3] + (double)set.centers[i] - (double)read.centers[i]) <= 0.51);
     ewa_gaussians_free(&read);
+    log.count = 0;
+    set.origin[0] = 4000;
+    pass(context, &set, "flat.sog", 4, 0, &read, NULL);
+    order(&read);
+    assert_true(read.flat && read.scales[2] == 0 && read.scales[0] < 3e-9f && log.count == 0);
+    assert_true(read.opacities[0] == 0 && read.opacities[1] == 1);
+    sample_near("colour without opacity", 0, read.harmonics[0], sample_first(0), 1e-6);
+    for (uint32_t i = 0; i < 9; i++)
+        assert_true(fabs(set.origin[i % 3] + (double)set.centers[i] - (double)read.centers[i]) <= (i % 3 ? 1 : 0.01));
+    ewa_gaussians_free(&read);
+    pass(context, &set, "flat.glb", 4, 0, &read, NULL);
+    assert_true(!read.flat && read.scales[2] == 0 && log.count == 1);
+    ewa_gaussians_free(&read);
     char path[512];
     set.origin[0] = 1e7;
     assert_int_equal(ewa_gaussians_save(&set, scratch_path("far.spz", path), NULL), EWA_ERROR_LIMIT);
@@ -186,6 +236,17 @@ TEST(losses) {
     assert_non_null(strstr(log.text, "colours of 1 Gaussians"));
     ewa_gaussians_free(&read);
     ewa_gaussians_free(&set);
+    static const char *const names[] = {"loss.sog", "loss.glb"};
+    make_set(context, 4, &set);
+    for (int n = 0; n < 2; n++) {
+        log.count = 0;
+        pass(context, &set, names[n], 4, 0, &read, NULL);
+        assert_int_equal(read.sh_degree, 3);
+        assert_int_equal(log.count, 1);
+        assert_non_null(strstr(log.text, "degree 4"));
+        ewa_gaussians_free(&read);
+    }
+    ewa_gaussians_free(&set);
     ewa_context_destroy(&context);
 }
 
@@ -196,7 +257,7 @@ TEST(refused) {
     char path[512];
     make_set(context, 0, &set);
     assert_int_equal(ewa_gaussians_save(&set, scratch_path("a.las", path), NULL), EWA_ERROR_UNSUPPORTED);
-    assert_non_null(strstr(log.text, ".ply, .compressed.ply, .splat and .spz"));
+    assert_non_null(strstr(log.text, ".ply, .compressed.ply, .splat, .spz, .glb, .sog and meta.json"));
     assert_int_equal(ewa_gaussians_save(&none, scratch_path("a.ply", path), NULL), EWA_ERROR_ARGUMENT);
     assert_int_equal(ewa_gaussians_save(NULL, path, NULL), EWA_ERROR_ARGUMENT);
     assert_int_equal(ewa_gaussians_save(&set, "/nowhere/at/all.spz", NULL), EWA_ERROR_IO);
@@ -219,6 +280,10 @@ TEST(refused) {
     assert_int_equal(ewa_gaussians_format_of("x.Compressed.ply"), EWA_GAUSSIANS_PACKED_PLY);
     assert_int_equal(ewa_gaussians_format_of("compressed.ply"), EWA_GAUSSIANS_PLY);
     assert_int_equal(ewa_gaussians_format_of("x.spz/y"), EWA_GAUSSIANS_NONE);
+    assert_int_equal(ewa_gaussians_format_of("x.SOG"), EWA_GAUSSIANS_SOG);
+    assert_int_equal(ewa_gaussians_format_of("x/meta.json"), EWA_GAUSSIANS_SOG);
+    assert_int_equal(ewa_gaussians_format_of("x/lod-meta.json"), EWA_GAUSSIANS_NONE);
+    assert_int_equal(ewa_gaussians_format_of("x.glb"), EWA_GAUSSIANS_GLTF);
     assert_int_equal(ewa_gaussians_format_of("-"), EWA_GAUSSIANS_PLY);
     ewa_gaussians_free(&set);
     ewa_context_destroy(&context);
@@ -271,10 +336,70 @@ TEST_ON(chunks, 2) {
     ewa_gaussians_free(&read);
 }
 
+/// SOG of many that share palettes and codes: each within the steps of these, those far from all others too.
+TEST_ON(codes, 2) {
+    enum { COUNT = 5000, SH = 16 };
+    check_random random = {5};
+    ewa_gaussians set, read;
+    assert_int_equal(ewa_gaussians_create(context, COUNT, 3, &set), EWA_OK);
+    for (size_t i = 0; i < COUNT; i++) {
+        const double kind = (double)(i % 300) - 150; // of which each has palettes of its own
+        for (size_t k = 0; k < 3; k++) {
+            set.centers[3 * i + k] = (float)(k ? check_uniform(&random, -1, 1) : (double)i / COUNT);
+            set.scales[3 * i + k] = (float)exp(i == 7 ? 6 : check_uniform(&random, -8, -2));
+            set.harmonics[3 * SH * i + k] = (float)(i == 8 ? 40 : check_uniform(&random, -2, 2));
+            for (size_t n = 1; n < SH; n++)
+                set.harmonics[3 * (SH * i + n) + k] = (float)(sin(kind * (double)(3 * n + k)) * 0.2 + check_uniform(&random, -1e-3, 1e-3));
+        }
+        set.rotations[4 * i] = 1;
+    }
+    pass(context, &set, "codes.sog", 4, 0, &read, NULL);
+    order(&read);
+    double worst[3] = {0, 0, 0};
+    for (size_t i = 0; i < COUNT; i++)
+        for (size_t k = 0; k < 3; k++) {
+            const size_t first = 3 * SH * i + k;
+            if (i != 7) worst[0] = fmax(worst[0], fabs(log((double)(read.scales[3 * i + k] / set.scales[3 * i + k]))));
+            if (i != 8) worst[1] = fmax(worst[1], fabs((double)(read.harmonics[first] - set.harmonics[first])));
+            for (size_t n = 1; n < SH; n++)
+                worst[2] = fmax(worst[2], fabs((double)(read.harmonics[first + 3 * n] - set.harmonics[first + 3 * n])));
+        }
+    print_message("codes: scales within %g, colours %g, harmonics %g\n", worst[0], worst[1], worst[2]);
+    assert_true(worst[0] < 0.02 && worst[1] < 0.02 && worst[2] < 6e-3);
+    assert_true(fabs(log((double)read.scales[21]) - 6) < 0.05 && fabs((double)read.harmonics[3 * SH * 8] - 40) < 0.2);
+    ewa_gaussians_free(&set);
+    ewa_gaussians_free(&read);
+}
+
+/// Files beside meta.json get their names together: none where one cannot.
+TEST(beside) {
+    ewa_context *context = check_context(1, &(check_log){.count = 0});
+    ewa_gaussians set;
+    char path[512];
+    make_set(context, 0, &set);
+    scratch_path("beside", path);
+    mkdir(path, 0777);
+    scratch_path("beside/quats.webp", path); // a folder is in the way
+    mkdir(path, 0777);
+    assert_int_equal(ewa_gaussians_save(&set, scratch_path("beside/meta.json", path), NULL), EWA_ERROR_IO);
+    assert_true(access(path, F_OK) != 0);
+    assert_true(access(scratch_path("beside/means_l.webp", path), F_OK) != 0);
+    rmdir(scratch_path("beside/quats.webp", path));
+    assert_int_equal(ewa_gaussians_save(&set, scratch_path("beside/meta.json", path), NULL), EWA_OK);
+    for (int picture = 0; picture < 5; picture++) {
+        char name[64];
+        snprintf(name, sizeof name, "beside/%s", sample_picture_names[picture]);
+        assert_int_equal(remove(scratch_path(name, path)), 0);
+    }
+    remove(scratch_path("beside/meta.json", path));
+    ewa_gaussians_free(&set);
+    ewa_context_destroy(&context);
+}
+
 /// The same bytes for any number of threads.
 TEST(same_bytes) {
-    static const char *const names[] = {"s.ply", "s.splat", "s.spz", "s.compressed.ply"};
-    for (int n = 0; n < 4; n++) {
+    static const char *const names[] = {"s.ply", "s.splat", "s.spz", "s.compressed.ply", "s.glb", "s.sog"};
+    for (int n = 0; n < 6; n++) {
         uint8_t *first = NULL;
         size_t first_size = 0;
         for (uint32_t threads = 1; threads < 4; threads++) {

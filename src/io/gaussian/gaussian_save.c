@@ -36,6 +36,9 @@ static const struct {
     {".ply", EWA_GAUSSIANS_PLY, ewa_gaussians_write_ply},
     {".splat", EWA_GAUSSIANS_SPLAT, ewa_gaussians_write_splat},
     {".spz", EWA_GAUSSIANS_SPZ, ewa_gaussians_write_spz},
+    {".glb", EWA_GAUSSIANS_GLTF, ewa_gaussians_write_gltf},
+    {".sog", EWA_GAUSSIANS_SOG, ewa_gaussians_write_sog},
+    {"meta.json", EWA_GAUSSIANS_SOG, ewa_gaussians_write_sog}, // the whole name
 };
 enum { FORMAT_COUNT = sizeof formats / sizeof formats[0] };
 
@@ -45,7 +48,7 @@ static size_t find_format(const char *path) {
     const size_t length = strlen(name);
     for (size_t i = 0; i < FORMAT_COUNT; i++) {
         const size_t own = strlen(formats[i].suffix);
-        if (length >= own && strcasecmp(name + length - own, formats[i].suffix) == 0) return i;
+        if ((*formats[i].suffix == '.' ? length >= own : length == own) && strcasecmp(name + length - own, formats[i].suffix) == 0) return i;
     }
     return FORMAT_COUNT;
 }
@@ -124,7 +127,7 @@ ewa_status ewa_gaussians_save(const ewa_gaussians *gaussians, const char *path,
     EWA_TRY(ewa_options_take(context, &ewa_gaussians_save_options_table, options, &chosen));
     const size_t format = find_format(path);
     if (format == FORMAT_COUNT)
-        return ewa_fail(context, EWA_ERROR_UNSUPPORTED, "%s: Gaussians are written to .ply, .compressed.ply, .splat and .spz",
+        return ewa_fail(context, EWA_ERROR_UNSUPPORTED, "%s: Gaussians are written to .ply, .compressed.ply, .splat, .spz, .glb, .sog and meta.json",
                         path);
     if (gaussians->count == 0 || gaussians->sh_degree > EWA_MAX_SH_DEGREE)
         return ewa_fail(context, EWA_ERROR_ARGUMENT, "%s: there are no Gaussians, or harmonics of degree %u",

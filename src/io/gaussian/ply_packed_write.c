@@ -10,9 +10,6 @@
 
 enum { CHUNK = 256, BOUNDS = 9, WORDS = 4, HEAD_BYTES = 4096, MAX_REST = 3 * ((EWA_MAX_SH_DEGREE + 1) * (EWA_MAX_SH_DEGREE + 1) - 1) };
 
-/// Logarithms of scales beyond are written as these.
-static const double MAX_LOG_SCALE = 20;
-
 typedef struct packing {
     const ewa_gaussian_target *target;
     const ewa_gaussians *set;
@@ -24,8 +21,7 @@ static void take_numbers(const ewa_gaussians *set, size_t i, float numbers[BOUND
     const float *harmonics = set->harmonics + i * 3 * ewa_sh_count(set->sh_degree);
     for (size_t k = 0; k < 3; k++) {
         numbers[k] = (float)(set->origin[k] + (double)set->centers[3 * i + k]);
-        numbers[3 + k] =
-            (float)fmax(fmin(ewa_log_scale(set->scales[3 * i + k]), MAX_LOG_SCALE), -MAX_LOG_SCALE);
+        numbers[3 + k] = (float)ewa_log_scale_within(set->scales[3 * i + k]);
         numbers[6 + k] = (float)(0.5 + EWA_SH_CONSTANT * (double)harmonics[k]);
     }
 }

@@ -18,7 +18,7 @@ typedef struct ewa_gaussian_target {
 
 typedef ewa_status ewa_gaussian_write(const ewa_gaussian_target *target);
 ewa_gaussian_write ewa_gaussians_write_ply, ewa_gaussians_write_packed_ply, ewa_gaussians_write_splat,
-    ewa_gaussians_write_spz;
+    ewa_gaussians_write_spz, ewa_gaussians_write_gltf, ewa_gaussians_write_sog;
 
 /// Writes a number with its lowest byte first and returns what follows.
 static inline uint8_t *ewa_put_u32(uint8_t *to, uint32_t value) {
@@ -41,5 +41,8 @@ static inline uint8_t ewa_byte_of(double value) {
 
 /// The logarithm that is written for a scale: of 0 that of something too small to be seen.
 static inline double ewa_log_scale(float scale) { return log(fmax((double)scale, 1e-30)); }
+
+/// The same within what few bits can tell apart.
+static inline double ewa_log_scale_within(float scale) { return fmax(fmin(ewa_log_scale(scale), 20), -20); }
 
 #endif

@@ -30,3 +30,12 @@ ewa_status ewa_webp_decode_codes(ewa_context *context, const char *name, const u
     *code_bytes = 0;
     return refuse(context, name);
 }
+
+ewa_status ewa_webp_encode_codes(ewa_context *context, const char *name, uint32_t width_px, uint32_t height_px, const uint8_t *codes,
+                                 ewa_webp *webp) {
+    (void)width_px, (void)height_px, (void)codes;
+    *webp = (ewa_webp){.bytes = NULL};
+    return refuse(context, name);
+}
+
+void ewa_webp_free(ewa_webp *webp) { (void)webp; }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// WebP, read from memory.
+// WebP, read from memory and written to it.
 #ifndef EWA_SRC_WEBP_H
 #define EWA_SRC_WEBP_H
 
@@ -29,5 +29,19 @@ ewa_status ewa_webp_look(ewa_context *context, const char *name, const uint8_t *
 ewa_status ewa_webp_decode_codes(ewa_context *context, const char *name, const uint8_t *bytes,
                                  size_t size_bytes, uint32_t *width_px, uint32_t *height_px, uint8_t **codes,
                                  size_t *code_bytes);
+
+/// A file in memory. Zero-initialised means: nothing held.
+typedef struct ewa_webp {
+    ewa_context *context;
+    uint8_t *bytes;
+    size_t size_bytes, room_bytes;
+} ewa_webp;
+
+/// Encodes bytes, red green blue alpha, rows from the top, so that ewa_webp_decode_codes() gives all of them; free with
+/// ewa_webp_free(). `*webp` holds nothing after a failure. Errors: EWA_ERROR_LIMIT (a side of over 16383 pixels),
+/// EWA_ERROR_MEMORY, EWA_ERROR_UNSUPPORTED.
+ewa_status ewa_webp_encode_codes(ewa_context *context, const char *name, uint32_t width_px, uint32_t height_px, const uint8_t *codes,
+                                 ewa_webp *webp);
+void ewa_webp_free(ewa_webp *webp);
 
 #endif
