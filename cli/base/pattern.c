@@ -3,6 +3,7 @@
 //
 // Names of files: suffixes, and the place of a number. The pattern is the user's and never reaches printf.
 #include "cli/base/pattern.h"
+#include "cli/base/path.h"
 
 #include <inttypes.h>
 #include <stdio.h>
@@ -11,11 +12,13 @@
 
 bool path_has_suffix(const char *path, const char *suffixes) {
     const size_t length = strlen(path);
+    const char *name = path_file_name(path);
     for (const char *suffix = suffixes; *suffix;) {
         const size_t suffix_length = strcspn(suffix, "|");
         const bool stream = suffix_length == 1 && suffix[0] == '-';
+        const bool whole = suffix[0] != '.';
         if (stream ? strcmp(path, "-") == 0
-                   : length > suffix_length &&
+                   : (whole ? strlen(name) == suffix_length : length > suffix_length) &&
                          strncasecmp(path + length - suffix_length, suffix, suffix_length) == 0)
             return true;
         suffix += suffix_length;

@@ -9,8 +9,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/// Whether a name ends in one of the suffixes, which are separated by '|'; - does for standard input or
-/// output.
+/// Whether a name ends in one of the suffixes, which are separated by '|', or is the one without a dot in front;
+/// - does for standard input or output.
 bool path_has_suffix(const char *path, const char *suffixes);
 
 /// Whether a path holds exactly one number: %d, %4d or %04d with a width of 1 to 9; %% stands for a percent

@@ -159,7 +159,7 @@ class Gaussians(Held):
 
     @keywords("ewa_gaussians_save_options")
     def save(self, path: PathLike, **options: Unpack[GaussiansSaveOptions]) -> None:
-        """Write .ply (as 3DGS), .compressed.ply (of PlayCanvas), .splat or .spz.
+        """Write .ply (as 3DGS), .compressed.ply (of PlayCanvas), .splat, .spz, .glb, .sog, or meta.json with its pictures beside it.
 
         Parameters
         ----------

@@ -73,6 +73,18 @@ TEST(converted) {
     said("compressed PLY");
     said("degree 1");
     said("high        4 5 6");
+    run_done("ewa convert three.ply -o b.sog && ewa info b.sog");
+    said("SOG, version 2");
+    said("degree 1");
+    said("high        4 5 6");
+    run_done("ewa convert three.ply -o meta.json && ewa info meta.json && rm meta.json *.webp");
+    said("SOG, version 2");
+    run_done("ewa convert a.spz -o b.glb && ewa info b.glb"); // y is up there
+    said("format      glTF");
+    said("up          y (");
+    run_done("ewa convert b.glb -o c.compressed.ply && ewa info c.compressed.ply"); // and is turned back
+    said("up          -y (");
+    said("high        4 5 6");
     run_done("ewa convert b.splat -o c.ply && ewa info c.ply");
     said("3D Gaussians, spherical harmonics of degree 0");
     run_done("ewa convert a.spz -o c.ply && ewa info c.ply");

@@ -148,11 +148,10 @@ ewa_status ewa_gaussians_write_gltf(const ewa_gaussian_target *target) {
     ewa_gaussian_signs_turn(&w->signs);
     const ewa_status status = write_file(w);
     ewa_release(set->context, w, 1, sizeof *w);
-    if (status != EWA_OK) return status;
-    if (target->sh_degree > MAX_DEGREE)
+    if (status == EWA_OK && target->sh_degree > MAX_DEGREE)
         ewa_report(set->context, EWA_SEVERITY_WARNING, "%s: glTF has no harmonics of degree 4", target->name);
-    if (set->flat || set->antialiased)
+    if (status == EWA_OK && (set->flat || set->antialiased))
         ewa_report(set->context, EWA_SEVERITY_WARNING, "%s: glTF does not say that Gaussians are %s", target->name,
                    set->flat ? "flat: their third scale is 0" : "trained with a filter that keeps what they add");
-    return EWA_OK;
+    return status;
 }
