@@ -24,6 +24,9 @@ static const uint32_t DISSENTING = 2;
 // How often neighbours are asked, each time of one ring more; what drops out later than in round WHOLLY, counted from 0, keeps a part.
 enum { ROUNDS = 8, WHOLLY = 3 };
 
+// Ways to bend.
+enum { FLAT, HOLLOW, BULGING, SIDES = 4 };
+
 typedef struct curvature_job {
     const curvature_input *input;
     const local_kernels *kernels;
@@ -32,8 +35,9 @@ typedef struct curvature_job {
     double (*position)[3];
     float (*fit)[2];          // signed curvature and how far it is to be trusted
     float *mean;              // by place, over its neighbours
-    _Atomic uint8_t *dropped; // the round in which a place dropped out; ROUNDS: none
+    _Atomic uint8_t *states; // of each place: the way it bends, and SIDES times the round in which it dropped out (ROUNDS: none)
     uint8_t round;
+    atomic_bool any_dropped; // in this round
 } curvature_job;
 
 static double larger(double a, double b) { return b > a ? b : a; }
@@ -114,32 +118,42 @@ static void average_places(void *data, uint32_t task, uint32_t worker) {
     const curvature_job *job = data;
     const uint32_t begin = task * TASK_PLACES;
     const uint32_t end = job->place_count - begin < TASK_PLACES ? job->place_count : begin + TASK_PLACES;
-    for (uint32_t place = begin; place < end; place++) job->mean[place] = average(job, place);
+    for (uint32_t place = begin; place < end; place++) {
+        const float mean = job->mean[place] = average(job, place);
+        atomic_init(&job->states[place], (uint8_t)(ROUNDS * SIDES + (mean > 0 ? BULGING : mean < 0 ? HOLLOW : FLAT)));
+    }
+}
+
+static inline uint8_t state_of(const curvature_job *job, uint32_t place) {
+    return atomic_load_explicit(&job->states[place], memory_order_relaxed);
 }
 
 /// Whether no more than DISSENTING neighbours bend to the other side, do not bend, or have dropped out in an earlier round. Who drops out in this
 /// one counts still, so that it does not matter who is asked first.
-static bool is_shared(const curvature_job *job, uint32_t place) {
-    const uint32_t *links = job->input->links[place];
-    const float own = job->mean[place];
-    uint32_t others = 0;
-    for (int i = 0; i < LOCAL_GRAPH_DEGREE && links[i] != UINT32_MAX; i++) {
-        const float other = job->mean[links[i]];
-        const bool alike = own < 0 ? other < 0 : other > 0;
-        others += !alike || atomic_load_explicit(&job->dropped[links[i]], memory_order_relaxed) < job->round;
+static bool is_shared(const curvature_job *job, uint32_t place, uint8_t side) {
+    const uint32_t *links = job->input->links[place], earlier = job->round * SIDES;
+    uint32_t count = LOCAL_GRAPH_DEGREE, others = 0;
+    while (count && links[count - 1] == UINT32_MAX) count--;
+    for (uint32_t i = 0; i < count; i++) {
+        const uint32_t state = state_of(job, links[i]);
+        others += (state % SIDES != side) | (state < earlier);
     }
     return others <= DISSENTING;
 }
 
 static void drop_places(void *data, uint32_t task, uint32_t worker) {
     (void)worker;
-    const curvature_job *job = data;
+    curvature_job *job = data;
     const uint32_t begin = task * TASK_PLACES;
     const uint32_t end = job->place_count - begin < TASK_PLACES ? job->place_count : begin + TASK_PLACES;
+    bool any = false;
     for (uint32_t place = begin; place < end; place++) {
-        const bool left = job->mean[place] != 0 && atomic_load_explicit(&job->dropped[place], memory_order_relaxed) == ROUNDS;
-        if (left && !is_shared(job, place)) atomic_store_explicit(&job->dropped[place], job->round, memory_order_relaxed);
+        const uint8_t state = state_of(job, place), side = state % SIDES;
+        if (side == FLAT || state / SIDES < ROUNDS || is_shared(job, place, side)) continue;
+        atomic_store_explicit(&job->states[place], (uint8_t)(job->round * SIDES + side), memory_order_relaxed);
+        any = true;
     }
+    if (any) atomic_store_explicit(&job->any_dropped, true, memory_order_relaxed);
 }
 
 static void hand_out(void *data, uint32_t task, uint32_t worker) {
@@ -150,7 +164,7 @@ static void hand_out(void *data, uint32_t task, uint32_t worker) {
     for (uint32_t place = begin; place < end; place++) {
         uint32_t count;
         const uint32_t *points = ewa_neighbours_points(job->input->neighbours, place, &count);
-        const int rounds = atomic_load_explicit(&job->dropped[place], memory_order_relaxed);
+        const int rounds = state_of(job, place) / SIDES;
         const float share = rounds > WHOLLY ? (float)(rounds - WHOLLY) / (ROUNDS - WHOLLY) : 0;
         for (uint32_t i = 0; i < count; i++) job->input->curvature[points[i]] = share * job->mean[place];
     }
@@ -159,9 +173,12 @@ static void hand_out(void *data, uint32_t task, uint32_t worker) {
 /// Leaves the curvatures of what bends to one side for some way around: on rough ground splats that moved at contours would leave gaps, since
 /// others beside them do not.
 static ewa_status leave_shared(ewa_context *context, curvature_job *job, uint32_t tasks) {
-    for (uint32_t place = 0; place < job->place_count; place++) atomic_init(&job->dropped[place], ROUNDS);
-    for (job->round = 0; job->round < ROUNDS; job->round++)
+    bool any = true; // where none drops out in a round, none does later
+    for (job->round = 0; job->round < ROUNDS && any; job->round++) {
+        atomic_init(&job->any_dropped, false);
         EWA_TRY(ewa_parallel_stoppable(context, "estimate", drop_places, job, tasks));
+        any = atomic_load_explicit(&job->any_dropped, memory_order_relaxed);
+    }
     return ewa_parallel_stoppable(context, "estimate", hand_out, job, tasks);
 }
 
@@ -182,13 +199,13 @@ ewa_status ewa_curvature_measure(ewa_context *context, const curvature_input *in
     if (!job.offsets) job.position = ewa_allocate(context, job.place_count, sizeof *job.position);
     job.fit = ewa_allocate(context, job.place_count, sizeof *job.fit);
     job.mean = ewa_allocate(context, job.place_count, sizeof *job.mean);
-    job.dropped = ewa_allocate(context, job.place_count, sizeof *job.dropped);
-    ewa_status status = (job.offsets || job.position) && job.fit && job.mean && job.dropped ? EWA_OK : EWA_ERROR_MEMORY;
+    job.states = ewa_allocate(context, job.place_count, sizeof *job.states);
+    ewa_status status = (job.offsets || job.position) && job.fit && job.mean && job.states ? EWA_OK : EWA_ERROR_MEMORY;
     if (status == EWA_OK && job.position) ewa_parallel(context, copy_positions, &job, tasks);
     if (status == EWA_OK) status = ewa_parallel_stoppable(context, "estimate", fit_places, &job, tasks);
     if (status == EWA_OK) status = ewa_parallel_stoppable(context, "estimate", average_places, &job, tasks);
     if (status == EWA_OK) status = leave_shared(context, &job, tasks);
-    ewa_release(context, job.dropped, job.place_count, sizeof *job.dropped);
+    ewa_release(context, job.states, job.place_count, sizeof *job.states);
     ewa_release(context, job.mean, job.place_count, sizeof *job.mean);
     ewa_release(context, job.fit, job.place_count, sizeof *job.fit);
     if (job.position) ewa_release(context, job.position, job.place_count, sizeof *job.position);
