@@ -21,9 +21,10 @@
 
 typedef struct convert_arguments {
     procedure_arguments procedure; // first
-    option_vector crop, transform, scale, translate;
+    option_vector crop, sphere, transform, scale, translate;
     const char *outline;    ///< of --crop-polygon; NULL: none
     double voxel, distance; ///< world units; 0: no thinning
+    double prune;           ///< 0: no Gaussians
     ewa_estimate_options estimate; ///< of which outliers count
     option_color default_color;
     double subsample;          ///< 0: all points; under 1: a share; else a count
@@ -43,6 +44,7 @@ enum { REFIT_OFF, REFIT_INTERPOLATE, REFIT_FIT };
 static const cli_option change_table[] = {
     {"crop", OPTION_VECTOR, AT(crop), "x0,y0,z0,x1,y1,z1", .help = "keep the points inside a box", .low = 6,
      .high = 6},
+    {"crop-sphere", OPTION_VECTOR, AT(sphere), "x,y,z,radius", .help = "keep the points inside a sphere", .low = 4, .high = 4},
     {"crop-polygon", OPTION_TEXT, AT(outline), "FILE|x,y;x,y;...",
      .help =
          "keep the points inside an outline on the map, or on it: corners, or a file of WKT (POLYGON, "
@@ -77,6 +79,11 @@ static const cli_option change_table[] = {
 };
 
 static const cli_option gaussian_table[] = {
+    {"prune", OPTION_NUMBER, AT(prune), "F", "(0, inf)",
+     .help = "leave out, before anything else, what floats beside a scene or is never seen: Gaussians whose mean distance to their "
+             "neighbours is over the mean of all plus F standard deviations (as --outliers F), that are longer than F times what 99 % "
+             "are, or fainter than 1/255",
+     .absent = "none"},
     {"sh-degree", OPTION_OF(ewa_gaussians_save_options, AT(gaussians), sh_degree)},
     {"spz-version", OPTION_OF(ewa_gaussians_save_options, AT(gaussians), spz_version)},
 };
@@ -97,6 +104,8 @@ static bool check(const void *data, char message[OPTION_ERROR_BYTES]) {
     const char *problem = NULL;
     if (arguments->scale.count == 2)
         problem = "--scale: two numbers are neither s nor x,y,z";
+    else if (arguments->sphere.count && arguments->sphere.values[3] < 0)
+        problem = "--crop-sphere: the radius is below 0";
     else if (arguments->subsample > 1 && arguments->subsample != floor(arguments->subsample))
         problem = "--subsample: over 1, N has to be a whole number";
     return options_fine(problem, message);
@@ -215,12 +224,18 @@ typedef struct convert_job {
     ewa_polygon *polygon;
 } convert_job;
 
-/// What --filter, where it is not done yet, --crop and --crop-polygon choose.
+/// Whether parts of space are chosen.
+static bool cuts(const convert_job *job) {
+    return job->arguments->crop.count || job->arguments->sphere.count || job->polygon;
+}
+
+/// What --filter, where it is not done yet, --crop, --crop-sphere and --crop-polygon choose.
 static point_choice choose_parts(const cli_session *session, const convert_job *job) {
     const convert_arguments *arguments = job->arguments;
     const bool one = arguments->procedure.output.common.operand_count == 1;
     return (point_choice){.filter = one ? session->filter : NULL,
                           .corners_world = arguments->crop.count ? arguments->crop.values : NULL,
+                          .sphere_world = arguments->sphere.count ? arguments->sphere.values : NULL,
                           .polygon = job->polygon};
 }
 
@@ -258,8 +273,7 @@ static bool choose(cli_session *session, const void *data, ewa_cloud **cloud) {
 /// Whether only the nodes of an octree that meet a box, which is set, are to be read.
 static bool is_part_of_octree(cli_session *session, const convert_job *job, double corners_world[6]) {
     const common_arguments *common = &job->arguments->procedure.output.common;
-    const bool cuts = job->arguments->crop.count || job->polygon;
-    if (common->operand_count != 1 || !cuts || session->load.keep_going) return false;
+    if (common->operand_count != 1 || !cuts(job) || session->load.keep_going) return false;
     for (int c = 0; c < 6; c++) corners_world[c] = c < 3 ? -DBL_MAX : DBL_MAX;
     if (job->polygon) {
         double box_world[4];
@@ -267,10 +281,14 @@ static bool is_part_of_octree(cli_session *session, const convert_job *job, doub
         corners_world[0] = box_world[0], corners_world[1] = box_world[1];
         corners_world[3] = box_world[2], corners_world[4] = box_world[3];
     }
-    const double *crop = job->arguments->crop.values;
+    const double *crop = job->arguments->crop.values, *sphere = job->arguments->sphere.values;
     for (int c = 0; c < 3 && job->arguments->crop.count; c++) {
         corners_world[c] = fmax(corners_world[c], fmin(crop[c], crop[3 + c]));
         corners_world[3 + c] = fmin(corners_world[3 + c], fmax(crop[c], crop[3 + c]));
+    }
+    for (int c = 0; c < 3 && job->arguments->sphere.count; c++) {
+        corners_world[c] = fmax(corners_world[c], sphere[c] - sphere[3]);
+        corners_world[3 + c] = fmin(corners_world[3 + c], sphere[c] + sphere[3]);
     }
     return lod_input_serves(session, common->operands[0], corners_world);
 }
@@ -310,7 +328,7 @@ static ewa_cloud *make(cli_session *session, const convert_job *job, ewa_element
 /// points do not say what is read, and where more than centres moves.
 static bool is_of_gaussians(cli_session *session, const convert_arguments *arguments) {
     const output_arguments *output = &arguments->procedure.output;
-    if (convert_gaussians_is_named(output->path)) return true;
+    if (convert_gaussians_is_named(output->path) || arguments->prune > 0) return true;
     if (output->common.operand_count != 1 || ewa_gaussians_format_of(output->path) != EWA_GAUSSIANS_PLY)
         return false;
     const ewa_gaussian_format format = gaussian_files_format(session, output->common.operands[0]);
@@ -332,8 +350,8 @@ static bool convert_set(cli_session *session, const convert_job *job) {
     for (size_t i = 0; i < sizeof others / sizeof others[0]; i++)
         if (others[i].given) {
             session_fail(session,
-                         "--%s: Gaussians are not changed that way; --filter, --crop, --crop-polygon, --outliers, --voxel, "
-                         "--min-distance and --subsample choose some, --scale, --transform and --translate move them",
+                         "--%s: Gaussians are not changed that way; --filter, --crop, --crop-sphere, --crop-polygon, --outliers, --voxel, "
+                         "--min-distance, --subsample and --prune choose some, --scale, --transform and --translate move them",
                          others[i].name);
             return false;
         }
@@ -343,10 +361,10 @@ static bool convert_set(cli_session *session, const convert_job *job) {
     }
     double maps[MAX_MAPS][16];
     const uint32_t count = list_maps(arguments, maps);
-    const bool some = arguments->crop.count || job->polygon || session->filter || arguments->estimate.outlier_factor > 0 ||
+    const bool some = cuts(job) || session->filter || arguments->estimate.outlier_factor > 0 ||
                       arguments->voxel > 0 || arguments->distance > 0 || arguments->subsample > 0;
     return convert_gaussians(session, output->common.operands[0], output->path, &arguments->gaussians,
-                             some ? choose : NULL, job, (const double(*)[16])maps, count);
+                             arguments->prune, some ? choose : NULL, job, (const double(*)[16])maps, count);
 }
 
 /// Reads, changes and writes, a file alone piece by piece where that can be. False after reporting.
@@ -354,7 +372,7 @@ static bool convert(cli_session *session, const convert_job *job) {
     const output_arguments *output = &job->arguments->procedure.output;
     double corners_world[6];
     if (is_piecewise(job->arguments) && !is_part_of_octree(session, job, corners_world)) {
-        const bool keeps_count = !job->arguments->crop.count && !job->polygon && !session->filter;
+        const bool keeps_count = !cuts(job) && !session->filter;
         const streaming_result result =
             streaming_run(session, output->common.operands[0], output, job, change_piece, keeps_count);
         if (result != STREAMING_IMPOSSIBLE) return result == STREAMING_DONE;

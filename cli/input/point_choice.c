@@ -15,6 +15,8 @@ static ewa_status mark_chosen(const point_choice *choice, const ewa_cloud *cloud
         memcpy(corners_world, choice->corners_world, sizeof corners_world);
         status = ewa_box_mark((const double(*)[3])corners_world, cloud, marks);
     }
+    if (status == EWA_OK && choice->sphere_world)
+        status = ewa_sphere_mark(choice->sphere_world, choice->sphere_world[3], cloud, marks);
     if (status == EWA_OK && choice->polygon) status = ewa_polygon_mark(choice->polygon, cloud, marks);
     return status;
 }
@@ -55,7 +57,7 @@ static bool take(cli_session *session, const point_choice *choice,
 
 bool choose_points(cli_session *session, const point_choice *choice, ewa_cloud **cloud) {
     const uint64_t count = ewa_cloud_point_count(*cloud);
-    if (choice->filter || choice->corners_world || choice->polygon)
+    if (choice->filter || choice->corners_world || choice->sphere_world || choice->polygon)
         if (!take(session, choice, mark_chosen, cloud)) return false;
     if (choice->outliers && ewa_cloud_point_count(*cloud))
         if (!take(session, choice, mark_outliers, cloud)) return false;

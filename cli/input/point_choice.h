@@ -11,6 +11,7 @@
 typedef struct point_choice {
     const ewa_filter *filter;
     const double *corners_world; ///< of a box, two times three numbers
+    const double *sphere_world; ///< its centre and its radius
     const ewa_polygon *polygon;
     const ewa_estimate_options *outliers; ///< what of those far from all others goes; NULL: nothing
     double voxel_world;    ///< size of the voxels that keep one point each; 0: no thinning

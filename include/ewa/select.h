@@ -87,6 +87,10 @@ EWA_API ewa_status ewa_filter_mark(const ewa_filter *filter, const ewa_cloud *cl
 /// as its numbers are. Errors: EWA_ERROR_ARGUMENT (no positions).
 EWA_API ewa_status ewa_box_mark(const double corners_world[2][3], const ewa_cloud *cloud, uint8_t *marks);
 
+/// Clears the marks of points outside of a sphere, whose surface belongs to it. Errors: EWA_ERROR_ARGUMENT (no positions, a
+/// radius below 0 or that is no number).
+EWA_API ewa_status ewa_sphere_mark(const double center_world[3], double radius_world, const ewa_cloud *cloud, uint8_t *marks);
+
 /// Outlines in world x, y: rings, of which an odd number is around what is inside, so that rings in rings are
 /// holes.
 typedef struct ewa_polygon ewa_polygon;

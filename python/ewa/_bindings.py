@@ -3171,6 +3171,7 @@ class Functions:
         self.ewa_polygon_read: Callable[..., int] = bind("ewa_polygon_read", c.c_int, c.c_void_p, c.c_char_p, c.c_void_p, c.c_size_t, c.c_void_p)
         self.ewa_rank_select: Callable[..., float] = bind("ewa_rank_select", c.c_double, c.c_void_p, c.c_size_t, c.c_size_t)
         self.ewa_scalar_read: Callable[..., None] = bind("ewa_scalar_read", None, c.POINTER(ewa_scalar), c.c_uint64, c.c_uint64, c.c_void_p)
+        self.ewa_sphere_mark: Callable[..., int] = bind("ewa_sphere_mark", c.c_int, c.c_void_p, c.c_double, c.c_void_p, c.c_void_p)
         self.ewa_environment_create: Callable[..., int] = bind("ewa_environment_create", c.c_int, c.POINTER(ewa_image), c.c_void_p)
         self.ewa_environment_destroy: Callable[..., None] = bind("ewa_environment_destroy", None, c.c_void_p)
         self.ewa_light_init: Callable[..., None] = bind("ewa_light_init", None, c.POINTER(ewa_light))

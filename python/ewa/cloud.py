@@ -400,6 +400,18 @@ class Cloud:
         self._core.call(lib.ewa_box_mark, corners, self._h, marks.ctypes.data)
         return self._kept(marks)
 
+    def crop_sphere(self, center: Sequence[float], radius: float) -> Cloud:
+        """Return a cloud of the points within a sphere, world units, its surface included.
+
+        Raises
+        ------
+        ArgumentError
+        """
+        marks = np.ones(len(self), np.uint8)
+        middle = (ctypes.c_double * 3)(*numbers(center, 3, "center"))
+        self._core.call(lib.ewa_sphere_mark, middle, numbers([radius], 1, "radius")[0], self._h, marks.ctypes.data)
+        return self._kept(marks)
+
     def thin(self, *, voxel: float | None = None, distance: float | None = None) -> Cloud:
         """Return a cloud of fewer points: one per voxel of a size, or points at least a distance apart, world units.
 

@@ -127,6 +127,8 @@ class Arrays(Case):
         self.assertEqual(len(cloud.filter("classification=1")), 333)
         inside = (np.abs(self.points) <= 1).all(1)
         self.assertEqual(len(cloud.crop((-1, -1, -1), (1, 1, 1))), inside.sum())
+        self.assertEqual(len(cloud.crop_sphere((0, 0, 0), 1e9)), len(cloud))
+        self.assertRaises(ewa.ArgumentError, cloud.crop_sphere, (0, 0, 0), -1)
         np.testing.assert_array_equal(cloud.select(inside)["position"], self.points[inside])
         np.testing.assert_array_equal(cloud.select([5, 2, 2])["position"], self.points[[5, 2, 2]])
         np.testing.assert_array_equal(cloud.scalar("y"), self.points[:, 1])

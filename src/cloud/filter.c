@@ -56,9 +56,10 @@ ewa_status ewa_filter_mark(const ewa_filter *filter, const ewa_cloud *cloud, uin
     return EWA_OK;
 }
 
+static const char *const axes[] = {EWA_POSITION ".x", EWA_POSITION ".y", EWA_POSITION ".z"};
+
 ewa_status ewa_box_mark(const double corners_world[2][3], const ewa_cloud *cloud, uint8_t *marks) {
     if (!corners_world || !cloud || !marks) return EWA_ERROR_ARGUMENT;
-    static const char *const axes[] = {EWA_POSITION ".x", EWA_POSITION ".y", EWA_POSITION ".z"};
     ewa_filter filter = {.term_count = 3};
     for (int c = 0; c < 3; c++) {
         ewa_filter_term *term = &filter.terms[c];
@@ -68,4 +69,32 @@ ewa_status ewa_box_mark(const double corners_world[2][3], const ewa_cloud *cloud
         term->ranges[0] = (ewa_filter_range){.low = a < b ? a : b, .high = a < b ? b : a};
     }
     return ewa_filter_mark(&filter, cloud, marks);
+}
+
+typedef struct sphere_view {
+    double center_world[3], radius_world;
+    ewa_scalar coordinates[3];
+} sphere_view;
+
+static void mark_in_sphere(const void *data, uint64_t first, uint32_t count, uint8_t *marks) {
+    const sphere_view *view = data;
+    double numbers[EWA_MARK_BLOCK], distances2[EWA_MARK_BLOCK] = {0};
+    for (int c = 0; c < 3; c++) {
+        ewa_scalar_read(&view->coordinates[c], first, count, numbers);
+        for (uint32_t i = 0; i < count; i++)
+            distances2[i] += (numbers[i] - view->center_world[c]) * (numbers[i] - view->center_world[c]);
+    }
+    for (uint32_t i = 0; i < count; i++)
+        marks[i] = (uint8_t)(marks[i] && distances2[i] <= view->radius_world * view->radius_world);
+}
+
+ewa_status ewa_sphere_mark(const double center_world[3], double radius_world, const ewa_cloud *cloud, uint8_t *marks) {
+    if (!center_world || !cloud || !marks || !(radius_world >= 0)) return EWA_ERROR_ARGUMENT;
+    sphere_view view = {.radius_world = radius_world};
+    for (int c = 0; c < 3; c++) {
+        view.center_world[c] = center_world[c];
+        EWA_TRY(ewa_cloud_find_scalar(cloud, axes[c], &view.coordinates[c]));
+    }
+    ewa_mark_blocks(cloud, mark_in_sphere, &view, marks);
+    return EWA_OK;
 }

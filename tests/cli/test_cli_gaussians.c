@@ -143,6 +143,21 @@ TEST(chosen) {
     run_done("ewa convert line.spz -o a.spz --min-distance 1.9 --crop 0,0,0,19,0,1 && ewa info a.spz");
     run_done("ewa convert line.spz -o a.spz --voxel 10 && ewa info a.spz");
     said("gaussians   10\n");
+    run_done("ewa convert line.spz -o a.sog --crop-sphere 30,0,0,5 && ewa info a.sog");
+    said("gaussians   9\n"); // those at 25 and 35 are 1 off the line
+    run_done("ewa convert line.spz -o a.glb --crop-sphere 30,0,0,0 && ewa info a.glb");
+    said("gaussians   1\n");
+    run_fails(2, "the radius is below 0", "ewa convert line.spz -o x.spz --crop-sphere 30,0,0,-1");
+    // One far away, one huge, one as good as not there.
+    run_done("cp line.ply floaters.ply && sed -i 's/element vertex 100/element vertex 103/' floaters.ply && "
+             "printf '900 0 0 1 1 1 1 -3 -3 -3 1 0 0 0\\n5.5 0 0 1 1 1 1 4 -3 -3 1 0 0 0\\n"
+             "6.5 0 0 1 1 1 -6 -3 -3 -3 1 0 0 0\\n' >> floaters.ply && "
+             "ewa convert floaters.ply -o a.sog --prune 5 && ewa info a.sog");
+    said("gaussians   55\n"); // from an opacity of 1/148 on
+    said("low         45 ");
+    said("high        99 ");
+    run_done("ewa convert floaters.ply -o a.ply --prune 5 --crop 0,0,0,54,9,9 && ewa info a.ply");
+    said("points      10\n");
     // On a line those at its ends are farther from their neighbours.
     run_done("ewa convert line.spz -o a.spz --outliers 2 && ewa info a.spz");
     said("gaussians   9");
@@ -163,6 +178,7 @@ TEST(refused) {
     scratch_text("points.ply", "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\n"
                                "property float z\nend_header\n1 2 3\n");
     run_fails(1, "points.ply: no Gaussians of a known form", "ewa convert points.ply -o x.spz");
+    run_fails(1, "points.ply: no Gaussians of a known form", "ewa convert points.ply -o x.ply --prune 5");
     run_fails(1, "missing.spz", "ewa convert missing.spz -o x.splat");
     run_fails(1, "missing.spz", "ewa info missing.spz");
     assert_int_equal(run("head -c 40 a.spz > cut.spz && ewa info cut.spz"), 1);

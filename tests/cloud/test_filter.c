@@ -199,6 +199,12 @@ TEST(test_names) {
     memset(marks, 1, sizeof marks);
     assert_int_equal(ewa_box_mark(swapped, cloud, marks), EWA_OK);
     for (int i = 0; i < POINTS; i++) assert_int_equal(marks[i], i == 10 || i == 11);
+    // A sphere has the points at its radius: 7 and 9 are (1, 2, 1/4) from 8, a length of 2.25.
+    memset(marks, 1, sizeof marks);
+    const double middle[3] = {500008, 4200016, 12};
+    assert_int_equal(ewa_sphere_mark(middle, 2.25, cloud, marks), EWA_OK);
+    for (int i = 0; i < POINTS; i++) assert_int_equal(marks[i], i >= 7 && i <= 9);
+    assert_int_equal(ewa_sphere_mark(middle, NAN, cloud, marks), EWA_ERROR_ARGUMENT);
     ewa_cloud_destroy(&cloud);
 }
 
