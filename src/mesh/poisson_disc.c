@@ -25,6 +25,7 @@ enum {
     ROW_CANDIDATES = 8,    // per spacing of an edge
     TASK_CANDIDATES = 1 << 14,
     TASK_BLOCKS = 16,
+    AHEAD = 4, // candidates
     ASKED_CANDIDATES = 1 << 14, // between two questions where one thread works
 };
 
@@ -196,8 +197,9 @@ static void fill_inside(void *data, uint32_t part, uint32_t worker) {
     }
 }
 
-static void cell_of(const poisson_job *job, const poisson_sample *sample, int64_t cell[3]) {
-    for (int c = 0; c < 3; c++) cell[c] = (int64_t)((double)sample->at[c] * job->unit / job->cell);
+/// The cell of a sample along one axis.
+static int64_t cell_of(const poisson_job *job, const poisson_sample *sample, int c) {
+    return (int64_t)((double)sample->at[c] * job->unit / job->cell);
 }
 
 static size_t slot_of(const poisson_job *job, const int32_t at[3]) {
@@ -255,10 +257,8 @@ static ewa_status sort_candidates(poisson_job *job) {
     uint32_t last = NONE;
     for (uint64_t i = 0; i < count; i++) {
         if (i % ASKED_CANDIDATES == 0) EWA_TRY(tell(job, 0.1 + 0.1 * (double)i / (double)count));
-        int64_t cell[3];
-        cell_of(job, &job->thrown[i], cell);
-        const int32_t at[3] = {(int32_t)(cell[0] / BLOCK_CELLS), (int32_t)(cell[1] / BLOCK_CELLS),
-                               (int32_t)(cell[2] / BLOCK_CELLS)};
+        int32_t at[3];
+        for (int c = 0; c < 3; c++) at[c] = (int32_t)(cell_of(job, &job->thrown[i], c) / BLOCK_CELLS);
         if (last == NONE || at[0] != last_at[0] || at[1] != last_at[1] || at[2] != last_at[2]) {
             if (job->block_count == job->block_capacity) {
                 EWA_TRY(grow_blocks(job));
@@ -344,13 +344,13 @@ static uint32_t head_of(int32_t cell, uint32_t part) {
 /// Makes a sample one of the grid's; false when it is beside the grid.
 static bool locate(const poisson_job *job, const sample_block *block, const poisson_sample *sample,
                    uint32_t which, grid_sample *made, int32_t *slot) {
-    int64_t cell[3];
-    cell_of(job, sample, cell);
     int32_t local[3];
-    for (int c = 0; c < 3; c++) {
-        const int64_t place = cell[c] - (int64_t)BLOCK_CELLS * block->at[c] + 1;
+    for (int c = 0; c < 3; c++) { // most samples of blocks around are beside it along the first axis
+        const int64_t place = cell_of(job, sample, c) - (int64_t)BLOCK_CELLS * block->at[c] + 1;
         if (place < 0 || place >= GRID_CELLS) return false;
         local[c] = (int32_t)place;
+    }
+    for (int c = 0; c < 3; c++) {
         made->at[c] = (float)((double)sample->at[c] * job->unit / job->spacing -
                               (double)block->at[c] * (BLOCK_CELLS * job->cell / job->spacing));
         made->normal[c] = job->surface->normal[sample->triangle][c];
@@ -428,9 +428,11 @@ static void throw_block(const poisson_job *job, sample_block *block, poisson_scr
     uint32_t stride = (uint32_t)(0.6180339887498949 * candidates) | 1, accepted = 0;
     while (greatest_divisor(stride, candidates) != 1) stride += 2;
     poisson_sample *own = job->pool + block->first[job->which];
-    uint32_t at = 0;
+    uint32_t at = 0, ahead = (uint32_t)((uint64_t)stride * AHEAD % candidates);
     for (uint32_t i = 0; i < candidates; i++) {
         grid_sample *sample = &scratch->samples[used];
+        __builtin_prefetch(&own[ahead]); // the stride is longer than what processors foresee
+        ahead = (uint32_t)(((uint64_t)ahead + stride) % candidates);
         if (locate(job, block, &own[at], job->which, sample, &slot) && is_free(scratch, sample, slot)) {
             add_sample(scratch, used++, slot);
             own[at].triangle |= HIT;

@@ -322,12 +322,12 @@ static ewa_status sample(ewa_context *context, sample_job *job, ewa_cloud **clou
                    job->spacing, job->surface->triangle_count, job->surface->edge_count);
         status = ewa_progress(context, "sample", 1);
     }
+    ewa_mesh_edge_grid_free(&job->grid);
+    ewa_release(context, samples, capacity, sizeof *samples);
     if (status == EWA_OK) status = ewa_curvature_add(made);
     if (status == EWA_OK && job->colors.has_pictures) status = add_pictures(job, made);
     if (status != EWA_OK) ewa_cloud_destroy(&made);
     *cloud = made;
-    ewa_mesh_edge_grid_free(&job->grid);
-    ewa_release(context, samples, capacity, sizeof *samples);
     return status;
 }
 
