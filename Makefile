@@ -78,9 +78,10 @@ demo: program
 # them, the site what makes it.
 check: build asan-build clang-build tsan-build
 	@sh tools/setup.sh xvfb xdotool mandoc zsh fish desktop-file-utils shared-mime-info mkdocs mkdocs-material || echo "Without these it is skipped."
-	@sh tools/check.sh build/release build/asan:quick build/clang:parallel build/tsan:parallel
+	@sh tools/check.sh build/release:-long build/asan:quick build/clang:parallel build/tsan:parallel
 
 check-all: asan tsan clang check
+	@sh tools/check.sh build/release:long
 
 asan-build: setup
 	@echo "Building build/asan"

@@ -2,8 +2,8 @@
 # SPDX-FileCopyrightText: 2026 The ewa authors
 # SPDX-License-Identifier: MIT
 #
-# Runs every test of one or more build folders, or those with a label (FOLDER:LABEL), and ends with one line that counts
-# test cases: "N passed, 0 failed, K skipped". A cmocka program counts as the cases it reports, any other test as one.
+# Runs every test of one or more build folders, or those with a label (FOLDER:LABEL) or without (FOLDER:-LABEL), and ends with
+# one line that counts test cases: "N passed, 0 failed, K skipped". A cmocka program counts as the cases it reports, any other test as one.
 set -u
 
 log=$(mktemp)
@@ -12,7 +12,10 @@ failed=0
 for tests in "$@"; do
     folder=${tests%:*}
     label=""
-    [ "$folder" = "$tests" ] || label="-L ${tests##*:}"
+    case $tests in
+    *:-*) label="-LE ^${tests##*:-}\$" ;;
+    *:*) label="-L ^${tests##*:}\$" ;;
+    esac
     echo "== $tests"
     # shellcheck disable=SC2086
     ctest --test-dir "$folder" --output-on-failure -j "$(nproc)" --timeout 900 $label || failed=1
