@@ -4,7 +4,7 @@
 # Short names for what one does here; CMake does the work.
 #
 #   make demo [FILE=scan.ply]   installs what is missing, builds, renders, says where the picture is
-#   make check                  the same set-up, then every test, the quick ones also under the address and undefined
+#   make check                  the same set-up, then the tests, the quick ones also under the address and undefined
 #                               behaviour sanitizers, those of threads also as clang builds them and under the thread
 #                               sanitizer; the last line counts them
 #   make check-all              every test of all four builds (hours)

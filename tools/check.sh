@@ -3,7 +3,8 @@
 # SPDX-License-Identifier: MIT
 #
 # Runs every test of one or more build folders, or those with a label (FOLDER:LABEL) or without (FOLDER:-LABEL), and ends with
-# one line that counts test cases: "N passed, 0 failed, K skipped". A cmocka program counts as the cases it reports, any other test as one.
+# one line that counts test cases: "N passed, 0 failed, K skipped". A cmocka program counts as the cases it reports, any other
+# test as one.
 set -u
 
 log=$(mktemp)
@@ -17,8 +18,9 @@ for tests in "$@"; do
     *:*) label="-L ^${tests##*:}\$" ;;
     esac
     echo "== $tests"
+    # One more than there are processors: some wait for processes, servers and screens.
     # shellcheck disable=SC2086
-    ctest --test-dir "$folder" --output-on-failure -j "$(nproc)" --timeout 900 $label || failed=1
+    ctest --test-dir "$folder" --output-on-failure -j "$(($(nproc) + 1))" --timeout 900 $label || failed=1
     cat "$folder/Testing/Temporary/LastTest.log" >>"$log"
 done
 
