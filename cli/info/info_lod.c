@@ -26,6 +26,9 @@ void info_lod_print(const ewa_lod *lod, uint64_t sampled_count) {
         printf("    surfels   %" PRIu64 " stand for the points at its levels\n", info.merged_count);
     else
         printf("    surfels   none that stand for points: ewa lod adds them\n");
+    for (uint32_t i = 0; info.merged && i < ewa_cloud_attribute_count(info.represented); i++)
+        printf("%s%s%s", i ? " " : "    have      ", ewa_cloud_attribute_at(info.represented, i)->name,
+               i + 1 == ewa_cloud_attribute_count(info.represented) ? "\n" : "");
     if (sampled_count)
         printf("    sample    all else is told of %" PRIu64 " points, those of its coarsest levels\n",
                sampled_count);
@@ -44,6 +47,10 @@ void info_lod_write(json_writer *json, const ewa_lod *lod, uint64_t sampled_coun
     json_number(json, "root_spacing", info.spacing_world);
     json_flag(json, "merged", info.merged);
     json_count(json, "merged_surfels", info.merged_count);
+    json_array(json, "merged_attributes");
+    for (uint32_t i = 0; info.merged && i < ewa_cloud_attribute_count(info.represented); i++)
+        json_text(json, NULL, ewa_cloud_attribute_at(info.represented, i)->name);
+    json_close(json, ']');
     json_count(json, "sampled_points", sampled_count);
     json_close(json, '}');
 }

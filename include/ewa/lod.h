@@ -45,6 +45,7 @@ typedef struct ewa_lod_info {
     uint64_t merged_count;      ///< how many there are
     bool surfels;               ///< points have normals and radii, or axes
     const ewa_cloud *prototype; ///< no points; attributes, origin, grid and notes of the points
+    const ewa_cloud *represented; ///< no points; attributes of surfels that represent points; NULL: there are none
 } ewa_lod_info;
 
 EWA_API void ewa_lod_describe(const ewa_lod *lod, ewa_lod_info *info);
@@ -144,6 +145,11 @@ typedef struct ewa_lod_build_options {
     uint32_t subset;
     uint32_t subset_count; ///< [1, 65536]; default 1: all at once
     bool keep_going;       ///< step over damaged pieces of the files; default false
+    /// Names of attributes of one number that surfels which represent points have, too, comma-separated, borrowed during the
+    /// call, 16 at most: what pictures of levels are coloured and filtered by. Of floats and of strengths of light they have the
+    /// mean by area, of other whole numbers, which are codes, that of most area. "": none; default NULL: classification and
+    /// intensity, of those that the points have
+    const char *attributes;
 } ewa_lod_build_options;
 
 EWA_API extern const ewa_option_table ewa_lod_build_options_table;

@@ -26,6 +26,12 @@ bool ewa_cloud_has_scalar(const ewa_cloud *cloud, const char *word);
 /// ewa_cloud_find_scalar() takes one for the other.
 bool ewa_attribute_names_agree(const char *a, const char *b);
 
+/// Names of strengths of light, of which a few mirrors give numbers far above all others: the usual ones first; NULL beyond the last.
+const char *ewa_signal_name(uint32_t index);
+
+/// Whether an attribute is one of these.
+bool ewa_attribute_is_signal(const char *name);
+
 /// Whether points without an attribute are drawn as if they had a number of it, which is then all that merged clouds
 /// need to tell of them. Sets the number, 0 where there is none.
 bool ewa_cloud_absent_number(const char *name, double *number);

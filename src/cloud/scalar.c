@@ -37,6 +37,17 @@ bool ewa_attribute_names_agree(const char *a, const char *b) {
     }
 }
 
+const char *ewa_signal_name(uint32_t index) {
+    static const char *const names[] = {"intensity", "reflectance", "amplitude", "nir"};
+    return index < sizeof names / sizeof names[0] ? names[index] : NULL;
+}
+
+bool ewa_attribute_is_signal(const char *name) {
+    for (uint32_t i = 0; ewa_signal_name(i); i++)
+        if (ewa_attribute_names_agree(name, ewa_signal_name(i))) return true;
+    return false;
+}
+
 static const ewa_attribute *find_attribute(const ewa_cloud *cloud, const char *name, bool loosely) {
     const ewa_attribute *attribute = ewa_cloud_find(cloud, name);
     for (uint32_t k = 0; !attribute && loosely && (attribute = ewa_cloud_attribute_at(cloud, k)); k++) {

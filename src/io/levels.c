@@ -43,7 +43,8 @@ static const char *check_page(const ewa_levels_page *page, uint64_t size_bytes) 
     for (int c = 0; c < 3; c++)
         if (key->cell[c] < 0 || key->cell[c] >= (int64_t)1 << key->level) return "a key is no node";
     if (page->surfel_count > EWA_LEVELS_MAX_SURFELS) return "a node has too many surfels";
-    if (page->at_bytes > size_bytes || page->size_bytes > size_bytes - page->at_bytes)
+    if (page->at_bytes > size_bytes || page->size_bytes > size_bytes - page->at_bytes ||
+        page->attributes_bytes > size_bytes - page->at_bytes - page->size_bytes)
         return "a block lies beyond the record";
     if (!(page->radius_scale > 0 && page->radius_scale <= 16) || !(page->error >= 0 && page->error <= 255) ||
         !(page->largest_radius_world >= 0 && isfinite(page->largest_radius_world)) ||
@@ -67,10 +68,42 @@ static const char *check_tree(const ewa_levels *levels) {
     return NULL;
 }
 
+/// Attributes that a head says, which versions before the third have none of.
+static uint32_t read_attribute_count(const uint8_t *head) { return ewa_las_u32(head + 4) > 2 ? ewa_las_u32(head + 12) : 0; }
+
+/// Byte of the table of pages.
+static uint64_t pages_at(uint32_t attribute_count) {
+    return EWA_LEVELS_HEAD_BYTES + (uint64_t)attribute_count * EWA_LEVELS_ATTRIBUTE_BYTES;
+}
+
 uint64_t ewa_levels_table_bytes(const uint8_t *head, uint64_t size_bytes) {
     if (size_bytes < EWA_LEVELS_HEAD_BYTES) return size_bytes;
-    const uint64_t table_bytes = EWA_LEVELS_HEAD_BYTES + (uint64_t)ewa_las_u32(head + 8) * EWA_LEVELS_PAGE_BYTES;
+    const uint64_t table_bytes = pages_at(read_attribute_count(head)) + (uint64_t)ewa_las_u32(head + 8) * EWA_LEVELS_PAGE_BYTES;
     return table_bytes < size_bytes ? table_bytes : size_bytes;
+}
+
+bool ewa_level_attribute_is_free(const char *name) {
+    static const char *const taken[] = {EWA_POSITION, EWA_NORMAL, EWA_RADIUS, EWA_COLOR, EWA_CURVATURE};
+    for (size_t i = 0; i < sizeof taken / sizeof taken[0]; i++)
+        if (strcmp(name, taken[i]) == 0) return false;
+    return name[0] != 0;
+}
+
+/// Reads the attributes; what is wrong with them, NULL: nothing.
+static const char *read_attributes(const uint8_t *bytes, uint32_t count, ewa_levels *levels) {
+    for (uint32_t i = 0; i < count; i++) {
+        const uint8_t *entry = bytes + EWA_LEVELS_HEAD_BYTES + (size_t)i * EWA_LEVELS_ATTRIBUTE_BYTES;
+        ewa_level_attribute *attribute = &levels->attributes[i];
+        memcpy(attribute->name, entry, EWA_NAME_BYTES);
+        const uint32_t type = ewa_las_u32(entry + EWA_NAME_BYTES);
+        if (!memchr(attribute->name, 0, EWA_NAME_BYTES) || type > EWA_U32) return "an attribute";
+        attribute->type = (ewa_type)type;
+        bool is_free = ewa_level_attribute_is_free(attribute->name);
+        for (uint32_t k = 0; k < i; k++) is_free = is_free && strcmp(levels->attributes[k].name, attribute->name) != 0;
+        if (!is_free) return "an attribute comes twice";
+    }
+    levels->attribute_count = count;
+    return NULL;
 }
 
 ewa_status ewa_levels_read(ewa_context *context, const char *name, const uint8_t *bytes, uint64_t size_bytes,
@@ -83,17 +116,18 @@ ewa_status ewa_levels_read(ewa_context *context, const char *name, const uint8_t
         return ewa_fail(context, EWA_ERROR_UNSUPPORTED, "%s: the record of surfels is of version %u, not 1 to %d", name,
                         version, EWA_LEVELS_VERSION);
     levels->has_curvatures = version > 1;
-    const uint32_t count = ewa_las_u32(bytes + 8);
+    const uint32_t count = ewa_las_u32(bytes + 8), attributes = read_attribute_count(bytes);
     levels->unit_coverage = ewa_las_f64(bytes + 16);
-    if (count > (size_bytes - EWA_LEVELS_HEAD_BYTES) / EWA_LEVELS_PAGE_BYTES ||
+    if (attributes > EWA_LEVELS_MAX_ATTRIBUTES || pages_at(attributes) > size_bytes ||
+        count > (size_bytes - pages_at(attributes)) / EWA_LEVELS_PAGE_BYTES ||
         !(levels->unit_coverage >= 0 && levels->unit_coverage < 1e6))
         return ewa_fail(context, EWA_ERROR_FORMAT, "%s: the record of surfels is damaged: its head", name);
     levels->pages = ewa_allocate(context, count, sizeof *levels->pages);
     if (!levels->pages) return EWA_ERROR_MEMORY;
     levels->page_count = count;
-    const char *fault = NULL;
+    const char *fault = read_attributes(bytes, attributes, levels);
     for (uint32_t i = 0; i < count && !fault; i++) {
-        const uint8_t *entry = bytes + EWA_LEVELS_HEAD_BYTES + (size_t)i * EWA_LEVELS_PAGE_BYTES;
+        const uint8_t *entry = bytes + pages_at(attributes) + (size_t)i * EWA_LEVELS_PAGE_BYTES;
         ewa_levels_page *page = &levels->pages[i];
         *page = (ewa_levels_page){.key = {.level = (int32_t)ewa_las_u32(entry)},
                                   .point_count = ewa_las_u64(entry + 16),
@@ -103,7 +137,8 @@ ewa_status ewa_levels_read(ewa_context *context, const char *name, const uint8_t
                                   .largest_radius_world = read_f32(entry + 36),
                                   .unit_coverage = read_f32(entry + 52),
                                   .at_bytes = ewa_las_u64(entry + 40),
-                                  .size_bytes = ewa_las_u32(entry + 48)};
+                                  .size_bytes = ewa_las_u32(entry + 48),
+                                  .attributes_bytes = attributes ? ewa_las_u32(entry + 56) : 0};
         for (int c = 0; c < 3; c++) page->key.cell[c] = (int32_t)ewa_las_u32(entry + 4 + 4 * c);
         fault = check_page(page, size_bytes);
         levels->surfel_count += page->surfel_count;
@@ -123,16 +158,23 @@ void ewa_levels_free(ewa_context *context, ewa_levels *levels) {
 }
 
 void ewa_levels_write(const ewa_levels *levels, uint8_t *bytes) {
-    const uint64_t blocks_at = EWA_LEVELS_HEAD_BYTES + (uint64_t)levels->page_count * EWA_LEVELS_PAGE_BYTES;
+    const uint64_t table_at = pages_at(levels->attribute_count);
+    const uint64_t blocks_at = table_at + (uint64_t)levels->page_count * EWA_LEVELS_PAGE_BYTES;
     memset(bytes, 0, (size_t)blocks_at);
     memcpy(bytes, "EWAL", 4);
-    ewa_las_put_u32(bytes + 4, levels->has_curvatures ? EWA_LEVELS_VERSION : 1);
+    ewa_las_put_u32(bytes + 4, levels->attribute_count ? EWA_LEVELS_VERSION : levels->has_curvatures ? 2 : 1);
     ewa_las_put_u32(bytes + 8, levels->page_count);
+    ewa_las_put_u32(bytes + 12, levels->attribute_count);
     ewa_las_put_f64(bytes + 16, levels->unit_coverage);
     ewa_las_put_u64(bytes + 24, levels->surfel_count);
+    for (uint32_t i = 0; i < levels->attribute_count; i++) {
+        uint8_t *entry = bytes + EWA_LEVELS_HEAD_BYTES + (size_t)i * EWA_LEVELS_ATTRIBUTE_BYTES;
+        memcpy(entry, levels->attributes[i].name, EWA_NAME_BYTES);
+        ewa_las_put_u32(entry + EWA_NAME_BYTES, (uint32_t)levels->attributes[i].type);
+    }
     for (uint32_t i = 0; i < levels->page_count; i++) {
         const ewa_levels_page *page = &levels->pages[i];
-        uint8_t *entry = bytes + EWA_LEVELS_HEAD_BYTES + (size_t)i * EWA_LEVELS_PAGE_BYTES;
+        uint8_t *entry = bytes + table_at + (size_t)i * EWA_LEVELS_PAGE_BYTES;
         ewa_las_put_u32(entry, (uint32_t)page->key.level);
         for (int c = 0; c < 3; c++) ewa_las_put_u32(entry + 4 + 4 * c, (uint32_t)page->key.cell[c]);
         ewa_las_put_u64(entry + 16, page->point_count);
@@ -143,6 +185,7 @@ void ewa_levels_write(const ewa_levels *levels, uint8_t *bytes) {
         ewa_las_put_u64(entry + 40, page->size_bytes ? blocks_at + page->at_bytes : 0);
         ewa_las_put_u32(entry + 48, page->size_bytes);
         write_f32(entry + 52, page->unit_coverage);
+        ewa_las_put_u32(entry + 56, page->attributes_bytes);
     }
 }
 
@@ -193,6 +236,28 @@ static void decode_normal(uint32_t code_u, uint32_t code_v, float n[3]) {
     for (int c = 0; c < 3; c++) n[c] /= length;
 }
 
+/// Packs planes of bytes.
+static ewa_status append_packed(ewa_context *context, const uint8_t *raw, size_t raw_bytes, ewa_buffer *to, size_t *at_bytes) {
+    ewa_deflated packed = {0};
+    ewa_status status = ewa_deflate(context, EWA_DEFLATE_BARE, COMPRESSION, raw, raw_bytes, &packed);
+    if (status == EWA_OK) status = ewa_buffer_grow(context, to, *at_bytes, *at_bytes + packed.size_bytes, 1);
+    if (status == EWA_OK) {
+        memcpy((uint8_t *)to->data + *at_bytes, packed.bytes, packed.size_bytes);
+        *at_bytes += packed.size_bytes;
+    }
+    ewa_deflated_free(context, &packed);
+    return status;
+}
+
+/// Unpacks planes of bytes; NULL, or what is wrong.
+static const char *unpack(const uint8_t *bytes, size_t size_bytes, uint8_t *raw, size_t raw_bytes) {
+    const ewa_status status = ewa_inflate(bytes, size_bytes, raw, raw_bytes);
+    return status == EWA_OK                  ? NULL
+           : status == EWA_ERROR_MEMORY      ? "there is no memory"
+           : status == EWA_ERROR_UNSUPPORTED ? "its surfels are packed as this build cannot unpack (EWA_WITH_DEFLATE)"
+                                             : "its surfels cannot be unpacked";
+}
+
 ewa_status ewa_level_encode(ewa_context *context, const ewa_level_surfels *surfels, uint32_t count,
                             ewa_buffer *to, size_t *at_bytes) {
     const size_t raw_bytes = ewa_level_raw_bytes(count, surfels->curvature);
@@ -213,14 +278,7 @@ ewa_status ewa_level_encode(ewa_context *context, const ewa_level_surfels *surfe
         raw[(size_t)PLANES * count + i] = (uint8_t)(bend >> 8);
         raw[((size_t)PLANES + 1) * count + i] = (uint8_t)bend;
     }
-    ewa_deflated packed = {0};
-    if (status == EWA_OK) status = ewa_deflate(context, EWA_DEFLATE_BARE, COMPRESSION, raw, raw_bytes, &packed);
-    if (status == EWA_OK) status = ewa_buffer_grow(context, to, *at_bytes, *at_bytes + packed.size_bytes, 1);
-    if (status == EWA_OK) {
-        memcpy((uint8_t *)to->data + *at_bytes, packed.bytes, packed.size_bytes);
-        *at_bytes += packed.size_bytes;
-    }
-    ewa_deflated_free(context, &packed);
+    if (status == EWA_OK) status = append_packed(context, raw, raw_bytes, to, at_bytes);
     ewa_release(context, raw, raw_bytes, 1);
     return status;
 }
@@ -228,12 +286,8 @@ ewa_status ewa_level_encode(ewa_context *context, const ewa_level_surfels *surfe
 const char *ewa_level_decode(const ewa_levels_page *page, const uint8_t *bytes, uint8_t *scratch,
                              const ewa_level_surfels *surfels) {
     const uint32_t count = page->surfel_count;
-    const ewa_status status =
-        ewa_inflate(bytes, page->size_bytes, scratch, ewa_level_raw_bytes(count, surfels->curvature));
-    if (status != EWA_OK)
-        return status == EWA_ERROR_MEMORY        ? "there is no memory"
-               : status == EWA_ERROR_UNSUPPORTED ? "its surfels are packed as this build cannot unpack (EWA_WITH_DEFLATE)"
-                                                 : "its surfels cannot be unpacked";
+    const char *fault = unpack(bytes, page->size_bytes, scratch, ewa_level_raw_bytes(count, surfels->curvature));
+    if (fault) return fault;
     for (uint32_t i = 0; i < count; i++) {
         uint32_t codes[6];
         for (size_t k = 0; k < 6; k++)
@@ -248,4 +302,77 @@ const char *ewa_level_decode(const ewa_levels_page *page, const uint8_t *bytes, 
         surfels->curvature[i] = isfinite(bend) ? bend : 0;
     }
     return NULL;
+}
+
+/// The bits of a number as a type has it, of whole numbers the nearest.
+static uint64_t code_number(ewa_type type, double number) {
+    if (type == EWA_F64) {
+        uint64_t bits;
+        memcpy(&bits, &number, sizeof bits);
+        return bits;
+    }
+    if (type == EWA_F32) {
+        const float value = (float)number;
+        uint32_t bits;
+        memcpy(&bits, &value, sizeof bits);
+        return bits;
+    }
+    return (uint64_t)llrint(number);
+}
+
+/// Stores the lower bytes of a code in the order of this machine.
+static void put_bits(uint8_t *to, size_t size_bytes, uint64_t code) {
+    const uint16_t half = (uint16_t)code;
+    const uint32_t word = (uint32_t)code;
+    if (size_bytes == 1)
+        *to = (uint8_t)code;
+    else if (size_bytes == 2)
+        memcpy(to, &half, sizeof half);
+    else if (size_bytes == 4)
+        memcpy(to, &word, sizeof word);
+    else
+        memcpy(to, &code, sizeof code);
+}
+
+size_t ewa_level_attribute_bytes(const ewa_levels *levels, uint32_t count) {
+    size_t bytes = 0;
+    for (uint32_t a = 0; a < levels->attribute_count; a++) bytes += count * ewa_type_bytes(levels->attributes[a].type);
+    return bytes;
+}
+
+ewa_status ewa_level_encode_attributes(ewa_context *context, const ewa_level_attribute *attributes, uint32_t attribute_count,
+                                       const double *numbers, uint32_t count, ewa_buffer *to, size_t *at_bytes) {
+    size_t raw_bytes = 0, plane = 0;
+    for (uint32_t a = 0; a < attribute_count; a++) raw_bytes += count * ewa_type_bytes(attributes[a].type);
+    if (!raw_bytes) return EWA_OK;
+    uint8_t *raw = ewa_allocate(context, raw_bytes, 1);
+    if (!raw) return EWA_ERROR_MEMORY;
+    for (uint32_t a = 0; a < attribute_count; a++) {
+        const size_t bytes = ewa_type_bytes(attributes[a].type);
+        for (uint32_t i = 0; i < count; i++) {
+            const uint64_t code = code_number(attributes[a].type, numbers[(size_t)i * attribute_count + a]);
+            for (size_t k = 0; k < bytes; k++) raw[(plane + k) * count + i] = (uint8_t)(code >> 8 * (bytes - 1 - k));
+        }
+        plane += bytes;
+    }
+    const ewa_status status = append_packed(context, raw, raw_bytes, to, at_bytes);
+    ewa_release(context, raw, raw_bytes, 1);
+    return status;
+}
+
+const char *ewa_level_decode_attributes(const ewa_levels *levels, const ewa_levels_page *page, const uint8_t *bytes,
+                                        uint8_t *scratch, void *const *streams) {
+    const uint32_t count = page->surfel_count;
+    const char *fault = unpack(bytes, page->attributes_bytes, scratch, ewa_level_attribute_bytes(levels, count));
+    const uint8_t *plane = scratch;
+    for (uint32_t a = 0; a < levels->attribute_count && !fault; a++) {
+        const size_t size_bytes = ewa_type_bytes(levels->attributes[a].type);
+        for (uint32_t i = 0; i < count && streams[a]; i++) {
+            uint64_t code = 0;
+            for (size_t k = 0; k < size_bytes; k++) code = code << 8 | plane[k * count + i];
+            put_bits((uint8_t *)streams[a] + i * size_bytes, size_bytes, code);
+        }
+        plane += size_bytes * count;
+    }
+    return fault;
 }

@@ -107,10 +107,12 @@ static int compare_pages(const void *a, const void *b) {
 static ewa_status write_pages(ewa_lod_builder *b) {
     enum { STEP_BYTES = 1 << 20 };
     ewa_levels levels = {
-        .pages = b->pages.data, .page_count = b->page_count, .surfel_count = b->stats.merged_count, .has_curvatures = true};
+        .pages = b->pages.data, .page_count = b->page_count, .surfel_count = b->stats.merged_count, .has_curvatures = true, .attribute_count = b->plan.attribute_count};
+    memcpy(levels.attributes, b->plan.attributes, sizeof levels.attributes);
     EWA_TRY(find_coverage(b, &levels.unit_coverage));
     if (levels.page_count) qsort(levels.pages, levels.page_count, sizeof *levels.pages, compare_pages);
-    const size_t table_bytes = EWA_LEVELS_HEAD_BYTES + (size_t)levels.page_count * EWA_LEVELS_PAGE_BYTES;
+    const size_t table_bytes = EWA_LEVELS_HEAD_BYTES + levels.attribute_count * EWA_LEVELS_ATTRIBUTE_BYTES +
+                               (size_t)levels.page_count * EWA_LEVELS_PAGE_BYTES;
     const uint64_t blocks_bytes = ewa_spool_size(b->blocks);
     uint8_t *bytes = ewa_allocate(b->context, table_bytes, 1),
             *step = ewa_allocate(b->context, STEP_BYTES, 1);

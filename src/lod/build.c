@@ -50,7 +50,7 @@ static ewa_status build(ewa_context *context, const ewa_inputs *inputs, const ch
         status = ewa_distribution_make(inputs, &statistics, out, max_points, options->subset,
                                        options->subset_count, &s.distribution);
     const double distributed = ewa_now_s();
-    if (status == EWA_OK) status = ewa_region_plan_make(context, &statistics, inputs->prototype, &b->plan);
+    if (status == EWA_OK) status = ewa_region_plan_make(context, &statistics, inputs->prototype, options->attributes, &b->plan);
     ewa_lod_region *regions = NULL;
     if (status == EWA_OK && !(regions = ewa_allocate(context, s.distribution.region_count, sizeof *regions)))
         status = EWA_ERROR_MEMORY;

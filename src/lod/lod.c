@@ -31,6 +31,7 @@ static ewa_status open_tree(ewa_lod *lod, const char *path) {
             ewa_levels_read(lod->context, path, lod->facts->levels, lod->facts->levels_bytes, &lod->levels);
         lod->has_levels = lod->levels.page_count > 0;
     }
+    if (status == EWA_OK && lod->has_levels) status = ewa_tree_make_represented(lod, &lod->represented);
     return status == EWA_OK ? ewa_tree_make(lod) : status;
 }
 
@@ -56,6 +57,7 @@ static ewa_status add_instance(ewa_lod *lod, ewa_lod **added) {
                         .octree = lod->octree,
                         .facts = lod->facts,
                         .levels = lod->levels,
+                        .represented = lod->represented,
                         .has_levels = lod->has_levels,
                         .has_surfels = lod->has_surfels,
                         .is_instance = true};
@@ -96,6 +98,7 @@ void ewa_lod_close(ewa_lod **lod) {
     ewa_buffer_free(context, &old->cover);
     ewa_buffer_free(context, &old->instances);
     ewa_buffer_free(context, &old->wanted);
+    if (!old->is_instance) ewa_cloud_destroy(&old->represented);
     if (!old->is_instance) ewa_levels_free(context, &old->levels);
     if (!old->is_instance) ewa_octree_close(&old->octree);
     ewa_release(context, old, 1, sizeof *old);
@@ -113,7 +116,8 @@ void ewa_lod_describe(const ewa_lod *lod, ewa_lod_info *info) {
                            .merged = lod->has_levels,
                            .merged_count = lod->levels.surfel_count,
                            .surfels = lod->has_surfels,
-                           .prototype = facts->prototype};
+                           .prototype = facts->prototype,
+                           .represented = lod->represented};
     memcpy(info->low_world, facts->low_world, sizeof info->low_world);
     for (uint32_t i = 0; i < facts->node_count; i++)
         if ((uint32_t)facts->nodes[i].key.level >= info->level_count)

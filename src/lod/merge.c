@@ -27,12 +27,48 @@ typedef struct sheet {
     float first_normal[3];
 } sheet;
 
+/// A number of a surfel, and its area.
+typedef struct weighed {
+    double number, weight;
+} weighed;
+
 typedef struct merge_job {
+    const ewa_representatives *all;
     const ewa_representative *fine;
-    uint32_t count, cell_level;
-    ewa_representative *made; // those of each part where its fine ones begin
+    uint32_t count, cell_level, means;
+    ewa_representatives made; // those of each part where its fine ones begin
+    uint8_t *sheet_of;        // [fine], where there are numbers
+    weighed *weighed;         // [fine], likewise
     uint32_t made_counts[PARTS];
 } merge_job;
+
+static int compare_numbers(const void *a, const void *b) {
+    const double p = ((const weighed *)a)->number, q = ((const weighed *)b)->number;
+    return p < q ? -1 : p > q;
+}
+
+/// The mean of the finite ones by area; NaN where there is none.
+static double mean_of(const weighed *of, uint32_t count) {
+    double sum = 0, weights = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        if (!isfinite(of[i].number)) continue;
+        sum += of[i].weight * of[i].number;
+        weights += of[i].weight;
+    }
+    return weights > 0 ? sum / weights : (double)NAN;
+}
+
+/// The number that most area has, of several the smallest.
+static double most_of(weighed *of, uint32_t count) {
+    double most = of[0].number, maximum = -1;
+    qsort(of, count, sizeof *of, compare_numbers);
+    for (uint32_t first = 0, next; first < count; first = next) {
+        double weight = of[first].weight;
+        for (next = first + 1; next < count && of[next].number == of[first].number; next++) weight += of[next].weight;
+        if (weight > maximum) maximum = weight, most = of[first].number;
+    }
+    return most;
+}
 
 static int compare_floats(const void *a, const void *b) {
     const float p = *(const float *)a, q = *(const float *)b;
@@ -51,9 +87,14 @@ static float radius_limit(const ewa_representative *cell, uint32_t count) {
 
 static float dot(const float a[3], const float b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
+/// The area by which a surfel counts.
+static double weight_of(const ewa_representative *s, float limit) {
+    const double radius = (double)(s->radius_world < limit ? s->radius_world : limit);
+    return radius * radius;
+}
+
 static void add(sheet *to, const ewa_representative *s, float limit) {
-    const double radius = (double)(s->radius_world < limit ? s->radius_world : limit),
-                 weight = radius * radius;
+    const double weight = weight_of(s, limit);
     to->weight += weight;
     to->alpha += weight * (double)s->alpha;
     to->curvature += weight * (double)s->curvature;
@@ -98,10 +139,37 @@ static ewa_representative finish(const sheet *from, uint64_t code) {
     return made;
 }
 
-static uint32_t merge_cell(const ewa_representative *cell, uint32_t count, ewa_representative *made) {
+/// Makes the numbers of a cell's sheets.
+static void merge_numbers(const merge_job *job, uint32_t first, uint32_t count, float limit, uint32_t sheet_count,
+                          double *made) {
+    const uint32_t number_count = job->all->number_count;
+    weighed *of = job->weighed + first;
+    for (uint32_t k = 0; k < sheet_count; k++)
+        for (uint32_t a = 0; a < number_count; a++) {
+            uint32_t members = 0;
+            bool same = true;
+            for (uint32_t i = first; i < first + count; i++) {
+                if (job->sheet_of[i] != k) continue;
+                of[members] = (weighed){job->all->numbers[(size_t)i * number_count + a], weight_of(&job->fine[i], limit)};
+                same = same && of[members].number == of[0].number;
+                members++;
+            }
+            made[(size_t)k * number_count + a] = same                     ? of[0].number
+                                                 : job->means >> a & 1 ? mean_of(of, members)
+                                                                       : most_of(of, members);
+        }
+}
+
+/// Merges the surfels of a cell from `first` on; returns how many they become.
+static uint32_t merge_cell(const merge_job *job, uint32_t first, uint32_t count, uint32_t made_at) {
+    const ewa_representative *cell = job->fine + first;
+    const size_t number_count = job->all->number_count;
+    ewa_representative *made = job->made.items + made_at;
+    double *numbers = number_count ? job->made.numbers + made_at * number_count : NULL;
     if (count == 1) {
         *made = *cell;
         memcpy(made->shown, made->color, sizeof made->shown);
+        if (number_count) memcpy(numbers, job->all->numbers + first * number_count, number_count * sizeof *numbers);
         return 1;
     }
     sheet sheets[MAX_SHEETS];
@@ -121,7 +189,9 @@ static uint32_t merge_cell(const ewa_representative *cell, uint32_t count, ewa_r
             memcpy(sheets[best].first_normal, cell[i].normal, sizeof sheets[best].first_normal);
         }
         add(&sheets[best], &cell[i], limit);
+        if (number_count) job->sheet_of[first + i] = (uint8_t)best;
     }
+    if (number_count) merge_numbers(job, first, count, limit, sheet_count, numbers);
     for (uint32_t k = 0; k < sheet_count; k++) made[k] = finish(&sheets[k], cell->code);
     return sheet_count;
 }
@@ -140,40 +210,71 @@ static void merge_part(void *data, uint32_t part, uint32_t worker) {
     merge_job *job = data;
     const uint32_t begin = cell_start(job, (uint32_t)ewa_split(job->count, PARTS, part)),
                    end = cell_start(job, (uint32_t)ewa_split(job->count, PARTS, part + 1));
-    ewa_representative *made = job->made + begin;
     uint32_t made_count = 0;
     for (uint32_t first = begin, next; first < end; first = next) {
         const uint64_t prefix = ewa_code_prefix(job->fine[first].code, job->cell_level);
         next = first + 1;
         while (next < end && ewa_code_prefix(job->fine[next].code, job->cell_level) == prefix) next++;
-        made_count += merge_cell(job->fine + first, next - first, made + made_count);
+        made_count += merge_cell(job, first, next - first, begin + made_count);
     }
     job->made_counts[part] = made_count;
 }
 
-ewa_status ewa_representatives_merge(ewa_context *context, const ewa_representative *fine, uint32_t count,
-                                     uint32_t cell_level, ewa_representatives *merged) {
-    merge_job job = {.fine = fine, .count = count, .cell_level = cell_level};
-    job.made = ewa_allocate(context, count, sizeof *job.made);
-    if (!job.made) return EWA_ERROR_MEMORY;
-    ewa_parallel(context, merge_part, &job, PARTS);
-    merged->count = 0;
-    for (uint32_t part = 0; part < PARTS; part++) merged->count += job.made_counts[part];
-    ewa_buffer buffer = {merged->items, merged->capacity_bytes};
-    const ewa_status status = ewa_buffer_reserve(context, &buffer, merged->count, sizeof *merged->items);
-    merged->items = buffer.data, merged->capacity_bytes = buffer.capacity_bytes;
-    uint32_t kept = 0;
-    for (uint32_t part = 0; part < PARTS && status == EWA_OK; part++) {
-        const uint32_t begin = cell_start(&job, (uint32_t)ewa_split(count, PARTS, part));
-        memcpy(merged->items + kept, job.made + begin, job.made_counts[part] * sizeof *job.made);
-        kept += job.made_counts[part];
+ewa_status ewa_representatives_reserve(ewa_context *context, ewa_representatives *representatives, uint32_t count,
+                                       uint32_t number_count) {
+    ewa_buffer items = {representatives->items, representatives->capacity_bytes},
+               numbers = {representatives->numbers, representatives->numbers_capacity_bytes};
+    ewa_status status = ewa_buffer_reserve(context, &items, count, sizeof *representatives->items);
+    if (status == EWA_OK && number_count)
+        status = ewa_buffer_reserve(context, &numbers, (size_t)count * number_count, sizeof *representatives->numbers);
+    representatives->items = items.data, representatives->capacity_bytes = items.capacity_bytes;
+    representatives->numbers = numbers.data, representatives->numbers_capacity_bytes = numbers.capacity_bytes;
+    representatives->number_count = number_count;
+    return status;
+}
+
+/// Puts the surfels of all parts behind each other.
+static void gather_parts(const merge_job *job, ewa_representatives *merged) {
+    const size_t number_count = merged->number_count;
+    size_t kept = 0;
+    for (uint32_t part = 0; part < PARTS; part++) {
+        const size_t begin = cell_start(job, (uint32_t)ewa_split(job->count, PARTS, part)), count = job->made_counts[part];
+        if (!count) continue;
+        memcpy(merged->items + kept, job->made.items + begin, count * sizeof *merged->items);
+        if (number_count)
+            memcpy(merged->numbers + kept * number_count, job->made.numbers + begin * number_count,
+                   count * number_count * sizeof *merged->numbers);
+        kept += count;
     }
-    ewa_release(context, job.made, count, sizeof *job.made);
+}
+
+ewa_status ewa_representatives_merge(ewa_context *context, const ewa_representatives *fine, uint32_t cell_level,
+                                     uint32_t means, ewa_representatives *merged) {
+    merge_job job = {.all = fine, .fine = fine->items, .count = fine->count, .cell_level = cell_level, .means = means};
+    const uint32_t weighed_count = fine->number_count ? fine->count : 0;
+    ewa_status status = ewa_representatives_reserve(context, &job.made, fine->count, fine->number_count);
+    if (weighed_count) {
+        job.sheet_of = ewa_allocate(context, weighed_count, 1);
+        job.weighed = ewa_allocate(context, weighed_count, sizeof *job.weighed);
+        if (!job.sheet_of || !job.weighed) status = EWA_ERROR_MEMORY;
+    }
+    if (status == EWA_OK) {
+        ewa_parallel(context, merge_part, &job, PARTS);
+        merged->count = 0;
+        for (uint32_t part = 0; part < PARTS; part++) merged->count += job.made_counts[part];
+        status = ewa_representatives_reserve(context, merged, merged->count, fine->number_count);
+    }
+    if (status == EWA_OK) gather_parts(&job, merged);
+    ewa_release(context, job.sheet_of, weighed_count, 1);
+    ewa_release(context, job.weighed, weighed_count, sizeof *job.weighed);
+    ewa_representatives_free(context, &job.made);
     return status;
 }
 
 void ewa_representatives_free(ewa_context *context, ewa_representatives *representatives) {
-    ewa_buffer buffer = {representatives->items, representatives->capacity_bytes};
-    ewa_buffer_free(context, &buffer);
+    ewa_buffer items = {representatives->items, representatives->capacity_bytes},
+               numbers = {representatives->numbers, representatives->numbers_capacity_bytes};
+    ewa_buffer_free(context, &items);
+    ewa_buffer_free(context, &numbers);
     *representatives = (ewa_representatives){0};
 }

@@ -4,10 +4,12 @@
 // Pages and nodes in the form of the file, and the plan that all regions are made by.
 #include "cloud/cloud.h"
 #include "estimate/curvature.h"
+#include "ewa/select.h"
 #include "image/srgb.h"
 #include "lod/records.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -48,8 +50,47 @@ static ewa_status make_output(ewa_region_plan *plan) {
     return status;
 }
 
+/// Adds an attribute to those that representatives have; `chosen`: somebody named it.
+static ewa_status add_attribute(ewa_region_plan *plan, const char *name, bool chosen) {
+    ewa_scalar scalar;
+    if (!chosen && !ewa_cloud_has_scalar(plan->inputs, name)) return EWA_OK;
+    EWA_TRY(ewa_cloud_find_scalar(plan->inputs, name, &scalar));
+    const ewa_attribute *found = &scalar.attribute;
+    if (found->component_count != 1 || !ewa_level_attribute_is_free(found->name))
+        return ewa_fail(plan->context, EWA_ERROR_ARGUMENT,
+                        "attributes: %s is no number of its own: what represents points has it anyhow, or cannot have it", name);
+    for (uint32_t a = 0; a < plan->attribute_count; a++)
+        if (strcmp(plan->attributes[a].name, found->name) == 0) return EWA_OK;
+    if (plan->attribute_count == EWA_LEVELS_MAX_ATTRIBUTES)
+        return ewa_fail(plan->context, EWA_ERROR_ARGUMENT, "attributes: there may be %d", EWA_LEVELS_MAX_ATTRIBUTES);
+    ewa_level_attribute *added = &plan->attributes[plan->attribute_count];
+    snprintf(added->name, sizeof added->name, "%s", found->name);
+    added->type = found->type;
+    // Other whole numbers are codes, of which there is no mean.
+    if (found->type == EWA_F32 || found->type == EWA_F64 || ewa_attribute_is_signal(found->name))
+        plan->attribute_means |= 1u << plan->attribute_count;
+    plan->attribute_count++;
+    return EWA_OK;
+}
+
+/// Chooses the attributes that representatives have: those of a list, or the usual ones.
+static ewa_status choose_attributes(ewa_region_plan *plan, const char *list) {
+    const char *name = list ? list : "classification,intensity";
+    while (*name) {
+        const size_t length = strcspn(name, ",");
+        char word[EWA_NAME_BYTES];
+        if (length == 0 || length >= sizeof word)
+            return ewa_fail(plan->context, EWA_ERROR_ARGUMENT, "attributes: \"%s\" is no list of names", list);
+        memcpy(word, name, length);
+        word[length] = 0;
+        EWA_TRY(add_attribute(plan, word, list != NULL));
+        name += length + (name[length] == ',');
+    }
+    return EWA_OK;
+}
+
 ewa_status ewa_region_plan_make(ewa_context *context, const ewa_statistics *statistics,
-                                const ewa_cloud *inputs, ewa_region_plan *plan) {
+                                const ewa_cloud *inputs, const char *attributes, ewa_region_plan *plan) {
     *plan = (ewa_region_plan){.context = context, .statistics = statistics, .inputs = inputs};
     const bool has_axes = has(inputs, EWA_TANGENT_U, 3) && has(inputs, EWA_TANGENT_V, 3);
     plan->makes_normals = !has_axes && !has(inputs, EWA_NORMAL, 3);
@@ -60,6 +101,7 @@ ewa_status ewa_region_plan_make(ewa_context *context, const ewa_statistics *stat
     plan->radius_at_bytes = plan->normal_at_bytes + (plan->makes_normals ? 6 : 0);
     plan->curvature_at_bytes = plan->radius_at_bytes + (plan->makes_radii ? 4 : 0);
     plan->record_bytes = plan->curvature_at_bytes + (plan->makes_curvatures ? 4 : 0);
+    EWA_TRY(choose_attributes(plan, attributes));
     return make_output(plan);
 }
 
@@ -148,9 +190,31 @@ static ewa_status encode_page(ewa_region_plan *plan, const ewa_octree_key *key,
     if (status == EWA_OK)
         status = ewa_level_encode(plan->context, &surfels, count, &result->blocks, &result->blocks_bytes);
     page->size_bytes = (uint32_t)(result->blocks_bytes - page->at_bytes);
+    if (status == EWA_OK)
+        status = ewa_level_encode_attributes(plan->context, plan->attributes, plan->attribute_count, representatives->numbers,
+                                             count, &result->blocks, &result->blocks_bytes);
+    page->attributes_bytes = (uint32_t)(result->blocks_bytes - page->at_bytes) - page->size_bytes;
     ewa_release(plan->context, floats, (size_t)count * FLOATS, sizeof *floats);
     ewa_release(plan->context, rgba, count, 4);
     return status;
+}
+
+/// Puts the surfels of a node's children behind each other. Free `all`, also after a failure.
+static ewa_status join(const ewa_region_plan *plan, const ewa_representatives *children, uint32_t child_count,
+                       ewa_representatives *all) {
+    uint32_t count = 0;
+    const size_t number_count = plan->attribute_count;
+    for (uint32_t i = 0; i < child_count; i++) count += children[i].count;
+    EWA_TRY(ewa_representatives_reserve(plan->context, all, count, plan->attribute_count));
+    for (uint32_t i = 0; i < child_count; i++) {
+        if (!children[i].count) continue;
+        memcpy(all->items + all->count, children[i].items, children[i].count * sizeof *all->items);
+        if (number_count)
+            memcpy(all->numbers + all->count * number_count, children[i].numbers,
+                   children[i].count * number_count * sizeof *all->numbers);
+        all->count += children[i].count;
+    }
+    return EWA_OK;
 }
 
 /// Whether the unit coverage of a page of points is measured: of the first of a region, then of one in so many.
@@ -166,20 +230,12 @@ ewa_status ewa_region_page(ewa_region_plan *plan, const ewa_octree_key *key, uin
     if (!child_count && representatives->count && is_measured(plan->leaf_count++))
         status = ewa_representatives_cover(plan->evaluator, representatives, &page.unit_coverage);
     if (child_count) {
-        ewa_buffer all = {0};
-        uint32_t count = 0;
-        for (uint32_t i = 0; i < child_count; i++) count += children[i].count;
-        status = ewa_buffer_reserve(plan->context, &all, count, sizeof(ewa_representative));
-        count = 0;
-        for (uint32_t i = 0; i < child_count && status == EWA_OK; i++) {
-            memcpy((ewa_representative *)all.data + count, children[i].items,
-                   children[i].count * sizeof *children[i].items);
-            count += children[i].count;
-        }
+        ewa_representatives all = {.count = 0};
+        status = join(plan, children, child_count, &all);
         if (status == EWA_OK)
-            status = ewa_representatives_merge(plan->context, all.data, count,
-                                               (uint32_t)key->level + EWA_PAGE_BITS, representatives);
-        ewa_buffer_free(plan->context, &all);
+            status = ewa_representatives_merge(plan->context, &all, (uint32_t)key->level + EWA_PAGE_BITS,
+                                               plan->attribute_means, representatives);
+        ewa_representatives_free(plan->context, &all);
         const double side = ewa_lattice_side_world(&plan->statistics->lattice, (uint32_t)key->level);
         if (status == EWA_OK)
             status = ewa_representatives_evaluate(plan->evaluator, children, child_count, key, side,

@@ -17,7 +17,8 @@ enum {
     REGIONS = 4,
     RESULT = 5,
     COMMON_SECTIONS = 3,
-    PART_VERSION = 2
+    PART_VERSION = 3,
+    ATTRIBUTES_BYTES = EWA_LEVELS_MAX_ATTRIBUTES * (EWA_NAME_BYTES + 1) // of names, a comma between them
 };
 
 /// The first section.
@@ -44,7 +45,10 @@ static ewa_status put_statistics(ewa_context *context, const ewa_statistics *sta
                            statistics->column_count * sizeof *statistics->columns);
 }
 
-static ewa_status put_prototype(ewa_context *context, const ewa_cloud *cloud, ewa_section *to) {
+/// Puts what points and representatives have.
+static ewa_status put_prototype(const ewa_region_plan *plan, ewa_section *to) {
+    ewa_context *context = plan->context;
+    const ewa_cloud *cloud = plan->inputs;
     const uint32_t count = ewa_cloud_attribute_count(cloud);
     EWA_TRY(ewa_section_put(context, to, &count, sizeof count));
     for (uint32_t a = 0; a < count; a++) {
@@ -66,7 +70,10 @@ static ewa_status put_prototype(ewa_context *context, const ewa_cloud *cloud, ew
         EWA_TRY(ewa_section_put(context, to, &note_bytes, sizeof note_bytes));
         EWA_TRY(ewa_section_put(context, to, bytes, size));
     }
-    return EWA_OK;
+    char names[ATTRIBUTES_BYTES] = "";
+    for (uint32_t a = 0; a < plan->attribute_count; a++)
+        strcat(strcat(names, a ? "," : ""), plan->attributes[a].name);
+    return ewa_section_put(context, to, names, sizeof names);
 }
 
 static ewa_status put_chunks(ewa_context *context, const ewa_region_result *result, ewa_section *to) {
@@ -102,8 +109,11 @@ static ewa_status put_result(ewa_context *context, const ewa_region_result *resu
     const float drawn[2] = {representatives->radius_scale, representatives->unit_coverage};
     EWA_TRY(ewa_section_put(context, to, &representatives->count, sizeof representatives->count));
     EWA_TRY(ewa_section_put(context, to, drawn, sizeof drawn));
-    return ewa_section_put(context, to, representatives->items,
-                           representatives->count * sizeof *representatives->items);
+    EWA_TRY(ewa_section_put(context, to, representatives->items,
+                            representatives->count * sizeof *representatives->items));
+    return ewa_section_put(context, to, representatives->numbers,
+                           (size_t)representatives->count * representatives->number_count *
+                               sizeof *representatives->numbers);
 }
 
 /// Writes what all parts have in common.
@@ -115,7 +125,7 @@ static ewa_status write_common(ewa_lod_builder *b, ewa_writer *writer, uint32_t 
     if (status == EWA_OK) status = ewa_section_write(writer, HEAD, &section);
     if (status == EWA_OK) status = put_statistics(b->context, b->plan.statistics, &section);
     if (status == EWA_OK) status = ewa_section_write(writer, STATISTICS, &section);
-    if (status == EWA_OK) status = put_prototype(b->context, b->plan.inputs, &section);
+    if (status == EWA_OK) status = put_prototype(&b->plan, &section);
     if (status == EWA_OK) status = ewa_section_write(writer, PROTOTYPE, &section);
     if (status == EWA_OK)
         status = ewa_section_put(b->context, &section, b->regions, b->region_count * sizeof *b->regions);
@@ -237,7 +247,7 @@ static bool take_statistics(ewa_context *context, ewa_section_view from, ewa_sta
 }
 
 static bool take_prototype(ewa_section_view from, const ewa_statistics *statistics, ewa_cloud *cloud,
-                           ewa_status *status) {
+                           char attributes[ATTRIBUTES_BYTES], ewa_status *status) {
     uint32_t count, note_count, column = 0;
     bool good = ewa_section_take(&from, &count, sizeof count) && count == statistics->column_count + 1;
     for (uint32_t a = 0; a < count && good && *status == EWA_OK; a++) {
@@ -263,7 +273,8 @@ static bool take_prototype(ewa_section_view from, const ewa_statistics *statisti
         good = bytes && memchr(name, 0, sizeof name);
         if (good) *status = ewa_cloud_set_note(cloud, name, bytes, (size_t)size_bytes);
     }
-    return good;
+    good = good && ewa_section_take(&from, attributes, ATTRIBUTES_BYTES);
+    return good && memchr(attributes, 0, ATTRIBUTES_BYTES);
 }
 
 /// Whether regions are nodes in the order of codes, none of them in another.
@@ -339,8 +350,8 @@ static bool take_array(ewa_context *context, ewa_section_view *from, uint64_t co
     return *status == EWA_OK && ewa_section_take(from, to->data, count * size_bytes);
 }
 
-static bool take_result(ewa_context *context, ewa_section_view from, uint32_t record_bytes,
-                        ewa_region_result *result, ewa_status *status) {
+static bool take_result(const ewa_region_plan *plan, ewa_section_view from, ewa_region_result *result, ewa_status *status) {
+    ewa_context *context = plan->context;
     uint64_t blocks_bytes;
     float drawn[2];
     if (!take_chunks(context, &from, result, status)) return false;
@@ -352,19 +363,24 @@ static bool take_result(ewa_context *context, ewa_section_view from, uint32_t re
     result->blocks_bytes = (size_t)blocks_bytes;
     for (uint32_t i = 0; i < result->page_count; i++) {
         const ewa_levels_page *page = (const ewa_levels_page *)result->pages.data + i;
-        if (page->at_bytes > blocks_bytes || page->size_bytes > blocks_bytes - page->at_bytes) return false;
+        if (page->at_bytes > blocks_bytes || page->size_bytes > blocks_bytes - page->at_bytes ||
+            page->attributes_bytes > blocks_bytes - page->at_bytes - page->size_bytes)
+            return false;
     }
     for (uint32_t level = 0; level < EWA_CODE_LEVELS; level++)
         if (!ewa_section_take(&from, &result->above_counts[level], sizeof result->above_counts[level]) ||
-            !take_array(context, &from, result->above_counts[level], record_bytes, &result->above[level],
-                        status))
+            !take_array(context, &from, result->above_counts[level], plan->record_bytes, &result->above[level], status))
             return false;
     ewa_representatives *representatives = &result->representatives;
-    ewa_buffer items = {0};
+    ewa_buffer items = {0}, numbers = {0};
     const bool good =
         ewa_section_take(&from, &representatives->count, sizeof representatives->count) &&
         ewa_section_take(&from, drawn, sizeof drawn) &&
-        take_array(context, &from, representatives->count, sizeof *representatives->items, &items, status);
+        take_array(context, &from, representatives->count, sizeof *representatives->items, &items, status) &&
+        take_array(context, &from, (uint64_t)representatives->count * plan->attribute_count, sizeof *representatives->numbers,
+                   &numbers, status);
+    representatives->numbers = numbers.data, representatives->numbers_capacity_bytes = numbers.capacity_bytes;
+    representatives->number_count = plan->attribute_count;
     representatives->items = items.data, representatives->capacity_bytes = items.capacity_bytes;
     representatives->radius_scale = drawn[0], representatives->unit_coverage = drawn[1];
     return good && from.size_bytes == 0 && drawn[0] > 0;
@@ -373,7 +389,7 @@ static bool take_result(ewa_context *context, ewa_section_view from, uint32_t re
 static ewa_status fetch_region(ewa_lod_builder *b, uint32_t index, ewa_region_result *result) {
     part_builder *p = (part_builder *)b;
     ewa_status status = EWA_OK;
-    if (!take_result(b->context, p->results[index], b->plan.record_bytes, result, &status) &&
+    if (!take_result(&b->plan, p->results[index], result, &status) &&
         status == EWA_OK)
         status = fail_part(b->context, &p->parts[index % p->part_count], "a region is damaged");
     return status;
@@ -412,8 +428,9 @@ static ewa_status prepare(part_builder *p) {
     const open_part *any = &p->parts[0];
     EWA_TRY(ewa_cloud_create(b->context, 0, &p->inputs));
     ewa_status status = EWA_OK;
+    char attributes[ATTRIBUTES_BYTES];
     const bool good = take_statistics(b->context, any->common[0], &p->statistics, &status) &&
-                      take_prototype(any->common[1], &p->statistics, p->inputs, &status);
+                      take_prototype(any->common[1], &p->statistics, p->inputs, attributes, &status);
     if (status == EWA_OK && !good)
         status = fail_part(b->context, any, "what it says of all points is damaged");
     EWA_TRY(status);
@@ -426,7 +443,7 @@ static ewa_status prepare(part_builder *p) {
     if (!are_regions(p->regions, b->region_count))
         return fail_part(b->context, any, "its regions are damaged");
     EWA_TRY(find_results(p));
-    return ewa_region_plan_make(b->context, &p->statistics, p->inputs, &b->plan);
+    return ewa_region_plan_make(b->context, &p->statistics, p->inputs, attributes, &b->plan);
 }
 
 ewa_status ewa_lod_merge(ewa_context *context, const char *const *parts, uint32_t part_count, const char *out,

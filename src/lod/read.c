@@ -187,6 +187,9 @@ typedef struct unpacked {
     ewa_cloud *cloud;
     ewa_level_surfels surfels;
     uint8_t *scratch;
+    size_t scratch_bytes;
+    void *streams[EWA_LEVELS_MAX_ATTRIBUTES]; ///< of the attributes that are wanted
+    bool has_streams;
     const char *fault;
 } unpacked;
 
@@ -196,33 +199,75 @@ typedef struct unpack_job {
     unpacked *pages;
 } unpack_job;
 
+/// What of the record is read for a page.
+static ewa_range range_of(const ewa_levels_page *entry, bool with_attributes) {
+    return (ewa_range){entry->at_bytes, entry->size_bytes + (with_attributes ? (uint64_t)entry->attributes_bytes : 0)};
+}
+
 static void unpack_task(void *data, uint32_t index, uint32_t worker) {
     (void)worker;
     const unpack_job *job = data;
     const ewa_lod_node *node = &job->lod->nodes[job->nodes[index]];
     unpacked *page = &job->pages[index];
     const ewa_levels_page *entry = &job->lod->levels.pages[node->page];
-    const uint8_t *block = ewa_octree_find_level(job->lod->octree, entry->at_bytes, entry->size_bytes);
+    const ewa_range range = range_of(entry, page->has_streams);
+    const uint8_t *block = ewa_octree_find_level(job->lod->octree, range.at_bytes, range.size_bytes);
     page->fault = ewa_level_decode(entry, block, page->scratch, &page->surfels);
+    if (!page->fault && page->has_streams)
+        page->fault = ewa_level_decode_attributes(&job->lod->levels, entry, block + entry->size_bytes, page->scratch, page->streams);
     if (page->fault) return;
     for (size_t i = 0; i < (size_t)3 * entry->surfel_count; i++)
         page->surfels.at[i] = (page->surfels.at[i] - 0.5f) * (float)node->side_world;
 }
 
-/// Makes room for a page; positions are relative to its node's middle.
-static ewa_status prepare_page(ewa_lod *lod, const ewa_lod_node *node, unpacked *page) {
-    const uint32_t count = lod->levels.pages[node->page].surfel_count;
-    const bool curved = lod->levels.has_curvatures;
+/// Whether a name is in a list, each after a comma; NULL has all.
+static bool is_listed(const char *list, const char *name) {
+    const size_t length = strlen(name);
+    for (const char *at = list; at && *at; at += strcspn(at, ",")) {
+        at++;
+        if (strncmp(at, name, length) == 0 && (at[length] == ',' || !at[length])) return true;
+    }
+    return !list;
+}
+
+/// Makes the cloud of a page of `count` surfels, with the attributes that are listed.
+static ewa_status make_page(const ewa_lod *lod, const char *attributes, uint32_t count, unpacked *page) {
+    const ewa_levels *levels = &lod->levels;
     void *at = NULL, *normal = NULL, *radius = NULL, *curvature = NULL, *rgba = NULL;
     ewa_status status = ewa_cloud_create(lod->context, count, &page->cloud);
     if (status == EWA_OK) status = ewa_cloud_add(page->cloud, EWA_POSITION, EWA_F32, 3, &at);
     if (status == EWA_OK) status = ewa_cloud_add(page->cloud, EWA_NORMAL, EWA_F32, 3, &normal);
     if (status == EWA_OK) status = ewa_cloud_add(page->cloud, EWA_RADIUS, EWA_F32, 1, &radius);
-    if (status == EWA_OK && curved) status = ewa_cloud_add(page->cloud, EWA_CURVATURE, EWA_F32, 1, &curvature);
+    if (status == EWA_OK && levels->has_curvatures)
+        status = ewa_cloud_add(page->cloud, EWA_CURVATURE, EWA_F32, 1, &curvature);
     if (status == EWA_OK) status = ewa_cloud_add(page->cloud, EWA_COLOR, EWA_U8, 4, &rgba);
-    page->scratch = ewa_allocate(lod->context, ewa_level_raw_bytes(count, curved), 1);
-    if (status != EWA_OK || !page->scratch) return EWA_ERROR_MEMORY;
     page->surfels = (ewa_level_surfels){at, normal, radius, curvature, rgba};
+    for (uint32_t a = 0; a < levels->attribute_count && status == EWA_OK; a++) {
+        const ewa_level_attribute *attribute = &levels->attributes[a];
+        if (!is_listed(attributes, attribute->name)) continue;
+        status = ewa_cloud_add(page->cloud, attribute->name, attribute->type, 1, &page->streams[a]);
+        page->has_streams = true;
+    }
+    return status;
+}
+
+ewa_status ewa_tree_make_represented(const ewa_lod *lod, ewa_cloud **cloud) {
+    unpacked page = {.cloud = NULL};
+    const ewa_status status = make_page(lod, NULL, 0, &page);
+    if (status != EWA_OK) ewa_cloud_destroy(&page.cloud);
+    *cloud = page.cloud;
+    return status;
+}
+
+/// Makes room for a page; positions are relative to its node's middle.
+static ewa_status prepare_page(ewa_lod *lod, const ewa_lod_node *node, const char *attributes, unpacked *page) {
+    const uint32_t count = lod->levels.pages[node->page].surfel_count;
+    EWA_TRY(make_page(lod, attributes, count, page));
+    const size_t surfels_bytes = ewa_level_raw_bytes(count, lod->levels.has_curvatures),
+                 attributes_bytes = page->has_streams ? ewa_level_attribute_bytes(&lod->levels, count) : 0;
+    page->scratch_bytes = surfels_bytes > attributes_bytes ? surfels_bytes : attributes_bytes;
+    page->scratch = ewa_allocate(lod->context, page->scratch_bytes, 1);
+    if (!page->scratch) return EWA_ERROR_MEMORY;
     double middle[3];
     for (int c = 0; c < 3; c++) middle[c] = node->low_world[c] + node->side_world / 2;
     ewa_cloud_set_origin(page->cloud, middle);
@@ -235,19 +280,18 @@ static ewa_status load_pages(ewa_lod *lod, const ewa_tree_reading *how, const ui
     unpacked *pages = ewa_allocate_zeroed(lod->context, count, sizeof *pages);
     if (!pages) return EWA_ERROR_MEMORY;
     ewa_range blocks[BATCH];
-    for (uint32_t i = 0; i < count; i++) {
-        const ewa_levels_page *entry = &lod->levels.pages[lod->nodes[nodes[i]].page];
-        blocks[i] = (ewa_range){entry->at_bytes, entry->size_bytes};
+    ewa_status status = EWA_OK;
+    for (uint32_t i = 0; i < count && status == EWA_OK; i++) {
+        const ewa_lod_node *node = &lod->nodes[nodes[i]];
+        status = prepare_page(lod, node, how->look->attributes, &pages[i]);
+        blocks[i] = range_of(&lod->levels.pages[node->page], pages[i].has_streams);
     }
-    ewa_status status = ewa_octree_need_levels(lod->octree, blocks, count);
-    for (uint32_t i = 0; i < count && status == EWA_OK; i++)
-        status = prepare_page(lod, &lod->nodes[nodes[i]], &pages[i]);
+    if (status == EWA_OK) status = ewa_octree_need_levels(lod->octree, blocks, count);
     unpack_job job = {lod, nodes, pages};
     if (status == EWA_OK) ewa_parallel(lod->context, unpack_task, &job, count);
     ewa_octree_let_levels_go(lod->octree);
     for (uint32_t i = 0; i < count; i++) {
         const ewa_lod_node *node = &lod->nodes[nodes[i]];
-        const ewa_levels_page *entry = &lod->levels.pages[node->page];
         if (status == EWA_OK && pages[i].fault)
             status = ewa_fail(lod->context, EWA_ERROR_FORMAT,
                               "the surfels of node %d-%d-%d-%d are damaged: %s", node->key.level,
@@ -255,9 +299,9 @@ static ewa_status load_pages(ewa_lod *lod, const ewa_tree_reading *how, const ui
         if (status == EWA_OK) status = place(how->look, &pages[i].cloud);
         if (status == EWA_OK) status = paint(how->look, &pages[i].cloud);
         if (status == EWA_OK)
-            status = make_surfels(lod, how->look, pages[i].cloud, (double)entry->radius_scale, &surfels[i]);
-        ewa_release(lod->context, pages[i].scratch,
-                    ewa_level_raw_bytes(entry->surfel_count, lod->levels.has_curvatures), 1);
+            status = make_surfels(lod, how->look, pages[i].cloud, (double)lod->levels.pages[node->page].radius_scale,
+                                  &surfels[i]);
+        ewa_release(lod->context, pages[i].scratch, pages[i].scratch_bytes, 1);
         ewa_cloud_destroy(&pages[i].cloud);
     }
     ewa_release(lod->context, pages, count, sizeof *pages);

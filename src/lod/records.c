@@ -152,6 +152,9 @@ typedef struct surfel_job {
     uint32_t normal, radius, tangent_u, tangent_v, color, curvature; ///< columns; UINT32_MAX: none
     const ewa_attribute *normal_of, *radius_of, *tangent_of, *color_of, *curvature_of;
     ewa_color_table colors;
+    double *numbers; ///< out, of attributes of the plan
+    uint32_t number_columns[EWA_LEVELS_MAX_ATTRIBUTES];
+    const ewa_attribute *number_of[EWA_LEVELS_MAX_ATTRIBUTES];
 } surfel_job;
 
 /// Reads the numbers of a column as doubles.
@@ -230,6 +233,10 @@ static void representative_task(void *data, uint32_t task, uint32_t worker) {
             made->alpha = (float)ewa_color_alpha(job->color_of, values);
         }
         for (int c = 0; c < 3; c++) made->color[c] = made->shown[c] = (float)linear[c];
+        for (uint32_t a = 0; a < job->plan->attribute_count; a++) {
+            read_column(job, record, job->number_columns[a], job->number_of[a], values);
+            job->numbers[(size_t)i * job->plan->attribute_count + a] = values[0];
+        }
     }
 }
 
@@ -250,6 +257,10 @@ static surfel_job make_surfel_job(const ewa_region_plan *plan, const uint8_t *re
                       .curvature_of = ewa_cloud_find(plan->inputs, EWA_CURVATURE)};
     if (job.color_of && job.color_of->component_count < 3) job.color = UINT32_MAX;
     if (job.tangent_v == UINT32_MAX) job.tangent_u = UINT32_MAX;
+    for (uint32_t a = 0; a < plan->attribute_count; a++) {
+        job.number_columns[a] = column_of(plan, plan->attributes[a].name);
+        job.number_of[a] = ewa_cloud_find(plan->inputs, plan->attributes[a].name);
+    }
     return job;
 }
 
@@ -273,20 +284,22 @@ void ewa_records_read_normals(const ewa_region_plan *plan, const uint8_t *record
 
 ewa_status ewa_records_to_representatives(const ewa_region_plan *plan, const uint8_t *records, uint32_t count,
                                           ewa_representatives *representatives) {
-    ewa_buffer buffer = {representatives->items, representatives->capacity_bytes};
-    const ewa_status status =
-        ewa_buffer_reserve(plan->context, &buffer, count, sizeof *representatives->items);
-    representatives->items = buffer.data, representatives->capacity_bytes = buffer.capacity_bytes;
-    EWA_TRY(status);
+    const size_t number_count = plan->attribute_count;
+    EWA_TRY(ewa_representatives_reserve(plan->context, representatives, count, plan->attribute_count));
     representatives->radius_scale = 1;
     representatives->unit_coverage = 0;
     surfel_job job = make_surfel_job(plan, records, count);
     job.items = representatives->items;
+    job.numbers = representatives->numbers;
     ewa_color_table_make(&job.colors);
     ewa_parallel(plan->context, representative_task, &job, (count + TASK_POINTS - 1) / TASK_POINTS);
     representatives->count = 0; // what cannot be drawn is left out
-    for (uint32_t i = 0; i < count; i++)
-        if (representatives->items[i].radius_world > 0)
-            representatives->items[representatives->count++] = representatives->items[i];
+    for (uint32_t i = 0; i < count; i++) {
+        if (!(representatives->items[i].radius_world > 0)) continue;
+        const uint32_t to = representatives->count++;
+        representatives->items[to] = representatives->items[i];
+        for (size_t a = 0; a < number_count; a++)
+            representatives->numbers[to * number_count + a] = representatives->numbers[i * number_count + a];
+    }
     return EWA_OK;
 }

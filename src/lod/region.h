@@ -21,13 +21,16 @@ typedef struct ewa_region_plan {
     uint32_t normal_at_bytes, radius_at_bytes, curvature_at_bytes;
     ewa_octree_writer *writer; ///< encodes nodes
     ewa_evaluator *evaluator;
+    ewa_level_attribute attributes[EWA_LEVELS_MAX_ATTRIBUTES]; ///< that representatives have
+    uint32_t attribute_count, attribute_means;                 ///< whose numbers are means: a bit each
     uint32_t leaf_count; ///< pages that are not divided, of the region so far
     double estimate_s, merge_s, encode_s;
 } ewa_region_plan;
 
-/// Makes the prototype of the output. Free with ewa_region_plan_free(), also after a failure.
+/// Makes the prototype of the output; `attributes` as in ewa_lod_build_options. Free with ewa_region_plan_free(), also after a
+/// failure. Errors: EWA_ERROR_ARGUMENT (attributes), EWA_ERROR_MEMORY.
 ewa_status ewa_region_plan_make(ewa_context *context, const ewa_statistics *statistics,
-                                const ewa_cloud *inputs, ewa_region_plan *plan);
+                                const ewa_cloud *inputs, const char *attributes, ewa_region_plan *plan);
 void ewa_region_plan_free(ewa_region_plan *plan);
 
 /// Points as records, in the order of their codes.

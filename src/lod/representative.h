@@ -29,15 +29,23 @@ typedef struct ewa_representatives {
     size_t capacity_bytes;
     float radius_scale;  ///< of radii when they are drawn
     float unit_coverage; ///< what their kernels sum up to, at a scale of 1; 0: not known yet
+    double *numbers;     ///< [count][number_count], of their attributes
+    uint32_t number_count;
+    size_t numbers_capacity_bytes;
 } ewa_representatives;
 
 void ewa_representatives_free(ewa_context *context, ewa_representatives *representatives);
 
+/// Makes room for `count` surfels with `number_count` numbers each; what was there is lost. Errors: EWA_ERROR_MEMORY.
+ewa_status ewa_representatives_reserve(ewa_context *context, ewa_representatives *representatives, uint32_t count,
+                                       uint32_t number_count);
+
 /// Makes one surfel, or several where there are several sheets, for all of `fine` in each cell of `cell_level`: areas are
 /// added, after radii of more than three times the median in the cell are cut to that; everything else is a mean by
-/// area. `merged` is zero-initialised or used before. Errors: EWA_ERROR_MEMORY.
-ewa_status ewa_representatives_merge(ewa_context *context, const ewa_representative *fine, uint32_t count,
-                                     uint32_t cell_level, ewa_representatives *merged);
+/// area, but of numbers only those whose bit of `means` is set: others are that of most area. `merged` is zero-initialised or
+/// used before. Errors: EWA_ERROR_MEMORY.
+ewa_status ewa_representatives_merge(ewa_context *context, const ewa_representatives *fine, uint32_t cell_level,
+                                     uint32_t means, ewa_representatives *merged);
 
 /// Working memory of ewa_representatives_evaluate(), kept from call to call.
 typedef struct ewa_evaluator {

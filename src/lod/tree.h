@@ -39,6 +39,7 @@ struct ewa_lod {
     ewa_octree *octree;
     const ewa_octree_facts *facts;
     ewa_levels levels;
+    ewa_cloud *represented; ///< no points; what surfels of pages have; NULL: there are no pages
     bool has_levels, has_surfels;
     ewa_lod_node *nodes; ///< the root first
     uint32_t node_count;
@@ -75,6 +76,9 @@ bool ewa_tree_looks_agree(const ewa_lod_look *a, const ewa_lod_look *b);
 
 /// Makes the nodes of an open octree. Errors: EWA_ERROR_MEMORY, EWA_ERROR_FORMAT.
 ewa_status ewa_tree_make(ewa_lod *lod);
+
+/// Makes the cloud of no points whose attributes surfels of pages have. The caller owns it. Errors: EWA_ERROR_MEMORY.
+ewa_status ewa_tree_make_represented(const ewa_lod *lod, ewa_cloud **cloud);
 
 /// The cells of one level within the node of a file node, whose own level is not finer.
 typedef struct ewa_tree_cells {

@@ -111,17 +111,6 @@ static void each_block(const numbers *from, take_block *take, void *user) {
     }
 }
 
-/// Strengths of light, of which a few mirrors give numbers far above all others.
-static const char *const signals[] = {"intensity", "reflectance", "amplitude", "nir"};
-
-enum { SIGNAL_COUNT = sizeof signals / sizeof signals[0] };
-
-static bool is_signal(const char *name) {
-    for (size_t i = 0; i < SIGNAL_COUNT; i++)
-        if (ewa_attribute_names_agree(name, signals[i])) return true;
-    return false;
-}
-
 /// The finite ones of some numbers.
 typedef struct finite_numbers {
     double *numbers;
@@ -140,7 +129,7 @@ static bool take_finite(void *user, uint32_t count, const double *block) {
 /// Finds the numbers of the first and the last colour.
 static ewa_status find_range(const numbers *from, const ewa_coloring *coloring, double ends[2]) {
     bool percent[2] = {true, true};
-    const bool signal = is_signal(from->scalars[0].attribute.name);
+    const bool signal = ewa_attribute_is_signal(from->scalars[0].attribute.name);
     ends[0] = signal ? SIGNAL_PERCENT_LOW : 0;
     ends[1] = signal ? SIGNAL_PERCENT_HIGH : 100;
     if (coloring->ranged) {
@@ -305,11 +294,11 @@ bool ewa_asset_has_colors(const ewa_asset *asset) {
     return ewa_cloud_find(info.prototype, EWA_COLOR) != NULL;
 }
 
-void ewa_cloud_drop_signals(ewa_cloud *cloud) {
+void ewa_cloud_drop_signals(ewa_cloud *cloud, const ewa_cloud *kept) {
     for (uint32_t k = ewa_cloud_attribute_count(cloud); k-- > 0;) {
         char name[EWA_NAME_BYTES];
         memcpy(name, ewa_cloud_attribute_at(cloud, k)->name, sizeof name);
-        if (is_signal(name)) ewa_cloud_remove(cloud, name);
+        if (ewa_attribute_is_signal(name) && !ewa_cloud_find(kept, name)) ewa_cloud_remove(cloud, name);
     }
 }
 
@@ -392,8 +381,8 @@ ewa_status ewa_colorings_choose(ewa_cloud **clouds, uint32_t count, ewa_coloring
     ewa_context *context = ewa_cloud_context(clouds[0]);
     numbers from = {context, clouds, ewa_allocate_zeroed(context, bare, sizeof *from.scalars), 0};
     ewa_status status = from.scalars ? EWA_OK : EWA_ERROR_MEMORY;
-    for (size_t i = 0; i < SIGNAL_COUNT && status == EWA_OK; i++)
-        status = choose_attribute(clouds, bare, signals[i], colorings, &from);
+    for (uint32_t i = 0; ewa_signal_name(i) && status == EWA_OK; i++)
+        status = choose_attribute(clouds, bare, ewa_signal_name(i), colorings, &from);
     if (status == EWA_OK) status = choose_attribute(clouds, bare, HEIGHT, colorings, &from);
     ewa_release(context, from.scalars, bare, sizeof *from.scalars);
     return status;

@@ -82,25 +82,16 @@ ewa_status ewa_asset_take_octree(const ewa_asset_job *job, ewa_lod *lod) {
     return EWA_OK;
 }
 
-/// Whether what represents points has an attribute, too.
-static bool is_of_levels(const char *name) {
-    static const char *const names[] = {EWA_POSITION, EWA_NORMAL, EWA_RADIUS, EWA_COLOR};
-    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++)
-        if (strcmp(names[i], name) == 0) return true;
-    return false;
-}
-
-/// Has the nodes' points come with what a word means; `levels`: what represents them needs it, too.
-static ewa_status need(const ewa_scene *scene, const ewa_asset *asset, const char *word, bool levels,
+/// Has the nodes' points come with what a word means; `levels`: attributes of what represents them, which needs it, too; or NULL.
+static ewa_status need(const ewa_scene *scene, const ewa_asset *asset, const char *word, const ewa_cloud *levels,
                        ewa_lod_look *look) {
     ewa_scalar scalar;
     EWA_TRY(ewa_cloud_find_scalar(asset->outline, word, &scalar));
     const char *name = scalar.attribute.name;
-    if (is_of_levels(name)) return EWA_OK;
-    if (levels)
+    if (levels && !ewa_cloud_find(levels, name))
         return ewa_fail(scene->context, EWA_ERROR_UNSUPPORTED,
-                        "%s: what represents points at its levels has no %s; with an error of 0 the points "
-                        "themselves are drawn, which have it",
+                        "%s: what represents points at its levels has no %s, which is for whoever makes the octree to name (ewa lod "
+                        "--attributes); with an error of 0 the points themselves are drawn, which have it",
                         asset->name, word);
     // A term has a name of EWA_NAME_BYTES at most, as a colouring: there is room for all.
     strcat(strcat(look->attributes, ","), name);
@@ -163,7 +154,7 @@ ewa_status ewa_scene_octree_look(const ewa_scene *scene, uint32_t index, const e
     // All bytes of both are compared, so that none must be left to chance.
     memset(shown, 0, sizeof *shown);
     ewa_lod_describe(asset->lod, &info);
-    const bool levels = info.merged && options->error > 0;
+    const ewa_cloud *levels = options->error > 0 ? info.represented : NULL;
     memcpy(&change->filter, &asset->filter, sizeof change->filter);
     memcpy(change->to_world, asset->to_world, sizeof change->to_world);
     change->moved = ewa_asset_is_moved(asset);

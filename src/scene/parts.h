@@ -194,8 +194,8 @@ bool ewa_sections_keep(const ewa_render_options *render, const double place_worl
 /// Whether the points of an octree have colours.
 bool ewa_asset_has_colors(const ewa_asset *asset);
 
-/// Leaves out the strengths of light of a cloud.
-void ewa_cloud_drop_signals(ewa_cloud *cloud);
+/// Leaves out the strengths of light of a cloud that another one lacks.
+void ewa_cloud_drop_signals(ewa_cloud *cloud, const ewa_cloud *kept);
 
 /// Whether a word means the points' own colours, or, of scans without any, a number: empty or "auto".
 bool ewa_coloring_is_auto(const char *attribute);

@@ -166,8 +166,8 @@ static ewa_status choose_colorings(const ewa_surface *surface, const shown_cloud
         if (surface->keys[i].asset->lod) {
             ewa_lod_info info;
             ewa_lod_describe(surface->keys[i].asset->lod, &info);
-            // What represents points has places, but no strength of light.
-            if (info.merged) ewa_cloud_drop_signals(shown->clouds[i]);
+            // What represents points need not have every strength of light.
+            if (info.represented) ewa_cloud_drop_signals(shown->clouds[i], info.represented);
         }
         shown->colored[count] = shown->clouds[i];
         shown->chosen[count++] = coloring;

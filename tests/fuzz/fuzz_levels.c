@@ -24,6 +24,20 @@ static void try_page(const ewa_levels_page *page, const uint8_t *bytes, bool has
     free(at), free(normal), free(radius), free(curvature), free(rgba), free(scratch);
 }
 
+/// Decodes a page's attributes likewise.
+static void try_attributes(const ewa_levels *levels, const ewa_levels_page *page, const uint8_t *bytes) {
+    enum { MAX_SURFELS = 1 << 14 };
+    if (!page->attributes_bytes || page->surfel_count > MAX_SURFELS) return;
+    uint8_t *scratch = malloc(ewa_level_attribute_bytes(levels, page->surfel_count) + 1);
+    void *streams[EWA_LEVELS_MAX_ATTRIBUTES] = {NULL};
+    for (uint32_t a = 0; a < levels->attribute_count; a++)
+        streams[a] = malloc(page->surfel_count * ewa_type_bytes(levels->attributes[a].type) + 1);
+    fuzz_require(scratch != NULL, "memory");
+    (void)ewa_level_decode_attributes(levels, page, bytes, scratch, streams);
+    for (uint32_t a = 0; a < levels->attribute_count; a++) free(streams[a]);
+    free(scratch);
+}
+
 int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size_bytes) {
     int errors = 0;
     ewa_context *context = fuzz_context(1, 0, &errors);
@@ -35,7 +49,9 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size_bytes) {
         fuzz_require(i == 0 || ewa_octree_key_compare(&page[-1].key, &page->key) < 0, "pages in order");
         fuzz_require(page->at_bytes <= size_bytes && page->size_bytes <= size_bytes - page->at_bytes,
                      "blocks in the record");
+        fuzz_require(page->attributes_bytes <= size_bytes - page->at_bytes - page->size_bytes, "attributes in the record");
         if (i < 64) try_page(page, bytes + page->at_bytes, levels.has_curvatures);
+        if (i < 64) try_attributes(&levels, page, bytes + page->at_bytes + page->size_bytes);
     }
     ewa_levels_free(context, &levels);
     ewa_context_destroy(&context);

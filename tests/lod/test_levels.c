@@ -7,7 +7,22 @@
 
 #include <math.h>
 
-enum { SURFELS = 500, PAGES = 3, TABLE_BYTES = EWA_LEVELS_HEAD_BYTES + PAGES * EWA_LEVELS_PAGE_BYTES };
+enum { SURFELS = 500, PAGES = 3, TYPES = 8 };
+
+/// Attributes of every type, and numbers of each that are as large and as small as there are.
+static const ewa_level_attribute attributes[TYPES] = {{"height", EWA_F32},  {"gps_time", EWA_F64}, {"i8", EWA_I8},   {"classification", EWA_U8},
+                                                      {"angle", EWA_I16}, {"intensity", EWA_U16}, {"i32", EWA_I32}, {"u32", EWA_U32}};
+static const double ends[TYPES][2] = {{-0x1.8p-100, 0x1.fffffep127}, {-0x1.123456789abcdp-1000, 1.7e308}, {-128, 127}, {0, 255},
+                                      {-32768, 32767}, {0, 65535}, {-2147483648.0, 2147483647}, {0, 4294967295.0}};
+
+static size_t table_bytes_of(int version) {
+    return EWA_LEVELS_HEAD_BYTES + (version > 2 ? TYPES * EWA_LEVELS_ATTRIBUTE_BYTES : 0) + PAGES * EWA_LEVELS_PAGE_BYTES;
+}
+
+/// Number `a` of surfel `i`.
+static double number_of(size_t i, size_t a) {
+    return i % 3 < 2 ? ends[a][i % 3] : attributes[a].type < EWA_I8 ? 0.5 * (double)i : (double)(i % 100);
+}
 
 /// Surfels in memory of their own.
 typedef struct sample {
@@ -85,9 +100,13 @@ TEST(test_round_trip) {
     for (int curved = 0; curved < 2; curved++) hold_round_trip(curved);
 }
 
-/// A record of a root, a divided part of it and one that is not; the caller frees. Without curvatures it is of version 1.
-static uint8_t *make_record(ewa_context *context, bool curved, size_t *size_bytes) {
+/// A record of a root, a divided part of it and one that is not; the caller frees. Version 1 has no curvatures, 3 attributes.
+static uint8_t *make_record(ewa_context *context, int version, size_t *size_bytes) {
     static sample given;
+    static double numbers[SURFELS * TYPES];
+    const bool curved = version > 1;
+    const uint32_t attribute_count = version > 2 ? TYPES : 0;
+    for (size_t i = 0; i < sizeof numbers / sizeof numbers[0]; i++) numbers[i] = number_of(i / TYPES, i % TYPES);
     ewa_levels_page pages[PAGES] = {
         {.key = {0, {0, 0, 0}}, .point_count = 900, .radius_scale = 1, .error = 3, .unit_coverage = 2},
         {.key = {1, {0, 1, 0}}, .point_count = 700, .radius_scale = 0.75f, .error = 1.5f},
@@ -103,15 +122,45 @@ static uint8_t *make_record(ewa_context *context, bool curved, size_t *size_byte
         pages[i].largest_radius_world = 0.5f;
         assert_int_equal(ewa_level_encode(context, &from, pages[i].surfel_count, &blocks, &at_bytes), EWA_OK);
         pages[i].size_bytes = (uint32_t)(at_bytes - pages[i].at_bytes);
+        assert_int_equal(ewa_level_encode_attributes(context, attributes, attribute_count, numbers, pages[i].surfel_count,
+                                                     &blocks, &at_bytes), EWA_OK);
+        pages[i].attributes_bytes = (uint32_t)(at_bytes - pages[i].at_bytes) - pages[i].size_bytes;
+        assert_true((pages[i].attributes_bytes > 0) == (version > 2));
     }
-    const ewa_levels levels = {1.5, pages, PAGES, 30, curved};
-    *size_bytes = TABLE_BYTES + at_bytes;
+    ewa_levels levels = {.unit_coverage = 1.5, .pages = pages, .page_count = PAGES, .surfel_count = 30, .has_curvatures = curved,
+                         .attribute_count = attribute_count};
+    memcpy(levels.attributes, attributes, attribute_count * sizeof attributes[0]);
+    const size_t table_bytes = table_bytes_of(version);
+    *size_bytes = table_bytes + at_bytes;
     uint8_t *bytes = malloc(*size_bytes);
     assert_non_null(bytes);
     ewa_levels_write(&levels, bytes);
-    memcpy(bytes + TABLE_BYTES, blocks.data, at_bytes);
+    assert_int_equal(ewa_levels_table_bytes(bytes, *size_bytes), table_bytes);
+    memcpy(bytes + table_bytes, blocks.data, at_bytes);
     ewa_buffer_free(context, &blocks);
     return bytes;
+}
+
+/// Decodes a page's attributes into memory that ends with them; what is wrong, NULL: they are `numbers`.
+static const char *decode_attributes(const ewa_levels *levels, const ewa_levels_page *page, const uint8_t *record, bool known) {
+    const size_t count = page->surfel_count, raw_bytes = ewa_level_attribute_bytes(levels, page->surfel_count);
+    uint8_t *scratch = malloc(raw_bytes + 1);
+    void *streams[EWA_LEVELS_MAX_ATTRIBUTES] = {NULL};
+    for (uint32_t a = 0; a < levels->attribute_count; a++) // one that nobody wants
+        streams[a] = a == 2 ? NULL : malloc(count * ewa_type_bytes(levels->attributes[a].type) + 1);
+    const char *fault = ewa_level_decode_attributes(levels, page, record + page->at_bytes + page->size_bytes, scratch, streams);
+    for (uint32_t a = 0; a < levels->attribute_count; a++) {
+        ewa_attribute read = {.type = levels->attributes[a].type, .component_count = 1, .data = streams[a]};
+        read.stride_bytes = ewa_type_bytes(read.type);
+        for (size_t i = 0; known && !fault && streams[a] && i < count; i++) {
+            double number;
+            ewa_attribute_read_f64(&read, i, 1, &number);
+            assert_true(number == (read.type == EWA_F32 ? (double)(float)number_of(i, a) : number_of(i, a)));
+        }
+        free(streams[a]);
+    }
+    free(scratch);
+    return fault;
 }
 
 /// Reads bytes from memory that ends with them; what is read can be used.
@@ -131,21 +180,26 @@ static ewa_status read_record(ewa_context *context, const uint8_t *bytes, size_t
         static uint8_t scratch[18 * SURFELS];
         const ewa_level_surfels to = arrays_of(&got, levels.has_curvatures);
         (void)ewa_level_decode(page, copy + page->at_bytes, scratch, &to);
+        assert_true(page->attributes_bytes <= size_bytes - page->at_bytes - page->size_bytes);
+        (void)decode_attributes(&levels, page, copy, false);
     }
     ewa_levels_free(context, &levels);
     free(copy);
     return status;
 }
 
-static void hold_record(bool curved) {
+static void hold_record(int version) {
+    const bool curved = version > 1;
     ewa_context *context = check_context(1, NULL);
     size_t size_bytes;
-    uint8_t *bytes = make_record(context, curved, &size_bytes);
+    uint8_t *bytes = make_record(context, version, &size_bytes);
     ewa_levels levels;
     assert_int_equal(ewa_levels_read(context, "test", bytes, size_bytes, &levels), EWA_OK);
     assert_int_equal(levels.page_count, PAGES);
     assert_int_equal(levels.surfel_count, 30);
-    assert_int_equal(bytes[4], curved ? 2 : 1);
+    assert_int_equal(bytes[4], version);
+    assert_int_equal(levels.attribute_count, version > 2 ? TYPES : 0);
+    for (int i = 0; i < 2 && version > 2; i++) assert_null(decode_attributes(&levels, &levels.pages[i], bytes, true));
     assert_true(levels.has_curvatures == curved);
     assert_true(levels.unit_coverage == 1.5);
     assert_int_equal(levels.pages[0].point_count, 900);
@@ -165,24 +219,25 @@ static void hold_record(bool curved) {
 }
 
 TEST(test_record) {
-    for (int curved = 0; curved < 2; curved++) hold_record(curved);
+    for (int version = 1; version <= 3; version++) hold_record(version);
 }
 
 TEST_ON(test_damage, 1) {
     size_t size_bytes;
-    uint8_t *bytes = make_record(context, true, &size_bytes);
+    uint8_t *bytes = make_record(context, 3, &size_bytes);
+    const size_t table_bytes = table_bytes_of(3);
     // Whatever is cut off, a page's block is not whole.
     for (size_t left = 0; left < size_bytes; left++)
         assert_int_equal(read_record(context, bytes, left), EWA_ERROR_FORMAT);
     int refused = 0;
-    for (size_t at = 0; at < TABLE_BYTES; at++)
+    for (size_t at = 0; at < table_bytes; at++)
         for (int bit = 0; bit < 8; bit++) {
             bytes[at] ^= (uint8_t)(1 << bit);
             refused += read_record(context, bytes, size_bytes) != EWA_OK;
             bytes[at] ^= (uint8_t)(1 << bit);
         }
     assert_true(refused > 500);
-    for (size_t at = TABLE_BYTES; at < size_bytes; at++) {
+    for (size_t at = table_bytes; at < size_bytes; at++) {
         bytes[at] ^= 0x55;
         assert_int_equal(read_record(context, bytes, size_bytes), EWA_OK);
         bytes[at] ^= 0x55;
@@ -206,17 +261,19 @@ TEST(test_refusals) {
     check_log log = {0};
     ewa_context *context = check_context(1, &log);
     size_t size_bytes;
-    uint8_t *bytes = make_record(context, true, &size_bytes);
-    static const uint8_t version[4] = {3}, zero[4] = {0}, many[4] = {1, 0, 0, 1},
+    uint8_t *bytes = make_record(context, 3, &size_bytes);
+    static const uint8_t version[4] = {4}, zero[4] = {0}, many[4] = {1, 0, 0, 1},
                          minus[4] = {255, 255, 255, 255};
     static const uint8_t nan[4] = {0, 0, 0xc0, 0x7f}, two[4] = {2}, deep[4] = {31};
     enum {
-        ROOT = EWA_LEVELS_HEAD_BYTES,
+        FIRST = EWA_LEVELS_HEAD_BYTES,
+        SECOND = FIRST + EWA_LEVELS_ATTRIBUTE_BYTES,
+        ROOT = FIRST + TYPES * EWA_LEVELS_ATTRIBUTE_BYTES,
         PART = ROOT + EWA_LEVELS_PAGE_BYTES,
         LEAF = PART + EWA_LEVELS_PAGE_BYTES
     };
     assert_int_equal(read_with(context, bytes, size_bytes, 4, version, 4), EWA_ERROR_UNSUPPORTED);
-    assert_non_null(strstr(log.text, "version 3"));
+    assert_non_null(strstr(log.text, "version 4"));
     static const struct {
         size_t at;
         const uint8_t *bytes;
@@ -224,6 +281,10 @@ TEST(test_refusals) {
     } wrong[] = {
         {0, zero, "no head"},
         {8, many, "its head"},
+        {12, many, "its head"},
+        {12, minus, "its head"},
+        {FIRST, zero, "comes twice"}, // no name
+        {FIRST + EWA_NAME_BYTES, many, "an attribute"},
         {ROOT + 48, zero, "no part of one that is divided"}, // the root has no block: it is not divided
         {LEAF, two, "no part of one that is divided"},       // no parent
         {LEAF + 4, two, "no node"},
@@ -238,6 +299,7 @@ TEST(test_refusals) {
         {PART + 52, nan, "out of range"},
         {PART + 44, minus, "beyond"},
         {PART + 48, minus, "beyond"},
+        {PART + 56, minus, "beyond"},
     };
     for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
         log = (check_log){0};
@@ -247,6 +309,13 @@ TEST(test_refusals) {
     }
     assert_int_equal(read_with(context, bytes, size_bytes, LEAF, bytes + PART, 16), EWA_ERROR_FORMAT);
     assert_non_null(strstr(log.text, "twice"));
+    // A name that surfels have anyhow, that of another attribute, and one without an end.
+    static const char *const taken[] = {"position", "color", "radius", "normal", "signed_curvature", "gps_time"};
+    for (size_t i = 0; i < sizeof taken / sizeof taken[0]; i++)
+        assert_int_equal(read_with(context, bytes, size_bytes, FIRST, taken[i], strlen(taken[i]) + 1), EWA_ERROR_FORMAT);
+    uint8_t endless[EWA_NAME_BYTES];
+    memset(endless, 'a', sizeof endless);
+    assert_int_equal(read_with(context, bytes, size_bytes, SECOND, endless, sizeof endless), EWA_ERROR_FORMAT);
     free(bytes);
     ewa_context_destroy(&context);
 }

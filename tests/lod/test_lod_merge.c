@@ -25,7 +25,8 @@ static ewa_representative surfel_of(uint64_t cell, uint32_t index, const float n
 static ewa_representatives merge(const ewa_representative *fine, uint32_t count) {
     ewa_context *context = check_context(2, NULL);
     ewa_representatives merged = {.count = 0};
-    assert_int_equal(ewa_representatives_merge(context, fine, count, CELL_LEVEL, &merged), EWA_OK);
+    const ewa_representatives all = {.items = (ewa_representative *)fine, .count = count};
+    assert_int_equal(ewa_representatives_merge(context, &all, CELL_LEVEL, 0, &merged), EWA_OK);
     ewa_representatives kept = merged; // of no context
     kept.items = malloc((merged.count + (size_t)1) * sizeof *kept.items);
     memcpy(kept.items, merged.items, merged.count * sizeof *kept.items);
@@ -165,6 +166,34 @@ TEST(test_cells) {
         hold_near((double)merged.items[cell].radius_world, sqrt((double)(1 + cell * 7 % 23)));
     }
     free(merged.items);
+}
+
+/// Of numbers, what represents members has the mean by area of the finite ones, or that of most area, of its sheet alone.
+TEST(test_numbers) {
+    enum { COUNT = 8, NUMBERS = 2 };
+    ewa_context *context = check_context(2, NULL);
+    ewa_representative of[COUNT];
+    // Six of one sheet, one of another, one in another cell; the limit of radii is 3.
+    static const float radii[COUNT] = {1, 1, 1, 2, 1, 9, 1, 5};
+    double numbers[COUNT][NUMBERS] = {{6, 10}, {2, 20}, {6, 30}, {5, 40}, {2, NAN}, {9, 60}, {7, 70}, {8, 80}};
+    for (uint32_t k = 0; k < COUNT; k++) of[k] = surfel_of(k / 7, k, k == 6 ? ahead : up, radii[k]);
+    const ewa_representatives all = {.items = of, .count = COUNT, .numbers = &numbers[0][0], .number_count = NUMBERS};
+    ewa_representatives merged = {.count = 0};
+    assert_int_equal(ewa_representatives_merge(context, &all, CELL_LEVEL, 1u << 1, &merged), EWA_OK);
+    assert_int_equal(merged.count, 3);
+    assert_int_equal(merged.number_count, NUMBERS);
+    const double *made = merged.numbers;
+    assert_true(made[0] == 9 && made[2] == 7 && made[4] == 8 && made[3] == 70 && made[5] == 80);
+    hold_near(made[1], (10 + 20 + 30 + 4 * 40 + 9 * 60) / 16.0);
+    // As much of one as of another: the smaller one.
+    of[5].radius_world = 2;
+    assert_int_equal(ewa_representatives_merge(context, &all, CELL_LEVEL, 1u << 1, &merged), EWA_OK);
+    assert_true(merged.numbers[0] == 5);
+    for (uint32_t k = 0; k < 6; k++) numbers[k][1] = (double)NAN;
+    assert_int_equal(ewa_representatives_merge(context, &all, CELL_LEVEL, 3, &merged), EWA_OK);
+    assert_true(isnan(merged.numbers[1]) && merged.numbers[3] == 70);
+    ewa_representatives_free(context, &merged);
+    ewa_context_destroy(&context);
 }
 
 int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -23,13 +23,21 @@ static void make_parts(ewa_context *context, const char *const *names, uint32_t 
     }
 }
 
+/// Adds an attribute that what represents points has, too.
+static ewa_cloud *with_classes(ewa_cloud *cloud) {
+    void *classes = NULL;
+    assert_int_equal(ewa_cloud_add(cloud, "classification", EWA_U8, 1, &classes), EWA_OK);
+    for (uint64_t i = 0; i < ewa_cloud_point_count(cloud); i++) ((uint8_t *)classes)[i] = (uint8_t)(i % 7);
+    return cloud;
+}
+
 /// Makes the whole at once and in parts, for all tests.
 static int enter(void **state) {
     lod_clear();
     ewa_context *context = check_context(2, NULL);
     const lod_look look = {true, true};
-    lod_save(lod_ground(context, 0, POINTS / 3, look), whole_files[0]);
-    lod_save(lod_ground(context, POINTS / 3, POINTS - POINTS / 3, look), whole_files[1]);
+    lod_save(with_classes(lod_ground(context, 0, POINTS / 3, look)), whole_files[0]);
+    lod_save(with_classes(lod_ground(context, POINTS / 3, POINTS - POINTS / 3, look)), whole_files[1]);
     make_parts(context, whole_files, 2, part_files, part_points);
     assert_int_equal(lod_build(context, whole_files, 2, "whole.copc.laz", NULL, NULL), EWA_OK);
     ewa_context_destroy(&context);

@@ -33,12 +33,16 @@ static int enter(void **state) {
     ewa_context *context = check_context(2, NULL);
     ewa_cloud *cloud = lod_ground(context, 0, POINTS, (lod_look){true, true});
     const ewa_attribute *position = ewa_cloud_find(cloud, EWA_POSITION);
-    void *data = NULL;
+    void *data = NULL, *classes = NULL, *other = NULL;
     assert_int_equal(ewa_cloud_add(cloud, "intensity", EWA_U16, 1, &data), EWA_OK);
+    assert_int_equal(ewa_cloud_add(cloud, "classification", EWA_U8, 1, &classes), EWA_OK);
+    assert_int_equal(ewa_cloud_add(cloud, "user_data", EWA_U8, 1, &other), EWA_OK);
     for (uint64_t i = 0; i < POINTS; i++) {
         double p[3];
         ewa_attribute_read_f64(position, i, 1, p);
         ((uint16_t *)data)[i] = (uint16_t)(30000 + 10000 * (p[0] + p[1]));
+        ((uint8_t *)classes)[i] = p[0] + 2 * p[1] < 0.3 ? 2 : p[0] < 0.2 ? 5 : 6;
+        ((uint8_t *)other)[i] = (uint8_t)(i % 5);
     }
     // With curvatures that the file says: those that an octree measures, piece by piece, are like those of a scene.
     ewa_estimate_options estimate;
@@ -238,8 +242,9 @@ TEST_ON(test_one_scale, 1) {
 
 /// A filter takes the points that it takes of a cloud, in the octree's own space.
 TEST_ON(test_filters, 2) {
-    static const char *const terms[] = {"x > 0.25 and normal.z > 0.97", "intensity < 30000"};
-    for (int k = 0; k < 2; k++) {
+    static const char *const terms[] = {"x > 0.25 and normal.z > 0.97", "intensity < 30000",
+                                        "classification < 6", "user_data < 3"};
+    for (int k = 0; k < 4; k++) {
         ewa_filter filter = {.term_count = 0};
         assert_int_equal(ewa_filter_add(&filter, terms[k], NULL), EWA_OK);
         ewa_asset_options options = asset_options(turned);
@@ -250,7 +255,13 @@ TEST_ON(test_filters, 2) {
         draw(context, cloud, &camera, 0, &first);
         draw(context, octree, &camera, 0, &second);
         hold_like(terms[k], &first, &second, 65);
-        if (k) assert_int_equal(try_draw(context, octree, &camera, 16, &second), EWA_ERROR_UNSUPPORTED);
+        if (k < 3) {
+            draw(context, octree, &camera, 16, &second);
+            hold_like("by levels", &first, &second, 33);
+            assert_true(second.stats.lod.surfel_count < POINTS / 4);
+        } else {
+            assert_int_equal(try_draw(context, octree, &camera, 16, &second), EWA_ERROR_UNSUPPORTED);
+        }
         ewa_scene_destroy(&octree), ewa_scene_destroy(&cloud);
     }
     // One that takes nothing of the points that stand for the whole leaves nothing to see, and a camera.
@@ -265,6 +276,69 @@ TEST_ON(test_filters, 2) {
     ewa_scene_destroy(&empty);
 }
 
+/// What represents points is coloured by their attributes: like the cloud, each class in its own colour, the same bytes for threads.
+TEST(test_attributes_of_levels) {
+    static const char *const words[] = {"intensity", "classification"};
+    for (int k = 0; k < 2; k++) {
+        for (uint32_t threads = 1; threads <= 3; threads += 2) {
+            ewa_context *context = check_context(threads, NULL);
+            const ewa_asset_options options = asset_options(NULL);
+            ewa_scene *octree = make_scene(context, file, &options), *cloud = make_scene(context, points, &options);
+            const ewa_camera camera = place(cloud);
+            ewa_instance instance;
+            ewa_instance_init(&instance, sizeof instance);
+            snprintf(instance.coloring.attribute, sizeof instance.coloring.attribute, "%s", words[k]);
+            set(octree, &instance), set(cloud, &instance);
+            draw(context, cloud, &camera, 0, &first);
+            draw(context, octree, &camera, 16, &second);
+            hold_like(words[k], &first, &second, 33);
+            assert_true(second.stats.lod.surfel_count < POINTS / 4);
+            if (threads == 1) third = second;
+            assert_memory_equal(third.rgba8, second.rgba8, sizeof third.rgba8);
+            draw(context, octree, &camera, 0, &second);
+            hold_like("all points", &first, &second, 65);
+            ewa_scene_destroy(&octree), ewa_scene_destroy(&cloud);
+            ewa_context_destroy(&context);
+        }
+    }
+}
+
+/// Whoever makes an octree chooses what its levels have; what is no attribute of the points is refused.
+TEST(test_choice_of_attributes) {
+    static const char *const names[] = {points};
+    static const struct {
+        const char *list, *made;
+        ewa_status status;
+    } cases[] = {{NULL, "classification,intensity", EWA_OK}, {"", "", EWA_OK},
+                 {"user_data,User_Data,intensity", "user_data,intensity", EWA_OK}, {"user_data,", "user_data", EWA_OK},
+                 {"warmth", NULL, EWA_ERROR_ARGUMENT}, {"normal", NULL, EWA_ERROR_ARGUMENT}, {"x", NULL, EWA_ERROR_ARGUMENT},
+                 {",user_data", NULL, EWA_ERROR_ARGUMENT}};
+    check_log log = {.count = 0};
+    ewa_context *context = check_context(2, &log);
+    for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
+        ewa_lod_build_options options;
+        ewa_lod_build_options_init(&options, sizeof options);
+        options.memory_bytes = LOD_MEMORY_BYTES;
+        options.attributes = cases[k].list;
+        assert_int_equal(lod_build(context, names, 1, "chosen.copc.laz", &options, NULL), cases[k].status);
+        assert_int_equal(log.count > 0, cases[k].status != EWA_OK);
+        log = (check_log){.count = 0};
+        if (cases[k].status != EWA_OK) continue;
+        char path[512], found[256] = "";
+        ewa_lod *lod = NULL;
+        ewa_lod_info info;
+        assert_int_equal(ewa_lod_open(context, scratch_path("chosen.copc.laz", path), &lod), EWA_OK);
+        ewa_lod_describe(lod, &info);
+        assert_non_null(ewa_cloud_find(info.represented, EWA_CURVATURE));
+        for (uint32_t a = 5; a < ewa_cloud_attribute_count(info.represented); a++)
+            strcat(strcat(found, a > 5 ? "," : ""), ewa_cloud_attribute_at(info.represented, a)->name);
+        assert_string_equal(found, cases[k].made);
+        ewa_lod_close(&lod);
+        unlink(path);
+    }
+    ewa_context_destroy(&context);
+}
+
 /// What cannot be is refused with the file's name, and leaves the octree as it was.
 TEST(test_refused) {
     check_log log = {.count = 0};
@@ -275,11 +349,11 @@ TEST(test_refused) {
     draw(context, scene, &camera, 16, &first);
     ewa_instance instance;
     ewa_instance_init(&instance, sizeof instance);
-    snprintf(instance.coloring.attribute, sizeof instance.coloring.attribute, "intensity");
+    snprintf(instance.coloring.attribute, sizeof instance.coloring.attribute, "user_data");
     set(scene, &instance);
     assert_int_equal(try_draw(context, scene, &camera, 16, &second), EWA_ERROR_UNSUPPORTED);
     assert_non_null(
-        strstr(log.text, "ground.copc.laz: what represents points at its levels has no intensity"));
+        strstr(log.text, "ground.copc.laz: what represents points at its levels has no user_data"));
     draw(context, scene, &camera, 0, &second);
     snprintf(instance.coloring.attribute, sizeof instance.coloring.attribute, "warmth");
     set(scene, &instance);
