@@ -37,7 +37,7 @@ static const cli_option making_table[] = {
     {"attributes", OPTION_TEXT, AT(options.attributes), "NAMES",
      .help = "attributes that the surfels which stand for points have, too, for --color-by and --filter of 'ewa render' and 'ewa view': "
              "classification,intensity,user_data; none: no attributes",
-     .absent = "classification and intensity, where the points have them", .excludes = "merge"},
+     .absent = "auto: classification and intensity, where the points have them", .excludes = "merge"},
     {"subset", OPTION_TEXT, AT(subset), "I/N",
      .help = "make part I of N only, 1/N to N/N, on any machine: --merge joins them",
      .absent = "none: the whole at once", .excludes = "merge"},
@@ -176,7 +176,8 @@ static int run(const void *data) {
     if (!session_start(&session, common)) return session_end(&session, EXIT_FAILED);
     ewa_lod_build_options options = arguments->options;
     options.keep_going = common->keep_going;
-    if (options.attributes && strcmp(options.attributes, "none") == 0) options.attributes = "";
+    const bool named = options.attributes && strcmp(options.attributes, "auto") != 0;
+    options.attributes = !named ? NULL : strcmp(options.attributes, "none") == 0 ? "" : options.attributes;
     if (arguments->subset) read_subset(arguments->subset, &options.subset, &options.subset_count);
     ewa_lod_build_stats stats = {.point_count = 0};
     const uint32_t count = (uint32_t)common->operand_count;

@@ -1361,12 +1361,14 @@ class ewa_lod_build_options(c.Structure):
     subset: int
     subset_count: int
     keep_going: bool
+    attributes: bytes | None
     _fields_ = [
         ("struct_size", c.c_size_t),
         ("memory_bytes", c.c_uint64),
         ("subset", c.c_uint32),
         ("subset_count", c.c_uint32),
         ("keep_going", c.c_bool),
+        ("attributes", c.c_char_p),
     ]
 
 
@@ -1412,6 +1414,7 @@ class ewa_lod_info(c.Structure):
     merged_count: int
     surfels: bool
     prototype: int | None
+    represented: int | None
     _fields_ = [
         ("kind", c.c_char_p),
         ("point_count", c.c_uint64),
@@ -1425,6 +1428,7 @@ class ewa_lod_info(c.Structure):
         ("merged_count", c.c_uint64),
         ("surfels", c.c_bool),
         ("prototype", c.c_void_p),
+        ("represented", c.c_void_p),
     ]
 
 

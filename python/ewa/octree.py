@@ -158,8 +158,8 @@ class Octree:
 
 
 @keywords("ewa_lod_build_options")
-def build_octree(sources: PathLike | Sequence[PathLike], target: PathLike, *, context: Context | None = None,
-                 **options: Unpack[LodBuildOptions]) -> None:
+def build_octree(sources: PathLike | Sequence[PathLike], target: PathLike, *, attributes: Iterable[str] | None = None,
+                 context: Context | None = None, **options: Unpack[LodBuildOptions]) -> None:
     """Make one COPC file of the points of any files, with surfels that represent the points of each node.
 
     Parameters
@@ -167,6 +167,9 @@ def build_octree(sources: PathLike | Sequence[PathLike], target: PathLike, *, co
     sources : path or sequence of path
     target : path
         .copc.laz
+    attributes : iterable of str, optional
+        Attributes of one number that surfels which represent points have, too: what pictures of levels are coloured and filtered by.
+        Default: classification and intensity, where the points have them.
     **options
 
     Raises
@@ -179,6 +182,8 @@ def build_octree(sources: PathLike | Sequence[PathLike], target: PathLike, *, co
     array = (ctypes.c_char_p * len(paths))(*[path_bytes(path, "sources") for path in paths])
     made = initialised(b.ewa_lod_build_options, lib.ewa_lod_build_options_init)
     fill(made, "ewa_lod_build_options", options)
+    if attributes is not None:
+        made.attributes = ",".join([attributes] if isinstance(attributes, str) else attributes).encode()
     core = core_of(context)
     core.call(lib.ewa_lod_build, core.address, array, len(paths), path_bytes(target), ctypes.byref(made), None)
 

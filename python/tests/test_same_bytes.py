@@ -240,6 +240,16 @@ class SameBytes(Case):
         octree.close()
         with self.assertRaises(ewa.ClosedError):
             octree.sample()
+        chosen = ewa.read(self.path("scan.ply"))
+        chosen["user_data"] = (np.arange(60000) % 3).astype(np.uint8)
+        chosen.save(self.path("chosen.ply"))
+        self.run_program("lod", "chosen.ply", "-o", "theirs.copc.laz", "--attributes", "user_data")
+        ewa.build_octree(self.path("chosen.ply"), self.path("ours.copc.laz"), attributes=["user_data"])
+        self.same("ours.copc.laz", "theirs.copc.laz")
+        self.run_program("render", "theirs.copc.laz", "-o", "theirs.png", "--levels", "always", "--lod-spacing", "8", "--size", "300x200",
+                         "--color-by", "user_data")
+        self.run_program("render", "theirs.copc.laz", "-o", "theirs.png", "--levels", "always", "--lod-spacing", "8", "--size", "300x200",
+                         "--filter", "user_data == 1", "--threads", "1")
 
     def test_warp(self) -> None:
         rng = np.random.default_rng(3)
