@@ -5,6 +5,7 @@
 // that what is added and what was merged before are the same bytes. Octrees that are coloured by numbers take part in
 // the scale of these colours, by the points that stand for them; they are drawn from their nodes (octree.c).
 #include "base/base.h"
+#include "cloud/border.h"
 #include "cloud/cloud.h"
 #include "ewa/diagnosis.h"
 #include "ewa/prepare.h"
@@ -210,12 +211,24 @@ static ewa_status make_surfels(ewa_surface *surface, const ewa_cloud *cloud) {
     return status;
 }
 
+/// Whether no point is part of a surface, as of lines: there is nothing that could have gaps.
+static bool is_no_surface(const ewa_cloud *cloud) {
+    const ewa_attribute *surfaceness = ewa_cloud_find(cloud, EWA_SURFACENESS);
+    bool none = surfaceness;
+    for (uint64_t i = 0; none && i < ewa_cloud_point_count(cloud); i++) {
+        double value = 0;
+        ewa_attribute_read_f64(surfaceness, i, 1, &value);
+        none = value < EWA_SURFACE_LIMIT;
+    }
+    return none;
+}
+
 /// Measures the radii anew where those of files are so small that there are gaps between the discs; says so.
 static ewa_status close_gaps(ewa_surface *surface, ewa_cloud **cloud) {
     const double radius = radius_in_spacings(surface);
     const bool gaps = surface->info.point_count >= GAP_POINTS && radius < GAP_RADIUS;
     if (surface->as_points || !gaps || !ewa_cloud_find(*cloud, EWA_RADIUS) ||
-        ewa_cloud_find(*cloud, EWA_TANGENT_U))
+        ewa_cloud_find(*cloud, EWA_TANGENT_U) || is_no_surface(*cloud))
         return EWA_OK;
     if (!surface->close_gaps) {
         ewa_report(surface->context, EWA_SEVERITY_NOTE,

@@ -487,6 +487,28 @@ TEST_ON(test_dots, 1) {
     }
 }
 
+/// Small radii of points on no surface, as of lines, are kept; those of a surface would leave gaps.
+TEST_ON(test_no_surface_has_no_gaps, 1) {
+    for (int surface = 0; surface < 2; surface++) {
+        ewa_cloud *cloud = make_object(context, EWA_OBJECT_SPHERE, 0);
+        void *radius, *surfaceness;
+        ewa_cloud_remove(cloud, EWA_CURVATURE);
+        assert_int_equal(ewa_cloud_add(cloud, EWA_RADIUS, EWA_F32, 1, &radius), EWA_OK);
+        assert_int_equal(ewa_cloud_add(cloud, EWA_SURFACENESS, EWA_F32, 1, &surfaceness), EWA_OK);
+        for (uint64_t i = 0; i < ewa_cloud_point_count(cloud); i++)
+            ((float *)radius)[i] = 0.003f, ((float *)surfaceness)[i] = (float)surface;
+        ewa_scene *scene = make_scene(context);
+        add_cloud(context, scene, cloud, NULL);
+        const ewa_camera camera = place(scene);
+        draw(context, scene, &camera, &first);
+        int covered = 0;
+        for (int i = 0; i < PIXELS; i++) covered += first.coverage[i] >= 0.5f;
+        assert_true(surface ? covered > 0.3 * PIXELS : covered < 0.2 * PIXELS);
+        ewa_scene_destroy(&scene);
+        ewa_cloud_destroy(&cloud);
+    }
+}
+
 /// Radius of the first point of 5,000 on a helix, forwards or backwards, or strewn in a cube, over the size of all.
 static double first_radius(bool curve, bool backwards) {
     enum { COUNT = 5000 };

@@ -23,7 +23,7 @@ const struct {
 } kinds[] = {
     {"All that is read", nullptr},
     {"Points", ".ply|.las|.laz|.e57|.pcd|.ptx|.xyz|.txt|.asc|.csv|.pts|.tif|.tiff|ept.json|metadata.json"},
-    {"Meshes", ".ply|.obj|.stl|.off|.gltf|.glb|.vtk|.vtp|.vtu|.vts|.vtr"},
+    {"Meshes", ".ply|.obj|.stl|.off|.gltf|.glb|.vtk|.vtp|.vtu|.vts|.vtr|.vtm|.pvtp|.pvtu|.pvts|.pvtr|.pvd"},
     {"Gaussians", ".ply|.splat|.spz|.ksplat|.sog|meta.json"},
     {"Volumes", ".nrrd|.nhdr|.mhd|.mha|.nii|.nii.gz|.vti|.vtk"},
     {"Scenes", ".json"},

@@ -20,6 +20,7 @@ void ewa_mesh_build_open(const ewa_mesh_source *source, ewa_mesh_build *build) {
     build->corners.item_bytes = build->texcoord_corners.item_bytes = build->normal_corners.item_bytes =
         3 * sizeof(uint32_t);
     build->face_looks.item_bytes = sizeof(uint32_t);
+    build->segments.item_bytes = 2 * sizeof(uint32_t);
     build->looks.item_bytes = sizeof(ewa_mesh_look);
     build->pictures.item_bytes = sizeof(ewa_mesh_picture);
     build->scratch.item_bytes = 1;
@@ -36,7 +37,8 @@ void ewa_mesh_build_close(ewa_mesh_build *build) {
     ewa_mesh_list *const lists[] = {&build->positions,      &build->colors,      &build->texcoords,
                                     &build->normals,        &build->corners,     &build->texcoord_corners,
                                     &build->normal_corners, &build->face_colors, &build->face_looks,
-                                    &build->looks,          &build->pictures,    &build->scratch};
+                                    &build->looks,          &build->pictures,    &build->scratch,
+                                    &build->segments};
     for (size_t i = 0; i < sizeof lists / sizeof lists[0]; i++)
         ewa_release(context, lists[i]->items, lists[i]->capacity, lists[i]->item_bytes);
     *build = (ewa_mesh_build){0};

@@ -75,6 +75,8 @@ typedef struct ewa_mesh_build {
     ewa_mesh_list normal_corners;   ///< 3 normals per triangle; as texcoord_corners
     ewa_mesh_list face_colors;      ///< 4 floats, linear, per triangle; as texcoord_corners
     ewa_mesh_list face_looks;       ///< look per triangle; as texcoord_corners
+    ewa_mesh_list segments;         ///< 2 places each, of lines that readers hand over
+    double line_step;               ///< between the places along them; 0: there are none
     ewa_mesh_list looks, pictures;
     uint64_t packed_picture_bytes, picture_bytes; ///< of the pictures so far, in files and decoded
     ewa_mesh_list scratch;                        ///< of the polygon that is being cut
@@ -116,6 +118,12 @@ ewa_status ewa_mesh_add_position(ewa_mesh_build *build, const double position[3]
 ewa_status ewa_mesh_add_color(ewa_mesh_build *build, const float missing[4], const float color[4]);
 ewa_status ewa_mesh_add_texcoord(ewa_mesh_build *build, double u, double v);
 ewa_status ewa_mesh_add_normal(ewa_mesh_build *build, const double normal[3]);
+
+/// Adds a line through places, those that are there.
+ewa_status ewa_mesh_add_line(ewa_mesh_build *build, const uint32_t *places, uint64_t count);
+
+/// Adds places along the lines, of a build without faces, so that they are drawn as lines; sets line_step.
+ewa_status ewa_mesh_fill_lines(ewa_mesh_build *build);
 
 /// Adds a white look; `*look` is its number. Errors: EWA_ERROR_LIMIT, EWA_ERROR_MEMORY.
 ewa_status ewa_mesh_add_look(ewa_mesh_build *build, uint32_t *look);

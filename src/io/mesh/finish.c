@@ -314,16 +314,19 @@ ewa_status ewa_mesh_build_mesh(ewa_mesh_build *build, ewa_mesh *mesh) {
 
 ewa_status ewa_mesh_build_points(ewa_mesh_build *build, ewa_cloud **points) {
     *points = NULL;
+    EWA_TRY(ewa_mesh_fill_lines(build));
     const uint64_t count = build->positions.count;
     if (!count)
         return ewa_fail(build->context, EWA_ERROR_FORMAT, "%s: there are neither faces nor points",
                         build->source->name);
     ewa_cloud *made = NULL;
-    void *position = NULL, *color = NULL;
+    void *position = NULL, *color = NULL, *radius = NULL, *surfaceness = NULL;
     ewa_status status = ewa_cloud_create(build->context, count, &made);
     if (status == EWA_OK)
         status = ewa_cloud_add(made, EWA_POSITION, build->float_positions ? EWA_F32 : EWA_F64, 3, &position);
     if (status == EWA_OK && build->colors.count) status = ewa_cloud_add(made, EWA_COLOR, EWA_F32, 4, &color);
+    if (status == EWA_OK && build->line_step > 0) status = ewa_cloud_add(made, EWA_RADIUS, EWA_F32, 1, &radius);
+    if (status == EWA_OK && radius) status = ewa_cloud_add(made, EWA_SURFACENESS, EWA_F32, 1, &surfaceness);
     if (status != EWA_OK) {
         ewa_cloud_destroy(&made);
         return status;
@@ -336,6 +339,8 @@ ewa_status ewa_mesh_build_points(ewa_mesh_build *build, ewa_cloud **points) {
         else
             ((double *)position)[i] = from[i];
     }
+    // Lines are dots that touch, and no surface.
+    for (uint64_t i = 0; radius && i < count; i++) ((float *)radius)[i] = (float)build->line_step, ((float *)surfaceness)[i] = 0;
     for (uint64_t i = 0; color && i < 4 * count; i++)
         ((float *)color)[i] = i < 4 * build->colors.count ? ((const float *)build->colors.items)[i] : 1;
     *points = made;

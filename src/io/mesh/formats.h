@@ -22,12 +22,19 @@ ewa_status ewa_mesh_read_off(ewa_mesh_build *build);
 ewa_status ewa_mesh_read_gltf(ewa_mesh_build *build);
 ewa_status ewa_mesh_read_vtk(ewa_mesh_build *build);
 ewa_status ewa_mesh_read_vtk_xml(ewa_mesh_build *build);
+ewa_status ewa_mesh_read_vtk_list(ewa_mesh_build *build);
+
+/// Adds the pieces of one of VTK's XML files, `name` in messages.
+ewa_status ewa_mesh_read_vtk_pieces(ewa_mesh_build *build, const char *name, const uint8_t *bytes, size_t size_bytes);
 
 /// Whether bytes begin like a legacy VTK file of polygons, cells or places, not of voxels.
 bool ewa_mesh_is_vtk(const uint8_t *bytes, size_t size_bytes);
 
 /// The same of VTK's XML files.
 bool ewa_mesh_is_vtk_xml(const uint8_t *bytes, size_t size_bytes);
+
+/// Whether bytes are one of VTK's lists of such files.
+bool ewa_mesh_is_vtk_list(const uint8_t *bytes, size_t size_bytes);
 
 /// Materials by name, of OBJ files.
 typedef struct ewa_mtl ewa_mtl;

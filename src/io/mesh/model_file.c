@@ -145,7 +145,9 @@ static ewa_status load(const ewa_mesh_source *source, uint32_t wanted, const ewa
         return read_other(source, ewa_mesh_read_off, wanted, model);
     case EWA_MODEL_VTK:
         return read_other(source,
-                          ewa_mesh_is_vtk_xml(source->bytes, source->size_bytes) ? ewa_mesh_read_vtk_xml : ewa_mesh_read_vtk,
+                          ewa_mesh_is_vtk_xml(source->bytes, source->size_bytes)    ? ewa_mesh_read_vtk_xml
+                          : ewa_mesh_is_vtk_list(source->bytes, source->size_bytes) ? ewa_mesh_read_vtk_list
+                                                                                    : ewa_mesh_read_vtk,
                           wanted, model);
     case EWA_MODEL_GLTF:
         return read_other(source, ewa_mesh_read_gltf, wanted, model);

@@ -152,6 +152,17 @@ static bool read_corner(const obj_reader *reader, ewa_text word, ewa_mesh_corner
     return at == end;
 }
 
+static ewa_status read_line(obj_reader *reader) {
+    const uint64_t lines = reader->build->line_count;
+    ewa_mesh_corner corner = {0}, last = {.position = EWA_MESH_NONE};
+    for (ewa_text word; (word = ewa_cursor_word(&reader->cursor)).length; last = corner) {
+        if (!read_corner(reader, word, &corner)) corner.position = EWA_MESH_NONE;
+        EWA_TRY(ewa_mesh_add_line(reader->build, (const uint32_t[2]){last.position, corner.position}, 2));
+    }
+    reader->build->line_count = lines + 1;
+    return EWA_OK;
+}
+
 static ewa_status read_face(obj_reader *reader) {
     ewa_mesh_build *build = reader->build;
     ewa_status status = EWA_OK;
@@ -195,7 +206,7 @@ static ewa_status read_faces(obj_reader *reader) {
             status = read_face(reader);
             break;
         case OBJ_LINE:
-            build->line_count++;
+            status = read_line(reader);
             break;
         case OBJ_POINT:
             build->point_count++;

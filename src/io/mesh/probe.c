@@ -95,7 +95,8 @@ static size_t narrow(const uint8_t *bytes, size_t size_bytes, size_t room, char 
 ewa_model_format ewa_mesh_probe(const char *name, const uint8_t *bytes, size_t size_bytes) {
     if (size_bytes >= 3 && memcmp(bytes, "ply", 3) == 0) return EWA_MODEL_PLY;
     if (size_bytes >= 4 && memcmp(bytes, "glTF", 4) == 0) return EWA_MODEL_GLTF;
-    if (ewa_mesh_is_vtk(bytes, size_bytes) || ewa_mesh_is_vtk_xml(bytes, size_bytes)) return EWA_MODEL_VTK;
+    if (ewa_mesh_is_vtk(bytes, size_bytes) || ewa_mesh_is_vtk_xml(bytes, size_bytes) || ewa_mesh_is_vtk_list(bytes, size_bytes))
+        return EWA_MODEL_VTK;
     if (is_binary_stl(bytes, size_bytes)) return EWA_MODEL_STL;
     const char *text = size_bytes ? (const char *)bytes : "";
     char letters[LOOKED_LETTERS];

@@ -277,7 +277,8 @@ static ewa_status add_cell(vtk_surface *surface, cell *taken, uint64_t *face_num
     for (uint32_t k = 0; taken->kind == STRIP && k + 2 < taken->count; k++)
         EWA_TRY(add_polygon(
             surface, (const uint32_t[3]){taken->places[k], taken->places[k + 1 + k % 2], taken->places[k + 2 - k % 2]}, 3));
-    if (is_line(taken->kind)) surface->build->line_count++;
+    // Of curves the ends and the middles, which are behind them, are not in a row.
+    if (is_line(taken->kind)) EWA_TRY(ewa_mesh_add_line(surface->build, taken->places, taken->kind > 4 && taken->count > 2 ? 2 : taken->count));
     const bool solid = is_solid(taken);
     while (next_face(taken, &face))
         if (!solid || !shared[(*face_number)++]) EWA_TRY(add_face(surface, &face));

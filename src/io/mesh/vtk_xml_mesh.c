@@ -406,10 +406,9 @@ bool ewa_mesh_is_vtk_xml(const uint8_t *bytes, size_t size_bytes) {
     return false;
 }
 
-ewa_status ewa_mesh_read_vtk_xml(ewa_mesh_build *build) {
-    const ewa_mesh_source *source = build->source;
-    xml_mesh m = {.build = build, .xml = {.context = build->context, .name = source->name, .kind = "VTK"}};
-    ewa_vtk_xml_open(&m.xml, source->bytes, source->size_bytes);
+ewa_status ewa_mesh_read_vtk_pieces(ewa_mesh_build *build, const char *name, const uint8_t *bytes, size_t size_bytes) {
+    xml_mesh m = {.build = build, .xml = {.context = build->context, .name = name, .kind = "VTK"}};
+    ewa_vtk_xml_open(&m.xml, bytes, size_bytes);
     m.structured = m.xml.has_root && is_kind(&m.xml.root, "StructuredGrid");
     m.rectilinear = m.xml.has_root && is_kind(&m.xml.root, "RectilinearGrid");
     ewa_mesh_list *const lists[] = {&m.cells, &m.kinds, &m.offsets, &m.faces, &m.face_offsets};
@@ -418,4 +417,8 @@ ewa_status ewa_mesh_read_vtk_xml(ewa_mesh_build *build) {
     for (size_t i = 0; i < sizeof lists / sizeof lists[0]; i++)
         ewa_release(build->context, lists[i]->items, lists[i]->capacity, lists[i]->item_bytes);
     return status;
+}
+
+ewa_status ewa_mesh_read_vtk_xml(ewa_mesh_build *build) {
+    return ewa_mesh_read_vtk_pieces(build, build->source->name, build->source->bytes, build->source->size_bytes);
 }
