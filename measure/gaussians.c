@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Prints the times of docs/gaussians.md: measure_gaussians FILE [COPIES [WIDTH HEIGHT [THREADS]]]. The file is seen
+// Prints the times of docs/gaussians.md: measure_gaussians FILE [COPIES [WIDTH HEIGHT [THREADS [MERGE_PX [DEGREE]]]]]. The file is seen
 // from +x, with y down; copies stand side by side and in rows, with harmonics of degree 3.
 #include "ewa/ewa.h"
 #include "measure/measure.h"
@@ -10,12 +10,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { ROUNDS = 21, DEGREE = 3, HARMONICS = 48 };
+enum { ROUNDS = 21, DEGREE = 3 };
 
 /// As many copies, 0.9 apart along z, four to a row; rows are 2 apart along x.
-static ewa_gaussians copy_set(const ewa_gaussians *one, uint32_t copies) {
+static ewa_gaussians copy_set(const ewa_gaussians *one, uint32_t copies, uint32_t sh_degree) {
     ewa_gaussians all;
-    check(ewa_gaussians_create(one->context, one->count * copies, DEGREE, &all));
+    check(ewa_gaussians_create(one->context, one->count * copies, sh_degree, &all));
+    const size_t numbers = 3 * (size_t)(sh_degree + 1) * (sh_degree + 1);
     const size_t own = 3 * (size_t)(one->sh_degree + 1) * (one->sh_degree + 1);
     uint64_t random = 1;
     for (size_t i = 0; i < all.count; i++) {
@@ -27,10 +28,10 @@ static ewa_gaussians copy_set(const ewa_gaussians *one, uint32_t copies) {
         memcpy(all.scales + 3 * i, one->scales + 3 * from, 3 * sizeof(float));
         memcpy(all.rotations + 4 * i, one->rotations + 4 * from, 4 * sizeof(float));
         all.opacities[i] = one->opacities[from];
-        for (size_t k = 0; k < HARMONICS; k++) {
+        for (size_t k = 0; k < numbers; k++) {
             random = random * 6364136223846793005u + 1442695040888963407u;
             const float noise = (float)((int64_t)(random >> 40) % 1000 - 500) / 5000;
-            all.harmonics[HARMONICS * i + k] = k < own ? one->harmonics[own * from + k] : noise;
+            all.harmonics[numbers * i + k] = k < own ? one->harmonics[own * from + k] : noise;
         }
     }
     return all;
@@ -39,18 +40,20 @@ static ewa_gaussians copy_set(const ewa_gaussians *one, uint32_t copies) {
 int main(int argc, char **argv) {
     const uint32_t copies = argc > 2 ? (uint32_t)atoi(argv[2]) : 1;
     ewa_gaussians set;
-    if (argc < 2) return fprintf(stderr, "measure_gaussians FILE [COPIES [WIDTH HEIGHT [THREADS]]]\n"), 2;
+    if (argc < 2) return fprintf(stderr, "measure_gaussians FILE [COPIES [WIDTH HEIGHT [THREADS [MERGE_PX [DEGREE]]]]]\n"), 2;
     ewa_context *context = make_context(argc > 5 ? (uint32_t)atoi(argv[5]) : 0);
     check(ewa_gaussians_load(context, argv[1], &set, NULL));
     if (copies > 1) {
-        ewa_gaussians all = copy_set(&set, copies);
+        ewa_gaussians all = copy_set(&set, copies, argc > 7 ? (uint32_t)atoi(argv[7]) : DEGREE);
         ewa_gaussians_free(&set);
         set = all;
     }
     ewa_splats *splats;
     ewa_splats_info info;
     ewa_gaussian_renderer *renderer;
+    const double begin_s = now_s();
     check(ewa_splats_create(&set, &splats));
+    printf("resident in %.2f s\n", now_s() - begin_s);
     check(ewa_gaussian_renderer_create(context, &renderer));
     ewa_splats_describe(splats, &info);
     ewa_camera camera;
@@ -69,6 +72,7 @@ int main(int argc, char **argv) {
     for (int n = 0; n < 4; n++) {
         ewa_gaussian_options options;
         ewa_gaussian_options_init(&options, sizeof options);
+        options.merge_px = argc > 6 ? atof(argv[6]) : 0;
         options.projection = (ewa_gaussian_projection)(n / 2);
         options.order = n % 2 ? EWA_ORDER_RAY : EWA_ORDER_CENTER;
         ewa_gaussian_stats stats;
@@ -78,11 +82,11 @@ int main(int argc, char **argv) {
             if (i >= 0) times[i] = stats.total_s;
         }
         qsort(times, ROUNDS, sizeof *times, compare_doubles);
-        printf("%s by %s: median %.1f ms, least %.1f ms; %llu in tiles, %llu in blocks, %llu sorted; thread ms: "
+        printf("%s by %s: median %.1f ms, least %.1f ms; %llu visible, %llu in tiles, %llu in blocks, %llu sorted; thread ms: "
                "project %.1f, "
                "bin %.1f, draw %.1f\n",
                n / 2 ? "exact  " : "trained", n % 2 ? "rays   " : "centres", 1e3 * times[ROUNDS / 2], 1e3 * times[0],
-               (unsigned long long)stats.tile_count, (unsigned long long)stats.block_count,
+               (unsigned long long)stats.visible_count, (unsigned long long)stats.tile_count, (unsigned long long)stats.block_count,
                (unsigned long long)stats.sorted_count, 1e3 * stats.project_s, 1e3 * stats.bin_s,
                1e3 * stats.draw_s);
     }

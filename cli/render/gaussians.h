@@ -14,6 +14,7 @@
         {"gaussian-near", OPTION_OF(ewa_gaussian_options, offset, near_world),                               \
          .absent = "auto: 0.2 as in training, or 2 % of the diagonal of the box shown where that is less"},  \
         {"gaussian-filter", OPTION_OF(ewa_gaussian_options, offset, filter)},                                \
+        {"gaussian-merge", OPTION_OF(ewa_gaussian_options, offset, merge_px)},                               \
     {                                                                                                        \
         "sh-degree", OPTION_OF(ewa_gaussian_options, offset, sh_degree)                                      \
     }

@@ -96,6 +96,9 @@ typedef struct ewa_gaussian_options {
     /// coverage is the alpha of surface_rgba. Without surface_depth: NULL
     const float *surface_normal, *surface_coverage;
     ewa_gaussian_order order; ///< default EWA_ORDER_OF_PROJECTION
+    /// Sets of 2^17 Gaussians and more, but for 2D ones, have levels: parts whose Gaussians are within so many pixels of what
+    /// stands for them (RMS, where the part is nearest) are drawn by that; [0, 1000], px; default 0: all Gaussians are drawn
+    double merge_px;
 } ewa_gaussian_options;
 
 EWA_API extern const ewa_option_table ewa_gaussian_options_table;

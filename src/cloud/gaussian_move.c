@@ -3,6 +3,7 @@
 //
 // Sets of Gaussians under affine maps.
 #include "base/base.h"
+#include "cloud/gaussian_merge.h"
 #include "cloud/gaussian_turn.h"
 
 #include <math.h>
@@ -40,7 +41,7 @@ static bool take_apart(const double m[16], parts *made) {
     return true;
 }
 
-static void axes_of(const float rotation[4], double axes[9]) {
+void ewa_gaussian_axes(const float rotation[4], double axes[9]) {
     const double w = (double)rotation[0], x = (double)rotation[1], y = (double)rotation[2],
                  z = (double)rotation[3];
     axes[0] = 1 - 2 * (y * y + z * z), axes[1] = 2 * (x * y - w * z), axes[2] = 2 * (x * z + w * y);
@@ -93,16 +94,8 @@ static void cross(const double a[3], const double b[3], double c[3]) {
     c[0] = a[1] * b[2] - a[2] * b[1], c[1] = a[2] * b[0] - a[0] * b[2], c[2] = a[0] * b[1] - a[1] * b[0];
 }
 
-/// Any ellipsoid: its axes are those of the columns of linear * axes * scales. A scale of 0 has its axis across the
-/// two others.
-static void map_ellipsoid(const parts *by, const double axes[9], float scales[3], float rotation[4]) {
-    double columns[3][3], lengths[3];
-    for (int c = 0; c < 3; c++)
-        for (int r = 0; r < 3; r++) {
-            columns[c][r] = 0;
-            for (int k = 0; k < 3; k++)
-                columns[c][r] += by->linear[3 * r + k] * axes[3 * k + c] * (double)scales[c];
-        }
+void ewa_gaussian_of_columns(double columns[3][3], float scales[3], float rotation[4]) {
+    double lengths[3];
     make_orthogonal(columns);
     int shortest = 2;
     for (int c = 0; c < 3; c++) {
@@ -120,6 +113,18 @@ static void map_ellipsoid(const parts *by, const double axes[9], float scales[3]
     for (int r = 0; r < 3; r++)
         for (int c = 0; c < 3; c++) turned[3 * r + c] = columns[c][r];
     rotation_of(turned, rotation);
+}
+
+/// Any ellipsoid: its axes are those of the columns of linear * axes * scales.
+static void map_ellipsoid(const parts *by, const double axes[9], float scales[3], float rotation[4]) {
+    double columns[3][3];
+    for (int c = 0; c < 3; c++)
+        for (int r = 0; r < 3; r++) {
+            columns[c][r] = 0;
+            for (int k = 0; k < 3; k++)
+                columns[c][r] += by->linear[3 * r + k] * axes[3 * k + c] * (double)scales[c];
+        }
+    ewa_gaussian_of_columns(columns, scales, rotation);
 }
 
 /// Turned and scaled alike in all directions: the axes stay the axes.
@@ -161,7 +166,7 @@ ewa_status ewa_gaussians_transform(ewa_gaussians *gaussians, const double world_
         const double old[3] = {(double)center[0], (double)center[1], (double)center[2]};
         for (int r = 0; r < 3; r++) center[r] = (float)dot3(by.linear + 3 * r, old);
         double axes[9];
-        axes_of(rotation, axes);
+        ewa_gaussian_axes(rotation, axes);
         if (by.is_similar)
             map_similar(&by, axes, mirrors, scales, rotation);
         else

@@ -32,13 +32,12 @@ struct ewa_gaussian_renderer {
     gaussian_scratch *scratch; ///< one per worker
 };
 
-enum { PACKETS_PER_PART = 256, PART_ROOM = PACKETS_PER_PART * EWA_SPLAT_LANES };
-
 /// Some packets of a set, and which of their splats are visible.
 typedef struct gaussian_part {
     const ewa_splats *splats;
     const ewa_gaussian_view *view;
-    uint32_t first_packet;
+    size_t first_packet;
+    uint32_t packet_count, first_slot; ///< of the room for records, of which it has one for each lane
     ewa_gaussian_found found;
 } gaussian_part;
 
@@ -52,6 +51,7 @@ typedef struct gaussian_job {
     ewa_ray_sections sections;
     bool with_times;
     uint32_t part_count, visible_count;
+    size_t room; ///< for records
     gaussian_part *parts;
     uint32_t *ids; ///< [visible_count] front to back
     ewa_volume_frame *volumes;
@@ -185,50 +185,72 @@ static void project_part(void *data, uint32_t index, uint32_t worker) {
     gaussian_part *part = &job->parts[index];
     const ewa_splats *splats = part->splats;
     double last_s = job->with_times ? ewa_now_s() : 0;
-    uint32_t end = part->first_packet + PACKETS_PER_PART;
-    if (end > splats->packet_count) end = splats->packet_count;
-    for (uint32_t p = part->first_packet; p < end; p++)
+    for (size_t p = part->first_packet; p < part->first_packet + part->packet_count; p++)
         job->renderer->kernels->project(part->view, (const ewa_splat_packet *)&splats->packets[p],
                                         (const int16_t(*)[EWA_SPLAT_LANES]) &
-                                            splats->harmonics[(size_t)p * splats->harmonic_count],
+                                            splats->harmonics[p * splats->harmonic_count],
                                         &part->found);
     take_time(job, &last_s, &job->renderer->scratch[worker].project_s);
 }
 
-/// Finds what is visible, each part in its own room.
-static ewa_status project_all(gaussian_job *job) {
+/// The level of a part: the coarsest one whose splats are within the tolerance of those that they stand for where it is nearest.
+static uint32_t choose_level(const ewa_gaussian_view *view, const ewa_splat_part *part, double merge_px) {
+    double nearest = (double)view->origin[2] - (double)(part->radius * view->set_unit);
+    for (int k = 0; k < 3; k++) nearest += (double)view->turn[2][k] * (double)(part->center[k] * view->set_unit);
+    const double px_per_unit = fmax((double)view->fx_px, (double)view->fy_px) / (view->orthographic ? 1 : fmax(nearest, 1e-30));
+    uint32_t level = 0;
+    while (level < EWA_SPLAT_LEVELS && (double)(part->apart[level] * view->set_unit) * px_per_unit <= merge_px) level++;
+    return level;
+}
+
+/// Lists the parts of all sets and what is drawn of each; their rooms follow each other.
+static ewa_status list_parts(gaussian_job *job, double merge_px) {
     ewa_gaussian_renderer *renderer = job->renderer;
     const ewa_mixture *mixture = job->mixture;
-    ewa_context *context = renderer->context;
-    uint64_t part_count = 0, splat_count = 0;
+    uint64_t part_count = 0, splat_count = 0, room = 0;
     for (uint32_t i = 0; i < mixture->splats_count; i++) {
-        part_count += (mixture->splats[i]->packet_count + PACKETS_PER_PART - 1) / PACKETS_PER_PART;
+        part_count += (mixture->splats[i]->packet_count + EWA_SPLAT_PART_PACKETS - 1) / EWA_SPLAT_PART_PACKETS;
         splat_count += mixture->splats[i]->info.splat_count;
     }
-    if (splat_count > EWA_SPLATS_MAX || part_count > INT32_MAX / PART_ROOM)
-        return ewa_fail(context, EWA_ERROR_LIMIT, "gaussians: %llu in %u sets, more than %d together",
+    if (splat_count > EWA_SPLATS_MAX || part_count > INT32_MAX / (EWA_SPLAT_PART_PACKETS * EWA_SPLAT_LANES))
+        return ewa_fail(renderer->context, EWA_ERROR_LIMIT, "gaussians: %llu in %u sets, more than %d together",
                         (unsigned long long)splat_count, mixture->splats_count, EWA_SPLATS_MAX);
-    job->part_count = (uint32_t)part_count;
-    const size_t room = (size_t)job->part_count * PART_ROOM;
-    EWA_TRY(ewa_buffer_reserve(context, &renderer->records, room, sizeof(ewa_gaussian_record)));
-    EWA_TRY(ewa_buffer_reserve(context, &renderer->keys, room, sizeof(uint32_t)));
-    EWA_TRY(ewa_buffer_reserve(context, &renderer->corners, 2 * room, sizeof(int32_t)));
-    EWA_TRY(ewa_buffer_reserve(context, &renderer->parts, job->part_count, sizeof(gaussian_part)));
+    EWA_TRY(ewa_buffer_reserve(renderer->context, &renderer->parts, part_count, sizeof(gaussian_part)));
     job->parts = renderer->parts.data;
-    gaussian_part *part = job->parts;
-    for (uint32_t set = 0; set < mixture->splats_count; set++)
-        for (uint32_t packet = 0; packet < mixture->splats[set]->packet_count; packet += PACKETS_PER_PART) {
-            const size_t first = (size_t)(part - job->parts) * PART_ROOM;
-            int32_t *corners = renderer->corners.data;
-            *part++ =
-                (gaussian_part){.splats = mixture->splats[set],
-                                .view = (const ewa_gaussian_view *)renderer->views.data + set,
-                                .first_packet = packet,
-                                .found = {.records = (ewa_gaussian_record *)renderer->records.data + first,
-                                          .keys = (uint32_t *)renderer->keys.data + first,
-                                          .first = corners + first,
-                                          .end = corners + room + first}};
+    job->part_count = 0;
+    for (uint32_t set = 0; set < mixture->splats_count; set++) {
+        const ewa_splats *splats = mixture->splats[set];
+        const ewa_gaussian_view *view = (const ewa_gaussian_view *)renderer->views.data + set;
+        for (uint32_t packet = 0; packet < splats->packet_count; packet += EWA_SPLAT_PART_PACKETS) {
+            const uint32_t number = packet / EWA_SPLAT_PART_PACKETS, left = splats->packet_count - packet;
+            const uint32_t level = splats->part_count && merge_px > 0 ? choose_level(view, &splats->parts[number], merge_px) : 0;
+            gaussian_part *part = &job->parts[job->part_count++];
+            *part = (gaussian_part){.splats = splats, .view = view, .first_packet = packet, .first_slot = (uint32_t)room,
+                                    .packet_count = left < EWA_SPLAT_PART_PACKETS ? left : EWA_SPLAT_PART_PACKETS};
+            if (level) part->first_packet = ewa_splats_level(splats, number, level, &part->packet_count);
+            room += (uint64_t)part->packet_count * EWA_SPLAT_LANES;
         }
+    }
+    job->room = (size_t)room;
+    return EWA_OK;
+}
+
+/// Finds what is visible, each part in its own room.
+static ewa_status project_all(gaussian_job *job, double merge_px) {
+    ewa_gaussian_renderer *renderer = job->renderer;
+    ewa_context *context = renderer->context;
+    EWA_TRY(list_parts(job, merge_px));
+    EWA_TRY(ewa_buffer_reserve(context, &renderer->records, job->room, sizeof(ewa_gaussian_record)));
+    EWA_TRY(ewa_buffer_reserve(context, &renderer->keys, job->room, sizeof(uint32_t)));
+    EWA_TRY(ewa_buffer_reserve(context, &renderer->corners, 2 * job->room, sizeof(int32_t)));
+    int32_t *corners = renderer->corners.data;
+    for (uint32_t i = 0; i < job->part_count; i++) {
+        const size_t first = job->parts[i].first_slot;
+        job->parts[i].found = (ewa_gaussian_found){.records = (ewa_gaussian_record *)renderer->records.data + first,
+                                                   .keys = (uint32_t *)renderer->keys.data + first,
+                                                   .first = corners + first,
+                                                   .end = corners + job->room + first};
+    }
     return ewa_parallel_stoppable(context, "gaussians", project_part, job, job->part_count);
 }
 
@@ -242,7 +264,7 @@ static ewa_status sort_all(gaussian_job *job) {
     uint32_t *numbers = renderer->order.data, *keys = numbers + 2 * room, count = 0;
     for (uint32_t i = 0; i < job->part_count; i++) {
         memcpy(keys + count, job->parts[i].found.keys, job->parts[i].found.count * sizeof *keys);
-        for (uint32_t k = 0; k < job->parts[i].found.count; k++) numbers[count++] = i * PART_ROOM + k;
+        for (uint32_t k = 0; k < job->parts[i].found.count; k++) numbers[count++] = job->parts[i].first_slot + k;
     }
     job->ids = ewa_sort_by_keys(numbers, keys, count, room);
     return EWA_OK;
@@ -254,7 +276,7 @@ static uint32_t find_tiles(const void *data, uint32_t worker, uint32_t first, ui
     (void)worker;
     const gaussian_job *job = data;
     const int32_t *corners = job->renderer->corners.data;
-    const size_t room = (size_t)job->part_count * PART_ROOM;
+    const size_t room = job->room;
     for (uint32_t i = first; i < first + count; i++) {
         const uint32_t id = job->ids[i];
         items->ids[i] = (int32_t)id;
@@ -450,7 +472,7 @@ static ewa_status draw_areas(gaussian_job *job) {
 }
 
 /// Draws a frame of checked arguments.
-static ewa_status draw_frame(gaussian_job *job, ewa_gaussian_stats *stats) {
+static ewa_status draw_frame(gaussian_job *job, double merge_px, ewa_gaussian_stats *stats) {
     ewa_gaussian_renderer *renderer = job->renderer;
     ewa_context *context = renderer->context;
     const double start_s = ewa_now_s();
@@ -459,7 +481,7 @@ static ewa_status draw_frame(gaussian_job *job, ewa_gaussian_stats *stats) {
         scratch->project_s = scratch->draw_s = 0;
         scratch->status = EWA_OK;
     }
-    EWA_TRY(project_all(job));
+    EWA_TRY(project_all(job, merge_px));
     const double projected_s = ewa_now_s();
     EWA_TRY(sort_all(job));
     EWA_TRY(ewa_bin_lists_fill(context, &renderer->by_tile, job->tiles.columns, job->tiles.rows,
@@ -503,7 +525,7 @@ ewa_status ewa_mixture_render(ewa_gaussian_renderer *renderer, const ewa_mixture
                           chosen.section_count);
     EWA_TRY(set_views(&job, camera, &chosen, frame->depth || frame->normal));
     EWA_TRY(make_volumes(&job, camera, &chosen, volumes));
-    EWA_TRY(draw_frame(&job, stats));
+    EWA_TRY(draw_frame(&job, chosen.merge_px, stats));
     if (stats) stats->total_s = ewa_now_s() - start_s;
     return EWA_OK;
 }

@@ -35,6 +35,9 @@ static const ewa_option rows[] = {
      .help = "a pixel where less of what is behind would show gets nothing more"},
     {"near_world", EWA_OPTION_F64, OF(near_world), 0, 1e15, .initial = EWA_GAUSSIAN_NEAR_WORLD,
      .unit = "world", .help = "trained: Gaussians whose centres are nearer to the eye along its axis are not drawn"},
+    {"merge_px", EWA_OPTION_F64, OF(merge_px), 0, 1000, .unit = "px",
+     .help = "of large sets, Gaussians that are within so many pixels (RMS) of one that stands for them are drawn by that; 0: all are "
+             "drawn"},
     {"sh_degree", EWA_OPTION_U32, OF(sh_degree), 0, EWA_MAX_SH_DEGREE, .initial = EWA_MAX_SH_DEGREE,
      .help = "spherical harmonics beyond that degree are not used"},
     {"background", EWA_OPTION_F32, OF(background), 0, 1e15, .count = 4,

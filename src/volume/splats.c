@@ -94,8 +94,7 @@ typedef struct build_job {
     ewa_splats *splats;
 } build_job;
 
-static void set_harmonics(const build_job *job, const float *from, size_t packet, size_t lane) {
-    const ewa_splats *splats = job->splats;
+static void set_harmonics(const ewa_splats *splats, const float *from, size_t packet, size_t lane) {
     ewa_splat_packet *to = &splats->packets[packet];
     for (int c = 0; c < 3; c++) (*to)[EWA_SPLAT_COLOR + c][lane] = from[c];
     double largest = 0;
@@ -107,11 +106,10 @@ static void set_harmonics(const build_job *job, const float *from, size_t packet
     }
 }
 
-static void set_splat(const build_job *job, size_t number, size_t packet, size_t lane) {
-    const ewa_gaussians *set = job->set;
+void ewa_splats_set(ewa_splats *splats, const ewa_gaussians *set, size_t number, size_t packet, size_t lane) {
     const gaussian_parts at = parts_of(set, number);
-    const double unit = job->splats->unit_world;
-    ewa_splat_packet *to = &job->splats->packets[packet];
+    const double unit = splats->unit_world;
+    ewa_splat_packet *to = &splats->packets[packet];
     const double longest = fmax(fmax((double)at.parts[1][0], (double)at.parts[1][1]), (double)at.parts[1][2]);
     for (int i = 0; i < 3; i++) {
         (*to)[EWA_SPLAT_PLACE + i][lane] = (float)((double)at.parts[0][i] / unit);
@@ -120,7 +118,7 @@ static void set_splat(const build_job *job, size_t number, size_t packet, size_t
     }
     for (int i = 0; i < 4; i++) (*to)[EWA_SPLAT_ROTATION + i][lane] = at.parts[2][i];
     (*to)[EWA_SPLAT_OPACITY][lane] = set->opacities[number] < 1 ? set->opacities[number] : 1;
-    set_harmonics(job, at.parts[4], packet, lane);
+    set_harmonics(splats, at.parts[4], packet, lane);
 }
 
 enum { PACKETS_PER_TASK = 256 };
@@ -131,7 +129,7 @@ static void build(void *data, uint32_t index, uint32_t worker) {
     const uint32_t count = job->splats->info.splat_count;
     for (uint64_t i = (uint64_t)index * PACKETS_PER_TASK * LANES;
          i < (index + (uint64_t)1) * PACKETS_PER_TASK * LANES && i < count; i++)
-        set_splat(job, job->order[i], i / LANES, i % LANES);
+        ewa_splats_set(job->splats, job->set, job->order[i], i / LANES, i % LANES);
 }
 
 static double place_of(const ewa_splats *splats, uint32_t i, int axis) {
@@ -205,16 +203,17 @@ static double choose_unit(const ewa_gaussians *set, const uint32_t *order, uint3
 
 static ewa_status fill(ewa_splats *splats, const ewa_gaussians *set, const uint32_t *order) {
     ewa_context *context = splats->context;
-    const size_t packets = splats->packet_count;
-    splats->packets = ewa_allocate_zeroed(context, packets, sizeof *splats->packets);
-    splats->harmonics =
-        ewa_allocate_zeroed(context, packets * splats->harmonic_count, sizeof *splats->harmonics);
-    if (!splats->packets || !splats->harmonics) return EWA_ERROR_MEMORY;
+    const size_t packets = splats->packet_count, all = ewa_splats_all_packets(splats);
+    splats->packets = ewa_allocate_zeroed(context, all, sizeof *splats->packets);
+    splats->harmonics = ewa_allocate_zeroed(context, all * splats->harmonic_count, sizeof *splats->harmonics);
+    splats->parts = ewa_allocate_zeroed(context, splats->part_count, sizeof *splats->parts);
+    if (!splats->packets || !splats->harmonics || !splats->parts) return EWA_ERROR_MEMORY;
     splats->unit_world = choose_unit(set, order, splats->info.splat_count);
     memcpy(splats->origin_world, set->origin, sizeof splats->origin_world);
     build_job job = {set, order, splats};
     EWA_TRY(ewa_parallel_stoppable(context, "splats", build, &job,
                                    (uint32_t)((packets + PACKETS_PER_TASK - 1) / PACKETS_PER_TASK)));
+    EWA_TRY(ewa_splats_make_levels(splats, set, order));
     return measure(splats);
 }
 
@@ -240,9 +239,11 @@ ewa_status ewa_splats_create(const ewa_gaussians *gaussians, ewa_splats **splats
     }
     if (status == EWA_OK) {
         made->packet_count = (made->info.splat_count + LANES - 1) / LANES;
+        if (made->info.splat_count >= EWA_SPLAT_LEVELS_FROM && !made->flat)
+            made->part_count = (made->packet_count - 1) / EWA_SPLAT_PART_PACKETS + 1;
         made->info.resident_bytes =
-            sizeof *made +
-            made->packet_count * (sizeof *made->packets + made->harmonic_count * sizeof *made->harmonics);
+            sizeof *made + made->part_count * sizeof *made->parts +
+            ewa_splats_all_packets(made) * (sizeof *made->packets + made->harmonic_count * sizeof *made->harmonics);
         status = fill(made, gaussians, order);
     }
     ewa_release(context, order, count, sizeof *order);
@@ -256,9 +257,10 @@ ewa_status ewa_splats_create(const ewa_gaussians *gaussians, ewa_splats **splats
 void ewa_splats_destroy(ewa_splats **splats) {
     if (!splats || !*splats) return;
     ewa_splats *old = *splats;
-    ewa_release(old->context, old->packets, old->packet_count, sizeof *old->packets);
-    ewa_release(old->context, old->harmonics, (size_t)old->packet_count * old->harmonic_count,
-                sizeof *old->harmonics);
+    const size_t all = ewa_splats_all_packets(old);
+    ewa_release(old->context, old->packets, all, sizeof *old->packets);
+    ewa_release(old->context, old->harmonics, all * old->harmonic_count, sizeof *old->harmonics);
+    ewa_release(old->context, old->parts, old->part_count, sizeof *old->parts);
     ewa_release(old->context, old, 1, sizeof *old);
     *splats = NULL;
 }

@@ -27,6 +27,20 @@ enum {
     EWA_SPLAT_NUMBERS,
 };
 
+/// Levels: parts of packets in a row have coarser ones behind all packets of the set, of a quarter of the splats each.
+enum {
+    EWA_SPLAT_PART_PACKETS = 256,
+    EWA_SPLAT_LEVELS = 4,              ///< beside the splats themselves
+    EWA_SPLAT_LEVELS_FROM = 1 << 17,   ///< sets of less have none, nor 2D Gaussians
+    EWA_SPLAT_MERGED_PACKETS = 64 + 16 + 4 + 1, ///< of a part, all levels
+};
+
+/// A part that has levels.
+typedef struct ewa_splat_part {
+    float center[3], radius;         ///< a ball around the centres of its splats, units
+    float apart[EWA_SPLAT_LEVELS];   ///< RMS distance of its splats from what stands for them, units, level 1 on
+} ewa_splat_part;
+
 typedef float ewa_splat_packet[EWA_SPLAT_NUMBERS][EWA_SPLAT_LANES];
 
 /// A shorter scale is at least that much of the longest one.
@@ -34,13 +48,38 @@ typedef float ewa_splat_packet[EWA_SPLAT_NUMBERS][EWA_SPLAT_LANES];
 
 struct ewa_splats {
     ewa_context *context;
-    uint32_t packet_count, harmonic_count; ///< harmonics beyond degree 0 of three colours
+    uint32_t packet_count;                 ///< of the splats themselves
+    uint32_t part_count;                   ///< of parts that have levels; 0: none has
+    uint32_t harmonic_count;               ///< harmonics beyond degree 0 of three colours
     bool flat;                             ///< 2D Gaussians
     double unit_world;                     ///< a power of two
     double origin_world[3];
-    ewa_splat_packet *packets;
+    ewa_splat_packet *packets;             ///< then EWA_SPLAT_MERGED_PACKETS of each part
     int16_t (*harmonics)[EWA_SPLAT_LANES]; ///< [packet * harmonic_count + 3 (harmonic - 1) + colour]
+    ewa_splat_part *parts;
     ewa_splats_info info;
 };
+
+/// Packets of a set with those of its levels.
+static inline size_t ewa_splats_all_packets(const ewa_splats *splats) {
+    return splats->packet_count + (size_t)splats->part_count * EWA_SPLAT_MERGED_PACKETS;
+}
+
+/// The first packet of a part's level, 1 to EWA_SPLAT_LEVELS, and how many it has.
+static inline size_t ewa_splats_level(const ewa_splats *splats, uint32_t part, uint32_t level, uint32_t *packets) {
+    size_t first = splats->packet_count + (size_t)part * EWA_SPLAT_MERGED_PACKETS;
+    *packets = EWA_SPLAT_PART_PACKETS;
+    for (uint32_t l = 1; l <= level; l++) {
+        if (l > 1) first += *packets;
+        *packets /= 4;
+    }
+    return first;
+}
+
+/// Fills a lane with a Gaussian of a set. Any thread.
+void ewa_splats_set(ewa_splats *splats, const ewa_gaussians *set, size_t number, size_t packet, size_t lane);
+
+/// Fills the levels of all parts; `order` has the Gaussians of the splats. Errors: EWA_ERROR_MEMORY, EWA_CANCELLED.
+ewa_status ewa_splats_make_levels(ewa_splats *splats, const ewa_gaussians *set, const uint32_t *order);
 
 #endif
