@@ -1044,6 +1044,7 @@ class ewa_gaussian_options(c.Structure):
     surface_normal: int | None
     surface_coverage: int | None
     order: int
+    merge_px: float
     _fields_ = [
         ("struct_size", c.c_size_t),
         ("projection", c.c_int),
@@ -1062,6 +1063,7 @@ class ewa_gaussian_options(c.Structure):
         ("surface_normal", c.c_void_p),
         ("surface_coverage", c.c_void_p),
         ("order", c.c_int),
+        ("merge_px", c.c_double),
     ]
 
 

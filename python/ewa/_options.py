@@ -186,6 +186,8 @@ class GaussianOptions(TypedDict, total=False):
     minimum_transmittance: float | None
     #: trained: Gaussians whose centres are nearer to the eye along its axis are not drawn; [0, 1e15], world, default 0.2
     near_world: float | None
+    #: of large sets, Gaussians that are within so many pixels (RMS) of one that stands for them are drawn by that; 0: all are drawn; [0, 1000], px, default 0
+    merge_px: float | None
     #: spherical harmonics beyond that degree are not used; [0, 4], default 4
     sh_degree: int | None
 

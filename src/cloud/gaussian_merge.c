@@ -19,46 +19,42 @@ static double mean_area(const float scales[3]) {
     return sqrt((a * a * b * b + a * a * c * c + b * b * c * c) / 3);
 }
 
-/// Adds a covariance to the upper triangle of a symmetric matrix.
-static void add_covariance(const ewa_gaussians *set, size_t i, double weight, double sum[3][3]) {
+void ewa_gaussian_weigh(const ewa_gaussians *set, size_t i, ewa_gaussian_mass *mass) {
+    const double area = mean_area(set->scales + 3 * i), opacity = fmin((double)set->opacities[i], MAX_OPACITY);
+    *mass = (ewa_gaussian_mass){.mass = opacity * area, .depth = -log1p(-opacity) * area};
     double axes[9];
     ewa_gaussian_axes(set->rotations + 4 * i, axes);
-    for (int k = 0; k < 3; k++) {
-        const double variance = weight * (double)set->scales[3 * i + (size_t)k] * (double)set->scales[3 * i + (size_t)k];
-        for (int r = 0; r < 3; r++)
-            for (int c = r; c < 3; c++) sum[r][c] += variance * axes[3 * r + k] * axes[3 * c + k];
+    for (size_t k = 0; k < 3; k++) {
+        const double variance = (double)set->scales[3 * i + k] * (double)set->scales[3 * i + k];
+        for (int r = 0, n = 0; r < 3; r++)
+            for (int c = r; c < 3; c++) mass->covariance[n++] += variance * axes[3 * r + (int)k] * axes[3 * c + (int)k];
     }
 }
 
-double ewa_gaussians_merge(const ewa_gaussians *set, const uint32_t *members, uint32_t count, ewa_gaussians *merged, size_t to) {
+double ewa_gaussians_merge(const ewa_gaussians *set, const uint32_t *members, const ewa_gaussian_mass *masses, uint32_t count,
+                           ewa_gaussians *merged, size_t to) {
     enum { NUMBERS = 3 * (EWA_MAX_SH_DEGREE + 1) * (EWA_MAX_SH_DEGREE + 1) };
     const size_t numbers = 3 * (size_t)(set->sh_degree + 1) * (set->sh_degree + 1);
-    double mass = 0, depth = 0, center[3] = {0}, harmonics[NUMBERS] = {0}, covariance[3][3] = {{0}}, apart2 = 0;
+    double mass = 0, depth = 0, center[3] = {0}, harmonics[NUMBERS] = {0}, covariance[6] = {0}, apart2 = 0;
     for (uint32_t n = 0; n < count; n++) {
-        const size_t i = members[n];
-        const double area = mean_area(set->scales + 3 * i), opacity = fmin((double)set->opacities[i], MAX_OPACITY);
-        const double weight = opacity * area;
-        mass += weight;
-        depth -= log1p(-opacity) * area;
-        for (size_t k = 0; k < 3; k++) center[k] += weight * (double)set->centers[3 * i + k];
-        for (size_t k = 0; k < numbers; k++) harmonics[k] += weight * (double)set->harmonics[numbers * i + k];
+        const float *at = set->centers + 3 * (size_t)members[n], *color = set->harmonics + numbers * members[n];
+        mass += masses[n].mass, depth += masses[n].depth;
+        for (size_t k = 0; k < 3; k++) center[k] += masses[n].mass * (double)at[k];
+        for (size_t k = 0; k < numbers; k++) harmonics[k] += masses[n].mass * (double)color[k];
     }
-    // Of what cannot be seen from most sides any is as good.
+    // What has no mass is not drawn, whatever the rest.
     const double share = mass > 0 ? 1 / mass : 0;
     for (size_t k = 0; k < 3; k++) center[k] = mass > 0 ? center[k] * share : (double)set->centers[3 * (size_t)members[0] + k];
     for (uint32_t n = 0; n < count; n++) {
-        const size_t i = members[n];
-        const double weight = share * fmin((double)set->opacities[i], MAX_OPACITY) * mean_area(set->scales + 3 * i);
-        double off[3];
-        for (size_t k = 0; k < 3; k++) off[k] = (double)set->centers[3 * i + k] - center[k];
-        add_covariance(set, i, weight, covariance);
-        for (int r = 0; r < 3; r++)
-            for (int c = r; c < 3; c++) covariance[r][c] += weight * off[r] * off[c];
+        const float *at = set->centers + 3 * (size_t)members[n];
+        const double weight = share * masses[n].mass,
+                     off[3] = {(double)at[0] - center[0], (double)at[1] - center[1], (double)at[2] - center[2]};
+        for (int r = 0, k = 0; r < 3; r++)
+            for (int c = r; c < 3; c++, k++) covariance[k] += weight * (masses[n].covariance[k] + off[r] * off[c]);
         apart2 += weight * (off[0] * off[0] + off[1] * off[1] + off[2] * off[2]);
     }
-    double columns[3][3];
-    for (int r = 0; r < 3; r++)
-        for (int c = 0; c < 3; c++) columns[c][r] = covariance[r < c ? r : c][r < c ? c : r];
+    const double *v = covariance;
+    double columns[3][3] = {{v[0], v[1], v[2]}, {v[1], v[3], v[4]}, {v[2], v[4], v[5]}};
     float *scales = merged->scales + 3 * to;
     memcpy(merged->rotations + 4 * to, set->rotations + 4 * (size_t)members[0], 4 * sizeof(float));
     ewa_gaussian_of_columns(columns, scales, merged->rotations + 4 * to);

@@ -14,10 +14,21 @@ void ewa_gaussian_axes(const float rotation[4], double axes[9]);
 /// the two others; of a point, or a line, `rotation` stays as it is.
 void ewa_gaussian_of_columns(double columns[3][3], float scales[3], float rotation[4]);
 
+/// What a Gaussian counts for when it is merged.
+typedef struct ewa_gaussian_mass {
+    double mass;          ///< opacity times mean area
+    double depth;         ///< optical depth times mean area
+    double covariance[6]; ///< xx xy xz yy yz zz
+} ewa_gaussian_mass;
+
+/// Fills what Gaussian `i` of a set counts for. Any thread.
+void ewa_gaussian_weigh(const ewa_gaussians *set, size_t i, ewa_gaussian_mass *mass);
+
 /// Fills number `to` of `merged`, of the degree and the origin of `set`, with one Gaussian for some of a set, of which none is the
-/// same twice: their mean, covariance and harmonics, where each counts by its opacity times its mean area as seen from all sides.
+/// same twice, and whose masses are given in their order: their mean, covariance and harmonics, where each counts by its opacity times its mean area as seen from all sides.
 /// Its opacity times its area is at most the sum of theirs, and what it lets through at most what they would in its area, one behind
 /// the other. Returns the mean square of the distances of the members' centres from its own. Any thread.
-double ewa_gaussians_merge(const ewa_gaussians *set, const uint32_t *members, uint32_t count, ewa_gaussians *merged, size_t to);
+double ewa_gaussians_merge(const ewa_gaussians *set, const uint32_t *members, const ewa_gaussian_mass *masses, uint32_t count,
+                           ewa_gaussians *merged, size_t to);
 
 #endif

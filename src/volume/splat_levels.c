@@ -14,6 +14,7 @@ enum { LANES = EWA_SPLAT_LANES, PART_SPLATS = EWA_SPLAT_PART_PACKETS * LANES, GR
 
 typedef struct level_scratch {
     uint32_t members[PART_SPLATS];
+    ewa_gaussian_mass masses[PART_SPLATS]; ///< theirs
     ewa_gaussians merged; ///< of one level
 } level_scratch;
 
@@ -57,14 +58,15 @@ static void select_first(const ewa_gaussians *set, uint32_t axis, uint32_t *memb
 static uint32_t widest_axis(const ewa_gaussians *set, const uint32_t *members, uint32_t count) {
     uint32_t widest = 0;
     float most = -1;
-    for (uint32_t axis = 0; axis < 3; axis++) {
-        float low = along(set, members[0], axis), high = low;
-        for (uint32_t i = 1; i < count; i++) {
-            low = fminf(low, along(set, members[i], axis));
-            high = fmaxf(high, along(set, members[i], axis));
+    float low[3], high[3];
+    for (uint32_t i = 0; i < count; i++)
+        for (uint32_t axis = 0; axis < 3; axis++) {
+            const float at = along(set, members[i], axis);
+            if (!i || at < low[axis]) low[axis] = at;
+            if (!i || at > high[axis]) high[axis] = at;
         }
-        if (high - low > most) most = high - low, widest = axis;
-    }
+    for (uint32_t axis = 0; axis < 3; axis++)
+        if (high[axis] - low[axis] > most) most = high[axis] - low[axis], widest = axis;
     return widest;
 }
 
@@ -87,7 +89,7 @@ static double make_level(const level_job *job, level_scratch *scratch, uint32_t 
     double squares = 0, masses = 0;
     for (uint32_t m = 0; m < merged_count; m++) {
         const uint32_t first = m * size, members = count - first < size ? count - first : size;
-        const double apart2 = ewa_gaussians_merge(job->set, scratch->members + first, members, &scratch->merged, m);
+        const double apart2 = ewa_gaussians_merge(job->set, scratch->members + first, scratch->masses + first, members, &scratch->merged, m);
         const float *scales = scratch->merged.scales + 3 * (size_t)m;
         const double mass = (double)scratch->merged.opacities[m] * (double)(scales[0] * scales[1] + scales[0] * scales[2] + scales[1] * scales[2]);
         squares += mass * apart2, masses += mass;
@@ -122,6 +124,7 @@ static void make_part(void *data, uint32_t part, uint32_t worker) {
     }
     made->radius = (float)(sqrt(squares) / 2 / unit * (1 + 1e-6));
     group_members(set, scratch->members, count);
+    for (uint32_t i = 0; i < count; i++) ewa_gaussian_weigh(set, scratch->members[i], &scratch->masses[i]);
     for (uint32_t level = 1; level <= EWA_SPLAT_LEVELS; level++)
         made->apart[level - 1] = (float)(make_level(job, scratch, part, level, count) / unit);
 }

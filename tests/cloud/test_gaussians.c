@@ -4,6 +4,7 @@
 // Sets of Gaussians: moved ones have the covariances and the colours that the map gives; surfels of them.
 #include "../check.h"
 
+#include "cloud/gaussian_merge.h"
 #include "cloud/gaussian_turn.h"
 
 #include <math.h>
@@ -170,6 +171,82 @@ TEST(surfels) {
         ewa_cloud_destroy(&cloud);
         ewa_gaussians_free(&set);
         ewa_context_destroy(&context);
+    }
+}
+
+static double mean_area(const float *scales) {
+    const double a = (double)scales[0], b = (double)scales[1], c = (double)scales[2];
+    return sqrt((a * a * b * b + b * b * c * c + c * c * a * a) / 3);
+}
+
+/// One for several has their mean, covariance and colours, each by its opacity and its area, written out in double precision.
+TEST_ON(merged, 1) {
+    check_random random = {3};
+    ewa_gaussians set, one;
+    uint32_t members[COUNT];
+    ewa_gaussian_mass masses[COUNT];
+    fill(context, 3, &random, &set);
+    assert_int_equal(ewa_gaussians_create(context, 2, 3, &one), EWA_OK);
+    double mass = 0, depth = 0, mean[3] = {0}, wanted[9] = {0}, got[9], red = 0, apart2 = 0;
+    const double direction[3] = {0.48, -0.6, 0.64};
+    for (uint32_t i = 0; i < COUNT; i++) {
+        members[i] = COUNT - 1 - i;
+        const double area = mean_area(set.scales + 3 * i), opacity = fmin((double)set.opacities[i], 0.99);
+        mass += opacity * area, depth -= log(1 - opacity) * area;
+        red += opacity * area * red_in(&set, i, direction);
+        for (uint32_t k = 0; k < 3; k++) mean[k] += opacity * area * (double)set.centers[3 * i + k];
+    }
+    for (int k = 0; k < 3; k++) mean[k] /= mass;
+    for (uint32_t i = 0; i < COUNT; i++) {
+        const double share = mean_area(set.scales + 3 * i) * fmin((double)set.opacities[i], 0.99) / mass;
+        covariance(&set, i, got);
+        for (uint32_t a = 0; a < 3; a++) {
+            const double off = (double)set.centers[3 * i + a] - mean[a];
+            apart2 += share * off * off;
+            for (uint32_t b = 0; b < 3; b++) wanted[3 * a + b] += share * (got[3 * a + b] + off * ((double)set.centers[3 * i + b] - mean[b]));
+        }
+    }
+    for (uint32_t i = 0; i < COUNT; i++) ewa_gaussian_weigh(&set, members[i], &masses[i]);
+    assert_true(fabs(ewa_gaussians_merge(&set, members, masses, COUNT, &one, 1) - apart2) < 1e-9);
+    covariance(&one, 1, got);
+    for (uint32_t k = 0; k < 3; k++) assert_true(fabs((double)one.centers[3 + k] - mean[k]) < 1e-6);
+    for (int k = 0; k < 9; k++) assert_true(fabs(got[k] - wanted[k]) < 2e-6);
+    assert_true(fabs(red_in(&one, 1, direction) - red / mass) < 1e-5);
+    const double area = mean_area(one.scales + 3);
+    assert_true(fabs((double)one.opacities[1] - fmin(mass / area, 1 - exp(-depth / area))) < 1e-6);
+    ewa_gaussians_free(&set);
+    ewa_gaussians_free(&one);
+}
+
+/// Opacities of one for four: alike ones at one place let through what they do one behind the other; those far from each other take
+/// as much light as before; those that cover a place are as opaque as each is. Nothing of the opaque gets more than opaque.
+TEST_ON(merged_opacities, 1) {
+    static const struct {
+        double apart, opacity, wanted;
+    } cases[] = {{0, 0.3, 1 - 0.7 * 0.7 * 0.7 * 0.7}, {0, 1, 1}, {100, 0.5, 0}, {1.4, 0.95, 0.95}};
+    const uint32_t members[4] = {0, 1, 2, 3};
+    for (size_t c = 0; c < sizeof cases / sizeof cases[0]; c++) {
+        ewa_gaussians set, one;
+        assert_int_equal(ewa_gaussians_create(context, 4, 0, &set), EWA_OK);
+        assert_int_equal(ewa_gaussians_create(context, 1, 0, &one), EWA_OK);
+        for (uint32_t i = 0; i < 4; i++) {
+            set.centers[3 * i] = (float)(i % 2 * cases[c].apart), set.centers[3 * i + 1] = (float)(i / 2 * cases[c].apart);
+            set.scales[3 * i] = set.scales[3 * i + 1] = 1, set.scales[3 * i + 2] = 0.01f;
+            set.rotations[4 * i] = 1;
+            set.opacities[i] = (float)cases[c].opacity;
+        }
+        ewa_gaussian_mass masses[4];
+        for (uint32_t i = 0; i < 4; i++) ewa_gaussian_weigh(&set, i, &masses[i]);
+        ewa_gaussians_merge(&set, members, masses, 4, &one, 0);
+        const double light = (double)one.opacities[0] * mean_area(one.scales), before = 4 * cases[c].opacity * mean_area(set.scales);
+        print_message("%g apart: opacity %g, light %g of %g\n", cases[c].apart, (double)one.opacities[0], light, before);
+        if (cases[c].wanted > 0)
+            assert_true(fabs((double)one.opacities[0] - cases[c].wanted) < (cases[c].apart > 0 ? 0.06 : 1e-6));
+        else
+            assert_true(fabs(light - before) < 1e-3 * before);
+        assert_true(one.opacities[0] <= 1);
+        ewa_gaussians_free(&set);
+        ewa_gaussians_free(&one);
     }
 }
 
