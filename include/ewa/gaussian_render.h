@@ -14,8 +14,8 @@ extern "C" {
 #endif
 
 /// The resident form of a set of Gaussians, in an order of its own, so that the order of the set does not
-/// matter: about 150 bytes each with harmonics of degree 3. Immutable once made; any number of renderers of
-/// the same context may draw it.
+/// matter: about 150 bytes each with harmonics of degree 3, 200 where there are levels (ewa_gaussian_options.merge_px).
+/// Immutable once made; any number of renderers of the same context may draw it.
 typedef struct ewa_splats ewa_splats;
 
 /// Makes Gaussians resident. Those that are not finite or have no opacity are left out; the shorter scales
