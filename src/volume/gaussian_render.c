@@ -11,6 +11,7 @@
 #include "volume/options.h"
 #include "volume/render.h"
 #include "volume/sort.h"
+#include "volume/splat_packets.h"
 
 #include <math.h>
 #include <string.h>

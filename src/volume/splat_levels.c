@@ -4,9 +4,10 @@
 // Levels of the resident form: the splats of a part are divided along the widest axis of their centres, into halves of as many groups
 // of four as there are, until these are left. A group is one splat of level 1, four groups in a row one of level 2, and so on.
 // Each stands for the splats themselves, not for those of the level before.
+#include "volume/splat_levels.h"
 #include "base/base.h"
 #include "cloud/gaussian_merge.h"
-#include "volume/splats.h"
+#include "volume/splat_packets.h"
 
 #include <math.h>
 

@@ -1,15 +1,21 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// From a set of Gaussians to its resident form. Harmonics beyond degree 0 become integers of 16 bits, each
-// Gaussian's in a unit of its own: within 1/65534 of its largest coefficient.
+// From a set of Gaussians to its resident form: their order, and what is measured of them.
 #include "volume/splats.h"
 #include "base/base.h"
 #include "cloud/morton.h"
+#include "volume/splat_levels.h"
+#include "volume/splat_packets.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+
+/// Packets of a set with those of its levels.
+static size_t all_packets(const ewa_splats *splats) {
+    return splats->packet_count + (size_t)splats->part_count * EWA_SPLAT_MERGED_PACKETS;
+}
 
 enum { LANES = EWA_SPLAT_LANES, CORE_BINS = 1 << 14 };
 
@@ -94,33 +100,6 @@ typedef struct build_job {
     ewa_splats *splats;
 } build_job;
 
-static void set_harmonics(const ewa_splats *splats, const float *from, size_t packet, size_t lane) {
-    ewa_splat_packet *to = &splats->packets[packet];
-    for (int c = 0; c < 3; c++) (*to)[EWA_SPLAT_COLOR + c][lane] = from[c];
-    double largest = 0;
-    for (uint32_t i = 0; i < splats->harmonic_count; i++) largest = fmax(largest, fabs((double)from[3 + i]));
-    (*to)[EWA_SPLAT_HARMONIC_UNIT][lane] = (float)(largest / 32767);
-    for (uint32_t i = 0; i < splats->harmonic_count; i++) {
-        const double share = largest > 0 ? (double)from[3 + i] / largest : 0;
-        splats->harmonics[packet * splats->harmonic_count + i][lane] = (int16_t)floor(32767 * share + 0.5);
-    }
-}
-
-void ewa_splats_set(ewa_splats *splats, const ewa_gaussians *set, size_t number, size_t packet, size_t lane) {
-    const gaussian_parts at = parts_of(set, number);
-    const double unit = splats->unit_world;
-    ewa_splat_packet *to = &splats->packets[packet];
-    const double longest = fmax(fmax((double)at.parts[1][0], (double)at.parts[1][1]), (double)at.parts[1][2]);
-    for (int i = 0; i < 3; i++) {
-        (*to)[EWA_SPLAT_PLACE + i][lane] = (float)((double)at.parts[0][i] / unit);
-        (*to)[EWA_SPLAT_SCALE + i][lane] =
-            (float)(fmax((double)at.parts[1][i], EWA_SPLAT_MIN_ASPECT * longest) / unit);
-    }
-    for (int i = 0; i < 4; i++) (*to)[EWA_SPLAT_ROTATION + i][lane] = at.parts[2][i];
-    (*to)[EWA_SPLAT_OPACITY][lane] = set->opacities[number] < 1 ? set->opacities[number] : 1;
-    set_harmonics(splats, at.parts[4], packet, lane);
-}
-
 enum { PACKETS_PER_TASK = 256 };
 
 static void build(void *data, uint32_t index, uint32_t worker) {
@@ -203,7 +182,7 @@ static double choose_unit(const ewa_gaussians *set, const uint32_t *order, uint3
 
 static ewa_status fill(ewa_splats *splats, const ewa_gaussians *set, const uint32_t *order) {
     ewa_context *context = splats->context;
-    const size_t packets = splats->packet_count, all = ewa_splats_all_packets(splats);
+    const size_t packets = splats->packet_count, all = all_packets(splats);
     splats->packets = ewa_allocate_zeroed(context, all, sizeof *splats->packets);
     splats->harmonics = ewa_allocate_zeroed(context, all * splats->harmonic_count, sizeof *splats->harmonics);
     splats->parts = ewa_allocate_zeroed(context, splats->part_count, sizeof *splats->parts);
@@ -243,7 +222,7 @@ ewa_status ewa_splats_create(const ewa_gaussians *gaussians, ewa_splats **splats
             made->part_count = (made->packet_count - 1) / EWA_SPLAT_PART_PACKETS + 1;
         made->info.resident_bytes =
             sizeof *made + made->part_count * sizeof *made->parts +
-            ewa_splats_all_packets(made) * (sizeof *made->packets + made->harmonic_count * sizeof *made->harmonics);
+            all_packets(made) * (sizeof *made->packets + made->harmonic_count * sizeof *made->harmonics);
         status = fill(made, gaussians, order);
     }
     ewa_release(context, order, count, sizeof *order);
@@ -257,7 +236,7 @@ ewa_status ewa_splats_create(const ewa_gaussians *gaussians, ewa_splats **splats
 void ewa_splats_destroy(ewa_splats **splats) {
     if (!splats || !*splats) return;
     ewa_splats *old = *splats;
-    const size_t all = ewa_splats_all_packets(old);
+    const size_t all = all_packets(old);
     ewa_release(old->context, old->packets, all, sizeof *old->packets);
     ewa_release(old->context, old->harmonics, all * old->harmonic_count, sizeof *old->harmonics);
     ewa_release(old->context, old->parts, old->part_count, sizeof *old->parts);

@@ -60,26 +60,4 @@ struct ewa_splats {
     ewa_splats_info info;
 };
 
-/// Packets of a set with those of its levels.
-static inline size_t ewa_splats_all_packets(const ewa_splats *splats) {
-    return splats->packet_count + (size_t)splats->part_count * EWA_SPLAT_MERGED_PACKETS;
-}
-
-/// The first packet of a part's level, 1 to EWA_SPLAT_LEVELS, and how many it has.
-static inline size_t ewa_splats_level(const ewa_splats *splats, uint32_t part, uint32_t level, uint32_t *packets) {
-    size_t first = splats->packet_count + (size_t)part * EWA_SPLAT_MERGED_PACKETS;
-    *packets = EWA_SPLAT_PART_PACKETS;
-    for (uint32_t l = 1; l <= level; l++) {
-        if (l > 1) first += *packets;
-        *packets /= 4;
-    }
-    return first;
-}
-
-/// Fills a lane with a Gaussian of a set. Any thread.
-void ewa_splats_set(ewa_splats *splats, const ewa_gaussians *set, size_t number, size_t packet, size_t lane);
-
-/// Fills the levels of all parts; `order` has the Gaussians of the splats. Errors: EWA_ERROR_MEMORY, EWA_CANCELLED.
-ewa_status ewa_splats_make_levels(ewa_splats *splats, const ewa_gaussians *set, const uint32_t *order);
-
 #endif
