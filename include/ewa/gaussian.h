@@ -56,8 +56,8 @@ EWA_API ewa_status ewa_gaussians_transform(ewa_gaussians *gaussians, const doubl
 /// Makes surfels of a set, for which 2D Gaussians are meant: "position", float, with the set's origin,
 /// "tangent_u" and "tangent_v" along the two longest axes, one standard deviation long, "normal" along the
 /// shortest, "color" in linear light, that of the constant harmonic, clamped to [0, 1], with the opacity as
-/// alpha. The caller owns `*cloud`, which is NULL after a failure. Errors: EWA_ERROR_ARGUMENT, EWA_ERROR_LIMIT,
-/// EWA_ERROR_MEMORY.
+/// alpha, and as "opacity"; "size", the longest standard deviation. The caller owns `*cloud`, which is NULL after a
+/// failure. Errors: EWA_ERROR_ARGUMENT, EWA_ERROR_LIMIT, EWA_ERROR_MEMORY.
 EWA_API ewa_status ewa_gaussians_to_cloud(const ewa_gaussians *gaussians, ewa_cloud **cloud);
 
 /// Makes the points that a camera has to have in its picture (ewa_framing_create()): the centres within `core`

@@ -3,6 +3,7 @@
 //
 // Sets of Gaussians as surfels: the plane of the two longest axes, with the colour that no direction changes.
 #include "base/base.h"
+#include "cloud/gaussian_merge.h"
 #include "ewa/gaussian.h"
 #include "image/srgb.h"
 
@@ -11,20 +12,8 @@
 
 /// Where the numbers of surfels go.
 typedef struct surfel_streams {
-    float *position, *tangent_u, *tangent_v, *normal, *color;
+    float *position, *tangent_u, *tangent_v, *normal, *color, *opacity, *size;
 } surfel_streams;
-
-/// The columns of the rotation by a quaternion.
-static void columns_of(const float rotation[4], double columns[3][3]) {
-    const double w = (double)rotation[0], x = (double)rotation[1], y = (double)rotation[2],
-                 z = (double)rotation[3];
-    columns[0][0] = 1 - 2 * (y * y + z * z), columns[1][0] = 2 * (x * y - w * z),
-    columns[2][0] = 2 * (x * z + w * y);
-    columns[0][1] = 2 * (x * y + w * z), columns[1][1] = 1 - 2 * (x * x + z * z),
-    columns[2][1] = 2 * (y * z - w * x);
-    columns[0][2] = 2 * (x * z - w * y), columns[1][2] = 2 * (y * z + w * x),
-    columns[2][2] = 1 - 2 * (x * x + y * y);
-}
 
 static void make_surfel(const ewa_gaussians *set, size_t i, const surfel_streams *to) {
     const float *scales = set->scales + 3 * i;
@@ -34,17 +23,18 @@ static void make_surfel(const ewa_gaussians *set, size_t i, const surfel_streams
         if (scales[k] < scales[shortest]) shortest = k;
     // In this order they are right-handed: the normal is u x v.
     const int u = (shortest + 1) % 3, v = (shortest + 2) % 3;
-    double columns[3][3];
-    columns_of(set->rotations + 4 * i, columns);
+    double axes[9];
+    ewa_gaussian_axes(set->rotations + 4 * i, axes);
     for (int k = 0; k < 3; k++) {
         to->position[3 * i + (size_t)k] = set->centers[3 * i + (size_t)k];
-        to->tangent_u[3 * i + (size_t)k] = (float)(columns[u][k] * (double)scales[u]);
-        to->tangent_v[3 * i + (size_t)k] = (float)(columns[v][k] * (double)scales[v]);
-        to->normal[3 * i + (size_t)k] = (float)columns[shortest][k];
+        to->tangent_u[3 * i + (size_t)k] = (float)(axes[3 * k + u] * (double)scales[u]);
+        to->tangent_v[3 * i + (size_t)k] = (float)(axes[3 * k + v] * (double)scales[v]);
+        to->normal[3 * i + (size_t)k] = (float)axes[3 * k + shortest];
         const double display = 0.5 + 0.28209479177387814 * (double)harmonics[k];
         to->color[4 * i + (size_t)k] = (float)ewa_srgb_decode(fmin(fmax(display, 0), 1));
     }
-    to->color[4 * i + 3] = set->opacities[i];
+    to->color[4 * i + 3] = to->opacity[i] = set->opacities[i];
+    to->size[i] = fmaxf(scales[u], scales[v]);
 }
 
 ewa_status ewa_gaussians_to_cloud(const ewa_gaussians *gaussians, ewa_cloud **cloud) {
@@ -58,6 +48,8 @@ ewa_status ewa_gaussians_to_cloud(const ewa_gaussians *gaussians, ewa_cloud **cl
     if (status == EWA_OK) status = ewa_cloud_add(made, EWA_COLOR, EWA_F32, 4, (void **)&to.color);
     if (status == EWA_OK) status = ewa_cloud_add(made, EWA_TANGENT_U, EWA_F32, 3, (void **)&to.tangent_u);
     if (status == EWA_OK) status = ewa_cloud_add(made, EWA_TANGENT_V, EWA_F32, 3, (void **)&to.tangent_v);
+    if (status == EWA_OK) status = ewa_cloud_add(made, "opacity", EWA_F32, 1, (void **)&to.opacity);
+    if (status == EWA_OK) status = ewa_cloud_add(made, "size", EWA_F32, 1, (void **)&to.size);
     if (status != EWA_OK) {
         ewa_cloud_destroy(&made);
         return status;

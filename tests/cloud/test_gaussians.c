@@ -165,6 +165,10 @@ TEST(surfels) {
         assert_true(fabs((double)numbers[3][0] - 1) < 1e-6);
         assert_true(fabs((double)numbers[3][1] - 0.21404114) < 1e-6 && numbers[3][2] == 0);
         assert_true(numbers[3][3] == 0.25f);
+        float opacity, size;
+        ewa_attribute_read_f32(ewa_cloud_find(cloud, "opacity"), 0, 1, &opacity);
+        ewa_attribute_read_f32(ewa_cloud_find(cloud, "size"), 0, 1, &size);
+        assert_true(opacity == 0.25f && size == fmaxf(set.scales[u], set.scales[v]));
         double origin[3];
         ewa_cloud_origin(cloud, origin);
         assert_true(origin[1] == 5);
