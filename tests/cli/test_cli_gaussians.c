@@ -98,9 +98,9 @@ TEST(converted) {
     run_done("ewa convert a.spz -o g.ply --scale 1 && ewa surfels b.splat -o h.ply && ewa info h.ply");
     said("tangent_u");
     said("size                 float  0.135335 .. 0.135335"); // e^-2
+    said("color");
     run_done("ewa render three.ply -o s.png --surface --color-by opacity --size 40x40 && "
              "ewa render three.ply -o s.png --surface --filter 'size>0.1 and opacity<0.6' --size 40x40 && rm s.png");
-    said("color");
     // Centres alone keep their colours: 0.5 + 0.2821 of 0 and 1.
     run_done("ewa surfels three.ply -o i.ply --keep-normals off && ewa info i.ply");
     said("color                uchar  128 .. 199, 135 .. 135, 142 .. 142");
