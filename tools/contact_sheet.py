@@ -19,7 +19,7 @@ import textwrap
 import time
 
 VOLUMES = (".nrrd", ".nhdr", ".nii", ".nii.gz", ".mha", ".mhd", ".vtk", ".vti", ".raw.gz")
-SURFACES = (".ply", ".obj", ".stl", ".off", ".gltf", ".glb", ".vtp", ".vtu", ".vts", ".vtr", ".las", ".laz", ".e57", ".pcd", ".pts", ".ptx", ".xyz",
+SURFACES = (".ply", ".obj", ".stl", ".off", ".gltf", ".glb", ".vtp", ".vtu", ".vts", ".vtr", ".vtm", ".pvtp", ".pvtu", ".pvts", ".pvtr", ".pvd", ".las", ".laz", ".e57", ".pcd", ".pts", ".ptx", ".xyz",
             ".spz", ".splat", ".ksplat", ".sog")
 
 

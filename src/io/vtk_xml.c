@@ -7,11 +7,13 @@
 #include "io/vtk_xml.h"
 #include "base/base.h"
 #include "io/mesh/base64.h"
+#include "base/unpacking.h"
+#include "io/lz4.h"
 #include "io/number.h"
 
 #include <string.h>
 
-enum { PACKED_HEAD_WORDS = 3 };
+enum { PACKED_HEAD_WORDS = 3, LZ4_RATIO = 255 }; // a byte of LZ4 unpacks to no more
 
 /// Where the numbers of an array are: bytes, or their base64 text.
 typedef struct array_bytes {
@@ -54,6 +56,7 @@ void ewa_vtk_xml_open(ewa_vtk_xml *xml, const uint8_t *bytes, size_t size_bytes)
     xml->wide = ewa_vtk_attribute(&xml->root, "header_type", value) && strcmp(value, "UInt64") == 0;
     xml->big_endian = ewa_vtk_attribute(&xml->root, "byte_order", value) && strcmp(value, "BigEndian") == 0;
     xml->packed = ewa_vtk_attribute(&xml->root, "compressor", value) && value[0];
+    xml->lz4 = xml->packed && strcmp(value, "vtkLZ4DataCompressor") == 0;
 }
 
 /// What stands between the tags of an array.
@@ -131,10 +134,50 @@ static ewa_status measure_array(const ewa_vtk_xml *xml, const array_bytes *array
     return status == EWA_OK && *data_bytes > maximum - *head_bytes ? ends_early(xml) : status;
 }
 
+/// Unpacks the blocks of an array, of LZ4, from the data behind their sizes.
+static ewa_status unpack_blocks(const ewa_vtk_xml *xml, const uint8_t *head, const uint8_t *data, size_t data_bytes, ewa_vtk_stored *stored) {
+    const size_t word_bytes = xml->wide ? 8 : 4;
+    const uint64_t count = read_word(xml, head), block = read_word(xml, head + word_bytes), last = read_word(xml, head + 2 * word_bytes);
+    uint64_t bytes;
+    if (__builtin_mul_overflow(last ? count - 1 : count, block, &bytes) || __builtin_add_overflow(bytes, last, &bytes) ||
+        last > block || bytes / LZ4_RATIO > data_bytes)
+        return ends_early(xml);
+    EWA_TRY(ewa_memory_check_unpacked(xml->context, data_bytes, LZ4_RATIO, bytes, "%s: VTK: an array", xml->name));
+    uint8_t *to = ewa_allocate(xml->context, (size_t)bytes, 1);
+    if (!to) return EWA_ERROR_MEMORY;
+    bool good = true;
+    uint64_t done = 0;
+    for (uint64_t i = 0; i < count && good; i++) {
+        const size_t packed = (size_t)read_word(xml, head + (PACKED_HEAD_WORDS + i) * word_bytes);
+        const uint64_t own = bytes - done < block ? bytes - done : block;
+        good = ewa_lz4_unpack(data, packed, to + done, (size_t)own);
+        data += packed, done += own;
+    }
+    if (!good) {
+        ewa_release(xml->context, to, (size_t)bytes, 1);
+        return fail(xml, "a packed array is damaged");
+    }
+    *stored = (ewa_vtk_stored){EWA_PACKING_NONE, to, (size_t)bytes, to, (size_t)bytes};
+    return EWA_OK;
+}
+
+/// As find_bytes(), of LZ4.
+static ewa_status find_unpacked(const ewa_vtk_xml *xml, const array_bytes *array, size_t head_bytes, size_t data_bytes, ewa_vtk_stored *stored) {
+    const size_t size_bytes = head_bytes + data_bytes;
+    uint8_t *bytes = ewa_allocate(xml->context, size_bytes, 1);
+    if (!bytes) return EWA_ERROR_MEMORY;
+    const bool whole = copy_bytes(array, 0, bytes, head_bytes) == head_bytes &&
+                       copy_bytes(array, head_bytes, bytes + head_bytes, data_bytes) == data_bytes;
+    const ewa_status status = whole ? unpack_blocks(xml, bytes, bytes + head_bytes, data_bytes, stored) : ends_early(xml);
+    ewa_release(xml->context, bytes, size_bytes, 1);
+    return status;
+}
+
 /// Finds the bytes of an array behind its sizes; those of base64 are decoded into memory of their own.
 static ewa_status find_bytes(const ewa_vtk_xml *xml, const array_bytes *array, ewa_vtk_stored *stored) {
     uint64_t head_bytes = 0, data_bytes = 0;
     EWA_TRY(measure_array(xml, array, &head_bytes, &data_bytes));
+    if (xml->lz4) return find_unpacked(xml, array, (size_t)head_bytes, (size_t)data_bytes, stored);
     stored->packing = xml->packed ? EWA_PACKING_DEFLATE : EWA_PACKING_NONE;
     stored->bytes = (const uint8_t *)array->text + head_bytes;
     stored->size_bytes = (size_t)data_bytes;
@@ -153,7 +196,7 @@ static ewa_status find_bytes(const ewa_vtk_xml *xml, const array_bytes *array, e
 ewa_status ewa_vtk_xml_find(const ewa_vtk_xml *xml, const ewa_xml_tag *array, ewa_vtk_stored *stored) {
     char value[EWA_VTK_ATTRIBUTE_BYTES] = "";
     *stored = (ewa_vtk_stored){0};
-    if (xml->packed && ewa_vtk_attribute(&xml->root, "compressor", value) && strcmp(value, "vtkZLibDataCompressor") != 0)
+    if (xml->packed && !xml->lz4 && ewa_vtk_attribute(&xml->root, "compressor", value) && strcmp(value, "vtkZLibDataCompressor") != 0)
         return ewa_fail(xml->context, EWA_ERROR_UNSUPPORTED, "%s: %s: compressor '%.80s'", xml->name, xml->kind, value);
     if (!xml->ends && !xml->raw) return fail(xml, "the file ends early");
     if (!ewa_vtk_attribute(array, "format", value)) memcpy(value, "ascii", sizeof "ascii");
