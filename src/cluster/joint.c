@@ -168,6 +168,7 @@ static ewa_status draw(void *state, const ewa_render_job *own, ewa_render_stats 
     ewa_render_job frame;
     EWA_TRY(ewa_joint_sources_gather(context, &joint->exchange, &joint->sources, own, &frame));
     EWA_TRY(ewa_tile_job_make(context, &joint->room, &frame, tile_side_px(joint), &joint->job));
+    EWA_TRY(ewa_tile_job_bin(context, &joint->room, &joint->job));
     joint->job.scratch = joint->scratch;
     // A rank without sources exchanges what the others do.
     joint->job.with_clips |= own->options.section_count > 0 && own->options.point_size_px == 0;

@@ -1,219 +1,407 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// A band of a frame on its way to the device.
-#include "gl/band.h"
+// A band of rows on the device: programs one behind the other, which find their work in what those before them have counted. The
+// host waits once, at the end. What it has to make (answers.h) takes one wait more, and what found no room is
+// drawn again with more of it.
+#include "gl/compute.h"
 
 #include <string.h>
 
-enum { LANES = EWA_PACKET_LANES, PLACE_FLOATS = 6 };
+enum { THREADS = 64, PLANES = 4, READBACK_HEAD = 64 };
 
-static uint64_t bin_count(const ewa_tile_source *source, uint32_t bin) {
-    return source->bins.lists.starts[bin + 1] - source->bins.lists.starts[bin];
+/// The numbers of a band.
+typedef struct band {
+    const ewa_tile_job *job;
+    ewa_gl_rows rows;
+    uint32_t width_px, height_px;                ///< whole blocks
+    uint32_t tiles_per_row, tile_count, source_pages;
+    uint64_t result_words;
+    bool answered;
+} band;
+
+/// A plane of the frame, 4 bytes a float.
+typedef struct wanted_plane {
+    float *plane; ///< NULL: it is not wanted
+    uint32_t floats;
+} wanted_plane;
+
+/// The planes in the order in which the device has them, behind the bytes.
+static void list_planes(const ewa_resolve *to, wanted_plane planes[PLANES]) {
+    planes[0] = (wanted_plane){to->rgba, 4}, planes[1] = (wanted_plane){to->depth, 1};
+    planes[2] = (wanted_plane){to->normal, 3}, planes[3] = (wanted_plane){to->coverage, 1};
 }
 
-uint64_t ewa_gl_band_pairs(const ewa_tile_job *job, uint32_t first_field_row, uint32_t end_field_row) {
-    const uint32_t columns = job->tiles.columns;
-    uint64_t count = 0;
-    for (uint32_t i = 0; i < job->source_count; i++)
-        for (uint32_t bin = first_field_row * columns; bin < end_field_row * columns; bin++)
-            count += bin_count(&job->sources[i], bin);
-    return count;
+static uint64_t pixel_count(const band *b) {
+    return (uint64_t)b->job->tiles.width_px * (b->rows.end_px - b->rows.first_px);
 }
 
-/// Writes what the set-up reads of a packet in a field.
-static void write_pair(const ewa_tile_source *source, uint32_t id, float *place, uint32_t *words) {
-    const ewa_packet_source *packets = &source->packets;
-    const ewa_packet_places *places = &packets->places;
-    place[0] = places->slope_x[id], place[1] = places->slope_y[id];
-    place[2] = places->rest_x[id], place[3] = places->rest_y[id];
-    place[4] = places->depth[id], place[5] = 0;
-    const uint32_t lanes = places->lanes ? places->lanes[id] : 0xffff;
-    const uint32_t clipped =
-        (packets->clip_masks ? packets->clip_masks[id] : 0u) | (places->cuts ? places->cuts[id] : 0u);
-    words[0] = packets->colors[id] | (uint32_t)packets->material << 16;
-    words[1] = lanes | clipped << 16;
+static uint64_t smaller(uint64_t a, uint64_t b) { return a < b ? a : b; }
+
+static ewa_status reserve(ewa_gl_compute *gl, ewa_gl_buffer_kind kind, const char *what, uint64_t size_bytes) {
+    return ewa_gl_buffer_reserve(gl->device, &gl->buffers[kind], what, size_bytes);
 }
 
-/// Appends the pairs of one page of a source.
-static void append_page(ewa_gl_band *band, const ewa_tile_job *job, uint32_t index, uint32_t page,
-                        uint32_t page_packets) {
-    const ewa_tile_source *source = &job->sources[index];
-    const uint32_t columns = job->tiles.columns, first_row = band->first_row_px / EWA_FIELD_PX,
-                   end_row = (band->end_row_px + EWA_FIELD_PX - 1) / EWA_FIELD_PX;
-    const uint64_t first_id = (uint64_t)page * page_packets, end_id = first_id + page_packets;
-    ewa_gl_pair *pairs = band->pairs.data;
-    float *places = band->places.data;
-    uint32_t *words = band->words.data, *ids = band->ids.data;
-    const uint32_t before = band->pair_count;
-    for (uint32_t bin = first_row * columns; bin < end_row * columns; bin++) {
-        const uint32_t field = bin % columns | bin / columns << 16;
-        const uint32_t *of_bin = source->bins.lists.ids + source->bins.lists.starts[bin];
-        for (uint64_t i = 0, count = bin_count(source, bin); i < count; i++) {
-            const uint32_t id = of_bin[i];
-            if (id < first_id || id >= end_id) continue;
-            const uint32_t at = band->pair_count++;
-            pairs[at] = (ewa_gl_pair){(uint32_t)(id - first_id), field};
-            ids[at] = id;
-            write_pair(source, id, places + (size_t)at * PLACE_FLOATS, words + (size_t)at * 2);
-        }
+static ewa_status put(ewa_gl_compute *gl, ewa_gl_buffer_kind kind, const char *what, const void *bytes,
+                      uint64_t size_bytes) {
+    return ewa_gl_buffer_put(gl->device, &gl->buffers[kind], what, bytes, size_bytes);
+}
+
+/// Raises a mark to what a frame needed, and some more.
+static ewa_status raise(ewa_gl_compute *gl, uint32_t *mark, uint64_t need, ewa_gl_buffer_kind kind, const char *what,
+                        uint64_t item_bytes) {
+    enum { SPARE = 8 };
+    if (need <= *mark) return EWA_OK;
+    EWA_TRY(reserve(gl, kind, what, need * item_bytes));
+    const uint64_t fit = smaller(gl->device->facts.storage_bytes / item_bytes, UINT32_MAX);
+    *mark = (uint32_t)smaller(need + need / SPARE, fit);
+    return EWA_OK;
+}
+
+enum { PAIR_RECORD_BYTES = EWA_PACKET_LANES * EWA_GL_RECORD_BYTES };
+
+/// Room for what is known before anything is counted; marks that are not set yet begin small.
+static ewa_status reserve_work(ewa_gl_compute *gl, const band *b) {
+    enum { PAIRS = 1 << 14, ASKS = 1 << 8, LIST = 1 << 18 };
+    const uint64_t fit = gl->device->facts.storage_bytes;
+    ewa_gl_marks *marks = &gl->marks;
+    if (!marks->pairs) {
+        uint64_t packets = 1;
+        for (uint32_t i = 0; i < b->job->source_count; i++) packets += b->job->sources[i].surfels->packet_count;
+        marks->pairs = (uint32_t)smaller(smaller(packets + packets / 2, PAIRS), fit / PAIR_RECORD_BYTES);
+        marks->asks = ASKS;
+        marks->list = (uint32_t)smaller(LIST, fit / sizeof(uint32_t));
+        marks->units = (uint32_t)smaller(2 * (uint64_t)b->tile_count, fit / EWA_GL_UNIT_BYTES);
     }
-    if (band->pair_count == before) return;
-    ((ewa_gl_batch *)band->batches.data)[band->batch_count++] =
-        (ewa_gl_batch){index, page, before, band->pair_count - before};
+    const uint64_t arguments = (uint64_t)(EWA_GL_OF_PAGES + b->source_pages) * EWA_GL_ARGUMENT_BYTES;
+    EWA_TRY(reserve(gl, EWA_GL_PAIRS, "packets", (uint64_t)marks->pairs * EWA_GL_PAIR_BYTES));
+    EWA_TRY(reserve(gl, EWA_GL_RECORDS, "splats", (uint64_t)marks->pairs * PAIR_RECORD_BYTES));
+    EWA_TRY(reserve(gl, EWA_GL_ASKS, "near surfels", 2 * (uint64_t)marks->asks * sizeof(ewa_gl_ask)));
+    EWA_TRY(reserve(gl, EWA_GL_LIST, "lists", (uint64_t)marks->list * sizeof(uint32_t)));
+    EWA_TRY(reserve(gl, EWA_GL_UNITS, "work", (uint64_t)marks->units * EWA_GL_UNIT_BYTES));
+    EWA_TRY(reserve(gl, EWA_GL_RANGES, "near surfels", 0));
+    EWA_TRY(reserve(gl, EWA_GL_NEARS, "near surfels", 0));
+    EWA_TRY(reserve(gl, EWA_GL_CLIPS, "clip lines", 0));
+    return reserve(gl, EWA_GL_COUNTS, "counts", sizeof(ewa_gl_tally) + arguments);
 }
 
-ewa_status ewa_gl_band_start(ewa_context *context, ewa_gl_band *band, const ewa_tile_job *job,
-                             uint32_t first_row_px, uint32_t end_row_px, uint32_t tile_px,
-                             const uint32_t *page_packets) {
-    enum { SIDE = EWA_BLOCK_PX };
-    band->first_row_px = first_row_px, band->end_row_px = end_row_px;
-    band->width_px = (job->tiles.width_px + SIDE - 1) / SIDE * SIDE;
-    band->height_px = (end_row_px - first_row_px + SIDE - 1) / SIDE * SIDE;
-    band->tile_px = tile_px;
-    band->tiles_per_row = (band->width_px + tile_px - 1) / tile_px;
-    band->tile_count = band->tiles_per_row * ((band->height_px + tile_px - 1) / tile_px);
-    band->batch_count = band->pair_count = 0;
-    const uint64_t pair_count =
-        ewa_gl_band_pairs(job, first_row_px / EWA_FIELD_PX, (end_row_px + EWA_FIELD_PX - 1) / EWA_FIELD_PX);
-    uint64_t batch_count = 0;
-    for (uint32_t i = 0; i < job->source_count; i++)
-        batch_count += (job->sources[i].surfels->packet_count + page_packets[i] - 1) / page_packets[i];
+/// The planes of the band's pixels. Those of sums are at their start where the band before left them so; else they are set to it.
+static ewa_status reserve_planes(ewa_gl_compute *gl, const band *b) {
+    enum { BEHIND = 9, CUT_WORDS = 8 }; // planes of EWA_GL_SURFACES beside the channels (surface.glsl), words of a cut
+    const ewa_tile_job *job = b->job;
+    const uint64_t pixels = (uint64_t)b->width_px * b->height_px, channels = job->channel_count;
+    const uint64_t sums = channels * (job->fine_sums || job->with_depth || job->with_clips ? 4 : 2) * pixels;
+    const uint64_t blocks = pixels / (EWA_BLOCK_PX * EWA_BLOCK_PX);
     const struct {
-        ewa_buffer *buffer;
-        size_t count, size_bytes;
-    } needs[] = {{&band->batches, batch_count, sizeof(ewa_gl_batch)},
-                 {&band->pairs, pair_count, sizeof(ewa_gl_pair)},
-                 {&band->places, pair_count, PLACE_FLOATS * sizeof(float)},
-                 {&band->words, pair_count, 2 * sizeof(uint32_t)},
-                 {&band->ids, pair_count, sizeof(uint32_t)},
-                 {&band->masks, pair_count, sizeof(uint32_t)},
-                 {&band->counts, band->tile_count, sizeof(uint32_t)}};
+        ewa_gl_buffer_kind kind;
+        uint64_t words;
+        bool kept;
+        uint32_t start;
+    } needs[] = {{EWA_GL_TILES, (uint64_t)b->tile_count * EWA_GL_TILE_BYTES / sizeof(uint32_t), true, 0},
+                 {EWA_GL_NEAREST, pixels, true, EWA_GL_NEVER},
+                 {EWA_GL_SUM_WORDS, sums, true, 0},
+                 {EWA_GL_BACK_FACING, sums, true, 0},
+                 {EWA_GL_CUT, job->with_clips ? CUT_WORDS * pixels + blocks : 0, true, 0},
+                 {EWA_GL_SURFACES, (channels + BEHIND) * pixels, false, 0},
+                 {EWA_GL_RESULT, b->result_words, false, 0}};
     for (size_t i = 0; i < sizeof needs / sizeof needs[0]; i++) {
-        EWA_TRY(ewa_buffer_reserve(context, needs[i].buffer, needs[i].count, needs[i].size_bytes));
+        ewa_gl_buffer *buffer = &gl->buffers[needs[i].kind];
+        const uint64_t before_bytes = buffer->size_bytes;
+        EWA_TRY(reserve(gl, needs[i].kind, "the picture", needs[i].words * sizeof(uint32_t)));
+        if (needs[i].kept && (gl->unfinished || buffer->size_bytes != before_bytes))
+            ewa_gl_buffer_fill(buffer, buffer->size_bytes, needs[i].start);
     }
-    for (uint32_t i = 0; i < job->source_count; i++) {
-        const uint32_t pages =
-            (job->sources[i].surfels->packet_count + page_packets[i] - 1) / page_packets[i];
-        for (uint32_t page = 0; page < pages; page++) append_page(band, job, i, page, page_packets[i]);
+    gl->buffers[EWA_GL_READBACK].usage = GL_STREAM_READ;
+    return reserve(gl, EWA_GL_READBACK, "the picture", READBACK_HEAD + b->result_words * sizeof(uint32_t));
+}
+
+/// Tells the programs of the band, whose counts begin at 0.
+static ewa_status put_band(ewa_gl_compute *gl, const band *b) {
+    const ewa_tile_job *job = b->job;
+    ewa_gl_band_block block = {.picture_px = {job->tiles.width_px, b->rows.end_px},
+                               .band_px = {b->width_px, b->height_px},
+                               .first_px = {0, b->rows.first_px},
+                               .tiles_per_row = b->tiles_per_row,
+                               .tile_count = b->tile_count,
+                               .tile_side_px = gl->tile_px,
+                               .exponent_end = job->view.exponent_end,
+                               .layers = job->layers,
+                               .merge_last = job->merge_last,
+                               .with_codes = job->resolve.rgba8 != NULL,
+                               .pair_capacity = gl->marks.pairs,
+                               .list_capacity = gl->marks.list,
+                               .unit_capacity = gl->marks.units,
+                               .ask_capacity = gl->marks.asks,
+                               .unit_splats = gl->unit_splats,
+                               .group_limit = gl->device->facts.group_count,
+                               .answered = b->answered};
+    wanted_plane planes[PLANES];
+    list_planes(&job->resolve, planes);
+    uint64_t at = block.with_codes ? pixel_count(b) : 0;
+    for (int i = 0; i < PLANES; i++) {
+        block.plane_at[i] = planes[i].plane ? (int32_t)at : -1;
+        if (planes[i].plane) at += planes[i].floats * pixel_count(b);
     }
+    EWA_TRY(put(gl, EWA_GL_BAND, "the band", &block, sizeof block));
+    static const uint8_t none[sizeof(ewa_gl_tally) + EWA_GL_OF_PAGES * EWA_GL_ARGUMENT_BYTES];
+    return put(gl, EWA_GL_COUNTS, "counts", none, sizeof none);
+}
+
+static void bind(const ewa_gl_compute *gl, GLuint binding, ewa_gl_buffer_kind kind) {
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, gl->buffers[kind].name);
+}
+
+/// What programs see up to the lists; pages have 1, 2 and 4.
+static void bind_lists(const ewa_gl_compute *gl) {
+    glBindBufferBase(GL_UNIFORM_BUFFER, 0, gl->buffers[EWA_GL_BAND].name);
+    glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, gl->buffers[EWA_GL_COUNTS].name);
+    bind(gl, 0, EWA_GL_VIEWS), bind(gl, 3, EWA_GL_TILES), bind(gl, 5, EWA_GL_RECORDS), bind(gl, 6, EWA_GL_LIST);
+    bind(gl, 7, EWA_GL_UNITS), bind(gl, 8, EWA_GL_PAIRS), bind(gl, 9, EWA_GL_RANGES), bind(gl, 11, EWA_GL_ASKS);
+    bind(gl, 12, EWA_GL_PLACEMENTS), bind(gl, 13, EWA_GL_COUNTS);
+}
+
+/// What they see from there on, beside that.
+static void bind_pixels(const ewa_gl_compute *gl) {
+    bind(gl, 1, EWA_GL_NEAREST), bind(gl, 2, EWA_GL_SURFACES), bind(gl, 4, EWA_GL_SUM_WORDS);
+    bind(gl, 8, EWA_GL_BACK_FACING), bind(gl, 9, EWA_GL_CLIPS), bind(gl, 10, EWA_GL_NEARS), bind(gl, 11, EWA_GL_CUT);
+    bind(gl, 12, EWA_GL_RESOLVE), bind(gl, 14, EWA_GL_RESULT), bind(gl, 15, EWA_GL_ENVIRONMENT);
+}
+
+/// Makes a pass's program the one in use.
+static ewa_status use(ewa_gl_compute *gl, const ewa_tile_job *job, ewa_gl_pass pass) {
+    ewa_gl_variant v;
+    memset(&v, 0, sizeof v);
+    v.pass = (uint8_t)pass;
+    if (pass >= EWA_GL_VISIBILITY) {
+        v.tile_px = (uint8_t)gl->tile_px;
+        v.with_clips = job->with_clips;
+        v.rays = pass != EWA_GL_FIRST_SURFACE && pass != EWA_GL_PICTURE && job->view.raycast;
+    }
+    if (pass > EWA_GL_VISIBILITY) {
+        v.with_normals = job->with_normals, v.with_depth = job->with_depth;
+        v.with_materials = job->with_materials, v.with_opacity = job->with_opacity;
+        v.with_fine = job->fine_sums;
+        v.channel_count = (uint8_t)job->channel_count;
+    }
+    GLuint program = 0;
+    EWA_TRY(ewa_gl_variant_get(gl->device, &gl->variants, &v, &program));
+    glUseProgram(program);
     return EWA_OK;
 }
 
-/// A field as a tile, for what the host makes in its pixels.
-static ewa_tile field_tile(const ewa_tile_job *job, uint32_t field) {
-    return (ewa_tile){.x_px = (int32_t)((field & 0xffff) * EWA_FIELD_PX),
-                      .y_px = (int32_t)((field >> 16) * EWA_FIELD_PX),
-                      .field_x_px = -EWA_FIELD_PX / 2,
-                      .field_y_px = -EWA_FIELD_PX / 2,
-                      .with_opacity = job->with_opacity,
-                      .with_materials = job->with_materials};
+/// What follows a dispatch may read all that it wrote.
+static void end_dispatch(ewa_gl_compute *gl, ewa_gl_time stage) {
+    gl->device->counts.dispatches++;
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
+    ewa_gl_times_mark(&gl->times, stage);
 }
 
-static uint32_t field_number(const ewa_gl_band *band, const ewa_tile_job *job, uint32_t field) {
-    return ((field >> 16) - band->first_row_px / EWA_FIELD_PX) * job->tiles.columns + (field & 0xffff);
+/// Runs the program in use in so many groups, which it numbers through.
+static void dispatch(ewa_gl_compute *gl, uint64_t group_count, ewa_gl_time stage) {
+    const uint64_t columns = smaller(group_count, gl->device->facts.group_count);
+    glDispatchCompute((GLuint)columns, (GLuint)((group_count + columns - 1) / columns), 1);
+    end_dispatch(gl, stage);
 }
 
-static uint32_t field_count(const ewa_gl_band *band, const ewa_tile_job *job) {
-    return (band->height_px + EWA_FIELD_PX - 1) / EWA_FIELD_PX * job->tiles.columns;
+/// Runs it in as many as the programs before have found.
+static void dispatch_counted(ewa_gl_compute *gl, uint32_t argument, ewa_gl_time stage) {
+    glDispatchComputeIndirect((GLintptr)(sizeof(ewa_gl_tally) + (size_t)argument * EWA_GL_ARGUMENT_BYTES));
+    end_dispatch(gl, stage);
 }
 
-/// Reserves what the masks ask for: near records by field, with those of each between near_starts[field] and
-/// near_starts[field_count + field].
-static ewa_status reserve_answers(ewa_context *context, ewa_gl_band *band, const ewa_tile_job *job) {
-    const uint32_t fields = field_count(band, job), *masks = band->masks.data;
-    const ewa_gl_pair *pairs = band->pairs.data;
-    EWA_TRY(ewa_buffer_reserve(context, &band->near_starts, (size_t)2 * fields, sizeof(uint32_t)));
-    EWA_TRY(ewa_buffer_reserve(context, &band->clipped, band->pair_count, 2 * sizeof(uint32_t)));
-    uint32_t *starts = band->near_starts.data, *ends = starts + fields;
-    memset(starts, 0, (size_t)fields * sizeof *starts);
-    band->near_count = band->clip_count = 0;
-    for (uint32_t i = 0; i < band->pair_count; i++) {
-        starts[field_number(band, job, pairs[i].field)] += (uint32_t)__builtin_popcount(masks[i] & 0xffff);
-        band->clip_count += (uint32_t)__builtin_popcount(masks[i] >> 16);
-    }
-    for (uint32_t i = 0; i < fields; i++) {
-        const uint32_t here = starts[i];
-        starts[i] = ends[i] = band->near_count;
-        band->near_count += here;
-    }
-    EWA_TRY(ewa_buffer_reserve(context, &band->nears, band->near_count, sizeof(ewa_gl_near)));
-    return ewa_buffer_reserve(context, &band->clips, band->clip_count, sizeof(ewa_gl_clip));
-}
-
-ewa_status ewa_gl_band_answer(ewa_context *context, ewa_gl_band *band, const ewa_tile_job *job) {
-    EWA_TRY(reserve_answers(context, band, job));
-    const uint32_t *masks = band->masks.data, *ids = band->ids.data;
-    const ewa_gl_pair *pairs = band->pairs.data;
-    const ewa_gl_batch *batches = band->batches.data;
-    uint32_t *ends = (uint32_t *)band->near_starts.data + field_count(band, job);
-    uint32_t *clipped = band->clipped.data, clip_count = 0;
-    ewa_gl_near *nears = band->nears.data;
-    ewa_gl_clip *clips = band->clips.data;
-    for (uint32_t b = 0; b < band->batch_count; b++) {
-        const ewa_tile_source *source = &job->sources[batches[b].source];
-        for (uint32_t i = batches[b].first_pair; i < batches[b].first_pair + batches[b].pair_count; i++) {
-            clipped[2 * i] = masks[i] >> 16, clipped[2 * i + 1] = clip_count;
-            if (!masks[i]) continue;
-            const ewa_tile tile = field_tile(job, pairs[i].field);
-            uint32_t *next = &ends[field_number(band, job, pairs[i].field)];
-            for (uint32_t left = masks[i] & 0xffff; left; left &= left - 1) {
-                const uint32_t surfel = ids[i] * LANES + (uint32_t)__builtin_ctz(left);
-                ewa_near_record record;
-                if (!ewa_near_record_set(&record, source->surfels, surfel, &source->view, &tile)) continue;
-                ewa_gl_near_set(&nears[(*next)++], &record, batches[b].source);
-            }
-            for (uint32_t left = masks[i] >> 16; left; left &= left - 1) {
-                const uint32_t surfel = ids[i] * LANES + (uint32_t)__builtin_ctz(left);
-                ewa_clip clip;
-                ewa_clip_set(&clip, source->surfels, surfel, &source->view, &tile);
-                ewa_gl_clip_set(&clips[clip_count++], &clip);
+/// Culls the packets of all pages, then sets up what is left of them.
+static ewa_status set_up(ewa_gl_compute *gl, const band *b) {
+    enum { PAGE, FIRST, SOURCE, OPACITIES_AT, CURVATURES_AT, MATERIALS_AT, PACKET_COUNT = 1, CLIPS_AT = 3 };
+    const ewa_tile_job *job = b->job;
+    const uint32_t *indices = gl->indices.data;
+    for (int pass = EWA_GL_CULL; pass <= EWA_GL_SETUP; pass++) {
+        EWA_TRY(use(gl, job, (ewa_gl_pass)pass));
+        for (uint32_t i = 0, number = 0; i < job->source_count; i++) {
+            const ewa_gl_resident *resident = ewa_gl_residents_at(&gl->residents, indices[i]);
+            const ewa_packet_source *packets = &job->sources[i].packets;
+            for (uint32_t k = 0; k < resident->page_count; k++, number++) {
+                const ewa_gl_page *page = &resident->pages[k];
+                glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, page->packets.name);
+                glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 2, page->bounds.name);
+                glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 4, page->attributes.name);
+                glUniform1ui(PAGE, number);
+                glUniform1ui(SOURCE, i);
+                if (pass == EWA_GL_CULL) {
+                    glUniform1ui(PACKET_COUNT, page->count);
+                    glUniform1i(CLIPS_AT, packets->clip_masks ? page->clips_at : -1);
+                    dispatch(gl, (page->count + THREADS - 1) / THREADS, EWA_GL_TIME_BIN);
+                } else {
+                    glUniform1ui(FIRST, page->first);
+                    glUniform1i(OPACITIES_AT, job->with_opacity ? page->opacities_at : -1);
+                    glUniform1i(CURVATURES_AT, packets->curvatures ? page->curvatures_at : -1);
+                    glUniform1i(MATERIALS_AT, job->with_materials ? page->materials_at : -1);
+                    dispatch_counted(gl, EWA_GL_OF_PAGES + number, EWA_GL_TIME_SETUP);
+                }
             }
         }
     }
+    return ewa_gl_check(gl->device, "set-up");
+}
+
+/// Waits, and notes what the stages took.
+static ewa_status wait_for(ewa_gl_compute *gl, const char *what) {
+    EWA_TRY(ewa_gl_wait(gl->device, what));
+    ewa_gl_times_read(&gl->times);
+    ewa_gl_times_resume(&gl->times);
     return EWA_OK;
 }
 
-/// Appends the units of a range, `maximum` of its items to each.
-static ewa_status append_units(ewa_context *context, ewa_gl_band *band, uint32_t tile, uint32_t first,
-                               uint32_t end, uint32_t near, uint32_t maximum) {
-    const uint32_t count = (end - first + maximum - 1) / maximum;
-    EWA_TRY(ewa_buffer_grow(context, &band->units, band->unit_count, (size_t)band->unit_count + count,
-                            sizeof(ewa_gl_unit)));
-    ewa_gl_unit *units = band->units.data;
-    for (uint32_t at = first; at < end; at += maximum)
-        units[band->unit_count++] = (ewa_gl_unit){tile, at, end - at < maximum ? end : at + maximum, near};
-    return EWA_OK;
+static void read_back(ewa_gl_compute *gl, ewa_gl_buffer_kind kind, uint64_t at_bytes, uint64_t size_bytes, void *to) {
+    if (!size_bytes) return;
+    gl->device->counts.readbacks++;
+    glBindBuffer(GL_COPY_READ_BUFFER, gl->buffers[kind].name);
+    glGetBufferSubData(GL_COPY_READ_BUFFER, (GLintptr)at_bytes, (GLsizeiptr)size_bytes, to);
 }
 
-ewa_status ewa_gl_band_divide(ewa_context *context, ewa_gl_band *band, const ewa_tile_job *job,
-                              uint32_t maximum) {
-    ewa_status status = ewa_buffer_reserve(context, &band->starts, band->tile_count, sizeof(uint32_t));
-    const uint32_t *counts = band->counts.data, *near_starts = band->near_starts.data;
-    uint32_t *starts = band->starts.data;
-    band->unit_count = 0;
-    band->list_count = 0;
-    for (uint32_t tile = 0; tile < band->tile_count && status == EWA_OK; tile++) {
-        starts[tile] = (uint32_t)band->list_count;
-        band->list_count += counts[tile];
-        if (band->list_count > UINT32_MAX)
-            return ewa_fail(context, EWA_ERROR_LIMIT, "OpenGL: more than %u splats in the tiles of a band",
-                            UINT32_MAX);
-        status = append_units(context, band, tile, starts[tile], (uint32_t)band->list_count, 0, maximum);
-        if (status != EWA_OK || !band->near_count) continue;
-        const uint32_t x_px = tile % band->tiles_per_row * band->tile_px,
-                       y_px = tile / band->tiles_per_row * band->tile_px;
-        const uint32_t field = y_px / EWA_FIELD_PX * job->tiles.columns + x_px / EWA_FIELD_PX;
-        status = append_units(context, band, tile, near_starts[field],
-                              near_starts[field_count(band, job) + field], 1, maximum);
+/// Raises the marks that pairs and asks went beyond; `*again`: some did.
+static ewa_status check_pairs(ewa_gl_compute *gl, const ewa_gl_tally *tally, bool *again) {
+    const uint64_t pairs = tally->pair_count, asks = tally->near_count > tally->clip_count ? tally->near_count
+                                                                                           : tally->clip_count;
+    *again = pairs > gl->marks.pairs || asks > gl->marks.asks;
+    if (tally->carry)
+        return ewa_fail(gl->context, EWA_ERROR_LIMIT, "OpenGL: more than %u packets or splats in the tiles of a band",
+                        UINT32_MAX);
+    EWA_TRY(raise(gl, &gl->marks.pairs, pairs, EWA_GL_RECORDS, "splats", PAIR_RECORD_BYTES));
+    return raise(gl, &gl->marks.asks, asks, EWA_GL_ASKS, "near surfels", 2 * sizeof(ewa_gl_ask));
+}
+
+/// Asks the device what it wants made, and makes it; `*again`: it had no room for its asks.
+static ewa_status answer(ewa_gl_compute *gl, const band *b, bool *again) {
+    ewa_gl_tally tally;
+    EWA_TRY(wait_for(gl, "set-up"));
+    read_back(gl, EWA_GL_COUNTS, 0, sizeof tally, &tally);
+    EWA_TRY(check_pairs(gl, &tally, again));
+    if (*again) return EWA_OK;
+    ewa_gl_answers *answers = &gl->answers;
+    const uint64_t nears = tally.near_count, clips = tally.clip_count;
+    EWA_TRY(ewa_gl_answers_reserve(gl->context, answers, tally.near_count, tally.clip_count));
+    ewa_gl_ask *asks = answers->asks.data;
+    read_back(gl, EWA_GL_ASKS, 0, nears * sizeof *asks, asks);
+    read_back(gl, EWA_GL_ASKS, gl->marks.asks * sizeof *asks, clips * sizeof *asks, asks + nears);
+    EWA_TRY(ewa_gl_answers_make(gl->context, answers, b->job, b->rows.first_px / EWA_FIELD_PX,
+                                (b->rows.end_px - b->rows.first_px + EWA_FIELD_PX - 1) / EWA_FIELD_PX));
+    EWA_TRY(put(gl, EWA_GL_NEARS, "near surfels", answers->nears.data, nears * sizeof(ewa_gl_near)));
+    EWA_TRY(put(gl, EWA_GL_CLIPS, "clip lines", answers->clips.data, clips * sizeof(ewa_gl_clip)));
+    EWA_TRY(put(gl, EWA_GL_RANGES, "near surfels", answers->ranges.data,
+                (uint64_t)answers->field_count * 2 * sizeof(uint32_t)));
+    bind_lists(gl); // some may have moved
+    return ewa_gl_check(gl->device, "near surfels");
+}
+
+/// Lists, sums, surfaces and pixels, and the way of these and the counts to where the host can read them.
+static ewa_status draw_pixels(ewa_gl_compute *gl, const band *b) {
+    const ewa_tile_job *job = b->job;
+    EWA_TRY(use(gl, job, EWA_GL_DIVIDE));
+    dispatch(gl, (b->tile_count + THREADS - 1) / THREADS, EWA_GL_TIME_SETUP);
+    EWA_TRY(use(gl, job, EWA_GL_FILL));
+    dispatch_counted(gl, EWA_GL_OF_LISTS, EWA_GL_TIME_SETUP);
+    bind_pixels(gl);
+    EWA_TRY(use(gl, job, EWA_GL_VISIBILITY));
+    dispatch_counted(gl, EWA_GL_OF_UNITS, EWA_GL_TIME_VISIBILITY);
+    EWA_TRY(use(gl, job, EWA_GL_SUMS));
+    dispatch_counted(gl, EWA_GL_OF_UNITS, EWA_GL_TIME_ACCUMULATE);
+    EWA_TRY(use(gl, job, EWA_GL_FIRST_SURFACE));
+    dispatch(gl, b->tile_count, EWA_GL_TIME_RESOLVE);
+    if (job->layers > 1) {
+        EWA_TRY(use(gl, job, EWA_GL_EDGES));
+        dispatch(gl, b->tile_count, EWA_GL_TIME_EDGES);
     }
-    return status;
+    EWA_TRY(use(gl, job, EWA_GL_PICTURE));
+    dispatch(gl, b->tile_count, EWA_GL_TIME_RESOLVE);
+    glBindBuffer(GL_COPY_WRITE_BUFFER, gl->buffers[EWA_GL_READBACK].name);
+    glBindBuffer(GL_COPY_READ_BUFFER, gl->buffers[EWA_GL_COUNTS].name);
+    glCopyBufferSubData(GL_COPY_READ_BUFFER, GL_COPY_WRITE_BUFFER, 0, 0, sizeof(ewa_gl_tally));
+    glBindBuffer(GL_COPY_READ_BUFFER, gl->buffers[EWA_GL_RESULT].name);
+    if (b->result_words)
+        glCopyBufferSubData(GL_COPY_READ_BUFFER, GL_COPY_WRITE_BUFFER, 0, READBACK_HEAD,
+                            (GLsizeiptr)(b->result_words * sizeof(uint32_t)));
+    return ewa_gl_check(gl->device, "the picture");
 }
 
-void ewa_gl_band_free(ewa_context *context, ewa_gl_band *band) {
-    ewa_buffer *const buffers[] = {&band->batches,     &band->pairs, &band->places,  &band->words,
-                                   &band->ids,         &band->units, &band->starts,  &band->nears,
-                                   &band->near_starts, &band->clips, &band->clipped, &band->masks,
-                                   &band->counts};
-    for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; i++) ewa_buffer_free(context, buffers[i]);
+/// Raises the marks that a band went beyond; `*again`: it has to be drawn again.
+static ewa_status check_band(ewa_gl_compute *gl, const band *b, const ewa_gl_tally *tally, bool *again) {
+    EWA_TRY(check_pairs(gl, tally, again));
+    gl->answering = tally->near_count + tally->clip_count > 0;
+    if (*again) return EWA_OK;
+    *again = (gl->answering && !b->answered) || tally->list_count > gl->marks.list ||
+             tally->unit_count > gl->marks.units;
+    EWA_TRY(raise(gl, &gl->marks.list, tally->list_count, EWA_GL_LIST, "lists", sizeof(uint32_t)));
+    return raise(gl, &gl->marks.units, tally->unit_count, EWA_GL_UNITS, "work", EWA_GL_UNIT_BYTES);
+}
+
+/// Fetches the counts and, unless it has to be drawn again, the pixels.
+static ewa_status fetch(ewa_gl_compute *gl, const band *b, ewa_gl_outcome *outcome, bool *again) {
+    EWA_TRY(wait_for(gl, "the picture"));
+    gl->device->counts.readbacks++;
+    glBindBuffer(GL_COPY_READ_BUFFER, gl->buffers[EWA_GL_READBACK].name);
+    const uint8_t *from = glMapBufferRange(
+        GL_COPY_READ_BUFFER, 0, (GLsizeiptr)(READBACK_HEAD + b->result_words * sizeof(uint32_t)), GL_MAP_READ_BIT);
+    if (!from) return ewa_gl_check(gl->device, "the picture");
+    ewa_gl_tally tally;
+    memcpy(&tally, from, sizeof tally);
+    ewa_status status = check_band(gl, b, &tally, again);
+    if (status == EWA_OK && !*again) {
+        const ewa_resolve *to = &b->job->resolve;
+        const uint64_t first = (uint64_t)b->job->tiles.width_px * b->rows.first_px, pixels = pixel_count(b);
+        from += READBACK_HEAD;
+        if (to->rgba8) memcpy(to->rgba8 + first * 4, from, pixels * 4), from += pixels * 4;
+        wanted_plane planes[PLANES];
+        list_planes(to, planes);
+        for (int i = 0; i < PLANES; i++) {
+            if (!planes[i].plane) continue;
+            const uint64_t floats = pixels * planes[i].floats;
+            memcpy(planes[i].plane + first * planes[i].floats, from, floats * sizeof(float));
+            from += floats * sizeof(float);
+        }
+        outcome->broken += tally.broken_count, outcome->drawn += tally.list_count;
+        outcome->kept_packets = tally.kept_count;
+    }
+    glBindBuffer(GL_COPY_READ_BUFFER, gl->buffers[EWA_GL_READBACK].name);
+    glUnmapBuffer(GL_COPY_READ_BUFFER);
+    return status == EWA_OK ? ewa_gl_check(gl->device, "the picture") : status;
+}
+
+/// Draws the band once; `*again`: there was too little room for it, or it had to be answered.
+static ewa_status draw_once(ewa_gl_compute *gl, band *b, ewa_gl_outcome *outcome, bool *again) {
+    b->answered = gl->answering;
+    EWA_TRY(reserve_work(gl, b));
+    EWA_TRY(reserve_planes(gl, b));
+    EWA_TRY(put_band(gl, b));
+    gl->unfinished = true;
+    bind_lists(gl);
+    EWA_TRY(set_up(gl, b));
+    if (b->answered) EWA_TRY(answer(gl, b, again));
+    if (*again) return EWA_OK;
+    EWA_TRY(draw_pixels(gl, b));
+    EWA_TRY(fetch(gl, b, outcome, again));
+    gl->unfinished = false;
+    return EWA_OK;
+}
+
+ewa_status ewa_gl_band_draw(ewa_gl_compute *gl, const ewa_tile_job *job, ewa_gl_rows rows, ewa_gl_outcome *outcome) {
+    enum { SIDE = EWA_BLOCK_PX };
+    band b = {.job = job, .rows = rows};
+    b.width_px = (job->tiles.width_px + SIDE - 1) / SIDE * SIDE;
+    b.height_px = (rows.end_px - rows.first_px + SIDE - 1) / SIDE * SIDE;
+    b.tiles_per_row = (b.width_px + gl->tile_px - 1) / gl->tile_px;
+    b.tile_count = b.tiles_per_row * ((b.height_px + gl->tile_px - 1) / gl->tile_px);
+    wanted_plane planes[PLANES];
+    list_planes(&job->resolve, planes);
+    b.result_words = job->resolve.rgba8 ? pixel_count(&b) : 0;
+    for (int i = 0; i < PLANES; i++)
+        if (planes[i].plane) b.result_words += planes[i].floats * pixel_count(&b);
+    const uint32_t *indices = gl->indices.data;
+    for (uint32_t i = 0; i < job->source_count; i++)
+        b.source_pages += ewa_gl_residents_at(&gl->residents, indices[i])->page_count;
+    bool again = true;
+    while (again) {
+        again = false;
+        EWA_TRY(draw_once(gl, &b, outcome, &again));
+    }
+    return EWA_OK;
 }

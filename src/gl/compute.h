@@ -5,7 +5,7 @@
 #ifndef EWA_SRC_GL_COMPUTE_H
 #define EWA_SRC_GL_COMPUTE_H
 
-#include "gl/band.h"
+#include "gl/answers.h"
 #include "gl/resident.h"
 #include "gl/selftest.h"
 #include "gl/times.h"
@@ -16,35 +16,47 @@
 typedef enum ewa_gl_buffer_kind {
     EWA_GL_BAND,
     EWA_GL_VIEWS,
+    EWA_GL_PLACEMENTS,
     EWA_GL_RESOLVE,
-    EWA_GL_MATERIALS,
     EWA_GL_ENVIRONMENT,
-    EWA_GL_PAIRS,
-    EWA_GL_PLACES,
-    EWA_GL_WORDS,
-    EWA_GL_MASKS,
-    EWA_GL_RECORDS,
     EWA_GL_COUNTS,
+    EWA_GL_PAIRS,
+    EWA_GL_RECORDS,
+    EWA_GL_ASKS,
+    EWA_GL_TILES,
     EWA_GL_LIST,
     EWA_GL_UNITS,
+    EWA_GL_RANGES,
     EWA_GL_NEARS,
     EWA_GL_CLIPS,
-    EWA_GL_CLIPPED,
     EWA_GL_NEAREST,
-    EWA_GL_PASSED,
-    EWA_GL_OPEN,
     EWA_GL_SUM_WORDS,
     EWA_GL_BACK_FACING,
     EWA_GL_CUT,
-    EWA_GL_SETTLED,
-    EWA_GL_BEHIND,
-    EWA_GL_CODES,
-    EWA_GL_PLANES,
+    EWA_GL_SURFACES,
+    EWA_GL_RESULT,
+    EWA_GL_READBACK,
     EWA_GL_BUFFERS
 } ewa_gl_buffer_kind;
 
-/// The order of -infinity among keys (scene.glsl).
+/// The order of -infinity among keys (band.glsl).
 #define EWA_GL_NEVER 0x007fffffu
+
+/// How many items buffers have room for; what a frame found too few is raised, and stays.
+typedef struct ewa_gl_marks {
+    uint32_t pairs, asks, list, units;
+} ewa_gl_marks;
+
+/// A band of rows, from a multiple of EWA_FIELD_PX.
+typedef struct ewa_gl_rows {
+    uint32_t first_px, end_px;
+} ewa_gl_rows;
+
+/// What came of a band's frame.
+typedef struct ewa_gl_outcome {
+    uint64_t broken, drawn; ///< pixels without a colour; records in tiles
+    uint64_t kept_packets;  ///< that some field of the picture has
+} ewa_gl_outcome;
 
 typedef struct ewa_gl_compute {
     ewa_context *context;
@@ -53,17 +65,24 @@ typedef struct ewa_gl_compute {
     ewa_gl_verdict verdict;
     ewa_gl_residents residents;
     ewa_gl_buffer buffers[EWA_GL_BUFFERS];
+    ewa_gl_marks marks;
     ewa_gl_times times;
-    ewa_gl_band band;
+    ewa_gl_answers answers;
     ewa_job_room room;
-    ewa_buffer views, indices, page_packets; ///< of sources
-    uint64_t environment_serial;             ///< of what EWA_GL_ENVIRONMENT holds; 0: nothing
+    ewa_buffer views, placements, indices; ///< of sources
+    uint64_t environment_serial;           ///< of what EWA_GL_ENVIRONMENT holds; 0: nothing
+    bool answering;  ///< the last band asked the host for something: the next is likely to
+    bool unfinished; ///< a band ended early: its sums are not back at their start
     uint32_t tile_px, unit_splats;
 } ewa_gl_compute;
 
 /// Whether a device has what the pipeline needs, and how it calculates. Errors: EWA_ERROR_MEMORY,
 /// EWA_ERROR_UNSUPPORTED (too small, its compiler's words, or it is lost).
 ewa_status ewa_gl_try(ewa_gl *device, ewa_gl_verdict *verdict);
+
+/// Draws rows of a frame whose sources the device has. Errors: EWA_ERROR_LIMIT, EWA_ERROR_MEMORY (fewer rows may fit),
+/// EWA_ERROR_UNSUPPORTED, EWA_CANCELLED.
+ewa_status ewa_gl_band_draw(ewa_gl_compute *gl, const ewa_tile_job *job, ewa_gl_rows rows, ewa_gl_outcome *outcome);
 
 /// As ewa_backend has them.
 ewa_status ewa_gl_compute_create(ewa_context *context, void **state);

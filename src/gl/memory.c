@@ -17,7 +17,7 @@ ewa_status ewa_gl_buffer_reserve(ewa_gl *device, ewa_gl_buffer *buffer, const ch
     EWA_TRY(ewa_gl_check(device, what)); // not for what came before
     if (!buffer->name) glGenBuffers(1, &buffer->name);
     glBindBuffer(GL_COPY_WRITE_BUFFER, buffer->name);
-    glBufferData(GL_COPY_WRITE_BUFFER, (GLsizeiptr)size_bytes, NULL, GL_DYNAMIC_COPY);
+    glBufferData(GL_COPY_WRITE_BUFFER, (GLsizeiptr)size_bytes, NULL, buffer->usage ? buffer->usage : GL_DYNAMIC_COPY);
     ewa_status status = ewa_gl_check(device, what);
     buffer->size_bytes = status == EWA_OK ? size_bytes : 0;
     return status;
@@ -47,5 +47,5 @@ void ewa_gl_buffer_fill(const ewa_gl_buffer *buffer, uint64_t size_bytes, uint32
 
 void ewa_gl_buffer_free(ewa_gl_buffer *buffer) {
     if (buffer->name) glDeleteBuffers(1, &buffer->name);
-    *buffer = (ewa_gl_buffer){0};
+    *buffer = (ewa_gl_buffer){.usage = buffer->usage};
 }

@@ -10,6 +10,7 @@
 /// A buffer of the device. Zero-initialise.
 typedef struct ewa_gl_buffer {
     GLuint name;
+    GLenum usage; ///< 0: GL_DYNAMIC_COPY
     uint64_t size_bytes;
 } ewa_gl_buffer;
 

@@ -407,6 +407,7 @@ ewa_status ewa_raster_draw(void *state, const ewa_render_job *frame, ewa_render_
     const double start_s = ewa_now_s();
     ewa_tile_job job;
     EWA_TRY(ewa_tile_job_make(raster->context, &raster->room, frame, EWA_FIELD_PX, &job));
+    EWA_TRY(ewa_tile_job_bin(raster->context, &raster->room, &job));
     EWA_TRY(check(raster, &job));
     const double binned_s = ewa_now_s();
     uint64_t broken = 0, surfel_count = 0;

@@ -15,6 +15,7 @@ static void free_resident(ewa_gl *device, ewa_gl_residents *residents, ewa_gl_re
     for (uint32_t i = 0; i < old->page_count && !device->lost; i++) {
         ewa_gl_buffer_free(&old->pages[i].packets);
         ewa_gl_buffer_free(&old->pages[i].attributes);
+        ewa_gl_buffer_free(&old->pages[i].bounds);
     }
     ewa_release(device->context, old->pages, old->page_count, sizeof *old->pages);
     residents->size_bytes -= old->size_bytes;
@@ -35,6 +36,29 @@ void ewa_gl_residents_start(ewa_gl *device, ewa_gl_residents *residents) {
     residents->frame++;
 }
 
+/// What culling reads of the packets, one array behind the other, each from a whole word on.
+static ewa_status put_bounds(ewa_gl *device, const ewa_surfels *surfels, ewa_gl_page *page) {
+    const ewa_packet_bounds *bounds = &surfels->bounds;
+    const uint64_t n = page->count, word = sizeof(uint32_t), halves = (n + 1) / 2;
+    enum { CENTERS = 6, WORDS = 7, HALVES = 3 };
+    page->clips_at = surfels->clip_masks ? (int32_t)(WORDS * n + 2 * halves) : -1;
+    const struct {
+        const void *from;
+        uint64_t at, size_bytes;
+    } parts[] = {{bounds->center_x + page->first, 0, n * sizeof(double)},
+                 {bounds->center_y + page->first, 2 * n, n * sizeof(double)},
+                 {bounds->center_z + page->first, 4 * n, n * sizeof(double)},
+                 {bounds->cone + page->first, CENTERS * n, n * word},
+                 {bounds->radius + page->first, WORDS * n, n * word / 2},
+                 {bounds->colors + page->first, WORDS * n + halves, n * word / 2},
+                 {surfels->clip_masks ? surfels->clip_masks + page->first : NULL, WORDS * n + 2 * halves,
+                  surfels->clip_masks ? n * word / 2 : 0}};
+    EWA_TRY(ewa_gl_buffer_reserve(device, &page->bounds, "surfels", (WORDS * n + HALVES * halves) * word));
+    for (size_t i = 0; i < sizeof parts / sizeof parts[0]; i++)
+        ewa_gl_buffer_write(device, &page->bounds, parts[i].at * word, parts[i].from, parts[i].size_bytes);
+    return EWA_OK;
+}
+
 static ewa_status put_page(ewa_gl *device, const ewa_surfels *surfels, ewa_gl_page *page) {
     const size_t lanes = (size_t)page->count * LANES, first = (size_t)page->first * LANES;
     ewa_status status = ewa_gl_buffer_put(device, &page->packets, "surfels", surfels->packets + page->first,
@@ -48,6 +72,7 @@ static ewa_status put_page(ewa_gl *device, const ewa_surfels *surfels, ewa_gl_pa
     if (status == EWA_OK)
         status = ewa_gl_buffer_reserve(device, &page->attributes, "surfels", halves_bytes + material_bytes);
     EWA_TRY(status);
+    EWA_TRY(put_bounds(device, surfels, page));
     if (opacity_bytes)
         ewa_gl_buffer_write(device, &page->attributes, 0, surfels->opacities + first, opacity_bytes);
     if (curvature_bytes)
@@ -73,7 +98,7 @@ static ewa_status put_surfels(ewa_gl *device, ewa_gl_residents *residents, const
         page->count =
             surfels->packet_count - page->first < maximum ? surfels->packet_count - page->first : maximum;
         status = put_page(device, surfels, page);
-        made.size_bytes += page->packets.size_bytes + page->attributes.size_bytes;
+        made.size_bytes += page->packets.size_bytes + page->attributes.size_bytes + page->bounds.size_bytes;
     }
     residents->size_bytes += made.size_bytes;
     if (status != EWA_OK) {

@@ -10,9 +10,10 @@
 
 /// Packets [first, first + count) of some surfels, and beside them what not all surfels have.
 typedef struct ewa_gl_page {
-    ewa_gl_buffer packets, attributes;
+    ewa_gl_buffer packets, attributes, bounds;
     uint32_t first, count;
     int32_t opacities_at, curvatures_at, materials_at; ///< words of `attributes`; -1: there are none
+    int32_t clips_at;                                  ///< of `bounds` (shaders/cull.glsl), likewise
 } ewa_gl_page;
 
 /// Surfels that are there.

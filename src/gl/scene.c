@@ -7,7 +7,8 @@
 #include <assert.h>
 #include <string.h>
 
-static_assert(sizeof(ewa_gl_view) == 200 && sizeof(ewa_gl_clip) == 144 && sizeof(ewa_gl_near) == 268,
+static_assert(sizeof(ewa_gl_view) == 200 && sizeof(ewa_gl_clip) == 144 && sizeof(ewa_gl_near) == 268 &&
+                  sizeof(ewa_gl_placement) == 456 && sizeof(ewa_gl_tally) == 48,
               "as std430 has them");
 
 void ewa_gl_view_set(ewa_gl_view *to, const ewa_view *from, bool hides) {
@@ -49,6 +50,19 @@ void ewa_gl_view_set(ewa_gl_view *to, const ewa_view *from, bool hides) {
                  {hides, EWA_GL_HIDES},
                  {from->transparent, EWA_GL_SEE_THROUGH}};
     for (size_t i = 0; i < sizeof flags / sizeof flags[0]; i++) to->flags |= flags[i].set ? flags[i].flag : 0;
+}
+
+void ewa_gl_placement_set(ewa_gl_placement *to, const ewa_view *from, uint8_t material) {
+    memset(to, 0, sizeof *to);
+    memcpy(to->linear, from->linear, sizeof to->linear);
+    memcpy(to->anchor, from->anchor, sizeof to->anchor);
+    memcpy(to->offset, from->offset, sizeof to->offset);
+    memcpy(to->sections, from->sections, sizeof to->sections);
+    memcpy(to->side_planes, from->side_planes, sizeof to->side_planes);
+    to->cx_px = from->cx_px, to->cy_px = from->cy_px, to->margin_px = from->margin_px;
+    to->section_reach = from->section_reach, to->section_count = from->section_count;
+    to->width_px = from->width_px, to->height_px = from->height_px;
+    to->material = material;
 }
 
 void ewa_gl_clip_set(ewa_gl_clip *to, const ewa_clip *from) {

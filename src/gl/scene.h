@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// What programs see of a frame, as src/gl/shaders/scene.glsl and surface.glsl declare it.
+// What programs see of a frame, as src/gl/shaders/band.glsl, scene.glsl, cull.glsl and sums.glsl declare it.
 #ifndef EWA_SRC_GL_SCENE_H
 #define EWA_SRC_GL_SCENE_H
 
@@ -39,14 +39,42 @@ typedef struct ewa_gl_view {
     float contour_shift, contour_sine2, curvature_scale;
 } ewa_gl_view;
 
+/// Where a source's packets are: of its ewa_view what culling reads.
+typedef struct ewa_gl_placement {
+    double linear[9], anchor[3], offset[3];
+    double sections[EWA_MAX_SECTION_PLANES][4];
+    float side_planes[4][3];
+    float cx_px, cy_px, margin_px, section_reach;
+    uint32_t section_count, width_px, height_px, material;
+} ewa_gl_placement;
+
 /// What all programs see of a band of rows; as std140 has it.
 typedef struct ewa_gl_band_block {
     uint32_t picture_px[2], band_px[2], first_px[2];
     uint32_t tiles_per_row, tile_count, tile_side_px;
     float exponent_end;
-    uint32_t layered, with_codes;
+    uint32_t layers, merge_last, with_codes;
     int32_t plane_at[4]; ///< of rgba, depth, normal, coverage; -1: not wanted
+    uint32_t pair_capacity, list_capacity, unit_capacity, ask_capacity;
+    uint32_t unit_splats, group_limit, answered;
 } ewa_gl_band_block;
+
+/// What programs count, before the arguments of indirect dispatches.
+typedef struct ewa_gl_tally {
+    uint32_t pair_count, kept_count, near_count, clip_count, list_count, carry, unit_count, broken_count;
+    uint32_t culled_groups, divided_groups, pad[2];
+} ewa_gl_tally;
+
+/// Arguments of indirect dispatches, in the order in which they follow the counts.
+enum { EWA_GL_OF_LISTS, EWA_GL_OF_UNITS, EWA_GL_OF_PAGES, EWA_GL_ARGUMENT_BYTES = 16 };
+
+/// A surfel that the host is asked for something of.
+typedef struct ewa_gl_ask {
+    uint32_t surfel, source, field, pad;
+} ewa_gl_ask;
+
+/// A packet in a field, a tile of work, and a unit of it, as programs have them.
+enum { EWA_GL_PAIR_BYTES = 36, EWA_GL_TILE_BYTES = 20, EWA_GL_UNIT_BYTES = 16 };
 
 /// ewa_clip.
 typedef struct ewa_gl_clip {
@@ -81,11 +109,16 @@ typedef struct ewa_gl_resolve {
     struct {
         uint32_t width, height, first, pad;
     } levels[EWA_MAX_ENVIRONMENT_LEVELS];
+    float materials[EWA_MAX_MATERIALS][EWA_MATERIAL_CHANNELS]; ///< of surfels
 } ewa_gl_resolve;
 
 void ewa_gl_view_set(ewa_gl_view *to, const ewa_view *from, bool hides);
+
+/// `material` is that of surfels that have none of their own.
+void ewa_gl_placement_set(ewa_gl_placement *to, const ewa_view *from, uint8_t material);
 void ewa_gl_clip_set(ewa_gl_clip *to, const ewa_clip *from);
 void ewa_gl_near_set(ewa_gl_near *to, const ewa_near_record *from, uint32_t source);
+/// All but the surfels' materials, which are 0.
 void ewa_gl_resolve_set(ewa_gl_resolve *to, const ewa_resolve *from);
 
 #endif

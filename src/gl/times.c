@@ -23,7 +23,9 @@ void ewa_gl_times_resume(ewa_gl_times *times) {
 }
 
 void ewa_gl_times_mark(ewa_gl_times *times, ewa_gl_time stage) {
-    if (!times->queries[0] || times->count == EWA_GL_MAX_MARKS) return;
+    if (!times->queries[0]) return;
+    if (times->count > 1 && times->stages[times->count - 1] == stage) times->count--; // it goes on
+    if (times->count == EWA_GL_MAX_MARKS) return;
     times->stages[times->count] = (uint8_t)stage;
     glQueryCounter(times->queries[times->count++], GL_TIMESTAMP);
 }

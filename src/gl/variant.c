@@ -27,6 +27,10 @@ size_t ewa_gl_head_write(const ewa_gl_arithmetic *arithmetic, char *head) {
         {"BILLBOARD", EWA_BILLBOARD},
         {"UNIT_ANGLE", 1.0f / 32768.0f},
         {"UNIT_U16", 1.0f / 65535.0f},
+        {"UNIT_CONE", 1.0f / EWA_CONE_AXIS},
+        {"UNIT_SINE", 1.0f / EWA_CONE_SINE},
+        {"ROUNDING", 0x1p-20f},
+        {"SHORTEST2", 0x1p-120f},
         {"NEAR_RATIO", (float)EWA_NEAR_RATIO},
         {"RAY_LIMIT2", limit * limit},
         {"FLAT", (float)EWA_FLAT},
@@ -55,14 +59,17 @@ size_t ewa_gl_head_write(const ewa_gl_arithmetic *arithmetic, char *head) {
     };
     size_t at = (size_t)snprintf(head, EWA_GL_HEAD_BYTES,
                                  "#version 430 core\n#define FUSED %d\n#define DIVIDES %d\n#define ROOTS %d\n"
-                                 "#define MAX_LIGHTS %d\n#define MAX_LEVELS %d\n#define MERGED_SURFACES %d\n",
+                                 "#define MAX_LIGHTS %d\n#define MAX_LEVELS %d\n#define MERGED_SURFACES %d\n"
+                                 "#define MAX_MATERIALS %d\n#define MAX_SECTIONS %d\n#define CONE_BITS %d\n"
+                                 "#define CONE_AXIS %d\n#define CONE_SINE %du\n#define RADIUS_SHIFT %d\n",
                                  arithmetic->fused, arithmetic->divides, arithmetic->roots, EWA_MAX_LIGHTS,
-                                 EWA_MAX_ENVIRONMENT_LEVELS, EWA_MERGED_SURFACES);
+                                 EWA_MAX_ENVIRONMENT_LEVELS, EWA_MERGED_SURFACES, EWA_MAX_MATERIALS,
+                                 EWA_MAX_SECTION_PLANES, EWA_CONE_BITS, EWA_CONE_AXIS, EWA_CONE_SINE, EWA_RADIUS_SHIFT);
     for (size_t i = 0; i < sizeof constants / sizeof constants[0]; i++) {
         uint32_t bits;
         memcpy(&bits, &constants[i].value, sizeof bits);
         at += (size_t)snprintf(head + at, EWA_GL_HEAD_BYTES - at,
-                               "const float %s = uintBitsToFloat(0x%08xu);\n", constants[i].name,
+                               "#define %s uintBitsToFloat(0x%08xu)\n", constants[i].name,
                                (unsigned)bits);
     }
     return at;
@@ -70,27 +77,32 @@ size_t ewa_gl_head_write(const ewa_gl_arithmetic *arithmetic, char *head) {
 
 static ewa_status make(ewa_gl *device, const ewa_gl_variants *variants, const ewa_gl_variant *v,
                        GLuint *program) {
-    enum { MAX_PIECES = 5 };
+    enum { MAX_PIECES = 8, COMMON = 2 };
     static const char *const pieces[][MAX_PIECES] = {
-        [EWA_GL_SETUP] = {ewa_shader_wide, ewa_shader_band, ewa_shader_scene, ewa_shader_setup},
-        [EWA_GL_FILL] = {ewa_shader_wide, ewa_shader_band, ewa_shader_scene, ewa_shader_fill},
-        [EWA_GL_VISIBILITY] = {ewa_shader_wide, ewa_shader_band, ewa_shader_scene, ewa_shader_splat, ewa_shader_passes},
-        [EWA_GL_SUMS] = {ewa_shader_wide, ewa_shader_band, ewa_shader_scene, ewa_shader_splat, ewa_shader_passes},
-        [EWA_GL_FIRST_SURFACE] = {ewa_shader_wide, ewa_shader_band, ewa_shader_surface},
-        [EWA_GL_NEXT_SURFACE] = {ewa_shader_wide, ewa_shader_band, ewa_shader_surface},
-        [EWA_GL_PICTURE] = {ewa_shader_wide, ewa_shader_band, ewa_shader_surface},
+        [EWA_GL_CULL] = {ewa_shader_scene, ewa_shader_packet, ewa_shader_cull},
+        [EWA_GL_SETUP] = {ewa_shader_scene, ewa_shader_packet, ewa_shader_setup},
+        [EWA_GL_DIVIDE] = {ewa_shader_divide},
+        [EWA_GL_FILL] = {ewa_shader_scene, ewa_shader_fill},
+        [EWA_GL_VISIBILITY] = {ewa_shader_scene, ewa_shader_splat, ewa_shader_passes},
+        [EWA_GL_SUMS] = {ewa_shader_scene, ewa_shader_splat, ewa_shader_sums, ewa_shader_passes},
+        [EWA_GL_FIRST_SURFACE] = {ewa_shader_sums, ewa_shader_surface},
+        [EWA_GL_EDGES] = {ewa_shader_scene, ewa_shader_splat, ewa_shader_sums, ewa_shader_passes, ewa_shader_surface,
+                          ewa_shader_edges},
+        [EWA_GL_PICTURE] = {ewa_shader_sums, ewa_shader_surface},
     };
-    static const char *const names[] = {[EWA_GL_SETUP] = "set-up",
+    static const char *const names[] = {[EWA_GL_CULL] = "culling",
+                                        [EWA_GL_SETUP] = "set-up",
+                                        [EWA_GL_DIVIDE] = "units",
                                         [EWA_GL_FILL] = "lists",
                                         [EWA_GL_VISIBILITY] = "visibility",
                                         [EWA_GL_SUMS] = "accumulation",
                                         [EWA_GL_FIRST_SURFACE] = "first surface",
-                                        [EWA_GL_NEXT_SURFACE] = "next surface",
+                                        [EWA_GL_EDGES] = "edges",
                                         [EWA_GL_PICTURE] = "picture"};
     static const int pass_numbers[] = {[EWA_GL_VISIBILITY] = 1,
                                        [EWA_GL_SUMS] = 2,
                                        [EWA_GL_FIRST_SURFACE] = 3,
-                                       [EWA_GL_NEXT_SURFACE] = 4,
+                                       [EWA_GL_EDGES] = 4,
                                        [EWA_GL_PICTURE] = 5};
     char head[EWA_GL_HEAD_BYTES + 512];
     const size_t at = ewa_gl_head_write(&variants->arithmetic, head);
@@ -101,9 +113,13 @@ static ewa_status make(ewa_gl *device, const ewa_gl_variants *variants, const ew
              pass_numbers[v->pass], v->tile_px, v->channel_count, v->with_normals, v->with_depth,
              v->with_normals ? 7 : 4, v->with_materials, v->with_opacity, v->with_clips, v->with_fine,
              v->rays);
+    const char *all[MAX_PIECES + COMMON] = {ewa_shader_wide, ewa_shader_band};
     uint32_t piece_count = 0;
-    while (piece_count < MAX_PIECES && pieces[v->pass][piece_count]) piece_count++;
-    const ewa_gl_stage stage = {GL_COMPUTE_SHADER, head, pieces[v->pass], piece_count};
+    while (piece_count < MAX_PIECES && pieces[v->pass][piece_count]) {
+        all[COMMON + piece_count] = pieces[v->pass][piece_count];
+        piece_count++;
+    }
+    const ewa_gl_stage stage = {GL_COMPUTE_SHADER, head, all, COMMON + piece_count};
     return ewa_gl_program_make(device, names[v->pass], &stage, 1, program);
 }
 

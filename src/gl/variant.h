@@ -8,12 +8,14 @@
 #include "gl/program.h"
 
 typedef enum ewa_gl_pass {
+    EWA_GL_CULL,
     EWA_GL_SETUP,
+    EWA_GL_DIVIDE,
     EWA_GL_FILL,
     EWA_GL_VISIBILITY,
     EWA_GL_SUMS,
     EWA_GL_FIRST_SURFACE,
-    EWA_GL_NEXT_SURFACE,
+    EWA_GL_EDGES,
     EWA_GL_PICTURE
 } ewa_gl_pass;
 

@@ -71,6 +71,7 @@ static ewa_status draw(void *state, const ewa_render_job *frame, ewa_render_stat
     const uint32_t side_px = frame->tile_px ? frame->tile_px : tile_side_px(&frame->camera, splat_count);
     ewa_tile_job job;
     EWA_TRY(ewa_tile_job_make(context, &cpu->room, frame, side_px, &job));
+    EWA_TRY(ewa_tile_job_bin(context, &cpu->room, &job));
     job.scratch = cpu->scratch;
     const double binned_s = ewa_now_s();
     EWA_TRY(draw_tiles(cpu, &job, frame));

@@ -70,7 +70,6 @@ static void set_packets(const ewa_tile_job *job, const ewa_render_options *optio
     source->packets =
         (ewa_packet_source){.packets = surfels->packets,
                             .colors = surfels->bounds.colors,
-                            .places = source->bins.places,
                             .opacities = job->with_opacity ? surfels->opacities : NULL,
                             .clip_masks = options->point_size_px > 0 ? NULL : surfels->clip_masks,
                             .curvatures = source->view.contour_shift > 0 ? surfels->curvatures : NULL,
@@ -200,8 +199,6 @@ ewa_status ewa_tile_job_make(ewa_context *context, ewa_job_room *room, const ewa
     ewa_scales scales;
     EWA_TRY(set_views(context, room, job, frame, &scales));
     set_channels(job, frame, &options, &scales, &drawn);
-    EWA_TRY(fill_bins(context, room, job));
-    if (job->gather && job->gather->shared && job->source_count) mark_shared(job, job->gather->shared);
     for (uint32_t i = 0; i < frame->source_count; i++)
         job->with_clips |= frame->sources[i].surfels->with_clips && options.point_size_px == 0;
     for (uint32_t i = 0; i < job->source_count; i++) {
@@ -209,6 +206,13 @@ ewa_status ewa_tile_job_make(ewa_context *context, ewa_job_room *room, const ewa
         job->sources[i].view.materials = job->view.materials;
         job->with_clips |= job->sources[i].packets.clip_masks || job->sources[i].view.section_reach > 0;
     }
+    return EWA_OK;
+}
+
+ewa_status ewa_tile_job_bin(ewa_context *context, ewa_job_room *room, ewa_tile_job *job) {
+    EWA_TRY(fill_bins(context, room, job));
+    for (uint32_t i = 0; i < job->source_count; i++) job->sources[i].packets.places = job->sources[i].bins.places;
+    if (job->gather && job->gather->shared && job->source_count) mark_shared(job, job->gather->shared);
     return EWA_OK;
 }
 

@@ -17,11 +17,14 @@ typedef struct ewa_job_room {
     uint32_t source_count;
 } ewa_job_room;
 
-/// Sets what the tiles of `side_px` of a frame share, all but `scratch` and `first_tile`: views, bins, packets, channels,
+/// Sets what the tiles of `side_px` of a frame share, all but bins, `scratch` and `first_tile`: views, packets, channels,
 /// resolve. What of eye-dome lighting is to be drawn first is in job->resolve. `job` is not to be moved. Errors:
 /// EWA_ERROR_MEMORY, EWA_ERROR_NUMERIC (a camera without a view volume), EWA_CANCELLED.
 ewa_status ewa_tile_job_make(ewa_context *context, ewa_job_room *room, const ewa_render_job *frame,
                              uint32_t side_px, ewa_tile_job *job);
+
+/// Sets which tiles see which packets, and where these are. Errors: EWA_ERROR_MEMORY, EWA_CANCELLED.
+ewa_status ewa_tile_job_bin(ewa_context *context, ewa_job_room *room, ewa_tile_job *job);
 
 /// What comes after the tiles: eye-dome lighting, where the frame's band is its last, and a warning of pixels without a
 /// colour.

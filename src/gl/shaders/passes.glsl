@@ -1,35 +1,29 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// The two passes over a unit of work: some splats of one tile, a pixel by each invocation. PASS is 1 for visibility, 2 for the
-// sums (src/surface/pipeline_passes.h, pipeline_payload.h, pipeline_sums.h, pipeline_side_sums.h).
+// The two passes over some splats of one tile, a pixel by each invocation (src/surface/pipeline_passes.h, pipeline_payload.h,
+// pipeline_sums.h, pipeline_side_sums.h). PASS is 1 for visibility, 2 for the sums, over units of work; 4 has both,
+// for what lies behind the first surface (edges.glsl).
 
 layout(local_size_x = TILE_PX, local_size_y = TILE_PX) in;
 
+layout(std430, binding = 3) buffer TileBlock { Tile tiles[]; };
 layout(std430, binding = 5) readonly buffer RecordBlock { Record records[]; };
 layout(std430, binding = 6) readonly buffer ListBlock { uint list[]; };
-layout(std430, binding = 7) readonly buffer UnitBlock { uvec4 units[]; }; // tile; first, end of the list or of near ones; near
+#if PASS != 4
 layout(std430, binding = 1) buffer NearestBlock { uint nearest[]; };
-layout(std430, binding = 2) readonly buffer PassedBlock { float passed[]; };
-layout(std430, binding = 3) readonly buffer OpenBlock { uint open[]; }; // [tile]: whether anything is wanted of it
-#if PASS == 2
-layout(std430, binding = 4) buffer SumBlock { int sums[]; };      // [channel][word][pixel]
-layout(std430, binding = 8) buffer TurnedBlock { int is_back[]; }; // the same of what faces away
-layout(std430, binding = 11) buffer CutBlock { int cut[]; };      // [channel][word][pixel], then a flag for each block
-layout(std430, binding = 12) readonly buffer MaterialBlock { float materials[]; };
+layout(std430, binding = 7) readonly buffer UnitBlock { uvec4 units[]; }; // tile; first, end of the list or of near ones; near
 #endif
-
-layout(location = 0) uniform uint first_unit;
-layout(location = 1) uniform uint behind; // 0: the first surface
-layout(location = 2) uniform uint whole;  // all that is left is one surface
-
 #if PASS == 2
-#if WITH_FINE || WITH_DEPTH || WITH_CLIPS
-const uint WORDS = 4u;
+#define ADD(to, what) atomicAdd(to, uint(what))
 #else
-const uint WORDS = 2u;
+#define ADD(to, what) to += uint(what)
 #endif
-uint pixel_count = 0u, pixel = 0u;
+#if WITH_CLIPS && PASS == 4
+shared uint cut_blocks[TILE_PX / 4 * TILE_PX / 4];
+#endif
+
+#if PASS != 1
 int low[CHANNELS];
 #if WITH_FINE
 int low_fine[CHANNELS];
@@ -51,11 +45,11 @@ void add_word(uint channel, uint word, int value, bool is_back_facing) {
     if (value == 0) return;
     uint at = (channel * WORDS + word) * pixel_count + pixel;
     if (is_back_facing) {
-        atomicAdd(is_back[at], value & 0xffff);
-        atomicAdd(is_back[at + pixel_count], value >> 16);
+        ADD(is_back[at], value & 0xffff);
+        ADD(is_back[at + pixel_count], value >> 16);
     } else {
-        atomicAdd(sums[at], value & 0xffff);
-        atomicAdd(sums[at + pixel_count], value >> 16);
+        ADD(sums[at], value & 0xffff);
+        ADD(sums[at + pixel_count], value >> 16);
     }
 }
 
@@ -105,11 +99,16 @@ void add_cut(Clip clip, Sample s, float whole_weight) {
     for (uint c = 0u; c < 4u; c++) {
         int value = units_of(1.0, wf_odd_product(cut_weight, parts[c]));
         uint at = c * 2u * pixel_count + pixel;
-        atomicAdd(cut[at], value & 0xffff);
-        atomicAdd(cut[at + pixel_count], value >> 16);
+        ADD(cut[at], value & 0xffff);
+        ADD(cut[at + pixel_count], value >> 16);
     }
+#if PASS == 2
     uvec2 block = uvec2(pixel % band_px.x, pixel / band_px.x) / 4u;
-    cut[8u * pixel_count + block.y * ((band_px.x + 3u) / 4u) + block.x] = 1;
+    cut[8u * pixel_count + block.y * ((band_px.x + 3u) / 4u) + block.x] = 1u;
+#else
+    uvec2 block = gl_LocalInvocationID.xy / 4u;
+    cut_blocks[block.y * uint(TILE_PX / 4) + block.x] = 1u;
+#endif
 }
 #endif
 
@@ -130,7 +129,7 @@ void add_splat(Payload p, View view, Sample s, float bound, bool is_back_facing,
 #if WITH_CLIPS
     weight = wf_mul(weight, s.share);
 #endif
-    bool depth_too = WITH_DEPTH != 0 && behind == 0u;
+    bool depth_too = WITH_DEPTH != 0 && PASS == 2;
     add_channel(0u, weight, p.peak, is_back_facing, fine || depth_too);
     for (uint i = 0u; i < 3u; i++) add_channel(1u + i, weight, p.color[i], is_back_facing, fine);
 #if WITH_NORMAL
@@ -149,121 +148,139 @@ void add_splat(Payload p, View view, Sample s, float bound, bool is_back_facing,
 }
 #endif
 
-void main() {
-    uvec4 unit = units[first_unit + gl_WorkGroupID.x];
-    if (behind != 0u && open[unit.x] == 0u) return;
-    uvec2 in_band = uvec2(unit.x % tiles_per_row, unit.x / tiles_per_row) * uint(TILE_PX) + gl_LocalInvocationID.xy;
-    if (any(greaterThanEqual(in_band, band_px))) return;
-    uvec2 in_field = (first_px + in_band) & 127u, block = in_field / 4u;
+#if PASS != 2
+// Raises `largest` to the keys of z + eps of those that count before `beyond`: records of the list, or near surfels.
+void find_nearest(uint first, uint end, bool near, uvec2 in_field, float beyond, inout float largest) {
     vec2 at = vec2(float(in_field.x) - 63.5, float(in_field.y) - 63.5);
-    uint here = in_band.y * band_px.x + in_band.x;
-    float beyond = behind != 0u ? passed[here] : INF;
-    if (behind != 0u && beyond == -INF) return;
-#if PASS == 1
-    float largest = -INF;
-#else
-    pixel = here;
-    pixel_count = band_px.x * band_px.y;
-    float bound = float_of(nearest[here]);
-    if (whole != 0u) bound = MIN_KEY_OF_ALL;
-    if (bound == -INF) return;
+    uvec2 block = in_field / 4u;
+    // Each pixel goes on to the next splat that may reach it, so that those of a group that work do so together.
+    for (uint i = first; !near; i++) {
+        while (i < end && !in_box(records[list[i]].box, block)) i++;
+        if (i >= end) break;
+        Record r = records[list[i]];
+        View view = views[r.extra >> 8];
+        if (!has(view.flags, HIDES)) continue;
+        Sample s = sample_record(r, at, view);
+#if PASS == 4
+        s.counts = s.counts && s.key < beyond && !has(r.box, HOLLOW);
+#endif
+#if WITH_CLIPS
+        if (s.counts && has(r.box, CLIPPED)) clip_at(clips[r.clip], at, s);
+#endif
+        if (s.counts) largest = wf_max(s.bound, largest);
+    }
+    for (uint i = first; near && i < end; i++) {
+        View view = views[nears[i].source];
+        if (!has(view.flags, HIDES)) continue;
+        Sample s = sample_near(nears[i], at, view);
+#if PASS == 4
+        s.counts = s.counts && s.key < beyond;
+#endif
+        if (s.counts) largest = wf_max(s.bound, largest);
+    }
+}
+#endif
+
+#if PASS != 1
+// Adds those whose keys reach `bound`, likewise, to the sums of the pixel.
+void add_splats(uint first, uint end, bool near, uvec2 in_field, float beyond, float bound) {
+    vec2 at = vec2(float(in_field.x) - 63.5, float(in_field.y) - 63.5);
+    uvec2 block = in_field / 4u;
     for (int i = 0; i < CHANNELS; i++) low[i] = 0;
 #if WITH_FINE
     for (int i = 0; i < CHANNELS; i++) low_fine[i] = 0;
 #endif
+    for (uint i = first; !near; i++) {
+        while (i < end && !in_box(records[list[i]].box, block)) i++;
+        if (i >= end) break;
+        Record r = records[list[i]];
+        View view = views[r.extra >> 8];
+        Sample s = sample_record(r, at, view);
+#if PASS == 4
+        s.counts = s.counts && s.key < beyond && !has(r.box, HOLLOW);
 #endif
-    if (unit.w == 0u) {
-        // Each pixel goes on to the next splat that may reach it, so that those of a group that work do so together.
-        for (uint i = unit.y;; i++) {
-            while (i < unit.z && !in_box(records[list[i]].box, block)) i++;
-            if (i >= unit.z) break;
-            Record r = records[list[i]];
-            View view = views[r.extra >> 8];
-#if PASS == 1
-            if (!has(view.flags, HIDES)) continue;
+#if WITH_CLIPS
+        if (s.counts && has(r.box, CLIPPED)) clip_at(clips[r.clip], at, s);
+#endif
+        if (!(s.counts && bound <= s.key)) continue;
+        Payload p;
+        p.peak = r.peak;
+        p.color = vec3(r.red, r.green, r.blue);
+        p.normal = vec3(r.nx, r.ny, r.nz);
+        p.opacity = r.opacity;
+#if WITH_MATERIAL
+        for (uint k = 0u; k < 5u; k++) p.material[k] = wf_odd(wf_mul(to.materials[(r.extra & 255u) * 5u + k], r.peak));
 #endif
 #if RAYS
-            Sample s = sample_ray(r, at, view);
-#else
-            Sample s = sample_splat(r, at, view);
-#endif
-            s.counts = s.counts && (behind == 0u || (s.key < beyond && !has(r.box, HOLLOW)));
-#if WITH_CLIPS
-            if (s.counts && has(r.box, CLIPPED)) clip_at(clips[r.clip], at, s);
-#endif
-#if PASS == 1
-            if (s.counts) largest = wf_max(s.bound, largest);
-#else
-            if (!(s.counts && bound <= s.key)) continue;
-            Payload p;
-            p.peak = r.peak;
-            p.color = vec3(r.red, r.green, r.blue);
-            p.normal = vec3(r.nx, r.ny, r.nz);
-            p.opacity = r.opacity;
-#if WITH_MATERIAL
-            for (uint k = 0u; k < 5u; k++)
-                p.material[k] = wf_odd(wf_mul(materials[(r.extra & 255u) * 5u + k], r.peak));
-#endif
-#if RAYS
-            p.peak = wf_odd_product(p.peak, s.gain);
-            for (int k = 0; k < 3; k++) {
-                p.color[k] = wf_odd_product(p.color[k], s.gain);
-                p.normal[k] = wf_odd_product(p.normal[k], s.gain);
-            }
-            p.opacity = wf_odd_product(p.opacity, s.gain);
-#if WITH_MATERIAL
-            for (int k = 0; k < 5; k++) p.material[k] = wf_odd_product(p.material[k], s.gain);
-#endif
-#endif
-            bool fine = WITH_FINE != 0;
-#if WITH_CLIPS
-            if (has(r.box, CLIPPED)) {
-                add_cut(clips[r.clip], s, wf_mul(exponential(s.exponent, view.doublings), p.peak));
-                fine = true;
-            }
-#endif
-            add_splat(p, view, s, bound, has(r.box, BACK_FACING), fine);
-#endif
+        p.peak = wf_odd_product(p.peak, s.gain);
+        for (int k = 0; k < 3; k++) {
+            p.color[k] = wf_odd_product(p.color[k], s.gain);
+            p.normal[k] = wf_odd_product(p.normal[k], s.gain);
         }
-    } else {
-        for (uint i = unit.y; i < unit.z; i++) {
-            Near r = nears[i];
-            View view = views[r.source];
-#if PASS == 1
-            if (!has(view.flags, HIDES)) continue;
+        p.opacity = wf_odd_product(p.opacity, s.gain);
+#if WITH_MATERIAL
+        for (int k = 0; k < 5; k++) p.material[k] = wf_odd_product(p.material[k], s.gain);
 #endif
-            Sample s = sample_near(r, at, view);
-            s.counts = s.counts && (behind == 0u || s.key < beyond);
-#if PASS == 1
-            if (s.counts) largest = wf_max(s.bound, largest);
-#else
-            if (!(s.counts && bound <= s.key)) continue;
-            float peak = wf_mul(s.gain, view.sum_scale);
-            Payload p;
-            p.peak = wf_odd(peak);
-            for (int k = 0; k < 3; k++) {
-                p.color[k] = wf_odd_product(peak, r.color[k]);
-                p.normal[k] = wf_odd_product(peak, r.normal[k]);
-            }
-            p.opacity = wf_odd_product(peak, r.opacity);
-            for (int k = 0; k < 5; k++) p.material[k] = wf_odd_product(peak, r.material[k]);
-            bool fine = WITH_FINE != 0;
+#endif
+        bool fine = WITH_FINE != 0;
 #if WITH_CLIPS
-            if (has(r.flags, CLIPPED)) {
-                add_cut(r.clip, s, wf_mul(exponential(s.exponent, view.doublings), peak));
-                fine = true;
-            }
-#endif
-            add_splat(p, view, s, bound, has(r.flags, BACK_FACING), fine);
-#endif
+        if (has(r.box, CLIPPED)) {
+            add_cut(clips[r.clip], s, wf_mul(exponential(s.exponent, view.doublings), p.peak));
+            fine = true;
         }
+#endif
+        add_splat(p, view, s, bound, has(r.box, BACK_FACING), fine);
     }
-#if PASS == 1
-    if (largest > -INF) atomicMax(nearest[here], order_of(largest));
-#else
+    for (uint i = first; near && i < end; i++) {
+        Near r = nears[i];
+        View view = views[r.source];
+        Sample s = sample_near(r, at, view);
+#if PASS == 4
+        s.counts = s.counts && s.key < beyond;
+#endif
+        if (!(s.counts && bound <= s.key)) continue;
+        float peak = wf_mul(s.gain, view.sum_scale);
+        Payload p;
+        p.peak = wf_odd(peak);
+        for (int k = 0; k < 3; k++) {
+            p.color[k] = wf_odd_product(peak, r.color[k]);
+            p.normal[k] = wf_odd_product(peak, r.normal[k]);
+        }
+        p.opacity = wf_odd_product(peak, r.opacity);
+        for (int k = 0; k < 5; k++) p.material[k] = wf_odd_product(peak, r.material[k]);
+        bool fine = WITH_FINE != 0;
+#if WITH_CLIPS
+        if (has(r.flags, CLIPPED)) {
+            add_cut(r.clip, s, wf_mul(exponential(s.exponent, view.doublings), peak));
+            fine = true;
+        }
+#endif
+        add_splat(p, view, s, bound, has(r.flags, BACK_FACING), fine);
+    }
     for (uint i = 0u; i < uint(CHANNELS); i++) add_word(i, 0u, low[i], false);
 #if WITH_FINE
     for (uint i = 0u; i < uint(CHANNELS); i++) add_word(i, 2u, low_fine[i], false);
 #endif
+}
+#endif
+
+#if PASS != 4
+void main() {
+    if (group_number() >= unit_count) return;
+    uvec4 unit = units[group_number()];
+    uvec2 in_band = uvec2(unit.x % tiles_per_row, unit.x / tiles_per_row) * uint(TILE_PX) + gl_LocalInvocationID.xy;
+    if (any(greaterThanEqual(in_band, band_px))) return;
+    uvec2 in_field = (first_px + in_band) & 127u;
+    uint here = in_band.y * band_px.x + in_band.x;
+#if PASS == 1
+    float largest = -INF;
+    find_nearest(unit.y, unit.z, unit.w != 0u, in_field, INF, largest);
+    if (largest > -INF) atomicMax(nearest[here], order_of(largest));
+#else
+    pixel = here;
+    pixel_count = band_px.x * band_px.y;
+    float bound = float_of(nearest[here]);
+    if (bound > -INF) add_splats(unit.y, unit.z, unit.w != 0u, in_field, INF, bound);
 #endif
 }
+#endif

@@ -2,38 +2,24 @@
 // SPDX-License-Identifier: MIT
 //
 // Surfels to records: src/surface/pipeline_project.h, one lane of one packet in one field by each invocation,
-// and how many records each tile gets. What pixel rays and clip lines need is asked of the host, in `masks`.
+// and how many records each tile gets. What pixel rays and clip lines need is asked of the host.
 
 layout(local_size_x = 64) in;
 
-layout(std430, binding = 1) readonly buffer PacketBlock { uint packets[]; };
-layout(std430, binding = 2) readonly buffer PairBlock { uvec2 pairs[]; };   // packet of the page; field
-layout(std430, binding = 3) readonly buffer PlaceBlock { float places[]; }; // [pair][slope x, y, rest x, y, depth, -]
-layout(std430, binding = 4) readonly buffer WordBlock { uvec2 words[]; };   // [pair]: form of colours | material << 16; lanes | clipped << 16
+layout(std430, binding = 3) buffer TileBlock { Tile tiles[]; };
+layout(std430, binding = 4) readonly buffer ByteBlock { uint attributes[]; }; // of the page: opacities, then materials
 layout(std430, binding = 5) writeonly buffer RecordBlock { Record records[]; };
-layout(std430, binding = 6) buffer TileBlock { uint tile_counts[]; };
-layout(std430, binding = 7) buffer MaskBlock { uint masks[]; }; // [pair]: by pixel rays | clipped << 16
-layout(std430, binding = 8) readonly buffer ByteBlock { uint attributes[]; }; // of the page: opacities, then materials
+layout(std430, binding = 11) writeonly buffer AskBlock { uvec4 asks[]; }; // surfel, source, field; near ones, then those with lines
 
-layout(location = 0) uniform uint first_pair;
-layout(location = 1) uniform uint end_pair;
+layout(location = 0) uniform uint page;
+layout(location = 1) uniform uint first_packet; // of the page, in its source
 layout(location = 2) uniform uint source;
 layout(location = 3) uniform int opacities_at; // words in `attributes`, or -1; as the next two
 layout(location = 4) uniform int curvatures_at;
 layout(location = 5) uniform int materials_at;
 
-const int PACKET_WORDS = 120;
-const float FIELD_PX = 128.0;
-
 View view;
 uint view_flags;
-
-uint half_word(uint base, uint index) {
-    uint word = packets[base + index / 2u];
-    return (index & 1u) != 0u ? word >> 16 : word & 0xffffu;
-}
-
-int signed_half(uint base, uint index) { return int(half_word(base, index) << 16) >> 16; }
 
 struct Stage {
     bool alive;
@@ -49,19 +35,6 @@ struct Stage {
 };
 
 Stage t;
-
-vec3 unfold_flat(float u, float v) {
-    vec3 n;
-    n.z = wf_sub(wf_sub(1.0, wf_abs(u)), wf_abs(v));
-    float fold = wf_max(wf_negate(n.z), 0.0);
-    n.x = wf_sub(u, u < 0.0 ? wf_negate(fold) : fold);
-    n.y = wf_sub(v, v < 0.0 ? wf_negate(fold) : fold);
-    return n;
-}
-
-vec3 make_unit(vec3 n) {
-    return scale3(n, wf_inverse_root(wf_fma(n.x, n.x, wf_fma(n.y, n.y, wf_mul(n.z, n.z)))));
-}
 
 vec3 decode_axis(uint code, vec3 n) {
     float a_code = wf_mul(float(code), UNIT_ANGLE);
@@ -93,8 +66,8 @@ float decode_color(uint form, uint code) {
 }
 
 void place_surfel(uint base, uint lane, uint pair, uvec2 field) {
-    float slope_x = places[pair * 6u], slope_y = places[pair * 6u + 1u];
-    float rest_x = places[pair * 6u + 2u], rest_y = places[pair * 6u + 3u], depth = places[pair * 6u + 4u];
+    float slope_x = pairs[pair].slope_x, slope_y = pairs[pair].slope_y;
+    float rest_x = pairs[pair].rest_x, rest_y = pairs[pair].rest_y, depth = pairs[pair].depth;
     vec3 local = vec3(uintBitsToFloat(packets[base + lane]), uintBitsToFloat(packets[base + 16u + lane]),
                       uintBitsToFloat(packets[base + 32u + lane]));
     vec3 offset = rotate(view.rotation, local);
@@ -311,12 +284,19 @@ void count_tiles(uvec2 field, uint box) {
     uvec2 first, last;
     tiles_of(field, box, first, last);
     for (uint y = first.y; y <= last.y; y++)
-        for (uint x = first.x; x <= last.x; x++) atomicAdd(tile_counts[y * tiles_per_row + x], 1u);
+        for (uint x = first.x; x <= last.x; x++) atomicAdd(tiles[y * tiles_per_row + x].count, 1u);
+}
+
+// Asks the host for something of a surfel; returns where it will be.
+uint ask(uint first, uint number, uint pair, uint lane) {
+    if (number < ask_capacity)
+        asks[first + number] = uvec4((first_packet + pairs[pair].packet) * 16u + lane, source, pairs[pair].field, 0u);
+    return number;
 }
 
 void emit(uint base, uint lane, uint pair, uvec2 field, uint at) {
     bool orthographic = has(view_flags, ORTHOGRAPHIC), circular = has(view_flags, CIRCULAR);
-    bool clipped = has(words[pair].y >> 16, 1u << lane);
+    bool clipped = has(pairs[pair].lanes >> 16, 1u << lane);
     float c1_px = wf_mul(t.c1, view.fx_zoomed), c2_px = wf_mul(t.c2, view.fy_zoomed);
     float slope = wf_sqrt(wf_fma(t.key_x, t.key_x, wf_mul(t.key_y, t.key_y)));
     float support = wf_mul(view.cutoff, t.sigma), reach = wf_mul(view.reach_px, slope);
@@ -338,7 +318,7 @@ void emit(uint base, uint lane, uint pair, uvec2 field, uint at) {
     float place_y = wf_add(wf_fma(t.dy, view.fy_px, t.base_y), c2_px);
     bool hollow = false;
     if (curvatures_at >= 0) {
-        vec3 way = contour_way(pairs[pair].x * 16u + lane, slope, clipped, hollow);
+        vec3 way = contour_way(pairs[pair].packet * 16u + lane, slope, clipped, hollow);
         key = wf_add(key, way.z);
         beyond = wf_add(beyond, wf_abs(way.z));
         place_x = wf_add(place_x, way.x);
@@ -384,17 +364,17 @@ void emit(uint base, uint lane, uint pair, uvec2 field, uint at) {
     bool is_back = 0.0 < t.facing;
     float opacity = t.peak;
     if (opacities_at >= 0) {
-        uint index = pairs[pair].x * 16u + lane, word = attributes[uint(opacities_at) + index / 2u];
+        uint index = pairs[pair].packet * 16u + lane, word = attributes[uint(opacities_at) + index / 2u];
         uint code = (index & 1u) != 0u ? word >> 16 : word & 0xffffu;
         opacity = wf_mul(t.peak, wf_mul(float(code), UNIT_U16));
     }
-    uint material = words[pair].x >> 16 & 0xffu;
+    uint material = pairs[pair].form >> 16 & 0xffu;
     if (materials_at >= 0) {
-        uint index = pairs[pair].x * 16u + lane;
+        uint index = pairs[pair].packet * 16u + lane;
         material = attributes[uint(materials_at) + index / 4u] >> (index & 3u) * 8u & 0xffu;
     }
     float color_units = wf_mul(opacity, view.color_scale);
-    uint form = words[pair].x & 0xffffu;
+    uint form = pairs[pair].form & 0xffffu;
     float peak_units = wf_mul(t.peak, view.sum_scale);
     float facing_peak = is_back ? wf_negate(peak_units) : peak_units;
     Record r;
@@ -422,32 +402,31 @@ void emit(uint base, uint lane, uint pair, uvec2 field, uint at) {
     r.opacity = wf_odd_product(opacity, view.sum_scale);
     r.extra = material | source << 8;
     r.field = field.x | field.y << 16;
-    r.clip = 0u;
+    r.clip = clipped ? ask(ask_capacity, atomicAdd(clip_count, 1u), pair, lane) : 0u;
     records[at] = r;
     count_tiles(field, r.box);
-    if (clipped) atomicOr(masks[pair], 65536u << lane);
 }
 
 void main() {
-    uint index = gl_GlobalInvocationID.x, lane = index & 15u;
-    uint pair = first_pair + index / 16u, at = pair * 16u + lane;
-    if (pair >= end_pair) return;
+    uint index = group_number() * 64u + gl_LocalInvocationID.x, lane = index & 15u;
+    uint before = page == 0u ? 0u : arguments[OF_PAGES + page - 1u].w, pair = before + index / 16u;
+    if (pair >= arguments[OF_PAGES + page].w) return;
+    uint at = pair * 16u + lane;
     view = views[source];
     view_flags = view.flags;
-    uint base = pairs[pair].x * uint(PACKET_WORDS);
-    uvec2 field = uvec2(pairs[pair].y & 0xffffu, pairs[pair].y >> 16);
+    uint base = pairs[pair].packet * uint(PACKET_WORDS);
+    uvec2 field = uvec2(pairs[pair].field & 0xffffu, pairs[pair].field >> 16);
     records[at].box = 0u;
     place_surfel(base, lane, pair, field);
     t.sigma = wf_mul(uintBitsToFloat(packets[base + 48u + lane]), view.scale);
-    t.alive = 0.0 < t.sigma && has(words[pair].y, 1u << lane);
+    t.alive = 0.0 < t.sigma && has(pairs[pair].lanes, 1u << lane);
     if (has(view_flags, POINTS)) {
         place_point();
     } else {
-        t.n = unfold_flat(wf_mul(float(signed_half(base + 64u, lane)), UNIT_OCT),
-                          wf_mul(float(signed_half(base + 72u, lane)), UNIT_OCT));
+        t.n = decode_normal(base, lane);
         stage_turn(base, lane);
-        if (float(signed_half(base + 64u, lane)) == BILLBOARD) t.n = vec3(0.0, 0.0, -1.0);
-        if (stage_range()) atomicOr(masks[pair], 1u << lane);
+        if (is_billboard(base, lane)) t.n = vec3(0.0, 0.0, -1.0);
+        if (stage_range()) ask(0u, atomicAdd(near_count, 1u), pair, lane);
         stage_covariance();
     }
     stage_shape();

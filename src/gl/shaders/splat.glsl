@@ -91,6 +91,14 @@ Sample sample_ray(Record r, vec2 at, View view) {
     return s;
 }
 
+Sample sample_record(Record r, vec2 at, View view) {
+#if RAYS
+    return sample_ray(r, at, view);
+#else
+    return sample_splat(r, at, view);
+#endif
+}
+
 float linear(float terms[3], vec2 at) { return wf_fma(terms[1], at.x, wf_fma(terms[2], at.y, terms[0])); }
 
 float key_of_depth(View view, float z) {

@@ -2,57 +2,33 @@
 // SPDX-License-Identifier: MIT
 //
 // From sums to surfaces, surfaces to pixels: src/surface/pipeline_side_sums.h (settle), pipeline_shade.h,
-// pipeline_resolve.h, pipeline_edges.h (compose). PASS is 3 for the first surface, 4 for one behind, 5 for
-// the picture. A pixel by each invocation.
+// pipeline_resolve.h. PASS is 3 for the first surface, 4 for those behind (edges.glsl), 5 for the picture. A pixel by each
+// invocation.
 
+#if PASS != 4
 layout(local_size_x = TILE_PX, local_size_y = TILE_PX) in;
+layout(std430, binding = 3) buffer TileBlock { Tile tiles[]; };
+#endif
+#if PASS == 3
+layout(std430, binding = 1) buffer NearestBlock { uint nearest[]; };
+#endif
+#if PASS == 5
+layout(std430, binding = 14) writeonly buffer ResultBlock { uint result[]; }; // bytes, then planes: those that are wanted
+#endif
+layout(std430, binding = 15) readonly buffer EnvironmentBlock { float texels[]; };
 
-struct Light { uint headlight; float toward[3], color[3]; };
-struct Level { uint width, height, first, pad; };
-
-layout(std430, binding = 0) readonly buffer ResolveBlock {
-    float unit_coverage_inverse, alpha_scale, covering, front_scale;
-    float color_unit, material_units[5];
-    float opacity, depth_unit, depth_per_share, texels_per_radian;
-    float material[5];
-    float environment_from_camera[9];
-    float background[4];
-    float ray_x[2], ray_y[2];
-    float to_world[9];
-    uint flags, shading, light_count, level_count;
-    Light lights[MAX_LIGHTS];
-    Level levels[MAX_LEVELS];
-} to;
+// Of the first surface its channels; of those behind red, green, blue, alpha; the first one's cut: cover, x, y, flag; the key
+// that what is behind lies beyond.
+layout(std430, binding = 2) buffer SurfaceBlock { float surfaces[]; };
+#define SETTLED(channel) surfaces[(channel) * pixel_count + pixel]
+#define BEHIND(plane) surfaces[(uint(CHANNELS) + (plane)) * pixel_count + pixel]
+#define PASSED BEHIND(8u)
 
 const uint EDGE_ANTIALIASING = 1u, TRANSPARENT = 2u, ONE_PASS = 4u, ORTHOGRAPHIC_VIEW = 8u;
 const uint UNSHADED = 0u, LAMBERT = 1u, LIGHTS = 2u, PHONG = 3u;
 
-layout(std430, binding = 1) buffer NearestBlock { uint nearest[]; };
-layout(std430, binding = 2) buffer PassedBlock { float passed[]; };
-layout(std430, binding = 3) buffer OpenBlock { uint open[]; }; // [tile], then how many are open, then broken pixels
-layout(std430, binding = 4) buffer SumBlock { uint sums[]; };
-layout(std430, binding = 8) buffer TurnedBlock { uint is_back[]; };
-layout(std430, binding = 11) buffer CutBlock { uint cut[]; };
-layout(std430, binding = 13) buffer SettledBlock { float settled[]; }; // [channel][pixel] of the first surface
-layout(std430, binding = 14) buffer BehindBlock { float behind_planes[]; }; // [4][pixel]; then its cut: cover, x, y, flag
-#if PASS == 5
-layout(std430, binding = 5) writeonly buffer PictureBlock { uint rgba8[]; };
-layout(std430, binding = 6) writeonly buffer PlaneBlock { float planes[]; }; // rgba, depth, normal, coverage: those that are wanted
-#endif
-layout(std430, binding = 15) readonly buffer EnvironmentBlock { float texels[]; };
+struct Surface { float sums[CHANNELS]; float cover, cut_x, cut_y; };
 
-layout(location = 0) uniform uint first_tile;
-layout(location = 2) uniform uint whole;
-
-#if WITH_FINE || WITH_DEPTH || WITH_CLIPS
-const uint WORDS = 4u;
-#else
-const uint WORDS = 2u;
-#endif
-
-struct Surface { float sums[CHANNELS]; bool has_cut; float cover, cut_x, cut_y; };
-
-uint pixel = 0u, pixel_count = 0u;
 uvec2 in_picture;
 
 float inverse_weight(float weight) {
@@ -76,7 +52,6 @@ float read_back_facing(uint channel, uint word) {
 }
 
 #if PASS == 3 || PASS == 4
-shared uint cut_blocks[(TILE_PX / 4) * (TILE_PX / 4)];
 shared uint still_open;
 
 float sum_units(uint channel, bool finely, bool of_back_facing) {
@@ -89,37 +64,20 @@ float sum_units(uint channel, bool finely, bool of_back_facing) {
 }
 
 #if WITH_DEPTH
-float mean_depth(bool of_back_facing) {
+float mean_depth(bool of_back_facing, float key) {
     float weight = sum_units(0u, true, of_back_facing);
     bool some = 0.0 < weight;
     float share = wf_keep(some, wf_div(sum_units(DEPTH_CHANNEL, true, of_back_facing), some ? weight : 1.0));
     if (has(to.flags, ORTHOGRAPHIC_VIEW)) return wf_mul(share, to.depth_per_share);
-    float key = float_of(nearest[pixel]);
     bool seen = 0.0 < key;
     return wf_keep(seen, wf_div(share, seen ? key : 1.0));
 }
 #endif
 
-// Starts what lies behind the pixel, where that is wanted (start_surface).
-void leave_pixel(bool wanted, float key) {
-    passed[pixel] = wanted ? key : -INF;
-    nearest[pixel] = NEVER;
-    if (wanted) still_open = 1u;
-}
-
-// Notes whether anything is wanted of the tile. All invocations of the group call it, after their pixels.
-void leave_tile(uint tile) {
-    barrier();
-    if (gl_LocalInvocationIndex != 0u) return;
-    open[tile] = still_open;
-    if (still_open != 0u) atomicAdd(open[tile_count], 1u);
-}
-
-// Reads the sums of the pixel (settle_block) and starts them over.
-Surface settle(bool block_is_cut, bool first) {
+// Reads the sums of the pixel (settle_block), whose first surface has a key, and sets them back; `merged`: of all that is left.
+Surface settle(bool block_is_cut, bool first, bool merged, float key) {
     Surface s;
-    s.has_cut = block_is_cut;
-    bool finely = WITH_FINE != 0 || block_is_cut, merged = whole != 0u;
+    bool finely = WITH_FINE != 0 || block_is_cut;
     float other[CHANNELS];
     for (uint c = 0u; c < uint(CHANNELS); c++) {
         s.sums[c] = sum_units(c, finely, false);
@@ -127,8 +85,8 @@ Surface settle(bool block_is_cut, bool first) {
     }
 #if WITH_DEPTH
     if (first) {
-        s.sums[DEPTH_CHANNEL] = wf_mul(mean_depth(false), s.sums[0]);
-        other[DEPTH_CHANNEL] = wf_mul(mean_depth(true), other[0]);
+        s.sums[DEPTH_CHANNEL] = wf_mul(mean_depth(false, key), s.sums[0]);
+        other[DEPTH_CHANNEL] = wf_mul(mean_depth(true, key), other[0]);
     }
 #endif
     float of_front = 1.0, of_back = 1.0, front = s.sums[0], back = other[0];
@@ -335,7 +293,8 @@ vec3 shade(float s[CHANNELS]) {
 
 #if PASS == 3
 void main() {
-    uint tile = first_tile + gl_WorkGroupID.x;
+    uint tile = group_number();
+    if (tile >= tile_count) return;
     uvec2 in_band = uvec2(tile % tiles_per_row, tile / tiles_per_row) * uint(TILE_PX) + gl_LocalInvocationID.xy;
     bool inside = all(lessThan(in_band, band_px));
     pixel_count = band_px.x * band_px.y;
@@ -348,88 +307,27 @@ void main() {
 #endif
     barrier();
     if (inside) {
-        Surface s = settle(block_is_cut, true);
-        for (uint c = 0u; c < uint(CHANNELS); c++) settled[c * pixel_count + pixel] = s.sums[c];
-        behind_planes[4u * pixel_count + pixel] = s.cover;
-        behind_planes[5u * pixel_count + pixel] = s.cut_x;
-        behind_planes[6u * pixel_count + pixel] = s.cut_y;
-        behind_planes[7u * pixel_count + pixel] = block_is_cut ? 1.0 : 0.0;
-        if (layered != 0u) {
-            float key = float_of(nearest[pixel]);
-            float alpha = surface_alpha(s.sums[0], s.sums[CHANNELS - 1], block_is_cut, s.cover);
-            for (uint c = 0u; c < 4u; c++) behind_planes[c * pixel_count + pixel] = 0.0;
-            leave_pixel(-INF < key && alpha < 1.0, key);
-        }
-#if WITH_CLIPS
-        cut[flag] = 0u;
-#endif
-    }
-    leave_tile(tile);
-}
-#endif
-
-#if PASS == 4
-float merged_alpha(float alpha, float coverage) {
-    float through = wf_sub(1.0, alpha);
-    for (int i = 1; i < MERGED_SURFACES; i++) {
-        float share = wf_min(wf_max(wf_fma(coverage, 4.0, float(-4 * i - 2)), 0.0), 1.0);
-        if (!(0.0 < share)) break;
-        through = wf_mul(through, wf_sub(1.0, wf_mul(alpha, share)));
-    }
-    return wf_sub(1.0, through);
-}
-
-void main() {
-    uint tile = first_tile + gl_WorkGroupID.x;
-    if (open[tile] == 0u) return;
-    uvec2 in_band = uvec2(tile % tiles_per_row, tile / tiles_per_row) * uint(TILE_PX) + gl_LocalInvocationID.xy;
-    bool inside = all(lessThan(in_band, band_px));
-    pixel_count = band_px.x * band_px.y;
-    pixel = inside ? in_band.y * band_px.x + in_band.x : 0u;
-    in_picture = first_px + in_band;
-    bool block_is_cut = false;
-    Surface s;
-    for (uint c = 0u; c < uint(CHANNELS); c++) s.sums[c] = 0.0;
-#if WITH_CLIPS
-    uint flag = 8u * pixel_count + in_band.y / 4u * ((band_px.x + 3u) / 4u) + in_band.x / 4u;
-    if (inside) block_is_cut = cut[flag] != 0u;
-#endif
-    if (gl_LocalInvocationIndex == 0u) still_open = 0u;
-    barrier();
-    if (inside) s = settle(block_is_cut, false);
-    vec3 color = shade(s.sums);
-    if (inside) {
-        bool with_cut = block_is_cut && whole == 0u;
-        float opacity_sum = s.sums[CHANNELS - 1], alpha = surface_alpha(s.sums[0], opacity_sum, with_cut, s.cover);
-        bool first_is_cut = behind_planes[7u * pixel_count + pixel] != 0.0;
-        if (with_cut && first_is_cut && !has(to.flags, TRANSPARENT)) {
-            float first = surface_alpha(settled[pixel], settled[(uint(CHANNELS) - 1u) * pixel_count + pixel], true,
-                                        behind_planes[4u * pixel_count + pixel]);
-            float uncut = surface_alpha(s.sums[0], opacity_sum, false, 0.0);
-            float left = wf_sub(1.0, first), over = s.cover;
-            float x = wf_mul(behind_planes[5u * pixel_count + pixel], s.cut_x);
-            float along = wf_fma(behind_planes[6u * pixel_count + pixel], s.cut_y, x);
-            float beside = wf_max(wf_sub(over, first), 0.0);
-            float hidden = wf_div(beside, 0.0 < left ? left : 1.0);
-            float related = wf_min(wf_mul(wf_abs(along), 2.0), 1.0);
-            alpha = wf_fma(related, wf_sub(0.0 < along ? hidden : uncut, over), over);
-        }
-        if (whole != 0u) alpha = merged_alpha(alpha, wf_mul(s.sums[0], to.unit_coverage_inverse));
-        float covered = behind_planes[3u * pixel_count + pixel];
-        float share = wf_mul(wf_sub(1.0, covered), alpha);
-        for (uint c = 0u; c < 3u; c++) {
-            uint at = c * pixel_count + pixel;
-            behind_planes[at] = wf_fma(color[c], share, behind_planes[at]);
-        }
-        float total = wf_add(covered, share);
-        behind_planes[3u * pixel_count + pixel] = total;
         float key = float_of(nearest[pixel]);
-        leave_pixel(passed[pixel] > -INF && -INF < key && total < 1.0, key);
+        nearest[pixel] = NEVER;
+        Surface s = settle(block_is_cut, true, false, key);
+        for (uint c = 0u; c < uint(CHANNELS); c++) SETTLED(c) = s.sums[c];
+        BEHIND(4u) = s.cover;
+        BEHIND(5u) = s.cut_x;
+        BEHIND(6u) = s.cut_y;
+        BEHIND(7u) = block_is_cut ? 1.0 : 0.0;
+        if (layers > 1u) {
+            float alpha = surface_alpha(s.sums[0], s.sums[CHANNELS - 1], block_is_cut, s.cover);
+            for (uint c = 0u; c < 4u; c++) BEHIND(c) = 0.0;
+            bool wanted = -INF < key && alpha < 1.0;
+            PASSED = wanted ? key : -INF;
+            if (wanted) still_open = 1u;
+        }
 #if WITH_CLIPS
         cut[flag] = 0u;
 #endif
     }
-    leave_tile(tile);
+    barrier();
+    if (gl_LocalInvocationIndex == 0u) tiles[tile].open = still_open;
 }
 #endif
 
@@ -459,45 +357,45 @@ uint color_code(vec4 color) {
 }
 
 void main() {
-    uint tile = first_tile + gl_WorkGroupID.x;
+    uint tile = group_number();
+    if (tile >= tile_count) return;
     uvec2 in_band = uvec2(tile % tiles_per_row, tile / tiles_per_row) * uint(TILE_PX) + gl_LocalInvocationID.xy;
     bool inside = all(lessThan(in_band, band_px));
     pixel_count = band_px.x * band_px.y;
     pixel = inside ? in_band.y * band_px.x + in_band.x : 0u;
     in_picture = first_px + in_band;
     float s[CHANNELS];
-    for (uint c = 0u; c < uint(CHANNELS); c++) s[c] = inside ? settled[c * pixel_count + pixel] : 0.0;
+    for (uint c = 0u; c < uint(CHANNELS); c++) s[c] = inside ? SETTLED(c) : 0.0;
     vec3 color = shade(s);
+    if (gl_LocalInvocationIndex == 0u) tiles[tile].count = 0u;
     if (!inside || any(greaterThanEqual(in_picture, picture_px))) return;
-    bool is_cut = behind_planes[7u * pixel_count + pixel] != 0.0;
-    float alpha = surface_alpha(s[0], s[CHANNELS - 1], is_cut, behind_planes[4u * pixel_count + pixel]);
-    vec4 result = vec4(color, alpha);
+    float alpha = surface_alpha(s[0], s[CHANNELS - 1], BEHIND(7u) != 0.0, BEHIND(4u));
+    vec4 shown = vec4(color, alpha);
     if (alpha < 1.0) {
         float through = wf_sub(1.0, alpha);
-        for (int i = 0; i < 3; i++) result[i] = wf_mul(result[i], alpha);
-        if (layered != 0u) {
-            for (uint c = 0u; c < 4u; c++)
-                result[c] = wf_fma(behind_planes[c * pixel_count + pixel], through, result[c]);
-            through = wf_sub(1.0, result.a);
+        for (int i = 0; i < 3; i++) shown[i] = wf_mul(shown[i], alpha);
+        if (layers > 1u) {
+            for (uint c = 0u; c < 4u; c++) shown[c] = wf_fma(BEHIND(c), through, shown[c]);
+            through = wf_sub(1.0, shown.a);
         }
-        for (int i = 0; i < 4; i++) result[i] = wf_fma(to.background[i], through, result[i]);
+        for (int i = 0; i < 4; i++) shown[i] = wf_fma(to.background[i], through, shown[i]);
     }
     uint at = in_band.y * picture_px.x + in_picture.x;
     bool broken = false;
-    for (int i = 0; i < 4; i++) broken = broken || !(wf_abs(result[i]) <= LARGEST);
-    if (broken) atomicAdd(open[tile_count + 1u], 1u);
-    if (with_codes != 0u) rgba8[at] = color_code(result);
+    for (int i = 0; i < 4; i++) broken = broken || !(wf_abs(shown[i]) <= LARGEST);
+    if (broken) atomicAdd(broken_count, 1u);
+    if (with_codes != 0u) result[at] = color_code(shown);
     if (rgba_at >= 0)
-        for (int i = 0; i < 4; i++) planes[uint(rgba_at) + at * 4u + uint(i)] = result[i];
+        for (int i = 0; i < 4; i++) result[uint(rgba_at) + at * 4u + uint(i)] = floatBitsToUint(shown[i]);
     bool covered = 0.0 < s[0];
 #if WITH_DEPTH
     if (depth_at >= 0)
-        planes[uint(depth_at) + at] =
-            covered ? wf_mul(wf_mul(s[DEPTH_CHANNEL], inverse_weight(s[0])), to.depth_unit) : INF;
+        result[uint(depth_at) + at] = floatBitsToUint(
+            covered ? wf_mul(wf_mul(s[DEPTH_CHANNEL], inverse_weight(s[0])), to.depth_unit) : INF);
 #endif
     if (coverage_at >= 0)
-        planes[uint(coverage_at) + at] = has(to.flags, ONE_PASS) ? wf_keep(covered, 1.0)
-                                                                 : wf_mul(s[0], to.unit_coverage_inverse);
+        result[uint(coverage_at) + at] = floatBitsToUint(
+            has(to.flags, ONE_PASS) ? wf_keep(covered, 1.0) : wf_mul(s[0], to.unit_coverage_inverse));
 #if WITH_NORMAL
     if (normal_at >= 0) {
         vec3 unit = vec3(s[4], s[5], s[6]);
@@ -505,7 +403,7 @@ void main() {
         unit = scale3(unit, wf_keep(0.0 < length2, wf_inverse_root(length2)));
         float turn[9] = to.to_world;
         unit = rotate(turn, unit);
-        for (int i = 0; i < 3; i++) planes[uint(normal_at) + at * 3u + uint(i)] = unit[i];
+        for (int i = 0; i < 3; i++) result[uint(normal_at) + at * 3u + uint(i)] = floatBitsToUint(unit[i]);
     }
 #endif
 }

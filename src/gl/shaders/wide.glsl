@@ -4,7 +4,7 @@
 // The operations and functions of src/wide (wide.h, wide_functions.h, shine.h, pixels.h) for one lane: each exact or correctly
 // rounded, whatever the device does by itself. FUSED, DIVIDES and ROOTS say what it can.
 
-const float INF = uintBitsToFloat(0x7f800000u);
+#define INF uintBitsToFloat(0x7f800000u)
 
 float wf_add(float a, float b) { precise float r = a + b; return r; }
 float wf_sub(float a, float b) { precise float r = a - b; return r; }
@@ -23,18 +23,11 @@ float wf_sqrt(float a) { precise float r = sqrt(a); return r; }
 float wf_sqrt(float a) { precise double r = sqrt(double(a)); return float(r); }
 #endif
 
-#if FUSED
-float wf_fma(float a, float b, float c) { precise float r = fma(a, b, c); return r; }
-#else
-// The product is exact in double precision; the sum is rounded to odd there, so that rounding it once more is as if it had
-// been rounded once. Based on: S. Boldo, G. Melquiond, "Emulation of FMA and Correctly Rounded Sums: Proved
-// Algorithms Using Rounding to Odd", 2008.
-float wf_fma(float a, float b, float c) {
-    precise double p = double(a) * double(b);
-    precise double d = double(c);
-    precise double s = p + d;
-    precise double q = s - p;
-    precise double e = (p - (s - q)) + (d - q);
+// The sum of two doubles, rounded to odd, so that rounding it once more is as if it had been rounded once.
+double odd_sum(double a, double b) {
+    precise double s = a + b;
+    precise double q = s - a;
+    precise double e = (a - (s - q)) + (b - q);
     uvec2 w = unpackDouble2x32(s);
     if ((e > 0.0LF || e < 0.0LF) && (w.x & 1u) == 0u) {
         if ((e > 0.0LF) == (s > 0.0LF)) {
@@ -45,9 +38,36 @@ float wf_fma(float a, float b, float c) {
         }
         s = packDouble2x32(w);
     }
-    return float(s);
+    return s;
+}
+
+#if FUSED
+float wf_fma(float a, float b, float c) { precise float r = fma(a, b, c); return r; }
+#else
+// The product is exact in double precision. Based on: S. Boldo, G. Melquiond, "Emulation of FMA and Correctly Rounded Sums: Proved
+// Algorithms Using Rounding to Odd", 2008.
+float wf_fma(float a, float b, float c) {
+    precise double p = double(a) * double(b);
+    return float(odd_sum(p, double(c)));
 }
 #endif
+
+// a b + c of doubles, rounded once; the same paper's algorithm, with Dekker's product.
+double wd_fma(double a, double b, double c) {
+    precise double far_a = a * 134217729.0LF, far_b = b * 134217729.0LF;
+    precise double a_high = far_a - (far_a - a), b_high = far_b - (far_b - b);
+    precise double a_low = a - a_high, b_low = b - b_high;
+    precise double product = a * b;
+    precise double product_low = ((a_high * b_high - product) + a_high * b_low + a_low * b_high) + a_low * b_low;
+    precise double low_sum = c + product_low;
+    precise double q = low_sum - c;
+    precise double low_rest = (c - (low_sum - q)) + (product_low - q);
+    precise double sum = product + low_sum;
+    precise double t = sum - product;
+    precise double rest = (product - (sum - t)) + (low_sum - t);
+    precise double result = sum + odd_sum(low_rest, rest);
+    return result;
+}
 
 float wf_fnma(float a, float b, float c) { return wf_fma(-a, b, c); }
 float wf_min(float a, float b) { return a < b ? a : b; }
