@@ -6,6 +6,7 @@
 
 #include <inttypes.h>
 #include <stdio.h>
+#include <string.h>
 
 void backend_warn(cli_session *session, int backend, const ewa_renderer *renderer) {
     ewa_renderer_info info = {.struct_size = sizeof info};
@@ -37,6 +38,8 @@ static void write_gpu(json_writer *json, const ewa_gpu_info *gpu) {
     json_flag(json, "native_fma", gpu->native_fma);
     json_flag(json, "native_division", gpu->native_division);
     json_flag(json, "native_root", gpu->native_root);
+    json_flag(json, "subnormals", gpu->subnormals);
+    json_text(json, "devices", gpu->devices);
     json_count(json, "storage_bytes", gpu->storage_bytes);
     json_count(json, "storage_buffers", gpu->storage_count);
     json_count(json, "group_threads", gpu->group_threads);
@@ -56,12 +59,17 @@ static void print_gpu(const ewa_gpu_info *gpu) {
     printf("  class       %s%s\n", ewa_gpu_class_name(gpu->device_class), meanings[gpu->device_class]);
     if (*gpu->differs) printf("  differs     %s\n", gpu->differs);
     if (gpu->device_class >= EWA_GPU_CLOSE)
-        printf("  arithmetic  fma %s, division %s, square root %s\n", gpu->native_fma ? "native" : "emulated",
-               gpu->native_division ? "native" : "emulated", gpu->native_root ? "native" : "emulated");
+        printf("  arithmetic  fma %s, division %s, square root %s%s\n", gpu->native_fma ? "native" : "emulated",
+               gpu->native_division ? "native" : "emulated", gpu->native_root ? "native" : "emulated",
+               gpu->subnormals ? "" : ", no numbers below 1.2e-38");
     printf("  storage     %" PRIu32 " buffers of %" PRIu64 " MiB at most\n", gpu->storage_count,
            gpu->storage_bytes >> 20);
     printf("  groups      %" PRIu32 " threads at most\n", gpu->group_threads);
     printf("  pictures    %" PRIu32 " px at most\n", gpu->texture_px);
+    for (const char *line = gpu->devices, *end = line; *line; line = end + (*end == '\n')) {
+        end = line + strcspn(line, "\n");
+        printf("  device      %.*s\n", (int)(end - line), line);
+    }
 }
 
 bool backend_print_gpu(cli_session *session, json_writer *json) {

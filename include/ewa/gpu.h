@@ -51,6 +51,10 @@ typedef struct ewa_gpu_info {
     uint32_t storage_count; ///< of such buffers at a time
     uint32_t group_threads; ///< of a work group, at most
     uint32_t texture_px;    ///< side of a picture that can be drawn into, at most
+    /// All devices that there are, a line each: the number by which the environment takes it (EWA_GL_DEVICE), its name, or why it
+    /// cannot be opened.
+    char devices[1024];
+    bool subnormals;        ///< it has numbers below 1.2e-38; false: they are 0
 } ewa_gpu_info;
 
 /// Opens the device that EWA_BACKEND_GL would draw with, tries how it calculates, and closes it. Takes tenths of a second.

@@ -15,7 +15,7 @@ typedef struct band {
     const ewa_tile_job *job;
     ewa_gl_rows rows;
     uint32_t width_px, height_px;                ///< whole blocks
-    uint32_t tiles_per_row, tile_count, source_pages;
+    uint32_t tiles_per_row, tile_count, source_pages, parts;
     uint64_t result_words;
     bool answered;
 } band;
@@ -134,6 +134,7 @@ static ewa_status put_band(ewa_gl_compute *gl, const band *b) {
                                .ask_capacity = gl->marks.asks,
                                .unit_splats = gl->unit_splats,
                                .group_limit = gl->device->facts.group_count,
+                               .parts = b->parts,
                                .answered = b->answered};
     wanted_plane planes[PLANES];
     list_planes(&job->resolve, planes);
@@ -168,14 +169,17 @@ static void bind_pixels(const ewa_gl_compute *gl) {
 }
 
 /// Makes a pass's program the one in use.
-static ewa_status use(ewa_gl_compute *gl, const ewa_tile_job *job, ewa_gl_pass pass) {
+static ewa_status use(ewa_gl_compute *gl, const band *b, ewa_gl_pass pass) {
+    const ewa_tile_job *job = b->job;
     ewa_gl_variant v;
     memset(&v, 0, sizeof v);
     v.pass = (uint8_t)pass;
     if (pass >= EWA_GL_VISIBILITY) {
         v.tile_px = (uint8_t)gl->tile_px;
         v.with_clips = job->with_clips;
-        v.rays = pass != EWA_GL_FIRST_SURFACE && pass != EWA_GL_PICTURE && job->view.raycast;
+        const bool splats = pass != EWA_GL_FIRST_SURFACE && pass != EWA_GL_PICTURE;
+        v.rays = splats && job->view.raycast;
+        v.with_nears = splats && b->answered && gl->answers.near_count;
     }
     if (pass > EWA_GL_VISIBILITY) {
         v.with_normals = job->with_normals, v.with_depth = job->with_depth;
@@ -215,7 +219,7 @@ static ewa_status set_up(ewa_gl_compute *gl, const band *b) {
     const ewa_tile_job *job = b->job;
     const uint32_t *indices = gl->indices.data;
     for (int pass = EWA_GL_CULL; pass <= EWA_GL_SETUP; pass++) {
-        EWA_TRY(use(gl, job, (ewa_gl_pass)pass));
+        EWA_TRY(use(gl, b, (ewa_gl_pass)pass));
         for (uint32_t i = 0, number = 0; i < job->source_count; i++) {
             const ewa_gl_resident *resident = ewa_gl_residents_at(&gl->residents, indices[i]);
             const ewa_packet_source *packets = &job->sources[i].packets;
@@ -293,25 +297,34 @@ static ewa_status answer(ewa_gl_compute *gl, const band *b, bool *again) {
     return ewa_gl_check(gl->device, "near surfels");
 }
 
+/// Goes over the splats of units, or tiles, in parts.
+static ewa_status pass_over(ewa_gl_compute *gl, const band *b, ewa_gl_pass pass, ewa_gl_time stage) {
+    enum { PART };
+    EWA_TRY(use(gl, b, pass));
+    for (uint32_t part = 0; part < b->parts; part++) {
+        glUniform1ui(PART, part);
+        if (pass == EWA_GL_EDGES)
+            dispatch(gl, (b->tile_count + b->parts - 1) / b->parts, stage);
+        else
+            dispatch_counted(gl, EWA_GL_OF_UNITS, stage);
+        if (part + 1 < b->parts) glFlush();
+    }
+    return EWA_OK;
+}
+
 /// Lists, sums, surfaces and pixels, and the way of these and the counts to where the host can read them.
 static ewa_status draw_pixels(ewa_gl_compute *gl, const band *b) {
-    const ewa_tile_job *job = b->job;
-    EWA_TRY(use(gl, job, EWA_GL_DIVIDE));
+    EWA_TRY(use(gl, b, EWA_GL_DIVIDE));
     dispatch(gl, (b->tile_count + THREADS - 1) / THREADS, EWA_GL_TIME_SETUP);
-    EWA_TRY(use(gl, job, EWA_GL_FILL));
+    EWA_TRY(use(gl, b, EWA_GL_FILL));
     dispatch_counted(gl, EWA_GL_OF_LISTS, EWA_GL_TIME_SETUP);
     bind_pixels(gl);
-    EWA_TRY(use(gl, job, EWA_GL_VISIBILITY));
-    dispatch_counted(gl, EWA_GL_OF_UNITS, EWA_GL_TIME_VISIBILITY);
-    EWA_TRY(use(gl, job, EWA_GL_SUMS));
-    dispatch_counted(gl, EWA_GL_OF_UNITS, EWA_GL_TIME_ACCUMULATE);
-    EWA_TRY(use(gl, job, EWA_GL_FIRST_SURFACE));
+    EWA_TRY(pass_over(gl, b, EWA_GL_VISIBILITY, EWA_GL_TIME_VISIBILITY));
+    EWA_TRY(pass_over(gl, b, EWA_GL_SUMS, EWA_GL_TIME_ACCUMULATE));
+    EWA_TRY(use(gl, b, EWA_GL_FIRST_SURFACE));
     dispatch(gl, b->tile_count, EWA_GL_TIME_RESOLVE);
-    if (job->layers > 1) {
-        EWA_TRY(use(gl, job, EWA_GL_EDGES));
-        dispatch(gl, b->tile_count, EWA_GL_TIME_EDGES);
-    }
-    EWA_TRY(use(gl, job, EWA_GL_PICTURE));
+    if (b->job->layers > 1) EWA_TRY(pass_over(gl, b, EWA_GL_EDGES, EWA_GL_TIME_EDGES));
+    EWA_TRY(use(gl, b, EWA_GL_PICTURE));
     dispatch(gl, b->tile_count, EWA_GL_TIME_RESOLVE);
     glBindBuffer(GL_COPY_WRITE_BUFFER, gl->buffers[EWA_GL_READBACK].name);
     glBindBuffer(GL_COPY_READ_BUFFER, gl->buffers[EWA_GL_COUNTS].name);
@@ -366,9 +379,19 @@ static ewa_status fetch(ewa_gl_compute *gl, const band *b, ewa_gl_outcome *outco
     return status == EWA_OK ? ewa_gl_check(gl->device, "the picture") : status;
 }
 
+/// How many dispatches keep each below what a system's watchdog waits for, by what the last frame took; software has none.
+static uint32_t count_parts(const ewa_gl_compute *gl, double longest_s) {
+    enum { MAX_PARTS = 256 };
+    static const double PART_S = 0.05;
+    const double parts = gl->device->facts.software ? 0 : longest_s / PART_S;
+    const uint32_t wanted = 1 + (uint32_t)(parts < MAX_PARTS ? parts : MAX_PARTS);
+    return wanted > gl->least_parts ? wanted : gl->least_parts;
+}
+
 /// Draws the band once; `*again`: there was too little room for it, or it had to be answered.
 static ewa_status draw_once(ewa_gl_compute *gl, band *b, ewa_gl_outcome *outcome, bool *again) {
     b->answered = gl->answering;
+    b->parts = count_parts(gl, gl->longest_s);
     EWA_TRY(reserve_work(gl, b));
     EWA_TRY(reserve_planes(gl, b));
     EWA_TRY(put_band(gl, b));

@@ -8,6 +8,7 @@
 #include "gl/backends.h"
 #include "gl/tuning.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -60,6 +61,7 @@ ewa_status ewa_gl_compute_create(ewa_context *context, void **state) {
     made->room.eye_dome.kernels = EWA_CHOOSE(ewa_context_cpu_features(context), ewa_pipeline_kernels);
     made->tile_px = (uint32_t)ewa_gl_tuning("tile_px", DEFAULT_TILE_PX);
     made->unit_splats = (uint32_t)ewa_gl_tuning("unit", DEFAULT_UNIT);
+    made->least_parts = (uint32_t)ewa_gl_tuning("parts", 1);
     made->residents.page_packets = (uint32_t)ewa_gl_tuning("page", 0);
     ewa_status status = ewa_gl_open(context, &made->device);
     if (status == EWA_OK) status = ewa_gl_try(made->device, &made->verdict);
@@ -72,26 +74,32 @@ ewa_status ewa_gl_compute_create(ewa_context *context, void **state) {
     return EWA_OK;
 }
 
-/// Draws rows, in halves where they do not fit the device.
+/// How many rows a band of this frame may have: as many as fitted when one like it was drawn.
+static void recall_rows(ewa_gl_compute *gl, const ewa_tile_job *job) {
+    ewa_gl_fit now = {job->tiles.width_px, job->tiles.height_px, UINT32_MAX, 0};
+    for (uint32_t i = 0; i < job->source_count; i++) now.splat_count += job->sources[i].surfels->count;
+    const ewa_gl_fit *before = &gl->fit;
+    if (now.width_px != before->width_px || now.height_px != before->height_px || now.splat_count != before->splat_count)
+        gl->fit = now;
+}
+
+/// Draws rows, in bands of fewer where they do not fit the device.
 static ewa_status draw_rows(ewa_gl_compute *gl, const ewa_tile_job *job, uint32_t first_row_px,
                             uint32_t end_row_px, ewa_gl_outcome *outcome) {
-    enum { DEEPEST = 32 };
-    uint32_t ends[DEEPEST], depth = 0;
-    ends[0] = end_row_px;
+    recall_rows(gl, job);
     for (uint32_t row = first_row_px; row < end_row_px;) {
-        const uint32_t end = ends[depth], fields = (end - row + EWA_FIELD_PX - 1) / EWA_FIELD_PX;
-        const bool divisible = fields > 1 && depth + 1 < DEEPEST;
-        if (divisible) ewa_failures_soften(gl->context, true);
+        const uint32_t left = end_row_px - row, end = left > gl->fit.rows_px ? row + gl->fit.rows_px : end_row_px;
+        const uint32_t fields = (end - row + EWA_FIELD_PX - 1) / EWA_FIELD_PX;
+        if (fields > 1) ewa_failures_soften(gl->context, true);
         const ewa_status status = ewa_gl_band_draw(gl, job, (ewa_gl_rows){row, end}, outcome);
-        if (divisible) ewa_failures_soften(gl->context, false);
-        if ((status == EWA_ERROR_LIMIT || status == EWA_ERROR_MEMORY) && divisible) {
+        if (fields > 1) ewa_failures_soften(gl->context, false);
+        if ((status == EWA_ERROR_LIMIT || status == EWA_ERROR_MEMORY) && fields > 1) {
+            gl->fit.rows_px = fields / 2 * EWA_FIELD_PX;
             gl->marks = (ewa_gl_marks){0};
-            ends[++depth] = row + fields / 2 * EWA_FIELD_PX;
             continue;
         }
         EWA_TRY(status);
         row = end;
-        if (depth) depth--;
         EWA_TRY(
             ewa_progress(gl->context, "render", (double)(row - first_row_px) / (end_row_px - first_row_px)));
     }
@@ -163,6 +171,7 @@ ewa_status ewa_gl_compute_draw(void *state, const ewa_render_job *frame, ewa_ren
     ewa_job_finish(gl->context, &gl->room, frame, outcome.broken);
     *stats = (ewa_render_stats){0};
     ewa_gl_times_tell(&gl->times, stats);
+    gl->longest_s = fmax(fmax(stats->visibility_s, stats->accumulate_s), stats->edge_s);
     ewa_job_count(&job, 0, stats);
     uint64_t packets = 0;
     for (uint32_t i = 0; i < job.source_count; i++) packets += job.sources[i].surfels->packet_count;

@@ -52,6 +52,12 @@ typedef struct ewa_gl_rows {
     uint32_t first_px, end_px;
 } ewa_gl_rows;
 
+/// A frame, and how many rows of it the device has room for.
+typedef struct ewa_gl_fit {
+    uint32_t width_px, height_px, rows_px;
+    uint64_t splat_count;
+} ewa_gl_fit;
+
 /// What came of a band's frame.
 typedef struct ewa_gl_outcome {
     uint64_t broken, drawn; ///< pixels without a colour; records in tiles
@@ -66,14 +72,16 @@ typedef struct ewa_gl_compute {
     ewa_gl_residents residents;
     ewa_gl_buffer buffers[EWA_GL_BUFFERS];
     ewa_gl_marks marks;
+    ewa_gl_fit fit; ///< of the last frame
     ewa_gl_times times;
     ewa_gl_answers answers;
     ewa_job_room room;
     ewa_buffer views, placements, indices; ///< of sources
     uint64_t environment_serial;           ///< of what EWA_GL_ENVIRONMENT holds; 0: nothing
+    double longest_s; ///< the longest stage of the frame before
     bool answering;  ///< the last band asked the host for something: the next is likely to
     bool unfinished; ///< a band ended early: its sums are not back at their start
-    uint32_t tile_px, unit_splats;
+    uint32_t tile_px, unit_splats, least_parts;
 } ewa_gl_compute;
 
 /// Whether a device has what the pipeline needs, and how it calculates. Errors: EWA_ERROR_MEMORY,

@@ -15,6 +15,7 @@ enum { MAX_DEVICES = 16 };
 /// What there is to choose from.
 typedef struct candidates {
     EGLDisplay displays[MAX_DEVICES + 1];
+    const char *files[MAX_DEVICES + 1]; ///< that the driver opens; NULL: not known
     int count;
 } candidates;
 
@@ -24,8 +25,17 @@ static bool has_library(void) {
            (ewa_platform_has_library("libOpenGL.so.0") || ewa_platform_has_library("libGL.so.1"));
 }
 
+/// The file by which a device is reached, as far as its driver says.
+static const char *file_of(EGLDeviceEXT device) {
+    const char *extensions = eglQueryDeviceStringEXT(device, EGL_EXTENSIONS);
+    enum { RENDER_NODE_FILE = 0x3377 }; // EGL_EXT_device_drm_render_node
+    if (!extensions) return NULL;
+    if (strstr(extensions, "EGL_EXT_device_drm_render_node")) return eglQueryDeviceStringEXT(device, RENDER_NODE_FILE);
+    return strstr(extensions, "EGL_EXT_device_drm") ? eglQueryDeviceStringEXT(device, EGL_DRM_DEVICE_FILE_EXT) : NULL;
+}
+
 static void find_displays(candidates *found) {
-    found->count = 0;
+    memset(found, 0, sizeof *found);
     if (epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_EXT_device_enumeration") &&
         epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_EXT_platform_device")) {
         EGLDeviceEXT devices[MAX_DEVICES];
@@ -34,7 +44,9 @@ static void find_displays(candidates *found) {
             for (EGLint i = 0; i < count; i++) {
                 const EGLDisplay display =
                     eglGetPlatformDisplayEXT(EGL_PLATFORM_DEVICE_EXT, devices[i], NULL);
-                if (display != EGL_NO_DISPLAY) found->displays[found->count++] = display;
+                if (display == EGL_NO_DISPLAY) continue;
+                found->files[found->count] = file_of(devices[i]);
+                found->displays[found->count++] = display;
             }
     }
     if (epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_MESA_platform_surfaceless")) {
@@ -141,6 +153,35 @@ static bool choose_display(ewa_gl *device, const candidates *found) {
     return false;
 }
 
+/// Why a device gives no context, where that can be seen from here; else "".
+static const char *hint_of(const char *file) {
+    ewa_platform_facts facts;
+    if (!file && !ewa_platform_stat("/dev/dri", &facts) && !ewa_platform_stat("/dev/nvidiactl", &facts))
+        return "; there is no /dev/dri (a container is given it by --device /dev/dri, or --gpus all)";
+    if (file && !(ewa_platform_may_read(file) && ewa_platform_may_write(file)))
+        return "; its file in /dev/dri is not this user's to open (groups render and video)";
+    return "";
+}
+
+void ewa_gl_list(char *text, size_t size_bytes) {
+    text[0] = 0;
+    if (!has_library()) return;
+    const EGLenum api = eglQueryAPI();
+    candidates found;
+    find_displays(&found);
+    size_t at = 0;
+    for (int i = 0; i < found.count && at < size_bytes; i++) {
+        ewa_gl device = {.gl = EGL_NO_CONTEXT};
+        if (try_display(&device, found.displays[i]))
+            at += (size_t)snprintf(text + at, size_bytes - at, "%s%d: %s", i ? "\n" : "", i, device.facts.renderer);
+        else
+            at += (size_t)snprintf(text + at, size_bytes - at, "%s%d: no context%s", i ? "\n" : "", i,
+                                   hint_of(found.files[i]));
+        destroy_context(&device);
+    }
+    eglBindAPI(api);
+}
+
 ewa_status ewa_gl_open(ewa_context *context, ewa_gl **device) {
     *device = NULL;
     if (!has_library())
@@ -160,8 +201,8 @@ ewa_status ewa_gl_open(ewa_context *context, ewa_gl **device) {
         return ewa_fail(
             context, EWA_ERROR_UNSUPPORTED,
             "OpenGL: none of %d devices gives a context without a window; a driver may be missing "
-            "(Debian: libegl-mesa0 and libgl1-mesa-dri, or libnvidia-gl)",
-            found.count);
+            "(Debian: libegl-mesa0 and libgl1-mesa-dri, or libnvidia-gl)%s",
+            found.count, hint_of(found.files[0]));
     }
     ewa_gl_facts *facts = &made->facts;
     facts->storage_bytes = ewa_gl_tuning("storage", facts->storage_bytes);

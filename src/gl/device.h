@@ -55,6 +55,10 @@ typedef struct ewa_gl {
 /// EWA_ERROR_MEMORY.
 ewa_status ewa_gl_open(ewa_context *context, ewa_gl **device);
 
+/// Writes a line for each device that there is: its number for EWA_GL_DEVICE, its name, or why it gives no context. Cut where
+/// that is longer.
+void ewa_gl_list(char *text, size_t size_bytes);
+
 /// Closes a device whose objects are deleted, and sets `*device` to NULL; accepts a pointer to NULL.
 void ewa_gl_close(ewa_gl **device);
 

@@ -10,6 +10,7 @@
 ewa_status ewa_gpu_find(ewa_context *context, ewa_gpu_info *info) {
     ewa_gl *device;
     EWA_TRY(ewa_gl_open(context, &device));
+    ewa_gl_list(info->devices, sizeof info->devices);
     const ewa_gl_facts *facts = &device->facts;
     snprintf(info->vendor, sizeof info->vendor, "%s", facts->vendor);
     snprintf(info->renderer, sizeof info->renderer, "%s", facts->renderer);
@@ -31,5 +32,6 @@ ewa_status ewa_gpu_find(ewa_context *context, ewa_gpu_info *info) {
     info->native_fma = verdict.arithmetic.fused;
     info->native_division = verdict.arithmetic.divides;
     info->native_root = verdict.arithmetic.roots;
+    info->subnormals = verdict.subnormals;
     return EWA_OK;
 }

@@ -56,7 +56,7 @@ typedef struct ewa_gl_band_block {
     uint32_t layers, merge_last, with_codes;
     int32_t plane_at[4]; ///< of rgba, depth, normal, coverage; -1: not wanted
     uint32_t pair_capacity, list_capacity, unit_capacity, ask_capacity;
-    uint32_t unit_splats, group_limit, answered;
+    uint32_t unit_splats, group_limit, parts, answered;
 } ewa_gl_band_block;
 
 /// What programs count, before the arguments of indirect dispatches.

@@ -15,7 +15,7 @@
 #define WIDE_PORTABLE
 #include "wide/wide_functions.h"
 
-enum { COUNT = 1 << 14, WORDS = 8, GROUP = 64, LANES = 16 };
+enum { COUNT = 1 << 14, WORDS = 10, SINGLES = 8, GROUP = 64, LANES = 16 };
 
 /// As selftest.glsl has them.
 typedef struct numbers {
@@ -97,17 +97,25 @@ static bool all_agree(const trial_memory *memory, uint32_t word) {
     return true;
 }
 
-/// Sets which of a device's own operations are correctly rounded. Returns what else is wrong, that nothing helps; NULL: nothing.
-static const char *evaluate_own(trial_memory *memory, ewa_gl_arithmetic *own) {
+/// Whether the words of a double agree.
+static bool agree_double(const uint32_t words[2], double wanted) {
+    const uint64_t bits = (uint64_t)words[1] << 32 | words[0];
+    return memcmp(&bits, &wanted, sizeof bits) == 0;
+}
+
+/// Sets which of a device's own operations are correctly rounded, and whether it has numbers below the normal ones. Returns what else is wrong, that nothing helps; NULL: nothing.
+static const char *evaluate_own(trial_memory *memory, ewa_gl_arithmetic *own, bool *subnormals) {
     bool doubles = true;
+    *subnormals = true;
     for (uint32_t i = 0; i < COUNT; i++) {
         const numbers *v = &memory->inputs[i];
         const double product = (double)v->a * (double)v->b, sum = product + (double)v->c;
         float *wanted = memory->wanted[i];
         wanted[0] = fmaf(v->a, v->b, v->c), wanted[1] = v->n / v->m, wanted[2] = sqrtf(v->x);
         wanted[3] = v->a * v->b + v->c, wanted[4] = (float)product, wanted[7] = v->x;
-        const uint64_t bits = (uint64_t)memory->results[i][6] << 32 | memory->results[i][5];
-        doubles &= memcmp(&bits, &sum, sizeof bits) == 0;
+        doubles &= agree_double(&memory->results[i][5], sum);
+        const float small = v->s * 0x1p-126f;
+        *subnormals &= memcmp(&memory->results[i][8], &small, sizeof small) == 0;
     }
     own->fused = all_agree(memory, 0), own->divides = all_agree(memory, 1), own->roots = all_agree(memory, 2);
     if (!all_agree(memory, 3)) return "sum of a product"; // made one operation, although it is `precise`
@@ -128,7 +136,7 @@ static const char *find_difference(trial_memory *memory) {
     for (uint32_t i = 0; i < COUNT; i += LANES) {
         const numbers *inputs = &memory->inputs[i];
         const wf x = TAKE(x), s = TAKE(s);
-        const wf wanted[WORDS] = {wf_fma(TAKE(a), TAKE(b), TAKE(c)),
+        const wf wanted[SINGLES] = {wf_fma(TAKE(a), TAKE(b), TAKE(c)),
                                   wf_div(TAKE(n), TAKE(m)),
                                   wf_sqrt(x),
                                   wf_reciprocal(x),
@@ -136,17 +144,23 @@ static const char *find_difference(trial_memory *memory) {
                                   wf_log2(x),
                                   wf_exp2(TAKE(e)),
                                   wf_odd_product(s, s)};
-        for (int w = 0; w < WORDS; w++) {
+        for (int w = 0; w < SINGLES; w++) {
             float lanes[LANES];
             wf_store(lanes, wanted[w]);
             for (uint32_t k = 0; k < LANES; k++) memory->wanted[i + k][w] = lanes[k];
         }
     }
-    static const char *const names[WORDS] = {
+    static const char *const names[SINGLES] = {
         "fma",          "division",  "square root", "reciprocal",
         "inverse root", "logarithm", "power of 2",  "product rounded to odd"};
-    for (uint32_t w = 0; w < WORDS; w++)
+    for (uint32_t w = 0; w < SINGLES; w++)
         if (!all_agree(memory, w)) return names[w];
+    for (uint32_t i = 0; i < COUNT; i++) {
+        const numbers *v = &memory->inputs[i];
+        const double a = (double)v->a + (double)v->n * 0x1p-30, b = (double)v->b + (double)v->m * 0x1p-30;
+        const double c = i & 1 ? -(a * b) : (double)v->c + (double)v->x * 0x1p-30;
+        if (!agree_double(&memory->results[i][SINGLES], fma(a, b, c))) return "fma of doubles";
+    }
     return NULL;
 }
 
@@ -181,7 +195,7 @@ static ewa_status evaluate(ewa_gl *device, const ewa_gl_buffer *inputs, const ew
                            trial_memory *memory, ewa_gl_verdict *verdict) {
     ewa_gl_arithmetic *use = &verdict->arithmetic;
     EWA_TRY(run(device, use, true, inputs, results, memory));
-    verdict->differs = evaluate_own(memory, &verdict->own);
+    verdict->differs = evaluate_own(memory, &verdict->own, &verdict->subnormals);
     *use = verdict->own;
     if (ewa_gl_tuning_is("arith", "emulated")) *use = (ewa_gl_arithmetic){false, false, false};
     if (ewa_gl_tuning_is("arith", "close")) *use = (ewa_gl_arithmetic){true, true, true};

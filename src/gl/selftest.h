@@ -13,6 +13,7 @@ typedef struct ewa_gl_verdict {
     ewa_gl_arithmetic own;        ///< what of the device's arithmetic is correctly rounded
     ewa_gl_arithmetic arithmetic; ///< what of it is to be used
     bool exact;                   ///< with that every operation gives the bits of the processor
+    bool subnormals;              ///< it has numbers below the normal ones; else they are 0
     const char *differs;          ///< the first operation that does not; NULL: none
 } ewa_gl_verdict;
 

@@ -75,10 +75,9 @@ size_t ewa_gl_head_write(const ewa_gl_arithmetic *arithmetic, char *head) {
     return at;
 }
 
-static ewa_status make(ewa_gl *device, const ewa_gl_variants *variants, const ewa_gl_variant *v,
-                       GLuint *program) {
-    enum { MAX_PIECES = 8, COMMON = 2 };
-    static const char *const pieces[][MAX_PIECES] = {
+void ewa_gl_variant_write(const ewa_gl_arithmetic *arithmetic, const ewa_gl_variant *v, ewa_gl_source *source) {
+    enum { COMMON = 2, OWN = EWA_GL_MAX_PIECES - COMMON };
+    static const char *const pieces[][OWN] = {
         [EWA_GL_CULL] = {ewa_shader_scene, ewa_shader_packet, ewa_shader_cull},
         [EWA_GL_SETUP] = {ewa_shader_scene, ewa_shader_packet, ewa_shader_setup},
         [EWA_GL_DIVIDE] = {ewa_shader_divide},
@@ -90,6 +89,25 @@ static ewa_status make(ewa_gl *device, const ewa_gl_variants *variants, const ew
                           ewa_shader_edges},
         [EWA_GL_PICTURE] = {ewa_shader_sums, ewa_shader_surface},
     };
+    static const int pass_numbers[] = {[EWA_GL_VISIBILITY] = 1,
+                                       [EWA_GL_SUMS] = 2,
+                                       [EWA_GL_FIRST_SURFACE] = 3,
+                                       [EWA_GL_EDGES] = 4,
+                                       [EWA_GL_PICTURE] = 5};
+    const size_t at = ewa_gl_head_write(arithmetic, source->head);
+    snprintf(source->head + at, sizeof source->head - at,
+             "#define PASS %d\n#define TILE_PX %d\n#define CHANNELS %d\n#define WITH_NORMAL %d\n"
+             "#define WITH_DEPTH %d\n#define DEPTH_CHANNEL %du\n#define WITH_MATERIAL %d\n"
+             "#define WITH_OPACITY %d\n#define WITH_CLIPS %d\n#define WITH_NEARS %d\n#define WITH_FINE %d\n#define RAYS %d\n",
+             pass_numbers[v->pass], v->tile_px, v->channel_count, v->with_normals, v->with_depth,
+             v->with_normals ? 7 : 4, v->with_materials, v->with_opacity, v->with_clips, v->with_nears, v->with_fine,
+             v->rays);
+    source->pieces[0] = ewa_shader_wide, source->pieces[1] = ewa_shader_band;
+    source->piece_count = COMMON;
+    for (int i = 0; i < OWN && pieces[v->pass][i]; i++) source->pieces[source->piece_count++] = pieces[v->pass][i];
+}
+
+static ewa_status make(ewa_gl *device, const ewa_gl_variants *variants, const ewa_gl_variant *v, GLuint *program) {
     static const char *const names[] = {[EWA_GL_CULL] = "culling",
                                         [EWA_GL_SETUP] = "set-up",
                                         [EWA_GL_DIVIDE] = "units",
@@ -99,27 +117,9 @@ static ewa_status make(ewa_gl *device, const ewa_gl_variants *variants, const ew
                                         [EWA_GL_FIRST_SURFACE] = "first surface",
                                         [EWA_GL_EDGES] = "edges",
                                         [EWA_GL_PICTURE] = "picture"};
-    static const int pass_numbers[] = {[EWA_GL_VISIBILITY] = 1,
-                                       [EWA_GL_SUMS] = 2,
-                                       [EWA_GL_FIRST_SURFACE] = 3,
-                                       [EWA_GL_EDGES] = 4,
-                                       [EWA_GL_PICTURE] = 5};
-    char head[EWA_GL_HEAD_BYTES + 512];
-    const size_t at = ewa_gl_head_write(&variants->arithmetic, head);
-    snprintf(head + at, sizeof head - at,
-             "#define PASS %d\n#define TILE_PX %d\n#define CHANNELS %d\n#define WITH_NORMAL %d\n"
-             "#define WITH_DEPTH %d\n#define DEPTH_CHANNEL %du\n#define WITH_MATERIAL %d\n"
-             "#define WITH_OPACITY %d\n#define WITH_CLIPS %d\n#define WITH_FINE %d\n#define RAYS %d\n",
-             pass_numbers[v->pass], v->tile_px, v->channel_count, v->with_normals, v->with_depth,
-             v->with_normals ? 7 : 4, v->with_materials, v->with_opacity, v->with_clips, v->with_fine,
-             v->rays);
-    const char *all[MAX_PIECES + COMMON] = {ewa_shader_wide, ewa_shader_band};
-    uint32_t piece_count = 0;
-    while (piece_count < MAX_PIECES && pieces[v->pass][piece_count]) {
-        all[COMMON + piece_count] = pieces[v->pass][piece_count];
-        piece_count++;
-    }
-    const ewa_gl_stage stage = {GL_COMPUTE_SHADER, head, all, COMMON + piece_count};
+    ewa_gl_source source;
+    ewa_gl_variant_write(&variants->arithmetic, v, &source);
+    const ewa_gl_stage stage = {GL_COMPUTE_SHADER, source.head, source.pieces, source.piece_count};
     return ewa_gl_program_make(device, names[v->pass], &stage, 1, program);
 }
 

@@ -22,7 +22,7 @@ typedef enum ewa_gl_pass {
 /// What a program is made for; all that it does not depend on is 0.
 typedef struct ewa_gl_variant {
     uint8_t pass, tile_px;
-    uint8_t with_normals, with_depth, with_materials, with_opacity, with_clips, with_fine, rays;
+    uint8_t with_normals, with_depth, with_materials, with_opacity, with_clips, with_nears, with_fine, rays;
     uint8_t channel_count;
 } ewa_gl_variant;
 
@@ -43,6 +43,17 @@ typedef struct ewa_gl_variants {
     GLuint programs[EWA_GL_MAX_VARIANTS];
 } ewa_gl_variants;
 
+enum { EWA_GL_HEAD_BYTES = 4096, EWA_GL_MAX_PIECES = 10 };
+
+/// The text of a program: a head, then pieces that the library has.
+typedef struct ewa_gl_source {
+    char head[EWA_GL_HEAD_BYTES + 512];
+    const char *pieces[EWA_GL_MAX_PIECES];
+    uint32_t piece_count;
+} ewa_gl_source;
+
+void ewa_gl_variant_write(const ewa_gl_arithmetic *arithmetic, const ewa_gl_variant *variant, ewa_gl_source *source);
+
 /// Returns a program that the variants keep until many others have been asked for. Errors: as ewa_gl_program_make().
 ewa_status ewa_gl_variant_get(ewa_gl *device, ewa_gl_variants *variants, const ewa_gl_variant *wanted,
                               GLuint *program);
@@ -51,7 +62,6 @@ void ewa_gl_variants_free(ewa_gl_variants *variants);
 
 /// Writes the head of a program of the pipeline: version, arithmetic and constants, to `head` of at least
 /// EWA_GL_HEAD_BYTES; returns how many bytes without the end.
-enum { EWA_GL_HEAD_BYTES = 4096 };
 size_t ewa_gl_head_write(const ewa_gl_arithmetic *arithmetic, char *head);
 
 #endif

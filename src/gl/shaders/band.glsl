@@ -16,6 +16,7 @@ layout(std140, binding = 0) uniform BandBlock {
     uint pair_capacity, list_capacity, unit_capacity, ask_capacity;
     uint unit_splats; // of a unit of work, at most
     uint group_limit; // groups of a dispatch along x
+    uint parts;       // dispatches that passes over splats are done in, so that none takes long
     uint answered;    // the host has made what set-up asks it for
 };
 

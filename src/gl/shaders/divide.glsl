@@ -54,6 +54,6 @@ void main() {
     uint lists = atomicAdd(list_count, 0u), all_units = atomicAdd(unit_count, 0u);
     bool fits = pair_count <= pair_capacity && atomicAdd(carry, 0u) == 0u && lists <= list_capacity &&
                 all_units <= unit_capacity && (answered != 0u || near_count + clip_count == 0u);
-    arguments[OF_UNITS] = groups_for(fits ? all_units : 0u, 0u);
+    arguments[OF_UNITS] = groups_for(fits ? (all_units + parts - 1u) / parts : 0u, 0u);
     if (!fits) arguments[OF_LISTS] = groups_for(0u, 0u);
 }

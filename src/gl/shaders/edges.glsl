@@ -32,19 +32,23 @@ float gather(Tile tile, uvec2 in_field, float beyond, bool merged) {
     uint first = tile.next - tile.count;
     if (!merged) {
         find_nearest(first, tile.next, false, in_field, beyond, largest);
+#if WITH_NEARS
         find_nearest(tile.first_near, tile.end_near, true, in_field, beyond, largest);
+#endif
         if (largest == -INF) return largest;
     }
     float bound = merged ? MIN_KEY_OF_ALL : largest;
     for (uint i = first; i < tile.next; i += unit_splats)
         add_splats(i, min(i + unit_splats, tile.next), false, in_field, beyond, bound);
+#if WITH_NEARS
     for (uint i = tile.first_near; i < tile.end_near; i += unit_splats)
         add_splats(i, min(i + unit_splats, tile.end_near), true, in_field, beyond, bound);
+#endif
     return largest;
 }
 
 void main() {
-    uint number = group_number();
+    uint number = work_number();
     if (number >= tile_count || tiles[number].open == 0u) return;
     Tile tile = tiles[number];
     uvec2 in_band = uvec2(number % tiles_per_row, number / tiles_per_row) * uint(TILE_PX) + gl_LocalInvocationID.xy;

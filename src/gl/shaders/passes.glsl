@@ -19,6 +19,11 @@ layout(std430, binding = 7) readonly buffer UnitBlock { uvec4 units[]; }; // til
 #else
 #define ADD(to, what) to += uint(what)
 #endif
+layout(location = 0) uniform uint part;
+
+// Parts take units or tiles in turns.
+uint work_number() { return group_number() * parts + part; }
+
 #if WITH_CLIPS && PASS == 4
 shared uint cut_blocks[TILE_PX / 4 * TILE_PX / 4];
 #endif
@@ -154,7 +159,7 @@ void find_nearest(uint first, uint end, bool near, uvec2 in_field, float beyond,
     vec2 at = vec2(float(in_field.x) - 63.5, float(in_field.y) - 63.5);
     uvec2 block = in_field / 4u;
     // Each pixel goes on to the next splat that may reach it, so that those of a group that work do so together.
-    for (uint i = first; !near; i++) {
+    for (uint i = first; WITH_NEARS == 0 || !near; i++) {
         while (i < end && !in_box(records[list[i]].box, block)) i++;
         if (i >= end) break;
         Record r = records[list[i]];
@@ -169,6 +174,7 @@ void find_nearest(uint first, uint end, bool near, uvec2 in_field, float beyond,
 #endif
         if (s.counts) largest = wf_max(s.bound, largest);
     }
+#if WITH_NEARS
     for (uint i = first; near && i < end; i++) {
         View view = views[nears[i].source];
         if (!has(view.flags, HIDES)) continue;
@@ -178,6 +184,7 @@ void find_nearest(uint first, uint end, bool near, uvec2 in_field, float beyond,
 #endif
         if (s.counts) largest = wf_max(s.bound, largest);
     }
+#endif
 }
 #endif
 
@@ -190,7 +197,7 @@ void add_splats(uint first, uint end, bool near, uvec2 in_field, float beyond, f
 #if WITH_FINE
     for (int i = 0; i < CHANNELS; i++) low_fine[i] = 0;
 #endif
-    for (uint i = first; !near; i++) {
+    for (uint i = first; WITH_NEARS == 0 || !near; i++) {
         while (i < end && !in_box(records[list[i]].box, block)) i++;
         if (i >= end) break;
         Record r = records[list[i]];
@@ -231,6 +238,7 @@ void add_splats(uint first, uint end, bool near, uvec2 in_field, float beyond, f
 #endif
         add_splat(p, view, s, bound, has(r.box, BACK_FACING), fine);
     }
+#if WITH_NEARS
     for (uint i = first; near && i < end; i++) {
         Near r = nears[i];
         View view = views[r.source];
@@ -257,6 +265,7 @@ void add_splats(uint first, uint end, bool near, uvec2 in_field, float beyond, f
 #endif
         add_splat(p, view, s, bound, has(r.flags, BACK_FACING), fine);
     }
+#endif
     for (uint i = 0u; i < uint(CHANNELS); i++) add_word(i, 0u, low[i], false);
 #if WITH_FINE
     for (uint i = 0u; i < uint(CHANNELS); i++) add_word(i, 2u, low_fine[i], false);
@@ -266,8 +275,8 @@ void add_splats(uint first, uint end, bool near, uvec2 in_field, float beyond, f
 
 #if PASS != 4
 void main() {
-    if (group_number() >= unit_count) return;
-    uvec4 unit = units[group_number()];
+    if (work_number() >= unit_count) return;
+    uvec4 unit = units[work_number()];
     uvec2 in_band = uvec2(unit.x % tiles_per_row, unit.x / tiles_per_row) * uint(TILE_PX) + gl_LocalInvocationID.xy;
     if (any(greaterThanEqual(in_band, band_px))) return;
     uvec2 in_field = (first_px + in_band) & 127u;

@@ -12,8 +12,10 @@ struct Numbers { float a, b, c, n, m, x, e, s; };
 layout(std430, binding = 0) readonly buffer Inputs { Numbers inputs[]; };
 layout(std430, binding = 1) writeonly buffer Results { uint results[]; };
 
+const double PER_2_30 = 9.31322574615478515625e-10LF;
+
 void main() {
-    uint i = gl_GlobalInvocationID.x, at = i * 8u;
+    uint i = gl_GlobalInvocationID.x, at = i * 10u;
     Numbers v = inputs[i];
 #if NATIVE
     precise float fused = fma(v.a, v.b, v.c), quotient = v.n / v.m, root = sqrt(v.x), product = v.a * v.b,
@@ -27,6 +29,8 @@ void main() {
     results[at + 5u] = unpackDouble2x32(wide).x;
     results[at + 6u] = unpackDouble2x32(wide).y;
     results[at + 7u] = floatBitsToUint(float(double(v.x)));
+    precise float small = v.s * MIN_NORMAL;
+    results[at + 8u] = floatBitsToUint(small);
 #else
     results[at] = floatBitsToUint(wf_fma(v.a, v.b, v.c));
     results[at + 1u] = floatBitsToUint(wf_div(v.n, v.m));
@@ -36,5 +40,10 @@ void main() {
     results[at + 5u] = floatBitsToUint(wf_log2(v.x));
     results[at + 6u] = floatBitsToUint(wf_exp2(v.e));
     results[at + 7u] = floatBitsToUint(wf_odd_product(v.s, v.s));
+    precise double a = double(v.a) + double(v.n) * PER_2_30, b = double(v.b) + double(v.m) * PER_2_30;
+    precise double left = -(a * b), other = double(v.c) + double(v.x) * PER_2_30;
+    uvec2 bits = unpackDouble2x32(wd_fma(a, b, (i & 1u) != 0u ? left : other));
+    results[at + 8u] = bits.x;
+    results[at + 9u] = bits.y;
 #endif
 }

@@ -14,7 +14,9 @@ struct Sample {
 };
 
 layout(std430, binding = 9) readonly buffer ClipBlock { Clip clips[]; };
+#if WITH_NEARS
 layout(std430, binding = 10) readonly buffer NearBlock { Near nears[]; };
+#endif
 
 float half_plane_share(ClipLine l, float x, float y) {
     float inside = wf_fma(l.x_inward, x, wf_fma(l.y_inward, y, l.offset));
@@ -99,6 +101,7 @@ Sample sample_record(Record r, vec2 at, View view) {
 #endif
 }
 
+#if WITH_NEARS
 float linear(float terms[3], vec2 at) { return wf_fma(terms[1], at.x, wf_fma(terms[2], at.y, terms[0])); }
 
 float key_of_depth(View view, float z) {
@@ -131,3 +134,4 @@ Sample sample_near(Near r, vec2 at, View view) {
     s.bound = key_of_depth(view, wf_add(depth, r.tolerance));
     return s;
 }
+#endif
