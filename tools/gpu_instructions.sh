@@ -2,8 +2,8 @@
 # SPDX-FileCopyrightText: 2026 The ewa authors
 # SPDX-License-Identifier: MIT
 #
-# Counts the instructions of the raster pipeline's programs, as table 2 of "Perspective Accurate Splatting" does:
-# gpu_instructions.sh [FOLDER OF src/gl]. Needs glslangValidator, spirv-opt and spirv-dis (Debian: glslang-tools, spirv-tools).
+# Counts the instructions of the raster pipeline's programs, as table 2 of "Perspective Accurate Splatting" does, and of the
+# compute pipeline's, with its arithmetic native and emulated: gpu_instructions.sh [FOLDER OF src/gl]. Needs glslangValidator, spirv-opt and spirv-dis (Debian: glslang-tools, spirv-tools).
 #
 # Programs are compiled to SPIR-V, their functions put into one, and simplified. An operation on a vector counts once. "arithmetic"
 # is what computes; "texels" what is read of pictures; "all" leaves out what only names, loads, stores or takes apart. Both sides of
@@ -19,6 +19,20 @@ constants=$(sed -n 's/^ *{"\([A-Z_0-9]*\)", .*}.*/\1/p' "$room/raster_programs.c
 
 edit=
 perspective='s/return (flags.x & flag) != 0u;/return (ELLIPSES \& flag) != 0u;/'
+
+# count STAGE NAME: of $work/program.STAGE.
+count() {
+    glslangValidator -G --amb --aml -o "$work/raw.spv" "$work/program.$1" >"$work/log" ||
+        { cat "$work/log" >&2; exit 1; }
+    spirv-opt --target-env=opengl4.5 -O "$work/raw.spv" -o "$work/program.spv"
+    spirv-dis --raw-id "$work/program.spv" | awk -v name="$2" '
+        { op = $2 == "=" ? $3 : $1 }
+        op ~ /^Op(F|I|S|U)(Add|Sub|Mul|Div|Mod|Rem|Negate)$/ || op ~ /^Op(Dot|VectorTimes|MatrixTimes|Shift|Bitwise|Not$|Convert|Select$|Logical|FOrd|FUnord|IEqual|INotEqual|ULess|UGreater|SLess|SGreater|Any$|All$|DPd)/ || op == "OpExtInst" { arithmetic++ }
+        op ~ /^OpImage(Fetch|Sample|QuerySize)/ { texels++ }
+        op ~ /^OpAtomic/ { control++ }
+        op ~ /^Op(BranchConditional|Switch|Kill|Phi)$/ { control++ }
+        END { printf "| %s | %d | %d | %d |\n", name, arithmetic, texels, arithmetic + texels + control }'
+}
 
 # compile STAGE NAME DEFINES PIECE...
 compile() {
@@ -36,15 +50,28 @@ compile() {
         done
         for piece in "$@"; do sed "$edit" "$room/shaders/raster_$piece.glsl"; done
     } >"$work/program.$stage"
-    glslangValidator -G --amb --aml -o "$work/raw.spv" "$work/program.$stage" >"$work/log" ||
-        { cat "$work/log" >&2; exit 1; }
-    spirv-opt --target-env=opengl4.5 -O "$work/raw.spv" -o "$work/program.spv"
-    spirv-dis --raw-id "$work/program.spv" | awk -v name="$name" '
-        { op = $2 == "=" ? $3 : $1 }
-        op ~ /^Op(F|I|S|U)(Add|Sub|Mul|Div|Mod|Rem|Negate)$/ || op ~ /^Op(Dot|VectorTimes|MatrixTimes|Shift|Bitwise|Not$|Convert|Select$|Logical|FOrd|FUnord|IEqual|INotEqual|ULess|UGreater|SLess|SGreater|Any$|All$|DPd)/ || op == "OpExtInst" { arithmetic++ }
-        op ~ /^OpImage(Fetch|Sample|QuerySize)/ { texels++ }
-        op ~ /^Op(BranchConditional|Switch|Kill|Phi)$/ { control++ }
-        END { printf "| %s | %d | %d | %d |\n", name, arithmetic, texels, arithmetic + texels + control }'
+    count "$stage" "$name"
+}
+
+# compute NAME DEFINES PIECE...: a default frame's.
+compute() {
+    name=$1 defines=$2
+    shift 2
+    {
+        echo "#version 430 core"
+        for define in MAX_LIGHTS=8 MAX_LEVELS=33 MAX_MATERIALS=256 MAX_SECTIONS=8 MERGED_SURFACES=8 CONE_BITS=11 CONE_AXIS=1023 \
+            CONE_SINE=1022u RADIUS_SHIFT=15 TILE_PX=8 CHANNELS=7 WITH_NORMAL=1 WITH_DEPTH=0 DEPTH_CHANNEL=7u WITH_MATERIAL=0 \
+            WITH_OPACITY=0 WITH_CLIPS=0 WITH_NEARS=0 WITH_FINE=0 RAYS=0 $defines; do
+            echo "#define ${define%=*} ${define#*=}"
+        done
+        value=1
+        for constant in $(sed -n 's/^ *{"\([A-Z_0-9]*\)", .*}.*/\1/p' "$room/variant.c"); do
+            value=$((value + 1))
+            echo "#define $constant $value.5"
+        done
+        for piece in wide band "$@"; do cat "$room/shaders/$piece.glsl"; done
+    } >"$work/program.comp"
+    count comp "$name"
 }
 
 vertex="scene project payload"
@@ -79,3 +106,15 @@ compile frag "fragment, pass 2, at the eye's plane" "PASS=2 SINGLE=0 WITH_CLIPS=
 compile frag "pass 3, surface" "STAGE=0 WITH_CLIPS=0" surface
 compile frag "pass 3, surface, clip lines" "STAGE=0 WITH_CLIPS=1" surface
 compile frag "pass 3, picture" "STAGE=5 WITH_CLIPS=0" surface
+for arithmetic in native emulated; do
+    with=$([ $arithmetic = native ] && echo 1 || echo 0)
+    own="FUSED=$with DIVIDES=$with ROOTS=$with"
+    compute "culling, $arithmetic" "$own PASS=0" scene packet cull
+    compute "set-up, $arithmetic" "$own PASS=0" scene packet setup
+    compute "lists, $arithmetic" "$own PASS=0" scene fill
+    compute "visibility, $arithmetic" "$own PASS=1" scene splat passes
+    compute "accumulation, $arithmetic" "$own PASS=2" scene splat sums passes
+    compute "first surface, $arithmetic" "$own PASS=3" sums surface
+    compute "edges, $arithmetic" "$own PASS=4" scene splat sums passes surface edges
+    compute "picture, $arithmetic" "$own PASS=5" sums surface
+done

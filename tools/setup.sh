@@ -6,7 +6,7 @@
 # line to type and fails. Calls no package manager when everything is there.
 set -eu
 
-packages="build-essential cmake ninja-build pkg-config libcmocka-dev libspng-dev libdeflate-dev libopenexr-dev libcjson-dev libjpeg62-turbo-dev libwebp-dev libtiff-dev libexpat1-dev libassimp-dev zlib1g-dev libzstd-dev libsuitesparse-dev libmeshoptimizer-dev libdraco-dev libbz2-dev libcurl4-openssl-dev libcivetweb-dev libsdl2-dev libimgui-dev libepoxy-dev libegl-dev libegl-mesa0 libopengl0 libgl1-mesa-dri libopenmpi-dev openmpi-bin python3-venv python3-numpy python3-pandas"
+packages="build-essential cmake ninja-build pkg-config libcmocka-dev libspng-dev libdeflate-dev libopenexr-dev libcjson-dev libjpeg62-turbo-dev libwebp-dev libtiff-dev libexpat1-dev libassimp-dev zlib1g-dev libzstd-dev libsuitesparse-dev libmeshoptimizer-dev libdraco-dev libbz2-dev libcurl4-openssl-dev libcivetweb-dev libsdl2-dev libimgui-dev libepoxy-dev libegl-dev libegl-mesa0 libopengl0 libgl1-mesa-dri glslang-tools libopenmpi-dev openmpi-bin python3-venv python3-numpy python3-pandas"
 
 missing=""
 for package in $packages "$@"; do

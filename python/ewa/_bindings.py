@@ -1126,6 +1126,8 @@ class ewa_gpu_info(c.Structure):
     storage_count: int
     group_threads: int
     texture_px: int
+    devices: bytes
+    subnormals: bool
     _fields_ = [
         ("struct_size", c.c_size_t),
         ("vendor", c.c_char * 128),
@@ -1141,6 +1143,8 @@ class ewa_gpu_info(c.Structure):
         ("storage_count", c.c_uint32),
         ("group_threads", c.c_uint32),
         ("texture_px", c.c_uint32),
+        ("devices", c.c_char * 1024),
+        ("subnormals", c.c_bool),
     ]
 
 
