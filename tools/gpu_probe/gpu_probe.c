@@ -46,7 +46,7 @@ static void print_markdown(const probe *found) {
     printf("| subgroups, ballots, 64-bit atomics | %s, %s, %s |\n", said(found->subgroups),
            said(found->ballots), said(found->long_atomics));
     printf("| times by | %s |\n", facts->software ? "the wall" : "GL_TIME_ELAPSED");
-    printf("| fma | %.3g TFLOP/s |\n", rates->fma_tflops);
+    printf("| fma, of doubles | %.3g, %.3g TFLOP/s |\n", rates->fma_tflops, rates->double_tflops);
     printf("| %.2f M splats of 25 px, 7 sums: gather | %.3g ms |\n", 1e-6 * rates->splat_count,
            rates->way_ms[PROBE_GATHER]);
     printf("| the same by shared atomics | %.3g ms |\n", rates->way_ms[PROBE_SHARED_ATOMICS]);
@@ -55,6 +55,9 @@ static void print_markdown(const probe *found) {
     printf("| blending of RGBA32F, RGBA16F | %.3g, %.3g Gpx/s |\n", rates->blend32_gpx_s,
            rates->blend16_gpx_s);
     printf("| readback of %.1f MB | %.3g ms |\n", rates->readback_mb, rates->readback_ms);
+    printf("| wait for a dispatch; a dispatch | %.3g; %.3g ms |\n", rates->wait_ms, rates->dispatch_ms);
+    printf("| upload, clear of %.1f MB | %.3g, %.3g ms |\n", rates->readback_mb, rates->upload_ms, rates->clear_ms);
+    printf("| compiling the set-up program | %.3g ms |\n", rates->compile_ms);
 }
 
 static void print_json(const probe *found) {
@@ -79,6 +82,10 @@ static void print_json(const probe *found) {
            words[rates->ways_agree]);
     printf("  \"blend_rgba32f_gpx_s\": %.4g,\n  \"blend_rgba16f_gpx_s\": %.4g,\n", rates->blend32_gpx_s,
            rates->blend16_gpx_s);
+    printf("  \"double_tflops\": %.4g,\n  \"wait_ms\": %.4g,\n  \"dispatch_ms\": %.4g,\n", rates->double_tflops,
+           rates->wait_ms, rates->dispatch_ms);
+    printf("  \"upload_ms\": %.4g,\n  \"clear_ms\": %.4g,\n  \"compile_ms\": %.4g,\n", rates->upload_ms,
+           rates->clear_ms, rates->compile_ms);
     printf("  \"readback_mb\": %.4g,\n  \"readback_ms\": %.4g\n}\n", rates->readback_mb, rates->readback_ms);
 }
 

@@ -18,16 +18,17 @@ static const char fma_source[] =
     "layout(std430, binding = 0) writeonly buffer Results { float results[]; };\n"
     "uniform float by;\n"
     "void main() {\n"
-    "    float a[8];\n"
-    "    for (int k = 0; k < 8; k++) a[k] = float(gl_LocalInvocationID.x) + float(k);\n"
+    "    NUMBER a[8];\n"
+    "    NUMBER factor = NUMBER(by), half_ = NUMBER(0.5);\n"
+    "    for (int k = 0; k < 8; k++) a[k] = NUMBER(gl_LocalInvocationID.x + uint(k));\n"
     "    for (int i = 0; i < 1024; i++) {\n"
-    "        a[0] = fma(a[0], by, 0.5); a[1] = fma(a[1], by, 0.5); a[2] = fma(a[2], by, 0.5);\n"
-    "        a[3] = fma(a[3], by, 0.5); a[4] = fma(a[4], by, 0.5); a[5] = fma(a[5], by, 0.5);\n"
-    "        a[6] = fma(a[6], by, 0.5); a[7] = fma(a[7], by, 0.5);\n"
+    "        a[0] = fma(a[0], factor, half_); a[1] = fma(a[1], factor, half_); a[2] = fma(a[2], factor, half_);\n"
+    "        a[3] = fma(a[3], factor, half_); a[4] = fma(a[4], factor, half_); a[5] = fma(a[5], factor, half_);\n"
+    "        a[6] = fma(a[6], factor, half_); a[7] = fma(a[7], factor, half_);\n"
     "    }\n"
-    "    float sum = 0.0;\n"
+    "    NUMBER sum = NUMBER(0);\n"
     "    for (int k = 0; k < 8; k++) sum += a[k];\n"
-    "    results[gl_GlobalInvocationID.x & 4095u] = sum;\n"
+    "    results[gl_GlobalInvocationID.x & 4095u] = float(sum);\n"
     "}\n";
 
 /// Splat i is somewhere in tile i / per_tile, cut at its sides; it adds seven whole numbers to each of its pixels.
@@ -130,9 +131,10 @@ static ewa_status make(ewa_gl *device, const char *first, const char *source, GL
     return ewa_gl_program_make(device, "probe", &stage, 1, program);
 }
 
-static ewa_status measure_fma(ewa_gl *device, const ewa_gl_buffer *buffer, probe_rates *rates) {
+/// The rate of fma() in floats or doubles.
+static ewa_status measure_fma(ewa_gl *device, const ewa_gl_buffer *buffer, const char *number, double *tflops) {
     GLuint program = 0;
-    const ewa_status status = make(device, "", fma_source, &program);
+    const ewa_status status = make(device, number, fma_source, &program);
     if (status != EWA_OK) return status;
     glProgramUniform1f(program, glGetUniformLocation(program, "by"), 0.999f);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, buffer->name);
@@ -145,7 +147,7 @@ static ewa_status measure_fma(ewa_gl *device, const ewa_gl_buffer *buffer, probe
         work.group_count *= 2;
         took_s = probe_time(device, dispatch, &work);
     }
-    rates->fma_tflops = 2e-12 * FMA_STEPS * FMA_CHAINS * THREADS * work.group_count / took_s;
+    *tflops = 2e-12 * FMA_STEPS * FMA_CHAINS * THREADS * work.group_count / took_s;
     glDeleteProgram(program);
     return ewa_gl_check(device, "the rate of fma()");
 }
@@ -200,9 +202,11 @@ ewa_status probe_measure(ewa_gl *device, probe_rates *rates) {
     ewa_gl_buffer sums = {0};
     ewa_status status =
         ewa_gl_buffer_reserve(device, &sums, "the probe", (uint64_t)CHANNELS * PIXELS * sizeof(uint32_t));
-    if (status == EWA_OK) status = measure_fma(device, &sums, rates);
+    if (status == EWA_OK) status = measure_fma(device, &sums, "#define NUMBER float\n", &rates->fma_tflops);
+    if (status == EWA_OK) status = measure_fma(device, &sums, "#define NUMBER double\n", &rates->double_tflops);
     if (status == EWA_OK) status = measure_ways(device, &sums, rates);
     if (status == EWA_OK) status = measure_readback(device, &sums, rates);
+    if (status == EWA_OK) status = probe_latencies(device, &sums, rates);
     if (status == EWA_OK) status = probe_blending(device, 32, rates->splat_count, &rates->blend32_gpx_s);
     if (status == EWA_OK) status = probe_blending(device, 16, rates->splat_count, &rates->blend16_gpx_s);
     if (!device->lost) ewa_gl_buffer_free(&sums);

@@ -21,6 +21,10 @@ typedef struct probe_rates {
     bool ways_agree;                     ///< all have the same sums
     double blend32_gpx_s, blend16_gpx_s; ///< additions of four numbers to RGBA32F and RGBA16F
     double readback_ms, readback_mb;     ///< of a buffer, by the wall
+    double wait_ms, dispatch_ms;         ///< for one dispatch, by the wall; of many that do nothing, each
+    double upload_ms, clear_ms;          ///< of a picture of 4 bytes a pixel
+    double compile_ms;                   ///< of the set-up program, by the wall
+    double double_tflops;                ///< as fma_tflops, in double precision
 } probe_rates;
 
 /// Something that is measured.
@@ -31,6 +35,9 @@ double probe_time(ewa_gl *device, probe_work *work, void *user);
 
 /// Measures all; the device is entered, and has compute programs. Errors: EWA_ERROR_MEMORY, EWA_ERROR_UNSUPPORTED.
 ewa_status probe_measure(ewa_gl *device, probe_rates *rates);
+
+/// Measures what a frame pays beside its work, with a buffer for two pictures. Errors: as probe_measure().
+ewa_status probe_latencies(ewa_gl *device, const ewa_gl_buffer *buffer, probe_rates *rates);
 
 /// Measures blending into floats of `bits`, in billions of pixels per second. Errors: as probe_measure().
 ewa_status probe_blending(ewa_gl *device, int bits, uint32_t splat_count, double *gpx_s);
