@@ -70,14 +70,14 @@ static ewa_status reserve_work(ewa_gl_compute *gl, const band *b) {
         for (uint32_t i = 0; i < b->job->source_count; i++) packets += b->job->sources[i].surfels->packet_count;
         marks->pairs = (uint32_t)smaller(smaller(packets + packets / 2, PAIRS), fit / PAIR_RECORD_BYTES);
         marks->asks = ASKS;
-        marks->list = (uint32_t)smaller(LIST, fit / sizeof(uint32_t));
+        marks->list = (uint32_t)smaller(LIST, fit / EWA_GL_ENTRY_BYTES);
         marks->units = (uint32_t)smaller(2 * (uint64_t)b->tile_count, fit / EWA_GL_UNIT_BYTES);
     }
     const uint64_t arguments = (uint64_t)(EWA_GL_OF_PAGES + b->source_pages) * EWA_GL_ARGUMENT_BYTES;
     EWA_TRY(reserve(gl, EWA_GL_PAIRS, "packets", (uint64_t)marks->pairs * EWA_GL_PAIR_BYTES));
     EWA_TRY(reserve(gl, EWA_GL_RECORDS, "splats", (uint64_t)marks->pairs * PAIR_RECORD_BYTES));
     EWA_TRY(reserve(gl, EWA_GL_ASKS, "near surfels", 2 * (uint64_t)marks->asks * sizeof(ewa_gl_ask)));
-    EWA_TRY(reserve(gl, EWA_GL_LIST, "lists", (uint64_t)marks->list * sizeof(uint32_t)));
+    EWA_TRY(reserve(gl, EWA_GL_LIST, "lists", (uint64_t)marks->list * EWA_GL_ENTRY_BYTES));
     EWA_TRY(reserve(gl, EWA_GL_UNITS, "work", (uint64_t)marks->units * EWA_GL_UNIT_BYTES));
     EWA_TRY(reserve(gl, EWA_GL_RANGES, "near surfels", 0));
     EWA_TRY(reserve(gl, EWA_GL_NEARS, "near surfels", 0));
@@ -343,7 +343,7 @@ static ewa_status check_band(ewa_gl_compute *gl, const band *b, const ewa_gl_tal
     if (*again) return EWA_OK;
     *again = (gl->answering && !b->answered) || tally->list_count > gl->marks.list ||
              tally->unit_count > gl->marks.units;
-    EWA_TRY(raise(gl, &gl->marks.list, tally->list_count, EWA_GL_LIST, "lists", sizeof(uint32_t)));
+    EWA_TRY(raise(gl, &gl->marks.list, tally->list_count, EWA_GL_LIST, "lists", EWA_GL_ENTRY_BYTES));
     return raise(gl, &gl->marks.units, tally->unit_count, EWA_GL_UNITS, "work", EWA_GL_UNIT_BYTES);
 }
 

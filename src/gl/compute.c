@@ -76,8 +76,7 @@ ewa_status ewa_gl_compute_create(ewa_context *context, void **state) {
 
 /// How many rows a band of this frame may have: as many as fitted when one like it was drawn.
 static void recall_rows(ewa_gl_compute *gl, const ewa_tile_job *job) {
-    ewa_gl_fit now = {job->tiles.width_px, job->tiles.height_px, UINT32_MAX, 0};
-    for (uint32_t i = 0; i < job->source_count; i++) now.splat_count += job->sources[i].surfels->count;
+    ewa_gl_fit now = {job->tiles.width_px, job->tiles.height_px, UINT32_MAX, gl->device->surfel_count};
     const ewa_gl_fit *before = &gl->fit;
     if (now.width_px != before->width_px || now.height_px != before->height_px || now.splat_count != before->splat_count)
         gl->fit = now;
@@ -162,6 +161,8 @@ ewa_status ewa_gl_compute_draw(void *state, const ewa_render_job *frame, ewa_ren
     ewa_gl_outcome outcome = {0};
     EWA_TRY(ewa_gl_enter(gl->device));
     gl->device->counts = (ewa_gl_counts){0};
+    gl->device->surfel_count = 0;
+    for (uint32_t i = 0; i < job.source_count; i++) gl->device->surfel_count += job.sources[i].surfels->count;
     ewa_gl_times_start(&gl->times);
     ewa_gl_times_resume(&gl->times);
     ewa_status status = put_frame(gl, &job);

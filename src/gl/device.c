@@ -157,7 +157,7 @@ static bool choose_display(ewa_gl *device, const candidates *found) {
 static const char *hint_of(const char *file) {
     ewa_platform_facts facts;
     if (!file && !ewa_platform_stat("/dev/dri", &facts) && !ewa_platform_stat("/dev/nvidiactl", &facts))
-        return "; there is no /dev/dri (a container is given it by --device /dev/dri, or --gpus all)";
+        return "; there is no /dev/dri: a container has to be given the files of the graphics driver";
     if (file && !(ewa_platform_may_read(file) && ewa_platform_may_write(file)))
         return "; its file in /dev/dri is not this user's to open (groups render and video)";
     return "";
@@ -274,7 +274,8 @@ ewa_status ewa_gl_wait(ewa_gl *device, const char *what) {
     const GLsync fence = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
     if (!fence) return ewa_gl_check(device, what);
     enum { SLOW = 60 }; // software does not hang, it is slow
-    const double patience_s = (device->facts.software ? SLOW : 1) * EWA_GL_PATIENCE_S;
+    const double patience_s = (device->facts.software ? SLOW : 1) *
+                              (EWA_GL_PATIENCE_S + EWA_GL_PATIENCE_PER_SURFEL_S * (double)device->surfel_count);
     const GLenum waited = glClientWaitSync(fence, GL_SYNC_FLUSH_COMMANDS_BIT, (GLuint64)(patience_s * 1e9));
     glDeleteSync(fence);
     if (waited == GL_TIMEOUT_EXPIRED) return lose(device, what, "hangs");

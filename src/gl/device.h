@@ -11,8 +11,9 @@
 #include <epoxy/egl.h>
 #include <epoxy/gl.h>
 
-/// Seconds that a device gets for what it was told before it counts as hung.
+/// Seconds that a device gets for what it was told before it counts as hung, and more for each surfel of a frame.
 #define EWA_GL_PATIENCE_S 10.0
+#define EWA_GL_PATIENCE_PER_SURFEL_S 1e-6
 
 /// What a device is and can.
 typedef struct ewa_gl_facts {
@@ -40,6 +41,7 @@ typedef struct ewa_gl {
     EGLContext gl;
     ewa_gl_facts facts;
     bool lost;                             ///< nothing works any more
+    uint64_t surfel_count;                 ///< of the frame that it draws
     ewa_gl_counts counts;
     uint64_t wait_count, lose_at, hang_at; ///< calls of ewa_gl_wait(), and those that tests make fail
     struct {

@@ -73,8 +73,8 @@ typedef struct ewa_gl_ask {
     uint32_t surfel, source, field, pad;
 } ewa_gl_ask;
 
-/// A packet in a field, a tile of work, and a unit of it, as programs have them.
-enum { EWA_GL_PAIR_BYTES = 36, EWA_GL_TILE_BYTES = 20, EWA_GL_UNIT_BYTES = 16 };
+/// A packet in a field, a tile of work, a unit of it, and a record in a list, as programs have them.
+enum { EWA_GL_PAIR_BYTES = 36, EWA_GL_TILE_BYTES = 20, EWA_GL_UNIT_BYTES = 16, EWA_GL_ENTRY_BYTES = 8 };
 
 /// ewa_clip.
 typedef struct ewa_gl_clip {

@@ -167,7 +167,7 @@ static void test_little_memory(void **state) {
     if (status == EWA_OK) status = gpu_scene_draw(&at, renderer, rgba8);
     assert_int_equal(status, EWA_ERROR_LIMIT);
     ewa_renderer_destroy(&renderer);
-    tune("storage=600000 software=1 auto=gl"); // the self-test fits, a frame does not
+    tune("storage=700000 software=1 auto=gl"); // the self-test fits, a frame does not
     at.log.count = 0;
     renderer = make(EWA_BACKEND_AUTO);
     draw_same(renderer, 4);

@@ -9,7 +9,7 @@ layout(local_size_x = TILE_PX, local_size_y = TILE_PX) in;
 
 layout(std430, binding = 3) buffer TileBlock { Tile tiles[]; };
 layout(std430, binding = 5) readonly buffer RecordBlock { Record records[]; };
-layout(std430, binding = 6) readonly buffer ListBlock { uint list[]; };
+layout(std430, binding = 6) readonly buffer ListBlock { uvec2 list[]; }; // record; its box
 #if PASS != 4
 layout(std430, binding = 1) buffer NearestBlock { uint nearest[]; };
 layout(std430, binding = 7) readonly buffer UnitBlock { uvec4 units[]; }; // tile; first, end of the list or of near ones; near
@@ -160,9 +160,9 @@ void find_nearest(uint first, uint end, bool near, uvec2 in_field, float beyond,
     uvec2 block = in_field / 4u;
     // Each pixel goes on to the next splat that may reach it, so that those of a group that work do so together.
     for (uint i = first; WITH_NEARS == 0 || !near; i++) {
-        while (i < end && !in_box(records[list[i]].box, block)) i++;
+        while (i < end && !in_box(list[i].y, block)) i++;
         if (i >= end) break;
-        Record r = records[list[i]];
+        Record r = records[list[i].x];
         View view = views[r.extra >> 8];
         if (!has(view.flags, HIDES)) continue;
         Sample s = sample_record(r, at, view);
@@ -198,9 +198,9 @@ void add_splats(uint first, uint end, bool near, uvec2 in_field, float beyond, f
     for (int i = 0; i < CHANNELS; i++) low_fine[i] = 0;
 #endif
     for (uint i = first; WITH_NEARS == 0 || !near; i++) {
-        while (i < end && !in_box(records[list[i]].box, block)) i++;
+        while (i < end && !in_box(list[i].y, block)) i++;
         if (i >= end) break;
-        Record r = records[list[i]];
+        Record r = records[list[i].x];
         View view = views[r.extra >> 8];
         Sample s = sample_record(r, at, view);
 #if PASS == 4
