@@ -4,7 +4,7 @@
 // What a frame asks of the device (ewa_renderer_info), and its stages' times by the device's clock.
 #include "gpu_scene.h"
 
-enum { POINTS = 3000, WIDTH_PX = 160, HEIGHT_PX = 120 };
+enum { POINTS = 2000, WIDTH_PX = 96, HEIGHT_PX = 72 };
 
 static uint8_t rgba8[4 * GPU_MAX_PX * GPU_MAX_PX];
 
