@@ -204,8 +204,8 @@ void main() {
     view_flags = view.flags;
     if (packet < packet_count) cull(packet);
     // The last group of the page says how much set-up and lists have to do.
-    barrier();
     memoryBarrierBuffer();
+    barrier();
     if (gl_LocalInvocationIndex != 0u) return;
     if (atomicAdd(culled_groups, 1u) + 1u < gl_NumWorkGroups.x * gl_NumWorkGroups.y) return;
     uint count = atomicAdd(pair_count, 0u), before = page == 0u ? 0u : arguments[OF_PAGES + page - 1u].w;

@@ -47,8 +47,8 @@ void main() {
         write_units(tile, at + units_for(count), near.x, near.y, 1u);
     }
     // The last group says how much there is to do; nothing where something has no room, or is the host's to make.
-    barrier();
     memoryBarrierBuffer();
+    barrier();
     if (gl_LocalInvocationIndex != 0u) return;
     if (atomicAdd(divided_groups, 1u) + 1u < gl_NumWorkGroups.x * gl_NumWorkGroups.y) return;
     uint lists = atomicAdd(list_count, 0u), all_units = atomicAdd(unit_count, 0u);
