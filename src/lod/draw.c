@@ -154,11 +154,27 @@ static ewa_status make_proxies(const ewa_lod_scene *scene, const ewa_cut_item *i
     return EWA_OK;
 }
 
+/// Refuses a picture of which the nodes of some band do not fit in memory: before any is read.
+static ewa_status check_bands(ewa_context *context, const ewa_cut_item *items, uint32_t count, uint32_t height_px,
+                              uint64_t memory_bytes) {
+    uint64_t most = 0;
+    for (uint32_t first = 0; first < height_px; first += BAND_PX) {
+        const uint64_t bytes = bytes_of_rows(items, count, first, first + BAND_PX);
+        if (bytes > most) most = bytes;
+    }
+    if (most <= memory_bytes) return EWA_OK;
+    return ewa_fail(context, EWA_ERROR_LIMIT,
+                    "%d rows of the picture need %llu bytes of nodes, more than the %llu that are allowed: with so many, or with "
+                    "fewer pixels or a larger spacing of surfels, it can be drawn",
+                    BAND_PX, (unsigned long long)most, (unsigned long long)memory_bytes);
+}
+
 /// Draws a picture whose nodes do not fit in memory together.
 static ewa_status draw_bands(const ewa_lod_scene *scene, ewa_renderer *renderer, const ewa_camera *camera,
                              const ewa_render_options *options, const ewa_frame *frame, const ewa_cut_item *items,
                              uint32_t count, uint64_t memory_bytes, ewa_lod_stats *stats) {
     ewa_context *context = scene->lods[0]->context;
+    EWA_TRY(check_bands(context, items, count, camera->height_px, memory_bytes));
     ewa_surfels **proxies = ewa_allocate_zeroed(context, count, sizeof *proxies);
     ewa_cut_item *touching = ewa_allocate(context, count, sizeof *touching);
     ewa_status status = proxies && touching ? EWA_OK : EWA_ERROR_MEMORY;
@@ -168,14 +184,6 @@ static ewa_status draw_bands(const ewa_lod_scene *scene, ewa_renderer *renderer,
         while (end < camera->height_px && bytes_of_rows(items, count, first, end + BAND_PX) <= memory_bytes)
             end += BAND_PX;
         if (end > camera->height_px) end = camera->height_px;
-        const uint64_t bytes = bytes_of_rows(items, count, first, end);
-        if (bytes > memory_bytes) {
-            status = ewa_fail(
-                context, EWA_ERROR_LIMIT,
-                "rows %u to %u of the picture need %llu bytes of nodes, more than the %llu that are allowed",
-                first, end, (unsigned long long)bytes, (unsigned long long)memory_bytes);
-            break;
-        }
         uint32_t touching_count = 0;
         for (uint32_t i = 0; i < count; i++)
             if (items[i].first_row < end && items[i].end_row > first) touching[touching_count++] = items[i];

@@ -246,7 +246,7 @@ static double stretch_of(const double m[16]) {
 }
 
 uint64_t ewa_tree_bytes_of(const ewa_lod_node *node) {
-    enum { BYTES_PER_SURFEL = 40 };
+    enum { BYTES_PER_SURFEL = 36 }; // 32 of packets, 2 of curvatures, lanes that stay empty
     return node->surfels ? node->resident_bytes : node->count * BYTES_PER_SURFEL + 4096;
 }
 

@@ -209,6 +209,24 @@ TEST_ON(test_memory, 2) {
     }
 }
 
+/// Where the nodes of no band fit, nothing is read.
+TEST(test_refused_memory) {
+    check_log log = {.count = 0};
+    ewa_context *context = check_context(2, &log);
+    ewa_camera camera = camera_at(2.2);
+    camera.fx_px *= 0.3, camera.fy_px *= 0.3; // 128 rows have all nodes
+    const ewa_lod_options little = lod_options_of(0, 0.5, 1 << 24);
+    ewa_lod *lod = open_file(context, file);
+    shot *made = calloc(1, sizeof *made);
+    assert_non_null(made);
+    assert_int_equal(try_draw(lod, context, &camera, &little, made), EWA_ERROR_LIMIT);
+    assert_non_null(strstr(log.text, "rows of the picture need 2"));
+    assert_int_equal(made->stats.loaded_count, 0);
+    ewa_lod_close(&lod);
+    free(made);
+    ewa_context_destroy(&context);
+}
+
 /// No more than 8 surfels for a covered pixel, from wherever it is seen; a few nodes are few surfels.
 TEST_ON(test_bound, 2) {
     enum { FEW_NODES = 8 };
