@@ -11,6 +11,8 @@
 #include "surface/packets.h"
 #include "surface/proxy.h"
 
+#include <string.h>
+
 /// Fails at the first number of a plane that is not finite.
 static ewa_status check_plane(ewa_context *context, const char *name, const float *plane, uint32_t components,
                               const ewa_camera *camera) {
@@ -81,6 +83,7 @@ static ewa_status gather_colors(const ewa_cloud *cloud, const ewa_surfels_option
     bool any = false;
     const ewa_gather_request request = {.surfels = surfels, .point_count = ewa_cloud_point_count(cloud),
                                         .camera = *camera, .options = *options, .rgba = rgba, .sums = color};
+    memset(color, 0, request.point_count * 3 * sizeof *color);
     if (status == EWA_OK) status = ewa_gather_run(&request, &any);
     ewa_surfels_destroy(&surfels);
     if (status == EWA_OK && !any)

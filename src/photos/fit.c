@@ -27,8 +27,7 @@ typedef struct fit_round {
     double *start;    ///< what the ridge pulls to
     double *sides;    ///< A' W rest
     double *diagonal; ///< of A' W A
-    double *part;     ///< what one photograph adds; all [point][EWA_PHOTO_CHANNELS]
-    double *product;  ///< A' W A direction, by steps
+    double *product;  ///< A' W A direction, by steps; all [point][EWA_PHOTO_CHANNELS]
     double *change;
     double ridge;
     ewa_status status; ///< of the products
@@ -71,12 +70,6 @@ static void weigh_piece(void *data, uint32_t index, uint32_t worker) {
     }
 }
 
-/// Numbers of the points that `part` adds to.
-static void add_part(const fit_round *round, double *to) {
-    const size_t size = (size_t)round->job->point_count * EWA_PHOTO_CHANNELS;
-    for (size_t i = 0; i < size; i++) to[i] += round->part[i];
-}
-
 static ewa_status add_photo(fit_photo *at, fit_round *round) {
     const ewa_photos_job *job = at->job;
     const ewa_exposure_pairs pairs = {at->view->pixel_count, ewa_exposure_stride(at->view->pixel_count), at, get_pair};
@@ -84,11 +77,8 @@ static ewa_status add_photo(fit_photo *at, fit_round *round) {
     for (int step = 0; step < EXPOSURE_STEPS && ewa_photo_is_exposed(at->photo); step++)
         ewa_exposure_step(&pairs, job->options.exposure, job->options.robust, at->photo->gain, at->photo->offset);
     ewa_parallel(job->context, weigh_piece, at, (at->view->pixel_count + EWA_PHOTO_PIECE - 1) / EWA_PHOTO_PIECE);
-    EWA_TRY(ewa_photo_view_gather(at->view, at->shown, round->part));
-    add_part(round, round->sides);
-    EWA_TRY(ewa_photo_view_normal(at->view, at->photo->fit_weights, NULL, round->part));
-    add_part(round, round->diagonal);
-    return EWA_OK;
+    EWA_TRY(ewa_photo_view_gather(at->view, at->shown, round->sides));
+    return ewa_photo_view_normal(at->view, at->photo->fit_weights, NULL, round->diagonal);
 }
 
 /// Adds a photograph's weights and right sides. Its view stays without the pixels.
@@ -112,8 +102,7 @@ static void multiply_all(void *system, const double *direction) {
     for (uint32_t i = 0; i < job->photo_count && round->status == EWA_OK; i++) {
         const ewa_photo_state *photo = &job->photos[i];
         if (!photo->fit_weights) continue;
-        round->status = ewa_photo_view_normal(&photo->fitted, photo->fit_weights, direction, round->part);
-        if (round->status == EWA_OK) add_part(round, round->product);
+        round->status = ewa_photo_view_normal(&photo->fitted, photo->fit_weights, direction, round->product);
     }
     if (round->status != EWA_OK) memcpy(round->product, direction, size * sizeof *direction);
 }
@@ -206,11 +195,11 @@ static ewa_status run_round(fit_round *round, double begin, double end) {
 
 ewa_status ewa_photos_fit(ewa_photos_job *job, double begin, double end) {
     const size_t size = (size_t)job->point_count * EWA_PHOTO_CHANNELS;
-    enum { VECTORS = 6 };
+    enum { VECTORS = 5 };
     double *room = ewa_allocate(job->context, VECTORS * size, sizeof *room);
     if (!room) return EWA_ERROR_MEMORY;
     fit_round round = {.job = job, .start = room, .sides = room + size, .diagonal = room + 2 * size,
-                       .part = room + 3 * size, .product = room + 4 * size, .change = room + 5 * size};
+                       .product = room + 3 * size, .change = room + 4 * size};
     memcpy(round.start, job->color, size * sizeof *room);
     ewa_status status = EWA_OK;
     for (uint32_t i = 0; i < job->options.rounds && status == EWA_OK; i++) {

@@ -31,6 +31,7 @@ typedef struct ewa_photo_pixel {
 typedef struct ewa_photo_view {
     ewa_context *context;
     const ewa_surfels *surfels;
+    ewa_gather_room *room; ///< of all views, which take turns
     ewa_camera camera; ///< of the photograph as it is looked at
     double cutoff;
     uint32_t point_count, pixel_count; ///< of the points; of all the picture
@@ -47,10 +48,10 @@ void ewa_photo_view_free(ewa_photo_view *view);
 /// EWA_ERROR_MEMORY, EWA_CANCELLED.
 ewa_status ewa_photo_view_show(const ewa_photo_view *view, const double *colors, float *shown);
 
-/// Sets sums, [point_count][3], to A' rgba, of [pixel_count][4] numbers of which the last have no say. Errors: the same.
+/// Adds A' rgba to sums, [point_count][3], of [pixel_count][4] numbers of which the last have no say. Errors: the same.
 ewa_status ewa_photo_view_gather(const ewa_photo_view *view, const float *rgba, double *sums);
 
-/// Sets sums, [point_count][3], to A' diag(weights) A colors, or, where `colors` is NULL, to the diagonal of
+/// Adds A' diag(weights) A colors to sums, [point_count][3], or, where `colors` is NULL, the diagonal of
 /// A' diag(weights) A, thrice. `view` need have no pixels. Errors: the same.
 ewa_status ewa_photo_view_normal(const ewa_photo_view *view, const float *weights, const double *colors, double *sums);
 
@@ -86,6 +87,7 @@ struct ewa_photos_job {
     ewa_context *context;
     ewa_cloud *cloud;
     ewa_surfels *surfels;
+    ewa_gather_room *room;
     ewa_photos_options options;
     uint32_t point_count, photo_count;
     ewa_photo_state *photos; ///< in an order of their cameras

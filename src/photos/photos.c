@@ -89,6 +89,7 @@ static ewa_status add_up(ewa_photos_job *job, const ewa_photo_view *view, float 
     for (int pass = 0; pass < 2; pass++) {
         sample_job sampling = {view, pass, rgba};
         ewa_parallel(job->context, weigh_piece, &sampling, (view->pixel_count + EWA_PHOTO_PIECE - 1) / EWA_PHOTO_PIECE);
+        memset(found, 0, (size_t)job->point_count * 3 * sizeof *found);
         EWA_TRY(ewa_photo_view_gather(view, rgba, found));
         for (size_t i = 0; i < job->point_count; i++)
             for (size_t c = 0; c < (pass ? 1 : 3); c++) sums[4 * i + 3 * (size_t)pass + c] = found[3 * i + c];
@@ -219,8 +220,8 @@ static void compare_piece(void *data, uint32_t index, uint32_t worker) {
     }
 }
 
-/// Compares a view, and adds to the residuals of its points; `sums`: room for [point][3].
-static ewa_status compare(compare_job *at, double *sums, double *residuals, error_sums *errors) {
+/// Compares a view, and adds to the residuals of its points, [point][3]: weights, weighted squares, nothing.
+static ewa_status compare(compare_job *at, double *residuals, error_sums *errors) {
     enum { STEPS = 12, WIDE_STEPS = 4 };
     const ewa_photos_job *job = at->job;
     ewa_photo_state *photo = at->photo;
@@ -240,11 +241,7 @@ static ewa_status compare(compare_job *at, double *sums, double *residuals, erro
         square += here, count++;
         rejected += here > job->options.robust * job->options.robust;
     }
-    if (!photo->held_out) {
-        EWA_TRY(ewa_photo_view_gather(view, at->shown, sums));
-        for (size_t i = 0; i < job->point_count; i++)
-            residuals[2 * i] += sums[3 * i], residuals[2 * i + 1] += sums[3 * i + 1];
-    }
+    if (!photo->held_out) EWA_TRY(ewa_photo_view_gather(view, at->shown, residuals));
     photo->report.width_px = view->camera.width_px, photo->report.height_px = view->camera.height_px;
     photo->report.pixel_count = count;
     photo->report.rms = count ? sqrt(square / (double)count) : 0;
@@ -255,24 +252,23 @@ static ewa_status compare(compare_job *at, double *sums, double *residuals, erro
 
 static double decibels(double rms) { return -20 * log10(rms); }
 
-static ewa_status compare_one(ewa_photos_job *job, ewa_photo_state *photo, double fraction, double *room,
-                              double *residuals, error_sums *errors) {
+static ewa_status compare_one(ewa_photos_job *job, ewa_photo_state *photo, double fraction, double *residuals,
+                              error_sums *errors) {
     ewa_photo_view view;
     EWA_TRY(look(job, photo, fraction, &view));
     const size_t size = (size_t)view.pixel_count * 4;
     compare_job at = {job, &view, photo, ewa_allocate(job->context, size, sizeof *at.shown)};
-    const ewa_status status = at.shown ? compare(&at, room, residuals, errors) : EWA_ERROR_MEMORY;
+    const ewa_status status = at.shown ? compare(&at, residuals, errors) : EWA_ERROR_MEMORY;
     ewa_release(job->context, at.shown, size, sizeof *at.shown);
     ewa_photo_view_free(&view);
     return status;
 }
 
-static ewa_status compare_all(ewa_photos_job *job, double begin, double *room, double *residuals,
-                              ewa_photos_report *report) {
+static ewa_status compare_all(ewa_photos_job *job, double begin, double *residuals, ewa_photos_report *report) {
     error_sums sums = {.square = {0}};
     for (uint32_t i = 0; i < job->photo_count; i++) {
         ewa_photo_state *photo = &job->photos[i];
-        EWA_TRY(compare_one(job, photo, begin + (1 - begin) * i / job->photo_count, room, residuals, &sums));
+        EWA_TRY(compare_one(job, photo, begin + (1 - begin) * i / job->photo_count, residuals, &sums));
         memcpy(photo->report.gain, photo->gain, sizeof photo->gain);
         memcpy(photo->report.offset, photo->offset, sizeof photo->offset);
         photo->report.held_out = photo->held_out;
@@ -331,7 +327,7 @@ static ewa_status write(ewa_photos_job *job, const double *alpha, const double *
         memcpy(stream, color, count * components * sizeof *stream);
         memcpy(counts, job->counts, count * sizeof *counts);
         for (size_t i = 0; i < count; i++)
-            residual[i] = residuals[2 * i] > 0 ? (float)sqrt(residuals[2 * i + 1] / residuals[2 * i]) : 0;
+            residual[i] = residuals[3 * i] > 0 ? (float)sqrt(residuals[3 * i + 1] / residuals[3 * i]) : 0;
     }
     ewa_release(context, color, count * components, sizeof *color);
     return status;
@@ -358,11 +354,7 @@ static ewa_status run(ewa_photos_job *job, double *alpha, double *residuals, ewa
     const bool fit = job->options.method == EWA_PHOTOS_FIT;
     drop_samples(job);
     if (fit) EWA_TRY(ewa_photos_fit(job, SETTLED, FITTED));
-    double *room = ewa_allocate(job->context, (size_t)job->point_count * 3, sizeof *room);
-    const ewa_status status =
-        room ? compare_all(job, fit ? FITTED : SETTLED, room, residuals, report) : EWA_ERROR_MEMORY;
-    ewa_release(job->context, room, (size_t)job->point_count * 3, sizeof *room);
-    EWA_TRY(status);
+    EWA_TRY(compare_all(job, fit ? FITTED : SETTLED, residuals, report));
     EWA_TRY(ewa_progress(job->context, "photos", 1));
     return write(job, alpha, residuals, report);
 }
@@ -377,7 +369,7 @@ static ewa_status start(ewa_photos_job *job, const ewa_photo *photos, ewa_photos
     job->counts = ewa_allocate_zeroed(context, points, sizeof *job->counts);
     job->sample_starts = ewa_allocate(context, points + 1, sizeof *job->sample_starts);
     double *alpha = ewa_allocate(context, points, sizeof *alpha);
-    double *residuals = ewa_allocate_zeroed(context, 2 * points, sizeof *residuals);
+    double *residuals = ewa_allocate_zeroed(context, 3 * points, sizeof *residuals);
     ewa_status status = EWA_ERROR_MEMORY;
     if (job->photos && job->color && job->counts && job->sample_starts && alpha && residuals) {
         for (uint32_t i = 0; i < job->photo_count; i++) {
@@ -397,7 +389,7 @@ static ewa_status start(ewa_photos_job *job, const ewa_photo *photos, ewa_photos
     ewa_release(context, job->counts, points, sizeof *job->counts);
     ewa_release(context, job->sample_starts, points + 1, sizeof *job->sample_starts);
     ewa_release(context, alpha, points, sizeof *alpha);
-    ewa_release(context, residuals, 2 * points, sizeof *residuals);
+    ewa_release(context, residuals, 3 * points, sizeof *residuals);
     return status;
 }
 
@@ -422,7 +414,10 @@ ewa_status ewa_cloud_color_from_photos(ewa_cloud *cloud, const ewa_photo *photos
     surfels.cutoff = job.options.cutoff;
     EWA_TRY(ewa_surfels_create_kept(cloud, &surfels, &job.surfels));
     ewa_photos_report made = {.used_count = 0};
+    ewa_gather_room room = {.state = NULL};
+    job.room = &room;
     const ewa_status status = start(&job, photos, &made, per_photo);
+    ewa_gather_room_free(job.context, &room);
     ewa_surfels_destroy(&job.surfels);
     if (status == EWA_OK && report) *report = made;
     return status;

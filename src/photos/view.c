@@ -146,7 +146,7 @@ static ewa_status make(const ewa_photos_job *job, uint32_t *halvings, ewa_photo_
 
 ewa_status ewa_photo_view_make(const ewa_photos_job *job, const ewa_photo *photo, uint32_t number,
                                uint32_t *halvings, ewa_photo_view *view) {
-    *view = (ewa_photo_view){.context = job->context, .surfels = job->surfels, .camera = photo->camera,
+    *view = (ewa_photo_view){.context = job->context, .surfels = job->surfels, .room = job->room, .camera = photo->camera,
                              .cutoff = job->options.cutoff, .point_count = job->point_count};
     ewa_image image;
     bool owned;
@@ -165,7 +165,7 @@ void ewa_photo_view_free(ewa_photo_view *view) {
 /// A way between the points and the view's filled pixels.
 static ewa_gather_request request_of(const ewa_photo_view *view) {
     ewa_gather_request request = {.surfels = view->surfels, .point_count = view->point_count, .camera = view->camera,
-                                  .filled = true, .least_alpha = FULL};
+                                  .filled = true, .least_alpha = FULL, .room = view->room};
     set_options(&request.options);
     return request;
 }

@@ -6,12 +6,21 @@
 #ifndef EWA_SRC_SURFACE_GATHER_H
 #define EWA_SRC_SURFACE_GATHER_H
 
+#include "base/base.h"
 #include "ewa/render.h"
 #include "surface/shading.h"
 
 /// Whether pictures of such options, complete, are linear in colours in a way that the pipeline goes back: three passes,
 /// splats, one white light or none, one sample a pixel, nothing after the resolve.
 bool ewa_gather_takes(const ewa_render_options *options, const ewa_shading_setup *shading);
+
+/// Memory that is kept from one way back to the next. Zero-initialise; of one context.
+typedef struct ewa_gather_room {
+    void *state; ///< of the pipeline
+    ewa_buffer colors, sums, shared;
+} ewa_gather_room;
+
+void ewa_gather_room_free(ewa_context *context, ewa_gather_room *room);
 
 /// A way back. With A, the matrix that takes linear colours of points to those of a picture as ewa_render() makes it but for
 /// the background, the sums are A' rgba, or A' of `weights` in all channels, or A' diag(weights) A colors.
@@ -30,7 +39,8 @@ typedef struct ewa_gather_request {
     bool squares;      ///< of the numbers of A, not A itself: with equal weights the diagonal of A' A
     const double *colors; ///< with `filled`: [point][3]; NULL: none
     float *shown; ///< gets A colors, 4 per pixel, the last 1 where A has a row, else all 0; NULL: not wanted
-    double *sums; ///< gets the sums, [point][3]; 0 for points that are not drawn; NULL: not wanted
+    double *sums; ///< to which the sums are added, [point][3]; NULL: not wanted
+    ewa_gather_room *room; ///< NULL: nothing is kept
 } ewa_gather_request;
 
 /// Does that. The same bytes for every number of threads, every instruction set and every order of the points, sums also

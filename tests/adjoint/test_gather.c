@@ -228,9 +228,10 @@ TEST(test_filled) {
             assert_true(shown && weights && weighted && single && x && sums && again);
             for (uint32_t i = 0; i < 3 * COUNT; i++) x[i] = s->color[i / 3 * 4 + i % 3];
             for (uint32_t i = 0; i < pixels; i++) weights[i] = fabsf(w.rgba[4 * i]);
+            ewa_gather_room room = {.state = NULL};
             ewa_gather_request request = {.surfels = surfels, .point_count = COUNT, .camera = s->camera,
                                           .options = s->options, .filled = true, .least_alpha = 0.99f,
-                                          .weights = weights, .colors = x, .shown = shown, .sums = sums};
+                                          .weights = weights, .colors = x, .shown = shown, .sums = sums, .room = &room};
             assert_int_equal(ewa_gather_run(&request, NULL), EWA_OK);
             draw(&w, context);
             uint32_t full = 0;
@@ -265,6 +266,7 @@ TEST(test_filled) {
             assert_true(largest > 0.1 && off < 1e-5 * largest);
             // The diagonal of A' W A.
             request.rgba = NULL, request.weights = weights, request.squares = true;
+            memset(again, 0, 3 * COUNT * sizeof *again);
             assert_int_equal(ewa_gather_run(&request, NULL), EWA_OK);
             for (uint32_t m = 0; m < SINGLES && n == 0; m++) {
                 const uint32_t point = m * 241 % COUNT;
@@ -279,6 +281,7 @@ TEST(test_filled) {
                 assert_true(fabs(again[3 * point] - wanted) < 1e-4 * fmax(wanted, 0.1));
                 free(unit);
             }
+            ewa_gather_room_free(context, &room);
             free(shown), free(weights), free(weighted), free(single), free(x), free(sums), free(again);
             ewa_surfels_destroy(&surfels);
             drop(&w);
@@ -405,7 +408,7 @@ TEST(test_memory) {
         ewa_status status = back(&w);
         ewa_surfels *surfels = NULL;
         float shown[4 * 40 * 40];
-        double x[3 * 50] = {1}, sums[3 * 50];
+        double x[3 * 50] = {1}, sums[3 * 50] = {0};
         if (status == EWA_OK) status = ewa_surfels_create_kept(w.scene->cloud, NULL, &surfels);
         const ewa_gather_request request = {.surfels = surfels, .point_count = 50, .camera = w.scene->camera,
                                             .options = w.scene->options, .filled = true, .least_alpha = 0.99f,
