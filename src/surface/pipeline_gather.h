@@ -220,12 +220,98 @@ static ALWAYS_INLINE void give_few(const ewa_tile *tile, gathered_few *few) {
     few->count = 0;
 }
 
-static void gather(const ewa_view *view, const ewa_tile *tile, const ewa_sorted_run *run) {
-    static_assert(((int64_t)EWA_MAX_TILE_BLOCKS * EWA_MAX_TILE_BLOCKS << EWA_GATHER_BITS) < INT32_MAX, "lanes have room");
-    gathered_few few = {.count = 0};
-    for (uint32_t i = 0; i < run->class_first[EWA_CLASS_COUNT]; i++) {
+/// Gives a surfel what has been gathered of so many blocks.
+static ALWAYS_INLINE void give_surfel(const ewa_tile *tile, gathered_few *few, uint32_t surfel, uint32_t blocks,
+                                      const wi sums[3]) {
+    if (blocks > FEW_BLOCKS) {
+        gather_surfel(tile, surfel, sums);
+        return;
+    }
+    for (int c = 0; c < 3; c++) few->lanes[c][few->count] = wf_of_bits(sums[c]);
+    few->surfels[few->count++] = surfel;
+    if (few->count == EWA_BLOCK_LANES) give_few(tile, few);
+}
+
+/// Adds a surfel's colour to what a block's pixels show.
+static ALWAYS_INLINE void spread_block(const float *color, float *planes, size_t side, wf weight) {
+    const wf share = wf_mul(weight, wf_load(planes + side));
+    float *shown = planes + GATHER_SHOWN * EWA_BLOCK_LANES;
+    for (int c = 0; c < 3; c++, shown += EWA_BLOCK_LANES)
+        wf_store(shown, wf_fma(share, wf_set(color[c]), wf_load(shown)));
+}
+
+static ALWAYS_INLINE const float *color_of(const ewa_tile *tile, uint32_t surfel) {
+    return tile->gather->colors + 4 * (size_t)surfel;
+}
+
+/// One pass back over a run.
+typedef struct back_pass {
+    pass run;
+    gathered_few *few; ///< NULL: colours are spread
+} back_pass;
+
+/// gather_weight() with its block, column by column of constant count, for cutoffs up to 3.
+static ALWAYS_INLINE void back_rows(const pass *p, uint32_t splat, uint32_t first_column, uint32_t columns, uint32_t rows,
+                                    depth_test test, bool spreads) {
+    const ewa_tile *tile = p->tile;
+    const gathered_splat at = gather_start(p->run, splat);
+    const ewa_record *r = at.record;
+    if (!is_gathered(tile, r)) return;
+    column_terms c[EWA_COLUMN_CLASSES];
+    UNROLL_COLUMNS
+    for (uint32_t i = 0; i < columns; i++)
+        c[i] = column_start(r, r->key, r->key_x, (float)(EWA_BLOCK_PX * (first_column + i)));
+    const uint32_t surfel = p->run->surfels[splat], column = box_column(r->box) + first_column;
+    const wf end = wf_set(p->view->exponent_end);
+    const bool squares = tile->gather->squares;
+    enum { FLOATS = EWA_GATHER_PLANES * EWA_BLOCK_LANES };
+    float *planes = gather_planes(tile, box_row(r->box), column);
+    const uint32_t *marks = tile->gather->rows + box_row(r->box);
+    const float *color = spreads ? color_of(tile, surfel) : NULL;
+    wi sums[3] = {wi_set(0), wi_set(0), wi_set(0)};
+    bool any = false;
+    wf dy = wf_add(lanes_y(), wf_set(r->offset_y));
+    UNROLL_COLUMNS
+    for (uint32_t row = 0; row < rows; row++, dy = wf_add(dy, wf_set(EWA_BLOCK_PX))) {
+        const uint32_t marked = marks[row] >> column;
+        UNROLL_COLUMNS
+        for (uint32_t i = 0; i < columns; i++) {
+            if (!(marked >> i & 1)) continue;
+            float *block = planes + (size_t)i * FLOATS;
+            const wf s = block_exponent(r, &c[i], dy), plane = wf_fma(wf_set(r->key_y), dy, c[i].key);
+            const wm counts = wm_and(wf_lt(s, end), gather_counts(block, test == PLAIN ? plane : clamped_key(r, plane)));
+            if (!wm_bits(counts)) continue;
+            wf weight = wf_keep(counts, wf_mul(exponential(s, 2), at.peak));
+            if (squares) weight = wf_mul(weight, weight);
+            if (spreads)
+                spread_block(color, block, at.side, weight);
+            else
+                gather_block(block + at.side, weight, sums);
+            any = true;
+        }
+        planes += (size_t)tile->blocks_per_row * FLOATS;
+    }
+    if (any && !spreads) give_surfel(tile, ((const back_pass *)p)->few, surfel, rows * columns, sums);
+}
+
+static ALWAYS_INLINE void gather_rows(const pass *p, uint32_t splat, uint32_t first_column, uint32_t columns,
+                                      uint32_t rows, depth_test test) {
+    back_rows(p, splat, first_column, columns, rows, test, false);
+}
+
+static ALWAYS_INLINE void spread_rows(const pass *p, uint32_t splat, uint32_t first_column, uint32_t columns,
+                                      uint32_t rows, depth_test test) {
+    back_rows(p, splat, first_column, columns, rows, test, true);
+}
+
+/// The splats of a run from place `first` of its order on, block by block.
+static ALWAYS_INLINE void back_any(const back_pass *p, uint32_t first, bool spreads) {
+    const ewa_tile *tile = p->run.tile;
+    const ewa_sorted_run *run = p->run.run;
+    for (uint32_t i = first; i < run->class_first[EWA_CLASS_COUNT]; i++) {
         const gathered_splat splat = gather_start(run, run->order[i]);
         const ewa_record *r = splat.record;
+        const uint32_t surfel = run->surfels[run->order[i]];
         if (!is_gathered(tile, r)) continue;
         wi sums[3] = {wi_set(0), wi_set(0), wi_set(0)};
         bool any = false;
@@ -235,21 +321,34 @@ static void gather(const ewa_view *view, const ewa_tile *tile, const ewa_sorted_
             wf dy = wf_add(lanes_y(), wf_set(r->offset_y)), weight;
             for (uint32_t n = 0; n < ewa_box_rows(r->box); n++, dy = wf_add(dy, wf_set(EWA_BLOCK_PX))) {
                 const uint32_t row = box_row(r->box) + n;
-                if (!gather_weight(view, tile, &splat, &c, dy, row, column, &weight)) continue;
-                gather_block(gather_planes(tile, row, column) + splat.side, weight, sums);
+                if (!gather_weight(p->run.view, tile, &splat, &c, dy, row, column, &weight)) continue;
+                float *planes = gather_planes(tile, row, column);
+                if (spreads)
+                    spread_block(color_of(tile, surfel), planes, splat.side, weight);
+                else
+                    gather_block(planes + splat.side, weight, sums);
                 any = true;
             }
         }
-        if (!any) continue;
-        if (ewa_box_columns(r->box) * ewa_box_rows(r->box) > FEW_BLOCKS) {
-            gather_surfel(tile, run->surfels[run->order[i]], sums);
-            continue;
-        }
-        for (int c = 0; c < 3; c++) few.lanes[c][few.count] = wf_of_bits(sums[c]);
-        few.surfels[few.count++] = run->surfels[run->order[i]];
-        if (few.count == EWA_BLOCK_LANES) give_few(tile, &few);
+        if (any && !spreads) give_surfel(tile, p->few, surfel, ewa_box_columns(r->box) * ewa_box_rows(r->box), sums);
     }
+}
+
+static void gather(const ewa_view *view, const ewa_tile *tile, const ewa_sorted_run *run) {
+    static_assert(((int64_t)EWA_MAX_TILE_BLOCKS * EWA_MAX_TILE_BLOCKS << EWA_GATHER_BITS) < INT32_MAX, "lanes have room");
+    gathered_few few = {.count = 0};
+    const back_pass p = {{view, tile, run}, &few};
+    const bool plain = view->doublings == 2;
+    if (plain) for_each_splat(&p.run, gather_rows);
+    back_any(&p, plain ? run->class_first[EWA_CLIP_CLASS] : 0, false);
     if (few.count) give_few(tile, &few);
+}
+
+static void spread(const ewa_view *view, const ewa_tile *tile, const ewa_sorted_run *run) {
+    const back_pass p = {{view, tile, run}, NULL};
+    const bool plain = view->doublings == 2;
+    if (plain) for_each_splat(&p.run, spread_rows);
+    back_any(&p, plain ? run->class_first[EWA_CLIP_CLASS] : 0, true);
 }
 
 static void near_gather(const ewa_view *view, const ewa_tile *tile, const ewa_near_record *records, uint32_t count) {
@@ -266,40 +365,14 @@ static void near_gather(const ewa_view *view, const ewa_tile *tile, const ewa_ne
     }
 }
 
-/// Adds a surfel's colour to what a block's pixels show.
-static ALWAYS_INLINE void spread_block(const ewa_tile *tile, uint32_t surfel, uint32_t row, uint32_t column, size_t side,
-                                       wf weight) {
-    const float *color = tile->gather->colors + 4 * (size_t)surfel;
-    float *planes = gather_planes(tile, row, column), *shown = planes + GATHER_SHOWN * EWA_BLOCK_LANES;
-    const wf share = wf_mul(weight, wf_load(planes + side));
-    for (int c = 0; c < 3; c++, shown += EWA_BLOCK_LANES)
-        wf_store(shown, wf_fma(share, wf_set(color[c]), wf_load(shown)));
-}
-
-static void spread(const ewa_view *view, const ewa_tile *tile, const ewa_sorted_run *run) {
-    for (uint32_t i = 0; i < run->class_first[EWA_CLASS_COUNT]; i++) {
-        const gathered_splat splat = gather_start(run, run->order[i]);
-        const ewa_record *r = splat.record;
-        for (uint32_t k = 0; k < ewa_box_columns(r->box); k++) {
-            const uint32_t column = box_column(r->box) + k;
-            const column_terms c = column_start(r, r->key, r->key_x, (float)(EWA_BLOCK_PX * k));
-            wf dy = wf_add(lanes_y(), wf_set(r->offset_y)), weight;
-            for (uint32_t n = 0; n < ewa_box_rows(r->box); n++, dy = wf_add(dy, wf_set(EWA_BLOCK_PX))) {
-                const uint32_t row = box_row(r->box) + n;
-                if (gather_weight(view, tile, &splat, &c, dy, row, column, &weight))
-                    spread_block(tile, run->surfels[run->order[i]], row, column, splat.side, weight);
-            }
-        }
-    }
-}
-
 static void near_spread(const ewa_view *view, const ewa_tile *tile, const ewa_near_record *records, uint32_t count) {
     wf weight;
     for (uint32_t i = 0; i < count; i++)
         for (uint32_t row = 0; row < tile->block_rows; row++)
             for (uint32_t column = 0; column < tile->blocks_per_row; column++)
                 if (near_gather_weight(view, tile, &records[i], row, column, &weight))
-                    spread_block(tile, records[i].surfel, row, column, gather_side(records[i].is_back), weight);
+                    spread_block(color_of(tile, records[i].surfel), gather_planes(tile, row, column),
+                                 gather_side(records[i].is_back), weight);
 }
 
 static void turn_gather(const ewa_tile *tile, const ewa_resolve *to) {
