@@ -4,6 +4,7 @@
 // Tests of src/surface/gather.h and of colours by ewa_render_backward(): the transpose of the pipeline's pictures.
 #include "surface/gather.h"
 #include "adjoint/tiles.h"
+#include "surface/packet_order.h"
 #include "surface/packets.h"
 #include "surface/proxy.h"
 #include "surface/render.h"
@@ -106,8 +107,51 @@ TEST(test_transpose) {
     ewa_context_destroy(&context);
 }
 
-/// Numbers that differ from the derivative in double precision do so because the pictures do: each is what the pipeline's
-/// picture changes by when that colour does.
+static double *replaced(ewa_cloud *cloud, const char *name, uint32_t component_count) {
+    void *memory;
+    assert_int_equal(ewa_cloud_add(cloud, name, EWA_F64, component_count, &memory), EWA_OK);
+    return memory;
+}
+
+/// The cloud with the numbers that packets keep of it.
+static ewa_cloud *as_drawn(const ewa_cloud *given) {
+    const uint64_t count = ewa_cloud_point_count(given);
+    uint64_t *all = calloc(count, sizeof *all);
+    assert_non_null(all);
+    for (uint64_t i = 0; i < count; i++) all[i] = i;
+    ewa_cloud *cloud = NULL;
+    ewa_surfels *surfels = NULL;
+    assert_int_equal(ewa_cloud_select(given, all, count, &cloud), EWA_OK);
+    assert_int_equal(ewa_surfels_create_kept(given, NULL, &surfels), EWA_OK);
+    const bool ellipses = ewa_cloud_find(cloud, EWA_TANGENT_U);
+    double *position = replaced(cloud, EWA_POSITION, 3), *color = replaced(cloud, EWA_COLOR, 4);
+    double *normal = replaced(cloud, EWA_NORMAL, 3), *radius = ellipses ? NULL : replaced(cloud, EWA_RADIUS, 1);
+    double *axis_u = ellipses ? replaced(cloud, EWA_TANGENT_U, 3) : NULL;
+    double *axis_v = ellipses ? replaced(cloud, EWA_TANGENT_V, 3) : NULL;
+    ewa_surfels_options options;
+    ewa_surfels_options_init(&options, sizeof options);
+    for (size_t i = 0; i < (size_t)surfels->packet_count * EWA_PACKET_LANES; i++) {
+        const size_t point = surfels->points[i];
+        if (point == EWA_NO_POINT) continue;
+        ewa_packet_surfel s;
+        ewa_packet_decode(surfels, (uint32_t)(i / EWA_PACKET_LANES), i % EWA_PACKET_LANES, &s);
+        const ewa_vec3 center = ewa_packet_center(surfels, (uint32_t)(i / EWA_PACKET_LANES));
+        const ewa_vec3 origin = vec3_load(surfels->origin_world);
+        const double unit = surfels->unit / options.radius_scale, size = s.billboard ? EWA_BILLBOARD_SCALE : 1;
+        vec3_store(vec3_add(vec3_scale(vec3_add(center, s.offset), surfels->unit), origin), position + 3 * point);
+        vec3_store(s.normal, normal + 3 * point);
+        if (radius) radius[point] = vec3_length(s.axis_u) * unit * options.cutoff / size;
+        if (axis_u) vec3_store(vec3_scale(s.axis_u, unit), axis_u + 3 * point);
+        if (axis_v) vec3_store(vec3_scale(s.axis_v, unit), axis_v + 3 * point);
+        for (int c = 0; c < 4; c++) color[4 * point + (size_t)c] = c < 3 ? s.color[c] : s.opacity;
+    }
+    ewa_surfels_destroy(&surfels);
+    free(all);
+    return cloud;
+}
+
+/// Every number is that of the derivative in double precision of the surfels as packets keep them, within 1e-4 of the
+/// largest, and what the pipeline's picture changes by when that colour does.
 TEST(test_each) {
     (void)state;
     enum { WORST = 24 };
@@ -122,9 +166,12 @@ TEST(test_each) {
         const ewa_gradient gradient = {.color = wanted};
         double unit_coverage;
         assert_int_equal(ewa_surfels_measure_unit_coverage(s->cloud, NULL, &unit_coverage), EWA_OK);
-        assert_int_equal(ewa_adjoint_backward(s->cloud, NULL, unit_coverage, &s->camera, &s->options, &cotangent,
-                                              &gradient, EWA_ADJOINT_TILE_PX),
+        // Clip lines are of the axes that were given.
+        ewa_cloud *drawn = KINDS[k] & ADJOINT_CLIPPED ? NULL : as_drawn(s->cloud);
+        assert_int_equal(ewa_adjoint_backward(drawn ? drawn : s->cloud, NULL, unit_coverage, &s->camera, &s->options,
+                                              &cotangent, &gradient, EWA_ADJOINT_TILE_PX),
                          EWA_OK);
+        ewa_cloud_destroy(&drawn);
         uint32_t far = 0;
         for (uint32_t i = 0; i < 3 * s->count; i++) largest = fmax(largest, fabs(wanted[i]));
         for (uint32_t i = 0; i < 3 * s->count; i++) {
@@ -151,7 +198,9 @@ TEST(test_each) {
         }
         print_message("%#x: largest %.3g, off by %.2g, %u of %u by more than 1e-4; from the pictures' changes %.2g\n", KINDS[k],
                       largest, off, far, 3 * s->count, worst);
-        assert_true(far <= 3 * s->count / 100);
+        // Of many surfaces behind each other, and where lines leave pixels next to no area, last digits decide more often.
+        const bool decided = !(KINDS[k] & (ADJOINT_CLIPPED | ADJOINT_SECTION | ADJOINT_TRANSPARENT));
+        assert_true(decided ? off <= 1e-4 : far <= 3 * s->count / 100);
         assert_true(worst <= 5e-5); // pictures are rounded to whole numbers of units
         free(wanted), free(first);
         drop(&w);
