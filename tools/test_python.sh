@@ -33,10 +33,11 @@ if ! "$venv/bin/python" -c 'import numpy' 2>/dev/null; then
 fi
 # Packages whose objects are drawn, small ones, where PyPI can be reached: Debian does not have all of them, and has none for
 # interpreters of others. Tests of those that are not there are skipped, and say so.
+missing=""
 for package in trimesh:trimesh laspy:laspy anywidget:anywidget pandas:pandas PIL:pillow; do
-    "$venv/bin/python" -c "import ${package%:*}" 2>/dev/null ||
-        "$venv/bin/python" -m pip install -q --disable-pip-version-check --retries 0 --timeout 20 "${package#*:}" >/dev/null 2>&1 ||
-        break
+    "$venv/bin/python" -c "import importlib.util, sys; sys.exit(not importlib.util.find_spec('${package%:*}'))" || missing="$missing ${package#*:}"
 done
+# shellcheck disable=SC2086
+[ -z "$missing" ] || "$venv/bin/python" -m pip install -q --disable-pip-version-check --retries 0 --timeout 20 $missing >/dev/null 2>&1
 export EWA_LIBRARY="$library" EWA_PROGRAM="$program" PYTHONPATH="$root/python" PYTHONDONTWRITEBYTECODE=1
 exec "$venv/bin/python" "$root/python/tests/run.py"
