@@ -144,11 +144,17 @@ static bool do_alpha(viewer *v, const char *rest) {
     return true;
 }
 
-/// The name of a colour map by its number; NULL beyond the last.
-static const char *colormap_name(int index) {
-    static const char *const names[] = {"viridis", "turbo", "gray",    "plasma",
-                                        "inferno", "magma", "cividis", "coolwarm"};
-    return index >= 0 && index < (int)(sizeof names / sizeof names[0]) ? names[index] : NULL;
+/// The words for the colours of numbers are the library's.
+static void write_map(ewa_coloring_map map, char word[EWA_OPTION_TEXT_BYTES]) {
+    const ewa_coloring coloring = {.map = map};
+    ewa_option_get(ewa_option_find(&ewa_coloring_table, "map"), &coloring, word);
+}
+
+static bool read_map(const char *word, ewa_coloring_map *map) {
+    ewa_coloring coloring;
+    const bool fine = ewa_option_set(ewa_option_find(&ewa_coloring_table, "map"), &coloring, word, NULL) == EWA_OK;
+    if (fine) *map = coloring.map;
+    return fine;
 }
 
 static bool do_color(viewer *v, const char *rest) {
@@ -167,9 +173,7 @@ static bool do_color(viewer *v, const char *rest) {
     snprintf(wish.attribute, sizeof wish.attribute, "%.60s", strcmp(word, "auto") == 0 ? "" : word);
     wish.ranged = wish.percent[0] = wish.percent[1] = false;
     rest = take_word(rest, map);
-    for (int i = 0; map[0] && colormap_name(i); i++)
-        if (strcmp(map, colormap_name(i)) == 0) wish.colormap = i, map[0] = 0;
-    if (map[0]) return refuse(v, "color", map, "a colour map");
+    if (map[0] && !read_map(map, &wish.map)) return refuse(v, "color", map, "a colour map");
     if (rest[0]) {
         wish.ranged = sscanf(rest, "%lf,%lf%c", &wish.range[0], &wish.range[1], &end) == 2 &&
                       isfinite(wish.range[0]) && isfinite(wish.range[1]);
@@ -182,14 +186,11 @@ static bool do_color(viewer *v, const char *rest) {
 
 static bool do_colormap(viewer *v, const char *rest) {
     for (size_t i = 0; i < v->item_count; i++) {
-        viewer_coloring *wish = &v->items[i].wish;
-        int map = 0;
+        ewa_coloring_map *map = &v->items[i].wish.map;
         if (strcmp(rest, "next") == 0)
-            map = colormap_name(wish->colormap + 1) ? wish->colormap + 1 : 0; // from automatic to the first
-        else
-            while (colormap_name(map) && strcmp(colormap_name(map), rest) != 0) map++;
-        if (!colormap_name(map)) return refuse(v, "colormap", rest, "a colour map or next");
-        wish->colormap = map;
+            *map = (ewa_coloring_map)((*map + 1) % (EWA_COLORING_CLASSES + 1));
+        else if (!read_map(rest, map))
+            return refuse(v, "colormap", rest, "a colour map or next");
         if (!ewa_coloring_is_own(v->items[i].coloring.attribute)) items_recolor(v, i);
     }
     return true;
@@ -476,12 +477,13 @@ bool commands_value(const viewer *v, const viewer_action *action, char text[EWA_
     (void)find_command(action->command, word, &rest);
     const viewer_coloring *first = v->item_count ? &v->items[0].wish : NULL;
     const char *said = NULL;
+    char map[EWA_OPTION_TEXT_BYTES];
     if (viewer_action_is_switch(v, action, &on))
         said = on ? "on" : "off";
     else if (strcmp(word, "color") == 0 && first)
         said = first->attribute[0] ? first->attribute : "automatic";
     else if (strcmp(word, "colormap") == 0 && first)
-        said = colormap_name(first->colormap);
+        write_map(first->map, map), said = map;
     if (said) {
         snprintf(text, EWA_OPTION_TEXT_BYTES, "%s", said);
         return true;

@@ -39,7 +39,7 @@ static void take_instance(const ewa_instance *instance, scene_item *item) {
     item->visible = instance->visible;
     item->material = instance->material;
     memcpy(wish->attribute, coloring->attribute, sizeof wish->attribute);
-    wish->colormap = (int)coloring->map - 1;
+    wish->map = coloring->map;
     wish->ranged = coloring->ranged;
     memcpy(wish->range, coloring->range, sizeof wish->range);
     memcpy(wish->percent, coloring->percent, sizeof wish->percent);
@@ -149,7 +149,7 @@ static ewa_instance instance_of(const scene_item *item, bool changeable) {
     if (!changeable) return instance;
     const viewer_coloring *wish = &item->wish;
     memcpy(instance.coloring.attribute, wish->attribute, sizeof instance.coloring.attribute);
-    instance.coloring.map = (ewa_coloring_map)(wish->colormap + 1);
+    instance.coloring.map = wish->map;
     instance.coloring.ranged = wish->ranged;
     memcpy(instance.coloring.percent, wish->percent, sizeof instance.coloring.percent);
     memcpy(instance.coloring.range, wish->range, sizeof instance.coloring.range);
@@ -357,7 +357,7 @@ static void take_legend(const ewa_legend *legend, viewer_coloring *coloring) {
         viewer_class *to = &coloring->classes[coloring->class_count++];
         to->value = legend->categories[k].value;
         memcpy(to->srgb, legend->categories[k].srgb, sizeof to->srgb);
-        snprintf(to->name, sizeof to->name, "%s", legend->categories[k].name);
+        snprintf(to->name, sizeof to->name, "%s", legend->categories[k].name ? legend->categories[k].name : "");
     }
 }
 

@@ -159,13 +159,13 @@ static void set_color_bar(const viewer *v, ewa_category categories[VIEWER_MAX_CL
         if (!item->visible || ewa_coloring_is_own(item->coloring.attribute)) continue;
         furniture->color_bar = true;
         const viewer_coloring *coloring = &item->coloring;
-        furniture->colormap =
-            coloring->colormap >= 0 ? (ewa_colormap)coloring->colormap : EWA_COLORMAP_VIRIDIS;
+        const bool chosen = coloring->map != EWA_COLORING_AUTO && coloring->map != EWA_COLORING_CLASSES;
+        furniture->colormap = chosen ? (ewa_colormap)(coloring->map - EWA_COLORING_VIRIDIS) : EWA_COLORMAP_VIRIDIS;
         memcpy(furniture->range, coloring->range, sizeof furniture->range);
         furniture->color_label = coloring->attribute;
         for (uint32_t k = 0; k < coloring->class_count; k++) {
             const viewer_class *from = &coloring->classes[k];
-            categories[k] = (ewa_category){.value = from->value, .name = from->name};
+            categories[k] = (ewa_category){.value = from->value, .name = from->name[0] ? from->name : NULL};
             memcpy(categories[k].srgb, from->srgb, sizeof from->srgb);
         }
         furniture->categories = coloring->class_count ? categories : NULL;

@@ -88,7 +88,7 @@ static uint32_t pixels(double points, double scale) {
 }
 
 void viewer_coloring_init(viewer_coloring *coloring) {
-    *coloring = (viewer_coloring){.colormap = VIEWER_COLORMAP_AUTO, .alpha = 1, .radius_scale = 1};
+    *coloring = (viewer_coloring){.alpha = 1, .radius_scale = 1};
 }
 
 ewa_status viewer_create(const viewer_options *options, viewer **made) {

@@ -37,20 +37,20 @@ typedef struct viewer_news {
     void (*preview)(void *user, ewa_asset *asset, bool as_points);
 } viewer_news;
 
-enum { VIEWER_MAX_CLASSES = 64, VIEWER_COLORMAP_AUTO = -1 };
+enum { VIEWER_MAX_CLASSES = 64 };
 
 /// A row of a legend.
 typedef struct viewer_class {
     double value;
     uint8_t srgb[3];
-    char name[EWA_CLASS_NAME_BYTES];
+    char name[EWA_CLASS_NAME_BYTES]; ///< empty: the number
 } viewer_class;
 
 /// What is chosen of a cloud's surfels. Fill with viewer_coloring_init().
 typedef struct viewer_coloring {
     char attribute[EWA_NAME_BYTES + 4]; ///< as of ewa_coloring; of what is shown, that which was chosen
-    int colormap;         ///< ewa_colormap, or automatic (default): classes for classes, else viridis
-    uint32_t class_count; ///< filled in: of `classes`; 0: colours go from the first number to the last
+    ewa_coloring_map map;
+    uint32_t class_count; ///< filled in: of `classes`; 0: a bar shows the colours
     viewer_class classes[VIEWER_MAX_CLASSES];
     bool percent[2];     ///< an end of `range` is a percentile, until it is filled in
     bool ranged;         ///< `range` is given; else it is filled with that of ewa_coloring

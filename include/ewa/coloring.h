@@ -56,15 +56,20 @@ EWA_API bool ewa_coloring_is_own(const char *attribute);
 /// Whether an attribute of this name holds codes of classes, where it holds whole numbers. Any thread.
 EWA_API bool ewa_coloring_names_classes(const char *name);
 
+/// Different numbers that are all whole of which a legend shows each, unless a range is given; lengths, colours and strengths
+/// of light have a bar.
+enum { EWA_LEGEND_NUMBERS = 16 };
+
 /// What colours mean; free with ewa_legend_free().
 typedef struct ewa_legend {
     ewa_context *context;
     ewa_colormap colormap;    ///< of numbers
     double range[2];          ///< numbers of the first and the last colour
     bool length;              ///< the numbers are lengths of the world
-    uint32_t category_count;  ///< classes in place of numbers; 0: none
+    bool classes;             ///< colours are those of classes, not of numbers
+    uint32_t category_count;  ///< classes, or the numbers where they are whole and at most EWA_LEGEND_NUMBERS; 0: none
     ewa_category *categories; ///< by code
-    char *names; ///< their names, EWA_CLASS_NAME_BYTES each
+    char *names; ///< of classes, EWA_CLASS_NAME_BYTES each
     uint64_t grey_count; ///< points whose number has no colour: not finite, or no class where these are shown
     char attribute[EWA_SCALAR_NAME_BYTES]; ///< the word for the number
 } ewa_legend;

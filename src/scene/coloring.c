@@ -162,6 +162,20 @@ static bool mark_classes(void *user, uint32_t count, const double *block) {
     return true;
 }
 
+/// Makes room for the rows of a legend.
+static ewa_status make_rows(const numbers *from, uint32_t count, ewa_legend *legend) {
+    legend->categories = ewa_allocate_zeroed(from->context, count + (size_t)1, sizeof *legend->categories);
+    legend->names = ewa_allocate_zeroed(from->context, count + (size_t)1, EWA_CLASS_NAME_BYTES);
+    legend->category_count = count;
+    return legend->categories && legend->names ? EWA_OK : EWA_ERROR_MEMORY;
+}
+
+static void name_class(ewa_legend *legend, uint32_t row, uint32_t code) {
+    char *name = legend->names + (size_t)row * EWA_CLASS_NAME_BYTES;
+    ewa_class_name(code, name);
+    legend->categories[row].name = name;
+}
+
 /// Lists the classes that there are, by code.
 static ewa_status list_classes(const numbers *from, ewa_legend *legend) {
     bool *there = ewa_allocate_zeroed(from->context, CLASS_COUNT, sizeof *there);
@@ -169,19 +183,37 @@ static ewa_status list_classes(const numbers *from, ewa_legend *legend) {
     each_block(from, mark_classes, there);
     uint32_t count = 0;
     for (uint32_t code = 0; code < CLASS_COUNT; code++) count += there[code];
-    legend->categories = ewa_allocate_zeroed(from->context, count + (size_t)1, sizeof *legend->categories);
-    legend->names = ewa_allocate_zeroed(from->context, count + (size_t)1, EWA_CLASS_NAME_BYTES);
-    legend->category_count = count;
-    const ewa_status status = legend->categories && legend->names ? EWA_OK : EWA_ERROR_MEMORY;
+    legend->classes = true;
+    const ewa_status status = make_rows(from, count, legend);
     for (uint32_t code = 0, k = 0; status == EWA_OK && code < CLASS_COUNT; code++) {
         if (!there[code]) continue;
-        char *name = legend->names + (size_t)k * EWA_CLASS_NAME_BYTES;
-        ewa_class_name(code, name);
-        legend->categories[k] = (ewa_category){.value = code, .name = name};
+        legend->categories[k].value = code;
+        name_class(legend, k, code);
         ewa_class_color(code, legend->categories[k++].srgb);
     }
     ewa_release(from->context, there, CLASS_COUNT, sizeof *there);
     return status;
+}
+
+/// The different numbers, ascending; one more than a legend shows: too many, or one that is not whole.
+typedef struct whole_numbers {
+    uint32_t count;
+    double numbers[EWA_LEGEND_NUMBERS + 1];
+} whole_numbers;
+
+static bool take_whole(void *user, uint32_t count, const double *block) {
+    whole_numbers *found = user;
+    for (uint32_t i = 0; i < count; i++) {
+        if (i && block[i] == block[i - 1]) continue;
+        uint32_t place = 0;
+        while (place < found->count && found->numbers[place] < block[i]) place++;
+        if (place < found->count && found->numbers[place] == block[i]) continue;
+        memmove(&found->numbers[place + 1], &found->numbers[place], (found->count - place) * sizeof block[i]);
+        found->numbers[place] = block[i];
+        found->count = block[i] == floor(block[i]) ? found->count + 1 : EWA_LEGEND_NUMBERS + 1;
+        if (found->count > EWA_LEGEND_NUMBERS) return false;
+    }
+    return true;
 }
 
 static bool are_classes(void *user, uint32_t count, const double *block) {
@@ -201,24 +233,6 @@ static bool holds_classes(const numbers *from) {
     return held;
 }
 
-/// Chooses colours for the numbers; says which.
-static ewa_status choose_scale(const numbers *from, const ewa_coloring *coloring, ewa_legend *legend) {
-    const bool automatic = coloring->map == EWA_COLORING_AUTO;
-    const bool classes =
-        coloring->map == EWA_COLORING_CLASSES || (automatic && !coloring->ranged && holds_classes(from));
-    legend->colormap =
-        automatic || classes ? EWA_COLORMAP_VIRIDIS : (ewa_colormap)(coloring->map - EWA_COLORING_VIRIDIS);
-    const char *word = coloring->attribute;
-    EWA_TRY(classes ? list_classes(from, legend) : find_range(from, coloring, legend->range));
-    if (classes)
-        ewa_report(from->context, EWA_SEVERITY_INFO, "%s has %u classes, drawn in the colours of classes%s",
-                   word, legend->category_count, automatic ? " (viridis shows the numbers)" : "");
-    else
-        ewa_report(from->context, EWA_SEVERITY_INFO, "colours: %s from %g to %g", word, legend->range[0],
-                   legend->range[1]);
-    return EWA_OK;
-}
-
 /// The colour of a number; false, and grey, when it has none.
 static bool find_color(const ewa_color_scale *scale, double number, uint8_t srgb[3]) {
     const double extent = scale->range[1] - scale->range[0];
@@ -234,7 +248,44 @@ static bool find_color(const ewa_color_scale *scale, double number, uint8_t srgb
 
 ewa_color_scale ewa_color_scale_of(const ewa_legend *legend) {
     return (ewa_color_scale){
-        legend->colormap, legend->categories != NULL, {legend->range[0], legend->range[1]}};
+        legend->colormap, legend->classes, {legend->range[0], legend->range[1]}};
+}
+
+/// Lists numbers that are whole and few, in the colours of the range: nobody reads a bar for the first to the fifth return.
+static ewa_status list_numbers(const numbers *from, const ewa_coloring *coloring, ewa_legend *legend) {
+    const char *name = from->scalars[0].attribute.name;
+    if (coloring->ranged || legend->length || ewa_attribute_is_signal(name) || strcmp(name, EWA_COLOR) == 0) return EWA_OK;
+    whole_numbers found = {.count = 0};
+    each_block(from, take_whole, &found);
+    if (!found.count || found.count > EWA_LEGEND_NUMBERS) return EWA_OK;
+    EWA_TRY(make_rows(from, found.count, legend));
+    const bool named = ewa_coloring_names_classes(name);
+    const ewa_color_scale scale = ewa_color_scale_of(legend);
+    for (uint32_t k = 0; k < found.count; k++) {
+        legend->categories[k].value = found.numbers[k];
+        if (named && is_class(found.numbers[k])) name_class(legend, k, (uint32_t)found.numbers[k]);
+        (void)find_color(&scale, found.numbers[k], legend->categories[k].srgb);
+    }
+    return EWA_OK;
+}
+
+/// Chooses colours for the numbers; says which.
+static ewa_status choose_scale(const numbers *from, const ewa_coloring *coloring, ewa_legend *legend) {
+    const bool automatic = coloring->map == EWA_COLORING_AUTO;
+    const bool classes =
+        coloring->map == EWA_COLORING_CLASSES || (automatic && !coloring->ranged && holds_classes(from));
+    legend->colormap =
+        automatic || classes ? EWA_COLORMAP_VIRIDIS : (ewa_colormap)(coloring->map - EWA_COLORING_VIRIDIS);
+    const char *word = coloring->attribute;
+    EWA_TRY(classes ? list_classes(from, legend) : find_range(from, coloring, legend->range));
+    if (!classes) EWA_TRY(list_numbers(from, coloring, legend));
+    if (classes)
+        ewa_report(from->context, EWA_SEVERITY_INFO, "%s has %u classes, drawn in the colours of classes%s",
+                   word, legend->category_count, automatic ? " (viridis shows the numbers)" : "");
+    else
+        ewa_report(from->context, EWA_SEVERITY_INFO, "colours: %s from %g to %g", word, legend->range[0],
+                   legend->range[1]);
+    return EWA_OK;
 }
 
 ewa_status ewa_cloud_color_by(ewa_cloud *cloud, const ewa_scalar *scalar, const ewa_color_scale *scale,
@@ -284,7 +335,7 @@ static ewa_status color_by(const numbers *from, const ewa_coloring *coloring, ew
         ewa_report(from->context, EWA_SEVERITY_WARNING,
                    "%llu of %llu numbers of %s are %s; these points are drawn in grey",
                    (unsigned long long)legend->grey_count, (unsigned long long)count, coloring->attribute,
-                   legend->categories ? "no classes" : "not finite");
+                   legend->classes ? "no classes" : "not finite");
     return EWA_OK;
 }
 

@@ -200,4 +200,60 @@ TEST(test_together) {
     assert_int_equal(automatic.notes, 1);
 }
 
+/// Colours a cloud of four points by a number of its own.
+static void color_numbers(ewa_context *context, const char *name, const double given[4], ewa_coloring *coloring, ewa_legend *legend) {
+    ewa_cloud *cloud = NULL;
+    void *data;
+    assert_int_equal(ewa_cloud_create(context, 4, &cloud), EWA_OK);
+    assert_int_equal(ewa_cloud_add(cloud, EWA_POSITION, EWA_F64, 3, &data), EWA_OK);
+    memset(data, 0, 4 * 3 * sizeof(double));
+    assert_int_equal(ewa_cloud_add(cloud, name, EWA_F64, 1, &data), EWA_OK);
+    memcpy(data, given, 4 * sizeof(double));
+    snprintf(coloring->attribute, sizeof coloring->attribute, "%s", name);
+    assert_int_equal(ewa_clouds_color(&cloud, 1, coloring, legend), EWA_OK);
+    ewa_cloud_destroy(&cloud);
+}
+
+/// Numbers that are whole and few have rows in the legend, in the colours that the points have; others have a bar.
+TEST(whole_numbers_have_rows) {
+    ewa_context *context = NULL;
+    assert_int_equal(ewa_context_create(NULL, &context), EWA_OK);
+    ewa_coloring coloring;
+    ewa_coloring_init(&coloring, sizeof coloring);
+    ewa_legend legend;
+    color_numbers(context, "return_number", (double[]){5, 1, -2, 1}, &coloring, &legend);
+    assert_false(legend.classes);
+    assert_int_equal(legend.category_count, 3);
+    for (int k = 0; k < 3; k++) {
+        static const double expected[] = {-2, 1, 5};
+        uint8_t srgb[3];
+        ewa_colormap_color(EWA_COLORMAP_VIRIDIS, (expected[k] + 2) / 7, srgb);
+        assert_true(legend.categories[k].value == expected[k] && !legend.categories[k].name);
+        assert_memory_equal(legend.categories[k].srgb, srgb, 3);
+    }
+    ewa_legend_free(&legend);
+    coloring.map = EWA_COLORING_TURBO; // classes keep their names in other colours
+    color_numbers(context, "Classification", (double[]){2, 6, 6, 2}, &coloring, &legend);
+    assert_false(legend.classes);
+    assert_int_equal(legend.category_count, 2);
+    assert_string_equal(legend.categories[1].name, "building");
+    ewa_legend_free(&legend);
+    coloring.map = EWA_COLORING_AUTO;
+    color_numbers(context, "Classification", (double[]){2, 6, 6, 2}, &coloring, &legend);
+    assert_true(legend.classes && legend.category_count == 2);
+    ewa_legend_free(&legend);
+    // A number between, a strength of light, a range: a bar.
+    color_numbers(context, "return_number", (double[]){1, 2, 2.5, 3}, &coloring, &legend);
+    assert_true(!legend.category_count && !legend.categories);
+    ewa_legend_free(&legend);
+    color_numbers(context, "intensity", (double[]){1, 2, 3, 4}, &coloring, &legend);
+    assert_int_equal(legend.category_count, 0);
+    ewa_legend_free(&legend);
+    coloring.ranged = true, coloring.range[1] = 9;
+    color_numbers(context, "return_number", (double[]){1, 2, 3, 4}, &coloring, &legend);
+    assert_int_equal(legend.category_count, 0);
+    ewa_legend_free(&legend);
+    ewa_context_destroy(&context);
+}
+
 int main(void) { return RUN_TESTS(NULL, NULL); }

@@ -45,7 +45,9 @@ void row(const panel_page *page, const viewer_action *action) {
     const char *name, *words = words_of(page, action, &name);
     if (words && viewer_setting_get(page->viewer, name, now)) {
         if (ImGui::BeginMenu(action->label)) {
-            panel_words(page, name, words, now);
+            char command[EWA_OPTION_TEXT_BYTES];
+            snprintf(command, sizeof command, "set %s", name);
+            panel_words(page, command, words, now, "");
             ImGui::EndMenu();
         }
         return;

@@ -71,8 +71,8 @@ constexpr ImGuiWindowFlags panel_fixed_flags =
     ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoFocusOnAppearing |
     ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoNav;
 
-/// Rows of the words that `words` separates by bars; choosing one sets the setting `name`.
-void panel_words(const panel_page *page, const char *name, const char *words, const char *now);
+/// Rows of the words that `words` separates by bars; choosing one says `command` with the word, and `rest` behind.
+void panel_words(const panel_page *page, const char *command, const char *words, const char *now, const char *rest);
 /// Draws an icon in the square whose corner is given.
 void panel_icon(const panel_page *page, viewer_icon icon, ImVec2 corner, float side, ImU32 color);
 

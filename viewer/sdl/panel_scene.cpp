@@ -13,10 +13,6 @@ namespace {
 /// Larger clouds take too long to be coloured again while a hand moves.
 constexpr uint64_t live_count = 2000000;
 
-/// In the order of ewa_colormap.
-const char *const colormaps[] = {"viridis", "turbo", "gray",    "plasma",
-                                 "inferno", "magma", "cividis", "coolwarm"};
-
 /// Chooses the file's colours, one colour, or an attribute's.
 void choose_colors(const panel_page *page, int index, const viewer_item *item) {
     const viewer_coloring &now = item->coloring;
@@ -42,23 +38,24 @@ void choose_colors(const panel_page *page, int index, const viewer_item *item) {
     ImGui::EndCombo();
 }
 
-void say_range(const panel_page *page, int index, const viewer_coloring *now, int map,
-               const double range[2]) {
-    panel_say(page, "color %d %s %s %.10g,%.10g", index, now->attribute, colormaps[map], range[0], range[1]);
-}
-
-/// The map of an attribute's numbers to colours.
+/// The map of an attribute's numbers to colours; where each number has a row of the legend, there is no range.
 void choose_map(panel_page *page, int index, const viewer_item *item) {
     const viewer_coloring &now = item->coloring;
-    const bool known = now.colormap >= 0 && now.colormap < IM_ARRAYSIZE(colormaps);
+    const ewa_option *maps = ewa_option_find(&ewa_coloring_table, "map");
+    ewa_coloring coloring;
+    ewa_coloring_init(&coloring, sizeof coloring);
+    coloring.map = now.map;
+    char map[EWA_OPTION_TEXT_BYTES];
+    ewa_option_get(maps, &coloring, map);
     panel_label(page, "Colour map");
-    int map = known ? now.colormap : 0;
-    if (ImGui::Combo("##map", &map, colormaps, IM_ARRAYSIZE(colormaps))) {
-        if (now.ranged)
-            say_range(page, index, &now, map, now.range);
-        else
-            panel_say(page, "color %d %s %s", index, now.attribute, colormaps[map]);
+    if (ImGui::BeginCombo("##map", map)) {
+        char command[VIEWER_TEXT_BYTES], kept[64] = "";
+        snprintf(command, sizeof command, "color %d %s", index, now.attribute);
+        if (now.ranged) snprintf(kept, sizeof kept, " %.10g,%.10g", now.range[0], now.range[1]);
+        panel_words(page, command, maps->words, map, kept);
+        ImGui::EndCombo();
     }
+    if (now.class_count) return;
     panel_label(page, "Range");
     static const char label[] = "##range";
     double range[2] = {now.range[0], now.range[1]};
@@ -69,10 +66,10 @@ void choose_map(panel_page *page, int index, const viewer_item *item) {
     const bool changed = ImGui::DragScalarN(label, ImGuiDataType_Double, range, 2,
                                             extent > 0 ? 0.005f * extent : 0.01f, nullptr, nullptr, "%.4g");
     if (panel_edit_end(page, label, 2, range, changed, item->count <= live_count))
-        say_range(page, index, &now, map, range);
+        panel_say(page, "color %d %s %s %.10g,%.10g", index, now.attribute, map, range[0], range[1]);
     ImGui::SameLine(0, ImGui::GetStyle().ItemInnerSpacing.x);
-    if (ImGui::Button("Auto")) panel_say(page, "color %d %s %s", index, now.attribute, colormaps[map]);
-    if (ImGui::IsItemHovered()) ImGui::SetTooltip("From the 2nd to the 98th percentile");
+    if (ImGui::Button("Auto")) panel_say(page, "color %d %s %s", index, now.attribute, map);
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("As the numbers are");
 }
 
 void choose_tint(panel_page *page, int index, const viewer_item *item) {

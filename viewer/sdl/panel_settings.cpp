@@ -133,7 +133,9 @@ void setting_row(panel_page *page, const ewa_option *option) {
         if (ImGui::Checkbox("##switch", &on)) panel_say(page, "set %s %s", option->name, on ? "on" : "off");
     } else if (option->words) {
         if (ImGui::BeginCombo("##word", now)) {
-            panel_words(page, option->name, option->words, now);
+            char command[EWA_OPTION_TEXT_BYTES];
+            snprintf(command, sizeof command, "set %s", option->name);
+            panel_words(page, command, option->words, now, "");
             ImGui::EndCombo();
         }
     } else {
@@ -145,12 +147,12 @@ void setting_row(panel_page *page, const ewa_option *option) {
 
 } // namespace
 
-void panel_words(const panel_page *page, const char *name, const char *words, const char *now) {
+void panel_words(const panel_page *page, const char *command, const char *words, const char *now, const char *rest) {
     for (const char *at = words; *at;) {
         char word[EWA_OPTION_TEXT_BYTES];
         const size_t length = strcspn(at, "|");
         snprintf(word, sizeof word, "%.*s", (int)length, at);
-        if (ImGui::MenuItem(word, nullptr, strcmp(word, now) == 0)) panel_say(page, "set %s %s", name, word);
+        if (ImGui::MenuItem(word, nullptr, strcmp(word, now) == 0)) panel_say(page, "%s %s%s", command, word, rest);
         at += length + (at[length] == '|');
     }
 }
