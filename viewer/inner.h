@@ -138,6 +138,7 @@ struct viewer {
     octree_turns *turns;      ///< of who uses octrees
     node_reader *node_reader; ///< reads their nodes beside what is drawn; NULL: drawing does
     bool octrees, volumes;    ///< some are visible
+    const char *unit;         ///< of the world's lengths, as its files say; NULL: they do not
     uint32_t voxel_level;     ///< the coarsest at which one can tell what the volumes are
     char title[VIEWER_NAME_BYTES];
 
@@ -276,6 +277,8 @@ bool measures_command(viewer *v, const char *rest);
 bool measures_holds(const viewer *v, const char *word);
 /// Adds what was clicked to the measurement that is under way; false: there is none.
 bool measures_click(viewer *v, const viewer_event *event);
+/// Writes a length (`power` 1) or an area (2) with its unit and so many digits.
+void measures_write(const viewer *v, char *text, size_t text_bytes, double number, int digits, int power);
 /// Writes name and value, for labels.
 void measures_value(const viewer *v, const viewer_measure *measure, char text[VIEWER_NAME_BYTES]);
 

@@ -220,6 +220,7 @@ static void show(viewer *v, const ewa_scene *scene) {
     ewa_scene_describe(next, &info);
     v->octrees = info.octrees;
     v->volumes = info.volumes;
+    v->unit = info.unit;
     v->voxel_level = coarsest_voxels(v);
     viewer_change(v);
 }
@@ -352,6 +353,7 @@ static void take_legend(const ewa_legend *legend, viewer_coloring *coloring) {
     if (!legend) return;
     memcpy(coloring->attribute, legend->attribute, sizeof coloring->attribute);
     memcpy(coloring->range, legend->range, sizeof coloring->range);
+    coloring->length = legend->length;
     coloring->percent[0] = coloring->percent[1] = false;
     for (uint32_t k = 0; k < legend->category_count && k < VIEWER_MAX_CLASSES; k++) {
         viewer_class *to = &coloring->classes[coloring->class_count++];

@@ -11,18 +11,23 @@
 /// Places after which a measurement is whole by itself; 0: a double click ends it.
 static const uint32_t WHOLE[] = {[EWA_MEASURE_DISTANCE] = 0, [EWA_MEASURE_HEIGHT] = 2, [EWA_MEASURE_ANGLE] = 3, [EWA_MEASURE_AREA] = 0};
 
+void measures_write(const viewer *v, char *text, size_t text_bytes, double number, int digits, int power) {
+    snprintf(text, text_bytes, "%.*g%s%s%s", digits, number, v->unit ? " " : "", v->unit ? v->unit : "",
+             v->unit && power == 2 ? "\xc2\xb2" : "");
+}
+
 void measures_value(const viewer *v, const viewer_measure *measure, char text[VIEWER_NAME_BYTES]) {
     ewa_measurement m;
-    const char *name = measure->name;
+    char value[64] = "";
     if (ewa_places_measure(measure->kind, measure->places_world, measure->count, v->up_world, &m) != EWA_OK)
-        snprintf(text, VIEWER_NAME_BYTES, "%s", name);
+        value[0] = 0;
     else if (measure->kind == EWA_MEASURE_ANGLE)
-        snprintf(text, VIEWER_NAME_BYTES, "%s %.6g\xc2\xb0", name, m.angle_deg);
+        snprintf(value, sizeof value, "%.6g\xc2\xb0", m.angle_deg);
+    else if (measure->kind == EWA_MEASURE_AREA)
+        measures_write(v, value, sizeof value, m.area, 6, 2);
     else
-        snprintf(text, VIEWER_NAME_BYTES, "%s %.6g", name,
-                 measure->kind == EWA_MEASURE_AREA     ? m.area
-                 : measure->kind == EWA_MEASURE_HEIGHT ? m.rise_world
-                                                       : m.length_world);
+        measures_write(v, value, sizeof value, measure->kind == EWA_MEASURE_HEIGHT ? m.rise_world : m.length_world, 6, 1);
+    snprintf(text, VIEWER_NAME_BYTES, "%s%s%s", measure->name, value[0] ? " " : "", value);
 }
 
 /// Says all that is known of a measurement.
@@ -33,16 +38,20 @@ static bool tell(viewer *v, size_t index) {
         viewer_tell(v, "measure: %s does not go by %u places", ewa_measure_kind_name(measure->kind), measure->count);
         return false;
     }
-    char what[VIEWER_NAME_BYTES];
+    char what[VIEWER_NAME_BYTES], length[64], across[64], rise[64], area[64], horizontal_area[64];
+    measures_write(v, length, sizeof length, m.length_world, 9, 1);
+    measures_write(v, across, sizeof across, m.horizontal_world, 9, 1);
+    measures_write(v, rise, sizeof rise, m.rise_world, 9, 1);
+    measures_write(v, area, sizeof area, m.area, 9, 2);
+    measures_write(v, horizontal_area, sizeof horizontal_area, m.horizontal_area, 9, 2);
     if (measure->kind == EWA_MEASURE_ANGLE)
         snprintf(what, sizeof what, "%.9g deg", m.angle_deg);
     else if (measure->kind == EWA_MEASURE_AREA)
-        snprintf(what, sizeof what, "%.9g horizontal %.9g around %.9g", m.area, m.horizontal_area, m.length_world);
+        snprintf(what, sizeof what, "%s horizontal %s around %s", area, horizontal_area, length);
     else if (measure->kind == EWA_MEASURE_HEIGHT)
-        snprintf(what, sizeof what, "%.9g horizontal %.9g slope %.4g deg", m.rise_world, m.horizontal_world, m.slope_deg);
+        snprintf(what, sizeof what, "%s horizontal %s slope %.4g deg", rise, across, m.slope_deg);
     else
-        snprintf(what, sizeof what, "%.9g horizontal %.9g rise %.9g slope %.4g deg", m.length_world, m.horizontal_world,
-                 m.rise_world, m.slope_deg);
+        snprintf(what, sizeof what, "%s horizontal %s rise %s slope %.4g deg", length, across, rise, m.slope_deg);
     viewer_say(v, "measure %zu %s %s: %s", index, ewa_measure_kind_name(measure->kind), measure->name, what);
     snprintf(v->state.picked, sizeof v->state.picked, "%s\n%s %s", measure->name, ewa_measure_kind_name(measure->kind), what);
     return true;
@@ -95,10 +104,11 @@ static void put_name(FILE *file, const char *name) {
 }
 
 static bool save(viewer *v, const char *path) {
+    const char *unit = v->unit ? v->unit : "";
     FILE *file = fopen(path, "w");
     bool done = file != NULL;
     if (file) {
-        fputs("name,kind,length,horizontal,rise,slope_deg,angle_deg,area,horizontal_area,places\n", file);
+        fputs("name,kind,length,horizontal,rise,slope_deg,angle_deg,area,horizontal_area,unit,places\n", file);
         for (size_t i = 0; i < v->measure_count; i++) {
             const viewer_measure *measure = &v->measure_list[i];
             ewa_measurement m;
@@ -107,11 +117,11 @@ static bool save(viewer *v, const char *path) {
             fprintf(file, ",%s,%.9g,%.9g,", ewa_measure_kind_name(measure->kind), m.length_world, m.horizontal_world);
             // A kind leaves the cells of others empty.
             if (measure->kind == EWA_MEASURE_AREA)
-                fprintf(file, ",,,%.9g,%.9g,", m.area, m.horizontal_area);
+                fprintf(file, ",,,%.9g,%.9g,%s,", m.area, m.horizontal_area, unit);
             else if (measure->kind == EWA_MEASURE_ANGLE)
-                fprintf(file, ",,%.9g,,,", m.angle_deg);
+                fprintf(file, ",,%.9g,,,%s,", m.angle_deg, unit);
             else
-                fprintf(file, "%.9g,%.9g,,,,", m.rise_world, m.slope_deg);
+                fprintf(file, "%.9g,%.9g,,,,%s,", m.rise_world, m.slope_deg, unit);
             for (uint32_t k = 0; k < 3 * measure->count; k++) {
                 char number[40];
                 pick_write_number(number, measure->places_world[k], false);

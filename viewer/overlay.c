@@ -139,7 +139,7 @@ static void draw_picks(const overlay *o, const viewer *v) {
             distance2 += d * d;
         }
         draw_edge(o, a->place_world, b->place_world, 2, MARK);
-        snprintf(text, sizeof text, "%.6g", sqrt(distance2));
+        measures_write(v, text, sizeof text, sqrt(distance2), 6, 1);
         draw_label(o, middle, text);
     }
     if (a->given) draw_dot(o, a->place_world, 7, MARK);
@@ -163,6 +163,7 @@ static void set_color_bar(const viewer *v, ewa_category categories[VIEWER_MAX_CL
         furniture->colormap = chosen ? (ewa_colormap)(coloring->map - EWA_COLORING_VIRIDIS) : EWA_COLORMAP_VIRIDIS;
         memcpy(furniture->range, coloring->range, sizeof furniture->range);
         furniture->color_label = coloring->attribute;
+        furniture->color_unit = coloring->length ? v->unit : NULL;
         for (uint32_t k = 0; k < coloring->class_count; k++) {
             const viewer_class *from = &coloring->classes[k];
             categories[k] = (ewa_category){.value = from->value, .name = from->name[0] ? from->name : NULL};
@@ -185,6 +186,7 @@ void overlay_draw(viewer *v, const ewa_camera *camera, uint8_t *rgba8) {
     if (v->measures_kind && v->measuring.count) draw_measure(&o, v, &v->measuring);
     draw_picks(&o, v);
     ewa_furniture_options furniture = v->furniture;
+    furniture.unit = v->unit;
     ewa_category categories[VIEWER_MAX_CLASSES];
     if (furniture.color_bar) set_color_bar(v, categories, &furniture);
     const double depth = navigate_depth(camera, v->pivot_world);

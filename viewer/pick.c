@@ -17,8 +17,6 @@ static const double POINT_REACH = 40, POINT_SHARE = 0.01;
 /// Points of the window about a click.
 static const double PICK_REACH = 4;
 
-static const double PI = 3.14159265358979323846;
-
 /// How far from a place of a surface its points may be: some of the window's points, or a share of the scene.
 static double reach_of(const viewer *v, const double place_world[3]) {
     const double depth = navigate_depth(&v->camera, place_world);
@@ -123,22 +121,20 @@ static void describe(viewer *v, viewer_pick *pick, const ewa_cloud *read) {
 
 /// Says how far it is from the first point to the second.
 static void describe_measure(viewer *v) {
-    const double *a = v->picks[0].place_world, *b = v->picks[1].place_world, *up = v->up_world;
-    double d[3], distance2 = 0, rise = 0, up2 = 0;
-    for (int c = 0; c < 3; c++) {
-        d[c] = b[c] - a[c];
-        distance2 += d[c] * d[c];
-        rise += d[c] * up[c];
-        up2 += up[c] * up[c];
-    }
-    rise /= sqrt(up2);
-    const double horizontal = sqrt(fmax(distance2 - rise * rise, 0));
-    const double slope_deg = distance2 > 0 ? atan2(rise, horizontal) * 180 / PI : 0;
-    viewer_say(v, "measure distance %.9g dx %.9g dy %.9g dz %.9g horizontal %.9g rise %.9g slope %.4g deg",
-               sqrt(distance2), d[0], d[1], d[2], horizontal, rise, slope_deg);
+    double places_world[6];
+    for (int k = 0; k < 2; k++) memcpy(places_world + 3 * k, v->picks[k].place_world, sizeof v->picks[k].place_world);
+    const double *a = places_world, *b = places_world + 3;
+    ewa_measurement m;
+    if (ewa_places_measure(EWA_MEASURE_DISTANCE, places_world, 2, v->up_world, &m) != EWA_OK) return;
+    char distance[64], horizontal[64], rise[64];
+    measures_write(v, distance, sizeof distance, m.length_world, 9, 1);
+    measures_write(v, horizontal, sizeof horizontal, m.horizontal_world, 9, 1);
+    measures_write(v, rise, sizeof rise, m.rise_world, 9, 1);
+    viewer_say(v, "measure distance %s dx %.9g dy %.9g dz %.9g horizontal %s rise %s slope %.4g deg", distance, b[0] - a[0],
+               b[1] - a[1], b[2] - a[2], horizontal, rise, m.slope_deg);
     snprintf(v->state.picked, sizeof v->state.picked,
-             "distance %.9g\ndx %.9g\ndy %.9g\ndz %.9g\nhorizontal %.9g\nrise %.9g\nslope %.4g deg",
-             sqrt(distance2), d[0], d[1], d[2], horizontal, rise, slope_deg);
+             "distance %s\ndx %.9g\ndy %.9g\ndz %.9g\nhorizontal %s\nrise %s\nslope %.4g deg", distance, b[0] - a[0], b[1] - a[1],
+             b[2] - a[2], horizontal, rise, m.slope_deg);
 }
 
 static void copy_picked(viewer *v) {

@@ -50,6 +50,7 @@ typedef struct viewer_class {
 typedef struct viewer_coloring {
     char attribute[EWA_NAME_BYTES + 4]; ///< as of ewa_coloring; of what is shown, that which was chosen
     ewa_coloring_map map;
+    bool length;          ///< filled in: the numbers are lengths of the world
     uint32_t class_count; ///< filled in: of `classes`; 0: a bar shows the colours
     viewer_class classes[VIEWER_MAX_CLASSES];
     bool percent[2];     ///< an end of `range` is a percentile, until it is filled in

@@ -38,7 +38,8 @@ static const cli_option graph_table[] = {
     {"exaggeration", OPTION_OF(ewa_profile_graph_options, AT(graph), exaggeration), .value = "N"},
     {"point-size", OPTION_OF(ewa_profile_graph_options, AT(graph), point_size_px), .value = "PX"},
     {"title", OPTION_TEXT, AT(title), "TEXT", .help = "write a line over the top of the graph", .absent = "none"},
-    {"unit", OPTION_TEXT, AT(unit), "UNIT", .help = "of the file's lengths, for the names of the axes", .absent = "none"},
+    {"unit", OPTION_TEXT, AT(unit), "UNIT", .help = "of the file's lengths, for the names of the axes",
+     .absent = "auto: as the files' reference systems say"},
 };
 
 static const cli_option color_table[] = {COLORING_OPTIONS(AT(coloring))};

@@ -44,7 +44,9 @@ bool furnish_make(cli_session *session, const furnish_arguments *arguments, cons
     options->title = arguments->title;
     options->axes = arguments->axes;
     options->scale_bar = arguments->scale_bar;
-    options->unit = arguments->unit;
+    ewa_scene_info info = {.unit = NULL};
+    if (subject && subject->scene) ewa_scene_describe(subject->scene, &info);
+    options->unit = arguments->unit ? arguments->unit : info.unit;
     if (frames_many(frames)) options->ink = steady_ink(background);
     const option_vector *target = &frames->view.target;
     memcpy(made->middle_world, target->values, sizeof made->middle_world);
@@ -52,11 +54,11 @@ bool furnish_make(cli_session *session, const furnish_arguments *arguments, cons
     return view_middle(session, &frames->view, subject, made->middle_world);
 }
 
-void furnish_color_bar(const furnish_arguments *arguments, const ewa_legend *legend, furnishing *made) {
+void furnish_color_bar(const ewa_legend *legend, furnishing *made) {
     ewa_furniture_options *options = &made->options;
     options->color_bar = true;
     options->color_label = legend->attribute;
-    options->color_unit = legend->length ? arguments->unit : NULL;
+    options->color_unit = legend->length ? options->unit : NULL;
     options->colormap = legend->colormap;
     memcpy(options->range, legend->range, sizeof options->range);
     options->categories = legend->categories;

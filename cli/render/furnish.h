@@ -27,7 +27,7 @@ typedef struct furnish_arguments {
         "unit", OPTION_TEXT, (offset) + offsetof(furnish_arguments, unit), "UNIT",                           \
             .help = "of the file's lengths, for the scale bar and a colour bar of x, y or z; m turns into "  \
                     "mm, cm and km",                                                                         \
-            .absent = "none"                                                                                 \
+            .absent = "auto: as the files' reference systems say"                                                                                 \
     }
 
 /// Says in `message` what is wrong with the options and the output; see command.check.
@@ -46,8 +46,7 @@ bool furnish_make(cli_session *session, const furnish_arguments *arguments, cons
                   const option_color *background, const view_subject *subject, furnishing *made);
 
 /// Says what the colour bar means by a legend, which stays as long as the furnishing.
-void furnish_color_bar(const furnish_arguments *arguments, const ewa_legend *legend,
-                       furnishing *made);
+void furnish_color_bar(const ewa_legend *legend, furnishing *made);
 
 /// Draws it over a frame's 8-bit picture; the status of the library.
 ewa_status furnish_draw(cli_session *session, const furnishing *made, const ewa_camera *camera,

@@ -331,7 +331,7 @@ static bool prepare(cli_session *session, const render_arguments *arguments, con
     for (uint32_t i = 0; i < info.instance_count && !legend; i++) legend = ewa_scene_legend(scene->scene, i);
     if (!arguments->furniture.color_bar) return true;
     if (legend)
-        furnish_color_bar(&arguments->furniture, legend, &scene->furniture);
+        furnish_color_bar(legend, &scene->furniture);
     else
         session_fail(session, "--color-bar has nothing to show for the file's own colours; --color-by ATTR shows a number");
     return legend;

@@ -123,7 +123,7 @@ EWA_API double ewa_grid_world(const ewa_coordinate_grid *grid, uint32_t axis, do
 
 /// Keeps bytes with the cloud, a copy, replacing those of the same name; none when `size_bytes` is 0. Known
 /// names: "crs", the coordinate reference system as text (WKT, or a name such as "EPSG:32632"); "crs_name", a
-/// name for people; "las.vlrs", raw variable length records; "file.WHAT", facts about the file that
+/// name for people; "crs_unit", "m", "ft" or "US ft", where the text does not say it; "las.vlrs", raw variable length records; "file.WHAT", facts about the file that
 /// the points came from, as text for people. Selections and the first of merged clouds hand them on. Errors:
 /// EWA_ERROR_ARGUMENT (name empty or too long), EWA_ERROR_MEMORY.
 EWA_API ewa_status ewa_cloud_set_note(ewa_cloud *cloud, const char *name, const void *bytes,

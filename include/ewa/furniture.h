@@ -90,7 +90,8 @@ typedef struct ewa_furniture_options {
     /// Distance along the view, in world units, at which the scale bar of a perspective camera holds, which it says;
     /// [0, 1e30]; 0 (default): such a camera has no scale bar. Orthographic cameras need none.
     double scale_depth_world;
-    /// Unit of the world, behind the lengths of the scale bar; "m" turns into mm, cm and km. NULL: none.
+    /// Unit of the world, such as ewa_scene_info.unit, behind the lengths of the scale bar; "m" turns into mm, cm and km. NULL:
+    /// none.
     const char *unit;
     ewa_colormap colormap;
     double range[2];                ///< numbers of the first and the last colour; default 0, 1

@@ -40,6 +40,7 @@ typedef struct ewa_profile {
     uint8_t *srgb;       ///< 3 of each point: as the scene colours it without light; grey 96 of those without a colour
     double length_world; ///< of the line, seen from above
     double up_world[3];  ///< unit
+    const char *unit;    ///< of the world, as ewa_scene_info.unit; NULL: nothing says it
 } ewa_profile;
 
 /// Reads a line: "x,y;x,y;..." or with three numbers a corner, world units; the third is 0 where there are two.
@@ -70,7 +71,7 @@ typedef struct ewa_profile_graph_options {
     double point_size_px; ///< diameter of dots; [0, 256]; 0 (default): 2 points
     double pixel_scale;   ///< pixels per point, of which text has 12; [0, 100]; 0 (default): as of furniture
     const char *title;    ///< UTF-8, borrowed; NULL: none
-    const char *unit;     ///< of the world, behind the names of the axes; NULL: none
+    const char *unit;     ///< of the world, behind the names of the axes; NULL: that of the profile
 } ewa_profile_graph_options;
 
 EWA_API extern const ewa_option_table ewa_profile_graph_options_table;

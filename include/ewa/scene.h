@@ -270,6 +270,9 @@ typedef struct ewa_scene_info {
     bool surfaces, octrees, gaussians, volumes; ///< some are visible
     ewa_surfels_info surfels;  ///< of the committed surfaces; zeros: none
     const ewa_surfels *resident; ///< those surfels, borrowed until the scene changes; NULL: none
+    /// Of its lengths: "m", "ft" or "US ft" (1200/3937 m), as the reference systems of what is visible say; NULL: they do not, or
+    /// differently. Lives as long as the program.
+    const char *unit;
     uint64_t estimated_count;  ///< points that got normals or radii
     double load_s, estimate_s, surfels_s; ///< wall clock, of all assets and of this scene
 } ewa_scene_info;

@@ -41,6 +41,7 @@ EWA_TANGENT_V = 'tangent_v'
 EWA_MAX_RANKS = 1048576
 EWA_ALL_RANKS = 4294967295
 EWA_SCALAR_NAME_BYTES = 68
+EWA_LEGEND_NUMBERS = 16
 EWA_DIAGNOSIS_TEXT_BYTES = 400
 EWA_UPRIGHT_TEXT_BYTES = 160
 EWA_MAX_SH_DEGREE = 4
@@ -838,6 +839,7 @@ class ewa_legend(c.Structure):
     colormap: int
     range: c.Array[c.c_double]
     length: bool
+    classes: bool
     category_count: int
     categories: Any
     names: bytes | None
@@ -848,6 +850,7 @@ class ewa_legend(c.Structure):
         ("colormap", c.c_int),
         ("range", c.c_double * 2),
         ("length", c.c_bool),
+        ("classes", c.c_bool),
         ("category_count", c.c_uint32),
         ("categories", c.POINTER(ewa_category)),
         ("names", c.c_char_p),
@@ -2037,12 +2040,14 @@ class ewa_profile(c.Structure):
     srgb: int | None
     length_world: float
     up_world: c.Array[c.c_double]
+    unit: bytes | None
     _fields_ = [
         ("context", c.c_void_p),
         ("points", c.c_void_p),
         ("srgb", c.c_void_p),
         ("length_world", c.c_double),
         ("up_world", c.c_double * 3),
+        ("unit", c.c_char_p),
     ]
 
 
@@ -2511,6 +2516,7 @@ class ewa_scene_info(c.Structure):
     volumes: bool
     surfels: ewa_surfels_info
     resident: int | None
+    unit: bytes | None
     estimated_count: int
     load_s: float
     estimate_s: float
@@ -2525,6 +2531,7 @@ class ewa_scene_info(c.Structure):
         ("volumes", c.c_bool),
         ("surfels", ewa_surfels_info),
         ("resident", c.c_void_p),
+        ("unit", c.c_char_p),
         ("estimated_count", c.c_uint64),
         ("load_s", c.c_double),
         ("estimate_s", c.c_double),

@@ -85,7 +85,7 @@ class Profile(Held):
         size : (int, int)
             Width and height, pixels.
         title, unit : str
-            A line over the top; what the world's lengths are called.
+            A line over the top; what the world's lengths are called, by default as the files say.
         **options
 
         Raises

@@ -293,7 +293,7 @@ class Scene:
             With the plane rgba8, which is drawn into; returned.
         title : str, optional
         unit : str, optional
-            Of the world's lengths, such as "m".
+            Of the world's lengths, such as "m". Default: as the reference systems of the files say.
         color_label, color_unit : str, optional
             Above the colour bar. Default: what the scene is coloured by.
         **options
@@ -312,6 +312,10 @@ class Scene:
             middle = np.array([*self._world.view(view_options())[1].pivot_world, 1.0])
             depth = float(camera.world_to_camera[2] @ middle / np.linalg.norm(camera.world_to_camera[2, :3]))
             made.scale_depth_world = depth if 0 < depth < 1e30 else 0
+        info = b.ewa_scene_info()
+        self._core.value(lib.ewa_scene_describe, self._handle, ctypes.byref(info))
+        if unit is None and info.unit:
+            unit = info.unit.decode()
         legend = self._legend() if options.get("color_bar") else None
         if legend is not None:
             made.colormap, made.range[:] = legend.colormap, list(legend.range)

@@ -20,6 +20,9 @@ ewa_status ewa_asset_take_gaussians(const ewa_asset_job *job, ewa_gaussians *set
 /// Takes over what a file of points or triangles holds.
 ewa_status ewa_asset_take_model(const ewa_asset_job *job, ewa_model *model);
 
+/// Takes the unit of a cloud's lengths, which a map that changes lengths ends.
+void ewa_asset_take_unit(ewa_asset *asset, const ewa_cloud *cloud);
+
 /// Makes points on the faces of a mesh.
 ewa_status ewa_asset_sample_mesh(const ewa_asset_job *job, const ewa_mesh *mesh);
 

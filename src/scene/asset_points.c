@@ -6,6 +6,7 @@
 #include "ewa/diagnosis.h"
 #include "ewa/prepare.h"
 #include "framing/conventions.h"
+#include "io/crs.h"
 #include "math/degree.h"
 #include "scene/asset.h"
 
@@ -17,6 +18,15 @@ static const uint64_t MESH_POINTS = 200000, MESH_POINTS_PER_TRIANGLE = 4;
 
 /// Smallest cutoff that axes of a mesh's points are made for.
 static const double MESH_CUTOFF = 1e-3;
+
+void ewa_asset_take_unit(ewa_asset *asset, const ewa_cloud *cloud) {
+    bool same = true;
+    for (int c = 0; c < 3; c++) {
+        const double *m = asset->to_world + c;
+        same = same && fabs(sqrt(m[0] * m[0] + m[4] * m[4] + m[8] * m[8]) - 1) < 1e-9;
+    }
+    asset->unit = same ? ewa_crs_unit_name(ewa_cloud_crs_unit(cloud)) : NULL;
+}
 
 /// Takes points as they are.
 static ewa_status take_points(const ewa_asset_job *job, ewa_cloud *cloud) {
@@ -31,6 +41,7 @@ static ewa_status take_points(const ewa_asset_job *job, ewa_cloud *cloud) {
         ewa_report(asset->context, EWA_SEVERITY_INFO, "%llu of %llu points are taken",
                    (unsigned long long)ewa_cloud_point_count(asset->cloud), (unsigned long long)all);
     if (ewa_asset_is_moved(asset)) EWA_TRY(ewa_cloud_transform(asset->cloud, asset->to_world));
+    ewa_asset_take_unit(asset, asset->cloud);
     asset->count = ewa_cloud_point_count(asset->cloud);
     asset->drawable = ewa_cloud_is_drawable(asset->cloud);
     ewa_status status = EWA_OK;
@@ -51,6 +62,7 @@ static ewa_status make_metres(ewa_asset *asset) {
                "degrees with heights in metres: x and y are drawn times %.0f and %.0f, about metres", length_m[0],
                length_m[1]);
     EWA_TRY(ewa_cloud_transform(asset->cloud, to_metres));
+    asset->unit = ewa_crs_unit_name(EWA_CRS_METRES);
     return ewa_cloud_measure(asset->cloud, &asset->bounds);
 }
 

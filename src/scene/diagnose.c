@@ -6,6 +6,7 @@
 #include "base/base.h"
 #include "cloud/cloud.h"
 #include "ewa/diagnosis.h"
+#include "io/crs.h"
 #include "math/degree.h"
 
 #include <float.h>
@@ -85,15 +86,6 @@ void ewa_cloud_check_steps(const ewa_cloud *cloud) {
         largest, step, spacing);
 }
 
-/// Whether the text of a coordinate reference system is one of longitude and latitude; false for none.
-static bool is_geographic(const char *crs) {
-    static const char *const codes[] = {"EPSG:4326", "EPSG:4979", "EPSG:4258", "EPSG:4269"};
-    if (!crs || strstr(crs, "PROJC")) return false;
-    bool found = strstr(crs, "GEOGC") || strstr(crs, "GEODCRS");
-    for (size_t i = 0; i < sizeof codes / sizeof codes[0]; i++) found = found || strcmp(crs, codes[i]) == 0;
-    return found;
-}
-
 bool ewa_cloud_find_degrees(const ewa_cloud *cloud, char text[EWA_DIAGNOSIS_TEXT_BYTES]) {
     if (!cloud) return false;
     ewa_bounds box;
@@ -106,16 +98,17 @@ bool ewa_cloud_find_degrees(const ewa_cloud *cloud, char text[EWA_DIAGNOSIS_TEXT
     const double extent = fmax(high[0] - low[0], high[1] - low[1]),
                  away = fmin(fabs(low[0] + high[0]), fabs(low[1] + high[1]));
     const char *crs = ewa_cloud_note(cloud, "crs", NULL);
+    const bool geographic = ewa_cloud_crs_unit(cloud) == EWA_CRS_DEGREES;
     const bool small =
         extent > 0 && extent < 1 && away > 10 * extent && high[2] - low[2] > DEGREES_HEIGHT_RATIO * extent;
-    if (!is_geographic(crs) && (crs || !small)) return false;
+    if (!geographic && (crs || !small)) return false;
     double length_m[2];
     ewa_degree_lengths(0.5 * (low[1] + high[1]), length_m);
     snprintf(
         text, EWA_DIAGNOSIS_TEXT_BYTES,
         "coordinates %s degrees of longitude and latitude, so that shapes are flat and heights stand out; "
         "times %.0f,%.0f,1 they are about metres, exact ones a projection such as UTM zone %d makes",
-        is_geographic(crs) ? "are" : "look like", length_m[0], length_m[1],
+        geographic ? "are" : "look like", length_m[0], length_m[1],
         (int)fmin(60, floor((0.5 * (low[0] + high[0]) + 180) / 6) + 1));
     return true;
 }

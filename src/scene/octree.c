@@ -54,6 +54,7 @@ static ewa_status make_outline(ewa_asset *asset) {
         ewa_cloud_destroy(&taken);
         EWA_TRY(status);
     }
+    ewa_asset_take_unit(asset, asset->outline);
     if (ewa_asset_is_moved(asset)) EWA_TRY(ewa_cloud_transform(asset->outline, asset->to_world));
     if (ewa_cloud_is_drawable(asset->outline)) return EWA_OK;
     ewa_estimate_options options;

@@ -276,7 +276,9 @@ ewa_status ewa_scene_profile(ewa_scene *scene, const double *corners_world, uint
     if (status == EWA_OK && !(scene->committed && scene->surface)) status = ewa_surface_make_legends(scene, &legends);
     job.legends = legends ? legends : scene->surface;
     if (status == EWA_OK) status = take_all(&job);
-    *profile = (ewa_profile){.context = context, .length_world = job.strip.length_world};
+    ewa_scene_info info;
+    ewa_scene_describe(scene, &info);
+    *profile = (ewa_profile){.context = context, .length_world = job.strip.length_world, .unit = info.unit};
     memcpy(profile->up_world, up_world, sizeof up_world);
     if (status == EWA_OK) status = join(&job, profile);
     for (uint32_t i = 0; job.pieces && i < job.count; i++) ewa_cloud_destroy(&job.pieces[i]);

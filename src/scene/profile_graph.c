@@ -206,6 +206,7 @@ ewa_status ewa_profile_draw(const ewa_profile *profile, const ewa_profile_graph_
     const double *offsets = count ? ewa_cloud_find(profile->points, EWA_PROFILE_OFFSET)->data : NULL;
     for (uint64_t i = 0; i < count; i++) dots[i] = (dot){fabs(offsets[i]), i};
     qsort(dots, count, sizeof *dots, compare_dots);
+    if (!options.unit) options.unit = profile->unit;
     graph g = {.canvas = canvas, .options = &options, .point_px = ewa_layout_point_px(canvas, options.pixel_scale)};
     double range[2];
     find_range(profile, range);

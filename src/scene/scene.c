@@ -322,6 +322,7 @@ ewa_status ewa_scene_cloud(ewa_scene *scene, ewa_cloud **cloud) {
 
 void ewa_scene_describe(const ewa_scene *scene, ewa_scene_info *info) {
     *info = (ewa_scene_info){.instance_count = scene->count};
+    bool one_unit = true;
     for (uint32_t i = 0; i < scene->count; i++) {
         const ewa_scene_item *item = &scene->items[i];
         const ewa_asset *asset = item->asset;
@@ -333,12 +334,15 @@ void ewa_scene_describe(const ewa_scene *scene, ewa_scene_info *info) {
         }
         if (!item->instance.visible) continue;
         info->visible_count++;
+        one_unit = one_unit && !(asset->unit && info->unit && strcmp(asset->unit, info->unit) != 0);
+        if (asset->unit) info->unit = asset->unit;
         info->point_count += asset->kind == EWA_ASSET_VOLUME ? 0 : asset->count;
         info->octrees |= asset->kind == EWA_ASSET_OCTREE;
         info->gaussians |= asset->kind == EWA_ASSET_GAUSSIANS;
         info->volumes |= asset->kind == EWA_ASSET_VOLUME;
         info->surfaces |= ewa_asset_is_points(asset) || asset->kind == EWA_ASSET_SURFELS || info->octrees;
     }
+    if (!one_unit) info->unit = NULL;
     if (!scene->surface) return;
     info->surfels = scene->surface->info;
     info->resident = scene->surface->surfels;

@@ -189,25 +189,32 @@ CASE(test_notes) {
     ewa_cloud_destroy(&cloud);
     free(s.bytes);
     static const struct {
-        uint16_t model, projected, geodetic;
-        const char *crs, *name;
-    } keys[] = {{1, 32632, 0, "EPSG:32632", "UTM 32"},
-                {2, 0, 4326, "EPSG:4326", "UTM 32"},
-                {1, 32767, 0, "user-defined: UTM 32", "UTM 32"}};
+        uint16_t model, projected, geodetic, unit, vertical_unit;
+        const char *crs, *name, *unit_name;
+    } keys[] = {{1, 32632, 0, 0, 0, "EPSG:32632", "UTM 32", NULL},
+                {2, 0, 4326, 0, 0, "EPSG:4326", "UTM 32", NULL},
+                {1, 32767, 0, 9001, 9001, "user-defined: UTM 32", "UTM 32", "m"},
+                {1, 2263, 0, 9003, 0, "EPSG:2263", "UTM 32", "US ft"},
+                {1, 2263, 0, 9003, 9001, "EPSG:2263", "UTM 32", NULL},
+                {1, 2222, 0, 9002, 0, "EPSG:2222", "UTM 32", "ft"}};
     for (size_t k = 0; k < sizeof keys / sizeof *keys; k++) {
-        const uint16_t numbers[20] = {1,    1,     0, 4,
+        const uint16_t numbers[28] = {1,    1,     0, 6,
                                       1024, 0,     1, keys[k].model,
                                       1026, 34737, 7, 2,
                                       3072, 0,     1, keys[k].projected,
-                                      2048, 0,     1, keys[k].geodetic};
+                                      2048, 0,     1, keys[k].geodetic,
+                                      3076, 0,     1, keys[k].unit,
+                                      4099, 0,     1, keys[k].vertical_unit};
         uint8_t directory[sizeof numbers];
-        for (int i = 0; i < 20; i++) las_put(directory + 2 * i, numbers[i], 2);
+        for (int i = 0; i < 28; i++) las_put(directory + 2 * i, numbers[i], 2);
         at = las_vlr(vlrs, "LASF_Projection", 34735, directory, sizeof directory);
         at += las_vlr(vlrs + at, "LASF_Projection", 34737, "x|UTM 32|", 9);
         s = las_make(0, 2, 0, 1, vlrs, at, 2);
         cloud = las_load(context, &s);
         assert_string_equal(ewa_cloud_note(cloud, "crs", NULL), keys[k].crs);
         assert_string_equal(ewa_cloud_note(cloud, "crs_name", NULL), keys[k].name);
+        const char *unit = ewa_cloud_note(cloud, "crs_unit", NULL);
+        assert_string_equal(unit ? unit : "none", keys[k].unit_name ? keys[k].unit_name : "none");
         ewa_cloud_destroy(&cloud);
         free(s.bytes);
     }

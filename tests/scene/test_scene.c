@@ -665,4 +665,78 @@ TEST(test_bare_light) {
     ewa_context_destroy(&context);
 }
 
+#define FOOT "UNIT[\"foot\",0.3048]"
+#define US_FOOT "UNIT[\"US survey foot\",0.304800609601219,AUTHORITY[\"EPSG\",\"9003\"]]"
+#define METRE "UNIT[\"metre\",1]"
+#define GEOGRAPHIC "GEOGCS[\"G [UNIT\",DATUM[\"D\",SPHEROID[\"S\",6378137,298.25]],UNIT[\"degree\",0.0174532925199433]]"
+#define PROJECTED(unit) "PROJCS[\"P\"," GEOGRAPHIC ",PROJECTION[\"M\"]," unit "]"
+#define COMPOUND(horizontal, vertical) "COMPD_CS[\"C\"," PROJECTED(horizontal) ",VERT_CS[\"V\",VERT_DATUM[\"D\",2005]," vertical "]]"
+
+/// What is said of lengths by a scene of a bare cloud, moved by a map, with a reference system.
+static const char *unit_of(ewa_context *context, const char *crs, const char *note, double scale) {
+    ewa_cloud *cloud = make_object(context, EWA_OBJECT_SPHERE, 0);
+    if (crs) assert_int_equal(ewa_cloud_set_note(cloud, "crs", crs, strlen(crs)), EWA_OK);
+    if (note) assert_int_equal(ewa_cloud_set_note(cloud, "crs_unit", note, strlen(note)), EWA_OK);
+    ewa_asset_options options;
+    ewa_asset_options_init(&options, sizeof options);
+    // Turned by a quarter, and as large as the scale says.
+    const double to_world[16] = {0, -scale, 0, 500, scale, 0, 0, 0, 0, 0, scale, 0, 0, 0, 0, 1};
+    memcpy(options.to_world, to_world, sizeof to_world);
+    ewa_asset *asset = NULL;
+    ewa_scene *scene = NULL;
+    ewa_scene_info info;
+    assert_int_equal(ewa_asset_create(context, &(ewa_asset_source){.cloud = cloud}, &options, &asset), EWA_OK);
+    assert_int_equal(ewa_scene_create(context, NULL, &scene), EWA_OK);
+    assert_int_equal(ewa_scene_add(scene, asset, NULL), EWA_OK);
+    ewa_scene_describe(scene, &info);
+    ewa_scene_destroy(&scene);
+    ewa_asset_release(&asset);
+    ewa_cloud_destroy(&cloud);
+    return info.unit ? info.unit : "none";
+}
+
+/// Lengths have the unit that reference systems say, unless it is none, several, or changed by a map.
+TEST(test_units) {
+    static const struct {
+        const char *crs, *unit;
+    } systems[] = {
+        {NULL, "none"},
+        {PROJECTED(METRE), "m"},
+        {PROJECTED(FOOT), "ft"},
+        {PROJECTED("UNIT[\"Foot_US\",0.3048006096012192]"), "US ft"},
+        {PROJECTED("UNIT[\"link\",0.201168]"), "none"},
+        {"PROJCS[\"P\"," GEOGRAPHIC "]", "none"},
+        {COMPOUND(METRE, METRE), "m"},
+        {COMPOUND(US_FOOT, US_FOOT), "US ft"},
+        {COMPOUND(METRE, FOOT), "none"},
+        {GEOGRAPHIC, "none"},
+        {"PROJCRS[\"P\",BASEGEOGCRS[\"B\",DATUM[\"D\",ELLIPSOID[\"E\",6378137,298.25,LENGTHUNIT[\"metre\",1]]]],CS[Cartesian,2],"
+         "AXIS[\"(E)\",east,ORDER[1],LENGTHUNIT[\"foot\", 0.3048]],AXIS[\"(N)\",north,LENGTHUNIT[\"foot\",0.3048]]]",
+         "ft"},
+        {"PROJCRS[\"P\",CS[Cartesian,2],AXIS[\"e\",east],AXIS[\"n\",north],LENGTHUNIT[\"metre\",1]]", "m"},
+        {"EPSG:32633", "m"},
+        {"EPSG:25832+7837", "m"},
+        {"EPSG:26910+6360", "none"}, // heights in feet
+        {"EPSG:4326", "none"},
+        {"EPSG:1", "none"},
+        {"user-defined: PROJCS[", "none"},
+    };
+    ewa_context *context = NULL;
+    assert_int_equal(ewa_context_create(NULL, &context), EWA_OK);
+    for (size_t i = 0; i < sizeof systems / sizeof systems[0]; i++)
+        assert_string_equal(unit_of(context, systems[i].crs, NULL, 1), systems[i].unit);
+    assert_string_equal(unit_of(context, PROJECTED(METRE), NULL, 0.5), "none");
+    assert_string_equal(unit_of(context, "user-defined", "US ft", 1), "US ft");
+    assert_string_equal(unit_of(context, "user-defined", "rods", 1), "none");
+    // Texts that end anywhere say nothing wrong.
+    const char *whole = COMPOUND(FOOT, FOOT);
+    char begun[512];
+    for (size_t length = 0; length < strlen(whole); length++) {
+        snprintf(begun, sizeof begun, "%.*s", (int)length, whole);
+        const char *unit = unit_of(context, length ? begun : NULL, NULL, 1);
+        assert_true(strcmp(unit, "none") == 0 || strcmp(unit, "ft") == 0);
+    }
+    ewa_context_destroy(&context);
+}
+
 int main(void) { return RUN_TESTS(NULL, NULL); }

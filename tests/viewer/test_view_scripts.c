@@ -114,6 +114,12 @@ static int make_files(void **state) {
     static const char *const survey = "survey.ply";
     assert_int_equal(ewa_lod_build(context, &survey, 1, "survey.copc.laz", NULL, NULL), EWA_OK);
     write_ramp("ramp.csv");
+    assert_int_equal(ewa_cloud_load(context, "ramp.csv", &cloud), EWA_OK);
+    static const char feet[] = "PROJCS[\"A grid of feet\",GEOGCS[\"G\",UNIT[\"degree\",0.0174532925199433]],"
+                               "UNIT[\"US survey foot\",0.304800609601219]]";
+    assert_int_equal(ewa_cloud_set_note(cloud, "crs", feet, sizeof feet - 1), EWA_OK);
+    save(cloud, "feet.las");
+    ewa_cloud_destroy(&cloud);
     write_text("cube.obj",
                "v -1 -1 -1\nv 1 -1 -1\nv 1 1 -1\nv -1 1 -1\nv -1 -1 1\nv 1 -1 1\nv 1 1 1\nv -1 1 1\n"
                "f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n");

@@ -113,12 +113,7 @@ ewa_status ewa_geotiff_note(ewa_context *context, TIFF *tiff, ewa_cloud *prototy
                              .keys_bytes = 2 * (uint64_t)key_count,
                              .texts = (const uint8_t *)texts,
                              .texts_bytes = text_count};
-    char *said, name[EWA_LAS_NAME_BYTES];
-    size_t said_bytes;
-    ewa_status status = ewa_las_crs_text(context, &crs, false, &said, &said_bytes, name);
-    if (status == EWA_OK && said) status = ewa_cloud_set_note(prototype, "crs", said, strlen(said));
-    if (status == EWA_OK && name[0]) status = ewa_cloud_set_note(prototype, "crs_name", name, strlen(name));
-    if (said) ewa_release(context, said, said_bytes, 1);
+    const ewa_status status = ewa_las_crs_note(context, &crs, false, prototype);
     ewa_release(context, bytes, key_count, 2);
     return status;
 }

@@ -110,13 +110,7 @@ static ewa_status note_system(const description *d) {
                             cJSON_GetStringValue(cJSON_GetObjectItemCaseSensitive(system, "vertical"))};
     if (wkt && wkt[0]) {
         const ewa_las_crs crs = {.wkt = (const uint8_t *)wkt, .wkt_bytes = strlen(wkt)};
-        char *text, name[EWA_LAS_NAME_BYTES];
-        size_t text_bytes;
-        ewa_status status = ewa_las_crs_text(d->ept->context, &crs, true, &text, &text_bytes, name);
-        if (status == EWA_OK && text) status = note(d, "crs", text);
-        if (status == EWA_OK && text && name[0]) status = note(d, "crs_name", name);
-        ewa_release(d->ept->context, text, text_bytes, 1);
-        return status;
+        return ewa_las_crs_note(d->ept->context, &crs, true, d->octree->prototype);
     }
     if (!authority || strcmp(authority, "EPSG") != 0 || !codes[0]) return EWA_OK;
     for (int i = 0; i < 2 && codes[i]; i++)

@@ -135,6 +135,9 @@ enum { EWA_LAS_NAME_BYTES = 256 };
 ewa_status ewa_las_crs_text(ewa_context *context, const ewa_las_crs *crs, bool prefer_wkt, char **text,
                             size_t *text_bytes, char name[EWA_LAS_NAME_BYTES]);
 
+/// Adds the notes "crs", "crs_name" and "crs_unit", as far as there is something to say. Errors: EWA_ERROR_MEMORY.
+ewa_status ewa_las_crs_note(ewa_context *context, const ewa_las_crs *crs, bool prefer_wkt, ewa_cloud *prototype);
+
 /// Adds the notes of ewa/cloud.h about a file. Errors: EWA_ERROR_MEMORY.
 ewa_status ewa_las_notes(const ewa_cloud_source *source, const ewa_las_header *header, ewa_cloud *prototype);
 

@@ -6,6 +6,7 @@
 //
 // Based on: OGC 19-008r4, "OGC GeoTIFF Standard 1.1", sections 7.1 and 7.4; OGC 01-009, section 7.
 #include "base/base.h"
+#include "io/crs.h"
 #include "io/las/las.h"
 
 #include <stdio.h>
@@ -18,7 +19,9 @@ enum {
     KEY_GEODETIC_CITATION = 2049,
     KEY_PROJECTED = 3072,
     KEY_PROJECTED_CITATION = 3073,
+    KEY_PROJECTED_UNIT = 3076,
     KEY_VERTICAL = 4096,
+    KEY_VERTICAL_UNIT = 4099,
     TEXTS_TAG = 34737, // where a key whose number is text has it
     USER_DEFINED = 32767,
 };
@@ -128,4 +131,25 @@ ewa_status ewa_las_crs_text(ewa_context *context, const ewa_las_crs *crs, bool p
         return EWA_OK;
     if (!name[0]) memcpy(name, said, strnlen(said, EWA_LAS_NAME_BYTES - 1) + 1);
     return copy_text(context, (const uint8_t *)said, strlen(said), text, text_bytes);
+}
+
+static ewa_status note_text(ewa_cloud *prototype, const char *name, const char *text) {
+    return text && text[0] ? ewa_cloud_set_note(prototype, name, text, strlen(text)) : EWA_OK;
+}
+
+/// The unit that keys name, which stands in well-known text by itself.
+static const char *key_unit(const ewa_las_crs *crs) {
+    const uint16_t unit = key_number(crs, KEY_PROJECTED_UNIT), vertical = key_number(crs, KEY_VERTICAL_UNIT);
+    return vertical && vertical != unit ? NULL : ewa_crs_unit_name(ewa_crs_unit_of_code(unit));
+}
+
+ewa_status ewa_las_crs_note(ewa_context *context, const ewa_las_crs *crs, bool prefer_wkt, ewa_cloud *prototype) {
+    char *text, name[EWA_LAS_NAME_BYTES];
+    size_t text_bytes;
+    ewa_status status = ewa_las_crs_text(context, crs, prefer_wkt, &text, &text_bytes, name);
+    if (status == EWA_OK) status = note_text(prototype, "crs", text);
+    if (status == EWA_OK && text) status = note_text(prototype, "crs_name", name);
+    if (status == EWA_OK && text && !strchr(text, '[')) status = note_text(prototype, "crs_unit", key_unit(crs));
+    ewa_release(context, text, text_bytes, 1);
+    return status;
 }

@@ -4,20 +4,11 @@
 // Scale and offset of the coordinates that are written: those the cloud has, so that its numbers stay what
 // they are, else decimal ones that are fine enough and fit 32 bits.
 #include "base/base.h"
+#include "io/crs.h"
 #include "io/las/las_write.h"
 
 #include <math.h>
 #include <string.h>
-
-/// Whether the cloud's system counts degrees in x and y.
-static bool is_geographic(const ewa_cloud *prototype) {
-    const char *crs = ewa_cloud_note(prototype, "crs", NULL);
-    if (!crs) return false;
-    if (strncmp(crs, "GEOGCS", 6) == 0 || strncmp(crs, "GEOGCRS", 7) == 0 || strncmp(crs, "GEODCRS", 7) == 0)
-        return true;
-    // Codes of geographic systems with two or three axes lie here, those of projected ones beside.
-    return strncmp(crs, "EPSG:4", 6) == 0 && strspn(crs + 5, "0123456789") == 4;
-}
 
 /// Whether all places between `low` and `high` have whole numbers of 32 bits.
 static bool fits(double low, double high, double scale, double offset) {
@@ -65,7 +56,7 @@ ewa_status ewa_las_grid_choose(const ewa_cloud_target *target, ewa_las_plan *pla
     // A millionth of a small object is finer than the finest step of a large one.
     const double fine = extent_world > 0 ? floor(log10(extent_world) + 1e-9) - 6 : FINEST;
     const int finest = fine < MINIMUM ? MINIMUM : fine < FINEST ? (int)fine : FINEST;
-    const bool in_degrees = is_geographic(target->prototype);
+    const bool in_degrees = ewa_cloud_crs_unit(target->prototype) == EWA_CRS_DEGREES;
     for (int c = 0; c < 3; c++) {
         const bool degrees = in_degrees && c < 2;
         double *scale = &plan->table.scale[c], *offset = &plan->offset_world[c];

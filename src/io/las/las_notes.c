@@ -36,18 +36,6 @@ static ewa_status note_text(ewa_cloud *prototype, const char *name, const char *
     return text[0] ? ewa_cloud_set_note(prototype, name, text, strlen(text)) : EWA_OK;
 }
 
-static ewa_status note_crs(const ewa_cloud_source *source, const ewa_las_header *header,
-                           const ewa_las_crs *crs, ewa_cloud *prototype) {
-    char *text, name[EWA_LAS_NAME_BYTES];
-    size_t text_bytes;
-    const bool prefer_wkt = header->global_encoding & EWA_LAS_WKT || header->point_format >= 6;
-    ewa_status status = ewa_las_crs_text(source->context, crs, prefer_wkt, &text, &text_bytes, name);
-    if (status == EWA_OK && text) status = note_text(prototype, "crs", text);
-    if (status == EWA_OK && text) status = note_text(prototype, "crs_name", name);
-    ewa_release(source->context, text, text_bytes, 1);
-    return status;
-}
-
 /// The day of the year, from 1, as a date; both are 0 where nobody cared.
 static ewa_status note_date(const ewa_las_header *header, ewa_cloud *prototype) {
     const uint32_t year = header->year;
@@ -97,5 +85,6 @@ ewa_status ewa_las_notes(const ewa_cloud_source *source, const ewa_las_header *h
     if (status == EWA_OK && kept_bytes)
         status = ewa_cloud_set_note(prototype, EWA_LAS_NOTE_RECORDS, kept.data, kept_bytes);
     ewa_buffer_free(source->context, &kept);
-    return status == EWA_OK ? note_crs(source, header, &crs, prototype) : status;
+    const bool prefer_wkt = header->global_encoding & EWA_LAS_WKT || header->point_format >= 6;
+    return status == EWA_OK ? ewa_las_crs_note(source->context, &crs, prefer_wkt, prototype) : status;
 }
