@@ -104,6 +104,20 @@ static bool do_show(viewer *v, const char *rest) {
     return true;
 }
 
+bool commands_take_item(viewer *v, const char *command, const char **rest, size_t *index) {
+    char word[WORD_BYTES];
+    *rest = take_word(*rest, word);
+    return read_item(v, command, word, index);
+}
+
+/// Has an item stand at another place of the list.
+static bool do_order(viewer *v, const char *rest) {
+    size_t from, to;
+    if (!commands_take_item(v, "order", &rest, &from) || !commands_take_item(v, "order", &rest, &to)) return false;
+    items_move(v, from, to);
+    return true;
+}
+
 static bool do_name(viewer *v, const char *rest) {
     char word[WORD_BYTES];
     size_t index;
@@ -334,6 +348,9 @@ static bool do_cancel(viewer *v, const char *rest) {
     const bool picked = v->picks[0].given;
     if (items_cancel(v)) {
         viewer_note(v, "loading was given up");
+    } else if (v->transform.tool) {
+        v->transform = (viewer_transform){.tool = TRANSFORM_OFF};
+        viewer_mark(v);
     } else if (v->selection.tool || v->selection.given) {
         v->selection.tool = SELECT_OFF;
         select_clear(v);
@@ -386,6 +403,11 @@ static const struct {
     {"close", do_close, NULL, NULL},
     {"show", do_show, NULL, NULL},
     {"name", do_name, NULL, NULL},
+    {"order", do_order, NULL, NULL},
+    {"move", transform_move, NULL, NULL},
+    {"rotate", transform_turn, NULL, NULL},
+    {"scale", transform_scale, NULL, NULL},
+    {"transform", transform_command, NULL, transform_holds},
     {"tint", do_tint, NULL, NULL},
     {"alpha", do_alpha, NULL, NULL},
     {"color", do_color, NULL, NULL},

@@ -22,6 +22,7 @@ typedef struct scene_item {
     const ewa_scene_file *file; ///< which, borrowed; NULL: none does
     uint32_t entry;             ///< of its files
     bool visible;
+    double to_world[16], shown_to_world[16]; ///< where its coordinates are to lie, and where they do
     uint32_t material;              ///< of all its points; EWA_MATERIAL_OWN: as each says
     viewer_coloring wish, coloring; ///< what is asked for, and what is shown
 } scene_item;
@@ -97,6 +98,19 @@ typedef struct viewer_selection {
     double *places_world; ///< of some of them, to be marked
 } viewer_selection;
 
+/// How a hand changes where things lie.
+typedef enum transform_tool { TRANSFORM_OFF, TRANSFORM_MOVE, TRANSFORM_TURN, TRANSFORM_SCALE } transform_tool;
+
+/// What the hand holds of it.
+typedef struct viewer_transform {
+    transform_tool tool;
+    bool held;
+    uint64_t item;
+    double x, y, depth; ///< where it was pressed: points of the window, camera-space z
+    double from_world[3];
+    double by[16]; ///< what has been done since
+} viewer_transform;
+
 enum { VIEWER_HISTORY = 64 };
 
 typedef struct viewer_snapshot viewer_snapshot;
@@ -170,6 +184,7 @@ struct viewer {
     viewer_cutaway cutaway;
     viewer_profile profile;
     viewer_selection selection;
+    viewer_transform transform;
     viewer_measure measure_list[VIEWER_MEASURES];
     size_t measure_count;
     bool measures_kind;       ///< clicks add places to
@@ -211,6 +226,10 @@ bool items_close(viewer *v, size_t index);
 bool items_cancel(viewer *v);
 /// Takes in what the loader has to report.
 void items_update(viewer *v);
+/// Has an item loaded again to lie where a map says. Returns false after saying why not.
+bool items_place_at(viewer *v, size_t index, const double to_world[16]);
+/// Moves an item to another place in the list.
+void items_move(viewer *v, size_t from, size_t to);
 /// Orders a scene in which the item is as its wish says.
 void items_recolor(viewer *v, size_t index);
 /// Shows the items as they are now, when their scene is made.
@@ -232,6 +251,8 @@ void viewer_go(viewer *v, const ewa_camera *to);
 // pick.c
 /// Finds the surface behind a place of the window (points); false: there is nothing.
 bool pick_surface(viewer *v, double x, double y, double reach, double place_world[3]);
+/// Finds the item that is seen there, and the place; false: none is.
+bool pick_item(viewer *v, double x, double y, double reach, size_t *index, double place_world[3]);
 /// Picks the point there and says what it is; `second`: measures from the first.
 bool pick_point(viewer *v, double x, double y, bool second);
 void pick_clear(viewer *v);
@@ -290,10 +311,25 @@ void history_begin(viewer *v);
 void history_end(viewer *v);
 void history_free(viewer *v);
 
+// transform.c: the commands "move", "rotate", "scale" and "transform"
+bool transform_move(viewer *v, const char *rest);
+bool transform_turn(viewer *v, const char *rest);
+bool transform_scale(viewer *v, const char *rest);
+bool transform_command(viewer *v, const char *rest);
+bool transform_holds(const viewer *v, const char *word);
+/// The item that the hand holds, and its box before; false: it holds none.
+bool transform_find(const viewer *v, size_t *index, double low_world[3], double high_world[3]);
+/// What a hand does while it holds a tool; false: the event is not of it.
+bool transform_press(viewer *v, const viewer_event *event);
+bool transform_drag(viewer *v, const viewer_event *event);
+bool transform_release(viewer *v, const viewer_event *event);
+
 // settings.c
 void settings_init(viewer *v);
 
 // commands.c
+/// Takes the number of an item off what a command says.
+bool commands_take_item(viewer *v, const char *command, const char **rest, size_t *index);
 /// Writes what an action has set, such as "affine" of "next kernel" or "on" of "box next"; false: nothing that has a
 /// name.
 bool commands_value(const viewer *v, const viewer_action *action, char text[EWA_OPTION_TEXT_BYTES]);

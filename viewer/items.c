@@ -61,6 +61,8 @@ static bool order(viewer *v, const char *path, const ewa_scene_file *file, uint3
     }
     scene_item *item = &v->items[v->item_count];
     *item = (scene_item){.id = ++v->next_id, .visible = true, .material = EWA_MATERIAL_OWN};
+    ewa_asset_options usual;
+    ewa_asset_options_init(&usual, sizeof usual);
     snprintf(item->path, sizeof item->path, "%s", path);
     snprintf(item->name, sizeof item->name, "%.255s", file_name(path));
     item->named = file != NULL;
@@ -68,9 +70,14 @@ static bool order(viewer *v, const char *path, const ewa_scene_file *file, uint3
     item->entry = entry;
     viewer_coloring_init(&item->wish);
     ewa_scene_entry said;
-    if (file && ewa_scene_file_entry(file, entry, &said) == EWA_OK) take_instance(&said.instance, item);
+    if (file && ewa_scene_file_entry(file, entry, &said) == EWA_OK) {
+        take_instance(&said.instance, item);
+        memcpy(usual.to_world, said.asset.to_world, sizeof usual.to_world);
+    }
+    memcpy(item->to_world, usual.to_world, sizeof item->to_world);
+    memcpy(item->shown_to_world, usual.to_world, sizeof item->to_world);
     item->coloring = item->wish;
-    if (!loader_load(v->loader, item->id, path, file, entry)) {
+    if (!loader_load(v->loader, item->id, path, file, entry, item->to_world)) {
         viewer_tell(v, "%s: out of memory", path);
         return false;
     }
@@ -257,6 +264,32 @@ bool items_close(viewer *v, size_t index) {
     return true;
 }
 
+bool items_place_at(viewer *v, size_t index, const double to_world[16]) {
+    scene_item *item = &v->items[index];
+    if (memcmp(item->to_world, to_world, sizeof item->to_world) == 0) return true;
+    loader_forget(v->loader, item->id);
+    items_update(v);
+    if (!loader_load(v->loader, item->id, item->path, item->file, item->entry, to_world)) {
+        viewer_tell(v, "%s: out of memory", item->path);
+        return false;
+    }
+    memcpy(item->to_world, to_world, sizeof item->to_world);
+    pick_clear(v);
+    wait_if_asked(v);
+    return true;
+}
+
+void items_move(viewer *v, size_t from, size_t to) {
+    const scene_item moved = v->items[from];
+    if (from < to)
+        memmove(&v->items[from], &v->items[from + 1], (to - from) * sizeof moved);
+    else
+        memmove(&v->items[to + 1], &v->items[to], (from - to) * sizeof moved);
+    v->items[to] = moved;
+    pick_clear(v);
+    items_refresh(v);
+}
+
 bool items_cancel(viewer *v) {
     bool any = false;
     loader_cancel(v->loader);
@@ -340,10 +373,14 @@ static void take_preview(viewer *v, loader_note *note) {
 /// Takes in what was loaded; it is shown when the scene is made.
 static void take_asset(viewer *v, loader_note *note) {
     scene_item *item = find_item(v, note->item);
-    if (!item || item->asset) return; // it was closed; or closed and opened again, when two loads may have come to an end
+    // It was closed; or closed and opened again, when two loads may have come to an end.
+    const bool again = item && item->asset && memcmp(item->to_world, item->shown_to_world, sizeof item->to_world) != 0;
+    if (!item || (item->asset && !again)) return;
+    ewa_asset_release(&item->asset);
     item->asset = note->asset;
     note->asset = NULL;
-    if (!item->named) note_opened(v, item->path);
+    memcpy(item->shown_to_world, item->to_world, sizeof item->to_world);
+    if (!item->named && !again) note_opened(v, item->path);
     items_reorder(v);
 }
 
@@ -377,7 +414,10 @@ static void take_scene(viewer *v, loader_note *note) {
         ewa_asset_release(&item->preview);
     }
     show(v, note->scene);
-    if (more) look(v);
+    if (more)
+        look(v);
+    else
+        measure(v, false); // something may lie elsewhere
 }
 
 /// What came to nothing goes, or is again as it was.
@@ -388,6 +428,7 @@ static void take_failure(viewer *v, const loader_note *note) {
         if (note->item && item->id != note->item) continue;
         if (item->loaded) {
             item->wish = item->coloring;
+            memcpy(item->to_world, item->shown_to_world, sizeof item->to_world);
         } else if (note->item || item->asset) {
             remove_item(v, i);
             gone = true;
@@ -447,6 +488,7 @@ bool viewer_item_get(const viewer *v, size_t index, viewer_item *item) {
                           .count = info.count,
                           .coloring = from->coloring};
     memcpy(item->name, from->name, sizeof item->name);
+    memcpy(item->to_world, from->to_world, sizeof item->to_world);
     return true;
 }
 

@@ -147,10 +147,12 @@ static void carry_out(loader *l, loader_note *order) {
     const viewer_services *s = &l->services;
     ewa_context *context = s->context(s->user, &news);
     ewa_scene_entry entry;
-    const bool named = order->file && ewa_scene_file_entry(order->file, order->entry, &entry) == EWA_OK;
+    if (!order->file || ewa_scene_file_entry(order->file, order->entry, &entry) != EWA_OK)
+        ewa_asset_options_init(&entry.asset, sizeof entry.asset);
+    memcpy(entry.asset.to_world, order->to_world, sizeof entry.asset.to_world);
     const bool done =
         context && (order->kind == LOADER_LOAD
-                        ? s->load(s->user, order->path, named ? &entry : NULL, &news, &order->asset)
+                        ? s->load(s->user, order->path, &entry.asset, &news, &order->asset)
                         : make_scene(l, context, order));
     if (!done) order->kind = LOADER_FAILED;
 }
@@ -232,13 +234,14 @@ static void post(loader *l, loader_note *order) {
     pthread_mutex_unlock(&l->lock);
 }
 
-bool loader_load(loader *l, uint64_t item, const char *path, const ewa_scene_file *file, uint32_t entry) {
+bool loader_load(loader *l, uint64_t item, const char *path, const ewa_scene_file *file, uint32_t entry, const double to_world[16]) {
     loader_note *order = calloc(1, sizeof *order);
     if (!order) return false;
     order->kind = LOADER_LOAD;
     order->item = item;
     order->file = file;
     order->entry = entry;
+    memcpy(order->to_world, to_world, sizeof order->to_world);
     snprintf(order->path, sizeof order->path, "%s", path);
     post(l, order);
     return true;

@@ -33,6 +33,7 @@ typedef struct loader_note {
     char path[VIEWER_PATH_BYTES];
     const ewa_scene_file *file; ///< of an order: that names the file, borrowed; NULL: none does
     uint32_t entry;             ///< which of its files
+    double to_world[16];        ///< of an order of a file: where its coordinates lie
     ewa_asset *asset;
     bool as_points; ///< of a preview
     loader_scene of;
@@ -50,7 +51,8 @@ void loader_destroy(loader **loader);
 
 /// Orders come after those that wait; false: out of memory.
 /// `file` (may be NULL) names the file, as `entry`; it is borrowed until the order is done.
-bool loader_load(loader *loader, uint64_t item, const char *path, const ewa_scene_file *file, uint32_t entry);
+bool loader_load(loader *loader, uint64_t item, const char *path, const ewa_scene_file *file, uint32_t entry,
+                 const double to_world[16]);
 /// Orders a scene in place of one that waits; takes the references of `of` over, also when it returns false.
 bool loader_make(loader *loader, loader_scene *of);
 /// Gives up what is under way and all that waits. Scenes report that they came to nothing; of files nothing more is reported.

@@ -53,17 +53,25 @@ static void draw_label(const overlay *o, const double place_world[3], const char
     ewa_draw_text(&o->canvas, text, p[0] + 10 * o->scale, p[1] - 10 * o->scale, &style);
 }
 
-static void draw_box(const overlay *o, const viewer *v) {
-    const viewer_cutaway *s = &v->cutaway;
+/// The edges of a box after a map.
+static void draw_edges(const overlay *o, const double low[3], const double high[3], const double map[16], const uint8_t rgba[4]) {
     for (int axis = 0; axis < 3; axis++)
-        for (int k = 0; k < 4; k++) { // the four edges along each axis
+        for (int k = 0; k < 4; k++) { // the four along each axis
             const int b = (axis + 1) % 3, c = (axis + 2) % 3;
-            double from[3], to[3];
-            from[axis] = s->low_world[axis], to[axis] = s->high_world[axis];
-            from[b] = to[b] = k & 1 ? s->high_world[b] : s->low_world[b];
-            from[c] = to[c] = k & 2 ? s->high_world[c] : s->low_world[c];
-            draw_edge(o, from, to, 1.5, FAR_EDGE);
+            double ends[2][3], ends_world[2][3];
+            ends[0][axis] = low[axis], ends[1][axis] = high[axis];
+            ends[0][b] = ends[1][b] = k & 1 ? high[b] : low[b];
+            ends[0][c] = ends[1][c] = k & 2 ? high[c] : low[c];
+            for (int e = 0; e < 2; e++)
+                for (int r = 0; r < 3; r++)
+                    ends_world[e][r] = map[4 * r] * ends[e][0] + map[4 * r + 1] * ends[e][1] + map[4 * r + 2] * ends[e][2] + map[4 * r + 3];
+            draw_edge(o, ends_world[0], ends_world[1], 1.5, rgba);
         }
+}
+
+static void draw_box(const overlay *o, const viewer *v) {
+    static const double where_it_is[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+    draw_edges(o, v->cutaway.low_world, v->cutaway.high_world, where_it_is, FAR_EDGE);
     for (int handle = 0; handle < 6; handle++) {
         double middle[3];
         cutaway_handle(v, handle, middle);
@@ -180,6 +188,9 @@ void overlay_draw(viewer *v, const ewa_camera *camera, uint8_t *rgba8) {
                        camera,
                        v->scale * camera->height_px / v->camera.height_px};
     if (v->cutaway.box) draw_box(&o, v);
+    size_t held;
+    double low[3], high[3];
+    if (transform_find(v, &held, low, high)) draw_edges(&o, low, high, v->transform.by, EDGE);
     if (v->profile.shown) draw_profile_wall(&o, v);
     draw_selection(&o, v);
     for (size_t i = 0; i < v->measure_count; i++) draw_measure(&o, v, &v->measure_list[i]);

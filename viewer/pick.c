@@ -55,6 +55,25 @@ bool pick_surface(viewer *v, double x, double y, double reach, double place_worl
     return true;
 }
 
+bool pick_item(viewer *v, double x, double y, double reach, size_t *index, double place_world[3]) {
+    ewa_scene_hit hit;
+    if (!find(v, x, y, reach, false, 0, &hit)) return false;
+    memcpy(place_world, hit.place_world, sizeof hit.place_world);
+    if (!find(v, x, y, reach, false, reach_of(v, place_world), &hit)) return false;
+    ewa_cloud_destroy(&hit.points);
+    *index = hit.has_point ? items_find_instance(v, hit.instance) : SIZE_MAX;
+    // What has no points is found by its box.
+    for (size_t i = 0; *index == SIZE_MAX && i < v->item_count; i++) {
+        ewa_asset_info info = {.count = 0};
+        if (v->items[i].asset && v->items[i].visible) ewa_asset_describe(v->items[i].asset, &info);
+        bool inside = info.bounds.finite_count > 0;
+        for (int c = 0; c < 3; c++)
+            inside = inside && place_world[c] >= info.bounds.low_world[c] && place_world[c] <= info.bounds.high_world[c];
+        if (inside) *index = i;
+    }
+    return *index < v->item_count;
+}
+
 /// Adds to a text what fits.
 static void add(char *text, size_t text_bytes, const char *more) {
     const size_t used = strlen(text);

@@ -40,7 +40,7 @@ static drag_kind choose_drag(const viewer *v, int button, uint32_t modifiers) {
 }
 
 static void press(viewer *v, const viewer_event *event) {
-    if (v->button || select_press(v, event)) return; // a second button does not disturb the first
+    if (v->button || select_press(v, event) || transform_press(v, event)) return; // a second button does not disturb the first
     v->button = event->button;
     v->press_x = v->x = event->x, v->press_y = v->y = event->y;
     v->moved = false;
@@ -81,7 +81,7 @@ static void drag(viewer *v, double x, double y) {
 }
 
 static void move(viewer *v, const viewer_event *event) {
-    if (select_move(v, event)) return;
+    if (select_move(v, event) || transform_drag(v, event)) return;
     const bool far = hypot(event->x - v->press_x, event->y - v->press_y) >= CLICK_REACH;
     if (hypot(event->x - v->x, event->y - v->y) > 0 && !v->button) v->wheel_held = false;
     if (v->button && !v->moved && !far) return; // the hand trembles
@@ -102,7 +102,7 @@ static void recenter(viewer *v, double x, double y) {
 }
 
 static void release(viewer *v, const viewer_event *event) {
-    if (select_release(v, event)) return;
+    if (select_release(v, event) || transform_release(v, event)) return;
     if (event->button != v->button) return;
     const bool clicked = !v->moved && v->button == VIEWER_LEFT;
     v->button = 0;
@@ -174,6 +174,7 @@ void pointer_handle(viewer *v, const viewer_event *event) {
     default: // the hand is elsewhere
         v->button = 0;
         v->drag = DRAG_NONE;
+        v->transform.held = false;
         history_end(v);
     }
 }

@@ -69,10 +69,9 @@ typedef struct viewer_services {
     void *user;
     /// Returns the loading thread's context, whose news go to `news` from now on; NULL after telling why.
     ewa_context *(*context)(void *user, const viewer_news *news);
-    /// Loads a file in it; on the loading thread. `entry`: what a scene file says of it; NULL: nothing does. Returns
-    /// false after telling `news` why.
-    bool (*load)(void *user, const char *path, const ewa_scene_entry *entry, const viewer_news *news,
-                 ewa_asset **asset);
+    /// Loads a file in it; on the loading thread. `said`: what a scene file and the user say of it. Returns false after telling
+    /// `news` why.
+    bool (*load)(void *user, const char *path, const ewa_asset_options *said, const viewer_news *news, ewa_asset **asset);
     /// Places a camera, whose picture's size is set, for a first look or for a named view ("front" ... "iso",
     /// NULL: the best) at all that is visible; on the calling thread.
     bool (*place)(void *user, ewa_scene *scene, const char *view, ewa_camera *camera, double up_world[3]);
@@ -211,6 +210,9 @@ typedef enum viewer_icon {
     VIEWER_ICON_HIDE,
     VIEWER_ICON_KEEP,
     VIEWER_ICON_SHOW,
+    VIEWER_ICON_MOVE,
+    VIEWER_ICON_TURN,
+    VIEWER_ICON_SCALE,
     VIEWER_ICON_HEIGHT,
     VIEWER_ICON_ANGLE,
     VIEWER_ICON_AREA,
@@ -266,6 +268,7 @@ typedef struct viewer_item {
     const char *path;
     bool visible, volume, gaussians, mesh;
     uint64_t count; ///< of points, voxels or Gaussians
+    double to_world[16]; ///< where its coordinates lie
     viewer_coloring coloring;
 } viewer_item;
 

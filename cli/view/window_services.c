@@ -118,11 +118,10 @@ static ewa_context *context(void *user, const viewer_news *news) {
     return own->loading.context;
 }
 
-static bool load(void *user, const char *path, const ewa_scene_entry *entry, const viewer_news *news,
-                 ewa_asset **asset) {
+static bool load(void *user, const char *path, const ewa_asset_options *said, const viewer_news *news, ewa_asset **asset) {
     window_services *own = user;
     const ewa_asset_options program = scene_input_asset_options(&own->loading);
-    ewa_asset_options options = entry ? entry->asset : program;
+    ewa_asset_options options = *said;
     options.load = program.load;
     options.reader = program.reader;
     options.reader_user = program.reader_user;

@@ -85,9 +85,8 @@ static ewa_context *context(void *user, const viewer_news *news) {
     return contents->context;
 }
 
-static bool load(void *user, const char *path, const ewa_scene_entry *entry, const viewer_news *news,
-                 ewa_asset **asset) {
-    (void)entry;
+static bool load(void *user, const char *path, const ewa_asset_options *said, const viewer_news *news, ewa_asset **asset) {
+    (void)said;
     view_contents *contents = user;
     contents->loads++;
     while (contents->holds) {

@@ -96,6 +96,24 @@ void choose_alpha(panel_page *page, int index, const viewer_item *item) {
         panel_say(page, "alpha %d %.4f", index, alpha);
 }
 
+/// A row of numbers that are said when the hand lets go of them.
+bool type_numbers(panel_page *page, const char *name, const char *label, int count, double *numbers, const char *format) {
+    panel_label(page, name);
+    panel_edit_begin(page, label, count, numbers);
+    const bool changed = ImGui::InputScalarN(label, ImGuiDataType_Double, numbers, count, nullptr, nullptr, format);
+    return panel_edit_end(page, label, count, numbers, changed, false);
+}
+
+/// Where an item lies: what its coordinates are moved by, then by how much it is to be turned about what is up, or resized.
+void choose_place(panel_page *page, int index, const viewer_item *item) {
+    const double *m = item->to_world;
+    double moved[3] = {m[3], m[7], m[11]}, angle_deg = 0, factor = 1;
+    if (type_numbers(page, "Moved by", "##moved", 3, moved, "%.10g"))
+        panel_say(page, "move %d %.17g,%.17g,%.17g", index, moved[0] - m[3], moved[1] - m[7], moved[2] - m[11]);
+    if (type_numbers(page, "Turn by", "##turned", 1, &angle_deg, "%.6g deg")) panel_say(page, "rotate %d %.17g", index, angle_deg);
+    if (type_numbers(page, "Resize by", "##resized", 1, &factor, "%.6g")) panel_say(page, "scale %d %.17g", index, factor);
+}
+
 /// A number with its thousands set apart.
 void write_count(uint64_t count, char text[32]) {
     char digits[24];
@@ -144,11 +162,15 @@ bool item_row(panel_page *page, int index, const viewer_item *item, bool open_fi
     }
     char count[32];
     write_count(item->count, count);
+    if (ImGui::ArrowButton("##up", ImGuiDir_Up) && index > 0) panel_say(page, "order %d %d", index, index - 1);
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("Up in the list");
+    ImGui::SameLine(0, gap);
     ImGui::TextDisabled("%s %s", count,
                         item->volume      ? "voxels"
                         : item->gaussians ? "Gaussians"
                         : item->mesh      ? "points on faces"
                                           : "points");
+    choose_place(page, index, item);
     if (item->volume || item->gaussians) return true;
     choose_colors(page, index, item);
     if (!ewa_coloring_is_own(item->coloring.attribute))
