@@ -90,8 +90,10 @@ static const viewer_action actions[] = {
     {"Tools", "Move", "transform move", "drag something to another place, as far away as it is", 0, 0, VIEWER_ICON_MOVE},
     {"Tools", "Turn", "transform turn", "drag to turn something about what is up", 0, 0, VIEWER_ICON_TURN},
     {"Tools", "Resize", "transform scale", "drag up or down to make something larger or smaller", 0, 0, VIEWER_ICON_SCALE},
+    {"Tools", "Keyframe", "keyframe add", "keep this view as the next keyframe", 0, 0, VIEWER_ICON_KEYFRAME},
+    {"Tools", "Film", "film", "make a film through the keyframes, ewa-0001.mp4 and so on", 0, 0, VIEWER_ICON_FILM},
     {"Tools", "Forget picks", "clear", "forget picks, measures and the selection", VIEWER_KEY_DELETE, 0, VIEWER_ICON_CLEAR},
-    {"Tools", "Give up", "cancel", "close help or dialog; else give up loading; else forget selection, then picks", VIEWER_KEY_ESCAPE, 0,
+    {"Tools", "Give up", "cancel", "close help or dialog; else give up film or loading; else forget selection, then picks", VIEWER_KEY_ESCAPE, 0,
      VIEWER_ICON_NONE},
 
     {"Help", "Keys", "help next", "all keys", 'h', 0, VIEWER_ICON_HELP},

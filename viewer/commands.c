@@ -345,6 +345,9 @@ static bool do_cancel(viewer *v, const char *rest) {
     v->state.help = false;
     if (help) return true;
     v->state.message[0] = v->state.note[0] = 0;
+    const bool films = v->film.active;
+    film_free(v);
+    if (films) return true;
     const bool picked = v->picks[0].given;
     if (items_cancel(v)) {
         viewer_note(v, "loading was given up");
@@ -428,6 +431,8 @@ static const struct {
     {"measure", do_measure, is_measuring, measures_holds},
     {"camera", shot_camera, NULL, NULL},
     {"shot", shot_command, NULL, NULL},
+    {"keyframe", film_keyframe, NULL, NULL},
+    {"film", film_command, NULL, NULL},
     {"scene", do_scene, NULL, NULL},
     {"cancel", do_cancel, NULL, NULL},
     {"clear", do_clear, NULL, NULL},

@@ -111,6 +111,20 @@ typedef struct viewer_transform {
     double by[16]; ///< what has been done since
 } viewer_transform;
 
+enum { VIEWER_KEYFRAMES = 64 };
+
+/// Keyframes, and the film that is being made of them.
+typedef struct viewer_film {
+    uint32_t key_count;
+    ewa_camera keys[VIEWER_KEYFRAMES];
+    bool active;
+    char path[VIEWER_PATH_BYTES];
+    uint32_t frame, count, width_px, height_px;
+    ewa_ink ink;
+    ewa_camera_path *way;
+    uint8_t *rgba8; ///< a frame
+} viewer_film;
+
 enum { VIEWER_HISTORY = 64 };
 
 typedef struct viewer_snapshot viewer_snapshot;
@@ -185,6 +199,7 @@ struct viewer {
     viewer_profile profile;
     viewer_selection selection;
     viewer_transform transform;
+    viewer_film film;
     viewer_measure measure_list[VIEWER_MEASURES];
     size_t measure_count;
     bool measures_kind;       ///< clicks add places to
@@ -324,6 +339,14 @@ bool transform_press(viewer *v, const viewer_event *event);
 bool transform_drag(viewer *v, const viewer_event *event);
 bool transform_release(viewer *v, const viewer_event *event);
 
+// film.c: the commands "keyframe" and "film"
+bool film_keyframe(viewer *v, const char *rest);
+bool film_command(viewer *v, const char *rest);
+/// Draws the next frame of the film that is being made.
+void film_step(viewer *v);
+/// Gives the film up.
+void film_free(viewer *v);
+
 // settings.c
 void settings_init(viewer *v);
 
@@ -342,12 +365,14 @@ void keys_fly(viewer *v, double seconds);
 // shot.c: the commands "shot" and "camera"
 bool shot_command(viewer *v, const char *rest);
 bool shot_camera(viewer *v, const char *rest);
+/// Draws all there is, with what stands over it, as the window looks, whatever size the camera has.
+ewa_status shot_draw(viewer *v, const ewa_camera *camera, ewa_ink ink, uint8_t *rgba8);
 bool shot_scene(viewer *v, const char *rest);
 /// Fills in the scene of the window at full size.
 void viewer_scene(const viewer *v, paint_scene *scene);
 
 // overlay.c
-/// Draws furniture and marks over a picture of a camera.
-void overlay_draw(viewer *v, const ewa_camera *camera, uint8_t *rgba8);
+/// Draws furniture in an ink, and marks, over a picture of a camera.
+void overlay_draw(viewer *v, const ewa_camera *camera, ewa_ink ink, uint8_t *rgba8);
 
 #endif

@@ -183,7 +183,7 @@ static void set_color_bar(const viewer *v, ewa_category categories[VIEWER_MAX_CL
     }
 }
 
-void overlay_draw(viewer *v, const ewa_camera *camera, uint8_t *rgba8) {
+void overlay_draw(viewer *v, const ewa_camera *camera, ewa_ink ink, uint8_t *rgba8) {
     const overlay o = {{rgba8, camera->width_px, camera->height_px},
                        camera,
                        v->scale * camera->height_px / v->camera.height_px};
@@ -198,6 +198,7 @@ void overlay_draw(viewer *v, const ewa_camera *camera, uint8_t *rgba8) {
     draw_picks(&o, v);
     ewa_furniture_options furniture = v->furniture;
     furniture.unit = v->unit;
+    furniture.ink = ink;
     ewa_category categories[VIEWER_MAX_CLASSES];
     if (furniture.color_bar) set_color_bar(v, categories, &furniture);
     const double depth = navigate_depth(camera, v->pivot_world);

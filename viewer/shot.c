@@ -24,25 +24,34 @@ static void note_file(viewer *v, const char *what, const char *path) {
         viewer_note(v, "%s saved: %s", what, path);
 }
 
-static bool save_picture(viewer *v, const char *path, uint32_t width_px, uint32_t height_px,
-                         bool transparent) {
+/// Draws a scene that is prepared, in a camera of any size, with the same look.
+static ewa_status draw_scene(viewer *v, paint_scene *scene, const ewa_camera *camera, ewa_ink ink, uint8_t *rgba8) {
+    const double larger = (double)camera->height_px / scene->camera.height_px;
+    ewa_render_options *render = &scene->options.render;
+    const double point_size_px = larger * render->point_size_px;
+    if (render->point_size_px > 0) render->point_size_px = point_size_px < 1 ? 1 : point_size_px > 256 ? 256 : point_size_px;
+    scene->options.lod.load_s = v->lod.load_s; // time is the window's matter: all is read that the picture needs
+    scene->camera = *camera;
+    const ewa_status status = paint_scene_draw(&v->probe, scene, &(ewa_frame){.rgba8 = rgba8}, NULL);
+    if (status == EWA_OK) overlay_draw(v, &scene->camera, ink, rgba8);
+    return status;
+}
+
+ewa_status shot_draw(viewer *v, const ewa_camera *camera, ewa_ink ink, uint8_t *rgba8) {
     paint_scene scene;
     viewer_scene(v, &scene);
-    scene.options.lod.load_s = v->lod.load_s; // time is the window's matter: all is read that the picture needs
-    const double larger = (double)height_px / scene.camera.height_px;
-    navigate_resize(&scene.camera, width_px, height_px);
-    ewa_render_options *render = &scene.options.render;
-    const double point_size_px = larger * render->point_size_px;
-    if (render->point_size_px > 0) // the same look
-        render->point_size_px = point_size_px < 1 ? 1 : point_size_px > 256 ? 256 : point_size_px;
-    for (int c = 0; c < 4 && transparent; c++) render->background[c] = 0;
+    return draw_scene(v, &scene, camera, ink, rgba8);
+}
+
+static bool save_picture(viewer *v, const char *path, uint32_t width_px, uint32_t height_px, bool transparent) {
+    paint_scene scene;
+    viewer_scene(v, &scene);
+    ewa_camera camera = scene.camera;
+    navigate_resize(&camera, width_px, height_px);
+    for (int c = 0; c < 4 && transparent; c++) scene.options.render.background[c] = 0;
     uint8_t *rgba8 = malloc(4 * (size_t)width_px * height_px);
-    ewa_status status =
-        rgba8 ? paint_scene_draw(&v->probe, &scene, &(ewa_frame){.rgba8 = rgba8}, NULL) : EWA_ERROR_MEMORY;
-    if (status == EWA_OK) {
-        overlay_draw(v, &scene.camera, rgba8);
-        status = ewa_pixels_save(v->probe.context, path, width_px, height_px, 4, rgba8, 4 * (size_t)width_px);
-    }
+    ewa_status status = rgba8 ? draw_scene(v, &scene, &camera, v->furniture.ink, rgba8) : EWA_ERROR_MEMORY;
+    if (status == EWA_OK) status = ewa_pixels_save(v->probe.context, path, width_px, height_px, 4, rgba8, 4 * (size_t)width_px);
     free(rgba8);
     if (status != EWA_OK)
         viewer_tell(v, "%s: the picture cannot be saved: %s", path,

@@ -141,6 +141,7 @@ bool viewer_stop(viewer *v) {
 void viewer_destroy(viewer **made) {
     viewer *v = *made;
     if (!v) return;
+    film_free(v);
     loader_destroy(&v->loader);
     node_reader_destroy(&v->node_reader);
     painter_destroy(&v->painter);
@@ -405,7 +406,7 @@ static void compose(viewer *v, const paint_result *newest) {
         v->composed_bytes = wanted;
     }
     memcpy(v->composed, newest->rgba8, wanted);
-    overlay_draw(v, &newest->camera, v->composed);
+    overlay_draw(v, &newest->camera, v->furniture.ink, v->composed);
     v->composed_ticket = ticket;
     v->composed_drawn = newest->drawn_count;
     v->composed_marks = v->marks;
@@ -418,6 +419,7 @@ void viewer_frame(viewer *v, double time_s, viewer_picture *picture) {
     if (v->services.interrupted && v->services.interrupted(v->services.user)) v->state.quit = true;
     if (v->stepped) loader_step(v->loader);
     items_update(v);
+    film_step(v);
     const char *failure;
     const paint_result *newest = painter_newest(v->painter, &failure);
     adapt(v, newest);
@@ -432,7 +434,7 @@ void viewer_frame(viewer *v, double time_s, viewer_picture *picture) {
     const bool complete = newest && is_complete(v, newest);
     const bool still =
         complete && newest->whole && newest->ticket == v->revision && !v->animated && !v->fly_keys;
-    picture->spare_s = still && !loader_is_busy(v->loader) ? LATER_S : SOON_S;
+    picture->spare_s = v->film.active ? 0 : still && !loader_is_busy(v->loader) ? LATER_S : SOON_S;
     if (!newest) return;
     compose(v, newest);
     v->composed_complete = complete;
@@ -447,7 +449,7 @@ void viewer_frame(viewer *v, double time_s, viewer_picture *picture) {
 }
 
 bool viewer_is_still(const viewer *v) {
-    return v->number && v->composed_ticket == (v->revision | WHOLE) && v->composed_marks == v->marks &&
+    return !v->film.active && v->number && v->composed_ticket == (v->revision | WHOLE) && v->composed_marks == v->marks &&
            v->composed_complete && !v->animated && !v->fly_keys && !loader_is_busy(v->loader);
 }
 
@@ -458,6 +460,14 @@ void viewer_get_camera(const viewer *v, ewa_camera *camera) { *camera = v->camer
 void viewer_get_state(const viewer *v, viewer_state *state) {
     *state = v->state;
     state->flying = v->fly_keys != 0;
+    state->keyframes = v->film.key_count;
+    if (v->film.active) {
+        snprintf(state->loading, sizeof state->loading, "%.255s", v->film.path);
+        snprintf(state->stage, sizeof state->stage, "frame %u of %u,", v->film.frame + 1, v->film.count);
+        state->fraction = (double)v->film.frame / v->film.count;
+        state->queued = 0;
+        return;
+    }
     char path[VIEWER_PATH_BYTES];
     loader_tell(v->loader, path, state->stage, &state->fraction, &state->queued);
     const char *slash = strrchr(path, '/');

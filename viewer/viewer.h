@@ -81,6 +81,11 @@ typedef struct viewer_services {
     bool (*interrupted)(void *user);
     /// Whether an event waits for which a whole picture is to be given up; of stepped viewers, while they draw. May be NULL.
     bool (*waiting)(void *user);
+    /// A film at a path, or numbered pictures where it has a place for a number: begins, takes a frame (sRGB, straight alpha; it may
+    /// be written over), ends it, whole or given up. Return false after saying why. On the calling thread. All may be NULL: there are no films.
+    bool (*film_begin)(void *user, const char *path, uint32_t width_px, uint32_t height_px, bool opaque);
+    bool (*film_put)(void *user, uint8_t *rgba8);
+    bool (*film_end)(void *user, bool whole);
     /// The clipboard; both may be NULL: the viewer keeps a text of its own then.
     void (*clipboard_set)(void *user, const char *text);
     bool (*clipboard_get)(void *user, char *text, size_t text_bytes);
@@ -217,6 +222,8 @@ typedef enum viewer_icon {
     VIEWER_ICON_ANGLE,
     VIEWER_ICON_AREA,
     VIEWER_ICON_WAY,
+    VIEWER_ICON_KEYFRAME,
+    VIEWER_ICON_FILM,
     VIEWER_ICON_CLEAR,
     VIEWER_ICON_HELP,
     VIEWER_ICON_COUNT,
@@ -288,7 +295,8 @@ typedef enum viewer_question { VIEWER_ASKS_NOTHING, VIEWER_ASKS_OPEN, VIEWER_ASK
 
 /// What goes on.
 typedef struct viewer_state {
-    char loading[VIEWER_NAME_BYTES]; ///< name of what loads; empty: nothing
+    uint32_t keyframes;
+    char loading[VIEWER_NAME_BYTES]; ///< name of what loads, or of the film that is being made; empty: nothing
     char stage[64];
     double fraction;
     uint32_t queued;                 ///< loads that wait

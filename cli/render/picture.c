@@ -116,14 +116,12 @@ static ewa_status save_linear(const picture_paths *paths, const ewa_image_save_o
     return status;
 }
 
-/// Writes the 8-bit picture, without alpha where that says nothing.
-static ewa_status save_codes(ewa_context *context, const char *path, const ewa_camera *camera, bool opaque,
-                             uint8_t *rgba8) {
-    const size_t width = camera->width_px, pixel_count = width * camera->height_px;
-    if (!opaque)
-        return ewa_pixels_save(context, path, camera->width_px, camera->height_px, 4, rgba8, 4 * width);
+ewa_status picture_save_codes(ewa_context *context, const char *path, uint32_t width_px, uint32_t height_px, bool opaque,
+                              uint8_t *rgba8) {
+    const size_t width = width_px, pixel_count = width * height_px;
+    if (!opaque) return ewa_pixels_save(context, path, width_px, height_px, 4, rgba8, 4 * width);
     for (size_t i = 0; i < pixel_count; i++) memmove(rgba8 + 3 * i, rgba8 + 4 * i, 3);
-    return ewa_pixels_save(context, path, camera->width_px, camera->height_px, 3, rgba8, 3 * width);
+    return ewa_pixels_save(context, path, width_px, height_px, 3, rgba8, 3 * width);
 }
 
 bool picture_save(cli_session *session, const picture_paths *paths, const ewa_camera *camera, bool opaque,
@@ -147,7 +145,8 @@ bool picture_save(cli_session *session, const picture_paths *paths, const ewa_ca
     options.channel_names = NULL;
     if (status == EWA_OK && paths->color) {
         session->subject = paths->color;
-        status = picture->rgba8 ? save_codes(session->context, paths->color, camera, opaque, picture->rgba8)
+        status = picture->rgba8 ? picture_save_codes(session->context, paths->color, camera->width_px, camera->height_px, opaque,
+                                                     picture->rgba8)
                                 : save_linear(paths, &options, picture);
     }
     return session_passed(session, status);

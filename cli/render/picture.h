@@ -31,6 +31,10 @@ bool picture_make(cli_session *session, const picture_paths *paths, const ewa_ca
                   cli_picture *picture);
 void picture_free(cli_picture *picture);
 
+/// Writes an 8-bit picture, without alpha where that says nothing, which the pixels are packed for; the status of the library.
+ewa_status picture_save_codes(ewa_context *context, const char *path, uint32_t width_px, uint32_t height_px, bool opaque,
+                              uint8_t *rgba8);
+
 /// Writes all files; false after reporting. `opaque`: the background hides everything, so alpha can be left
 /// out.
 bool picture_save(cli_session *session, const picture_paths *paths, const ewa_camera *camera, bool opaque,

@@ -27,8 +27,8 @@ sequence_output sequence_output_of(const frames_arguments *frames, const char *o
         .numbered = frames_many(frames),
         .film = video_find_format(output) ? output : NULL,
         .source = frames->path_file ? frames->path_file : frames->view.camera_path,
-        .frames_per_s = frames->frames_per_s > 0 ? frames->frames_per_s : 30,
-        .quality = frames->quality >= 0 ? (int)frames->quality : 75,
+        .frames_per_s = frames->frames_per_s > 0 ? frames->frames_per_s : VIDEO_FRAMES_PER_S,
+        .quality = frames->quality >= 0 ? (int)frames->quality : VIDEO_QUALITY,
         .opaque = opaque,
     };
 }

@@ -8,6 +8,8 @@
 #include "cli/base/child.h"
 #include "cli/base/temporary_file.h"
 
+enum { VIDEO_FRAMES_PER_S = 30, VIDEO_QUALITY = 75 }; ///< where nobody says
+
 typedef struct video_format video_format;
 
 /// The format that a path's suffix asks for: .mp4 and .mkv (H.264), .webm (VP9), .gif; NULL: no film.

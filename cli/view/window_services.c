@@ -3,8 +3,10 @@
 //
 // What the viewer asks of the program.
 #include "cli/view/window_services.h"
+#include "cli/base/pattern.h"
 #include "cli/input/lod_input.h"
 #include "cli/input/scene_input.h"
+#include "cli/render/picture.h"
 #include "cli/view/window_files.h"
 
 #include <math.h>
@@ -179,6 +181,47 @@ static void say(void *user, bool message, const char *text) {
     }
 }
 
+static bool film_begin(void *user, const char *path, uint32_t width_px, uint32_t height_px, bool opaque) {
+    window_services *own = user;
+    cli_session *session = &own->session;
+    const video_format *format = video_find_format(path);
+    const video_settings settings = {
+        .width_px = width_px, .height_px = height_px, .frames_per_s = VIDEO_FRAMES_PER_S, .quality = VIDEO_QUALITY, .opaque = opaque};
+    session->reported = false;
+    own->film_path = path;
+    own->film_width_px = width_px, own->film_height_px = height_px;
+    own->film_opaque = opaque;
+    own->film_count = 0;
+    own->video = (cli_video){.path = NULL};
+    if (!format && !pattern_is_numbered(path))
+        session_fail(session, "%s: neither a film (.mp4, .mkv, .webm, .gif) nor numbered pictures (%%04d.png)", path);
+    else if (format && !video_has_alpha(format) && !opaque)
+        session_fail(session, "%s: this film has no transparency; .webm has, and so have numbered pictures", path);
+    else
+        return !format || video_start(session, path, &settings, &own->video);
+    return false;
+}
+
+static bool film_put(void *user, uint8_t *rgba8) {
+    window_services *own = user;
+    cli_session *session = &own->session;
+    if (own->video.path) return video_put(session, &own->video, rgba8);
+    char path[VIEWER_PATH_BYTES];
+    session->subject = path;
+    const bool named = pattern_expand(own->film_path, own->film_count++, sizeof path, path);
+    const bool done = named && session_passed(session, picture_save_codes(session->context, path, own->film_width_px,
+                                                                          own->film_height_px, own->film_opaque, rgba8));
+    session->subject = NULL;
+    return done;
+}
+
+static bool film_end(void *user, bool whole) {
+    window_services *own = user;
+    if (own->video.path && whole) return video_finish(&own->session, &own->video);
+    video_drop(&own->video);
+    return true;
+}
+
 static bool interrupted(void *user) {
     (void)user;
     return session_interrupted();
@@ -192,7 +235,10 @@ bool window_services_make(window_services *own, const view_arguments *view, view
                                   .load = load,
                                   .place = place,
                                   .say = say,
-                                  .interrupted = interrupted};
+                                  .interrupted = interrupted,
+                                  .film_begin = film_begin,
+                                  .film_put = film_put,
+                                  .film_end = film_end};
     if (!session_start(&own->session, common)) return false;
     own->loading = (cli_session){.load = own->session.load,
                                  .filter = own->session.filter,

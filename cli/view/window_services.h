@@ -5,6 +5,7 @@
 #ifndef EWA_CLI_VIEW_WINDOW_SERVICES_H
 #define EWA_CLI_VIEW_WINDOW_SERVICES_H
 
+#include "cli/render/video.h"
 #include "cli/render/view.h"
 #include "viewer/viewer.h"
 
@@ -16,6 +17,10 @@ typedef struct window_services {
     cli_session session;       ///< of the thread that places cameras
     cli_session loading;       ///< of the thread that loads and makes scenes
     session_listener listener; ///< of its news
+    const char *film_path;     ///< as it was asked for, borrowed; of numbered pictures:
+    uint32_t film_width_px, film_height_px, film_count;
+    bool film_opaque;
+    cli_video video; ///< else
 } window_services;
 
 /// Makes the services; free them after the viewer. False after reporting.

@@ -46,6 +46,30 @@ void progress(panel_page *page, float *bottom) {
     ImGui::End();
 }
 
+/// The keyframes, at the bottom: a click goes there, a right click takes one out.
+void keyframes(const panel_page *page, float *bottom) {
+    if (!page->state.keyframes || !page->state.panels) return;
+    ImGui::SetNextWindowPos(ImVec2(middle_of(page), *bottom), 0, ImVec2(0.5f, 1));
+    ImGui::SetNextWindowSizeConstraints(ImVec2(0, 0), ImVec2(0.9f * (page->width - page->left), page->height));
+    ImGui::Begin("keyframes", nullptr, (note_flags & ~ImGuiWindowFlags_NoScrollbar) | ImGuiWindowFlags_HorizontalScrollbar);
+    for (uint32_t i = 0; i < page->state.keyframes; i++) {
+        char name[16];
+        snprintf(name, sizeof name, "%u", i + 1);
+        if (ImGui::Button(name)) panel_say(page, "keyframe go %u", i);
+        const bool out = ImGui::IsItemClicked(ImGuiMouseButton_Right);
+        if (ImGui::IsItemHovered()) ImGui::SetTooltip("Go there; a right click takes it out");
+        ImGui::SameLine();
+        if (out) panel_say(page, "keyframe delete %u", i);
+    }
+    if (ImGui::Button("+")) panel_say(page, "keyframe add");
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("Keep this view as the next keyframe");
+    ImGui::SameLine();
+    if (ImGui::Button("Film")) panel_say(page, "film");
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("Make a film through them");
+    *bottom = ImGui::GetWindowPos().y - panel_margin(page);
+    ImGui::End();
+}
+
 /// A text that stays for a while, above what stands there.
 void say(panel_page *page, const char *name, const char *text, double left_s, float *bottom) {
     if (!text[0] || left_s <= 0) return;
@@ -80,6 +104,7 @@ void panel_notes(panel_page *page) {
     float bottom = page->height - panel_margin(page);
     // Help takes the middle down to here.
     if (page->state.help) return;
+    keyframes(page, &bottom);
     progress(page, &bottom);
     const double now_s = page->facts->now_s;
     say(page, "message", page->state.message, message_stays_s - (now_s - page->state.message_s), &bottom);

@@ -96,6 +96,15 @@ void choose_alpha(panel_page *page, int index, const viewer_item *item) {
         panel_say(page, "alpha %d %.4f", index, alpha);
 }
 
+void choose_look(panel_page *page, int index, const viewer_item *item) {
+    choose_colors(page, index, item);
+    if (!ewa_coloring_is_own(item->coloring.attribute))
+        choose_map(page, index, item);
+    else if (item->coloring.tinted)
+        choose_tint(page, index, item);
+    choose_alpha(page, index, item);
+}
+
 /// A row of numbers that are said when the hand lets go of them.
 bool type_numbers(panel_page *page, const char *name, const char *label, int count, double *numbers, const char *format) {
     panel_label(page, name);
@@ -170,14 +179,8 @@ bool item_row(panel_page *page, int index, const viewer_item *item, bool open_fi
                         : item->gaussians ? "Gaussians"
                         : item->mesh      ? "points on faces"
                                           : "points");
+    if (!item->volume && !item->gaussians) choose_look(page, index, item);
     choose_place(page, index, item);
-    if (item->volume || item->gaussians) return true;
-    choose_colors(page, index, item);
-    if (!ewa_coloring_is_own(item->coloring.attribute))
-        choose_map(page, index, item);
-    else if (item->coloring.tinted)
-        choose_tint(page, index, item);
-    choose_alpha(page, index, item);
     return true;
 }
 
