@@ -157,8 +157,10 @@ static const char *find_difference(trial_memory *memory) {
         if (!all_agree(memory, w)) return names[w];
     for (uint32_t i = 0; i < COUNT; i++) {
         const numbers *v = &memory->inputs[i];
-        const double a = (double)v->a + (double)v->n * 0x1p-30, b = (double)v->b + (double)v->m * 0x1p-30;
-        const double c = i & 1 ? -(a * b) : (double)v->c + (double)v->x * 0x1p-30;
+        double a = (double)v->a + (double)v->n * 0x1p-30, b = (double)v->b + (double)v->m * 0x1p-30;
+        double c = i & 1 ? -(a * b) : (double)v->c + (double)v->x * 0x1p-30;
+        if ((i & 3) == 2) // half-way between two numbers, but for next to nothing
+            a = 1 + 0x1p-30, b = 1 - 0x1p-30, c = 0x1p53 + 2 * (double)floorf(v->s * 0x1p20f);
         if (!agree_double(&memory->results[i][SINGLES], fma(a, b, c))) return "fma of doubles";
     }
     return NULL;

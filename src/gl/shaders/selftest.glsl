@@ -42,6 +42,11 @@ void main() {
     results[at + 7u] = floatBitsToUint(wf_odd_product(v.s, v.s));
     precise double a = double(v.a) + double(v.n) * PER_2_30, b = double(v.b) + double(v.m) * PER_2_30;
     precise double left = -(a * b), other = double(v.c) + double(v.x) * PER_2_30;
+    if ((i & 3u) == 2u) { // half-way between two numbers, but for next to nothing
+        a = 1.0LF + PER_2_30;
+        b = 1.0LF - PER_2_30;
+        other = 9007199254740992.0LF + 2.0LF * double(floor(v.s * 1048576.0));
+    }
     uvec2 bits = unpackDouble2x32(wd_fma(a, b, (i & 1u) != 0u ? left : other));
     results[at + 8u] = bits.x;
     results[at + 9u] = bits.y;
