@@ -7,7 +7,7 @@
 //   measure_lod build OUT.copc.laz IN...       makes an octree and says what it took
 //   measure_lod quality FILE [SPACING...]   PSNR against all points, of the octree and of picks of as many points
 //   measure_lod dolly FILE [FRAMES]            steps between the frames of a slow dolly
-//   measure_lod speed FILE [SPACING]        cold and warm frames
+//   measure_lod speed FILE [DISTANCE]       cold and warm frames
 #include "ewa/ewa.h"
 #include "measure/measure.h"
 
@@ -20,6 +20,13 @@
 #include <time.h>
 
 enum { WIDTH_PX = 1280, HEIGHT_PX = 720, PIXELS = WIDTH_PX * HEIGHT_PX, INSIDE_PX = 3 };
+
+/// Processor time in the program, of all threads.
+static double user_s(void) {
+    struct rusage usage;
+    getrusage(RUSAGE_SELF, &usage);
+    return (double)usage.ru_utime.tv_sec + 1e-6 * (double)usage.ru_utime.tv_usec;
+}
 
 static double peak_mib(void) {
     struct rusage usage;
@@ -233,7 +240,7 @@ static int dolly(ewa_context *context, int count, char **words) {
     for (int i = 0; i < 4; i++) pictures[i] = malloc((size_t)4 * PIXELS);
     double largest_step = 0, last_rms = 0;
     int max_jump = 0;
-    uint64_t jumps = 0;
+    uint64_t jumps = 0, values = 0;
     for (int f = 0; f < frame_count; f++) {
         const ewa_camera camera = camera_at(&info.bounds, 1.2 * pow(1.01, f));
         const ewa_render_options options = unlit();
@@ -259,6 +266,7 @@ static int dolly(ewa_context *context, int count, char **words) {
                           of_full = abs(pictures[f & 1][4 * i + c] - pictures[~f & 1][4 * i + c]);
                 jump = own - of_full > jump ? own - of_full : jump;
                 jumps += own - of_full > 8;
+                values++;
             }
         }
         const double rms = sqrt(square / (3 * (double)(shown ? shown : 1)));
@@ -268,9 +276,8 @@ static int dolly(ewa_context *context, int count, char **words) {
         last_rms = rms;
     }
     printf("%d frames: rms error changes by at most %.3f/255 a frame; largest jump beyond the full picture's "
-           "%d/255, %llu "
-           "values beyond 8\n",
-           frame_count, largest_step, max_jump, (unsigned long long)jumps);
+           "%d/255, %llu of %llu values beyond 8\n",
+           frame_count, largest_step, max_jump, (unsigned long long)jumps, (unsigned long long)values);
     for (int i = 0; i < 4; i++) free(pictures[i]);
     ewa_renderer_destroy(&renderer);
     ewa_surfels_destroy(&surfels);
@@ -289,16 +296,15 @@ static int speed(ewa_context *context, int count, char **words) {
     ewa_renderer *renderer = NULL;
     check(ewa_renderer_create(context, &renderer));
     uint8_t *rgba = malloc((size_t)4 * PIXELS);
-    const ewa_camera camera = camera_at(&info.bounds, 1);
+    const ewa_camera camera = camera_at(&info.bounds, count > 1 ? atof(words[1]) : 1);
     const ewa_render_options options = unlit();
     const ewa_frame frame = {.rgba8 = rgba};
     ewa_lod_options lod_options;
     ewa_lod_options_init(&lod_options, sizeof lod_options);
-    if (count > 1) lod_options.spacing_px = atof(words[1]);
     ewa_lod_stats stats;
-    double warm_s = INFINITY;
+    double warm_s = INFINITY, warm_user_s = INFINITY;
     for (int i = 0; i < ROUNDS; i++) {
-        const double before_s = i ? now_s() : start_s;
+        const double before_s = i ? now_s() : start_s, before_user_s = user_s();
         check(ewa_lod_render(lod, renderer, &camera, &options, &lod_options, &frame, &stats));
         const double took_s = now_s() - before_s;
         if (i == 0)
@@ -308,9 +314,15 @@ static int speed(ewa_context *context, int count, char **words) {
                 (unsigned long long)stats.surfel_count, stats.node_count, stats.band_count);
         else if (took_s < warm_s)
             warm_s = took_s;
+        const double took_user_s = user_s() - before_user_s;
+        if (i && took_user_s < warm_user_s) warm_user_s = took_user_s;
+        if (!i) printf("cold, user %.3f s\n", took_user_s);
     }
-    printf("warm %.3f s (choose %.4f s), %.0f MiB of cubes, %.0f MiB resident\n", warm_s, stats.choose_s,
-           (double)stats.resident_bytes / 1048576, peak_mib());
+    uint64_t covered = 0;
+    for (size_t i = 0; i < PIXELS; i++) covered += rgba[4 * i + 3] > 0;
+    printf("warm %.3f s (user %.3f s, choose %.4f s), %.0f MiB of cubes, %.0f MiB resident, %.2f surfels for a covered pixel\n", warm_s,
+           warm_user_s, stats.choose_s, (double)stats.resident_bytes / 1048576, peak_mib(),
+           (double)stats.surfel_count / (double)covered);
     printf("thread time: bins %.3f s, set-up %.3f s, visibility %.3f s, accumulation %.3f s, edges %.3f s, "
            "resolve %.3f s\n",
            stats.render.bin_s, stats.render.setup_s, stats.render.visibility_s, stats.render.accumulate_s,
