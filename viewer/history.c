@@ -37,7 +37,7 @@ struct viewer_snapshot {
     uint32_t profile_corner_count;
     double profile_corners[3 * EWA_PROFILE_CORNERS];
     size_t measure_count, item_count;
-    viewer_measure *measures;
+    ewa_measure *measures;
     item_state *items;
 };
 

@@ -71,16 +71,6 @@ typedef struct viewer_profile {
     uint32_t graph_width_px, graph_height_px;
 } viewer_profile;
 
-enum { VIEWER_MEASURES = 64, VIEWER_MEASURE_PLACES = 64 };
-
-/// A measurement with a name.
-typedef struct viewer_measure {
-    ewa_measure_kind kind;
-    char name[64];
-    uint32_t count;
-    double places_world[3 * VIEWER_MEASURE_PLACES];
-} viewer_measure;
-
 enum { SELECT_CORNERS = 1024 }; ///< of an outline that is drawn, at most
 
 /// What a hand draws around points.
@@ -200,10 +190,10 @@ struct viewer {
     viewer_selection selection;
     viewer_transform transform;
     viewer_film film;
-    viewer_measure measure_list[VIEWER_MEASURES];
+    ewa_measure measure_list[EWA_MAX_MEASURES];
     size_t measure_count;
     bool measures_kind;       ///< clicks add places to
-    viewer_measure measuring; ///< what is under way
+    ewa_measure measuring; ///< what is under way
     viewer_history history;
 
     uint64_t revision, posted; ///< of what is to be drawn; the last one handed to the painter
@@ -316,7 +306,7 @@ bool measures_click(viewer *v, const viewer_event *event);
 /// Writes a length (`power` 1) or an area (2) with its unit and so many digits.
 void measures_write(const viewer *v, char *text, size_t text_bytes, double number, int digits, int power);
 /// Writes name and value, for labels.
-void measures_value(const viewer *v, const viewer_measure *measure, char text[VIEWER_NAME_BYTES]);
+void measures_value(const viewer *v, const ewa_measure *measure, char text[VIEWER_NAME_BYTES]);
 
 // history.c
 bool history_undo(viewer *v, const char *rest);

@@ -96,11 +96,17 @@ static bool keep_file(viewer *v, ewa_scene_file *file) {
 
 /// Takes the settings that a scene file says, where they have their defaults, and its camera.
 static void take_settings(viewer *v, const ewa_scene_file *file) {
+    uint32_t index = 0;
     v->base.render = v->render;
     v->base.lod = v->lod;
     ewa_scene_file_apply(file, &v->base);
     v->render = v->base.render;
     v->lod = v->base.lod;
+    while (v->measure_count < EWA_MAX_MEASURES) {
+        if (!ewa_scene_file_measure(file, index++, &v->measure_list[v->measure_count])) break;
+        v->measure_count++;
+    }
+    viewer_mark(v);
     if (!v->has_scene_camera) v->has_scene_camera = ewa_scene_file_camera(file, &v->scene_camera);
 }
 

@@ -16,7 +16,7 @@ void measures_write(const viewer *v, char *text, size_t text_bytes, double numbe
              v->unit && power == 2 ? "\xc2\xb2" : "");
 }
 
-void measures_value(const viewer *v, const viewer_measure *measure, char text[VIEWER_NAME_BYTES]) {
+void measures_value(const viewer *v, const ewa_measure *measure, char text[VIEWER_NAME_BYTES]) {
     ewa_measurement m;
     char value[64] = "";
     if (ewa_places_measure(measure->kind, measure->places_world, measure->count, v->up_world, &m) != EWA_OK)
@@ -32,7 +32,7 @@ void measures_value(const viewer *v, const viewer_measure *measure, char text[VI
 
 /// Says all that is known of a measurement.
 static bool tell(viewer *v, size_t index) {
-    const viewer_measure *measure = &v->measure_list[index];
+    const ewa_measure *measure = &v->measure_list[index];
     ewa_measurement m;
     if (ewa_places_measure(measure->kind, measure->places_world, measure->count, v->up_world, &m) != EWA_OK) {
         viewer_tell(v, "measure: %s does not go by %u places", ewa_measure_kind_name(measure->kind), measure->count);
@@ -58,12 +58,12 @@ static bool tell(viewer *v, size_t index) {
 }
 
 /// Adds a measurement, unless it cannot be taken; `name` (may be empty) is made up then.
-static bool add(viewer *v, const viewer_measure *measure, const char *name) {
-    if (v->measure_count == VIEWER_MEASURES) {
-        viewer_tell(v, "measure: there are %d already", VIEWER_MEASURES);
+static bool add(viewer *v, const ewa_measure *measure, const char *name) {
+    if (v->measure_count == EWA_MAX_MEASURES) {
+        viewer_tell(v, "measure: there are %d already", EWA_MAX_MEASURES);
         return false;
     }
-    viewer_measure *to = &v->measure_list[v->measure_count];
+    ewa_measure *to = &v->measure_list[v->measure_count];
     *to = *measure;
     if (*name)
         snprintf(to->name, sizeof to->name, "%s", name);
@@ -77,17 +77,17 @@ static bool add(viewer *v, const viewer_measure *measure, const char *name) {
 
 /// Ends the measurement that is under way.
 static bool finish(viewer *v) {
-    const viewer_measure measure = v->measuring;
+    const ewa_measure measure = v->measuring;
     v->measuring.count = 0;
     viewer_mark(v);
     return add(v, &measure, "");
 }
 
 bool measures_click(viewer *v, const viewer_event *event) {
-    viewer_measure *measure = &v->measuring;
+    ewa_measure *measure = &v->measuring;
     if (!v->measures_kind || event->modifiers) return false;
     if (event->clicks >= 2 && !WHOLE[measure->kind]) return finish(v); // the first of both clicks has added the place
-    if (event->clicks >= 2 || measure->count == VIEWER_MEASURE_PLACES || !pick_point(v, event->x, event->y, false)) return true;
+    if (event->clicks >= 2 || measure->count == EWA_MEASURE_PLACES || !pick_point(v, event->x, event->y, false)) return true;
     memcpy(measure->places_world + 3 * measure->count, v->picks[0].place_world, sizeof v->picks[0].place_world);
     if (++measure->count == WHOLE[measure->kind]) finish(v);
     return true;
@@ -110,7 +110,7 @@ static bool save(viewer *v, const char *path) {
     if (file) {
         fputs("name,kind,length,horizontal,rise,slope_deg,angle_deg,area,horizontal_area,unit,places\n", file);
         for (size_t i = 0; i < v->measure_count; i++) {
-            const viewer_measure *measure = &v->measure_list[i];
+            const ewa_measure *measure = &v->measure_list[i];
             ewa_measurement m;
             (void)ewa_places_measure(measure->kind, measure->places_world, measure->count, v->up_world, &m);
             put_name(file, measure->name);
@@ -169,7 +169,7 @@ static bool rename_measure(viewer *v, const char *rest) {
 
 /// Measures places that are told, "x,y,z;x,y,z NAME", or begins to take those that are clicked.
 static bool begin(viewer *v, ewa_measure_kind kind, const char *rest) {
-    viewer_measure measure = {.kind = kind};
+    ewa_measure measure = {.kind = kind};
     if (!*rest) {
         v->measures_kind = true;
         v->measuring = measure;
@@ -184,7 +184,7 @@ static bool begin(viewer *v, ewa_measure_kind kind, const char *rest) {
     const char *name = rest + length + strspn(rest + length, " ");
     snprintf(word, sizeof word, "%.*s", (int)(length < sizeof word ? length : sizeof word - 1), rest);
     if (length >= sizeof word || ewa_profile_line_read(word, corners_world, &measure.count, problem) != EWA_OK ||
-        measure.count > VIEWER_MEASURE_PLACES) {
+        measure.count > EWA_MEASURE_PLACES) {
         viewer_tell(v, "measure: '%s' is not x,y,z;x,y,z;...: %s", word, problem);
         return false;
     }

@@ -122,7 +122,7 @@ static void draw_selection(const overlay *o, const viewer *v) {
     }
 }
 
-static void draw_measure(const overlay *o, const viewer *v, const viewer_measure *measure) {
+static void draw_measure(const overlay *o, const viewer *v, const ewa_measure *measure) {
     const bool closed = measure->kind == EWA_MEASURE_AREA && measure->count > 2;
     double middle[3] = {0};
     char text[VIEWER_NAME_BYTES];

@@ -197,6 +197,7 @@ bool shot_scene(viewer *v, const char *rest) {
     v->probe.message[0] = 0;
     ewa_status status = ewa_scene_copy(v->scene, v->probe.context, &scene);
     if (status == EWA_OK) status = ewa_scene_set_options(scene, &shown.options);
+    if (status == EWA_OK) status = ewa_scene_set_measures(scene, v->measure_list, (uint32_t)v->measure_count);
     if (status == EWA_OK) status = ewa_scene_save(scene, &v->camera, path);
     ewa_scene_destroy(&scene);
     if (status != EWA_OK)

@@ -22,6 +22,20 @@ typedef enum ewa_measure_kind {
 /// Returns "distance", "height", "angle" or "area"; NULL beyond the last. Any thread.
 EWA_API const char *ewa_measure_kind_name(uint32_t kind);
 
+enum {
+    EWA_MEASURE_PLACES = 64, ///< that a measurement of a scene has at most
+    EWA_MAX_MEASURES = 64,   ///< that a scene has
+    EWA_MEASURE_NAME_BYTES = 64,
+};
+
+/// A measurement with a name, as scenes and scene files have it.
+typedef struct ewa_measure {
+    ewa_measure_kind kind;
+    char name[EWA_MEASURE_NAME_BYTES]; ///< UTF-8
+    uint32_t count;                    ///< of places
+    double places_world[3 * EWA_MEASURE_PLACES];
+} ewa_measure;
+
 /// What places are apart. World units, squares of them, degrees.
 typedef struct ewa_measurement {
     double length_world;     ///< of the line from place to place; of an area, around it

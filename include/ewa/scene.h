@@ -16,6 +16,7 @@
 #include "ewa/furniture.h"
 #include "ewa/gpu.h"
 #include "ewa/lod.h"
+#include "ewa/measure.h"
 #include "ewa/mixture.h"
 #include "ewa/model.h"
 #include "ewa/photos.h"
@@ -281,6 +282,13 @@ EWA_API void ewa_scene_describe(const ewa_scene *scene, ewa_scene_info *info);
 
 /// Measures the box of all visible centres. Never fails: finite_count 0 where there is nothing.
 EWA_API void ewa_scene_bounds(const ewa_scene *scene, ewa_bounds *bounds);
+
+/// Sets the measurements of a scene, copies of `count` in `measures`; they change no picture, and scene files keep them. Errors:
+/// EWA_ERROR_ARGUMENT (more than EWA_MAX_MEASURES; one that ewa_places_measure() does not take, or without an end of its name),
+/// EWA_ERROR_MEMORY.
+EWA_API ewa_status ewa_scene_set_measures(ewa_scene *scene, const ewa_measure *measures, uint32_t count);
+/// Returns measurement `index`, borrowed until they are set again; NULL: there is none.
+EWA_API const ewa_measure *ewa_scene_measure(const ewa_scene *scene, uint32_t index);
 
 /// Returns what the colours of instance `index` mean, borrowed until the scene changes; NULL: they are the points' own,
 /// or the scene is not committed.

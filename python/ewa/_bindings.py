@@ -50,6 +50,9 @@ EWA_VISIBLE_NEGATIVE = 2
 EWA_VISIBLE_INVALID = 255
 EWA_CLASS_NAME_BYTES = 32
 EWA_POINTS_UNKNOWN = 18446744073709551615
+EWA_MEASURE_PLACES = 64
+EWA_MAX_MEASURES = 64
+EWA_MEASURE_NAME_BYTES = 64
 EWA_MESH_COLORS = 1
 EWA_MESH_TEXCOORDS = 2
 EWA_MESH_NORMALS = 4
@@ -1530,6 +1533,19 @@ class ewa_lod_stats(c.Structure):
         ("choose_s", c.c_double),
         ("load_s", c.c_double),
         ("coarser", c.c_double),
+    ]
+
+
+class ewa_measure(c.Structure):
+    kind: int
+    name: bytes
+    count: int
+    places_world: c.Array[c.c_double]
+    _fields_ = [
+        ("kind", c.c_int),
+        ("name", c.c_char * 64),
+        ("count", c.c_uint32),
+        ("places_world", c.c_double * 192),
     ]
 
 
@@ -3143,6 +3159,7 @@ class Functions:
         self.ewa_scene_get_camera: Callable[..., bool] = bind("ewa_scene_get_camera", c.c_bool, c.c_void_p, c.POINTER(ewa_camera))
         self.ewa_scene_get_options: Callable[..., None] = bind("ewa_scene_get_options", None, c.c_void_p, c.POINTER(ewa_scene_options))
         self.ewa_scene_legend: Callable[..., Any] = bind("ewa_scene_legend", c.POINTER(ewa_legend), c.c_void_p, c.c_uint32)
+        self.ewa_scene_measure: Callable[..., Any] = bind("ewa_scene_measure", c.POINTER(ewa_measure), c.c_void_p, c.c_uint32)
         self.ewa_scene_options_init: Callable[..., None] = bind("ewa_scene_options_init", None, c.POINTER(ewa_scene_options), c.c_size_t)
         self.ewa_scene_pick: Callable[..., int] = bind("ewa_scene_pick", c.c_int, c.c_void_p, c.c_void_p, c.POINTER(ewa_camera), c.POINTER(ewa_scene_options), c.c_double, c.c_double, c.c_double, c.c_double, c.POINTER(ewa_scene_hit))
         self.ewa_scene_place_camera: Callable[..., int] = bind("ewa_scene_place_camera", c.c_int, c.c_void_p, c.POINTER(ewa_view_options), c.POINTER(ewa_camera), c.POINTER(ewa_view_info))
@@ -3159,6 +3176,7 @@ class Functions:
         self.ewa_scene_reuse: Callable[..., None] = bind("ewa_scene_reuse", None, c.c_void_p, c.c_void_p)
         self.ewa_scene_set: Callable[..., int] = bind("ewa_scene_set", c.c_int, c.c_void_p, c.c_uint32, c.POINTER(ewa_instance))
         self.ewa_scene_set_camera: Callable[..., int] = bind("ewa_scene_set_camera", c.c_int, c.c_void_p, c.POINTER(ewa_camera))
+        self.ewa_scene_set_measures: Callable[..., int] = bind("ewa_scene_set_measures", c.c_int, c.c_void_p, c.POINTER(ewa_measure), c.c_uint32)
         self.ewa_scene_set_options: Callable[..., int] = bind("ewa_scene_set_options", c.c_int, c.c_void_p, c.POINTER(ewa_scene_options))
         self.ewa_view_options_init: Callable[..., None] = bind("ewa_view_options_init", None, c.POINTER(ewa_view_options), c.c_size_t)
         self.ewa_scene_describe_json: Callable[..., int] = bind("ewa_scene_describe_json", c.c_int, c.c_void_p, c.c_void_p)
@@ -3168,6 +3186,7 @@ class Functions:
         self.ewa_scene_file_destroy: Callable[..., None] = bind("ewa_scene_file_destroy", None, c.c_void_p)
         self.ewa_scene_file_entry: Callable[..., int] = bind("ewa_scene_file_entry", c.c_int, c.c_void_p, c.c_uint32, c.POINTER(ewa_scene_entry))
         self.ewa_scene_file_load: Callable[..., int] = bind("ewa_scene_file_load", c.c_int, c.c_void_p, c.c_char_p, c.POINTER(ewa_asset_options), c.c_void_p)
+        self.ewa_scene_file_measure: Callable[..., bool] = bind("ewa_scene_file_measure", c.c_bool, c.c_void_p, c.c_uint32, c.POINTER(ewa_measure))
         self.ewa_scene_file_probe: Callable[..., bool] = bind("ewa_scene_file_probe", c.c_bool, c.c_char_p)
         self.ewa_scene_open: Callable[..., int] = bind("ewa_scene_open", c.c_int, c.c_void_p, c.c_char_p, c.POINTER(ewa_asset_options))
         self.ewa_scene_save: Callable[..., int] = bind("ewa_scene_save", c.c_int, c.c_void_p, c.POINTER(ewa_camera), c.c_char_p)

@@ -41,6 +41,9 @@ void ewa_scene_text_place(const ewa_scene_member *member, char place[EWA_SCENE_P
     case EWA_SCENE_REGION:
         snprintf(place, EWA_SCENE_PLACE_BYTES, "options.regions[%u]%s%.50s", member->index, dot, name);
         return;
+    case EWA_SCENE_MEASURE:
+        snprintf(place, EWA_SCENE_PLACE_BYTES, "measures[%u]%s%.60s", member->index, dot, name);
+        return;
     case EWA_SCENE_ITEM:
         snprintf(place, EWA_SCENE_PLACE_BYTES, "items[%u]%s%.60s", member->index, dot, name);
         return;
@@ -110,7 +113,7 @@ static ewa_status add_object(ewa_scene_text *text, ewa_scene_section section, ui
                              const cJSON *object) {
     const size_t first = text->member_count;
     if (!cJSON_IsObject(object)) {
-        const ewa_scene_member at = {section, index, section == EWA_SCENE_ITEM ? NULL : object->string, 0};
+        const ewa_scene_member at = {section, index, section == EWA_SCENE_ITEM || section == EWA_SCENE_MEASURE ? NULL : object->string, 0};
         return fail(text, &at, "is no object");
     }
     ewa_status status = EWA_OK;
@@ -200,19 +203,20 @@ static ewa_status read_root(ewa_scene_text *text, const cJSON *root) {
                         text->name, version->valuedouble, VERSION);
     ewa_status status = EWA_OK;
     const cJSON *item;
-    bool seen[4] = {false};
-    static const char *const names[] = {"ewa_scene", "options", "camera", "items"};
+    enum { NAME_COUNT = 5 };
+    bool seen[NAME_COUNT] = {false};
+    static const char *const names[NAME_COUNT] = {"ewa_scene", "options", "camera", "items", "measures"};
     cJSON_ArrayForEach(item, root) {
         int which = 0;
-        while (which < 4 && strcmp(item->string, names[which]) != 0) which++;
-        if (which == 4 || seen[which])
-            return ewa_fail(text->context, EWA_ERROR_FORMAT, "%s: member '%.60s' %s", text->name,
-                            item->string,
-                            which == 4 ? "is none of ewa_scene, options, camera, items" : "is there twice");
+        while (which < NAME_COUNT && strcmp(item->string, names[which]) != 0) which++;
+        if (which == NAME_COUNT || seen[which])
+            return ewa_fail(text->context, EWA_ERROR_FORMAT, "%s: member '%.60s' %s", text->name, item->string,
+                            which == NAME_COUNT ? "is none of ewa_scene, options, camera, items, measures" : "is there twice");
         seen[which] = true;
         if (which == 1) status = read_options(text, item);
         if (which == 2) status = read_camera(text, item);
         if (which == 3) status = read_list(text, EWA_SCENE_ITEM, item, &text->item_count);
+        if (which == 4) status = read_list(text, EWA_SCENE_MEASURE, item, &text->measure_count);
         EWA_TRY(status);
     }
     return EWA_OK;

@@ -21,6 +21,7 @@ typedef enum ewa_scene_section {
     EWA_SCENE_SECTION_PLANE = 7, ///< "options"."section_planes"[index], a member without a name
     EWA_SCENE_ITEM = 8,          ///< "items"[index]
     EWA_SCENE_REGION = 9,        ///< "options"."regions"[index]
+    EWA_SCENE_MEASURE = 10,      ///< "measures"[index]
 } ewa_scene_section;
 
 enum {
@@ -32,7 +33,7 @@ enum {
 /// A member: "items[3].opacity" of value 0.5.
 typedef struct ewa_scene_member {
     ewa_scene_section section;
-    uint32_t index;   ///< of lights, section planes, regions and items
+    uint32_t index;   ///< of lights, section planes, regions, measures and items
     const char *name; ///< the text's own
     size_t value_at;  ///< where its value begins among `values`
 } ewa_scene_member;
@@ -48,7 +49,7 @@ typedef struct ewa_scene_text {
         values; ///< strings as they are; numbers so that they read as the same ones; switches "on" and "off"; arrays
                 ///< separated by commas; each ended by a zero
     size_t values_size, values_bytes;
-    uint32_t item_count, light_count, section_count, region_count;
+    uint32_t item_count, light_count, section_count, region_count, measure_count;
     bool has_camera;
     ewa_camera camera;
 } ewa_scene_text;

@@ -32,6 +32,8 @@ struct ewa_scene_file {
     scene_file_item *items;
     char *path;
     ewa_scene_text text; ///< of the file itself, not of those that it names
+    ewa_measure *measures; ///< text.measure_count
+    size_t measure_room;
 };
 
 /// A file that is being read, and the one that names it.
@@ -196,6 +198,52 @@ static ewa_status apply_region(const reading *in, const ewa_scene_member *member
     return fail_at(in, member, "no region has such a member");
 }
 
+static ewa_status set_measure(const reading *in, const ewa_scene_member *member, ewa_measure *measure) {
+    const char *value = ewa_scene_text_value(in->text, member), *word;
+    if (strcmp(member->name, "kind") == 0) {
+        for (uint32_t k = 0; (word = ewa_measure_kind_name(k)); k++) {
+            measure->kind = (ewa_measure_kind)k;
+            if (strcmp(value, word) == 0) return EWA_OK;
+        }
+        return fail_at(in, member, "is no kind of measurement");
+    }
+    if (strcmp(member->name, "name") == 0) {
+        if (strlen(value) >= sizeof measure->name) return fail_at(in, member, "is too long a name");
+        snprintf(measure->name, sizeof measure->name, "%s", value);
+        return EWA_OK;
+    }
+    if (strcmp(member->name, "places_world") != 0) return fail_at(in, member, "no measurement has such a member");
+    const bool fine = read_numbers(value, 3 * EWA_MEASURE_PLACES, measure->places_world, &measure->count) && measure->count % 3 == 0;
+    measure->count /= 3;
+    return fine ? EWA_OK : fail_at(in, member, "is not up to 64 places x, y, z");
+}
+
+/// Reads the measurements of a text.
+static ewa_status read_measures(const reading *in, ewa_measure *measures) {
+    static const double up_world[3] = {0, 0, 1};
+    const ewa_scene_text *text = in->text;
+    for (size_t i = 0; i < text->member_count; i++)
+        if (text->members[i].section == EWA_SCENE_MEASURE)
+            EWA_TRY(set_measure(in, &text->members[i], &measures[text->members[i].index]));
+    for (uint32_t i = 0; i < text->measure_count; i++) {
+        ewa_measurement measured;
+        const ewa_scene_member at = {EWA_SCENE_MEASURE, i, NULL, 0};
+        if (ewa_places_measure(measures[i].kind, measures[i].places_world, measures[i].count, up_world, &measured) != EWA_OK)
+            return fail_at(in, &at, "has not the places of its kind");
+    }
+    return EWA_OK;
+}
+
+/// Makes the measurements of a scene file, which it keeps.
+static ewa_status take_measures(const reading *in, ewa_scene_file *file) {
+    const uint32_t count = in->text->measure_count;
+    if (count > EWA_MAX_MEASURES)
+        return ewa_fail(file->context, EWA_ERROR_LIMIT, "%s: %u measurements; there may be %d", in->path, count, EWA_MAX_MEASURES);
+    file->measure_room = count + (size_t)1;
+    file->measures = ewa_allocate_zeroed(file->context, file->measure_room, sizeof *file->measures);
+    return file->measures ? read_measures(in, file->measures) : EWA_ERROR_MEMORY;
+}
+
 /// Sets all that a text says of options.
 static ewa_status apply(const reading *in, bool only_defaults, ewa_scene_options *options) {
     const ewa_scene_text *text = in->text;
@@ -215,7 +263,7 @@ static ewa_status apply(const reading *in, bool only_defaults, ewa_scene_options
     ewa_status status = EWA_OK;
     for (size_t i = 0; i < text->member_count && status == EWA_OK; i++) {
         const ewa_scene_member *member = &text->members[i];
-        if (member->section == EWA_SCENE_ITEM) continue;
+        if (member->section == EWA_SCENE_ITEM || member->section == EWA_SCENE_MEASURE) continue;
         if (member->section == EWA_SCENE_LIGHT)
             status = lit ? EWA_OK : apply_light(in, member, options);
         else if (member->section == EWA_SCENE_REGION)
@@ -450,6 +498,7 @@ static ewa_status read_file(ewa_scene_file *file, const reading *by, const char 
     ewa_scene_options_init(&options, sizeof options);
     status = apply(&in, false, &options);
     if (status == EWA_OK) status = read_items(file, &in);
+    if (status == EWA_OK && keep) status = take_measures(&in, file);
     if (status == EWA_OK && keep)
         *keep = text;
     else
@@ -484,6 +533,7 @@ void ewa_scene_file_destroy(ewa_scene_file **given) {
     *given = NULL;
     for (uint32_t i = 0; i < file->count; i++) free_item(file->context, &file->items[i]);
     ewa_release(file->context, file->items, file->capacity, sizeof *file->items);
+    ewa_release(file->context, file->measures, file->measure_room, sizeof *file->measures);
     if (file->text.context) ewa_scene_text_free(&file->text);
     release_text(file->context, file->path);
     ewa_release(file->context, file, 1, sizeof *file);
@@ -503,6 +553,12 @@ ewa_status ewa_scene_file_entry(const ewa_scene_file *file, uint32_t index, ewa_
 bool ewa_scene_file_camera(const ewa_scene_file *file, ewa_camera *camera) {
     if (!file || !file->text.has_camera) return false;
     *camera = file->text.camera;
+    return true;
+}
+
+bool ewa_scene_file_measure(const ewa_scene_file *file, uint32_t index, ewa_measure *measure) {
+    if (!file || !measure || index >= file->text.measure_count) return false;
+    *measure = file->measures[index];
     return true;
 }
 
@@ -546,6 +602,8 @@ ewa_status ewa_scene_open(ewa_scene *scene, const char *path, const ewa_asset_op
     ewa_camera camera;
     if (status == EWA_OK && !scene->has_camera && ewa_scene_file_camera(file, &camera))
         status = ewa_scene_set_camera(scene, &camera);
+    if (status == EWA_OK && !scene->measure_count)
+        status = ewa_scene_set_measures(scene, file->measures, file->text.measure_count);
     ewa_scene_file_destroy(&file);
     return status;
 }

@@ -118,6 +118,8 @@ struct ewa_scene {
     ewa_surface *surface; ///< retained; NULL: none
     bool has_camera;
     ewa_camera camera; ///< from where it is seen, unless somebody says otherwise
+    ewa_measure *measures;
+    uint32_t measure_count;
 };
 
 /// Whether instances of an asset are part of the one surface of points.

@@ -215,6 +215,19 @@ static ewa_status add_item(const ewa_scene *scene, const ewa_scene_item *item, c
     return status == EWA_OK && !add_instance(object, item) ? EWA_ERROR_MEMORY : status;
 }
 
+static bool add_measures(cJSON *root, const ewa_scene *scene) {
+    cJSON *list = scene->measure_count ? cJSON_AddArrayToObject(root, "measures") : NULL;
+    bool done = list || !scene->measure_count;
+    for (uint32_t i = 0; i < scene->measure_count && done; i++) {
+        const ewa_measure *measure = &scene->measures[i];
+        cJSON *object = cJSON_CreateObject();
+        done = cJSON_AddItemToArray(list, object) && cJSON_AddStringToObject(object, "kind", ewa_measure_kind_name(measure->kind)) &&
+               cJSON_AddStringToObject(object, "name", measure->name) &&
+               add_numbers(object, "places_world", measure->places_world, 3 * measure->count);
+    }
+    return done;
+}
+
 /// Makes the text of a scene file without its camera.
 static ewa_status make_text(const ewa_scene *scene, const char *path, char **text) {
     cJSON *root = cJSON_CreateObject();
@@ -225,6 +238,7 @@ static ewa_status make_text(const ewa_scene *scene, const char *path, char **tex
     if (status == EWA_OK && !items) status = EWA_ERROR_MEMORY;
     for (uint32_t i = 0; i < scene->count && status == EWA_OK; i++)
         status = add_item(scene, &scene->items[i], path, items);
+    if (status == EWA_OK && !add_measures(root, scene)) status = EWA_ERROR_MEMORY;
     if (status == EWA_OK) *text = cJSON_Print(root);
     if (status == EWA_OK && !*text) status = EWA_ERROR_MEMORY;
     cJSON_Delete(root);

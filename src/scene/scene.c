@@ -104,6 +104,7 @@ void ewa_scene_destroy(ewa_scene **given) {
     *given = NULL;
     for (uint32_t i = 0; i < scene->count; i++) release_item(&scene->items[i]);
     ewa_surface_release(&scene->surface);
+    ewa_release(scene->context, scene->measures, scene->measure_count, sizeof *scene->measures);
     ewa_release(scene->context, scene->items, scene->capacity, sizeof *scene->items);
     ewa_release(scene->context, scene, 1, sizeof *scene);
 }
@@ -132,6 +133,7 @@ ewa_status ewa_scene_copy(const ewa_scene *scene, ewa_context *context, ewa_scen
         ewa_asset_retain(item->asset);
         if (item->completed) atomic_fetch_add(&item->completed->references, 1);
     }
+    if (status == EWA_OK) status = ewa_scene_set_measures(*copy, scene->measures, scene->measure_count);
     if (status != EWA_OK) {
         ewa_scene_destroy(copy);
         return status;
@@ -348,6 +350,31 @@ void ewa_scene_describe(const ewa_scene *scene, ewa_scene_info *info) {
     info->resident = scene->surface->surfels;
     info->surfels_s = scene->surface->surfels_s;
     info->estimate_s += scene->surface->estimate_s;
+}
+
+ewa_status ewa_scene_set_measures(ewa_scene *scene, const ewa_measure *measures, uint32_t count) {
+    static const double up_world[3] = {0, 0, 1};
+    if (!scene || (!measures && count)) return EWA_ERROR_ARGUMENT;
+    if (count > EWA_MAX_MEASURES)
+        return ewa_fail(scene->context, EWA_ERROR_ARGUMENT, "%u measurements; a scene has %d at most", count, EWA_MAX_MEASURES);
+    for (uint32_t i = 0; i < count; i++) {
+        ewa_measurement measured;
+        const ewa_measure *m = &measures[i];
+        if (m->count > EWA_MEASURE_PLACES || !memchr(m->name, 0, sizeof m->name) ||
+            ewa_places_measure(m->kind, m->places_world, m->count, up_world, &measured) != EWA_OK)
+            return ewa_fail(scene->context, EWA_ERROR_ARGUMENT, "measurement %u has no name, or not the places of its kind", i);
+    }
+    ewa_measure *made = count ? ewa_allocate(scene->context, count, sizeof *made) : NULL;
+    if (count && !made) return EWA_ERROR_MEMORY;
+    if (count) memcpy(made, measures, count * sizeof *made);
+    ewa_release(scene->context, scene->measures, scene->measure_count, sizeof *made);
+    scene->measures = made;
+    scene->measure_count = count;
+    return EWA_OK;
+}
+
+const ewa_measure *ewa_scene_measure(const ewa_scene *scene, uint32_t index) {
+    return scene && index < scene->measure_count ? &scene->measures[index] : NULL;
 }
 
 void ewa_scene_bounds(const ewa_scene *scene, ewa_bounds *bounds) {

@@ -317,6 +317,44 @@ static void refuse(const char *text, ewa_status expected, const char *part) {
 #define OPTIONS(members)                                                                                     \
     "{\"ewa_scene\": 1, \"items\": [{\"file\": \"torus.ply\"}], \"options\": {" members "}}"
 
+#define TEXT_16 "0123456789abcdef"
+#define TEXT_64 TEXT_16 TEXT_16 TEXT_16 TEXT_16
+#define MEASURE(members) "{\"ewa_scene\": 1, \"measures\": [{" members "}]}"
+
+/// Measurements are saved and come back, number by number; scenes of scenes have their own alone.
+TEST(test_measures_come_back) {
+    ewa_context *context = check_context(0, NULL);
+    ewa_scene *scene = NULL, *copy = NULL, *again = NULL;
+    assert_int_equal(ewa_scene_create(context, NULL, &scene), EWA_OK);
+    add(context, scene, "torus.ply", NULL, NULL);
+    ewa_measure measures[2] = {{EWA_MEASURE_HEIGHT, "mast \"3\" \xc3\xa4", 2, {849211.24, 1233496.1, 103, 1, 2, 1.0 / 3}},
+                               {EWA_MEASURE_AREA, "", 3, {0, 0, 0, 1, 0, 0, 0, 1, 1e-300}}};
+    assert_int_equal(ewa_scene_set_measures(scene, measures, 2), EWA_OK);
+    measures[1].count = 2;
+    assert_int_equal(ewa_scene_set_measures(scene, measures, 2), EWA_ERROR_ARGUMENT); // no area; those before stay
+    measures[1].count = 3;
+    assert_int_equal(ewa_scene_copy(scene, context, &copy), EWA_OK);
+    assert_int_equal(ewa_scene_save(copy, NULL, "measures.json"), EWA_OK);
+    assert_int_equal(ewa_scene_create(context, NULL, &again), EWA_OK);
+    assert_int_equal(ewa_scene_open(again, "measures.json", NULL), EWA_OK);
+    for (uint32_t i = 0; i < 2; i++) assert_memory_equal(ewa_scene_measure(again, i), &measures[i], sizeof measures[i]);
+    assert_null(ewa_scene_measure(again, 2));
+    // Those that a scene has stay.
+    assert_int_equal(ewa_scene_set_measures(again, measures, 1), EWA_OK);
+    assert_int_equal(ewa_scene_open(again, "measures.json", NULL), EWA_OK);
+    assert_null(ewa_scene_measure(again, 1));
+    write_text("outer.json", "{\"ewa_scene\": 1, \"items\": [{\"scene\": \"measures.json\"}]}");
+    ewa_scene_file *file = NULL;
+    ewa_measure measure;
+    assert_int_equal(ewa_scene_file_load(context, "outer.json", NULL, &file), EWA_OK);
+    assert_false(ewa_scene_file_measure(file, 0, &measure));
+    ewa_scene_file_destroy(&file);
+    ewa_scene_destroy(&scene);
+    ewa_scene_destroy(&copy);
+    ewa_scene_destroy(&again);
+    ewa_context_destroy(&context);
+}
+
 TEST(test_bad_is_refused) {
     static const struct {
         const char *text;
@@ -332,6 +370,14 @@ TEST(test_bad_is_refused) {
         {"{\"ewa_scene\": 1, \"items\": {}}", EWA_ERROR_FORMAT, "items"},
         {"{\"ewa_scene\": 1, \"items\": [3]}", EWA_ERROR_FORMAT, "items[0]"},
         {"{\"ewa_scene\": 1, \"camera\": []}", EWA_ERROR_FORMAT, "camera"},
+        {"{\"ewa_scene\": 1, \"measures\": {}}", EWA_ERROR_FORMAT, "measures"},
+        {"{\"ewa_scene\": 1, \"measures\": [3]}", EWA_ERROR_FORMAT, "measures[0]"},
+        {MEASURE("\"kind\": \"length\""), EWA_ERROR_FORMAT, "measures[0].kind"},
+        {MEASURE("\"note\": \"a\""), EWA_ERROR_FORMAT, "measures[0].note"},
+        {MEASURE("\"places_world\": [1, 2, 3, 4]"), EWA_ERROR_FORMAT, "measures[0].places_world"},
+        {MEASURE("\"places_world\": [1, 2, \"x\"]"), EWA_ERROR_FORMAT, "measures[0].places_world"},
+        {MEASURE("\"kind\": \"angle\", \"places_world\": [1, 2, 3, 4, 5, 6]"), EWA_ERROR_FORMAT, "measures[0]"},
+        {MEASURE("\"name\": \"" TEXT_64 "\", \"places_world\": [1, 2, 3, 4, 5, 6]"), EWA_ERROR_FORMAT, "measures[0].name"},
         {"{\"ewa_scene\": 1, \"camera\": {\"width\": 3}}", EWA_ERROR_FORMAT, "height"},
         {"{\"ewa_scene\": 1, \"items\": [{\"file\": \"\"}]}", EWA_ERROR_FORMAT,
          "items[0].file: it has no name"},
