@@ -155,7 +155,7 @@ struct viewer {
     ewa_lod_options lod;
     octree_turns *turns;      ///< of who uses octrees
     node_reader *node_reader; ///< reads their nodes beside what is drawn; NULL: drawing does
-    bool octrees, volumes;    ///< some are visible
+    bool octrees, gaussian_levels, volumes; ///< some are visible
     const char *unit;         ///< of the world's lengths, as its files say; NULL: they do not
     uint32_t voxel_level;     ///< the coarsest at which one can tell what the volumes are
     char title[VIEWER_NAME_BYTES];

@@ -232,6 +232,7 @@ static void show(viewer *v, const ewa_scene *scene) {
     ewa_scene_info info;
     ewa_scene_describe(next, &info);
     v->octrees = info.octrees;
+    v->gaussian_levels = info.gaussian_levels;
     v->volumes = info.volumes;
     v->unit = info.unit;
     v->voxel_level = coarsest_voxels(v);

@@ -23,7 +23,7 @@ static const double LARGE_PX = 2e6;
 /// that would take so much of it.
 static const double TOO_SLOW = 1.4, MUCH_FASTER = 0.7;
 enum { SLOW_PICTURES = 2, FAST_PICTURES = 8 };
-/// How plain they become: how many times as coarse octrees are as when nothing moves, at which level volumes are drawn, and by how much the sides
+/// How plain they become: how many times as coarse octrees and Gaussians are as when nothing moves, at which level volumes are drawn, and by how much the sides
 /// of the picture are divided.
 /// Where the last is too slow, there are fewer pictures: those of less could not be told from others.
 static const struct {
@@ -43,6 +43,9 @@ static const double SETTLE_SHARE = 0.5, LONGEST_SETTLE_S = 0.5;
 enum { NODES_MOVING = 2, NODES_STILL = 8 };
 /// Nodes that have come are shown after so long, and after so many times what drawing them takes.
 static const double SHOW_NODES_S = 0.25, SHOW_NODES_SHARE = 4;
+/// Gaussians that have levels are drawn within so many pixels of all while something moves, times how coarse octrees are: they are
+/// the nearest to what is there at twice that.
+static const double MOVING_MERGE_PX = 1;
 /// Octrees are no coarser than this while something moves, whatever was asked for.
 static const double MAX_SPACING_PX = 64, MAX_ERROR = 255;
 /// When to ask again, while something is under way and when nothing is.
@@ -266,7 +269,7 @@ static uint32_t voxel_level_of(const viewer *v, uint32_t plain) {
 /// What pictures of one plainness take beside those of another one, about.
 static double work_of(const viewer *v, uint32_t plain) {
     const double divisor = v->settings.reduce ? fmax(plainness[plain].divisor, min_divisor(v)) : 1;
-    const double coarser = v->octrees ? plainness[plain].coarser : 1;
+    const double coarser = v->octrees || v->gaussian_levels ? plainness[plain].coarser : 1;
     const double levels = v->volumes ? pow(LEVEL_SHARE, voxel_level_of(v, plain)) : 1;
     return levels / (divisor * divisor * coarser * coarser);
 }
@@ -304,6 +307,10 @@ static void make_quick(const viewer *v, paint_scene *scene) {
         options->lod.load_s = 0.5 * options->render.budget_s;
         options->lod.spacing_px = fmin(coarser * options->lod.spacing_px, MAX_SPACING_PX);
         options->lod.error = fmin(coarser * options->lod.error, MAX_ERROR);
+    }
+    if (v->gaussian_levels) {
+        scene->coarse = true;
+        options->gaussians.merge_px = fmax(options->gaussians.merge_px, MOVING_MERGE_PX * plainness[v->plain].coarser);
     }
     const uint32_t minimum = min_divisor(v), wanted = plainness[v->plain].divisor;
     const uint32_t divisor = wanted > minimum ? wanted : minimum;

@@ -269,6 +269,7 @@ typedef struct ewa_scene_info {
     uint32_t instance_count, visible_count;
     uint64_t point_count;      ///< points, Gaussians and points of octrees that are visible
     bool surfaces, octrees, gaussians, volumes; ///< some are visible
+    bool gaussian_levels;      ///< some of those Gaussians have levels (ewa_gaussian_options.merge_px)
     ewa_surfels_info surfels;  ///< of the committed surfaces; zeros: none
     const ewa_surfels *resident; ///< those surfels, borrowed until the scene changes; NULL: none
     /// Of its lengths: "m", "ft" or "US ft" (1200/3937 m), as the reference systems of what is visible say; NULL: they do not, or

@@ -1102,6 +1102,7 @@ class ewa_splats_info(c.Structure):
     splat_count: int
     sh_degree: int
     antialiased: bool
+    has_levels: bool
     resident_bytes: int
     bounds: ewa_bounds
     core: ewa_bounds
@@ -1110,6 +1111,7 @@ class ewa_splats_info(c.Structure):
         ("splat_count", c.c_uint32),
         ("sh_degree", c.c_uint32),
         ("antialiased", c.c_bool),
+        ("has_levels", c.c_bool),
         ("resident_bytes", c.c_size_t),
         ("bounds", ewa_bounds),
         ("core", ewa_bounds),
@@ -2530,6 +2532,7 @@ class ewa_scene_info(c.Structure):
     octrees: bool
     gaussians: bool
     volumes: bool
+    gaussian_levels: bool
     surfels: ewa_surfels_info
     resident: int | None
     unit: bytes | None
@@ -2545,6 +2548,7 @@ class ewa_scene_info(c.Structure):
         ("octrees", c.c_bool),
         ("gaussians", c.c_bool),
         ("volumes", c.c_bool),
+        ("gaussian_levels", c.c_bool),
         ("surfels", ewa_surfels_info),
         ("resident", c.c_void_p),
         ("unit", c.c_char_p),

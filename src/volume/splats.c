@@ -220,6 +220,7 @@ ewa_status ewa_splats_create(const ewa_gaussians *gaussians, ewa_splats **splats
         made->packet_count = (made->info.splat_count + LANES - 1) / LANES;
         if (made->info.splat_count >= EWA_SPLAT_LEVELS_FROM && !made->flat)
             made->part_count = (made->packet_count - 1) / EWA_SPLAT_PART_PACKETS + 1;
+        made->info.has_levels = made->part_count > 0;
         made->info.resident_bytes =
             sizeof *made + made->part_count * sizeof *made->parts +
             all_packets(made) * (sizeof *made->packets + made->harmonic_count * sizeof *made->harmonics);
