@@ -11,7 +11,7 @@
 #include <string.h>
 
 enum {
-    CG_STEPS = 8,
+    CG_STEPS = 5,
     EXPOSURE_STEPS = 3, ///< per photograph and round
     OCTAVE_BINS = 16,
     OCTAVES = 256,

@@ -22,8 +22,8 @@ enum {
 
 /// Pixels that show less of the nearest surface show something behind it too.
 static const float FULL = 0.99f;
-/// Sides of the range of a photograph's numbers: what is clipped may have been any number beyond.
-static const float DARK_SRGB = 1 / 255.0f, BRIGHT_SRGB = 254 / 255.0f, CLIPPED_WEIGHT = 0.1f;
+/// Of a pixel with a number below the code 1 or above 254: what is clipped may have been any number beyond.
+static const float CLIPPED_WEIGHT = 0.1f;
 
 /// How pictures of points are drawn that are compared with photographs.
 static void set_options(ewa_render_options *render) {
@@ -112,8 +112,7 @@ static ewa_photo_pixel read_pixel(const ewa_image *image, size_t index) {
     pixel.weight = 1;
     for (uint32_t c = 0; c < EWA_PHOTO_CHANNELS; c++) {
         pixel.color[c] = at[image->channel_count < 3 ? 0 : c];
-        const float srgb = ewa_srgb_from_linear(pixel.color[c]);
-        if (srgb < DARK_SRGB || srgb > BRIGHT_SRGB) pixel.weight = CLIPPED_WEIGHT;
+        if (pixel.color[c] < ewa_srgb_decoded[1] || pixel.color[c] > ewa_srgb_decoded[254]) pixel.weight = CLIPPED_WEIGHT;
     }
     return pixel;
 }
