@@ -301,7 +301,12 @@ bool items_cancel(viewer *v) {
     bool any = false;
     loader_cancel(v->loader);
     for (size_t i = v->item_count; i-- > 0;) {
-        if (v->items[i].loaded) continue;
+        scene_item *item = &v->items[i];
+        if (item->loaded) { // it stays where it is
+            any = any || memcmp(item->to_world, item->shown_to_world, sizeof item->to_world) != 0;
+            memcpy(item->to_world, item->shown_to_world, sizeof item->to_world);
+            continue;
+        }
         any = true; // what is loaded already goes with the scene that is given up
         if (!v->items[i].asset) remove_item(v, i);
     }

@@ -277,6 +277,18 @@ TEST(cancelled_loads_come_to_nothing) {
     settle(v);
     assert_int_equal(viewer_item_count(v), 1);
     assert_int_equal(contents.loads, 2); // the one that waited was never begun
+    // What was to be loaded elsewhere stays where it is, and can be moved again.
+    viewer_item item;
+    assert_true(viewer_do(v, "move 0 1,0,0"));
+    assert_true(viewer_do(v, "cancel"));
+    settle(v);
+    assert_true(viewer_item_get(v, 0, &item));
+    assert_true(item.to_world[3] == 0);
+    contents.holds = false;
+    assert_true(viewer_do(v, "move 0 1,0,0"));
+    settle(v);
+    assert_true(viewer_item_get(v, 0, &item));
+    assert_true(item.to_world[3] == 1 && item.count == CONTENTS_POINTS);
     viewer_destroy(&v);
     ewa_context_destroy(&contents.context);
 }
