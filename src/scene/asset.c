@@ -8,6 +8,7 @@
 #include "base/context.h"
 #include "base/options.h"
 #include "base/platform.h"
+#include "cloud/cloud.h"
 #include "ewa/diagnosis.h"
 #include "ewa/gaussian_io.h"
 #include "io/file.h"
@@ -125,6 +126,14 @@ void ewa_asset_describe(const ewa_asset *asset, ewa_asset_info *info) {
     memcpy(info->up_world, asset->up_world, sizeof info->up_world);
 }
 
+/// Whether what represents the points of an octree can be filtered as they are.
+static bool levels_have(const ewa_lod_info *info, const ewa_filter *filter) {
+    bool have = info->represented || !filter->term_count;
+    for (uint32_t t = 0; t < filter->term_count && have; t++)
+        have = ewa_cloud_has_scalar(info->represented, filter->terms[t].name);
+    return have;
+}
+
 /// Opens an octree that is drawn from its levels; `*lod` is NULL where the file is none of these.
 static ewa_status open_octree(const ewa_asset_job *job, const char *path, ewa_lod **lod) {
     const ewa_asset_options *options = job->options;
@@ -133,8 +142,7 @@ static ewa_status open_octree(const ewa_asset_job *job, const char *path, ewa_lo
     if (options->levels == EWA_OCTREE_NEVER || strcmp(path, "-") == 0 || !ewa_lod_probe(context, path))
         return EWA_OK;
     const bool columns = job->asset->of_columns, keep_going = options->load && options->load->keep_going;
-    if (options->levels == EWA_OCTREE_AUTO && (columns || keep_going || job->asset->filter.term_count))
-        return EWA_OK;
+    if (options->levels == EWA_OCTREE_AUTO && (columns || keep_going)) return EWA_OK;
     if (columns)
         return ewa_fail(
             context, EWA_ERROR_ARGUMENT,
@@ -144,7 +152,8 @@ static ewa_status open_octree(const ewa_asset_job *job, const char *path, ewa_lo
     EWA_TRY(ewa_lod_open(options->own_context ? job->asset->lod_context : context, path, lod));
     ewa_lod_info info;
     ewa_lod_describe(*lod, &info);
-    if (options->levels == EWA_OCTREE_AUTO && info.point_count <= EWA_OCTREE_WHOLE_POINTS) ewa_lod_close(lod);
+    const bool whole = info.point_count <= EWA_OCTREE_WHOLE_POINTS || !levels_have(&info, &job->asset->filter);
+    if (options->levels == EWA_OCTREE_AUTO && whole) ewa_lod_close(lod);
     return EWA_OK;
 }
 

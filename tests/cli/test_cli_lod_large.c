@@ -20,7 +20,9 @@ TEST(test_large) {
     assert_non_null(strstr(last_run.out, "\"points\": 4010000"));
     assert_null(strstr(last_run.out, "\"sampled_points\": 0"));
     run_done("ewa render big.copc.laz -o ground.png --size 200x200 --filter 'x<0' --stats s.json");
-    assert_false(holds("s.json", "\"nodes_drawn\": ")); // that takes all points
+    assert_true(holds("s.json", "\"nodes_drawn\": "));
+    run_done("ewa render big.copc.laz -o ground.png --size 200x200 --filter 'return_number<9' --stats s.json");
+    assert_false(holds("s.json", "\"nodes_drawn\": ")); // of what its levels lack, that takes all points
 }
 
 int main(void) { return RUN_TESTS(enter, NULL); }
