@@ -23,7 +23,7 @@ typedef struct lod_arguments {
      NULL,                                                                                                   \
      "auto|always|never",                                                                                    \
      .help = "draw octrees (COPC, EPT) from their levels, never more than a picture needs; auto: those of "  \
-             "more than 4000000 points, unless --filter, --columns, --keep-going or --lod-error 0 ask for "  \
+             "more than 4000000 points, unless --filter by what levels lack, --columns, --keep-going or --lod-error 0 ask for " \
              "all"},                                                                                         \
         {"memory", LOD_MEMBER(offset, memory_bytes),                                                         \
          .help = "for the nodes of octrees that are drawn from their levels: 512M, 8G; a picture that "      \
