@@ -89,6 +89,28 @@ TEST(test_scale_bar) {
     free(canvas.rgba8), free(bare.rgba8);
 }
 
+/// A length in metres has the word that suits it, also where it is just one of these: as drawn in that word's unit.
+TEST(test_words_of_lengths) {
+    static const struct {
+        const char *unit;
+        double metres;
+    } words[] = {{"km", 1000}, {"cm", 0.01}, {"mm", 0.001}};
+    ewa_canvas canvas = painting_make(1280, 720, white), expected = painting_make(1280, 720, white);
+    ewa_furniture_options options = no_furniture();
+    options.scale_bar = true;
+    for (size_t k = 0; k < sizeof words / sizeof words[0]; k++) {
+        memset(canvas.rgba8, 255, 1280 * 720 * 4);
+        memset(expected.rgba8, 255, 1280 * 720 * 4);
+        const ewa_camera of_word = map_camera(&canvas, 123), of_metres = map_camera(&canvas, 123 / words[k].metres);
+        options.unit = words[k].unit;
+        draw(&expected, &of_word, &options);
+        options.unit = "m";
+        draw(&canvas, &of_metres, &options);
+        assert_true(painting_same(&canvas, &expected));
+    }
+    free(canvas.rgba8), free(expected.rgba8);
+}
+
 /// Pixels of a square that are of a colour: where red, green or blue stands out.
 static int count_of(const ewa_canvas *canvas, int channel, double x, double y, int reach) {
     int count = 0;

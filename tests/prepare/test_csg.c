@@ -5,6 +5,8 @@
 // operands, operands that are not closed, the same bytes for every thread count, refused arguments.
 #include "io/scratch.h"
 
+#include "edges/csg_lines.h"
+
 #include <math.h>
 #include <stdbool.h>
 #include <string.h>
@@ -539,6 +541,37 @@ static ewa_status combine_work(ewa_context *context, void *user) {
 TEST(test_failing_allocations) {
     for (ewa_csg_operation operation = EWA_CSG_UNION; operation <= EWA_CSG_DIFFERENCE; operation++)
         scratch_fail_each(combine_work, &operation);
+}
+
+/// Whether two half-planes have a place of the disc in common, beside trying places all over it.
+TEST(test_common_places) {
+    enum { PAIRS = 400, RINGS = 40, TURNS = 360 };
+    const double cutoff = 2.5, TURN = 6.283185307179586;
+    check_random random = {17};
+    int apart = 0;
+    for (int pair = 0; pair < PAIRS; pair++) {
+        ewa_line_set sets[2];
+        for (int k = 0; k < 2; k++) {
+            const double angle = check_uniform(&random, 0, TURN), scale = check_uniform(&random, 0.5, 2);
+            sets[k] = (ewa_line_set){.count = 1};
+            sets[k].line[0] = (ewa_vec3){scale * cos(angle), scale * sin(angle), scale * check_uniform(&random, -2.5, 1)};
+        }
+        double deepest = -INFINITY;
+        for (int ring = 0; ring <= RINGS; ring++)
+            for (int turn = 0; turn < TURNS; turn++) {
+                const double u = cutoff * ring / RINGS * cos(TURN * turn / TURNS), v = cutoff * ring / RINGS * sin(TURN * turn / TURNS);
+                double depth = INFINITY;
+                for (int k = 0; k < 2; k++) {
+                    const ewa_vec3 l = sets[k].line[0];
+                    depth = fmin(depth, (l.x * u + l.y * v + l.z) / hypot(l.x, l.y));
+                }
+                deepest = fmax(deepest, depth);
+            }
+        if (fabs(deepest - 0.02) < 0.03) continue; // between the places
+        assert_int_equal(ewa_lines_exclude(&sets[0], &sets[1], cutoff), deepest < 0.02);
+        apart += deepest < 0.02;
+    }
+    assert_in_range(apart, PAIRS / 10, PAIRS);
 }
 
 int main(void) { return RUN_TESTS(NULL, NULL); }
