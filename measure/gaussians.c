@@ -52,7 +52,7 @@ int main(int argc, char **argv) {
     ewa_splats_info info;
     ewa_gaussian_renderer *renderer;
     const double begin_s = now_s();
-    check(ewa_splats_create(&set, &splats));
+    check(ewa_splats_create(&set, false, &splats));
     printf("resident in %.2f s\n", now_s() - begin_s);
     check(ewa_gaussian_renderer_create(context, &renderer));
     ewa_splats_describe(splats, &info);

@@ -125,12 +125,11 @@ static ewa_context *context(void *user, const viewer_news *news) {
     return ewa_context_create(&options, &p->context) == EWA_OK ? p->context : NULL;
 }
 
-static bool load(void *user, const char *path, const ewa_scene_entry *entry, const viewer_news *news, ewa_asset **asset) {
+static bool load(void *user, const char *path, const ewa_asset_options *said, const viewer_news *news, ewa_asset **asset) {
     page *p = user;
     (void)news; // the context tells it
-    ewa_asset_options options;
-    ewa_asset_options_init(&options, sizeof options);
-    if (entry) options = entry->asset;
+    ewa_asset_options options = *said;
+    options.gaussian_levels = true;
     options.voxel_level_count = VIEWER_VOXEL_LEVELS;
     return ewa_asset_load(p->context, path, &options, asset) == EWA_OK;
 }

@@ -153,7 +153,8 @@ static ewa_scene *make_scene(cli_session *session, const compare_arguments *argu
     options.render.shading = EWA_SHADING_NONE; // photographs have their light
     option_color_linear(&arguments->background, options.render.background);
     ewa_coloring_init(&coloring, sizeof coloring);
-    const ewa_asset_options assets = scene_input_asset_options(session);
+    ewa_asset_options assets = scene_input_asset_options(session);
+    assets.gaussian_levels = options.gaussians.merge_px > 0;
     if (session_passed(session, ewa_scene_create(session->context, &options, &scene)) &&
         scene_input_add(session, common->operand_count, common->operands, &assets, &coloring, scene))
         return scene;

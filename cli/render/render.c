@@ -295,6 +295,7 @@ static bool prepare(cli_session *session, const render_arguments *arguments, con
     scene->outlines = (uint32_t)arguments->outlines;
     ewa_asset_options assets = scene_input_asset_options(session);
     assets.gaussians_as_surfels = arguments->gaussians_as_surfels;
+    assets.gaussian_levels = options.gaussians.merge_px > 0;
     assets.levels = lod_input_levels(&arguments->lod);
     assets.cutoff = arguments->surfels.cutoff;
     assets.transfer = arguments->transfer;

@@ -14,15 +14,16 @@ extern "C" {
 #endif
 
 /// The resident form of a set of Gaussians, in an order of its own, so that the order of the set does not
-/// matter: about 150 bytes each with harmonics of degree 3, 200 where there are levels (ewa_gaussian_options.merge_px).
+/// matter: about 150 bytes each with harmonics of degree 3, 200 with levels.
 /// Immutable once made; any number of renderers of the same context may draw it.
 typedef struct ewa_splats ewa_splats;
 
 /// Makes Gaussians resident. Those that are not finite or have no opacity are left out; the shorter scales
-/// are made at least 1e-4 of the longest, so that flat Gaussians have a depth along every ray. The set is not
-/// needed afterwards. Errors: EWA_ERROR_ARGUMENT, EWA_ERROR_LIMIT (more than 2^26), EWA_ERROR_MEMORY,
+/// are made at least 1e-4 of the longest, so that flat Gaussians have a depth along every ray. `levels`: sets of 2^17
+/// and more, but for 2D ones, get levels, among which ewa_gaussian_options.merge_px chooses, in twice the time. The set
+/// is not needed afterwards. Errors: EWA_ERROR_ARGUMENT, EWA_ERROR_LIMIT (more than 2^26), EWA_ERROR_MEMORY,
 /// EWA_CANCELLED.
-EWA_API ewa_status ewa_splats_create(const ewa_gaussians *gaussians, ewa_splats **splats);
+EWA_API ewa_status ewa_splats_create(const ewa_gaussians *gaussians, bool levels, ewa_splats **splats);
 
 /// Frees splats; sets `*splats` to NULL; accepts NULL and a pointer to NULL.
 EWA_API void ewa_splats_destroy(ewa_splats **splats);
@@ -97,7 +98,7 @@ typedef struct ewa_gaussian_options {
     /// coverage is the alpha of surface_rgba. Without surface_depth: NULL
     const float *surface_normal, *surface_coverage;
     ewa_gaussian_order order; ///< default EWA_ORDER_OF_PROJECTION
-    /// Sets of 2^17 Gaussians and more, but for 2D ones, have levels: parts whose Gaussians are within so many pixels of what
+    /// Of splats that have levels (ewa_splats_create()): parts whose Gaussians are within so many pixels of what
     /// stands for them (RMS, where the part is nearest) are drawn by that; [0, 1000], px; default 0: all Gaussians are drawn
     double merge_px;
 } ewa_gaussian_options;

@@ -66,6 +66,7 @@ typedef struct ewa_asset_options {
     /// default: where they are.
     double to_world[16];
     bool gaussians_as_surfels; ///< trained Gaussians become a surface, in their constant colours; default false
+    bool gaussian_levels;      ///< trained Gaussians get levels (ewa_splats_create()); default false
     ewa_octree_levels levels;  ///< default EWA_OCTREE_AUTO
     double cutoff;             ///< F that axes of a mesh's points are made for; (0, 4]; default 3
     /// Of volumes: a file of a transfer function or the name of a preset, borrowed during the call; default NULL, as

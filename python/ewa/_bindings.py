@@ -2372,6 +2372,7 @@ class ewa_asset_options(c.Structure):
     filter: Any
     to_world: c.Array[c.c_double]
     gaussians_as_surfels: bool
+    gaussian_levels: bool
     levels: int
     cutoff: float
     transfer: bytes | None
@@ -2386,6 +2387,7 @@ class ewa_asset_options(c.Structure):
         ("filter", c.POINTER(ewa_filter)),
         ("to_world", c.c_double * 16),
         ("gaussians_as_surfels", c.c_bool),
+        ("gaussian_levels", c.c_bool),
         ("levels", c.c_int),
         ("cutoff", c.c_double),
         ("transfer", c.c_char_p),
@@ -2941,7 +2943,7 @@ class Functions:
         self.ewa_gaussian_render: Callable[..., int] = bind("ewa_gaussian_render", c.c_int, c.c_void_p, c.c_void_p, c.POINTER(ewa_camera), c.POINTER(ewa_gaussian_options), c.POINTER(ewa_frame), c.POINTER(ewa_gaussian_stats))
         self.ewa_gaussian_renderer_create: Callable[..., int] = bind("ewa_gaussian_renderer_create", c.c_int, c.c_void_p, c.c_void_p)
         self.ewa_gaussian_renderer_destroy: Callable[..., None] = bind("ewa_gaussian_renderer_destroy", None, c.c_void_p)
-        self.ewa_splats_create: Callable[..., int] = bind("ewa_splats_create", c.c_int, c.POINTER(ewa_gaussians), c.c_void_p)
+        self.ewa_splats_create: Callable[..., int] = bind("ewa_splats_create", c.c_int, c.POINTER(ewa_gaussians), c.c_bool, c.c_void_p)
         self.ewa_splats_describe: Callable[..., None] = bind("ewa_splats_describe", None, c.c_void_p, c.POINTER(ewa_splats_info))
         self.ewa_splats_destroy: Callable[..., None] = bind("ewa_splats_destroy", None, c.c_void_p)
         self.ewa_gpu_class_name: Callable[..., bytes | None] = bind("ewa_gpu_class_name", c.c_char_p, c.c_int)

@@ -35,6 +35,8 @@ class AssetOptions(TypedDict, total=False):
 
     #: draw trained Gaussians as opaque surfels, in their constant colours; on|off, default off
     gaussians_as_surfels: bool | None
+    #: make levels of large sets of Gaussians, among which merge_px chooses; on|off, default off
+    gaussian_levels: bool | None
     #: draw octrees (COPC, EPT) from their levels; auto: those of more than 4000000 points; auto|always|never, default auto
     levels: Literal["auto", "always", "never"] | int | None
     #: standard deviations at which kernels of a mesh's points end; (0, 4], default 3

@@ -28,6 +28,8 @@ static const ewa_option option_rows[] = {
      .initials = IDENTITY, .help = "where coordinates lie in the scene: a matrix, row by row"},
     {"gaussians_as_surfels", EWA_OPTION_BOOL, AT(gaussians_as_surfels),
      .help = "draw trained Gaussians as opaque surfels, in their constant colours"},
+    {"gaussian_levels", EWA_OPTION_BOOL, AT(gaussian_levels),
+     .help = "make levels of large sets of Gaussians, among which merge_px chooses"},
     {"levels", EWA_OPTION_CHOICE, AT(levels), .words = "auto|always|never",
      .help = "draw octrees (COPC, EPT) from their levels; auto: those of more than 4000000 points"},
     {"own_context", EWA_OPTION_BOOL, AT(own_context), .help = "octrees get a context of their own"},

@@ -118,7 +118,7 @@ ewa_status ewa_asset_take_gaussians(const ewa_asset_job *job, ewa_gaussians *set
             asset->context, EWA_ERROR_UNSUPPORTED,
             "a filter is for points; Gaussians have none of their attributes, but drawn as surfels");
     ewa_status status = ewa_asset_is_moved(asset) ? ewa_gaussians_transform(set, asset->to_world) : EWA_OK;
-    if (status == EWA_OK) status = ewa_splats_create(set, &asset->splats);
+    if (status == EWA_OK) status = ewa_splats_create(set, job->options->gaussian_levels, &asset->splats);
     EWA_TRY(status);
     ewa_splats_info info;
     ewa_splats_describe(asset->splats, &info);

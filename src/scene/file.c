@@ -522,6 +522,11 @@ ewa_status ewa_scene_file_load(ewa_context *context, const char *path, const ewa
     if (status == EWA_OK) status = copy_text(context, path, &file->path);
     double to_world[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
     if (status == EWA_OK) status = read_file(file, NULL, file->path, to_world, true, &file->text);
+    ewa_scene_options said;
+    ewa_scene_options_init(&said, sizeof said);
+    if (status == EWA_OK) ewa_scene_file_apply(file, &said);
+    // What merges Gaussians needs their levels.
+    for (uint32_t i = 0; i < file->count; i++) file->items[i].asset.gaussian_levels |= said.gaussians.merge_px > 0;
     *made = file;
     if (status != EWA_OK) ewa_scene_file_destroy(made);
     return status;

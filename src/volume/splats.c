@@ -196,7 +196,7 @@ static ewa_status fill(ewa_splats *splats, const ewa_gaussians *set, const uint3
     return measure(splats);
 }
 
-ewa_status ewa_splats_create(const ewa_gaussians *gaussians, ewa_splats **splats) {
+ewa_status ewa_splats_create(const ewa_gaussians *gaussians, bool levels, ewa_splats **splats) {
     if (!gaussians || !gaussians->context || !splats || gaussians->sh_degree > EWA_MAX_SH_DEGREE)
         return EWA_ERROR_ARGUMENT;
     *splats = NULL;
@@ -218,7 +218,7 @@ ewa_status ewa_splats_create(const ewa_gaussians *gaussians, ewa_splats **splats
     }
     if (status == EWA_OK) {
         made->packet_count = (made->info.splat_count + LANES - 1) / LANES;
-        if (made->info.splat_count >= EWA_SPLAT_LEVELS_FROM && !made->flat)
+        if (levels && made->info.splat_count >= EWA_SPLAT_LEVELS_FROM && !made->flat)
             made->part_count = (made->packet_count - 1) / EWA_SPLAT_PART_PACKETS + 1;
         made->info.has_levels = made->part_count > 0;
         made->info.resident_bytes =

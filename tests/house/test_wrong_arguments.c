@@ -97,7 +97,7 @@ static void make_others(void) {
     made.gaussians.rotations[0] = 1;
     for (int c = 0; c < 3; c++) made.gaussians.scales[c] = 1;
     made.gaussians.opacities[0] = 1;
-    MAKE(ewa_splats_create(&made.gaussians, &made.splats));
+    MAKE(ewa_splats_create(&made.gaussians, false, &made.splats));
     MAKE(ewa_gaussian_renderer_create(made.context, &made.gaussian_renderer));
     const double corners[] = {0, 0, 1, 0, 0, 1};
     const uint32_t rings[] = {3};

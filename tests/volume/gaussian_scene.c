@@ -61,7 +61,7 @@ ewa_image gaussians_draw(const ewa_gaussians *set, const ewa_camera *camera,
     ewa_splats *splats;
     ewa_gaussian_renderer *renderer;
     assert_int_equal(ewa_image_create(set->context, camera->width_px, camera->height_px, 4, &image), EWA_OK);
-    assert_int_equal(ewa_splats_create(set, &splats), EWA_OK);
+    assert_int_equal(ewa_splats_create(set, true, &splats), EWA_OK);
     assert_int_equal(ewa_gaussian_renderer_create(set->context, &renderer), EWA_OK);
     const ewa_frame frame = {.rgba = image.pixels};
     assert_int_equal(ewa_gaussian_render(renderer, splats, camera, options, &frame, stats), EWA_OK);

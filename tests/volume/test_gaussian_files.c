@@ -18,7 +18,7 @@ TEST(test_scenes) {
         assert_int_equal(ewa_gaussians_load(context, path, &set, NULL), EWA_OK);
         ewa_splats *splats;
         ewa_splats_info info;
-        assert_int_equal(ewa_splats_create(&set, &splats), EWA_OK);
+        assert_int_equal(ewa_splats_create(&set, false, &splats), EWA_OK);
         ewa_splats_describe(splats, &info);
         if (info.splat_count > 1000) assert_true(info.resident_bytes < 200 * (size_t)info.splat_count);
         ewa_splats_destroy(&splats);

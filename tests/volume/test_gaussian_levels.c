@@ -75,15 +75,15 @@ TEST_ON(nearer_to_finer_pictures, 2) {
     ewa_gaussians_free(&set);
 }
 
-/// Small sets have none, nor do 2D Gaussians.
+/// Small sets have none, nor do 2D Gaussians, nor sets that are not to have any.
 TEST_ON(only_large_sets, 2) {
-    for (int k = 0; k < 3; k++) {
+    for (int k = 0; k < 4; k++) {
         ewa_gaussians set = ball(context, false);
         ewa_splats *splats;
         ewa_splats_info info;
         if (k == 1) set.count = EWA_SPLAT_LEVELS_FROM - 1;
         set.flat = k == 2;
-        assert_int_equal(ewa_splats_create(&set, &splats), EWA_OK);
+        assert_int_equal(ewa_splats_create(&set, k != 3, &splats), EWA_OK);
         ewa_splats_describe(splats, &info);
         assert_true(info.has_levels == (k == 0));
         ewa_splats_destroy(&splats);

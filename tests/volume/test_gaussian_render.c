@@ -332,7 +332,7 @@ TEST_ON(test_one, 1) {
         const ewa_gaussian_options options = options_of((ewa_gaussian_projection)(n / 3));
         ewa_splats *splats;
         ewa_gaussian_renderer *renderer;
-        assert_int_equal(ewa_splats_create(&set, &splats), EWA_OK);
+        assert_int_equal(ewa_splats_create(&set, false, &splats), EWA_OK);
         assert_int_equal(ewa_gaussian_renderer_create(context, &renderer), EWA_OK);
         static float coverage[64 * 48], depth[64 * 48];
         const ewa_frame frame = {.coverage = coverage, .depth = depth};
@@ -468,7 +468,7 @@ TEST_ON(test_harmonics, 1) {
         for (size_t c = 0; c < 3 && k + c < COUNT; c++) set.harmonics[3 * (k + c) + c] = 0.25f;
         ewa_splats *splats;
         ewa_gaussian_renderer *renderer;
-        assert_int_equal(ewa_splats_create(&set, &splats), EWA_OK);
+        assert_int_equal(ewa_splats_create(&set, false, &splats), EWA_OK);
         assert_int_equal(ewa_gaussian_renderer_create(context, &renderer), EWA_OK);
         for (size_t n = 0; n < AROUND * DOWN; n++) {
             const double z = n % DOWN < 6 ? places[n % DOWN] : -places[n % DOWN - 6];
@@ -510,7 +510,7 @@ TEST(test_memory) {
         ewa_gaussian_renderer *renderer = NULL;
         static float rgba[40 * 30 * 4];
         const ewa_frame frame = {.rgba = rgba};
-        ewa_status status = ewa_splats_create(&set, &splats);
+        ewa_status status = ewa_splats_create(&set, false, &splats);
         if (status == EWA_OK) status = ewa_gaussian_renderer_create(context, &renderer);
         if (status == EWA_OK) status = ewa_gaussian_render(renderer, splats, &camera, NULL, &frame, NULL);
         if (status == EWA_OK)

@@ -71,7 +71,7 @@ static void add_ball(cast *c, double low, double high, float extinction) {
 }
 
 static void add_set(cast *c, ewa_gaussians *set) {
-    assert_int_equal(ewa_splats_create(set, &c->splats[c->splats_count++]), EWA_OK);
+    assert_int_equal(ewa_splats_create(set, false, &c->splats[c->splats_count++]), EWA_OK);
     ewa_gaussians_free(set);
 }
 

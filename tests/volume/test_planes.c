@@ -77,7 +77,7 @@ static void draw_set(const ewa_gaussians *set, const ewa_camera *camera, const e
                      const ewa_frame *frame) {
     ewa_splats *splats;
     ewa_gaussian_renderer *renderer;
-    assert_int_equal(ewa_splats_create(set, &splats), EWA_OK);
+    assert_int_equal(ewa_splats_create(set, false, &splats), EWA_OK);
     assert_int_equal(ewa_gaussian_renderer_create(set->context, &renderer), EWA_OK);
     assert_int_equal(ewa_gaussian_render(renderer, splats, camera, options, frame, NULL), EWA_OK);
     ewa_gaussian_renderer_destroy(&renderer);
@@ -102,7 +102,7 @@ static void draw_mixed(const ewa_gaussians *set, const ewa_voxels *voxels, const
     ewa_splats *splats;
     ewa_gaussian_renderer *renderer;
     ewa_volume_renderer *volume_renderer;
-    assert_int_equal(ewa_splats_create(set, &splats), EWA_OK);
+    assert_int_equal(ewa_splats_create(set, false, &splats), EWA_OK);
     assert_int_equal(ewa_gaussian_renderer_create(set->context, &renderer), EWA_OK);
     assert_int_equal(ewa_volume_renderer_create(set->context, &volume_renderer), EWA_OK);
     const ewa_mixed_volume volume = {volume_renderer, voxels, NULL, NULL};
@@ -498,7 +498,7 @@ TEST(test_bad) {
     ewa_gaussians set = gaussians_random(context, 10, 0, 5);
     ewa_splats *splats;
     ewa_gaussian_renderer *renderer;
-    assert_int_equal(ewa_splats_create(&set, &splats), EWA_OK);
+    assert_int_equal(ewa_splats_create(&set, false, &splats), EWA_OK);
     assert_int_equal(ewa_gaussian_renderer_create(context, &renderer), EWA_OK);
     const ewa_frame frame = frame_of(&out);
     static const char *const words[4] = {"surface_depth without", "surface_rgba without",
