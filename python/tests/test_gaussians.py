@@ -4,7 +4,10 @@
 from __future__ import annotations
 
 import gc
+import json
+import struct
 import sys
+import zipfile
 
 import numpy as np
 
@@ -48,6 +51,30 @@ class Sets(Case):
         surfels = again.to_cloud()
         self.assertEqual(len(surfels), 50)
         self.assertIn("tangent_u", surfels)
+
+    def test_files_are_what_others_take(self) -> None:
+        given = streams(degree=3)
+        ewa.Gaussians(**given).save(self.path("set.sog"))
+        with zipfile.ZipFile(self.path("set.sog")) as archive:
+            self.assertIsNone(archive.testzip())
+            said = json.loads(archive.read("meta.json"))
+            self.assertEqual((said["version"], said["count"]), (2, 50))
+            self.assertTrue(all(archive.read(name).startswith(b"RIFF") for name in archive.namelist() if name != "meta.json"))
+        for degree in range(4): # texts of several lengths
+            ewa.Gaussians(**given).save(self.path("set.glb"), sh_degree=degree)
+            with open(self.path("set.glb"), "rb") as file:
+                whole = file.read()
+            magic, version, length, text_bytes, kind = struct.unpack("<4s4I", whole[:20])
+            self.assertEqual((magic, version, length, kind), (b"glTF", 2, len(whole), 0x4E4F534A))
+            self.assertEqual(text_bytes % 4, 0)
+            text = json.loads(whole[20:20 + text_bytes])
+            binary_bytes, kind = struct.unpack("<2I", whole[20 + text_bytes:28 + text_bytes])
+            self.assertEqual((kind, 28 + text_bytes + binary_bytes), (0x004E4942, len(whole)))
+            accessor = text["accessors"][text["meshes"][0]["primitives"][0]["attributes"]["POSITION"]]
+            at = 28 + text_bytes + text["bufferViews"][accessor["bufferView"]].get("byteOffset", 0) + accessor.get("byteOffset", 0)
+            centers = np.frombuffer(whole, "<f4", 150, at).reshape(50, 3)
+            np.testing.assert_allclose(np.abs(centers), np.abs(given["centers"]), rtol=1e-6)
+            np.testing.assert_allclose((accessor["min"], accessor["max"]), (centers.min(0), centers.max(0)), rtol=1e-6)
 
     def test_wrong_arrays(self) -> None:
         given = streams()

@@ -18,6 +18,12 @@ TEST(test_known_block) {
     assert_false(ewa_lz4_unpack(block, BLOCK_BYTES, to, TEXT_BYTES - 1));
     assert_false(ewa_lz4_unpack(block, BLOCK_BYTES, to, TEXT_BYTES + 1));
     assert_true(ewa_lz4_unpack(block, 0, to, 0));
+    uint8_t changed[BLOCK_BYTES];
+    memcpy(changed, block, BLOCK_BYTES);
+    for (uint8_t offset = 0; offset < 6; offset++) { // of what is copied: there are three bytes before it
+        changed[4] = offset;
+        assert_true(ewa_lz4_unpack(changed, BLOCK_BYTES, to, TEXT_BYTES) == (offset > 0 && offset < 4));
+    }
 }
 
 /// A length of 300: 15, 255 and 30.
