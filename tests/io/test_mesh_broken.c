@@ -400,7 +400,7 @@ TEST(test_probe) {
         {"<!DOCTYPE html>\n<title>404</title>", "a page of HTML"},
         {"PK\003\004xxxx", "a ZIP archive: unpack it"},
         {"\037\213xxxx", "packed by gzip: unpack it"},
-        {"<?xml version=\"1.0\"?>\n<VTKFile type=\"vtkMultiBlockDataSet\">", "a VTK file that names others: name these"},
+        {"<?xml version=\"1.0\"?>\n<VTKFile type=\"vtkMultiBlockDataSet\">", "a list of files, which are not read without its folder"},
         {"<VTKFile type=\"ImageData\">", "its name has to end in .vti"},
         {"ISO-10303-21;", "CAD (STEP)"},
         {"\223NUMPY\1", "an array of NumPy: in Python"},
