@@ -59,8 +59,8 @@ const char *ewa_foreign_kind(const uint8_t *bytes, size_t size_bytes) {
         return "JSON that is no glTF, no octree (EPT), no set of Gaussians (SOG) and no scene file";
     if (word.length && word.chars[0] == '<') {
         if (has(text, looked, "<VTKFile"))
-            return has(text, looked, "ImageData\"") ? "a grid of voxels (VTK), which is a volume: its name has to end in .vti"
-                                                    : "a VTK file that names others: name these";
+            return has(text, looked, "\"ImageData\"") ? "a grid of voxels (VTK), which is a volume: its name has to end in .vti"
+                                                      : "a kind of VTK's files that is not read";
         if (has(text, looked, "<html") || has(text, looked, "<HTML") || has(text, looked, "<!DOCTYPE html"))
             return "a page of HTML, as servers send where the file is not";
     }
