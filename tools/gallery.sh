@@ -14,11 +14,17 @@ gallery=$(cd "$(dirname "$0")/../docs/gallery" && pwd)
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
-have_ffmpeg=$(command -v ffmpeg || true)
-have_screen=$(command -v Xvfb && command -v xdotool && command -v import || true)
-have_browser=$(command -v node && command -v chromium && command -v convert && ls "$(dirname "$program")/../../wasm/page/page.wasm.gz" || true)
+# 1 where all these programs are installed.
+have() {
+    for name; do command -v "$name" >/dev/null || return 0; done
+    echo 1
+}
+have_ffmpeg=$(have ffmpeg)
+have_screen=$(have Xvfb xdotool import)
+have_browser=$(have node chromium convert)
+[ -f "$(dirname "$program")/../../wasm/page/page.wasm.gz" ] || have_browser=""
 
-awk -v have_browser="${have_browser:+1}" -v have_data="${EWA_DATA:+1}" -v have_ffmpeg="$have_ffmpeg" -v have_screen="${have_screen:+1}" '
+awk -v have_browser="$have_browser" -v have_data="${EWA_DATA:+1}" -v have_ffmpeg="$have_ffmpeg" -v have_screen="$have_screen" '
     /^```sh$/ { inside = 1; block = ""; next }
     /^```$/ && inside {
         inside = 0
