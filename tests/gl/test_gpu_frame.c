@@ -15,7 +15,7 @@ static ewa_renderer_info info_of(const ewa_renderer *renderer) {
 }
 
 /// A default frame waits once, reads once and sends the same whatever the size of the cloud; and all its programs are few.
-static void test_counts(void **state) {
+TEST(test_counts) {
     enum { DISPATCHES = 12 };
     gpu_scene at;
     gpu_scene_make(&at, POINTS, WIDTH_PX, HEIGHT_PX);
@@ -54,7 +54,7 @@ static void test_counts(void **state) {
 
 /// Of a camera among the surfels some touch the eye's plane, which the host draws up: one wait more. It gets them, and from
 /// elsewhere the frame is as ever.
-static void test_near(void **state) {
+TEST(test_near) {
     gpu_scene at;
     gpu_scene_make(&at, POINTS, WIDTH_PX, HEIGHT_PX);
     ewa_renderer *renderer = NULL;
@@ -75,7 +75,7 @@ static void test_near(void **state) {
     gpu_scene_free(&at);
 }
 
-static void test_times(void **state) {
+TEST(test_times) {
     gpu_scene at;
     gpu_scene_make(&at, POINTS, WIDTH_PX, HEIGHT_PX);
     ewa_renderer *renderer = NULL;
@@ -98,7 +98,5 @@ static void test_times(void **state) {
 
 int main(void) {
     if (!gpu_there()) return 77;
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_counts), cmocka_unit_test(test_near),
-                                       cmocka_unit_test(test_times)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return RUN_TESTS(NULL, NULL);
 }

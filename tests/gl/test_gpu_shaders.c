@@ -32,7 +32,7 @@ static void compile(void) {
 
 static const ewa_gl_arithmetic arithmetics[] = {{true, true, true}, {false, false, false}};
 
-static void test_passes(void **state) {
+TEST(test_passes) {
     // Normals, depth, materials, opacity, clip lines, near surfels, fine sums, rays.
     static const bool all[][NUMBERS] = {{0}, {1, 1, 1, 1, 1, 1, 1, 1}, {1, 0, 0, 0, 0, 1, 0, 0}, {0, 1, 0, 1, 1, 0, 0, 0},
                                         {1, 0, 1, 0, 0, 0, 1, 1}};
@@ -60,7 +60,7 @@ static void test_passes(void **state) {
     compile();
 }
 
-static void test_selftest(void **state) {
+TEST(test_selftest) {
     for (int native = 0; native < 2; native++) {
         char head[EWA_GL_HEAD_BYTES + 32], path[128];
         const size_t at = ewa_gl_head_write(&arithmetics[0], head);
@@ -77,8 +77,7 @@ int main(void) {
         return 77;
     }
     if (!mkdtemp(folder)) return 1;
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_passes), cmocka_unit_test(test_selftest)};
-    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
+    const int failed = RUN_TESTS(NULL, NULL);
     if (!failed) rmdir(folder);
     return failed;
 }

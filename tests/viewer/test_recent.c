@@ -36,17 +36,9 @@ static const char *name_of(const char *path) {
 /// They are set where a session begins, which is nothing that could be undone; what is none of them is left out.
 TEST(preferences_are_kept) {
     static view_contents contents;
-    const viewer_options options = {.services = view_contents_services(&contents),
-                                    .thread_count = 1,
-                                    .cpu_mask = EWA_CPU_ALL,
-                                    .width = 64,
-                                    .height = 48,
-                                    .scale = 1,
-                                    .waits = true};
     char lines[PREFERENCES_BYTES], value[EWA_OPTION_TEXT_BYTES];
     for (int session = 0; session < 2; session++) {
-        viewer *v = NULL;
-        assert_int_equal(viewer_create(&options, &v), EWA_OK);
+        viewer *v = view_contents_viewer(&contents);
         if (session) write_file("ewa/view", "set navigation fly\nquit\nset shading phong\nset budget_ms\nset animate\n");
         preferences_read(v, lines);
         viewer_state now;
@@ -61,8 +53,7 @@ TEST(preferences_are_kept) {
         preferences_write(v, lines);
         viewer_destroy(&v);
     }
-    viewer *v = NULL;
-    assert_int_equal(viewer_create(&options, &v), EWA_OK);
+    viewer *v = view_contents_viewer(&contents);
     preferences_read(v, lines);
     assert_true(viewer_setting_get(v, "budget_ms", value));
     assert_string_equal(value, "40");

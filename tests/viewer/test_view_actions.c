@@ -70,16 +70,7 @@ TEST(docs_say_the_same) {
 /// A viewer of nothing.
 static viewer *make_viewer(void) {
     static view_contents contents;
-    const viewer_options options = {.services = view_contents_services(&contents),
-                                    .thread_count = 1,
-                                    .cpu_mask = EWA_CPU_ALL,
-                                    .width = 64,
-                                    .height = 48,
-                                    .scale = 1,
-                                    .waits = true};
-    viewer *made = NULL;
-    assert_int_equal(viewer_create(&options, &made), EWA_OK);
-    return made;
+    return view_contents_viewer(&contents);
 }
 
 static const viewer_action *find(const char *command) {

@@ -3,6 +3,7 @@
 //
 // Services of a viewer whose files are names of generated objects.
 #include "view_contents.h"
+#include "check.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -164,4 +165,17 @@ viewer_services view_contents_services(view_contents *contents) {
                              .say = say,
                              .clipboard_set = clipboard_set,
                              .clipboard_get = clipboard_get};
+}
+
+viewer *view_contents_viewer(view_contents *contents) {
+    const viewer_options options = {.services = view_contents_services(contents),
+                                    .thread_count = 1,
+                                    .cpu_mask = EWA_CPU_ALL,
+                                    .width = 64,
+                                    .height = 48,
+                                    .scale = 1,
+                                    .waits = true};
+    viewer *made = NULL;
+    assert_int_equal(viewer_create(&options, &made), EWA_OK);
+    return made;
 }

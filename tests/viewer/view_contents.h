@@ -24,4 +24,7 @@ typedef struct view_contents {
 /// the build's folder, of CONTENTS_OCTREE_POINTS; anything else fails.
 viewer_services view_contents_services(view_contents *contents);
 
+/// A viewer of nothing, 64 x 48 pixels, of one thread, whose orders are carried out before it goes on.
+viewer *view_contents_viewer(view_contents *contents);
+
 #endif

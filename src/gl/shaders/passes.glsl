@@ -153,6 +153,18 @@ void add_splat(Payload p, View view, Sample s, float bound, bool is_back_facing,
 }
 #endif
 
+// A record of the list at a pixel; it counts before `beyond` and within its clip lines.
+Sample sample_listed(Record r, vec2 at, View view, float beyond) {
+    Sample s = sample_record(r, at, view);
+#if PASS == 4
+    s.counts = s.counts && s.key < beyond && !has(r.box, HOLLOW);
+#endif
+#if WITH_CLIPS
+    if (s.counts && has(r.box, CLIPPED)) clip_at(clips[r.clip], at, s);
+#endif
+    return s;
+}
+
 #if PASS != 2
 // Raises `largest` to the keys of z + eps of those that count before `beyond`: records of the list, or near surfels.
 void find_nearest(uint first, uint end, bool near, uvec2 in_field, float beyond, inout float largest) {
@@ -165,13 +177,7 @@ void find_nearest(uint first, uint end, bool near, uvec2 in_field, float beyond,
         Record r = records[list[i].x];
         View view = views[r.extra >> 8];
         if (!has(view.flags, HIDES)) continue;
-        Sample s = sample_record(r, at, view);
-#if PASS == 4
-        s.counts = s.counts && s.key < beyond && !has(r.box, HOLLOW);
-#endif
-#if WITH_CLIPS
-        if (s.counts && has(r.box, CLIPPED)) clip_at(clips[r.clip], at, s);
-#endif
+        Sample s = sample_listed(r, at, view, beyond);
         if (s.counts) largest = wf_max(s.bound, largest);
     }
 #if WITH_NEARS
@@ -202,13 +208,7 @@ void add_splats(uint first, uint end, bool near, uvec2 in_field, float beyond, f
         if (i >= end) break;
         Record r = records[list[i].x];
         View view = views[r.extra >> 8];
-        Sample s = sample_record(r, at, view);
-#if PASS == 4
-        s.counts = s.counts && s.key < beyond && !has(r.box, HOLLOW);
-#endif
-#if WITH_CLIPS
-        if (s.counts && has(r.box, CLIPPED)) clip_at(clips[r.clip], at, s);
-#endif
+        Sample s = sample_listed(r, at, view, beyond);
         if (!(s.counts && bound <= s.key)) continue;
         Payload p;
         p.peak = r.peak;
