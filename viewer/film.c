@@ -176,8 +176,10 @@ bool film_command(viewer *v, const char *rest) {
             film->width_px = a, film->height_px = b;
         else if (sscanf(word, "%u%c", &a, &after) == 1)
             film->count = a;
-        else
-            snprintf(film->path, sizeof film->path, "%s", word);
+        else { // names may have spaces
+            const size_t length = strlen(film->path);
+            snprintf(film->path + length, sizeof film->path - length, "%s%s", length ? " " : "", word);
+        }
     }
     if (film->count < 2 || film->count > MAX_FRAMES || !film->width_px || !film->height_px || film->width_px > MAX_SIDE_PX ||
         film->height_px > MAX_SIDE_PX) {

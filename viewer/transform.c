@@ -67,11 +67,7 @@ static bool find_middle(const scene_item *item, double middle_world[3]) {
 
 /// Has an item lie where another map says.
 static bool apply(viewer *v, const char *command, size_t index, const double to_world[16]) {
-    bool finite = true;
-    for (int i = 0; i < 12; i++) finite = finite && isfinite(to_world[i]);
-    const double *m = to_world;
-    const double determinant = m[0] * (m[5] * m[10] - m[6] * m[9]) - m[1] * (m[4] * m[10] - m[6] * m[8]) + m[2] * (m[4] * m[9] - m[5] * m[8]);
-    if (!finite || !isnormal(determinant)) {
+    if (!ewa_asset_map_is_valid(to_world)) {
         viewer_tell(v, "%s: no map would be left that can be turned back", command);
         return false;
     }

@@ -84,6 +84,10 @@ typedef struct ewa_asset_options {
 EWA_API extern const ewa_option_table ewa_asset_options_table;
 EWA_API void ewa_asset_options_init(ewa_asset_options *options, size_t struct_size);
 
+/// Returns whether a map can be ewa_asset_options.to_world: row-major, finite, of last row 0 0 0 1, its determinant neither
+/// zero nor infinite. Any thread.
+EWA_API bool ewa_asset_map_is_valid(const double to_world[16]);
+
 /// Objects that become an asset: exactly one of the pointers before `outline` is set. All are borrowed until `release`
 /// is called, but for those that are converted, which are needed during the call only.
 typedef struct ewa_asset_source {

@@ -3141,6 +3141,7 @@ class Functions:
         self.ewa_asset_find_upright: Callable[..., int] = bind("ewa_asset_find_upright", c.c_int, c.c_void_p, c.POINTER(ewa_upright))
         self.ewa_asset_kind_name: Callable[..., bytes | None] = bind("ewa_asset_kind_name", c.c_char_p, c.c_int)
         self.ewa_asset_load: Callable[..., int] = bind("ewa_asset_load", c.c_int, c.c_void_p, c.c_char_p, c.POINTER(ewa_asset_options), c.c_void_p)
+        self.ewa_asset_map_is_valid: Callable[..., bool] = bind("ewa_asset_map_is_valid", c.c_bool, c.c_void_p)
         self.ewa_asset_options_init: Callable[..., None] = bind("ewa_asset_options_init", None, c.POINTER(ewa_asset_options), c.c_size_t)
         self.ewa_asset_probe: Callable[..., int] = bind("ewa_asset_probe", c.c_int, c.c_void_p, c.c_char_p, c.POINTER(ewa_asset_options), c.c_void_p)
         self.ewa_asset_release: Callable[..., None] = bind("ewa_asset_release", None, c.c_void_p)

@@ -258,7 +258,8 @@ static ewa_status load(const ewa_asset_job *job, const char *path) {
                                          : load_model(job, path);
 }
 
-bool ewa_asset_map_is_good(const double m[16]) {
+bool ewa_asset_map_is_valid(const double m[16]) {
+    if (!m) return false;
     const double determinant = m[0] * (m[5] * m[10] - m[6] * m[9]) - m[1] * (m[4] * m[10] - m[6] * m[8]) +
                                m[2] * (m[4] * m[9] - m[5] * m[8]);
     for (int i = 0; i < 12; i++)
@@ -270,7 +271,7 @@ ewa_status ewa_asset_take_options(ewa_context *context, const ewa_asset_options 
                                   ewa_asset_options *options) {
     ewa_asset_options_init(options, sizeof *options);
     EWA_TRY(ewa_options_take(context, &ewa_asset_options_table, given, options));
-    if (!ewa_asset_map_is_good(options->to_world))
+    if (!ewa_asset_map_is_valid(options->to_world))
         return ewa_fail(context, EWA_ERROR_ARGUMENT,
                         "to_world: is no map that can be turned back: its last row must be 0 0 0 1, and its "
                         "determinant neither zero nor infinite");

@@ -378,7 +378,7 @@ static ewa_status move(const reading *in, const ewa_scene_member *at, double to_
             moved[4 * r + c] = sum;
         }
     memcpy(to_world, moved, sizeof moved);
-    return ewa_asset_map_is_good(to_world)
+    return ewa_asset_map_is_valid(to_world)
                ? EWA_OK
                : fail_at(in, at, "to_world: is no map that can be turned back, of last row 0 0 0 1");
 }

@@ -139,9 +139,6 @@ static inline bool ewa_asset_is_moved(const ewa_asset *asset) {
     return moved;
 }
 
-/// Whether a map is affine and can be turned back.
-bool ewa_asset_map_is_good(const double to_world[16]);
-
 /// Takes options of an asset, with their defaults, and checks the map. Errors: EWA_ERROR_ARGUMENT.
 ewa_status ewa_asset_take_options(ewa_context *context, const ewa_asset_options *given, ewa_asset_options *options);
 

@@ -33,8 +33,8 @@ refuse keyframe delete first
 refuse film shown.txt
 refuse film shown_%d.png 1
 refuse film shown_%d.png 5 0x9
-do film shown_%d.png 5
-expect-said film shown_%d.png 5 160x120
+do film shown here_%d.png 5
+expect-said film shown here_%d.png 5 160x120
 do scene save scene.json
 do keyframe save keys.json
 expect-said keyframes 3 keys.json
@@ -47,9 +47,9 @@ command -v ffmpeg >/dev/null 2>&1 && sed -i 's/^do scene save/do film shown.mp4 
 "$ewa" view --size 160x120 --script session.txt -q || fail "the script ends with $?"
 "$ewa" render scene.json --path keys.json --frames 5 -o drawn_%d.png -q
 for i in 0 1 2 3 4; do
-    cmp shown_$i.png drawn_$i.png || fail "frame $i differs"
+    cmp "shown here_$i.png" drawn_$i.png || fail "frame $i differs"
 done
-! cmp -s shown_0.png shown_1.png || fail "nothing moves"
+! cmp -s "shown here_0.png" "shown here_1.png" || fail "nothing moves"
 if [ -f shown.mp4 ]; then
     "$ewa" render scene.json --path keys.json --frames 5 -o drawn.mp4 -q
     cmp shown.mp4 drawn.mp4 || fail "the films differ"
