@@ -82,6 +82,13 @@ static void take_unit(const element *around, int depth, const char *text, units 
     }
 }
 
+/// Heights in US feet over a plane in feet, as many surveys of the United States have them, are feet: no length that is shown
+/// has digits for a difference of 2e-6.
+static bool are_alike(ewa_crs_unit a, ewa_crs_unit b) {
+    const bool feet_a = a == EWA_CRS_FEET || a == EWA_CRS_US_FEET, feet_b = b == EWA_CRS_FEET || b == EWA_CRS_US_FEET;
+    return a == b || (feet_a && feet_b);
+}
+
 static ewa_crs_unit unit_of_text(const char *text) {
     element around[MAX_DEPTH];
     units said = {.projected = false};
@@ -105,7 +112,7 @@ static ewa_crs_unit unit_of_text(const char *text) {
         word = !in_word ? NULL : word ? word : at;
     }
     if (said.geographic && !said.projected) return EWA_CRS_DEGREES;
-    return said.has_vertical && said.vertical != said.horizontal ? EWA_CRS_UNKNOWN : said.horizontal;
+    return said.has_vertical && !are_alike(said.vertical, said.horizontal) ? EWA_CRS_UNKNOWN : said.horizontal;
 }
 
 ewa_crs_unit ewa_cloud_crs_unit(const ewa_cloud *cloud) {

@@ -9,7 +9,7 @@
 
 /// What coordinates count.
 typedef enum ewa_crs_unit {
-    EWA_CRS_UNKNOWN = 0, ///< nothing says it, another length, or heights in another one than x and y
+    EWA_CRS_UNKNOWN = 0, ///< nothing says it, another length, or heights in another one than x and y, but for two kinds of feet
     EWA_CRS_DEGREES = 1, ///< of longitude and latitude
     EWA_CRS_METRES = 2,
     EWA_CRS_FEET = 3,    ///< 0.3048 m

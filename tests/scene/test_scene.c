@@ -709,6 +709,8 @@ TEST(test_units) {
         {COMPOUND(METRE, METRE), "m"},
         {COMPOUND(US_FOOT, US_FOOT), "US ft"},
         {COMPOUND(METRE, FOOT), "none"},
+        {COMPOUND(FOOT, US_FOOT), "ft"},
+        {COMPOUND(US_FOOT, FOOT), "US ft"},
         {GEOGRAPHIC, "none"},
         {"PROJCRS[\"P\",BASEGEOGCRS[\"B\",DATUM[\"D\",ELLIPSOID[\"E\",6378137,298.25,LENGTHUNIT[\"metre\",1]]]],CS[Cartesian,2],"
          "AXIS[\"(E)\",east,ORDER[1],LENGTHUNIT[\"foot\", 0.3048]],AXIS[\"(N)\",north,LENGTHUNIT[\"foot\",0.3048]]]",
