@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // A band of rows on the device: programs one behind the other, which find their work in what those before them have counted. The
-// host waits once, at the end. What it has to make (answers.h) takes one wait more, and what found no room is
+// host waits once, at the end. What it has to make (host_records.h) takes one wait more, and what found no room is
 // drawn again with more of it.
 #include "gl/compute.h"
 
@@ -17,7 +17,7 @@ typedef struct band {
     uint32_t width_px, height_px;                ///< whole blocks
     uint32_t tiles_per_row, tile_count, source_pages, parts;
     uint64_t result_words;
-    bool answered;
+    bool has_host_records;
 } band;
 
 /// A plane of the frame, 4 bytes a float.
@@ -62,21 +62,21 @@ enum { PAIR_RECORD_BYTES = EWA_PACKET_LANES * EWA_GL_RECORD_BYTES };
 
 /// Room for what is known before anything is counted; marks that are not set yet begin small.
 static ewa_status reserve_work(ewa_gl_compute *gl, const band *b) {
-    enum { PAIRS = 1 << 14, ASKS = 1 << 8, LIST = 1 << 18 };
+    enum { PAIRS = 1 << 14, REQUESTS = 1 << 8, LIST = 1 << 18 };
     const uint64_t fit = gl->device->facts.storage_bytes;
     ewa_gl_marks *marks = &gl->marks;
     if (!marks->pairs) {
         uint64_t packets = 1;
         for (uint32_t i = 0; i < b->job->source_count; i++) packets += b->job->sources[i].surfels->packet_count;
         marks->pairs = (uint32_t)smaller(smaller(packets + packets / 2, PAIRS), fit / PAIR_RECORD_BYTES);
-        marks->asks = ASKS;
+        marks->requests = REQUESTS;
         marks->list = (uint32_t)smaller(LIST, fit / EWA_GL_ENTRY_BYTES);
         marks->units = (uint32_t)smaller(2 * (uint64_t)b->tile_count, fit / EWA_GL_UNIT_BYTES);
     }
     const uint64_t arguments = (uint64_t)(EWA_GL_OF_PAGES + b->source_pages) * EWA_GL_ARGUMENT_BYTES;
     EWA_TRY(reserve(gl, EWA_GL_PAIRS, "packets", (uint64_t)marks->pairs * EWA_GL_PAIR_BYTES));
     EWA_TRY(reserve(gl, EWA_GL_RECORDS, "splats", (uint64_t)marks->pairs * PAIR_RECORD_BYTES));
-    EWA_TRY(reserve(gl, EWA_GL_ASKS, "near surfels", 2 * (uint64_t)marks->asks * sizeof(ewa_gl_ask)));
+    EWA_TRY(reserve(gl, EWA_GL_HOST_REQUESTS, "near surfels", 2 * (uint64_t)marks->requests * sizeof(ewa_gl_host_request)));
     EWA_TRY(reserve(gl, EWA_GL_LIST, "lists", (uint64_t)marks->list * EWA_GL_ENTRY_BYTES));
     EWA_TRY(reserve(gl, EWA_GL_UNITS, "work", (uint64_t)marks->units * EWA_GL_UNIT_BYTES));
     EWA_TRY(reserve(gl, EWA_GL_RANGES, "near surfels", 0));
@@ -131,11 +131,11 @@ static ewa_status put_band(ewa_gl_compute *gl, const band *b) {
                                .pair_capacity = gl->marks.pairs,
                                .list_capacity = gl->marks.list,
                                .unit_capacity = gl->marks.units,
-                               .ask_capacity = gl->marks.asks,
+                               .request_capacity = gl->marks.requests,
                                .unit_splats = gl->unit_splats,
                                .group_limit = gl->device->facts.group_count,
                                .parts = b->parts,
-                               .answered = b->answered};
+                               .has_host_records = b->has_host_records};
     wanted_plane planes[PLANES];
     list_planes(&job->resolve, planes);
     uint64_t at = block.with_codes ? pixel_count(b) : 0;
@@ -157,7 +157,7 @@ static void bind_lists(const ewa_gl_compute *gl) {
     glBindBufferBase(GL_UNIFORM_BUFFER, 0, gl->buffers[EWA_GL_BAND].name);
     glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, gl->buffers[EWA_GL_COUNTS].name);
     bind(gl, 0, EWA_GL_VIEWS), bind(gl, 3, EWA_GL_TILES), bind(gl, 5, EWA_GL_RECORDS), bind(gl, 6, EWA_GL_LIST);
-    bind(gl, 7, EWA_GL_UNITS), bind(gl, 8, EWA_GL_PAIRS), bind(gl, 9, EWA_GL_RANGES), bind(gl, 11, EWA_GL_ASKS);
+    bind(gl, 7, EWA_GL_UNITS), bind(gl, 8, EWA_GL_PAIRS), bind(gl, 9, EWA_GL_RANGES), bind(gl, 11, EWA_GL_HOST_REQUESTS);
     bind(gl, 12, EWA_GL_PLACEMENTS), bind(gl, 13, EWA_GL_COUNTS);
 }
 
@@ -179,7 +179,7 @@ static ewa_status use(ewa_gl_compute *gl, const band *b, ewa_gl_pass pass) {
         v.with_clips = job->with_clips;
         const bool splats = pass != EWA_GL_FIRST_SURFACE && pass != EWA_GL_PICTURE;
         v.rays = splats && job->view.raycast;
-        v.with_nears = splats && b->answered && gl->answers.near_count;
+        v.with_nears = splats && b->has_host_records && gl->host_records.near_count;
     }
     if (pass > EWA_GL_VISIBILITY) {
         v.with_normals = job->with_normals, v.with_depth = job->with_depth;
@@ -262,37 +262,37 @@ static void read_back(ewa_gl_compute *gl, ewa_gl_buffer_kind kind, uint64_t at_b
     glGetBufferSubData(GL_COPY_READ_BUFFER, (GLintptr)at_bytes, (GLsizeiptr)size_bytes, to);
 }
 
-/// Raises the marks that pairs and asks went beyond; `*again`: some did.
+/// Raises the marks that pairs and requests went beyond; `*again`: some did.
 static ewa_status check_pairs(ewa_gl_compute *gl, const ewa_gl_tally *tally, bool *again) {
-    const uint64_t pairs = tally->pair_count, asks = tally->near_count > tally->clip_count ? tally->near_count
+    const uint64_t pairs = tally->pair_count, requests = tally->near_count > tally->clip_count ? tally->near_count
                                                                                            : tally->clip_count;
-    *again = pairs > gl->marks.pairs || asks > gl->marks.asks;
+    *again = pairs > gl->marks.pairs || requests > gl->marks.requests;
     if (tally->carry)
         return ewa_fail(gl->context, EWA_ERROR_LIMIT, "OpenGL: more than %u packets or splats in the tiles of a band",
                         UINT32_MAX);
     EWA_TRY(raise(gl, &gl->marks.pairs, pairs, EWA_GL_RECORDS, "splats", PAIR_RECORD_BYTES));
-    return raise(gl, &gl->marks.asks, asks, EWA_GL_ASKS, "near surfels", 2 * sizeof(ewa_gl_ask));
+    return raise(gl, &gl->marks.requests, requests, EWA_GL_HOST_REQUESTS, "near surfels", 2 * sizeof(ewa_gl_host_request));
 }
 
-/// Asks the device what it wants made, and makes it; `*again`: it had no room for its asks.
-static ewa_status answer(ewa_gl_compute *gl, const band *b, bool *again) {
+/// Makes what the device requests of the host; `*again`: it had no room for its requests.
+static ewa_status make_host_records(ewa_gl_compute *gl, const band *b, bool *again) {
     ewa_gl_tally tally;
     EWA_TRY(wait_for(gl, "set-up"));
     read_back(gl, EWA_GL_COUNTS, 0, sizeof tally, &tally);
     EWA_TRY(check_pairs(gl, &tally, again));
     if (*again) return EWA_OK;
-    ewa_gl_answers *answers = &gl->answers;
+    ewa_gl_host_records *host_records = &gl->host_records;
     const uint64_t nears = tally.near_count, clips = tally.clip_count;
-    EWA_TRY(ewa_gl_answers_reserve(gl->context, answers, tally.near_count, tally.clip_count));
-    ewa_gl_ask *asks = answers->asks.data;
-    read_back(gl, EWA_GL_ASKS, 0, nears * sizeof *asks, asks);
-    read_back(gl, EWA_GL_ASKS, gl->marks.asks * sizeof *asks, clips * sizeof *asks, asks + nears);
-    EWA_TRY(ewa_gl_answers_make(gl->context, answers, b->job, b->rows.first_px / EWA_FIELD_PX,
-                                (b->rows.end_px - b->rows.first_px + EWA_FIELD_PX - 1) / EWA_FIELD_PX));
-    EWA_TRY(put(gl, EWA_GL_NEARS, "near surfels", answers->nears.data, nears * sizeof(ewa_gl_near)));
-    EWA_TRY(put(gl, EWA_GL_CLIPS, "clip lines", answers->clips.data, clips * sizeof(ewa_gl_clip)));
-    EWA_TRY(put(gl, EWA_GL_RANGES, "near surfels", answers->ranges.data,
-                (uint64_t)answers->field_count * 2 * sizeof(uint32_t)));
+    EWA_TRY(ewa_gl_host_records_reserve(gl->context, host_records, tally.near_count, tally.clip_count));
+    ewa_gl_host_request *requests = host_records->requests.data;
+    read_back(gl, EWA_GL_HOST_REQUESTS, 0, nears * sizeof *requests, requests);
+    read_back(gl, EWA_GL_HOST_REQUESTS, gl->marks.requests * sizeof *requests, clips * sizeof *requests, requests + nears);
+    EWA_TRY(ewa_gl_host_records_make(gl->context, host_records, b->job, b->rows.first_px / EWA_FIELD_PX,
+                                     (b->rows.end_px - b->rows.first_px + EWA_FIELD_PX - 1) / EWA_FIELD_PX));
+    EWA_TRY(put(gl, EWA_GL_NEARS, "near surfels", host_records->nears.data, nears * sizeof(ewa_gl_near)));
+    EWA_TRY(put(gl, EWA_GL_CLIPS, "clip lines", host_records->clips.data, clips * sizeof(ewa_gl_clip)));
+    EWA_TRY(put(gl, EWA_GL_RANGES, "near surfels", host_records->ranges.data,
+                (uint64_t)host_records->field_count * 2 * sizeof(uint32_t)));
     bind_lists(gl); // some may have moved
     return ewa_gl_check(gl->device, "near surfels");
 }
@@ -339,9 +339,9 @@ static ewa_status draw_pixels(ewa_gl_compute *gl, const band *b) {
 /// Raises the marks that a band went beyond; `*again`: it has to be drawn again.
 static ewa_status check_band(ewa_gl_compute *gl, const band *b, const ewa_gl_tally *tally, bool *again) {
     EWA_TRY(check_pairs(gl, tally, again));
-    gl->answering = tally->near_count + tally->clip_count > 0;
+    gl->needs_host = tally->near_count + tally->clip_count > 0;
     if (*again) return EWA_OK;
-    *again = (gl->answering && !b->answered) || tally->list_count > gl->marks.list ||
+    *again = (gl->needs_host && !b->has_host_records) || tally->list_count > gl->marks.list ||
              tally->unit_count > gl->marks.units;
     EWA_TRY(raise(gl, &gl->marks.list, tally->list_count, EWA_GL_LIST, "lists", EWA_GL_ENTRY_BYTES));
     return raise(gl, &gl->marks.units, tally->unit_count, EWA_GL_UNITS, "work", EWA_GL_UNIT_BYTES);
@@ -388,9 +388,9 @@ static uint32_t count_parts(const ewa_gl_compute *gl, double longest_s) {
     return wanted > gl->least_parts ? wanted : gl->least_parts;
 }
 
-/// Draws the band once; `*again`: there was too little room for it, or it had to be answered.
+/// Draws the band once; `*again`: there was too little room for it, or it lacked what the host makes.
 static ewa_status draw_once(ewa_gl_compute *gl, band *b, ewa_gl_outcome *outcome, bool *again) {
-    b->answered = gl->answering;
+    b->has_host_records = gl->needs_host;
     b->parts = count_parts(gl, gl->longest_s);
     EWA_TRY(reserve_work(gl, b));
     EWA_TRY(reserve_planes(gl, b));
@@ -398,7 +398,7 @@ static ewa_status draw_once(ewa_gl_compute *gl, band *b, ewa_gl_outcome *outcome
     gl->unfinished = true;
     bind_lists(gl);
     EWA_TRY(set_up(gl, b));
-    if (b->answered) EWA_TRY(answer(gl, b, again));
+    if (b->has_host_records) EWA_TRY(make_host_records(gl, b, again));
     if (*again) return EWA_OK;
     EWA_TRY(draw_pixels(gl, b));
     EWA_TRY(fetch(gl, b, outcome, again));

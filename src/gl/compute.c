@@ -26,7 +26,7 @@ void ewa_gl_compute_destroy(ewa_context *context, void *state) {
         ewa_gl_residents_free(old->device, &old->residents);
     }
     ewa_gl_close(&old->device);
-    ewa_gl_answers_free(context, &old->answers);
+    ewa_gl_host_records_free(context, &old->host_records);
     ewa_buffer_free(context, &old->indices);
     ewa_buffer_free(context, &old->placements);
     ewa_buffer_free(context, &old->views);

@@ -5,7 +5,7 @@
 #ifndef EWA_SRC_GL_COMPUTE_H
 #define EWA_SRC_GL_COMPUTE_H
 
-#include "gl/answers.h"
+#include "gl/host_records.h"
 #include "gl/resident.h"
 #include "gl/selftest.h"
 #include "gl/times.h"
@@ -22,7 +22,7 @@ typedef enum ewa_gl_buffer_kind {
     EWA_GL_COUNTS,
     EWA_GL_PAIRS,
     EWA_GL_RECORDS,
-    EWA_GL_ASKS,
+    EWA_GL_HOST_REQUESTS,
     EWA_GL_TILES,
     EWA_GL_LIST,
     EWA_GL_UNITS,
@@ -44,7 +44,7 @@ typedef enum ewa_gl_buffer_kind {
 
 /// How many items buffers have room for; what a frame found too few is raised, and stays.
 typedef struct ewa_gl_marks {
-    uint32_t pairs, asks, list, units;
+    uint32_t pairs, requests, list, units;
 } ewa_gl_marks;
 
 /// A band of rows, from a multiple of EWA_FIELD_PX.
@@ -74,12 +74,12 @@ typedef struct ewa_gl_compute {
     ewa_gl_marks marks;
     ewa_gl_fit fit; ///< of the last frame
     ewa_gl_times times;
-    ewa_gl_answers answers;
+    ewa_gl_host_records host_records;
     ewa_job_room room;
     ewa_buffer views, placements, indices; ///< of sources
     uint64_t environment_serial;           ///< of what EWA_GL_ENVIRONMENT holds; 0: nothing
     double longest_s; ///< the longest stage of the frame before
-    bool answering;  ///< the last band asked the host for something: the next is likely to
+    bool needs_host;  ///< the last band asked the host for something: the next is likely to
     bool unfinished; ///< a band ended early: its sums are not back at their start
     uint32_t tile_px, unit_splats, least_parts;
 } ewa_gl_compute;

@@ -55,8 +55,8 @@ typedef struct ewa_gl_band_block {
     float exponent_end;
     uint32_t layers, merge_last, with_codes;
     int32_t plane_at[4]; ///< of rgba, depth, normal, coverage; -1: not wanted
-    uint32_t pair_capacity, list_capacity, unit_capacity, ask_capacity;
-    uint32_t unit_splats, group_limit, parts, answered;
+    uint32_t pair_capacity, list_capacity, unit_capacity, request_capacity;
+    uint32_t unit_splats, group_limit, parts, has_host_records;
 } ewa_gl_band_block;
 
 /// What programs count, before the arguments of indirect dispatches.
@@ -69,9 +69,9 @@ typedef struct ewa_gl_tally {
 enum { EWA_GL_OF_LISTS, EWA_GL_OF_UNITS, EWA_GL_OF_PAGES, EWA_GL_ARGUMENT_BYTES = 16 };
 
 /// A surfel that the host is asked for something of.
-typedef struct ewa_gl_ask {
+typedef struct ewa_gl_host_request {
     uint32_t surfel, source, field, pad;
-} ewa_gl_ask;
+} ewa_gl_host_request;
 
 /// A packet in a field, a tile of work, a unit of it, and a record in a list, as programs have them.
 enum { EWA_GL_PAIR_BYTES = 36, EWA_GL_TILE_BYTES = 20, EWA_GL_UNIT_BYTES = 16, EWA_GL_ENTRY_BYTES = 8 };

@@ -13,11 +13,11 @@ layout(std140, binding = 0) uniform BandBlock {
     uint merge_last;  // the last of them is all that is left
     uint with_codes;  // sRGB bytes are wanted, at the start of `result`
     int rgba_at, depth_at, normal_at, coverage_at; // in `result`, or -1
-    uint pair_capacity, list_capacity, unit_capacity, ask_capacity;
+    uint pair_capacity, list_capacity, unit_capacity, request_capacity;
     uint unit_splats; // of a unit of work, at most
     uint group_limit; // groups of a dispatch along x
     uint parts;       // dispatches that passes over splats are done in, so that none takes long
-    uint answered;    // the host has made what set-up asks it for
+    uint has_host_records; // the host has made what set-up asks it for
 };
 
 // All of it 0 when a band begins. Arguments of indirect dispatches: of lists, of units, then of each page's set-up, whose w is how

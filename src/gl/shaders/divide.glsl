@@ -27,7 +27,7 @@ void main() {
     if (tile < tile_count) {
         count = tiles[tile].count;
         uvec2 field = uvec2(tile % tiles_per_row, tile / tiles_per_row) * tile_side_px / 128u;
-        if (answered != 0u) near = near_ranges[field.y * ((picture_px.x + 127u) / 128u) + field.x];
+        if (has_host_records != 0u) near = near_ranges[field.y * ((picture_px.x + 127u) / 128u) + field.x];
     }
     uint unit_number = units_for(count) + units_for(near.y - near.x);
     uint in_list = atomicAdd(group_list, count), in_units = atomicAdd(group_units, unit_number);
@@ -53,7 +53,7 @@ void main() {
     if (atomicAdd(divided_groups, 1u) + 1u < gl_NumWorkGroups.x * gl_NumWorkGroups.y) return;
     uint lists = atomicAdd(list_count, 0u), all_units = atomicAdd(unit_count, 0u);
     bool fits = pair_count <= pair_capacity && atomicAdd(carry, 0u) == 0u && lists <= list_capacity &&
-                all_units <= unit_capacity && (answered != 0u || near_count + clip_count == 0u);
+                all_units <= unit_capacity && (has_host_records != 0u || near_count + clip_count == 0u);
     arguments[OF_UNITS] = groups_for(fits ? (all_units + parts - 1u) / parts : 0u, 0u);
     if (!fits) arguments[OF_LISTS] = groups_for(0u, 0u);
 }

@@ -9,7 +9,7 @@ layout(local_size_x = 64) in;
 layout(std430, binding = 3) buffer TileBlock { Tile tiles[]; };
 layout(std430, binding = 4) readonly buffer ByteBlock { uint attributes[]; }; // of the page: opacities, then materials
 layout(std430, binding = 5) writeonly buffer RecordBlock { Record records[]; };
-layout(std430, binding = 11) writeonly buffer AskBlock { uvec4 asks[]; }; // surfel, source, field; near ones, then those with lines
+layout(std430, binding = 11) writeonly buffer RequestBlock { uvec4 requests[]; }; // surfel, source, field; near ones, then those with lines
 
 layout(location = 0) uniform uint page;
 layout(location = 1) uniform uint first_packet; // of the page, in its source
@@ -288,9 +288,9 @@ void count_tiles(uvec2 field, uint box) {
 }
 
 // Asks the host for something of a surfel; returns where it will be.
-uint ask(uint first, uint number, uint pair, uint lane) {
-    if (number < ask_capacity)
-        asks[first + number] = uvec4((first_packet + pairs[pair].packet) * 16u + lane, source, pairs[pair].field, 0u);
+uint request(uint first, uint number, uint pair, uint lane) {
+    if (number < request_capacity)
+        requests[first + number] = uvec4((first_packet + pairs[pair].packet) * 16u + lane, source, pairs[pair].field, 0u);
     return number;
 }
 
@@ -402,7 +402,7 @@ void emit(uint base, uint lane, uint pair, uvec2 field, uint at) {
     r.opacity = wf_odd_product(opacity, view.sum_scale);
     r.extra = material | source << 8;
     r.field = field.x | field.y << 16;
-    r.clip = clipped ? ask(ask_capacity, atomicAdd(clip_count, 1u), pair, lane) : 0u;
+    r.clip = clipped ? request(request_capacity, atomicAdd(clip_count, 1u), pair, lane) : 0u;
     records[at] = r;
     count_tiles(field, r.box);
 }
@@ -426,7 +426,7 @@ void main() {
         t.n = decode_normal(base, lane);
         stage_turn(base, lane);
         if (is_billboard(base, lane)) t.n = vec3(0.0, 0.0, -1.0);
-        if (stage_range()) ask(0u, atomicAdd(near_count, 1u), pair, lane);
+        if (stage_range()) request(0u, atomicAdd(near_count, 1u), pair, lane);
         stage_covariance();
     }
     stage_shape();
