@@ -34,8 +34,10 @@ elseif(CMAKE_SYSTEM_PROCESSOR MATCHES "aarch64|arm64|ARM64")
   list(APPEND instruction_sets neon)
 endif()
 
-foreach(body adjoint/kernels cloud/cells cloud/neighbours estimate/local homogeneous/clip_batch surface/pack surface/pipeline texture/texture
-    volume/gaussian volume/kernels warp/warp)
+# Those that take the longest come first.
+foreach(body surface/pipeline_add_all surface/pipeline_add_material surface/pipeline_add_opacity surface/pipeline_add_normal
+    surface/pipeline_add_color surface/pipeline adjoint/kernels cloud/cells cloud/neighbours estimate/local homogeneous/clip_batch surface/pack
+    texture/texture volume/gaussian volume/kernels warp/warp)
   foreach(set ${instruction_sets})
     string(TOUPPER ${set} SET)
     set(source ${PROJECT_BINARY_DIR}/kernels/${body}_${set}.c)

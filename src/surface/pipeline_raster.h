@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Part of pipeline_body.h: the two passes over a tile's records (docs/math.md section 6).
+// Part of pipeline_body.h and of pipeline_add.h: what the passes over a tile's records are made of (docs/math.md section 6).
 #ifndef EWA_SRC_SURFACE_PIPELINE_RASTER_H
 #define EWA_SRC_SURFACE_PIPELINE_RASTER_H
 
@@ -221,24 +221,6 @@ static ALWAYS_INLINE wm ray_counts(const pass *p, const ray_sample *sample, size
     return wm_and(within, wf_lt(sample->key, wf_load(p->tile->passed + at)));
 }
 
-static void ray_visibility(const pass *p) {
-    for (uint32_t i = 0; i < p->run->class_first[EWA_CLASS_COUNT]; i++) {
-        const ewa_record *r = &p->run->records[p->run->order[i]];
-        const ray_splat ray = ray_start(p->view, r, p->run->loads[p->run->order[i]].peak);
-        for (uint32_t row = box_row(r->box); row < box_row(r->box) + ewa_box_rows(r->box); row++) {
-            const size_t first = (size_t)row * p->tile->blocks_per_row;
-            for (uint32_t k = 0; k < ewa_box_columns(r->box); k++) {
-                const uint32_t column = box_column(r->box) + k;
-                clip_sample left;
-                const ray_sample sample = ray_block(
-                    p->view, p->tile, r, &ray, clip_of(p->run->clips, p->run->order[i]), row, column, &left);
-                const wm counts = ray_counts(p, &sample, (first + column) * EWA_BLOCK_LANES);
-                ray_raise(r, &sample, counts, p->tile->nearest + (first + column) * EWA_BLOCK_LANES);
-            }
-        }
-    }
-}
-
 typedef void clipped_block(const pass *p, uint32_t splat, uint32_t row, uint32_t column, int what);
 
 /// Calls `body` for every block of the splats with clip lines.
@@ -267,17 +249,6 @@ static ALWAYS_INLINE wf block_bound(const ewa_view *view, const ewa_record *r, c
     return wf_fma(wf_set(r->bound_y), sample->dy, column_start(r, r->bound, r->bound_x, first_px).key);
 }
 
-static void clipped_raise(const pass *p, uint32_t splat, uint32_t row, uint32_t column, int what) {
-    (void)what;
-    const ewa_record *r = &p->run->records[splat];
-    const size_t at = ((size_t)row * p->tile->blocks_per_row + column) * EWA_BLOCK_LANES;
-    const block_sample sample = sample_block(r, row, column);
-    const wf share = clip_block(p->tile, &p->run->clips[splat], row, column).share;
-    const wf old = wf_load(p->tile->nearest + at), bound = block_bound(p->view, r, &sample, column);
-    wf_store(p->tile->nearest + at,
-             wf_select(clipped_counts(p, &sample, share, at), wf_max(bound, old), old));
-}
-
 /// Adds a splat to what a block has gathered: `weight` is relative to the kernel's peak, without the clip
 /// lines; `left` is looked at when it has some.
 static ALWAYS_INLINE void add_splat(const ewa_tile *tile, const ewa_record *r, const ewa_clip *clip,
@@ -293,58 +264,6 @@ static ALWAYS_INLINE void add_splat(const ewa_tile *tile, const ewa_record *r, c
         add_channels(sums, sums_for(tile, is_back), tile->channel_count, weight, p, depth, what | ADD_FINE);
     else
         add_channels(sums, sums_for(tile, is_back), tile->channel_count, weight, p, depth, what);
-}
-
-static ALWAYS_INLINE void accumulate_rows(const pass *p, uint32_t splat, uint32_t first_column,
-                                          uint32_t columns, uint32_t rows, depth_test test, int what) {
-    const ewa_view *view = p->view;
-    const ewa_tile *tile = p->tile;
-    const ewa_record *r = &p->run->records[splat];
-    const uint32_t channels =
-        what & BEYOND
-            ? tile->channel_count
-            : 4 + (what & ADD_NORMAL ? 3u : 0) + (what & (ADD_DEPTH | ADD_MATERIAL) ? 1u : 0) +
-                  (what & ADD_MATERIAL ? EWA_MATERIAL_CHANNELS + 0u : 0) + (what & ADD_OPACITY ? 1u : 0);
-    column_terms c[EWA_COLUMN_CLASSES];
-    UNROLL_COLUMNS
-    for (uint32_t i = 0; i < columns; i++)
-        c[i] = column_start(r, r->key, r->key_x, (float)(EWA_BLOCK_PX * (first_column + i)));
-    const payload add =
-        payload_load(view, r, &p->run->loads[splat], p->run->opacities, p->run->materials, splat, what);
-    const wf end = wf_set(view->exponent_end);
-    const size_t row_blocks = tile->blocks_per_row;
-    const size_t first_block = box_row(r->box) * row_blocks + box_column(r->box) + first_column;
-    const float *nearest = tile->nearest + first_block * EWA_BLOCK_LANES;
-    const float *passed = what & BEYOND ? tile->passed + first_block * EWA_BLOCK_LANES : NULL;
-    float *sums = tile->sums.planes + first_block * channels * EWA_BLOCK_LANES;
-    wf dy = wf_add(lanes_y(), wf_set(r->offset_y));
-    UNROLL_COLUMNS
-    for (uint32_t row = 0; row < rows; row++) {
-        UNROLL_COLUMNS
-        for (uint32_t i = 0; i < columns; i++) {
-            const wf s = block_exponent(r, &c[i], dy), bound = wf_load(nearest + (size_t)i * EWA_BLOCK_LANES);
-            wf key = wf_fma(wf_set(r->key_y), dy, c[i].key);
-            if (test != PLAIN) key = clamped_key(r, key);
-            wm counts = wm_and(wf_lt(s, end), wf_le(bound, key));
-            if (what & BEYOND) {
-                counts = wm_and(counts, wf_lt(key, wf_load(passed + (size_t)i * EWA_BLOCK_LANES)));
-                if (!wm_bits(counts)) continue; // most splats are of other surfaces
-            }
-            const wf weight = wf_keep(counts, exponential(s, 2));
-            const wf depth = what & ADD_DEPTH ? depth_share(view, key, bound, what) : wf_set(0);
-            float *block = sums + (size_t)i * channels * EWA_BLOCK_LANES;
-            if (what & BEYOND)
-                block = visit_block(tile, &tile->sums, box_row(r->box) + row,
-                                    box_column(r->box) + first_column + i, channels);
-            else if (what & (ADD_DEPTH | ADD_FINE))
-                tile->sums.visits[first_block + row * row_blocks + i]++;
-            add_channels(block, &tile->sums, channels, weight, &add, depth, what);
-        }
-        nearest += row_blocks * EWA_BLOCK_LANES;
-        if (what & BEYOND) passed += row_blocks * EWA_BLOCK_LANES;
-        sums += row_blocks * channels * EWA_BLOCK_LANES;
-        dy = wf_add(dy, wf_set(EWA_BLOCK_PX));
-    }
 }
 
 /// accumulate_rows() for splats that face away, most of which are hidden, and for all where sums are gathered
@@ -376,107 +295,23 @@ static ALWAYS_INLINE void accumulate_few(const pass *p, uint32_t splat, uint32_t
     }
 }
 
-/// The accumulation for one set of channels. Splats that face away are not worth a body for each class.
-#define ACCUMULATE(name, what)                                                                               \
-    static __attribute__((noinline)) void name##_back_facing(const pass *p, uint32_t splat,                  \
-                                                             uint32_t first_column, uint32_t columns,        \
-                                                             uint32_t rows, depth_test test) {               \
-        accumulate_few(p, splat, first_column, columns, rows, test, what);                                   \
-    }                                                                                                        \
-    static ALWAYS_INLINE void name##_rows(const pass *p, uint32_t splat, uint32_t first_column,              \
-                                          uint32_t columns, uint32_t rows, depth_test test) {                \
-        if ((what) & BEYOND && box_hollow(p->run->records[splat].box)) return;                               \
-        if (box_back_facing(p->run->records[splat].box))                                                     \
-            name##_back_facing(p, splat, first_column, columns, rows, test);                                 \
-        else                                                                                                 \
-            accumulate_rows(p, splat, first_column, columns, rows, test, what);                              \
-    }                                                                                                        \
-    static void name(const pass *p) { for_each_splat(p, name##_rows); }
+typedef void add_run(const pass *p);
 
-ACCUMULATE(add_color, 0)
-ACCUMULATE(add_color_fine, ADD_FINE)
-ACCUMULATE(add_color_depth, ADD_DEPTH)
-ACCUMULATE(add_color_height, ADD_DEPTH | ORTHOGRAPHIC)
-ACCUMULATE(add_normal, ADD_NORMAL)
-ACCUMULATE(add_normal_fine, ADD_NORMAL | ADD_FINE)
-ACCUMULATE(add_normal_depth, ADD_NORMAL | ADD_DEPTH)
-ACCUMULATE(add_normal_height, ADD_NORMAL | ADD_DEPTH | ORTHOGRAPHIC)
-ACCUMULATE(add_opacity, ADD_NORMAL | ADD_OPACITY)
-ACCUMULATE(add_opacity_depth, ADD_NORMAL | ADD_OPACITY | ADD_DEPTH)
-ACCUMULATE(add_opacity_height, ADD_NORMAL | ADD_OPACITY | ADD_DEPTH | ORTHOGRAPHIC)
-ACCUMULATE(add_color_beyond, BEYOND)
-ACCUMULATE(add_normal_beyond, ADD_NORMAL | BEYOND)
-ACCUMULATE(add_opacity_beyond, ADD_NORMAL | ADD_OPACITY | BEYOND)
-ACCUMULATE(add_material, ADD_NORMAL | ADD_MATERIAL)
-ACCUMULATE(add_material_depth, ADD_NORMAL | ADD_MATERIAL | ADD_DEPTH)
-ACCUMULATE(add_material_height, ADD_NORMAL | ADD_MATERIAL | ADD_DEPTH | ORTHOGRAPHIC)
-ACCUMULATE(add_material_beyond, ADD_NORMAL | ADD_MATERIAL | BEYOND)
-ACCUMULATE(add_all, ADD_NORMAL | ADD_MATERIAL | ADD_OPACITY)
-ACCUMULATE(add_all_depth, ADD_NORMAL | ADD_MATERIAL | ADD_OPACITY | ADD_DEPTH)
-ACCUMULATE(add_all_height, ADD_NORMAL | ADD_MATERIAL | ADD_OPACITY | ADD_DEPTH | ORTHOGRAPHIC)
-ACCUMULATE(add_all_beyond, ADD_NORMAL | ADD_MATERIAL | ADD_OPACITY | BEYOND)
+/// What is particular to the sums of a run: those of ewa_add_color and its like.
+typedef enum add_kind {
+    ADD_WITHOUT_DEPTH,
+    ADD_WITH_DEPTH,
+    ADD_WITH_HEIGHT, ///< depths of an orthographic camera
+    ADD_BEYOND,
+    ADD_FINELY, ///< without edge antialiasing; of colours and of normals only
+    ADD_KINDS
+} add_kind;
 
-static void ray_accumulate(const pass *p) {
-    const ewa_view *view = p->view;
-    const ewa_tile *tile = p->tile;
-    const int what = channels_of(tile) | (tile->with_depth && !tile->passed ? ADD_DEPTH : 0);
-    for (uint32_t i = 0; i < p->run->class_first[EWA_CLASS_COUNT]; i++) {
-        const ewa_record *r = &p->run->records[p->run->order[i]];
-        const ewa_load *load = &p->run->loads[p->run->order[i]];
-        const ray_splat ray = ray_start(view, r, load->peak);
-        const payload add =
-            payload_load(view, r, load, p->run->opacities, p->run->materials, p->run->order[i], what);
-        for (uint32_t row = box_row(r->box); row < box_row(r->box) + ewa_box_rows(r->box); row++) {
-            for (uint32_t k = 0; k < ewa_box_columns(r->box); k++) {
-                const uint32_t column = box_column(r->box) + k;
-                const size_t block = (size_t)row * tile->blocks_per_row + column;
-                const ewa_clip *clip = clip_of(p->run->clips, p->run->order[i]);
-                clip_sample left;
-                const ray_sample sample = ray_block(view, tile, r, &ray, clip, row, column, &left);
-                const wf bound = wf_load(tile->nearest + block * EWA_BLOCK_LANES);
-                const wm counts =
-                    wm_and(ray_counts(p, &sample, block * EWA_BLOCK_LANES), wf_le(bound, sample.key));
-                if (!wm_bits(counts)) continue;
-                const payload gained = payload_times(&add, wf_keep(counts, sample.gain), what);
-                const wf bell = exponential(wf_keep(counts, sample.exponent), view->doublings);
-                add_splat(tile, r, clip, &left, row, column, wf_keep(counts, bell), &gained,
-                          depth_share(view, wf_select(counts, sample.key, wf_set(1)), bound, what), what);
-            }
-        }
-    }
-}
+/// The second pass over splats of the classes of boxes, by what is added: compile units of their own, because they take
+/// the longest (pipeline_add_*_body.h).
+extern add_run *const EWA_VERSION(ewa_add_color)[ADD_KINDS], *const EWA_VERSION(ewa_add_normal)[ADD_KINDS],
+    *const EWA_VERSION(ewa_add_opacity)[ADD_KINDS], *const EWA_VERSION(ewa_add_material)[ADD_KINDS],
+    *const EWA_VERSION(ewa_add_all)[ADD_KINDS];
 
-static void clipped_add(const pass *p, uint32_t splat, uint32_t row, uint32_t column, int what) {
-    const ewa_tile *tile = p->tile;
-    const ewa_record *r = &p->run->records[splat];
-    const size_t block = (size_t)row * tile->blocks_per_row + column, at = block * EWA_BLOCK_LANES;
-    const block_sample sample = sample_block(r, row, column);
-    const ewa_clip *clip = &p->run->clips[splat];
-    const clip_sample left = clip_block(tile, clip, row, column);
-    const wf bound = wf_load(tile->nearest + at);
-    const wm counts = wm_and(clipped_counts(p, &sample, left.share, at), wf_le(bound, sample.key));
-    if (!wm_bits(counts)) return;
-    const payload add =
-        payload_load(p->view, r, &p->run->loads[splat], p->run->opacities, p->run->materials, splat, what);
-    add_splat(tile, r, clip, &left, row, column,
-              wf_keep(counts, exponential(sample.exponent, p->view->doublings)), &add,
-              depth_share(p->view, sample.key, bound, what), what);
-}
-
-/// Sums of many splats are rare, so are most fine ones, and cutoffs beyond 3, which need more than two
-/// doublings: one body for all that goes with them.
-static __attribute__((noinline)) void add_careful_rows(const pass *p, uint32_t splat, uint32_t first_column,
-                                                       uint32_t columns, uint32_t rows, depth_test test) {
-    const ewa_tile *tile = p->tile;
-    if (tile->passed && box_hollow(p->run->records[splat].box)) return;
-    accumulate_few(p, splat, first_column, columns, rows, test,
-                   channels_of(tile) |
-                       (tile->passed       ? BEYOND
-                        : tile->with_depth ? ADD_DEPTH
-                                           : 0) |
-                       (p->view->orthographic ? ORTHOGRAPHIC : 0));
-}
-
-static void add_carefully(const pass *p) { for_each_splat(p, add_careful_rows); }
 
 #endif

@@ -10,7 +10,7 @@
 #ifndef EWA_SRC_SURFACE_PIPELINE_RAYCAST_H
 #define EWA_SRC_SURFACE_PIPELINE_RAYCAST_H
 
-#include "surface/pipeline_project.h"
+#include "surface/pipeline_camera.h"
 
 #include <math.h>
 

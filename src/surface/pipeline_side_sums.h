@@ -187,19 +187,6 @@ static ALWAYS_INLINE uint32_t rows_to_settle(const ewa_tile *tile, uint32_t row)
            tile->sums.high_rows[row];
 }
 
-static bool settle(const ewa_tile *tile, const ewa_resolve *to) {
-    const uint32_t whole_row = ~0u >> (32 - tile->blocks_per_row);
-    for (uint32_t row = 0; row < tile->block_rows && !tile->sums.careful; row++)
-        for (uint32_t column = 0; column < tile->blocks_per_row; column++)
-            if (is_beyond(tile, &tile->sums, row, column, tile->channel_count)) return false;
-    for (uint32_t row = 0; row < tile->block_rows; row++) {
-        tile->settled_rows[row] = rows_to_settle(tile, row) & whole_row;
-        for (uint32_t left = tile->settled_rows[row]; left; left &= left - 1)
-            settle_block(tile, to, row, (uint32_t)__builtin_ctz(left), false);
-    }
-    return true;
-}
-
 /// The settled planes of a block where clip lines have a say, else NULL: first of all the covered shares.
 static ALWAYS_INLINE const float *cut_cover(const ewa_tile *tile, uint32_t row, uint32_t column) {
     const ewa_side_sums *side = &tile->side;
