@@ -27,6 +27,10 @@ PLACES = {
     "pyproject.toml": r'(\nversion = ")(\d+\.\d+\.\d+)(")',
     "page/package.json": r'("version": ")(\d+\.\d+\.\d+)(")',
     "debian/changelog": r"(\Aewa \()(\d+\.\d+\.\d+)(\))",
+    "packaging/conda/recipe.yaml": r'(\n  version: ")(\d+\.\d+\.\d+)(")',
+    "packaging/homebrew/ewa.rb": r"(/ewa-)(\d+\.\d+\.\d+)(\.tar\.gz)",
+    "packaging/nix/default.nix": r'(\n  version = ")(\d+\.\d+\.\d+)(";)',
+    "packaging/vcpkg/ewa/vcpkg.json": r'(\n  "version": ")(\d+\.\d+\.\d+)(")',
 }
 HEADER = "include/ewa/base.h"
 

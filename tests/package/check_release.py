@@ -15,7 +15,8 @@ import sys
 from pathlib import Path
 
 FILES = [".gitignore", "CMakeLists.txt", "pyproject.toml", "page/package.json", "debian/changelog", "CHANGELOG.md", "docs/api.json",
-         "docs/options.json"]
+         "docs/options.json", "packaging/conda/recipe.yaml", "packaging/homebrew/ewa.rb", "packaging/nix/default.nix",
+         "packaging/vcpkg/ewa/vcpkg.json"]
 
 
 def main():
