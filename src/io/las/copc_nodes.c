@@ -120,6 +120,7 @@ static ewa_status find_levels(ewa_octree *octree, const copc_state *state) {
 
 /// Lets go of the nodes' bytes, most of the file, so that files larger than the room for addresses can be drawn.
 static void give_up_nodes(ewa_octree *octree, copc_state *state) {
+    if (!state->bytes.mapped) return;
     uint64_t first = UINT64_MAX, end = 0;
     for (uint64_t i = 0; i < octree->node_count; i++) {
         const ewa_octree_node *node = (const ewa_octree_node *)octree->nodes.data + i;
@@ -129,7 +130,7 @@ static void give_up_nodes(ewa_octree *octree, copc_state *state) {
     }
     const uint8_t *levels = octree->facts.levels, *bytes = state->bytes.bytes;
     const bool amid = levels && levels < bytes + end && levels + octree->facts.levels_bytes > bytes + first;
-    if (!state->bytes.mapped || end <= first || amid) return;
+    if (end <= first || amid) return;
     state->descriptor = ewa_file_open_pieces(octree->path, state->bytes.size_bytes);
     if (state->descriptor >= 0) ewa_file_give_up(&state->bytes, first, end);
 }
