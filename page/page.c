@@ -247,7 +247,7 @@ bool page_item(page *p, uint32_t index) {
 
 bool page_help(page *p, uint32_t row) {
     viewer_help help;
-    const bool found = viewer_help_at(row, &help);
+    const bool found = viewer_help_at(NULL, row, &help);
     if (found) snprintf(p->text, sizeof p->text, "%s\t%s", help.keys, help.what);
     return found;
 }

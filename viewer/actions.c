@@ -17,6 +17,7 @@ static const struct {
     {"Shift click", "measure from the pick before"},
     {"double click", "bring what is there into the middle"},
     {"W A S D Q E", "fly, where the navigation says so; the wheel makes it faster"},
+    {"drag a side of the clip box", "move it; with Ctrl, turn the box about what is up"},
     {"Alt wheel", "move the slab; with Ctrl, make it thicker"},
 };
 
@@ -77,7 +78,9 @@ static const viewer_action actions[] = {
     {"Tools", "Measure an angle", "measure angle", "measure an angle by three clicks", 0, 0, VIEWER_ICON_ANGLE},
     {"Tools", "Measure an area", "measure area", "measure an area by clicks around it; a double click ends", 0, 0, VIEWER_ICON_AREA},
     {"Tools", "Measure a way", "measure distance", "measure a way by clicks along it; a double click ends", 0, 0, VIEWER_ICON_WAY},
+    {"Tools", "Annotate", "measure note", "write a text at a place: click there, then name it in the panel", 0, 0, VIEWER_ICON_NOTE},
     {"Tools", "Clip box", "box next", "clip box around everything, whose sides can be dragged", 'c', 0, VIEWER_ICON_BOX},
+    {"Tools", "Clip box across the view", "box view", "clip box whose sides are those of the picture", 'c', VIEWER_ALT, VIEWER_ICON_NONE},
     {"Tools", "Slab", "slab next", "slab across the view; Alt wheel moves it", 'v', 0, VIEWER_ICON_SLAB},
     {"Tools", "Profile", "profile next", "profile along what was measured", 'r', 0, VIEWER_ICON_PROFILE},
     {"Tools", "Select by rectangle", "select rectangle", "draw a rectangle around points", 'u', 0, VIEWER_ICON_RECTANGLE},
@@ -91,6 +94,7 @@ static const viewer_action actions[] = {
     {"Tools", "Turn", "transform turn", "drag to turn something about what is up", 0, 0, VIEWER_ICON_TURN},
     {"Tools", "Resize", "transform scale", "drag up or down to make something larger or smaller", 0, 0, VIEWER_ICON_SCALE},
     {"Tools", "Keyframe", "keyframe add", "keep this view as the next keyframe", 0, 0, VIEWER_ICON_KEYFRAME},
+    {"Tools", "Preview the film", "film preview", "let the camera travel through the keyframes", 0, 0, VIEWER_ICON_NONE},
     {"Tools", "Film", "film", "make a film through the keyframes, ewa-0001.mp4 and so on", 0, 0, VIEWER_ICON_FILM},
     {"Tools", "Forget picks", "clear", "forget picks, measures and the selection", VIEWER_KEY_DELETE, 0, VIEWER_ICON_CLEAR},
     {"Tools", "Give up", "cancel", "close help or dialog; else give up film or loading; else forget selection, then picks", VIEWER_KEY_ESCAPE, 0,
@@ -99,30 +103,111 @@ static const viewer_action actions[] = {
     {"Help", "Keys", "help next", "all keys", 'h', 0, VIEWER_ICON_HELP},
 };
 
-const viewer_action *viewer_action_at(uint32_t index) {
-    return index < sizeof actions / sizeof actions[0] ? &actions[index] : NULL;
-}
+enum { ACTION_COUNT = sizeof actions / sizeof actions[0] };
+_Static_assert((int)ACTION_COUNT <= (int)VIEWER_MAX_ACTIONS, "each action has room for a key");
 
-void viewer_action_keys(const viewer_action *action, char text[VIEWER_KEYS_BYTES]) {
-    static const struct {
-        int key;
-        const char *name;
-    } named[] = {{VIEWER_KEY_ENTER, "Enter"}, {VIEWER_KEY_ESCAPE, "Escape"}, {VIEWER_KEY_DELETE, "Delete"},
-                 {'\t', "Tab"},               {VIEWER_KEY_LEFT, "Left"},     {VIEWER_KEY_RIGHT, "Right"},
-                 {VIEWER_KEY_UP, "Up"},       {VIEWER_KEY_DOWN, "Down"}};
-    const int key = action->key;
-    const char *ctrl = action->modifiers & VIEWER_CTRL ? "Ctrl " : "";
+const viewer_action *viewer_action_at(uint32_t index) { return index < ACTION_COUNT ? &actions[index] : NULL; }
+
+static const struct {
+    int key;
+    const char *name;
+} named[] = {{VIEWER_KEY_ENTER, "Enter"}, {VIEWER_KEY_ESCAPE, "Escape"}, {VIEWER_KEY_DELETE, "Delete"},
+             {'\t', "Tab"},               {VIEWER_KEY_LEFT, "Left"},     {VIEWER_KEY_RIGHT, "Right"},
+             {VIEWER_KEY_UP, "Up"},       {VIEWER_KEY_DOWN, "Down"},     {' ', "Space"}};
+
+enum { NAMED_COUNT = sizeof named / sizeof named[0] };
+
+/// Writes a key's name, with `between` behind Ctrl and Alt.
+static void write_key(viewer_key key, char between, char text[VIEWER_KEYS_BYTES]) {
+    char name[8] = "";
     text[0] = 0;
-    for (size_t i = 0; i < sizeof named / sizeof named[0]; i++)
-        if (named[i].key == key) snprintf(text, VIEWER_KEYS_BYTES, "%s%s", ctrl, named[i].name);
-    if (text[0] || !key) return;
-    if (key >= VIEWER_KEY_F1 && key <= VIEWER_KEY_F12)
-        snprintf(text, VIEWER_KEYS_BYTES, "%sF%d", ctrl, key - F);
-    else
-        snprintf(text, VIEWER_KEYS_BYTES, "%s%c", ctrl, key >= 'a' && key <= 'z' ? key - 'a' + 'A' : key);
+    if (!key.key) return;
+    for (int i = 0; i < NAMED_COUNT; i++)
+        if (named[i].key == key.key) snprintf(name, sizeof name, "%s", named[i].name);
+    if (!name[0] && key.key >= VIEWER_KEY_F1 && key.key <= VIEWER_KEY_F12)
+        snprintf(name, sizeof name, "F%d", key.key - F);
+    else if (!name[0])
+        snprintf(name, sizeof name, "%c", key.key >= 'a' && key.key <= 'z' ? key.key - 'a' + 'A' : key.key);
+    snprintf(text, VIEWER_KEYS_BYTES, "%s%.*s%s%.*s%s", key.modifiers & CTRL ? "Ctrl" : "", (key.modifiers & CTRL) != 0, &between,
+             key.modifiers & VIEWER_ALT ? "Alt" : "", (key.modifiers & VIEWER_ALT) != 0, &between, name);
 }
 
-bool viewer_help_at(uint32_t index, viewer_help *row) {
+/// Reads what write_key() writes, with + between.
+static bool read_key(const char *text, viewer_key *key) {
+    *key = (viewer_key){.chosen = true};
+    if (strcmp(text, "none") == 0) return true;
+    if (strncmp(text, "Ctrl+", 5) == 0) key->modifiers |= CTRL, text += 5;
+    if (strncmp(text, "Alt+", 4) == 0) key->modifiers |= VIEWER_ALT, text += 4;
+    char end;
+    int number;
+    for (int i = 0; i < NAMED_COUNT; i++)
+        if (strcmp(named[i].name, text) == 0) key->key = named[i].key;
+    if (!key->key && sscanf(text, "F%d%c", &number, &end) == 1 && number >= 1 && number <= 12) key->key = F + number;
+    if (!key->key && text[0] > ' ' && text[0] < 127 && !text[1])
+        key->key = text[0] >= 'A' && text[0] <= 'Z' ? text[0] - 'A' + 'a' : text[0];
+    return key->key != 0;
+}
+
+viewer_key actions_key(const viewer *v, const viewer_action *action) {
+    if (v && action >= actions && action < actions + ACTION_COUNT && v->keys[action - actions].chosen) return v->keys[action - actions];
+    return (viewer_key){.key = action->key, .modifiers = action->modifiers};
+}
+
+void actions_set_key(viewer *v, const viewer_action *action, int key, uint32_t modifiers) {
+    for (size_t i = 0; i < ACTION_COUNT && key; i++) {
+        const viewer_key other = actions_key(v, &actions[i]);
+        if (other.key == key && other.modifiers == modifiers) v->keys[i] = (viewer_key){.chosen = true};
+    }
+    v->keys[action - actions] = (viewer_key){true, key, modifiers};
+    if (key == action->key && modifiers == action->modifiers) v->keys[action - actions].chosen = false;
+    v->learns = NULL;
+    char keys[VIEWER_KEYS_BYTES];
+    viewer_action_keys(v, action, keys);
+    viewer_note(v, "%s: %s", action->label, keys[0] ? keys : "no key");
+}
+
+/// The row of a command; NULL: there is none.
+static const viewer_action *find_row(const char *command) {
+    for (size_t i = 0; i < ACTION_COUNT; i++)
+        if (actions[i].menu && strcmp(actions[i].command, command) == 0) return &actions[i];
+    return NULL;
+}
+
+bool actions_keys(viewer *v, const char *rest) {
+    char word[VIEWER_KEYS_BYTES] = "";
+    int behind = 0;
+    viewer_key key;
+    if (strcmp(rest, "default") == 0) {
+        memset(v->keys, 0, sizeof v->keys);
+        return true;
+    }
+    const bool told = sscanf(rest, "%15s %n", word, &behind) == 1 && rest[behind];
+    const viewer_action *action = told ? find_row(rest + behind) : NULL;
+    if (action && strcmp(word, "learn") == 0) {
+        v->learns = action;
+        return true;
+    }
+    if (action && read_key(word, &key)) {
+        actions_set_key(v, action, key.key, key.modifiers);
+        return true;
+    }
+    viewer_tell(v, "keys: '%s' is neither default nor KEY COMMAND, a key such as Ctrl+K, F5 or Enter, none, or learn, and a row of the menus", rest);
+    return false;
+}
+
+void viewer_action_keys(const viewer *v, const viewer_action *action, char text[VIEWER_KEYS_BYTES]) {
+    write_key(actions_key(v, action), ' ', text);
+}
+
+bool viewer_action_choice(const viewer *v, const viewer_action *action, char text[VIEWER_TEXT_BYTES]) {
+    const viewer_key key = actions_key(v, action);
+    char keys[VIEWER_KEYS_BYTES];
+    write_key(key, '+', keys);
+    if (key.chosen && action->menu) snprintf(text, VIEWER_TEXT_BYTES, "keys %s %s", keys[0] ? keys : "none", action->command);
+    return key.chosen && action->menu;
+}
+
+bool viewer_help_at(const viewer *v, uint32_t index, viewer_help *row) {
     const uint32_t gesture_count = sizeof gestures / sizeof gestures[0];
     if (index < gesture_count) {
         *row = (viewer_help){.what = gestures[index].help};
@@ -132,10 +217,10 @@ bool viewer_help_at(uint32_t index, viewer_help *row) {
     index -= gesture_count;
     const viewer_action *action;
     for (uint32_t i = 0; (action = viewer_action_at(i)); i++) {
-        if (!action->menu || !action->key || index-- > 0) continue;
-        *row = (viewer_help){.menu = action->menu, .what = action->help};
+        if (!action->menu || !(action->key || actions_key(v, action).key) || index-- > 0) continue;
+        *row = (viewer_help){.action = action, .what = action->help};
         char keys[VIEWER_KEYS_BYTES];
-        viewer_action_keys(action, keys);
+        viewer_action_keys(v, action, keys);
         snprintf(row->keys, sizeof row->keys, "%s", keys);
         return true;
     }

@@ -436,6 +436,7 @@ static const struct {
     {"scene", do_scene, NULL, NULL},
     {"cancel", do_cancel, NULL, NULL},
     {"clear", do_clear, NULL, NULL},
+    {"keys", actions_keys, NULL, NULL},
     {"help", do_help, is_help, NULL},
     {"panels", do_panels, is_panels, NULL},
     {"profile", profile_do, is_profile, NULL},

@@ -21,8 +21,9 @@ static void add_plane(ewa_render_options *render, double a, double b, double c, 
 void cutaway_apply(const viewer *v, ewa_render_options *render) {
     const viewer_cutaway *s = &v->cutaway;
     for (int c = 0; c < 3 && s->box; c++) {
-        add_plane(render, c == 0, c == 1, c == 2, -s->low_world[c]);
-        add_plane(render, -(c == 0), -(c == 1), -(c == 2), s->high_world[c]);
+        const double *axis = s->axes_world + 3 * c;
+        add_plane(render, axis[0], axis[1], axis[2], -s->low_world[c]);
+        add_plane(render, 0 - axis[0], 0 - axis[1], 0 - axis[2], s->high_world[c]);
     }
     const double *n = s->slab_direction;
     if (s->slab) {
@@ -31,15 +32,106 @@ void cutaway_apply(const viewer *v, ewa_render_options *render) {
     }
 }
 
-/// The box around all that is visible, a little larger.
-static bool reset_box(viewer *v) {
+static const double axes_of_world[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+
+/// The box along axes around all that is visible, a little larger.
+static bool reset_box(viewer *v, const double axes_world[9]) {
     viewer_cutaway *s = &v->cutaway;
-    if (!items_bounds(v, s->low_world, s->high_world)) return false;
+    double low[3], high[3];
+    if (!items_bounds(v, low, high)) return false;
+    memcpy(s->axes_world, axes_world, sizeof s->axes_world);
     for (int c = 0; c < 3; c++) {
-        s->low_world[c] -= 1e-3 * v->reach_world;
-        s->high_world[c] += 1e-3 * v->reach_world;
+        const double *axis = axes_world + 3 * c;
+        s->low_world[c] = -1e-3 * v->reach_world, s->high_world[c] = 1e-3 * v->reach_world;
+        for (int r = 0; r < 3; r++) { // the corners that are farthest along the axis
+            s->low_world[c] += axis[r] * (axis[r] > 0 ? low[r] : high[r]);
+            s->high_world[c] += axis[r] * (axis[r] > 0 ? high[r] : low[r]);
+        }
     }
     return true;
+}
+
+/// The box along the axes of the picture.
+static bool reset_box_to_view(viewer *v) {
+    double axes[9];
+    for (int c = 0; c < 3; c++) {
+        const double *m = v->camera.world_to_camera + 4 * c, length = sqrt(m[0] * m[0] + m[1] * m[1] + m[2] * m[2]);
+        for (int r = 0; r < 3; r++) axes[3 * c + r] = m[r] / length;
+    }
+    return reset_box(v, axes);
+}
+
+/// Puts a place that is told along the box's axes into the world.
+static void place_of(const viewer_cutaway *s, const double at[3], double place_world[3]) {
+    for (int r = 0; r < 3; r++)
+        place_world[r] = s->axes_world[r] * at[0] + s->axes_world[3 + r] * at[1] + s->axes_world[6 + r] * at[2];
+}
+
+void cutaway_turn(viewer *v, const double axis_world[3], double angle_deg) {
+    viewer_cutaway *s = &v->cutaway;
+    static const double origin[3] = {0, 0, 0};
+    double middle[3], middle_world[3], turn[16];
+    for (int c = 0; c < 3; c++) middle[c] = 0.5 * (s->low_world[c] + s->high_world[c]);
+    place_of(s, middle, middle_world);
+    transform_make_turn(axis_world, angle_deg, origin, turn);
+    for (int c = 0; c < 3; c++) {
+        double *axis = s->axes_world + 3 * c, turned[3], length = 0, at = 0;
+        for (int r = 0; r < 3; r++) turned[r] = turn[4 * r] * axis[0] + turn[4 * r + 1] * axis[1] + turn[4 * r + 2] * axis[2];
+        for (int r = 0; r < 3; r++) length += turned[r] * turned[r]; // which many turns would change
+        for (int r = 0; r < 3; r++) axis[r] = turned[r] / sqrt(length), at += axis[r] * middle_world[r];
+        const double half = 0.5 * (s->high_world[c] - s->low_world[c]);
+        s->low_world[c] = at - half, s->high_world[c] = at + half;
+    }
+    viewer_change(v);
+}
+
+/// "DEGREES", about what is up, or "DEGREES x,y,z".
+static bool turn_box(viewer *v, const char *text) {
+    double angle_deg, axis[3];
+    char end;
+    memcpy(axis, v->up_world, sizeof axis);
+    const bool up = sscanf(text, "%lf%c", &angle_deg, &end) == 1;
+    const bool fine = up || sscanf(text, "%lf %lf,%lf,%lf%c", &angle_deg, &axis[0], &axis[1], &axis[2], &end) == 4;
+    if (!v->cutaway.box || !fine || !isfinite(angle_deg) || !isfinite(axis[0] + axis[1] + axis[2]) ||
+        (axis[0] == 0 && axis[1] == 0 && axis[2] == 0)) {
+        viewer_tell(v, "box: %s", v->cutaway.box ? "turn is followed by degrees, or degrees and an axis x,y,z" : "there is none to be turned");
+        return false;
+    }
+    cutaway_turn(v, axis, angle_deg);
+    return true;
+}
+
+/// Whether two planes bound what lies between them.
+static bool are_opposite(const double a[4], const double b[4]) {
+    return a[0] == -b[0] && a[1] == -b[1] && a[2] == -b[2] && -a[3] <= b[3];
+}
+
+static double dot(const double a[3], const double b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+void cutaway_take(viewer *v) {
+    enum { BOX_PLANES = 6, SLAB_PLANES = 2 };
+    static const double TOLERANCE = 1e-9;
+    viewer_cutaway *s = &v->cutaway;
+    double(*planes)[4] = v->render.section_planes;
+    uint32_t *count = &v->render.section_count, taken = 0;
+    bool box = *count >= BOX_PLANES && !s->box;
+    for (int c = 0; c < 3 && box; c++) {
+        box = are_opposite(planes[2 * c], planes[2 * c + 1]);
+        for (int k = 0; k <= c; k++) box = box && fabs(dot(planes[2 * c], planes[2 * k]) - (c == k)) < TOLERANCE;
+    }
+    for (int c = 0; c < 3 && box; c++) {
+        memcpy(s->axes_world + 3 * c, planes[2 * c], 3 * sizeof(double));
+        s->low_world[c] = -planes[2 * c][3], s->high_world[c] = planes[2 * c + 1][3];
+    }
+    if (box) s->box = true, taken = BOX_PLANES;
+    const double(*slab)[4] = (const double(*)[4])planes + taken;
+    if (*count == taken + SLAB_PLANES && !s->slab && are_opposite(slab[0], slab[1]) && fabs(dot(slab[0], slab[0]) - 1) < TOLERANCE) {
+        memcpy(s->slab_direction, slab[0], sizeof s->slab_direction);
+        s->slab_near = -slab[0][3], s->slab_far = slab[1][3];
+        s->slab = true, taken += SLAB_PLANES;
+    }
+    *count -= taken;
+    memmove(planes, planes + taken, *count * sizeof *planes);
 }
 
 /// The slab about the pivot, across the view.
@@ -64,13 +156,18 @@ bool cutaway_set(viewer *v, const char *what, const char *rest) {
     double n[6];
     char end;
     if (strcmp(rest, "on") == 0) {
-        *on = box ? reset_box(v) : reset_slab(v);
+        *on = box ? reset_box(v, axes_of_world) : reset_slab(v);
+    } else if (box && strcmp(rest, "view") == 0) {
+        *on = reset_box_to_view(v);
+    } else if (box && strncmp(rest, "turn ", 5) == 0) {
+        return turn_box(v, rest + 5);
     } else if (strcmp(rest, "off") == 0) {
         *on = false;
     } else if (box &&
                sscanf(rest, "%lf,%lf,%lf,%lf,%lf,%lf%c", &n[0], &n[1], &n[2], &n[3], &n[4], &n[5], &end) ==
                    6 &&
                n[0] <= n[3] && n[1] <= n[4] && n[2] <= n[5]) {
+        memcpy(s->axes_world, axes_of_world, sizeof s->axes_world);
         memcpy(s->low_world, n, sizeof s->low_world);
         memcpy(s->high_world, n + 3, sizeof s->high_world);
         *on = true;
@@ -85,7 +182,7 @@ bool cutaway_set(viewer *v, const char *what, const char *rest) {
         *on = true;
     } else {
         viewer_tell(v, "%s: '%s' is neither on, nor off, nor %s", what, rest,
-                    box ? "x0,y0,z0,x1,y1,z1 from low to high" : "two distances from the eye, near and far");
+                    box ? "view, nor turn DEGREES [x,y,z], nor x0,y0,z0,x1,y1,z1 from low to high" : "two distances from the eye, near and far");
         return false;
     }
     viewer_change(v);
@@ -104,9 +201,11 @@ void cutaway_move_slab(viewer *v, double notches, bool thickness) {
 
 void cutaway_handle(const viewer *v, int handle, double place_world[3]) {
     const viewer_cutaway *s = &v->cutaway;
-    for (int c = 0; c < 3; c++) place_world[c] = 0.5 * (s->low_world[c] + s->high_world[c]);
+    double at[3];
+    for (int c = 0; c < 3; c++) at[c] = 0.5 * (s->low_world[c] + s->high_world[c]);
     const int axis = handle % 3;
-    place_world[axis] = handle < 3 ? s->low_world[axis] : s->high_world[axis];
+    at[axis] = handle < 3 ? s->low_world[axis] : s->high_world[axis];
+    place_of(s, at, place_world);
 }
 
 int cutaway_find_handle(const viewer *v, double x, double y) {
@@ -131,7 +230,7 @@ void cutaway_drag(viewer *v, double x_px, double y_px) {
     cutaway_handle(v, v->handle, place_world);
     const double step = 1e-3 * v->reach_world;
     if (!navigate_project(&v->camera, place_world, from_px, &depth)) return;
-    place_world[axis] += step;
+    for (int r = 0; r < 3; r++) place_world[r] += step * s->axes_world[3 * axis + r];
     if (!navigate_project(&v->camera, place_world, to_px, &depth)) return;
     const double dx = to_px[0] - from_px[0], dy = to_px[1] - from_px[1], length2 = dx * dx + dy * dy;
     if (!(length2 > 1e-12)) return;

@@ -6,6 +6,7 @@
 #include "inner.h"
 #include "navigate.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -16,6 +17,8 @@ enum { FRAMES_PER_KEY = 60, MAX_FRAMES = 1000000, MAX_SIDE_PX = 65536 };
 
 /// Luminance of a middle grey.
 static const float MIDDLE_LUMINANCE = 0.18f;
+
+static const char TOO_FEW[] = "a film goes through two keyframes at least: keyframe add";
 
 static bool take_number(viewer *v, const char *text, uint32_t *index) {
     char *end;
@@ -28,11 +31,12 @@ static bool take_number(viewer *v, const char *text, uint32_t *index) {
 
 static bool add_key(viewer *v) {
     viewer_film *film = &v->film;
-    if (film->key_count == VIEWER_KEYFRAMES) {
-        viewer_tell(v, "keyframe: there are %d already", VIEWER_KEYFRAMES);
+    if (film->key_count == EWA_MAX_KEYFRAMES) {
+        viewer_tell(v, "keyframe: there are %d already", EWA_MAX_KEYFRAMES);
         return false;
     }
     film->keys[film->key_count++] = v->camera;
+    film->at = film->key_count - 1;
     viewer_note(v, "keyframe %u", film->key_count);
     return true;
 }
@@ -60,8 +64,64 @@ static bool save_keys(viewer *v, const char *path) {
     return status == EWA_OK;
 }
 
+/// Makes the way through the keyframes in a size of the picture.
+static ewa_status make_way(viewer *v, uint32_t width_px, uint32_t height_px, ewa_camera_path **way) {
+    ewa_camera keys[EWA_MAX_KEYFRAMES];
+    for (uint32_t i = 0; i < v->film.key_count; i++) {
+        keys[i] = v->film.keys[i];
+        navigate_resize(&keys[i], width_px, height_px);
+    }
+    v->probe.message[0] = 0;
+    return ewa_camera_path_create(v->probe.context, keys, v->film.key_count, false, way);
+}
+
+bool film_look(viewer *v, double at) {
+    viewer_film *film = &v->film;
+    const double last = film->key_count ? (double)film->key_count - 1 : 0;
+    ewa_camera_path *way = NULL;
+    film->at = at < last ? at : last;
+    if (make_way(v, v->camera.width_px, v->camera.height_px, &way) == EWA_OK) (void)ewa_camera_path_at(way, film->at, &v->camera);
+    ewa_camera_path_destroy(&way);
+    viewer_change(v);
+    return film->at < last;
+}
+
+/// Looks from a keyframe, on the way there, or from a place between two of them.
+static bool go_to(viewer *v, const char *text) {
+    char end;
+    double at;
+    if (sscanf(text, "%lf%c", &at, &end) != 1 || !(at >= 0 && v->film.key_count && at <= v->film.key_count - 1)) {
+        viewer_tell(v, "keyframe: '%s' is neither a keyframe nor between two", text);
+        return false;
+    }
+    v->placed = true;
+    v->animated = false;
+    if (at != floor(at)) {
+        (void)film_look(v, at);
+        return true;
+    }
+    ewa_camera to = v->film.keys[(uint32_t)at];
+    navigate_resize(&to, v->camera.width_px, v->camera.height_px);
+    v->film.at = at;
+    viewer_go(v, &to);
+    return true;
+}
+
+/// Has the camera travel through the keyframes; again: it stays where it is.
+static bool preview(viewer *v) {
+    const bool stops = v->animated && v->film.previews;
+    if (v->film.key_count < 2) {
+        viewer_tell(v, "film: %s", TOO_FEW);
+        return false;
+    }
+    v->placed = true;
+    v->film.previews = v->animated = !stops;
+    v->animation_s = v->now_s;
+    viewer_change(v);
+    return true;
+}
+
 bool film_keyframe(viewer *v, const char *rest) {
-    uint32_t index;
     if (v->film.active) {
         viewer_tell(v, "keyframe: a film is being made of them");
         return false;
@@ -69,14 +129,7 @@ bool film_keyframe(viewer *v, const char *rest) {
     if (strcmp(rest, "add") == 0) return add_key(v);
     if (strncmp(rest, "delete ", 7) == 0) return delete_keys(v, rest + 7);
     if (strncmp(rest, "save ", 5) == 0 && v->film.key_count) return save_keys(v, rest + 5);
-    if (strncmp(rest, "go ", 3) == 0) {
-        if (!take_number(v, rest + 3, &index)) return false;
-        ewa_camera to = v->film.keys[index];
-        navigate_resize(&to, v->camera.width_px, v->camera.height_px);
-        v->placed = true;
-        viewer_go(v, &to);
-        return true;
-    }
+    if (strncmp(rest, "go ", 3) == 0) return go_to(v, rest + 3);
     viewer_tell(v, "keyframe: '%s' is none of add, go N, delete N|all, and, where there are some, save FILE.json", rest);
     return false;
 }
@@ -131,17 +184,10 @@ static bool choose_name(char path[VIEWER_PATH_BYTES]) {
 
 static bool begin(viewer *v) {
     viewer_film *film = &v->film;
-    ewa_camera keys[VIEWER_KEYFRAMES];
-    for (uint32_t i = 0; i < film->key_count; i++) {
-        keys[i] = film->keys[i];
-        navigate_resize(&keys[i], film->width_px, film->height_px);
-    }
     film->frame = 0;
     film->ink = steady_ink(v);
     film->rgba8 = malloc(4 * (size_t)film->width_px * film->height_px);
-    v->probe.message[0] = 0;
-    ewa_status status = film->rgba8 ? EWA_OK : EWA_ERROR_MEMORY;
-    if (status == EWA_OK) status = ewa_camera_path_create(v->probe.context, keys, film->key_count, false, &film->way);
+    ewa_status status = film->rgba8 ? make_way(v, film->width_px, film->height_px, &film->way) : EWA_ERROR_MEMORY;
     const viewer_services *services = &v->services;
     film->active = status == EWA_OK && services->film_begin(services->user, film->path, film->width_px, film->height_px,
                                                             v->render.background[3] == 1);
@@ -160,9 +206,10 @@ bool film_command(viewer *v, const char *rest) {
         film_free(v);
         return true;
     }
+    if (strcmp(rest, "preview") == 0) return preview(v);
     if (film->active || !v->services.film_begin || film->key_count < 2) {
         viewer_tell(v, "film: %s", film->active             ? "one is being made"
-                                   : film->key_count < 2    ? "a film goes through two keyframes at least: keyframe add"
+                                   : film->key_count < 2    ? TOO_FEW
                                                             : "films are not made here");
         return false;
     }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Undo and redo: what is open, how it is shown, what is hidden, cut away, picked and measured, as it was before a command or
+// Undo and redo: what is open, how it is shown, what is hidden, cut away, picked, measured and kept as keyframes, as it was before a command or
 // a gesture that changed it. Cameras are left out: people go back by views. What was closed is loaded again, so that closing
 // gives memory back.
 #include "inner.h"
@@ -36,6 +36,8 @@ struct viewer_snapshot {
     double profile_width;
     uint32_t profile_corner_count;
     double profile_corners[3 * EWA_PROFILE_CORNERS];
+    uint32_t key_count;
+    ewa_camera keys[EWA_MAX_KEYFRAMES];
     size_t measure_count, item_count;
     ewa_measure *measures;
     item_state *items;
@@ -89,6 +91,8 @@ static viewer_snapshot *take(const viewer *v) {
     s->profile_width = v->profile.width_world;
     s->profile_corner_count = v->profile.corner_count;
     memcpy(s->profile_corners, v->profile.corners_world, sizeof s->profile_corners);
+    s->key_count = v->film.key_count;
+    memcpy(s->keys, v->film.keys, s->key_count * sizeof s->keys[0]);
     s->measure_count = v->measure_count;
     s->measures = calloc(v->measure_count + 1, sizeof *s->measures);
     if (s->measures) memcpy(s->measures, v->measure_list, v->measure_count * sizeof *s->measures);
@@ -115,6 +119,7 @@ static bool agree(const viewer_snapshot *a, const viewer_snapshot *b) {
            memcmp(a->picks, b->picks, sizeof a->picks) == 0 && a->profile == b->profile &&
            a->profile_width == b->profile_width && a->profile_corner_count == b->profile_corner_count &&
            memcmp(a->profile_corners, b->profile_corners, sizeof a->profile_corners) == 0 &&
+           a->key_count == b->key_count && memcmp(a->keys, b->keys, a->key_count * sizeof a->keys[0]) == 0 &&
            a->measure_count == b->measure_count &&
            memcmp(a->measures, b->measures, a->measure_count * sizeof *a->measures) == 0 && items_agree(a, b);
 }
@@ -207,6 +212,8 @@ static void restore(viewer *v, const viewer_snapshot *s) {
     v->cutaway = s->cutaway;
     memcpy(v->picks, s->picks, sizeof v->picks);
     memcpy(v->state.picked, s->picked, sizeof v->state.picked);
+    v->film.key_count = s->key_count;
+    memcpy(v->film.keys, s->keys, s->key_count * sizeof s->keys[0]);
     v->measure_count = s->measure_count;
     memcpy(v->measure_list, s->measures, s->measure_count * sizeof *s->measures);
     items_refresh(v);

@@ -41,7 +41,7 @@ typedef struct viewer_settings {
 extern const ewa_option_table viewer_settings_table;
 
 /// What the left button does while it is held.
-typedef enum drag_kind { DRAG_NONE, DRAG_ORBIT, DRAG_PAN, DRAG_ZOOM, DRAG_LOOK, DRAG_HANDLE } drag_kind;
+typedef enum drag_kind { DRAG_NONE, DRAG_ORBIT, DRAG_PAN, DRAG_ZOOM, DRAG_LOOK, DRAG_HANDLE, DRAG_TURN_BOX } drag_kind;
 
 /// A point that was picked.
 typedef struct viewer_pick {
@@ -54,7 +54,8 @@ typedef struct viewer_pick {
 /// What is cut away.
 typedef struct viewer_cutaway {
     bool box, slab;
-    double low_world[3], high_world[3];
+    double axes_world[9]; ///< of the box: unit axes, one after another
+    double low_world[3], high_world[3]; ///< of the box, along its axes
     double slab_direction[3];   ///< unit, away from the eye when it was set
     double slab_near, slab_far; ///< along it, world units from the world's origin
 } viewer_cutaway;
@@ -101,12 +102,12 @@ typedef struct viewer_transform {
     double by[16]; ///< what has been done since
 } viewer_transform;
 
-enum { VIEWER_KEYFRAMES = 64 };
-
 /// Keyframes, and the film that is being made of them.
 typedef struct viewer_film {
     uint32_t key_count;
-    ewa_camera keys[VIEWER_KEYFRAMES];
+    ewa_camera keys[EWA_MAX_KEYFRAMES];
+    double at;     ///< of the look along the way: keyframe 1 is 1
+    bool previews; ///< the camera that travels goes the way of the film
     bool active;
     char path[VIEWER_PATH_BYTES];
     uint32_t frame, count, width_px, height_px;
@@ -126,6 +127,15 @@ typedef struct viewer_history {
     size_t undo_count, redo_count;
     viewer_snapshot *undo[VIEWER_HISTORY], *redo[VIEWER_HISTORY];
 } viewer_history;
+
+enum { VIEWER_MAX_ACTIONS = 96 };
+
+/// A key that a person has chosen for an action.
+typedef struct viewer_key {
+    bool chosen;
+    int key; ///< 0: none
+    uint32_t modifiers;
+} viewer_key;
 
 struct viewer {
     viewer_services services;
@@ -180,6 +190,8 @@ struct viewer {
     int handle; ///< of the box: axis and 3 for its high side
     double wheel_s, wheel_world[3];
     bool wheel_held;   ///< `wheel_world` is what the wheel turns about
+    viewer_key keys[VIEWER_MAX_ACTIONS]; ///< of the actions, in their order
+    const viewer_action *learns;         ///< the next key becomes its key; NULL: none is waited for
     uint32_t fly_keys; ///< bits of the keys that are held, in the order of keys.c
     double fly_speed;  ///< sizes of the scene a second
 
@@ -269,6 +281,10 @@ void pick_write_number(char text[40], double number, bool is_float);
 void cutaway_apply(const viewer *v, ewa_render_options *render);
 bool cutaway_set(viewer *v, const char *what, const char *rest);
 void cutaway_move_slab(viewer *v, double notches, bool thickness);
+/// Makes planes that a scene file says, and that are those of a box or a slab, box and slab again.
+void cutaway_take(viewer *v);
+/// Turns the box about an axis through its middle.
+void cutaway_turn(viewer *v, const double axis_world[3], double angle_deg);
 /// Middle of a side of the box.
 void cutaway_handle(const viewer *v, int handle, double place_world[3]);
 /// The side under a place of the window; -1: none.
@@ -321,6 +337,8 @@ bool transform_move(viewer *v, const char *rest);
 bool transform_turn(viewer *v, const char *rest);
 bool transform_scale(viewer *v, const char *rest);
 bool transform_command(viewer *v, const char *rest);
+/// The map that turns about an axis of any length through a place.
+void transform_make_turn(const double axis_world[3], double angle_deg, const double place_world[3], double map[16]);
 bool transform_holds(const viewer *v, const char *word);
 /// The item that the hand holds, and its box before; false: it holds none.
 bool transform_find(const viewer *v, size_t *index, double low_world[3], double high_world[3]);
@@ -334,11 +352,21 @@ bool film_keyframe(viewer *v, const char *rest);
 bool film_command(viewer *v, const char *rest);
 /// Draws the next frame of the film that is being made.
 void film_step(viewer *v);
+/// Looks from a place on the way, of which keyframe 1 is 1. Returns whether the way goes on.
+bool film_look(viewer *v, double at);
 /// Gives the film up.
 void film_free(viewer *v);
 
 // settings.c
 void settings_init(viewer *v);
+
+// actions.c
+/// The key of an action, as a person has chosen it.
+viewer_key actions_key(const viewer *v, const viewer_action *action);
+/// Gives an action a key, which others lose.
+void actions_set_key(viewer *v, const viewer_action *action, int key, uint32_t modifiers);
+/// The command "keys".
+bool actions_keys(viewer *v, const char *rest);
 
 // commands.c
 /// Takes the number of an item off what a command says.

@@ -102,10 +102,14 @@ static void take_settings(viewer *v, const ewa_scene_file *file) {
     ewa_scene_file_apply(file, &v->base);
     v->render = v->base.render;
     v->lod = v->base.lod;
+    cutaway_take(v);
     while (v->measure_count < EWA_MAX_MEASURES) {
         if (!ewa_scene_file_measure(file, index++, &v->measure_list[v->measure_count])) break;
         v->measure_count++;
     }
+    index = 0;
+    while (v->film.key_count < EWA_MAX_KEYFRAMES && ewa_scene_file_keyframe(file, index++, &v->film.keys[v->film.key_count]))
+        v->film.key_count++;
     viewer_mark(v);
     if (!v->has_scene_camera) v->has_scene_camera = ewa_scene_file_camera(file, &v->scene_camera);
 }

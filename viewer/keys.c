@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Keys: each does what a row of actions.c says, or flies while it is held.
+// Keys: each does what a row of actions.c says, or what a person has chosen for it, or flies while it is held.
 #include "inner.h"
 #include "navigate.h"
 
@@ -17,14 +17,23 @@ void keys_handle(viewer *v, const viewer_event *event) {
         v->fly_keys &= ~bit;
         return;
     }
-    const bool plain = !(event->modifiers & (VIEWER_CTRL | VIEWER_ALT));
+    const uint32_t modifiers = event->modifiers & (VIEWER_CTRL | VIEWER_ALT);
+    if (v->learns && event->key == VIEWER_KEY_ESCAPE) {
+        v->learns = NULL;
+        return;
+    }
+    if (v->learns) {
+        actions_set_key(v, v->learns, event->key, modifiers);
+        return;
+    }
+    const bool plain = !modifiers;
     if (bit && plain && v->settings.navigation == NAVIGATION_FLY) {
         v->fly_keys |= bit;
         return;
     }
     const viewer_action *action;
     for (uint32_t i = 0; (action = viewer_action_at(i)); i++)
-        if (action->key == event->key && action->modifiers == (event->modifiers & (VIEWER_CTRL | VIEWER_ALT))) {
+        if (actions_key(v, action).key == event->key && actions_key(v, action).modifiers == modifiers) {
             viewer_act(v, action);
             return;
         }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Measurements that stay: distances, heights, angles and areas with names, by clicks or by numbers.
+// Measurements that stay: distances, heights, angles, areas and notes with names, by clicks or by numbers.
 #include "inner.h"
 
 #include <stdio.h>
@@ -9,7 +9,7 @@
 #include <string.h>
 
 /// Places after which a measurement is whole by itself; 0: a double click ends it.
-static const uint32_t WHOLE[] = {[EWA_MEASURE_DISTANCE] = 0, [EWA_MEASURE_HEIGHT] = 2, [EWA_MEASURE_ANGLE] = 3, [EWA_MEASURE_AREA] = 0};
+static const uint32_t WHOLE[] = {[EWA_MEASURE_DISTANCE] = 0, [EWA_MEASURE_HEIGHT] = 2, [EWA_MEASURE_ANGLE] = 3, [EWA_MEASURE_AREA] = 0, [EWA_MEASURE_NOTE] = 1};
 
 void measures_write(const viewer *v, char *text, size_t text_bytes, double number, int digits, int power) {
     snprintf(text, text_bytes, "%.*g%s%s%s", digits, number, v->unit ? " " : "", v->unit ? v->unit : "",
@@ -20,6 +20,8 @@ void measures_value(const viewer *v, const ewa_measure *measure, char text[VIEWE
     ewa_measurement m;
     char value[64] = "";
     if (ewa_places_measure(measure->kind, measure->places_world, measure->count, v->up_world, &m) != EWA_OK)
+        value[0] = 0;
+    else if (measure->kind == EWA_MEASURE_NOTE)
         value[0] = 0;
     else if (measure->kind == EWA_MEASURE_ANGLE)
         snprintf(value, sizeof value, "%.6g\xc2\xb0", m.angle_deg);
@@ -44,7 +46,9 @@ static bool tell(viewer *v, size_t index) {
     measures_write(v, rise, sizeof rise, m.rise_world, 9, 1);
     measures_write(v, area, sizeof area, m.area, 9, 2);
     measures_write(v, horizontal_area, sizeof horizontal_area, m.horizontal_area, 9, 2);
-    if (measure->kind == EWA_MEASURE_ANGLE)
+    if (measure->kind == EWA_MEASURE_NOTE)
+        snprintf(what, sizeof what, "at %.9g %.9g %.9g", measure->places_world[0], measure->places_world[1], measure->places_world[2]);
+    else if (measure->kind == EWA_MEASURE_ANGLE)
         snprintf(what, sizeof what, "%.9g deg", m.angle_deg);
     else if (measure->kind == EWA_MEASURE_AREA)
         snprintf(what, sizeof what, "%s horizontal %s around %s", area, horizontal_area, length);
@@ -68,7 +72,7 @@ static bool add(viewer *v, const ewa_measure *measure, const char *name) {
     if (*name)
         snprintf(to->name, sizeof to->name, "%s", name);
     else
-        snprintf(to->name, sizeof to->name, "%c%zu", "dhaA"[measure->kind], v->measure_count + 1);
+        snprintf(to->name, sizeof to->name, "%c%zu", "dhaAn"[measure->kind], v->measure_count + 1);
     if (!tell(v, v->measure_count)) return false;
     v->measure_count++;
     viewer_mark(v);
@@ -114,9 +118,12 @@ static bool save(viewer *v, const char *path) {
             ewa_measurement m;
             (void)ewa_places_measure(measure->kind, measure->places_world, measure->count, v->up_world, &m);
             put_name(file, measure->name);
-            fprintf(file, ",%s,%.9g,%.9g,", ewa_measure_kind_name(measure->kind), m.length_world, m.horizontal_world);
+            fprintf(file, ",%s,", ewa_measure_kind_name(measure->kind));
             // A kind leaves the cells of others empty.
-            if (measure->kind == EWA_MEASURE_AREA)
+            if (measure->kind != EWA_MEASURE_NOTE) fprintf(file, "%.9g,%.9g,", m.length_world, m.horizontal_world);
+            if (measure->kind == EWA_MEASURE_NOTE)
+                fprintf(file, ",,,,,,,%s,", unit);
+            else if (measure->kind == EWA_MEASURE_AREA)
                 fprintf(file, ",,,%.9g,%.9g,%s,", m.area, m.horizontal_area, unit);
             else if (measure->kind == EWA_MEASURE_ANGLE)
                 fprintf(file, ",,%.9g,,,%s,", m.angle_deg, unit);
@@ -173,7 +180,8 @@ static bool begin(viewer *v, ewa_measure_kind kind, const char *rest) {
     if (!*rest) {
         v->measures_kind = true;
         v->measuring = measure;
-        viewer_note(v, "measure: click %s", WHOLE[kind] == 2   ? "two places"
+        viewer_note(v, "measure: click %s", WHOLE[kind] == 1   ? "a place; the list of measures takes its text"
+                                            : WHOLE[kind] == 2 ? "two places"
                                             : WHOLE[kind] == 3 ? "three places, the angle's in the middle"
                                                                : "places; a double click ends it");
         return true;
@@ -183,6 +191,12 @@ static bool begin(viewer *v, ewa_measure_kind kind, const char *rest) {
     const size_t length = strcspn(rest, " ");
     const char *name = rest + length + strspn(rest + length, " ");
     snprintf(word, sizeof word, "%.*s", (int)(length < sizeof word ? length : sizeof word - 1), rest);
+    double *place = measure.places_world;
+    char end;
+    if (kind == EWA_MEASURE_NOTE && sscanf(word, "%lf,%lf,%lf%c", &place[0], &place[1], &place[2], &end) == 3) {
+        measure.count = 1;
+        return add(v, &measure, name);
+    }
     if (length >= sizeof word || ewa_profile_line_read(word, corners_world, &measure.count, problem) != EWA_OK ||
         measure.count > EWA_MEASURE_PLACES) {
         viewer_tell(v, "measure: '%s' is not x,y,z;x,y,z;...: %s", word, problem);
@@ -190,6 +204,16 @@ static bool begin(viewer *v, ewa_measure_kind kind, const char *rest) {
     }
     memcpy(measure.places_world, corners_world, 3 * measure.count * sizeof corners_world[0]);
     return add(v, &measure, name);
+}
+
+bool viewer_measure_get(const viewer *v, size_t index, char name[VIEWER_NAME_BYTES], char value[VIEWER_NAME_BYTES]) {
+    if (index >= v->measure_count) return false;
+    const ewa_measure *measure = &v->measure_list[index];
+    snprintf(name, VIEWER_NAME_BYTES, "%s", measure->name);
+    measures_value(v, measure, value);
+    const size_t length = strlen(name); // which stands before
+    memmove(value, value + length + (value[length] == ' '), strlen(value) + 1 - length - (value[length] == ' '));
+    return true;
 }
 
 bool measures_holds(const viewer *v, const char *word) {
@@ -206,7 +230,7 @@ bool measures_command(viewer *v, const char *rest) {
     if (strncmp(rest, "save ", 5) == 0) return save(v, behind);
     if (strcmp(rest, "done") == 0) return finish(v);
     viewer_tell(v,
-                "measure: '%s' is none of on, off, next, distance|height|angle|area [x,y,z;x,y,z;... [NAME]], done, name N TEXT, "
+                "measure: '%s' is none of on, off, next, distance|height|angle|area|note [x,y,z;x,y,z;... [NAME]], done, name N TEXT, "
                 "delete N|all, save FILE.csv",
                 rest);
     return false;

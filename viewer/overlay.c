@@ -70,8 +70,9 @@ static void draw_edges(const overlay *o, const double low[3], const double high[
 }
 
 static void draw_box(const overlay *o, const viewer *v) {
-    static const double where_it_is[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
-    draw_edges(o, v->cutaway.low_world, v->cutaway.high_world, where_it_is, FAR_EDGE);
+    const double *a = v->cutaway.axes_world;
+    const double along_axes[16] = {a[0], a[3], a[6], 0, a[1], a[4], a[7], 0, a[2], a[5], a[8], 0, 0, 0, 0, 1};
+    draw_edges(o, v->cutaway.low_world, v->cutaway.high_world, along_axes, FAR_EDGE);
     for (int handle = 0; handle < 6; handle++) {
         double middle[3];
         cutaway_handle(v, handle, middle);
@@ -133,7 +134,7 @@ static void draw_measure(const overlay *o, const viewer *v, const ewa_measure *m
         for (int c = 0; c < 3; c++) middle[c] += from[c] / measure->count;
     }
     measures_value(v, measure, text);
-    if (measure->count > 1) draw_label(o, measure->kind == EWA_MEASURE_ANGLE ? measure->places_world + 3 : middle, text);
+    if (measure->count > 1 || measure->kind == EWA_MEASURE_NOTE) draw_label(o, measure->kind == EWA_MEASURE_ANGLE ? measure->places_world + 3 : middle, text);
 }
 
 static void draw_picks(const overlay *o, const viewer *v) {

@@ -46,8 +46,8 @@ static void press(viewer *v, const viewer_event *event) {
     v->moved = false;
     v->wheel_held = false;
     v->handle = event->button == VIEWER_LEFT ? cutaway_find_handle(v, event->x, event->y) : -1;
-    v->drag = v->handle >= 0 ? DRAG_HANDLE : choose_drag(v, event->button, event->modifiers);
-    if (v->drag == DRAG_HANDLE || v->drag == DRAG_LOOK) return;
+    v->drag = v->handle >= 0 ? (event->modifiers & VIEWER_CTRL ? DRAG_TURN_BOX : DRAG_HANDLE) : choose_drag(v, event->button, event->modifiers);
+    if (v->handle >= 0 || v->drag == DRAG_LOOK) return;
     set_pivot(v, event->x, event->y);
     const double depth = navigate_depth(&v->camera, v->pivot_world);
     v->drag_depth = depth > 0 ? depth : v->reach_world;
@@ -56,7 +56,7 @@ static void press(viewer *v, const viewer_event *event) {
 static void drag(viewer *v, double x, double y) {
     const double dx = x - v->x, dy = y - v->y;
     const bool trackball = v->settings.navigation == NAVIGATION_TRACKBALL;
-    if (v->drag != DRAG_HANDLE) take_camera(v);
+    if (v->handle < 0) take_camera(v);
     switch (v->drag) {
     case DRAG_ORBIT:
         navigate_orbit(&v->camera, v->pivot_world, trackball ? NULL : v->up_world, dx * TURN_DEG,
@@ -73,6 +73,9 @@ static void drag(viewer *v, double x, double y) {
         break;
     case DRAG_HANDLE:
         cutaway_drag(v, dx * v->scale, dy * v->scale);
+        break;
+    case DRAG_TURN_BOX:
+        cutaway_turn(v, v->up_world, dx * TURN_DEG);
         break;
     case DRAG_NONE:
         break;

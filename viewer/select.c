@@ -141,10 +141,11 @@ static bool take_classes(viewer *v, const char *text) {
 }
 
 static bool take_box(viewer *v, const char *text) {
-    double box_world[6];
+    double box_world[6], axes_world[9] = {0};
     if (strcmp(text, "clip") == 0 && v->cutaway.box) {
         memcpy(box_world, v->cutaway.low_world, sizeof v->cutaway.low_world);
         memcpy(box_world + 3, v->cutaway.high_world, sizeof v->cutaway.high_world);
+        memcpy(axes_world, v->cutaway.axes_world, sizeof axes_world);
     } else if (read_numbers(text, 6, box_world) != 6) {
         viewer_tell(v, "select: '%s' is neither x0,y0,z0,x1,y1,z1 nor clip, the clip box", text);
         return false;
@@ -152,6 +153,7 @@ static bool take_box(viewer *v, const char *text) {
     select_clear(v);
     v->selection.region.has_box = true;
     memcpy(v->selection.region.box_world, box_world, sizeof box_world);
+    memcpy(v->selection.region.box_axes_world, axes_world, sizeof axes_world);
     return finish(v);
 }
 

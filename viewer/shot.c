@@ -198,6 +198,7 @@ bool shot_scene(viewer *v, const char *rest) {
     ewa_status status = ewa_scene_copy(v->scene, v->probe.context, &scene);
     if (status == EWA_OK) status = ewa_scene_set_options(scene, &shown.options);
     if (status == EWA_OK) status = ewa_scene_set_measures(scene, v->measure_list, (uint32_t)v->measure_count);
+    if (status == EWA_OK) status = ewa_scene_set_keyframes(scene, v->film.keys, v->film.key_count);
     if (status == EWA_OK) status = ewa_scene_save(scene, &v->camera, path);
     ewa_scene_destroy(&scene);
     if (status != EWA_OK)

@@ -36,8 +36,8 @@ static void keep_place(double map[16], const double place_world[3]) {
     }
 }
 
-/// Rodrigues' rotation about an axis of any length through a place.
-static void make_turn(const double axis_world[3], double angle_deg, const double place_world[3], double map[16]) {
+// Rodrigues' rotation.
+void transform_make_turn(const double axis_world[3], double angle_deg, const double place_world[3], double map[16]) {
     const double length = sqrt(axis_world[0] * axis_world[0] + axis_world[1] * axis_world[1] + axis_world[2] * axis_world[2]);
     double u[3];
     for (int c = 0; c < 3; c++) u[c] = axis_world[c] / length;
@@ -113,7 +113,7 @@ bool transform_turn(viewer *v, const char *rest) {
     memcpy(axis, v->up_world, sizeof axis);
     if (!up && sscanf(rest, "%lf %lf,%lf,%lf%c", &angle_deg, &axis[0], &axis[1], &axis[2], &end) != 4)
         return refuse(v, "rotate", rest, "degrees, or degrees and an axis x,y,z");
-    make_turn(axis, angle_deg, middle, by);
+    transform_make_turn(axis, angle_deg, middle, by);
     return apply_change(v, "rotate", index, by);
 }
 
@@ -191,7 +191,7 @@ bool transform_drag(viewer *v, const viewer_event *event) {
         navigate_unproject(&v->camera, event->x * v->scale, event->y * v->scale, t->depth, to_world);
         for (int c = 0; c < 3; c++) t->by[4 * c + 3] = to_world[c] - t->from_world[c];
     } else if (t->tool == TRANSFORM_TURN) {
-        make_turn(v->up_world, (event->x - t->x) * TURN_DEG, middle, t->by);
+        transform_make_turn(v->up_world, (event->x - t->x) * TURN_DEG, middle, t->by);
     } else {
         make_scale(pow(DRAG_FACTOR, t->y - event->y), middle, t->by);
     }

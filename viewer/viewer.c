@@ -15,6 +15,8 @@
 static const double SETTLE_S = 0.08;
 /// What a move of the camera takes.
 static const double ANIMATION_S = 0.25;
+/// What the way from one keyframe to the next takes where it is only looked at: as in a film of 60 frames, 30 a second.
+static const double PREVIEW_KEY_S = 2;
 /// No window is larger.
 static const double MAX_PX = 1 << 27, MAX_SIDE_PX = 32768;
 /// Windows of more pixels are drawn at half their size while something moves.
@@ -168,6 +170,7 @@ void viewer_destroy(viewer **made) {
 }
 
 void viewer_go(viewer *v, const ewa_camera *to) {
+    v->film.previews = false;
     v->animated = v->settings.animate && v->now_s > 0 && to->projection == v->camera.projection;
     v->animation_s = v->now_s;
     v->animation_from = v->camera;
@@ -179,6 +182,10 @@ void viewer_go(viewer *v, const ewa_camera *to) {
 /// Where the camera is on its way, without a jump at either end.
 static void animate(viewer *v) {
     if (!v->animated) return;
+    if (v->film.previews) {
+        v->animated = film_look(v, (v->now_s - v->animation_s) / PREVIEW_KEY_S);
+        return;
+    }
     const double share = (v->now_s - v->animation_s) / ANIMATION_S;
     v->animated = share < 1;
     ewa_camera_path *path = NULL;
@@ -467,7 +474,10 @@ void viewer_get_camera(const viewer *v, ewa_camera *camera) { *camera = v->camer
 void viewer_get_state(const viewer *v, viewer_state *state) {
     *state = v->state;
     state->flying = v->fly_keys != 0;
+    state->learns = v->learns;
     state->keyframes = v->film.key_count;
+    state->keyframe_at = v->film.at;
+    state->previews = v->animated && v->film.previews;
     if (v->film.active) {
         snprintf(state->loading, sizeof state->loading, "%.255s", v->film.path);
         snprintf(state->stage, sizeof state->stage, "frame %u of %u,", v->film.frame + 1, v->film.count);

@@ -222,6 +222,7 @@ typedef enum viewer_icon {
     VIEWER_ICON_ANGLE,
     VIEWER_ICON_AREA,
     VIEWER_ICON_WAY,
+    VIEWER_ICON_NOTE,
     VIEWER_ICON_KEYFRAME,
     VIEWER_ICON_FILM,
     VIEWER_ICON_CLEAR,
@@ -243,8 +244,10 @@ typedef struct viewer_action {
 /// NULL beyond the last.
 const viewer_action *viewer_action_at(uint32_t index);
 enum { VIEWER_KEYS_BYTES = 16 };
-/// Writes the name of an action's key, such as "Ctrl C"; empty: none.
-void viewer_action_keys(const viewer_action *action, char text[VIEWER_KEYS_BYTES]);
+/// Writes the name of an action's key, such as "Ctrl C"; empty: none. `viewer` (may be NULL: as it is at first) knows which were chosen.
+void viewer_action_keys(const viewer *viewer, const viewer_action *action, char text[VIEWER_KEYS_BYTES]);
+/// Writes the command that gives an action the key that was chosen for it; false: none was.
+bool viewer_action_choice(const viewer *viewer, const viewer_action *action, char text[VIEWER_TEXT_BYTES]);
 /// Whether an action is a switch; `on`: how it is.
 bool viewer_action_is_switch(const viewer *viewer, const viewer_action *action, bool *on);
 /// Whether an action is a switch that is on, or a tool that the hand holds.
@@ -254,13 +257,13 @@ bool viewer_act(viewer *viewer, const viewer_action *action);
 
 /// A row of the help.
 typedef struct viewer_help {
-    const char *menu; ///< of its action; NULL: a gesture of the pointer
-    const char *what; ///< it does
+    const viewer_action *action; ///< NULL: a gesture of the pointer
+    const char *what;            ///< it does
     char keys[40];
 } viewer_help;
 
 /// Fills in a row of the help: gestures, then what has a key, menu by menu. False beyond the last.
-bool viewer_help_at(uint32_t index, viewer_help *row);
+bool viewer_help_at(const viewer *viewer, uint32_t index, viewer_help *row);
 
 /// A setting for a panel, in groups that follow each other; NULL beyond the last.
 const ewa_option *viewer_setting_at(const viewer *viewer, uint32_t index, const char **group);
@@ -282,6 +285,8 @@ typedef struct viewer_item {
 size_t viewer_item_count(const viewer *viewer);
 /// False: there is no item `index`.
 bool viewer_item_get(const viewer *viewer, size_t index, viewer_item *item);
+/// Fills measurement `index` with its name and what it says, such as "12.5 m"; false: there is none.
+bool viewer_measure_get(const viewer *viewer, size_t index, char name[VIEWER_NAME_BYTES], char value[VIEWER_NAME_BYTES]);
 /// Name of an attribute that item `index` can be coloured by, such as "intensity" or "normal.x"; NULL beyond
 /// the last.
 const char *viewer_attribute_at(const viewer *viewer, size_t index, uint32_t attribute,
@@ -296,6 +301,8 @@ typedef enum viewer_question { VIEWER_ASKS_NOTHING, VIEWER_ASKS_OPEN, VIEWER_ASK
 /// What goes on.
 typedef struct viewer_state {
     uint32_t keyframes;
+    double keyframe_at; ///< where on their way the last look was: keyframe 1 is 1
+    bool previews;      ///< the camera travels through them
     char loading[VIEWER_NAME_BYTES]; ///< name of what loads, or of the film that is being made; empty: nothing
     char stage[64];
     double fraction;
@@ -307,6 +314,7 @@ typedef struct viewer_state {
     viewer_question question;        ///< what the window is to ask for
     char picked[VIEWER_TEXT_BYTES];  ///< the last pick or measure, several lines
     bool moving, help, panels, fullscreen; ///< which are to be shown
+    const viewer_action *learns; ///< the next key becomes its key; NULL: none is waited for
     bool quit;                             ///< the user asked to end
     bool flying;                           ///< a key is held by which the camera flies: nothing comes to rest
 } viewer_state;

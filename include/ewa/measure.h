@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Measurements between places: distances along a line, heights, angles, areas.
+// Measurements between places: distances along a line, heights, angles, areas; and notes at one.
 #ifndef EWA_MEASURE_H
 #define EWA_MEASURE_H
 
@@ -17,9 +17,10 @@ typedef enum ewa_measure_kind {
     EWA_MEASURE_HEIGHT = 1,   ///< of the second place above the first
     EWA_MEASURE_ANGLE = 2,    ///< at the second of three places
     EWA_MEASURE_AREA = 3,     ///< within 3 or more places
+    EWA_MEASURE_NOTE = 4,     ///< nothing: its name is a text at 1 place
 } ewa_measure_kind;
 
-/// Returns "distance", "height", "angle" or "area"; NULL beyond the last. Any thread.
+/// Returns "distance", "height", "angle", "area" or "note"; NULL beyond the last. Any thread.
 EWA_API const char *ewa_measure_kind_name(uint32_t kind);
 
 enum {

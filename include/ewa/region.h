@@ -26,6 +26,7 @@ typedef struct ewa_region {
     bool has_box;            ///< `box_world` is given
     bool has_classes;        ///< `classes` are given: points without the attribute "classification" are of none
     double box_world[6];     ///< lower corner, upper corner, world units; both belong to it
+    double box_axes_world[9]; ///< of a box that is turned: three unit axes along which the corners are told; zeros: those of the world
     uint32_t corner_count;   ///< of the outline; [3, EWA_REGION_CORNERS], or 0: none is given
     double outline_px[2 * EWA_REGION_CORNERS]; ///< corners x, y on the picture, pixels; an odd number of times around is inside
     /// Of the outline: rows x w, y w and w, acts on columns (x, y, z, 1) of the world; w <= 0: outside.

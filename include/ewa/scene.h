@@ -296,6 +296,14 @@ EWA_API ewa_status ewa_scene_set_measures(ewa_scene *scene, const ewa_measure *m
 /// Returns measurement `index`, borrowed until they are set again; NULL: there is none.
 EWA_API const ewa_measure *ewa_scene_measure(const ewa_scene *scene, uint32_t index);
 
+enum { EWA_MAX_KEYFRAMES = 64 }; ///< of a scene
+
+/// Sets the keyframes of a scene, copies of `count` cameras through which its films go; they change no picture, and scene files keep
+/// them. Errors: EWA_ERROR_ARGUMENT (more than EWA_MAX_KEYFRAMES), those of ewa_camera_check(), EWA_ERROR_MEMORY.
+EWA_API ewa_status ewa_scene_set_keyframes(ewa_scene *scene, const ewa_camera *keyframes, uint32_t count);
+/// Returns keyframe `index`, borrowed until they are set again; NULL: there is none.
+EWA_API const ewa_camera *ewa_scene_keyframe(const ewa_scene *scene, uint32_t index);
+
 /// Returns what the colours of instance `index` mean, borrowed until the scene changes; NULL: they are the points' own,
 /// or the scene is not committed.
 EWA_API const ewa_legend *ewa_scene_legend(const ewa_scene *scene, uint32_t index);

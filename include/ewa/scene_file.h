@@ -52,11 +52,14 @@ EWA_API bool ewa_scene_file_camera(const ewa_scene_file *file, ewa_camera *camer
 /// Fills measurement `index`; false: there is none. Those of files that it names do not count.
 EWA_API bool ewa_scene_file_measure(const ewa_scene_file *file, uint32_t index, ewa_measure *measure);
 
+/// Fills keyframe `index`; false: there is none. Those of files that it names do not count.
+EWA_API bool ewa_scene_file_keyframe(const ewa_scene_file *file, uint32_t index, ewa_camera *camera);
+
 /// Sets those options that have their defaults to what the file says: what a caller has set otherwise wins.
 EWA_API void ewa_scene_file_apply(const ewa_scene_file *file, ewa_scene_options *options);
 
 /// Adds everything that a scene file names to a scene, whose options become those of ewa_scene_file_apply(). Points of
-/// which a filter takes none are left out, which a note says; the file's camera and measurements become the scene's where it
+/// which a filter takes none are left out, which a note says; the file's camera, measurements and keyframes become the scene's where it
 /// has none. After a failure the scene is as it was. Errors: those of ewa_scene_file_load(),
 /// ewa_asset_load() and ewa_scene_add().
 EWA_API ewa_status ewa_scene_open(ewa_scene *scene, const char *path, const ewa_asset_options *options);

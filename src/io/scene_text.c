@@ -4,8 +4,6 @@
 // Scene files, the outer side: JSON text to members with their places.
 #include "io/scene_text.h"
 #include "base/base.h"
-#include "io/camera/file.h"
-#include "io/json_text.h"
 #include "io/number.h"
 
 #include <stdio.h>
@@ -176,6 +174,14 @@ static ewa_status read_options(ewa_scene_text *text, const cJSON *options) {
     return status;
 }
 
+/// Keyframes are a list of cameras, as ewa_camera_save_list() writes it.
+static ewa_status read_keyframes(ewa_scene_text *text, const cJSON *item) {
+    if (!cJSON_IsArray(item)) return ewa_fail(text->context, EWA_ERROR_FORMAT, "%s: keyframes: is no array", text->name);
+    text->keyframes = (ewa_camera_list){.context = text->context, .name = text->name};
+    if (!item->child) return EWA_OK;
+    return ewa_camera_list_read_tree(&text->keyframes, item);
+}
+
 /// A camera is one of our format, as ewa_camera_save() writes it.
 static ewa_status read_camera(ewa_scene_text *text, const cJSON *item) {
     ewa_camera_list list = {.context = text->context, .name = text->name};
@@ -203,20 +209,21 @@ static ewa_status read_root(ewa_scene_text *text, const cJSON *root) {
                         text->name, version->valuedouble, VERSION);
     ewa_status status = EWA_OK;
     const cJSON *item;
-    enum { NAME_COUNT = 5 };
+    enum { NAME_COUNT = 6 };
     bool seen[NAME_COUNT] = {false};
-    static const char *const names[NAME_COUNT] = {"ewa_scene", "options", "camera", "items", "measures"};
+    static const char *const names[NAME_COUNT] = {"ewa_scene", "options", "camera", "items", "measures", "keyframes"};
     cJSON_ArrayForEach(item, root) {
         int which = 0;
         while (which < NAME_COUNT && strcmp(item->string, names[which]) != 0) which++;
         if (which == NAME_COUNT || seen[which])
             return ewa_fail(text->context, EWA_ERROR_FORMAT, "%s: member '%.60s' %s", text->name, item->string,
-                            which == NAME_COUNT ? "is none of ewa_scene, options, camera, items, measures" : "is there twice");
+                            which == NAME_COUNT ? "is none of ewa_scene, options, camera, items, measures, keyframes" : "is there twice");
         seen[which] = true;
         if (which == 1) status = read_options(text, item);
         if (which == 2) status = read_camera(text, item);
         if (which == 3) status = read_list(text, EWA_SCENE_ITEM, item, &text->item_count);
         if (which == 4) status = read_list(text, EWA_SCENE_MEASURE, item, &text->measure_count);
+        if (which == 5) status = read_keyframes(text, item);
         EWA_TRY(status);
     }
     return EWA_OK;
@@ -238,5 +245,6 @@ void ewa_scene_text_free(ewa_scene_text *text) {
     ewa_release(text->context, text->members, text->members_bytes, 1);
     ewa_release(text->context, text->values, text->values_bytes, 1);
     ewa_json_free(text->context, &text->tree);
+    if (text->keyframes.context) ewa_camera_list_free(&text->keyframes);
     *text = (ewa_scene_text){.context = NULL};
 }

@@ -6,8 +6,7 @@
 #ifndef EWA_SRC_SCENE_TEXT_H
 #define EWA_SRC_SCENE_TEXT_H
 
-#include "ewa/camera.h"
-#include "io/json_text.h"
+#include "io/camera/file.h"
 
 /// Where in the file a member stands.
 typedef enum ewa_scene_section {
@@ -52,6 +51,7 @@ typedef struct ewa_scene_text {
     uint32_t item_count, light_count, section_count, region_count, measure_count;
     bool has_camera;
     ewa_camera camera;
+    ewa_camera_list keyframes;
 } ewa_scene_text;
 
 /// Whether bytes begin as a scene file does: an object whose first member is "ewa_scene".

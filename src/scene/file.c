@@ -181,6 +181,11 @@ static ewa_status apply_region(const reading *in, const ewa_scene_member *member
         memcpy(region->box_world, numbers, sizeof region->box_world);
         return EWA_OK;
     }
+    if (strcmp(name, "box_axes") == 0) {
+        if (!fine || count != 9) return fail_at(in, member, "is not 9 numbers: three axes");
+        memcpy(region->box_axes_world, numbers, sizeof region->box_axes_world);
+        return EWA_OK;
+    }
     if (strcmp(name, "classes") == 0)
         return fine && set_classes(numbers, count, region) ? EWA_OK : fail_at(in, member, "is no list of codes from 0 to 255");
     if (strcmp(name, "outline") == 0) {
@@ -234,11 +239,14 @@ static ewa_status read_measures(const reading *in, ewa_measure *measures) {
     return EWA_OK;
 }
 
-/// Makes the measurements of a scene file, which it keeps.
+/// Makes the measurements of a scene file, which it keeps, and looks how many keyframes it has.
 static ewa_status take_measures(const reading *in, ewa_scene_file *file) {
     const uint32_t count = in->text->measure_count;
     if (count > EWA_MAX_MEASURES)
         return ewa_fail(file->context, EWA_ERROR_LIMIT, "%s: %u measurements; there may be %d", in->path, count, EWA_MAX_MEASURES);
+    if (in->text->keyframes.count > EWA_MAX_KEYFRAMES)
+        return ewa_fail(file->context, EWA_ERROR_LIMIT, "%s: %zu keyframes; there may be %d", in->path, in->text->keyframes.count,
+                        EWA_MAX_KEYFRAMES);
     file->measure_room = count + (size_t)1;
     file->measures = ewa_allocate_zeroed(file->context, file->measure_room, sizeof *file->measures);
     return file->measures ? read_measures(in, file->measures) : EWA_ERROR_MEMORY;
@@ -567,6 +575,12 @@ bool ewa_scene_file_measure(const ewa_scene_file *file, uint32_t index, ewa_meas
     return true;
 }
 
+bool ewa_scene_file_keyframe(const ewa_scene_file *file, uint32_t index, ewa_camera *camera) {
+    if (!file || !camera || index >= file->text.keyframes.count) return false;
+    *camera = file->text.keyframes.cameras[index];
+    return true;
+}
+
 void ewa_scene_file_apply(const ewa_scene_file *file, ewa_scene_options *options) {
     const reading in = {.path = file->path, .text = &file->text};
     // All of it could be set when it was read.
@@ -609,6 +623,8 @@ ewa_status ewa_scene_open(ewa_scene *scene, const char *path, const ewa_asset_op
         status = ewa_scene_set_camera(scene, &camera);
     if (status == EWA_OK && !scene->measure_count)
         status = ewa_scene_set_measures(scene, file->measures, file->text.measure_count);
+    if (status == EWA_OK && !scene->keyframe_count)
+        status = ewa_scene_set_keyframes(scene, file->text.keyframes.cameras, (uint32_t)file->text.keyframes.count);
     ewa_scene_file_destroy(&file);
     return status;
 }

@@ -14,7 +14,7 @@ static const double DEGREES = 180 / EWA_PI;
 static const struct {
     const char *name;
     uint32_t low, high; ///< places
-} kinds[] = {{"distance", 2, UINT32_MAX}, {"height", 2, 2}, {"angle", 3, 3}, {"area", 3, UINT32_MAX}};
+} kinds[] = {{"distance", 2, UINT32_MAX}, {"height", 2, 2}, {"angle", 3, 3}, {"area", 3, UINT32_MAX}, {"note", 1, 1}};
 
 enum { KIND_COUNT = sizeof kinds / sizeof kinds[0] };
 

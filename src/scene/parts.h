@@ -120,6 +120,8 @@ struct ewa_scene {
     ewa_camera camera; ///< from where it is seen, unless somebody says otherwise
     ewa_measure *measures;
     uint32_t measure_count;
+    ewa_camera *keyframes;
+    uint32_t keyframe_count;
 };
 
 /// Whether instances of an asset are part of the one surface of points.

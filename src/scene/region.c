@@ -27,10 +27,20 @@ static bool is_in_outline(const ewa_region *region, double x, double y) {
     return inside;
 }
 
+/// Whether the sides of a region's box are not those of the world.
+static bool is_turned(const ewa_region *region) {
+    bool turned = false;
+    for (int i = 0; i < 9; i++) turned = turned || region->box_axes_world[i] != 0;
+    return turned;
+}
+
 static bool is_inside(const ewa_region *region, const double p[3], double code) {
     if (!region->has_box && !region->has_classes && !region->corner_count) return false;
-    for (int c = 0; c < 3 && region->has_box; c++)
-        if (!(p[c] >= region->box_world[c] && p[c] <= region->box_world[3 + c])) return false;
+    for (int c = 0; c < 3 && region->has_box; c++) {
+        const double *axis = region->box_axes_world + 3 * c;
+        const double at = is_turned(region) ? axis[0] * p[0] + axis[1] * p[1] + axis[2] * p[2] : p[c];
+        if (!(at >= region->box_world[c] && at <= region->box_world[3 + c])) return false;
+    }
     if (region->has_classes) {
         if (!(code >= 0 && code < EWA_REGION_CLASSES)) return false;
         const uint32_t bit = (uint32_t)code;
@@ -123,6 +133,7 @@ ewa_status ewa_regions_check(ewa_context *context, const ewa_region *regions, ui
         const ewa_region *region = &regions[i];
         bool fine = region->corner_count == 0 || (region->corner_count >= 3 && region->corner_count <= EWA_REGION_CORNERS);
         for (int c = 0; c < 6 && region->has_box; c++) fine = fine && isfinite(region->box_world[c]);
+        for (int c = 0; c < 9 && region->has_box; c++) fine = fine && isfinite(region->box_axes_world[c]);
         for (uint32_t k = 0; fine && k < 2 * region->corner_count; k++) fine = isfinite(region->outline_px[k]);
         for (int k = 0; k < 12 && region->corner_count; k++) fine = fine && isfinite(region->world_to_picture[k]);
         if (!fine)

@@ -91,6 +91,9 @@ static bool add_region(cJSON *list, const ewa_region *region) {
     cJSON *object = cJSON_CreateObject();
     bool done = cJSON_AddItemToArray(list, object) && cJSON_AddBoolToObject(object, "keep", region->kept);
     if (done && region->has_box) done = add_numbers(object, "box", region->box_world, 6);
+    bool turned = false;
+    for (int i = 0; i < 9; i++) turned = turned || region->box_axes_world[i] != 0;
+    if (done && region->has_box && turned) done = add_numbers(object, "box_axes", region->box_axes_world, 9);
     if (done && region->has_classes) {
         double codes[EWA_REGION_CLASSES];
         uint32_t count = 0;
@@ -245,6 +248,11 @@ static ewa_status make_text(const ewa_scene *scene, const char *path, char **tex
     return status;
 }
 
+static void write_camera(ewa_writer *writer, const char *before, const ewa_camera *camera) {
+    (void)ewa_writer_put(writer, before, strlen(before));
+    ewa_camera_write(writer, camera);
+}
+
 ewa_status ewa_scene_save(const ewa_scene *scene, const ewa_camera *camera, const char *path) {
     if (!scene || !path) return EWA_ERROR_ARGUMENT;
     ewa_context *context = scene->context;
@@ -260,13 +268,12 @@ ewa_status ewa_scene_save(const ewa_scene *scene, const ewa_camera *camera, cons
     if (status == EWA_OK) status = make_text(scene, path, &text);
     if (status == EWA_OK) status = ewa_writer_open(context, path, &writer);
     if (status == EWA_OK) {
-        // The text ends by a line's end and a brace, before which the camera belongs.
+        // The text ends by a line's end and a brace, before which the cameras belong.
         (void)ewa_writer_put(writer, text, strlen(text) - 2);
-        if (camera) {
-            static const char member[] = ",\n\t\"camera\":\t";
-            (void)ewa_writer_put(writer, member, sizeof member - 1);
-            ewa_camera_write(writer, camera);
-        }
+        if (camera) write_camera(writer, ",\n\t\"camera\":\t", camera);
+        for (uint32_t i = 0; i < scene->keyframe_count; i++)
+            write_camera(writer, i ? ",\n" : ",\n\t\"keyframes\":\t[", &scene->keyframes[i]);
+        if (scene->keyframe_count) (void)ewa_writer_put(writer, "]", 1);
         (void)ewa_writer_put(writer, "\n}\n", 3);
         status = ewa_writer_commit(&writer);
     }

@@ -105,6 +105,7 @@ void ewa_scene_destroy(ewa_scene **given) {
     for (uint32_t i = 0; i < scene->count; i++) release_item(&scene->items[i]);
     ewa_surface_release(&scene->surface);
     ewa_release(scene->context, scene->measures, scene->measure_count, sizeof *scene->measures);
+    ewa_release(scene->context, scene->keyframes, scene->keyframe_count, sizeof *scene->keyframes);
     ewa_release(scene->context, scene->items, scene->capacity, sizeof *scene->items);
     ewa_release(scene->context, scene, 1, sizeof *scene);
 }
@@ -134,6 +135,7 @@ ewa_status ewa_scene_copy(const ewa_scene *scene, ewa_context *context, ewa_scen
         if (item->completed) atomic_fetch_add(&item->completed->references, 1);
     }
     if (status == EWA_OK) status = ewa_scene_set_measures(*copy, scene->measures, scene->measure_count);
+    if (status == EWA_OK) status = ewa_scene_set_keyframes(*copy, scene->keyframes, scene->keyframe_count);
     if (status != EWA_OK) {
         ewa_scene_destroy(copy);
         return status;
@@ -378,6 +380,24 @@ ewa_status ewa_scene_set_measures(ewa_scene *scene, const ewa_measure *measures,
 
 const ewa_measure *ewa_scene_measure(const ewa_scene *scene, uint32_t index) {
     return scene && index < scene->measure_count ? &scene->measures[index] : NULL;
+}
+
+ewa_status ewa_scene_set_keyframes(ewa_scene *scene, const ewa_camera *keyframes, uint32_t count) {
+    if (!scene || (!keyframes && count)) return EWA_ERROR_ARGUMENT;
+    if (count > EWA_MAX_KEYFRAMES)
+        return ewa_fail(scene->context, EWA_ERROR_ARGUMENT, "%u keyframes; a scene has %d at most", count, EWA_MAX_KEYFRAMES);
+    for (uint32_t i = 0; i < count; i++) EWA_TRY(ewa_camera_check(scene->context, &keyframes[i]));
+    ewa_camera *made = count ? ewa_allocate(scene->context, count, sizeof *made) : NULL;
+    if (count && !made) return EWA_ERROR_MEMORY;
+    if (count) memcpy(made, keyframes, count * sizeof *made);
+    ewa_release(scene->context, scene->keyframes, scene->keyframe_count, sizeof *made);
+    scene->keyframes = made;
+    scene->keyframe_count = count;
+    return EWA_OK;
+}
+
+const ewa_camera *ewa_scene_keyframe(const ewa_scene *scene, uint32_t index) {
+    return scene && index < scene->keyframe_count ? &scene->keyframes[index] : NULL;
 }
 
 void ewa_scene_bounds(const ewa_scene *scene, ewa_bounds *bounds) {

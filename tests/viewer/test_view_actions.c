@@ -26,11 +26,11 @@ TEST(rows_of_menus_are_whole) {
         assert_true(action->label[0] && action->help[0] && action->command[0]);
     }
     char keys[VIEWER_KEYS_BYTES];
-    viewer_action_keys(&(viewer_action){.key = VIEWER_KEY_F12, .modifiers = VIEWER_CTRL}, keys);
+    viewer_action_keys(NULL, &(viewer_action){.key = VIEWER_KEY_F12, .modifiers = VIEWER_CTRL}, keys);
     assert_string_equal(keys, "Ctrl F12");
-    viewer_action_keys(&(viewer_action){.key = '['}, keys);
+    viewer_action_keys(NULL, &(viewer_action){.key = '['}, keys);
     assert_string_equal(keys, "[");
-    viewer_action_keys(&(viewer_action){.key = 0}, keys);
+    viewer_action_keys(NULL, &(viewer_action){.key = 0}, keys);
     assert_string_equal(keys, "");
 }
 
@@ -39,14 +39,14 @@ static void write_table(char text[TEXT_BYTES]) {
     size_t used = (size_t)snprintf(text, TEXT_BYTES,
                                     "| menu | row or gesture | key | does | command |\n|---|---|---|---|---|\n");
     viewer_help row;
-    for (uint32_t i = 0; viewer_help_at(i, &row) && !row.menu; i++)
+    for (uint32_t i = 0; viewer_help_at(NULL, i, &row) && !row.action; i++)
         used += (size_t)snprintf(text + used, TEXT_BYTES - used, "| | %s | | %s | |\n", row.keys, row.what);
     const char *before = "";
     const viewer_action *action;
     for (uint32_t i = 0; (action = viewer_action_at(i)); i++) {
         if (!action->menu) continue;
         char keys[VIEWER_KEYS_BYTES];
-        viewer_action_keys(action, keys);
+        viewer_action_keys(NULL, action, keys);
         used += (size_t)snprintf(text + used, TEXT_BYTES - used, "| %s | %s | %s | %s | `%s` |\n",
                                  strcmp(before, action->menu) != 0 ? action->menu : "", action->label, keys, action->help,
                                  action->command);

@@ -16,10 +16,10 @@ constexpr float button_points = 28, icon_points = 20;
 constexpr double figures_step_s = 0.25;
 
 /// What an action does, and its key.
-void tell(const viewer_action *action) {
+void tell(const panel_page *page, const viewer_action *action) {
     if (!ImGui::IsItemHovered()) return;
     char keys[VIEWER_KEYS_BYTES];
-    viewer_action_keys(action, keys);
+    viewer_action_keys(page->viewer, action, keys);
     ImGui::BeginTooltip();
     ImGui::PushTextWrapPos(24 * ImGui::GetFontSize());
     ImGui::Text("%s%s%s%s", action->label, keys[0] ? " (" : "", keys, keys[0] ? ")" : "");
@@ -41,7 +41,7 @@ const char *words_of(const panel_page *page, const viewer_action *action, const 
 
 void row(const panel_page *page, const viewer_action *action) {
     char keys[VIEWER_KEYS_BYTES], now[EWA_OPTION_TEXT_BYTES];
-    viewer_action_keys(action, keys);
+    viewer_action_keys(page->viewer, action, keys);
     const char *name, *words = words_of(page, action, &name);
     if (words && viewer_setting_get(page->viewer, name, now)) {
         if (ImGui::BeginMenu(action->label)) {
@@ -54,7 +54,7 @@ void row(const panel_page *page, const viewer_action *action) {
     }
     const bool on = viewer_action_is_lit(page->viewer, action);
     if (ImGui::MenuItem(action->label, keys, on)) viewer_act(page->viewer, action);
-    tell(action);
+    tell(page, action);
     const recent_files *recent = page->facts->recent;
     if (strcmp(action->command, "open") != 0 || !recent || !recent->count || !ImGui::BeginMenu("Open again")) return;
     for (uint32_t i = 0; i < recent->count; i++) panel_recent(page, i, true);
@@ -143,7 +143,7 @@ bool button(const panel_page *page, const viewer_action *action) {
     // Below the bar, whose other buttons it would hide.
     if (ImGui::IsItemHovered()) ImGui::SetNextWindowPos(ImVec2(corner.x, page->top));
     panel_icon(page, action->icon, ImVec2(corner.x + pad, corner.y + pad), icon, ImGui::GetColorU32(ImGuiCol_Text));
-    tell(action);
+    tell(page, action);
     return pressed;
 }
 

@@ -46,6 +46,19 @@ void progress(panel_page *page, float *bottom) {
     ImGui::End();
 }
 
+/// The way through the keyframes: the camera travels it, or goes where a hand puts it.
+void look_along(const panel_page *page) {
+    if (ImGui::Button(page->state.previews ? "Stop" : "Play")) panel_say(page, "film preview");
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("Travel through them");
+    ImGui::SameLine();
+    float at = (float)page->state.keyframe_at;
+    ImGui::SetNextItemWidth(140 * page->unit);
+    if (ImGui::SliderFloat("##at", &at, 0, (float)(page->state.keyframes - 1), "", ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_NoInput))
+        panel_say(page, "keyframe go %.4f", (double)at);
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("A place on their way");
+    ImGui::SameLine();
+}
+
 /// The keyframes, at the bottom: a click goes there, a right click takes one out.
 void keyframes(const panel_page *page, float *bottom) {
     if (!page->state.keyframes || !page->state.panels) return;
@@ -64,6 +77,7 @@ void keyframes(const panel_page *page, float *bottom) {
     if (ImGui::Button("+")) panel_say(page, "keyframe add");
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("Keep this view as the next keyframe");
     ImGui::SameLine();
+    if (page->state.keyframes > 1) look_along(page);
     if (ImGui::Button("Film")) panel_say(page, "film");
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("Make a film through them");
     *bottom = ImGui::GetWindowPos().y - panel_margin(page);
@@ -98,6 +112,18 @@ void invitation(const panel_page *page) {
     list->AddText(place, ImGui::GetColorU32(ImGuiCol_Text), text);
 }
 
+/// The keys of a row, which a click has learned anew.
+void help_keys(const panel_page *page, const viewer_help *row) {
+    if (!row->action) {
+        ImGui::Text("%s  ", row->keys);
+        return;
+    }
+    const bool learns = page->state.learns == row->action;
+    ImGui::PushID(row->action);
+    if (ImGui::Selectable(learns ? "press a key" : row->keys[0] ? row->keys : "-", learns)) panel_say(page, "keys learn %s", row->action->command);
+    ImGui::PopID();
+}
+
 } // namespace
 
 void panel_notes(panel_page *page) {
@@ -122,7 +148,7 @@ void panel_help(panel_page *page) {
                  ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoCollapse |
                      ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_HorizontalScrollbar);
     uint32_t count = 0;
-    for (viewer_help row; viewer_help_at(count, &row);) count++;
+    for (viewer_help row; viewer_help_at(page->viewer, count, &row);) count++;
     // As many columns as are needed for the rows not to be higher than the window.
     const float row_px = ImGui::GetTextLineHeight() + 2 * ImGui::GetStyle().CellPadding.y;
     const float room = page->height - 2 * margin - 4 * ImGui::GetFrameHeight();
@@ -133,8 +159,8 @@ void panel_help(panel_page *page) {
             viewer_help row;
             const int wanted = i % columns * high + i / columns;
             ImGui::TableNextColumn();
-            const bool given = wanted < (int)count && viewer_help_at((uint32_t)wanted, &row);
-            if (given) ImGui::Text("%s  ", row.keys);
+            const bool given = wanted < (int)count && viewer_help_at(page->viewer, (uint32_t)wanted, &row);
+            if (given) help_keys(page, &row);
             ImGui::TableNextColumn();
             if (given) ImGui::TextDisabled("%s     ", row.what);
         }
@@ -142,6 +168,6 @@ void panel_help(panel_page *page) {
     }
     if (ImGui::Button("Close")) panel_say(page, "help off");
     ImGui::SameLine();
-    ImGui::TextDisabled("or Escape");
+    ImGui::TextDisabled("or Escape. A click on a key has another one learned.");
     ImGui::End();
 }

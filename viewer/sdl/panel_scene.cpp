@@ -207,6 +207,29 @@ void picked(const panel_page *page) {
     if (ImGui::Button("Clear")) panel_say(page, "clear");
 }
 
+/// Measures and notes that stay, with names that can be changed.
+void measures(const panel_page *page) {
+    char name[VIEWER_NAME_BYTES], value[VIEWER_NAME_BYTES];
+    const float gap = ImGui::GetStyle().ItemInnerSpacing.x, side = ImGui::GetFrameHeight();
+    for (size_t i = 0; viewer_measure_get(page->viewer, i, name, value); i++) {
+        if (!i) ImGui::Separator();
+        ImGui::PushID((int)(1000 + i));
+        const float room = ImGui::GetContentRegionAvail().x - side - gap;
+        ImGui::SetNextItemWidth(value[0] ? 0.5f * room : room);
+        ImGui::InputText("##name", name, sizeof name, ImGuiInputTextFlags_AutoSelectAll);
+        if (ImGui::IsItemDeactivatedAfterEdit() && name[0]) panel_say(page, "measure name %zu %s", i, name);
+        ImGui::SameLine(0, gap);
+        if (value[0]) ImGui::TextUnformatted(value);
+        ImGui::SameLine(room + gap + ImGui::GetStyle().WindowPadding.x);
+        const bool out = ImGui::Button("x", ImVec2(side, 0));
+        ImGui::PopID();
+        if (out) {
+            panel_say(page, "measure delete %zu", i);
+            break;
+        }
+    }
+}
+
 } // namespace
 
 void panel_scene(panel_page *page) {
@@ -215,6 +238,7 @@ void panel_scene(panel_page *page) {
     ImGui::Begin("scene", nullptr, panel_fixed_flags & ~ImGuiWindowFlags_NoScrollbar);
     items(page);
     picked(page);
+    measures(page);
     ImGui::Separator();
     panel_settings(page);
     ImGui::End();

@@ -16,6 +16,7 @@ enum { NAME_COUNT = sizeof names / sizeof names[0] };
 static bool take_line(void *user, const char *line) {
     char name[EWA_OPTION_TEXT_BYTES];
     int value_at = 0;
+    if (strncmp(line, "keys ", 5) == 0) (void)viewer_do(user, line);
     if (sscanf(line, "set %127s %n", name, &value_at) != 1 || !value_at) return true;
     for (int i = 0; i < NAME_COUNT; i++)
         if (strcmp(name, names[i]) == 0) (void)viewer_setting_set(user, name, line + value_at);
@@ -24,6 +25,10 @@ static bool take_line(void *user, const char *line) {
 
 static void write_lines(const viewer *shown, char lines[PREFERENCES_BYTES]) {
     size_t used = 0;
+    char chosen[VIEWER_TEXT_BYTES];
+    const viewer_action *action;
+    for (uint32_t i = 0; (action = viewer_action_at(i)) && used < PREFERENCES_BYTES; i++)
+        if (viewer_action_choice(shown, action, chosen)) used += (size_t)snprintf(lines + used, PREFERENCES_BYTES - used, "%s\n", chosen);
     for (int i = 0; i < NAME_COUNT && used < PREFERENCES_BYTES; i++) {
         char value[EWA_OPTION_TEXT_BYTES];
         if (viewer_setting_get(shown, names[i], value))

@@ -8,7 +8,7 @@
 
 #include "viewer/viewer.h"
 
-enum { PREFERENCES_BYTES = 1024 };
+enum { PREFERENCES_BYTES = 8192 };
 
 /// Sets what was kept; `lines`: as it is now, for preferences_write().
 void preferences_read(viewer *viewer, char lines[PREFERENCES_BYTES]);
