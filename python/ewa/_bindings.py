@@ -84,6 +84,7 @@ EWA_LAYERS_EXACT = 4294967295
 EWA_OCTREE_WHOLE_POINTS = 4000000
 EWA_OCTREE_SAMPLE_POINTS = 400000
 EWA_SCENE_MAX_INSTANCES = 65536
+EWA_MAX_KEYFRAMES = 64
 EWA_MATERIAL_OWN = 4294967295
 EWA_VIEW_FOV_DEG = 30.0
 EWA_SCENE_FILE_DEPTH = 8
@@ -290,6 +291,7 @@ class ewa_measure_kind(IntEnum):
     EWA_MEASURE_HEIGHT = 1
     EWA_MEASURE_ANGLE = 2
     EWA_MEASURE_AREA = 3
+    EWA_MEASURE_NOTE = 4
 
 
 class ewa_model_format(IntEnum):
@@ -2102,6 +2104,7 @@ class ewa_region(c.Structure):
     has_box: bool
     has_classes: bool
     box_world: c.Array[c.c_double]
+    box_axes_world: c.Array[c.c_double]
     corner_count: int
     outline_px: c.Array[c.c_double]
     world_to_picture: c.Array[c.c_double]
@@ -2111,6 +2114,7 @@ class ewa_region(c.Structure):
         ("has_box", c.c_bool),
         ("has_classes", c.c_bool),
         ("box_world", c.c_double * 6),
+        ("box_axes_world", c.c_double * 9),
         ("corner_count", c.c_uint32),
         ("outline_px", c.c_double * 128),
         ("world_to_picture", c.c_double * 12),
@@ -3165,6 +3169,7 @@ class Functions:
         self.ewa_scene_get: Callable[..., int] = bind("ewa_scene_get", c.c_int, c.c_void_p, c.c_uint32, c.POINTER(ewa_instance))
         self.ewa_scene_get_camera: Callable[..., bool] = bind("ewa_scene_get_camera", c.c_bool, c.c_void_p, c.POINTER(ewa_camera))
         self.ewa_scene_get_options: Callable[..., None] = bind("ewa_scene_get_options", None, c.c_void_p, c.POINTER(ewa_scene_options))
+        self.ewa_scene_keyframe: Callable[..., Any] = bind("ewa_scene_keyframe", c.POINTER(ewa_camera), c.c_void_p, c.c_uint32)
         self.ewa_scene_legend: Callable[..., Any] = bind("ewa_scene_legend", c.POINTER(ewa_legend), c.c_void_p, c.c_uint32)
         self.ewa_scene_measure: Callable[..., Any] = bind("ewa_scene_measure", c.POINTER(ewa_measure), c.c_void_p, c.c_uint32)
         self.ewa_scene_options_init: Callable[..., None] = bind("ewa_scene_options_init", None, c.POINTER(ewa_scene_options), c.c_size_t)
@@ -3183,6 +3188,7 @@ class Functions:
         self.ewa_scene_reuse: Callable[..., None] = bind("ewa_scene_reuse", None, c.c_void_p, c.c_void_p)
         self.ewa_scene_set: Callable[..., int] = bind("ewa_scene_set", c.c_int, c.c_void_p, c.c_uint32, c.POINTER(ewa_instance))
         self.ewa_scene_set_camera: Callable[..., int] = bind("ewa_scene_set_camera", c.c_int, c.c_void_p, c.POINTER(ewa_camera))
+        self.ewa_scene_set_keyframes: Callable[..., int] = bind("ewa_scene_set_keyframes", c.c_int, c.c_void_p, c.POINTER(ewa_camera), c.c_uint32)
         self.ewa_scene_set_measures: Callable[..., int] = bind("ewa_scene_set_measures", c.c_int, c.c_void_p, c.POINTER(ewa_measure), c.c_uint32)
         self.ewa_scene_set_options: Callable[..., int] = bind("ewa_scene_set_options", c.c_int, c.c_void_p, c.POINTER(ewa_scene_options))
         self.ewa_view_options_init: Callable[..., None] = bind("ewa_view_options_init", None, c.POINTER(ewa_view_options), c.c_size_t)
@@ -3192,6 +3198,7 @@ class Functions:
         self.ewa_scene_file_count: Callable[..., int] = bind("ewa_scene_file_count", c.c_uint32, c.c_void_p)
         self.ewa_scene_file_destroy: Callable[..., None] = bind("ewa_scene_file_destroy", None, c.c_void_p)
         self.ewa_scene_file_entry: Callable[..., int] = bind("ewa_scene_file_entry", c.c_int, c.c_void_p, c.c_uint32, c.POINTER(ewa_scene_entry))
+        self.ewa_scene_file_keyframe: Callable[..., bool] = bind("ewa_scene_file_keyframe", c.c_bool, c.c_void_p, c.c_uint32, c.POINTER(ewa_camera))
         self.ewa_scene_file_load: Callable[..., int] = bind("ewa_scene_file_load", c.c_int, c.c_void_p, c.c_char_p, c.POINTER(ewa_asset_options), c.c_void_p)
         self.ewa_scene_file_measure: Callable[..., bool] = bind("ewa_scene_file_measure", c.c_bool, c.c_void_p, c.c_uint32, c.POINTER(ewa_measure))
         self.ewa_scene_file_probe: Callable[..., bool] = bind("ewa_scene_file_probe", c.c_bool, c.c_char_p)

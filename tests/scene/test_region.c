@@ -118,6 +118,25 @@ TEST(test_known_counts) {
     assert_int_equal(count_left(&none, 1), POINTS);
 }
 
+/// A box whose axes are those of the world, in another order, has the points of the box that says so; one across the corner of
+/// the grid those of x + y <= 4; what is no number is refused.
+TEST(test_turned_boxes) {
+    (void)state;
+    const double half = sqrt(0.5);
+    ewa_region box = {.kept = true, .has_box = true, .box_world = {3, -1, 2, 9, 1, 4}, .box_axes_world = {0, 1, 0, 0, 0, 1, 1, 0, 0}};
+    assert_int_equal(count_left(&box, 1), 3 * 7); // y of 3 to 9, x of 2 to 4
+    ewa_region corner = {.kept = true, .has_box = true, .box_world = {-1, -100, -1, 4.5 * half, 100, 1},
+                         .box_axes_world = {half, half, 0, half, -half, 0, 0, 0, 1}};
+    assert_int_equal(count_left(&corner, 1), 5 + 4 + 3 + 2 + 1);
+    ewa_scene *scene = NULL;
+    ewa_scene_options options;
+    ewa_scene_options_init(&options, sizeof options);
+    options.region_count = 1;
+    options.regions[0] = corner;
+    options.regions[0].box_axes_world[4] = NAN;
+    assert_int_equal(ewa_scene_create(context, &options, &scene), EWA_ERROR_ARGUMENT);
+}
+
 /// The outline of [7.5, 12.5] x [5.5, 14.5] on the picture, at 2 pixels a unit, as a rectangle and with a notch.
 TEST(test_outlines) {
     (void)state;

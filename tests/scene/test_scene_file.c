@@ -355,6 +355,38 @@ TEST(test_measures_come_back) {
     ewa_context_destroy(&context);
 }
 
+/// So are keyframes, as cameras that --path reads, too; a scene that has some keeps them.
+TEST(test_keyframes_come_back) {
+    ewa_context *context = check_context(0, NULL);
+    ewa_scene *scene = NULL, *copy = NULL, *again = NULL;
+    assert_int_equal(ewa_scene_create(context, NULL, &scene), EWA_OK);
+    add(context, scene, "torus.ply", NULL, NULL);
+    ewa_camera keys[EWA_MAX_KEYFRAMES + 1];
+    for (int i = 0; i <= EWA_MAX_KEYFRAMES; i++) {
+        ewa_camera_init(&keys[i]);
+        keys[i].width_px = 320, keys[i].height_px = 240;
+        keys[i].world_to_camera[11] = 4 + i / 3.0;
+    }
+    assert_int_equal(ewa_scene_set_keyframes(scene, keys, EWA_MAX_KEYFRAMES + 1), EWA_ERROR_ARGUMENT);
+    assert_int_equal(ewa_scene_set_keyframes(scene, keys, 3), EWA_OK);
+    assert_int_equal(ewa_scene_copy(scene, context, &copy), EWA_OK);
+    assert_int_equal(ewa_scene_save(copy, &keys[5], "keyframes.json"), EWA_OK);
+    assert_int_equal(ewa_scene_create(context, NULL, &again), EWA_OK);
+    assert_int_equal(ewa_scene_open(again, "keyframes.json", NULL), EWA_OK);
+    for (uint32_t i = 0; i < 3; i++) assert_memory_equal(ewa_scene_keyframe(again, i), &keys[i], sizeof keys[i]);
+    assert_null(ewa_scene_keyframe(again, 3));
+    ewa_camera camera;
+    assert_int_equal(ewa_camera_load(context, "keyframes.json", 2, &camera), EWA_OK);
+    assert_memory_equal(&camera, &keys[2], sizeof camera);
+    assert_int_equal(ewa_scene_set_keyframes(again, keys, 1), EWA_OK);
+    assert_int_equal(ewa_scene_open(again, "keyframes.json", NULL), EWA_OK);
+    assert_null(ewa_scene_keyframe(again, 1));
+    ewa_scene_destroy(&scene);
+    ewa_scene_destroy(&copy);
+    ewa_scene_destroy(&again);
+    ewa_context_destroy(&context);
+}
+
 TEST(test_bad_is_refused) {
     static const struct {
         const char *text;
@@ -370,6 +402,8 @@ TEST(test_bad_is_refused) {
         {"{\"ewa_scene\": 1, \"items\": {}}", EWA_ERROR_FORMAT, "items"},
         {"{\"ewa_scene\": 1, \"items\": [3]}", EWA_ERROR_FORMAT, "items[0]"},
         {"{\"ewa_scene\": 1, \"camera\": []}", EWA_ERROR_FORMAT, "camera"},
+        {"{\"ewa_scene\": 1, \"keyframes\": {}}", EWA_ERROR_FORMAT, "keyframes"},
+        {"{\"ewa_scene\": 1, \"keyframes\": [{\"width\": 3}]}", EWA_ERROR_FORMAT, "height"},
         {"{\"ewa_scene\": 1, \"measures\": {}}", EWA_ERROR_FORMAT, "measures"},
         {"{\"ewa_scene\": 1, \"measures\": [3]}", EWA_ERROR_FORMAT, "measures[0]"},
         {MEASURE("\"kind\": \"length\""), EWA_ERROR_FORMAT, "measures[0].kind"},
