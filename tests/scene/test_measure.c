@@ -77,7 +77,10 @@ TEST(test_refused) {
     assert_int_equal(ewa_places_measure(EWA_MEASURE_DISTANCE, places, 2, none, &m), EWA_ERROR_ARGUMENT);
     assert_int_equal(ewa_places_measure(EWA_MEASURE_DISTANCE, wild, 2, up, &m), EWA_ERROR_ARGUMENT);
     assert_string_equal(ewa_measure_kind_name(2), "angle");
-    assert_null(ewa_measure_kind_name(4));
+    assert_string_equal(ewa_measure_kind_name(4), "note");
+    assert_int_equal(ewa_places_measure(EWA_MEASURE_NOTE, places, 1, up, &m), EWA_OK);
+    assert_int_equal(ewa_places_measure(EWA_MEASURE_NOTE, places, 2, up, &m), EWA_ERROR_ARGUMENT);
+    assert_null(ewa_measure_kind_name(5));
 }
 
 int main(void) { return RUN_TESTS(NULL, NULL); }
