@@ -31,6 +31,8 @@ static const cli_option photos_table[] = {
     {"exposure", PHOTOS(exposure)},
     {"hold-out", PHOTOS(hold_out)},
     {"rounds", PHOTOS(rounds)},
+    {"pose-steps", PHOTOS(pose_steps)},
+    {"vignetting", PHOTOS(vignetting)},
     {"robust", PHOTOS(robust)},
     {"ridge", PHOTOS(ridge)},
     {"spacing", PHOTOS(spacing_px)},
@@ -61,6 +63,8 @@ static void write_photo(json_writer *json, const ewa_photo *photo, const ewa_pho
     json_number(json, "rms", report->rms);
     json_number(json, "psnr_db", report->psnr_db);
     json_number(json, "rejected", report->rejected);
+    json_number(json, "shift_px", report->shift_px);
+    json_vector(json, "world_to_camera", 16, report->world_to_camera);
     json_close(json, '}');
 }
 
@@ -78,6 +82,7 @@ static bool write_report(cli_session *session, const char *path, const ewa_photo
     json_number(&json, "psnr_db", report->psnr_db);
     json_number(&json, "held_out_rms", report->held_out_rms);
     json_number(&json, "held_out_psnr_db", report->held_out_psnr_db);
+    json_vector(&json, "vignetting", 2, report->vignetting);
     json_number(&json, "low", (double)report->low);
     json_number(&json, "high", (double)report->high);
     json_array(&json, "photographs");
@@ -92,9 +97,10 @@ static void say(cli_session *session, const ewa_photo *photos, uint32_t count, c
     for (uint32_t i = 0; i < count; i++) {
         const ewa_photo_report *at = &per_photo[i];
         session_say(session,
-                    "%s: %u x %u, %llu points, gain %.4f %.4f %.4f, offset %.4f %.4f %.4f, %.2f dB, %.1f %% rejected%s",
+                    "%s: %u x %u, %llu points, gain %.4f %.4f %.4f, offset %.4f %.4f %.4f, moved by %.2f px, %.2f dB, "
+                    "%.1f %% rejected%s",
                     photos[i].path, at->width_px, at->height_px, (unsigned long long)at->point_count, at->gain[0],
-                    at->gain[1], at->gain[2], at->offset[0], at->offset[1], at->offset[2], at->psnr_db,
+                    at->gain[1], at->gain[2], at->offset[0], at->offset[1], at->offset[2], at->shift_px, at->psnr_db,
                     100 * at->rejected, at->held_out ? ", held out" : "");
     }
     session_note(session, "%u photographs see %llu of %llu points, %.2f dB", report->used_count,

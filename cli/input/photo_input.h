@@ -15,7 +15,7 @@ typedef struct photo_arguments {
 /// Rows of an option table; `at` is the offset of the photo_arguments in the command's arguments.
 #define PHOTO_OPTIONS(at)                                                                                    \
     {"cameras", OPTION_TEXT, (at) + offsetof(photo_arguments, cameras_path), "PATH",                         \
-     .help = "cameras that name their photographs: the folder of a COLMAP model, transforms.json, "          \
+     .help = "cameras that name their photographs: the folder of a COLMAP model, cameras.xml, transforms.json, " \
              "cameras.json"},                                                                                \
         {"images", OPTION_TEXT, (at) + offsetof(photo_arguments, images_path), "FOLDER",                     \
          .help = "where the photographs are",                                                                \

@@ -332,6 +332,7 @@ EWA_API ewa_status ewa_transfer_save(ewa_context *context, const ewa_transfer *t
 /// - transforms.json of nerfstudio and instant-ngp; without "w", "h" the size is that of the frame's PNG
 ///   picture;
 /// - cameras.json of INRIA's Gaussian splatting;
+/// - cameras.xml of Metashape: aligned and enabled cameras of its first chunk, in the space of exported points;
 /// - stacks of matrices: {"width", "height", "viewmats" or "viewmats_world_to_camera", "Ks"};
 /// - a folder with a COLMAP model: cameras and images, .bin or else .txt.
 ///
@@ -399,9 +400,10 @@ typedef struct ewa_photo {
 /// The photographs that a file of cameras names.
 typedef struct ewa_photo_list ewa_photo_list;
 
-/// Reads cameras and finds the photographs that they took, none of which is read: a COLMAP model, transforms.json,
-/// cameras.json, our own cameras with a "file_path"; with their lenses: COLMAP's SIMPLE_RADIAL, RADIAL, OPENCV, FULL_OPENCV,
-/// SIMPLE_RADIAL_FISHEYE, RADIAL_FISHEYE and OPENCV_FISHEYE, nerfstudio's OPENCV and OPENCV_FISHEYE. `images`: the folder that names are relative to; NULL: the folder
+/// Reads cameras and finds the photographs that they took, none of which is read: a COLMAP model, Metashape's
+/// cameras.xml, transforms.json, cameras.json, our own cameras with a "file_path"; with their lenses: COLMAP's SIMPLE_RADIAL,
+/// RADIAL, OPENCV, FULL_OPENCV, SIMPLE_RADIAL_FISHEYE, RADIAL_FISHEYE and OPENCV_FISHEYE, nerfstudio's OPENCV and OPENCV_FISHEYE,
+/// Metashape's frame and fisheye but for k4 and skew of the former. `images`: the folder that names are relative to; NULL: the folder
 /// "images" in or above that of a COLMAP model, else that of the file. Names without a suffix get .png, .jpg, .JPG,
 /// .jpeg. What files name lies where ewa_context_options.named_files lets it be. The caller destroys `*list`, which is
 /// NULL after a failure. Errors: those of ewa_camera_load(); EWA_ERROR_FORMAT (a camera without a name),

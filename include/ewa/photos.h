@@ -75,6 +75,10 @@ typedef struct ewa_photos_options {
     double ridge;      ///< of the fit: pull towards the median, of the median point's own weight; (0, 10]; default 0.1
     double spacing_px; ///< photographs are halved while points stay so far apart; 0: never; [0, 100]; default 2
     double cutoff;     ///< F: a "radius" is so many standard deviations; (0, 4]; default 3
+    /// Steps by which the pose of each photograph is refined in each round of the fit, and as many in all of those that are held
+    /// out; [0, 20]; 0 (default): poses are taken as they are
+    uint32_t pose_steps;
+    bool vignetting; ///< how much darker photographs are towards their corners is found, if one lens has taken them; default false
 } ewa_photos_options;
 
 EWA_API extern const ewa_option_table ewa_photos_options_table;
@@ -90,6 +94,8 @@ typedef struct ewa_photo_report {
     double rms;      ///< difference from the points' picture, sRGB numbers in [0, 1]
     double rejected; ///< share of its pixels that count less than a quarter
     double psnr_db;  ///< the same as rms; infinite where nothing differs, NaN where it sees none of the points
+    double world_to_camera[16]; ///< the pose, as pose steps have refined it
+    double shift_px; ///< how far these have moved what is seen: root of the mean square
 } ewa_photo_report;
 
 /// What was done.
@@ -98,6 +104,7 @@ typedef struct ewa_photos_report {
     uint64_t seen_count;                 ///< points that some photograph sees; the others keep their colours
     double rms, held_out_rms;            ///< over all pixels of those that were used, of those that were not
     double psnr_db, held_out_psnr_db;    ///< NaN: there are none
+    double vignetting[2];                ///< a, b: 1 + a r^2 + b r^4 is left of the light, r being 1 in the corners
     float low, high;                     ///< smallest and largest number of the colours that are new
 } ewa_photos_report;
 
@@ -109,7 +116,8 @@ typedef struct ewa_photos_report {
 ///
 ///     sum over photographs and pixels  w |A c - (photo - offset)/gain|^2 + ridge |c - median|^2
 ///
-/// by conjugate gradients, with w the robust weights of Geman and McClure. Colours may leave [0, 1]; nothing but output
+/// by conjugate gradients, with w the robust weights of Geman and McClure; poses follow the gradient of the pictures
+/// meanwhile (docs/photos.md). Colours may leave [0, 1]; nothing but output
 /// clamps them. Photographs of lenses are undistorted. One photograph is in memory at a time. The order of the photographs
 /// counts where some are held out, and of those with the same camera; else it does not, nor does the number of threads.
 ///

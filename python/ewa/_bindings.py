@@ -1814,6 +1814,8 @@ class ewa_photo_report(c.Structure):
     rms: float
     rejected: float
     psnr_db: float
+    world_to_camera: c.Array[c.c_double]
+    shift_px: float
     _fields_ = [
         ("held_out", c.c_bool),
         ("width_px", c.c_uint32),
@@ -1825,6 +1827,8 @@ class ewa_photo_report(c.Structure):
         ("rms", c.c_double),
         ("rejected", c.c_double),
         ("psnr_db", c.c_double),
+        ("world_to_camera", c.c_double * 16),
+        ("shift_px", c.c_double),
     ]
 
 
@@ -1838,6 +1842,8 @@ class ewa_photos_options(c.Structure):
     ridge: float
     spacing_px: float
     cutoff: float
+    pose_steps: int
+    vignetting: bool
     _fields_ = [
         ("struct_size", c.c_size_t),
         ("method", c.c_int),
@@ -1848,6 +1854,8 @@ class ewa_photos_options(c.Structure):
         ("ridge", c.c_double),
         ("spacing_px", c.c_double),
         ("cutoff", c.c_double),
+        ("pose_steps", c.c_uint32),
+        ("vignetting", c.c_bool),
     ]
 
 
@@ -1859,6 +1867,7 @@ class ewa_photos_report(c.Structure):
     held_out_rms: float
     psnr_db: float
     held_out_psnr_db: float
+    vignetting: c.Array[c.c_double]
     low: float
     high: float
     _fields_ = [
@@ -1869,6 +1878,7 @@ class ewa_photos_report(c.Structure):
         ("held_out_rms", c.c_double),
         ("psnr_db", c.c_double),
         ("held_out_psnr_db", c.c_double),
+        ("vignetting", c.c_double * 2),
         ("low", c.c_float),
         ("high", c.c_float),
     ]

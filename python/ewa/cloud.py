@@ -562,7 +562,7 @@ class Cloud:
         Parameters
         ----------
         cameras : path or sequence of (Camera, array_like of shape (height, width, 3 or 4))
-            The folder of a COLMAP model, transforms.json, cameras.json; or cameras with what they took: uint8: sRGB,
+            The folder of a COLMAP model, cameras.xml, transforms.json, cameras.json; or cameras with what they took: uint8: sRGB,
             float32: linear light, premultiplied; pixels that are not opaque are not looked at.
         images : path, optional
             The folder of the photographs. Default: where the file says.

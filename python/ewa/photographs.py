@@ -36,6 +36,10 @@ class PhotoReport(NamedTuple):
         It shows gain * colour + offset, linear light.
     rms, psnr_db, rejected : float
         Difference from the points' picture, sRGB numbers in [0, 1]; share of its pixels that count less than a quarter.
+    world_to_camera : ndarray of float64, shape (4, 4)
+        The pose, as pose steps have refined it.
+    shift_px : float
+        How far these have moved what is seen: root of the mean square.
     """
 
     held_out: bool
@@ -47,6 +51,8 @@ class PhotoReport(NamedTuple):
     rms: float
     psnr_db: float
     rejected: float
+    world_to_camera: Array
+    shift_px: float
 
 
 class PhotosReport(NamedTuple):
@@ -58,6 +64,8 @@ class PhotosReport(NamedTuple):
         Points that some photograph sees.
     psnr_db, held_out_psnr_db : float
         Over all pixels of photographs that were used, that were not; NaN: there are none.
+    vignetting : (float, float)
+        a, b: 1 + a r^2 + b r^4 is left of the light, r being 1 in the corners.
     photographs : list of PhotoReport
         In the caller's order.
     """
@@ -65,6 +73,7 @@ class PhotosReport(NamedTuple):
     seen_count: int
     psnr_db: float
     held_out_psnr_db: float
+    vignetting: tuple[float, float]
     photographs: list[PhotoReport]
 
 
@@ -173,7 +182,8 @@ def color(handle: Handle, cameras: PathLike | Sequence[tuple[Camera, Any]], imag
     each = (b.ewa_photo_report * max(1, count))()
     core.call(lib.ewa_cloud_color_from_photos, handle, photos, count, ctypes.byref(made), ctypes.byref(report), each)
     del keep, listed  # what the photographs lie in
-    return PhotosReport(report.seen_count, report.psnr_db, report.held_out_psnr_db,
+    return PhotosReport(report.seen_count, report.psnr_db, report.held_out_psnr_db, (report.vignetting[0], report.vignetting[1]),
                         [PhotoReport(bool(r.held_out), (r.width_px, r.height_px), r.pixel_count, r.point_count,
-                                     np.array(r.gain), np.array(r.offset), r.rms, r.psnr_db, r.rejected)
+                                     np.array(r.gain), np.array(r.offset), r.rms, r.psnr_db, r.rejected,
+                                     np.array(r.world_to_camera).reshape(4, 4), r.shift_px)
                          for r in each[:count]])

@@ -72,7 +72,8 @@ static void combine_piece(void *data, uint32_t index, uint32_t worker) {
             for (uint32_t i = 0; i < count; i++) {
                 const ewa_photo_state *photo = &job->photos[job->sample_photos[first + i]];
                 const ewa_photo_sample *sample = job->samples[first + i];
-                numbers[i] = (said){((double)sample->color[c] - photo->offset[c]) / photo->gain[c],
+                const double vignette = ewa_photo_vignette(job->vignetting, (double)sample->radius2);
+                numbers[i] = (said){((double)sample->color[c] / vignette - photo->offset[c]) / photo->gain[c],
                                     (double)sample->weight};
             }
             job->color[(size_t)point * EWA_PHOTO_CHANNELS + c] =
@@ -105,7 +106,8 @@ static void get_pair(const void *user, uint32_t i, double shown[EWA_PHOTO_CHANNE
                      double *weight) {
     const sample_pairs *pairs = user;
     const ewa_photo_sample *sample = &pairs->photo->samples[i];
-    for (int c = 0; c < EWA_PHOTO_CHANNELS; c++) shown[c] = (double)sample->color[c];
+    const double vignette = ewa_photo_vignette(pairs->job->vignetting, (double)sample->radius2);
+    for (int c = 0; c < EWA_PHOTO_CHANNELS; c++) shown[c] = (double)sample->color[c] / vignette;
     memcpy(color, pairs->job->color + (size_t)sample->point * EWA_PHOTO_CHANNELS, EWA_PHOTO_CHANNELS * sizeof *color);
     // What one photograph alone says of a point says nothing about its exposure.
     *weight = pairs->job->counts[sample->point] > 1 ? (double)sample->weight : 0;
@@ -124,6 +126,25 @@ static void expose_photo(void *data, uint32_t index, uint32_t worker) {
     const ewa_exposure_pairs pairs = {photo->telling_count, 1, &user, get_pair};
     if (ewa_photo_is_exposed(photo))
         ewa_exposure_step(&pairs, exposure->job->options.exposure, exposure->scale, photo->gain, photo->offset);
+}
+
+/// Finds the vignetting that what photographs say agrees with best.
+static void find_vignetting(ewa_photos_job *job, double scale) {
+    double sums[EWA_VIGNETTING_SUMS] = {0};
+    for (uint32_t k = 0; k < job->photo_count; k++) {
+        const ewa_photo_state *photo = &job->photos[k];
+        const sample_pairs pairs = {job, photo};
+        for (uint32_t i = 0; i < (ewa_photo_is_exposed(photo) ? photo->telling_count : 0); i++) {
+            const double radius2 = (double)photo->samples[i].radius2, vignette = ewa_photo_vignette(job->vignetting, radius2);
+            double shown[EWA_PHOTO_CHANNELS], wanted[EWA_PHOTO_CHANNELS], weight;
+            get_pair(&pairs, i, shown, wanted, &weight);
+            for (int c = 0; c < EWA_PHOTO_CHANNELS; c++) wanted[c] = photo->gain[c] * wanted[c] + photo->offset[c];
+            weight *= ewa_robust_weight(shown, wanted, scale);
+            for (int c = 0; c < EWA_PHOTO_CHANNELS; c++) shown[c] *= vignette;
+            ewa_vignetting_add(shown, wanted, radius2, weight, sums);
+        }
+    }
+    ewa_vignetting_settle(sums, job->vignetting);
 }
 
 /// Gains and offsets of all photographs.
@@ -146,7 +167,9 @@ static ewa_status find_exposures(ewa_photos_job *job, double begin, double end, 
         ewa_parallel(job->context, expose_photo, &exposure, job->photo_count);
         ewa_exposures_centre(job, NULL, 0);
         copy_exposures(job, after);
-        double change = 0;
+        const double lens[2] = {job->vignetting[0], job->vignetting[1]};
+        if (job->options.vignetting) find_vignetting(job, exposure.scale);
+        double change = fmax(fabs(job->vignetting[0] - lens[0]), fabs(job->vignetting[1] - lens[1]));
         for (size_t i = 0; i < count; i++) change = fmax(change, fabs(after[i] - before[i]));
         if (step >= WIDE_STEPS && change < SETTLED) break;
     }
@@ -156,7 +179,7 @@ static ewa_status find_exposures(ewa_photos_job *job, double begin, double end, 
 ewa_status ewa_photos_settle(ewa_photos_job *job, double begin, double end) {
     const size_t count = (size_t)job->photo_count * EWA_PHOTO_CHANNELS * 2;
     ewa_status status = EWA_OK;
-    if (job->options.exposure != EWA_EXPOSURE_OFF) {
+    if (job->options.exposure != EWA_EXPOSURE_OFF || job->options.vignetting) {
         double *room = ewa_allocate(job->context, 2 * count, sizeof *room);
         status = room ? find_exposures(job, begin, end, room, room + count, count) : EWA_ERROR_MEMORY;
         ewa_release(job->context, room, 2 * count, sizeof *room);

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Exposures of photographs: gains and offsets by weighted least squares, which robust weights make anew in each step.
+// Exposures of photographs: gains and offsets by weighted least squares, which robust weights make anew in each step, and what
+// their lens darkens towards the corners.
 //
 // Based on: S. Geman, D. McClure, "Statistical Methods for Tomographic Image Reconstruction", 1987 (weights).
 #include "photos/parts.h"
@@ -12,6 +13,10 @@
 static const double OFFSET_PULL = 1e-5;
 /// Gains of a photograph that shows next to nothing stay within.
 static const double MIN_GAIN = 1e-3, MAX_GAIN = 1e3;
+/// Of both numbers of a vignette, relative to what pixels say of it: what they say nothing of stays small.
+static const double VIGNETTING_DAMPING = 1e-4;
+/// Lenses leave so much: on the way to what they leave where photographs show points, numbers may say less elsewhere.
+static const double LEAST_LIGHT = 0.05;
 
 double ewa_robust_weight(const double shown[EWA_PHOTO_CHANNELS], const double wanted[EWA_PHOTO_CHANNELS], double scale) {
     if (scale <= 0) return 1;
@@ -54,6 +59,33 @@ void ewa_exposure_step(const ewa_exposure_pairs *pairs, ewa_photos_exposure kind
         }
         gain[c] = fmin(fmax(g, MIN_GAIN), MAX_GAIN), offset[c] = o;
     }
+}
+
+double ewa_photo_radius2(const ewa_camera *camera, double x_px, double y_px) {
+    const double x = x_px - 0.5 * camera->width_px, y = y_px - 0.5 * camera->height_px;
+    return 4 * (x * x + y * y) / ((double)camera->width_px * camera->width_px + (double)camera->height_px * camera->height_px);
+}
+
+double ewa_photo_vignette(const double vignetting[2], double radius2) {
+    return fmax(1 + radius2 * (vignetting[0] + radius2 * vignetting[1]), LEAST_LIGHT);
+}
+
+void ewa_vignetting_add(const double shown[EWA_PHOTO_CHANNELS], const double wanted[EWA_PHOTO_CHANNELS], double radius2,
+                        double weight, double sums[EWA_VIGNETTING_SUMS]) {
+    for (int c = 0; c < EWA_PHOTO_CHANNELS; c++) {
+        const double w = weight / (fmax(wanted[c], 0) + EWA_PHOTO_LEAST_COLOR), x = wanted[c] * radius2, y = x * radius2,
+                     f = shown[c] - wanted[c];
+        const double terms[EWA_VIGNETTING_SUMS] = {w * x * x, w * x * y, w * y * y, w * x * f, w * y * f};
+        for (int k = 0; k < EWA_VIGNETTING_SUMS; k++) sums[k] += terms[k];
+    }
+}
+
+void ewa_vignetting_settle(const double sums[EWA_VIGNETTING_SUMS], double vignetting[2]) {
+    const double xx = sums[0] * (1 + VIGNETTING_DAMPING), xy = sums[1], yy = sums[2] * (1 + VIGNETTING_DAMPING);
+    const double determinant = xx * yy - xy * xy;
+    if (!(determinant > 0)) return;
+    vignetting[0] = (sums[3] * yy - sums[4] * xy) / determinant;
+    vignetting[1] = (sums[4] * xx - sums[3] * xy) / determinant;
 }
 
 void ewa_exposures_centre(ewa_photos_job *job, double *const *colors, uint32_t array_count) {

@@ -33,31 +33,14 @@ typedef struct fit_round {
     ewa_status status; ///< of the products
 } fit_round;
 
-/// One photograph of a round.
-typedef struct fit_photo {
-    ewa_photos_job *job;
-    const ewa_photo_view *view;
-    ewa_photo_state *photo;
-    float *shown; ///< [pixel][4]: A c, then weight times what is missing
-} fit_photo;
-
-static void get_pair(const void *user, uint32_t i, double shown[EWA_PHOTO_CHANNELS], double color[EWA_PHOTO_CHANNELS],
-                     double *weight) {
-    const fit_photo *at = user;
-    const ewa_photo_pixel *pixel = &at->view->pixels[i];
-    const float *from = at->shown + 4 * (size_t)i;
-    for (int c = 0; c < EWA_PHOTO_CHANNELS; c++) shown[c] = (double)pixel->color[c], color[c] = (double)from[c];
-    *weight = (double)(pixel->weight * from[3]);
-}
-
 static void weigh_piece(void *data, uint32_t index, uint32_t worker) {
     (void)worker;
-    fit_photo *at = data;
+    const ewa_photo_match *at = data;
     const uint32_t begin = index * EWA_PHOTO_PIECE;
     const double *gain = at->photo->gain, *offset = at->photo->offset;
     for (uint32_t i = begin; i < begin + EWA_PHOTO_PIECE && i < at->view->pixel_count; i++) {
         double shown[EWA_PHOTO_CHANNELS], color[EWA_PHOTO_CHANNELS], wanted[EWA_PHOTO_CHANNELS], weight, mean = 0;
-        get_pair(at, i, shown, color, &weight);
+        ewa_photo_match_get(at, i, shown, color, &weight);
         for (int c = 0; c < EWA_PHOTO_CHANNELS; c++) {
             wanted[c] = gain[c] * color[c] + offset[c];
             mean += fmax(color[c], 0) / EWA_PHOTO_CHANNELS;
@@ -70,12 +53,11 @@ static void weigh_piece(void *data, uint32_t index, uint32_t worker) {
     }
 }
 
-static ewa_status add_photo(fit_photo *at, fit_round *round) {
+static ewa_status add_photo(ewa_photo_match *at, fit_round *round) {
     const ewa_photos_job *job = at->job;
-    const ewa_exposure_pairs pairs = {at->view->pixel_count, ewa_exposure_stride(at->view->pixel_count), at, get_pair};
-    EWA_TRY(ewa_photo_view_show(at->view, job->color, at->shown));
-    for (int step = 0; step < EXPOSURE_STEPS && ewa_photo_is_exposed(at->photo); step++)
-        ewa_exposure_step(&pairs, job->options.exposure, job->options.robust, at->photo->gain, at->photo->offset);
+    const bool exposed = ewa_photo_is_exposed(at->photo);
+    EWA_TRY(ewa_photo_match_settle(at, exposed ? EXPOSURE_STEPS : 0, 0, exposed ? job->options.pose_steps : 0));
+    at->photo->fitted.camera = at->view->camera;
     ewa_parallel(job->context, weigh_piece, at, (at->view->pixel_count + EWA_PHOTO_PIECE - 1) / EWA_PHOTO_PIECE);
     EWA_TRY(ewa_photo_view_gather(at->view, at->shown, round->sides));
     return ewa_photo_view_normal(at->view, at->photo->fit_weights, NULL, round->diagonal);
@@ -87,7 +69,7 @@ static ewa_status add_view(fit_round *round, ewa_photo_state *photo, ewa_photo_v
     const size_t size = (size_t)view->pixel_count * 4;
     photo->fitted = *view, photo->fitted.pixels = NULL;
     photo->fit_weights = ewa_allocate(context, view->pixel_count, sizeof *photo->fit_weights);
-    fit_photo at = {round->job, view, photo, ewa_allocate(context, size, sizeof *at.shown)};
+    ewa_photo_match at = {round->job, view, photo, ewa_allocate(context, size, sizeof *at.shown)};
     const ewa_status status = at.shown && photo->fit_weights ? add_photo(&at, round) : EWA_ERROR_MEMORY;
     ewa_release(context, at.shown, size, sizeof *at.shown);
     return status;
@@ -185,7 +167,7 @@ static ewa_status run_round(fit_round *round, double begin, double end) {
         EWA_TRY(ewa_progress(job->context, "photos", begin + (middle - begin) * i / job->photo_count));
         if (photo->held_out || photo->sample_count == 0) continue;
         ewa_photo_view view;
-        EWA_TRY(ewa_photo_view_make(job, photo->photo, photo->number, &photo->halvings, &view));
+        EWA_TRY(ewa_photo_view_make(job, photo, &view));
         const ewa_status status = add_view(round, photo, &view);
         ewa_photo_view_free(&view);
         EWA_TRY(status);

@@ -15,6 +15,7 @@ enum {
     EWA_PHOTO_CHANNELS = 3,
     EWA_PHOTO_PIECE = 4096, ///< pixels or points per piece of parallel work
     EWA_PHOTO_MAX = 65535,  ///< photographs
+    EWA_VIGNETTING_SUMS = 5,
 };
 
 typedef struct ewa_photos_job ewa_photos_job;
@@ -38,10 +39,6 @@ typedef struct ewa_photo_view {
     ewa_photo_pixel *pixels;
 } ewa_photo_view;
 
-/// Reads a photograph and halves it `*halvings` times. UINT32_MAX halvings: as often as points
-/// stay `spacing_px` apart, which is then set. Errors: those of ewa_cloud_color_from_photos().
-ewa_status ewa_photo_view_make(const ewa_photos_job *job, const ewa_photo *photo, uint32_t number,
-                               uint32_t *halvings, ewa_photo_view *view);
 void ewa_photo_view_free(ewa_photo_view *view);
 
 /// Sets what points show at the pixels of a view, [pixel_count][4]: A colors and 1, or zeros where A has no row. Errors:
@@ -59,7 +56,8 @@ ewa_status ewa_photo_view_normal(const ewa_photo_view *view, const float *weight
 typedef struct ewa_photo_sample {
     uint32_t point;
     float weight; ///< pixels
-    float color[EWA_PHOTO_CHANNELS];
+    float color[EWA_PHOTO_CHANNELS]; ///< as the lens has left it
+    float radius2;                   ///< where it shows the point
 } ewa_photo_sample;
 
 /// A photograph in the works.
@@ -67,6 +65,7 @@ typedef struct ewa_photo_state {
     const ewa_photo *photo;
     uint32_t number, halvings;
     bool held_out;
+    double world_to_camera[16]; ///< as poses are refined
     ewa_photo_sample *samples;
     uint32_t sample_count, telling_count; ///< the first so many tell the exposure
     double gain[EWA_PHOTO_CHANNELS], offset[EWA_PHOTO_CHANNELS];
@@ -74,6 +73,10 @@ typedef struct ewa_photo_state {
     ewa_photo_view fitted; ///< in a round of the fit, without pixels
     float *fit_weights;    ///< of its pixels; NULL: nothing of it is fitted
 } ewa_photo_state;
+
+/// Reads a photograph and halves it as often as points stay `spacing_px` apart, or as often as it was before. Errors: those of
+/// ewa_cloud_color_from_photos().
+ewa_status ewa_photo_view_make(const ewa_photos_job *job, ewa_photo_state *photo, ewa_photo_view *view);
 
 /// Whether the exposure of a photograph is found here: it is used, and sees enough points; others have the one that they
 /// come with.
@@ -91,6 +94,7 @@ struct ewa_photos_job {
     ewa_photos_options options;
     uint32_t point_count, photo_count;
     ewa_photo_state *photos; ///< in an order of their cameras
+    double vignetting[2];     ///< of all photographs, whose pixels are divided by it
     double *color;            ///< [point][EWA_PHOTO_CHANNELS]
     uint16_t *counts;         ///< [point]
     uint64_t *sample_starts;  ///< [point + 1]
@@ -124,6 +128,35 @@ static inline uint32_t ewa_exposure_stride(uint32_t count) {
 /// a pair counts a quarter, 0: all count.
 void ewa_exposure_step(const ewa_exposure_pairs *pairs, ewa_photos_exposure kind, double scale,
                        double gain[EWA_PHOTO_CHANNELS], double offset[EWA_PHOTO_CHANNELS]);
+
+/// A photograph beside what the points show.
+typedef struct ewa_photo_match {
+    const ewa_photos_job *job;
+    ewa_photo_view *view;
+    ewa_photo_state *photo;
+    float *shown; ///< [pixel][4]: A c and 1, or zeros
+} ewa_photo_match;
+
+/// Shows the points, and finds the photograph's exposure by `steps` steps, the first `wide_steps` with robust weights of
+/// larger scales, then the pose by so many, each with another of the exposure. Errors: EWA_ERROR_MEMORY, EWA_CANCELLED.
+ewa_status ewa_photo_match_settle(const ewa_photo_match *match, int steps, int wide_steps, uint32_t pose_steps);
+
+/// Gives what the photograph shows at a pixel, what the points show, and the weight.
+void ewa_photo_match_get(const void *match, uint32_t i, double shown[EWA_PHOTO_CHANNELS], double color[EWA_PHOTO_CHANNELS],
+                         double *weight);
+
+/// Square of a place's distance from the middle of the picture, 1 in the corners.
+double ewa_photo_radius2(const ewa_camera *camera, double x_px, double y_px);
+
+/// What part of the light a lens leaves at such a place: 1 + a r^2 + b r^4.
+double ewa_photo_vignette(const double vignetting[2], double radius2);
+
+/// Adds what a colour says of a and b: the lens leaves `shown` of what is wanted.
+void ewa_vignetting_add(const double shown[EWA_PHOTO_CHANNELS], const double wanted[EWA_PHOTO_CHANNELS], double radius2,
+                        double weight, double sums[EWA_VIGNETTING_SUMS]);
+
+/// Sets a and b by all that photographs say; where that is next to nothing, they stay.
+void ewa_vignetting_settle(const double sums[EWA_VIGNETTING_SUMS], double vignetting[2]);
 
 /// Errors count relative to this and the colour, as they do where numbers are sRGB.
 #define EWA_PHOTO_LEAST_COLOR 0.02

@@ -18,7 +18,7 @@
 static const double LEAST_SEEN_PX = 0.02;
 
 /// Parts of the progress.
-static const double SAMPLED = 0.3, SETTLED = 0.35, FITTED = 0.8;
+static const double FITTED = 0.8, SAMPLED = 0.4, SETTLED = 0.45; // the others are parts of the first
 
 #define AT(member) offsetof(ewa_photos_options, member)
 
@@ -40,6 +40,11 @@ static const ewa_option option_rows[] = {
      .help = "photographs are halved while points stay so many pixels apart; 0: never"},
     {"cutoff", EWA_OPTION_F64, AT(cutoff), 0, 4, EWA_OPTION_ABOVE, .initial = 3,
      .help = "standard deviations at which kernels end"},
+    {"pose_steps", EWA_OPTION_U32, AT(pose_steps), 0, 20,
+     .help = "steps by which the pose of each photograph is refined in each round of the fit, and as many in all of those that "
+             "are held out; 0: poses are taken as they are"},
+    {"vignetting", EWA_OPTION_BOOL, AT(vignetting),
+     .help = "find how much darker photographs are towards their corners, which one lens has taken"},
 };
 
 const ewa_option_table ewa_photos_options_table = EWA_OPTION_TABLE(ewa_photos_options, option_rows);
@@ -97,11 +102,26 @@ static ewa_status add_up(ewa_photos_job *job, const ewa_photo_view *view, float 
     return EWA_OK;
 }
 
+/// Where a photograph shows a point: the square of its distance from the middle.
+static double radius2_of(const ewa_photos_job *job, const ewa_photo_state *photo, uint32_t point) {
+    const ewa_camera *camera = &photo->photo->camera;
+    const double *m = photo->world_to_camera;
+    double at[3], origin[3], p[3] = {m[3], m[7], m[11]};
+    ewa_cloud_origin(job->cloud, origin);
+    ewa_attribute_read_f64(ewa_cloud_find(job->cloud, EWA_POSITION), point, 1, at);
+    for (int r = 0; r < 3; r++)
+        for (int c = 0; c < 3; c++) p[r] += m[4 * r + c] * (at[c] + origin[c]);
+    const double depth = camera->projection == EWA_ORTHOGRAPHIC ? 1 : p[2];
+    return ewa_photo_radius2(camera, camera->fx_px * p[0] / depth + camera->cx_px, camera->fy_px * p[1] / depth + camera->cy_px);
+}
+
 static void keep_sample(ewa_photos_job *job, ewa_photo_state *photo, uint32_t point, const double sum[4]) {
     if (!(sum[0] > LEAST_SEEN_PX)) return;
     ewa_photo_sample *to = &photo->samples[photo->sample_count++];
     *to = (ewa_photo_sample){.point = point, .weight = (float)sum[0]};
-    for (int c = 0; c < EWA_PHOTO_CHANNELS; c++) to->color[c] = (float)(sum[c + 1] / sum[0]);
+    if (job->options.vignetting) to->radius2 = (float)radius2_of(job, photo, point);
+    const double vignette = ewa_photo_vignette(job->vignetting, (double)to->radius2);
+    for (int c = 0; c < EWA_PHOTO_CHANNELS; c++) to->color[c] = (float)(sum[c + 1] / sum[0] * vignette);
     job->counts[point]++;
 }
 
@@ -110,6 +130,7 @@ static ewa_status keep_samples(ewa_photos_job *job, ewa_photo_state *photo, cons
     uint32_t count = 0;
     for (uint32_t i = 0; i < job->point_count; i++) count += sums[4 * (size_t)i] > LEAST_SEEN_PX;
     photo->report.point_count = count;
+    photo->sample_count = 0;
     if (count == 0)
         ewa_report(job->context, EWA_SEVERITY_WARNING, "%s: photograph %u sees none of the points",
                    photo->photo->path ? photo->photo->path : "photos", photo->number);
@@ -129,7 +150,7 @@ static ewa_status keep_samples(ewa_photos_job *job, ewa_photo_state *photo, cons
 /// Opens the view of a photograph.
 static ewa_status look(ewa_photos_job *job, ewa_photo_state *photo, double fraction, ewa_photo_view *view) {
     EWA_TRY(ewa_progress(job->context, "photos", fraction));
-    return ewa_photo_view_make(job, photo->photo, photo->number, &photo->halvings, view);
+    return ewa_photo_view_make(job, photo, view);
 }
 
 static ewa_status sample(ewa_photos_job *job, ewa_photo_state *photo, double fraction, double *found, double *sums) {
@@ -142,12 +163,12 @@ static ewa_status sample(ewa_photos_job *job, ewa_photo_state *photo, double fra
     return status == EWA_OK ? keep_samples(job, photo, sums) : status;
 }
 
-static ewa_status sample_all(ewa_photos_job *job) {
+static ewa_status sample_all(ewa_photos_job *job, double begin, double end) {
     const size_t points = job->point_count;
     double *room = ewa_allocate(job->context, points * 7, sizeof *room);
     ewa_status status = room ? EWA_OK : EWA_ERROR_MEMORY;
     for (uint32_t i = 0; i < job->photo_count && status == EWA_OK; i++)
-        status = sample(job, &job->photos[i], SAMPLED * i / job->photo_count, room, room + 3 * points);
+        status = sample(job, &job->photos[i], begin + (end - begin) * i / job->photo_count, room, room + 3 * points);
     ewa_release(job->context, room, points * 7, sizeof *room);
     return status;
 }
@@ -181,33 +202,13 @@ typedef struct error_sums {
     uint64_t count[2];
 } error_sums;
 
-/// A view beside its photograph.
-typedef struct compare_job {
-    const ewa_photos_job *job;
-    const ewa_photo_view *view;
-    ewa_photo_state *photo;
-    float *shown; ///< [pixel][4]: A c, then weight, weighted square of what is missing (mean over the channels, sRGB), and
-                  ///< the square where the pixel counts, else -1
-} compare_job;
-
-static void get_pair(const void *user, uint32_t i, double shown[EWA_PHOTO_CHANNELS], double color[EWA_PHOTO_CHANNELS],
-                     double *weight) {
-    const compare_job *at = user;
-    const float *from = at->shown + 4 * (size_t)i;
-    for (size_t c = 0; c < EWA_PHOTO_CHANNELS; c++) {
-        shown[c] = (double)at->view->pixels[i].color[c];
-        color[c] = (double)from[c];
-    }
-    *weight = (double)(at->view->pixels[i].weight * from[3]);
-}
-
 static void compare_piece(void *data, uint32_t index, uint32_t worker) {
     (void)worker;
-    const compare_job *at = data;
+    const ewa_photo_match *at = data;
     const uint32_t begin = index * EWA_PHOTO_PIECE;
     for (uint32_t i = begin; i < begin + EWA_PHOTO_PIECE && i < at->view->pixel_count; i++) {
         double shown[EWA_PHOTO_CHANNELS], color[EWA_PHOTO_CHANNELS], weight, square = 0;
-        get_pair(at, i, shown, color, &weight);
+        ewa_photo_match_get(at, i, shown, color, &weight);
         for (int c = 0; c < EWA_PHOTO_CHANNELS; c++) {
             const double wanted = at->photo->gain[c] * color[c] + at->photo->offset[c];
             const double difference =
@@ -220,18 +221,15 @@ static void compare_piece(void *data, uint32_t index, uint32_t worker) {
     }
 }
 
-/// Compares a view, and adds to the residuals of its points, [point][3]: weights, weighted squares, nothing.
-static ewa_status compare(compare_job *at, double *residuals, error_sums *errors) {
+/// Compares a view, whose points' picture becomes weight, weighted square of what is missing (mean over the channels, sRGB), 0,
+/// and the square where the pixel counts, else -1; adds to the residuals of its points, [point][3]: weights, weighted squares, nothing.
+static ewa_status compare(ewa_photo_match *at, double *residuals, error_sums *errors) {
     enum { STEPS = 12, WIDE_STEPS = 4 };
     const ewa_photos_job *job = at->job;
     ewa_photo_state *photo = at->photo;
     const ewa_photo_view *view = at->view;
-    EWA_TRY(ewa_photo_view_show(view, job->color, at->shown));
-    const ewa_exposure_pairs pairs = {view->pixel_count, ewa_exposure_stride(view->pixel_count), at, get_pair};
-    for (int step = 0; step < STEPS && photo->held_out; step++)
-        ewa_exposure_step(&pairs, job->options.exposure,
-                          job->options.robust * ldexp(1, step < WIDE_STEPS ? WIDE_STEPS - step : 0), photo->gain,
-                          photo->offset);
+    const uint32_t pose_steps = job->options.pose_steps * job->options.rounds;
+    EWA_TRY(ewa_photo_match_settle(at, photo->held_out ? STEPS : 0, WIDE_STEPS, photo->held_out ? pose_steps : 0));
     ewa_parallel(job->context, compare_piece, at, (view->pixel_count + EWA_PHOTO_PIECE - 1) / EWA_PHOTO_PIECE);
     double square = 0;
     uint64_t rejected = 0, count = 0;
@@ -257,7 +255,7 @@ static ewa_status compare_one(ewa_photos_job *job, ewa_photo_state *photo, doubl
     ewa_photo_view view;
     EWA_TRY(look(job, photo, fraction, &view));
     const size_t size = (size_t)view.pixel_count * 4;
-    compare_job at = {job, &view, photo, ewa_allocate(job->context, size, sizeof *at.shown)};
+    ewa_photo_match at = {job, &view, photo, ewa_allocate(job->context, size, sizeof *at.shown)};
     const ewa_status status = at.shown ? compare(&at, residuals, errors) : EWA_ERROR_MEMORY;
     ewa_release(job->context, at.shown, size, sizeof *at.shown);
     ewa_photo_view_free(&view);
@@ -271,12 +269,14 @@ static ewa_status compare_all(ewa_photos_job *job, double begin, double *residua
         EWA_TRY(compare_one(job, photo, begin + (1 - begin) * i / job->photo_count, residuals, &sums));
         memcpy(photo->report.gain, photo->gain, sizeof photo->gain);
         memcpy(photo->report.offset, photo->offset, sizeof photo->offset);
+        memcpy(photo->report.world_to_camera, photo->world_to_camera, sizeof photo->world_to_camera);
         photo->report.held_out = photo->held_out;
         photo->report.psnr_db = photo->report.pixel_count ? decibels(photo->report.rms) : NAN;
         ++*(photo->held_out ? &report->held_out_count : &report->used_count);
     }
     report->rms = sums.count[0] ? sqrt(sums.square[0] / (double)sums.count[0]) : 0;
     report->held_out_rms = sums.count[1] ? sqrt(sums.square[1] / (double)sums.count[1]) : 0;
+    memcpy(report->vignetting, job->vignetting, sizeof report->vignetting);
     report->psnr_db = sums.count[0] ? decibels(report->rms) : NAN;
     report->held_out_psnr_db = sums.count[1] ? decibels(report->held_out_rms) : NAN;
     return EWA_OK;
@@ -346,15 +346,23 @@ static void drop_samples(ewa_photos_job *job) {
     }
 }
 
-static ewa_status run(ewa_photos_job *job, double *alpha, double *residuals, ewa_photos_report *report) {
+/// Finds colours by the poses that there are, and better poses by these. Progress goes from `begin` to `end`.
+static ewa_status find_colors(ewa_photos_job *job, double *alpha, double begin, double end) {
+    const double sampled = begin + SAMPLED * (end - begin), settled = begin + SETTLED * (end - begin);
     read_colors(job, alpha);
-    EWA_TRY(sample_all(job));
+    memset(job->counts, 0, job->point_count * sizeof *job->counts);
+    EWA_TRY(sample_all(job, begin, sampled));
     EWA_TRY(list_samples(job));
-    EWA_TRY(ewa_photos_settle(job, SAMPLED, SETTLED));
-    const bool fit = job->options.method == EWA_PHOTOS_FIT;
+    EWA_TRY(ewa_photos_settle(job, sampled, settled));
     drop_samples(job);
-    if (fit) EWA_TRY(ewa_photos_fit(job, SETTLED, FITTED));
-    EWA_TRY(compare_all(job, fit ? FITTED : SETTLED, residuals, report));
+    return job->options.method == EWA_PHOTOS_FIT ? ewa_photos_fit(job, settled, end) : EWA_OK;
+}
+
+static ewa_status run(ewa_photos_job *job, double *alpha, double *residuals, ewa_photos_report *report) {
+    // By other poses photographs show other colours of the points: medians by false ones are blurred.
+    const int count = job->options.method == EWA_PHOTOS_FIT && job->options.pose_steps ? 2 : 1;
+    for (int i = 0; i < count; i++) EWA_TRY(find_colors(job, alpha, FITTED * i / count, FITTED * (i + 1) / count));
+    EWA_TRY(compare_all(job, FITTED, residuals, report));
     EWA_TRY(ewa_progress(job->context, "photos", 1));
     return write(job, alpha, residuals, report);
 }
@@ -375,6 +383,7 @@ static ewa_status start(ewa_photos_job *job, const ewa_photo *photos, ewa_photos
         for (uint32_t i = 0; i < job->photo_count; i++) {
             ewa_photo_state *photo = &job->photos[i];
             *photo = (ewa_photo_state){.photo = &photos[i], .number = i, .halvings = UINT32_MAX};
+            memcpy(photo->world_to_camera, photos[i].camera.world_to_camera, sizeof photo->world_to_camera);
             photo->held_out = job->options.hold_out && i % job->options.hold_out == 0;
             for (int c = 0; c < EWA_PHOTO_CHANNELS; c++) photo->gain[c] = 1;
         }

@@ -104,8 +104,8 @@ static bool is_photographed(const ewa_image *image, size_t index) {
     return good;
 }
 
-/// What a pixel of a photograph shows.
-static ewa_photo_pixel read_pixel(const ewa_image *image, size_t index) {
+/// What a pixel of a photograph shows, of which the lens left the part `vignette`.
+static ewa_photo_pixel read_pixel(const ewa_image *image, size_t index, float vignette) {
     const float *at = image->pixels + index * image->channel_count;
     ewa_photo_pixel pixel = {.weight = 0};
     if (!is_photographed(image, index)) return pixel;
@@ -113,22 +113,30 @@ static ewa_photo_pixel read_pixel(const ewa_image *image, size_t index) {
     for (uint32_t c = 0; c < EWA_PHOTO_CHANNELS; c++) {
         pixel.color[c] = at[image->channel_count < 3 ? 0 : c];
         if (pixel.color[c] < ewa_srgb_decoded[1] || pixel.color[c] > ewa_srgb_decoded[254]) pixel.weight = CLIPPED_WEIGHT;
+        pixel.color[c] /= vignette;
     }
     return pixel;
 }
 
 /// A view on its way from the photograph.
 typedef struct read_job {
+    const double *vignetting;
     const ewa_image *image;
     ewa_photo_view *view;
 } read_job;
+
+static float vignette_at(const read_job *job, uint32_t pixel) {
+    const uint32_t width = job->view->camera.width_px;
+    return (float)ewa_photo_vignette(job->vignetting,
+                                     ewa_photo_radius2(&job->view->camera, pixel % width + 0.5, pixel / width + 0.5));
+}
 
 static void read_piece(void *data, uint32_t index, uint32_t worker) {
     (void)worker;
     const read_job *job = data;
     const uint32_t begin = index * EWA_PHOTO_PIECE;
     for (uint32_t i = begin; i < begin + EWA_PHOTO_PIECE && i < job->view->pixel_count; i++)
-        job->view->pixels[i] = read_pixel(job->image, i);
+        job->view->pixels[i] = read_pixel(job->image, i, vignette_at(job, i));
 }
 
 /// With the picture at hand.
@@ -138,19 +146,19 @@ static ewa_status make(const ewa_photos_job *job, uint32_t *halvings, ewa_photo_
     view->pixel_count = image->width_px * image->height_px;
     view->pixels = ewa_allocate(job->context, view->pixel_count, sizeof *view->pixels);
     if (!view->pixels) return EWA_ERROR_MEMORY;
-    read_job reading = {image, view};
+    read_job reading = {job->vignetting, image, view};
     ewa_parallel(job->context, read_piece, &reading, (view->pixel_count + EWA_PHOTO_PIECE - 1) / EWA_PHOTO_PIECE);
     return EWA_OK;
 }
 
-ewa_status ewa_photo_view_make(const ewa_photos_job *job, const ewa_photo *photo, uint32_t number,
-                               uint32_t *halvings, ewa_photo_view *view) {
-    *view = (ewa_photo_view){.context = job->context, .surfels = job->surfels, .room = job->room, .camera = photo->camera,
-                             .cutoff = job->options.cutoff, .point_count = job->point_count};
+ewa_status ewa_photo_view_make(const ewa_photos_job *job, ewa_photo_state *photo, ewa_photo_view *view) {
+    *view = (ewa_photo_view){.context = job->context, .surfels = job->surfels, .room = job->room,
+                             .camera = photo->photo->camera, .cutoff = job->options.cutoff, .point_count = job->point_count};
+    memcpy(view->camera.world_to_camera, photo->world_to_camera, sizeof photo->world_to_camera);
     ewa_image image;
     bool owned;
-    EWA_TRY(ewa_photo_take(job->context, photo, number, NULL, &image, &owned));
-    const ewa_status status = make(job, halvings, view, &image, &owned);
+    EWA_TRY(ewa_photo_take(job->context, photo->photo, photo->number, NULL, &image, &owned));
+    const ewa_status status = make(job, &photo->halvings, view, &image, &owned);
     if (owned) ewa_image_free(&image);
     if (status != EWA_OK) ewa_photo_view_free(view);
     return status;

@@ -226,7 +226,7 @@ TEST(test_messages_name_the_member) {
         {"5", "is no JSON; cameras are the folder of a COLMAP model"},
         {"# Bundle file v0.3\n2 5\n", "is Bundler's bundle.out; cameras are"},
         {"NVM_V3\n", "is a model of VisualSFM; cameras are"},
-        {"\xef\xbb\xbf<?xml version=\"1.0\"?>", "is XML; cameras are"},
+        {"\xef\xbb\xbf<?xml version=\"1.0\"?>", "is XML, but no whole file of Metashape's cameras"},
         {"# Camera list with one line of data per camera:\n", "of which the folder is wanted"},
         {"ply\nformat ascii 1.0\n", "is points (PLY); cameras are"},
         {"\xff\xd8\xff\xe0", "is a picture; cameras are"},

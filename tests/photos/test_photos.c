@@ -149,7 +149,7 @@ TEST(test_threads_and_order_change_no_byte) {
         ewa_context *context = check_context(threads, NULL);
         photo_scene *scene = photo_scene_make(context, 2000, 8, 100, 0.2, 0);
         ewa_photos_options options = options_of(EWA_PHOTOS_FIT);
-        options.hold_out = 0;
+        options.hold_out = 0, options.pose_steps = 1, options.vignetting = true;
         color(scene, &options, NULL, NULL);
         keep(scene->cloud, threads == 1 ? first : other);
         if (threads > 1) assert_memory_equal(first, other, BYTES);
@@ -292,13 +292,91 @@ TEST(test_bad_input_is_named) {
     ewa_context_destroy(&context);
 }
 
+/// Turns and shifts cameras, so that what is seen moves by about `off_px`.
+static void disturb(photo_scene *scene, double off_px) {
+    check_random random = {7};
+    for (uint32_t i = 0; i < scene->count; i++) {
+        ewa_camera *camera = &scene->photos[i].camera;
+        const double distance = 3, turn = off_px / camera->fx_px;
+        double r[3], t[3], *m = camera->world_to_camera;
+        for (int c = 0; c < 3; c++) r[c] = check_uniform(&random, -1, 1) * turn, t[c] = check_uniform(&random, -1, 1) * turn * distance;
+        for (int c = 0; c < 4; c++) {
+            const double p[3] = {m[c], m[4 + c], m[8 + c]};
+            for (int k = 0; k < 3; k++) {
+                const int a = (k + 1) % 3, b = (k + 2) % 3;
+                m[4 * k + c] += r[a] * p[b] - r[b] * p[a] + (c == 3 ? t[k] : 0);
+            }
+        }
+    }
+}
+
+/// Photographs whose poses are a pixel off are as good, after pose steps, as those with the true ones.
+TEST(test_pose_steps) {
+    (void)state;
+    ewa_context *context = check_context(0, NULL);
+    photo_scene *scene = photo_scene_make(context, POINTS, PHOTOS, SIDE_PX, 0.2, 0);
+    ewa_photos_options options = options_of(EWA_PHOTOS_FIT);
+    ewa_photos_report exact, off, refined;
+    ewa_photo_report per_photo[PHOTOS];
+    color(scene, &options, &exact, NULL);
+    disturb(scene, 1);
+    color(scene, &options, &off, per_photo);
+    for (uint32_t i = 0; i < PHOTOS; i++) assert_true(per_photo[i].shift_px == 0);
+    options.pose_steps = 1;
+    color(scene, &options, &refined, per_photo);
+    print_message("exact %.2f dB, held out %.2f dB; off %.2f, %.2f dB; refined %.2f, %.2f dB, gains off %.3f %%\n", exact.psnr_db,
+                  exact.held_out_psnr_db, off.psnr_db, off.held_out_psnr_db, refined.psnr_db, refined.held_out_psnr_db,
+                  100 * gains_off(scene, per_photo, false));
+    assert_true(off.held_out_psnr_db < exact.held_out_psnr_db - 5);
+    assert_true(refined.psnr_db > exact.psnr_db - 0.5 && refined.held_out_psnr_db > exact.held_out_psnr_db - 0.5);
+    assert_true(gains_off(scene, per_photo, false) < 0.002);
+    for (uint32_t i = 0; i < PHOTOS; i++) {
+        const double *m = per_photo[i].world_to_camera;
+        assert_true(per_photo[i].shift_px > 0.1 && per_photo[i].shift_px < 3);
+        for (int r = 0; r < 3; r++) // a turn is still one
+            assert_true(fabs(m[4 * r] * m[4 * r] + m[4 * r + 1] * m[4 * r + 1] + m[4 * r + 2] * m[4 * r + 2] - 1) < 1e-4);
+    }
+    photo_scene_free(&scene);
+    ewa_context_destroy(&context);
+}
+
+/// A lens that leaves 70 % of the light in the corners.
+TEST(test_vignetting) {
+    (void)state;
+    static const double lens[2] = {-0.4, 0.1};
+    ewa_context *context = check_context(0, NULL);
+    photo_scene *scene = photo_scene_make(context, POINTS, PHOTOS, SIDE_PX, 0.2, 0);
+    for (uint32_t i = 0; i < PHOTOS; i++) {
+        ewa_image *image = &scene->images[i];
+        const double middle[2] = {0.5 * image->width_px, 0.5 * image->height_px};
+        for (uint32_t k = 0; k < image->width_px * image->height_px; k++) {
+            const double x = k % image->width_px + 0.5 - middle[0], y = k / image->width_px + 0.5 - middle[1];
+            const double r2 = (x * x + y * y) / (middle[0] * middle[0] + middle[1] * middle[1]);
+            for (size_t c = 0; c < 3; c++) image->pixels[4 * (size_t)k + c] *= (float)(1 + lens[0] * r2 + lens[1] * r2 * r2);
+        }
+    }
+    ewa_photos_options options = options_of(EWA_PHOTOS_FIT);
+    ewa_photos_report as_it_is, corrected;
+    color(scene, &options, &as_it_is, NULL);
+    assert_true(as_it_is.vignetting[0] == 0 && as_it_is.vignetting[1] == 0);
+    options.vignetting = true;
+    color(scene, &options, &corrected, NULL);
+    print_message("held out %.2f dB; corrected %.2f dB, %.4f %.4f\n", as_it_is.held_out_psnr_db, corrected.held_out_psnr_db,
+                  corrected.vignetting[0], corrected.vignetting[1]);
+    assert_true(corrected.held_out_psnr_db > as_it_is.held_out_psnr_db + 4);
+    for (double r2 = 0.1; r2 < 0.45; r2 += 0.1) // the ball ends there
+        assert_true(fabs(r2 * (corrected.vignetting[0] - lens[0] + r2 * (corrected.vignetting[1] - lens[1]))) < 0.003);
+    photo_scene_free(&scene);
+    ewa_context_destroy(&context);
+}
+
 TEST(test_nothing_is_left_where_memory_ends) {
     (void)state;
     check_memory memory = {.calls_left = -1};
     ewa_context *context = check_context_on(2, &memory);
     photo_scene *scene = photo_scene_make(context, 300, 3, 40, 0, 0);
     ewa_photos_options options = options_of(EWA_PHOTOS_FIT);
-    options.hold_out = 0, options.rounds = 1;
+    options.hold_out = 0, options.rounds = 1, options.pose_steps = 1, options.vignetting = true;
     const int64_t before = memory.held_bytes;
     bool done = false;
     for (long calls = 0; !done; calls += calls < 40 ? 1 : 17) {

@@ -17,14 +17,13 @@ bool ewa_camera_is_folder(const char *path) {
     return ewa_platform_stat(path, &facts) && facts.folder;
 }
 
-/// Says what a file is that begins with no JSON and that people take for cameras. Errors: EWA_ERROR_FORMAT, or EWA_OK where it
-/// may be JSON.
-static ewa_status check_begin(const ewa_camera_list *list, const ewa_file *file) {
+/// Says what a file is that begins with neither JSON nor XML and that people take for cameras. Errors: EWA_ERROR_FORMAT, or EWA_OK
+/// where it may be one of these, `*xml` which.
+static ewa_status check_begin(const ewa_camera_list *list, const ewa_file *file, bool *xml) {
     static const struct {
         const char *begin, *kind;
     } kinds[] = {{"# Bundle file", "Bundler's bundle.out"},
                  {"NVM_V3", "a model of VisualSFM"},
-                 {"<?xml", "XML"},
                  {"# Camera list", "a file of a COLMAP model, of which the folder is wanted"},
                  {"# Image list", "a file of a COLMAP model, of which the folder is wanted"},
                  {"# 3D point list", "a file of a COLMAP model, of which the folder is wanted"},
@@ -33,15 +32,16 @@ static ewa_status check_begin(const ewa_camera_list *list, const ewa_file *file)
                  {"\x89PNG", "a picture"}};
     size_t at = 0;
     while (at < file->size_bytes && file->bytes[at] && strchr(" \t\r\n\xef\xbb\xbf", file->bytes[at])) at++;
-    if (at == file->size_bytes || strchr("{[", file->bytes[at])) return EWA_OK;
+    *xml = at < file->size_bytes && file->bytes[at] == '<';
+    if (*xml || at == file->size_bytes || strchr("{[", file->bytes[at])) return EWA_OK;
     const char *kind = "no JSON";
     for (size_t i = 0; i < sizeof kinds / sizeof kinds[0]; i++) {
         const size_t length = strlen(kinds[i].begin);
         if (file->size_bytes - at >= length && memcmp(file->bytes + at, kinds[i].begin, length) == 0) kind = kinds[i].kind;
     }
     return ewa_fail(list->context, EWA_ERROR_FORMAT,
-                    "%s: is %s; cameras are the folder of a COLMAP model, or JSON: transforms.json (nerfstudio), cameras.json "
-                    "(INRIA), Open3D's, our own",
+                    "%s: is %s; cameras are the folder of a COLMAP model, Metashape's cameras.xml, or JSON: transforms.json "
+                    "(nerfstudio), cameras.json (INRIA), Open3D's, our own",
                     list->name, kind);
 }
 
@@ -49,8 +49,11 @@ ewa_status ewa_camera_list_read(ewa_camera_list *list, const char *path) {
     if (ewa_camera_is_folder(path)) return ewa_camera_list_read_colmap(list, path);
     ewa_file file;
     EWA_TRY(ewa_file_map(list->context, path, &file));
-    ewa_status status = check_begin(list, &file);
-    if (status == EWA_OK) status = ewa_camera_list_read_json(list, path, file.bytes, file.size_bytes);
+    bool xml;
+    ewa_status status = check_begin(list, &file, &xml);
+    if (status == EWA_OK)
+        status = xml ? ewa_camera_list_read_metashape(list, file.bytes, file.size_bytes)
+                     : ewa_camera_list_read_json(list, path, file.bytes, file.size_bytes);
     ewa_file_unmap(list->context, &file);
     return status;
 }

@@ -49,6 +49,9 @@ ewa_status ewa_camera_list_read_json(ewa_camera_list *list, const char *path, co
 /// Reads the cameras of a part of another file's JSON.
 ewa_status ewa_camera_list_read_tree(ewa_camera_list *list, const cJSON *root);
 
+/// Reads the aligned and enabled cameras of Metashape's cameras.xml, of its first chunk.
+ewa_status ewa_camera_list_read_metashape(ewa_camera_list *list, const uint8_t *bytes, size_t size_bytes);
+
 /// Reads the cameras of a COLMAP model: a folder with cameras.bin and images.bin, or else .txt.
 ewa_status ewa_camera_list_read_colmap(ewa_camera_list *list, const char *folder);
 
