@@ -8,11 +8,26 @@ set -eu
 
 packages="build-essential cmake ninja-build pkg-config libcmocka-dev libspng-dev libdeflate-dev libopenexr-dev libcjson-dev libjpeg62-turbo-dev libwebp-dev libtiff-dev libexpat1-dev libassimp-dev zlib1g-dev libzstd-dev libsuitesparse-dev libmeshoptimizer-dev libdraco-dev libbz2-dev libcurl4-openssl-dev libcivetweb-dev libsdl2-dev libimgui-dev libepoxy-dev libegl-dev libegl-mesa0 libopengl0 libgl1-mesa-dri glslang-tools libopenmpi-dev openmpi-bin python3-venv python3-numpy python3-pandas"
 
-missing=""
+# A package may be there for several architectures, or for another one alone; where it cannot be there for two, ours would push the
+# other out, which nobody has asked for.
+missing="" foreign=""
+native=$(dpkg --print-architecture 2>/dev/null || true)
 for package in $packages "$@"; do
-    state=$(dpkg-query -W -f '${db:Status-Status}' "$package" 2>/dev/null || true)
-    [ "$state" = installed ] || missing="$missing $package"
+    installed=$(dpkg-query -W -f '${Architecture} ${db:Status-Status} ${Multi-Arch}\n' "$package" 2>/dev/null | grep ' installed ' || true)
+    case "
+$installed" in
+    *"
+$native "* | *"
+all "*) ;;
+    *" installed same"*) missing="$missing $package" ;;
+    *" installed "*) foreign="$foreign $package:$native (there for ${installed%% *})" ;;
+    *) missing="$missing $package" ;;
+    esac
 done
+if [ -n "$foreign" ]; then
+    echo "Packages are there for another architecture alone, and would be replaced:$foreign. If they may be, install them, then try again." >&2
+    exit 1
+fi
 [ -n "$missing" ] || exit 0
 
 # Elsewhere than on Debian, other names may stand for the same things.
