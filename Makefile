@@ -11,6 +11,7 @@
 #   make                        builds everything into build/release
 #   make asan tsan clang fuzz   other builds and their tests
 #   make minimal                a program without any library, held to the bytes of the full one
+#   make sets                   the bytes of the program by AVX2 and by portable C, under an emulator
 #   make arm64                  the same for 64-bit Arm, under an emulator
 #   make wasm                   WebAssembly: the bytes of the program under node, and the module that a page loads
 #   make windows                Windows on x86-64: the bytes of the program under wine
@@ -53,7 +54,7 @@ export CCACHE_BASEDIR ?= $(CURDIR)
 export CCACHE_NOHASHDIR ?= 1
 endif
 
-.PHONY: minimal wasm windows macos riscv64 musl interop build program measure setup demo check check-all asan asan-build tsan tsan-build clang clang-build mutate fuzz arm64 bench sweep gallery papers docs site wheel format install dist deb clean
+.PHONY: minimal sets wasm windows macos riscv64 musl interop build program measure setup demo check check-all asan asan-build tsan tsan-build clang clang-build mutate fuzz arm64 bench sweep gallery papers docs site wheel format install dist deb clean
 
 build: setup
 	@echo "Building build/release"
@@ -126,9 +127,13 @@ minimal: program
 	@echo "Building build/minimal"
 	$(call quietly,cmake --preset minimal)
 	$(call quietly,cmake --build build/minimal -j $(JOBS) --target ewa)
-	@sh tools/hash_jobs.sh --minimal $(CURDIR)/$(EWA) >build/hashes-full.tsv
-	@sh tools/hash_jobs.sh --minimal $(CURDIR)/build/minimal/cli/ewa >build/hashes-minimal.tsv
-	diff build/hashes-full.tsv build/hashes-minimal.tsv && echo "15 jobs: the same bytes"
+	@sh tools/hash_jobs.sh --minimal --like $(CURDIR)/$(EWA) $(CURDIR)/build/minimal/cli/ewa
+
+# By each instruction set of x86-64: as processors without AVX-512 run it, and those without AVX2, by an emulator.
+sets: program
+	@sh tools/setup.sh qemu-user-static
+	@sh tools/hash_jobs.sh --like $(CURDIR)/$(EWA) qemu-x86_64-static -cpu max,avx512f=off $(CURDIR)/$(EWA)
+	@sh tools/hash_jobs.sh --like $(CURDIR)/$(EWA) qemu-x86_64-static -cpu Nehalem $(CURDIR)/$(EWA)
 
 # Another machine: cross-compiled, what holds all instruction sets to each other run under an emulator, and the bytes of
 # twenty jobs compared with this machine's.
@@ -139,9 +144,7 @@ arm64: program
 	$(call quietly,cmake --preset arm64)
 	$(call quietly,cmake --build build/arm64 -j $(JOBS) --target ewa parallel_tests)
 	@sh tools/check.sh build/arm64:parallel
-	@sh tools/hash_jobs.sh $(CURDIR)/$(EWA) >build/hashes-here.tsv
-	@sh tools/hash_jobs.sh qemu-aarch64-static -L $(CURDIR)/build/sysroot/arm64 $(CURDIR)/build/arm64/cli/ewa >build/hashes-arm64.tsv
-	diff build/hashes-here.tsv build/hashes-arm64.tsv && echo "20 jobs: the same bytes"
+	@sh tools/hash_jobs.sh --like $(CURDIR)/$(EWA) qemu-aarch64-static -L $(CURDIR)/build/sysroot/arm64 $(CURDIR)/build/arm64/cli/ewa
 
 # WebAssembly, exact on every host and for hosts that round a relaxed multiply-add once: the program's bytes under node, and what a
 # page loads.
@@ -149,13 +152,11 @@ wasm: program
 	@command -v node >/dev/null || { echo "make wasm runs what it builds by node, which is missing (apt-get install nodejs)" >&2; exit 1; }
 	@sh tools/zig.sh wasm32-wasi
 	@sh tools/dependencies.sh wasm32-wasi -mcpu=generic+simd128+bulk_memory+nontrapping_fptoint+sign_ext+mutable_globals+multivalue
-	@sh tools/hash_jobs.sh --without x $(CURDIR)/$(EWA) >build/hashes-here.tsv
 	@for build in wasm wasm-relaxed; do \
 	  relaxed=$$(node --v8-options | grep -o -e --experimental-wasm-relaxed-simd | head -n 1); \
 	  echo "Building build/$$build"; \
 	  { cmake --preset $$build && cmake --build build/$$build -j $(JOBS) --target ewa page; } >build/log-$$build.txt 2>&1 || { cat build/log-$$build.txt; exit 1; }; \
-	  sh tools/hash_jobs.sh --without x node --no-warnings $$relaxed $(CURDIR)/tools/wasi.mjs $(CURDIR)/build/$$build/cli/ewa.wasm >build/hashes-$$build.tsv || exit 1; \
-	  diff build/hashes-here.tsv build/hashes-$$build.tsv && echo "19 jobs: the same bytes" || exit 1; \
+	  sh tools/hash_jobs.sh --without x --like $(CURDIR)/$(EWA) node --no-warnings $$relaxed $(CURDIR)/tools/wasi.mjs $(CURDIR)/build/$$build/cli/ewa.wasm || exit 1; \
 	done
 	@$(EWA) generate torus -n 1000000 -o build/torus.ply
 	@node --no-warnings $$(node --v8-options | grep -o -e --experimental-wasm-relaxed-simd | head -n 1) page/measure.mjs build/torus.ply 1920 1080 5 build/wasm-relaxed/page/page.wasm build/wasm/page/page.wasm
@@ -169,9 +170,7 @@ windows: program
 	@echo "Building build/windows"
 	$(call quietly,cmake --preset windows)
 	$(call quietly,cmake --build build/windows -j $(JOBS) --target ewa)
-	@sh tools/hash_jobs.sh $(CURDIR)/$(EWA) >build/hashes-here.tsv
-	@sh tools/hash_jobs.sh sh $(CURDIR)/tools/wine.sh $(CURDIR)/build/windows/cli/ewa.exe >build/hashes-windows.tsv
-	diff build/hashes-here.tsv build/hashes-windows.tsv && echo "20 jobs: the same bytes"
+	@sh tools/hash_jobs.sh --like $(CURDIR)/$(EWA) sh $(CURDIR)/tools/wine.sh $(CURDIR)/build/windows/cli/ewa.exe
 	@sh tools/windows_files.sh $(CURDIR)/$(EWA) $(CURDIR)/build/windows/cli/ewa.exe
 
 # macOS: what can be had of it without one, programs and libraries that link.
@@ -190,9 +189,7 @@ riscv64 musl: program
 	@sh tools/zig.sh $(if $(filter riscv64,$@),riscv64,x86_64)-linux-musl
 	@echo "Building build/$@"
 	@{ cmake --preset $@ && cmake --build build/$@ -j $(JOBS) --target ewa; } >build/log-$@.txt 2>&1 || { cat build/log-$@.txt; exit 1; }
-	@sh tools/hash_jobs.sh --minimal $(CURDIR)/$(EWA) >build/hashes-full.tsv
-	@sh tools/hash_jobs.sh --minimal $(if $(filter riscv64,$@),qemu-riscv64-static) $(CURDIR)/build/$@/cli/ewa >build/hashes-$@.tsv
-	diff build/hashes-full.tsv build/hashes-$@.tsv && echo "15 jobs: the same bytes"
+	@sh tools/hash_jobs.sh --minimal --like $(CURDIR)/$(EWA) $(if $(filter riscv64,$@),qemu-riscv64-static) $(CURDIR)/build/$@/cli/ewa
 
 mutate:
 	@sh tools/setup.sh python3

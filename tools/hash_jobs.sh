@@ -3,19 +3,29 @@
 # SPDX-License-Identifier: MIT
 #
 # Runs twenty small jobs of the program over generated data, and prints a line for each: its name and the hash of what it
-# wrote. The same lines on every machine (docs/machines.md); `make arm64` compares them with this machine's.
-#   tools/hash_jobs.sh [--minimal | --without x] PROGRAM [ARGUMENT...]      such as qemu-aarch64-static -L build/sysroot/arm64 build/arm64/cli/ewa
+# wrote. The same lines on every machine (docs/machines.md).
+#   tools/hash_jobs.sh [--minimal | --without x] [--like OTHER] PROGRAM [ARGUMENT...]      such as qemu-aarch64-static -L build/sysroot/arm64 build/arm64/cli/ewa
 # With --minimal, only what a program without any library can do, pictures as PFM: not what libdeflate compresses (z), gzip
-# unpacks (g) or OpenEXR writes (x); --without leaves out the kinds of job that it names.
+# unpacks (g) or OpenEXR writes (x); --without leaves out the kinds of job that it names. With --like, what differs from the lines of
+# another program alone, or how many are the same.
 set -eu
-minimal= without=-
+minimal= without=- kinds=
 case ${1:-} in
---minimal) minimal=yes without=gx; shift ;;
---without) without=$2; shift 2 ;;
+--minimal) minimal=yes without=gx kinds=$1; shift ;;
+--without) without=$2 kinds="$1 $2"; shift 2 ;;
 esac
-[ $# -gt 0 ] || { echo "usage: tools/hash_jobs.sh [--minimal] PROGRAM [ARGUMENT...]" >&2; exit 2; }
+[ $# -gt 0 ] || { echo "usage: tools/hash_jobs.sh [--minimal] [--like OTHER] PROGRAM [ARGUMENT...]" >&2; exit 2; }
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
+if [ "$1" = --like ]; then
+    # shellcheck disable=SC2086
+    sh "$0" $kinds "$2" >"$folder/other"
+    shift 2
+    # shellcheck disable=SC2086
+    sh "$0" $kinds "$@" >"$folder/these"
+    diff "$folder/other" "$folder/these" && echo "$(wc -l <"$folder/these") jobs: the same bytes"
+    exit
+fi
 
 cat >"$folder/jobs" <<'JOBS'
 - torus.ply       generate torus -n 20000

@@ -15,8 +15,9 @@ if [ "$(cat "$root/.complete" 2>/dev/null)" != "$version" ]; then
     echo "$version" >"$root/.complete"
 fi
 zig=$("$root/bin/python" -c 'import os, ziglang; print(os.path.join(os.path.dirname(ziglang.__file__), "zig"))')
-script() {
-    printf '#!/bin/sh\nexec "%s" %s "$@"\n' "$zig" "$2" >"$root/bin/$1"
+script() { # left alone where it is there, so that ccache knows it again
+    printf '#!/bin/sh\nexec "%s" %s "$@"\n' "$zig" "$2" >"$root/bin/.new"
+    cmp -s "$root/bin/.new" "$root/bin/$1" || cp "$root/bin/.new" "$root/bin/$1"
     chmod +x "$root/bin/$1"
 }
 script zig-ar ar
