@@ -1,10 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// OpenEXR in: chunk by chunk through OpenEXRCore's decoding pipeline.
+// OpenEXR in: chunk by chunk through OpenEXRCore's decoding pipeline, which does not have DWA.
 #include "base/base.h"
 #include "base/unpacking.h"
 #include "io/image/exr.h"
+#include "io/image/exr_dwa.h"
 
 #include <openexr.h>
 #include <stdio.h>
@@ -31,22 +32,12 @@ typedef struct reader {
     uint32_t width_px, height_px;
     uint32_t channel_count;
     int selected[MAX_CHANNELS]; // by channel of the image: its index among the file's
+    const char *names[MAX_CHANNELS];
+    bool is_dwa;
     exr_decode_pipeline_t pipeline;
     bool pipeline_ready;
     uint64_t own_bytes; // what the library takes to decode
 } reader;
-
-static void keep_message(exr_const_context_t file, exr_result_t code, const char *text) {
-    (void)code;
-    void *user = NULL;
-    if (!file || exr_get_user_data(file, &user) != EXR_ERR_SUCCESS || !user) return;
-    reader *in = user;
-    if (in->message[0]) return;
-    snprintf(in->message, sizeof in->message, "%s", text);
-    // The text quotes names from the file, which may be any bytes.
-    for (char *at = in->message; *at; at++)
-        if (*at < ' ' || *at > '~') *at = '?';
-}
 
 static int64_t read_bytes(exr_const_context_t file, void *user, void *buffer, uint64_t size_bytes,
                           uint64_t offset, exr_stream_error_func_ptr_t fail) {
@@ -64,14 +55,27 @@ static int64_t file_size(exr_const_context_t file, void *user) {
     return (int64_t)((const reader *)user)->size_bytes;
 }
 
+/// Keeps a complaint, which quotes names from the file, which may be any bytes.
+static void keep_text(reader *in, const char *text) {
+    snprintf(in->message, sizeof in->message, "%s", text);
+    for (char *at = in->message; *at; at++)
+        if (*at < ' ' || *at > '~') *at = '?';
+}
+
+static void keep_message(exr_const_context_t file, exr_result_t code, const char *text) {
+    (void)code;
+    void *user = NULL;
+    if (!file || exr_get_user_data(file, &user) != EXR_ERR_SUCCESS || !user) return;
+    reader *in = user;
+    if (!in->message[0]) keep_text(in, text);
+}
+
 static ewa_status fail_exr(reader *in, exr_result_t error) {
     const ewa_status status = error == EXR_ERR_OUT_OF_MEMORY             ? EWA_ERROR_MEMORY
                               : error == EXR_ERR_FEATURE_NOT_IMPLEMENTED ? EWA_ERROR_UNSUPPORTED
                                                                          : EWA_ERROR_FORMAT;
     const char *text = in->message[0] ? in->message : exr_get_default_error_message(error);
-    // DWA: OpenEXRCore 3.1 does not decode it.
-    const char *way_out = status == EWA_ERROR_UNSUPPORTED ? "; packed another way, such as ZIP, it is read" : "";
-    return ewa_fail(in->context, status, "%s: OpenEXR: %s%s", in->name, text, way_out);
+    return ewa_fail(in->context, status, "%s: OpenEXR: %s", in->name, text);
 }
 
 static ewa_status open_exr(reader *in) {
@@ -110,6 +114,7 @@ static ewa_status choose_channels(reader *in, const exr_attr_chlist_t *channels)
             return ewa_fail(in->context, EWA_ERROR_UNSUPPORTED,
                             "%s: OpenEXR: channel %s is subsampled %d x %d", in->name, channel->name.str,
                             channel->x_sampling, channel->y_sampling);
+        in->names[c] = channel->name.str;
     }
     return EWA_OK;
 }
@@ -148,9 +153,9 @@ static ewa_status check_header(reader *in) {
     const uint64_t decoded_bytes = pixel_count * in->channel_count * sizeof(float) + in->own_bytes;
     EWA_TRY(ewa_memory_check_unpacked(in->context, in->size_bytes, EWA_UNPACKED_RATIO, decoded_bytes,
                                       "%s: OpenEXR of %u x %u pixels", in->name, in->width_px, in->height_px));
-    const bool is_dwa = compression == EXR_COMPRESSION_DWAA || compression == EXR_COMPRESSION_DWAB;
+    in->is_dwa = compression == EXR_COMPRESSION_DWAA || compression == EXR_COMPRESSION_DWAB;
     const uint64_t min_stored_bytes = pixel_count * in->channel_count * sizeof(uint16_t);
-    if (!is_dwa && min_stored_bytes / MAX_RATIO > in->size_bytes)
+    if (!in->is_dwa && min_stored_bytes / MAX_RATIO > in->size_bytes)
         return ewa_fail(in->context, EWA_ERROR_FORMAT, "%s: OpenEXR: %zu bytes cannot hold %u x %u pixels",
                         in->name, in->size_bytes, in->width_px, in->height_px);
     return EWA_OK;
@@ -207,7 +212,20 @@ static exr_result_t decode_tiles(reader *in, ewa_image *image) {
     return error;
 }
 
+static ewa_status decode_dwa(reader *in, ewa_image *image) {
+    char reason[MESSAGE_BYTES];
+    const ewa_exr_dwa_result result =
+        ewa_exr_dwa_decode(in->bytes, in->size_bytes, in->names, in->channel_count, in->width_px, in->height_px,
+                           image->pixels, reason, sizeof reason);
+    if (result == EWA_EXR_DWA_DONE) return EWA_OK;
+    if (result != EWA_EXR_DWA_MEMORY) keep_text(in, reason);
+    return fail_exr(in, result == EWA_EXR_DWA_MEMORY   ? EXR_ERR_OUT_OF_MEMORY
+                        : result == EWA_EXR_DWA_ABSENT ? EXR_ERR_FEATURE_NOT_IMPLEMENTED
+                                                       : EXR_ERR_CORRUPT_CHUNK);
+}
+
 static ewa_status decode_pixels(reader *in, ewa_image *image) {
+    if (in->is_dwa) return decode_dwa(in, image);
     exr_storage_t storage;
     exr_result_t error = exr_get_storage(in->file, PART, &storage);
     if (!error) error = storage == EXR_STORAGE_TILED ? decode_tiles(in, image) : decode_lines(in, image);
