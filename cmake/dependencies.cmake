@@ -56,6 +56,7 @@ ewa_module(WEBP libwebp "Read WebP, and write SOG, by libwebp")
 ewa_module(TIFF libtiff-4>=4.5 "Read GeoTIFF of heights by libtiff")
 ewa_module(E57 expat "Read E57, whose head is XML, by expat")
 ewa_module(ZLIB zlib "Read gzip (volumes, SPZ) by zlib")
+ewa_module(LZMA liblzma "Read VTK's XML files that LZMA has packed, by liblzma")
 ewa_module(ZSTD libzstd "EPT and SPZ in zstandard, by libzstd")
 ewa_library(BZIP2 bzlib.h bz2 "Read volumes in bzip2 by libbz2")
 # Without it there are no factors, and every system of equations is solved by conjugate gradients (docs/colors.md).

@@ -6,7 +6,7 @@
 # line to type and fails. Calls no package manager when everything is there.
 set -eu
 
-packages="build-essential cmake ninja-build pkg-config libcmocka-dev libspng-dev libdeflate-dev libopenexr-dev libcjson-dev libjpeg62-turbo-dev libwebp-dev libtiff-dev libexpat1-dev libassimp-dev zlib1g-dev libzstd-dev libsuitesparse-dev libmeshoptimizer-dev libdraco-dev libbz2-dev libcurl4-openssl-dev libcivetweb-dev libsdl2-dev libimgui-dev libepoxy-dev libegl-dev libegl-mesa0 libopengl0 libgl1-mesa-dri glslang-tools libopenmpi-dev openmpi-bin python3-venv python3-numpy python3-pandas"
+packages="build-essential cmake ninja-build pkg-config libcmocka-dev libspng-dev libdeflate-dev libopenexr-dev libcjson-dev libjpeg62-turbo-dev libwebp-dev libtiff-dev libexpat1-dev libassimp-dev zlib1g-dev libzstd-dev liblzma-dev libsuitesparse-dev libmeshoptimizer-dev libdraco-dev libbz2-dev libcurl4-openssl-dev libcivetweb-dev libsdl2-dev libimgui-dev libepoxy-dev libegl-dev libegl-mesa0 libopengl0 libgl1-mesa-dri glslang-tools libopenmpi-dev openmpi-bin python3-venv python3-numpy python3-pandas"
 
 # A package may be there for several architectures, or for another one alone; where it cannot be there for two, ours would push the
 # other out, which nobody has asked for.
@@ -36,7 +36,7 @@ if ! command -v apt-get >/dev/null 2>&1; then
     for tool in cc cmake ninja pkg-config; do
         command -v $tool >/dev/null 2>&1 || needs_tools="$needs_tools $tool"
     done
-    if [ -z "$needs_tools" ] && pkg-config --exists cmocka spng libdeflate OpenEXR libcjson libjpeg libwebp libtiff-4 expat zlib libzstd; then exit 0; fi
+    if [ -z "$needs_tools" ] && pkg-config --exists cmocka spng libdeflate OpenEXR libcjson libjpeg libwebp libtiff-4 expat zlib libzstd liblzma; then exit 0; fi
     echo "Please install these first (names of Debian):$missing" >&2
     exit 1
 fi

@@ -49,7 +49,7 @@ if [ "${1:-}" = --target ]; then
     pip wheel -q . --no-deps -w "$build/wheels_$target" -C build-dir="build/wheel_$target" -C "cmake.args=-GNinja" \
         -C "cmake.define.CMAKE_TOOLCHAIN_FILE=$PWD/cmake/toolchains/$target.cmake" -C "cmake.define.CMAKE_C_FLAGS_RELEASE=-O2 -DNDEBUG" \
         -C cmake.define.EWA_WITH_CURL=OFF -C cmake.define.EWA_WITH_MESHOPT=OFF -C cmake.define.EWA_WITH_DRACO=OFF \
-        -C cmake.define.EWA_WITH_DWA=OFF
+        -C cmake.define.EWA_WITH_DWA=OFF -C cmake.define.EWA_WITH_LZMA=OFF
     cd "$build/wheels_$target"
     # What is linked into it asks for its licence.
     "$tools/bin/wheel" unpack libewa-*.whl >/dev/null

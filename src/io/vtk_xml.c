@@ -11,9 +11,36 @@
 #include "io/lz4.h"
 #include "io/number.h"
 
+#if EWA_WITH_LZMA
+#include <lzma.h>
+#endif
+
 #include <string.h>
 
-enum { PACKED_HEAD_WORDS = 3, LZ4_RATIO = 255 }; // a byte of LZ4 unpacks to no more
+enum { PACKED_HEAD_WORDS = 3 };
+
+/// How blocks are packed that are unpacked here; zlib's are unpacked where numbers are read.
+typedef struct ewa_vtk_packing {
+    const char *compressor;
+    bool (*unpack)(const uint8_t *from, size_t from_bytes, uint8_t *to, size_t to_bytes); ///< exactly; false: damaged
+    uint32_t ratio;                                                                       ///< a byte unpacks to no more
+} ewa_vtk_packing;
+
+#if EWA_WITH_LZMA
+static bool unpack_lzma(const uint8_t *from, size_t from_bytes, uint8_t *to, size_t to_bytes) {
+    uint64_t memory_limit_bytes = 70u << 20; // the largest dictionary that VTK's levels ask for is 64 MiB
+    size_t from_at = 0, to_at = 0;
+    return lzma_stream_buffer_decode(&memory_limit_bytes, 0, NULL, from, &from_at, from_bytes, to, &to_at, to_bytes) == LZMA_OK &&
+           from_at == from_bytes && to_at == to_bytes;
+}
+#endif
+
+static const ewa_vtk_packing packings[] = {
+    {"vtkLZ4DataCompressor", ewa_lz4_unpack, 255},
+#if EWA_WITH_LZMA
+    {"vtkLZMADataCompressor", unpack_lzma, 8192},
+#endif
+};
 
 /// Where the numbers of an array are: bytes, or their base64 text.
 typedef struct array_bytes {
@@ -56,7 +83,8 @@ void ewa_vtk_xml_open(ewa_vtk_xml *xml, const uint8_t *bytes, size_t size_bytes)
     xml->wide = ewa_vtk_attribute(&xml->root, "header_type", value) && strcmp(value, "UInt64") == 0;
     xml->big_endian = ewa_vtk_attribute(&xml->root, "byte_order", value) && strcmp(value, "BigEndian") == 0;
     xml->packed = ewa_vtk_attribute(&xml->root, "compressor", value) && value[0];
-    xml->lz4 = xml->packed && strcmp(value, "vtkLZ4DataCompressor") == 0;
+    for (size_t i = 0; i < sizeof packings / sizeof packings[0] && xml->packed; i++)
+        if (strcmp(value, packings[i].compressor) == 0) xml->packing = &packings[i];
 }
 
 /// What stands between the tags of an array.
@@ -134,15 +162,15 @@ static ewa_status measure_array(const ewa_vtk_xml *xml, const array_bytes *array
     return status == EWA_OK && *data_bytes > maximum - *head_bytes ? ends_early(xml) : status;
 }
 
-/// Unpacks the blocks of an array, of LZ4, from the data behind their sizes.
+/// Unpacks the blocks of an array from the data behind their sizes.
 static ewa_status unpack_blocks(const ewa_vtk_xml *xml, const uint8_t *head, const uint8_t *data, size_t data_bytes, ewa_vtk_stored *stored) {
     const size_t word_bytes = xml->wide ? 8 : 4;
     const uint64_t count = read_word(xml, head), block = read_word(xml, head + word_bytes), last = read_word(xml, head + 2 * word_bytes);
     uint64_t bytes;
     if (__builtin_mul_overflow(last ? count - 1 : count, block, &bytes) || __builtin_add_overflow(bytes, last, &bytes) ||
-        last > block || bytes / LZ4_RATIO > data_bytes)
+        last > block || bytes / xml->packing->ratio > data_bytes)
         return ends_early(xml);
-    EWA_TRY(ewa_memory_check_unpacked(xml->context, data_bytes, LZ4_RATIO, bytes, "%s: VTK: an array", xml->name));
+    EWA_TRY(ewa_memory_check_unpacked(xml->context, data_bytes, xml->packing->ratio, bytes, "%s: VTK: an array", xml->name));
     uint8_t *to = ewa_allocate(xml->context, (size_t)bytes, 1);
     if (!to) return EWA_ERROR_MEMORY;
     bool good = true;
@@ -150,7 +178,7 @@ static ewa_status unpack_blocks(const ewa_vtk_xml *xml, const uint8_t *head, con
     for (uint64_t i = 0; i < count && good; i++) {
         const size_t packed = (size_t)read_word(xml, head + (PACKED_HEAD_WORDS + i) * word_bytes);
         const uint64_t own = bytes - done < block ? bytes - done : block;
-        good = ewa_lz4_unpack(data, packed, to + done, (size_t)own);
+        good = xml->packing->unpack(data, packed, to + done, (size_t)own);
         data += packed, done += own;
     }
     if (!good) {
@@ -161,7 +189,7 @@ static ewa_status unpack_blocks(const ewa_vtk_xml *xml, const uint8_t *head, con
     return EWA_OK;
 }
 
-/// As find_bytes(), of LZ4.
+/// As find_bytes(), of what is unpacked here.
 static ewa_status find_unpacked(const ewa_vtk_xml *xml, const array_bytes *array, size_t head_bytes, size_t data_bytes, ewa_vtk_stored *stored) {
     const size_t size_bytes = head_bytes + data_bytes;
     uint8_t *bytes = ewa_allocate(xml->context, size_bytes, 1);
@@ -177,7 +205,7 @@ static ewa_status find_unpacked(const ewa_vtk_xml *xml, const array_bytes *array
 static ewa_status find_bytes(const ewa_vtk_xml *xml, const array_bytes *array, ewa_vtk_stored *stored) {
     uint64_t head_bytes = 0, data_bytes = 0;
     EWA_TRY(measure_array(xml, array, &head_bytes, &data_bytes));
-    if (xml->lz4) return find_unpacked(xml, array, (size_t)head_bytes, (size_t)data_bytes, stored);
+    if (xml->packing) return find_unpacked(xml, array, (size_t)head_bytes, (size_t)data_bytes, stored);
     stored->packing = xml->packed ? EWA_PACKING_DEFLATE : EWA_PACKING_NONE;
     stored->bytes = (const uint8_t *)array->text + head_bytes;
     stored->size_bytes = (size_t)data_bytes;
@@ -196,8 +224,9 @@ static ewa_status find_bytes(const ewa_vtk_xml *xml, const array_bytes *array, e
 ewa_status ewa_vtk_xml_find(const ewa_vtk_xml *xml, const ewa_xml_tag *array, ewa_vtk_stored *stored) {
     char value[EWA_VTK_ATTRIBUTE_BYTES] = "";
     *stored = (ewa_vtk_stored){0};
-    if (xml->packed && !xml->lz4 && ewa_vtk_attribute(&xml->root, "compressor", value) && strcmp(value, "vtkZLibDataCompressor") != 0)
-        return ewa_fail(xml->context, EWA_ERROR_UNSUPPORTED, "%s: %s: compressor '%.80s'", xml->name, xml->kind, value);
+    if (xml->packed && !xml->packing && ewa_vtk_attribute(&xml->root, "compressor", value) && strcmp(value, "vtkZLibDataCompressor") != 0)
+        return ewa_fail(xml->context, EWA_ERROR_UNSUPPORTED, "%s: %s: compressor '%.80s', which this build does not read; VTK and ParaView write the same by zlib, LZ4 or not packed",
+                        xml->name, xml->kind, value);
     if (!xml->ends && !xml->raw) return fail(xml, "the file ends early");
     if (!ewa_vtk_attribute(array, "format", value)) memcpy(value, "ascii", sizeof "ascii");
     array_bytes bytes = content_of(xml, array);

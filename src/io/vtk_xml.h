@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Arrays of VTK's XML files, whatever the file holds: numbers as text, in base64 within the array or appended, raw or
-// packed by zlib or LZ4.
+// packed by zlib, LZ4 or LZMA.
 #ifndef EWA_SRC_VTK_XML_H
 #define EWA_SRC_VTK_XML_H
 
@@ -16,7 +16,8 @@ typedef struct ewa_vtk_xml {
     ewa_context *context;
     const char *name, *kind; ///< of the file and of its format, for messages
     const char *text, *end;
-    bool has_root, wide, packed, lz4, big_endian; ///< `wide`: sizes in front of numbers have 64 bits; `lz4`: not by zlib
+    bool has_root, wide, packed, big_endian; ///< `wide`: sizes in front of numbers have 64 bits
+    const struct ewa_vtk_packing *packing;   ///< of what is packed; NULL: by zlib, or by what is not known
     bool has_appended, raw;                  ///< `raw`: the appended data are bytes, in which no tag is looked for
     bool ends;                               ///< with </VTKFile>
     ewa_xml_tag root, appended;
@@ -42,7 +43,7 @@ bool ewa_vtk_attribute(const ewa_xml_tag *tag, const char *name, char value[EWA_
 ewa_status ewa_vtk_broken(const ewa_vtk_xml *xml, const char *what, const char *text);
 
 /// Finds the numbers of a DataArray. What sizes claim is compared with the bytes that there are. `stored->owned` is to be
-/// released by the caller. Errors: EWA_ERROR_FORMAT, EWA_ERROR_UNSUPPORTED (a compressor that is neither zlib's nor LZ4),
+/// released by the caller. Errors: EWA_ERROR_FORMAT, EWA_ERROR_UNSUPPORTED (a compressor that is none of these),
 /// EWA_ERROR_MEMORY.
 ewa_status ewa_vtk_xml_find(const ewa_vtk_xml *xml, const ewa_xml_tag *array, ewa_vtk_stored *stored);
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Blocks of LZ4: by hand, cut, changed; and VTK's arrays of several of them, as its own writer has them.
+// Blocks of LZ4: by hand, cut, changed; and VTK's arrays of several of them and of LZMA, as its own writer has them.
 #include "io/mesh_fixture.h"
 
 #include "io/lz4.h"
@@ -78,6 +78,33 @@ CASE(test_arrays) {
     };
     for (size_t i = 0; i < sizeof broken / sizeof broken[0]; i++)
         mesh_refuse(context, &messages, "a.vtp", broken[i].text, strlen(broken[i].text), EWA_ERROR_FORMAT, broken[i].said);
+}
+
+#define LZMA_FILE(places)                                                                                                       \
+    "<VTKFile type=\"PolyData\" compressor=\"vtkLZMADataCompressor\"><PolyData><Piece NumberOfPoints=\"9\" NumberOfPolys=\"4\"><Points>" ARRAY( \
+        "type=\"Float32\" NumberOfComponents=\"3\"", places)                                                                  \
+    "</Points><Polys>" ARRAY("type=\"Int64\" Name=\"connectivity\"",                                                          \
+                             "AgAAAGAAAAAgAAAAUAAAAEgAAAA=/Td6WFoAAAFpIt42AsAgYCEBFgBfIlBw4ABfABhdAABqfrsUcWhFpXAJqq4OIF58Pb3BYKi3OgBE" \
+                             "zqSAAAEwYIDicrKQQpkNAQAAAAABWVr9N3pYWgAAAWki3jYCwBYgIQEWAKaegPrgAB8ADl0AAgA34WP8NdfG5jxWewAAAACpInX5AAEm" \
+                             "IMcWNtiQQpkNAQAAAAABWVo=")                                                                     \
+        ARRAY("type=\"Int64\" Name=\"offsets\"", "AQAAAGAAAAAgAAAASAAAAA==/Td6WFoAAAFpIt42AsAWICEBFgCmnoD64AAfAA5dAAIAN+HOKwGazEAO" \
+                                                 "Jo+AAAAA2pEUYQABJiDHFjbYkEKZDQEAAAAAAVla") "</Polys></Piece></PolyData></VTKFile>"
+
+/// As VTK's own writer has them: two blocks of 96 bytes and less.
+CASE(test_lzma) {
+    if (!strstr(ewa_parts(), "lzma")) skip();
+    ewa_mesh mesh;
+    mesh_load_text(context, &messages, "a.vtp",
+                   LZMA_FILE("AgAAAGAAAAAMAAAAUAAAAEAAAAA=/Td6WFoAAAFpIt42AsAeYCEBFgCCRCBO4ABfABZdAABoLkNQCwqpQyZ8KfVu3t3NMBdG/AAAAACoTvo0"
+                             "AAEuYF/dM2aQQpkNAQAAAAABWVr9N3pYWgAAAWki3jYCwBAMIQEAAGkKcDQBAAsAAAA/AAAAPwAAAAAAO+YsqQABIAyi3bS8kEKZDQEA"
+                             "AAAAAVla"), &mesh);
+    assert_int_equal(mesh.triangle_count, 8);
+    assert_float_equal(mesh_area(&mesh, NULL), 1, 1e-12);
+    ewa_mesh_free(&mesh);
+    // A byte of what is packed is another one.
+    static const char changed[] =
+        LZMA_FILE("AQAAAGAAAAAMAAAAQAAAAA==/Td6WFoAAAFpIt42AgAhAQwAAACPmEGc4AALAAZdAQBsPk8AAAAAAG/G1XsAAR4M38Zx/ZBCmQ0BAAAAAAFZWg==");
+    mesh_refuse(context, &messages, "a.vtp", changed, sizeof changed - 1, EWA_ERROR_FORMAT, "a packed array is damaged");
 }
 
 int main(void) { return RUN_TESTS(NULL, NULL); }
