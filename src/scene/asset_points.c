@@ -19,6 +19,26 @@ static const uint64_t MESH_POINTS = 200000, MESH_POINTS_PER_TRIANGLE = 4;
 /// Smallest cutoff that axes of a mesh's points are made for.
 static const double MESH_CUTOFF = 1e-3;
 
+/// A mesh of no more colours is plain, as parts of machines are; their number is that of a legend's rows at a glance.
+enum { PLAIN_COLORS = 8 };
+
+/// Whether the points have colours, but few. Of what a whole file says, so that all ranks find the same.
+static bool has_few_colors(const ewa_cloud *cloud) {
+    const ewa_attribute *color = ewa_cloud_find(cloud, EWA_COLOR);
+    if (!color) return false;
+    const size_t bytes = color->component_count * ewa_type_bytes(color->type);
+    const uint8_t *data = color->data, *found[PLAIN_COLORS];
+    int count = 0, last = 0;
+    for (uint64_t i = 0; i < ewa_cloud_point_count(cloud); i++) {
+        const uint8_t *own = data + i * bytes;
+        if (count && memcmp(own, found[last], bytes) == 0) continue;
+        for (last = 0; last < count && memcmp(own, found[last], bytes) != 0;) last++;
+        if (last == PLAIN_COLORS) return false;
+        if (last == count) found[count++] = own;
+    }
+    return true;
+}
+
 void ewa_asset_take_unit(ewa_asset *asset, const ewa_cloud *cloud) {
     bool same = true;
     for (int c = 0; c < 3; c++) {
@@ -88,6 +108,7 @@ ewa_status ewa_asset_sample_mesh(const ewa_asset_job *job, const ewa_mesh *mesh)
                "%llu points on %u triangles in %.3f s; ewa_mesh_sample() has options for this",
                (unsigned long long)ewa_cloud_point_count(cloud), mesh->triangle_count,
                ewa_now_s() - started_s);
+    job->asset->plain = has_few_colors(cloud);
     ewa_status status = take_points(job, cloud);
     job->asset->kind = EWA_ASSET_MESH;
     return status;
@@ -101,6 +122,7 @@ ewa_status ewa_asset_take_model(const ewa_asset_job *job, ewa_model *model) {
     if (!model->face_count) ewa_cloud_check_steps(model->points); // the readers of meshes say so themselves
     ewa_cloud *cloud = model->points;
     model->points = NULL;
+    job->asset->plain = model->face_count && has_few_colors(cloud);
     return model->face_count ? take_points(job, cloud) : ewa_asset_take_cloud(job, cloud);
 }
 

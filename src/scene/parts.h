@@ -42,6 +42,7 @@ struct ewa_asset {
 
     ewa_cloud *cloud; ///< of points and meshes; NULL: gone, or something else
     bool drawable;    ///< it has normals and radii, or axes
+    bool plain;       ///< a mesh of so few colours that its form is all there is to see
     ewa_lod *lod;
     ewa_context *lod_context; ///< of its own; NULL: that of the asset
     const ewa_surfels *surfels; ///< of another owner
@@ -96,7 +97,7 @@ typedef struct ewa_surface {
     ewa_surface_key *keys;       ///< what it was made of
     ewa_surfels_options options;
     bool close_gaps;
-    bool colored;   ///< some of it has colours
+    bool colored;   ///< some of it has colours, and is not plain
     uint32_t region_count;
     ewa_region regions[EWA_MAX_REGIONS]; ///< that hide points
     bool as_points; ///< drawn as discs of pixels: gaps do not matter

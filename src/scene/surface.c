@@ -291,8 +291,11 @@ static ewa_status gather(ewa_scene *scene, ewa_surface *surface, const shown_clo
     ewa_context *context = surface->context;
     *whole = NULL;
     EWA_TRY(color(surface, shown));
-    for (uint32_t i = 0; i < surface->cloud_count; i++)
-        surface->colored = surface->colored || ewa_cloud_find(shown->clouds[i], EWA_COLOR);
+    for (uint32_t i = 0; i < surface->cloud_count; i++) {
+        const ewa_coloring *by = &shown->colorings[i];
+        const bool plain = surface->keys[i].asset->plain && !by->tinted && ewa_coloring_is_own(by->attribute);
+        surface->colored = surface->colored || (!plain && ewa_cloud_find(shown->clouds[i], EWA_COLOR));
+    }
     for (uint32_t i = 0; i < surface->cloud_count; i++)
         EWA_TRY(apply_instance(&surface->keys[i].instance, shown->clouds[i]));
     uint32_t count;

@@ -665,6 +665,42 @@ TEST(test_bare_light) {
     ewa_context_destroy(&context);
 }
 
+/// An octahedron of one colour is lit as what has none, since its form is all there is to see; one of many, one that is
+/// tinted, and one coloured by its heights keep the headlight.
+TEST_ON(test_plain_mesh, 1) {
+    static const double corners[18] = {1, 0, 0, -1, 0, 0, 0, 1, 0, 0, -1, 0, 0, 0, 1, 0, 0, -1};
+    static const uint32_t faces[24] = {0, 2, 4, 2, 1, 4, 1, 3, 4, 3, 0, 4, 2, 0, 5, 1, 2, 5, 3, 1, 5, 0, 3, 5};
+    enum { BARE, PLAIN, MANY, TINTED, HEIGHTS, KINDS };
+    for (int kind = 0; kind < KINDS; kind++) {
+        ewa_mesh mesh;
+        assert_int_equal(ewa_mesh_create(context, 6, 8, 0, kind == BARE ? 0 : EWA_MESH_COLORS, &mesh), EWA_OK);
+        memcpy(mesh.positions, corners, sizeof corners);
+        memcpy(mesh.triangles, faces, sizeof faces);
+        for (int i = 0; mesh.colors && i < 24; i++)
+            mesh.colors[i] = i % 4 == 3 ? 1 : kind == MANY ? 0.5f + 0.2f * (float)(i / 8) : 0.5f;
+        ewa_asset *asset = NULL;
+        assert_int_equal(ewa_asset_create(context, &(ewa_asset_source){.mesh = &mesh}, NULL, &asset), EWA_OK);
+        ewa_mesh_free(&mesh);
+        ewa_scene *scene = make_scene(context);
+        ewa_instance instance;
+        ewa_instance_init(&instance, sizeof instance);
+        instance.coloring.tinted = kind == TINTED;
+        if (kind == HEIGHTS) snprintf(instance.coloring.attribute, sizeof instance.coloring.attribute, "z");
+        assert_int_equal(ewa_scene_add(scene, asset, &instance), EWA_OK);
+        ewa_asset_release(&asset);
+        const ewa_camera camera = place(scene);
+        draw(context, scene, &camera, &first);
+        ewa_scene_options options;
+        ewa_scene_get_options(scene, &options);
+        options.render.light_count = 1; // the headlight
+        ewa_light_init(&options.render.lights[0]);
+        assert_int_equal(ewa_scene_set_options(scene, &options), EWA_OK);
+        draw(context, scene, &camera, &second);
+        assert_true((memcmp(first.rgba, second.rgba, sizeof first.rgba) == 0) == (kind > PLAIN));
+        ewa_scene_destroy(&scene);
+    }
+}
+
 #define FOOT "UNIT[\"foot\",0.3048]"
 #define US_FOOT "UNIT[\"US survey foot\",0.304800609601219,AUTHORITY[\"EPSG\",\"9003\"]]"
 #define METRE "UNIT[\"metre\",1]"
