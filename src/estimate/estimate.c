@@ -12,6 +12,7 @@
 #include "estimate/orient.h"
 #include "estimate/outliers.h"
 #include "estimate/radii.h"
+#include "estimate/sharp.h"
 #include "estimate/sight.h"
 #include "ewa/prepare.h"
 
@@ -387,6 +388,7 @@ static ewa_status finish_curvature(ewa_cloud *cloud, estimate_job *job, bool has
                                    given ? given : job->normals, job->curvature_out};
     if (status == EWA_OK) status = ewa_curvature_measure(context, &input);
     if (status == EWA_OK) ewa_curvature_drop_flat(cloud);
+    if (status == EWA_OK) ewa_sharp_note(context, job->place_count, &input, job->strewn);
     ewa_release(context, given, job->place_count, 3 * sizeof *given);
     return status;
 }

@@ -346,6 +346,44 @@ static ewa_cloud *estimate_uneven(uint32_t threads, uint32_t mask, const float *
     return cloud;
 }
 
+/// Whether a note of sharp edges comes with the estimate of a generated object's places, moved by some noise.
+static bool tells_edges(ewa_object object, uint64_t count, double noise_spacings) {
+    check_log log = {0};
+    ewa_context *context = check_context(2, &log);
+    ewa_generate_options options;
+    ewa_generate_options_init(&options, sizeof options);
+    options.object = object;
+    options.point_count = count;
+    options.jitter = 1;
+    ewa_cloud *made = NULL, *cloud = NULL;
+    assert_int_equal(ewa_cloud_generate(context, &options, &made), EWA_OK);
+    count = ewa_cloud_point_count(made);
+    assert_int_equal(ewa_cloud_create(context, count, &cloud), EWA_OK);
+    double(*places)[3] = NULL;
+    assert_int_equal(ewa_cloud_add(cloud, EWA_POSITION, EWA_F64, 3, (void **)&places), EWA_OK);
+    ewa_attribute_read_f64(ewa_cloud_find(made, EWA_POSITION), 0, count, places[0]);
+    ewa_cloud_destroy(&made);
+    check_random random = {7};
+    const double noise = noise_spacings * 5 / sqrt((double)count); // an edge of 2 has some 24 / 5^2 of it
+    for (uint64_t i = 0; i < count; i++)
+        for (int c = 0; c < 3; c++) places[i][c] += check_uniform(&random, -noise, noise);
+    const ewa_estimate_options estimate = check_estimate_options();
+    assert_int_equal(ewa_cloud_estimate(&cloud, &estimate), EWA_OK);
+    ewa_cloud_destroy(&cloud);
+    ewa_context_destroy(&context);
+    return strstr(log.text, "sharp edges") != NULL;
+}
+
+TEST(test_sharp_edges_are_told) {
+    assert_true(tells_edges(EWA_OBJECT_CUBE, 1000, 0));
+    assert_true(tells_edges(EWA_OBJECT_CUBE, 100000, 0));
+    assert_true(tells_edges(EWA_OBJECT_CSG, 20000, 0));
+    assert_false(tells_edges(EWA_OBJECT_CUBE, 20000, 0.2)); // where faces are not flat, detection is less sure
+    assert_false(tells_edges(EWA_OBJECT_PLANE, 20000, 0));
+    assert_false(tells_edges(EWA_OBJECT_SPHERE, 20000, 0));
+    assert_false(tells_edges(EWA_OBJECT_TOWN, 100000, 0));
+}
+
 /// Around doubles beyond the range of floats there are no numbers, but nothing that is not finite comes out.
 TEST(test_overflow) {
     enum { COUNT = 400 };
