@@ -22,6 +22,7 @@ class Ewa < Formula
   depends_on "libtiff"
   depends_on "openexr"
   depends_on "webp"
+  depends_on "xz"
   depends_on "zstd"
 
   uses_from_macos "bzip2"

@@ -28,6 +28,7 @@ pkgs.stdenv.mkDerivation {
     meshoptimizer
     openexr
     suitesparse
+    xz
     zlib
     zstd
   ];

@@ -15,7 +15,7 @@ static const double FLAT = 0.99995, SHARP = 0.87;
 
 /// Shares of the places that are flat and sharp at least, and on no surface at most. Of a cube of 1,000 points a fifth is flat,
 /// of one of 1 M points two in a hundred are on an edge; of surveys and of scans with several depths a tenth is on no surface.
-static const double FLAT_SHARE = 0.2, SHARP_SHARE = 0.005, STREWN_SHARE = 0.02;
+static const double FLAT_SHARE = 0.15, SHARP_SHARE = 0.005, STREWN_SHARE = 0.02;
 
 void ewa_sharp_note(ewa_context *context, uint32_t place_count, const curvature_input *input, const uint8_t *strewn) {
     const uint32_t step = place_count / SAMPLES + 1;

@@ -39,6 +39,8 @@ NAMES = {
     "CURL": {"": "curl", "conda": "libcurl"},
     "CIVETWEB": {"": "civetweb"},
     "EXR": {"": "openexr"},
+    "DWA": {"": "openexr"},
+    "LZMA": {"": "xz", "conda": "liblzma-devel", "vcpkg": "liblzma"},
     "GL": {"": "libepoxy"},
     "ASSIMP": {"": "assimp"},
     "WINDOW": {"": "sdl2"},

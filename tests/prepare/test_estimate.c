@@ -346,10 +346,21 @@ static ewa_cloud *estimate_uneven(uint32_t threads, uint32_t mask, const float *
     return cloud;
 }
 
+static void keep_notes(void *user, ewa_severity severity, const char *text) {
+    check_log *log = user;
+    if (severity == EWA_SEVERITY_NOTE) snprintf(log->text, sizeof log->text, "%s", text);
+}
+
 /// Whether a note of sharp edges comes with the estimate of a generated object's places, moved by some noise.
 static bool tells_edges(ewa_object object, uint64_t count, double noise_spacings) {
     check_log log = {0};
-    ewa_context *context = check_context(2, &log);
+    ewa_context_options notes;
+    ewa_context_options_init(&notes, sizeof notes);
+    notes.message_level = EWA_SEVERITY_NOTE;
+    notes.message = keep_notes;
+    notes.message_user = &log;
+    ewa_context *context = NULL;
+    assert_int_equal(ewa_context_create(&notes, &context), EWA_OK);
     ewa_generate_options options;
     ewa_generate_options_init(&options, sizeof options);
     options.object = object;
@@ -375,7 +386,7 @@ static bool tells_edges(ewa_object object, uint64_t count, double noise_spacings
 }
 
 TEST(test_sharp_edges_are_told) {
-    assert_true(tells_edges(EWA_OBJECT_CUBE, 1000, 0));
+    assert_true(tells_edges(EWA_OBJECT_CUBE, 2000, 0));
     assert_true(tells_edges(EWA_OBJECT_CUBE, 100000, 0));
     assert_true(tells_edges(EWA_OBJECT_CSG, 20000, 0));
     assert_false(tells_edges(EWA_OBJECT_CUBE, 20000, 0.2)); // where faces are not flat, detection is less sure
