@@ -22,6 +22,7 @@ static const struct {
     {"write what is wanted to a file of its own", "`ewa convert` what is wanted to a file of its own"},
     {"ewa_cloud_estimate() of the centres makes surfels",
      "'ewa surfels --keep-normals off' makes surfels of the centres"},
+    {"; ewa_cloud_detect_features() makes", "; `ewa features` makes"},
     {"ewa_cloud_estimate() makes new normals and radii",
      "'ewa surfels --keep-normals off --keep-radii off' makes new normals and radii"},
     {"; times ", "; 'ewa convert' with --scale "},

@@ -388,7 +388,8 @@ static ewa_status finish_curvature(ewa_cloud *cloud, estimate_job *job, bool has
                                    given ? given : job->normals, job->curvature_out};
     if (status == EWA_OK) status = ewa_curvature_measure(context, &input);
     if (status == EWA_OK) ewa_curvature_drop_flat(cloud);
-    if (status == EWA_OK) ewa_sharp_note(context, job->place_count, &input, job->strewn);
+    if (status == EWA_OK && ewa_sharp_find(job->place_count, &input, job->strewn))
+        status = ewa_cloud_set_note(cloud, EWA_SHARP_NOTE, "yes", 3);
     ewa_release(context, given, job->place_count, 3 * sizeof *given);
     return status;
 }

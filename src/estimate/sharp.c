@@ -3,7 +3,6 @@
 //
 // Flat faces with sharp edges, as cubes and parts of machines have them, by how far normals turn from place to place.
 #include "estimate/sharp.h"
-#include "base/base.h"
 
 #include <math.h>
 
@@ -17,7 +16,7 @@ static const double FLAT = 0.99995, SHARP = 0.87;
 /// of one of 1 M points two in a hundred are on an edge; of surveys and of scans with several depths a tenth is on no surface.
 static const double FLAT_SHARE = 0.15, SHARP_SHARE = 0.005, STREWN_SHARE = 0.02;
 
-void ewa_sharp_note(ewa_context *context, uint32_t place_count, const curvature_input *input, const uint8_t *strewn) {
+bool ewa_sharp_find(uint32_t place_count, const curvature_input *input, const uint8_t *strewn) {
     const uint32_t step = place_count / SAMPLES + 1;
     uint32_t looked = 0, flat = 0, sharp = 0, off = 0;
     for (uint32_t place = 0; place < place_count; place += step, looked++) {
@@ -32,8 +31,5 @@ void ewa_sharp_note(ewa_context *context, uint32_t place_count, const curvature_
         sharp += least < SHARP;
         off += strewn && strewn[place] > UINT8_MAX / 2;
     }
-    if (looked >= FEWEST && flat >= FLAT_SHARE * looked && sharp >= SHARP_SHARE * looked && off <= STREWN_SHARE * looked)
-        ewa_report(context, EWA_SEVERITY_NOTE,
-                   "flat faces that meet in sharp edges: detected as features ('ewa features', ewa_cloud_detect_features()) "
-                   "these are drawn clean");
+    return looked >= FEWEST && flat >= FLAT_SHARE * looked && sharp >= SHARP_SHARE * looked && off <= STREWN_SHARE * looked;
 }

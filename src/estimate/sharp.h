@@ -7,8 +7,13 @@
 
 #include "estimate/curvature.h"
 
-/// Tells by a note what mends the edges of a cloud most of which is flat. `strewn` says how little each place is part of a
-/// surface, of UINT8_MAX; NULL: nothing does.
-void ewa_sharp_note(ewa_context *context, uint32_t place_count, const curvature_input *input, const uint8_t *strewn);
+#include <stdbool.h>
+
+/// The note of clouds that are so.
+#define EWA_SHARP_NOTE "estimate.sharp_edges"
+
+/// Whether most of a cloud is flat, and some of it sharp. `strewn` says how little each place is part of a surface, of
+/// UINT8_MAX; NULL: nothing does.
+bool ewa_sharp_find(uint32_t place_count, const curvature_input *input, const uint8_t *strewn);
 
 #endif

@@ -5,6 +5,7 @@
 // file, so that tiles of one survey have no seams and scans of one place no two spacings.
 #include "base/base.h"
 #include "cloud/cloud.h"
+#include "estimate/sharp.h"
 #include "estimate/sparse.h"
 #include "ewa/prepare.h"
 #include "scene/parts.h"
@@ -181,6 +182,9 @@ static void report(const ewa_completed *group, bool normals, uint32_t neighbour_
     ewa_report(group->context, group->count > 1 ? EWA_SEVERITY_NOTE : EWA_SEVERITY_INFO,
                "%s: %sradii estimated%s from %u neighbours in %.3f s", names, normals ? "normals and " : "",
                group->count > 1 ? " together" : "", neighbour_count, group->estimate_s);
+    if (!group->sparse && ewa_cloud_note(group->merged ? group->merged : group->clouds[0], EWA_SHARP_NOTE, NULL))
+        ewa_report(group->context, EWA_SEVERITY_NOTE,
+                   "%s: flat faces that meet in sharp edges; ewa_cloud_detect_features() makes these clean", names);
 }
 
 /// Radius of the dots of a scene.

@@ -293,6 +293,9 @@ TEST(dots) {
     (void)state;
     scratch_text("one.xyz", "1 2 3\n");
     scratch_text("eight.xyz", "0 0 0\n1 0 0\n0 1 0\n1 1 0\n0 0 1\n1 0 1\n0 1 1\n1 1 1\n");
+    run_done("ewa generate cube -n 5000 -o cube.ply && ewa convert cube.ply -o cube.csv");
+    says("cube.csv: flat faces that meet in sharp edges; `ewa features` makes these clean",
+         "cut -d , -f 1-3 cube.csv > bare.csv && mv bare.csv cube.csv && ewa render cube.csv -o auto.png --size 64x48");
     says("8 points on no surface: drawn as dots of 6 pixels|--point-size", "ewa render eight.xyz -o auto.png --size 64x48");
     run_done("ewa render eight.xyz -o six.png --size 64x48 --point-size 6");
     assert_null(strstr(last_run.err, "--point-size"));

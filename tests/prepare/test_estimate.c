@@ -346,21 +346,9 @@ static ewa_cloud *estimate_uneven(uint32_t threads, uint32_t mask, const float *
     return cloud;
 }
 
-static void keep_notes(void *user, ewa_severity severity, const char *text) {
-    check_log *log = user;
-    if (severity == EWA_SEVERITY_NOTE) snprintf(log->text, sizeof log->text, "%s", text);
-}
-
-/// Whether a note of sharp edges comes with the estimate of a generated object's places, moved by some noise.
+/// Whether the estimate finds sharp edges in a generated object's places, moved by some noise.
 static bool tells_edges(ewa_object object, uint64_t count, double noise_spacings) {
-    check_log log = {0};
-    ewa_context_options notes;
-    ewa_context_options_init(&notes, sizeof notes);
-    notes.message_level = EWA_SEVERITY_NOTE;
-    notes.message = keep_notes;
-    notes.message_user = &log;
-    ewa_context *context = NULL;
-    assert_int_equal(ewa_context_create(&notes, &context), EWA_OK);
+    ewa_context *context = check_context(2, NULL);
     ewa_generate_options options;
     ewa_generate_options_init(&options, sizeof options);
     options.object = object;
@@ -380,9 +368,10 @@ static bool tells_edges(ewa_object object, uint64_t count, double noise_spacings
         for (int c = 0; c < 3; c++) places[i][c] += check_uniform(&random, -noise, noise);
     const ewa_estimate_options estimate = check_estimate_options();
     assert_int_equal(ewa_cloud_estimate(&cloud, &estimate), EWA_OK);
+    const bool told = ewa_cloud_note(cloud, "estimate.sharp_edges", NULL) != NULL;
     ewa_cloud_destroy(&cloud);
     ewa_context_destroy(&context);
-    return strstr(log.text, "sharp edges") != NULL;
+    return told;
 }
 
 TEST(test_sharp_edges_are_told) {
