@@ -40,6 +40,7 @@ static ewa_status draw_scene(viewer *v, paint_scene *scene, const ewa_camera *ca
 ewa_status shot_draw(viewer *v, const ewa_camera *camera, ewa_ink ink, uint8_t *rgba8) {
     paint_scene scene;
     viewer_scene(v, &scene);
+    scene.options.many_frames = true;
     return draw_scene(v, &scene, camera, ink, rgba8);
 }
 

@@ -34,7 +34,8 @@ typedef struct lod_arguments {
     {                                                                                                        \
         "lod-error", LOD_MEMBER(offset, error),                                                              \
             .help = "and where these are expected to be off by no more than so much, rms, in 1/255 of the "  \
-                    "screen's white; 0: all points, as of any file"                                          \
+                    "screen's white; 0: all points, as of any file. Films of clouds in memory: a third of it, over the whole picture, " \
+                    "by levels that are made of them"                                                        \
     },                                                                                                       \
     {                                                                                                        \
         "max-splats", LOD_MEMBER(offset, max_splats),                                                        \

@@ -220,6 +220,7 @@ static ewa_scene_options scene_options(const render_arguments *arguments, const 
     options.keep_points = arguments->outlines > 0;
     options.surfels = arguments->surfels;
     options.lod = arguments->lod.options;
+    options.many_frames = frames_many(&arguments->frames);
     options.render = *render;
     options.gaussians = arguments->gaussians;
     options.volumes = arguments->volumes;

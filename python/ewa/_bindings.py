@@ -2588,6 +2588,7 @@ class ewa_scene_options(c.Structure):
     volumes: ewa_volume_options
     regions: c.Array[ewa_region]
     region_count: int
+    many_frames: bool
     _fields_ = [
         ("struct_size", c.c_size_t),
         ("up", c.c_int),
@@ -2601,6 +2602,7 @@ class ewa_scene_options(c.Structure):
         ("volumes", ewa_volume_options),
         ("regions", ewa_region * 16),
         ("region_count", c.c_uint32),
+        ("many_frames", c.c_bool),
     ]
 
 

@@ -469,6 +469,8 @@ class SceneOptions(TypedDict, total=False):
     keep_points: bool | None
     #: volumes get the light that suits their transfer function; on|off, default on
     shade_volumes: bool | None
+    #: many frames of the scene follow: surfels in memory are drawn by levels of detail where the picture is off by next to nothing; on|off, default off
+    many_frames: bool | None
     #: of the regions that hide points; [0, 16], default 0
     region_count: int | None
 

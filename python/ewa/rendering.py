@@ -20,6 +20,7 @@ from ._struct import fill, initialised, table
 from .camera import Camera
 from .image import Color, Image
 from .shade import (Environment, Light, Materials, set_background, set_lights, set_materials, set_section)
+from .surfels import Surfels
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
@@ -125,7 +126,8 @@ class Renderer:
                environment: Environment | Any = None, layers: int | str | None = None, section_box: Any = None,
                section_planes: Sequence[Sequence[float]] | None = None, out: Image | None = None,
                close_gaps: bool | None = None, **options: Unpack[DrawOptions]) -> Image:
-        """Draw as :func:`render` does, which see, by this renderer.
+        """Draw as :func:`render` does, which see, by this renderer, of which many frames are expected: surfels and scenes of more than
+        262,144 points are drawn by levels of detail where the picture is off by no more than 1/255 (root of the mean square).
 
         Parameters
         ----------
@@ -227,9 +229,12 @@ def render(scene: Any, camera: Camera | None = None, *, size: Sequence[int] | No
         world = World(core_of_things(parts), close_gaps=close_gaps, surfels=making)
         for part in parts:
             world.add(part)
+    # Levels of what is made surfels here would be made anew for every picture.
+    lasting = all(isinstance(part, Surfels) or hasattr(part, "_whole") for part in parts)
     return draw(world, camera, size=size, planes=planes, background=background, lights=lights, materials=materials,
                 environment=environment, layers=layers, section_box=section_box, section_planes=section_planes,
-                renderer=renderer if renderer is not None else backend, out=out, render=given, panorama=panorama)
+                renderer=renderer if renderer is not None else backend, out=out, render=given, panorama=panorama,
+                many_frames=renderer is not None and lasting)
 
 
 def draw(world: World, camera: Camera | None, *, size: Sequence[int] | None, planes: str | Iterable[str],
@@ -238,7 +243,8 @@ def draw(world: World, camera: Camera | None, *, size: Sequence[int] | None, pla
          environment: Environment | Any = None, layers: int | str | None = None, surfaces: Image | None = None,
          renderer: Renderer | str | None = None, out: Image | None = None, render: Mapping[str, Any] | None = None,
          lod: Mapping[str, Any] | None = None, gaussians: Mapping[str, Any] | None = None,
-         volumes: Mapping[str, Any] | None = None, panorama: str | Mapping[str, Any] | None = None) -> Image:
+         volumes: Mapping[str, Any] | None = None, panorama: str | Mapping[str, Any] | None = None,
+         many_frames: bool = False) -> Image:
     """Draw a scene: what every call that makes a picture of something ends in; arguments as of :func:`render`.
 
     `render`, `lod`, `gaussians` and `volumes` are members of the structs of options of these.
@@ -267,6 +273,7 @@ def draw(world: World, camera: Camera | None, *, size: Sequence[int] | None, pla
     fill(made.lod, "ewa_lod_options", lod or {})
     fill(made.gaussians, "ewa_gaussian_options", gaussians or {})
     fill(made.volumes, "ewa_volume_options", volumes or {})
+    made.many_frames = many_frames
     made.shade_volumes = made.shade_volumes and (volumes or {}).get("shading") is None
     keep += (set_surfaces(made.gaussians, surfaces, camera.size),)
     image = Image(camera, opaque)

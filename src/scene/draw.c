@@ -57,6 +57,7 @@ void ewa_scene_renderer_destroy(ewa_scene_renderer **given) {
     for (uint32_t i = 0; i < EWA_MAX_MIXED_VOLUMES; i++) ewa_volume_renderer_destroy(&renderer->volumes[i]);
     free_planes(renderer);
     ewa_scene_renderer_free_lists(renderer);
+    ewa_details_free(context, &renderer->details);
     ewa_release(context, renderer, 1, sizeof *renderer);
 }
 
@@ -155,6 +156,7 @@ static ewa_status draw_surfaces(ewa_scene_renderer *renderer, const ewa_scene_sh
     const ewa_status status = ewa_lod_scene_draw(&together, shown->looks, renderer->surfaces, camera, &lit,
                                                  &lod, frame, &stats->lod);
     stats->render = stats->lod.render;
+    if (renderer->level > stats->render.level) stats->render.level = renderer->level;
     return status;
 }
 
@@ -293,12 +295,17 @@ static ewa_status draw_lit(ewa_scene_renderer *renderer, const ewa_scene_shown *
                               &lit);
 }
 
+/// The error of nodes is told where they cover, half a pixel between surfels; that of levels in memory over the whole picture.
+/// By default it is 1/255.
+static const double ERROR_OF_NODES = 3;
+
 static ewa_status draw(ewa_scene *scene, ewa_scene_renderer *renderer, const ewa_camera *camera,
                        const ewa_scene_options *given, const ewa_frame *frame, ewa_scene_stats *stats) {
     ewa_scene_shown shown;
     ewa_scene_options dotted;
     const ewa_scene_options *options = given;
     EWA_TRY(ewa_scene_list_shown(scene, &given->lod, renderer, &shown));
+    renderer->level = 0;
     double size_px = given->render.point_size_px;
     if (size_px == 0 && scene->surface && scene->surface->sparse && shown.surfels_count == 1 && !shown.lod_count)
         size_px = EWA_DOT_PX;
@@ -308,6 +315,10 @@ static ewa_status draw(ewa_scene *scene, ewa_scene_renderer *renderer, const ewa
         dotted.render.point_size_px = size_px;
         options = &dotted;
     }
+    // Of a panorama all faces are to be of one level.
+    if (options->many_frames && !renderer->lit_from)
+        EWA_TRY(ewa_details_choose(renderer->context, &renderer->details, camera, &options->render, options->lod.error / ERROR_OF_NODES,
+                                   shown.surfels, shown.surfels_count, &renderer->level));
     if (!shown.splats_count && !shown.volume_count)
         return draw_surfaces(renderer, &shown, camera, options, &options->render, frame, stats);
     ewa_gaussian_options among = mixture_options(&shown, options);

@@ -7,6 +7,7 @@
 
 #include "base/base.h"
 #include "lod/look.h"
+#include "scene/detail.h"
 #include "scene/parts.h"
 
 struct ewa_scene_renderer {
@@ -19,7 +20,9 @@ struct ewa_scene_renderer {
     ewa_image lit_rgba, lit_depth;           ///< of everything, before eye-dome lighting
     ewa_buffer surfels, lods, splats;        ///< lists of what is visible
     const ewa_camera *lit_from;  ///< whose left and top light of bare surfaces comes from; NULL: the frame's
+    uint32_t level;              ///< of surfels in memory, of the frame (details)
     double finer;                ///< pixels of a frame for one of those that sizes of points are told in; 0: 1
+    ewa_details details;         ///< of the surfels that are drawn
     ewa_buffer looks, look_list; ///< of the octrees: one ewa_octree_look each, and a pointer to its look
 };
 

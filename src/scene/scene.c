@@ -21,6 +21,8 @@ static const ewa_option scene_rows[] = {
      .help = "clouds stay in memory beside their surfels, for picks and changes"},
     {"shade_volumes", EWA_OPTION_BOOL, AT(shade_volumes), .initial = true,
      .help = "volumes get the light that suits their transfer function"},
+    {"many_frames", EWA_OPTION_BOOL, AT(many_frames),
+     .help = "many frames of the scene follow: surfels in memory are drawn by levels of detail where the picture is off by next to nothing"},
     {"region_count", EWA_OPTION_U32, AT(region_count), 0, EWA_MAX_REGIONS, .help = "of the regions that hide points"},
 };
 

@@ -1,0 +1,296 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// How far the levels of surfels are off is measured before they are made, on patches of the surfels: what levels make of these
+// is drawn, from above at an angle, beside what all surfels make, where the level's surfels are a pixel apart and less. Over a
+// frame the error is that of its scale times the root of the share of the frame that the surfels cover: elsewhere nothing differs.
+#include "scene/detail.h"
+#include "homogeneous/vec.h"
+#include "image/srgb.h"
+#include "surface/levels.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum {
+    MIN_SURFELS = 1 << 18, // fewer are drawn as fast as one can look
+    PATCHES = 4,
+    PATCH_PACKETS = 1024, // neighbours along the curve: a patch of some 128 by 128
+    LEVELS = 2,           // of a patch, of which the last has 1,024
+    SCALES = 4,           // 2^scale surfels are a pixel wide; at the coarsest a patch is eight
+    MOST_PX = 256,
+    CELLS = 64,           // of a frame along its longer side
+    LOOKS = 1 << 14,      // packets that are looked for in them
+};
+
+/// Directions and colours in sums of squares: from the normal by so much, over a middle grey.
+static const double TILT = 0.7;
+static const float GREY = 0.2f;
+
+/// What errors grow by from level to level where surfels are as large as pixels; beyond those that are measured.
+static const double GROWTH = 2;
+
+typedef struct detail {
+    uint64_t serial, last_frame;
+    double spacing_world;               ///< of all surfels, about
+    double square[LEVELS + 1][SCALES + 1]; ///< mean square of what levels are off by where they cover, (1/255)^2
+    ewa_surfels head;                      ///< surfels without levels, borrowed, before those that the detail makes of them
+    bool made; ///< levels, where there are any
+} detail;
+
+static void free_detail(detail *of) { ewa_surfels_destroy(&of->head.coarser); }
+
+void ewa_details_free(ewa_context *context, ewa_details *details) {
+    detail *items = details->items.data;
+    for (uint32_t i = 0; i < details->count; i++) free_detail(&items[i]);
+    details->count = 0;
+    ewa_buffer_free(context, &details->items);
+}
+
+/// Some packets of surfels in a row, which stay where they are. Those before and behind are a multiple of vectors.
+static ewa_surfels take_patch(const ewa_surfels *surfels, uint32_t first) {
+    const size_t lane = (size_t)first * EWA_PACKET_LANES;
+    ewa_surfels patch = *surfels;
+    patch.coarser = NULL;
+    patch.packets += first;
+    patch.packet_count = PATCH_PACKETS;
+    patch.count = PATCH_PACKETS * EWA_PACKET_LANES;
+    if (patch.points) patch.points += lane;
+    if (patch.materials) patch.materials += lane;
+    if (patch.opacities) patch.opacities += lane;
+    if (patch.curvatures) patch.curvatures += lane;
+    if (patch.clip_masks) patch.clip_masks += first, patch.clip_first += first;
+    patch.bounds.center_x += first, patch.bounds.center_y += first, patch.bounds.center_z += first;
+    patch.bounds.radius += first, patch.bounds.colors += first, patch.bounds.cone += first;
+    return patch;
+}
+
+/// A patch from above at an angle, and where the camera has it.
+typedef struct patch_view {
+    double middle_world[3], direction[3], half_world, sigma2_world; ///< mean square of the sigmas
+} patch_view;
+
+static patch_view look_at_patch(const ewa_surfels *patch) {
+    ewa_vec3 normal = vec3_make(0, 0, 0);
+    double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY}, sum = 0;
+    uint64_t count = 0;
+    for (uint32_t p = 0; p < patch->packet_count; p++) {
+        double center[3];
+        vec3_store(ewa_packet_center(patch, p), center);
+        for (int c = 0; c < 3; c++) low[c] = fmin(low[c], center[c]), high[c] = fmax(high[c], center[c]);
+        ewa_packet_surfel one;
+        ewa_packet_decode(patch, p, 0, &one);
+        if (!one.billboard) normal = vec3_add(normal, one.normal);
+        for (uint32_t i = 0; i < EWA_PACKET_LANES; i++) {
+            const double sigma = (double)patch->packets[p].sigma[i];
+            sum += sigma * sigma, count += sigma > 0;
+        }
+    }
+    const double length = vec3_length(normal);
+    const ewa_vec3 up = length > 0 ? vec3_scale(normal, 1 / length) : vec3_make(0, 0, 1);
+    // Beside the coordinate axis that is farthest from it.
+    const double x = fabs(up.x), y = fabs(up.y), z = fabs(up.z);
+    const ewa_vec3 side = x <= y && x <= z ? vec3_make(1, 0, 0) : y <= z ? vec3_make(0, 1, 0) : vec3_make(0, 0, 1);
+    patch_view view = {.half_world = 0};
+    const ewa_vec3 from = vec3_add(up, vec3_scale(side, TILT));
+    vec3_store(vec3_scale(from, -1 / vec3_length(from)), view.direction);
+    for (int c = 0; c < 3; c++) {
+        view.middle_world[c] = patch->origin_world[c] + patch->unit * (low[c] + high[c]) / 2;
+        view.half_world += patch->unit * patch->unit * (high[c] - low[c]) * (high[c] - low[c]) / 4;
+    }
+    view.half_world = sqrt(view.half_world);
+    view.sigma2_world = count ? patch->unit * patch->unit * sum / (double)count : 0;
+    return view;
+}
+
+/// The frames that levels of a patch are compared by.
+typedef struct patch_frames {
+    ewa_renderer *renderer;
+    uint8_t *all, *level; ///< MOST_PX squared
+} patch_frames;
+
+static ewa_status draw_patch(const patch_frames *frames, const patch_view *view, const ewa_surfels *surfels,
+                             double pixel_world, uint8_t *rgba8, uint32_t *side_px) {
+    ewa_camera camera;
+    ewa_render_options options;
+    ewa_camera_init(&camera);
+    ewa_render_options_init(&options, sizeof options);
+    const double side = ceil(2 * view->half_world / pixel_world) + 2;
+    *side_px = side < MOST_PX ? (uint32_t)side : MOST_PX;
+    camera.width_px = camera.height_px = *side_px;
+    EWA_TRY(ewa_camera_set_ortho(&camera, *side_px * pixel_world));
+    double eye[3];
+    for (int c = 0; c < 3; c++) eye[c] = view->middle_world[c] - 4 * view->half_world * view->direction[c];
+    EWA_TRY(ewa_camera_look_at(&camera, eye, view->middle_world, (const double[3]){0, 0, 1}));
+    for (int c = 0; c < 3; c++) options.background[c] = GREY;
+    options.background[3] = 1;
+    const ewa_frame frame = {.rgba8 = rgba8};
+    return ewa_render(frames->renderer, surfels, &camera, &options, &frame, NULL);
+}
+
+/// Adds the share that a patch has in the levels' errors.
+static ewa_status measure_patch(const patch_frames *frames, ewa_surfels *patch, detail *of) {
+    const patch_view view = look_at_patch(patch);
+    if (!(view.half_world > 0)) return EWA_OK;
+    EWA_TRY(ewa_levels_make(patch, LEVELS + 1));
+    const uint8_t grey = ewa_srgb8_from_linear(GREY);
+    for (uint32_t scale = 1; scale <= SCALES; scale++) {
+        const double pixel_world = ldexp(of->spacing_world, (int)scale);
+        uint32_t side_px;
+        EWA_TRY(draw_patch(frames, &view, patch, pixel_world, frames->all, &side_px));
+        const ewa_surfels *level = patch->coarser;
+        for (uint32_t l = 1; l <= scale && level; l++, level = level->coarser) {
+            EWA_TRY(draw_patch(frames, &view, level, pixel_world, frames->level, &side_px));
+            uint64_t square = 0, covered = 0;
+            for (size_t i = 0; i < (size_t)side_px * side_px; i++) {
+                const uint8_t *a = frames->all + 4 * i, *b = frames->level + 4 * i;
+                bool shows = false;
+                for (int c = 0; c < 3; c++) {
+                    const int off = a[c] - b[c];
+                    square += (uint64_t)(off * off);
+                    shows = shows || a[c] != grey || b[c] != grey;
+                }
+                covered += shows;
+            }
+            if (covered) of->square[l][scale] += (double)square / (3 * (double)covered) / PATCHES;
+        }
+    }
+    return EWA_OK;
+}
+
+static ewa_status measure(ewa_context *context, const ewa_surfels *surfels, detail *of) {
+    const double kernel = 1 - exp(-surfels->cutoff * surfels->cutoff / 2);
+    const uint32_t step = (surfels->packet_count - PATCH_PACKETS) / (PATCHES - 1) / EWA_PACKET_LANES * EWA_PACKET_LANES;
+    double sigma2 = 0;
+    for (uint32_t i = 0; i < PATCHES; i++) {
+        const ewa_surfels patch = take_patch(surfels, i * step);
+        sigma2 += look_at_patch(&patch).sigma2_world / PATCHES;
+    }
+    // The density follows from the unit coverage, sigma^2 d (1 - exp(-F^2 / 2)).
+    of->spacing_world = sqrt(sigma2 * kernel / surfels->unit_coverage);
+    const size_t bytes = 4 * (size_t)MOST_PX * MOST_PX;
+    patch_frames frames = {.all = ewa_allocate(context, bytes, 1), .level = ewa_allocate(context, bytes, 1)};
+    ewa_status status = frames.all && frames.level ? ewa_renderer_create(context, &frames.renderer) : EWA_ERROR_MEMORY;
+    for (uint32_t i = 0; i < PATCHES && status == EWA_OK && of->spacing_world > 0; i++) {
+        ewa_surfels patch = take_patch(surfels, i * step);
+        status = measure_patch(&frames, &patch, of);
+        ewa_surfels_destroy(&patch.coarser);
+    }
+    ewa_renderer_destroy(&frames.renderer);
+    ewa_release(context, frames.all, bytes, 1);
+    ewa_release(context, frames.level, bytes, 1);
+    return status;
+}
+
+/// What a level is off by where it covers, root of the mean square, in 1/255; `spacing_px` of all surfels. Infinite: its own
+/// are more than a pixel apart.
+static double error_of(const detail *of, uint32_t level, double spacing_px) {
+    const double scale = floor(-log2(spacing_px));
+    if (!(scale >= level)) return INFINITY;
+    const uint32_t measured = level < LEVELS ? level : LEVELS;
+    const double square = of->square[measured][scale < SCALES ? (uint32_t)scale : SCALES];
+    return sqrt(square) * pow(GROWTH, level - measured);
+}
+
+/// Finds what is known of surfels, measures them where nothing is.
+static ewa_status find(ewa_context *context, ewa_details *details, const ewa_surfels *surfels, detail **found) {
+    detail *items = details->items.data;
+    for (uint32_t i = 0; i < details->count; i++)
+        if (items[i].serial == surfels->serial) {
+            *found = &items[i];
+            return EWA_OK;
+        }
+    EWA_TRY(ewa_buffer_grow(context, &details->items, details->count, (size_t)details->count + 1, sizeof *items));
+    detail made = {.serial = surfels->serial};
+    EWA_TRY(measure(context, surfels, &made));
+    *found = (detail *)details->items.data + details->count++;
+    **found = made;
+    return EWA_OK;
+}
+
+/// Pixels that a world unit has in a frame at most, where surfels begin; infinite: the camera is among them.
+static double find_scale(const ewa_surfels *surfels, const ewa_camera *camera) {
+    const double *z = &camera->world_to_camera[8];
+    double near_z = z[3];
+    for (int c = 0; c < 3; c++)
+        near_z += z[c] * surfels->origin_world[c] +
+                  fmin(z[c] * (surfels->extent.low_world[c] - surfels->reach_world),
+                       z[c] * (surfels->extent.high_world[c] + surfels->reach_world));
+    const bool perspective = camera->projection == EWA_PERSPECTIVE;
+    if (perspective && !(near_z > 0)) return INFINITY;
+    return fmax(camera->fx_px, camera->fy_px) * vec3_length(vec3_load(z)) / (perspective ? near_z : 1);
+}
+
+/// The share of a frame that surfels cover: of its cells, those with packets in them.
+static double find_share(const ewa_surfels *surfels, const ewa_camera *camera) {
+    const double *m = camera->world_to_camera;
+    const double size_px[2] = {camera->width_px, camera->height_px}, cell_px = fmax(size_px[0], size_px[1]) / CELLS;
+    const uint32_t step = surfels->packet_count / LOOKS + 1;
+    uint8_t taken[CELLS][CELLS] = {{0}};
+    uint32_t count = 0;
+    for (uint32_t p = 0; p < surfels->packet_count; p += step) {
+        double world[3], at[3];
+        vec3_store(ewa_packet_center(surfels, p), world);
+        for (int c = 0; c < 3; c++) world[c] = surfels->origin_world[c] + surfels->unit * world[c];
+        for (int r = 0; r < 3; r++)
+            at[r] = m[4 * r] * world[0] + m[4 * r + 1] * world[1] + m[4 * r + 2] * world[2] + m[4 * r + 3];
+        const double slope = camera->projection == EWA_PERSPECTIVE ? 1 / at[2] : 1;
+        const double x = camera->fx_px * at[0] * slope + camera->cx_px, y = camera->fy_px * at[1] * slope + camera->cy_px;
+        if (!(x >= 0 && x < size_px[0] && y >= 0 && y < size_px[1])) continue;
+        uint8_t *cell = &taken[(uint32_t)(y / cell_px)][(uint32_t)(x / cell_px)];
+        count += !*cell;
+        *cell = 1;
+    }
+    return fmin(count * cell_px * cell_px / (size_px[0] * size_px[1]), 1);
+}
+
+/// Chooses a level of one of `count` surfels.
+static ewa_status choose(ewa_context *context, ewa_details *details, const ewa_camera *camera, double most_rms, uint32_t count,
+                         const ewa_surfels **surfels, uint32_t *level) {
+    *level = 0;
+    if ((*surfels)->count < MIN_SURFELS) return EWA_OK;
+    const double px_per_world = find_scale(*surfels, camera);
+    if (!(px_per_world < INFINITY)) return EWA_OK;
+    detail *of;
+    EWA_TRY(find(context, details, *surfels, &of));
+    of->last_frame = details->frame;
+    const double share = find_share(*surfels, camera);
+    while (*level + 1 < EWA_MAX_LEVELS &&
+           error_of(of, *level + 1, of->spacing_world * px_per_world) * sqrt(share * count) <= most_rms)
+        ++*level;
+    if (!*level) return EWA_OK;
+    const ewa_surfels *finest = *surfels;
+    if (!finest->coarser && !of->made) {
+        of->head = *finest;
+        const ewa_status status = ewa_levels_make(&of->head, EWA_MAX_LEVELS);
+        if (status != EWA_OK) free_detail(of);
+        EWA_TRY(status);
+        of->made = true;
+    }
+    *surfels = ewa_levels_find(finest->coarser ? finest : &of->head, level);
+    // All surfels are those that are given: the head is a copy of what says where they are.
+    if (!*level) *surfels = finest;
+    return EWA_OK;
+}
+
+ewa_status ewa_details_choose(ewa_context *context, ewa_details *details, const ewa_camera *camera,
+                              const ewa_render_options *options, double most_rms, const ewa_surfels **surfels,
+                              uint32_t count, uint32_t *level) {
+    *level = 0;
+    // Whoever says how fine surfels are drawn has the say.
+    if (options->level || options->budget_s > 0 || options->supersampling != 1 || options->point_size_px > 0) return EWA_OK;
+    details->frame++;
+    for (uint32_t i = 0; i < count; i++) {
+        uint32_t own;
+        EWA_TRY(choose(context, details, camera, most_rms, count, &surfels[i], &own));
+        if (own > *level) *level = own;
+    }
+    detail *items = details->items.data;
+    for (uint32_t i = details->count; i-- > 0;)
+        if (items[i].last_frame < details->frame) {
+            free_detail(&items[i]);
+            items[i] = items[--details->count];
+        }
+    return EWA_OK;
+}

@@ -1,0 +1,137 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// Frames of which many follow, by levels in memory: off by no more than they may be, the same whichever frames came before, and those of
+// all surfels where levels are not enough. Tables are printed by measure_detail.
+#include "check.h"
+#include "quality/far_scene.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { SIDE_PX = 128, BYTES = 4 * SIDE_PX * SIDE_PX, POINTS = 270000 };
+
+/// Surfels in a scene of their own.
+typedef struct film {
+    ewa_context *context;
+    ewa_cloud *cloud;
+    ewa_surfels *surfels;
+    ewa_scene *scene;
+    ewa_bounds bounds;
+} film;
+
+static film make_film(ewa_context *context, far_kind kind, uint64_t point_count) {
+    film made = {.context = context};
+    ewa_asset *asset;
+    assert_int_equal(far_make(context, kind, point_count, &made.cloud), EWA_OK);
+    assert_int_equal(ewa_surfels_create(made.cloud, NULL, &made.surfels), EWA_OK);
+    assert_int_equal(ewa_cloud_measure(made.cloud, &made.bounds), EWA_OK);
+    const ewa_asset_source source = {.name = "surfels", .surfels = made.surfels};
+    assert_int_equal(ewa_asset_create(context, &source, NULL, &asset), EWA_OK);
+    assert_int_equal(ewa_scene_create(context, NULL, &made.scene), EWA_OK);
+    assert_int_equal(ewa_scene_add(made.scene, asset, NULL), EWA_OK);
+    ewa_asset_release(&asset);
+    return made;
+}
+
+static void end_film(film *of) {
+    ewa_scene_destroy(&of->scene);
+    ewa_surfels_destroy(&of->surfels);
+    ewa_cloud_destroy(&of->cloud);
+}
+
+static ewa_scene_renderer *make_renderer(ewa_context *context) {
+    ewa_scene_renderer *renderer;
+    assert_int_equal(ewa_scene_renderer_create(context, EWA_BACKEND_CPU, NULL, &renderer), EWA_OK);
+    return renderer;
+}
+
+/// Draws a frame from so many times the distance at which all is in the picture; returns the level that was drawn. `renderer` NULL: of
+/// a renderer that draws nothing else.
+static uint32_t draw(const film *of, ewa_scene_renderer *renderer, double times, const ewa_scene_options *options, uint8_t *rgba8) {
+    ewa_scene_renderer *own = renderer ? NULL : make_renderer(of->context);
+    const ewa_camera camera = far_camera(&of->bounds, times, SIDE_PX, 1);
+    ewa_scene_stats stats;
+    assert_int_equal(ewa_scene_draw(of->scene, renderer ? renderer : own, &camera, options, &(ewa_frame){.rgba8 = rgba8}, &stats), EWA_OK);
+    ewa_scene_renderer_destroy(&own);
+    return stats.render.level;
+}
+
+static ewa_scene_options options_of(bool many_frames) {
+    ewa_scene_options options;
+    ewa_scene_options_init(&options, sizeof options);
+    assert_false(options.many_frames);
+    options.many_frames = many_frames;
+    return options;
+}
+
+static double rms(const uint8_t *a, const uint8_t *b) {
+    double square = 0;
+    for (size_t i = 0; i < BYTES; i++) square += (double)(a[i] - b[i]) * (a[i] - b[i]);
+    return sqrt(square / (BYTES / 4 * 3));
+}
+
+static uint8_t all[BYTES], some[BYTES], again[BYTES];
+
+TEST_ON(test_films_are_off_by_next_to_nothing, 0) {
+    static const far_kind kinds[] = {FAR_TOWN, FAR_TERRAIN};
+    for (int k = 0; k < 2; k++) {
+        film of = make_film(context, kinds[k], POINTS);
+        const ewa_scene_options many = options_of(true), one = options_of(false);
+        ewa_scene_renderer *renderer = make_renderer(context);
+        uint32_t before = 0;
+        for (double times = 0.75; times < 16; times *= 4) {
+            const uint32_t level = draw(&of, renderer, times, &many, some);
+            assert_int_equal(draw(&of, NULL, times, &one, all), 0);
+            if (!level) assert_memory_equal(all, some, BYTES);
+            assert_true(rms(all, some) <= 1);
+            assert_true(level >= before);
+            before = level;
+        }
+        assert_true(before >= 2);
+        // A frame alone has the bytes that it has among others.
+        assert_int_equal(draw(&of, NULL, 12, &many, again), before);
+        assert_memory_equal(again, some, BYTES);
+        ewa_scene_renderer_destroy(&renderer);
+        end_film(&of);
+    }
+}
+
+TEST_ON(test_whoever_says_how_fine_has_the_say, 0) {
+    film of = make_film(context, FAR_TOWN, POINTS);
+    ewa_scene_renderer *renderer = make_renderer(context);
+    ewa_scene_options options = options_of(true);
+    assert_true(draw(&of, renderer, 8, &options, some) > 0);
+    options.lod.error = 0;
+    assert_int_equal(draw(&of, renderer, 8, &options, some), 0);
+    options = options_of(true);
+    options.render.supersampling = 0;
+    assert_int_equal(draw(&of, renderer, 8, &options, some), 0);
+    options = options_of(true);
+    options.render.level = 1;
+    // Surfels without levels are drawn by all.
+    assert_int_equal(draw(&of, renderer, 8, &options, some), 0);
+    ewa_scene_renderer_destroy(&renderer);
+    end_film(&of);
+    of = make_film(context, FAR_TOWN, 100000);
+    options = options_of(true);
+    assert_int_equal(draw(&of, NULL, 12, &options, some), 0);
+    end_film(&of);
+}
+
+TEST(test_levels_depend_on_no_machine) {
+    (void)state;
+    uint8_t *const pictures[] = {some, again};
+    for (uint32_t i = 0; i < 2; i++) {
+        ewa_context *context = check_context_of(i ? 3 : 1, i ? 0 : EWA_CPU_ALL);
+        film of = make_film(context, FAR_TOWN, POINTS);
+        const ewa_scene_options many = options_of(true);
+        assert_true(draw(&of, NULL, 8, &many, pictures[i]) > 0);
+        end_film(&of);
+        ewa_context_destroy(&context);
+    }
+    assert_memory_equal(some, again, BYTES);
+}
+
+int main(void) { return RUN_TESTS(NULL, NULL); }
