@@ -191,7 +191,7 @@ typedef struct ewa_scene_options {
     uint32_t region_count; ///< of `regions`; [0, EWA_MAX_REGIONS]; default 0
     /// Of what is drawn many frames follow, as of a film: surfels in memory are drawn by levels of detail, which the renderer
     /// makes when the first frame can do with them, where the picture is expected to be off by no more than a third of
-    /// `lod.error` (so by default 1/255, root of the mean square over all pixels); default false: by all surfels
+    /// `lod.error`, so by 1/255 unless that is changed (root of the mean square over all pixels); default false: by all surfels
     bool many_frames;
 } ewa_scene_options;
 

@@ -18,7 +18,7 @@ enum {
     PATCHES = 4,
     PATCH_PACKETS = 1024, // neighbours along the curve: a patch of some 128 by 128
     LEVELS = 2,           // of a patch, of which the last has 1,024
-    SCALES = 4,           // 2^scale surfels are a pixel wide; at the coarsest a patch is eight
+    SCALES = LEVELS + 1,  // 2^scale surfels are a pixel wide; at the coarsest a patch is sixteen
     MOST_PX = 256,
     CELLS = 64,           // of a frame along its longer side
     LOOKS = 1 << 14,      // packets that are looked for in them
@@ -34,7 +34,8 @@ static const double GROWTH = 2;
 typedef struct detail {
     uint64_t serial, last_frame;
     double spacing_world;               ///< of all surfels, about
-    double square[LEVELS + 1][SCALES + 1]; ///< mean square of what levels are off by where they cover, (1/255)^2
+    /// Mean square of what levels are off by where they cover, (1/255)^2: where their surfels are a pixel apart, and half a pixel.
+    double square[LEVELS + 1][2];
     ewa_surfels head;                      ///< surfels without levels, borrowed, before those that the detail makes of them
     bool made; ///< levels, where there are any
 } detail;
@@ -141,6 +142,7 @@ static ewa_status measure_patch(const patch_frames *frames, ewa_surfels *patch, 
         EWA_TRY(draw_patch(frames, &view, patch, pixel_world, frames->all, &side_px));
         const ewa_surfels *level = patch->coarser;
         for (uint32_t l = 1; l <= scale && level; l++, level = level->coarser) {
+            if (l + 1 < scale) continue;
             EWA_TRY(draw_patch(frames, &view, level, pixel_world, frames->level, &side_px));
             uint64_t square = 0, covered = 0;
             for (size_t i = 0; i < (size_t)side_px * side_px; i++) {
@@ -153,7 +155,7 @@ static ewa_status measure_patch(const patch_frames *frames, ewa_surfels *patch, 
                 }
                 covered += shows;
             }
-            if (covered) of->square[l][scale] += (double)square / (3 * (double)covered) / PATCHES;
+            if (covered) of->square[l][scale - l] += (double)square / (3 * (double)covered) / PATCHES;
         }
     }
     return EWA_OK;
@@ -184,13 +186,14 @@ static ewa_status measure(ewa_context *context, const ewa_surfels *surfels, deta
 }
 
 /// What a level is off by where it covers, root of the mean square, in 1/255; `spacing_px` of all surfels. Infinite: its own
-/// are more than a pixel apart.
+/// are more than a pixel apart. From half a pixel on it is the mean of both that are measured: on patches errors go on falling, on whole
+/// scenes, of which more and more lies upon each other in a pixel, they do not.
 static double error_of(const detail *of, uint32_t level, double spacing_px) {
     const double scale = floor(-log2(spacing_px));
     if (!(scale >= level)) return INFINITY;
     const uint32_t measured = level < LEVELS ? level : LEVELS;
-    const double square = of->square[measured][scale < SCALES ? (uint32_t)scale : SCALES];
-    return sqrt(square) * pow(GROWTH, level - measured);
+    const double *square = of->square[measured];
+    return sqrt(scale > level ? (square[0] + square[1]) / 2 : square[0]) * pow(GROWTH, level - measured);
 }
 
 /// Finds what is known of surfels, measures them where nothing is.

@@ -81,7 +81,8 @@ TEST_ON(test_films_are_off_by_next_to_nothing, 0) {
         const ewa_scene_options many = options_of(true), one = options_of(false);
         ewa_scene_renderer *renderer = make_renderer(context);
         uint32_t before = 0;
-        for (double times = 0.75; times < 16; times *= 4) {
+        double times = 0.75;
+        for (; times < 20; times *= 4.6) {
             const uint32_t level = draw(&of, renderer, times, &many, some);
             assert_int_equal(draw(&of, NULL, times, &one, all), 0);
             if (!level) assert_memory_equal(all, some, BYTES);
@@ -91,7 +92,7 @@ TEST_ON(test_films_are_off_by_next_to_nothing, 0) {
         }
         assert_true(before >= 2);
         // A frame alone has the bytes that it has among others.
-        assert_int_equal(draw(&of, NULL, 12, &many, again), before);
+        assert_int_equal(draw(&of, NULL, times / 4.6, &many, again), before);
         assert_memory_equal(again, some, BYTES);
         ewa_scene_renderer_destroy(&renderer);
         end_film(&of);
@@ -102,21 +103,21 @@ TEST_ON(test_whoever_says_how_fine_has_the_say, 0) {
     film of = make_film(context, FAR_TOWN, POINTS);
     ewa_scene_renderer *renderer = make_renderer(context);
     ewa_scene_options options = options_of(true);
-    assert_true(draw(&of, renderer, 8, &options, some) > 0);
+    assert_true(draw(&of, renderer, 16, &options, some) > 0);
     options.lod.error = 0;
-    assert_int_equal(draw(&of, renderer, 8, &options, some), 0);
+    assert_int_equal(draw(&of, renderer, 16, &options, some), 0);
     options = options_of(true);
     options.render.supersampling = 0;
-    assert_int_equal(draw(&of, renderer, 8, &options, some), 0);
+    assert_int_equal(draw(&of, renderer, 16, &options, some), 0);
     options = options_of(true);
     options.render.level = 1;
     // Surfels without levels are drawn by all.
-    assert_int_equal(draw(&of, renderer, 8, &options, some), 0);
+    assert_int_equal(draw(&of, renderer, 16, &options, some), 0);
     ewa_scene_renderer_destroy(&renderer);
     end_film(&of);
     of = make_film(context, FAR_TOWN, 100000);
     options = options_of(true);
-    assert_int_equal(draw(&of, NULL, 12, &options, some), 0);
+    assert_int_equal(draw(&of, NULL, 16, &options, some), 0);
     end_film(&of);
 }
 
@@ -127,7 +128,7 @@ TEST(test_levels_depend_on_no_machine) {
         ewa_context *context = check_context_of(i ? 3 : 1, i ? 0 : EWA_CPU_ALL);
         film of = make_film(context, FAR_TOWN, POINTS);
         const ewa_scene_options many = options_of(true);
-        assert_true(draw(&of, NULL, 8, &many, pictures[i]) > 0);
+        assert_true(draw(&of, NULL, 16, &many, pictures[i]) > 0);
         end_film(&of);
         ewa_context_destroy(&context);
     }
