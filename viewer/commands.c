@@ -410,6 +410,7 @@ static const struct {
     {"move", transform_move, NULL, NULL},
     {"rotate", transform_turn, NULL, NULL},
     {"scale", transform_scale, NULL, NULL},
+    {"transfer", transfers_command, NULL, NULL},
     {"transform", transform_command, NULL, transform_holds},
     {"tint", do_tint, NULL, NULL},
     {"alpha", do_alpha, NULL, NULL},

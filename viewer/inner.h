@@ -22,7 +22,9 @@ typedef struct scene_item {
     const ewa_scene_file *file; ///< which, borrowed; NULL: none does
     uint32_t entry;             ///< of its files
     bool visible;
-    double to_world[16], shown_to_world[16]; ///< where its coordinates are to lie, and where they do
+    item_making making, shown_making; ///< how it is to be loaded, and how it was
+    viewer_values *values;            ///< of a volume; NULL: nobody has asked
+    bool counts;                      ///< they are being counted
     uint32_t material;              ///< of all its points; EWA_MATERIAL_OWN: as each says
     viewer_coloring wish, coloring; ///< what is asked for, and what is shown
 } scene_item;
@@ -202,6 +204,8 @@ struct viewer {
     viewer_selection selection;
     viewer_transform transform;
     viewer_film film;
+    char **transfer_files; ///< of functions that were changed, until the end: steps back need them
+    size_t transfer_count;
     ewa_measure measure_list[EWA_MAX_MEASURES];
     size_t measure_count;
     bool measures_kind;       ///< clicks add places to
@@ -243,8 +247,10 @@ bool items_close(viewer *v, size_t index);
 bool items_cancel(viewer *v);
 /// Takes in what the loader has to report.
 void items_update(viewer *v);
-/// Has an item loaded again to lie where a map says. Returns false after saying why not.
-bool items_place_at(viewer *v, size_t index, const double to_world[16]);
+/// Has an item loaded again in another way. Returns false after saying why not.
+bool items_make_again(viewer *v, size_t index, const item_making *making);
+/// Has the values of a volume counted, unless they are; also where its transfer function has changed: `again`.
+bool items_count(viewer *v, size_t index, bool again);
 /// Moves an item to another place in the list.
 void items_move(viewer *v, size_t from, size_t to);
 /// Orders a scene in which the item is as its wish says.
@@ -347,6 +353,13 @@ bool transform_press(viewer *v, const viewer_event *event);
 bool transform_drag(viewer *v, const viewer_event *event);
 bool transform_release(viewer *v, const viewer_event *event);
 
+// transfers.c: the command "transfer"
+bool transfers_command(viewer *v, const char *rest);
+/// Whether the transfer function of an item was changed and is in no file of a person's.
+bool transfers_is_changed(const viewer *v, size_t index);
+/// Takes the files of changed transfer functions away.
+void transfers_free(viewer *v);
+
 // film.c: the commands "keyframe" and "film"
 bool film_keyframe(viewer *v, const char *rest);
 bool film_command(viewer *v, const char *rest);
@@ -385,6 +398,9 @@ bool shot_command(viewer *v, const char *rest);
 bool shot_camera(viewer *v, const char *rest);
 /// Draws all there is, with what stands over it, as the window looks, whatever size the camera has.
 ewa_status shot_draw(viewer *v, const ewa_camera *camera, ewa_ink ink, uint8_t *rgba8);
+enum { SHOT_TEMPORARY_BYTES = 256 };
+/// Makes a file of our own, whose name begins with a word. False after saying why not.
+bool shot_temporary(viewer *v, const char *word, char path[SHOT_TEMPORARY_BYTES]);
 bool shot_scene(viewer *v, const char *rest);
 /// Fills in the scene of the window at full size.
 void viewer_scene(const viewer *v, paint_scene *scene);

@@ -73,11 +73,12 @@ static bool order(viewer *v, const char *path, const ewa_scene_file *file, uint3
     if (file && ewa_scene_file_entry(file, entry, &said) == EWA_OK) {
         take_instance(&said.instance, item);
         memcpy(usual.to_world, said.asset.to_world, sizeof usual.to_world);
+        if (said.asset.transfer) snprintf(item->making.transfer, sizeof item->making.transfer, "%s", said.asset.transfer);
     }
-    memcpy(item->to_world, usual.to_world, sizeof item->to_world);
-    memcpy(item->shown_to_world, usual.to_world, sizeof item->to_world);
+    memcpy(item->making.to_world, usual.to_world, sizeof usual.to_world);
+    item->shown_making = item->making;
     item->coloring = item->wish;
-    if (!loader_load(v->loader, item->id, path, file, entry, item->to_world)) {
+    if (!loader_load(v->loader, item->id, path, file, entry, &item->making)) {
         viewer_tell(v, "%s: out of memory", path);
         return false;
     }
@@ -252,6 +253,7 @@ void items_refresh(viewer *v) {
 static void remove_item(viewer *v, size_t index) {
     ewa_asset_release(&v->items[index].preview);
     ewa_asset_release(&v->items[index].asset);
+    free(v->items[index].values);
     memmove(&v->items[index], &v->items[index + 1], (v->item_count - index - 1) * sizeof v->items[0]);
     v->item_count--;
     pick_clear(v);
@@ -275,17 +277,32 @@ bool items_close(viewer *v, size_t index) {
     return true;
 }
 
-bool items_place_at(viewer *v, size_t index, const double to_world[16]) {
+bool items_make_again(viewer *v, size_t index, const item_making *making) {
     scene_item *item = &v->items[index];
-    if (memcmp(item->to_world, to_world, sizeof item->to_world) == 0) return true;
+    if (memcmp(&item->making, making, sizeof *making) == 0) return true;
+    const bool other = strcmp(item->making.transfer, making->transfer) != 0;
     loader_forget(v->loader, item->id);
     items_update(v);
-    if (!loader_load(v->loader, item->id, item->path, item->file, item->entry, to_world)) {
+    if (!loader_load(v->loader, item->id, item->path, item->file, item->entry, making)) {
         viewer_tell(v, "%s: out of memory", item->path);
         return false;
     }
-    memcpy(item->to_world, to_world, sizeof item->to_world);
+    item->making = *making;
+    item->counts = false; // that order was forgotten, too
     pick_clear(v);
+    if (other && item->values && !items_count(v, index, true)) return false;
+    wait_if_asked(v);
+    return true;
+}
+
+bool items_count(viewer *v, size_t index, bool again) {
+    scene_item *item = &v->items[index];
+    if (item->counts || (item->values && !again)) return true;
+    if (!loader_count(v->loader, item->id, item->path, &item->making)) {
+        viewer_tell(v, "%s: out of memory", item->path);
+        return false;
+    }
+    item->counts = true;
     wait_if_asked(v);
     return true;
 }
@@ -307,8 +324,9 @@ bool items_cancel(viewer *v) {
     for (size_t i = v->item_count; i-- > 0;) {
         scene_item *item = &v->items[i];
         if (item->loaded) { // it stays where it is
-            any = any || memcmp(item->to_world, item->shown_to_world, sizeof item->to_world) != 0;
-            memcpy(item->to_world, item->shown_to_world, sizeof item->to_world);
+            any = any || memcmp(&item->making, &item->shown_making, sizeof item->making) != 0;
+            item->making = item->shown_making;
+            item->counts = false;
             continue;
         }
         any = true; // what is loaded already goes with the scene that is given up
@@ -390,12 +408,12 @@ static void take_preview(viewer *v, loader_note *note) {
 static void take_asset(viewer *v, loader_note *note) {
     scene_item *item = find_item(v, note->item);
     // It was closed; or closed and opened again, when two loads may have come to an end.
-    const bool again = item && item->asset && memcmp(item->to_world, item->shown_to_world, sizeof item->to_world) != 0;
+    const bool again = item && item->asset && memcmp(&item->making, &item->shown_making, sizeof item->making) != 0;
     if (!item || (item->asset && !again)) return;
     ewa_asset_release(&item->asset);
     item->asset = note->asset;
     note->asset = NULL;
-    memcpy(item->shown_to_world, item->to_world, sizeof item->to_world);
+    item->shown_making = item->making;
     if (!item->named && !again) note_opened(v, item->path);
     items_reorder(v);
 }
@@ -436,6 +454,15 @@ static void take_scene(viewer *v, loader_note *note) {
         measure(v, false); // something may lie elsewhere
 }
 
+static void take_values(viewer *v, loader_note *note) {
+    scene_item *item = find_item(v, note->item);
+    if (!item) return;
+    free(item->values);
+    item->values = note->values;
+    note->values = NULL;
+    item->counts = false;
+}
+
 /// What came to nothing goes, or is again as it was.
 static void take_failure(viewer *v, const loader_note *note) {
     bool gone = false;
@@ -444,7 +471,8 @@ static void take_failure(viewer *v, const loader_note *note) {
         if (note->item && item->id != note->item) continue;
         if (item->loaded) {
             item->wish = item->coloring;
-            memcpy(item->to_world, item->shown_to_world, sizeof item->to_world);
+            item->making = item->shown_making;
+            item->counts = false;
         } else if (note->item || item->asset) {
             remove_item(v, i);
             gone = true;
@@ -462,6 +490,9 @@ void items_update(viewer *v) {
             break;
         case LOADER_PREVIEW:
             take_preview(v, note);
+            break;
+        case LOADER_VALUES:
+            take_values(v, note);
             break;
         case LOADER_SCENE:
             take_scene(v, note);
@@ -504,7 +535,9 @@ bool viewer_item_get(const viewer *v, size_t index, viewer_item *item) {
                           .count = info.count,
                           .coloring = from->coloring};
     memcpy(item->name, from->name, sizeof item->name);
-    memcpy(item->to_world, from->to_world, sizeof item->to_world);
+    memcpy(item->to_world, from->making.to_world, sizeof item->to_world);
+    item->values = from->values;
+    item->transfer = from->making.transfer;
     return true;
 }
 

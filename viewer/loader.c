@@ -35,6 +35,7 @@ static void release_scene(loader_scene *of) {
 void loader_note_free(loader_note *note) {
     if (!note) return;
     ewa_asset_release(&note->asset);
+    free(note->values);
     release_scene(&note->of);
     ewa_scene_destroy(&note->scene);
     free(note);
@@ -141,6 +142,18 @@ static bool make_scene(loader *l, ewa_context *context, loader_note *order) {
     return true;
 }
 
+/// Counts what values a volume's file holds.
+static bool count_values(ewa_context *context, loader_note *order) {
+    ewa_volume volume;
+    order->values = calloc(1, sizeof *order->values);
+    if (!order->values || ewa_volume_load(context, order->path, NULL, &volume) != EWA_OK) return false;
+    const char *transfer = order->making.transfer;
+    const bool done = ewa_volume_measure(&volume, &order->values->facts) == EWA_OK &&
+                      ewa_transfer_choose(context, transfer[0] ? transfer : NULL, &volume, &order->values->transfer) == EWA_OK;
+    ewa_volume_free(&volume);
+    return done;
+}
+
 /// Carries out an order, which becomes its report.
 static void carry_out(loader *l, loader_note *order) {
     const viewer_news news = {l, on_progress, on_message, on_preview};
@@ -149,9 +162,11 @@ static void carry_out(loader *l, loader_note *order) {
     ewa_scene_entry entry;
     if (!order->file || ewa_scene_file_entry(order->file, order->entry, &entry) != EWA_OK)
         ewa_asset_options_init(&entry.asset, sizeof entry.asset);
-    memcpy(entry.asset.to_world, order->to_world, sizeof entry.asset.to_world);
+    memcpy(entry.asset.to_world, order->making.to_world, sizeof entry.asset.to_world);
+    if (order->making.transfer[0]) entry.asset.transfer = order->making.transfer;
     const bool done =
-        context && (order->kind == LOADER_LOAD
+        context && (order->kind == LOADER_VALUES ? count_values(context, order)
+                    : order->kind == LOADER_LOAD
                         ? s->load(s->user, order->path, &entry.asset, &news, &order->asset)
                         : make_scene(l, context, order));
     if (!done) order->kind = LOADER_FAILED;
@@ -234,14 +249,25 @@ static void post(loader *l, loader_note *order) {
     pthread_mutex_unlock(&l->lock);
 }
 
-bool loader_load(loader *l, uint64_t item, const char *path, const ewa_scene_file *file, uint32_t entry, const double to_world[16]) {
+bool loader_load(loader *l, uint64_t item, const char *path, const ewa_scene_file *file, uint32_t entry, const item_making *making) {
     loader_note *order = calloc(1, sizeof *order);
     if (!order) return false;
     order->kind = LOADER_LOAD;
     order->item = item;
     order->file = file;
     order->entry = entry;
-    memcpy(order->to_world, to_world, sizeof order->to_world);
+    order->making = *making;
+    snprintf(order->path, sizeof order->path, "%s", path);
+    post(l, order);
+    return true;
+}
+
+bool loader_count(loader *l, uint64_t item, const char *path, const item_making *making) {
+    loader_note *order = calloc(1, sizeof *order);
+    if (!order) return false;
+    order->kind = LOADER_VALUES;
+    order->item = item;
+    order->making = *making;
     snprintf(order->path, sizeof order->path, "%s", path);
     post(l, order);
     return true;
@@ -286,7 +312,7 @@ void loader_cancel(loader *l) {
     pthread_mutex_lock(&l->lock);
     for (loader_note *order; (order = l->orders);) {
         l->orders = order->next;
-        if (order->kind == LOADER_LOAD) {
+        if (order->kind != LOADER_SCENE) {
             loader_note_free(order);
             continue;
         }

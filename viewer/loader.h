@@ -7,10 +7,17 @@
 
 #include "viewer.h"
 
+/// What a person has chosen of how a file is loaded. Strings are zeros to their end.
+typedef struct item_making {
+    double to_world[16];              ///< where its coordinates lie
+    char transfer[VIEWER_PATH_BYTES]; ///< of a volume: a preset, "auto" or a file; empty: as the scene file says, else automatic
+} item_making;
+
 typedef enum loader_kind {
     LOADER_LOAD,    ///< order: a file; report: it is loaded, the asset is the receiver's
     LOADER_PREVIEW, ///< report: something to look at of a file that is still being loaded, the receiver's
     LOADER_SCENE,   ///< order: a scene of assets; report: it is made, the receiver's
+    LOADER_VALUES,  ///< order: what a volume's file holds; report: `values` are counted, the receiver's
     LOADER_FAILED,  ///< report: the order came to nothing; a message has said why
     LOADER_MESSAGE, ///< report: something to know
 } loader_kind;
@@ -33,7 +40,8 @@ typedef struct loader_note {
     char path[VIEWER_PATH_BYTES];
     const ewa_scene_file *file; ///< of an order: that names the file, borrowed; NULL: none does
     uint32_t entry;             ///< which of its files
-    double to_world[16];        ///< of an order of a file: where its coordinates lie
+    item_making making;         ///< of an order of a file
+    viewer_values *values;
     ewa_asset *asset;
     bool as_points; ///< of a preview
     loader_scene of;
@@ -52,7 +60,9 @@ void loader_destroy(loader **loader);
 /// Orders come after those that wait; false: out of memory.
 /// `file` (may be NULL) names the file, as `entry`; it is borrowed until the order is done.
 bool loader_load(loader *loader, uint64_t item, const char *path, const ewa_scene_file *file, uint32_t entry,
-                 const double to_world[16]);
+                 const item_making *making);
+/// Orders what values a volume holds, and its transfer function; false: out of memory.
+bool loader_count(loader *loader, uint64_t item, const char *path, const item_making *making);
 /// Orders a scene in place of one that waits; takes the references of `of` over, also when it returns false.
 bool loader_make(loader *loader, loader_scene *of);
 /// Gives up what is under way and all that waits. Scenes report that they came to nothing; of files nothing more is reported.

@@ -13,7 +13,7 @@
 #include <time.h>
 #include <unistd.h>
 
-enum { TEMPORARY_PATH_BYTES = 256, NAME_ATTEMPTS = 100 };
+enum { NAME_ATTEMPTS = 100 };
 
 /// Notes where a file is that was saved.
 static void note_file(viewer *v, const char *what, const char *path) {
@@ -135,26 +135,26 @@ static bool load_camera(viewer *v, const char *path, const char *name) {
 }
 
 /// A file of our own for a moment: the text of a camera is the library's business.
-static bool make_temporary_file(viewer *v, char path[TEMPORARY_PATH_BYTES]) {
+bool shot_temporary(viewer *v, const char *word, char path[SHOT_TEMPORARY_BYTES]) {
     const char *folder = getenv("TMPDIR");
-    snprintf(path, TEMPORARY_PATH_BYTES, "%.200s/ewa-camera", folder && *folder ? folder : "/tmp");
+    snprintf(path, SHOT_TEMPORARY_BYTES, "%.200s/ewa-%s", folder && *folder ? folder : "/tmp", word);
     const size_t length = strlen(path);
     int file = -1;
     errno = EEXIST;
     for (int attempt = 0; attempt < NAME_ATTEMPTS && file < 0 && errno == EEXIST; attempt++) {
-        snprintf(path + length, TEMPORARY_PATH_BYTES - length, "-%lld-%d", (long long)time(NULL), attempt);
+        snprintf(path + length, SHOT_TEMPORARY_BYTES - length, "-%lld-%d", (long long)time(NULL), attempt);
         file = open(path, O_WRONLY | O_CREAT | O_EXCL, 0600);
     }
     if (file >= 0)
         close(file);
     else
-        viewer_tell(v, "camera: %s cannot be made", path);
+        viewer_tell(v, "%s cannot be made", path);
     return file >= 0;
 }
 
 static bool copy_camera(viewer *v) {
-    char path[TEMPORARY_PATH_BYTES];
-    if (!make_temporary_file(v, path)) return false;
+    char path[SHOT_TEMPORARY_BYTES];
+    if (!shot_temporary(v, "camera", path)) return false;
     const bool done = save_camera(v, path) && read_text(path, v->clipboard, sizeof v->clipboard);
     unlink(path);
     if (done && v->services.clipboard_set) v->services.clipboard_set(v->services.user, v->clipboard);
@@ -163,7 +163,7 @@ static bool copy_camera(viewer *v) {
 }
 
 static bool paste_camera(viewer *v) {
-    char path[TEMPORARY_PATH_BYTES], text[4 * VIEWER_TEXT_BYTES];
+    char path[SHOT_TEMPORARY_BYTES], text[4 * VIEWER_TEXT_BYTES];
     snprintf(text, sizeof text, "%s", v->clipboard);
     if (v->services.clipboard_get && !v->services.clipboard_get(v->services.user, text, sizeof text))
         text[0] = 0;
@@ -171,7 +171,7 @@ static bool paste_camera(viewer *v) {
         viewer_tell(v, "camera: there is no text to paste");
         return false;
     }
-    if (!make_temporary_file(v, path)) return false;
+    if (!shot_temporary(v, "camera", path)) return false;
     FILE *file = fopen(path, "w");
     bool done = file && fputs(text, file) >= 0;
     if (file) done = fclose(file) == 0 && done;
@@ -191,6 +191,11 @@ bool shot_scene(viewer *v, const char *rest) {
         viewer_tell(v, "%s: not everything is loaded yet", path);
         return false;
     }
+    for (size_t i = 0; i < v->item_count; i++)
+        if (transfers_is_changed(v, i)) {
+            viewer_tell(v, "%s: the transfer function of %s is in no file yet: transfer %zu save FILE.json", path, v->items[i].name, i);
+            return false;
+        }
     paint_scene shown;
     viewer_scene(v, &shown);
     shown.options.lod.load_s = v->lod.load_s; // time is the window's matter

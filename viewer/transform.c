@@ -71,12 +71,14 @@ static bool apply(viewer *v, const char *command, size_t index, const double to_
         viewer_tell(v, "%s: no map would be left that can be turned back", command);
         return false;
     }
-    return items_place_at(v, index, to_world);
+    item_making making = v->items[index].making;
+    memcpy(making.to_world, to_world, sizeof making.to_world);
+    return items_make_again(v, index, &making);
 }
 
 static bool apply_change(viewer *v, const char *command, size_t index, const double by[16]) {
     double both[16];
-    compose(by, v->items[index].to_world, both);
+    compose(by, v->items[index].making.to_world, both);
     return apply(v, command, index, both);
 }
 

@@ -153,7 +153,9 @@ void viewer_destroy(viewer **made) {
     for (size_t i = 0; i < v->item_count; i++) {
         ewa_asset_release(&v->items[i].preview);
         ewa_asset_release(&v->items[i].asset);
+        free(v->items[i].values);
     }
+    transfers_free(v);
     ewa_scene_destroy(&v->scene);
     history_free(v);
     profile_free(v);

@@ -272,6 +272,12 @@ bool viewer_setting_get(const viewer *viewer, const char *name, char text[EWA_OP
 /// Sets it, as "set NAME VALUE" does, but not as a step that can be undone. Returns false after saying what is wrong.
 bool viewer_setting_set(viewer *viewer, const char *name, const char *text);
 
+/// What a volume's file holds, and what its values look like.
+typedef struct viewer_values {
+    ewa_volume_facts facts;
+    ewa_transfer transfer;
+} viewer_values;
+
 /// What a panel says of one thing that was loaded.
 typedef struct viewer_item {
     char name[VIEWER_NAME_BYTES];
@@ -279,6 +285,8 @@ typedef struct viewer_item {
     bool visible, volume, gaussians, mesh;
     uint64_t count; ///< of points, voxels or Gaussians
     double to_world[16]; ///< where its coordinates lie
+    const viewer_values *values; ///< of a volume, borrowed until the next call; NULL: "transfer N edit" has them counted
+    const char *transfer;        ///< of a volume: a preset or a file; empty: automatic
     viewer_coloring coloring;
 } viewer_item;
 

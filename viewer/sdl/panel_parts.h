@@ -86,6 +86,8 @@ void panel_files_free(panel_files *files);
 void panel_bars(panel_page *page);
 /// What is loaded, what was picked, settings.
 void panel_scene(panel_page *page);
+/// The transfer function of a volume.
+void panel_transfer(panel_page *page, int index, const viewer_item *item);
 /// The settings that the viewer names.
 void panel_settings(panel_page *page);
 /// Progress, messages, notes.

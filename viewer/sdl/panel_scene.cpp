@@ -180,6 +180,7 @@ bool item_row(panel_page *page, int index, const viewer_item *item, bool open_fi
                         : item->mesh      ? "points on faces"
                                           : "points");
     if (!item->volume && !item->gaussians) choose_look(page, index, item);
+    if (item->volume) panel_transfer(page, index, item);
     choose_place(page, index, item);
     return true;
 }
