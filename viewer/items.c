@@ -537,7 +537,7 @@ bool viewer_item_get(const viewer *v, size_t index, viewer_item *item) {
     memcpy(item->name, from->name, sizeof item->name);
     memcpy(item->to_world, from->making.to_world, sizeof item->to_world);
     item->values = from->values;
-    item->transfer = from->making.transfer;
+    item->transfer = transfers_is_changed(v, index) ? "changed" : from->making.transfer;
     return true;
 }
 

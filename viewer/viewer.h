@@ -286,7 +286,7 @@ typedef struct viewer_item {
     uint64_t count; ///< of points, voxels or Gaussians
     double to_world[16]; ///< where its coordinates lie
     const viewer_values *values; ///< of a volume, borrowed until the next call; NULL: "transfer N edit" has them counted
-    const char *transfer;        ///< of a volume: a preset or a file; empty: automatic
+    const char *transfer;        ///< of a volume: a preset or a file; empty: automatic; "changed": it is in no file of a person's
     viewer_coloring coloring;
 } viewer_item;
 

@@ -42,8 +42,9 @@ void histogram(const transfer_graph &graph, const viewer_values *values) {
     const float step = graph.size.x / IM_ARRAYSIZE(values->facts.histogram);
     for (int i = 0; i < IM_ARRAYSIZE(values->facts.histogram); i++) {
         const float high = graph.size.y * (float)(log1p((double)values->facts.histogram[i]) / most);
-        const float x = graph.corner.x + step * (float)i, bottom = graph.corner.y + graph.size.y;
-        list->AddRectFilled(ImVec2(x, bottom - high), ImVec2(x + step, bottom), ImGui::GetColorU32(ImGuiCol_Header));
+        const float x = floorf(graph.corner.x + step * (float)i), next = floorf(graph.corner.x + step * (float)(i + 1));
+        const float bottom = graph.corner.y + graph.size.y;
+        list->AddRectFilled(ImVec2(x, bottom - high), ImVec2(next, bottom), ImGui::GetColorU32(ImGuiCol_PlotHistogram, 0.5f));
     }
 }
 
@@ -62,13 +63,16 @@ int find_point(const transfer_graph &graph, const ewa_transfer *transfer, float 
 /// Draws the function, a point of which is where a hand holds it.
 void curve(const panel_page *page, const transfer_graph &graph, const ewa_transfer *transfer, int held, ImVec2 hand) {
     ImDrawList *list = ImGui::GetWindowDrawList();
+    const ImDrawListFlags flags = list->Flags;
+    list->Flags |= ImDrawListFlags_AntiAliasedLines;
     ImVec2 before;
     for (int i = 0; i < (int)transfer->point_count; i++) {
         const ewa_transfer_point &point = transfer->points[i];
         const ImVec2 place = i == held ? hand : place_of(graph, point.value, (double)point.extinction);
-        if (i) list->AddLine(before, place, ImGui::GetColorU32(ImGuiCol_Text), page->unit);
+        if (i) list->AddLine(before, place, ImGui::GetColorU32(ImGuiCol_Text), 1.4f * page->unit);
         before = place;
     }
+    list->Flags = flags;
     for (int i = 0; i < (int)transfer->point_count; i++) {
         const ewa_transfer_point &point = transfer->points[i];
         const ImVec2 place = i == held ? hand : place_of(graph, point.value, (double)point.extinction);
@@ -80,41 +84,44 @@ void curve(const panel_page *page, const transfer_graph &graph, const ewa_transf
 void graph_of(panel_page *page, int index, const viewer_values *values) {
     const ewa_transfer *transfer = &values->transfer;
     ImGuiStorage *storage = ImGui::GetStateStorage();
-    int *held = storage->GetIntRef(ImGui::GetID("held"), -1), *chosen = storage->GetIntRef(ImGui::GetID("chosen"), 0);
+    const ImGuiID held_id = ImGui::GetID("held"), chosen_id = ImGui::GetID("chosen");
+    int held = storage->GetInt(held_id, -1), chosen = storage->GetInt(chosen_id, 0);
     transfer_graph graph = {ImGui::GetCursorScreenPos(), ImVec2(ImGui::GetContentRegionAvail().x, graph_points * page->unit),
                             values->facts.low, values->facts.high, 1e-30};
     if (!(graph.high > graph.low)) graph.high = graph.low + 1;
     for (uint32_t i = 0; i < transfer->point_count; i++) graph.most = fmax(graph.most, 1.1 * (double)transfer->points[i].extinction);
     ImGui::InvisibleButton("##graph", graph.size);
     const bool hovered = ImGui::IsItemHovered();
-    if (*chosen >= (int)transfer->point_count) *chosen = 0;
+    if (chosen >= (int)transfer->point_count) chosen = 0;
     const ImVec2 corner = graph.corner, far_corner(corner.x + graph.size.x, corner.y + graph.size.y), mouse = ImGui::GetIO().MousePos;
     ImGui::GetWindowDrawList()->AddRectFilled(corner, far_corner, ImGui::GetColorU32(ImGuiCol_FrameBg));
     histogram(graph, values);
     const ImVec2 hand(fminf(fmaxf(mouse.x, corner.x), far_corner.x), fminf(fmaxf(mouse.y, corner.y), far_corner.y));
     const double value = graph.low + (graph.high - graph.low) * (double)((hand.x - corner.x) / graph.size.x);
     const double extinction = graph.most * (double)(1 - (hand.y - corner.y) / graph.size.y);
-    curve(page, graph, transfer, *held, hand);
+    curve(page, graph, transfer, held, hand);
     const int under = hovered ? find_point(graph, transfer, reach_points * page->unit) : -1;
     if (hovered) ImGui::SetTooltip("%.6g: %.4g\nDrag points; a double click adds one, a right click takes one out", value, extinction);
     float srgb[3];
-    const ewa_transfer_point &color = transfer->points[*held >= 0 && *held < (int)transfer->point_count ? *held : *chosen];
+    const ewa_transfer_point &color = transfer->points[held >= 0 && held < (int)transfer->point_count ? held : chosen];
     for (int c = 0; c < 3; c++) srgb[c] = ewa_srgb_from_linear(fminf(color.color[c], 1));
     char which[16];
     if (hovered && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left) && under < 0) {
-        *held = -1;
+        held = -1;
         say_point(page, index, "add", value, srgb, extinction);
     } else if (under >= 0 && ImGui::IsMouseClicked(ImGuiMouseButton_Left)) {
-        *held = *chosen = under;
+        held = chosen = under;
     } else if (under >= 0 && ImGui::IsMouseClicked(ImGuiMouseButton_Right)) {
         panel_say(page, "transfer %d point delete %d", index, under);
-    } else if (*held >= 0 && !ImGui::IsMouseDown(ImGuiMouseButton_Left)) {
-        snprintf(which, sizeof which, "%d", *held);
+    } else if (held >= 0 && !ImGui::IsMouseDown(ImGuiMouseButton_Left)) {
+        snprintf(which, sizeof which, "%d", held);
         const ImVec2 place = place_of(graph, color.value, (double)color.extinction);
         if (hypotf(place.x - hand.x, place.y - hand.y) > page->unit) say_point(page, index, which, value, srgb, extinction);
-        *held = -1;
+        held = -1;
     }
-    const ewa_transfer_point &shown = transfer->points[*chosen < (int)transfer->point_count ? *chosen : 0];
+    storage->SetInt(held_id, held);
+    storage->SetInt(chosen_id, chosen);
+    const ewa_transfer_point &shown = transfer->points[chosen < (int)transfer->point_count ? chosen : 0];
     double edited[3];
     for (int c = 0; c < 3; c++) edited[c] = (double)ewa_srgb_from_linear(fminf(shown.color[c], 1));
     panel_label(page, "Its colour");
@@ -123,7 +130,7 @@ void graph_of(panel_page *page, int index, const viewer_values *values) {
     for (int c = 0; c < 3; c++) srgb[c] = (float)edited[c];
     const bool changed = ImGui::ColorEdit3(label, srgb, ImGuiColorEditFlags_NoOptions);
     for (int c = 0; c < 3; c++) edited[c] = fmin(fmax((double)srgb[c], 0), 1), srgb[c] = (float)edited[c];
-    snprintf(which, sizeof which, "%d", *chosen);
+    snprintf(which, sizeof which, "%d", chosen);
     if (panel_edit_end(page, label, 3, edited, changed, false)) say_point(page, index, which, shown.value, srgb, (double)shown.extinction);
 }
 
