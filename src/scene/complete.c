@@ -7,6 +7,7 @@
 #include "cloud/cloud.h"
 #include "estimate/sharp.h"
 #include "estimate/sparse.h"
+#include "ewa/framing.h"
 #include "ewa/prepare.h"
 #include "scene/parts.h"
 
@@ -228,6 +229,23 @@ static ewa_status make_dots(const ewa_scene *scene, ewa_completed *group) {
     return status;
 }
 
+/// Finds whether all of a group was photographed: estimated normals of depth cameras are those of noise, and the colours have
+/// the light of the place.
+static ewa_status find_photographed(ewa_completed *group) {
+    bool all = all_have(group, EWA_COLOR);
+    for (uint32_t i = 0; i < group->count && all; i++) {
+        ewa_framing *framing = NULL;
+        EWA_TRY(ewa_framing_create(group->clouds[i], 1, &framing));
+        const char *name = group->assets[i]->name;
+        ewa_upright upright;
+        ewa_framing_choose(framing, ewa_up_convention_of(1, &name), &upright);
+        ewa_framing_destroy(&framing);
+        all = upright.from_origin;
+    }
+    group->photographed = all;
+    return EWA_OK;
+}
+
 /// Estimates what the clouds of a group lack.
 static ewa_status estimate(const ewa_scene *scene, ewa_completed *group) {
     ewa_estimate_options options;
@@ -252,6 +270,7 @@ static ewa_status estimate(const ewa_scene *scene, ewa_completed *group) {
         first += count;
     }
     if (status == EWA_OK) status = make_dots(scene, group);
+    if (status == EWA_OK && normals) status = find_photographed(group);
     ewa_context_about(group->context, before);
     group->estimated_count = first;
     group->estimate_s = ewa_now_s() - started_s;

@@ -103,11 +103,14 @@ ewa_status ewa_scene_list_shown(const ewa_scene *scene, const ewa_lod_options *o
     if (scene->surface && scene->surface->surfels) {
         shown->surfels[shown->surfels_count++] = scene->surface->surfels;
         shown->colored = scene->surface->colored;
+        shown->photographed = shown->colored && scene->surface->photographed;
     }
     for (uint32_t i = 0; i < scene->count; i++) {
         const ewa_asset *asset = scene->items[i].asset;
         if (!scene->items[i].instance.visible) continue;
-        shown->colored = shown->colored || has_colors(scene, i);
+        const bool colored = has_colors(scene, i);
+        shown->colored = shown->colored || colored;
+        shown->photographed = shown->photographed && !colored;
         if (asset->surfels) shown->surfels[shown->surfels_count++] = asset->surfels;
         if (asset->lod) shown->lods[shown->lod_count++] = asset->lod;
         if (asset->splats) {
@@ -129,9 +132,11 @@ static const double BARE_LIGHT_CAMERA[3] = {-0.5, -0.6, -1};
 
 /// Lights surfaces without colours from above left of the eye, unless lights are given: their form is all there is to
 /// see, and a headlight shows little of it. Colours keep the headlight, which leaves them as they are where they are
-/// faced.
-static void light_bare(const ewa_scene_shown *shown, const ewa_camera *camera, ewa_render_options *render) {
-    if (shown->colored || render->light_count || render->shading != EWA_SHADING_LAMBERT) return;
+/// faced; those of photographs are lit already.
+static void light_by_default(const ewa_scene_shown *shown, const ewa_camera *camera, ewa_render_options *render) {
+    if (render->light_count || render->shading != EWA_SHADING_LAMBERT) return;
+    if (shown->photographed) render->shading = EWA_SHADING_NONE;
+    if (shown->colored) return;
     ewa_light_init(&render->lights[0]);
     render->light_count = 1;
     for (int c = 0; c < 3; c++)
@@ -150,7 +155,7 @@ static ewa_status draw_surfaces(ewa_scene_renderer *renderer, const ewa_scene_sh
         lod.share_count = renderer->exchange.rank_count;
     }
     ewa_render_options lit = *render;
-    light_bare(shown, renderer->lit_from ? renderer->lit_from : camera, &lit);
+    light_by_default(shown, renderer->lit_from ? renderer->lit_from : camera, &lit);
     const ewa_lod_scene together = {shown->lods, shown->lod_count, shown->surfels_count,
                                     (const ewa_surfels *const *)shown->surfels};
     const ewa_status status = ewa_lod_scene_draw(&together, shown->looks, renderer->surfaces, camera, &lit,

@@ -69,6 +69,7 @@ typedef struct ewa_completed {
     ewa_cloud *merged;  ///< what was estimated, of several; NULL: of one
     uint64_t estimated_count;
     bool sparse; ///< no surface, all of it: radii are those of dots
+    bool photographed; ///< all of it has colours and is what a camera at the origin saw, whose light they have
     double estimate_s;
 } ewa_completed;
 
@@ -98,6 +99,7 @@ typedef struct ewa_surface {
     ewa_surfels_options options;
     bool close_gaps;
     bool colored;   ///< some of it has colours, and is not plain
+    bool photographed; ///< all that is coloured is
     uint32_t region_count;
     ewa_region regions[EWA_MAX_REGIONS]; ///< that hide points
     bool as_points; ///< drawn as discs of pixels: gaps do not matter

@@ -701,6 +701,58 @@ TEST_ON(test_plain_mesh, 1) {
     }
 }
 
+/// A sloping wall in steps of depth as a depth camera at the origin sees it, of one colour, linear.
+static ewa_cloud *make_photograph(ewa_context *context, float color) {
+    enum { COLUMNS = 80, ROWS = 60 };
+    ewa_cloud *cloud = NULL;
+    float(*position)[3] = NULL, (*colors)[3] = NULL;
+    assert_int_equal(ewa_cloud_create(context, COLUMNS * ROWS, &cloud), EWA_OK);
+    assert_int_equal(ewa_cloud_add(cloud, EWA_POSITION, EWA_F32, 3, (void **)&position), EWA_OK);
+    assert_int_equal(ewa_cloud_add(cloud, EWA_COLOR, EWA_F32, 3, (void **)&colors), EWA_OK);
+    for (int i = 0; i < COLUMNS * ROWS; i++) {
+        const float x = ((float)(i % COLUMNS) - 39.5f) / 80, y = ((float)(i / COLUMNS) - 29.5f) / 80;
+        const float z = 0.1f * roundf((3 + 2 * x + y) / 0.1f);
+        position[i][0] = x * z, position[i][1] = y * z, position[i][2] = z;
+        for (int c = 0; c < 3; c++) colors[i][c] = color;
+    }
+    return cloud;
+}
+
+/// The colours of photographed points are drawn as they are, but by lights that are given, with normals of the file's, or where
+/// the camera was elsewhere.
+TEST_ON(test_photographed, 1) {
+    enum { PLAIN, LIT, NORMALS, ELSEWHERE, KINDS };
+    for (int kind = 0; kind < KINDS; kind++) {
+        ewa_cloud *cloud = make_photograph(context, 0.5f);
+        if (kind == NORMALS) {
+            ewa_estimate_options options;
+            ewa_estimate_options_init(&options, sizeof options);
+            assert_int_equal(ewa_cloud_estimate(&cloud, &options), EWA_OK);
+        }
+        const double away[16] = {1, 0, 0, 5, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+        if (kind == ELSEWHERE) assert_int_equal(ewa_cloud_transform(cloud, away), EWA_OK);
+        ewa_scene *scene = make_scene(context);
+        add_cloud(context, scene, cloud, NULL);
+        ewa_scene_options options;
+        ewa_scene_get_options(scene, &options);
+        options.render.light_count = kind == LIT;
+        ewa_light_init(&options.render.lights[0]);
+        assert_int_equal(ewa_scene_set_options(scene, &options), EWA_OK);
+        const ewa_camera camera = place(scene);
+        draw(context, scene, &camera, &first);
+        int inner = 0, shaded = 0;
+        for (int i = 0; i < PIXELS; i++) {
+            if (!(first.coverage[i] > 0.99f)) continue;
+            inner++;
+            shaded += fabsf(first.rgba[4 * i] - 0.5f * first.rgba[4 * i + 3]) > 1e-4f;
+        }
+        assert_true(inner > PIXELS / 4);
+        assert_true(kind == PLAIN ? shaded < inner / 100 : shaded > inner / 10); // pixels of edges have a little less
+        ewa_scene_destroy(&scene);
+        ewa_cloud_destroy(&cloud);
+    }
+}
+
 #define FOOT "UNIT[\"foot\",0.3048]"
 #define US_FOOT "UNIT[\"US survey foot\",0.304800609601219,AUTHORITY[\"EPSG\",\"9003\"]]"
 #define METRE "UNIT[\"metre\",1]"
