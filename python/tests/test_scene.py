@@ -9,6 +9,7 @@ import os
 import shutil
 import struct
 import subprocess
+from typing import Any
 
 import numpy as np
 
@@ -210,6 +211,83 @@ class SameScene(Case):
         self.run_program("render", "window.json", "-o", "window2.png")
         np.testing.assert_array_equal(ours, ewa.read_image(self.path("window2.png")))
 
+    def write_items(self) -> dict[str, dict[str, Any]]:
+        """An item of a scene file for each kind, with all that only some doors might know: attributes and levels."""
+        classes = ewa.read(self.path("torus.ply"))
+        place = classes["position"]
+        classes["classification"] = (2 + (np.arctan2(place[:, 1], place[:, 0]) > 0.5)).astype(np.uint8)
+        classes["intensity"] = (1000 + 900 * place[:, 2]).astype(np.uint16)
+        classes.save(self.path("classes.ply"))
+        self.run_program("lod", "classes.ply", "-o", "classes.copc.laz")
+        bare = ewa.read(self.path("bare.ply"))
+        bare["classification"] = (np.arange(len(bare)) % 3 + 1).astype(np.uint8)
+        bare.save(self.path("ground.las"))
+        many = np.zeros(140000, np.dtype([("center", "<3f4"), ("scale", "<3f4"), ("rest", "u1", 8)]))
+        turns = np.arange(len(many)) * 0.618034
+        many["center"] = np.column_stack([np.cos(6.28319 * turns), np.sin(6.28319 * turns), np.arange(len(many)) / 7e4 - 1])
+        many["scale"] = 0.02
+        many["rest"] = 200, 100, 50, 150, 255, 128, 128, 128
+        many.tofile(self.path("many.splat"))
+        away = [0, -0.8, 0, 0.5, 0.8, 0, 0, 0.3, 0, 0, 0.8, 0.6, 0, 0, 0, 1]
+        return {
+            "bare": {"file": "ground.las", "color_by": "classification", "filter": "classification!=2"},
+            "surfels": {"file": "classes.ply", "color_by": "intensity", "range": ["2%", "90%"], "opacity": 0.8},
+            "mesh": {"file": "mesh.obj", "to_world": away, "tint": [0.2, 0.5, 0.9]},
+            "octree": {"file": "classes.copc.laz", "levels": "always", "color_by": "classification",
+                       "filter": "intensity>700", "radius_scale": 1.2},
+            "gaussians": {"file": "many.splat", "to_world": away},
+            "volume": {"file": "ball.nrrd", "transfer": "fog"},
+        }
+
+    def test_saved_pairs(self) -> None:
+        """Scene files with levels of Gaussians, attributes, regions and measurements, of triples in which every pair is."""
+        items = self.write_items()
+        options = {"up": "z", "surfels": {"radius_scale": 1.1}, "render": {"eye_dome": 0.4, "background": [0.2, 0.4, 0.6, 1]},
+                   "gaussians": {"merge_px": 3}, "section_planes": [[0, 0, -1, 0.9]],
+                   "regions": [{"keep": False, "box": [-0.3, -2, -2, 0.1, 2, 2], "classes": [3]},
+                               {"keep": True, "box": [-9, -9, -9, 9, 1.5, 9]}]}
+        measures = [{"kind": "distance", "name": "across", "places_world": [-1, 0, 0, 1, 0, 0]}]
+        made = {"ewa_scene": 1, "options": options, "measures": measures}
+        self.save_camera()
+        with open(self.path("camera.json"), encoding="ascii") as file:
+            placed = {**made, "camera": json.load(file)}
+        # Triples that have every pair of kinds in them: of two groups of two both, and one of the third.
+        groups = [("bare", "surfels"), ("mesh", "octree"), ("gaussians", "volume")]
+        sets = [(made, (*groups[i], one)) for i in range(3) for one in groups[(i + 1) % 3]] + [(placed, tuple(items))]
+        for scene, kinds in sets:
+            with self.subTest(" ".join(kinds)):
+                with open(self.path("made.json"), "w", encoding="ascii") as file:
+                    json.dump({**scene, "items": [items[kind] for kind in kinds]}, file)
+                self.check_saved()
+        self.check_ranks("made.json")
+
+    def check_saved(self) -> None:
+        """Program, package and window show made.json alike, and save what looks the same."""
+        size = f"{SIZE[0]}x{SIZE[1]}"
+        self.run_program("render", "made.json", "--size", size, "-o", "theirs.png", "--aov",
+                         "depth=z.pfm,normal=n.pfm,coverage=c.pfm", "--save-scene", "theirs.json")
+        with ewa.Context() as context:
+            scene = ewa.Scene(self.path("made.json"), context=context)
+            seen = scene.camera(size=SIZE)
+            image = scene.render(seen, planes="all")
+            for name, ours in (("z.pfm", image.depth), ("n.pfm", image.normal), ("c.pfm", image.coverage)):
+                np.testing.assert_array_equal(self.plane(name), ours, name)
+            image.save(self.path("ours.png"))
+            scene.save(self.path("ours.json"), seen)
+            # Beside depths colours are summed in finer steps: the window draws none.
+            scene.render(seen).save(self.path("alone.png"))
+            scene.close()
+        self.assertEqual(self.bytes("ours.png"), self.bytes("theirs.png"))
+        self.assertEqual(self.bytes("ours.json"), self.bytes("theirs.json"))
+        with open(self.path("script.txt"), "w", encoding="ascii") as file:
+            file.write(f"do scene save window.json\ndo measure delete all\ndo shot window.png {size}\n")
+        self.run_program("view", "theirs.json", "--size", size, "--script", "script.txt")
+        self.run_program("render", "window.json", "-o", "again.png", "--save-scene", "again.json")
+        self.assertEqual(self.bytes("again.png"), self.bytes("alone.png"))
+        alone, window = ewa.read_image(self.path("alone.png")), ewa.read_image(self.path("window.png"))
+        np.testing.assert_array_equal(window[..., :3], alone[..., :3])
+        self.assertEqual(self.bytes("window.json"), self.bytes("again.json"))
+
     def test_octree_in_two_places(self) -> None:
         self.save_camera()
         away = [0, -0.8, 0, 0.5, 0.8, 0, 0, 0.3, 0, 0, 0.8, 0.6, 0, 0, 0, 1]
@@ -228,24 +306,26 @@ class SameScene(Case):
             np.testing.assert_array_equal(self.plane("z.pfm"), image.depth)
             scene.close()
 
-    def test_every_pair_on_ranks(self) -> None:
+    def check_ranks(self, *shown: str) -> None:
         """Two ranks that share every frame give the planes of one process."""
         ranks = os.path.join(os.path.dirname(program() or ""), os.pardir, "mpi", "ewa-mpi")
         if not os.path.exists(ranks) or not shutil.which("mpirun"):
             self.skipTest("there is no ewa-mpi or no mpirun")
+        self.run_program("render", *shown, "--aov", "depth=z1.pfm,normal=n1.pfm,coverage=c1.pfm", "-o", "1.png")
+        done = subprocess.run(["mpirun", "--allow-run-as-root", "--oversubscribe", "-n", "2", ranks, "render", *shown, "--aov",
+                               "depth=z2.pfm,normal=n2.pfm,coverage=c2.pfm", "-o", "2.png", "--split", "cloud", "--threads", "1"],
+                              cwd=self.path(""), capture_output=True, text=True)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        for name in ("{}.png", "z{}.pfm", "n{}.pfm", "c{}.pfm"):
+            self.assertEqual(self.bytes(name.format(1)), self.bytes(name.format(2)), name)
+
+    def test_every_pair_on_ranks(self) -> None:
         self.save_camera()
         shown = [(files, ("--size", f"{SIZE[0]}x{SIZE[1]}")) for files in self.sets()]
         shown += [(files, ("--camera", "camera.json")) for files in self.triples]
         for files, placed in shown:
             with self.subTest(" ".join(files)):
-                outputs = (*files, "--levels", "always", *placed, "--aov")
-                self.run_program("render", *outputs, "depth=z1.pfm,normal=n1.pfm,coverage=c1.pfm", "-o", "1.png")
-                done = subprocess.run(["mpirun", "--allow-run-as-root", "--oversubscribe", "-n", "2", ranks, "render", *outputs,
-                                       "depth=z2.pfm,normal=n2.pfm,coverage=c2.pfm", "-o", "2.png", "--split", "cloud",
-                                       "--threads", "1"], cwd=self.path(""), capture_output=True, text=True)
-                self.assertEqual(done.returncode, 0, done.stderr)
-                for name in ("{}.png", "z{}.pfm", "n{}.pfm", "c{}.pfm"):
-                    self.assertEqual(self.bytes(name.format(1)), self.bytes(name.format(2)), name)
+                self.check_ranks(*files, "--levels", "always", *placed)
 
     def test_every_pair(self) -> None:
         self.save_camera()
