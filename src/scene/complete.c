@@ -21,7 +21,7 @@ static const double TOUCH_SPACINGS = 4;
 /// Radius of a dot over the scene's size.
 static const double DOT_RATIO = 0.004;
 
-enum { NAMES_BYTES = 400 };
+enum { NAMES_BYTES = 400, LISTED_NAMES = 4 }; // of a message
 
 void ewa_completed_release(ewa_completed **given) {
     ewa_completed *completed = given ? *given : NULL;
@@ -176,10 +176,14 @@ static ewa_status borrow_estimated(const ewa_completed *group, uint64_t first, e
 /// Says what was estimated of which files.
 static void report(const ewa_completed *group, bool normals, uint32_t neighbour_count) {
     char names[NAMES_BYTES] = "";
-    for (uint32_t i = 0; i < group->count; i++) {
+    const uint32_t listed = group->count > LISTED_NAMES ? LISTED_NAMES - 1 : group->count;
+    for (uint32_t i = 0; i < listed; i++) {
         const size_t length = strlen(names);
-        snprintf(names + length, sizeof names - length, "%s%s", i ? ", " : "", group->assets[i]->name);
+        snprintf(names + length, sizeof names - length, "%s%.90s", i ? ", " : "", group->assets[i]->name);
     }
+    const size_t length = strlen(names);
+    if (listed < group->count)
+        snprintf(names + length, sizeof names - length, " and %u more", group->count - listed);
     ewa_report(group->context, group->count > 1 ? EWA_SEVERITY_NOTE : EWA_SEVERITY_INFO,
                "%s: %sradii estimated%s from %u neighbours in %.3f s", names, normals ? "normals and " : "",
                group->count > 1 ? " together" : "", neighbour_count, group->estimate_s);

@@ -11,6 +11,7 @@
 #include "io/number.h"
 #include "io/scene_text.h"
 #include "scene/file.h"
+#include "scene/region.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -177,7 +178,8 @@ static ewa_status apply_region(const reading *in, const ewa_scene_member *member
     const bool fine = read_numbers(value, EWA_REGION_CLASSES, numbers, &count);
     if (strcmp(name, "box") == 0) {
         region->has_box = true;
-        if (!fine || count != 6) return fail_at(in, member, "is not 6 numbers: the lower and the upper corner");
+        if (!fine || count != 6 || !ewa_region_is_box(numbers))
+            return fail_at(in, member, "is not 6 numbers: the lower and the upper corner");
         memcpy(region->box_world, numbers, sizeof region->box_world);
         return EWA_OK;
     }

@@ -126,19 +126,27 @@ ewa_status ewa_cloud_hide(ewa_context *context, const ewa_region *regions, uint3
     return status;
 }
 
+bool ewa_region_is_box(const double box_world[6]) {
+    bool fine = true;
+    for (int c = 0; c < 3; c++)
+        fine = fine && isfinite(box_world[c]) && isfinite(box_world[3 + c]) && box_world[c] <= box_world[3 + c];
+    return fine;
+}
+
 ewa_status ewa_regions_check(ewa_context *context, const ewa_region *regions, uint32_t count) {
     if (count > EWA_MAX_REGIONS)
         return ewa_fail(context, EWA_ERROR_ARGUMENT, "%u regions; there may be %d", count, EWA_MAX_REGIONS);
     for (uint32_t i = 0; i < count; i++) {
         const ewa_region *region = &regions[i];
         bool fine = region->corner_count == 0 || (region->corner_count >= 3 && region->corner_count <= EWA_REGION_CORNERS);
-        for (int c = 0; c < 6 && region->has_box; c++) fine = fine && isfinite(region->box_world[c]);
+        fine = fine && (!region->has_box || ewa_region_is_box(region->box_world));
         for (int c = 0; c < 9 && region->has_box; c++) fine = fine && isfinite(region->box_axes_world[c]);
         for (uint32_t k = 0; fine && k < 2 * region->corner_count; k++) fine = isfinite(region->outline_px[k]);
         for (int k = 0; k < 12 && region->corner_count; k++) fine = fine && isfinite(region->world_to_picture[k]);
         if (!fine)
             return ewa_fail(context, EWA_ERROR_ARGUMENT,
-                            "region %u: numbers that are not finite, or an outline of %u corners, which may be 3 to %d", i,
+                            "region %u: numbers that are not finite, a box that ends before it begins, or an outline of %u corners, which "
+                            "may be 3 to %d", i,
                             region->corner_count, EWA_REGION_CORNERS);
     }
     return EWA_OK;

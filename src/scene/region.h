@@ -7,7 +7,10 @@
 
 #include "ewa/region.h"
 
-/// Checks that the numbers of regions are finite and as many as there may be.
+/// Whether six numbers are a lower and an upper corner.
+bool ewa_region_is_box(const double box_world[6]);
+
+/// Checks that the numbers of regions are finite and as many as there may be, and boxes those of a lower and an upper corner.
 ewa_status ewa_regions_check(ewa_context *context, const ewa_region *regions, uint32_t count);
 
 /// Whether no region hides point `index` of a cloud, which is at a place of the world.

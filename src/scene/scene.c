@@ -207,7 +207,7 @@ ewa_status ewa_scene_add(ewa_scene *scene, ewa_asset *asset, const ewa_instance 
                         "%s: the scene has %u instances already, its maximum", asset->name, scene->count);
     EWA_TRY(grow(scene));
     scene->items[scene->count++] = (ewa_scene_item){.asset = ewa_asset_retain(asset), .instance = taken};
-    scene->complete = scene->complete && (!ewa_asset_is_points(asset) || asset->drawable);
+    scene->complete = false; // what lacks nothing may still be of another system of coordinates, or far away
     scene->committed = false;
     return EWA_OK;
 }

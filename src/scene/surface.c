@@ -184,13 +184,19 @@ static ewa_status apply_colorings(ewa_surface *surface, const shown_clouds *show
         const ewa_coloring *coloring = &shown->colorings[i];
         if (surface->legend_of[i] != UINT32_MAX) continue;
         uint32_t count = 0;
+        const char *lacking = NULL; // what has not got the attribute
         for (uint32_t k = i; k < surface->count; k++) {
             if (!ewa_colorings_agree(coloring, &shown->colorings[k])) continue;
+            if (!lacking && !ewa_coloring_is_own(coloring->attribute) && !ewa_cloud_has_scalar(shown->clouds[k], coloring->attribute))
+                lacking = surface->keys[k].asset->name;
             shown->colored[count++] = shown->clouds[k];
             surface->legend_of[k] = surface->legend_count;
         }
-        EWA_TRY(
-            ewa_clouds_color(shown->colored, count, coloring, &surface->legends[surface->legend_count++]));
+        const char *before = lacking ? ewa_context_about(surface->context, lacking) : NULL;
+        const ewa_status status =
+            ewa_clouds_color(shown->colored, count, coloring, &surface->legends[surface->legend_count++]);
+        if (lacking) ewa_context_about(surface->context, before);
+        if (status != EWA_OK) return status;
     }
     return EWA_OK;
 }

@@ -271,7 +271,8 @@ TEST(test_files) {
     }
     static const char *const wrong[] = {"{\"keep\": 1}",           "{\"box\": [1, 2, 3]}",  "{\"classes\": [256]}",
                                         "{\"outline\": [1, 2, 3, 4]}", "{\"classes\": [0.5]}", "{\"volume\": 3}",
-                                        "3",                       "{\"box\": \"here\"}"};
+                                        "3",                       "{\"box\": \"here\"}", "{\"box\": [1, 0, 0, 0, 1, 1]}",
+                                        "{\"box\": [0, 0, 0, 1, 1, 1e999]}"};
     for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
         FILE *file = fopen("wrong.json", "w");
         fprintf(file, "{\"ewa_scene\": 1, \"options\": {\"regions\": [%s]}, \"items\": []}", wrong[i]);
@@ -280,6 +281,12 @@ TEST(test_files) {
         assert_int_equal(ewa_scene_file_load(context, "wrong.json", NULL, &made), EWA_ERROR_FORMAT);
     }
     ewa_cloud_destroy(&cloud);
+    static ewa_scene_options options;
+    ewa_scene_options_init(&options, sizeof options);
+    options.region_count = 1;
+    options.regions[0] = (ewa_region){.has_box = true, .box_world = {0, 0, 2, 1, 1, 1}};
+    ewa_scene *refused = NULL;
+    assert_int_equal(ewa_scene_create(context, &options, &refused), EWA_ERROR_ARGUMENT);
 }
 
 int main(void) { return RUN_TESTS(enter, leave); }

@@ -293,7 +293,7 @@ TEST(test_refused) {
     snprintf(instance.coloring.attribute, sizeof instance.coloring.attribute, "nothing");
     assert_int_equal(ewa_scene_set(scene, 0, &instance), EWA_OK);
     assert_int_equal(ewa_scene_commit(scene), EWA_ERROR_ARGUMENT);
-    assert_non_null(strstr(log.text, "nothing"));
+    assert_non_null(strstr(log.text, "points: there is no attribute 'nothing'"));
     instance.coloring.ranged = instance.coloring.percent[1] = true;
     instance.coloring.range[1] = 101;
     assert_int_equal(ewa_scene_set(scene, 0, &instance), EWA_ERROR_ARGUMENT);
@@ -781,6 +781,31 @@ static const char *unit_of(ewa_context *context, const char *crs, const char *no
     ewa_asset_release(&asset);
     ewa_cloud_destroy(&cloud);
     return info.unit ? info.unit : "none";
+}
+
+/// Two systems of coordinates in one scene are told with both names, and drawn as they are.
+TEST(test_two_systems) {
+    check_log log = {.count = 0};
+    ewa_context *context = check_context(1, &log);
+    ewa_scene *scene = make_scene(context);
+    static const char *const systems[] = {NULL, PROJECTED(METRE), PROJECTED(METRE), PROJECTED(FOOT)};
+    ewa_cloud *clouds[4];
+    for (int i = 0; i < 4; i++) {
+        clouds[i] = make_object(context, EWA_OBJECT_SPHERE, 0);
+        if (systems[i]) assert_int_equal(ewa_cloud_set_note(clouds[i], "crs", systems[i], strlen(systems[i])), EWA_OK);
+        ewa_asset *asset = NULL;
+        const ewa_asset_source source = {.cloud = clouds[i], .name = (const char *[]){"none", "one", "same", "other"}[i]};
+        assert_int_equal(ewa_asset_create(context, &source, NULL, &asset), EWA_OK);
+        assert_int_equal(ewa_scene_add(scene, asset, NULL), EWA_OK);
+        ewa_asset_release(&asset);
+        assert_int_equal(ewa_scene_complete(scene), EWA_OK);
+        assert_int_equal(log.count, i == 3);
+    }
+    assert_ptr_equal(strstr(log.text, "other: its coordinate reference system (PROJCS"), log.text);
+    assert_non_null(strstr(log.text, "is not that of one (PROJCS"));
+    ewa_scene_destroy(&scene);
+    for (int i = 0; i < 4; i++) ewa_cloud_destroy(&clouds[i]);
+    ewa_context_destroy(&context);
 }
 
 /// Lengths have the unit that reference systems say, unless it is none, several, or changed by a map.
