@@ -111,7 +111,7 @@ static const char *collect(import_child *child, const import_limits *limits) {
 }
 
 /// Says how the helper ended; true when that is well.
-static bool judge(cli_session *session, const char *path, const import_child *child, int state) {
+static bool conclude(cli_session *session, const char *path, const import_child *child, int state) {
     if (WIFEXITED(state) && WEXITSTATUS(state) == 0) return true;
     if (WIFSIGNALED(state) && WTERMSIG(state) == SIGXCPU)
         session_fail(session, "%s: the import helper takes too long", path);
@@ -158,7 +158,7 @@ bool import_run(cli_session *session, const char *helper, const char *path, cons
     if (given_up)
         session_fail(session, "%s: the import helper was ended: %s", path, given_up);
     else
-        done = judge(session, path, &child, state);
+        done = conclude(session, path, &child, state);
     if (done && child.error_bytes) session_warn(session, "%s: %s", path, child.error);
     if (!done) {
         free(child.bytes);

@@ -408,11 +408,11 @@ typedef struct ewa_scene_reader ewa_scene_reader;
 EWA_API ewa_status ewa_scene_reader_create(ewa_context *context, ewa_scene_reader **reader);
 EWA_API void ewa_scene_reader_destroy(ewa_scene_reader **reader);
 
-/// Chooses at most `most` nodes that a picture needs and that are not in memory, the coarsest and what is large in the middle of
+/// Chooses at most `maximum` nodes that a picture needs and that are not in memory, the coarsest and what is large in the middle of
 /// the picture first; `*count` says how many: 0 where nothing is missing, what is missing is damaged, or
 /// ewa_lod_options.memory_bytes are full. `options` as for ewa_scene_draw(). Errors: those of ewa_scene_draw().
 EWA_API ewa_status ewa_scene_reader_choose(ewa_scene_reader *reader, ewa_scene *scene, const ewa_camera *camera,
-                                           const ewa_scene_options *options, uint32_t most, uint32_t *count);
+                                           const ewa_scene_options *options, uint32_t maximum, uint32_t *count);
 /// Reads what was chosen. After a failure, too, ewa_scene_reader_put() is called, and what cannot be read is not chosen again: the
 /// surfels that represent it stay in pictures. Errors: those of ewa_lod_open().
 EWA_API ewa_status ewa_scene_reader_read(ewa_scene_reader *reader);

@@ -341,11 +341,11 @@ def _lens_of(distortion: Any, fisheye: bool) -> b.ewa_lens:
     """The lens of OpenCV's numbers, of which trailing ones may be left out, or be zeros."""
     count = int(np.size(np.asarray(distortion, dtype=object)))
     given = list(numbers(distortion, count, "distortion")) if count else []
-    most = 4 if fisheye else 8
-    if any(given[most:]):
+    maximum = 4 if fisheye else 8
+    if any(given[maximum:]):
         raise ArgumentError(f"distortion: {count} numbers; thin prisms and tilted sensors are not known" if not fisheye else
                             f"distortion: {count} numbers; a fisheye has 4")
-    given = (given + [0.0] * most)[:most]
+    given = (given + [0.0] * maximum)[:maximum]
     lens = b.ewa_lens()
     if not any(given):
         return lens

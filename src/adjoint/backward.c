@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// ewa_render_backward(): its arguments, and which road it takes: colours alone go back through the pipeline that draws,
+// ewa_render_backward(): its arguments, and which way it takes: colours alone go back through the pipeline that draws,
 // all else through the derivative in double precision.
 #include "adjoint/tiles.h"
 #include "base/base.h"

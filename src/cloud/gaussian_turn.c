@@ -69,7 +69,7 @@ static void solve(uint32_t n, double *a, double *b) {
 
 /// Directions spread over the sphere, no two of them opposite: a spiral over its upper half, which is enough for
 /// functions that are even or odd.
-static void spread(uint32_t index, uint32_t count, double direction[3]) {
+static void sphere_direction(uint32_t index, uint32_t count, double direction[3]) {
     const double z = (index + 0.5) / count, angle = 2.399963229728653 * index, radius = sqrt(1 - z * z);
     direction[0] = radius * cos(angle), direction[1] = radius * sin(angle), direction[2] = z;
 }
@@ -80,7 +80,7 @@ void ewa_sh_turn_make(const double turn[9], ewa_sh_turn *made) {
         double after[EWA_MAX_SH_ROW * EWA_MAX_SH_ROW], *before = made->map[degree - 1];
         for (uint32_t i = 0; i < n; i++) {
             double from[3], to[3], values[(EWA_MAX_SH_DEGREE + 1) * (EWA_MAX_SH_DEGREE + 1)];
-            spread(i, n, from);
+            sphere_direction(i, n, from);
             for (int r = 0; r < 3; r++)
                 to[r] = turn[3 * r] * from[0] + turn[3 * r + 1] * from[1] + turn[3 * r + 2] * from[2];
             ewa_sh_values(from, degree, values);

@@ -24,8 +24,8 @@ static const uint32_t DISSENTING = 2;
 // How often neighbours are asked, each time of one ring more; what drops out later than in round WHOLLY, counted from 0, keeps a part.
 enum { ROUNDS = 8, WHOLLY = 3 };
 
-// Ways to bend.
-enum { FLAT, HOLLOW, BULGING, SIDES = 4 };
+// Ways to bend, in steps of what tells the round apart.
+enum { FLAT = 0, CONCAVE = 64, CONVEX = 128, SIDES = CONCAVE | CONVEX };
 
 typedef struct curvature_job {
     const curvature_input *input;
@@ -35,7 +35,7 @@ typedef struct curvature_job {
     double (*position)[3];
     float (*fit)[2];          // signed curvature and how far it is to be trusted
     float *mean;              // by place, over its neighbours
-    _Atomic uint8_t *states; // of each place: the way it bends, and SIDES times the round in which it dropped out (ROUNDS: none)
+    _Atomic uint8_t *states; // of each place: the way it bends, and the round in which it dropped out (ROUNDS: none)
     uint8_t round;
     atomic_bool any_dropped; // in this round
 } curvature_job;
@@ -120,7 +120,7 @@ static void average_places(void *data, uint32_t task, uint32_t worker) {
     const uint32_t end = job->place_count - begin < TASK_PLACES ? job->place_count : begin + TASK_PLACES;
     for (uint32_t place = begin; place < end; place++) {
         const float mean = job->mean[place] = average(job, place);
-        atomic_init(&job->states[place], (uint8_t)(ROUNDS * SIDES + (mean > 0 ? BULGING : mean < 0 ? HOLLOW : FLAT)));
+        atomic_init(&job->states[place], (uint8_t)(ROUNDS + (mean > 0 ? CONVEX : mean < 0 ? CONCAVE : FLAT)));
     }
 }
 
@@ -131,12 +131,13 @@ static inline uint8_t state_of(const curvature_job *job, uint32_t place) {
 /// Whether no more than DISSENTING neighbours bend to the other side, do not bend, or have dropped out in an earlier round. Who drops out in this
 /// one counts still, so that it does not matter who is asked first.
 static bool is_shared(const curvature_job *job, uint32_t place, uint8_t side) {
-    const uint32_t *links = job->input->links[place], earlier = job->round * SIDES;
-    uint32_t count = LOCAL_GRAPH_DEGREE, others = 0;
-    while (count && links[count - 1] == UINT32_MAX) count--;
-    for (uint32_t i = 0; i < count; i++) {
-        const uint32_t state = state_of(job, links[i]);
-        others += (state % SIDES != side) | (state < earlier);
+    const uint32_t *links = job->input->links[place];
+    // What bends to this side and has not dropped out earlier lies in [there, side + ROUNDS].
+    const uint8_t there = (uint8_t)(side + job->round), rounds_left = (uint8_t)(ROUNDS - job->round);
+    uint32_t others = 0;
+    for (uint32_t i = 0; i < LOCAL_GRAPH_DEGREE; i++) {
+        const uint32_t link = links[i] == UINT32_MAX ? place : links[i]; // there are none: the place agrees with itself
+        others += (uint8_t)(state_of(job, link) - there) > rounds_left;
     }
     return others <= DISSENTING;
 }
@@ -148,9 +149,9 @@ static void drop_places(void *data, uint32_t task, uint32_t worker) {
     const uint32_t end = job->place_count - begin < TASK_PLACES ? job->place_count : begin + TASK_PLACES;
     bool any = false;
     for (uint32_t place = begin; place < end; place++) {
-        const uint8_t state = state_of(job, place), side = state % SIDES;
-        if (side == FLAT || state / SIDES < ROUNDS || is_shared(job, place, side)) continue;
-        atomic_store_explicit(&job->states[place], (uint8_t)(job->round * SIDES + side), memory_order_relaxed);
+        const uint8_t state = state_of(job, place), side = state & SIDES;
+        if (side == FLAT || state - side < ROUNDS || is_shared(job, place, side)) continue;
+        atomic_store_explicit(&job->states[place], (uint8_t)(job->round + side), memory_order_relaxed);
         any = true;
     }
     if (any) atomic_store_explicit(&job->any_dropped, true, memory_order_relaxed);
@@ -164,7 +165,7 @@ static void hand_out(void *data, uint32_t task, uint32_t worker) {
     for (uint32_t place = begin; place < end; place++) {
         uint32_t count;
         const uint32_t *points = ewa_neighbours_points(job->input->neighbours, place, &count);
-        const int rounds = state_of(job, place) / SIDES;
+        const int rounds = state_of(job, place) & ~SIDES;
         const float share = rounds > WHOLLY ? (float)(rounds - WHOLLY) / (ROUNDS - WHOLLY) : 0;
         for (uint32_t i = 0; i < count; i++) job->input->curvature[points[i]] = share * job->mean[place];
     }

@@ -385,7 +385,7 @@ static uint32_t count_parts(const ewa_gl_compute *gl, double longest_s) {
     static const double PART_S = 0.05;
     const double parts = gl->device->facts.software ? 0 : longest_s / PART_S;
     const uint32_t wanted = 1 + (uint32_t)(parts < MAX_PARTS ? parts : MAX_PARTS);
-    return wanted > gl->least_parts ? wanted : gl->least_parts;
+    return wanted > gl->min_parts ? wanted : gl->min_parts;
 }
 
 /// Draws the band once; `*again`: there was too little room for it, or it lacked what the host makes.

@@ -61,7 +61,7 @@ ewa_status ewa_gl_compute_create(ewa_context *context, void **state) {
     made->room.eye_dome.kernels = EWA_CHOOSE(ewa_context_cpu_features(context), ewa_pipeline_kernels);
     made->tile_px = (uint32_t)ewa_gl_tuning("tile_px", DEFAULT_TILE_PX);
     made->unit_splats = (uint32_t)ewa_gl_tuning("unit", DEFAULT_UNIT);
-    made->least_parts = (uint32_t)ewa_gl_tuning("parts", 1);
+    made->min_parts = (uint32_t)ewa_gl_tuning("parts", 1);
     made->residents.page_packets = (uint32_t)ewa_gl_tuning("page", 0);
     ewa_status status = ewa_gl_open(context, &made->device);
     if (status == EWA_OK) status = ewa_gl_try(made->device, &made->verdict);

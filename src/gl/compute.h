@@ -81,7 +81,7 @@ typedef struct ewa_gl_compute {
     double longest_s; ///< the longest stage of the frame before
     bool needs_host;  ///< the last band asked the host for something: the next is likely to
     bool unfinished; ///< a band ended early: its sums are not back at their start
-    uint32_t tile_px, unit_splats, least_parts;
+    uint32_t tile_px, unit_splats, min_parts;
 } ewa_gl_compute;
 
 /// Whether a device has what the pipeline needs, and how it calculates. Errors: EWA_ERROR_MEMORY,

@@ -252,10 +252,10 @@ ewa_status ewa_camera_frame(ewa_camera *camera, const ewa_bounds *bounds, const 
         framed.fx_px *= scale;
         framed.fy_px *= scale;
     }
-    const double aside = camera->projection == EWA_PERSPECTIVE ? distance : 1 / scale;
+    const double per_slope = camera->projection == EWA_PERSPECTIVE ? distance : 1 / scale;
     double eye[3];
     for (int i = 0; i < 3; i++)
-        eye[i] = middle[i] - aside * (x_side.middle * rows[0][i] + y_side.middle * rows[1][i]) -
+        eye[i] = middle[i] - per_slope * (x_side.middle * rows[0][i] + y_side.middle * rows[1][i]) -
                  distance * rows[2][i];
     if (!finite3(eye) || !(framed.fx_px > 0) || !(framed.fy_px > 0) || !place(&framed, rows, eye))
         return EWA_ERROR_NUMERIC;

@@ -25,7 +25,7 @@ static const double AROUND = 0.6, AROUND_DEPTH = 0.5;
 /// Share of the voxels within the outermost shell, at most and, where it is moved inwards, at least; how much of the
 /// box's faces it may cut then; share of what it encloses that the core does; half the thickness of a shell as a share of
 /// the way to the next, and at most where it is thinner than so many voxels; its optical depth, from the outermost on.
-static const double OUTER_SHARE = 0.2, LEAST_SHARE = 0.05, FACE_SHARE = 0.05, CORE_SHARE = 0.02, THICK = 0.3,
+static const double OUTER_SHARE = 0.2, MIN_SHARE = 0.05, FACE_SHARE = 0.05, CORE_SHARE = 0.02, THICK = 0.3,
                     THICKEST = 0.5, RESOLVED_VOXELS = 3;
 static const double SHELL_DEPTH[SHELLS - 1] = {0.12, 0.25, 0.45};
 static const uint32_t SHELL_COLOR[SHELLS] = {0x4f86d9, 0x45bfa6, 0xf0c050, 0xe0583c};
@@ -77,7 +77,7 @@ static double thickness_of(const ewa_volume_surfaces *s, double from, double to)
 /// Where the outermost shell lies: not cut by the faces of the box, if the field is lower there.
 static int outermost(const ewa_volume_surfaces *s) {
     const int first = threshold_of_share(s, 1, OUTER_SHARE);
-    for (int t = first; t < BINS - SHELLS && s->above[t] > LEAST_SHARE * s->count; t++)
+    for (int t = first; t < BINS - SHELLS && s->above[t] > MIN_SHARE * s->count; t++)
         if (s->borders[t] <= FACE_SHARE * s->border_count) return t;
     return first;
 }

@@ -83,7 +83,7 @@ typedef struct row_facts {
     double bends;                  ///< squared second differences
     double count, sum, square_sum; ///< of the numbers
     double borders, skipping;      ///< pairs of different codes; those with other codes between them
-    double meetings[EWA_MAX_LABELS], equal[EWA_MAX_LABELS]; ///< [code] pairs with it, and with it twice
+    double adjacencies[EWA_MAX_LABELS], equal[EWA_MAX_LABELS]; ///< [code] pairs with it, and with it twice
 } row_facts;
 
 static void add_codes_of_row(const float *numbers, size_t count, const ewa_volume_labels *labels,
@@ -91,11 +91,11 @@ static void add_codes_of_row(const float *numbers, size_t count, const ewa_volum
     uint32_t last = ewa_volume_label_index(labels, numbers[0]);
     for (size_t i = 1; i < count; i++) {
         const uint32_t here = ewa_volume_label_index(labels, numbers[i]);
-        facts->meetings[here]++;
+        facts->adjacencies[here]++;
         if (here == last) {
             facts->equal[here]++;
         } else {
-            facts->meetings[last]++;
+            facts->adjacencies[last]++;
             facts->borders++;
             facts->skipping += (here > last ? here - last : last - here) > 1;
         }
@@ -147,12 +147,12 @@ static void list_codes(const code_set *set, ewa_volume_labels *labels) {
 
 /// Whether codes lie in pieces, and beside any others: steps of a quantity lie beside the next ones.
 static bool are_labels(const ewa_volume_labels *labels, const row_facts *rows) {
-    double met = 0, whole = 0;
+    double present = 0, whole = 0;
     for (uint32_t i = 0; i < labels->count; i++) {
-        met += rows->meetings[i] > 0;
-        whole += rows->equal[i] > EQUAL_SHARE * rows->meetings[i];
+        present += rows->adjacencies[i] > 0;
+        whole += rows->equal[i] > EQUAL_SHARE * rows->adjacencies[i];
     }
-    return met >= MIN_LABELS && whole >= LABEL_SHARE * met && rows->skipping >= SKIP_SHARE * rows->borders;
+    return present >= MIN_LABELS && whole >= LABEL_SHARE * present && rows->skipping >= SKIP_SHARE * rows->borders;
 }
 
 ewa_volume_kind ewa_volume_find_kind(const ewa_volume *volume, const ewa_volume_facts *facts,

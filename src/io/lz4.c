@@ -9,7 +9,7 @@
 
 #include <string.h>
 
-enum { MORE = 15, LEAST_COPY = 4 };
+enum { MORE = 15, MIN_COPY = 4 };
 
 /// A length: four bits, and where these are all set bytes behind them until one is not 255. False when bytes lack.
 static bool read_length(const uint8_t **at, const uint8_t *end, size_t bits, size_t *length) {
@@ -34,7 +34,7 @@ bool ewa_lz4_unpack(const uint8_t *from, size_t from_bytes, uint8_t *to, size_t 
         const size_t offset = at[0] | (size_t)at[1] << 8;
         at += 2;
         if (!read_length(&at, end, token & MORE, &length) || offset == 0 || offset > done) return false;
-        length += LEAST_COPY;
+        length += MIN_COPY;
         if (length > to_bytes - done) return false;
         for (size_t i = 0; i < length; i++, done++) to[done] = to[done - offset]; // which may overlap
     }

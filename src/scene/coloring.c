@@ -395,7 +395,7 @@ static bool is_offered(const ewa_cloud *cloud, const char *word) {
 /// room for all.
 static ewa_status choose_attribute(ewa_cloud **clouds, uint32_t count, const char *word, ewa_coloring **colorings,
                                    numbers *from) {
-    static const ewa_coloring most = {
+    static const ewa_coloring percentiles = {
         .ranged = true, .percent = {true, true}, .range = {SIGNAL_PERCENT_LOW, SIGNAL_PERCENT_HIGH}};
     double ends[2];
     uint32_t offered = 0; // these come first
@@ -408,7 +408,7 @@ static ewa_status choose_attribute(ewa_cloud **clouds, uint32_t count, const cha
         EWA_TRY(ewa_cloud_find_scalar(cloud, word, &from->scalars[offered++]));
     }
     from->count = offered;
-    if (offered) EWA_TRY(find_range(from, &most, ends));
+    if (offered) EWA_TRY(find_range(from, &percentiles, ends));
     if (!offered || !(ends[0] < ends[1])) return EWA_OK;
     for (uint32_t k = 0; k < offered; k++) {
         snprintf(colorings[k]->attribute, sizeof colorings[k]->attribute, "%s", word);

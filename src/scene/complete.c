@@ -374,9 +374,9 @@ static void check_distances(const ewa_scene *scene) {
                 !(asset->bounds.low_world[0] <= asset->bounds.high_world[0]))
                 continue;
             const double number = find_farthest ? distance_between(&asset->bounds, &largest->bounds) : diagonal_of(&asset->bounds);
-            double *most = find_farthest ? &distance_world : &size_world;
-            if (!(number > *most)) continue;
-            *most = number;
+            double *maximum = find_farthest ? &distance_world : &size_world;
+            if (!(number > *maximum)) continue;
+            *maximum = number;
             *(find_farthest ? &farthest : &largest) = asset;
         }
     if (size_world > 0 && distance_world > FAR_APART * size_world)

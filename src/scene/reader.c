@@ -30,7 +30,7 @@ void ewa_scene_reader_destroy(ewa_scene_reader **given) {
 }
 
 ewa_status ewa_scene_reader_choose(ewa_scene_reader *reader, ewa_scene *scene, const ewa_camera *camera,
-                                   const ewa_scene_options *given, uint32_t most, uint32_t *count) {
+                                   const ewa_scene_options *given, uint32_t maximum, uint32_t *count) {
     if (!reader || !scene || !camera || !count) return EWA_ERROR_ARGUMENT;
     *count = 0;
     reader->reading.count = 0;
@@ -40,7 +40,7 @@ ewa_status ewa_scene_reader_choose(ewa_scene_reader *reader, ewa_scene *scene, c
     EWA_TRY(ewa_scene_list_shown(scene, &options->lod, &reader->lists, &shown));
     const ewa_lod_scene octrees = {shown.lods, shown.lod_count, 0, NULL};
     const ewa_status status = ewa_lod_reading_choose(&reader->reading, &octrees, shown.looks, camera, &options->render,
-                                                     &options->lod, most);
+                                                     &options->lod, maximum);
     *count = reader->reading.count;
     return status;
 }

@@ -160,13 +160,13 @@ static double change_of(const double *a, const double *b, const double *c) {
 /// Leaves out corners until there are few enough.
 static uint32_t simplify(double *corners, uint32_t count) {
     while (count > EWA_REGION_CORNERS) {
-        uint32_t least = 0;
+        uint32_t smallest = 0;
         double change = INFINITY;
         for (uint32_t i = 0; i < count; i++) {
             const double own = change_of(corners + 2 * ((i + count - 1) % count), corners + 2 * i, corners + 2 * ((i + 1) % count));
-            if (own < change) change = own, least = i;
+            if (own < change) change = own, smallest = i;
         }
-        memmove(corners + 2 * least, corners + 2 * (least + 1), 2 * (count - least - 1) * sizeof *corners);
+        memmove(corners + 2 * smallest, corners + 2 * (smallest + 1), 2 * (count - smallest - 1) * sizeof *corners);
         count--;
     }
     return count;

@@ -288,8 +288,8 @@ static double height_of(const group_members *members, ewa_vec3 middle) {
         height += members->share[i] * vec3_dot(members->normal[i], way) / 2;
         square += members->share[i] * vec3_dot(way, way);
     }
-    const double most = sqrt(square) / 2;
-    return maximum(-most, minimum(height, most));
+    const double limit = sqrt(square) / 2;
+    return maximum(-limit, minimum(height, limit));
 }
 
 /// Makes what stands for a group: in its middle, where that is on its surface, else at the nearest member.

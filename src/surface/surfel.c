@@ -85,10 +85,19 @@ static void set_border(const double border[3], ewa_surfel *surfel) {
     ewa_border_line(all_finite(border, 3) ? border : none, surfel->axis_u_world, surfel->axis_v_world, surfel->clip[0]);
 }
 
+static uint8_t material_of(double value) {
+    return value >= 0 && value <= UINT8_MAX && value == floor(value) ? (uint8_t)value : 0;
+}
+
 uint8_t ewa_surfel_material(const ewa_surfel_reader *reader, uint64_t point) {
     double value = 0;
     if (reader->material) ewa_attribute_read_f64(reader->material, point, 1, &value);
-    return value >= 0 && value <= UINT8_MAX && value == floor(value) ? (uint8_t)value : 0;
+    return material_of(value);
+}
+
+/// As packets keep it.
+static double curvature_of(double curvature) {
+    return fabs(curvature) <= EWA_SURFEL_LIMIT ? ewa_packet_decode_curvature(ewa_packet_code_curvature(curvature)) : 0;
 }
 
 static ewa_status check_components(const ewa_cloud *cloud, const ewa_attribute *attribute, uint32_t low,
@@ -178,7 +187,7 @@ static void make_circle(ewa_surfel *surfel) {
 static uint64_t read_block(const ewa_surfel_reader *reader, uint64_t first, uint64_t count,
                            ewa_surfel *surfels, bool *drawable) {
     double position[3 * BLOCK], normal[3 * BLOCK], first_axis[3 * BLOCK], second_axis[3 * BLOCK],
-        color[4 * BLOCK], clip[2][3 * BLOCK], mode[BLOCK], border[3 * BLOCK];
+        color[4 * BLOCK], clip[2][3 * BLOCK], mode[BLOCK], border[3 * BLOCK], material[BLOCK], curvature[BLOCK];
     ewa_attribute_read_f64(reader->position, first, count, position);
     if (reader->normal) ewa_attribute_read_f64(reader->normal, first, count, normal);
     if (reader->color) ewa_attribute_read_f64(reader->color, first, count, color);
@@ -194,6 +203,8 @@ static uint64_t read_block(const ewa_surfel_reader *reader, uint64_t first, uint
     else
         memset(mode, 0, count * sizeof *mode);
     if (reader->border) ewa_attribute_read_f64(reader->border, first, count, border);
+    if (reader->material) ewa_attribute_read_f64(reader->material, first, count, material);
+    if (reader->curvature) ewa_attribute_read_f64(reader->curvature, first, count, curvature);
     uint64_t kept = 0;
     for (uint64_t i = 0; i < count; i++) {
         ewa_surfel *surfel = &surfels[i];
@@ -215,8 +226,8 @@ static uint64_t read_block(const ewa_surfel_reader *reader, uint64_t first, uint
         surfel->clip_either = mode[i] == 1;
         if (surfel->billboard && drawable[i]) make_circle(surfel);
         surfel->alpha = 1;
-        surfel->material = ewa_surfel_material(reader, first + i);
-        surfel->curvature_world = ewa_surfel_curvature(reader, first + i);
+        surfel->material = reader->material ? material_of(material[i]) : 0;
+        surfel->curvature_world = reader->curvature && !surfel->billboard ? curvature_of(curvature[i]) : 0;
         if (reader->color) {
             const double *value = &color[reader->color->component_count * i];
             ewa_color_decode(&reader->colors, reader->color, value, surfel->color_linear);
@@ -242,7 +253,7 @@ double ewa_surfel_curvature(const ewa_surfel_reader *reader, uint64_t point) {
     double curvature = 0;
     if (reader->curvature && !ewa_surfel_is_billboard(reader, point))
         ewa_attribute_read_f64(reader->curvature, point, 1, &curvature);
-    return fabs(curvature) <= EWA_SURFEL_LIMIT ? ewa_packet_decode_curvature(ewa_packet_code_curvature(curvature)) : 0;
+    return curvature_of(curvature);
 }
 
 double ewa_surfel_alpha(const ewa_surfel_reader *reader, uint64_t point) {

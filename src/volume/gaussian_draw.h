@@ -234,12 +234,12 @@ static ALWAYS_INLINE void draw_by_rays(const ewa_gaussian_view *view, ewa_gaussi
         }
         ewa_gaussian_hit *hit = next_hit(tile, block);
         tile->block_count++;
-        splat_hit met;
-        hit->active = block->alive & hit_splat(view, record, x, y, mode, block, &met);
+        splat_hit found;
+        hit->active = block->alive & hit_splat(view, record, x, y, mode, block, &found);
         if (!hit->active) continue;
-        wf_store(hit->z, met.z);
-        wf_store(hit->alpha, met.alpha);
-        wf_store(hit->deviation, met.deviation);
+        wf_store(hit->z, found.z);
+        wf_store(hit->alpha, found.alpha);
+        wf_store(hit->deviation, found.deviation);
         hit->id = id;
         hit->layer = NULL;
         keep_hit(tile, block);

@@ -11,7 +11,7 @@
 
 #include <math.h>
 
-enum { LANES = EWA_SPLAT_LANES, PART_SPLATS = EWA_SPLAT_PART_PACKETS * LANES, GROUP = 4, MOST_MERGED = PART_SPLATS / GROUP };
+enum { LANES = EWA_SPLAT_LANES, PART_SPLATS = EWA_SPLAT_PART_PACKETS * LANES, GROUP = 4, MAX_MERGED = PART_SPLATS / GROUP };
 
 typedef struct level_scratch {
     uint32_t members[PART_SPLATS];
@@ -58,7 +58,7 @@ static void select_first(const ewa_gaussians *set, uint32_t axis, uint32_t *memb
 
 static uint32_t widest_axis(const ewa_gaussians *set, const uint32_t *members, uint32_t count) {
     uint32_t widest = 0;
-    float most = -1;
+    float maximum = -1;
     float low[3], high[3];
     for (uint32_t i = 0; i < count; i++)
         for (uint32_t axis = 0; axis < 3; axis++) {
@@ -67,7 +67,7 @@ static uint32_t widest_axis(const ewa_gaussians *set, const uint32_t *members, u
             if (!i || at > high[axis]) high[axis] = at;
         }
     for (uint32_t axis = 0; axis < 3; axis++)
-        if (high[axis] - low[axis] > most) most = high[axis] - low[axis], widest = axis;
+        if (high[axis] - low[axis] > maximum) maximum = high[axis] - low[axis], widest = axis;
     return widest;
 }
 
@@ -137,7 +137,7 @@ ewa_status ewa_splats_make_levels(ewa_splats *splats, const ewa_gaussians *set, 
     level_job job = {splats, set, order, ewa_allocate_zeroed(context, workers, sizeof(level_scratch))};
     ewa_status status = job.scratch ? EWA_OK : EWA_ERROR_MEMORY;
     for (uint32_t w = 0; w < workers && status == EWA_OK; w++)
-        status = ewa_gaussians_create(context, MOST_MERGED, set->sh_degree, &job.scratch[w].merged);
+        status = ewa_gaussians_create(context, MAX_MERGED, set->sh_degree, &job.scratch[w].merged);
     if (status == EWA_OK) status = ewa_parallel_stoppable(context, "levels", make_part, &job, splats->part_count);
     for (uint32_t w = 0; w < workers && job.scratch; w++) ewa_gaussians_free(&job.scratch[w].merged);
     ewa_release(context, job.scratch, workers, sizeof(level_scratch));

@@ -339,8 +339,8 @@ static ewa_status open_grid(const ewa_cloud_source *source, ewa_cloud *prototype
         close_grid(state);
         return status;
     }
-    const uint64_t cells = state->grid.columns * state->grid.rows, most = source->size_bytes * MAX_CELLS_PER_BYTE;
-    *point_count = cells < most ? cells : most;
+    const uint64_t cells = state->grid.columns * state->grid.rows, maximum = source->size_bytes * MAX_CELLS_PER_BYTE;
+    *point_count = cells < maximum ? cells : maximum;
     *data = state;
     return EWA_OK;
 }

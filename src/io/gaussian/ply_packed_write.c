@@ -39,8 +39,8 @@ static void bound_chunk(const packing *p, uint32_t first, float low[BOUNDS], flo
 
 /// Share of a number between two bounds in steps of so many bits.
 static uint32_t steps_of(float number, float low, float high, uint32_t bits) {
-    const double most = (double)((1u << bits) - 1);
-    return high > low ? (uint32_t)floor(((double)number - (double)low) / ((double)high - (double)low) * most + 0.5) : 0;
+    const double maximum = (double)((1u << bits) - 1);
+    return high > low ? (uint32_t)floor(((double)number - (double)low) / ((double)high - (double)low) * maximum + 0.5) : 0;
 }
 
 /// Three numbers in 11, 10 and 11 bits.

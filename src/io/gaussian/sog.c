@@ -103,10 +103,10 @@ static ewa_status read_steps(sog *s, const cJSON *means, const cJSON *scales, co
     for (int k = 0; k < 3; k++) fill_steps(low[k], high[k], s->colors[k]);
     fill_steps(low[3], high[3], s->opacities);
     if (!harmonics) return EWA_OK;
-    const cJSON *least = cJSON_GetObjectItemCaseSensitive(harmonics, "mins"),
-                *most = cJSON_GetObjectItemCaseSensitive(harmonics, "maxs");
-    if (!cJSON_IsNumber(least) || !cJSON_IsNumber(most)) return fail(s, "shN.mins or shN.maxs is no number");
-    fill_steps(least->valuedouble, most->valuedouble, s->harmonics);
+    const cJSON *minimum = cJSON_GetObjectItemCaseSensitive(harmonics, "mins"),
+                *maximum = cJSON_GetObjectItemCaseSensitive(harmonics, "maxs");
+    if (!cJSON_IsNumber(minimum) || !cJSON_IsNumber(maximum)) return fail(s, "shN.mins or shN.maxs is no number");
+    fill_steps(minimum->valuedouble, maximum->valuedouble, s->harmonics);
     s->bands = MAX_BANDS;
     return EWA_OK;
 }

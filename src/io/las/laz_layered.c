@@ -353,10 +353,10 @@ static void clear_missing(const ewa_laz_memory *memory, uint8_t *records, ewa_la
         const ewa_laz_item *item = &memory->plan.items[i];
         if (item->type == EWA_LAZ_BYTE14) {
             // A number of several bytes is one of several layers: all are known, or none.
-            ewa_laz_layer least = {.known_count = UINT64_MAX};
+            ewa_laz_layer shortest = {.known_count = UINT64_MAX};
             for (uint32_t k = 0; k < item->size_bytes; k++, layer++)
-                if (layer->known_count < least.known_count) least.known_count = layer->known_count;
-            clear_unknown(&least, stride, at, item->size_bytes, ALL_BITS, EWA_LAZ_FIELD_EXTRA, records, result);
+                if (layer->known_count < shortest.known_count) shortest.known_count = layer->known_count;
+            clear_unknown(&shortest, stride, at, item->size_bytes, ALL_BITS, EWA_LAZ_FIELD_EXTRA, records, result);
         } else if (item->type == EWA_LAZ_WAVEPACKET14) {
             clear_unknown(layer++, stride, at, EWA_LAZ_PACKET_BYTES, ALL_BITS, EWA_LAZ_FIELD_WAVE, records, result);
         } else {

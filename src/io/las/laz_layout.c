@@ -118,8 +118,8 @@ static ewa_status read_table(const ewa_cloud_source *source, const ewa_las_heade
     EWA_TRY(make_chunks(source->context, layout, count));
     if (count == 0) return EWA_OK;
     // Two numbers of 32 bits a chunk, and what begins and ends their code, take no more.
-    const uint64_t left_bytes = source->size_bytes - table_at - TABLE_HEAD_BYTES, most_bytes = 16 * (uint64_t)count + 64;
-    const uint64_t entry_bytes = left_bytes < most_bytes ? left_bytes : most_bytes;
+    const uint64_t left_bytes = source->size_bytes - table_at - TABLE_HEAD_BYTES, max_bytes = 16 * (uint64_t)count + 64;
+    const uint64_t entry_bytes = left_bytes < max_bytes ? left_bytes : max_bytes;
     EWA_TRY(ewa_cloud_need(source, table_at + TABLE_HEAD_BYTES, entry_bytes, &entries));
     const char *fault = ewa_laz_table_decode(entries, entry_bytes, count, layout->variable, layout->chunks);
     if (fault)

@@ -33,8 +33,8 @@ static ewa_status add_chunk(rebuild *r, uint64_t point_count, uint64_t size_byte
 /// EWA_ERROR_MEMORY.
 static ewa_status reserve_records(rebuild *r, uint64_t left, uint64_t *point_count) {
     const ewa_cloud_source *source = r->source;
-    const uint64_t most = left * EWA_LAZ_MAX_POINTS_PER_BYTE;
-    if (*point_count > most) *point_count = most;
+    const uint64_t maximum = left * EWA_LAZ_MAX_POINTS_PER_BYTE;
+    if (*point_count > maximum) *point_count = maximum;
     const uint64_t max_bytes = ewa_context_limits(source->context)->max_memory_bytes;
     if (*point_count > max_bytes / r->plan->record_bytes)
         return ewa_fail(source->context, EWA_ERROR_LIMIT,

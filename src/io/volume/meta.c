@@ -43,13 +43,13 @@ static ewa_status broken(const meta *file, const char *key, const char *value) {
 static bool is_true(const char *value) { return value[0] == 'T' || value[0] == 't' || value[0] == '1'; }
 
 /// Takes numbers, those that are wanted and, of slices that say where they are in space, some more.
-static ewa_status take_numbers(meta *file, const char *key, const char *value, uint64_t wanted, uint64_t most,
+static ewa_status take_numbers(meta *file, const char *key, const char *value, uint64_t wanted, uint64_t maximum,
                                double *numbers, bool *has) {
     if (!file->axis_count)
         return ewa_volume_fail(file->in, EWA_ERROR_FORMAT, "MetaImage: %s before NDims", key);
     *has = true;
     const int count = ewa_text_numbers(value, MAX_AXES * MAX_AXES, numbers);
-    return count >= 0 && (uint64_t)count >= wanted && (uint64_t)count <= most ? EWA_OK : broken(file, key, value);
+    return count >= 0 && (uint64_t)count >= wanted && (uint64_t)count <= maximum ? EWA_OK : broken(file, key, value);
 }
 
 static bool is_one_of(const char *key, const char *const *keys) {
