@@ -196,7 +196,7 @@ static ewa_status apply_colorings(ewa_surface *surface, const shown_clouds *show
         const ewa_status status =
             ewa_clouds_color(shown->colored, count, coloring, &surface->legends[surface->legend_count++]);
         if (lacking) ewa_context_about(surface->context, before);
-        if (status != EWA_OK) return status;
+        EWA_TRY(status);
     }
     return EWA_OK;
 }
