@@ -16,16 +16,20 @@
 #define WIDE_FUSED_BY_DOUBLES
 
 #include <stdbool.h>
+#if defined(__SSE2__)
+#include <emmintrin.h>
+#endif
 
 typedef float w2f __attribute__((vector_size(8)));
 typedef double w2d __attribute__((vector_size(16)));
 typedef int64_t w2l __attribute__((vector_size(16)));
 
 static inline w2d w2d_of_low(w4f a) { return __builtin_convertvector(__builtin_shufflevector(a, a, 0, 1), w2d); }
-static inline w2d w2d_of_high(w4f a) {
-    // By the low half of a full vector: GCC 12 takes the numbers of a high half one by one.
-    return w2d_of_low(__builtin_shufflevector(a, a, 2, 3, 2, 3));
-}
+#if defined(__SSE2__)
+static inline w2d w2d_of_high(w4f a) { return (w2d)_mm_cvtps_pd(_mm_movehl_ps((__m128)a, (__m128)a)); }
+#else
+static inline w2d w2d_of_high(w4f a) { return w2d_of_low(__builtin_shufflevector(a, a, 2, 3, 2, 3)); }
+#endif
 
 /// The low words of four doubles.
 static inline w4i low_words(w2d low, w2d high) { return __builtin_shufflevector((w4i)low, (w4i)high, 0, 2, 4, 6); }
@@ -40,6 +44,16 @@ static inline w4f w4f_of(w2d low, w2d high) {
 static inline w4i is_halfway(w2d low, w2d high) { return (w4i)wasm_i32x4_abs((v128_t)(low_words(low, high) << 3)); }
 static inline w4i is_below_normal(w4f sum) { return (w4i)(((((w4u)sum << 1) - 1) >> 24) - 1); }
 static inline bool is_any(w4i doubtful) { return __builtin_expect(wasm_i32x4_bitmask((v128_t)doubtful) != 0, 0); }
+#elif defined(__SSE2__)
+// GCC 12 takes the numbers of a high half one by one, and clears what a narrowing has cleared.
+static inline w4f w4f_of(w2d low, w2d high) {
+    return (w4f)_mm_movelh_ps(_mm_cvtpd_ps((__m128d)low), _mm_cvtpd_ps((__m128d)high));
+}
+
+// By the signs likewise.
+static inline w4i is_halfway(w2d low, w2d high) { return low_words(low, high) << 3 == INT32_MIN; }
+static inline w4i is_below_normal(w4f sum) { return (w4i)(((((w4u)sum << 1) - 1) >> 24) - 1); }
+static inline bool is_any(w4i doubtful) { return __builtin_expect(_mm_movemask_ps((__m128)doubtful) != 0, 0); }
 #else
 static inline w4f w4f_of(w2d low, w2d high) {
     const w2f l = __builtin_convertvector(low, w2f), h = __builtin_convertvector(high, w2f);
