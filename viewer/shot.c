@@ -52,7 +52,12 @@ static bool save_picture(viewer *v, const char *path, uint32_t width_px, uint32_
     for (int c = 0; c < 4 && transparent; c++) scene.options.render.background[c] = 0;
     uint8_t *rgba8 = malloc(4 * (size_t)width_px * height_px);
     ewa_status status = rgba8 ? draw_scene(v, &scene, &camera, v->furniture.ink, rgba8) : EWA_ERROR_MEMORY;
-    if (status == EWA_OK) status = ewa_pixels_save(v->probe.context, path, width_px, height_px, 4, rgba8, 4 * (size_t)width_px);
+    // Opaque ones have three channels, as those of the program: they are the same file.
+    const uint32_t channel_count = scene.options.render.background[3] == 1 ? 3 : 4;
+    for (size_t i = 0; status == EWA_OK && channel_count == 3 && i < (size_t)width_px * height_px; i++)
+        memmove(rgba8 + 3 * i, rgba8 + 4 * i, 3);
+    if (status == EWA_OK)
+        status = ewa_pixels_save(v->probe.context, path, width_px, height_px, channel_count, rgba8, channel_count * (size_t)width_px);
     free(rgba8);
     if (status != EWA_OK)
         viewer_tell(v, "%s: the picture cannot be saved: %s", path,

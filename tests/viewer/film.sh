@@ -49,6 +49,9 @@ command -v ffmpeg >/dev/null 2>&1 && sed -i 's/^do scene save/do film shown.mp4 
 for i in 0 1 2 3 4; do
     cmp "shown here_$i.png" drawn_$i.png || fail "frame $i differs"
 done
+# The scene file has the keyframes, too.
+"$ewa" render scene.json --path scene.json --frames 5 -o own_%d.png -q
+cmp own_3.png drawn_3.png || fail "keyframes of the scene file are others"
 ! cmp -s "shown here_0.png" "shown here_1.png" || fail "nothing moves"
 if [ -f shown.mp4 ]; then
     "$ewa" render scene.json --path keys.json --frames 5 -o drawn.mp4 -q
