@@ -24,6 +24,8 @@ static const double LARGE_PX = 2e6;
 /// Moving pictures become plainer after so many that take so many times their budget, and finer after so many
 /// that would take so much of it.
 static const double TOO_SLOW = 1.4, MUCH_FASTER = 0.7;
+/// Of volumes, whose pictures choose no level by themselves, one that takes so many times its budget is enough.
+static const double FAR_TOO_SLOW = 4;
 enum { SLOW_PICTURES = 2, FAST_PICTURES = 8 };
 /// How plain they become: how many times as coarse octrees and Gaussians are as when nothing moves, at which level volumes are drawn, and by how much the sides
 /// of the picture are divided.
@@ -289,14 +291,17 @@ static void adapt(viewer *v, const paint_result *newest) {
     v->adapted = newest->ticket;
     const double budget_s = 1e-3 * v->settings.budget_ms, work = work_of(v, v->plain);
     uint32_t plainer = v->plain, finer = v->plain;
-    while (plainer < PLAINEST && work_of(v, plainer) >= work) plainer++;
+    const bool far_too_slow = v->volumes && newest->drawn_s > FAR_TOO_SLOW * budget_s;
+    while (plainer < PLAINEST && (work_of(v, plainer) >= work ||
+                                  (far_too_slow && newest->drawn_s * work_of(v, plainer) > TOO_SLOW * budget_s * work)))
+        plainer++;
     while (finer > 0 && work_of(v, finer) <= work) finer--;
     const bool slow = newest->drawn_s > TOO_SLOW * budget_s;
     const bool fast = newest->drawn_s * work_of(v, finer) / work < MUCH_FASTER * budget_s;
     v->slow_count = slow ? v->slow_count + 1 : 0;
     v->fast_count = fast ? v->fast_count + 1 : 0;
     const uint32_t before = v->plain;
-    if (v->slow_count >= SLOW_PICTURES && work_of(v, plainer) < work) v->plain = plainer;
+    if ((v->slow_count >= SLOW_PICTURES || far_too_slow) && work_of(v, plainer) < work) v->plain = plainer;
     if (v->fast_count >= FAST_PICTURES && work_of(v, finer) > work) v->plain = finer;
     if (v->plain != before) v->slow_count = v->fast_count = 0;
 }

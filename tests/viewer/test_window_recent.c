@@ -49,7 +49,7 @@ TEST(preferences_are_kept) {
         assert_true(viewer_setting_get(v, "shading", value));
         assert_string_equal(value, "lambert");
         assert_false(viewer_do(v, "undo"));
-        assert_true(viewer_do(v, "set budget_ms 40"));
+        assert_true(viewer_do(v, "set budget_ms 40") && viewer_do(v, "keys Ctrl+K view top") && viewer_do(v, "keys none view front"));
         preferences_write(v, lines);
         viewer_destroy(&v);
     }
@@ -57,6 +57,15 @@ TEST(preferences_are_kept) {
     preferences_read(v, lines);
     assert_true(viewer_setting_get(v, "budget_ms", value));
     assert_string_equal(value, "40");
+    // Keys that were chosen are there again, those of others as they were.
+    const viewer_action *action;
+    char keys[VIEWER_KEYS_BYTES];
+    for (uint32_t i = 0; (action = viewer_action_at(i)); i++) {
+        viewer_action_keys(v, action, keys);
+        if (strcmp(action->command, "view top") == 0) assert_string_equal(keys, "Ctrl K");
+        if (strcmp(action->command, "view front") == 0) assert_string_equal(keys, "");
+        if (strcmp(action->command, "view iso") == 0) assert_string_equal(keys, "9");
+    }
     viewer_destroy(&v);
 }
 
