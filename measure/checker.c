@@ -24,6 +24,39 @@ static void print_row(ewa_context *context, const checker_truth *truth, const ch
            (unsigned long long)errors.hole_count, errors.translucent_percent, errors.lowest_alpha);
 }
 
+/// Boards of what files have: points with colours, radii estimated, and meshes with pictures; drawn by the defaults.
+static void print_sources(ewa_context *context, const checker_truth *truth) {
+    static const struct {
+        const char *name;
+        checker_source source;
+        double radius_scale;
+    } rows[] = {
+        {"points alone", CHECKER_OF_POINTS, 1},
+        {"points alone, radii times 0.88", CHECKER_OF_POINTS, 0.88},
+        {"points alone, colours refitted", CHECKER_OF_POINTS_REFITTED, 1},
+        {"points alone, colours refitted, radii times 0.88", CHECKER_OF_POINTS_REFITTED, 0.88},
+        {"mesh with a picture, optimal", CHECKER_OF_MESH, 1},
+        {"mesh with a picture, optimal, radii times 0.88", CHECKER_OF_MESH, 0.88},
+    };
+    const checker_setting setting = {EWA_KERNEL_PERSPECTIVE, 3, 0.35, 0, 0, false};
+    const ewa_render_options options = checker_options(&setting);
+    printf("\n| of | RMSE %%, box: far / middle / near | RMSE %%, Gaussian | alpha < 1 | lowest alpha |\n|---|---|---|---|---|\n");
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        ewa_surfels *surfels = NULL;
+        checker_errors errors;
+        ewa_status status = checker_make_from(context, rows[i].source, rows[i].radius_scale, &surfels);
+        if (status == EWA_OK) status = checker_compare(context, truth, &options, surfels, &errors);
+        ewa_surfels_destroy(&surfels);
+        if (status != EWA_OK) {
+            fprintf(stderr, "measure_checker: the picture failed\n");
+            exit(1);
+        }
+        printf("| %s | %.1f / %.1f / %.1f | %.1f / %.1f / %.1f | %.2f %% | %.2f |\n", rows[i].name, errors.box_percent[0],
+               errors.box_percent[1], errors.box_percent[2], errors.gauss_percent[0], errors.gauss_percent[1],
+               errors.gauss_percent[2], errors.translucent_percent, errors.lowest_alpha);
+    }
+}
+
 int main(int argument_count, char **arguments) {
     const double jitter = argument_count > 1 ? strtod(arguments[1], NULL) : 0.4;
     static const double root2 = 1.4142135623730951;
@@ -62,6 +95,7 @@ int main(int argument_count, char **arguments) {
            "holes | "
            "alpha < 1 | lowest alpha |\n|---|---|---|---|---|---|---|---|---|\n");
     for (size_t i = 0; i < sizeof settings / sizeof settings[0]; i++) print_row(context, truth, &settings[i]);
+    print_sources(context, truth);
     free(truth);
     ewa_context_destroy(&context);
     return 0;

@@ -183,6 +183,60 @@ ewa_status checker_make(ewa_context *context, const checker_setting *setting, ew
     return status;
 }
 
+/// Positions and colours of the board, by default all else estimated.
+static ewa_status make_points(ewa_context *context, ewa_cloud **cloud) {
+    ewa_generate_options board;
+    ewa_generate_options_init(&board, sizeof board);
+    board.object = EWA_OBJECT_CHECKER;
+    board.point_count = CHECKER_POINTS;
+    board.checks = CHECKS;
+    board.jitter = 0.4;
+    ewa_estimate_options options;
+    ewa_estimate_options_init(&options, sizeof options);
+    options.keep_normals = options.keep_radii = false;
+    const ewa_status status = ewa_cloud_generate(context, &board, cloud);
+    return status == EWA_OK ? ewa_cloud_estimate(cloud, &options) : status;
+}
+
+/// Points on a square with a picture of the board of 1,000 x 1,000 pixels.
+static ewa_status sample_mesh(ewa_context *context, ewa_cloud **cloud) {
+    enum { PICTURE = 1000, CELL = PICTURE / (int)CHECKS };
+    static const double corners[12] = {-1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0};
+    static const float texcoords[8] = {0, 0, 1, 0, 1, 1, 0, 1};
+    static const uint32_t triangles[6] = {0, 1, 2, 0, 2, 3};
+    ewa_mesh mesh;
+    ewa_image picture;
+    ewa_mesh_sample_options options;
+    ewa_mesh_sample_options_init(&options, sizeof options);
+    options.point_count = CHECKER_POINTS;
+    EWA_TRY(ewa_mesh_create(context, 4, 2, 0, EWA_MESH_TEXCOORDS, &mesh));
+    memcpy(mesh.positions, corners, sizeof corners);
+    memcpy(mesh.texcoords, texcoords, sizeof texcoords);
+    memcpy(mesh.triangles, triangles, sizeof triangles);
+    ewa_status status = ewa_image_create(context, PICTURE, PICTURE, 1, &picture);
+    for (int i = 0; i < PICTURE * PICTURE && status == EWA_OK; i++) {
+        const int column = i % PICTURE / CELL, row = (PICTURE - 1 - i / PICTURE) / CELL;
+        picture.pixels[i] = (float)((column + row + 1) % 2);
+    }
+    if (status == EWA_OK) status = ewa_mesh_set_picture(&mesh, &picture);
+    if (status == EWA_OK) status = ewa_mesh_sample(&mesh, &options, cloud);
+    ewa_image_free(&picture);
+    ewa_mesh_free(&mesh);
+    return status;
+}
+
+ewa_status checker_make_from(ewa_context *context, checker_source source, double radius_scale, ewa_surfels **surfels) {
+    ewa_cloud *cloud = NULL;
+    ewa_surfels_options options;
+    ewa_surfels_options_init(&options, sizeof options);
+    options.radius_scale = radius_scale;
+    ewa_status status = source == CHECKER_OF_MESH ? sample_mesh(context, &cloud) : make_points(context, &cloud);
+    if (status == EWA_OK && source == CHECKER_OF_POINTS_REFITTED) status = ewa_cloud_refit_colors(cloud, NULL, NULL);
+    if (status == EWA_OK) status = ewa_surfels_create(cloud, &options, surfels);
+    ewa_cloud_destroy(&cloud);
+    return status;
+}
+
 ewa_render_options checker_options(const checker_setting *setting) {
     ewa_render_options options;
     ewa_render_options_init(&options, sizeof options);
@@ -194,16 +248,14 @@ ewa_render_options checker_options(const checker_setting *setting) {
     return options;
 }
 
-ewa_status checker_measure(ewa_context *context, const checker_truth *truth, const checker_setting *setting,
-                           checker_errors *errors) {
+ewa_status checker_compare(ewa_context *context, const checker_truth *truth, const ewa_render_options *given,
+                           const ewa_surfels *surfels, checker_errors *errors) {
     *errors = (checker_errors){0};
-    ewa_render_options options = checker_options(setting);
-    ewa_surfels *surfels = NULL;
+    ewa_render_options options = *given;
     ewa_renderer *renderer = NULL;
     float *rgba = ewa_allocate(context, (size_t)SIDE * SIDE, 4 * sizeof *rgba);
     const ewa_frame frame = {.rgba = rgba};
     ewa_status status = rgba ? EWA_OK : EWA_ERROR_MEMORY;
-    if (status == EWA_OK) status = checker_make(context, setting, &surfels);
     if (status == EWA_OK) status = ewa_renderer_create(context, &renderer);
     if (status == EWA_OK) status = ewa_render(renderer, surfels, &truth->camera, &options, &frame, NULL);
     if (status == EWA_OK) compare(truth, rgba, errors);
@@ -211,7 +263,16 @@ ewa_status checker_measure(ewa_context *context, const checker_truth *truth, con
     if (status == EWA_OK) status = ewa_render(renderer, surfels, &truth->camera, &options, &frame, NULL);
     if (status == EWA_OK) measure_alpha(truth, rgba, errors);
     ewa_renderer_destroy(&renderer);
-    ewa_surfels_destroy(&surfels);
     ewa_release(context, rgba, (size_t)SIDE * SIDE, 4 * sizeof *rgba);
+    return status;
+}
+
+ewa_status checker_measure(ewa_context *context, const checker_truth *truth, const checker_setting *setting,
+                           checker_errors *errors) {
+    const ewa_render_options options = checker_options(setting);
+    ewa_surfels *surfels = NULL;
+    ewa_status status = checker_make(context, setting, &surfels);
+    if (status == EWA_OK) status = checker_compare(context, truth, &options, surfels, errors);
+    ewa_surfels_destroy(&surfels);
     return status;
 }

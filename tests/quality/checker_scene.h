@@ -52,10 +52,21 @@ void checker_trace(ewa_context *context, double zoom, checker_truth *truth);
 /// Makes the board's surfels; the caller destroys them. Errors are those of the library.
 ewa_status checker_make(ewa_context *context, const checker_setting *setting, ewa_surfels **surfels);
 
+/// From what else than surfels with radii the board is made, all by defaults, and whether its colours are refitted.
+typedef enum checker_source { CHECKER_OF_POINTS, CHECKER_OF_POINTS_REFITTED, CHECKER_OF_MESH } checker_source;
+
+/// Makes the board's surfels of its points and colours alone, a jitter of 0.4, or of as many points on a textured mesh,
+/// drawn with `radius_scale` times their radii. The caller destroys them. Errors are those of the library.
+ewa_status checker_make_from(ewa_context *context, checker_source source, double radius_scale, ewa_surfels **surfels);
+
 /// The options that a setting asks for, without light and without edge antialiasing.
 ewa_render_options checker_options(const checker_setting *setting);
 
 /// Draws the board with ewa_render() and compares. Errors are those of the library.
+ewa_status checker_compare(ewa_context *context, const checker_truth *truth, const ewa_render_options *options,
+                           const ewa_surfels *surfels, checker_errors *errors);
+
+/// The same of what checker_make() makes.
 ewa_status checker_measure(ewa_context *context, const checker_truth *truth, const checker_setting *setting,
                            checker_errors *errors);
 

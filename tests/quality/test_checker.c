@@ -56,6 +56,21 @@ TEST(test_truth_is_the_board) {
     for (int band = 0; band < CHECKER_BANDS; band++) assert_true(rows[band] > 30);
 }
 
+/// Points and colours alone, all else estimated, are as good as the table of other sources says.
+TEST(test_points_alone) {
+    const fixture *board = *state;
+    const checker_setting setting = {EWA_KERNEL_PERSPECTIVE, 3, 0.35, 0, 0, false};
+    const ewa_render_options options = checker_options(&setting);
+    ewa_surfels *surfels = NULL;
+    checker_errors errors;
+    assert_int_equal(checker_make_from(board->context, CHECKER_OF_POINTS, 1, &surfels), EWA_OK);
+    assert_int_equal(checker_compare(board->context, &board->truth, &options, surfels, &errors), EWA_OK);
+    ewa_surfels_destroy(&surfels);
+    static const double limits[CHECKER_BANDS] = {7.0, 8.7, 12.9};
+    for (int band = 0; band < CHECKER_BANDS; band++) assert_true(errors.box_percent[band] < limits[band]);
+    assert_true(errors.hole_count == 0 && errors.translucent_percent < 0.01);
+}
+
 TEST(test_ahead_of_peers_in_every_band) {
     const checker_setting setting = {EWA_KERNEL_PERSPECTIVE, 3, 0.35, 0.38, 0.4, false};
     checker_errors errors;
