@@ -151,7 +151,7 @@ arm64: program
 wasm: program
 	@command -v node >/dev/null || { echo "make wasm runs what it builds by node, which is missing (apt-get install nodejs)" >&2; exit 1; }
 	@sh tools/zig.sh wasm32-wasi
-	@sh tools/dependencies.sh wasm32-wasi -mcpu=generic+simd128+bulk_memory+nontrapping_fptoint+sign_ext+mutable_globals+multivalue
+	@sh tools/dependencies.sh wasm32-wasi -mcpu=generic+simd128+bulk_memory+nontrapping_fptoint+sign_ext+mutable_globals+multivalue+atomics
 	@for build in wasm wasm-relaxed; do \
 	  relaxed=$$(node --v8-options | grep -o -e --experimental-wasm-relaxed-simd | head -n 1); \
 	  echo "Building build/$$build"; \

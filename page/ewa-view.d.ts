@@ -37,6 +37,8 @@ export interface Picture {
   level: number;
   /** What the module holds, in bytes. */
   memory: number;
+  /** Threads that draw: one where the page is not isolated (COOP, COEP). */
+  threads: number;
 }
 
 export interface EwaViewEvents {
@@ -55,6 +57,8 @@ export class EwaView extends HTMLElement {
   static sources: {
     worker: () => Worker;
     modules: { url?: string; text?: string; relaxed?: boolean }[];
+    /** How many threads are to draw where the page is isolated; the processors of the machine if nothing is said. */
+    threads: number;
   };
   /** The picture is the whole one, and nothing is under way. */
   readonly still: boolean;

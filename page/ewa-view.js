@@ -22,8 +22,9 @@ const decode = (text) => atob(text.replace(/-/g, "+").replace(/_/g, "/"));
 export class EwaView extends HTMLElement {
   static observedAttributes = ["src", "color-by", "point-size", "clip", "background", "color-bar", "camera", "label"];
 
-  /// Where the worker and the modules are; a page of its own brings them along.
+  /// Where the worker and the modules are; a page of its own brings them along. `threads` draw where the page is isolated.
   static sources = {
+    threads: navigator.hardwareConcurrency || 1,
     worker: () => new Worker(new URL("worker.js", import.meta.url), { type: "module" }),
     modules: [
       { url: new URL("page-relaxed.wasm.gz", import.meta.url).href, relaxed: true },
@@ -153,7 +154,7 @@ export class EwaView extends HTMLElement {
 
   #start() {
     if (this.#worker) return;
-    const { width, height, scale } = this.#size(), { worker, modules } = EwaView.sources;
+    const { width, height, scale } = this.#size(), { worker, modules, threads } = EwaView.sources;
     if (self.crossOriginIsolated) this.#sent = new Int32Array(new SharedArrayBuffer(4));
     const commands = ["background", "point-size", "color-bar"].filter((name) => this.hasAttribute(name)).flatMap((name) => this.#commands(name));
     if (matchMedia("(prefers-reduced-motion: reduce)").matches) commands.push("set animate off");
@@ -167,7 +168,7 @@ export class EwaView extends HTMLElement {
     made.onmessage = ({ data }) => made === this.#worker && this.#hear(data); // one that has ended may have posted before
     made.onerror = (event) => made === this.#worker && this.#stop(event.message || "the worker's script cannot be loaded");
     this.#ordered = 0;
-    this.#post({ start: { modules, width, height, scale, commands, sent: this.#sent?.buffer } });
+    this.#post({ start: { modules, width, height, scale, commands, threads, sent: this.#sent?.buffer } });
   }
 
   #stop(reason) {

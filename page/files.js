@@ -60,7 +60,7 @@ export class Files {
     this.shown = new Map();
     this.memory = null; // of the module, once it is made
     this.said = ""; // what the module wrote to its streams
-    this.failure = ""; // why the last file could not be read
+    this.failure = this.failed = ""; // why the last file could not be read, and its path
   }
 
   put(path, source) {
@@ -91,15 +91,17 @@ export class Files {
     if (!source) return { number: -1, size: 0 };
     let number = 0;
     while (this.shown.has(number)) number++;
-    this.shown.set(number, source);
+    this.shown.set(number, { path, source });
     return { number, size: source.size };
   }
 
   read_file(number, at, start, size) {
+    const { path, source } = this.shown.get(number);
     try {
-      return this.shown.get(number).read(at, new Uint8Array(this.memory.buffer, start, size));
+      return source.read(at, new Uint8Array(this.memory.buffer, start, size));
     } catch (error) {
       this.failure = error.message;
+      this.failed = path;
       return -1;
     }
   }
@@ -319,7 +321,8 @@ export class Files {
   }
 
   random_get(at, length) {
-    crypto.getRandomValues(new Uint8Array(this.memory.buffer, at, length));
+    // By bytes of its own: memory that threads share takes none.
+    new Uint8Array(this.memory.buffer, at, length).set(crypto.getRandomValues(new Uint8Array(length)));
     return DONE;
   }
 

@@ -10,32 +10,85 @@ export const EVENT = { move: 0, press: 1, release: 2, wheel: 3, pinch: 4, key: 5
 /// Files that pass between the page and the module are apart from those that are opened.
 const CAMERA = "/tmp/camera.json", SHOT = "/tmp/shot.png";
 
+/// Of the binary format of modules.
+const IMPORTS = 2, IMPORTED_MEMORY = 2, MEMORY_LIMITED = 1, MEMORY_SHARED = 2;
+
 const REPORT = ["at", "width", "height", "number", "still", "loading", "spare_s", "drawn_s", "level", "splats"];
 
 /// Makes a viewer of the first module that the host takes: one with instructions that the host has not is no module, and one
 /// whose multiply-add would round twice makes no view. `modules` are functions that give the bytes of one; `hooks` are say(message,
-/// text), progress(stage, fraction) and waiting(). `find` is for Files.
-export async function open_module(modules, hooks, width, height, scale, find) {
+/// text), progress(stage, fraction) and waiting(). `find` is for Files; `start_threads`, where memory can be shared, starts threads of a
+/// module on its memory (page/threads.js).
+export async function open_module(modules, hooks, width, height, scale, find, start_threads) {
   for (const fetch_module of modules) {
     const bytes = await fetch_module();
-    let module;
+    let module, memory;
     try {
+      memory = make_memory(bytes, Boolean(start_threads));
       module = await WebAssembly.compile(bytes);
     } catch (error) {
       if (error instanceof WebAssembly.CompileError) continue;
       throw error;
     }
-    const viewer = new Viewer(new Files(find), hooks);
+    const viewer = new Viewer(new Files(find), hooks, memory);
     await viewer.start(module);
-    if (viewer.create(width, height, scale)) return viewer;
+    const threads = memory.buffer instanceof ArrayBuffer ? [] : await start_threads(module, memory);
+    if (viewer.create(width, height, scale, threads)) return viewer;
+    threads.forEach((thread) => thread.terminate());
   }
   throw new Error("this browser has no WebAssembly with SIMD, which is needed to draw");
 }
 
+/// The memory that a module imports. One bit of its bytes says whether threads share it, and is set as it is made: where there is not
+/// room for all that shared memory may grow to, it is the module's alone.
+function make_memory(bytes, shared) {
+  const limits = find_memory(bytes);
+  if (!limits) throw new WebAssembly.CompileError("it imports no memory");
+  const { at, initial, maximum } = limits;
+  let memory;
+  try {
+    memory = new WebAssembly.Memory({ initial, maximum, shared });
+  } catch (error) {
+    if (!shared) throw error;
+    return make_memory(bytes, false);
+  }
+  bytes[at] = shared ? MEMORY_LIMITED | MEMORY_SHARED : MEMORY_LIMITED;
+  return memory;
+}
+
+/// The memory among the imports of a module: where its kind is said, and its limits in pages.
+function find_memory(bytes) {
+  let at = 8;
+  const number = () => {
+    for (let value = 0, shift = 0; ; shift += 7) {
+      const part = bytes[at++];
+      value |= (part & 127) << shift;
+      if (!(part & 128)) return value >>> 0;
+    }
+  };
+  while (at < bytes.length) {
+    const section = bytes[at++], length = number(), end = at + length;
+    for (let left = section === IMPORTS ? number() : 0; left > 0; left--) {
+      for (let name = 0; name < 2; name++) {
+        const length = number();
+        at += length;
+      }
+      if (bytes[at++] === IMPORTED_MEMORY) {
+        const found = at++;
+        return { at: found, initial: number(), maximum: number() };
+      }
+      number(); // the type of a function: there is nothing else before
+    }
+    at = end;
+  }
+  return null;
+}
+
 class Viewer {
-  constructor(files, hooks) {
+  constructor(files, hooks, memory) {
     this.files = files;
     this.hooks = hooks;
+    this.memory = files.memory = memory;
   }
 
   async start(module) {
@@ -52,15 +105,17 @@ class Viewer {
       read_file: (number, at, start, size) => this.files.read_file(number, at, start, size),
       close_file: (number) => this.files.close_file(number),
     };
-    const instance = await WebAssembly.instantiate(module, { ewa, wasi_snapshot_preview1: this.files.imports(module) });
-    this.calls = instance.exports;
-    this.memory = this.files.memory = instance.exports.memory;
+    const imports = { env: { memory: this.memory }, ewa, wasi_snapshot_preview1: this.files.imports(module) };
+    this.calls = (await WebAssembly.instantiate(module, imports)).exports;
     this.calls._initialize();
   }
 
-  create(width, height, scale) {
-    this.page = this.calls.page_create(width, height, scale);
+  create(width, height, scale, threads) {
+    this.thread_count = 1 + threads.length;
+    this.page = this.calls.page_create(width, height, scale, this.thread_count);
     if (!this.page) return false;
+    const of_page = this.calls.page_get_threads(this.page);
+    threads.forEach((thread, i) => thread.postMessage({ threads: of_page, number: i + 1, stack: this.calls.page_thread_stack() }));
     this.text = this.calls.page_text(this.page);
     this.text_bytes = this.calls.page_text_bytes();
     return true;

@@ -2,8 +2,9 @@
 // SPDX-License-Identifier: MIT
 //
 // The viewer (viewer/viewer.h) as a module of WebAssembly: a page hands over events and commands with their times, and pictures
-// come out, on one thread. Files are those that the page has (page/files.js): what is shown is read where it lies, part by part,
+// come out, drawn by as many threads as the page gives (page/threads.h). Files are those that the page has (page/files.js): what is shown is read where it lies, part by part,
 // texts and pictures go by WASI. A page makes an instance of the module for each view.
+#include "threads.h"
 #include "viewer/viewer.h"
 
 #include <stdio.h>
@@ -43,6 +44,7 @@ typedef struct page_report {
 typedef struct page {
     viewer *viewer;
     ewa_context *context; ///< of what is loaded
+    page_threads threads; ///< that draw
     viewer_news news;
     page_report report;
     double place_world[3];
@@ -50,9 +52,12 @@ typedef struct page {
     char text[TEXT_BYTES]; ///< what goes in and out
 } page;
 
-/// Makes a viewer of a picture of so many CSS pixels, each of which is `scale` pixels; NULL where there is no memory, or where
-/// the host's multiply-add rounds twice and the exact module is to be loaded.
-page *EXPORT(page_create)(uint32_t width, uint32_t height, double scale);
+/// Makes a viewer of a picture of so many CSS pixels, each of which is `scale` pixels, drawn by `thread_count` threads, this one
+/// among them; NULL where there is no memory, or where the host's multiply-add rounds twice and the exact module is to be loaded.
+page *EXPORT(page_create)(uint32_t width, uint32_t height, double scale, uint32_t thread_count);
+
+/// Returns the threads of a viewer, which page_thread_work() takes.
+page_threads *EXPORT(page_get_threads)(page *p);
 
 /// Returns the room, page_text_bytes() large, for the text of a call, ended by 0, and for what some calls answer.
 char *EXPORT(page_text)(page *p);
@@ -157,12 +162,26 @@ static bool waiting(void *user) {
     return page_waiting();
 }
 
-page *page_create(uint32_t width, uint32_t height, double scale) {
+static void *allocate(void *user, size_t size_bytes) {
+    (void)user;
+    return aligned_alloc(64, (size_bytes + 63) / 64 * 64);
+}
+
+static void release(void *user, void *memory, size_t size_bytes) {
+    (void)user, (void)size_bytes;
+    free(memory);
+}
+
+page *page_create(uint32_t width, uint32_t height, double scale, uint32_t thread_count) {
     page *made = calloc(1, sizeof *made);
     if (!made) return NULL;
+    page_threads_init(&made->threads);
     const viewer_options options = {
         .services = {.user = made, .context = context, .load = load, .place = place, .say = say, .waiting = waiting},
         .thread_count = 1,
+        .executor = {.user = &made->threads, .worker_count = thread_count, .run = thread_count > 1 ? page_threads_run : NULL},
+        // The library asks a caller's allocator on the calling thread only, and malloc of this C library has no lock.
+        .allocator = {.allocate = allocate, .release = release},
         .cpu_mask = EWA_CPU_ALL,
         .width = width,
         .height = height,
@@ -172,6 +191,8 @@ page *page_create(uint32_t width, uint32_t height, double scale) {
     free(made);
     return NULL;
 }
+
+page_threads *page_get_threads(page *p) { return &p->threads; }
 
 char *page_text(page *p) { return p->text; }
 

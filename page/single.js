@@ -15,6 +15,7 @@ const part = (id) => take_part(document.getElementById(id));
 // No module: a page that was opened as a file may not start one.
 const worker = URL.createObjectURL(new Blob(["{", part("ewa-worker"), "}"], { type: "text/javascript" }));
 EwaView.sources = {
+  ...EwaView.sources,
   worker: () => new Worker(worker),
   modules: [
     { text: part("ewa-relaxed"), relaxed: true },

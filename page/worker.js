@@ -4,13 +4,19 @@
 // The worker behind an <ewa-view>: it has the module and the files, takes what happens and posts pictures back, one at a time.
 import { Bytes, Dropped } from "./files.js";
 import { open_module } from "./module.js";
+import { as_readable, FOREIGN_NAME, names_beside } from "./pictures.js";
 import { open_ranges } from "./ranges.js";
+import { be_thread, start_threads } from "./threads.js";
 
 /// A function with one relaxed multiply-add: no module where the host has none, so that nothing is fetched in vain.
 const RELAXED = new Uint8Array([0, 97, 115, 109, 1, 0, 0, 0, 1, 5, 1, 96, 0, 1, 123, 3, 2, 1, 0, 10, 19, 1, 17, 0, 65, 0, 253, 15, 65,
                                 0, 253, 15, 65, 0, 253, 15, 253, 133, 2, 11]);
 /// Formats that name other files, which are fetched from beside them when they are asked for.
-const NAMES_OTHERS = /\.(json|gltf|obj|nhdr|mhd)$/i;
+const NAMES_OTHERS = /\.(json|gltf|obj|mtl|nhdr|mhd)$/i;
+/// A module has no room for more.
+const MOST_BYTES = 2 ** 31 - 1;
+/// More of them bring little, and each takes memory.
+const MOST_THREADS = 8;
 /// Progress is told so often, of what takes so long.
 const TELL_MS = 50, LONG_MS = 150;
 
@@ -43,7 +49,12 @@ async function ask(url, how) {
 /// The whole of what a server answers; `told` hears how many bytes came.
 async function collect(answer, told) {
   if (!answer.ok) throw new Error(`the server says ${answer.status} ${answer.statusText}`);
-  const length = Number(answer.headers.get("content-length")) || 0, into = new Bytes(new Uint8Array(length));
+  const length = Number(answer.headers.get("content-length")) || 0;
+  if (length > MOST_BYTES) {
+    answer.body.cancel();
+    throw new Error(`${(length / 1e9).toFixed(1)} GB are more than the 2 GB that a page holds; an octree (COPC, made by ewa lod) is read in parts`);
+  }
+  const into = new Bytes(new Uint8Array(length));
   into.size = 0;
   const reader = answer.body.getReader();
   for (;;) {
@@ -131,7 +142,9 @@ async function start(orders) {
   if (orders.sent) sent = new Int32Array(orders.sent);
   const modules = orders.modules.filter((source) => relaxed || !source.relaxed);
   const fetches = modules.map((source) => () => take_module(source, (got, length) => tell("fetch the program", length ? got / length : 0)));
-  viewer = await open_module(fetches, hooks, orders.width, orders.height, orders.scale, find);
+  const further = sent ? Math.min(orders.threads, MOST_THREADS) - 1 : 0;
+  const start_further = further > 0 ? (module, memory) => start_threads(module, memory, further) : null;
+  viewer = await open_module(fetches, hooks, orders.width, orders.height, orders.scale, find, start_further);
   for (const command of orders.commands) viewer.do(command);
   postMessage({ started: { help: viewer.help() } });
 }
@@ -161,32 +174,42 @@ function tell_failed(name) {
   postMessage({ failed: { name, reason: failure ? `${message}: ${failure}` : message } });
 }
 
-/// Puts a file, and those that a scene of an address names; returns its path.
-async function put(file) {
-  const source = await take_file(file), path = file.url ? path_of(file.url, file.name) : file.name;
+/// Says what of an octree could not be read while it was drawn.
+function tell_unreadable() {
+  const { failure, failed } = viewer.files;
+  viewer.files.failure = "";
+  if (failure) postMessage({ failed: { name: "", reason: `${with_addresses(failed)}: ${failure}` } });
+}
+
+/// Puts a file, and those that an address names which have to be there before it; returns its path. `seen` has the paths of what one open takes.
+async function put(file, seen = new Set()) {
+  const source = await with_pictures(file.name, await take_file(file)), path = file.url ? path_of(file.url, file.name) : file.name;
   viewer?.files.put(path, source);
-  if (file.beside || !file.url || !NAMES_OTHERS.test(file.name)) return path;
+  if (!file.url || !NAMES_OTHERS.test(file.name) || seen.has(path)) return path;
+  seen.add(path);
   servers.add(server_of(new URL(file.url)));
-  if (!/\.json$/i.test(file.name)) return path;
-  // A scene says what it needs: fetched here, it is seen coming. What is no scene fails where it is opened.
-  let names;
-  try {
-    names = new Set((JSON.parse(source.text()).items ?? []).map((item) => item.file)); // several may share one
-  } catch {
-    return path;
+  for (const name of new Set(names_beside(file.name, source.text()))) { // several may share one
+    const beside = { name: name.split("/").pop(), url: address_of(name, file.url), beside: true };
+    if (/\.json$/i.test(file.name)) await put(beside, seen);
+    else await put(beside, seen).catch(() => {}); // a mesh comes without
   }
-  for (const name of names)
-    if (typeof name === "string" && !name.startsWith("/"))
-      await put({ name: name.split("/").pop(), url: address_of(name, file.url), beside: true });
   return path;
+}
+
+/// A file whose pictures the module can read.
+async function with_pictures(name, source) {
+  if (!FOREIGN_NAME.test(name) && !/\.glb$/i.test(name)) return source;
+  const bytes = source.file ? new Uint8Array(await source.file.arrayBuffer()) : source.bytes.subarray(0, source.size);
+  return new Bytes(await as_readable(name, bytes));
 }
 
 /// Says what became of the files that were opened, once all is loaded.
 function tell_opened() {
   const items = viewer.items(), names = new Set(items.map((item) => item.name));
   for (const name of opening)
-    if (!names.has(name.split("/").pop()) && !/\.json$/i.test(name)) tell_failed(name);
+    if (/\.json$/i.test(name) ? viewer.files.failure : !names.has(name.split("/").pop())) tell_failed(name);
   opening = [];
+  viewer.files.failure = "";
   postMessage({ items });
   if (items.length && !is_ready) postMessage({ ready: (is_ready = true) });
 }
@@ -209,11 +232,12 @@ function step() {
     number = report.number;
     shown = false;
     const pixels = viewer.pixels(report), { at, ...facts } = report;
-    postMessage({ picture: { ...facts, still, pixels, handled, memory: viewer.memory.buffer.byteLength } }, [pixels.buffer]);
+    postMessage({ picture: { ...facts, still, pixels, handled, memory: viewer.memory.buffer.byteLength, threads: viewer.thread_count } }, [pixels.buffer]);
   } else if (still) {
     postMessage({ still: handled });
   }
   if (loading && !report.loading) tell_opened();
+  if (!loading) tell_unreadable();
   if (!report.still) timer = setTimeout(guarded_step, report.at && !loading ? 1000 * report.spare_s : 0);
 }
 
@@ -284,5 +308,6 @@ async function handle(orders) {
 let queue = Promise.resolve(), opens = Promise.resolve(); // orders are carried out one after another, what is fetched beside them
 soon.port1.onmessage = guarded_step;
 onmessage = ({ data }) => {
-  queue = queue.then(() => handle(data)).catch(stop);
+  if (data.thread) be_thread(data.thread);
+  else queue = queue.then(() => handle(data)).catch(stop);
 };

@@ -43,13 +43,15 @@ static void on_message(void *user, ewa_severity severity, const char *text) {
     snprintf(tools->message, sizeof tools->message, "%s", text);
 }
 
-ewa_status paint_tools_make(uint32_t thread_count, uint32_t cpu_mask, ewa_backend_kind backend,
-                            ewa_progress_callback *progress, void *user, paint_tools *tools) {
+ewa_status paint_tools_make(const viewer_options *wanted, ewa_backend_kind backend, ewa_progress_callback *progress, void *user,
+                            paint_tools *tools) {
     *tools = (paint_tools){.context = NULL};
     ewa_context_options options;
     ewa_context_options_init(&options, sizeof options);
-    options.thread_count = thread_count;
-    options.cpu_mask = cpu_mask;
+    options.thread_count = wanted->thread_count;
+    options.executor = wanted->executor;
+    if (wanted->allocator.allocate) options.allocator = wanted->allocator;
+    options.cpu_mask = wanted->cpu_mask;
     options.progress = progress;
     options.progress_user = user;
     options.message = on_message;
@@ -144,18 +146,17 @@ static void *run(void *data) {
     return NULL;
 }
 
-ewa_status painter_create(const viewer_services *services, bool stepped, uint32_t thread_count, uint32_t cpu_mask,
-                          ewa_backend_kind backend, painter **made) {
+ewa_status painter_create(const viewer_options *options, painter **made) {
     *made = NULL;
     painter *p = calloc(1, sizeof *p);
     if (!p) return EWA_ERROR_MEMORY;
-    p->services = *services;
-    p->stepped = stepped;
+    p->services = options->services;
+    p->stepped = options->stepped;
     p->newest = p->shown = -1;
     pthread_mutex_init(&p->lock, NULL);
     pthread_cond_init(&p->changed, NULL);
-    ewa_status status = paint_tools_make(thread_count, cpu_mask, backend, on_progress, p, &p->tools);
-    if (status == EWA_OK && !stepped) {
+    ewa_status status = paint_tools_make(options, options->backend, on_progress, p, &p->tools);
+    if (status == EWA_OK && !p->stepped) {
         p->started = pthread_create(&p->thread, NULL, run, p) == 0;
         if (!p->started) status = EWA_ERROR_MEMORY;
     }

@@ -54,8 +54,8 @@ typedef struct paint_tools {
     char message[PAINT_TEXT_BYTES]; ///< the last error's
 } paint_tools;
 
-ewa_status paint_tools_make(uint32_t thread_count, uint32_t cpu_mask, ewa_backend_kind backend,
-                            ewa_progress_callback *progress, void *user, paint_tools *tools);
+ewa_status paint_tools_make(const viewer_options *options, ewa_backend_kind backend, ewa_progress_callback *progress, void *user,
+                            paint_tools *tools);
 void paint_tools_free(paint_tools *tools);
 /// Draws a scene here and now into the planes of a frame. `stats` may be NULL.
 ewa_status paint_scene_draw(paint_tools *tools, const paint_scene *scene, const ewa_frame *frame,
@@ -63,10 +63,9 @@ ewa_status paint_scene_draw(paint_tools *tools, const paint_scene *scene, const 
 
 typedef struct painter painter;
 
-/// `stepped`: it has no thread, and draws in painter_wait() only; a whole picture is given up when the services say that an
-/// event waits. `services` are copied.
-ewa_status painter_create(const viewer_services *services, bool stepped, uint32_t thread_count, uint32_t cpu_mask,
-                          ewa_backend_kind backend, painter **made);
+/// One that is stepped has no thread, and draws in painter_wait() only; a whole picture is given up when the services say that an
+/// event waits.
+ewa_status painter_create(const viewer_options *options, painter **made);
 void painter_destroy(painter **painter);
 
 /// Hands over a scene, which replaces one that waits. `whole`: it is given up for the next one.

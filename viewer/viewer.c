@@ -126,13 +126,10 @@ ewa_status viewer_create(const viewer_options *options, viewer **made) {
     if (v->turns) turns_init(&v->turns->files);
     if (v->turns) turns_init(&v->turns->nodes);
     ewa_status status = v->turns ? loader_create(&v->services, v->stepped, &v->loader) : EWA_ERROR_MEMORY;
-    if (status == EWA_OK)
-        status = painter_create(&v->services, v->stepped, options->thread_count, options->cpu_mask, options->backend,
-                                &v->painter);
+    if (status == EWA_OK) status = painter_create(options, &v->painter);
     if (status == EWA_OK && !v->stepped && !v->waits) status = node_reader_create(v->turns, &v->node_reader);
     if (status == EWA_OK)
-        status = paint_tools_make(options->thread_count, options->cpu_mask, EWA_BACKEND_CPU, NULL, NULL,
-                                  &v->probe);
+        status = paint_tools_make(options, EWA_BACKEND_CPU, NULL, NULL, &v->probe);
     if (status == EWA_OK) status = ewa_scene_create(v->probe.context, NULL, &v->scene);
     if (status != EWA_OK) viewer_destroy(&v);
     *made = v;

@@ -95,6 +95,8 @@ typedef struct viewer_services {
 typedef struct viewer_options {
     viewer_services services;
     uint32_t thread_count;      ///< that draw; 0: one per processor
+    ewa_executor executor;      ///< draws in their place; run = NULL: they do
+    ewa_allocator allocator;    ///< of what draws; allocate = NULL: the library's
     uint32_t cpu_mask;          ///< EWA_CPU_*
     ewa_backend_kind backend;   ///< draws the pictures
     uint32_t width, height;     ///< of the window, points

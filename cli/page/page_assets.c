@@ -10,8 +10,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-const char *const page_asset_names[PAGE_ASSET_COUNT] = {"files.js",  "ranges.js", "module.js",    "worker.js",           "look.js", "ewa-view.js",
-                                                        "single.js", "page.css",  "page.wasm.gz", "page-relaxed.wasm.gz"};
+const char *const page_asset_names[PAGE_ASSET_COUNT] = {
+    "files.js", "ranges.js", "module.js", "threads.js", "pictures.js", "worker.js", "look.js", "ewa-view.js",
+    "single.js", "page.css", "page.wasm.gz", "page-relaxed.wasm.gz"};
 
 /// Where a file of that number is from the program's folder on: installed; built, by `make` and `make wasm`.
 static const char *place_of(int asset, int place) {

@@ -12,6 +12,8 @@ typedef enum page_asset {
     PAGE_FILES_JS,
     PAGE_RANGES_JS,
     PAGE_MODULE_JS,
+    PAGE_THREADS_JS,
+    PAGE_PICTURES_JS,
     PAGE_WORKER_JS,
     PAGE_LOOK_JS,
     PAGE_VIEW_JS,

@@ -7,6 +7,7 @@
 #include "cli/input/gaussian_files.h"
 #include "cli/input/inputs.h"
 #include "cli/input/scene_input.h"
+#include "cli/page/page_assets.h"
 
 #include <errno.h>
 #include <stdio.h>
@@ -99,6 +100,26 @@ static bool save_cloud(cli_session *session, ewa_cloud *cloud, const char *targe
     return done;
 }
 
+static bool contains(const page_bytes *in, const char *word) {
+    const char *const end = in->bytes + in->size_bytes;
+    const size_t length = strlen(word);
+    for (const char *at = in->bytes; (at = memchr(at, word[0], (size_t)(end - at))); at++)
+        if ((size_t)(end - at) >= length && memcmp(at, word, length) == 0) return true;
+    return false;
+}
+
+/// Whether a page reads a mesh as it is: all in one file, and packed by nothing that takes a library of its own.
+static bool is_readable_mesh(const char *path) {
+    static const char *const packed[] = {"KHR_draco_mesh_compression", "EXT_meshopt_compression", "KHR_meshopt_compression", "KHR_texture_basisu"};
+    page_bytes read;
+    int error;
+    if (!path_has_suffix(path, ".glb") || !page_bytes_read(path, &read, &error)) return false;
+    bool readable = true;
+    for (size_t i = 0; i < sizeof packed / sizeof packed[0] && readable; i++) readable = !contains(&read, packed[i]);
+    page_bytes_free(&read);
+    return readable;
+}
+
 /// Whether points have neither normals nor sizes, which LAZ would not keep as they are.
 static bool is_bare(const ewa_cloud *cloud) {
     static const char *const more[] = {EWA_NORMAL, EWA_RADIUS, EWA_TANGENT_U};
@@ -113,7 +134,7 @@ static bool put_points(cli_session *session, const char *path, const ewa_asset_o
     if (!session_passed(session, ewa_model_probe(session->context, path, &format))) return false;
     const bool mesh = format == EWA_MODEL_OBJ || format == EWA_MODEL_GLTF || format == EWA_MODEL_UNKNOWN;
     const bool rare = format == EWA_MODEL_E57 || format == EWA_MODEL_TIFF || format == EWA_MODEL_TERRAIN;
-    if (mesh) // with pictures and libraries beside them, which a page has not
+    if (mesh && !is_readable_mesh(path)) // with pictures and libraries beside them, which a page has not
         return take_name(session, data, path, ".ply", target) &&
                save_cloud(session, scene_input_cloud(session, 1, &path, options->cutoff), target);
     const bool packed = path_has_suffix(path, ".laz");

@@ -126,7 +126,7 @@ static bool write_single(cli_session *session, const page_assets *assets, const 
 
 bool page_html_single(cli_session *session, const page_assets *assets, const page_data *data, const page_words *words, FILE *file) {
     static const page_asset scripts[] = {PAGE_LOOK_JS, PAGE_VIEW_JS, PAGE_SINGLE_JS};
-    static const page_asset workers[] = {PAGE_FILES_JS, PAGE_RANGES_JS, PAGE_MODULE_JS, PAGE_WORKER_JS};
+    static const page_asset workers[] = {PAGE_FILES_JS, PAGE_RANGES_JS, PAGE_MODULE_JS, PAGE_THREADS_JS, PAGE_PICTURES_JS, PAGE_WORKER_JS};
     page_bytes script, worker = {.bytes = NULL};
     bool done = page_assets_join(assets, scripts, sizeof scripts / sizeof scripts[0], &script) &&
                 page_assets_join(assets, workers, sizeof workers / sizeof workers[0], &worker);

@@ -80,7 +80,8 @@ status, headers, body = server.ask("/data.bin")
 hold("a file is whole", status == 200 and body == text and headers.get("Accept-Ranges") == "bytes")
 hold("a page may have threads", headers.get("Cross-Origin-Opener-Policy") == "same-origin"
      and headers.get("Cross-Origin-Embedder-Policy") == "require-corp")
-for asked, begin, end in (("bytes=0-0", 0, 1), ("bytes=100-299", 100, 300), ("bytes=10000-", 10000, 10240)):
+for asked, begin, end in (("bytes=0-0", 0, 1), ("bytes=100-299", 100, 300), ("bytes=10000-", 10000, 10240), ("bytes=10000-10240", 10000, 10240),
+                          ("bytes=0-262143", 0, 10240)):
     status, headers, body = server.ask("/data.bin", Range=asked)
     hold(f"{asked} is a part", status == 206 and body == text[begin:end]
          and headers.get("Content-Range") == f"bytes {begin}-{end - 1}/{len(text)}")

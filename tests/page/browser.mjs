@@ -5,105 +5,15 @@
 // what it does in the window; what is wrong is said; nothing complains and nobody else is asked.
 //   node tests/page/browser.mjs build/release/cli/ewa SCRATCH [PICTURES]       exit status 77: skipped
 import assert from "node:assert/strict";
-import { execFileSync } from "node:child_process";
 import { copyFileSync, mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { createServer } from "node:http";
-import { join, resolve } from "node:path";
+import { join } from "node:path";
 import { pathToFileURL } from "node:url";
-import { inflateSync } from "node:zlib";
-import { launch, serve } from "./chromium.mjs";
-
-const [program, scratch, pictures] = process.argv.slice(2).map((path) => resolve(path));
-const WIDTH = 400, HEIGHT = 300;
-
-function skip(why) {
-  console.log(`skipped: ${why}`);
-  process.exit(77);
-}
-
-const chromium = ["chromium", "chromium-browser", "google-chrome"].find((name) => {
-  try {
-    return execFileSync("sh", ["-c", `command -v ${name}`]).length > 0;
-  } catch {
-    return false;
-  }
-});
-if (!chromium) skip("there is no Chromium (Debian: apt install chromium)");
-
-const ewa = (...words) => execFileSync(program, words, { cwd: scratch, encoding: "utf8", stdio: ["ignore", "pipe", "pipe"] });
-
-rmSync(scratch, { recursive: true, force: true });
-mkdirSync(scratch, { recursive: true });
-try {
-  ewa("generate", "torus", "-n", "20000", "-o", "torus.ply");
-  ewa("page", "torus.ply", "-o", "torus.html", "--title", "A torus");
-} catch (error) {
-  if (/make wasm/.test(error.stderr)) skip("there is no module for pages (make wasm)");
-  throw error;
-}
-
-/// Pixels of a PNG of 8-bit RGB or RGBA as RGBA.
-function decode(path) {
-  const png = readFileSync(path), parts = [];
-  let width, height, channels;
-  for (let at = 8; at < png.length; ) {
-    const size = png.readUInt32BE(at), kind = png.toString("latin1", at + 4, at + 8), data = png.subarray(at + 8, at + 8 + size);
-    if (kind === "IHDR") [width, height, channels] = [data.readUInt32BE(0), data.readUInt32BE(4), data[9] === 6 ? 4 : 3];
-    if (kind === "IDAT") parts.push(data);
-    at += size + 12;
-  }
-  const rows = inflateSync(Buffer.concat(parts)), row_bytes = width * channels, out = Buffer.alloc(4 * width * height, 255);
-  let above = Buffer.alloc(row_bytes);
-  for (let y = 0; y < height; y++) {
-    const filter = rows[y * (row_bytes + 1)], row = Buffer.from(rows.subarray(y * (row_bytes + 1) + 1, (y + 1) * (row_bytes + 1)));
-    for (let i = 0; i < row_bytes; i++) {
-      const a = i >= channels ? row[i - channels] : 0, b = above[i], c = i >= channels ? above[i - channels] : 0;
-      const p = a + b - c, near = [a, b, c].sort((m, n) => Math.abs(p - m) - Math.abs(p - n) || [a, b, c].indexOf(m) - [a, b, c].indexOf(n))[0];
-      row[i] += [0, a, b, (a + b) >> 1, near][filter];
-    }
-    for (let x = 0; x < width; x++) row.copy(out, 4 * (y * width + x), channels * x, channels * (x + 1));
-    above = row;
-  }
-  return out;
-}
-
-const view = `document.querySelector("ewa-view")`, part = (selector) => `${view}.shadowRoot.querySelector(${JSON.stringify(selector)})`;
-const PIXELS = `(() => { const c = ${part("canvas")}; const p = c.getContext("2d").getImageData(0, 0, c.width, c.height).data;
-  let text = ""; for (let i = 0; i < p.length; i += 8192) text += String.fromCharCode(...p.subarray(i, i + 8192)); return btoa(text); })()`;
-const HEAR = `addEventListener("DOMContentLoaded", () => { self.heard = []; for (const type of ["ready", "pick", "measure", "error", "share"])
-  document.addEventListener(type, (e) => heard.push({ type, ...e.detail }), true); });`;
-const shown = (page, limit_s) => page.until(`self.heard?.some((e) => e.type === "ready" || e.type === "error") && ${view}.still`, limit_s);
-
-function same(pixels, path, what) {
-  const wanted = decode(join(scratch, path)), got = Buffer.from(pixels, "base64");
-  assert.equal(got.length, wanted.length, `${what}: another size`);
-  let differ = 0;
-  for (let i = 0; i < wanted.length; i++) differ += wanted[i] !== got[i];
-  assert.equal(differ, 0, `${what}: ${differ} of ${wanted.length} bytes differ from those of ewa render`);
-}
-
-/// Nothing complains, and nobody but the page itself is asked.
-function check_quiet(page, origin) {
-  assert.deepEqual(page.complaints, []);
-  for (const url of page.requests) assert.ok(url.startsWith(origin) || url.startsWith("blob:") || url.startsWith("data:"), url);
-}
-
-async function keep(page, name) {
-  if (pictures) writeFileSync(join(pictures, name), await page.picture());
-}
-
-/// Gaussians as 3DGS writes them.
-function write_gaussians(name, count) {
-  const columns = ["x", "y", "z", "f_dc_0", "f_dc_1", "f_dc_2", "opacity", "scale_0", "scale_1", "scale_2", "rot_0", "rot_1", "rot_2", "rot_3"];
-  const head = `ply\nformat binary_little_endian 1.0\nelement vertex ${count}\n${columns.map((c) => `property float ${c}\n`).join("")}end_header\n`;
-  const body = new Float32Array(count * columns.length);
-  for (let i = 0; i < count; i++) {
-    const t = i / count, a = 40 * t;
-    body.set([Math.cos(a) * (1 + t), 2 * t - 1, Math.sin(a) * (1 + t), 2 * t - 1, Math.sin(a), 1 - 2 * t, 1.5, -3, -2.4 - t, -3.3, 1, t, 0.3, 0],
-             i * columns.length);
-  }
-  writeFileSync(join(scratch, name), Buffer.concat([Buffer.from(head), Buffer.from(body.buffer)]));
-}
+import { serve } from "./chromium.mjs";
+import {
+  browser, check, check_quiet, decode, ewa, finish, HEAR, HEIGHT, ISOLATED, keep, part, PIXELS, same, scratch, show, shown, view, WIDTH, write_gaussians,
+  write_mesh,
+} from "./pages.mjs";
 
 // ---- What is shown
 
@@ -111,31 +21,16 @@ ewa("generate", "torus", "-n", "6000", "--positions-only", "-o", "bare.ply");
 ewa("generate", "terrain", "-n", "20000", "-o", "terrain.laz");
 ewa("generate", "vessels", "--dims", "32", "-o", "vessels.nrrd");
 ewa("lod", "terrain.laz", "-o", "terrain.copc.laz");
+ewa("convert", "terrain.laz", "-o", "terrain.pcd");
 write_gaussians("spiral.ply", 800);
+ewa("convert", "spiral.ply", "-o", "spiral.spz");
+ewa("render", "torus.ply", "-o", "picture.jpg", "--size", "160x120", "--background", "#e0d0a0");
+write_mesh("bowl.glb", "picture.jpg");
 writeFileSync(join(scratch, "scene.json"), JSON.stringify({
   ewa_scene: 1, options: { render: { opacity: 0.6 } },
   items: [{ file: "torus.ply" }, { file: "terrain.laz", to_world: [0.1, 0, 0, 0, 0, 0.1, 0, 0, 0, 0, 0.1, -1, 0, 0, 0, 1], color_by: "z" }],
 }));
-const kinds = ["torus.ply", "bare.ply", "terrain.laz", "terrain.copc.laz", "vessels.nrrd", "spiral.ply", "scene.json"];
-
-const browser = await launch(chromium);
-const failures = [];
-async function check(what, run) {
-  const began = performance.now();
-  try {
-    await run();
-    console.log(`${what}: ${(performance.now() - began).toFixed(0)} ms`);
-  } catch (error) {
-    failures.push(what);
-    console.log(`${what}: ${error.stack}`);
-  }
-}
-
-async function show(url, options) {
-  const page = await browser.page(url, { width: WIDTH, height: HEIGHT, before: HEAR, ...options });
-  await shown(page);
-  return page;
-}
+const kinds = ["torus.ply", "bare.ply", "terrain.laz", "terrain.copc.laz", "vessels.nrrd", "spiral.ply", "scene.json", "terrain.pcd", "spiral.spz", "bowl.glb"];
 
 // Two at a time: one is parsed while the other is drawn.
 const check_kind = (kind) => check(`${kind} is what ewa render draws`, async () => {
@@ -153,7 +48,7 @@ const half = Math.ceil(kinds.length / 2), in_turn = async (list) => {
 await Promise.all([in_turn(kinds.slice(0, half)), in_turn(kinds.slice(half))]);
 
 await check("the exact module, a server, isolated or not", async () => {
-  for (const [headers, exact] of [[{}, false], [{ "cross-origin-opener-policy": "same-origin", "cross-origin-embedder-policy": "require-corp" }, true]]) {
+  for (const [headers, exact] of [[{}, false], [ISOLATED, true]]) {
     rmSync(join(scratch, "site"), { recursive: true, force: true });
     ewa("page", "torus.ply", "terrain.laz", "--folder", "site");
     ewa("render", "torus.ply", "terrain.laz", "-o", "both.png", "--size", `${WIDTH}x${HEIGHT}`, "-q");
@@ -402,8 +297,4 @@ await check("colours, box, pictures", async () => {
   await page.close();
 });
 
-await browser.close();
-if (failures.length) {
-  console.log(`${failures.length} failed`);
-  process.exit(1);
-}
+await finish();
