@@ -146,7 +146,7 @@ def make_inputs(ewa, folder):
         f"ply\nformat ascii 1.0\nelement vertex {len(splats)}\n" + "".join(f"property float {name}\n" for name in names) +
         "end_header\n" + "\n".join(splats) + "\n")
     (folder / "assets").mkdir(exist_ok=True)
-    for name in ("files.js", "ranges.js", "module.js", "worker.js", "look.js", "ewa-view.js", "single.js", "page.css", "page.wasm.gz", "page-relaxed.wasm.gz"):
+    for name in ("files.js", "ranges.js", "module.js", "threads.js", "pictures.js", "worker.js", "look.js", "ewa-view.js", "single.js", "page.css", "page.wasm.gz", "page-relaxed.wasm.gz"):
         (folder / "assets" / name).write_text(name + "\n")
     do("generate", "sphere", "-n", "300", "-o", "sphere.ply")
     do("generate", "cube", "-n", "300", "-o", "box.ply")
