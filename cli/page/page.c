@@ -190,7 +190,7 @@ const cli_command page_command = {
                "options is that of a scene file ('ewa render --save-scene', 'ewa view').\n"
                "\n"
                "With --folder, a web server has to send the files as they are ('ewa serve' does, to this machine); with the headers Cross-Origin-Opener-Policy: same-origin and "
-               "Cross-Origin-Embedder-Policy: require-corp moving is smoother.",
+               "Cross-Origin-Embedder-Policy: require-corp several threads draw, and moving is smoother.",
     .examples = "ewa page scan.laz -o scan.html\n"
                 "ewa page scene.json -o exhibit.html --title \"The hall, 2026\"\n"
                 "ewa page trained.ply --small --view front -o trained.html\n"
