@@ -283,7 +283,7 @@ export class EwaView extends HTMLElement {
     this.#label();
     const names = [...new Set(items.flatMap((item) => item.attributes))];
     this.#parts.color.replaceChildren(new Option("colours", "auto"), ...names.map((name) => new Option(name)));
-    this.#parts.color.value = names.find((name) => items.some((item) => item.color === name)) ?? "auto";
+    this.#parts.color.value = names.find((name) => items.some(({ color }) => color === name || `position.${color}` === name)) ?? "auto";
     this.#parts.color.hidden = !names.length;
   }
 

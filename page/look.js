@@ -37,9 +37,9 @@ export const PARTS = `
   ${button("full", "Whole screen")}
   ${button("help", "Keys and gestures", "H")}
 </div>
+<div class="error" role="alert" hidden><span></span><button type="button" data-do="dismiss" aria-label="Close">×</button></div>
 <div class="card" hidden><output></output><button type="button" data-do="close" aria-label="Close">×</button></div>
 <div class="status" role="status" hidden><span></span><progress max="1"></progress></div>
-<div class="error" role="alert" hidden><span></span><button type="button" data-do="dismiss" aria-label="Close">×</button></div>
 <dialog aria-label="Keys and gestures"><form method="dialog"><button>Close</button></form><table></table></dialog>`;
 
 export const STYLE = `
@@ -70,6 +70,7 @@ svg { width: 22px; height: 22px; display: block; margin: auto; fill: none; strok
 .status { left: 50%; top: 50%; transform: translate(-50%, -50%); padding: 12px 16px; display: grid; gap: 8px; min-width: 200px; text-align: center; }
 .status progress { width: 100%; accent-color: var(--accent); }
 .error { left: 12px; right: 12px; bottom: 12px; display: flex; justify-content: space-between; color: var(--bad); border-color: currentColor; }
+.error:not([hidden]) ~ .card { bottom: 64px; }
 .error span { padding: 10px 12px; overflow-wrap: anywhere; }
 .hint { left: 50%; top: 50%; transform: translate(-50%, -50%); padding: 14px 18px; margin: 0; text-align: center; pointer-events: none; }
 .hint:empty { display: none; }
@@ -86,6 +87,7 @@ dialog form button { background: var(--ground); border-color: var(--edge); }
   .bar select { height: 44px; flex: 1 1 62px; max-width: 96px; min-width: 0; padding: 0; }
   .bar [data-do="full"] { display: none; }
   .card, .error { bottom: 64px; }
+  .error:not([hidden]) ~ .card { bottom: 136px; }
   dialog td:first-child { white-space: normal; }
 }
 @media (max-width: 350px) { .bar [data-do="help"] { display: none; } }

@@ -297,4 +297,44 @@ await check("colours, box, pictures", async () => {
   await page.close();
 });
 
+await check("attributes, the measure button, the whole screen", async () => {
+  const server = await serve({ "/": join(scratch, "site"), "/data/": scratch }), page = await show(`${server.origin}/drop.html?src=data/terrain.laz`);
+  const camera = await page.evaluate(`${view}.camera()`);
+  const shows = async (attributes, ...options) => {
+    await page.evaluate(`for (const [name, value] of Object.entries(${JSON.stringify(attributes)})) ${view}.setAttribute(name, value)`);
+    await page.evaluate(`${view}.do("set color_bar off")`); // of which the letters are the window's
+    await new Promise((done) => setTimeout(done, 100));
+    await page.until(`${view}.still`);
+    ewa("render", "terrain.laz", ...options, "-o", "shown.png", "--size", `${WIDTH}x${HEIGHT}`, "-q");
+    same(await page.evaluate(PIXELS), "shown.png", Object.keys(attributes).join());
+    await page.evaluate(`for (const name of ${JSON.stringify(Object.keys(attributes))}) ${view}.removeAttribute(name)`);
+  };
+  await shows({ "color-by": "position.z" }, "--color-by", "position.z");
+  await shows({ background: "#203040" }, "--background", "#203040");
+  await shows({ "point-size": "3" }, "--point-size", "3");
+  const farther = JSON.parse(camera);
+  farther.world_to_camera[11] += 1.5;
+  writeFileSync(join(scratch, "given.json"), JSON.stringify(farther));
+  await shows({ camera: JSON.stringify(farther) }, "--camera", "given.json");
+  await page.until(`${view}.set_camera(${JSON.stringify(camera)})`);
+  const click = async (x, y) => {
+    for (const type of ["mousePressed", "mouseReleased"]) await page.call("Input.dispatchMouseEvent", { type, x, y, button: "left", clickCount: 1 });
+  };
+  const press = async (name) => {
+    const [x, y] = await page.evaluate(`(() => { const b = ${part(`[data-do="${name}"]`)}.getBoundingClientRect(); return [b.x + b.width / 2, b.y + b.height / 2]; })()`);
+    await click(x, y);
+  };
+  await click(200, 170);
+  await page.until(`heard.find((e) => e.type === "pick")`, 10);
+  await press("measure");
+  await click(215, 92); // above what is said of the pick
+  assert.ok((await page.until(`heard.find((e) => e.type === "measure")`, 10)).distance > 0);
+  await page.call("Emulation.setDeviceMetricsOverride", { width: 800, height: 600, deviceScaleFactor: 1, mobile: false });
+  await press("full");
+  await page.until(`document.fullscreenElement === ${view}`, 10);
+  check_quiet(page, server.origin);
+  await page.close();
+  server.close();
+});
+
 await finish();
