@@ -257,46 +257,6 @@ await check("what is wrong is said, and what was there stays", async () => {
   await page.close();
 });
 
-await check("a file that is dropped, and a module that is none", async () => {
-  const server = await serve({ "/": join(scratch, "site"), "/data/": scratch });
-  const page = await browser.page(`${server.origin}/drop.html`, { width: WIDTH, height: HEIGHT, before: HEAR });
-  await page.until(`self.heard && ${part(".hint")}.textContent.includes("Drop")`);
-  await page.evaluate(`(async () => {
-    const bytes = await (await fetch("data/terrain.copc.laz")).arrayBuffer(), drop = new DataTransfer();
-    drop.items.add(new File([bytes], "terrain.copc.laz"));
-    ${view}.dispatchEvent(new DragEvent("drop", { dataTransfer: drop, bubbles: true, cancelable: true }));
-  })()`);
-  await shown(page);
-  same(await page.evaluate(PIXELS), "terrain_copc_laz.png", "what was dropped");
-  check_quiet(page, server.origin);
-  await page.close();
-  // As where there is no SIMD: an instruction that is none.
-  const broken = Buffer.from([0, 97, 115, 109, 1, 0, 0, 0, 1, 4, 1, 96, 0, 0, 3, 2, 1, 0, 10, 5, 1, 3, 0, 255, 11]);
-  for (const name of ["page.wasm.gz", "page-relaxed.wasm.gz"]) writeFileSync(join(scratch, "site", name), broken);
-  const old = await browser.page(`${server.origin}/index.html`, { width: WIDTH, height: HEIGHT, before: HEAR });
-  assert.match((await old.until(`self.heard?.find((e) => e.type === "error")`, 10)).reason, /no WebAssembly with SIMD/);
-  await keep(old, "old.png");
-  await old.close();
-  server.close();
-});
-
-await check("colours, box, pictures", async () => {
-  const url = pathToFileURL(join(scratch, "terrain_laz.html")).href, page = await show(url);
-  await page.evaluate(`(() => { const s = ${part('[data-do="color"]')}; s.value = "intensity"; s.dispatchEvent(new Event("change")); })()`);
-  await page.evaluate(`${part('[data-do="box"]')}.click()`);
-  await page.until(`${view}.still`);
-  assert.equal((await page.evaluate(`${view}.items()`))[0].color, "intensity");
-  await keep(page, "coloured.png");
-  await page.evaluate(`${view}.do("box off")`);
-  await page.evaluate(`${view}.do("set color_bar off")`);
-  const png = await page.evaluate(`${view}.shot({ width: 320, height: 240 }).then((blob) => blob.arrayBuffer()).then((b) => btoa(String.fromCharCode(...new Uint8Array(b))))`);
-  writeFileSync(join(scratch, "shot.png"), Buffer.from(png, "base64"));
-  ewa("render", "terrain.laz", "--color-by", "intensity", "-o", "intensity.png", "--size", "320x240");
-  same(decode(join(scratch, "shot.png")).toString("base64"), "intensity.png", "a saved picture");
-  check_quiet(page, url);
-  await page.close();
-});
-
 await check("attributes, the measure button, the whole screen", async () => {
   const server = await serve({ "/": join(scratch, "site"), "/data/": scratch }), page = await show(`${server.origin}/drop.html?src=data/terrain.laz`);
   const camera = await page.evaluate(`${view}.camera()`);
@@ -335,6 +295,46 @@ await check("attributes, the measure button, the whole screen", async () => {
   check_quiet(page, server.origin);
   await page.close();
   server.close();
+});
+
+await check("a file that is dropped, and a module that is none", async () => {
+  const server = await serve({ "/": join(scratch, "site"), "/data/": scratch });
+  const page = await browser.page(`${server.origin}/drop.html`, { width: WIDTH, height: HEIGHT, before: HEAR });
+  await page.until(`self.heard && ${part(".hint")}.textContent.includes("Drop")`);
+  await page.evaluate(`(async () => {
+    const bytes = await (await fetch("data/terrain.copc.laz")).arrayBuffer(), drop = new DataTransfer();
+    drop.items.add(new File([bytes], "terrain.copc.laz"));
+    ${view}.dispatchEvent(new DragEvent("drop", { dataTransfer: drop, bubbles: true, cancelable: true }));
+  })()`);
+  await shown(page);
+  same(await page.evaluate(PIXELS), "terrain_copc_laz.png", "what was dropped");
+  check_quiet(page, server.origin);
+  await page.close();
+  // As where there is no SIMD: an instruction that is none.
+  const broken = Buffer.from([0, 97, 115, 109, 1, 0, 0, 0, 1, 4, 1, 96, 0, 0, 3, 2, 1, 0, 10, 5, 1, 3, 0, 255, 11]);
+  for (const name of ["page.wasm.gz", "page-relaxed.wasm.gz"]) writeFileSync(join(scratch, "site", name), broken);
+  const old = await browser.page(`${server.origin}/index.html`, { width: WIDTH, height: HEIGHT, before: HEAR });
+  assert.match((await old.until(`self.heard?.find((e) => e.type === "error")`, 10)).reason, /no WebAssembly with SIMD/);
+  await keep(old, "old.png");
+  await old.close();
+  server.close();
+});
+
+await check("colours, box, pictures", async () => {
+  const url = pathToFileURL(join(scratch, "terrain_laz.html")).href, page = await show(url);
+  await page.evaluate(`(() => { const s = ${part('[data-do="color"]')}; s.value = "intensity"; s.dispatchEvent(new Event("change")); })()`);
+  await page.evaluate(`${part('[data-do="box"]')}.click()`);
+  await page.until(`${view}.still`);
+  assert.equal((await page.evaluate(`${view}.items()`))[0].color, "intensity");
+  await keep(page, "coloured.png");
+  await page.evaluate(`${view}.do("box off")`);
+  await page.evaluate(`${view}.do("set color_bar off")`);
+  const png = await page.evaluate(`${view}.shot({ width: 320, height: 240 }).then((blob) => blob.arrayBuffer()).then((b) => btoa(String.fromCharCode(...new Uint8Array(b))))`);
+  writeFileSync(join(scratch, "shot.png"), Buffer.from(png, "base64"));
+  ewa("render", "terrain.laz", "--color-by", "intensity", "-o", "intensity.png", "--size", "320x240");
+  same(decode(join(scratch, "shot.png")).toString("base64"), "intensity.png", "a saved picture");
+  check_quiet(page, url);
+  await page.close();
 });
 
 await finish();
