@@ -20,7 +20,7 @@ enum {
     LEVELS = 2,           // of a patch, of which the last has 1,024
     SCALES = LEVELS + 1,  // 2^scale surfels are a pixel wide; at the coarsest a patch is sixteen
     MOST_PX = 256,
-    CELLS = 64,           // of a frame along its longer side
+    CELLS = 64,           // along the longer side of what is seen
     LOOKS = 1 << 14,      // packets that are looked for in them
 };
 
@@ -225,27 +225,38 @@ static double find_scale(const ewa_surfels *surfels, const ewa_camera *camera) {
     return fmax(camera->fx_px, camera->fy_px) * vec3_length(vec3_load(z)) / (perspective ? near_z : 1);
 }
 
-/// The share of a frame that surfels cover: of its cells, those with packets in them.
-static double find_share(const ewa_surfels *surfels, const ewa_camera *camera) {
+/// Puts the middle of a packet into a frame; false: it is not there.
+static bool find_pixel(const ewa_surfels *surfels, const ewa_camera *camera, uint32_t packet, double px[2]) {
     const double *m = camera->world_to_camera;
-    const double size_px[2] = {camera->width_px, camera->height_px}, cell_px = fmax(size_px[0], size_px[1]) / CELLS;
+    double world[3], at[3];
+    vec3_store(ewa_packet_center(surfels, packet), world);
+    for (int c = 0; c < 3; c++) world[c] = surfels->origin_world[c] + surfels->unit * world[c];
+    for (int r = 0; r < 3; r++)
+        at[r] = m[4 * r] * world[0] + m[4 * r + 1] * world[1] + m[4 * r + 2] * world[2] + m[4 * r + 3];
+    const double slope = camera->projection == EWA_PERSPECTIVE ? 1 / at[2] : 1;
+    px[0] = camera->fx_px * at[0] * slope + camera->cx_px;
+    px[1] = camera->fy_px * at[1] * slope + camera->cy_px;
+    return px[0] >= 0 && px[0] < camera->width_px && px[1] >= 0 && px[1] < camera->height_px;
+}
+
+/// The share of a frame that surfels cover: of the cells of the box around what is seen of them, those with packets in them.
+static double find_share(const ewa_surfels *surfels, const ewa_camera *camera) {
     const uint32_t step = surfels->packet_count / LOOKS + 1;
+    double low_px[2] = {INFINITY, INFINITY}, high_px[2] = {-INFINITY, -INFINITY}, px[2];
+    for (uint32_t p = 0; p < surfels->packet_count; p += step)
+        for (int k = 0; find_pixel(surfels, camera, p, px) && k < 2; k++)
+            low_px[k] = fmin(low_px[k], px[k]), high_px[k] = fmax(high_px[k], px[k]);
+    // A pixel at least, with which outlines are filtered.
+    const double side_px = fmax(high_px[0] - low_px[0], high_px[1] - low_px[1]), cell_px = fmax(side_px / (CELLS - 1), 1);
     uint8_t taken[CELLS][CELLS] = {{0}};
     uint32_t count = 0;
     for (uint32_t p = 0; p < surfels->packet_count; p += step) {
-        double world[3], at[3];
-        vec3_store(ewa_packet_center(surfels, p), world);
-        for (int c = 0; c < 3; c++) world[c] = surfels->origin_world[c] + surfels->unit * world[c];
-        for (int r = 0; r < 3; r++)
-            at[r] = m[4 * r] * world[0] + m[4 * r + 1] * world[1] + m[4 * r + 2] * world[2] + m[4 * r + 3];
-        const double slope = camera->projection == EWA_PERSPECTIVE ? 1 / at[2] : 1;
-        const double x = camera->fx_px * at[0] * slope + camera->cx_px, y = camera->fy_px * at[1] * slope + camera->cy_px;
-        if (!(x >= 0 && x < size_px[0] && y >= 0 && y < size_px[1])) continue;
-        uint8_t *cell = &taken[(uint32_t)(y / cell_px)][(uint32_t)(x / cell_px)];
+        if (!find_pixel(surfels, camera, p, px)) continue;
+        uint8_t *cell = &taken[(uint32_t)((px[1] - low_px[1]) / cell_px)][(uint32_t)((px[0] - low_px[0]) / cell_px)];
         count += !*cell;
         *cell = 1;
     }
-    return fmin(count * cell_px * cell_px / (size_px[0] * size_px[1]), 1);
+    return fmin(count * cell_px * cell_px / ((double)camera->width_px * camera->height_px), 1);
 }
 
 /// Chooses a level of one of `count` surfels.
