@@ -82,9 +82,16 @@ static sight_of look_at(const ewa_cut *c, const ewa_lod_node *node) {
     return s;
 }
 
-/// Share of a node's children in what is drawn of it.
-static double share_of_children(const ewa_cut *c, const ewa_lod_node *node, double spacing_px) {
-    if (!node->divided) return 0;
+/// Levels of a root's surfels beside all of them; of a root that is not divided none.
+static uint32_t root_levels(const ewa_cut *c) {
+    enum { FEWEST = 1024 };
+    uint32_t level = 0;
+    while (!c->whole_roots && c->lod->nodes->divided && level + 1 < EWA_MAX_LEVELS && c->lod->nodes->count >> 2 * (level + 1) >= FEWEST) level++;
+    return level;
+}
+
+/// Share of what is finer in what is drawn of a divided node: of its children, or of its surfels beside a level of these.
+static double share_of_finer(const ewa_cut *c, const ewa_lod_node *node, double spacing_px) {
     if (c->options->error == 0) return 1;
     const double wanted = fmax(spacing_px / c->options->spacing_px,
                                node->error * (spacing_px / ERROR_SPACING_PX) / c->options->error);
@@ -93,14 +100,19 @@ static double share_of_children(const ewa_cut *c, const ewa_lod_node *node, doub
     return share > 0 ? (share < 1 ? share : 1) : 0;
 }
 
-static void add_item(ewa_cut *c, uint32_t node, double weight, bool hides, const sight_of *s) {
+/// Share of a node's children in what is drawn of it.
+static double share_of_children(const ewa_cut *c, const ewa_lod_node *node, double spacing_px) {
+    return node->divided ? share_of_finer(c, node, spacing_px) : 0;
+}
+
+static void add_item(ewa_cut *c, uint32_t node, uint32_t level, double weight, bool hides, const sight_of *s) {
     ewa_buffer *buffer = &c->home->items;
     c->status =
         ewa_buffer_grow(c->home->context, buffer, c->item_count, (size_t)c->item_count + 1, sizeof(ewa_cut_item));
     if (c->status != EWA_OK) return;
     c->items = buffer->data;
     c->items[c->item_count++] =
-        (ewa_cut_item){c->lod, node, weight, hides, s->spacing_px, s->offset_px, s->first_row, s->end_row};
+        (ewa_cut_item){c->lod, node, level, weight, hides, ldexp(s->spacing_px, (int)level), s->offset_px, s->first_row, s->end_row};
 }
 
 /// Whether a node can be drawn of what is in memory, by itself or by all of its children that are seen.
@@ -125,16 +137,28 @@ static void choose(ewa_cut *c, uint32_t index, double weight) {
         share = 0;
     }
     // What represents parts is larger than they are: where these are drawn they say what is in front of what.
-    if (share < 1) add_item(c, index, weight * (1 - share), share == 0, &s);
+    if (share < 1) add_item(c, index, 0, weight * (1 - share), share == 0, &s);
     for (int i = 0; i < 8 && share > 0; i++)
         if (node->children[i] != EWA_NO_NODE) choose(c, node->children[i], weight * share);
+}
+
+/// Chooses from the root on: levels of its surfels represent it as it represents its children, where it is far away.
+static void choose_all(ewa_cut *c) {
+    const sight_of s = look_at(c, c->lod->nodes);
+    double weight = 1;
+    for (uint32_t level = root_levels(c); level > 0 && s.seen && weight > 0; level--) {
+        const double share = share_of_finer(c, c->lod->nodes, ldexp(s.spacing_px, (int)level));
+        if (share < 1) add_item(c, 0, level, weight * (1 - share), share == 0, &s);
+        weight *= share;
+    }
+    if (weight > 0) choose(c, 0, weight);
 }
 
 static void choose_ways(ewa_cut *c, uint32_t index) {
     const ewa_lod_node *node = &c->lod->nodes[index];
     const sight_of s = look_at(c, node);
     if (!s.seen || c->status != EWA_OK) return;
-    add_item(c, index, 1, true, &s);
+    add_item(c, index, 0, 1, true, &s);
     if (share_of_children(c, node, s.spacing_px) > 0)
         for (int i = 0; i < 8; i++)
             if (node->children[i] != EWA_NO_NODE) choose_ways(c, node->children[i]);
@@ -171,7 +195,7 @@ ewa_status ewa_cut_choose(ewa_cut *c, bool loaded_only) {
         if (c->options->resident_only && !is_loaded(c, 0))
             c->missing_count++;
         else
-            choose(c, 0, 1);
+            choose_all(c);
     }
     return c->status;
 }
@@ -234,7 +258,14 @@ static double count_all(ewa_cut *c, double coarser) {
     c->coarser = coarser;
     for (uint32_t i = 0; i < c->scene->lod_count; i++) {
         look_into(c, c->scene->lods[i]);
-        count += count_below(c, 0);
+        const sight_of s = look_at(c, c->lod->nodes);
+        double weight = 1;
+        for (uint32_t level = root_levels(c); level > 0 && s.seen; level--) {
+            const double share = share_of_finer(c, c->lod->nodes, ldexp(s.spacing_px, (int)level));
+            count += weight * (1 - share) * ldexp((double)c->lod->nodes->count, -2 * (int)level);
+            weight *= share;
+        }
+        count += weight * count_below(c, 0);
     }
     return count;
 }
@@ -333,6 +364,7 @@ ewa_status ewa_cut_begin(ewa_cut *c, const ewa_lod_scene *scene, const ewa_camer
                    .camera = camera,
                    .options = chosen,
                    .parts_per_pixel = side_parts * side_parts,
+                   .whole_roots = options->supersampling == 0,
                    .margin_px = 16};
     ewa_cut_next_frame(scene);
     return settle(c);

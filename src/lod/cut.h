@@ -11,11 +11,17 @@
 typedef struct ewa_cut_item {
     ewa_lod *lod;
     uint32_t node;
+    uint32_t level; ///< of the node's surfels; other than 0: of roots
     double weight;
     bool hides;
-    double spacing_px, offset_px; ///< of the node; from the picture's middle
+    double spacing_px, offset_px; ///< of the level; from the picture's middle
     uint32_t first_row, end_row;  ///< of the picture that it may touch
 } ewa_cut_item;
+
+/// Surfels of an item, about.
+static inline uint64_t ewa_cut_item_count(const ewa_cut_item *item) {
+    return item->lod->nodes[item->node].count >> 2 * item->level;
+}
 
 /// What is known while nodes are chosen.
 typedef struct ewa_cut {
@@ -29,6 +35,7 @@ typedef struct ewa_cut {
     double margin_px;
     double parts_per_pixel; ///< that are drawn, and averaged
     double coarser;   ///< by which spacing and error may be larger than the options say
+    bool whole_roots; ///< roots are drawn by all of their surfels, which say into how many parts pixels are divided
     bool loaded_only; ///< nodes that are not in memory are drawn by what represents them
     ewa_cut_item *items;
     uint32_t item_count;

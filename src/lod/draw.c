@@ -8,6 +8,7 @@
 #include "lod/cut.h"
 #include "lod/reading.h"
 #include "lod/tree.h"
+#include "surface/levels.h"
 #include "surface/options.h"
 #include "surface/packets.h"
 #include "surface/proxy.h"
@@ -118,7 +119,7 @@ static ewa_status draw_rows(const ewa_lod_scene *scene, ewa_renderer *renderer, 
                             uint32_t count, ewa_surfels *const *proxies, uint32_t first_row, uint32_t end_row,
                             ewa_render_stats *stats) {
     uint64_t surfel_count = 0;
-    for (uint32_t i = 0; i < count; i++) surfel_count += items[i].lod->nodes[items[i].node].count;
+    for (uint32_t i = 0; i < count; i++) surfel_count += ewa_cut_item_count(&items[i]);
     for (uint32_t i = 0; i < scene->surfels_count; i++) surfel_count += scene->surfels[i]->count;
     ewa_renderer_set_tile(renderer, surfel_count > EWA_DENSE_SURFELS ? EWA_DENSE_TILE_PX : 0);
     EWA_TRY(ewa_render_begin(renderer, camera, options, frame));
@@ -128,7 +129,8 @@ static ewa_status draw_rows(const ewa_lod_scene *scene, ewa_renderer *renderer, 
         const ewa_surfels *surfels =
             !proxies || touches ? items[i].lod->nodes[items[i].node].surfels : proxies[i];
         const ewa_render_source how = {items[i].weight, items[i].hides};
-        EWA_TRY(ewa_render_add_source(renderer, surfels, &how));
+        uint32_t level = items[i].level;
+        EWA_TRY(ewa_render_add_source(renderer, ewa_levels_find(surfels, &level), &how));
     }
     for (uint32_t i = 0; i < scene->surfels_count; i++) EWA_TRY(ewa_render_add(renderer, scene->surfels[i]));
     return ewa_render_finish(renderer, stats);
@@ -207,7 +209,7 @@ static ewa_status draw_bands(const ewa_lod_scene *scene, ewa_renderer *renderer,
 static ewa_status keep_share(ewa_cut *c) {
     const ewa_lod_options *options = c->options;
     uint64_t all = 0, before = 0, bytes = 0;
-    for (uint32_t i = 0; i < c->item_count; i++) all += c->items[i].lod->nodes[c->items[i].node].count;
+    for (uint32_t i = 0; i < c->item_count; i++) all += ewa_cut_item_count(&c->items[i]);
     const uint64_t first = ewa_split(all, options->share_count, options->share),
                    end = ewa_split(all, options->share_count, options->share + 1);
     uint32_t kept = 0;
@@ -217,7 +219,7 @@ static ewa_status keep_share(ewa_cut *c) {
             c->items[kept++] = c->items[i];
             bytes += ewa_tree_bytes_of(node);
         }
-        before += node->count;
+        before += ewa_cut_item_count(&c->items[i]);
     }
     c->item_count = kept;
     if (bytes <= options->memory_bytes) return EWA_OK;
@@ -236,7 +238,7 @@ static uint32_t parts_for(const ewa_cut *c) {
     for (uint32_t i = 0; i < c->item_count; i++) {
         const ewa_cut_item *it = &c->items[i];
         const double spacing_px = fmin(it->spacing_px, LARGEST_PX);
-        const double area = it->weight * it->lod->nodes[it->node].count * spacing_px * spacing_px;
+        const double area = it->weight * (double)ewa_cut_item_count(it) * spacing_px * spacing_px;
         ewa_part_areas_add(&areas, EWA_DEFAULT_RADIUS_SCALE * spacing_px, area);
     }
     return ewa_part_areas_choose(&areas, c->camera);
@@ -284,7 +286,7 @@ static ewa_status render(const ewa_lod_scene *scene, ewa_renderer *renderer, con
                             chosen->memory_bytes, stats);
     }
     for (uint32_t i = 0; i < c.item_count; i++)
-        stats->surfel_count += c.items[i].lod->nodes[c.items[i].node].count;
+        stats->surfel_count += ewa_cut_item_count(&c.items[i]);
     for (uint32_t i = 0; i < scene->lod_count; i++)
         // Points are the business of who reads.
         stats->resident_bytes += scene->lods[i]->resident_bytes + (chosen->resident_only ? 0 : scene->lods[i]->cloud_bytes);

@@ -7,6 +7,7 @@
 #include "cloud/cloud.h"
 #include "ewa/prepare.h"
 #include "lod/tree.h"
+#include "surface/levels.h"
 #include "surface/proxy.h"
 
 #include <math.h>
@@ -301,6 +302,8 @@ static ewa_status load_pages(ewa_lod *lod, const ewa_tree_reading *how, const ui
         if (status == EWA_OK)
             status = make_surfels(lod, how->look, pages[i].cloud, (double)lod->levels.pages[node->page].radius_scale,
                                   &surfels[i]);
+        // Beyond the root nothing represents it (cut.c).
+        if (status == EWA_OK && nodes[i] == 0) status = ewa_levels_make(surfels[i], EWA_MAX_LEVELS);
         ewa_release(lod->context, pages[i].scratch, pages[i].scratch_bytes, 1);
         ewa_cloud_destroy(&pages[i].cloud);
     }

@@ -230,7 +230,7 @@ TEST(test_refused_memory) {
 /// No more than 8 surfels for a covered pixel, from wherever it is seen; a few nodes are few surfels.
 TEST_ON(test_bound, 2) {
     enum { FEW_NODES = 8 };
-    static const double distances[] = {1, 2.2, 3.1, 6, 16};
+    static const double distances[] = {1, 2.2, 3.1, 6, 16, 64};
     ewa_lod *lod = open_file(context, file);
     for (size_t i = 0; i < sizeof distances / sizeof distances[0]; i++) {
         const ewa_camera camera = camera_at(distances[i]);
@@ -238,7 +238,8 @@ TEST_ON(test_bound, 2) {
         const double each = (double)made->stats.surfel_count / (filled(made) * WIDTH_PX * HEIGHT_PX);
         print_message("distance %g: %u nodes, %.2f surfels a pixel, coarser %.2f\n", distances[i], made->stats.node_count, each,
                       made->stats.coarser);
-        assert_true(each <= 8 || made->stats.node_count <= FEW_NODES);
+        // Few nodes fade all at once; beyond them there are levels of the root, of which two may fade.
+        assert_true(each <= 8 || (made->stats.node_count <= FEW_NODES && distances[i] < 8));
         free(made);
     }
     ewa_lod_close(&lod);
