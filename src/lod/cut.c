@@ -91,18 +91,24 @@ static uint32_t root_levels(const ewa_cut *c) {
 }
 
 /// Share of what is finer in what is drawn of a divided node: of its children, or of its surfels beside a level of these.
-static double share_of_finer(const ewa_cut *c, const ewa_lod_node *node, double spacing_px) {
+static double share_of_finer(const ewa_cut *c, const ewa_lod_node *node, double spacing_px, double coarser) {
     if (c->options->error == 0) return 1;
     const double wanted = fmax(spacing_px / c->options->spacing_px,
                                node->error * (spacing_px / ERROR_SPACING_PX) / c->options->error);
-    const double measure = wanted / c->coarser;
+    const double measure = wanted / coarser;
     const double share = (measure - FADE_FROM) / (1 - FADE_FROM);
     return share > 0 ? (share < 1 ? share : 1) : 0;
 }
 
+/// Share of finer surfels of a root beside a level of them. By default no bound of surfels makes these coarser: what of a town is merged
+/// so far is blurred, and has other colours than it has from far away.
+static double share_of_level(const ewa_cut *c, uint32_t level, double spacing_px) {
+    return share_of_finer(c, c->lod->nodes, ldexp(spacing_px, (int)level), c->options->max_splats ? c->coarser : 1);
+}
+
 /// Share of a node's children in what is drawn of it.
 static double share_of_children(const ewa_cut *c, const ewa_lod_node *node, double spacing_px) {
-    return node->divided ? share_of_finer(c, node, spacing_px) : 0;
+    return node->divided ? share_of_finer(c, node, spacing_px, c->coarser) : 0;
 }
 
 static void add_item(ewa_cut *c, uint32_t node, uint32_t level, double weight, bool hides, const sight_of *s) {
@@ -147,7 +153,7 @@ static void choose_all(ewa_cut *c) {
     const sight_of s = look_at(c, c->lod->nodes);
     double weight = 1;
     for (uint32_t level = root_levels(c); level > 0 && s.seen && weight > 0; level--) {
-        const double share = share_of_finer(c, c->lod->nodes, ldexp(s.spacing_px, (int)level));
+        const double share = share_of_level(c, level, s.spacing_px);
         if (share < 1) add_item(c, 0, level, weight * (1 - share), share == 0, &s);
         weight *= share;
     }
@@ -261,7 +267,7 @@ static double count_all(ewa_cut *c, double coarser) {
         const sight_of s = look_at(c, c->lod->nodes);
         double weight = 1;
         for (uint32_t level = root_levels(c); level > 0 && s.seen; level--) {
-            const double share = share_of_finer(c, c->lod->nodes, ldexp(s.spacing_px, (int)level));
+            const double share = share_of_level(c, level, s.spacing_px);
             count += weight * (1 - share) * ldexp((double)c->lod->nodes->count, -2 * (int)level);
             weight *= share;
         }

@@ -28,6 +28,9 @@ enum {
 static const double TILT = 0.7;
 static const float GREY = 0.2f;
 
+/// What is off by more where it covers looks blurred, however little of the frame that is; 1/255.
+static const double MOST_RMS = 12;
+
 /// What errors grow by from level to level where surfels are as large as pixels; beyond those that are measured.
 static const double GROWTH = 2;
 
@@ -270,9 +273,11 @@ static ewa_status choose(ewa_context *context, ewa_details *details, const ewa_c
     EWA_TRY(find(context, details, *surfels, &of));
     of->last_frame = details->frame;
     const double share = find_share(*surfels, camera);
-    while (*level + 1 < EWA_MAX_LEVELS &&
-           error_of(of, *level + 1, of->spacing_world * px_per_world) * sqrt(share * count) <= most_rms)
+    while (*level + 1 < EWA_MAX_LEVELS) {
+        const double rms = error_of(of, *level + 1, of->spacing_world * px_per_world);
+        if (rms > MOST_RMS || rms * sqrt(share * count) > most_rms) break;
         ++*level;
+    }
     if (!*level) return EWA_OK;
     const ewa_surfels *finest = *surfels;
     if (!finest->coarser && !of->made) {

@@ -238,8 +238,7 @@ TEST_ON(test_bound, 2) {
         const double each = (double)made->stats.surfel_count / (filled(made) * WIDTH_PX * HEIGHT_PX);
         print_message("distance %g: %u nodes, %.2f surfels a pixel, coarser %.2f\n", distances[i], made->stats.node_count, each,
                       made->stats.coarser);
-        // Few nodes fade all at once; beyond them there are levels of the root, of which two may fade.
-        assert_true(each <= 8 || (made->stats.node_count <= FEW_NODES && distances[i] < 8));
+        assert_true(each <= 8 || made->stats.node_count <= FEW_NODES);
         free(made);
     }
     ewa_lod_close(&lod);
