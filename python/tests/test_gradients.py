@@ -85,6 +85,20 @@ class Gradients(Case):
         self.assertLess(reached["off_deg"], 0.05 * reached["off_before_deg"])
         self.assertLess(reached["off_world"], 0.05 * reached["off_before_world"])
 
+    def test_shape_example(self) -> None:
+        """A sphere comes nearer to the cube that twelve pictures show."""
+        sys.path.insert(0, str(ROOT / "examples"))
+        self.addCleanup(sys.path.remove, str(ROOT / "examples"))
+        try:
+            example = importlib.import_module("fit_shape")
+        except ImportError:
+            self.skipTest("not in a checkout")
+        said: list[str] = []
+        _, log = example.run(ewa.generate("cube", 1500), 2, 40, 48, said.append)
+        self.assertEqual([step for step, _, _ in log], [0, 20, 40])
+        self.assertLess(log[-1][2], 0.65 * log[0][2])  # Chamfer distance
+        self.assertLess(log[-1][1], 0.3 * log[0][1])
+
 
 @unittest.skipIf(torch is None, "PyTorch is not installed")
 class Torch(Case):

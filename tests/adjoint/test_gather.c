@@ -26,6 +26,7 @@ static const uint32_t KINDS[] = {
     ADJOINT_MERGED | ADJOINT_TRANSPARENT | ADJOINT_BILLBOARDS,
     ADJOINT_CLIPPED | ADJOINT_ELLIPSES | ADJOINT_TRANSPARENT | ADJOINT_NEAR,
     ADJOINT_CURVED | ADJOINT_EDGES,
+    ADJOINT_CURVED,
     ADJOINT_CURVED | ADJOINT_ELLIPSES | ADJOINT_TRANSPARENT,
 };
 enum { KIND_COUNT = sizeof KINDS / sizeof KINDS[0] };
@@ -128,6 +129,7 @@ static ewa_cloud *as_drawn(const ewa_cloud *given) {
     double *normal = replaced(cloud, EWA_NORMAL, 3), *radius = ellipses ? NULL : replaced(cloud, EWA_RADIUS, 1);
     double *axis_u = ellipses ? replaced(cloud, EWA_TANGENT_U, 3) : NULL;
     double *axis_v = ellipses ? replaced(cloud, EWA_TANGENT_V, 3) : NULL;
+    double *curvature = surfels->curvatures ? replaced(cloud, EWA_CURVATURE, 1) : NULL;
     ewa_surfels_options options;
     ewa_surfels_options_init(&options, sizeof options);
     for (size_t i = 0; i < (size_t)surfels->packet_count * EWA_PACKET_LANES; i++) {
@@ -144,6 +146,7 @@ static ewa_cloud *as_drawn(const ewa_cloud *given) {
         if (axis_u) vec3_store(vec3_scale(s.axis_u, unit), axis_u + 3 * point);
         if (axis_v) vec3_store(vec3_scale(s.axis_v, unit), axis_v + 3 * point);
         for (int c = 0; c < 4; c++) color[4 * point + (size_t)c] = c < 3 ? s.color[c] : s.opacity;
+        if (curvature) curvature[point] = ewa_packet_decode_curvature(surfels->curvatures[i]) / surfels->unit;
     }
     ewa_surfels_destroy(&surfels);
     free(all);
@@ -198,8 +201,10 @@ TEST(test_each) {
         }
         print_message("%#x: largest %.3g, off by %.2g, %u of %u by more than 1e-4; from the pictures' changes %.2g\n", KINDS[k],
                       largest, off, far, 3 * s->count, worst);
-        // Of many surfaces behind each other, and where lines leave pixels next to no area, last digits decide more often.
-        const bool decided = !(KINDS[k] & (ADJOINT_CLIPPED | ADJOINT_SECTION | ADJOINT_TRANSPARENT));
+        // Of many surfaces behind each other, where lines leave pixels next to no area, and of large discs that are seen from their
+        // edge, whose depth goes through several surfaces within a pixel, last digits decide more often.
+        const bool decided = KINDS[k] != ADJOINT_CURVED &&
+                             !(KINDS[k] & (ADJOINT_CLIPPED | ADJOINT_SECTION | ADJOINT_TRANSPARENT));
         assert_true(decided ? off <= 1e-4 : far <= 3 * s->count / 100);
         assert_true(worst <= 5e-5); // pictures are rounded to whole numbers of units
         free(wanted), free(first);

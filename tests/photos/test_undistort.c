@@ -3,6 +3,7 @@
 //
 // Tests of ewa_image_undistort() and of the lenses of camera files: pictures of a known pattern through a known lens,
 // against the same pattern through a pinhole.
+#include "tests/io/scratch.h"
 #include "tests/photos/photo_scene.h"
 
 #include <math.h>
@@ -198,6 +199,49 @@ TEST(test_lists_have_lenses_and_paths) {
     assert_int_equal(ewa_photo_list_load(context, "undistort.json", NULL, &list), EWA_ERROR_FORMAT);
     assert_non_null(strstr(log.text, "camera 0 has no name"));
     remove("undistort.json"), remove("undistort_a b.jpg");
+    ewa_context_destroy(&context);
+}
+
+/// Numbers of COLMAP's models go where the formulas have them.
+TEST(test_lenses_of_colmap) {
+    (void)state;
+    static const struct {
+        const char *line;
+        ewa_lens lens;
+    } models[] = {
+        {"SIMPLE_RADIAL 40 30 35 20 15 0.1", {EWA_LENS_BROWN, {0.1}, {0}}},
+        {"RADIAL 40 30 35 20 15 0.1 0.2", {EWA_LENS_BROWN, {0.1, 0.2}, {0}}},
+        {"OPENCV 40 30 35 35 20 15 0.1 0.2 0.3 0.4", {EWA_LENS_BROWN, {0.1, 0.2}, {0.3, 0.4}}},
+        {"FULL_OPENCV 40 30 35 35 20 15 0.1 0.2 0.3 0.4 0.5 0.6 0.7 0.8",
+         {EWA_LENS_BROWN, {0.1, 0.2, 0.5, 0.6, 0.7, 0.8}, {0.3, 0.4}}},
+        {"OPENCV_FISHEYE 40 30 35 35 20 15 0.1 0.2 0.3 0.4", {EWA_LENS_FISHEYE, {0.1, 0.2, 0.3, 0.4}, {0}}},
+        {"SIMPLE_RADIAL_FISHEYE 40 30 35 20 15 0.1", {EWA_LENS_FISHEYE, {0.1}, {0}}},
+        {"RADIAL_FISHEYE 40 30 35 20 15 0.1 0.2", {EWA_LENS_FISHEYE, {0.1, 0.2}, {0}}},
+    };
+    check_log log = {.count = 0};
+    ewa_context *context = check_context(0, &log);
+    mkdir("undistort_model", 0777);
+    write_text("undistort_model/images.txt", "1 1 0 0 0 0 0 0 7 a b.jpg\n\n");
+    write_text("undistort_model/a b.jpg", "x");
+    for (size_t i = 0; i < sizeof models / sizeof models[0]; i++) {
+        char text[200];
+        snprintf(text, sizeof text, "7 %s\n", models[i].line);
+        write_text("undistort_model/cameras.txt", text);
+        ewa_photo_list *list;
+        uint32_t count;
+        assert_int_equal(ewa_photo_list_load(context, "undistort_model", NULL, &list), EWA_OK);
+        const ewa_lens *lens = &ewa_photo_list_photos(list, &count)->lens, *wanted = &models[i].lens;
+        assert_int_equal(lens->model, wanted->model);
+        for (int k = 0; k < 6; k++) assert_true(lens->radial[k] == wanted->radial[k]);
+        for (int k = 0; k < 2; k++) assert_true(lens->tangential[k] == wanted->tangential[k]);
+        ewa_photo_list_destroy(&list);
+    }
+    assert_int_equal(log.count, 0);
+    write_text("undistort_model/cameras.txt", "7 FOV 40 30 35 35 20 15 0.1\n");
+    ewa_photo_list *list;
+    assert_int_equal(ewa_photo_list_load(context, "undistort_model", NULL, &list), EWA_ERROR_UNSUPPORTED);
+    assert_non_null(strstr(log.text, "model FOV"));
+    remove("undistort_model/cameras.txt"), remove("undistort_model/images.txt"), remove("undistort_model/a b.jpg"), rmdir("undistort_model");
     ewa_context_destroy(&context);
 }
 
