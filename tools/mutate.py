@@ -144,7 +144,7 @@ NEAR = [
     # Files of python/tests, with the unbroken library.
     ("python/ewa/cloud", ["test_cloud.py", "test_same_bytes.py"]), ("python/ewa/gaussians", ["test_gaussians.py"]),
     ("python/ewa/scene", ["test_scene.py", "test_lifetime.py"]), ("python/ewa/_scene", ["test_same_bytes.py", "test_scene.py"]),
-    ("python/ewa/_errors", ["test_lifetime.py"]), ("python/ewa/_held", ["test_lifetime.py"]),
+    ("python/ewa/_arrays", ["test_cloud.py", "test_gaussians.py"]), ("python/ewa/_errors", ["test_lifetime.py"]), ("python/ewa/_held", ["test_lifetime.py"]),
     ("python", ["test_pictures.py", "test_lifetime.py", "test_same_bytes.py", "test_cloud.py", "test_bindings.py"]),
 ]
 

@@ -91,8 +91,10 @@ class Arrays(Case):
                 ewa.Cloud(self.points, **{name: value})
         with self.assertRaises(ewa.ArgumentError):
             ewa.Cloud(self.points, colors=np.zeros((n, 2), np.uint8)).estimate().surfels()
-        with self.assertRaises(ewa.ArgumentError):
-            ewa.Cloud(self.points, origin=(0, np.nan, 0))
+        for origin in ((0, np.nan, 0), (0, 0), (0, 0, 0, 0)):
+            with self.subTest(str(origin)), self.assertRaises(ewa.ArgumentError):
+                ewa.Cloud(self.points, origin=origin)
+        self.assertEqual(list(ewa.Cloud(self.points, origin=(1e6, 2, -3.5)).origin), [1e6, 2, -3.5])
 
     def test_points_that_are_nan_are_left_out(self) -> None:
         points = np.concatenate([self.points, np.full((7, 3), np.nan)])

@@ -66,4 +66,39 @@ TEST_ON(test_roofs, 1) {
     }
 }
 
+/// Either of two clip lines may leave a place in, where the mode is 1; of a single one there is no either.
+TEST_ON(test_lines, 1) {
+    enum { CASES = 4 };
+    static const double origin[3] = {0, 0, 0};
+    static const float lines[2][3 * CASES] = {{1, 0, 0.5f, 1, 0, 0.5f, 1, 0, 0.5f, 0, 0, 1},
+                                              {0, 1, 0.25f, 0, 1, 0.25f, 0, 0, 0, NAN, 1, 0}};
+    static const uint8_t modes[CASES] = {0, 1, 1, 1};
+    static const uint32_t counts[CASES] = {2, 2, 1, 0};
+    float *position, *axis[2];
+    ewa_cloud *cloud = check_cloud(context, CASES, &position);
+    assert_int_equal(ewa_cloud_add(cloud, EWA_TANGENT_U, EWA_F32, 3, (void **)&axis[0]), EWA_OK);
+    assert_int_equal(ewa_cloud_add(cloud, EWA_TANGENT_V, EWA_F32, 3, (void **)&axis[1]), EWA_OK);
+    for (int i = 0; i < CASES; i++)
+        for (int c = 0; c < 3; c++) {
+            position[3 * i + c] = c == 0 ? (float)i : 0;
+            for (int k = 0; k < 2; k++) axis[k][3 * i + c] = c == k ? 0.1f : 0;
+        }
+    assert_int_equal(ewa_cloud_borrow(cloud, EWA_CLIP0, EWA_F32, 3, lines[0], 3 * sizeof(float)), EWA_OK);
+    assert_int_equal(ewa_cloud_borrow(cloud, EWA_CLIP1, EWA_F32, 3, lines[1], 3 * sizeof(float)), EWA_OK);
+    assert_int_equal(ewa_cloud_borrow(cloud, EWA_CLIP_MODE, EWA_U8, 1, modes, 1), EWA_OK);
+    ewa_solid solid;
+    assert_int_equal(ewa_solid_open(cloud, "lines", origin, 3, &solid), EWA_OK);
+    assert_int_equal(solid.count, CASES);
+    for (uint32_t s = 0; s < CASES; s++) {
+        ewa_vec3 found[2];
+        bool either;
+        const uint32_t point = solid.surfels[s].point;
+        assert_int_equal(ewa_solid_lines(&solid, s, found, &either), counts[point]);
+        assert_int_equal(either, point == 1);
+        if (counts[point]) assert_true(found[0].x == 1 && found[0].z == 0.5);
+    }
+    ewa_solid_close(&solid);
+    ewa_cloud_destroy(&cloud);
+}
+
 int main(void) { return RUN_TESTS(NULL, NULL); }
