@@ -29,6 +29,8 @@ void IMPORT(close_file)(int file);
 
 /// What a page may hold: phones give a tab no more.
 static const uint64_t MEMORY_BYTES = (uint64_t)2 << 30;
+/// Of octrees: malloc of this C library takes powers of two, up to twice as much.
+static const uint64_t NODE_BYTES = (uint64_t)1 << 29;
 
 enum { TEXT_BYTES = 4 * VIEWER_TEXT_BYTES };
 
@@ -176,6 +178,9 @@ page *page_create(uint32_t width, uint32_t height, double scale, uint32_t thread
     page *made = calloc(1, sizeof *made);
     if (!made) return NULL;
     page_threads_init(&made->threads);
+    ewa_lod_options lod;
+    ewa_lod_options_init(&lod, sizeof lod);
+    lod.memory_bytes = NODE_BYTES;
     const viewer_options options = {
         .services = {.user = made, .context = context, .load = load, .place = place, .say = say, .waiting = waiting},
         .thread_count = 1,
@@ -186,6 +191,7 @@ page *page_create(uint32_t width, uint32_t height, double scale, uint32_t thread
         .width = width,
         .height = height,
         .scale = scale,
+        .lod = &lod,
         .stepped = true};
     if (viewer_create(&options, &made->viewer) == EWA_OK) return made;
     free(made);

@@ -2,15 +2,16 @@
 // SPDX-License-Identifier: MIT
 //
 // The figures of docs/page.md: how long a file of a local server takes to be seen, a still picture, pictures while a hand moves, and memory.
-//   node tests/page/timings.mjs build/release/page FILE [SECONDS [exact]]
+//   node tests/page/timings.mjs build/release/page FILE [SECONDS [exact|relaxed [isolated]]]
 // The modules are those of build/wasm and build/wasm-relaxed beside it.
 import { basename, dirname, join, resolve } from "node:path";
 import { launch, serve } from "./chromium.mjs";
 
-const [folder, file, seconds = "3", kind] = process.argv.slice(2);
+const [folder, file, seconds = "3", kind, isolated] = process.argv.slice(2);
 const build = resolve(folder, "../.."), exact = join(build, "wasm/page/page.wasm.gz");
 const server = await serve({ "/": resolve(folder), "/data/": dirname(resolve(file)), "/page.wasm.gz": { "": exact },
-                             "/page-relaxed.wasm.gz": { "": kind === "exact" ? exact : join(build, "wasm-relaxed/page/page.wasm.gz") } });
+                             "/page-relaxed.wasm.gz": { "": kind === "exact" ? exact : join(build, "wasm-relaxed/page/page.wasm.gz") } },
+                           isolated ? { "cross-origin-opener-policy": "same-origin", "cross-origin-embedder-policy": "require-corp" } : {});
 const browser = await launch();
 const page = await browser.page(`${server.origin}/index.html?src=data/${encodeURIComponent(basename(file))}`, {
   width: 1920, height: 1080,
@@ -18,10 +19,12 @@ const page = await browser.page(`${server.origin}/index.html?src=data/${encodeUR
     document.addEventListener("picture", ({ detail }) => pictures.push({ at: performance.now(), ...detail }), true); });`,
 });
 const view = `document.querySelector("ewa-view")`;
+await page.until("self.pictures?.find((p) => p.splats || p.still)", 300);
+const first_bytes = server.bytes(); // up to a few hundredths of a second later
 await page.until(`${view}.still`, 300);
 const opened = await page.evaluate("pictures"), first = opened.find((p) => p.splats || p.still), whole = opened.at(-1);
-console.log(`${basename(file)}: first picture ${first.at.toFixed(0)} ms after the page was asked for, whole ${whole.at.toFixed(0)} ms, ` +
-            `${(server.bytes() / 1e6).toFixed(1)} MB; drawing ${(1000 * whole.drawn_s).toFixed(0)} ms, memory ${(whole.memory / 2 ** 20).toFixed(0)} MiB`);
+console.log(`${basename(file)}: first picture ${first.at.toFixed(0)} ms after the page was asked for and ${(first_bytes / 1e6).toFixed(1)} MB, ` +
+            `whole ${whole.at.toFixed(0)} ms and ${(server.bytes() / 1e6).toFixed(1)} MB; drawing ${(1000 * whole.drawn_s).toFixed(0)} ms by ${whole.threads}, memory ${(whole.memory / 2 ** 20).toFixed(0)} MiB`);
 const stage = `${view}.shadowRoot.querySelector(".stage")`;
 await page.evaluate(`(async () => {
   pictures.length = 0;
