@@ -7,18 +7,7 @@
 #include <math.h>
 #include <string.h>
 
-static ewa_context *context;
-static check_log messages;
-
-static int enter(void **state) {
-    context = check_context(2, &messages);
-    return 0;
-}
-
-static int leave(void **state) {
-    ewa_context_destroy(&context);
-    return 0;
-}
+#include "io/fixture.h"
 
 /// A cloud of `count` points with positions (i, 10 i, 100 i) and one further attribute.
 static ewa_cloud *make(uint64_t count, ewa_type position_type, const char *name, ewa_type type) {
@@ -291,4 +280,4 @@ TEST(test_transform_refusals) {
     ewa_cloud_destroy(&cloud);
 }
 
-int main(void) { return RUN_TESTS(enter, leave); }
+int main(void) { return RUN_TESTS(begin, end); }

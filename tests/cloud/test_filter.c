@@ -6,20 +6,9 @@
 
 #include <math.h>
 
+#include "io/fixture.h"
+
 enum { POINTS = 3000 };
-
-static ewa_context *context;
-static check_log messages;
-
-static int enter(void **state) {
-    context = check_context(2, &messages);
-    return 0;
-}
-
-static int leave(void **state) {
-    ewa_context_destroy(&context);
-    return 0;
-}
 
 static const double origin_world[3] = {500000, 4200000, 10};
 
@@ -302,4 +291,4 @@ TEST(test_ranks) {
     }
 }
 
-int main(void) { return RUN_TESTS(enter, leave); }
+int main(void) { return RUN_TESTS(begin, end); }

@@ -7,19 +7,7 @@
 
 #include <math.h>
 
-static ewa_context *context;
-static check_log messages;
-
-static int open_context(void **state) {
-    memset(&messages, 0, sizeof messages);
-    context = check_context(2, &messages);
-    return 0;
-}
-
-static int close_context(void **state) {
-    ewa_context_destroy(&context);
-    return 0;
-}
+#include "io/fixture.h"
 
 static const char *const type_names[][3] = {{"float", "float32"},       {"double", "float64"}, {"char", "int8"},
                                             {"uchar", "uint8", "bool"}, {"short", "int16"},    {"ushort", "uint16"},
@@ -37,7 +25,7 @@ static const double type_values[TYPES][4] = {
     {-2147483648.0, 2147483647, 16777217, -1},
     {0, 4294967295, 2147483648, 16909060}};
 
-TEST_WITHIN(test_every_type_in_every_encoding, open_context, close_context) {
+CASE(test_every_type_in_every_encoding) {
     for (int encoding = 0; encoding < ENCODINGS; encoding++)
         for (int type = 0; type < TYPES; type++)
             for (int spelling = 0; spelling < 3 && type_names[type][spelling]; spelling++) {
@@ -73,7 +61,7 @@ TEST_WITHIN(test_every_type_in_every_encoding, open_context, close_context) {
     assert_int_equal(messages.count, 0);
 }
 
-TEST_WITHIN(test_positions_are_exact, open_context, close_context) {
+CASE(test_positions_are_exact) {
     static const ewa_type expected[TYPES] = {EWA_F32, EWA_F64, EWA_F32, EWA_F32,
                                              EWA_F32, EWA_F32, EWA_F64, EWA_F64};
     for (int encoding = 0; encoding < ENCODINGS; encoding++)
@@ -106,7 +94,7 @@ TEST_WITHIN(test_positions_are_exact, open_context, close_context) {
             }
 }
 
-TEST_WITHIN(test_any_order_of_properties, open_context, close_context) {
+CASE(test_any_order_of_properties) {
     static const struct {
         const char *name, *attribute;
         ewa_type type;
@@ -176,7 +164,7 @@ static ewa_cloud *load_counting(const char *properties) {
 
 #define XYZ "property float x\nproperty float y\nproperty float z\n"
 
-TEST_WITHIN(test_other_names_of_attributes, open_context, close_context) {
+CASE(test_other_names_of_attributes) {
     ewa_cloud *cloud =
         load_counting(XYZ "property float normal_x\nproperty float normal_y\nproperty float normal_z\n"
                           "property uchar diffuse_red\nproperty uchar diffuse_green\n"
@@ -196,7 +184,7 @@ TEST_WITHIN(test_other_names_of_attributes, open_context, close_context) {
     ewa_cloud_destroy(&cloud);
 }
 
-TEST_WITHIN(test_types_of_colors, open_context, close_context) {
+CASE(test_types_of_colors) {
     static const ewa_type expected[TYPES] = {EWA_F32, EWA_F32, EWA_U8, EWA_U8,
                                              EWA_U8,  EWA_U16, EWA_U8, EWA_U8};
     for (int encoding = 0; encoding < ENCODINGS; encoding++)
@@ -228,7 +216,7 @@ TEST_WITHIN(test_types_of_colors, open_context, close_context) {
         }
 }
 
-TEST_WITHIN(test_incomplete_groups_stay_scalars, open_context, close_context) {
+CASE(test_incomplete_groups_stay_scalars) {
     ewa_cloud *cloud =
         load_counting(XYZ "property float nx\nproperty float ny\nproperty uchar red\nproperty uchar green\n"
                           "property float blue\nproperty uchar r\nproperty uchar g\n");
@@ -247,7 +235,7 @@ TEST_WITHIN(test_incomplete_groups_stay_scalars, open_context, close_context) {
     assert_int_equal(messages.count, 0);
 }
 
-TEST_WITHIN(test_names_that_no_attribute_can_have, open_context, close_context) {
+CASE(test_names_that_no_attribute_can_have) {
     ewa_cloud *cloud = load_counting(XYZ "property float color\nproperty float intensity\n");
     assert_int_equal(ewa_cloud_attribute_count(cloud), 2);
     assert_true(sample_value(cloud, "intensity", EWA_F32, 1, 0, 0) == 5);
@@ -269,7 +257,7 @@ TEST_WITHIN(test_names_that_no_attribute_can_have, open_context, close_context) 
     ewa_cloud_destroy(&cloud);
 }
 
-TEST_WITHIN(test_elements_and_lists_around_the_vertices, open_context, close_context) {
+CASE(test_elements_and_lists_around_the_vertices) {
     for (int encoding = 0; encoding < ENCODINGS; encoding++) {
         sample s = sample_start((ewa_ply_encoding)encoding, "\n");
         sample_text(
@@ -319,7 +307,7 @@ TEST_WITHIN(test_elements_and_lists_around_the_vertices, open_context, close_con
     assert_int_equal(messages.count, 0);
 }
 
-TEST_WITHIN(test_line_ends, open_context, close_context) {
+CASE(test_line_ends) {
     static const char *const ends[] = {"\n", "\r\n", "\r"};
     for (int encoding = 0; encoding < ENCODINGS; encoding++)
         for (int end = 0; end < 3; end++) {
@@ -347,7 +335,7 @@ TEST_WITHIN(test_line_ends, open_context, close_context) {
 
 #define ASCII_HEADER(count) "ply\nformat ascii 1.0\nelement vertex " #count "\n" XYZ "end_header\n"
 
-TEST_WITHIN(test_ascii_layouts, open_context, close_context) {
+CASE(test_ascii_layouts) {
     static const struct {
         const char *text;
         bool warns;
@@ -373,7 +361,7 @@ TEST_WITHIN(test_ascii_layouts, open_context, close_context) {
     }
 }
 
-TEST_WITHIN(test_ascii_words_and_integers, open_context, close_context) {
+CASE(test_ascii_words_and_integers) {
     ewa_cloud *cloud;
     assert_int_equal(sample_load_text(context,
                                       "ply\nformat ascii 1.0\nelement vertex 2\n" XYZ
@@ -414,7 +402,7 @@ static sample make_long_ascii(uint64_t points, uint64_t blank_after, const char 
     return s;
 }
 
-TEST_WITHIN(test_long_ascii, open_context, close_context) {
+CASE(test_long_ascii) {
     enum { POINTS = 140000 }; // more text than one wave of parallel tasks takes
     static const struct {
         uint64_t blank_after;
@@ -442,7 +430,7 @@ TEST_WITHIN(test_long_ascii, open_context, close_context) {
     assert_int_equal(messages.count, 0);
 }
 
-TEST_WITHIN(test_empty_cloud, open_context, close_context) {
+CASE(test_empty_cloud) {
     for (int encoding = 0; encoding < ENCODINGS; encoding++) {
         sample s = sample_start((ewa_ply_encoding)encoding, "\n");
         sample_text(&s, "element vertex 0\n" XYZ "end_header");
@@ -457,7 +445,7 @@ TEST_WITHIN(test_empty_cloud, open_context, close_context) {
 
 /// What the models' README says of the files that hold vertices.
 
-TEST_WITHIN(test_real_models, open_context, close_context) {
+CASE(test_real_models) {
     for (size_t i = 0; i < sizeof model_facts / sizeof model_facts[0]; i++) {
         char path[512];
         if (!check_data(model_facts[i].path, path, sizeof path)) skip();
@@ -476,7 +464,7 @@ TEST_WITHIN(test_real_models, open_context, close_context) {
     assert_int_equal(messages.count, 0);
 }
 
-TEST_WITHIN(test_one_model_in_both_byte_orders, open_context, close_context) {
+CASE(test_one_model_in_both_byte_orders) {
     char path[512];
     ewa_cloud *little, *big;
     if (!check_data("models/variants/dolphins_le.ply", path, sizeof path)) skip();

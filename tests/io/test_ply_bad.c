@@ -8,26 +8,15 @@
 
 #include <unistd.h>
 
-static ewa_context *context;
-static check_log messages;
-
-static int open_context(void **state) {
-    memset(&messages, 0, sizeof messages);
-    context = check_context(1, &messages);
-    return 0;
-}
-
-static int close_context(void **state) {
-    ewa_context_destroy(&context);
-    return 0;
-}
+#define FIXTURE_THREADS 1
+#include "io/fixture.h"
 
 #define XYZ      "property float x\nproperty float y\nproperty float z\n"
 #define ASCII    "ply\nformat ascii 1.0\n"
 #define BINARY   "ply\nformat binary_little_endian 1.0\n"
 #define VERTEX_1 "element vertex 1\n" XYZ
 
-TEST_WITHIN(test_headers_and_their_messages, open_context, close_context) {
+CASE(test_headers_and_their_messages) {
     static const struct {
         const char *text, *message;
         ewa_status status;
@@ -90,7 +79,7 @@ TEST_WITHIN(test_headers_and_their_messages, open_context, close_context) {
     }
 }
 
-TEST_WITHIN(test_bodies_and_their_messages, open_context, close_context) {
+CASE(test_bodies_and_their_messages) {
     static const struct {
         const char *text, *message;
     } cases[] = {
@@ -139,7 +128,7 @@ TEST_WITHIN(test_bodies_and_their_messages, open_context, close_context) {
     }
 }
 
-TEST_WITHIN(test_lying_counts, open_context, close_context) {
+CASE(test_lying_counts) {
     static const char *const counts[] = {"2",
                                          "3",
                                          "1000",
@@ -167,7 +156,7 @@ TEST_WITHIN(test_lying_counts, open_context, close_context) {
             }
 }
 
-TEST_WITHIN(test_warnings_about_the_rest, open_context, close_context) {
+CASE(test_warnings_about_the_rest) {
     ewa_cloud *cloud;
     assert_int_equal(
         sample_load_text(context,
@@ -187,7 +176,7 @@ TEST_WITHIN(test_warnings_about_the_rest, open_context, close_context) {
     ewa_cloud_destroy(&cloud);
 }
 
-TEST_WITHIN(test_limits, open_context, close_context) {
+CASE(test_limits) {
     ewa_context_options options;
     ewa_context_options_init(&options, sizeof options);
     options.limits.max_points = 2;
@@ -254,7 +243,7 @@ static sample make_rich(ewa_ply_encoding encoding, bool lists) {
     return s;
 }
 
-TEST_WITHIN(test_every_truncation, open_context, close_context) {
+CASE(test_every_truncation) {
     for (int encoding = 0; encoding < 3; encoding++)
         for (int lists = 0; lists < 2; lists++) {
             sample s = make_rich((ewa_ply_encoding)encoding, lists);
@@ -275,7 +264,7 @@ TEST_WITHIN(test_every_truncation, open_context, close_context) {
         }
 }
 
-TEST_WITHIN(test_changed_bytes_do_no_harm, open_context, close_context) {
+CASE(test_changed_bytes_do_no_harm) {
     check_random random = {5};
     for (int encoding = 0; encoding < 3; encoding++)
         for (int lists = 0; lists < 2; lists++) {
@@ -294,7 +283,7 @@ TEST_WITHIN(test_changed_bytes_do_no_harm, open_context, close_context) {
         }
 }
 
-TEST_WITHIN(test_failing_allocations, open_context, close_context) {
+CASE(test_failing_allocations) {
     check_memory memory = {.calls_left = -1};
     ewa_context_options options;
     ewa_context_options_init(&options, sizeof options);
@@ -345,7 +334,7 @@ static bool cancel_now(void *user, const char *stage, double fraction) {
     return --*(int *)user > 0;
 }
 
-TEST_WITHIN(test_cancelling, open_context, close_context) {
+CASE(test_cancelling) {
     for (int encoding = 0; encoding < 3; encoding++) {
         int calls_left = 1;
         ewa_context_options options;
@@ -361,7 +350,7 @@ TEST_WITHIN(test_cancelling, open_context, close_context) {
     }
 }
 
-TEST_WITHIN(test_hostile_files, open_context, close_context) {
+CASE(test_hostile_files) {
     static const struct {
         const char *path;
         ewa_status status;
@@ -385,7 +374,7 @@ TEST_WITHIN(test_hostile_files, open_context, close_context) {
     }
 }
 
-TEST_WITHIN(test_wrong_arguments, open_context, close_context) {
+CASE(test_wrong_arguments) {
     ewa_cloud *cloud;
     assert_int_equal(ewa_cloud_load(NULL, "a.ply", &cloud), EWA_ERROR_ARGUMENT);
     assert_int_equal(ewa_cloud_load(context, NULL, &cloud), EWA_ERROR_ARGUMENT);

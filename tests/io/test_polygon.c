@@ -6,18 +6,7 @@
 
 #include <math.h>
 
-static ewa_context *context;
-static check_log messages;
-
-static int enter(void **state) {
-    context = check_context(2, &messages);
-    return 0;
-}
-
-static int leave(void **state) {
-    ewa_context_destroy(&context);
-    return 0;
-}
+#include "io/fixture.h"
 
 static ewa_status read_text(const char *text, ewa_polygon **polygon) {
     // From memory that ends with the text, so that a sanitizer sees a step too far.
@@ -206,4 +195,4 @@ TEST(test_many_corners) {
     }
 }
 
-int main(void) { return RUN_TESTS(enter, leave); }
+int main(void) { return RUN_TESTS(begin, end); }

@@ -9,19 +9,7 @@
 
 #include <math.h>
 
-static ewa_context *context;
-static check_log messages;
-
-static int set_up(void **state) {
-    memset(&messages, 0, sizeof messages);
-    context = check_context(2, &messages);
-    return 0;
-}
-
-static int tear_down(void **state) {
-    ewa_context_destroy(&context);
-    return 0;
-}
+#include "io/fixture.h"
 
 enum { POINTS = 5003 };
 
@@ -65,7 +53,7 @@ static void world_of(const ewa_cloud *cloud, uint64_t point, double world[3]) {
 }
 
 /// Every format that is written, and the pieces of prime sizes that it is read and written in.
-TEST_WITHIN(test_pieces, set_up, tear_down) {
+CASE(test_pieces) {
     static const char *const suffixes[] = {".ply", ".las", ".laz", ".pcd", ".csv"};
     static const uint64_t sizes[] = {1, 7, 997, 5003, 100000};
     ewa_cloud *scan = make_scan();
@@ -133,7 +121,7 @@ static void let_go(void *user, void *block, size_t size_bytes) {
 }
 
 /// A file that is passed through needs memory for a piece, not for its points.
-TEST_WITHIN(test_memory, set_up, tear_down) {
+CASE(test_memory) {
     enum { MANY = 400000, PIECE = 4096, MAX_BYTES = 3 << 20 };
     ewa_cloud *cloud = NULL;
     float *position = NULL;
@@ -183,7 +171,7 @@ TEST_WITHIN(test_memory, set_up, tear_down) {
 }
 
 /// Only what is wanted is read, and positions always.
-TEST_WITHIN(test_wanted, set_up, tear_down) {
+CASE(test_wanted) {
     char path[512];
     ewa_cloud *scan = make_scan(), *piece = NULL;
     assert_int_equal(ewa_cloud_save(scan, scratch_path("wanted.ply", path), NULL), EWA_OK);
@@ -206,7 +194,7 @@ TEST_WITHIN(test_wanted, set_up, tear_down) {
 }
 
 /// A writer that was promised other points than it gets says so, and leaves nothing behind.
-TEST_WITHIN(test_promises, set_up, tear_down) {
+CASE(test_promises) {
     char path[512];
     ewa_cloud *scan = make_scan();
     scratch_path("promised.ply", path);
@@ -227,7 +215,7 @@ TEST_WITHIN(test_promises, set_up, tear_down) {
 }
 
 /// A number of points that is only known at the end is put where it belongs.
-TEST_WITHIN(test_unknown_count, set_up, tear_down) {
+CASE(test_unknown_count) {
     char path[512];
     ewa_cloud *scan = make_scan();
     ewa_cloud_writer *writer = NULL;
@@ -243,7 +231,7 @@ TEST_WITHIN(test_unknown_count, set_up, tear_down) {
 }
 
 /// Decimals are those that were there, also where the sum of two doubles is another double.
-TEST_WITHIN(test_grid, set_up, tear_down) {
+CASE(test_grid) {
     const ewa_coordinate_grid grid = {{0.01, 0.001, 0.25}, {600000, 0, 0.125}};
     assert_true(ewa_grid_world(&grid, 0, 600000 + 35619.85) == 635619.85);
     uint32_t inexact = 0;
@@ -282,7 +270,7 @@ TEST(test_places) {
 }
 
 /// Notes are copies, are replaced, removed, and handed on.
-TEST_WITHIN(test_notes, set_up, tear_down) {
+CASE(test_notes) {
     ewa_cloud *scan = make_scan(), *some = NULL, *both = NULL;
     size_t size_bytes;
     assert_int_equal(ewa_cloud_set_note(scan, "file.what", "a\0b", 3), EWA_OK);
