@@ -6,7 +6,7 @@
 //
 //   measure_lod build OUT.copc.laz IN...       makes an octree and says what it took
 //   measure_lod quality FILE [SPACING...]   PSNR against all points, of the octree and of picks of as many points
-//   measure_lod dolly FILE [FRAMES]            steps between the frames of a slow dolly
+//   measure_lod dolly FILE [FRAMES [ALL [OCTREE]]]  steps between the frames of a slow dolly; parts that the sides of pixels are divided into
 //   measure_lod speed FILE [DISTANCE]       cold and warm frames
 #include "ewa/ewa.h"
 #include "measure/measure.h"
@@ -243,13 +243,15 @@ static int dolly(ewa_context *context, int count, char **words) {
     uint64_t jumps = 0, values = 0;
     for (int f = 0; f < frame_count; f++) {
         const ewa_camera camera = camera_at(&info.bounds, 1.2 * pow(1.01, f));
-        const ewa_render_options options = unlit();
+        ewa_render_options options = unlit(), of_octree = unlit();
+        if (count > 2) options.supersampling = (uint32_t)atoi(words[2]);
+        if (count > 3) of_octree.supersampling = (uint32_t)atoi(words[3]);
         const ewa_frame full = {.rgba8 = pictures[f & 1]}, part = {.rgba8 = pictures[2 + (f & 1)]};
         ewa_lod_options lod_options;
         ewa_lod_options_init(&lod_options, sizeof lod_options);
         lod_options.memory_bytes = (uint64_t)1 << 33;
         check(ewa_render(renderer, surfels, &camera, &options, &full, NULL));
-        check(ewa_lod_render(lod, renderer, &camera, &options, &lod_options, &part, NULL));
+        check(ewa_lod_render(lod, renderer, &camera, &of_octree, &lod_options, &part, NULL));
         put_over_black(full.rgba8);
         put_over_black(part.rgba8);
         double square = 0;

@@ -167,7 +167,7 @@ static ewa_status check_bands(ewa_context *context, const ewa_cut_item *items, u
     if (most <= memory_bytes) return EWA_OK;
     return ewa_fail(context, EWA_ERROR_LIMIT,
                     "%d rows of the picture need %llu bytes of nodes, more than the %llu that are allowed: with so many, or with "
-                    "fewer pixels or a larger spacing of surfels, it can be drawn",
+                    "fewer pixels, a larger spacing of surfels or fewer of them (max_splats), it can be drawn",
                     BAND_PX, (unsigned long long)most, (unsigned long long)memory_bytes);
 }
 
