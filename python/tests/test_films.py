@@ -25,6 +25,21 @@ class Films(Case):
             image = scene.render(camera, out=image)
             yield image
 
+    def test_many_frames(self) -> None:
+        """A renderer draws levels from far away, and the bytes of a film of the program; one picture is of all surfels."""
+        ewa.generate("terrain", 270000).save(self.path("many.ply"))
+        scene = ewa.Scene(self.path("many.ply"))
+        camera = ewa.Camera.look_at((24, -24, 19.2), (0, 0, 0), size=(256, 256))
+        one, many = scene.render(camera), ewa.Renderer().render(scene, camera)
+        self.assertEqual(one.stats["level"], 0)
+        self.assertGreater(many.stats["level"], 0)
+        off = one.rgba8.astype(float) - many.rgba8
+        self.assertLessEqual(np.sqrt(np.mean(off[..., :3] ** 2)), 1)
+        camera.save(self.path("far.json"))
+        self.run_program("render", "many.ply", "--path", "far.json", "-o", "film_%d.png")
+        many.save(self.path("ours.png"))
+        self.assertEqual(self.bytes("ours.png"), self.bytes("film_0.png"))
+
     def test_turntable(self) -> None:
         self.run_program("render", "scan.ply", "-o", "theirs_%02d.png", "--turntable", "5", "--size", "64x48", "--elevation", "20")
         scene = ewa.Scene(self.path("scan.ply"))

@@ -31,6 +31,9 @@ static const float GREY = 0.2f;
 /// What is off by more where it covers looks blurred, however little of the frame that is; 1/255.
 static const double MOST_RMS = 12;
 
+/// What cameras see of slopes and outlines beyond what patches show: a terrain was off by 1.4 times as much.
+static const double CAUTION = 1.5;
+
 /// What errors grow by from level to level where surfels are as large as pixels; beyond those that are measured.
 static const double GROWTH = 2;
 
@@ -275,7 +278,7 @@ static ewa_status choose(ewa_context *context, ewa_details *details, const ewa_c
     const double share = find_share(*surfels, camera);
     while (*level + 1 < EWA_MAX_LEVELS) {
         const double rms = error_of(of, *level + 1, of->spacing_world * px_per_world);
-        if (rms > MOST_RMS || rms * sqrt(share * count) > most_rms) break;
+        if (rms > MOST_RMS || CAUTION * rms * sqrt(share * count) > most_rms) break;
         ++*level;
     }
     if (!*level) return EWA_OK;
