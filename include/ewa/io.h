@@ -215,7 +215,8 @@ EWA_API ewa_status ewa_png_save(ewa_context *context, const char *path, uint32_t
 EWA_API ewa_status ewa_jpeg_save(ewa_context *context, const char *path, uint32_t width_px, uint32_t height_px,
                                  uint32_t channel_count, const uint8_t *pixels, size_t stride_bytes);
 
-/// Writes 8-bit pixels by suffix: .jpg and .jpeg by ewa_jpeg_save(), all else by ewa_png_save(), which see.
+/// Writes 8-bit pixels by suffix: .jpg and .jpeg by ewa_jpeg_save(), .png and "-", standard output, by ewa_png_save(), which see.
+/// Errors: theirs; EWA_ERROR_UNSUPPORTED for other suffixes, too.
 EWA_API ewa_status ewa_pixels_save(ewa_context *context, const char *path, uint32_t width_px, uint32_t height_px,
                                    uint32_t channel_count, const uint8_t *pixels, size_t stride_bytes);
 

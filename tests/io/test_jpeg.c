@@ -268,6 +268,7 @@ TEST(test_not_written) {
     assert_int_equal(ewa_jpeg_save(context, path, 0, 2, 3, codes, 6), EWA_ERROR_ARGUMENT);
     assert_int_equal(ewa_jpeg_save(context, path, 65501, 1, 1, codes, 65501), EWA_ERROR_ARGUMENT);
     assert_int_equal(ewa_pixels_save(context, NULL, 2, 2, 3, codes, 6), EWA_ERROR_ARGUMENT);
+    assert_int_equal(ewa_pixels_save(context, "picture.ppm", 2, 2, 3, codes, 6), EWA_ERROR_UNSUPPORTED);
     assert_null(fopen(path, "rb"));
     assert_int_equal(ewa_jpeg_save(context, "/nowhere/x.jpg", 2, 2, 3, codes, 6), EWA_ERROR_IO);
     assert_non_null(strstr(log.text, "/nowhere/x.jpg"));

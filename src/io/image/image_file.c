@@ -80,11 +80,15 @@ static bool has_suffix(const char *path, const char *suffix) {
 
 static bool is_jpeg(const char *path) { return has_suffix(path, ".jpg") || has_suffix(path, ".jpeg"); }
 
+/// Or standard output.
+static bool is_png(const char *path) { return has_suffix(path, ".png") || strcmp(path, "-") == 0; }
+
 ewa_status ewa_pixels_save(ewa_context *context, const char *path, uint32_t width_px, uint32_t height_px,
                            uint32_t channel_count, const uint8_t *pixels, size_t stride_bytes) {
-    if (!path) return EWA_ERROR_ARGUMENT;
-    return (is_jpeg(path) ? ewa_jpeg_save : ewa_png_save)(context, path, width_px, height_px, channel_count,
-                                                          pixels, stride_bytes);
+    if (!context || !path) return EWA_ERROR_ARGUMENT;
+    if (is_jpeg(path)) return ewa_jpeg_save(context, path, width_px, height_px, channel_count, pixels, stride_bytes);
+    if (is_png(path)) return ewa_png_save(context, path, width_px, height_px, channel_count, pixels, stride_bytes);
+    return ewa_fail(context, EWA_ERROR_UNSUPPORTED, "%s: the suffix is none of .png .jpg .jpeg", path);
 }
 
 static ewa_status save_codes(const ewa_image *image, const char *path,
@@ -124,7 +128,7 @@ ewa_status ewa_image_save(const ewa_image *image, const char *path, const ewa_im
     ewa_image_save_options chosen;
     ewa_image_save_options_init(&chosen, sizeof chosen);
     EWA_TRY(ewa_options_take(image->context, &ewa_image_save_options_table, options, &chosen));
-    if (has_suffix(path, ".png") || is_jpeg(path) || strcmp(path, "-") == 0)
+    if (is_png(path) || is_jpeg(path))
         return save_codes(image, path, &chosen);
     if (has_suffix(path, ".exr")) return ewa_exr_save(image, path, &chosen);
     if (has_suffix(path, ".pfm")) return ewa_pfm_save(image, path);
