@@ -11,26 +11,12 @@ import { join } from "node:path";
 import { pathToFileURL } from "node:url";
 import { serve } from "./chromium.mjs";
 import {
-  browser, check, check_quiet, decode, ewa, finish, HEAR, HEIGHT, ISOLATED, keep, part, PIXELS, same, scratch, show, shown, view, WIDTH, write_gaussians,
-  write_mesh,
+  browser, check, check_quiet, decode, ewa, finish, HEAR, HEIGHT, ISOLATED, keep, part, PIXELS, same, scratch, show, shown, view, WIDTH, write_kinds,
 } from "./pages.mjs";
 
 // ---- What is shown
 
-ewa("generate", "torus", "-n", "6000", "--positions-only", "-o", "bare.ply");
-ewa("generate", "terrain", "-n", "20000", "-o", "terrain.laz");
-ewa("generate", "vessels", "--dims", "32", "-o", "vessels.nrrd");
-ewa("lod", "terrain.laz", "-o", "terrain.copc.laz");
-ewa("convert", "terrain.laz", "-o", "terrain.pcd");
-write_gaussians("spiral.ply", 800);
-ewa("convert", "spiral.ply", "-o", "spiral.spz");
-ewa("render", "torus.ply", "-o", "picture.jpg", "--size", "160x120", "--background", "#e0d0a0");
-write_mesh("bowl.glb", "picture.jpg");
-writeFileSync(join(scratch, "scene.json"), JSON.stringify({
-  ewa_scene: 1, options: { render: { opacity: 0.6 } },
-  items: [{ file: "torus.ply" }, { file: "terrain.laz", to_world: [0.1, 0, 0, 0, 0, 0.1, 0, 0, 0, 0, 0.1, -1, 0, 0, 0, 1], color_by: "z" }],
-}));
-const kinds = ["torus.ply", "bare.ply", "terrain.laz", "terrain.copc.laz", "vessels.nrrd", "spiral.ply", "scene.json", "terrain.pcd", "spiral.spz", "bowl.glb"];
+const kinds = write_kinds();
 
 // Two at a time: one is parsed while the other is drawn.
 const check_kind = (kind) => check(`${kind} is what ewa render draws`, async () => {

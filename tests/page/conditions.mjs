@@ -11,11 +11,11 @@ import { createServer } from "node:http";
 import { join } from "node:path";
 import { launch, serve } from "./chromium.mjs";
 import {
-  browser, check, check_quiet, chromium, ewa, finish, HEAR, HEIGHT, ISOLATED, PIXELS, program, same, scratch, show, shown, view, WIDTH, write_mesh,
+  browser, check, check_quiet, chromium, ewa, finish, HEAR, HEIGHT, ISOLATED, PIXELS, processors, program, same, scratch, show, shown, view, WIDTH, write_mesh,
 } from "./pages.mjs";
 
 const SIZE = `${WIDTH}x${HEIGHT}`;
-const site = join(scratch, "site"), processors = (n) => `Object.defineProperty(navigator, "hardwareConcurrency", { get: () => ${n} });`;
+const site = join(scratch, "site");
 
 ewa("generate", "terrain", "-n", "30000", "-o", "terrain.laz");
 ewa("page", "torus.ply", "terrain.laz", "--folder", "site");

@@ -94,6 +94,9 @@ export function decode(path) {
   return out;
 }
 
+/// Has a page see so many processors.
+export const processors = (n) => `Object.defineProperty(navigator, "hardwareConcurrency", { get: () => ${n} });`;
+
 export const view = `document.querySelector("ewa-view")`;
 export const part = (selector) => `${view}.shadowRoot.querySelector(${JSON.stringify(selector)})`;
 export const PIXELS = `(() => { const c = ${part("canvas")}; const p = c.getContext("2d").getImageData(0, 0, c.width, c.height).data;
@@ -160,4 +163,22 @@ export function write_mesh(name, picture) {
   const words = (...numbers) => Buffer.from(Uint32Array.from(numbers).buffer);
   writeFileSync(join(scratch, name), Buffer.concat([words(0x46546c67, 2, 28 + padded.length + body.length, padded.length, 0x4e4f534a), padded,
                                                     words(body.length, 0x004e4942), body]));
+}
+
+/// Writes a scene of every kind; returns their files.
+export function write_kinds() {
+  ewa("generate", "torus", "-n", "6000", "--positions-only", "-o", "bare.ply");
+  ewa("generate", "terrain", "-n", "20000", "-o", "terrain.laz");
+  ewa("generate", "vessels", "--dims", "32", "-o", "vessels.nrrd");
+  ewa("lod", "terrain.laz", "-o", "terrain.copc.laz");
+  ewa("convert", "terrain.laz", "-o", "terrain.pcd");
+  write_gaussians("spiral.ply", 800);
+  ewa("convert", "spiral.ply", "-o", "spiral.spz");
+  ewa("render", "torus.ply", "-o", "picture.jpg", "--size", "160x120", "--background", "#e0d0a0");
+  write_mesh("bowl.glb", "picture.jpg");
+  writeFileSync(join(scratch, "scene.json"), JSON.stringify({
+    ewa_scene: 1, options: { render: { opacity: 0.6 } },
+    items: [{ file: "torus.ply" }, { file: "terrain.laz", to_world: [0.1, 0, 0, 0, 0, 0.1, 0, 0, 0, 0, 0.1, -1, 0, 0, 0, 1], color_by: "z" }],
+  }));
+  return ["torus.ply", "bare.ply", "terrain.laz", "terrain.copc.laz", "vessels.nrrd", "spiral.ply", "scene.json", "terrain.pcd", "spiral.spz", "bowl.glb"];
 }
