@@ -9,6 +9,7 @@
 #include <ImfIO.h>
 #include <ImfInputFile.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <cstring>
 #include <new>
@@ -16,32 +17,35 @@
 
 namespace {
 
-/// A file that lies in memory.
+/// A file that lies in memory, whose beginning is another.
 class bytes_stream : public Imf::IStream {
 public:
-    bytes_stream(const uint8_t *file, size_t file_bytes) : IStream("bytes"), bytes(file), size_bytes(file_bytes) {}
+    bytes_stream(const uint8_t *beginning, size_t beginning_bytes, const uint8_t *file, size_t file_bytes)
+        : IStream("bytes"), head(beginning), bytes(file), head_bytes(beginning_bytes), size_bytes(file_bytes) {}
 
     bool read(char to[], int count) override {
         if (count < 0 || static_cast<uint64_t>(count) > size_bytes - at) throw std::runtime_error("it ends too early");
-        std::memcpy(to, bytes + at, static_cast<size_t>(count));
-        at += static_cast<uint64_t>(count);
+        const uint64_t end = at + static_cast<uint64_t>(count), of_head = at < head_bytes ? std::min(end, head_bytes) - at : 0;
+        std::memcpy(to, head + (of_head ? at : 0), of_head);
+        std::memcpy(to + of_head, bytes + at + of_head, static_cast<size_t>(count) - of_head);
+        at = end;
         return at < size_bytes;
     }
     uint64_t tellg() override { return at; }
     void seekg(uint64_t position) override { at = position < size_bytes ? position : size_bytes; }
 
 private:
-    const uint8_t *bytes;
-    uint64_t size_bytes, at = 0;
+    const uint8_t *head, *bytes;
+    uint64_t head_bytes, size_bytes, at = 0;
 };
 
 } // namespace
 
-ewa_exr_dwa_result ewa_exr_dwa_decode(const uint8_t *bytes, size_t size_bytes, const char *const *channels,
-                                      uint32_t channel_count, uint32_t width_px, uint32_t height_px, float *pixels,
+ewa_exr_dwa_result ewa_exr_dwa_decode(const uint8_t *head, size_t head_bytes, const uint8_t *bytes, size_t size_bytes,
+                                      const char *const *channels, uint32_t channel_count, uint32_t width_px, uint32_t height_px, float *pixels,
                                       char *reason, size_t reason_bytes) {
     try {
-        bytes_stream stream(bytes, size_bytes);
+        bytes_stream stream(head, head_bytes, bytes, size_bytes);
         Imf::InputFile file(stream, 0); // in this thread
         const auto &window = file.header().dataWindow();
         if (int64_t{window.max.x} - window.min.x + 1 != width_px || int64_t{window.max.y} - window.min.y + 1 != height_px)
