@@ -191,6 +191,14 @@ static void look(const ewa_acquire_set *set, const ewa_acquire_point *point, con
     if (point->texture == EWA_ACQUIRE_NO_TEXTURE) return;
     const double d[2] = {pair->mean[0] - chart->plane[0], pair->mean[1] - chart->plane[1]};
     const double(*j)[2] = chart->j;
+    const ewa_texture *texture = &set->textures[point->texture];
+    double mean[4];
+    if (j[0][0] == 0 && j[0][1] == 0 && j[1][0] == 0 && j[1][1] == 0) {
+        // All of a triangle on one place: the picture is a palette, whose pixels are no neighbours.
+        ewa_texture_nearest(texture, chart->at_px[0], chart->at_px[1], mean);
+        for (int c = 0; c < 4; c++) color[c] *= mean[c];
+        return;
+    }
     // J C J'.
     const double ax = j[0][0] * pair->xx + j[0][1] * pair->xy, ay = j[0][0] * pair->xy + j[0][1] * pair->yy;
     const double bx = j[1][0] * pair->xx + j[1][1] * pair->xy, by = j[1][0] * pair->xy + j[1][1] * pair->yy;
@@ -201,8 +209,6 @@ static void look(const ewa_acquire_set *set, const ewa_acquire_point *point, con
         .xy_px2 = ax * j[1][0] + ay * j[1][1],
         .yy_px2 = bx * j[1][0] + by * j[1][1] + set->pixel_variance_px2,
     };
-    const ewa_texture *texture = &set->textures[point->texture];
-    double mean[4];
     ewa_texture_round(&gauss);
     ewa_texture_mean(texture, ewa_texture_level_of(texture, &gauss), &gauss, mean);
     for (int c = 0; c < 4; c++) color[c] *= mean[c];

@@ -206,6 +206,29 @@ TEST_ON(test_a_constant_stays, 0) {
     ewa_image_free(&image);
 }
 
+/// Charts of no extent: every point has the pixel that it is on, whatever is beside that, as palettes have it.
+TEST_ON(test_a_palette_is_no_picture, 0) {
+    enum { POINTS = 3000 };
+    ewa_image palette;
+    assert_int_equal(ewa_image_create(context, 3, 1, 3, &palette), EWA_OK);
+    memcpy(palette.pixels, (const float[9]){0, 0, 1, 0.7f, 0.1f, 0.2f, 1, 1, 0}, 9 * sizeof *palette.pixels);
+    for (int filter = 0; filter <= EWA_TEXTURE_OPTIMAL; filter++) {
+        ewa_cloud *cloud = make_object(context, EWA_OBJECT_CUBE, POINTS, 1.5);
+        void *texcoord, *gradient[2];
+        assert_int_equal(ewa_cloud_add(cloud, EWA_TEXCOORD, EWA_F32, 2, &texcoord), EWA_OK);
+        assert_int_equal(ewa_cloud_add(cloud, EWA_TEXCOORD_S, EWA_F32, 3, &gradient[0]), EWA_OK);
+        assert_int_equal(ewa_cloud_add(cloud, EWA_TEXCOORD_T, EWA_F32, 3, &gradient[1]), EWA_OK);
+        for (int i = 0; i < 2 * POINTS; i++) ((float *)texcoord)[i] = 0.5f;
+        for (int k = 0; k < 2; k++) memset(gradient[k], 0, 3 * POINTS * sizeof(float));
+        const ewa_acquire_options options = options_of((ewa_texture_filter)filter);
+        assert_int_equal(ewa_cloud_acquire(cloud, &palette, 1, &options, NULL), EWA_OK);
+        const float *color = check_stream(cloud, EWA_COLOR);
+        for (int i = 0; i < 3 * POINTS; i++) assert_float_equal(color[i], palette.pixels[3 + i % 3], 1e-5);
+        ewa_cloud_destroy(&cloud);
+    }
+    ewa_image_free(&palette);
+}
+
 /// The drawn colour at a place of the plane z = 0: kernels of one sigma, normalised.
 static void reconstruct(const ewa_cloud *cloud, double x, double y, double color[3]) {
     const float *p = check_stream(cloud, EWA_POSITION), *radius = check_stream(cloud, EWA_RADIUS),
