@@ -189,9 +189,10 @@ typedef struct ewa_scene_options {
     /// options count, whatever ewa_scene_draw() is given. Colours, estimates and cameras stay those of the whole.
     ewa_region regions[EWA_MAX_REGIONS];
     uint32_t region_count; ///< of `regions`; [0, EWA_MAX_REGIONS]; default 0
-    /// Of what is drawn many frames follow, as of a film: surfels in memory are drawn by levels of detail, which the renderer
-    /// makes when the first frame can do with them, where the picture is expected to be off by no more than a third of
-    /// `lod.error`, so by 1/255 unless that is changed (root of the mean square over all pixels); default false: by all surfels
+    /// Many frames of the scene follow, as of a film: surfels in memory are drawn by levels of detail where the picture is expected
+    /// to be off by no more than a third of `lod.error` (root of the mean square over all pixels), 1/255 by default. The renderer
+    /// makes the levels for the first frame that they are enough for. Without effect where `render` has a level, a budget, a point
+    /// size or a supersampling other than 1, and on panoramas. Default false: by all surfels
     bool many_frames;
 } ewa_scene_options;
 

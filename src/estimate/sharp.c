@@ -6,7 +6,7 @@
 
 #include <math.h>
 
-enum { SAMPLES = 1 << 14, FEWEST = 256 }; // places that are looked at
+enum { SAMPLES = 1 << 14, MIN_SAMPLES = 256 }; // places that are looked at
 
 /// Cosines of turns from a place to one beside it that make it flat and sharp: noise of a hundredth of the spacing turns
 /// normals by more than the first, and a fitted plane on an edge of a cube by 45 degrees.
@@ -20,16 +20,17 @@ bool ewa_sharp_find(uint32_t place_count, const curvature_input *input, const ui
     const uint32_t step = place_count / SAMPLES + 1;
     uint32_t looked = 0, flat = 0, sharp = 0, off = 0;
     for (uint32_t place = 0; place < place_count; place += step, looked++) {
-        double least = 1;
+        double min_cosine = 1;
         for (int i = 0; i < LOCAL_GRAPH_DEGREE; i++) {
             if (input->links[place][i] == UINT32_MAX) continue;
             const float *own = input->normals + 3 * (size_t)place, *next = input->normals + 3 * (size_t)input->links[place][i];
-            least = fmin(least, fabs((double)own[0] * (double)next[0] + (double)own[1] * (double)next[1] +
-                                     (double)own[2] * (double)next[2]));
+            double cosine = 0;
+            for (int c = 0; c < 3; c++) cosine += (double)own[c] * (double)next[c];
+            min_cosine = fmin(min_cosine, fabs(cosine));
         }
-        flat += least > FLAT;
-        sharp += least < SHARP;
+        flat += min_cosine > FLAT;
+        sharp += min_cosine < SHARP;
         off += strewn && strewn[place] > UINT8_MAX / 2;
     }
-    return looked >= FEWEST && flat >= FLAT_SHARE * looked && sharp >= SHARP_SHARE * looked && off <= STREWN_SHARE * looked;
+    return looked >= MIN_SAMPLES && flat >= FLAT_SHARE * looked && sharp >= SHARP_SHARE * looked && off <= STREWN_SHARE * looked;
 }

@@ -265,7 +265,7 @@ static void read_back(ewa_gl_compute *gl, ewa_gl_buffer_kind kind, uint64_t at_b
 /// Raises the marks that pairs and requests went beyond; `*again`: some did.
 static ewa_status check_pairs(ewa_gl_compute *gl, const ewa_gl_tally *tally, bool *again) {
     const uint64_t pairs = tally->pair_count, requests = tally->near_count > tally->clip_count ? tally->near_count
-                                                                                           : tally->clip_count;
+                                                                                                : tally->clip_count;
     *again = pairs > gl->marks.pairs || requests > gl->marks.requests;
     if (tally->carry)
         return ewa_fail(gl->context, EWA_ERROR_LIMIT, "OpenGL: more than %u packets or splats in the tiles of a band",

@@ -14,6 +14,7 @@
 #include "lod/cut.h"
 #include "base/base.h"
 #include "homogeneous/vec.h"
+#include "surface/levels.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -84,9 +85,10 @@ static sight_of look_at(const ewa_cut *c, const ewa_lod_node *node) {
 
 /// Levels of a root's surfels beside all of them; of a root that is not divided none.
 static uint32_t root_levels(const ewa_cut *c) {
-    enum { FEWEST = 1024 };
+    const ewa_lod_node *root = c->lod->nodes;
     uint32_t level = 0;
-    while (!c->whole_roots && c->lod->nodes->divided && level + 1 < EWA_MAX_LEVELS && c->lod->nodes->count >> 2 * (level + 1) >= FEWEST) level++;
+    if (c->whole_roots || !root->divided) return 0;
+    while (level + 1 < EWA_MAX_LEVELS && root->count >> 2 * (level + 1) >= EWA_LEVEL_MIN_SURFELS) level++;
     return level;
 }
 

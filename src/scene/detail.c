@@ -19,9 +19,9 @@ enum {
     PATCH_PACKETS = 1024, // neighbours along the curve: a patch of some 128 by 128
     LEVELS = 2,           // of a patch, of which the last has 1,024
     SCALES = LEVELS + 1,  // 2^scale surfels are a pixel wide; at the coarsest a patch is sixteen
-    MOST_PX = 256,
+    MAX_PX = 256,         // of a frame that a patch is drawn in
     CELLS = 64,           // along the longer side of what is seen
-    LOOKS = 1 << 14,      // packets that are looked for in them
+    SAMPLES = 1 << 14,    // packets that are looked for in them
 };
 
 /// Directions and colours in sums of squares: from the normal by so much, over a middle grey.
@@ -29,21 +29,21 @@ static const double TILT = 0.7;
 static const float GREY = 0.2f;
 
 /// What is off by more where it covers looks blurred, however little of the frame that is; 1/255.
-static const double MOST_RMS = 12;
+static const double MAX_RMS = 12;
 
 /// What cameras see of slopes and outlines beyond what patches show: a terrain was off by 1.4 times as much.
-static const double CAUTION = 1.5;
+static const double SAFETY_FACTOR = 1.5;
 
 /// What errors grow by from level to level where surfels are as large as pixels; beyond those that are measured.
 static const double GROWTH = 2;
 
 typedef struct detail {
-    uint64_t serial, last_frame;
-    double spacing_world;               ///< of all surfels, about
+    uint64_t serial, last_frame; ///< of the surfels; that had them
+    double spacing_world;        ///< of all surfels, about
     /// Mean square of what levels are off by where they cover, (1/255)^2: where their surfels are a pixel apart, and half a pixel.
     double square[LEVELS + 1][2];
-    ewa_surfels head;                      ///< surfels without levels, borrowed, before those that the detail makes of them
-    bool made; ///< levels, where there are any
+    ewa_surfels head; ///< surfels without levels, borrowed, before those that the detail makes of them
+    bool made;        ///< its levels, where there are any
 } detail;
 
 static void free_detail(detail *of) { ewa_surfels_destroy(&of->head.coarser); }
@@ -114,7 +114,7 @@ static patch_view look_at_patch(const ewa_surfels *patch) {
 /// The frames that levels of a patch are compared by.
 typedef struct patch_frames {
     ewa_renderer *renderer;
-    uint8_t *all, *level; ///< MOST_PX squared
+    uint8_t *all, *level; ///< MAX_PX squared
 } patch_frames;
 
 static ewa_status draw_patch(const patch_frames *frames, const patch_view *view, const ewa_surfels *surfels,
@@ -124,7 +124,7 @@ static ewa_status draw_patch(const patch_frames *frames, const patch_view *view,
     ewa_camera_init(&camera);
     ewa_render_options_init(&options, sizeof options);
     const double side = ceil(2 * view->half_world / pixel_world) + 2;
-    *side_px = side < MOST_PX ? (uint32_t)side : MOST_PX;
+    *side_px = side < MAX_PX ? (uint32_t)side : MAX_PX;
     camera.width_px = camera.height_px = *side_px;
     EWA_TRY(ewa_camera_set_ortho(&camera, *side_px * pixel_world));
     double eye[3];
@@ -177,7 +177,7 @@ static ewa_status measure(ewa_context *context, const ewa_surfels *surfels, deta
     }
     // The density follows from the unit coverage, sigma^2 d (1 - exp(-F^2 / 2)).
     of->spacing_world = sqrt(sigma2 * kernel / surfels->unit_coverage);
-    const size_t bytes = 4 * (size_t)MOST_PX * MOST_PX;
+    const size_t bytes = 4 * (size_t)MAX_PX * MAX_PX;
     patch_frames frames = {.all = ewa_allocate(context, bytes, 1), .level = ewa_allocate(context, bytes, 1)};
     ewa_status status = frames.all && frames.level ? ewa_renderer_create(context, &frames.renderer) : EWA_ERROR_MEMORY;
     for (uint32_t i = 0; i < PATCHES && status == EWA_OK && of->spacing_world > 0; i++) {
@@ -202,23 +202,25 @@ static double error_of(const detail *of, uint32_t level, double spacing_px) {
     return sqrt(scale > level ? (square[0] + square[1]) / 2 : square[0]) * pow(GROWTH, level - measured);
 }
 
-/// Finds what is known of surfels, measures them where nothing is.
-static ewa_status find(ewa_context *context, ewa_details *details, const ewa_surfels *surfels, detail **found) {
+/// Returns what is known of surfels; NULL: nothing is.
+static detail *find(const ewa_details *details, const ewa_surfels *surfels) {
     detail *items = details->items.data;
     for (uint32_t i = 0; i < details->count; i++)
-        if (items[i].serial == surfels->serial) {
-            *found = &items[i];
-            return EWA_OK;
-        }
-    EWA_TRY(ewa_buffer_grow(context, &details->items, details->count, (size_t)details->count + 1, sizeof *items));
+        if (items[i].serial == surfels->serial) return &items[i];
+    return NULL;
+}
+
+/// Measures surfels of which nothing is known.
+static ewa_status add(ewa_context *context, ewa_details *details, const ewa_surfels *surfels, detail **added) {
+    EWA_TRY(ewa_buffer_grow(context, &details->items, details->count, (size_t)details->count + 1, sizeof **added));
     detail made = {.serial = surfels->serial};
     EWA_TRY(measure(context, surfels, &made));
-    *found = (detail *)details->items.data + details->count++;
-    **found = made;
+    *added = (detail *)details->items.data + details->count++;
+    **added = made;
     return EWA_OK;
 }
 
-/// Pixels that a world unit has in a frame at most, where surfels begin; infinite: the camera is among them.
+/// Largest number of pixels of a world unit, where the surfels are nearest; infinite: the camera is among them.
 static double find_scale(const ewa_surfels *surfels, const ewa_camera *camera) {
     const double *z = &camera->world_to_camera[8];
     double near_z = z[3];
@@ -247,7 +249,7 @@ static bool find_pixel(const ewa_surfels *surfels, const ewa_camera *camera, uin
 
 /// The share of a frame that surfels cover: of the cells of the box around what is seen of them, those with packets in them.
 static double find_share(const ewa_surfels *surfels, const ewa_camera *camera) {
-    const uint32_t step = surfels->packet_count / LOOKS + 1;
+    const uint32_t step = surfels->packet_count / SAMPLES + 1;
     double low_px[2] = {INFINITY, INFINITY}, high_px[2] = {-INFINITY, -INFINITY}, px[2];
     for (uint32_t p = 0; p < surfels->packet_count; p += step)
         for (int k = 0; find_pixel(surfels, camera, p, px) && k < 2; k++)
@@ -266,19 +268,22 @@ static double find_share(const ewa_surfels *surfels, const ewa_camera *camera) {
 }
 
 /// Chooses a level of one of `count` surfels.
-static ewa_status choose(ewa_context *context, ewa_details *details, const ewa_camera *camera, double most_rms, uint32_t count,
+static ewa_status choose(ewa_context *context, ewa_details *details, const ewa_camera *camera, double max_rms, uint32_t count,
                          const ewa_surfels **surfels, uint32_t *level) {
     *level = 0;
     if ((*surfels)->count < MIN_SURFELS) return EWA_OK;
+    // What is known stays while the camera is among the surfels, where no level is enough.
+    detail *of = find(details, *surfels);
+    if (of) of->last_frame = details->frame;
     const double px_per_world = find_scale(*surfels, camera);
     if (!(px_per_world < INFINITY)) return EWA_OK;
-    detail *of;
-    EWA_TRY(find(context, details, *surfels, &of));
+    if (!of) EWA_TRY(add(context, details, *surfels, &of));
     of->last_frame = details->frame;
+    if (!(of->spacing_world > 0)) return EWA_OK; // discs without size, of which nothing was measured
     const double share = find_share(*surfels, camera);
     while (*level + 1 < EWA_MAX_LEVELS) {
         const double rms = error_of(of, *level + 1, of->spacing_world * px_per_world);
-        if (rms > MOST_RMS || CAUTION * rms * sqrt(share * count) > most_rms) break;
+        if (rms > MAX_RMS || SAFETY_FACTOR * rms * sqrt(share * count) > max_rms) break;
         ++*level;
     }
     if (!*level) return EWA_OK;
@@ -297,7 +302,7 @@ static ewa_status choose(ewa_context *context, ewa_details *details, const ewa_c
 }
 
 ewa_status ewa_details_choose(ewa_context *context, ewa_details *details, const ewa_camera *camera,
-                              const ewa_render_options *options, double most_rms, const ewa_surfels **surfels,
+                              const ewa_render_options *options, double max_rms, const ewa_surfels **surfels,
                               uint32_t count, uint32_t *level) {
     *level = 0;
     // Whoever says how fine surfels are drawn has the say.
@@ -305,7 +310,7 @@ ewa_status ewa_details_choose(ewa_context *context, ewa_details *details, const 
     details->frame++;
     for (uint32_t i = 0; i < count; i++) {
         uint32_t own;
-        EWA_TRY(choose(context, details, camera, most_rms, count, &surfels[i], &own));
+        EWA_TRY(choose(context, details, camera, max_rms, count, &surfels[i], &own));
         if (own > *level) *level = own;
     }
     detail *items = details->items.data;

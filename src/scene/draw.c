@@ -103,14 +103,13 @@ ewa_status ewa_scene_list_shown(const ewa_scene *scene, const ewa_lod_options *o
     if (scene->surface && scene->surface->surfels) {
         shown->surfels[shown->surfels_count++] = scene->surface->surfels;
         shown->colored = scene->surface->colored;
-        shown->photographed = shown->colored && scene->surface->photographed;
+        shown->photographed = scene->surface->photographed;
     }
     for (uint32_t i = 0; i < scene->count; i++) {
         const ewa_asset *asset = scene->items[i].asset;
         if (!scene->items[i].instance.visible) continue;
-        const bool colored = has_colors(scene, i);
-        shown->colored = shown->colored || colored;
-        shown->photographed = shown->photographed && !colored;
+        shown->colored = shown->colored || has_colors(scene, i);
+        shown->photographed = shown->photographed && !asset->surfels && !asset->lod;
         if (asset->surfels) shown->surfels[shown->surfels_count++] = asset->surfels;
         if (asset->lod) shown->lods[shown->lod_count++] = asset->lod;
         if (asset->splats) {
@@ -132,7 +131,7 @@ static const double BARE_LIGHT_CAMERA[3] = {-0.5, -0.6, -1};
 
 /// Lights surfaces without colours from above left of the eye, unless lights are given: their form is all there is to
 /// see, and a headlight shows little of it. Colours keep the headlight, which leaves them as they are where they are
-/// faced; those of photographs are lit already.
+/// faced; those of photographs are lit already, where nothing else is seen that light has to show.
 static void light_by_default(const ewa_scene_shown *shown, const ewa_camera *camera, ewa_render_options *render) {
     if (render->light_count || render->shading != EWA_SHADING_LAMBERT) return;
     if (shown->photographed) render->shading = EWA_SHADING_NONE;

@@ -35,7 +35,7 @@ typedef struct ewa_scene_shown {
     const ewa_asset *volumes[EWA_MAX_MIXED_VOLUMES];
     uint32_t surfels_count, lod_count, splats_count, volume_count;
     bool colored;      ///< some surface has colours
-    bool photographed; ///< all that is coloured has the light of photographs
+    bool photographed; ///< all surfaces have the light of photographs
     double near_world; ///< that suits the Gaussians
 } ewa_scene_shown;
 

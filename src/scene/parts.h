@@ -99,7 +99,7 @@ typedef struct ewa_surface {
     ewa_surfels_options options;
     bool close_gaps;
     bool colored;   ///< some of it has colours, and is not plain
-    bool photographed; ///< all that is coloured is
+    bool photographed; ///< all of it is
     uint32_t region_count;
     ewa_region regions[EWA_MAX_REGIONS]; ///< that hide points
     bool as_points; ///< drawn as discs of pixels: gaps do not matter

@@ -27,8 +27,7 @@ static bool is_in_outline(const ewa_region *region, double x, double y) {
     return inside;
 }
 
-/// Whether the sides of a region's box are not those of the world.
-static bool is_turned(const ewa_region *region) {
+bool ewa_region_is_turned(const ewa_region *region) {
     bool turned = false;
     for (int i = 0; i < 9; i++) turned = turned || region->box_axes_world[i] != 0;
     return turned;
@@ -36,9 +35,10 @@ static bool is_turned(const ewa_region *region) {
 
 static bool is_inside(const ewa_region *region, const double p[3], double code) {
     if (!region->has_box && !region->has_classes && !region->corner_count) return false;
+    const bool turned = region->has_box && ewa_region_is_turned(region);
     for (int c = 0; c < 3 && region->has_box; c++) {
         const double *axis = region->box_axes_world + 3 * c;
-        const double at = is_turned(region) ? axis[0] * p[0] + axis[1] * p[1] + axis[2] * p[2] : p[c];
+        const double at = turned ? axis[0] * p[0] + axis[1] * p[1] + axis[2] * p[2] : p[c];
         if (!(at >= region->box_world[c] && at <= region->box_world[3 + c])) return false;
     }
     if (region->has_classes) {

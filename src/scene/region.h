@@ -10,6 +10,9 @@
 /// Whether six numbers are a lower and an upper corner.
 bool ewa_region_is_box(const double box_world[6]);
 
+/// Whether a region's box has axes of its own, other than those of the world.
+bool ewa_region_is_turned(const ewa_region *region);
+
 /// Checks that the numbers of regions are finite and as many as there may be, and boxes those of a lower and an upper corner.
 ewa_status ewa_regions_check(ewa_context *context, const ewa_region *regions, uint32_t count);
 

@@ -91,9 +91,7 @@ static bool add_region(cJSON *list, const ewa_region *region) {
     cJSON *object = cJSON_CreateObject();
     bool done = cJSON_AddItemToArray(list, object) && cJSON_AddBoolToObject(object, "keep", region->kept);
     if (done && region->has_box) done = add_numbers(object, "box", region->box_world, 6);
-    bool turned = false;
-    for (int i = 0; i < 9; i++) turned = turned || region->box_axes_world[i] != 0;
-    if (done && region->has_box && turned) done = add_numbers(object, "box_axes", region->box_axes_world, 9);
+    if (done && region->has_box && ewa_region_is_turned(region)) done = add_numbers(object, "box_axes", region->box_axes_world, 9);
     if (done && region->has_classes) {
         double codes[EWA_REGION_CLASSES];
         uint32_t count = 0;

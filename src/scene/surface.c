@@ -301,9 +301,9 @@ static ewa_status gather(ewa_scene *scene, ewa_surface *surface, const shown_clo
     for (uint32_t i = 0; i < surface->cloud_count; i++) {
         const ewa_surface_key *key = &surface->keys[i];
         const bool own = !shown->colorings[i].tinted && ewa_coloring_is_own(shown->colorings[i].attribute);
-        if (!ewa_cloud_find(shown->clouds[i], EWA_COLOR) || (own && key->asset->plain)) continue;
-        surface->colored = true;
-        surface->photographed = surface->photographed && own && key->completed && key->completed->photographed;
+        const bool colored = ewa_cloud_find(shown->clouds[i], EWA_COLOR) && !(own && key->asset->plain);
+        surface->colored = surface->colored || colored;
+        surface->photographed = surface->photographed && colored && own && key->completed && key->completed->photographed;
     }
     for (uint32_t i = 0; i < surface->cloud_count; i++)
         EWA_TRY(apply_instance(&surface->keys[i].instance, shown->clouds[i]));

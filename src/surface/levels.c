@@ -19,7 +19,6 @@
 enum {
     LANES = EWA_PACKET_LANES,
     PART_PACKETS = 1024,
-    MIN_SURFELS = 1024,
     WINDOW_SEPARATE = 128, // too far from what lies before for one packet with it
 };
 
@@ -518,7 +517,7 @@ static ewa_status make_level(ewa_surfels *fine, double growth) {
         memcpy(coarse->origin_world, fine->origin_world, sizeof coarse->origin_world);
         ewa_parallel(context, count_part, &job, parts);
         place_parts(&job);
-        const bool worth = coarse->count >= MIN_SURFELS && coarse->count <= fine->count / 2;
+        const bool worth = coarse->count >= EWA_LEVEL_MIN_SURFELS && coarse->count <= fine->count / 2;
         if (worth) status = encode_level(&job);
         if (worth && status == EWA_OK) fine->coarser = coarse;
     }

@@ -7,8 +7,10 @@
 
 #include "surface/packets.h"
 
+enum { EWA_LEVEL_MIN_SURFELS = 1024 }; ///< a level of fewer is not worth its overhead
+
 /// Makes the levels behind `surfels`, which has none, up to `level_count` with it; the chain ends before a
-/// level of fewer than 1024 surfels, or of more than half of those before it. What it leaves after an error is
+/// level of fewer than EWA_LEVEL_MIN_SURFELS, or of more than half of those before it. What it leaves after an error is
 /// freed with the rest. Errors: EWA_ERROR_MEMORY.
 ewa_status ewa_levels_make(ewa_surfels *surfels, uint32_t level_count);
 

@@ -75,28 +75,25 @@ static double rms(const uint8_t *a, const uint8_t *b) {
 static uint8_t all[BYTES], some[BYTES], again[BYTES];
 
 TEST_ON(test_films_are_off_by_next_to_nothing, 0) {
-    static const far_kind kinds[] = {FAR_TERRAIN};
-    for (int k = 0; k < 1; k++) {
-        film of = make_film(context, kinds[k], POINTS);
-        const ewa_scene_options many = options_of(true), one = options_of(false);
-        ewa_scene_renderer *renderer = make_renderer(context);
-        uint32_t before = 0;
-        double times = 0.75;
-        for (; times < 20; times *= 4.6) {
-            const uint32_t level = draw(&of, renderer, times, &many, some);
-            assert_int_equal(draw(&of, NULL, times, &one, all), 0);
-            if (!level) assert_memory_equal(all, some, BYTES);
-            assert_true(rms(all, some) <= 1);
-            assert_true(level >= before);
-            before = level;
-        }
-        assert_true(before >= 1);
-        // A frame alone has the bytes that it has among others.
-        assert_int_equal(draw(&of, NULL, times / 4.6, &many, again), before);
-        assert_memory_equal(again, some, BYTES);
-        ewa_scene_renderer_destroy(&renderer);
-        end_film(&of);
+    film of = make_film(context, FAR_TERRAIN, POINTS);
+    const ewa_scene_options many = options_of(true), one = options_of(false);
+    ewa_scene_renderer *renderer = make_renderer(context);
+    uint32_t before = 0;
+    double times = 0.75;
+    for (; times < 20; times *= 4.6) {
+        const uint32_t level = draw(&of, renderer, times, &many, some);
+        assert_int_equal(draw(&of, NULL, times, &one, all), 0);
+        if (!level) assert_memory_equal(all, some, BYTES);
+        assert_true(rms(all, some) <= 1);
+        assert_true(level >= before);
+        before = level;
     }
+    assert_true(before >= 1);
+    // A frame alone has the bytes that it has among others.
+    assert_int_equal(draw(&of, NULL, times / 4.6, &many, again), before);
+    assert_memory_equal(again, some, BYTES);
+    ewa_scene_renderer_destroy(&renderer);
+    end_film(&of);
 }
 
 TEST_ON(test_whoever_says_how_fine_has_the_say, 0) {

@@ -718,10 +718,10 @@ static ewa_cloud *make_photograph(ewa_context *context, float color) {
     return cloud;
 }
 
-/// The colours of photographed points are drawn as they are, but by lights that are given, with normals of the file's, or where
-/// the camera was elsewhere.
+/// The colours of photographed points are drawn as they are, but by lights that are given, with normals of the file's, where
+/// the camera was elsewhere, or beside what has no colours.
 TEST_ON(test_photographed, 1) {
-    enum { PLAIN, LIT, NORMALS, ELSEWHERE, KINDS };
+    enum { PLAIN, LIT, NORMALS, ELSEWHERE, BESIDE_BARE, KINDS };
     for (int kind = 0; kind < KINDS; kind++) {
         ewa_cloud *cloud = make_photograph(context, 0.5f);
         if (kind == NORMALS) {
@@ -739,6 +739,11 @@ TEST_ON(test_photographed, 1) {
         ewa_light_init(&options.render.lights[0]);
         assert_int_equal(ewa_scene_set_options(scene, &options), EWA_OK);
         const ewa_camera camera = place(scene);
+        ewa_cloud *bare = kind == BESIDE_BARE ? make_object(context, EWA_OBJECT_SPHERE, 0) : NULL;
+        if (bare) {
+            ewa_cloud_remove(bare, EWA_COLOR);
+            add_cloud(context, scene, bare, NULL);
+        }
         draw(context, scene, &camera, &first);
         int inner = 0, shaded = 0;
         for (int i = 0; i < PIXELS; i++) {
@@ -748,8 +753,13 @@ TEST_ON(test_photographed, 1) {
         }
         assert_true(inner > PIXELS / 4);
         assert_true(kind == PLAIN ? shaded < inner / 100 : shaded > inner / 10); // pixels of edges have a little less
+        options.render.light_count = 1; // the headlight
+        assert_int_equal(ewa_scene_set_options(scene, &options), EWA_OK);
+        draw(context, scene, &camera, &second);
+        assert_true((memcmp(first.rgba, second.rgba, sizeof first.rgba) == 0) == (kind != PLAIN));
         ewa_scene_destroy(&scene);
         ewa_cloud_destroy(&cloud);
+        ewa_cloud_destroy(&bare);
     }
 }
 
