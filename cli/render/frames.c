@@ -19,7 +19,7 @@ static const cli_option frames_table[] = {
          "the camera give. Without --eye and --camera, the distance is such that all is in every frame",
      .absent = "none: one picture", .excludes = "path"},
     {"path", OPTION_TEXT, offsetof(frames_arguments, path_file), "FILE",
-     .help = "one frame for each camera of a file, in its order; formats as --camera",
+     .help = "one frame for each camera of a file, in its order, or keyframe of a scene file; formats as --camera",
      .excludes = "camera camera-index eye target up ortho view azimuth elevation"},
     {"frames", OPTION_FRAMES, offsetof(frames_arguments, part), "N|A-B|I/N",
      .help =

@@ -395,6 +395,7 @@ static ewa_status read_root(source *in, const cJSON *root) {
     if ((item = find(root, "frames"))) return read_transforms(in, root, item);
     if ((item = find(root, "camera_path"))) return read_camera_path(in, root, item);
     if ((item = find(root, "keyframes"))) return read_each(in, item, "keyframes", read_element); // of a scene file
+    if (find(root, "ewa_scene")) return fail_member(in, "keyframes", "is missing: these are the cameras of a scene file");
     if ((item = find(root, "parameters"))) return read_each(in, item, "parameters", read_open3d);
     if (find(root, "extrinsic") || find(root, "intrinsic")) return read_open3d(in, root);
     if (find(root, "intrinsic_matrix")) return read_lens_alone(in, root);
