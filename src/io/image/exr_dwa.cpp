@@ -41,23 +41,19 @@ private:
 
 } // namespace
 
-ewa_exr_dwa_result ewa_exr_dwa_decode(const uint8_t *head, size_t head_bytes, const uint8_t *bytes, size_t size_bytes,
-                                      const char *const *channels, uint32_t channel_count, uint32_t width_px, uint32_t height_px, float *pixels,
-                                      char *reason, size_t reason_bytes) {
+ewa_exr_dwa_result ewa_exr_dwa_decode(const uint8_t *header, size_t header_bytes, const uint8_t *bytes, size_t size_bytes,
+                                      const char *const *channels, uint32_t channel_count, uint32_t width_px, uint32_t height_px,
+                                      float *pixels, char *reason, size_t reason_bytes) {
     try {
-        bytes_stream stream(head, head_bytes, bytes, size_bytes);
+        bytes_stream stream(header, header_bytes, bytes, size_bytes);
         Imf::InputFile file(stream, 0); // in this thread
         const auto &window = file.header().dataWindow();
         if (int64_t{window.max.x} - window.min.x + 1 != width_px || int64_t{window.max.y} - window.min.y + 1 != height_px)
             throw std::runtime_error("its window is told in two ways");
-        const ptrdiff_t pixel_bytes = static_cast<ptrdiff_t>(channel_count * sizeof(float));
-        const ptrdiff_t row_bytes = static_cast<ptrdiff_t>(width_px) * pixel_bytes;
-        // OpenEXR counts from pixel (0, 0), wherever the window lies.
-        char *origin = reinterpret_cast<char *>(pixels) - window.min.x * pixel_bytes - window.min.y * row_bytes;
+        const size_t pixel_bytes = channel_count * sizeof(float);
         Imf::FrameBuffer frame;
         for (uint32_t c = 0; c < channel_count; c++)
-            frame.insert(channels[c], Imf::Slice(Imf::FLOAT, origin + c * sizeof(float), static_cast<size_t>(pixel_bytes),
-                                                 static_cast<size_t>(row_bytes)));
+            frame.insert(channels[c], Imf::Slice::Make(Imf::FLOAT, pixels + c, window, pixel_bytes, width_px * pixel_bytes));
         file.setFrameBuffer(frame);
         file.readPixels(window.min.y, window.max.y);
         return EWA_EXR_DWA_DONE;

@@ -6,6 +6,7 @@
 #include "base/unpacking.h"
 #include "io/image/exr.h"
 #include "io/image/exr_dwa.h"
+#include "io/image/exr_header.h"
 
 #include <openexr.h>
 #include <stdio.h>
@@ -18,7 +19,6 @@ enum {
     // the pixels that its header claims.
     MAX_RATIO = 1032,
     PART = 0,
-    MAX_HEADER_BYTES = 1 << 20,
     OWN_CHUNKS = 3, // that the library holds: packed, unpacked, and between
 };
 
@@ -213,99 +213,22 @@ static exr_result_t decode_tiles(reader *in, ewa_image *image) {
     return error;
 }
 
-static uint32_t read_u32(const uint8_t *bytes) {
-    return bytes[0] | (uint32_t)bytes[1] << 8 | (uint32_t)bytes[2] << 16 | (uint32_t)bytes[3] << 24;
-}
-
-/// Whether a list of channels ends where its attribute does: each is a name and sixteen bytes.
-static bool is_list_of_channels(const uint8_t *list, size_t size_bytes) {
-    size_t at = 0;
-    while (at < size_bytes && list[at]) {
-        const uint8_t *end = memchr(list + at, 0, size_bytes - at);
-        if (!end || size_bytes - (size_t)(end + 1 - list) < 16) return false;
-        at = (size_t)(end + 1 - list) + 16;
-    }
-    return at + 1 == size_bytes;
-}
-
-/// Whether an attribute is one that pixels need; false in `*is_sound` where it is and has another type or size than it must.
-static bool is_needed(const char *name, const char *type, const uint8_t *value, size_t value_bytes, bool *is_sound) {
-    static const struct {
-        const char *name, *type;
-        size_t value_bytes; ///< 0: a list of channels
-    } needed[] = {{"channels", "chlist", 0},        {"compression", "compression", 1}, {"dataWindow", "box2i", 16},
-                  {"displayWindow", "box2i", 16},   {"lineOrder", "lineOrder", 1},     {"pixelAspectRatio", "float", 4},
-                  {"screenWindowCenter", "v2f", 8}, {"screenWindowWidth", "float", 4}, {"tiles", "tiledesc", 9}};
-    for (size_t i = 0; i < sizeof needed / sizeof needed[0]; i++)
-        if (strcmp(name, needed[i].name) == 0) {
-            *is_sound = strcmp(type, needed[i].type) == 0 && (needed[i].value_bytes ? value_bytes == needed[i].value_bytes
-                                                                                    : is_list_of_channels(value, value_bytes));
-            return true;
-        }
-    return false;
-}
-
-/// Copies the header of a file of one part to `head`, which has room for as many bytes, but for attributes that pixels do not need: one
-/// without a meaning takes their room. OpenEXR's C++ makes room for what an attribute says before it looks. Returns how many bytes it
-/// has; 0 where it is broken, or the file has several parts.
-static size_t copy_header(const uint8_t *bytes, size_t size_bytes, uint8_t *head) {
-    enum { VERSION_AT = 4, HEADER_AT = 8, NO_LINES_OR_TILES = 0x1800, LEAST_BYTES = 8 };
-    if (size_bytes < HEADER_AT || read_u32(bytes + VERSION_AT) & NO_LINES_OR_TILES) return 0;
-    size_t at = HEADER_AT, to = HEADER_AT, left_out = 0;
-    memcpy(head, bytes, HEADER_AT);
-    while (at < size_bytes && bytes[at]) {
-        const size_t from = at;
-        const char *texts[2];
-        for (int i = 0; i < 2; i++) {
-            texts[i] = (const char *)bytes + at;
-            const uint8_t *end = memchr(bytes + at, 0, size_bytes - at);
-            if (!end) return 0;
-            at = (size_t)(end - bytes) + 1;
-        }
-        if (size_bytes - at < sizeof(uint32_t)) return 0;
-        const uint32_t value_bytes = read_u32(bytes + at);
-        at += sizeof(uint32_t);
-        if (value_bytes > size_bytes - at) return 0;
-        bool is_sound = true;
-        const bool keep = is_needed(texts[0], texts[1], bytes + at, value_bytes, &is_sound);
-        if (!is_sound) return 0;
-        at += value_bytes;
-        if (keep) {
-            memcpy(head + to, bytes + from, at - from);
-            to += at - from;
-        } else {
-            left_out += at - from;
-        }
-    }
-    if (at >= size_bytes) return 0;
-    if (left_out >= LEAST_BYTES) {
-        memset(head + to, 0, left_out);
-        head[to] = head[to + 2] = 'x'; // name and type
-        for (int i = 0; i < 4; i++) head[to + 4 + (size_t)i] = (uint8_t)((left_out - LEAST_BYTES) >> 8 * i);
-        to += left_out;
-    }
-    head[to++] = 0;
-    return to;
-}
-
-static ewa_exr_dwa_result decode_with_header(const reader *in, ewa_image *image, uint8_t *head, size_t room_bytes, char *reason,
-                                             size_t reason_bytes) {
-    const size_t head_bytes = copy_header(in->bytes, room_bytes, head);
-    if (!head_bytes) {
-        snprintf(reason, reason_bytes, "DWA is read of files of one part whose header is sound");
-        return EWA_EXR_DWA_BROKEN;
-    }
-    return ewa_exr_dwa_decode(head, head_bytes, in->bytes, in->size_bytes, in->names, in->channel_count, in->width_px,
-                              in->height_px, image->pixels, reason, reason_bytes);
-}
-
+/// Decodes all by OpenEXR's C++.
 static ewa_status decode_dwa(reader *in, ewa_image *image) {
+    if (!ewa_exr_has_one_part(in->bytes, in->size_bytes))
+        return ewa_fail(in->context, EWA_ERROR_UNSUPPORTED,
+                        "%s: OpenEXR: several parts, packed by DWA, which is read of files of one part", in->name);
+    const size_t header_bytes = ewa_exr_measure_header(in->bytes, in->size_bytes);
+    if (!header_bytes)
+        return ewa_fail(in->context, EWA_ERROR_FORMAT, "%s: OpenEXR: an attribute of the header is damaged", in->name);
+    uint8_t *header = ewa_allocate(in->context, header_bytes, 1);
+    if (!header) return EWA_ERROR_MEMORY;
+    ewa_exr_copy_header(in->bytes, header_bytes, header);
     char reason[MESSAGE_BYTES];
-    const size_t head_bytes = in->size_bytes < MAX_HEADER_BYTES ? in->size_bytes : MAX_HEADER_BYTES;
-    uint8_t *head = ewa_allocate(in->context, head_bytes, 1);
-    if (!head) return EWA_ERROR_MEMORY;
-    const ewa_exr_dwa_result result = decode_with_header(in, image, head, head_bytes, reason, sizeof reason);
-    ewa_release(in->context, head, head_bytes, 1);
+    const ewa_exr_dwa_result result =
+        ewa_exr_dwa_decode(header, header_bytes, in->bytes, in->size_bytes, in->names, in->channel_count, in->width_px,
+                           in->height_px, image->pixels, reason, sizeof reason);
+    ewa_release(in->context, header, header_bytes, 1);
     if (result == EWA_EXR_DWA_DONE) return EWA_OK;
     if (result != EWA_EXR_DWA_MEMORY) keep_text(in, reason);
     return fail_exr(in, result == EWA_EXR_DWA_MEMORY   ? EXR_ERR_OUT_OF_MEMORY
