@@ -72,14 +72,18 @@ class Gradients(Case):
         assert found.color is not None
         self.assertFalse(found.color.any())
 
-    def test_example(self) -> None:
-        """Colours from pictures, and a pose from one picture, come back."""
+    def example(self, name: str) -> Any:
+        """One of examples/, as a module."""
         sys.path.insert(0, str(ROOT / "examples"))
         self.addCleanup(sys.path.remove, str(ROOT / "examples"))
         try:
-            example = importlib.import_module("fit_pictures")
+            return importlib.import_module(name)
         except ImportError:
             self.skipTest("not in a checkout")
+
+    def test_example(self) -> None:
+        """Colours from pictures, and a pose from one picture, come back."""
+        example = self.example("fit_pictures")
         _, reached = example.run(2000, 48, 9, steps=10)
         self.assertGreater(reached["held_out_db"], reached["held_out_before_db"] + 10)
         self.assertLess(reached["off_deg"], 0.05 * reached["off_before_deg"])
@@ -87,12 +91,7 @@ class Gradients(Case):
 
     def test_shape_example(self) -> None:
         """A sphere comes nearer to the cube that twelve pictures show."""
-        sys.path.insert(0, str(ROOT / "examples"))
-        self.addCleanup(sys.path.remove, str(ROOT / "examples"))
-        try:
-            example = importlib.import_module("fit_shape")
-        except ImportError:
-            self.skipTest("not in a checkout")
+        example = self.example("fit_shape")
         said: list[str] = []
         _, log = example.run(ewa.generate("cube", 1500), 2, 40, 48, said.append)
         self.assertEqual([step for step, _, _ in log], [0, 20, 40])
