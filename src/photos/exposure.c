@@ -16,7 +16,7 @@ static const double MIN_GAIN = 1e-3, MAX_GAIN = 1e3;
 /// Of both numbers of a vignette, relative to what pixels say of it: what they say nothing of stays small.
 static const double VIGNETTING_DAMPING = 1e-4;
 /// Lenses leave so much: on the way to what they leave where photographs show points, numbers may say less elsewhere.
-static const double LEAST_LIGHT = 0.05;
+static const double MIN_LIGHT = 0.05;
 
 double ewa_robust_weight(const double shown[EWA_PHOTO_CHANNELS], const double wanted[EWA_PHOTO_CHANNELS], double scale) {
     if (scale <= 0) return 1;
@@ -40,7 +40,7 @@ void ewa_exposure_step(const ewa_exposure_pairs *pairs, ewa_photos_exposure kind
         for (int c = 0; c < EWA_PHOTO_CHANNELS; c++) wanted[c] = gain[c] * color[c] + offset[c];
         weight *= ewa_robust_weight(shown, wanted, scale);
         for (int c = 0; c < EWA_PHOTO_CHANNELS; c++) {
-            const double w = weight / (fmax(color[c], 0) + EWA_PHOTO_LEAST_COLOR), x = color[c], f = shown[c];
+            const double w = weight / (fmax(color[c], 0) + EWA_PHOTO_MIN_COLOR), x = color[c], f = shown[c];
             const double terms[5] = {w, w * x, w * x * x, w * f, w * x * f};
             for (int k = 0; k < 5; k++) sums[c][k] += terms[k];
         }
@@ -67,13 +67,13 @@ double ewa_photo_radius2(const ewa_camera *camera, double x_px, double y_px) {
 }
 
 double ewa_photo_vignette(const double vignetting[2], double radius2) {
-    return fmax(1 + radius2 * (vignetting[0] + radius2 * vignetting[1]), LEAST_LIGHT);
+    return fmax(1 + radius2 * (vignetting[0] + radius2 * vignetting[1]), MIN_LIGHT);
 }
 
 void ewa_vignetting_add(const double shown[EWA_PHOTO_CHANNELS], const double wanted[EWA_PHOTO_CHANNELS], double radius2,
                         double weight, double sums[EWA_VIGNETTING_SUMS]) {
     for (int c = 0; c < EWA_PHOTO_CHANNELS; c++) {
-        const double w = weight / (fmax(wanted[c], 0) + EWA_PHOTO_LEAST_COLOR), x = wanted[c] * radius2, y = x * radius2,
+        const double w = weight / (fmax(wanted[c], 0) + EWA_PHOTO_MIN_COLOR), x = wanted[c] * radius2, y = x * radius2,
                      f = shown[c] - wanted[c];
         const double terms[EWA_VIGNETTING_SUMS] = {w * x * x, w * x * y, w * y * y, w * x * f, w * y * f};
         for (int k = 0; k < EWA_VIGNETTING_SUMS; k++) sums[k] += terms[k];

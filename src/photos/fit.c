@@ -45,7 +45,7 @@ static void weigh_piece(void *data, uint32_t index, uint32_t worker) {
             wanted[c] = gain[c] * color[c] + offset[c];
             mean += fmax(color[c], 0) / EWA_PHOTO_CHANNELS;
         }
-        weight *= ewa_robust_weight(shown, wanted, at->job->options.robust) / (mean + EWA_PHOTO_LEAST_COLOR);
+        weight *= ewa_robust_weight(shown, wanted, at->job->options.robust) / (mean + EWA_PHOTO_MIN_COLOR);
         at->photo->fit_weights[i] = (float)weight;
         float *rest = at->shown + 4 * (size_t)i;
         for (int c = 0; c < EWA_PHOTO_CHANNELS; c++)

@@ -68,7 +68,7 @@ static void add_pixel(const pose_job *job, uint32_t i, double sums[SUMS]) {
         wanted[c] = match->photo->gain[c] * color[c] + match->photo->offset[c];
         mean += fmax(wanted[c], 0) / EWA_PHOTO_CHANNELS;
     }
-    weight *= ewa_robust_weight(shown, wanted, job->scale) / (mean + EWA_PHOTO_LEAST_COLOR);
+    weight *= ewa_robust_weight(shown, wanted, job->scale) / (mean + EWA_PHOTO_MIN_COLOR);
     const float *place = job->places + 4 * (size_t)i;
     const ewa_vec3 p = vec3_make((double)place[0], (double)place[1], (double)place[2]);
     const ewa_vec3 arm = vec3_make(p.x, p.y, p.z - job->pivot);

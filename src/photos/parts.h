@@ -81,8 +81,8 @@ ewa_status ewa_photo_view_make(const ewa_photos_job *job, ewa_photo_state *photo
 /// Whether the exposure of a photograph is found here: it is used, and sees enough points; others have the one that they
 /// come with.
 static inline bool ewa_photo_is_exposed(const ewa_photo_state *photo) {
-    enum { LEAST_POINTS = 8 };
-    return !photo->held_out && photo->sample_count >= LEAST_POINTS;
+    enum { MIN_POINTS = 8 };
+    return !photo->held_out && photo->sample_count >= MIN_POINTS;
 }
 
 /// All of a call.
@@ -159,7 +159,7 @@ void ewa_vignetting_add(const double shown[EWA_PHOTO_CHANNELS], const double wan
 void ewa_vignetting_settle(const double sums[EWA_VIGNETTING_SUMS], double vignetting[2]);
 
 /// Errors count relative to this and the colour, as they do where numbers are sRGB.
-#define EWA_PHOTO_LEAST_COLOR 0.02
+#define EWA_PHOTO_MIN_COLOR 0.02
 
 /// What a pair of linear colours counts, of Geman and McClure. sRGB's curve is taken for a square root here.
 double ewa_robust_weight(const double shown[EWA_PHOTO_CHANNELS], const double wanted[EWA_PHOTO_CHANNELS], double scale);

@@ -15,7 +15,7 @@
 #include <string.h>
 
 /// A point that a photograph shows less of, in pixels, is not seen by it.
-static const double LEAST_SEEN_PX = 0.02;
+static const double MIN_SEEN_PX = 0.02;
 
 /// Parts of the progress.
 static const double FITTED = 0.8, SAMPLED = 0.4, SETTLED = 0.45; // the others are parts of the first
@@ -116,7 +116,7 @@ static double radius2_of(const ewa_photos_job *job, const ewa_photo_state *photo
 }
 
 static void keep_sample(ewa_photos_job *job, ewa_photo_state *photo, uint32_t point, const double sum[4]) {
-    if (!(sum[0] > LEAST_SEEN_PX)) return;
+    if (!(sum[0] > MIN_SEEN_PX)) return;
     ewa_photo_sample *to = &photo->samples[photo->sample_count++];
     *to = (ewa_photo_sample){.point = point, .weight = (float)sum[0]};
     if (job->options.vignetting) to->radius2 = (float)radius2_of(job, photo, point);
@@ -128,7 +128,7 @@ static void keep_sample(ewa_photos_job *job, ewa_photo_state *photo, uint32_t po
 /// Keeps what a photograph says of the points that it sees, of which `sums` tells.
 static ewa_status keep_samples(ewa_photos_job *job, ewa_photo_state *photo, const double *sums) {
     uint32_t count = 0;
-    for (uint32_t i = 0; i < job->point_count; i++) count += sums[4 * (size_t)i] > LEAST_SEEN_PX;
+    for (uint32_t i = 0; i < job->point_count; i++) count += sums[4 * (size_t)i] > MIN_SEEN_PX;
     photo->report.point_count = count;
     photo->sample_count = 0;
     if (count == 0)
