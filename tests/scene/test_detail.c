@@ -5,6 +5,7 @@
 // all surfels where levels are not enough. Tables are printed by measure_detail.
 #include "check.h"
 #include "quality/far_scene.h"
+#include "scene/draw.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -116,6 +117,20 @@ TEST_ON(test_whoever_says_how_fine_has_the_say, 0) {
     options = options_of(true);
     assert_int_equal(draw(&of, NULL, 16, &options, some), 0);
     end_film(&of);
+}
+
+/// Levels stay while the camera is among the surfels, and go with these.
+TEST_ON(test_levels_stay, 0) {
+    film of = make_film(context, FAR_TERRAIN, POINTS), other = make_film(context, FAR_TERRAIN, 30000);
+    ewa_scene_renderer *renderer = make_renderer(context);
+    const ewa_scene_options many = options_of(true);
+    assert_true(draw(&of, renderer, 16, &many, some) > 0);
+    assert_int_equal(draw(&of, renderer, 0.01, &many, some), 0);
+    assert_int_equal(renderer->details.count, 1);
+    assert_int_equal(draw(&other, renderer, 1, &many, some), 0);
+    assert_int_equal(renderer->details.count, 0);
+    ewa_scene_renderer_destroy(&renderer);
+    end_film(&of), end_film(&other);
 }
 
 TEST(test_levels_depend_on_no_machine) {
