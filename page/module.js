@@ -115,7 +115,10 @@ class Viewer {
     this.page = this.calls.page_create(width, height, scale, this.thread_count);
     if (!this.page) return false;
     const of_page = this.calls.page_get_threads(this.page);
-    threads.forEach((thread, i) => thread.postMessage({ threads: of_page, number: i + 1, stack: this.calls.page_thread_stack() }));
+    threads.forEach((thread, i) => {
+      const stack = this.calls.page_thread_stack(); // 0: there is no memory, and one that never begins is not waited for
+      if (stack) thread.postMessage({ threads: of_page, number: i + 1, stack });
+    });
     this.text = this.calls.page_text(this.page);
     this.text_bytes = this.calls.page_text_bytes();
     return true;

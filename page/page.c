@@ -137,7 +137,7 @@ static bool load(void *user, const char *path, const ewa_asset_options *said, co
     (void)news; // the context tells it
     ewa_asset_options options = *said;
     options.gaussian_levels = true;
-    options.voxel_level_count = VIEWER_VOXEL_LEVELS;
+    if (options.voxel_level_count < VIEWER_VOXEL_LEVELS) options.voxel_level_count = VIEWER_VOXEL_LEVELS;
     return ewa_asset_load(p->context, path, &options, asset) == EWA_OK;
 }
 
@@ -166,7 +166,7 @@ static bool waiting(void *user) {
 
 static void *allocate(void *user, size_t size_bytes) {
     (void)user;
-    return aligned_alloc(64, (size_bytes + 63) / 64 * 64);
+    return size_bytes > SIZE_MAX - 63 ? NULL : aligned_alloc(64, (size_bytes + 63) / 64 * 64);
 }
 
 static void release(void *user, void *memory, size_t size_bytes) {

@@ -14,9 +14,9 @@ const RELAXED = new Uint8Array([0, 97, 115, 109, 1, 0, 0, 0, 1, 5, 1, 96, 0, 1, 
 /// Formats that name other files, which are fetched from beside them when they are asked for.
 const NAMES_OTHERS = /\.(json|gltf|obj|mtl|nhdr|mhd)$/i;
 /// A module has no room for more.
-const MOST_BYTES = 2 ** 31 - 1;
+const MAX_BYTES = 2 ** 31 - 1;
 /// More of them bring little, and each takes memory.
-const MOST_THREADS = 8;
+const MAX_THREADS = 8;
 /// Progress is told so often, of what takes so long.
 const TELL_MS = 50, LONG_MS = 150;
 
@@ -50,7 +50,7 @@ async function ask(url, how) {
 async function collect(answer, told) {
   if (!answer.ok) throw new Error(`the server says ${answer.status} ${answer.statusText}`);
   const length = Number(answer.headers.get("content-length")) || 0;
-  if (length > MOST_BYTES) {
+  if (length > MAX_BYTES) {
     answer.body.cancel();
     throw new Error(`${(length / 1e9).toFixed(1)} GB are more than the 2 GB that a page holds; an octree (COPC, made by ewa lod) is read in parts`);
   }
@@ -142,7 +142,7 @@ async function start(orders) {
   if (orders.sent) sent = new Int32Array(orders.sent);
   const modules = orders.modules.filter((source) => relaxed || !source.relaxed);
   const fetches = modules.map((source) => () => take_module(source, (got, length) => tell("fetch the program", length ? got / length : 0)));
-  const further = sent ? Math.min(orders.threads, MOST_THREADS) - 1 : 0;
+  const further = sent ? Math.min(orders.threads, MAX_THREADS) - 1 : 0;
   const start_further = further > 0 ? (module, memory) => start_threads(module, memory, further) : null;
   viewer = await open_module(fetches, hooks, orders.width, orders.height, orders.scale, find, start_further);
   for (const command of orders.commands) viewer.do(command);

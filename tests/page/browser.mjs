@@ -9,9 +9,9 @@ import { copyFileSync, mkdirSync, readFileSync, rmSync, writeFileSync } from "no
 import { createServer } from "node:http";
 import { join } from "node:path";
 import { pathToFileURL } from "node:url";
-import { serve } from "./chromium.mjs";
+import { ISOLATED, serve } from "./chromium.mjs";
 import {
-  browser, check, check_quiet, decode, ewa, finish, HEAR, HEIGHT, ISOLATED, keep, part, PIXELS, same, scratch, show, shown, view, WIDTH, write_kinds,
+  browser, check, check_quiet, decode, ewa, finish, HEAR, HEIGHT, keep, part, PIXELS, same, scratch, show, shown, view, WIDTH, write_kinds,
 } from "./pages.mjs";
 
 // ---- What is shown

@@ -10,6 +10,9 @@ import { extname, join, normalize } from "node:path";
 
 const TYPES = { ".html": "text/html", ".js": "text/javascript", ".mjs": "text/javascript", ".css": "text/css", ".json": "application/json" };
 
+/// Headers of a page that is isolated, whose memory threads can share.
+export const ISOLATED = { "cross-origin-opener-policy": "same-origin", "cross-origin-embedder-policy": "require-corp" };
+
 /// Serves files of folders by prefix: { "/": folder, ... }. `headers` are sent with each; `ranges`: parts of files are given. Returns
 /// { origin, asked, bytes(), close() }; `asked` are the paths of all requests.
 export async function serve(folders, headers = {}, ranges = true) {

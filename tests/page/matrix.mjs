@@ -7,10 +7,9 @@ import assert from "node:assert/strict";
 import { rmSync } from "node:fs";
 import { join } from "node:path";
 import { pathToFileURL } from "node:url";
-import { serve } from "./chromium.mjs";
-import { check, check_quiet, ewa, finish, HEAR, HEIGHT, ISOLATED, PIXELS, processors, same, scratch, show, WIDTH, write_kinds } from "./pages.mjs";
+import { ISOLATED, serve } from "./chromium.mjs";
+import { check, check_quiet, ewa, finish, HEAR, HEIGHT, PIXELS, processors, same, scratch, show, WIDTH, write_kinds } from "./pages.mjs";
 
-const hear_picture = `document.addEventListener("picture", ({ detail }) => { self.picture = detail; }, true);`;
 const site = join(scratch, "site");
 for (const kind of write_kinds()) {
   rmSync(site, { recursive: true, force: true });
@@ -26,7 +25,7 @@ for (const kind of write_kinds()) {
       for (const threads of [1, 2]) {
         const folders = { "/": site };
         if (module === "exact") folders["/page-relaxed.wasm.gz"] = { "": join(site, "page.wasm.gz") };
-        const server = await serve(folders, ISOLATED), page = await show(`${server.origin}/index.html`, { before: processors(threads) + HEAR + hear_picture });
+        const server = await serve(folders, ISOLATED), page = await show(`${server.origin}/index.html`, { before: processors(threads) + HEAR });
         same(await page.evaluate(PIXELS), "kind.png", `${module}, ${threads}`);
         assert.equal(await page.evaluate("picture.threads"), threads);
         check_quiet(page, server.origin);

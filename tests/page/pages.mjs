@@ -12,9 +12,6 @@ import { launch } from "./chromium.mjs";
 export const [program, scratch, pictures] = process.argv.slice(2).map((path) => resolve(path));
 export const WIDTH = 400, HEIGHT = 300;
 
-/// Headers of a page that is isolated, whose memory threads can share.
-export const ISOLATED = { "cross-origin-opener-policy": "same-origin", "cross-origin-embedder-policy": "require-corp" };
-
 function skip(why) {
   console.log(`skipped: ${why}`);
   process.exit(77);
@@ -102,7 +99,8 @@ export const part = (selector) => `${view}.shadowRoot.querySelector(${JSON.strin
 export const PIXELS = `(() => { const c = ${part("canvas")}; const p = c.getContext("2d").getImageData(0, 0, c.width, c.height).data;
   let text = ""; for (let i = 0; i < p.length; i += 8192) text += String.fromCharCode(...p.subarray(i, i + 8192)); return btoa(text); })()`;
 export const HEAR = `addEventListener("DOMContentLoaded", () => { self.heard = []; for (const type of ["ready", "pick", "measure", "error", "share"])
-  document.addEventListener(type, (e) => heard.push({ type, ...e.detail }), true); });`;
+  document.addEventListener(type, (e) => heard.push({ type, ...e.detail }), true); });
+  document.addEventListener("picture", ({ detail }) => { self.picture = detail; }, true);`;
 export const shown = (page, limit_s) => page.until(`self.heard?.some((e) => e.type === "ready" || e.type === "error") && ${view}.still`, limit_s);
 
 export function same(pixels, path, what) {

@@ -5,13 +5,13 @@
 //   node tests/page/timings.mjs build/release/page FILE [SECONDS [exact|relaxed [isolated]]]
 // The modules are those of build/wasm and build/wasm-relaxed beside it.
 import { basename, dirname, join, resolve } from "node:path";
-import { launch, serve } from "./chromium.mjs";
+import { ISOLATED, launch, serve } from "./chromium.mjs";
 
 const [folder, file, seconds = "3", kind, isolated] = process.argv.slice(2);
 const build = resolve(folder, "../.."), exact = join(build, "wasm/page/page.wasm.gz");
 const server = await serve({ "/": resolve(folder), "/data/": dirname(resolve(file)), "/page.wasm.gz": { "": exact },
                              "/page-relaxed.wasm.gz": { "": kind === "exact" ? exact : join(build, "wasm-relaxed/page/page.wasm.gz") } },
-                           isolated ? { "cross-origin-opener-policy": "same-origin", "cross-origin-embedder-policy": "require-corp" } : {});
+                           isolated ? ISOLATED : {});
 const browser = await launch();
 const page = await browser.page(`${server.origin}/index.html?src=data/${encodeURIComponent(basename(file))}`, {
   width: 1920, height: 1080,
