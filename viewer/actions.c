@@ -161,9 +161,6 @@ void actions_set_key(viewer *v, const viewer_action *action, int key, uint32_t m
     v->keys[action - actions] = (viewer_key){true, key, modifiers};
     if (key == action->key && modifiers == action->modifiers) v->keys[action - actions].chosen = false;
     v->learns = NULL;
-    char keys[VIEWER_KEYS_BYTES];
-    viewer_action_keys(v, action, keys);
-    viewer_note(v, "%s: %s", action->label, keys[0] ? keys : "no key");
 }
 
 /// The row of a command; NULL: there is none.

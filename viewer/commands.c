@@ -379,6 +379,7 @@ static bool do_clear(viewer *v, const char *rest) {
 }
 
 static bool do_help(viewer *v, const char *rest) {
+    v->learns = NULL; // the help is where one is asked for
     return read_switch(v, "help", rest, v->state.help, &v->state.help);
 }
 

@@ -85,6 +85,8 @@ void cutaway_turn(viewer *v, const double axis_world[3], double angle_deg) {
     viewer_change(v);
 }
 
+static double dot(const double a[3], const double b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
 /// "DEGREES", about what is up, or "DEGREES x,y,z".
 static bool turn_box(viewer *v, const char *text) {
     double angle_deg, axis[3];
@@ -92,8 +94,7 @@ static bool turn_box(viewer *v, const char *text) {
     memcpy(axis, v->up_world, sizeof axis);
     const bool up = sscanf(text, "%lf%c", &angle_deg, &end) == 1;
     const bool fine = up || sscanf(text, "%lf %lf,%lf,%lf%c", &angle_deg, &axis[0], &axis[1], &axis[2], &end) == 4;
-    if (!v->cutaway.box || !fine || !isfinite(angle_deg) || !isfinite(axis[0] + axis[1] + axis[2]) ||
-        (axis[0] == 0 && axis[1] == 0 && axis[2] == 0)) {
+    if (!v->cutaway.box || !fine || !isfinite(angle_deg) || !isnormal(dot(axis, axis))) {
         viewer_tell(v, "box: %s", v->cutaway.box ? "turn is followed by degrees, or degrees and an axis x,y,z" : "there is none to be turned");
         return false;
     }
@@ -105,8 +106,6 @@ static bool turn_box(viewer *v, const char *text) {
 static bool are_opposite(const double a[4], const double b[4]) {
     return a[0] == -b[0] && a[1] == -b[1] && a[2] == -b[2] && -a[3] <= b[3];
 }
-
-static double dot(const double a[3], const double b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 void cutaway_take(viewer *v) {
     enum { BOX_PLANES = 6, SLAB_PLANES = 2 };

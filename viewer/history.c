@@ -17,7 +17,7 @@ typedef struct item_state {
     uint32_t entry;
     bool visible, named;
     uint32_t material;
-    item_making making;
+    item_load load;
     viewer_coloring wish;
 } item_state;
 
@@ -67,7 +67,7 @@ static bool take_items(const viewer *v, viewer_snapshot *s) {
         to->entry = from->entry;
         to->visible = from->visible, to->named = from->named;
         to->material = from->material;
-        to->making = from->making;
+        to->load = from->load;
         memcpy(&to->wish, &from->wish, sizeof to->wish);
     }
     return true;
@@ -105,7 +105,7 @@ static bool items_agree(const viewer_snapshot *a, const viewer_snapshot *b) {
     for (size_t i = 0; agree && i < a->item_count; i++) {
         const item_state *p = &a->items[i], *q = &b->items[i];
         agree = p->id == q->id && p->visible == q->visible && p->material == q->material &&
-                strcmp(p->name, q->name) == 0 && memcmp(&p->making, &q->making, sizeof p->making) == 0 && memcmp(&p->wish, &q->wish, sizeof p->wish) == 0;
+                strcmp(p->name, q->name) == 0 && memcmp(&p->load, &q->load, sizeof p->load) == 0 && memcmp(&p->wish, &q->wish, sizeof p->wish) == 0;
     }
     return agree;
 }
@@ -179,12 +179,12 @@ static bool place_item(viewer *v, const item_state *state, size_t to) {
         item = v->items[at];
         memmove(&v->items[to + 1], &v->items[to], (at - to) * sizeof item);
     } else {
-        if (v->item_count == VIEWER_MAX_ITEMS || !loader_load(v->loader, state->id, state->path, state->file, state->entry, &state->making))
+        if (v->item_count == VIEWER_MAX_ITEMS || !loader_load(v->loader, state->id, state->path, state->file, state->entry, &state->load))
             return false;
         item = (scene_item){.id = state->id, .file = state->file, .entry = state->entry};
         memcpy(item.path, state->path, sizeof item.path);
         memcpy(&item.coloring, &state->wish, sizeof item.coloring);
-        item.making = item.shown_making = state->making;
+        item.load = item.shown_load = state->load;
         memmove(&v->items[to + 1], &v->items[to], (v->item_count - to) * sizeof item);
         v->item_count++;
     }
@@ -193,7 +193,7 @@ static bool place_item(viewer *v, const item_state *state, size_t to) {
     item.material = state->material;
     memcpy(&item.wish, &state->wish, sizeof item.wish);
     v->items[to] = item;
-    return items_make_again(v, to, &state->making);
+    return items_reload(v, to, &state->load);
 }
 
 static void restore(viewer *v, const viewer_snapshot *s) {

@@ -22,9 +22,9 @@ typedef struct scene_item {
     const ewa_scene_file *file; ///< which, borrowed; NULL: none does
     uint32_t entry;             ///< of its files
     bool visible;
-    item_making making, shown_making; ///< how it is to be loaded, and how it was
-    viewer_values *values;            ///< of a volume; NULL: nobody has asked
-    bool counts;                      ///< they are being counted
+    item_load load, shown_load;     ///< how it is to be loaded, and how it was
+    viewer_values *values;          ///< of a volume; NULL: nobody has asked
+    bool counts;                    ///< they are being counted
     uint32_t material;              ///< of all its points; EWA_MATERIAL_OWN: as each says
     viewer_coloring wish, coloring; ///< what is asked for, and what is shown
 } scene_item;
@@ -248,7 +248,7 @@ bool items_cancel(viewer *v);
 /// Takes in what the loader has to report.
 void items_update(viewer *v);
 /// Has an item loaded again in another way. Returns false after saying why not.
-bool items_make_again(viewer *v, size_t index, const item_making *making);
+bool items_reload(viewer *v, size_t index, const item_load *load);
 /// Has the values of a volume counted, unless they are; also where its transfer function has changed: `again`.
 bool items_count(viewer *v, size_t index, bool again);
 /// Moves an item to another place in the list.

@@ -73,12 +73,12 @@ static bool order(viewer *v, const char *path, const ewa_scene_file *file, uint3
     if (file && ewa_scene_file_entry(file, entry, &said) == EWA_OK) {
         take_instance(&said.instance, item);
         memcpy(usual.to_world, said.asset.to_world, sizeof usual.to_world);
-        if (said.asset.transfer) snprintf(item->making.transfer, sizeof item->making.transfer, "%s", said.asset.transfer);
+        if (said.asset.transfer) snprintf(item->load.transfer, sizeof item->load.transfer, "%s", said.asset.transfer);
     }
-    memcpy(item->making.to_world, usual.to_world, sizeof usual.to_world);
-    item->shown_making = item->making;
+    memcpy(item->load.to_world, usual.to_world, sizeof usual.to_world);
+    item->shown_load = item->load;
     item->coloring = item->wish;
-    if (!loader_load(v->loader, item->id, path, file, entry, &item->making)) {
+    if (!loader_load(v->loader, item->id, path, file, entry, &item->load)) {
         viewer_tell(v, "%s: out of memory", path);
         return false;
     }
@@ -277,17 +277,17 @@ bool items_close(viewer *v, size_t index) {
     return true;
 }
 
-bool items_make_again(viewer *v, size_t index, const item_making *making) {
+bool items_reload(viewer *v, size_t index, const item_load *load) {
     scene_item *item = &v->items[index];
-    if (memcmp(&item->making, making, sizeof *making) == 0) return true;
-    const bool other = strcmp(item->making.transfer, making->transfer) != 0;
+    if (memcmp(&item->load, load, sizeof *load) == 0) return true;
+    const bool other = strcmp(item->load.transfer, load->transfer) != 0;
     loader_forget(v->loader, item->id);
     items_update(v);
-    if (!loader_load(v->loader, item->id, item->path, item->file, item->entry, making)) {
+    if (!loader_load(v->loader, item->id, item->path, item->file, item->entry, load)) {
         viewer_tell(v, "%s: out of memory", item->path);
         return false;
     }
-    item->making = *making;
+    item->load = *load;
     item->counts = false; // that order was forgotten, too
     pick_clear(v);
     if (other && item->values && !items_count(v, index, true)) return false;
@@ -298,7 +298,7 @@ bool items_make_again(viewer *v, size_t index, const item_making *making) {
 bool items_count(viewer *v, size_t index, bool again) {
     scene_item *item = &v->items[index];
     if (item->counts || (item->values && !again)) return true;
-    if (!loader_count(v->loader, item->id, item->path, &item->making)) {
+    if (!loader_count(v->loader, item->id, item->path, &item->load)) {
         viewer_tell(v, "%s: out of memory", item->path);
         return false;
     }
@@ -324,8 +324,8 @@ bool items_cancel(viewer *v) {
     for (size_t i = v->item_count; i-- > 0;) {
         scene_item *item = &v->items[i];
         if (item->loaded) { // it stays where it is
-            any = any || memcmp(&item->making, &item->shown_making, sizeof item->making) != 0;
-            item->making = item->shown_making;
+            any = any || memcmp(&item->load, &item->shown_load, sizeof item->load) != 0;
+            item->load = item->shown_load;
             item->counts = false;
             continue;
         }
@@ -408,12 +408,12 @@ static void take_preview(viewer *v, loader_note *note) {
 static void take_asset(viewer *v, loader_note *note) {
     scene_item *item = find_item(v, note->item);
     // It was closed; or closed and opened again, when two loads may have come to an end.
-    const bool again = item && item->asset && memcmp(&item->making, &item->shown_making, sizeof item->making) != 0;
+    const bool again = item && item->asset && memcmp(&item->load, &item->shown_load, sizeof item->load) != 0;
     if (!item || (item->asset && !again)) return;
     ewa_asset_release(&item->asset);
     item->asset = note->asset;
     note->asset = NULL;
-    item->shown_making = item->making;
+    item->shown_load = item->load;
     if (!item->named && !again) note_opened(v, item->path);
     items_reorder(v);
 }
@@ -471,7 +471,7 @@ static void take_failure(viewer *v, const loader_note *note) {
         if (note->item && item->id != note->item) continue;
         if (item->loaded) {
             item->wish = item->coloring;
-            item->making = item->shown_making;
+            item->load = item->shown_load;
             item->counts = false;
         } else if (note->item || item->asset) {
             remove_item(v, i);
@@ -535,9 +535,9 @@ bool viewer_item_get(const viewer *v, size_t index, viewer_item *item) {
                           .count = info.count,
                           .coloring = from->coloring};
     memcpy(item->name, from->name, sizeof item->name);
-    memcpy(item->to_world, from->making.to_world, sizeof item->to_world);
+    memcpy(item->to_world, from->load.to_world, sizeof item->to_world);
     item->values = from->values;
-    item->transfer = transfers_is_changed(v, index) ? "changed" : from->making.transfer;
+    item->transfer = transfers_is_changed(v, index) ? "changed" : from->load.transfer;
     return true;
 }
 

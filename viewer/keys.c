@@ -23,7 +23,11 @@ void keys_handle(viewer *v, const viewer_event *event) {
         return;
     }
     if (v->learns) {
-        actions_set_key(v, v->learns, event->key, modifiers);
+        const viewer_action *learned = v->learns;
+        char keys[VIEWER_KEYS_BYTES];
+        actions_set_key(v, learned, event->key, modifiers);
+        viewer_action_keys(v, learned, keys);
+        viewer_note(v, "%s: %s", learned->label, keys);
         return;
     }
     const bool plain = !modifiers;

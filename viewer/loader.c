@@ -147,7 +147,7 @@ static bool count_values(ewa_context *context, loader_note *order) {
     ewa_volume volume;
     order->values = calloc(1, sizeof *order->values);
     if (!order->values || ewa_volume_load(context, order->path, NULL, &volume) != EWA_OK) return false;
-    const char *transfer = order->making.transfer;
+    const char *transfer = order->load.transfer;
     const bool done = ewa_volume_measure(&volume, &order->values->facts) == EWA_OK &&
                       ewa_transfer_choose(context, transfer[0] ? transfer : NULL, &volume, &order->values->transfer) == EWA_OK;
     ewa_volume_free(&volume);
@@ -162,8 +162,8 @@ static void carry_out(loader *l, loader_note *order) {
     ewa_scene_entry entry;
     if (!order->file || ewa_scene_file_entry(order->file, order->entry, &entry) != EWA_OK)
         ewa_asset_options_init(&entry.asset, sizeof entry.asset);
-    memcpy(entry.asset.to_world, order->making.to_world, sizeof entry.asset.to_world);
-    if (order->making.transfer[0]) entry.asset.transfer = order->making.transfer;
+    memcpy(entry.asset.to_world, order->load.to_world, sizeof entry.asset.to_world);
+    if (order->load.transfer[0]) entry.asset.transfer = order->load.transfer;
     const bool done =
         context && (order->kind == LOADER_VALUES ? count_values(context, order)
                     : order->kind == LOADER_LOAD
@@ -249,25 +249,25 @@ static void post(loader *l, loader_note *order) {
     pthread_mutex_unlock(&l->lock);
 }
 
-bool loader_load(loader *l, uint64_t item, const char *path, const ewa_scene_file *file, uint32_t entry, const item_making *making) {
+bool loader_load(loader *l, uint64_t item, const char *path, const ewa_scene_file *file, uint32_t entry, const item_load *load) {
     loader_note *order = calloc(1, sizeof *order);
     if (!order) return false;
     order->kind = LOADER_LOAD;
     order->item = item;
     order->file = file;
     order->entry = entry;
-    order->making = *making;
+    order->load = *load;
     snprintf(order->path, sizeof order->path, "%s", path);
     post(l, order);
     return true;
 }
 
-bool loader_count(loader *l, uint64_t item, const char *path, const item_making *making) {
+bool loader_count(loader *l, uint64_t item, const char *path, const item_load *load) {
     loader_note *order = calloc(1, sizeof *order);
     if (!order) return false;
     order->kind = LOADER_VALUES;
     order->item = item;
-    order->making = *making;
+    order->load = *load;
     snprintf(order->path, sizeof order->path, "%s", path);
     post(l, order);
     return true;

@@ -7,11 +7,11 @@
 
 #include "viewer.h"
 
-/// What a person has chosen of how a file is loaded. Strings are zeros to their end.
-typedef struct item_making {
+/// What a person has chosen of how a file is loaded. Zeros behind the end of its string: it is compared byte for byte.
+typedef struct item_load {
     double to_world[16];              ///< where its coordinates lie
     char transfer[VIEWER_PATH_BYTES]; ///< of a volume: a preset, "auto" or a file; empty: as the scene file says, else automatic
-} item_making;
+} item_load;
 
 typedef enum loader_kind {
     LOADER_LOAD,    ///< order: a file; report: it is loaded, the asset is the receiver's
@@ -40,8 +40,8 @@ typedef struct loader_note {
     char path[VIEWER_PATH_BYTES];
     const ewa_scene_file *file; ///< of an order: that names the file, borrowed; NULL: none does
     uint32_t entry;             ///< which of its files
-    item_making making;         ///< of an order of a file
-    viewer_values *values;
+    item_load load;             ///< of an order of a file
+    viewer_values *values;      ///< of a report of LOADER_VALUES
     ewa_asset *asset;
     bool as_points; ///< of a preview
     loader_scene of;
@@ -60,9 +60,9 @@ void loader_destroy(loader **loader);
 /// Orders come after those that wait; false: out of memory.
 /// `file` (may be NULL) names the file, as `entry`; it is borrowed until the order is done.
 bool loader_load(loader *loader, uint64_t item, const char *path, const ewa_scene_file *file, uint32_t entry,
-                 const item_making *making);
+                 const item_load *load);
 /// Orders what values a volume holds, and its transfer function; false: out of memory.
-bool loader_count(loader *loader, uint64_t item, const char *path, const item_making *making);
+bool loader_count(loader *loader, uint64_t item, const char *path, const item_load *load);
 /// Orders a scene in place of one that waits; takes the references of `of` over, also when it returns false.
 bool loader_make(loader *loader, loader_scene *of);
 /// Gives up what is under way and all that waits. Scenes report that they came to nothing; of files nothing more is reported.

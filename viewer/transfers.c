@@ -22,16 +22,16 @@ void transfers_free(viewer *v) {
 
 bool transfers_is_changed(const viewer *v, size_t index) {
     bool changed = false;
-    for (size_t i = 0; i < v->transfer_count; i++) changed = changed || strcmp(v->items[index].making.transfer, v->transfer_files[i]) == 0;
+    for (size_t i = 0; i < v->transfer_count; i++) changed = changed || strcmp(v->items[index].load.transfer, v->transfer_files[i]) == 0;
     return changed;
 }
 
 /// Has a volume loaded with the function of a word: a preset's or a file's name.
 static bool apply(viewer *v, size_t index, const char *word) {
-    item_making making = v->items[index].making;
-    memset(making.transfer, 0, sizeof making.transfer);
-    snprintf(making.transfer, sizeof making.transfer, "%s", word);
-    return items_make_again(v, index, &making);
+    item_load load = v->items[index].load;
+    memset(load.transfer, 0, sizeof load.transfer);
+    snprintf(load.transfer, sizeof load.transfer, "%s", word);
+    return items_reload(v, index, &load);
 }
 
 static bool fail(viewer *v, const char *path) {
@@ -85,6 +85,8 @@ static bool change_point(viewer *v, size_t index, const char *text) {
         transfer->point_count++;
     }
     const bool done = fine ? apply_changed(v, index, transfer) : refuse_point(v, text);
+    // The next change may come before its values are counted anew.
+    if (done && index < v->item_count && v->items[index].values) v->items[index].values->transfer = *transfer;
     free(transfer);
     return done;
 }

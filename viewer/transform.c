@@ -71,14 +71,14 @@ static bool apply(viewer *v, const char *command, size_t index, const double to_
         viewer_tell(v, "%s: no map would be left that can be turned back", command);
         return false;
     }
-    item_making making = v->items[index].making;
-    memcpy(making.to_world, to_world, sizeof making.to_world);
-    return items_make_again(v, index, &making);
+    item_load load = v->items[index].load;
+    memcpy(load.to_world, to_world, sizeof load.to_world);
+    return items_reload(v, index, &load);
 }
 
 static bool apply_change(viewer *v, const char *command, size_t index, const double by[16]) {
     double both[16];
-    compose(by, v->items[index].making.to_world, both);
+    compose(by, v->items[index].load.to_world, both);
     return apply(v, command, index, both);
 }
 

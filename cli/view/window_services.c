@@ -129,7 +129,7 @@ static bool load(void *user, const char *path, const ewa_asset_options *said, co
     options.reader_user = program.reader_user;
     if (!options.filter) options.filter = program.filter;
     if (options.levels == EWA_OCTREE_AUTO) options.levels = own->levels;
-    options.voxel_level_count = VIEWER_VOXEL_LEVELS;
+    if (options.voxel_level_count < VIEWER_VOXEL_LEVELS) options.voxel_level_count = VIEWER_VOXEL_LEVELS;
     options.gaussian_levels = true;
     options.own_context = true;
     if (!session_passed(&own->loading, ewa_asset_load(own->loading.context, path, &options, asset)))

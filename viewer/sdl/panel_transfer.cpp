@@ -17,11 +17,11 @@ constexpr float graph_points = 110, dot_points = 4, reach_points = 7;
 /// Where a function's values and extinctions are in the window.
 struct transfer_graph {
     ImVec2 corner, size;
-    double low, high, most;
+    double low, high, max_extinction;
 };
 
 ImVec2 place_of(const transfer_graph &graph, double value, double extinction) {
-    const double x = (value - graph.low) / (graph.high - graph.low), y = extinction / graph.most;
+    const double x = (value - graph.low) / (graph.high - graph.low), y = extinction / graph.max_extinction;
     return ImVec2(graph.corner.x + (float)fmin(fmax(x, 0), 1) * graph.size.x, graph.corner.y + (float)(1 - fmin(y, 1)) * graph.size.y);
 }
 
@@ -37,11 +37,11 @@ void say_point(const panel_page *page, int index, const char *which, double valu
 
 void histogram(const transfer_graph &graph, const viewer_values *values) {
     ImDrawList *list = ImGui::GetWindowDrawList();
-    double most = 1;
-    for (const uint64_t count : values->facts.histogram) most = fmax(most, log1p((double)count));
+    double max_height = 1;
+    for (const uint64_t count : values->facts.histogram) max_height = fmax(max_height, log1p((double)count));
     const float step = graph.size.x / IM_ARRAYSIZE(values->facts.histogram);
     for (int i = 0; i < IM_ARRAYSIZE(values->facts.histogram); i++) {
-        const float high = graph.size.y * (float)(log1p((double)values->facts.histogram[i]) / most);
+        const float high = graph.size.y * (float)(log1p((double)values->facts.histogram[i]) / max_height);
         const float x = floorf(graph.corner.x + step * (float)i), next = floorf(graph.corner.x + step * (float)(i + 1));
         const float bottom = graph.corner.y + graph.size.y;
         list->AddRectFilled(ImVec2(x, bottom - high), ImVec2(next, bottom), ImGui::GetColorU32(ImGuiCol_PlotHistogram, 0.5f));
@@ -89,7 +89,7 @@ void graph_of(panel_page *page, int index, const viewer_values *values) {
     transfer_graph graph = {ImGui::GetCursorScreenPos(), ImVec2(ImGui::GetContentRegionAvail().x, graph_points * page->unit),
                             values->facts.low, values->facts.high, 1e-30};
     if (!(graph.high > graph.low)) graph.high = graph.low + 1;
-    for (uint32_t i = 0; i < transfer->point_count; i++) graph.most = fmax(graph.most, 1.1 * (double)transfer->points[i].extinction);
+    for (uint32_t i = 0; i < transfer->point_count; i++) graph.max_extinction = fmax(graph.max_extinction, 1.1 * (double)transfer->points[i].extinction);
     ImGui::InvisibleButton("##graph", graph.size);
     const bool hovered = ImGui::IsItemHovered();
     if (chosen >= (int)transfer->point_count) chosen = 0;
@@ -98,7 +98,7 @@ void graph_of(panel_page *page, int index, const viewer_values *values) {
     histogram(graph, values);
     const ImVec2 hand(fminf(fmaxf(mouse.x, corner.x), far_corner.x), fminf(fmaxf(mouse.y, corner.y), far_corner.y));
     const double value = graph.low + (graph.high - graph.low) * (double)((hand.x - corner.x) / graph.size.x);
-    const double extinction = graph.most * (double)(1 - (hand.y - corner.y) / graph.size.y);
+    const double extinction = graph.max_extinction * (double)(1 - (hand.y - corner.y) / graph.size.y);
     curve(page, graph, transfer, held, hand);
     const int under = hovered ? find_point(graph, transfer, reach_points * page->unit) : -1;
     if (hovered) ImGui::SetTooltip("%.6g: %.4g\nDrag points; a double click adds one, a right click takes one out", value, extinction);
