@@ -86,8 +86,10 @@ bool scene_input_add(cli_session *session, size_t count, const char *const *path
         if (!(is_scene ? add_scene : add_file)(session, paths[i], options, coloring, scene)) return false;
     }
     if (ewa_scene_count(scene)) return true;
-    session_fail(session,
-                 session->filter ? "--filter: none of the points is left" : "there is nothing to draw");
+    if (session->filter)
+        session_fail(session, "--filter: none of the points is left");
+    else
+        session_fail(session, "%s: there is nothing to draw", paths[0]);
     return false;
 }
 

@@ -79,7 +79,7 @@ static const preset presets[] = {
      {{NONE, 0, 0x000000, 0}, {NONE, 1, 0xffffff, 0.25}},
      2},
     {"fog",
-     "white, denser with the value, never solid",
+     "white, for dark backgrounds; denser with the value, never solid",
      {{NONE, 0, 0xffffff, 0}, {NONE, 1, 0xffffff, 0.03}},
      2},
 };

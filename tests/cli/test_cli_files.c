@@ -200,7 +200,7 @@ TEST(test_scenes) {
     run_fails(1, "bad.json: items[0].opacity: 7 is outside [0, 1]", "ewa render bad.json -o never.png");
     assert_int_equal(scratch_size("never.png"), -1);
     scratch_text("none.json", "{\"ewa_scene\": 1}");
-    run_fails(1, "there is nothing to draw", "ewa render none.json -o never.png");
+    run_fails(1, "none.json: there is nothing to draw", "ewa render none.json -o never.png");
     // A file that lies elsewhere cannot be named.
     run_done("mkdir -p below");
     run_fails(1, "ring.ply|below/elsewhere.json",
