@@ -95,7 +95,7 @@ typedef struct ewa_photo_report {
     double rejected; ///< share of its pixels that count less than a quarter
     double psnr_db;  ///< the same as rms; infinite where nothing differs, NaN where it sees none of the points
     double world_to_camera[16]; ///< the pose, as pose steps have refined it
-    double shift_px; ///< how far these have moved what is seen: root of the mean square
+    double shift_px; ///< how far these have moved what is seen, in pixels after halving: root of the mean square
 } ewa_photo_report;
 
 /// What was done.

@@ -39,7 +39,7 @@ class PhotoReport(NamedTuple):
     world_to_camera : ndarray of float64, shape (4, 4)
         The pose, as pose steps have refined it.
     shift_px : float
-        How far these have moved what is seen: root of the mean square.
+        How far these have moved what is seen, in pixels after halving: root of the mean square.
     """
 
     held_out: bool

@@ -16,8 +16,8 @@ static inline bool ewa_exr_recognise(const uint8_t *bytes, size_t size_bytes) {
 
 /// Decodes the first part of an OpenEXR file (scan lines, or the largest level of tiles): R G B and A where
 /// there is one, else its channels in the file's (alphabetical) order, at most 16. The image is the data
-/// window. Errors: EWA_ERROR_FORMAT, EWA_ERROR_UNSUPPORTED (deep data, subsampled channels), EWA_ERROR_LIMIT,
-/// EWA_ERROR_MEMORY.
+/// window. Errors: EWA_ERROR_FORMAT, EWA_ERROR_UNSUPPORTED (deep data, subsampled channels, several parts packed by DWA),
+/// EWA_ERROR_LIMIT, EWA_ERROR_MEMORY.
 ewa_status ewa_exr_decode(ewa_context *context, const char *name, const uint8_t *bytes, size_t size_bytes,
                           ewa_image *image);
 
