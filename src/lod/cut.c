@@ -31,7 +31,7 @@ static const double ERROR_SPACING_PX = 0.5;
 static const double SURFELS_PER_PIXEL = 4;
 
 /// The most that the bounds grow by, and steps by which the factor is found, each of which halves its range.
-static const double MOST_COARSER = 4096;
+static const double MAX_COARSER = 4096;
 enum { FACTOR_STEPS = 24, COVER_CELLS = 256, COVER_CELL_PX = 16 };
 
 /// A node before the camera.
@@ -345,16 +345,16 @@ static ewa_status measure_cover(ewa_cut *c, double *pixels) {
 static ewa_status settle(ewa_cut *c) {
     c->coarser = 1;
     if (c->options->error == 0) return EWA_OK;
-    double most = (double)c->options->max_splats, pixels;
+    double limit = (double)c->options->max_splats, pixels;
     if (!c->options->max_splats) {
         EWA_TRY(measure_cover(c, &pixels));
-        most = SURFELS_PER_PIXEL * pixels * c->parts_per_pixel;
+        limit = SURFELS_PER_PIXEL * pixels * c->parts_per_pixel;
     }
-    double low = 1, high = MOST_COARSER;
-    if (count_all(c, 1) <= most) return EWA_OK;
+    double low = 1, high = MAX_COARSER;
+    if (count_all(c, 1) <= limit) return EWA_OK;
     for (int i = 0; i < FACTOR_STEPS; i++) {
         const double middle = sqrt(low * high);
-        if (count_all(c, middle) <= most)
+        if (count_all(c, middle) <= limit)
             high = middle;
         else
             low = middle;

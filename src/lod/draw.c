@@ -159,16 +159,16 @@ static ewa_status make_proxies(const ewa_lod_scene *scene, const ewa_cut_item *i
 /// Refuses a picture of which the nodes of some band do not fit in memory: before any is read.
 static ewa_status check_bands(ewa_context *context, const ewa_cut_item *items, uint32_t count, uint32_t height_px,
                               uint64_t memory_bytes) {
-    uint64_t most = 0;
+    uint64_t maximum = 0;
     for (uint32_t first = 0; first < height_px; first += BAND_PX) {
         const uint64_t bytes = bytes_of_rows(items, count, first, first + BAND_PX);
-        if (bytes > most) most = bytes;
+        if (bytes > maximum) maximum = bytes;
     }
-    if (most <= memory_bytes) return EWA_OK;
+    if (maximum <= memory_bytes) return EWA_OK;
     return ewa_fail(context, EWA_ERROR_LIMIT,
                     "%d rows of the picture need %llu bytes of nodes, more than the %llu that are allowed: with so many, or with "
                     "fewer pixels, a larger spacing of surfels or fewer of them (max_splats), it can be drawn",
-                    BAND_PX, (unsigned long long)most, (unsigned long long)memory_bytes);
+                    BAND_PX, (unsigned long long)maximum, (unsigned long long)memory_bytes);
 }
 
 /// Draws a picture whose nodes do not fit in memory together.

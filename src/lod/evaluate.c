@@ -21,7 +21,7 @@ enum {
     CHANNELS = 4,
     GRID_SIDE = 1 << EWA_PAGE_BITS,
     NO_SURFEL = -1,
-    FEWEST = 16, // surfels in a window that tell something
+    MIN_SURFELS = 16, // surfels in a window that tell something
 };
 
 /// Radii that are tried, over those that keep areas.
@@ -338,7 +338,7 @@ ewa_status ewa_representatives_evaluate(ewa_evaluator *evaluator, const ewa_repr
     }
     merged->unit_coverage = (float)coverage;
     find_range(merged, prefix, window_level, &first, &end);
-    if (status == EWA_OK && end - first >= FEWEST) {
+    if (status == EWA_OK && end - first >= MIN_SURFELS) {
         const ewa_octree_key window =
             ewa_code_key(prefix << 3 * (EWA_CODE_LEVELS - window_level), window_level);
         const double low[3] = {window.cell[0] * window_world, window.cell[1] * window_world,
