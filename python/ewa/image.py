@@ -97,7 +97,7 @@ class Image:
         What it took: counts, and seconds per stage.
     """
 
-    __slots__ = ("_planes", "camera", "opaque", "_stats")
+    __slots__ = ("_planes", "camera", "opaque", "_stats", "_of_floats")
     rgba8 = _Plane(np.uint8, "sRGB, straight alpha")
     rgba = _Plane(np.float32, "Linear light, premultiplied")
     depth = _Plane(np.float32, "Camera-space z, world units")
@@ -105,10 +105,11 @@ class Image:
     coverage = _Plane(np.float32, "1: covered")
     holes = _Plane(np.uint8, "255 where less than half of a pixel is covered")
 
-    def __init__(self, camera: Camera | None, opaque: bool = False) -> None:
+    def __init__(self, camera: Camera | None, opaque: bool = False, of_floats: bool = False) -> None:
         self._planes: dict[str, Array] = {}
         self.camera = camera
         self.opaque = opaque
+        self._of_floats = of_floats  # as the program does: files of 8 bits are made of the plane rgba
         self._stats: Any = None
 
     @property
@@ -133,9 +134,7 @@ class Image:
         return plane if dtype is None or plane.dtype == dtype else plane.astype(dtype)
 
     def _repr_png_(self) -> bytes | None:
-        if "rgba8" not in self._planes:
-            return None
-        return self.encode()
+        return self.encode() if "rgba8" in self._planes or self._of_floats else None
 
     def encode(self, suffix: str = ".png") -> bytes:
         """Return the bytes of the file that :meth:`save` writes.
@@ -166,11 +165,14 @@ class Image:
         Raises
         ------
         ArgumentError
-            The plane that the format needs (rgba8; rgba) was not drawn.
+            The plane that the format needs (rgba8, of textures rgba; rgba) was not drawn.
         FileError, FormatError
         """
         file = path_bytes(path)
         if file.lower().endswith((b".png", b".jpg", b".jpeg")):
+            if self._of_floats:
+                save_image(path, self.rgba[:, :, :3] if self.opaque else self.rgba)
+                return
             pixels = _without_alpha(self.rgba8) if self.opaque else np.ascontiguousarray(self.rgba8)
             height, width, channels = pixels.shape
             core = core_of(None)

@@ -231,7 +231,7 @@ def texture(picture: Any, *, homography: Any = None, corners: Any = None, camera
     drawn_size = camera.size if camera is not None else (width, height) if size is None else (size[0], size[1])
     made = initialised(b.ewa_texture_options, lib.ewa_texture_options_init)
     fill(made, "ewa_texture_options", dict(options))
-    image = Image(camera, set_background(made, background))
+    image = Image(camera, set_background(made, background), of_floats=True)
     new_frame(image, Camera(size=drawn_size).size, "rgba", None)
     given = b.ewa_texture_source(source.ctypes.data, b.ewa_pixel_format.EWA_PIXEL_LINEAR, channels, width, height,
                                  width * channels * 4)

@@ -312,6 +312,12 @@ class SameBytes(Case):
                             background="1,0,0")
         image.save(self.path("ours.pfm"))
         self.same("ours.pfm", "theirs.pfm")
+        for background in ("transparent", "#336699"):
+            self.run_program("texture", "photo.png", "-o", "theirs.png", "--corners", "8,4,60,1,63,47,2,40", "--background", background)
+            image = ewa.texture(self.path("photo.png"), corners=[[8, 4], [60, 1], [63, 47], [2, 40]], background=background)
+            image.save(self.path("ours.png"))
+            self.same("ours.png", "theirs.png")
+            self.assertEqual(image._repr_png_(), image.encode())
 
 
 if __name__ == "__main__":
