@@ -115,7 +115,7 @@ static ewa_status refuse(const ewa_mesh_source *source) {
     const char *picture = ewa_image_kind(source->bytes, source->size_bytes);
     if (picture)
         return ewa_fail(source->context, EWA_ERROR_UNSUPPORTED,
-                        "%s: a picture (%s), which has no points: heights says that its colours are such",
+                        "%s: a picture (%s), which has no points: heights says that colours of PNG or WebP are such",
                         source->name, picture);
     const char *kind = ewa_foreign_kind(source->bytes, source->size_bytes);
     if (kind) return ewa_fail(source->context, EWA_ERROR_UNSUPPORTED, "%s: %s", source->name, kind);
