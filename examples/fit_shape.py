@@ -169,9 +169,11 @@ def main() -> None:
     parser.add_argument("target")
     parser.add_argument("out")
     parser.add_argument("--level", type=int, default=4, help="of the icosphere: 10 * 4^level + 2 surfels")
-    parser.add_argument("--steps", type=int, default=240)
+    parser.add_argument("--steps", type=int, default=240, help="1 or more")
     parser.add_argument("--side", type=int, default=128)
     arguments = parser.parse_args()
+    if arguments.steps < 1:
+        parser.error(f"--steps is {arguments.steps}; 1 or more are needed")
     read = ewa.read(arguments.target)
     target = read if isinstance(read, ewa.Cloud) else ewa.sample(arguments.target, point_count=8000)
     sheet, _ = run(target, arguments.level, arguments.steps, arguments.side, lambda line: print(line, flush=True))

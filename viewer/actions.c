@@ -63,6 +63,8 @@ static const viewer_action actions[] = {
     {"Look", "Colours", "color next", "colours: the file's, then each attribute", 's', 0, VIEWER_ICON_NONE},
     {"Look", "Colour map", "colormap next", "the next colour map", 'm', 0, VIEWER_ICON_NONE},
     {"Look", "Colour bar", "next color_bar", "the numbers of the colours, at the side", 'b', 0, VIEWER_ICON_NONE},
+    {"Look", "Photographs...", "photos", "give the first points that are shown the colours of photographs, whose cameras are chosen", 'y', 0,
+     VIEWER_ICON_PHOTOS},
     {"Look", "Shading", "next shading", "shading: none, lambert or phong", 'l', 0, VIEWER_ICON_NONE},
     {"Look", "Eye-dome lighting", "dome next", "eye-dome lighting: darker where depths step", 'e', 0, VIEWER_ICON_NONE},
     {"Look", "Kernel", "next kernel", "the next kernel of splats", 'n', 0, VIEWER_ICON_NONE},

@@ -171,11 +171,28 @@ static bool read_map(const char *word, ewa_coloring_map *map) {
     return fine;
 }
 
+/// Colours that item 0 can have, one after another.
+static void cycle_color(viewer *v) {
+    for (size_t i = 0; i < v->item_count; i++) {
+        scene_item *item = &v->items[i];
+        char name[EWA_NAME_BYTES + 4];
+        uint32_t k = 0;
+        if (item->wish.attribute[0]) {
+            while (viewer_attribute_at(v, i, k, name) && strcmp(name, item->wish.attribute) != 0) k++;
+            k++;
+        }
+        const bool more = viewer_attribute_at(v, i, k, name) != NULL;
+        snprintf(item->wish.attribute, sizeof item->wish.attribute, "%s", more ? name : "");
+        item->wish.ranged = item->wish.percent[0] = item->wish.percent[1] = false;
+        items_recolor(v, i);
+    }
+}
+
 static bool do_color(viewer *v, const char *rest) {
     char word[WORD_BYTES], map[WORD_BYTES], end;
     size_t index;
     if (strcmp(rest, "next") == 0) {
-        items_cycle_color(v);
+        cycle_color(v);
         return true;
     }
     rest = take_word(rest, word);
@@ -411,6 +428,7 @@ static const struct {
     {"move", transform_move, NULL, NULL},
     {"rotate", transform_turn, NULL, NULL},
     {"scale", transform_scale, NULL, NULL},
+    {"photos", photos_do, NULL, NULL},
     {"transfer", transfers_command, NULL, NULL},
     {"transform", transform_command, NULL, transform_holds},
     {"tint", do_tint, NULL, NULL},

@@ -25,6 +25,7 @@ typedef struct scene_item {
     item_load load, shown_load;     ///< how it is to be loaded, and how it was
     viewer_values *values;          ///< of a volume; NULL: nobody has asked
     bool counts;                    ///< they are being counted
+    bool photographed;              ///< its colours are being found in photographs
     uint32_t material;              ///< of all its points; EWA_MATERIAL_OWN: as each says
     viewer_coloring wish, coloring; ///< what is asked for, and what is shown
 } scene_item;
@@ -204,8 +205,9 @@ struct viewer {
     viewer_selection selection;
     viewer_transform transform;
     viewer_film film;
-    char **transfer_files; ///< of functions that were changed, until the end: steps back need them
-    size_t transfer_count;
+    ewa_photos_options photos;
+    char **own_files; ///< of transfer functions and colours that are not saved, until the end: steps back need them
+    size_t own_file_count;
     ewa_measure measure_list[EWA_MAX_MEASURES];
     size_t measure_count;
     bool measures_kind;       ///< clicks add places to
@@ -240,6 +242,8 @@ void viewer_tell(viewer *v, const char *format, ...) __attribute__((format(print
 void viewer_note(viewer *v, const char *format, ...) __attribute__((format(printf, 2, 3)));
 void viewer_say(viewer *v, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
+enum { SHOT_TEMPORARY_BYTES = 256 };
+
 // items.c
 bool items_open(viewer *v, const char *path);
 bool items_close(viewer *v, size_t index);
@@ -251,6 +255,8 @@ void items_update(viewer *v);
 bool items_reload(viewer *v, size_t index, const item_load *load);
 /// Has the values of a volume counted, unless they are; also where its transfer function has changed: `again`.
 bool items_count(viewer *v, size_t index, bool again);
+/// Has colours of an item found in photographs. Returns false after saying why not.
+bool items_photos(viewer *v, size_t index, const viewer_photos *photos);
 /// Moves an item to another place in the list.
 void items_move(viewer *v, size_t from, size_t to);
 /// Orders a scene in which the item is as its wish says.
@@ -265,8 +271,6 @@ void items_gather(const viewer *v, paint_scene *scene);
 bool items_bounds(const viewer *v, double low_world[3], double high_world[3]);
 /// Places the camera: a named view, or NULL for the best. `animate`: on the way there.
 bool items_place(viewer *v, const char *view, bool animate);
-/// Colours that item 0 can have, one after another.
-void items_cycle_color(viewer *v);
 
 // camera moves
 void viewer_go(viewer *v, const ewa_camera *to);
@@ -357,8 +361,18 @@ bool transform_release(viewer *v, const viewer_event *event);
 bool transfers_command(viewer *v, const char *rest);
 /// Whether the transfer function of an item was changed and is in no file of a person's.
 bool transfers_is_changed(const viewer *v, size_t index);
-/// Takes the files of changed transfer functions away.
-void transfers_free(viewer *v);
+
+// photos.c: the command "photos"
+bool photos_do(viewer *v, const char *rest);
+/// Whether an item has colours of photographs that are in no file of a person's.
+bool photos_is_changed(const viewer *v, size_t index);
+/// Shows an item in the colours that were found.
+void photos_take(viewer *v, size_t index, const viewer_photos *photos, const ewa_photos_report *found);
+/// Makes a file of our own, which stays until the viewer goes: its name begins with a word and ends with a suffix. False after
+/// saying why not.
+bool own_files_make(viewer *v, const char *word, const char *suffix, char path[SHOT_TEMPORARY_BYTES]);
+bool own_files_has(const viewer *v, const char *path);
+void own_files_free(viewer *v);
 
 // film.c: the commands "keyframe" and "film"
 bool film_keyframe(viewer *v, const char *rest);
@@ -398,9 +412,8 @@ bool shot_command(viewer *v, const char *rest);
 bool shot_camera(viewer *v, const char *rest);
 /// Draws all there is, with what stands over it, as the window looks, whatever size the camera has.
 ewa_status shot_draw(viewer *v, const ewa_camera *camera, ewa_ink ink, uint8_t *rgba8);
-enum { SHOT_TEMPORARY_BYTES = 256 };
-/// Makes a file of our own, whose name begins with a word. False after saying why not.
-bool shot_temporary(viewer *v, const char *word, char path[SHOT_TEMPORARY_BYTES]);
+/// Makes a file of our own for a moment, whose name begins with a word and ends with a suffix. False after saying why not.
+bool shot_temporary(viewer *v, const char *word, const char *suffix, char path[SHOT_TEMPORARY_BYTES]);
 bool shot_scene(viewer *v, const char *rest);
 /// Fills in the scene of the window at full size.
 void viewer_scene(const viewer *v, paint_scene *scene);

@@ -281,6 +281,7 @@ bool items_reload(viewer *v, size_t index, const item_load *load) {
     scene_item *item = &v->items[index];
     if (memcmp(&item->load, load, sizeof *load) == 0) return true;
     const bool other = strcmp(item->load.transfer, load->transfer) != 0;
+    if (item->photographed) viewer_tell(v, "%s: the colours of photographs were given up", item->name);
     loader_forget(v->loader, item->id);
     items_update(v);
     if (!loader_load(v->loader, item->id, item->path, item->file, item->entry, load)) {
@@ -288,7 +289,7 @@ bool items_reload(viewer *v, size_t index, const item_load *load) {
         return false;
     }
     item->load = *load;
-    item->counts = false; // that order was forgotten, too
+    item->counts = item->photographed = false; // those orders were forgotten, too
     pick_clear(v);
     if (other && item->values && !items_count(v, index, true)) return false;
     wait_if_asked(v);
@@ -303,6 +304,17 @@ bool items_count(viewer *v, size_t index, bool again) {
         return false;
     }
     item->counts = true;
+    wait_if_asked(v);
+    return true;
+}
+
+bool items_photos(viewer *v, size_t index, const viewer_photos *photos) {
+    scene_item *item = &v->items[index];
+    if (item->photographed || !loader_photos(v->loader, item->id, item->path, item->file, item->entry, photos)) {
+        viewer_tell(v, "%s: %s", item->name, item->photographed ? "its colours are being found already" : "out of memory");
+        return false;
+    }
+    item->photographed = true;
     wait_if_asked(v);
     return true;
 }
@@ -324,9 +336,9 @@ bool items_cancel(viewer *v) {
     for (size_t i = v->item_count; i-- > 0;) {
         scene_item *item = &v->items[i];
         if (item->loaded) { // it stays where it is
-            any = any || memcmp(&item->load, &item->shown_load, sizeof item->load) != 0;
+            any = any || item->photographed || memcmp(&item->load, &item->shown_load, sizeof item->load) != 0;
             item->load = item->shown_load;
-            item->counts = false;
+            item->counts = item->photographed = false;
             continue;
         }
         any = true; // what is loaded already goes with the scene that is given up
@@ -463,6 +475,13 @@ static void take_values(viewer *v, loader_note *note) {
     item->counts = false;
 }
 
+static void take_photos(viewer *v, const loader_note *note) {
+    scene_item *item = find_item(v, note->item);
+    if (!item) return;
+    item->photographed = false;
+    photos_take(v, (size_t)(item - v->items), &note->photos, &note->found);
+}
+
 /// What came to nothing goes, or is again as it was.
 static void take_failure(viewer *v, const loader_note *note) {
     bool gone = false;
@@ -472,7 +491,7 @@ static void take_failure(viewer *v, const loader_note *note) {
         if (item->loaded) {
             item->wish = item->coloring;
             item->load = item->shown_load;
-            item->counts = false;
+            item->counts = item->photographed = false;
         } else if (note->item || item->asset) {
             remove_item(v, i);
             gone = true;
@@ -496,6 +515,9 @@ void items_update(viewer *v) {
             break;
         case LOADER_SCENE:
             take_scene(v, note);
+            break;
+        case LOADER_PHOTOS:
+            take_photos(v, note);
             break;
         case LOADER_FAILED:
             take_failure(v, note);
@@ -537,6 +559,7 @@ bool viewer_item_get(const viewer *v, size_t index, viewer_item *item) {
     memcpy(item->name, from->name, sizeof item->name);
     memcpy(item->to_world, from->load.to_world, sizeof item->to_world);
     item->values = from->values;
+    item->colored = photos_is_changed(v, index) ? "changed" : from->load.colored;
     item->transfer = transfers_is_changed(v, index) ? "changed" : from->load.transfer;
     return true;
 }
@@ -563,20 +586,4 @@ const char *viewer_attribute_at(const viewer *v, size_t index, uint32_t wanted,
         return name;
     }
     return NULL;
-}
-
-void items_cycle_color(viewer *v) {
-    for (size_t i = 0; i < v->item_count; i++) {
-        scene_item *item = &v->items[i];
-        char name[EWA_NAME_BYTES + 4];
-        uint32_t k = 0;
-        if (item->wish.attribute[0]) {
-            while (viewer_attribute_at(v, i, k, name) && strcmp(name, item->wish.attribute) != 0) k++;
-            k++;
-        }
-        const bool more = viewer_attribute_at(v, i, k, name) != NULL;
-        snprintf(item->wish.attribute, sizeof item->wish.attribute, "%s", more ? name : "");
-        item->wish.ranged = item->wish.percent[0] = item->wish.percent[1] = false;
-        items_recolor(v, i);
-    }
 }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// The thread that loads files and makes surfels anew, one order after another; without one, the same in the caller's.
+// The thread that loads files, colours them and makes surfels anew, one order after another; without one, the same in the caller's.
 #include "loader.h"
 
 #include <pthread.h>
@@ -164,11 +164,16 @@ static void carry_out(loader *l, loader_note *order) {
         ewa_asset_options_init(&entry.asset, sizeof entry.asset);
     memcpy(entry.asset.to_world, order->load.to_world, sizeof entry.asset.to_world);
     if (order->load.transfer[0]) entry.asset.transfer = order->load.transfer;
-    const bool done =
-        context && (order->kind == LOADER_VALUES ? count_values(context, order)
-                    : order->kind == LOADER_LOAD
-                        ? s->load(s->user, order->path, &entry.asset, &news, &order->asset)
-                        : make_scene(l, context, order));
+    const char *path = order->load.colored[0] ? order->load.colored : order->path;
+    bool done = context != NULL;
+    if (order->kind == LOADER_VALUES)
+        done = done && count_values(context, order);
+    else if (order->kind == LOADER_PHOTOS)
+        done = done && s->photos(s->user, path, &entry.asset, &order->photos, &news, &order->found);
+    else if (order->kind == LOADER_LOAD)
+        done = done && s->load(s->user, path, &entry.asset, &news, &order->asset);
+    else
+        done = done && make_scene(l, context, order);
     if (!done) order->kind = LOADER_FAILED;
 }
 
@@ -249,26 +254,44 @@ static void post(loader *l, loader_note *order) {
     pthread_mutex_unlock(&l->lock);
 }
 
-bool loader_load(loader *l, uint64_t item, const char *path, const ewa_scene_file *file, uint32_t entry, const item_load *load) {
+/// An order of an item's file; NULL: out of memory.
+static loader_note *make_order(loader_kind kind, uint64_t item, const char *path) {
     loader_note *order = calloc(1, sizeof *order);
-    if (!order) return false;
-    order->kind = LOADER_LOAD;
+    if (!order) return NULL;
+    order->kind = kind;
     order->item = item;
+    snprintf(order->path, sizeof order->path, "%s", path);
+    return order;
+}
+
+bool loader_load(loader *l, uint64_t item, const char *path, const ewa_scene_file *file, uint32_t entry, const item_load *load) {
+    loader_note *order = make_order(LOADER_LOAD, item, path);
+    if (!order) return false;
     order->file = file;
     order->entry = entry;
     order->load = *load;
-    snprintf(order->path, sizeof order->path, "%s", path);
     post(l, order);
     return true;
 }
 
 bool loader_count(loader *l, uint64_t item, const char *path, const item_load *load) {
-    loader_note *order = calloc(1, sizeof *order);
+    loader_note *order = make_order(LOADER_VALUES, item, path);
     if (!order) return false;
-    order->kind = LOADER_VALUES;
-    order->item = item;
     order->load = *load;
-    snprintf(order->path, sizeof order->path, "%s", path);
+    post(l, order);
+    return true;
+}
+
+bool loader_photos(loader *l, uint64_t item, const char *path, const ewa_scene_file *file, uint32_t entry,
+                   const viewer_photos *photos) {
+    loader_note *order = make_order(LOADER_PHOTOS, item, path);
+    if (!order) return false;
+    order->file = file;
+    order->entry = entry;
+    order->photos = *photos;
+    ewa_asset_options usual; // cameras are in the coordinates of the file
+    ewa_asset_options_init(&usual, sizeof usual);
+    memcpy(order->load.to_world, usual.to_world, sizeof usual.to_world);
     post(l, order);
     return true;
 }

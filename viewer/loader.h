@@ -11,6 +11,7 @@
 typedef struct item_load {
     double to_world[16];              ///< where its coordinates lie
     char transfer[VIEWER_PATH_BYTES]; ///< of a volume: a preset, "auto" or a file; empty: as the scene file says, else automatic
+    char colored[VIEWER_PATH_BYTES];  ///< file of its points in colours of photographs, which is read in its place; empty: none
 } item_load;
 
 typedef enum loader_kind {
@@ -18,6 +19,7 @@ typedef enum loader_kind {
     LOADER_PREVIEW, ///< report: something to look at of a file that is still being loaded, the receiver's
     LOADER_SCENE,   ///< order: a scene of assets; report: it is made, the receiver's
     LOADER_VALUES,  ///< order: what a volume's file holds; report: `values` are counted, the receiver's
+    LOADER_PHOTOS,  ///< order: colours of photographs; report: they are in the file `photos.to`
     LOADER_FAILED,  ///< report: the order came to nothing; a message has said why
     LOADER_MESSAGE, ///< report: something to know
 } loader_kind;
@@ -42,6 +44,8 @@ typedef struct loader_note {
     uint32_t entry;             ///< which of its files
     item_load load;             ///< of an order of a file
     viewer_values *values;      ///< of a report of LOADER_VALUES
+    viewer_photos photos;       ///< of LOADER_PHOTOS
+    ewa_photos_report found;    ///< of a report of LOADER_PHOTOS
     ewa_asset *asset;
     bool as_points; ///< of a preview
     loader_scene of;
@@ -63,6 +67,9 @@ bool loader_load(loader *loader, uint64_t item, const char *path, const ewa_scen
                  const item_load *load);
 /// Orders what values a volume holds, and its transfer function; false: out of memory.
 bool loader_count(loader *loader, uint64_t item, const char *path, const item_load *load);
+/// Orders a file of an item's points in colours of photographs; false: out of memory. `file`, `entry`: as of loader_load().
+bool loader_photos(loader *loader, uint64_t item, const char *path, const ewa_scene_file *file, uint32_t entry,
+                   const viewer_photos *photos);
 /// Orders a scene in place of one that waits; takes the references of `of` over, also when it returns false.
 bool loader_make(loader *loader, loader_scene *of);
 /// Gives up what is under way and all that waits. Scenes report that they came to nothing; of files nothing more is reported.

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Settings by their names: the viewer's own, the renderer's, the furniture's, from their tables.
+// Settings by their names: the viewer's own, the renderer's, the furniture's, those of photographs, from their tables.
 #include "inner.h"
 
 #include <math.h>
@@ -26,7 +26,7 @@ const ewa_option_table viewer_settings_table = {
     "viewer_settings", own_table, sizeof own_table / sizeof own_table[0], sizeof(viewer_settings)};
 
 /// What a panel shows, of which struct.
-typedef enum setting_owner { OWN, RENDER, FURNITURE, LOD } setting_owner;
+typedef enum setting_owner { OWN, RENDER, FURNITURE, LOD, PHOTOS } setting_owner;
 
 static const struct {
     const char *group;
@@ -53,17 +53,23 @@ static const struct {
     {"Furniture", FURNITURE, "axes"},
     {"Furniture", FURNITURE, "scale_bar"},
     {"Furniture", FURNITURE, "color_bar"},
+    {"Photographs", PHOTOS, "method"},
+    {"Photographs", PHOTOS, "exposure"},
+    {"Photographs", PHOTOS, "rounds"},
+    {"Photographs", PHOTOS, "pose_steps"},
+    {"Photographs", PHOTOS, "vignetting"},
     {"Moving", OWN, "navigation"},
     {"Moving", OWN, "budget_ms"},
     {"Moving", OWN, "reduce"},
 };
 
 static const ewa_option_table *const tables[] = {&viewer_settings_table, &ewa_render_options_table,
-                                                 &ewa_furniture_options_table, &ewa_lod_options_table};
+                                                 &ewa_furniture_options_table, &ewa_lod_options_table,
+                                                 &ewa_photos_options_table};
 
 /// The struct that an owner's options are in.
 static void *place_of(viewer *v, setting_owner owner) {
-    void *const places[] = {&v->settings, &v->render, &v->furniture, &v->lod};
+    void *const places[] = {&v->settings, &v->render, &v->furniture, &v->lod, &v->photos};
     return places[owner];
 }
 
@@ -74,6 +80,7 @@ void settings_init(viewer *v) {
     for (int c = 0; c < 4; c++) v->render.background[c] = 1; // as `ewa render`
     ewa_furniture_options_init(&v->furniture, sizeof v->furniture);
     ewa_lod_options_init(&v->lod, sizeof v->lod);
+    ewa_photos_options_init(&v->photos, sizeof v->photos);
 }
 
 const ewa_option *viewer_setting_at(const viewer *v, uint32_t index, const char **group) {
@@ -88,7 +95,7 @@ static const ewa_option *find(const char *name, setting_owner *owner) {
     static const char *const own_choice[] = {"level", "budget_s", "load_s", "resident_only"};
     for (size_t i = 0; i < sizeof own_choice / sizeof own_choice[0]; i++)
         if (strcmp(name, own_choice[i]) == 0) return NULL;
-    for (int k = OWN; k <= LOD; k++) {
+    for (int k = OWN; k <= PHOTOS; k++) {
         const ewa_option *option = ewa_option_find(tables[k], name);
         *owner = (setting_owner)k;
         if (option) return option;
@@ -139,7 +146,7 @@ bool viewer_setting_set(viewer *v, const char *name, const char *text) {
             return false;
         }
     }
-    if (owner != FURNITURE) viewer_change(v);
+    if (owner != FURNITURE && owner != PHOTOS) viewer_change(v);
     viewer_mark(v);
     return true;
 }

@@ -140,14 +140,14 @@ static bool load_camera(viewer *v, const char *path, const char *name) {
 }
 
 /// A file of our own for a moment: the text of a camera is the library's business.
-bool shot_temporary(viewer *v, const char *word, char path[SHOT_TEMPORARY_BYTES]) {
+bool shot_temporary(viewer *v, const char *word, const char *suffix, char path[SHOT_TEMPORARY_BYTES]) {
     const char *folder = getenv("TMPDIR");
     snprintf(path, SHOT_TEMPORARY_BYTES, "%.200s/ewa-%s", folder && *folder ? folder : "/tmp", word);
     const size_t length = strlen(path);
     int file = -1;
     errno = EEXIST;
     for (int attempt = 0; attempt < NAME_ATTEMPTS && file < 0 && errno == EEXIST; attempt++) {
-        snprintf(path + length, SHOT_TEMPORARY_BYTES - length, "-%lld-%d", (long long)time(NULL), attempt);
+        snprintf(path + length, SHOT_TEMPORARY_BYTES - length, "-%lld-%d%s", (long long)time(NULL), attempt, suffix);
         file = open(path, O_WRONLY | O_CREAT | O_EXCL, 0600);
     }
     if (file >= 0)
@@ -159,7 +159,7 @@ bool shot_temporary(viewer *v, const char *word, char path[SHOT_TEMPORARY_BYTES]
 
 static bool copy_camera(viewer *v) {
     char path[SHOT_TEMPORARY_BYTES];
-    if (!shot_temporary(v, "camera", path)) return false;
+    if (!shot_temporary(v, "camera", "", path)) return false;
     const bool done = save_camera(v, path) && read_text(path, v->clipboard, sizeof v->clipboard);
     unlink(path);
     if (done && v->services.clipboard_set) v->services.clipboard_set(v->services.user, v->clipboard);
@@ -176,7 +176,7 @@ static bool paste_camera(viewer *v) {
         viewer_tell(v, "camera: there is no text to paste");
         return false;
     }
-    if (!shot_temporary(v, "camera", path)) return false;
+    if (!shot_temporary(v, "camera", "", path)) return false;
     FILE *file = fopen(path, "w");
     bool done = file && fputs(text, file) >= 0;
     if (file) done = fclose(file) == 0 && done;
@@ -196,11 +196,16 @@ bool shot_scene(viewer *v, const char *rest) {
         viewer_tell(v, "%s: not everything is loaded yet", path);
         return false;
     }
-    for (size_t i = 0; i < v->item_count; i++)
+    for (size_t i = 0; i < v->item_count; i++) {
+        if (photos_is_changed(v, i)) {
+            viewer_tell(v, "%s: the colours of %s are in no file yet: photos %zu save FILE.ply", path, v->items[i].name, i);
+            return false;
+        }
         if (transfers_is_changed(v, i)) {
             viewer_tell(v, "%s: the transfer function of %s is in no file yet: transfer %zu save FILE.json", path, v->items[i].name, i);
             return false;
         }
+    }
     paint_scene shown;
     viewer_scene(v, &shown);
     shown.options.lod.load_s = v->lod.load_s; // time is the window's matter

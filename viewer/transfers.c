@@ -10,21 +10,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
-void transfers_free(viewer *v) {
-    for (size_t i = 0; i < v->transfer_count; i++) {
-        unlink(v->transfer_files[i]);
-        free(v->transfer_files[i]);
-    }
-    free(v->transfer_files);
-}
-
-bool transfers_is_changed(const viewer *v, size_t index) {
-    bool changed = false;
-    for (size_t i = 0; i < v->transfer_count; i++) changed = changed || strcmp(v->items[index].load.transfer, v->transfer_files[i]) == 0;
-    return changed;
-}
+bool transfers_is_changed(const viewer *v, size_t index) { return own_files_has(v, v->items[index].load.transfer); }
 
 /// Has a volume loaded with the function of a word: a preset's or a file's name.
 static bool apply(viewer *v, size_t index, const char *word) {
@@ -43,12 +30,8 @@ static bool fail(viewer *v, const char *path) {
 static bool apply_changed(viewer *v, size_t index, const ewa_transfer *transfer) {
     char path[SHOT_TEMPORARY_BYTES];
     v->probe.message[0] = 0;
-    if (!shot_temporary(v, "transfer", path)) return false;
-    char **larger = realloc(v->transfer_files, (v->transfer_count + 1) * sizeof *larger), *kept = larger ? strdup(path) : NULL;
-    if (larger) v->transfer_files = larger;
-    if (kept) v->transfer_files[v->transfer_count++] = kept;
-    if (kept && ewa_transfer_save(v->probe.context, transfer, path) == EWA_OK) return apply(v, index, path);
-    if (!kept) unlink(path);
+    if (!own_files_make(v, "transfer", "", path)) return false;
+    if (ewa_transfer_save(v->probe.context, transfer, path) == EWA_OK) return apply(v, index, path);
     return fail(v, path);
 }
 

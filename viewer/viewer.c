@@ -154,7 +154,7 @@ void viewer_destroy(viewer **made) {
         ewa_asset_release(&v->items[i].asset);
         free(v->items[i].values);
     }
-    transfers_free(v);
+    own_files_free(v);
     ewa_scene_destroy(&v->scene);
     history_free(v);
     profile_free(v);

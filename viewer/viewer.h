@@ -64,6 +64,14 @@ typedef struct viewer_coloring {
 
 void viewer_coloring_init(viewer_coloring *coloring);
 
+/// Photographs that points get colours from.
+typedef struct viewer_photos {
+    char cameras[VIEWER_PATH_BYTES]; ///< a file or folder of cameras (ewa_photo_list_load())
+    char images[VIEWER_PATH_BYTES];  ///< folder of the photographs; empty: as the cameras say
+    char to[VIEWER_PATH_BYTES];      ///< PLY file that is written
+    ewa_photos_options options;
+} viewer_photos;
+
 /// What the program does for the viewer, on the threads that are named. Calls may be NULL where it says so.
 typedef struct viewer_services {
     void *user;
@@ -72,6 +80,10 @@ typedef struct viewer_services {
     /// Loads a file in it; on the loading thread. `said`: what a scene file and the user say of it. Returns false after telling
     /// `news` why.
     bool (*load)(void *user, const char *path, const ewa_asset_options *said, const viewer_news *news, ewa_asset **asset);
+    /// Writes a file's points in the colours of photographs to another file; on the loading thread. Returns false after telling
+    /// `news` why. May be NULL: there are no photographs.
+    bool (*photos)(void *user, const char *path, const ewa_asset_options *said, const viewer_photos *photos, const viewer_news *news,
+                   ewa_photos_report *report);
     /// Places a camera, whose picture's size is set, for a first look or for a named view ("front" ... "iso",
     /// NULL: the best) at all that is visible; on the calling thread.
     bool (*place)(void *user, ewa_scene *scene, const char *view, ewa_camera *camera, double up_world[3]);
@@ -201,6 +213,7 @@ typedef enum viewer_icon {
     VIEWER_ICON_NONE,
     VIEWER_ICON_OPEN,
     VIEWER_ICON_PICTURE,
+    VIEWER_ICON_PHOTOS,
     VIEWER_ICON_HOME,
     VIEWER_ICON_FRONT,
     VIEWER_ICON_RIGHT,
@@ -288,6 +301,7 @@ typedef struct viewer_item {
     uint64_t count; ///< of points, voxels or Gaussians
     double to_world[16]; ///< where its coordinates lie
     const viewer_values *values; ///< of a volume, borrowed until the next call; NULL: "transfer N edit" has them counted
+    const char *colored;         ///< file of its colours from photographs; empty: its own; "changed": it is in no file of a person's
     const char *transfer;        ///< of a volume: a preset or a file; empty: automatic; "changed": it is in no file of a person's
     viewer_coloring coloring;
 } viewer_item;
@@ -306,7 +320,13 @@ const char *viewer_attribute_at(const viewer *viewer, size_t index, uint32_t att
 bool viewer_get_pick(const viewer *viewer, int index, double place_world[3]);
 
 /// A file's name that a command goes without: the answer is the command with it, or "cancel".
-typedef enum viewer_question { VIEWER_ASKS_NOTHING, VIEWER_ASKS_OPEN, VIEWER_ASKS_SAVE_SCENE } viewer_question;
+typedef enum viewer_question {
+    VIEWER_ASKS_NOTHING,
+    VIEWER_ASKS_OPEN,
+    VIEWER_ASKS_SAVE_SCENE,
+    VIEWER_ASKS_PHOTOS,      ///< for cameras, of item `asked_item`
+    VIEWER_ASKS_SAVE_PHOTOS, ///< for a file of its coloured points
+} viewer_question;
 
 /// What goes on.
 typedef struct viewer_state {
@@ -319,6 +339,7 @@ typedef struct viewer_state {
     uint32_t queued;                 ///< loads that wait
     char message[VIEWER_TEXT_BYTES]; ///< the last thing that went wrong or is worth knowing; empty: none
     double message_s;                ///< when
+    size_t asked_item; ///< of VIEWER_ASKS_PHOTOS and VIEWER_ASKS_SAVE_PHOTOS
     char note[VIEWER_TEXT_BYTES];    ///< what was done last, such as where a picture was saved; empty: nothing
     double note_s;                   ///< when
     viewer_question question;        ///< what the window is to ask for

@@ -5,6 +5,7 @@
 #include "cli/view/window_services.h"
 #include "cli/base/pattern.h"
 #include "cli/input/lod_input.h"
+#include "cli/input/photo_input.h"
 #include "cli/input/scene_input.h"
 #include "cli/render/picture.h"
 #include "cli/view/window_files.h"
@@ -120,14 +121,20 @@ static ewa_context *context(void *user, const viewer_news *news) {
     return own->loading.context;
 }
 
-static bool load(void *user, const char *path, const ewa_asset_options *said, const viewer_news *news, ewa_asset **asset) {
-    window_services *own = user;
+/// How a file is loaded of which a scene file and the user have said so much.
+static ewa_asset_options load_options(window_services *own, const ewa_asset_options *said) {
     const ewa_asset_options program = scene_input_asset_options(&own->loading);
     ewa_asset_options options = *said;
     options.load = program.load;
     options.reader = program.reader;
     options.reader_user = program.reader_user;
     if (!options.filter) options.filter = program.filter;
+    return options;
+}
+
+static bool load(void *user, const char *path, const ewa_asset_options *said, const viewer_news *news, ewa_asset **asset) {
+    window_services *own = user;
+    ewa_asset_options options = load_options(own, said);
     if (options.levels == EWA_OCTREE_AUTO) options.levels = own->levels;
     if (options.voxel_level_count < VIEWER_VOXEL_LEVELS) options.voxel_level_count = VIEWER_VOXEL_LEVELS;
     options.gaussian_levels = true;
@@ -144,6 +151,44 @@ static bool load(void *user, const char *path, const ewa_asset_options *said, co
     if (info.cloud && (info.count > MANY_POINTS || !info.drawable))
         show_preview(own->loading.context, news, &info);
     return true;
+}
+
+/// Loads all points of a file, in their own colours.
+static bool load_points(cli_session *session, const char *path, const ewa_asset_options *options, ewa_cloud **cloud) {
+    ewa_scene *scene = NULL;
+    ewa_asset *asset = NULL;
+    ewa_instance instance;
+    ewa_instance_init(&instance, sizeof instance);
+    strcpy(instance.coloring.attribute, "none");
+    const bool done = session_passed(session, ewa_asset_load(session->context, path, options, &asset)) &&
+                      session_passed(session, ewa_scene_create(session->context, NULL, &scene)) &&
+                      session_passed(session, ewa_scene_add(scene, asset, &instance)) &&
+                      session_passed(session, ewa_scene_cloud(scene, cloud));
+    ewa_asset_release(&asset);
+    ewa_scene_destroy(&scene);
+    return done;
+}
+
+static bool photos(void *user, const char *path, const ewa_asset_options *said, const viewer_photos *wanted, const viewer_news *news,
+                   ewa_photos_report *report) {
+    (void)news; // the session tells
+    window_services *own = user;
+    cli_session *session = &own->loading;
+    ewa_asset_options options = load_options(own, said);
+    options.gaussians_as_surfels = true;
+    options.levels = EWA_OCTREE_NEVER;
+    options.cutoff = wanted->options.cutoff;
+    const photo_arguments arguments = {.cameras_path = wanted->cameras, .images_path = wanted->images[0] ? wanted->images : NULL};
+    uint32_t count;
+    ewa_photo_list *list = photo_input_load(session, &arguments);
+    const ewa_photo *taken = ewa_photo_list_photos(list, &count);
+    ewa_cloud *cloud = NULL;
+    const bool done = list && load_points(session, path, &options, &cloud) &&
+                      session_passed(session, ewa_cloud_color_from_photos(cloud, taken, count, &wanted->options, report, NULL)) &&
+                      session_passed(session, ewa_cloud_save(cloud, wanted->to, NULL));
+    ewa_cloud_destroy(&cloud);
+    ewa_photo_list_destroy(&list);
+    return done;
 }
 
 /// The camera's options, for a named view without those that say otherwise.
@@ -234,6 +279,7 @@ bool window_services_make(window_services *own, const view_arguments *view, view
     *services = (viewer_services){.user = own,
                                   .context = context,
                                   .load = load,
+                                  .photos = photos,
                                   .place = place,
                                   .say = say,
                                   .interrupted = interrupted,

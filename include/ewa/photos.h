@@ -21,7 +21,7 @@ extern "C" {
 /// Makes the picture of a pinhole of one that a lens has taken: the elliptical Gaussian of each pixel, seen through the
 /// lens, as in ewa_texture_map(). `camera`: its size is the picture's. `pinhole` becomes RGBA, premultiplied, transparent where the lens
 /// shows nothing; the caller frees it. Errors: EWA_ERROR_ARGUMENT (sizes that differ, other than 1, 3 or 4 channels,
-/// numbers of the lens that are not finite), EWA_ERROR_MEMORY, EWA_CANCELLED.
+/// numbers of the lens that are not finite), EWA_ERROR_MEMORY, EWA_CANCELLED. Progress stage: "undistort".
 /// Based on: P. Heckbert, "Fundamentals of Texture Mapping and Image Warping", 1989 (the filter).
 EWA_API ewa_status ewa_image_undistort(const ewa_image *image, const ewa_camera *camera, const ewa_lens *lens,
                                        ewa_image *pinhole);
@@ -75,8 +75,8 @@ typedef struct ewa_photos_options {
     double ridge;      ///< of the fit: pull towards the median, of the median point's own weight; (0, 10]; default 0.1
     double spacing_px; ///< photographs are halved while points stay so far apart; 0: never; [0, 100]; default 2
     double cutoff;     ///< F: a "radius" is so many standard deviations; (0, 4]; default 3
-    /// Steps by which the pose of each photograph is refined in each round of the fit, and as many in all of those that are held
-    /// out; [0, 20]; 0 (default): poses are taken as they are
+    /// With the method fit: steps by which the pose of each photograph is refined in each round, and as many in all of those that are held
+    /// out; [0, 20]; 0 (default): poses are taken as they are; not with other methods
     uint32_t pose_steps;
     bool vignetting; ///< how much darker photographs are towards their corners is found, if one lens has taken them; default false
 } ewa_photos_options;
@@ -122,7 +122,8 @@ typedef struct ewa_photos_report {
 /// counts where some are held out, and of those with the same camera; else it does not, nor does the number of threads.
 ///
 /// `cloud`: "position" and what surfels need (see ewa_surfels_create()). `per_photo`: `count` reports; it, `options` and
-/// `report` may be NULL. Progress stage: "photos". After a failure the colours are as they were; "photo_count" and
+/// `report` may be NULL. Progress stages, whose
+/// shares go on from one to the next: "photos: samples", "photos: exposures", "photos: fit", "photos: comparison". After a failure the colours are as they were; "photo_count" and
 /// "photo_residual" of an earlier call may be gone. Errors: EWA_ERROR_ARGUMENT (options;
 /// no photographs; a photograph of another size than its camera, with neither path nor image, of other than 1, 3 or 4
 /// channels; none that sees a point), those of ewa_image_load(), EWA_ERROR_LIMIT, EWA_ERROR_MEMORY, EWA_CANCELLED. A

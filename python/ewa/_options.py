@@ -369,7 +369,7 @@ class PhotosOptions(TypedDict, total=False):
     spacing_px: float | None
     #: standard deviations at which kernels end; (0, 4], default 3
     cutoff: float | None
-    #: steps by which the pose of each photograph is refined in each round of the fit, and as many in all of those that are held out; 0: poses are taken as they are; [0, 20], default 0
+    #: with the method fit: steps by which the pose of each photograph is refined in each round, and as many in all of those that are held out; 0: poses are taken as they are; [0, 20], default 0
     pose_steps: int | None
     #: find how much darker photographs are towards their corners, which one lens has taken; on|off, default off
     vignetting: bool | None

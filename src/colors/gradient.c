@@ -128,7 +128,7 @@ static ewa_status iterate(gradient_state *state, uint32_t *iterations) {
         ewa_parallel(job->context, turn_block, state, ewa_gradient_blocks(job->size));
         // Residuals do not shrink in every step.
         if (maximum < max_start) share = fmax(share, log(max_start / maximum) / log(max_start));
-        EWA_TRY(ewa_progress(job->context, job->stage, job->begin + (job->end - job->begin) * share));
+        if (!job->silent) EWA_TRY(ewa_progress(job->context, job->stage, job->begin + (job->end - job->begin) * share));
     }
 }
 

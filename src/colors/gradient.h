@@ -38,6 +38,7 @@ typedef struct ewa_conjugate_gradient {
     ewa_severity unsolved_severity; ///< of the message with EWA_ERROR_NUMERIC
     const char *stage;              ///< of the progress, which goes from `begin` to `end`
     double begin, end;
+    bool silent; ///< `prepare` tells the progress
 } ewa_conjugate_gradient;
 
 /// Solves; `*iterations` gets the steps. Does not depend on the number of threads. Errors: EWA_ERROR_NUMERIC

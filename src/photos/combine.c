@@ -159,7 +159,7 @@ static void copy_exposures(const ewa_photos_job *job, double *to) {
 static ewa_status find_exposures(ewa_photos_job *job, double begin, double end, double *before, double *after,
                                  size_t count) {
     for (int step = 0; step < MAX_STEPS; step++) {
-        EWA_TRY(ewa_progress(job->context, "photos", begin + (end - begin) * step / MAX_STEPS));
+        EWA_TRY(ewa_progress(job->context, "photos: exposures", begin + (end - begin) * step / MAX_STEPS));
         const double wide = step < WIDE_STEPS ? ldexp(1, WIDE_STEPS - step) : 1;
         exposure_job exposure = {job, job->options.robust * wide};
         EWA_TRY(combine_some(job, EWA_PHOTOS_MEDIAN, ewa_exposure_stride(job->point_count)));

@@ -30,8 +30,12 @@ typedef struct fit_round {
     double *product;  ///< A' W A direction, by steps; all [point][EWA_PHOTO_CHANNELS]
     double *change;
     double ridge;
+    double begin, end; ///< of the progress of the steps
+    int steps;         ///< that have begun
     ewa_status status; ///< of the products
 } fit_round;
+
+static const char STAGE[] = "photos: fit";
 
 static void weigh_piece(void *data, uint32_t index, uint32_t worker) {
     (void)worker;
@@ -84,8 +88,11 @@ static void multiply_all(void *system, const double *direction) {
     for (uint32_t i = 0; i < job->photo_count && round->status == EWA_OK; i++) {
         const ewa_photo_state *photo = &job->photos[i];
         if (!photo->fit_weights) continue;
-        round->status = ewa_photo_view_normal(&photo->fitted, photo->fit_weights, direction, round->product);
+        const double done = round->steps + (double)i / job->photo_count;
+        round->status = ewa_progress(job->context, STAGE, round->begin + (round->end - round->begin) * done / CG_STEPS);
+        if (round->status == EWA_OK) round->status = ewa_photo_view_normal(&photo->fitted, photo->fit_weights, direction, round->product);
     }
+    round->steps++;
     if (round->status != EWA_OK) memcpy(round->product, direction, size * sizeof *direction);
 }
 
@@ -122,6 +129,7 @@ static ewa_status improve(fit_round *round, double begin, double end) {
     ewa_photos_job *job = round->job;
     const size_t size = (size_t)job->point_count * EWA_PHOTO_CHANNELS;
     round->ridge = job->options.ridge * median_of(round);
+    round->begin = begin, round->end = end, round->steps = 0;
     if (!(round->ridge > 0)) return EWA_OK;
     for (size_t i = 0; i < size; i++) round->sides[i] -= round->ridge * (job->color[i] - round->start[i]);
     const ewa_conjugate_gradient gradient = {.context = job->context,
@@ -135,9 +143,8 @@ static ewa_status improve(fit_round *round, double begin, double end) {
                                    .precondition = precondition,
                                    .tolerance = TOLERANCE,
                                    .max_iterations = CG_STEPS,
-                                   .stage = "photos",
-                                   .begin = begin,
-                                   .end = end};
+                                   .stage = STAGE,
+                                   .silent = true};
     uint32_t steps;
     const ewa_status status = ewa_conjugate_gradient_run(&gradient, &steps);
     EWA_TRY(round->status);
@@ -164,7 +171,7 @@ static ewa_status run_round(fit_round *round, double begin, double end) {
     memset(round->diagonal, 0, size * sizeof *round->diagonal);
     for (uint32_t i = 0; i < job->photo_count; i++) {
         ewa_photo_state *photo = &job->photos[i];
-        EWA_TRY(ewa_progress(job->context, "photos", begin + (middle - begin) * i / job->photo_count));
+        EWA_TRY(ewa_progress(job->context, STAGE, begin + (middle - begin) * i / job->photo_count));
         if (photo->held_out || photo->sample_count == 0) continue;
         ewa_photo_view view;
         EWA_TRY(ewa_photo_view_make(job, photo, &view));

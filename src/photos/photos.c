@@ -41,8 +41,8 @@ static const ewa_option option_rows[] = {
     {"cutoff", EWA_OPTION_F64, AT(cutoff), 0, 4, EWA_OPTION_ABOVE, .initial = 3,
      .help = "standard deviations at which kernels end"},
     {"pose_steps", EWA_OPTION_U32, AT(pose_steps), 0, 20,
-     .help = "steps by which the pose of each photograph is refined in each round of the fit, and as many in all of those that "
-             "are held out; 0: poses are taken as they are"},
+     .help = "with the method fit: steps by which the pose of each photograph is refined in each round, and as many in all of those "
+             "that are held out; 0: poses are taken as they are"},
     {"vignetting", EWA_OPTION_BOOL, AT(vignetting),
      .help = "find how much darker photographs are towards their corners, which one lens has taken"},
 };
@@ -148,14 +148,14 @@ static ewa_status keep_samples(ewa_photos_job *job, ewa_photo_state *photo, cons
 }
 
 /// Opens the view of a photograph.
-static ewa_status look(ewa_photos_job *job, ewa_photo_state *photo, double fraction, ewa_photo_view *view) {
-    EWA_TRY(ewa_progress(job->context, "photos", fraction));
+static ewa_status look(ewa_photos_job *job, ewa_photo_state *photo, const char *stage, double fraction, ewa_photo_view *view) {
+    EWA_TRY(ewa_progress(job->context, stage, fraction));
     return ewa_photo_view_make(job, photo, view);
 }
 
 static ewa_status sample(ewa_photos_job *job, ewa_photo_state *photo, double fraction, double *found, double *sums) {
     ewa_photo_view view;
-    EWA_TRY(look(job, photo, fraction, &view));
+    EWA_TRY(look(job, photo, "photos: samples", fraction, &view));
     float *rgba = ewa_allocate_zeroed(job->context, (size_t)view.pixel_count * 4, sizeof *rgba);
     ewa_status status = rgba ? add_up(job, &view, rgba, found, sums) : EWA_ERROR_MEMORY;
     ewa_release(job->context, rgba, (size_t)view.pixel_count * 4, sizeof *rgba);
@@ -253,7 +253,7 @@ static double decibels(double rms) { return -20 * log10(rms); }
 static ewa_status compare_one(ewa_photos_job *job, ewa_photo_state *photo, double fraction, double *residuals,
                               error_sums *errors) {
     ewa_photo_view view;
-    EWA_TRY(look(job, photo, fraction, &view));
+    EWA_TRY(look(job, photo, "photos: comparison", fraction, &view));
     const size_t size = (size_t)view.pixel_count * 4;
     ewa_photo_match at = {job, &view, photo, ewa_allocate(job->context, size, sizeof *at.shown)};
     const ewa_status status = at.shown ? compare(&at, residuals, errors) : EWA_ERROR_MEMORY;
@@ -363,7 +363,7 @@ static ewa_status run(ewa_photos_job *job, double *alpha, double *residuals, ewa
     const int count = job->options.method == EWA_PHOTOS_FIT && job->options.pose_steps ? 2 : 1;
     for (int i = 0; i < count; i++) EWA_TRY(find_colors(job, alpha, FITTED * i / count, FITTED * (i + 1) / count));
     EWA_TRY(compare_all(job, FITTED, residuals, report));
-    EWA_TRY(ewa_progress(job->context, "photos", 1));
+    EWA_TRY(ewa_progress(job->context, "photos: comparison", 1));
     return write(job, alpha, residuals, report);
 }
 
@@ -415,6 +415,9 @@ ewa_status ewa_cloud_color_from_photos(ewa_cloud *cloud, const ewa_photo *photos
         return ewa_fail(job.context, EWA_ERROR_LIMIT, "photos: %u photographs and %llu points; there may be %d and %u", count,
                         (unsigned long long)points, EWA_PHOTO_MAX, UINT32_MAX - EWA_PHOTO_PIECE);
     for (uint32_t i = 0; i < count; i++) EWA_TRY(ewa_camera_check(job.context, &photos[i].camera));
+    if (job.options.pose_steps && job.options.method != EWA_PHOTOS_FIT)
+        return ewa_fail(job.context, EWA_ERROR_ARGUMENT, "photos: pose_steps is %u, and poses are refined by the method fit alone",
+                        job.options.pose_steps);
     if (job.options.hold_out == 1)
         return ewa_fail(job.context, EWA_ERROR_ARGUMENT, "photos: hold_out is 1, which leaves no photograph to use");
     job.point_count = (uint32_t)points;

@@ -125,7 +125,7 @@ ewa_status ewa_image_undistort(const ewa_image *image, const ewa_camera *camera,
     ewa_status status = ewa_texture_make(image, EWA_TEXTURE_CLAMP, EWA_TEXTURE_CLAMP, &job.texture);
     if (status == EWA_OK) status = ewa_image_create(image->context, camera->width_px, camera->height_px, 4, pinhole);
     if (status == EWA_OK)
-        status = ewa_parallel_stoppable(image->context, "photos", undistort_row, &job, camera->height_px);
+        status = ewa_parallel_stoppable(image->context, "undistort", undistort_row, &job, camera->height_px);
     ewa_texture_free(&job.texture);
     if (status != EWA_OK) ewa_image_free(pinhole);
     return status;

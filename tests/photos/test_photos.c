@@ -272,6 +272,9 @@ TEST(test_bad_input_is_named) {
     photo_scene *scene = photo_scene_make(context, 1000, 4, 60, 0, 0);
     ewa_photos_options options = options_of(EWA_PHOTOS_MEAN);
     fails(scene, 0, NULL, &log, "no photographs");
+    options.pose_steps = 2;
+    fails(scene, 4, &options, &log, "pose_steps is 2, and poses are refined by the method fit alone");
+    options.pose_steps = 0;
     options.hold_out = 1;
     fails(scene, 4, &options, &log, "hold_out is 1");
     options.hold_out = 0, options.rounds = 0;
@@ -366,6 +369,57 @@ TEST(test_vignetting) {
     assert_true(corrected.held_out_psnr_db > as_it_is.held_out_psnr_db + 4);
     for (double r2 = 0.1; r2 < 0.45; r2 += 0.1) // the ball ends there
         assert_true(fabs(r2 * (corrected.vignetting[0] - lens[0] + r2 * (corrected.vignetting[1] - lens[1]))) < 0.003);
+    photo_scene_free(&scene);
+    ewa_context_destroy(&context);
+}
+
+/// What progress has told; it gives up when so many calls are left.
+typedef struct phases {
+    char stages[200]; ///< one after another
+    double fraction;
+    uint32_t calls;
+    int64_t calls_left;
+} phases;
+
+static bool note_phase(void *user, const char *stage, double fraction) {
+    phases *seen = user;
+    if (strncmp(stage, "photos: ", 8) != 0) return true;
+    const size_t length = strlen(seen->stages), own = strlen(stage + 8);
+    if (length < own + 1 || strncmp(seen->stages + length - own - 1, stage + 8, own) != 0) {
+        char word[64];
+        snprintf(word, sizeof word, "%.60s ", stage + 8);
+        strcat(seen->stages, word);
+    }
+    assert_true(fraction >= seen->fraction && fraction <= 1);
+    seen->fraction = fraction;
+    seen->calls++;
+    return seen->calls_left-- != 0;
+}
+
+TEST(test_progress_names_phases_and_gives_up) {
+    (void)state;
+    phases seen = {.calls_left = -1};
+    ewa_context_options context_options;
+    ewa_context_options_init(&context_options, sizeof context_options);
+    context_options.progress = note_phase;
+    context_options.progress_user = &seen;
+    ewa_context *context = NULL;
+    assert_int_equal(ewa_context_create(&context_options, &context), EWA_OK);
+    photo_scene *scene = photo_scene_make(context, 300, 3, 40, 0, 0);
+    ewa_photos_options options = options_of(EWA_PHOTOS_FIT);
+    options.hold_out = 0, options.rounds = 1;
+    assert_int_equal(ewa_cloud_color_from_photos(scene->cloud, scene->photos, 3, &options, NULL, NULL), EWA_OK);
+    assert_string_equal(seen.stages, "samples exposures fit comparison ");
+    assert_true(seen.fraction == 1);
+    float before[900], after[900];
+    ewa_attribute_read_f32(ewa_cloud_find(scene->cloud, EWA_COLOR), 0, 300, before);
+    const uint32_t calls = seen.calls;
+    for (uint32_t i = 0; i < calls; i++) {
+        seen = (phases){.calls_left = i};
+        assert_int_equal(ewa_cloud_color_from_photos(scene->cloud, scene->photos, 3, &options, NULL, NULL), EWA_CANCELLED);
+        ewa_attribute_read_f32(ewa_cloud_find(scene->cloud, EWA_COLOR), 0, 300, after);
+        assert_memory_equal(before, after, sizeof before);
+    }
     photo_scene_free(&scene);
     ewa_context_destroy(&context);
 }

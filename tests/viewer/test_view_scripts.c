@@ -72,6 +72,73 @@ static void save_gaussians(ewa_context *context) {
     ewa_gaussians_free(&set);
 }
 
+/// Draws a ball from four sides and says how in ball_photos.json.
+static void take_photos(ewa_context *context, const ewa_cloud *ball) {
+    enum { SIDE_PX = 120, VIEWS = 4 };
+    static uint8_t rgba8[SIDE_PX * SIDE_PX * 4];
+    ewa_surfels *surfels = NULL;
+    ewa_renderer *renderer = NULL;
+    ewa_render_options options;
+    ewa_render_options_init(&options, sizeof options);
+    options.shading = EWA_SHADING_NONE;
+    assert_int_equal(ewa_surfels_create(ball, NULL, &surfels), EWA_OK);
+    assert_int_equal(ewa_renderer_create(context, &renderer), EWA_OK);
+    FILE *file = fopen("ball_photos.json", "w");
+    assert_non_null(file);
+    for (int i = 0; i < VIEWS; i++) {
+        // Rows: right, down, ahead.
+        const double x = i == 0 ? 1 : i == 2 ? -1 : 0, y = i == 1 ? 1 : i == 3 ? -1 : 0;
+        const double rows[16] = {-y, x, 0, 0, 0, 0, -1, 0, -x, -y, 0, 4, 0, 0, 0, 1};
+        ewa_camera camera;
+        ewa_camera_init(&camera);
+        camera.width_px = camera.height_px = SIDE_PX;
+        camera.fx_px = camera.fy_px = 2 * SIDE_PX, camera.cx_px = camera.cy_px = SIDE_PX / 2.0;
+        memcpy(camera.world_to_camera, rows, sizeof rows);
+        assert_int_equal(ewa_render(renderer, surfels, &camera, &options, &(ewa_frame){.rgba8 = rgba8}, NULL), EWA_OK);
+        char name[32];
+        snprintf(name, sizeof name, "ball_%d.png", i);
+        assert_int_equal(ewa_png_save(context, name, SIDE_PX, SIDE_PX, 4, rgba8, 4 * SIDE_PX), EWA_OK);
+        fprintf(file, "%s{\"file_path\": \"%s\", \"width\": %d, \"height\": %d, \"fx\": %d, \"fy\": %d, \"cx\": %d, \"cy\": %d, "
+                "\"world_to_camera\": [", i ? ",\n" : "[", name, SIDE_PX, SIDE_PX, 2 * SIDE_PX, 2 * SIDE_PX, SIDE_PX / 2, SIDE_PX / 2);
+        for (int k = 0; k < 16; k++) fprintf(file, "%s%g", k ? ", " : "", rows[k]);
+        fputs("]}", file);
+    }
+    fputs("]\n", file);
+    assert_int_equal(fclose(file), 0);
+    ewa_renderer_destroy(&renderer);
+    ewa_surfels_destroy(&surfels);
+}
+
+/// A ball without colours, photographs of it with some, and the two together as the program puts them.
+static void make_photos(ewa_context *context) {
+    ewa_generate_options options;
+    ewa_generate_options_init(&options, sizeof options);
+    options.object = EWA_OBJECT_SPHERE;
+    options.point_count = 4000;
+    ewa_cloud *ball = NULL, *colored = NULL;
+    assert_int_equal(ewa_cloud_generate(context, &options, &ball), EWA_OK);
+    save(ball, "grey_ball.ply");
+    void *colors;
+    assert_int_equal(ewa_cloud_add(ball, EWA_COLOR, EWA_U8, 3, &colors), EWA_OK);
+    for (uint64_t i = 0; i < ewa_cloud_point_count(ball); i++) {
+        double p[3];
+        ewa_attribute_read_f64(ewa_cloud_find(ball, EWA_POSITION), i, 1, p);
+        for (int c = 0; c < 3; c++) ((uint8_t *)colors)[3 * i + (uint64_t)c] = (uint8_t)(120 + 100 * p[c]);
+    }
+    take_photos(context, ball);
+    ewa_cloud_destroy(&ball);
+    ewa_photo_list *list = NULL;
+    uint32_t count;
+    assert_int_equal(ewa_cloud_load(context, "grey_ball.ply", &colored), EWA_OK);
+    assert_int_equal(ewa_photo_list_load(context, "ball_photos.json", NULL, &list), EWA_OK);
+    const ewa_photo *photos = ewa_photo_list_photos(list, &count);
+    assert_int_equal(count, 4);
+    assert_int_equal(ewa_cloud_color_from_photos(colored, photos, count, NULL, NULL, NULL), EWA_OK);
+    save(colored, "ball_program.ply");
+    ewa_photo_list_destroy(&list);
+    ewa_cloud_destroy(&colored);
+}
+
 /// A ramp on the map, of height x / 2 + 3 above 100, in decimals of centimetres; its northern half is a building.
 static void write_ramp(const char *path) {
     FILE *file = fopen(path, "w");
@@ -144,6 +211,7 @@ static int make_files(void **state) {
     assert_int_equal(ewa_volume_save(&volume, "ball.nrrd", NULL), EWA_OK);
     ewa_volume_free(&volume);
     save_gaussians(context);
+    make_photos(context);
     ewa_context_destroy(&context);
     return 0;
 }

@@ -27,9 +27,35 @@ const struct {
     {"Gaussians", ".ply|.splat|.spz|.ksplat|.sog|meta.json"},
     {"Volumes", ".nrrd|.nhdr|.mhd|.mha|.nii|.nii.gz|.vti|.vtk"},
     {"Scenes", ".json"},
+    {"Cameras", ".json|.xml|cameras.bin|cameras.txt"},
     {"All files", ""},
 };
-constexpr int kind_count = IM_ARRAYSIZE(kinds);
+constexpr int kind_count = IM_ARRAYSIZE(kinds), cameras_kind = 6;
+
+/// What is asked for, in the order of viewer_question.
+const struct {
+    const char *title, *button, *suffix, *name; ///< suffix: of a file that is saved
+} questions[] = {
+    {"", "", nullptr, ""},
+    {"Open", "Open", nullptr, ""},
+    {"Save the scene as", "Save", ".json", "scene.json"},
+    {"Cameras whose photographs give the points colours", "Colour", nullptr, ""},
+    {"Save the coloured points as", "Save", ".ply", "coloured.ply"},
+};
+
+/// The command that a path answers.
+bool say_answer(const panel_page *page, const char *path) {
+    switch (page->state.question) {
+    case VIEWER_ASKS_SAVE_SCENE:
+        return panel_say(page, "scene save %s", path);
+    case VIEWER_ASKS_PHOTOS:
+        return panel_say(page, "photos %zu %s", page->state.asked_item, path);
+    case VIEWER_ASKS_SAVE_PHOTOS:
+        return panel_say(page, "photos %zu save %s", page->state.asked_item, path);
+    default:
+        return panel_say(page, "open %s", path);
+    }
+}
 
 bool ends_with(const char *name, const char *suffixes) {
     const size_t length = strlen(name);
@@ -122,8 +148,8 @@ bool complete(const panel_files *files, const char *name, char path[VIEWER_PATH_
     return used < VIEWER_PATH_BYTES;
 }
 
-/// Answers the question by a name; a folder is gone into.
-void answer(const panel_page *page, const char *name) {
+/// Answers the question by a name; a folder is gone into, unless it is the answer as a `whole`.
+void answer(const panel_page *page, const char *name, bool whole = false) {
     panel_files *files = page->files;
     char path[VIEWER_PATH_BYTES];
     struct stat facts;
@@ -134,23 +160,24 @@ void answer(const panel_page *page, const char *name) {
     }
     const bool there = stat(path, &facts) == 0;
     // Folders that are one thing, as octrees are, are named by a file in them.
-    if (there && S_ISDIR(facts.st_mode)) {
+    if (there && S_ISDIR(facts.st_mode) && !whole) {
         files->name[0] = 0;
         go_to(files, path);
         return;
     }
-    const bool saves = page->state.question == VIEWER_ASKS_SAVE_SCENE;
+    const char *suffix = questions[page->state.question].suffix;
+    const bool saves = suffix != nullptr;
     if (!saves && !there && !strstr(path, "://")) {
         snprintf(files->problem, sizeof files->problem, "%s", strerror(errno));
         return;
     }
-    if (saves && !ends_with(path, ".json") && strlen(path) + 6 < sizeof path) strcat(path, ".json");
+    if (saves && !ends_with(path, suffix) && strlen(path) + strlen(suffix) < sizeof path) strcat(path, suffix);
     if (saves && stat(path, &facts) == 0 && !(files->confirmed[0] && strcmp(files->confirmed, path) == 0)) {
         memcpy(files->confirmed, path, sizeof path);
         snprintf(files->problem, sizeof files->problem, "It is there already: again to replace it.");
         return;
     }
-    if (!panel_say(page, "%s %s", saves ? "scene save" : "open", path)) return;
+    if (!say_answer(page, path)) return;
     files->shown = false;
 }
 
@@ -221,7 +248,8 @@ void begin(const panel_page *page) {
     files->asked = page->state.question;
     files->name[0] = files->confirmed[0] = 0;
     go_to(files, files->folder[0] ? files->folder : ".");
-    if (page->state.question == VIEWER_ASKS_SAVE_SCENE) snprintf(files->name, sizeof files->name, "scene.json");
+    files->kind = files->asked == VIEWER_ASKS_PHOTOS ? cameras_kind : 0;
+    snprintf(files->name, sizeof files->name, "%s", questions[files->asked].name);
 }
 
 } // namespace
@@ -255,8 +283,7 @@ void panel_question(panel_page *page) {
     ImGui::SetNextWindowBgAlpha(1);
     ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1);
     ImGui::Begin("question", nullptr, ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove);
-    const bool saves = question == VIEWER_ASKS_SAVE_SCENE;
-    ImGui::TextUnformatted(saves ? "Save the scene as" : "Open");
+    ImGui::TextUnformatted(questions[question].title);
     if (ImGui::Button("Up")) go_up(files);
     ImGui::SameLine();
     ImGui::AlignTextToFramePadding();
@@ -281,12 +308,19 @@ void panel_question(panel_page *page) {
             if (ImGui::Selectable(kinds[k].label, k == files->kind)) files->kind = k;
         ImGui::EndCombo();
     }
-    done = ImGui::Button(saves ? "Save" : "Open", ImVec2(80 * page->unit, 0)) || done;
+    done = ImGui::Button(questions[question].button, ImVec2(80 * page->unit, 0)) || done;
     ImGui::SameLine();
+    // A model of COLMAP is a folder.
+    const bool whole = question == VIEWER_ASKS_PHOTOS && ImGui::Button("This folder", ImVec2(100 * page->unit, 0));
+    if (question == VIEWER_ASKS_PHOTOS) ImGui::SameLine();
     if (ImGui::Button("Cancel", ImVec2(80 * page->unit, 0))) panel_say(page, "cancel");
     ImGui::SameLine();
     ImGui::TextDisabled("%s", files->problem);
-    if (done) {
+    if (whole) {
+        char folder[VIEWER_PATH_BYTES];
+        memcpy(folder, files->folder, sizeof folder);
+        answer(page, folder, true);
+    } else if (done) {
         char name[VIEWER_PATH_BYTES];
         memcpy(name, files->name, sizeof name);
         answer(page, name);

@@ -135,6 +135,20 @@ void write_count(uint64_t count, char text[32]) {
     text[used] = 0;
 }
 
+/// Colours of photographs: found, saved, taken away.
+void choose_photos(const panel_page *page, int index, const viewer_item *item) {
+    panel_label(page, "Photographs");
+    if (ImGui::Button("Cameras...")) panel_say(page, "photos %d", index);
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("Colours of photographs, whose cameras are chosen");
+    if (!item->colored[0]) return;
+    ImGui::SameLine(0, ImGui::GetStyle().ItemInnerSpacing.x);
+    if (ImGui::Button("Save...")) panel_say(page, "photos %d save", index);
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", strcmp(item->colored, "changed") == 0 ? "They are in no file yet" : item->colored);
+    ImGui::SameLine(0, ImGui::GetStyle().ItemInnerSpacing.x);
+    if (ImGui::Button("x")) panel_say(page, "photos %d off", index);
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("The file's own colours again");
+}
+
 /// Returns false when the item was closed.
 bool item_row(panel_page *page, int index, const viewer_item *item, bool open_first) {
     const float gap = ImGui::GetStyle().ItemInnerSpacing.x, side = ImGui::GetFrameHeight();
@@ -180,6 +194,7 @@ bool item_row(panel_page *page, int index, const viewer_item *item, bool open_fi
                         : item->mesh      ? "points on faces"
                                           : "points");
     if (!item->volume && !item->gaussians) choose_look(page, index, item);
+    if (!item->volume && !item->gaussians) choose_photos(page, index, item);
     if (item->volume) panel_transfer(page, index, item);
     choose_place(page, index, item);
     return true;
