@@ -197,6 +197,10 @@ static bool begin(viewer *v, ewa_measure_kind kind, const char *rest) {
         measure.count = 1;
         return add(v, &measure, name);
     }
+    if (kind == EWA_MEASURE_NOTE) {
+        viewer_tell(v, "measure: '%s' is not the place x,y,z of a note, behind which its text stands", word);
+        return false;
+    }
     if (length >= sizeof word || ewa_profile_line_read(word, corners_world, &measure.count, problem) != EWA_OK ||
         measure.count > EWA_MEASURE_PLACES) {
         viewer_tell(v, "measure: '%s' is not x,y,z;x,y,z;...: %s", word, problem);

@@ -53,6 +53,11 @@ static bool change_point(viewer *v, size_t index, const char *text) {
     const bool deletes = !adds && sscanf(text, "delete %u%c", &point, &end) == 1;
     bool fine = adds || deletes || sscanf(text, "%u %lf,%lf,%lf,%lf,%lf%c", &point, &n[0], &n[1], &n[2], &n[3], &n[4], &end) == 6;
     if (adds) point = transfer->point_count;
+    if (fine && !adds && point >= transfer->point_count) {
+        viewer_tell(v, "transfer: point %u: its points are 0 to %u", point, transfer->point_count - 1);
+        free(transfer);
+        return false;
+    }
     fine = fine && (adds ? point < EWA_MAX_TRANSFER_POINTS : point < transfer->point_count) && (!deletes || transfer->point_count > 2);
     for (int i = 0; i < 5 && fine && !deletes; i++) fine = isfinite(n[i]) && (i == 0 || n[i] >= 0) && (i == 0 || i == 4 || n[i] <= 1);
     if (fine && !adds) { // it goes, and comes back at its place

@@ -18,6 +18,7 @@ static const struct {
     {"; eye_world decides otherwise", "; --eye decides otherwise"},
     {"; ewa_lod_build() makes better levels", "; `ewa lod FILE -o FILE.copc.laz` makes better levels"},
     {"with an error of 0 the points themselves", "with an error of 0 (--lod-error 0) the points themselves"},
+    {"; to_world of one in a scene file turns it", "; 'ewa convert' with --transform, or to_world in a scene file, turns one"},
     {"; ewa_mesh_sample() has options", "; `ewa sample` has options"},
     {"write what is wanted to a file of its own", "`ewa convert` what is wanted to a file of its own"},
     {"ewa_cloud_estimate() of the centres makes surfels",

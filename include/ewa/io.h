@@ -335,7 +335,8 @@ EWA_API ewa_status ewa_transfer_save(ewa_context *context, const ewa_transfer *t
 /// - cameras.json of INRIA's Gaussian splatting;
 /// - cameras.xml of Metashape: aligned and enabled cameras of its first chunk, in the space of exported points;
 /// - stacks of matrices: {"width", "height", "viewmats" or "viewmats_world_to_camera", "Ks"};
-/// - a folder with a COLMAP model: cameras and images, .bin or else .txt.
+/// - a folder with a COLMAP model: cameras and images, .bin or else .txt;
+/// - scene files: their camera, where there is one, then their keyframes.
 ///
 /// Principal points are those of pixel centres at halves; Open3D's, which has them at whole numbers, move by
 /// half a pixel. Lens distortion is left out with a warning. "-" reads standard input. Errors (camera
@@ -352,8 +353,8 @@ EWA_API ewa_status ewa_camera_load_lens(ewa_context *context, const char *path, 
 /// Receives camera `index`, counted from 0, of a file; `*camera` is valid during the call.
 typedef void ewa_camera_callback(void *user, uint32_t index, const ewa_camera *camera);
 
-/// Hands over every camera of a file, in its order, having read it once; formats and errors as
-/// ewa_camera_load(). After a failure, none has been handed over.
+/// Hands over every camera of a file, in its order, having read it once, of a scene file its keyframes alone; formats and
+/// errors as ewa_camera_load(). After a failure, none has been handed over.
 EWA_API ewa_status ewa_camera_load_each(ewa_context *context, const char *path, ewa_camera_callback *receive,
                                         void *user);
 

@@ -34,6 +34,7 @@ typedef struct ewa_mesh {
     ewa_mesh_material *materials;
     ewa_image *textures; ///< material_count images of 1, 3 or 4 channels as ewa_image_load() gives them; no
                          ///< pixels: none
+    ewa_cloud *attributes; ///< other numbers of the vertices, vertex_count points, no positions; NULL: none
 } ewa_mesh;
 
 /// Which of the optional streams ewa_mesh_create() makes.
@@ -49,7 +50,7 @@ enum {
 EWA_API ewa_status ewa_mesh_create(ewa_context *context, uint32_t vertex_count, uint32_t triangle_count,
                                    uint32_t material_count, uint32_t streams, ewa_mesh *mesh);
 
-/// Frees streams, materials and textures and zeroes the struct; accepts NULL and a zeroed struct.
+/// Frees streams, materials, textures and attributes and zeroes the struct; accepts NULL and a zeroed struct.
 EWA_API void ewa_mesh_free(ewa_mesh *mesh);
 
 /// Gives all triangles one white material with this picture, in place of their materials and vertex colours.
@@ -96,6 +97,8 @@ EWA_API void ewa_mesh_sample_options_init(ewa_mesh_sample_options *options, size
 /// - "position" F32, "normal" F32 (unit), and with vertex colours or materials "color" U8 (sRGB; 4 components
 ///   where something is not opaque). With pictures "color" is F32, linear, made by ewa_cloud_acquire(), times
 ///   vertex and base colours; pictures repeat.
+/// - Attributes of the vertices, by their names and types: floats interpolated, whole numbers those of the nearest corner;
+///   none of a name that this list has.
 /// - With sharp edges or borders: "tangent_u", "tangent_v", "clip0", "clip1", "clip_mode". A disc that
 ///   reaches over an edge of its smooth part gets the line of that edge, at a corner the lines of both; where
 ///   more edges are in reach (walls thinner than a disc) the nearest two. Otherwise: "radius".

@@ -553,6 +553,7 @@ class ewa_mesh(c.Structure):
     triangle_materials: int | None
     materials: Any
     textures: Any
+    attributes: int | None
     _fields_ = [
         ("context", c.c_void_p),
         ("vertex_count", c.c_uint32),
@@ -566,6 +567,7 @@ class ewa_mesh(c.Structure):
         ("triangle_materials", c.c_void_p),
         ("materials", c.POINTER(ewa_mesh_material)),
         ("textures", c.POINTER(ewa_image)),
+        ("attributes", c.c_void_p),
     ]
 
 

@@ -92,6 +92,7 @@ void ewa_mesh_free(ewa_mesh *mesh) {
     if (!mesh || !mesh->context) return;
     ewa_context *context = mesh->context;
     free_look(mesh);
+    ewa_cloud_destroy(&mesh->attributes);
     free_stream(context, mesh->positions, mesh->vertex_count, 3 * sizeof(double));
     free_stream(context, mesh->normals, mesh->vertex_count, 3 * sizeof(float));
     free_stream(context, mesh->texcoords, mesh->vertex_count, 2 * sizeof(float));

@@ -79,8 +79,8 @@ static const preset presets[] = {
      {{NONE, 0, 0x000000, 0}, {NONE, 1, 0xffffff, 0.25}},
      2},
     {"fog",
-     "white, for dark backgrounds; denser with the value, never solid",
-     {{NONE, 0, 0xffffff, 0}, {NONE, 1, 0xffffff, 0.03}},
+     "grey blue, which shows before white and black; denser with the value, never solid",
+     {{NONE, 0, 0x8494a4, 0}, {NONE, 1, 0x8494a4, 0.03}},
      2},
 };
 

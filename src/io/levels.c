@@ -20,7 +20,7 @@ enum {
 };
 
 static float read_f32(const uint8_t *bytes) {
-    const uint32_t bits = ewa_las_u32(bytes);
+    const uint32_t bits = ewa_bytes_u32(bytes);
     float value;
     memcpy(&value, &bits, sizeof value);
     return value;
@@ -69,7 +69,7 @@ static const char *check_tree(const ewa_levels *levels) {
 }
 
 /// Attributes that a head says, which versions before the third have none of.
-static uint32_t read_attribute_count(const uint8_t *head) { return ewa_las_u32(head + 4) > 2 ? ewa_las_u32(head + 12) : 0; }
+static uint32_t read_attribute_count(const uint8_t *head) { return ewa_bytes_u32(head + 4) > 2 ? ewa_bytes_u32(head + 12) : 0; }
 
 /// Byte of the table of pages.
 static uint64_t pages_at(uint32_t attribute_count) {
@@ -78,7 +78,7 @@ static uint64_t pages_at(uint32_t attribute_count) {
 
 uint64_t ewa_levels_table_bytes(const uint8_t *head, uint64_t size_bytes) {
     if (size_bytes < EWA_LEVELS_HEAD_BYTES) return size_bytes;
-    const uint64_t table_bytes = pages_at(read_attribute_count(head)) + (uint64_t)ewa_las_u32(head + 8) * EWA_LEVELS_PAGE_BYTES;
+    const uint64_t table_bytes = pages_at(read_attribute_count(head)) + (uint64_t)ewa_bytes_u32(head + 8) * EWA_LEVELS_PAGE_BYTES;
     return table_bytes < size_bytes ? table_bytes : size_bytes;
 }
 
@@ -95,7 +95,7 @@ static const char *read_attributes(const uint8_t *bytes, uint32_t count, ewa_lev
         const uint8_t *entry = bytes + EWA_LEVELS_HEAD_BYTES + (size_t)i * EWA_LEVELS_ATTRIBUTE_BYTES;
         ewa_level_attribute *attribute = &levels->attributes[i];
         memcpy(attribute->name, entry, EWA_NAME_BYTES);
-        const uint32_t type = ewa_las_u32(entry + EWA_NAME_BYTES);
+        const uint32_t type = ewa_bytes_u32(entry + EWA_NAME_BYTES);
         if (!memchr(attribute->name, 0, EWA_NAME_BYTES) || type > EWA_U32) return "an attribute";
         attribute->type = (ewa_type)type;
         bool is_free = ewa_level_attribute_is_free(attribute->name);
@@ -111,12 +111,12 @@ ewa_status ewa_levels_read(ewa_context *context, const char *name, const uint8_t
     *levels = (ewa_levels){0};
     if (size_bytes < EWA_LEVELS_HEAD_BYTES || memcmp(bytes, "EWAL", 4) != 0)
         return ewa_fail(context, EWA_ERROR_FORMAT, "%s: the record of surfels has no head", name);
-    const uint32_t version = ewa_las_u32(bytes + 4);
+    const uint32_t version = ewa_bytes_u32(bytes + 4);
     if (version < 1 || version > EWA_LEVELS_VERSION)
         return ewa_fail(context, EWA_ERROR_UNSUPPORTED, "%s: the record of surfels is of version %u, not 1 to %d", name,
                         version, EWA_LEVELS_VERSION);
     levels->has_curvatures = version > 1;
-    const uint32_t count = ewa_las_u32(bytes + 8), attributes = read_attribute_count(bytes);
+    const uint32_t count = ewa_bytes_u32(bytes + 8), attributes = read_attribute_count(bytes);
     levels->unit_coverage = ewa_las_f64(bytes + 16);
     if (attributes > EWA_LEVELS_MAX_ATTRIBUTES || pages_at(attributes) > size_bytes ||
         count > (size_bytes - pages_at(attributes)) / EWA_LEVELS_PAGE_BYTES ||
@@ -129,17 +129,17 @@ ewa_status ewa_levels_read(ewa_context *context, const char *name, const uint8_t
     for (uint32_t i = 0; i < count && !fault; i++) {
         const uint8_t *entry = bytes + pages_at(attributes) + (size_t)i * EWA_LEVELS_PAGE_BYTES;
         ewa_levels_page *page = &levels->pages[i];
-        *page = (ewa_levels_page){.key = {.level = (int32_t)ewa_las_u32(entry)},
+        *page = (ewa_levels_page){.key = {.level = (int32_t)ewa_bytes_u32(entry)},
                                   .point_count = ewa_las_u64(entry + 16),
-                                  .surfel_count = ewa_las_u32(entry + 24),
+                                  .surfel_count = ewa_bytes_u32(entry + 24),
                                   .radius_scale = read_f32(entry + 28),
                                   .error = read_f32(entry + 32),
                                   .largest_radius_world = read_f32(entry + 36),
                                   .unit_coverage = read_f32(entry + 52),
                                   .at_bytes = ewa_las_u64(entry + 40),
-                                  .size_bytes = ewa_las_u32(entry + 48),
-                                  .attributes_bytes = attributes ? ewa_las_u32(entry + 56) : 0};
-        for (int c = 0; c < 3; c++) page->key.cell[c] = (int32_t)ewa_las_u32(entry + 4 + 4 * c);
+                                  .size_bytes = ewa_bytes_u32(entry + 48),
+                                  .attributes_bytes = attributes ? ewa_bytes_u32(entry + 56) : 0};
+        for (int c = 0; c < 3; c++) page->key.cell[c] = (int32_t)ewa_bytes_u32(entry + 4 + 4 * c);
         fault = check_page(page, size_bytes);
         levels->surfel_count += page->surfel_count;
     }

@@ -20,6 +20,17 @@ typedef struct option_value {
     int64_t integer;
 } option_value;
 
+/// Reads a whole number, also one with an exponent: 1e7, 2.5e3; those up to 2^53, which doubles have exactly. NULL: none.
+static const char *read_whole(const char *text, const char *end, int64_t *value) {
+    const char *after = ewa_number_read_i64(text, end, value);
+    if (after && (after == end || !strchr(".eE", *after))) return after;
+    double number;
+    after = ewa_number_read_f64(text, end, &number);
+    if (!after || !(fabs(number) <= 0x1p53) || number != floor(number)) return NULL;
+    *value = (int64_t)number;
+    return memchr(text, 'e', (size_t)(after - text)) || memchr(text, 'E', (size_t)(after - text)) ? after : NULL;
+}
+
 /// Reads one of the option's words, or a number, which ends at a comma or at the end of the text.
 static ewa_status read_value(const ewa_option *option, const char **text, option_value *value,
                              char problem[EWA_OPTION_TEXT_BYTES]) {
@@ -38,7 +49,7 @@ static ewa_status read_value(const ewa_option *option, const char **text, option
         return ewa_text_wrong(problem, "'%.80s' is not one of %s", *text, option->words ? option->words : "off|on");
     const bool whole = option->type == EWA_OPTION_U32 || option->type == EWA_OPTION_U64;
     if (whole) {
-        after = ewa_number_read_i64(*text, end, &value->integer);
+        after = read_whole(*text, end, &value->integer);
         value->number = after ? (double)value->integer : NAN;
     } else {
         after = ewa_number_read_f64(*text, end, &value->number);

@@ -11,6 +11,11 @@
 #include <stdint.h>
 #include <string.h>
 
+/// A number, lowest byte first, anywhere in memory.
+static inline uint32_t ewa_bytes_u32(const uint8_t *bytes) {
+    return (uint32_t)bytes[0] | (uint32_t)bytes[1] << 8 | (uint32_t)bytes[2] << 16 | (uint32_t)bytes[3] << 24;
+}
+
 typedef struct ewa_reader {
     const uint8_t *bytes;
     uint64_t size_bytes;

@@ -44,8 +44,8 @@ bool ewa_section_next(ewa_section_view *file, uint32_t *tag, ewa_section_view *s
     section->bytes = ewa_section_skip(file, section->size_bytes);
     if (!section->bytes) return false;
     *fault = "the checksum of a section is wrong";
-    *tag = ewa_las_u32(head);
-    if (ewa_crc32(0, section->bytes, (size_t)section->size_bytes) != ewa_las_u32(head + 4))
+    *tag = ewa_bytes_u32(head);
+    if (ewa_crc32(0, section->bytes, (size_t)section->size_bytes) != ewa_bytes_u32(head + 4))
         return false;
     *fault = NULL;
     return true;

@@ -22,21 +22,35 @@ enum { PACKED_HEAD_WORDS = 3 };
 /// How blocks are packed that are unpacked here; zlib's are unpacked where numbers are read.
 typedef struct ewa_vtk_packing {
     const char *compressor;
-    bool (*unpack)(const uint8_t *from, size_t from_bytes, uint8_t *to, size_t to_bytes); ///< exactly; false: damaged
-    uint32_t ratio;                                                                       ///< a byte unpacks to no more
+    /// Unpacks exactly so many bytes. Errors: EWA_ERROR_FORMAT, without a report; EWA_ERROR_LIMIT.
+    ewa_status (*unpack)(const struct ewa_vtk_xml *xml, const uint8_t *from, size_t from_bytes, uint8_t *to, size_t to_bytes);
+    uint32_t ratio; ///< a byte unpacks to no more
 } ewa_vtk_packing;
 
+static ewa_status unpack_lz4(const ewa_vtk_xml *xml, const uint8_t *from, size_t from_bytes, uint8_t *to, size_t to_bytes) {
+    (void)xml;
+    return ewa_lz4_unpack(from, from_bytes, to, to_bytes) ? EWA_OK : EWA_ERROR_FORMAT;
+}
+
 #if EWA_WITH_LZMA
-static bool unpack_lzma(const uint8_t *from, size_t from_bytes, uint8_t *to, size_t to_bytes) {
-    uint64_t memory_limit_bytes = 70u << 20; // the largest dictionary that VTK's levels ask for is 64 MiB
+static ewa_status unpack_lzma(const ewa_vtk_xml *xml, const uint8_t *from, size_t from_bytes, uint8_t *to, size_t to_bytes) {
+    static const uint64_t most_bytes = 70u << 20; // the largest dictionary that VTK's levels ask for is 64 MiB
+    uint64_t needed_bytes = 1;
     size_t from_at = 0, to_at = 0;
-    return lzma_stream_buffer_decode(&memory_limit_bytes, 0, NULL, from, &from_at, from_bytes, to, &to_at, to_bytes) == LZMA_OK &&
-           from_at == from_bytes && to_at == to_bytes;
+    // With a limit that is too low it says what it needs.
+    const lzma_ret asked = lzma_stream_buffer_decode(&needed_bytes, 0, NULL, from, &from_at, from_bytes, to, &to_at, to_bytes);
+    if (asked != LZMA_MEMLIMIT_ERROR || needed_bytes > most_bytes) return EWA_ERROR_FORMAT;
+    EWA_TRY(ewa_memory_take(xml->context, needed_bytes, "%s: VTK: the dictionary of an array", xml->name));
+    from_at = to_at = 0;
+    uint64_t limit_bytes = needed_bytes;
+    const lzma_ret done = lzma_stream_buffer_decode(&limit_bytes, 0, NULL, from, &from_at, from_bytes, to, &to_at, to_bytes);
+    ewa_memory_give(xml->context, needed_bytes);
+    return done == LZMA_OK && from_at == from_bytes && to_at == to_bytes ? EWA_OK : EWA_ERROR_FORMAT;
 }
 #endif
 
 static const ewa_vtk_packing packings[] = {
-    {"vtkLZ4DataCompressor", ewa_lz4_unpack, 255},
+    {"vtkLZ4DataCompressor", unpack_lz4, 255},
 #if EWA_WITH_LZMA
     {"vtkLZMADataCompressor", unpack_lzma, 8192},
 #endif
@@ -173,17 +187,17 @@ static ewa_status unpack_blocks(const ewa_vtk_xml *xml, const uint8_t *head, con
     EWA_TRY(ewa_memory_check_unpacked(xml->context, data_bytes, xml->packing->ratio, bytes, "%s: VTK: an array", xml->name));
     uint8_t *to = ewa_allocate(xml->context, (size_t)bytes, 1);
     if (!to) return EWA_ERROR_MEMORY;
-    bool good = true;
+    ewa_status status = EWA_OK;
     uint64_t done = 0;
-    for (uint64_t i = 0; i < count && good; i++) {
+    for (uint64_t i = 0; i < count && status == EWA_OK; i++) {
         const size_t packed = (size_t)read_word(xml, head + (PACKED_HEAD_WORDS + i) * word_bytes);
         const uint64_t own = bytes - done < block ? bytes - done : block;
-        good = xml->packing->unpack(data, packed, to + done, (size_t)own);
+        status = xml->packing->unpack(xml, data, packed, to + done, (size_t)own);
         data += packed, done += own;
     }
-    if (!good) {
+    if (status != EWA_OK) {
         ewa_release(xml->context, to, (size_t)bytes, 1);
-        return fail(xml, "a packed array is damaged");
+        return status == EWA_ERROR_FORMAT ? fail(xml, "a packed array is damaged") : status;
     }
     *stored = (ewa_vtk_stored){EWA_PACKING_NONE, to, (size_t)bytes, to, (size_t)bytes};
     return EWA_OK;

@@ -360,6 +360,12 @@ static ewa_status settle(ewa_cut *c) {
             low = middle;
     }
     c->coarser = high;
+    const uint64_t fewest = c->options->max_splats && !c->home->fewest_told ? count_all(c, high) : 0;
+    if (fewest <= c->options->max_splats) return EWA_OK;
+    c->home->fewest_told = true;
+    ewa_report(c->home->context, EWA_SEVERITY_NOTE,
+               "octrees: %llu surfels and points are drawn, the fewest that there are; max_splats is %llu", (unsigned long long)fewest,
+               (unsigned long long)c->options->max_splats);
     return EWA_OK;
 }
 

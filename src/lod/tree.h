@@ -54,6 +54,7 @@ struct ewa_lod {
     double stretch;       ///< that no length grows by more in `look`
     ewa_buffer look_user; ///< the copy that it has
     bool damage_told;     ///< that some nodes cannot be read
+    bool fewest_told;     ///< that there are no fewer surfels than are drawn
     ewa_lod *next;        ///< another instance of the same octree, closed with this one; NULL: none
     bool is_instance;     ///< file and levels are those of the octree that was opened
     ewa_buffer items;     ///< of the frame (cut.c)

@@ -36,6 +36,8 @@ typedef struct sample_job {
     uint8_t *color, *clip_mode;
     float *tint, *texcoord, *gradient[2]; // of meshes with pictures, the tint in place of the color
     uint32_t *texture, *part;
+    void **attributes; // of the mesh, in their order; NULL: not taken
+    uint32_t attribute_count;
 } sample_job;
 
 #define AT(member) offsetof(ewa_mesh_sample_options, member)
@@ -210,6 +212,36 @@ static void finish_color(const sample_job *job, uint64_t i, const double weight[
     if (job->texture) job->texture[i] = job->surface->mesh->triangle_materials[triangle];
 }
 
+/// Gives a point the attributes of the vertices around: numbers between theirs, of whole ones those of the nearest.
+static void finish_attributes(const sample_job *job, uint64_t i, const double weight[3]) {
+    const ewa_mesh *mesh = job->surface->mesh;
+    const uint32_t *vertex = mesh->triangles + 3 * (size_t)job->surface->source[job->samples[i].triangle];
+    const int nearest = weight[1] > weight[0] ? (weight[2] > weight[1] ? 2 : 1) : weight[2] > weight[0] ? 2 : 0;
+    for (uint32_t k = 0; k < job->attribute_count; k++) {
+        const ewa_attribute *from = ewa_cloud_attribute_at(mesh->attributes, k);
+        const uint32_t components = from->component_count;
+        const size_t bytes = components * ewa_type_bytes(from->type);
+        uint8_t *to = job->attributes[k];
+        if (!to) continue;
+        to += i * bytes;
+        if (from->type != EWA_F32 && from->type != EWA_F64) {
+            memcpy(to, (const uint8_t *)from->data + vertex[nearest] * from->stride_bytes, bytes);
+            continue;
+        }
+        double sum[4] = {0}, numbers[4];
+        for (int v = 0; v < 3; v++) {
+            ewa_attribute_read_f64(from, vertex[v], 1, numbers);
+            for (uint32_t c = 0; c < components && weight[v] != 0; c++) sum[c] += weight[v] * numbers[c];
+        }
+        for (uint32_t c = 0; c < components; c++) {
+            if (from->type == EWA_F32)
+                ((float *)(void *)to)[c] = (float)sum[c];
+            else
+                ((double *)(void *)to)[c] = sum[c];
+        }
+    }
+}
+
 static void finish_points(void *data, uint32_t part, uint32_t worker) {
     (void)worker;
     const sample_job *job = data;
@@ -222,6 +254,7 @@ static void finish_points(void *data, uint32_t part, uint32_t worker) {
         const ewa_vec3 normal = normal_at(job, sample->triangle, weight);
         store(job->normal + 3 * i, normal, 1);
         if (job->colors.component_count) finish_color(job, i, weight);
+        if (job->attribute_count) finish_attributes(job, i, weight);
         if (job->part) job->part[i] = job->surface->part[sample->triangle];
         if (job->texcoord)
             ewa_mesh_chart_at(job->surface->mesh, job->surface->source[sample->triangle], weight,
@@ -264,6 +297,22 @@ static ewa_status add_attributes(sample_job *job, ewa_cloud *cloud) {
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++)
         if (rows[i].wanted)
             EWA_TRY(ewa_cloud_add(cloud, rows[i].name, rows[i].type, rows[i].component_count, rows[i].data));
+    return EWA_OK;
+}
+
+/// Adds the attributes of the mesh's vertices, but for names that the points have.
+static ewa_status add_vertex_attributes(sample_job *job, ewa_cloud *cloud) {
+    const ewa_cloud *from = job->surface->mesh->attributes;
+    const uint32_t count = from ? ewa_cloud_attribute_count(from) : 0;
+    if (!count) return EWA_OK;
+    job->attributes = ewa_allocate_zeroed(job->surface->context, count, sizeof *job->attributes);
+    if (!job->attributes) return EWA_ERROR_MEMORY;
+    job->attribute_count = count;
+    for (uint32_t k = 0; k < count; k++) {
+        const ewa_attribute *a = ewa_cloud_attribute_at(from, k);
+        if (!ewa_cloud_find(cloud, a->name))
+            EWA_TRY(ewa_cloud_add(cloud, a->name, a->type, a->component_count, &job->attributes[k]));
+    }
     return EWA_OK;
 }
 
@@ -313,6 +362,7 @@ static ewa_status sample(ewa_context *context, sample_job *job, ewa_cloud **clou
     if (status == EWA_OK) status = ewa_mesh_colors_make(job->surface->mesh, &job->colors);
     if (status == EWA_OK) status = ewa_cloud_create(context, job->count, &made);
     if (status == EWA_OK) status = add_attributes(job, made);
+    if (status == EWA_OK) status = add_vertex_attributes(job, made);
     if (status == EWA_OK) ewa_cloud_set_origin(made, job->surface->origin_world);
     if (status == EWA_OK)
         status = ewa_parallel_within(context, "sample", 0.7, 1, finish_points, job,
@@ -323,6 +373,7 @@ static ewa_status sample(ewa_context *context, sample_job *job, ewa_cloud **clou
         status = ewa_progress(context, "sample", 1);
     }
     ewa_mesh_edge_grid_free(&job->grid);
+    ewa_release(context, job->attributes, job->attribute_count, sizeof *job->attributes);
     ewa_release(context, samples, capacity, sizeof *samples);
     if (status == EWA_OK) status = ewa_curvature_add(made);
     if (status == EWA_OK && job->colors.has_pictures) status = add_pictures(job, made);
@@ -338,6 +389,9 @@ static ewa_status check_mesh(const ewa_mesh *mesh, const ewa_mesh_sample_options
     if (!complete) return ewa_fail(mesh->context, EWA_ERROR_ARGUMENT, "sample: the mesh lacks a stream");
     if (options->texcoords && !mesh->texcoords)
         return ewa_fail(mesh->context, EWA_ERROR_ARGUMENT, "sample: the mesh has no texture coordinates");
+    if (mesh->attributes && ewa_cloud_point_count(mesh->attributes) != mesh->vertex_count)
+        return ewa_fail(mesh->context, EWA_ERROR_ARGUMENT, "sample: attributes of %llu vertices, there are %u",
+                        (unsigned long long)ewa_cloud_point_count(mesh->attributes), mesh->vertex_count);
     // Half edges are numbered by 32 bits.
     if (mesh->triangle_count > UINT32_MAX / 4)
         return ewa_fail(mesh->context, EWA_ERROR_LIMIT, "sample: %u triangles, %u can be",

@@ -118,6 +118,7 @@ struct ewa_scene {
     ewa_scene_item *items;
     uint32_t count, capacity;
     bool complete, committed, points_gone;
+    uint32_t ups_told; ///< items of which was said that they have not the same up
     ewa_surface *surface; ///< retained; NULL: none
     bool has_camera;
     ewa_camera camera; ///< from where it is seen, unless somebody says otherwise

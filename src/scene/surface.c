@@ -163,7 +163,9 @@ static ewa_status choose_colorings(const ewa_surface *surface, const shown_cloud
     for (uint32_t i = 0; i < surface->count; i++) {
         ewa_coloring *coloring = &shown->colorings[i];
         *coloring = surface->keys[i].instance.coloring;
-        if (coloring->tinted || !ewa_coloring_is_auto(coloring->attribute)) continue;
+        // Numbers of a mesh's vertices say less of it than its shape does.
+        if (coloring->tinted || !ewa_coloring_is_auto(coloring->attribute) || surface->keys[i].asset->kind == EWA_ASSET_MESH)
+            continue;
         if (surface->keys[i].asset->lod) {
             ewa_lod_info info;
             ewa_lod_describe(surface->keys[i].asset->lod, &info);

@@ -5,6 +5,7 @@
 #include "base/base.h"
 #include "base/options.h"
 #include "cloud/cloud.h"
+#include "framing/conventions.h"
 #include "homogeneous/camera.h"
 #include "scene/parts.h"
 
@@ -276,18 +277,75 @@ ewa_status ewa_cloud_place_camera(const ewa_cloud *cloud, double radius_scale, e
     return place_at(&p, cloud, radius_scale, options, camera, info);
 }
 
-ewa_status ewa_asset_find_upright(const ewa_asset *asset, ewa_upright *upright) {
-    if (!asset || !upright) return EWA_ERROR_ARGUMENT;
-    const ewa_cloud *places = ewa_asset_is_points(asset) ? asset->cloud : asset->outline;
+/// What an asset is measured by; NULL: its points are gone.
+static const ewa_cloud *places_of(const ewa_asset *asset) { return ewa_asset_is_points(asset) ? asset->cloud : asset->outline; }
+
+/// Measures how an asset stands, as files of a convention do.
+static ewa_status measure_upright(const ewa_asset *asset, ewa_up_convention convention, ewa_upright *upright) {
+    const ewa_cloud *places = places_of(asset);
     if (!places) return ewa_fail(asset->context, EWA_ERROR_ARGUMENT, "%s: its points are gone", asset->name);
-    const char *name = file_of(asset);
     placement p = {.context = ewa_cloud_context(places),
                    .up_axis = up_axis_of_asset(asset),
-                   .convention = ewa_up_convention_of(1, &name),
+                   .convention = convention,
                    .suited_view = asset->view};
     ewa_view_info info;
     EWA_TRY(place_at(&p, places, 1, NULL, NULL, &info));
     *upright = info.upright;
+    return EWA_OK;
+}
+
+ewa_status ewa_asset_find_upright(const ewa_asset *asset, ewa_upright *upright) {
+    if (!asset || !upright) return EWA_ERROR_ARGUMENT;
+    const char *name = file_of(asset);
+    return measure_upright(asset, ewa_up_convention_of(1, &name), upright);
+}
+
+/// What is up in a file for sure: 1 y, 2 z, negative: down; 0: it has to be measured. What a map moves lies as somebody wants it,
+/// volumes are what all else was put to.
+static int sure_axis_of(const ewa_asset *asset) {
+    const char *name = file_of(asset);
+    const ewa_up_convention convention = ewa_up_convention_of(1, &name);
+    const bool sure = convention == EWA_UP_Y_REQUIRED || convention == EWA_UP_Z_SURVEYED;
+    const int said = up_axis_of_asset(asset);
+    return said ? said : sure ? ewa_up_axis_of(convention) : 0;
+}
+
+/// Whether an asset lies by the numbers of its file, which another program may have meant otherwise.
+static bool lies_as_filed(const ewa_scene_item *item) {
+    return item->instance.visible && !ewa_asset_is_moved(item->asset) && item->asset->kind != EWA_ASSET_VOLUME && item->asset->count;
+}
+
+/// Says of two files which have not the same up that they are joined by their numbers: turning one would part what was made to
+/// fit. The first one is sure of it; others are as sure, or stand otherwise even measured by the convention of the first.
+static ewa_status tell_ups(ewa_scene *scene) {
+    enum { MAX_MEASURED = 8 };
+    static const char *const axes[] = {"-z", "-y", "", "y", "z"};
+    const ewa_asset *first = NULL;
+    for (uint32_t i = 0; i < scene->count && !first; i++)
+        if (lies_as_filed(&scene->items[i]) && sure_axis_of(scene->items[i].asset)) first = scene->items[i].asset;
+    const bool told = scene->ups_told == scene->count;
+    scene->ups_told = scene->count;
+    if (!first || told) return EWA_OK;
+    const int axis = sure_axis_of(first);
+    uint32_t measured = 0;
+    for (uint32_t i = 0; i < scene->count && measured < MAX_MEASURED; i++) {
+        const ewa_asset *other = scene->items[i].asset;
+        if (other == first || !lies_as_filed(&scene->items[i])) continue;
+        int its = sure_axis_of(other);
+        // The table has no convention of what is measured against cameras.
+        if (!its && (axis < 0 || !places_of(other))) continue;
+        if (!its) {
+            ewa_upright upright;
+            measured++;
+            EWA_TRY(measure_upright(other, axis == 1 ? EWA_UP_Y_USUAL : EWA_UP_Z_SURVEYED, &upright));
+            its = upright.reversed ? -upright.axis : upright.axis;
+        }
+        if (its == axis) continue;
+        ewa_report(scene->context, EWA_SEVERITY_WARNING,
+                   "%s has %s up, %s %s: they are joined by their numbers as they are; to_world of one in a scene file turns it",
+                   first->name, axes[axis + 2], other->name, axes[its + 2]);
+        return EWA_OK;
+    }
     return EWA_OK;
 }
 
@@ -337,6 +395,7 @@ ewa_status ewa_scene_place_camera(ewa_scene *scene, const ewa_view_options *opti
     ewa_cloud *outline = NULL;
     bool made = false;
     ewa_status status = ewa_scene_complete(scene);
+    if (status == EWA_OK && camera && scene->count > 1) status = tell_ups(scene);
     if (status == EWA_OK) status = find_convention(scene, &p.convention);
     if (status == EWA_OK) status = ewa_scene_outline(scene, &outline, &made);
     const bool own = scene->has_camera && !(options && says_where(options));

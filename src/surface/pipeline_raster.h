@@ -313,5 +313,4 @@ extern add_run *const EWA_VERSION(ewa_add_color)[ADD_KINDS], *const EWA_VERSION(
     *const EWA_VERSION(ewa_add_opacity)[ADD_KINDS], *const EWA_VERSION(ewa_add_material)[ADD_KINDS],
     *const EWA_VERSION(ewa_add_all)[ADD_KINDS];
 
-
 #endif

@@ -231,7 +231,7 @@ TEST(test_messages_name_the_member) {
         {"ply\nformat ascii 1.0\n", "is points (PLY); cameras are"},
         {"\xff\xd8\xff\xe0", "is a picture; cameras are"},
         {"{}", "'width' is missing"},
-        {"{\"ewa_scene\":1,\"items\":[]}", "'keyframes' is missing: these are the cameras of a scene file"},
+        {"{\"ewa_scene\":1,\"items\":[]}", "'keyframes' is missing, and so is 'camera'"},
         {"[]", "'cameras' is not an array of cameras"},
         {"[{}]", "cameras[0]: member 'width' is missing"},
         {"{\"width\":640}", "'height' is missing"},

@@ -69,6 +69,64 @@ CASE(test_data) {
     }
 }
 
+static void hold_numbers(const ewa_cloud *of, const char *name, ewa_type type, uint32_t components, uint64_t point, const double *wanted) {
+    const ewa_attribute *found = ewa_cloud_find(of, name);
+    double numbers[4];
+    if (!found || found->type != type || found->component_count != components) fail_msg("%s", name);
+    ewa_attribute_read_f64(found, point, 1, numbers);
+    for (uint32_t c = 0; c < components; c++) assert_float_equal(numbers[c], wanted[c], 1e-5);
+}
+
+#define ARRAYS                                                                                                             \
+    "POINT_DATA 4\nSCALARS Elevation float 1\nLOOKUP_TABLE default\n0 1 2 7\nVECTORS Flow double\n1 0 0 0 1 0 0 0 1 1 1 1\n"     \
+    "TENSORS t float\n1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1\n"                            \
+    "FIELD f 4\nids 1 4 int\n7 7 -9 8\nradius 1 4 float\n1 2 3 4\nElevation 2 4 float\n1 2 3 4 5 6 7 8\nshort 1 3 int\n1 2 3\n"
+
+/// Numbers of points by name become attributes of vertices, of points where there are no faces, and of what is sampled;
+/// names that mean something here do not mean it there.
+CASE(test_numbers) {
+    ewa_mesh mesh;
+    mesh_load_text(context, &messages, "a.vtk", SQUARE ARRAYS, &mesh);
+    assert_int_equal(ewa_cloud_attribute_count(mesh.attributes), 4);
+    const uint32_t third = mesh_corner(&mesh, 0, 2, 3, 0);
+    hold_numbers(mesh.attributes, "Elevation", EWA_F32, 1, third, (const double[]){2});
+    hold_numbers(mesh.attributes, "Flow", EWA_F64, 3, third, (const double[]){0, 0, 1});
+    hold_numbers(mesh.attributes, "ids", EWA_I32, 1, third, (const double[]){-9});
+    hold_numbers(mesh.attributes, "scalar_radius", EWA_F32, 1, third, (const double[]){3});
+    ewa_mesh_sample_options options;
+    ewa_mesh_sample_options_init(&options, sizeof options);
+    options.point_count = 2000;
+    ewa_cloud *cloud = NULL;
+    assert_int_equal(ewa_mesh_sample(&mesh, &options, &cloud), EWA_OK);
+    // Floats are between those of the corners, whole numbers those of the nearest.
+    const ewa_attribute *position = ewa_cloud_find(cloud, EWA_POSITION);
+    double origin[3];
+    ewa_cloud_origin(cloud, origin);
+    for (uint64_t i = 0; i < ewa_cloud_point_count(cloud); i++) {
+        double p[3], id;
+        ewa_attribute_read_f64(position, i, 1, p);
+        const double u = (p[0] + origin[0]) / 2, v = (p[1] + origin[1]) / 3;
+        const double flow[3] = {u > v ? 1 - u : 1 - v + (v - u), u > v ? u - v : v - u, u > v ? v : u + (v - u)};
+        hold_numbers(cloud, "Elevation", EWA_F32, 1, i, (const double[]){u > v ? u + v : 7 * (v - u) + 2 * u});
+        hold_numbers(cloud, "Flow", EWA_F64, 3, i, flow);
+        ewa_attribute_read_f64(ewa_cloud_find(cloud, "ids"), i, 1, &id);
+        // What the first, the third and the fourth corner weigh, and which is told apart from the others.
+        const double first = u > v ? fmax(1 - u, u - v) : 1 - v, third_weight = u > v ? v : u, fourth = u > v ? 0 : v - u;
+        const double weights[3] = {first, third_weight, fourth}, ids[3] = {7, -9, 8};
+        for (int k = 0; k < 3; k++)
+            if (weights[k] > fmax(weights[(k + 1) % 3], weights[(k + 2) % 3]) + 1e-5) assert_true(id == ids[k]);
+    }
+    ewa_cloud_destroy(&cloud);
+    mesh.vertex_count--;
+    assert_int_equal(ewa_mesh_sample(&mesh, &options, &cloud), EWA_ERROR_ARGUMENT);
+    mesh.vertex_count++;
+    ewa_mesh_free(&mesh);
+    ewa_model model;
+    assert_int_equal(ewa_model_load_memory(context, TEXT POINTS ARRAYS, sizeof(TEXT POINTS ARRAYS) - 1, "a.vtk", NULL, 0, NULL, &model), EWA_OK);
+    hold_numbers(model.points, "Elevation", EWA_F32, 1, 3, (const double[]){7});
+    ewa_model_free(&model);
+}
+
 static void put(uint8_t *bytes, size_t *size, const char *text) {
     memcpy(bytes + *size, text, strlen(text));
     *size += strlen(text);

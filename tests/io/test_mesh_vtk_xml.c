@@ -172,6 +172,17 @@ CASE(test_storages) {
             double end = 0;
             for (uint32_t i = 0; i < 3 * mesh.triangle_count; i++) end = fmax(end, mesh.positions[3 * (size_t)mesh.triangles[i]]);
             assert_float_equal(end, (way & 2) ? 6 : 1, 0);
+            const ewa_attribute *numbers = ewa_cloud_find(mesh.attributes, "t"), *second = ewa_cloud_find(mesh.attributes, "second");
+            assert_true(numbers->type == EWA_F64 && second->type == EWA_U8 && second->component_count == 3);
+            assert_null(ewa_cloud_find(mesh.attributes, "no_color")); // of cells
+            for (uint32_t i = 0; i < mesh.vertex_count; i++) {
+                const double *place = mesh.positions + 3 * (size_t)i;
+                double t, three[3];
+                ewa_attribute_read_f64(numbers, i, 1, &t);
+                ewa_attribute_read_f64(second, i, 1, three);
+                if (place[1] == 1 && place[2] == 0) assert_true(t == 1 - (fmod(place[0], 5) == 1) * (1 - CUBE[2]));
+                assert_true(three[1] == floor(place[1]) && three[2] == floor(place[2]));
+            }
             for (uint32_t i = 0; i < mesh.vertex_count; i++)
                 assert_true(mesh.colors[4 * i] == 0 && mesh.colors[4 * i + 1] == 1 && mesh.colors[4 * i + 3] == 1);
             ewa_mesh_free(&mesh);

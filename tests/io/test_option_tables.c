@@ -135,6 +135,13 @@ TEST(test_text) {
         {COUNT, "-1", "-1 is outside [1, inf)"},
         {COUNT, "2.5", "'2.5' is not a whole number"},
         {COUNT, "99999999999999999999", "'99999999999999999999' is not a whole number"},
+        {COUNT, "-1e3", "-1000 is outside [1, inf)"},
+        {COUNT, "25e-1", "'25e-1' is not a whole number"},
+        {COUNT, "3.0", "'3.0' is not a whole number"},
+        {COUNT, "1e", "'1e' is not a whole number"},
+        {COUNT, "1e16", "'1e16' is not a whole number"},
+        {COUNT, "nan", "'nan' is not a whole number"},
+        {COUNT, "inf", "'inf' is not a whole number"},
         {PASSES, "1", NULL},
         {PASSES, "2", "'2' is not one of 1|3"},
         {COLOR, "green", NULL},
@@ -162,6 +169,18 @@ TEST(test_text) {
         if (!said) assert_string_equal(text, rows[i / 2].text);
     }
     setlocale(LC_NUMERIC, "C");
+    // Whole numbers may have an exponent.
+    static const struct {
+        const char *text, *kept;
+    } powers[] = {{"1e9", "1000000000"}, {"2.5e3", "2500"}, {"90071992547409920E-1", "9007199254740992"}, {"5e0", "5"}};
+    for (size_t i = 0; i < sizeof powers / sizeof powers[0]; i++) {
+        sample_options options;
+        char text[EWA_OPTION_TEXT_BYTES] = "";
+        ewa_options_init(&sample_table, &options, sizeof options);
+        assert_int_equal(ewa_option_set(&sample_rows[COUNT], &options, powers[i].text, text), EWA_OK);
+        ewa_option_get(&sample_rows[COUNT], &options, text);
+        assert_string_equal(text, powers[i].kept);
+    }
     sample_options options = {.struct_size = sizeof options};
     assert_int_equal(ewa_option_set(&sample_rows[ABOVE], &options, "9", NULL), EWA_ERROR_ARGUMENT);
     assert_int_equal(ewa_option_set(NULL, &options, "9", NULL), EWA_ERROR_ARGUMENT);

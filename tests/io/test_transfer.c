@@ -276,7 +276,7 @@ TEST_ON(test_preset_points, 1) {
         {"mri", "0.1 0.1 5a4a44 0; 0.22 0.22 96786a 0.015; 0.45 0.45 c4a48e 0.05; 0.7 0.7 e8d8c4 0.15; 1 1 "
                 "ffffff 0.4; "},
         {"gray", "0 0 000000 0; 1 1 ffffff 0.25; "},
-        {"fog", "0 0 ffffff 0; 1 1 ffffff 0.03; "},
+        {"fog", "0 0 8494a4 0; 1 1 8494a4 0.03; "},
     };
     ewa_volume volumes[2];
     ewa_volume_facts facts[2];

@@ -818,6 +818,59 @@ TEST(test_two_systems) {
     ewa_context_destroy(&context);
 }
 
+/// A sphere on a foot along an axis, 1 y, 2 z, with normals.
+static ewa_cloud *make_stand(ewa_context *context, int up) {
+    ewa_cloud *cloud = make_object(context, EWA_OBJECT_CUBE, 0);
+    double to_world[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+    to_world[5 * up] = 4;
+    assert_int_equal(ewa_cloud_transform(cloud, to_world), EWA_OK);
+    return cloud;
+}
+
+/// Files that have not the same up are told of, once; what a map moves lies as somebody wants it.
+TEST(test_two_ups) {
+    static const struct {
+        const char *names[2];
+        int up[2];
+        bool moved;
+        const char *said;
+    } rows[] = {
+        {{"mug.glb", "scan.las"}, {1, 2}, false, "mug.glb has y up, scan.las z"},
+        {{"mug.glb", "scan.las"}, {1, 2}, true, NULL},
+        {{"mug.glb", "part.obj"}, {1, 1}, false, NULL},
+        {{"tower.las", "part.laz"}, {2, 2}, false, NULL},
+        {{"one.ply", "two.ply"}, {1, 2}, false, NULL},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        check_log log = {.count = 0};
+        ewa_context *context = check_context(1, &log);
+        ewa_scene *scene = make_scene(context);
+        ewa_cloud *clouds[2];
+        for (int k = 0; k < 2; k++) {
+            clouds[k] = make_stand(context, rows[i].up[k]);
+            ewa_asset_options options;
+            ewa_asset_options_init(&options, sizeof options);
+            if (k && rows[i].moved) options.to_world[3] = 1;
+            ewa_asset *asset = NULL;
+            const ewa_asset_source source = {.cloud = clouds[k], .name = rows[i].names[k]};
+            assert_int_equal(ewa_asset_create(context, &source, &options, &asset), EWA_OK);
+            assert_int_equal(ewa_scene_add(scene, asset, NULL), EWA_OK);
+            ewa_asset_release(&asset);
+        }
+        ewa_camera camera;
+        for (int again = 0; again < 2; again++) {
+            assert_int_equal(ewa_scene_place_camera(scene, NULL, &camera, NULL), EWA_OK);
+            const bool told = strstr(log.text, " up, ") != NULL;
+            if (told != (rows[i].said && !again)) fail_msg("row %zu: '%s'", i, log.text);
+            if (told) assert_non_null(strstr(log.text, rows[i].said));
+            log = (check_log){.count = 0};
+        }
+        ewa_scene_destroy(&scene);
+        for (int k = 0; k < 2; k++) ewa_cloud_destroy(&clouds[k]);
+        ewa_context_destroy(&context);
+    }
+}
+
 /// Lengths have the unit that reference systems say, unless it is none, several, or changed by a map.
 TEST(test_units) {
     static const struct {

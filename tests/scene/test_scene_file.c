@@ -376,7 +376,9 @@ TEST(test_keyframes_come_back) {
     for (uint32_t i = 0; i < 3; i++) assert_memory_equal(ewa_scene_keyframe(again, i), &keys[i], sizeof keys[i]);
     assert_null(ewa_scene_keyframe(again, 3));
     ewa_camera camera;
-    assert_int_equal(ewa_camera_load(context, "keyframes.json", 2, &camera), EWA_OK);
+    assert_int_equal(ewa_camera_load(context, "keyframes.json", 0, &camera), EWA_OK);
+    assert_memory_equal(&camera, &keys[5], sizeof camera); // from which the scene is seen
+    assert_int_equal(ewa_camera_load(context, "keyframes.json", 3, &camera), EWA_OK);
     assert_memory_equal(&camera, &keys[2], sizeof camera);
     assert_int_equal(ewa_scene_set_keyframes(again, keys, 1), EWA_OK);
     assert_int_equal(ewa_scene_open(again, "keyframes.json", NULL), EWA_OK);

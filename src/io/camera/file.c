@@ -114,7 +114,7 @@ ewa_status ewa_camera_load_lens(ewa_context *context, const char *path, ewa_came
 ewa_status ewa_camera_load_each(ewa_context *context, const char *path, ewa_camera_callback *receive,
                                 void *user) {
     if (!context || !path || !receive) return EWA_ERROR_ARGUMENT;
-    ewa_camera_list list = {.context = context, .name = path};
+    ewa_camera_list list = {.context = context, .name = path, .of_film = true};
     const ewa_status status = ewa_camera_list_read(&list, path);
     for (size_t i = 0; status == EWA_OK && i < list.count; i++) receive(user, (uint32_t)i, &list.cameras[i]);
     ewa_camera_list_free(&list);

@@ -20,6 +20,7 @@ typedef struct ewa_camera_list {
     ewa_lens *lenses; ///< of each camera
     size_t count, capacity;
     bool takes_lenses; ///< false: a lens is left out, with a warning, or refused
+    bool of_film;      ///< of a scene file its keyframes alone are wanted
     bool lens_suffices; ///< a file that holds a lens and no pose is a camera at the origin
 } ewa_camera_list;
 

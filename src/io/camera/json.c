@@ -389,13 +389,27 @@ static ewa_status read_element(const source *in, const cJSON *object) {
                                                                 : read_native(in, object);
 }
 
+/// Reads the cameras of a scene file: its keyframes, and before them the camera from which it is seen, unless only the way
+/// of a film is wanted.
+static ewa_status read_scene(source *in, const cJSON *root) {
+    const cJSON *camera = in->list->of_film ? NULL : find(root, "camera"), *keyframes = find(root, "keyframes");
+    if (!camera && !keyframes)
+        return fail_member(in, "keyframes", in->list->of_film ? "is missing: these are the cameras of a film"
+                                                              : "is missing, and so is 'camera'");
+    if (camera) {
+        snprintf(in->where, sizeof in->where, "camera");
+        EWA_TRY(read_native(in, camera));
+        in->where[0] = 0;
+    }
+    return keyframes ? read_each(in, keyframes, "keyframes", read_element) : EWA_OK;
+}
+
 static ewa_status read_root(source *in, const cJSON *root) {
     if (cJSON_IsArray(root)) return read_each(in, root, "cameras", read_element);
     const cJSON *item;
     if ((item = find(root, "frames"))) return read_transforms(in, root, item);
     if ((item = find(root, "camera_path"))) return read_camera_path(in, root, item);
-    if ((item = find(root, "keyframes"))) return read_each(in, item, "keyframes", read_element); // of a scene file
-    if (find(root, "ewa_scene")) return fail_member(in, "keyframes", "is missing: these are the cameras of a scene file");
+    if (find(root, "ewa_scene")) return read_scene(in, root);
     if ((item = find(root, "parameters"))) return read_each(in, item, "parameters", read_open3d);
     if (find(root, "extrinsic") || find(root, "intrinsic")) return read_open3d(in, root);
     if (find(root, "intrinsic_matrix")) return read_lens_alone(in, root);

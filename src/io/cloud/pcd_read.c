@@ -6,6 +6,7 @@
 // are left out.
 #include "base/base.h"
 #include "io/cloud/pcd.h"
+#include "io/reader.h"
 
 #include <stdio.h>
 
@@ -67,10 +68,6 @@ static ewa_status open_binary(pcd_state *state) {
                             (unsigned long long)there, (unsigned long long)h->point_count, h->record_bytes);
 }
 
-static uint32_t read_u32(const uint8_t *bytes) {
-    return bytes[0] | (uint32_t)bytes[1] << 8 | (uint32_t)bytes[2] << 16 | (uint32_t)bytes[3] << 24;
-}
-
 /// Places the fields one behind the other; padding is left out by some writers.
 static ewa_status place_columns(pcd_state *state, uint64_t unpacked_bytes) {
     ewa_pcd_header *h = &state->header;
@@ -101,7 +98,7 @@ static ewa_status open_compressed(pcd_state *state) {
     if (left < 8)
         return ewa_fail(context, EWA_ERROR_FORMAT, "%s: the file ends before the packed points",
                         source->name);
-    const uint64_t packed_bytes = read_u32(source->bytes + at), bytes = read_u32(source->bytes + at + 4);
+    const uint64_t packed_bytes = ewa_bytes_u32(source->bytes + at), bytes = ewa_bytes_u32(source->bytes + at + 4);
     if (packed_bytes > left - 8)
         return ewa_fail(context, EWA_ERROR_FORMAT,
                         "%s: byte %llu: %llu bytes of packed points, of which %llu are there", source->name,

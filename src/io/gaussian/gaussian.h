@@ -8,6 +8,7 @@
 
 #include "base/base.h"
 #include "ewa/gaussian_io.h"
+#include "io/reader.h"
 
 #include <math.h>
 #include <string.h>
@@ -79,11 +80,8 @@ void ewa_quaternion_complete(const double others[3], uint32_t largest, float rot
 static inline uint32_t ewa_file_u16(const uint8_t *bytes) {
     return (uint32_t)bytes[0] | (uint32_t)bytes[1] << 8;
 }
-static inline uint32_t ewa_file_u32(const uint8_t *bytes) {
-    return ewa_file_u16(bytes) | ewa_file_u16(bytes + 2) << 16;
-}
 static inline float ewa_file_f32(const uint8_t *bytes) {
-    const uint32_t bits = ewa_file_u32(bytes);
+    const uint32_t bits = ewa_bytes_u32(bytes);
     float value;
     memcpy(&value, &bits, sizeof value);
     return value;

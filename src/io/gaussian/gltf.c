@@ -287,7 +287,7 @@ static bool probe(const ewa_gaussian_source *source, ewa_status *status) {
     if (ewa_mesh_probe(source->name, source->bytes, source->size_bytes) != EWA_MODEL_GLTF) return false;
     const uint8_t *at = source->bytes, *end = at + source->size_bytes;
     if (source->size_bytes >= 20 && memcmp(at, "glTF", 4) == 0) {
-        const uint32_t length = ewa_file_u32(at + 12);
+        const uint32_t length = ewa_bytes_u32(at + 12);
         at += 20;
         if (length < (size_t)(end - at)) end = at + length;
     }

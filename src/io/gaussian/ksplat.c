@@ -49,13 +49,13 @@ static ewa_status fail(const ewa_gaussian_source *source, const char *what) {
 static ewa_status open_section(const ksplat *file, uint64_t number, uint64_t *at, section *made) {
     const ewa_gaussian_source *source = file->source;
     const uint8_t *head = source->bytes + HEAD_BYTES + number * SECTION_BYTES;
-    const uint32_t steps = ewa_file_u32(head + 24);
-    *made = (section){.count = ewa_file_u32(head),
-                      .room = ewa_file_u32(head + 4),
-                      .bucket_size = ewa_file_u32(head + 8),
-                      .bucket_count = ewa_file_u32(head + 12),
-                      .full_buckets = ewa_file_u32(head + 32),
-                      .partial_buckets = ewa_file_u32(head + 36),
+    const uint32_t steps = ewa_bytes_u32(head + 24);
+    *made = (section){.count = ewa_bytes_u32(head),
+                      .room = ewa_bytes_u32(head + 4),
+                      .bucket_size = ewa_bytes_u32(head + 8),
+                      .bucket_count = ewa_bytes_u32(head + 12),
+                      .full_buckets = ewa_bytes_u32(head + 32),
+                      .partial_buckets = ewa_bytes_u32(head + 36),
                       .sh_degree = ewa_file_u16(head + 40),
                       .middle_step = steps ? steps : CENTER_STEPS};
     made->step_world = (double)ewa_file_f32(head + 16) / 2 / made->middle_step;
@@ -108,7 +108,7 @@ static void decode_harmonics(const ksplat *file, uint32_t sh_degree, const uint8
 static uint64_t bucket_count(const section *from, uint64_t bucket) {
     return bucket < from->full_buckets
                ? from->bucket_size
-               : ewa_file_u32(from->partial_sizes + 4 * (bucket - from->full_buckets));
+               : ewa_bytes_u32(from->partial_sizes + 4 * (bucket - from->full_buckets));
 }
 
 static void decode_record(const ksplat *file, const section *from, const uint8_t *record, uint64_t bucket,
@@ -164,8 +164,8 @@ static ewa_status open_file(const ewa_gaussian_source *source, ksplat *file) {
     const double low = (double)ewa_file_f32(head + 36), high = (double)ewa_file_f32(head + 40);
     *file = (ksplat){.source = source,
                      .layout = &layouts[level],
-                     .count = ewa_file_u32(head + 16),
-                     .section_count = ewa_file_u32(head + 4),
+                     .count = ewa_bytes_u32(head + 16),
+                     .section_count = ewa_bytes_u32(head + 4),
                      .low_rest = low != 0 ? low : -1.5,
                      .high_rest = high != 0 ? high : 1.5};
     if (file->section_count > (source->size_bytes - HEAD_BYTES) / SECTION_BYTES)
@@ -206,7 +206,7 @@ static bool probe(const ewa_gaussian_source *source, ewa_status *status) {
     if (length > 7 && strcasecmp(source->name + length - 7, ".ksplat") == 0) return true;
     const uint8_t *head = source->bytes;
     if (source->size_bytes < HEAD_BYTES + SECTION_BYTES || head[0] != 0 || head[1] != 1) return false;
-    const uint32_t sections = ewa_file_u32(head + 4), count = ewa_file_u32(head + 16),
+    const uint32_t sections = ewa_bytes_u32(head + 4), count = ewa_bytes_u32(head + 16),
                    level = ewa_file_u16(head + 20);
     for (uint32_t k = 64; k < HEAD_BYTES; k++)
         if (head[k]) return false;

@@ -45,7 +45,7 @@ static void decode_rotation(const spz_job *job, uint32_t i) {
     if (bytes == 3) {
         for (int k = 0; k < 3; k++) others[k] = from[k] / 127.5 - 1;
     } else {
-        const uint32_t word = ewa_file_u32(from);
+        const uint32_t word = ewa_bytes_u32(from);
         largest = word >> 30;
         for (uint32_t k = 0; k < 3; k++) {
             const uint32_t part = word >> (20 - 10 * k);
@@ -121,14 +121,14 @@ static bool is_packed_spz(const ewa_gaussian_source *source, ewa_status *status)
                                         source->size_bytes, &packed);
     if (opened == EWA_OK) opened = ewa_source_read(packed, magic, sizeof magic, &got);
     if (opened == EWA_ERROR_MEMORY) *status = opened;
-    const bool found = opened == EWA_OK && got == sizeof magic && ewa_file_u32(magic) == EWA_SPZ_MAGIC;
+    const bool found = opened == EWA_OK && got == sizeof magic && ewa_bytes_u32(magic) == EWA_SPZ_MAGIC;
     ewa_source_close(&packed);
     ewa_failures_soften(source->context, false);
     return found;
 }
 
 static bool probe(const ewa_gaussian_source *source, ewa_status *status) {
-    return (source->size_bytes >= 4 && ewa_file_u32(source->bytes) == EWA_SPZ_MAGIC) ||
+    return (source->size_bytes >= 4 && ewa_bytes_u32(source->bytes) == EWA_SPZ_MAGIC) ||
            is_packed_spz(source, status);
 }
 

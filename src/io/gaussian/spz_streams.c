@@ -44,8 +44,8 @@ static ewa_status check_header(const ewa_gaussian_source *source, const ewa_spz_
 }
 
 static void read_header(const uint8_t *bytes, ewa_spz_header *header) {
-    *header = (ewa_spz_header){.version = ewa_file_u32(bytes + 4),
-                               .count = ewa_file_u32(bytes + 8),
+    *header = (ewa_spz_header){.version = ewa_bytes_u32(bytes + 4),
+                               .count = ewa_bytes_u32(bytes + 8),
                                .sh_degree = bytes[12],
                                .fraction_bits = bytes[13],
                                .flags = bytes[14],
@@ -94,7 +94,7 @@ static ewa_status unpack_gzip(const ewa_gaussian_source *source, ewa_spz_header 
     ewa_status status = ewa_source_open(source->context, source->name, EWA_PACKING_DEFLATE, source->bytes,
                                         source->size_bytes, &packed);
     if (status == EWA_OK) status = ewa_source_read(packed, head, sizeof head, &got);
-    if (status == EWA_OK && (got < sizeof head || ewa_file_u32(head) != EWA_SPZ_MAGIC))
+    if (status == EWA_OK && (got < sizeof head || ewa_bytes_u32(head) != EWA_SPZ_MAGIC))
         status =
             ewa_fail(source->context, EWA_ERROR_FORMAT, "%s: SPZ: the file ends in its header", source->name);
     if (status == EWA_OK) {
@@ -132,12 +132,12 @@ static ewa_status read_extensions(const ewa_gaussian_source *source, const ewa_s
     bool others = false;
     while (at < header->table_at) {
         const size_t left = header->table_at - at;
-        const uint32_t length = left >= 8 ? ewa_file_u32(source->bytes + at + 4) : 0;
+        const uint32_t length = left >= 8 ? ewa_bytes_u32(source->bytes + at + 4) : 0;
         if (left < 8 || length > left - 8)
             return ewa_fail(source->context, EWA_ERROR_FORMAT,
                             "%s: SPZ: an extension at byte %zu ends behind its place", source->name, at);
-        if (ewa_file_u32(source->bytes + at) == EWA_SPZ_AXES && length >= 4)
-            *axes = ewa_file_u32(source->bytes + at + 8);
+        if (ewa_bytes_u32(source->bytes + at) == EWA_SPZ_AXES && length >= 4)
+            *axes = ewa_bytes_u32(source->bytes + at + 8);
         else
             others = true;
         at += 8 + (size_t)length;
@@ -149,8 +149,8 @@ static ewa_status read_extensions(const ewa_gaussian_source *source, const ewa_s
 /// Unpacks one stream, whose entry of the table is at `entry`; `*from` is stepped over it.
 static ewa_status unpack_stream(const ewa_gaussian_source *source, uint32_t number, const uint8_t *entry,
                                 uint64_t *from, uint8_t *to, size_t size_bytes) {
-    const uint64_t packed = ewa_file_u32(entry) | (uint64_t)ewa_file_u32(entry + 4) << 32,
-                   whole = ewa_file_u32(entry + 8) | (uint64_t)ewa_file_u32(entry + 12) << 32;
+    const uint64_t packed = ewa_bytes_u32(entry) | (uint64_t)ewa_bytes_u32(entry + 4) << 32,
+                   whole = ewa_bytes_u32(entry + 8) | (uint64_t)ewa_bytes_u32(entry + 12) << 32;
     if (whole != size_bytes || packed > source->size_bytes - *from)
         return ewa_fail(
             source->context, EWA_ERROR_FORMAT,
@@ -171,7 +171,7 @@ static ewa_status unpack_zstd(const ewa_gaussian_source *source, ewa_spz_header 
         return ewa_fail(source->context, EWA_ERROR_FORMAT, "%s: SPZ: the file ends in its header",
                         source->name);
     read_header(source->bytes, header);
-    header->table_at = ewa_file_u32(source->bytes + 16);
+    header->table_at = ewa_bytes_u32(source->bytes + 16);
     EWA_TRY(check_header(source, header));
     const uint32_t streams = header->sh_degree ? EWA_SPZ_STREAMS : EWA_SPZ_STREAMS - 1;
     if (header->version < 4)
@@ -202,7 +202,7 @@ ewa_status ewa_spz_unpack(const ewa_gaussian_source *source, ewa_spz_header *hea
     *bytes = NULL;
     *size_bytes = 0;
     *axes = 0;
-    const bool open = source->size_bytes >= 4 && ewa_file_u32(source->bytes) == EWA_SPZ_MAGIC;
+    const bool open = source->size_bytes >= 4 && ewa_bytes_u32(source->bytes) == EWA_SPZ_MAGIC;
     const ewa_status status = open ? unpack_zstd(source, header, axes, bytes, size_bytes, at)
                                    : unpack_gzip(source, header, bytes, size_bytes, at);
     if (status == EWA_OK) return EWA_OK;

@@ -32,9 +32,9 @@ static bool find_directory(const uint8_t *bytes, size_t size_bytes, uint32_t *at
     const size_t last = size_bytes - END_BYTES;
     for (size_t back = 0; back <= last && back <= MAX_COMMENT_BYTES; back++) {
         const uint8_t *end = bytes + last - back;
-        if (ewa_file_u32(end) != END_SIGNATURE) continue;
+        if (ewa_bytes_u32(end) != END_SIGNATURE) continue;
         *count = ewa_file_u16(end + 10);
-        *at = ewa_file_u32(end + 16);
+        *at = ewa_bytes_u32(end + 16);
         return *at <= last - back;
     }
     return false;
@@ -56,13 +56,13 @@ static bool find_entry(const uint8_t *bytes, size_t size_bytes, const char *want
         const size_t name_bytes = ewa_file_u16(entry + 28),
                      all_bytes =
                          ENTRY_BYTES + name_bytes + ewa_file_u16(entry + 30) + ewa_file_u16(entry + 32);
-        if (ewa_file_u32(entry) != ENTRY_SIGNATURE || all_bytes > size_bytes - at) return false;
+        if (ewa_bytes_u32(entry) != ENTRY_SIGNATURE || all_bytes > size_bytes - at) return false;
         if (is_named(entry + ENTRY_BYTES, name_bytes, wanted)) {
             *found = (zip_entry){.flags = ewa_file_u16(entry + 8),
                                  .method = ewa_file_u16(entry + 10),
-                                 .packed_bytes = ewa_file_u32(entry + 20),
-                                 .whole_bytes = ewa_file_u32(entry + 24),
-                                 .local_at = ewa_file_u32(entry + 42)};
+                                 .packed_bytes = ewa_bytes_u32(entry + 20),
+                                 .whole_bytes = ewa_bytes_u32(entry + 24),
+                                 .local_at = ewa_bytes_u32(entry + 42)};
             return true;
         }
         at += all_bytes;
@@ -107,7 +107,7 @@ ewa_status ewa_zip_open(const ewa_gaussian_source *archive, const char *name, ui
                         name);
     const size_t size_bytes = archive->size_bytes, at = entry.local_at;
     if (at > size_bytes || size_bytes - at < LOCAL_BYTES ||
-        ewa_file_u32(archive->bytes + at) != LOCAL_SIGNATURE)
+        ewa_bytes_u32(archive->bytes + at) != LOCAL_SIGNATURE)
         return ewa_fail(archive->context, EWA_ERROR_FORMAT, "%s: %s is not where the directory says",
                         archive->name, name);
     const uint8_t *local = archive->bytes + at;

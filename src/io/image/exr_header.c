@@ -5,6 +5,7 @@
 // looks.
 // By: OpenEXR File Layout, "Version Field" and "Header".
 #include "io/image/exr_header.h"
+#include "io/reader.h"
 
 #include <string.h>
 
@@ -24,10 +25,6 @@ typedef struct attribute {
     size_t value_bytes;
 } attribute;
 
-static uint32_t read_u32(const uint8_t *bytes) {
-    return bytes[0] | (uint32_t)bytes[1] << 8 | (uint32_t)bytes[2] << 16 | (uint32_t)bytes[3] << 24;
-}
-
 /// Steps over a text and its zero; NULL where it has no character or no end.
 static const uint8_t *skip_text(const uint8_t *at, const uint8_t *end) {
     const uint8_t *zero = memchr(at, 0, (size_t)(end - at));
@@ -38,7 +35,7 @@ static const uint8_t *skip_text(const uint8_t *at, const uint8_t *end) {
 static bool read_attribute(const uint8_t *at, const uint8_t *end, attribute *to) {
     const uint8_t *type = skip_text(at, end), *size = type ? skip_text(type, end) : NULL;
     if (!size || end - size < SIZE_BYTES) return false;
-    *to = (attribute){(const char *)at, (const char *)type, size + SIZE_BYTES, read_u32(size)};
+    *to = (attribute){(const char *)at, (const char *)type, size + SIZE_BYTES, ewa_bytes_u32(size)};
     return to->value_bytes <= (size_t)(end - to->value);
 }
 
@@ -72,7 +69,7 @@ static bool is_needed(const attribute *found, bool *good) {
 }
 
 bool ewa_exr_has_one_part(const uint8_t *bytes, size_t size_bytes) {
-    return size_bytes >= ATTRIBUTES_AT && !(read_u32(bytes + VERSION_AT) & (DEEP_DATA | MULTI_PART));
+    return size_bytes >= ATTRIBUTES_AT && !(ewa_bytes_u32(bytes + VERSION_AT) & (DEEP_DATA | MULTI_PART));
 }
 
 size_t ewa_exr_measure_header(const uint8_t *bytes, size_t size_bytes) {

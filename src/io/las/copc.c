@@ -57,10 +57,10 @@ static ewa_status read_page(const ewa_cloud_source *source, page p, page_list *p
     EWA_TRY(ewa_cloud_need(source, p.at_bytes, p.size_bytes, &bytes));
     for (uint64_t i = 0; i < p.size_bytes / EWA_COPC_ENTRY_BYTES; i++) {
         const uint8_t *entry = bytes + i * EWA_COPC_ENTRY_BYTES;
-        const int32_t point_count = (int32_t)ewa_las_u32(entry + 28), size = (int32_t)ewa_las_u32(entry + 24);
-        ewa_octree_node node = {.key = {.level = (int32_t)ewa_las_u32(entry)},
+        const int32_t point_count = (int32_t)ewa_bytes_u32(entry + 28), size = (int32_t)ewa_bytes_u32(entry + 24);
+        ewa_octree_node node = {.key = {.level = (int32_t)ewa_bytes_u32(entry)},
                                 .at_bytes = ewa_las_u64(entry + 16)};
-        for (int c = 0; c < 3; c++) node.key.cell[c] = (int32_t)ewa_las_u32(entry + 4 + 4 * c);
+        for (int c = 0; c < 3; c++) node.key.cell[c] = (int32_t)ewa_bytes_u32(entry + 4 + 4 * c);
         const ewa_octree_key *k = &node.key;
         if (point_count == 0) continue;
         if (point_count < -1 || size < 0 || !is_cube(k) || node.at_bytes > source->size_bytes ||

@@ -38,7 +38,7 @@ static bool is_copc(ewa_context *context, const char *path) {
     const bool there = ewa_file_head(context, path, bytes, sizeof bytes) == sizeof bytes;
     const uint8_t *record = bytes + EWA_LAS_HEAD_14_BYTES;
     return there && memcmp(bytes, "LASF", 4) == 0 && ewa_las_u16(bytes + 94) == EWA_LAS_HEAD_14_BYTES &&
-           ewa_las_u32(bytes + 100) > 0 && strncmp((const char *)record + 2, "copc", 16) == 0 &&
+           ewa_bytes_u32(bytes + 100) > 0 && strncmp((const char *)record + 2, "copc", 16) == 0 &&
            ewa_las_u16(record + 18) == 1 && ewa_las_u16(record + 20) == EWA_COPC_INFO_BYTES;
 }
 

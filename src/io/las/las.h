@@ -9,6 +9,7 @@
 #define EWA_SRC_LAS_H
 
 #include "io/cloud/format.h"
+#include "io/reader.h"
 
 #include <string.h>
 
@@ -35,11 +36,8 @@ enum { EWA_LAS_WKT = 1u << 4 };
 
 /// Little-endian numbers anywhere in memory.
 static inline uint16_t ewa_las_u16(const uint8_t *bytes) { return (uint16_t)(bytes[0] | bytes[1] << 8); }
-static inline uint32_t ewa_las_u32(const uint8_t *bytes) {
-    return ewa_las_u16(bytes) | (uint32_t)ewa_las_u16(bytes + 2) << 16;
-}
 static inline uint64_t ewa_las_u64(const uint8_t *bytes) {
-    return ewa_las_u32(bytes) | (uint64_t)ewa_las_u32(bytes + 4) << 32;
+    return ewa_bytes_u32(bytes) | (uint64_t)ewa_bytes_u32(bytes + 4) << 32;
 }
 static inline double ewa_las_f64(const uint8_t *bytes) {
     const uint64_t bits = ewa_las_u64(bytes);

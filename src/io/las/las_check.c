@@ -23,7 +23,7 @@ void ewa_las_unpack_seen(const ewa_las_table *table, const uint8_t *records, uin
     for (uint64_t i = 0; i < count; i++) {
         const uint8_t *record = records + i * table->record_bytes; // which begin with x, y, z in every format
         for (int c = 0; c < 3; c++) {
-            const int32_t number = (int32_t)ewa_las_u32(record + 4 * c);
+            const int32_t number = (int32_t)ewa_bytes_u32(record + 4 * c);
             here.low[c] = number < here.low[c] ? number : here.low[c];
             here.high[c] = number > here.high[c] ? number : here.high[c];
         }
@@ -65,7 +65,7 @@ static void check_returns(const ewa_cloud_source *source, const ewa_las_header *
     const int kinds = wide ? EWA_LAS_RETURN_KINDS - 1 : LEGACY_RETURNS;
     uint64_t said[EWA_LAS_RETURN_KINDS] = {0}, all = 0;
     for (int i = 0; i < kinds; i++)
-        all += said[i] = wide ? ewa_las_u64(source->bytes + 255 + 8 * i) : ewa_las_u32(source->bytes + 111 + 4 * i);
+        all += said[i] = wide ? ewa_las_u64(source->bytes + 255 + 8 * i) : ewa_bytes_u32(source->bytes + 111 + 4 * i);
     for (int i = 0; i < kinds && all; i++) {
         if (said[i] == seen->by_return[i + 1]) continue;
         ewa_report(source->context, EWA_SEVERITY_NOTE, "%s: return %d has %llu points; the header says %llu", source->name, i + 1,

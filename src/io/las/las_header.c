@@ -81,10 +81,10 @@ ewa_status ewa_las_header_read(const ewa_cloud_source *source, ewa_las_header *h
                                .day = ewa_las_u16(bytes + 90),
                                .year = ewa_las_u16(bytes + 92),
                                .head_bytes = ewa_las_u16(bytes + 94),
-                               .points_at = ewa_las_u32(bytes + 96),
-                               .vlr_count = ewa_las_u32(bytes + 100),
+                               .points_at = ewa_bytes_u32(bytes + 96),
+                               .vlr_count = ewa_bytes_u32(bytes + 100),
                                .record_bytes = ewa_las_u16(bytes + 105),
-                               .point_count = ewa_las_u32(bytes + 107),
+                               .point_count = ewa_bytes_u32(bytes + 107),
                                .system = bytes + 26,
                                .software = bytes + 58};
     if (bytes[24] != 1 || header->version_minor > NEWEST_MINOR)
@@ -106,7 +106,7 @@ ewa_status ewa_las_header_read(const ewa_cloud_source *source, ewa_las_header *h
     if (header->version_minor >= 4 && header->head_bytes >= EWA_LAS_HEAD_14_BYTES &&
         source->size_bytes >= EWA_LAS_HEAD_14_BYTES) {
         header->evlrs_at = ewa_las_u64(bytes + 235);
-        header->evlr_count = ewa_las_u32(bytes + 243);
+        header->evlr_count = ewa_bytes_u32(bytes + 243);
         const uint64_t count = ewa_las_u64(bytes + 247);
         if (count) header->point_count = count;
     }

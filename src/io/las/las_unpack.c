@@ -26,9 +26,9 @@ static void unpack_positions(const ewa_las_table *table, const ewa_las_column *c
     const uint8_t *from = b->records;
     uint8_t *to = b->to;
     for (size_t i = 0; i < b->count; i++, from += b->stride, to += b->to_stride) {
-        const double position[3] = {(double)((int32_t)ewa_las_u32(from + x_at) - x0) * sx,
-                                    (double)((int32_t)ewa_las_u32(from + y_at) - y0) * sy,
-                                    (double)((int32_t)ewa_las_u32(from + z_at) - z0) * sz};
+        const double position[3] = {(double)((int32_t)ewa_bytes_u32(from + x_at) - x0) * sx,
+                                    (double)((int32_t)ewa_bytes_u32(from + y_at) - y0) * sy,
+                                    (double)((int32_t)ewa_bytes_u32(from + z_at) - z0) * sz};
         memcpy(to, position, sizeof position);
     }
 }
@@ -98,15 +98,15 @@ static double load(ewa_las_raw raw, const uint8_t *from) {
     case EWA_LAS_I16:
         return (int16_t)ewa_las_u16(from);
     case EWA_LAS_U32:
-        return ewa_las_u32(from);
+        return ewa_bytes_u32(from);
     case EWA_LAS_I32:
-        return (int32_t)ewa_las_u32(from);
+        return (int32_t)ewa_bytes_u32(from);
     case EWA_LAS_U64:
         return (double)ewa_las_u64(from);
     case EWA_LAS_I64:
         return (double)(int64_t)ewa_las_u64(from);
     case EWA_LAS_F32: {
-        const uint32_t bits = ewa_las_u32(from);
+        const uint32_t bits = ewa_bytes_u32(from);
         float value;
         memcpy(&value, &bits, sizeof value);
         return value;

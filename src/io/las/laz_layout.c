@@ -28,7 +28,7 @@ static ewa_status read_record(const ewa_cloud_source *source, const ewa_las_head
     layout->packing = ewa_las_u16(bytes);
     layout->version_major = bytes[4];
     layout->version_minor = bytes[5];
-    *chunk_points = ewa_las_u32(bytes + 12);
+    *chunk_points = ewa_bytes_u32(bytes + 12);
     if (layout->packing < EWA_LAZ_POINTWISE || layout->packing > EWA_LAZ_LAYERED || coder != 0)
         return ewa_fail(source->context, EWA_ERROR_UNSUPPORTED,
                         "%s: compressed by LASzip's compressor %u with coder %u; compressors 1 to 3 with "
@@ -106,7 +106,7 @@ static ewa_status read_table(const ewa_cloud_source *source, const ewa_las_heade
                              ewa_laz_layout *layout) {
     const uint8_t *head, *entries;
     EWA_TRY(ewa_cloud_need(source, table_at, TABLE_HEAD_BYTES, &head));
-    const uint32_t version = ewa_las_u32(head), count = ewa_las_u32(head + 4);
+    const uint32_t version = ewa_bytes_u32(head), count = ewa_bytes_u32(head + 4);
     // Each chunk begins with a whole record.
     const uint64_t maximum = (table_at - header->points_at - 8) / header->record_bytes;
     if (version != 0 || count > maximum)

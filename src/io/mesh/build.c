@@ -23,6 +23,7 @@ void ewa_mesh_build_open(const ewa_mesh_source *source, ewa_mesh_build *build) {
     build->segments.item_bytes = 2 * sizeof(uint32_t);
     build->looks.item_bytes = sizeof(ewa_mesh_look);
     build->pictures.item_bytes = sizeof(ewa_mesh_picture);
+    build->arrays.item_bytes = sizeof(ewa_mesh_array);
     build->scratch.item_bytes = 1;
     build->cut_tests_left = FREE_CUT_TESTS;
 }
@@ -34,11 +35,14 @@ void ewa_mesh_build_close(ewa_mesh_build *build) {
         ewa_release(context, pictures[i].name, pictures[i].name_bytes, 1);
         ewa_image_free(&pictures[i].image);
     }
+    ewa_mesh_array *arrays = build->arrays.items;
+    for (uint64_t i = 0; i < build->arrays.count; i++)
+        ewa_release(context, arrays[i].values.items, arrays[i].values.capacity, arrays[i].values.item_bytes);
     ewa_mesh_list *const lists[] = {&build->positions,      &build->colors,      &build->texcoords,
                                     &build->normals,        &build->corners,     &build->texcoord_corners,
                                     &build->normal_corners, &build->face_colors, &build->face_looks,
                                     &build->looks,          &build->pictures,    &build->scratch,
-                                    &build->segments};
+                                    &build->segments,    &build->arrays};
     for (size_t i = 0; i < sizeof lists / sizeof lists[0]; i++)
         ewa_release(context, lists[i]->items, lists[i]->capacity, lists[i]->item_bytes);
     *build = (ewa_mesh_build){0};

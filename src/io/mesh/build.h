@@ -63,6 +63,14 @@ typedef struct ewa_mesh_corner {
     uint32_t position, texcoord, normal;
 } ewa_mesh_corner;
 
+/// Numbers of places that have a name in the file, by place.
+typedef struct ewa_mesh_array {
+    char name[EWA_NAME_BYTES];
+    ewa_type type;
+    uint32_t component_count; ///< 1 to 4
+    ewa_mesh_list values;     ///< item_bytes: of one place
+} ewa_mesh_array;
+
 typedef struct ewa_mesh_build {
     const ewa_mesh_source *source;
     ewa_context *context;
@@ -78,6 +86,7 @@ typedef struct ewa_mesh_build {
     ewa_mesh_list segments;         ///< 2 places each, of lines that readers hand over
     double line_step;               ///< between the places along them; 0: there are none
     ewa_mesh_list looks, pictures;
+    ewa_mesh_list arrays;           ///< ewa_mesh_array
     uint64_t packed_picture_bytes, picture_bytes; ///< of the pictures so far, in files and decoded
     ewa_mesh_list scratch;                        ///< of the polygon that is being cut
     uint32_t look;       ///< of the next polygons, or none
@@ -118,6 +127,21 @@ ewa_status ewa_mesh_add_position(ewa_mesh_build *build, const double position[3]
 ewa_status ewa_mesh_add_color(ewa_mesh_build *build, const float missing[4], const float color[4]);
 ewa_status ewa_mesh_add_texcoord(ewa_mesh_build *build, double u, double v);
 ewa_status ewa_mesh_add_normal(ewa_mesh_build *build, const double normal[3]);
+
+/// Finds the array of a name, or begins one of so many numbers by place; those of places before `first` are not known. The
+/// name of an attribute that has a meaning here gets "scalar_" in front: the file did not mean it so. `*array`, which more
+/// arrays make invalid, is NULL, after a message, where the name is no UTF-8 or too long, where there are more than four
+/// components or 256 arrays, or where an array of that name has other numbers, or those of the places from `first` on.
+/// Errors: EWA_ERROR_LIMIT, EWA_ERROR_MEMORY.
+ewa_status ewa_mesh_find_array(ewa_mesh_build *build, ewa_text name, ewa_type type, uint64_t component_count, uint64_t first,
+                               ewa_mesh_array **array);
+
+/// Adds the numbers of the next place.
+ewa_status ewa_mesh_add_numbers(ewa_mesh_build *build, ewa_mesh_array *array, const double *numbers);
+
+/// Gives a cloud the arrays' numbers: of place i, or of place `places[i * stride]`. Places without have NaN, whole numbers 0.
+/// Errors: EWA_ERROR_LIMIT, EWA_ERROR_MEMORY.
+ewa_status ewa_mesh_fill_arrays(const ewa_mesh_build *build, const uint32_t *places, size_t stride, ewa_cloud *cloud);
 
 /// Adds a line through places, those that are there.
 ewa_status ewa_mesh_add_line(ewa_mesh_build *build, const uint32_t *places, uint64_t count);

@@ -282,7 +282,10 @@ static ewa_status fill_mesh(finish_job *job, bool same, ewa_mesh *mesh) {
     memcpy(mesh->triangles, same ? build->corners.items : job->triangles,
            3 * (size_t)triangle_count * sizeof(uint32_t));
     if (material_count) fill_materials(build, mesh);
-    return EWA_OK;
+    if (!build->arrays.count) return EWA_OK;
+    EWA_TRY(ewa_cloud_create(build->context, vertex_count, &mesh->attributes));
+    return ewa_mesh_fill_arrays(build, same ? NULL : &job->vertices->position, sizeof(vertex_key) / sizeof(uint32_t),
+                                mesh->attributes);
 }
 
 ewa_status ewa_mesh_build_mesh(ewa_mesh_build *build, ewa_mesh *mesh) {
@@ -300,7 +303,10 @@ ewa_status ewa_mesh_build_mesh(ewa_mesh_build *build, ewa_mesh *mesh) {
     ewa_release(context, job.table, job.slots, sizeof *job.table);
     ewa_release(context, job.triangles, job.vertex_capacity, sizeof *job.triangles);
     ewa_release(context, job.vertices, job.vertex_capacity, sizeof *job.vertices);
-    EWA_TRY(status);
+    if (status != EWA_OK) {
+        ewa_mesh_free(mesh);
+        return status;
+    }
     const uint32_t not_finite = count_not_finite(mesh);
     say_losses(build, true, not_finite);
     if (not_finite < mesh->triangle_count) {
@@ -327,6 +333,7 @@ ewa_status ewa_mesh_build_points(ewa_mesh_build *build, ewa_cloud **points) {
     if (status == EWA_OK && build->colors.count) status = ewa_cloud_add(made, EWA_COLOR, EWA_F32, 4, &color);
     if (status == EWA_OK && build->line_step > 0) status = ewa_cloud_add(made, EWA_RADIUS, EWA_F32, 1, &radius);
     if (status == EWA_OK && radius) status = ewa_cloud_add(made, EWA_SURFACENESS, EWA_F32, 1, &surfaceness);
+    if (status == EWA_OK) status = ewa_mesh_fill_arrays(build, NULL, 0, made);
     if (status != EWA_OK) {
         ewa_cloud_destroy(&made);
         return status;

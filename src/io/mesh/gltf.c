@@ -7,6 +7,7 @@
 // Based on: "glTF 2.0 Specification", sections 3.5 (scenes), 3.7 (geometry) and 4 (GLB).
 #include "io/mesh/gltf.h"
 #include "base/base.h"
+#include "io/reader.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -392,22 +393,18 @@ static ewa_status read_tree(gltf *g) {
     return status;
 }
 
-static uint32_t read_u32(const uint8_t *bytes) {
-    return (uint32_t)bytes[0] | (uint32_t)bytes[1] << 8 | (uint32_t)bytes[2] << 16 | (uint32_t)bytes[3] << 24;
-}
-
 /// Finds the chunks of a .glb.
 static ewa_status open_container(gltf *g, const uint8_t **json, size_t *json_bytes) {
     const ewa_mesh_source *source = g->build->source;
     if (source->size_bytes < HEADER_BYTES)
         return ewa_fail(g->build->context, EWA_ERROR_FORMAT, "%s: the file ends in its header", source->name);
-    const uint32_t version = read_u32(source->bytes + 4);
+    const uint32_t version = ewa_bytes_u32(source->bytes + 4);
     if (version != 2)
         return ewa_fail(g->build->context, EWA_ERROR_UNSUPPORTED, "%s: GLB of version %u; 2 is read",
                         source->name, version);
     *json = NULL;
     for (size_t at = HEADER_BYTES; source->size_bytes - at >= 8;) {
-        const uint32_t length = read_u32(source->bytes + at), type = read_u32(source->bytes + at + 4);
+        const uint32_t length = ewa_bytes_u32(source->bytes + at), type = ewa_bytes_u32(source->bytes + at + 4);
         if (length > source->size_bytes - at - 8)
             return ewa_fail(g->build->context, EWA_ERROR_FORMAT,
                             "%s: a chunk of %u bytes from byte %zu on ends behind the file", source->name,

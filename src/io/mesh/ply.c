@@ -84,13 +84,15 @@ static void color_of(ewa_mesh_build *build, const double *values, uint32_t count
     build->odd_color_count += odd;
 }
 
+static const char *const texcoord_names[][2] = {
+    {"s", "t"}, {"u", "v"}, {"texture_u", "texture_v"}, {"texture_s", "texture_t"}, {"tx", "ty"}};
+enum { TEXCOORD_NAMES = sizeof texcoord_names / sizeof texcoord_names[0] };
+
 static ewa_status add_texcoords(ply_mesh *mesh, const ewa_cloud *vertices) {
-    static const char *const names[][2] = {
-        {"s", "t"}, {"u", "v"}, {"texture_u", "texture_v"}, {"texture_s", "texture_t"}, {"tx", "ty"}};
     const ewa_attribute *u = NULL, *v = NULL;
-    for (size_t i = 0; i < sizeof names / sizeof names[0] && !(u && v); i++) {
-        u = ewa_cloud_find(vertices, names[i][0]);
-        v = ewa_cloud_find(vertices, names[i][1]);
+    for (size_t i = 0; i < TEXCOORD_NAMES && !(u && v); i++) {
+        u = ewa_cloud_find(vertices, texcoord_names[i][0]);
+        v = ewa_cloud_find(vertices, texcoord_names[i][1]);
     }
     ewa_status status = EWA_OK;
     if (!u || !v) return EWA_OK;
@@ -102,6 +104,26 @@ static ewa_status add_texcoords(ply_mesh *mesh, const ewa_cloud *vertices) {
     }
     mesh->vertex_texcoords = (uint32_t)mesh->build->texcoords.count;
     return status;
+}
+
+/// Adds what else there is of vertices: numbers that have a name.
+static ewa_status add_arrays(ply_mesh *mesh, const ewa_cloud *vertices) {
+    const uint64_t count = ewa_cloud_point_count(vertices);
+    const ewa_attribute *a;
+    for (uint32_t k = 0; (a = ewa_cloud_attribute_at(vertices, k)); k++) {
+        bool taken = strcmp(a->name, EWA_POSITION) == 0 || strcmp(a->name, EWA_NORMAL) == 0 || strcmp(a->name, EWA_COLOR) == 0;
+        for (size_t i = 0; i < 2 * TEXCOORD_NAMES && mesh->vertex_texcoords; i++)
+            taken |= strcmp(a->name, texcoord_names[i / 2][i % 2]) == 0;
+        ewa_mesh_array *array = NULL;
+        if (!taken)
+            EWA_TRY(ewa_mesh_find_array(mesh->build, (ewa_text){a->name, strlen(a->name)}, a->type, a->component_count, 0, &array));
+        for (uint64_t i = 0; i < count && array; i++) {
+            double numbers[4];
+            ewa_attribute_read_f64(a, i, 1, numbers);
+            EWA_TRY(ewa_mesh_add_numbers(mesh->build, array, numbers));
+        }
+    }
+    return EWA_OK;
 }
 
 static ewa_status add_vertices(ply_mesh *mesh, const ewa_cloud *vertices) {
@@ -129,7 +151,8 @@ static ewa_status add_vertices(ply_mesh *mesh, const ewa_cloud *vertices) {
             EWA_TRY(ewa_mesh_add_normal(build, values));
         }
     }
-    return add_texcoords(mesh, vertices);
+    EWA_TRY(add_texcoords(mesh, vertices));
+    return add_arrays(mesh, vertices);
 }
 
 // ---- pictures

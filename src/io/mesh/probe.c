@@ -6,6 +6,7 @@
 #include "io/foreign.h"
 #include "io/mesh/formats.h"
 #include "io/number.h"
+#include "io/reader.h"
 
 #include <strings.h>
 
@@ -63,13 +64,9 @@ static bool is_obj(ewa_cursor cursor) {
     return false;
 }
 
-static uint32_t read_u32(const uint8_t *bytes) {
-    return (uint32_t)bytes[0] | (uint32_t)bytes[1] << 8 | (uint32_t)bytes[2] << 16 | (uint32_t)bytes[3] << 24;
-}
-
 static bool is_binary_stl(const uint8_t *bytes, size_t size_bytes) {
     return size_bytes > STL_HEAD_BYTES && (size_bytes - STL_HEAD_BYTES) % STL_RECORD_BYTES == 0 &&
-           (size_bytes - STL_HEAD_BYTES) / STL_RECORD_BYTES == read_u32(bytes + 80);
+           (size_bytes - STL_HEAD_BYTES) / STL_RECORD_BYTES == ewa_bytes_u32(bytes + 80);
 }
 
 /// Whether a text is JSON with a member "asset" or "meshes", as glTF has.

@@ -12,12 +12,8 @@
 
 enum { HEADER_BYTES = 80, RECORD_BYTES = 50, TEXT_BYTES = 1024 };
 
-static uint32_t read_u32(const uint8_t *bytes) {
-    return (uint32_t)bytes[0] | (uint32_t)bytes[1] << 8 | (uint32_t)bytes[2] << 16 | (uint32_t)bytes[3] << 24;
-}
-
 static double read_float(const uint8_t *bytes) {
-    const uint32_t bits = read_u32(bytes);
+    const uint32_t bits = ewa_bytes_u32(bytes);
     float value;
     memcpy(&value, &bits, sizeof value);
     return (double)value;
@@ -70,7 +66,7 @@ static ewa_status read_binary(ewa_mesh_build *build) {
     if (source->size_bytes < HEADER_BYTES + 4)
         return ewa_fail(build->context, EWA_ERROR_FORMAT, "%s: %zu bytes; the header of a binary STL has %d",
                         source->name, source->size_bytes, HEADER_BYTES + 4);
-    const uint64_t count = read_u32(source->bytes + HEADER_BYTES),
+    const uint64_t count = ewa_bytes_u32(source->bytes + HEADER_BYTES),
                    there = (source->size_bytes - HEADER_BYTES - 4) / RECORD_BYTES;
     if (count > there)
         return ewa_fail(build->context, EWA_ERROR_FORMAT, "%s: the file ends in triangle %llu of %llu",
@@ -163,7 +159,7 @@ ewa_status ewa_mesh_read_stl(ewa_mesh_build *build) {
     const ewa_mesh_source *source = build->source;
     const bool exact =
         source->size_bytes >= HEADER_BYTES + 4 &&
-        (source->size_bytes - HEADER_BYTES - 4) / RECORD_BYTES == read_u32(source->bytes + HEADER_BYTES) &&
+        (source->size_bytes - HEADER_BYTES - 4) / RECORD_BYTES == ewa_bytes_u32(source->bytes + HEADER_BYTES) &&
         (source->size_bytes - HEADER_BYTES - 4) % RECORD_BYTES == 0;
     ewa_cursor cursor;
     char *owned;

@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: MIT
 //
 // Meshes in VTK's legacy files: polygonal data, the surface of unstructured grids, the sides of structured and rectilinear
-// ones, in text or in binary. Of the data of points, normals and colours of bytes are taken; all else is stepped over.
+// ones, in text or in binary. Of the data of points normals, colours of bytes and numbers by name are taken; those of cells are
+// stepped over.
 //
 // Based on: Kitware, "VTK File Formats", The VTK User's Guide, 2010, pages 3 to 17; VTK's reader of legacy files
 // (cells of version 5).
@@ -259,14 +260,24 @@ static ewa_status read_normals(vtk_reader *r, const ewa_vtk_type *type) {
 }
 
 /// Takes an array of the data of points or cells, as colours where it is such.
-static ewa_status take_data(vtk_reader *r, const ewa_vtk_type *type, uint64_t components, uint64_t count) {
-    const bool bytes = type->bytes == 1 && type->kind == 'u';
+static ewa_status take_data(vtk_reader *r, ewa_text name, const ewa_vtk_type *type, uint64_t components, uint64_t count) {
+    const bool bytes = type->bytes == 1 && type->kind == 'u', of_points = r->of_points && count == r->data_count;
     uint64_t all;
-    if (r->of_points && !r->has_colors && bytes && (components == 3 || components == 4) && count == r->data_count)
+    if (of_points && !r->has_colors && bytes && (components == 3 || components == 4))
         return read_colors(r, type, (uint32_t)components);
     if (components > MAX_COMPONENTS || __builtin_mul_overflow(count, components, &all))
         return fail(r, "an array is too large");
-    return skip_numbers(r, type, all);
+    ewa_mesh_array *array = NULL;
+    if (of_points && count == r->build->positions.count)
+        EWA_TRY(ewa_mesh_find_array(r->build, name, ewa_vtk_kept_type(type), components, 0, &array));
+    if (!array) return skip_numbers(r, type, all);
+    EWA_TRY(begin_numbers(r, type, all));
+    for (uint64_t i = 0; i < count; i++) {
+        double numbers[4];
+        for (uint64_t c = 0; c < components; c++) EWA_TRY(take_number(r, type, &numbers[c]));
+        EWA_TRY(ewa_mesh_add_numbers(r->build, array, numbers));
+    }
+    return EWA_OK;
 }
 
 /// Reads arrays; `*known` becomes false at one of no numbers.
@@ -276,11 +287,11 @@ static ewa_status read_fields(vtk_reader *r, bool *known) {
     ewa_cursor_any_word(&r->cursor);
     if (!take_count(r, &fields) || fields > MAX_FIELDS) return fail(r, "FIELD has no number of arrays");
     for (uint64_t i = 0; i < fields; i++) {
-        ewa_cursor_any_word(&r->cursor);
+        const ewa_text name = ewa_cursor_any_word(&r->cursor);
         if (!take_count(r, &components) || !take_count(r, &count)) return fail(r, "an array of FIELD has no sizes");
         *known = take_type(r, &type);
         if (!*known) return EWA_OK;
-        EWA_TRY(take_data(r, &type, components, count));
+        EWA_TRY(take_data(r, name, &type, components, count));
     }
     return EWA_OK;
 }
@@ -289,7 +300,7 @@ static ewa_status read_fields(vtk_reader *r, bool *known) {
 static ewa_status read_scalars(vtk_reader *r, bool *known) {
     ewa_vtk_type type;
     uint64_t components = 1;
-    ewa_cursor_any_word(&r->cursor);
+    const ewa_text name = ewa_cursor_any_word(&r->cursor);
     *known = take_type(r, &type);
     if (!*known) return EWA_OK;
     ewa_cursor_skip_blanks(&r->cursor);
@@ -300,7 +311,7 @@ static ewa_status read_scalars(vtk_reader *r, bool *known) {
         ewa_cursor_any_word(&r->cursor);
     else
         r->cursor = before;
-    return take_data(r, &type, components, r->data_count);
+    return take_data(r, name, &type, components, r->data_count);
 }
 
 /// Numbers of each vector or matrix that stands behind a word, its name and its type; 0: none is.
@@ -369,11 +380,10 @@ static ewa_status read_section(vtk_reader *r, ewa_text word, bool *known) {
     const uint32_t numbers = numbers_of(word);
     *known = numbers > 0;
     if (!*known) return EWA_OK;
-    ewa_cursor_any_word(&r->cursor);
+    const ewa_text name = ewa_cursor_any_word(&r->cursor);
     if (!take_type(r, &type)) return fail(r, "vectors have no type");
     if (ewa_text_is_any_case(word, "NORMALS") && r->of_points && !r->has_normals) return read_normals(r, &type);
-    return r->data_count > UINT64_MAX / 16 ? fail(r, "an array is too large")
-                                           : skip_numbers(r, &type, numbers * r->data_count);
+    return take_data(r, name, &type, numbers, r->data_count);
 }
 
 /// Adds the sides of a grid, if its places are those that its sizes say.

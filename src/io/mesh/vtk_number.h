@@ -5,8 +5,8 @@
 #ifndef EWA_SRC_MESH_VTK_NUMBER_H
 #define EWA_SRC_MESH_VTK_NUMBER_H
 
-#include <stdbool.h>
-#include <stdint.h>
+#include "ewa/base.h"
+
 #include <string.h>
 
 /// A type of numbers.
@@ -15,6 +15,16 @@ typedef struct ewa_vtk_type {
     uint32_t bytes; ///< 1, 2, 4 or 8
     char kind;      ///< f, i, u
 } ewa_vtk_type;
+
+/// The type that numbers are kept as: the same, doubles for whole ones of eight bytes, which they are exact for up to 2^53.
+static inline ewa_type ewa_vtk_kept_type(const ewa_vtk_type *type) {
+    const bool is_signed = type->kind == 'i';
+    if (type->bytes == 8) return EWA_F64;
+    if (type->kind == 'f') return EWA_F32;
+    if (type->bytes == 4) return is_signed ? EWA_I32 : EWA_U32;
+    if (type->bytes == 2) return is_signed ? EWA_I16 : EWA_U16;
+    return is_signed ? EWA_I8 : EWA_U8;
+}
 
 /// The number that the first bytes are.
 static inline double ewa_vtk_number(const ewa_vtk_type *type, const uint8_t *bytes, bool big_endian) {

@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: MIT
 //
 // Meshes in VTK's XML files: polygonal data (.vtp), the surface of unstructured grids (.vtu), the sides of structured and
-// rectilinear ones (.vts, .vtr); any number of pieces. Of the data of points, normals and colours of bytes are taken.
+// rectilinear ones (.vts, .vtr); any number of pieces. Of the data of points, normals, colours of bytes and numbers by name
+// are taken.
 //
 // Based on: Kitware, "VTK File Formats", The VTK User's Guide, 2010, pages 12 to 17.
 #include "base/base.h"
@@ -13,7 +14,7 @@
 #include "io/volume/text.h"
 #include "io/vtk_xml.h"
 
-enum { BLOCK_BYTES = 4096, POLYHEDRON = 42 };
+enum { BLOCK_BYTES = 4096, POLYHEDRON = 42, MAX_NAMED = 256 };
 
 /// Arrays of a piece that are read.
 typedef enum role {
@@ -45,6 +46,8 @@ typedef struct xml_mesh {
     bool structured, rectilinear;
     ewa_xml_tag piece, arrays[ROLE_COUNT];
     bool has[ROLE_COUNT];
+    ewa_xml_tag named[MAX_NAMED]; ///< arrays of points that are numbers
+    uint32_t named_count;
     uint64_t first; ///< place of the piece's first point
     bool has_normals;
     ewa_mesh_list cells, kinds, offsets, faces, face_offsets; ///< 32-bit numbers of a piece
@@ -76,16 +79,15 @@ static void close_numbers(numbers *n) {
     n->stored = (ewa_vtk_stored){0};
 }
 
-static ewa_status open_numbers(const xml_mesh *m, role which, numbers *n) {
+static ewa_status open_array(const xml_mesh *m, const ewa_xml_tag *array, numbers *n) {
     char value[EWA_VTK_ATTRIBUTE_BYTES] = "";
     *n = (numbers){.xml = &m->xml};
-    if (!m->has[which]) return fail(m, "an array of a piece is not there");
-    if (!ewa_vtk_attribute(&m->arrays[which], "type", value)) value[0] = 0;
+    if (!ewa_vtk_attribute(array, "type", value)) value[0] = 0;
     for (size_t i = 0; i < sizeof types / sizeof types[0]; i++)
         if (strcmp(value, types[i].name) == 0) n->type = types[i];
     if (!n->type.name)
         return ewa_fail(m->build->context, EWA_ERROR_UNSUPPORTED, "%s: VTK: type '%.80s'", m->xml.name, value);
-    EWA_TRY(ewa_vtk_xml_find(&m->xml, &m->arrays[which], &n->stored));
+    EWA_TRY(ewa_vtk_xml_find(&m->xml, array, &n->stored));
     const char *text = (const char *)n->stored.bytes;
     n->text = (ewa_cursor){text, text + n->stored.size_bytes, 1};
     if (n->stored.packing == EWA_PACKING_TEXT) return EWA_OK;
@@ -93,6 +95,10 @@ static ewa_status open_numbers(const xml_mesh *m, role which, numbers *n) {
                                               n->stored.size_bytes, &n->source);
     if (status != EWA_OK) close_numbers(n);
     return status;
+}
+
+static ewa_status open_numbers(const xml_mesh *m, role which, numbers *n) {
+    return m->has[which] ? open_array(m, &m->arrays[which], n) : fail(m, "an array of a piece is not there");
 }
 
 static ewa_status ends_early(const numbers *n) {
@@ -184,6 +190,26 @@ static ewa_status read_colors(xml_mesh *m, uint64_t count) {
         if (status == EWA_OK) status = ewa_mesh_add_color(build, white, color);
     }
     build->positions.count = m->first + count;
+    close_numbers(&n);
+    return status;
+}
+
+/// Reads an array of points that has a name.
+static ewa_status read_named(xml_mesh *m, const ewa_xml_tag *tag, uint64_t count) {
+    char name[EWA_VTK_ATTRIBUTE_BYTES], value[EWA_VTK_ATTRIBUTE_BYTES];
+    uint64_t components = 1;
+    numbers n;
+    if (!ewa_vtk_attribute(tag, "Name", name)) return EWA_OK;
+    if (ewa_vtk_attribute(tag, "NumberOfComponents", value) && ewa_text_counts(value, 1, &components) != 1) return EWA_OK;
+    EWA_TRY(open_array(m, tag, &n));
+    ewa_mesh_array *array;
+    ewa_status status = ewa_mesh_find_array(m->build, (ewa_text){name, strlen(name)}, ewa_vtk_kept_type(&n.type), components,
+                                            m->first, &array);
+    for (uint64_t i = 0; i < count && array && status == EWA_OK; i++) {
+        double values[4];
+        for (uint64_t c = 0; c < components && status == EWA_OK; c++) status = take_number(&n, &values[c]);
+        if (status == EWA_OK) status = ewa_mesh_add_numbers(m->build, array, values);
+    }
     close_numbers(&n);
     return status;
 }
@@ -334,6 +360,7 @@ static ewa_status add_piece(xml_mesh *m) {
     m->has_normals = m->has[NORMALS] && build->normals.count == m->first;
     if (m->has_normals) EWA_TRY(read_normals(m, count));
     if (m->has[COLORS]) EWA_TRY(read_colors(m, count));
+    for (uint32_t i = 0; i < m->named_count; i++) EWA_TRY(read_named(m, &m->named[i], count));
     return m->structured || m->rectilinear ? ewa_vtk_add_sides(build, m->first, counts, m->has_normals) : add_cells(m);
 }
 
@@ -360,6 +387,8 @@ static void offer_array(xml_mesh *m, const ewa_xml_tag *tag, const char *section
         if (strcmp(name, "faces") == 0) which = FACES;
         if (strcmp(name, "faceoffsets") == 0) which = FACE_OFFSETS;
     }
+    const bool named = strcmp(section, "PointData") == 0 && (which < 0 || m->has[which]) && strcmp(type, "String") != 0;
+    if (named && m->named_count < MAX_NAMED) m->named[m->named_count++] = *tag;
     if (which < 0 || m->has[which]) return;
     m->arrays[which] = *tag;
     m->has[which] = true;
@@ -378,6 +407,7 @@ static ewa_status read_body(xml_mesh *m) {
             m->piece = tag;
             memset(m->has, 0, sizeof m->has);
             coordinates = 0;
+            m->named_count = 0;
             section = "";
         } else if (in_piece && ewa_xml_is(&tag, "DataArray")) {
             if (!tag.closing) offer_array(m, &tag, section, &coordinates);
