@@ -3,7 +3,7 @@
 # SPDX-License-Identifier: MIT
 """A shape from twelve pictures: a sphere becomes what they show (docs/gradients.md).
 
-    fit_shape.py TARGET OUT.png [--level 4] [--steps 240] [--side 128]
+    fit_shape.py TARGET OUT.png [--level 4] [--steps 240] [--side 128] [--film FOLDER]
 
 TARGET is any mesh or cloud. Pictures of it, grey under one light, are taken from twelve sides. An icosphere's corners are
 surfels whose normals are those of its triangles and whose radii are as long as its edges. They follow the derivative of the
@@ -116,9 +116,10 @@ def chamfer(a: np.ndarray, b: np.ndarray) -> float:
     return float(np.mean(ways))
 
 
-def run(target: ewa.Cloud, level: int, steps: int, side: int, say: Callable[[str], None]) -> tuple[np.ndarray, list[tuple[int, float, float]]]:
+def run(target: ewa.Cloud, level: int, steps: int, side: int, say: Callable[[str], None],
+        film: str | None = None) -> tuple[np.ndarray, list[tuple[int, float, float]]]:
     """Returns the sheet of pictures, linear, and step, loss and Chamfer distance on the way, which `say` hears of, too; the
-    target fits the unit sphere."""
+    target fits the unit sphere. `film`: folder that gets a picture of the target and the shape for every fourth step."""
     place = np.asarray(target["position"], float)
     place = place - (place.max(axis=0) + place.min(axis=0)) / 2
     size = np.linalg.norm(place, axis=1).max()
@@ -148,6 +149,9 @@ def run(target: ewa.Cloud, level: int, steps: int, side: int, say: Callable[[str
             loss += float((rest**2).mean()) / 12
             found = ewa.render_backward(cloud, at, rgba=2 * rest / rest.size, by=("position", "normal"), **OPTIONS)
             total += found.position + by_corners(corners, faces, found.normal)
+        if film and step % 4 == 0:
+            shot = np.concatenate([draw(c, camera(1.5, side)) for c in (true, cloud)], axis=1)
+            ewa.save_image(f"{film}/step_{step // 4:03d}.png", shot)
         if step % 20 == 0:
             log.append((step, loss, chamfer(surfels(corners, faces)["position"], shown)))
             say(f"step {step}: {side_now} pixels, loss {loss:.5f}, Chamfer distance {log[-1][2]:.5f}")
@@ -171,12 +175,14 @@ def main() -> None:
     parser.add_argument("--level", type=int, default=4, help="of the icosphere: 10 * 4^level + 2 surfels")
     parser.add_argument("--steps", type=int, default=240, help="1 or more")
     parser.add_argument("--side", type=int, default=128)
+    parser.add_argument("--film", help="folder for a picture of every fourth step")
     arguments = parser.parse_args()
     if arguments.steps < 1:
         parser.error(f"--steps is {arguments.steps}; 1 or more are needed")
     read = ewa.read(arguments.target)
     target = read if isinstance(read, ewa.Cloud) else ewa.sample(arguments.target, point_count=8000)
-    sheet, _ = run(target, arguments.level, arguments.steps, arguments.side, lambda line: print(line, flush=True))
+    sheet, _ = run(target, arguments.level, arguments.steps, arguments.side, lambda line: print(line, flush=True),
+                   arguments.film)
     ewa.save_image(arguments.out, sheet)
 
 

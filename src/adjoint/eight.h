@@ -63,6 +63,14 @@ EIGHT d8 d8_keep(m8 m, d8 a) { EACH(d8, (d_part)(m.part[i] & (m_part)a.part[i]))
 EIGHT d8 d8_min(d8 a, d8 b) { return d8_select(d8_lt(b, a), b, a); }
 EIGHT d8 d8_max(d8 a, d8 b) { return d8_select(d8_lt(a, b), b, a); }
 
+/// The sum of the lanes, of halves that are added to each other.
+EIGHT double d8_total(d8 a) {
+    double half[LANES / 2], lanes[LANES];
+    d8_store(lanes, a);
+    for (int i = 0; i < LANES / 2; i++) half[i] = lanes[i] + lanes[i + LANES / 2];
+    return (half[0] + half[2]) + (half[1] + half[3]);
+}
+
 EIGHT bool m8_any(m8 a) {
 #if defined(WIDE_AVX512)
     return _mm512_movepi64_mask((__m512i)a.part[0]) != 0;

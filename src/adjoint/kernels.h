@@ -44,16 +44,19 @@ typedef struct ewa_adjoint_area {
     bool behind; ///< not the first surface
 } ewa_adjoint_area;
 
+/// Loops over splats. Each has a set of blocks, a bit for each that its box touches, row by row: where it may count. What is not in
+/// the set is not looked at again. Boxes of more than 64 blocks have all bits, and are looked at as a whole.
 typedef struct ewa_adjoint_kernels {
-    /// Lowers the bounds to z + eps where splats count beyond what is passed; returns the farthest bound of all pixels.
-    double (*find)(const ewa_adjoint_area *area, const ewa_reference_splat *const *splats, uint32_t count);
+    /// Lowers the bounds to z + eps where splats count beyond what is passed, and makes their sets of blocks; returns the farthest bound
+    /// of all pixels.
+    double (*find)(const ewa_adjoint_area *area, const ewa_reference_splat *const *splats, uint32_t count, uint64_t *blocks);
 
-    /// Adds splats to the sums where they count up to the bounds, one after the other.
-    void (*sum)(const ewa_adjoint_area *area, const ewa_reference_splat *const *splats, uint32_t count);
+    /// Adds splats to the sums where they count up to the bounds, one after the other; those blocks are left in the sets.
+    void (*sum)(const ewa_adjoint_area *area, const ewa_reference_splat *const *splats, uint32_t count, uint64_t *blocks);
 
     /// Adds what a splat gets of the planes, which are cotangents by now, to the first `width` of its sums: terms times
     /// `scales`, each rounded to a whole number. Depths only with `with_depth`.
-    void (*gather)(const ewa_adjoint_area *area, const ewa_reference_splat *splat, uint32_t width, bool with_depth,
+    void (*gather)(const ewa_adjoint_area *area, const ewa_reference_splat *splat, uint64_t blocks, uint32_t width, bool with_depth,
                    const double scales[EWA_MOMENT_COUNT], int64_t sums[EWA_MOMENT_COUNT]);
 } ewa_adjoint_kernels;
 

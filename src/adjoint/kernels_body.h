@@ -30,19 +30,22 @@ EIGHT d8 plane_at(const ewa_reference_splat *splat, d8 x, d8 y) {
     return d8_add(slopes, d8_set(splat->plane[2]));
 }
 
-/// Without the weight.
-EIGHT sample sample_plain(const ewa_reference_view *view, const ewa_reference_splat *splat, d8 x, d8 y) {
+/// How far pixels are from the centre; returns whether any is within the cutoff.
+EIGHT bool reach_plain(const ewa_reference_view *view, const ewa_reference_splat *splat, d8 x, d8 y, sample *s) {
     const d8 dx = d8_sub(d8_sub(x, d8_set(splat->moved_px[0])), d8_set(splat->center_px[0])),
              dy = d8_sub(d8_sub(y, d8_set(splat->moved_px[1])), d8_set(splat->center_px[1]));
     const double *q = splat->inverse;
     const d8 xx = d8_mul(d8_mul(d8_set(q[0]), dx), dx), xy = d8_mul(d8_mul(d8_set(2 * q[1]), dx), dy),
              yy = d8_mul(d8_mul(d8_set(q[2]), dy), dy);
-    sample s = {.distance2 = d8_add(d8_add(xx, xy), yy)};
-    s.counts = d8_lt(s.distance2, d8_set(view->cutoff * view->cutoff));
+    s->distance2 = d8_add(d8_add(xx, xy), yy);
+    s->counts = d8_lt(s->distance2, d8_set(view->cutoff * view->cutoff));
+    return m8_any(s->counts);
+}
+
+EIGHT d8 depth_plain(const ewa_reference_view *view, const ewa_reference_splat *splat, d8 x, d8 y) {
     const d8 plane = plane_at(splat, x, y), flat = d8_sub(d8_set(0), plane);
     const d8 key = d8_min(d8_max(view->orthographic ? flat : plane, d8_set(splat->key_low)), d8_set(splat->key_high));
-    s.z = view->orthographic ? d8_sub(d8_set(0), key) : d8_div(d8_set(1), key);
-    return s;
+    return view->orthographic ? d8_sub(d8_set(0), key) : d8_div(d8_set(1), key);
 }
 
 /// Of a splat with clip lines or that is drawn by rays, pixel by pixel.
@@ -99,7 +102,9 @@ EIGHT block block_at(const ewa_adjoint_area *area, uint32_t column, uint32_t row
 EIGHT bool sample_block(const ewa_adjoint_area *area, const ewa_reference_splat *splat, const block *at, bool plain,
                         sample *s) {
     if (plain) {
-        *s = sample_plain(area->view, splat, lanes_x(at->x_px), lanes_y(at->y_px));
+        const d8 x = lanes_x(at->x_px), y = lanes_y(at->y_px);
+        if (!reach_plain(area->view, splat, x, y, s)) return false;
+        s->z = depth_plain(area->view, splat, x, y);
     } else {
         sample any;
         sample_any(area->view, splat, at->x_px, at->y_px, &any);
@@ -120,26 +125,37 @@ EIGHT bool weigh_block(const ewa_reference_splat *splat, const block *at, bool p
     return true;
 }
 
-EIGHT void find_splat(const ewa_adjoint_area *area, const ewa_reference_splat *splat, bool plain) {
+/// Whether block `index` of a splat's box is in its set.
+EIGHT bool is_in(uint64_t blocks, uint32_t index) { return index >= 64 || (blocks >> index & 1); }
+
+EIGHT uint64_t bit_of(uint32_t index) { return index < 64 ? UINT64_C(1) << index : 0; }
+
+EIGHT uint64_t find_splat(const ewa_adjoint_area *area, const ewa_reference_splat *splat, bool plain) {
     const block_range range = blocks_of(area, splat);
+    uint64_t blocks = 0;
+    uint32_t index = 0;
     for (uint32_t row = range.first_row; row < range.end_row; row++)
-        for (uint32_t column = range.first_column; column < range.end_column; column++) {
+        for (uint32_t column = range.first_column; column < range.end_column; column++, index++) {
             const block at = block_at(area, column, row);
             sample s;
             if (!sample_block(area, splat, &at, plain, &s)) continue;
             double *bound = at.planes + EWA_PLANE_BOUND * LANES;
             const d8 old = d8_load(bound), reached = d8_add(s.z, d8_set(splat->epsilon));
+            if (!m8_any(m8_and(s.counts, d8_le(s.z, old)))) continue; // bounds only fall
+            blocks |= bit_of(index);
             d8_store(bound, d8_select(m8_and(s.counts, d8_lt(reached, old)), reached, old));
         }
+    return index > 64 ? UINT64_MAX : blocks;
 }
 
-static double find(const ewa_adjoint_area *area, const ewa_reference_splat *const *splats, uint32_t count) {
+static double find(const ewa_adjoint_area *area, const ewa_reference_splat *const *splats, uint32_t count, uint64_t *blocks) {
     for (uint32_t k = 0; k < count; k++) {
+        blocks[k] = 0;
         if (area->behind && splats[k]->hollow) continue;
         if (is_plain(splats[k]))
-            find_splat(area, splats[k], true);
+            blocks[k] = find_splat(area, splats[k], true);
         else
-            find_splat(area, splats[k], false);
+            blocks[k] = find_splat(area, splats[k], false);
     }
     d8 farthest = d8_set(-__builtin_inf());
     for (size_t i = 0; i < (size_t)area->columns * area->rows; i++)
@@ -165,30 +181,36 @@ static void add_cut(const sample *s, double *planes) {
     for (int c = 0; c < 2; c++) add(planes + (EWA_PLANE_INWARD + c) * LANES, d8_mul(whole, s->inward[c]));
 }
 
-EIGHT void sum_splat(const ewa_adjoint_area *area, const ewa_reference_splat *splat, bool plain) {
+EIGHT uint64_t sum_splat(const ewa_adjoint_area *area, const ewa_reference_splat *splat, bool plain, uint64_t blocks) {
     const block_range range = blocks_of(area, splat);
+    uint64_t left = 0;
+    uint32_t index = 0;
     const double opacity = area->transparent ? splat->opacity : 1;
     const ewa_vec3 color = vec3_scale(splat->color, opacity), normal = splat->normal_world;
     const double parts[EWA_SIDE_PLANES] = {1, color.x, color.y, color.z, normal.x, normal.y, normal.z, 0, opacity};
     const size_t side = splat->is_back ? EWA_SIDE_PLANES * LANES : 0;
     for (uint32_t row = range.first_row; row < range.end_row; row++)
-        for (uint32_t column = range.first_column; column < range.end_column; column++) {
+        for (uint32_t column = range.first_column; column < range.end_column; column++, index++) {
+            if (!is_in(blocks, index)) continue;
             const block at = block_at(area, column, row);
             sample s;
             if (!sample_block(area, splat, &at, plain, &s) || !weigh_block(splat, &at, plain, &s)) continue;
+            left |= bit_of(index);
             for (int p = 0; p < EWA_SIDE_PLANES; p++)
                 add(at.planes + side + p * LANES, d8_mul(s.weight, p == EWA_PLANE_Z ? s.z : d8_set(parts[p])));
             if (!plain) add_cut(&s, at.planes);
         }
+    return index > 64 ? UINT64_MAX : left;
 }
 
-static void sum(const ewa_adjoint_area *area, const ewa_reference_splat *const *splats, uint32_t count) {
+static void sum(const ewa_adjoint_area *area, const ewa_reference_splat *const *splats, uint32_t count, uint64_t *blocks) {
     for (uint32_t k = 0; k < count; k++) {
-        if (area->behind && splats[k]->hollow) continue;
-        if (is_plain(splats[k]))
-            sum_splat(area, splats[k], true);
+        if (area->behind && splats[k]->hollow)
+            blocks[k] = 0;
+        else if (is_plain(splats[k]))
+            blocks[k] = sum_splat(area, splats[k], true, blocks[k]);
         else
-            sum_splat(area, splats[k], false);
+            blocks[k] = sum_splat(area, splats[k], false, blocks[k]);
     }
 }
 
@@ -262,14 +284,16 @@ EIGHT void gain_block(const ewa_adjoint_area *area, const ewa_reference_splat *s
     if (with_depth) gain_depth(area, splat, at, s, by_z, scales, sums);
 }
 
-EIGHT void gather_splat(const ewa_adjoint_area *area, const ewa_reference_splat *splat, bool plain, uint32_t width,
+EIGHT void gather_splat(const ewa_adjoint_area *area, const ewa_reference_splat *splat, uint64_t blocks, bool plain, uint32_t width,
                         bool with_depth, const double *scales, int64_t totals[EWA_MOMENT_COUNT]) {
     const block_range range = blocks_of(area, splat);
+    uint32_t index = 0;
     d8 sums[EWA_MOMENT_COUNT];
     bool any = false;
     for (int m = 0; m < EWA_MOMENT_COUNT; m++) sums[m] = d8_set(WHOLE);
     for (uint32_t row = range.first_row; row < range.end_row; row++)
-        for (uint32_t column = range.first_column; column < range.end_column; column++) {
+        for (uint32_t column = range.first_column; column < range.end_column; column++, index++) {
+            if (!is_in(blocks, index)) continue;
             const block at = block_at(area, column, row);
             sample s;
             if (!sample_block(area, splat, &at, plain, &s) || !weigh_block(splat, &at, plain, &s)) continue;
@@ -277,23 +301,21 @@ EIGHT void gather_splat(const ewa_adjoint_area *area, const ewa_reference_splat 
             gain_block(area, splat, &at, &s, plain, width, with_depth, scales, sums);
         }
     for (uint32_t m = 0; m < EWA_MOMENT_COUNT && any; m++) {
-        double lanes[LANES], total = 0;
-        d8_store(lanes, d8_sub(sums[m], d8_set(WHOLE)));
-        for (int i = 0; i < LANES; i++) total += lanes[i]; // whole numbers, in any order
+        const double total = d8_total(d8_sub(sums[m], d8_set(WHOLE))); // whole numbers, in any order
         // Of colours beyond all range nothing is known, but that every order gives the same.
         totals[m] += total > -0x1p52 && total < 0x1p52 ? (int64_t)total : 0;
     }
 }
 
-static void gather(const ewa_adjoint_area *area, const ewa_reference_splat *splat, uint32_t width, bool with_depth,
+static void gather(const ewa_adjoint_area *area, const ewa_reference_splat *splat, uint64_t blocks, uint32_t width, bool with_depth,
                    const double scales[EWA_MOMENT_COUNT], int64_t totals[EWA_MOMENT_COUNT]) {
     if (area->behind && splat->hollow) return;
     if (!is_plain(splat))
-        gather_splat(area, splat, false, width, with_depth, scales, totals);
+        gather_splat(area, splat, blocks, false, width, with_depth, scales, totals);
     else if (with_depth || width <= EWA_MOMENT_OPACITY)
-        gather_splat(area, splat, true, width, with_depth, scales, totals);
+        gather_splat(area, splat, blocks, true, width, with_depth, scales, totals);
     else
-        gather_splat(area, splat, true, EWA_MOMENT_COUNT, false, scales, totals);
+        gather_splat(area, splat, blocks, true, EWA_MOMENT_COUNT, false, scales, totals);
 }
 
 const ewa_adjoint_kernels EWA_VERSION(ewa_adjoint_kernels) = {.find = find, .sum = sum, .gather = gather};

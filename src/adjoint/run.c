@@ -161,19 +161,19 @@ static bool has_sums(const ewa_adjoint_job *job, uint64_t point) {
     return any != 0;
 }
 
-static void pull_back_point(const ewa_adjoint_job *job, ewa_adjoint_scratch *s, uint64_t point) {
+/// From the sums of a point, whose surfel has been read where there are any.
+static void pull_back_point(const ewa_adjoint_job *job, ewa_adjoint_scratch *s, uint64_t point, const ewa_surfel *surfel, bool seen) {
     ewa_reference_point_cotangent at;
     memset(&at, 0, sizeof at);
-    if (has_sums(job, point)) {
+    if (seen) {
         double scales[EWA_MOMENT_COUNT], moments[EWA_MOMENT_COUNT], camera[EWA_CAMERA_NUMBERS] = {0};
-        ewa_surfel surfel;
         ewa_reference_splat splat;
         ewa_reference_surfel_cotangent of_surfel;
-        ewa_reference_frame_project(&job->frame, point, 1, &surfel, &splat);
+        ewa_reference_project(&job->frame.view, surfel, &splat);
         ewa_adjoint_scales(job, &splat, scales);
         read_sums(job, point, scales, moments);
-        ewa_reference_moments_pull_back(&job->frame.view, &splat, &surfel, moments, &of_surfel, camera);
-        ewa_reference_surfel_pull_back(&job->frame.reader, point, &surfel, &of_surfel, &at);
+        ewa_reference_moments_pull_back(&job->frame.view, &splat, surfel, moments, &of_surfel, camera);
+        ewa_reference_surfel_pull_back(&job->frame.reader, point, surfel, &of_surfel, &at);
         for (int i = 0; i < EWA_CAMERA_NUMBERS && s->camera; i++) ewa_exact_add(&s->camera[i], camera[i]);
     }
     const ewa_gradient *to = &job->gradient;
@@ -186,14 +186,25 @@ static void pull_back_point(const ewa_adjoint_job *job, ewa_adjoint_scratch *s, 
     store_point(to->tangent_v, point, 3, at.tangent_v);
 }
 
+/// Points that are read together, as far as some are seen.
+static void pull_back_block(const ewa_adjoint_job *job, ewa_adjoint_scratch *s, uint64_t first, uint64_t count) {
+    ewa_surfel surfels[BLOCK_POINTS];
+    bool drawable[BLOCK_POINTS], seen[BLOCK_POINTS], any = false;
+    for (uint64_t i = 0; i < count; i++) any |= seen[i] = has_sums(job, first + i);
+    if (any) ewa_surfel_read(&job->frame.reader, first, count, surfels, drawable);
+    for (uint64_t i = 0; i < count; i++) pull_back_point(job, s, first + i, &surfels[i], seen[i]);
+}
+
 static void pull_back_piece(void *data, uint32_t index, uint32_t worker) {
     const ewa_adjoint_job *job = data;
-    const uint64_t count = job->frame.point_count, begin = (uint64_t)index * CHAIN_POINTS;
-    for (uint64_t i = begin; i < begin + CHAIN_POINTS && i < count; i++) {
-        if (job->width > EWA_MOMENT_OPACITY) {
-            pull_back_point(job, &job->scratch[worker], i);
-            continue;
-        }
+    const uint64_t begin = (uint64_t)index * CHAIN_POINTS, left = job->frame.point_count - begin;
+    const uint64_t end = begin + (left < CHAIN_POINTS ? left : CHAIN_POINTS);
+    if (job->width > EWA_MOMENT_OPACITY) {
+        for (uint64_t i = begin; i < end; i += BLOCK_POINTS)
+            pull_back_block(job, &job->scratch[worker], i, end - i < BLOCK_POINTS ? end - i : BLOCK_POINTS);
+        return;
+    }
+    for (uint64_t i = begin; i < end; i++) {
         double moments[EWA_MOMENT_COUNT], scales[EWA_MOMENT_COUNT];
         for (int m = 0; m < EWA_MOMENT_COUNT; m++) scales[m] = job->units.color;
         read_sums(job, i, scales, moments);
@@ -216,9 +227,10 @@ static ewa_status reserve(ewa_adjoint_job *job) {
         s->order = ewa_allocate(context, splats, sizeof *s->order);
         s->planes = ewa_allocate(context, s->plane_capacity, sizeof *s->planes);
         s->reached = ewa_allocate(context, surfaces, sizeof *s->reached);
+        s->blocks = ewa_allocate(context, surfaces * splats, sizeof *s->blocks);
         s->layers = ewa_allocate(context, surfaces, sizeof *s->layers);
         s->pixels = ewa_allocate(context, pixels, sizeof *s->pixels);
-        if (!s->near_first || !s->splats || !s->order || !s->planes || !s->reached || !s->layers || !s->pixels)
+        if (!s->near_first || !s->splats || !s->order || !s->planes || !s->reached || !s->blocks || !s->layers || !s->pixels)
             return EWA_ERROR_MEMORY;
     }
     return EWA_OK;
@@ -233,6 +245,7 @@ static void release(ewa_adjoint_job *job) {
         ewa_release(context, s->splats, s->splat_capacity, sizeof *s->splats);
         ewa_release(context, s->order, s->splat_capacity, sizeof *s->order);
         ewa_release(context, s->planes, s->plane_capacity, sizeof *s->planes);
+        ewa_release(context, s->blocks, (size_t)job->surface_count * s->splat_capacity, sizeof *s->blocks);
         ewa_release(context, s->reached, job->surface_count, sizeof *s->reached);
         ewa_release(context, s->layers, job->surface_count, sizeof *s->layers);
         ewa_release(context, s->pixels, pixels, sizeof *s->pixels);

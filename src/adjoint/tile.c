@@ -20,7 +20,16 @@ enum {
 };
 
 /// The power of two that is at most `size`, which is positive; 1 for what is not finite.
-static double power_of(double size) { return size > 0 && isfinite(size) ? ldexp(1, ilogb(size)) : 1; }
+static double power_of(double size) {
+    enum { DIGITS = 52 };
+    uint64_t bits;
+    if (!(size > 0 && isfinite(size))) return 1;
+    memcpy(&bits, &size, sizeof bits);
+    if (!(bits >> DIGITS)) return ldexp(1, ilogb(size));
+    bits = bits >> DIGITS << DIGITS;
+    memcpy(&size, &bits, sizeof bits);
+    return size;
+}
 
 void ewa_adjoint_scales(const ewa_adjoint_job *job, const ewa_reference_splat *splat, double scales[EWA_MOMENT_COUNT]) {
     const ewa_adjoint_units *units = &job->units;
@@ -159,17 +168,26 @@ static bool is_merged(const tile_work *w, uint32_t surface) {
     return layering->merge_last && surface + 1 == layering->most;
 }
 
+/// Where each splat may count in a surface.
+static uint64_t *blocks_of(const tile_work *w, uint32_t surface) {
+    return w->scratch->blocks + (size_t)surface * w->scratch->splat_capacity;
+}
+
 /// Finds the next surface; returns how many splats may be part of it.
 static uint32_t find_surface(const tile_work *w) {
     ewa_adjoint_scratch *s = w->scratch;
     const ewa_adjoint_area area = area_of(w, w->surface_count);
     const bool merged = is_merged(w, w->surface_count);
     double farthest = INFINITY;
+    uint64_t *blocks = blocks_of(w, w->surface_count);
     uint32_t done = 0;
     while (done < w->count && (double)begin_of(w, done) <= farthest) {
         if (done == s->splat_count) project_more(w);
         const uint32_t left = s->splat_count - done, here = left < CHUNK_SPLATS ? left : CHUNK_SPLATS;
-        if (!merged) farthest = w->job->kernels->find(&area, s->order + done, here);
+        if (merged)
+            memset(blocks + done, 0xff, here * sizeof *blocks); // wherever it is
+        else
+            farthest = w->job->kernels->find(&area, s->order + done, here, blocks + done);
         done += here;
     }
     return done;
@@ -303,6 +321,12 @@ static void add_to_point(const ewa_adjoint_job *job, uint32_t point, const int64
             __atomic_fetch_add(&to[m], sums[m], __ATOMIC_RELAXED);
 }
 
+static bool counts_anywhere(const tile_work *w, uint32_t splat) {
+    bool counts = false;
+    for (uint32_t i = 0; i < w->surface_count; i++) counts |= splat < w->scratch->reached[i] && blocks_of(w, i)[splat] != 0;
+    return counts;
+}
+
 static void gather_splats(const tile_work *w) {
     const ewa_adjoint_job *job = w->job;
     const ewa_adjoint_scratch *s = w->scratch;
@@ -311,11 +335,12 @@ static void gather_splats(const tile_work *w) {
     for (uint32_t k = 0; k < most; k++) {
         double scales[EWA_MOMENT_COUNT];
         int64_t sums[EWA_MOMENT_COUNT] = {0};
+        if (!counts_anywhere(w, k)) continue;
         ewa_adjoint_scales(job, s->order[k], scales);
         for (uint32_t i = 0; i < w->surface_count; i++) {
             const ewa_adjoint_area area = area_of(w, i);
             if (k < s->reached[i])
-                job->kernels->gather(&area, s->order[k], job->width, job->cotangent.depth != NULL, scales, sums);
+                job->kernels->gather(&area, s->order[k], blocks_of(w, i)[k], job->width, job->cotangent.depth != NULL, scales, sums);
         }
         add_to_point(job, (uint32_t)s->near_first[s->order[k] - s->splats], sums);
     }
@@ -340,7 +365,7 @@ void ewa_adjoint_tile(void *data, uint32_t index, uint32_t worker) {
         start_surface(&w);
         const ewa_adjoint_area area = area_of(&w, w.surface_count);
         s->reached[w.surface_count] = find_surface(&w);
-        job->kernels->sum(&area, s->order, s->reached[w.surface_count]);
+        job->kernels->sum(&area, s->order, s->reached[w.surface_count], blocks_of(&w, w.surface_count));
         open = settle_surface(&w);
     }
     if (job->width) gather_splats(&w);
