@@ -160,11 +160,13 @@ size_t items_find_instance(const viewer *v, uint32_t instance) {
 }
 
 /// What of an item the scene shows.
-static ewa_instance instance_of(const scene_item *item, bool changeable) {
+static ewa_instance instance_of(const scene_item *item) {
     ewa_instance instance;
+    ewa_asset_info info;
     ewa_instance_init(&instance, sizeof instance);
+    ewa_asset_describe(item->asset, &info);
     instance.visible = item->visible;
-    if (!changeable) return instance;
+    if (!info.colorable) return instance;
     const viewer_coloring *wish = &item->wish;
     memcpy(instance.coloring.attribute, wish->attribute, sizeof instance.coloring.attribute);
     instance.coloring.map = wish->map;
@@ -173,16 +175,17 @@ static ewa_instance instance_of(const scene_item *item, bool changeable) {
     memcpy(instance.coloring.range, wish->range, sizeof instance.coloring.range);
     instance.coloring.tinted = wish->tinted;
     memcpy(instance.coloring.tint, wish->tint, sizeof instance.coloring.tint);
+    if (!info.changeable) return instance;
     instance.material = item->material;
     instance.opacity = wish->alpha;
     instance.radius_scale = wish->radius_scale;
     return instance;
 }
 
-static bool is_changeable(const ewa_asset *asset) {
+static bool is_colorable(const ewa_asset *asset) {
     ewa_asset_info info;
     ewa_asset_describe(asset, &info);
-    return info.changeable;
+    return info.colorable;
 }
 
 /// Orders a scene of the items as they are now.
@@ -194,7 +197,7 @@ static void items_reorder(viewer *v) {
         if (!item->asset) continue;
         of.items[of.count] = item->id;
         of.assets[of.count] = ewa_asset_retain(item->asset);
-        of.instances[of.count] = instance_of(item, is_changeable(item->asset));
+        of.instances[of.count] = instance_of(item);
         of.colorings[of.count++] = item->wish;
     }
     if (!loader_make(v->loader, &of)) viewer_tell(v, "out of memory for the scene");
@@ -351,7 +354,7 @@ bool items_cancel(viewer *v) {
 void items_recolor(viewer *v, size_t index) {
     scene_item *item = &v->items[index];
     if (!item->asset) return;
-    if (!is_changeable(item->asset)) {
+    if (!is_colorable(item->asset)) {
         item->wish = item->coloring;
         return;
     }
@@ -571,6 +574,11 @@ const char *viewer_attribute_at(const viewer *v, size_t index, uint32_t wanted,
     ewa_lod_info octree = {.prototype = NULL};
     if (info.lod) ewa_lod_describe(info.lod, &octree);
     const ewa_cloud *cloud = info.cloud ? info.cloud : octree.prototype;
+    static const char *const of_gaussians[] = {"opacity", "size", "x", "y", "z"};
+    if (info.kind == EWA_ASSET_GAUSSIANS && info.splats && wanted < sizeof of_gaussians / sizeof *of_gaussians) {
+        snprintf(name, EWA_NAME_BYTES + 4, "%s", of_gaussians[wanted]);
+        return name;
+    }
     if (!cloud) return NULL;
     const ewa_attribute *attribute;
     for (uint32_t k = 0; (attribute = ewa_cloud_attribute_at(cloud, k)); k++) {

@@ -53,7 +53,7 @@ static bool add_file(cli_session *session, const char *path, const ewa_asset_opt
     } else if (status == EWA_OK) {
         ewa_instance instance;
         ewa_instance_init(&instance, sizeof instance);
-        if (info.changeable) instance.coloring = *coloring;
+        if (info.colorable) instance.coloring = *coloring;
         status = ewa_scene_add(scene, asset, &instance);
     }
     ewa_asset_release(&asset);
@@ -70,7 +70,7 @@ static bool add_scene(cli_session *session, const char *path, const ewa_asset_op
         ewa_asset_info info;
         ewa_asset_describe(ewa_scene_asset(scene, i), &info);
         status = ewa_scene_get(scene, i, &instance);
-        if (!info.changeable || instance.coloring.tinted || instance.coloring.attribute[0])
+        if (!info.colorable || instance.coloring.tinted || instance.coloring.attribute[0])
             continue;
         instance.coloring = *coloring;
         if (status == EWA_OK) status = ewa_scene_set(scene, i, &instance);

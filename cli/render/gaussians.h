@@ -15,6 +15,10 @@
          .absent = "auto: 0.2 as in training, or 2 % of the diagonal of the box shown where that is less"},  \
         {"gaussian-filter", OPTION_OF(ewa_gaussian_options, offset, filter)},                                \
         {"gaussian-merge", OPTION_OF(ewa_gaussian_options, offset, merge_px)},                               \
+        {"gaussian-display", OPTION_OF(ewa_gaussian_options, offset, display)},                              \
+        {"ellipsoid-radius", OPTION_OF(ewa_gaussian_options, offset, ellipsoid_radius)},                     \
+        {"gaussian-dot", OPTION_OF(ewa_gaussian_options, offset, dot_px)},                                   \
+        {"gaussian-depth", OPTION_OF(ewa_gaussian_options, offset, depth)},                                  \
     {                                                                                                        \
         "sh-degree", OPTION_OF(ewa_gaussian_options, offset, sh_degree)                                      \
     }

@@ -263,10 +263,8 @@ static bool check_scene(cli_session *session, const render_arguments *arguments,
             "is wanted to a file of its own");
         return false;
     }
-    if (colored && !info.surfaces) {
-        session_fail(session,
-                     "--color-by: Gaussians and volumes have colours of their own; --surface draws Gaussians "
-                     "as surfels");
+    if (colored && !info.surfaces && !info.gaussians) {
+        session_fail(session, "--color-by: volumes have colours of their own, by --transfer");
         return false;
     }
     if (!info.surfaces) warn_of_surface_options(session, arguments, info.volumes);

@@ -68,6 +68,19 @@ typedef enum ewa_gaussian_filter {
     EWA_FILTER_KEEP = 2,    ///< lowers it, so that the integral stays (Mip-Splatting, "antialiased")
 } ewa_gaussian_filter;
 
+/// What is shown of Gaussians.
+typedef enum ewa_gaussian_display {
+    EWA_DISPLAY_BLENDED = 0,    ///< what they were trained to show
+    EWA_DISPLAY_ELLIPSOIDS = 1, ///< opaque ellipsoids, lit from the eye
+    EWA_DISPLAY_POINTS = 2,     ///< opaque dots at their centres
+} ewa_gaussian_display;
+
+/// What the depth of a pixel is.
+typedef enum ewa_gaussian_depth {
+    EWA_DEPTH_MEDIAN = 0,   ///< where half of the light is gone
+    EWA_DEPTH_EXPECTED = 1, ///< the mean of all that shows, by how much it shows
+} ewa_gaussian_depth;
+
 /// How a picture of Gaussians is made. Fill with ewa_gaussian_options_init().
 typedef struct ewa_gaussian_options {
     size_t struct_size;
@@ -101,6 +114,13 @@ typedef struct ewa_gaussian_options {
     /// Of splats that have levels (ewa_splats_create()): parts whose Gaussians are within so many pixels of what
     /// stands for them (RMS, where the part is nearest) are drawn by that; [0, 1000], px; default 0: all Gaussians are drawn
     double merge_px;
+    /// Default EWA_DISPLAY_BLENDED. Ellipsoids and dots are those of Gaussians whose opacity is at least `minimum_alpha`, in their
+    /// colours, opaque surfaces among the others; of the options above, `near_world`, of dots, `merge_px`, `sh_degree`, the
+    /// background, the surfaces and the sections count for them.
+    ewa_gaussian_display display;
+    double ellipsoid_radius; ///< EWA_DISPLAY_ELLIPSOIDS: standard deviations; [0.1, 4]; default 1
+    double dot_px;           ///< EWA_DISPLAY_POINTS: diameter; [1, 8], px; default 2
+    ewa_gaussian_depth depth; ///< of frame.depth; default EWA_DEPTH_MEDIAN
 } ewa_gaussian_options;
 
 EWA_API extern const ewa_option_table ewa_gaussian_options_table;
@@ -129,8 +149,9 @@ EWA_API void ewa_gaussian_renderer_destroy(ewa_gaussian_renderer **renderer);
 
 /// Draws Gaussians, front to back in every pixel, in the order of `options`; of those at one depth in that of
 /// their places. Colours are composited as display values, as in training; frame.rgba is linear as everywhere. The other planes are of Gaussians and surfaces together:
-/// depth is where half of the light is gone, else that of the surface, else +infinity; normal is that of the
-/// surface where it gave the depth, else 0; coverage is c + a max(0, 1 - c), with the surface's c and the alpha a
+/// depth is where half of the light is gone, else that of the surface, else +infinity, or as `options` say; normal is that of the
+/// surface where it gave the depth, else of length 1 along the mean of the shortest axes, turned to the eye, by how much each shows
+/// (by EWA_DEPTH_EXPECTED with the surface's), in world axes, for which all is drawn twice; coverage is c + a max(0, 1 - c), with the surface's c and the alpha a
 /// of the Gaussians. Where no Gaussian is, they are the surface's planes, to the byte. The same bytes for every
 /// number of threads, every instruction set and every order of the set. `options` and `stats` may be NULL.
 /// Implements docs/math.md section 12, Gaussians; held by tests to a renderer in plain double precision.

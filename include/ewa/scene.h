@@ -129,6 +129,7 @@ typedef struct ewa_asset_info {
     bool drawable;          ///< points have normals and radii, or axes, of their own
     bool
         changeable; ///< opacity, radius scale, material and colouring of instances count: points, meshes, octrees
+    bool colorable; ///< the colouring of instances counts: those, and Gaussians
 } ewa_asset_info;
 
 /// Loads a file of any kind: points, meshes, octrees, Gaussians, volumes. The kind goes by content, of volumes by the
@@ -208,7 +209,8 @@ typedef struct ewa_instance {
     double opacity;       ///< of a surface's points, times their own; [0, 1]; default 1
     double radius_scale;  ///< of a surface's radii, beside that of all; (0, 100]; default 1
     uint32_t material;    ///< of all points of a surface, 0 to 255; EWA_MATERIAL_OWN (default): as each says
-    ewa_coloring coloring; ///< of a surface's points; default: their own colours
+    ewa_coloring coloring; ///< of a surface's points, and of Gaussians by what ewa_gaussians_to_cloud() has of them; default:
+                           ///< their own colours
 } ewa_instance;
 
 #define EWA_MATERIAL_OWN UINT32_MAX

@@ -206,6 +206,17 @@ class ewa_gaussian_format(IntEnum):
     EWA_GAUSSIANS_SOG = 7
 
 
+class ewa_gaussian_depth(IntEnum):
+    EWA_DEPTH_MEDIAN = 0
+    EWA_DEPTH_EXPECTED = 1
+
+
+class ewa_gaussian_display(IntEnum):
+    EWA_DISPLAY_BLENDED = 0
+    EWA_DISPLAY_ELLIPSOIDS = 1
+    EWA_DISPLAY_POINTS = 2
+
+
 class ewa_gaussian_filter(IntEnum):
     EWA_FILTER_OF_SET = 0
     EWA_FILTER_THICKEN = 1
@@ -1055,6 +1066,10 @@ class ewa_gaussian_options(c.Structure):
     surface_coverage: int | None
     order: int
     merge_px: float
+    display: int
+    ellipsoid_radius: float
+    dot_px: float
+    depth: int
     _fields_ = [
         ("struct_size", c.c_size_t),
         ("projection", c.c_int),
@@ -1074,6 +1089,10 @@ class ewa_gaussian_options(c.Structure):
         ("surface_coverage", c.c_void_p),
         ("order", c.c_int),
         ("merge_px", c.c_double),
+        ("display", c.c_int),
+        ("ellipsoid_radius", c.c_double),
+        ("dot_px", c.c_double),
+        ("depth", c.c_int),
     ]
 
 
@@ -2330,6 +2349,7 @@ class ewa_asset_info(c.Structure):
     load_s: float
     drawable: bool
     changeable: bool
+    colorable: bool
     _fields_ = [
         ("kind", c.c_int),
         ("name", c.c_char_p),
@@ -2344,6 +2364,7 @@ class ewa_asset_info(c.Structure):
         ("load_s", c.c_double),
         ("drawable", c.c_bool),
         ("changeable", c.c_bool),
+        ("colorable", c.c_bool),
     ]
 
 

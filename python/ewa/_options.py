@@ -190,6 +190,14 @@ class GaussianOptions(TypedDict, total=False):
     near_world: float | None
     #: of large sets, Gaussians that are within so many pixels (RMS) of one that stands for them are drawn by that; 0: all are drawn; [0, 1000], px, default 0
     merge_px: float | None
+    #: what is shown of Gaussians: what they were trained to show, or each as an opaque ellipsoid, lit from the eye, or as a dot; blended|ellipsoids|points, default blended
+    display: Literal["blended", "ellipsoids", "points"] | int | None
+    #: of ellipsoids, standard deviations; [0.1, 4], default 1
+    ellipsoid_radius: float | None
+    #: diameter of dots; [1, 8], px, default 2
+    dot_px: float | None
+    #: the depth of a pixel: where half of the light is gone, or the mean of all that shows, by how much it shows; median|expected, default median
+    depth: Literal["median", "expected"] | int | None
     #: spherical harmonics beyond that degree are not used; [0, 4], default 4
     sh_degree: int | None
 

@@ -74,7 +74,7 @@ class Scene:
             Of a scene file (``.json``), everything that it names is added, as it says; its options and its camera become
             the scene's. The number is that of the first one.
         visible, opacity, radius_scale, color_by, colormap, range, tint : optional
-            How it is shown; all but `visible` are of points.
+            How it is shown; all but `visible` are of points, the colours of Gaussians, too.
         transfer : str, optional
             Of volumes: a file of a transfer function, or the name of a preset.
         to_world : array_like, shape (4, 4), optional

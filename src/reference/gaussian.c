@@ -54,6 +54,7 @@ typedef struct splat {
     ewa_mat3 inverse; ///< of its covariance
     double depth_reach, cutoff2, alpha;
     double color[3]; ///< display values
+    double facing[3]; ///< the shortest axis, turned to the eye, world axes
     bool near;       ///< ray by ray
     double center_px[2], conic[3], reach_px[2];
     double unfilter[2][2]; ///< from offsets in the filtered ellipse to those in the true one
@@ -288,6 +289,16 @@ static void set_flat(const reference *work, const ewa_vec3 axes[3], const double
     }
 }
 
+/// Sets the normal, of scales that are the same that of the third axis.
+static void set_facing(const reference *work, const ewa_vec3 axes[3], const double scales[3], splat *made) {
+    const view *camera = &work->camera;
+    int shortest = 2;
+    for (int k = 1; k >= 0; k--)
+        if (scales[k] < scales[shortest]) shortest = k;
+    const ewa_vec3 ray = camera->orthographic ? vec3_make(0, 0, 1) : made->place, axis = axes[shortest];
+    vec3_store(vec3_scale(vec3_mul_mat3(axis, &camera->turn), vec3_dot(axis, ray) > 0 ? -1 : 1), made->facing);
+}
+
 static bool make_splat(const reference *work, uint32_t number, splat *made) {
     const view *camera = &work->camera;
     const float *center = work->set->centers + 3 * (size_t)number;
@@ -314,6 +325,7 @@ static bool make_splat(const reference *work, uint32_t number, splat *made) {
     else
         set_ellipse(work, &covariance, made);
     if (made->alpha < work->options.minimum_alpha) return false;
+    set_facing(work, axes, scales, made);
     set_color(work, center, made);
     return true;
 }
@@ -424,6 +436,7 @@ static double linear_of_display(double x) { return x <= 0.04045 ? x / 12.92 : po
 /// What a pixel, or a part of one, shows: premultiplied linear colour, and how much the Gaussians take of the light.
 typedef struct shown {
     double color[4], opacity;
+    double depth, normal[3]; ///< sums over the Gaussians, by how much each shows; world units
 } shown;
 
 /// The share of number i + 1 of a list that is in front of number i: up to half where they are nearer to each other than
@@ -441,17 +454,20 @@ static double share_in_front(const reference *work, const hit *hits, size_t coun
 static shown composite(const reference *work, const hit *hits, size_t count, bool ahead,
                        const double back[4]) {
     double color[3] = {0}, through = 1, before = 0; // the share of the last one that this one was in front of
+    shown made = {.depth = 0};
     for (size_t i = 0; i < count; i++) {
         const double alpha = ahead ? hits[i].ahead : hits[i].alpha;
         const double last = i > 0 ? (ahead ? hits[i - 1].ahead : hits[i - 1].alpha) : 0;
         const double next = i + 1 < count ? (ahead ? hits[i + 1].ahead : hits[i + 1].alpha) : 0;
         const double behind = share_in_front(work, hits, count, i);
         const double weight = alpha * (1 - behind * next) * (through + before * last * through / (1 - last));
-        for (int c = 0; c < 3; c++) color[c] += weight * work->splats[hits[i].splat].color[c];
+        const splat *at = &work->splats[hits[i].splat];
+        for (int c = 0; c < 3; c++) color[c] += weight * at->color[c], made.normal[c] += weight * at->facing[c];
+        made.depth += weight * hits[i].z;
         through *= 1 - alpha;
         before = behind;
     }
-    shown made = {.opacity = 1 - through};
+    made.opacity = 1 - through;
     made.color[3] = 1 - through + through * back[3];
     for (int c = 0; c < 3 && made.color[3] > 0; c++) {
         const double behind = display_of_linear(back[c]) * back[3];
@@ -475,40 +491,54 @@ static double find_depth(const reference *work, const hit *hits, size_t count, d
     return own < behind && behind < INFINITY ? behind : own;
 }
 
-static void write_geometry(const reference *work, size_t index, const hit *hits, size_t count,
-                           double opacity) {
+/// Depth and normal of a pixel, of which a surface that lets `before` of the light through covers `cover`; `past`: what shows beside it.
+static void write_geometry(const reference *work, size_t index, const hit *hits, size_t count, double cover, const shown *before,
+                           const shown *past) {
     const ewa_gaussian_options *o = &work->options;
     const ewa_frame *frame = &work->frame;
     const double own = o->surface_depth ? (double)o->surface_depth[index] : INFINITY;
-    const double cover = o->surface_rgba ? (double)o->surface_rgba[4 * index + 3] : 0;
     const double covered = o->surface_coverage ? (double)o->surface_coverage[index] : cover;
-    const double depth = find_depth(work, hits, count, own, cover);
+    const double opacity = past->opacity + cover * (before->opacity - past->opacity);
+    const double through = cover * (1 - before->opacity), shows = through + opacity;
+    double depth = find_depth(work, hits, count, own, cover), normal[3], squares = 0;
+    if (o->depth == EWA_DEPTH_EXPECTED) {
+        const double sum = work->camera.scale * (cover * before->depth + (1 - cover) * past->depth);
+        depth = opacity > 0 ? (sum + (cover > 0 ? through * own : 0)) / shows : own;
+    }
+    const bool kept = opacity == 0 || (o->depth == EWA_DEPTH_MEDIAN && depth == own && own < INFINITY);
+    for (size_t c = 0; c < 3; c++) {
+        const double surface = o->surface_normal ? (double)o->surface_normal[3 * index + c] : 0;
+        normal[c] = cover * before->normal[c] + (1 - cover) * past->normal[c];
+        if (o->depth == EWA_DEPTH_EXPECTED) normal[c] += through * surface;
+        if (kept) normal[c] = surface;
+        squares += normal[c] * normal[c];
+    }
     if (frame->depth) frame->depth[index] = (float)depth;
     if (frame->coverage) frame->coverage[index] = (float)(covered + opacity * fmax(0, 1 - covered));
     for (size_t c = 0; c < 3 && frame->normal; c++)
-        frame->normal[3 * index + c] =
-            o->surface_normal && depth == own ? o->surface_normal[3 * index + c] : 0;
+        frame->normal[3 * index + c] = (float)(kept || squares == 0 ? normal[c] : normal[c] / sqrt(squares));
 }
 
 static void write_pixel(const reference *work, size_t index, const hit *hits, size_t count) {
     const float *background = work->options.background;
     const double behind[4] = {(double)background[0], (double)background[1], (double)background[2],
                               (double)background[3]};
-    shown out = composite(work, hits, count, false, behind);
+    shown out = composite(work, hits, count, false, behind), covered = out;
+    const shown past = out;
+    double cover = 0;
     if (work->options.surface_rgba) {
         // The part that the surface covers, and the rest.
         const float *surface = work->options.surface_rgba + 4 * index;
-        const double cover = (double)surface[3];
+        cover = (double)surface[3];
         const double own[4] = {cover > 0 ? (double)surface[0] / cover : 0,
                                cover > 0 ? (double)surface[1] / cover : 0,
                                cover > 0 ? (double)surface[2] / cover : 0, 1};
-        const shown covered = composite(work, hits, count, true, own);
+        covered = composite(work, hits, count, true, own);
         for (int c = 0; c < 4; c++) out.color[c] += cover * (covered.color[c] - out.color[c]);
-        out.opacity += cover * (covered.opacity - out.opacity);
     }
     const ewa_frame *frame = &work->frame;
     const double alpha = out.color[3];
-    write_geometry(work, index, hits, count, out.opacity);
+    write_geometry(work, index, hits, count, cover, &covered, &past);
     for (size_t c = 0; c < 4 && frame->rgba; c++) frame->rgba[4 * index + c] = (float)out.color[c];
     for (size_t c = 0; c < 3 && frame->rgba8; c++)
         frame->rgba8[4 * index + c] = alpha > 0 ? ewa_srgb8_from_linear((float)(out.color[c] / alpha)) : 0;

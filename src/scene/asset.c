@@ -124,7 +124,8 @@ void ewa_asset_describe(const ewa_asset *asset, ewa_asset_info *info) {
                              .voxels = asset->voxels,
                              .load_s = asset->load_s,
                              .drawable = asset->drawable,
-                             .changeable = ewa_asset_is_changeable(asset)};
+                             .changeable = ewa_asset_is_changeable(asset),
+                             .colorable = ewa_asset_is_colorable(asset)};
     memcpy(info->up_world, asset->up_world, sizeof info->up_world);
 }
 

@@ -43,6 +43,7 @@ void ewa_scene_renderer_free_lists(ewa_scene_renderer *renderer) {
     ewa_buffer_free(context, &renderer->surfels);
     ewa_buffer_free(context, &renderer->lods);
     ewa_buffer_free(context, &renderer->splats);
+    ewa_buffer_free(context, &renderer->splat_colors);
     ewa_buffer_free(context, &renderer->looks);
     ewa_buffer_free(context, &renderer->look_list);
 }
@@ -97,9 +98,11 @@ ewa_status ewa_scene_list_shown(const ewa_scene *scene, const ewa_lod_options *o
     EWA_TRY(ewa_buffer_reserve(context, &renderer->surfels, room, sizeof(ewa_surfels *)));
     EWA_TRY(ewa_buffer_reserve(context, &renderer->lods, room, sizeof(ewa_lod *)));
     EWA_TRY(ewa_buffer_reserve(context, &renderer->splats, room, sizeof(ewa_splats *)));
+    EWA_TRY(ewa_buffer_reserve(context, &renderer->splat_colors, room, sizeof(ewa_splat_colors *)));
     shown->surfels = renderer->surfels.data;
     shown->lods = renderer->lods.data;
     shown->splats = renderer->splats.data;
+    shown->splat_colors = renderer->splat_colors.data;
     if (scene->surface && scene->surface->surfels) {
         shown->surfels[shown->surfels_count++] = scene->surface->surfels;
         shown->colored = scene->surface->colored;
@@ -113,6 +116,7 @@ ewa_status ewa_scene_list_shown(const ewa_scene *scene, const ewa_lod_options *o
         if (asset->surfels) shown->surfels[shown->surfels_count++] = asset->surfels;
         if (asset->lod) shown->lods[shown->lod_count++] = asset->lod;
         if (asset->splats) {
+            shown->splat_colors[shown->splats_count] = ewa_surface_splat_colors(scene->surface, asset);
             shown->splats[shown->splats_count++] = asset->splats;
             shown->near_world = fmin(shown->near_world, asset->near_world);
         }
@@ -260,7 +264,7 @@ static ewa_status draw_mixture(ewa_scene_renderer *renderer, const ewa_scene_sho
     const ewa_mixture mixture = {(const ewa_splats *const *)shown->splats, shown->splats_count,
                                  shown->volume_count, mixed};
     ewa_gaussian_stats drawn;
-    EWA_TRY(ewa_mixture_render(renderer->gaussians, &mixture, camera, among, frame, &drawn));
+    EWA_TRY(ewa_mixture_draw(renderer->gaussians, &mixture, (const ewa_splat_colors *const *)shown->splat_colors, camera, among, frame, &drawn));
     stats->render.splat_count += drawn.splat_count;
     stats->render.culled_count += drawn.splat_count - drawn.visible_count;
     stats->render.drawn_count += drawn.visible_count;

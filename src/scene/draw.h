@@ -18,7 +18,7 @@ struct ewa_scene_renderer {
     ewa_volume_renderer *volumes[EWA_MAX_MIXED_VOLUMES];
     ewa_image rgba, depth, normal, coverage; ///< of surfaces among others, of the size of the last frame
     ewa_image lit_rgba, lit_depth;           ///< of everything, before eye-dome lighting
-    ewa_buffer surfels, lods, splats;        ///< lists of what is visible
+    ewa_buffer surfels, lods, splats, splat_colors; ///< lists of what is visible
     const ewa_camera *lit_from;  ///< whose left and top light of bare surfaces comes from; NULL: the frame's
     uint32_t level;              ///< of surfels in memory, of the frame (details)
     double finer;                ///< pixels of a frame for one of those that sizes of points are told in; 0: 1
@@ -32,6 +32,7 @@ typedef struct ewa_scene_shown {
     ewa_lod **lods;
     const ewa_lod_look **looks; ///< of the octrees
     const ewa_splats **splats;
+    const ewa_splat_colors **splat_colors; ///< of each: in place of its own; NULL: these
     const ewa_asset *volumes[EWA_MAX_MIXED_VOLUMES];
     uint32_t surfels_count, lod_count, splats_count, volume_count;
     bool colored;      ///< some surface has colours

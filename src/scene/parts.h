@@ -10,6 +10,7 @@
 
 #include "ewa/scene.h"
 #include "scene/region.h"
+#include "volume/splat_colors.h"
 
 #include <stdatomic.h>
 
@@ -109,6 +110,7 @@ typedef struct ewa_surface {
     uint32_t legend_count;
     ewa_legend *legends;
     uint32_t *legend_of; ///< of each key: of `legends`; UINT32_MAX: none
+    ewa_splat_colors **splat_colors; ///< of each key that is of Gaussians; else NULL
     double surfels_s, estimate_s;
 } ewa_surface;
 
@@ -133,9 +135,14 @@ static inline bool ewa_asset_is_points(const ewa_asset *asset) {
     return asset->kind == EWA_ASSET_POINTS || asset->kind == EWA_ASSET_MESH;
 }
 
-/// Whether more of an instance counts than whether it is visible.
+/// Whether opacity, radius scale and material of an instance count, too.
 static inline bool ewa_asset_is_changeable(const ewa_asset *asset) {
     return ewa_asset_is_points(asset) || asset->kind == EWA_ASSET_OCTREE;
+}
+
+/// Whether the colouring of an instance counts.
+static inline bool ewa_asset_is_colorable(const ewa_asset *asset) {
+    return ewa_asset_is_changeable(asset) || asset->kind == EWA_ASSET_GAUSSIANS;
 }
 
 /// Whether coordinates lie elsewhere in the scene than in the asset's file.
@@ -193,6 +200,8 @@ ewa_status ewa_scene_find_up(ewa_scene *scene, double up_world[3]);
 ewa_status ewa_surface_make_legends(ewa_scene *scene, ewa_surface **surface);
 /// What the colours of an asset's points mean; NULL: they are their own.
 const ewa_legend *ewa_surface_legend(const ewa_surface *surface, const ewa_asset *asset);
+/// The colours of an asset's Gaussians in place of their own; NULL: these.
+const ewa_splat_colors *ewa_surface_splat_colors(const ewa_surface *surface, const ewa_asset *asset);
 
 /// Whether a place is not cut away by the sections of a renderer (pick.c).
 bool ewa_sections_keep(const ewa_render_options *render, const double place_world[3]);

@@ -180,13 +180,14 @@ static ewa_status take_instance(const ewa_scene *scene, const ewa_asset *asset, 
     if (taken->material != EWA_MATERIAL_OWN && taken->material >= EWA_MAX_MATERIALS)
         return ewa_fail(context, EWA_ERROR_ARGUMENT, "%s: material %u is beyond %d", asset->name,
                         taken->material, EWA_MAX_MATERIALS - 1);
-    const bool plain = taken->opacity == 1 && taken->radius_scale == 1 &&
-                       taken->material == EWA_MATERIAL_OWN &&
-                       ewa_coloring_is_own(taken->coloring.attribute) && !taken->coloring.tinted;
-    if (plain || ewa_asset_is_changeable(asset)) return EWA_OK;
-    const char *kind = asset->kind == EWA_ASSET_SURFELS     ? "resident surfels"
-                       : asset->kind == EWA_ASSET_GAUSSIANS ? "trained Gaussians"
-                                                            : "a volume";
+    const bool own = ewa_coloring_is_own(taken->coloring.attribute) && !taken->coloring.tinted;
+    const bool plain = taken->opacity == 1 && taken->radius_scale == 1 && taken->material == EWA_MATERIAL_OWN;
+    if ((plain || ewa_asset_is_changeable(asset)) && (own || ewa_asset_is_colorable(asset))) return EWA_OK;
+    if (asset->kind == EWA_ASSET_GAUSSIANS)
+        return ewa_fail(context, EWA_ERROR_UNSUPPORTED,
+                        "%s: opacity, radius scale and material are of points; of trained Gaussians the colouring can change",
+                        asset->name);
+    const char *kind = asset->kind == EWA_ASSET_SURFELS ? "resident surfels" : "a volume";
     return ewa_fail(
         context, EWA_ERROR_UNSUPPORTED,
         "%s: opacity, radius scale, material and colouring are of points; this is %s, with colours of "

@@ -29,6 +29,9 @@ void ewa_surface_release(ewa_surface **given) {
     ewa_surfels_destroy(&surface->surfels);
     for (uint32_t i = 0; surface->legends && i < surface->legend_count; i++)
         ewa_legend_free(&surface->legends[i]);
+    for (uint32_t i = 0; surface->splat_colors && i < surface->count; i++)
+        ewa_splat_colors_destroy(&surface->splat_colors[i]);
+    ewa_release(context, surface->splat_colors, surface->count, sizeof *surface->splat_colors);
     ewa_release(context, surface->legends, surface->count, sizeof *surface->legends);
     ewa_release(context, surface->legend_of, surface->count, sizeof *surface->legend_of);
     ewa_release(context, surface->keys, surface->count, sizeof *surface->keys);
@@ -40,13 +43,14 @@ static bool is_shown(const ewa_scene_item *item) {
     const ewa_asset *asset = item->asset;
     const ewa_coloring *coloring = &item->instance.coloring;
     if (!item->instance.visible || !asset->count) return false;
+    if (asset->kind == EWA_ASSET_GAUSSIANS) return coloring->tinted || !ewa_coloring_is_own(coloring->attribute);
     if (asset->kind != EWA_ASSET_OCTREE) return ewa_asset_is_points(asset);
     // An octree without colours may show a number that nobody asked for.
     return ewa_coloring_is_auto(coloring->attribute) ? !coloring->tinted && !ewa_asset_has_colors(asset)
                                                      : !ewa_coloring_is_own(coloring->attribute);
 }
 
-/// An order of the clouds that does not depend on that of the instances: by their places, octrees last.
+/// An order of the clouds that does not depend on that of the instances: by their places, octrees and Gaussians last.
 static int compare_keys(const void *a, const void *b) {
     const ewa_surface_key *p = a, *q = b;
     const bool whole[] = {ewa_asset_is_points(p->asset), ewa_asset_is_points(q->asset)};
@@ -265,16 +269,48 @@ static ewa_status make_resident(ewa_surface *surface, ewa_cloud **cloud) {
     return ewa_cloud_report_invalid_points(*cloud, &surface->info);
 }
 
+/// Takes the colours of Gaussians from the clouds that they were for that, and gives their levels those of their own numbers.
+static ewa_status take_splat_colors(ewa_surface *surface, const shown_clouds *shown) {
+    for (uint32_t i = surface->cloud_count; i < surface->count; i++) {
+        const ewa_splats *splats = surface->keys[i].asset->splats;
+        const ewa_coloring *coloring = &shown->colorings[i];
+        ewa_splats_info info;
+        ewa_cloud *levels = NULL;
+        if (!splats) continue;
+        ewa_splats_describe(splats, &info);
+        ewa_status status = info.has_levels ? ewa_splats_to_cloud(splats, true, &levels) : EWA_OK;
+        const ewa_legend *legend = &surface->legends[surface->legend_of[i]];
+        if (status == EWA_OK && levels && legend->context) {
+            const ewa_color_scale scale = ewa_color_scale_of(legend);
+            ewa_scalar scalar;
+            uint64_t grey_count = 0; // room without a Gaussian, too
+            status = ewa_cloud_find_scalar(levels, coloring->attribute, &scalar);
+            if (status == EWA_OK) status = ewa_cloud_color_by(levels, &scalar, &scale, &grey_count);
+        } else if (status == EWA_OK && levels) {
+            status = ewa_cloud_tint(levels, coloring->tint);
+        }
+        if (status == EWA_OK) status = ewa_splat_colors_create(splats, shown->clouds[i], levels, &surface->splat_colors[i]);
+        ewa_cloud_destroy(&levels);
+        EWA_TRY(status);
+    }
+    return EWA_OK;
+}
+
 /// Makes views of all that is shown, in the colours of their instances.
 static ewa_status color(ewa_surface *surface, const shown_clouds *shown) {
     for (uint32_t i = 0; i < surface->count; i++) {
         const ewa_surface_key *key = &surface->keys[i];
+        if (key->asset->splats) {
+            EWA_TRY(ewa_splats_to_cloud(key->asset->splats, false, &shown->clouds[i]));
+            continue;
+        }
         const ewa_cloud *cloud = key->completed                    ? key->completed->clouds[key->member]
                                  : ewa_asset_is_points(key->asset) ? key->asset->cloud
                                                                    : key->asset->outline;
         EWA_TRY(ewa_cloud_view(surface->context, cloud, 0, ewa_cloud_point_count(cloud), &shown->clouds[i]));
     }
-    return apply_colorings(surface, shown);
+    EWA_TRY(apply_colorings(surface, shown));
+    return take_splat_colors(surface, shown);
 }
 
 /// Leaves out the points that regions hide; `count` clouds, the first, have some left.
@@ -370,11 +406,12 @@ static ewa_status make(ewa_scene *scene, ewa_surface **made, surface_extent exte
     if (status == EWA_OK && count) {
         surface->legends = ewa_allocate_zeroed(context, count, sizeof *surface->legends);
         surface->legend_of = ewa_allocate_zeroed(context, count, sizeof *surface->legend_of);
+        surface->splat_colors = ewa_allocate_zeroed(context, count, sizeof *surface->splat_colors);
         shown.clouds = ewa_allocate_zeroed(context, count, sizeof *shown.clouds);
         shown.colored = ewa_allocate_zeroed(context, count, sizeof *shown.colored);
         shown.colorings = ewa_allocate_zeroed(context, count, sizeof *shown.colorings);
         shown.chosen = ewa_allocate_zeroed(context, count, sizeof *shown.chosen);
-        const bool room = surface->legends && surface->legend_of && shown.clouds && shown.colored &&
+        const bool room = surface->legends && surface->legend_of && surface->splat_colors && shown.clouds && shown.colored &&
                           shown.colorings && shown.chosen;
         status = room ? fill(scene, surface, &shown, extent, cloud) : EWA_ERROR_MEMORY;
     }
@@ -416,6 +453,12 @@ const ewa_legend *ewa_surface_legend(const ewa_surface *surface, const ewa_asset
         const ewa_legend *legend = &surface->legends[surface->legend_of[i]];
         return legend->context ? legend : NULL;
     }
+    return NULL;
+}
+
+const ewa_splat_colors *ewa_surface_splat_colors(const ewa_surface *surface, const ewa_asset *asset) {
+    for (uint32_t i = 0; surface && i < surface->count; i++)
+        if (surface->keys[i].asset == asset && surface->splat_colors[i]) return surface->splat_colors[i];
     return NULL;
 }
 

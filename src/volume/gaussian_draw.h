@@ -261,7 +261,8 @@ typedef struct block_light {
 /// Takes from the light what a splat or a layer does; returns how much of it shows.
 static ALWAYS_INLINE wf take_light(const ewa_gaussian_view *view, wm shows, wf alpha, wf z, wf half, block_light *of) {
     const wf weight = wf_keep(wm_and(of->alive, shows), wf_mul(of->through, alpha)), rest = wf_sub(of->through, weight);
-    if (view->with_depth) of->depth = note_depth(of->depth, half, of->through, rest, z);
+    if (view->with_depth)
+        of->depth = view->expected ? wf_fma(weight, z, of->depth) : note_depth(of->depth, half, of->through, rest, z);
     of->through = rest;
     of->alive = wm_and(of->alive, wf_le(wf_set(view->minimum_transmittance), rest));
     return weight;
@@ -384,6 +385,7 @@ static void composite_block(const ewa_gaussian_view *view, ewa_gaussian_tile *ti
     layer_feed feed;
     start_feed(tile, row, column, everything, &feed);
     clear_block(block->pixels);
+    if (view->expected) wf_store(block->pixels + 64, wf_set(0));
     wf_store(block->half, half);
     for (int c = 0; c < 4; c++) wf_store(block->linear + 16 * c, wf_set(0));
     block->alive = 0;
@@ -402,16 +404,22 @@ static void composite_block(const ewa_gaussian_view *view, ewa_gaussian_tile *ti
 
 /// A block over what is behind it, linear and premultiplied: voxels are mixed with that, then the Gaussians with the
 /// display values of the mean. Where nothing is drawn, what is behind stays as it is.
-static ALWAYS_INLINE void lay_block_over(const ewa_gaussian_tile *tile, const block_state *block,
-                                         const wf behind[4], wf out[4]) {
-    const wf through = wf_load(block->pixels + 48), one = wf_set(1);
+static ALWAYS_INLINE void lay_block_over(const ewa_gaussian_view *view, const ewa_gaussian_tile *tile,
+                                         const block_state *block, const wf behind[4], wf out[4]) {
+    const wf through = wf_load(block->pixels + 48), one = wf_set(1), layers = wf_load(block->linear + 48);
+    if (view->normals) {
+        for (int c = 0; c < 3; c++)
+            out[c] = wf_fma(through, behind[c], wf_fma(wf_set(0.5f), layers, wf_load(block->pixels + 16 * c)));
+        out[3] = wf_fma(through, behind[3], wf_sub(one, through));
+        return;
+    }
     if (!tile->volume_count) {
         lay_over(block->pixels, behind, wm_bits(wf_lt(through, one)) != 0, out);
         return;
     }
     wf under[4];
     for (int c = 0; c < 4; c++) under[c] = wf_fma(through, behind[c], wf_load(block->linear + 16 * c));
-    const wf own = wf_max(wf_sub(wf_sub(one, through), wf_load(block->linear + 48)), wf_set(0));
+    const wf own = wf_max(wf_sub(wf_sub(one, through), layers), wf_set(0));
     const wm some = wf_lt(wf_set(1e-7f), own); // more than rounding
     for (int c = 0; c < 4; c++) out[c] = under[c];
     if (!wm_bits(some)) return;
@@ -420,6 +428,28 @@ static ALWAYS_INLINE void lay_block_over(const ewa_gaussian_tile *tile, const bl
     for (int c = 0; c < 4; c++) mixed[c] = wf_add(mixed[c], c < 3 ? wf_load(block->pixels + 16 * c) : own);
     premultiplied_to_linear(mixed);
     for (int c = 0; c < 4; c++) out[c] = wf_select(some, mixed[c], under[c]);
+}
+
+/// The mean depth of all that shows in a block, in place of the depth where half of the light is gone: where something takes
+/// `opacity` of it.
+static ALWAYS_INLINE void store_expected(const ewa_volume_target *to, const block_place *at, wf opacity, wf depth,
+                                         double unit_camera) {
+    float alphas[16], depths[16];
+    wf_store(alphas, opacity), wf_store(depths, depth);
+    for (uint32_t i = 0; i < 16 && to->depth; i++)
+        if (i % 4 < at->width && i / 4 < at->height && alphas[i] > 0)
+            to->depth[(size_t)(at->y + i / 4) * to->width_px + at->x + i % 4] = to_camera_depth(depths[i], unit_camera);
+}
+
+/// The mean depth over a pixel that a surface at `surface` (camera space) covers a part of: `sum` and `past` are those of depths
+/// before the surface and over the rest, weighted by what shows; `opacity` and `past_opacity` the weights.
+static ALWAYS_INLINE wf expect(const ewa_gaussian_view *view, wf cover, wf surface, wf opacity, wf sum, wf past_opacity,
+                               wf past) {
+    const wf zero = wf_set(0), one = wf_set(1), part = wf_min(cover, one), rest = wf_sub(one, part);
+    const wm some = wm_and(wf_lt(zero, cover), wf_lt(surface, wf_set(__builtin_inff())));
+    const wf own = wf_mul(wf_select(some, surface, zero), wf_set((float)(1 / view->unit_camera)));
+    const wf here = wf_mul(part, wf_fma(wf_sub(one, opacity), own, sum));
+    return wf_select(some, wf_div(wf_fma(rest, past, here), wf_fma(rest, past_opacity, part)), wf_div(past, past_opacity));
 }
 
 /// Draws a block with a surface in it: the part of a pixel that the surface covers shows what lies in front of it,
@@ -443,31 +473,34 @@ static ALWAYS_INLINE void resolve_with_surface(const ewa_gaussian_view *view, ew
     // Where the surface leaves a part of a pixel free, what is behind it counts, too.
     const wm edge = wm_and(wf_lt(cover, one), wf_lt(wf_load(depths), infinite));
     const bool twice = wm_bits(edge) != 0;
-    wf past_opacity = zero, past_depth = infinite;
+    wf past_opacity = zero, past_depth = view->expected ? zero : infinite;
     if (twice) {
         // Behind the surface half of the light is gone where that is gone of what it leaves.
         const wf left = wf_select(whole, infinite, wf_div(half, wf_select(whole, one, wf_sub(one, cover))));
         composite_block(view, tile, count, row, column, at, to, true, left, block);
-        lay_block_over(tile, block, background, past);
+        lay_block_over(view, tile, block, background, past);
         past_opacity = wf_sub(one, wf_load(block->pixels + 48));
         past_depth = wf_load(block->pixels + 64);
     }
     composite_block(view, tile, count, row, column, at, to, false, half, block);
-    wf opacity = wf_sub(one, wf_load(block->pixels + 48));
+    wf opacity = wf_sub(one, wf_load(block->pixels + 48)), depth = wf_load(block->pixels + 64);
     if (!twice) {
-        lay_block_over(tile, block, background, past);
+        lay_block_over(view, tile, block, background, past);
         past_opacity = opacity;
+        if (view->expected) past_depth = depth;
     }
+    if (view->expected) depth = expect(view, cover, wf_load(depths), opacity, depth, past_opacity, past_depth);
     for (int c = 0; c < 3; c++) surface[c] = wf_mul(surface[c], inverse);
     surface[3] = one;
-    lay_block_over(tile, block, surface, covered);
+    lay_block_over(view, tile, block, surface, covered);
     for (int c = 0; c < 4; c++) {
         out[c] = wf_fma(cover, wf_sub(covered[c], past[c]), past[c]);
         out[c] = wf_select(whole, covered[c], wf_select(none, past[c], out[c]));
     }
     opacity = wf_select(whole, opacity, wf_fma(cover, wf_sub(opacity, past_opacity), past_opacity));
     store_colors_of(to, at, out);
-    store_geometry(to, at, opacity, wf_load(block->pixels + 64), past_depth, view->unit_camera);
+    store_geometry(to, at, opacity, view->expected ? infinite : depth, view->expected ? infinite : past_depth, view->unit_camera);
+    if (view->expected) store_expected(to, at, opacity, depth, view->unit_camera);
 }
 
 static void draw(const ewa_gaussian_view *view, ewa_gaussian_tile *tile, const ewa_volume_target *to) {
@@ -486,10 +519,12 @@ static void draw(const ewa_gaussian_view *view, ewa_gaussian_tile *tile, const e
             wf behind[4], out[4];
             composite_block(view, tile, count, row, column, &at, to, false, wf_set(0.5f), &block);
             load_behind(to, NULL, &at, behind);
-            lay_block_over(tile, &block, behind, out);
+            lay_block_over(view, tile, &block, behind, out);
             store_colors_of(to, &at, out);
-            store_geometry(to, &at, wf_sub(wf_set(1), wf_load(block.pixels + 48)), wf_load(block.pixels + 64),
-                           wf_set(__builtin_inff()), view->unit_camera);
+            const wf opacity = wf_sub(wf_set(1), wf_load(block.pixels + 48)), infinite = wf_set(__builtin_inff());
+            const wf depth = wf_load(block.pixels + 64);
+            store_geometry(to, &at, opacity, view->expected ? infinite : depth, infinite, view->unit_camera);
+            if (view->expected) store_expected(to, &at, opacity, wf_div(depth, opacity), view->unit_camera);
         }
     }
 }

@@ -47,7 +47,7 @@ enum {
     RECORD_LOG2_ALPHA, ///< in the middle
     RECORD_LOW,        ///< depths that pixels see it at
     RECORD_HIGH,
-    RECORD_ORDER,                    ///< by centres: the centre's depth; by rays: RECORD_LOW
+    RECORD_ORDER,                    ///< by centres: the centre's depth; by rays: RECORD_LOW; by the nearest: where it begins
     RECORD_COLOR,                    ///< display values
     RECORD_REACH = RECORD_COLOR + 3, ///< half of the ellipse's height
     RECORD_TOUCH,                    ///< v where the ellipse is farthest to the right
@@ -67,6 +67,9 @@ typedef struct ewa_gaussian_view {
     bool with_sections; ///< section planes
     bool flat;          ///< as 2DGS trains: where rays cross it, and at least a dot; not `trained` then
     bool with_flat;     ///< some set is
+    bool by_nearest;    ///< opaque ones are in the order in which they begin
+    bool expected;      ///< depth is the mean of all that shows
+    bool normals;       ///< colours are 0.5 + n / 2 of normals n, which are mixed as they are; those of volumes are 0.5
     float fx_px, fy_px, cx_px, cy_px;
     float width_px, height_px;
     float last_column, last_row; ///< of the tiles

@@ -246,7 +246,9 @@ static ALWAYS_INLINE void push_row(const ewa_gaussian_view *view, wm shows, cons
         own = wf_sub(weight, layer);
     }
     for (int c = 0; c < 3; c++) at->light[c] = wf_fma(own, a[PENDING_COLOR + c], at->light[c]);
-    if (view->with_depth) at->depth = note_depth(at->depth, half, at->through, rest, a[PENDING_Z]);
+    if (view->with_depth)
+        at->depth = view->expected ? wf_fma(weight, a[PENDING_Z], at->depth)
+                                   : note_depth(at->depth, half, at->through, rest, a[PENDING_Z]);
     at->lead = wf_select(shows, wf_fma(taken, share, rest), at->lead);
     at->through = rest;
     at->gap = wf_select(shows, apart, at->gap);

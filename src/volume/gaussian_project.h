@@ -337,6 +337,22 @@ static ALWAYS_INLINE void set_colors(const ewa_gaussian_view *view, const ewa_sp
     }
 }
 
+/// Normals in the world in place of colours: the shortest axes, turned to the eye.
+static ALWAYS_INLINE void set_normals(const ewa_splat_packet *packet, const splat_lanes *s, wf color[3]) {
+    const wf zero = wf_set(0), half = wf_set(0.5f);
+    wf q[4], axes[3][3], shortest = s->scales[2];
+    for (int i = 0; i < 4; i++) q[i] = wf_load((*packet)[EWA_SPLAT_ROTATION + i]);
+    quaternion_axes(q, axes);
+    for (int k = 1; k >= 0; k--) {
+        const wm shorter = wf_lt(s->scales[k], shortest);
+        shortest = wf_select(shorter, s->scales[k], shortest);
+        for (int c = 0; c < 3; c++) axes[2][c] = wf_select(shorter, axes[k][c], axes[2][c]);
+    }
+    const wm away = wf_lt(zero, dot(axes[2], s->direction));
+    for (int c = 0; c < 3; c++)
+        color[c] = wf_fma(half, wf_select(away, wf_sub(zero, axes[2][c]), axes[2][c]), half);
+}
+
 /// Adds the lanes of `shows` to what was found.
 static void add_records(wm shows, const wf record[RECORD_FLOATS], wf tiles[4], ewa_gaussian_found *found) {
     wf first[16], rest[16];
@@ -401,7 +417,10 @@ static void project(const ewa_gaussian_view *view, const ewa_splat_packet *packe
     wf alpha = wf_mul(opacity, wf_select(near, one, kept));
     shows = wm_and(shows, wf_le(wf_set(view->minimum_alpha), alpha));
     record[RECORD_LOG2_ALPHA] = wf_log2(alpha);
-    set_colors(view, packet, harmonics, &s, &record[RECORD_COLOR]);
+    if (view->normals)
+        set_normals(packet, &s, &record[RECORD_COLOR]);
+    else
+        set_colors(view, packet, harmonics, &s, &record[RECORD_COLOR]);
     record[RECORD_DOT_X] = dot[0], record[RECORD_DOT_Y] = dot[1], record[RECORD_DOT_Z] = s.place[2];
     record[RECORD_DOT] = wf_set(-1);
     if (view->flat) {
@@ -411,7 +430,8 @@ static void project(const ewa_gaussian_view *view, const ewa_splat_packet *packe
             wf_select(wf_lt(zero, wf_keep(wf_lt(zero, wf_set(view->dot_px2)), dot[2])), dot[0], wf_set(NO_DOT_PX));
     }
     if (wm_bits(near)) set_near(view, &s, near, rows, record);
-    record[RECORD_ORDER] = wf_add(view->by_center ? s.place[2] : record[RECORD_LOW], zero); // of both zeros the one above
+    const wf first = view->by_nearest ? wf_sub(s.place[2], s.depth_reach) : view->by_center ? s.place[2] : record[RECORD_LOW];
+    record[RECORD_ORDER] = wf_add(first, zero); // of both zeros the one above
     found->near_count += (uint32_t)__builtin_popcount(wm_bits(wm_and(near, shows)));
     add_records(shows, record, tiles, found);
 }

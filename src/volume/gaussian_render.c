@@ -3,60 +3,14 @@
 //
 // The renderer of Gaussians, and of volumes among them: an object whose memory survives, and the order of a
 // frame's stages. Reference: src/reference/gaussian.c.
+#include "volume/gaussian_frame.h"
 #include "base/allocating.h"
-#include "tiling/bin.h"
-#include "tiling/tiles.h"
-#include "volume/gaussian_kernels.h"
 #include "volume/gaussian_view.h"
-#include "volume/options.h"
-#include "volume/render.h"
 #include "volume/sort.h"
 #include "volume/splat_packets.h"
 
 #include <math.h>
 #include <string.h>
-
-/// What a worker needs; survives from frame to frame.
-typedef struct gaussian_scratch {
-    ewa_buffer marks, row_ids, row_marks, block_ids, hit, waiting, free, sort_buffer;
-    ewa_status status; ///< of its last tile
-    uint64_t block_count, sorted_count;
-    double project_s, draw_s;
-} gaussian_scratch;
-
-struct ewa_gaussian_renderer {
-    ewa_context *context;
-    const ewa_gaussian_kernels *kernels;
-    uint32_t worker_count;
-    ewa_buffer records, keys, corners, views, parts, order, volumes;
-    ewa_bin_lists by_tile;
-    gaussian_scratch *scratch; ///< one per worker
-};
-
-/// Some packets of a set, and which of their splats are visible.
-typedef struct gaussian_part {
-    const ewa_splats *splats;
-    const ewa_gaussian_view *view;
-    size_t first_packet;
-    uint32_t packet_count, first_slot; ///< of the room for records, of which it has one for each lane
-    ewa_gaussian_found found;
-} gaussian_part;
-
-/// A frame; nothing of it changes while its tiles are drawn, but the workers' scratches.
-typedef struct gaussian_job {
-    ewa_gaussian_renderer *renderer;
-    const ewa_mixture *mixture;
-    ewa_gaussian_view view; ///< what those of the sets share
-    ewa_volume_target target;
-    ewa_tiles tiles, areas; ///< `areas`: the tiles of the volumes, or the same
-    ewa_ray_sections sections;
-    bool with_times;
-    uint32_t part_count, visible_count;
-    size_t room; ///< for records
-    gaussian_part *parts;
-    uint32_t *ids; ///< [visible_count] front to back
-    ewa_volume_frame *volumes;
-} gaussian_job;
 
 ewa_status ewa_gaussian_renderer_create(ewa_context *context, ewa_gaussian_renderer **renderer) {
     if (!context || !renderer) return EWA_ERROR_ARGUMENT;
@@ -80,14 +34,14 @@ void ewa_gaussian_renderer_destroy(ewa_gaussian_renderer **renderer) {
     ewa_gaussian_renderer *old = *renderer;
     ewa_context *context = old->context;
     for (uint32_t i = 0; old->scratch && i < old->worker_count; i++) {
-        gaussian_scratch *s = &old->scratch[i];
+        ewa_gaussian_scratch *s = &old->scratch[i];
         ewa_buffer *const buffers[] = {&s->marks, &s->row_ids, &s->row_marks, &s->block_ids,
-                                       &s->hit,   &s->waiting, &s->free,      &s->sort_buffer};
+                                       &s->hit,   &s->waiting, &s->free,      &s->sort_buffer, &s->solid};
         for (size_t b = 0; b < sizeof buffers / sizeof *buffers; b++) ewa_buffer_free(context, buffers[b]);
     }
     ewa_release(context, old->scratch, old->worker_count, sizeof *old->scratch);
     ewa_buffer *const buffers[] = {&old->records, &old->keys,  &old->corners, &old->views,
-                                   &old->parts,   &old->order, &old->volumes};
+                                   &old->parts,   &old->order, &old->volumes, &old->planes};
     for (size_t b = 0; b < sizeof buffers / sizeof *buffers; b++) ewa_buffer_free(context, buffers[b]);
     ewa_bin_lists_free(context, &old->by_tile);
     ewa_release(context, old, 1, sizeof *old);
@@ -153,18 +107,23 @@ static void set_view(ewa_gaussian_view *view, const ewa_splats *splats, double u
     for (int i = 0; i < 4; i++) view->slopes[i] = (float)c.slopes[i];
 }
 
-/// The views of all sets, and what they share.
-static ewa_status set_views(gaussian_job *job, const ewa_camera *camera, const ewa_gaussian_options *options,
-                            bool with_depth) {
+ewa_status ewa_gaussian_job_set_views(ewa_gaussian_job *job, const ewa_camera *camera, const ewa_gaussian_options *options,
+                                      bool with_depth) {
     const ewa_mixture *mixture = job->mixture;
     const double unit = choose_unit(mixture);
     ewa_buffer *room = &job->renderer->views;
     EWA_TRY(
         ewa_buffer_reserve(job->renderer->context, room, mixture->splats_count, sizeof(ewa_gaussian_view)));
     ewa_gaussian_view *views = room->data;
+    const bool normals = job->view.normals;
     set_view(&job->view, NULL, unit, camera, options, &job->tiles);
+    job->view.normals = normals;
+    job->view.by_nearest = job->solids && !job->solids->dots;
+    job->view.expected = with_depth && options->depth == EWA_DEPTH_EXPECTED;
     for (uint32_t i = 0; i < mixture->splats_count; i++) {
         set_view(&views[i], mixture->splats[i], unit, camera, options, &job->tiles);
+        if (job->colors && job->colors[i]) views[i].sh_degree = 0;
+        views[i].normals = job->view.normals, views[i].by_nearest = job->view.by_nearest;
         job->view.keep |= views[i].keep; // of what none keeps nothing is that faint
         job->view.with_flat |= views[i].flat;
     }
@@ -173,7 +132,7 @@ static ewa_status set_views(gaussian_job *job, const ewa_camera *camera, const e
 }
 
 /// Adds to a stage's time what went by since `*last_s`.
-static void take_time(const gaussian_job *job, double *last_s, double *stage_s) {
+static void take_time(const ewa_gaussian_job *job, double *last_s, double *stage_s) {
     if (!job->with_times) return;
     const double now_s = ewa_now_s();
     *stage_s += now_s - *last_s;
@@ -182,15 +141,22 @@ static void take_time(const gaussian_job *job, double *last_s, double *stage_s) 
 
 /// The visible splats of some packets.
 static void project_part(void *data, uint32_t index, uint32_t worker) {
-    const gaussian_job *job = data;
-    gaussian_part *part = &job->parts[index];
+    const ewa_gaussian_job *job = data;
+    ewa_gaussian_part *part = &job->parts[index];
     const ewa_splats *splats = part->splats;
     double last_s = job->with_times ? ewa_now_s() : 0;
-    for (size_t p = part->first_packet; p < part->first_packet + part->packet_count; p++)
-        job->renderer->kernels->project(part->view, (const ewa_splat_packet *)&splats->packets[p],
+    for (size_t p = part->first_packet; p < part->first_packet + part->packet_count; p++) {
+        const ewa_splat_packet *packet = (const ewa_splat_packet *)&splats->packets[p];
+        ewa_splat_packet painted;
+        if (part->colors) {
+            ewa_splat_colors_apply(part->colors, (const ewa_splat_packet *)splats->packets, p, &painted);
+            packet = (const ewa_splat_packet *)&painted;
+        }
+        job->renderer->kernels->project(part->view, packet,
                                         (const int16_t(*)[EWA_SPLAT_LANES]) &
                                             splats->harmonics[p * splats->harmonic_count],
                                         &part->found);
+    }
     take_time(job, &last_s, &job->renderer->scratch[worker].project_s);
 }
 
@@ -205,7 +171,7 @@ static uint32_t choose_level(const ewa_gaussian_view *view, const ewa_splat_part
 }
 
 /// Lists the parts of all sets and what is drawn of each; their rooms follow each other.
-static ewa_status list_parts(gaussian_job *job, double merge_px) {
+static ewa_status list_parts(ewa_gaussian_job *job, double merge_px) {
     ewa_gaussian_renderer *renderer = job->renderer;
     const ewa_mixture *mixture = job->mixture;
     uint64_t part_count = 0, splat_count = 0, room = 0;
@@ -216,7 +182,7 @@ static ewa_status list_parts(gaussian_job *job, double merge_px) {
     if (splat_count > EWA_SPLATS_MAX || part_count > INT32_MAX / (EWA_SPLAT_PART_PACKETS * EWA_SPLAT_LANES))
         return ewa_fail(renderer->context, EWA_ERROR_LIMIT, "gaussians: %llu in %u sets, more than %d together",
                         (unsigned long long)splat_count, mixture->splats_count, EWA_SPLATS_MAX);
-    EWA_TRY(ewa_buffer_reserve(renderer->context, &renderer->parts, part_count, sizeof(gaussian_part)));
+    EWA_TRY(ewa_buffer_reserve(renderer->context, &renderer->parts, part_count, sizeof(ewa_gaussian_part)));
     job->parts = renderer->parts.data;
     job->part_count = 0;
     for (uint32_t set = 0; set < mixture->splats_count; set++) {
@@ -225,8 +191,8 @@ static ewa_status list_parts(gaussian_job *job, double merge_px) {
         for (uint32_t packet = 0; packet < splats->packet_count; packet += EWA_SPLAT_PART_PACKETS) {
             const uint32_t number = packet / EWA_SPLAT_PART_PACKETS, left = splats->packet_count - packet;
             const uint32_t level = splats->part_count && merge_px > 0 ? choose_level(view, &splats->parts[number], merge_px) : 0;
-            gaussian_part *part = &job->parts[job->part_count++];
-            *part = (gaussian_part){.splats = splats, .view = view, .first_packet = packet, .first_slot = (uint32_t)room,
+            ewa_gaussian_part *part = &job->parts[job->part_count++];
+            *part = (ewa_gaussian_part){.splats = splats, .colors = job->colors ? job->colors[set] : NULL, .view = view, .first_packet = packet, .first_slot = (uint32_t)room,
                                     .packet_count = left < EWA_SPLAT_PART_PACKETS ? left : EWA_SPLAT_PART_PACKETS};
             if (level) part->first_packet = ewa_splats_level(splats, number, level, &part->packet_count);
             room += (uint64_t)part->packet_count * EWA_SPLAT_LANES;
@@ -237,7 +203,7 @@ static ewa_status list_parts(gaussian_job *job, double merge_px) {
 }
 
 /// Finds what is visible, each part in its own room.
-static ewa_status project_all(gaussian_job *job, double merge_px) {
+static ewa_status project_all(ewa_gaussian_job *job, double merge_px) {
     ewa_gaussian_renderer *renderer = job->renderer;
     ewa_context *context = renderer->context;
     EWA_TRY(list_parts(job, merge_px));
@@ -256,7 +222,7 @@ static ewa_status project_all(gaussian_job *job, double merge_px) {
 }
 
 /// Orders what is visible by RECORD_ORDER of each, ties as the splats are.
-static ewa_status sort_all(gaussian_job *job) {
+static ewa_status sort_all(ewa_gaussian_job *job) {
     ewa_gaussian_renderer *renderer = job->renderer;
     job->visible_count = 0;
     for (uint32_t i = 0; i < job->part_count; i++) job->visible_count += job->parts[i].found.count;
@@ -275,7 +241,7 @@ static ewa_status sort_all(gaussian_job *job) {
 static uint32_t find_tiles(const void *data, uint32_t worker, uint32_t first, uint32_t count,
                            const ewa_bin_items *items) {
     (void)worker;
-    const gaussian_job *job = data;
+    const ewa_gaussian_job *job = data;
     const int32_t *corners = job->renderer->corners.data;
     const size_t room = job->room;
     for (uint32_t i = first; i < first + count; i++) {
@@ -287,7 +253,7 @@ static uint32_t find_tiles(const void *data, uint32_t worker, uint32_t first, ui
     return count;
 }
 
-static ewa_status reserve_scratch(ewa_context *context, gaussian_scratch *scratch, size_t maximum) {
+static ewa_status reserve_scratch(ewa_context *context, ewa_gaussian_scratch *scratch, size_t maximum, bool solid) {
     // Layers of volumes that wait: no more than come at once.
     const size_t room = (maximum + 15) / 16 * 16 + EWA_GAUSSIAN_MAX_AT_ONCE;
     const struct {
@@ -302,6 +268,7 @@ static ewa_status reserve_scratch(ewa_context *context, gaussian_scratch *scratc
         {&scratch->waiting, room, sizeof(uint32_t)},
         {&scratch->free, room + 1, sizeof(uint32_t)},
         {&scratch->sort_buffer, 1, sizeof(ewa_gaussian_sort_buffer)},
+        {&scratch->solid, solid, sizeof(ewa_solid_samples)},
     };
     for (size_t i = 0; i < sizeof wanted / sizeof *wanted; i++) {
         EWA_TRY(ewa_buffer_reserve(context, wanted[i].buffer, wanted[i].count, wanted[i].size_bytes));
@@ -310,10 +277,10 @@ static ewa_status reserve_scratch(ewa_context *context, gaussian_scratch *scratc
     return EWA_OK;
 }
 
-static void draw_tile(const gaussian_job *job, uint32_t index, uint32_t worker,
+static void draw_tile(const ewa_gaussian_job *job, uint32_t index, uint32_t worker,
                       const ewa_gaussian_volume *volumes) {
     const ewa_gaussian_renderer *renderer = job->renderer;
-    gaussian_scratch *scratch = &job->renderer->scratch[worker];
+    ewa_gaussian_scratch *scratch = &job->renderer->scratch[worker];
     const ewa_tile_rect place = ewa_tiles_rect(&job->tiles, index);
     const uint64_t first = renderer->by_tile.starts[index];
     ewa_gaussian_tile tile = {.x_px = place.x_px,
@@ -337,6 +304,10 @@ static void draw_tile(const gaussian_job *job, uint32_t index, uint32_t worker,
                               .volume_count = job->mixture->volume_count,
                               .first_row = place.y_px % EWA_VOLUME_TILE_PX / 4,
                               .first_column = place.x_px % EWA_VOLUME_TILE_PX / 4};
+    if (job->solids) {
+        ewa_gaussian_solids_draw(job->solids, &tile, scratch->solid.data);
+        return;
+    }
     renderer->kernels->mark(&tile);
     renderer->kernels->draw(&job->view, &tile, &job->target);
     scratch->block_count += tile.block_count;
@@ -344,7 +315,7 @@ static void draw_tile(const gaussian_job *job, uint32_t index, uint32_t worker,
 }
 
 /// Whether surfaces leave a part of some pixel free, so that what is behind them shows.
-static bool has_edges(const gaussian_job *job, const ewa_tile_rect *area) {
+static bool has_edges(const ewa_gaussian_job *job, const ewa_tile_rect *area) {
     const ewa_surface_planes *surface = &job->target.surface;
     if (!surface->depth) return false;
     for (uint32_t y = area->y_px; y < area->y_px + area->height_px; y++)
@@ -356,7 +327,7 @@ static bool has_edges(const gaussian_job *job, const ewa_tile_rect *area) {
 }
 
 /// Makes the layers of the volumes in an area.
-static ewa_status make_layers(const gaussian_job *job, uint32_t index, uint32_t worker,
+static ewa_status make_layers(const ewa_gaussian_job *job, uint32_t index, uint32_t worker,
                               ewa_gaussian_volume *volumes) {
     ewa_context *context = job->renderer->context;
     const ewa_tile_rect area = ewa_tiles_rect(&job->areas, index);
@@ -375,8 +346,8 @@ static ewa_status make_layers(const gaussian_job *job, uint32_t index, uint32_t 
 
 /// Draws an area: the tiles of Gaussians in a tile of volumes, or one.
 static void draw_area(void *data, uint32_t index, uint32_t worker) {
-    const gaussian_job *job = data;
-    gaussian_scratch *scratch = &job->renderer->scratch[worker];
+    const ewa_gaussian_job *job = data;
+    ewa_gaussian_scratch *scratch = &job->renderer->scratch[worker];
     double last_s = job->with_times ? ewa_now_s() : 0;
     if (!job->mixture->volume_count) {
         draw_tile(job, index, worker, NULL);
@@ -393,7 +364,7 @@ static void draw_area(void *data, uint32_t index, uint32_t worker) {
     take_time(job, &last_s, &scratch->draw_s);
 }
 
-static void gather_stats(const gaussian_job *job, double start_s, double bin_s, ewa_gaussian_stats *stats) {
+static void gather_stats(const ewa_gaussian_job *job, double start_s, double bin_s, ewa_gaussian_stats *stats) {
     const ewa_gaussian_renderer *renderer = job->renderer;
     *stats =
         (ewa_gaussian_stats){.visible_count = job->visible_count, .bin_s = bin_s * renderer->worker_count};
@@ -402,7 +373,7 @@ static void gather_stats(const gaussian_job *job, double start_s, double bin_s, 
     for (uint32_t i = 0; i < job->part_count; i++) stats->near_count += job->parts[i].found.near_count;
     stats->tile_count = renderer->by_tile.starts[ewa_tiles_count(&job->tiles)];
     for (uint32_t i = 0; i < renderer->worker_count; i++) {
-        const gaussian_scratch *s = &renderer->scratch[i];
+        const ewa_gaussian_scratch *s = &renderer->scratch[i];
         stats->block_count += s->block_count;
         stats->sorted_count += s->sorted_count;
         stats->project_s += s->project_s;
@@ -411,60 +382,9 @@ static void gather_stats(const gaussian_job *job, double start_s, double bin_s, 
     stats->total_s = ewa_now_s() - start_s;
 }
 
-/// Checks what a mixture is made of, and its volumes' options.
-static ewa_status check_mixture(ewa_context *context, const ewa_mixture *mixture,
-                                ewa_volume_options chosen[EWA_MAX_MIXED_VOLUMES]) {
-    const uint32_t count = mixture->volume_count;
-    if (count > EWA_MAX_MIXED_VOLUMES)
-        return ewa_fail(context, EWA_ERROR_ARGUMENT, "mixture: %u volumes, at most %d", count,
-                        EWA_MAX_MIXED_VOLUMES);
-    if ((count && !mixture->volumes) || (mixture->splats_count && !mixture->splats))
-        return ewa_fail(context, EWA_ERROR_ARGUMENT, "mixture: %u sets and %u volumes, and no list of them",
-                        mixture->splats_count, count);
-    for (uint32_t i = 0; i < mixture->splats_count; i++)
-        if (!mixture->splats[i]) return ewa_fail(context, EWA_ERROR_ARGUMENT, "mixture: set %u is NULL", i);
-    for (uint32_t i = 0; i < count; i++) {
-        const ewa_mixed_volume *volume = &mixture->volumes[i];
-        if (!volume->renderer || !volume->voxels)
-            return ewa_fail(context, EWA_ERROR_ARGUMENT, "mixture: volume %u has no renderer or no voxels",
-                            i);
-        if (ewa_volume_renderer_context(volume->renderer) != context)
-            return ewa_fail(context, EWA_ERROR_ARGUMENT,
-                            "mixture: the renderer of volume %u is of another context", i);
-        for (uint32_t k = 0; k < i; k++)
-            if (mixture->volumes[k].renderer == volume->renderer)
-                return ewa_fail(context, EWA_ERROR_ARGUMENT,
-                                "mixture: volumes %u and %u have the same renderer", k, i);
-        EWA_TRY(ewa_volume_options_choose(context, volume->options, &chosen[i]));
-        EWA_TRY(ewa_volume_level_check(context, volume->voxels, &chosen[i]));
-    }
-    return EWA_OK;
-}
-
-/// Sets up the frames of the volumes.
-static ewa_status make_volumes(gaussian_job *job, const ewa_camera *camera,
-                               const ewa_gaussian_options *options,
-                               ewa_volume_options chosen[EWA_MAX_MIXED_VOLUMES]) {
-    const uint32_t count = job->mixture->volume_count;
-    ewa_buffer *room = &job->renderer->volumes;
-    ewa_status status = ewa_buffer_reserve(job->renderer->context, room, count, sizeof(ewa_volume_frame));
-    job->volumes = room->data;
-    for (uint32_t i = 0; i < count && status == EWA_OK; i++) {
-        const ewa_mixed_volume *volume = &job->mixture->volumes[i];
-        chosen[i].surface_depth = options->surface_depth;
-        chosen[i].surface_rgba = options->surface_rgba;
-        memcpy(chosen[i].section_planes, options->section_planes, sizeof options->section_planes);
-        chosen[i].section_count = options->section_count;
-        status = ewa_volume_frame_make(volume->renderer, volume->voxels, camera, &chosen[i],
-                                       volume->stats != NULL, &job->volumes[i]);
-        job->volumes[i].job.target = job->target;
-    }
-    return status;
-}
-
 /// Draws the areas. Layers of volumes need memory while they are made, which an allocator of the caller's gives to
 /// the calling thread only.
-static ewa_status draw_areas(gaussian_job *job) {
+static ewa_status draw_areas(ewa_gaussian_job *job) {
     ewa_context *context = job->renderer->context;
     const uint32_t count = ewa_tiles_count(&job->areas);
     return job->mixture->volume_count
@@ -472,13 +392,12 @@ static ewa_status draw_areas(gaussian_job *job) {
                : ewa_parallel_stoppable(context, "gaussians", draw_area, job, count);
 }
 
-/// Draws a frame of checked arguments.
-static ewa_status draw_frame(gaussian_job *job, double merge_px, ewa_gaussian_stats *stats) {
+ewa_status ewa_gaussian_job_draw(ewa_gaussian_job *job, double merge_px, ewa_gaussian_stats *stats) {
     ewa_gaussian_renderer *renderer = job->renderer;
     ewa_context *context = renderer->context;
     const double start_s = ewa_now_s();
     for (uint32_t i = 0; i < renderer->worker_count; i++) {
-        gaussian_scratch *scratch = &renderer->scratch[i];
+        ewa_gaussian_scratch *scratch = &renderer->scratch[i];
         scratch->project_s = scratch->draw_s = 0;
         scratch->status = EWA_OK;
     }
@@ -489,7 +408,7 @@ static ewa_status draw_frame(gaussian_job *job, double merge_px, ewa_gaussian_st
                                job->visible_count, find_tiles, job));
     const double binned_s = ewa_now_s();
     for (uint32_t i = 0; i < renderer->worker_count; i++)
-        EWA_TRY(reserve_scratch(context, &renderer->scratch[i], renderer->by_tile.largest));
+        EWA_TRY(reserve_scratch(context, &renderer->scratch[i], renderer->by_tile.largest, job->solids != NULL));
     EWA_TRY(draw_areas(job));
     for (uint32_t i = 0; i < renderer->worker_count; i++) EWA_TRY(renderer->scratch[i].status);
     if (stats) gather_stats(job, start_s, binned_s - projected_s, stats);
@@ -498,43 +417,4 @@ static ewa_status draw_frame(gaussian_job *job, double merge_px, ewa_gaussian_st
         if (volume->stats) ewa_volume_frame_measure(volume->renderer, &job->volumes[i], volume->stats);
     }
     return EWA_OK;
-}
-
-ewa_status ewa_mixture_render(ewa_gaussian_renderer *renderer, const ewa_mixture *mixture,
-                              const ewa_camera *camera, const ewa_gaussian_options *options,
-                              const ewa_frame *frame, ewa_gaussian_stats *stats) {
-    if (!renderer || !mixture || !camera || !frame) return EWA_ERROR_ARGUMENT;
-    ewa_context *context = renderer->context;
-    const double start_s = ewa_now_s();
-    ewa_gaussian_options chosen;
-    ewa_volume_options volumes[EWA_MAX_MIXED_VOLUMES];
-    EWA_TRY(ewa_gaussian_options_choose(context, options, &chosen));
-    EWA_TRY(ewa_camera_check(context, camera));
-    EWA_TRY(check_mixture(context, mixture, volumes));
-    EWA_TRY(ewa_progress(context, "gaussians", 0));
-
-    gaussian_job job = {.renderer = renderer,
-                        .mixture = mixture,
-                        .tiles = ewa_tiles_make(camera->width_px, camera->height_px, EWA_GAUSSIAN_TILE_PX),
-                        .with_times = stats != NULL};
-    job.areas = mixture->volume_count
-                    ? ewa_tiles_make(camera->width_px, camera->height_px, EWA_VOLUME_TILE_PX)
-                    : job.tiles;
-    const ewa_surface_planes surface = EWA_SURFACE_PLANES_OF(&chosen);
-    ewa_volume_target_set(&job.target, camera, frame, &surface, chosen.background);
-    ewa_ray_sections_make(&job.sections, camera, (const double(*)[4])chosen.section_planes,
-                          chosen.section_count);
-    EWA_TRY(set_views(&job, camera, &chosen, frame->depth || frame->normal));
-    EWA_TRY(make_volumes(&job, camera, &chosen, volumes));
-    EWA_TRY(draw_frame(&job, chosen.merge_px, stats));
-    if (stats) stats->total_s = ewa_now_s() - start_s;
-    return EWA_OK;
-}
-
-ewa_status ewa_gaussian_render(ewa_gaussian_renderer *renderer, const ewa_splats *splats,
-                               const ewa_camera *camera, const ewa_gaussian_options *options,
-                               const ewa_frame *frame, ewa_gaussian_stats *stats) {
-    if (!splats) return EWA_ERROR_ARGUMENT;
-    return ewa_mixture_render(renderer, &(ewa_mixture){.splats = &splats, .splats_count = 1}, camera, options,
-                              frame, stats);
 }

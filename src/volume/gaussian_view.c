@@ -38,6 +38,13 @@ static const ewa_option rows[] = {
     {"merge_px", EWA_OPTION_F64, OF(merge_px), 0, 1000, .unit = "px",
      .help = "of large sets, Gaussians that are within so many pixels (RMS) of one that stands for them are drawn by that; 0: all are "
              "drawn"},
+    {"display", EWA_OPTION_CHOICE, OF(display), .words = "blended|ellipsoids|points",
+     .help = "what is shown of Gaussians: what they were trained to show, or each as an opaque ellipsoid, lit from the eye, or as a dot"},
+    {"ellipsoid_radius", EWA_OPTION_F64, OF(ellipsoid_radius), 0.1, 4, .initial = 1,
+     .help = "of ellipsoids, standard deviations"},
+    {"dot_px", EWA_OPTION_F64, OF(dot_px), 1, 8, .initial = 2, .unit = "px", .help = "diameter of dots"},
+    {"depth", EWA_OPTION_CHOICE, OF(depth), .words = "median|expected",
+     .help = "the depth of a pixel: where half of the light is gone, or the mean of all that shows, by how much it shows"},
     {"sh_degree", EWA_OPTION_U32, OF(sh_degree), 0, EWA_MAX_SH_DEGREE, .initial = EWA_MAX_SH_DEGREE,
      .help = "spherical harmonics beyond that degree are not used"},
     {"background", EWA_OPTION_F32, OF(background), 0, 1e15, .count = 4,

@@ -256,4 +256,88 @@ TEST(whole_numbers_have_rows) {
     ewa_context_destroy(&context);
 }
 
+/// A blended picture of some Gaussians, coloured; `range`, of a legend, NULL: there is to be none.
+static void draw_gaussians(const ewa_gaussians *set, const ewa_coloring *coloring, uint8_t rgba8[4 * 64 * 64], double range[2]) {
+    ewa_asset *asset = NULL;
+    ewa_scene *scene = NULL;
+    ewa_scene_renderer *renderer = NULL;
+    ewa_camera camera;
+    ewa_instance instance;
+    ewa_instance_init(&instance, sizeof instance);
+    if (coloring) instance.coloring = *coloring;
+    const ewa_asset_source source = {.gaussians = set};
+    assert_int_equal(ewa_asset_create(set->context, &source, NULL, &asset), EWA_OK);
+    assert_int_equal(ewa_scene_create(set->context, NULL, &scene), EWA_OK);
+    assert_int_equal(ewa_scene_add(scene, asset, &instance), EWA_OK);
+    ewa_view_options view;
+    ewa_view_options_init(&view, sizeof view);
+    view.width_px = view.height_px = 64;
+    assert_int_equal(ewa_scene_place_camera(scene, &view, &camera, NULL), EWA_OK);
+    assert_int_equal(ewa_scene_renderer_create(set->context, EWA_BACKEND_CPU, NULL, &renderer), EWA_OK);
+    assert_int_equal(ewa_scene_draw(scene, renderer, &camera, NULL, &(ewa_frame){.rgba8 = rgba8}, NULL), EWA_OK);
+    const ewa_legend *legend = ewa_scene_legend(scene, 0);
+    assert_true((legend != NULL) == (range != NULL));
+    if (range) memcpy(range, legend->range, sizeof legend->range);
+    ewa_scene_renderer_destroy(&renderer);
+    ewa_scene_destroy(&scene);
+    ewa_asset_release(&asset);
+}
+
+/// Coloured by a number, Gaussians are as those of these colours without harmonics, and as opaque as they were.
+TEST_ON(gaussians_by_numbers, 2) {
+    enum { COUNT = 40 };
+    static uint8_t colored[4 * 64 * 64], plain[4 * 64 * 64];
+    check_random random = {5};
+    ewa_gaussians set;
+    assert_int_equal(ewa_gaussians_create(context, COUNT, 1, &set), EWA_OK);
+    for (size_t i = 0; i < COUNT; i++) {
+        for (size_t k = 0; k < 3; k++) {
+            set.centers[3 * i + k] = (float)check_uniform(&random, -1, 1);
+            set.scales[3 * i + k] = (float)check_uniform(&random, 0.05, 0.3);
+        }
+        for (size_t k = 0; k < 12; k++) set.harmonics[12 * i + k] = (float)check_uniform(&random, -1, 1);
+        set.rotations[4 * i] = 1;
+        set.opacities[i] = (float)check_uniform(&random, 0.2, 0.9);
+    }
+    set.opacities[0] = 0.125f, set.opacities[1] = 0.9375f;
+    static const char *const words[] = {"opacity", "size", "z"};
+    for (int n = 0; n < 4; n++) {
+        ewa_coloring coloring;
+        ewa_coloring_init(&coloring, sizeof coloring);
+        double low = INFINITY, high = -INFINITY, numbers[COUNT];
+        for (size_t i = 0; i < COUNT; i++) {
+            const float *s = set.scales + 3 * i;
+            numbers[i] = n == 0 ? (double)set.opacities[i] : n == 1 ? (double)fmaxf(s[0], fmaxf(s[1], s[2])) : (double)set.centers[3 * i + 2];
+            low = fmin(low, numbers[i]), high = fmax(high, numbers[i]);
+        }
+        ewa_gaussians same_colors;
+        assert_int_equal(ewa_gaussians_create(context, COUNT, 0, &same_colors), EWA_OK);
+        memcpy(same_colors.centers, set.centers, 3 * COUNT * sizeof(float));
+        memcpy(same_colors.scales, set.scales, 3 * COUNT * sizeof(float));
+        memcpy(same_colors.rotations, set.rotations, 4 * COUNT * sizeof(float));
+        memcpy(same_colors.opacities, set.opacities, COUNT * sizeof(float));
+        for (size_t i = 0; i < COUNT; i++) {
+            uint8_t srgb[3] = {51, 102, 255};
+            if (n < 3) ewa_colormap_color(EWA_COLORMAP_VIRIDIS, (numbers[i] - low) / (high - low), srgb);
+            for (size_t k = 0; k < 3; k++) same_colors.harmonics[3 * i + k] = (float)(((double)srgb[k] / 255 - 0.5) / 0.28209479177387814);
+        }
+        double range[2];
+        if (n < 3) strcpy(coloring.attribute, words[n]);
+        if (n == 3) coloring.tinted = true, coloring.tint[0] = 0.2, coloring.tint[1] = 0.4, coloring.tint[2] = 1;
+        draw_gaussians(&set, &coloring, colored, n < 3 ? range : NULL);
+        draw_gaussians(&same_colors, NULL, plain, NULL);
+        size_t apart = 0, seen = 0;
+        for (size_t i = 0; i < sizeof plain; i++) {
+            const int by = abs(colored[i] - plain[i]);
+            assert_true(by <= 1);
+            apart += by > 0, seen += plain[i] != 255;
+        }
+        print_message("gaussians by %s: %zu of %zu bytes apart by 1\n", n < 3 ? words[n] : "tint", apart, seen);
+        assert_true(seen > 2000 && apart < seen / 50);
+        if (n < 3) assert_true(fabs(range[0] - low) < 1e-6 && fabs(range[1] - high) < 1e-6);
+        ewa_gaussians_free(&same_colors);
+    }
+    ewa_gaussians_free(&set);
+}
+
 int main(void) { return RUN_TESTS(NULL, NULL); }

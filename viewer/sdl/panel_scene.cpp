@@ -102,7 +102,7 @@ void choose_look(panel_page *page, int index, const viewer_item *item) {
         choose_map(page, index, item);
     else if (item->coloring.tinted)
         choose_tint(page, index, item);
-    choose_alpha(page, index, item);
+    if (!item->gaussians) choose_alpha(page, index, item);
 }
 
 /// A row of numbers that are said when the hand lets go of them.
@@ -193,7 +193,7 @@ bool item_row(panel_page *page, int index, const viewer_item *item, bool open_fi
                         : item->gaussians ? "Gaussians"
                         : item->mesh      ? "points on faces"
                                           : "points");
-    if (!item->volume && !item->gaussians) choose_look(page, index, item);
+    if (!item->volume) choose_look(page, index, item);
     if (!item->volume && !item->gaussians) choose_photos(page, index, item);
     if (item->volume) panel_transfer(page, index, item);
     choose_place(page, index, item);
