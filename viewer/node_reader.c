@@ -18,7 +18,7 @@ struct node_reader {
     bool quits, waits, reads;
     uint32_t resting; ///< who waits for it to be at rest
     paint_scene next, now; ///< `now` is the thread's own while it reads
-    uint32_t next_most, most;
+    uint32_t next_max_count, max_count;
     node_reader_state state;
 };
 
@@ -28,7 +28,7 @@ static uint32_t read_some(node_reader *r, bool *more) {
     turns_take(&r->turns->files);
     turns_take(&r->turns->nodes);
     ewa_status status =
-        ewa_scene_reader_choose(r->reader, r->now.scene, &r->now.camera, &r->now.options, r->most, &count);
+        ewa_scene_reader_choose(r->reader, r->now.scene, &r->now.camera, &r->now.options, r->max_count, &count);
     turns_give(&r->turns->nodes);
     *more = status == EWA_OK && count > 0;
     if (*more) {
@@ -48,7 +48,7 @@ static void *run(void *data) {
     while (!r->quits) {
         if (r->waits) {
             r->now = r->next;
-            r->most = r->next_most;
+            r->max_count = r->next_max_count;
             r->waits = false;
         } else if (!more || r->resting) {
             more = r->reads = r->state.busy = false;
@@ -113,10 +113,10 @@ void node_reader_destroy(node_reader **made) {
     *made = NULL;
 }
 
-void node_reader_post(node_reader *r, const paint_scene *scene, uint32_t most) {
+void node_reader_post(node_reader *r, const paint_scene *scene, uint32_t max_count) {
     pthread_mutex_lock(&r->lock);
     r->next = *scene;
-    r->next_most = most;
+    r->next_max_count = max_count;
     r->waits = r->state.busy = true;
     pthread_cond_broadcast(&r->changed);
     pthread_mutex_unlock(&r->lock);

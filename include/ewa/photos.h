@@ -42,13 +42,13 @@ typedef struct ewa_image_quality {
     double ssim;               ///< structural similarity, at most 1: mean over pixels and channels; NaN where nothing is compared
 } ewa_image_quality;
 
-/// Compares two pictures of one size in sRGB numbers, clamped to [0, 1]. `image`, `truth`: 1, 3 or 4 channels, linear light,
-/// premultiplied; pixels where `truth` is not opaque or not finite are not compared. SSIM has a window of 11 x 11 pixels, a
+/// Compares two pictures of one size in sRGB numbers, clamped to [0, 1]. `image`, `reference`: 1, 3 or 4 channels, linear light,
+/// premultiplied; pixels where `reference` is not opaque or not finite are not compared. SSIM has a window of 11 x 11 pixels, a
 /// Gaussian of 1.5, beyond whose picture there are zeros, and the constants 0.01 and 0.03, as 3DGS reports it. The same numbers
 /// for every number of threads. Progress stage: "compare". Errors: EWA_ERROR_ARGUMENT (sizes or channels), EWA_ERROR_MEMORY,
 /// EWA_CANCELLED.
 /// Source: Wang, Bovik, Sheikh, Simoncelli, "Image Quality Assessment", 2004, equation 13.
-EWA_API ewa_status ewa_image_compare(const ewa_image *image, const ewa_image *truth, ewa_image_quality *quality);
+EWA_API ewa_status ewa_image_compare(const ewa_image *image, const ewa_image *reference, ewa_image_quality *quality);
 
 typedef enum ewa_photos_method {
     EWA_PHOTOS_FIT = 0,    ///< colours whose pictures differ least from the photographs

@@ -121,20 +121,20 @@ def undistort(picture: Any, camera: Camera) -> Array:
     return taken(made)
 
 
-def compare_images(image: Any, truth: Any, *, context: Context | None = None) -> ImageQuality:
+def compare_images(image: Any, reference: Any, *, context: Context | None = None) -> ImageQuality:
     """Compare two pictures of one size by PSNR and SSIM, in sRGB numbers.
 
     Parameters
     ----------
-    image, truth : path, Image, or array_like of shape (height, width) or (height, width, 1, 3 or 4)
-        Floats are linear light, premultiplied; uint8 is sRGB. Pixels where `truth` is not opaque are not compared.
+    image, reference : path, Image, or array_like of shape (height, width) or (height, width, 1, 3 or 4)
+        Floats are linear light, premultiplied; uint8 is sRGB. Pixels where `reference` is not opaque are not compared.
 
     Raises
     ------
     ArgumentError, OutOfMemory
     """
     core = core_of(context)
-    keep = [as_picture(image, "image"), as_picture(truth, "truth")]
+    keep = [as_picture(image, "image"), as_picture(reference, "reference")]
     both = [b.ewa_image(core.address, array.shape[1], array.shape[0], array.shape[2], array.ctypes.data) for array in keep]
     found = b.ewa_image_quality()
     core.call(lib.ewa_image_compare, ctypes.byref(both[0]), ctypes.byref(both[1]), ctypes.byref(found))

@@ -151,7 +151,7 @@ EIGHT uint64_t find_splat(const ewa_adjoint_area *area, const ewa_reference_spla
 static double find(const ewa_adjoint_area *area, const ewa_reference_splat *const *splats, uint32_t count, uint64_t *blocks) {
     for (uint32_t k = 0; k < count; k++) {
         blocks[k] = 0;
-        if (area->behind && splats[k]->hollow) continue;
+        if (area->behind && splats[k]->concave) continue;
         if (is_plain(splats[k]))
             blocks[k] = find_splat(area, splats[k], true);
         else
@@ -205,7 +205,7 @@ EIGHT uint64_t sum_splat(const ewa_adjoint_area *area, const ewa_reference_splat
 
 static void sum(const ewa_adjoint_area *area, const ewa_reference_splat *const *splats, uint32_t count, uint64_t *blocks) {
     for (uint32_t k = 0; k < count; k++) {
-        if (area->behind && splats[k]->hollow)
+        if (area->behind && splats[k]->concave)
             blocks[k] = 0;
         else if (is_plain(splats[k]))
             blocks[k] = sum_splat(area, splats[k], true, blocks[k]);
@@ -309,7 +309,7 @@ EIGHT void gather_splat(const ewa_adjoint_area *area, const ewa_reference_splat 
 
 static void gather(const ewa_adjoint_area *area, const ewa_reference_splat *splat, uint64_t blocks, uint32_t width, bool with_depth,
                    const double scales[EWA_MOMENT_COUNT], int64_t totals[EWA_MOMENT_COUNT]) {
-    if (area->behind && splat->hollow) return;
+    if (area->behind && splat->concave) return;
     if (!is_plain(splat))
         gather_splat(area, splat, blocks, false, width, with_depth, scales, totals);
     else if (with_depth || width <= EWA_MOMENT_OPACITY)

@@ -242,7 +242,7 @@ static ewa_reference_values cotangent_of(const ewa_adjoint_job *job, size_t inde
 }
 
 /// Sets surface `index` of scratch->layers from the sums of a pixel.
-static void settle_layer(const tile_work *w, uint32_t x, uint32_t y, uint32_t index, double through) {
+static void finalize_layer(const tile_work *w, uint32_t x, uint32_t y, uint32_t index, double through) {
     ewa_reference_layer *layer = &w->scratch->layers[index];
     read_gathered(w, planes_at(w, index, x, y), &layer->gathered);
     ewa_reference_layer_settle(&w->job->frame.resolve, w->place.x_px + x + 0.5, w->place.y_px + y + 0.5, index, through,
@@ -257,7 +257,7 @@ static void end_pixel(const tile_work *w, uint32_t x, uint32_t y, uint32_t count
     const size_t index = (size_t)(w->place.y_px + y) * job->tiles.width_px + w->place.x_px + x;
     double through = 1;
     for (uint32_t i = 0; i < settled; i++) {
-        settle_layer(w, x, y, i, through);
+        finalize_layer(w, x, y, i, through);
         through = s->layers[i].through * (1 - s->layers[i].alpha);
     }
     pixel_at(w, x, y)->through = 0;
@@ -275,7 +275,7 @@ static void end_pixel(const tile_work *w, uint32_t x, uint32_t y, uint32_t count
 }
 
 /// Looks at the surface that a pixel has gathered; returns whether there may be another behind it.
-static bool settle_pixel(const tile_work *w, uint32_t x, uint32_t y, bool last) {
+static bool finalize_pixel(const tile_work *w, uint32_t x, uint32_t y, bool last) {
     const uint32_t surface = w->surface_count;
     double *planes = planes_at(w, surface, x, y);
     ewa_adjoint_pixel *pixel = pixel_at(w, x, y);
@@ -285,7 +285,7 @@ static bool settle_pixel(const tile_work *w, uint32_t x, uint32_t y, bool last) 
         end_pixel(w, x, y, surface, surface);
         return false;
     }
-    settle_layer(w, x, y, surface, pixel->through);
+    finalize_layer(w, x, y, surface, pixel->through);
     const ewa_reference_layer *layer = &w->scratch->layers[surface];
     const double through = layer->through * (1 - layer->alpha);
     if (surface == 0) pixel->first = layer->cover;
@@ -298,12 +298,12 @@ static bool settle_pixel(const tile_work *w, uint32_t x, uint32_t y, bool last) 
 }
 
 /// Looks at the surface that has been gathered; returns whether there may be another behind it.
-static bool settle_surface(const tile_work *w) {
+static bool finalize_surface(const tile_work *w) {
     const bool last = w->surface_count + 1 == w->job->surface_count;
     bool open = false;
     for (uint32_t y = 0; y < w->place.height_px; y++)
         for (uint32_t x = 0; x < w->place.width_px; x++)
-            if (pixel_at(w, x, y)->through > 0) open |= settle_pixel(w, x, y, last);
+            if (pixel_at(w, x, y)->through > 0) open |= finalize_pixel(w, x, y, last);
     return open;
 }
 
@@ -366,7 +366,7 @@ void ewa_adjoint_tile(void *data, uint32_t index, uint32_t worker) {
         const ewa_adjoint_area area = area_of(&w, w.surface_count);
         s->reached[w.surface_count] = find_surface(&w);
         job->kernels->sum(&area, s->order, s->reached[w.surface_count], blocks_of(&w, w.surface_count));
-        open = settle_surface(&w);
+        open = finalize_surface(&w);
     }
     if (job->width) gather_splats(&w);
 }

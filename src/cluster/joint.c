@@ -148,7 +148,7 @@ static ewa_status draw_shared(ewa_joint *joint) {
         joint->whole = layer > 0 && job->merge_last && layer + 1 == job->layers;
         EWA_TRY(ewa_joint_find_nearest(joint));
         EWA_TRY(ewa_joint_gather(joint));
-        EWA_TRY(ewa_joint_settle(joint));
+        EWA_TRY(ewa_joint_finalize(joint));
     }
     return EWA_OK;
 }
@@ -174,7 +174,7 @@ static ewa_status draw(void *state, const ewa_render_job *own, ewa_render_stats 
     joint->job.with_clips |= own->options.section_count > 0 && own->options.point_size_px == 0;
     ewa_status status = ewa_messages_open(context, &joint->exchange, &joint->messages);
     if (status == EWA_OK)
-        status = ewa_joint_tiles_settle(context, &joint->exchange, &joint->job, &joint->tiles);
+        status = ewa_joint_tiles_assign(context, &joint->exchange, &joint->job, &joint->tiles);
     if (status == EWA_OK) status = reserve(joint);
     *stats = (ewa_render_stats){.bin_s = (ewa_now_s() - start_s) * joint->worker_count};
     if (status == EWA_OK) status = ewa_joint_draw_alone(joint);

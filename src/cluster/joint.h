@@ -15,7 +15,7 @@ typedef struct ewa_joint_kept {
     uint32_t edge_rows[EWA_MAX_TILE_BLOCKS]; ///< blocks that had something behind, for the picture
     uint32_t open_rows[EWA_MAX_TILE_BLOCKS]; ///< blocks in which some pixel is still open
     uint32_t back_facing_rows[2][EWA_MAX_TILE_BLOCKS], cut_rows[2][EWA_MAX_TILE_BLOCKS];
-    uint32_t settled_rows[EWA_MAX_TILE_BLOCKS];
+    uint32_t finalized_rows[EWA_MAX_TILE_BLOCKS];
     bool layered;
 } ewa_joint_kept;
 
@@ -68,7 +68,7 @@ ewa_status ewa_joint_find_nearest(ewa_joint *joint);
 ewa_status ewa_joint_gather(ewa_joint *joint);
 
 /// Makes the surface of what was gathered, and tells the ranks what is still open. Errors: the same.
-ewa_status ewa_joint_settle(ewa_joint *joint);
+ewa_status ewa_joint_finalize(ewa_joint *joint);
 
 /// Binds a worker to the planes of a reduction and restores what it keeps.
 ewa_joint_kept *ewa_joint_take(ewa_joint *joint, uint32_t reduction, uint32_t worker, ewa_tile *tile);

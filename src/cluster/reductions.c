@@ -18,7 +18,7 @@ ewa_joint_kept *ewa_joint_take(ewa_joint *joint, uint32_t reduction, uint32_t wo
     memcpy(s->edges.rows, kept->open_rows, sizeof kept->open_rows);
     memcpy(s->back_facing_rows, kept->back_facing_rows, sizeof kept->back_facing_rows);
     memcpy(s->cut_rows, kept->cut_rows, sizeof kept->cut_rows);
-    memcpy(s->settled_rows, kept->settled_rows, sizeof kept->settled_rows);
+    memcpy(s->finalized_rows, kept->finalized_rows, sizeof kept->finalized_rows);
     ewa_tile_place(&joint->job, s, joint->tiles.reductions[reduction].tile, tile);
     tile->pixels = NULL;
     tile->sums.careful = true;
@@ -29,7 +29,7 @@ static void leave(const ewa_tile_scratch *s, ewa_joint_kept *kept) {
     memcpy(kept->open_rows, s->edges.rows, sizeof kept->open_rows);
     memcpy(kept->back_facing_rows, s->back_facing_rows, sizeof kept->back_facing_rows);
     memcpy(kept->cut_rows, s->cut_rows, sizeof kept->cut_rows);
-    memcpy(kept->settled_rows, s->settled_rows, sizeof kept->settled_rows);
+    memcpy(kept->finalized_rows, s->finalized_rows, sizeof kept->finalized_rows);
 }
 
 /// Closes the blocks of a tile that are not marked.
@@ -71,7 +71,7 @@ static void make_surface(void *data, uint32_t number, uint32_t worker) {
     put_sums(joint, reduction, worker, &tile);
     uint32_t marked = 0;
     if (joint->surface == 0) {
-        job->kernels->settle(&tile, &job->resolve);
+        job->kernels->finalize(&tile, &job->resolve);
         if (job->layers > 1) {
             memset(s->edges.rows, 0, sizeof s->edge_rows_left);
             memset(s->edges.rows, 0xff, tile.block_rows * sizeof *s->edges.rows);
@@ -169,7 +169,7 @@ static ewa_status read_updates(ewa_joint *joint) {
     return EWA_OK;
 }
 
-ewa_status ewa_joint_settle(ewa_joint *joint) {
+ewa_status ewa_joint_finalize(ewa_joint *joint) {
     const uint32_t count = joint->tiles.reduction_count;
     bool *was_open = ewa_allocate(joint->context, count, sizeof *was_open);
     if (!was_open) return EWA_ERROR_MEMORY;

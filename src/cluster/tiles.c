@@ -123,7 +123,7 @@ static void list_contributions(const ewa_exchange *exchange, ewa_joint_tiles *ti
     first[0] = 0;
 }
 
-ewa_status ewa_joint_tiles_settle(ewa_context *context, const ewa_exchange *exchange, const ewa_tile_job *job,
+ewa_status ewa_joint_tiles_assign(ewa_context *context, const ewa_exchange *exchange, const ewa_tile_job *job,
                                   ewa_joint_tiles *tiles) {
     tiles->tile_count = ewa_tiles_count(&job->tiles);
     EWA_TRY(gather_busy(context, exchange, job, tiles));

@@ -53,7 +53,7 @@ static inline uint32_t ewa_joint_count_blocks(const uint32_t rows[EWA_MAX_TILE_B
 
 /// Tells all ranks in which tiles this one has splats and settles who owns which: the same on all. Errors:
 /// EWA_ERROR_MEMORY, those of the exchange.
-ewa_status ewa_joint_tiles_settle(ewa_context *context, const ewa_exchange *exchange, const ewa_tile_job *job,
+ewa_status ewa_joint_tiles_assign(ewa_context *context, const ewa_exchange *exchange, const ewa_tile_job *job,
                                   ewa_joint_tiles *tiles);
 
 void ewa_joint_tiles_free(ewa_context *context, ewa_joint_tiles *tiles);

@@ -34,7 +34,7 @@ static size_t write_head(char *head) {
         {"GRAZING_TOLERANCE", EWA_GRAZING_TOLERANCE},
         {"CONTOUR_WIDTH", EWA_CONTOUR_WIDTH},
         {"CONTOUR_REACH", EWA_CONTOUR_REACH},
-        {"CONTOUR_HOLLOW", EWA_CONTOUR_HOLLOW},
+        {"CONTOUR_CONCAVE", EWA_CONTOUR_CONCAVE},
         {"MIN_KEY", EWA_MIN_KEY},
         {"PER_CUT", 1 / EWA_CUT},
         {"EDGES_OPPOSE", EWA_EDGES_OPPOSE},

@@ -45,7 +45,7 @@ size_t ewa_gl_head_write(const ewa_gl_arithmetic *arithmetic, char *head) {
         {"GRAZING_TOLERANCE", (float)EWA_GRAZING_TOLERANCE},
         {"CONTOUR_WIDTH", (float)EWA_CONTOUR_WIDTH},
         {"CONTOUR_REACH", (float)EWA_CONTOUR_REACH},
-        {"CONTOUR_HOLLOW", (float)EWA_CONTOUR_HOLLOW},
+        {"CONTOUR_CONCAVE", (float)EWA_CONTOUR_CONCAVE},
         {"MIN_KEY", (float)EWA_MIN_KEY},
         {"TANGENT_KEY", 1 - 1 / (float)16},
         {"FINE_SCALE", 4096},

@@ -35,19 +35,19 @@ static const double MAX_COARSER = 4096;
 enum { FACTOR_STEPS = 24, COVER_CELLS = 256, COVER_CELL_PX = 16 };
 
 /// A node before the camera.
-typedef struct sight_of {
+typedef struct node_view {
     bool seen;
     double spacing_px; ///< infinite: the camera is in it
     double offset_px;
     double low_px[2], high_px[2]; ///< of its box, which the picture may cut
     uint32_t first_row, end_row;
-} sight_of;
+} node_view;
 
 /// Rows and columns of the picture that a box in camera space may touch.
-static sight_of look_at(const ewa_cut *c, const ewa_lod_node *node) {
+static node_view view_node(const ewa_cut *c, const ewa_lod_node *node) {
     const ewa_camera *camera = c->camera;
     const double *m = c->to_camera;
-    const double reach = node->largest_radius_world * c->lod->look.radius_scale * c->scale;
+    const double reach = node->largest_radius_world * c->lod->appearance.radius_scale * c->scale;
     double at[3], half[3];
     for (int r = 0; r < 3; r++) {
         at[r] = m[4 * r + 3], half[r] = reach;
@@ -56,7 +56,7 @@ static sight_of look_at(const ewa_cut *c, const ewa_lod_node *node) {
             half[r] += fabs(m[4 * r + k]) * (node->box_high_world[k] - node->box_low_world[k]) / 2;
         }
     }
-    sight_of s = {.seen = false, .spacing_px = INFINITY, .end_row = camera->height_px,
+    node_view s = {.seen = false, .spacing_px = INFINITY, .end_row = camera->height_px,
                   .high_px = {camera->width_px, camera->height_px}};
     const double near_z = at[2] - half[2], far_z = at[2] + half[2];
     if (far_z <= 0) return s;
@@ -113,7 +113,7 @@ static double share_of_children(const ewa_cut *c, const ewa_lod_node *node, doub
     return node->divided ? share_of_finer(c, node, spacing_px, c->coarser) : 0;
 }
 
-static void add_item(ewa_cut *c, uint32_t node, uint32_t level, double weight, bool hides, const sight_of *s) {
+static void add_item(ewa_cut *c, uint32_t node, uint32_t level, double weight, bool hides, const node_view *s) {
     ewa_buffer *buffer = &c->home->items;
     c->status =
         ewa_buffer_grow(c->home->context, buffer, c->item_count, (size_t)c->item_count + 1, sizeof(ewa_cut_item));
@@ -130,14 +130,14 @@ static bool is_loaded(const ewa_cut *c, uint32_t index) { return c->lod->nodes[i
 static bool children_are_loaded(const ewa_cut *c, const ewa_lod_node *node) {
     for (int i = 0; i < 8; i++) {
         if (node->children[i] == EWA_NO_NODE || is_loaded(c, node->children[i])) continue;
-        if (look_at(c, &c->lod->nodes[node->children[i]]).seen) return false;
+        if (view_node(c, &c->lod->nodes[node->children[i]]).seen) return false;
     }
     return true;
 }
 
 static void choose(ewa_cut *c, uint32_t index, double weight) {
     const ewa_lod_node *node = &c->lod->nodes[index];
-    const sight_of s = look_at(c, node);
+    const node_view s = view_node(c, node);
     if (!s.seen || c->status != EWA_OK) return;
     double share = share_of_children(c, node, s.spacing_px);
     if (c->loaded_only && share > 0 && !children_are_loaded(c, node)) {
@@ -152,7 +152,7 @@ static void choose(ewa_cut *c, uint32_t index, double weight) {
 
 /// Chooses from the root on: levels of its surfels represent it as it represents its children, where it is far away.
 static void choose_all(ewa_cut *c) {
-    const sight_of s = look_at(c, c->lod->nodes);
+    const node_view s = view_node(c, c->lod->nodes);
     double weight = 1;
     for (uint32_t level = root_levels(c); level > 0 && s.seen && weight > 0; level--) {
         const double share = share_of_level(c, level, s.spacing_px);
@@ -162,19 +162,19 @@ static void choose_all(ewa_cut *c) {
     if (weight > 0) choose(c, 0, weight);
 }
 
-static void choose_ways(ewa_cut *c, uint32_t index) {
+static void choose_with_ancestors(ewa_cut *c, uint32_t index) {
     const ewa_lod_node *node = &c->lod->nodes[index];
-    const sight_of s = look_at(c, node);
+    const node_view s = view_node(c, node);
     if (!s.seen || c->status != EWA_OK) return;
     add_item(c, index, 0, 1, true, &s);
     if (share_of_children(c, node, s.spacing_px) > 0)
         for (int i = 0; i < 8; i++)
-            if (node->children[i] != EWA_NO_NODE) choose_ways(c, node->children[i]);
+            if (node->children[i] != EWA_NO_NODE) choose_with_ancestors(c, node->children[i]);
 }
 
-/// Looks at an octree: cuts are made in its own space.
-static void look_into(ewa_cut *c, ewa_lod *lod) {
-    const double *view = c->camera->world_to_camera, *place = lod->look.to_world;
+/// Takes up an octree: cuts are made in its own space.
+static void enter_octree(ewa_cut *c, ewa_lod *lod) {
+    const double *view = c->camera->world_to_camera, *place = lod->appearance.to_world;
     c->lod = lod;
     c->scale = vec3_length(vec3_load(&view[8])) * lod->stretch;
     for (int r = 0; r < 3; r++)
@@ -183,13 +183,13 @@ static void look_into(ewa_cut *c, ewa_lod *lod) {
                                       view[4 * r + 2] * place[8 + k] + (k == 3 ? view[4 * r + 3] : 0);
 }
 
-ewa_status ewa_cut_list_ways(ewa_cut *c) {
+ewa_status ewa_cut_list_with_ancestors(ewa_cut *c) {
     c->loaded_only = false;
     c->item_count = 0;
     c->status = EWA_OK;
     for (uint32_t i = 0; i < c->scene->lod_count; i++) {
-        look_into(c, c->scene->lods[i]);
-        choose_ways(c, 0);
+        enter_octree(c, c->scene->lods[i]);
+        choose_with_ancestors(c, 0);
     }
     return c->status;
 }
@@ -199,7 +199,7 @@ ewa_status ewa_cut_choose(ewa_cut *c, bool loaded_only) {
     c->item_count = c->missing_count = 0;
     c->status = EWA_OK;
     for (uint32_t i = 0; i < c->scene->lod_count; i++) {
-        look_into(c, c->scene->lods[i]);
+        enter_octree(c, c->scene->lods[i]);
         if (c->options->resident_only && !is_loaded(c, 0))
             c->missing_count++;
         else
@@ -218,7 +218,7 @@ static int compare_urgency(const void *a, const void *b) {
 }
 
 ewa_status ewa_cut_list_urgent(ewa_cut *c) {
-    EWA_TRY(ewa_cut_list_ways(c));
+    EWA_TRY(ewa_cut_list_with_ancestors(c));
     for (uint32_t i = 0; i < c->item_count; i++)
         c->items[i].lod->nodes[c->items[i].node].last_frame = c->items[i].lod->frame;
     if (c->item_count) qsort(c->items, c->item_count, sizeof *c->items, compare_urgency);
@@ -241,7 +241,7 @@ uint64_t ewa_cut_bytes_beside(const ewa_lod_scene *scene, const ewa_lod *lod) {
 /// Surfels of the cut below a node, each node by its weight and its part of the picture.
 static double count_below(const ewa_cut *c, uint32_t index) {
     const ewa_lod_node *node = &c->lod->nodes[index];
-    const sight_of s = look_at(c, node);
+    const node_view s = view_node(c, node);
     if (!s.seen) return 0;
     const double share = share_of_children(c, node, s.spacing_px);
     double count = 0;
@@ -265,8 +265,8 @@ static double count_all(ewa_cut *c, double coarser) {
     double count = 0;
     c->coarser = coarser;
     for (uint32_t i = 0; i < c->scene->lod_count; i++) {
-        look_into(c, c->scene->lods[i]);
-        const sight_of s = look_at(c, c->lod->nodes);
+        enter_octree(c, c->scene->lods[i]);
+        const node_view s = view_node(c, c->lod->nodes);
         double weight = 1;
         for (uint32_t level = root_levels(c); level > 0 && s.seen; level--) {
             const double share = share_of_level(c, level, s.spacing_px);
@@ -307,7 +307,7 @@ static void add_box(const cover *to, const double low_px[2], const double high_p
 /// Adds the boxes of a node's parts, down to those that are as small as cells.
 static void add_node(const ewa_cut *c, const cover *to, uint32_t index) {
     const ewa_lod_node *node = &c->lod->nodes[index];
-    const sight_of s = look_at(c, node);
+    const node_view s = view_node(c, node);
     if (!s.seen) return;
     const double side_px = fmax(s.high_px[0] - s.low_px[0], s.high_px[1] - s.low_px[1]);
     bool parts = false;
@@ -332,7 +332,7 @@ static ewa_status measure_cover(ewa_cut *c, double *pixels) {
     to.shares = c->home->cover.data;
     memset(to.shares, 0, count * sizeof(float));
     for (uint32_t i = 0; i < c->scene->lod_count; i++) {
-        look_into(c, c->scene->lods[i]);
+        enter_octree(c, c->scene->lods[i]);
         add_node(c, &to, 0);
     }
     double cells = 0;
@@ -342,7 +342,7 @@ static ewa_status measure_cover(ewa_cut *c, double *pixels) {
 }
 
 /// Finds how much coarser the picture has to be, so that it takes no more surfels than it may.
-static ewa_status settle(ewa_cut *c) {
+static ewa_status choose_coarseness(ewa_cut *c) {
     c->coarser = 1;
     if (c->options->error == 0) return EWA_OK;
     double limit = (double)c->options->max_splats, pixels;
@@ -360,9 +360,9 @@ static ewa_status settle(ewa_cut *c) {
             low = middle;
     }
     c->coarser = high;
-    const uint64_t fewest = c->options->max_splats && !c->home->fewest_told ? count_all(c, high) : 0;
+    const uint64_t fewest = c->options->max_splats && !c->home->fewest_reported ? count_all(c, high) : 0;
     if (fewest <= c->options->max_splats) return EWA_OK;
-    c->home->fewest_told = true;
+    c->home->fewest_reported = true;
     ewa_report(c->home->context, EWA_SEVERITY_NOTE,
                "octrees: %llu surfels and points are drawn, the fewest that there are; max_splats is %llu", (unsigned long long)fewest,
                (unsigned long long)c->options->max_splats);
@@ -381,5 +381,5 @@ ewa_status ewa_cut_begin(ewa_cut *c, const ewa_lod_scene *scene, const ewa_camer
                    .whole_roots = options->supersampling == 0,
                    .margin_px = 16};
     ewa_cut_next_frame(scene);
-    return settle(c);
+    return choose_coarseness(c);
 }

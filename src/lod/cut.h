@@ -59,7 +59,7 @@ ewa_status ewa_cut_choose(ewa_cut *cut, bool loaded_only);
 
 /// Lists each node that the picture wants with all of its ancestors, so that they can be read from the
 /// coarsest on and every picture on the way shows all that is there. Errors: EWA_ERROR_MEMORY.
-ewa_status ewa_cut_list_ways(ewa_cut *cut);
+ewa_status ewa_cut_list_with_ancestors(ewa_cut *cut);
 
 /// The same in the order in which they are to be read, marked as wanted: what is coarse first, then what is large and in the middle.
 ewa_status ewa_cut_list_urgent(ewa_cut *cut);

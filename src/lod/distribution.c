@@ -112,7 +112,7 @@ typedef struct slice {
     uint32_t *counts;  ///< [region]: then places in `records`
     uint8_t *records;  ///< sorted by region
     int64_t *places;   ///< [SLICE_POINTS][3]
-    uint64_t strays;   ///< points in cells that the statistics do not have
+    uint64_t unknown_count; ///< points in cells that the statistics do not have
 } slice;
 
 typedef struct distributor {
@@ -120,7 +120,7 @@ typedef struct distributor {
     const ewa_cloud *piece;
     slice slices[SLICES];
     uint32_t slice_count;
-    uint64_t stray_count;
+    uint64_t unknown_count;
 } distributor;
 
 static void free_distributor(distributor *s) {
@@ -178,7 +178,7 @@ static void find_regions(distributor *s, slice *part, uint64_t count) {
                        : UINT32_MAX;
         }
         if (cell == UINT32_MAX) {
-            part->strays++;
+            part->unknown_count++;
             continue;
         }
         part->cells[i] = cell;
@@ -221,7 +221,7 @@ static void sort_slice(void *data, uint32_t index, uint32_t worker) {
     slice *part = &s->slices[index];
     const uint64_t first = (uint64_t)index * SLICE_POINTS, left = ewa_cloud_point_count(s->piece) - first;
     const uint64_t count = left < SLICE_POINTS ? left : SLICE_POINTS;
-    part->strays = 0;
+    part->unknown_count = 0;
     ewa_statistics_places(&statistics->lattice, s->piece, first, count, part->places);
     find_regions(s, part, count);
     memset(part->counts, 0, ((size_t)distribution->region_count + 1) * sizeof *part->counts);
@@ -233,7 +233,7 @@ static void sort_slice(void *data, uint32_t index, uint32_t worker) {
         const uint32_t region = part->regions[i];
         if (region == UINT32_MAX || !distribution->regions[region].wanted) continue;
         uint8_t *record = part->records + (size_t)part->counts[region]++ * statistics->record_bytes;
-        if (write_record(statistics, s->piece, first + i, part->places + 3 * i, record)) part->strays++;
+        if (write_record(statistics, s->piece, first + i, part->places + 3 * i, record)) part->unknown_count++;
     }
 }
 
@@ -295,7 +295,7 @@ static ewa_status distribute_piece(void *user, const ewa_cloud *piece) {
     const size_t record_bytes = distribution->statistics->record_bytes;
     for (uint32_t i = 0; i < s->slice_count && status == EWA_OK; i++) {
         const slice *part = &s->slices[i];
-        s->stray_count += part->strays;
+        s->unknown_count += part->unknown_count;
         uint32_t first = 0; // counts have become the ends of regions
         for (uint32_t r = 0; r < distribution->region_count && status == EWA_OK; r++) {
             const uint32_t end = part->counts[r];
@@ -336,12 +336,12 @@ ewa_status ewa_distribution_make(const ewa_inputs *inputs, const ewa_statistics 
         ewa_region *region = &distribution->regions[i];
         if (region->own.filled) status = flush(distribution, &region->own);
         if (status == EWA_OK && region->around.filled) status = flush(distribution, &region->around);
-        if (region->wanted && region->own.count != region->point_count) s.stray_count++;
+        if (region->wanted && region->own.count != region->point_count) s.unknown_count++;
         ewa_release(distribution->context, region->own.buffer, BLOCK_BYTES, 1);
         ewa_release(distribution->context, region->around.buffer, BLOCK_BYTES, 1);
         region->own.buffer = region->around.buffer = NULL;
     }
-    if (status == EWA_OK && s.stray_count)
+    if (status == EWA_OK && s.unknown_count)
         status = ewa_fail(inputs->context, EWA_ERROR_FORMAT, "%s%s: changed while it was read",
                           inputs->paths[0], inputs->path_count > 1 ? ", or another of the files" : "");
     free_distributor(&s);

@@ -317,10 +317,10 @@ static ewa_status list_instances(ewa_lod_scene *scene) {
     return EWA_OK;
 }
 
-ewa_status ewa_lod_begin_picture(ewa_lod_scene *scene, const ewa_lod_look *const *looks, const ewa_render_options *options,
+ewa_status ewa_lod_begin_picture(ewa_lod_scene *scene, const ewa_lod_appearance *const *appearances, const ewa_render_options *options,
                            ewa_render_options *plain, ewa_lod_options *chosen) {
     EWA_TRY(list_instances(scene));
-    for (uint32_t i = 0; i < scene->lod_count; i++) EWA_TRY(ewa_tree_set_look(scene->lods[i], looks ? looks[i] : NULL));
+    for (uint32_t i = 0; i < scene->lod_count; i++) EWA_TRY(ewa_tree_set_appearance(scene->lods[i], appearances ? appearances[i] : NULL));
     EWA_TRY(ewa_render_options_choose(scene->lods[0]->context, options, plain));
     plain->budget_s = 0;
     // Nodes are as fine as the parts that are asked for; where they are to say how many, as fine as pixels.
@@ -329,7 +329,7 @@ ewa_status ewa_lod_begin_picture(ewa_lod_scene *scene, const ewa_lod_look *const
     return EWA_OK;
 }
 
-ewa_status ewa_lod_scene_draw(const ewa_lod_scene *scene, const ewa_lod_look *const *looks,
+ewa_status ewa_lod_scene_draw(const ewa_lod_scene *scene, const ewa_lod_appearance *const *appearances,
                               ewa_renderer *renderer, const ewa_camera *camera,
                               const ewa_render_options *options, const ewa_lod_options *lod_options,
                               const ewa_frame *frame, ewa_lod_stats *stats) {
@@ -359,7 +359,7 @@ ewa_status ewa_lod_scene_draw(const ewa_lod_scene *scene, const ewa_lod_look *co
     ewa_status status = EWA_OK;
     if (own.lod_count) {
         ewa_render_options plain;
-        EWA_TRY(ewa_lod_begin_picture(&own, looks, options, &plain, &chosen));
+        EWA_TRY(ewa_lod_begin_picture(&own, appearances, options, &plain, &chosen));
         status = render(&own, renderer, camera, &plain, &chosen, frame, &took);
     } else {
         status = render_surfels(&own, renderer, camera, options, frame, &took.render);

@@ -250,11 +250,11 @@ static float encode(float linear) {
 
 /// Mean square of the differences between a picture, moved by `share` of the way to another, and the true one, where either
 /// shows something; negative where nothing does.
-static double difference(const float *truth, const float *picture, const float *sharp, float share) {
+static double difference(const float *reference, const float *picture, const float *sharp, float share) {
     double sum = 0;
     uint32_t count = 0;
     for (uint32_t i = 0; i < PIXELS; i++) {
-        const float *t = truth + CHANNELS * i, *p = picture + CHANNELS * i, *q = sharp + CHANNELS * i;
+        const float *t = reference + CHANNELS * i, *p = picture + CHANNELS * i, *q = sharp + CHANNELS * i;
         if (t[3] == 0 && p[3] == 0) continue;
         count++;
         for (int c = 0; c < 3; c++) {
@@ -266,13 +266,13 @@ static double difference(const float *truth, const float *picture, const float *
 }
 
 /// The share of the way from one picture to another that is nearest to the true one.
-static float best_share(const float *truth, const float *picture, const float *sharp) {
+static float best_share(const float *reference, const float *picture, const float *sharp) {
     double along = 0, square = 0;
     for (uint32_t i = 0; i < PIXELS; i++)
         for (uint32_t c = 0; c < 3; c++) {
             const uint32_t at = CHANNELS * i + c;
             const double way = (double)sharp[at] - (double)picture[at];
-            along += way * ((double)truth[at] - (double)picture[at]);
+            along += way * ((double)reference[at] - (double)picture[at]);
             square += way * way;
         }
     const double share = square > 0 ? along / square : 0;
@@ -287,7 +287,7 @@ typedef struct verdict {
 
 static ewa_status try_scales(ewa_evaluator *evaluator, const ewa_camera *camera,
                              const ewa_representatives *merged, uint32_t first, uint32_t end,
-                             float unit_coverage, const float *truth, verdict *best) {
+                             float unit_coverage, const float *reference, verdict *best) {
     float *pictures[2] = {(float *)evaluator->pictures.data + PIXELS * CHANNELS,
                           (float *)evaluator->pictures.data + (size_t)2 * PIXELS * CHANNELS};
     ewa_status status = EWA_OK;
@@ -301,8 +301,8 @@ static ewa_status try_scales(ewa_evaluator *evaluator, const ewa_camera *camera,
             ewa_surfels_destroy(&surfels);
         }
         if (status != EWA_OK) break;
-        const float share = best_share(truth, pictures[0], pictures[1]);
-        const double error2 = difference(truth, pictures[0], pictures[1], share);
+        const float share = best_share(reference, pictures[0], pictures[1]);
+        const double error2 = difference(reference, pictures[0], pictures[1], share);
         if (k == 0 || error2 < best->error2) *best = (verdict){RADIUS_SCALES[k], share, error2};
     }
     return status;

@@ -42,7 +42,7 @@ ewa_status ewa_lod_open(ewa_context *context, const char *path, ewa_lod **lod) {
     if (!made) return EWA_ERROR_MEMORY;
     made->context = context;
     ewa_status status = open_tree(made, path);
-    if (status == EWA_OK) status = ewa_tree_set_look(made, NULL);
+    if (status == EWA_OK) status = ewa_tree_set_appearance(made, NULL);
     if (status == EWA_OK)
         *lod = made;
     else
@@ -62,7 +62,7 @@ static ewa_status add_instance(ewa_lod *lod, ewa_lod **added) {
                         .has_surfels = lod->has_surfels,
                         .is_instance = true};
     ewa_status status = ewa_tree_make(*added);
-    if (status == EWA_OK) status = ewa_tree_set_look(*added, NULL);
+    if (status == EWA_OK) status = ewa_tree_set_appearance(*added, NULL);
     if (status != EWA_OK) ewa_lod_close(added);
     return status;
 }
@@ -93,7 +93,7 @@ void ewa_lod_close(ewa_lod **lod) {
     ewa_release(context, old->cloud_frames, node_count, sizeof *old->cloud_frames);
     ewa_buffer nodes = {old->nodes, old->node_capacity_bytes};
     ewa_buffer_free(context, &nodes);
-    ewa_buffer_free(context, &old->look_user);
+    ewa_buffer_free(context, &old->appearance_user);
     ewa_buffer_free(context, &old->items);
     ewa_buffer_free(context, &old->cover);
     ewa_buffer_free(context, &old->instances);

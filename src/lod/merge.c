@@ -48,7 +48,7 @@ static int compare_numbers(const void *a, const void *b) {
 }
 
 /// The mean of the finite ones by area; NaN where there is none.
-static double mean_of(const weighed *of, uint32_t count) {
+static double weighted_mean(const weighed *of, uint32_t count) {
     double sum = 0, weights = 0;
     for (uint32_t i = 0; i < count; i++) {
         if (!isfinite(of[i].number)) continue;
@@ -58,16 +58,16 @@ static double mean_of(const weighed *of, uint32_t count) {
     return weights > 0 ? sum / weights : (double)NAN;
 }
 
-/// The number that most area has, of several the smallest.
-static double most_of(weighed *of, uint32_t count) {
-    double most = of[0].number, maximum = -1;
+/// The number of the largest area, of several the smallest.
+static double weighted_mode(weighed *of, uint32_t count) {
+    double mode = of[0].number, maximum = -1;
     qsort(of, count, sizeof *of, compare_numbers);
     for (uint32_t first = 0, next; first < count; first = next) {
         double weight = of[first].weight;
         for (next = first + 1; next < count && of[next].number == of[first].number; next++) weight += of[next].weight;
-        if (weight > maximum) maximum = weight, most = of[first].number;
+        if (weight > maximum) maximum = weight, mode = of[first].number;
     }
-    return most;
+    return mode;
 }
 
 static int compare_floats(const void *a, const void *b) {
@@ -119,8 +119,8 @@ static double height_of(const sheet *from) {
         moment -= middle * from->normal[c];
         square -= middle * from->offset[c];
     }
-    const double height = moment / (2 * from->weight), most = square > 0 ? sqrt(square / from->weight) / 2 : 0;
-    return height < -most ? -most : height > most ? most : height;
+    const double height = moment / (2 * from->weight), limit = square > 0 ? sqrt(square / from->weight) / 2 : 0;
+    return height < -limit ? -limit : height > limit ? limit : height;
 }
 
 static ewa_representative finish(const sheet *from, uint64_t code) {
@@ -154,9 +154,9 @@ static void merge_numbers(const merge_job *job, uint32_t first, uint32_t count, 
                 same = same && of[members].number == of[0].number;
                 members++;
             }
-            made[(size_t)k * number_count + a] = same                     ? of[0].number
-                                                 : job->means >> a & 1 ? mean_of(of, members)
-                                                                       : most_of(of, members);
+            made[(size_t)k * number_count + a] = same                  ? of[0].number
+                                                 : job->means >> a & 1 ? weighted_mean(of, members)
+                                                                       : weighted_mode(of, members);
         }
 }
 

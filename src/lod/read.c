@@ -50,9 +50,9 @@ enum { BATCH = EWA_TREE_BATCH, BATCH_NODES = BATCH * EWA_OCTREE_LEVELS };
 static ewa_status fetch_nodes(ewa_lod *lod, const ewa_tree_reading *how, const uint32_t *file_nodes, uint32_t count) {
     uint32_t missing[BATCH_NODES], missing_count = 0;
     ewa_cloud *clouds[BATCH_NODES];
-    if (strcmp(how->look->attributes, lod->cloud_attributes) != 0) {
+    if (strcmp(how->appearance->attributes, lod->cloud_attributes) != 0) {
         ewa_tree_trim_points(lod, 0);
-        snprintf(lod->cloud_attributes, sizeof lod->cloud_attributes, "%s", how->look->attributes);
+        snprintf(lod->cloud_attributes, sizeof lod->cloud_attributes, "%s", how->appearance->attributes);
     }
     for (uint32_t i = 0; i < count; i++) {
         lod->cloud_frames[file_nodes[i]] = how->frame;
@@ -61,8 +61,8 @@ static ewa_status fetch_nodes(ewa_lod *lod, const ewa_tree_reading *how, const u
         if (!known) missing[missing_count++] = file_nodes[i];
     }
     if (!missing_count) return EWA_OK;
-    char attributes[sizeof SURFEL_ATTRIBUTES + EWA_LOD_LOOK_NAMES_BYTES] = SURFEL_ATTRIBUTES;
-    strcat(attributes, how->look->attributes);
+    char attributes[sizeof SURFEL_ATTRIBUTES + EWA_LOD_ATTRIBUTES_BYTES] = SURFEL_ATTRIBUTES;
+    strcat(attributes, how->appearance->attributes);
     EWA_TRY(ewa_octree_read(lod->octree, missing, missing_count, attributes, clouds));
     for (uint32_t i = 0; i < missing_count; i++) ewa_tree_keep_points(lod, missing[i], clouds[i]);
     return EWA_OK;
@@ -138,23 +138,23 @@ static ewa_status gather_points(ewa_lod *lod, const ewa_lod_node *node, const ui
 }
 
 /// Changes a node's points as the look says, before what they lack is estimated, or afterwards.
-static ewa_status place(const ewa_lod_look *look, ewa_cloud **cloud) {
-    return look->place ? look->place(look->user, cloud) : EWA_OK;
+static ewa_status place(const ewa_lod_appearance *appearance, ewa_cloud **cloud) {
+    return appearance->place ? appearance->place(appearance->user, cloud) : EWA_OK;
 }
 
-static ewa_status paint(const ewa_lod_look *look, ewa_cloud **cloud) {
-    return look->paint ? look->paint(look->user, cloud) : EWA_OK;
+static ewa_status paint(const ewa_lod_appearance *appearance, ewa_cloud **cloud) {
+    return appearance->paint ? appearance->paint(appearance->user, cloud) : EWA_OK;
 }
 
 /// Makes surfels of a node, of its cloud.
-static ewa_status make_surfels(const ewa_lod *lod, const ewa_lod_look *look, const ewa_cloud *cloud, double radius_scale,
+static ewa_status make_surfels(const ewa_lod *lod, const ewa_lod_appearance *appearance, const ewa_cloud *cloud, double radius_scale,
                                ewa_surfels **surfels) {
     ewa_surfels_options options;
     ewa_surfels_options_init(&options, sizeof options);
-    options.radius_scale = radius_scale * look->radius_scale;
+    options.radius_scale = radius_scale * appearance->radius_scale;
     EWA_TRY(ewa_surfels_create(cloud, &options, surfels));
     // What the file says of its surface no longer holds where it is pressed together.
-    if (lod->levels.unit_coverage > 0 && is_similar(look->to_world))
+    if (lod->levels.unit_coverage > 0 && is_similar(appearance->to_world))
         ewa_surfels_set_unit_coverage(*surfels, lod->levels.unit_coverage * options.radius_scale * options.radius_scale);
     return EWA_OK;
 }
@@ -167,7 +167,7 @@ static ewa_status load_points(ewa_lod *lod, const ewa_tree_reading *how, const e
     ewa_estimate_options_init(&options, sizeof options);
     ewa_status status = fetch_nodes(lod, how, file_nodes, count);
     if (status == EWA_OK) status = gather_points(lod, node, file_nodes, count, &cloud);
-    if (status == EWA_OK) status = place(how->look, &cloud);
+    if (status == EWA_OK) status = place(how->appearance, &cloud);
     if (status == EWA_OK && !lod->has_surfels && ewa_cloud_point_count(cloud))
         status = ewa_cloud_estimate(&cloud, &options);
     // Points of a node end where its cell does, not where their surface does.
@@ -177,8 +177,8 @@ static ewa_status load_points(ewa_lod *lod, const ewa_tree_reading *how, const e
         status = ewa_cloud_add(cloud, EWA_NORMAL, EWA_F32, 3, NULL);
         if (status == EWA_OK) status = ewa_cloud_add(cloud, EWA_RADIUS, EWA_F32, 1, NULL);
     }
-    if (status == EWA_OK) status = paint(how->look, &cloud);
-    if (status == EWA_OK) status = make_surfels(lod, how->look, cloud, 1, surfels);
+    if (status == EWA_OK) status = paint(how->appearance, &cloud);
+    if (status == EWA_OK) status = make_surfels(lod, how->appearance, cloud, 1, surfels);
     ewa_cloud_destroy(&cloud);
     return status;
 }
@@ -284,7 +284,7 @@ static ewa_status load_pages(ewa_lod *lod, const ewa_tree_reading *how, const ui
     ewa_status status = EWA_OK;
     for (uint32_t i = 0; i < count && status == EWA_OK; i++) {
         const ewa_lod_node *node = &lod->nodes[nodes[i]];
-        status = prepare_page(lod, node, how->look->attributes, &pages[i]);
+        status = prepare_page(lod, node, how->appearance->attributes, &pages[i]);
         blocks[i] = range_of(&lod->levels.pages[node->page], pages[i].has_streams);
     }
     if (status == EWA_OK) status = ewa_octree_need_levels(lod->octree, blocks, count);
@@ -297,10 +297,10 @@ static ewa_status load_pages(ewa_lod *lod, const ewa_tree_reading *how, const ui
             status = ewa_fail(lod->context, EWA_ERROR_FORMAT,
                               "the surfels of node %d-%d-%d-%d are damaged: %s", node->key.level,
                               node->key.cell[0], node->key.cell[1], node->key.cell[2], pages[i].fault);
-        if (status == EWA_OK) status = place(how->look, &pages[i].cloud);
-        if (status == EWA_OK) status = paint(how->look, &pages[i].cloud);
+        if (status == EWA_OK) status = place(how->appearance, &pages[i].cloud);
+        if (status == EWA_OK) status = paint(how->appearance, &pages[i].cloud);
         if (status == EWA_OK)
-            status = make_surfels(lod, how->look, pages[i].cloud, (double)lod->levels.pages[node->page].radius_scale,
+            status = make_surfels(lod, how->appearance, pages[i].cloud, (double)lod->levels.pages[node->page].radius_scale,
                                   &surfels[i]);
         // Beyond the root nothing represents it (cut.c).
         if (status == EWA_OK && nodes[i] == 0) status = ewa_levels_make(surfels[i], EWA_MAX_LEVELS);
@@ -350,7 +350,7 @@ ewa_status ewa_tree_read(ewa_lod *lod, const ewa_tree_reading *how, const uint32
 
 /// Reads a batch and puts it into the tree.
 static ewa_status load_batch(ewa_lod *lod, const uint32_t *nodes, uint32_t *count, uint64_t memory_bytes) {
-    const ewa_tree_reading how = {&lod->look, lod->frame, memory_bytes};
+    const ewa_tree_reading how = {&lod->appearance, lod->frame, memory_bytes};
     ewa_surfels *surfels[BATCH];
     EWA_TRY(ewa_tree_read(lod, &how, nodes, *count, surfels));
     for (uint32_t i = 0; i < *count; i++) ewa_tree_put(lod, nodes[i], surfels[i]);

@@ -12,19 +12,19 @@
 
 /// Copies how the octree looks, which may change while its nodes are read.
 static ewa_status copy_look(ewa_lod_reading *reading) {
-    const ewa_lod_look *look = &reading->lod->look;
-    if (look->user_bytes) {
-        EWA_TRY(ewa_buffer_reserve(reading->context, &reading->look_user, look->user_bytes, 1));
-        memcpy(reading->look_user.data, look->user, look->user_bytes);
+    const ewa_lod_appearance *appearance = &reading->lod->appearance;
+    if (appearance->user_bytes) {
+        EWA_TRY(ewa_buffer_reserve(reading->context, &reading->appearance_user, appearance->user_bytes, 1));
+        memcpy(reading->appearance_user.data, appearance->user, appearance->user_bytes);
     }
-    reading->look = *look;
-    reading->look.user = reading->look_user.data;
+    reading->appearance = *appearance;
+    reading->appearance.user = reading->appearance_user.data;
     return EWA_OK;
 }
 
 /// Takes the first nodes of the list that are to be read, of one octree.
-static void take_urgent(ewa_lod_reading *reading, const ewa_cut *c, uint32_t most) {
-    for (uint32_t i = 0; i < c->item_count && reading->count < most; i++) {
+static void take_urgent(ewa_lod_reading *reading, const ewa_cut *c, uint32_t max_count) {
+    for (uint32_t i = 0; i < c->item_count && reading->count < max_count; i++) {
         ewa_lod *lod = c->items[i].lod;
         const uint32_t index = c->items[i].node;
         if (lod->nodes[index].surfels || lod->nodes[index].damaged) continue;
@@ -43,9 +43,9 @@ static void take_urgent(ewa_lod_reading *reading, const ewa_cut *c, uint32_t mos
     }
 }
 
-ewa_status ewa_lod_reading_choose(ewa_lod_reading *reading, const ewa_lod_scene *given, const ewa_lod_look *const *looks,
+ewa_status ewa_lod_reading_choose(ewa_lod_reading *reading, const ewa_lod_scene *given, const ewa_lod_appearance *const *appearances,
                                   const ewa_camera *camera, const ewa_render_options *options,
-                                  const ewa_lod_options *lod_options, uint32_t most) {
+                                  const ewa_lod_options *lod_options, uint32_t max_count) {
     reading->count = 0;
     reading->lod = NULL;
     if (!given->lod_count) return EWA_OK;
@@ -56,30 +56,30 @@ ewa_status ewa_lod_reading_choose(ewa_lod_reading *reading, const ewa_lod_scene 
     ewa_lod_options_init(&chosen, sizeof chosen);
     EWA_TRY(ewa_options_take(context, &ewa_lod_options_table, lod_options, &chosen));
     EWA_TRY(ewa_camera_check(context, camera));
-    EWA_TRY(ewa_lod_begin_picture(&scene, looks, options, &plain, &chosen));
+    EWA_TRY(ewa_lod_begin_picture(&scene, appearances, options, &plain, &chosen));
     ewa_cut c;
     EWA_TRY(ewa_cut_begin(&c, &scene, camera, &plain, &chosen));
     EWA_TRY(ewa_cut_list_urgent(&c));
-    if (reading->careful_count) most = 1;
-    take_urgent(reading, &c, most < EWA_TREE_BATCH ? most : EWA_TREE_BATCH);
+    if (reading->careful_count) max_count = 1;
+    take_urgent(reading, &c, max_count < EWA_TREE_BATCH ? max_count : EWA_TREE_BATCH);
     if (reading->count && reading->careful_count) reading->careful_count--;
     return reading->count ? copy_look(reading) : EWA_OK;
 }
 
 ewa_status ewa_lod_reading_read(ewa_lod_reading *reading) {
-    const ewa_tree_reading how = {&reading->look, reading->frame, reading->memory_bytes};
+    const ewa_tree_reading how = {&reading->appearance, reading->frame, reading->memory_bytes};
     ewa_lod *lod = reading->lod;
-    const bool told = lod->damage_told; // of a file that was cut short each node would be
+    const bool told = lod->damage_reported; // of a file that was cut short each node would be
     if (told) ewa_failures_hush(lod->context, true);
     const ewa_status status = ewa_tree_read(lod, &how, reading->nodes, reading->count, reading->surfels);
     if (told) ewa_failures_hush(lod->context, false);
-    lod->damage_told = lod->damage_told || status != EWA_OK;
+    lod->damage_reported = lod->damage_reported || status != EWA_OK;
     return status;
 }
 
 void ewa_lod_reading_put(ewa_lod_reading *reading) {
     ewa_lod *lod = reading->lod;
-    const bool same = ewa_tree_looks_agree(&reading->look, &lod->look);
+    const bool same = ewa_tree_appearances_equal(&reading->appearance, &lod->appearance);
     for (uint32_t i = 0; i < reading->count; i++) {
         ewa_lod_node *node = &lod->nodes[reading->nodes[i]];
         if (!reading->surfels[i]) {
@@ -96,4 +96,4 @@ void ewa_lod_reading_put(ewa_lod_reading *reading) {
     reading->count = 0;
 }
 
-void ewa_lod_reading_free(ewa_lod_reading *reading) { ewa_buffer_free(reading->context, &reading->look_user); }
+void ewa_lod_reading_free(ewa_lod_reading *reading) { ewa_buffer_free(reading->context, &reading->appearance_user); }

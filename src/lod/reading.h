@@ -14,21 +14,21 @@ typedef struct ewa_lod_reading {
     uint32_t nodes[EWA_TREE_BATCH], count;
     ewa_surfels *surfels[EWA_TREE_BATCH]; ///< all NULL where they could not be read
     uint32_t careful_count;               ///< so many are to be read one by one: one of them is damaged
-    ewa_lod_look look;                    ///< the octree's when they were chosen
-    ewa_buffer look_user;
+    ewa_lod_appearance appearance;        ///< the octree's when they were chosen
+    ewa_buffer appearance_user;
     uint64_t frame, memory_bytes;
 } ewa_lod_reading;
 
 /// Makes a picture of octrees ready: instances in the place of octrees that are there several times, as they look; options
-/// for parts of pixels. `scene` has octrees; `looks` and `options` may be NULL. Errors: as ewa_lod_scene_draw().
-ewa_status ewa_lod_begin_picture(ewa_lod_scene *scene, const ewa_lod_look *const *looks, const ewa_render_options *options,
+/// for parts of pixels. `scene` has octrees; `appearances` and `options` may be NULL. Errors: as ewa_lod_scene_draw().
+ewa_status ewa_lod_begin_picture(ewa_lod_scene *scene, const ewa_lod_appearance *const *appearances, const ewa_render_options *options,
                            ewa_render_options *plain, ewa_lod_options *chosen);
 
-/// Chooses at most `most` nodes that a picture needs and that are not in memory, the most urgent first; none where nothing
+/// Chooses at most `max_count` nodes that a picture needs and that are not in memory, the most urgent first; none where nothing
 /// is missing, or where there is no memory for more. Not while the octrees are drawn. Errors: as ewa_lod_scene_draw().
-ewa_status ewa_lod_reading_choose(ewa_lod_reading *reading, const ewa_lod_scene *scene, const ewa_lod_look *const *looks,
+ewa_status ewa_lod_reading_choose(ewa_lod_reading *reading, const ewa_lod_scene *scene, const ewa_lod_appearance *const *appearances,
                                   const ewa_camera *camera, const ewa_render_options *options,
-                                  const ewa_lod_options *lod_options, uint32_t most);
+                                  const ewa_lod_options *lod_options, uint32_t max_count);
 
 /// Reads them, also while the octrees are drawn with ewa_lod_options.resident_only. What is damaged of an octree is reported once. Errors: as
 /// ewa_lod_open().

@@ -239,7 +239,7 @@ static int compare_cells(const void *a, const void *b) {
 }
 
 /// Fixes the root's cube, and the cells in it.
-static ewa_status settle(statistics_job *s) {
+static ewa_status fix_root_cube(statistics_job *s) {
     ewa_statistics *statistics = s->statistics;
     ewa_lattice *lattice = &statistics->lattice;
     uint64_t cells = 1;
@@ -288,7 +288,7 @@ static ewa_status make_columns(const ewa_inputs *inputs, ewa_statistics *statist
     return EWA_OK;
 }
 
-static void free_surveyor(statistics_job *s) {
+static void free_job(statistics_job *s) {
     for (uint32_t i = 0; i < SLICES; i++) {
         ewa_release(s->context, s->slices[i].cells, SLICE_POINTS, sizeof *s->slices[i].cells);
         ewa_release(s->context, s->slices[i].varies, s->statistics->column_count,
@@ -299,7 +299,7 @@ static void free_surveyor(statistics_job *s) {
     ewa_release(s->context, s->table, TABLE, sizeof *s->table);
 }
 
-static ewa_status make_surveyor(const ewa_inputs *inputs, ewa_statistics *statistics, statistics_job *s) {
+static ewa_status make_job(const ewa_inputs *inputs, ewa_statistics *statistics, statistics_job *s) {
     ewa_context *context = inputs->context;
     *s = (statistics_job){.inputs = inputs,
                           .context = context,
@@ -366,11 +366,11 @@ ewa_status ewa_statistics_make(const ewa_inputs *inputs, ewa_statistics *statist
         statistics_job s;
         statistics->point_count = statistics->left_out_count = 0;
         for (int c = 0; c < 3; c++) statistics->minimum[c] = INT64_MAX, statistics->maximum[c] = INT64_MIN;
-        status = make_surveyor(inputs, statistics, &s);
+        status = make_job(inputs, statistics, &s);
         if (status == EWA_OK) status = ewa_inputs_read(inputs, "statistics", count_piece, &s);
         const bool fits = bits_of(longest_side(statistics)) <= MAX_EXTENT_BITS;
-        if (status == EWA_OK && fits) status = settle(&s);
-        free_surveyor(&s);
+        if (status == EWA_OK && fits) status = fix_root_cube(&s);
+        free_job(&s);
         if (status != EWA_OK || fits) break;
         if (i == TRIES)
             status = ewa_fail(inputs->context, EWA_ERROR_LIMIT, "%s: coordinates are too far apart",

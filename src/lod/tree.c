@@ -123,15 +123,15 @@ static ewa_status add_parts(ewa_lod *lod) {
 static void share_counts(ewa_lod *lod) {
     for (uint32_t i = 0; i < lod->node_count; i++) {
         const ewa_lod_node *node = &lod->nodes[i];
-        uint32_t sharers[8], count = 0;
+        uint32_t holders[8], count = 0;
         for (int child = 0; child < 8; child++) {
             const uint32_t index = node->children[child];
             // Next to nothing lies where no node is.
             if (index != EWA_NO_NODE &&
                 (lod->nodes[index].file_node != UINT32_MAX || lod->nodes[index].divided))
-                sharers[count++] = index;
+                holders[count++] = index;
         }
-        for (uint32_t k = 0; k < count; k++) lod->nodes[sharers[k]].count += node->count / count;
+        for (uint32_t k = 0; k < count; k++) lod->nodes[holders[k]].count += node->count / count;
     }
 }
 
@@ -225,7 +225,7 @@ void ewa_tree_trim(ewa_lod *lod, uint64_t memory_bytes) {
     }
 }
 
-bool ewa_tree_looks_agree(const ewa_lod_look *a, const ewa_lod_look *b) {
+bool ewa_tree_appearances_equal(const ewa_lod_appearance *a, const ewa_lod_appearance *b) {
     return a->place == b->place && a->paint == b->paint && a->radius_scale == b->radius_scale &&
            a->user_bytes == b->user_bytes && memcmp(a->to_world, b->to_world, sizeof a->to_world) == 0 &&
            strcmp(a->attributes, b->attributes) == 0 &&
@@ -257,22 +257,22 @@ bool ewa_tree_make_room(ewa_lod *lod, uint32_t node, uint64_t memory_bytes) {
     return lod->resident_bytes + lod->cloud_bytes + bytes <= memory_bytes;
 }
 
-ewa_status ewa_tree_set_look(ewa_lod *lod, const ewa_lod_look *given) {
-    static const ewa_lod_look as_it_is = {.to_world = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1},
-                                          .radius_scale = 1};
-    const ewa_lod_look *look = given ? given : &as_it_is;
-    if (ewa_tree_looks_agree(look, &lod->look)) return EWA_OK;
+ewa_status ewa_tree_set_appearance(ewa_lod *lod, const ewa_lod_appearance *given) {
+    static const ewa_lod_appearance as_it_is = {.to_world = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1},
+                                                .radius_scale = 1};
+    const ewa_lod_appearance *appearance = given ? given : &as_it_is;
+    if (ewa_tree_appearances_equal(appearance, &lod->appearance)) return EWA_OK;
     for (uint32_t i = 0; i < lod->node_count; i++) {
         ewa_tree_drop(lod, i);
-        lod->nodes[i].damaged = false; // it may have been the look
+        lod->nodes[i].damaged = false; // the appearance may have been the reason
     }
-    lod->look = as_it_is;
+    lod->appearance = as_it_is;
     lod->stretch = 1;
-    if (look->user_bytes) EWA_TRY(ewa_buffer_reserve(lod->context, &lod->look_user, look->user_bytes, 1));
-    if (look->user_bytes) memcpy(lod->look_user.data, look->user, look->user_bytes);
-    lod->look = *look;
-    lod->look.user = lod->look_user.data;
-    lod->stretch = stretch_of(look->to_world);
+    if (appearance->user_bytes) EWA_TRY(ewa_buffer_reserve(lod->context, &lod->appearance_user, appearance->user_bytes, 1));
+    if (appearance->user_bytes) memcpy(lod->appearance_user.data, appearance->user, appearance->user_bytes);
+    lod->appearance = *appearance;
+    lod->appearance.user = lod->appearance_user.data;
+    lod->stretch = stretch_of(appearance->to_world);
     return EWA_OK;
 }
 

@@ -8,7 +8,7 @@
 #include "ewa/lod.h"
 #include "io/levels.h"
 #include "io/octree.h"
-#include "lod/look.h"
+#include "lod/appearance.h"
 
 #include <math.h>
 
@@ -48,13 +48,13 @@ struct ewa_lod {
     size_t resident_bytes;  ///< of all surfels
     ewa_cloud **clouds;     ///< [node]: its points, of those that are kept; else NULL
     uint64_t *cloud_frames; ///< [node]: when its points were wanted last
-    char cloud_attributes[EWA_LOD_LOOK_NAMES_BYTES]; ///< that they were read with, beside those of surfels
+    char cloud_attributes[EWA_LOD_ATTRIBUTES_BYTES]; ///< that they were read with, beside those of surfels
     size_t cloud_bytes;
-    ewa_lod_look look;    ///< of what is in memory
+    ewa_lod_appearance appearance; ///< of what is in memory
     double stretch;       ///< that no length grows by more in `look`
-    ewa_buffer look_user; ///< the copy that it has
-    bool damage_told;     ///< that some nodes cannot be read
-    bool fewest_told;     ///< that there are no fewer surfels than are drawn
+    ewa_buffer appearance_user; ///< the copy that it has
+    bool damage_reported; ///< that some nodes cannot be read
+    bool fewest_reported; ///< that there are no fewer surfels than are drawn
     ewa_lod *next;        ///< another instance of the same octree, closed with this one; NULL: none
     bool is_instance;     ///< file and levels are those of the octree that was opened
     ewa_buffer items;     ///< of the frame (cut.c)
@@ -68,12 +68,12 @@ struct ewa_lod {
 /// closed. Errors: EWA_ERROR_MEMORY.
 ewa_status ewa_tree_instance(ewa_lod *lod, uint32_t number, ewa_lod **instance);
 
-/// Sets how an octree looks, NULL: as it is, and drops what is in memory if it looked otherwise. Errors:
+/// Sets how an octree appearances, NULL: as it is, and drops what is in memory if it looked otherwise. Errors:
 /// EWA_ERROR_MEMORY; then nothing is in memory.
-ewa_status ewa_tree_set_look(ewa_lod *lod, const ewa_lod_look *look);
+ewa_status ewa_tree_set_appearance(ewa_lod *lod, const ewa_lod_appearance *appearance);
 
 /// Whether what was made with one look is what another one makes.
-bool ewa_tree_looks_agree(const ewa_lod_look *a, const ewa_lod_look *b);
+bool ewa_tree_appearances_equal(const ewa_lod_appearance *a, const ewa_lod_appearance *b);
 
 /// Makes the nodes of an open octree. Errors: EWA_ERROR_MEMORY, EWA_ERROR_FORMAT.
 ewa_status ewa_tree_make(ewa_lod *lod);
@@ -101,7 +101,7 @@ uint32_t ewa_tree_child_of(const ewa_octree_key *key);
 
 /// How nodes are read.
 typedef struct ewa_tree_reading {
-    const ewa_lod_look *look;
+    const ewa_lod_appearance *appearance;
     uint64_t frame, memory_bytes; ///< an eighth of the memory is for points that nodes share
 } ewa_tree_reading;
 

@@ -13,7 +13,7 @@ enum {
 };
 
 /// The largest change of a gain or an offset with which the turns end.
-static const double SETTLED = 2e-6;
+static const double CONVERGED = 2e-6;
 
 /// One photograph's number and weight.
 typedef struct said {
@@ -144,7 +144,7 @@ static void find_vignetting(ewa_photos_job *job, double scale) {
             ewa_vignetting_add(shown, wanted, radius2, weight, sums);
         }
     }
-    ewa_vignetting_settle(sums, job->vignetting);
+    ewa_vignetting_solve(sums, job->vignetting);
 }
 
 /// Gains and offsets of all photographs.
@@ -171,12 +171,12 @@ static ewa_status find_exposures(ewa_photos_job *job, double begin, double end, 
         if (job->options.vignetting) find_vignetting(job, exposure.scale);
         double change = fmax(fabs(job->vignetting[0] - lens[0]), fabs(job->vignetting[1] - lens[1]));
         for (size_t i = 0; i < count; i++) change = fmax(change, fabs(after[i] - before[i]));
-        if (step >= WIDE_STEPS && change < SETTLED) break;
+        if (step >= WIDE_STEPS && change < CONVERGED) break;
     }
     return EWA_OK;
 }
 
-ewa_status ewa_photos_settle(ewa_photos_job *job, double begin, double end) {
+ewa_status ewa_photos_alternate(ewa_photos_job *job, double begin, double end) {
     const size_t count = (size_t)job->photo_count * EWA_PHOTO_CHANNELS * 2;
     ewa_status status = EWA_OK;
     if (job->options.exposure != EWA_EXPOSURE_OFF || job->options.vignetting) {

@@ -80,7 +80,7 @@ void ewa_vignetting_add(const double shown[EWA_PHOTO_CHANNELS], const double wan
     }
 }
 
-void ewa_vignetting_settle(const double sums[EWA_VIGNETTING_SUMS], double vignetting[2]) {
+void ewa_vignetting_solve(const double sums[EWA_VIGNETTING_SUMS], double vignetting[2]) {
     const double xx = sums[0] * (1 + VIGNETTING_DAMPING), xy = sums[1], yy = sums[2] * (1 + VIGNETTING_DAMPING);
     const double determinant = xx * yy - xy * xy;
     if (!(determinant > 0)) return;

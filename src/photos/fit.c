@@ -60,7 +60,7 @@ static void weigh_piece(void *data, uint32_t index, uint32_t worker) {
 static ewa_status add_photo(ewa_photo_match *at, fit_round *round) {
     const ewa_photos_job *job = at->job;
     const bool exposed = ewa_photo_is_exposed(at->photo);
-    EWA_TRY(ewa_photo_match_settle(at, exposed ? EXPOSURE_STEPS : 0, 0, exposed ? job->options.pose_steps : 0));
+    EWA_TRY(ewa_photo_match_refine(at, exposed ? EXPOSURE_STEPS : 0, 0, exposed ? job->options.pose_steps : 0));
     at->photo->fitted.camera = at->view->camera;
     ewa_parallel(job->context, weigh_piece, at, (at->view->pixel_count + EWA_PHOTO_PIECE - 1) / EWA_PHOTO_PIECE);
     EWA_TRY(ewa_photo_view_gather(at->view, at->shown, round->sides));

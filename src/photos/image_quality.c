@@ -17,7 +17,7 @@ enum { RADIUS = 5, TAPS = 2 * RADIUS + 1, MOMENTS = 5 };
 static const double SIGMA_PX = 1.5, MEANS = 0.01 * 0.01, VARIANCES = 0.03 * 0.03;
 
 typedef struct quality_job {
-    const ewa_image *image, *truth;
+    const ewa_image *image, *reference;
     uint32_t width_px, height_px;
     float *shown[2]; ///< [3][height][width] display values; 0 where nothing is compared
     bool *counts;    ///< [height][width]
@@ -38,14 +38,14 @@ static void show_row(void *data, uint32_t y, uint32_t worker) {
     const size_t size = (size_t)job->width_px * job->height_px;
     for (uint32_t x = 0; x < job->width_px; x++) {
         const size_t pixel = (size_t)y * job->width_px + x;
-        const ewa_image *truth = job->truth;
-        bool counts = truth->channel_count != 4 || truth->pixels[4 * pixel + 3] > 0.999f;
-        for (uint32_t c = 0; c < truth->channel_count; c++)
-            counts = counts && isfinite(truth->pixels[pixel * truth->channel_count + c]);
+        const ewa_image *reference = job->reference;
+        bool counts = reference->channel_count != 4 || reference->pixels[4 * pixel + 3] > 0.999f;
+        for (uint32_t c = 0; c < reference->channel_count; c++)
+            counts = counts && isfinite(reference->pixels[pixel * reference->channel_count + c]);
         job->counts[pixel] = counts;
         for (uint32_t c = 0; c < 3; c++) {
             job->shown[0][c * size + pixel] = counts ? display_of(job->image, pixel, c) : 0;
-            job->shown[1][c * size + pixel] = counts ? display_of(truth, pixel, c) : 0;
+            job->shown[1][c * size + pixel] = counts ? display_of(reference, pixel, c) : 0;
         }
     }
 }
@@ -119,19 +119,19 @@ static ewa_status compare(ewa_context *context, quality_job *job, ewa_image_qual
     return EWA_OK;
 }
 
-ewa_status ewa_image_compare(const ewa_image *image, const ewa_image *truth, ewa_image_quality *quality) {
-    if (!image || !truth || !quality || !image->context || !image->pixels || !truth->pixels) return EWA_ERROR_ARGUMENT;
+ewa_status ewa_image_compare(const ewa_image *image, const ewa_image *reference, ewa_image_quality *quality) {
+    if (!image || !reference || !quality || !image->context || !image->pixels || !reference->pixels) return EWA_ERROR_ARGUMENT;
     ewa_context *context = image->context;
     *quality = (ewa_image_quality){.psnr_db = NAN, .ssim = NAN};
-    const ewa_image *const both[2] = {image, truth};
+    const ewa_image *const both[2] = {image, reference};
     for (int i = 0; i < 2; i++)
         if (both[i]->channel_count != 1 && both[i]->channel_count != 3 && both[i]->channel_count != 4)
             return ewa_fail(context, EWA_ERROR_ARGUMENT, "pictures of %u channels are not compared; 1, 3 or 4 are",
                             both[i]->channel_count);
-    if (image->width_px != truth->width_px || image->height_px != truth->height_px)
+    if (image->width_px != reference->width_px || image->height_px != reference->height_px)
         return ewa_fail(context, EWA_ERROR_ARGUMENT, "a picture of %u x %u pixels is not compared with one of %u x %u",
-                        image->width_px, image->height_px, truth->width_px, truth->height_px);
-    quality_job job = {.image = image, .truth = truth, .width_px = image->width_px, .height_px = image->height_px};
+                        image->width_px, image->height_px, reference->width_px, reference->height_px);
+    quality_job job = {.image = image, .reference = reference, .width_px = image->width_px, .height_px = image->height_px};
     const size_t size = (size_t)job.width_px * job.height_px;
     const size_t columns = (size_t)ewa_context_worker_count(context) * MOMENTS * job.width_px;
     for (int i = 0; i < 2; i++) job.shown[i] = ewa_allocate(context, 3 * size, sizeof *job.shown[i]);

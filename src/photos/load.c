@@ -58,7 +58,7 @@ static ewa_status put_mask(const char *path, ewa_image *image, bool *owned) {
     return EWA_OK;
 }
 
-static ewa_status settle(ewa_context *context, const ewa_photo *photo, const float background[3], ewa_image *image,
+static ewa_status prepare_image(ewa_context *context, const ewa_photo *photo, const float background[3], ewa_image *image,
                          bool *owned) {
     if (background && image->channel_count == 4) {
         EWA_TRY(own_image(context, image, owned));
@@ -96,7 +96,7 @@ ewa_status ewa_photo_take(ewa_context *context, const ewa_photo *photo, uint32_t
     else if (image->channel_count != 1 && image->channel_count != 3 && image->channel_count != 4)
         status = ewa_fail(context, EWA_ERROR_ARGUMENT, "%s: has %u channels; 1, 3 or 4 are needed", subject,
                           image->channel_count);
-    if (status == EWA_OK) status = settle(context, photo, background, image, owned);
+    if (status == EWA_OK) status = prepare_image(context, photo, background, image, owned);
     if (status != EWA_OK && *owned) ewa_image_free(image);
     return status;
 }

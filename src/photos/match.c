@@ -235,7 +235,7 @@ static void expose(const ewa_photo_match *match, double scale) {
     ewa_exposure_step(&pairs, match->job->options.exposure, scale, match->photo->gain, match->photo->offset);
 }
 
-ewa_status ewa_photo_match_settle(const ewa_photo_match *match, int steps, int wide_steps, uint32_t pose_steps) {
+ewa_status ewa_photo_match_refine(const ewa_photo_match *match, int steps, int wide_steps, uint32_t pose_steps) {
     const double robust = match->job->options.robust;
     EWA_TRY(ewa_photo_view_show(match->view, match->job->color, match->shown));
     for (int step = 0; step < steps; step++) expose(match, robust * ldexp(1, step < wide_steps ? wide_steps - step : 0));

@@ -139,7 +139,7 @@ typedef struct ewa_photo_match {
 
 /// Shows the points, and finds the photograph's exposure by `steps` steps, the first `wide_steps` with robust weights of
 /// larger scales, then the pose by so many, each with another of the exposure. Errors: EWA_ERROR_MEMORY, EWA_CANCELLED.
-ewa_status ewa_photo_match_settle(const ewa_photo_match *match, int steps, int wide_steps, uint32_t pose_steps);
+ewa_status ewa_photo_match_refine(const ewa_photo_match *match, int steps, int wide_steps, uint32_t pose_steps);
 
 /// Gives what the photograph shows at a pixel, what the points show, and the weight.
 void ewa_photo_match_get(const void *match, uint32_t i, double shown[EWA_PHOTO_CHANNELS], double color[EWA_PHOTO_CHANNELS],
@@ -156,7 +156,7 @@ void ewa_vignetting_add(const double shown[EWA_PHOTO_CHANNELS], const double wan
                         double weight, double sums[EWA_VIGNETTING_SUMS]);
 
 /// Sets a and b by all that photographs say; where that is next to nothing, they stay.
-void ewa_vignetting_settle(const double sums[EWA_VIGNETTING_SUMS], double vignetting[2]);
+void ewa_vignetting_solve(const double sums[EWA_VIGNETTING_SUMS], double vignetting[2]);
 
 /// Errors count relative to this and the colour, as they do where numbers are sRGB.
 #define EWA_PHOTO_MIN_COLOR 0.02
@@ -170,7 +170,7 @@ void ewa_exposures_centre(ewa_photos_job *job, double *const *colors, uint32_t a
 
 /// Finds exposures and the colours of a method but the fit, by what photographs say of points. Progress goes from `begin`
 /// to `end`.
-ewa_status ewa_photos_settle(ewa_photos_job *job, double begin, double end);
+ewa_status ewa_photos_alternate(ewa_photos_job *job, double begin, double end);
 
 /// Sets the colours of points by their samples, corrected by exposures. `method` is not the fit. Errors: EWA_ERROR_MEMORY.
 ewa_status ewa_photos_combine(ewa_photos_job *job, ewa_photos_method method);

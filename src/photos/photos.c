@@ -18,7 +18,7 @@
 static const double MIN_SEEN_PX = 0.02;
 
 /// Parts of the progress.
-static const double FITTED = 0.8, SAMPLED = 0.4, SETTLED = 0.45; // the others are parts of the first
+static const double FITTED = 0.8, SAMPLED = 0.4, EXPOSED = 0.45; // the others are parts of the first
 
 #define AT(member) offsetof(ewa_photos_options, member)
 
@@ -229,7 +229,7 @@ static ewa_status compare(ewa_photo_match *at, double *residuals, error_sums *er
     ewa_photo_state *photo = at->photo;
     const ewa_photo_view *view = at->view;
     const uint32_t pose_steps = job->options.pose_steps * job->options.rounds;
-    EWA_TRY(ewa_photo_match_settle(at, photo->held_out ? STEPS : 0, WIDE_STEPS, photo->held_out ? pose_steps : 0));
+    EWA_TRY(ewa_photo_match_refine(at, photo->held_out ? STEPS : 0, WIDE_STEPS, photo->held_out ? pose_steps : 0));
     ewa_parallel(job->context, compare_piece, at, (view->pixel_count + EWA_PHOTO_PIECE - 1) / EWA_PHOTO_PIECE);
     double square = 0;
     uint64_t rejected = 0, count = 0;
@@ -348,14 +348,14 @@ static void drop_samples(ewa_photos_job *job) {
 
 /// Finds colours by the poses that there are, and better poses by these. Progress goes from `begin` to `end`.
 static ewa_status find_colors(ewa_photos_job *job, double *alpha, double begin, double end) {
-    const double sampled = begin + SAMPLED * (end - begin), settled = begin + SETTLED * (end - begin);
+    const double sampled = begin + SAMPLED * (end - begin), exposed = begin + EXPOSED * (end - begin);
     read_colors(job, alpha);
     memset(job->counts, 0, job->point_count * sizeof *job->counts);
     EWA_TRY(sample_all(job, begin, sampled));
     EWA_TRY(list_samples(job));
-    EWA_TRY(ewa_photos_settle(job, sampled, settled));
+    EWA_TRY(ewa_photos_alternate(job, sampled, exposed));
     drop_samples(job);
-    return job->options.method == EWA_PHOTOS_FIT ? ewa_photos_fit(job, settled, end) : EWA_OK;
+    return job->options.method == EWA_PHOTOS_FIT ? ewa_photos_fit(job, exposed, end) : EWA_OK;
 }
 
 static ewa_status run(ewa_photos_job *job, double *alpha, double *residuals, ewa_photos_report *report) {

@@ -172,7 +172,7 @@ void ewa_photo_view_free(ewa_photo_view *view) {
 /// A way between the points and the view's filled pixels.
 static ewa_gather_request request_of(const ewa_photo_view *view) {
     ewa_gather_request request = {.surfels = view->surfels, .point_count = view->point_count, .camera = view->camera,
-                                  .filled = true, .least_alpha = FULL, .room = view->room};
+                                  .filled = true, .minimum_alpha = FULL, .room = view->room};
     set_options(&request.options);
     return request;
 }

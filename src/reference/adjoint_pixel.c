@@ -55,7 +55,7 @@ static void gather(const ewa_reference_resolve *to, double x_px, double y_px, co
 
 /// Whether what a splat is at a pixel is behind the surfaces that there are.
 static bool is_behind(const ewa_reference_fragment *fragment, double passed) {
-    return fragment->sample.z > passed && !(fragment->splat->hollow && passed > -INFINITY);
+    return fragment->sample.z > passed && !(fragment->splat->concave && passed > -INFINITY);
 }
 
 uint32_t ewa_reference_layers_find(const ewa_reference_resolve *to, double x_px, double y_px,
@@ -169,11 +169,11 @@ static void shade_pull_back(const ewa_reference_resolve *to, double x_px, double
         sums->color = vec3_add(sums->color, vec3_scale(by_color, 1 / of->opacity));
         sums->opacity -= vec3_dot(by_color, at->color) / of->opacity;
     }
-    const double length = vec3_length(of->normal_world), least = EWA_SHADED_NORMAL * of->weight;
-    if (length >= least && length > 0) {
+    const double length = vec3_length(of->normal_world), minimum = EWA_SHADED_NORMAL * of->weight;
+    if (length >= minimum && length > 0) {
         sums->normal_world = vec3_add(sums->normal_world, direction_pull_back(at->normal_world, length, normal));
     } else {
-        sums->normal_world = vec3_add(sums->normal_world, vec3_scale(normal, 1 / least));
+        sums->normal_world = vec3_add(sums->normal_world, vec3_scale(normal, 1 / minimum));
         sums->weight -= vec3_dot(normal, at->normal_world) / of->weight;
     }
 }
@@ -266,10 +266,10 @@ static void settle_pull_back(const ewa_reference_gathered *surface, double unit_
         *(front > 0 ? &to->facing : &to->is_back) = *sums;
         return;
     }
-    const double least = EWA_FRONT * unit_coverage, share = fmin(1, front / least);
+    const double minimum = EWA_FRONT * unit_coverage, share = fmin(1, front / minimum);
     const double of_front = product(sums, &surface->facing) / front, of_back = product(sums, &surface->is_back) / back;
     const double by_q = sums->weight + share * of_front + (1 - share) * of_back;
-    const double by_share = front < least ? q * (of_front - of_back) / least : 0;
+    const double by_share = front < minimum ? q * (of_front - of_back) / minimum : 0;
     to->facing = scaled(sums, q * share / front, by_q + by_share - q * share * of_front / front);
     to->is_back = scaled(sums, q * (1 - share) / back, by_q - q * (1 - share) * of_back / back);
 }

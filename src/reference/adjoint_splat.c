@@ -179,11 +179,11 @@ static void depth_pull_back(const ewa_reference_view *view, const ewa_reference_
     const double sum = moments[EWA_MOMENT_DEPTH + 2];
     const double by_a = moments[EWA_MOMENT_DEPTH] + sum * (splat->center_px[0] - x_px),
                  by_b = moments[EWA_MOMENT_DEPTH + 1] + sum * (splat->center_px[1] - y_px);
-    const double facing = flat ? n.z : vec3_dot(n, p), least = EWA_EDGE_ON * (flat ? 1 : vec3_length(p));
+    const double facing = flat ? n.z : vec3_dot(n, p), minimum = EWA_EDGE_ON * (flat ? 1 : vec3_length(p));
     const double a = splat->plane[0], b = splat->plane[1];
-    const bool raised = fabs(facing) < least;
-    const double signed_least = facing < 0 ? -least : least;
-    const double divisor = (raised ? signed_least : facing) * (flat ? -1 : 1);
+    const bool raised = fabs(facing) < minimum;
+    const double signed_minimum = facing < 0 ? -minimum : minimum;
+    const double divisor = (raised ? signed_minimum : facing) * (flat ? -1 : 1);
     to->normal.x += by_a / (divisor * fx);
     to->normal.y += by_b / (divisor * fy);
     to->focal[0] -= by_a * a / fx + sum * a * p.x * s;

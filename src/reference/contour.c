@@ -16,7 +16,7 @@ void ewa_reference_view_contours(const ewa_render_options *options, bool transpa
 
 void ewa_reference_move(const ewa_reference_view *view, const ewa_surfel *surfel, ewa_reference_splat *splat) {
     splat->moved_px[0] = splat->moved_px[1] = 0;
-    splat->hollow = false;
+    splat->concave = false;
     if (!(view->contour_shift > 0) || splat->by_rays || splat->clip_count || surfel->curvature_world == 0) return;
     const ewa_vec3 p = splat->center, n = splat->normal; // towards the viewer
     const double depth = view->orthographic ? 1 : p.z;
@@ -32,7 +32,7 @@ void ewa_reference_move(const ewa_reference_view *view, const ewa_surfel *surfel
     if (!(sine * sine < reach) || !(length > 0)) return;
     const bool turns_away = (surfel->curvature_world > 0) == !splat->is_back;
     const double way = (turns_away ? 1 : -1) * view->contour_shift * across * (1 - sine * sine / reach) / length;
-    splat->hollow = !turns_away && !view->transparent && 1 - sine * sine / reach > EWA_CONTOUR_HOLLOW;
+    splat->concave = !turns_away && !view->transparent && 1 - sine * sine / reach > EWA_CONTOUR_CONCAVE;
     splat->moved_px[0] = way * x, splat->moved_px[1] = way * y;
     const int32_t wider_x = (int32_t)ceil(fabs(way * x)), wider_y = (int32_t)ceil(fabs(way * y));
     splat->x_begin = splat->x_begin > wider_x ? splat->x_begin - wider_x : 0;

@@ -331,14 +331,14 @@ static bool make_splat(const reference *work, uint32_t number, splat *made) {
 }
 
 /// How a ray passes a Gaussian.
-typedef struct passage {
+typedef struct closest_point {
     double distance2; ///< Mahalanobis distance squared
     double z;         ///< where the density is greatest
     double deviation; ///< standard deviation along the ray, in depth
-} passage;
+} closest_point;
 
 /// The ray through a place on the screen.
-static passage pass(const reference *work, const splat *at, double x_px, double y_px) {
+static closest_point closest_to(const reference *work, const splat *at, double x_px, double y_px) {
     const view *c = &work->camera;
     const double x = (x_px - c->cx_px) / c->fx_px, y = (y_px - c->cy_px) / c->fy_px;
     const ewa_vec3 ray = c->orthographic ? vec3_make(0, 0, 1) : vec3_make(x, y, 1);
@@ -348,7 +348,7 @@ static passage pass(const reference *work, const splat *at, double x_px, double 
     const double a = vec3_dot(ray, mat3_mul_vec3(&at->inverse, ray));
     const double b = vec3_dot(ray, mat3_mul_vec3(&at->inverse, from));
     const double d = vec3_dot(from, mat3_mul_vec3(&at->inverse, from));
-    return (passage){fmax(d - b * b / a, 0), at->place.z - b / a, 1 / sqrt(a)};
+    return (closest_point){fmax(d - b * b / a, 0), at->place.z - b / a, 1 / sqrt(a)};
 }
 
 /// The share of a Gaussian of a standard deviation around z that lies between two camera-space depths.
@@ -358,12 +358,12 @@ static double share_between(const reference *work, double z, double deviation, d
 }
 
 /// How the ray through a place on the screen crosses a trained 2D Gaussian, or meets its dot.
-static passage cross(const reference *work, const splat *at, double x_px, double y_px) {
+static closest_point cross(const reference *work, const splat *at, double x_px, double y_px) {
     const view *c = &work->camera;
     const double x = (x_px - c->cx_px) / c->fx_px, y = (y_px - c->cy_px) / c->fy_px;
     const ewa_vec3 ray = c->orthographic ? vec3_make(0, 0, 1) : vec3_make(x, y, 1);
     const ewa_vec3 from = c->orthographic ? vec3_make(x, y, 0) : vec3_make(0, 0, 0);
-    passage by = pass(work, at, x_px, y_px); // for its deviation
+    closest_point by = closest_to(work, at, x_px, y_px); // for its deviation
     const double t = vec3_dot(vec3_sub(at->place, from), at->normal) / vec3_dot(ray, at->normal);
     const ewa_vec3 off = vec3_sub(vec3_add(from, vec3_scale(ray, t)), at->place);
     const double u = vec3_dot(off, at->tangents[0]), v = vec3_dot(off, at->tangents[1]);
@@ -379,8 +379,8 @@ static bool meet(const reference *work, const splat *at, uint32_t x, uint32_t y,
     const double x_px = x + 0.5, y_px = y + 0.5, dx = x_px - at->center_px[0], dy = y_px - at->center_px[1];
     const double true_x = at->center_px[0] + at->unfilter[0][0] * dx + at->unfilter[0][1] * dy;
     const double true_y = at->center_px[1] + at->unfilter[1][0] * dx + at->unfilter[1][1] * dy;
-    const passage by = work->camera.flat ? cross(work, at, x_px, y_px)
-                       : at->near        ? pass(work, at, x_px, y_px) : pass(work, at, true_x, true_y);
+    const closest_point by = work->camera.flat ? cross(work, at, x_px, y_px)
+                             : at->near        ? closest_to(work, at, x_px, y_px) : closest_to(work, at, true_x, true_y);
     double m2 = by.distance2;
     if (work->camera.trained && !work->camera.flat)
         m2 = at->conic[0] * dx * dx + 2 * at->conic[1] * dx * dy + at->conic[2] * dy * dy;

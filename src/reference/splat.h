@@ -38,7 +38,7 @@ typedef struct ewa_reference_splat {
     int32_t x_begin, x_end, y_begin, y_end; ///< pixels that may count; empty when outside of the picture
     double center_px[2];                    ///< of the ellipse
     double moved_px[2];                     ///< from there to where it is drawn (contour.h)
-    bool hollow;                            ///< moved, and of no layer behind the first
+    bool concave;                            ///< moved, and of no layer behind the first
     double variance_px2[3];                 ///< V: xx, xy, yy, without the prefilter
     double inverse[3];                      ///< V'^-1: xx, xy, yy
     double peak;                            ///< sqrt(|V| / |V'|) / 2 pi

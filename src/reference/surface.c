@@ -90,7 +90,7 @@ static bool precedes(const ewa_reference_splat *a, const ewa_reference_splat *b)
 
 /// Whether what a splat is at a pixel belongs to surfaces that have been made.
 static bool has_passed(const pixel *at, const ewa_reference_splat *splat, const ewa_reference_sample *sample) {
-    return sample->z <= at->passed || (splat->hollow && at->passed > -INFINITY);
+    return sample->z <= at->passed || (splat->concave && at->passed > -INFINITY);
 }
 
 /// First pass (PAS 6, SS 4): B(x) = min over the splats that count at x of z + eps.

@@ -223,14 +223,14 @@ static bool make_splat(const reference *work, const ewa_reference_voxel *voxel, 
 }
 
 /// How a ray passes a voxel.
-typedef struct passage {
+typedef struct closest_point {
     double distance2; ///< Mahalanobis distance squared
     double length;    ///< of a standard deviation along the ray
     double ahead;     ///< perspective: where it is nearest, in standard deviations from the eye
-} passage;
+} closest_point;
 
 /// The ray through a place on the screen.
-static passage pass(const view *grid, ewa_vec3 p, double x_px, double y_px) {
+static closest_point closest_to(const view *grid, ewa_vec3 p, double x_px, double y_px) {
     ewa_vec3 ray = vec3_make(0, 0, 1), from;
     if (grid->orthographic) {
         from =
@@ -243,7 +243,7 @@ static passage pass(const view *grid, ewa_vec3 p, double x_px, double y_px) {
     const double b = vec3_dot(ray, mat3_mul_vec3(&grid->inverse, from));
     const double c = vec3_dot(from, mat3_mul_vec3(&grid->inverse, from));
     const double ahead = vec3_dot(ray, mat3_mul_vec3(&grid->inverse, p)) / sqrt(a);
-    return (passage){c - b * b / a, vec3_length(ray) / sqrt(a), grid->orthographic ? INFINITY : ahead};
+    return (closest_point){c - b * b / a, vec3_length(ray) / sqrt(a), grid->orthographic ? INFINITY : ahead};
 }
 
 /// Phi, the share of a normal distribution below t.
@@ -252,7 +252,7 @@ static double share_below(double t) { return 0.5 * erfc(-t / sqrt(2)); }
 /// The optical depth of a voxel at the eye: what of its kernel lies ahead.
 static double optical_depth_near(const reference *work, const splat *at, double x_px, double y_px) {
     const view *grid = &work->grid;
-    const passage by = pass(grid, at->place, x_px, y_px);
+    const closest_point by = closest_to(grid, at->place, x_px, y_px);
     if (by.distance2 >= grid->cutoff2 || by.ahead <= -grid->cutoff) return 0;
     return at->extinction * grid->splat_peak * by.length * exp(-by.distance2 / 2) * share_below(by.ahead);
 }
@@ -266,7 +266,7 @@ static double optical_depth(const reference *work, const splat *at, double x_px,
     if (i2 >= 1) return 0;
     const double true_x = at->center_px[0] + at->unfilter[0][0] * dx + at->unfilter[0][1] * dy;
     const double true_y = at->center_px[1] + at->unfilter[1][0] * dx + at->unfilter[1][1] * dy;
-    passage by = pass(grid, at->place, true_x, true_y);
+    closest_point by = closest_to(grid, at->place, true_x, true_y);
     if (work->options.index == EWA_INDEX_TABLE && grid->orthographic) {
         by.distance2 = grid->cutoff2 * i2;
     } else if (work->options.index == EWA_INDEX_TABLE) {

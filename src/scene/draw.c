@@ -44,8 +44,8 @@ void ewa_scene_renderer_free_lists(ewa_scene_renderer *renderer) {
     ewa_buffer_free(context, &renderer->lods);
     ewa_buffer_free(context, &renderer->splats);
     ewa_buffer_free(context, &renderer->splat_colors);
-    ewa_buffer_free(context, &renderer->looks);
-    ewa_buffer_free(context, &renderer->look_list);
+    ewa_buffer_free(context, &renderer->appearances);
+    ewa_buffer_free(context, &renderer->appearance_list);
 }
 
 void ewa_scene_renderer_destroy(ewa_scene_renderer **given) {
@@ -65,18 +65,18 @@ void ewa_scene_renderer_destroy(ewa_scene_renderer **given) {
 ewa_renderer *ewa_scene_renderer_surfaces(ewa_scene_renderer *renderer) { return renderer->surfaces; }
 
 /// Says how the visible octrees are drawn, which are listed.
-static ewa_status list_looks(const ewa_scene *scene, const ewa_lod_options *options,
+static ewa_status list_appearances(const ewa_scene *scene, const ewa_lod_options *options,
                              ewa_scene_renderer *renderer, ewa_scene_shown *shown) {
-    EWA_TRY(ewa_buffer_reserve(renderer->context, &renderer->looks, shown->lod_count + (size_t)1,
-                               sizeof(ewa_octree_look)));
-    EWA_TRY(ewa_buffer_reserve(renderer->context, &renderer->look_list, shown->lod_count + (size_t)1,
-                               sizeof *shown->looks));
-    ewa_octree_look *looks = renderer->looks.data;
-    shown->looks = renderer->look_list.data;
+    EWA_TRY(ewa_buffer_reserve(renderer->context, &renderer->appearances, shown->lod_count + (size_t)1,
+                               sizeof(ewa_octree_appearance)));
+    EWA_TRY(ewa_buffer_reserve(renderer->context, &renderer->appearance_list, shown->lod_count + (size_t)1,
+                               sizeof *shown->appearances));
+    ewa_octree_appearance *appearances = renderer->appearances.data;
+    shown->appearances = renderer->appearance_list.data;
     for (uint32_t i = 0, k = 0; i < scene->count; i++) {
         if (!scene->items[i].instance.visible || !scene->items[i].asset->lod) continue;
-        EWA_TRY(ewa_scene_octree_look(scene, i, options, &looks[k]));
-        shown->looks[k] = &looks[k].look;
+        EWA_TRY(ewa_scene_octree_appearance(scene, i, options, &appearances[k]));
+        shown->appearances[k] = &appearances[k].appearance;
         k++;
     }
     return EWA_OK;
@@ -126,7 +126,7 @@ ewa_status ewa_scene_list_shown(const ewa_scene *scene, const ewa_lod_options *o
                             EWA_MAX_MIXED_VOLUMES);
         shown->volumes[shown->volume_count++] = asset;
     }
-    return list_looks(scene, options, renderer, shown);
+    return list_appearances(scene, options, renderer, shown);
 }
 
 /// Towards the light of surfaces without colours, in camera space: from above left, not so far from the eye that half
@@ -161,7 +161,7 @@ static ewa_status draw_surfaces(ewa_scene_renderer *renderer, const ewa_scene_sh
     light_by_default(shown, renderer->lit_from ? renderer->lit_from : camera, &lit);
     const ewa_lod_scene together = {shown->lods, shown->lod_count, shown->surfels_count,
                                     (const ewa_surfels *const *)shown->surfels};
-    const ewa_status status = ewa_lod_scene_draw(&together, shown->looks, renderer->surfaces, camera, &lit,
+    const ewa_status status = ewa_lod_scene_draw(&together, shown->appearances, renderer->surfaces, camera, &lit,
                                                  &lod, frame, &stats->lod);
     stats->render = stats->lod.render;
     if (renderer->level > stats->render.level) stats->render.level = renderer->level;

@@ -6,7 +6,7 @@
 #define EWA_SRC_SCENE_DRAW_H
 
 #include "base/base.h"
-#include "lod/look.h"
+#include "lod/appearance.h"
 #include "scene/detail.h"
 #include "scene/parts.h"
 
@@ -23,14 +23,14 @@ struct ewa_scene_renderer {
     uint32_t level;              ///< of surfels in memory, of the frame (details)
     double finer;                ///< pixels of a frame for one of those that sizes of points are told in; 0: 1
     ewa_details details;         ///< of the surfels that are drawn
-    ewa_buffer looks, look_list; ///< of the octrees: one ewa_octree_look each, and a pointer to its look
+    ewa_buffer appearances, appearance_list; ///< of the octrees: one ewa_octree_appearance each, and a pointer to its appearance
 };
 
 /// What of a scene is visible; the lists are the renderer's.
 typedef struct ewa_scene_shown {
     const ewa_surfels **surfels;
     ewa_lod **lods;
-    const ewa_lod_look **looks; ///< of the octrees
+    const ewa_lod_appearance **appearances; ///< of the octrees
     const ewa_splats **splats;
     const ewa_splat_colors **splat_colors; ///< of each: in place of its own; NULL: these
     const ewa_asset *volumes[EWA_MAX_MIXED_VOLUMES];
@@ -40,7 +40,7 @@ typedef struct ewa_scene_shown {
     double near_world; ///< that suits the Gaussians
 } ewa_scene_shown;
 
-/// Lists what is visible, in buffers of the renderer. Errors: those of ewa_scene_octree_look(), EWA_ERROR_LIMIT,
+/// Lists what is visible, in buffers of the renderer. Errors: those of ewa_scene_octree_appearance(), EWA_ERROR_LIMIT,
 /// EWA_ERROR_MEMORY.
 ewa_status ewa_scene_list_shown(const ewa_scene *scene, const ewa_lod_options *options, ewa_scene_renderer *renderer,
                                 ewa_scene_shown *shown);

@@ -85,7 +85,7 @@ ewa_status ewa_asset_take_octree(const ewa_asset_job *job, ewa_lod *lod) {
 
 /// Has the nodes' points come with what a word means; `levels`: attributes of what represents them, which needs it, too; or NULL.
 static ewa_status need(const ewa_scene *scene, const ewa_asset *asset, const char *word, const ewa_cloud *levels,
-                       ewa_lod_look *look) {
+                       ewa_lod_appearance *appearance) {
     ewa_scalar scalar;
     EWA_TRY(ewa_cloud_find_scalar(asset->outline, word, &scalar));
     const char *name = scalar.attribute.name;
@@ -95,7 +95,7 @@ static ewa_status need(const ewa_scene *scene, const ewa_asset *asset, const cha
                         "--attributes); with an error of 0 the points themselves are drawn, which have it",
                         asset->name, word);
     // A term has a name of EWA_NAME_BYTES at most, as a colouring: there is room for all.
-    strcat(strcat(look->attributes, ","), name);
+    strcat(strcat(appearance->attributes, ","), name);
     return EWA_OK;
 }
 
@@ -143,14 +143,14 @@ ewa_status ewa_asset_read_octree(const ewa_asset *asset, const double low_world[
     return status;
 }
 
-ewa_status ewa_scene_octree_look(const ewa_scene *scene, uint32_t index, const ewa_lod_options *options,
-                                 ewa_octree_look *shown) {
+ewa_status ewa_scene_octree_appearance(const ewa_scene *scene, uint32_t index, const ewa_lod_options *options,
+                                 ewa_octree_appearance *shown) {
     const ewa_asset *asset = scene->items[index].asset;
     const ewa_instance *instance = &scene->items[index].instance;
     const ewa_coloring *coloring = &instance->coloring;
     const ewa_legend *legend = ewa_scene_legend(scene, index);
     ewa_octree_change *change = &shown->change;
-    ewa_lod_look *look = &shown->look;
+    ewa_lod_appearance *appearance = &shown->appearance;
     ewa_lod_info info;
     // All bytes of both are compared, so that none must be left to chance.
     memset(shown, 0, sizeof *shown);
@@ -163,14 +163,14 @@ ewa_status ewa_scene_octree_look(const ewa_scene *scene, uint32_t index, const e
     change->material = instance->material;
     for (int c = 0; c < 3; c++) change->tint[c] = 0.5;
     for (uint32_t t = 0; t < asset->filter.term_count; t++)
-        EWA_TRY(need(scene, asset, asset->filter.terms[t].name, levels, look));
+        EWA_TRY(need(scene, asset, asset->filter.terms[t].name, levels, appearance));
     const ewa_scene_options *own = &scene->options;
     if (ewa_regions_have_classes(own->regions, own->region_count) && ewa_cloud_find(asset->outline, "classification"))
-        EWA_TRY(need(scene, asset, "classification", levels, look));
+        EWA_TRY(need(scene, asset, "classification", levels, appearance));
     change->region_count = own->region_count;
     memcpy(change->regions, own->regions, own->region_count * sizeof own->regions[0]);
     if (legend) {
-        EWA_TRY(need(scene, asset, legend->attribute, levels, look));
+        EWA_TRY(need(scene, asset, legend->attribute, levels, appearance));
         memcpy(change->attribute, legend->attribute, sizeof change->attribute);
         const ewa_color_scale scale = ewa_color_scale_of(legend);
         change->scale.colormap = scale.colormap;
@@ -180,11 +180,11 @@ ewa_status ewa_scene_octree_look(const ewa_scene *scene, uint32_t index, const e
         change->tinted = true;
         memcpy(change->tint, coloring->tint, sizeof change->tint);
     }
-    memcpy(look->to_world, asset->to_world, sizeof look->to_world);
-    look->radius_scale = instance->radius_scale * scene->options.surfels.radius_scale;
-    look->place = place;
-    look->paint = paint;
-    look->user = change;
-    look->user_bytes = sizeof *change;
+    memcpy(appearance->to_world, asset->to_world, sizeof appearance->to_world);
+    appearance->radius_scale = instance->radius_scale * scene->options.surfels.radius_scale;
+    appearance->place = place;
+    appearance->paint = paint;
+    appearance->user = change;
+    appearance->user_bytes = sizeof *change;
     return EWA_OK;
 }

@@ -5,7 +5,7 @@
 #ifndef EWA_SRC_SCENE_OCTREE_H
 #define EWA_SRC_SCENE_OCTREE_H
 
-#include "lod/look.h"
+#include "lod/appearance.h"
 #include "scene/parts.h"
 
 /// What is done to the points of an octree's nodes, and to what represents them.
@@ -21,17 +21,17 @@ typedef struct ewa_octree_change {
     char attribute[EWA_SCALAR_NAME_BYTES]; ///< that colours stand for; empty: none
 } ewa_octree_change;
 
-/// How an octree is drawn; `look` refers to `change`.
-typedef struct ewa_octree_look {
-    ewa_lod_look look;
+/// How an octree is drawn; `appearance` refers to `change`.
+typedef struct ewa_octree_appearance {
+    ewa_lod_appearance appearance;
     ewa_octree_change change;
-} ewa_octree_look;
+} ewa_octree_appearance;
 
 /// Says how the octree of an instance is drawn: as its asset and the instance are. Errors: EWA_ERROR_ARGUMENT (no such
 /// attribute), EWA_ERROR_UNSUPPORTED (what represents points lacks the number by which they are coloured or chosen, and
 /// `options` may have it drawn).
-ewa_status ewa_scene_octree_look(const ewa_scene *scene, uint32_t index, const ewa_lod_options *options,
-                                 ewa_octree_look *shown);
+ewa_status ewa_scene_octree_appearance(const ewa_scene *scene, uint32_t index, const ewa_lod_options *options,
+                                 ewa_octree_appearance *shown);
 
 /// Reads the points of an octree in a box of the scene, and maybe some beside it, filtered and moved as the asset's. The
 /// caller owns `*cloud`. Errors: those of ewa_lod_read().

@@ -39,7 +39,7 @@ ewa_status ewa_scene_reader_choose(ewa_scene_reader *reader, ewa_scene *scene, c
     EWA_TRY(ewa_scene_make_resident(scene));
     EWA_TRY(ewa_scene_list_shown(scene, &options->lod, &reader->lists, &shown));
     const ewa_lod_scene octrees = {shown.lods, shown.lod_count, 0, NULL};
-    const ewa_status status = ewa_lod_reading_choose(&reader->reading, &octrees, shown.looks, camera, &options->render,
+    const ewa_status status = ewa_lod_reading_choose(&reader->reading, &octrees, shown.appearances, camera, &options->render,
                                                      &options->lod, maximum);
     *count = reader->reading.count;
     return status;

@@ -306,9 +306,9 @@ ewa_status ewa_scene_commit(ewa_scene *scene) {
     if (!scene) return EWA_ERROR_ARGUMENT;
     EWA_TRY(ewa_scene_make_resident(scene));
     for (uint32_t i = 0; i < scene->count; i++) {
-        ewa_octree_look look;
+        ewa_octree_appearance appearance;
         if (scene->items[i].instance.visible && scene->items[i].asset->lod)
-            EWA_TRY(ewa_scene_octree_look(scene, i, &scene->options.lod, &look));
+            EWA_TRY(ewa_scene_octree_appearance(scene, i, &scene->options.lod, &appearance));
     }
     return EWA_OK;
 }

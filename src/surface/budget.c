@@ -70,7 +70,7 @@ uint32_t ewa_budget_choose(ewa_budget *budget, double budget_s, const ewa_budget
 
 /// What a frame's cost counts as after that of the one before, where `known` is expected: one slow frame alone
 /// was something else's fault.
-static double settle(double measured_s, double last_s, double known_s) {
+static double robust_cost(double measured_s, double last_s, double known_s) {
     const double before_s = fmax(last_s, known_s);
     return measured_s < before_s ? measured_s : before_s;
 }
@@ -85,9 +85,9 @@ void ewa_budget_learn(ewa_budget *budget, const ewa_budget_frame *frame) {
     const double splat_s = frame->total_s * (1 - frame->pixel_share) / (double)visible;
     double *known = budget->splat_s;
     budget->visible_share = (double)visible / (double)frame->splat_count;
-    budget->pixel_s = budget->drawn ? settle(pixel_s, budget->last_pixel_s, budget->pixel_s) : pixel_s;
+    budget->pixel_s = budget->drawn ? robust_cost(pixel_s, budget->last_pixel_s, budget->pixel_s) : pixel_s;
     const double ratio =
-        (again ? settle(splat_s, budget->last_splat_s, known[level]) : splat_s) / known[level];
+        (again ? robust_cost(splat_s, budget->last_splat_s, known[level]) : splat_s) / known[level];
     if (again || !budget->drawn) {
         for (int l = 0; l < EWA_MAX_LEVELS; l++) known[l] *= ratio;
     } else if (budget->seen[level]) {

@@ -80,7 +80,7 @@ static uint64_t measure_packed(const ewa_discs *discs, uint64_t first, uint64_t 
     float low[EWA_BOX_FLOATS], high[EWA_BOX_FLOATS];
     for (int k = 0; k < EWA_BOX_FLOATS; k++) low[k] = INFINITY, high[k] = -INFINITY;
     const uint64_t groups =
-        discs->kernels->survey(&discs->safe, numbers_at(r->position, first), numbers_at(r->normal, first),
+        discs->kernels->measure_discs(&discs->safe, numbers_at(r->position, first), numbers_at(r->normal, first),
                                numbers_at(r->radius, first), count / LANES, low, high);
     memset(drawable, 1, groups * LANES);
     for (int k = 0; groups && k < EWA_BOX_FLOATS; k++) {

@@ -125,7 +125,7 @@ static ewa_status run(const ewa_gather_request *request, ewa_gather_room *room, 
         memset(room->sums.data, 0, sums * sizeof(int64_t));
     }
     const ewa_gather gather = {.rgba = request->rgba, .weights = request->weights, .filled = request->filled,
-                               .least_alpha = request->least_alpha, .squares = request->squares, .shown = request->shown,
+                               .minimum_alpha = request->minimum_alpha, .squares = request->squares, .shown = request->shown,
                                .units = ldexpf(1, EWA_GATHER_BITS - 1 - exponent),
                                .colors = request->colors ? room->colors.data : NULL,
                                .sums = sums ? room->sums.data : NULL,

@@ -35,7 +35,7 @@ typedef struct ewa_gather_request {
     const float *weights; ///< 1 per pixel, finite; NULL: 1
 
     bool filled;       ///< A has only the pixels that first surfaces fill, each row with the sum 1
-    float least_alpha; ///< with `filled`: of these
+    float minimum_alpha; ///< with `filled`: of these
     bool squares;      ///< of the numbers of A, not A itself: with equal weights the diagonal of A' A
     const double *colors; ///< with `filled`: [point][3]; NULL: none
     float *shown; ///< gets A colors, 4 per pixel, the last 1 where A has a row, else all 0; NULL: not wanted

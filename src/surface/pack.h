@@ -28,7 +28,7 @@ typedef struct ewa_pack_kernels {
     /// Looks at `group_count` times sixteen discs whose numbers lie side by side and stops at the first group
     /// that holds a radius out of range, a position that is not finite or a normal that is zero or not. Grows
     /// the box of the groups before that one, of which it returns the number: entry k is of coordinate k % 3.
-    uint64_t (*survey)(const ewa_safe_range *range, const float *position, const float *normal,
+    uint64_t (*measure_discs)(const ewa_safe_range *range, const float *position, const float *normal,
                        const float *radius, uint64_t group_count, float low[EWA_BOX_FLOATS],
                        float high[EWA_BOX_FLOATS]);
 

@@ -14,7 +14,7 @@ enum { LANES = EWA_PACKET_LANES };
 /// Single precision of radius, axis and sine, rounded to the safe side.
 static const float SLACK = 16 * 0x1p-24f;
 
-static uint64_t survey(const ewa_safe_range *range, const float *position, const float *normal,
+static uint64_t measure_discs(const ewa_safe_range *range, const float *position, const float *normal,
                        const float *radius, uint64_t group_count, float low[EWA_BOX_FLOATS],
                        float high[EWA_BOX_FLOATS]) {
     const wf finite_max = wf_set(0x1.fffffep127f);
@@ -300,4 +300,4 @@ static uint32_t bound_packets(ewa_packet *packets, uint32_t count, const double 
     return wide;
 }
 
-const ewa_pack_kernels EWA_VERSION(ewa_pack_kernels) = {survey, code_normals, code_ellipses, bound_packets};
+const ewa_pack_kernels EWA_VERSION(ewa_pack_kernels) = {measure_discs, code_normals, code_ellipses, bound_packets};

@@ -100,7 +100,7 @@ static void measure_part(void *data, uint32_t part, uint32_t worker) {
 }
 
 /// Joins the parts' facts and fixes the origin.
-static void settle(build *b) {
+static void join_facts(build *b) {
     ewa_surfels *s = b->surfels;
     part_facts all = b->facts[0];
     for (uint32_t part = 1; part < b->parts; part++) {
@@ -286,7 +286,7 @@ static ewa_status build_surfels(build *b, ewa_context *context) {
     b->kernels = EWA_CHOOSE(ewa_context_cpu_features(context), ewa_pack_kernels);
     b->are_discs = ewa_discs_open(&b->reader, b->kernels, &b->discs);
     ewa_parallel(context, measure_part, b, b->parts);
-    settle(b);
+    join_facts(b);
     if (b->are_discs) set_color_codes(b);
     ewa_surfels *s = b->surfels;
     const uint32_t count = (uint32_t)b->point_count;

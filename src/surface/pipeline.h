@@ -40,7 +40,7 @@ enum {
     EWA_PIXEL_FLOATS = 8,         ///< of ewa_tile.pixels
     EWA_BACK_FACING_BIT = 1 << 6, ///< in ewa_record.box: faces away from the viewer
     EWA_STEEP_BIT = 1 << 7,       ///< in ewa_record.box: steep or wide
-    EWA_HOLLOW_BIT = 1 << 14,     ///< in ewa_record.box: of no layer behind the first: at a contour, seen from inside
+    EWA_CONCAVE_BIT = 1 << 14,    ///< in ewa_record.box: of no layer behind the first: at a contour, seen from inside
     EWA_CLIP_BIT = 1 << 15,       ///< in ewa_record.box: clipped
     EWA_MATERIAL_CHANNELS = 5,    ///< ambient, diffuse, specular, shininess, reflection
     EWA_MAX_CHANNELS = 9 + EWA_MATERIAL_CHANNELS,
@@ -143,7 +143,7 @@ typedef struct ewa_record {
     float key_low;          ///< the key is nowhere below, plain or not
     float red, green, blue; ///< times the resampling kernel's peak and the surfel's opacity, in units of sums
     uint32_t
-        box; ///< first column | EWA_BACK_FACING_BIT | EWA_STEEP_BIT | first row << 8 | EWA_HOLLOW_BIT | EWA_CLIP_BIT | columns
+        box; ///< first column | EWA_BACK_FACING_BIT | EWA_STEEP_BIT | first row << 8 | EWA_CONCAVE_BIT | EWA_CLIP_BIT | columns
              ///< << 16 | rows << 24, in blocks; first pixel in its block << EWA_SMALL_X_SHIFT, _Y_SHIFT
 } ewa_record;
 
@@ -257,7 +257,7 @@ typedef struct ewa_sums {
 /// marked, nothing is initialised. With unclipped splats only `cut` and `cut_rows` may be NULL.
 typedef struct ewa_side_sums {
     ewa_sums is_back;           ///< as ewa_tile.sums: of back-facing splats
-    ewa_sums cut;               ///< EWA_CUT_CHANNELS; settled: covered share, nothing, mean direction inward
+    ewa_sums cut;               ///< EWA_CUT_CHANNELS; finalized: covered share, nothing, mean direction inward
     uint32_t *back_facing_rows; ///< [block row]: bit per block column
     uint32_t *cut_rows;
 } ewa_side_sums;
@@ -272,7 +272,7 @@ typedef struct ewa_gather {
     uint32_t *rows;       ///< [block row]: bit per block column that has planes
     bool beyond;          ///< of a surface behind the first
     bool filled;
-    float least_alpha;    ///< with `filled`: of pixels that count
+    float minimum_alpha;  ///< with `filled`: of pixels that count
     bool squares;         ///< squares of what splats are of pixels, not these
     const float *colors;  ///< with `filled`: [surfel][4], whose picture takes the place of `rgba`, times `weights`; NULL: none
     float *shown;         ///< that picture, as ewa_frame.rgba, alpha 1 where pixels count, else 0; NULL: not wanted
@@ -302,7 +302,7 @@ typedef struct ewa_tile {
                          ///< nothing; NULL: no splat is small
     bool only_small;     ///< all splats are: other sums have nothing
     uint32_t *beyond_rows;  ///< [block row]: bit per block column that a splat may reach behind `nearest`
-    uint32_t *settled_rows; ///< [block row]: bit per block column whose sums begin at 0
+    uint32_t *finalized_rows; ///< [block row]: bit per block column whose sums begin at 0
 } ewa_tile;
 
 /// The blocks of a tile whose edges show what lies behind, and what that is.
@@ -445,7 +445,7 @@ typedef struct ewa_pipeline_kernels {
 
     /// Adds tile->pixels to the sums and makes of these what shows (semantics.h: facing, clip lines). False: some sum
     /// was too large; start the sums over and accumulate with care.
-    bool (*settle)(const ewa_tile *tile, const ewa_resolve *resolve);
+    bool (*finalize)(const ewa_tile *tile, const ewa_resolve *resolve);
 
     /// Sets the sums to zero and clears the side accumulators.
     void (*clear_sums)(const ewa_tile *tile);

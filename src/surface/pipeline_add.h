@@ -69,7 +69,7 @@ static ALWAYS_INLINE void accumulate_rows(const pass *p, uint32_t splat, uint32_
     }                                                                                                        \
     static ALWAYS_INLINE void name##_rows(const pass *p, uint32_t splat, uint32_t first_column,              \
                                           uint32_t columns, uint32_t rows, depth_test test) {                \
-        if ((what) & BEYOND && box_hollow(p->run->records[splat].box)) return;                               \
+        if ((what) & BEYOND && box_is_concave(p->run->records[splat].box)) return;                               \
         if (box_back_facing(p->run->records[splat].box))                                                     \
             name##_back_facing(p, splat, first_column, columns, rows, test);                                 \
         else                                                                                                 \

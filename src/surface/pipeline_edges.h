@@ -75,13 +75,13 @@ static ALWAYS_INLINE void set_boxes(uint32_t at, uint32_t count, ewa_edge_boxes 
     const wm there = wm_of_bits(count < EWA_BLOCK_LANES ? (1u << count) - 1 : 0xffff);
     const wi some = wi_set(boxes->first[at]);
     const wi box = wi_of_bits(wf_select(there, wf_of_bits(wi_load(boxes->first + at)), wf_of_bits(some)));
-    enum { FLAGS = EWA_BACK_FACING_BIT | EWA_STEEP_BIT | EWA_HOLLOW_BIT | EWA_CLIP_BIT };
+    enum { FLAGS = EWA_BACK_FACING_BIT | EWA_STEEP_BIT | EWA_CONCAVE_BIT | EWA_CLIP_BIT };
     const wi first = wi_and(box, wi_set(0xffff & ~FLAGS));
-    const wm hollow = wf_lt(wf_set(0), wf_from_i(wi_and(box, wi_set(EWA_HOLLOW_BIT))));
+    const wm concave = wf_lt(wf_set(0), wf_from_i(wi_and(box, wi_set(EWA_CONCAVE_BIT))));
     const wi size = wi_and(wi_sar(box, 16), wi_set(0x3f3f));
     wi_store(boxes->first + at, first);
     wi_store(boxes->last + at, wi_add(wi_add(first, size), wi_set(EWA_BOX_GUARD - 0x0101)));
-    wf_store(boxes->key_low + at, wf_select(wm_and(there, wm_not(hollow)), wf_load(boxes->key_low + at),
+    wf_store(boxes->key_low + at, wf_select(wm_and(there, wm_not(concave)), wf_load(boxes->key_low + at),
                                             wf_set(__builtin_inff())));
 }
 
@@ -494,10 +494,10 @@ static wm compose_block(const ewa_tile *tile, const ewa_resolve *to, const ewa_e
     enum { LANES = EWA_BLOCK_LANES };
     const size_t block = block_at(tile, row, column);
     const ewa_tile gathered = tile_behind(tile, edges);
-    const bool settles = rows_to_settle(&gathered, row) >> column & 1;
-    if (settles) settle_block(&gathered, to, row, column, merged);
+    const bool finalizes = rows_to_finalize(&gathered, row) >> column & 1;
+    if (finalizes) finalize_block(&gathered, to, row, column, merged);
     const block_sums sums = {edges->sums.planes + first_number(tile, row, column, tile->channel_count),
-                             settles ? 0 : BIAS};
+                             finalizes ? 0 : BIAS};
     float shade[EWA_SHADE_FLOATS];
     shade_block(tile, to, &sums, (uint32_t)tile->x_px + column * EWA_BLOCK_PX,
                 (uint32_t)tile->y_px + row * EWA_BLOCK_PX, shade);

@@ -88,14 +88,14 @@ static ALWAYS_INLINE void set_gather_block(const ewa_tile *tile, const ewa_resol
 }
 
 static void set_gather(const ewa_tile *tile, const ewa_resolve *to) {
-    const wf least = wf_set(tile->gather->least_alpha), all = wf_set(__builtin_inff());
+    const wf minimum = wf_set(tile->gather->minimum_alpha), all = wf_set(__builtin_inff());
     for (uint32_t row = 0; row < tile->block_rows; row++) {
         tile->gather->rows[row] = 0;
         for (uint32_t column = 0; column < tile->blocks_per_row; column++) {
             const block_sums sums = tile_block(tile, row, column);
             const wf alpha = surface_alpha(tile, to, &sums, cut_cover(tile, row, column));
             wf share = alpha;
-            if (tile->gather->filled) share = wf_keep(wf_le(least, alpha), wf_set(1));
+            if (tile->gather->filled) share = wf_keep(wf_le(minimum, alpha), wf_set(1));
             if (!wm_bits(wf_lt(wf_set(0), share))) continue;
             const wf bound = wf_load(tile->nearest + first_number(tile, row, column, 1));
             set_gather_block(tile, to, &tile->side, &sums, share, false, row, column, bound, all);
@@ -167,7 +167,7 @@ static ALWAYS_INLINE bool near_gather_weight(const ewa_view *view, const ewa_til
 
 /// Whether a splat may count in the surface at hand.
 static ALWAYS_INLINE bool is_gathered(const ewa_tile *tile, const ewa_record *r) {
-    return !(tile->gather->beyond && box_hollow(r->box));
+    return !(tile->gather->beyond && box_is_concave(r->box));
 }
 
 /// Adds weight x planes, rounded, to sums of whole numbers.

@@ -142,7 +142,7 @@ static void clipped_add(const pass *p, uint32_t splat, uint32_t row, uint32_t co
 static __attribute__((noinline)) void add_careful_rows(const pass *p, uint32_t splat, uint32_t first_column,
                                                        uint32_t columns, uint32_t rows, depth_test test) {
     const ewa_tile *tile = p->tile;
-    if (tile->passed && box_hollow(p->run->records[splat].box)) return;
+    if (tile->passed && box_is_concave(p->run->records[splat].box)) return;
     accumulate_few(p, splat, first_column, columns, rows, test,
                    channels_of(tile) |
                        (tile->passed       ? BEYOND
@@ -186,16 +186,16 @@ static void accumulate(const ewa_view *view, const ewa_tile *tile, const ewa_sor
         for_each_small(&p, small_accumulate);
 }
 
-static bool settle(const ewa_tile *tile, const ewa_resolve *to) {
+static bool finalize(const ewa_tile *tile, const ewa_resolve *to) {
     if (tile->pixels && !tile->sums.careful) gather_pixels(tile);
     const uint32_t whole_row = ~0u >> (32 - tile->blocks_per_row);
     for (uint32_t row = 0; row < tile->block_rows && !tile->sums.careful; row++)
         for (uint32_t column = 0; column < tile->blocks_per_row; column++)
             if (is_beyond(tile, &tile->sums, row, column, tile->channel_count)) return false;
     for (uint32_t row = 0; row < tile->block_rows; row++) {
-        tile->settled_rows[row] = rows_to_settle(tile, row) & whole_row;
-        for (uint32_t left = tile->settled_rows[row]; left; left &= left - 1)
-            settle_block(tile, to, row, (uint32_t)__builtin_ctz(left), false);
+        tile->finalized_rows[row] = rows_to_finalize(tile, row) & whole_row;
+        for (uint32_t left = tile->finalized_rows[row]; left; left &= left - 1)
+            finalize_block(tile, to, row, (uint32_t)__builtin_ctz(left), false);
     }
     return true;
 }

@@ -420,7 +420,7 @@ enum { TANGENT_PARTS = 16 };
 /// How far splats move away from their contours (semantics.h, section 5): pixels, and what of the key that is.
 typedef struct contour_way {
     wf x, y, key;
-    wm hollow; ///< seen from the side to which the surface turns
+    wm concave; ///< seen from the side to which the surface turns
 } contour_way;
 
 /// Returns whether some move. `slope` is the length of the key's gradient.
@@ -444,7 +444,7 @@ static ALWAYS_INLINE bool find_contour_way(const ewa_view *view, const uint16_t 
     const wf seen = wf_select(wf_lt(t->facing, zero), curvature, wf_negate(curvature));
     const wm turns_away = wf_lt(zero, seen);
     const wf along = wf_div(wf_select(turns_away, length, wf_negate(length)), wf_select(near, slope, one));
-    way->hollow = wm_and(wm_and(near, wm_not(turns_away)), wf_lt(wf_set((float)EWA_CONTOUR_HOLLOW), share));
+    way->concave = wm_and(wm_and(near, wm_not(turns_away)), wf_lt(wf_set((float)EWA_CONTOUR_CONCAVE), share));
     way->x = wf_keep(near, wf_mul(t->key_x, along)), way->y = wf_keep(near, wf_mul(t->key_y, along));
     way->key = wf_keep(near, wf_mul(wf_mul(slope, slope), along));
     return true;
@@ -484,12 +484,12 @@ static ALWAYS_INLINE void stage_emit(const ewa_view *view, const ewa_packet_sour
     wf place_x = wf_add(wf_fma(t->dx, fx, wf_set(t->base_x)), c1_px);
     wf place_y = wf_add(wf_fma(t->dy, fy, wf_set(t->base_y)), c2_px), beyond = reach;
     contour_way way;
-    wm hollow = wm_of_bits(0);
+    wm concave = wm_of_bits(0);
     // What moves keeps its plane of keys, whose range beside the disc is that of what the splat may reach.
     if (source->curvatures && find_contour_way(view, source->curvatures + first_lane, t, slope, clipped, &way)) {
         key = wf_add(key, way.key), beyond = wf_add(beyond, wf_abs(way.key));
         place_x = wf_add(place_x, way.x), place_y = wf_add(place_y, way.y);
-        if (!view->transparent) hollow = way.hollow;
+        if (!view->transparent) concave = way.concave;
     }
     wf margin = wf_max(wf_sub(limit, reach), zero);
     if (view->circular) {
@@ -585,7 +585,7 @@ static ALWAYS_INLINE void stage_emit(const ewa_view *view, const ewa_packet_sour
         wf_odd_product(color_units, decode_color(&form, packet->green)),
         wf_odd_product(color_units, decode_color(&form, packet->blue)),
         wf_of_bits(wi_or(box, wi_or(select_int(clipped, EWA_CLIP_BIT, wi_set(0)),
-                                    wi_or(select_int(hollow, EWA_HOLLOW_BIT, wi_set(0)),
+                                    wi_or(select_int(concave, EWA_CONCAVE_BIT, wi_set(0)),
                                           select_int(is_back, EWA_BACK_FACING_BIT, wi_set(0)))))),
     };
     const wi boxes = wi_of_bits(lanes[15]);

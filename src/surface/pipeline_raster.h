@@ -22,7 +22,7 @@ static ALWAYS_INLINE uint32_t box_column(uint32_t box) { return box & 0x3f; }
 static ALWAYS_INLINE bool box_back_facing(uint32_t box) { return box & EWA_BACK_FACING_BIT; }
 static ALWAYS_INLINE bool box_steep(uint32_t box) { return box & EWA_STEEP_BIT; }
 static ALWAYS_INLINE uint32_t box_row(uint32_t box) { return box >> 8 & 0x3f; }
-static ALWAYS_INLINE bool box_hollow(uint32_t box) { return box & EWA_HOLLOW_BIT; }
+static ALWAYS_INLINE bool box_is_concave(uint32_t box) { return box & EWA_CONCAVE_BIT; }
 static ALWAYS_INLINE bool box_clipped(uint32_t box) { return box & EWA_CLIP_BIT; }
 
 /// What the blocks of one column of a record's box share: the terms without dy of s and of a key's plane.
@@ -182,7 +182,7 @@ static ALWAYS_INLINE void raise_rows(const pass *p, uint32_t splat, uint32_t fir
 
 static ALWAYS_INLINE void raise_rows_beyond(const pass *p, uint32_t splat, uint32_t first_column,
                                             uint32_t columns, uint32_t rows, depth_test test) {
-    if (box_hollow(p->run->records[splat].box)) return;
+    if (box_is_concave(p->run->records[splat].box)) return;
     visibility_rows(p->view, p->tile, &p->run->records[splat], first_column, columns, rows, test, true);
 }
 

@@ -120,7 +120,7 @@ static ALWAYS_INLINE wf read_finely(const ewa_sums *of, size_t first, uint32_t c
 }
 
 /// Turns a block's sums into floats that begin at 0.
-static ALWAYS_INLINE void settle_planes(const ewa_tile *tile, const ewa_sums *of, uint32_t row,
+static ALWAYS_INLINE void finalize_planes(const ewa_tile *tile, const ewa_sums *of, uint32_t row,
                                         uint32_t column, uint32_t channels, bool finely) {
     const size_t first = first_number(tile, row, column, channels);
     const bool has_high = of->high_rows[row] >> column & 1;
@@ -150,29 +150,29 @@ static ALWAYS_INLINE wf mean_depth(const ewa_tile *tile, const ewa_sums *of, con
 }
 
 /// The sums of a block, or of its splats that face away.
-static ALWAYS_INLINE void settle_sums(const ewa_tile *tile, const ewa_sums *of, const ewa_resolve *to,
+static ALWAYS_INLINE void finalize_sums(const ewa_tile *tile, const ewa_sums *of, const ewa_resolve *to,
                                       uint32_t row, uint32_t column, bool finely) {
     const uint32_t channels = tile->channel_count;
     const wf depth = tile->with_depth ? mean_depth(tile, of, to, row, column) : wf_set(0);
-    settle_planes(tile, of, row, column, channels, finely);
+    finalize_planes(tile, of, row, column, channels, finely);
     if (!tile->with_depth) return;
     float *planes = of->planes + first_number(tile, row, column, channels);
     wf_store(planes + depth_channel(tile) * EWA_BLOCK_LANES, wf_mul(depth, wf_load(planes)));
 }
 
 /// A block of a surface, when all of it is gathered.
-static ALWAYS_INLINE void settle_block(const ewa_tile *tile, const ewa_resolve *to, uint32_t row,
+static ALWAYS_INLINE void finalize_block(const ewa_tile *tile, const ewa_resolve *to, uint32_t row,
                                        uint32_t column, bool merged) {
     const ewa_side_sums *side = &tile->side;
     const size_t first = first_number(tile, row, column, tile->channel_count);
     const bool cut = side->cut_rows && side->cut_rows[row] >> column & 1;
-    settle_sums(tile, &tile->sums, to, row, column, tile->with_fine || cut);
+    finalize_sums(tile, &tile->sums, to, row, column, tile->with_fine || cut);
     if (side->back_facing_rows[row] >> column & 1) {
-        settle_sums(tile, &side->is_back, to, row, column, tile->with_fine || cut);
+        finalize_sums(tile, &side->is_back, to, row, column, tile->with_fine || cut);
         join_back_facing(tile, to, side->is_back.planes + first, tile->sums.planes + first, merged);
     }
     if (cut) {
-        settle_planes(tile, &side->cut, row, column, EWA_CUT_CHANNELS, false);
+        finalize_planes(tile, &side->cut, row, column, EWA_CUT_CHANNELS, false);
         if (!merged)
             cover_cut(to, tile->sums.planes + first,
                       side->cut.planes + first_number(tile, row, column, EWA_CUT_CHANNELS));
@@ -180,14 +180,14 @@ static ALWAYS_INLINE void settle_block(const ewa_tile *tile, const ewa_resolve *
 }
 
 /// The blocks of a row whose sums are not all there is to them; others stay as they are.
-static ALWAYS_INLINE uint32_t rows_to_settle(const ewa_tile *tile, uint32_t row) {
+static ALWAYS_INLINE uint32_t rows_to_finalize(const ewa_tile *tile, uint32_t row) {
     const ewa_side_sums *side = &tile->side;
     if (tile->with_fine || tile->with_depth) return ~0u;
     return side->back_facing_rows[row] | (side->cut_rows ? side->cut_rows[row] : 0) |
            tile->sums.high_rows[row];
 }
 
-/// The settled planes of a block where clip lines have a say, else NULL: first of all the covered shares.
+/// The finalized planes of a block where clip lines have a say, else NULL: first of all the covered shares.
 static ALWAYS_INLINE const float *cut_cover(const ewa_tile *tile, uint32_t row, uint32_t column) {
     const ewa_side_sums *side = &tile->side;
     if (!side->cut_rows || !(side->cut_rows[row] >> column & 1)) return NULL;

@@ -113,7 +113,7 @@ static ALWAYS_INLINE wf read_units(const float *low, const float *high, bool has
     return wf_fma(wf_from_i(upper), wf_set(1 << CARRY_SHIFT), wf_from_i(wi_and(units, wi_set(CARRY_MASK))));
 }
 
-/// The sums of a block, in units: settled ones begin at 0, others still at BIAS.
+/// The sums of a block, in units: finalized ones begin at 0, others still at BIAS.
 typedef struct block_sums {
     const float *planes;
     float origin;
@@ -121,9 +121,9 @@ typedef struct block_sums {
 
 /// The sums of a tile's block.
 static ALWAYS_INLINE block_sums tile_block(const ewa_tile *tile, uint32_t row, uint32_t column) {
-    const bool settled = tile->settled_rows[row] >> column & 1;
+    const bool finalized = tile->finalized_rows[row] >> column & 1;
     return (block_sums){tile->sums.planes + first_number(tile, row, column, tile->channel_count),
-                        settled ? 0 : BIAS};
+                        finalized ? 0 : BIAS};
 }
 
 static ALWAYS_INLINE wf sum_of(const block_sums *sums, uint32_t channel) {

@@ -71,7 +71,7 @@
 // where it is. By S it stays within the picture of a sphere around its disc, but for c h. c is EWA_CONTOUR_SHIFT
 // times the x at which the normal distribution below -x is tau / 2 with EWA_CULL_BACK, else tau (1 - sqrt(1/2)), where
 // what two layers cover is a half; 0 without edge antialiasing, with one pass, for points, and with the raycast kernel
-// in perspective. With C n.p > 0 and w > EWA_CONTOUR_HOLLOW it is the far side of what ends there: where nothing is
+// in perspective. With C n.p > 0 and w > EWA_CONTOUR_CONCAVE it is the far side of what ends there: where nothing is
 // transparent it is in no layer behind the first.
 //
 // ---- Section 6: visibility and accumulation
@@ -240,7 +240,7 @@
 #define EWA_CONTOUR_WIDTH  1.75
 #define EWA_CONTOUR_REACH  6.0
 #define EWA_CONTOUR_WITHIN 0.9
-#define EWA_CONTOUR_HOLLOW 0.9
+#define EWA_CONTOUR_CONCAVE 0.9
 
 // ---- Section 6
 

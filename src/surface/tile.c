@@ -292,7 +292,7 @@ void ewa_tile_place(const ewa_tile_job *job, ewa_tile_scratch *s, uint32_t index
                        .with_fine = job->fine_sums,
                        .pixels = s->pixels,
                        .beyond_rows = s->beyond_rows,
-                       .settled_rows = s->settled_rows};
+                       .finalized_rows = s->finalized_rows};
     static_assert(EWA_FIELD_PX == EWA_MAX_TILE_BLOCKS * EWA_BLOCK_PX, "no tile is in two fields");
     tile->field_x_px = (float)(tile->x_px % EWA_FIELD_PX - EWA_FIELD_PX / 2);
     tile->field_y_px = (float)(tile->y_px % EWA_FIELD_PX - EWA_FIELD_PX / 2);
@@ -328,10 +328,10 @@ void ewa_tile_draw(void *data, uint32_t number, uint32_t worker) {
     const double accumulating = ewa_now_s();
     const uint32_t block_count = tile.blocks_per_row * tile.block_rows;
     if (!job->all_hide) ewa_tile_close_pixels(tile.nearest, block_count, -INFINITY, INFINITY);
-    for (bool settled = false; !settled; tile.sums.careful = true) {
+    for (bool finalized = false; !finalized; tile.sums.careful = true) {
         job->kernels->clear_sums(&tile);
         ewa_tile_walk_shown(job, &tile, s, kept, EWA_PASS_ACCUMULATE);
-        settled = job->kernels->settle(&tile, &job->resolve);
+        finalized = job->kernels->finalize(&tile, &job->resolve);
     }
     if (!job->all_hide) ewa_tile_close_pixels(tile.nearest, block_count, INFINITY, -INFINITY);
     if (job->gather) {

@@ -84,7 +84,7 @@ typedef struct ewa_tile_scratch {
     ewa_side_sums
         side; ///< of the first surface; its planes for back-facing splats serve those behind it, too
     uint32_t back_facing_rows[2][EWA_MAX_TILE_BLOCKS], cut_rows[2][EWA_MAX_TILE_BLOCKS];
-    uint32_t settled_rows[EWA_MAX_TILE_BLOCKS];
+    uint32_t finalized_rows[EWA_MAX_TILE_BLOCKS];
     uint32_t visits[5][EWA_MAX_TILE_BLOCKS * EWA_MAX_TILE_BLOCKS];
     uint32_t
         high_rows[5]

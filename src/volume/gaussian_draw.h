@@ -70,21 +70,21 @@ typedef struct hit_mode {
 } hit_mode;
 
 /// How rays pass a splat.
-typedef struct passage {
+typedef struct closest_point {
     wf distance2; ///< from its centre, in standard deviations
     wf z;         ///< there
     wf variance;  ///< in depth, along the ray
     wm ahead;     ///< of the eye, within the limit
-} passage;
+} closest_point;
 
 /// Rays at (u, v) from a splat's middle. Where none is ahead the others say nothing, unless `all`.
-static ALWAYS_INLINE passage pass_splat(const float *s, wf u, wf v, wf limit, bool orthographic, bool all) {
+static ALWAYS_INLINE closest_point closest_to_splat(const float *s, wf u, wf v, wf limit, bool orthographic, bool all) {
     wf g[3];
     for (int k = 0; k < 3; k++)
         g[k] = wf_fma(u, wf_set(s[RECORD_G + 3 * k]),
                       wf_fma(v, wf_set(s[RECORD_G + 3 * k + 1]), wf_set(s[RECORD_G + 3 * k + 2])));
     const wf length = wf_set(s[RECORD_LENGTH]), one = wf_set(1), aside = wf_fma(g[0], g[0], wf_mul(g[1], g[1]));
-    passage by = {.distance2 = aside, .z = g[2]};
+    closest_point by = {.distance2 = aside, .z = g[2]};
     if (orthographic) {
         by.ahead = wf_lt(aside, limit);
         by.variance = wf_div(one, wf_mul(length, length));
@@ -109,7 +109,7 @@ typedef struct splat_hit {
 /// Alpha of a splat that pixels see at the distance `m2`: of what stands along a ray the share in front of the surface
 /// counts. Returns which of those within show it.
 static ALWAYS_INLINE uint32_t shade_hit(const ewa_gaussian_view *view, const float *s, wm inside, wf m2,
-                                        const passage *by, hit_mode mode, const block_state *block,
+                                        const closest_point *by, hit_mode mode, const block_state *block,
                                         splat_hit *hit) {
     wf alpha = wf_exp2(wf_fma(m2, wf_set(-0.721347520f), wf_set(s[RECORD_LOG2_ALPHA])));
     if (view->keep) inside = wm_and(inside, wf_le(wf_set(view->minimum_alpha), alpha));
@@ -130,7 +130,7 @@ static ALWAYS_INLINE uint32_t shade_hit(const ewa_gaussian_view *view, const flo
 static ALWAYS_INLINE uint32_t hit_flat(const ewa_gaussian_view *view, const float *s, wf u, wf v, hit_mode mode,
                                        const block_state *block, splat_hit *hit) {
     const wf limit = wf_set(s[RECORD_LIMIT]), infinite = wf_set(__builtin_inff());
-    passage by = pass_splat(s, u, v, limit, mode.orthographic, true);
+    closest_point by = closest_to_splat(s, u, v, limit, mode.orthographic, true);
     const wf x = wf_sub(u, wf_set(s[RECORD_DOT_X])), y = wf_sub(v, wf_set(s[RECORD_DOT_Y]));
     const wf dot2 = wf_mul(wf_set(s[RECORD_DOT]), wf_fma(x, x, wf_mul(y, y)));
     const wf crossed2 = wf_select(wm_and(by.ahead, wf_le(wf_set(view->near), by.z)), by.distance2, infinite);
@@ -149,9 +149,9 @@ static ALWAYS_INLINE uint32_t hit_splat(const ewa_gaussian_view *view, const flo
     const wf u = wf_sub(x, wf_set(s[RECORD_X])), v = wf_sub(y, wf_set(s[RECORD_Y]));
     const wf limit = wf_set(s[RECORD_LIMIT]), zero = wf_set(0);
     if (mode.with_flat && s[RECORD_DOT] > 0) return hit_flat(view, s, u, v, mode, block, hit);
-    passage by = {.distance2 = zero, .z = zero, .variance = zero};
+    closest_point by = {.distance2 = zero, .z = zero, .variance = zero};
     if (!mode.trained) {
-        by = pass_splat(s, u, v, limit, mode.orthographic, false);
+        by = closest_to_splat(s, u, v, limit, mode.orthographic, false);
         if (!wm_bits(by.ahead)) return 0;
         return shade_hit(view, s, by.ahead, by.distance2, &by, mode, block, hit);
     }
@@ -159,7 +159,7 @@ static ALWAYS_INLINE uint32_t hit_splat(const ewa_gaussian_view *view, const flo
     const wf down = wf_mul(v, wf_set(s[RECORD_BY])), m2 = wf_fma(across, across, wf_mul(down, down));
     const wm inside = wf_lt(m2, limit);
     if (!wm_bits(inside)) return 0;
-    if (mode.with_depth) by = pass_splat(s, u, v, limit, mode.orthographic, true);
+    if (mode.with_depth) by = closest_to_splat(s, u, v, limit, mode.orthographic, true);
     return shade_hit(view, s, inside, m2, &by, mode, block, hit);
 }
 

@@ -284,7 +284,7 @@ TEST(test_filled) {
             for (uint32_t i = 0; i < pixels; i++) weights[i] = fabsf(w.rgba[4 * i]);
             ewa_gather_room room = {.state = NULL};
             ewa_gather_request request = {.surfels = surfels, .point_count = COUNT, .camera = s->camera,
-                                          .options = s->options, .filled = true, .least_alpha = 0.99f,
+                                          .options = s->options, .filled = true, .minimum_alpha = 0.99f,
                                           .weights = weights, .colors = x, .shown = shown, .sums = sums, .room = &room};
             assert_int_equal(ewa_gather_run(&request, NULL), EWA_OK);
             draw(&w, context);
@@ -465,7 +465,7 @@ TEST(test_memory) {
         double x[3 * 50] = {1}, sums[3 * 50] = {0};
         if (status == EWA_OK) status = ewa_surfels_create_kept(w.scene->cloud, NULL, &surfels);
         const ewa_gather_request request = {.surfels = surfels, .point_count = 50, .camera = w.scene->camera,
-                                            .options = w.scene->options, .filled = true, .least_alpha = 0.99f,
+                                            .options = w.scene->options, .filled = true, .minimum_alpha = 0.99f,
                                             .colors = x, .shown = shown, .sums = sums};
         if (status == EWA_OK) status = ewa_gather_run(&request, NULL);
         ewa_surfels_destroy(&surfels);

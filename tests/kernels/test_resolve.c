@@ -41,15 +41,15 @@ static void set_sums(float *sums, uint32_t pixel, const float values[CHANNELS]) 
 }
 
 static ewa_tile whole_tile(float *sums) {
-    static uint32_t settled_rows[SIDE_PX / EWA_BLOCK_PX];
-    memset(settled_rows, 0xff, sizeof settled_rows);
+    static uint32_t finalized_rows[SIDE_PX / EWA_BLOCK_PX];
+    memset(finalized_rows, 0xff, sizeof finalized_rows);
     return (ewa_tile){.width_px = SIDE_PX,
                       .height_px = SIDE_PX,
                       .blocks_per_row = SIDE_PX / EWA_BLOCK_PX,
                       .block_rows = SIDE_PX / EWA_BLOCK_PX,
                       .sums = {.planes = sums},
                       .channel_count = CHANNELS,
-                      .settled_rows = settled_rows};
+                      .finalized_rows = finalized_rows};
 }
 
 static void assert_code(uint32_t value, uint8_t code) {

@@ -16,7 +16,7 @@ float merged_alpha(float alpha, float coverage) {
 
 // The alpha of a surface whose edge is cut by lines, as the first one's is.
 float cut_alpha(Surface s, float alpha) {
-    float first = surface_alpha(SETTLED(0u), SETTLED(uint(CHANNELS) - 1u), true, BEHIND(4u));
+    float first = surface_alpha(FINALIZED(0u), FINALIZED(uint(CHANNELS) - 1u), true, BEHIND(4u));
     float uncut = surface_alpha(s.sums[0], s.sums[CHANNELS - 1], false, 0.0);
     float left = wf_sub(1.0, first), over = s.cover;
     float along = wf_fma(BEHIND(6u), s.cut_y, wf_mul(BEHIND(5u), s.cut_x));
@@ -75,7 +75,7 @@ void main() {
         Surface s;
         for (uint c = 0u; c < uint(CHANNELS); c++) s.sums[c] = 0.0;
         s.cover = s.cut_x = s.cut_y = 0.0;
-        if (inside) s = settle(block_is_cut, false, merged, key);
+        if (inside) s = finalize(block_is_cut, false, merged, key);
         vec3 color = shade(s.sums);
         bool with_cut = block_is_cut && !merged;
         float alpha = surface_alpha(s.sums[0], s.sums[CHANNELS - 1], with_cut, s.cover);

@@ -157,7 +157,7 @@ void add_splat(Payload p, View view, Sample s, float bound, bool is_back_facing,
 Sample sample_listed(Record r, vec2 at, View view, float beyond) {
     Sample s = sample_record(r, at, view);
 #if PASS == 4
-    s.counts = s.counts && s.key < beyond && !has(r.box, HOLLOW);
+    s.counts = s.counts && s.key < beyond && !has(r.box, CONCAVE);
 #endif
 #if WITH_CLIPS
     if (s.counts && has(r.box, CLIPPED)) clip_at(clips[r.clip], at, s);

@@ -189,8 +189,8 @@ void find_shape() {
 }
 
 // How far the splat moves away from its contour, in pixels (semantics.h, section 5).
-vec2 contour_way(bool clipped, out bool hollow) {
-    hollow = false;
+vec2 contour_way(bool clipped, out bool concave) {
+    concave = false;
     float steepness = length(key_slope), sine2 = facing * facing, size = CONTOUR_WIDTH * major * zoomed.x;
     float across = sqrt(size * size * sine2 + kernel.z);
     float bend = min(abs(curvature) * contour.z * (has(ORTHOGRAPHIC) ? 1.0 : z), 1e30);
@@ -198,7 +198,7 @@ vec2 contour_way(bool clipped, out bool hollow) {
     if (clipped || !(sine2 < reach) || !(0.0 < steepness)) return vec2(0.0);
     float share = 1.0 - sine2 / reach, way = across * contour.x * share / steepness;
     bool turns_away = (facing < 0.0) == (0.0 < curvature);
-    hollow = !turns_away && CONTOUR_HOLLOW < share;
+    concave = !turns_away && CONTOUR_CONCAVE < share;
     return key_slope * (turns_away ? way : -way);
 }
 

@@ -37,9 +37,9 @@ void main() {
     if (!alive) return;
     vec2 projected = base + offset * focal.xy, moved = shift * zoomed.xy;
     bool clipped = ((packet_bits.y >> 16u | packet_bits.z) >> lane & 1u) != 0u;
-    bool hollow;
-    vec2 away = contour_way(clipped, hollow);
-    if (hollow && behind != 0 && !has(SEE_THROUGH)) return;
+    bool concave;
+    vec2 away = contour_way(clipped, concave);
+    if (concave && behind != 0 && !has(SEE_THROUGH)) return;
     shape.xy = projected + moved + away;
     find_depths(moved + away);
     find_payload();

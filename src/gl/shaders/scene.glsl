@@ -41,7 +41,7 @@ struct Record {
     uint clip;                  // of clipped ones: where their lines are
 };
 
-const uint BACK_FACING = 64u, STEEP = 128u, HOLLOW = 16384u, CLIPPED = 32768u;
+const uint BACK_FACING = 64u, STEEP = 128u, CONCAVE = 16384u, CLIPPED = 32768u;
 
 // A clip line on the screen (ewa_clip_line), and those of a splat (ewa_clip).
 struct ClipLine { float x_inward, y_inward, offset, reach, narrow, per_narrow, per_widths, pad; };

@@ -262,8 +262,8 @@ float whole_place(float center_px) {
 }
 
 // How far the splat moves away from its contour (semantics.h, section 5): pixels, and what of the key that is.
-vec3 contour_way(uint surfel, float slope, bool clipped, out bool hollow) {
-    hollow = false;
+vec3 contour_way(uint surfel, float slope, bool clipped, out bool concave) {
+    concave = false;
     uint word = attributes[uint(curvatures_at) + surfel / 2u];
     float curvature = uintBitsToFloat((surfel & 1u) != 0u ? word & 0xffff0000u : word << 16);
     float bend = wf_mul(wf_abs(curvature), view.curvature_scale);
@@ -275,7 +275,7 @@ vec3 contour_way(uint surfel, float slope, bool clipped, out bool hollow) {
     if (clipped || !(sine2 < reach) || !(0.0 < slope)) return vec3(0.0);
     float share = wf_sub(1.0, wf_div(sine2, reach)), way = wf_mul(wf_mul(across, view.contour_shift), share);
     bool turns_away = 0.0 < (t.facing < 0.0 ? curvature : wf_negate(curvature));
-    hollow = !turns_away && CONTOUR_HOLLOW < share && !has(view_flags, SEE_THROUGH);
+    concave = !turns_away && CONTOUR_CONCAVE < share && !has(view_flags, SEE_THROUGH);
     float along = wf_div(turns_away ? way : wf_negate(way), slope);
     return vec3(wf_mul(t.key_x, along), wf_mul(t.key_y, along), wf_mul(wf_mul(slope, slope), along));
 }
@@ -316,9 +316,9 @@ void emit(uint base, uint lane, uint pair, uvec2 field, uint at) {
     }
     float place_x = wf_add(wf_fma(t.dx, view.fx_px, t.base_x), c1_px), beyond = reach;
     float place_y = wf_add(wf_fma(t.dy, view.fy_px, t.base_y), c2_px);
-    bool hollow = false;
+    bool concave = false;
     if (curvatures_at >= 0) {
-        vec3 way = contour_way(pairs[pair].packet * 16u + lane, slope, clipped, hollow);
+        vec3 way = contour_way(pairs[pair].packet * 16u + lane, slope, clipped, concave);
         key = wf_add(key, way.z);
         beyond = wf_add(beyond, wf_abs(way.z));
         place_x = wf_add(place_x, way.x);
@@ -394,7 +394,7 @@ void emit(uint base, uint lane, uint pair, uvec2 field, uint at) {
     r.green = wf_odd_product(color_units, decode_color(form, half_word(base + 104u, lane)));
     r.blue = wf_odd_product(color_units, decode_color(form, half_word(base + 112u, lane)));
     r.box = column | row << 8 | columns << 16 | rows << 24 | (steep ? STEEP : 0u) | (clipped ? CLIPPED : 0u) |
-            (hollow ? HOLLOW : 0u) | (is_back ? BACK_FACING : 0u);
+            (concave ? CONCAVE : 0u) | (is_back ? BACK_FACING : 0u);
     r.nx = wf_odd_product(facing_peak, t.n.x);
     r.ny = wf_odd_product(facing_peak, t.n.y);
     r.nz = wf_odd_product(facing_peak, t.n.z);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// From sums to surfaces, surfaces to pixels: src/surface/pipeline_side_sums.h (settle), pipeline_shade.h,
+// From sums to surfaces, surfaces to pixels: src/surface/pipeline_side_sums.h (finalize), pipeline_shade.h,
 // pipeline_resolve.h. PASS is 3 for the first surface, 4 for those behind (edges.glsl), 5 for the picture. A pixel by each
 // invocation.
 
@@ -20,7 +20,7 @@ layout(std430, binding = 15) readonly buffer EnvironmentBlock { float texels[]; 
 // Of the first surface its channels; of those behind red, green, blue, alpha; the first one's cut: cover, x, y, flag; the key
 // that what is behind lies beyond.
 layout(std430, binding = 2) buffer SurfaceBlock { float surfaces[]; };
-#define SETTLED(channel) surfaces[(channel) * pixel_count + pixel]
+#define FINALIZED(channel) surfaces[(channel) * pixel_count + pixel]
 #define BEHIND(plane) surfaces[(uint(CHANNELS) + (plane)) * pixel_count + pixel]
 #define PASSED BEHIND(8u)
 
@@ -74,8 +74,8 @@ float mean_depth(bool of_back_facing, float key) {
 }
 #endif
 
-// Reads the sums of the pixel (settle_block), whose first surface has a key, and sets them back; `merged`: of all that is left.
-Surface settle(bool block_is_cut, bool first, bool merged, float key) {
+// Reads the sums of the pixel (finalize_block), whose first surface has a key, and sets them back; `merged`: of all that is left.
+Surface finalize(bool block_is_cut, bool first, bool merged, float key) {
     Surface s;
     bool finely = WITH_FINE != 0 || block_is_cut;
     float other[CHANNELS];
@@ -309,8 +309,8 @@ void main() {
     if (inside) {
         float key = float_of(nearest[pixel]);
         nearest[pixel] = NEVER;
-        Surface s = settle(block_is_cut, true, false, key);
-        for (uint c = 0u; c < uint(CHANNELS); c++) SETTLED(c) = s.sums[c];
+        Surface s = finalize(block_is_cut, true, false, key);
+        for (uint c = 0u; c < uint(CHANNELS); c++) FINALIZED(c) = s.sums[c];
         BEHIND(4u) = s.cover;
         BEHIND(5u) = s.cut_x;
         BEHIND(6u) = s.cut_y;
@@ -365,7 +365,7 @@ void main() {
     pixel = inside ? in_band.y * band_px.x + in_band.x : 0u;
     in_picture = first_px + in_band;
     float s[CHANNELS];
-    for (uint c = 0u; c < uint(CHANNELS); c++) s[c] = inside ? SETTLED(c) : 0.0;
+    for (uint c = 0u; c < uint(CHANNELS); c++) s[c] = inside ? FINALIZED(c) : 0.0;
     vec3 color = shade(s);
     if (gl_LocalInvocationIndex == 0u) tiles[tile].count = 0u;
     if (!inside || any(greaterThanEqual(in_picture, picture_px))) return;
