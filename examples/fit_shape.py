@@ -151,7 +151,7 @@ def run(target: ewa.Cloud, level: int, steps: int, side: int, say: Callable[[str
             total += found.position + by_corners(corners, faces, found.normal)
         if film and step % 4 == 0:
             shot = np.concatenate([draw(c, camera(1.5, side)) for c in (true, cloud)], axis=1)
-            ewa.save_image(f"{film}/step_{step // 4:03d}.png", shot)
+            ewa.save_image(f"{film}/step_{step // 4:03d}.png", shot[..., :3] + 1 - shot[..., 3:])
         if step % 20 == 0:
             log.append((step, loss, chamfer(surfels(corners, faces)["position"], shown)))
             say(f"step {step}: {side_now} pixels, loss {loss:.5f}, Chamfer distance {log[-1][2]:.5f}")

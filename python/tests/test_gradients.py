@@ -4,9 +4,11 @@
 from __future__ import annotations
 
 import importlib
+import io
 import sys
 import unittest
 from typing import Any
+from unittest import mock
 
 import numpy as np
 
@@ -97,6 +99,9 @@ class Gradients(Case):
         self.assertEqual([step for step, _, _ in log], [0, 20, 40])
         self.assertLess(log[-1][2], 0.65 * log[0][2])  # Chamfer distance
         self.assertLess(log[-1][1], 0.3 * log[0][1])
+        with mock.patch("sys.argv", ["fit_shape.py", "cube.ply", "out.png", "--steps", "0"]), mock.patch("sys.stderr", io.StringIO()) as err:
+            self.assertRaises(SystemExit, example.main)
+        self.assertIn("--steps is 0; 1 or more are needed", err.getvalue())
 
 
 @unittest.skipIf(torch is None, "PyTorch is not installed")

@@ -83,10 +83,21 @@ TEST(test_usage) {
 
 TEST(test_failures) {
     (void)state;
+    run_done("ewa convert grey.ply -o far.ply --translate 1000,0,0");
     scratch_text("bundle.out", "# Bundle file v0.3\n4 100\n");
     scratch_text("gone.json", "[{\"file_path\": \"gone.png\", \"width\": 9, \"height\": 9, \"fx\": 9, \"fy\": 9, \"cx\": 4, \"cy\": 4, "
                               "\"world_to_camera\": [1,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1]}]");
+    scratch_text("size.json", "[{\"file_path\": \"p1.png\", \"width\": 91, \"height\": 80, \"fx\": 90, \"fy\": 90, \"cx\": 45, \"cy\": 40, "
+                              "\"world_to_camera\": [1,0,0,0,0,1,0,0,0,0,1,4,0,0,0,1]}]");
+    run_done("mkdir -p lens");
+    scratch_text("lens/cameras.txt", "7 THIN_PRISM_FISHEYE 90 80 35 35 45 40 0 0 0 0 0 0 0 0\n");
+    scratch_text("lens/images.txt", "1 1 0 0 0 0 0 4 7 p0.png\n\n");
     static const char *const wrong[][2] = {
+        {"grey.ply --cameras size.json -o none.ply", "p1.png: is 90 x 80 pixels, and its camera is of 91 x 80"},
+        {"grey.ply --cameras lens --images . -o none.ply", "model THIN_PRISM_FISHEYE"},
+        {"grey.ply --cameras cameras.json --method mean --pose-steps 1 -o none.ply",
+         "pose_steps is 1, and poses are refined by the method fit alone"},
+        {"far.ply --cameras cameras.json -o none.ply", "none of 4 photographs that are used sees any of 4000 points"},
         {"grey.ply --cameras bundle.out -o none.ply", "bundle.out: is Bundler's bundle.out; cameras are the folder of a COLMAP model"},
         {"grey.ply --cameras gone.json -o none.ply", "gone.png"},
         {"grey.ply --cameras cameras.json --images nowhere -o none.ply", "p0.png"},
@@ -98,6 +109,19 @@ TEST(test_failures) {
         run_fails(1, wrong[i][1], "ewa photos %s", wrong[i][0]);
         assert_true(scratch_size("none.ply") <= 0); // nothing is left half-written
     }
+}
+
+/// A camera that sees nothing is named, and the others count.
+TEST(test_camera_that_sees_nothing) {
+    (void)state;
+    char *cameras = read_text("cameras.json"), text[9000];
+    snprintf(text, sizeof text, "%.*s,\n{\"file_path\": \"p0.png\", \"width\": 90, \"height\": 80, \"fx\": 90, \"fy\": 90, \"cx\": 45, "
+             "\"cy\": 40, \"world_to_camera\": [1,0,0,0,0,1,0,0,0,0,1,-50,0,0,0,1]}]", (int)strlen(cameras) - 1, cameras);
+    free(cameras);
+    scratch_text("away.json", text);
+    photos_done("--cameras away.json -o away.ply");
+    assert_non_null(strstr(last_run.err, "p0.png: photograph 4 sees none of the points"));
+    assert_true(scratch_size("away.ply") > 0);
 }
 
 static uint64_t seen_points(void) {
