@@ -51,36 +51,48 @@ static double spacing_of(const ewa_bounds *box) {
     return fmax(sqrt(sides[0] * sides[1] / count), sides[0] / count);
 }
 
+/// A cloud that lacks something, and has no group yet.
+typedef struct lacking {
+    const ewa_asset *asset;
+    uint32_t item, has; ///< has: bit 0 normals, bit 1 radii
+    double reach;       ///< how far what touches it may be
+} lacking;
+
+static lacking lacking_of(const ewa_asset *asset, uint32_t item) {
+    const uint32_t normals = ewa_cloud_find(asset->cloud, EWA_NORMAL) != NULL, radii = ewa_cloud_find(asset->cloud, EWA_RADIUS) != NULL;
+    return (lacking){asset, item, normals | radii << 1, asset->bounds.finite_count ? TOUCH_SPACINGS * spacing_of(&asset->bounds) : -1};
+}
+
 /// Whether two clouds that lack the same are to be estimated together.
-static bool belong_together(const ewa_asset *a, const ewa_asset *b) {
-    if ((ewa_cloud_find(a->cloud, EWA_NORMAL) != NULL) != (ewa_cloud_find(b->cloud, EWA_NORMAL) != NULL) ||
-        (ewa_cloud_find(a->cloud, EWA_RADIUS) != NULL) != (ewa_cloud_find(b->cloud, EWA_RADIUS) != NULL))
-        return false;
-    if (!a->bounds.finite_count || !b->bounds.finite_count) return false;
-    const double reach = TOUCH_SPACINGS * fmax(spacing_of(&a->bounds), spacing_of(&b->bounds));
+static bool belong_together(const lacking *a, const lacking *b) {
+    if (a->asset == b->asset) return true;
+    if (a->has != b->has || a->reach < 0 || b->reach < 0) return false;
+    const ewa_bounds *one = &a->asset->bounds, *other = &b->asset->bounds;
+    const double reach = fmax(a->reach, b->reach);
     for (int c = 0; c < 3; c++)
-        if (a->bounds.low_world[c] - reach > b->bounds.high_world[c] ||
-            b->bounds.low_world[c] - reach > a->bounds.high_world[c])
-            return false;
+        if (one->low_world[c] - reach > other->high_world[c] || other->low_world[c] - reach > one->high_world[c]) return false;
     return true;
 }
 
-/// Marks all items that belong to the group of item `first`, directly or by others; `members` has room for all. Returns
-/// how many these are.
-static uint32_t mark_group(const ewa_scene *scene, uint32_t first, uint32_t *group_of, uint32_t *members) {
+/// Gives all clouds that belong to the first of those that have no group one, directly or by others; they leave the list.
+/// `members` has room for all. Returns how many these are.
+static uint32_t mark_group(lacking *list, uint32_t *list_count, uint32_t *group_of, lacking *members) {
+    const uint32_t first = list[0].item;
     uint32_t count = 0;
+    members[count++] = list[0];
     group_of[first] = first;
-    members[count++] = first;
     for (uint32_t next = 0; next < count; next++) {
-        const ewa_asset *member = scene->items[members[next]].asset;
-        for (uint32_t i = first + 1; i < scene->count; i++) {
-            const ewa_asset *asset = scene->items[i].asset;
-            if (group_of[i] != UINT32_MAX || !ewa_asset_is_points(asset) || asset->drawable ||
-                !(asset == member || belong_together(member, asset)))
-                continue;
-            group_of[i] = first;
-            members[count++] = i;
+        uint32_t kept = 0;
+        for (uint32_t k = 0; k < *list_count; k++) {
+            if (list[k].item == first) continue;
+            if (belong_together(&members[next], &list[k])) {
+                group_of[list[k].item] = first;
+                members[count++] = list[k];
+            } else {
+                list[kept++] = list[k];
+            }
         }
+        *list_count = kept;
     }
     return count;
 }
@@ -387,26 +399,28 @@ static void check_distances(const ewa_scene *scene) {
 }
 
 ewa_status ewa_scene_complete_items(ewa_scene *scene) {
-    uint32_t *group_of = ewa_allocate(scene->context, scene->count, sizeof *group_of);
-    uint32_t *members = ewa_allocate(scene->context, scene->count, sizeof *members);
-    ewa_status status = group_of && members ? EWA_OK : EWA_ERROR_MEMORY;
+    uint32_t *group_of = ewa_allocate(scene->context, scene->count, sizeof *group_of), list_count = 0;
+    lacking *list = ewa_allocate(scene->context, scene->count, sizeof *list), *members = ewa_allocate(scene->context, scene->count, sizeof *members);
+    ewa_status status = group_of && list && members ? EWA_OK : EWA_ERROR_MEMORY;
     if (status == EWA_OK) memset(group_of, 0xff, scene->count * sizeof *group_of);
     for (uint32_t i = 0; i < scene->count && status == EWA_OK; i++) {
         const ewa_asset *asset = scene->items[i].asset;
-        if (group_of[i] != UINT32_MAX || !ewa_asset_is_points(asset) || asset->drawable || !asset->count)
-            continue;
-        const uint32_t count = mark_group(scene, i, group_of, members);
-        ewa_completed *group = scene->items[i].completed;
-        if (is_of(group, scene, i, group_of, count)) {
+        if (ewa_asset_is_points(asset) && !asset->drawable && asset->count) list[list_count++] = lacking_of(asset, i);
+    }
+    while (list_count && status == EWA_OK) {
+        const uint32_t first = list[0].item, count = mark_group(list, &list_count, group_of, members);
+        ewa_completed *group = scene->items[first].completed;
+        if (is_of(group, scene, first, group_of, count)) {
             atomic_fetch_add(&group->references, 1);
         } else {
             group = NULL;
-            status = make_group(scene, i, group_of, count, &group);
+            status = make_group(scene, first, group_of, count, &group);
         }
-        if (status == EWA_OK) set_group(scene, i, group_of, group);
+        if (status == EWA_OK) set_group(scene, first, group_of, group);
         ewa_completed_release(&group);
     }
     ewa_release(scene->context, group_of, scene->count, sizeof *group_of);
+    ewa_release(scene->context, list, scene->count, sizeof *list);
     ewa_release(scene->context, members, scene->count, sizeof *members);
     if (status == EWA_OK) check_systems(scene), check_distances(scene);
     return status;

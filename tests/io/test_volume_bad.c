@@ -81,6 +81,7 @@ TEST(test_broken_files) {
         {NRRD UCHAR RAW "\nx", "dimension", EWA_ERROR_FORMAT},
         {NRRD UCHAR RAW "dimension: 3\n\nx", "sizes", EWA_ERROR_FORMAT},
         {NRRD CUBE RAW "\nx", "type", EWA_ERROR_FORMAT},
+        {"version https://git-lfs.github.com/spec/v1\noid sha256:4d\n", "a pointer of Git LFS", EWA_ERROR_UNSUPPORTED},
         {NRRD "type: block\n" CUBE RAW "\nx", "block", EWA_ERROR_UNSUPPORTED},
         {NRRD "type: short\n" CUBE RAW "\nxy", "endian", EWA_ERROR_FORMAT},
         {NRRD "type: short\nendian: middle\n" CUBE RAW "\nxy", "middle", EWA_ERROR_FORMAT},

@@ -5,6 +5,7 @@
 // (aneurism_256x256x256_uint8.raw.gz).
 #include "base/base.h"
 #include "base/platform.h"
+#include "io/foreign.h"
 #include "io/image/image_file.h"
 #include "io/volume/file.h"
 #include "io/volume/text.h"
@@ -69,6 +70,9 @@ ewa_status ewa_raw_parse(const ewa_volume_input *in, const ewa_volume_load_optio
     if (!told && picture)
         return ewa_volume_fail(in, EWA_ERROR_UNSUPPORTED,
                                "a picture (%s), which has no voxels", picture);
+    const bool packed = in->size_bytes >= 2 && in->bytes[0] == 0x1f && in->bytes[1] == 0x8b; // raw numbers may be
+    const char *kind = !told && !guessed && !packed ? ewa_foreign_kind(in->bytes, in->size_bytes) : NULL;
+    if (kind) return ewa_volume_fail(in, EWA_ERROR_UNSUPPORTED, "%s", kind);
     if (!told && !guessed)
         return ewa_volume_fail(
             in, EWA_ERROR_FORMAT,
@@ -87,7 +91,7 @@ ewa_status ewa_raw_parse(const ewa_volume_input *in, const ewa_volume_load_optio
     if (options->big_endian) header->big_endian = true;
     header->skipped_bytes = options->header_bytes;
     header->exact = true;
-    if (in->size_bytes >= 2 && in->bytes[0] == 0x1f && in->bytes[1] == 0x8b)
+    if (packed)
         header->packing = EWA_PACKING_DEFLATE;
     if (!told || !type_known)
         ewa_report(in->context, EWA_SEVERITY_INFO, "%s: taken for %llu x %llu x %llu voxels of type %s%s",
