@@ -23,9 +23,10 @@ typedef enum ewa_gaussian_format {
     EWA_GAUSSIANS_GLTF,       ///< KHR_gaussian_splatting, .gltf and .glb
     EWA_GAUSSIANS_KSPLAT,     ///< of GaussianSplats3D, versions 0.x, levels 0 to 2
     EWA_GAUSSIANS_SOG,        ///< meta.json with WebP pictures, in a zip or beside it
+    EWA_GAUSSIANS_STREAMED_SOG, ///< PlayCanvas's lod-meta.json, which names files of SOG: of each leaf the finest level
 } ewa_gaussian_format;
 
-/// Returns "3DGS PLY", "compressed PLY", "splat", "SPZ", "glTF", "ksplat", "SOG" or "unknown".
+/// Returns "3DGS PLY", "compressed PLY", "splat", "SPZ", "glTF", "ksplat", "SOG", "streamed SOG" or "unknown".
 EWA_API const char *ewa_gaussian_format_name(ewa_gaussian_format format);
 
 /// What a file of Gaussians is, beside what the set says.

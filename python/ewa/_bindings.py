@@ -204,6 +204,7 @@ class ewa_gaussian_format(IntEnum):
     EWA_GAUSSIANS_GLTF = 5
     EWA_GAUSSIANS_KSPLAT = 6
     EWA_GAUSSIANS_SOG = 7
+    EWA_GAUSSIANS_STREAMED_SOG = 8
 
 
 class ewa_gaussian_depth(IntEnum):

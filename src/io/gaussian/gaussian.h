@@ -40,7 +40,10 @@ typedef struct ewa_gaussian_reader {
 
 /// The formats, in the order in which they are asked. Each lives in a file of its own.
 extern const ewa_gaussian_reader ewa_gaussians_ply, ewa_gaussians_packed_ply, ewa_gaussians_spz,
-    ewa_gaussians_splat, ewa_gaussians_ksplat, ewa_gaussians_gltf, ewa_gaussians_sog;
+    ewa_gaussians_splat, ewa_gaussians_ksplat, ewa_gaussians_gltf, ewa_gaussians_sog, ewa_gaussians_sog_streamed;
+
+/// Whether a file is a JSON object that has some words in quotes (sog.c).
+bool ewa_gaussian_text_has(const ewa_gaussian_source *source, const char *const *words, uint32_t count);
 
 /// Makes a set for `count` Gaussians that the file says it has, of which each takes `min_bytes` of the
 /// `left_bytes` that are there. Errors: EWA_ERROR_FORMAT (there are fewer bytes, or no Gaussians),

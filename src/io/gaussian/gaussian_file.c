@@ -9,11 +9,11 @@
 
 static const ewa_gaussian_reader *const readers[] = {
     &ewa_gaussians_ply, &ewa_gaussians_packed_ply, &ewa_gaussians_spz,  &ewa_gaussians_gltf,
-    &ewa_gaussians_sog, &ewa_gaussians_ksplat,     &ewa_gaussians_splat};
+    &ewa_gaussians_sog, &ewa_gaussians_sog_streamed, &ewa_gaussians_ksplat, &ewa_gaussians_splat};
 
 const char *ewa_gaussian_format_name(ewa_gaussian_format format) {
     static const char *const names[] = {"unknown", "3DGS PLY", "compressed PLY", "splat",
-                                        "SPZ",     "glTF",     "ksplat",         "SOG"};
+                                        "SPZ",     "glTF",     "ksplat",         "SOG", "streamed SOG"};
     return (unsigned)format < sizeof names / sizeof names[0] ? names[format] : names[0];
 }
 
@@ -35,7 +35,7 @@ static ewa_status load(const ewa_gaussian_source *source, ewa_gaussians *gaussia
     if (!reader)
         return ewa_fail(
             source->context, EWA_ERROR_UNSUPPORTED,
-            "%s: no Gaussians of a known form (PLY, compressed PLY, splat, SPZ, glTF, ksplat, SOG)",
+            "%s: no Gaussians of a known form (PLY, compressed PLY, splat, SPZ, glTF, ksplat, SOG, streamed SOG)",
             source->name);
     facts->format = reader->format;
     facts->size_bytes = source->size_bytes;

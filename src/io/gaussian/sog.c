@@ -330,17 +330,20 @@ static bool has_word(const uint8_t *bytes, size_t size_bytes, const char *word) 
     return false;
 }
 
+bool ewa_gaussian_text_has(const ewa_gaussian_source *source, const char *const *words, uint32_t count) {
+    size_t at = 0;
+    while (at < source->size_bytes && strchr(" \t\r\n", source->bytes[at]) && source->bytes[at]) at++;
+    bool has = at < source->size_bytes && source->bytes[at] == '{';
+    for (uint32_t k = 0; k < count && has; k++) has = has_word(source->bytes, source->size_bytes, words[k]);
+    return has;
+}
+
 static bool probe(const ewa_gaussian_source *source, ewa_status *status) {
     (void)status;
     if (source->size_bytes < 4) return false;
     if (memcmp(source->bytes, "PK", 2) == 0)
         return ewa_zip_has(source->bytes, source->size_bytes, "meta.json");
-    size_t at = 0;
-    while (at < source->size_bytes && strchr(" \t\r\n", source->bytes[at]) && source->bytes[at]) at++;
-    return at < source->size_bytes && source->bytes[at] == '{' &&
-           has_word(source->bytes, source->size_bytes, "means") &&
-           has_word(source->bytes, source->size_bytes, "quats") &&
-           has_word(source->bytes, source->size_bytes, "sh0");
+    return ewa_gaussian_text_has(source, (const char *const[]){"means", "quats", "sh0"}, 3);
 }
 
 const ewa_gaussian_reader ewa_gaussians_sog = {EWA_GAUSSIANS_SOG, probe, read_sog};
