@@ -32,26 +32,27 @@ static void mark_block(const void *data, uint64_t first, uint32_t count, uint8_t
     }
 }
 
-/// Makes a cloud of the points that are taken.
+/// Makes a cloud of the points that are taken. By a view of the scene's own context: that of the cloud, which loads other files
+/// meanwhile, or that of an octree is another thread's.
 static ewa_status cut(const cut_view *given, const ewa_cloud *cloud, ewa_cloud **piece) {
     const ewa_scene_options *options = &given->scene->options;
     ewa_context *context = given->scene->context;
     const uint64_t count = ewa_cloud_point_count(cloud);
-    cut_view view = *given;
-    view.position = ewa_marks_position(cloud);
-    if (!view.position) return EWA_ERROR_ARGUMENT;
-    ewa_cloud_origin(cloud, view.origin_world);
-    uint8_t *marks = ewa_allocate(context, count, 1);
-    if (!marks) return EWA_ERROR_MEMORY;
-    memset(marks, 1, count);
-    ewa_mark_blocks(cloud, mark_block, &view, marks);
-    ewa_status status = ewa_regions_mark(options->regions, options->region_count, cloud, marks);
-    // A view, for what is read of an octree may be of a context of its own.
     ewa_cloud *own = NULL;
-    if (status == EWA_OK) status = ewa_cloud_view(context, cloud, 0, count, &own);
+    EWA_TRY(ewa_cloud_view(context, cloud, 0, count, &own));
+    cut_view view = *given;
+    view.position = ewa_marks_position(own);
+    uint8_t *marks = view.position ? ewa_allocate(context, count, 1) : NULL;
+    ewa_status status = !view.position ? EWA_ERROR_ARGUMENT : marks ? EWA_OK : EWA_ERROR_MEMORY;
+    if (status == EWA_OK) {
+        ewa_cloud_origin(own, view.origin_world);
+        memset(marks, 1, count);
+        ewa_mark_blocks(own, mark_block, &view, marks);
+        status = ewa_regions_mark(options->regions, options->region_count, own, marks);
+    }
     if (status == EWA_OK) status = ewa_cloud_keep(own, marks, piece);
-    ewa_cloud_destroy(&own);
     ewa_release(context, marks, count, 1);
+    ewa_cloud_destroy(&own);
     return status;
 }
 
