@@ -86,9 +86,11 @@ typedef struct viewer_selection {
     bool pressed; ///< the left button was pressed for the tool, and is held
     uint32_t corner_count;
     double corners[2 * SELECT_CORNERS]; ///< points of the window
-    bool given, counted;
+    bool given;
     ewa_region region;
-    uint64_t count, place_count;
+    uint64_t count;        ///< points; not of octrees
+    uint64_t center_count; ///< Gaussians and voxels
+    uint64_t place_count;
     double *places_world; ///< of some of them, to be marked
 } viewer_selection;
 
@@ -316,12 +318,18 @@ bool select_holds(const viewer *v, const char *word);
 bool select_hide(viewer *v, const char *rest);
 bool select_keep(viewer *v, const char *rest);
 bool select_unhide(viewer *v, const char *rest);
-bool select_cut(viewer *v, const char *rest);
 void select_clear(viewer *v);
 /// What a hand does while something is drawn around points; false: the event is not of it.
 bool select_press(viewer *v, const viewer_event *event);
 bool select_move(viewer *v, const viewer_event *event);
 bool select_release(viewer *v, const viewer_event *event);
+
+// cut.c
+/// Makes a cloud of the selected points. The octrees' are read.
+ewa_status cut_take_points(viewer *v, ewa_cloud **points);
+/// Makes a cloud of the centres of the selected Gaussians and voxels, or of some of them, and counts them.
+ewa_status cut_take_centers(viewer *v, uint64_t limit, ewa_cloud **centers, uint64_t *count);
+bool select_cut(viewer *v, const char *rest);
 
 // measures.c
 bool measures_command(viewer *v, const char *rest);

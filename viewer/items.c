@@ -134,6 +134,11 @@ static bool open_scene(viewer *v, const char *path) {
                     VIEWER_MAX_ITEMS - v->item_count);
         return false;
     }
+    if (!v->item_count && v->opened_count) { // all was closed: this one is seen from where it says
+        ewa_camera camera;
+        v->has_scene_camera = false;
+        v->placed = v->placed && !ewa_scene_file_camera(file, &camera);
+    }
     take_settings(v, file);
     bool done = true;
     for (uint32_t i = 0; i < count && done; i++) {

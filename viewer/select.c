@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// A selection of points, by what is drawn around them on the picture, by a box, by classes; what is hidden or kept of it, and
-// what is cut out into a file.
+// A selection of points, Gaussians and voxels, by what is drawn around them on the picture, by a box, by classes; what is hidden or
+// kept of it.
 #include "inner.h"
 #include "navigate.h"
 
@@ -22,71 +22,52 @@ void select_clear(viewer *v) {
     viewer_mark(v);
 }
 
-/// Makes a copy of the scene that shows what of the selection is not hidden.
-static ewa_status copy_selected(viewer *v, ewa_scene **scene) {
-    paint_scene shown;
-    viewer_scene(v, &shown);
-    ewa_scene_options *options = &shown.options;
-    ewa_status status = ewa_scene_copy(v->scene, v->probe.context, scene);
-    if (options->region_count == EWA_MAX_REGIONS) return EWA_ERROR_LIMIT;
-    options->regions[options->region_count] = v->selection.region;
-    options->regions[options->region_count++].kept = true;
-    return status == EWA_OK ? ewa_scene_set_options(*scene, options) : status;
-}
-
-/// Makes a cloud of the selected points. The octrees' are read.
-static ewa_status take_points(viewer *v, ewa_cloud **points) {
-    ewa_scene *scene = NULL;
-    v->probe.message[0] = 0;
-    ewa_scene_info info;
-    ewa_scene_describe(v->scene, &info);
-    if (info.octrees) {
-        painter_hurry(v->painter);
-        v->posted_whole = false;
-        turns_take_all(v->turns);
-    }
-    ewa_status status = copy_selected(v, &scene);
-    if (status == EWA_OK) status = ewa_scene_points(scene, points);
-    ewa_scene_destroy(&scene);
-    if (info.octrees) turns_give_all(v->turns);
-    return status;
-}
-
-/// Keeps some places to be marked.
+/// Keeps some places to be marked, behind those that are kept already.
 static void keep_places(viewer_selection *s, const ewa_cloud *points) {
-    s->count = ewa_cloud_point_count(points);
-    const uint64_t step = s->count / MAX_MARKS + 1, kept = s->count ? (s->count - 1) / step + 1 : 0;
+    const uint64_t count = points ? ewa_cloud_point_count(points) : 0;
+    const uint64_t step = count / MAX_MARKS + 1, kept = count ? (count - 1) / step + 1 : 0;
     const ewa_attribute *position = kept ? ewa_cloud_find(points, EWA_POSITION) : NULL;
-    s->places_world = position ? malloc(3 * kept * sizeof *s->places_world) : NULL;
-    s->place_count = s->places_world ? kept : 0;
+    double *larger = position ? realloc(s->places_world, 3 * (s->place_count + kept) * sizeof *larger) : NULL;
+    if (!larger) return; // fewer are marked
+    s->places_world = larger;
     double origin[3];
     ewa_cloud_origin(points, origin);
-    for (uint64_t i = 0; i < s->place_count; i++) {
-        ewa_attribute_read_f64(position, i * step, 1, s->places_world + 3 * i);
-        for (int c = 0; c < 3; c++) s->places_world[3 * i + (uint64_t)c] += origin[c];
+    for (uint64_t i = 0; i < kept; i++) {
+        double *place = larger + 3 * s->place_count++;
+        ewa_attribute_read_f64(position, i * step, 1, place);
+        for (int c = 0; c < 3; c++) place[c] += origin[c];
     }
 }
 
-/// Counts what is selected, unless octrees would have to be read for it, and says so.
+/// Counts what is selected, but of octrees, which would have to be read, and says so.
 static bool finish(viewer *v) {
     viewer_selection *s = &v->selection;
     ewa_scene_info info;
     ewa_scene_describe(v->scene, &info);
     s->given = true;
-    s->counted = !info.octrees;
-    ewa_cloud *points = NULL;
-    const ewa_status status = s->counted ? take_points(v, &points) : EWA_OK;
-    if (points) keep_places(s, points);
+    ewa_cloud *points = NULL, *centers = NULL;
+    ewa_status status = info.surfaces && !info.octrees ? cut_take_points(v, &points) : EWA_OK;
+    if (status == EWA_OK && (info.gaussians || info.volumes)) status = cut_take_centers(v, MAX_MARKS, &centers, &s->center_count);
+    if (points) s->count = ewa_cloud_point_count(points);
+    keep_places(s, points);
+    keep_places(s, centers);
     ewa_cloud_destroy(&points);
+    ewa_cloud_destroy(&centers);
     if (status != EWA_OK) {
         viewer_tell(v, "select: %s", v->probe.message[0] ? v->probe.message : ewa_status_name(status));
         select_clear(v);
         return false;
     }
-    if (s->counted)
-        viewer_say(v, "select %llu points", (unsigned long long)s->count);
-    else
+    const char *others = info.gaussians && info.volumes ? "Gaussians and voxels" : info.gaussians ? "Gaussians" : "voxels";
+    if (info.octrees)
         viewer_say(v, "select what is in the outline; octrees are counted when they are cut");
+    else if (!info.gaussians && !info.volumes)
+        viewer_say(v, "select %llu points", (unsigned long long)s->count);
+    else if (!info.surfaces)
+        viewer_say(v, "select %llu %s", (unsigned long long)s->center_count, others);
+    else
+        viewer_say(v, "select %llu points, %llu %s", (unsigned long long)s->count, (unsigned long long)s->center_count, others);
+    viewer_note(v, "%s", v->said); // in place of what the tool asked for
     viewer_mark(v);
     return true;
 }
@@ -171,7 +152,7 @@ static bool set_tool(viewer *v, const char *word) {
             v->selection.tool = (int)v->selection.tool == k ? SELECT_OFF : (select_tool)k;
             v->selection.corner_count = 0;
             v->selection.pressed = false; // the button may be held: an outline that was begun with another tool is given up
-            viewer_note(v, v->selection.tool ? "select: draw a %s around points" : "select: %s", tools[v->selection.tool]);
+            viewer_note(v, v->selection.tool ? "select: draw a %s around what is meant" : "select: %s", tools[v->selection.tool]);
             viewer_mark(v);
             return true;
         }
@@ -235,29 +216,6 @@ bool select_unhide(viewer *v, const char *rest) {
     items_refresh(v);
     viewer_change(v);
     return true;
-}
-
-bool select_cut(viewer *v, const char *path) {
-    ewa_cloud *points = NULL;
-    if (!v->selection.given || !*path) {
-        viewer_tell(v, *path ? "cut: nothing is selected" : "cut: wants the name of a file");
-        return false;
-    }
-    ewa_status status = take_points(v, &points);
-    const uint64_t count = points ? ewa_cloud_point_count(points) : 0;
-    if (status == EWA_OK && !count) {
-        viewer_tell(v, "cut: none of the points is selected");
-        ewa_cloud_destroy(&points);
-        return false;
-    }
-    if (status == EWA_OK) status = ewa_cloud_save(points, path, NULL);
-    ewa_cloud_destroy(&points);
-    if (status != EWA_OK)
-        viewer_tell(v, "%s: the points cannot be saved: %s", path,
-                    v->probe.message[0] ? v->probe.message : ewa_status_name(status));
-    else
-        viewer_say(v, "cut %llu points to %s", (unsigned long long)count, path);
-    return status == EWA_OK;
 }
 
 /// Adds a corner to what is being drawn.

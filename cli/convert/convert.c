@@ -331,6 +331,7 @@ static bool is_of_gaussians(cli_session *session, const convert_arguments *argum
     if (convert_gaussians_is_named(output->path) || arguments->prune > 0) return true;
     if (output->common.operand_count != 1 || ewa_gaussians_format_of(output->path) != EWA_GAUSSIANS_PLY)
         return false;
+    if (scene_input_is_of_gaussians(session, output->common.operands[0])) return true;
     const ewa_gaussian_format format = gaussian_files_format(session, output->common.operands[0]);
     return format > EWA_GAUSSIANS_PLY ||
            (format == EWA_GAUSSIANS_PLY && (arguments->scale.count || arguments->transform.count));
@@ -405,7 +406,7 @@ const cli_command convert_command = {
     .operands = "IN... -o OUT",
     .summary = "write clouds to another file: another encoding, a part, moved, several as one",
     .details =
-        "All attributes are kept with their types. A scene file gives the points that it shows. Of several inputs, attributes that only some have are "
+        "All attributes are kept with their types. A scene file gives the points that it shows, or, where it shows nothing else, its Gaussians. Of several inputs, attributes that only some have are "
         "NaN, "
         "in whole numbers 0, for the points of the others, which a warning says; normals, radii and axes are "
         "kept only where all have them. Of one mesh the faces are kept, of PLY all else too; they are "

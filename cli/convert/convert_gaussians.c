@@ -5,6 +5,7 @@
 #include "cli/convert/convert_gaussians.h"
 #include "cli/input/gaussian_files.h"
 #include "cli/input/point_choice.h"
+#include "cli/input/scene_input.h"
 
 #include <float.h>
 #include <math.h>
@@ -45,23 +46,18 @@ static ewa_status make_points(const ewa_gaussians *set, ewa_cloud **points) {
 
 /// Leaves those of a set that points are the centres of.
 static ewa_status keep(ewa_gaussians *set, const ewa_cloud *points) {
-    const uint32_t kept = (uint32_t)ewa_cloud_point_count(points);
     const ewa_attribute *number = ewa_cloud_find(points, NUMBER);
-    ewa_gaussians part;
-    const ewa_status status = ewa_gaussians_create(set->context, kept, set->sh_degree, &part);
-    if (status != EWA_OK) return status;
-    part.flat = set->flat, part.antialiased = set->antialiased;
-    memcpy(part.origin, set->origin, sizeof part.origin);
-    const size_t harmonics = 3 * (size_t)(set->sh_degree + 1) * (set->sh_degree + 1);
-    for (size_t to = 0; to < kept; to++) {
+    uint8_t *marks = calloc(set->count ? set->count : 1, 1);
+    if (!marks) return EWA_ERROR_MEMORY;
+    for (uint64_t i = 0; i < ewa_cloud_point_count(points); i++) {
         uint32_t from;
-        memcpy(&from, (const uint8_t *)number->data + to * number->stride_bytes, sizeof from);
-        memcpy(part.centers + 3 * to, set->centers + 3 * (size_t)from, 3 * sizeof(float));
-        memcpy(part.scales + 3 * to, set->scales + 3 * (size_t)from, 3 * sizeof(float));
-        memcpy(part.rotations + 4 * to, set->rotations + 4 * (size_t)from, 4 * sizeof(float));
-        part.opacities[to] = set->opacities[from];
-        memcpy(part.harmonics + harmonics * to, set->harmonics + harmonics * from, harmonics * sizeof(float));
+        memcpy(&from, (const uint8_t *)number->data + i * number->stride_bytes, sizeof from);
+        marks[from] = 1;
     }
+    ewa_gaussians part;
+    const ewa_status status = ewa_gaussians_keep(set, marks, &part);
+    free(marks);
+    if (status != EWA_OK) return status;
     ewa_gaussians_free(set);
     *set = part;
     return EWA_OK;
@@ -113,8 +109,12 @@ bool convert_gaussians(cli_session *session, const char *from, const char *to,
     ewa_gaussians set;
     ewa_gaussian_facts facts;
     ewa_gaussians_save_options chosen = *options;
-    if (!gaussian_files_load(session, from, &set, &facts)) return false;
-    memcpy(chosen.up_world, facts.up_world, sizeof chosen.up_world);
+    if (ewa_scene_file_probe(from)) {
+        if (!scene_input_gaussians(session, from, &set, chosen.up_world)) return false;
+    } else {
+        if (!gaussian_files_load(session, from, &set, &facts)) return false;
+        memcpy(chosen.up_world, facts.up_world, sizeof chosen.up_world);
+    }
     session->subject = from;
     if ((choose || prune_factor > 0) && !choose_gaussians(session, prune_factor, choose, data, &set)) {
         ewa_gaussians_free(&set);

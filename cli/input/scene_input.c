@@ -3,6 +3,7 @@
 //
 // The scene that a command's operands and options ask for.
 #include "cli/input/scene_input.h"
+#include "cli/input/gaussian_files.h"
 #include "cli/input/import.h"
 
 #include <string.h>
@@ -119,4 +120,30 @@ ewa_cloud *scene_input_points(cli_session *session, const char *path) {
         (void)session_passed(session, ewa_scene_points(scene, &cloud));
     ewa_scene_destroy(&scene);
     return cloud;
+}
+
+bool scene_input_is_of_gaussians(cli_session *session, const char *path) {
+    ewa_scene_file *file = NULL;
+    const ewa_asset_options options = scene_input_asset_options(session);
+    // What is wrong with it is said by who reads it.
+    if (!ewa_scene_file_probe(path) || ewa_scene_file_load(session->context, path, &options, &file) != EWA_OK) return false;
+    uint32_t count = 0, others = 0;
+    for (uint32_t i = 0; i < ewa_scene_file_count(file); i++) {
+        ewa_scene_entry entry;
+        if (ewa_scene_file_entry(file, i, &entry) != EWA_OK || !entry.instance.visible) continue;
+        const bool gaussians = !entry.asset.gaussians_as_surfels && gaussian_files_format(session, entry.path) != EWA_GAUSSIANS_NONE;
+        *(gaussians ? &count : &others) += 1;
+    }
+    ewa_scene_file_destroy(&file);
+    return count && !others;
+}
+
+bool scene_input_gaussians(cli_session *session, const char *path, ewa_gaussians *set, double up_world[3]) {
+    const ewa_asset_options options = scene_input_asset_options(session);
+    ewa_scene *scene = NULL;
+    const bool done = session_passed(session, ewa_scene_create(session->context, NULL, &scene)) &&
+                      session_passed(session, ewa_scene_open(scene, path, &options)) &&
+                      session_passed(session, ewa_scene_gaussians(scene, set, up_world));
+    ewa_scene_destroy(&scene);
+    return done;
 }

@@ -24,6 +24,12 @@ ewa_cloud *scene_input_cloud(cli_session *session, size_t count, const char *con
 /// regions hide and its sections cut away. The caller destroys it; NULL after reporting.
 ewa_cloud *scene_input_points(cli_session *session, const char *path);
 
+/// Whether a scene file shows Gaussians, and nothing else.
+bool scene_input_is_of_gaussians(cli_session *session, const char *path);
+
+/// Makes a set of the Gaussians of a scene file, as scene_input_points() does. The caller frees it; false after reporting.
+bool scene_input_gaussians(cli_session *session, const char *path, ewa_gaussians *set, double up_world[3]);
+
 /// Options of a colouring.
 typedef struct coloring_arguments {
     const char *color_by; ///< NULL: none given

@@ -51,16 +51,20 @@ static bool check(const void *data, char message[OPTION_ERROR_BYTES]) {
     return view_check(&arguments->view, false, message);
 }
 
-/// Keeps memory flat over hours: else the C library gives each thread that loads or draws a heap of its own,
-/// which stays when the thread ends.
-static void share_heap(void) {
+/// Keeps memory flat over hours: else the C library gives each thread that loads or draws a heap of its own, which stays when the
+/// thread ends, and takes larger and larger blocks from it, the larger ones that were given back: one small block behind one of a
+/// cloud then keeps as much for good.
+static void keep_memory_flat(void) {
 #ifdef M_ARENA_MAX
     mallopt(M_ARENA_MAX, 1);
+#endif
+#ifdef M_MMAP_THRESHOLD
+    mallopt(M_MMAP_THRESHOLD, 1 << 20);
 #endif
 }
 
 int window_run(const void *data, int (*front)(const front_job *job)) {
-    share_heap();
+    keep_memory_flat();
     const window_arguments *arguments = data;
     const common_arguments *common = &arguments->view.common;
     window_services services;

@@ -136,7 +136,7 @@ static bool load(void *user, const char *path, const ewa_asset_options *said, co
     window_services *own = user;
     ewa_asset_options options = load_options(own, said);
     if (options.levels == EWA_OCTREE_AUTO) options.levels = own->levels;
-    if (options.voxel_level_count < VIEWER_VOXEL_LEVELS) options.voxel_level_count = VIEWER_VOXEL_LEVELS;
+    options.voxel_level_minimum = VIEWER_VOXEL_LEVELS;
     options.gaussian_levels = true;
     options.own_context = true;
     if (!session_passed(&own->loading, ewa_asset_load(own->loading.context, path, &options, asset)))

@@ -53,6 +53,10 @@ EWA_API ewa_status ewa_gaussians_measure(const ewa_gaussians *gaussians, ewa_bou
 /// EWA_ERROR_ARGUMENT, EWA_ERROR_NUMERIC (no inverse, a number that is not finite; the set is then as before).
 EWA_API ewa_status ewa_gaussians_transform(ewa_gaussians *gaussians, const double world_to_world[16]);
 
+/// Makes a set of those whose byte in `marks`, one for each, is not 0, in their order, with every number. The caller frees
+/// `*kept`, zeroed after a failure. Errors: EWA_ERROR_ARGUMENT, EWA_ERROR_MEMORY.
+EWA_API ewa_status ewa_gaussians_keep(const ewa_gaussians *gaussians, const uint8_t *marks, ewa_gaussians *kept);
+
 /// Makes surfels of a set, for which 2D Gaussians are meant: "position", float, with the set's origin,
 /// "tangent_u" and "tangent_v" along the two longest axes, one standard deviation long, "normal" along the
 /// shortest, "color" in linear light, that of the constant harmonic, clamped to [0, 1], with the opacity as

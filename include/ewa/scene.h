@@ -73,6 +73,7 @@ typedef struct ewa_asset_options {
     /// "auto": ewa_transfer_automatic().
     const char *transfer;
     uint32_t voxel_level_count; ///< of volumes: ewa_voxels_options.level_count; [1, EWA_MAX_VOLUME_LEVELS]; default 1
+    uint32_t voxel_level_minimum; ///< as many at least, for pictures while something moves: no scene file says so; default 1
     double reach_steps;      ///< of volumes: how far a voxel's footprint counts, steps of the grid; [0, 64], default 1.8
     /// Octrees get a context of their own, like the one that loads, so that they can be drawn while that loads other
     /// files; default false
@@ -186,8 +187,9 @@ typedef struct ewa_scene_options {
                                  ///< of Gaussians and volumes, too; `opacity` and `layers` are of surfaces
     ewa_gaussian_options gaussians; ///< of Gaussians; `near_world` 0 (default): as suits them
     ewa_volume_options volumes;     ///< of volumes; `level`: of those that have as many
-    /// Hide points of clouds, meshes and octrees, in pictures, picks, profiles and ewa_scene_points(); those of the scene's own
-    /// options count, whatever ewa_scene_draw() is given. Colours, estimates and cameras stay those of the whole.
+    /// Hide points of clouds, meshes and octrees, Gaussians and voxels by their centres, in pictures, picks, profiles and what is
+    /// written (ewa_scene_points(), ewa_scene_gaussians(), ewa_scene_volume()); those of the scene's own options count, whatever
+    /// ewa_scene_draw() is given. Colours, estimates and cameras stay those of the whole.
     ewa_region regions[EWA_MAX_REGIONS];
     uint32_t region_count; ///< of `regions`; [0, EWA_MAX_REGIONS]; default 0
     /// Many frames of the scene follow, as of a film: surfels in memory are drawn by levels of detail where the picture is expected
@@ -267,6 +269,23 @@ EWA_API ewa_status ewa_scene_cloud(ewa_scene *scene, ewa_cloud **cloud);
 /// regions hide and sections cut away; of octrees all points. The caller destroys `*cloud`, which may have no points. Errors:
 /// EWA_ERROR_ARGUMENT (points that are gone), those of ewa_lod_read() and ewa_cloud_merge().
 EWA_API ewa_status ewa_scene_points(ewa_scene *scene, ewa_cloud **cloud);
+
+/// Reads the file of the visible Gaussians again, without those that regions hide and sections cut away, every number as the file
+/// has it, moved as the item is; `up_world` (may be NULL): what the file says is up, zeros where it does not. The caller frees
+/// `*gaussians`, zeroed after a failure. Errors: EWA_ERROR_ARGUMENT (not one set of Gaussians is visible), EWA_ERROR_UNSUPPORTED
+/// (it was made in memory), those of ewa_gaussians_load().
+EWA_API ewa_status ewa_scene_gaussians(const ewa_scene *scene, ewa_gaussians *gaussians, double up_world[3]);
+
+/// Reads the file of the visible volume again: the smallest grid around those voxels that no region hides and no section cuts
+/// away, moved as the item is. Others within have the least number that the transfer function leaves empty, of floats NaN. The
+/// caller frees `*volume`, zeroed after a failure. Errors: EWA_ERROR_ARGUMENT (not one volume is visible, nothing of it is left),
+/// EWA_ERROR_UNSUPPORTED (it was made in memory), those of ewa_volume_load() and ewa_transfer_choose().
+EWA_API ewa_status ewa_scene_volume(const ewa_scene *scene, ewa_volume *volume);
+
+/// Makes a cloud of the centres ("position", doubles, world units) of the Gaussians and voxels that are resident, visible, neither
+/// hidden by regions nor cut away by sections: all, or evenly some, up to `limit` > 0; `*count` is how many there are. The
+/// caller destroys `*cloud`, NULL after a failure. Errors: EWA_ERROR_ARGUMENT, EWA_ERROR_LIMIT, EWA_ERROR_MEMORY.
+EWA_API ewa_status ewa_scene_centers(const ewa_scene *scene, uint64_t limit, ewa_cloud **cloud, uint64_t *count);
 
 /// Makes everything resident that is visible: all clouds and meshes become one set of surfels, as if they were one
 /// file, coloured and measured as the instances say. Called by ewa_scene_draw() and ewa_scene_pick(). Without

@@ -2415,6 +2415,7 @@ class ewa_asset_options(c.Structure):
     cutoff: float
     transfer: bytes | None
     voxel_level_count: int
+    voxel_level_minimum: int
     reach_steps: float
     own_context: bool
     reader: Any
@@ -2430,6 +2431,7 @@ class ewa_asset_options(c.Structure):
         ("cutoff", c.c_double),
         ("transfer", c.c_char_p),
         ("voxel_level_count", c.c_uint32),
+        ("voxel_level_minimum", c.c_uint32),
         ("reach_steps", c.c_double),
         ("own_context", c.c_bool),
         ("reader", ewa_asset_reader),
@@ -2968,6 +2970,7 @@ class Functions:
         self.ewa_text_width_px: Callable[..., float] = bind("ewa_text_width_px", c.c_double, c.c_char_p, c.c_double)
         self.ewa_gaussians_create: Callable[..., int] = bind("ewa_gaussians_create", c.c_int, c.c_void_p, c.c_uint32, c.c_uint32, c.POINTER(ewa_gaussians))
         self.ewa_gaussians_free: Callable[..., None] = bind("ewa_gaussians_free", None, c.POINTER(ewa_gaussians))
+        self.ewa_gaussians_keep: Callable[..., int] = bind("ewa_gaussians_keep", c.c_int, c.POINTER(ewa_gaussians), c.c_void_p, c.POINTER(ewa_gaussians))
         self.ewa_gaussians_measure: Callable[..., int] = bind("ewa_gaussians_measure", c.c_int, c.POINTER(ewa_gaussians), c.POINTER(ewa_bounds))
         self.ewa_gaussians_outline: Callable[..., int] = bind("ewa_gaussians_outline", c.c_int, c.POINTER(ewa_gaussians), c.POINTER(ewa_bounds), c.c_void_p)
         self.ewa_gaussians_to_cloud: Callable[..., int] = bind("ewa_gaussians_to_cloud", c.c_int, c.POINTER(ewa_gaussians), c.c_void_p)
@@ -3191,6 +3194,7 @@ class Functions:
         self.ewa_scene_add: Callable[..., int] = bind("ewa_scene_add", c.c_int, c.c_void_p, c.c_void_p, c.POINTER(ewa_instance))
         self.ewa_scene_asset: Callable[..., int | None] = bind("ewa_scene_asset", c.c_void_p, c.c_void_p, c.c_uint32)
         self.ewa_scene_bounds: Callable[..., None] = bind("ewa_scene_bounds", None, c.c_void_p, c.POINTER(ewa_bounds))
+        self.ewa_scene_centers: Callable[..., int] = bind("ewa_scene_centers", c.c_int, c.c_void_p, c.c_uint64, c.c_void_p, c.c_void_p)
         self.ewa_scene_cloud: Callable[..., int] = bind("ewa_scene_cloud", c.c_int, c.c_void_p, c.c_void_p)
         self.ewa_scene_commit: Callable[..., int] = bind("ewa_scene_commit", c.c_int, c.c_void_p)
         self.ewa_scene_compare_photo: Callable[..., int] = bind("ewa_scene_compare_photo", c.c_int, c.c_void_p, c.c_void_p, c.POINTER(ewa_photo), c.POINTER(ewa_scene_options), c.POINTER(ewa_photo_comparison))
@@ -3202,6 +3206,7 @@ class Functions:
         self.ewa_scene_destroy: Callable[..., None] = bind("ewa_scene_destroy", None, c.c_void_p)
         self.ewa_scene_draw: Callable[..., int] = bind("ewa_scene_draw", c.c_int, c.c_void_p, c.c_void_p, c.POINTER(ewa_camera), c.POINTER(ewa_scene_options), c.POINTER(ewa_frame), c.POINTER(ewa_scene_stats))
         self.ewa_scene_draw_outlines: Callable[..., int] = bind("ewa_scene_draw_outlines", c.c_int, c.c_void_p, c.c_void_p, c.POINTER(ewa_camera), c.POINTER(ewa_scene_options), c.c_uint32, c.POINTER(ewa_canvas))
+        self.ewa_scene_gaussians: Callable[..., int] = bind("ewa_scene_gaussians", c.c_int, c.c_void_p, c.POINTER(ewa_gaussians), c.c_void_p)
         self.ewa_scene_get: Callable[..., int] = bind("ewa_scene_get", c.c_int, c.c_void_p, c.c_uint32, c.POINTER(ewa_instance))
         self.ewa_scene_get_camera: Callable[..., bool] = bind("ewa_scene_get_camera", c.c_bool, c.c_void_p, c.POINTER(ewa_camera))
         self.ewa_scene_get_options: Callable[..., None] = bind("ewa_scene_get_options", None, c.c_void_p, c.POINTER(ewa_scene_options))
@@ -3227,6 +3232,7 @@ class Functions:
         self.ewa_scene_set_keyframes: Callable[..., int] = bind("ewa_scene_set_keyframes", c.c_int, c.c_void_p, c.POINTER(ewa_camera), c.c_uint32)
         self.ewa_scene_set_measures: Callable[..., int] = bind("ewa_scene_set_measures", c.c_int, c.c_void_p, c.POINTER(ewa_measure), c.c_uint32)
         self.ewa_scene_set_options: Callable[..., int] = bind("ewa_scene_set_options", c.c_int, c.c_void_p, c.POINTER(ewa_scene_options))
+        self.ewa_scene_volume: Callable[..., int] = bind("ewa_scene_volume", c.c_int, c.c_void_p, c.POINTER(ewa_volume))
         self.ewa_view_options_init: Callable[..., None] = bind("ewa_view_options_init", None, c.POINTER(ewa_view_options), c.c_size_t)
         self.ewa_scene_describe_json: Callable[..., int] = bind("ewa_scene_describe_json", c.c_int, c.c_void_p, c.c_void_p)
         self.ewa_scene_file_apply: Callable[..., None] = bind("ewa_scene_file_apply", None, c.c_void_p, c.POINTER(ewa_scene_options))

@@ -43,6 +43,8 @@ class AssetOptions(TypedDict, total=False):
     cutoff: float | None
     #: levels of detail of volumes; [1, 4], default 1
     voxel_level_count: int | None
+    #: levels of detail of volumes at least, for pictures while something moves; [1, 4], default 1
+    voxel_level_minimum: int | None
     #: how far a voxel's footprint counts in the picture's frame, steps of the grid; [0, 64], default 1.7999999999999998
     reach_steps: float | None
 

@@ -99,12 +99,22 @@ class Gaussians(Held):
         load, source = loader(lib.ewa_gaussians_load, lib.ewa_gaussians_load_memory, path, named=True)
         gaussians._fill(core, struct, "centers", load, lib.ewa_gaussians_free, core.address, *source,
                         ctypes.byref(struct), ctypes.byref(facts))
-        up = facts.up_world
-        if abs(up[2]) > abs(up[1]):
-            gaussians._up = "z" if up[2] > 0 else "-z"
-        elif up[1] > 0:
-            gaussians._up = "y"
+        gaussians._set_up(facts.up_world)
         return gaussians
+
+    @staticmethod
+    def _of_scene(core: Core, handle: Any) -> Gaussians:
+        gaussians = Gaussians.__new__(Gaussians)
+        struct, up = b.ewa_gaussians(), (ctypes.c_double * 3)()
+        gaussians._fill(core, struct, "centers", lib.ewa_scene_gaussians, lib.ewa_gaussians_free, handle, ctypes.byref(struct), up)
+        gaussians._set_up(up)
+        return gaussians
+
+    def _set_up(self, up: Any) -> None:
+        if abs(up[2]) > abs(up[1]):
+            self._up = "z" if up[2] > 0 else "-z"
+        elif up[1] > 0:
+            self._up = "y"
 
     def __len__(self) -> int:
         return int(self._struct.count) if self._handle is not None else 0

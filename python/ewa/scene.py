@@ -19,10 +19,12 @@ from ._scene import World, core_of_things, is_path, view_options
 from ._struct import fill, initialised, numbers, path_bytes, text_bytes
 from .camera import Camera, PathLike
 from .cloud import Cloud
+from .gaussians import Gaussians
 from .image import Color, Image
 from .profiles import Profile
 from .rendering import draw, draw_outlines
 from .shade import Environment, Light, Materials
+from .volume import Volume
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
@@ -197,9 +199,29 @@ class Scene:
         """
         return Cloud._made(self._core, lib.ewa_scene_points, self._handle)
 
+    def gaussians(self) -> Gaussians:
+        """Return the trained Gaussians of the one visible file of them, read again, without those that are hidden or cut away by
+        the sections of a scene file.
+
+        Raises
+        ------
+        ArgumentError, FileError, FormatError, OutOfMemory, ClosedError
+        """
+        return Gaussians._of_scene(self._core, self._handle)
+
+    def volume(self) -> Volume:
+        """Return the part of the one visible volume's file that is neither hidden nor cut away by the sections of a scene file: the
+        smallest grid around it, in which other voxels are empty.
+
+        Raises
+        ------
+        ArgumentError, FileError, FormatError, OutOfMemory, ClosedError
+        """
+        return Volume._made(self._core, lib.ewa_scene_volume, self._handle)
+
     def hide(self, *, box: Any = None, outline: Any = None, camera: Camera | None = None,
              classes: Iterable[int] | None = None) -> None:
-        """Hide points of clouds, meshes and octrees: those for which all that is given holds.
+        """Hide points, Gaussians and voxels: those for whose places and classes all that is given holds.
 
         Parameters
         ----------
@@ -220,7 +242,7 @@ class Scene:
 
     def keep(self, *, box: Any = None, outline: Any = None, camera: Camera | None = None,
              classes: Iterable[int] | None = None) -> None:
-        """Hide all other points than those that :meth:`hide` would.
+        """Hide all other points, Gaussians and voxels than those that :meth:`hide` would.
 
         Raises
         ------

@@ -139,6 +139,34 @@ class SameScene(Case):
         with self.assertRaises(ewa.ArgumentError):
             scene.hide(outline=[(0, 0), (1, 1)], camera=seen)
 
+    def test_regions_of_others(self) -> None:
+        """So are Gaussians and voxels, which are where their centres are."""
+        for name, suffix, some in (("four.splat", "ply", 2), ("ball.nrrd", "nrrd", 0)):
+            scene = ewa.Scene(self.path(name))
+            seen = scene.camera(size=SIZE)
+            scene.keep(box=[(-9, -9, -9), (0, 9, 9)])
+            left = scene.gaussians() if some else scene.volume()
+            if some:
+                self.assertEqual(len(left), some)
+            else:
+                self.assertEqual(left.voxels.shape, (24, 24, 12))
+            left.save(self.path(f"ours.{suffix}"))
+            scene.save(self.path("kept.json"), seen)
+            scene.render(seen).save(self.path("ours.png"))
+            self.run_program("render", "kept.json", "-o", "theirs.png")
+            self.assertEqual(self.bytes("ours.png"), self.bytes("theirs.png"))
+            if some:
+                self.run_program("convert", "kept.json", "-o", "theirs.ply")
+                self.assertEqual(self.bytes("ours.ply"), self.bytes("theirs.ply"))
+            with open(self.path("keep.txt"), "w", encoding="ascii") as file:
+                file.write(f"do select box -9,-9,-9,0,9,9\ndo cut window.{suffix}\ndo keep\ndo scene save window.json\n")
+            self.run_program("view", name, "--size", f"{SIZE[0]}x{SIZE[1]}", "--script", "keep.txt")
+            self.assertEqual(self.bytes(f"ours.{suffix}"), self.bytes(f"window.{suffix}"))
+            self.run_program("render", "window.json", "-o", "window.png")
+            self.assertEqual(self.bytes("ours.png"), self.bytes("window.png"))
+        with self.assertRaises(ewa.ArgumentError):
+            ewa.Scene(self.path("ball.nrrd")).gaussians()
+
     def sets(self) -> list[tuple[str, ...]]:
         """Every kind, every pair and some triples."""
         return [*((kind,) for kind in self.kinds), *itertools.combinations(self.kinds, 2), *self.triples]

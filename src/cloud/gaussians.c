@@ -6,6 +6,7 @@
 #include "ewa/gaussian.h"
 
 #include <math.h>
+#include <string.h>
 
 /// Floats that a Gaussian has.
 static size_t harmonic_count(uint32_t sh_degree) { return 3 * (size_t)(sh_degree + 1) * (sh_degree + 1); }
@@ -47,6 +48,29 @@ void ewa_gaussians_free(ewa_gaussians *gaussians) {
     ewa_release(context, gaussians->opacities, count, sizeof(float));
     ewa_release(context, gaussians->harmonics, count, harmonic_count(gaussians->sh_degree) * sizeof(float));
     *gaussians = (ewa_gaussians){0};
+}
+
+ewa_status ewa_gaussians_keep(const ewa_gaussians *from, const uint8_t *marks, ewa_gaussians *kept) {
+    if (!kept) return EWA_ERROR_ARGUMENT;
+    *kept = (ewa_gaussians){0};
+    if (!from || !from->context || !marks) return EWA_ERROR_ARGUMENT;
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < from->count; i++) count += marks[i] != 0;
+    EWA_TRY(ewa_gaussians_create(from->context, count, from->sh_degree, kept));
+    kept->flat = from->flat, kept->antialiased = from->antialiased;
+    memcpy(kept->origin, from->origin, sizeof kept->origin);
+    const size_t harmonics = harmonic_count(from->sh_degree);
+    size_t to = 0;
+    for (size_t i = 0; i < from->count; i++) {
+        if (!marks[i]) continue;
+        memcpy(kept->centers + 3 * to, from->centers + 3 * i, 3 * sizeof(float));
+        memcpy(kept->scales + 3 * to, from->scales + 3 * i, 3 * sizeof(float));
+        memcpy(kept->rotations + 4 * to, from->rotations + 4 * i, 4 * sizeof(float));
+        kept->opacities[to] = from->opacities[i];
+        memcpy(kept->harmonics + harmonics * to, from->harmonics + harmonics * i, harmonics * sizeof(float));
+        to++;
+    }
+    return EWA_OK;
 }
 
 ewa_status ewa_gaussians_measure(const ewa_gaussians *gaussians, ewa_bounds *bounds) {

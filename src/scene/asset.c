@@ -37,6 +37,8 @@ static const ewa_option option_rows[] = {
      .help = "standard deviations at which kernels of a mesh's points end"},
     {"voxel_level_count", EWA_OPTION_U32, AT(voxel_level_count), 1, EWA_MAX_VOLUME_LEVELS, .initial = 1,
      .help = "levels of detail of volumes"},
+    {"voxel_level_minimum", EWA_OPTION_U32, AT(voxel_level_minimum), 1, EWA_MAX_VOLUME_LEVELS, .initial = 1,
+     .help = "levels of detail of volumes at least, for pictures while something moves"},
     {"reach_steps", EWA_OPTION_F64, AT(reach_steps), 0, 64, .initial = 0.6 * 3,
      .help = "how far a voxel's footprint counts in the picture's frame, steps of the grid"},
 };

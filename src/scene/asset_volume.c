@@ -39,8 +39,7 @@ int ewa_asset_view_of_volume(const ewa_volume *volume) {
     return volume->anatomical ? EWA_VIEW_FRONT : EWA_VIEW_ISO;
 }
 
-/// Puts the map of an asset before the one of the voxels' indices.
-static void move(const double to_world[16], ewa_volume *volume) {
+void ewa_asset_move_volume(const double to_world[16], ewa_volume *volume) {
     double moved[12];
     for (int r = 0; r < 3; r++)
         for (int c = 0; c < 4; c++) {
@@ -58,13 +57,14 @@ ewa_status ewa_asset_take_volume(const ewa_asset_job *job, const ewa_transfer *g
     asset->kind = EWA_ASSET_VOLUME;
     asset->flat = asset->source.flat || (word && (strcmp(word, "fog") == 0 || strcmp(word, "gray") == 0));
     memcpy(asset->up_world, ewa_up_of_volumes, sizeof asset->up_world);
-    move(asset->to_world, volume);
+    ewa_asset_move_volume(asset->to_world, volume);
     ewa_transfer *chosen = given ? NULL : ewa_allocate(context, 1, sizeof *chosen);
     if (!given && !chosen) return EWA_ERROR_MEMORY;
     const ewa_transfer *transfer = given ? given : chosen;
     ewa_voxels_options options;
     ewa_voxels_options_init(&options, sizeof options);
     options.level_count = job->options->voxel_level_count;
+    if (options.level_count < job->options->voxel_level_minimum) options.level_count = job->options->voxel_level_minimum;
     ewa_status status = given ? EWA_OK : ewa_transfer_choose(context, word, volume, chosen);
     if (status == EWA_OK) status = ewa_voxels_create(volume, transfer, &options, &asset->voxels);
     if (status == EWA_OK)

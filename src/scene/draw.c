@@ -117,13 +117,14 @@ ewa_status ewa_scene_list_shown(const ewa_scene *scene, const ewa_lod_options *o
         if (asset->lod) shown->lods[shown->lod_count++] = asset->lod;
         if (asset->splats) {
             shown->splat_colors[shown->splats_count] = ewa_surface_splat_colors(scene->surface, asset);
-            shown->splats[shown->splats_count++] = asset->splats;
+            shown->splats[shown->splats_count++] = ewa_item_splats(&scene->items[i]);
             shown->near_world = fmin(shown->near_world, asset->near_world);
         }
         if (!asset->voxels) continue;
         if (shown->volume_count == EWA_MAX_MIXED_VOLUMES)
             return ewa_fail(context, EWA_ERROR_LIMIT, "%s: a picture shows at most %d volumes", asset->name,
                             EWA_MAX_MIXED_VOLUMES);
+        shown->voxels[shown->volume_count] = ewa_item_voxels(&scene->items[i]);
         shown->volumes[shown->volume_count++] = asset;
     }
     return list_appearances(scene, options, renderer, shown);
@@ -251,11 +252,11 @@ static ewa_status draw_mixture(ewa_scene_renderer *renderer, const ewa_scene_sho
     for (uint32_t i = 0; i < shown->volume_count && status == EWA_OK; i++) {
         if (!renderer->volumes[i]) status = ewa_volume_renderer_create(context, &renderer->volumes[i]);
         volumes[i] = volume_options(options, shown->volumes[i]);
-        mixed[i] = (ewa_mixed_volume){renderer->volumes[i], shown->volumes[i]->voxels, &volumes[i], &took[i]};
+        mixed[i] = (ewa_mixed_volume){renderer->volumes[i], shown->voxels[i], &volumes[i], &took[i]};
     }
     EWA_TRY(status);
     if (shown->volume_count == 1 && !shown->splats_count && !among->surface_depth) {
-        EWA_TRY(ewa_volume_render(renderer->volumes[0], shown->volumes[0]->voxels, camera, &volumes[0], frame,
+        EWA_TRY(ewa_volume_render(renderer->volumes[0], shown->voxels[0], camera, &volumes[0], frame,
                                   &took[0]));
         add_volume_stats(&took[0], stats);
         return EWA_OK;

@@ -34,6 +34,7 @@ typedef struct ewa_scene_shown {
     const ewa_splats **splats;
     const ewa_splat_colors **splat_colors; ///< of each: in place of its own; NULL: these
     const ewa_asset *volumes[EWA_MAX_MIXED_VOLUMES];
+    const ewa_voxels *voxels[EWA_MAX_MIXED_VOLUMES]; ///< theirs, without what regions hide
     uint32_t surfels_count, lod_count, splats_count, volume_count;
     bool colored;      ///< some surface has colours
     bool photographed; ///< all surfaces have the light of photographs

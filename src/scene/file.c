@@ -372,8 +372,8 @@ static ewa_status set_member(const reading *in, const ewa_scene_member *member, 
     const ewa_option *option = ewa_option_find(&ewa_instance_table, member->name);
     if (option) return set_option(in, member, option, &item->instance);
     option = ewa_option_find(&ewa_asset_options_table, member->name);
-    // Contexts are the caller's choice.
-    if (!option || strcmp(option->name, "own_context") == 0)
+    // Contexts are the caller's choice, and so is what pictures of things that move are made of.
+    if (!option || strcmp(option->name, "own_context") == 0 || strcmp(option->name, "voxel_level_minimum") == 0)
         return fail_at(in, member, "no item has such a member");
     return set_option(in, member, option, &item->asset);
 }

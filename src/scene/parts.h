@@ -74,12 +74,23 @@ typedef struct ewa_completed {
     double estimate_s;
 } ewa_completed;
 
+/// What regions leave of an asset of Gaussians or a volume (hidden.c).
+typedef struct ewa_left_part {
+    ewa_context *context;
+    atomic_uint_fast32_t references;
+    uint32_t region_count;
+    ewa_region regions[EWA_MAX_REGIONS];
+    ewa_splats *splats; ///< a view of the asset's; NULL: of a volume
+    ewa_voxels *voxels; ///< NULL: of Gaussians
+} ewa_left_part;
+
 /// An instance of a scene.
 typedef struct ewa_scene_item {
     ewa_asset *asset; ///< retained
     ewa_instance instance;
     ewa_completed *completed; ///< retained; NULL: not yet, or not of points
     uint32_t member;          ///< of its clouds
+    ewa_left_part *left;      ///< retained; NULL: no region hides Gaussians or voxels of it, or nobody has drawn it yet
 } ewa_scene_item;
 
 /// What of an item decides how its points look as surfels.
@@ -130,6 +141,14 @@ struct ewa_scene {
     uint32_t keyframe_count;
 };
 
+/// What of an item is drawn; NULL: it has none.
+static inline const ewa_splats *ewa_item_splats(const ewa_scene_item *item) {
+    return item->left ? item->left->splats : item->asset->splats;
+}
+static inline const ewa_voxels *ewa_item_voxels(const ewa_scene_item *item) {
+    return item->left ? item->left->voxels : item->asset->voxels;
+}
+
 /// Whether instances of an asset are part of the one surface of points.
 static inline bool ewa_asset_is_points(const ewa_asset *asset) {
     return asset->kind == EWA_ASSET_POINTS || asset->kind == EWA_ASSET_MESH;
@@ -173,6 +192,12 @@ ewa_status ewa_cloud_colors_to_linear(ewa_cloud *cloud);
 /// Gives the items of points what they lack (complete.c).
 ewa_status ewa_scene_complete_items(ewa_scene *scene);
 void ewa_completed_release(ewa_completed **completed);
+
+/// Makes what the regions of a scene leave of its Gaussians and volumes.
+ewa_status ewa_scene_hide_parts(ewa_scene *scene);
+/// Whether that is what the regions leave; of NULL, whether there are none.
+bool ewa_left_part_is_of(const ewa_left_part *part, const ewa_scene_options *options);
+void ewa_left_part_release(ewa_left_part **part);
 
 /// Does what ewa_scene_commit() does, but for looking whether octrees can be drawn with the scene's own options.
 ewa_status ewa_scene_make_resident(ewa_scene *scene);

@@ -54,7 +54,7 @@ static bool is_inside(const ewa_region *region, const double p[3], double code) 
                          (m[4] * p[0] + m[5] * p[1] + m[6] * p[2] + m[7]) / w);
 }
 
-static bool are_kept(const ewa_region *regions, uint32_t count, const double place_world[3], double code) {
+bool ewa_regions_keep_place(const ewa_region *regions, uint32_t count, const double place_world[3], double code) {
     for (uint32_t i = 0; i < count; i++)
         if (is_inside(&regions[i], place_world, code) != regions[i].kept) return false;
     return true;
@@ -71,7 +71,7 @@ bool ewa_regions_keep(const ewa_region *regions, uint32_t count, const ewa_cloud
     const ewa_attribute *classes = count ? find_classes(cloud) : NULL;
     double code = -1;
     if (classes) ewa_attribute_read_f64(classes, index, 1, &code);
-    return are_kept(regions, count, place_world, code);
+    return ewa_regions_keep_place(regions, count, place_world, code);
 }
 
 bool ewa_regions_have_classes(const ewa_region *regions, uint32_t count) {
@@ -95,7 +95,7 @@ static void mark_block(const void *data, uint64_t first, uint32_t count, uint8_t
     if (view->classes) ewa_attribute_read_f64(view->classes, first, count, codes);
     for (uint32_t i = 0; i < count; i++) {
         for (int c = 0; c < 3; c++) places[i][c] += view->origin_world[c];
-        if (!are_kept(view->regions, view->count, places[i], view->classes ? codes[i] : -1)) marks[i] = 0;
+        if (!ewa_regions_keep_place(view->regions, view->count, places[i], view->classes ? codes[i] : -1)) marks[i] = 0;
     }
 }
 

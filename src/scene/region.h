@@ -20,6 +20,9 @@ ewa_status ewa_regions_check(ewa_context *context, const ewa_region *regions, ui
 bool ewa_regions_keep(const ewa_region *regions, uint32_t count, const ewa_cloud *cloud, uint64_t index,
                       const double place_world[3]);
 
+/// Whether no region hides a place of the world whose class has a code; -1: it has none.
+bool ewa_regions_keep_place(const ewa_region *regions, uint32_t count, const double place_world[3], double code);
+
 /// Whether some region asks for the points' classes.
 bool ewa_regions_have_classes(const ewa_region *regions, uint32_t count);
 

@@ -97,6 +97,7 @@ ewa_status ewa_scene_create(ewa_context *context, const ewa_scene_options *optio
 
 static void release_item(ewa_scene_item *item) {
     ewa_completed_release(&item->completed);
+    ewa_left_part_release(&item->left);
     ewa_asset_release(&item->asset);
 }
 
@@ -135,6 +136,7 @@ ewa_status ewa_scene_copy(const ewa_scene *scene, ewa_context *context, ewa_scen
         *item = scene->items[i];
         ewa_asset_retain(item->asset);
         if (item->completed) atomic_fetch_add(&item->completed->references, 1);
+        if (item->left) atomic_fetch_add(&item->left->references, 1);
     }
     if (status == EWA_OK) status = ewa_scene_set_measures(*copy, scene->measures, scene->measure_count);
     if (status == EWA_OK) status = ewa_scene_set_keyframes(*copy, scene->keyframes, scene->keyframe_count);
@@ -161,6 +163,12 @@ void ewa_scene_reuse(ewa_scene *scene, const ewa_scene *other) {
             atomic_fetch_add(&from->completed->references, 1);
             item->completed = from->completed;
             item->member = from->member;
+        }
+        for (uint32_t k = 0; k < other->count && !item->left; k++) {
+            const ewa_scene_item *from = &other->items[k];
+            if (from->asset != item->asset || !from->left) continue;
+            atomic_fetch_add(&from->left->references, 1);
+            item->left = from->left;
         }
     }
     if (scene->surface || !other->surface) return;
@@ -256,12 +264,21 @@ ewa_status ewa_scene_set(ewa_scene *scene, uint32_t index, const ewa_instance *i
 
 void ewa_scene_get_options(const ewa_scene *scene, ewa_scene_options *options) { *options = scene->options; }
 
+/// Whether what is left of Gaussians and volumes is what the regions leave.
+static bool parts_agree(const ewa_scene *scene) {
+    bool agree = true;
+    for (uint32_t i = 0; i < scene->count && agree; i++)
+        agree = (!scene->items[i].asset->splats && !scene->items[i].asset->voxels) ||
+                ewa_left_part_is_of(scene->items[i].left, &scene->options);
+    return agree;
+}
+
 ewa_status ewa_scene_set_options(ewa_scene *scene, const ewa_scene_options *given) {
     if (!scene || !given) return EWA_ERROR_ARGUMENT;
     ewa_scene_options options;
     EWA_TRY(take_options(scene->context, given, &options));
     scene->options = options;
-    scene->committed = scene->committed && (scene->points_gone || ewa_surface_is_of(scene->surface, scene));
+    scene->committed = scene->committed && (scene->points_gone || ewa_surface_is_of(scene->surface, scene)) && parts_agree(scene);
     return EWA_OK;
 }
 
@@ -297,6 +314,7 @@ ewa_status ewa_scene_make_resident(ewa_scene *scene) {
         ewa_surface_release(&scene->surface);
         scene->surface = surface;
     }
+    EWA_TRY(ewa_scene_hide_parts(scene));
     if (!scene->options.keep_points && !scene->points_gone) drop_points(scene);
     scene->committed = true;
     return EWA_OK;

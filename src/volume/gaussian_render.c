@@ -139,6 +139,12 @@ static void take_time(const ewa_gaussian_job *job, double *last_s, double *stage
     *last_s = now_s;
 }
 
+/// Takes the splats that are not shown out of a packet.
+static void leave_lanes(uint32_t lanes, ewa_splat_packet *packet) {
+    for (uint32_t lane = 0; lane < EWA_SPLAT_LANES; lane++)
+        if (!(lanes >> lane & 1)) (*packet)[EWA_SPLAT_OPACITY][lane] = 0;
+}
+
 /// The visible splats of some packets.
 static void project_part(void *data, uint32_t index, uint32_t worker) {
     const ewa_gaussian_job *job = data;
@@ -146,11 +152,18 @@ static void project_part(void *data, uint32_t index, uint32_t worker) {
     const ewa_splats *splats = part->splats;
     double last_s = job->with_times ? ewa_now_s() : 0;
     for (size_t p = part->first_packet; p < part->first_packet + part->packet_count; p++) {
+        const uint32_t lanes = ewa_splats_shown(splats, p);
         const ewa_splat_packet *packet = (const ewa_splat_packet *)&splats->packets[p];
-        ewa_splat_packet painted;
+        ewa_splat_packet own;
+        if (!lanes) continue;
         if (part->colors) {
-            ewa_splat_colors_apply(part->colors, (const ewa_splat_packet *)splats->packets, p, &painted);
-            packet = (const ewa_splat_packet *)&painted;
+            ewa_splat_colors_apply(part->colors, (const ewa_splat_packet *)splats->packets, p, &own);
+            packet = (const ewa_splat_packet *)&own;
+        }
+        if (lanes != EWA_SPLAT_ALL_LANES) {
+            if (!part->colors) memcpy(own, packet, sizeof own);
+            leave_lanes(lanes, &own);
+            packet = (const ewa_splat_packet *)&own;
         }
         job->renderer->kernels->project(part->view, packet,
                                         (const int16_t(*)[EWA_SPLAT_LANES]) &

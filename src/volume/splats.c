@@ -12,11 +12,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-/// Packets of a set with those of its levels.
-static size_t all_packets(const ewa_splats *splats) {
-    return splats->packet_count + (size_t)splats->part_count * EWA_SPLAT_MERGED_PACKETS;
-}
-
 enum { LANES = EWA_SPLAT_LANES, CORE_BINS = 1 << 14 };
 
 /// Of a core's diagonal: what may be left out before the eye.
@@ -182,7 +177,7 @@ static double choose_unit(const ewa_gaussians *set, const uint32_t *order, uint3
 
 static ewa_status fill(ewa_splats *splats, const ewa_gaussians *set, const uint32_t *order) {
     ewa_context *context = splats->context;
-    const size_t packets = splats->packet_count, all = all_packets(splats);
+    const size_t packets = splats->packet_count, all = ewa_splats_all_packets(splats);
     splats->packets = ewa_allocate_zeroed(context, all, sizeof *splats->packets);
     splats->harmonics = ewa_allocate_zeroed(context, all * splats->harmonic_count, sizeof *splats->harmonics);
     splats->parts = ewa_allocate_zeroed(context, splats->part_count, sizeof *splats->parts);
@@ -223,7 +218,7 @@ ewa_status ewa_splats_create(const ewa_gaussians *gaussians, bool levels, ewa_sp
         made->info.has_levels = made->part_count > 0;
         made->info.resident_bytes =
             sizeof *made + made->part_count * sizeof *made->parts +
-            all_packets(made) * (sizeof *made->packets + made->harmonic_count * sizeof *made->harmonics);
+            ewa_splats_all_packets(made) * (sizeof *made->packets + made->harmonic_count * sizeof *made->harmonics);
         status = fill(made, gaussians, order);
     }
     ewa_release(context, order, count, sizeof *order);
@@ -237,10 +232,14 @@ ewa_status ewa_splats_create(const ewa_gaussians *gaussians, bool levels, ewa_sp
 void ewa_splats_destroy(ewa_splats **splats) {
     if (!splats || !*splats) return;
     ewa_splats *old = *splats;
-    const size_t all = all_packets(old);
-    ewa_release(old->context, old->packets, all, sizeof *old->packets);
-    ewa_release(old->context, old->harmonics, all * old->harmonic_count, sizeof *old->harmonics);
-    ewa_release(old->context, old->parts, old->part_count, sizeof *old->parts);
+    const size_t all = ewa_splats_all_packets(old);
+    if (old->shown_lanes) {
+        ewa_release(old->context, old->shown_lanes, all, sizeof *old->shown_lanes);
+    } else {
+        ewa_release(old->context, old->packets, all, sizeof *old->packets);
+        ewa_release(old->context, old->harmonics, all * old->harmonic_count, sizeof *old->harmonics);
+        ewa_release(old->context, old->parts, old->part_count, sizeof *old->parts);
+    }
     ewa_release(old->context, old, 1, sizeof *old);
     *splats = NULL;
 }

@@ -57,7 +57,20 @@ struct ewa_splats {
     ewa_splat_packet *packets;             ///< then EWA_SPLAT_MERGED_PACKETS of each part
     int16_t (*harmonics)[EWA_SPLAT_LANES]; ///< [packet * harmonic_count + 3 (harmonic - 1) + colour]
     ewa_splat_part *parts;
+    uint16_t *shown_lanes; ///< [packet] of a view (shown.h), which borrows all before: a bit for each lane; NULL: all are shown
     ewa_splats_info info;
 };
+
+/// Packets of a set with those of its levels.
+static inline size_t ewa_splats_all_packets(const ewa_splats *splats) {
+    return splats->packet_count + (size_t)splats->part_count * EWA_SPLAT_MERGED_PACKETS;
+}
+
+enum { EWA_SPLAT_ALL_LANES = (1 << EWA_SPLAT_LANES) - 1 };
+
+/// The lanes of a packet that are shown, a bit for each.
+static inline uint32_t ewa_splats_shown(const ewa_splats *splats, size_t packet) {
+    return splats->shown_lanes ? splats->shown_lanes[packet] : EWA_SPLAT_ALL_LANES;
+}
 
 #endif

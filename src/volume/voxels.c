@@ -208,13 +208,7 @@ static void fill_row(void *data, uint32_t index, uint32_t worker) {
     }
 }
 
-/// Gives every block with voxels its number and its range of voxels.
-static ewa_status place_blocks(ewa_context *context, const builder *b, uint64_t grid_count) {
-    ewa_voxel_level *level = b->level;
-    for (uint64_t block = 0; block < grid_count; block++) {
-        b->block_of[block] = b->counts[block] ? (uint32_t)level->block_count++ : NO_BLOCK;
-        level->voxel_count += b->counts[block];
-    }
+ewa_status ewa_voxel_level_allocate(ewa_context *context, ewa_voxel_level *level) {
     const size_t room = level->voxel_count + EWA_STREAM_PADDING;
     level->blocks = ewa_allocate(context, level->block_count, sizeof *level->blocks);
     level->places = ewa_allocate_zeroed(context, room, sizeof *level->places);
@@ -225,6 +219,17 @@ static ewa_status place_blocks(ewa_context *context, const builder *b, uint64_t 
     if (!level->blocks || !level->places || !level->colors[0] || !level->colors[1] || !level->colors[2] ||
         !level->extinctions || !level->normals)
         return EWA_ERROR_MEMORY;
+    return EWA_OK;
+}
+
+/// Gives every block with voxels its number and its range of voxels.
+static ewa_status place_blocks(ewa_context *context, const builder *b, uint64_t grid_count) {
+    ewa_voxel_level *level = b->level;
+    for (uint64_t block = 0; block < grid_count; block++) {
+        b->block_of[block] = b->counts[block] ? (uint32_t)level->block_count++ : NO_BLOCK;
+        level->voxel_count += b->counts[block];
+    }
+    EWA_TRY(ewa_voxel_level_allocate(context, level));
     uint64_t first = 0;
     for (uint64_t block = 0; block < grid_count; block++) {
         if (b->block_of[block] == NO_BLOCK) continue;

@@ -34,6 +34,9 @@ typedef struct ewa_voxel_level {
     int32_t *normals;    ///< [voxel] x | y << 10 | z << 20, 10 bits each, 511 is 1; 0: none
 } ewa_voxel_level;
 
+/// Makes room for the blocks and voxels that are counted, after which numbers may be read. Errors: EWA_ERROR_MEMORY.
+ewa_status ewa_voxel_level_allocate(ewa_context *context, ewa_voxel_level *level);
+
 struct ewa_voxels {
     ewa_context *context;
     uint32_t level_count;

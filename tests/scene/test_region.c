@@ -9,6 +9,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <unistd.h>
 
 enum { SIDE = 21, POINTS = SIDE * SIDE, WIDTH = 80, HEIGHT = 60 };
@@ -287,6 +288,191 @@ TEST(test_files) {
     options.regions[0] = (ewa_region){.has_box = true, .box_world = {0, 0, 2, 1, 1, 1}};
     ewa_scene *refused = NULL;
     assert_int_equal(ewa_scene_create(context, &options, &refused), EWA_ERROR_ARGUMENT);
+}
+
+/// A picture of a scene of one file, whose centres nearer than the camera's plane do not depend on what is left of it.
+static void draw_file(ewa_scene *scene, uint8_t *rgba8) {
+    static ewa_scene_options options;
+    ewa_scene_get_options(scene, &options);
+    options.gaussians.near_world = 0.01;
+    options.volumes.minimum_transmittance = options.gaussians.minimum_transmittance = 0;
+    assert_int_equal(ewa_scene_set_options(scene, &options), EWA_OK);
+    draw(scene, rgba8);
+}
+
+static ewa_scene *open_file(const char *path, const char *transfer) {
+    ewa_asset *asset = NULL;
+    ewa_scene *scene = NULL;
+    ewa_asset_options options;
+    ewa_asset_options_init(&options, sizeof options);
+    options.transfer = transfer;
+    assert_int_equal(ewa_asset_load(context, path, &options, &asset), EWA_OK);
+    assert_int_equal(ewa_scene_create(context, NULL, &scene), EWA_OK);
+    assert_int_equal(ewa_scene_add(scene, asset, NULL), EWA_OK);
+    ewa_asset_release(&asset);
+    return scene;
+}
+
+/// Gaussians on a grid that regions hide are those whose centres they hold; what is left has the bytes of a file of it, drawn and
+/// written, and so have levels.
+TEST(test_gaussians) {
+    (void)state;
+    static uint8_t all[4 * WIDTH * HEIGHT], hidden[4 * WIDTH * HEIGHT], other[4 * WIDTH * HEIGHT];
+    ewa_gaussians set, left;
+    assert_int_equal(ewa_gaussians_create(context, POINTS, 1, &set), EWA_OK);
+    for (uint32_t i = 0; i < POINTS; i++) {
+        const float center[3] = {(float)(i % SIDE), (float)(i / SIDE), 0};
+        memcpy(set.centers + 3 * (size_t)i, center, sizeof center);
+        for (int c = 0; c < 3; c++) set.scales[3 * (size_t)i + (size_t)c] = 0.25f * (float)(c + 1);
+        set.rotations[4 * (size_t)i] = 1;
+        set.opacities[i] = 0.75f;
+        for (int c = 0; c < 12; c++) set.harmonics[12 * (size_t)i + (size_t)c] = (float)((i + (uint32_t)c) % 7) / 8 - 0.25f;
+    }
+    assert_int_equal(ewa_gaussians_save(&set, "region_gaussians.ply", NULL), EWA_OK);
+    ewa_gaussians_free(&set);
+    ewa_scene *scene = open_file("region_gaussians.ply", NULL);
+    draw_file(scene, all);
+    const ewa_region box = {.has_box = true, .box_world = {4, 4, -1, 12, 9, 1}};
+    set_regions(scene, &box, 1);
+    draw_file(scene, hidden);
+    assert_memory_not_equal(all, hidden, sizeof all);
+    double up_world[3] = {1, 1, 1};
+    assert_int_equal(ewa_scene_gaussians(scene, &left, up_world), EWA_OK);
+    assert_int_equal(left.count, POINTS - 9 * 6);
+    assert_true(up_world[0] == 0 && up_world[1] == 0 && up_world[2] == 0);
+    assert_int_equal(ewa_gaussians_load(context, "region_gaussians.ply", &set, NULL), EWA_OK);
+    for (uint32_t i = 0, k = 0; i < POINTS; i++) {
+        const uint32_t x = i % SIDE, y = i / SIDE;
+        if (x >= 4 && x <= 12 && y >= 4 && y <= 9) continue;
+        assert_memory_equal(left.centers + 3 * (size_t)k, set.centers + 3 * (size_t)i, 3 * sizeof(float));
+        assert_memory_equal(left.scales + 3 * (size_t)k, set.scales + 3 * (size_t)i, 3 * sizeof(float));
+        assert_memory_equal(left.rotations + 4 * (size_t)k, set.rotations + 4 * (size_t)i, 4 * sizeof(float));
+        assert_memory_equal(left.opacities + k, set.opacities + i, sizeof(float));
+        assert_memory_equal(left.harmonics + 12 * (size_t)k, set.harmonics + 12 * (size_t)i, 12 * sizeof(float));
+        k++;
+    }
+    ewa_gaussians_free(&set);
+    assert_int_equal(ewa_gaussians_save(&left, "region_left.ply", NULL), EWA_OK);
+    ewa_gaussians_free(&left);
+    ewa_scene *of_left = open_file("region_left.ply", NULL), *copy = NULL;
+    draw_file(of_left, other);
+    assert_memory_equal(hidden, other, sizeof hidden);
+    // A copy shares what is left, and outlives the scene that it was made of.
+    assert_int_equal(ewa_scene_copy(scene, context, &copy), EWA_OK);
+    ewa_scene_destroy(&scene);
+    draw_file(copy, other);
+    assert_memory_equal(hidden, other, sizeof hidden);
+    ewa_cloud *centers = NULL;
+    uint64_t count = 0;
+    assert_int_equal(ewa_scene_centers(copy, 100, &centers, &count), EWA_OK);
+    assert_int_equal(count, POINTS - 9 * 6);
+    assert_int_equal(ewa_cloud_point_count(centers), (POINTS - 9 * 6 + 3) / 4);
+    ewa_cloud_destroy(&centers);
+    // Classes hold none of them, and all come back.
+    ewa_region classes = {.has_classes = true, .classes = {~0u}};
+    set_regions(copy, &classes, 1);
+    draw_file(copy, other);
+    assert_memory_equal(all, other, sizeof all);
+    set_regions(copy, NULL, 0);
+    draw_file(copy, other);
+    assert_memory_equal(all, other, sizeof all);
+    // Sections are part of what is written; where nothing is left, nothing is, and nothing is seen.
+    static ewa_scene_options options;
+    ewa_scene_get_options(copy, &options);
+    options.render.section_count = 1;
+    options.render.section_planes[0][0] = 1, options.render.section_planes[0][3] = -9.5;
+    assert_int_equal(ewa_scene_set_options(copy, &options), EWA_OK);
+    assert_int_equal(ewa_scene_gaussians(copy, &left, NULL), EWA_OK);
+    assert_int_equal(left.count, (SIDE - 10) * SIDE);
+    ewa_gaussians_free(&left);
+    const ewa_region nothing = {.kept = true};
+    set_regions(copy, &nothing, 1);
+    draw_file(copy, other);
+    for (size_t i = 0; i < sizeof other; i++) assert_int_equal(other[i], 255);
+    assert_int_equal(ewa_scene_gaussians(copy, &left, NULL), EWA_OK);
+    assert_int_equal(left.count, 0);
+    ewa_gaussians_free(&left);
+    ewa_volume volume;
+    assert_int_equal(ewa_scene_volume(copy, &volume), EWA_ERROR_ARGUMENT);
+    ewa_scene_destroy(&of_left);
+    ewa_scene_destroy(&copy);
+}
+
+/// A volume of 20 x 12 x 8 voxels: what is left is the grid around it, on its place, with every number; what is hidden within has one
+/// that shows nothing, and the picture of the file is that of the scene.
+TEST(test_volumes) {
+    (void)state;
+    static uint8_t all[4 * WIDTH * HEIGHT], hidden[4 * WIDTH * HEIGHT], other[4 * WIDTH * HEIGHT];
+    static const char transfer[] = "region_transfer.json";
+    FILE *file = fopen(transfer, "w");
+    assert_non_null(file);
+    fputs("{\"points\": [{\"value\": 20, \"color\": [1, 0, 0], \"extinction\": 0.5}, {\"value\": 90, \"color\": [0, 0, 1], "
+          "\"extinction\": 0.5}], \"unit_length\": 1}", file);
+    fclose(file);
+    const uint32_t dims[3] = {20, 12, 8};
+    for (int k = 0; k < 2; k++) {
+        ewa_volume volume, left;
+        assert_int_equal(ewa_volume_create(context, dims, k ? EWA_F32 : EWA_U8, &volume), EWA_OK);
+        for (uint32_t i = 0; i < 20 * 12 * 8; i++) {
+            const uint8_t value = (uint8_t)(20 + i % 70);
+            if (k)
+                ((float *)volume.voxels)[i] = value;
+            else
+                ((uint8_t *)volume.voxels)[i] = value;
+        }
+        for (int c = 0; c < 3; c++) volume.index_to_world[4 * c + 3] = 0;
+        assert_int_equal(ewa_volume_save(&volume, "region_volume.nrrd", NULL), EWA_OK);
+        ewa_scene *scene = open_file("region_volume.nrrd", transfer);
+        static ewa_scene_options options;
+        ewa_scene_get_options(scene, &options);
+        options.shade_volumes = false; // by gradients, which what is beyond a border is part of
+        assert_int_equal(ewa_scene_set_options(scene, &options), EWA_OK);
+        draw_file(scene, all);
+        const ewa_region regions[2] = {{.kept = true, .has_box = true, .box_world = {3, 2, 1, 9, 8, 5}},
+                                       {.has_box = true, .box_world = {5, 4, -9, 6, 5, 9}}};
+        set_regions(scene, regions, 2);
+        draw_file(scene, hidden);
+        assert_memory_not_equal(all, hidden, sizeof all);
+        assert_int_equal(ewa_scene_volume(scene, &left), EWA_OK);
+        assert_true(left.dims[0] == 7 && left.dims[1] == 7 && left.dims[2] == 5 && left.type == volume.type);
+        const double *m = left.index_to_world;
+        assert_true(m[0] == 1 && m[5] == 1 && m[10] == 1 && m[3] == 3 && m[7] == 2 && m[11] == 1);
+        for (uint32_t i = 0; i < 7 * 7 * 5; i++) {
+            const uint32_t x = 3 + i % 7, y = 2 + i / 7 % 7, z = 1 + i / 49, from = (z * 12 + y) * 20 + x;
+            const bool is_hidden = x >= 5 && x <= 6 && y >= 4 && y <= 5;
+            const double value = k ? (double)((float *)left.voxels)[i] : ((uint8_t *)left.voxels)[i];
+            if (!is_hidden)
+                assert_true(value == 20 + from % 70);
+            else if (k)
+                assert_true(isnan(value));
+            else
+                assert_true(value > 90);
+        }
+        assert_int_equal(ewa_volume_save(&left, "region_part.nrrd", NULL), EWA_OK);
+        ewa_scene *of_left = open_file("region_part.nrrd", transfer);
+        assert_int_equal(ewa_scene_set_options(of_left, &options), EWA_OK);
+        draw_file(of_left, other);
+        // Places are told from another voxel: what floats round differently is a step.
+        for (size_t i = 0; i < sizeof hidden; i++) assert_true(abs(hidden[i] - other[i]) <= 1);
+        ewa_cloud *centers = NULL;
+        uint64_t count = 0;
+        assert_int_equal(ewa_scene_centers(scene, UINT64_MAX, &centers, &count), EWA_OK);
+        assert_int_equal(count, (7 * 7 - 4) * 5);
+        ewa_cloud_destroy(&centers);
+        const ewa_region nothing = {.kept = true};
+        set_regions(scene, &nothing, 1);
+        draw_file(scene, other);
+        for (size_t i = 0; i < sizeof other; i++) assert_int_equal(other[i], 255);
+        ewa_volume none;
+        assert_int_equal(ewa_scene_volume(scene, &none), EWA_ERROR_ARGUMENT);
+        set_regions(scene, NULL, 0);
+        draw_file(scene, other);
+        assert_memory_equal(all, other, sizeof all);
+        ewa_scene_destroy(&of_left);
+        ewa_scene_destroy(&scene);
+        ewa_volume_free(&left);
+        ewa_volume_free(&volume);
+    }
 }
 
 int main(void) { return RUN_TESTS(enter, leave); }
