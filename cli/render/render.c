@@ -306,6 +306,8 @@ static bool prepare(cli_session *session, const render_arguments *arguments, con
     if (!scene_input_add(session, common->operand_count, common->operands, &assets, &coloring, scene->scene)) return false;
     session->subject = common->operand_count == 1 ? common->operands[0] : NULL;
     if (!check_scene(session, arguments, scene->scene)) return false;
+    if (ewa_scene_measure(scene->scene, 0))
+        session_note(session, "its measurements and notes are left out; pictures of 'ewa view' (shot) show them");
     if (arguments->outlines && process_group_shares_cloud(session->group)) {
         session_fail(session, "--outlines needs all points in one process");
         return false;

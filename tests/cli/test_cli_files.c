@@ -189,6 +189,11 @@ TEST(test_scenes) {
              "--filter 'z>0'");
     run_done("ewa render two.json -o again.png");
     assert_true(scratch_same("made.png", "again.png"));
+    assert_null(strstr(last_run.err, "measurements"));
+    scratch_text("noted.json", "{\"ewa_scene\": 1, \"items\": [{\"file\": \"ring.ply\"}], \"measures\": [{\"kind\": \"note\", "
+                               "\"name\": \"here\", \"places_world\": [0, 0, 0]}]}");
+    assert_int_equal(run("ewa render noted.json -o noted.png --size 64x48"), 0);
+    assert_non_null(strstr(last_run.err, "noted.json: its measurements and notes are left out"));
     run_done("ewa info two.json");
     assert_non_null(strstr(last_run.out, "items       2"));
     assert_non_null(strstr(last_run.out, "camera      64 x 48"));
