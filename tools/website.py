@@ -31,9 +31,10 @@ GROUPS = {
     "Mathematics": "math notation homogeneous kernels papers/README papers/surface_splatting papers/perspective_accurate_splatting "
                    "papers/hybrid_forward_resampling papers/homogeneous_coordinates",
     "Measured": "performance quality machines testing",
-    "Project": "architecture versions CONTRIBUTING SECURITY CHANGELOG",
+    "Project": "architecture versions CONTRIBUTING CODE_OF_CONDUCT SECURITY CHANGELOG",
 }
-ABOVE = {"README.md": "index.md", "CONTRIBUTING.md": "CONTRIBUTING.md", "SECURITY.md": "SECURITY.md", "CHANGELOG.md": "CHANGELOG.md"}
+ABOVE = {"README.md": "index.md", "CONTRIBUTING.md": "CONTRIBUTING.md", "CODE_OF_CONDUCT.md": "CODE_OF_CONDUCT.md",
+         "SECURITY.md": "SECURITY.md", "CHANGELOG.md": "CHANGELOG.md"}
 LINK = re.compile(r"(!?)\[((?:[^\[\]]|\[[^\]]*\])*)\]\(([^)\s]+)\)")
 
 
