@@ -91,8 +91,7 @@ ewa_status ewa_raw_parse(const ewa_volume_input *in, const ewa_volume_load_optio
     if (options->big_endian) header->big_endian = true;
     header->skipped_bytes = options->header_bytes;
     header->exact = true;
-    if (packed)
-        header->packing = EWA_PACKING_DEFLATE;
+    if (packed) header->packing = EWA_PACKING_DEFLATE;
     if (!told || !type_known)
         ewa_report(in->context, EWA_SEVERITY_INFO, "%s: taken for %llu x %llu x %llu voxels of type %s%s",
                    in->name, (unsigned long long)header->dims[0], (unsigned long long)header->dims[1],
