@@ -9,6 +9,8 @@ const DONE = 0, BAD_DESCRIPTOR = 8, EXISTS = 20, INVALID = 28, READING_FAILED = 
 const CREATE = 1, FOLDER_ONLY = 2, EXCLUSIVE = 4, TRUNCATE = 8;
 const TYPE_FOLDER = 3, TYPE_FILE = 4, TYPE_DEVICE = 2;
 const FIRST = 4; // descriptors 0 to 2 are the module's streams, 3 is the root
+/// Of what `find` brings so much is kept, that which was used last; an octree in a folder of files (EPT) has any number of them.
+const KEPT_BYTES = 1 << 25;
 
 /// Bytes in memory, which can grow.
 export class Bytes {
@@ -56,6 +58,8 @@ export class Files {
   constructor(find) {
     this.find = find;
     this.named = new Map();
+    this.found = new Map();
+    this.found_bytes = 0;
     this.open = new Map();
     this.shown = new Map();
     this.memory = null; // of the module, once it is made
@@ -122,22 +126,37 @@ export class Files {
   }
 
   lookup(path) {
-    if (this.find && !this.named.has(path) && !this.isFolder(path) && !this.isInFile(path)) {
-      const found = this.find(path);
-      if (found) this.named.set(path, found);
+    let source = this.named.get(path) ?? this.found.get(path);
+    if (this.named.has(path) || !this.find) return source;
+    if (source) this.forget(path);
+    else if (!this.isFolder(path) && !this.isInFile(path)) source = this.find(path);
+    if (source) this.keep(path, source);
+    return source;
+  }
+
+  /// Keeps what was found, as the last one that is given up.
+  keep(path, source) {
+    this.found.set(path, source);
+    this.found_bytes += source.size;
+    for (const other of this.found.keys()) {
+      if (this.found_bytes <= KEPT_BYTES || other === path) return;
+      this.forget(other);
     }
-    return this.named.get(path);
+  }
+
+  forget(path) {
+    this.found_bytes -= this.found.get(path).size;
+    this.found.delete(path);
   }
 
   isFolder(path) {
     if (!path || path === "tmp") return true;
-    for (const name of this.named.keys()) if (name.startsWith(path + "/")) return true;
-    return false;
+    return [this.named, this.found].some((files) => [...files.keys()].some((name) => name.startsWith(path + "/")));
   }
 
   /// Whether what is a file would have to be a folder: the library looks for octrees (PATH/ept.json).
   isInFile(path) {
-    return [...path.matchAll(/\//g)].some(({ index }) => this.named.has(path.slice(0, index)));
+    return [...path.matchAll(/\//g)].some(({ index }) => this.named.has(path.slice(0, index)) || this.found.has(path.slice(0, index)));
   }
 
   fill_stat(at, type, size, number) {

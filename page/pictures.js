@@ -7,7 +7,10 @@
 /// Names of pictures that the browser is to decode.
 export const FOREIGN_NAME = /\.(jpe?g|webp)$/i;
 
+/// A call takes so many words at most.
+const CALL_WORDS = 1 << 13;
 const RED_GREEN_BLUE_ALPHA = 6, BITS = 8;
+const APP1 = 0xe1, START_OF_SCAN = 0xda; // markers of JPEG
 const GLB = 0x46546c67, GLB_JSON = 0x4e4f534a, GLB_BYTES = 0x004e4942;
 
 const is_jpeg = (bytes) => bytes[0] === 0xff && bytes[1] === 0xd8 && bytes[2] === 0xff;
@@ -33,13 +36,49 @@ function chunk(kind, bytes) {
   return made;
 }
 
-/// The bytes of a PNG of what the browser sees in a JPEG or WebP, in the colours that are written there.
-async function to_png(bytes) {
-  const bitmap = await createImageBitmap(new Blob([bytes]), { colorSpaceConversion: "none", premultiplyAlpha: "none" });
-  const { width, height } = bitmap, canvas = new OffscreenCanvas(width, height), context = canvas.getContext("2d");
+/// A JPEG without what a camera says of how it was held (Exif), by which browsers would turn the picture; the program does not.
+function without_turn(bytes) {
+  if (!is_jpeg(bytes)) return bytes;
+  const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.length), kept = [bytes.subarray(0, 2)];
+  let at = 2;
+  for (let length; at + 4 <= bytes.length && bytes[at] === 0xff && bytes[at + 1] !== START_OF_SCAN; at += length) {
+    length = 2 + view.getUint16(at + 2);
+    if (bytes[at + 1] !== APP1 || word_at(bytes, at + 4) !== "Exif") kept.push(bytes.subarray(at, at + length));
+  }
+  return new Blob([...kept, bytes.subarray(at)]);
+}
+
+/// The pixels that the browser sees in a JPEG or WebP, four bytes each, in the colours that are written there. A canvas rounds the colours of
+/// what lets light through (by 1 of 255), a decoder of its own, where there is one, does not.
+async function decode_picture(bytes) {
+  if (is_webp(bytes) && self.ImageDecoder) {
+    const decoder = new ImageDecoder({ data: bytes, type: "image/webp", colorSpaceConversion: "none", premultiplyAlpha: "none" });
+    const { image } = await decoder.decode();
+    try {
+      if (/^(RGB|BGR)[AX]$/.test(image.format)) {
+        const { codedWidth: width, codedHeight: height, format } = image, pixels = new Uint8Array(4 * width * height);
+        await image.copyTo(pixels);
+        for (let i = 0; i < pixels.length; i += 4) {
+          if (format.startsWith("B")) [pixels[i], pixels[i + 2]] = [pixels[i + 2], pixels[i]];
+          if (format.endsWith("X")) pixels[i + 3] = 255;
+        }
+        return { width, height, pixels };
+      }
+    } finally {
+      image.close();
+      decoder.close();
+    }
+  }
+  const bitmap = await createImageBitmap(new Blob([without_turn(bytes)]), { colorSpaceConversion: "none", premultiplyAlpha: "none" });
+  const { width, height } = bitmap, context = new OffscreenCanvas(width, height).getContext("2d");
   context.drawImage(bitmap, 0, 0);
   bitmap.close();
-  const pixels = context.getImageData(0, 0, width, height).data, rows = new Uint8Array(height * (4 * width + 1));
+  return { width, height, pixels: context.getImageData(0, 0, width, height).data };
+}
+
+/// The bytes of a PNG of what the browser sees in a JPEG or WebP.
+async function to_png(bytes) {
+  const { width, height, pixels } = await decode_picture(bytes), rows = new Uint8Array(height * (4 * width + 1));
   for (let y = 0; y < height; y++) rows.set(pixels.subarray(4 * width * y, 4 * width * (y + 1)), y * (4 * width + 1) + 1);
   const packed = new Blob([rows]).stream().pipeThrough(new CompressionStream("deflate")), head = new DataView(new ArrayBuffer(13));
   head.setUint32(0, width);
@@ -82,9 +121,33 @@ async function with_png(bytes) {
   return new Uint8Array(await new Blob([head, padded, between, ...parts]).arrayBuffer());
 }
 
+/// A glTF whose pictures within its text (data:) are PNG.
+async function with_png_in_text(bytes) {
+  try {
+    const text = JSON.parse(new TextDecoder().decode(bytes));
+    let found = false;
+    for (const image of text.images ?? []) {
+      const [, data] = /^data:[^,]*;base64,(.*)$/s.exec(image.uri ?? "") ?? [], picture = data && Uint8Array.from(atob(data), (letter) => letter.charCodeAt(0));
+      if (!picture || !is_foreign(picture)) continue;
+      const png = await to_png(picture), letters = [];
+      for (let i = 0; i < png.length; i += CALL_WORDS) letters.push(String.fromCharCode(...png.subarray(i, i + CALL_WORDS)));
+      image.uri = "data:image/png;base64," + btoa(letters.join(""));
+      image.mimeType = "image/png";
+      found = true;
+    }
+    return found ? new TextEncoder().encode(JSON.stringify(text)) : bytes;
+  } catch {
+    return bytes; // it fails where it is opened
+  }
+}
+
+/// Files that have pictures within.
+export const HAS_PICTURES = /\.(glb|gltf)$/i;
+
 /// A file's bytes as the module can read them. A picture that is broken stays as it is, and fails where it is read.
 export async function as_readable(name, bytes) {
   if (/\.glb$/i.test(name)) return with_png(bytes);
+  if (/\.gltf$/i.test(name)) return with_png_in_text(bytes);
   return is_foreign(bytes) ? to_png(bytes).catch(() => bytes) : bytes;
 }
 
@@ -100,7 +163,7 @@ export function names_beside(name, text) {
   } catch {
     return []; // it fails where it is opened
   }
-  const items = (said.items ?? []).map((item) => item.file), pictures = (said.images ?? []).map((image) => image.uri);
+  const items = (said.items ?? []).map(({ file }) => (/(^|\/)[^./]+$/.test(file) ? `${file}/ept.json` : file)), pictures = (said.images ?? []).map((image) => image.uri);
   return [...items, ...pictures.filter((uri) => FOREIGN_NAME.test(uri)).map(decodeURIComponent)]
     .filter((one) => typeof one === "string" && !/^(\/|data:)/.test(one));
 }

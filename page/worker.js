@@ -4,7 +4,7 @@
 // The worker behind an <ewa-view>: it has the module and the files, takes what happens and posts pictures back, one at a time.
 import { Bytes, Dropped } from "./files.js";
 import { open_module } from "./module.js";
-import { as_readable, FOREIGN_NAME, names_beside } from "./pictures.js";
+import { as_readable, FOREIGN_NAME, HAS_PICTURES, names_beside } from "./pictures.js";
 import { open_ranges } from "./ranges.js";
 import { be_thread, start_threads } from "./threads.js";
 
@@ -13,6 +13,8 @@ const RELAXED = new Uint8Array([0, 97, 115, 109, 1, 0, 0, 0, 1, 5, 1, 96, 0, 1, 
                                 0, 253, 15, 65, 0, 253, 15, 253, 133, 2, 11]);
 /// Formats that name other files, which are fetched from beside them when they are asked for.
 const NAMES_OTHERS = /\.(json|gltf|obj|mtl|nhdr|mhd)$/i;
+/// Files of an octree that its description and hierarchy promise (EPT): where one is missing, that is said.
+const OF_OCTREE = /\/ept-(data|hierarchy)\//;
 /// A module has no room for more.
 const MAX_BYTES = 2 ** 31 - 1;
 /// More of them bring little, and each takes memory.
@@ -129,12 +131,16 @@ function find(path) {
   const request = new XMLHttpRequest();
   request.open("GET", address_of(path.slice(server.length), server.replace("/", "://")), false);
   request.responseType = "arraybuffer";
+  let problem = "the server does not answer any more";
   try {
     request.send();
+    if (request.status === 200) return new Bytes(new Uint8Array(request.response));
+    problem = `the server says ${request.status} ${request.statusText}`;
   } catch {
-    return null;
+    // It is said below.
   }
-  return request.status === 200 ? new Bytes(new Uint8Array(request.response)) : null;
+  if (OF_OCTREE.test(path)) Object.assign(viewer.files, { failure: problem, failed: "/" + path });
+  return null;
 }
 
 async function start(orders) {
@@ -198,7 +204,7 @@ async function put(file, seen = new Set()) {
 
 /// A file whose pictures the module can read.
 async function with_pictures(name, source) {
-  if (!FOREIGN_NAME.test(name) && !/\.glb$/i.test(name)) return source;
+  if (!FOREIGN_NAME.test(name) && !HAS_PICTURES.test(name)) return source;
   const bytes = source.file ? new Uint8Array(await source.file.arrayBuffer()) : source.bytes.subarray(0, source.size);
   return new Bytes(await as_readable(name, bytes));
 }
@@ -207,7 +213,7 @@ async function with_pictures(name, source) {
 function tell_opened() {
   const items = viewer.items(), names = new Set(items.map((item) => item.name));
   for (const name of opening)
-    if (/\.json$/i.test(name) ? viewer.files.failure : !names.has(name.split("/").pop())) tell_failed(name);
+    if (/\.json$/i.test(name) && !/(^|\/)ept\.json$/.test(name) ? viewer.files.failure : !names.has(name.split("/").pop())) tell_failed(name);
   opening = [];
   viewer.files.failure = "";
   postMessage({ items });

@@ -9,9 +9,10 @@ import { copyFileSync, mkdirSync, readFileSync, rmSync, writeFileSync } from "no
 import { createServer } from "node:http";
 import { join } from "node:path";
 import { pathToFileURL } from "node:url";
+import { Bytes, Files } from "../../page/files.js";
 import { ISOLATED, serve } from "./chromium.mjs";
 import {
-  browser, check, check_quiet, decode, ewa, finish, HEAR, HEIGHT, keep, part, PIXELS, same, scratch, show, shown, view, WIDTH, write_kinds,
+  browser, check, check_quiet, decode, ewa, finish, HEAR, HEIGHT, keep, part, PIXELS, same, scratch, show, shown, view, WIDTH, write_ept, write_kinds,
 } from "./pages.mjs";
 
 // ---- What is shown
@@ -75,6 +76,49 @@ await check("parts of an octree, servers that give none, and those of other site
   }
   await page.close();
   for (const server of [page_server, open, closed]) server.close();
+});
+
+await check("an octree in a folder (EPT): what is seen of it", async () => {
+  const nodes = write_ept("levels/hill", 8), server = await serve({ "/": join(scratch, "site"), "/levels/": join(scratch, "levels") });
+  const is_node = (path) => path.startsWith("/levels/hill/ept-data/");
+  // As an address, all of it, and each file once.
+  ewa("render", "levels/hill/ept.json", "-o", "hill.png", "--size", `${WIDTH}x${HEIGHT}`, "-q");
+  const page = await show(`${server.origin}/drop.html?src=levels/hill/ept.json`);
+  assert.deepEqual((await page.evaluate("heard")).filter((e) => e.type === "error"), []);
+  same(await page.evaluate(PIXELS), "hill.png", "the whole");
+  assert.equal(server.asked.filter(is_node).length, nodes);
+  assert.equal(new Set(server.asked.filter(is_node)).size, nodes);
+  check_quiet(page, server.origin);
+  await page.close();
+  // By levels, near one corner: the nodes that are seen, and those of the upper levels, by whose points a camera is placed as long as these are
+  // 400,000 (EWA_OCTREE_SAMPLE_POINTS).
+  write_ept("levels/fine", 72);
+  ewa("render", "levels/fine", "-o", "near.png", "--size", `${WIDTH}x${HEIGHT}`, "-q", "--eye", "0,0,0.9", "--target", "0.1,0.1,0.5", "--save-camera", "near_camera.json");
+  const camera = JSON.parse(readFileSync(join(scratch, "near_camera.json"), "utf8"));
+  writeFileSync(join(scratch, "levels/near.json"), JSON.stringify({ ewa_scene: 1, items: [{ file: "fine", levels: "always" }], camera }));
+  ewa("render", "levels/near.json", "-o", "near.png", "--size", `${WIDTH}x${HEIGHT}`, "-q");
+  const before = server.asked.length, near = await show(`${server.origin}/drop.html?src=levels/near.json`);
+  assert.deepEqual((await near.evaluate("heard")).filter((e) => e.type === "error"), []);
+  same(await near.evaluate(PIXELS), "near.png", "what is seen");
+  const seen = server.asked.slice(before).filter((path) => path.startsWith("/levels/fine/ept-data/")).length;
+  assert.ok(seen > 0 && seen < nodes, `${seen} of ${nodes} nodes`);
+  check_quiet(near, server.origin);
+  await near.close();
+  // A node that is not there is named.
+  rmSync(join(scratch, "levels/hill/ept-data/1-0-0-1.bin"));
+  const broken = await browser.page(`${server.origin}/drop.html?src=levels/hill/ept.json`, { width: WIDTH, height: HEIGHT, before: HEAR });
+  assert.match((await broken.until(`heard.find((e) => e.type === "error")`, 10)).reason, /1-0-0-1\.bin.*404/s);
+  await broken.close();
+  server.close();
+});
+
+await check("files that are found are kept within a bound, the last ones", async () => {
+  const asked = [], files = new Files((path) => (asked.push(path), new Bytes(new Uint8Array(2 ** 20))));
+  for (let i = 0; i < 40; i++) files.lookup(`a/${i}`), files.lookup("a/0");
+  assert.equal(asked.length, 40);
+  assert.ok(files.found_bytes === 2 ** 25 && files.found.size === 32, `${files.found_bytes} bytes`);
+  for (const path of ["a/39", "a/0", "a/1"]) files.lookup(path);
+  assert.deepEqual(asked.slice(40), ["a/1"]);
 });
 
 await check("a server is asked for what is shown, and for nothing else", async () => {

@@ -74,13 +74,11 @@ await check("ewa serve", async () => {
   }
 });
 
-await check("pictures of meshes, JPEG and WebP, within and beside", async () => {
+await check("pictures of meshes, JPEG and WebP, within, beside and as text", async () => {
   ewa("render", "torus.ply", "-o", "the picture.jpg", "--size", "160x120", "--background", "white");
   const drawing = await browser.page("about:blank"), webp = await drawing.evaluate(`(async () => {
     const canvas = new OffscreenCanvas(96, 64), context = canvas.getContext("2d");
-    for (let i = 0; i < 96; i++) (context.fillStyle = \`rgb(\${2 * i}, \${255 - 2 * i}, \${(7 * i) % 256})\`), context.fillRect(i, 0, 1, 64 - i / 2);
-    context.globalCompositeOperation = "destination-over";
-    context.fillRect(0, 0, 96, 64);
+    for (let i = 0; i < 96; i++) (context.fillStyle = \`rgb(\${2 * i} \${255 - 2 * i} \${(7 * i) % 256} / \${(5 + i) / 101})\`), context.fillRect(i, 0, 1, 64);
     const blob = await canvas.convertToBlob({ type: "image/webp", quality: 0.9 });
     return btoa(String.fromCharCode(...new Uint8Array(await blob.arrayBuffer())));
   })()`);
@@ -89,8 +87,19 @@ await check("pictures of meshes, JPEG and WebP, within and beside", async () => 
   write_mesh("bowl.glb", "picture.webp");
   writeFileSync(join(scratch, "square.obj"), "mtllib square.mtl\nusemtl seen\nv -1 0 -1\nv 1 0 -1\nv 1 0.3 1\nv -1 0 1\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf 1/1 2/2 3/3 4/4\n");
   writeFileSync(join(scratch, "square.mtl"), "newmtl seen\nmap_Kd the picture.jpg\n");
+  // Held on its side, as its camera says, which is no matter of a mesh.
+  const jpeg = readFileSync(join(scratch, "the picture.jpg")), exif = Buffer.from("ffe10022457869660000" + "49492a0008000000" + "0100" + "120103000100000006000000" + "00000000", "hex");
+  writeFileSync(join(scratch, "the picture.jpg"), Buffer.concat([jpeg.subarray(0, 2), exif, jpeg.subarray(2)]));
+  // All within one text.
+  write_mesh("text.glb", "the picture.jpg");
+  const glb = readFileSync(join(scratch, "text.glb")), text_bytes = glb.readUInt32LE(12), body = glb.subarray(28 + text_bytes);
+  const text = JSON.parse(glb.toString("utf8", 20, 20 + text_bytes)), { byteOffset, byteLength } = text.bufferViews[3];
+  const data = (kind, bytes) => `data:${kind};base64,${bytes.toString("base64")}`;
+  text.buffers[0].uri = data("application/octet-stream", body);
+  text.images[0] = { uri: data("image/jpeg", body.subarray(byteOffset, byteOffset + byteLength)) };
+  writeFileSync(join(scratch, "text.gltf"), JSON.stringify(text));
   const server = await serve({ "/": site, "/data/": scratch });
-  for (const name of ["bowl.glb", "square.obj"]) {
+  for (const name of ["bowl.glb", "square.obj", "text.gltf"]) {
     ewa("render", name, "-o", "mesh.png", "--size", SIZE, "-q");
     const page = await show(`${server.origin}/drop.html?src=data/${name}`);
     same(await page.evaluate(PIXELS), "mesh.png", name);

@@ -134,6 +134,38 @@ export function write_gaussians(name, count) {
   writeFileSync(join(scratch, name), Buffer.concat([Buffer.from(head), Buffer.from(body.buffer)]));
 }
 
+/// A hill as EPT: a folder of binary records, `side` times `side` points at the top and four times as many at each of three levels below, with a
+/// hierarchy of two files. Returns how many nodes it has.
+export function write_ept(folder, side) {
+  const LEVELS = 4, hierarchies = new Map([["0-0-0-0", {}], ["2-0-0-2", {}]]);
+  for (const name of ["ept-data", "ept-hierarchy"]) mkdirSync(join(scratch, folder, name), { recursive: true });
+  let total = 0, nodes = 0;
+  for (let level = 0; level < LEVELS; level++) {
+    const cells = 2 ** level, places = new Map(), count = side * cells;
+    for (let i = 0; i < count; i++)
+      for (let j = 0; j < count; j++) {
+        const x = (i + 0.5 + 0.3 * Math.sin(j + level)) / count, y = (j + 0.5) / count, z = 0.5 + 0.2 * Math.sin(7 * x) * Math.cos(5 * y);
+        const key = [level, ...[x, y, z].map((at) => Math.floor(at * cells))].join("-");
+        if (!places.has(key)) places.set(key, []);
+        places.get(key).push(x, y, z);
+      }
+    for (const [key, numbers] of places) {
+      const [, x, y, z] = key.split("-").map(Number), below = level >= 2 && [x, y, z].map((at) => at >> (level - 2)).join("-") === "0-0-2";
+      hierarchies.get(below ? "2-0-0-2" : "0-0-0-0")[key] = numbers.length / 3;
+      writeFileSync(join(scratch, folder, "ept-data", `${key}.bin`), Buffer.from(new Float64Array(numbers).buffer));
+      total += numbers.length / 3;
+      nodes++;
+    }
+  }
+  hierarchies.get("0-0-0-0")["2-0-0-2"] = -1;
+  for (const [key, entries] of hierarchies) writeFileSync(join(scratch, folder, "ept-hierarchy", `${key}.json`), JSON.stringify(entries));
+  writeFileSync(join(scratch, folder, "ept.json"), JSON.stringify({
+    version: "1.0.0", dataType: "binary", hierarchyType: "json", bounds: [0, 0, 0, 1, 1, 1], points: total, span: side,
+    schema: ["X", "Y", "Z"].map((name) => ({ name, type: "float", size: 8 })),
+  }));
+  return nodes;
+}
+
 /// A bowl with a picture as binary glTF.
 export function write_mesh(name, picture) {
   const SIDE = 24, positions = [], places = [], corners = [], image = readFileSync(join(scratch, picture));
