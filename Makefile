@@ -221,6 +221,7 @@ docs: program
 	$(EWA) --help-markdown >docs/cli.md
 	$(EWA) --help-json >docs/options.json
 	python3 tools/dump_python.py
+	@sh tools/page_gallery.sh $(EWA) build/page_gallery
 
 site: setup
 	@sh tools/setup.sh mkdocs mkdocs-material
