@@ -3,8 +3,9 @@
 //
 // A file of a server of which only what is needed is fetched, by requests that wait; in workers only.
 
-/// Small reads are of blocks, of which so many are kept, the ones that were used last; larger ones are asked for as they are.
-const BLOCK_BYTES = 1 << 16, KEPT_BLOCKS = 512;
+/// Small reads are of blocks, of which so many are kept, the ones that were used last; larger ones are asked for as they are, but for what is
+/// there. Of those a few are kept where they are small, as the hierarchy's, which is read in steps that overlap.
+const BLOCK_BYTES = 1 << 16, KEPT_BLOCKS = 512, PIECE_BYTES = 1 << 18, KEPT_PIECES = 8;
 
 export class Ranges {
   /// `tag` is what the server calls this version of the file, or null; `first` are its first bytes.
@@ -12,6 +13,7 @@ export class Ranges {
     this.url = url;
     this.size = size;
     this.tag = tag;
+    this.pieces = []; // { from, bytes }
     this.blocks = new Map();
     for (let at = 0; at + BLOCK_BYTES <= first.length; at += BLOCK_BYTES) this.blocks.set(at / BLOCK_BYTES, first.subarray(at, at + BLOCK_BYTES));
   }
@@ -40,15 +42,24 @@ export class Ranges {
     return block;
   }
 
+  /// What is kept from a place on, as far as it goes; else nothing.
+  kept(at) {
+    const piece = this.pieces.find(({ from, bytes }) => at >= from && at < from + bytes.length);
+    if (piece) return piece.bytes.subarray(at - piece.from);
+    const index = Math.floor(at / BLOCK_BYTES);
+    return this.blocks.has(index) ? this.block(index).subarray(at - index * BLOCK_BYTES) : null;
+  }
+
   read(at, into) {
     const size = Math.max(0, Math.min(into.length, this.size - at));
     if (!size) return 0;
-    let bytes;
-    if (size >= BLOCK_BYTES) {
+    let bytes = this.kept(at); // the rest is asked for again
+    if (!bytes && size >= BLOCK_BYTES) {
       bytes = this.fetch(at, at + size);
-    } else {
-      const index = Math.floor(at / BLOCK_BYTES), inside = at - index * BLOCK_BYTES;
-      bytes = this.block(index).subarray(inside, inside + size); // the rest is asked for again
+      if (size <= PIECE_BYTES) this.pieces = [...this.pieces, { from: at, bytes }].slice(-KEPT_PIECES);
+    } else if (!bytes) {
+      const index = Math.floor(at / BLOCK_BYTES);
+      bytes = this.block(index).subarray(at - index * BLOCK_BYTES);
     }
     into.set(bytes.subarray(0, size));
     return Math.min(bytes.length, size);

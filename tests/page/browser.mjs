@@ -10,6 +10,7 @@ import { createServer } from "node:http";
 import { join } from "node:path";
 import { pathToFileURL } from "node:url";
 import { Bytes, Files } from "../../page/files.js";
+import { Ranges } from "../../page/ranges.js";
 import { ISOLATED, serve } from "./chromium.mjs";
 import {
   browser, check, check_quiet, decode, ewa, finish, HEAR, HEIGHT, keep, part, PIXELS, same, scratch, show, shown, view, WIDTH, write_ept, write_kinds,
@@ -119,6 +120,30 @@ await check("files that are found are kept within a bound, the last ones", async
   assert.ok(files.found_bytes === 2 ** 25 && files.found.size === 32, `${files.found_bytes} bytes`);
   for (const path of ["a/39", "a/0", "a/1"]) files.lookup(path);
   assert.deepEqual(asked.slice(40), ["a/1"]);
+});
+
+await check("what overlaps what was read is not asked for again", async () => {
+  const file = Uint8Array.from({ length: 1500000 }, (_, i) => (i * 2654435761) >>> 24), asked = [];
+  class Local extends Ranges {
+    fetch(from, to) {
+      asked.push(to - from);
+      return file.slice(from, to);
+    }
+  }
+  const ranges = new Local("", file.length, null, file.subarray(0, 4 << 16));
+  const read = (at, size) => {
+    const into = new Uint8Array(size);
+    for (let got = 0; got < size; ) got += ranges.read(at + got, into.subarray(got));
+    assert.deepEqual(into, file.subarray(at, at + size));
+    return asked.splice(0);
+  };
+  assert.deepEqual(read(1525, 700000), [1525 + 700000 - (4 << 16)]); // its first bytes are there
+  assert.deepEqual(read(900000, 65536), [65536]);
+  assert.deepEqual(read(900060, 65476), []);
+  assert.deepEqual(read(900060, 156832), [156832 - 65476]);
+  assert.deepEqual(read(1200000, 10), [65536]);
+  assert.deepEqual(read(1199900, 2000), []);
+  assert.deepEqual(read(1499990, 10), [file.length % 65536]);
 });
 
 await check("a server is asked for what is shown, and for nothing else", async () => {
