@@ -76,10 +76,11 @@ static double enter(const ewa_gaussians *set, size_t i, const ewa_camera *camera
 TEST_ON(ellipsoids_where_they_are, 2) {
     ewa_gaussians set = gaussians_random(context, COUNT, 1, 7);
     static planes out;
-    for (int n = 0; n < 3; n++) {
-        ewa_camera camera = gaussians_camera(WIDTH, HEIGHT, n == 1 ? 110 : 40, DIRECTION, n == 1 ? 1.2 : 4);
+    for (int n = 0; n < 4; n++) { // the last ones fill the picture
+        ewa_camera camera = gaussians_camera(WIDTH, HEIGHT, n == 1 ? 110 : n == 3 ? 10 : 40, DIRECTION, n == 1 ? 1.2 : 4);
         if (n == 2) camera.projection = EWA_ORTHOGRAPHIC, camera.fx_px = camera.fy_px = 30;
         ewa_gaussian_options options = options_of(EWA_DISPLAY_ELLIPSOIDS);
+        if (n == 3) options.ellipsoid_radius = 3;
         draw(&set, &camera, &options, &out);
         size_t compared = 0, apart = 0;
         double largest = 0;
