@@ -3,7 +3,7 @@
 # SPDX-License-Identifier: MIT
 #
 # A person's session in a window, on a screen of its own: orbit by dragging, pick by a click, measure by a Shift-click,
-# clip box, pictures, a file by its name, Escape, end. Checks what is printed, the pictures and the exit status: session_x11.sh EWA EWA-VIEW FOLDER
+# clip box, pictures, a file by its name, Escape, the bar's tools, end. Checks what is printed, the pictures and the exit status: session_x11.sh EWA EWA-VIEW FOLDER
 set -eu
 ewa=$1
 view=$2
@@ -151,6 +151,78 @@ session=""
 [ $status = 0 ] || fail "the exit status is $status"
 [ ! -s complained ] || fail "something was wrong"
 grep -q "^set navigation trackball$" config/ewa/view || fail "the navigation is not kept"
+
+# The buttons of the bar, by their places: a rectangle is drawn around points, which are hidden; a distance, a note, the clip box and two
+# keyframes. All of it is in the scene that is saved, which is drawn without a window.
+# button N: the N-th of the tools, from 0.
+button() {
+    xdotool mousemove $((305 + 30 * $1)) 42
+    sleep 0.5
+    xdotool click 1
+    sleep 0.5
+}
+# click_until WORDS: clicks down the ring until the words are printed.
+click_until() {
+    for y in 200 250 300 400 450 500 550 600; do
+        xdotool mousemove 560 $y
+        sleep 0.3
+        xdotool click 1
+        sleep 0.7
+        grep -q "$1" printed && return
+    done
+    fail "'$1' is not printed"
+}
+: >printed
+"$view" torus.ply --size 1000x700 >printed 2>complained &
+session=$!
+wait_for "a window" xdotool search --onlyvisible --name torus.ply
+xdotool windowmove "$(xdotool search --onlyvisible --name torus.ply | tail -n 1)" 0 0
+last=none.png
+wait_for "the first picture" same_as_before
+button 9
+xdotool mousemove 700 120
+sleep 0.3
+xdotool mousedown 1
+for x in 760 820 900; do
+    xdotool mousemove $x $((x - 300))
+    sleep 0.3
+done
+xdotool mouseup 1
+wait_for "a selection" grep -q "^select [1-9][0-9]* points" printed
+button 12
+button 9
+wait_for "rest" same_as_before
+button 0
+click_until "^pick torus.ply"
+click_until "^measure distance"
+button 0
+button 5
+click_until "^measure [0-9]* note"
+button 5
+button 6
+button 18
+xdotool key Left Left
+button 18
+save_tools() {
+    xdotool key ctrl+s
+    sleep 0.7
+    xdotool key ctrl+a
+    xdotool type tools.json
+    xdotool key Return
+    sleep 0.7
+    test -s tools.json
+}
+wait_for "a scene file" save_tools
+for member in regions section_planes measures keyframes; do
+    grep -q "\"$member\"" tools.json || fail "the scene file has no $member"
+done
+"$ewa" render tools.json -q -o tools.png || fail "the scene is not drawn"
+xdotool key ctrl+q
+status=0
+wait $session || status=$?
+session=""
+[ $status = 0 ] || fail "the exit status is $status"
+[ ! -s complained ] || fail "something was wrong"
 
 # What is loaded without an end, here from a pipe, holds nobody up: it is given up at once, and so is the program.
 mkfifo endless.ply
