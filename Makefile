@@ -16,7 +16,8 @@
 #   make wasm                   WebAssembly: the bytes of the program under node, and the module that a page loads
 #   make windows                Windows on x86-64: the bytes of the program under wine
 #   make macos                  macOS on both of its processors: compiled and linked; nothing of it can be run elsewhere
-#   make riscv64 musl           programs without any library for RISC-V (under an emulator) and for every x86-64 Linux
+#   make riscv64                a program without any library for RISC-V, under an emulator
+#   make musl                   one static file for every x86-64 Linux
 #   make mutate                 breaks the library on purpose and says what the tests notice (hours)
 #   make bench sweep            figures of docs/performance.md: build/bench.json and tables; docs/sweep.png and slopes;
 #                               BENCH_PREFIX="chrt -f 50" keeps other work out of them; Embree is measured
@@ -26,7 +27,8 @@
 #   make gallery docs           pictures and pages that the program makes
 #   make site                   docs as a site of HTML with search, into build/website/site; it asks no other site for anything
 #   make papers                 every figure, table and claim of the papers into docs/papers; PAPER=pas ITEM=fig3: one of them
-#   make wheel                  the Python package as a wheel, into build/wheels; PYTHONS names interpreters to test it with
+#   make wheel                  the Python package as a wheel, into build/wheels; PYTHONS names interpreters to test it with,
+#                               TARGET another system (tools/wheel.sh)
 #   make install                to PREFIX (default /usr/local)
 #   make dist                   what is committed as an archive that builds by itself, into build
 #   make deb                    the same as packages of Debian, into build/deb; lintian looks at them
@@ -37,6 +39,8 @@ PREFIX ?= /usr/local
 FUZZ_SECONDS ?= 60
 PAPER ?=
 ITEM ?=
+TARGET ?=
+PYTHONS ?=
 BENCH_PREFIX ?=
 BENCH_AGAINST ?= $(wildcard build/release/measure/measure_embree)
 JOBS ?= $(shell nproc)
@@ -135,11 +139,13 @@ sets: program
 	@sh tools/hash_jobs.sh --like $(CURDIR)/$(EWA) qemu-x86_64-static -cpu max,avx512f=off $(CURDIR)/$(EWA)
 	@sh tools/hash_jobs.sh --like $(CURDIR)/$(EWA) qemu-x86_64-static -cpu Nehalem $(CURDIR)/$(EWA)
 
-# Another machine: cross-compiled, what holds all instruction sets to each other run under an emulator, and the bytes of
-# twenty jobs compared with this machine's.
+# Another machine: compiled by the same clang as for the others below, what holds all instruction sets to each other run under an
+# emulator, and the bytes of twenty jobs compared with this machine's.
 arm64: program
-	@sh tools/setup.sh gcc-aarch64-linux-gnu g++-aarch64-linux-gnu qemu-user-static
-	@sh tools/sysroot.sh arm64 build/sysroot/arm64
+	@sh tools/setup.sh qemu-user-static
+	@sh tools/sysroot.sh arm64 build/sysroot/arm64 libc6 python3
+	@sh tools/zig.sh aarch64-linux-gnu.2.28
+	@sh tools/dependencies.sh aarch64-linux-gnu.2.28
 	@echo "Building build/arm64"
 	$(call quietly,cmake --preset arm64)
 	$(call quietly,cmake --build build/arm64 -j $(JOBS) --target ewa parallel_tests)
@@ -183,13 +189,23 @@ macos: setup
 	done
 	@echo "build/aarch64-macos/cli/ewa and build/x86_64-macos/cli/ewa: not run here"
 
-# Other Linux, without any library: RISC-V under an emulator, and one static file for x86-64.
-riscv64 musl: program
-	$(if $(filter riscv64,$@),@sh tools/setup.sh qemu-user-static)
-	@sh tools/zig.sh $(if $(filter riscv64,$@),riscv64,x86_64)-linux-musl
-	@echo "Building build/$@"
-	@{ cmake --preset $@ && cmake --build build/$@ -j $(JOBS) --target ewa; } >build/log-$@.txt 2>&1 || { cat build/log-$@.txt; exit 1; }
-	@sh tools/hash_jobs.sh --minimal --like $(CURDIR)/$(EWA) $(if $(filter riscv64,$@),qemu-riscv64-static) $(CURDIR)/build/$@/cli/ewa
+# RISC-V, without any library, under an emulator.
+riscv64: program
+	@sh tools/setup.sh qemu-user-static
+	@sh tools/zig.sh riscv64-linux-musl
+	@echo "Building build/riscv64"
+	$(call quietly,cmake --preset riscv64)
+	$(call quietly,cmake --build build/riscv64 -j $(JOBS) --target ewa)
+	@sh tools/hash_jobs.sh --minimal --like $(CURDIR)/$(EWA) qemu-riscv64-static $(CURDIR)/build/riscv64/cli/ewa
+
+# One static file for every Linux on x86-64.
+musl: program
+	@sh tools/zig.sh x86_64-linux-musl
+	@sh tools/dependencies.sh x86_64-linux-musl
+	@echo "Building build/musl"
+	$(call quietly,cmake --preset musl)
+	$(call quietly,cmake --build build/musl -j $(JOBS) --target ewa)
+	@sh tools/hash_jobs.sh --like $(CURDIR)/$(EWA) $(CURDIR)/build/musl/cli/ewa
 
 mutate:
 	@sh tools/setup.sh python3
@@ -230,7 +246,7 @@ site: setup
 	@python3 tools/website.py build/website build/release/libewa.so
 
 wheel: setup
-	@sh tools/wheel.sh $(PYTHONS)
+	@sh tools/wheel.sh $(TARGET) $(PYTHONS)
 
 format:
 	git ls-files '*.c' '*.h' '*.cpp' | xargs clang-format -i

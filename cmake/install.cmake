@@ -6,7 +6,8 @@ set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/ewa)
 foreach(kind shared static)
   install(TARGETS ewa_${kind} EXPORT ewa_${kind}_targets
     ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
-    LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
+    LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
+    RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR}) # a DLL
   install(EXPORT ewa_${kind}_targets NAMESPACE ewa:: DESTINATION ${package_dir} FILE ewa-${kind}-targets.cmake)
 endforeach()
 install(DIRECTORY include/ewa DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h")
@@ -23,7 +24,7 @@ endif()
 
 # A wheel has the shared library in its package (pyproject.toml).
 if(SKBUILD)
-  install(TARGETS ewa_shared LIBRARY DESTINATION ewa COMPONENT python)
+  install(TARGETS ewa_shared LIBRARY DESTINATION ewa COMPONENT python RUNTIME DESTINATION ewa COMPONENT python)
 endif()
 
 # ewa.pc finds its prefix from its own place, so that the tree may be moved.

@@ -27,7 +27,7 @@ CODE = ("src", "include", "cli", "bench", "viewer", "examples", "import", "mpi",
 
 # Options of other programs, by a word of the same paragraph.
 FOREIGN_OPTIONS = {
-    "rattler-build": {"recipe"}, "vcpkg": {"overlay-ports"}, "brew": {"build-from-source"},
+    "rattler-build": {"recipe"}, "vcpkg": {"overlay-ports"}, "brew": {"build-from-source", "no-git", "repository"},
     "mpirun": {"bind-to"}, "Open MPI": {"allow-run-as-root", "oversubscribe"},
     "cmake": {"preset", "build", "target", "help", "install", "prefix"},
     "ctest": {"test-dir", "output-on-failure"},

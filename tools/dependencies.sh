@@ -59,7 +59,7 @@ library() {
     for file in "$@"; do
         object=$prefix/objects/$name-$(echo "$file" | tr / _).o
         # shellcheck disable=SC2086
-        "$bin/$target-cc" $level -fPIC $more $flags -I"$prefix/include" -c "$file" -o "$object" 2>>"$prefix/log" ||
+        $launcher "$bin/$target-cc" $level -fPIC $more $flags -I"$prefix/include" -c "$file" -o "$object" 2>>"$prefix/log" ||
             { tail -n 10 "$prefix/log" >&2; exit 1; }
         objects="$objects $object"
     done
@@ -69,6 +69,7 @@ library() {
         "$prefix" "$module" "$module" "$version" "$requires" "$name" "$seen" >"$prefix/lib/pkgconfig/$module.pc"
 }
 more="$*"
+launcher=${CMAKE_C_COMPILER_LAUNCHER:-} # ccache, where the Makefile has found it
 cd "$sources"/zlib-*/
 cp zlib.h zconf.h "$prefix/include"
 # A macro of macOS makes this zlib believe in a system before it, where streams had no descriptors.
@@ -121,7 +122,7 @@ if [ -n "$further" ]; then
     cd "$sources"/libwebp-*/
     mkdir -p "$prefix/include/webp"
     cp src/webp/*.h "$prefix/include/webp"
-    library webp libwebp 1.2.4 "" -I. src/dec/*.c src/dsp/*.c src/enc/*.c src/utils/*.c
+    library webp libwebp 1.2.4 "" -I. src/dec/*.c src/dsp/*.c src/enc/*.c src/utils/*.c sharpyuv/*.c
     cd "$sources"/libjpeg-turbo-*/
     cmake -S . -B "$prefix/objects/jpeg" -G Ninja -DCMAKE_TOOLCHAIN_FILE="$root/../cmake/toolchains/$target.cmake" -DCMAKE_BUILD_TYPE=Release \
         -DENABLE_SHARED=OFF -DWITH_SIMD=OFF -DWITH_TURBOJPEG=OFF -DCMAKE_INSTALL_PREFIX="$prefix" >>"$prefix/log" 2>&1 || { tail -n 10 "$prefix/log" >&2; exit 1; }

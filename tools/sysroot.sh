@@ -2,23 +2,16 @@
 # SPDX-FileCopyrightText: 2026 The ewa authors
 # SPDX-License-Identifier: MIT
 #
-# Unpacks Debian's packages of another architecture into a folder, for cross-compiling and for emulated runs: nothing is
-# installed, so packages that cannot stand beside this machine's own (libopenexr-dev) are no trouble, and no rights
-# are needed.
-#   tools/sysroot.sh arm64 build/sysroot/arm64
+# Unpacks Debian's packages of another architecture, and what they need, into a folder, for emulated runs: nothing is installed, so
+# packages that cannot stand beside this machine's own are no trouble, and no rights are needed.
+#   tools/sysroot.sh arm64 build/sysroot/arm64 libc6 python3
 set -eu
 architecture=$1
 root=$2
+shift 2
+packages="$*"
 suite=${EWA_SYSROOT_SUITE:-bookworm}
 mirror=${EWA_SYSROOT_MIRROR:-http://deb.debian.org/debian}
-# The libraries of tools/setup.sh, without those of the window, of graphics processors and of MPI.
-packages="libc6-dev libstdc++-12-dev linux-libc-dev"
-for package in $(sed -n 's/^packages="\(.*\)"$/\1/p' "$(dirname "$0")/setup.sh"); do
-    case $package in
-    libsdl2-dev | libimgui-dev | libepoxy-dev | libegl* | libopengl* | libgl* | libopenmpi-dev | libassimp-dev) ;;
-    lib*-dev | zlib1g-dev) packages="$packages $package" ;;
-    esac
-done
 
 [ "$(cat "$root/.complete" 2>/dev/null)" != "$packages" ] || exit 0
 mkdir -p "$root" && root=$(cd "$root" && pwd)
@@ -39,9 +32,5 @@ apt install -y --no-install-recommends --download-only $packages >>"$state/log" 
 for package in "$state"/archives/*.deb; do dpkg-deb -x "$package" "$root"; done
 # Links to absolute names would lead out of the folder.
 find "$root" -type l -lname '/*' | while read -r link; do ln -sfn "$root$(readlink "$link")" "$link"; done
-# What an installation would choose among alternatives.
-for library in "$root"/usr/lib/*/blas/*.so.* "$root"/usr/lib/*/lapack/*.so.*; do
-    [ ! -f "$library" ] || ln -sf "$library" "${library%/*/*}/"
-done
 rm -rf "$state"
 echo "$packages" >"$root/.complete"

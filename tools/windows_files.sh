@@ -8,7 +8,7 @@ set -eu
 here=$1
 there="sh $(cd "$(dirname "$0")" && pwd)/wine.sh $2"
 folder=$(mktemp -d)
-trap 'rm -rf "$folder"' EXIT
+trap 'umount "$folder/media" 2>/dev/null || true; rm -rf "$folder"' EXIT
 cd "$folder"
 long=$(printf '%0120d' 0)
 mkdir -p folder.png "with spaces/Übergröße/点群" "$long/$long/$long"
@@ -100,11 +100,21 @@ fails "a folder" info "with spaces"
 fails "cannot create: folder nowhere" render torus.ply -o 'nowhere\torus.png'
 fails "is a folder" render torus.ply -o folder.png
 fails "'with spaces\\Übergröße\\点群.png': a file, no command" 'with spaces\Übergröße\点群.png'
-if [ "$(id -u)" = 0 ]; then
-    echo "windows_files.sh: read-only files are not tried: this is root, who may write them"
-else
+# Media that cannot be written: root may write files that others may not, but no file system that is read-only.
+mkdir media
+cp torus.ply media
+if [ "$(id -u)" != 0 ]; then
     chmod a-w torus.png
     fails "ermission denied" render torus.ply --size 64x48 -o torus.png
+    chmod u+w torus.png
+elif mount --bind media media 2>/dev/null && mount -o remount,ro,bind media 2>/dev/null; then
+    $there render 'media\torus.ply' --size 64x48 -o media.png
+    "$here" render torus.ply --size 64x48 -o torus.png
+    same torus.png media.png
+    fails "ermission denied" render torus.ply --size 64x48 -o 'media\torus.png'
+    umount media
+else
+    echo "windows_files.sh: read-only media are not tried: nothing may be mounted here"
 fi
 
 # The first Ctrl-C is heard: nothing is left behind.

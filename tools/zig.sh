@@ -24,6 +24,10 @@ script zig-ar ar
 script zig-ranlib ranlib
 script zig-rc rc
 for target in "$@"; do
-    script "$target-cc" "cc -target $target"
-    script "$target-c++" "c++ -target $target"
+    case $target in
+    *-macos) system=$target.11.0 ;; # the oldest that is asked for
+    *) system=$target ;;
+    esac
+    script "$target-cc" "cc -target $system"
+    script "$target-c++" "c++ -target $system"
 done

@@ -4,7 +4,7 @@
 # SPDX-License-Identifier: MIT
 #
 # The program and the library for Homebrew, of the archive that `make dist` makes: put its address in `url` and its sum in `sha256`,
-# then brew install --build-from-source ./ewa.rb. What Homebrew may not have is left out: meshoptimizer, the window's Dear ImGui.
+# or install it from a local tap (docs/install.md). What Homebrew may not have is left out: meshoptimizer, the window's Dear ImGui.
 class Ewa < Formula
   desc "Draws point clouds as continuous, antialiased surfaces"
   url "file://#{File.expand_path("../../build/ewa-0.1.0.tar.gz", __dir__)}"

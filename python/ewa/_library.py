@@ -18,7 +18,7 @@ def _candidates() -> list[str]:
         return [asked]
     package = Path(__file__).resolve().parent
     found = [str(path) for folder in (package, package.parents[1] / "build" / "release")
-             for name in ("libewa.so", "libewa.dylib") for path in [folder / name] if path.exists()]
+             for name in ("libewa.so", "libewa.dylib", "libewa.dll") for path in [folder / name] if path.exists()]
     installed = ctypes.util.find_library("ewa")
     return found + ([installed] if installed else []) + ["libewa.so.0"]
 
