@@ -66,6 +66,7 @@ button[aria-pressed="true"] { background: var(--accent); color: var(--ground); }
 svg { width: 22px; height: 22px; display: block; margin: auto; fill: none; stroke: currentColor; stroke-width: 1.7;
   stroke-linecap: round; stroke-linejoin: round; }
 .card { left: 12px; bottom: 12px; display: flex; align-items: start; max-width: min(420px, calc(100% - 26px)); max-height: 45%; overflow: auto; }
+.card button { position: sticky; top: 0; }
 .card output { padding: 9px 4px 9px 12px; white-space: pre-wrap; overflow-wrap: anywhere; font-variant-numeric: tabular-nums; user-select: text; }
 .status { left: 50%; top: 50%; transform: translate(-50%, -50%); padding: 12px 16px; display: grid; gap: 8px; min-width: 200px; text-align: center; }
 .status progress { width: 100%; accent-color: var(--accent); }
@@ -87,6 +88,7 @@ dialog form button { background: var(--ground); border-color: var(--edge); }
   .bar select { height: 44px; flex: 1 1 62px; max-width: 96px; min-width: 0; padding: 0; }
   .bar [data-do="full"] { display: none; }
   .card, .error { bottom: 64px; }
+  .card { max-height: 26%; }
   .error:not([hidden]) ~ .card { bottom: 136px; }
   dialog td:first-child { white-space: normal; }
 }
