@@ -280,24 +280,27 @@ ewa_status ewa_cloud_place_camera(const ewa_cloud *cloud, double radius_scale, e
 /// What an asset is measured by; NULL: its points are gone.
 static const ewa_cloud *places_of(const ewa_asset *asset) { return ewa_asset_is_points(asset) ? asset->cloud : asset->outline; }
 
-/// Measures how an asset stands, as files of a convention do.
-static ewa_status measure_upright(const ewa_asset *asset, ewa_up_convention convention, ewa_upright *upright) {
+/// Measures how an asset stands, as files of a convention do, by a context of the calling thread.
+static ewa_status measure_upright(ewa_context *context, const ewa_asset *asset, ewa_up_convention convention, ewa_upright *upright) {
     const ewa_cloud *places = places_of(asset);
-    if (!places) return ewa_fail(asset->context, EWA_ERROR_ARGUMENT, "%s: its points are gone", asset->name);
-    placement p = {.context = ewa_cloud_context(places),
+    if (!places) return ewa_fail(context, EWA_ERROR_ARGUMENT, "%s: its points are gone", asset->name);
+    ewa_cloud *own = NULL; // the asset's context may be loading another file
+    EWA_TRY(ewa_cloud_view(context, places, 0, ewa_cloud_point_count(places), &own));
+    placement p = {.context = context,
                    .up_axis = up_axis_of_asset(asset),
                    .convention = convention,
                    .suited_view = asset->view};
     ewa_view_info info;
-    EWA_TRY(place_at(&p, places, 1, NULL, NULL, &info));
-    *upright = info.upright;
-    return EWA_OK;
+    const ewa_status status = place_at(&p, own, 1, NULL, NULL, &info);
+    ewa_cloud_destroy(&own);
+    if (status == EWA_OK) *upright = info.upright;
+    return status;
 }
 
 ewa_status ewa_asset_find_upright(const ewa_asset *asset, ewa_upright *upright) {
     if (!asset || !upright) return EWA_ERROR_ARGUMENT;
     const char *name = file_of(asset);
-    return measure_upright(asset, ewa_up_convention_of(1, &name), upright);
+    return measure_upright(asset->context, asset, ewa_up_convention_of(1, &name), upright);
 }
 
 /// What is up in a file for sure: 1 y, 2 z, negative: down; 0: it has to be measured. What a map moves lies as somebody wants it,
@@ -337,7 +340,7 @@ static ewa_status tell_ups(ewa_scene *scene) {
         if (!its) {
             ewa_upright upright;
             measured++;
-            EWA_TRY(measure_upright(other, axis == 1 ? EWA_UP_Y_USUAL : EWA_UP_Z_SURVEYED, &upright));
+            EWA_TRY(measure_upright(scene->context, other, axis == 1 ? EWA_UP_Y_USUAL : EWA_UP_Z_SURVEYED, &upright));
             its = upright.reversed ? -upright.axis : upright.axis;
         }
         if (its == axis) continue;
