@@ -21,6 +21,7 @@ struct ewa_pool {
     pthread_cond_t start, finish;
     uint64_t generation;
     uint32_t working; // threads that have not left the current run
+    bool running; // a run is on
     bool quit;
     ewa_task *task;
     void *data;
@@ -94,23 +95,33 @@ void ewa_pool_destroy(const ewa_allocator *allocator, ewa_pool *pool) {
 
 uint32_t ewa_pool_worker_count(const ewa_pool *pool) { return pool->worker_count; }
 
+/// Announces a run, unless one is on.
+static bool start(ewa_pool *pool, ewa_task *task, void *data, uint32_t count) {
+    pthread_mutex_lock(&pool->mutex);
+    const bool free = !pool->running;
+    if (free) {
+        pool->running = true;
+        pool->task = task;
+        pool->data = data;
+        pool->count = count;
+        atomic_store_explicit(&pool->next, 0, memory_order_relaxed);
+        pool->working = pool->worker_count - 1;
+        pool->generation++;
+        pthread_cond_broadcast(&pool->start);
+    }
+    pthread_mutex_unlock(&pool->mutex);
+    return free;
+}
+
 void ewa_pool_run(ewa_pool *pool, ewa_task *task, void *data, uint32_t count) {
     if (count == 0) return;
-    if (pool->worker_count == 1 || count == 1) {
+    if (pool->worker_count == 1 || count == 1 || !start(pool, task, data, count)) {
         for (uint32_t i = 0; i < count; i++) task(data, i, 0);
         return;
     }
-    pthread_mutex_lock(&pool->mutex);
-    pool->task = task;
-    pool->data = data;
-    pool->count = count;
-    atomic_store_explicit(&pool->next, 0, memory_order_relaxed);
-    pool->working = pool->worker_count - 1;
-    pool->generation++;
-    pthread_cond_broadcast(&pool->start);
-    pthread_mutex_unlock(&pool->mutex);
     take_tasks(pool, 0);
     pthread_mutex_lock(&pool->mutex);
     while (pool->working) pthread_cond_wait(&pool->finish, &pool->mutex);
+    pool->running = false;
     pthread_mutex_unlock(&pool->mutex);
 }

@@ -17,7 +17,8 @@ void ewa_pool_destroy(const ewa_allocator *allocator, ewa_pool *pool);
 
 uint32_t ewa_pool_worker_count(const ewa_pool *pool);
 
-/// Runs all tasks and returns when the last is done. One run at a time.
+/// Runs all tasks and returns when the last is done. A run that begins while another is on, in a task of it or on another thread, is
+/// done by its caller alone, as worker 0: threads that wait for each other would never end.
 void ewa_pool_run(ewa_pool *pool, ewa_task *task, void *data, uint32_t count);
 
 #endif

@@ -5,6 +5,7 @@
 #include "base/base.h"
 #include "check.h"
 
+#include <pthread.h>
 #include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
@@ -214,6 +215,42 @@ TEST(test_parallel_visits_each_index_once) {
         free(t);
         ewa_context_destroy(&context);
     }
+}
+
+/// A run in a task of a run, and two threads' runs by one context: each is whole, and none waits for the other for ever.
+typedef struct nested_run {
+    ewa_context *context;
+    tally inner[64];
+} nested_run;
+
+static void run_inner(void *data, uint32_t index, uint32_t worker) {
+    (void)worker;
+    nested_run *run = data;
+    ewa_parallel(run->context, count_hit, &run->inner[index], 100);
+}
+
+static void *run_again(void *data) {
+    nested_run *run = data;
+    for (uint32_t round = 0; round < 200; round++) ewa_parallel(run->context, count_hit, &run->inner[1], 100);
+    return NULL;
+}
+
+TEST(test_runs_beside_runs) {
+    nested_run *run = calloc(1, sizeof *run);
+    run->context = check_context(4, NULL);
+    for (int i = 0; i < 64; i++) run->inner[i].workers = 4;
+    ewa_parallel(run->context, run_inner, run, 64);
+    for (int i = 0; i < 64; i++)
+        for (int k = 0; k < 100; k++) assert_int_equal(run->inner[i].hits[k], 1);
+    pthread_t other;
+    assert_int_equal(pthread_create(&other, NULL, run_again, run), 0);
+    for (int round = 0; round < 200; round++) ewa_parallel(run->context, count_hit, &run->inner[0], 100);
+    pthread_join(other, NULL);
+    for (int i = 0; i < 2; i++)
+        for (int k = 0; k < 100; k++) assert_int_equal(run->inner[i].hits[k], 201);
+    for (int i = 0; i < 64; i++) assert_int_equal(run->inner[i].bad_worker, 0);
+    ewa_context_destroy(&run->context);
+    free(run);
 }
 
 TEST(test_split_covers) {
