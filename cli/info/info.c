@@ -472,7 +472,7 @@ const cli_command info_command = {
     .details =
         "A file that has faces is a mesh: faces, area, whether it is closed, materials; then its vertices. "
         "Of an octree (COPC, EPT) the tree is told; of one with more than 4 million points, ranges and "
-        "problems are those of a sample. Of Gaussians (PLY, compressed PLY, splat, SPZ, glTF, ksplat, SOG) "
+        "problems are those of a sample. Of Gaussians (PLY, compressed PLY, splat, SPZ, glTF, ksplat, SOG, streamed SOG) "
         "the form, sizes and opacities are told. Problems are counted, not judged: the exit status is 0 when "
         "the "
         "files could be read. Volumes "
