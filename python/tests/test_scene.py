@@ -9,6 +9,7 @@ import os
 import shutil
 import struct
 import subprocess
+import warnings
 from typing import Any
 
 import numpy as np
@@ -33,6 +34,8 @@ SIZE = (96, 72)
 class SameScene(Case):
     def setUp(self) -> None:
         super().setUp()
+        # What stands here by different conventions is joined as it is.
+        warnings.filterwarnings("ignore", ".*they are joined by their numbers", ewa.EwaWarning)
         self.run_program("generate", "terrain", "-o", "bare.ply", "-n", "4000", "--positions-only")
         self.run_program("generate", "sphere", "-o", "surfels.ply", "-n", "4000", "--extent", "1.5")
         self.run_program("generate", "torus", "-o", "torus.ply", "-n", "9000")

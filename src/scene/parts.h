@@ -228,9 +228,6 @@ const ewa_legend *ewa_surface_legend(const ewa_surface *surface, const ewa_asset
 /// The colours of an asset's Gaussians in place of their own; NULL: these.
 const ewa_splat_colors *ewa_surface_splat_colors(const ewa_surface *surface, const ewa_asset *asset);
 
-/// Whether a place is not cut away by the sections of a renderer (pick.c).
-bool ewa_sections_keep(const ewa_render_options *render, const double place_world[3]);
-
 /// Whether the points of an octree have colours.
 bool ewa_asset_has_colors(const ewa_asset *asset);
 

@@ -48,15 +48,6 @@ typedef struct search {
     double best; ///< square of the distance of what was found, or within which to look
 } search;
 
-bool ewa_sections_keep(const ewa_render_options *render, const double place_world[3]) {
-    const double *p = place_world;
-    for (uint32_t i = 0; i < render->section_count; i++) {
-        const double *plane = render->section_planes[i];
-        if (!(plane[0] * p[0] + plane[1] * p[1] + plane[2] * p[2] + plane[3] >= 0)) return false;
-    }
-    return true;
-}
-
 /// The point of a cloud that is nearest to the place, and nearer than what was found; false: there is none.
 static bool find_in_cloud(search *s, const ewa_cloud *cloud, ewa_scene_hit *hit) {
     const ewa_attribute *position = ewa_cloud_find(cloud, EWA_POSITION);

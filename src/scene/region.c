@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Which points regions hide.
+// Which points regions hide, and sections cut away.
 //
 // Based on M. Shimrat, "Algorithm 112: Position of point relative to polygon", 1962 (even and odd crossings), and M.
 // Visvalingam and J. D. Whyatt, "Line generalisation by repeated elimination of points", 1993 (corners that are left out).
@@ -57,6 +57,15 @@ static bool is_inside(const ewa_region *region, const double p[3], double code) 
 bool ewa_regions_keep_place(const ewa_region *regions, uint32_t count, const double place_world[3], double code) {
     for (uint32_t i = 0; i < count; i++)
         if (is_inside(&regions[i], place_world, code) != regions[i].kept) return false;
+    return true;
+}
+
+bool ewa_sections_keep(const ewa_render_options *render, const double place_world[3]) {
+    const double *p = place_world;
+    for (uint32_t i = 0; i < render->section_count; i++) {
+        const double *plane = render->section_planes[i];
+        if (!(plane[0] * p[0] + plane[1] * p[1] + plane[2] * p[2] + plane[3] >= 0)) return false;
+    }
     return true;
 }
 

@@ -6,6 +6,7 @@
 #define EWA_SRC_SCENE_REGION_H
 
 #include "ewa/region.h"
+#include "ewa/render.h"
 
 /// Whether six numbers are a lower and an upper corner.
 bool ewa_region_is_box(const double box_world[6]);
@@ -22,6 +23,9 @@ bool ewa_regions_keep(const ewa_region *regions, uint32_t count, const ewa_cloud
 
 /// Whether no region hides a place of the world whose class has a code; -1: it has none.
 bool ewa_regions_keep_place(const ewa_region *regions, uint32_t count, const double place_world[3], double code);
+
+/// Whether a place is not cut away by the sections of a renderer.
+bool ewa_sections_keep(const ewa_render_options *render, const double place_world[3]);
 
 /// Whether some region asks for the points' classes.
 bool ewa_regions_have_classes(const ewa_region *regions, uint32_t count);

@@ -200,7 +200,7 @@ TEST(films) {
 
 TEST(refused) {
     const int before = scratch_count();
-    run_fails(1, "pair.ply: |--color-by", "ewa render pair.ply -o x.png --color-by x");
+    run_fails(1, "pair.ply: |no attribute 'class'|opacity, size", "ewa render pair.ply -o x.png --color-by class");
     assert_int_equal(run("ewa render pair.ply -o lit.png --size 20x20 --shading phong --opacity 0.5"), 0);
     assert_non_null(strstr(last_run.err, "--opacity is for surfaces, and there are none"));
     assert_non_null(strstr(last_run.err, "--shading is for surfaces"));
