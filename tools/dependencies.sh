@@ -2,7 +2,7 @@
 # SPDX-FileCopyrightText: 2026 The ewa authors
 # SPDX-License-Identifier: MIT
 #
-# Builds zlib, libdeflate, cJSON, zstd and libspng (but for WebAssembly bzip2, expat, libwebp, libjpeg-turbo, OpenEXR and cmocka too)
+# Builds zlib, libdeflate, cJSON, zstd, libspng and expat (but for WebAssembly bzip2, libwebp, libjpeg-turbo, OpenEXR and cmocka too)
 # from Debian's source packages as static libraries for a target that has no packages, into build/sysroot/TARGET; nothing is
 # installed, and nothing of them is copied into the tree.
 #   tools/dependencies.sh wasm32-wasi [FLAG...]     by the compiler of tools/zig.sh
@@ -13,9 +13,9 @@ root=$(cd "$(dirname "$0")/.." && pwd)/build
 bin=$root/zig/bin
 sources=$root/sources
 prefix=$root/sysroot/$target
-further="bzip2=1.0.8-5 expat=2.5.0-1+deb12u2 libwebp=1.2.4-0.2+deb12u1 libjpeg-turbo=1:2.1.5-2 openexr=3.1.5-5 imath=3.1.6-1 cmocka=1.1.5-2.1 musl=1.2.3-1"
+further="bzip2=1.0.8-5 libwebp=1.2.4-0.2+deb12u1 libjpeg-turbo=1:2.1.5-2 openexr=3.1.5-5 imath=3.1.6-1 cmocka=1.1.5-2.1 musl=1.2.3-1"
 case $target in wasm*) further= ;; esac
-packages="zlib=1:1.2.13.dfsg-1 libdeflate=1.14-1 cjson=1.7.15-1+deb12u4 libzstd=1.5.4+dfsg2-5 libspng=0.7.3-3"
+packages="zlib=1:1.2.13.dfsg-1 libdeflate=1.14-1 cjson=1.7.15-1+deb12u4 libzstd=1.5.4+dfsg2-5 libspng=0.7.3-3 expat=2.5.0-1+deb12u2"
 # For a page, what is small in place of what is fast; of zstd as its README says.
 level=-O2 small=
 case $target in wasm*) level=-Os small="-DHUF_FORCE_DECOMPRESS_X1 -DZSTD_FORCE_DECOMPRESS_SEQUENCES_SHORT -DZSTD_NO_INLINE -DZSTD_STRIP_ERROR_STRINGS" ;; esac
@@ -90,6 +90,12 @@ cd "$sources"/libspng-*/
 cp spng/spng.h "$prefix/include"
 seen=-DSPNG_STATIC
 library spng spng 0.7.3 zlib "$seen" spng/spng.c
+cd "$sources"/expat-*/expat
+cp lib/expat.h lib/expat_external.h "$prefix/include"
+printf '#define BYTEORDER 1234\n#define HAVE_MEMMOVE 1\n#define XML_NS 1\n#define XML_DTD 1\n#define XML_CONTEXT_BYTES 1024\n#if defined(__APPLE__) || defined(__wasm__)\n#define HAVE_ARC4RANDOM_BUF 1\n#elif !defined(_WIN32)\n#define XML_DEV_URANDOM 1\n#endif\n' >lib/expat_config.h
+seen=-DXML_STATIC
+library expat expat 2.5.0 "" "$seen -Ilib" lib/xmlparse.c lib/xmlrole.c lib/xmltok.c
+seen=
 if [ -n "$further" ]; then
     sources=$root/sources_further
     seen=
@@ -113,12 +119,6 @@ if [ -n "$further" ]; then
     cd "$sources"/bzip2-*/
     sed 's/^#ifdef _WIN32/#if 0 \/* a static library *\//' bzlib.h >"$prefix/include/bzlib.h" # else it declares pointers into a DLL
     library bz2 bzip2 1.0.8 "" "-include $prefix/include/bzlib.h" blocksort.c huffman.c crctable.c randtable.c compress.c decompress.c bzlib.c
-    cd "$sources"/expat-*/expat
-    cp lib/expat.h lib/expat_external.h "$prefix/include"
-    printf '#define BYTEORDER 1234\n#define HAVE_MEMMOVE 1\n#define XML_NS 1\n#define XML_DTD 1\n#define XML_CONTEXT_BYTES 1024\n#ifdef __APPLE__\n#define HAVE_ARC4RANDOM_BUF 1\n#elif !defined(_WIN32)\n#define XML_DEV_URANDOM 1\n#endif\n' >lib/expat_config.h
-    seen=-DXML_STATIC
-    library expat expat 2.5.0 "" "$seen -Ilib" lib/xmlparse.c lib/xmlrole.c lib/xmltok.c
-    seen=
     cd "$sources"/libwebp-*/
     mkdir -p "$prefix/include/webp"
     cp src/webp/*.h "$prefix/include/webp"

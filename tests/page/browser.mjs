@@ -312,6 +312,16 @@ await check("what is wrong is said, and what was there stays", async () => {
   await page.close();
 });
 
+await check("E57 as it is", async () => {
+  copyFileSync(new URL("../fuzz/corpus/e57/scans.e57", import.meta.url), join(scratch, "scans.e57"));
+  const server = await serve({ "/": join(scratch, "site"), "/data/": scratch }), page = await show(`${server.origin}/drop.html?src=data/scans.e57`);
+  ewa("render", "scans.e57", "-o", "scans.png", "--size", `${WIDTH}x${HEIGHT}`, "-q");
+  same(await page.evaluate(PIXELS), "scans.png", "scans.e57");
+  check_quiet(page, server.origin);
+  await page.close();
+  server.close();
+});
+
 await check("attributes, the measure button, the whole screen", async () => {
   const server = await serve({ "/": join(scratch, "site"), "/data/": scratch }), page = await show(`${server.origin}/drop.html?src=data/terrain.laz`);
   const camera = await page.evaluate(`${view}.camera()`);
