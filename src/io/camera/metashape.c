@@ -181,7 +181,7 @@ static ewa_status add_camera(loader *in, const camera *from) {
         in->unplaced_count++;
         return EWA_OK;
     }
-    const sensor *of = in->sensors, *const end = in->sensors + in->sensor_count;
+    const sensor *of = in->sensors, *const end = in->sensor_count ? in->sensors + in->sensor_count : of;
     while (of < end && strcmp(of->id, from->sensor_id) != 0) of++;
     if (of == end) return fail(in, EWA_ERROR_FORMAT, "a camera refers to a sensor that is missing:", from->sensor_id);
     ewa_lens lens;
