@@ -50,6 +50,9 @@ VERSION := $(shell sed -n 's/^project.ewa VERSION \([0-9.]*\).*/\1/p' CMakeLists
 # $(call quietly,COMMAND): prints what a command said only when it fails.
 quietly = @mkdir -p build && { ( $(1) ) >build/log-$@.txt 2>&1 || { cat build/log-$@.txt; exit 1; }; }
 
+# $(call build_by,PRESET,TARGETS): builds these in build/PRESET, and prints what was said only when it fails.
+build_by = echo "Building build/$(1)"; { cmake --preset $(1) && cmake --build build/$(1) -j $(JOBS) --target $(2); } >build/log-$(1).txt 2>&1 || { cat build/log-$(1).txt; exit 1; }
+
 # Compiled once, found again in every folder and checkout, where there is ccache.
 ifneq ($(shell command -v ccache),)
 export CMAKE_C_COMPILER_LAUNCHER ?= ccache
@@ -146,9 +149,7 @@ arm64: program
 	@sh tools/sysroot.sh arm64 build/sysroot/arm64 libc6 python3
 	@sh tools/zig.sh aarch64-linux-gnu.2.28
 	@sh tools/dependencies.sh aarch64-linux-gnu.2.28
-	@echo "Building build/arm64"
-	$(call quietly,cmake --preset arm64)
-	$(call quietly,cmake --build build/arm64 -j $(JOBS) --target ewa parallel_tests)
+	@$(call build_by,arm64,ewa parallel_tests)
 	@sh tools/check.sh build/arm64:parallel
 	@sh tools/hash_jobs.sh --like $(CURDIR)/$(EWA) qemu-aarch64-static -L $(CURDIR)/build/sysroot/arm64 $(CURDIR)/build/arm64/cli/ewa
 
@@ -160,8 +161,7 @@ wasm: program
 	@sh tools/dependencies.sh wasm32-wasi -mcpu=generic+simd128+bulk_memory+nontrapping_fptoint+sign_ext+mutable_globals+multivalue+atomics
 	@for build in wasm wasm-relaxed; do \
 	  relaxed=$$(node --v8-options | grep -o -e --experimental-wasm-relaxed-simd | head -n 1); \
-	  echo "Building build/$$build"; \
-	  { cmake --preset $$build && cmake --build build/$$build -j $(JOBS) --target ewa page; } >build/log-$$build.txt 2>&1 || { cat build/log-$$build.txt; exit 1; }; \
+	  $(call build_by,$$build,ewa page); \
 	  sh tools/hash_jobs.sh --without x --like $(CURDIR)/$(EWA) node --no-warnings $$relaxed $(CURDIR)/tools/wasi.mjs $(CURDIR)/build/$$build/cli/ewa.wasm || exit 1; \
 	done
 	@$(EWA) generate torus -n 1000000 -o build/torus.ply
@@ -173,9 +173,7 @@ windows: program
 	@sh tools/setup.sh wine wine64
 	@sh tools/zig.sh x86_64-windows-gnu
 	@sh tools/dependencies.sh x86_64-windows-gnu
-	@echo "Building build/windows"
-	$(call quietly,cmake --preset windows)
-	$(call quietly,cmake --build build/windows -j $(JOBS) --target ewa)
+	@$(call build_by,windows,ewa)
 	@sh tools/hash_jobs.sh --like $(CURDIR)/$(EWA) sh $(CURDIR)/tools/wine.sh $(CURDIR)/build/windows/cli/ewa.exe
 	@sh tools/windows_files.sh $(CURDIR)/$(EWA) $(CURDIR)/build/windows/cli/ewa.exe
 
@@ -184,8 +182,7 @@ macos: setup
 	@sh tools/zig.sh aarch64-macos x86_64-macos
 	@for target in aarch64-macos x86_64-macos; do \
 	  sh tools/dependencies.sh $$target || exit 1; \
-	  echo "Building build/$$target"; \
-	  { cmake --preset $$target && cmake --build build/$$target -j $(JOBS) --target ewa ewa_shared; } >build/log-$$target.txt 2>&1 || { cat build/log-$$target.txt; exit 1; }; \
+	  $(call build_by,$$target,ewa ewa_shared); \
 	done
 	@echo "build/aarch64-macos/cli/ewa and build/x86_64-macos/cli/ewa: not run here"
 
@@ -193,18 +190,14 @@ macos: setup
 riscv64: program
 	@sh tools/setup.sh qemu-user-static
 	@sh tools/zig.sh riscv64-linux-musl
-	@echo "Building build/riscv64"
-	$(call quietly,cmake --preset riscv64)
-	$(call quietly,cmake --build build/riscv64 -j $(JOBS) --target ewa)
+	@$(call build_by,riscv64,ewa)
 	@sh tools/hash_jobs.sh --minimal --like $(CURDIR)/$(EWA) qemu-riscv64-static $(CURDIR)/build/riscv64/cli/ewa
 
 # One static file for every Linux on x86-64.
 musl: program
 	@sh tools/zig.sh x86_64-linux-musl
 	@sh tools/dependencies.sh x86_64-linux-musl
-	@echo "Building build/musl"
-	$(call quietly,cmake --preset musl)
-	$(call quietly,cmake --build build/musl -j $(JOBS) --target ewa)
+	@$(call build_by,musl,ewa)
 	@sh tools/hash_jobs.sh --like $(CURDIR)/$(EWA) $(CURDIR)/build/musl/cli/ewa
 
 mutate:

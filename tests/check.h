@@ -127,6 +127,19 @@ static inline bool check_go_on(void *user, const char *stage, double fraction) {
     return (*(int *)user)-- > 0;
 }
 
+/// A context with `threads` workers (0: default) whose progress goes to `progress`, with `user`.
+static inline ewa_context *check_context_telling(uint32_t threads, bool (*progress)(void *user, const char *stage, double fraction),
+                                                 void *user) {
+    ewa_context_options options;
+    ewa_context_options_init(&options, sizeof options);
+    options.thread_count = threads;
+    options.progress = progress;
+    options.progress_user = user;
+    ewa_context *context = NULL;
+    assert_int_equal(ewa_context_create(&options, &context), EWA_OK);
+    return context;
+}
+
 /// A context that takes from `memory` and is stopped when it has asked `*left` times.
 static inline ewa_context *check_context_stopped(int *left, check_memory *memory) {
     ewa_context_options options;

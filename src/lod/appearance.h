@@ -24,7 +24,7 @@ typedef struct ewa_lod_appearance {
 } ewa_lod_appearance;
 
 /// As ewa_lod_scene_render(), with octrees looking as `appearances` [scene->lod_count] say; NULL, as a whole or one of them:
-/// as they are. What is in memory of an octree stays only as long as its look is the same. Errors: its, and those of
+/// as they are. What is in memory of an octree stays only as long as its appearance is the same. Errors: its, and those of
 /// `place` and `paint`.
 ewa_status ewa_lod_scene_draw(const ewa_lod_scene *scene, const ewa_lod_appearance *const *appearances,
                               ewa_renderer *renderer, const ewa_camera *camera,

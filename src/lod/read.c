@@ -137,7 +137,7 @@ static ewa_status gather_points(ewa_lod *lod, const ewa_lod_node *node, const ui
     return status;
 }
 
-/// Changes a node's points as the look says, before what they lack is estimated, or afterwards.
+/// Changes a node's points as the appearance says, before what they lack is estimated, or afterwards.
 static ewa_status place(const ewa_lod_appearance *appearance, ewa_cloud **cloud) {
     return appearance->place ? appearance->place(appearance->user, cloud) : EWA_OK;
 }

@@ -35,7 +35,7 @@ ewa_status ewa_lod_reading_choose(ewa_lod_reading *reading, const ewa_lod_scene 
 ewa_status ewa_lod_reading_read(ewa_lod_reading *reading);
 
 /// Has pictures be drawn of what was read, and no node be read again that could not be. Not while the octrees are drawn. What
-/// was chosen for another look is given up.
+/// was chosen for another appearance is given up.
 void ewa_lod_reading_put(ewa_lod_reading *reading);
 
 /// Frees what is kept from one choice to the next; nothing is chosen.

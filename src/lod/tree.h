@@ -51,7 +51,7 @@ struct ewa_lod {
     char cloud_attributes[EWA_LOD_ATTRIBUTES_BYTES]; ///< that they were read with, beside those of surfels
     size_t cloud_bytes;
     ewa_lod_appearance appearance; ///< of what is in memory
-    double stretch;       ///< that no length grows by more in `look`
+    double stretch;                 ///< that no length grows by more in `appearance`
     ewa_buffer appearance_user; ///< the copy that it has
     bool damage_reported; ///< that some nodes cannot be read
     bool fewest_reported; ///< that there are no fewer surfels than are drawn
@@ -72,7 +72,7 @@ ewa_status ewa_tree_instance(ewa_lod *lod, uint32_t number, ewa_lod **instance);
 /// EWA_ERROR_MEMORY; then nothing is in memory.
 ewa_status ewa_tree_set_appearance(ewa_lod *lod, const ewa_lod_appearance *appearance);
 
-/// Whether what was made with one look is what another one makes.
+/// Whether what was made with one appearance is what another one makes.
 bool ewa_tree_appearances_equal(const ewa_lod_appearance *a, const ewa_lod_appearance *b);
 
 /// Makes the nodes of an open octree. Errors: EWA_ERROR_MEMORY, EWA_ERROR_FORMAT.

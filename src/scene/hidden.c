@@ -193,8 +193,8 @@ static void write_value(ewa_type type, double value, uint8_t bytes[4]) {
         memcpy(bytes, &(int16_t){(int16_t)whole}, 2);
 }
 
-/// Chooses what stands where a part has no voxels: a NaN, or the least number of the volume or beyond that the transfer function
-/// leaves empty; the least one where it leaves none empty.
+/// Chooses what stands where a part has no voxels: a NaN, or the smallest number of the volume or beyond that the transfer function
+/// leaves empty; the smallest where it leaves none empty.
 static ewa_status choose_fill(const ewa_asset *asset, const ewa_volume *volume, double *fill) {
     ewa_context *context = volume->context;
     *fill = NAN;

@@ -11,14 +11,14 @@
 #include <math.h>
 #include <string.h>
 
-/// Of dots: the least cutoff there is, so that each is listed where its dot shows.
+/// Of dots: the smallest cutoff there is, so that each is listed where its dot shows.
 enum { DOT_CUTOFF = 1 };
 
 /// What is less is no alpha.
-#define LEAST_ALPHA 1e-6
+#define MIN_ALPHA 1e-6
 
 /// A shorter mean of normals is rounding.
-static const double LEAST_NORMAL = 1e-5;
+static const double MIN_NORMAL = 1e-5;
 
 /// Checks what a mixture is made of, and its volumes' options.
 static ewa_status check_mixture(ewa_context *context, const ewa_mixture *mixture,
@@ -118,7 +118,7 @@ static ewa_status draw_solids(ewa_gaussian_job *job, const ewa_camera *camera, e
     bare.filter = EWA_FILTER_THICKEN;
     bare.prefilter_px2 = dots ? options->dot_px * options->dot_px / 4 : 0;
     bare.cutoff = dots ? DOT_CUTOFF : options->ellipsoid_radius;
-    bare.minimum_alpha = LEAST_ALPHA;
+    bare.minimum_alpha = MIN_ALPHA;
     job->solids = &solids;
     const ewa_status status = draw_frame(job, camera, &bare, &(ewa_frame){.rgba = NULL}, NULL, stats);
     job->solids = NULL;
@@ -161,7 +161,7 @@ static ewa_status draw_normals(const ewa_gaussian_job *drawn, const ewa_camera *
             squares += sum[c] * sum[c];
         }
         const double size = sqrt(squares);
-        for (size_t c = 0; c < 3; c++) normal[3 * i + c] = size > LEAST_NORMAL ? (float)(sum[c] / size) : 0;
+        for (size_t c = 0; c < 3; c++) normal[3 * i + c] = size > MIN_NORMAL ? (float)(sum[c] / size) : 0;
     }
     return EWA_OK;
 }

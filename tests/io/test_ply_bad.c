@@ -337,12 +337,7 @@ static bool cancel_now(void *user, const char *stage, double fraction) {
 CASE(test_cancelling) {
     for (int encoding = 0; encoding < 3; encoding++) {
         int calls_left = 1;
-        ewa_context_options options;
-        ewa_context_options_init(&options, sizeof options);
-        options.progress = cancel_now;
-        options.progress_user = &calls_left;
-        ewa_context *own = NULL;
-        assert_int_equal(ewa_context_create(&options, &own), EWA_OK);
+        ewa_context *own = check_context_telling(0, cancel_now, &calls_left);
         sample s = make_rich((ewa_ply_encoding)encoding, encoding == 0);
         ewa_cloud *cloud;
         assert_int_equal(sample_load(own, &s, &cloud), EWA_CANCELLED);

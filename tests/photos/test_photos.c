@@ -399,12 +399,7 @@ static bool note_phase(void *user, const char *stage, double fraction) {
 TEST(test_progress_names_phases_and_gives_up) {
     (void)state;
     phases seen = {.calls_left = -1};
-    ewa_context_options context_options;
-    ewa_context_options_init(&context_options, sizeof context_options);
-    context_options.progress = note_phase;
-    context_options.progress_user = &seen;
-    ewa_context *context = NULL;
-    assert_int_equal(ewa_context_create(&context_options, &context), EWA_OK);
+    ewa_context *context = check_context_telling(0, note_phase, &seen);
     photo_scene *scene = photo_scene_make(context, 300, 3, 40, 0, 0);
     ewa_photos_options options = options_of(EWA_PHOTOS_FIT);
     options.hold_out = 0, options.rounds = 1;

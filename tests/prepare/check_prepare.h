@@ -68,12 +68,7 @@ static inline int check_cancel_each(const char *stage, ewa_status (*work)(ewa_co
                                     void *user) {
     for (int calls = 0;; calls++) {
         check_progress progress = {.stage = stage, .calls_left = calls};
-        ewa_context_options options;
-        ewa_context_options_init(&options, sizeof options);
-        options.progress = check_progress_take;
-        options.progress_user = &progress;
-        ewa_context *context = NULL;
-        assert_int_equal(ewa_context_create(&options, &context), EWA_OK);
+        ewa_context *context = check_context_telling(0, check_progress_take, &progress);
         const ewa_status status = work(context, user);
         ewa_context_destroy(&context);
         if (status == EWA_OK) {

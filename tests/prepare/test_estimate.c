@@ -660,12 +660,7 @@ TEST(test_cancel_and_options) {
     const uint32_t count = sample_square(JITTERED, xyz);
     static char stages[3][16] = {"outliers", "estimate", "orient"};
     for (int s = 0; s < 3; s++) {
-        ewa_context_options context_options;
-        ewa_context_options_init(&context_options, sizeof context_options);
-        context_options.progress = cancel_at;
-        context_options.progress_user = stages[s];
-        ewa_context *context = NULL;
-        assert_int_equal(ewa_context_create(&context_options, &context), EWA_OK);
+        ewa_context *context = check_context_telling(0, cancel_at, stages[s]);
         ewa_cloud *cloud = NULL;
         assert_int_equal(ewa_cloud_create(context, count, &cloud), EWA_OK);
         assert_int_equal(ewa_cloud_borrow(cloud, EWA_POSITION, EWA_F32, 3, xyz, 0), EWA_OK);

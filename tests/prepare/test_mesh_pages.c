@@ -98,13 +98,7 @@ static bool follow(void *user, const char *stage, double fraction) {
 }
 
 static ewa_status sample_square(progress_log *log, uint64_t point_count, ewa_cloud **cloud) {
-    ewa_context_options made;
-    ewa_context_options_init(&made, sizeof made);
-    made.thread_count = 1; // which of several workers is done first decides how often is told
-    made.progress = follow;
-    made.progress_user = log;
-    ewa_context *context = NULL;
-    assert_int_equal(ewa_context_create(&made, &context), EWA_OK);
+    ewa_context *context = check_context_telling(1, follow, log); // which of several workers is done first decides how often is told
     static const double places[12] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0};
     ewa_mesh mesh;
     shape_fill(context, 4, places, 2, (const uint32_t[]){0, 1, 2, 2, 1, 3}, &mesh);

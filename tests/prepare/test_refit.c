@@ -237,12 +237,7 @@ static bool note_progress(void *user, const char *stage, double fraction) {
 /// so that the report of progress gets there evenly.
 TEST(test_progress) {
     solver_progress progress = {0};
-    ewa_context_options options;
-    ewa_context_options_init(&options, sizeof options);
-    options.progress = note_progress;
-    options.progress_user = &progress;
-    ewa_context *context = NULL;
-    assert_int_equal(ewa_context_create(&options, &context), EWA_OK);
+    ewa_context *context = check_context_telling(0, note_progress, &progress);
     ewa_cloud *cloud = generate(context, EWA_OBJECT_PLANE, 3000, false);
     random_colors(cloud, 3);
     progress = (solver_progress){0};

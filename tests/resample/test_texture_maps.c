@@ -250,13 +250,8 @@ TEST(test_cancelled) {
     raster source = raster_make(EWA_PIXEL_SRGB8, 3, 64, 64), target = raster_make(EWA_PIXEL_SRGB8, 3, 64, 64);
     const ewa_mat3 map = mat3_identity();
     for (int k = 0; k < 3; k++) {
-        ewa_context_options options;
-        ewa_context_options_init(&options, sizeof options);
         double end = ends[k];
-        options.progress = cancel;
-        options.progress_user = &end;
-        ewa_context *made = NULL;
-        assert_int_equal(ewa_context_create(&options, &made), EWA_OK);
+        ewa_context *made = check_context_telling(0, cancel, &end);
         assert_int_equal(ewa_texture_map(made, &source.source, &map, NULL, &target.target, NULL),
                          EWA_CANCELLED);
         ewa_context_destroy(&made);

@@ -389,12 +389,7 @@ static bool stop_after(void *user, const char *stage, double fraction) {
 TEST(test_cancelled_frame_changes_nothing) {
     static uint8_t pictures[2][4 * PIXELS];
     int left = -1;
-    ewa_context_options options;
-    ewa_context_options_init(&options, sizeof options);
-    options.thread_count = 2;
-    options.progress = stop_after, options.progress_user = &left;
-    ewa_context *context = NULL;
-    assert_int_equal(ewa_context_create(&options, &context), EWA_OK);
+    ewa_context *context = check_context_telling(2, stop_after, &left);
     ewa_cloud *cloud = level_cloud(context, LEVEL_SPHERE, POINTS);
     ewa_surfels *surfels = surfels_of(cloud, 2);
     const ewa_camera camera = level_camera(SIDE_PX, SIDE_PX, 2.2, 20);

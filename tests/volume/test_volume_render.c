@@ -195,13 +195,7 @@ TEST(test_stops_between_tiles) {
     const double radius = 12;
     for (uint32_t threads = 1; threads <= 2; threads++) {
         stopper self = {0};
-        ewa_context_options context_options;
-        ewa_context_options_init(&context_options, sizeof context_options);
-        context_options.progress = on_progress;
-        context_options.progress_user = &self;
-        context_options.thread_count = threads;
-        ewa_context *context = NULL;
-        assert_int_equal(ewa_context_create(&context_options, &context), EWA_OK);
+        ewa_context *context = check_context_telling(threads, on_progress, &self);
         ewa_volume volume = scene_volume(context, dims, UNIT, scene_ball, &radius);
         const ewa_transfer transfer = scene_linear(0.2f, 0.5f, 0.9f, 3);
         ewa_voxels *voxels = scene_voxels(&volume, &transfer);
