@@ -102,8 +102,7 @@ int ewa_referenced_file_open(ewa_named_files allowed, const char *path, ewa_text
     const char *last = strrchr(relative, '/');
     const bool absolute = ewa_platform_is_absolute(relative),
                foreign = (absolute ? !anywhere : relative[0] && relative[1] == ':') || strstr(relative, "://");
-    const int opened =
-        foreign ? fail(reason, "its name is absolute") : open_in(folder, relative, anywhere, reason);
+    const int opened = foreign ? -1 : open_in(folder, relative, anywhere, reason);
     if (opened >= 0 || !(last || foreign)) return opened;
     char second[EWA_REASON_BYTES];
     const char *own = last ? last + 1 : relative + 2;
@@ -120,7 +119,8 @@ bool ewa_referenced_file_find(ewa_context *context, const char *path, const char
     if (!is_allowed(allowed, reason)) return false;
     if (!*name) return fail(reason, "it has no name") == 0;
     if (ewa_remote_is(name) && !anywhere) return fail(reason, "it is on a server; named_files anywhere asks it") == 0;
-    if (ewa_platform_is_absolute(name) && !anywhere) return fail(reason, "its name is absolute") == 0;
+    if (ewa_platform_is_absolute(name) && !anywhere)
+        return fail(reason, "its name is absolute; names are relative to the folder of the file that has them") == 0;
     if (ewa_remote_is(name)) return snprintf(found, EWA_PATH_BYTES, "%s", name) < EWA_PATH_BYTES || fail(reason, "its name is too long") == 0;
     if (!folder_of(path, folder, reason)) return false;
     if (join(folder, name, found) && ewa_file_is_source(context, found)) return true;

@@ -420,7 +420,7 @@ TEST(test_bad_is_refused) {
         {ITEM(""), EWA_ERROR_FORMAT, "items[1]: names no file"},
         {ITEM("\"file\": \"none.ply\""), EWA_ERROR_FORMAT, "items[1].file: it is not there"},
         {ITEM("\"file\": \"\""), EWA_ERROR_FORMAT, "items[1].file"},
-        {ITEM("\"file\": \"/etc/hostname\""), EWA_ERROR_FORMAT, "absolute"},
+        {ITEM("\"file\": \"/etc/hostname\""), EWA_ERROR_FORMAT, "relative to the folder"},
         {ITEM("\"file\": \"../\""), EWA_ERROR_FORMAT, "not below the folder"},
         {ITEM("\"file\": \"away.ply\""), EWA_ERROR_FORMAT, "not below the folder"},
         {ITEM("\"file\": \"pipe.ply\""), EWA_ERROR_FORMAT, "neither a regular file nor a folder"},
