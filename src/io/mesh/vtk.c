@@ -8,7 +8,6 @@
 // Based on: Kitware, "VTK File Formats", The VTK User's Guide, 2010, pages 3 to 17; VTK's reader of legacy files
 // (cells of version 5).
 #include "base/base.h"
-#include "image/srgb.h"
 #include "io/mesh/formats.h"
 #include "io/mesh/vtk_cells.h"
 #include "io/mesh/vtk_number.h"
@@ -237,10 +236,7 @@ static ewa_status read_colors(vtk_reader *r, const ewa_vtk_type *type, uint32_t 
         float color[4];
         build->positions.count++;
         for (uint32_t c = 0; c < components && status == EWA_OK; c++) status = take_number(r, type, &value[c]);
-        for (uint32_t c = 0; c < 4; c++) {
-            const double share = fmin(fmax(value[c] * scale, 0), 1);
-            color[c] = (float)(c < 3 ? ewa_srgb_decode(share) : share);
-        }
+        ewa_vtk_color(value, scale, color);
         if (status == EWA_OK) status = ewa_mesh_add_color(build, white, color);
     }
     build->positions.count = end;

@@ -6,7 +6,9 @@
 #define EWA_SRC_MESH_VTK_NUMBER_H
 
 #include "ewa/base.h"
+#include "image/srgb.h"
 
+#include <math.h>
 #include <string.h>
 
 /// A type of numbers.
@@ -39,6 +41,14 @@ static inline double ewa_vtk_number(const ewa_vtk_type *type, const uint8_t *byt
     memcpy(&single, &half, sizeof single);
     memcpy(&number, &bits, sizeof number);
     return count == 4 ? (double)single : number;
+}
+
+/// The linear colour of four numbers, sRGB and alpha, of which 1 / `scale` is the brightest; what is none, or beyond, is an end of the range.
+static inline void ewa_vtk_color(const double numbers[4], double scale, float color[4]) {
+    for (int c = 0; c < 4; c++) {
+        const double share = fmin(fmax(numbers[c] * scale, 0), 1);
+        color[c] = (float)(c < 3 ? ewa_srgb_decode(share) : share);
+    }
 }
 
 #endif

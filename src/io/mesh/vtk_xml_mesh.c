@@ -7,7 +7,6 @@
 //
 // Based on: Kitware, "VTK File Formats", The VTK User's Guide, 2010, pages 12 to 17.
 #include "base/base.h"
-#include "image/srgb.h"
 #include "io/mesh/formats.h"
 #include "io/mesh/vtk_cells.h"
 #include "io/mesh/vtk_number.h"
@@ -183,10 +182,7 @@ static ewa_status read_colors(xml_mesh *m, uint64_t count) {
         float color[4];
         build->positions.count++;
         for (int c = 0; c < components && status == EWA_OK; c++) status = take_number(&n, &codes[c]);
-        for (int c = 0; c < 4; c++) {
-            const double share = codes[c] / 255;
-            color[c] = (float)(c < 3 ? ewa_srgb_decode(share) : share);
-        }
+        ewa_vtk_color(codes, 1.0 / 255, color);
         if (status == EWA_OK) status = ewa_mesh_add_color(build, white, color);
     }
     build->positions.count = m->first + count;
