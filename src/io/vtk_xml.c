@@ -34,12 +34,12 @@ static ewa_status unpack_lz4(const ewa_vtk_xml *xml, const uint8_t *from, size_t
 
 #if EWA_WITH_LZMA
 static ewa_status unpack_lzma(const ewa_vtk_xml *xml, const uint8_t *from, size_t from_bytes, uint8_t *to, size_t to_bytes) {
-    static const uint64_t most_bytes = 70u << 20; // the largest dictionary that VTK's levels ask for is 64 MiB
+    static const uint64_t maximum_bytes = 70u << 20; // the largest dictionary that VTK's levels ask for is 64 MiB
     uint64_t needed_bytes = 1;
     size_t from_at = 0, to_at = 0;
     // With a limit that is too low it says what it needs.
     const lzma_ret asked = lzma_stream_buffer_decode(&needed_bytes, 0, NULL, from, &from_at, from_bytes, to, &to_at, to_bytes);
-    if (asked != LZMA_MEMLIMIT_ERROR || needed_bytes > most_bytes) return EWA_ERROR_FORMAT;
+    if (asked != LZMA_MEMLIMIT_ERROR || needed_bytes > maximum_bytes) return EWA_ERROR_FORMAT;
     EWA_TRY(ewa_memory_take(xml->context, needed_bytes, "%s: VTK: the dictionary of an array", xml->name));
     from_at = to_at = 0;
     uint64_t limit_bytes = needed_bytes;

@@ -97,6 +97,7 @@ static ewa_status open_array(const xml_mesh *m, const ewa_xml_tag *array, number
 }
 
 static ewa_status open_numbers(const xml_mesh *m, role which, numbers *n) {
+    *n = (numbers){.xml = &m->xml}; // closed even where it could not be opened
     return m->has[which] ? open_array(m, &m->arrays[which], n) : fail(m, "an array of a piece is not there");
 }
 
