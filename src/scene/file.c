@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Scene files: what their members mean, and the files that they name.
+// Scene files: the files that they name, and what belongs to each.
 #include "io/file.h"
 #include "base/base.h"
 #include "base/context.h"
@@ -11,7 +11,6 @@
 #include "io/number.h"
 #include "io/scene_text.h"
 #include "scene/file.h"
-#include "scene/region.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -37,212 +36,8 @@ struct ewa_scene_file {
     size_t measure_room;
 };
 
-/// A file that is being read, and the one that names it.
-typedef struct reading {
-    const struct reading *by;
-    const char *path;
-    const ewa_scene_text *text;
-    double to_world[16];
-    bool visible;
-    uint32_t depth;
-} reading;
-
-#define LIGHT(member) offsetof(ewa_light, member)
-
-const ewa_option ewa_scene_light_rows[EWA_SCENE_LIGHT_ROWS] = {
-    {"direction_world", EWA_OPTION_F64, LIGHT(direction_world), -INFINITY, INFINITY,
-     EWA_OPTION_ABOVE | EWA_OPTION_BELOW, 3, .initial = 0},
-    {"color", EWA_OPTION_F32, LIGHT(color), 0, 1e6, .count = 3, .initial = 1},
-};
-
-static const ewa_option plane_row = {
-    "section_planes", EWA_OPTION_F64, 0, -INFINITY, INFINITY, EWA_OPTION_ABOVE | EWA_OPTION_BELOW, 4,
-    .initial = 0};
-
-const ewa_option_table *ewa_scene_section_table(ewa_scene_section section, ewa_scene_options *options,
-                                                void **part) {
-    switch (section) {
-    case EWA_SCENE_OPTIONS:
-        *part = options;
-        return &ewa_scene_options_table;
-    case EWA_SCENE_SURFELS:
-        *part = &options->surfels;
-        return &ewa_surfels_options_table;
-    case EWA_SCENE_LOD:
-        *part = &options->lod;
-        return &ewa_lod_options_table;
-    case EWA_SCENE_RENDER:
-        *part = &options->render;
-        return &ewa_render_options_table;
-    case EWA_SCENE_GAUSSIANS:
-        *part = &options->gaussians;
-        return &ewa_gaussian_options_table;
-    default:
-        *part = &options->volumes;
-        return &ewa_volume_options_table;
-    }
-}
-
-bool ewa_scene_option_is_kept(const ewa_option *option) {
-    // How many there are is as many as there stand in the file; what stays in memory is nothing of a picture.
-    return strcmp(option->name, "light_count") != 0 && strcmp(option->name, "section_count") != 0 &&
-           strcmp(option->name, "region_count") != 0 && strcmp(option->name, "keep_points") != 0;
-}
-
-bool ewa_scene_option_is_same(const ewa_option *option, const void *options, const void *others) {
-    static const size_t sizes[] = {[EWA_OPTION_BOOL] = sizeof(bool),    [EWA_OPTION_CHOICE] = sizeof(int32_t),
-                                   [EWA_OPTION_U32] = sizeof(uint32_t), [EWA_OPTION_U64] = sizeof(uint64_t),
-                                   [EWA_OPTION_F32] = sizeof(float),    [EWA_OPTION_F64] = sizeof(double)};
-    const size_t size = sizes[option->type] * (option->count ? option->count : 1);
-    return memcmp((const char *)options + option->offset, (const char *)others + option->offset, size) == 0;
-}
-
-static ewa_status fail_at(const reading *in, const ewa_scene_member *member, const char *what) {
-    char place[EWA_SCENE_PLACE_BYTES];
-    ewa_scene_text_place(member, place);
-    return ewa_fail(in->text->context, EWA_ERROR_FORMAT, "%s: %s: %s", in->path, place, what);
-}
-
-/// Sets an option from a member.
-static ewa_status set_option(const reading *in, const ewa_scene_member *member, const ewa_option *option,
-                             void *options) {
-    char problem[EWA_OPTION_TEXT_BYTES];
-    if (ewa_option_set(option, options, ewa_scene_text_value(in->text, member), problem) == EWA_OK)
-        return EWA_OK;
-    return fail_at(in, member, problem);
-}
-
-/// Sets what a member of "options" says; `only_defaults`: where the options have their default.
-static ewa_status apply_member(const reading *in, const ewa_scene_member *member, bool only_defaults,
-                               ewa_scene_options *options) {
-    ewa_scene_options defaults;
-    void *part, *initial;
-    const ewa_option_table *table = ewa_scene_section_table(member->section, options, &part);
-    const ewa_option *option = ewa_option_find(table, member->name);
-    if (!option || !ewa_scene_option_is_kept(option))
-        return fail_at(in, member, "no scene has such an option");
-    ewa_scene_options_init(&defaults, sizeof defaults);
-    (void)ewa_scene_section_table(member->section, &defaults, &initial);
-    return only_defaults && !ewa_scene_option_is_same(option, part, initial)
-               ? EWA_OK
-               : set_option(in, member, option, part);
-}
-
-static ewa_status apply_light(const reading *in, const ewa_scene_member *member, ewa_scene_options *options) {
-    for (int i = 0; i < EWA_SCENE_LIGHT_ROWS; i++)
-        if (strcmp(ewa_scene_light_rows[i].name, member->name) == 0)
-            return set_option(in, member, &ewa_scene_light_rows[i], &options->render.lights[member->index]);
-    return fail_at(in, member, "no light has such a member");
-}
-
-static ewa_status apply_plane(const reading *in, const ewa_scene_member *member, ewa_scene_options *options) {
-    double *plane = options->render.section_planes[member->index];
-    EWA_TRY(set_option(in, member, &plane_row, plane));
-    if (plane[0] == 0 && plane[1] == 0 && plane[2] == 0) return fail_at(in, member, "its normal is 0, 0, 0");
-    return EWA_OK;
-}
-
-/// Reads numbers separated by commas; false: they are none, or more than `maximum`.
-static bool read_numbers(const char *text, uint32_t maximum, double *numbers, uint32_t *count) {
-    const char *last = text + strlen(text);
-    for (*count = 0;; text++) {
-        const char *end = *count < maximum ? ewa_number_read_f64(text, last, &numbers[*count]) : NULL;
-        if (!end || end == text || !isfinite(numbers[*count])) return false;
-        ++*count;
-        if (!*end) return true;
-        if (*end != ',') return false;
-        text = end;
-    }
-}
-
-/// Sets the classes of a region.
-static bool set_classes(const double *codes, uint32_t count, ewa_region *region) {
-    region->has_classes = true;
-    for (uint32_t i = 0; i < count; i++) {
-        if (!(codes[i] >= 0 && codes[i] < EWA_REGION_CLASSES && codes[i] == floor(codes[i]))) return false;
-        const uint32_t code = (uint32_t)codes[i];
-        region->classes[code / 32] |= (uint32_t)1 << code % 32;
-    }
-    return true;
-}
-
-static ewa_status apply_region(const reading *in, const ewa_scene_member *member, ewa_scene_options *options) {
-    const char *value = ewa_scene_text_value(in->text, member), *name = member->name;
-    ewa_region *region = &options->regions[member->index];
-    double numbers[EWA_REGION_CLASSES];
-    uint32_t count = 0;
-    if (strcmp(name, "keep") == 0) {
-        region->kept = strcmp(value, "on") == 0;
-        return region->kept || strcmp(value, "off") == 0 ? EWA_OK : fail_at(in, member, "is neither true nor false");
-    }
-    const bool fine = read_numbers(value, EWA_REGION_CLASSES, numbers, &count);
-    if (strcmp(name, "box") == 0) {
-        region->has_box = true;
-        if (!fine || count != 6 || !ewa_region_is_box(numbers))
-            return fail_at(in, member, "is not 6 numbers: the lower and the upper corner");
-        memcpy(region->box_world, numbers, sizeof region->box_world);
-        return EWA_OK;
-    }
-    if (strcmp(name, "box_axes") == 0) {
-        if (!fine || count != 9) return fail_at(in, member, "is not 9 numbers: three axes");
-        memcpy(region->box_axes_world, numbers, sizeof region->box_axes_world);
-        return EWA_OK;
-    }
-    if (strcmp(name, "classes") == 0)
-        return fine && set_classes(numbers, count, region) ? EWA_OK : fail_at(in, member, "is no list of codes from 0 to 255");
-    if (strcmp(name, "outline") == 0) {
-        if (!fine || count % 2 || count < 6 || count > 2 * EWA_REGION_CORNERS)
-            return fail_at(in, member, "is not 3 to 64 corners x, y");
-        region->corner_count = count / 2;
-        memcpy(region->outline_px, numbers, count * sizeof numbers[0]);
-        return EWA_OK;
-    }
-    if (strcmp(name, "world_to_picture") == 0) {
-        if (!fine || count != 12) return fail_at(in, member, "is not 12 numbers");
-        memcpy(region->world_to_picture, numbers, sizeof region->world_to_picture);
-        return EWA_OK;
-    }
-    return fail_at(in, member, "no region has such a member");
-}
-
-static ewa_status set_measure(const reading *in, const ewa_scene_member *member, ewa_measure *measure) {
-    const char *value = ewa_scene_text_value(in->text, member), *word;
-    if (strcmp(member->name, "kind") == 0) {
-        for (uint32_t k = 0; (word = ewa_measure_kind_name(k)); k++) {
-            measure->kind = (ewa_measure_kind)k;
-            if (strcmp(value, word) == 0) return EWA_OK;
-        }
-        return fail_at(in, member, "is no kind of measurement");
-    }
-    if (strcmp(member->name, "name") == 0) {
-        if (strlen(value) >= sizeof measure->name) return fail_at(in, member, "is too long a name");
-        snprintf(measure->name, sizeof measure->name, "%s", value);
-        return EWA_OK;
-    }
-    if (strcmp(member->name, "places_world") != 0) return fail_at(in, member, "no measurement has such a member");
-    const bool fine = read_numbers(value, 3 * EWA_MEASURE_PLACES, measure->places_world, &measure->count) && measure->count % 3 == 0;
-    measure->count /= 3;
-    return fine ? EWA_OK : fail_at(in, member, "is not up to 64 places x, y, z");
-}
-
-/// Reads the measurements of a text.
-static ewa_status read_measures(const reading *in, ewa_measure *measures) {
-    static const double up_world[3] = {0, 0, 1};
-    const ewa_scene_text *text = in->text;
-    for (size_t i = 0; i < text->member_count; i++)
-        if (text->members[i].section == EWA_SCENE_MEASURE)
-            EWA_TRY(set_measure(in, &text->members[i], &measures[text->members[i].index]));
-    for (uint32_t i = 0; i < text->measure_count; i++) {
-        ewa_measurement measured;
-        const ewa_scene_member at = {EWA_SCENE_MEASURE, i, NULL, 0};
-        if (ewa_places_measure(measures[i].kind, measures[i].places_world, measures[i].count, up_world, &measured) != EWA_OK)
-            return fail_at(in, &at, "has not the places of its kind");
-    }
-    return EWA_OK;
-}
-
 /// Makes the measurements of a scene file, which it keeps, and looks how many keyframes it has.
-static ewa_status take_measures(const reading *in, ewa_scene_file *file) {
+static ewa_status take_measures(const ewa_scene_reading *in, ewa_scene_file *file) {
     const uint32_t count = in->text->measure_count;
     if (count > EWA_MAX_MEASURES)
         return ewa_fail(file->context, EWA_ERROR_LIMIT, "%s: %u measurements; there may be %d", in->path, count, EWA_MAX_MEASURES);
@@ -251,42 +46,7 @@ static ewa_status take_measures(const reading *in, ewa_scene_file *file) {
                         EWA_MAX_KEYFRAMES);
     file->measure_room = count + (size_t)1;
     file->measures = ewa_allocate_zeroed(file->context, file->measure_room, sizeof *file->measures);
-    return file->measures ? read_measures(in, file->measures) : EWA_ERROR_MEMORY;
-}
-
-/// Sets all that a text says of options.
-static ewa_status apply(const reading *in, bool only_defaults, ewa_scene_options *options) {
-    const ewa_scene_text *text = in->text;
-    if (text->light_count > EWA_MAX_LIGHTS || text->section_count > EWA_MAX_SECTION_PLANES)
-        return ewa_fail(text->context, EWA_ERROR_LIMIT,
-                        "%s: %u lights and %u section planes; there may be %d and %d", in->path,
-                        text->light_count, text->section_count, EWA_MAX_LIGHTS, EWA_MAX_SECTION_PLANES);
-    const bool lit = only_defaults && options->render.light_count,
-               cut = only_defaults && options->render.section_count;
-    if (text->region_count > EWA_MAX_REGIONS)
-        return ewa_fail(text->context, EWA_ERROR_LIMIT, "%s: %u regions; there may be %d", in->path, text->region_count,
-                        EWA_MAX_REGIONS);
-    const bool hidden = only_defaults && options->region_count;
-    for (uint32_t i = 0; i < text->light_count && !lit; i++) ewa_light_init(&options->render.lights[i]);
-    // Their members add to what is there, which may be regions that have been taken out.
-    if (!hidden) memset(options->regions, 0, text->region_count * sizeof options->regions[0]);
-    ewa_status status = EWA_OK;
-    for (size_t i = 0; i < text->member_count && status == EWA_OK; i++) {
-        const ewa_scene_member *member = &text->members[i];
-        if (member->section == EWA_SCENE_ITEM || member->section == EWA_SCENE_MEASURE) continue;
-        if (member->section == EWA_SCENE_LIGHT)
-            status = lit ? EWA_OK : apply_light(in, member, options);
-        else if (member->section == EWA_SCENE_REGION)
-            status = hidden ? EWA_OK : apply_region(in, member, options);
-        else if (member->section == EWA_SCENE_SECTION_PLANE)
-            status = cut ? EWA_OK : apply_plane(in, member, options);
-        else
-            status = apply_member(in, member, only_defaults, options);
-    }
-    if (!lit && text->light_count) options->render.light_count = text->light_count;
-    if (!cut && text->section_count) options->render.section_count = text->section_count;
-    if (!hidden && text->region_count) options->region_count = text->region_count;
-    return status;
+    return file->measures ? ewa_scene_read_measures(in, file->measures) : EWA_ERROR_MEMORY;
 }
 
 /// Reads "0,10" or "2%,98%".
@@ -308,23 +68,23 @@ static bool read_range(const char *text, ewa_coloring *coloring) {
 }
 
 /// Sets a colouring from a member; `*known` says whether it is of one.
-static ewa_status set_coloring(const reading *in, const ewa_scene_member *member, ewa_coloring *coloring,
+static ewa_status set_coloring(const ewa_scene_reading *in, const ewa_scene_member *member, ewa_coloring *coloring,
                                bool *known) {
     const char *value = ewa_scene_text_value(in->text, member);
     *known = true;
     if (strcmp(member->name, "color_by") == 0) {
-        if (strlen(value) >= sizeof coloring->attribute) return fail_at(in, member, "is too long a name");
+        if (strlen(value) >= sizeof coloring->attribute) return ewa_scene_fail_at(in, member, "is too long a name");
         snprintf(coloring->attribute, sizeof coloring->attribute, "%s", value);
         return EWA_OK;
     }
     if (strcmp(member->name, "colormap") == 0)
-        return set_option(in, member, ewa_option_find(&ewa_coloring_table, "map"), coloring);
+        return ewa_scene_set_option(in, member, ewa_option_find(&ewa_coloring_table, "map"), coloring);
     if (strcmp(member->name, "range") == 0)
         return read_range(value, coloring) ? EWA_OK
-                                           : fail_at(in, member, "is not two numbers, or percentiles \"2%\"");
+                                           : ewa_scene_fail_at(in, member, "is not two numbers, or percentiles \"2%\"");
     if (strcmp(member->name, "tint") == 0) {
         coloring->tinted = true;
-        return set_option(in, member, ewa_option_find(&ewa_coloring_table, "tint"), coloring);
+        return ewa_scene_set_option(in, member, ewa_option_find(&ewa_coloring_table, "tint"), coloring);
     }
     *known = false;
     return EWA_OK;
@@ -342,44 +102,45 @@ static void release_text(ewa_context *context, char *text) {
     if (text) ewa_release(context, text, strlen(text) + 1, 1);
 }
 
-static ewa_status set_filter(const reading *in, const ewa_scene_member *member, scene_file_item *item) {
+static ewa_status set_filter(const ewa_scene_reading *in, const ewa_scene_member *member, scene_file_item *item) {
     char problem[EWA_OPTION_TEXT_BYTES];
     item->filter = ewa_allocate_zeroed(in->text->context, 1, sizeof *item->filter);
     if (!item->filter) return EWA_ERROR_MEMORY;
     if (ewa_filter_add(item->filter, ewa_scene_text_value(in->text, member), problem) == EWA_OK)
         return EWA_OK;
-    return fail_at(in, member, problem);
+    return ewa_scene_fail_at(in, member, problem);
 }
 
 /// A preset's name, or that of a file.
-static ewa_status set_transfer(const reading *in, const ewa_scene_member *member, scene_file_item *item) {
+static ewa_status set_transfer(const ewa_scene_reading *in, const ewa_scene_member *member, scene_file_item *item) {
     const char *value = ewa_scene_text_value(in->text, member), *preset = "auto";
     for (uint32_t i = 0; preset && strcmp(preset, value) != 0; i++)
         preset = ewa_transfer_preset_name(i, NULL);
     if (preset) return copy_text(in->text->context, value, &item->transfer);
     char found[EWA_PATH_BYTES], reason[EWA_REASON_BYTES];
-    if (!ewa_referenced_file_find(in->text->context, in->path, value, false, found, reason)) return fail_at(in, member, reason);
+    if (!ewa_referenced_file_find(in->text->context, in->path, value, false, found, reason))
+        return ewa_scene_fail_at(in, member, reason);
     return copy_text(in->text->context, found, &item->transfer);
 }
 
 /// Sets what a member says of an item, but for the file that it names.
-static ewa_status set_member(const reading *in, const ewa_scene_member *member, scene_file_item *item) {
+static ewa_status set_member(const ewa_scene_reading *in, const ewa_scene_member *member, scene_file_item *item) {
     bool known;
     const ewa_status status = set_coloring(in, member, &item->instance.coloring, &known);
     if (known) return status;
     if (strcmp(member->name, "filter") == 0) return set_filter(in, member, item);
     if (strcmp(member->name, "transfer") == 0) return set_transfer(in, member, item);
     const ewa_option *option = ewa_option_find(&ewa_instance_table, member->name);
-    if (option) return set_option(in, member, option, &item->instance);
+    if (option) return ewa_scene_set_option(in, member, option, &item->instance);
     option = ewa_option_find(&ewa_asset_options_table, member->name);
     // Contexts are the caller's choice, and so is what pictures of things that move are made of.
     if (!option || strcmp(option->name, "own_context") == 0 || strcmp(option->name, "voxel_level_minimum") == 0)
-        return fail_at(in, member, "no item has such a member");
-    return set_option(in, member, option, &item->asset);
+        return ewa_scene_fail_at(in, member, "no item has such a member");
+    return ewa_scene_set_option(in, member, option, &item->asset);
 }
 
 /// Puts the map of the file that names this one before an item's own.
-static ewa_status move(const reading *in, const ewa_scene_member *at, double to_world[16]) {
+static ewa_status move(const ewa_scene_reading *in, const ewa_scene_member *at, double to_world[16]) {
     double moved[16];
     for (int r = 0; r < 4; r++)
         for (int c = 0; c < 4; c++) {
@@ -390,7 +151,7 @@ static ewa_status move(const reading *in, const ewa_scene_member *at, double to_
     memcpy(to_world, moved, sizeof moved);
     return ewa_asset_map_is_valid(to_world)
                ? EWA_OK
-               : fail_at(in, at, "to_world: is no map that can be turned back, of last row 0 0 0 1");
+               : ewa_scene_fail_at(in, at, "to_world: is no map that can be turned back, of last row 0 0 0 1");
 }
 
 static ewa_status add_item(ewa_scene_file *file, const scene_file_item *item) {
@@ -417,11 +178,11 @@ static void free_item(ewa_context *context, scene_file_item *item) {
     ewa_release(context, item->filter, 1, sizeof *item->filter);
 }
 
-static ewa_status read_file(ewa_scene_file *file, const reading *by, const char *path,
+static ewa_status read_file(ewa_scene_file *file, const ewa_scene_reading *by, const char *path,
                             const double to_world[16], bool visible, ewa_scene_text *keep);
 
 /// The members of one item.
-static ewa_status read_item(ewa_scene_file *file, const reading *in, const ewa_scene_member *members,
+static ewa_status read_item(ewa_scene_file *file, const ewa_scene_reading *in, const ewa_scene_member *members,
                             size_t count, uint32_t index) {
     scene_file_item item = {.asset = file->base};
     ewa_instance_init(&item.instance, sizeof item.instance);
@@ -435,19 +196,19 @@ static ewa_status read_item(ewa_scene_file *file, const reading *in, const ewa_s
             status = set_member(in, member, &item);
             continue;
         }
-        if (named) status = fail_at(in, member, "an item is of one file, or of one scene");
+        if (named) status = ewa_scene_fail_at(in, member, "an item is of one file, or of one scene");
         named = member;
         is_scene = scene;
     }
-    if (status == EWA_OK && !named) status = fail_at(in, &at, "names no file and no scene");
+    if (status == EWA_OK && !named) status = ewa_scene_fail_at(in, &at, "names no file and no scene");
     for (size_t i = 0; i < count && is_scene && status == EWA_OK; i++)
         if (&members[i] != named && strcmp(members[i].name, "to_world") != 0 &&
             strcmp(members[i].name, "visible") != 0)
-            status = fail_at(in, &members[i], "is of files, not of scenes");
+            status = ewa_scene_fail_at(in, &members[i], "is of files, not of scenes");
     char found[EWA_PATH_BYTES], reason[EWA_REASON_BYTES];
     if (status == EWA_OK &&
         !ewa_referenced_file_find(in->text->context, in->path, ewa_scene_text_value(in->text, named), !is_scene, found, reason))
-        status = fail_at(in, named, reason);
+        status = ewa_scene_fail_at(in, named, reason);
     if (status == EWA_OK) status = move(in, &at, item.asset.to_world);
     item.instance.visible = item.instance.visible && in->visible;
     if (status == EWA_OK && is_scene) {
@@ -461,7 +222,7 @@ static ewa_status read_item(ewa_scene_file *file, const reading *in, const ewa_s
     return status;
 }
 
-static ewa_status read_items(ewa_scene_file *file, const reading *in) {
+static ewa_status read_items(ewa_scene_file *file, const ewa_scene_reading *in) {
     const ewa_scene_text *text = in->text;
     size_t first = 0;
     for (uint32_t index = 0; index < text->item_count; index++) {
@@ -483,10 +244,10 @@ static bool is_same(const char *a, const char *b) {
            first.number == second.number;
 }
 
-static ewa_status read_file(ewa_scene_file *file, const reading *by, const char *path,
+static ewa_status read_file(ewa_scene_file *file, const ewa_scene_reading *by, const char *path,
                             const double to_world[16], bool visible, ewa_scene_text *keep) {
     ewa_context *context = file->context;
-    for (const reading *in = by; in; in = in->by)
+    for (const ewa_scene_reading *in = by; in; in = in->by)
         if (is_same(in->path, path))
             return ewa_fail(context, EWA_ERROR_LIMIT, "%s: names %s, which is the scene that it is part of",
                             by->path, path);
@@ -502,11 +263,11 @@ static ewa_status read_file(ewa_scene_file *file, const reading *by, const char 
     ewa_status status = ewa_scene_text_read(context, path, bytes.bytes, bytes.size_bytes, &text);
     ewa_file_unmap(context, &bytes);
     EWA_TRY(status);
-    reading in = {.by = by, .path = path, .text = &text, .visible = visible, .depth = by ? by->depth + 1 : 1};
+    ewa_scene_reading in = {.by = by, .path = path, .text = &text, .visible = visible, .depth = by ? by->depth + 1 : 1};
     memcpy(in.to_world, to_world, sizeof in.to_world);
     ewa_scene_options options;
     ewa_scene_options_init(&options, sizeof options);
-    status = apply(&in, false, &options);
+    status = ewa_scene_apply_text(&in, false, &options);
     if (status == EWA_OK) status = read_items(file, &in);
     if (status == EWA_OK && keep) status = take_measures(&in, file);
     if (status == EWA_OK && keep)
@@ -584,9 +345,9 @@ bool ewa_scene_file_keyframe(const ewa_scene_file *file, uint32_t index, ewa_cam
 }
 
 void ewa_scene_file_apply(const ewa_scene_file *file, ewa_scene_options *options) {
-    const reading in = {.path = file->path, .text = &file->text};
+    const ewa_scene_reading in = {.path = file->path, .text = &file->text};
     // All of it could be set when it was read.
-    (void)apply(&in, true, options);
+    (void)ewa_scene_apply_text(&in, true, options);
 }
 
 /// Adds one file. Points of which a filter leaves none are left out.
