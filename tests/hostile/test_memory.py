@@ -6,6 +6,7 @@ memory is at most the limit and 64 MiB, besides the input, which is mapped: its 
 import base64
 import io
 import json
+import lzma
 import os
 import struct
 import zipfile
@@ -134,6 +135,43 @@ def ept(points):
     write("tree/ept-data/0-0-0-0.bin", struct.pack("<3d", 0.5, 0.5, 0.5))
 
 
+def vtk_xml(path, compressor, pack, blocks, block_bytes):
+    """Points of zeros, packed in blocks."""
+    one = pack(bytes(block_bytes))
+    head = struct.pack(f"<{3 + blocks}Q", blocks, block_bytes, 0, *[len(one)] * blocks)
+    text = (f'<VTKFile type="PolyData" version="1.0" byte_order="LittleEndian" header_type="UInt64" compressor="{compressor}"><PolyData>'
+            f'<Piece NumberOfPoints="{blocks * block_bytes // 12}"><Points><DataArray type="Float32" NumberOfComponents="3" format="binary">')
+    write(path, text.encode() + base64.b64encode(head) + base64.b64encode(one * blocks) + b"</DataArray></Points></Piece></PolyData></VTKFile>")
+
+
+def exr(path, side, compression):
+    """The header of a picture of three halves, and no pixels of it."""
+    def attribute(name, kind, data):
+        return name + b"\0" + kind + b"\0" + struct.pack("<i", len(data)) + data
+    channels = b"".join(name + b"\0" + struct.pack("<iBBBBii", 1, 0, 0, 0, 0, 1, 1) for name in (b"B", b"G", b"R")) + b"\0"
+    window = struct.pack("<4i", 0, 0, side - 1, side - 1)
+    write(path, b"\x76\x2f\x31\x01\2\0\0\0" + attribute(b"channels", b"chlist", channels) +
+          attribute(b"compression", b"compression", bytes([compression])) + attribute(b"dataWindow", b"box2i", window) +
+          attribute(b"displayWindow", b"box2i", window) + attribute(b"lineOrder", b"lineOrder", b"\0") +
+          attribute(b"pixelAspectRatio", b"float", struct.pack("<f", 1)) + attribute(b"screenWindowCenter", b"v2f", bytes(8)) +
+          attribute(b"screenWindowWidth", b"float", struct.pack("<f", 1)) + b"\0" + bytes(8000))
+
+
+def streamed_sog(path, nodes):
+    """A tree of many leaves that are all of one file."""
+    leaf = '{"bound":{"min":[0,0,0],"max":[1,1,1]},"lods":{"0":{"file":0,"offset":0,"count":1}}}'
+    write(path, ('{"lodLevels":1,"filenames":["0/meta.json"],"tree":{"bound":{"min":[0,0,0],"max":[1,1,1]},"children":[' +
+                 ",".join([leaf] * nodes) + "]}}").encode())
+
+
+def photographs(path, count):
+    """Many photographs of Metashape, of one sensor."""
+    one = '<camera id="{0}" sensor_id="0" label="a{0}"><transform>1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1</transform></camera>'
+    write(path, ('<document version="1.5"><chunk><sensors><sensor id="0" type="frame"><resolution width="10" height="10"/>'
+                 '<calibration class="adjusted"><f>10</f></calibration></sensor></sensors><cameras>' +
+                 "".join(one.format(i) for i in range(count)) + "</cameras></chunk></document>").encode())
+
+
 def bombs():
     """Small files that are much in memory, or say so."""
     write("a.webp", webp(16383))
@@ -161,18 +199,27 @@ def bombs():
     write("lines.obj", b"v 0 0 0\n" * 3 + b"f 1 2 3\n" * 1500000)
     write("corners.obj", b"v 0 0 0\n" * 3 + b"f" + b" 1 2 3" * 1000000)
     ept(1000000)
+    vtk_xml("zlib.vtp", "vtkZLibDataCompressor", lambda data: zlib.compress(data, 9), 100, 12 * MIB)
+    vtk_xml("lzma.vtp", "vtkLZMADataCompressor", lzma.compress, 100, 12 * MIB)
+    for name, compression in (("scanlines.exr", 0), ("zip.exr", 3), ("dwa.exr", 8)):
+        exr(name, 30000, compression)
+    streamed_sog("lod-meta.json", 500000)
+    photographs("cameras.xml", 400000)
+    write("corner.ply", b"ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nend_header\n"
+                        b"0 0 0\n1 0 0\n0 1 0\n")
     wrong = []
     for words, name in [(["texture", name, "-o", "out.png", "--size", "16x16"], name) for name in
-                        ("a.webp", "bits.png", "deep.png", "half.jpg")] + [
+                        ("a.webp", "bits.png", "deep.png", "half.jpg", "scanlines.exr", "zip.exr", "dwa.exr")] + [
             (["info", name], name) for name in ("few.sog", "many.sog", "packed.sog", "zeros.spz", "said.spz", "tree.gltf",
                                                 "strings.gltf", "said.las", "said.ply", "said.pcd", "wide.xyz", "lines.obj",
-                                                "corners.obj", "tree", "huge.nrrd")] + [
+                                                "corners.obj", "tree", "huge.nrrd", "zlib.vtp", "lzma.vtp", "lod-meta.json")] + [
             (["sample", "one.gltf", "-n", "20", "-o", "out.ply"], "one.gltf"),
             (["sample", "twenty.gltf", "-n", "20", "-o", "out.ply"], "twenty.gltf"),
             (["convert", "said.las", "-o", "out.ply"], "said.las"), (["convert", "tree", "-o", "out.ply"], "tree"),
             (["convert", "many.sog", "-o", "out.ply"], "many.sog"), (["volume", "huge.nrrd", "-o", "out.png", "--size", "64x64"], "huge.nrrd"),
             (["render", "scene.json", "-o", "out.png", "--size", "64x64"], "scene.json"),
-            (["render", "said.ply", "--camera", "path.json", "-o", "out.png", "--size", "64x64"], "path.json")]:
+            (["render", "said.ply", "--camera", "path.json", "-o", "out.png", "--size", "64x64"], "path.json"),
+            (["render", "corner.ply", "--camera", "cameras.xml", "-o", "out.png", "--size", "64x64"], "cameras.xml")]:
         try:
             held(words, [name])
         except Exception as failure:
