@@ -258,11 +258,16 @@ def check_links(tree, found):
 def read_options(tree):
     """The options of each command by docs/cli.md, under "" those of all."""
     options = {"": {"version", "help-markdown", "help-json", "help-man", "completion", "key", "no-key", "no"}}  # of the program; what rows are told by
+    aliases = {}
     for part in re.split(r"(?m)^## ewa ", tree.pages.get("docs/cli.md", ""))[1:]:
         command = options.setdefault(part.split()[0], set())
         for first, rest in re.findall(r"(?m)^\| `([^`]*--[^`]*)` \|(.*)$", part):
             also = re.findall(r"\balso --[a-z][\w-]*(?:, --[a-z][\w-]*)*", rest)
-            command |= set(re.findall(r"--([a-z][\w-]*)", first + " ".join(also)))
+            keys = set(re.findall(r"--([a-z][\w-]*)", first))
+            told = re.match(r" as of \[`ewa (\w+)`\]", rest)  # another command tells what else they are called
+            aliases |= {(part.split()[0], key): also for key in keys if not told}
+            also = [name for key in keys for name in aliases.get((told.group(1), key), [])] if told else also
+            command |= keys | set(re.findall(r"--([a-z][\w-]*)", " ".join(also)))
         options[""] |= command
     # ewa-mpi tells of its own options in its usage.
     usage = tree.root / "mpi/main.c"

@@ -183,17 +183,75 @@ static void print_group(FILE *file, const option_group *group, const void *defau
     }
 }
 
-static void print_group_markdown(FILE *file, const option_group *group, const void *defaults) {
+/// A group of a command, those that all have behind its own; NULL: there are no more.
+static const option_group *group_of(const cli_command *command, size_t index) {
+    size_t count = 0;
+    while (command->groups[count]) count++;
+    return index < count ? command->groups[index] : index == count ? &common_options : NULL;
+}
+
+/// The words of a row.
+typedef struct row_words {
+    char names[HELP_NAMES_BYTES], meaning[HELP_MEANING_BYTES];
+} row_words;
+
+static row_words words_of(const cli_option *option, const void *defaults) {
+    row_words words;
+    help_write_names(option, words.names);
+    help_write_meaning(option, defaults, words.meaning);
+    return words;
+}
+
+/// Whether a command has a row of these words.
+static bool tells(const cli_command *command, const cli_option *option, const row_words *words) {
+    bool same = false;
+    void *defaults = help_make_defaults(command);
+    const option_group *group;
+    for (size_t g = 0; defaults && (group = group_of(command, g)); g++)
+        for (size_t i = 0; i < group->count; i++) {
+            if (strcmp(group->options[i].key, option->key) != 0) continue;
+            const row_words other = words_of(&group->options[i], defaults);
+            same = same || (strcmp(other.names, words->names) == 0 && strcmp(other.meaning, words->meaning) == 0);
+        }
+    free(defaults);
+    return same;
+}
+
+/// Which of the first `count` commands has a row of these words first; `count`: none.
+static size_t find_teller(const cli_command *const *commands, size_t count, const cli_option *option, const row_words *words) {
+    for (size_t i = 0; i < count; i++)
+        if (tells(commands[i], option, words)) return i;
+    return count;
+}
+
+/// Writes a cell of a table.
+static void print_cell(FILE *file, const char *text) {
+    for (const char *c = text; *c; c++) fprintf(file, *c == '|' ? "\\%c" : "%c", *c);
+}
+
+/// A group of a command. What one before it tells in the same words is named, in a row for each that does.
+static void print_group_markdown(FILE *file, const option_group *group, const void *defaults, const cli_command *const *commands,
+                                 size_t index) {
     fprintf(file, "\n**%s**\n\n| option | meaning |\n|---|---|\n", group->title);
-    for (size_t i = 0; i < group->count; i++) {
-        char names[HELP_NAMES_BYTES], meaning[HELP_MEANING_BYTES];
-        help_write_names(&group->options[i], names);
-        help_write_meaning(&group->options[i], defaults, meaning);
-        fputs("| `", file);
-        for (const char *c = names; *c; c++) fprintf(file, *c == '|' ? "\\%c" : "%c", *c);
-        fputs("` | ", file);
-        for (const char *c = meaning; *c; c++) fprintf(file, *c == '|' ? "\\%c" : "%c", *c);
-        fputs(" |\n", file);
+    for (size_t teller = index + 1; teller-- > 0;) {
+        bool any = false;
+        for (size_t i = 0; i < group->count; i++) {
+            const cli_option *option = &group->options[i];
+            const row_words words = words_of(option, defaults);
+            if (find_teller(commands, index, option, &words) != teller) continue;
+            if (teller == index) {
+                fputs("| `", file);
+                print_cell(file, words.names);
+                fputs("` | ", file);
+                print_cell(file, words.meaning);
+                fputs(" |\n", file);
+                continue;
+            }
+            fprintf(file, "%s--%s", any ? ", " : "| `", option->key);
+            if (option->kind == OPTION_TOGGLE) fprintf(file, ", --no-%s", option->key);
+            any = true;
+        }
+        if (any) fprintf(file, "` | as of [`ewa %s`](#ewa-%s) |\n", commands[teller]->name, commands[teller]->name);
     }
 }
 
@@ -278,9 +336,8 @@ void help_print_command(FILE *file, const cli_command *command) {
         fputc('\n', file);
         print_wrapped(file, command->details, 0, 0);
     }
-    for (const option_group *const *group = command->groups; *group; group++)
-        print_group(file, *group, defaults);
-    print_group(file, &common_options, defaults);
+    const option_group *group;
+    for (size_t g = 0; (group = group_of(command, g)); g++) print_group(file, group, defaults);
     fprintf(file, "\nExamples:\n");
     for (const char *line = command->examples; *line;) {
         const size_t length = strcspn(line, "\n");
@@ -314,7 +371,7 @@ void help_print_markdown(FILE *file, size_t count, const cli_command *const *com
           "2 wrong usage. Messages go to standard error as `ewa: FILE: what`. Output files appear whole or "
           "not at all.\n"
           "A default that is written out changes nothing; one that is worked out is written as the word before its colon:\n"
-          "auto, none or all (files of these names: `./auto`).\n",
+          "auto, none or all (files of these names: `./auto`). An option that several commands have is told at the first of them.\n",
           file);
     for (size_t i = 0; i < count; i++) {
         const cli_command *command = commands[i];
@@ -324,9 +381,8 @@ void help_print_markdown(FILE *file, size_t count, const cli_command *const *com
                 command->operands, toupper((unsigned char)command->summary[0]), command->summary + 1);
         if (command->details) fprintf(file, "\n%s\n", command->details);
         fprintf(file, "\n```sh\n%s```\n", command->examples);
-        for (const option_group *const *group = command->groups; *group; group++)
-            print_group_markdown(file, *group, defaults);
-        print_group_markdown(file, &common_options, defaults);
+        const option_group *group;
+        for (size_t g = 0; (group = group_of(command, g)); g++) print_group_markdown(file, group, defaults, commands, i);
         free(defaults);
     }
 }

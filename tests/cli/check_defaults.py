@@ -101,11 +101,17 @@ class Option:
 def read_options(ewa):
     """The options of each command, and the keys of those that are known by other names."""
     page = subprocess.run([ewa, "--help-markdown"], capture_output=True, text=True, check=True).stdout
-    commands = {}
+    commands, told = {}, {}
     for part in re.split(r"(?m)^## ewa ", page)[1:]:
-        rows = re.findall(r"(?m)^\| `(?:-\w, )?--([\w-]+)(.*?)` \| (.*) \|$", part.replace("\\|", "|"))
+        command = part.split()[0]
+        for names, value, meaning in re.findall(r"(?m)^\| `((?:-\w, )?--[\w-]+)(.*?)` \| (.*) \|$", part.replace("\\|", "|")):
+            before = re.match(r"as of \[`ewa (\w+)`\]", meaning)  # which tells them in the same words
+            for key in re.findall(r"--([\w-]+)", names + value if before else names):
+                if before and (before.group(1), key) not in told:
+                    continue  # --no-key of a switch
+                told[command, key] = told[before.group(1), key] if before else (value, meaning)
         # Switches have no value that could be written.
-        commands[part.split()[0]] = [Option(key, meaning) for key, value, meaning in rows if value and value[0] == " "]
+        commands[command] = [Option(key, meaning) for (of, key), (value, meaning) in told.items() if of == command and value[:1] == " "]
     return commands
 
 
