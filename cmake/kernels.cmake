@@ -36,7 +36,7 @@ endif()
 
 # Those that take the longest come first.
 foreach(body surface/pipeline_add_all surface/pipeline_add_material surface/pipeline_add_opacity surface/pipeline_add_normal
-    surface/pipeline_add_color surface/pipeline adjoint/kernels cloud/cells cloud/neighbours estimate/local homogeneous/clip_batch surface/pack
+    surface/pipeline_add_color surface/pipeline adjoint/kernels cloud/cells cloud/neighbours estimate/local homogeneous/clip_batch surface/groups surface/pack
     texture/texture volume/gaussian volume/kernels warp/warp)
   foreach(set ${instruction_sets})
     string(TOUPPER ${set} SET)

@@ -22,9 +22,6 @@ enum {
     WINDOW_SEPARATE = 128, // too far from what lies before for one packet with it
 };
 
-/// Mean normals shorter than that say nothing.
-static const double SOUND_NORMAL = 0.5;
-
 /// A surfel in the making that stands for a group.
 typedef struct representative {
     ewa_vec3 center; ///< from the origin, in the surfels' unit
@@ -47,6 +44,7 @@ typedef struct level_job {
     const ewa_surfels *fine;
     ewa_surfels *coarse;
     const ewa_pack_kernels *kernels;
+    const ewa_group_kernels *grouping;
     double growth;    ///< of sigmas, beside what keeps the area
     uint8_t *order;   ///< [packet of the finer level][16]: lanes of each window, as groups are
     uint16_t *starts; ///< [packet of the finer level]: of groups
@@ -144,9 +142,9 @@ static void count_part(void *data, uint32_t part, uint32_t worker) {
         ewa_window window;
         job->windows[p] = take_window(fine, &box, open > 0, p, end);
         count = job->windows[p] % WINDOW_SEPARATE;
-        ewa_window_read(fine, p, count, &window);
+        job->grouping->read(fine->packets, &fine->bounds, p, count, &window);
         uint8_t *order = job->order + (size_t)p * LANES;
-        const uint32_t groups = ewa_groups_make(&window, fine->cutoff, order, job->starts + p);
+        const uint32_t groups = job->grouping->divide(&window, (float)fine->cutoff, order, job->starts + p);
         if (job->windows[p] & WINDOW_SEPARATE) made.packets++, open = 0;
         open += groups;
         made.surfels += groups;
@@ -188,82 +186,32 @@ static void place_parts(level_job *job) {
     job->coarse->clip_count = clips;
 }
 
-/// The members of a group, decoded.
-typedef struct group_members {
-    uint32_t count;
-    uint32_t packet[EWA_GROUP_SURFELS], lane[EWA_GROUP_SURFELS];
-    double share[EWA_GROUP_SURFELS]; ///< of the sum of areas sigma_u sigma_v
-    double sigma[EWA_GROUP_SURFELS];
-    bool clipped[EWA_GROUP_SURFELS], any_clipped;
-    ewa_vec3 place[EWA_GROUP_SURFELS], normal[EWA_GROUP_SURFELS]; ///< as in the window
-} group_members;
-
-static void read_members(const ewa_surfels *fine, const ewa_window *window, const uint8_t *lanes,
-                         group_members *members) {
-    const uint32_t count = members->count;
-    double sum = 0, areas[EWA_GROUP_SURFELS] = {0};
-    for (uint32_t i = 0; i < count; i++) {
-        const uint32_t at = lanes[i], packet = window->first + at / LANES, lane = at % LANES;
-        const double root = fine->packets[packet].ratio[lane] / 65535.0;
-        members->packet[i] = packet, members->lane[i] = lane;
-        members->sigma[i] = (double)window->sigma[at];
-        areas[i] = members->sigma[i] * members->sigma[i] * (fine->ellipses ? root * root * root * root : 1);
-        members->place[i] = vec3_make((double)window->place[0][at], (double)window->place[1][at],
-                                      (double)window->place[2][at]);
-        members->normal[i] = vec3_make((double)window->normal[0][at], (double)window->normal[1][at],
-                                       (double)window->normal[2][at]);
-        members->clipped[i] = fine->clip_masks && fine->clip_masks[packet] >> lane & 1;
-        members->any_clipped |= members->clipped[i];
-        sum += areas[i];
+/// What becomes a mean of the surfels of a window; returns whether all colours have the plain form.
+static bool read_means(const ewa_surfels *fine, const ewa_window *window, ewa_window_means *means) {
+    bool plain = true;
+    for (uint32_t k = 0; k < window->packet_count; k++) {
+        const ewa_packet *packet = &fine->packets[window->first + k];
+        const size_t lane = (size_t)(window->first + k) * LANES, to = (size_t)k * LANES;
+        const uint16_t form = fine->bounds.colors[window->first + k];
+        const uint16_t *const codes[3] = {packet->red, packet->green, packet->blue};
+        plain &= form == EWA_COLOR_FORM_UNIT;
+        for (int c = 0; c < 3; c++) {
+            float *color = means->color[c] + to;
+            for (uint32_t i = 0; i < LANES && form == EWA_COLOR_FORM_UNIT; i++) color[i] = (float)codes[c][i] * (1.0f / 65535);
+            for (uint32_t i = 0; i < LANES && form != EWA_COLOR_FORM_UNIT; i++)
+                color[i] = (float)ewa_color_decode_code(form, codes[c][i]);
+        }
+        const uint32_t clipped = fine->clip_masks ? fine->clip_masks[window->first + k] : 0;
+        for (uint32_t i = 0; i < LANES; i++) means->clipped[to + i] = (float)(clipped >> i & 1);
+        for (uint32_t i = 0; i < LANES; i++) means->opacity[to + i] = fine->opacities ? (float)fine->opacities[lane + i] / 65535 : 1;
+        for (uint32_t i = 0; i < LANES; i++) {
+            const float root = fine->ellipses ? (float)packet->ratio[i] / 65535 : 1;
+            means->aspect[to + i] = root * root * (root * root);
+        }
+        for (uint32_t i = 0; i < LANES; i++)
+            means->curvature[to + i] = fine->curvatures ? (float)ewa_packet_decode_curvature(fine->curvatures[lane + i]) : 0;
     }
-    // Areas may vanish where sigmas do not.
-    for (uint32_t i = 0; i < count; i++) members->share[i] = sum > 0 ? areas[i] / sum : 1.0 / count;
-}
-
-/// The member that is nearest to a place, of those with clip lines if there are any.
-static uint32_t nearest_member(const group_members *members, ewa_vec3 place) {
-    uint32_t nearest = 0;
-    double nearest2 = INFINITY;
-    for (uint32_t i = 0; i < members->count; i++) {
-        const ewa_vec3 way = vec3_sub(members->place[i], place);
-        const double distance2 = vec3_dot(way, way);
-        if (distance2 < nearest2 && members->clipped[i] == members->any_clipped)
-            nearest2 = distance2, nearest = i;
-    }
-    return nearest;
-}
-
-/// Colour and opacity: what a pixel that all members fill alike sees.
-static void mix_colors(const ewa_surfels *fine, const group_members *members, representative *made) {
-    double opaque[EWA_GROUP_SURFELS], sum = 0;
-    for (uint32_t i = 0; i < members->count; i++) {
-        const size_t at = (size_t)members->packet[i] * LANES + members->lane[i];
-        opaque[i] = members->share[i] * (fine->opacities ? fine->opacities[at] / 65535.0 : 1);
-        sum += opaque[i];
-    }
-    made->opacity = sum < 1 ? sum : 1;
-    memset(made->color, 0, sizeof made->color);
-    for (uint32_t i = 0; i < members->count; i++) {
-        const uint32_t lane = members->lane[i];
-        const ewa_packet *packet = &fine->packets[members->packet[i]];
-        const uint16_t form = fine->bounds.colors[members->packet[i]];
-        const double part = sum > 0 ? opaque[i] / sum : members->share[i];
-        const uint16_t codes[3] = {packet->red[lane], packet->green[lane], packet->blue[lane]};
-        for (int c = 0; c < 3; c++)
-            made->color[c] += part * (form == EWA_COLOR_FORM_UNIT ? codes[c] * (1 / 65535.0)
-                                                                  : ewa_color_decode_code(form, codes[c]));
-    }
-}
-
-/// The mean of the members' normals, or `own` where that says nothing.
-static ewa_vec3 mean_normal(const group_members *members, ewa_vec3 own) {
-    ewa_vec3 sum = vec3_make(0, 0, 0);
-    for (uint32_t i = 0; i < members->count; i++)
-        sum = vec3_add(sum, vec3_scale(members->normal[i], members->share[i]));
-    const double length = vec3_length(sum);
-    bool sound = length > SOUND_NORMAL;
-    for (uint32_t i = 0; i < members->count; i++) sound &= vec3_dot(sum, members->normal[i]) > 0;
-    return sound ? vec3_scale(sum, 1 / length) : own;
+    return plain;
 }
 
 /// The clip lines of a member, at the same places in the world seen from another centre in its plane.
@@ -278,72 +226,54 @@ static void move_clip(const ewa_surfels *fine, uint32_t index, uint32_t lane, ew
     }
 }
 
-/// How far the surface lies above the middle of its members, towards their normals: half of what the planes of these are
-/// above it, which is exact where it bends evenly.
-static double height_of(const group_members *members, ewa_vec3 middle) {
-    double height = 0, square = 0;
-    for (uint32_t i = 0; i < members->count; i++) {
-        const ewa_vec3 way = vec3_sub(members->place[i], middle);
-        height += members->share[i] * vec3_dot(members->normal[i], way) / 2;
-        square += members->share[i] * vec3_dot(way, way);
+/// Some groups of a window, up to sixteen from surfel `*first` of its order on, of which it has `surfels`; moves `*first` on.
+static void take_groups(const level_job *job, const ewa_window *window, uint32_t *first, uint32_t surfels, ewa_groups *groups) {
+    const uint8_t *order = job->order + (size_t)window->first * LANES;
+    for (groups->count = 0; groups->count < LANES && *first < surfels; groups->count++) {
+        const uint32_t next = group_end(job->starts + window->first, *first, surfels), size = next - *first;
+        for (uint32_t m = 0; m < EWA_GROUP_SURFELS; m++)
+            groups->lanes[m][groups->count] = order[*first + (m < size ? m : 0)];
+        groups->sizes[groups->count] = (float)size;
+        *first = next;
     }
-    const double limit = sqrt(square) / 2;
-    return maximum(-limit, minimum(height, limit));
+    for (uint32_t i = groups->count; i < LANES; i++) {
+        for (uint32_t m = 0; m < EWA_GROUP_SURFELS; m++) groups->lanes[m][i] = groups->lanes[m][0];
+        groups->sizes[i] = groups->sizes[0];
+    }
 }
 
-/// Makes what stands for a group: in its middle, where that is on its surface, else at the nearest member.
-static void make_representative(const level_job *job, const ewa_window *window, const uint8_t *lanes,
-                                uint32_t count, representative *made) {
+/// Makes surfels of what kernels say of groups.
+static void take_representatives(const level_job *job, const ewa_window *window, const ewa_groups *groups,
+                                 const ewa_representatives *from, representative *made) {
     const ewa_surfels *fine = job->fine;
-    group_members members = {.count = count};
-    read_members(fine, window, lanes, &members);
-    ewa_vec3 middle = vec3_make(0, 0, 0);
-    for (uint32_t i = 0; i < count; i++)
-        middle = vec3_add(middle, vec3_scale(members.place[i], members.share[i]));
-    const uint32_t pick = nearest_member(&members, middle), index = members.packet[pick],
-                   lane = members.lane[pick];
-    const ewa_packet *packet = &fine->packets[index];
-    // A line is in its surfel's plane.
-    const ewa_vec3 own = members.normal[pick];
-    made->normal = members.any_clipped ? own : mean_normal(&members, own);
-    const double sigma = members.sigma[pick];
-    double reach = 0, height = 0, spread = 0;
-    for (uint32_t i = 0; i < count; i++) {
-        const ewa_vec3 way = vec3_sub(members.place[i], middle);
-        const double distance = vec3_length(way);
-        height = maximum(height, fabs(vec3_dot(way, made->normal)));
-        spread = maximum(spread, distance);
-        // Where surfels lie upon each other the area is not that of what they cover.
-        reach = maximum(reach, 4 * distance + fine->cutoff * members.sigma[i]);
+    const ewa_vec3 base = ewa_packet_center(fine, window->first);
+    for (uint32_t i = 0; i < groups->count; i++, made++) {
+        const uint32_t pick = (uint32_t)from->pick[i], index = window->first + pick / LANES, lane = pick % LANES;
+        const ewa_packet *packet = &fine->packets[index];
+        made->center = vec3_add(base, vec3_make((double)from->place[0][i], (double)from->place[1][i], (double)from->place[2][i]));
+        made->normal = vec3_make((double)from->normal[0][i], (double)from->normal[1][i], (double)from->normal[2][i]);
+        made->sigma = (double)from->sigma[i];
+        for (int c = 0; c < 3; c++) made->color[c] = (double)from->color[c][i];
+        made->opacity = (double)from->opacity[i], made->curvature = (double)from->curvature[i];
+        made->ratio = packet->ratio[lane];
+        made->billboard = fine->billboards;
+        for (uint32_t m = 0; m < EWA_GROUP_SURFELS && made->billboard; m++) {
+            const uint32_t member = (uint32_t)groups->lanes[m][i];
+            made->billboard = fine->packets[window->first + member / LANES].oct_x[member % LANES] == EWA_BILLBOARD;
+        }
+        made->clipped = fine->clip_masks && fine->clip_masks[index] >> lane & 1;
+        if (made->clipped) {
+            const ewa_vec3 moved =
+                vec3_make((double)from->moved[0][i], (double)from->moved[1][i], (double)from->moved[2][i]);
+            move_clip(fine, index, lane, moved, &made->clip);
+        }
+        made->material = fine->materials ? fine->materials[(size_t)index * LANES + lane] : fine->material;
+        if (made->ratio != UINT16_MAX) {
+            ewa_packet_surfel decoded;
+            ewa_packet_decode(fine, index, lane, &decoded);
+            made->axis_u = decoded.axis_u;
+        }
     }
-    const double grown = maximum(sigma / sqrt(members.share[pick]), spread / EWA_LEVEL_SPREAD) * job->growth;
-    made->sigma = maximum(sigma, minimum(grown, reach / fine->cutoff));
-    made->curvature = 0;
-    for (uint32_t i = 0; i < count && fine->curvatures; i++)
-        made->curvature += members.share[i] * ewa_packet_decode_curvature(
-                                                  fine->curvatures[(size_t)members.packet[i] * LANES + members.lane[i]]);
-    ewa_vec3 moved = vec3_make(0, 0, 0);
-    if (height <= made->sigma) {
-        moved = vec3_sub(middle, members.place[pick]);
-        if (made->curvature != 0) moved = vec3_add(moved, vec3_scale(made->normal, height_of(&members, middle)));
-        if (members.any_clipped) moved = vec3_sub(moved, vec3_scale(own, vec3_dot(moved, own)));
-    }
-    const ewa_vec3 offset =
-        vec3_make((double)packet->x[lane], (double)packet->y[lane], (double)packet->z[lane]);
-    made->center = vec3_add(ewa_packet_center(fine, index), vec3_add(offset, moved));
-    made->ratio = packet->ratio[lane];
-    made->billboard = true;
-    for (uint32_t i = 0; i < count; i++)
-        made->billboard &= fine->packets[members.packet[i]].oct_x[members.lane[i]] == EWA_BILLBOARD;
-    made->clipped = members.any_clipped;
-    if (made->clipped) move_clip(fine, index, lane, moved, &made->clip);
-    made->material = fine->materials ? fine->materials[(size_t)index * LANES + lane] : fine->material;
-    if (made->ratio != UINT16_MAX) {
-        ewa_packet_surfel decoded;
-        ewa_packet_decode(fine, index, lane, &decoded);
-        made->axis_u = decoded.axis_u;
-    }
-    mix_colors(fine, &members, made);
 }
 
 /// Packs 1 to 16 surfels as packet `index`; all lanes behind them are like the first. Its centre becomes the
@@ -388,14 +318,6 @@ static void encode_packet(const level_job *job, uint32_t index, const representa
     job->lane_counts[index] = (uint8_t)count;
 }
 
-/// Whether all colours of a window have the plain form.
-static bool plain_colors(const ewa_surfels *fine, const ewa_window *window) {
-    bool plain = true;
-    for (uint32_t k = 0; k < window->packet_count; k++)
-        plain &= fine->bounds.colors[window->first + k] == EWA_COLOR_FORM_UNIT;
-    return plain;
-}
-
 static void encode_part(void *data, uint32_t part, uint32_t worker) {
     (void)worker;
     const level_job *job = data;
@@ -403,26 +325,31 @@ static void encode_part(void *data, uint32_t part, uint32_t worker) {
     uint32_t index = job->parts[part].first_packet, pending = 0;
     ewa_surfel_clip *clips = fine->clip_masks ? job->coarse->clips + job->parts[part].first_clip : NULL;
     bool even = true; // all colours that are pending are of the plain form
-    representative made[LANES];
+    representative made[2 * LANES];
     const uint32_t end = (uint32_t)part_end(job, part);
     for (uint32_t p = part * PART_PACKETS, count; p < end; p += count) {
         ewa_window window;
+        ewa_window_means means;
         count = job->windows[p] % WINDOW_SEPARATE;
-        ewa_window_read(fine, p, count, &window);
+        job->grouping->read(fine->packets, &fine->bounds, p, count, &window);
         if (job->windows[p] & WINDOW_SEPARATE && pending) {
             encode_packet(job, index++, made, pending, even, &clips);
             pending = 0;
         }
-        const bool plain = plain_colors(fine, &window);
+        const bool plain = read_means(fine, &window, &means);
         even = (even || pending == 0) && plain;
-        const uint8_t *order = job->order + (size_t)p * LANES;
         const uint32_t surfels = surfels_of(&window);
-        for (uint32_t first = 0, next; first < surfels; first = next) {
-            next = group_end(job->starts + p, first, surfels);
-            make_representative(job, &window, order + first, next - first, &made[pending++]);
+        for (uint32_t first = 0; first < surfels;) {
+            ewa_groups groups;
+            ewa_representatives from;
+            take_groups(job, &window, &first, surfels, &groups);
+            job->grouping->represent(&window, &means, &groups, (float)fine->cutoff, (float)job->growth, &from);
+            take_representatives(job, &window, &groups, &from, made + pending);
+            pending += groups.count;
             if (pending < LANES) continue;
             encode_packet(job, index++, made, LANES, even, &clips);
-            pending = 0;
+            pending -= LANES;
+            memmove(made, made + LANES, pending * sizeof *made);
             even = plain;
         }
     }
@@ -498,6 +425,7 @@ static ewa_status make_level(ewa_surfels *fine, double growth) {
     const uint32_t parts = (fine->packet_count + PART_PACKETS - 1) / PART_PACKETS;
     level_job job = {.fine = fine,
                      .kernels = EWA_CHOOSE(ewa_context_cpu_features(context), ewa_pack_kernels),
+                     .grouping = EWA_CHOOSE(ewa_context_cpu_features(context), ewa_group_kernels),
                      .growth = growth,
                      .part_count = parts};
     job.order = ewa_allocate(context, (size_t)fine->packet_count * LANES, sizeof *job.order);

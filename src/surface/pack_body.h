@@ -3,11 +3,9 @@
 //
 // The packing kernels over the wide type. What a surfel is: docs/math.md section 2; what storing costs:
 // docs/conventions.md, precision.
-//
-// Octahedral normals: Meyer et al., "On Floating-Point Normal Vectors", 2010.
 #include "surface/pack.h"
 #include "wide/wide_double.h"
-#include "wide/wide_functions.h"
+#include "wide/wide_octahedral.h"
 
 enum { LANES = EWA_PACKET_LANES };
 
@@ -41,10 +39,6 @@ static uint64_t measure_discs(const ewa_safe_range *range, const float *position
     return group;
 }
 
-static inline wf with_sign_of(wf magnitude, wf sign) {
-    return wf_select(wf_lt(sign, wf_set(0)), wf_sub(wf_set(0), magnitude), magnitude);
-}
-
 /// Sets the codes of normals of which no sum overflows or vanishes.
 static ALWAYS_INLINE void code_directions(const wf n[3], ewa_packet *packet) {
     const wf sum = wf_add(wf_add(wf_abs(n[0]), wf_abs(n[1])), wf_abs(n[2]));
@@ -67,22 +61,6 @@ static void code_normals(const float normal[3][LANES], ewa_packet *packet) {
     const wf largest = wf_max(wf_abs(n[0]), wf_max(wf_abs(n[1]), wf_abs(n[2])));
     for (int c = 0; c < 3; c++) n[c] = wf_div(n[c], largest);
     code_directions(n, packet);
-}
-
-/// The unit vectors of octahedral coordinates.
-static inline void unfold(wf u, wf v, wf n[3]) {
-    const wf zero = wf_set(0);
-    const wf z = wf_sub(wf_sub(wf_set(1), wf_abs(u)), wf_abs(v));
-    const wf fold = wf_max(wf_sub(zero, z), zero);
-    const wf x = wf_sub(u, with_sign_of(fold, u)), y = wf_sub(v, with_sign_of(fold, v));
-    const wf inverse = wf_inverse_root(wf_fma(x, x, wf_fma(y, y, wf_mul(z, z))));
-    n[0] = wf_mul(x, inverse), n[1] = wf_mul(y, inverse), n[2] = wf_mul(z, inverse);
-}
-
-static inline void decode_normals(const ewa_packet *packet, wf n[3]) {
-    const wf unit = wf_set(1.0f / 32767.0f);
-    unfold(wf_mul(wf_from_i(wi_load_i16(packet->oct_x)), unit),
-           wf_mul(wf_from_i(wi_load_i16(packet->oct_y)), unit), n);
 }
 
 static inline wf dot(const wf a[3], const wf b[3]) {
@@ -128,7 +106,7 @@ static void code_ellipses(const float normal[3][LANES], const float axis_u[3][LA
     wf_store(packet->sigma, wf_mul(wf_mul(major2, inverse_major), largest));
 
     // The angle in the frame of the decoded normal: packet_frame() of packets.c.
-    decode_normals(packet, n);
+    decode_normals(packet->oct_x, packet->oct_y, n);
     const wf sign = wf_select(wf_lt(n[2], zero), wf_set(-1), one);
     const wf a = wf_div(wf_set(-1), wf_add(sign, n[2])), b = wf_mul(wf_mul(n[0], n[1]), a);
     const wf frame_u[3] = {wf_fma(wf_mul(sign, n[0]), wf_mul(n[0], a), one), wf_mul(sign, b),
@@ -258,7 +236,7 @@ static inline void bound_normals(const ewa_packet *const packets[LANES], uint32_
     wf normal[3][LANES];
     for (int k = 0; k < LANES; k++) {
         wf n[3];
-        decode_normals(packets[k], n);
+        decode_normals(packets[k]->oct_x, packets[k]->oct_y, n);
         for (int c = 0; c < 3; c++) normal[c][k] = n[c];
     }
     wf rows[LANES], axis[3];

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Tests of src/surface/levels.c and groups.c: levels of detail are closed, keep colours, and do not depend on
+// Tests of src/surface/levels.c and groups_body.h: levels of detail are closed, keep colours, and do not depend on
 // anything that pictures do not depend on.
 #include "splat/level_scene.h"
 #include "surface/levels.h"
