@@ -4,7 +4,12 @@
 // The thread that reads nodes of octrees while pictures are drawn of those that are there.
 #include "node_reader.h"
 
+#include <math.h>
 #include <stdlib.h>
+#include <time.h>
+
+/// While something moves, nodes rest for so many times what they took: decoding them takes the processors from drawing, which is what a hand sees.
+static const double REST_SHARE = 1.5;
 
 struct node_reader {
     octree_turns *turns;
@@ -19,6 +24,8 @@ struct node_reader {
     uint32_t resting; ///< who waits for it to be at rest
     paint_scene next, now; ///< `now` is the thread's own while it reads
     uint32_t next_max_count, max_count;
+    bool next_moving;
+    struct timespec rest_end; ///< nothing is read before, while something moves
     node_reader_state state;
 };
 
@@ -41,11 +48,33 @@ static uint32_t read_some(node_reader *r, bool *more) {
     return status == EWA_OK ? count : 0;
 }
 
+static double seconds_between(const struct timespec *from, const struct timespec *to) {
+    return (double)(to->tv_sec - from->tv_sec) + 1e-9 * (double)(to->tv_nsec - from->tv_nsec);
+}
+
+/// Sets until when nothing is read after something has been since `began`.
+static void begin_rest(node_reader *r, const struct timespec *began) {
+    struct timespec now;
+    clock_gettime(CLOCK_REALTIME, &now);
+    const double end_s = 1e-9 * (double)now.tv_nsec + REST_SHARE * fmax(seconds_between(began, &now), 0);
+    r->rest_end = (struct timespec){now.tv_sec + (time_t)end_s, (long)(1e9 * (end_s - floor(end_s)))};
+}
+
+/// Whether it rests still, after a while of that or something new. With the lock.
+static bool rests(node_reader *r, bool more) {
+    struct timespec now;
+    clock_gettime(CLOCK_REALTIME, &now);
+    if (!r->next_moving || r->resting || !(r->waits || more) || seconds_between(&now, &r->rest_end) <= 0) return false;
+    pthread_cond_timedwait(&r->changed, &r->lock, &r->rest_end);
+    return true;
+}
+
 static void *run(void *data) {
     node_reader *r = data;
     bool more = false;
     pthread_mutex_lock(&r->lock);
     while (!r->quits) {
+        if (rests(r, more)) continue;
         if (r->waits) {
             r->now = r->next;
             r->max_count = r->next_max_count;
@@ -58,8 +87,11 @@ static void *run(void *data) {
         }
         r->reads = true;
         pthread_mutex_unlock(&r->lock);
+        struct timespec began;
+        clock_gettime(CLOCK_REALTIME, &began);
         const uint32_t count = read_some(r, &more);
         pthread_mutex_lock(&r->lock);
+        begin_rest(r, &began);
         r->state.arrived_count += count;
         r->state.ready = r->state.ready || !r->resting;
     }
@@ -113,8 +145,9 @@ void node_reader_destroy(node_reader **made) {
     *made = NULL;
 }
 
-void node_reader_post(node_reader *r, const paint_scene *scene, uint32_t max_count) {
+void node_reader_post(node_reader *r, const paint_scene *scene, uint32_t max_count, bool moving) {
     pthread_mutex_lock(&r->lock);
+    r->next_moving = moving;
     r->next = *scene;
     r->next_max_count = max_count;
     r->waits = r->state.busy = true;

@@ -13,9 +13,9 @@ typedef struct node_reader node_reader;
 ewa_status node_reader_create(octree_turns *turns, node_reader **made);
 void node_reader_destroy(node_reader **reader);
 
-/// Has read what a picture of a scene needs, at most `most` nodes at a time, in place of what was asked for before. What the scene
-/// points to is borrowed until node_reader_rest().
-void node_reader_post(node_reader *reader, const paint_scene *scene, uint32_t most);
+/// Has read what a picture of a scene needs, at most `most` nodes at a time, in place of what was asked for before; `moving`: with pauses, for pictures
+/// follow each other meanwhile. What the scene points to is borrowed until node_reader_rest().
+void node_reader_post(node_reader *reader, const paint_scene *scene, uint32_t most, bool moving);
 
 /// Gives up everything for good. Returns whether nothing is read any more.
 bool node_reader_stop(node_reader *reader);

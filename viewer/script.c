@@ -29,6 +29,7 @@ typedef struct script {
     double shown_s;            ///< when the last picture came; negative: none yet
     double settled_s, event_s; ///< longest way from the last event to the whole picture; when that was
     bool settling;
+    bool moved; ///< something, since the last picture came
 } script;
 
 static double now_s(void) {
@@ -44,12 +45,17 @@ static bool fail(const script *s, const char *what, const char *detail) {
 
 /// Notes what a step showed.
 static void take_times(script *s, uint64_t number_before) {
+    viewer_state state;
+    viewer_get_state(s->viewer, &state);
+    s->moved = s->moved || state.moving;
     if (!s->job->timings || s->picture.number == number_before) return;
     if (s->picture.splat_count && !(s->first_s > 0)) s->first_s = now_s() - s->job->started_s;
     const double at_s = now_s() - s->began_s;
-    if (s->shown_s >= 0 && s->interval_count < MAX_FRAMES && s->settling && !s->picture.still)
+    // Pictures that get finer after the end of a movement are no frames of it; the first of them has the wait that a hand may feel.
+    if (s->shown_s >= 0 && s->interval_count < MAX_FRAMES && s->settling && s->moved && !s->picture.still)
         s->intervals_s[s->interval_count++] = at_s - s->shown_s;
     s->shown_s = at_s;
+    s->moved = state.moving;
     if (s->picture.still && s->settling) {
         s->settling = false;
         s->settled_s = fmax(s->settled_s, at_s - s->event_s);

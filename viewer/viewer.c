@@ -344,7 +344,7 @@ static void post(viewer *v, bool whole) {
         node_reader_state state;
         node_reader_tell(v->node_reader, &state);
         scene.arrived_count = state.arrived_count;
-        node_reader_post(v->node_reader, &scene, whole ? NODES_STILL : NODES_MOVING);
+        node_reader_post(v->node_reader, &scene, whole ? NODES_STILL : NODES_MOVING, !whole);
     }
     painter_post(v->painter, &scene, v->revision, whole);
 }
@@ -371,7 +371,7 @@ static bool awaits_nodes(viewer *v) {
     if (state.ready) return false;
     paint_scene scene;
     viewer_scene(v, &scene);
-    if (!state.busy) node_reader_post(v->node_reader, &scene, NODES_MOVING);
+    if (!state.busy) node_reader_post(v->node_reader, &scene, NODES_MOVING, false);
     return true;
 }
 
