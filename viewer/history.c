@@ -26,6 +26,7 @@ struct viewer_snapshot {
     ewa_render_options render;
     ewa_furniture_options furniture;
     ewa_lod_options lod;
+    ewa_gaussian_options gaussians;
     char title[VIEWER_NAME_BYTES];
     uint32_t region_count;
     ewa_region regions[EWA_MAX_REGIONS];
@@ -81,6 +82,7 @@ static viewer_snapshot *take(const viewer *v) {
     memcpy(&s->render, &v->render, sizeof s->render);
     memcpy(&s->furniture, &v->furniture, sizeof s->furniture);
     memcpy(&s->lod, &v->lod, sizeof s->lod);
+    memcpy(&s->gaussians, &v->base.gaussians, sizeof s->gaussians);
     memcpy(s->title, v->title, sizeof s->title);
     s->region_count = v->base.region_count;
     memcpy(s->regions, v->base.regions, s->region_count * sizeof s->regions[0]);
@@ -114,6 +116,7 @@ static bool agree(const viewer_snapshot *a, const viewer_snapshot *b) {
     return memcmp(&a->settings, &b->settings, sizeof a->settings) == 0 &&
            memcmp(&a->render, &b->render, sizeof a->render) == 0 &&
            memcmp(&a->furniture, &b->furniture, sizeof a->furniture) == 0 && memcmp(&a->lod, &b->lod, sizeof a->lod) == 0 &&
+           memcmp(&a->gaussians, &b->gaussians, sizeof a->gaussians) == 0 &&
            strcmp(a->title, b->title) == 0 && a->region_count == b->region_count &&
            memcmp(a->regions, b->regions, sizeof a->regions) == 0 && memcmp(&a->cutaway, &b->cutaway, sizeof a->cutaway) == 0 &&
            memcmp(a->picks, b->picks, sizeof a->picks) == 0 && a->profile == b->profile &&
@@ -205,6 +208,7 @@ static void restore(viewer *v, const viewer_snapshot *s) {
     v->render = s->render;
     v->furniture = s->furniture;
     v->lod = s->lod;
+    memcpy(&v->base.gaussians, &s->gaussians, sizeof s->gaussians);
     memcpy(v->title, s->title, sizeof v->title);
     v->base.region_count = s->region_count;
     memcpy(v->base.regions, s->regions, sizeof v->base.regions);

@@ -56,24 +56,34 @@ static bool apply(viewer *v, size_t index, const char *path) {
     return items_reload(v, index, &load);
 }
 
-/// Orders the colours; `text`: cameras, and behind " images " the folder of the photographs.
+/// Takes what is behind a word off the end of a text, `*length` of which count. False: the name is too long.
+static bool take_folder(const char *text, const char *word, size_t *length, char folder[VIEWER_PATH_BYTES]) {
+    const char *at = strstr(text, word);
+    if (!at || at >= text + *length) return true;
+    const char *name = at + strlen(word);
+    const size_t name_length = *length - (size_t)(name - text);
+    *length = (size_t)(at - text);
+    if (name_length >= VIEWER_PATH_BYTES) return false;
+    memcpy(folder, name, name_length);
+    return true;
+}
+
+/// Orders the colours; `text`: cameras, behind " images " the folder of the photographs, behind " masks " that of their masks.
 static bool order(viewer *v, size_t index, const char *text) {
-    static const char between[] = " images ";
     scene_item *item = &v->items[index];
     viewer_photos *photos = calloc(1, sizeof *photos);
-    const char *images = strstr(text, between);
-    const size_t length = images ? (size_t)(images - text) : strlen(text);
+    size_t length = strlen(text);
     char path[SHOT_TEMPORARY_BYTES];
     bool done = photos != NULL;
     if (!done) viewer_tell(v, "%s: out of memory", item->name);
-    if (done && (length >= sizeof photos->cameras || (images && strlen(images) >= sizeof photos->images))) {
+    if (done && !(take_folder(text, " masks ", &length, photos->masks) && take_folder(text, " images ", &length, photos->images) &&
+                  length < sizeof photos->cameras)) {
         viewer_tell(v, "photos: %.60s...: the name is too long", text);
         done = false;
     }
     done = done && own_files_make(v, "photos", ".ply", path);
     if (done) {
         memcpy(photos->cameras, text, length);
-        if (images) snprintf(photos->images, sizeof photos->images, "%s", images + strlen(between));
         snprintf(photos->to, sizeof photos->to, "%s", path);
         photos->options = v->photos;
         done = items_photos(v, index, photos);
@@ -141,7 +151,10 @@ void photos_take(viewer *v, size_t index, const viewer_photos *photos, const ewa
     history_begin(v);
     const bool done = apply(v, index, photos->to);
     history_end(v);
+    char held_out[64] = "";
+    if (found->held_out_count)
+        snprintf(held_out, sizeof held_out, ", held out %u %.2f dB", found->held_out_count, found->held_out_psnr_db);
     if (done)
-        viewer_say(v, "photos %zu %u photographs %llu points %.2f dB", index, found->used_count,
-                   (unsigned long long)found->seen_count, found->psnr_db);
+        viewer_say(v, "photos %zu %u photographs %llu points %.2f dB%s", index, found->used_count,
+                   (unsigned long long)found->seen_count, found->psnr_db, held_out);
 }

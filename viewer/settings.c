@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The ewa authors
 // SPDX-License-Identifier: MIT
 //
-// Settings by their names: the viewer's own, the renderer's, the furniture's, those of photographs, from their tables.
+// Settings by their names: the viewer's own, the renderer's, the furniture's, those of Gaussians and of photographs, from their tables.
 #include "inner.h"
 
 #include <math.h>
@@ -26,7 +26,7 @@ const ewa_option_table viewer_settings_table = {
     "viewer_settings", own_table, sizeof own_table / sizeof own_table[0], sizeof(viewer_settings)};
 
 /// What a panel shows, of which struct.
-typedef enum setting_owner { OWN, RENDER, FURNITURE, LOD, PHOTOS } setting_owner;
+typedef enum setting_owner { OWN, RENDER, FURNITURE, LOD, PHOTOS, GAUSSIANS } setting_owner;
 
 static const struct {
     const char *group;
@@ -50,11 +50,18 @@ static const struct {
     {"Splats", RENDER, "passes"},
     {"Octrees", LOD, "spacing_px"},
     {"Octrees", LOD, "error"},
+    {"Gaussians", GAUSSIANS, "display"},
+    {"Gaussians", GAUSSIANS, "ellipsoid_radius"},
+    {"Gaussians", GAUSSIANS, "dot_px"},
+    {"Gaussians", GAUSSIANS, "projection"},
+    {"Gaussians", GAUSSIANS, "filter"},
+    {"Gaussians", GAUSSIANS, "sh_degree"},
     {"Furniture", FURNITURE, "axes"},
     {"Furniture", FURNITURE, "scale_bar"},
     {"Furniture", FURNITURE, "color_bar"},
     {"Photographs", PHOTOS, "method"},
     {"Photographs", PHOTOS, "exposure"},
+    {"Photographs", PHOTOS, "hold_out"},
     {"Photographs", PHOTOS, "rounds"},
     {"Photographs", PHOTOS, "pose_steps"},
     {"Photographs", PHOTOS, "vignetting"},
@@ -65,11 +72,11 @@ static const struct {
 
 static const ewa_option_table *const tables[] = {&viewer_settings_table, &ewa_render_options_table,
                                                  &ewa_furniture_options_table, &ewa_lod_options_table,
-                                                 &ewa_photos_options_table};
+                                                 &ewa_photos_options_table, &ewa_gaussian_options_table};
 
 /// The struct that an owner's options are in.
 static void *place_of(viewer *v, setting_owner owner) {
-    void *const places[] = {&v->settings, &v->render, &v->furniture, &v->lod, &v->photos};
+    void *const places[] = {&v->settings, &v->render, &v->furniture, &v->lod, &v->photos, &v->base.gaussians};
     return places[owner];
 }
 
@@ -92,10 +99,10 @@ const ewa_option *viewer_setting_at(const viewer *v, uint32_t index, const char 
 
 /// Finds a setting of any of the structs; a setting of the renderer that the viewer chooses itself is none.
 static const ewa_option *find(const char *name, setting_owner *owner) {
-    static const char *const own_choice[] = {"level", "budget_s", "load_s", "resident_only"};
+    static const char *const own_choice[] = {"level", "budget_s", "load_s", "resident_only", "merge_px", "section_count"};
     for (size_t i = 0; i < sizeof own_choice / sizeof own_choice[0]; i++)
         if (strcmp(name, own_choice[i]) == 0) return NULL;
-    for (int k = OWN; k <= PHOTOS; k++) {
+    for (int k = OWN; k <= GAUSSIANS; k++) {
         const ewa_option *option = ewa_option_find(tables[k], name);
         *owner = (setting_owner)k;
         if (option) return option;

@@ -68,6 +68,7 @@ void viewer_coloring_init(viewer_coloring *coloring);
 typedef struct viewer_photos {
     char cameras[VIEWER_PATH_BYTES]; ///< a file or folder of cameras (ewa_photo_list_load())
     char images[VIEWER_PATH_BYTES];  ///< folder of the photographs; empty: as the cameras say
+    char masks[VIEWER_PATH_BYTES];   ///< folder of their masks; empty: there are none
     char to[VIEWER_PATH_BYTES];      ///< PLY file that is written
     ewa_photos_options options;
 } viewer_photos;

@@ -178,7 +178,9 @@ static bool photos(void *user, const char *path, const ewa_asset_options *said, 
     options.gaussians_as_surfels = true;
     options.levels = EWA_OCTREE_NEVER;
     options.cutoff = wanted->options.cutoff;
-    const photo_arguments arguments = {.cameras_path = wanted->cameras, .images_path = wanted->images[0] ? wanted->images : NULL};
+    const photo_arguments arguments = {.cameras_path = wanted->cameras,
+                                       .images_path = wanted->images[0] ? wanted->images : NULL,
+                                       .masks_path = wanted->masks[0] ? wanted->masks : NULL};
     uint32_t count;
     ewa_photo_list *list = photo_input_load(session, &arguments);
     const ewa_photo *taken = ewa_photo_list_photos(list, &count);

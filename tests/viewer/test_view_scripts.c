@@ -109,6 +109,19 @@ static void take_photos(ewa_context *context, const ewa_cloud *ball) {
     ewa_surfels_destroy(&surfels);
 }
 
+/// Writes masks of the photographs, of which the first `white_count` count.
+static void write_masks(ewa_context *context, const char *folder, int white_count) {
+    enum { SIDE_PX = 120, VIEWS = 4 };
+    static uint8_t rgb8[SIDE_PX * SIDE_PX * 3];
+    (void)mkdir(folder, 0777);
+    for (int i = 0; i < VIEWS; i++) {
+        char name[64];
+        snprintf(name, sizeof name, "%s/ball_%d.png", folder, i);
+        memset(rgb8, i < white_count ? 255 : 0, sizeof rgb8);
+        assert_int_equal(ewa_png_save(context, name, SIDE_PX, SIDE_PX, 3, rgb8, 3 * SIDE_PX), EWA_OK);
+    }
+}
+
 /// A ball without colours, photographs of it with some, and the two together as the program puts them.
 static void make_photos(ewa_context *context) {
     ewa_generate_options options;
@@ -126,6 +139,8 @@ static void make_photos(ewa_context *context) {
         for (int c = 0; c < 3; c++) ((uint8_t *)colors)[3 * i + (uint64_t)c] = (uint8_t)(120 + 100 * p[c]);
     }
     take_photos(context, ball);
+    write_masks(context, "ball_masks", 4);
+    write_masks(context, "ball_first", 1);
     ewa_cloud_destroy(&ball);
     ewa_photo_list *list = NULL;
     uint32_t count;
