@@ -42,7 +42,7 @@ bool cloud_output_check(const output_arguments *output, char message[OPTION_ERRO
     if (output->path)
         return output_check_suffix("output", output->path,
                                    output->gaussians
-                                       ? ".ply|.las|.laz|.pcd|.xyz|.txt|.asc|.pts|.csv|.splat|.spz|.glb|.sog|meta.json|-"
+                                       ? ".ply|.las|.laz|.pcd|.xyz|.txt|.asc|.pts|.csv|.splat|.spz|.glb|.sog|meta.json|lod-meta.json|-"
                                        : ".ply|.las|.laz|.pcd|.xyz|.txt|.asc|.pts|.csv|-",
                                    message);
     snprintf(message, OPTION_ERROR_BYTES, "no output; say -o FILE");

@@ -412,7 +412,7 @@ const cli_command convert_command = {
         "kept only where all have them. Of one mesh the faces are kept, of PLY all else too; they are "
         "dropped, which a message says, when some of their vertices are left out. Normals, radii and axes "
         "follow --scale and --transform. Moved clouds are "
-        "written with double coordinates. Gaussians become others by the suffix (.ply, .compressed.ply, .splat, .spz, .glb, .sog, meta.json), and "
+        "written with double coordinates. Gaussians become others by the suffix (.ply, .compressed.ply, .splat, .spz, .glb, .sog, meta.json; lod-meta.json with levels), and "
         "move "
         "with their axes and colours; points with the columns of 3DGS that go to PLY keep every bit.",
     .examples = "ewa convert scan.ply -o scan_text.ply --ascii\n"

@@ -70,6 +70,8 @@ static bool check(const void *data, char message[OPTION_ERROR_BYTES]) {
         wrong = "lod: no output; say -o FILE.copc.laz";
     else if (strcmp(arguments->output, "-") == 0)
         wrong = "--output: an octree is written to a file, not to standard output";
+    else if (ewa_gaussians_format_of(arguments->output) == EWA_GAUSSIANS_STREAMED_SOG)
+        wrong = "--output: levels of Gaussians are written by 'ewa convert IN -o lod-meta.json'";
     else if (arguments->subset && !read_subset(arguments->subset, &subset, &subset_count))
         wrong = "--subset: not I/N with a whole number I from 1 to N, and N up to 65536";
     return options_fine(wrong, message) &&

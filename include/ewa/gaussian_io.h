@@ -61,7 +61,7 @@ EWA_API ewa_status ewa_gaussians_load_memory(ewa_context *context, const void *b
                                              ewa_gaussian_facts *facts);
 
 /// Returns the format that ewa_gaussians_save() writes to a path, by its suffix: .compressed.ply, .ply, .splat, .spz, .glb,
-/// .sog, the name meta.json, "-": PLY; EWA_GAUSSIANS_NONE: none.
+/// .sog, the names meta.json and lod-meta.json, "-": PLY; EWA_GAUSSIANS_NONE: none.
 EWA_API ewa_gaussian_format ewa_gaussians_format_of(const char *path);
 
 /// How Gaussians are written. Fill with ewa_gaussians_save_options_init().
@@ -77,9 +77,10 @@ EWA_API void ewa_gaussians_save_options_init(ewa_gaussians_save_options *options
 
 /// Writes a set, the format by suffix; docs/files.md says what each keeps. Numbers are turned about x so
 /// that `up_world`, which ewa_gaussian_facts has of files that say so, is -y in .ply, .compressed.ply, .splat and SOG, y in .spz and .glb. What a
-/// format cannot keep, such as harmonics in .splat, is said in a warning. Beside meta.json its pictures are written. The same set gives
+/// format cannot keep, such as harmonics in .splat, is said in a warning. Beside meta.json its pictures are written, beside lod-meta.json the files
+/// of its levels, each of which has a quarter of the one before. The same set gives
 /// the same file on every machine, SOG by one version of libwebp. `options` may be NULL. Errors: EWA_ERROR_ARGUMENT (no Gaussians, a number that is none),
-/// EWA_ERROR_UNSUPPORTED (suffix; SOG without libwebp), EWA_ERROR_LIMIT (coordinates beyond the 24 bits of SPZ; more than 4 GiB of .glb
+/// EWA_ERROR_UNSUPPORTED (suffix; SOG without libwebp; lod-meta.json of 2D Gaussians), EWA_ERROR_LIMIT (coordinates beyond the 24 bits of SPZ; more than 4 GiB of .glb
 /// or .sog, pictures of more than 16383 pixels a side), EWA_ERROR_IO, EWA_ERROR_MEMORY.
 EWA_API ewa_status ewa_gaussians_save(const ewa_gaussians *gaussians, const char *path,
                                       const ewa_gaussians_save_options *options);

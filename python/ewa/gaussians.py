@@ -169,7 +169,7 @@ class Gaussians(Held):
 
     @keywords("ewa_gaussians_save_options")
     def save(self, path: PathLike, **options: Unpack[GaussiansSaveOptions]) -> None:
-        """Write .ply (as 3DGS), .compressed.ply (of PlayCanvas), .splat, .spz, .glb, .sog, or meta.json with its pictures beside it.
+        """Write .ply (as 3DGS), .compressed.ply (of PlayCanvas), .splat, .spz, .glb, .sog, meta.json with its pictures beside it, or lod-meta.json with levels.
 
         Parameters
         ----------

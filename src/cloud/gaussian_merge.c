@@ -67,3 +67,60 @@ double ewa_gaussians_merge(const ewa_gaussians *set, const uint32_t *members, co
     merged->opacities[to] = area > 0 ? (float)fmin(mass / area, -expm1(-depth / area)) : 0;
     return apart2;
 }
+
+static float along(const ewa_gaussians *set, uint32_t member, uint32_t axis) { return set->centers[3 * (size_t)member + axis]; }
+
+/// The order along an axis, of those at one place by their number.
+static bool comes_before(const ewa_gaussians *set, uint32_t axis, uint32_t a, uint32_t b) {
+    const float x = along(set, a, axis), y = along(set, b, axis);
+    return x < y || (x == y && a < b);
+}
+
+/// Has the first `rank` members come before all others along an axis (Hoare's selection).
+static void select_first(const ewa_gaussians *set, uint32_t axis, uint32_t *members, uint32_t count, uint32_t rank) {
+    uint32_t low = 0, high = count - 1;
+    while (low < high) {
+        const uint32_t pivot = members[low + (high - low) / 2];
+        uint32_t i = low, j = high;
+        for (;;) {
+            while (comes_before(set, axis, members[i], pivot)) i++;
+            while (comes_before(set, axis, pivot, members[j])) j--;
+            if (i >= j) break;
+            const uint32_t swapped = members[i];
+            members[i++] = members[j];
+            members[j--] = swapped;
+        }
+        // [low, j] come before what is behind j.
+        if (rank <= j)
+            high = j;
+        else
+            low = j + 1;
+    }
+}
+
+static uint32_t widest_axis(const ewa_gaussians *set, const uint32_t *members, uint32_t count) {
+    uint32_t widest = 0;
+    float maximum = -1;
+    float low[3], high[3];
+    for (uint32_t i = 0; i < count; i++)
+        for (uint32_t axis = 0; axis < 3; axis++) {
+            const float at = along(set, members[i], axis);
+            if (!i || at < low[axis]) low[axis] = at;
+            if (!i || at > high[axis]) high[axis] = at;
+        }
+    for (uint32_t axis = 0; axis < 3; axis++)
+        if (high[axis] - low[axis] > maximum) maximum = high[axis] - low[axis], widest = axis;
+    return widest;
+}
+
+void ewa_gaussians_group(const ewa_gaussians *set, uint32_t *members, uint32_t count) {
+    if (count <= EWA_GAUSSIAN_GROUP) return;
+    // The first half has whole groups, and whole groups of groups where there are enough.
+    uint32_t step = EWA_GAUSSIAN_GROUP;
+    while (step * EWA_GAUSSIAN_GROUP < count) step *= EWA_GAUSSIAN_GROUP;
+    uint32_t half = (count / 2 + step / 2) / step * step;
+    if (half == 0 || half >= count) half = step;
+    select_first(set, widest_axis(set, members, count), members, count, half);
+    ewa_gaussians_group(set, members, half);
+    ewa_gaussians_group(set, members + half, count - half);
+}

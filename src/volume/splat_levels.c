@@ -11,7 +11,7 @@
 
 #include <math.h>
 
-enum { LANES = EWA_SPLAT_LANES, PART_SPLATS = EWA_SPLAT_PART_PACKETS * LANES, GROUP = 4, MAX_MERGED = PART_SPLATS / GROUP };
+enum { LANES = EWA_SPLAT_LANES, PART_SPLATS = EWA_SPLAT_PART_PACKETS * LANES, MAX_MERGED = PART_SPLATS / EWA_GAUSSIAN_GROUP };
 
 typedef struct level_scratch {
     uint32_t members[PART_SPLATS];
@@ -25,64 +25,6 @@ typedef struct level_job {
     const uint32_t *order;
     level_scratch *scratch; ///< one per worker
 } level_job;
-
-static float along(const ewa_gaussians *set, uint32_t member, uint32_t axis) { return set->centers[3 * (size_t)member + axis]; }
-
-/// The order along an axis, of those at one place by their number.
-static bool comes_before(const ewa_gaussians *set, uint32_t axis, uint32_t a, uint32_t b) {
-    const float x = along(set, a, axis), y = along(set, b, axis);
-    return x < y || (x == y && a < b);
-}
-
-/// Has the first `rank` members come before all others along an axis (Hoare's selection).
-static void select_first(const ewa_gaussians *set, uint32_t axis, uint32_t *members, uint32_t count, uint32_t rank) {
-    uint32_t low = 0, high = count - 1;
-    while (low < high) {
-        const uint32_t pivot = members[low + (high - low) / 2];
-        uint32_t i = low, j = high;
-        for (;;) {
-            while (comes_before(set, axis, members[i], pivot)) i++;
-            while (comes_before(set, axis, pivot, members[j])) j--;
-            if (i >= j) break;
-            const uint32_t swapped = members[i];
-            members[i++] = members[j];
-            members[j--] = swapped;
-        }
-        // [low, j] come before what is behind j.
-        if (rank <= j)
-            high = j;
-        else
-            low = j + 1;
-    }
-}
-
-static uint32_t widest_axis(const ewa_gaussians *set, const uint32_t *members, uint32_t count) {
-    uint32_t widest = 0;
-    float maximum = -1;
-    float low[3], high[3];
-    for (uint32_t i = 0; i < count; i++)
-        for (uint32_t axis = 0; axis < 3; axis++) {
-            const float at = along(set, members[i], axis);
-            if (!i || at < low[axis]) low[axis] = at;
-            if (!i || at > high[axis]) high[axis] = at;
-        }
-    for (uint32_t axis = 0; axis < 3; axis++)
-        if (high[axis] - low[axis] > maximum) maximum = high[axis] - low[axis], widest = axis;
-    return widest;
-}
-
-/// Orders members so that each four in a row are neighbours.
-static void group_members(const ewa_gaussians *set, uint32_t *members, uint32_t count) {
-    if (count <= GROUP) return;
-    // The first half has whole groups, and whole groups of groups where there are enough.
-    uint32_t step = GROUP;
-    while (step * GROUP < count) step *= GROUP;
-    uint32_t half = (count / 2 + step / 2) / step * step;
-    if (half == 0 || half >= count) half = step;
-    select_first(set, widest_axis(set, members, count), members, count, half);
-    group_members(set, members, half);
-    group_members(set, members + half, count - half);
-}
 
 /// Fills one level of a part; returns the RMS distance, world units.
 static double make_level(const level_job *job, level_scratch *scratch, uint32_t part, uint32_t level, uint32_t count) {
@@ -114,7 +56,7 @@ static void make_part(void *data, uint32_t part, uint32_t worker) {
     for (uint32_t i = 0; i < count; i++) {
         scratch->members[i] = job->order[begin + i];
         for (uint32_t k = 0; k < 3; k++) {
-            const double at = (double)along(set, scratch->members[i], k);
+            const double at = (double)set->centers[3 * (size_t)scratch->members[i] + k];
             low[k] = i ? fmin(low[k], at) : at;
             high[k] = i ? fmax(high[k], at) : at;
         }
@@ -124,7 +66,7 @@ static void make_part(void *data, uint32_t part, uint32_t worker) {
         squares += (high[k] - low[k]) * (high[k] - low[k]);
     }
     made->radius = (float)(sqrt(squares) / 2 / unit * (1 + 1e-6));
-    group_members(set, scratch->members, count);
+    ewa_gaussians_group(set, scratch->members, count);
     for (uint32_t i = 0; i < count; i++) ewa_gaussian_weigh(set, scratch->members[i], &scratch->masses[i]);
     for (uint32_t level = 1; level <= EWA_SPLAT_LEVELS; level++)
         made->apart[level - 1] = (float)(make_level(job, scratch, part, level, count) / unit);

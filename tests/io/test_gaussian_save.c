@@ -257,7 +257,7 @@ TEST(refused) {
     char path[512];
     make_set(context, 0, &set);
     assert_int_equal(ewa_gaussians_save(&set, scratch_path("a.las", path), NULL), EWA_ERROR_UNSUPPORTED);
-    assert_non_null(strstr(log.text, ".ply, .compressed.ply, .splat, .spz, .glb, .sog and meta.json"));
+    assert_non_null(strstr(log.text, ".ply, .compressed.ply, .splat, .spz, .glb, .sog, meta.json and lod-meta.json"));
     assert_int_equal(ewa_gaussians_save(&none, scratch_path("a.ply", path), NULL), EWA_ERROR_ARGUMENT);
     assert_int_equal(ewa_gaussians_save(NULL, path, NULL), EWA_ERROR_ARGUMENT);
     assert_int_equal(ewa_gaussians_save(&set, "/nowhere/at/all.spz", NULL), EWA_ERROR_IO);
@@ -282,7 +282,7 @@ TEST(refused) {
     assert_int_equal(ewa_gaussians_format_of("x.spz/y"), EWA_GAUSSIANS_NONE);
     assert_int_equal(ewa_gaussians_format_of("x.SOG"), EWA_GAUSSIANS_SOG);
     assert_int_equal(ewa_gaussians_format_of("x/meta.json"), EWA_GAUSSIANS_SOG);
-    assert_int_equal(ewa_gaussians_format_of("x/lod-meta.json"), EWA_GAUSSIANS_NONE);
+    assert_int_equal(ewa_gaussians_format_of("x/lod-meta.json"), EWA_GAUSSIANS_STREAMED_SOG);
     assert_int_equal(ewa_gaussians_format_of("x.glb"), EWA_GAUSSIANS_GLTF);
     assert_int_equal(ewa_gaussians_format_of("-"), EWA_GAUSSIANS_PLY);
     ewa_gaussians_free(&set);

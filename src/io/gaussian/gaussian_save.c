@@ -38,7 +38,8 @@ static const struct {
     {".spz", EWA_GAUSSIANS_SPZ, ewa_gaussians_write_spz},
     {".glb", EWA_GAUSSIANS_GLTF, ewa_gaussians_write_gltf},
     {".sog", EWA_GAUSSIANS_SOG, ewa_gaussians_write_sog},
-    {"meta.json", EWA_GAUSSIANS_SOG, ewa_gaussians_write_sog}, // the whole name
+    {"meta.json", EWA_GAUSSIANS_SOG, ewa_gaussians_write_sog}, // the whole name, as the next
+    {"lod-meta.json", EWA_GAUSSIANS_STREAMED_SOG, ewa_gaussians_write_streamed_sog},
 };
 enum { FORMAT_COUNT = sizeof formats / sizeof formats[0] };
 
@@ -127,7 +128,7 @@ ewa_status ewa_gaussians_save(const ewa_gaussians *gaussians, const char *path,
     EWA_TRY(ewa_options_take(context, &ewa_gaussians_save_options_table, options, &chosen));
     const size_t format = find_format(path);
     if (format == FORMAT_COUNT)
-        return ewa_fail(context, EWA_ERROR_UNSUPPORTED, "%s: Gaussians are written to .ply, .compressed.ply, .splat, .spz, .glb, .sog and meta.json",
+        return ewa_fail(context, EWA_ERROR_UNSUPPORTED, "%s: Gaussians are written to .ply, .compressed.ply, .splat, .spz, .glb, .sog, meta.json and lod-meta.json",
                         path);
     if (gaussians->count == 0 || gaussians->sh_degree > EWA_MAX_SH_DEGREE)
         return ewa_fail(context, EWA_ERROR_ARGUMENT, "%s: there are no Gaussians, or harmonics of degree %u",

@@ -14,11 +14,12 @@ typedef struct ewa_gaussian_target {
     ewa_writer *writer;
     uint32_t sh_degree; ///< that is written, at most that of the set
     uint32_t spz_version;
+    bool keep_order; ///< of SOG, whose pictures are else of neighbours in space
 } ewa_gaussian_target;
 
 typedef ewa_status ewa_gaussian_write(const ewa_gaussian_target *target);
 ewa_gaussian_write ewa_gaussians_write_ply, ewa_gaussians_write_packed_ply, ewa_gaussians_write_splat,
-    ewa_gaussians_write_spz, ewa_gaussians_write_gltf, ewa_gaussians_write_sog;
+    ewa_gaussians_write_spz, ewa_gaussians_write_gltf, ewa_gaussians_write_sog, ewa_gaussians_write_streamed_sog;
 
 /// Writes a number with its lowest byte first and returns what follows.
 static inline uint8_t *ewa_put_u32(uint8_t *to, uint32_t value) {

@@ -234,6 +234,10 @@ static ewa_status begin(writing *w) {
     w->codes = ewa_allocate_zeroed(w->context, w->code_bytes, 1);
     w->order = ewa_allocate(w->context, set->count, sizeof *w->order);
     if (!w->codes || !w->order) return EWA_ERROR_MEMORY;
+    if (w->target->keep_order) {
+        for (uint32_t i = 0; i < set->count; i++) w->order[i] = i;
+        return EWA_OK;
+    }
     return ewa_morton_order(w->context, &position, set->count, w->order, NULL, NULL);
 }
 

@@ -1,0 +1,162 @@
+// SPDX-FileCopyrightText: 2026 The ewa authors
+// SPDX-License-Identifier: MIT
+//
+// lod-meta.json as it is written: its finest level is the set, every other level a quarter of the one before, of which each stands for
+// its neighbours in the same leaf; the same files for every number of threads, and none where one cannot be written.
+#include "gaussian_sample.h"
+#include "scratch.h"
+
+#include <sys/stat.h>
+#include <unistd.h>
+
+enum { COUNT = 20000, LEAVES = 3, LEVELS = 5 };
+
+/// Gaussians of one size and opacity in a cube, so that what stands for some is at the mean of their places.
+static void make_set(ewa_context *context, uint32_t count, uint32_t sh_degree, ewa_gaussians *set) {
+    check_random random = {7};
+    assert_int_equal(ewa_gaussians_create(context, count, sh_degree, set), EWA_OK);
+    const size_t numbers = 3 * (size_t)(sh_degree + 1) * (sh_degree + 1);
+    set->origin[1] = 100;
+    for (size_t i = 0; i < count; i++) {
+        for (size_t k = 0; k < 3; k++) {
+            set->centers[3 * i + k] = (float)check_uniform(&random, -1, 1);
+            set->scales[3 * i + k] = 0.01f;
+        }
+        set->rotations[4 * i] = 1;
+        set->opacities[i] = 0.5f;
+        for (size_t k = 0; k < numbers; k++) set->harmonics[numbers * i + k] = k < 3 ? set->centers[3 * i + k] : 0.25f;
+    }
+}
+
+static const char *level_path(const char *folder, uint32_t level, char path[512]) {
+    char name[64];
+    snprintf(name, sizeof name, "%s/%u_0.sog", folder, level);
+    return scratch_path(name, path);
+}
+
+static const char *make_folder(const char *folder, char path[512]) {
+    char name[64];
+    mkdir(scratch_path(folder, path), 0777);
+    snprintf(name, sizeof name, "%s/lod-meta.json", folder);
+    return scratch_path(name, path);
+}
+
+static void remove_folder(const char *folder) {
+    char path[512], name[64];
+    for (uint32_t level = 0; level < LEVELS; level++) remove(level_path(folder, level, path));
+    snprintf(name, sizeof name, "%s/lod-meta.json", folder);
+    remove(scratch_path(name, path));
+    rmdir(scratch_path(folder, path));
+}
+
+static double world(const ewa_gaussians *set, size_t i, size_t k) { return set->origin[k] + (double)set->centers[3 * i + k]; }
+
+static int compare_places(const void *a, const void *b) {
+    const double *p = a, *q = b;
+    for (int k = 0; k < 3; k++)
+        if (p[k] != q[k]) return p[k] < q[k] ? -1 : 1;
+    return 0;
+}
+
+/// Checks that two sets have the same sorted first coordinates, to within a step.
+static void check_places(const ewa_gaussians *a, const ewa_gaussians *b, double step) {
+    static double places[2][COUNT][3];
+    for (size_t i = 0; i < COUNT; i++)
+        for (size_t k = 0; k < 3; k++) places[0][i][k] = world(a, i, k), places[1][i][k] = world(b, i, k);
+    for (int n = 0; n < 2; n++) qsort(places[n], COUNT, sizeof places[n][0], compare_places);
+    for (size_t i = 0; i < COUNT; i++) assert_true(fabs(places[0][i][0] - places[1][i][0]) < step);
+}
+
+TEST(levels) {
+    ewa_context *context = check_context(2, &(check_log){.count = 0});
+    ewa_gaussians set, all, level;
+    ewa_gaussian_facts facts;
+    char path[512];
+    const char *meta = make_folder("levels", path);
+    make_set(context, COUNT, 1, &set);
+    assert_int_equal(ewa_gaussians_save(&set, meta, NULL), EWA_OK);
+    assert_int_equal(ewa_gaussians_load(context, meta, &all, &facts), EWA_OK);
+    assert_int_equal(facts.format, EWA_GAUSSIANS_STREAMED_SOG);
+    assert_int_equal(all.count, COUNT);
+    assert_int_equal(all.sh_degree, 1);
+    check_places(&set, &all, 1e-3);
+    for (uint32_t l = 1; l < LEVELS; l++) {
+        assert_int_equal(ewa_gaussians_load(context, level_path("levels", l, path), &level, NULL), EWA_OK);
+        size_t at = 0;
+        double wide = 0;
+        for (uint32_t leaf = 0; leaf < LEAVES; leaf++) {
+            const size_t first = (size_t)COUNT / LEAVES * leaf + COUNT % LEAVES * leaf / LEAVES,
+                         end = (size_t)COUNT / LEAVES * (leaf + 1) + COUNT % LEAVES * (leaf + 1) / LEAVES, size = (size_t)1 << 2 * l;
+            for (size_t i = first; i < end; i += size, at++) { // in a leaf, those in a row
+                const size_t last = i + size < end ? i + size : end;
+                double mean[3] = {0};
+                for (size_t m = i; m < last; m++)
+                    for (size_t k = 0; k < 3; k++) mean[k] += world(&all, m, k) / (double)(last - i);
+                for (size_t k = 0; k < 3; k++) {
+                    assert_true(at < level.count && fabs(world(&level, at, k) - mean[k]) < 1e-3);
+                    assert_true(fabs((double)level.harmonics[12 * at + k] - (mean[k] - set.origin[k])) < 0.02); // the mean colour
+                    wide += (double)level.scales[3 * at + k] / (3 * (double)level.count);
+                }
+            }
+        }
+        assert_int_equal(at, level.count);
+        // Groups are as wide as their share of the cube, not strewn over the leaf: a side of s has deviation s / sqrt(12).
+        const double side = 2 * cbrt((double)(1u << 2 * l) / COUNT);
+        assert_true(wide > 0.5 * side / sqrt(12.0) && wide < 1.5 * hypot(side / sqrt(12.0), 0.01));
+        ewa_gaussians_free(&level);
+    }
+    remove_folder("levels");
+    ewa_gaussians_free(&set);
+    ewa_gaussians_free(&all);
+    ewa_context_destroy(&context);
+}
+
+TEST(same_files) {
+    static const char *const names[] = {"one", "three"};
+    char path[512];
+    for (int n = 0; n < 2; n++) {
+        ewa_context *context = check_context(n ? 3 : 1, NULL);
+        ewa_gaussians set;
+        make_set(context, COUNT, 0, &set);
+        assert_int_equal(ewa_gaussians_save(&set, make_folder(names[n], path), NULL), EWA_OK);
+        ewa_gaussians_free(&set);
+        ewa_context_destroy(&context);
+    }
+    for (uint32_t level = 0; level <= LEVELS; level++) {
+        size_t size[2];
+        uint8_t *bytes[2];
+        for (int n = 0; n < 2; n++)
+            bytes[n] = scratch_read(level < LEVELS ? level_path(names[n], level, path) : make_folder(names[n], path), &size[n]);
+        assert_int_equal(size[0], size[1]);
+        assert_memory_equal(bytes[0], bytes[1], size[0]);
+        free(bytes[0]), free(bytes[1]);
+    }
+    remove_folder("one");
+    remove_folder("three");
+}
+
+TEST(refused) {
+    check_log log = {.count = 0};
+    ewa_context *context = check_context(1, &log);
+    ewa_gaussians set;
+    char path[512];
+    make_set(context, 100, 4, &set);
+    make_folder("refused", path);
+    mkdir(level_path("refused", 3, path), 0777); // a folder is in the way
+    assert_int_equal(ewa_gaussians_save(&set, make_folder("refused", path), NULL), EWA_ERROR_IO);
+    assert_true(access(path, F_OK) != 0 && access(level_path("refused", 0, path), F_OK) != 0);
+    rmdir(level_path("refused", 3, path));
+    log.count = 0;
+    assert_int_equal(ewa_gaussians_save(&set, make_folder("refused", path), NULL), EWA_OK);
+    assert_int_equal(log.count, 1); // degree 4 has no room, said once
+    assert_non_null(strstr(log.text, "degree 4"));
+    set.flat = true;
+    for (size_t i = 0; i < set.count; i++) set.scales[3 * i + 2] = 0;
+    assert_int_equal(ewa_gaussians_save(&set, path, NULL), EWA_ERROR_UNSUPPORTED);
+    assert_non_null(strstr(log.text, "have no levels"));
+    remove_folder("refused");
+    ewa_gaussians_free(&set);
+    ewa_context_destroy(&context);
+}
+
+int main(void) { return RUN_TESTS(NULL, NULL); }
