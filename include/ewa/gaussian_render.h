@@ -132,7 +132,7 @@ typedef struct ewa_gaussian_stats {
     uint64_t visible_count; ///< of those: some pixel may show them
     uint64_t near_count;    ///< of those: at the eye, drawn ray by ray
     uint64_t tile_count;    ///< over all tiles: a splat in two counts twice
-    uint64_t block_count;   ///< over blocks of 4x4 pixels: what was evaluated
+    uint64_t block_count;   ///< over blocks of 4x4 pixels, as ellipsoids and dots over tiles: what was evaluated
     uint64_t sorted_count; ///< of those: rows of keys that were sorted; again where only some pixels were due
     double project_s, bin_s, draw_s;
     double total_s; ///< wall clock of the call

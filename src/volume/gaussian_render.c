@@ -319,10 +319,10 @@ static void draw_tile(const ewa_gaussian_job *job, uint32_t index, uint32_t work
                               .first_column = place.x_px % EWA_VOLUME_TILE_PX / 4};
     if (job->solids) {
         ewa_gaussian_solids_draw(job->solids, &tile, scratch->solid.data);
-        return;
+    } else {
+        renderer->kernels->mark(&tile);
+        renderer->kernels->draw(&job->view, &tile, &job->target);
     }
-    renderer->kernels->mark(&tile);
-    renderer->kernels->draw(&job->view, &tile, &job->target);
     scratch->block_count += tile.block_count;
     scratch->sorted_count += tile.sorted_count;
 }

@@ -159,7 +159,7 @@ static void resolve(const ewa_gaussian_solids *solids, const ewa_gaussian_tile *
     }
 }
 
-void ewa_gaussian_solids_draw(const ewa_gaussian_solids *solids, const ewa_gaussian_tile *tile, ewa_solid_samples *samples) {
+void ewa_gaussian_solids_draw(const ewa_gaussian_solids *solids, ewa_gaussian_tile *tile, ewa_solid_samples *samples) {
     for (size_t i = 0; i < EWA_SOLID_TILE_SAMPLES; i++) samples->z[i] = INFINITY;
     for (uint32_t i = 0; i < tile->count; i++) {
         const uint32_t id = tile->ids[i];
@@ -171,6 +171,7 @@ void ewa_gaussian_solids_draw(const ewa_gaussian_solids *solids, const ewa_gauss
             if (tile->records[id][RECORD_ORDER] > farthest) break;
         }
         draw_splat(solids, tile, id, samples);
+        tile->block_count++;
     }
     for (uint32_t row = 0; row < tile->height_px; row++)
         for (uint32_t column = 0; column < tile->width_px; column++) resolve(solids, tile, column, row, samples);

@@ -27,6 +27,6 @@ typedef struct ewa_solid_samples {
 } ewa_solid_samples;
 
 /// Draws the splats of a tile, over what the planes have of it. Any thread, of each tile one.
-void ewa_gaussian_solids_draw(const ewa_gaussian_solids *solids, const ewa_gaussian_tile *tile, ewa_solid_samples *samples);
+void ewa_gaussian_solids_draw(const ewa_gaussian_solids *solids, ewa_gaussian_tile *tile, ewa_solid_samples *samples);
 
 #endif

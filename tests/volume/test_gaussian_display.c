@@ -15,15 +15,17 @@ typedef struct planes {
 
 static const double DIRECTION[3] = {-1, 0.3, 0.5};
 
-static void draw(const ewa_gaussians *set, const ewa_camera *camera, const ewa_gaussian_options *options, planes *to) {
+static ewa_gaussian_stats draw(const ewa_gaussians *set, const ewa_camera *camera, const ewa_gaussian_options *options, planes *to) {
     ewa_gaussian_renderer *renderer = NULL;
     ewa_splats *splats = NULL;
+    ewa_gaussian_stats stats;
     const ewa_frame frame = {.rgba = to->rgba, .depth = to->depth, .normal = to->normal, .coverage = to->coverage};
     assert_int_equal(ewa_splats_create(set, false, &splats), EWA_OK);
     assert_int_equal(ewa_gaussian_renderer_create(set->context, &renderer), EWA_OK);
-    assert_int_equal(ewa_gaussian_render(renderer, splats, camera, options, &frame, NULL), EWA_OK);
+    assert_int_equal(ewa_gaussian_render(renderer, splats, camera, options, &frame, &stats), EWA_OK);
     ewa_gaussian_renderer_destroy(&renderer);
     ewa_splats_destroy(&splats);
+    return stats;
 }
 
 static ewa_gaussian_options options_of(ewa_gaussian_display display) {
@@ -174,6 +176,31 @@ TEST_ON(among_surfaces_and_sections, 2) {
     draw(&set, &camera, &options, &cut);
     const size_t middle = (size_t)(HEIGHT / 2) * WIDTH + WIDTH / 2;
     assert_true(fabs((double)alone.depth[middle] - 3.1) < 0.01 && fabs((double)cut.depth[middle] - 4.9) < 0.01);
+    ewa_gaussians_free(&set);
+}
+
+/// What is hidden everywhere in a tile is not looked at, and changes nothing.
+TEST_ON(hidden_behind, 2) {
+    enum { MANY = 2000 };
+    ewa_gaussians set = gaussians_random(context, MANY, 1, 7);
+    const ewa_camera camera = gaussians_camera(WIDTH, HEIGHT, 40, DIRECTION, 4);
+    const double *m = camera.world_to_camera;
+    const ewa_gaussian_options options = options_of(EWA_DISPLAY_ELLIPSOIDS);
+    static planes all, ball;
+    for (size_t k = 0; k < 3; k++) { // a ball that fills the picture, between the eye and the others
+        const double eye = -(m[k] * m[3] + m[4 + k] * m[7] + m[8 + k] * m[11]);
+        set.centers[k] = (float)(eye + 2 * m[8 + k]);
+        set.scales[k] = 0.8f;
+    }
+    set.opacities[0] = 1;
+    const ewa_gaussian_stats stats = draw(&set, &camera, &options, &all);
+    print_message("hidden: %llu of %llu evaluated\n", (unsigned long long)stats.block_count, (unsigned long long)stats.tile_count);
+    assert_true(stats.block_count > 0 && 2 * stats.block_count < stats.tile_count);
+    set.count = 1;
+    draw(&set, &camera, &options, &ball);
+    set.count = MANY;
+    assert_memory_equal(all.rgba, ball.rgba, sizeof all.rgba);
+    assert_memory_equal(all.depth, ball.depth, sizeof all.depth);
     ewa_gaussians_free(&set);
 }
 
