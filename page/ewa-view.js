@@ -112,7 +112,7 @@ export class EwaView extends HTMLElement {
 
   connectedCallback() {
     this.#observer = new ResizeObserver(() => this.#resize());
-    this.#observer.observe(this);
+    this.#observer.observe(this.#parts.stage);
     if (!this.#worker) this.#list([]);
     if (this.hasAttribute("src")) this.open(this.getAttribute("src"));
   }
@@ -190,7 +190,7 @@ export class EwaView extends HTMLElement {
   }
 
   #size() {
-    const box = this.getBoundingClientRect();
+    const box = this.#parts.stage.getBoundingClientRect();
     return { width: Math.max(1, Math.round(box.width)), height: Math.max(1, Math.round(box.height)), scale: devicePixelRatio || 1 };
   }
 

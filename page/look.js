@@ -81,6 +81,7 @@ dialog td:first-child { font-weight: 600; white-space: nowrap; }
 dialog form { text-align: right; position: sticky; top: 0; }
 dialog form button { background: var(--ground); border-color: var(--edge); }
 @media (max-width: 600px) {
+  .stage { bottom: calc(49px + max(4px, env(safe-area-inset-bottom))); } /* the bar is under the picture, not on it */
   .bar { left: 0; right: 0; top: auto; bottom: 0; border-radius: 12px 12px 0 0; border-width: 1px 0 0;
     flex-wrap: nowrap; justify-content: space-around;
     padding: 4px 4px max(4px, env(safe-area-inset-bottom)); }

@@ -13,7 +13,7 @@ import { Bytes, Files } from "../../page/files.js";
 import { Ranges } from "../../page/ranges.js";
 import { ISOLATED, serve } from "./chromium.mjs";
 import {
-  browser, check, check_quiet, decode, ewa, finish, HEAR, HEIGHT, keep, part, PIXELS, same, scratch, show, shown, view, WIDTH, write_ept, write_kinds,
+  browser, check, check_quiet, decode, ewa, finish, HEAR, HEIGHT, keep, part, PIXELS, same, scratch, SCREEN_HEIGHT, show, shown, view, WIDTH, write_ept, write_kinds,
 } from "./pages.mjs";
 
 // ---- What is shown
@@ -107,7 +107,7 @@ await check("an octree in a folder (EPT): what is seen of it", async () => {
   await near.close();
   // A node that is not there is named.
   rmSync(join(scratch, "levels/hill/ept-data/1-0-0-1.bin"));
-  const broken = await browser.page(`${server.origin}/drop.html?src=levels/hill/ept.json`, { width: WIDTH, height: HEIGHT, before: HEAR });
+  const broken = await browser.page(`${server.origin}/drop.html?src=levels/hill/ept.json`, { width: WIDTH, height: SCREEN_HEIGHT, before: HEAR });
   assert.match((await broken.until(`heard.find((e) => e.type === "error")`, 10)).reason, /1-0-0-1\.bin.*404/s);
   await broken.close();
   server.close();
@@ -233,8 +233,8 @@ await check("hand and keys", async () => {
   assert.match(pick.text, new RegExp(`^point ${number} of torus.ply\nat ${at.replace(/[.+]/g, "\\$&")}\n`));
   assert.deepEqual(pick.place, at.split(" ").map(Number).map((x, i) => pick.place[i] && Math.abs(pick.place[i] - x) < 1e-6 ? pick.place[i] : x));
   assert.equal(await page.evaluate(`${part(".card")}.hidden`), false);
-  await mouse("mousePressed", 200, 240, { modifiers: 8 });
-  await mouse("mouseReleased", 200, 240, { modifiers: 8 });
+  await mouse("mousePressed", 280, 150, { modifiers: 8 });
+  await mouse("mouseReleased", 280, 150, { modifiers: 8 });
   const measure = await page.until(`heard.find((e) => e.type === "measure")`);
   assert.ok(Math.abs(measure.distance - Math.hypot(...measure.to.map((x, i) => x - pick.place[i]))) < 1e-9);
   await keep(page, "measured.png");
@@ -289,6 +289,8 @@ await check("fingers on a phone", async () => {
     assert.ok(label && wide >= 24 && high >= 44, `${label}: ${wide} x ${high}`);
     assert.ok(right <= 390 && bottom <= 844, `${label} is outside`);
   }
+  const [under, bar] = await page.evaluate(`[${part("canvas")}.getBoundingClientRect().bottom, ${part(".bar")}.getBoundingClientRect().top]`);
+  assert.equal(under, bar, "the picture ends where the bar begins");
   await keep(page, "phone.png");
   check_quiet(page, url);
   await page.close();
@@ -364,7 +366,7 @@ await check("attributes, the measure button, the whole screen", async () => {
 
 await check("a file that is dropped, and a module that is none", async () => {
   const server = await serve({ "/": join(scratch, "site"), "/data/": scratch });
-  const page = await browser.page(`${server.origin}/drop.html`, { width: WIDTH, height: HEIGHT, before: HEAR });
+  const page = await browser.page(`${server.origin}/drop.html`, { width: WIDTH, height: SCREEN_HEIGHT, before: HEAR });
   await page.until(`self.heard && ${part(".hint")}.textContent.includes("Drop")`);
   await page.evaluate(`(async () => {
     const bytes = await (await fetch("data/terrain.copc.laz")).arrayBuffer(), drop = new DataTransfer();
@@ -378,7 +380,7 @@ await check("a file that is dropped, and a module that is none", async () => {
   // As where there is no SIMD: an instruction that is none.
   const broken = Buffer.from([0, 97, 115, 109, 1, 0, 0, 0, 1, 4, 1, 96, 0, 0, 3, 2, 1, 0, 10, 5, 1, 3, 0, 255, 11]);
   for (const name of ["page.wasm.gz", "page-relaxed.wasm.gz"]) writeFileSync(join(scratch, "site", name), broken);
-  const old = await browser.page(`${server.origin}/index.html`, { width: WIDTH, height: HEIGHT, before: HEAR });
+  const old = await browser.page(`${server.origin}/index.html`, { width: WIDTH, height: SCREEN_HEIGHT, before: HEAR });
   assert.match((await old.until(`self.heard?.find((e) => e.type === "error")`, 10)).reason, /no WebAssembly with SIMD/);
   await keep(old, "old.png");
   await old.close();

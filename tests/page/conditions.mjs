@@ -11,7 +11,7 @@ import { createServer } from "node:http";
 import { join } from "node:path";
 import { ISOLATED, launch, serve } from "./chromium.mjs";
 import {
-  browser, check, check_quiet, chromium, ewa, finish, HEAR, HEIGHT, PIXELS, processors, program, same, scratch, show, shown, view, WIDTH, write_mesh,
+  browser, check, check_quiet, chromium, ewa, finish, HEAR, HEIGHT, PIXELS, processors, program, same, scratch, SCREEN_HEIGHT, show, shown, view, WIDTH, write_mesh,
 } from "./pages.mjs";
 
 const SIZE = `${WIDTH}x${HEIGHT}`;
@@ -43,7 +43,7 @@ await check("a thread that fails ends the module, which is said", async () => {
   const script = readFileSync(join(site, "threads.js"), "utf8");
   writeFileSync(join(scratch, "threads.js"), script.replace("exports.page_thread_begin(threads, number, stack);", "exports.page_thread_failed(threads);"));
   assert.notEqual(script, readFileSync(join(scratch, "threads.js"), "utf8"));
-  const page = await browser.page(`${server.origin}/index.html`, { width: WIDTH, height: HEIGHT, before: processors(2) + HEAR });
+  const page = await browser.page(`${server.origin}/index.html`, { width: WIDTH, height: SCREEN_HEIGHT, before: processors(2) + HEAR });
   assert.ok(await page.until(`self.heard?.find((e) => e.type === "error" && /unreachable/.test(e.reason))`, 20));
   await page.close();
   server.close();
@@ -200,7 +200,7 @@ await check("a tab with little memory", async () => {
   const small = await launch(chromium, ["--js-flags=--wasm-max-mem-pages=400"]);
   try {
     ewa("generate", "torus", "-n", "300000", "-o", "large.ply");
-    const server = await serve({ "/": site, "/data/": scratch }), page = await small.page(`${server.origin}/drop.html?src=data/torus.ply`, { width: WIDTH, height: HEIGHT, before: HEAR });
+    const server = await serve({ "/": site, "/data/": scratch }), page = await small.page(`${server.origin}/drop.html?src=data/torus.ply`, { width: WIDTH, height: SCREEN_HEIGHT, before: HEAR });
     await shown(page);
     await page.evaluate(`(heard.length = 0, ${view}.open("data/large.ply"))`);
     assert.match((await page.until(`heard.find((e) => e.type === "error")`, 30)).reason, /memory/);

@@ -11,6 +11,7 @@ import { launch } from "./chromium.mjs";
 
 export const [program, scratch, pictures] = process.argv.slice(2).map((path) => resolve(path));
 export const WIDTH = 400, HEIGHT = 300;
+export const SCREEN_HEIGHT = HEIGHT + 53; // on a screen this narrow the bar is under the picture
 
 function skip(why) {
   console.log(`skipped: ${why}`);
@@ -61,7 +62,7 @@ export async function finish() {
 }
 
 export async function show(url, options) {
-  const page = await browser.page(url, { width: WIDTH, height: HEIGHT, before: HEAR, ...options });
+  const page = await browser.page(url, { width: WIDTH, height: SCREEN_HEIGHT, before: HEAR, ...options });
   await shown(page);
   return page;
 }
