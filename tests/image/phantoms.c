@@ -4,6 +4,7 @@
 // Volumes like those of scanners.
 #include "image/phantoms.h"
 #include "check.h"
+#include "image/transfer.h"
 
 #include <math.h>
 
@@ -202,4 +203,17 @@ phantom_seen phantom_look(const phantom *scene, const ewa_volume *volume, const 
         }
     return (phantom_seen){with > 0 ? object / with : 0, without > 0 ? elsewhere / without : 0,
                           with > 0 ? opacity / with : 0};
+}
+
+ewa_transfer phantom_transfer(const ewa_volume *volume) {
+    ewa_volume_facts facts;
+    ewa_transfer transfer;
+    assert_int_equal(ewa_volume_measure(volume, &facts), EWA_OK);
+    assert_int_equal(ewa_transfer_automatic(volume, &facts, &transfer), EWA_OK);
+    assert_int_equal(ewa_transfer_check(volume->context, "automatic", &transfer), EWA_OK);
+    return transfer;
+}
+
+void phantom_expect(const char *what, double value, double low, double high) {
+    if (!(value >= low && value <= high)) fail_msg("%s: %g, wanted %g to %g", what, value, low, high);
 }

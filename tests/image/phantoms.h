@@ -61,4 +61,10 @@ typedef struct phantom_seen {
 phantom_seen phantom_look(const phantom *scene, const ewa_volume *volume, const ewa_transfer *transfer,
                           unsigned materials);
 
+/// The transfer function that is chosen for a volume.
+ewa_transfer phantom_transfer(const ewa_volume *volume);
+
+/// Fails the test, with `what`, where a value is not within its limits.
+void phantom_expect(const char *what, double value, double low, double high);
+
 #endif

@@ -12,19 +12,6 @@
 
 enum { ALL_TREE = 1 << PHANTOM_LEAVES | 1 << PHANTOM_WOOD | 1 << PHANTOM_POT };
 
-static ewa_transfer look_of(const ewa_volume *volume) {
-    ewa_volume_facts facts;
-    ewa_transfer transfer;
-    assert_int_equal(ewa_volume_measure(volume, &facts), EWA_OK);
-    assert_int_equal(ewa_transfer_automatic(volume, &facts, &transfer), EWA_OK);
-    assert_int_equal(ewa_transfer_check(volume->context, "automatic", &transfer), EWA_OK);
-    return transfer;
-}
-
-static void expect(const char *what, double value, double low, double high) {
-    if (!(value >= low && value <= high)) fail_msg("%s: %g, wanted %g to %g", what, value, low, high);
-}
-
 /// A tree in noisy air, whatever the noise, with and without zeros around it.
 TEST_ON(test_bonsai, 1) {
     static const phantom_scan scans[] = {
@@ -34,14 +21,14 @@ TEST_ON(test_bonsai, 1) {
         phantom_add_bonsai(&scene, 50 + scans[n].air, 70 + scans[n].air, 90 + scans[n].air,
                            130 + scans[n].air);
         ewa_volume volume = phantom_scan_it(context, &scene, &scans[n]);
-        const ewa_transfer transfer = look_of(&volume);
+        const ewa_transfer transfer = phantom_transfer(&volume);
         const phantom_seen tree = phantom_look(&scene, &volume, &transfer, ALL_TREE);
         const phantom_seen leaves = phantom_look(&scene, &volume, &transfer, 1 << PHANTOM_LEAVES);
         print_message("scan %zu: tree %.2f, elsewhere %.3f; leaves %.2f\n", n, tree.object, tree.elsewhere,
                       leaves.object);
-        expect("tree", tree.object, 0.7, 1);
-        expect("air", tree.elsewhere, 0, 0.04); // borders are blurred
-        expect("leaves", leaves.object, 0.35, 1);
+        phantom_expect("tree", tree.object, 0.7, 1);
+        phantom_expect("air", tree.elsewhere, 0, 0.04); // borders are blurred
+        phantom_expect("leaves", leaves.object, 0.35, 1);
         ewa_volume_free(&volume);
         phantom_free(&scene);
     }
@@ -61,11 +48,11 @@ TEST_ON(test_walnut, 1) {
         phantom_add_walnut(&scene, cases[n].cup, cases[n].thick, cases[n].lid, cases[n].shell,
                            cases[n].kernel);
         ewa_volume volume = phantom_scan_it(context, &scene, &cases[n].scan);
-        const ewa_transfer transfer = look_of(&volume);
+        const ewa_transfer transfer = phantom_transfer(&volume);
         const phantom_seen nut = phantom_look(&scene, &volume, &transfer, 1 << PHANTOM_NUT);
         print_message("case %zu: nut %.2f, elsewhere %.3f\n", n, nut.object, nut.elsewhere);
-        expect("nut", nut.object, 0.8, 1);
-        expect("cup", nut.elsewhere, 0, 0.05);
+        phantom_expect("nut", nut.object, 0.8, 1);
+        phantom_expect("cup", nut.elsewhere, 0, 0.05);
         ewa_volume_free(&volume);
         phantom_free(&scene);
     }
@@ -78,13 +65,13 @@ TEST_ON(test_heads, 1) {
     phantom_add_head(&scene, 70, 72, 170);
     const phantom_scan tomograph = {4, 2, false};
     ewa_volume volume = phantom_scan_it(context, &scene, &tomograph);
-    ewa_transfer transfer = look_of(&volume);
+    ewa_transfer transfer = phantom_transfer(&volume);
     const phantom_seen bone = phantom_look(&scene, &volume, &transfer, 1 << PHANTOM_BONE);
     const phantom_seen soft = phantom_look(&scene, &volume, &transfer, 1 << PHANTOM_SOFT);
     print_message("CT: bone %.2f, soft %.2f, elsewhere %.3f\n", bone.object, soft.object, soft.elsewhere);
-    expect("bone", bone.object, 0.4, 0.95);
-    expect("soft matter", soft.object, 0.08, 0.6);
-    expect("air", soft.elsewhere, 0, 0.02);
+    phantom_expect("bone", bone.object, 0.4, 0.95);
+    phantom_expect("soft matter", soft.object, 0.08, 0.6);
+    phantom_expect("air", soft.elsewhere, 0, 0.02);
     ewa_volume_free(&volume);
     phantom_free(&scene);
 
@@ -95,11 +82,11 @@ TEST_ON(test_heads, 1) {
     // Masked, as it often comes.
     for (int i = 0; i < PHANTOM_VOXELS; i++)
         if (scene.material[i] == PHANTOM_AIR) ((uint8_t *)volume.voxels)[i] = 0;
-    transfer = look_of(&volume);
+    transfer = phantom_transfer(&volume);
     const phantom_seen head = phantom_look(&scene, &volume, &transfer, 1 << PHANTOM_SOFT | 1 << PHANTOM_BONE);
     print_message("MR: head %.2f, elsewhere %.3f\n", head.opacity, head.elsewhere);
-    expect("head", head.opacity, 0.85, 1);
-    expect("outside", head.elsewhere, 0, 0.02);
+    phantom_expect("head", head.opacity, 0.85, 1);
+    phantom_expect("outside", head.elsewhere, 0, 0.02);
     ewa_volume_free(&volume);
     phantom_free(&scene);
 }
@@ -111,7 +98,7 @@ TEST_ON(test_same_look, 1) {
     const phantom_scan scan = {12, 5, true};
     ewa_volume volume = phantom_scan_it(context, &scene, &scan);
     const uint8_t *voxels = volume.voxels;
-    const ewa_transfer first = look_of(&volume);
+    const ewa_transfer first = phantom_transfer(&volume);
     ewa_volume other;
     assert_int_equal(ewa_volume_create(context, volume.dims, EWA_F32, &other), EWA_OK);
     float *numbers = other.voxels;
@@ -132,7 +119,7 @@ TEST_ON(test_same_look, 1) {
             for (int i = 0; i < 40; i++) numbers[7919 * (i + 1)] = i % 2 ? 1e30f : -1e30f;
             numbers[4] = NAN, numbers[77777] = INFINITY;
         }
-        const ewa_transfer transfer = look_of(&other);
+        const ewa_transfer transfer = phantom_transfer(&other);
         // A point more goes to what is far off.
         assert_true(transfer.point_count == first.point_count);
         for (uint32_t i = 0; i + 1 < first.point_count; i++) {
@@ -174,7 +161,7 @@ TEST_ON(test_odd_volumes, 1) {
             ewa_volume_facts facts;
             assert_int_equal(ewa_volume_measure(&volume, &facts), EWA_OK);
             if (facts.low < facts.high) {
-                const ewa_transfer transfer = look_of(&volume);
+                const ewa_transfer transfer = phantom_transfer(&volume);
                 const ewa_transfer_point *last = &transfer.points[transfer.point_count - 1];
                 assert_true(last->value >= (double)largest && last->extinction > 0);
                 // One slice is a picture, of which all is seen.
@@ -193,10 +180,10 @@ TEST_ON(test_full_volume, 1) {
         if (i / PHANTOM_SIDE % PHANTOM_SIDE > 40) scene.values[i] = 160, scene.material[i] = PHANTOM_SOFT;
     const phantom_scan scan = {40, 3, false};
     ewa_volume volume = phantom_scan_it(context, &scene, &scan);
-    const ewa_transfer transfer = look_of(&volume);
+    const ewa_transfer transfer = phantom_transfer(&volume);
     const phantom_seen dense = phantom_look(&scene, &volume, &transfer, 1 << PHANTOM_SOFT);
-    expect("dense half", dense.object, 0.85, 1);
-    expect("other half", dense.elsewhere, 0, 0.05);
+    phantom_expect("dense half", dense.object, 0.85, 1);
+    phantom_expect("other half", dense.elsewhere, 0, 0.05);
     ewa_volume_free(&volume);
     phantom_free(&scene);
 }
@@ -212,9 +199,9 @@ TEST_ON(test_highest_class, 1) {
     memset(voxels, 254, (size_t)SIDE * SIDE * SIDE);
     memset(voxels, 255, 50);
     voxels[(size_t)5 * SIDE * SIDE + SIDE + 7] = 0;
-    const ewa_transfer transfer = look_of(&volume);
+    const ewa_transfer transfer = phantom_transfer(&volume);
     for (uint32_t i = 0; i < transfer.point_count; i++)
-        expect("point", transfer.points[i].value, 254.4999, 255);
+        phantom_expect("point", transfer.points[i].value, 254.4999, 255);
     ewa_volume_free(&volume);
 }
 
@@ -242,9 +229,9 @@ TEST_ON(test_sight, 1) {
                 ((uint8_t *)volume.voxels)[i] = column[i] == 'i' ? 200 : column[i] == 'o' ? 100 : 3;
             ewa_volume_sight sight;
             assert_int_equal(ewa_volume_sight_measure(&volume, 100, 200, &sight), EWA_OK);
-            expect(column, sight.hit, cases[n].hit, cases[n].hit);
-            expect(column, sight.hidden, cases[n].hidden, cases[n].hidden);
-            expect(column, sight.apart, cases[n].apart, cases[n].apart);
+            phantom_expect(column, sight.hit, cases[n].hit, cases[n].hit);
+            phantom_expect(column, sight.hidden, cases[n].hidden, cases[n].hidden);
+            phantom_expect(column, sight.apart, cases[n].apart, cases[n].apart);
             ewa_volume_free(&volume);
         }
     }

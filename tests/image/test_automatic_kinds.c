@@ -21,19 +21,6 @@ static ewa_volume_kind kind_of(const ewa_volume *volume) {
     return ewa_volume_find_kind(volume, &facts, &surfaces, &labels);
 }
 
-static ewa_transfer look_of(const ewa_volume *volume) {
-    ewa_volume_facts facts;
-    ewa_transfer transfer;
-    assert_int_equal(ewa_volume_measure(volume, &facts), EWA_OK);
-    assert_int_equal(ewa_transfer_automatic(volume, &facts, &transfer), EWA_OK);
-    assert_int_equal(ewa_transfer_check(volume->context, "automatic", &transfer), EWA_OK);
-    return transfer;
-}
-
-static void expect(const char *what, double value, double low, double high) {
-    if (!(value >= low && value <= high)) fail_msg("%s: %g, wanted %g to %g", what, value, low, high);
-}
-
 static ewa_volume make_volume(ewa_context *context, ewa_type type) {
     ewa_volume volume;
     assert_int_equal(ewa_volume_create(context, (const uint32_t[3]){SIDE, SIDE, SIDE}, type, &volume),
@@ -94,21 +81,21 @@ TEST_ON(test_labels, 1) {
         const bool body = n >= 3;
         fill_labels(&volume, body);
         assert_int_equal(kind_of(&volume), EWA_KIND_LABELS);
-        const ewa_transfer transfer = look_of(&volume);
+        const ewa_transfer transfer = phantom_transfer(&volume);
         double color[3];
-        expect("surroundings", look_up(&transfer, 0, color), 0, 0);
+        phantom_expect("surroundings", look_up(&transfer, 0, color), 0, 0);
         for (int c = body ? 0 : 1; c < 8; c++) {
             uint8_t srgb[3];
             ewa_class_color((uint32_t)codes[c], srgb);
             const double extinction = look_up(&transfer, codes[c], color);
             for (int k = 0; k < 3; k++)
-                expect("colour", color[k], ewa_srgb_decoded[srgb[k]] - 1e-6,
+                phantom_expect("colour", color[k], ewa_srgb_decoded[srgb[k]] - 1e-6,
                        ewa_srgb_decoded[srgb[k]] + 1e-6);
             // 128 units of length are a side: a body is crossed along 100 of them, an organ along 20.
             if (c == 0)
-                expect("depth of the body", 100 * extinction, 0.3, 1);
+                phantom_expect("depth of the body", 100 * extinction, 0.3, 1);
             else
-                expect("depth of an organ", 20 * extinction, 5, 1000);
+                phantom_expect("depth of an organ", 20 * extinction, 5, 1000);
         }
         ewa_volume_free(&volume);
     }
@@ -161,14 +148,14 @@ TEST_ON(test_field, 1) {
             numbers[i] = (float)(scale * psi * psi);
         }
         assert_int_equal(kind_of(&volume), EWA_KIND_FIELD);
-        const ewa_transfer transfer = look_of(&volume);
+        const ewa_transfer transfer = phantom_transfer(&volume);
         const int middle = SIDE / 2, reach = 9; // the density is largest 6 of 22 from the middle
         print_message(
             "lobe %.2f, ring %.2f, far off %.3f\n", depth_along(&volume, &transfer, middle, middle + reach),
             depth_along(&volume, &transfer, middle + reach, middle), depth_along(&volume, &transfer, 2, 2));
-        expect("lobe", depth_along(&volume, &transfer, middle, middle + reach), 3, 1000);
-        expect("ring", depth_along(&volume, &transfer, middle + reach, middle), 0.4, 8);
-        expect("far off", depth_along(&volume, &transfer, 2, 2), 0, 0);
+        phantom_expect("lobe", depth_along(&volume, &transfer, middle, middle + reach), 3, 1000);
+        phantom_expect("ring", depth_along(&volume, &transfer, middle + reach, middle), 0.4, 8);
+        phantom_expect("far off", depth_along(&volume, &transfer, 2, 2), 0, 0);
     }
     ewa_volume_free(&volume);
 }
@@ -182,10 +169,10 @@ TEST_ON(test_full_field, 1) {
         ((float *)volume.voxels)[i] = (float)(sin(9 * p[0]) + sin(8 * p[1]) + cos(7 * p[2]));
     }
     assert_int_equal(kind_of(&volume), EWA_KIND_FIELD);
-    const ewa_transfer transfer = look_of(&volume);
+    const ewa_transfer transfer = phantom_transfer(&volume);
     double color[3];
-    expect("low", look_up(&transfer, -2.5, color), 0, 0);
-    expect("outermost shell", transfer.points[1].value, 0.5, 2);
+    phantom_expect("low", look_up(&transfer, -2.5, color), 0, 0);
+    phantom_expect("outermost shell", transfer.points[1].value, 0.5, 2);
     assert_true(look_up(&transfer, 2.9, color) > 0.5);
     ewa_volume_free(&volume);
 }
@@ -202,17 +189,17 @@ TEST_ON(test_picture, 1) {
             ((uint8_t *)volume.voxels)[i] =
                 (uint8_t)(i % SIDE * 255 / (SIDE - 1) / 2 + check_uniform(&random, 0, 120));
         assert_int_equal(kind_of(&volume), EWA_KIND_PICTURE);
-        const ewa_transfer transfer = look_of(&volume);
+        const ewa_transfer transfer = phantom_transfer(&volume);
         ewa_volume_facts facts;
         assert_int_equal(ewa_volume_measure(&volume, &facts), EWA_OK);
         double last = -1;
         for (int value = (int)facts.low; value <= (int)facts.high; value++) {
             double color[3];
-            expect("extinction of a voxel", look_up(&transfer, value, color), 5, 1000);
+            phantom_expect("extinction of a voxel", look_up(&transfer, value, color), 5, 1000);
             assert_true(color[0] == color[1] && color[1] == color[2] && color[0] >= last);
             last = color[0];
         }
-        expect("white", last, 1, 1);
+        phantom_expect("white", last, 1, 1);
         ewa_volume_free(&volume);
     }
 }
@@ -225,12 +212,12 @@ TEST(test_noise) {
     check_random random = {11};
     for (int i = 0; i < ALL; i++) ((uint8_t *)volume.voxels)[i] = (uint8_t)check_uniform(&random, 0, 256);
     assert_int_equal(kind_of(&volume), EWA_KIND_NOISE);
-    const ewa_transfer transfer = look_of(&volume);
+    const ewa_transfer transfer = phantom_transfer(&volume);
     assert_int_equal(log.count, 1);
     assert_non_null(strstr(log.text, "nothing in common"));
     double depth = 0, color[3];
     for (int value = 0; value < 256; value++) depth += 128 * look_up(&transfer, value, color) / 256;
-    expect("depth through the box", depth, 0.5, 3);
+    phantom_expect("depth through the box", depth, 0.5, 3);
     ewa_volume_free(&volume);
     phantom scene = phantom_make(12);
     phantom_add_bonsai(&scene, 50, 70, 90, 130);
@@ -255,10 +242,10 @@ TEST_ON(test_packed, 1) {
     }
     const phantom_scan scan = {12, 5, false};
     ewa_volume volume = phantom_scan_it(context, &scene, &scan);
-    const ewa_transfer transfer = look_of(&volume);
+    const ewa_transfer transfer = phantom_transfer(&volume);
     const phantom_seen nut = phantom_look(&scene, &volume, &transfer, 1 << PHANTOM_NUT);
     print_message("packed nut %.2f\n", nut.object);
-    expect("nut", nut.object, 0.69, 1); // 0.67 by the mean chord of the foam's pieces
+    phantom_expect("nut", nut.object, 0.69, 1); // 0.67 by the mean chord of the foam's pieces
     ewa_volume_free(&volume);
     phantom_free(&scene);
 }

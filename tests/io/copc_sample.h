@@ -193,6 +193,21 @@ static inline void copc_free_all(ewa_cloud **clouds, uint32_t count) {
     free(clouds);
 }
 
+/// Opens an octree and reads all of its nodes; the first failure.
+static inline ewa_status copc_open_and_read(ewa_context *of, const char *name) {
+    ewa_octree *octree = NULL;
+    ewa_status status = ewa_octree_open(of, name, &octree);
+    if (status == EWA_OK) {
+        const uint32_t count = ewa_octree_describe(octree)->node_count;
+        ewa_cloud **clouds = copc_read_all(octree, &status);
+        copc_free_all(clouds, count);
+    } else {
+        assert_null(octree);
+    }
+    ewa_octree_close(&octree);
+    return status;
+}
+
 /// Holds the points of all nodes to those of a cloud: same attributes, origin and numbers.
 static inline void copc_expect(ewa_octree *octree, ewa_cloud *whole) {
     const ewa_octree_facts *facts = ewa_octree_describe(octree);

@@ -444,18 +444,9 @@ TEST_WITHIN(refuses_what_it_cannot_write, begin, end) {
 
 /// Opens the bytes as a file and reads all nodes; the first failure.
 static ewa_status try_bytes(const uint8_t *bytes, size_t size_bytes) {
-    ewa_octree *octree = NULL;
     messages = (check_log){0};
     scratch_write(path, bytes, size_bytes);
-    ewa_status status = ewa_octree_open(context, path, &octree);
-    if (status == EWA_OK) {
-        const uint32_t count = ewa_octree_describe(octree)->node_count;
-        ewa_cloud **clouds = copc_read_all(octree, &status);
-        copc_free_all(clouds, count);
-    } else {
-        assert_null(octree);
-    }
-    ewa_octree_close(&octree);
+    const ewa_status status = copc_open_and_read(context, path);
     if (status != EWA_OK) assert_true(strncmp(messages.text, path, strlen(path)) == 0);
     return status;
 }
@@ -540,16 +531,8 @@ TEST_WITHIN(is_no_other_file, begin, end) {
 static ewa_status write_and_read(ewa_context *failing, void *user) {
     const copc_nodes *nodes = user;
     const ewa_octree_plan plan = copc_plan(nodes->pieces[0]);
-    ewa_status status = copc_write(failing, path, &plan, nodes, 5);
-    ewa_octree *octree = NULL;
-    if (status == EWA_OK) status = ewa_octree_open(failing, path, &octree);
-    if (status == EWA_OK) {
-        const uint32_t count = ewa_octree_describe(octree)->node_count;
-        ewa_cloud **clouds = copc_read_all(octree, &status);
-        copc_free_all(clouds, count);
-    }
-    ewa_octree_close(&octree);
-    return status;
+    EWA_TRY(copc_write(failing, path, &plan, nodes, 5));
+    return copc_open_and_read(failing, path);
 }
 
 TEST_WITHIN(survives_memory_that_fails, begin, end) {

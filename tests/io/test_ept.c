@@ -218,15 +218,8 @@ static ewa_octree *open_folder(const char *path) {
 
 /// Opens the folder and reads all of it; the first failure.
 static ewa_status try_folder(void) {
-    ewa_octree *octree = NULL;
     messages = (check_log){0};
-    ewa_status status = ewa_octree_open(context, folder, &octree);
-    if (status == EWA_OK) {
-        const uint32_t count = ewa_octree_describe(octree)->node_count;
-        ewa_cloud **clouds = copc_read_all(octree, &status);
-        copc_free_all(clouds, count);
-    }
-    ewa_octree_close(&octree);
+    const ewa_status status = copc_open_and_read(context, folder);
     assert_true(status == EWA_OK || strncmp(messages.text, folder, strlen(folder)) == 0);
     return status;
 }
@@ -515,15 +508,7 @@ TEST_WITHIN(survives_changed_bytes, begin, end) {
 
 static ewa_status open_and_read(ewa_context *failing, void *user) {
     (void)user;
-    ewa_octree *octree = NULL;
-    ewa_status status = ewa_octree_open(failing, folder, &octree);
-    if (status == EWA_OK) {
-        const uint32_t count = ewa_octree_describe(octree)->node_count;
-        ewa_cloud **clouds = copc_read_all(octree, &status);
-        copc_free_all(clouds, count);
-    }
-    ewa_octree_close(&octree);
-    return status;
+    return copc_open_and_read(failing, folder);
 }
 
 TEST_WITHIN(survives_memory_that_fails, begin, end) {

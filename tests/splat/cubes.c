@@ -49,15 +49,6 @@ void cubes_free(cubes *made) {
     for (uint32_t i = 0; i < made->count; i++) ewa_surfels_destroy(&made->part[i]);
 }
 
-void cubes_hold_same(const picture *a, const picture *b) {
-    const size_t count = (size_t)a->width_px * a->height_px;
-    assert_memory_equal(a->frame.rgba8, b->frame.rgba8, 4 * count);
-    assert_memory_equal(a->frame.rgba, b->frame.rgba, 16 * count);
-    assert_memory_equal(a->frame.depth, b->frame.depth, 4 * count);
-    assert_memory_equal(a->frame.normal, b->frame.normal, 12 * count);
-    assert_memory_equal(a->frame.coverage, b->frame.coverage, 4 * count);
-}
-
 uint32_t cubes_largest_step(const picture *a, const picture *b) {
     uint32_t largest = 0;
     for (size_t i = 0; i < 4 * (size_t)a->width_px * a->height_px; i++) {

@@ -20,9 +20,6 @@ typedef struct cubes {
 cubes cubes_make(const ewa_cloud *cloud, uint32_t per_axis);
 void cubes_free(cubes *made);
 
-/// Fails the test unless all planes are the same bytes.
-void cubes_hold_same(const picture *a, const picture *b);
-
 /// The largest difference of two bytes of the colours.
 uint32_t cubes_largest_step(const picture *a, const picture *b);
 

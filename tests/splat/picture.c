@@ -221,14 +221,25 @@ scene picture_small_scene(ewa_context *context, scene_kind kind) {
     return made;
 }
 
+void picture_expect_same(const picture *a, const picture *b) {
+    const size_t count = (size_t)a->width_px * a->height_px;
+    assert_memory_equal(a->frame.rgba8, b->frame.rgba8, 4 * count);
+    assert_memory_equal(a->frame.rgba, b->frame.rgba, 16 * count);
+    assert_memory_equal(a->frame.depth, b->frame.depth, 4 * count);
+    assert_memory_equal(a->frame.normal, b->frame.normal, 12 * count);
+    assert_memory_equal(a->frame.coverage, b->frame.coverage, 4 * count);
+}
+
+void picture_set_orthographic(scene *of) {
+    ewa_bounds bounds;
+    const double direction[3] = {0.3, 0.8, -0.5}, up[3] = {0, 0, 1};
+    assert_int_equal(ewa_cloud_measure(of->cloud, &bounds), EWA_OK);
+    assert_int_equal(ewa_camera_set_ortho(&of->camera, 1), EWA_OK);
+    assert_int_equal(ewa_camera_frame(&of->camera, &bounds, direction, up, 0.05), EWA_OK);
+}
+
 void picture_hold(scene *of, const ewa_render_options *options, bool orthographic, const char *what) {
-    if (orthographic) {
-        ewa_bounds bounds;
-        const double direction[3] = {0.3, 0.8, -0.5}, up[3] = {0, 0, 1};
-        assert_int_equal(ewa_cloud_measure(of->cloud, &bounds), EWA_OK);
-        assert_int_equal(ewa_camera_set_ortho(&of->camera, 1), EWA_OK);
-        assert_int_equal(ewa_camera_frame(&of->camera, &bounds, direction, up, 0.05), EWA_OK);
-    }
+    if (orthographic) picture_set_orthographic(of);
     picture reference = picture_of_scene(of, NULL, options);
     picture fast = picture_draw(ewa_cloud_context(of->cloud), of->cloud, &of->camera, NULL, options);
     const picture_report report = picture_compare(&reference, &fast, 2e-3, NULL);

@@ -69,6 +69,12 @@ typedef struct picture_report {
 picture_report picture_compare(const picture *reference, const picture *other, double threshold,
                                const uint8_t *mask);
 
+/// Fails the test where two pictures of one size differ in a byte of a plane.
+void picture_expect_same(const picture *a, const picture *b);
+
+/// Sets an orthographic camera that frames the cloud.
+void picture_set_orthographic(scene *of);
+
 /// Prints the report in one line.
 void picture_print(const char *name, const picture_report *report);
 

@@ -94,7 +94,7 @@ static void hold_bands(const bench *b, const ewa_render_options *options, bool s
             assert_memory_equal(&banded->frame.coverage[i], "\xa5\xa5\xa5\xa5", 4);
         }
     }
-    cubes_hold_same(whole, banded);
+    picture_expect_same(whole, banded);
 }
 
 static void hold(scene_kind kind, const ewa_render_options *options, bool clips, const char *what) {
@@ -111,7 +111,7 @@ static void hold(scene_kind kind, const ewa_render_options *options, bool clips,
             assert_true(proxy_count > 0 || kind == SCENE_NEAR);
         }
         hold_bands(&b, options, seen, i ? &whole : &first, &banded);
-        if (i) cubes_hold_same(&first, &whole);
+        if (i) picture_expect_same(&first, &whole);
         stop(&b);
     }
     picture done[] = {whole, banded, first};
@@ -204,7 +204,7 @@ TEST_ON(test_proxy_facts, 2) {
         assert_int_equal(ewa_render_finish(renderer, &stats), EWA_OK);
         assert_int_equal(stats.splat_count, ewa_cloud_point_count(of.cloud) + (i == 0 ? FEW : 0));
     }
-    cubes_hold_same(&drawn[0], &drawn[1]);
+    picture_expect_same(&drawn[0], &drawn[1]);
     const size_t bytes = (size_t)16 * WIDTH * HEIGHT; // without the proxy the picture is another one
     assert_true(memcmp(drawn[0].frame.rgba, drawn[2].frame.rgba, bytes) != 0);
     for (int i = 0; i < 3; i++) picture_free(&drawn[i]), ewa_surfels_destroy(&surfels[i]);

@@ -78,13 +78,6 @@ static double psnr(const picture *a, const picture *b) {
     return sum > 0 ? -10 * log10(sum / (double)count) : INFINITY;
 }
 
-static void hold_same(const picture *a, const picture *b) {
-    const size_t count = (size_t)a->width_px * a->height_px;
-    assert_memory_equal(a->frame.rgba, b->frame.rgba, 16 * count);
-    assert_memory_equal(a->frame.depth, b->frame.depth, 4 * count);
-    assert_memory_equal(a->frame.coverage, b->frame.coverage, 4 * count);
-}
-
 /// Two parts of a cloud make the picture of the whole, in either order the same.
 static void hold_parts(scene_kind kind, sort_point *sort, bool materials, const ewa_render_options *options,
                        double min_db, const char *what) {
@@ -101,7 +94,7 @@ static void hold_parts(scene_kind kind, sort_point *sort, bool materials, const 
     draw(renderer, (const ewa_surfels *[]){whole}, 1, &of, options, &drawn[0]);
     draw(renderer, (const ewa_surfels *[]){part[0], part[1]}, 2, &of, options, &drawn[1]);
     draw(renderer, (const ewa_surfels *[]){part[1], part[0]}, 2, &of, options, &drawn[2]);
-    hold_same(&drawn[1], &drawn[2]);
+    picture_expect_same(&drawn[1], &drawn[2]);
     const double db = psnr(&drawn[0], &drawn[1]);
     print_message("%s, %s: two sources %.1f dB from one\n", scene_name(kind), what, db);
     assert_true(db > min_db);
@@ -172,7 +165,7 @@ TEST(test_refusals) {
     // What was refused leaves the frame as it was.
     assert_int_equal(ewa_render_finish(renderer, NULL), EWA_OK);
     assert_int_equal(ewa_render(renderer, three, &of.camera, NULL, &other.frame, NULL), EWA_OK);
-    hold_same(&drawn, &other);
+    picture_expect_same(&drawn, &other);
     // A frame ends when it is finished, and when another is begun.
     assert_int_equal(ewa_render_finish(renderer, NULL), EWA_ERROR_ARGUMENT);
     assert_int_equal(ewa_render_begin(renderer, &of.camera, NULL, &drawn.frame), EWA_OK);
@@ -273,7 +266,7 @@ static void hold_stop(uint32_t threads, bool foreign_executor) {
     // The renderer is as good as new.
     self.stop_at = 0;
     assert_int_equal(ewa_render(renderer, surfels, &of.camera, NULL, &other.frame, NULL), EWA_OK);
-    hold_same(&first, &other);
+    picture_expect_same(&first, &other);
     assert_true(self.from_caller);
     picture_free(&first);
     picture_free(&other);

@@ -66,13 +66,7 @@ static scene make_scene(ewa_context *context, scene_kind kind, bool orthographic
     scene made;
     assert_int_equal(scene_make(context, kind, POINTS, SIDE_PX, SIDE_PX, &made), EWA_OK);
     shade_set_material(made.cloud, slab);
-    if (orthographic) {
-        ewa_bounds bounds;
-        const double direction[3] = {0.3, 0.8, -0.5}, up[3] = {0, 0, 1};
-        assert_int_equal(ewa_cloud_measure(made.cloud, &bounds), EWA_OK);
-        assert_int_equal(ewa_camera_set_ortho(&made.camera, 1), EWA_OK);
-        assert_int_equal(ewa_camera_frame(&made.camera, &bounds, direction, up, 0.05), EWA_OK);
-    }
+    if (orthographic) picture_set_orthographic(&made);
     return made;
 }
 

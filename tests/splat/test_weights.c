@@ -44,7 +44,7 @@ static void hold_halves(scene_kind kind, const ewa_render_options *options, bool
     assert_int_equal(ewa_render_begin(renderer, &of.camera, options, &to[1].frame), EWA_OK);
     assert_int_equal(ewa_render_add_weighted(renderer, surfels, 1), EWA_OK);
     assert_int_equal(ewa_render_finish(renderer, NULL), EWA_OK);
-    if (!bytes_only) cubes_hold_same(&drawn[0], &drawn[1]);
+    if (!bytes_only) picture_expect_same(&drawn[0], &drawn[1]);
     assert_int_equal(cubes_largest_step(&drawn[0], &drawn[1]), 0);
     draw(renderer, &of, options, (part[]){{surfels, 0.5, true}, {surfels, 0.5, true}}, 2, &to[2]);
     const uint32_t step = cubes_largest_step(&drawn[0], &drawn[2]);
@@ -191,11 +191,11 @@ TEST_ON(test_hiding, 0) {
     }
     draw(renderer, &of, &options, NULL, 0, &alone);
     draw(renderer, &of, &options, (part[]){{front, 1, false}}, 1, &drawn);
-    cubes_hold_same(&alone, &drawn);
+    picture_expect_same(&alone, &drawn);
     options.opacity = 0.5;
     draw(renderer, &of, &options, NULL, 0, &alone);
     draw(renderer, &of, &options, (part[]){{front, 1, false}, {far, 0.5, false}}, 2, &drawn);
-    cubes_hold_same(&alone, &drawn);
+    picture_expect_same(&alone, &drawn);
     // Of transparent surfaces it takes part in each that it is near enough to.
     draw(renderer, &of, &options, (part[]){{back, 1, true}, {far, 1, true}}, 2, &alone);
     draw(renderer, &of, &options, (part[]){{back, 1, true}, {far, 0.5, true}, {far, 0.5, false}}, 3, &drawn);
@@ -230,7 +230,7 @@ static void hold_invariance(scene_kind kind, const ewa_render_options *options, 
         assert_int_equal(ewa_renderer_create(context, &renderer), EWA_OK);
         ewa_renderer_set_tile(renderer, tiles_px[turn]);
         draw(renderer, &of, options, parts, count, &drawn[turn > 0]);
-        if (turn > 0) cubes_hold_same(&drawn[0], &drawn[1]);
+        if (turn > 0) picture_expect_same(&drawn[0], &drawn[1]);
         ewa_renderer_destroy(&renderer);
         cubes_free(&made);
         scene_free(&of);
