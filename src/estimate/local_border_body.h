@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // The part of local_body.h that finds where a sampled surface ends: at a line across the tangent plane beyond
-// which a place has no neighbours, where many would be if it went on. No section of docs/math.md is about it;
+// which a place has no neighbours, where many would be if it went on. See docs/math.md section 5, borders;
 // what it comes to is in docs/quality.md.
 
 enum {

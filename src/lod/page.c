@@ -30,6 +30,7 @@ static ewa_status make_output(ewa_region_plan *plan) {
         if (plan->makes_normals && strcmp(attribute->name, EWA_NORMAL) == 0) continue;
         if (plan->makes_radii && strcmp(attribute->name, EWA_RADIUS) == 0) continue;
         if (plan->makes_curvatures && strcmp(attribute->name, EWA_CURVATURE) == 0) continue;
+        if (plan->makes_radii && strcmp(attribute->name, EWA_BORDER) == 0) continue;
         status = ewa_cloud_add(plan->output, attribute->name, is_place ? EWA_F64 : attribute->type,
                                attribute->component_count, NULL);
     }
@@ -39,6 +40,8 @@ static ewa_status make_output(ewa_region_plan *plan) {
         status = ewa_cloud_add(plan->output, EWA_RADIUS, EWA_F32, 1, NULL);
     if (status == EWA_OK && plan->makes_curvatures)
         status = ewa_cloud_add(plan->output, EWA_CURVATURE, EWA_F32, 1, NULL);
+    if (status == EWA_OK && plan->makes_radii)
+        status = ewa_cloud_add(plan->output, EWA_BORDER, EWA_F32, 3, NULL);
     if (status == EWA_OK) status = ewa_cloud_follow(plan->output, plan->inputs);
     ewa_coordinate_grid grid;
     for (int c = 0; c < 3; c++) {
@@ -100,7 +103,8 @@ ewa_status ewa_region_plan_make(ewa_context *context, const ewa_statistics *stat
     plan->normal_at_bytes = statistics->record_bytes;
     plan->radius_at_bytes = plan->normal_at_bytes + (plan->makes_normals ? 6 : 0);
     plan->curvature_at_bytes = plan->radius_at_bytes + (plan->makes_radii ? 4 : 0);
-    plan->record_bytes = plan->curvature_at_bytes + (plan->makes_curvatures ? 4 : 0);
+    plan->border_at_bytes = plan->curvature_at_bytes + (plan->makes_curvatures ? 4 : 0);
+    plan->record_bytes = plan->border_at_bytes + (plan->makes_radii ? 12 : 0);
     EWA_TRY(choose_attributes(plan, attributes));
     return make_output(plan);
 }

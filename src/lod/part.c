@@ -17,7 +17,7 @@ enum {
     REGIONS = 4,
     RESULT = 5,
     COMMON_SECTIONS = 3,
-    PART_VERSION = 3,
+    PART_VERSION = 4,
     ATTRIBUTES_BYTES = EWA_LEVELS_MAX_ATTRIBUTES * (EWA_NAME_BYTES + 1) // of names, a comma between them
 };
 

@@ -6,6 +6,7 @@
 #include "base/base.h"
 #include "cloud/cloud.h"
 #include "ewa/prepare.h"
+#include "lod/cell_borders.h"
 #include "lod/tree.h"
 #include "surface/levels.h"
 #include "surface/proxy.h"
@@ -18,18 +19,6 @@
 #define SURFEL_ATTRIBUTES                                                                                    \
     EWA_NORMAL "," EWA_RADIUS "," EWA_TANGENT_U "," EWA_TANGENT_V "," EWA_COLOR "," EWA_MATERIAL             \
                "," EWA_SURFACENESS "," EWA_CURVATURE "," EWA_CLIP0 "," EWA_CLIP1 "," EWA_CLIP_MODE "," EWA_BORDER
-
-/// Whether a map keeps angles, so that densities and squares of radii change alike.
-static bool is_similar(const double m[16]) {
-    double scale2[3], across = 0;
-    for (int r = 0; r < 3; r++) {
-        const double *a = m + 4 * r, *b = m + 4 * ((r + 1) % 3);
-        scale2[r] = a[0] * a[0] + a[1] * a[1] + a[2] * a[2];
-        across = fmax(across, fabs(a[0] * b[0] + a[1] * b[1] + a[2] * b[2]));
-    }
-    const double off = fmax(fabs(scale2[0] - scale2[1]), fabs(scale2[0] - scale2[2]));
-    return fmax(off, across) <= 1e-6 * scale2[0];
-}
 
 /// File nodes on the way from the root to a node, itself included.
 static uint32_t find_path(const ewa_lod *lod, const ewa_lod_node *node,
@@ -154,7 +143,7 @@ static ewa_status make_surfels(const ewa_lod *lod, const ewa_lod_appearance *app
     options.radius_scale = radius_scale * appearance->radius_scale;
     EWA_TRY(ewa_surfels_create(cloud, &options, surfels));
     // What the file says of its surface no longer holds where it is pressed together.
-    if (lod->levels.unit_coverage > 0 && is_similar(appearance->to_world))
+    if (lod->levels.unit_coverage > 0 && ewa_cell_is_similar(appearance->to_world))
         ewa_surfels_set_unit_coverage(*surfels, lod->levels.unit_coverage * options.radius_scale * options.radius_scale);
     return EWA_OK;
 }
@@ -170,8 +159,9 @@ static ewa_status load_points(ewa_lod *lod, const ewa_tree_reading *how, const e
     if (status == EWA_OK) status = place(how->appearance, &cloud);
     if (status == EWA_OK && !lod->has_surfels && ewa_cloud_point_count(cloud))
         status = ewa_cloud_estimate(&cloud, &options);
-    // Points of a node end where its cell does, not where their surface does.
-    if (!lod->has_surfels) ewa_cloud_remove(cloud, EWA_BORDER);
+    if (status == EWA_OK && !lod->has_surfels)
+        ewa_cell_keep_borders(lod->facts, &node->key, how->appearance->to_world, cloud);
+    if (status == EWA_OK) ewa_cell_drop_no_borders(cloud);
     if (status == EWA_OK && ewa_cloud_point_count(cloud) == 0 && !lod->has_surfels) {
         // An empty cloud has no shape either.
         status = ewa_cloud_add(cloud, EWA_NORMAL, EWA_F32, 3, NULL);

@@ -33,6 +33,10 @@ void ewa_record_put_radius(uint8_t *to, float radius_world) { put_shortened(to, 
 
 void ewa_record_put_curvature(uint8_t *to, float curvature) { put_shortened(to, curvature, 19); }
 
+void ewa_record_put_border(uint8_t *to, const float border_world[3]) {
+    for (int c = 0; c < 3; c++) put_shortened(to + 4 * c, border_world[c], 16);
+}
+
 /// Finds where the numbers of an attribute of the inputs are: in the record, or those that all points have.
 static const uint8_t *find_numbers(const ewa_region_plan *plan, const uint8_t *record, uint32_t column) {
     const ewa_statistics_column *known = &plan->statistics->columns[column];
@@ -115,6 +119,8 @@ static ewa_status add_target(const ewa_region_plan *plan, ewa_cloud *cloud, cons
         made->from = FROM_BEHIND, made->at_bytes = plan->radius_at_bytes;
     } else if (plan->makes_curvatures && strcmp(attribute->name, EWA_CURVATURE) == 0) {
         made->from = FROM_BEHIND, made->at_bytes = plan->curvature_at_bytes;
+    } else if (plan->makes_radii && strcmp(attribute->name, EWA_BORDER) == 0) {
+        made->from = FROM_BEHIND, made->at_bytes = plan->border_at_bytes;
     }
     return status;
 }

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Points as records: the place from the root's corner, 3 x 32 bits, the numbers that vary, and behind them what is
-// estimated: a normal of 3 x 16 bits, times 32767, a radius and a signed curvature, floats.
+// estimated: a normal of 3 x 16 bits, times 32767, a radius, a signed curvature and a border, floats.
 #ifndef EWA_SRC_LOD_RECORDS_H
 #define EWA_SRC_LOD_RECORDS_H
 
@@ -21,11 +21,12 @@ static inline uint64_t ewa_record_code(const ewa_lattice *lattice, const uint8_t
     return ewa_lattice_code(lattice, place);
 }
 
-/// Store a unit normal, in steps of 16 of its 32767, a radius with 11 bits after the first and a curvature with 4, so
-/// that they pack well.
+/// Store a unit normal, in steps of 16 of its 32767, a radius with 11 bits after the first, a curvature with 4 and a border
+/// with 7 each, so that they pack well.
 void ewa_record_put_normal(uint8_t *to, const float normal[3]);
 void ewa_record_put_radius(uint8_t *to, float radius_world);
 void ewa_record_put_curvature(uint8_t *to, float curvature);
+void ewa_record_put_border(uint8_t *to, const float border_world[3]);
 
 /// Copies the numbers of an attribute of the inputs.
 void ewa_record_get(const ewa_region_plan *plan, const uint8_t *record, const char *attribute, uint8_t *to);

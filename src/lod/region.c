@@ -91,6 +91,7 @@ typedef struct estimate_job {
     int64_t middle[3]; ///< from the root's corner
     float *positions;
     const float *normals, *radii, *curvatures; ///< curvatures NULL: of a flat cloud
+    const float *borders; ///< NULL: the surface does not end here
     float *own_normals; ///< to the sides of which curvatures are told; NULL: those that were made
 } estimate_job;
 
@@ -121,7 +122,11 @@ static void keep_task(void *data, uint32_t task, uint32_t worker) {
         uint8_t *record = job->points->records + (size_t)i * plan->record_bytes;
         if (plan->makes_normals)
             ewa_record_put_normal(record + plan->normal_at_bytes, job->normals + 3 * (size_t)i);
-        if (plan->makes_radii) ewa_record_put_radius(record + plan->radius_at_bytes, job->radii[i]);
+        if (plan->makes_radii) {
+            static const float none[3] = {0};
+            ewa_record_put_radius(record + plan->radius_at_bytes, job->radii[i]);
+            ewa_record_put_border(record + plan->border_at_bytes, job->borders ? job->borders + 3 * (size_t)i : none);
+        }
         if (!plan->makes_curvatures) continue;
         const float *made = job->normals + 3 * (size_t)i, *own = job->own_normals ? job->own_normals + 3 * (size_t)i : made;
         const float along = made[0] * own[0] + made[1] * own[1] + made[2] * own[2];
@@ -166,7 +171,7 @@ static ewa_status make_neighbourhood(const ewa_region_plan *plan, estimate_job *
     return EWA_OK;
 }
 
-/// Gives the points normals, radii and curvatures.
+/// Gives the points normals, radii with borders, and curvatures.
 static ewa_status estimate(ewa_region_plan *plan, ewa_distribution *distribution, ewa_region *region,
                            ewa_region_points *points) {
     if (!plan->makes_normals && !plan->makes_radii && !plan->makes_curvatures) return EWA_OK;
@@ -192,6 +197,8 @@ static ewa_status estimate(ewa_region_plan *plan, ewa_distribution *distribution
         job.radii = ewa_cloud_find(cloud, EWA_RADIUS)->data;
         const ewa_attribute *curvature = ewa_cloud_find(cloud, EWA_CURVATURE);
         job.curvatures = curvature ? curvature->data : NULL;
+        const ewa_attribute *border = ewa_cloud_find(cloud, EWA_BORDER);
+        job.borders = border ? border->data : NULL;
     }
     const bool told = job.curvatures && plan->makes_curvatures && !plan->makes_normals;
     if (told) job.own_normals = ewa_allocate(context, points->count, 3 * sizeof(float));

@@ -16,9 +16,9 @@ typedef struct ewa_region_plan {
     const ewa_statistics *statistics;
     const ewa_cloud *inputs;         ///< prototype of the points that are read
     ewa_cloud *output;               ///< prototype of those that are written
-    bool makes_normals, makes_radii, makes_curvatures; ///< they are estimated
+    bool makes_normals, makes_radii, makes_curvatures; ///< they are estimated; borders with radii
     uint32_t record_bytes;           ///< of a point with what is estimated behind it
-    uint32_t normal_at_bytes, radius_at_bytes, curvature_at_bytes;
+    uint32_t normal_at_bytes, radius_at_bytes, curvature_at_bytes, border_at_bytes;
     ewa_octree_writer *writer; ///< encodes nodes
     ewa_evaluator *evaluator;
     ewa_level_attribute attributes[EWA_LEVELS_MAX_ATTRIBUTES]; ///< that representatives have

@@ -188,6 +188,41 @@ TEST_ON(test_octrees, 0) {
     ewa_renderer_destroy(&renderer);
 }
 
+/// Octrees of bare points end where these do, and stay closed where nodes meet, which is amid a pixel here.
+TEST_ON(test_octrees_end, 0) {
+    static outline_truth truth;
+    static float rgba[OUTLINE_SIDE_PX * OUTLINE_SIDE_PX][4];
+    ewa_camera camera;
+    outline_camera(oblique, 42, &camera);
+    ewa_renderer *renderer = NULL;
+    assert_int_equal(ewa_renderer_create(context, &renderer), EWA_OK);
+    for (int square = 0; square < 2; square++) {
+        const outline_shape shape = square ? OUTLINE_SQUARE : OUTLINE_DISC;
+        outline_trace(context, shape, &camera, &truth);
+        char points[512], octree[512];
+        const char *const paths[1] = {scratch_path("ends.ply", points)};
+        ewa_cloud *cloud = outline_points(context, shape, 100000);
+        assert_int_equal(ewa_cloud_save(cloud, points, NULL), EWA_OK);
+        ewa_cloud_destroy(&cloud);
+        assert_int_equal(ewa_lod_build(context, paths, 1, scratch_path("ends.copc.laz", octree), NULL, NULL), EWA_OK);
+        ewa_lod *lod = NULL;
+        assert_int_equal(ewa_lod_open(context, octree, &lod), EWA_OK);
+        ewa_lod_options options;
+        ewa_lod_options_init(&options, sizeof options);
+        options.spacing_px = 0.1;
+        ewa_lod_stats stats;
+        const ewa_frame frame = {.rgba = &rgba[0][0]};
+        assert_int_equal(ewa_lod_render(lod, renderer, &camera, NULL, &options, &frame, &stats), EWA_OK);
+        const outline_errors found = outline_compare(&truth, &rgba[0][3], 4);
+        print_message("%s, octree of %u nodes: fat %+.3f px, rms %.3f, open inside %.4f %% (deepest %.3f)\n",
+                      square ? "square" : "disc", stats.node_count, found.fat_px, found.rms, 100 * found.open, found.deepest);
+        assert_true(stats.node_count >= 4 && fabs(found.fat_px) < 0.1 && found.rms < 0.2 && found.open < 2e-4);
+        ewa_lod_close(&lod);
+        unlink(points), unlink(octree);
+    }
+    ewa_renderer_destroy(&renderer);
+}
+
 /// x that the normal distribution has the share `below` below -x, 0 < below < 1/2.
 static double tail(double below) {
     double low = 0, high = 6;
