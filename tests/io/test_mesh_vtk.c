@@ -238,6 +238,15 @@ CASE(test_left_out) {
     assert_int_equal(
         ewa_model_load_memory(context, points, strlen(points), "a.vtk", NULL, EWA_MODEL_MESH, NULL, &model), EWA_OK);
     assert_int_equal(ewa_cloud_point_count(model.points), 4);
+    assert_null(ewa_cloud_find(model.points, EWA_NORMAL));
+    ewa_model_free(&model);
+    points = TEXT POINTS "VERTICES 1 2 1 0\nPOINT_DATA 4\nNORMALS n float\n0 0 1 0 1 0 1 0 0 0 0.6 0.8\n";
+    assert_int_equal(
+        ewa_model_load_memory(context, points, strlen(points), "a.vtk", NULL, EWA_MODEL_MESH, NULL, &model), EWA_OK);
+    const ewa_attribute *normal = ewa_cloud_find(model.points, EWA_NORMAL);
+    assert_true(normal && normal->type == EWA_F32 && normal->component_count == 3);
+    static const float expected[12] = {0, 0, 1, 0, 1, 0, 1, 0, 0, 0, 0.6f, 0.8f};
+    assert_memory_equal(normal->data, expected, sizeof expected);
     ewa_model_free(&model);
     char path[512];
     scratch_write(scratch_path("a.vtk", path), SQUARE, strlen(SQUARE));

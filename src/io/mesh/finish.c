@@ -326,11 +326,14 @@ ewa_status ewa_mesh_build_points(ewa_mesh_build *build, ewa_cloud **points) {
         return ewa_fail(build->context, EWA_ERROR_FORMAT, "%s: there are neither faces nor points",
                         build->source->name);
     ewa_cloud *made = NULL;
-    void *position = NULL, *color = NULL, *radius = NULL, *surfaceness = NULL;
+    void *position = NULL, *color = NULL, *normal = NULL, *radius = NULL, *surfaceness = NULL;
+    // What no corner chooses is one of each point, if there are as many; points of lines have none.
+    const bool has_normals = build->normals.count == count && !(build->line_step > 0);
     ewa_status status = ewa_cloud_create(build->context, count, &made);
     if (status == EWA_OK)
         status = ewa_cloud_add(made, EWA_POSITION, build->float_positions ? EWA_F32 : EWA_F64, 3, &position);
     if (status == EWA_OK && build->colors.count) status = ewa_cloud_add(made, EWA_COLOR, EWA_F32, 4, &color);
+    if (status == EWA_OK && has_normals) status = ewa_cloud_add(made, EWA_NORMAL, EWA_F32, 3, &normal);
     if (status == EWA_OK && build->line_step > 0) status = ewa_cloud_add(made, EWA_RADIUS, EWA_F32, 1, &radius);
     if (status == EWA_OK && radius) status = ewa_cloud_add(made, EWA_SURFACENESS, EWA_F32, 1, &surfaceness);
     if (status == EWA_OK) status = ewa_mesh_fill_arrays(build, NULL, 0, made);
@@ -346,6 +349,7 @@ ewa_status ewa_mesh_build_points(ewa_mesh_build *build, ewa_cloud **points) {
         else
             ((double *)position)[i] = from[i];
     }
+    if (normal) memcpy(normal, build->normals.items, 3 * (size_t)count * sizeof(float));
     // Lines are dots that touch, and no surface.
     for (uint64_t i = 0; radius && i < count; i++) ((float *)radius)[i] = (float)build->line_step, ((float *)surfaceness)[i] = 0;
     for (uint64_t i = 0; color && i < 4 * count; i++)
