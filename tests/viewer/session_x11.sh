@@ -3,7 +3,7 @@
 # SPDX-License-Identifier: MIT
 #
 # A person's session in a window, on a screen of its own: orbit by dragging, pick by a click, measure by a Shift-click,
-# clip box, pictures, a file by its name, Escape, the bar's tools, end. Checks what is printed, the pictures and the exit status: session_x11.sh EWA EWA-VIEW FOLDER
+# clip box, pictures, a file by its name, Escape, the bar's tools, a profile, a film, end. Checks what is printed, the pictures and the exit status: session_x11.sh EWA EWA-VIEW FOLDER
 set -eu
 ewa=$1
 view=$2
@@ -161,16 +161,16 @@ button() {
     xdotool click 1
     sleep 0.5
 }
-# click_until WORDS: clicks down the ring until the words are printed.
+# click_until X WORDS: clicks down the ring until the words are printed.
 click_until() {
     for y in 200 250 300 400 450 500 550 600; do
-        xdotool mousemove 560 $y
+        xdotool mousemove "$1" $y
         sleep 0.3
         xdotool click 1
         sleep 0.7
-        grep -q "$1" printed && return
+        grep -q "$2" printed && return
     done
-    fail "'$1' is not printed"
+    fail "'$2' is not printed"
 }
 : >printed
 "$view" torus.ply --size 1000x700 >printed 2>complained &
@@ -193,16 +193,25 @@ button 12
 button 9
 wait_for "rest" same_as_before
 button 0
-click_until "^pick torus.ply"
-click_until "^measure distance"
+click_until 560 "^pick torus.ply"
+click_until 680 "^measure distance"
 button 0
+# Along what was measured.
+button 8
+wait_for "a profile" grep -q "^profile [1-9][0-9]* points length" printed
+button 8
 button 5
-click_until "^measure [0-9]* note"
+click_until 560 "^measure [0-9]* note"
 button 5
 button 6
 button 18
 xdotool key Left Left
 button 18
+if command -v ffmpeg >/dev/null 2>&1; then
+    button 19
+    wait_for "a film" grep -q "^film .*ewa-0001.mp4 61 700x640" printed
+    [ -s ewa-0001.mp4 ] || fail "the film is not there"
+fi
 save_tools() {
     xdotool key ctrl+s
     sleep 0.7
