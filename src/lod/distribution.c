@@ -194,15 +194,22 @@ static void write_place(const ewa_lattice *lattice, const int64_t place[3], uint
     }
 }
 
-/// Writes the record of a point: what varies of its numbers.
-static bool write_record(const ewa_statistics *statistics, const ewa_cloud *piece, uint64_t point,
+/// The attribute that says where points are, which are no column.
+static uint32_t find_position(const ewa_statistics *statistics, const ewa_cloud *piece) {
+    uint32_t a = 0;
+    while (a < statistics->column_count && strcmp(ewa_cloud_attribute_at(piece, a)->name, EWA_POSITION) != 0) a++;
+    return a;
+}
+
+/// Writes the record of a point: what varies of its numbers; `position` is find_position().
+static bool write_record(const ewa_statistics *statistics, const ewa_cloud *piece, uint32_t position, uint64_t point,
                          const int64_t place[3], uint8_t *record) {
     bool changed = false;
     write_place(&statistics->lattice, place, record);
     uint32_t k = 0;
     for (uint32_t a = 0; a <= statistics->column_count; a++) {
+        if (a == position) continue;
         const ewa_attribute *attribute = ewa_cloud_attribute_at(piece, a);
-        if (strcmp(attribute->name, EWA_POSITION) == 0) continue;
         const ewa_statistics_column *column = &statistics->columns[k++];
         const uint8_t *from = (const uint8_t *)attribute->data + point * attribute->stride_bytes;
         if (column->constant)
@@ -221,6 +228,7 @@ static void sort_slice(void *data, uint32_t index, uint32_t worker) {
     slice *part = &s->slices[index];
     const uint64_t first = (uint64_t)index * SLICE_POINTS, left = ewa_cloud_point_count(s->piece) - first;
     const uint64_t count = left < SLICE_POINTS ? left : SLICE_POINTS;
+    const uint32_t position = find_position(statistics, s->piece);
     part->unknown_count = 0;
     ewa_statistics_places(&statistics->lattice, s->piece, first, count, part->places);
     find_regions(s, part, count);
@@ -233,7 +241,7 @@ static void sort_slice(void *data, uint32_t index, uint32_t worker) {
         const uint32_t region = part->regions[i];
         if (region == UINT32_MAX || !distribution->regions[region].wanted) continue;
         uint8_t *record = part->records + (size_t)part->counts[region]++ * statistics->record_bytes;
-        if (write_record(statistics, s->piece, first + i, part->places + 3 * i, record)) part->unknown_count++;
+        if (write_record(statistics, s->piece, position, first + i, part->places + 3 * i, record)) part->unknown_count++;
     }
 }
 

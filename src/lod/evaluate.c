@@ -44,9 +44,10 @@ void ewa_evaluator_free(ewa_evaluator *evaluator) {
     ewa_buffer_free(evaluator->context, &evaluator->pictures);
 }
 
-/// The neighbourhood of every surfel of a node.
+/// The neighbourhoods of some surfels of a node.
 typedef struct blur_job {
     const ewa_representatives *merged;
+    uint32_t first_surfel, end;
     uint32_t level;
     double cell_world;
     int32_t *first; ///< [cell]: first surfel in it
@@ -72,8 +73,9 @@ static void blur_part(void *data, uint32_t part, uint32_t worker) {
     const uint32_t cell_level = job->level + EWA_PAGE_BITS;
     const float exponent =
         (float)(-0.5 / ((double)BLUR_CELLS * (double)BLUR_CELLS * job->cell_world * job->cell_world));
-    const uint32_t end = (uint32_t)ewa_split(merged->count, BLUR_TASKS, part + 1);
-    for (uint32_t i = (uint32_t)ewa_split(merged->count, BLUR_TASKS, part); i < end; i++) {
+    const uint32_t count = job->end - job->first_surfel;
+    const uint32_t end = job->first_surfel + (uint32_t)ewa_split(count, BLUR_TASKS, part + 1);
+    for (uint32_t i = job->first_surfel + (uint32_t)ewa_split(count, BLUR_TASKS, part); i < end; i++) {
         const ewa_representative *s = &merged->items[i];
         int32_t cell[3];
         cell_of(s->code, cell_level, cell);
@@ -106,20 +108,26 @@ static void blur_part(void *data, uint32_t part, uint32_t worker) {
     }
 }
 
-static ewa_status blur(ewa_evaluator *evaluator, const ewa_representatives *merged, uint32_t level,
-                       double cell_world) {
+/// Finds what blurring needs, for no surfels so far.
+static ewa_status prepare_blur(ewa_evaluator *evaluator, const ewa_representatives *merged, uint32_t level,
+                               double cell_world, blur_job *job) {
     const size_t cells = (size_t)GRID_SIDE * GRID_SIDE * GRID_SIDE;
     EWA_TRY(ewa_buffer_reserve(evaluator->context, &evaluator->grid, cells, sizeof(int32_t)));
     EWA_TRY(ewa_buffer_reserve(evaluator->context, &evaluator->blurred, merged->count, 3 * sizeof(float)));
-    blur_job job = {merged, level, cell_world, evaluator->grid.data, evaluator->blurred.data};
-    memset(job.first, 0xff, cells * sizeof *job.first);
+    *job = (blur_job){merged, 0, 0, level, cell_world, evaluator->grid.data, evaluator->blurred.data};
+    memset(job->first, 0xff, cells * sizeof *job->first);
     for (uint32_t i = merged->count; i-- > 0;) {
         int32_t cell[3];
         cell_of(merged->items[i].code, level + EWA_PAGE_BITS, cell);
-        job.first[cell_index(cell)] = (int32_t)i;
+        job->first[cell_index(cell)] = (int32_t)i;
     }
-    ewa_parallel(evaluator->context, blur_part, &job, BLUR_TASKS);
     return EWA_OK;
+}
+
+/// Blurs the surfels [first, end).
+static void blur(ewa_evaluator *evaluator, blur_job *job, uint32_t first, uint32_t end) {
+    job->first_surfel = first, job->end = end;
+    ewa_parallel(evaluator->context, blur_part, job, BLUR_TASKS);
 }
 
 /// The node in the evaluated one that has most surfels.
@@ -320,7 +328,6 @@ ewa_status ewa_representatives_evaluate(ewa_evaluator *evaluator, const ewa_repr
     merged->unit_coverage = 0;
     ewa_status status =
         ewa_buffer_reserve(evaluator->context, &evaluator->pictures, 3 * PIXELS * CHANNELS, sizeof(float));
-    if (status == EWA_OK) status = blur(evaluator, merged, level, side_world / GRID_SIDE);
     const uint64_t prefix = choose_window(merged, window_level);
     ewa_surfels *surfels[MAX_PARTS] = {NULL};
     uint32_t first, end;
@@ -346,17 +353,23 @@ ewa_status ewa_representatives_evaluate(ewa_evaluator *evaluator, const ewa_repr
         ewa_camera camera;
         aim(merged, first, end, low, window_world, &camera);
         verdict best = {1, 0, 0};
-        status = draw(evaluator, &camera, surfels, child_count, evaluator->pictures.data);
+        blur_job job;
+        status = prepare_blur(evaluator, merged, level, side_world / GRID_SIDE, &job);
+        if (status == EWA_OK) blur(evaluator, &job, first, end);
+        if (status == EWA_OK) status = draw(evaluator, &camera, surfels, child_count, evaluator->pictures.data);
         if (status == EWA_OK)
             status = try_scales(evaluator, &camera, merged, first, end, merged->unit_coverage,
                                 evaluator->pictures.data, &best);
         merged->radius_scale = best.radius_scale;
         *error = best.error2 > 0 ? (float)(255 * sqrt(best.error2)) : 0;
+        // What is not in the picture is blurred only where that made it better.
+        const bool sharpened = status == EWA_OK && best.share > 0;
+        if (sharpened) blur(evaluator, &job, 0, first), blur(evaluator, &job, end, merged->count);
         const float(*blurred)[3] = evaluator->blurred.data;
         for (uint32_t i = 0; i < merged->count; i++)
             for (int c = 0; c < 3; c++) {
                 const float color = merged->items[i].color[c];
-                const float shown = color + best.share * (color - blurred[i][c]);
+                const float shown = sharpened ? color + best.share * (color - blurred[i][c]) : color;
                 merged->items[i].shown[c] = shown > 0 ? shown : 0;
             }
     }
