@@ -3,7 +3,7 @@
 # SPDX-License-Identifier: MIT
 #
 # A person's session in a window, on a screen of its own: orbit by dragging, pick by a click, measure by a Shift-click,
-# clip box, pictures, a file by its name, Escape, the bar's tools, a profile, a film, end. Checks what is printed, the pictures and the exit status: session_x11.sh EWA EWA-VIEW FOLDER
+# clip box, pictures, a file by its name, Escape, the bar's tools, a profile, a film, a transfer function, end. Checks what is printed, the pictures and the exit status: session_x11.sh EWA EWA-VIEW FOLDER
 set -eu
 ewa=$1
 view=$2
@@ -226,6 +226,43 @@ for member in regions section_planes measures keyframes; do
     grep -q "\"$member\"" tools.json || fail "the scene file has no $member"
 done
 "$ewa" render tools.json -q -o tools.png || fail "the scene is not drawn"
+xdotool key ctrl+q
+status=0
+wait $session || status=$?
+session=""
+[ $status = 0 ] || fail "the exit status is $status"
+[ ! -s complained ] || fail "something was wrong"
+
+# A volume, whose transfer function gets another point by a double click on its graph, which a step back takes away.
+"$ewa" generate ball --dims 32 -o volume.nrrd
+: >printed
+"$view" volume.nrrd --size 1000x700 >printed 2>complained &
+session=$!
+wait_for "a window" xdotool search --onlyvisible --name volume.nrrd
+xdotool windowmove "$(xdotool search --onlyvisible --name volume.nrrd | tail -n 1)" 0 0
+last=none.png
+wait_for "the volume" same_as_before
+volume=$last
+xdotool mousemove 60 154
+sleep 0.5
+xdotool click 1
+sleep 1
+add_point() {
+    xdotool mousemove 60 170
+    sleep 0.5
+    xdotool click --repeat 2 --delay 100 1
+    sleep 1
+    shot
+    ! cmp -s "$volume" "$last"
+}
+wait_for "another function" add_point
+take_point() {
+    xdotool key ctrl+z
+    sleep 1
+    shot
+    cmp -s "$volume" "$last"
+}
+wait_for "the function before" take_point
 xdotool key ctrl+q
 status=0
 wait $session || status=$?

@@ -124,7 +124,7 @@ static void handle(front_window *front, const SDL_Event *event) {
     if (resized) {
         front->refresh_s = find_refresh_s(front->events.window);
         measure(front);
-    } else if (!(front->panel && panel_event(front->panel, front->viewer, event)) &&
+    } else if (!(front->panel && panel_event(front->panel, front->viewer, event, clock_s(front))) &&
                events_translate(&front->events, event, clock_s(front), &translated)) {
         viewer_handle(front->viewer, &translated);
     }

@@ -189,8 +189,7 @@ void lay_out(panel *p, viewer *shown) {
     p->density = width > 0 ? (float)width_px / (float)width : 1;
     io.DisplaySize = ImVec2((float)width_px, (float)height_px);
     const double passed_s = p->facts.now_s - p->laid_out_s;
-    // Layouts for events happen at the time of the one before, which Dear ImGui must not take for time that passes: it would
-    // take two clicks apart.
+    // Two layouts of one event are no time apart, which Dear ImGui does not take.
     io.DeltaTime = (float)fmin(fmax(passed_s, 1e-4), 1);
     p->laid_out_s = p->facts.now_s;
     p->pointed = false;
@@ -321,8 +320,10 @@ void panel_destroy(panel **destroyed) {
     *destroyed = nullptr;
 }
 
-bool panel_event(panel *p, viewer *shown, const SDL_Event *event) {
+bool panel_event(panel *p, viewer *shown, const SDL_Event *event, double now_s) {
     if (!p->glyphs) return false;
+    // Else the rest before a first click would pass between it and a second one.
+    p->facts.now_s = fmax(p->facts.now_s, now_s);
     ImGuiIO &io = ImGui::GetIO();
     switch (event->type) {
     case SDL_MOUSEMOTION:

@@ -39,8 +39,8 @@ void panel_measure(const viewer_state *state, double width_px, double height_px,
 panel *panel_create(SDL_Window *window, SDL_Renderer *renderer);
 void panel_destroy(panel **panel);
 
-/// Gives the panels an event. Returns true when it is theirs and the viewer must not see it.
-bool panel_event(panel *panel, viewer *shown, const SDL_Event *event);
+/// Gives the panels an event, which happens at a time of the clock of `panel_facts`. Returns true when it is theirs and the viewer must not see it.
+bool panel_event(panel *panel, viewer *shown, const SDL_Event *event, double now_s);
 
 /// Draws the panels over what is there; nothing is presented.
 void panel_draw(panel *panel, viewer *shown, const panel_facts *facts);
