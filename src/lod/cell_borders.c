@@ -69,17 +69,24 @@ static bool is_at_face(const cell_faces *faces, const double world[3], const dou
     return false;
 }
 
+/// Whether borders and radii are the estimate's; a file may call by these names what it likes.
+static bool are_discs(const ewa_attribute *border, const ewa_attribute *radius) {
+    return border->type == EWA_F32 && border->component_count == 3 && border->stride_bytes == 3 * sizeof(float) && radius &&
+           radius->component_count == 1;
+}
+
 static bool is_border(const double to[3]) { return to[0] != 0 || to[1] != 0 || to[2] != 0; }
 
 void ewa_cell_keep_borders(const ewa_octree_facts *facts, const ewa_octree_key *key, const double to_world[16],
                            ewa_cloud *cloud) {
     const ewa_attribute *border = ewa_cloud_find(cloud, EWA_BORDER);
     const ewa_attribute *radius = ewa_cloud_find(cloud, EWA_RADIUS);
-    if (!border || key->level == 0) return;
-    if (!radius || !ewa_cell_is_similar(to_world)) {
+    if (!border) return;
+    if (!are_discs(border, radius) || (key->level > 0 && !ewa_cell_is_similar(to_world))) {
         ewa_cloud_remove(cloud, EWA_BORDER);
         return;
     }
+    if (key->level == 0) return;
     cell_faces faces;
     find_faces(facts, key, to_world, &faces);
     double origin[3], places[3 * BLOCK], borders[3 * BLOCK], radii[BLOCK];

@@ -79,6 +79,33 @@ TEST_ON(test_faces, 2) {
     assert_true(sheared.own == 0 && sheared.inner == 0);
 }
 
+/// What files call borders and radii has other shapes: it is left out, and nothing is written beyond it.
+TEST_ON(test_other_shapes, 0) {
+    static const double none[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+    static const ewa_octree_key keys[2] = {{.level = 0}, {.level = 1, .cell = {0, 0, 1}}};
+    static const struct {
+        ewa_type type;
+        uint32_t border_components, radius_components;
+    } shapes[] = {{EWA_U8, 1, 1}, {EWA_F32, 1, 1}, {EWA_F32, 4, 1}, {EWA_F64, 3, 1}, {EWA_F32, 3, 4}, {EWA_F32, 3, 0}};
+    for (size_t s = 0; s < sizeof shapes / sizeof *shapes; s++)
+        for (int k = 0; k < 2; k++) {
+            ewa_cloud *cloud = NULL;
+            uint8_t *to;
+            assert_int_equal(ewa_cloud_create(context, 1000, &cloud), EWA_OK);
+            assert_int_equal(ewa_cloud_add(cloud, EWA_POSITION, EWA_F32, 3, (void **)&to), EWA_OK);
+            memset(to, 0, 3000 * sizeof(float));
+            assert_int_equal(ewa_cloud_add(cloud, EWA_BORDER, shapes[s].type, shapes[s].border_components, (void **)&to), EWA_OK);
+            memset(to, 1, 1000 * shapes[s].border_components * ewa_type_bytes(shapes[s].type));
+            if (shapes[s].radius_components) {
+                assert_int_equal(ewa_cloud_add(cloud, EWA_RADIUS, EWA_F32, shapes[s].radius_components, (void **)&to), EWA_OK);
+                memset(to, 1, 1000 * shapes[s].radius_components * sizeof(float));
+            }
+            ewa_cell_keep_borders(&facts, &keys[k], none, cloud);
+            assert_null(ewa_cloud_find(cloud, EWA_BORDER));
+            ewa_cloud_destroy(&cloud);
+        }
+}
+
 TEST_ON(test_no_borders, 0) {
     ewa_cloud *cloud = NULL;
     void *to;
