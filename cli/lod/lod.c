@@ -7,6 +7,7 @@
 #include "cli/base/json.h"
 #include "cli/base/outputs.h"
 #include "cli/base/session.h"
+#include "cli/input/gaussian_files.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -171,6 +172,17 @@ static ewa_status build_together(cli_session *session, const lod_command_argumen
     return status;
 }
 
+/// Says which inputs are Gaussians, of which only the centres are taken.
+static void tell_of_gaussians(cli_session *session, const common_arguments *common) {
+    for (size_t i = 0; i < common->operand_count; i++) {
+        const char *path = common->operands[i];
+        if (gaussian_files_format(session, path) != EWA_GAUSSIANS_NONE)
+            session_note(session, "%s: Gaussians become points at their centres; 'ewa convert %s -o lod-meta.json' makes levels of Gaussians",
+                         path, path);
+    }
+    session->subject = NULL;
+}
+
 static int run(const void *data) {
     const lod_command_arguments *arguments = data;
     const common_arguments *common = &arguments->common;
@@ -181,6 +193,7 @@ static int run(const void *data) {
     const bool named = options.attributes && strcmp(options.attributes, "auto") != 0;
     options.attributes = !named ? NULL : strcmp(options.attributes, "none") == 0 ? "" : options.attributes;
     if (arguments->subset) read_subset(arguments->subset, &options.subset, &options.subset_count);
+    if (!arguments->merge && process_group_leads(session.group)) tell_of_gaussians(&session, common);
     ewa_lod_build_stats stats = {.point_count = 0};
     const uint32_t count = (uint32_t)common->operand_count;
     const ewa_status status =

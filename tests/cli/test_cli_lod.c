@@ -43,6 +43,19 @@ TEST(test_make) {
     assert_int_equal(scratch_size("x.copc.laz"), -1);
 }
 
+/// Of Gaussians the centres are taken, which is said, and how to keep the rest.
+TEST(test_gaussians) {
+    run_done("printf 'ply\\nformat ascii 1.0\\nelement vertex 4\\n' >g.ply; "
+             "for n in x y z f_dc_0 f_dc_1 f_dc_2 opacity scale_0 scale_1 scale_2 rot_0 rot_1 rot_2 rot_3; do "
+             "echo property float $n >>g.ply; done; echo end_header >>g.ply; "
+             "for i in 1 2 3 4; do echo $i 0 0 1 1 1 2 -3 -3 -3 1 0 0 0 >>g.ply; done");
+    assert_int_equal(run("ewa lod g.ply t.ply -o centres.copc.laz"), 0);
+    assert_non_null(strstr(last_run.err, "g.ply: Gaussians become points at their centres; 'ewa convert g.ply -o lod-meta.json'"));
+    assert_null(strstr(last_run.err, "t.ply: Gaussians"));
+    assert_int_equal(run("ewa lod g.ply -o centres.copc.laz -q"), 0);
+    assert_string_equal(last_run.err, "");
+}
+
 /// Parts that are made alone become the file that is made at once.
 TEST(test_parts) {
     for (int part = 1; part <= 3; part++) run_done("ewa lod t.ply -o p%d.copc.laz --subset %d/3", part, part);
