@@ -203,7 +203,7 @@ static row_words words_of(const cli_option *option, const void *defaults) {
 }
 
 /// Whether a command has a row of these words.
-static bool tells(const cli_command *command, const cli_option *option, const row_words *words) {
+static bool has_row(const cli_command *command, const cli_option *option, const row_words *words) {
     bool same = false;
     void *defaults = help_make_defaults(command);
     const option_group *group;
@@ -218,9 +218,9 @@ static bool tells(const cli_command *command, const cli_option *option, const ro
 }
 
 /// Which of the first `count` commands has a row of these words first; `count`: none.
-static size_t find_teller(const cli_command *const *commands, size_t count, const cli_option *option, const row_words *words) {
+static size_t find_first_with_row(const cli_command *const *commands, size_t count, const cli_option *option, const row_words *words) {
     for (size_t i = 0; i < count; i++)
-        if (tells(commands[i], option, words)) return i;
+        if (has_row(commands[i], option, words)) return i;
     return count;
 }
 
@@ -229,17 +229,17 @@ static void print_cell(FILE *file, const char *text) {
     for (const char *c = text; *c; c++) fprintf(file, *c == '|' ? "\\%c" : "%c", *c);
 }
 
-/// A group of a command. What one before it tells in the same words is named, in a row for each that does.
+/// A group of a command. Options that an earlier command has in the same words are only named, in one row for each such command.
 static void print_group_markdown(FILE *file, const option_group *group, const void *defaults, const cli_command *const *commands,
                                  size_t index) {
     fprintf(file, "\n**%s**\n\n| option | meaning |\n|---|---|\n", group->title);
-    for (size_t teller = index + 1; teller-- > 0;) {
+    for (size_t source = index + 1; source-- > 0;) {
         bool any = false;
         for (size_t i = 0; i < group->count; i++) {
             const cli_option *option = &group->options[i];
             const row_words words = words_of(option, defaults);
-            if (find_teller(commands, index, option, &words) != teller) continue;
-            if (teller == index) {
+            if (find_first_with_row(commands, index, option, &words) != source) continue;
+            if (source == index) {
                 fputs("| `", file);
                 print_cell(file, words.names);
                 fputs("` | ", file);
@@ -251,7 +251,7 @@ static void print_group_markdown(FILE *file, const option_group *group, const vo
             if (option->kind == OPTION_TOGGLE) fprintf(file, ", --no-%s", option->key);
             any = true;
         }
-        if (any) fprintf(file, "` | as of [`ewa %s`](#ewa-%s) |\n", commands[teller]->name, commands[teller]->name);
+        if (any) fprintf(file, "` | as of [`ewa %s`](#ewa-%s) |\n", commands[source]->name, commands[source]->name);
     }
 }
 

@@ -107,7 +107,7 @@ void ewa_cell_keep_borders(const ewa_octree_facts *facts, const ewa_octree_key *
     }
 }
 
-void ewa_cell_drop_no_borders(ewa_cloud *cloud) {
+void ewa_cell_drop_empty_borders(ewa_cloud *cloud) {
     const ewa_attribute *border = ewa_cloud_find(cloud, EWA_BORDER);
     if (!border || border->component_count != 3) return;
     const uint64_t all = ewa_cloud_point_count(cloud);

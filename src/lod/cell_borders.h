@@ -10,12 +10,12 @@
 /// Whether a row-major affine map keeps angles, so that densities and squares of radii change alike. Any thread.
 bool ewa_cell_is_similar(const double to_world[16]);
 
-/// Takes away the borders ("border", floats, 3 each, of discs) that a node's points have where its cube ends, beyond which
+/// Removes the borders ("border", floats, 3 each, of discs) that a node's points have where its cube ends, beyond which
 /// other nodes go on. The points are mapped by `to_world`, row-major and affine; where that keeps no angles no border is left.
 void ewa_cell_keep_borders(const ewa_octree_facts *facts, const ewa_octree_key *key, const double to_world[16],
                            ewa_cloud *cloud);
 
-/// Takes away borders that are none, which pictures would ask of every point.
-void ewa_cell_drop_no_borders(ewa_cloud *cloud);
+/// Removes "border" where no point has one: pictures would read it of every point. Any thread.
+void ewa_cell_drop_empty_borders(ewa_cloud *cloud);
 
 #endif

@@ -161,7 +161,7 @@ static ewa_status load_points(ewa_lod *lod, const ewa_tree_reading *how, const e
         status = ewa_cloud_estimate(&cloud, &options);
     if (status == EWA_OK && !lod->has_surfels)
         ewa_cell_keep_borders(lod->facts, &node->key, how->appearance->to_world, cloud);
-    if (status == EWA_OK) ewa_cell_drop_no_borders(cloud);
+    if (status == EWA_OK) ewa_cell_drop_empty_borders(cloud);
     if (status == EWA_OK && ewa_cloud_point_count(cloud) == 0 && !lod->has_surfels) {
         // An empty cloud has no shape either.
         status = ewa_cloud_add(cloud, EWA_NORMAL, EWA_F32, 3, NULL);

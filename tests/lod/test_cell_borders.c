@@ -110,14 +110,14 @@ TEST_ON(test_no_borders, 0) {
     ewa_cloud *cloud = NULL;
     void *to;
     assert_int_equal(ewa_cloud_create(context, 1000, &cloud), EWA_OK);
-    ewa_cell_drop_no_borders(cloud);
+    ewa_cell_drop_empty_borders(cloud);
     assert_int_equal(ewa_cloud_add(cloud, EWA_BORDER, EWA_F32, 3, &to), EWA_OK);
     memset(to, 0, 3000 * sizeof(float));
     ((float *)to)[2999] = 1;
-    ewa_cell_drop_no_borders(cloud);
+    ewa_cell_drop_empty_borders(cloud);
     assert_non_null(ewa_cloud_find(cloud, EWA_BORDER));
     ((float *)to)[2999] = 0;
-    ewa_cell_drop_no_borders(cloud);
+    ewa_cell_drop_empty_borders(cloud);
     assert_null(ewa_cloud_find(cloud, EWA_BORDER));
     ewa_cloud_destroy(&cloud);
 }

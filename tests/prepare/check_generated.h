@@ -23,6 +23,12 @@ static inline ewa_cloud *check_generated(ewa_context *context, const ewa_generat
     return cloud;
 }
 
+/// Points of a generated object.
+static inline ewa_cloud *check_object(ewa_context *context, ewa_object object, uint64_t point_count) {
+    const ewa_generate_options options = check_generate_options(object, point_count);
+    return check_generated(context, &options);
+}
+
 /// FNV-1a over all attributes.
 static inline uint64_t check_cloud_hash(const ewa_cloud *cloud) {
     uint64_t hash = 0xcbf29ce484222325u;

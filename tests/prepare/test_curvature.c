@@ -3,6 +3,7 @@
 //
 // Signed curvatures against surfaces that are known: estimated from points, of meshes, of generated objects; what noise
 // and moving make of them.
+#include "prepare/check_generated.h"
 #include "prepare/check_prepare.h"
 #include "prepare/mesh_shapes.h"
 
@@ -159,12 +160,7 @@ TEST_ON(test_edges, 0) {
 /// Moved points bend as they are moved: by 1 / scale, and a mirror changes no sign, since normals stay outside.
 TEST_ON(test_moved, 0) {
     static const double mirror[16] = {0, -4, 0, 1, 4, 0, 0, 2, 0, 0, -4, 3, 0, 0, 0, 1};
-    ewa_generate_options options;
-    ewa_generate_options_init(&options, sizeof options);
-    options.object = EWA_OBJECT_SPHERE;
-    options.point_count = 100;
-    ewa_cloud *cloud = NULL;
-    assert_int_equal(ewa_cloud_generate(context, &options, &cloud), EWA_OK);
+    ewa_cloud *cloud = check_object(context, EWA_OBJECT_SPHERE, 100);
     assert_int_equal(ewa_cloud_transform(cloud, mirror), EWA_OK);
     const float *found = check_stream(cloud, EWA_CURVATURE), *place = check_stream(cloud, EWA_POSITION),
                 *normal = check_stream(cloud, EWA_NORMAL);

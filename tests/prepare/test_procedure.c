@@ -3,6 +3,7 @@
 //
 // Solid textures: means under footprints against numerical quadrature, what is left of high frequencies, the
 // colours of clouds.
+#include "check_generated.h"
 #include "check_prepare.h"
 #include "colors/pattern.h"
 #include "io/scratch.h"
@@ -134,12 +135,7 @@ TEST(test_high_frequency) {
 }
 
 static ewa_cloud *sphere(ewa_context *context, uint64_t count) {
-    ewa_generate_options options;
-    ewa_generate_options_init(&options, sizeof options);
-    options.object = EWA_OBJECT_SPHERE;
-    options.point_count = count;
-    ewa_cloud *cloud = NULL;
-    assert_int_equal(ewa_cloud_generate(context, &options, &cloud), EWA_OK);
+    ewa_cloud *cloud = check_object(context, EWA_OBJECT_SPHERE, count);
     return cloud;
 }
 

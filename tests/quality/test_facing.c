@@ -5,6 +5,7 @@
 // the normals of their far sides (against ray-traced truth), and sheets that fold are as opaque as if all of
 // their surfels faced the viewer, whichever way their normals point.
 #include "check.h"
+#include "tests/prepare/check_generated.h"
 
 #include <math.h>
 #include <stdbool.h>
@@ -136,12 +137,7 @@ static ewa_cloud *make_convex(ewa_context *context, const convex *of) {
 }
 
 static ewa_cloud *make_generated(ewa_context *context, ewa_object object) {
-    ewa_generate_options options;
-    ewa_generate_options_init(&options, sizeof options);
-    options.object = object;
-    options.point_count = 20000;
-    ewa_cloud *cloud = NULL;
-    assert_int_equal(ewa_cloud_generate(context, &options, &cloud), EWA_OK);
+    ewa_cloud *cloud = check_object(context, object, 20000);
     return cloud;
 }
 

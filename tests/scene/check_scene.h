@@ -6,6 +6,7 @@
 #define EWA_TESTS_SCENE_CHECK_SCENE_H
 
 #include "check.h"
+#include "tests/prepare/check_generated.h"
 
 enum { WIDTH = 96, HEIGHT = 72, PIXELS = WIDTH * HEIGHT, POINTS = 6000 };
 
@@ -16,12 +17,7 @@ typedef struct planes {
 } planes;
 
 static inline ewa_cloud *make_object(ewa_context *context, ewa_object object, double shift_world) {
-    ewa_generate_options options;
-    ewa_generate_options_init(&options, sizeof options);
-    options.object = object;
-    options.point_count = POINTS;
-    ewa_cloud *cloud = NULL;
-    assert_int_equal(ewa_cloud_generate(context, &options, &cloud), EWA_OK);
+    ewa_cloud *cloud = check_object(context, object, POINTS);
     const double to_world[16] = {1, 0, 0, shift_world, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
     assert_int_equal(ewa_cloud_transform(cloud, to_world), EWA_OK);
     return cloud;

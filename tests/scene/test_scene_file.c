@@ -4,20 +4,13 @@
 // Scene files: what was saved opens as the same picture; files within files; what a caller sets wins; every truncation, and
 // what names nothing, itself or something elsewhere, is refused with its place and leaves the scene as it was.
 #define _XOPEN_SOURCE 700
-#include "check.h"
+#include "check_scene.h"
 #include "ewa/scene_file.h"
 #include "io/scratch.h"
 
 #include <math.h>
 #include <sys/stat.h>
 #include <unistd.h>
-
-enum { WIDTH = 96, HEIGHT = 72, PIXELS = WIDTH * HEIGHT, POINTS = 4000 };
-
-typedef struct planes {
-    uint8_t rgba8[4 * PIXELS];
-    float rgba[4 * PIXELS], depth[PIXELS], normal[3 * PIXELS], coverage[PIXELS];
-} planes;
 
 static planes first, second;
 
@@ -32,12 +25,7 @@ static char *read_text(const char *path) {
 }
 
 static void save_object(ewa_context *context, ewa_object object, const char *path) {
-    ewa_generate_options options;
-    ewa_generate_options_init(&options, sizeof options);
-    options.object = object;
-    options.point_count = POINTS;
-    ewa_cloud *cloud = NULL;
-    assert_int_equal(ewa_cloud_generate(context, &options, &cloud), EWA_OK);
+    ewa_cloud *cloud = make_object(context, object, 0);
     assert_int_equal(ewa_cloud_save(cloud, path, NULL), EWA_OK);
     ewa_cloud_destroy(&cloud);
 }
@@ -61,30 +49,12 @@ static int set_up(void **state) {
     return 0;
 }
 
-static void draw(ewa_context *context, ewa_scene *scene, const ewa_camera *camera, planes *to) {
-    ewa_scene_renderer *renderer = NULL;
-    assert_int_equal(ewa_scene_renderer_create(context, EWA_BACKEND_CPU, NULL, &renderer), EWA_OK);
-    const ewa_frame frame = {to->rgba8, to->rgba, to->depth, to->normal, to->coverage};
-    assert_int_equal(ewa_scene_draw(scene, renderer, camera, NULL, &frame, NULL), EWA_OK);
-    ewa_scene_renderer_destroy(&renderer);
-}
-
 static void add(ewa_context *context, ewa_scene *scene, const char *path, const ewa_asset_options *options,
                 const ewa_instance *instance) {
     ewa_asset *asset = NULL;
     assert_int_equal(ewa_asset_load(context, path, options, &asset), EWA_OK);
     assert_int_equal(ewa_scene_add(scene, asset, instance), EWA_OK);
     ewa_asset_release(&asset);
-}
-
-static ewa_camera place(ewa_scene *scene) {
-    ewa_view_options options;
-    ewa_view_options_init(&options, sizeof options);
-    options.width_px = WIDTH;
-    options.height_px = HEIGHT;
-    ewa_camera camera;
-    assert_int_equal(ewa_scene_place_camera(scene, &options, &camera, NULL), EWA_OK);
-    return camera;
 }
 
 /// Options of which many are no default.

@@ -3,17 +3,13 @@
 //
 // Scenes for tests of shading.
 #include "tests/splat/shade_scene.h"
+#include "tests/prepare/check_generated.h"
 #include "reference/surface.h"
 
 #include <math.h>
 
 ewa_cloud *shade_sphere(ewa_context *context, uint64_t point_count, const float color[3]) {
-    ewa_generate_options options;
-    ewa_generate_options_init(&options, sizeof options);
-    options.object = EWA_OBJECT_SPHERE;
-    options.point_count = point_count;
-    ewa_cloud *cloud = NULL;
-    assert_int_equal(ewa_cloud_generate(context, &options, &cloud), EWA_OK);
+    ewa_cloud *cloud = check_object(context, EWA_OBJECT_SPHERE, point_count);
     ewa_cloud_remove(cloud, EWA_COLOR);
     void *data = NULL;
     assert_int_equal(ewa_cloud_add(cloud, EWA_COLOR, EWA_F32, 3, &data), EWA_OK);

@@ -34,7 +34,7 @@ command -v Xvfb >/dev/null 2>&1 || { echo "skipped: Xvfb is not installed"; exit
 # start_screen BITS: the screen says its own number.
 start_screen() {
     rm -f display
-    Xvfb -displayfd 3 -screen 0 "320x240x$1" -nolisten tcp 3>display 2>xvfb.log &
+    Xvfb -noreset -displayfd 3 -screen 0 "320x240x$1" -nolisten tcp 3>display 2>xvfb.log &
     screen=$!
     tries=300
     until [ -s display ]; do

@@ -17,11 +17,12 @@ mkdir -p "$folder"
 cd "$folder"
 
 # The screen says its own number, so that sessions beside this one do not matter.
-Xvfb -displayfd 3 -screen 0 1280x800x24 -nolisten tcp 3>display 2>xvfb.log &
+Xvfb -noreset -displayfd 3 -screen 0 1280x800x24 -nolisten tcp 3>display 2>xvfb.log &
 screen=$!
 session=""
 server=""
-trap 'kill $screen $session 2>/dev/null || true; kill -KILL $server 2>/dev/null || true' EXIT
+writer=""
+trap 'kill $screen $session $writer 2>/dev/null || true; kill -KILL $server 2>/dev/null || true' EXIT
 fail() {
     echo "session: $1" >&2
     sed 's/^/  printed: /' printed >&2 || true
@@ -39,6 +40,14 @@ wait_for() {
         sleep 0.1
     done
 }
+# open_window FILE: starts the viewer on a file, in the screen's corner.
+open_window() {
+    : >printed
+    "$view" "$1" --size 1000x700 >printed 2>complained &
+    session=$!
+    wait_for "a window" xdotool search --onlyvisible --name "$1"
+    xdotool windowmove "$(xdotool search --onlyvisible --name "$1" | tail -n 1)" 0 0
+}
 : >printed
 : >complained
 wait_for "a screen" test -s display
@@ -50,11 +59,7 @@ XDG_CONFIG_HOME=$PWD/config
 export XDG_STATE_HOME XDG_CONFIG_HOME
 
 "$ewa" generate torus --points 20000 -o torus.ply
-"$view" torus.ply --size 1000x700 >printed 2>complained &
-session=$!
-wait_for "a window" xdotool search --onlyvisible --name torus.ply
-window=$(xdotool search --onlyvisible --name torus.ply | tail -n 1)
-xdotool windowmove "$window" 0 0
+open_window torus.ply
 # The first picture that is saved shows that the file is there: a key is a request, a file is the answer.
 wait_for "the first picture" sh -c "xdotool key F12 && sleep 0.5 && test -s ewa-0001.png && ! cmp -s ewa-0001.png empty.png"
 
@@ -172,11 +177,7 @@ click_until() {
     done
     fail "'$2' is not printed"
 }
-: >printed
-"$view" torus.ply --size 1000x700 >printed 2>complained &
-session=$!
-wait_for "a window" xdotool search --onlyvisible --name torus.ply
-xdotool windowmove "$(xdotool search --onlyvisible --name torus.ply | tail -n 1)" 0 0
+open_window torus.ply
 last=none.png
 wait_for "the first picture" same_as_before
 button 9
@@ -235,11 +236,7 @@ session=""
 
 # A volume, whose transfer function gets another point by a double click on its graph, which a step back takes away.
 "$ewa" generate ball --dims 32 -o volume.nrrd
-: >printed
-"$view" volume.nrrd --size 1000x700 >printed 2>complained &
-session=$!
-wait_for "a window" xdotool search --onlyvisible --name volume.nrrd
-xdotool windowmove "$(xdotool search --onlyvisible --name volume.nrrd | tail -n 1)" 0 0
+open_window volume.nrrd
 last=none.png
 wait_for "the volume" same_as_before
 volume=$last

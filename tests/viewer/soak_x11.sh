@@ -17,7 +17,7 @@ shift 5
 mkdir -p "$folder"
 cd "$folder"
 rm -f round.png display lines
-Xvfb -displayfd 3 -screen 0 1280x800x24 -nolisten tcp 3>display 2>xvfb.log &
+Xvfb -noreset -displayfd 3 -screen 0 1280x800x24 -nolisten tcp 3>display 2>xvfb.log &
 screen=$!
 session=""
 trap 'kill $screen $session 2>/dev/null || true' EXIT

@@ -3,6 +3,7 @@
 //
 // Scripts through the viewer without a window: the pictures and words that each expects, on every instruction set.
 #include "check.h"
+#include "tests/prepare/check_generated.h"
 #include "cli/base/commands.h"
 #include "cli/view/window_services.h"
 #include "viewer/front.h"
@@ -25,12 +26,7 @@ static void save(const ewa_cloud *cloud, const char *path) {
 
 /// A part of the landscape with what surveys have: intensities and classes.
 static ewa_cloud *make_survey(ewa_context *context) {
-    ewa_generate_options options;
-    ewa_generate_options_init(&options, sizeof options);
-    options.object = EWA_OBJECT_TERRAIN;
-    options.point_count = 20000;
-    ewa_cloud *cloud = NULL;
-    assert_int_equal(ewa_cloud_generate(context, &options, &cloud), EWA_OK);
+    ewa_cloud *cloud = check_object(context, EWA_OBJECT_TERRAIN, 20000);
     void *intensities, *classes;
     assert_int_equal(ewa_cloud_add(cloud, "intensity", EWA_F32, 1, &intensities), EWA_OK);
     assert_int_equal(ewa_cloud_add(cloud, "classification", EWA_U8, 1, &classes), EWA_OK);
@@ -174,20 +170,15 @@ static int make_files(void **state) {
     mkdir(folder, 0777);
     assert_int_equal(chdir(folder), 0);
     ewa_context *context = check_context(2, NULL);
-    ewa_generate_options options;
-    ewa_generate_options_init(&options, sizeof options);
-    options.object = EWA_OBJECT_SPHERE;
-    options.point_count = 20000;
-    ewa_cloud *cloud = NULL;
-    assert_int_equal(ewa_cloud_generate(context, &options, &cloud), EWA_OK);
+    ewa_cloud *cloud = check_object(context, EWA_OBJECT_SPHERE, 20000);
     save(cloud, "sphere.ply");
     const double far_world[16] = {1, 0, 0, 500000.25, 0, 1, 0, 4200000.125, 0, 0, 1, 300, 0, 0, 0, 1};
     assert_int_equal(ewa_cloud_transform(cloud, far_world), EWA_OK);
     save(cloud, "far.ply");
     ewa_cloud_destroy(&cloud);
-    options.object = EWA_OBJECT_TORUS;
+    ewa_generate_options options = check_generate_options(EWA_OBJECT_TORUS, 20000);
     options.positions_only = true;
-    assert_int_equal(ewa_cloud_generate(context, &options, &cloud), EWA_OK);
+    cloud = check_generated(context, &options);
     save(cloud, "scan.ply");
     ewa_cloud_destroy(&cloud);
     cloud = make_survey(context);
