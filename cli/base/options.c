@@ -106,8 +106,20 @@ static bool parse_integer(const cli_option *option, const char *text, int64_t *n
     return true;
 }
 
+/// Reads the direction of an axis.
+static bool read_axis(const char *text, option_vector *vector) {
+    static const char names[] = "xyzXYZ";
+    const char *letter = *text == '+' ? text + 1 : text;
+    const char *name = *letter ? strchr(names, *letter) : NULL;
+    if (!name || letter[1]) return false;
+    *vector = (option_vector){.count = 3};
+    vector->values[(name - names) % 3] = 1;
+    return true;
+}
+
 static bool parse_vector(const cli_option *option, const char *text, option_vector *vector,
                          char message[OPTION_ERROR_BYTES]) {
+    if (option->axes && read_axis(text, vector)) return true;
     option_vector read = {.count = 0};
     for (const char *next = text;; next++) {
         double number;
@@ -121,7 +133,8 @@ static bool parse_vector(const cli_option *option, const char *text, option_vect
         if (!*next) break;
     }
     if (read.count < option->low || read.count == 0)
-        return wrong(message, "--%s: '%.80s' is not %s", option->key, text, option->value);
+        return wrong(message, "--%s: '%.80s' is %s%s%s", option->key, text, option->axes ? "neither " : "not ",
+                     option->axes ? "three numbers x,y,z " : option->value, option->axes ? "nor an axis, x, y or z" : "");
     *vector = read;
     return true;
 }

@@ -95,6 +95,14 @@ TEST(test_camera) {
              "ewa render torus.ply --output=b.png --resolution 90,90 --camera-position 1,2,3 "
              "--camera-focal-point 0,0,0.1 --camera-view-up 0,0,1 --camera-view-angle 40");
     assert_true(scratch_same("a.png", "b.png"));
+    static const char *const axes[] = {"z", "+Z"};
+    for (size_t i = 0; i < sizeof axes / sizeof axes[0]; i++) {
+        run_done("ewa render torus.ply -o b.png --size 90x90 --eye 1,2,3 --target 0,0,0.1 --up %s --fov 40", axes[i]);
+        assert_true(scratch_same("a.png", "b.png"));
+    }
+    static const char *const wrong[] = {"w", "-z", "zz", "+", "1,2"};
+    for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++)
+        run_fails(2, "is neither three numbers x,y,z nor an axis, x, y or z", "ewa render torus.ply -o b.png --up=%s", wrong[i]);
 }
 
 /// Every named view shows the whole torus: something in the middle half, nothing on the border.
