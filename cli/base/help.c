@@ -229,28 +229,42 @@ static void print_cell(FILE *file, const char *text) {
     for (const char *c = text; *c; c++) fprintf(file, *c == '|' ? "\\%c" : "%c", *c);
 }
 
-/// A group of a command. Options that an earlier command has in the same words are only named, in one row for each such command.
+static const char table_head[] = "| option | meaning |\n|---|---|\n";
+
+/// The options of a group that no earlier command has in the same words.
 static void print_group_markdown(FILE *file, const option_group *group, const void *defaults, const cli_command *const *commands,
                                  size_t index) {
-    fprintf(file, "\n**%s**\n\n| option | meaning |\n|---|---|\n", group->title);
-    for (size_t source = index + 1; source-- > 0;) {
+    bool any = false;
+    for (size_t i = 0; i < group->count; i++) {
+        const row_words words = words_of(&group->options[i], defaults);
+        if (find_first_with_row(commands, index, &group->options[i], &words) != index) continue;
+        if (!any) fprintf(file, "\n**%s**\n\n%s", group->title, table_head);
+        any = true;
+        fputs("| `", file);
+        print_cell(file, words.names);
+        fputs("` | ", file);
+        print_cell(file, words.meaning);
+        fputs(" |\n", file);
+    }
+}
+
+/// The other options of a command, of all groups, in one row for each earlier command that tells them.
+static void print_told_before_markdown(FILE *file, const void *defaults, const cli_command *const *commands, size_t index) {
+    bool headed = false;
+    for (size_t source = 0; source < index; source++) {
         bool any = false;
-        for (size_t i = 0; i < group->count; i++) {
-            const cli_option *option = &group->options[i];
-            const row_words words = words_of(option, defaults);
-            if (find_first_with_row(commands, index, option, &words) != source) continue;
-            if (source == index) {
-                fputs("| `", file);
-                print_cell(file, words.names);
-                fputs("` | ", file);
-                print_cell(file, words.meaning);
-                fputs(" |\n", file);
-                continue;
+        const option_group *group;
+        for (size_t g = 0; (group = group_of(commands[index], g)); g++)
+            for (size_t i = 0; i < group->count; i++) {
+                const cli_option *option = &group->options[i];
+                const row_words words = words_of(option, defaults);
+                if (find_first_with_row(commands, index, option, &words) != source) continue;
+                if (!headed) fprintf(file, "\n**As of other commands**\n\n%s", table_head);
+                headed = true;
+                fprintf(file, "%s--%s", any ? ", " : "| `", option->key);
+                if (option->kind == OPTION_TOGGLE) fprintf(file, ", --no-%s", option->key);
+                any = true;
             }
-            fprintf(file, "%s--%s", any ? ", " : "| `", option->key);
-            if (option->kind == OPTION_TOGGLE) fprintf(file, ", --no-%s", option->key);
-            any = true;
-        }
         if (any) fprintf(file, "` | as of [`ewa %s`](#ewa-%s) |\n", commands[source]->name, commands[source]->name);
     }
 }
@@ -383,6 +397,7 @@ void help_print_markdown(FILE *file, size_t count, const cli_command *const *com
         fprintf(file, "\n```sh\n%s```\n", command->examples);
         const option_group *group;
         for (size_t g = 0; (group = group_of(command, g)); g++) print_group_markdown(file, group, defaults, commands, i);
+        print_told_before_markdown(file, defaults, commands, i);
         free(defaults);
     }
 }
