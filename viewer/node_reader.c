@@ -55,17 +55,42 @@ static double seconds_between(const struct timespec *from, const struct timespec
 /// Sets until when nothing is read after something has been since `began`.
 static void begin_rest(node_reader *r, const struct timespec *began) {
     struct timespec now;
-    clock_gettime(CLOCK_REALTIME, &now);
+    clock_gettime(CLOCK_MONOTONIC, &now);
     const double end_s = 1e-9 * (double)now.tv_nsec + REST_SHARE * fmax(seconds_between(began, &now), 0);
     r->rest_end = (struct timespec){now.tv_sec + (time_t)end_s, (long)(1e9 * (end_s - floor(end_s)))};
+}
+
+/// Makes the condition one whose waits end by the clock that nobody sets.
+static void make_condition(pthread_cond_t *condition) {
+#ifdef __APPLE__ // has no such attribute, but waits for a span
+    pthread_cond_init(condition, NULL);
+#else
+    pthread_condattr_t attributes;
+    pthread_condattr_init(&attributes);
+    pthread_condattr_setclock(&attributes, CLOCK_MONOTONIC);
+    pthread_cond_init(condition, &attributes);
+    pthread_condattr_destroy(&attributes);
+#endif
+}
+
+/// Waits for something new until the rest ends, which is later than `now`. With the lock.
+static void wait_until_rest_end(node_reader *r, const struct timespec *now) {
+#ifdef __APPLE__
+    const double left_s = seconds_between(now, &r->rest_end);
+    const struct timespec left = {(time_t)left_s, (long)(1e9 * (left_s - floor(left_s)))};
+    pthread_cond_timedwait_relative_np(&r->changed, &r->lock, &left);
+#else
+    (void)now;
+    pthread_cond_timedwait(&r->changed, &r->lock, &r->rest_end);
+#endif
 }
 
 /// Whether it rests still, after a while of that or something new. With the lock.
 static bool rests(node_reader *r, bool more) {
     struct timespec now;
-    clock_gettime(CLOCK_REALTIME, &now);
+    clock_gettime(CLOCK_MONOTONIC, &now);
     if (!r->next_moving || r->resting || !(r->waits || more) || seconds_between(&now, &r->rest_end) <= 0) return false;
-    pthread_cond_timedwait(&r->changed, &r->lock, &r->rest_end);
+    wait_until_rest_end(r, &now);
     return true;
 }
 
@@ -88,7 +113,7 @@ static void *run(void *data) {
         r->reads = true;
         pthread_mutex_unlock(&r->lock);
         struct timespec began;
-        clock_gettime(CLOCK_REALTIME, &began);
+        clock_gettime(CLOCK_MONOTONIC, &began);
         const uint32_t count = read_some(r, &more);
         pthread_mutex_lock(&r->lock);
         begin_rest(r, &began);
@@ -106,7 +131,7 @@ ewa_status node_reader_create(octree_turns *of_octrees, node_reader **made) {
     if (!r) return EWA_ERROR_MEMORY;
     r->turns = of_octrees;
     pthread_mutex_init(&r->lock, NULL);
-    pthread_cond_init(&r->changed, NULL);
+    make_condition(&r->changed);
     ewa_context_options options;
     ewa_context_options_init(&options, sizeof options);
     options.thread_count = 1; // octrees have threads of their own
