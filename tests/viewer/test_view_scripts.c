@@ -239,7 +239,7 @@ static size_t list_scripts(char names[MAX_SCRIPTS][256]) {
 static int run_script(const char *name, uint32_t cpu_mask, int64_t threads) {
     static const char *const no_paths[] = {NULL};
     char path[2048];
-    snprintf(path, sizeof path, "%s/%s", scripts_folder, name);
+    snprintf(path, sizeof path, "%s/%.255s", scripts_folder, name);
     view_arguments view = {.common = {.operands = no_paths, .threads = threads, .quiet = true}};
     view_set_defaults(&view);
     window_services services;
