@@ -107,6 +107,17 @@ typedef struct viewer_transform {
     double by[16]; ///< what has been done since
 } viewer_transform;
 
+enum { OWN_PATH_BYTES = 256 };
+
+/// Files of transfer functions and colours that are not saved, until the end: steps back need them.
+typedef struct own_files {
+    char stem[OWN_PATH_BYTES - 32]; ///< what all their names begin with; "": nothing has been made
+    int lock;                       ///< descriptor, where something has
+    unsigned made_count;            ///< names that were used
+    char **paths;
+    size_t count;
+} own_files;
+
 /// Keyframes, and the film that is being made of them.
 typedef struct viewer_film {
     uint32_t key_count;
@@ -208,8 +219,7 @@ struct viewer {
     viewer_transform transform;
     viewer_film film;
     ewa_photos_options photos;
-    char **own_files; ///< of transfer functions and colours that are not saved, until the end: steps back need them
-    size_t own_file_count;
+    own_files own;
     ewa_measure measure_list[EWA_MAX_MEASURES];
     size_t measure_count;
     bool measures_kind;       ///< clicks add places to
@@ -243,8 +253,6 @@ void viewer_tell(viewer *v, const char *format, ...) __attribute__((format(print
 /// Notes what was done, for people alone.
 void viewer_note(viewer *v, const char *format, ...) __attribute__((format(printf, 2, 3)));
 void viewer_say(viewer *v, const char *format, ...) __attribute__((format(printf, 2, 3)));
-
-enum { SHOT_TEMPORARY_BYTES = 256 };
 
 // items.c
 bool items_open(viewer *v, const char *path);
@@ -376,11 +384,17 @@ bool photos_do(viewer *v, const char *rest);
 bool photos_is_changed(const viewer *v, size_t index);
 /// Shows an item in the colours that were found.
 void photos_take(viewer *v, size_t index, const viewer_photos *photos, const ewa_photos_report *found);
-/// Makes a file of our own, which stays until the viewer goes: its name begins with a word and ends with a suffix. False after
-/// saying why not.
-bool own_files_make(viewer *v, const char *word, const char *suffix, char path[SHOT_TEMPORARY_BYTES]);
+
+// own_files.c
+/// Makes a file of our own, which stays until the viewer goes: its name has a word and ends with a suffix. False after saying why not.
+bool own_files_make(viewer *v, const char *word, const char *suffix, char path[OWN_PATH_BYTES]);
+/// Takes one away before.
+void own_files_drop(viewer *v, const char *path);
 bool own_files_has(const viewer *v, const char *path);
-void own_files_free(viewer *v);
+/// Takes all away; nothing is made after it.
+void own_files_remove(viewer *v);
+/// Takes away what viewers have left that were killed.
+void own_files_clean(void);
 
 // film.c: the commands "keyframe" and "film"
 bool film_keyframe(viewer *v, const char *rest);
@@ -420,8 +434,6 @@ bool shot_command(viewer *v, const char *rest);
 bool shot_camera(viewer *v, const char *rest);
 /// Draws all there is, with what stands over it, as the window looks, whatever size the camera has.
 ewa_status shot_draw(viewer *v, const ewa_camera *camera, ewa_ink ink, uint8_t *rgba8);
-/// Makes a file of our own for a moment, whose name begins with a word and ends with a suffix. False after saying why not.
-bool shot_temporary(viewer *v, const char *word, const char *suffix, char path[SHOT_TEMPORARY_BYTES]);
 bool shot_scene(viewer *v, const char *rest);
 /// Fills in the scene of the window at full size.
 void viewer_scene(const viewer *v, paint_scene *scene);

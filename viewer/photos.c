@@ -8,34 +8,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
-
-bool own_files_make(viewer *v, const char *word, const char *suffix, char path[SHOT_TEMPORARY_BYTES]) {
-    if (!shot_temporary(v, word, suffix, path)) return false;
-    char **larger = realloc(v->own_files, (v->own_file_count + 1) * sizeof *larger), *kept = larger ? strdup(path) : NULL;
-    if (larger) v->own_files = larger;
-    if (kept) {
-        v->own_files[v->own_file_count++] = kept;
-        return true;
-    }
-    unlink(path);
-    viewer_tell(v, "%s: out of memory", path);
-    return false;
-}
-
-bool own_files_has(const viewer *v, const char *path) {
-    bool has = false;
-    for (size_t i = 0; i < v->own_file_count; i++) has = has || strcmp(path, v->own_files[i]) == 0;
-    return has;
-}
-
-void own_files_free(viewer *v) {
-    for (size_t i = 0; i < v->own_file_count; i++) {
-        unlink(v->own_files[i]);
-        free(v->own_files[i]);
-    }
-    free(v->own_files);
-}
 
 bool photos_is_changed(const viewer *v, size_t index) { return own_files_has(v, v->items[index].load.colored); }
 
@@ -73,7 +45,7 @@ static bool order(viewer *v, size_t index, const char *text) {
     scene_item *item = &v->items[index];
     viewer_photos *photos = calloc(1, sizeof *photos);
     size_t length = strlen(text);
-    char path[SHOT_TEMPORARY_BYTES];
+    char path[OWN_PATH_BYTES];
     bool done = photos != NULL;
     if (!done) viewer_tell(v, "%s: out of memory", item->name);
     if (done && !(take_folder(text, " masks ", &length, photos->masks) && take_folder(text, " images ", &length, photos->images) &&

@@ -5,15 +5,10 @@
 #include "inner.h"
 #include "navigate.h"
 
-#include <errno.h>
-#include <fcntl.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 #include <unistd.h>
-
-enum { NAME_ATTEMPTS = 100 };
 
 /// Notes where a file is that was saved.
 static void note_file(viewer *v, const char *what, const char *path) {
@@ -139,36 +134,18 @@ static bool load_camera(viewer *v, const char *path, const char *name) {
     return true;
 }
 
-/// A file of our own for a moment: the text of a camera is the library's business.
-bool shot_temporary(viewer *v, const char *word, const char *suffix, char path[SHOT_TEMPORARY_BYTES]) {
-    const char *folder = getenv("TMPDIR");
-    snprintf(path, SHOT_TEMPORARY_BYTES, "%.200s/ewa-%s", folder && *folder ? folder : "/tmp", word);
-    const size_t length = strlen(path);
-    int file = -1;
-    errno = EEXIST;
-    for (int attempt = 0; attempt < NAME_ATTEMPTS && file < 0 && errno == EEXIST; attempt++) {
-        snprintf(path + length, SHOT_TEMPORARY_BYTES - length, "-%lld-%d%s", (long long)time(NULL), attempt, suffix);
-        file = open(path, O_WRONLY | O_CREAT | O_EXCL, 0600);
-    }
-    if (file >= 0)
-        close(file);
-    else
-        viewer_tell(v, "%s cannot be made", path);
-    return file >= 0;
-}
-
 static bool copy_camera(viewer *v) {
-    char path[SHOT_TEMPORARY_BYTES];
-    if (!shot_temporary(v, "camera", "", path)) return false;
+    char path[OWN_PATH_BYTES];
+    if (!own_files_make(v, "camera", "", path)) return false;
     const bool done = save_camera(v, path) && read_text(path, v->clipboard, sizeof v->clipboard);
-    unlink(path);
+    own_files_drop(v, path);
     if (done && v->services.clipboard_set) v->services.clipboard_set(v->services.user, v->clipboard);
     if (done) viewer_note(v, "camera copied, as the JSON that --camera reads");
     return done;
 }
 
 static bool paste_camera(viewer *v) {
-    char path[SHOT_TEMPORARY_BYTES], text[4 * VIEWER_TEXT_BYTES];
+    char path[OWN_PATH_BYTES], text[4 * VIEWER_TEXT_BYTES];
     snprintf(text, sizeof text, "%s", v->clipboard);
     if (v->services.clipboard_get && !v->services.clipboard_get(v->services.user, text, sizeof text))
         text[0] = 0;
@@ -176,12 +153,12 @@ static bool paste_camera(viewer *v) {
         viewer_tell(v, "camera: there is no text to paste");
         return false;
     }
-    if (!shot_temporary(v, "camera", "", path)) return false;
+    if (!own_files_make(v, "camera", "", path)) return false;
     FILE *file = fopen(path, "w");
     bool done = file && fputs(text, file) >= 0;
     if (file) done = fclose(file) == 0 && done;
     done = done && load_camera(v, path, "the text that was copied");
-    unlink(path);
+    own_files_drop(v, path);
     if (done) viewer_note(v, "camera pasted");
     return done;
 }

@@ -28,7 +28,7 @@ static bool fail(viewer *v, const char *path) {
 
 /// Has a volume loaded with a function, which a file of our own keeps.
 static bool apply_changed(viewer *v, size_t index, const ewa_transfer *transfer) {
-    char path[SHOT_TEMPORARY_BYTES];
+    char path[OWN_PATH_BYTES];
     v->probe.message[0] = 0;
     if (!own_files_make(v, "transfer", "", path)) return false;
     if (ewa_transfer_save(v->probe.context, transfer, path) == EWA_OK) return apply(v, index, path);

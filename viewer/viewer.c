@@ -104,6 +104,7 @@ ewa_status viewer_create(const viewer_options *options, viewer **made) {
         return EWA_ERROR_ARGUMENT;
     viewer *v = calloc(1, sizeof *v);
     if (!v) return EWA_ERROR_MEMORY;
+    if (!options->stepped) own_files_clean();
     v->services = options->services;
     v->waits = options->waits;
     v->stepped = options->stepped;
@@ -154,7 +155,7 @@ void viewer_destroy(viewer **made) {
         ewa_asset_release(&v->items[i].asset);
         free(v->items[i].values);
     }
-    own_files_free(v);
+    own_files_remove(v);
     ewa_scene_destroy(&v->scene);
     history_free(v);
     profile_free(v);
