@@ -15,6 +15,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "defaults.h"
 #include "ewa/ewa.h"
 
 /// A test, which RUN_TESTS runs, in the order in which a file has them: TEST(name) { ... }, with `state` as cmocka hands it over.
@@ -60,8 +61,7 @@ static inline void check_log_keep(void *user, ewa_severity severity, const char 
 
 /// A context with `threads` workers (0: default) whose messages go to `log` (may be NULL).
 static inline ewa_context *check_context(uint32_t threads, check_log *log) {
-    ewa_context_options options;
-    ewa_context_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_context_options, options);
     options.thread_count = threads;
     if (log) {
         options.message = check_log_keep;
@@ -74,8 +74,7 @@ static inline ewa_context *check_context(uint32_t threads, check_log *log) {
 
 /// A context with `threads` workers and the instruction sets of `cpu_mask`.
 static inline ewa_context *check_context_of(uint32_t threads, uint32_t cpu_mask) {
-    ewa_context_options options;
-    ewa_context_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_context_options, options);
     options.thread_count = threads;
     options.cpu_mask = cpu_mask;
     ewa_context *context = NULL;
@@ -112,13 +111,47 @@ static inline ewa_allocator check_allocator(check_memory *memory) {
 
 /// A context with `threads` workers that takes from `memory`.
 static inline ewa_context *check_context_on(uint32_t threads, check_memory *memory) {
-    ewa_context_options options;
-    ewa_context_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_context_options, options);
     options.allocator = check_allocator(memory);
     options.thread_count = threads;
     ewa_context *context = NULL;
     assert_int_equal(ewa_context_create(&options, &context), EWA_OK);
     return context;
+}
+
+/// A cloud of `count` points without attributes.
+static inline ewa_cloud *check_cloud_of(ewa_context *context, uint64_t count) {
+    ewa_cloud *cloud = NULL;
+    assert_int_equal(ewa_cloud_create(context, count, &cloud), EWA_OK);
+    return cloud;
+}
+
+/// The numbers of a new attribute, to be filled.
+static inline void *check_add(ewa_cloud *cloud, const char *name, ewa_type type, uint32_t component_count) {
+    void *data = NULL;
+    assert_int_equal(ewa_cloud_add(cloud, name, type, component_count, &data), EWA_OK);
+    return data;
+}
+
+static inline ewa_surfels *check_surfels(const ewa_cloud *cloud, const ewa_surfels_options *options) {
+    ewa_surfels *surfels = NULL;
+    assert_int_equal(ewa_surfels_create(cloud, options, &surfels), EWA_OK);
+    return surfels;
+}
+
+static inline ewa_renderer *check_renderer(ewa_context *context) {
+    ewa_renderer *renderer = NULL;
+    assert_int_equal(ewa_renderer_create(context, &renderer), EWA_OK);
+    return renderer;
+}
+
+/// A camera of a picture of that size, else with its defaults.
+static inline ewa_camera check_camera(uint32_t width_px, uint32_t height_px) {
+    ewa_camera camera;
+    ewa_camera_init(&camera);
+    camera.width_px = width_px;
+    camera.height_px = height_px;
+    return camera;
 }
 
 /// Goes on as often as the number says that `user` points to.
@@ -130,8 +163,7 @@ static inline bool check_go_on(void *user, const char *stage, double fraction) {
 /// A context with `threads` workers (0: default) whose progress goes to `progress`, with `user`.
 static inline ewa_context *check_context_telling(uint32_t threads, bool (*progress)(void *user, const char *stage, double fraction),
                                                  void *user) {
-    ewa_context_options options;
-    ewa_context_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_context_options, options);
     options.thread_count = threads;
     options.progress = progress;
     options.progress_user = user;
@@ -142,8 +174,7 @@ static inline ewa_context *check_context_telling(uint32_t threads, bool (*progre
 
 /// A context that takes from `memory` and is stopped when it has asked `*left` times.
 static inline ewa_context *check_context_stopped(int *left, check_memory *memory) {
-    ewa_context_options options;
-    ewa_context_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_context_options, options);
     options.allocator = check_allocator(memory);
     options.progress = check_go_on;
     options.progress_user = left;

@@ -12,9 +12,7 @@ static void borrow(ewa_cloud *cloud, const char *name, uint32_t components, cons
 
 /// A camera that is turned, of pixels that are not square; its picture is 2 wide around the world's origin.
 static ewa_camera odd_camera(uint32_t kind, uint32_t side_px) {
-    ewa_camera camera;
-    ewa_camera_init(&camera);
-    camera.width_px = side_px, camera.height_px = side_px - 3;
+    ewa_camera camera = check_camera(side_px, side_px - 3);
     const double eye[3] = {0.4, -0.3, kind & ADJOINT_NEAR ? -0.2 : -3};
     const double target[3] = {0.1, 0.05, kind & ADJOINT_NEAR ? 2 : 0}, up[3] = {0.1, 1, 0};
     camera.fx_px = 1.5 * side_px, camera.fy_px = 1.35 * side_px;

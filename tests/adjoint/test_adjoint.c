@@ -186,14 +186,12 @@ TEST(test_picture) {
                                              &cotangent, &colors),
                          EWA_OK);
         hold("colors", color, b.color, 3, 3, s->count);
-        ewa_surfels *surfels = NULL;
-        ewa_renderer *renderer = NULL;
         float *rgba = zeroed(4 * b.pixel_count, sizeof *rgba);
         const ewa_frame frame = {.rgba = rgba};
         ewa_surfels_info info;
-        assert_int_equal(ewa_surfels_create(s->cloud, NULL, &surfels), EWA_OK);
+        ewa_surfels *surfels = check_surfels(s->cloud, NULL);
         ewa_surfels_describe(surfels, &info);
-        assert_int_equal(ewa_renderer_create(context, &renderer), EWA_OK);
+        ewa_renderer *renderer = check_renderer(context);
         assert_int_equal(ewa_render(renderer, surfels, &s->camera, &s->options, &frame, NULL), EWA_OK);
         s->unit_coverage = info.unit_coverage;
         assert_int_equal(run(&b, s->cloud), EWA_OK);

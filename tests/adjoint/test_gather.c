@@ -68,11 +68,9 @@ static ewa_status back(way_back *w) {
 
 static void draw(way_back *w, ewa_context *context) {
     const adjoint_scene *s = w->scene;
-    ewa_surfels *surfels = NULL;
-    ewa_renderer *renderer = NULL;
     const ewa_frame frame = {.rgba = w->picture};
-    assert_int_equal(ewa_surfels_create(s->cloud, NULL, &surfels), EWA_OK);
-    assert_int_equal(ewa_renderer_create(context, &renderer), EWA_OK);
+    ewa_surfels *surfels = check_surfels(s->cloud, NULL);
+    ewa_renderer *renderer = check_renderer(context);
     assert_int_equal(ewa_render(renderer, surfels, &s->camera, &s->options, &frame, NULL), EWA_OK);
     ewa_surfels_destroy(&surfels);
     ewa_renderer_destroy(&renderer);
@@ -130,8 +128,7 @@ static ewa_cloud *as_drawn(const ewa_cloud *given) {
     double *axis_u = ellipses ? replaced(cloud, EWA_TANGENT_U, 3) : NULL;
     double *axis_v = ellipses ? replaced(cloud, EWA_TANGENT_V, 3) : NULL;
     double *curvature = surfels->curvatures ? replaced(cloud, EWA_CURVATURE, 1) : NULL;
-    ewa_surfels_options options;
-    ewa_surfels_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_surfels_options, options);
     for (size_t i = 0; i < (size_t)surfels->packet_count * EWA_PACKET_LANES; i++) {
         const size_t point = surfels->points[i];
         if (point == EWA_NO_POINT) continue;
@@ -354,12 +351,10 @@ TEST(test_sum) {
     static const float z[2] = {0, 0.5f};
     for (int many = 0; many < 2; many++) {
         const uint64_t count = many ? COUNT : 3000;
-        ewa_cloud *cloud = NULL;
-        float *position, *normal, *radius;
-        assert_int_equal(ewa_cloud_create(context, count, &cloud), EWA_OK);
-        assert_int_equal(ewa_cloud_add(cloud, EWA_POSITION, EWA_F32, 3, (void **)&position), EWA_OK);
-        assert_int_equal(ewa_cloud_add(cloud, EWA_NORMAL, EWA_F32, 3, (void **)&normal), EWA_OK);
-        assert_int_equal(ewa_cloud_add(cloud, EWA_RADIUS, EWA_F32, 1, (void **)&radius), EWA_OK);
+        ewa_cloud *cloud = check_cloud_of(context, count);
+        float *position = check_add(cloud, EWA_POSITION, EWA_F32, 3);
+        float *normal = check_add(cloud, EWA_NORMAL, EWA_F32, 3);
+        float *radius = check_add(cloud, EWA_RADIUS, EWA_F32, 1);
         check_random random = {2};
         for (uint64_t i = 0; i < count; i++) {
             position[3 * i] = (float)check_uniform(&random, -3, 3), position[3 * i + 1] = (float)check_uniform(&random, -3, 3);
@@ -373,8 +368,7 @@ TEST(test_sum) {
         camera.width_px = camera.height_px = SIDE, camera.cx_px = camera.cy_px = SIDE / 2;
         camera.fx_px = camera.fy_px = SIDE;
         assert_int_equal(ewa_camera_look_at(&camera, eye, target, up), EWA_OK);
-        ewa_render_options options;
-        ewa_render_options_init(&options, sizeof options);
+        WITH_DEFAULTS(ewa_render_options, options);
         options.shading = EWA_SHADING_NONE, options.edge_antialiasing = false;
         float *rgba = calloc(4 * SIDE * SIDE, sizeof *rgba);
         double *color = calloc(3 * count, sizeof *color), sums[3] = {0};

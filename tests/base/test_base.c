@@ -27,8 +27,7 @@ TEST(test_defaults) {
 
 TEST(test_bad_options) {
     ewa_context *context = NULL;
-    ewa_context_options options;
-    ewa_context_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_context_options, options);
     options.thread_count = 100000;
     assert_int_equal(ewa_context_create(&options, &context), EWA_ERROR_ARGUMENT);
     ewa_context_options_init(&options, sizeof options);
@@ -39,8 +38,7 @@ TEST(test_bad_options) {
 
 TEST(test_overflowing_allocation_is_a_message) {
     char text[256] = "";
-    ewa_context_options options;
-    ewa_context_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_context_options, options);
     options.message = keep_text;
     options.message_user = text;
     ewa_context *context = NULL;
@@ -51,8 +49,7 @@ TEST(test_overflowing_allocation_is_a_message) {
 }
 
 static ewa_context *limited(const ewa_limits *limits, bool untrusted, char text[256]) {
-    ewa_context_options options;
-    ewa_context_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_context_options, options);
     options.thread_count = 1;
     options.limits = *limits;
     options.untrusted = untrusted;
@@ -112,8 +109,7 @@ TEST(test_limits) {
     assert_true(small.max_memory_bytes <= 1 << 30 && small.max_memory_bytes <= usual.max_memory_bytes);
     assert_int_equal(ewa_context_named_files(context), EWA_NAMED_NONE);
     ewa_context_destroy(&context);
-    ewa_context_options options;
-    ewa_context_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_context_options, options);
     options.limits.max_seconds = -1;
     assert_int_equal(ewa_context_create(&options, &context), EWA_ERROR_ARGUMENT);
     // The struct of a header without the last members.
@@ -175,8 +171,7 @@ static void run_until_told(void *data, uint32_t index, uint32_t worker) {
 TEST(test_long_tasks_are_stopped) {
     for (uint32_t workers = 1; workers <= 3; workers++) {
         endless run = {.count = workers};
-        ewa_context_options options;
-        ewa_context_options_init(&options, sizeof options);
+        WITH_DEFAULTS(ewa_context_options, options);
         options.thread_count = workers;
         options.progress = stop_when_all_run;
         options.progress_user = &run;

@@ -8,8 +8,7 @@
 
 static int enter(void **state) {
     const int status = scratch_enter("cli_compare");
-    ewa_context_options options;
-    ewa_context_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_context_options, options);
     assert_int_equal(ewa_context_create(&options, &context), EWA_OK);
     FILE *file = fopen(scratch_path("set.ply"), "w");
     assert_non_null(file);

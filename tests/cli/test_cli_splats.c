@@ -33,8 +33,7 @@ static int enter(void **state) {
     for (int i = 0; i < 10000; i++)
         fprintf(file, "%g %g -1 255 255 0\n", 0.06 * (i % 100) - 3, 0.06 * (i / 100) - 3);
     fclose(file);
-    ewa_context_options options;
-    ewa_context_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_context_options, options);
     assert_int_equal(ewa_context_create(&options, &context), EWA_OK);
     return status;
 }

@@ -10,13 +10,11 @@
 #include <string.h>
 
 TEST_ON(test_streams, 0) {
-    ewa_cloud *cloud = NULL;
-    assert_int_equal(ewa_cloud_create(context, 3, &cloud), EWA_OK);
+    ewa_cloud *cloud = check_cloud_of(context, 3);
     for (int i = 0; i < 20; i++) {
         char name[16];
         snprintf(name, sizeof name, "scalar_%d", i);
-        uint16_t *values = NULL;
-        assert_int_equal(ewa_cloud_add(cloud, name, EWA_U16, 1, (void **)&values), EWA_OK);
+        uint16_t *values = check_add(cloud, name, EWA_U16, 1);
         for (int p = 0; p < 3; p++) values[p] = (uint16_t)(100 * i + p);
     }
     ewa_cloud_remove(cloud, "scalar_3");
@@ -36,8 +34,7 @@ TEST_ON(test_borrowed_stride_and_bounds, 0) {
     struct record {
         float x, y, z, unused;
     } records[4] = {{1, 2, 3, 9}, {NAN, 0, 0, 9}, {-1, INFINITY, 0, 9}, {4, -5, 6, 9}};
-    ewa_cloud *cloud = NULL;
-    assert_int_equal(ewa_cloud_create(context, 4, &cloud), EWA_OK);
+    ewa_cloud *cloud = check_cloud_of(context, 4);
     assert_int_equal(ewa_cloud_borrow(cloud, EWA_POSITION, EWA_F32, 3, records, 6), EWA_ERROR_ARGUMENT);
     assert_int_equal(ewa_cloud_borrow(cloud, EWA_POSITION, EWA_F32, 3, records, sizeof records[0]), EWA_OK);
     const double origin[3] = {500000, 4000000, 100};
@@ -58,8 +55,7 @@ TEST_ON(test_packed_and_strided, 0) {
         const size_t bytes = ewa_type_bytes((ewa_type)type);
         for (size_t i = 0; i < sizeof packed; i++) packed[i] = (uint8_t)(61 * i % 127); // no NaN
         for (size_t i = 0; i < COUNT; i++) memcpy(strided + 4 * bytes * i, packed + 3 * bytes * i, 3 * bytes);
-        ewa_cloud *cloud = NULL;
-        assert_int_equal(ewa_cloud_create(context, COUNT, &cloud), EWA_OK);
+        ewa_cloud *cloud = check_cloud_of(context, COUNT);
         assert_int_equal(ewa_cloud_borrow(cloud, "packed", (ewa_type)type, 3, packed, 0), EWA_OK);
         assert_int_equal(ewa_cloud_borrow(cloud, "strided", (ewa_type)type, 3, strided, 4 * bytes), EWA_OK);
         double a[3 * COUNT], b[3 * COUNT];
@@ -86,9 +82,7 @@ TEST_ON(test_alike, 0) {
     for (uint32_t i = 0; i < 6; i++) {
         assert_int_equal(ewa_cloud_create(context, i, &clouds[i]), EWA_OK);
         for (uint32_t k = 0; k < others[i].count; k++)
-            assert_int_equal(
-                ewa_cloud_add(clouds[i], others[i].names[k], others[i].type, others[i].component_count, NULL),
-                EWA_OK);
+            assert_int_equal(ewa_cloud_add(clouds[i], others[i].names[k], others[i].type, others[i].component_count, NULL), EWA_OK);
         assert_int_equal(ewa_cloud_is_alike(clouds[i], clouds[0]), i == 0);
         assert_int_equal(ewa_cloud_is_alike(clouds[0], clouds[i]), i == 0);
     }

@@ -11,8 +11,7 @@
 
 /// A cloud of `count` points with positions (i, 10 i, 100 i) and one further attribute.
 static ewa_cloud *make(uint64_t count, ewa_type position_type, const char *name, ewa_type type) {
-    ewa_cloud *cloud = NULL;
-    assert_int_equal(ewa_cloud_create(context, count, &cloud), EWA_OK);
+    ewa_cloud *cloud = check_cloud_of(context, count);
     void *positions = NULL, *numbers = NULL;
     assert_int_equal(ewa_cloud_add(cloud, EWA_POSITION, position_type, 3, &positions), EWA_OK);
     assert_int_equal(ewa_cloud_add(cloud, name, type, 1, &numbers), EWA_OK);
@@ -217,8 +216,7 @@ TEST(test_transform) {
         const double det = m[0] * (m[5] * m[10] - m[6] * m[9]) - m[1] * (m[4] * m[10] - m[6] * m[8]) +
                            m[2] * (m[4] * m[9] - m[5] * m[8]);
         if (fabs(det) < 0.5) continue;
-        ewa_cloud *cloud = NULL;
-        assert_int_equal(ewa_cloud_create(context, 1, &cloud), EWA_OK);
+        ewa_cloud *cloud = check_cloud_of(context, 1);
         add_triple(cloud, EWA_POSITION, 1, -2, 0.5f);
         add_triple(cloud, EWA_TANGENT_U, 0.3f, 0, 0.1f);
         add_triple(cloud, EWA_TANGENT_V, 0, 0.2f, 0);

@@ -15,9 +15,8 @@ static const double origin_world[3] = {500000, 4200000, 10};
 /// Point i: position (i, 2 i, i / 4) from the origin, class i % 20, intensity 10 i, colour (i, 3 i, 5 i),
 /// tenths i / 10 as F32, of which every hundredth is NaN.
 static ewa_cloud *make_cloud(void) {
-    ewa_cloud *cloud = NULL;
     void *position, *class, *intensity, *color, *tenths;
-    assert_int_equal(ewa_cloud_create(context, POINTS, &cloud), EWA_OK);
+    ewa_cloud *cloud = check_cloud_of(context, POINTS);
     assert_int_equal(ewa_cloud_add(cloud, EWA_POSITION, EWA_F64, 3, &position), EWA_OK);
     assert_int_equal(ewa_cloud_add(cloud, "classification", EWA_U8, 1, &class), EWA_OK);
     assert_int_equal(ewa_cloud_add(cloud, "scalar_Intensity", EWA_U16, 1, &intensity), EWA_OK);
@@ -199,9 +198,8 @@ TEST(test_names) {
 
 /// Coordinates of a grid are the decimals of the file, whatever the binary fractions make of them.
 TEST(test_grid) {
-    ewa_cloud *cloud = NULL;
     void *data;
-    assert_int_equal(ewa_cloud_create(context, 1000, &cloud), EWA_OK);
+    ewa_cloud *cloud = check_cloud_of(context, 1000);
     assert_int_equal(ewa_cloud_add(cloud, EWA_POSITION, EWA_F64, 3, &data), EWA_OK);
     const double origin[3] = {637000.37, 849000.01, 400.11};
     ewa_cloud_set_origin(cloud, origin);

@@ -87,8 +87,7 @@ static int compare_float(const void *a, const void *b) {
 
 static found *find_all(uint32_t threads, uint32_t cpu_mask, const ewa_attribute *position, uint32_t count,
                        uint32_t k, ewa_neighbours **tree, ewa_context **context) {
-    ewa_context_options options;
-    ewa_context_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_context_options, options);
     options.thread_count = threads;
     options.cpu_mask = cpu_mask;
     assert_int_equal(ewa_context_create(&options, context), EWA_OK);

@@ -10,9 +10,8 @@
 /// A cloud of tests: F64 positions, and its number as "id".
 static ewa_cloud *make_cloud(ewa_context *context, uint32_t count, const double *positions,
                              const double origin[3]) {
-    ewa_cloud *cloud = NULL;
     void *data, *ids;
-    assert_int_equal(ewa_cloud_create(context, count, &cloud), EWA_OK);
+    ewa_cloud *cloud = check_cloud_of(context, count);
     assert_int_equal(ewa_cloud_add(cloud, EWA_POSITION, EWA_F64, 3, &data), EWA_OK);
     assert_int_equal(ewa_cloud_add(cloud, "id", EWA_U32, 1, &ids), EWA_OK);
     memcpy(data, positions, 3 * count * sizeof *positions);

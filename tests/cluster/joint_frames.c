@@ -13,21 +13,19 @@ static const scene_kind kinds[JOINT_PARTS] = {SCENE_SPHERE, SCENE_CUBE, SCENE_EL
 
 /// Gives every point one of three materials.
 static void add_materials(ewa_cloud *cloud) {
-    uint8_t *material = NULL;
-    assert_int_equal(ewa_cloud_add(cloud, EWA_MATERIAL, EWA_U8, 1, (void **)&material), EWA_OK);
+    uint8_t *material = check_add(cloud, EWA_MATERIAL, EWA_U8, 1);
     for (uint64_t i = 0; i < ewa_cloud_point_count(cloud); i++) material[i] = (uint8_t)(i / 7 % 3);
 }
 
 /// Makes surfels of a part in a context and adds them.
 static ewa_surfels *add_part(ewa_context *context, ewa_renderer *renderer, const joint_frame *of,
                              uint32_t part) {
-    ewa_surfels *surfels = NULL;
     scene made;
     assert_int_equal(scene_make(context, kinds[part], POINTS, JOINT_WIDTH_PX, JOINT_HEIGHT_PX, &made),
                      EWA_OK);
     if (of->clips && part != 2) picture_add_clips(made.cloud);
     if (of->materials) add_materials(made.cloud);
-    assert_int_equal(ewa_surfels_create(made.cloud, NULL, &surfels), EWA_OK);
+    ewa_surfels *surfels = check_surfels(made.cloud, NULL);
     assert_int_equal(ewa_render_add_source(renderer, surfels, &of->how[part]), EWA_OK);
     scene_free(&made);
     return surfels;

@@ -33,9 +33,8 @@ static void draw_as_rank(const ewa_exchange *exchange, void *data) {
 
 static void hold(subject *of, int index) {
     ewa_context *context = check_context(2, NULL);
-    ewa_renderer *renderer = NULL;
     picture expected = picture_make(JOINT_WIDTH_PX, JOINT_HEIGHT_PX);
-    assert_int_equal(ewa_renderer_create(context, &renderer), EWA_OK);
+    ewa_renderer *renderer = check_renderer(context);
     assert_int_equal(joint_frame_draw(context, renderer, &of->frame, 0, 1, &expected), EWA_OK);
     static const uint32_t counts[] = {1, 2, 3, 4, 7};
     // Each frame on every second number of ranks, by turns of two frames, of which one has all planes.
@@ -89,19 +88,15 @@ static double modelled_bytes(const ewa_joint *joint) {
 static void give_plane(const ewa_exchange *exchange, void *data) {
     double *shares = data;
     ewa_context *context = check_context(1, NULL);
-    ewa_generate_options plane;
-    ewa_generate_options_init(&plane, sizeof plane);
+    WITH_DEFAULTS(ewa_generate_options, plane);
     plane.object = EWA_OBJECT_PLANE;
     plane.point_count = 40000;
     ewa_cloud *cloud = NULL;
     ewa_surfels *surfels = NULL;
     ewa_renderer *renderer = NULL;
-    ewa_render_options options;
-    ewa_render_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_render_options, options);
     options.edge_layers = 1;
-    ewa_camera camera;
-    ewa_camera_init(&camera);
-    camera.width_px = camera.height_px = MODEL_PX;
+    ewa_camera camera = check_camera(MODEL_PX, MODEL_PX);
     picture into = picture_make(MODEL_PX, MODEL_PX);
     const ewa_frame frame = {.rgba8 = into.frame.rgba8};
     ewa_bounds box;

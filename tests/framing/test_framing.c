@@ -26,13 +26,10 @@ typedef struct disc {
 } disc;
 
 static ewa_cloud *make_cloud(const disc *discs, uint32_t count) {
-    ewa_cloud *cloud = NULL;
-    double *position = NULL;
-    float *radius = NULL, *normal = NULL;
-    assert_int_equal(ewa_cloud_create(context, count, &cloud), EWA_OK);
-    assert_int_equal(ewa_cloud_add(cloud, EWA_POSITION, EWA_F64, 3, (void **)&position), EWA_OK);
-    assert_int_equal(ewa_cloud_add(cloud, EWA_RADIUS, EWA_F32, 1, (void **)&radius), EWA_OK);
-    assert_int_equal(ewa_cloud_add(cloud, EWA_NORMAL, EWA_F32, 3, (void **)&normal), EWA_OK);
+    ewa_cloud *cloud = check_cloud_of(context, count);
+    double *position = check_add(cloud, EWA_POSITION, EWA_F64, 3);
+    float *radius = check_add(cloud, EWA_RADIUS, EWA_F32, 1);
+    float *normal = check_add(cloud, EWA_NORMAL, EWA_F32, 3);
     for (uint32_t i = 0; i < count; i++) {
         radius[i] = (float)discs[i].radius;
         for (int c = 0; c < 3; c++) {
@@ -44,10 +41,7 @@ static ewa_cloud *make_cloud(const disc *discs, uint32_t count) {
 }
 
 static ewa_camera make_lens(void) {
-    ewa_camera camera;
-    ewa_camera_init(&camera);
-    camera.width_px = 800;
-    camera.height_px = 600;
+    ewa_camera camera = check_camera(800, 600);
     assert_int_equal(ewa_camera_set_fov(&camera, 30), EWA_OK);
     return camera;
 }
@@ -181,13 +175,10 @@ TEST(test_giant_disc) {
 
 /// Axes of surfels count by the longer axis of their ellipse, which need not be one of them.
 TEST(test_axes) {
-    ewa_cloud *cloud = NULL;
-    double *position = NULL;
-    float *u = NULL, *v = NULL;
-    assert_int_equal(ewa_cloud_create(context, 2, &cloud), EWA_OK);
-    assert_int_equal(ewa_cloud_add(cloud, EWA_POSITION, EWA_F64, 3, (void **)&position), EWA_OK);
-    assert_int_equal(ewa_cloud_add(cloud, EWA_TANGENT_U, EWA_F32, 3, (void **)&u), EWA_OK);
-    assert_int_equal(ewa_cloud_add(cloud, EWA_TANGENT_V, EWA_F32, 3, (void **)&v), EWA_OK);
+    ewa_cloud *cloud = check_cloud_of(context, 2);
+    double *position = check_add(cloud, EWA_POSITION, EWA_F64, 3);
+    float *u = check_add(cloud, EWA_TANGENT_U, EWA_F32, 3);
+    float *v = check_add(cloud, EWA_TANGENT_V, EWA_F32, 3);
     memcpy(position, (double[6]){-1, 0, 0, 1, 0, 0}, 6 * sizeof *position);
     // Support 3 sigma: 0.6 along v; the sum of two that are almost the same is as long as their root of two.
     memcpy(u, (float[6]){0, 0.05f, 0, 0.1f, 0.01f, 0}, 6 * sizeof *u);
@@ -441,8 +432,7 @@ TEST(test_failures) {
 /// Whichever allocation fails, all memory is given back.
 TEST(test_memory) {
     check_memory memory = {.calls_left = -1};
-    ewa_context_options options;
-    ewa_context_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_context_options, options);
     options.thread_count = 1;
     options.allocator = check_allocator(&memory);
     ewa_context *own = NULL, *others = context;

@@ -525,12 +525,10 @@ TEST_ON(test_of_cloud, 1) {
     make_footed(0.33);
     const ewa_upright direct = chosen_at_origin(EWA_UP_Z_USUAL);
     for (int order = 0; order < 2; order++) {
-        ewa_cloud *cloud = NULL;
-        double *position = NULL;
         ewa_framing *framing = NULL;
         ewa_upright chosen;
-        assert_int_equal(ewa_cloud_create(context, made.count, &cloud), EWA_OK);
-        assert_int_equal(ewa_cloud_add(cloud, EWA_POSITION, EWA_F64, 3, (void **)&position), EWA_OK);
+        ewa_cloud *cloud = check_cloud_of(context, made.count);
+        double *position = check_add(cloud, EWA_POSITION, EWA_F64, 3);
         for (size_t i = 0; i < made.count; i++)
             memcpy(position + 3 * i, made.points[order ? made.count - 1 - i : i], sizeof made.points[0]);
         assert_int_equal(ewa_framing_create(cloud, 1, &framing), EWA_OK);

@@ -13,8 +13,7 @@ static const uint8_t black[4] = {0, 0, 0, 255}, white[4] = {255, 255, 255, 255},
 
 /// Options of which nothing is asked for yet.
 static ewa_furniture_options no_furniture(void) {
-    ewa_furniture_options options;
-    ewa_furniture_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_furniture_options, options);
     return options;
 }
 
@@ -130,9 +129,7 @@ TEST(test_axes) {
     ewa_canvas canvas = painting_make(720, 720, white);
     ewa_furniture_options options = no_furniture();
     options.axes = true;
-    ewa_camera camera;
-    ewa_camera_init(&camera);
-    camera.width_px = camera.height_px = 720;
+    ewa_camera camera = check_camera(720, 720);
     // From the front, with z up: x right, z up, y away.
     const double eye[3] = {0, -5, 0}, target[3] = {0, 0, 0}, up[3] = {0, 0, 1};
     assert_int_equal(ewa_camera_look_at(&camera, eye, target, up), EWA_OK);

@@ -6,6 +6,7 @@
 #define EWA_TESTS_FUZZ_H
 
 #include "ewa/ewa.h"
+#include "tests/defaults.h"
 
 #include <stdint.h>
 #include <stdio.h>
@@ -28,8 +29,7 @@ static inline void fuzz_message(void *user, ewa_severity severity, const char *t
 
 /// A context of `thread_count` workers with 64 MiB that counts errors (NULL: it does not); `max_points` 0: the default.
 static inline ewa_context_options fuzz_context_options(uint32_t thread_count, uint64_t max_points, int *errors) {
-    ewa_context_options options;
-    ewa_context_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_context_options, options);
     options.thread_count = thread_count;
     options.message = fuzz_message;
     options.message_user = errors;

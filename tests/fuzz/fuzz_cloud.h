@@ -51,8 +51,7 @@ static inline void fuzz_cloud(const ewa_cloud_format *format, const char *name, 
         int errors = 0;
         uint64_t lost_count = 0;
         ewa_context *context = fuzz_context(1, 0, &errors);
-        ewa_cloud_load_options load;
-        ewa_cloud_load_options_init(&load, sizeof load);
+        WITH_DEFAULTS(ewa_cloud_load_options, load);
         load.keep_going = keep_going;
         const ewa_cloud_source source = {.context = context,
                                          .name = name,

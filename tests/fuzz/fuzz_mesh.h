@@ -27,8 +27,7 @@ static inline void fuzz_check_mesh(const ewa_mesh *mesh) {
     bool closed;
     fuzz_require(ewa_mesh_is_closed(mesh, &closed) == EWA_OK, "open or closed");
     if (mesh->triangle_count > 64) return;
-    ewa_mesh_sample_options options;
-    ewa_mesh_sample_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_mesh_sample_options, options);
     options.point_count = 32;
     options.texture_filter = EWA_TEXTURE_NEAREST;
     ewa_cloud *cloud = NULL;

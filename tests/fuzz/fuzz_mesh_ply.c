@@ -19,8 +19,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size_bytes) {
     for (int encoding = 0; status == EWA_OK && model.elements && encoding < 3; encoding++) {
         char path[64];
         snprintf(path, sizeof path, "/tmp/ewa-fuzz-mesh-%ld.ply", (long)getpid());
-        ewa_cloud_save_options options;
-        ewa_cloud_save_options_init(&options, sizeof options);
+        WITH_DEFAULTS(ewa_cloud_save_options, options);
         options.ply_encoding = (ewa_ply_encoding)encoding;
         options.elements = model.elements;
         ewa_model back;

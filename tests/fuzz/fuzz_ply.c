@@ -54,8 +54,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size_bytes) {
     for (int encoding = 0; cloud && encoding < 3; encoding++) {
         char path[64];
         snprintf(path, sizeof path, "/tmp/ewa-fuzz-%ld.ply", (long)getpid());
-        ewa_cloud_save_options save_options;
-        ewa_cloud_save_options_init(&save_options, sizeof save_options);
+        WITH_DEFAULTS(ewa_cloud_save_options, save_options);
         save_options.ply_encoding = (ewa_ply_encoding)encoding;
         ewa_cloud *back = NULL;
         fuzz_require(ewa_cloud_save(cloud, path, &save_options) == EWA_OK, "what was read can be written");

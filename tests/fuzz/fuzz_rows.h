@@ -73,8 +73,7 @@ static inline int try_rows(const ewa_cloud_format *format, const uint8_t *bytes,
     int errors = 0;
     ewa_context *context = fuzz_context(1, 0, &errors);
     format->probe("input", bytes, size_bytes);
-    ewa_cloud_load_options options;
-    ewa_cloud_load_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_cloud_load_options, options);
     uint64_t lost_count = 0;
     ewa_cloud_source source = {.context = context,
                                .name = "input",

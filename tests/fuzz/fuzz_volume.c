@@ -10,8 +10,7 @@
 #include <stdlib.h>
 
 int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size_bytes) {
-    ewa_context_options options;
-    ewa_context_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_context_options, options);
     options.thread_count = 1;
     options.limits.max_memory_bytes = 1 << 24;
     ewa_context *context = NULL;
@@ -29,8 +28,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size_bytes) {
     }
     ewa_volume_free(&volume);
     if (size_bytes > 1) {
-        ewa_volume_load_options raw;
-        ewa_volume_load_options_init(&raw, sizeof raw);
+        WITH_DEFAULTS(ewa_volume_load_options, raw);
         raw.dims[0] = bytes[0] % 8 + 1u;
         raw.dims[1] = bytes[0] / 8 % 8 + 1u;
         raw.dims[2] = bytes[0] / 64 + 1u;

@@ -26,15 +26,13 @@ void gpu_scene_resize(gpu_scene *of, uint32_t width_px, uint32_t height_px) {
 void gpu_scene_make(gpu_scene *of, uint64_t points, uint32_t width_px, uint32_t height_px) {
     of->log.count = 0;
     of->memory = (check_memory){.calls_left = -1};
-    ewa_context_options options;
-    ewa_context_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_context_options, options);
     options.thread_count = 1;
     options.allocator = check_allocator(&of->memory);
     options.message = check_log_keep;
     options.message_user = &of->log;
     assert_int_equal(ewa_context_create(&options, &of->context), EWA_OK);
-    ewa_generate_options object;
-    ewa_generate_options_init(&object, sizeof object);
+    WITH_DEFAULTS(ewa_generate_options, object);
     object.object = EWA_OBJECT_TORUS;
     object.point_count = points;
     ewa_cloud *cloud = NULL;
@@ -60,8 +58,7 @@ bool gpu_scene_same(const gpu_scene *of, const uint8_t *rgba8) {
     const size_t size = (size_t)of->camera.width_px * of->camera.height_px * 4;
     uint8_t *wanted = malloc(size);
     assert_non_null(wanted);
-    ewa_renderer *cpu = NULL;
-    assert_int_equal(ewa_renderer_create(of->context, &cpu), EWA_OK);
+    ewa_renderer *cpu = check_renderer(of->context);
     assert_int_equal(gpu_scene_draw(of, cpu, wanted), EWA_OK);
     const bool same = memcmp(wanted, rgba8, size) == 0;
     ewa_renderer_destroy(&cpu);

@@ -52,11 +52,9 @@ TEST_ON(test_division_has_no_say, 0) {
         assert_int_equal(scene_make(context, kinds[k], POINTS, WIDTH_PX, HEIGHT_PX, &of), EWA_OK);
         ewa_surfels *parts[1];
         assert_int_equal(ewa_surfels_create(of.cloud, NULL, &parts[0]), EWA_OK);
-        ewa_render_options options;
-        ewa_render_options_init(&options, sizeof options);
+        WITH_DEFAULTS(ewa_render_options, options);
         options.opacity = k == 2 ? 0.5 : 1;
-        ewa_renderer *cpu = NULL;
-        assert_int_equal(ewa_renderer_create(context, &cpu), EWA_OK);
+        ewa_renderer *cpu = check_renderer(context);
         draw(cpu, parts, "0", &of, &options, &expected);
         for (size_t i = 0; i < 2; i++) {
             ewa_renderer *gl = open_tuned(context, tunings[k][i]);
@@ -81,8 +79,7 @@ TEST_ON(test_pixels_of_parts, 0) {
     assert_int_equal(ewa_surfels_create(of.cloud, NULL, &parts[0]), EWA_OK);
     ewa_renderer *cpu = NULL, *gl = open_tuned(context, "");
     assert_int_equal(ewa_renderer_create(context, &cpu), EWA_OK);
-    ewa_render_options options;
-    ewa_render_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_render_options, options);
     for (options.supersampling = 0; options.supersampling <= 2; options.supersampling += 2) {
         draw(cpu, parts, "0", &of, &options, &expected);
         draw(gl, parts, "0", &of, &options, &found);

@@ -122,8 +122,7 @@ static view make_view(const ewa_bounds *bounds, ewa_projection projection, doubl
 }
 
 static ewa_cloud *make_cloud(ewa_object object, bool sharp) {
-    ewa_generate_options options;
-    ewa_generate_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_generate_options, options);
     options.object = object, options.point_count = POINTS, options.sharp = sharp;
     ewa_cloud *cloud = NULL;
     assert_int_equal(ewa_cloud_generate(shared.context, &options, &cloud), EWA_OK);
@@ -132,9 +131,8 @@ static ewa_cloud *make_cloud(ewa_object object, bool sharp) {
 
 static ewa_surfels *make_surfels(ewa_object object, bool sharp, ewa_bounds *bounds) {
     ewa_cloud *cloud = make_cloud(object, sharp);
-    ewa_surfels *surfels = NULL;
     assert_int_equal(ewa_cloud_measure(cloud, bounds), EWA_OK);
-    assert_int_equal(ewa_surfels_create(cloud, NULL, &surfels), EWA_OK);
+    ewa_surfels *surfels = check_surfels(cloud, NULL);
     ewa_cloud_destroy(&cloud);
     return surfels;
 }
@@ -271,13 +269,11 @@ TEST(test_materials) {
     ewa_environment *environment = NULL;
     assert_int_equal(ewa_environment_create(&image, &environment), EWA_OK);
     ewa_cloud *cloud = make_cloud(EWA_OBJECT_SPHERE, false);
-    uint8_t *codes;
-    assert_int_equal(ewa_cloud_add(cloud, EWA_MATERIAL, EWA_U8, 1, (void **)&codes), EWA_OK);
+    uint8_t *codes = check_add(cloud, EWA_MATERIAL, EWA_U8, 1);
     for (uint64_t i = 0; i < ewa_cloud_point_count(cloud); i++) codes[i] = (uint8_t)(i / 500 % MATERIALS);
     ewa_bounds bounds;
-    ewa_surfels *surfels = NULL;
     assert_int_equal(ewa_cloud_measure(cloud, &bounds), EWA_OK);
-    assert_int_equal(ewa_surfels_create(cloud, NULL, &surfels), EWA_OK);
+    ewa_surfels *surfels = check_surfels(cloud, NULL);
     ewa_cloud_destroy(&cloud);
     ewa_material materials[MATERIALS];
     for (int i = 0; i < MATERIALS; i++) ewa_material_init(&materials[i]);

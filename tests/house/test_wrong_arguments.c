@@ -30,8 +30,7 @@ static ewa_status swap_nothing(void *user, const ewa_parcel *given, const ewa_pa
 #define MAKE(call) assert_int_equal(call, EWA_OK)
 
 static void make_clouds(void) {
-    ewa_generate_options options;
-    ewa_generate_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_generate_options, options);
     options.point_count = POINTS;
     options.texcoords = true;
     MAKE(ewa_cloud_generate(made.context, &options, &made.cloud));
@@ -46,8 +45,7 @@ static void make_clouds(void) {
     const ewa_asset_source source = {.cloud = made.cloud};
     MAKE(ewa_asset_create(made.context, &source, NULL, &made.asset));
     MAKE(ewa_scene_create(made.context, NULL, &made.scene));
-    ewa_instance instance;
-    ewa_instance_init(&instance, sizeof instance);
+    WITH_DEFAULTS(ewa_instance, instance);
     MAKE(ewa_scene_add(made.scene, made.asset, &instance));
     MAKE(ewa_scene_renderer_create(made.context, EWA_BACKEND_CPU, NULL, &made.scene_renderer));
     MAKE(ewa_scene_reader_create(made.context, &made.scene_reader));
@@ -136,8 +134,7 @@ static const char *run(const wrong_call *wrong, char text[128]) {
 TEST(test_no_wrong_argument_ends_the_process) {
     char folder[] = "/tmp/ewa-wrong-arguments-XXXXXX";
     assert_true(mkdtemp(folder) && chdir(folder) == 0);
-    ewa_context_options options;
-    ewa_context_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_context_options, options);
     options.thread_count = 1; // others would be gone in a child
     options.limits.max_memory_bytes = 1 << 30;
     MAKE(ewa_context_create(&options, &made.context));

@@ -131,14 +131,12 @@ static void hold_machines(const ewa_surfels *surfels, const random_scene *made, 
         uint32_t cpu_mask, threads, parts;
     } machines[] = {{0, 1, 1}, {EWA_CPU_AVX2, 3, 2}, {EWA_CPU_ALL, 5, 3}};
     for (size_t i = 0; i < sizeof machines / sizeof machines[0]; i++) {
-        ewa_context_options options;
-        ewa_context_options_init(&options, sizeof options);
+        WITH_DEFAULTS(ewa_context_options, options);
         options.cpu_mask = machines[i].cpu_mask;
         options.thread_count = machines[i].threads;
         ewa_context *context = NULL;
-        ewa_renderer *renderer = NULL;
         assert_int_equal(ewa_context_create(&options, &context), EWA_OK);
-        assert_int_equal(ewa_renderer_create(context, &renderer), EWA_OK);
+        ewa_renderer *renderer = check_renderer(context);
         draw_parts(renderer, surfels, machines[i].parts, made, &other->frame, random);
         hold_same(first, other, "another machine", seed, made->words);
         ewa_renderer_destroy(&renderer);
@@ -149,13 +147,11 @@ static void hold_machines(const ewa_surfels *surfels, const random_scene *made, 
 static void hold_scene(ewa_context *context, uint64_t seed, random_scene *made) {
     static const uint32_t tiles_px[] = {128, 64, 32, 16};
     check_random random = {seed + 1};
-    ewa_surfels *surfels = NULL;
-    ewa_renderer *renderer = NULL;
     planes first, other;
     planes_make(&first, &made->scene.camera);
     planes_make(&other, &made->scene.camera);
-    assert_int_equal(ewa_surfels_create(made->cloud, &made->surfels_options, &surfels), EWA_OK);
-    assert_int_equal(ewa_renderer_create(context, &renderer), EWA_OK);
+    ewa_surfels *surfels = check_surfels(made->cloud, &made->surfels_options);
+    ewa_renderer *renderer = check_renderer(context);
     const ewa_camera *camera = &made->scene.camera;
     const ewa_render_options *options = &made->scene.options;
     assert_int_equal(ewa_render(renderer, surfels, camera, options, &first.frame, NULL), EWA_OK);

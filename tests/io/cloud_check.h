@@ -96,8 +96,7 @@ static inline ewa_cloud *cloud_keep_going(ewa_context *context, const cloud_byte
                                           uint64_t *lost_count) {
     char path[512];
     scratch_write(scratch_path(name, path), file->bytes, file->size);
-    ewa_cloud_load_options options;
-    ewa_cloud_load_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_cloud_load_options, options);
     options.keep_going = true;
     ewa_cloud_reader *reader = NULL;
     ewa_cloud *cloud = NULL;

@@ -15,14 +15,13 @@ static const double copc_low_world[3] = {500000, 4200000, 90}, copc_side_world =
 
 /// Points in the cube with what a LAS file and surfels have; normals and radii in 16 bits.
 static inline ewa_cloud *copc_cloud(ewa_context *context, uint64_t count, bool wide_colors) {
-    ewa_cloud *cloud = NULL;
     double *position, *time;
     uint16_t *intensity, *radius;
     uint8_t *class, *number, *returns;
     int16_t *normal;
     float *deviation;
     void *color;
-    assert_int_equal(ewa_cloud_create(context, count, &cloud), EWA_OK);
+    ewa_cloud *cloud = check_cloud_of(context, count);
     ewa_cloud_set_origin(cloud, copc_low_world);
     ewa_cloud_set_grid(cloud, &(ewa_coordinate_grid){{0.001, 0.001, 0.01}, {500000, 4200000, 0}});
     ewa_cloud_add(cloud, EWA_POSITION, EWA_F64, 3, (void **)&position);

@@ -25,8 +25,7 @@ static inline void mesh_keep(void *user, ewa_severity severity, const char *text
 }
 
 static inline ewa_context *mesh_context(mesh_messages *messages) {
-    ewa_context_options options;
-    ewa_context_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_context_options, options);
     options.thread_count = 1;
     options.message = mesh_keep;
     options.message_user = messages;

@@ -91,8 +91,7 @@ static inline void scratch_load_picture(void *user, const char *path) {
 
 /// A context of one worker on `memory`.
 static inline ewa_context *scratch_context(check_memory *memory, check_log *log) {
-    ewa_context_options options;
-    ewa_context_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_context_options, options);
     options.allocator = check_allocator(memory);
     options.thread_count = 1;
     options.message = check_log_keep;

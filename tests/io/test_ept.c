@@ -95,8 +95,7 @@ static void write_node(int encoding, uint32_t index) {
     const ewa_cloud *piece = nodes.pieces[index];
     key_path("ept-data", &nodes.keys[index], suffixes[encoding], path);
     if (encoding == LASZIP) {
-        ewa_cloud_save_options options;
-        ewa_cloud_save_options_init(&options, sizeof options);
+        WITH_DEFAULTS(ewa_cloud_save_options, options);
         options.chunk_points = 37;
         assert_int_equal(ewa_cloud_save(piece, path, &options), EWA_OK);
         return;

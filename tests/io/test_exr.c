@@ -40,8 +40,7 @@ TEST(test_round_trip_is_exact) {
                     image.pixels[1] = -INFINITY;
                     image.pixels[2] = -0.0f;
                 }
-                ewa_image_save_options options;
-                ewa_image_save_options_init(&options, sizeof options);
+                WITH_DEFAULTS(ewa_image_save_options, options);
                 if (channels == 2) options.channel_names = "A,Y"; // names in the order that a file sorts them
                 if (channels > 4) options.channel_names = &"a,b,c,d,e,f,g,h"[2 * (8 - channels)];
                 assert_int_equal(ewa_image_save(&image, path, &options), EWA_OK);
@@ -61,8 +60,7 @@ TEST_ON(test_channels_go_by_name, 1) {
     ewa_image image, back;
     assert_int_equal(ewa_image_create(context, 1, 1, 6, &image), EWA_OK);
     for (int i = 0; i < 6; i++) image.pixels[i] = (float)i;
-    ewa_image_save_options options;
-    ewa_image_save_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_image_save_options, options);
     options.channel_names = "Z,B,N.X,G,A,R";
     assert_int_equal(ewa_image_save(&image, path, &options), EWA_OK);
     assert_int_equal(ewa_image_load(context, path, &back), EWA_OK);
@@ -87,8 +85,7 @@ TEST_ON(test_half, 1) {
     image.pixels[0] = 1.0f + 0x1p-10f; // exact in half
     image.pixels[1] = 1.0f + 0x1p-12f; // rounds to 1
     image.pixels[2] = 1e6f;            // overflows
-    ewa_image_save_options options;
-    ewa_image_save_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_image_save_options, options);
     options.exr_half = true;
     assert_int_equal(ewa_image_save(&image, path, &options), EWA_OK);
     assert_int_equal(ewa_image_load(context, path, &back), EWA_OK);
@@ -105,8 +102,7 @@ TEST_ON(test_camera_attribute, 1) {
     const double eye[3] = {1, 2, 3}, target[3] = {0, 0, 0}, up[3] = {0, 0, 1};
     ewa_camera_look_at(&camera, eye, target, up);
     ewa_image image = make_image(context, 4, 4, 3);
-    ewa_image_save_options options;
-    ewa_image_save_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_image_save_options, options);
     options.world_to_camera = camera.world_to_camera;
     assert_int_equal(ewa_image_save(&image, path, &options), EWA_OK);
     exr_context_t file;
@@ -133,8 +129,7 @@ TEST(test_names_are_checked) {
     ewa_image image = make_image(context, 2, 2, 3);
     static const char *const wrong[] = {"R,G", "R,G,B,A", "R,,B", "", "R,G,R", "R,G,B,"};
     for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
-        ewa_image_save_options options;
-        ewa_image_save_options_init(&options, sizeof options);
+        WITH_DEFAULTS(ewa_image_save_options, options);
         options.channel_names = wrong[i];
         assert_int_equal(ewa_image_save(&image, path, &options), EWA_ERROR_ARGUMENT);
         assert_non_null(strstr(log.text, "misnamed.exr"));
@@ -240,8 +235,7 @@ TEST(test_limits) {
     assert_int_equal(ewa_image_save(&image, scratch_path("limit.exr", path), NULL), EWA_OK);
     ewa_image_free(&image);
     ewa_context_destroy(&context);
-    ewa_context_options options;
-    ewa_context_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_context_options, options);
     options.message = check_log_keep;
     options.message_user = &log;
     options.limits.max_memory_bytes = 100 * 100 * 3 * 4;
@@ -294,8 +288,7 @@ static void bench(void) {
                         (float)(sqrt(1 - square) * (0.5 + 0.1 * c + 0.3 * sin(40 * dx)));
                 image.pixels[4 * i + 3] = 1;
             }
-            ewa_image_save_options options;
-            ewa_image_save_options_init(&options, sizeof options);
+            WITH_DEFAULTS(ewa_image_save_options, options);
             options.exr_half = half;
             double save_s = 1e9, load_s = 1e9;
             for (int round = 0; round < 5; round++) {

@@ -143,8 +143,7 @@ TEST(test_several_parts_are_named) {
 TEST(test_sizes_beyond_the_file_are_refused) {
     static const char *const sizes[] = {"\xff\xff\xff\x7f", "\xff\xff\xff\xff", "\0\0\0\x40", "\0\x10\0\0"};
     check_log log = {.count = 0};
-    ewa_context_options options;
-    ewa_context_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_context_options, options);
     options.limits.max_memory_bytes = 1 << 20;
     options.message = check_log_keep, options.message_user = &log;
     ewa_context *context;

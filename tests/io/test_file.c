@@ -129,8 +129,7 @@ TEST_WITHIN(test_pipe_is_read_to_its_end, set_up, tear_down) {
 
 TEST_WITHIN(test_endless_input_meets_the_limit, set_up, tear_down) {
     place *p = *state;
-    ewa_context_options options;
-    ewa_context_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_context_options, options);
     options.limits.max_memory_bytes = 100000;
     options.thread_count = 1;
     ewa_context *small = NULL;

@@ -49,8 +49,7 @@ static void order(ewa_gaussians *set) {
 static void pass(ewa_context *context, const ewa_gaussians *set, const char *name, uint32_t sh_degree,
                  uint32_t spz_version, ewa_gaussians *read, ewa_gaussian_facts *facts) {
     char path[512];
-    ewa_gaussians_save_options options;
-    ewa_gaussians_save_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_gaussians_save_options, options);
     if (sh_degree < 4) options.sh_degree = sh_degree;
     if (spz_version) options.spz_version = spz_version;
     assert_int_equal(ewa_gaussians_save(set, scratch_path(name, path), &options), EWA_OK);
@@ -110,8 +109,7 @@ TEST_ON(upright, 1) {
             static const char *const names[FORMS] = {"u.ply", "u.splat", "u.spz", "u.glb", "u.sog"};
             char path[512];
             ewa_gaussians set, read;
-            ewa_gaussians_save_options options;
-            ewa_gaussians_save_options_init(&options, sizeof options);
+            WITH_DEFAULTS(ewa_gaussians_save_options, options);
             memcpy(options.up_world, ups[u], sizeof ups[u]);
             options.spz_version = 4;
             make_set(context, 1, &set);
@@ -261,8 +259,7 @@ TEST(refused) {
     assert_int_equal(ewa_gaussians_save(&none, scratch_path("a.ply", path), NULL), EWA_ERROR_ARGUMENT);
     assert_int_equal(ewa_gaussians_save(NULL, path, NULL), EWA_ERROR_ARGUMENT);
     assert_int_equal(ewa_gaussians_save(&set, "/nowhere/at/all.spz", NULL), EWA_ERROR_IO);
-    ewa_gaussians_save_options options;
-    ewa_gaussians_save_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_gaussians_save_options, options);
     options.spz_version = 5;
     assert_int_equal(ewa_gaussians_save(&set, path, &options), EWA_ERROR_ARGUMENT);
     float *const numbers[] = {&set.centers[4], &set.scales[4], &set.opacities[1], &set.harmonics[4],

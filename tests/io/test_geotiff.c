@@ -245,8 +245,7 @@ TEST_WITHIN(test_empty, set_up, tear_down) {
 TEST_WITHIN(test_truncation, set_up, tear_down) {
     tiff_make(&file, PLACED);
     char path[512];
-    ewa_cloud_load_options options;
-    ewa_cloud_load_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_cloud_load_options, options);
     options.keep_going = true;
     uint64_t last = 0;
     for (size_t cut = 0; cut < file.size; cut++) {

@@ -136,8 +136,7 @@ TEST(test_limits) {
     size_t head = 0; // the frame's: ff c0, length, bits, height, width
     while (bytes[head] != 0xff || bytes[head + 1] != 0xc0) head++;
     for (int k = 0; k < 3; k++) {
-        ewa_context_options options;
-        ewa_context_options_init(&options, sizeof options);
+        WITH_DEFAULTS(ewa_context_options, options);
         if (k == 0) options.limits.max_image_side = 15;
         if (k == 1) options.limits.max_memory_bytes = 16 * 8 * 3 * sizeof(float) - 1;
         if (k == 2) { // 65,500 x 65,500

@@ -269,8 +269,7 @@ CASE(test_only_what_is_wanted) {
     FILE *file = fopen(path, "wb");
     assert_int_equal(fwrite(s.bytes, 1, s.size_bytes, file), s.size_bytes);
     fclose(file);
-    ewa_cloud_load_options options;
-    ewa_cloud_load_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_cloud_load_options, options);
     options.attributes = "classification,color";
     ewa_cloud_reader *reader = NULL;
     assert_int_equal(ewa_cloud_reader_open(context, path, &options, &reader), EWA_OK);

@@ -11,8 +11,7 @@
 /// A sample as the bytes of LAZ, in chunks of `chunk_points`.
 static uint8_t *compress(const las_sample *s, uint32_t chunk_points, size_t *size_bytes) {
     ewa_cloud *cloud = las_load(context, s);
-    ewa_cloud_save_options options;
-    ewa_cloud_save_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_cloud_save_options, options);
     options.chunk_points = chunk_points;
     char path[512];
     scratch_path("bad.laz", path);
@@ -98,8 +97,7 @@ CASE(test_damaged_chunk) {
     char path[512];
     scratch_path("damaged.laz", path);
     scratch_write(path, bytes, size_bytes);
-    ewa_cloud_load_options options;
-    ewa_cloud_load_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_cloud_load_options, options);
     options.keep_going = true;
     static const uint64_t sizes[] = {1000, 64, 250};
     for (size_t k = 0; k < sizeof sizes / sizeof *sizes; k++) {

@@ -23,8 +23,7 @@ static void keep(void *user, ewa_severity severity, const char *text) {
 static uint8_t *make(const char *name, size_t *size_bytes) {
     char path[512];
     ewa_context *context = check_context(2, NULL);
-    ewa_cloud *cloud = NULL;
-    assert_int_equal(ewa_cloud_create(context, POINTS, &cloud), EWA_OK);
+    ewa_cloud *cloud = check_cloud_of(context, POINTS);
     void *position = NULL, *number = NULL;
     assert_int_equal(ewa_cloud_add(cloud, EWA_POSITION, EWA_F64, 3, &position), EWA_OK);
     assert_int_equal(ewa_cloud_add(cloud, "return_number", EWA_U8, 1, &number), EWA_OK);
@@ -42,8 +41,7 @@ static uint8_t *make(const char *name, size_t *size_bytes) {
 /// Loads bytes and says what was said.
 static said load(const uint8_t *bytes, size_t size_bytes, uint32_t threads) {
     said s = {0};
-    ewa_context_options options;
-    ewa_context_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_context_options, options);
     options.thread_count = threads;
     options.message = keep;
     options.message_user = &s;

@@ -27,8 +27,7 @@ CASE(test_round_trips) {
         las_sample s = las_make(format, format < 4 ? 2 : format < 6 ? 3 : 4, 0, COUNT, NULL, 0, 0);
         ewa_cloud *cloud = las_load(context, &s);
         for (int compressed = 0; compressed < 2; compressed++) {
-            ewa_cloud_save_options options;
-            ewa_cloud_save_options_init(&options, sizeof options);
+            WITH_DEFAULTS(ewa_cloud_save_options, options);
             options.chunk_points = 1000;
             uint8_t *bytes = NULL;
             size_t size_bytes = 0;
@@ -81,8 +80,7 @@ CASE(test_pieces) {
     enum { COUNT = 4321 };
     las_sample s = las_make(7, 4, 0, COUNT, NULL, 0, 0);
     ewa_cloud *cloud = las_load(context, &s);
-    ewa_cloud_save_options options;
-    ewa_cloud_save_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_cloud_save_options, options);
     options.chunk_points = 500;
     char path[512];
     scratch_path("pieces.laz", path);
@@ -122,8 +120,7 @@ CASE(test_pieces) {
 
 /// A cloud of `count` positions in doubles.
 static ewa_cloud *make_cloud(uint64_t count, double **positions) {
-    ewa_cloud *cloud = NULL;
-    assert_int_equal(ewa_cloud_create(context, count, &cloud), EWA_OK);
+    ewa_cloud *cloud = check_cloud_of(context, count);
     assert_int_equal(ewa_cloud_add(cloud, EWA_POSITION, EWA_F64, 3, (void **)positions), EWA_OK);
     for (uint64_t i = 0; i < 3 * count; i++) (*positions)[i] = 0;
     return cloud;
@@ -146,11 +143,8 @@ CASE(test_attributes_of_every_type) {
     check_random random = {5};
     for (int i = 0; i < 3 * COUNT; i++) positions[i] = check_uniform(&random, -3, 3);
     for (size_t k = 0; k < sizeof attributes / sizeof *attributes; k++) {
-        uint8_t *data;
         const size_t bytes = COUNT * attributes[k].components * ewa_type_bytes(attributes[k].type);
-        assert_int_equal(ewa_cloud_add(cloud, attributes[k].name, attributes[k].type,
-                                       attributes[k].components, (void **)&data),
-                         EWA_OK);
+        uint8_t *data = check_add(cloud, attributes[k].name, attributes[k].type, attributes[k].components);
         for (size_t i = 0; i < bytes; i++) data[i] = (uint8_t)(check_random_u64(&random) % 64);
     }
     ewa_coordinate_grid grid = {{1e-6, 1e-6, 1e-6}, {0, 0, 0}};
@@ -167,8 +161,7 @@ CASE(test_attributes_of_every_type) {
 CASE(test_colors) {
     double *positions;
     ewa_cloud *cloud = make_cloud(256, &positions);
-    uint8_t *color;
-    assert_int_equal(ewa_cloud_add(cloud, EWA_COLOR, EWA_U8, 4, (void **)&color), EWA_OK);
+    uint8_t *color = check_add(cloud, EWA_COLOR, EWA_U8, 4);
     for (int i = 0; i < 1024; i++) color[i] = (uint8_t)(i / 4 + i);
     uint8_t *bytes;
     size_t size_bytes;
@@ -178,8 +171,7 @@ CASE(test_colors) {
     las_compare(cloud, back); // eight bits again
     ewa_cloud_destroy(&back);
     free(bytes);
-    float *linear;
-    assert_int_equal(ewa_cloud_add(cloud, EWA_COLOR, EWA_F32, 3, (void **)&linear), EWA_OK);
+    float *linear = check_add(cloud, EWA_COLOR, EWA_F32, 3);
     for (int i = 0; i < 768; i++) linear[i] = (float)i / 700;
     back = save_and_load(cloud, "color.las", NULL, NULL, NULL);
     const ewa_attribute *read = ewa_cloud_find(back, EWA_COLOR);
@@ -228,8 +220,7 @@ CASE(test_grids) {
     scratch_path("wide.las", path);
     assert_int_equal(ewa_cloud_save(cloud, path, NULL), EWA_ERROR_LIMIT);
     assert_non_null(strstr(messages.text, "x from 0 to 100000000 in steps of 0.01 does not fit the 32 bits"));
-    ewa_cloud_save_options options;
-    ewa_cloud_save_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_cloud_save_options, options);
     options.step_world = 0.5;
     assert_int_equal(ewa_cloud_save(cloud, path, &options), EWA_OK);
     remove(path);

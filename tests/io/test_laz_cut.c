@@ -25,9 +25,8 @@ static uint16_t *add_u16(ewa_cloud *cloud, const char *name, uint32_t component_
 
 /// Points whose fields are never 0, so that what is lost can be told.
 static ewa_cloud *make_cloud(ewa_context *context, cut_kind kind) {
-    ewa_cloud *cloud = NULL;
     void *data = NULL;
-    assert_int_equal(ewa_cloud_create(context, POINTS, &cloud), EWA_OK);
+    ewa_cloud *cloud = check_cloud_of(context, POINTS);
     assert_int_equal(ewa_cloud_add(cloud, EWA_POSITION, EWA_F64, 3, &data), EWA_OK);
     double *places = data;
     for (int i = 0; i < POINTS; i++) {
@@ -69,8 +68,7 @@ static ewa_cloud *load_cut(ewa_context *context, const uint8_t *bytes, size_t le
     assert_non_null(file);
     assert_int_equal(fwrite(bytes, 1, length, file), length);
     fclose(file);
-    ewa_cloud_load_options options;
-    ewa_cloud_load_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_cloud_load_options, options);
     options.keep_going = true;
     ewa_cloud_reader *reader = NULL;
     ewa_cloud *cloud = NULL;
@@ -128,8 +126,7 @@ static void try_cuts(cut_kind kind, size_t step) {
     ewa_context *context = check_context(2, &log);
     char path[512], cut_path[512];
     ewa_cloud *made = make_cloud(context, kind), *whole = NULL;
-    ewa_cloud_save_options options;
-    ewa_cloud_save_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_cloud_save_options, options);
     options.chunk_points = CHUNK_POINTS;
     options.step_world = 0.01;
     assert_int_equal(ewa_cloud_save(made, scratch_path("whole.laz", path), &options), EWA_OK);
@@ -224,8 +221,7 @@ TEST(test_octree) {
 static ewa_status load_failing(ewa_context *context, void *user) {
     size_t size_bytes;
     uint8_t *bytes = scratch_read(user, &size_bytes);
-    ewa_cloud_load_options options;
-    ewa_cloud_load_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_cloud_load_options, options);
     options.keep_going = true;
     ewa_cloud_reader *reader = NULL;
     ewa_cloud *cloud = NULL;

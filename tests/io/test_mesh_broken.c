@@ -280,8 +280,7 @@ TEST(test_limits) {
     for (int i = 0; i < SAMPLES; i++)
         for (int kind = 0; kind < 2; kind++) {
             mesh_messages messages = {.errors = 0};
-            ewa_context_options options;
-            ewa_context_options_init(&options, sizeof options);
+            WITH_DEFAULTS(ewa_context_options, options);
             options.thread_count = 1;
             options.message = mesh_keep;
             options.message_user = &messages;

@@ -241,8 +241,7 @@ CASE(test_written_as_ply) {
     assert_int_equal(ewa_model_load(context, scratch_path("mtl.obj", path),
                                     EWA_MODEL_POINTS | EWA_MODEL_ELEMENTS, NULL, &model),
                      EWA_OK);
-    ewa_cloud_save_options options;
-    ewa_cloud_save_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_cloud_save_options, options);
     for (int encoding = 0; encoding < 3; encoding++) {
         options.ply_encoding = (ewa_ply_encoding)encoding;
         options.elements = model.elements;

@@ -354,8 +354,7 @@ CASE(test_elements_round_trip) {
                                                EWA_MODEL_POINTS | EWA_MODEL_ELEMENTS, NULL, &model),
                          EWA_OK);
         assert_int_equal(ewa_elements_face_count(model.elements), 2);
-        ewa_cloud_save_options options;
-        ewa_cloud_save_options_init(&options, sizeof options);
+        WITH_DEFAULTS(ewa_cloud_save_options, options);
         options.ply_encoding = (ewa_ply_encoding)encoding;
         options.elements = model.elements;
         assert_int_equal(ewa_cloud_save(model.points, path, &options), EWA_OK);

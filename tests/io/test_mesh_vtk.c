@@ -93,8 +93,7 @@ CASE(test_numbers) {
     hold_numbers(mesh.attributes, "Flow", EWA_F64, 3, third, (const double[]){0, 0, 1});
     hold_numbers(mesh.attributes, "ids", EWA_I32, 1, third, (const double[]){-9});
     hold_numbers(mesh.attributes, "scalar_radius", EWA_F32, 1, third, (const double[]){3});
-    ewa_mesh_sample_options options;
-    ewa_mesh_sample_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_mesh_sample_options, options);
     options.point_count = 2000;
     ewa_cloud *cloud = NULL;
     assert_int_equal(ewa_mesh_sample(&mesh, &options, &cloud), EWA_OK);

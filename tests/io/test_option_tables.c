@@ -252,12 +252,10 @@ TEST(test_callers) {
     ewa_cloud *other = NULL;
     assert_int_equal(ewa_cloud_generate(context, &newer.options, &other), EWA_ERROR_UNSUPPORTED);
     assert_null(other);
-    ewa_surfels_options older;
-    ewa_surfels_options_init(&older, sizeof older);
+    WITH_DEFAULTS(ewa_surfels_options, older);
     older.struct_size = offsetof(ewa_surfels_options, radius_scale);
     older.radius_scale = -1; // of another program's variable
-    ewa_surfels *surfels = NULL;
-    assert_int_equal(ewa_surfels_create(cloud, &older, &surfels), EWA_OK);
+    ewa_surfels *surfels = check_surfels(cloud, &older);
     ewa_surfels_destroy(&surfels);
     ewa_cloud_destroy(&cloud);
     ewa_context_destroy(&context);

@@ -8,8 +8,7 @@
 #include "io/fixture.h"
 
 static ewa_cloud *make_cloud(uint64_t point_count, ewa_type position_type) {
-    ewa_cloud *cloud = NULL;
-    assert_int_equal(ewa_cloud_create(context, point_count, &cloud), EWA_OK);
+    ewa_cloud *cloud = check_cloud_of(context, point_count);
     static const struct {
         const char *name;
         ewa_type type;
@@ -61,8 +60,7 @@ CASE(test_written_files_read_back) {
     for (int encoding = 0; encoding < 3; encoding += 2)
         for (int type = EWA_F32; type <= EWA_F64; type++) {
             ewa_cloud *cloud = make_cloud(9001, (ewa_type)type), *back = NULL;
-            ewa_cloud_save_options options;
-            ewa_cloud_save_options_init(&options, sizeof options);
+            WITH_DEFAULTS(ewa_cloud_save_options, options);
             options.ply_encoding = (ewa_ply_encoding)encoding;
             assert_int_equal(ewa_cloud_set_note(cloud, "scanners", "1.5 -2 3e6", 10), EWA_OK);
             assert_int_equal(ewa_cloud_save(cloud, path, &options), EWA_OK);
@@ -112,8 +110,7 @@ CASE(test_what_is_not_written) {
     char path[512];
     scratch_path("refused.pcd", path);
     ewa_cloud *cloud = make_cloud(1, EWA_F32);
-    ewa_cloud_save_options options;
-    ewa_cloud_save_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_cloud_save_options, options);
     options.ply_encoding = EWA_PLY_BINARY_BIG_ENDIAN;
     assert_int_equal(ewa_cloud_save(cloud, path, &options), EWA_ERROR_UNSUPPORTED);
     assert_non_null(strstr(messages.text, "PCD files are not big-endian"));

@@ -177,8 +177,7 @@ CASE(test_warnings_about_the_rest) {
 }
 
 CASE(test_limits) {
-    ewa_context_options options;
-    ewa_context_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_context_options, options);
     options.limits.max_points = 2;
     options.message = check_log_keep;
     options.message_user = &messages;
@@ -285,8 +284,7 @@ CASE(test_changed_bytes_do_no_harm) {
 
 CASE(test_failing_allocations) {
     check_memory memory = {.calls_left = -1};
-    ewa_context_options options;
-    ewa_context_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_context_options, options);
     options.allocator = check_allocator(&memory);
     options.thread_count = 2;
     options.message = check_log_keep;
@@ -308,8 +306,7 @@ CASE(test_failing_allocations) {
             ewa_cloud *cloud = NULL;
             ewa_status status = ewa_cloud_load_memory(own, s.bytes, s.size, "sample.ply", &cloud);
             if (status == EWA_OK) {
-                ewa_cloud_save_options save_options;
-                ewa_cloud_save_options_init(&save_options, sizeof save_options);
+                WITH_DEFAULTS(ewa_cloud_save_options, save_options);
                 save_options.ply_encoding = (ewa_ply_encoding)encoding;
                 status = ewa_cloud_save(cloud, path, &save_options);
             }

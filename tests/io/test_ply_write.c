@@ -47,8 +47,7 @@ static char *inside(const char *name, char path[128]) {
 }
 
 static ewa_status save_as(const ewa_cloud *cloud, const char *path, int encoding) {
-    ewa_cloud_save_options options;
-    ewa_cloud_save_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_cloud_save_options, options);
     options.ply_encoding = (ewa_ply_encoding)encoding;
     return ewa_cloud_save(cloud, path, &options);
 }
@@ -282,8 +281,7 @@ TEST_WITHIN(test_cancelled_output_keeps_the_old_file, set_up, tear_down) {
     char path[128];
     ewa_cloud *cloud = make_everything(context, 10, EWA_F32, EWA_U8), *back;
     assert_int_equal(save_as(cloud, inside("cloud.ply", path), 0), EWA_OK);
-    ewa_context_options options;
-    ewa_context_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_context_options, options);
     options.progress = stop_writing;
     ewa_context *own = NULL;
     assert_int_equal(ewa_context_create(&options, &own), EWA_OK);

@@ -103,8 +103,7 @@ TEST_ON(test_float_to_codes, 1) {
     ewa_image_free(&back);
 
     // Without un-premultiplying the colours stay what they are.
-    ewa_image_save_options options;
-    ewa_image_save_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_image_save_options, options);
     options.srgb_alpha_straight = false;
     assert_int_equal(ewa_image_save(&image, path, &options), EWA_OK);
     assert_int_equal(ewa_image_load(context, path, &back), EWA_OK);
@@ -213,8 +212,7 @@ TEST(test_every_truncation_is_refused) {
 
 TEST(test_limits_come_before_memory) {
     check_log log = {0};
-    ewa_context_options options;
-    ewa_context_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_context_options, options);
     options.message = check_log_keep;
     options.message_user = &log;
     options.limits.max_image_side = 600;

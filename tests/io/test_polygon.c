@@ -22,9 +22,8 @@ static ewa_status read_text(const char *text, ewa_polygon **polygon) {
 
 /// Which of 11 x 11 places are inside, row by row from the lowest, as text.
 static void draw(const ewa_polygon *polygon, char picture[11 * 12 + 1]) {
-    ewa_cloud *cloud = NULL;
     void *data;
-    assert_int_equal(ewa_cloud_create(context, 121, &cloud), EWA_OK);
+    ewa_cloud *cloud = check_cloud_of(context, 121);
     assert_int_equal(ewa_cloud_add(cloud, EWA_POSITION, EWA_F64, 3, &data), EWA_OK);
     const double origin[3] = {500000, 4200000, 0};
     ewa_cloud_set_origin(cloud, origin);
@@ -164,9 +163,8 @@ TEST(test_many_corners) {
         ewa_polygon *polygon = NULL;
         const uint32_t ring = CORNERS;
         assert_int_equal(ewa_polygon_create(context, corners, &ring, 1, &polygon), EWA_OK);
-        ewa_cloud *cloud = NULL;
         void *data;
-        assert_int_equal(ewa_cloud_create(context, POINTS, &cloud), EWA_OK);
+        ewa_cloud *cloud = check_cloud_of(context, POINTS);
         assert_int_equal(ewa_cloud_add(cloud, EWA_POSITION, EWA_F64, 3, &data), EWA_OK);
         double *p = data;
         for (int i = 0; i < POINTS; i++) {

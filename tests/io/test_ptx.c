@@ -64,8 +64,7 @@ TEST_WITHIN(test_damage, set_up, tear_down) {
 }
 
 TEST_WITHIN(test_keep_going, set_up, tear_down) {
-    ewa_cloud_load_options options;
-    ewa_cloud_load_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_cloud_load_options, options);
     options.keep_going = true;
     ewa_cloud *cloud = NULL;
     uint64_t lost_count = 0;

@@ -15,9 +15,8 @@ enum { POINTS = 5003 };
 
 /// A cloud with a grid of millimetres at a place of seven digits, colours, and two attributes of scans.
 static ewa_cloud *make_scan(void) {
-    ewa_cloud *cloud = NULL;
     void *position, *color, *class, *time;
-    assert_int_equal(ewa_cloud_create(context, POINTS, &cloud), EWA_OK);
+    ewa_cloud *cloud = check_cloud_of(context, POINTS);
     assert_int_equal(ewa_cloud_add(cloud, EWA_POSITION, EWA_F64, 3, &position), EWA_OK);
     assert_int_equal(ewa_cloud_add(cloud, EWA_COLOR, EWA_U8, 3, &color), EWA_OK);
     assert_int_equal(ewa_cloud_add(cloud, "classification", EWA_U8, 1, &class), EWA_OK);
@@ -123,10 +122,8 @@ static void let_go(void *user, void *block, size_t size_bytes) {
 /// A file that is passed through needs memory for a piece, not for its points.
 CASE(test_memory) {
     enum { MANY = 400000, PIECE = 4096, MAX_BYTES = 3 << 20 };
-    ewa_cloud *cloud = NULL;
-    float *position = NULL;
-    assert_int_equal(ewa_cloud_create(context, MANY, &cloud), EWA_OK);
-    assert_int_equal(ewa_cloud_add(cloud, EWA_POSITION, EWA_F32, 3, (void **)&position), EWA_OK);
+    ewa_cloud *cloud = check_cloud_of(context, MANY);
+    float *position = check_add(cloud, EWA_POSITION, EWA_F32, 3);
     for (int i = 0; i < 3 * MANY; i++) position[i] = (float)(i % 1013) / 8;
     static const char *const suffixes[] = {".ply", ".las", ".pcd", ".xyz"};
     enum { SUFFIXES = sizeof suffixes / sizeof suffixes[0] };
@@ -139,8 +136,7 @@ CASE(test_memory) {
             scratch_path(name, to_path);
             if (to == 0) assert_int_equal(ewa_cloud_save(cloud, from_path, NULL), EWA_OK);
             held_memory memory = {0};
-            ewa_context_options options;
-            ewa_context_options_init(&options, sizeof options);
+            WITH_DEFAULTS(ewa_context_options, options);
             options.allocator = (ewa_allocator){&memory, hold, let_go};
             options.thread_count = 2;
             ewa_context *own = NULL;
@@ -175,8 +171,7 @@ CASE(test_wanted) {
     char path[512];
     ewa_cloud *scan = make_scan(), *piece = NULL;
     assert_int_equal(ewa_cloud_save(scan, scratch_path("wanted.ply", path), NULL), EWA_OK);
-    ewa_cloud_load_options options;
-    ewa_cloud_load_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_cloud_load_options, options);
     options.attributes = "gps_time,no such";
     ewa_cloud_reader *reader = NULL;
     assert_int_equal(ewa_cloud_reader_open(context, path, &options, &reader), EWA_OK);

@@ -47,8 +47,7 @@ static void write_tile(const char *path, ewa_picture_heights heights, bool webp,
 }
 
 static ewa_status load(const char *path, ewa_picture_heights heights, ewa_model *model) {
-    ewa_cloud_load_options options;
-    ewa_cloud_load_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_cloud_load_options, options);
     options.heights = heights;
     messages.count = 0;
     messages.text[0] = 0;
@@ -156,8 +155,7 @@ TEST_WITHIN(test_truncation, set_up, tear_down) {
 }
 
 static ewa_status load_failing(ewa_context *failing, void *user) {
-    ewa_cloud_load_options options;
-    ewa_cloud_load_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_cloud_load_options, options);
     options.heights = EWA_HEIGHTS_TERRARIUM;
     ewa_model model;
     const ewa_status status = ewa_model_load(failing, user, EWA_MODEL_POINTS, &options, &model);

@@ -243,8 +243,7 @@ TEST_WITHIN(test_damage, set_up, tear_down) {
 }
 
 TEST_WITHIN(test_keep_going, set_up, tear_down) {
-    ewa_cloud_load_options options;
-    ewa_cloud_load_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_cloud_load_options, options);
     const char *text = "1 2 3\n4 5 6\nbad 1 2\n7 8 9\n7 8 9\n7 8 9\n7 8 9\n7 8 9\n1 2\n10 11 12\n13 14 15 "
                        "16\n16 17 18\n1 2 3\n";
     ewa_cloud *cloud = NULL;
@@ -269,8 +268,7 @@ TEST_WITHIN(test_keep_going, set_up, tear_down) {
 }
 
 TEST_WITHIN(test_columns, set_up, tear_down) {
-    ewa_cloud_load_options options;
-    ewa_cloud_load_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_cloud_load_options, options);
     options.columns = "intensity,-,z,x,Y";
     ewa_cloud *cloud = NULL;
     assert_int_equal(rows_read("9 8 3 1 2 7\n9 8 6 4 5 7\n", &options, &cloud, NULL), EWA_OK);

@@ -106,9 +106,8 @@ TEST_WITHIN(test_shortest, set_up, tear_down) {
 }
 
 TEST_WITHIN(test_linear_colors, set_up, tear_down) {
-    ewa_cloud *cloud = NULL;
     const float position[3] = {0.1f, 2, 3}, color[3] = {1, 0, 0.21404114f};
-    assert_int_equal(ewa_cloud_create(context, 1, &cloud), EWA_OK);
+    ewa_cloud *cloud = check_cloud_of(context, 1);
     assert_int_equal(ewa_cloud_borrow(cloud, EWA_POSITION, EWA_F32, 3, position, 0), EWA_OK);
     assert_int_equal(ewa_cloud_borrow(cloud, EWA_COLOR, EWA_F32, 3, color, 0), EWA_OK);
     expect_file(cloud, "linear.txt", "//X Y Z Rf Gf Bf\n0.1 2 3 1.000000 0.000000 0.500000\n");

@@ -94,8 +94,7 @@ TEST_ON(test_nrrd_places, 1) {
     sample_put_numbers(&file, EWA_U8, false);
     check_place(context, &file, "end.nrrd", cases[0].place);
     // The world of the spacing option.
-    ewa_volume_load_options options;
-    ewa_volume_load_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_volume_load_options, options);
     options.spacing_world[0] = 10;
     ewa_volume volume;
     assert_int_equal(sample_load(context, &file, file.size_bytes, "s.nrrd", &options, &volume), EWA_OK);
@@ -383,8 +382,7 @@ TEST_ON(test_anatomical, 1) {
 TEST_ON(test_raw_numbers, 1) {
     sample_file file = {.size_bytes = 0};
     ewa_volume volume;
-    ewa_volume_load_options options;
-    ewa_volume_load_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_volume_load_options, options);
     options.dims[0] = 2, options.dims[1] = 3, options.dims[2] = 4;
     options.type = EWA_U16;
     options.big_endian = true;
@@ -500,8 +498,7 @@ TEST_ON(test_saving, 1) {
         for (size_t i = 0; i < bytes; i++) ((uint8_t *)volume.voxels)[i] = (uint8_t)(i * 7 % 64);
         const double place[12] = {0.1, 2, 3, 1.0 / 3, -4, 0.5, 6, -7e-9, 7, 8, 9.25, 1e6};
         memcpy(volume.index_to_world, place, sizeof place);
-        ewa_volume_save_options options;
-        ewa_volume_save_options_init(&options, sizeof options);
+        WITH_DEFAULTS(ewa_volume_save_options, options);
         options.plain = t & 1;
         assert_int_equal(ewa_volume_save(&volume, path, &options), EWA_OK);
         assert_int_equal(ewa_volume_load(context, path, NULL, &again), EWA_OK);

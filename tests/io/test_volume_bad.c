@@ -34,8 +34,7 @@ TEST(test_every_truncation_fails) {
 /// Every byte of every file is changed in a few ways: whatever comes back, nothing breaks.
 TEST(test_every_changed_byte) {
     static const uint8_t others[] = {0x00, 0x20, 0x2d, 0x39, 0x7f, 0x80, 0xff};
-    ewa_context_options options;
-    ewa_context_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_context_options, options);
     options.thread_count = 1;
     options.limits.max_memory_bytes = 1 << 24;
     ewa_context *context = NULL;
@@ -241,8 +240,7 @@ TEST(test_broken_nifti) {
 }
 
 TEST(test_limit) {
-    ewa_context_options options;
-    ewa_context_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_context_options, options);
     options.limits.max_memory_bytes = 1000;
     ewa_context *context = NULL;
     assert_int_equal(ewa_context_create(&options, &context), EWA_OK);

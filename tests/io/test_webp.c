@@ -88,8 +88,7 @@ static ewa_status work(ewa_context *context, void *user) {
 
 TEST(test_limits) {
     scratch_fail_each(work, NULL);
-    ewa_context_options options;
-    ewa_context_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_context_options, options);
     options.limits.max_memory_bytes = 29;
     ewa_context *context = NULL;
     ewa_image image;

@@ -9,9 +9,8 @@
 static const double STEP = 0x1p-20;
 
 ewa_cloud *lod_ground(ewa_context *context, uint64_t first, uint64_t count, lod_look look) {
-    ewa_cloud *cloud = NULL;
     void *at = NULL, *color = NULL, *normal = NULL, *radius = NULL;
-    assert_int_equal(ewa_cloud_create(context, count, &cloud), EWA_OK);
+    ewa_cloud *cloud = check_cloud_of(context, count);
     assert_int_equal(ewa_cloud_add(cloud, EWA_POSITION, EWA_F64, 3, &at), EWA_OK);
     if (look.colors) assert_int_equal(ewa_cloud_add(cloud, EWA_COLOR, EWA_U8, 3, &color), EWA_OK);
     if (look.surfels) {
@@ -42,8 +41,7 @@ ewa_cloud *lod_ground(ewa_context *context, uint64_t first, uint64_t count, lod_
 
 void lod_save(ewa_cloud *cloud, const char *name) {
     char path[512];
-    ewa_cloud_save_options options;
-    ewa_cloud_save_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_cloud_save_options, options);
     options.step_world = STEP;
     assert_int_equal(ewa_cloud_save(cloud, scratch_path(name, path), &options), EWA_OK);
     ewa_cloud_destroy(&cloud);
@@ -63,8 +61,7 @@ ewa_status lod_build(ewa_context *context, const char *const *names, uint32_t co
     const char *given[MAXIMUM];
     assert_true(count <= MAXIMUM);
     for (uint32_t i = 0; i < count; i++) given[i] = scratch_path(names[i], paths[i]);
-    ewa_lod_build_options plain;
-    ewa_lod_build_options_init(&plain, sizeof plain);
+    WITH_DEFAULTS(ewa_lod_build_options, plain);
     plain.memory_bytes = LOD_MEMORY_BYTES;
     return ewa_lod_build(context, given, count, scratch_path(out, out_path), options ? options : &plain,
                          stats);

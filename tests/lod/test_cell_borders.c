@@ -34,18 +34,15 @@ static border_counts count_borders(ewa_context *context, const ewa_octree_key *k
     const double *m = to_world ? to_world : none;
     check_random random = {11};
     static double places[POINTS][2];
-    ewa_cloud *cloud = NULL;
-    float *p;
-    assert_int_equal(ewa_cloud_create(context, POINTS, &cloud), EWA_OK);
-    assert_int_equal(ewa_cloud_add(cloud, EWA_POSITION, EWA_F32, 3, (void **)&p), EWA_OK);
+    ewa_cloud *cloud = check_cloud_of(context, POINTS);
+    float *p = check_add(cloud, EWA_POSITION, EWA_F32, 3);
     for (int i = 0; i < POINTS; i++) {
         double at[3] = {0, 0, z};
         for (int c = 0; c < 2; c++) at[c] = places[i][c] = check_uniform(&random, -1, 0);
         for (int r = 0; r < 3; r++)
             p[3 * i + r] = (float)(m[4 * r] * at[0] + m[4 * r + 1] * at[1] + m[4 * r + 2] * at[2] + m[4 * r + 3]);
     }
-    ewa_estimate_options options;
-    ewa_estimate_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_estimate_options, options);
     assert_int_equal(ewa_cloud_estimate(&cloud, &options), EWA_OK);
     ewa_cell_keep_borders(&facts, key, m, cloud);
     border_counts counts = {0};
@@ -89,10 +86,8 @@ TEST_ON(test_other_shapes, 0) {
     } shapes[] = {{EWA_U8, 1, 1}, {EWA_F32, 1, 1}, {EWA_F32, 4, 1}, {EWA_F64, 3, 1}, {EWA_F32, 3, 4}, {EWA_F32, 3, 0}};
     for (size_t s = 0; s < sizeof shapes / sizeof *shapes; s++)
         for (int k = 0; k < 2; k++) {
-            ewa_cloud *cloud = NULL;
-            uint8_t *to;
-            assert_int_equal(ewa_cloud_create(context, 1000, &cloud), EWA_OK);
-            assert_int_equal(ewa_cloud_add(cloud, EWA_POSITION, EWA_F32, 3, (void **)&to), EWA_OK);
+            ewa_cloud *cloud = check_cloud_of(context, 1000);
+            uint8_t *to = check_add(cloud, EWA_POSITION, EWA_F32, 3);
             memset(to, 0, 3000 * sizeof(float));
             assert_int_equal(ewa_cloud_add(cloud, EWA_BORDER, shapes[s].type, shapes[s].border_components, (void **)&to), EWA_OK);
             memset(to, 1, 1000 * shapes[s].border_components * ewa_type_bytes(shapes[s].type));
@@ -107,9 +102,8 @@ TEST_ON(test_other_shapes, 0) {
 }
 
 TEST_ON(test_no_borders, 0) {
-    ewa_cloud *cloud = NULL;
     void *to;
-    assert_int_equal(ewa_cloud_create(context, 1000, &cloud), EWA_OK);
+    ewa_cloud *cloud = check_cloud_of(context, 1000);
     ewa_cell_drop_empty_borders(cloud);
     assert_int_equal(ewa_cloud_add(cloud, EWA_BORDER, EWA_F32, 3, &to), EWA_OK);
     memset(to, 0, 3000 * sizeof(float));

@@ -156,8 +156,7 @@ TEST_WITHIN(test_curvatures, enter, NULL) {
     ewa_context *context = check_context(2, NULL);
     for (int inward = -1; inward < 2; inward++) { // -1: without normals
         ewa_cloud *cloud = NULL;
-        ewa_generate_options sphere;
-        ewa_generate_options_init(&sphere, sizeof sphere);
+        WITH_DEFAULTS(ewa_generate_options, sphere);
         sphere.object = EWA_OBJECT_SPHERE, sphere.size_world = 4, sphere.point_count = COUNT;
         assert_int_equal(ewa_cloud_generate(context, &sphere, &cloud), EWA_OK);
         ewa_cloud_remove(cloud, EWA_CURVATURE);
@@ -277,8 +276,7 @@ TEST_WITHIN(test_refusals, enter, NULL) {
     assert_int_equal(lod_build(context, names, 2, "o.copc.laz", NULL, NULL), EWA_ERROR_IO);
     assert_non_null(strstr(log.text, "nothing.ply"));
     assert_int_equal(lod_build(context, names, 0, "o.copc.laz", NULL, NULL), EWA_ERROR_ARGUMENT);
-    ewa_lod_build_options options;
-    ewa_lod_build_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_lod_build_options, options);
     options.subset = options.subset_count = 2;
     assert_int_equal(lod_build(context, names, 1, "o.copc.laz", &options, NULL), EWA_ERROR_ARGUMENT);
     ewa_lod_build_options_init(&options, sizeof options);

@@ -35,9 +35,7 @@ static int leave(void **state) {
 
 /// From far above, the ground as high as the picture, or from close by.
 static ewa_camera camera_at(double distance) {
-    ewa_camera camera;
-    ewa_camera_init(&camera);
-    camera.width_px = WIDTH_PX, camera.height_px = HEIGHT_PX;
+    ewa_camera camera = check_camera(WIDTH_PX, HEIGHT_PX);
     const double eye[3] = {0.1, -0.6 * distance, distance}, target[3] = {0, 0, 0}, up[3] = {0, 1, 0};
     assert_int_equal(ewa_camera_look_at(&camera, eye, target, up), EWA_OK);
     assert_int_equal(ewa_camera_set_fov(&camera, 45), EWA_OK);
@@ -52,23 +50,20 @@ static ewa_lod *open_file(ewa_context *context, const char *name) {
 }
 
 static ewa_render_options over_black(void) {
-    ewa_render_options options;
-    ewa_render_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_render_options, options);
     options.background[3] = 1;
     return options;
 }
 
 static ewa_lod_options lod_options_of(double error, double spacing_px, uint64_t memory_bytes) {
-    ewa_lod_options options;
-    ewa_lod_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_lod_options, options);
     options.error = error, options.spacing_px = spacing_px, options.memory_bytes = memory_bytes;
     return options;
 }
 
 static ewa_status try_draw(ewa_lod *lod, ewa_context *context, const ewa_camera *camera,
                            const ewa_lod_options *lod_options, shot *made) {
-    ewa_renderer *renderer = NULL;
-    assert_int_equal(ewa_renderer_create(context, &renderer), EWA_OK);
+    ewa_renderer *renderer = check_renderer(context);
     const ewa_render_options options = over_black();
     const ewa_frame frame = {.rgba8 = made->rgba8};
     const ewa_status status =
@@ -90,10 +85,8 @@ static shot *draw_plain(ewa_context *context, const char *name, const ewa_camera
     shot *made = calloc(1, sizeof *made);
     assert_non_null(made);
     ewa_cloud *cloud = lod_load(context, name);
-    ewa_surfels *surfels = NULL;
-    ewa_renderer *renderer = NULL;
-    assert_int_equal(ewa_surfels_create(cloud, NULL, &surfels), EWA_OK);
-    assert_int_equal(ewa_renderer_create(context, &renderer), EWA_OK);
+    ewa_surfels *surfels = check_surfels(cloud, NULL);
+    ewa_renderer *renderer = check_renderer(context);
     const ewa_render_options options = over_black();
     const ewa_frame frame = {.rgba8 = made->rgba8};
     assert_int_equal(ewa_render(renderer, surfels, camera, &options, &frame, NULL), EWA_OK);
@@ -313,8 +306,7 @@ static shot *draw_parts(ewa_lod *lod, ewa_context *context, const ewa_camera *ca
                         const ewa_lod_options *lod_options, uint32_t supersampling) {
     shot *made = calloc(1, sizeof *made);
     assert_non_null(made);
-    ewa_renderer *renderer = NULL;
-    assert_int_equal(ewa_renderer_create(context, &renderer), EWA_OK);
+    ewa_renderer *renderer = check_renderer(context);
     ewa_render_options options = over_black();
     options.supersampling = supersampling;
     const ewa_frame frame = {.rgba8 = made->rgba8};
@@ -322,8 +314,7 @@ static shot *draw_parts(ewa_lod *lod, ewa_context *context, const ewa_camera *ca
         assert_int_equal(ewa_lod_render(lod, renderer, camera, &options, lod_options, &frame, &made->stats), EWA_OK);
     } else {
         ewa_cloud *cloud = lod_load(context, file);
-        ewa_surfels *surfels = NULL;
-        assert_int_equal(ewa_surfels_create(cloud, NULL, &surfels), EWA_OK);
+        ewa_surfels *surfels = check_surfels(cloud, NULL);
         assert_int_equal(ewa_render(renderer, surfels, camera, &options, &frame, NULL), EWA_OK);
         ewa_surfels_destroy(&surfels);
         ewa_cloud_destroy(&cloud);

@@ -13,8 +13,7 @@ static uint64_t part_points[PARTS];
 static void make_parts(ewa_context *context, const char *const *names, uint32_t count,
                        const char *const *parts, uint64_t *points) {
     for (uint32_t i = 0; i < PARTS; i++) {
-        ewa_lod_build_options options;
-        ewa_lod_build_options_init(&options, sizeof options);
+        WITH_DEFAULTS(ewa_lod_build_options, options);
         options.memory_bytes = LOD_MEMORY_BYTES;
         options.subset = i, options.subset_count = PARTS;
         ewa_lod_build_stats stats;

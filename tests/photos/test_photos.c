@@ -14,8 +14,7 @@ enum {
 };
 
 static ewa_photos_options options_of(ewa_photos_method method) {
-    ewa_photos_options options;
-    ewa_photos_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_photos_options, options);
     options.method = method;
     options.hold_out = HELD_OUT;
     return options;
@@ -210,8 +209,7 @@ TEST(test_unseen_points_keep_their_colors) {
     (void)state;
     ewa_context *context = check_context(0, NULL);
     photo_scene *scene = photo_scene_make(context, 2000, 12, 100, 0, 0);
-    uint8_t *old;
-    assert_int_equal(ewa_cloud_add(scene->cloud, EWA_COLOR, EWA_U8, 4, (void **)&old), EWA_OK);
+    uint8_t *old = check_add(scene->cloud, EWA_COLOR, EWA_U8, 4);
     for (uint32_t i = 0; i < 2000; i++) old[4 * i] = 255, old[4 * i + 1] = 0, old[4 * i + 2] = 255, old[4 * i + 3] = 255;
     ewa_photos_options chosen = options_of(EWA_PHOTOS_FIT);
     chosen.hold_out = 0;

@@ -11,9 +11,7 @@
 enum { WIDTH = 220, HEIGHT = 160, RAYS = 4 };
 
 static ewa_camera camera_of(void) {
-    ewa_camera camera;
-    ewa_camera_init(&camera);
-    camera.width_px = WIDTH, camera.height_px = HEIGHT;
+    ewa_camera camera = check_camera(WIDTH, HEIGHT);
     camera.fx_px = 150, camera.fy_px = 156, camera.cx_px = 104, camera.cy_px = 83.5;
     return camera;
 }

@@ -10,8 +10,7 @@
 #include <stdbool.h>
 
 static inline ewa_generate_options check_generate_options(ewa_object object, uint64_t point_count) {
-    ewa_generate_options options;
-    ewa_generate_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_generate_options, options);
     options.object = object;
     options.point_count = point_count;
     return options;

@@ -12,9 +12,8 @@
 
 /// A cloud of `count` positions with memory to fill; uninitialised.
 static inline ewa_cloud *check_cloud(ewa_context *context, uint64_t count, float **xyz) {
-    ewa_cloud *cloud = NULL;
-    assert_int_equal(ewa_cloud_create(context, count, &cloud), EWA_OK);
-    assert_int_equal(ewa_cloud_add(cloud, EWA_POSITION, EWA_F32, 3, (void **)xyz), EWA_OK);
+    ewa_cloud *cloud = check_cloud_of(context, count);
+    *xyz = check_add(cloud, EWA_POSITION, EWA_F32, 3);
     return cloud;
 }
 
@@ -26,8 +25,7 @@ static inline const float *check_stream(const ewa_cloud *cloud, const char *name
 }
 
 static inline ewa_estimate_options check_estimate_options(void) {
-    ewa_estimate_options options;
-    ewa_estimate_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_estimate_options, options);
     return options;
 }
 

@@ -157,8 +157,7 @@ TEST_ON(test_means_of_levels_agree, 1) {
 }
 
 static ewa_cloud *make_object(ewa_context *context, ewa_object object, uint64_t count, double radius_scale) {
-    ewa_generate_options options;
-    ewa_generate_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_generate_options, options);
     options.object = object;
     options.point_count = count;
     options.jitter = 1;
@@ -170,8 +169,7 @@ static ewa_cloud *make_object(ewa_context *context, ewa_object object, uint64_t 
 }
 
 static ewa_acquire_options options_of(ewa_texture_filter filter) {
-    ewa_acquire_options options;
-    ewa_acquire_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_acquire_options, options);
     options.filter = filter;
     options.wrap_s = options.wrap_t = EWA_TEXTURE_CLAMP;
     return options;

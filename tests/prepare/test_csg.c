@@ -15,8 +15,7 @@
 
 static ewa_cloud *make(ewa_context *context, ewa_object object, uint64_t points, double size_world,
                        const double place_world[3]) {
-    ewa_generate_options options;
-    ewa_generate_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_generate_options, options);
     options.object = object;
     options.point_count = points;
     options.size_world = size_world;
@@ -31,8 +30,7 @@ static ewa_cloud *make(ewa_context *context, ewa_object object, uint64_t points,
 }
 
 static ewa_cloud *combine(const ewa_cloud *a, const ewa_cloud *b, ewa_csg_operation operation) {
-    ewa_csg_options options;
-    ewa_csg_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_csg_options, options);
     options.operation = operation;
     ewa_cloud *result = NULL;
     assert_int_equal(ewa_cloud_csg(a, b, &options, &result), EWA_OK);
@@ -485,20 +483,17 @@ TEST(test_refused) {
     assert_int_equal(ewa_cloud_csg(NULL, ball, NULL, &result), EWA_ERROR_ARGUMENT);
     assert_int_equal(ewa_cloud_csg(ball, bare, NULL, &result), EWA_ERROR_ARGUMENT);
     assert_non_null(strstr(log.text, "operand B"));
-    ewa_csg_options options;
-    ewa_csg_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_csg_options, options);
     options.operation = (ewa_csg_operation)3;
     assert_int_equal(ewa_cloud_csg(ball, ball, &options, &result), EWA_ERROR_ARGUMENT);
     options.operation = EWA_CSG_UNION;
     options.cutoff = 0;
     assert_int_equal(ewa_cloud_csg(ball, ball, &options, &result), EWA_ERROR_ARGUMENT);
     // Points that are no surfels are left out; none that is one is an error.
-    ewa_cloud *flat = NULL;
-    float *position, *normal, *radius;
-    assert_int_equal(ewa_cloud_create(context, 2, &flat), EWA_OK);
-    assert_int_equal(ewa_cloud_add(flat, EWA_POSITION, EWA_F32, 3, (void **)&position), EWA_OK);
-    assert_int_equal(ewa_cloud_add(flat, EWA_NORMAL, EWA_F32, 3, (void **)&normal), EWA_OK);
-    assert_int_equal(ewa_cloud_add(flat, EWA_RADIUS, EWA_F32, 1, (void **)&radius), EWA_OK);
+    ewa_cloud *flat = check_cloud_of(context, 2);
+    float *position = check_add(flat, EWA_POSITION, EWA_F32, 3);
+    float *normal = check_add(flat, EWA_NORMAL, EWA_F32, 3);
+    float *radius = check_add(flat, EWA_RADIUS, EWA_F32, 1);
     memset(position, 0, 6 * sizeof *position);
     memset(normal, 0, 6 * sizeof *normal);
     position[0] = NAN;
@@ -516,8 +511,7 @@ TEST(test_refused) {
 static ewa_status combine_work(ewa_context *context, void *user) {
     const ewa_csg_operation operation = *(const ewa_csg_operation *)user;
     ewa_cloud *operands[2] = {NULL, NULL}, *result = NULL;
-    ewa_generate_options options;
-    ewa_generate_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_generate_options, options);
     options.point_count = 700;
     ewa_status status = EWA_OK;
     for (int k = 0; k < 2 && status == EWA_OK; k++) {
@@ -527,8 +521,7 @@ static ewa_status combine_work(ewa_context *context, void *user) {
         status = ewa_cloud_generate(context, &options, &operands[k]);
         if (k && status == EWA_OK) status = ewa_cloud_transform(operands[k], aside);
     }
-    ewa_csg_options csg;
-    ewa_csg_options_init(&csg, sizeof csg);
+    WITH_DEFAULTS(ewa_csg_options, csg);
     csg.operation = operation;
     if (status == EWA_OK) status = ewa_cloud_csg(operands[0], operands[1], &csg, &result);
     if (status != EWA_OK) assert_null(result);

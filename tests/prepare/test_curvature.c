@@ -104,8 +104,7 @@ TEST_ON(test_known_surfaces, 2) {
 TEST_ON(test_made_surfaces, 0) {
     ewa_mesh mesh;
     shape_sphere(context, 60, &mesh);
-    ewa_mesh_sample_options sampling;
-    ewa_mesh_sample_options_init(&sampling, sizeof sampling);
+    WITH_DEFAULTS(ewa_mesh_sample_options, sampling);
     sampling.point_count = COUNT;
     ewa_cloud *cloud = shape_sample(&mesh, &sampling);
     ewa_mesh_free(&mesh);
@@ -114,8 +113,7 @@ TEST_ON(test_made_surfaces, 0) {
     assert_true(percentile(found, count, 0.02) > 0.9 && percentile(found, count, 0.98) < 1.1);
     ewa_cloud_destroy(&cloud);
     for (int k = 0; k < 3; k++) {
-        ewa_generate_options options;
-        ewa_generate_options_init(&options, sizeof options);
+        WITH_DEFAULTS(ewa_generate_options, options);
         options.point_count = COUNT;
         options.size_world = 7;
         options.object = k == 0 ? EWA_OBJECT_SPHERE : k == 1 ? EWA_OBJECT_TORUS : EWA_OBJECT_PLANE;
@@ -138,8 +136,7 @@ TEST_ON(test_made_surfaces, 0) {
 /// leave gaps beside the edges.
 TEST_ON(test_edges, 0) {
     for (uint64_t wanted = 6000; wanted <= 60000; wanted *= 10) {
-        ewa_generate_options generate;
-        ewa_generate_options_init(&generate, sizeof generate);
+        WITH_DEFAULTS(ewa_generate_options, generate);
         generate.object = EWA_OBJECT_CUBE;
         generate.point_count = wanted;
         generate.positions_only = true;

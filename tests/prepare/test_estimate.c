@@ -47,8 +47,7 @@ TEST_ON(test_spacing, 2) {
     for (int kind = 0; kind < SAMPLINGS; kind++) {
         float xyz[3 * MAXIMUM];
         const uint32_t count = sample_square((sampling)kind, xyz);
-        ewa_cloud *cloud = NULL;
-        assert_int_equal(ewa_cloud_create(context, count, &cloud), EWA_OK);
+        ewa_cloud *cloud = check_cloud_of(context, count);
         assert_int_equal(ewa_cloud_borrow(cloud, EWA_POSITION, EWA_F32, 3, xyz, 0), EWA_OK);
         ewa_spacing spacing;
         assert_int_equal(ewa_cloud_measure_spacing(cloud, 0, &spacing), EWA_OK);
@@ -91,8 +90,7 @@ TEST_ON(test_no_holes, 2) {
     for (int kind = 0; kind < SAMPLINGS; kind++) {
         float xyz[3 * MAXIMUM];
         const uint32_t count = sample_square((sampling)kind, xyz);
-        ewa_cloud *cloud = NULL;
-        assert_int_equal(ewa_cloud_create(context, count, &cloud), EWA_OK);
+        ewa_cloud *cloud = check_cloud_of(context, count);
         assert_int_equal(ewa_cloud_borrow(cloud, EWA_POSITION, EWA_F32, 3, xyz, 0), EWA_OK);
         ewa_estimate_options options = check_estimate_options();
         options.radius_scale = 0.75;
@@ -118,8 +116,7 @@ TEST_ON(test_no_holes, 2) {
 TEST_ON(test_axes, 2) {
     float xyz[3 * MAXIMUM];
     const uint32_t count = sample_square(STRETCHED, xyz);
-    ewa_cloud *cloud = NULL;
-    assert_int_equal(ewa_cloud_create(context, count, &cloud), EWA_OK);
+    ewa_cloud *cloud = check_cloud_of(context, count);
     assert_int_equal(ewa_cloud_borrow(cloud, EWA_POSITION, EWA_F32, 3, xyz, 0), EWA_OK);
     ewa_estimate_options options = check_estimate_options();
     options.shape = EWA_SHAPE_ELLIPSE;
@@ -176,10 +173,8 @@ TEST_ON(test_normals, 2) {
     enum { COUNT = 20000 };
     for (int far = 0; far < 2; far++) {
         const double center[3] = {far ? 512345.25 : 0, far ? 5412345.5 : 0, far ? 321.0 : 0};
-        ewa_cloud *cloud = NULL;
-        double *xyz = NULL;
-        assert_int_equal(ewa_cloud_create(context, COUNT, &cloud), EWA_OK);
-        assert_int_equal(ewa_cloud_add(cloud, EWA_POSITION, EWA_F64, 3, (void **)&xyz), EWA_OK);
+        ewa_cloud *cloud = check_cloud_of(context, COUNT);
+        double *xyz = check_add(cloud, EWA_POSITION, EWA_F64, 3);
         check_random random = {4};
         for (uint32_t i = 0; i < COUNT; i++) {
             double d[3];
@@ -210,16 +205,13 @@ TEST_ON(test_keep, 2) {
     float xyz[3 * MAXIMUM];
     const uint32_t count = sample_square(JITTERED, xyz);
     for (int keep = 0; keep < 2; keep++) {
-        ewa_cloud *cloud = NULL;
-        float *normal = NULL, *tangent = NULL;
-        assert_int_equal(ewa_cloud_create(context, count, &cloud), EWA_OK);
+        float *tangent = NULL;
+        ewa_cloud *cloud = check_cloud_of(context, count);
         assert_int_equal(ewa_cloud_borrow(cloud, EWA_POSITION, EWA_F32, 3, xyz, 0), EWA_OK);
-        assert_int_equal(ewa_cloud_add(cloud, EWA_NORMAL, EWA_F32, 3, (void **)&normal), EWA_OK);
+        float *normal = check_add(cloud, EWA_NORMAL, EWA_F32, 3);
         for (uint32_t i = 0; i < 3 * count; i++) normal[i] = 7;
         for (int t = 0; t < 2; t++) {
-            assert_int_equal(
-                ewa_cloud_add(cloud, t ? EWA_TANGENT_V : EWA_TANGENT_U, EWA_F32, 3, (void **)&tangent),
-                EWA_OK);
+            assert_int_equal(ewa_cloud_add(cloud, t ? EWA_TANGENT_V : EWA_TANGENT_U, EWA_F32, 3, (void **)&tangent), EWA_OK);
             for (uint32_t i = 0; i < 3 * count; i++) tangent[i] = 8;
         }
         ewa_estimate_options options = check_estimate_options();
@@ -331,13 +323,11 @@ static void make_uneven(float *xyz, uint32_t count) {
 
 static ewa_cloud *estimate_uneven(uint32_t threads, uint32_t mask, const float *xyz, uint32_t count,
                                   ewa_surfel_shape shape, ewa_context **context) {
-    ewa_context_options context_options;
-    ewa_context_options_init(&context_options, sizeof context_options);
+    WITH_DEFAULTS(ewa_context_options, context_options);
     context_options.thread_count = threads;
     context_options.cpu_mask = mask;
     assert_int_equal(ewa_context_create(&context_options, context), EWA_OK);
-    ewa_cloud *cloud = NULL;
-    assert_int_equal(ewa_cloud_create(*context, count, &cloud), EWA_OK);
+    ewa_cloud *cloud = check_cloud_of(*context, count);
     assert_int_equal(ewa_cloud_borrow(cloud, EWA_POSITION, EWA_F32, 3, xyz, 0), EWA_OK);
     ewa_estimate_options options = check_estimate_options();
     options.shape = shape;
@@ -349,8 +339,7 @@ static ewa_cloud *estimate_uneven(uint32_t threads, uint32_t mask, const float *
 /// Whether the estimate finds sharp edges in a generated object's places, moved by some noise.
 static bool tells_edges(ewa_object object, uint64_t count, double noise_spacings) {
     ewa_context *context = check_context(2, NULL);
-    ewa_generate_options options;
-    ewa_generate_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_generate_options, options);
     options.object = object;
     options.point_count = count;
     options.jitter = 1;
@@ -389,10 +378,8 @@ TEST(test_overflow) {
     enum { COUNT = 400 };
     for (int shape = 0; shape < 2; shape++) {
         ewa_context *context = check_context(1, NULL);
-        ewa_cloud *cloud = NULL;
-        double *xyz;
-        assert_int_equal(ewa_cloud_create(context, COUNT, &cloud), EWA_OK);
-        assert_int_equal(ewa_cloud_add(cloud, EWA_POSITION, EWA_F64, 3, (void **)&xyz), EWA_OK);
+        ewa_cloud *cloud = check_cloud_of(context, COUNT);
+        double *xyz = check_add(cloud, EWA_POSITION, EWA_F64, 3);
         check_random random = {8};
         for (uint32_t i = 0; i < 3 * COUNT; i++) xyz[i] = i % 3 == 2 ? 0 : check_uniform(&random, -1, 1);
         xyz[0] = 1e200, xyz[3] = -1e200, xyz[7] = 1.7e308;
@@ -419,9 +406,8 @@ static ewa_cloud *with_borders(ewa_context *context, sampling kind, ewa_surfel_s
         if (hole && hypot((double)xyz[3 * i] - SIDE / 2.0, (double)xyz[3 * i + 1] - SIDE / 2.0) < 12) continue;
         memmove(&xyz[3 * kept++], &xyz[3 * i], 3 * sizeof *xyz);
     }
-    ewa_cloud *cloud = NULL;
     void *data = NULL;
-    assert_int_equal(ewa_cloud_create(context, kept, &cloud), EWA_OK);
+    ewa_cloud *cloud = check_cloud_of(context, kept);
     assert_int_equal(ewa_cloud_add(cloud, EWA_POSITION, EWA_F32, 3, &data), EWA_OK);
     memcpy(data, xyz, 3 * kept * sizeof *xyz);
     ewa_estimate_options options = check_estimate_options();
@@ -498,10 +484,8 @@ TEST_ON(test_borders_as_streams, 2) {
         ewa_cloud_destroy(&cloud);
     }
     check_random random = {3};
-    ewa_cloud *sphere = NULL;
-    float *p;
-    assert_int_equal(ewa_cloud_create(context, POINTS, &sphere), EWA_OK);
-    assert_int_equal(ewa_cloud_add(sphere, EWA_POSITION, EWA_F32, 3, (void **)&p), EWA_OK);
+    ewa_cloud *sphere = check_cloud_of(context, POINTS);
+    float *p = check_add(sphere, EWA_POSITION, EWA_F32, 3);
     for (int i = 0; i < POINTS; i++) {
         const double z = check_uniform(&random, -1, 1), angle = check_uniform(&random, 0, 6.283185307179586);
         p[3 * i] = (float)(sqrt(1 - z * z) * cos(angle)), p[3 * i + 1] = (float)(sqrt(1 - z * z) * sin(angle));
@@ -588,8 +572,7 @@ TEST(test_out_of_memory) {
         for (; status == EWA_ERROR_MEMORY && calls < 500; calls++) {
             check_memory memory = {.calls_left = -1};
             ewa_context *context = check_context_on(2, &memory);
-            ewa_cloud *cloud = NULL;
-            assert_int_equal(ewa_cloud_create(context, COUNT, &cloud), EWA_OK);
+            ewa_cloud *cloud = check_cloud_of(context, COUNT);
             assert_int_equal(ewa_cloud_borrow(cloud, EWA_POSITION, EWA_F32, 3, xyz, 0), EWA_OK);
             ewa_estimate_options options = check_estimate_options();
             options.shape = (ewa_surfel_shape)shape;
@@ -661,8 +644,7 @@ TEST(test_cancel_and_options) {
     static char stages[3][16] = {"outliers", "estimate", "orient"};
     for (int s = 0; s < 3; s++) {
         ewa_context *context = check_context_telling(0, cancel_at, stages[s]);
-        ewa_cloud *cloud = NULL;
-        assert_int_equal(ewa_cloud_create(context, count, &cloud), EWA_OK);
+        ewa_cloud *cloud = check_cloud_of(context, count);
         assert_int_equal(ewa_cloud_borrow(cloud, EWA_POSITION, EWA_F32, 3, xyz, 0), EWA_OK);
         ewa_estimate_options options = check_estimate_options();
         options.outlier_factor = 3;
@@ -688,11 +670,9 @@ TEST(test_cancel_and_options) {
 TEST_ON(test_surfaceness, 2) {
     enum { COUNT = 4000 };
     for (int kind = 0; kind < 4; kind++) { // a plane; in space; a plane and a wire above it; a box's edge
-        float *xyz = NULL, *before = NULL;
-        ewa_cloud *cloud = NULL;
-        assert_int_equal(ewa_cloud_create(context, COUNT, &cloud), EWA_OK);
-        assert_int_equal(ewa_cloud_add(cloud, EWA_POSITION, EWA_F32, 3, (void **)&xyz), EWA_OK);
-        assert_int_equal(ewa_cloud_add(cloud, EWA_SURFACENESS, EWA_F32, 1, (void **)&before), EWA_OK);
+        ewa_cloud *cloud = check_cloud_of(context, COUNT);
+        float *xyz = check_add(cloud, EWA_POSITION, EWA_F32, 3);
+        float *before = check_add(cloud, EWA_SURFACENESS, EWA_F32, 1);
         check_random random = {7};
         for (int i = 0; i < COUNT; i++) {
             const bool wire = kind == 2 && i % 40 == 0;

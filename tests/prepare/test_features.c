@@ -27,15 +27,12 @@ static uint32_t add_square(const double corner[3], const double a[3], const doub
 
 /// A cloud of squares with discs of the default size; the normals are blurred where the surface bends.
 static ewa_cloud *make_cloud(ewa_context *context, uint32_t count, const float *xyz, const float *normals) {
-    ewa_cloud *cloud = NULL;
-    float *positions, *n;
-    uint8_t *color;
-    assert_int_equal(ewa_cloud_create(context, count, &cloud), EWA_OK);
-    assert_int_equal(ewa_cloud_add(cloud, EWA_POSITION, EWA_F32, 3, (void **)&positions), EWA_OK);
+    ewa_cloud *cloud = check_cloud_of(context, count);
+    float *positions = check_add(cloud, EWA_POSITION, EWA_F32, 3);
     memcpy(positions, xyz, 3 * count * sizeof *xyz);
-    assert_int_equal(ewa_cloud_add(cloud, EWA_NORMAL, EWA_F32, 3, (void **)&n), EWA_OK);
+    float *n = check_add(cloud, EWA_NORMAL, EWA_F32, 3);
     memcpy(n, normals, 3 * count * sizeof *normals);
-    assert_int_equal(ewa_cloud_add(cloud, EWA_COLOR, EWA_U8, 3, (void **)&color), EWA_OK);
+    uint8_t *color = check_add(cloud, EWA_COLOR, EWA_U8, 3);
     for (uint32_t i = 0; i < 3 * count; i++) color[i] = (uint8_t)(i * 7);
     const ewa_estimate_options estimate = check_estimate_options();
     assert_int_equal(ewa_cloud_estimate(&cloud, &estimate), EWA_OK);
@@ -49,8 +46,7 @@ static ewa_cloud *without_borders(ewa_cloud *cloud) {
 }
 
 static ewa_feature_options default_options(void) {
-    ewa_feature_options options;
-    ewa_feature_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_feature_options, options);
     return options;
 }
 
@@ -320,8 +316,7 @@ TEST(test_corners) {
 TEST_ON(test_smooth, 0) {
     static const ewa_object objects[] = {EWA_OBJECT_PLANE, EWA_OBJECT_SPHERE, EWA_OBJECT_TORUS};
     for (int i = 0; i < 6; i++) {
-        ewa_generate_options generate;
-        ewa_generate_options_init(&generate, sizeof generate);
+        WITH_DEFAULTS(ewa_generate_options, generate);
         generate.object = objects[i / 2];
         generate.point_count = 20000;
         ewa_cloud *cloud = NULL;
@@ -352,8 +347,7 @@ TEST(test_threads) {
     ewa_context *contexts[3];
     for (int t = 0; t < 3; t++) {
         contexts[t] = check_context(threads[t], NULL);
-        ewa_generate_options generate;
-        ewa_generate_options_init(&generate, sizeof generate);
+        WITH_DEFAULTS(ewa_generate_options, generate);
         generate.object = EWA_OBJECT_CUBE;
         generate.point_count = 20000;
         ewa_cloud *cloud = NULL;

@@ -384,8 +384,7 @@ static bool cancel(void *user, const char *stage, double fraction) {
 }
 
 TEST(test_progress_cancels) {
-    ewa_context_options context_options;
-    ewa_context_options_init(&context_options, sizeof context_options);
+    WITH_DEFAULTS(ewa_context_options, context_options);
     context_options.progress = cancel;
     ewa_context *context = NULL;
     assert_int_equal(ewa_context_create(&context_options, &context), EWA_OK);

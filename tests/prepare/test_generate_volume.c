@@ -8,8 +8,7 @@
 
 static void make(ewa_context *context, ewa_volume_object object, uint32_t x, uint32_t y, uint32_t z,
                  ewa_volume *volume) {
-    ewa_volume_generate_options options;
-    ewa_volume_generate_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_volume_generate_options, options);
     options.object = object;
     options.dims[0] = x, options.dims[1] = y, options.dims[2] = z;
     options.size_world = 5;
@@ -90,8 +89,7 @@ TEST(test_same_bytes) {
 
 /// The tree is thin, inside, of the documented brightness, and another one for another seed.
 TEST_ON(test_vessels, 0) {
-    ewa_volume_generate_options options;
-    ewa_volume_generate_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_volume_generate_options, options);
     options.object = EWA_VOLUME_VESSELS;
     uint64_t sums[2];
     for (uint64_t seed = 0; seed < 2; seed++) {
@@ -167,8 +165,7 @@ TEST_ON(test_outline, 1) {
 TEST_ON(test_bad_options, 1) {
     ewa_volume volume;
     for (int i = 0; i < 7; i++) {
-        ewa_volume_generate_options options;
-        ewa_volume_generate_options_init(&options, sizeof options);
+        WITH_DEFAULTS(ewa_volume_generate_options, options);
         ewa_status wanted = EWA_ERROR_ARGUMENT;
         if (i == 0) options.dims[1] = 1;
         if (i == 1) options.size_world = 0;
@@ -186,8 +183,7 @@ TEST_ON(test_bad_options, 1) {
 }
 
 static ewa_status generate_and_outline(ewa_context *context, void *user) {
-    ewa_volume_generate_options options;
-    ewa_volume_generate_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_volume_generate_options, options);
     options.object = *(ewa_volume_object *)user;
     options.dims[0] = options.dims[1] = options.dims[2] = 8;
     ewa_volume volume;

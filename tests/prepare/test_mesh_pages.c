@@ -28,8 +28,7 @@ typedef struct pages_seen {
 static pages_seen look_at_book(ewa_context *context, uint32_t pages, double spacing_world, uint64_t seed) {
     ewa_mesh mesh;
     make_book(context, pages, &mesh);
-    ewa_mesh_sample_options options;
-    ewa_mesh_sample_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_mesh_sample_options, options);
     options.spacing_world = spacing_world;
     options.seed = seed;
     ewa_cloud *cloud = shape_sample(&mesh, &options);
@@ -102,8 +101,7 @@ static ewa_status sample_square(progress_log *log, uint64_t point_count, ewa_clo
     static const double places[12] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0};
     ewa_mesh mesh;
     shape_fill(context, 4, places, 2, (const uint32_t[]){0, 1, 2, 2, 1, 3}, &mesh);
-    ewa_mesh_sample_options options;
-    ewa_mesh_sample_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_mesh_sample_options, options);
     options.point_count = point_count;
     *cloud = NULL;
     const ewa_status status = ewa_mesh_sample(&mesh, &options, cloud);

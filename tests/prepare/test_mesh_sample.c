@@ -13,8 +13,7 @@ static const float *stream(const ewa_cloud *cloud, const char *name) {
 }
 
 static ewa_mesh_sample_options options_of(uint64_t point_count) {
-    ewa_mesh_sample_options options;
-    ewa_mesh_sample_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_mesh_sample_options, options);
     options.point_count = point_count;
     return options;
 }
@@ -533,8 +532,7 @@ TEST(test_needle) {
     static const double places[9] = {0, 0, 0, 1e20, 0, 0, 0, 1e32, 0};
     ewa_mesh mesh;
     shape_fill(context, 3, places, 1, (const uint32_t[]){0, 1, 2}, &mesh);
-    ewa_mesh_sample_options options;
-    ewa_mesh_sample_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_mesh_sample_options, options);
     options.point_count = 32;
     ewa_cloud *cloud = shape_sample(&mesh, &options);
     assert_in_range(ewa_cloud_point_count(cloud), 8, 128);
@@ -560,8 +558,7 @@ static void write_atlas(const char *name, int count) {
 static int64_t peak_of(int material_count) {
     char path[512];
     check_memory held = {.calls_left = -1};
-    ewa_context_options options;
-    ewa_context_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_context_options, options);
     options.thread_count = 1;
     options.allocator = check_allocator(&held);
     ewa_context *context = NULL;

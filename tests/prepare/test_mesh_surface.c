@@ -9,8 +9,7 @@
 #define RADIANS (3.141592653589793 / 180)
 
 static ewa_mesh_sample_options options_of(double spacing_world) {
-    ewa_mesh_sample_options options;
-    ewa_mesh_sample_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_mesh_sample_options, options);
     options.spacing_world = spacing_world;
     return options;
 }

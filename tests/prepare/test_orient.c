@@ -258,11 +258,9 @@ TEST_ON(test_outlier_limit, 2) {
 
 TEST_ON(test_outliers, 2) {
     float *xyz = NULL;
-    uint16_t *label = NULL;
-    double *precise = NULL;
     ewa_cloud *cloud = check_cloud(context, COUNT, &xyz);
-    assert_int_equal(ewa_cloud_add(cloud, "label", EWA_U16, 1, (void **)&label), EWA_OK);
-    assert_int_equal(ewa_cloud_add(cloud, "precise", EWA_F64, 2, (void **)&precise), EWA_OK);
+    uint16_t *label = check_add(cloud, "label", EWA_U16, 1);
+    double *precise = check_add(cloud, "precise", EWA_F64, 2);
     struct record {
         uint8_t unused, color[3];
     } *records = calloc(COUNT, sizeof *records);

@@ -154,9 +154,8 @@ TEST(test_clouds) {
         assert_memory_equal(color->data, ewa_cloud_find(b, EWA_COLOR)->data, 3 * 5000);
 
         const float *normal = check_stream(b, EWA_NORMAL), *radius = check_stream(b, EWA_RADIUS);
-        float *u, *v;
-        assert_int_equal(ewa_cloud_add(b, EWA_TANGENT_U, EWA_F32, 3, (void **)&u), EWA_OK);
-        assert_int_equal(ewa_cloud_add(b, EWA_TANGENT_V, EWA_F32, 3, (void **)&v), EWA_OK);
+        float *u = check_add(b, EWA_TANGENT_U, EWA_F32, 3);
+        float *v = check_add(b, EWA_TANGENT_V, EWA_F32, 3);
         for (uint64_t i = 0; i < 5000; i++) {
             const ewa_vec3 n = {(double)normal[3 * i], (double)normal[3 * i + 1], (double)normal[3 * i + 2]};
             ewa_vec3 p = vec3_cross(n, vec3_make(0.3, -0.8, 0.52));
@@ -190,8 +189,7 @@ TEST_ON(test_values, 0) {
     ewa_cloud *cloud = check_cloud(context, 3, &xyz);
     const float at[] = {0.25f, 0.25f, 0.25f, 1.25f, 0.25f, 0.25f, NAN, 0, 0};
     memcpy(xyz, at, sizeof at);
-    uint16_t *alpha;
-    assert_int_equal(ewa_cloud_add(cloud, EWA_COLOR, EWA_U16, 4, (void **)&alpha), EWA_OK);
+    uint16_t *alpha = check_add(cloud, EWA_COLOR, EWA_U16, 4);
     for (int i = 0; i < 12; i++) alpha[i] = (uint16_t)(i * 5000);
     ewa_procedure_options options;
     ewa_procedure_options_init(&options, EWA_PROCEDURE_CHECKER, sizeof options);

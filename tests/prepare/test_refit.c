@@ -9,15 +9,13 @@
 #include "reference/surface.h"
 
 static ewa_refit_options options_of(ewa_refit goal) {
-    ewa_refit_options options;
-    ewa_refit_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_refit_options, options);
     options.goal = goal;
     return options;
 }
 
 static ewa_cloud *generate(ewa_context *context, ewa_object object, uint64_t count, bool sharp) {
-    ewa_generate_options options;
-    ewa_generate_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_generate_options, options);
     options.object = object;
     options.point_count = count;
     options.radius_scale = 1.5;
@@ -29,8 +27,7 @@ static ewa_cloud *generate(ewa_context *context, ewa_object object, uint64_t cou
 
 /// Replaces the colours by random linear ones of `components` floats.
 static float *random_colors(ewa_cloud *cloud, uint32_t components) {
-    float *color;
-    assert_int_equal(ewa_cloud_add(cloud, EWA_COLOR, EWA_F32, components, (void **)&color), EWA_OK);
+    float *color = check_add(cloud, EWA_COLOR, EWA_F32, components);
     check_random random = {23};
     for (uint64_t i = 0; i < ewa_cloud_point_count(cloud) * components; i++)
         color[i] = (float)check_uniform(&random, 0, 1);
@@ -88,8 +85,7 @@ TEST_ON(test_constant, 0) {
         ewa_cloud *cloud = generate(context, EWA_OBJECT_CUBE, 3000, sharp);
         const uint64_t count = ewa_cloud_point_count(cloud);
         const float *normal = check_stream(cloud, EWA_NORMAL);
-        uint8_t *color;
-        assert_int_equal(ewa_cloud_add(cloud, EWA_COLOR, EWA_U8, 4, (void **)&color), EWA_OK);
+        uint8_t *color = check_add(cloud, EWA_COLOR, EWA_U8, 4);
         for (uint64_t i = 0; i < count; i++) {
             for (uint64_t c = 0; c < 3; c++) color[4 * i + c] = (uint8_t)(128 + 80 * normal[3 * i + c]);
             color[4 * i + 3] = (uint8_t)(i % 256);
@@ -270,21 +266,16 @@ TEST_ON(test_drawn, 0) {
     ewa_cloud *cloud = generate(context, EWA_OBJECT_PLANE, 400, false);
     float *color = random_colors(cloud, 3), lowest = 0;
     for (uint64_t i = 0; i < 3 * ewa_cloud_point_count(cloud); i++) color[i] = 6 * color[i] - 3;
-    ewa_camera camera;
-    ewa_camera_init(&camera);
-    camera.width_px = camera.height_px = SIDE;
+    ewa_camera camera = check_camera(SIDE, SIDE);
     ewa_camera_look_at(&camera, (double[3]){0, 0, 5}, (double[3]){0, 0, 0}, (double[3]){0, 1, 0});
     ewa_camera_set_ortho(&camera, 1.5);
-    ewa_render_options look;
-    ewa_render_options_init(&look, sizeof look);
+    WITH_DEFAULTS(ewa_render_options, look);
     look.shading = EWA_SHADING_NONE;
-    ewa_surfels *surfels = NULL;
-    ewa_renderer *renderer = NULL;
     ewa_surfels_info info;
     static float fast[4 * SIDE * SIDE], slow[4 * SIDE * SIDE];
-    assert_int_equal(ewa_surfels_create(cloud, NULL, &surfels), EWA_OK);
+    ewa_surfels *surfels = check_surfels(cloud, NULL);
     ewa_surfels_describe(surfels, &info);
-    assert_int_equal(ewa_renderer_create(context, &renderer), EWA_OK);
+    ewa_renderer *renderer = check_renderer(context);
     assert_int_equal(ewa_render(renderer, surfels, &camera, &look, &(ewa_frame){.rgba = fast}, NULL), EWA_OK);
     assert_int_equal(
         ewa_render_reference(cloud, NULL, info.unit_coverage, &camera, &look, &(ewa_frame){.rgba = slow}),

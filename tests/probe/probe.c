@@ -222,8 +222,7 @@ typedef struct way {
 
 /// False where there is no context. What the processor does not have is left out.
 static bool run_sections(probe *to, const way *by, int count, char **names) {
-    ewa_context_options options;
-    ewa_context_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_context_options, options);
     options.cpu_mask = by->mask;
     options.thread_count = by->threads;
     if (ewa_context_create(&options, &to->context) != EWA_OK) return false;

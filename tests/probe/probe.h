@@ -7,6 +7,7 @@
 #define EWA_TESTS_PROBE_H
 
 #include "ewa/ewa.h"
+#include "tests/defaults.h"
 
 #include <stdio.h>
 

@@ -9,8 +9,7 @@
 #include <string.h>
 
 static ewa_cloud *generate(probe *to, ewa_object object, uint64_t count, bool sharp, bool texcoords) {
-    ewa_generate_options options;
-    ewa_generate_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_generate_options, options);
     options.object = object, options.point_count = count;
     options.sharp = sharp, options.texcoords = texcoords;
     ewa_cloud *cloud = NULL;
@@ -58,8 +57,7 @@ void probe_estimates(probe *to) {
         ewa_cloud *cloud = k == 6   ? scan_lines(to)
                            : k == 7 ? noisy(to, EWA_OBJECT_CUBE, 900, 0)
                                     : noisy(to, k % 2 ? EWA_OBJECT_TORUS : EWA_OBJECT_TERRAIN, 900, 0.02);
-        ewa_estimate_options options;
-        ewa_estimate_options_init(&options, sizeof options);
+        WITH_DEFAULTS(ewa_estimate_options, options);
         options.shape = k % 3 == 1 ? EWA_SHAPE_ELLIPSE : EWA_SHAPE_DISC;
         options.orientation = k == 2 ? EWA_ORIENT_VIEWPOINT : k == 3 ? EWA_ORIENT_NONE : EWA_ORIENT_PROPAGATE;
         options.viewpoint_world[2] = 5;
@@ -114,8 +112,7 @@ void probe_solids(probe *to) {
         const double along[16] = {1, 0, 0, 0.5, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1},
                      turned[16] = {0.8, -0.6, 0, 0.3, 0.6, 0.8, 0, 0.2, 0, 0, 1, 0.35, 0, 0, 0, 1};
         ewa_cloud_transform(b, k % 4 == 1 ? along : turned);
-        ewa_csg_options options;
-        ewa_csg_options_init(&options, sizeof options);
+        WITH_DEFAULTS(ewa_csg_options, options);
         options.operation = (ewa_csg_operation)(k / 4);
         probe_status(to, "csg", ewa_cloud_csg(a, b, &options, &result));
         probe_cloud(to, "solid", result);
@@ -126,14 +123,12 @@ void probe_solids(probe *to) {
 void probe_features(probe *to) {
     for (int k = 0; k < 5; k++) {
         ewa_cloud *cloud = noisy(to, k % 2 ? EWA_OBJECT_CSG : EWA_OBJECT_CUBE, 2500, k >= 3 ? 0.03 : 0);
-        ewa_feature_options options;
-        ewa_feature_options_init(&options, sizeof options);
+        WITH_DEFAULTS(ewa_feature_options, options);
         options.angle_deg = k == 2 ? 60 : 30;
         options.project = k != 1;
         ewa_feature_counts counts;
         memset(&counts, 0, sizeof counts);
-        ewa_estimate_options estimate;
-        ewa_estimate_options_init(&estimate, sizeof estimate);
+        WITH_DEFAULTS(ewa_estimate_options, estimate);
         probe_status(to, "estimate", ewa_cloud_estimate(&cloud, &estimate));
         probe_status(to, "features", ewa_cloud_detect_features(cloud, &options, &counts));
         const double numbers[5] = {(double)counts.snapped_count, (double)counts.edge_count,
@@ -161,8 +156,7 @@ void probe_textured(probe *to) {
     for (int k = 0; k < 8; k++) {
         ewa_cloud *cloud = generate(to, k % 2 ? EWA_OBJECT_SPHERE : EWA_OBJECT_CUBE, 700, false, true);
         ewa_image image = picture(to, k < 4 ? 32 : 90, k == 3 ? 4 : k == 5 ? 1 : 3);
-        ewa_acquire_options options;
-        ewa_acquire_options_init(&options, sizeof options);
+        WITH_DEFAULTS(ewa_acquire_options, options);
         options.filter = (ewa_texture_filter)(k % 3);
         options.fit = k == 5 ? EWA_FIT_SUM : EWA_FIT_NORMALIZED;
         options.wrap_s = options.wrap_t = k >= 4 ? EWA_TEXTURE_CLAMP : EWA_TEXTURE_REPEAT;
@@ -173,8 +167,7 @@ void probe_textured(probe *to) {
         probe_number(to, "textured", (double)report.textured_count);
         probe_number(to, "pairs", (double)report.pair_count);
         probe_cloud(to, "acquired", cloud);
-        ewa_refit_options refit;
-        ewa_refit_options_init(&refit, sizeof refit);
+        WITH_DEFAULTS(ewa_refit_options, refit);
         refit.goal = k % 2 ? EWA_REFIT_FIT : EWA_REFIT_INTERPOLATE;
         ewa_refit_report refitted;
         memset(&refitted, 0, sizeof refitted);
@@ -218,8 +211,7 @@ void probe_sampled(probe *to) {
             for (int c = 0; c < 4; c++)
                 mesh.materials[m].base_color[c] = c == 3 ? 1 : 0.5f + 0.1f * (float)(m + c);
         if (k >= 3) mesh.textures[1] = picture(to, 24, 3);
-        ewa_mesh_sample_options options;
-        ewa_mesh_sample_options_init(&options, sizeof options);
+        WITH_DEFAULTS(ewa_mesh_sample_options, options);
         options.point_count = 400 + 300 * (uint64_t)k;
         options.texcoords = k == 2;
         options.smooth_normals = k != 1;

@@ -134,8 +134,7 @@ static void put_images_written(probe *to) {
         for (uint32_t i = 0; channels == 4 && i < 35; i++)
             for (uint32_t c = 0; c < 3; c++) image.pixels[4 * i + c] *= image.pixels[4 * i + 3];
         for (int k = 0; k < 6; k++) {
-            ewa_image_save_options options;
-            ewa_image_save_options_init(&options, sizeof options);
+            WITH_DEFAULTS(ewa_image_save_options, options);
             options.exr_half = k >= 3, options.srgb_alpha_straight = k < 3;
             probe_status(to, "image save", ewa_image_save(&image, scratch(to, names[k % 3]), &options));
             put_image(to, names[k % 3], scratch(to, names[k % 3]));
@@ -145,8 +144,7 @@ static void put_images_written(probe *to) {
 }
 
 static void put_clouds_written(probe *to) {
-    ewa_generate_options generate;
-    ewa_generate_options_init(&generate, sizeof generate);
+    WITH_DEFAULTS(ewa_generate_options, generate);
     generate.object = EWA_OBJECT_CSG, generate.point_count = 1500, generate.sharp = true,
     generate.texcoords = true;
     ewa_cloud *cloud = NULL;
@@ -154,8 +152,7 @@ static void put_clouds_written(probe *to) {
     probe_status(to, "generate", ewa_cloud_generate(to->context, &generate, &cloud));
     if (!cloud) return;
     for (int k = 0; k < 6; k++) {
-        ewa_cloud_save_options options;
-        ewa_cloud_save_options_init(&options, sizeof options);
+        WITH_DEFAULTS(ewa_cloud_save_options, options);
         options.ply_encoding = (ewa_ply_encoding)(k % 3);
         if (k == 3) ewa_cloud_set_origin(cloud, origin);
         probe_status(to, "cloud save", ewa_cloud_save(cloud, scratch(to, "a.ply"), &options));
@@ -186,8 +183,7 @@ static void put_meshes(probe *to) {
         probe_status(to, names[i], ewa_mesh_load(to->context, scratch(to, names[i]), &mesh));
         probe_number(to, "vertices", mesh.vertex_count);
         probe_number(to, "triangles", mesh.triangle_count);
-        ewa_mesh_sample_options options;
-        ewa_mesh_sample_options_init(&options, sizeof options);
+        WITH_DEFAULTS(ewa_mesh_sample_options, options);
         options.point_count = 200;
         ewa_cloud *cloud = NULL;
         if (mesh.triangle_count) probe_status(to, "sample", ewa_mesh_sample(&mesh, &options, &cloud));
@@ -198,16 +194,14 @@ static void put_meshes(probe *to) {
 }
 
 static void put_volumes_written(probe *to) {
-    ewa_volume_generate_options generate;
-    ewa_volume_generate_options_init(&generate, sizeof generate);
+    WITH_DEFAULTS(ewa_volume_generate_options, generate);
     for (int k = 0; k < 4; k++) {
         generate.object = (ewa_volume_object)k;
         generate.dims[0] = 13, generate.dims[1] = 9, generate.dims[2] = 11;
         ewa_volume volume;
         if (ewa_volume_generate(to->context, &generate, &volume) != EWA_OK) continue;
         put_volume_numbers(to, "generated volume", &volume);
-        ewa_volume_save_options options;
-        ewa_volume_save_options_init(&options, sizeof options);
+        WITH_DEFAULTS(ewa_volume_save_options, options);
         options.plain = k & 1;
         volume.index_to_world[1] = 0.1, volume.index_to_world[3] = 7;
         probe_status(to, "volume save", ewa_volume_save(&volume, scratch(to, "a.nrrd"), &options));

@@ -40,8 +40,7 @@ static void put_mirrors(probe *to) {
     }
     ewa_environment *environment = NULL;
     probe_status(to, "environment", ewa_environment_create(&sky, &environment));
-    ewa_generate_options generate;
-    ewa_generate_options_init(&generate, sizeof generate);
+    WITH_DEFAULTS(ewa_generate_options, generate);
     generate.object = EWA_OBJECT_SPHERE, generate.point_count = 800;
     ewa_cloud *cloud = NULL;
     ewa_surfels *surfels = NULL;
@@ -49,8 +48,7 @@ static void put_mirrors(probe *to) {
     ewa_material material;
     ewa_material_init(&material);
     material.reflection = 0.8f;
-    ewa_render_options options;
-    ewa_render_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_render_options, options);
     options.shading = EWA_SHADING_PHONG;
     options.materials = &material, options.material_count = 1;
     options.environment = environment;
@@ -123,8 +121,7 @@ void probe_splats(probe *to) {
         random_scene_free(&made);
     }
     // More points than a packet, a run and a tile have.
-    ewa_generate_options generate;
-    ewa_generate_options_init(&generate, sizeof generate);
+    WITH_DEFAULTS(ewa_generate_options, generate);
     generate.object = EWA_OBJECT_TERRAIN, generate.point_count = 20000;
     ewa_render_options *options = &made.scene.options;
     memset(&made, 0, sizeof made);

@@ -41,8 +41,7 @@ static void put_textures(probe *to) {
                                          .width_px = 96,
                                          .height_px = 64,
                                          .stride_bytes = 96 * 16};
-        ewa_texture_options options;
-        ewa_texture_options_init(&options, sizeof options);
+        WITH_DEFAULTS(ewa_texture_options, options);
         options.method = (ewa_texture_method)(k / 4);
         options.repeat = k % 4 == 1 && options.method != EWA_TEXTURE_SPLAT;
         if (k % 3 == 0) options.background[1] = 0.3f, options.background[3] = 0.6f;
@@ -111,8 +110,7 @@ static void put_warps(probe *to) {
         image.depth = image.depth_type == EWA_U16 ? (const void *)steps : numbers;
         image.depth_scale = image.depth_type == EWA_U16 ? 1000 : 1;
         image.color = color, image.color_type = EWA_U8, image.color_channel_count = 3;
-        ewa_warp_options options;
-        ewa_warp_options_init(&options, sizeof options);
+        WITH_DEFAULTS(ewa_warp_options, options);
         options.depth_noise = k == 1 || k == 5 ? 0.0036 : 0;
         options.drop_flying = k != 2;
         ewa_warp *warp = NULL;

@@ -67,8 +67,7 @@ static void put_pictures(probe *to, const ewa_volume *volume, const ewa_transfer
             ewa_camera_set_fov(&camera, 100);
             ewa_camera_look_at(&camera, middle, ahead, up);
         }
-        ewa_volume_options options;
-        ewa_volume_options_init(&options, sizeof options);
+        WITH_DEFAULTS(ewa_volume_options, options);
         options.method = (ewa_volume_method)((k + view) % 3);
         options.index = view == 3 ? EWA_INDEX_TABLE : EWA_INDEX_EXACT;
         options.level = view == 4;
@@ -107,8 +106,7 @@ void probe_volumes(probe *to) {
     ewa_transfer *transfer = calloc(1, sizeof *transfer);
     if (!transfer) abort();
     for (int k = 0; k < 8; k++) {
-        ewa_volume_generate_options generate;
-        ewa_volume_generate_options_init(&generate, sizeof generate);
+        WITH_DEFAULTS(ewa_volume_generate_options, generate);
         generate.object = (ewa_volume_object)(k % 4);
         generate.dims[0] = 19, generate.dims[1] = 17, generate.dims[2] = k < 4 ? 18 : 11;
         generate.checks = 3;

@@ -83,8 +83,7 @@ ewa_status acquire_truth(const acquire_scene *scene, ewa_image *picture) {
 }
 
 ewa_status acquire_points(const acquire_scene *scene, ewa_cloud **cloud) {
-    ewa_generate_options options;
-    ewa_generate_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_generate_options, options);
     options.point_count = ACQUIRE_ROW * ACQUIRE_ROW;
     options.size_world = ACQUIRE_ROW;
     options.jitter = scene->jitter;
@@ -102,8 +101,7 @@ ewa_status acquire_draw(const acquire_scene *scene, const ewa_cloud *cloud, ewa_
     camera.fx_px = camera.fy_px = scene->view_px_per_cell;
     camera.cx_px = camera.cy_px = 0.5 * ACQUIRE_SIDE;
     ewa_camera_look_at(&camera, eye, target, up);
-    ewa_render_options options;
-    ewa_render_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_render_options, options);
     options.shading = EWA_SHADING_NONE;
     options.edge_antialiasing = false;
     ewa_surfels *surfels = NULL;

@@ -6,6 +6,7 @@
 #ifndef EWA_TESTS_QUALITY_ACQUIRE_SCENE_H
 #define EWA_TESTS_QUALITY_ACQUIRE_SCENE_H
 
+#include "defaults.h"
 #include "ewa/ewa.h"
 
 enum { ACQUIRE_ROW = 512, ACQUIRE_SIDE = 256 };

@@ -166,15 +166,13 @@ static void measure_alpha(const checker_truth *truth, const float *rgba, checker
 }
 
 ewa_status checker_make(ewa_context *context, const checker_setting *setting, ewa_surfels **surfels) {
-    ewa_generate_options board;
-    ewa_generate_options_init(&board, sizeof board);
+    WITH_DEFAULTS(ewa_generate_options, board);
     board.object = EWA_OBJECT_CHECKER;
     board.point_count = CHECKER_POINTS;
     board.checks = CHECKS;
     board.jitter = setting->jitter;
     board.radius_scale = setting->cutoff * setting->sigma;
-    ewa_surfels_options options;
-    ewa_surfels_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_surfels_options, options);
     options.cutoff = setting->cutoff;
     ewa_cloud *cloud = NULL;
     ewa_status status = ewa_cloud_generate(context, &board, &cloud);
@@ -185,14 +183,12 @@ ewa_status checker_make(ewa_context *context, const checker_setting *setting, ew
 
 /// Positions and colours of the board, by default all else estimated.
 static ewa_status make_points(ewa_context *context, ewa_cloud **cloud) {
-    ewa_generate_options board;
-    ewa_generate_options_init(&board, sizeof board);
+    WITH_DEFAULTS(ewa_generate_options, board);
     board.object = EWA_OBJECT_CHECKER;
     board.point_count = CHECKER_POINTS;
     board.checks = CHECKS;
     board.jitter = 0.4;
-    ewa_estimate_options options;
-    ewa_estimate_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_estimate_options, options);
     options.keep_normals = options.keep_radii = false;
     const ewa_status status = ewa_cloud_generate(context, &board, cloud);
     return status == EWA_OK ? ewa_cloud_estimate(cloud, &options) : status;
@@ -206,8 +202,7 @@ static ewa_status sample_mesh(ewa_context *context, ewa_cloud **cloud) {
     static const uint32_t triangles[6] = {0, 1, 2, 0, 2, 3};
     ewa_mesh mesh;
     ewa_image picture;
-    ewa_mesh_sample_options options;
-    ewa_mesh_sample_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_mesh_sample_options, options);
     options.point_count = CHECKER_POINTS;
     EWA_TRY(ewa_mesh_create(context, 4, 2, 0, EWA_MESH_TEXCOORDS, &mesh));
     memcpy(mesh.positions, corners, sizeof corners);
@@ -227,8 +222,7 @@ static ewa_status sample_mesh(ewa_context *context, ewa_cloud **cloud) {
 
 ewa_status checker_make_from(ewa_context *context, checker_source source, double radius_scale, ewa_surfels **surfels) {
     ewa_cloud *cloud = NULL;
-    ewa_surfels_options options;
-    ewa_surfels_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_surfels_options, options);
     options.radius_scale = radius_scale;
     ewa_status status = source == CHECKER_OF_MESH ? sample_mesh(context, &cloud) : make_points(context, &cloud);
     if (status == EWA_OK && source == CHECKER_OF_POINTS_REFITTED) status = ewa_cloud_refit_colors(cloud, NULL, NULL);
@@ -238,8 +232,7 @@ ewa_status checker_make_from(ewa_context *context, checker_source source, double
 }
 
 ewa_render_options checker_options(const checker_setting *setting) {
-    ewa_render_options options;
-    ewa_render_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_render_options, options);
     options.kernel = setting->kernel;
     options.prefilter_px = setting->prefilter_px;
     options.passes = setting->one_pass ? 1 : 3;

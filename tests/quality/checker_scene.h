@@ -11,6 +11,7 @@
 #ifndef EWA_TESTS_QUALITY_CHECKER_SCENE_H
 #define EWA_TESTS_QUALITY_CHECKER_SCENE_H
 
+#include "defaults.h"
 #include "ewa/ewa.h"
 
 enum { CHECKER_SIDE = 512, CHECKER_BANDS = 3, CHECKER_POINTS = 250000 };

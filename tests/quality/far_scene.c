@@ -11,8 +11,7 @@ const char *const far_names[FAR_KINDS] = {"town", "sphere, noise", "terrain, mar
 
 ewa_status far_make(ewa_context *context, far_kind kind, uint64_t point_count, ewa_cloud **cloud) {
     static const ewa_object objects[FAR_KINDS] = {EWA_OBJECT_TOWN, EWA_OBJECT_SPHERE, EWA_OBJECT_TERRAIN};
-    ewa_generate_options options;
-    ewa_generate_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_generate_options, options);
     options.object = objects[kind];
     options.point_count = point_count;
     ewa_status status = ewa_cloud_generate(context, &options, cloud);
@@ -29,7 +28,8 @@ ewa_camera far_camera(const ewa_bounds *bounds, double times, uint32_t side_px, 
     static const double direction[3] = {-0.577, 0.577, -0.577}, up[3] = {0, 0, 1};
     ewa_camera camera;
     ewa_camera_init(&camera);
-    camera.width_px = camera.height_px = side_px * finer;
+    camera.width_px = side_px * finer;
+    camera.height_px = side_px * finer;
     double eye[3], middle[3];
     bool placed =
         ewa_camera_set_fov(&camera, 30) == EWA_OK && ewa_camera_frame(&camera, bounds, direction, up, 0) == EWA_OK;

@@ -6,6 +6,7 @@
 #ifndef EWA_TESTS_QUALITY_FAR_SCENE_H
 #define EWA_TESTS_QUALITY_FAR_SCENE_H
 
+#include "defaults.h"
 #include "ewa/ewa.h"
 
 enum { FAR_FINER = 8 };

@@ -270,18 +270,14 @@ void feature_scene_free(feature_scene *scene) {
 ewa_cloud *feature_scene_detect(ewa_context *context, const feature_scene *scene, double noise,
                                 ewa_feature_counts *counts, double *seconds) {
     check_random random = {17};
-    ewa_cloud *cloud = NULL;
-    float *xyz = NULL;
-    assert_int_equal(ewa_cloud_create(context, scene->count, &cloud), EWA_OK);
-    assert_int_equal(ewa_cloud_add(cloud, EWA_POSITION, EWA_F32, 3, (void **)&xyz), EWA_OK);
+    ewa_cloud *cloud = check_cloud_of(context, scene->count);
+    float *xyz = check_add(cloud, EWA_POSITION, EWA_F32, 3);
     for (uint32_t i = 0; i < scene->count; i++)
         for (int c = 0; c < 3; c++)
             xyz[3 * i + (uint32_t)c] = (float)(scene->place[i][c] + noise * scene->spacing * gauss(&random));
-    ewa_estimate_options estimate;
-    ewa_estimate_options_init(&estimate, sizeof estimate);
+    WITH_DEFAULTS(ewa_estimate_options, estimate);
     assert_int_equal(ewa_cloud_estimate(&cloud, &estimate), EWA_OK);
-    ewa_feature_options options;
-    ewa_feature_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_feature_options, options);
     const double started_s = now_s();
     assert_int_equal(ewa_cloud_detect_features(cloud, &options, counts), EWA_OK);
     *seconds = now_s() - started_s;

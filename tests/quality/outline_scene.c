@@ -146,10 +146,8 @@ static void random_place(check_random *random, outline_shape shape, float p[3]) 
 }
 
 ewa_cloud *outline_points(ewa_context *context, outline_shape shape, uint64_t point_count) {
-    ewa_cloud *cloud = NULL;
-    float *position = NULL;
-    assert_int_equal(ewa_cloud_create(context, point_count, &cloud), EWA_OK);
-    assert_int_equal(ewa_cloud_add(cloud, EWA_POSITION, EWA_F32, 3, (void **)&position), EWA_OK);
+    ewa_cloud *cloud = check_cloud_of(context, point_count);
+    float *position = check_add(cloud, EWA_POSITION, EWA_F32, 3);
     check_random random = {17};
     for (uint64_t i = 0; i < point_count; i++) random_place(&random, shape, position + 3 * i);
     return cloud;

@@ -291,8 +291,7 @@ static uint64_t count_missing(hole_scene *scene, float alpha) {
 }
 
 static void add_camera(hole_scene *scene, const ewa_camera *camera, radii_holes *holes) {
-    ewa_render_options options;
-    ewa_render_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_render_options, options);
     options.shading = EWA_SHADING_NONE;
     const ewa_frame larger = {.coverage = scene->coverage};
     const ewa_frame frame = {.rgba = scene->rgba, .coverage = scene->coverage};
@@ -310,9 +309,7 @@ static void add_camera(hole_scene *scene, const ewa_camera *camera, radii_holes 
 
 /// A camera that sees `extent` around `target` from an elevation and an azimuth.
 static ewa_camera look_at(const double target[3], double extent, double elevation_deg, double azimuth_deg) {
-    ewa_camera camera;
-    ewa_camera_init(&camera);
-    camera.width_px = camera.height_px = SIDE;
+    ewa_camera camera = check_camera(SIDE, SIDE);
     assert_int_equal(ewa_camera_set_fov(&camera, 40), EWA_OK);
     const double e = elevation_deg * PI / 180, a = azimuth_deg * PI / 180;
     const double distance = extent / 2 / tan(20 * PI / 180);
@@ -344,8 +341,7 @@ void radii_measure_holes(ewa_context *context, const ewa_cloud *cloud, int views
     const uint32_t count = (uint32_t)ewa_cloud_point_count(cloud);
     hole_scene *scene = calloc(1, sizeof *scene);
     double(*place)[3] = read_places(cloud), middle[3];
-    ewa_surfels_options options;
-    ewa_surfels_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_surfels_options, options);
     assert_non_null(scene);
     assert_int_equal(ewa_surfels_create(cloud, &options, &scene->surfels), EWA_OK);
     options.radius_scale = 1.5;

@@ -30,8 +30,7 @@ static double truth_at(const pattern *texture, const ewa_procedure_options *opti
 /// Points of the plane with colours of the texture where they are.
 static ewa_cloud *make_cloud(ewa_context *context, const refit_setting *setting, const pattern *texture,
                              const ewa_procedure_options *options) {
-    ewa_generate_options generate;
-    ewa_generate_options_init(&generate, sizeof generate);
+    WITH_DEFAULTS(ewa_generate_options, generate);
     generate.object = EWA_OBJECT_PLANE;
     generate.point_count = setting->point_count;
     generate.jitter = setting->jitter;
@@ -60,13 +59,10 @@ static ewa_cloud *make_cloud(ewa_context *context, const refit_setting *setting,
 static double measure(ewa_context *context, const ewa_cloud *cloud, const pattern *texture,
                       const ewa_procedure_options *options) {
     const double eye[3] = {0, 0, 5}, target[3] = {0, 0, 0}, up[3] = {0, 1, 0};
-    ewa_camera camera;
-    ewa_camera_init(&camera);
-    camera.width_px = camera.height_px = SIDE;
+    ewa_camera camera = check_camera(SIDE, SIDE);
     ewa_camera_look_at(&camera, eye, target, up);
     ewa_camera_set_ortho(&camera, SHOWN_WORLD);
-    ewa_render_options look;
-    ewa_render_options_init(&look, sizeof look);
+    WITH_DEFAULTS(ewa_render_options, look);
     look.shading = EWA_SHADING_NONE;
     look.prefilter_px = PREFILTER_PX;
     ewa_surfels *surfels = NULL;
@@ -99,8 +95,7 @@ double refit_scene_psnr(ewa_context *context, const refit_setting *setting, int 
     pattern texture;
     make_pattern(setting, &options, &texture);
     ewa_cloud *cloud = make_cloud(context, setting, &texture, &options);
-    ewa_refit_options refit;
-    ewa_refit_options_init(&refit, sizeof refit);
+    WITH_DEFAULTS(ewa_refit_options, refit);
     refit.goal = (ewa_refit)goal;
     bool done = cloud != NULL;
     if (done && goal != REFIT_PLAIN) done = ewa_cloud_refit_colors(cloud, &refit, report) == EWA_OK;

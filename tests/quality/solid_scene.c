@@ -125,8 +125,7 @@ void solid_color(const double normal[3], float color[3]) {
 
 void solid_color_cloud(ewa_cloud *cloud) {
     const ewa_attribute normals = *ewa_cloud_find(cloud, EWA_NORMAL);
-    float *color = NULL;
-    assert_int_equal(ewa_cloud_add(cloud, EWA_COLOR, EWA_F32, 3, (void **)&color), EWA_OK);
+    float *color = check_add(cloud, EWA_COLOR, EWA_F32, 3);
     for (uint64_t i = 0; i < ewa_cloud_point_count(cloud); i++) {
         double normal[3];
         ewa_attribute_read_f64(&normals, i, 1, normal);

@@ -14,8 +14,7 @@ enum { VIEWS = 3 };
 
 static void measure(acquire_scene *scene, ewa_texture_filter filter, double rms[VIEWS]) {
     static const double views_px_per_cell[VIEWS] = {0.125, 4, 20};
-    ewa_acquire_options options;
-    ewa_acquire_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_acquire_options, options);
     options.filter = filter;
     options.wrap_s = options.wrap_t = EWA_TEXTURE_CLAMP;
     options.pixel_sigma_px = scene->pixel_sigma_px;
@@ -65,9 +64,7 @@ TEST_ON(test_ray_caster, 0) {
     memcpy(mesh.triangles, triangles, sizeof triangles);
     assert_int_equal(acquire_checker(context, 64, 32, &board), EWA_OK); // upper left white
     assert_int_equal(ewa_mesh_set_picture(&mesh, &board), EWA_OK);
-    ewa_camera camera;
-    ewa_camera_init(&camera);
-    camera.width_px = camera.height_px = 100;
+    ewa_camera camera = check_camera(100, 100);
     ewa_camera_set_fov(&camera, 60);
     ewa_camera_look_at(&camera, eye, target, up);
     assert_int_equal(textured_cast(&mesh, &camera, 2, true, &picture), EWA_OK);

@@ -108,12 +108,10 @@ static void add_mantle(points *to, const double half[3], double spacing) {
 }
 
 static ewa_cloud *make_cloud(ewa_context *context, const points *from, double radius) {
-    ewa_cloud *cloud = NULL;
-    float *position, *normal, *radii;
-    assert_int_equal(ewa_cloud_create(context, from->count, &cloud), EWA_OK);
-    assert_int_equal(ewa_cloud_add(cloud, EWA_POSITION, EWA_F32, 3, (void **)&position), EWA_OK);
-    assert_int_equal(ewa_cloud_add(cloud, EWA_NORMAL, EWA_F32, 3, (void **)&normal), EWA_OK);
-    assert_int_equal(ewa_cloud_add(cloud, EWA_RADIUS, EWA_F32, 1, (void **)&radii), EWA_OK);
+    ewa_cloud *cloud = check_cloud_of(context, from->count);
+    float *position = check_add(cloud, EWA_POSITION, EWA_F32, 3);
+    float *normal = check_add(cloud, EWA_NORMAL, EWA_F32, 3);
+    float *radii = check_add(cloud, EWA_RADIUS, EWA_F32, 1);
     memcpy(position, from->position, from->count * 3 * sizeof *position);
     memcpy(normal, from->normal, from->count * 3 * sizeof *normal);
     for (uint64_t i = 0; i < from->count; i++) radii[i] = (float)radius;
@@ -143,8 +141,7 @@ static ewa_cloud *make_generated(ewa_context *context, ewa_object object) {
 
 static ewa_cloud *make_sampled(ewa_context *context) {
     ewa_mesh mesh;
-    ewa_mesh_sample_options options;
-    ewa_mesh_sample_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_mesh_sample_options, options);
     options.point_count = 20000;
     options.clip_lines = false;
     shape_cube(context, &mesh);
@@ -195,15 +192,11 @@ static void count_rims(ewa_renderer *renderer, const ewa_cloud *cloud, const tru
     static const double eyes[][3] = {{2.2, -2.6, 1.9}, {3.2, -0.4, 1.2}, {0.3, -3.4, 0.9}, {-1.5, 1.2, -3}};
     static const double target[3] = {0, 0, 0}, up[3] = {0.1, 0.05, 1};
     *counts = (rim_counts){0};
-    ewa_render_options options;
-    ewa_render_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_render_options, options);
     options.shading = EWA_SHADING_NONE;
-    ewa_surfels *surfels = NULL;
-    assert_int_equal(ewa_surfels_create(cloud, NULL, &surfels), EWA_OK);
+    ewa_surfels *surfels = check_surfels(cloud, NULL);
     for (size_t view = 0; view < sizeof eyes / sizeof eyes[0]; view++) {
-        ewa_camera camera;
-        ewa_camera_init(&camera);
-        camera.width_px = camera.height_px = SIDE;
+        ewa_camera camera = check_camera(SIDE, SIDE);
         assert_int_equal(ewa_camera_set_fov(&camera, 45), EWA_OK);
         assert_int_equal(ewa_camera_look_at(&camera, eyes[view], target, up), EWA_OK);
         trace_picture(of, &camera, hits);
@@ -228,8 +221,7 @@ static void count_rims(ewa_renderer *renderer, const ewa_cloud *cloud, const tru
 }
 
 TEST_ON(test_no_rims_of_far_sides, 0) {
-    ewa_renderer *renderer = NULL;
-    assert_int_equal(ewa_renderer_create(context, &renderer), EWA_OK);
+    ewa_renderer *renderer = check_renderer(context);
     const truth cube = {.shape = ewa_solid_shape_of(EWA_OBJECT_CUBE)};
     const struct {
         const char *name;
@@ -276,22 +268,16 @@ TEST_ON(test_means_go_over, 0) {
     }
     ewa_cloud *cloud = make_cloud(context, &made, 0.06);
     ((float *)ewa_cloud_find(cloud, EWA_RADIUS)->data)[ROWS * ROWS] = 0.4f;
-    float *color = NULL;
-    assert_int_equal(ewa_cloud_add(cloud, EWA_COLOR, EWA_F32, 3, (void **)&color), EWA_OK);
+    float *color = check_add(cloud, EWA_COLOR, EWA_F32, 3);
     memset(color, 0, 3 * made.count * sizeof *color);
     for (uint64_t i = 0; i < made.count; i++) color[3 * i + (i == ROWS * ROWS ? 0 : 2)] = 1;
-    ewa_camera camera;
-    ewa_camera_init(&camera);
-    camera.width_px = camera.height_px = SIDE;
+    ewa_camera camera = check_camera(SIDE, SIDE);
     assert_int_equal(ewa_camera_set_fov(&camera, 45), EWA_OK);
     assert_int_equal(ewa_camera_look_at(&camera, eye, target, up), EWA_OK);
-    ewa_render_options options;
-    ewa_render_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_render_options, options);
     options.shading = EWA_SHADING_NONE;
-    ewa_surfels *surfels = NULL;
-    ewa_renderer *renderer = NULL;
-    assert_int_equal(ewa_surfels_create(cloud, NULL, &surfels), EWA_OK);
-    assert_int_equal(ewa_renderer_create(context, &renderer), EWA_OK);
+    ewa_surfels *surfels = check_surfels(cloud, NULL);
+    ewa_renderer *renderer = check_renderer(context);
     const ewa_frame frames[2] = {{.rgba = both, .coverage = all}, {.coverage = front}};
     for (int f = 0; f < 2; f++) {
         options.cull = f ? EWA_CULL_BACK : EWA_CULL_NONE;
@@ -330,8 +316,7 @@ static ewa_cloud *make_waves(ewa_context *context) {
     ewa_cloud *cloud = make_cloud(context, &made, 0.045);
     free(made.position);
     free(made.normal);
-    float *color = NULL;
-    assert_int_equal(ewa_cloud_add(cloud, EWA_COLOR, EWA_F32, 3, (void **)&color), EWA_OK);
+    float *color = check_add(cloud, EWA_COLOR, EWA_F32, 3);
     const float *position = ewa_cloud_find(cloud, EWA_POSITION)->data;
     for (uint64_t i = 0; i < made.count; i++)
         for (int c = 0; c < 3; c++)
@@ -357,17 +342,13 @@ static void turn_normals(ewa_cloud *cloud, int kind) {
 static void draw_sheet(ewa_renderer *renderer, const ewa_cloud *cloud, const double eye[3], double opacity,
                        float *rgba, float *coverage) {
     static const double target[3] = {0, 0, 0}, up[3] = {0.1, 0.05, 1};
-    ewa_render_options options;
-    ewa_render_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_render_options, options);
     options.opacity = opacity;
-    ewa_camera camera;
-    ewa_camera_init(&camera);
-    camera.width_px = camera.height_px = SIDE;
+    ewa_camera camera = check_camera(SIDE, SIDE);
     assert_int_equal(ewa_camera_set_fov(&camera, 45), EWA_OK);
     assert_int_equal(ewa_camera_look_at(&camera, eye, target, up), EWA_OK);
-    ewa_surfels *surfels = NULL;
     const ewa_frame frame = {.rgba = rgba, .coverage = coverage};
-    assert_int_equal(ewa_surfels_create(cloud, NULL, &surfels), EWA_OK);
+    ewa_surfels *surfels = check_surfels(cloud, NULL);
     assert_int_equal(ewa_render(renderer, surfels, &camera, &options, &frame, NULL), EWA_OK);
     ewa_surfels_destroy(&surfels);
 }
@@ -385,8 +366,7 @@ TEST_ON(test_cover_is_blind_to_normals, 0) {
     static float rgba[2][4 * SIDE * SIDE], coverage[2][SIDE * SIDE];
     static const double eyes[][3] = {{2.2, -2.6, 1.9}, {1.5, -2.2, -2.2}, {3, -0.4, 0.3}, {0.3, -0.2, -3}};
     static const char *const names[SIGN_KINDS] = {"all", "in patches", "at random"};
-    ewa_renderer *renderer = NULL;
-    assert_int_equal(ewa_renderer_create(context, &renderer), EWA_OK);
+    ewa_renderer *renderer = check_renderer(context);
     for (int kind = 0; kind < SIGN_KINDS; kind++)
         for (size_t view = 0; view < sizeof eyes / sizeof eyes[0]; view++) {
             ewa_cloud *cloud = make_waves(context);
@@ -409,8 +389,7 @@ TEST_ON(test_cover_is_blind_to_normals, 0) {
 TEST_ON(test_inside_is_shown, 0) {
     static float rgba[2][4 * SIDE * SIDE], coverage[SIDE * SIDE];
     static const double eye[3] = {0.2, -0.5, 0.1};
-    ewa_renderer *renderer = NULL;
-    assert_int_equal(ewa_renderer_create(context, &renderer), EWA_OK);
+    ewa_renderer *renderer = check_renderer(context);
     ewa_cloud *cloud = make_generated(context, EWA_OBJECT_SPHERE);
     draw_sheet(renderer, cloud, eye, 1, rgba[0], coverage);
     turn_normals(cloud, SIGNS_ALL);

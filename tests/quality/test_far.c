@@ -58,14 +58,12 @@ TEST_ON(test_town_stays_as_near_to_the_truth, 0) {
     static const struct {
         double times, least_db;
     } rows[] = {{1, 22.0}, {4, 18.0}, {8, 16.0}};
-    ewa_renderer *renderer = NULL;
-    ewa_surfels *surfels = NULL;
     ewa_cloud *cloud = NULL;
     ewa_bounds bounds;
-    assert_int_equal(ewa_renderer_create(context, &renderer), EWA_OK);
+    ewa_renderer *renderer = check_renderer(context);
     assert_int_equal(far_make(context, FAR_TOWN, 100000, &cloud), EWA_OK);
     assert_int_equal(ewa_cloud_measure(cloud, &bounds), EWA_OK);
-    assert_int_equal(ewa_surfels_create(cloud, NULL, &surfels), EWA_OK);
+    ewa_surfels *surfels = check_surfels(cloud, NULL);
     float *fine = malloc((size_t)4 * PIXELS * FAR_FINER * FAR_FINER * sizeof *fine);
     float truth[4 * PIXELS], other[4 * PIXELS];
     assert_non_null(fine);

@@ -80,13 +80,10 @@ static void count_holes(ewa_context *context, double noise, hole_counts *found) 
     double seconds;
     ewa_cloud *cloud = feature_scene_detect(context, &scene, noise, &counts, &seconds);
     feature_scene_free(&scene);
-    ewa_surfels *surfels = NULL;
-    ewa_renderer *renderer = NULL;
     assert_true(counts.edge_count > 1000 && counts.corner_count >= 8);
-    assert_int_equal(ewa_surfels_create(cloud, NULL, &surfels), EWA_OK);
-    assert_int_equal(ewa_renderer_create(context, &renderer), EWA_OK);
-    ewa_render_options render;
-    ewa_render_options_init(&render, sizeof render);
+    ewa_surfels *surfels = check_surfels(cloud, NULL);
+    ewa_renderer *renderer = check_renderer(context);
+    WITH_DEFAULTS(ewa_render_options, render);
     render.cull = EWA_CULL_BACK; // or the far side would fill the holes of the near one
     static float rgba[4 * SIDE * SIDE];
     const ewa_frame frame = {.rgba = rgba};

@@ -72,19 +72,15 @@ static void count_holes(const ewa_camera *camera, const float *coverage, hole_co
 static void render_cameras(ewa_kernel kernel, double prefilter_px, hole_counts *counts) {
     *counts = (hole_counts){0};
     ewa_context *context = check_context(0, NULL);
-    ewa_generate_options plane;
-    ewa_generate_options_init(&plane, sizeof plane);
+    WITH_DEFAULTS(ewa_generate_options, plane);
     plane.point_count = GRID * GRID;
     plane.jitter = 0;
     plane.radius_scale = sqrt(0.5) * 1.0001; // to the corner, and what single precision may lose
     ewa_cloud *cloud = NULL;
-    ewa_surfels *surfels = NULL;
-    ewa_renderer *renderer = NULL;
     assert_int_equal(ewa_cloud_generate(context, &plane, &cloud), EWA_OK);
-    assert_int_equal(ewa_surfels_create(cloud, NULL, &surfels), EWA_OK);
-    assert_int_equal(ewa_renderer_create(context, &renderer), EWA_OK);
-    ewa_render_options options;
-    ewa_render_options_init(&options, sizeof options);
+    ewa_surfels *surfels = check_surfels(cloud, NULL);
+    ewa_renderer *renderer = check_renderer(context);
+    WITH_DEFAULTS(ewa_render_options, options);
     options.kernel = kernel;
     options.prefilter_px = prefilter_px;
     static float coverage[SIDE * SIDE];
@@ -108,8 +104,7 @@ static void render_cameras(ewa_kernel kernel, double prefilter_px, hole_counts *
 }
 
 TEST(test_perspective_has_no_holes) {
-    ewa_render_options options;
-    ewa_render_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_render_options, options);
     hole_counts counts;
     render_cameras(EWA_KERNEL_PERSPECTIVE, options.prefilter_px, &counts);
     assert_true(counts.inside > 100000);
@@ -120,8 +115,7 @@ TEST(test_perspective_has_no_holes) {
 
 /// The affine kernel does leave holes: so the test above can see them.
 TEST(test_affine_has_holes) {
-    ewa_render_options options;
-    ewa_render_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_render_options, options);
     hole_counts counts;
     render_cameras(EWA_KERNEL_AFFINE, options.prefilter_px, &counts);
     render_cameras(EWA_KERNEL_AFFINE, 0, &counts);
@@ -133,26 +127,20 @@ TEST_ON(test_generated_discs_close, 0) {
     enum { VIEW_PX = 400, RIM_PX = 8 };
     static float rgba[VIEW_PX * VIEW_PX * 4];
     static const double jitters[] = {0, 0.25, 0.5, 1};
-    ewa_renderer *renderer = NULL;
-    assert_int_equal(ewa_renderer_create(context, &renderer), EWA_OK);
+    ewa_renderer *renderer = check_renderer(context);
     for (size_t i = 0; i < sizeof jitters / sizeof jitters[0]; i++) {
-        ewa_generate_options ball;
-        ewa_generate_options_init(&ball, sizeof ball);
+        WITH_DEFAULTS(ewa_generate_options, ball);
         ball.object = EWA_OBJECT_SPHERE;
         ball.point_count = 20000;
         ball.jitter = jitters[i];
         ewa_cloud *cloud = NULL;
-        ewa_surfels *surfels = NULL;
         assert_int_equal(ewa_cloud_generate(context, &ball, &cloud), EWA_OK);
-        assert_int_equal(ewa_surfels_create(cloud, NULL, &surfels), EWA_OK);
-        ewa_camera camera;
-        ewa_camera_init(&camera);
-        camera.width_px = camera.height_px = VIEW_PX;
+        ewa_surfels *surfels = check_surfels(cloud, NULL);
+        ewa_camera camera = check_camera(VIEW_PX, VIEW_PX);
         assert_int_equal(ewa_camera_set_fov(&camera, 40), EWA_OK);
         static const double eye[3] = {2, 1.5, 2.2}, target[3] = {0, 0, 0}, up[3] = {0, 0, 1};
         assert_int_equal(ewa_camera_look_at(&camera, eye, target, up), EWA_OK);
-        ewa_render_options options;
-        ewa_render_options_init(&options, sizeof options);
+        WITH_DEFAULTS(ewa_render_options, options);
         options.cull = EWA_CULL_BACK;
         const ewa_frame frame = {.rgba = rgba};
         assert_int_equal(ewa_render(renderer, surfels, &camera, &options, &frame, NULL), EWA_OK);

@@ -93,8 +93,7 @@ static void count_pixels(const solid *of, const ewa_camera *camera, const double
 
 /// About so many points of a mesh.
 static ewa_cloud *sample_points(const ewa_mesh *mesh, uint64_t points) {
-    ewa_mesh_sample_options sample;
-    ewa_mesh_sample_options_init(&sample, sizeof sample);
+    WITH_DEFAULTS(ewa_mesh_sample_options, sample);
     sample.point_count = points;
     return shape_sample(mesh, &sample);
 }
@@ -105,12 +104,9 @@ static void render_cameras(const solid *of, uint64_t points, ewa_cull cull, edge
     ewa_mesh mesh;
     of->make(context, &mesh);
     ewa_cloud *cloud = sample_points(&mesh, points);
-    ewa_surfels *surfels = NULL;
-    ewa_renderer *renderer = NULL;
-    assert_int_equal(ewa_surfels_create(cloud, NULL, &surfels), EWA_OK);
-    assert_int_equal(ewa_renderer_create(context, &renderer), EWA_OK);
-    ewa_render_options options;
-    ewa_render_options_init(&options, sizeof options);
+    ewa_surfels *surfels = check_surfels(cloud, NULL);
+    ewa_renderer *renderer = check_renderer(context);
+    WITH_DEFAULTS(ewa_render_options, options);
     options.cull = cull;
     static float coverage[SIDE * SIDE], rgba[4 * SIDE * SIDE];
     const ewa_frame frame = {.coverage = coverage, .rgba = rgba};
@@ -158,15 +154,10 @@ TEST_ON(test_light_at_edges, 0) {
     ewa_mesh mesh;
     shape_cube(context, &mesh);
     ewa_cloud *cloud = sample_points(&mesh, 100000);
-    ewa_surfels *surfels = NULL;
-    ewa_renderer *renderer = NULL;
-    assert_int_equal(ewa_surfels_create(cloud, NULL, &surfels), EWA_OK);
-    assert_int_equal(ewa_renderer_create(context, &renderer), EWA_OK);
-    ewa_render_options options;
-    ewa_render_options_init(&options, sizeof options);
-    ewa_camera camera;
-    ewa_camera_init(&camera);
-    camera.width_px = camera.height_px = SIDE;
+    ewa_surfels *surfels = check_surfels(cloud, NULL);
+    ewa_renderer *renderer = check_renderer(context);
+    WITH_DEFAULTS(ewa_render_options, options);
+    ewa_camera camera = check_camera(SIDE, SIDE);
     assert_int_equal(ewa_camera_set_fov(&camera, 40), EWA_OK);
     assert_int_equal(ewa_camera_look_at(&camera, eye, target, up), EWA_OK);
     const ewa_frame frame = {.rgba = rgba};

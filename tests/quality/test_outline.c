@@ -15,8 +15,7 @@
 #include "quality/outline_scene.h"
 
 static ewa_cloud *generated(ewa_context *context, ewa_object object, uint64_t point_count) {
-    ewa_generate_options options;
-    ewa_generate_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_generate_options, options);
     options.object = object;
     options.size_world = 2;
     options.radius_scale = EWA_DEFAULT_RADIUS_SCALE;
@@ -27,8 +26,7 @@ static ewa_cloud *generated(ewa_context *context, ewa_object object, uint64_t po
 }
 
 static ewa_cloud *sampled(ewa_mesh *mesh, uint64_t point_count) {
-    ewa_mesh_sample_options options;
-    ewa_mesh_sample_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_mesh_sample_options, options);
     options.point_count = point_count;
     ewa_cloud *cloud = shape_sample(mesh, &options);
     ewa_mesh_free(mesh);
@@ -58,8 +56,7 @@ static ewa_cloud *disc_from_mesh(ewa_context *context, uint64_t point_count) {
 
 static ewa_cloud *estimated(ewa_context *context, outline_shape shape, uint64_t point_count) {
     ewa_cloud *cloud = outline_points(context, shape, point_count);
-    ewa_estimate_options options;
-    ewa_estimate_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_estimate_options, options);
     assert_int_equal(ewa_cloud_estimate(&cloud, &options), EWA_OK);
     return cloud;
 }
@@ -67,13 +64,10 @@ static ewa_cloud *estimated(ewa_context *context, outline_shape shape, uint64_t 
 static outline_errors draw(ewa_context *context, const ewa_cloud *cloud, const ewa_camera *camera,
                            const ewa_render_options *options, const outline_truth *truth) {
     static float rgba[OUTLINE_SIDE_PX * OUTLINE_SIDE_PX][4];
-    ewa_surfels *surfels = NULL;
-    ewa_renderer *renderer = NULL;
-    ewa_surfels_options surfels_options;
-    ewa_surfels_options_init(&surfels_options, sizeof surfels_options);
+    WITH_DEFAULTS(ewa_surfels_options, surfels_options);
     surfels_options.level_count = options ? options->level + 1 : 1;
-    assert_int_equal(ewa_surfels_create(cloud, &surfels_options, &surfels), EWA_OK);
-    assert_int_equal(ewa_renderer_create(context, &renderer), EWA_OK);
+    ewa_surfels *surfels = check_surfels(cloud, &surfels_options);
+    ewa_renderer *renderer = check_renderer(context);
     const ewa_frame frame = {.rgba = &rgba[0][0]};
     assert_int_equal(ewa_render(renderer, surfels, camera, options, &frame, NULL), EWA_OK);
     ewa_renderer_destroy(&renderer);
@@ -135,8 +129,7 @@ TEST_ON(test_levels, 0) {
         outline_trace(context, shape, &camera, &truth);
         ewa_cloud *cloud = estimated(context, shape, 100000);
         for (uint32_t level = 1; level < 4; level++) {
-            ewa_render_options options;
-            ewa_render_options_init(&options, sizeof options);
+            WITH_DEFAULTS(ewa_render_options, options);
             options.level = level;
             const outline_errors found = draw(context, cloud, &camera, &options, &truth);
             print_message("%s, level %u: fat %+.3f px, rms %.3f, open inside %.4f %%\n", torus ? "torus" : "sphere", level,
@@ -155,8 +148,7 @@ TEST_ON(test_octrees, 0) {
     ewa_camera camera;
     outline_camera(oblique, 42, &camera);
     outline_trace(context, OUTLINE_TORUS, &camera, &truth);
-    ewa_renderer *renderer = NULL;
-    assert_int_equal(ewa_renderer_create(context, &renderer), EWA_OK);
+    ewa_renderer *renderer = check_renderer(context);
     for (int surfels = 0; surfels < 2; surfels++) {
         char points[512], octree[512];
         const char *const paths[1] = {scratch_path("torus.ply", points)};
@@ -169,8 +161,7 @@ TEST_ON(test_octrees, 0) {
         assert_int_equal(ewa_lod_open(context, octree, &lod), EWA_OK);
         static const double spacings_px[] = {0.1, 2};
         for (int i = 0; i < 2; i++) {
-            ewa_lod_options options;
-            ewa_lod_options_init(&options, sizeof options);
+            WITH_DEFAULTS(ewa_lod_options, options);
             options.spacing_px = spacings_px[i], options.error = 255;
             ewa_lod_stats stats;
             const ewa_frame frame = {.rgba = &rgba[0][0]};
@@ -194,8 +185,7 @@ TEST_ON(test_octrees_end, 0) {
     static float rgba[OUTLINE_SIDE_PX * OUTLINE_SIDE_PX][4];
     ewa_camera camera;
     outline_camera(oblique, 42, &camera);
-    ewa_renderer *renderer = NULL;
-    assert_int_equal(ewa_renderer_create(context, &renderer), EWA_OK);
+    ewa_renderer *renderer = check_renderer(context);
     for (int square = 0; square < 2; square++) {
         const outline_shape shape = square ? OUTLINE_SQUARE : OUTLINE_DISC;
         outline_trace(context, shape, &camera, &truth);
@@ -207,8 +197,7 @@ TEST_ON(test_octrees_end, 0) {
         assert_int_equal(ewa_lod_build(context, paths, 1, scratch_path("ends.copc.laz", octree), NULL, NULL), EWA_OK);
         ewa_lod *lod = NULL;
         assert_int_equal(ewa_lod_open(context, octree, &lod), EWA_OK);
-        ewa_lod_options options;
-        ewa_lod_options_init(&options, sizeof options);
+        WITH_DEFAULTS(ewa_lod_options, options);
         options.spacing_px = 0.1;
         ewa_lod_stats stats;
         const ewa_frame frame = {.rgba = &rgba[0][0]};
@@ -248,8 +237,7 @@ TEST_ON(test_silhouettes_follow_the_filter, 0) {
     ewa_cloud_remove(cloud, EWA_CURVATURE);
     static const double prefilters_px[] = {0.25, 0.35, 0.5, 0.7}, thresholds[] = {0.3, 0.45, 0.6};
     for (int i = 0; i < 12; i++) {
-        ewa_render_options options;
-        ewa_render_options_init(&options, sizeof options);
+        WITH_DEFAULTS(ewa_render_options, options);
         options.prefilter_px = prefilters_px[i / 3];
         options.edge_threshold = thresholds[i % 3];
         const double expected = options.prefilter_px * tail(options.edge_threshold * (1 - sqrt(0.5)));
@@ -305,8 +293,7 @@ static ewa_cloud *doubtful_square(ewa_context *context, bool noisy) {
         if (noisy) numbers[3 * i + 2] += (float)up;
         for (int c = 0; c < 3 && !noisy && turn; c++) numbers[3 * i + c] *= -1;
     }
-    ewa_estimate_options options;
-    ewa_estimate_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_estimate_options, options);
     assert_int_equal(ewa_cloud_estimate(&cloud, &options), EWA_OK);
     return cloud;
 }

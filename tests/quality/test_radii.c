@@ -8,13 +8,10 @@
 #include <math.h>
 
 static ewa_cloud *make_scene(ewa_context *context, radii_kind kind, double detail, uint32_t count) {
-    ewa_cloud *cloud = NULL;
-    float *xyz = NULL;
-    assert_int_equal(ewa_cloud_create(context, count, &cloud), EWA_OK);
-    assert_int_equal(ewa_cloud_add(cloud, EWA_POSITION, EWA_F32, 3, (void **)&xyz), EWA_OK);
+    ewa_cloud *cloud = check_cloud_of(context, count);
+    float *xyz = check_add(cloud, EWA_POSITION, EWA_F32, 3);
     radii_scene_fill(kind, detail, count, xyz);
-    ewa_estimate_options options;
-    ewa_estimate_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_estimate_options, options);
     assert_int_equal(ewa_cloud_estimate(&cloud, &options), EWA_OK);
     return cloud;
 }
@@ -93,10 +90,9 @@ TEST_ON(test_lone_points, 0) {
 static double radius_in_hole(ewa_context *context, double hole) {
     enum { SIDE = 100 };
     ewa_cloud *cloud = NULL, *left = NULL;
-    float *xyz = NULL;
     uint64_t kept[SIDE * SIDE], count = 0;
     assert_int_equal(ewa_cloud_create(context, SIDE * SIDE, &cloud), EWA_OK);
-    assert_int_equal(ewa_cloud_add(cloud, EWA_POSITION, EWA_F32, 3, (void **)&xyz), EWA_OK);
+    float *xyz = check_add(cloud, EWA_POSITION, EWA_F32, 3);
     check_random random = {4};
     for (int i = 0; i < SIDE * SIDE; i++) {
         xyz[3 * i] = i ? (float)(i % SIDE - SIDE / 2 + check_uniform(&random, -0.4, 0.4)) : 0;
@@ -105,8 +101,7 @@ static double radius_in_hole(ewa_context *context, double hole) {
         if (i == 0 || hypotf(xyz[3 * i], xyz[3 * i + 1]) > (float)hole) kept[count++] = (uint64_t)i;
     }
     assert_int_equal(ewa_cloud_select(cloud, kept, count, &left), EWA_OK);
-    ewa_estimate_options options;
-    ewa_estimate_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_estimate_options, options);
     assert_int_equal(ewa_cloud_estimate(&left, &options), EWA_OK);
     const double radius = (double)((const float *)ewa_cloud_find(left, EWA_RADIUS)->data)[0];
     ewa_cloud_destroy(&left);

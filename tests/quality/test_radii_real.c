@@ -11,8 +11,7 @@ TEST_ON(test_garden, 0) {
     if (!file) skip();
     ewa_cloud *cloud = NULL;
     assert_int_equal(ewa_cloud_load(context, file, &cloud), EWA_OK);
-    ewa_estimate_options options;
-    ewa_estimate_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_estimate_options, options);
     assert_int_equal(ewa_cloud_estimate(&cloud, &options), EWA_OK);
     radii_sizes sizes;
     radii_measure_sizes(cloud, 300, &sizes);

@@ -13,16 +13,14 @@ static void draw(ewa_context *context, ewa_cloud *cloud, bool bends, double elev
     ewa_scene *scene = NULL;
     ewa_scene_renderer *renderer = NULL;
     ewa_asset *asset = NULL;
-    ewa_scene_options options;
-    ewa_scene_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_scene_options, options);
     memset(options.render.background, 0, sizeof options.render.background);
     if (!bends) ewa_cloud_remove(cloud, EWA_CURVATURE);
     assert_int_equal(ewa_scene_create(context, &options, &scene), EWA_OK);
     assert_int_equal(ewa_asset_create(context, &(ewa_asset_source){.cloud = cloud}, NULL, &asset), EWA_OK);
     assert_int_equal(ewa_scene_add(scene, asset, NULL), EWA_OK);
     ewa_asset_release(&asset);
-    ewa_view_options view;
-    ewa_view_options_init(&view, sizeof view);
+    WITH_DEFAULTS(ewa_view_options, view);
     view.width_px = WIDTH, view.height_px = HEIGHT, view.elevation_deg = elevation_deg;
     ewa_camera camera;
     assert_int_equal(ewa_scene_place_camera(scene, &view, &camera, NULL), EWA_OK);
@@ -43,15 +41,13 @@ static bool is_inner(const float *rgba, int x, int y) {
 TEST_ON(test_ground, 0) {
     static float flat[4 * PIXELS], bent[4 * PIXELS];
     for (int k = 0; k < 4; k++) {
-        ewa_generate_options generate;
-        ewa_generate_options_init(&generate, sizeof generate);
+        WITH_DEFAULTS(ewa_generate_options, generate);
         generate.object = EWA_OBJECT_TERRAIN;
         generate.point_count = k / 2 ? 60000 : 20000;
         generate.positions_only = true;
         ewa_cloud *cloud = NULL;
         assert_int_equal(ewa_cloud_generate(context, &generate, &cloud), EWA_OK);
-        ewa_estimate_options options;
-        ewa_estimate_options_init(&options, sizeof options);
+        WITH_DEFAULTS(ewa_estimate_options, options);
         assert_int_equal(ewa_cloud_estimate(&cloud, &options), EWA_OK);
         const double elevation_deg = k % 2 ? -15 : 0;
         draw(context, cloud, true, elevation_deg, bent);

@@ -23,17 +23,14 @@ static uint32_t camera_count(void) {
 
 static ewa_camera camera_at(const double eye[3], const double target[3], double fov_deg) {
     static const double up[3] = {0.1, 0.05, 1};
-    ewa_camera camera;
-    ewa_camera_init(&camera);
-    camera.width_px = camera.height_px = SIDE;
+    ewa_camera camera = check_camera(SIDE, SIDE);
     assert_int_equal(ewa_camera_set_fov(&camera, fov_deg), EWA_OK);
     assert_int_equal(ewa_camera_look_at(&camera, eye, target, up), EWA_OK);
     return camera;
 }
 
 static ewa_cloud *make_solid(ewa_context *context, ewa_object object, uint64_t points, bool sharp) {
-    ewa_generate_options options;
-    ewa_generate_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_generate_options, options);
     options.object = object;
     options.point_count = points;
     options.jitter = 0;
@@ -46,13 +43,11 @@ static ewa_cloud *make_solid(ewa_context *context, ewa_object object, uint64_t p
 
 static void draw_with(ewa_renderer *renderer, const ewa_cloud *cloud, const ewa_camera *camera,
                       ewa_kernel kernel, ewa_cull cull, const ewa_frame *frame) {
-    ewa_surfels *surfels = NULL;
-    ewa_render_options options;
-    ewa_render_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_render_options, options);
     options.shading = EWA_SHADING_NONE;
     options.kernel = kernel;
     options.cull = cull;
-    assert_int_equal(ewa_surfels_create(cloud, NULL, &surfels), EWA_OK);
+    ewa_surfels *surfels = check_surfels(cloud, NULL);
     assert_int_equal(ewa_render(renderer, surfels, camera, &options, frame, NULL), EWA_OK);
     ewa_surfels_destroy(&surfels);
 }
@@ -94,8 +89,7 @@ TEST_ON(test_edges_close_up, 0) {
     };
     static float truth[4 * SIDE * SIDE], rgba[4 * SIDE * SIDE];
     static uint8_t mask[SIDE * SIDE];
-    ewa_renderer *renderer = NULL;
-    assert_int_equal(ewa_renderer_create(context, &renderer), EWA_OK);
+    ewa_renderer *renderer = check_renderer(context);
     for (size_t i = 0; i < sizeof views / sizeof views[0]; i++) {
         const ewa_solid_shape *shape = ewa_solid_shape_of(views[i].object);
         const ewa_camera camera = camera_at(views[i].eye, views[i].target, views[i].fov_deg);
@@ -208,8 +202,7 @@ TEST_ON(test_outlines, 0) {
                    {EWA_KERNEL_AFFINE, "cube, affine"},
                    {EWA_KERNEL_SOURCE, "cube, source"},
                    {EWA_KERNEL_RAYCAST, "cube, raycast"}};
-    ewa_renderer *renderer = NULL;
-    assert_int_equal(ewa_renderer_create(context, &renderer), EWA_OK);
+    ewa_renderer *renderer = check_renderer(context);
     for (size_t i = 0; i < sizeof kernels / sizeof kernels[0]; i++)
         hold_outlines(context, renderer, EWA_OBJECT_CUBE, 6000, kernels[i].kernel, EWA_CULL_NONE,
                       kernels[i].name);
@@ -231,8 +224,7 @@ static void count_holes(ewa_object object, uint64_t points) {
     static float rgba[4 * SIDE * SIDE], coverage[SIDE * SIDE];
     static uint8_t mask[SIDE * SIDE];
     ewa_context *context = check_context(0, NULL);
-    ewa_renderer *renderer = NULL;
-    assert_int_equal(ewa_renderer_create(context, &renderer), EWA_OK);
+    ewa_renderer *renderer = check_renderer(context);
     ewa_cloud *cloud = make_solid(context, object, points, true);
     const ewa_solid_shape *shape = ewa_solid_shape_of(object);
     check_random random = {2004};

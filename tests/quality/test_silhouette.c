@@ -67,8 +67,7 @@ static void trace_row(void *data, uint32_t index, uint32_t worker) {
 /// Appends points [first, first + count) from a generated part, moved up by `height`.
 static void copy_part(ewa_context *context, ewa_object object, double size, double height, ewa_cloud *cloud,
                       uint64_t first) {
-    ewa_generate_options options;
-    ewa_generate_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_generate_options, options);
     options.object = object;
     options.size_world = size;
     options.radius_scale = EWA_DEFAULT_RADIUS_SCALE;
@@ -109,17 +108,14 @@ TEST_ON(test_silhouettes, 0) {
     ewa_camera_eye(&s->camera, s->eye);
     ewa_parallel(context, trace_row, s, SIDE);
 
-    ewa_cloud *cloud = NULL;
-    assert_int_equal(ewa_cloud_create(context, 2 * PART_POINTS, &cloud), EWA_OK);
+    ewa_cloud *cloud = check_cloud_of(context, 2 * PART_POINTS);
     assert_int_equal(ewa_cloud_add(cloud, EWA_POSITION, EWA_F32, 3, NULL), EWA_OK);
     assert_int_equal(ewa_cloud_add(cloud, EWA_NORMAL, EWA_F32, 3, NULL), EWA_OK);
     assert_int_equal(ewa_cloud_add(cloud, EWA_RADIUS, EWA_F32, 1, NULL), EWA_OK);
     copy_part(context, EWA_OBJECT_TORUS, 2, 0, cloud, 0);
     copy_part(context, EWA_OBJECT_SPHERE, SPHERE_SIZE, SPHERE_HEIGHT, cloud, PART_POINTS);
-    ewa_surfels *surfels = NULL;
-    ewa_renderer *renderer = NULL;
-    assert_int_equal(ewa_surfels_create(cloud, NULL, &surfels), EWA_OK);
-    assert_int_equal(ewa_renderer_create(context, &renderer), EWA_OK);
+    ewa_surfels *surfels = check_surfels(cloud, NULL);
+    ewa_renderer *renderer = check_renderer(context);
     static float rgba[SIDE * SIDE][4];
     const ewa_frame frame = {.rgba = &rgba[0][0]};
     assert_int_equal(ewa_render(renderer, surfels, &s->camera, NULL, &frame, NULL), EWA_OK);

@@ -176,8 +176,7 @@ TEST_ON(test_coverage_of_planes, 1) {
     static const double cutoffs[] = {1.5, 2, 3}, radii[] = {1.1, 1.3, 1.5};
     for (int k = 0; k < 9; k++) {
         plane_set(&plane, 2);
-        ewa_warp_options options;
-        ewa_warp_options_init(&options, sizeof options);
+        WITH_DEFAULTS(ewa_warp_options, options);
         options.cutoff = cutoffs[k / 3], options.radius_spacings = radii[k % 3];
         assert_int_equal(ewa_warp_take(warp, &plane.image, 1, &options, NULL), EWA_OK);
         // Eight times as near: kernels so large that the filter adds nothing; the mean of some 4 spacings.
@@ -328,8 +327,7 @@ TEST(test_bad_options) {
     for (int k = 0; k < 8; k++) {
         static const char *const said[] = {"struct_size", "cutoff",        "radius_spacings", "depth_jump",
                                            "depth_noise", "nearest_world", "farthest_world",  "cutoff"};
-        ewa_warp_options options;
-        ewa_warp_options_init(&options, sizeof options);
+        WITH_DEFAULTS(ewa_warp_options, options);
         double *const members[] = {NULL,
                                    &options.cutoff,
                                    &options.radius_spacings,

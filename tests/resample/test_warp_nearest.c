@@ -46,8 +46,7 @@ TEST_ON(test_order, 2) {
                                        {0.24, 0, 0.4}, {0, 0, 0}};
     ewa_warp *warp = plane_warp(context);
     make_scene();
-    ewa_warp_options options;
-    ewa_warp_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_warp_options, options);
     options.drop_flying = false;
     assert_int_equal(ewa_warp_take(warp, &plane.image, 1, &options, NULL), EWA_OK);
     for (size_t k = 0; k < sizeof places / sizeof places[0]; k++) {

@@ -123,8 +123,7 @@ TEST_ON(test_flying, 1) {
     plane_take(warp, &plane, &facts);
     assert_int_equal(facts.flying_count, PLANE_HEIGHT);
     assert_int_equal(facts.sample_count, PLANE_PIXELS - PLANE_HEIGHT);
-    ewa_warp_options options;
-    ewa_warp_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_warp_options, options);
     options.drop_flying = false;
     assert_int_equal(ewa_warp_take(warp, &plane.image, 1, &options, &facts), EWA_OK);
     assert_int_equal(facts.sample_count, PLANE_PIXELS);
@@ -165,8 +164,7 @@ TEST_ON(test_noise, 2) {
     }
     double error[2];
     for (int k = 0; k < 2; k++) {
-        ewa_warp_options options;
-        ewa_warp_options_init(&options, sizeof options);
+        WITH_DEFAULTS(ewa_warp_options, options);
         options.depth_noise = k ? (double)step : 0;
         assert_int_equal(ewa_warp_take(warp, &plane.image, 1, &options, NULL), EWA_OK);
         plane_draw(warp, &plane.image.camera, EWA_WARP_HYBRID, &drawn);
@@ -217,8 +215,7 @@ TEST(test_same_bytes) {
     for (size_t k = 0; k < sizeof machines / sizeof machines[0]; k++) {
         ewa_context *context = check_context_of(machines[k].threads, machines[k].mask);
         ewa_warp *warp = plane_warp(context);
-        ewa_warp_options warp_options;
-        ewa_warp_options_init(&warp_options, sizeof warp_options);
+        WITH_DEFAULTS(ewa_warp_options, warp_options);
         warp_options.depth_noise = 0.002;
         assert_int_equal(ewa_warp_take(warp, &plane.image, 1, &warp_options, NULL), EWA_OK);
         const ewa_camera target = plane_camera_at(0.1, 0.2, 0.3);

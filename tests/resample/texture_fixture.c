@@ -111,8 +111,7 @@ bool raster_same(const raster *a, const raster *b) {
 }
 
 ewa_texture_options texture_options(ewa_texture_method method) {
-    ewa_texture_options options;
-    ewa_texture_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_texture_options, options);
     options.method = method;
     return options;
 }

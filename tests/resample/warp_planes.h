@@ -27,10 +27,7 @@ typedef struct plane_frame {
 
 /// A camera at the origin that looks along +z, 80 pixels per unit of slope.
 static inline ewa_camera plane_camera(void) {
-    ewa_camera camera;
-    ewa_camera_init(&camera);
-    camera.width_px = PLANE_WIDTH;
-    camera.height_px = PLANE_HEIGHT;
+    ewa_camera camera = check_camera(PLANE_WIDTH, PLANE_HEIGHT);
     camera.fx_px = camera.fy_px = 80;
     camera.cx_px = PLANE_WIDTH / 2;
     camera.cy_px = PLANE_HEIGHT / 2;

@@ -61,15 +61,13 @@ static uint32_t make_places(level_kind kind, uint32_t count, float *xy) {
 
 ewa_cloud *level_cloud(ewa_context *context, level_kind kind, uint32_t count) {
     float *xy = malloc(2 * (size_t)count * sizeof *xy), *position, *normal, *radius;
-    uint8_t *color;
     assert_non_null(xy);
     const bool sphere = kind == LEVEL_SPHERE;
     const uint32_t made = make_places(sphere ? LEVEL_WHITE : kind, count, xy);
-    ewa_cloud *cloud = NULL;
-    assert_int_equal(ewa_cloud_create(context, made, &cloud), EWA_OK);
+    ewa_cloud *cloud = check_cloud_of(context, made);
     assert_int_equal(ewa_cloud_add(cloud, EWA_POSITION, EWA_F32, 3, (void **)&position), EWA_OK);
     assert_int_equal(ewa_cloud_add(cloud, EWA_NORMAL, EWA_F32, 3, (void **)&normal), EWA_OK);
-    assert_int_equal(ewa_cloud_add(cloud, EWA_COLOR, EWA_U8, 3, (void **)&color), EWA_OK);
+    uint8_t *color = check_add(cloud, EWA_COLOR, EWA_U8, 3);
     for (uint32_t i = 0; i < made; i++) {
         double x = (double)xy[2 * i], y = (double)xy[2 * i + 1], z = 0;
         if (sphere) {
@@ -85,8 +83,7 @@ ewa_cloud *level_cloud(ewa_context *context, level_kind kind, uint32_t count) {
     }
     free(xy);
     if (kind == LEVEL_WHITE || sphere) {
-        ewa_estimate_options options;
-        ewa_estimate_options_init(&options, sizeof options);
+        WITH_DEFAULTS(ewa_estimate_options, options);
         assert_int_equal(ewa_cloud_estimate(&cloud, &options), EWA_OK);
         return cloud;
     }
@@ -98,9 +95,7 @@ ewa_cloud *level_cloud(ewa_context *context, level_kind kind, uint32_t count) {
 }
 
 ewa_camera level_camera(uint32_t width_px, uint32_t height_px, double distance, double tilt_deg) {
-    ewa_camera camera;
-    ewa_camera_init(&camera);
-    camera.width_px = width_px, camera.height_px = height_px;
+    ewa_camera camera = check_camera(width_px, height_px);
     camera.fx_px = camera.fy_px = height_px;
     camera.cx_px = width_px / 2.0, camera.cy_px = height_px / 2.0;
     const double c = cos(tilt_deg * PI / 180), s = sin(tilt_deg * PI / 180);

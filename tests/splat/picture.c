@@ -191,8 +191,7 @@ scene picture_measured_scene(ewa_context *context, scene_kind kind, uint64_t poi
                              const ewa_surfels_options *options) {
     scene made;
     assert_int_equal(scene_make(context, kind, points, PICTURE_SIDE_PX, PICTURE_SIDE_PX, &made), EWA_OK);
-    ewa_surfels *surfels = NULL;
-    assert_int_equal(ewa_surfels_create(made.cloud, options, &surfels), EWA_OK);
+    ewa_surfels *surfels = check_surfels(made.cloud, options);
     ewa_surfels_info info;
     ewa_surfels_describe(surfels, &info);
     made.unit_coverage = info.unit_coverage;
@@ -202,11 +201,9 @@ scene picture_measured_scene(ewa_context *context, scene_kind kind, uint64_t poi
 
 picture picture_draw(ewa_context *context, const ewa_cloud *cloud, const ewa_camera *camera,
                      const ewa_surfels_options *surfels_options, const ewa_render_options *options) {
-    ewa_surfels *surfels = NULL;
-    ewa_renderer *renderer = NULL;
     picture made = picture_make(camera->width_px, camera->height_px);
-    assert_int_equal(ewa_surfels_create(cloud, surfels_options, &surfels), EWA_OK);
-    assert_int_equal(ewa_renderer_create(context, &renderer), EWA_OK);
+    ewa_surfels *surfels = check_surfels(cloud, surfels_options);
+    ewa_renderer *renderer = check_renderer(context);
     for (int frame = 0; frame < 2; frame++) // the second frame runs in warm memory
         assert_int_equal(ewa_render(renderer, surfels, camera, options, &made.frame, NULL), EWA_OK);
     ewa_renderer_destroy(&renderer);
@@ -252,11 +249,10 @@ void picture_hold(scene *of, const ewa_render_options *options, bool orthographi
 void picture_add_clips(ewa_cloud *cloud) {
     const uint64_t count = ewa_cloud_point_count(cloud);
     float *clip[2] = {NULL, NULL};
-    uint8_t *mode = NULL;
     check_random random = {11};
     assert_int_equal(ewa_cloud_add(cloud, EWA_CLIP0, EWA_F32, 3, (void **)&clip[0]), EWA_OK);
     assert_int_equal(ewa_cloud_add(cloud, EWA_CLIP1, EWA_F32, 3, (void **)&clip[1]), EWA_OK);
-    assert_int_equal(ewa_cloud_add(cloud, EWA_CLIP_MODE, EWA_U8, 1, (void **)&mode), EWA_OK);
+    uint8_t *mode = check_add(cloud, EWA_CLIP_MODE, EWA_U8, 1);
     for (uint64_t i = 0; i < count; i++) {
         for (int k = 0; k < 2; k++)
             for (int c = 0; c < 3; c++)

@@ -30,9 +30,7 @@ void shade_set_material(ewa_cloud *cloud, int (*of)(const float position[3])) {
 
 ewa_camera shade_camera(uint32_t side_px, const double eye_world[3], double fov_deg, double ortho_height) {
     static const double origin[3] = {0, 0, 0}, y[3] = {0, 1, 0}, z[3] = {0, 0, 1};
-    ewa_camera camera;
-    ewa_camera_init(&camera);
-    camera.width_px = camera.height_px = side_px;
+    ewa_camera camera = check_camera(side_px, side_px);
     const ewa_status status =
         ortho_height > 0 ? ewa_camera_set_ortho(&camera, ortho_height) : ewa_camera_set_fov(&camera, fov_deg);
     assert_int_equal(status, EWA_OK);
@@ -93,11 +91,9 @@ void shade_linear_light(ewa_vec3 direction, float rgb[3]) {
 
 picture shade_draw(ewa_context *context, const ewa_cloud *cloud, const ewa_camera *camera,
                    const ewa_render_options *options) {
-    ewa_surfels *surfels = NULL;
-    ewa_renderer *renderer = NULL;
     picture made = picture_make(camera->width_px, camera->height_px);
-    assert_int_equal(ewa_surfels_create(cloud, NULL, &surfels), EWA_OK);
-    assert_int_equal(ewa_renderer_create(context, &renderer), EWA_OK);
+    ewa_surfels *surfels = check_surfels(cloud, NULL);
+    ewa_renderer *renderer = check_renderer(context);
     for (int frame = 0; frame < 2; frame++)
         assert_int_equal(ewa_render(renderer, surfels, camera, options, &made.frame, NULL), EWA_OK);
     ewa_renderer_destroy(&renderer);
@@ -106,9 +102,8 @@ picture shade_draw(ewa_context *context, const ewa_cloud *cloud, const ewa_camer
 }
 
 picture shade_reference(const ewa_cloud *cloud, const ewa_camera *camera, const ewa_render_options *options) {
-    ewa_surfels *surfels = NULL;
     ewa_surfels_info info;
-    assert_int_equal(ewa_surfels_create(cloud, NULL, &surfels), EWA_OK);
+    ewa_surfels *surfels = check_surfels(cloud, NULL);
     ewa_surfels_describe(surfels, &info);
     ewa_surfels_destroy(&surfels);
     picture made = picture_make(camera->width_px, camera->height_px);

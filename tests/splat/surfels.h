@@ -12,10 +12,7 @@ static const double PI = 3.14159265358979323846;
 
 /// A camera of 400x300 pixels that is not centred, with pixels that are not square.
 static inline ewa_camera odd_camera(void) {
-    ewa_camera camera;
-    ewa_camera_init(&camera);
-    camera.width_px = 400;
-    camera.height_px = 300;
+    ewa_camera camera = check_camera(400, 300);
     camera.fx_px = 310;
     camera.fy_px = 270;
     camera.cx_px = 190.3;
@@ -25,8 +22,7 @@ static inline ewa_camera odd_camera(void) {
 
 static inline ewa_reference_view make_view(const ewa_camera *camera, double cutoff, double prefilter_px,
                                            ewa_kernel kernel) {
-    ewa_render_options options;
-    ewa_render_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_render_options, options);
     options.prefilter_px = prefilter_px;
     options.kernel = kernel;
     ewa_reference_view view;

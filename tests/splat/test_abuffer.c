@@ -20,13 +20,11 @@ typedef struct disc {
 static const disc red = {2, {1, 0, 0}}, green = {3, {0, 1, 0}}, blue = {5, {0, 0, 1}};
 
 static ewa_cloud *make_discs(ewa_context *context, const disc *discs, uint64_t count) {
-    ewa_cloud *cloud = NULL;
-    float *position, *normal, *radius, *color;
-    assert_int_equal(ewa_cloud_create(context, count, &cloud), EWA_OK);
-    assert_int_equal(ewa_cloud_add(cloud, EWA_POSITION, EWA_F32, 3, (void **)&position), EWA_OK);
-    assert_int_equal(ewa_cloud_add(cloud, EWA_NORMAL, EWA_F32, 3, (void **)&normal), EWA_OK);
-    assert_int_equal(ewa_cloud_add(cloud, EWA_RADIUS, EWA_F32, 1, (void **)&radius), EWA_OK);
-    assert_int_equal(ewa_cloud_add(cloud, EWA_COLOR, EWA_F32, 3, (void **)&color), EWA_OK);
+    ewa_cloud *cloud = check_cloud_of(context, count);
+    float *position = check_add(cloud, EWA_POSITION, EWA_F32, 3);
+    float *normal = check_add(cloud, EWA_NORMAL, EWA_F32, 3);
+    float *radius = check_add(cloud, EWA_RADIUS, EWA_F32, 1);
+    float *color = check_add(cloud, EWA_COLOR, EWA_F32, 3);
     for (uint64_t i = 0; i < count; i++) {
         position[3 * i] = position[3 * i + 1] = 0, position[3 * i + 2] = (float)discs[i].z;
         normal[3 * i] = normal[3 * i + 1] = 0, normal[3 * i + 2] = -1;
@@ -37,9 +35,7 @@ static ewa_cloud *make_discs(ewa_context *context, const disc *discs, uint64_t c
 }
 
 static ewa_camera disc_camera(void) {
-    ewa_camera camera;
-    ewa_camera_init(&camera);
-    camera.width_px = camera.height_px = SIDE;
+    ewa_camera camera = check_camera(SIDE, SIDE);
     camera.cx_px = camera.cy_px = SIDE / 2;
     camera.fx_px = camera.fy_px = 1000;
     return camera;
@@ -51,8 +47,7 @@ static void draw_discs(const disc *discs, uint64_t count, uint32_t limit, abuffe
     ewa_context *context = check_context(1, NULL);
     ewa_cloud *cloud = make_discs(context, discs, count);
     const ewa_camera camera = disc_camera();
-    ewa_render_options options;
-    ewa_render_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_render_options, options);
     options.opacity = 0.5;
     options.edge_antialiasing = false;
     float plane[4 * SIDE * SIDE];
@@ -119,8 +114,7 @@ TEST(test_shading) {
 /// In the middle of a sphere, front and back, as many fragments as surfaces are exact layers.
 TEST_ON(test_exact_on_separate_surfaces, 0) {
     scene of = picture_measured_scene(context, SCENE_SPHERE, 8000, NULL);
-    ewa_render_options options;
-    ewa_render_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_render_options, options);
     options.opacity = 0.5;
     options.shading = EWA_SHADING_NONE;
     picture exact = picture_of_scene(&of, NULL, &options);
@@ -149,8 +143,7 @@ TEST_ON(test_exact_on_separate_surfaces, 0) {
 TEST_ON(test_arguments, 1) {
     ewa_cloud *cloud = make_discs(context, &red, 1);
     ewa_camera camera = disc_camera();
-    ewa_render_options options;
-    ewa_render_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_render_options, options);
     float plane[4 * SIDE * SIDE];
     assert_int_equal(abuffer_render(cloud, 1, &camera, &options, 0, NULL, NULL, plane), EWA_ERROR_ARGUMENT);
     assert_int_equal(abuffer_render(cloud, 1, NULL, &options, 1, NULL, NULL, plane), EWA_ERROR_ARGUMENT);

@@ -119,8 +119,7 @@ static void hold(scene_kind kind, const ewa_render_options *options, bool clips,
 }
 
 TEST(test_bands) {
-    ewa_render_options options;
-    ewa_render_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_render_options, options);
     for (scene_kind kind = 0; kind < SCENE_COUNT; kind++) hold(kind, &options, false, "as it is");
     hold(SCENE_ELLIPSES, &options, true, "clipped");
     options.eye_dome = 1;
@@ -139,8 +138,7 @@ TEST(test_bands) {
 /// Eye-dome lighting where neither depths nor linear colours are asked for.
 TEST(test_eye_dome_bytes) {
     bench b = start(2, SCENE_TORUS, false);
-    ewa_render_options options;
-    ewa_render_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_render_options, options);
     options.eye_dome = 1;
     picture whole = picture_make(WIDTH, HEIGHT), banded = picture_make(WIDTH, HEIGHT);
     const ewa_frame frames[2] = {{.rgba8 = whole.frame.rgba8}, {.rgba8 = banded.frame.rgba8}};
@@ -161,16 +159,13 @@ TEST(test_eye_dome_bytes) {
 TEST_ON(test_proxy_facts, 2) {
     scene of;
     assert_int_equal(scene_make(context, SCENE_TORUS, POINTS, WIDTH, HEIGHT, &of), EWA_OK);
-    ewa_cloud *other = NULL;
-    float *position, *normal, *radius;
-    uint8_t *color, *material;
     enum { FEW = 40 };
-    assert_int_equal(ewa_cloud_create(context, FEW, &other), EWA_OK);
-    assert_int_equal(ewa_cloud_add(other, EWA_POSITION, EWA_F32, 3, (void **)&position), EWA_OK);
-    assert_int_equal(ewa_cloud_add(other, EWA_NORMAL, EWA_F32, 3, (void **)&normal), EWA_OK);
-    assert_int_equal(ewa_cloud_add(other, EWA_RADIUS, EWA_F32, 1, (void **)&radius), EWA_OK);
-    assert_int_equal(ewa_cloud_add(other, EWA_COLOR, EWA_U8, 4, (void **)&color), EWA_OK);
-    assert_int_equal(ewa_cloud_add(other, EWA_MATERIAL, EWA_U8, 1, (void **)&material), EWA_OK);
+    ewa_cloud *other = check_cloud_of(context, FEW);
+    float *position = check_add(other, EWA_POSITION, EWA_F32, 3);
+    float *normal = check_add(other, EWA_NORMAL, EWA_F32, 3);
+    float *radius = check_add(other, EWA_RADIUS, EWA_F32, 1);
+    uint8_t *color = check_add(other, EWA_COLOR, EWA_U8, 4);
+    uint8_t *material = check_add(other, EWA_MATERIAL, EWA_U8, 1);
     for (uint32_t i = 0; i < FEW; i++) { // far behind the eye
         for (int c = 0; c < 3; c++)
             position[3 * i + (uint32_t)c] = (float)(-40 * of.camera.world_to_camera[8 + c] + 0.01 * (i % 5));
@@ -188,12 +183,10 @@ TEST_ON(test_proxy_facts, 2) {
     assert_true(info.resident_bytes < 1024 && info.point_count == 0);
     ewa_material materials[2];
     ewa_material_init(&materials[0]), ewa_material_init(&materials[1]);
-    ewa_render_options options;
-    ewa_render_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_render_options, options);
     options.shading = EWA_SHADING_PHONG;
     options.materials = materials, options.material_count = 2;
-    ewa_renderer *renderer = NULL;
-    assert_int_equal(ewa_renderer_create(context, &renderer), EWA_OK);
+    ewa_renderer *renderer = check_renderer(context);
     picture drawn[3];
     for (int i = 0; i < 3; i++) { // with the other, with its proxy, alone
         drawn[i] = picture_make(WIDTH, HEIGHT);
@@ -217,8 +210,7 @@ TEST_ON(test_proxy_facts, 2) {
 TEST(test_unit_coverage) {
     bench b = start(2, SCENE_SPHERE, false);
     picture drawn[2] = {picture_make(WIDTH, HEIGHT), picture_make(WIDTH, HEIGHT)};
-    ewa_surfels *surfels = NULL;
-    assert_int_equal(ewa_surfels_create(b.of.cloud, NULL, &surfels), EWA_OK);
+    ewa_surfels *surfels = check_surfels(b.of.cloud, NULL);
     ewa_surfels_info info;
     ewa_surfels_describe(surfels, &info);
     assert_int_equal(ewa_render(b.renderer, surfels, &b.of.camera, NULL, &drawn[0].frame, NULL), EWA_OK);
@@ -240,8 +232,7 @@ TEST(test_refusals) {
     bench b = start(1, SCENE_SPHERE, false);
     picture drawn = picture_make(WIDTH, HEIGHT);
     assert_int_equal(ewa_render_set_rows(b.renderer, 0, BAND), EWA_ERROR_ARGUMENT);
-    ewa_render_options options;
-    ewa_render_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_render_options, options);
     assert_int_equal(ewa_render_begin(b.renderer, &b.of.camera, &options, &drawn.frame), EWA_OK);
     static const uint32_t wrong[][2] = {{0, 0},     {0, 100}, {64, 128}, {128, 128},
                                         {256, 128}, {0, 512}, {384, 421}};

@@ -9,16 +9,14 @@
 
 /// Makes every `step`-th point of a cloud one of no surface.
 static void strew(ewa_cloud *cloud, uint64_t step) {
-    float *surfaceness = NULL;
-    assert_int_equal(ewa_cloud_add(cloud, EWA_SURFACENESS, EWA_F32, 1, (void **)&surfaceness), EWA_OK);
+    float *surfaceness = check_add(cloud, EWA_SURFACENESS, EWA_F32, 1);
     for (uint64_t i = 0; i < ewa_cloud_point_count(cloud); i++) surfaceness[i] = i % step ? 0.5F : 0.49F;
 }
 
 /// q0 of a cloud, which the reference is told.
 static double measure_coverage(const ewa_cloud *cloud) {
-    ewa_surfels *surfels = NULL;
     ewa_surfels_info info;
-    assert_int_equal(ewa_surfels_create(cloud, NULL, &surfels), EWA_OK);
+    ewa_surfels *surfels = check_surfels(cloud, NULL);
     ewa_surfels_describe(surfels, &info);
     ewa_surfels_destroy(&surfels);
     return info.unit_coverage;
@@ -56,14 +54,11 @@ enum { SIDE = 64, POINTS = 300 };
 
 /// Points with normals that either face the camera or point anywhere.
 static ewa_cloud *make_points(ewa_context *context, const double forward[3], bool facing, uint64_t step) {
-    ewa_cloud *cloud = NULL;
-    float *position, *normal, *radius;
-    uint8_t *color;
-    assert_int_equal(ewa_cloud_create(context, POINTS, &cloud), EWA_OK);
-    assert_int_equal(ewa_cloud_add(cloud, EWA_POSITION, EWA_F32, 3, (void **)&position), EWA_OK);
-    assert_int_equal(ewa_cloud_add(cloud, EWA_NORMAL, EWA_F32, 3, (void **)&normal), EWA_OK);
-    assert_int_equal(ewa_cloud_add(cloud, EWA_RADIUS, EWA_F32, 1, (void **)&radius), EWA_OK);
-    assert_int_equal(ewa_cloud_add(cloud, EWA_COLOR, EWA_U8, 3, (void **)&color), EWA_OK);
+    ewa_cloud *cloud = check_cloud_of(context, POINTS);
+    float *position = check_add(cloud, EWA_POSITION, EWA_F32, 3);
+    float *normal = check_add(cloud, EWA_NORMAL, EWA_F32, 3);
+    float *radius = check_add(cloud, EWA_RADIUS, EWA_F32, 1);
+    uint8_t *color = check_add(cloud, EWA_COLOR, EWA_U8, 3);
     check_random random = {5};
     for (int i = 0; i < POINTS; i++) {
         for (int c = 0; c < 3; c++) {
@@ -88,17 +83,13 @@ TEST(test_face_the_picture) {
     for (int i = 0; i < 12; i++) {
         const double *forward = forwards[i % 3], distance = i < 6 ? 3 : 40, up[3] = {i % 3 == 2, 0, i % 3 != 2};
         const double eye[3] = {-distance * forward[0], -distance * forward[1], -distance * forward[2]}, middle[3] = {0};
-        ewa_camera camera;
-        ewa_camera_init(&camera);
-        camera.width_px = camera.height_px = SIDE;
+        ewa_camera camera = check_camera(SIDE, SIDE);
         camera.cx_px = camera.cy_px = SIDE / 2;
         camera.fx_px = camera.fy_px = SIDE;
         assert_int_equal(ewa_camera_look_at(&camera, eye, middle, up), EWA_OK);
         if (i % 6 > 2) assert_int_equal(ewa_camera_set_ortho(&camera, distance), EWA_OK);
-        ewa_surfels_options surfels;
-        ewa_surfels_options_init(&surfels, sizeof surfels);
-        ewa_render_options options;
-        ewa_render_options_init(&options, sizeof options);
+        WITH_DEFAULTS(ewa_surfels_options, surfels);
+        WITH_DEFAULTS(ewa_render_options, options);
         options.cull = i % 2 ? EWA_CULL_BACK : EWA_CULL_NONE;
         ewa_cloud *facing = make_points(context, forward, true, 0), *strewn = make_points(context, forward, false, 1);
         picture wanted = picture_draw(context, facing, &camera, &surfels, &options);

@@ -39,23 +39,19 @@ TEST(test_pipeline_holds) {
         o.layers = 2;
         hold(kinds[i], &o, false, "two layers");
     }
-    ewa_render_options o;
-    ewa_render_options_init(&o, sizeof o);
+    WITH_DEFAULTS(ewa_render_options, o);
     hold(SCENE_ELLIPSES, &o, true, "orthographic");
 }
 
 /// One ellipse with lines, seen straight on: `inside` pixels show, others do not.
 static ewa_cloud *one_surfel(ewa_context *context, const float lines[2][3], uint8_t mode) {
-    ewa_cloud *cloud = NULL;
-    float *position, *u, *v, *clip0, *clip1;
-    uint8_t *either;
-    assert_int_equal(ewa_cloud_create(context, 1, &cloud), EWA_OK);
-    assert_int_equal(ewa_cloud_add(cloud, EWA_POSITION, EWA_F32, 3, (void **)&position), EWA_OK);
-    assert_int_equal(ewa_cloud_add(cloud, EWA_TANGENT_U, EWA_F32, 3, (void **)&u), EWA_OK);
-    assert_int_equal(ewa_cloud_add(cloud, EWA_TANGENT_V, EWA_F32, 3, (void **)&v), EWA_OK);
-    assert_int_equal(ewa_cloud_add(cloud, EWA_CLIP0, EWA_F32, 3, (void **)&clip0), EWA_OK);
-    assert_int_equal(ewa_cloud_add(cloud, EWA_CLIP1, EWA_F32, 3, (void **)&clip1), EWA_OK);
-    assert_int_equal(ewa_cloud_add(cloud, EWA_CLIP_MODE, EWA_U8, 1, (void **)&either), EWA_OK);
+    ewa_cloud *cloud = check_cloud_of(context, 1);
+    float *position = check_add(cloud, EWA_POSITION, EWA_F32, 3);
+    float *u = check_add(cloud, EWA_TANGENT_U, EWA_F32, 3);
+    float *v = check_add(cloud, EWA_TANGENT_V, EWA_F32, 3);
+    float *clip0 = check_add(cloud, EWA_CLIP0, EWA_F32, 3);
+    float *clip1 = check_add(cloud, EWA_CLIP1, EWA_F32, 3);
+    uint8_t *either = check_add(cloud, EWA_CLIP_MODE, EWA_U8, 1);
     position[0] = position[1] = 0, position[2] = 4;
     u[0] = 0, u[1] = 0.5f, u[2] = 0; // the shorter axis first: the lines have to follow the turn
     v[0] = -1, v[1] = v[2] = 0;
@@ -67,9 +63,7 @@ static ewa_cloud *one_surfel(ewa_context *context, const float lines[2][3], uint
 
 /// At the origin, one unit at depth 1 as wide as the picture.
 static ewa_camera ahead(void) {
-    ewa_camera camera;
-    ewa_camera_init(&camera);
-    camera.width_px = camera.height_px = SIDE;
+    ewa_camera camera = check_camera(SIDE, SIDE);
     camera.fx_px = camera.fy_px = SIDE;
     camera.cx_px = camera.cy_px = SIDE / 2;
     return camera;
@@ -94,8 +88,7 @@ TEST_ON(test_known_answers, 0) {
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         ewa_cloud *cloud = one_surfel(context, rows[i].lines, rows[i].mode);
         for (int kernel = 0; kernel < 5; kernel++) {
-            ewa_render_options o;
-            ewa_render_options_init(&o, sizeof o);
+            WITH_DEFAULTS(ewa_render_options, o);
             o.kernel = (ewa_kernel)kernel;
             o.shading = EWA_SHADING_NONE;
             picture made = picture_draw(context, cloud, &camera, NULL, &o);
@@ -122,8 +115,7 @@ TEST_ON(test_line_stays, 0) {
     const ewa_camera camera = ahead();
     ewa_cloud *cloud = one_surfel(context, lines, 0);
     for (double scale = 0.5; scale < 3; scale *= 2) {
-        ewa_surfels_options surfels;
-        ewa_surfels_options_init(&surfels, sizeof surfels);
+        WITH_DEFAULTS(ewa_surfels_options, surfels);
         surfels.radius_scale = scale;
         picture made = picture_draw(context, cloud, &camera, &surfels, NULL);
         const float *row = &made.frame.coverage[SIDE / 2 * SIDE];
@@ -135,13 +127,11 @@ TEST_ON(test_line_stays, 0) {
 
 /// A disc of radius 3 seen straight on, whose surface ends at `border`.
 static ewa_cloud *one_disc(ewa_context *context, const float normal[3], const float border[3]) {
-    ewa_cloud *cloud = NULL;
-    float *position, *n, *radius, *to;
-    assert_int_equal(ewa_cloud_create(context, 1, &cloud), EWA_OK);
-    assert_int_equal(ewa_cloud_add(cloud, EWA_POSITION, EWA_F32, 3, (void **)&position), EWA_OK);
-    assert_int_equal(ewa_cloud_add(cloud, EWA_NORMAL, EWA_F32, 3, (void **)&n), EWA_OK);
-    assert_int_equal(ewa_cloud_add(cloud, EWA_RADIUS, EWA_F32, 1, (void **)&radius), EWA_OK);
-    assert_int_equal(ewa_cloud_add(cloud, EWA_BORDER, EWA_F32, 3, (void **)&to), EWA_OK);
+    ewa_cloud *cloud = check_cloud_of(context, 1);
+    float *position = check_add(cloud, EWA_POSITION, EWA_F32, 3);
+    float *n = check_add(cloud, EWA_NORMAL, EWA_F32, 3);
+    float *radius = check_add(cloud, EWA_RADIUS, EWA_F32, 1);
+    float *to = check_add(cloud, EWA_BORDER, EWA_F32, 3);
     position[0] = position[1] = 0, position[2] = 4;
     memcpy(n, normal, 3 * sizeof *n);
     *radius = 3;

@@ -13,8 +13,7 @@ enum { SIDE_PX = 96 };
 
 /// The way of a splat follows from where alpha is a half; without a threshold there is none.
 TEST(test_shift) {
-    ewa_render_options options;
-    ewa_render_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_render_options, options);
     const double both = ewa_contour_shift(&options, false);
     options.kernel = EWA_KERNEL_RAYCAST;
     assert_true(ewa_contour_shift(&options, false) == 0 && ewa_contour_shift(&options, true) == both);
@@ -35,15 +34,13 @@ TEST(test_shift) {
 }
 
 static ewa_cloud *make_object(ewa_context *context, ewa_object object) {
-    ewa_generate_options options;
-    ewa_generate_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_generate_options, options);
     options.object = object;
     options.size_world = 2;
     options.point_count = 3000;
     ewa_cloud *cloud = NULL;
     assert_int_equal(ewa_cloud_generate(context, &options, &cloud), EWA_OK);
-    float *curvature = NULL;
-    assert_int_equal(ewa_cloud_add(cloud, EWA_CURVATURE, EWA_F32, 1, (void **)&curvature), EWA_OK);
+    float *curvature = check_add(cloud, EWA_CURVATURE, EWA_F32, 1);
     const float *p = ewa_cloud_find(cloud, EWA_POSITION)->data;
     for (int i = 0; i < 3000; i++, p += 3) { // of radius 1; of a tube of 2/7 around a ring of 5/7
         const double ring = hypot((double)p[0], (double)p[1]), k = 7 / 2.0, m = (ring * 7 - 5) / 2 / ring;
@@ -69,23 +66,19 @@ TEST_ON(test_pipelines, 0) {
         float *curvature = ewa_cloud_find(cloud, EWA_CURVATURE)->data;
         for (uint64_t i = 0; variant % 3 == 1 && i < 3 * ewa_cloud_point_count(cloud); i++) normal[i] *= -1;
         for (uint64_t i = 0; variant % 3 == 1 && i < ewa_cloud_point_count(cloud); i++) curvature[i] *= -1;
-        ewa_camera camera;
-        ewa_camera_init(&camera);
-        camera.width_px = camera.height_px = SIDE_PX;
+        ewa_camera camera = check_camera(SIDE_PX, SIDE_PX);
         static const double eye[3] = {1.2, -2.6, 1.7}, target[3] = {0}, up[3] = {0, 0, 1};
         assert_int_equal(ewa_camera_look_at(&camera, eye, target, up), EWA_OK);
         if (variant < 10)
             assert_int_equal(ewa_camera_set_fov(&camera, 45), EWA_OK);
         else
             assert_int_equal(ewa_camera_set_ortho(&camera, 2.6), EWA_OK);
-        ewa_render_options options;
-        ewa_render_options_init(&options, sizeof options);
+        WITH_DEFAULTS(ewa_render_options, options);
         options.kernel = (ewa_kernel)kernel;
         options.cull = variant % 7 == 0 ? EWA_CULL_BACK : EWA_CULL_NONE;
         const scene of = {.cloud = cloud, .camera = camera, .unit_coverage = 0};
-        ewa_surfels *surfels = NULL;
         ewa_surfels_info info;
-        assert_int_equal(ewa_surfels_create(cloud, NULL, &surfels), EWA_OK);
+        ewa_surfels *surfels = check_surfels(cloud, NULL);
         ewa_surfels_describe(surfels, &info);
         ewa_surfels_destroy(&surfels);
         scene with_coverage = of;

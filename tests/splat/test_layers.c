@@ -46,8 +46,7 @@ static void hold(scene_kind kind, const ewa_render_options *options, int minimum
 TEST(test_pipeline_holds) {
     static const scene_kind kinds[] = {SCENE_SPHERE, SCENE_TORUS, SCENE_ELLIPSES, SCENE_NEAR};
     for (size_t i = 0; i < sizeof kinds / sizeof kinds[0]; i++) {
-        ewa_render_options o;
-        ewa_render_options_init(&o, sizeof o);
+        WITH_DEFAULTS(ewa_render_options, o);
         hold(kinds[i], &o, 0, false, "alpha");
         o.opacity = 0.4;
         hold(kinds[i], &o, 255, false, "opacity 0.4");
@@ -62,8 +61,7 @@ TEST(test_pipeline_holds) {
         o.opacity = 0.4, o.layers = 3, o.kernel = EWA_KERNEL_RAYCAST;
         hold(kinds[i], &o, 50, false, "raycast, three layers");
     }
-    ewa_render_options o;
-    ewa_render_options_init(&o, sizeof o);
+    WITH_DEFAULTS(ewa_render_options, o);
     o.opacity = 0.3;
     hold(SCENE_TORUS, &o, 30, true, "orthographic");
     hold(SCENE_ELLIPSES, &o, 255, true, "orthographic");
@@ -73,14 +71,11 @@ TEST(test_pipeline_holds) {
 /// 45 degrees to the sides.
 static ewa_cloud *make_sheets(ewa_context *context, uint32_t sheet_count, const uint8_t rgba[][4]) {
     enum { ROW = 60 };
-    ewa_cloud *cloud = NULL;
-    assert_int_equal(ewa_cloud_create(context, (uint64_t)sheet_count * ROW * ROW, &cloud), EWA_OK);
-    float *position = NULL, *normal = NULL, *radius = NULL;
-    uint8_t *color = NULL;
-    assert_int_equal(ewa_cloud_add(cloud, EWA_POSITION, EWA_F32, 3, (void **)&position), EWA_OK);
-    assert_int_equal(ewa_cloud_add(cloud, EWA_NORMAL, EWA_F32, 3, (void **)&normal), EWA_OK);
-    assert_int_equal(ewa_cloud_add(cloud, EWA_RADIUS, EWA_F32, 1, (void **)&radius), EWA_OK);
-    assert_int_equal(ewa_cloud_add(cloud, EWA_COLOR, EWA_U8, 4, (void **)&color), EWA_OK);
+    ewa_cloud *cloud = check_cloud_of(context, (uint64_t)sheet_count * ROW * ROW);
+    float *position = check_add(cloud, EWA_POSITION, EWA_F32, 3);
+    float *normal = check_add(cloud, EWA_NORMAL, EWA_F32, 3);
+    float *radius = check_add(cloud, EWA_RADIUS, EWA_F32, 1);
+    uint8_t *color = check_add(cloud, EWA_COLOR, EWA_U8, 4);
     size_t i = 0;
     for (uint32_t k = 0; k < sheet_count; k++) {
         const float z = 2 * powf(1.25f, (float)k), spacing = 2 * z / ROW;
@@ -98,9 +93,7 @@ static ewa_cloud *make_sheets(ewa_context *context, uint32_t sheet_count, const 
 }
 
 static ewa_camera sheet_camera(void) {
-    ewa_camera camera;
-    ewa_camera_init(&camera);
-    camera.width_px = camera.height_px = SIDE;
+    ewa_camera camera = check_camera(SIDE, SIDE);
     assert_int_equal(ewa_camera_set_fov(&camera, 40), EWA_OK);
     return camera;
 }
@@ -113,8 +106,7 @@ TEST_ON(test_sheets_over_each_other, 0) {
     ewa_cloud *cloud = make_sheets(context, 4, rgba);
     const ewa_camera camera = sheet_camera();
     for (uint32_t layers = 1; layers <= 6; layers++) {
-        ewa_render_options o;
-        ewa_render_options_init(&o, sizeof o);
+        WITH_DEFAULTS(ewa_render_options, o);
         o.shading = EWA_SHADING_NONE;
         o.layers = layers == 6 ? EWA_LAYERS_EXACT : layers;
         o.opacity = 0.5;
@@ -154,14 +146,11 @@ TEST_ON(test_last_edge_layer_takes_all, 0) {
     uint8_t rgba[SHEETS][4] = {{255, 0, 0, 255}, {255, 0, 0, 255}, {255, 0, 0, 255}};
     for (int k = RED; k < SHEETS; k++) rgba[k][2] = rgba[k][3] = 255;
     ewa_cloud *one = make_sheets(context, 1, rgba), *all = make_sheets(context, SHEETS, rgba);
-    ewa_camera camera;
-    ewa_camera_init(&camera);
-    camera.width_px = camera.height_px = SIDE;
+    ewa_camera camera = check_camera(SIDE, SIDE);
     assert_int_equal(ewa_camera_set_fov(&camera, 100), EWA_OK);
     int partly_count = 0;
     for (uint32_t layers = 1; layers <= EWA_MAX_EDGE_LAYERS; layers++) {
-        ewa_render_options o;
-        ewa_render_options_init(&o, sizeof o);
+        WITH_DEFAULTS(ewa_render_options, o);
         o.shading = EWA_SHADING_NONE, o.edge_layers = layers;
         picture alone = picture_draw(context, one, &camera, NULL, &o);
         picture made = picture_draw(context, all, &camera, NULL, &o);
@@ -191,8 +180,7 @@ TEST_ON(test_last_edge_layer_takes_all, 0) {
 /// A transparent sphere's middle has even opacity: 1 - (1 - a)^2.
 TEST_ON(test_sphere_is_even, 0) {
     scene of = picture_measured_scene(context, SCENE_SPHERE, 8000, NULL);
-    ewa_render_options o;
-    ewa_render_options_init(&o, sizeof o);
+    WITH_DEFAULTS(ewa_render_options, o);
     o.opacity = 0.3;
     picture made = picture_draw(context, of.cloud, &of.camera, NULL, &o);
     const double expected = 1 - 0.7 * 0.7;
@@ -224,20 +212,17 @@ TEST_ON(test_same_bytes, 0) {
     static const uint32_t threads[] = {1, 2, 7}, masks[] = {UINT32_MAX, EWA_CPU_AVX2, 0};
     scene of = picture_measured_scene(context, SCENE_TORUS, POINTS, NULL);
     add_alpha(of.cloud, 20, 5);
-    ewa_render_options o;
-    ewa_render_options_init(&o, sizeof o);
+    WITH_DEFAULTS(ewa_render_options, o);
     o.opacity = 0.7;
     picture first = picture_draw(context, of.cloud, &of.camera, NULL, &o);
     for (int i = 0; i < 9; i++) {
         ewa_context *other = check_context_of(threads[i % 3], masks[i / 3]);
-        ewa_cloud *reversed = NULL;
         const uint64_t count = ewa_cloud_point_count(of.cloud);
-        assert_int_equal(ewa_cloud_create(other, count, &reversed), EWA_OK);
+        ewa_cloud *reversed = check_cloud_of(other, count);
         for (uint32_t a = 0; a < ewa_cloud_attribute_count(of.cloud); a++) {
             const ewa_attribute *from = ewa_cloud_attribute_at(of.cloud, a);
             char *to = NULL;
-            assert_int_equal(
-                ewa_cloud_add(reversed, from->name, from->type, from->component_count, (void **)&to), EWA_OK);
+            assert_int_equal(ewa_cloud_add(reversed, from->name, from->type, from->component_count, (void **)&to), EWA_OK);
             const size_t bytes = from->component_count * ewa_type_bytes(from->type);
             for (uint64_t k = 0; k < count; k++)
                 memcpy(to + k * bytes, (const char *)from->data + (count - 1 - k) * from->stride_bytes,

@@ -11,11 +11,9 @@
 enum { SIDE_PX = 256, PIXELS = SIDE_PX * SIDE_PX, POINTS = 40000 };
 
 static ewa_surfels *surfels_of(const ewa_cloud *cloud, uint32_t level_count) {
-    ewa_surfels_options options;
-    ewa_surfels_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_surfels_options, options);
     options.level_count = level_count;
-    ewa_surfels *surfels = NULL;
-    assert_int_equal(ewa_surfels_create(cloud, &options, &surfels), EWA_OK);
+    ewa_surfels *surfels = check_surfels(cloud, &options);
     return surfels;
 }
 
@@ -27,12 +25,11 @@ static uint32_t level_count_of(const ewa_surfels *surfels) {
 
 static ewa_render_stats draw(ewa_context *context, const ewa_surfels *surfels, const ewa_camera *camera,
                              uint32_t level, const ewa_frame *frame) {
-    ewa_renderer *renderer = NULL;
     ewa_render_options options;
     ewa_render_stats stats;
     ewa_render_options_init(&options, sizeof options);
     options.level = level;
-    assert_int_equal(ewa_renderer_create(context, &renderer), EWA_OK);
+    ewa_renderer *renderer = check_renderer(context);
     assert_int_equal(ewa_render(renderer, surfels, camera, &options, frame, &stats), EWA_OK);
     ewa_renderer_destroy(&renderer);
     return stats;
@@ -108,8 +105,7 @@ TEST_ON(test_levels_are_closed, 2) {
 static ewa_cloud *shuffled(ewa_context *context, const ewa_cloud *of) {
     static const char *const names[] = {EWA_POSITION, EWA_NORMAL, EWA_RADIUS, EWA_BORDER, EWA_COLOR};
     const uint64_t count = ewa_cloud_point_count(of);
-    ewa_cloud *made = NULL;
-    assert_int_equal(ewa_cloud_create(context, count, &made), EWA_OK);
+    ewa_cloud *made = check_cloud_of(context, count);
     for (int k = 0; k < 5; k++) {
         const ewa_attribute *from = ewa_cloud_find(of, names[k]);
         if (!from) continue; // no borders where nothing ends
@@ -167,9 +163,8 @@ TEST_ON(test_colors_are_kept, 2) {
     for (int constant = 0; constant < 2; constant++) {
         ewa_cloud *cloud = level_cloud(context, LEVEL_EVEN, POINTS);
         const uint64_t count = ewa_cloud_point_count(cloud);
-        float *rgba = NULL;
         ewa_cloud_remove(cloud, EWA_COLOR);
-        assert_int_equal(ewa_cloud_add(cloud, EWA_COLOR, EWA_F32, 4, (void **)&rgba), EWA_OK);
+        float *rgba = check_add(cloud, EWA_COLOR, EWA_F32, 4);
         check_random random = {5};
         for (uint64_t i = 0; i < 4 * count; i++)
             rgba[i] = constant ? (float)(i % 4 + 1) / 8 : (float)check_uniform(&random, 0, 1);
@@ -191,8 +186,7 @@ TEST_ON(test_budget_draws_a_level, 2) {
     ewa_cloud *cloud = level_cloud(context, LEVEL_GRID, POINTS);
     ewa_surfels *surfels = surfels_of(cloud, EWA_MAX_LEVELS);
     const ewa_camera camera = level_camera(SIDE_PX, SIDE_PX, 1.5, 30);
-    ewa_renderer *renderer = NULL;
-    assert_int_equal(ewa_renderer_create(context, &renderer), EWA_OK);
+    ewa_renderer *renderer = check_renderer(context);
     static const double budgets_s[] = {1e-9, 1e-3, 1e15};
     for (int i = 0; i < 9; i++) {
         ewa_render_options options;
@@ -215,13 +209,10 @@ TEST_ON(test_budget_draws_a_level, 2) {
 
 /// Discs at `places`, of one radius, whose normals point up.
 static ewa_cloud *discs_at(ewa_context *context, uint32_t count, const double (*places)[3], float size) {
-    double *position = NULL;
-    float *normal = NULL, *radius = NULL;
-    ewa_cloud *cloud = NULL;
-    assert_int_equal(ewa_cloud_create(context, count, &cloud), EWA_OK);
-    assert_int_equal(ewa_cloud_add(cloud, EWA_POSITION, EWA_F64, 3, (void **)&position), EWA_OK);
-    assert_int_equal(ewa_cloud_add(cloud, EWA_NORMAL, EWA_F32, 3, (void **)&normal), EWA_OK);
-    assert_int_equal(ewa_cloud_add(cloud, EWA_RADIUS, EWA_F32, 1, (void **)&radius), EWA_OK);
+    ewa_cloud *cloud = check_cloud_of(context, count);
+    double *position = check_add(cloud, EWA_POSITION, EWA_F64, 3);
+    float *normal = check_add(cloud, EWA_NORMAL, EWA_F32, 3);
+    float *radius = check_add(cloud, EWA_RADIUS, EWA_F32, 1);
     for (uint32_t i = 0; i < count; i++) {
         memcpy(position + 3 * (size_t)i, places[i], sizeof places[i]);
         normal[3 * i] = normal[3 * i + 1] = 0, normal[3 * i + 2] = 1;
@@ -283,16 +274,13 @@ TEST_ON(test_odd_places, 2) {
 /// Clip lines stay where they are in the world; materials are some member's; opacities are means.
 TEST_ON(test_extras, 2) {
     enum { SIDE = 128, COUNT = SIDE * SIDE };
-    ewa_cloud *cloud = NULL;
-    float *position, *u, *v, *clip, *rgba;
-    uint8_t *material;
-    assert_int_equal(ewa_cloud_create(context, COUNT, &cloud), EWA_OK);
-    assert_int_equal(ewa_cloud_add(cloud, EWA_POSITION, EWA_F32, 3, (void **)&position), EWA_OK);
-    assert_int_equal(ewa_cloud_add(cloud, EWA_TANGENT_U, EWA_F32, 3, (void **)&u), EWA_OK);
-    assert_int_equal(ewa_cloud_add(cloud, EWA_TANGENT_V, EWA_F32, 3, (void **)&v), EWA_OK);
-    assert_int_equal(ewa_cloud_add(cloud, EWA_CLIP0, EWA_F32, 3, (void **)&clip), EWA_OK);
-    assert_int_equal(ewa_cloud_add(cloud, EWA_COLOR, EWA_F32, 4, (void **)&rgba), EWA_OK);
-    assert_int_equal(ewa_cloud_add(cloud, EWA_MATERIAL, EWA_U8, 1, (void **)&material), EWA_OK);
+    ewa_cloud *cloud = check_cloud_of(context, COUNT);
+    float *position = check_add(cloud, EWA_POSITION, EWA_F32, 3);
+    float *u = check_add(cloud, EWA_TANGENT_U, EWA_F32, 3);
+    float *v = check_add(cloud, EWA_TANGENT_V, EWA_F32, 3);
+    float *clip = check_add(cloud, EWA_CLIP0, EWA_F32, 3);
+    float *rgba = check_add(cloud, EWA_COLOR, EWA_F32, 4);
+    uint8_t *material = check_add(cloud, EWA_MATERIAL, EWA_U8, 1);
     const float sigma = 0.4f;
     for (int i = 0; i < COUNT; i++) {
         float *const p = position + 3 * i;
@@ -342,8 +330,7 @@ TEST_ON(test_older_callers, 1) {
     ewa_surfels_options options;
     ewa_surfels_options_init(&options, offsetof(ewa_surfels_options, level_count));
     options.level_count = 77; // beyond its struct
-    ewa_surfels *surfels = NULL;
-    assert_int_equal(ewa_surfels_create(cloud, &options, &surfels), EWA_OK);
+    ewa_surfels *surfels = check_surfels(cloud, &options);
     assert_int_equal(level_count_of(surfels), 1);
     ewa_surfels_destroy(&surfels);
     ewa_surfels_options_init(&options, sizeof options);
@@ -361,8 +348,7 @@ TEST(test_out_of_memory) {
         ewa_context *context = check_context_on(1, &memory);
         ewa_cloud *own = shuffled(context, cloud);
         const int64_t held = memory.held_bytes;
-        ewa_surfels_options surfels_options;
-        ewa_surfels_options_init(&surfels_options, sizeof surfels_options);
+        WITH_DEFAULTS(ewa_surfels_options, surfels_options);
         surfels_options.level_count = 2;
         ewa_surfels *surfels = NULL;
         memory.calls_left = call;
@@ -393,8 +379,7 @@ TEST(test_cancelled_frame_changes_nothing) {
     ewa_cloud *cloud = level_cloud(context, LEVEL_SPHERE, POINTS);
     ewa_surfels *surfels = surfels_of(cloud, 2);
     const ewa_camera camera = level_camera(SIDE_PX, SIDE_PX, 2.2, 20);
-    ewa_renderer *renderer = NULL;
-    assert_int_equal(ewa_renderer_create(context, &renderer), EWA_OK);
+    ewa_renderer *renderer = check_renderer(context);
     const ewa_frame frames[2] = {{.rgba8 = pictures[0]}, {.rgba8 = pictures[1]}};
     assert_int_equal(ewa_render(renderer, surfels, &camera, NULL, &frames[0], NULL), EWA_OK);
     for (int calls = 0; calls < 4; calls++) {
@@ -418,8 +403,7 @@ TEST_ON(level_of_several_sources, 2) {
     ewa_surfels *sources[2] = {surfels_of(cloud, 1), surfels_of(cloud, EWA_MAX_LEVELS)};
     const ewa_camera camera = level_camera(SIDE_PX, SIDE_PX, 2.2, 20);
     static uint8_t picture[4 * PIXELS];
-    ewa_renderer *renderer = NULL;
-    assert_int_equal(ewa_renderer_create(context, &renderer), EWA_OK);
+    ewa_renderer *renderer = check_renderer(context);
     for (int count = 0; count <= 2; count++) {
         ewa_render_options options;
         ewa_render_stats stats;

@@ -61,15 +61,13 @@ static void borrow(ewa_cloud *cloud, const char *name, ewa_type type, uint32_t c
 }
 
 static ewa_surfels *make_surfels(ewa_cloud *cloud) {
-    ewa_surfels *surfels = NULL;
-    assert_int_equal(ewa_surfels_create(cloud, NULL, &surfels), EWA_OK);
+    ewa_surfels *surfels = check_surfels(cloud, NULL);
     return surfels;
 }
 
 /// Surfels of float streams that lie side by side.
 static ewa_surfels *surfels_of(ewa_context *context, const numbers *of) {
-    ewa_cloud *cloud = NULL;
-    assert_int_equal(ewa_cloud_create(context, POINTS, &cloud), EWA_OK);
+    ewa_cloud *cloud = check_cloud_of(context, POINTS);
     borrow(cloud, EWA_POSITION, EWA_F32, 3, of->position, 0);
     borrow(cloud, EWA_NORMAL, EWA_F32, 3, of->normal, 0);
     borrow(cloud, EWA_RADIUS, EWA_F32, 1, of->radius, 0);
@@ -124,8 +122,7 @@ TEST(test_same_bytes_from_all_layouts) {
     }
     ewa_context *context = check_context_of(2, EWA_CPU_ALL);
     ewa_surfels *expected = surfels_of(context, &of);
-    ewa_cloud *cloud = NULL;
-    assert_int_equal(ewa_cloud_create(context, POINTS, &cloud), EWA_OK);
+    ewa_cloud *cloud = check_cloud_of(context, POINTS);
     borrow(cloud, EWA_POSITION, EWA_F64, 3, records[0].position, sizeof records[0]);
     borrow(cloud, EWA_NORMAL, EWA_F32, 3, records[0].normal, sizeof records[0]);
     borrow(cloud, EWA_RADIUS, EWA_F32, 1, &records[0].radius, sizeof records[0]);
@@ -148,8 +145,7 @@ TEST(test_discs_equal_surfels) {
         for (int c = 0; c < 3; c++) normal[i][c] = (double)of.normal[i][c];
     ewa_context *context = check_context_of(2, EWA_CPU_ALL);
     ewa_surfels *discs = surfels_of(context, &of);
-    ewa_cloud *cloud = NULL;
-    assert_int_equal(ewa_cloud_create(context, POINTS, &cloud), EWA_OK);
+    ewa_cloud *cloud = check_cloud_of(context, POINTS);
     borrow(cloud, EWA_POSITION, EWA_F32, 3, of.position, 0);
     borrow(cloud, EWA_NORMAL, EWA_F64, 3, normal, 0);
     borrow(cloud, EWA_RADIUS, EWA_F32, 1, of.radius, 0);
@@ -182,8 +178,7 @@ TEST(test_normals_are_kept) {
         float position[3] = {1, 2, 3}, normal[3], radius = 1;
         for (int c = 0; c < 3; c++) normal[c] = (float)check_uniform(&random, -1, 1);
         if (turn % 3 == 0) normal[turn % 9 / 3] = 0;
-        ewa_cloud *cloud = NULL;
-        assert_int_equal(ewa_cloud_create(context, 1, &cloud), EWA_OK);
+        ewa_cloud *cloud = check_cloud_of(context, 1);
         borrow(cloud, EWA_POSITION, EWA_F32, 3, position, 0);
         borrow(cloud, EWA_NORMAL, EWA_F32, 3, normal, 0);
         borrow(cloud, EWA_RADIUS, EWA_F32, 1, &radius, 0);
@@ -264,8 +259,7 @@ TEST(test_largest_sigmas) {
             memcpy(axis_v[i], (float[3]){0, 0, (float)sigma}, 12);
             if (max_aspect == 1) axis_u[i][0] = axis_v[i][2];
         }
-        ewa_cloud *cloud = NULL;
-        assert_int_equal(ewa_cloud_create(context, count, &cloud), EWA_OK);
+        ewa_cloud *cloud = check_cloud_of(context, count);
         borrow(cloud, EWA_POSITION, EWA_F32, 3, position, 0);
         borrow(cloud, EWA_TANGENT_U, EWA_F32, 3, axis_u, 0);
         borrow(cloud, EWA_TANGENT_V, EWA_F32, 3, axis_v, 0);

@@ -38,12 +38,10 @@ static ewa_surfels *make_part(ewa_context *context, const ewa_cloud *cloud, sort
         ewa_attribute_read_f64(from_radius, i, 1, kept[here] + 6);
         here += part < 0 || sort(kept[here], i) == part;
     }
-    ewa_cloud *made = NULL;
-    float *position, *normal, *radius;
-    assert_int_equal(ewa_cloud_create(context, here, &made), EWA_OK);
-    assert_int_equal(ewa_cloud_add(made, EWA_POSITION, EWA_F32, 3, (void **)&position), EWA_OK);
-    assert_int_equal(ewa_cloud_add(made, EWA_NORMAL, EWA_F32, 3, (void **)&normal), EWA_OK);
-    assert_int_equal(ewa_cloud_add(made, EWA_RADIUS, EWA_F32, 1, (void **)&radius), EWA_OK);
+    ewa_cloud *made = check_cloud_of(context, here);
+    float *position = check_add(made, EWA_POSITION, EWA_F32, 3);
+    float *normal = check_add(made, EWA_NORMAL, EWA_F32, 3);
+    float *radius = check_add(made, EWA_RADIUS, EWA_F32, 1);
     uint8_t *material = NULL;
     if (materials) assert_int_equal(ewa_cloud_add(made, EWA_MATERIAL, EWA_U8, 1, (void **)&material), EWA_OK);
     for (uint64_t i = 0; i < here; i++) {
@@ -52,8 +50,7 @@ static ewa_surfels *make_part(ewa_context *context, const ewa_cloud *cloud, sort
         radius[i] = (float)kept[i][6];
         if (material) material[i] = (uint8_t)(part < 0 ? sort(kept[i], i) : part);
     }
-    ewa_surfels *surfels = NULL;
-    assert_int_equal(ewa_surfels_create(made, NULL, &surfels), EWA_OK);
+    ewa_surfels *surfels = check_surfels(made, NULL);
     ewa_cloud_destroy(&made);
     free(kept);
     return surfels;
@@ -87,8 +84,7 @@ static void hold_parts(scene_kind kind, sort_point *sort, bool materials, const 
     ewa_surfels *const whole = make_part(context, of.cloud, sort, -1, materials);
     ewa_surfels *part[2];
     for (int i = 0; i < 2; i++) part[i] = make_part(context, of.cloud, sort, i, materials);
-    ewa_renderer *renderer = NULL;
-    assert_int_equal(ewa_renderer_create(context, &renderer), EWA_OK);
+    ewa_renderer *renderer = check_renderer(context);
     picture drawn[3];
     for (int i = 0; i < 3; i++) drawn[i] = picture_make(SIDE, SIDE);
     draw(renderer, (const ewa_surfels *[]){whole}, 1, &of, options, &drawn[0]);
@@ -109,8 +105,7 @@ static void hold_parts(scene_kind kind, sort_point *sort, bool materials, const 
 
 TEST(test_parts_are_the_whole) {
     static const scene_kind kinds[] = {SCENE_SPHERE, SCENE_CUBE, SCENE_TORUS};
-    ewa_render_options options;
-    ewa_render_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_render_options, options);
     for (size_t i = 0; i < sizeof kinds / sizeof kinds[0]; i++)
         hold_parts(kinds[i], left_or_right, false, &options, 50, "halves");
     options.kernel = EWA_KERNEL_RAYCAST;
@@ -126,8 +121,7 @@ TEST(test_parts_are_the_whole) {
 /// A source whose surfels all have one material beside one with another: as if each surfel had its own.
 TEST(test_materials_of_sources) {
     ewa_material materials[2];
-    ewa_render_options options;
-    ewa_render_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_render_options, options);
     for (int i = 0; i < 2; i++) ewa_material_init(&materials[i]);
     materials[0].ambient = 0.1, materials[0].diffuse = 0.2, materials[0].specular = 0.9;
     materials[1].ambient = 0.6, materials[1].diffuse = 0.4, materials[1].specular = 0;
@@ -142,14 +136,12 @@ TEST(test_refusals) {
     ewa_context *context = check_context(1, &log);
     scene of;
     assert_int_equal(scene_make(context, SCENE_SPHERE, 500, SIDE, SIDE, &of), EWA_OK);
-    ewa_surfels_options surfels_options;
-    ewa_surfels_options_init(&surfels_options, sizeof surfels_options);
+    WITH_DEFAULTS(ewa_surfels_options, surfels_options);
     ewa_surfels *three = NULL, *two = NULL;
     assert_int_equal(ewa_surfels_create(of.cloud, NULL, &three), EWA_OK);
     surfels_options.cutoff = 2;
     assert_int_equal(ewa_surfels_create(of.cloud, &surfels_options, &two), EWA_OK);
-    ewa_renderer *renderer = NULL;
-    assert_int_equal(ewa_renderer_create(context, &renderer), EWA_OK);
+    ewa_renderer *renderer = check_renderer(context);
     assert_int_equal(ewa_render_add(renderer, three), EWA_ERROR_ARGUMENT);
     assert_string_equal(log.text, "render: no frame has been begun");
     assert_int_equal(ewa_render_finish(renderer, NULL), EWA_ERROR_ARGUMENT);
@@ -170,8 +162,7 @@ TEST(test_refusals) {
     assert_int_equal(ewa_render_finish(renderer, NULL), EWA_ERROR_ARGUMENT);
     assert_int_equal(ewa_render_begin(renderer, &of.camera, NULL, &drawn.frame), EWA_OK);
     assert_int_equal(ewa_render_add(renderer, three), EWA_OK);
-    ewa_render_options options;
-    ewa_render_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_render_options, options);
     const float background[4] = {0.25f, 0.5f, 0.75f, 0.5f};
     memcpy(options.background, background, sizeof background);
     assert_int_equal(ewa_render_begin(renderer, &of.camera, &options, &drawn.frame), EWA_OK);
@@ -230,8 +221,7 @@ static void foreign(void *user, ewa_task *task, void *data, uint32_t count) {
 
 static void hold_stop(uint32_t threads, bool foreign_executor) {
     stopper self = {.caller = pthread_self(), .from_caller = true};
-    ewa_context_options options;
-    ewa_context_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_context_options, options);
     options.thread_count = threads;
     options.progress = on_progress;
     options.progress_user = &self;
@@ -240,10 +230,8 @@ static void hold_stop(uint32_t threads, bool foreign_executor) {
     assert_int_equal(ewa_context_create(&options, &context), EWA_OK);
     scene of;
     assert_int_equal(scene_make(context, SCENE_SPHERE, POINTS, 512, 512, &of), EWA_OK);
-    ewa_surfels *surfels = NULL;
-    assert_int_equal(ewa_surfels_create(of.cloud, NULL, &surfels), EWA_OK);
-    ewa_renderer *renderer = NULL;
-    assert_int_equal(ewa_renderer_create(context, &renderer), EWA_OK);
+    ewa_surfels *surfels = check_surfels(of.cloud, NULL);
+    ewa_renderer *renderer = check_renderer(context);
     picture first = picture_make(512, 512), other = picture_make(512, 512);
     // Of several threads the one that calls, which reports, may have got fewer tiles: then once more.
     enum { TRIES = 50 };

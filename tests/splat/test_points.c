@@ -14,23 +14,19 @@ enum { SIDE = 256 };
 /// A cloud of surfels with normals and radii that points must not depend on.
 static ewa_cloud *make_cloud(ewa_context *context, uint32_t count, float **xyz, float **normal,
                              float **radius) {
-    ewa_cloud *cloud = NULL;
-    uint8_t *color = NULL;
-    assert_int_equal(ewa_cloud_create(context, count, &cloud), EWA_OK);
+    ewa_cloud *cloud = check_cloud_of(context, count);
     assert_int_equal(ewa_cloud_add(cloud, EWA_POSITION, EWA_F32, 3, (void **)xyz), EWA_OK);
     assert_int_equal(ewa_cloud_add(cloud, EWA_NORMAL, EWA_F32, 3, (void **)normal), EWA_OK);
     assert_int_equal(ewa_cloud_add(cloud, EWA_RADIUS, EWA_F32, 1, (void **)radius), EWA_OK);
-    assert_int_equal(ewa_cloud_add(cloud, EWA_COLOR, EWA_U8, 3, (void **)&color), EWA_OK);
+    uint8_t *color = check_add(cloud, EWA_COLOR, EWA_U8, 3);
     for (uint32_t i = 0; i < 3 * count; i++) color[i] = (uint8_t)(37 * i);
     return cloud;
 }
 
 static void draw(ewa_context *context, const ewa_cloud *cloud, const ewa_camera *camera,
                  const ewa_render_options *options, float *rgba) {
-    ewa_surfels *surfels = NULL;
-    ewa_renderer *renderer = NULL;
-    assert_int_equal(ewa_surfels_create(cloud, NULL, &surfels), EWA_OK);
-    assert_int_equal(ewa_renderer_create(context, &renderer), EWA_OK);
+    ewa_surfels *surfels = check_surfels(cloud, NULL);
+    ewa_renderer *renderer = check_renderer(context);
     const ewa_frame frame = {.rgba = rgba};
     assert_int_equal(ewa_render(renderer, surfels, camera, options, &frame, NULL), EWA_OK);
     ewa_renderer_destroy(&renderer);
@@ -40,9 +36,7 @@ static void draw(ewa_context *context, const ewa_cloud *cloud, const ewa_camera 
 /// A camera far off the axis, with pixels that are not square, that sees the place of camera space at a
 /// pixel.
 static ewa_camera make_camera(bool orthographic, double zoom) {
-    ewa_camera camera;
-    ewa_camera_init(&camera);
-    camera.width_px = camera.height_px = SIDE;
+    ewa_camera camera = check_camera(SIDE, SIDE);
     camera.projection = orthographic ? EWA_ORTHOGRAPHIC : EWA_PERSPECTIVE;
     camera.fx_px = 150 * zoom, camera.fy_px = 230 * zoom;
     camera.cx_px = -90, camera.cy_px = 400;
@@ -98,8 +92,7 @@ TEST_ON(test_size, 1) {
             const double at[2] = {128 + check_uniform(&random, -40, 40),
                                   128 + check_uniform(&random, -40, 40)};
             const ewa_camera camera = make_camera(i % 2, zooms[i % 3]);
-            ewa_render_options options;
-            ewa_render_options_init(&options, sizeof options);
+            WITH_DEFAULTS(ewa_render_options, options);
             options.point_size_px = sizes_px[s];
             options.cull = i % 5 ? EWA_CULL_NONE : EWA_CULL_BACK;
             options.kernel = (ewa_kernel)(i % 5);
@@ -157,15 +150,12 @@ TEST_ON(test_against_reference, 2) {
                 }
             }
         }
-        ewa_render_options options;
-        ewa_render_options_init(&options, sizeof options);
+        WITH_DEFAULTS(ewa_render_options, options);
         options.point_size_px = i < 2 ? 3.3 : 21;
         options.opacity = i % 3 ? 1 : 0.6;
         options.layers = i % 3 ? 0 : 3;
-        ewa_surfels *surfels = NULL;
-        ewa_renderer *renderer = NULL;
-        assert_int_equal(ewa_surfels_create(cloud, NULL, &surfels), EWA_OK);
-        assert_int_equal(ewa_renderer_create(context, &renderer), EWA_OK);
+        ewa_surfels *surfels = check_surfels(cloud, NULL);
+        ewa_renderer *renderer = check_renderer(context);
         const ewa_frame frame = {.rgba = fast, .depth = depth, .normal = normal_out};
         const ewa_frame wanted = {.rgba = plain, .depth = plain_depth, .normal = plain_normal};
         assert_int_equal(ewa_render(renderer, surfels, &camera, &options, &frame, NULL), EWA_OK);
@@ -199,14 +189,11 @@ TEST(test_options) {
     float *xyz, *normal, *radius;
     ewa_cloud *cloud = make_cloud(context, 1, &xyz, &normal, &radius);
     xyz[0] = xyz[1] = xyz[2] = normal[0] = normal[1] = normal[2] = radius[0] = 1;
-    ewa_surfels *surfels = NULL;
-    ewa_renderer *renderer = NULL;
-    assert_int_equal(ewa_surfels_create(cloud, NULL, &surfels), EWA_OK);
-    assert_int_equal(ewa_renderer_create(context, &renderer), EWA_OK);
+    ewa_surfels *surfels = check_surfels(cloud, NULL);
+    ewa_renderer *renderer = check_renderer(context);
     const ewa_camera camera = make_camera(false, 1);
     const ewa_frame frame = {.rgba = rgba};
-    ewa_render_options options;
-    ewa_render_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_render_options, options);
     assert_true(options.point_size_px == 0);
     for (size_t i = 0; i < sizeof wrong_px / sizeof *wrong_px; i++) {
         options.point_size_px = wrong_px[i];

@@ -59,9 +59,8 @@ static ewa_camera camera_to(const double eye[3], const double target[3], double 
 }
 
 static double unit_coverage_of(const ewa_cloud *cloud) {
-    ewa_surfels *surfels = NULL;
     ewa_surfels_info info;
-    assert_int_equal(ewa_surfels_create(cloud, NULL, &surfels), EWA_OK);
+    ewa_surfels *surfels = check_surfels(cloud, NULL);
     ewa_surfels_describe(surfels, &info);
     assert_int_equal(info.left_out_count, 0);
     ewa_surfels_destroy(&surfels);
@@ -107,8 +106,7 @@ TEST_ON(test_one_bright_colour, 0) {
     for (uint64_t i = 0; i < count; i += 1999) made.color[3 * i + i % 3] = 1e4f;
     made.color[3 * 777] = -300, made.color[3 * 5555 + 1] = INFINITY;
     const ewa_camera camera = camera_to(eye, center, 40);
-    ewa_render_options options;
-    ewa_render_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_render_options, options);
     assert_close("one bright colour", closeness_db(made.cloud, &camera, &options, 1), 60);
     ewa_cloud_destroy(&made.cloud);
 }
@@ -118,14 +116,11 @@ TEST_ON(test_one_bright_colour, 0) {
 TEST_ON(test_needles, 0) {
     enum { NEEDLES = 400 };
     check_random random = {3};
-    ewa_cloud *cloud = NULL;
-    double *position, *u, *v;
-    float *color;
-    assert_int_equal(ewa_cloud_create(context, NEEDLES, &cloud), EWA_OK);
-    assert_int_equal(ewa_cloud_add(cloud, EWA_POSITION, EWA_F64, 3, (void **)&position), EWA_OK);
-    assert_int_equal(ewa_cloud_add(cloud, EWA_TANGENT_U, EWA_F64, 3, (void **)&u), EWA_OK);
-    assert_int_equal(ewa_cloud_add(cloud, EWA_TANGENT_V, EWA_F64, 3, (void **)&v), EWA_OK);
-    assert_int_equal(ewa_cloud_add(cloud, EWA_COLOR, EWA_F32, 3, (void **)&color), EWA_OK);
+    ewa_cloud *cloud = check_cloud_of(context, NEEDLES);
+    double *position = check_add(cloud, EWA_POSITION, EWA_F64, 3);
+    double *u = check_add(cloud, EWA_TANGENT_U, EWA_F64, 3);
+    double *v = check_add(cloud, EWA_TANGENT_V, EWA_F64, 3);
+    float *color = check_add(cloud, EWA_COLOR, EWA_F32, 3);
     for (uint64_t i = 0; i < NEEDLES; i++) {
         // Nearly in the plane of the picture, wherever that is cut.
         const double turn = check_uniform(&random, 0, 6.28), length = check_uniform(&random, 0.05, 0.3);
@@ -140,8 +135,7 @@ TEST_ON(test_needles, 0) {
     }
     const double center[3] = {0, 0, 0}, eye[3] = {0.2, -4, 0.3};
     const ewa_camera camera = camera_to(eye, center, 30);
-    ewa_render_options options;
-    ewa_render_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_render_options, options);
     options.edge_threshold = 0.1; // they cover little
     options.shading = EWA_SHADING_NONE;
     assert_close("needles", closeness_db(cloud, &camera, &options, 1), 50);
@@ -162,8 +156,7 @@ TEST_ON(test_spheres_far_apart, 0) {
             const double *c = centers[s], eye[3] = {c[0] + 0.012, c[1] - 0.02, c[2] + 0.006};
             const ewa_camera camera = camera_to(eye, c, 30);
             snprintf(what, sizeof what, "sphere %d of two, %g m apart", s + 1, apart_m[k]);
-            ewa_render_options options;
-            ewa_render_options_init(&options, sizeof options);
+            WITH_DEFAULTS(ewa_render_options, options);
             assert_close(what, closeness_db(made.cloud, &camera, &options, 1), 55);
         }
         ewa_cloud_destroy(&made.cloud);
@@ -180,8 +173,7 @@ TEST_ON(test_distances, 0) {
         const double away = pow(10, power), fov_deg = 2 * atan(1.2 / away) * 57.29577951308232;
         const double eye[3] = {away * toward[0], away * toward[1], away * toward[2]};
         const ewa_camera camera = camera_to(eye, center, fov_deg);
-        ewa_render_options options;
-        ewa_render_options_init(&options, sizeof options);
+        WITH_DEFAULTS(ewa_render_options, options);
         options.cull = EWA_CULL_BACK; // which side is nearer, floats do not say from so far
         char what[64];
         snprintf(what, sizeof what, "from 1e%d radii", power);
@@ -212,9 +204,7 @@ static picture draw_torus(ewa_context *context, const double shift[3], double sc
     const double eye[3] = {0.25 + shift[0], -3.5 + shift[1], 0.5 + shift[2]};
     const double rows[16] = {1, 0, 0, -eye[0] * scale, 0, 0, -1, eye[2] * scale,
                              0, 1, 0, -eye[1] * scale, 0, 0, 0,  1};
-    ewa_camera camera;
-    ewa_camera_init(&camera);
-    camera.width_px = camera.height_px = SIDE_PX;
+    ewa_camera camera = check_camera(SIDE_PX, SIDE_PX);
     assert_int_equal(
         orthographic ? ewa_camera_set_ortho(&camera, 2.5 * scale) : ewa_camera_set_fov(&camera, 45), EWA_OK);
     memcpy(camera.world_to_camera, rows, sizeof rows);
@@ -278,12 +268,10 @@ TEST(test_broken_pixels_are_told) {
     ewa_context *context = check_context(0, &log);
     scene of;
     assert_int_equal(scene_make(context, SCENE_SPHERE, 2000, SIDE_PX, SIDE_PX, &of), EWA_OK);
-    ewa_surfels *surfels = NULL;
-    ewa_renderer *renderer = NULL;
     picture made = picture_make(SIDE_PX, SIDE_PX);
     ewa_frame bytes_only = {.rgba8 = made.frame.rgba8};
-    assert_int_equal(ewa_surfels_create(of.cloud, NULL, &surfels), EWA_OK);
-    assert_int_equal(ewa_renderer_create(context, &renderer), EWA_OK);
+    ewa_surfels *surfels = check_surfels(of.cloud, NULL);
+    ewa_renderer *renderer = check_renderer(context);
     assert_int_equal(ewa_render(renderer, surfels, &of.camera, NULL, &made.frame, NULL), EWA_OK);
     assert_int_equal(log.count, 0);
     // No cloud makes such a form: 5 exponent bits and the largest unit.

@@ -14,8 +14,7 @@ static const double PI = 3.14159265358979323846;
 enum { SIZE = PICTURE_SMALL_PX };
 
 static ewa_render_options default_options(void) {
-    ewa_render_options options;
-    ewa_render_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_render_options, options);
     return options;
 }
 
@@ -43,8 +42,7 @@ TEST_ON(test_sphere, 0) {
     enum { WIDTH = 256 };
     scene made;
     assert_int_equal(scene_make(context, SCENE_SPHERE, 20000, WIDTH, WIDTH, &made), EWA_OK);
-    ewa_surfels_options surfels;
-    ewa_surfels_options_init(&surfels, sizeof surfels);
+    WITH_DEFAULTS(ewa_surfels_options, surfels);
     surfels.radius_scale = 1.2; // no gap of the jittered points is below tau
     made.unit_coverage *= 1.2 * 1.2;
     picture shown = picture_of_scene(&made, &surfels, NULL);
@@ -157,8 +155,7 @@ TEST_ON(test_floor_through_the_eye, 0) {
         options.edge_layers = 1; // a tear must not be filled from behind
         options.prefilter_px = i % 2 ? 0 : 0.5;
         options.edge_threshold = 0.6;
-        ewa_surfels_options surfels;
-        ewa_surfels_options_init(&surfels, sizeof surfels);
+        WITH_DEFAULTS(ewa_surfels_options, surfels);
         surfels.cutoff = 2;
         picture shown = picture_of_scene(&made, &surfels, &options);
         // From 5 pixels below the horizon (2.5 units away, where the grid still is wide enough) to the lower
@@ -322,8 +319,7 @@ static bool refuse_to_go_on(void *user, const char *stage, double fraction) {
 TEST(test_failures) {
     check_memory memory = {.calls_left = -1};
     double patience = 2;
-    ewa_context_options options;
-    ewa_context_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_context_options, options);
     options.allocator = check_allocator(&memory);
     options.progress = refuse_to_go_on;
     options.progress_user = &patience;
@@ -373,8 +369,7 @@ TEST_ON(test_comparison, 0) {
         picture_free(&b);
         // What a slightly different cutoff changes by much is on the cutoff's edge (weights change there by
         // the share of the kernel's height at its rim).
-        ewa_surfels_options surfels;
-        ewa_surfels_options_init(&surfels, sizeof surfels);
+        WITH_DEFAULTS(ewa_surfels_options, surfels);
         surfels.cutoff *= 1 + 1e-4;
         surfels.radius_scale = 1 + 1e-4; // the same sigma
         picture_mark_edges(&made, NULL, &options, 1e-3, 1e-4, mask);

@@ -12,8 +12,7 @@
 enum { SIZE = PICTURE_SMALL_PX };
 
 static ewa_render_options default_options(void) {
-    ewa_render_options options;
-    ewa_render_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_render_options, options);
     return options;
 }
 
@@ -21,13 +20,11 @@ static ewa_render_options default_options(void) {
 /// the order first, first + step, ... around the count; `color` replaces the colours when it is not NULL.
 static ewa_cloud *copy_surfels(const ewa_cloud *cloud, const ewa_mat3 *rotation, double scale,
                                const double shift[3], uint64_t step, const float *color) {
-    ewa_surfels_options options;
-    ewa_surfels_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_surfels_options, options);
     ewa_surfel_reader reader;
     assert_int_equal(ewa_surfel_reader_open(cloud, &options, &reader), EWA_OK);
     const uint64_t count = ewa_cloud_point_count(cloud);
-    ewa_cloud *made = NULL;
-    assert_int_equal(ewa_cloud_create(ewa_cloud_context(cloud), count, &made), EWA_OK);
+    ewa_cloud *made = check_cloud_of(ewa_cloud_context(cloud), count);
     static const char *const names[5] = {EWA_POSITION, EWA_TANGENT_U, EWA_TANGENT_V, EWA_NORMAL, EWA_COLOR};
     double(*to[5])[3];
     for (int i = 0; i < 5; i++) {

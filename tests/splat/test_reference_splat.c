@@ -429,8 +429,7 @@ TEST(test_depth) {
 /// What is dropped, what is turned, what goes by rays.
 TEST(test_sides) {
     ewa_camera camera = odd_camera();
-    ewa_render_options options;
-    ewa_render_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_render_options, options);
     for (int i = 0; i < 4; i++) {
         camera.projection = i & 1 ? EWA_ORTHOGRAPHIC : EWA_PERSPECTIVE;
         options.cull = i & 2 ? EWA_CULL_BACK : EWA_CULL_NONE;

@@ -56,8 +56,7 @@ static void hold(scene_kind kind, const ewa_surfels_options *surfels_options,
 
 TEST(test_defaults_hold) {
     for (int kind = 0; kind < SCENE_COUNT; kind++) {
-        ewa_render_options options;
-        ewa_render_options_init(&options, sizeof options);
+        WITH_DEFAULTS(ewa_render_options, options);
         hold((scene_kind)kind, NULL, &options, false, "defaults");
         options.edge_layers = 1;
         hold((scene_kind)kind, NULL, &options, false, "one edge layer");
@@ -77,8 +76,7 @@ TEST(test_kernels_hold) {
     for (size_t k = 0; k < sizeof kernels / sizeof kernels[0]; k++) {
         char what[64];
         for (size_t i = 0; i < sizeof kinds / sizeof kinds[0]; i++) {
-            ewa_render_options options;
-            ewa_render_options_init(&options, sizeof options);
+            WITH_DEFAULTS(ewa_render_options, options);
             options.kernel = kernels[k].kernel;
             options.edge_layers = 3;
             snprintf(what, sizeof what, "%s, three edge layers", kernels[k].name);
@@ -98,8 +96,7 @@ TEST(test_kernels_hold) {
 }
 
 TEST(test_options_hold) {
-    ewa_render_options init;
-    ewa_render_options_init(&init, sizeof init);
+    WITH_DEFAULTS(ewa_render_options, init);
     init.edge_layers = 1;
     static const scene_kind kinds[] = {SCENE_PLANE, SCENE_TORUS, SCENE_ELLIPSES, SCENE_NEAR};
     for (size_t i = 0; i < sizeof kinds / sizeof kinds[0]; i++) {
@@ -114,8 +111,7 @@ TEST(test_options_hold) {
         hold(kinds[i], NULL, &o, false, "culled, less tolerance");
         o = init, picture_set_light(&o, 1, 0, 2), o.background[1] = 0.5f, o.background[3] = 0.7f;
         hold(kinds[i], NULL, &o, false, "light and background");
-        ewa_surfels_options surfels;
-        ewa_surfels_options_init(&surfels, sizeof surfels);
+        WITH_DEFAULTS(ewa_surfels_options, surfels);
         surfels.cutoff = 3.2, surfels.radius_scale = 1.3;
         hold(kinds[i], &surfels, &init, false, "long cutoff");
     }
@@ -146,8 +142,7 @@ TEST(test_same_bytes_of_every_kernel) {
     static const scene_kind kinds[] = {SCENE_PLANE, SCENE_ELLIPSES, SCENE_NEAR};
     for (int kernel = EWA_KERNEL_AFFINE; kernel <= EWA_KERNEL_RAYCAST; kernel++) {
         for (size_t k = 0; k < sizeof kinds / sizeof kinds[0]; k++) {
-            ewa_render_options options;
-            ewa_render_options_init(&options, sizeof options);
+            WITH_DEFAULTS(ewa_render_options, options);
             options.kernel = (ewa_kernel)kernel;
             picture first = {0};
             for (size_t i = 0; i < sizeof masks / sizeof masks[0]; i++)
@@ -163,8 +158,7 @@ TEST_ON(test_source_is_affine, 0) {
     double worst = 0;
     for (int kind = 0; kind < SCENE_COUNT; kind++) {
         scene of;
-        ewa_render_options options;
-        ewa_render_options_init(&options, sizeof options);
+        WITH_DEFAULTS(ewa_render_options, options);
         options.edge_layers = 1;
         assert_int_equal(scene_make(context, (scene_kind)kind, POINTS, SIDE_PX, SIDE_PX, &of), EWA_OK);
         options.kernel = EWA_KERNEL_AFFINE;
@@ -204,13 +198,11 @@ TEST(test_same_bytes_on_all_threads_and_instruction_sets) {
 /// The cloud with its points in the order i * step mod count, the last quarter of them all at one place.
 static ewa_cloud *reordered(const ewa_cloud *cloud, uint64_t step) {
     const uint64_t count = ewa_cloud_point_count(cloud);
-    ewa_cloud *made = NULL;
-    assert_int_equal(ewa_cloud_create(ewa_cloud_context(cloud), count, &made), EWA_OK);
+    ewa_cloud *made = check_cloud_of(ewa_cloud_context(cloud), count);
     for (uint32_t a = 0; a < ewa_cloud_attribute_count(cloud); a++) {
         const ewa_attribute *from = ewa_cloud_attribute_at(cloud, a);
         char *to = NULL;
-        assert_int_equal(ewa_cloud_add(made, from->name, from->type, from->component_count, (void **)&to),
-                         EWA_OK);
+        assert_int_equal(ewa_cloud_add(made, from->name, from->type, from->component_count, (void **)&to), EWA_OK);
         const size_t bytes = from->component_count * ewa_type_bytes(from->type);
         const bool position = strcmp(from->name, EWA_POSITION) == 0;
         for (uint64_t i = 0; i < count; i++) {
@@ -244,8 +236,7 @@ TEST_ON(test_order_of_points_does_not_matter, 0) {
 TEST_ON(test_dense_tile_holds, 0) {
     scene of;
     assert_int_equal(scene_make(context, SCENE_TORUS, 300000, 48, 40, &of), EWA_OK);
-    ewa_surfels *surfels = NULL;
-    assert_int_equal(ewa_surfels_create(of.cloud, NULL, &surfels), EWA_OK);
+    ewa_surfels *surfels = check_surfels(of.cloud, NULL);
     ewa_surfels_info info;
     ewa_surfels_describe(surfels, &info);
     of.unit_coverage = info.unit_coverage;
@@ -264,15 +255,12 @@ TEST_ON(test_dense_tile_holds, 0) {
 
 TEST_ON(test_empty_and_lonely, 0) {
     for (uint64_t count = 0; count < 2; count++) {
-        ewa_cloud *cloud = NULL;
         const float position[3] = {0, 0, 5}, normal[3] = {0, 0, -1}, radius = 1;
-        assert_int_equal(ewa_cloud_create(context, count, &cloud), EWA_OK);
+        ewa_cloud *cloud = check_cloud_of(context, count);
         assert_int_equal(ewa_cloud_borrow(cloud, EWA_POSITION, EWA_F32, 3, position, 0), EWA_OK);
         assert_int_equal(ewa_cloud_borrow(cloud, EWA_NORMAL, EWA_F32, 3, normal, 0), EWA_OK);
         assert_int_equal(ewa_cloud_borrow(cloud, EWA_RADIUS, EWA_F32, 1, &radius, 0), EWA_OK);
-        ewa_camera camera;
-        ewa_camera_init(&camera);
-        camera.width_px = 65, camera.height_px = 63;
+        ewa_camera camera = check_camera(65, 63);
         assert_int_equal(ewa_camera_set_fov(&camera, 40), EWA_OK);
         picture made = picture_draw(context, cloud, &camera, NULL, NULL);
         const size_t middle = 31 * 65 + 32;
@@ -301,22 +289,18 @@ static bool is_some_surfel(const ewa_cloud *cloud, const float rgb[3]) {
 /// Cameras whose scale takes depths beyond the range of floats draw something or nothing, safely.
 TEST_ON(test_scales_beyond_floats, 1) {
     static const double scales[] = {1e-40, 1e-30, 1e20, 3e38, 1e60};
-    ewa_generate_options generate;
-    ewa_generate_options_init(&generate, sizeof generate);
+    WITH_DEFAULTS(ewa_generate_options, generate);
     generate.object = EWA_OBJECT_SPHERE;
     generate.point_count = 40000; // so that a tile has several runs
     ewa_cloud *cloud = NULL;
     assert_int_equal(ewa_cloud_generate(context, &generate, &cloud), EWA_OK);
     for (size_t i = 0; i < 2 * sizeof scales / sizeof scales[0]; i++) {
-        ewa_camera camera;
-        ewa_camera_init(&camera);
-        camera.width_px = 200, camera.height_px = 150;
+        ewa_camera camera = check_camera(200, 150);
         camera.fx_px = camera.fy_px = 200, camera.cx_px = 100, camera.cy_px = 75;
         const double s = scales[i / 2], away = i % 2 ? 3 * s : 0; // from the middle, and from afar
         const double rows[12] = {s, 0, 0, 0, 0, -s, 0, 0, 0, 0, -s, away};
         memcpy(camera.world_to_camera, rows, sizeof rows);
-        ewa_render_options options;
-        ewa_render_options_init(&options, sizeof options);
+        WITH_DEFAULTS(ewa_render_options, options);
         options.kernel = EWA_KERNEL_AFFINE; // whose packets are not culled by the sides of the view
         picture drawn = picture_draw(context, cloud, &camera, NULL, &options);
         picture_free(&drawn);
@@ -334,9 +318,8 @@ TEST_ON(test_seen_from_the_edge, 1) {
         for (int i = 0; i < DISCS; i++) {
             // From half a degree down to where single precision sees no area, along slanted lines.
             const double tilt = i ? 0.01 * pow(10, -6.0 * i / DISCS) : 1.2, roll = 0.3 + 1.0 * i / DISCS;
-            ewa_cloud *cloud = NULL;
             void *position = NULL, *normal = NULL, *radius = NULL, *color = NULL;
-            assert_int_equal(ewa_cloud_create(context, 1, &cloud), EWA_OK);
+            ewa_cloud *cloud = check_cloud_of(context, 1);
             assert_int_equal(ewa_cloud_add(cloud, EWA_COLOR, EWA_U8, 3, &color), EWA_OK);
             assert_int_equal(ewa_cloud_add(cloud, EWA_POSITION, EWA_F32, 3, &position), EWA_OK);
             assert_int_equal(ewa_cloud_add(cloud, EWA_NORMAL, EWA_F32, 3, &normal), EWA_OK);
@@ -344,15 +327,12 @@ TEST_ON(test_seen_from_the_edge, 1) {
             memcpy(normal, (float[3]){0, 0, 1}, 3 * sizeof(float));
             *(float *)radius = 1;
             memset(position, 0, 3 * sizeof(float)), memset(color, 255, 3);
-            ewa_camera camera;
-            ewa_camera_init(&camera);
-            camera.width_px = camera.height_px = WIDTH_PX;
+            ewa_camera camera = check_camera(WIDTH_PX, WIDTH_PX);
             camera.fx_px = camera.fy_px = 2 * WIDTH_PX, camera.cx_px = camera.cy_px = WIDTH_PX / 2;
             const double eye[3] = {3 * cos(tilt), 0, 3 * sin(tilt)}, target[3] = {0, 0, 0};
             const double up[3] = {0, sin(roll), cos(roll)};
             assert_int_equal(ewa_camera_look_at(&camera, eye, target, up), EWA_OK);
-            ewa_render_options options;
-            ewa_render_options_init(&options, sizeof options);
+            WITH_DEFAULTS(ewa_render_options, options);
             options.kernel = kernels[k], options.prefilter_px = 0, options.shading = EWA_SHADING_NONE;
             picture drawn = picture_draw(context, cloud, &camera, NULL, &options);
             for (size_t at = 0; at < WIDTH_PX * WIDTH_PX; at++) {
@@ -375,8 +355,7 @@ TEST_ON(test_seen_from_the_edge, 1) {
 TEST_ON(test_one_pass_shows_one_surfel, 0) {
     scene of;
     assert_int_equal(scene_make(context, SCENE_ELLIPSES, 600, 96, 96, &of), EWA_OK);
-    ewa_render_options options;
-    ewa_render_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_render_options, options);
     options.shading = EWA_SHADING_NONE;
     options.edge_antialiasing = false;
     int others[2] = {0, 0}, covered = 0;
@@ -403,8 +382,7 @@ TEST(test_every_failing_allocation_is_clean) {
     bool done = false;
     for (long n = 0; !done; n++) {
         check_memory memory = {.calls_left = n};
-        ewa_context_options options;
-        ewa_context_options_init(&options, sizeof options);
+        WITH_DEFAULTS(ewa_context_options, options);
         options.allocator = check_allocator(&memory);
         options.thread_count = 2;
         ewa_context *context = NULL;
@@ -436,11 +414,9 @@ TEST(test_warm_frames_allocate_nothing) {
     ewa_context *context = check_context_on(0, &memory);
     scene of;
     assert_int_equal(scene_make(context, SCENE_TORUS, POINTS, SIDE_PX, SIDE_PX, &of), EWA_OK);
-    ewa_surfels *surfels = NULL;
-    ewa_renderer *renderer = NULL;
     picture made = picture_make(SIDE_PX, SIDE_PX);
-    assert_int_equal(ewa_surfels_create(of.cloud, NULL, &surfels), EWA_OK);
-    assert_int_equal(ewa_renderer_create(context, &renderer), EWA_OK);
+    ewa_surfels *surfels = check_surfels(of.cloud, NULL);
+    ewa_renderer *renderer = check_renderer(context);
     assert_int_equal(ewa_render(renderer, surfels, &of.camera, NULL, &made.frame, NULL), EWA_OK);
     const long calls = memory.calls_left;
     assert_int_equal(ewa_render(renderer, surfels, &of.camera, NULL, &made.frame, NULL), EWA_OK);

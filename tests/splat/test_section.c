@@ -11,8 +11,7 @@
 enum { POINTS = 1200, SIDE = 160, GRID = 20, CELL_PX = 8 };
 
 static ewa_render_options plain_options(void) {
-    ewa_render_options options;
-    ewa_render_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_render_options, options);
     assert_true(options.section_count == 0);
     return options;
 }
@@ -33,13 +32,10 @@ static void add_box(ewa_render_options *options, double low, double high) {
 /// A grid of discs around (0, 0, 0) + `origin` in x and y that face an eye at z = -1 and do not touch, `spacing`
 /// apart, in the order of `seed`.
 static ewa_cloud *make_grid(ewa_context *context, double spacing, const double origin[3], uint64_t seed) {
-    ewa_cloud *cloud = NULL;
-    double *position;
-    float *normal, *radius;
-    assert_int_equal(ewa_cloud_create(context, GRID * GRID, &cloud), EWA_OK);
-    assert_int_equal(ewa_cloud_add(cloud, EWA_POSITION, EWA_F64, 3, (void **)&position), EWA_OK);
-    assert_int_equal(ewa_cloud_add(cloud, EWA_NORMAL, EWA_F32, 3, (void **)&normal), EWA_OK);
-    assert_int_equal(ewa_cloud_add(cloud, EWA_RADIUS, EWA_F32, 1, (void **)&radius), EWA_OK);
+    ewa_cloud *cloud = check_cloud_of(context, GRID * GRID);
+    double *position = check_add(cloud, EWA_POSITION, EWA_F64, 3);
+    float *normal = check_add(cloud, EWA_NORMAL, EWA_F32, 3);
+    float *radius = check_add(cloud, EWA_RADIUS, EWA_F32, 1);
     ewa_cloud_set_origin(cloud, origin);
     for (uint32_t i = 0; i < GRID * GRID; i++) {
         const uint32_t at = (uint32_t)((i * (2 * seed + 1)) % (GRID * GRID)); // 2 seed + 1 is coprime to 400
@@ -54,9 +50,7 @@ static ewa_cloud *make_grid(ewa_context *context, double spacing, const double o
 
 /// A camera that sees the grid's discs CELL_PX apart from above `origin`.
 static ewa_camera make_camera(bool orthographic, double spacing, const double origin[3]) {
-    ewa_camera camera;
-    ewa_camera_init(&camera);
-    camera.width_px = camera.height_px = SIDE;
+    ewa_camera camera = check_camera(SIDE, SIDE);
     camera.cx_px = camera.cy_px = SIDE / 2;
     camera.fx_px = camera.fy_px = CELL_PX / spacing;
     if (orthographic) camera.projection = EWA_ORTHOGRAPHIC;
@@ -75,8 +69,7 @@ typedef struct drawn {
 /// Draws sources twice, as a warm renderer draws.
 static void draw_sources(ewa_context *context, const ewa_surfels *const *surfels, int count,
                          const ewa_camera *camera, const ewa_render_options *options, drawn *to) {
-    ewa_renderer *renderer = NULL;
-    assert_int_equal(ewa_renderer_create(context, &renderer), EWA_OK);
+    ewa_renderer *renderer = check_renderer(context);
     const ewa_frame frame = {.rgba = to->rgba, .depth = to->depth, .normal = to->normal, .rgba8 = to->rgba8};
     for (int turn = 0; turn < 2; turn++) {
         assert_int_equal(ewa_render_begin(renderer, camera, options, &frame), EWA_OK);
@@ -88,8 +81,7 @@ static void draw_sources(ewa_context *context, const ewa_surfels *const *surfels
 
 static void draw(ewa_context *context, const ewa_cloud *cloud, const ewa_camera *camera,
                  const ewa_render_options *options, drawn *to) {
-    ewa_surfels *surfels = NULL;
-    assert_int_equal(ewa_surfels_create(cloud, NULL, &surfels), EWA_OK);
+    ewa_surfels *surfels = check_surfels(cloud, NULL);
     const ewa_surfels *const sources[] = {surfels};
     draw_sources(context, sources, 1, camera, options, to);
     ewa_surfels_destroy(&surfels);
@@ -365,8 +357,7 @@ TEST(test_bad_planes) {
     static uint8_t rgba8[4 * SIDE * SIDE];
     check_log log = {.count = 0};
     ewa_context *context = check_context(1, &log);
-    ewa_renderer *renderer = NULL;
-    assert_int_equal(ewa_renderer_create(context, &renderer), EWA_OK);
+    ewa_renderer *renderer = check_renderer(context);
     const ewa_camera camera = make_camera(true, 1, none);
     const ewa_frame frame = {.rgba8 = rgba8};
     for (size_t i = 0; i < sizeof planes / sizeof planes[0]; i++) {
@@ -397,8 +388,7 @@ TEST_ON(test_time_is_printed, 1) {
     static drawn to;
     scene of;
     assert_int_equal(scene_make(context, SCENE_SPHERE, 60000, SIDE, SIDE, &of), EWA_OK);
-    ewa_surfels *surfels = NULL;
-    assert_int_equal(ewa_surfels_create(of.cloud, NULL, &surfels), EWA_OK);
+    ewa_surfels *surfels = check_surfels(of.cloud, NULL);
     const ewa_surfels *const sources[] = {surfels};
     double min_s[3] = {INFINITY, INFINITY, INFINITY};
     uint64_t culled[3];

@@ -14,8 +14,7 @@ static const float GREY[3] = {0.5f, 0.4f, 0.3f};
 static const double EYE[3] = {1, 0.6, 4};
 
 static ewa_render_options phong_options(const ewa_material *material) {
-    ewa_render_options options;
-    ewa_render_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_render_options, options);
     options.shading = EWA_SHADING_PHONG;
     options.materials = material;
     options.material_count = material ? 1 : 0;
@@ -242,9 +241,8 @@ static void add_square(float *position, float *normal, float *radius, uint32_t s
 /// One or two such squares, the second in front of the first with half its side.
 static ewa_cloud *make_squares(ewa_context *context, uint32_t count, double tilt) {
     enum { SIDE = 100, EACH = SIDE * SIDE };
-    ewa_cloud *cloud = NULL;
     void *position, *normal, *radius;
-    assert_int_equal(ewa_cloud_create(context, count * EACH, &cloud), EWA_OK);
+    ewa_cloud *cloud = check_cloud_of(context, count * EACH);
     assert_int_equal(ewa_cloud_add(cloud, EWA_POSITION, EWA_F32, 3, &position), EWA_OK);
     assert_int_equal(ewa_cloud_add(cloud, EWA_NORMAL, EWA_F32, 3, &normal), EWA_OK);
     assert_int_equal(ewa_cloud_add(cloud, EWA_RADIUS, EWA_F32, 1, &radius), EWA_OK);
@@ -273,8 +271,7 @@ TEST_ON(test_eye_dome_leaves_planes_alone, 0) {
     for (int run = 0; run < 12; run++) {
         ewa_cloud *cloud = make_squares(context, 1, run % 3 ? 0 : 0.3);
         const ewa_camera camera = shade_camera(SIDE_PX, eyes[run % 3], 40, run / 3 % 2 ? 2.5 : 0);
-        ewa_render_options options;
-        ewa_render_options_init(&options, sizeof options);
+        WITH_DEFAULTS(ewa_render_options, options);
         options.shading = EWA_SHADING_NONE;
         options.background[2] = 0.5f, options.background[3] = 1;
         picture plain = draw(context, run / 6, cloud, &camera, &options);
@@ -303,8 +300,7 @@ TEST_ON(test_eye_dome_darkens_behind_steps, 0) {
     for (int run = 0; run < 4; run++) {
         const double eye[3] = {0, 0, 4};
         const ewa_camera camera = shade_camera(SIDE_PX, eye, 32, run % 2 ? 2.3 : 0);
-        ewa_render_options options;
-        ewa_render_options_init(&options, sizeof options);
+        WITH_DEFAULTS(ewa_render_options, options);
         options.shading = EWA_SHADING_NONE;
         options.eye_dome = 1;
         picture shown = draw(context, run / 2, cloud, &camera, &options);

@@ -31,8 +31,7 @@ static int all_one(const float position[3]) {
 
 /// Everything at once.
 static ewa_render_options all_options(const ewa_environment *environment) {
-    ewa_render_options options;
-    ewa_render_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_render_options, options);
     options.shading = EWA_SHADING_PHONG;
     options.materials = TABLE;
     options.material_count = MATERIALS;
@@ -178,8 +177,7 @@ TEST_ON(test_order_of_materials_does_not_matter, 0) {
             material[i] = (uint8_t)(k * k % MATERIALS);
             normal[i][0] = 0, normal[i][1] = 0.3f, normal[i][2] = 1, radius[i] = 1;
         }
-        ewa_cloud *cloud = NULL;
-        assert_int_equal(ewa_cloud_create(context, COUNT, &cloud), EWA_OK);
+        ewa_cloud *cloud = check_cloud_of(context, COUNT);
         assert_int_equal(ewa_cloud_borrow(cloud, EWA_POSITION, EWA_F32, 3, position, 0), EWA_OK);
         assert_int_equal(ewa_cloud_borrow(cloud, EWA_NORMAL, EWA_F32, 3, normal, 0), EWA_OK);
         assert_int_equal(ewa_cloud_borrow(cloud, EWA_RADIUS, EWA_F32, 1, radius, 0), EWA_OK);
@@ -208,8 +206,7 @@ TEST_ON(test_materials_are_averaged, 0) {
     table[0].specular = 1, table[1].specular = 0;
     ewa_material_init(&middle);
     middle.ambient = 0.3f, middle.diffuse = 0.2f, middle.specular = 0.5f;
-    ewa_render_options options;
-    ewa_render_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_render_options, options);
     options.shading = EWA_SHADING_PHONG;
     options.materials = &middle, options.material_count = 1;
     picture wanted = shade_draw(context, cloud, &camera, &options);
@@ -237,8 +234,7 @@ TEST_ON(test_one_material_of_many, 0) {
     scene of;
     assert_int_equal(scene_make(context, SCENE_TORUS, POINTS, 64, 64, &of), EWA_OK);
     ewa_surfels_info plain, one, several;
-    ewa_surfels *surfels = NULL;
-    assert_int_equal(ewa_surfels_create(of.cloud, NULL, &surfels), EWA_OK);
+    ewa_surfels *surfels = check_surfels(of.cloud, NULL);
     ewa_surfels_describe(surfels, &plain);
     ewa_surfels_destroy(&surfels);
     ewa_render_options options = all_options(NULL);
@@ -267,11 +263,9 @@ TEST_ON(test_one_material_of_many, 0) {
 
 static void refuse(ewa_context *context, const check_log *log, const scene *of,
                    const ewa_render_options *options, const char *words) {
-    ewa_surfels *surfels = NULL;
-    ewa_renderer *renderer = NULL;
     picture made = picture_make(64, 64);
-    assert_int_equal(ewa_surfels_create(of->cloud, NULL, &surfels), EWA_OK);
-    assert_int_equal(ewa_renderer_create(context, &renderer), EWA_OK);
+    ewa_surfels *surfels = check_surfels(of->cloud, NULL);
+    ewa_renderer *renderer = check_renderer(context);
     assert_int_equal(ewa_render(renderer, surfels, &of->camera, options, &made.frame, NULL),
                      EWA_ERROR_ARGUMENT);
     if (!strstr(log->text, words)) fail_msg("'%s' does not say '%s'", log->text, words);
@@ -323,8 +317,7 @@ TEST(test_every_failing_allocation_is_clean) {
     bool done = false;
     for (long n = 0; !done; n++) {
         check_memory memory = {.calls_left = n};
-        ewa_context_options context_options;
-        ewa_context_options_init(&context_options, sizeof context_options);
+        WITH_DEFAULTS(ewa_context_options, context_options);
         context_options.allocator = check_allocator(&memory);
         context_options.thread_count = 2;
         ewa_context *context = NULL;

@@ -13,14 +13,11 @@ enum { SIDE = 160, SHEETS = 3 };
 /// in `every` (0: none) is `times` as large.
 static ewa_surfels *make_sheets(ewa_context *context, uint32_t points, double min_px, double max_px,
                                 uint32_t every, double times) {
-    ewa_cloud *cloud = NULL;
-    float *position, *normal, *radius;
-    uint8_t *color;
-    assert_int_equal(ewa_cloud_create(context, points, &cloud), EWA_OK);
-    assert_int_equal(ewa_cloud_add(cloud, EWA_POSITION, EWA_F32, 3, (void **)&position), EWA_OK);
-    assert_int_equal(ewa_cloud_add(cloud, EWA_NORMAL, EWA_F32, 3, (void **)&normal), EWA_OK);
-    assert_int_equal(ewa_cloud_add(cloud, EWA_RADIUS, EWA_F32, 1, (void **)&radius), EWA_OK);
-    assert_int_equal(ewa_cloud_add(cloud, EWA_COLOR, EWA_U8, 3, (void **)&color), EWA_OK);
+    ewa_cloud *cloud = check_cloud_of(context, points);
+    float *position = check_add(cloud, EWA_POSITION, EWA_F32, 3);
+    float *normal = check_add(cloud, EWA_NORMAL, EWA_F32, 3);
+    float *radius = check_add(cloud, EWA_RADIUS, EWA_F32, 1);
+    uint8_t *color = check_add(cloud, EWA_COLOR, EWA_U8, 3);
     check_random random = {points};
     for (uint32_t i = 0; i < points; i++) {
         const double x = check_uniform(&random, -1.2, 1.2), y = check_uniform(&random, -1.2, 1.2);
@@ -34,8 +31,7 @@ static ewa_surfels *make_sheets(ewa_context *context, uint32_t points, double mi
         radius[i] = (float)(px * 2.4 / SIDE);
         for (int c = 0; c < 3; c++) color[3 * i + (uint32_t)c] = (uint8_t)check_uniform(&random, 0, 256);
     }
-    ewa_surfels *surfels = NULL;
-    assert_int_equal(ewa_surfels_create(cloud, NULL, &surfels), EWA_OK);
+    ewa_surfels *surfels = check_surfels(cloud, NULL);
     ewa_cloud_destroy(&cloud);
     return surfels;
 }
@@ -91,9 +87,7 @@ static void hold(ewa_context *context, const ewa_surfels *surfels, const ewa_ren
                  bool orthographic, const char *what) {
     ewa_renderer *renderer[2];
     planes to[2];
-    ewa_camera camera;
-    ewa_camera_init(&camera);
-    camera.width_px = camera.height_px = SIDE;
+    ewa_camera camera = check_camera(SIDE, SIDE);
     camera.fx_px = camera.fy_px = orthographic ? SIDE / 2.2 : 2 * SIDE;
     camera.cx_px = camera.cy_px = SIDE / 2 + 0.3;
     if (orthographic) camera.projection = EWA_ORTHOGRAPHIC;
@@ -130,8 +124,7 @@ TEST_ON(test_planes_do_not_depend_on_depths, 2) {
                                            clouds[c].every, clouds[c].times);
         for (size_t k = 0; k < sizeof kernels / sizeof kernels[0]; k++)
             for (int way = 0; way < 4; way++) {
-                ewa_render_options options;
-                ewa_render_options_init(&options, sizeof options);
+                WITH_DEFAULTS(ewa_render_options, options);
                 options.kernel = kernels[k];
                 options.shading = way & 1 ? EWA_SHADING_LAMBERT : EWA_SHADING_NONE;
                 char what[120];

@@ -37,17 +37,15 @@ static bool same_planes(const planes *a, const planes *b) {
 
 static ewa_surfels *make_surfels(ewa_context *context, far_kind kind, uint64_t count, ewa_bounds *bounds) {
     ewa_cloud *cloud = NULL;
-    ewa_surfels *surfels = NULL;
     assert_int_equal(far_make(context, kind, count, &cloud), EWA_OK);
     assert_int_equal(ewa_cloud_measure(cloud, bounds), EWA_OK);
-    assert_int_equal(ewa_surfels_create(cloud, NULL, &surfels), EWA_OK);
+    ewa_surfels *surfels = check_surfels(cloud, NULL);
     ewa_cloud_destroy(&cloud);
     return surfels;
 }
 
 static ewa_render_options options_of(uint32_t supersampling) {
-    ewa_render_options options;
-    ewa_render_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_render_options, options);
     assert_int_equal(options.supersampling, 1);
     options.supersampling = supersampling;
     return options;
@@ -55,8 +53,7 @@ static ewa_render_options options_of(uint32_t supersampling) {
 
 static void draw(ewa_context *context, const ewa_surfels *surfels, const ewa_camera *camera,
                  const ewa_render_options *options, const planes *to) {
-    ewa_renderer *renderer = NULL;
-    assert_int_equal(ewa_renderer_create(context, &renderer), EWA_OK);
+    ewa_renderer *renderer = check_renderer(context);
     assert_int_equal(ewa_render(renderer, surfels, camera, options, &to->frame, NULL), EWA_OK);
     ewa_renderer_destroy(&renderer);
 }
@@ -118,8 +115,7 @@ TEST(test_same_bytes_for_threads_bands_and_instruction_sets) {
         const planes whole = make_planes((size_t)TALL_PX * TALL_PX), bands = make_planes((size_t)TALL_PX * TALL_PX);
         camera.cy_px += 0.3;
         draw(context, surfels, &camera, &options, &whole);
-        ewa_renderer *renderer = NULL;
-        assert_int_equal(ewa_renderer_create(context, &renderer), EWA_OK);
+        ewa_renderer *renderer = check_renderer(context);
         for (uint32_t row = 0; row < TALL_PX; row += 128) {
             assert_int_equal(ewa_render_begin(renderer, &camera, &options, &bands.frame), EWA_OK);
             assert_int_equal(ewa_render_set_rows(renderer, row, row + 128 < TALL_PX ? row + 128 : TALL_PX), EWA_OK);
@@ -143,8 +139,7 @@ TEST_ON(test_bands_of_parts_end_where_they_should, 0) {
     enum { FINER = 8, WIDE_PX = 1030, HIGH_PX = 130, FIRST_PX = 128, ROW = WIDE_PX * FINER };
     ewa_bounds bounds;
     ewa_surfels *surfels = make_surfels(context, FAR_SPHERE, 5000, &bounds);
-    ewa_renderer *renderer = NULL;
-    assert_int_equal(ewa_renderer_create(context, &renderer), EWA_OK);
+    ewa_renderer *renderer = check_renderer(context);
     ewa_camera camera = far_camera(&bounds, 1, HIGH_PX, 1), fine = far_camera(&bounds, 1, HIGH_PX, FINER);
     camera.width_px = WIDE_PX, fine.width_px = ROW;
     camera.cy_px = HIGH_PX, fine.cy_px = HIGH_PX * FINER; // its middle is at the lower edge
@@ -176,12 +171,11 @@ TEST_ON(test_bands_of_parts_end_where_they_should, 0) {
 
 TEST_ON(test_reference_draws_the_same, 2) {
     ewa_cloud *cloud = NULL;
-    ewa_surfels *surfels = NULL;
     ewa_bounds bounds;
     ewa_surfels_info info;
     assert_int_equal(far_make(context, FAR_TOWN, 20000, &cloud), EWA_OK);
     assert_int_equal(ewa_cloud_measure(cloud, &bounds), EWA_OK);
-    assert_int_equal(ewa_surfels_create(cloud, NULL, &surfels), EWA_OK);
+    ewa_surfels *surfels = check_surfels(cloud, NULL);
     ewa_surfels_describe(surfels, &info);
     const ewa_camera camera = far_camera(&bounds, 2, SIDE_PX, 1);
     ewa_render_options options = options_of(4);
@@ -230,8 +224,7 @@ TEST(test_refused) {
     ewa_context *context = check_context(1, &log);
     ewa_bounds bounds;
     ewa_surfels *surfels = make_surfels(context, FAR_SPHERE, 100, &bounds);
-    ewa_renderer *renderer = NULL;
-    assert_int_equal(ewa_renderer_create(context, &renderer), EWA_OK);
+    ewa_renderer *renderer = check_renderer(context);
     const planes to = make_planes(PIXELS);
     ewa_camera camera = far_camera(&bounds, 1, SIDE_PX, 1);
     ewa_render_options options = options_of(9);
@@ -259,11 +252,10 @@ TEST(test_every_failing_allocation) {
         const int64_t before = memory.held_bytes;
         ewa_bounds bounds;
         ewa_surfels *surfels = make_surfels(context, FAR_SPHERE, 100, &bounds);
-        ewa_renderer *renderer = NULL;
         const planes to = make_planes(PIXELS);
         const ewa_camera camera = far_camera(&bounds, 1, SIDE_PX, 1);
         const ewa_render_options options = options_of(2);
-        assert_int_equal(ewa_renderer_create(context, &renderer), EWA_OK);
+        ewa_renderer *renderer = check_renderer(context);
         memory.calls_left = fail_at;
         const ewa_status status = ewa_render(renderer, surfels, &camera, &options, &to.frame, NULL);
         const bool failed = memory.calls_left < 0;

@@ -13,8 +13,7 @@
 static double dot(const double a[3], const double b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 static ewa_cloud *make_cloud(ewa_context *context, uint64_t count) {
-    ewa_cloud *cloud = NULL;
-    assert_int_equal(ewa_cloud_create(context, count, &cloud), EWA_OK);
+    ewa_cloud *cloud = check_cloud_of(context, count);
     return cloud;
 }
 
@@ -26,8 +25,7 @@ static void *add(ewa_cloud *cloud, const char *name, ewa_type type, uint32_t com
 
 static void open_reader(const ewa_cloud *cloud, double cutoff, double radius_scale,
                         ewa_surfel_reader *reader) {
-    ewa_surfels_options options;
-    ewa_surfels_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_surfels_options, options);
     options.cutoff = cutoff;
     options.radius_scale = radius_scale;
     assert_int_equal(ewa_surfel_reader_open(cloud, &options, reader), EWA_OK);
@@ -219,8 +217,7 @@ TEST(test_refused_clouds) {
         ewa_cloud *cloud = make_cloud(context, 1);
         for (int a = 0; a < 4 && rows[i].names[a]; a++)
             add(cloud, rows[i].names[a], EWA_F32, rows[i].components[a]);
-        ewa_surfels_options options;
-        ewa_surfels_options_init(&options, sizeof options);
+        WITH_DEFAULTS(ewa_surfels_options, options);
         ewa_surfel_reader reader;
         assert_int_equal(ewa_surfel_reader_open(cloud, &options, &reader), EWA_ERROR_ARGUMENT);
         if (!strstr(log.text, rows[i].message)) fail_msg("'%s' lacks \"%s\"", log.text, rows[i].message);

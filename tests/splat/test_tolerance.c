@@ -31,19 +31,15 @@ static void draw(ewa_context *context, ewa_kernel kernel, uint64_t count, const 
     const float position[6] = {0, 0, (float)CENTER, (float)(ray[0] * z), (float)(ray[1] * z), (float)z};
     const float normal[6] = {(float)sin(TILT), 0, (float)-cos(TILT), 0, 0, -1};
     const float radius[2] = {(float)RADIUS, 0.1f}, color[6] = {1, 0, 0, 0, 1, 0};
-    ewa_cloud *cloud = NULL;
-    assert_int_equal(ewa_cloud_create(context, count, &cloud), EWA_OK);
+    ewa_cloud *cloud = check_cloud_of(context, count);
     assert_int_equal(ewa_cloud_borrow(cloud, EWA_POSITION, EWA_F32, 3, position, 0), EWA_OK);
     assert_int_equal(ewa_cloud_borrow(cloud, EWA_NORMAL, EWA_F32, 3, normal, 0), EWA_OK);
     assert_int_equal(ewa_cloud_borrow(cloud, EWA_RADIUS, EWA_F32, 1, radius, 0), EWA_OK);
     assert_int_equal(ewa_cloud_borrow(cloud, EWA_COLOR, EWA_F32, 3, color, 0), EWA_OK);
-    ewa_camera camera;
-    ewa_camera_init(&camera);
-    camera.width_px = camera.height_px = SIDE_PX;
+    ewa_camera camera = check_camera(SIDE_PX, SIDE_PX);
     assert_int_equal(ewa_camera_set_fov(&camera, 2 * atan(SIDE_PX / 2 / FOCAL) * 180 / acos(-1)), EWA_OK);
     // Without a prefilter the tolerance is the radius.
-    ewa_render_options options;
-    ewa_render_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_render_options, options);
     options.kernel = kernel;
     options.prefilter_px = 0;
     options.edge_antialiasing = false;

@@ -32,10 +32,8 @@ static void hold_halves(scene_kind kind, const ewa_render_options *options, bool
     scene of;
     assert_int_equal(scene_make(context, kind, POINTS, SIDE, SIDE, &of), EWA_OK);
     if (clips) picture_add_clips(of.cloud);
-    ewa_surfels *surfels = NULL;
-    assert_int_equal(ewa_surfels_create(of.cloud, NULL, &surfels), EWA_OK);
-    ewa_renderer *renderer = NULL;
-    assert_int_equal(ewa_renderer_create(context, &renderer), EWA_OK);
+    ewa_surfels *surfels = check_surfels(of.cloud, NULL);
+    ewa_renderer *renderer = check_renderer(context);
     picture drawn[3];
     for (int i = 0; i < 3; i++) drawn[i] = picture_make(SIDE, SIDE);
     picture to[3] = {drawn[0], drawn[1], drawn[2]};
@@ -66,8 +64,7 @@ static void hold_halves(scene_kind kind, const ewa_render_options *options, bool
 }
 
 TEST(test_halves) {
-    ewa_render_options options;
-    ewa_render_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_render_options, options);
     options.background[0] = 0.3f, options.background[3] = 1; // no colour is divided by a small alpha
     for (scene_kind kind = 0; kind < SCENE_COUNT; kind++)
         hold_halves(kind, &options, false, false, "as it is");
@@ -91,14 +88,11 @@ TEST(test_halves) {
 /// A sheet of one colour across the picture, `z` before the eye.
 static ewa_surfels *make_sheet(ewa_context *context, double z, uint8_t red, uint8_t blue, double half_width) {
     enum { SHEET = 40 };
-    ewa_cloud *cloud = NULL;
-    float *position, *normal, *radius;
-    uint8_t *color;
-    assert_int_equal(ewa_cloud_create(context, SHEET * SHEET, &cloud), EWA_OK);
-    assert_int_equal(ewa_cloud_add(cloud, EWA_POSITION, EWA_F32, 3, (void **)&position), EWA_OK);
-    assert_int_equal(ewa_cloud_add(cloud, EWA_NORMAL, EWA_F32, 3, (void **)&normal), EWA_OK);
-    assert_int_equal(ewa_cloud_add(cloud, EWA_RADIUS, EWA_F32, 1, (void **)&radius), EWA_OK);
-    assert_int_equal(ewa_cloud_add(cloud, EWA_COLOR, EWA_U8, 3, (void **)&color), EWA_OK);
+    ewa_cloud *cloud = check_cloud_of(context, SHEET * SHEET);
+    float *position = check_add(cloud, EWA_POSITION, EWA_F32, 3);
+    float *normal = check_add(cloud, EWA_NORMAL, EWA_F32, 3);
+    float *radius = check_add(cloud, EWA_RADIUS, EWA_F32, 1);
+    uint8_t *color = check_add(cloud, EWA_COLOR, EWA_U8, 3);
     for (uint32_t i = 0; i < SHEET * SHEET; i++) {
         position[3 * i] = (float)(half_width * (2.0 * (i % SHEET) / (SHEET - 1) - 1));
         position[3 * i + 1] = (float)(2.0 * (i / SHEET) / (SHEET - 1) - 1);
@@ -107,8 +101,7 @@ static ewa_surfels *make_sheet(ewa_context *context, double z, uint8_t red, uint
         radius[i] = 0.08f;
         color[3 * i] = red, color[3 * i + 1] = 0, color[3 * i + 2] = blue;
     }
-    ewa_surfels *surfels = NULL;
-    assert_int_equal(ewa_surfels_create(cloud, NULL, &surfels), EWA_OK);
+    ewa_surfels *surfels = check_surfels(cloud, NULL);
     ewa_cloud_destroy(&cloud);
     return surfels;
 }
@@ -137,10 +130,8 @@ static void read_middle(const picture *from, double mean[2]) {
 TEST_ON(test_cross_fade, 0) {
     scene of = sheet_scene();
     ewa_surfels *red = make_sheet(context, 4, 255, 0, 1), *blue = make_sheet(context, 4, 0, 255, 1);
-    ewa_renderer *renderer = NULL;
-    assert_int_equal(ewa_renderer_create(context, &renderer), EWA_OK);
-    ewa_render_options options;
-    ewa_render_options_init(&options, sizeof options);
+    ewa_renderer *renderer = check_renderer(context);
+    WITH_DEFAULTS(ewa_render_options, options);
     options.shading = EWA_SHADING_NONE;
     picture drawn = picture_make(SIDE, SIDE);
     for (double t = 1.0 / 64; t < 1; t += 1.0 / 64) {
@@ -161,10 +152,8 @@ TEST_ON(test_hiding, 0) {
     scene of = sheet_scene();
     ewa_surfels *front = make_sheet(context, 3.5, 255, 0, 1), *back = make_sheet(context, 4, 0, 255, 0.7),
                 *far = make_sheet(context, 4.5, 255, 0, 1);
-    ewa_renderer *renderer = NULL;
-    assert_int_equal(ewa_renderer_create(context, &renderer), EWA_OK);
-    ewa_render_options options;
-    ewa_render_options_init(&options, sizeof options);
+    ewa_renderer *renderer = check_renderer(context);
+    WITH_DEFAULTS(ewa_render_options, options);
     options.shading = EWA_SHADING_NONE;
     picture drawn = picture_make(SIDE, SIDE), alone = picture_make(SIDE, SIDE);
     double mean[2];
@@ -226,8 +215,7 @@ static void hold_invariance(scene_kind kind, const ewa_render_options *options, 
             parts[count++] = (part){made.part[i], weight, i % 3 != 1};
             if (i % 2) parts[count++] = (part){made.part[i], 1 - weight, i % 3 == 1};
         }
-        ewa_renderer *renderer = NULL;
-        assert_int_equal(ewa_renderer_create(context, &renderer), EWA_OK);
+        ewa_renderer *renderer = check_renderer(context);
         ewa_renderer_set_tile(renderer, tiles_px[turn]);
         draw(renderer, &of, options, parts, count, &drawn[turn > 0]);
         if (turn > 0) picture_expect_same(&drawn[0], &drawn[1]);
@@ -240,8 +228,7 @@ static void hold_invariance(scene_kind kind, const ewa_render_options *options, 
 }
 
 TEST(test_invariance) {
-    ewa_render_options options;
-    ewa_render_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_render_options, options);
     for (scene_kind kind = 0; kind < SCENE_COUNT; kind++) hold_invariance(kind, &options, "as it is");
     options.kernel = EWA_KERNEL_RAYCAST;
     hold_invariance(SCENE_ELLIPSES, &options, "raycast");
@@ -259,8 +246,7 @@ TEST(test_refusals) {
     ewa_context *context = check_context(0, &log);
     scene of = sheet_scene();
     ewa_surfels *sheet = make_sheet(context, 4, 255, 0, 1);
-    ewa_renderer *renderer = NULL;
-    assert_int_equal(ewa_renderer_create(context, &renderer), EWA_OK);
+    ewa_renderer *renderer = check_renderer(context);
     assert_int_equal(ewa_render_add_weighted(renderer, sheet, 1), EWA_ERROR_ARGUMENT);
     picture drawn = picture_make(SIDE, SIDE);
     assert_int_equal(ewa_render_begin(renderer, &of.camera, NULL, &drawn.frame), EWA_OK);

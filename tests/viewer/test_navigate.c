@@ -25,9 +25,7 @@ static int end_context(void **state) {
 static ewa_camera random_camera(check_random *random, int trial) {
     static const double up_world[3] = {0, 0, 1};
     double eye_world[3], target_world[3];
-    ewa_camera camera;
-    ewa_camera_init(&camera);
-    camera.width_px = 640, camera.height_px = 480;
+    ewa_camera camera = check_camera(640, 480);
     assert_int_equal(ewa_camera_set_fov(&camera, check_uniform(random, 20, 80)), EWA_OK);
     if (trial & 1) assert_int_equal(ewa_camera_set_ortho(&camera, check_uniform(random, 1, 5)), EWA_OK);
     check_uniform3(random, 3, 9, eye_world);

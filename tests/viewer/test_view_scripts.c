@@ -72,22 +72,17 @@ static void save_gaussians(ewa_context *context) {
 static void take_photos(ewa_context *context, const ewa_cloud *ball) {
     enum { SIDE_PX = 120, VIEWS = 4 };
     static uint8_t rgba8[SIDE_PX * SIDE_PX * 4];
-    ewa_surfels *surfels = NULL;
-    ewa_renderer *renderer = NULL;
-    ewa_render_options options;
-    ewa_render_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_render_options, options);
     options.shading = EWA_SHADING_NONE;
-    assert_int_equal(ewa_surfels_create(ball, NULL, &surfels), EWA_OK);
-    assert_int_equal(ewa_renderer_create(context, &renderer), EWA_OK);
+    ewa_surfels *surfels = check_surfels(ball, NULL);
+    ewa_renderer *renderer = check_renderer(context);
     FILE *file = fopen("ball_photos.json", "w");
     assert_non_null(file);
     for (int i = 0; i < VIEWS; i++) {
         // Rows: right, down, ahead.
         const double x = i == 0 ? 1 : i == 2 ? -1 : 0, y = i == 1 ? 1 : i == 3 ? -1 : 0;
         const double rows[16] = {-y, x, 0, 0, 0, 0, -1, 0, -x, -y, 0, 4, 0, 0, 0, 1};
-        ewa_camera camera;
-        ewa_camera_init(&camera);
-        camera.width_px = camera.height_px = SIDE_PX;
+        ewa_camera camera = check_camera(SIDE_PX, SIDE_PX);
         camera.fx_px = camera.fy_px = 2 * SIDE_PX, camera.cx_px = camera.cy_px = SIDE_PX / 2.0;
         memcpy(camera.world_to_camera, rows, sizeof rows);
         assert_int_equal(ewa_render(renderer, surfels, &camera, &options, &(ewa_frame){.rgba8 = rgba8}, NULL), EWA_OK);
@@ -120,8 +115,7 @@ static void write_masks(ewa_context *context, const char *folder, int white_coun
 
 /// A ball without colours, photographs of it with some, and the two together as the program puts them.
 static void make_photos(ewa_context *context) {
-    ewa_generate_options options;
-    ewa_generate_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_generate_options, options);
     options.object = EWA_OBJECT_SPHERE;
     options.point_count = 4000;
     ewa_cloud *ball = NULL, *colored = NULL;
@@ -208,8 +202,7 @@ static int make_files(void **state) {
         "\"world_to_camera\": "
         "[1,0,0,0, 0,-0.6,-0.8,0, 0,0.8,-0.6,4, 0,0,0,1]}}");
     write_text("scene_circle.json", "{\"ewa_scene\": 1, \"items\": [{\"scene\": \"scene_circle.json\"}]}");
-    ewa_volume_generate_options volume_options;
-    ewa_volume_generate_options_init(&volume_options, sizeof volume_options);
+    WITH_DEFAULTS(ewa_volume_generate_options, volume_options);
     volume_options.object = EWA_VOLUME_BALL;
     for (int c = 0; c < 3; c++) volume_options.dims[c] = 32;
     ewa_volume volume;

@@ -80,20 +80,16 @@ TEST(still_pictures_are_the_renderers) {
         viewer_get_camera(v, &camera);
         // The same by the library alone.
         ewa_context *context = check_context(3, NULL);
-        ewa_generate_options object;
-        ewa_generate_options_init(&object, sizeof object);
+        WITH_DEFAULTS(ewa_generate_options, object);
         object.object = EWA_OBJECT_TORUS;
         object.point_count = CONTENTS_POINTS;
         ewa_cloud *cloud = NULL;
-        ewa_surfels *surfels = NULL;
-        ewa_renderer *renderer = NULL;
-        ewa_render_options options;
-        ewa_render_options_init(&options, sizeof options);
+        WITH_DEFAULTS(ewa_render_options, options);
         for (int c = 0; c < 4; c++) options.background[c] = 1;
         static uint8_t rgba8[4 * PIXELS];
         assert_int_equal(ewa_cloud_generate(context, &object, &cloud), EWA_OK);
-        assert_int_equal(ewa_surfels_create(cloud, NULL, &surfels), EWA_OK);
-        assert_int_equal(ewa_renderer_create(context, &renderer), EWA_OK);
+        ewa_surfels *surfels = check_surfels(cloud, NULL);
+        ewa_renderer *renderer = check_renderer(context);
         assert_int_equal(ewa_render(renderer, surfels, &camera, &options, &(ewa_frame){.rgba8 = rgba8}, NULL),
                          EWA_OK);
         assert_int_equal(picture.width_px, WIDTH);

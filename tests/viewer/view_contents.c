@@ -33,8 +33,7 @@ static void free_held(void *user) {
 }
 
 static bool make_cloud(ewa_context *context, const char *path, uint64_t count, ewa_cloud **cloud) {
-    ewa_generate_options options;
-    ewa_generate_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_generate_options, options);
     options.point_count = count;
     options.object = strcmp(path, "plane") == 0    ? EWA_OBJECT_PLANE
                      : strcmp(path, "sphere") == 0 ? EWA_OBJECT_SPHERE
@@ -43,15 +42,13 @@ static bool make_cloud(ewa_context *context, const char *path, uint64_t count, e
 }
 
 static bool make_volume(ewa_context *context, held *own) {
-    ewa_volume_generate_options options;
-    ewa_volume_generate_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_volume_generate_options, options);
     options.object = EWA_VOLUME_BALL;
     for (int c = 0; c < 3; c++) options.dims[c] = 24;
     ewa_volume volume;
     ewa_volume_facts facts;
     ewa_transfer transfer;
-    ewa_voxels_options levels;
-    ewa_voxels_options_init(&levels, sizeof levels);
+    WITH_DEFAULTS(ewa_voxels_options, levels);
     levels.level_count = VIEWER_VOXEL_LEVELS;
     if (ewa_volume_generate(context, &options, &volume) != EWA_OK) return false;
     const bool done = ewa_volume_measure(&volume, &facts) == EWA_OK &&

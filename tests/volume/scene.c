@@ -88,7 +88,8 @@ ewa_camera scene_camera(uint32_t width_px, uint32_t height_px, const double dire
     for (int axis = 0; axis < 3; axis++) eye[axis] = direction[axis] / length * distance;
     ewa_camera camera;
     ewa_camera_init(&camera);
-    camera.width_px = width_px, camera.height_px = height_px;
+    camera.width_px = width_px;
+    camera.height_px = height_px;
     require(ewa_camera_set_fov(&camera, 40), "camera");
     require(ewa_camera_look_at(&camera, eye, origin, up), "camera");
     return camera;

@@ -29,8 +29,7 @@ static ewa_gaussian_stats draw(const ewa_gaussians *set, const ewa_camera *camer
 }
 
 static ewa_gaussian_options options_of(ewa_gaussian_display display) {
-    ewa_gaussian_options options;
-    ewa_gaussian_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_gaussian_options, options);
     options.display = display;
     options.ellipsoid_radius = 1.5;
     options.dot_px = 5;

@@ -74,8 +74,7 @@ TEST_ON(test_integrals, 2) {
             {2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y)},
         };
         ewa_gaussians set = gaussians_one(context, center, scales, rotation, 0.9, white);
-        ewa_gaussian_options options;
-        ewa_gaussian_options_init(&options, sizeof options);
+        WITH_DEFAULTS(ewa_gaussian_options, options);
         options.prefilter_px2 = 0;
         options.minimum_alpha = 1e-4, options.cutoff = 5;
         ewa_image truth = draw_integrals(context, &camera, center, axes, scales, 0.9, options.minimum_alpha);
@@ -116,8 +115,7 @@ static ewa_image draw_turned(const ewa_gaussians *set, double degrees, bool by_c
     static const double origin[3] = {0, 0, 0}, axis[3] = {0, 1, 0}, from[3] = {0, 0.2, -1};
     ewa_camera camera = gaussians_camera(48, 48, 40, from, 4);
     assert_int_equal(ewa_camera_orbit(&camera, origin, axis, degrees), EWA_OK);
-    ewa_gaussian_options options;
-    ewa_gaussian_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_gaussian_options, options);
     options.order = by_centers ? EWA_ORDER_CENTER : EWA_ORDER_RAY;
     return gaussians_draw(set, &camera, &options, NULL);
 }

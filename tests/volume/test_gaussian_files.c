@@ -22,16 +22,13 @@ TEST(test_scenes) {
         ewa_splats_describe(splats, &info);
         if (info.splat_count > 1000) assert_true(info.resident_bytes < 200 * (size_t)info.splat_count);
         ewa_splats_destroy(&splats);
-        ewa_camera camera;
-        ewa_camera_init(&camera);
-        camera.width_px = 300, camera.height_px = 300;
+        ewa_camera camera = check_camera(300, 300);
         assert_int_equal(ewa_camera_set_fov(&camera, 40), EWA_OK);
         assert_int_equal(ewa_camera_frame(&camera, &info.core, (const double[3]){1, 0.2, 0.3},
                                           (const double[3]){0, -1, 0}, 0.05),
                          EWA_OK);
         for (int n = 0; n < 4; n++) {
-            ewa_gaussian_options options;
-            ewa_gaussian_options_init(&options, sizeof options);
+            WITH_DEFAULTS(ewa_gaussian_options, options);
             options.projection = (ewa_gaussian_projection)(n / 2);
             options.order = n % 2 ? EWA_ORDER_RAY : EWA_ORDER_CENTER;
             options.near_world = 0; // the three points' scene is small

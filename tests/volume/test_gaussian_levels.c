@@ -94,8 +94,7 @@ TEST_ON(only_large_sets, 2) {
 
 TEST(same_bytes) {
     float *first = NULL;
-    ewa_gaussian_options options;
-    ewa_gaussian_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_gaussian_options, options);
     options.merge_px = 1;
     for (uint32_t threads = 1; threads < 4; threads += 2) {
         ewa_context *context = check_context(threads, NULL);

@@ -10,8 +10,7 @@
 static const double FRONT[3] = {0.3, 0.2, -1}, ROUND[4] = {1, 0, 0, 0};
 
 static ewa_gaussian_options options_of(ewa_gaussian_projection projection) {
-    ewa_gaussian_options options;
-    ewa_gaussian_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_gaussian_options, options);
     options.projection = projection;
     return options;
 }

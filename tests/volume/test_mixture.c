@@ -430,8 +430,7 @@ static void take(void *user, void *memory, size_t size_bytes) {
 
 TEST(test_allocator) {
     own_thread own = {.caller = pthread_self()};
-    ewa_context_options chosen;
-    ewa_context_options_init(&chosen, sizeof chosen);
+    WITH_DEFAULTS(ewa_context_options, chosen);
     chosen.thread_count = 4;
     chosen.allocator = (ewa_allocator){.user = &own, .allocate = give, .release = take};
     ewa_context *context;

@@ -39,8 +39,7 @@ static size_t count_apart(const planes *a, const planes *b, const bool *left_out
 /// A scan of a ball of radius 0.8, by ewa_render().
 static void draw_scan_by(ewa_context *context, const ewa_camera *camera, const ewa_render_options *how,
                          planes *to) {
-    ewa_generate_options options;
-    ewa_generate_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_generate_options, options);
     options.object = EWA_OBJECT_SPHERE;
     options.point_count = 4000;
     options.size_world = 1.6;
@@ -58,15 +57,13 @@ static void draw_scan_by(ewa_context *context, const ewa_camera *camera, const e
 }
 
 static void draw_scan(ewa_context *context, const ewa_camera *camera, double opacity, planes *to) {
-    ewa_render_options how;
-    ewa_render_options_init(&how, sizeof how);
+    WITH_DEFAULTS(ewa_render_options, how);
     how.opacity = opacity;
     draw_scan_by(context, camera, &how, to);
 }
 
 static ewa_gaussian_options options_over(const planes *surface) {
-    ewa_gaussian_options options;
-    ewa_gaussian_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_gaussian_options, options);
     if (!surface) return options;
     options.surface_depth = surface->depth, options.surface_rgba = surface->rgba;
     options.surface_normal = surface->normal, options.surface_coverage = surface->coverage;
@@ -87,8 +84,7 @@ static void draw_set(const ewa_gaussians *set, const ewa_camera *camera, const e
 static void draw_voxels(ewa_context *context, const ewa_voxels *voxels, const ewa_camera *camera,
                         const ewa_gaussian_options *like, const ewa_frame *frame) {
     ewa_volume_renderer *renderer;
-    ewa_volume_options options;
-    ewa_volume_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_volume_options, options);
     options.surface_depth = like->surface_depth, options.surface_rgba = like->surface_rgba;
     options.surface_normal = like->surface_normal, options.surface_coverage = like->surface_coverage;
     assert_int_equal(ewa_volume_renderer_create(context, &renderer), EWA_OK);
@@ -356,8 +352,7 @@ TEST_ON(test_volume_reference, 2) {
     const ewa_gaussian_options options = options_over(&surface);
     const ewa_frame frame = frame_of(&out), reference = frame_of(&slow);
     draw_voxels(context, voxels, &camera, &options, &frame);
-    ewa_volume_options plain;
-    ewa_volume_options_init(&plain, sizeof plain);
+    WITH_DEFAULTS(ewa_volume_options, plain);
     plain.surface_depth = surface.depth, plain.surface_rgba = surface.rgba;
     plain.surface_normal = surface.normal, plain.surface_coverage = surface.coverage;
     assert_int_equal(ewa_volume_render_reference(&volume, &transfer, &camera, &plain, &reference), EWA_OK);
@@ -466,8 +461,7 @@ TEST(test_bytes) {
 /// before a wall darkens the wall beside it.
 TEST_ON(test_eye_dome, 2) {
     static planes whole, plain;
-    ewa_render_options how;
-    ewa_render_options_init(&how, sizeof how);
+    WITH_DEFAULTS(ewa_render_options, how);
     const float background[4] = {0.2f, 0.5f, 0.9f, 0.75f};
     for (int n = 0; n < 2; n++) {
         ewa_camera camera = gaussians_camera(WIDTH, HEIGHT, 40, SLANTED, 3);

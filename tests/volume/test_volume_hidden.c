@@ -65,8 +65,7 @@ TEST(test_open_pixels) {
                 camera.projection = EWA_ORTHOGRAPHIC;
                 camera.fx_px = camera.fy_px = n < 12 ? 1 : 1.5;
             }
-            ewa_volume_options options;
-            ewa_volume_options_init(&options, sizeof options);
+            WITH_DEFAULTS(ewa_volume_options, options);
             options.shading = EWA_SHADING_PHONG;
             options.minimum_transmittance = 0.3;
             ewa_volume_stats stats[2];
@@ -100,8 +99,7 @@ TEST_ON(test_part_of_block, 1) {
         camera.world_to_camera[11] = 100;
         camera.fx_px = camera.fy_px = splats ? 3 : 1;
         camera.cx_px = camera.cy_px = splats ? 32 : 20; // whole cells are covered; within one tile
-        ewa_volume_options options;
-        ewa_volume_options_init(&options, sizeof options);
+        WITH_DEFAULTS(ewa_volume_options, options);
         options.method = splats ? EWA_VOLUME_SPLATS : EWA_VOLUME_POINTS;
         ewa_volume_stats stats;
         ewa_image image = draw(context, voxels, &camera, &options, &stats);

@@ -60,8 +60,7 @@ TEST_ON(test_blob, 2) {
         const bool ortho = view & 1, far = view & 2;
         ewa_camera camera = scene_camera(SIDE, SIDE, DIRECTION, far ? 150 : 60);
         if (ortho) assert_int_equal(ewa_camera_set_ortho(&camera, far ? 100 : 40), EWA_OK);
-        ewa_volume_options options;
-        ewa_volume_options_init(&options, sizeof options);
+        WITH_DEFAULTS(ewa_volume_options, options);
         options.prefilter_px = 0, options.cutoff = 4, options.minimum_transmittance = 0;
         ewa_image image = scene_draw(context, voxels, &camera, &options);
         const double s2 = q * q + options.sigma * options.sigma, peak = kappa * q * q * q / s2 * sqrt(2 * PI);
@@ -97,8 +96,7 @@ TEST_ON(test_marched, 2) {
         largest = fmax(largest, truth[i]);
     }
     for (int index = EWA_INDEX_EXACT; index <= EWA_INDEX_TABLE; index++) {
-        ewa_volume_options options;
-        ewa_volume_options_init(&options, sizeof options);
+        WITH_DEFAULTS(ewa_volume_options, options);
         options.method = EWA_VOLUME_SPLATS, options.index = (ewa_volume_index)index;
         options.prefilter_px = 0, options.cutoff = 4, options.minimum_transmittance = 0;
         ewa_image image = scene_draw(context, voxels, &camera, &options);

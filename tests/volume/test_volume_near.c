@@ -13,8 +13,7 @@
 static const double UNIT[3] = {1, 1, 1};
 
 static ewa_volume_options defaults(void) {
-    ewa_volume_options options;
-    ewa_volume_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_volume_options, options);
     options.minimum_transmittance = 0;
     return options;
 }
@@ -24,9 +23,7 @@ static ewa_camera camera_at(uint32_t width_px, uint32_t height_px, const double 
                             double fov_deg) {
     static const double up[3] = {0, 1, 0};
     const double target[3] = {eye[0] + ahead[0], eye[1] + ahead[1], eye[2] + ahead[2]};
-    ewa_camera camera;
-    ewa_camera_init(&camera);
-    camera.width_px = width_px, camera.height_px = height_px;
+    ewa_camera camera = check_camera(width_px, height_px);
     assert_int_equal(ewa_camera_set_fov(&camera, fov_deg), EWA_OK);
     assert_int_equal(ewa_camera_look_at(&camera, eye, target, up), EWA_OK);
     camera.cx_px += 3.25, camera.cy_px -= 1.5;

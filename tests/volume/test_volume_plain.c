@@ -46,9 +46,7 @@ static ewa_transfer make_transfer(colors look) {
 static ewa_camera make_camera(int view) {
     static const double eyes[3][3] = {{7, 5, 11}, {0.7, -0.4, 1.1}, {-9, 6, 8}};
     static const double targets[3][3] = {{0.5, -0.3, 0}, {2, -1.5, -3}, {0, 0, 0}}, up[3] = {0.1, 1, 0.2};
-    ewa_camera camera;
-    ewa_camera_init(&camera);
-    camera.width_px = WIDTH, camera.height_px = HEIGHT;
+    ewa_camera camera = check_camera(WIDTH, HEIGHT);
     assert_int_equal(ewa_camera_set_fov(&camera, view == 1 ? 95 : 75), EWA_OK);
     if (view == 2) assert_int_equal(ewa_camera_set_ortho(&camera, 14), EWA_OK);
     assert_int_equal(ewa_camera_look_at(&camera, eyes[view], targets[view], up), EWA_OK);
@@ -60,8 +58,7 @@ static ewa_camera make_camera(int view) {
 }
 
 static ewa_volume_options make_options(void) {
-    ewa_volume_options options;
-    ewa_volume_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_volume_options, options);
     options.method = EWA_VOLUME_SPLATS;
     options.minimum_transmittance = 0;
     options.prefilter_px = 0;

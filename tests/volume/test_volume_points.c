@@ -13,8 +13,7 @@ enum { SIDE = 24, PIXELS = SIDE * SIDE };
 static const double UNIT[3] = {1, 1, 1};
 
 static ewa_volume_options defaults(void) {
-    ewa_volume_options options;
-    ewa_volume_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_volume_options, options);
     options.minimum_transmittance = 0;
     return options;
 }
@@ -48,9 +47,7 @@ static void expect(const char *what, double value, double wanted, double toleran
 /// A camera that looks along z at the origin from `distance`, with a focal length, and a picture whose middle
 /// is moved.
 static ewa_camera look(double distance, double focal_px, double shift_px) {
-    ewa_camera camera;
-    ewa_camera_init(&camera);
-    camera.width_px = camera.height_px = SIDE;
+    ewa_camera camera = check_camera(SIDE, SIDE);
     camera.world_to_camera[11] = distance;
     camera.fx_px = camera.fy_px = focal_px;
     camera.cx_px = 0.5 * SIDE + shift_px, camera.cy_px = 0.5 * SIDE - 0.5 * shift_px;
@@ -159,8 +156,7 @@ TEST_ON(test_levels, 1) {
         middle[0] += extinction * (i % 4 - 1.5), middle[1] += extinction * (i / 4 % 4 - 1.5);
         all += extinction;
     }
-    ewa_voxels_options voxels_options;
-    ewa_voxels_options_init(&voxels_options, sizeof voxels_options);
+    WITH_DEFAULTS(ewa_voxels_options, voxels_options);
     voxels_options.level_count = 3;
     ewa_voxels *voxels;
     assert_int_equal(ewa_voxels_create(&volume, &transfer, &voxels_options, &voxels), EWA_OK);

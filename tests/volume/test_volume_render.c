@@ -12,8 +12,7 @@
 static const double UNIT[3] = {1, 1, 1};
 
 static ewa_volume_options defaults(void) {
-    ewa_volume_options options;
-    ewa_volume_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_volume_options, options);
     return options;
 }
 
@@ -316,8 +315,7 @@ TEST_ON(test_levels, 2) {
     const double sigma = 9;
     ewa_volume volume = scene_volume(context, dims, UNIT, scene_blob, &sigma);
     const ewa_transfer transfer = scene_linear(0.2f, 0.5f, 0.9f, 0.1f);
-    ewa_voxels_options voxels_options;
-    ewa_voxels_options_init(&voxels_options, sizeof voxels_options);
+    WITH_DEFAULTS(ewa_voxels_options, voxels_options);
     voxels_options.level_count = 3;
     ewa_voxels *voxels;
     assert_int_equal(ewa_voxels_create(&volume, &transfer, &voxels_options, &voxels), EWA_OK);

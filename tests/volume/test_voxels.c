@@ -45,8 +45,7 @@ TEST_ON(test_types_and_holes, 2) {
     transfer.points[1] = (ewa_transfer_point){100, {1, 0, 0}, 1};
     static const ewa_type types[] = {EWA_U8, EWA_I8, EWA_U16, EWA_I16, EWA_F32};
     const ewa_camera camera = scene_camera(60, 60, DIRECTION, 60);
-    ewa_volume_options options;
-    ewa_volume_options_init(&options, sizeof options);
+    WITH_DEFAULTS(ewa_volume_options, options);
     ewa_image first = {0};
     for (int t = 0; t < 5; t++) {
         ewa_volume volume;
@@ -195,8 +194,7 @@ TEST(test_bad_options) {
     const ewa_camera camera = scene_camera(8, 8, DIRECTION, 20);
     float pixels[4 * 8 * 8];
     ewa_frame frame = {.rgba = pixels};
-    ewa_volume_options good;
-    ewa_volume_options_init(&good, sizeof good);
+    WITH_DEFAULTS(ewa_volume_options, good);
     for (int i = 0; i < 14; i++) {
         ewa_volume_options bad = good;
         switch (i) {
@@ -325,8 +323,7 @@ TEST_ON(test_odd_views, 2) {
         for (int view = 0; view < 12; view++) {
             ewa_camera camera = scene_camera(70, 50, DIRECTION, distances[view % 6]);
             if (view >= 6) assert_int_equal(ewa_camera_set_ortho(&camera, distances[view % 6]), EWA_OK);
-            ewa_volume_options options;
-            ewa_volume_options_init(&options, sizeof options);
+            WITH_DEFAULTS(ewa_volume_options, options);
             options.shading = EWA_SHADING_PHONG;
             options.method = (ewa_volume_method)(view % 3);
             ewa_image image = scene_draw(context, voxels, &camera, &options);
