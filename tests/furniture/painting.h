@@ -24,6 +24,13 @@ static inline const uint8_t *painting_at(const ewa_canvas *canvas, uint32_t x, u
     return canvas->rgba8 + 4 * ((size_t)y * canvas->width_px + x);
 }
 
+/// Fills the pixels from one corner up to another, which does not belong to them.
+static inline void painting_fill(const ewa_canvas *canvas, uint32_t left, uint32_t top, uint32_t right, uint32_t bottom,
+                                 const uint8_t rgba[4]) {
+    for (uint32_t y = top; y < bottom; y++)
+        for (uint32_t x = left; x < right; x++) memcpy(canvas->rgba8 + 4 * ((size_t)y * canvas->width_px + x), rgba, 4);
+}
+
 /// Sum of all pixels' coverage.
 static inline double painting_area(const ewa_canvas *canvas) {
     double sum = 0;

@@ -416,9 +416,7 @@ TEST(test_scale_bar_ground) {
         ewa_furniture_options options = no_furniture();
         options.scale_bar = true;
         options.pixel_scale = 1;
-        for (uint32_t y = 681; y < 706; y++)
-            for (uint32_t x = 1166; x < 1266; x++)
-                memcpy(canvas.rgba8 + 4 * (y * 1280 + x), inside ? black : white, 4);
+        painting_fill(&canvas, 1166, 681, 1266, 706, inside ? black : white);
         draw(&canvas, &camera, &options);
         const uint8_t *ink = painting_at(&canvas, 1166 + 50, 705);
         assert_true(inside ? ink[0] > 240 : ink[0] < 40);
@@ -449,10 +447,8 @@ TEST(test_looks) {
         for (uint32_t y = 0; y < 300; y++)
             for (uint32_t x = 0; x < 300; x++)
                 if (((rows ? y : x) + 2) % 3 == 0) memcpy(canvas.rgba8 + 4 * (y * 300 + x), black, 4);
-        const ewa_box box = {40, 40, 168, 168};
-        assert_true(ewa_layout_inks(&layout, &box).ink[0] > 240);
-        const ewa_box beside = {41, 41, 169, 169};
-        assert_true(ewa_layout_inks(&layout, &beside).ink[0] < 40);
+        assert_true(ewa_layout_inks(&layout, &(ewa_box){40, 40, 168, 168}).ink[0] > 240);
+        assert_true(ewa_layout_inks(&layout, &(ewa_box){41, 41, 169, 169}).ink[0] < 40); // the box beside
         free(canvas.rgba8);
     }
 }
@@ -465,9 +461,7 @@ TEST(test_title_and_legend_places) {
     options.title = "Title";
     options.pixel_scale = 1;
     const double half_px = ewa_text_width_px("Title", 18) / 2;
-    for (uint32_t y = 14; y < 32; y++)
-        for (uint32_t x = (uint32_t)(200 - half_px); x < 200 + half_px; x++)
-            memcpy(canvas.rgba8 + 4 * (y * 400 + x), black, 4);
+    painting_fill(&canvas, (uint32_t)(200 - half_px), 14, (uint32_t)ceil(200 + half_px), 32, black);
     draw(&canvas, &camera, &options);
     uint32_t bright = 0; // a rim is less white than ink
     for (uint32_t y = 16; y < 30; y++)

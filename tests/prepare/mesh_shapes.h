@@ -88,4 +88,17 @@ static inline ewa_cloud *shape_sample(const ewa_mesh *mesh, const ewa_mesh_sampl
     return cloud;
 }
 
+static inline const float *shape_stream(const ewa_cloud *cloud, const char *name) {
+    const ewa_attribute *attribute = ewa_cloud_find(cloud, name);
+    assert_non_null(attribute);
+    assert_int_equal(attribute->type, EWA_F32);
+    return attribute->data;
+}
+
+static inline ewa_mesh_sample_options shape_options(uint64_t point_count) {
+    WITH_DEFAULTS(ewa_mesh_sample_options, options);
+    options.point_count = point_count;
+    return options;
+}
+
 #endif

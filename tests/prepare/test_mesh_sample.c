@@ -5,19 +5,6 @@
 #include "io/scratch.h"
 #include "mesh_shapes.h"
 
-static const float *stream(const ewa_cloud *cloud, const char *name) {
-    const ewa_attribute *attribute = ewa_cloud_find(cloud, name);
-    assert_non_null(attribute);
-    assert_int_equal(attribute->type, EWA_F32);
-    return attribute->data;
-}
-
-static ewa_mesh_sample_options options_of(uint64_t point_count) {
-    WITH_DEFAULTS(ewa_mesh_sample_options, options);
-    options.point_count = point_count;
-    return options;
-}
-
 static int face_of(const float *normal) {
     for (int c = 0; c < 3; c++)
         if (fabsf(normal[c]) > 0.999f) return 2 * c + (normal[c] > 0);
@@ -30,12 +17,12 @@ TEST(test_cube_points) {
     ewa_context *context = check_context(1, NULL), *many = check_context(5, NULL);
     ewa_mesh mesh;
     shape_cube(context, &mesh);
-    const ewa_mesh_sample_options options = options_of(6000);
+    const ewa_mesh_sample_options options = shape_options(6000);
     ewa_cloud *cloud = shape_sample(&mesh, &options);
     const uint64_t count = ewa_cloud_point_count(cloud);
     assert_in_range(count, 5700, 6300);
     double *p = shape_places(cloud);
-    const float *n = stream(cloud, EWA_NORMAL), *u = stream(cloud, EWA_TANGENT_U);
+    const float *n = shape_stream(cloud, EWA_NORMAL), *u = shape_stream(cloud, EWA_TANGENT_U);
     const double radius = 3 * sqrt((double)(u[0] * u[0] + u[1] * u[1] + u[2] * u[2])), spacing = radius / 1.6;
     uint64_t of_face[6] = {0}, inner = 0;
     bool *is_inner = calloc(count, 1);
@@ -82,8 +69,8 @@ TEST(test_cube_points) {
 
 /// Whether a place of the plane of point i is kept by its lines.
 static bool keeps(const ewa_cloud *cloud, const double *p, uint64_t i, const double at[3]) {
-    const float *u = stream(cloud, EWA_TANGENT_U) + 3 * i, *v = stream(cloud, EWA_TANGENT_V) + 3 * i;
-    const float *lines[2] = {stream(cloud, EWA_CLIP0) + 3 * i, stream(cloud, EWA_CLIP1) + 3 * i};
+    const float *u = shape_stream(cloud, EWA_TANGENT_U) + 3 * i, *v = shape_stream(cloud, EWA_TANGENT_V) + 3 * i;
+    const float *lines[2] = {shape_stream(cloud, EWA_CLIP0) + 3 * i, shape_stream(cloud, EWA_CLIP1) + 3 * i};
     const bool either = ((const uint8_t *)ewa_cloud_find(cloud, EWA_CLIP_MODE)->data)[i];
     double a = 0, b = 0, uu = 0, vv = 0;
     bool kept[2];
@@ -125,15 +112,15 @@ static void hold_outline(void (*make)(ewa_context *, ewa_mesh *), outline *insid
     ewa_context *context = check_context(0, NULL);
     ewa_mesh mesh;
     make(context, &mesh);
-    const ewa_mesh_sample_options options = options_of(4000);
+    const ewa_mesh_sample_options options = shape_options(4000);
     ewa_cloud *cloud = shape_sample(&mesh, &options);
     check_random random = {5};
     double *p = shape_places(cloud);
-    const float *n = stream(cloud, EWA_NORMAL), *u = stream(cloud, EWA_TANGENT_U),
-                *v = stream(cloud, EWA_TANGENT_V);
+    const float *n = shape_stream(cloud, EWA_NORMAL), *u = shape_stream(cloud, EWA_TANGENT_U),
+                *v = shape_stream(cloud, EWA_TANGENT_V);
     uint64_t lines[3] = {0};
     for (uint64_t i = 0; i < ewa_cloud_point_count(cloud); i++) {
-        const float *clips[2] = {stream(cloud, EWA_CLIP0) + 3 * i, stream(cloud, EWA_CLIP1) + 3 * i};
+        const float *clips[2] = {shape_stream(cloud, EWA_CLIP0) + 3 * i, shape_stream(cloud, EWA_CLIP1) + 3 * i};
         lines[(clips[0][0] != 0 || clips[0][1] != 0) + (clips[1][0] != 0 || clips[1][1] != 0)]++;
         for (int k = 0; k < 20; k++) {
             const double a = check_uniform(&random, -3, 3), b = check_uniform(&random, -3, 3);
@@ -162,13 +149,13 @@ TEST(test_angle_lines) { hold_outline(shape_angle, angle_outline); }
 TEST_ON(test_sphere, 0) {
     ewa_mesh mesh;
     shape_sphere(context, 32, &mesh);
-    const ewa_mesh_sample_options options = options_of(5000);
+    const ewa_mesh_sample_options options = shape_options(5000);
     ewa_cloud *cloud = shape_sample(&mesh, &options);
     assert_null(ewa_cloud_find(cloud, EWA_CLIP0));
     assert_null(ewa_cloud_find(cloud, EWA_TANGENT_U));
     assert_non_null(ewa_cloud_find(cloud, EWA_RADIUS));
     double *p = shape_places(cloud);
-    const float *n = stream(cloud, EWA_NORMAL);
+    const float *n = shape_stream(cloud, EWA_NORMAL);
     for (uint64_t i = 0; i < ewa_cloud_point_count(cloud); i++) {
         const double *a = p + 3 * i, length = sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]);
         const float *b = n + 3 * i;
@@ -181,7 +168,7 @@ TEST_ON(test_sphere, 0) {
     mesh.triangle_count /= 2; // the upper half
     cloud = shape_sample(&mesh, &options);
     p = shape_places(cloud);
-    const float *clip = stream(cloud, EWA_CLIP0), *u = stream(cloud, EWA_TANGENT_U);
+    const float *clip = shape_stream(cloud, EWA_CLIP0), *u = shape_stream(cloud, EWA_TANGENT_U);
     const float reach = 3 * sqrtf(u[0] * u[0] + u[1] * u[1] + u[2] * u[2]);
     uint64_t clipped = 0;
     for (uint64_t i = 0; i < ewa_cloud_point_count(cloud); i++) {
@@ -193,90 +180,6 @@ TEST_ON(test_sphere, 0) {
     assert_true(clipped > 100);
     mesh.triangle_count *= 2;
     ewa_cloud_destroy(&cloud);
-    ewa_mesh_free(&mesh);
-}
-
-TEST_ON(test_colors, 0) {
-    static const double positions[12] = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0};
-    static const float texcoords[8] = {0, 0, 1, 0, 1, 1, 0, 1};
-    static const uint32_t triangles[6] = {0, 1, 2, 0, 2, 3};
-    ewa_mesh mesh;
-    assert_int_equal(ewa_mesh_create(context, 4, 2, 1, EWA_MESH_COLORS | EWA_MESH_TEXCOORDS, &mesh), EWA_OK);
-    memcpy(mesh.positions, positions, sizeof positions);
-    memcpy(mesh.texcoords, texcoords, sizeof texcoords);
-    memcpy(mesh.triangles, triangles, sizeof triangles);
-    for (int i = 0; i < 16; i++) mesh.colors[i] = i % 4 == 1 ? 0.5f : 1;
-    for (int c = 0; c < 4; c++) mesh.materials[0].base_color[c] = 1;
-    // Left half black, right half white; rows from the top: the upper right quarter is red.
-    assert_int_equal(ewa_image_create(context, 64, 64, 3, &mesh.textures[0]), EWA_OK);
-    float *pixels = mesh.textures[0].pixels;
-    for (int i = 0; i < 64 * 64; i++)
-        for (int c = 0; c < 3; c++) pixels[3 * i + c] = i % 64 >= 32 && (c == 0 || i / 64 >= 32) ? 1 : 0;
-    ewa_mesh_sample_options options = options_of(400);
-    options.texture_filter = EWA_TEXTURE_EWA;
-    ewa_cloud *cloud = shape_sample(&mesh, &options);
-    assert_null(ewa_cloud_find(cloud, EWA_TEXCOORD));
-    const ewa_attribute *color = ewa_cloud_find(cloud, EWA_COLOR);
-    assert_int_equal(color->component_count, 3);
-    const float *p = stream(cloud, EWA_POSITION);
-    for (uint64_t i = 0; i < ewa_cloud_point_count(cloud); i++) {
-        const float *rgb = (const float *)color->data + 3 * i;
-        const float x = p[3 * i], y = p[3 * i + 1];
-        if (fabsf(x - 0.5f) < 0.1f || fabsf(y - 0.5f) < 0.1f || x < 0.1f || x > 0.9f || y < 0.1f || y > 0.9f)
-            continue;
-        assert_float_equal(rgb[0], x > 0.5f ? 1 : 0, 1e-5);
-        assert_float_equal(rgb[1], x > 0.5f && y < 0.5f ? 0.5 : 0, 1e-5); // linear light
-        assert_float_equal(rgb[2], x > 0.5f && y < 0.5f ? 1 : 0, 1e-5);
-    }
-    ewa_cloud_destroy(&cloud);
-    mesh.materials[0].base_color[3] = 0.5f;
-    cloud = shape_sample(&mesh, &options);
-    color = ewa_cloud_find(cloud, EWA_COLOR);
-    assert_int_equal(color->component_count, 4);
-    assert_float_equal(((const float *)color->data)[3], 0.5, 1e-6);
-    ewa_cloud_destroy(&cloud);
-    ewa_mesh_free(&mesh);
-}
-
-/// A picture in place of materials and vertex colours; its coordinates stay when asked for.
-TEST_ON(test_picture, 0) {
-    static const double positions[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
-    static const float texcoords[6] = {0, 0, 1, 0, 0, 1};
-    ewa_mesh mesh;
-    ewa_image picture;
-    assert_int_equal(ewa_mesh_create(context, 3, 1, 2, EWA_MESH_COLORS | EWA_MESH_TEXCOORDS, &mesh), EWA_OK);
-    memcpy(mesh.positions, positions, sizeof positions);
-    memcpy(mesh.texcoords, texcoords, sizeof texcoords);
-    for (uint32_t i = 0; i < 3; i++) mesh.triangles[i] = i;
-    assert_int_equal(ewa_image_create(context, 4, 4, 3, &picture), EWA_OK);
-    for (int i = 0; i < 48; i++) picture.pixels[i] = 0.25f;
-    assert_int_equal(ewa_mesh_set_picture(&mesh, &picture), EWA_OK);
-    assert_null(picture.pixels);
-    assert_null(mesh.colors);
-    ewa_mesh_sample_options options = options_of(400);
-    options.texcoords = true;
-    ewa_cloud *cloud = shape_sample(&mesh, &options);
-    const ewa_attribute *color = ewa_cloud_find(cloud, EWA_COLOR);
-    assert_int_equal(color->component_count, 3);
-    assert_non_null(ewa_cloud_find(cloud, EWA_TEXTURE));
-    const float *at = stream(cloud, EWA_TEXCOORD), *by_s = stream(cloud, EWA_TEXCOORD_S),
-                *p = stream(cloud, EWA_POSITION);
-    for (uint64_t i = 0; i < ewa_cloud_point_count(cloud); i++) {
-        assert_float_equal(((const float *)color->data)[3 * i], 0.25, 1e-5);
-        assert_float_equal(at[2 * i], p[3 * i], 1e-6);
-        assert_float_equal(at[2 * i + 1], p[3 * i + 1], 1e-6);
-        assert_float_equal(by_s[3 * i], 1, 1e-6);
-        assert_float_equal(by_s[3 * i + 1], 0, 1e-6);
-    }
-    ewa_cloud_destroy(&cloud);
-    ewa_mesh_free(&mesh);
-
-    shape_cube(context, &mesh); // no coordinates to put one on
-    assert_int_equal(ewa_image_create(context, 4, 4, 3, &picture), EWA_OK);
-    assert_int_equal(ewa_mesh_set_picture(&mesh, &picture), EWA_ERROR_ARGUMENT);
-    assert_non_null(picture.pixels);
-    assert_int_equal(ewa_mesh_sample(&mesh, &options, &cloud), EWA_ERROR_ARGUMENT);
-    ewa_image_free(&picture);
     ewa_mesh_free(&mesh);
 }
 
@@ -294,16 +197,16 @@ TEST(test_bad_meshes) {
     ewa_context *context = check_context(0, &log);
     ewa_mesh mesh;
     shape_cube(context, &mesh);
-    ewa_mesh_sample_options options = options_of(1000);
+    ewa_mesh_sample_options options = shape_options(1000);
     options.crease_degrees = 181;
     refuse(&mesh, &options, &log, EWA_ERROR_ARGUMENT, "crease_degrees is 181");
-    options = options_of(0);
+    options = shape_options(0);
     refuse(&mesh, &options, &log, EWA_ERROR_ARGUMENT, "point_count is 0");
     options.spacing_world = NAN;
     refuse(&mesh, &options, &log, EWA_ERROR_ARGUMENT, "spacing_world is nan");
     options.spacing_world = 1e-12;
     refuse(&mesh, &options, &log, EWA_ERROR_LIMIT, "a spacing of 1e-12 gives");
-    options = options_of(1000);
+    options = shape_options(1000);
     mesh.triangles[7] = 8;
     refuse(&mesh, &options, &log, EWA_ERROR_ARGUMENT, "triangle 2 has vertex 8, there are 8");
     mesh.triangles[7] = 3;
@@ -338,7 +241,7 @@ TEST_ON(test_soup, 0) {
         for (int i = 0; i < 120; i++)
             mesh.positions[i] = size * check_uniform(&random, -1, 1) * (i < 60 ? 1 : 1e-3);
         for (int i = 0; i < 180; i++) mesh.triangles[i] = (uint32_t)(check_random_u64(&random) % 40);
-        const ewa_mesh_sample_options options = options_of(2000);
+        const ewa_mesh_sample_options options = shape_options(2000);
         ewa_cloud *cloud = shape_sample(&mesh, &options);
         assert_true(ewa_cloud_point_count(cloud) > 200);
         for (uint32_t a = 0; a < ewa_cloud_attribute_count(cloud); a++) {
@@ -378,7 +281,7 @@ TEST_ON(test_map_coordinates, 0) {
         // Multiples of 2^-20, which all the shifts keep.
         for (uint32_t i = 0; i < 3 * mesh.vertex_count; i++)
             mesh.positions[i] = round(mesh.positions[i] * 0x1p20) * 0x1p-20;
-        const ewa_mesh_sample_options options = options_of(3000);
+        const ewa_mesh_sample_options options = shape_options(3000);
         ewa_cloud *near = shape_sample(&mesh, &options);
         for (size_t s = 0; s < sizeof shifts / sizeof shifts[0]; s++) {
             double origin[2][3];
@@ -404,11 +307,11 @@ TEST_ON(test_far_parts, 0) {
     const double apart = 1e5;
     for (uint32_t i = 0; i < 72; i++) mesh.triangles[i] = cube.triangles[i % 36] + i / 36 * 8;
     for (uint32_t i = 0; i < 48; i++) mesh.positions[i] = cube.positions[i % 24] + (i >= 24 ? apart : 0);
-    const ewa_mesh_sample_options options = options_of(4000);
+    const ewa_mesh_sample_options options = shape_options(4000);
     ewa_cloud *cloud = shape_sample(&mesh, &options);
     assert_int_equal(ewa_cloud_find(cloud, EWA_POSITION)->type, EWA_F64);
     double *p = shape_places(cloud);
-    const float *n = stream(cloud, EWA_NORMAL);
+    const float *n = shape_stream(cloud, EWA_NORMAL);
     uint64_t far = 0;
     for (uint64_t i = 0; i < ewa_cloud_point_count(cloud); i++) {
         const int face = face_of(n + 3 * i);
@@ -431,7 +334,7 @@ TEST_ON(test_far_parts, 0) {
 TEST_ON(test_copies, 0) {
     ewa_mesh cube, mesh;
     shape_cube(context, &cube);
-    const ewa_mesh_sample_options options = options_of(3000);
+    const ewa_mesh_sample_options options = shape_options(3000);
     ewa_cloud *once = shape_sample(&cube, &options);
     // Each triangle five times, begun at other corners, through vertices of their own.
     assert_int_equal(ewa_mesh_create(context, 40, 60, 0, 0, &mesh), EWA_OK);
@@ -450,7 +353,7 @@ TEST_ON(test_copies, 0) {
         mesh.triangles[i + 1] = kept;
     }
     ewa_cloud *both = shape_sample(&mesh, &options);
-    const float *n = stream(both, EWA_NORMAL);
+    const float *n = shape_stream(both, EWA_NORMAL);
     double *p = shape_places(both);
     uint64_t outward = 0;
     for (uint64_t i = 0; i < ewa_cloud_point_count(both); i++) {
@@ -481,13 +384,13 @@ TEST_ON(test_given_normals, 0) {
         mesh.normals[3 * v + 2] = 2;
     }
     for (int kind = 0; kind < 4; kind++) {
-        ewa_mesh_sample_options options = options_of(400);
+        ewa_mesh_sample_options options = shape_options(400);
         if (kind == 1) options.smooth_normals = false;
         if (kind == 2) options.crease_degrees = 20;
         if (kind == 3) memset(mesh.normals + 6, 0, 3 * sizeof(float)); // one is missing
         ewa_cloud *cloud = shape_sample(&mesh, &options);
-        const float *n = stream(cloud, EWA_NORMAL), *u = stream(cloud, EWA_TANGENT_U),
-                    *v = stream(cloud, EWA_TANGENT_V);
+        const float *n = shape_stream(cloud, EWA_NORMAL), *u = shape_stream(cloud, EWA_TANGENT_U),
+                    *v = shape_stream(cloud, EWA_TANGENT_V);
         double *p = shape_places(cloud);
         for (uint64_t i = 0; i < ewa_cloud_point_count(cloud); i++) {
             const double x = 2 * p[3 * i] - 1, wanted = kind ? 0 : x / sqrt(x * x + 4);
@@ -515,7 +418,7 @@ static ewa_status sample_all(ewa_context *context, void *user) {
     for (int i = 0; i < 8; i++) mesh.texcoords[i] = (float)positions[i / 2 * 3 + i % 2];
     status = ewa_image_create(context, 4, 4, 3, &mesh.textures[0]);
     ewa_cloud *cloud = NULL;
-    const ewa_mesh_sample_options options = options_of(100);
+    const ewa_mesh_sample_options options = shape_options(100);
     if (status == EWA_OK) status = ewa_mesh_sample(&mesh, &options, &cloud);
     assert_true((status == EWA_OK) == (cloud != NULL));
     ewa_cloud_destroy(&cloud);
@@ -541,58 +444,6 @@ TEST(test_needle) {
     ewa_context_destroy(&context);
 }
 
-/// A quad of two triangles for each of `count` materials, which all have the picture shared.png; OBJ.
-static void write_atlas(const char *name, int count) {
-    char path[512], text[8192] = "mtllib shared.mtl\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n", materials[4096] = "";
-    for (int i = 0; i < count; i++) {
-        const size_t length = strlen(text), more = strlen(materials);
-        snprintf(text + length, sizeof text - length,
-                 "v %d 0 0\nv %d.5 0 0\nv %d.5 1 0\nv %d 1 0\nusemtl m%d\nf -4/1 -3/2 -2/3 -1/4\n", i, i, i, i, i);
-        snprintf(materials + more, sizeof materials - more, "newmtl m%d\nmap_Kd shared.png\n", i);
-    }
-    scratch_write(scratch_path(name, path), text, strlen(text));
-    scratch_write(scratch_path("shared.mtl", path), materials, strlen(materials));
-}
-
-/// The most memory that loading and sampling an atlas takes.
-static int64_t peak_of(int material_count) {
-    char path[512];
-    check_memory held = {.calls_left = -1};
-    WITH_DEFAULTS(ewa_context_options, options);
-    options.thread_count = 1;
-    options.allocator = check_allocator(&held);
-    ewa_context *context = NULL;
-    assert_int_equal(ewa_context_create(&options, &context), EWA_OK);
-    write_atlas("atlas.obj", material_count);
-    ewa_mesh mesh;
-    assert_int_equal(ewa_mesh_load(context, scratch_path("atlas.obj", path), &mesh), EWA_OK);
-    assert_int_equal(mesh.material_count, material_count);
-    const ewa_mesh_sample_options sampling = options_of(2000);
-    ewa_cloud *cloud = shape_sample(&mesh, &sampling);
-    const float *color = stream(cloud, EWA_COLOR);
-    for (uint64_t i = 0; i < ewa_cloud_point_count(cloud); i++) // every material shows the picture: grey
-        if (!(fabsf(color[3 * i] - 0.2158605f) < 1e-3f)) fail_msg("point %d: %g", (int)i, (double)color[3 * i]);
-    ewa_cloud_destroy(&cloud);
-    ewa_mesh_free(&mesh);
-    ewa_context_destroy(&context);
-    assert_int_equal(held.held_bytes, 0);
-    return held.peak_bytes;
-}
-
-/// A picture that many materials have is held once, with its smaller copies.
-TEST(test_shared_picture) {
-    enum { SIDE = 512 };
-    static uint8_t pixels[SIDE * SIDE * 3];
-    char path[512];
-    memset(pixels, 128, sizeof pixels);
-    ewa_context *context = check_context(1, NULL);
-    assert_int_equal(
-        ewa_png_save(context, scratch_path("shared.png", path), SIDE, SIDE, 3, pixels, 3 * SIDE), EWA_OK);
-    ewa_context_destroy(&context);
-    const int64_t one = peak_of(1), many = peak_of(20);
-    if (many > one + one / 10) fail_msg("%lld bytes for 20 materials, %lld for one", (long long)many, (long long)one);
-}
-
 static int by_value(const void *a, const void *b) {
     const double x = *(const double *)a, y = *(const double *)b;
     return (x > y) - (x < y);
@@ -608,7 +459,7 @@ TEST(test_thin_strip) {
         const double places[12] = {0, 0, 0, length, 0, 0, length, width, 0, 0, width, 0};
         ewa_mesh mesh;
         shape_fill(context, 4, places, 2, (const uint32_t[]){0, 1, 2, 0, 2, 3}, &mesh);
-        const ewa_mesh_sample_options options = options_of(1000);
+        const ewa_mesh_sample_options options = shape_options(1000);
         ewa_cloud *cloud = shape_sample(&mesh, &options);
         const uint64_t count = ewa_cloud_point_count(cloud);
         assert_in_range(count, 500, 2000);
