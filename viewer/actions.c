@@ -31,13 +31,16 @@ static const viewer_action actions[] = {
     {"File", "Save picture", "shot", "save the picture as ewa-0001.png and so on", F + 12, 0, VIEWER_ICON_PICTURE},
     {"File", "Save without background", "shot transparent", "save the picture with a transparent background", F + 12,
      CTRL, VIEWER_ICON_NONE},
+    {"File", "Save selection...", "cut", "write what is selected to a file, with all that its file says of it", 0, 0, VIEWER_ICON_NONE},
+    {"File", "Save measurements...", "measure save", "write measurements and notes to a table (.csv)", 0, 0, VIEWER_ICON_NONE},
+    {"File", "Save profile...", "profile save", "write the profile's graph (.png, .jpg) or its points (.csv, .las, ...)", 0, 0, VIEWER_ICON_NONE},
     {"File", "Copy camera", "camera copy", "copy the camera as the JSON that --camera reads", 'c', CTRL,
      VIEWER_ICON_NONE},
     {"File", "Paste camera", "camera paste", "look from where a copied camera is", 'v', CTRL, VIEWER_ICON_NONE},
     {"File", "Quit", "quit", "end", 'q', CTRL, VIEWER_ICON_NONE},
 
-    {"Edit", "Undo", "undo", "as it was before the last change; cameras stay", 'z', CTRL, VIEWER_ICON_NONE},
-    {"Edit", "Redo", "redo", "the change that was undone, again", 'y', CTRL, VIEWER_ICON_NONE},
+    {"Edit", "Undo", "undo", "as it was before the last change; cameras stay", 'z', CTRL, VIEWER_ICON_UNDO},
+    {"Edit", "Redo", "redo", "the change that was undone, again", 'y', CTRL, VIEWER_ICON_REDO},
 
     {"View", "Home", "view reset", "all of it, as at first", VIEWER_KEY_ENTER, 0, VIEWER_ICON_HOME},
     {"View", "Front", "view front", "from the front", '1', 0, VIEWER_ICON_FRONT},
@@ -63,8 +66,7 @@ static const viewer_action actions[] = {
     {"Look", "Colours", "color next", "colours: the file's, then each attribute", 's', 0, VIEWER_ICON_NONE},
     {"Look", "Colour map", "colormap next", "the next colour map", 'm', 0, VIEWER_ICON_NONE},
     {"Look", "Colour bar", "next color_bar", "the numbers of the colours, at the side", 'b', 0, VIEWER_ICON_NONE},
-    {"Look", "Photographs...", "photos", "give the first points that are shown the colours of photographs, whose cameras are chosen", 'y', 0,
-     VIEWER_ICON_PHOTOS},
+    {"Look", "Photographs...", "photos", "colours from photographs, whose cameras are chosen", 'y', 0, VIEWER_ICON_PHOTOS},
     {"Look", "Shading", "next shading", "shading: none, lambert or phong", 'l', 0, VIEWER_ICON_NONE},
     {"Look", "Eye-dome lighting", "dome next", "eye-dome lighting: darker where depths step", 'e', 0, VIEWER_ICON_NONE},
     {"Look", "Kernel", "next kernel", "the next kernel of splats", 'n', 0, VIEWER_ICON_NONE},
@@ -89,6 +91,7 @@ static const viewer_action actions[] = {
     {"Tools", "Select by lasso", "select lasso", "draw a line around points", 'u', CTRL, VIEWER_ICON_LASSO},
     {"Tools", "Select by polygon", "select polygon", "click corners around points; a double click closes", 'j', 0,
      VIEWER_ICON_POLYGON},
+    {"Tools", "Select in the clip box", "select box clip", "what is in the clip box", 0, 0, VIEWER_ICON_NONE},
     {"Tools", "Hide", "hide", "hide the selected points", 'i', 0, VIEWER_ICON_HIDE},
     {"Tools", "Keep", "keep", "show the selected points alone", 'i', CTRL, VIEWER_ICON_KEEP},
     {"Tools", "Show all", "unhide", "show all that was hidden", 'o', 0, VIEWER_ICON_SHOW},
@@ -109,6 +112,14 @@ enum { ACTION_COUNT = sizeof actions / sizeof actions[0] };
 _Static_assert((int)ACTION_COUNT <= (int)VIEWER_MAX_ACTIONS, "each action has room for a key");
 
 const viewer_action *viewer_action_at(uint32_t index) { return index < ACTION_COUNT ? &actions[index] : NULL; }
+
+bool viewer_action_begins_group(const viewer_action *action) {
+    static const char *const first[] = {"scene save", "cut", "camera copy", "quit", "ortho next", "zoom 1", "turn -5 0", "fullscreen next", "photos",
+                                        "radius 0.8", "next axes", "box next", "select rectangle", "hide", "transform move", "keyframe add", "clear"};
+    for (size_t i = 0; i < sizeof first / sizeof first[0]; i++)
+        if (strcmp(action->command, first[i]) == 0) return action->menu != NULL;
+    return false;
+}
 
 static const struct {
     int key;
@@ -209,7 +220,7 @@ bool viewer_action_choice(const viewer *v, const viewer_action *action, char tex
 bool viewer_help_at(const viewer *v, uint32_t index, viewer_help *row) {
     const uint32_t gesture_count = sizeof gestures / sizeof gestures[0];
     if (index < gesture_count) {
-        *row = (viewer_help){.what = gestures[index].help};
+        *row = (viewer_help){.heading = "Mouse", .what = gestures[index].help};
         snprintf(row->keys, sizeof row->keys, "%s", gestures[index].gesture);
         return true;
     }
@@ -217,7 +228,7 @@ bool viewer_help_at(const viewer *v, uint32_t index, viewer_help *row) {
     const viewer_action *action;
     for (uint32_t i = 0; (action = viewer_action_at(i)); i++) {
         if (!action->menu || !(action->key || actions_key(v, action).key) || index-- > 0) continue;
-        *row = (viewer_help){.action = action, .what = action->help};
+        *row = (viewer_help){.action = action, .heading = action->menu, .what = action->help};
         char keys[VIEWER_KEYS_BYTES];
         viewer_action_keys(v, action, keys);
         snprintf(row->keys, sizeof row->keys, "%s", keys);
@@ -229,6 +240,8 @@ bool viewer_help_at(const viewer *v, uint32_t index, viewer_help *row) {
 bool viewer_act(viewer *v, const viewer_action *action) {
     if (!viewer_do(v, action->command)) return false;
     char value[EWA_OPTION_TEXT_BYTES];
-    if (action->label && commands_value(v, action, value)) viewer_note(v, "%s: %s", action->label, value);
+    if (!action->label || !commands_value(v, action, value)) return true;
+    const bool nothing = strcmp(action->command, "next color_bar") == 0 && v->furniture.color_bar && !overlay_has_color_bar(v);
+    viewer_note(v, "%s: %s%s", action->label, value, nothing ? ", once something has the colours of an attribute" : "");
     return true;
 }

@@ -70,20 +70,29 @@ static bool is_help(const viewer *v) { return v->state.help; }
 static bool is_panels(const viewer *v) { return v->state.panels; }
 static bool is_fullscreen(const viewer *v) { return v->state.fullscreen; }
 
-/// Has the window ask for what a command goes without.
-static bool ask(viewer *v, viewer_question question) {
+bool commands_ask(viewer *v, viewer_question question) {
     v->state.question = question;
     return true;
 }
 
+void commands_put_away(viewer *v) {
+    v->selection.tool = SELECT_OFF;
+    v->selection.corner_count = 0;
+    v->selection.pressed = false; // the button may be held: an outline that was begun is given up
+    v->transform = (viewer_transform){.tool = TRANSFORM_OFF};
+    v->measures = v->measures_kind = false;
+    v->measuring.count = 0;
+    viewer_mark(v);
+}
+
 static bool do_open(viewer *v, const char *rest) {
-    if (!rest[0]) return ask(v, VIEWER_ASKS_OPEN);
+    if (!rest[0]) return commands_ask(v, VIEWER_ASKS_OPEN);
     v->state.question = VIEWER_ASKS_NOTHING;
     return items_open(v, rest);
 }
 
 static bool do_scene(viewer *v, const char *rest) {
-    if (strcmp(rest, "save") == 0) return ask(v, VIEWER_ASKS_SAVE_SCENE);
+    if (strcmp(rest, "save") == 0) return commands_ask(v, VIEWER_ASKS_SAVE_SCENE);
     v->state.question = VIEWER_ASKS_NOTHING;
     return shot_scene(v, rest);
 }
@@ -384,7 +393,9 @@ static bool do_cancel(viewer *v, const char *rest) {
 
 static bool do_measure(viewer *v, const char *rest) {
     const bool is_switch = strcmp(rest, "on") == 0 || strcmp(rest, "off") == 0 || strcmp(rest, "next") == 0;
-    v->measures_kind = v->measures_kind && !is_switch;
+    const bool before = v->measures;
+    if (is_switch) commands_put_away(v);
+    if (is_switch) v->measures = before;
     return is_switch ? read_switch(v, "measure", rest, v->measures, &v->measures) : measures_command(v, rest);
 }
 

@@ -83,10 +83,12 @@ static ewa_status save_volume(viewer *v, const char *path, uint64_t *count) {
 
 bool select_cut(viewer *v, const char *path) {
     const viewer_selection *s = &v->selection;
-    if (!s->given || !*path) {
-        viewer_tell(v, *path ? "cut: nothing is selected" : "cut: wants the name of a file");
+    v->state.question = VIEWER_ASKS_NOTHING;
+    if (!s->given) {
+        viewer_tell(v, "cut: nothing is selected");
         return false;
     }
+    if (!*path) return commands_ask(v, VIEWER_ASKS_CUT);
     ewa_scene_info info;
     ewa_scene_describe(v->scene, &info);
     const bool points = s->count || info.octrees, centers = s->center_count > 0;
@@ -102,6 +104,6 @@ bool select_cut(viewer *v, const char *path) {
     else if (!count)
         viewer_tell(v, "cut: none of the %s is selected", what);
     else
-        viewer_say(v, "cut %llu %s to %s", (unsigned long long)count, what, path);
+        viewer_say(v, "cut %llu %s to %s", (unsigned long long)count, what, path), viewer_note(v, "%s", v->said);
     return status == EWA_OK && count;
 }

@@ -293,6 +293,8 @@ bool pick_item(viewer *v, double x, double y, double reach, size_t *index, doubl
 /// Picks the point there and says what it is; `second`: measures from the first.
 bool pick_point(viewer *v, double x, double y, bool second);
 void pick_clear(viewer *v);
+/// Copies what was picked or measured last as text.
+void pick_copy(viewer *v);
 /// Writes a coordinate with the digits that it was stored with.
 void pick_write_number(char text[40], double number, bool is_float);
 
@@ -316,6 +318,8 @@ bool profile_do(viewer *v, const char *rest);
 /// Takes the profile along the line that is set.
 bool profile_take(viewer *v);
 /// Draws the graph over the lower part of a picture whose points are `scale` pixels.
+/// The share of the picture's width that the graph leaves free at the bottom, on the left.
+double profile_free_width(const viewer *v);
 void profile_draw(viewer *v, const ewa_canvas *canvas, double scale);
 void profile_free(viewer *v);
 
@@ -424,6 +428,11 @@ bool commands_take_item(viewer *v, const char *command, const char **rest, size_
 /// name.
 bool commands_value(const viewer *v, const viewer_action *action, char text[EWA_OPTION_TEXT_BYTES]);
 
+/// Has the window ask for what a command leaves out.
+bool commands_ask(viewer *v, viewer_question question);
+/// The hand holds one tool: puts away what it held.
+void commands_put_away(viewer *v);
+
 // pointer.c, keys.c
 void pointer_handle(viewer *v, const viewer_event *event);
 void keys_handle(viewer *v, const viewer_event *event);
@@ -439,6 +448,8 @@ bool shot_scene(viewer *v, const char *rest);
 void viewer_scene(const viewer *v, paint_scene *scene);
 
 // overlay.c
+/// Whether something is shown in colours that the colour bar tells.
+bool overlay_has_color_bar(const viewer *v);
 /// Draws furniture in an ink, and marks, over a picture of a camera.
 void overlay_draw(viewer *v, const ewa_camera *camera, ewa_ink ink, uint8_t *rgba8);
 

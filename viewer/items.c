@@ -562,6 +562,7 @@ bool viewer_item_get(const viewer *v, size_t index, viewer_item *item) {
                           .volume = asset && info.kind == EWA_ASSET_VOLUME,
                           .gaussians = asset && info.kind == EWA_ASSET_GAUSSIANS,
                           .mesh = asset && info.kind == EWA_ASSET_MESH,
+                          .octree = asset && info.kind == EWA_ASSET_OCTREE,
                           .count = info.count,
                           .coloring = from->coloring};
     memcpy(item->name, from->name, sizeof item->name);

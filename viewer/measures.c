@@ -84,7 +84,12 @@ static bool finish(viewer *v) {
     const ewa_measure measure = v->measuring;
     v->measuring.count = 0;
     viewer_mark(v);
-    return add(v, &measure, "");
+    if (!add(v, &measure, "")) return false;
+    char text[VIEWER_NAME_BYTES];
+    measures_value(v, &v->measure_list[v->measure_count - 1], text);
+    pick_copy(v);
+    viewer_note(v, measure.kind == EWA_MEASURE_NOTE ? "%s: its text is written in the panel" : "%s, copied as text", text);
+    return true;
 }
 
 bool measures_click(viewer *v, const viewer_event *event) {
@@ -93,7 +98,9 @@ bool measures_click(viewer *v, const viewer_event *event) {
     if (event->clicks >= 2 && !WHOLE[measure->kind]) return finish(v); // the first of both clicks has added the place
     if (event->clicks >= 2 || measure->count == EWA_MEASURE_PLACES || !pick_point(v, event->x, event->y, false)) return true;
     memcpy(measure->places_world + 3 * measure->count, v->picks[0].place_world, sizeof v->picks[0].place_world);
-    if (++measure->count == WHOLE[measure->kind]) finish(v);
+    v->picks[0].given = false; // the place is the measurement's now
+    viewer_note(v, "measure: %u of %s", ++measure->count, WHOLE[measure->kind] ? WHOLE[measure->kind] == 2 ? "two places" : "three places" : "as many places as there are; a double click ends it");
+    if (measure->count == WHOLE[measure->kind] && finish(v) && measure->kind == EWA_MEASURE_NOTE) v->state.noted_count++;
     return true;
 }
 
@@ -178,8 +185,12 @@ static bool rename_measure(viewer *v, const char *rest) {
 static bool begin(viewer *v, ewa_measure_kind kind, const char *rest) {
     ewa_measure measure = {.kind = kind};
     if (!*rest) {
-        v->measures_kind = true;
+        const bool again = v->measures_kind && v->measuring.kind == kind;
+        commands_put_away(v);
+        v->measures_kind = !again;
         v->measuring = measure;
+        if (again) viewer_note(v, "measure: put away");
+        if (again) return true;
         viewer_note(v, "measure: click %s", WHOLE[kind] == 1   ? "a place; the list of measures takes its text"
                                             : WHOLE[kind] == 2 ? "two places"
                                             : WHOLE[kind] == 3 ? "three places, the angle's in the middle"
@@ -231,6 +242,12 @@ bool measures_command(viewer *v, const char *rest) {
         if (strlen(kind) == length && strncmp(rest, kind, length) == 0) return begin(v, (ewa_measure_kind)k, behind);
     if (strncmp(rest, "name ", 5) == 0) return rename_measure(v, behind);
     if (strncmp(rest, "delete ", 7) == 0) return delete_measures(v, behind);
+    v->state.question = VIEWER_ASKS_NOTHING;
+    if (strcmp(rest, "save") == 0 && v->measure_count) return commands_ask(v, VIEWER_ASKS_SAVE_MEASURES);
+    if (strcmp(rest, "save") == 0) {
+        viewer_tell(v, "measure: there is none to be saved");
+        return false;
+    }
     if (strncmp(rest, "save ", 5) == 0) return save(v, behind);
     if (strcmp(rest, "done") == 0) return finish(v);
     viewer_tell(v,

@@ -159,13 +159,22 @@ static void draw_picks(const overlay *o, const viewer *v) {
     }
 }
 
+/// Whether an item has colours that a bar can tell.
+static bool has_bar(const scene_item *item) { return item->visible && !ewa_coloring_is_own(item->coloring.attribute); }
+
+bool overlay_has_color_bar(const viewer *v) {
+    bool has = false;
+    for (size_t i = 0; i < v->item_count; i++) has = has || has_bar(&v->items[i]);
+    return has;
+}
+
 /// The colour bar is that of the first visible cloud that is coloured by an attribute.
 static void set_color_bar(const viewer *v, ewa_category categories[VIEWER_MAX_CLASSES],
                           ewa_furniture_options *furniture) {
     furniture->color_bar = false;
     for (size_t i = 0; i < v->item_count; i++) {
         const scene_item *item = &v->items[i];
-        if (!item->visible || ewa_coloring_is_own(item->coloring.attribute)) continue;
+        if (!has_bar(item)) continue;
         furniture->color_bar = true;
         const viewer_coloring *coloring = &item->coloring;
         const bool chosen = coloring->map != EWA_COLORING_AUTO && coloring->map != EWA_COLORING_CLASSES;

@@ -156,7 +156,7 @@ static void describe_measure(viewer *v) {
              b[2] - a[2], horizontal, rise, m.slope_deg);
 }
 
-static void copy_picked(viewer *v) {
+void pick_copy(viewer *v) {
     if (v->services.clipboard_set) v->services.clipboard_set(v->services.user, v->state.picked);
     snprintf(v->clipboard, sizeof v->clipboard, "%s", v->state.picked);
 }
@@ -182,7 +182,7 @@ bool pick_point(viewer *v, double x, double y, bool second) {
         describe_measure(v);
     else
         v->picks[1].given = false;
-    copy_picked(v);
+    pick_copy(v);
     viewer_note(v, "%s, and copied as text", second ? "measured" : "picked");
     viewer_mark(v);
     return true;

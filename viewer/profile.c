@@ -93,16 +93,22 @@ static bool read_width(viewer *v, const char *text) {
     return true;
 }
 
-/// Along the two places of a measure.
+/// Along the two places that were picked, else along the last way that was measured.
 static bool take_picks(viewer *v, const char *width) {
-    if (!v->picks[0].given || !v->picks[1].given) {
-        viewer_tell(v, "profile: pick two points first: click, and click with Shift");
+    const ewa_measure *way = NULL;
+    for (size_t i = 0; i < v->measure_count; i++)
+        if (v->measure_list[i].kind == EWA_MEASURE_DISTANCE) way = &v->measure_list[i];
+    const bool picked = v->picks[0].given && v->picks[1].given;
+    if (!picked && !way) {
+        viewer_tell(v, "profile: measure first: click, and click with Shift, or measure a way");
         return false;
     }
     if (!read_width(v, width)) return false;
-    for (int k = 0; k < 2; k++)
-        memcpy(v->profile.corners_world + 3 * k, v->picks[k].place_world, sizeof v->picks[k].place_world);
-    v->profile.corner_count = 2;
+    viewer_profile *profile = &v->profile;
+    for (int k = 0; k < 2 && picked; k++)
+        memcpy(profile->corners_world + 3 * k, v->picks[k].place_world, sizeof v->picks[k].place_world);
+    if (!picked) memcpy(profile->corners_world, way->places_world, 3 * way->count * sizeof *way->places_world);
+    profile->corner_count = picked ? 2 : way->count;
     return profile_take(v);
 }
 
@@ -115,15 +121,19 @@ static bool draw_graph(viewer *v, uint32_t width_px, uint32_t height_px, double 
 
 /// Saves the graph or, by the suffix, the points.
 static bool save(viewer *v, const char *rest) {
-    char path[VIEWER_PATH_BYTES], size[32] = "", end;
+    char path[VIEWER_PATH_BYTES], end;
     uint32_t width_px = FILE_WIDTH_PX, height_px = FILE_HEIGHT_PX;
-    const int got = sscanf(rest, "%4095s %31s", path, size);
-    if (!v->profile.shown || got < 1 ||
-        (got == 2 && (sscanf(size, "%ux%u%c", &width_px, &height_px, &end) != 2 || !width_px || !height_px ||
-                      width_px > MAX_SIDE_PX || height_px > MAX_SIDE_PX))) {
+    // A size may stand behind; else blanks are the name's.
+    const char *last = strrchr(rest, ' ');
+    const bool sized = last && sscanf(last, " %ux%u%c", &width_px, &height_px, &end) == 2;
+    const size_t length = sized ? (size_t)(last - rest) : strlen(rest);
+    v->state.question = VIEWER_ASKS_NOTHING;
+    if (v->profile.shown && !*rest) return commands_ask(v, VIEWER_ASKS_SAVE_PROFILE);
+    if (!v->profile.shown || !length || length >= sizeof path || !width_px || !height_px || width_px > MAX_SIDE_PX || height_px > MAX_SIDE_PX) {
         viewer_tell(v, v->profile.shown ? "profile: '%s' is not save FILE [WxH]" : "profile: there is none to be saved", rest);
         return false;
     }
+    snprintf(path, sizeof path, "%.*s", (int)length, rest);
     const char *dot = strrchr(path, '.');
     const bool picture = dot && (strcmp(dot, ".png") == 0 || strcmp(dot, ".jpg") == 0 || strcmp(dot, ".jpeg") == 0);
     v->probe.message[0] = 0;
@@ -142,7 +152,7 @@ static bool save(viewer *v, const char *rest) {
         viewer_tell(v, "%s: the profile cannot be saved: %s", path,
                     v->probe.message[0] ? v->probe.message : ewa_status_name(status));
     else
-        viewer_say(v, "profile %s", path);
+        viewer_say(v, "profile %s", path), viewer_note(v, "profile saved: %s", path);
     return status == EWA_OK;
 }
 
@@ -171,6 +181,8 @@ bool profile_do(viewer *v, const char *rest) {
     v->profile.corner_count = corner_count;
     return profile_take(v);
 }
+
+double profile_free_width(const viewer *v) { return v->profile.shown ? 1 - GRAPH_WIDTH : 1; }
 
 void profile_draw(viewer *v, const ewa_canvas *canvas, double scale) {
     viewer_profile *profile = &v->profile;

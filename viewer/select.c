@@ -149,11 +149,10 @@ static bool set_tool(viewer *v, const char *word) {
     for (int k = 0; k < 4; k++)
         if (strcmp(word, tools[k]) == 0) {
             // A second time, it is put away.
-            v->selection.tool = (int)v->selection.tool == k ? SELECT_OFF : (select_tool)k;
-            v->selection.corner_count = 0;
-            v->selection.pressed = false; // the button may be held: an outline that was begun with another tool is given up
+            const select_tool tool = (int)v->selection.tool == k ? SELECT_OFF : (select_tool)k;
+            commands_put_away(v);
+            v->selection.tool = tool;
             viewer_note(v, v->selection.tool ? "select: draw a %s around what is meant" : "select: %s", tools[v->selection.tool]);
-            viewer_mark(v);
             return true;
         }
     return false;

@@ -137,9 +137,10 @@ bool transform_command(viewer *v, const char *rest) {
     for (int tool = TRANSFORM_OFF; tool <= TRANSFORM_SCALE; tool++)
         if (strcmp(rest, tools[tool]) == 0) {
             // Once more puts it back.
-            v->transform = (viewer_transform){.tool = v->transform.tool == (transform_tool)tool ? TRANSFORM_OFF : (transform_tool)tool};
-            if (v->transform.tool) v->selection.tool = SELECT_OFF, v->measures_kind = false;
-            viewer_mark(v);
+            const transform_tool chosen = v->transform.tool == (transform_tool)tool ? TRANSFORM_OFF : (transform_tool)tool;
+            commands_put_away(v);
+            v->transform.tool = chosen;
+            viewer_note(v, chosen ? "%s: drag something" : "%s: put away", tools[tool]);
             return true;
         }
     size_t index;

@@ -479,6 +479,7 @@ void viewer_get_camera(const viewer *v, ewa_camera *camera) { *camera = v->camer
 void viewer_get_state(const viewer *v, viewer_state *state) {
     *state = v->state;
     state->flying = v->fly_keys != 0;
+    state->free_width = profile_free_width(v);
     state->learns = v->learns;
     state->keyframes = v->film.key_count;
     state->keyframe_at = v->film.at;

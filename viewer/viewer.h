@@ -243,6 +243,8 @@ typedef enum viewer_icon {
     VIEWER_ICON_FILM,
     VIEWER_ICON_CLEAR,
     VIEWER_ICON_HELP,
+    VIEWER_ICON_UNDO,
+    VIEWER_ICON_REDO,
     VIEWER_ICON_COUNT,
 } viewer_icon;
 
@@ -259,6 +261,8 @@ typedef struct viewer_action {
 
 /// NULL beyond the last.
 const viewer_action *viewer_action_at(uint32_t index);
+/// Whether a line stands before the row in its menu, and before its button: it is the first of a group.
+bool viewer_action_begins_group(const viewer_action *action);
 enum { VIEWER_KEYS_BYTES = 16 };
 /// Writes the name of an action's key, such as "Ctrl C"; empty: none. `viewer` (may be NULL: as it is at first) knows which were chosen.
 void viewer_action_keys(const viewer *viewer, const viewer_action *action, char text[VIEWER_KEYS_BYTES]);
@@ -274,6 +278,7 @@ bool viewer_act(viewer *viewer, const viewer_action *action);
 /// A row of the help.
 typedef struct viewer_help {
     const viewer_action *action; ///< NULL: a gesture of the pointer
+    const char *heading;         ///< what rows that follow each other share
     const char *what;            ///< it does
     char keys[40];
 } viewer_help;
@@ -298,7 +303,7 @@ typedef struct viewer_values {
 typedef struct viewer_item {
     char name[VIEWER_NAME_BYTES];
     const char *path;
-    bool visible, volume, gaussians, mesh;
+    bool visible, volume, gaussians, mesh, octree;
     uint64_t count; ///< of points, voxels or Gaussians
     double to_world[16]; ///< where its coordinates lie
     const viewer_values *values; ///< of a volume, borrowed until the next call; NULL: "transfer N edit" has them counted
@@ -327,6 +332,9 @@ typedef enum viewer_question {
     VIEWER_ASKS_SAVE_SCENE,
     VIEWER_ASKS_PHOTOS,      ///< for cameras, of item `asked_item`
     VIEWER_ASKS_SAVE_PHOTOS, ///< for a file of its coloured points
+    VIEWER_ASKS_CUT,         ///< for a file of what is selected
+    VIEWER_ASKS_SAVE_MEASURES,
+    VIEWER_ASKS_SAVE_PROFILE,
 } viewer_question;
 
 /// What goes on.
@@ -345,6 +353,8 @@ typedef struct viewer_state {
     double note_s;                   ///< when
     viewer_question question;        ///< what the window is to ask for
     char picked[VIEWER_TEXT_BYTES];  ///< the last pick or measure, several lines
+    double free_width;               ///< share of the picture's width at the bottom, from the left, where nothing stands over it
+    uint32_t noted_count;            ///< notes that were clicked: the last measurement is one that waits for its text
     bool moving, help, panels, fullscreen; ///< which are to be shown
     const viewer_action *learns; ///< the next key becomes its key; NULL: none is waited for
     bool quit;                             ///< the user asked to end

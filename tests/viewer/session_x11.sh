@@ -161,7 +161,10 @@ grep -q "^set navigation trackball$" config/ewa/view || fail "the navigation is 
 # keyframes. All of it is in the scene that is saved, which is drawn without a window.
 # button N: the N-th of the tools, from 0.
 button() {
-    xdotool mousemove $((305 + 30 * $1)) 42
+    wanted=$1
+    set -- 372 402 432 462 492 522 556 586 616 650 680 710 744 774 804 838 868 898 932 962
+    shift "$wanted"
+    xdotool mousemove "$1" 42
     sleep 0.5
     xdotool click 1
     sleep 0.5
@@ -190,6 +193,23 @@ for x in 760 820 900; do
 done
 xdotool mouseup 1
 wait_for "a selection" grep -q "^select [1-9][0-9]* points" printed
+# It is written to a file by the menu.
+save_selection() {
+    xdotool mousemove 22 12
+    sleep 0.3
+    xdotool click 1
+    sleep 0.5
+    xdotool mousemove 60 139
+    sleep 0.3
+    xdotool click 1
+    sleep 0.7
+    xdotool key ctrl+a
+    xdotool type part
+    xdotool key Return
+    sleep 0.7
+    test -s part.ply
+}
+wait_for "a file of the selection" save_selection
 button 12
 button 9
 wait_for "rest" same_as_before

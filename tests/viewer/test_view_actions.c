@@ -116,6 +116,16 @@ TEST(tools_are_lit) {
     assert_true(viewer_action_is_lit(v, find("measure area")));
     assert_false(viewer_action_is_lit(v, find("measure angle")));
     assert_false(viewer_action_is_lit(v, find("measure next")));
+    // Another tool takes its place; once more puts it away.
+    static const char *const tools[] = {"select lasso", "transform move", "measure note", "measure next", "measure area", "select polygon"};
+    enum { COUNT = sizeof tools / sizeof tools[0] };
+    for (int i = 0; i < COUNT; i++) {
+        assert_true(viewer_act(v, find(tools[i])));
+        for (int k = 0; k < COUNT; k++)
+            if (viewer_action_is_lit(v, find(tools[k])) != (k == i)) fail_msg("%s after %s", tools[k], tools[i]);
+    }
+    assert_true(viewer_act(v, find("select polygon")));
+    assert_false(viewer_action_is_lit(v, find("select polygon")));
     viewer_destroy(&v);
 }
 
@@ -136,6 +146,28 @@ TEST(escape_goes_down) {
     assert_true(viewer_do(v, "scene save"));
     viewer_get_state(v, &now);
     assert_int_equal(now.question, VIEWER_ASKS_SAVE_SCENE);
+    viewer_destroy(&v);
+}
+
+/// What cannot be written asks for no name.
+TEST(nothing_is_asked_for_nothing) {
+    viewer *v = make_viewer();
+    static const char *const commands[] = {"cut", "measure save", "profile save"};
+    for (int i = 0; i < 3; i++) {
+        viewer_state now;
+        assert_false(viewer_act(v, find(commands[i])));
+        viewer_get_state(v, &now);
+        assert_int_equal(now.question, VIEWER_ASKS_NOTHING);
+    }
+    assert_true(viewer_do(v, "measure note 1,2,3 here"));
+    viewer_state now;
+    assert_true(viewer_act(v, find("measure save")));
+    viewer_get_state(v, &now);
+    assert_int_equal(now.question, VIEWER_ASKS_SAVE_MEASURES);
+    // A bar without colours says so.
+    assert_true(viewer_act(v, find("next color_bar")));
+    viewer_get_state(v, &now);
+    assert_string_equal(now.note, "Colour bar: on, once something has the colours of an attribute");
     viewer_destroy(&v);
 }
 

@@ -70,6 +70,7 @@ void menus(const panel_page *page) {
             const char *menu = action->menu;
             const bool open = menu && ImGui::BeginMenu(menu);
             for (; action && (!action->menu || !menu || strcmp(action->menu, menu) == 0); action = viewer_action_at(++i)) {
+                if (open && viewer_action_begins_group(action)) ImGui::Separator();
                 if (open && action->label) row(page, action);
                 if (!menu) break;
             }
@@ -107,6 +108,7 @@ void figures(panel_page *page, float left) {
     const panel_facts *facts = page->facts;
     char count[32], text[256] = "";
     size_t used = 0;
+    if (!viewer_item_count(page->viewer)) return;
     if (splats || !voxels) {
         write_short(splats, count);
         used += (size_t)snprintf(text + used, sizeof text - used, "%s splats", count);
@@ -121,10 +123,14 @@ void figures(panel_page *page, float left) {
         snprintf(text + used, sizeof text - used, "   %.0f frames/s", facts->frames_per_s);
         page->spare_s = fmin(page->spare_s, figures_step_s);
     }
-    const float x = page->width - ImGui::CalcTextSize(text).x - 2 * panel_margin(page);
+    // Where there is little room, the rate is what is left.
+    const char *shown = text;
+    float x = page->width - ImGui::CalcTextSize(shown).x - 2 * panel_margin(page);
+    for (const char *next; x < left && (next = strstr(shown, "   ")); shown = next + 3)
+        x = page->width - ImGui::CalcTextSize(next + 3).x - 2 * panel_margin(page);
     if (x < left) return;
     ImGui::SetCursorPos(ImVec2(floorf(x), floorf(0.5f * (panel_buttons_points * page->unit - ImGui::GetFontSize()))));
-    ImGui::TextDisabled("%s", text);
+    ImGui::TextDisabled("%s", shown);
 }
 
 /// Returns whether the button was pressed.
@@ -149,7 +155,7 @@ bool button(const panel_page *page, const viewer_action *action) {
 
 /// Buttons that have no room are rows of the menus all the same.
 void buttons(panel_page *page) {
-    const float side = button_points * page->unit, gap = 2 * page->unit, between = 6 * page->unit;
+    const float side = button_points * page->unit, gap = 2 * page->unit, between = 4 * page->unit;
     const float pad = 0.5f * (panel_buttons_points * page->unit - side);
     ImGui::SetNextWindowPos(ImVec2(0, panel_menus_points * page->unit));
     ImGui::SetNextWindowSize(ImVec2(page->width, panel_buttons_points * page->unit));
@@ -159,9 +165,11 @@ void buttons(panel_page *page) {
     const viewer_action *action;
     const char *menu = nullptr;
     float x = pad;
+    bool apart = false;
     for (uint32_t i = 0; (action = viewer_action_at(i)); i++) {
+        apart = apart || viewer_action_begins_group(action);
         if (action->icon == VIEWER_ICON_NONE) continue;
-        if (menu && strcmp(menu, action->menu) != 0) {
+        if (menu && (apart || strcmp(menu, action->menu) != 0)) {
             const float line = x + 0.5f * (between - gap), top = ImGui::GetWindowPos().y + pad;
             ImGui::GetWindowDrawList()->AddRectFilled(ImVec2(floorf(line), top + 4 * page->unit),
                                                       ImVec2(floorf(line) + fmaxf(1, floorf(page->unit)), top + side - 4 * page->unit),
@@ -169,6 +177,7 @@ void buttons(panel_page *page) {
             x += between;
         }
         menu = action->menu;
+        apart = false;
         if (x + side + pad > page->width) break;
         ImGui::SetCursorPos(ImVec2(x, pad));
         if (button(page, action)) viewer_act(page->viewer, action);

@@ -34,13 +34,16 @@ constexpr int kind_count = IM_ARRAYSIZE(kinds), cameras_kind = 6;
 
 /// What is asked for, in the order of viewer_question.
 const struct {
-    const char *title, *button, *suffix, *name; ///< suffix: of a file that is saved
+    const char *title, *button, *suffixes, *name; ///< suffixes: of a file that is saved, the first where a name has none
 } questions[] = {
     {"", "", nullptr, ""},
     {"Open", "Open", nullptr, ""},
     {"Save the scene as", "Save", ".json", "scene.json"},
     {"Cameras whose photographs give the points colours", "Colour", nullptr, ""},
     {"Save the coloured points as", "Save", ".ply", "coloured.ply"},
+    {"Save the selection as", "Save", ".ply|.las|.laz|.e57|.pcd|.xyz|.txt|.pts|.csv|.splat|.spz|.sog|.glb|.nrrd", "selection"},
+    {"Save the measurements as", "Save", ".csv", "measurements.csv"},
+    {"Save the profile as", "Save", ".png|.jpg|.jpeg|.csv|.ply|.las|.laz|.pcd|.xyz|.txt|.pts", "profile.png"},
 };
 
 /// The command that a path answers.
@@ -52,6 +55,12 @@ bool say_answer(const panel_page *page, const char *path) {
         return panel_say(page, "photos %zu %s", page->state.asked_item, path);
     case VIEWER_ASKS_SAVE_PHOTOS:
         return panel_say(page, "photos %zu save %s", page->state.asked_item, path);
+    case VIEWER_ASKS_CUT:
+        return panel_say(page, "cut %s", path);
+    case VIEWER_ASKS_SAVE_MEASURES:
+        return panel_say(page, "measure save %s", path);
+    case VIEWER_ASKS_SAVE_PROFILE:
+        return panel_say(page, "profile save %s", path);
     default:
         return panel_say(page, "open %s", path);
     }
@@ -165,13 +174,15 @@ void answer(const panel_page *page, const char *name, bool whole = false) {
         go_to(files, path);
         return;
     }
-    const char *suffix = questions[page->state.question].suffix;
-    const bool saves = suffix != nullptr;
+    const char *suffixes = questions[page->state.question].suffixes;
+    const bool saves = suffixes != nullptr;
     if (!saves && !there && !strstr(path, "://")) {
         snprintf(files->problem, sizeof files->problem, "%s", strerror(errno));
         return;
     }
-    if (saves && !ends_with(path, suffix) && strlen(path) + strlen(suffix) < sizeof path) strcat(path, suffix);
+    const size_t length = strlen(path), first = saves ? strcspn(suffixes, "|") : 0;
+    if (saves && !ends_with(path, suffixes) && length + first < sizeof path)
+        snprintf(path + length, sizeof path - length, "%.*s", (int)first, suffixes);
     if (saves && stat(path, &facts) == 0 && !(files->confirmed[0] && strcmp(files->confirmed, path) == 0)) {
         memcpy(files->confirmed, path, sizeof path);
         snprintf(files->problem, sizeof files->problem, "It is there already: again to replace it.");
@@ -196,9 +207,12 @@ void list(const panel_page *page) {
     ImGui::TableSetupColumn("size", ImGuiTableColumnFlags_WidthFixed, 70 * page->unit);
     ImGui::TableSetupColumn("changed", ImGuiTableColumnFlags_WidthFixed, 120 * page->unit);
     char into[VIEWER_PATH_BYTES] = "", opened[VIEWER_PATH_BYTES] = "";
+    const char *suffixes = questions[page->state.question].suffixes;
+    bool listed = false;
     for (size_t i = 0; i < files->count; i++) {
         const panel_entry &entry = files->entries[i];
-        if (!entry.folder && !is_of_kind(entry.name, files->kind)) continue;
+        if (!entry.folder && !(suffixes ? ends_with(entry.name, suffixes) : is_of_kind(entry.name, files->kind))) continue;
+        listed = true;
         ImGui::TableNextColumn();
         char text[VIEWER_PATH_BYTES];
         snprintf(text, sizeof text, "%s%s", entry.name, entry.folder ? "/" : "");
@@ -220,6 +234,10 @@ void list(const panel_page *page) {
         ImGui::TableNextColumn();
         struct tm day;
         if (localtime_r(&entry.changed_s, &day) && strftime(text, 32, "%Y-%m-%d %H:%M", &day)) ImGui::TextDisabled("%s", text);
+    }
+    if (!listed) {
+        ImGui::TableNextColumn();
+        ImGui::TextDisabled(suffixes ? "No such files here yet" : "Nothing of this kind here");
     }
     ImGui::EndTable();
     // After the list, which they change.
@@ -296,14 +314,15 @@ void panel_question(panel_page *page) {
     ImGui::BeginChild("list", ImVec2(0, -below));
     list(page);
     ImGui::EndChild();
-    ImGui::SetNextItemWidth(-170 * page->unit);
+    const bool saves = questions[question].suffixes != nullptr;
+    ImGui::SetNextItemWidth(saves ? -FLT_MIN : -170 * page->unit);
     if (files->focus) ImGui::SetKeyboardFocusHere();
     files->focus = false;
-    bool done = ImGui::InputTextWithHint("##name", "name, path or https://", files->name, sizeof files->name,
+    bool done = ImGui::InputTextWithHint("##name", saves ? "name or path" : "name, path or https://", files->name, sizeof files->name,
                                          ImGuiInputTextFlags_EnterReturnsTrue);
-    ImGui::SameLine();
+    if (!saves) ImGui::SameLine();
     ImGui::SetNextItemWidth(-FLT_MIN);
-    if (ImGui::BeginCombo("##kind", kinds[files->kind].label)) {
+    if (!saves && ImGui::BeginCombo("##kind", kinds[files->kind].label)) {
         for (int k = 0; k < kind_count; k++)
             if (ImGui::Selectable(kinds[k].label, k == files->kind)) files->kind = k;
         ImGui::EndCombo();

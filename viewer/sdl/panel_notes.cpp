@@ -15,18 +15,23 @@ constexpr double message_stays_s = 10, note_stays_s = 4;
 /// Progress is shown anew so often.
 constexpr double progress_step_s = 0.1;
 
+constexpr uint32_t max_help_lines = 256;
+
 constexpr ImGuiWindowFlags note_flags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize |
                                         ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoFocusOnAppearing |
                                         ImGuiWindowFlags_NoNav;
 
-/// Middle of the picture.
-float middle_of(const panel_page *page) { return floorf(0.5f * (page->left + page->width)); }
+/// What the picture leaves free at the bottom, beside a graph.
+float room_of(const panel_page *page) { return (float)page->state.free_width * (page->width - page->left); }
+
+/// Its middle.
+float middle_of(const panel_page *page) { return floorf(page->left + 0.5f * room_of(page)); }
 
 void progress(panel_page *page, float *bottom) {
     const viewer_state &state = page->state;
     if (!state.loading[0]) return;
     page->spare_s = fmin(page->spare_s, progress_step_s);
-    const float width = fminf(360 * page->unit, 0.8f * (page->width - page->left));
+    const float width = fminf(360 * page->unit, 0.8f * room_of(page));
     ImGui::SetNextWindowPos(ImVec2(middle_of(page), *bottom), 0, ImVec2(0.5f, 1));
     ImGui::SetNextWindowSize(ImVec2(width, 0));
     ImGui::Begin("progress", nullptr, note_flags & ~ImGuiWindowFlags_AlwaysAutoResize);
@@ -63,7 +68,7 @@ void look_along(const panel_page *page) {
 void keyframes(const panel_page *page, float *bottom) {
     if (!page->state.keyframes || !page->state.panels) return;
     ImGui::SetNextWindowPos(ImVec2(middle_of(page), *bottom), 0, ImVec2(0.5f, 1));
-    ImGui::SetNextWindowSizeConstraints(ImVec2(0, 0), ImVec2(0.9f * (page->width - page->left), page->height));
+    ImGui::SetNextWindowSizeConstraints(ImVec2(0, 0), ImVec2(0.9f * room_of(page), page->height));
     ImGui::Begin("keyframes", nullptr, (note_flags & ~ImGuiWindowFlags_NoScrollbar) | ImGuiWindowFlags_HorizontalScrollbar);
     for (uint32_t i = 0; i < page->state.keyframes; i++) {
         char name[16];
@@ -88,7 +93,7 @@ void keyframes(const panel_page *page, float *bottom) {
 void say(panel_page *page, const char *name, const char *text, double left_s, float *bottom) {
     if (!text[0] || left_s <= 0) return;
     page->spare_s = fmin(page->spare_s, left_s);
-    const float width = fminf(520 * page->unit, 0.8f * (page->width - page->left));
+    const float width = fminf(520 * page->unit, 0.8f * room_of(page));
     ImGui::SetNextWindowPos(ImVec2(middle_of(page), *bottom), 0, ImVec2(0.5f, 1));
     ImGui::Begin(name, nullptr, note_flags | ImGuiWindowFlags_NoInputs);
     ImGui::PushTextWrapPos(width);
@@ -101,7 +106,7 @@ void say(panel_page *page, const char *name, const char *text, double left_s, fl
 /// An empty window says what to do with it.
 void invitation(const panel_page *page) {
     if (viewer_item_count(page->viewer) || page->state.loading[0]) return;
-    static const char text[] = "Drop a point cloud, a mesh or a volume here, or open one: Ctrl O";
+    static const char text[] = "Drop a point cloud, a mesh, Gaussians or a volume here, or open one: Ctrl O";
     const ImVec2 size = ImGui::CalcTextSize(text);
     const ImVec2 place(floorf(middle_of(page) - 0.5f * size.x), floorf(0.5f * (page->top + page->height - size.y)));
     const ImVec2 pad(12 * page->unit, 8 * page->unit);
@@ -147,8 +152,19 @@ void panel_help(panel_page *page) {
     ImGui::Begin("help", nullptr,
                  ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoCollapse |
                      ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_HorizontalScrollbar);
+    // Each group of rows has a heading: `lines` are rows, or headings, whose row is the one below.
+    struct {
+        uint32_t row;
+        bool heading;
+    } lines[max_help_lines];
     uint32_t count = 0;
-    for (viewer_help row; viewer_help_at(page->viewer, count, &row);) count++;
+    const char *heading = "";
+    viewer_help row;
+    for (uint32_t i = 0; viewer_help_at(page->viewer, i, &row) && count + 2 <= max_help_lines; i++) {
+        if (strcmp(heading, row.heading) != 0) lines[count++] = {i, true};
+        heading = row.heading;
+        lines[count++] = {i, false};
+    }
     // As many columns as are needed for the rows not to be higher than the window.
     const float row_px = ImGui::GetTextLineHeight() + 2 * ImGui::GetStyle().CellPadding.y;
     const float room = page->height - 2 * margin - 4 * ImGui::GetFrameHeight();
@@ -156,13 +172,14 @@ void panel_help(panel_page *page) {
     const int columns = (int)fminf(3, ceilf((float)count / (float)fitting)), high = ((int)count + columns - 1) / columns;
     if (ImGui::BeginTable("rows", 2 * columns, ImGuiTableFlags_SizingFixedFit)) {
         for (int i = 0; i < high * columns; i++) {
-            viewer_help row;
             const int wanted = i % columns * high + i / columns;
             ImGui::TableNextColumn();
-            const bool given = wanted < (int)count && viewer_help_at(page->viewer, (uint32_t)wanted, &row);
-            if (given) help_keys(page, &row);
+            const bool given = wanted < (int)count && viewer_help_at(page->viewer, lines[wanted].row, &row);
+            const bool heads = given && lines[wanted].heading;
+            if (heads) ImGui::TextColored(ImGui::GetStyleColorVec4(ImGuiCol_CheckMark), "%s", row.heading);
+            if (given && !heads) help_keys(page, &row);
             ImGui::TableNextColumn();
-            if (given) ImGui::TextDisabled("%s     ", row.what);
+            if (given && !heads) ImGui::TextDisabled("%s     ", row.what);
         }
         ImGui::EndTable();
     }

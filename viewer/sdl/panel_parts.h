@@ -14,6 +14,7 @@
 struct panel_edit {
     ImGuiID id; ///< of the widget; 0: none
     double numbers[4];
+    uint32_t noted_count; ///< notes whose text was asked for
 };
 
 /// A file or a folder in a list.

@@ -38,6 +38,19 @@ void choose_colors(const panel_page *page, int index, const viewer_item *item) {
     ImGui::EndCombo();
 }
 
+/// Selects the points of a class.
+void choose_class(const panel_page *page, const viewer_coloring &now) {
+    if (strcmp(now.attribute, "classification") != 0) return;
+    panel_label(page, "Select");
+    if (!ImGui::BeginCombo("##class", "points of a class")) return;
+    for (uint32_t i = 0; i < now.class_count; i++) {
+        char name[VIEWER_NAME_BYTES];
+        snprintf(name, sizeof name, "%.0f %s", (double)now.classes[i].value, now.classes[i].name);
+        if (ImGui::Selectable(name)) panel_say(page, "select class %.0f", (double)now.classes[i].value);
+    }
+    ImGui::EndCombo();
+}
+
 /// The map of an attribute's numbers to colours; where each number has a row of the legend, there is no range.
 void choose_map(panel_page *page, int index, const viewer_item *item) {
     const viewer_coloring &now = item->coloring;
@@ -55,7 +68,10 @@ void choose_map(panel_page *page, int index, const viewer_item *item) {
         panel_words(page, command, maps->words, map, kept);
         ImGui::EndCombo();
     }
-    if (now.class_count) return;
+    if (now.class_count) {
+        choose_class(page, now);
+        return;
+    }
     panel_label(page, "Range");
     static const char label[] = "##range";
     double range[2] = {now.range[0], now.range[1]};
@@ -63,8 +79,13 @@ void choose_map(panel_page *page, int index, const viewer_item *item) {
     const float width = ImGui::CalcTextSize("Auto").x + 2 * ImGui::GetStyle().FramePadding.x;
     ImGui::SetNextItemWidth(-width - ImGui::GetStyle().ItemInnerSpacing.x);
     const float extent = (float)fabs(range[1] - range[0]);
+    // As many decimals as tell the ends from each other: of map coordinates four digits are the same.
+    char format[16] = "%.4g";
+    const double largest = fmax(fabs(range[0]), fabs(range[1]));
+    if (extent > 0 && largest < 1e9 && largest > 1e3 * (double)extent)
+        snprintf(format, sizeof format, "%%.%.0ff", fmin(fmax(1 - floor(log10((double)extent)), 0), 6));
     const bool changed = ImGui::DragScalarN(label, ImGuiDataType_Double, range, 2,
-                                            extent > 0 ? 0.005f * extent : 0.01f, nullptr, nullptr, "%.4g");
+                                            extent > 0 ? 0.005f * extent : 0.01f, nullptr, nullptr, format);
     if (panel_edit_end(page, label, 2, range, changed, item->count <= live_count))
         panel_say(page, "color %d %s %s %.10g,%.10g", index, now.attribute, map, range[0], range[1]);
     ImGui::SameLine(0, ImGui::GetStyle().ItemInnerSpacing.x);
@@ -224,7 +245,7 @@ void picked(const panel_page *page) {
 }
 
 /// Measures and notes that stay, with names that can be changed.
-void measures(const panel_page *page) {
+void measures(panel_page *page) {
     char name[VIEWER_NAME_BYTES], value[VIEWER_NAME_BYTES];
     const float gap = ImGui::GetStyle().ItemInnerSpacing.x, side = ImGui::GetFrameHeight();
     for (size_t i = 0; viewer_measure_get(page->viewer, i, name, value); i++) {
@@ -232,6 +253,11 @@ void measures(const panel_page *page) {
         ImGui::PushID((int)(1000 + i));
         const float room = ImGui::GetContentRegionAvail().x - side - gap;
         ImGui::SetNextItemWidth(value[0] ? 0.5f * room : room);
+        // A note that was just put down waits for its text.
+        char none[VIEWER_NAME_BYTES];
+        const bool last = !viewer_measure_get(page->viewer, i + 1, none, none);
+        if (last && !value[0] && page->state.noted_count != page->edit->noted_count) ImGui::SetKeyboardFocusHere();
+        if (last) page->edit->noted_count = page->state.noted_count;
         ImGui::InputText("##name", name, sizeof name, ImGuiInputTextFlags_AutoSelectAll);
         if (ImGui::IsItemDeactivatedAfterEdit() && name[0]) panel_say(page, "measure name %zu %s", i, name);
         ImGui::SameLine(0, gap);

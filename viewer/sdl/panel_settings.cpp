@@ -145,6 +145,32 @@ void setting_row(panel_page *page, const ewa_option *option) {
     offer_default(page, option);
 }
 
+/// What is open, of which some settings alone are.
+struct kinds_open {
+    bool points, octrees, gaussians, volumes;
+};
+
+kinds_open find_kinds(const panel_page *page) {
+    kinds_open kinds = {};
+    viewer_item item;
+    for (size_t i = 0; viewer_item_get(page->viewer, i, &item); i++) {
+        kinds.octrees = kinds.octrees || item.octree;
+        kinds.gaussians = kinds.gaussians || item.gaussians;
+        kinds.volumes = kinds.volumes || item.volume;
+        kinds.points = kinds.points || (!item.gaussians && !item.volume);
+    }
+    return kinds;
+}
+
+/// Whether a setting changes anything that is open: others would be in the way of those that do.
+bool concerns(const kinds_open &kinds, const char *group, const ewa_option *option) {
+    if (strcmp(group, "Octrees") == 0) return kinds.octrees;
+    if (strcmp(group, "Gaussians") == 0) return kinds.gaussians;
+    if (strcmp(group, "Splats") == 0) return kinds.points || kinds.gaussians;
+    if (strcmp(group, "Photographs") == 0) return kinds.points;
+    return strcmp(option->name, "volume_density") != 0 || kinds.volumes;
+}
+
 } // namespace
 
 void panel_words(const panel_page *page, const char *command, const char *words, const char *now, const char *rest) {
@@ -161,7 +187,9 @@ void panel_settings(panel_page *page) {
     const char *group = nullptr, *before = nullptr;
     bool open = false;
     const ewa_option *option;
+    const kinds_open kinds = find_kinds(page);
     for (uint32_t i = 0; (option = viewer_setting_at(page->viewer, i, &group)); i++) {
+        if (!concerns(kinds, group, option)) continue;
         const bool first = !before;
         if (first || strcmp(group, before) != 0)
             open = ImGui::CollapsingHeader(group, first ? ImGuiTreeNodeFlags_DefaultOpen : 0);
