@@ -12,7 +12,7 @@ ewa_gaussian_format gaussian_files_format(cli_session *session, const char *path
     struct stat facts;
     ewa_gaussian_format format = EWA_GAUSSIANS_NONE;
     // What is missing is said by who wants to read it.
-    if (strcmp(path, "-") == 0 || stat(path, &facts) != 0 || !S_ISREG(facts.st_mode)) return format;
+    if (strcmp(path, "-") == 0 || stat(path, &facts) != 0 || !(S_ISREG(facts.st_mode) || S_ISDIR(facts.st_mode))) return format;
     session->subject = path;
     return ewa_gaussians_probe(session->context, path, &format) == EWA_OK ? format : EWA_GAUSSIANS_NONE;
 }

@@ -19,8 +19,6 @@
 
 static const double IDENTITY[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
 
-enum { PATH_BYTES = 4096 };
-
 #define AT(member) offsetof(ewa_asset_options, member)
 
 static const ewa_option option_rows[] = {
@@ -218,36 +216,32 @@ static ewa_status load_model(const ewa_asset_job *job, const char *path) {
     return status;
 }
 
-/// Refuses a folder that is no octree, and says what to name instead.
-static ewa_status check_folder(ewa_context *context, const char *path) {
-    ewa_platform_facts facts;
-    if (!ewa_platform_stat(path, &facts) || !facts.folder || ewa_lod_probe(context, path)) return EWA_OK;
-    char file[PATH_BYTES];
-    const int length = snprintf(file, sizeof file, "%s%smeta.json", path, path[0] && path[strlen(path) - 1] == '/' ? "" : "/");
-    if (length > 0 && (size_t)length < sizeof file && ewa_file_may_read(context, file))
-        return ewa_fail(context, EWA_ERROR_UNSUPPORTED, "%s: a folder; of Gaussians (SOG) name the file in it: %s", path, file);
-    return ewa_fail(context, EWA_ERROR_UNSUPPORTED,
-                    "%s: a folder, and no octree (EPT): name the files in it", path);
+/// Whether a file, or a folder, holds Gaussians.
+static bool holds_gaussians(ewa_context *context, const char *path) {
+    ewa_gaussian_format format = EWA_GAUSSIANS_NONE;
+    // What is missing or cannot be opened is said by who reads it.
+    ewa_failures_hush(context, true);
+    const ewa_status status = ewa_gaussians_probe(context, path, &format);
+    ewa_failures_hush(context, false);
+    return status == EWA_OK && format != EWA_GAUSSIANS_NONE;
 }
 
 /// Finds what a file becomes; of an octree that is drawn from its levels, `*lod` is the caller's, else NULL.
 static ewa_status find_kind(const ewa_asset_job *job, const char *path, ewa_asset_kind *kind, ewa_lod **lod) {
     ewa_context *context = job->asset->context;
     *lod = NULL;
-    EWA_TRY(check_folder(context, path));
+    ewa_platform_facts facts;
+    if (ewa_platform_stat(path, &facts) && facts.folder && !ewa_lod_probe(context, path)) {
+        *kind = EWA_ASSET_GAUSSIANS;
+        if (holds_gaussians(context, path)) return EWA_OK;
+        return ewa_fail(context, EWA_ERROR_UNSUPPORTED, "%s: a folder, and neither an octree (EPT) nor Gaussians (SOG): name the files in it", path);
+    }
     *kind = EWA_ASSET_VOLUME;
     if (ewa_volume_is_file(context, path)) return EWA_OK;
     // Octrees first: of them, not all is read to see what they are.
     EWA_TRY(open_octree(job, path, lod));
     *kind = *lod ? EWA_ASSET_OCTREE : EWA_ASSET_POINTS;
-    if (*lod) return EWA_OK;
-    ewa_gaussian_format gaussians = EWA_GAUSSIANS_NONE;
-    // What is missing or cannot be opened is said by who reads it.
-    ewa_failures_hush(context, true);
-    if (ewa_file_may_read(context, path) && ewa_gaussians_probe(context, path, &gaussians) == EWA_OK &&
-        gaussians != EWA_GAUSSIANS_NONE)
-        *kind = EWA_ASSET_GAUSSIANS;
-    ewa_failures_hush(context, false);
+    if (!*lod && ewa_file_may_read(context, path) && holds_gaussians(context, path)) *kind = EWA_ASSET_GAUSSIANS;
     return EWA_OK;
 }
 

@@ -77,8 +77,10 @@ TEST(converted) {
     said("SOG, version 2");
     said("degree 1");
     said("high        4 5 6");
-    run_done("ewa convert three.ply -o meta.json && ewa info meta.json && rm meta.json *.webp");
+    run_done("mkdir sog && ewa convert three.ply -o sog/meta.json && ewa info sog && ewa render sog -o by_folder.png --size 40x40 && "
+             "ewa render sog/meta.json -o by_file.png --size 40x40");
     said("SOG, version 2");
+    assert_true(scratch_same("by_folder.png", "by_file.png"));
     run_done("ewa convert a.spz -o b.glb && ewa info b.glb"); // y is up there
     said("format      glTF");
     said("up          y (");

@@ -278,8 +278,9 @@ TEST(test_wording) {
     run_fails(1, "shot.png: a picture (PNG), which has no points: 'ewa texture'", "ewa render shot.png -o a.png");
     run_fails(1, "shot.hdr: a picture (PNG), which has no voxels", "ewa render shot.hdr -o a.png");
     run_done("mkdir -p folder sog && echo '{}' >sog/meta.json");
-    run_fails(1, "folder: a folder, and no octree (EPT): name the files in it", "ewa render folder -o a.png");
-    run_fails(1, "sog: a folder; of Gaussians (SOG) name the file in it: sog/meta.json", "ewa render sog -o a.png");
+    static const char *const folders[] = {"folder", "sog"};
+    for (size_t i = 0; i < 2; i++)
+        run_fails(1, "a folder, and neither an octree (EPT) nor Gaussians (SOG): name the files in it", "ewa render %s -o a.png", folders[i]);
     scratch_text("title.xyz", "Yard scan\n0 0 0\n1 0 0\n0 1 0\n1 1 0\n");
     run_fails(1, "title.xyz: line 1: 'Yard scan' is neither", "ewa render title.xyz -o a.png");
     scratch_text("odd.xyz", "0 0 0\n1 0 0\n0 1 0\n1 x 0\n2 2 2\n");

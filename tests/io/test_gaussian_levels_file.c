@@ -77,6 +77,11 @@ TEST(levels) {
     assert_int_equal(ewa_gaussians_save(&set, meta, NULL), EWA_OK);
     assert_int_equal(ewa_gaussians_load(context, meta, &all, &facts), EWA_OK);
     assert_int_equal(facts.format, EWA_GAUSSIANS_STREAMED_SOG);
+    ewa_gaussians by_folder;
+    assert_int_equal(ewa_gaussians_load(context, scratch_path("levels", path), &by_folder, &facts), EWA_OK);
+    assert_int_equal(by_folder.count, all.count);
+    assert_memory_equal(by_folder.centers, all.centers, 3 * sizeof(float) * all.count);
+    ewa_gaussians_free(&by_folder);
     assert_int_equal(all.count, COUNT);
     assert_int_equal(all.sh_degree, 1);
     check_places(&set, &all, 1e-3);

@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: MIT
 //
 // Files of Gaussians in: finds the format and leads there.
+#include "base/platform.h"
 #include "io/file.h"
 #include "io/gaussian/gaussian.h"
 
+#include <stdio.h>
 #include <string.h>
 
 static const ewa_gaussian_reader *const readers[] = {
@@ -15,6 +17,19 @@ const char *ewa_gaussian_format_name(ewa_gaussian_format format) {
     static const char *const names[] = {"unknown", "3DGS PLY", "compressed PLY", "splat",
                                         "SPZ",     "glTF",     "ksplat",         "SOG", "streamed SOG"};
     return (unsigned)format < sizeof names / sizeof names[0] ? names[format] : names[0];
+}
+
+/// The file that a path stands for: that of a folder of SOG, with levels or without, else the path.
+static const char *file_of(ewa_context *context, const char *path, char file[EWA_PATH_BYTES]) {
+    static const char *const names[] = {"lod-meta.json", "meta.json"};
+    ewa_platform_facts facts;
+    if (!ewa_platform_stat(path, &facts) || !facts.folder) return path;
+    const size_t length = strlen(path);
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
+        const int written = snprintf(file, EWA_PATH_BYTES, "%s%s%s", path, length && path[length - 1] == '/' ? "" : "/", names[i]);
+        if (written > 0 && written < EWA_PATH_BYTES && ewa_file_may_read(context, file)) return file;
+    }
+    return path;
 }
 
 /// Sets `*reader` to who reads the file, or NULL.
@@ -60,7 +75,9 @@ ewa_status ewa_gaussians_load(ewa_context *context, const char *path, ewa_gaussi
     if (!context || !path || !gaussians) return EWA_ERROR_ARGUMENT;
     *gaussians = (ewa_gaussians){0};
     const bool stream = strcmp(path, "-") == 0;
+    char inside[EWA_PATH_BYTES];
     ewa_file file;
+    path = file_of(context, path, inside);
     EWA_TRY(ewa_file_map(context, path, &file));
     ewa_status status =
         ewa_gaussians_load_memory(context, file.bytes, file.size_bytes, stream ? "standard input" : path,
@@ -72,7 +89,9 @@ ewa_status ewa_gaussians_load(ewa_context *context, const char *path, ewa_gaussi
 ewa_status ewa_gaussians_probe(ewa_context *context, const char *path, ewa_gaussian_format *format) {
     if (!context || !path || !format) return EWA_ERROR_ARGUMENT;
     *format = EWA_GAUSSIANS_NONE;
+    char inside[EWA_PATH_BYTES];
     ewa_file file;
+    path = file_of(context, path, inside);
     EWA_TRY(ewa_file_map(context, path, &file));
     const ewa_gaussian_source source = {context, path, path, file.bytes, file.size_bytes};
     const ewa_gaussian_reader *reader;
