@@ -34,6 +34,7 @@ typedef enum ewa_up_convention {
     EWA_UP_Z_USUAL = 2,    ///< STL
     EWA_UP_Y_REQUIRED = 3, ///< glTF
     EWA_UP_Z_SURVEYED = 4, ///< LAS, LAZ, COPC, EPT, E57, PTX, PTS: instruments that stand upright
+    EWA_UP_CAMERA_USUAL = 5, ///< PCD: y down and z ahead in drawings, of bodies nothing
 } ewa_up_convention;
 
 /// Returns the convention that all of `path_count` files share by the ends of their names, in any case. Any thread.

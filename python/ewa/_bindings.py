@@ -175,6 +175,7 @@ class ewa_up_convention(IntEnum):
     EWA_UP_Z_USUAL = 2
     EWA_UP_Y_REQUIRED = 3
     EWA_UP_Z_SURVEYED = 4
+    EWA_UP_CAMERA_USUAL = 5
 
 
 class ewa_ink(IntEnum):

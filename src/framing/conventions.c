@@ -11,7 +11,7 @@
 const double ewa_up_of_gaussians[3] = {0, -1, 0};
 const double ewa_up_of_volumes[3] = {0, 0, 1};
 
-/// By the end of the name. PLY, OFF, PCD and text are of no convention: as many have y up as z.
+/// By the end of the name. PLY, OFF and text are of no convention: as many have y up as z.
 static const struct {
     const char *end;
     ewa_up_convention convention;
@@ -22,6 +22,7 @@ static const struct {
     {"ept.json", EWA_UP_Z_SURVEYED}, {".e57", EWA_UP_Z_SURVEYED}, // and levelled instruments
     {".ptx", EWA_UP_Z_SURVEYED},     {".pts", EWA_UP_Z_SURVEYED},
     {".tif", EWA_UP_Z_SURVEYED},     {".tiff", EWA_UP_Z_SURVEYED}, // heights
+    {".pcd", EWA_UP_CAMERA_USUAL}, // as its VIEWPOINT is, unless it says otherwise
 };
 
 static bool ends_with(const char *path, const char *end) {
@@ -42,6 +43,6 @@ ewa_up_convention ewa_up_convention_of(size_t path_count, const char *const *pat
 }
 
 int ewa_up_axis_of(ewa_up_convention convention) {
-    static const int axes[] = {0, 1, 2, 1, 2};
+    static const int axes[] = {0, 1, 2, 1, 2, 0};
     return (unsigned)convention < sizeof axes / sizeof axes[0] ? axes[convention] : 0;
 }

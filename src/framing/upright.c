@@ -138,7 +138,7 @@ static bool is_mirrored(const point_cloud_sample *points, int across, int not_ac
 
 /// Which axis is up in a body.
 static ewa_upright choose_body(const point_cloud_sample *points, ewa_up_convention convention) {
-    const bool any = convention == EWA_UP_ANY, surveyed = convention == EWA_UP_Z_SURVEYED;
+    const bool any = !ewa_up_axis_of(convention), surveyed = convention == EWA_UP_Z_SURVEYED;
     const int usual = any ? 1 : ewa_up_axis_of(convention), other = 3 - usual;
     double lowest, its_lowest;
     const double own = base_share(points, usual, &lowest), its = base_share(points, other, &its_lowest);
@@ -183,13 +183,17 @@ static ewa_upright choose_axis(const point_cloud_sample *points, ewa_up_conventi
     if (!(size > 0)) return chosen;
     if (convention == EWA_UP_Y_REQUIRED)
         return (ewa_upright){.axis = 1, .view = body_view(points, 1, convention), .why = "glTF has y up"};
+    const bool map = fmax(fabs(middle[0]), fabs(middle[1])) > MAP_RATIO * size;
     for (int axis = 0; axis < 3; axis++)
         if (e[axis] < PLANE_RATIO * size && fmin(e[(axis + 1) % 3], e[(axis + 2) % 3]) > PLANE_RATIO * size)
-            return (ewa_upright){.axis = axis > 0 || ewa_up_axis_of(convention) == 2 ? 2 : 1,
-                                 .view = face_on[axis],
-                                 .why = "all lies in a plane, which is seen face on"};
+            // What a camera draws has y down, and is seen along z.
+            return axis == 2 && convention == EWA_UP_CAMERA_USUAL && !map
+                       ? (ewa_upright){.axis = 1, .reversed = true, .view = EWA_VIEW_FRONT, .why = "a plane across a camera's axis"}
+                       : (ewa_upright){.axis = axis > 0 || ewa_up_axis_of(convention) == 2 ? 2 : 1,
+                                       .view = face_on[axis],
+                                       .why = "all lies in a plane, which is seen face on"};
     if (choose_camera(points, true, &chosen)) return chosen;
-    if (fmax(fabs(middle[0]), fabs(middle[1])) > MAP_RATIO * size)
+    if (map)
         return (ewa_upright){.axis = 2,
                              .view = e[2] > DEEP_RATIO * fmax(e[0], e[1]) ? EWA_VIEW_FRONT : EWA_VIEW_ISO,
                              .why = "map coordinates"};

@@ -95,6 +95,19 @@ TEST(test_planes) {
     assert_null(strstr(line.why, "plane"));
 }
 
+/// A drawing across z has y up, in a PCD y down, unless it lies on a map.
+TEST(test_drawings) {
+    start();
+    add_block(-1, 1, -1, 1, 0, 0, 5000);
+    EXPECT(EWA_UP_ANY, 2, EWA_VIEW_TOP, "plane");
+    EXPECT(EWA_UP_CAMERA_USUAL, 1, EWA_VIEW_FRONT, "a plane across a camera's axis");
+    assert_true(chosen_at_origin(EWA_UP_CAMERA_USUAL).reversed);
+    expect_at((double[3]){5e5, 4e6, 0}, EWA_UP_CAMERA_USUAL, 2, EWA_VIEW_TOP, "plane", __LINE__);
+    start();
+    add_block(-1, 1, 0, 0, -1, 1, 5000);
+    EXPECT(EWA_UP_CAMERA_USUAL, 2, EWA_VIEW_FRONT, "face on");
+}
+
 /// Map coordinates are over 100 sizes from the origin; what is 1.5 times higher than wide there is a tower.
 TEST(test_maps) {
     for (int tower = 0; tower < 2; tower++) {
@@ -456,6 +469,8 @@ TEST(test_conventions) {
                  {3, {"a.stl", "b.stl", "c.obj"}, EWA_UP_ANY},
                  {2, {"a.stl", "b.ply"}, EWA_UP_ANY},
                  {2, {"a.ply", "b.stl"}, EWA_UP_ANY},
+                 {2, {"a.pcd", "b.PCD"}, EWA_UP_CAMERA_USUAL},
+                 {2, {"a.pcd", "b.ply"}, EWA_UP_ANY},
                  {1, {"stl"}, EWA_UP_ANY},
                  {0, {NULL}, EWA_UP_ANY}};
     for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++)
