@@ -109,11 +109,11 @@ static bool parse_integer(const cli_option *option, const char *text, int64_t *n
 /// Reads the direction of an axis.
 static bool read_axis(const char *text, option_vector *vector) {
     static const char names[] = "xyzXYZ";
-    const char *letter = *text == '+' ? text + 1 : text;
+    const char *letter = *text == '+' || *text == '-' ? text + 1 : text;
     const char *name = *letter ? strchr(names, *letter) : NULL;
     if (!name || letter[1]) return false;
     *vector = (option_vector){.count = 3};
-    vector->values[(name - names) % 3] = 1;
+    vector->values[(name - names) % 3] = *text == '-' ? -1 : 1;
     return true;
 }
 
@@ -134,7 +134,7 @@ static bool parse_vector(const cli_option *option, const char *text, option_vect
     }
     if (read.count < option->low || read.count == 0)
         return wrong(message, "--%s: '%.80s' is %s%s%s", option->key, text, option->axes ? "neither " : "not ",
-                     option->axes ? "three numbers x,y,z " : option->value, option->axes ? "nor an axis, x, y or z" : "");
+                     option->axes ? "three numbers x,y,z " : option->value, option->axes ? "nor an axis, x, y or z, -y" : "");
     *vector = read;
     return true;
 }

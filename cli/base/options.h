@@ -82,7 +82,7 @@ typedef struct cli_option {
     char letter;          ///< short name
     const char *aliases;  ///< further long names, separated by blanks
     uint32_t low, high;   ///< vectors: fewest and most numbers
-    bool axes;            ///< vectors of three: also an axis by its name, z, +Z
+    bool axes;            ///< vectors of three: also an axis by its name, z, +Z, -y
     /// Help's words for a default that is worked out, "auto: from --fov"; NULL: the member's value is shown. One that
     /// begins with auto, none or all can be written out as that word, which is as if the option was not given.
     const char *absent;

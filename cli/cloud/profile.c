@@ -28,7 +28,7 @@ static const cli_option line_table[] = {
     {"line", OPTION_TEXT, AT(line), "x,y;x,y;...",
      .help = "corners of the line, or x,y,z;...; where it goes on the map is what counts"},
     {"width", OPTION_OF(ewa_profile_options, AT(profile), width_world), .value = "W"},
-    {"up", OPTION_VECTOR, AT(up), "x,y,z|AXIS", .help = "direction in which heights count; or an axis, x, y or z", .low = 3, .high = 3, .axes = true,
+    {"up", OPTION_VECTOR, AT(up), "x,y,z|AXIS", .help = "direction in which heights count; or an axis: z, -y", .low = 3, .high = 3, .axes = true,
      .absent = "auto: as the files say, z of surveyed ones, else as the points stand"},
 };
 

@@ -29,7 +29,7 @@ static const cli_option view_table[] = {
      .help = "point that the camera looks at", .aliases = "camera-focal-point", .low = 3, .high = 3,
      .absent = "auto: middle of the cloud"},
     {"up", OPTION_VECTOR, offsetof(view_arguments, up), "x,y,z|AXIS",
-     .help = "direction that points up in the picture; or an axis, x, y or z", .aliases = "camera-view-up", .low = 3, .high = 3, .axes = true,
+     .help = "direction that points up in the picture; or an axis: z, -y; what has y or z down is seen from the sides of what hangs", .aliases = "camera-view-up", .low = 3, .high = 3, .axes = true,
      .absent = "auto: 0,1,0 or 0,0,1, see above"},
     {"fov", OPTION_NUMBER, offsetof(view_arguments, fov_deg), "DEG", "(0, 180)",
      .help = "vertical field of view in degrees", .aliases = "camera-view-angle",

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from typing_extensions import TypeGuard
 
 VIEWS = ("front", "back", "left", "right", "top", "bottom", "iso")
-_UPS = {"y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
+UPS = {"y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0), "-y": (0.0, -1.0, 0.0), "-z": (0.0, 0.0, -1.0)}
 
 
 def view_options(view: Any = None, up: Any = None, *, size: Sequence[int] | None = None, fov: float | None = None,
@@ -32,10 +32,10 @@ def view_options(view: Any = None, up: Any = None, *, size: Sequence[int] | None
         members["fov_deg"] = fov
     if ortho is not None:
         members["ortho_height_world"] = ortho
-    if isinstance(up, str) and up not in _UPS:
-        raise ArgumentError(f"up: '{up}' is none of {', '.join(_UPS)}, nor 3 numbers")
+    if isinstance(up, str) and up not in UPS:
+        raise ArgumentError(f"up: '{up}' is none of {', '.join(UPS)}, nor 3 numbers")
     if up is not None:
-        members["up_world"] = _UPS[up] if isinstance(up, str) else list(numbers(up, 3, "up"))
+        members["up_world"] = UPS[up] if isinstance(up, str) else list(numbers(up, 3, "up"))
     if eye is not None:
         members.update(has_eye=True, eye_world=list(numbers(eye, 3, "eye")))
     if target is not None:
@@ -163,13 +163,12 @@ class World:
         return camera, info
 
 
-def place_at_box(core: Core, corners: Any, options: b.ewa_view_options, up: str) -> b.ewa_camera:
+def place_at_box(core: Core, corners: Any, options: b.ewa_view_options) -> b.ewa_camera:
     """A camera that has a box in its picture."""
     box = numbers(corners, 6, "what")
     places = (ctypes.c_double * 24)(*[box[3 * (i >> c & 1) + c] for i in range(8) for c in range(3)])
     cloud = core.make(lib.ewa_cloud_create, core.address, 8, destroy=lib.ewa_cloud_destroy, what="the box")
     core.call(lib.ewa_cloud_borrow, cloud, b"position", b.ewa_type.EWA_F64, 3, ctypes.addressof(places), 24)
-    camera, scene = b.ewa_camera(), initialised(b.ewa_scene_options, lib.ewa_scene_options_init)
-    fill(scene, "ewa_scene_options", {"up": up})
-    core.call(lib.ewa_cloud_place_camera, cloud, 1.0, 0, scene.up, ctypes.byref(options), ctypes.byref(camera), None)
+    camera = b.ewa_camera()
+    core.call(lib.ewa_cloud_place_camera, cloud, 1.0, 0, b.ewa_scene_up.EWA_UP_AUTO, ctypes.byref(options), ctypes.byref(camera), None)
     return camera

@@ -196,8 +196,8 @@ class Camera:
         view : {"front", "back", "left", "right", "top", "bottom", "iso"} or array_like of shape (3,), optional
             Side from which it is seen, or the direction of the view. Default: by the shape.
         up : {"y", "z", "-y", "-z"} or array_like of shape (3,), optional
-            What points up in the picture. Default: chosen by the points, as the program does. With a minus the sides
-            are those of what hangs upside down, as Gaussians do whose y points down.
+            What points up in the picture. Default: chosen by the points, as the program does. What has y or z down is
+            seen from the sides of what hangs, as Gaussians do whose y points down.
         azimuth, elevation : float, optional
             Degrees by which the camera is carried about the up axis from there, then raised.
         radius_scale : float, optional
@@ -212,16 +212,13 @@ class Camera:
             There is no finite point.
         """
         cls(size=size, fov=fov, ortho=ortho)  # which says what is wrong with these
-        hangs = isinstance(up, str) and up in ("-y", "-z")
-        asked = view_options(view, None if hangs else up, size=size, fov=fov, ortho=ortho, azimuth=azimuth,
-                             elevation=elevation)
-        own = str(up) if hangs else "auto"
+        asked = view_options(view, up, size=size, fov=fov, ortho=ortho, azimuth=azimuth, elevation=elevation)
         if _is_box(what):
-            return cls._of(checked(place_at_box(core_of(None), what, asked, own)))
+            return cls._of(checked(place_at_box(core_of(None), what, asked)))
         things = things_of(what)
-        if len(things) == 1 and hasattr(things[0], "_whole") and not hangs and radius_scale == 1:
+        if len(things) == 1 and hasattr(things[0], "_whole") and radius_scale == 1:
             return cls._of(checked(things[0]._whole().place(asked)))
-        world = World(core_of_things(things), up=own, surfels={"radius_scale": radius_scale})
+        world = World(core_of_things(things), surfels={"radius_scale": radius_scale})
         for thing in things:
             world.add(thing)
         return cls._of(checked(world.place(asked)))

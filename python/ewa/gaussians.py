@@ -15,7 +15,7 @@ from ._errors import ArgumentError
 from ._held import Held
 from ._keywords import keywords
 from ._library import functions as lib
-from ._scene import World
+from ._scene import UPS, World
 from ._struct import Source, fill, initialised, loader, numbers, path_bytes
 from .camera import Camera, PathLike
 from .cloud import Cloud
@@ -28,9 +28,6 @@ if TYPE_CHECKING:
     from typing_extensions import Unpack
 
     from ._options import GaussianOptions, GaussiansSaveOptions
-
-
-_UPS = {"y": (0.0, 1.0, 0.0), "-y": (0.0, -1.0, 0.0), "z": (0.0, 0.0, 1.0), "-z": (0.0, 0.0, -1.0)}
 
 
 class Gaussians(Held):
@@ -64,7 +61,7 @@ class Gaussians(Held):
     _up: str = "-y"
 
     def _asset_members(self) -> dict[str, Any]:
-        return {"gaussians": self, "up_world": _UPS[self._up]}
+        return {"gaussians": self, "up_world": UPS[self._up]}
 
     def __init__(self, centers: Any, scales: Any, rotations: Any, opacities: Any, harmonics: Any, *,
                  origin: Any = None, antialiased: bool = False, context: Context | None = None) -> None:
@@ -181,7 +178,7 @@ class Gaussians(Held):
         FileError, ArgumentError, FormatError
         """
         made = initialised(b.ewa_gaussians_save_options, lib.ewa_gaussians_save_options_init)
-        fill(made, "ewa_gaussians_save_options", {"up_world": _UPS[self._up], **options})
+        fill(made, "ewa_gaussians_save_options", {"up_world": UPS[self._up], **options})
         self._call(lib.ewa_gaussians_save, path_bytes(path), ctypes.byref(made))
 
     def to_cloud(self) -> Cloud:
@@ -263,7 +260,7 @@ class Splats:
         return self._outline
 
     def _asset_members(self) -> dict[str, Any]:
-        return {"splats": self._handle, "outline": self._outline._h, "up_world": _UPS[self._up]}
+        return {"splats": self._handle, "outline": self._outline._h, "up_world": UPS[self._up]}
 
 
 def _listed(what: Any, kinds: tuple[type, ...], label: str) -> list[Any]:

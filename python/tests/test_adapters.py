@@ -411,6 +411,11 @@ class Everywhere(Both):
         points, colors = ball()
         cloud = ewa.Cloud(points, colors=colors)
         self.assertEqual(ewa.Camera.frame(points), ewa.Camera.frame(ewa.Cloud(points)))
+        for name, up in (("-y", [0, -1, 0]), ("-z", [0, 0, -1]), ("y", [0, 1, 0])):
+            self.assertEqual(ewa.Camera.frame(points, up=name), ewa.Camera.frame(points, up=up))
+            self.assertEqual(ewa.Camera.frame([[-1, -1, -1], [1, 1, 1]], up=name), ewa.Camera.frame([[-1, -1, -1], [1, 1, 1]], up=up))
+        down = ewa.Camera.frame(points, up="-y").world_to_camera
+        np.testing.assert_array_equal(down[2, :3], -ewa.Camera.frame(points, up="y", view="front").world_to_camera[2, :3])
         self.assertEqual(ewa.Camera.frame([[-1, -1, -1], [1, 1, 1]]), ewa.Camera.frame(np.array([[-1.0] * 3, [1.0] * 3])))
         scene = ewa.Scene(cloud)
         self.assertEqual(self.drawn(scene), self.drawn(cloud))

@@ -66,12 +66,17 @@ static int axis_of(ewa_scene_up up) {
     return axes[up];
 }
 
-/// What is up as an asset says: 1 y, 2 z, negative: down; 0: it does not.
-static int up_axis_of_asset(const ewa_asset *asset) {
-    const double *up = asset->up_world;
-    if (up[0] == 0 && up[1] == 0 && up[2] == 0) return 0;
+/// The axis, y or z, that a direction is nearest to: 1 y, 2 z, negative: down. What has y or z down hangs: its sides are those of what
+/// cameras see.
+static int axis_near(const double up[3]) {
     const int axis = fabs(up[2]) > fabs(up[1]) ? 2 : 1;
     return up[axis] < 0 ? -axis : axis;
+}
+
+/// What is up as an asset says, as above; 0: it does not.
+static int up_axis_of_asset(const ewa_asset *asset) {
+    const double *up = asset->up_world;
+    return up[0] == 0 && up[1] == 0 && up[2] == 0 ? 0 : axis_near(up);
 }
 
 /// By the end of which name an asset's convention goes: octrees are surveyed, whatever they are called.
@@ -135,7 +140,7 @@ static int view_of_volume(const ewa_scene *scene) {
 static void choose_upright(placement *p) {
     const double *up = p->options->up_world;
     const bool given = up[0] != 0 || up[1] != 0 || up[2] != 0;
-    const int said = given ? (fabs(up[2]) > fabs(up[1]) ? 2 : 1) : p->up_axis;
+    const int said = given ? axis_near(up) : p->up_axis;
     if (!said) {
         ewa_framing_choose(p->framing, p->convention, &p->upright);
         return;

@@ -100,9 +100,12 @@ TEST(test_camera) {
         run_done("ewa render torus.ply -o b.png --size 90x90 --eye 1,2,3 --target 0,0,0.1 --up %s --fov 40", axes[i]);
         assert_true(scratch_same("a.png", "b.png"));
     }
-    static const char *const wrong[] = {"w", "-z", "zz", "+", "1,2"};
+    // What has y down is seen from the side that cameras are on, as scene files and Python have it.
+    run_done("ewa render torus.ply -o a.png --size 90x90 --up=-y && ewa render torus.ply -o b.png --size 90x90 --up 0,-1,0 --view front");
+    assert_true(scratch_same("a.png", "b.png"));
+    static const char *const wrong[] = {"w", "--z", "zz", "+", "-", "1,2"};
     for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++)
-        run_fails(2, "is neither three numbers x,y,z nor an axis, x, y or z", "ewa render torus.ply -o b.png --up=%s", wrong[i]);
+        run_fails(2, "is neither three numbers x,y,z nor an axis, x, y or z, -y", "ewa render torus.ply -o b.png --up=%s", wrong[i]);
 }
 
 /// Every named view shows the whole torus: something in the middle half, nothing on the border.

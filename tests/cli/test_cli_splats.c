@@ -177,7 +177,7 @@ TEST(ordered) {
 
 TEST(surfaces) {
     run_done(
-        "ewa render pair.ply -o surface.png --surface --shading none --size 100x200 --up 0,-1,0 --view back "
+        "ewa render pair.ply -o surface.png --surface --shading none --size 100x200 --up 0,-1,0 --view front "
         "--aov normal=normal.pfm");
     ewa_image image = load("surface.png");
     assert_true(pixel(&image, 0.5, 0.2)[0] > 0.8f);
