@@ -124,8 +124,14 @@ bool ewa_referenced_file_find(ewa_context *context, const char *path, const char
     if (ewa_remote_is(name)) return snprintf(found, EWA_PATH_BYTES, "%s", name) < EWA_PATH_BYTES || fail(reason, "its name is too long") == 0;
     if (!folder_of(path, folder, reason)) return false;
     if (join(folder, name, found) && ewa_file_is_source(context, found)) return true;
-    if (!resolve(folder, name, anywhere, joined, base, full, reason))
-        return false;
+    char relative[EWA_PATH_BYTES];
+    if (!resolve(folder, name, anywhere, joined, base, full, reason)) {
+        // As Windows separates folders; on other systems a file may have such a name.
+        if (!strchr(name, '\\') || strlen(name) >= sizeof relative) return false;
+        write_relative((ewa_text){name, strlen(name)}, relative);
+        name = relative;
+        if (!resolve(folder, name, anywhere, joined, base, full, reason)) return false;
+    }
     ewa_platform_facts facts;
     const bool good = ewa_platform_stat(full, &facts) && (facts.regular || (folders && facts.folder));
     if (!good)

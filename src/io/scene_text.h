@@ -54,7 +54,7 @@ typedef struct ewa_scene_text {
     ewa_camera_list keyframes;
 } ewa_scene_text;
 
-/// Whether bytes begin as a scene file does: an object whose first member is "ewa_scene".
+/// Whether bytes begin as a scene file does: an object whose first member is "ewa_scene", perhaps behind a byte order mark.
 bool ewa_scene_text_probe(const uint8_t *bytes, size_t size_bytes);
 
 /// Reads a scene file. Frees what it has read after a failure. Errors, with the place: EWA_ERROR_FORMAT (no JSON, a

@@ -54,7 +54,8 @@ static inline ewa_scene *make_scene_of(ewa_context *context, ewa_object object, 
 }
 
 static inline ewa_camera place(ewa_scene *scene) {
-    WITH_DEFAULTS(ewa_view_options, options);
+    ewa_view_options options;
+    ewa_view_options_init(&options, sizeof options);
     options.width_px = WIDTH;
     options.height_px = HEIGHT;
     ewa_camera camera;
